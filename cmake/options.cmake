@@ -1,0 +1,29 @@
+option(RESTLAB_TESTS "Build the tests" ON)
+option(RESTLAB_WERROR "Warnings of our own code are errors" ON)
+set(RESTLAB_SANITIZE "" CACHE STRING "Comma-separated -fsanitize= list")
+
+add_library(rl_options INTERFACE)
+target_include_directories(rl_options INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
+target_compile_options(rl_options INTERFACE -Wall -Wextra -Wshadow -Wno-unused-function)
+# GCC 12 reports std::string operations as overlapping copies that cannot be (its bug 105651).
+target_compile_options(rl_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+if(RESTLAB_WERROR)
+  target_compile_options(rl_options INTERFACE -Werror)
+endif()
+# Same seed, same image: no contraction, no fast-math; errno and traps are never read.
+target_compile_options(rl_options INTERFACE -ffp-contract=off -fno-math-errno -fno-trapping-math)
+if(RESTLAB_SANITIZE)
+  target_compile_options(rl_options INTERFACE -fsanitize=${RESTLAB_SANITIZE} -fno-omit-frame-pointer
+                                              -fno-sanitize-recover=all)
+  target_link_options(rl_options INTERFACE -fsanitize=${RESTLAB_SANITIZE})
+endif()
+string(REGEX MATCH "thread" RESTLAB_TSAN "${RESTLAB_SANITIZE}")
+if(RESTLAB_TSAN)
+  # The distribution's TBB is not annotated: the CPU backend runs its tiles on std::jthread instead.
+  target_compile_definitions(rl_options INTERFACE RESTLAB_JTHREAD_TILES=1)
+endif()
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()

@@ -1,0 +1,197 @@
+// The CPU backend: Embree traces, TBB runs the tiles.
+#include <embree3/rtcore.h>
+#include <fmt/format.h>
+#include <pmmintrin.h>
+#include <xmmintrin.h>
+
+#include <chrono>
+#include <cstring>
+#include <thread>
+
+#include "core/backend/backend.h"
+#include "core/error.h"
+#include "core/scene/compiled_scene.h"
+
+#ifdef RESTLAB_JTHREAD_TILES
+#include <atomic>
+#else
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#include <tbb/version.h>
+#endif
+
+namespace restlab {
+
+namespace {
+
+constexpr uint32_t kTile = 16;
+
+// Denormals are flushed inside kernels, whatever the caller's thread had set.
+class FlushDenormals {
+ public:
+  FlushDenormals() : saved_(_mm_getcsr()) {
+    _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
+    _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
+  }
+  ~FlushDenormals() { _mm_setcsr(saved_); }
+  FlushDenormals(const FlushDenormals&) = delete;
+  FlushDenormals& operator=(const FlushDenormals&) = delete;
+
+ private:
+  unsigned saved_;
+};
+
+class CpuBackend final : public Backend {
+ public:
+  CpuBackend(std::shared_ptr<const CompiledScene> scene, int threads)
+      : scene_(std::move(scene)),
+        threads_(threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency())))
+#ifndef RESTLAB_JTHREAD_TILES
+        ,
+        arena_(threads_)
+#endif
+  {
+  }
+
+  BufferId allocate(size_t bytes) override {
+    try {
+      buffers_.emplace_back(bytes, std::byte{0});
+    } catch (const std::bad_alloc&) {
+      size_t total = 0;
+      for (const auto& b : buffers_) total += b.size();
+      throw Error(ExitCode::deviceUnavailable,
+                  fmt::format("out of memory: a buffer of {} MiB beside {} MiB already allocated; choose a smaller "
+                              "resolution",
+                              bytes >> 20, total >> 20));
+    }
+    return static_cast<BufferId>(buffers_.size() - 1);
+  }
+
+  void clear(BufferId buffer) override { std::fill(buffers_[buffer].begin(), buffers_[buffer].end(), std::byte{0}); }
+
+  void read(BufferId buffer, void* to, size_t bytes) const override {
+    std::memcpy(to, buffers_[buffer].data(), bytes);
+  }
+
+  uint32_t maskFor(const std::string& kernel, uint32_t needed) const override {
+    const rl::CpuKernelInfo* info = rl::findCpuKernel(kernel.c_str(), needed);
+    if (info == nullptr) failUsage("no kernel '" + kernel + "' in this build");
+    return info->mask;
+  }
+
+  double dispatch(const std::string& kernel, uint32_t mask, const rl::FrameData& frame,
+                  const std::vector<BufferId>& buffers, const std::vector<std::byte>& params,
+                  PassCounters& counters) override {
+    const rl::CpuKernelInfo* info = rl::findCpuKernel(kernel.c_str(), mask);
+    if (info == nullptr) failUsage("no kernel '" + kernel + "' in this build");
+    std::vector<void*> addresses;
+    for (BufferId b : buffers) addresses.push_back(b == kNoBuffer ? nullptr : buffers_[b].data());
+    rl::CpuKernelArgs args;
+    args.scene = &scene_->data();
+    args.frame = &frame;
+    args.buffers = addresses.data();
+    args.params = params.data();
+    args.embreeScene = scene_->embreeScene();
+
+    const uint32_t tilesX = (frame.width + kTile - 1) / kTile, tilesY = (frame.height + kTile - 1) / kTile;
+    std::vector<rl::CpuKernelCounters> tileCounters(size_t(tilesX) * tilesY);
+    auto runTile = [&](size_t i) {
+      const FlushDenormals flush;
+      const auto tx = static_cast<uint32_t>(i % tilesX), ty = static_cast<uint32_t>(i / tilesX);
+      const rl::CpuKernelTile tile{tx * kTile, ty * kTile, std::min((tx + 1) * kTile, frame.width),
+                                   std::min((ty + 1) * kTile, frame.height)};
+      // Counted locally: neighbouring entries of the vector share cache lines.
+      rl::CpuKernelCounters local;
+      info->entry(args, tile, local);
+      tileCounters[i] = local;
+    };
+    const auto start = std::chrono::steady_clock::now();
+    forEachTile(tileCounters.size(), runTile);
+    const auto end = std::chrono::steady_clock::now();
+    for (const rl::CpuKernelCounters& c : tileCounters) {
+      counters.raysPath += c.raysPath;
+      counters.raysShadow += c.raysShadow;
+      for (uint32_t k = 0; k < rl::RL_HEALTH_COUNT; ++k) counters.health[k] += c.health[k];
+    }
+    return std::chrono::duration<double, std::milli>(end - start).count();
+  }
+
+ private:
+#ifdef RESTLAB_JTHREAD_TILES
+  template <typename F>
+  void forEachTile(size_t count, const F& run) {
+    std::atomic<size_t> next{0};
+    std::vector<std::jthread> workers;
+    for (int t = 0; t < threads_; ++t) {
+      workers.emplace_back([&] {
+        for (size_t i = next++; i < count; i = next++) run(i);
+      });
+    }
+  }
+#else
+  template <typename F>
+  void forEachTile(size_t count, const F& run) {
+    arena_.execute([&] {
+      tbb::parallel_for(
+          tbb::blocked_range<size_t>(0, count, 1),
+          [&](const tbb::blocked_range<size_t>& r) {
+            for (size_t i = r.begin(); i < r.end(); ++i) run(i);
+          },
+          tbb::simple_partitioner());
+    });
+  }
+#endif
+
+  std::shared_ptr<const CompiledScene> scene_;
+  int threads_;
+#ifndef RESTLAB_JTHREAD_TILES
+  tbb::task_arena arena_;
+#endif
+  std::vector<std::vector<std::byte>> buffers_;
+};
+
+}  // namespace
+
+std::unique_ptr<Backend> makeCpuBackend(std::shared_ptr<const CompiledScene> scene, int threads) {
+  return std::make_unique<CpuBackend>(std::move(scene), threads);
+}
+
+BackendInfo cpuBackendInfo() {
+  BackendInfo info;
+  info.name = "cpu";
+#ifdef RESTLAB_JTHREAD_TILES
+  const std::string tiles = "std::jthread tiles";
+#else
+  const std::string tiles = fmt::format("TBB {}.{} tiles", TBB_VERSION_MAJOR, TBB_VERSION_MINOR);
+#endif
+  info.description =
+      fmt::format("Embree {}, {}, {} threads", RTC_VERSION_STRING, tiles, std::thread::hardware_concurrency());
+  return info;
+}
+
+std::vector<BackendInfo> backendRegistry() { return {cpuBackendInfo()}; }
+
+std::unique_ptr<Backend> makeBackend(const std::string& name, std::shared_ptr<const CompiledScene> scene,
+                                     int threads) {
+  std::vector<std::string> names;
+  for (const BackendInfo& b : backendRegistry()) names.push_back(b.name);
+  if (name == "cpu") return makeCpuBackend(std::move(scene), threads);
+  failUsage("unknown backend '" + name + "'" + didYouMean(name, names) + " (see: restlab list backends)");
+}
+
+}  // namespace restlab
+
+namespace rl {
+
+const CpuKernelInfo* findCpuKernel(const char* name, uint32_t needed) {
+  const CpuKernelTable table = cpuKernelTable();
+  const CpuKernelInfo* best = nullptr;
+  for (uint32_t i = 0; i < table.count; ++i) {
+    const CpuKernelInfo& row = table.rows[i];
+    if (std::strcmp(row.name, name) != 0 || (row.mask & needed) != needed) continue;
+    if (best == nullptr || __builtin_popcount(row.mask) < __builtin_popcount(best->mask)) best = &row;
+  }
+  return best;
+}
+
+}  // namespace rl

@@ -1,0 +1,49 @@
+// How a kernel is entered on the CPU. One instantiation per feature mask of core/features.list.
+#pragma once
+
+#include <cstdint>
+
+#include "core/dialect/types.h"
+
+namespace rl {
+
+// A run of pixels [x0, x1) x [y0, y1) of one pass.
+struct CpuKernelTile {
+  uint32_t x0, y0, x1, y1;
+};
+
+// Counters that each tile adds to its own copy of; summed in tile order.
+struct CpuKernelCounters {
+  uint64_t raysPath = 0;
+  uint64_t raysShadow = 0;
+  uint64_t health[RL_HEALTH_COUNT] = {};
+};
+
+struct CpuKernelArgs {
+  const SceneData* scene = nullptr;
+  const FrameData* frame = nullptr;
+  const void* buffers = nullptr;  // the kernel's Buffers struct
+  const void* params = nullptr;   // the kernel's Params struct
+  void* embreeScene = nullptr;    // RTCScene
+};
+
+using CpuKernelEntry = void (*)(const CpuKernelArgs&, const CpuKernelTile&, CpuKernelCounters&);
+
+// One row of the generated registry.
+struct CpuKernelInfo {
+  const char* name;
+  const char* maskName;
+  uint32_t mask;
+  CpuKernelEntry entry;
+};
+
+struct CpuKernelTable {
+  const CpuKernelInfo* rows;
+  uint32_t count;
+};
+CpuKernelTable cpuKernelTable();
+
+// The instantiation with the smallest mask that covers `needed`; null when there is no such kernel.
+const CpuKernelInfo* findCpuKernel(const char* name, uint32_t needed);
+
+}  // namespace rl

@@ -1,0 +1,51 @@
+// Body of a generated kernel translation unit: the dialect's functions as members of
+// Ctx<features>, Embree behind traceRay(), and the tile loop. The generated file defines
+// RL_KERNEL_NAME, RL_KERNEL_MASK_NAME, RL_KERNEL_MASK, RL_KERNEL_HEADER and RL_KERNEL_FILE.
+#include <embree3/rtcore.h>
+
+#include "core/backend/cpu_kernel.h"
+#include "core/dialect/order.h"
+#include RL_KERNEL_HEADER
+
+namespace rl {
+namespace {
+
+#define RL_HAS(features) ((kFeatures & (features)) != 0u)
+#define RL_HEALTH(kind) (++gCounters.health[kind])
+
+template <uint FEATURES>
+struct Ctx {
+  static constexpr uint kFeatures = FEATURES;
+
+  const SceneData& gScene;
+  const FrameData& gFrame;
+  const RL_KERNEL_BUFFERS& gBuffers;
+  const RL_KERNEL_PARAMS& gParams;
+  CpuKernelCounters& gCounters;
+  RTCScene embreeScene;
+
+#include "core/dialect/order.glsl"
+#include "core/backend/cpu_trace.inl"
+#include RL_KERNEL_FILE
+};
+
+void runTile(const CpuKernelArgs& args, const CpuKernelTile& tile, CpuKernelCounters& counters) {
+  Ctx<RL_KERNEL_MASK> ctx{*args.scene,
+                          *args.frame,
+                          *static_cast<const RL_KERNEL_BUFFERS*>(args.buffers),
+                          *static_cast<const RL_KERNEL_PARAMS*>(args.params),
+                          counters,
+                          static_cast<RTCScene>(args.embreeScene)};
+  for (uint32_t y = tile.y0; y < tile.y1; ++y) {
+    for (uint32_t x = tile.x0; x < tile.x1; ++x) ctx.kernelMain(uvec2(x, y));
+  }
+}
+
+}  // namespace
+
+#define RL_PASTE2(a, b, c) a##b##_##c
+#define RL_PASTE(a, b, c) RL_PASTE2(a, b, c)
+extern const CpuKernelEntry RL_PASTE(kernel_, RL_KERNEL_NAME, RL_KERNEL_MASK_NAME);
+const CpuKernelEntry RL_PASTE(kernel_, RL_KERNEL_NAME, RL_KERNEL_MASK_NAME) = runTile;
+
+}  // namespace rl

@@ -1,0 +1,91 @@
+// traceRay() on Embree; included inside Ctx<features>, so that it is specialised with the kernel.
+
+// Embree hands the context back to the alpha filters; the kernel context rides behind it.
+struct TraceContext {
+  RTCIntersectContext embree;
+  Ctx* self;
+  uint alphaKey;
+  float transmittance;
+};
+
+// Shared meshes are Embree instances; meshes used once lie in the top scene under their own number.
+static uint instanceOf(uint geomID, uint instID) { return instID != RTC_INVALID_GEOMETRY_ID ? instID : geomID; }
+
+static void alphaFilterPath(const RTCFilterFunctionNArguments* args) {
+  auto* context = reinterpret_cast<TraceContext*>(args->context);
+  const auto* embreeHit = reinterpret_cast<const RTCHit*>(args->hit);
+  Hit hit;
+  hit.instance = instanceOf(embreeHit->geomID, embreeHit->instID[0]);
+  hit.primitive = embreeHit->primID;
+  hit.bary = vec2(embreeHit->u, embreeHit->v);
+  hit.t = 0.0f;
+  float alpha = context->self->surfaceAlpha(hit);
+  if (!context->self->traceAlphaAccepts(context->alphaKey, hit, alpha)) args->valid[0] = 0;
+}
+
+static void alphaFilterShadow(const RTCFilterFunctionNArguments* args) {
+  auto* context = reinterpret_cast<TraceContext*>(args->context);
+  const auto* embreeHit = reinterpret_cast<const RTCHit*>(args->hit);
+  Hit hit;
+  hit.instance = instanceOf(embreeHit->geomID, embreeHit->instID[0]);
+  hit.primitive = embreeHit->primID;
+  hit.bary = vec2(embreeHit->u, embreeHit->v);
+  hit.t = 0.0f;
+  context->transmittance *= 1.0f - context->self->surfaceAlpha(hit);
+  if (context->transmittance > 0.0f) args->valid[0] = 0;
+}
+
+RL_FN float traceRay(const Ray& ray, uint mode, uint alphaKey, Hit& hit) {
+  TraceContext context;
+  rtcInitIntersectContext(&context.embree);
+  if (RL_HAS(RL_FEATURE_ALPHA)) {
+    context.self = this;
+    context.alphaKey = alphaKey;
+    context.transmittance = 1.0f;
+    context.embree.filter = mode == RL_RAY_PATH ? alphaFilterPath : alphaFilterShadow;
+  }
+  if (mode == RL_RAY_SHADOW) {
+    ++gCounters.raysShadow;
+    RTCRay r;
+    r.org_x = ray.origin.x;
+    r.org_y = ray.origin.y;
+    r.org_z = ray.origin.z;
+    r.tnear = ray.tMin;
+    r.dir_x = ray.dir.x;
+    r.dir_y = ray.dir.y;
+    r.dir_z = ray.dir.z;
+    r.time = 0.0f;
+    r.tfar = ray.tMax;
+    r.mask = 0xffffffffu;
+    r.id = 0u;
+    r.flags = 0u;
+    rtcOccluded1(embreeScene, &context.embree, &r);
+    if (r.tfar < 0.0f) return 0.0f;
+    if (RL_HAS(RL_FEATURE_ALPHA)) return context.transmittance;
+    return 1.0f;
+  }
+  ++gCounters.raysPath;
+  RTCRayHit r;
+  r.ray.org_x = ray.origin.x;
+  r.ray.org_y = ray.origin.y;
+  r.ray.org_z = ray.origin.z;
+  r.ray.tnear = ray.tMin;
+  r.ray.dir_x = ray.dir.x;
+  r.ray.dir_y = ray.dir.y;
+  r.ray.dir_z = ray.dir.z;
+  r.ray.time = 0.0f;
+  r.ray.tfar = ray.tMax;
+  r.ray.mask = 0xffffffffu;
+  r.ray.id = 0u;
+  r.ray.flags = 0u;
+  r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(embreeScene, &context.embree, &r);
+  hit.instance = RL_INVALID;
+  if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return 1.0f;
+  hit.instance = instanceOf(r.hit.geomID, r.hit.instID[0]);
+  hit.primitive = r.hit.primID;
+  hit.bary = vec2(r.hit.u, r.hit.v);
+  hit.t = r.ray.tfar;
+  return 0.0f;
+}

@@ -1,0 +1,11 @@
+# rl_glsl: kernels as GLSL and their compilation. Apart from rl_core, so that a build without tests
+# needs no glslang.
+find_package(Threads REQUIRED) # which glslang's package files name without finding
+find_package(glslang 12 REQUIRED CONFIG)
+
+add_library(rl_glsl STATIC
+  ${CMAKE_CURRENT_LIST_DIR}/glsl_compiler.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/glsl_preamble.cpp
+)
+target_link_libraries(rl_glsl PUBLIC rl_options glm::glm fmt::fmt
+                      PRIVATE glslang::glslang glslang::SPIRV glslang::glslang-default-resource-limits)

@@ -1,0 +1,25 @@
+// GLSL to SPIR-V at run time, through glslang.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace restlab {
+
+struct GlslResult {
+  std::vector<uint32_t> spirv;  // empty when it did not compile
+  std::string log;              // glslang's words, "ERROR: file:line: ..." with the included file's name
+};
+
+// Compiles a compute shader for Vulkan 1.2. #include "path" reads root/path; `name` stands for the
+// text itself in messages. Every float operation is decorated NoContraction: a backend that fused
+// multiplications with additions would decide otherwise than the CPU.
+GlslResult compileGlsl(const std::string& text, const std::string& name,
+                       const std::filesystem::path& root);
+
+// Adds NoContraction to the float arithmetic of a module that lacks it.
+std::vector<uint32_t> decorateNoContraction(const std::vector<uint32_t>& spirv);
+
+}  // namespace restlab

@@ -1,0 +1,43 @@
+// The GLSL side of a kernel: what core/backend/cpu_kernel.inl is for C++.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "core/dialect/types.h"
+
+namespace restlab {
+
+// A kernel as rl_add_kernel names it; paths are relative to the repository.
+struct GlslKernel {
+  std::string header;     // Buffers and Params, RL_KERNEL_BUFFERS and RL_KERNEL_PARAMS
+  std::string file;       // defines kernelMain()
+  std::string traceFile;  // defines traceRay()
+};
+
+// Threads of a workgroup in x and y: a tile of the image.
+constexpr uint32_t kGlslTile = 8;
+
+// Counters that a kernel adds to; zero them before a dispatch. They wrap at 2^32.
+struct GlslCounters {
+  uint32_t raysPath = 0;
+  uint32_t raysShadow = 0;
+  std::array<uint32_t, rl::RL_HEALTH_COUNT> health{};
+};
+
+// The push constants: device addresses of SceneData, FrameData, the kernel's Buffers and Params
+// structs, and GlslCounters.
+struct GlslPushConstants {
+  uint64_t scene = 0;
+  uint64_t frame = 0;
+  uint64_t buffers = 0;
+  uint64_t params = 0;
+  uint64_t counters = 0;
+};
+
+// The whole compute shader, with #include lines that the compiler's includer resolves against the
+// repository. Specialization constant 0 is the feature mask.
+std::string glslKernelSource(const GlslKernel& kernel);
+
+}  // namespace restlab

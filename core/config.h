@@ -1,0 +1,75 @@
+// TOML to typed values with positions. A table notes which keys were asked for; finish() then
+// reports the first key that nobody asked for, with file, line, column and the nearest name:
+//   suite.toml:4:1: unknown key 'sceen', did you mean 'scene'?
+// Every error is an Error with ExitCode::badUsage.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/integrator.h"
+
+namespace restlab {
+
+class ConfigTable {
+ public:
+  static ConfigTable parseFile(const std::filesystem::path& file);
+  // `name` stands where the file name would in messages.
+  static ConfigTable parseText(const std::string& text, const std::string& name);
+
+  bool has(const std::string& key) const;
+
+  // Values by key; the fallback is returned where the key is absent. Ranges are inclusive.
+  // A NaN is never inside a range.
+  std::string getString(const std::string& key, const std::string& fallback) const;
+  std::string getChoice(const std::string& key, const std::string& fallback,
+                        const std::vector<std::string>& choices) const;
+  bool getBool(const std::string& key, bool fallback) const;
+  int64_t getInteger(const std::string& key, int64_t fallback, int64_t min, int64_t max) const;
+  double getNumber(const std::string& key, double fallback,
+                   double min = -std::numeric_limits<double>::max(),
+                   double max = std::numeric_limits<double>::max()) const;
+  // An array of strings, or one string for an array of one.
+  std::vector<std::string> getStrings(const std::string& key,
+                                      const std::vector<std::string>& fallback = {}) const;
+  std::vector<int64_t> getIntegers(const std::string& key, const std::vector<int64_t>& fallback,
+                                   int64_t min, int64_t max) const;
+  // [key]: an empty table where the key is absent.
+  ConfigTable getTable(const std::string& key) const;
+  // [[key]]: the tables in the order of the file.
+  std::vector<ConfigTable> getTables(const std::string& key) const;
+  // The key `info.name` with the type, range and choices of `info`; nothing where absent.
+  std::optional<ParameterValue> getParameter(const ParameterInfo& info) const;
+
+  // Sets a key of this table as `--set` does: `valueText` is a TOML value, or else a bare string.
+  // Messages about the value name `place` instead of a file and line.
+  void assign(const std::string& key, const std::string& valueText, const std::string& place);
+
+  // Throws badUsage at the key (or at the table where the key is absent): "place: message".
+  [[noreturn]] void fail(const std::string& key, const std::string& message) const;
+  // "file:line:column" of the key's value, or of the table.
+  std::string place(const std::string& key = "") const;
+  // Throws badUsage at the first key, in file order, that was never asked for.
+  void finish() const;
+
+ private:
+  struct Node;
+  struct Document;
+  ConfigTable(std::shared_ptr<Document> document, Node* node);
+  std::shared_ptr<Document> document_;
+  Node* node_;  // owned by the document
+};
+
+// The value of `--set NAME=TEXT` with the type, range and choices of `info`; errors name `place`.
+ParameterValue parseParameter(const ParameterInfo& info, const std::string& text,
+                              const std::string& place);
+
+// Splits "KEY=VALUE"; throws badUsage where there is no '=' or no key.
+std::pair<std::string, std::string> splitAssignment(const std::string& assignment);
+
+}  // namespace restlab

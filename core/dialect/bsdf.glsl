@@ -1,0 +1,192 @@
+// The BSDF: lobes under one Fresnel layer, the same three functions for every consumer.
+//   bsdfEval  f |cos_i| of the non-delta lobes
+//   bsdfPdf   solid-angle density of bsdfDraw over the non-delta lobes
+//   bsdfDraw  a direction with weight f |cos_i| / pdf
+// Directions are in world space and point away from the surface; nGeo lies on the side of wo.
+// The layering is that of the glTF 2.0 specification, appendix B: base under specular, mixed by the
+// Fresnel term at the half vector.
+
+RL_FN bool bsdfIsBlack(RL_IN(Bsdf) b) { return b.lobes == 0u; }
+
+// Probabilities of drawing the specular and the transmission lobe; the rest goes to Lambert. They
+// depend on wo alone, so that the density of all lobes together is known.
+RL_FN vec2 bsdfLobeProbabilities(RL_IN(Bsdf) b, float cosO) {
+  if (!RL_HAS(RL_FEATURE_GLOSSY) || (b.lobes & RL_LOBE_ANY_GLOSSY) == 0u) return vec2(0.0f, 0.0f);
+  vec3 f = fresnelOfBsdf(b, cosO);
+  float through = 1.0f - min(rlMax3(f), 1.0f);
+  float specular = rlLuminance(f);
+  float diffuse = (b.lobes & RL_LOBE_DIFFUSE) != 0u ? rlLuminance(b.diffuse) * through : 0.0f;
+  float transmitted = 0.0f;
+  if (RL_HAS(RL_FEATURE_TRANSMISSION) && (b.lobes & RL_LOBE_ANY_TRANSMISSION) != 0u) {
+    transmitted = rlLuminance(b.transmission) * through;
+  }
+  float total = specular + diffuse + transmitted;
+  if (!(total > 0.0f)) return vec2(1.0f, 0.0f);
+  // No lobe that exists is starved: its weight would be unbounded at other angles.
+  float pSpecular = specular / total;
+  float pTransmitted = transmitted / total;
+  if (diffuse + transmitted > 0.0f) pSpecular = clamp(pSpecular, 0.1f, 0.9f);
+  float rest = 1.0f - pSpecular;
+  if (transmitted > 0.0f) {
+    float share = diffuse > 0.0f ? clamp(transmitted / (transmitted + diffuse), 0.1f, 0.9f) : 1.0f;
+    pTransmitted = rest * share;
+  }
+  return vec2(pSpecular, pTransmitted);
+}
+
+RL_FN vec3 bsdfEvalLocal(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) wiL) {
+  vec3 f = vec3(0.0f, 0.0f, 0.0f);
+  if (!RL_HAS(RL_FEATURE_GLOSSY)) return b.diffuse * lambertEval(wiL);
+  if (wiL.z > 0.0f) {
+    if (woL.z > 0.0f && (b.lobes & RL_LOBE_ANY_GLOSSY) != 0u) {
+      vec3 hL = normalize(woL + wiL);
+      vec3 fresnel = fresnelOfBsdf(b, clamp(dot(woL, hL), 0.0f, 1.0f));
+      if ((b.lobes & RL_LOBE_SPECULAR) != 0u) f += fresnel * ggxReflectionEval(woL, wiL, hL, b.alpha);
+      f += b.diffuse * (lambertEval(wiL) * (1.0f - min(rlMax3(fresnel), 1.0f)));
+    } else {
+      f += b.diffuse * lambertEval(wiL);
+    }
+  } else if (RL_HAS(RL_FEATURE_TRANSMISSION) && (b.lobes & RL_LOBE_TRANSMISSION) != 0u && woL.z > 0.0f &&
+             wiL.z < 0.0f) {
+    if ((b.lobes & RL_LOBE_THIN) != 0u) {
+      // A thin sheet sends the mirrored reflection lobe to the other side.
+      vec3 wiUp = vec3(wiL.x, wiL.y, -wiL.z);
+      vec3 hL = normalize(woL + wiUp);
+      float through = 1.0f - min(rlMax3(fresnelOfBsdf(b, clamp(dot(woL, hL), 0.0f, 1.0f))), 1.0f);
+      f += b.transmission * (through * ggxReflectionEval(woL, wiUp, hL, b.alpha));
+    } else {
+      vec3 hL = transmissionHalfVector(woL, wiL, b.eta);
+      float through = 1.0f - min(rlMax3(fresnelOfBsdf(b, clamp(dot(woL, hL), 0.0f, 1.0f))), 1.0f);
+      f += b.transmission * (through * transmissionEval(woL, wiL, hL, b.alpha, b.eta));
+    }
+  }
+  return f;
+}
+
+RL_FN float bsdfPdfLocal(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) wiL) {
+  if (!RL_HAS(RL_FEATURE_GLOSSY)) return lambertPdf(wiL);
+  vec2 p = bsdfLobeProbabilities(b, max(woL.z, 0.0f));
+  float pdf = 0.0f;
+  if (wiL.z > 0.0f) {
+    if ((b.lobes & RL_LOBE_DIFFUSE) != 0u) pdf += (1.0f - p.x - p.y) * lambertPdf(wiL);
+    if ((b.lobes & RL_LOBE_SPECULAR) != 0u && woL.z > 0.0f) {
+      vec3 hL = normalize(woL + wiL);
+      pdf += p.x * ggxReflectionPdf(woL, hL, b.alpha);
+    }
+  } else if (RL_HAS(RL_FEATURE_TRANSMISSION) && (b.lobes & RL_LOBE_TRANSMISSION) != 0u && woL.z > 0.0f &&
+             wiL.z < 0.0f) {
+    if ((b.lobes & RL_LOBE_THIN) != 0u) {
+      vec3 wiUp = vec3(wiL.x, wiL.y, -wiL.z);
+      vec3 hL = normalize(woL + wiUp);
+      pdf += p.y * ggxReflectionPdf(woL, hL, b.alpha);
+    } else {
+      vec3 hL = transmissionHalfVector(woL, wiL, b.eta);
+      pdf += p.y * transmissionPdf(woL, wiL, hL, b.alpha, b.eta);
+    }
+  }
+  return max(pdf, 0.0f);
+}
+
+// Reflection must stay on the geometric side of wo, transmission must leave it: no light leaks
+// through a face where the interpolated normal says otherwise.
+RL_FN bool bsdfSideAgrees(RL_IN(vec3) nGeo, RL_IN(vec3) wi, float wiLocalZ) {
+  float side = dot(nGeo, wi);
+  return wiLocalZ > 0.0f ? side > 0.0f : side < 0.0f;
+}
+
+RL_FN vec3 bsdfEval(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(vec3) wo, RL_IN(vec3) wi) {
+  if (!RL_HAS(RL_FEATURE_GLOSSY)) {
+    if (!(dot(nGeo, wi) > 0.0f)) return vec3(0.0f, 0.0f, 0.0f);
+    return b.diffuse * (max(dot(nShade, wi), 0.0f) * RL_INV_PI);
+  }
+  vec3 woL = frameToLocal(nShade, wo);
+  vec3 wiL = frameToLocal(nShade, wi);
+  if (!bsdfSideAgrees(nGeo, wi, wiL.z)) return vec3(0.0f, 0.0f, 0.0f);
+  return bsdfEvalLocal(b, woL, wiL);
+}
+
+RL_FN float bsdfPdf(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(vec3) wo, RL_IN(vec3) wi) {
+  if (!RL_HAS(RL_FEATURE_GLOSSY)) {
+    if (!(dot(nGeo, wi) > 0.0f)) return 0.0f;
+    return max(dot(nShade, wi), 0.0f) * RL_INV_PI;
+  }
+  vec3 woL = frameToLocal(nShade, wo);
+  vec3 wiL = frameToLocal(nShade, wi);
+  if (!bsdfSideAgrees(nGeo, wi, wiL.z)) return 0.0f;
+  return bsdfPdfLocal(b, woL, wiL);
+}
+
+// uLobe chooses the lobe, u the direction. A draw that ends on the wrong side is absorbed (lobe 0).
+RL_FN BsdfDraw bsdfDraw(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(vec3) wo, float uLobe,
+                        RL_IN(vec2) u) {
+  BsdfDraw result;
+  result.wi = nShade;
+  result.pdfSolidAngle = 0.0f;
+  result.weight = vec3(0.0f, 0.0f, 0.0f);
+  result.lobe = 0u;
+  if (!RL_HAS(RL_FEATURE_GLOSSY)) {
+    vec3 wiL = lambertDraw(u);
+    vec3 wi = frameToWorld(nShade, wiL);
+    if (!(wiL.z > 0.0f) || !(dot(nGeo, wi) > 0.0f)) return result;
+    result.wi = wi;
+    result.pdfSolidAngle = lambertPdf(wiL);
+    result.weight = b.diffuse;
+    result.lobe = RL_LOBE_DIFFUSE;
+    return result;
+  }
+  vec3 woL = frameToLocal(nShade, wo);
+  vec2 p = bsdfLobeProbabilities(b, max(woL.z, 0.0f));
+  vec3 wiL = vec3(0.0f, 0.0f, 1.0f);
+  uint lobe = RL_LOBE_DIFFUSE;
+  if (uLobe < p.x) {
+    if (!(woL.z > 0.0f)) return result;
+    if ((b.lobes & RL_LOBE_SPECULAR_DELTA) != 0u) {
+      lobe = RL_LOBE_SPECULAR_DELTA;
+      wiL = vec3(-woL.x, -woL.y, woL.z);
+    } else {
+      lobe = RL_LOBE_SPECULAR;
+      vec3 hL = ggxDrawVisibleNormal(woL, b.alpha, u);
+      wiL = hL * (2.0f * dot(woL, hL)) - woL;
+      if (!(wiL.z > 0.0f)) return result;
+    }
+  } else if (RL_HAS(RL_FEATURE_TRANSMISSION) && uLobe < p.x + p.y) {
+    if (!(woL.z > 0.0f)) return result;
+    bool isDelta = (b.lobes & RL_LOBE_TRANSMISSION_DELTA) != 0u;
+    lobe = isDelta ? RL_LOBE_TRANSMISSION_DELTA : RL_LOBE_TRANSMISSION;
+    vec3 hL = vec3(0.0f, 0.0f, 1.0f);
+    if (!isDelta) hL = ggxDrawVisibleNormal(woL, b.alpha, u);
+    if ((b.lobes & RL_LOBE_THIN) != 0u) {
+      wiL = hL * (2.0f * dot(woL, hL)) - woL;
+      wiL.z = -wiL.z;
+    } else if (!transmissionRefract(woL, hL, b.eta, wiL)) {
+      return result;
+    }
+    if (!(wiL.z < 0.0f)) return result;
+  } else {
+    if ((b.lobes & RL_LOBE_DIFFUSE) == 0u) return result;
+    wiL = lambertDraw(u);
+    if (!(wiL.z > 0.0f)) return result;
+  }
+  vec3 wi = frameToWorld(nShade, wiL);
+  if (!bsdfSideAgrees(nGeo, wi, wiL.z)) return result;
+  result.wi = wi;
+  if ((lobe & RL_LOBE_ANY_DELTA) != 0u) {
+    vec3 fresnel = fresnelOfBsdf(b, woL.z);
+    if (lobe == RL_LOBE_SPECULAR_DELTA) {
+      result.pdfSolidAngle = p.x;
+      result.weight = fresnel * (1.0f / p.x);
+    } else {
+      float scale = (b.lobes & RL_LOBE_THIN) != 0u ? 1.0f : 1.0f / (b.eta * b.eta);
+      result.pdfSolidAngle = p.y;
+      result.weight = b.transmission * ((1.0f - min(rlMax3(fresnel), 1.0f)) * scale / p.y);
+    }
+    result.lobe = lobe;
+    return result;
+  }
+  float pdf = bsdfPdfLocal(b, woL, wiL);
+  if (!(pdf > 0.0f)) return result;
+  result.pdfSolidAngle = pdf;
+  result.weight = bsdfEvalLocal(b, woL, wiL) * (1.0f / pdf);
+  result.lobe = lobe;
+  return result;
+}

@@ -1,0 +1,18 @@
+// The functions of the dialect, in the order in which GLSL must see them. Included inside the kernel
+// context of either machine, after all headers.
+#include "core/dialect/rng.glsl"
+#include "core/dialect/math.glsl"
+#include "core/dialect/frame.glsl"
+#include "core/dialect/warp.glsl"
+#include "core/dialect/camera.glsl"
+#include "core/dialect/texture.glsl"
+#include "core/dialect/bsdf/lambert.glsl"
+#include "core/dialect/bsdf/fresnel.glsl"
+#include "core/dialect/bsdf/ggx.glsl"
+#include "core/dialect/bsdf/transmission.glsl"
+#include "core/dialect/bsdf.glsl"
+#include "core/dialect/surface.glsl"
+#include "core/dialect/light/environment.glsl"
+#include "core/dialect/light/texture.glsl"
+#include "core/dialect/light.glsl"
+#include "core/dialect/trace.glsl"

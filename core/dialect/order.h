@@ -1,0 +1,12 @@
+// All types and constants of the dialect, at namespace scope, before any function.
+#ifndef RL_ORDER_H
+#define RL_ORDER_H
+#include "core/dialect/dialect.h"
+#include "core/dialect/features.h"
+#include "core/dialect/types.h"
+#include "core/dialect/math.h"
+#include "core/dialect/sampling.h"
+#include "core/dialect/bsdf.h"
+#include "core/dialect/surface.h"
+#include "core/dialect/light.h"
+#endif

@@ -1,0 +1,39 @@
+// Counter-based random numbers: the same (seed, pixel, frame, vertex, dimension) gives the same draw
+// on every machine and for any thread count.
+
+#ifndef RL_RNG_AUDIT
+#define RL_RNG_AUDIT(rng, dimension)
+#endif
+
+// Integer finaliser with low avalanche bias (constants: C. Wellons, "hash prospector", 2018).
+RL_FN uint rngHash(uint bits) {
+  uint x = bits;
+  x ^= x >> 16u;
+  x *= 0x7feb352du;
+  x ^= x >> 15u;
+  x *= 0x846ca68bu;
+  x ^= x >> 16u;
+  return x;
+}
+
+RL_FN Rng rngInit(uint seed, uint pixel, uint frame) {
+  Rng rng;
+  uint h = rngHash(seed + 0x9e3779b9u);
+  h = rngHash(h ^ frame);
+  rng.key.x = rngHash(h + pixel);
+  rng.key.y = rngHash((h ^ 0x85ebca6bu) + pixel * 0x9e3779b9u);
+  rng.vertex = RL_VERTEX_PIXEL;
+  return rng;
+}
+
+// 32 random bits of one dimension at the generator's vertex.
+RL_FN uint rngBits(RL_IN(Rng) rng, uint dimension) {
+  RL_RNG_AUDIT(rng, dimension);
+  uint counter = rng.vertex * RL_DIMENSIONS + dimension;
+  return rngHash(rngHash(counter ^ rng.key.x) + rng.key.y);
+}
+
+// Uniform in [0, 1): 24 bits, so that 1 is never reached.
+RL_FN float rngDraw(RL_IN(Rng) rng, uint dimension) {
+  return float(rngBits(rng, dimension) >> 8u) * 5.9604644775390625e-8f;
+}

@@ -1,0 +1,46 @@
+// Types and dimension constants of random sampling. Every draw names one of the RL_DIM_* constants;
+// tests/lint asserts that the numbers are unique and tests/unit that no draw happens twice in a frame.
+#ifndef RL_SAMPLING_H
+#define RL_SAMPLING_H
+
+#ifdef __cplusplus
+#include "core/dialect/dialect.h"
+#endif
+
+RL_NAMESPACE_BEGIN
+
+// Counter-based generator: a draw is a hash of (seed, pixel, frame) = key, vertex and dimension.
+struct Rng {
+  uvec2 key;
+  uint vertex;
+};
+
+// Vertex numbers: 0 is the pixel, k the k-th scattering vertex, large ones the reuse passes.
+const uint RL_VERTEX_PIXEL = 0u;
+const uint RL_VERTEX_TEMPORAL = 0x1000u;
+const uint RL_VERTEX_SPATIAL = 0x2000u;
+const uint RL_VERTEX_CANDIDATES = 0x4000u;  // + index of a light candidate
+
+const uint RL_DIM_FILTER_X = 0u;
+const uint RL_DIM_FILTER_Y = 1u;
+const uint RL_DIM_LIGHT_SELECT = 2u;
+const uint RL_DIM_LIGHT_ALIAS = 3u;
+const uint RL_DIM_LIGHT_U = 4u;
+const uint RL_DIM_LIGHT_V = 5u;
+const uint RL_DIM_BSDF_LOBE = 6u;
+const uint RL_DIM_BSDF_U = 7u;
+const uint RL_DIM_BSDF_V = 8u;
+const uint RL_DIM_ROULETTE = 9u;
+const uint RL_DIM_RIS_LIGHT = 10u;   // selection among light candidates
+const uint RL_DIM_RIS_DIRECT = 11u;  // light sample or BSDF sample
+const uint RL_DIM_RIS_SUFFIX = 12u;  // light or continuation at a glossy x2
+const uint RL_DIM_RIS_MERGE_DI = 13u;  // + donor index (16 at most)
+const uint RL_DIM_RIS_MERGE_GI = 32u;  // + donor index (16 at most)
+const uint RL_DIM_ENVIRONMENT_ALIAS = 52u;
+const uint RL_DIM_DONOR_U = 50u;
+const uint RL_DIM_DONOR_V = 51u;
+const uint RL_DIMENSIONS = 64u;
+
+RL_NAMESPACE_END
+
+#endif

@@ -1,0 +1,243 @@
+// Hit -> shading point. The only consumer of materials and of their textures.
+
+RL_FN vec3 surfaceToWorldPoint(RL_IN(Instance) inst, RL_IN(vec3) p) {
+  vec4 h = vec4(p, 1.0f);
+  return vec3(dot(inst.objectToWorldRow0, h), dot(inst.objectToWorldRow1, h), dot(inst.objectToWorldRow2, h));
+}
+
+RL_FN vec3 surfaceToWorldVector(RL_IN(Instance) inst, RL_IN(vec3) v) {
+  return vec3(dot(vec3(inst.objectToWorldRow0), v), dot(vec3(inst.objectToWorldRow1), v),
+              dot(vec3(inst.objectToWorldRow2), v));
+}
+
+// Normals transform by the inverse transpose.
+RL_FN vec3 surfaceToWorldNormal(RL_IN(Instance) inst, RL_IN(vec3) n) {
+  return vec3(inst.worldToObjectRow0) * n.x + vec3(inst.worldToObjectRow1) * n.y +
+         vec3(inst.worldToObjectRow2) * n.z;
+}
+
+RL_FN TriangleW surfaceTriangle(RL_IN(Instance) inst, RL_IN(Geometry) geometry, RL_IN(uvec3) corners) {
+  TriangleW t;
+  t.p0 = gScene.positions.data[geometry.firstVertex + corners.x];
+  t.p1 = gScene.positions.data[geometry.firstVertex + corners.y];
+  t.p2 = gScene.positions.data[geometry.firstVertex + corners.z];
+  t.magnitude = 0.0f;
+  if (RL_HAS(RL_FEATURE_INSTANCES) && (inst.flags & RL_INSTANCE_IDENTITY) == 0u) {
+    // |M| |p| + |T| bounds every intermediate of the transform.
+    vec3 corner = max(abs(t.p0), max(abs(t.p1), abs(t.p2)));
+    vec4 h = vec4(corner, 1.0f);
+    t.magnitude = max(dot(abs(inst.objectToWorldRow0), h),
+                      max(dot(abs(inst.objectToWorldRow1), h), dot(abs(inst.objectToWorldRow2), h)));
+    t.p0 = surfaceToWorldPoint(inst, t.p0);
+    t.p1 = surfaceToWorldPoint(inst, t.p1);
+    t.p2 = surfaceToWorldPoint(inst, t.p2);
+  } else {
+    t.magnitude = max(rlMax3(abs(t.p0)), max(rlMax3(abs(t.p1)), rlMax3(abs(t.p2))));
+  }
+  return t;
+}
+
+RL_FN vec2 surfaceUv(RL_IN(Geometry) geometry, RL_IN(uvec3) corners, RL_IN(vec2) bary, uint uvSet) {
+  uint offset = geometry.uvOffset[uvSet];
+  if (offset == RL_INVALID) return vec2(0.0f, 0.0f);
+  vec2 a = gScene.uvs.data[offset + corners.x];
+  vec2 b = gScene.uvs.data[offset + corners.y];
+  vec2 c = gScene.uvs.data[offset + corners.z];
+  return a + bary.x * (b - a) + bary.y * (c - a);
+}
+
+// One texture slot of a material at a hit, white where the slot is empty.
+RL_FN_OUTLINE vec4 surfaceSlot(RL_IN(Material) material, uint slot, RL_IN(Geometry) geometry,
+                               RL_IN(uvec3) corners, RL_IN(vec2) bary) {
+  uint id = material.textures[slot];
+  if (id == RL_INVALID) return vec4(1.0f, 1.0f, 1.0f, 1.0f);
+  Texture tex = gScene.textures.data[id];
+  return textureSample(tex, surfaceUv(geometry, corners, bary, tex.uvSet));
+}
+
+// Coverage of a hit: 1 opaque, 0 a hole.
+RL_FN_OUTLINE float surfaceAlpha(RL_IN(Hit) hit) {
+  Instance inst = gScene.instances.data[hit.instance];
+  Material material = gScene.materials.data[inst.material];
+  if ((material.flags & (RL_MATERIAL_ALPHA_MASK | RL_MATERIAL_ALPHA_BLEND)) == 0u) return 1.0f;
+  Geometry geometry = gScene.geometries.data[inst.geometry];
+  uvec3 corners = gScene.triangles.data[geometry.firstTriangle + hit.primitive];
+  float alpha = material.alpha;
+  if (RL_HAS(RL_FEATURE_TEXTURES)) {
+    vec4 texel = surfaceSlot(material, RL_TEX_BASE_COLOR, geometry, corners, hit.bary);
+    alpha *= texel.w;
+  }
+  if (RL_HAS(RL_FEATURE_VERTEX_COLORS) && geometry.colorOffset != RL_INVALID) {
+    float a = gScene.colors.data[geometry.colorOffset + corners.x].w;
+    float b = gScene.colors.data[geometry.colorOffset + corners.y].w;
+    float c = gScene.colors.data[geometry.colorOffset + corners.z].w;
+    alpha *= a + hit.bary.x * (b - a) + hit.bary.y * (c - a);
+  }
+  if ((material.flags & RL_MATERIAL_ALPHA_MASK) != 0u) return alpha < material.alphaCutoff ? 0.0f : 1.0f;
+  return clamp(alpha, 0.0f, 1.0f);
+}
+
+// The tangent of a normal map where the mesh has none: dp/du of the triangle (glTF asks for
+// MikkTSpace; the difference is the interpolation of tangents across triangles).
+RL_FN vec3 surfaceTangentFromUv(RL_IN(TriangleW) t, RL_IN(Geometry) geometry, RL_IN(uvec3) corners, uint uvSet,
+                                RL_OUT(float) handedness) {
+  handedness = 1.0f;
+  uint offset = geometry.uvOffset[uvSet];
+  if (offset == RL_INVALID) return vec3(0.0f, 0.0f, 0.0f);
+  vec2 uv0 = gScene.uvs.data[offset + corners.x];
+  vec2 d1 = gScene.uvs.data[offset + corners.y] - uv0;
+  vec2 d2 = gScene.uvs.data[offset + corners.z] - uv0;
+  float det = d1.x * d2.y - d2.x * d1.y;
+  if (det == 0.0f) return vec3(0.0f, 0.0f, 0.0f);
+  handedness = det < 0.0f ? 1.0f : -1.0f;  // glTF's v axis points down
+  return ((t.p1 - t.p0) * d2.y - (t.p2 - t.p0) * d1.y) * (1.0f / det);
+}
+
+RL_FN_OUTLINE vec3 surfaceNormalMapped(RL_IN(Instance) inst, RL_IN(Geometry) geometry, RL_IN(Material) material,
+                                       RL_IN(uvec3) corners, RL_IN(vec2) bary, RL_IN(TriangleW) t,
+                                       RL_IN(vec3) normalW) {
+  vec4 texel = surfaceSlot(material, RL_TEX_NORMAL, geometry, corners, bary);
+  vec3 local = vec3((texel.x * 2.0f - 1.0f) * material.normalScale, (texel.y * 2.0f - 1.0f) * material.normalScale,
+                    texel.z * 2.0f - 1.0f);
+  vec3 tangentW = vec3(0.0f, 0.0f, 0.0f);
+  float handedness = 1.0f;
+  if (geometry.tangentOffset != RL_INVALID) {
+    vec4 a = gScene.tangents.data[geometry.tangentOffset + corners.x];
+    vec4 b = gScene.tangents.data[geometry.tangentOffset + corners.y];
+    vec4 c = gScene.tangents.data[geometry.tangentOffset + corners.z];
+    vec4 v = a + bary.x * (b - a) + bary.y * (c - a);
+    tangentW = vec3(v);
+    handedness = v.w < 0.0f ? -1.0f : 1.0f;
+    if (RL_HAS(RL_FEATURE_INSTANCES) && (inst.flags & RL_INSTANCE_IDENTITY) == 0u) {
+      tangentW = surfaceToWorldVector(inst, tangentW);
+    }
+  } else {
+    uint uvSet = gScene.textures.data[material.textures[RL_TEX_NORMAL]].uvSet;
+    tangentW = surfaceTangentFromUv(t, geometry, corners, uvSet, handedness);
+  }
+  tangentW = tangentW - normalW * dot(normalW, tangentW);
+  float len2 = dot(tangentW, tangentW);
+  if (!(len2 > 0.0f)) return normalW;  // no usable parametrisation: the unperturbed normal
+  tangentW = tangentW * (1.0f / sqrt(len2));
+  vec3 bitangentW = cross(normalW, tangentW) * handedness;
+  vec3 n = tangentW * local.x + bitangentW * local.y + normalW * local.z;
+  float n2 = dot(n, n);
+  return n2 > 0.0f ? n * (1.0f / sqrt(n2)) : normalW;
+}
+
+RL_FN Surface surfaceLoad(RL_IN(Hit) hit, RL_IN(vec3) rayDir) {
+  Surface s;
+  Instance inst = gScene.instances.data[hit.instance];
+  Geometry geometry = gScene.geometries.data[inst.geometry];
+  Material material = gScene.materials.data[inst.material];
+  uvec3 corners = gScene.triangles.data[geometry.firstTriangle + hit.primitive];
+  TriangleW t = surfaceTriangle(inst, geometry, corners);
+  vec3 e1 = t.p1 - t.p0;
+  vec3 e2 = t.p2 - t.p0;
+  s.posW = t.p0 + hit.bary.x * e1 + hit.bary.y * e2;
+  s.posError = RL_HIT_ERROR * t.magnitude;
+  s.wo = -rayDir;
+
+  vec3 nGeo = normalize(cross(e1, e2));
+  if (RL_HAS(RL_FEATURE_INSTANCES) && (inst.flags & RL_INSTANCE_FLIPPED) != 0u) nGeo = -nGeo;
+  bool isFront = dot(nGeo, s.wo) > 0.0f;
+  vec3 nShade = nGeo;
+  if (RL_HAS(RL_FEATURE_SMOOTH_NORMALS) && geometry.normalOffset != RL_INVALID) {
+    vec3 a = gScene.normals.data[geometry.normalOffset + corners.x];
+    vec3 b = gScene.normals.data[geometry.normalOffset + corners.y];
+    vec3 c = gScene.normals.data[geometry.normalOffset + corners.z];
+    vec3 n = a + hit.bary.x * (b - a) + hit.bary.y * (c - a);
+    if (RL_HAS(RL_FEATURE_INSTANCES) && (inst.flags & RL_INSTANCE_IDENTITY) == 0u) {
+      n = surfaceToWorldNormal(inst, n);
+    }
+    float len2 = dot(n, n);
+    if (len2 > 0.0f) nShade = n * (1.0f / sqrt(len2));
+  }
+  if (RL_HAS(RL_FEATURE_NORMAL_MAPS) && material.textures[RL_TEX_NORMAL] != RL_INVALID) {
+    nShade = surfaceNormalMapped(inst, geometry, material, corners, hit.bary, t, nShade);
+  }
+  s.nGeoW = isFront ? nGeo : -nGeo;
+  // A shading normal on the far side of the face has no meaning as a reflector: mirrored back.
+  if (!isFront) nShade = -nShade;
+  float side = dot(nShade, s.nGeoW);
+  if (side <= 0.0f) nShade = normalize(nShade - s.nGeoW * (2.0f * side) + s.nGeoW * 1.0e-3f);
+  s.nShadeW = nShade;
+
+  vec3 baseColor = material.baseColor;
+  vec3 emission = material.emission;
+  float metallic = material.metallic;
+  float roughness = material.roughness;
+  float transmission = material.transmission;
+  float specular = material.specular;
+  vec3 specularColor = material.specularColor;
+  if (RL_HAS(RL_FEATURE_TEXTURES | RL_FEATURE_EMISSIVE_TEXTURES)) {
+    // One call site of texture filtering for all slots.
+    for (uint slot = 0u; slot < RL_TEX_COUNT; slot = slot + 1u) {
+      if (slot == RL_TEX_NORMAL || material.textures[slot] == RL_INVALID) continue;
+      vec4 texel = surfaceSlot(material, slot, geometry, corners, hit.bary);
+      if (slot == RL_TEX_BASE_COLOR) baseColor *= vec3(texel);
+      if (slot == RL_TEX_METALLIC_ROUGHNESS) {
+        metallic *= texel.z;
+        roughness *= texel.y;
+      }
+      if (slot == RL_TEX_EMISSIVE) emission *= vec3(texel);
+      if (slot == RL_TEX_TRANSMISSION) transmission *= texel.x;
+      if (slot == RL_TEX_SPECULAR) specular *= texel.w;
+      if (slot == RL_TEX_SPECULAR_COLOR) specularColor *= vec3(texel);
+    }
+  }
+  if (RL_HAS(RL_FEATURE_VERTEX_COLORS) && geometry.colorOffset != RL_INVALID) {
+    vec4 a = gScene.colors.data[geometry.colorOffset + corners.x];
+    vec4 b = gScene.colors.data[geometry.colorOffset + corners.y];
+    vec4 c = gScene.colors.data[geometry.colorOffset + corners.z];
+    baseColor *= vec3(a + hit.bary.x * (b - a) + hit.bary.y * (c - a));
+  }
+
+  s.light = inst.firstLight == RL_INVALID ? RL_INVALID : inst.firstLight + hit.primitive;
+  bool emits = isFront || (material.flags & RL_MATERIAL_DOUBLE_SIDED) != 0u;
+  s.emission = emits ? emission : vec3(0.0f, 0.0f, 0.0f);
+  if ((material.flags & RL_MATERIAL_UNLIT) != 0u) s.emission = baseColor;
+  s.sigmaAbsorption = vec3(0.0f, 0.0f, 0.0f);
+  if (RL_HAS(RL_FEATURE_VOLUME) && isFront) s.sigmaAbsorption = material.sigmaAbsorption;
+
+  Bsdf b;
+  b.diffuse = baseColor;
+  b.lobes = 0u;
+  b.f0 = vec3(0.0f, 0.0f, 0.0f);
+  b.f90 = 0.0f;
+  b.transmission = vec3(0.0f, 0.0f, 0.0f);
+  b.alpha = 1.0f;
+  b.eta = 1.0f;
+  bool scatters = (material.flags & (RL_MATERIAL_UNLIT | RL_MATERIAL_BLACK)) == 0u;
+  if (RL_HAS(RL_FEATURE_GLOSSY)) {
+    float r = (material.ior - 1.0f) / (material.ior + 1.0f);
+    vec3 dielectricF0 = min(specularColor * (r * r), vec3(1.0f, 1.0f, 1.0f)) * specular;
+    b.f0 = dielectricF0 + (baseColor - dielectricF0) * metallic;
+    b.f90 = specular + (1.0f - specular) * metallic;
+    b.alpha = roughness * roughness;
+    b.diffuse = baseColor * ((1.0f - metallic) * (1.0f - transmission));
+    bool isDelta = b.alpha < RL_ALPHA_FLOOR;
+    if (scatters && b.f90 > 0.0f && !rlIsBlack(b.f0)) {
+      b.lobes = isDelta ? RL_LOBE_SPECULAR_DELTA : RL_LOBE_SPECULAR;
+    }
+    if (RL_HAS(RL_FEATURE_TRANSMISSION) && scatters && transmission > 0.0f && metallic < 1.0f) {
+      b.transmission = baseColor * ((1.0f - metallic) * transmission);
+      b.lobes |= isDelta ? RL_LOBE_TRANSMISSION_DELTA : RL_LOBE_TRANSMISSION;
+      bool isThin = (material.flags & RL_MATERIAL_THIN) != 0u;
+      if (isThin) b.lobes |= RL_LOBE_THIN;
+      b.eta = isFront || isThin ? material.ior : 1.0f / material.ior;
+      // No contrast of indices: nothing is reflected or bent.
+      if (material.ior == 1.0f) b.lobes |= RL_LOBE_THIN;
+    }
+    if (isDelta && (b.lobes & RL_LOBE_ANY_DELTA) != 0u) RL_HEALTH(RL_HEALTH_DELTA_LOBES);
+  }
+  if (scatters && !rlIsBlack(b.diffuse)) b.lobes |= RL_LOBE_DIFFUSE;
+  s.bsdf = b;
+  return s;
+}
+
+// Origin of a ray that leaves a surface towards dirW: moved off the plane by the error bound, to the
+// side it goes to.
+RL_FN vec3 surfaceOffset(RL_IN(vec3) posW, RL_IN(vec3) nGeoW, float posError, RL_IN(vec3) dirW) {
+  return dot(nGeoW, dirW) >= 0.0f ? posW + nGeoW * posError : posW - nGeoW * posError;
+}

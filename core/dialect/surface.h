@@ -1,0 +1,39 @@
+// A shading point.
+#ifndef RL_SURFACE_H
+#define RL_SURFACE_H
+
+#ifdef __cplusplus
+#include "core/dialect/bsdf.h"
+#include "core/dialect/types.h"
+#endif
+
+RL_NAMESPACE_BEGIN
+
+struct Surface {
+  vec3 posW;
+  float posError;        // metres: bound of the rounding error of posW and of a test against its triangle
+  vec3 nGeoW;            // unit, on the side of wo
+  vec3 nShadeW;          // unit, dot(nShadeW, nGeoW) > 0
+  vec3 wo;               // unit, towards where the ray came from
+  vec3 emission;         // radiance towards wo
+  vec3 sigmaAbsorption;  // m^-1 beyond the surface, for rays that cross it
+  uint light;            // index in the light table, RL_INVALID where it does not emit
+  Bsdf bsdf;
+};
+
+// The corners of a triangle in world space.
+struct TriangleW {
+  vec3 p0;
+  vec3 p1;
+  vec3 p2;
+  float magnitude;  // largest coordinate that its computation went through
+};
+
+// What the texture loop of surface.glsl gathers, one entry a slot.
+struct SlotTexels {
+  vec4 value[7];
+};
+
+RL_NAMESPACE_END
+
+#endif

@@ -1,0 +1,240 @@
+// Types shared by host and kernels. Layout is `scalar` on the GPU and natural in C++: the sizes are
+// asserted here and the offsets compared by tests/parity.
+#ifndef RL_TYPES_H
+#define RL_TYPES_H
+
+#ifdef __cplusplus
+#include "core/dialect/dialect.h"
+#endif
+
+RL_NAMESPACE_BEGIN
+
+const uint RL_INVALID = 0xffffffffu;
+const uint RL_MAX_UV_SETS = 4u;
+
+// Ray modes of traceRay().
+const uint RL_RAY_PATH = 0u;    // closest hit; alpha decided by a hash of the sample and the primitive
+const uint RL_RAY_SHADOW = 1u;  // any hit; alpha multiplies the transmittance
+
+struct Ray {
+  vec3 origin;
+  float tMin;
+  vec3 dir;  // unit length for path rays; shadow rays span origin to target with tMax <= 1
+  float tMax;
+};
+
+struct Hit {
+  uint instance;  // RL_INVALID: nothing hit
+  uint primitive;
+  vec2 bary;  // weights of the second and third corner
+  float t;
+};
+
+// One glTF mesh primitive: triangles [firstTriangle, +triangleCount) index vertices from firstVertex.
+// An attribute offset of RL_INVALID means the attribute is absent.
+struct Geometry {
+  uint firstTriangle;
+  uint triangleCount;
+  uint firstVertex;
+  uint normalOffset;
+  uint tangentOffset;
+  uint colorOffset;
+  uint uvOffset[4];
+};
+RL_STATIC_ASSERT_SIZE(Geometry, 40);
+
+const uint RL_INSTANCE_IDENTITY = 1u;  // vertices are stored in world space
+const uint RL_INSTANCE_FLIPPED = 2u;   // the transform mirrors: winding is reversed
+const uint RL_INSTANCE_ALPHA = 4u;     // some part may be transparent: rays ask the material
+
+struct Instance {
+  vec4 objectToWorldRow0;  // rows of the affine 3x4 matrix
+  vec4 objectToWorldRow1;
+  vec4 objectToWorldRow2;
+  vec4 worldToObjectRow0;
+  vec4 worldToObjectRow1;
+  vec4 worldToObjectRow2;
+  uint geometry;
+  uint material;
+  uint firstLight;  // light-table index of primitive 0, RL_INVALID where the material does not emit
+  uint flags;
+};
+RL_STATIC_ASSERT_SIZE(Instance, 112);
+
+const uint RL_MATERIAL_DOUBLE_SIDED = 1u;
+const uint RL_MATERIAL_UNLIT = 2u;        // KHR_materials_unlit: emits its base colour, scatters nothing
+const uint RL_MATERIAL_ALPHA_MASK = 4u;   // alpha < alphaCutoff is a hole
+const uint RL_MATERIAL_ALPHA_BLEND = 8u;  // alpha is coverage
+const uint RL_MATERIAL_THIN = 16u;        // transmission without volume: no refraction
+const uint RL_MATERIAL_BLACK = 32u;       // scatters nothing (a black body)
+
+// Texture slots of a material.
+const uint RL_TEX_BASE_COLOR = 0u;
+const uint RL_TEX_METALLIC_ROUGHNESS = 1u;
+const uint RL_TEX_NORMAL = 2u;
+const uint RL_TEX_EMISSIVE = 3u;
+const uint RL_TEX_TRANSMISSION = 4u;
+const uint RL_TEX_SPECULAR = 5u;
+const uint RL_TEX_SPECULAR_COLOR = 6u;
+const uint RL_TEX_COUNT = 7u;
+
+// glTF metallic-roughness material with ior, specular, transmission and volume extensions.
+struct Material {
+  vec3 baseColor;
+  float alpha;
+  vec3 emission;  // radiance, W sr^-1 m^-2 (emissiveFactor x emissiveStrength)
+  float alphaCutoff;
+  float metallic;
+  float roughness;  // perceptual; alpha = roughness^2
+  float ior;
+  float transmission;
+  vec3 specularColor;
+  float specular;
+  vec3 sigmaAbsorption;  // m^-1, Beer-Lambert inside a volume
+  float normalScale;
+  uint flags;
+  uint textures[7];  // index into SceneData::textures, RL_INVALID where the slot is empty
+};
+RL_STATIC_ASSERT_SIZE(Material, 112);
+
+const uint RL_WRAP_REPEAT = 0u;
+const uint RL_WRAP_CLAMP = 1u;
+const uint RL_WRAP_MIRROR = 2u;
+
+const uint RL_TEXTURE_NEAREST = 1u;  // texture flag: nearest instead of bilinear filtering
+const uint RL_TEXTURE_SRGB = 2u;     // texture flag: RGB is sRGB-encoded, decoded before filtering
+
+// A use of an image: sampler, KHR_texture_transform (uv' = rows x (u, v, 1)) and UV set.
+struct Texture {
+  vec3 uvRow0;
+  vec3 uvRow1;
+  uint firstTexel;  // into SceneData::texels, RGBA8 packed little-endian, row 0 on top
+  uint width;
+  uint height;
+  uint wrapU;
+  uint wrapV;
+  uint flags;
+  uint uvSet;
+};
+RL_STATIC_ASSERT_SIZE(Texture, 52);
+
+// Kinds of entries in the light table.
+const uint RL_LIGHT_TRIANGLE = 0u;
+const uint RL_LIGHT_POINT = 1u;
+const uint RL_LIGHT_SPOT = 2u;
+const uint RL_LIGHT_DIRECTIONAL = 3u;
+const uint RL_LIGHT_ENVIRONMENT = 4u;
+
+const uint RL_LIGHT_FLIPPED = 2u;  // Light::flags: a mirrored instance, the normal is -cross(e1, e2)
+
+struct Light {
+  vec3 p0;  // triangle corner, or position (world)
+  uint kind;
+  vec3 e1;  // triangle edge, or direction of light travel (unit)
+  float pmf;  // probability of being selected
+  vec3 e2;    // triangle edge; x,y: spot angle scale and offset
+  float areaInverse;  // 1/m^2 of a triangle
+  vec3 radiance;  // triangle: W sr^-1 m^-2; point, spot: W/sr; directional: W/m^2
+  uint instance;  // of a triangle
+  uint primitive;
+  uint flags;  // RL_MATERIAL_DOUBLE_SIDED, RL_LIGHT_FLIPPED
+};
+RL_STATIC_ASSERT_SIZE(Light, 72);
+
+// Vose alias method: column i keeps i with probability `keep`, otherwise gives `other`.
+struct AliasEntry {
+  float keep;
+  uint other;
+  float pmf;
+};
+RL_STATIC_ASSERT_SIZE(AliasEntry, 12);
+
+const uint RL_CAMERA_PERSPECTIVE = 0u;
+const uint RL_CAMERA_ORTHOGRAPHIC = 1u;
+
+struct Camera {
+  vec3 posW;
+  uint kind;
+  vec3 rightW;
+  float halfWidth;  // tangent of the half angle, or half extent in metres (orthographic)
+  vec3 upW;
+  float halfHeight;
+  vec3 forwardW;
+  float padding;
+};
+RL_STATIC_ASSERT_SIZE(Camera, 64);
+
+RL_REF(FloatRef, float)
+RL_REF(UintRef, uint)
+RL_REF(Vec2Ref, vec2)
+RL_REF(Vec3Ref, vec3)
+RL_REF(Vec4Ref, vec4)
+RL_REF(UVec3Ref, uvec3)
+RL_REF(GeometryRef, Geometry)
+RL_REF(InstanceRef, Instance)
+RL_REF(MaterialRef, Material)
+RL_REF(TextureRef, Texture)
+RL_REF(LightRef, Light)
+RL_REF(AliasRef, AliasEntry)
+
+// Everything a kernel reads of the scene, by address.
+struct SceneData {
+  Vec3Ref positions;
+  Vec3Ref normals;
+  Vec4Ref tangents;
+  Vec4Ref colors;
+  Vec2Ref uvs;
+  UVec3Ref triangles;  // indices relative to Geometry::firstVertex
+  GeometryRef geometries;
+  InstanceRef instances;
+  MaterialRef materials;
+  TextureRef textures;
+  UintRef texels;
+  FloatRef srgbToLinear;  // 256 entries
+  LightRef lights;
+  AliasRef lightAlias;
+  Vec3Ref environment;           // radiance per texel, already scaled, row 0 on top
+  AliasRef environmentAlias;     // pmf per texel
+  uint lightCount;
+  uint environmentWidth;  // 0: no environment
+  uint environmentHeight;
+  uint environmentLight;  // its index in the light table, or RL_INVALID
+  float environmentRotation;  // radians about +Y
+  uint instanceCount;
+};
+
+const uint RL_COMPONENT_DIRECT = 1u;    // at most one scattering event, emission seen directly included
+const uint RL_COMPONENT_INDIRECT = 2u;  // two or more
+const uint RL_COMPONENT_ALL = 3u;
+
+const uint RL_FILTER_BOX = 0u;
+const uint RL_FILTER_CENTER = 1u;
+
+// Everything a kernel reads of the frame.
+struct FrameData {
+  Camera camera;
+  Camera previousCamera;
+  uint width;
+  uint height;
+  uint frame;  // counts from 0 since the history was reset
+  uint seed;
+  uint pixelFilter;
+  uint maxBounces;  // scattering events
+  uint components;
+  uint filmHold;       // frames that a pixel keeps its film sample; 1: a new one every frame
+  uint rouletteStart;  // first scattering event that may end a path by Russian roulette; RL_INVALID: off
+};
+RL_STATIC_ASSERT_SIZE(FrameData, 164);
+
+// Numerical health: counters that every kernel adds to; names in core/health.h.
+const uint RL_HEALTH_NONFINITE = 0u;          // non-finite sample values set to zero
+const uint RL_HEALTH_REJECTED_JACOBIAN = 1u;  // shifts outside the declared Jacobian domain
+const uint RL_HEALTH_CAPPED_CONFIDENCE = 2u;
+const uint RL_HEALTH_DELTA_LOBES = 3u;        // roughness below the floor, rendered as a delta lobe
+const uint RL_HEALTH_UNREUSABLE_PIXELS = 4u;  // x1 cannot be reused; the pixel's own path is shaded
+const uint RL_HEALTH_NEGATIVE = 5u;           // negative radiance left by control variates
+const uint RL_HEALTH_COUNT = 8u;
+
+RL_NAMESPACE_END
+
+#endif

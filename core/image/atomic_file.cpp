@@ -1,0 +1,98 @@
+#include "core/image/atomic_file.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <system_error>
+
+#include "core/error.h"
+#include "core/image/image.h"
+
+namespace restlab {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void failFile(const fs::path& file, const std::string& what) {
+  failInput(fmt::format("{}: {}", file.string(), what));
+}
+
+std::string systemReason(int code) {
+  return code == 0 ? "unknown reason" : std::generic_category().message(code);
+}
+
+// The file that `file` names once symbolic links are followed; throws unless it may be created.
+fs::path resolveTarget(const fs::path& file) {
+  if (file.empty()) failInput("output file: the name is empty");
+  if (!file.has_filename()) failFile(file, "is a directory; name a file in it");
+  std::error_code error;
+  fs::path target = file;
+  if (fs::is_symlink(fs::symlink_status(target, error))) {
+    target = fs::weakly_canonical(target, error);
+    if (error) failFile(file, "cannot follow the symbolic link: " + error.message());
+  }
+  const fs::file_status status = fs::status(target, error);
+  if (fs::is_directory(status)) failFile(file, "is a directory; name a file in it");
+  // Replacing a device or a pipe by a file is never what was meant.
+  if (fs::exists(status) && !fs::is_regular_file(status)) failFile(file, "is not a regular file");
+  if (fs::exists(status) && ::access(target.c_str(), W_OK) != 0) {
+    failFile(file, "cannot be overwritten: " + systemReason(errno));
+  }
+  const fs::path directory = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  const fs::file_status parent = fs::status(directory, error);
+  if (!fs::exists(parent)) {
+    failFile(file, "the directory " + directory.string() + " does not exist");
+  }
+  if (!fs::is_directory(parent)) failFile(file, directory.string() + " is not a directory");
+  return target;
+}
+
+// Unique among processes by pid and within one by a counter.
+fs::path temporaryNameFor(const fs::path& target) {
+  static std::atomic<unsigned> counter{0};
+  fs::path name = target;
+  name += fmt::format(".tmp-{}-{}", ::getpid(), counter++);
+  return name;
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(const fs::path& file)
+    : file_(file), target_(resolveTarget(file)), temporary_(temporaryNameFor(target_)) {
+  errno = 0;
+  stream_.open(temporary_, std::ios::binary | std::ios::trunc);
+  if (!stream_) failFile(file_, "cannot be created: " + systemReason(errno));
+}
+
+AtomicFile::~AtomicFile() {
+  if (committed_) return;
+  stream_.close();
+  std::error_code ignored;
+  fs::remove(temporary_, ignored);
+}
+
+void AtomicFile::commit() {
+  if (!stream_) failFile(file_, "cannot be written: a write failed (is the disk full?)");
+  errno = 0;
+  stream_.close();
+  if (!stream_) failFile(file_, "cannot be written: " + systemReason(errno));
+  std::error_code error;
+  fs::rename(temporary_, target_, error);
+  if (error) failFile(file_, "cannot be written: " + error.message());
+  committed_ = true;
+}
+
+void writeTextFile(const fs::path& file, std::string_view text) {
+  AtomicFile output(file);
+  output.stream().write(text.data(), std::streamsize(text.size()));
+  output.commit();
+}
+
+void checkWritable(const fs::path& file) {
+  // Creates and removes the temporary neighbour, which is what writing will need.
+  AtomicFile probe(file);
+}
+
+}  // namespace restlab

@@ -1,0 +1,100 @@
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfIO.h>
+#include <ImfOutputFile.h>
+#include <ImfStringAttribute.h>
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/image/atomic_file.h"
+#include "core/image/exr_limits.h"
+#include "core/image/image.h"
+
+namespace restlab {
+namespace {
+
+// Lets OpenEXR write through an AtomicFile, whose commit() sees every failed write: OpenEXR's own
+// stream loses the errors of its last flush. Nothing here throws, for OpenEXR also writes from a
+// destructor.
+class FileStream : public Imf::OStream {
+ public:
+  explicit FileStream(std::ofstream& stream) : Imf::OStream(""), stream_(stream) {}
+  void write(const char bytes[], int size) override {
+    stream_.write(bytes, size);
+    position_ += uint64_t(size);
+  }
+  uint64_t tellp() override { return position_; }
+  void seekp(uint64_t offset) override {
+    stream_.seekp(std::streamoff(offset));
+    position_ = offset;
+  }
+
+ private:
+  std::ofstream& stream_;
+  uint64_t position_ = 0;
+};
+
+// All layers must have the same size and at least one pixel.
+const Image& checkedFirstLayer(const std::filesystem::path& file, const LayeredImage& image) {
+  if (image.layers.empty()) failInput(fmt::format("{}: image has no layer", file.string()));
+  const auto& [firstName, first] = *image.layers.begin();
+  for (const auto& [name, layer] : image.layers) {
+    if (layer.width != first.width || layer.height != first.height) {
+      failInput(fmt::format("{}: layer '{}' is {}x{} but layer '{}' is {}x{}", file.string(), name,
+                            layer.width, layer.height, firstName, first.width, first.height));
+    }
+    if (layer.pixels.size() != size_t(layer.width) * layer.height) {
+      failInput(fmt::format("{}: layer '{}' is {}x{} but holds {} pixels", file.string(), name,
+                            layer.width, layer.height, layer.pixels.size()));
+    }
+  }
+  if (first.pixels.empty() || first.width > kExrMaxSide || first.height > kExrMaxSide ||
+      first.pixels.size() > kExrMaxPixels / image.layers.size()) {
+    failInput(fmt::format("{}: cannot write {} layers of {}x{} pixels (1 to {} a side, at most {} "
+                          "over all layers)",
+                          file.string(), image.layers.size(), first.width, first.height,
+                          kExrMaxSide, kExrMaxPixels));
+  }
+  return first;
+}
+
+}  // namespace
+
+void writeExr(const std::filesystem::path& file, const LayeredImage& image) {
+  const Image& first = checkedFirstLayer(file, image);
+  const int width = int(first.width);
+  const int height = int(first.height);
+
+  AtomicFile output(file);
+  try {
+    Imf::Header header(width, height);
+    header.compression() = Imf::ZIP_COMPRESSION;
+    for (const auto& [key, value] : image.metadata) {
+      header.insert(kExrMetadataPrefix + key, Imf::StringAttribute(value));
+    }
+    Imf::FrameBuffer frame;
+    for (const auto& [name, layer] : image.layers) {
+      for (int c = 0; c < 3; ++c) {
+        const std::string channel =
+            (name.empty() ? std::string() : name + ".") + std::string(1, "RGB"[c]);
+        header.channels().insert(channel, Imf::Channel(Imf::FLOAT));
+        // OpenEXR's slices are not const, but an OutputFile only reads them.
+        char* base = const_cast<char*>(reinterpret_cast<const char*>(&layer.pixels[0][c]));
+        frame.insert(channel, Imf::Slice(Imf::FLOAT, base, sizeof(glm::vec3),
+                                         sizeof(glm::vec3) * layer.width));
+      }
+    }
+    FileStream stream(output.stream());
+    Imf::OutputFile exr(stream, header);
+    exr.setFrameBuffer(frame);
+    exr.writePixels(height);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& error) {
+    failInput(fmt::format("{}: cannot be written: {}", file.string(), exrReason(error.what())));
+  }
+  output.commit();
+}
+
+}  // namespace restlab

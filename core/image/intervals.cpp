@@ -1,0 +1,115 @@
+#include "core/image/intervals.h"
+
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+namespace restlab {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Moments {
+  double n = 0.0, mean = 0.0;
+  double varianceOfMean = kNan;  // NaN with one run
+};
+
+Moments momentsOf(std::span<const double> runs) {
+  if (runs.empty()) throw std::invalid_argument("an interval needs at least one run");
+  Moments m;
+  m.n = double(runs.size());
+  for (const double x : runs) m.mean += x;
+  m.mean /= m.n;
+  if (runs.size() > 1) {
+    double sum = 0.0;
+    for (const double x : runs) sum += (x - m.mean) * (x - m.mean);
+    m.varianceOfMean = sum / (m.n - 1.0) / m.n;
+  }
+  return m;
+}
+
+// Two-sided quantile of Student's t.
+double tQuantile(double dof, double confidence) {
+  const boost::math::students_t_distribution<double> t(dof);
+  return boost::math::quantile(boost::math::complement(t, 0.5 * (1.0 - confidence)));
+}
+
+// Fieller's interval: all ratios q for which a - q b is within t standard errors of 0, that is
+// (b^2 - t^2 vb) q^2 - 2 (a b - t^2 vab) q + (a^2 - t^2 va) <= 0, with the (co)variances of means.
+Interval fieller(double a, double b, double va, double vb, double vab, double t) {
+  const double ratio = a / b;
+  const double quadratic = b * b - t * t * vb;
+  if (!(quadratic > 0.0)) return {ratio, -kInfinity, kInfinity};
+  const double linear = a * b - t * t * vab;
+  const double constant = a * a - t * t * va;
+  const double root = std::sqrt(std::max(0.0, linear * linear - quadratic * constant));
+  return {ratio, (linear - root) / quadratic, (linear + root) / quadratic};
+}
+
+}  // namespace
+
+Interval meanInterval(std::span<const double> runs, double confidence) {
+  const Moments m = momentsOf(runs);
+  if (runs.size() < 2 || std::isnan(m.mean)) return {m.mean, kNan, kNan};
+  const double half = tQuantile(m.n - 1.0, confidence) * std::sqrt(m.varianceOfMean);
+  return {m.mean, m.mean - half, m.mean + half};
+}
+
+Interval ratioInterval(std::span<const double> numerator, std::span<const double> denominator,
+                       double confidence) {
+  const Moments a = momentsOf(numerator);
+  const Moments b = momentsOf(denominator);
+  const double ratio = a.mean / b.mean;
+  if (numerator.size() < 2 || denominator.size() < 2 || std::isnan(ratio)) {
+    return {ratio, kNan, kNan};
+  }
+  // Welch-Satterthwaite for a - ratio b.
+  const double va = a.varianceOfMean;
+  const double vb = ratio * ratio * b.varianceOfMean;
+  if (va + vb == 0.0) return {ratio, ratio, ratio};
+  const double dof = (va + vb) * (va + vb) / (va * va / (a.n - 1.0) + vb * vb / (b.n - 1.0));
+  return fieller(a.mean, b.mean, va, b.varianceOfMean, 0.0, tQuantile(dof, confidence));
+}
+
+Interval pairedRatioInterval(std::span<const double> numerator,
+                             std::span<const double> denominator, double confidence) {
+  if (numerator.size() != denominator.size()) {
+    throw std::invalid_argument("paired runs need as many numerators as denominators");
+  }
+  const Moments a = momentsOf(numerator);
+  const Moments b = momentsOf(denominator);
+  const double ratio = a.mean / b.mean;
+  if (numerator.size() < 2 || std::isnan(ratio)) return {ratio, kNan, kNan};
+  double covariance = 0.0;
+  for (size_t i = 0; i < numerator.size(); ++i) {
+    covariance += (numerator[i] - a.mean) * (denominator[i] - b.mean);
+  }
+  covariance /= (a.n - 1.0) * a.n;
+  return fieller(a.mean, b.mean, a.varianceOfMean, b.varianceOfMean, covariance,
+                 tQuantile(a.n - 1.0, confidence));
+}
+
+double median(std::span<const double> values) {
+  if (values.empty()) throw std::invalid_argument("a median needs at least one value");
+  std::vector<double> sorted(values.begin(), values.end());
+  std::sort(sorted.begin(), sorted.end());
+  const size_t middle = sorted.size() / 2;
+  return sorted.size() % 2 == 1 ? sorted[middle] : 0.5 * (sorted[middle - 1] + sorted[middle]);
+}
+
+double percentile(std::span<const double> values, double fraction) {
+  if (values.empty()) throw std::invalid_argument("a percentile needs at least one value");
+  if (!(fraction > 0.0 && fraction <= 1.0)) {
+    throw std::invalid_argument("a percentile's fraction must be in (0, 1]");
+  }
+  std::vector<double> sorted(values.begin(), values.end());
+  std::sort(sorted.begin(), sorted.end());
+  const double rank = std::ceil(fraction * double(sorted.size()));
+  return sorted[std::min(sorted.size(), size_t(rank)) - 1];
+}
+
+}  // namespace restlab

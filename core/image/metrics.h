@@ -1,0 +1,73 @@
+// Image metrics whose names fix their formulas. d = image - reference, r = reference, both in linear
+// Rec. 709; "mean" runs over all pixels and the three channels.
+//
+// Sums are doubles taken in pixel order, so a value is the same for any thread count. A NaN or an
+// infinity anywhere in either image makes every metric but `nonfinite` NaN; the detail says how many.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "core/image/image.h"
+
+namespace restlab {
+
+struct MetricValue {
+  double value = 0.0;
+  std::string detail;  // what else the number needs: the pixel, the peak, the dropped pixels; or ""
+};
+
+struct MetricInfo {
+  std::string name;
+  std::string formula;          // one line for lists and reports
+  bool higherIsBetter = false;  // energy_ratio: neither, its ideal is 1 (the formula says so)
+  std::function<MetricValue(const Image& image, const Image& reference)> function;
+};
+
+// All metrics, in the order of reports.
+const std::vector<MetricInfo>& metricRegistry();
+std::vector<std::string> metricNames();
+
+// Throws Error (badUsage) with the nearest name.
+const MetricInfo& findMetric(const std::string& name);
+
+// Throws Error: badUsage for an unknown name, badInput for empty images or different sizes.
+MetricValue evaluateMetric(const std::string& name, const Image& image, const Image& reference);
+
+// NaN and infinite channel values in an image.
+size_t countNonfinite(const Image& image);
+
+// Mean of each channel, and of all.
+glm::dvec3 channelMeans(const Image& image);
+
+// mean(image) / mean(reference), channel by channel. Throws Error (badInput) on different sizes.
+glm::dvec3 energyRatioPerChannel(const Image& image, const Image& reference);
+
+// mean (image - half0)(image - half1): the mean squared error of one image against the truth, with
+// no share of the reference's own error, where half0 and half1 are independent, unbiased halves of
+// the reference. May be negative when the error is below the reference's noise. `mask`, if not
+// empty, holds one byte a pixel; only pixels with a byte other than 0 count.
+// Throws Error (badInput) on different sizes or a mask that selects nothing.
+double mseAgainstHalves(const Image& image, const Image& half0, const Image& half1,
+                        const std::vector<uint8_t>& mask = {});
+
+// mean (runs0 - half0)(runs1 - half1): squared bias of a method, where runs0 and runs1 are the means
+// of two disjoint sets of independent runs. Unbiased and signed: about 0, of either sign, for an
+// unbiased method.
+double squaredBias(const Image& runs0, const Image& runs1, const Image& half0, const Image& half1,
+                   const std::vector<uint8_t>& mask = {});
+
+// One value a pixel, averaged over channels, whose mean is `mse` or `mseAgainstHalves`.
+std::vector<double> squaredErrorPerPixel(const Image& image, const Image& reference);
+std::vector<double> squaredErrorPerPixel(const Image& image, const Image& half0,
+                                         const Image& half1);
+
+// Share of the sum that the largest `fraction` of the pixels hold (rounded up to whole pixels):
+// how much of an MSE is a few fireflies. 0 when the sum is 0, NaN when it is negative or NaN.
+double worstPixelShare(const std::vector<double>& errorPerPixel, double fraction = 1e-3);
+
+}  // namespace restlab

@@ -1,0 +1,12 @@
+target_sources(rl_core PRIVATE
+  image/atomic_file.cpp
+  image/exr_read.cpp
+  image/exr_write.cpp
+  image/half_products.cpp
+  image/intervals.cpp
+  image/metrics.cpp
+  image/png.cpp
+)
+target_link_libraries(rl_core PUBLIC OpenEXR::OpenEXR PRIVATE Boost::headers)
+# As system headers, so that our warnings do not judge them.
+target_include_directories(rl_core SYSTEM PRIVATE ${STB_INCLUDE_DIR})

@@ -1,0 +1,23 @@
+// aov: first-hit attributes of the film samples that the frame used (same seed, same draws).
+
+RL_FN void kernelMain(RL_IN(uvec2) pixel) {
+  uint pixelIndex = pixel.y * gFrame.width + pixel.x;
+  vec2 resolution = vec2(float(gFrame.width), float(gFrame.height));
+  Rng rng = rngInit(gFrame.seed, pixelIndex, gFrame.frame);
+  Ray ray = cameraRay(gFrame.camera, cameraFilmSample(pixel), resolution);
+  Hit hit;
+  float transmittance = traceRay(ray, RL_RAY_PATH, rng.key.x, hit);
+  vec3 zero = vec3(0.0f, 0.0f, 0.0f);
+  if (transmittance > 0.0f) {
+    gBuffers.positionW.data[pixelIndex] = zero;
+    gBuffers.normalW.data[pixelIndex] = zero;
+    gBuffers.albedo.data[pixelIndex] = zero;
+    gBuffers.depth.data[pixelIndex] = zero;
+    return;
+  }
+  Surface s = surfaceLoad(hit, ray.dir);
+  gBuffers.positionW.data[pixelIndex] = s.posW;
+  gBuffers.normalW.data[pixelIndex] = s.nShadeW;
+  gBuffers.albedo.data[pixelIndex] = s.bsdf.diffuse + s.bsdf.f0 + s.bsdf.transmission;
+  gBuffers.depth.data[pixelIndex] = vec3(hit.t, hit.t, hit.t);
+}

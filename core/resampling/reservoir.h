@@ -1,0 +1,37 @@
+// What every reservoir has beside its payload.
+#ifndef RL_RESERVOIR_H
+#define RL_RESERVOIR_H
+
+#ifdef __cplusplus
+#include "core/dialect/dialect.h"
+#endif
+
+RL_NAMESPACE_BEGIN
+
+struct ReservoirState {
+  real3 F;         // integrand of the selected sample at its owner, visibility included; pHat = luminance
+  real W;          // unbiased contribution weight: E[F W] is the integral. 0: empty
+  real3 residual;  // estimate - F W: what the per-channel estimate knows beyond the selected sample
+  real confidence;
+};
+
+// Donors of one merge, chosen and tested by the cache before any sample is looked at.
+const uint RL_MAX_DONORS = 4u;
+
+struct DonorSet {
+  uint slot[4];
+  real confidence[4];  // already capped
+  uint count;
+};
+
+// How a merge is done; declared by the integrator's mode.
+const uint RL_REUSE_PAIRWISE = 1u;             // defensive pairwise MIS; otherwise weights by confidence only
+const uint RL_REUSE_OMIT_JACOBIAN = 2u;        // deliberately wrong: for the tests that must reject it
+const uint RL_REUSE_ASSUME_VISIBLE = 4u;       // biased: shifted samples are taken as visible in the MIS weights
+const uint RL_REUSE_CONTROL_VARIATE = 8u;      // carry per-channel estimates through the merges
+const uint RL_REUSE_WINNER_ONLY = 16u;         // shade the selected sample alone
+const uint RL_REUSE_ASSUME_VISIBLE_HERE = 32u; // biased: a donor's sample is taken as visible here too
+
+RL_NAMESPACE_END
+
+#endif

@@ -1,0 +1,43 @@
+// Furnaces: scenes whose radiance is known exactly, at every pixel and for every path length.
+#include "core/scene/builtin_builder.h"
+#include "core/scene/builtin_mesh.h"
+#include "core/scene/builtin_scenes.h"
+
+namespace restlab::builtin {
+
+// A closed room and a block in it; every surface has albedo a = 1/2 and emits L = 1/2. Every ray
+// that leaves a surface meets another one like it, so the radiance after n scattering events is
+//   L (1 + a + ... + a^n) = L (1 - a^(n+1)) / (1 - a) = 1 - 2^-(n+1)
+// at every pixel, and 1 without a limit. The block makes light samples need their shadow rays.
+Scene makeFurnace() {
+  SceneBuilder scene("furnace");
+  rl::Material glowing = lambert(glm::vec3(0.5f));
+  glowing.emission = glm::vec3(0.5f);
+  glowing.flags = 0u;  // one side is enough: the walls look inwards, the block outwards
+  const uint32_t wall = scene.addMaterial("glowing", glowing);
+  scene.add(insideOut(box("room", {-2.0, 0.0, -3.0}, {2.0, 3.0, 2.0})), wall);
+  scene.add(transformed(box("block", {-0.6, 0.8, -1.6}, {0.6, 1.8, -0.6}),
+                        turnAbout({0.0, 0.0, -1.1}, 30.0)),
+            wall);
+  scene.addCamera("inside", {0.3, 1.6, 1.7}, {0.0, 1.3, -1.1}, 60.0);
+  return scene.finish();
+}
+
+// A convex solid of albedo 1 in an environment of radiance 1. Whatever it scatters left the
+// environment one event before: radiance is 1 at every pixel from one scattering event on, and the
+// solid is invisible. Flat faces: an interpolated normal would lose light below the face's horizon.
+Scene makeSphereFurnace() {
+  SceneBuilder scene("sphere-furnace");
+  const uint32_t white = scene.addMaterial("white", lambert(glm::vec3(1.0f)));
+  scene.add(sphere("solid", {0.0, 0.0, 0.0}, 1.0, 4, false), white);
+  EnvironmentMap uniform;
+  uniform.source = "uniform radiance 1";
+  uniform.width = 16;
+  uniform.height = 8;
+  uniform.radiance.assign(size_t(uniform.width) * uniform.height, glm::vec3(1.0f));
+  scene.setEnvironment(uniform);
+  scene.addCamera("front", {0.0, 0.4, 3.2}, {0.0, 0.0, 0.0}, 45.0);
+  return scene.finish();
+}
+
+}  // namespace restlab::builtin

@@ -1,0 +1,358 @@
+#include "core/scene/compiled_scene.h"
+
+#include <embree3/rtcore.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "core/scene/light_table.h"
+
+namespace restlab {
+
+namespace {
+
+glm::vec3 transformPoint(const glm::dmat4& m, const glm::vec3& p) {
+  return glm::vec3(m * glm::dvec4(glm::dvec3(p), 1.0));
+}
+
+glm::vec4 row(const glm::dmat4& m, int r) {
+  return glm::vec4(glm::dvec4(m[0][r], m[1][r], m[2][r], m[3][r]));
+}
+
+template <typename T>
+uint32_t append(std::vector<T>& pool, const std::vector<T>& values) {
+  if (values.empty()) return rl::RL_INVALID;
+  const auto offset = static_cast<uint32_t>(pool.size());
+  pool.insert(pool.end(), values.begin(), values.end());
+  return offset;
+}
+
+// The exact sRGB decoding of every 8-bit value (IEC 61966-2-1).
+std::vector<float> srgbTable() {
+  std::vector<float> table(256);
+  for (int i = 0; i < 256; ++i) {
+    const double c = i / 255.0;
+    table[i] = static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+  }
+  return table;
+}
+
+}  // namespace
+
+struct CompiledScene::Impl {
+  Scene scene;
+  uint32_t features = 0;
+  glm::dvec3 origin{0.0};
+  std::vector<std::string> warnings;
+  std::vector<glm::vec3> positions, normals;
+  std::vector<glm::vec4> tangents, colors;
+  std::vector<glm::vec2> uvs;
+  std::vector<glm::uvec3> triangles;
+  std::vector<rl::Geometry> geometries;
+  std::vector<rl::Instance> instances;
+  std::vector<rl::Material> materials;
+  std::vector<rl::Texture> textures;
+  std::vector<uint32_t> texels;
+  std::vector<float> srgb;
+  LightTable lights;
+  rl::SceneData data{};
+  size_t instancedTriangles = 0;
+  RTCDevice device = nullptr;
+  RTCScene top = nullptr;
+  std::vector<RTCScene> meshScenes;
+
+  ~Impl() {
+    if (top != nullptr) rtcReleaseScene(top);
+    for (RTCScene s : meshScenes) {
+      if (s != nullptr) rtcReleaseScene(s);
+    }
+    if (device != nullptr) rtcReleaseDevice(device);
+  }
+
+  void flatten();
+  void addGeometry(const MeshGeometry& mesh, const glm::dmat4* bake);
+  void buildTextures();
+  void buildEmbree();
+  void bindAddresses();
+};
+
+// Copies a mesh to the pools; with `bake` its vertices go to world space, winding kept outward.
+void CompiledScene::Impl::addGeometry(const MeshGeometry& mesh, const glm::dmat4* bake) {
+  rl::Geometry g{};
+  g.firstTriangle = static_cast<uint32_t>(triangles.size());
+  g.triangleCount = static_cast<uint32_t>(mesh.triangles.size());
+  g.firstVertex = static_cast<uint32_t>(positions.size());
+  g.normalOffset = append(normals, mesh.normals);
+  g.tangentOffset = append(tangents, mesh.tangents);
+  g.colorOffset = append(colors, mesh.colors);
+  for (uint32_t i = 0; i < rl::RL_MAX_UV_SETS; ++i) g.uvOffset[i] = append(uvs, mesh.uvs[i]);
+  append(positions, mesh.positions);
+  append(triangles, mesh.triangles);
+  if (bake != nullptr) {
+    for (size_t i = g.firstVertex; i < positions.size(); ++i) {
+      positions[i] = transformPoint(*bake, positions[i]);
+    }
+    const glm::dmat3 linear(*bake);
+    const glm::dmat3 normalMatrix = glm::transpose(glm::inverse(linear));
+    if (g.normalOffset != rl::RL_INVALID) {
+      for (size_t i = g.normalOffset; i < normals.size(); ++i) {
+        const glm::dvec3 n = normalMatrix * glm::dvec3(normals[i]);
+        const double length = glm::length(n);
+        normals[i] = length > 0.0 ? glm::vec3(n / length) : glm::vec3(0.0f);
+      }
+    }
+    if (g.tangentOffset != rl::RL_INVALID) {
+      for (size_t i = g.tangentOffset; i < tangents.size(); ++i) {
+        const glm::dvec3 t = linear * glm::dvec3(glm::vec3(tangents[i]));
+        tangents[i] = glm::vec4(glm::vec3(t), tangents[i].w);
+      }
+    }
+    if (glm::determinant(linear) < 0.0) {
+      // A mirrored mesh would face inwards. Normals and UVs follow their vertices; the bitangent of a
+      // mirrored tangent frame changes sign with the cross product.
+      for (size_t i = g.firstTriangle; i < triangles.size(); ++i) std::swap(triangles[i].y, triangles[i].z);
+      if (g.tangentOffset != rl::RL_INVALID) {
+        for (size_t i = g.tangentOffset; i < tangents.size(); ++i) tangents[i].w = -tangents[i].w;
+      }
+    }
+  }
+  geometries.push_back(g);
+}
+
+void CompiledScene::Impl::flatten() {
+  std::vector<uint32_t> uses(scene.geometries.size(), 0);
+  for (const MeshInstance& m : scene.instances) ++uses[m.geometry];
+  const auto bounds = worldBounds(scene);
+  if (bounds[0].x <= bounds[1].x) origin = 0.5 * (bounds[0] + bounds[1]);
+
+  std::vector<uint32_t> sharedGeometry(scene.geometries.size(), rl::RL_INVALID);
+  for (const MeshInstance& m : scene.instances) {
+    glm::dmat4 toWorld = m.objectToWorld;
+    toWorld[3] -= glm::dvec4(origin, 0.0);
+    const MeshGeometry& mesh = scene.geometries[m.geometry];
+    rl::Instance inst{};
+    inst.material = m.material;
+    inst.firstLight = rl::RL_INVALID;
+    const bool shared = uses[m.geometry] > 1;
+    if (shared) {
+      if (sharedGeometry[m.geometry] == rl::RL_INVALID) {
+        sharedGeometry[m.geometry] = static_cast<uint32_t>(geometries.size());
+        addGeometry(mesh, nullptr);
+      }
+      inst.geometry = sharedGeometry[m.geometry];
+      if (glm::determinant(glm::dmat3(toWorld)) < 0.0) inst.flags |= rl::RL_INSTANCE_FLIPPED;
+    } else {
+      inst.geometry = static_cast<uint32_t>(geometries.size());
+      addGeometry(mesh, &toWorld);
+      toWorld = glm::dmat4(1.0);
+      inst.flags |= rl::RL_INSTANCE_IDENTITY;
+    }
+    const glm::dmat4 toObject = glm::inverse(toWorld);
+    inst.objectToWorldRow0 = row(toWorld, 0);
+    inst.objectToWorldRow1 = row(toWorld, 1);
+    inst.objectToWorldRow2 = row(toWorld, 2);
+    inst.worldToObjectRow0 = row(toObject, 0);
+    inst.worldToObjectRow1 = row(toObject, 1);
+    inst.worldToObjectRow2 = row(toObject, 2);
+    const uint32_t alphaFlags = rl::RL_MATERIAL_ALPHA_MASK | rl::RL_MATERIAL_ALPHA_BLEND;
+    if ((scene.materials[m.material].data.flags & alphaFlags) != 0) inst.flags |= rl::RL_INSTANCE_ALPHA;
+    instancedTriangles += mesh.triangles.size();
+    instances.push_back(inst);
+  }
+}
+
+void CompiledScene::Impl::buildTextures() {
+  std::vector<uint32_t> firstTexel;
+  size_t total = 0;
+  for (const TextureImage& image : scene.images) {
+    firstTexel.push_back(static_cast<uint32_t>(total));
+    total += image.texels.size();
+  }
+  if (total > std::numeric_limits<uint32_t>::max()) {
+    failInput(fmt::format("{}: textures have {} texels; at most 4294967295 are supported", scene.name, total));
+  }
+  texels.reserve(total);
+  for (const TextureImage& image : scene.images) {
+    texels.insert(texels.end(), image.texels.begin(), image.texels.end());
+  }
+  for (const TextureUse& use : scene.textureUses) {
+    const TextureImage& image = scene.images[use.image];
+    rl::Texture t{};
+    t.uvRow0 = use.uvRow0;
+    t.uvRow1 = use.uvRow1;
+    t.firstTexel = firstTexel[use.image];
+    t.width = image.width;
+    t.height = image.height;
+    t.wrapU = use.wrapU;
+    t.wrapV = use.wrapV;
+    t.flags = (use.nearest ? rl::RL_TEXTURE_NEAREST : 0u) | (use.srgb ? rl::RL_TEXTURE_SRGB : 0u);
+    t.uvSet = use.uvSet;
+    textures.push_back(t);
+  }
+  srgb = srgbTable();
+}
+
+void CompiledScene::Impl::buildEmbree() {
+  device = rtcNewDevice("");
+  if (device == nullptr) throw Error(ExitCode::deviceUnavailable, "Embree could not create a device");
+  const bool alpha = (features & rl::RL_FEATURE_ALPHA) != 0;
+  // ROBUST: watertight along shared edges. High quality splits triangles, which would report a hit
+  // twice to the alpha filter of shadow rays.
+  auto flags = static_cast<unsigned>(RTC_SCENE_FLAG_ROBUST);
+  if (alpha) flags |= static_cast<unsigned>(RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+  const RTCBuildQuality quality = alpha ? RTC_BUILD_QUALITY_MEDIUM : RTC_BUILD_QUALITY_HIGH;
+  auto newScene = [&] {
+    RTCScene s = rtcNewScene(device);
+    rtcSetSceneFlags(s, static_cast<RTCSceneFlags>(flags));
+    rtcSetSceneBuildQuality(s, quality);
+    return s;
+  };
+  auto newTriangles = [&](const rl::Geometry& g, size_t vertexCount) {
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    // Copied into Embree's own buffers: it asks for padding behind the last vertex.
+    auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
+                                                          RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertexCount));
+    auto* t = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), g.triangleCount));
+    if (v == nullptr || t == nullptr) failInput(fmt::format("{}: out of memory for the ray-tracing structure", scene.name));
+    std::copy_n(&positions[g.firstVertex].x, 3 * vertexCount, v);
+    std::copy_n(&triangles[g.firstTriangle].x, 3 * size_t(g.triangleCount), t);
+    rtcCommitGeometry(geometry);
+    return geometry;
+  };
+  auto vertexCount = [&](uint32_t g) {
+    const size_t end = g + 1 < geometries.size() ? geometries[g + 1].firstVertex : positions.size();
+    return end - geometries[g].firstVertex;
+  };
+  top = newScene();
+  meshScenes.resize(geometries.size(), nullptr);
+  for (uint32_t i = 0; i < instances.size(); ++i) {
+    const rl::Instance& inst = instances[i];
+    const uint32_t g = inst.geometry;
+    if (geometries[g].triangleCount == 0) continue;
+    if ((inst.flags & rl::RL_INSTANCE_IDENTITY) != 0) {
+      RTCGeometry geometry = newTriangles(geometries[g], vertexCount(g));
+      rtcAttachGeometryByID(top, geometry, i);
+      rtcReleaseGeometry(geometry);
+      continue;
+    }
+    if (meshScenes[g] == nullptr) {
+      RTCGeometry geometry = newTriangles(geometries[g], vertexCount(g));
+      meshScenes[g] = newScene();
+      rtcAttachGeometryByID(meshScenes[g], geometry, 0);
+      rtcReleaseGeometry(geometry);
+      rtcCommitScene(meshScenes[g]);
+    }
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(geometry, meshScenes[g]);
+    rtcSetGeometryTimeStepCount(geometry, 1);
+    const glm::vec4 r0 = inst.objectToWorldRow0, r1 = inst.objectToWorldRow1, r2 = inst.objectToWorldRow2;
+    const float rows[12] = {r0.x, r0.y, r0.z, r0.w, r1.x, r1.y, r1.z, r1.w, r2.x, r2.y, r2.z, r2.w};
+    rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, rows);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(top, geometry, i);
+    rtcReleaseGeometry(geometry);
+  }
+  rtcCommitScene(top);
+  const RTCError error = rtcGetDeviceError(device);
+  if (error != RTC_ERROR_NONE) {
+    failInput(fmt::format("{}: building the ray-tracing structure failed (Embree error {})", scene.name,
+                          static_cast<int>(error)));
+  }
+}
+
+void CompiledScene::Impl::bindAddresses() {
+  data.positions.data = positions.data();
+  data.normals.data = normals.data();
+  data.tangents.data = tangents.data();
+  data.colors.data = colors.data();
+  data.uvs.data = uvs.data();
+  data.triangles.data = triangles.data();
+  data.geometries.data = geometries.data();
+  data.instances.data = instances.data();
+  data.materials.data = materials.data();
+  data.textures.data = textures.data();
+  data.texels.data = texels.data();
+  data.srgbToLinear.data = srgb.data();
+  data.lights.data = lights.lights.data();
+  data.lightAlias.data = lights.alias.data();
+  data.lightCount = static_cast<uint32_t>(lights.lights.size());
+  data.environment.data = lights.environment.data();
+  data.environmentAlias.data = lights.environmentAlias.data();
+  data.environmentWidth = scene.environment ? scene.environment->width : 0;
+  data.environmentHeight = scene.environment ? scene.environment->height : 0;
+  data.environmentLight = lights.environmentLight;
+  data.environmentRotation = scene.environment ? scene.environment->rotation : 0.0f;
+  data.instanceCount = static_cast<uint32_t>(instances.size());
+}
+
+CompiledScene::CompiledScene(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+CompiledScene::~CompiledScene() = default;
+
+std::shared_ptr<const CompiledScene> CompiledScene::build(Scene scene) {
+  auto impl = std::make_unique<Impl>();
+  impl->features = scanFeatures(scene);
+  impl->scene = std::move(scene);
+  impl->warnings = impl->scene.warnings;
+  impl->flatten();
+  for (const SceneMaterial& m : impl->scene.materials) impl->materials.push_back(m.data);
+  impl->buildTextures();
+  impl->lights = buildLightTable({impl->scene, impl->positions, impl->uvs, impl->triangles, impl->geometries,
+                                  impl->origin},
+                                 impl->instances, impl->warnings);
+  if (impl->lights.lights.empty()) {
+    bool unlit = false;
+    for (const SceneMaterial& m : impl->scene.materials) unlit |= (m.data.flags & rl::RL_MATERIAL_UNLIT) != 0;
+    impl->warnings.push_back(impl->scene.name + ": the scene has no light" +
+                             (unlit ? " but unlit materials" : "; every pixel will be black (try --environment FILE)"));
+  }
+  impl->buildEmbree();
+  impl->bindAddresses();
+  return std::shared_ptr<const CompiledScene>(new CompiledScene(std::move(impl)));
+}
+
+const Scene& CompiledScene::source() const { return impl_->scene; }
+const rl::SceneData& CompiledScene::data() const { return impl_->data; }
+uint32_t CompiledScene::features() const { return impl_->features; }
+const std::vector<std::string>& CompiledScene::warnings() const { return impl_->warnings; }
+size_t CompiledScene::triangleCount() const { return impl_->triangles.size(); }
+size_t CompiledScene::instancedTriangleCount() const { return impl_->instancedTriangles; }
+size_t CompiledScene::emissiveTriangleCount() const { return impl_->lights.emissiveTriangles; }
+void* CompiledScene::embreeScene() const { return impl_->top; }
+glm::dvec3 CompiledScene::origin() const { return impl_->origin; }
+
+size_t CompiledScene::bytes() const {
+  auto of = [](const auto& v) { return v.size() * sizeof(v[0]); };
+  const Impl& i = *impl_;
+  return of(i.positions) + of(i.normals) + of(i.tangents) + of(i.colors) + of(i.uvs) + of(i.triangles) +
+         of(i.geometries) + of(i.instances) + of(i.materials) + of(i.textures) + of(i.texels) + of(i.srgb) +
+         of(i.lights.lights) + of(i.lights.alias) + of(i.lights.environment) + of(i.lights.environmentAlias);
+}
+
+rl::Camera CompiledScene::camera(const SceneCamera& camera, uint32_t width, uint32_t height) const {
+  const glm::dmat4& m = camera.cameraToWorld;
+  const glm::dvec3 right = glm::normalize(glm::dvec3(m[0]));
+  const glm::dvec3 back = glm::normalize(glm::dvec3(m[2]));
+  const glm::dvec3 up = glm::normalize(glm::cross(back, right));
+  rl::Camera c{};
+  c.posW = glm::vec3(glm::dvec3(m[3]) - impl_->origin);
+  c.kind = camera.kind;
+  c.rightW = glm::vec3(glm::normalize(glm::cross(up, back)));
+  c.upW = glm::vec3(up);
+  c.forwardW = glm::vec3(-back);
+  const double aspect = double(width) / double(height);
+  if (camera.kind == rl::RL_CAMERA_ORTHOGRAPHIC) {
+    c.halfHeight = static_cast<float>(camera.ymag);
+    c.halfWidth = static_cast<float>(camera.ymag * aspect);
+  } else {
+    const double t = std::tan(0.5 * camera.yfov);
+    c.halfHeight = static_cast<float>(t);
+    c.halfWidth = static_cast<float>(t * aspect);
+  }
+  return c;
+}
+
+}  // namespace restlab

@@ -1,0 +1,42 @@
+// A Scene made ready for kernels: flat buffers, light table, feature mask, Embree scene.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/dialect/features.h"
+#include "core/dialect/types.h"
+#include "core/scene/scene.h"
+
+namespace restlab {
+
+class CompiledScene {
+ public:
+  // Recentres in double precision, bakes meshes used once into world space, builds the light table
+  // (selection by power) and the environment's alias table. Adds warnings (zero-area lights, no light).
+  static std::shared_ptr<const CompiledScene> build(Scene scene);
+  ~CompiledScene();
+
+  const Scene& source() const;
+  const rl::SceneData& data() const;  // addresses stay valid as long as this object
+  uint32_t features() const;          // what the scene needs (RL_FEATURE_*)
+  const std::vector<std::string>& warnings() const;  // import's and compilation's
+  rl::Camera camera(const SceneCamera& camera, uint32_t width, uint32_t height) const;
+  size_t triangleCount() const;           // unique
+  size_t instancedTriangleCount() const;  // as seen by rays
+  size_t emissiveTriangleCount() const;
+  size_t bytes() const;  // of all buffers, without the ray-tracing structure
+  void* embreeScene() const;  // RTCScene
+  glm::dvec3 origin() const;  // subtracted from world positions
+
+ private:
+  struct Impl;
+  explicit CompiledScene(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+// What the scene needs, before compilation (core/scene/feature_scan.cpp).
+uint32_t scanFeatures(const Scene& scene);
+
+}  // namespace restlab

@@ -1,0 +1,151 @@
+// What a scene needs of the kernels (features.h), exact in one direction and tight in the other: a
+// feature that can change a pixel is never missed, one that cannot is left out as far as factors,
+// texels and vertices tell. Only what an instance with triangles uses counts. The conditions mirror
+// surfaceLoad() in core/dialect/surface.glsl. RL_FEATURE_MULTISCATTER is a method's option, not a
+// scene's need, and is never set here.
+#include <algorithm>
+#include <cmath>
+
+#include "core/scene/compiled_scene.h"
+#include "core/scene/texture_range.h"
+
+namespace restlab {
+namespace {
+
+// Vertex normals within this distance of the unit face normal shade as the face does.
+constexpr float kFlatNormalTolerance = 1.0e-4f;
+
+bool isPositive(const glm::vec3& v) { return v.x > 0.0f || v.y > 0.0f || v.z > 0.0f; }
+
+glm::vec3 times(const glm::vec3& v, const std::array<float, 4>& texel) {
+  return v * glm::vec3(texel[0], texel[1], texel[2]);
+}
+
+bool hasTexture(const rl::Material& m, uint32_t slot) { return m.textures[slot] != rl::RL_INVALID; }
+
+// What the material asks for wherever it is used; emission and alpha depend on the mesh too.
+uint32_t scanSurface(const rl::Material& m, TextureRanges& ranges) {
+  const bool scatters = (m.flags & (rl::RL_MATERIAL_UNLIT | rl::RL_MATERIAL_BLACK)) == 0;
+  uint32_t features = hasTexture(m, rl::RL_TEX_BASE_COLOR) ? rl::RL_FEATURE_TEXTURES : 0u;
+  if (!scatters) return features;
+
+  const TexelRange& metalRange = ranges.ofSlot(m, rl::RL_TEX_METALLIC_ROUGHNESS);
+  const glm::vec3 base = times(m.baseColor, ranges.ofSlot(m, rl::RL_TEX_BASE_COLOR).high);
+  const glm::vec3 tint = times(m.specularColor, ranges.ofSlot(m, rl::RL_TEX_SPECULAR_COLOR).high);
+  const bool isSometimesMetal = m.metallic * metalRange.high[2] > 0.0f;
+  const bool isSometimesDielectric = m.metallic * metalRange.low[2] < 1.0f;
+  const float specular = m.specular * ranges.ofSlot(m, rl::RL_TEX_SPECULAR).high[3];
+  const float transmission = m.transmission * ranges.ofSlot(m, rl::RL_TEX_TRANSMISSION).high[0];
+
+  const bool isMetal = isSometimesMetal && isPositive(base);
+  const bool isCoated =
+      isSometimesDielectric && specular > 0.0f && isPositive(tint) && m.ior != 1.0f;
+  const bool transmits = isSometimesDielectric && transmission > 0.0f;
+  if (isMetal || isCoated || transmits) {
+    features |= rl::RL_FEATURE_GLOSSY;
+    for (const uint32_t slot : {rl::RL_TEX_METALLIC_ROUGHNESS, rl::RL_TEX_TRANSMISSION,
+                                rl::RL_TEX_SPECULAR, rl::RL_TEX_SPECULAR_COLOR}) {
+      if (hasTexture(m, slot)) features |= rl::RL_FEATURE_TEXTURES;
+    }
+  }
+  if (transmits) {
+    features |= rl::RL_FEATURE_TRANSMISSION;
+    const bool isThin = (m.flags & rl::RL_MATERIAL_THIN) != 0;
+    if (!isThin && isPositive(m.sigmaAbsorption)) features |= rl::RL_FEATURE_VOLUME;
+  }
+  if (hasTexture(m, rl::RL_TEX_NORMAL) && m.normalScale != 0.0f)
+    features |= rl::RL_FEATURE_NORMAL_MAPS;
+  return features;
+}
+
+bool emits(const rl::Material& m, TextureRanges& ranges) {
+  if ((m.flags & rl::RL_MATERIAL_UNLIT) != 0) return false;  // seen, but lights nothing
+  return isPositive(times(m.emission, ranges.ofSlot(m, rl::RL_TEX_EMISSIVE).high));
+}
+
+bool hasArea(const MeshGeometry& mesh, const glm::dmat4& toWorld) {
+  const glm::dmat3 linear(toWorld);
+  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const glm::uvec3& t) {
+    const glm::dvec3 p(mesh.positions[t.x]);
+    const glm::dvec3 e1 = linear * (glm::dvec3(mesh.positions[t.y]) - p);
+    const glm::dvec3 e2 = linear * (glm::dvec3(mesh.positions[t.z]) - p);
+    return glm::length(glm::cross(e1, e2)) > 0.0;
+  });
+}
+
+bool hasColors(const MeshGeometry& mesh) {
+  return std::any_of(mesh.colors.begin(), mesh.colors.end(),
+                     [](const glm::vec4& c) { return c != glm::vec4(1.0f); });
+}
+
+// Can a ray pass through some part?
+bool hasHoles(const rl::Material& m, const MeshGeometry& mesh, TextureRanges& ranges) {
+  float alpha = m.alpha * ranges.ofSlot(m, rl::RL_TEX_BASE_COLOR).low[3];
+  float lowest = mesh.colors.empty() ? 1.0f : mesh.colors[0].w;
+  for (const glm::vec4& c : mesh.colors) lowest = std::min(lowest, c.w);
+  alpha *= lowest;
+  if ((m.flags & rl::RL_MATERIAL_ALPHA_MASK) != 0) return alpha < m.alphaCutoff;
+  return (m.flags & rl::RL_MATERIAL_ALPHA_BLEND) != 0 && alpha < 1.0f;
+}
+
+bool hasSmoothNormals(const MeshGeometry& mesh) {
+  if (mesh.normals.empty()) return false;
+  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const glm::uvec3& t) {
+    const glm::dvec3 p(mesh.positions[t.x]);
+    const glm::dvec3 face =
+        glm::cross(glm::dvec3(mesh.positions[t.y]) - p, glm::dvec3(mesh.positions[t.z]) - p);
+    const double length = glm::length(face);
+    if (!(length > 0.0)) return false;  // nothing hits it
+    for (const uint32_t corner : {t.x, t.y, t.z}) {
+      const glm::dvec3 normal(mesh.normals[corner]);
+      const double size = glm::length(normal);
+      if (size > 0.0 && glm::distance(normal / size, face / length) > kFlatNormalTolerance)
+        return true;
+    }
+    return false;
+  });
+}
+
+uint32_t scanLights(const Scene& scene) {
+  uint32_t features = 0;
+  for (const PunctualLight& light : scene.lights) {
+    if (isPositive(light.intensity)) features |= rl::RL_FEATURE_PUNCTUAL_LIGHTS;
+  }
+  if (scene.environment && scene.environment->scale > 0.0f) {
+    const std::vector<glm::vec3>& map = scene.environment->radiance;
+    if (std::any_of(map.begin(), map.end(), isPositive)) features |= rl::RL_FEATURE_ENVIRONMENT;
+  }
+  return features;
+}
+
+}  // namespace
+
+uint32_t scanFeatures(const Scene& scene) {
+  uint32_t features = scanLights(scene);
+  TextureRanges ranges(scene);
+  std::vector<uint32_t> uses(scene.geometries.size(), 0);
+  std::vector<char> isMaterialSeen(scene.materials.size(), 0);
+  for (const MeshInstance& instance : scene.instances) {
+    const MeshGeometry& mesh = scene.geometries.at(instance.geometry);
+    const rl::Material& m = scene.materials.at(instance.material).data;
+    if (mesh.triangles.empty()) continue;
+    if (isMaterialSeen[instance.material] == 0) {
+      isMaterialSeen[instance.material] = 1;
+      features |= scanSurface(m, ranges);
+    }
+    if (emits(m, ranges) && hasArea(mesh, instance.objectToWorld)) {
+      features |= rl::RL_FEATURE_AREA_LIGHTS;
+      if (hasTexture(m, rl::RL_TEX_EMISSIVE)) features |= rl::RL_FEATURE_EMISSIVE_TEXTURES;
+    }
+    if (hasHoles(m, mesh, ranges)) features |= rl::RL_FEATURE_ALPHA;
+    const uint32_t useCount = ++uses[instance.geometry];
+    if (useCount == 2) features |= rl::RL_FEATURE_INSTANCES;
+    if (useCount == 1) {  // once a mesh
+      if (hasColors(mesh)) features |= rl::RL_FEATURE_VERTEX_COLORS;
+      if (hasSmoothNormals(mesh)) features |= rl::RL_FEATURE_SMOOTH_NORMALS;
+    }
+  }
+  return features;
+}
+
+}  // namespace restlab

@@ -1,0 +1,27 @@
+// A .gltf or .glb file taken apart: its JSON document and the binary chunk.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
+
+#include "core/scene/gltf_report.h"
+
+namespace restlab::gltf {
+
+struct Container {
+  nlohmann::json json;                         // an object
+  std::optional<std::vector<uint8_t>> binary;  // the BIN chunk of a .glb
+  std::vector<uint8_t> fileBytes;              // of a .gltf; of a .glb all but the BIN chunk
+};
+
+// Reads the first `bytes` bytes of a regular file (all of it by default). Fails at `place`.
+std::vector<uint8_t> readFile(const std::filesystem::path& file, const std::string& place,
+                              const Report& report, uint64_t bytes = UINT64_MAX);
+
+// Reads, checks the GLB structure and parses. Which of the two a file is, its first bytes decide.
+Container readContainer(const std::filesystem::path& file, Report& report);
+
+}  // namespace restlab::gltf

@@ -1,0 +1,61 @@
+// loadGltf(): the order in which the parts of the import run.
+#include <new>
+
+#include "core/scene/gltf_accessor.h"
+#include "core/scene/gltf_container.h"
+#include "core/scene/gltf_document.h"
+#include "core/scene/gltf_material.h"
+#include "core/scene/gltf_mesh.h"
+#include "core/scene/gltf_nodes.h"
+#include "core/scene/gltf_objects.h"
+#include "core/scene/gltf_rules.h"
+#include "core/scene/gltf_texture.h"
+#include "core/scene/gltf_validate.h"
+#include "core/scene/scene.h"
+
+namespace restlab {
+namespace {
+
+Scene import(const std::filesystem::path& file, gltf::Report& report) {
+  gltf::Container container = gltf::readContainer(file, report);
+  gltf::checkVersionAndExtensions(container.json, report);
+  gltf::validateDocument(container.json, report);
+  gltf::checkRules(container.json, report);
+  gltf::warnNotImported(container.json, report);
+  const gltf::Document document =
+      gltf::loadDocument(std::move(container), file.parent_path(), report);
+  gltf::checkAccessors(document.model, report);
+
+  Scene scene;
+  scene.name = file.stem().string();
+  scene.source = file;
+  scene.contentHash = document.contentHash;
+  gltf::TextureImporter textures(document, scene, report);
+  gltf::importMaterials(document, textures, scene, report);
+  textures.checkUnusedImages();
+  gltf::MeshImporter meshes(document, scene, report);
+  const std::vector<gltf::PlacedNode> nodes = gltf::placeNodes(document.model, report);
+  gltf::addMeshInstances(document.model, nodes, meshes, scene, report);
+  gltf::addCameras(document.model, nodes, scene, report);
+  gltf::addLights(document.model, nodes, scene, report);
+  meshes.checkUnusedMeshes();
+  gltf::surveyAccessors(document.model, report);
+  if (scene.instances.empty()) report.warn("empty scene", "", "the scene holds no triangle");
+  if (scene.cameras.empty()) scene.cameras.push_back(framingCamera(scene));
+  return scene;
+}
+
+}  // namespace
+
+Scene loadGltf(const std::filesystem::path& file) {
+  gltf::Report report(file.string());
+  try {
+    Scene scene = import(file, report);
+    scene.warnings = report.lines();
+    return scene;
+  } catch (const std::bad_alloc&) {
+    report.fail("", "not enough memory for this scene");
+  }
+}
+
+}  // namespace restlab

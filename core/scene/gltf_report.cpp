@@ -1,0 +1,48 @@
+#include "core/scene/gltf_report.h"
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace restlab::gltf {
+namespace {
+
+// Names in a file may hold anything; a report line stays one line of text.
+std::string oneLine(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string Report::line(std::string_view place, std::string_view text) const {
+  return oneLine(place.empty() ? fmt::format("{}: {}", file_, text)
+                               : fmt::format("{}: {}: {}", file_, place, text));
+}
+
+void Report::fail(std::string_view place, std::string_view text) const {
+  failInput(line(place, text));
+}
+
+void Report::warn(const std::string& kind, std::string_view place, std::string_view text) {
+  const auto [it, isNew] = indexOfKind_.emplace(kind, kinds_.size());
+  if (isNew) kinds_.emplace_back();
+  Kind& entry = kinds_[it->second];
+  if (++entry.count <= kShown) entry.lines.push_back(line(place, text));
+}
+
+std::vector<std::string> Report::lines() const {
+  std::vector<std::string> all;
+  for (const Kind& kind : kinds_) {
+    all.insert(all.end(), kind.lines.begin(), kind.lines.end());
+    if (kind.count > kShown) {
+      all.push_back(oneLine(
+          fmt::format("{}: ... and {} more like the line before", file_, kind.count - kShown)));
+    }
+  }
+  return all;
+}
+
+}  // namespace restlab::gltf

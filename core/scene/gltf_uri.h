@@ -1,0 +1,33 @@
+// URIs of buffers and images: data URIs, percent escapes, and what may be opened.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/scene/gltf_report.h"
+
+namespace restlab::gltf {
+
+struct DataUri {
+  std::string mediaType;  // as written, without parameters; may be empty
+  std::vector<uint8_t> bytes;
+};
+
+bool isDataUri(std::string_view uri);
+
+// Decodes a data URI, base64 or percent-escaped. Fails at `place` when it is malformed.
+DataUri decodeDataUri(std::string_view uri, const std::string& place, const Report& report);
+
+// The regular file that a relative URI names, below `directory`. Fails at `place` on schemes,
+// absolute paths, paths leaving the directory, bad escapes and missing files.
+std::filesystem::path resolveUri(const std::string& uri, const std::filesystem::path& directory,
+                                 const std::string& place, Report& report);
+
+// UTF-8 file name -> path, whatever the locale.
+std::filesystem::path pathFromUtf8(const std::string& name);
+
+}  // namespace restlab::gltf

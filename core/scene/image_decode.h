@@ -1,0 +1,34 @@
+// Decoding of PNG, JPEG and Radiance HDR from memory.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+namespace restlab {
+
+// Width and height above which an image is refused before anything is allocated.
+inline constexpr uint32_t kMaxImageSize = 16384;
+
+struct DecodedImage {
+  uint32_t width = 0, height = 0;
+  std::vector<uint32_t> texels;  // RGBA8, R in the low byte, row 0 on top
+  bool roundedFrom16Bit = false;
+};
+
+struct DecodedHdr {
+  uint32_t width = 0, height = 0;
+  std::vector<glm::vec3> pixels;  // row 0 on top
+};
+
+// "image/png", "image/jpeg", "image/vnd.radiance", or "" for anything else.
+std::string sniffImageType(const std::vector<uint8_t>& bytes);
+
+// Return "" on success, else what is wrong ("truncated", "16385x2 pixels, at most ..."). A file
+// that ends early is an error even where the decoder would fill the rest with grey.
+std::string checkImageHeader(const std::vector<uint8_t>& bytes);
+std::string decodeImage(const std::vector<uint8_t>& bytes, DecodedImage& image);
+std::string decodeHdr(const std::vector<uint8_t>& bytes, DecodedHdr& image);
+
+}  // namespace restlab

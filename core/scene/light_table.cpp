@@ -1,0 +1,237 @@
+#include "core/scene/light_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace restlab {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+double luminance(const glm::dvec3& c) { return 0.212639 * c.x + 0.715169 * c.y + 0.072192 * c.z; }
+
+int wrapIndex(int i, int n, uint32_t mode) {
+  if (mode == rl::RL_WRAP_CLAMP) return std::clamp(i, 0, n - 1);
+  const int period = mode == rl::RL_WRAP_MIRROR ? 2 * n : n;
+  int r = i % period;
+  if (r < 0) r += period;
+  return r >= n ? period - 1 - r : r;
+}
+
+// Luminance of the emissive texture at a UV, undecoded nearest texel: an estimate that only steers
+// selection probabilities.
+double texelLuminance(const Scene& scene, const TextureUse& use, const glm::vec2& uv) {
+  const TextureImage& image = scene.images[use.image];
+  const glm::vec3 h(uv, 1.0f);
+  const double u = glm::dot(use.uvRow0, h), v = glm::dot(use.uvRow1, h);
+  if (!std::isfinite(u) || !std::isfinite(v) || std::abs(u) > 1e6 || std::abs(v) > 1e6) return 0.0;
+  const int x = wrapIndex(int(std::floor(u * image.width)), int(image.width), use.wrapU);
+  const int y = wrapIndex(int(std::floor(v * image.height)), int(image.height), use.wrapV);
+  const uint32_t t = image.texels[size_t(y) * image.width + x];
+  auto decode = [&](uint32_t c) { return use.srgb ? std::pow(c / 255.0, 2.2) : c / 255.0; };
+  return luminance({decode(t & 255u), decode((t >> 8) & 255u), decode((t >> 16) & 255u)});
+}
+
+// Mean luminance of the texture over a triangle from 16 stratified points. Never zero: a point that
+// was missed may still shine, so a twentieth of full brightness is always assumed.
+double textureFactor(const LightTableInput& in, const rl::Geometry& g, const TextureUse& use,
+                     const glm::uvec3& corners) {
+  const uint32_t offset = g.uvOffset[use.uvSet];
+  double sum = 0.0;
+  constexpr int n = 4;
+  for (int i = 0; i < n * n; ++i) {
+    const double s = std::sqrt((i % n + 0.5) / n), t = (i / n + 0.5) / n;
+    const auto b1 = static_cast<float>(1.0 - s), b2 = static_cast<float>(t * s);
+    glm::vec2 uv(0.0f);
+    if (offset != rl::RL_INVALID) {
+      const glm::vec2 a = in.uvs[offset + corners.x], b = in.uvs[offset + corners.y], c = in.uvs[offset + corners.z];
+      uv = a + b1 * (b - a) + b2 * (c - a);
+    }
+    sum += texelLuminance(in.scene, use, uv);
+  }
+  return 0.05 + 0.95 * sum / (n * n);
+}
+
+glm::vec3 toWorld(const rl::Instance& inst, const glm::vec3& p) {
+  if ((inst.flags & rl::RL_INSTANCE_IDENTITY) != 0) return p;
+  const glm::vec4 h(p, 1.0f);
+  return {glm::dot(inst.objectToWorldRow0, h), glm::dot(inst.objectToWorldRow1, h),
+          glm::dot(inst.objectToWorldRow2, h)};
+}
+
+// Appends the triangles of an emitting instance with their power (W, up to a common factor).
+size_t addTriangles(const LightTableInput& in, const rl::Instance& inst, uint32_t instanceIndex, LightTable& table,
+                    std::vector<double>& power) {
+  const rl::Material& material = in.scene.materials[inst.material].data;
+  const rl::Geometry& g = in.geometries[inst.geometry];
+  const bool twoSided = (material.flags & rl::RL_MATERIAL_DOUBLE_SIDED) != 0;
+  const bool flipped = (inst.flags & rl::RL_INSTANCE_FLIPPED) != 0;
+  size_t zeroArea = 0;
+  for (uint32_t t = 0; t < g.triangleCount; ++t) {
+    const glm::uvec3 corners = in.triangles[g.firstTriangle + t];
+    rl::Light light{};
+    light.kind = rl::RL_LIGHT_TRIANGLE;
+    light.p0 = toWorld(inst, in.positions[g.firstVertex + corners.x]);
+    light.e1 = toWorld(inst, in.positions[g.firstVertex + corners.y]) - light.p0;
+    light.e2 = toWorld(inst, in.positions[g.firstVertex + corners.z]) - light.p0;
+    const double area = 0.5 * glm::length(glm::cross(glm::dvec3(light.e1), glm::dvec3(light.e2)));
+    double radiance = luminance(glm::dvec3(material.emission));
+    const uint32_t texture = material.textures[rl::RL_TEX_EMISSIVE];
+    if (texture != rl::RL_INVALID) radiance *= textureFactor(in, g, in.scene.textureUses[texture], corners);
+    light.radiance = material.emission;
+    light.instance = instanceIndex;
+    light.primitive = t;
+    light.flags = twoSided ? rl::RL_MATERIAL_DOUBLE_SIDED : 0u;
+    const bool usable = area > 0.0 && std::isfinite(1.0f / static_cast<float>(area));
+    if (!usable) ++zeroArea;
+    light.areaInverse = usable ? static_cast<float>(1.0 / area) : 0.0f;
+    if (flipped) light.flags |= rl::RL_LIGHT_FLIPPED;
+    table.lights.push_back(light);
+    power.push_back(usable ? kPi * area * radiance * (twoSided ? 2.0 : 1.0) : 0.0);
+    if (usable) ++table.emissiveTriangles;
+  }
+  return zeroArea;
+}
+
+rl::Light punctual(const PunctualLight& source, const glm::dvec3& origin) {
+  rl::Light light{};
+  light.kind = source.kind;
+  light.p0 = glm::vec3(source.posW - origin);
+  light.e1 = glm::vec3(glm::normalize(source.dirW));
+  light.radiance = source.intensity;
+  light.instance = rl::RL_INVALID;
+  if (source.kind == rl::RL_LIGHT_SPOT) {
+    // KHR_lights_punctual: falloff = clamp(cos * scale + offset)^2.
+    const float cosOuter = std::cos(source.outerConeAngle);
+    const float scale = 1.0f / std::max(0.001f, std::cos(source.innerConeAngle) - cosOuter);
+    light.e2 = glm::vec3(scale, -cosOuter * scale, 0.0f);
+  }
+  return light;
+}
+
+// Alias weights of the environment: solid angle of the row times the mean luminance of the 3 x 3
+// neighbourhood, so that bilinear radiance is never positive where the density is zero.
+double addEnvironment(const EnvironmentMap& map, LightTable& table) {
+  const int w = int(map.width), h = int(map.height);
+  table.environment.resize(size_t(w) * h);
+  for (size_t i = 0; i < table.environment.size(); ++i) table.environment[i] = map.radiance[i] * map.scale;
+  std::vector<double> weights(table.environment.size());
+  double flux = 0.0;
+  for (int y = 0; y < h; ++y) {
+    const double solidAngle = 2.0 * kPi / w * (std::cos(kPi * y / h) - std::cos(kPi * (y + 1) / h));
+    for (int x = 0; x < w; ++x) {
+      double sum = 0.0;
+      for (int dy = -1; dy <= 1; ++dy) {
+        for (int dx = -1; dx <= 1; ++dx) {
+          const int yy = std::clamp(y + dy, 0, h - 1), xx = (x + dx + w) % w;
+          sum += luminance(glm::dvec3(table.environment[size_t(yy) * w + xx]));
+        }
+      }
+      weights[size_t(y) * w + x] = solidAngle * sum / 9.0;
+      flux += weights[size_t(y) * w + x];
+    }
+  }
+  if (flux > 0.0) table.environmentAlias = buildAliasTable(weights);
+  return flux;
+}
+
+}  // namespace
+
+std::vector<rl::AliasEntry> buildAliasTable(const std::vector<double>& weights) {
+  const size_t n = weights.size();
+  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+  std::vector<rl::AliasEntry> table(n);
+  std::vector<double> scaled(n);
+  std::vector<uint32_t> small, large;
+  for (size_t i = 0; i < n; ++i) {
+    table[i].pmf = static_cast<float>(weights[i] / total);
+    scaled[i] = weights[i] / total * double(n);
+    (scaled[i] < 1.0 ? small : large).push_back(static_cast<uint32_t>(i));
+  }
+  while (!small.empty() && !large.empty()) {
+    const uint32_t s = small.back(), l = large.back();
+    small.pop_back();
+    table[s].keep = static_cast<float>(scaled[s]);
+    table[s].other = l;
+    scaled[l] -= 1.0 - scaled[s];
+    if (scaled[l] < 1.0) {
+      large.pop_back();
+      small.push_back(l);
+    }
+  }
+  // What is left is 1 up to rounding - except an entry of weight 0, which must never be kept.
+  const auto heaviest =
+      static_cast<uint32_t>(std::max_element(weights.begin(), weights.end()) - weights.begin());
+  for (const std::vector<uint32_t>& rest : {small, large}) {
+    for (uint32_t i : rest) {
+      table[i].keep = weights[i] > 0.0 ? 1.0f : 0.0f;
+      table[i].other = weights[i] > 0.0 ? i : heaviest;
+    }
+  }
+  return table;
+}
+
+LightTable buildLightTable(const LightTableInput& in, std::vector<rl::Instance>& instances,
+                           std::vector<std::string>& warnings) {
+  LightTable table;
+  std::vector<double> power;
+  for (uint32_t i = 0; i < instances.size(); ++i) {
+    const SceneMaterial& material = in.scene.materials[instances[i].material];
+    const bool unlit = (material.data.flags & rl::RL_MATERIAL_UNLIT) != 0;
+    if (unlit || !(luminance(glm::dvec3(material.data.emission)) > 0.0)) continue;
+    const auto first = static_cast<uint32_t>(table.lights.size());
+    const size_t before = table.emissiveTriangles;
+    const size_t zeroArea = addTriangles(in, instances[i], i, table, power);
+    if (zeroArea > 0) {
+      warnings.push_back(fmt::format("{}: {}: {} of {} emissive triangles have no area and give no light",
+                                     in.scene.name, in.scene.instances[i].name, zeroArea,
+                                     table.lights.size() - first));
+    }
+    if (table.emissiveTriangles == before) {
+      table.lights.resize(first);
+      power.resize(first);
+    } else {
+      instances[i].firstLight = first;
+    }
+  }
+  const auto bounds = worldBounds(in.scene);
+  const double radius =
+      bounds[0].x <= bounds[1].x ? std::max(0.5 * glm::length(bounds[1] - bounds[0]), 1e-6) : 1.0;
+  for (const PunctualLight& source : in.scene.lights) {
+    const double intensity = luminance(glm::dvec3(source.intensity));
+    double watts = 4.0 * kPi * intensity;
+    if (source.kind == rl::RL_LIGHT_SPOT) watts = 2.0 * kPi * (1.0 - std::cos(source.outerConeAngle)) * intensity;
+    if (source.kind == rl::RL_LIGHT_DIRECTIONAL) watts = kPi * radius * radius * intensity;
+    if (!(watts > 0.0)) {
+      warnings.push_back(fmt::format("{}: light '{}' has no intensity", in.scene.name, source.name));
+      continue;
+    }
+    table.lights.push_back(punctual(source, in.origin));
+    power.push_back(watts);
+  }
+  if (in.scene.environment) {
+    const double flux = addEnvironment(*in.scene.environment, table);
+    if (flux > 0.0) {
+      table.environmentLight = static_cast<uint32_t>(table.lights.size());
+      rl::Light light{};
+      light.kind = rl::RL_LIGHT_ENVIRONMENT;
+      light.instance = rl::RL_INVALID;
+      table.lights.push_back(light);
+      power.push_back(flux * kPi * radius * radius);
+    } else {
+      warnings.push_back(in.scene.name + ": the environment is black");
+    }
+  }
+  if (!table.lights.empty()) {
+    table.alias = buildAliasTable(power);
+    for (size_t i = 0; i < table.lights.size(); ++i) table.lights[i].pmf = table.alias[i].pmf;
+  }
+  return table;
+}
+
+}  // namespace restlab

@@ -1,0 +1,133 @@
+// loadScene() finds a scene by name or path; findCamera() finds a camera in it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+
+#include "core/error.h"
+#include "core/scene/scene.h"
+
+namespace restlab {
+namespace fs = std::filesystem;
+namespace {
+
+bool isScene(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::error_code error;
+  return (extension == ".gltf" || extension == ".glb") && fs::is_regular_file(file, error);
+}
+
+// glTF files in a directory and in its direct subdirectories (NAME/glTF/NAME.gltf is common).
+std::vector<fs::path> scenesIn(const fs::path& directory, int depth = 1) {
+  std::vector<fs::path> found, subdirectories;
+  std::error_code error;
+  for (fs::directory_iterator it(directory, error), end; !error && it != end; it.increment(error)) {
+    std::error_code ignored;
+    if (isScene(it->path())) {
+      found.push_back(it->path());
+    } else if (it->is_directory(ignored)) {
+      subdirectories.push_back(it->path());
+    }
+  }
+  if (found.empty() && depth > 0) {
+    for (const fs::path& subdirectory : subdirectories) {
+      for (const fs::path& file : scenesIn(subdirectory, depth - 1)) found.push_back(file);
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+// A candidate that is a file, a directory with one scene in it, or a stem. Empty: nothing there.
+fs::path resolve(const fs::path& candidate) {
+  std::error_code error;
+  if (fs::is_directory(candidate, error)) {
+    const std::vector<fs::path> scenes = scenesIn(candidate);
+    if (scenes.size() == 1) return scenes[0];
+    if (scenes.empty()) failInput(candidate.string() + ": no .gltf or .glb in this directory");
+    std::string names;
+    for (const fs::path& scene : scenes) {
+      names += (names.empty() ? "" : ", ") + scene.lexically_relative(candidate).string();
+    }
+    failInput(fmt::format("{}: {} scenes in this directory; name one of {}", candidate.string(),
+                          scenes.size(), names));
+  }
+  if (fs::exists(candidate, error)) return candidate;
+  for (const char* extension : {".gltf", ".glb"}) {
+    fs::path file = candidate;
+    file += extension;
+    if (fs::is_regular_file(file, error)) return file;
+  }
+  return {};
+}
+
+// Names that would be found directly under `directory`, for "did you mean".
+void collectNames(const fs::path& directory, const fs::path& prefix,
+                  std::vector<std::string>& names) {
+  std::error_code error;
+  for (fs::directory_iterator it(directory, error), end; !error && it != end; it.increment(error)) {
+    std::error_code ignored;
+    if (it->is_directory(ignored) || isScene(it->path())) {
+      names.push_back((prefix / it->path().filename()).string());
+    }
+  }
+}
+
+}  // namespace
+
+Scene loadScene(const std::string& nameOrPath) {
+  if (nameOrPath.empty()) failInput("scene: the name is empty; a built-in or a path expected");
+  const std::vector<std::string>& builtins = builtinSceneNames();
+  if (std::find(builtins.begin(), builtins.end(), nameOrPath) != builtins.end()) {
+    return makeBuiltinScene(nameOrPath);
+  }
+  const fs::path path(nameOrPath);
+  std::vector<fs::path> folders = {""};
+  if (path.is_relative()) {
+    if (const char* scenes = std::getenv("RESTLAB_SCENES"); scenes && *scenes) {
+      folders.emplace_back(scenes);
+    }
+    folders.emplace_back("../shared/scenes");
+  }
+  std::vector<std::string> near = builtins;
+  std::string tried;
+  for (const fs::path& folder : folders) {
+    const fs::path candidate = folder / path;
+    if (const fs::path file = resolve(candidate); !file.empty()) return loadGltf(file);
+    tried += (tried.empty() ? "" : ", ") + candidate.string();
+    const fs::path parent = candidate.parent_path();
+    collectNames(parent.empty() ? "." : parent, path.parent_path(), near);
+  }
+  std::sort(near.begin() + static_cast<ptrdiff_t>(builtins.size()), near.end());
+  failInput(fmt::format("scene '{}': neither a built-in scene nor a file (tried {}){}", nameOrPath,
+                        tried, didYouMean(nameOrPath, near)));
+}
+
+uint32_t findCamera(const Scene& scene, const std::string& nameOrIndex) {
+  std::vector<std::string> names;
+  std::vector<size_t> matches;
+  for (size_t i = 0; i < scene.cameras.size(); ++i) {
+    names.push_back(scene.cameras[i].name);
+    if (scene.cameras[i].name == nameOrIndex) matches.push_back(i);
+  }
+  if (matches.size() == 1) return static_cast<uint32_t>(matches[0]);
+  if (matches.size() > 1) {
+    failUsage(fmt::format("camera '{}': {} cameras of '{}' have this name; give an index: {}",
+                          nameOrIndex, matches.size(), scene.name, fmt::join(matches, ", ")));
+  }
+  uint32_t index = 0;
+  const char* end = nameOrIndex.data() + nameOrIndex.size();
+  const auto [rest, error] = std::from_chars(nameOrIndex.data(), end, index);
+  if (error == std::errc() && rest == end && !nameOrIndex.empty()) {
+    if (index < scene.cameras.size()) return index;
+    failUsage(fmt::format("camera {}: '{}' has cameras 0 to {}", nameOrIndex, scene.name,
+                          scene.cameras.size() - 1));
+  }
+  failUsage(fmt::format("camera '{}': '{}' has {}{}", nameOrIndex, scene.name,
+                        fmt::join(names, ", "), didYouMean(nameOrIndex, names)));
+}
+
+}  // namespace restlab

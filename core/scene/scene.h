@@ -1,0 +1,126 @@
+// A scene as imported: host data in SI units, Y up, right-handed, radiance in linear Rec. 709.
+// compiled_scene.h turns it into the buffers that kernels read.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/dialect/types.h"
+
+namespace restlab {
+
+// One triangle mesh with one material (a glTF mesh primitive). Attributes are per vertex; empty
+// means absent. Non-finite positions and out-of-range indices are rejected at import.
+struct MeshGeometry {
+  std::string name;
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> normals;   // empty: flat shading
+  std::vector<glm::vec4> tangents;  // w: handedness; empty: derived from UVs
+  std::vector<glm::vec4> colors;    // linear RGBA, multiplies the base colour
+  std::array<std::vector<glm::vec2>, rl::RL_MAX_UV_SETS> uvs;
+  std::vector<glm::uvec3> triangles;
+};
+
+struct MeshInstance {
+  std::string name;
+  uint32_t geometry = 0;
+  uint32_t material = 0;
+  glm::dmat4 objectToWorld{1.0};
+};
+
+// RGBA8 image, row 0 on top. 16-bit images are rounded to 8 bits with a warning.
+struct TextureImage {
+  std::string name;
+  uint32_t width = 0, height = 0;
+  std::vector<uint32_t> texels;  // R in the low byte
+};
+
+// A use of an image by a material slot: rl::Texture without addresses.
+struct TextureUse {
+  uint32_t image = 0;
+  uint32_t uvSet = 0;
+  uint32_t wrapU = rl::RL_WRAP_REPEAT, wrapV = rl::RL_WRAP_REPEAT;
+  bool nearest = false;
+  bool srgb = false;
+  glm::vec3 uvRow0{1, 0, 0}, uvRow1{0, 1, 0};
+};
+
+struct SceneMaterial {
+  std::string name;
+  rl::Material data{};  // data.textures[] index Scene::textureUses
+};
+
+struct SceneCamera {
+  std::string name;
+  uint32_t kind = rl::RL_CAMERA_PERSPECTIVE;
+  glm::dmat4 cameraToWorld{1.0};  // looks along -Z, +Y up; scale is ignored
+  double yfov = 0.8;              // radians (perspective)
+  double xmag = 1.0, ymag = 1.0;  // half extents in metres (orthographic)
+  double aspect = 0.0;            // width / height, 0: free
+};
+
+struct PunctualLight {
+  std::string name;
+  uint32_t kind = rl::RL_LIGHT_POINT;
+  glm::dvec3 posW{0.0};
+  glm::dvec3 dirW{0.0, 0.0, -1.0};  // direction of travel (spot, directional)
+  glm::vec3 intensity{1.0f};        // W/sr (point, spot), W/m^2 (directional)
+  float innerConeAngle = 0.0f, outerConeAngle = 0.785398f;  // radians
+};
+
+// Latitude-longitude map, row 0 at +Y; u = 0.5 looks along -Z rotated by `rotation` about +Y.
+struct EnvironmentMap {
+  std::string source;
+  uint32_t width = 0, height = 0;
+  std::vector<glm::vec3> radiance;
+  float rotation = 0.0f;  // radians
+  float scale = 1.0f;
+};
+
+struct Scene {
+  std::string name;             // a built-in's name or the file's stem
+  std::filesystem::path source;  // empty for a built-in
+  std::vector<MeshGeometry> geometries;
+  std::vector<MeshInstance> instances;
+  std::vector<SceneMaterial> materials;
+  std::vector<TextureUse> textureUses;
+  std::vector<TextureImage> images;
+  std::vector<SceneCamera> cameras;  // never empty after loading: one is made when the file has none
+  std::vector<PunctualLight> lights;
+  std::optional<EnvironmentMap> environment;
+  std::vector<std::string> warnings;  // one line each, printed by the program
+  uint64_t contentHash = 0;           // of every byte the scene was made from
+  size_t skippedPrimitives = 0;       // points and lines
+};
+
+// Imports a glTF 2.0 file (.gltf or .glb). Throws Error (badInput) with one line.
+Scene loadGltf(const std::filesystem::path& file);
+
+// Makes a built-in scene; the name is one of builtinSceneNames().
+Scene makeBuiltinScene(const std::string& name);
+const std::vector<std::string>& builtinSceneNames();
+// One line for `restlab list scenes`.
+std::string builtinSceneSummary(const std::string& name);
+
+// A built-in's name, or a path: tried as given, then under RESTLAB_SCENES, then under
+// ../shared/scenes; a directory or a stem finds the one glTF inside. Throws Error (badInput).
+Scene loadScene(const std::string& nameOrPath);
+
+// Reads a latitude-longitude .hdr or .exr. Negative and non-finite texels are an error.
+EnvironmentMap loadEnvironment(const std::filesystem::path& file);
+
+// A camera looking at the whole scene, for files that have none.
+SceneCamera framingCamera(const Scene& scene);
+
+// Index of the camera of that name or number; throws Error (badUsage) with the nearest name.
+uint32_t findCamera(const Scene& scene, const std::string& nameOrIndex);
+
+// World bounding box of all instances (min, max).
+std::array<glm::dvec3, 2> worldBounds(const Scene& scene);
+
+}  // namespace restlab

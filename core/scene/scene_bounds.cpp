@@ -1,0 +1,70 @@
+// worldBounds() and framingCamera().
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+
+#include "core/scene/scene.h"
+
+namespace restlab {
+namespace {
+
+using Box = std::array<glm::dvec3, 2>;
+
+Box emptyBox() {
+  return {glm::dvec3(std::numeric_limits<double>::infinity()),
+          glm::dvec3(-std::numeric_limits<double>::infinity())};
+}
+
+void extend(Box& box, const glm::dvec3& point) {
+  box[0] = glm::min(box[0], point);
+  box[1] = glm::max(box[1], point);
+}
+
+}  // namespace
+
+std::array<glm::dvec3, 2> worldBounds(const Scene& scene) {
+  // Exact for meshes seen a few times; forests of instances take the corners of each mesh's box.
+  constexpr size_t kExactUses = 16;
+  std::vector<size_t> uses(scene.geometries.size());
+  for (const MeshInstance& instance : scene.instances) ++uses[instance.geometry];
+  std::vector<Box> boxes(scene.geometries.size(), emptyBox());
+  for (size_t g = 0; g < scene.geometries.size(); ++g) {
+    for (const glm::vec3& position : scene.geometries[g].positions) extend(boxes[g], position);
+  }
+  Box bounds = emptyBox();
+  for (const MeshInstance& instance : scene.instances) {
+    const MeshGeometry& geometry = scene.geometries[instance.geometry];
+    if (geometry.positions.empty()) continue;
+    const glm::dmat4& toWorld = instance.objectToWorld;
+    if (uses[instance.geometry] <= kExactUses) {
+      for (const glm::vec3& position : geometry.positions) {
+        extend(bounds, glm::dvec3(toWorld * glm::dvec4(position, 1.0)));
+      }
+    } else {
+      const Box& box = boxes[instance.geometry];
+      for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 point(box[corner & 1].x, box[(corner >> 1) & 1].y, box[corner >> 2].z);
+        extend(bounds, glm::dvec3(toWorld * glm::dvec4(point, 1.0)));
+      }
+    }
+  }
+  if (bounds[0].x > bounds[1].x) return {glm::dvec3(0.0), glm::dvec3(0.0)};
+  return bounds;
+}
+
+SceneCamera framingCamera(const Scene& scene) {
+  const Box bounds = worldBounds(scene);
+  const glm::dvec3 center = 0.5 * (bounds[0] + bounds[1]);
+  const double radius = 0.5 * glm::length(bounds[1] - bounds[0]);
+  SceneCamera camera;
+  camera.name = "framing";
+  camera.yfov = 0.8;
+  // The bounding sphere touches the edges of a square image; from the front, a little above and to
+  // the side, so that no face of a box is seen edge-on.
+  const double distance = (radius > 0.0 ? radius : 1.0) / std::sin(0.5 * camera.yfov);
+  const glm::dvec3 eye = center + distance * glm::normalize(glm::dvec3(0.35, 0.3, 1.0));
+  camera.cameraToWorld = glm::inverse(glm::lookAt(eye, center, glm::dvec3(0, 1, 0)));
+  return camera;
+}
+
+}  // namespace restlab

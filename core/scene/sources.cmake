@@ -1,0 +1,30 @@
+target_sources(rl_core PRIVATE
+  scene/content_hash.cpp
+  scene/environment.cpp
+  scene/gltf_accessor.cpp
+  scene/gltf_attributes.cpp
+  scene/gltf_cameras_lights.cpp
+  scene/gltf_container.cpp
+  scene/gltf_document.cpp
+  scene/gltf_extensions.cpp
+  scene/gltf_instances.cpp
+  scene/gltf_load.cpp
+  scene/gltf_material.cpp
+  scene/gltf_mesh.cpp
+  scene/gltf_nodes.cpp
+  scene/gltf_report.cpp
+  scene/gltf_rules.cpp
+  scene/gltf_schema.cpp
+  scene/gltf_texture.cpp
+  scene/gltf_triangles.cpp
+  scene/gltf_uri.cpp
+  scene/gltf_validate.cpp
+  scene/image_decode.cpp
+  scene/load_scene.cpp
+  scene/scene_bounds.cpp
+  scene/tinygltf.cpp
+)
+# tinygltf is compiled into tinygltf.cpp (with its own file and image access left out), xxHash and stb
+# are headers.
+target_link_libraries(rl_core PUBLIC nlohmann_json::nlohmann_json)
+include(${CMAKE_CURRENT_LIST_DIR}/builtin_sources.cmake)

@@ -1,0 +1,10 @@
+// The one way in which tinygltf is included: without its own image and file access.
+#pragma once
+
+#ifndef TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
+#define TINYGLTF_NO_FS
+#endif
+
+#include <tiny_gltf.h>

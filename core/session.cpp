@@ -1,0 +1,204 @@
+#include "core/session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/backend/backend.h"
+#include "core/caches/caches.h"
+#include "core/dialect/features.h"
+#include "core/error.h"
+#include "core/scene/compiled_scene.h"
+
+namespace restlab {
+
+namespace {
+
+const std::array<const char*, rl::RL_FEATURE_BITS> kFeatureNames = {
+    "area_lights", "punctual_lights", "environment",       "glossy",        "transmission", "volume",    "textures",
+    "normal_maps", "emissive_textures", "vertex_colors", "alpha", "instances", "smooth_normals", "multiscatter"};
+
+// Buffers of the AOV kernel, in the order of its Buffers struct.
+constexpr const char* kAovKernel = "aov";
+const std::vector<std::string> kAovNames = {"radiance", "positionW", "normalW", "albedo", "depth"};
+
+}  // namespace
+
+std::string featureNames(uint32_t mask) {
+  std::string text;
+  for (uint32_t i = 0; i < rl::RL_FEATURE_BITS; ++i) {
+    if ((mask & (1u << i)) == 0) continue;
+    if (!text.empty()) text += '+';
+    text += kFeatureNames[i];
+  }
+  return text.empty() ? "none" : text;
+}
+
+const std::array<const char*, rl::RL_HEALTH_COUNT>& Health::names() {
+  static const std::array<const char*, rl::RL_HEALTH_COUNT> names = {
+      "nonfinite",         "rejected_jacobian", "capped_confidence", "delta_lobes",
+      "unreusable_pixels", "negative",          "empty_reservoirs",  "reserved"};
+  return names;
+}
+
+struct Session::Impl {
+  std::shared_ptr<const CompiledScene> scene;
+  SessionConfig config;
+  const IntegratorInfo* integrator = nullptr;
+  std::unique_ptr<Backend> backend;
+  std::vector<BufferId> buffers;  // in the order of IntegratorInfo::buffers; swaps permute this
+  std::vector<std::byte> params;
+  std::vector<uint32_t> passMasks;
+  rl::FrameData frame{};
+  uint32_t needed = 0, used = 0;
+  Image radiance;
+  bool cameraMoved = false;
+  rl::Camera nextCamera{};
+  std::vector<BufferId> aovBuffers;
+  rl::FrameData lastFrame{};
+};
+
+Session::Session(std::shared_ptr<const CompiledScene> scene, const SessionConfig& config)
+    : impl_(std::make_unique<Impl>()) {
+  Impl& m = *impl_;
+  m.scene = std::move(scene);
+  m.config = config;
+  m.integrator = &findIntegrator(config.integrator);
+  if (config.width == 0 || config.height == 0) {
+    failUsage(fmt::format("resolution {}x{}: width and height must be at least 1", config.width, config.height));
+  }
+  std::vector<std::string> modes;
+  for (const ModeInfo& mode : m.integrator->modes) modes.push_back(mode.name);
+  if (m.config.mode.empty()) m.config.mode = modes.front();
+  if (std::find(modes.begin(), modes.end(), m.config.mode) == modes.end()) {
+    failUsage(fmt::format("integrator {} has no mode '{}'{}; modes: {}", m.integrator->name, m.config.mode,
+                          didYouMean(m.config.mode, modes), fmt::join(modes, ", ")));
+  }
+  checkCacheName(m.config.cache);
+  const std::vector<SceneCamera>& cameras = m.scene->source().cameras;
+  if (config.camera >= cameras.size()) {
+    failUsage(fmt::format("camera {} of scene {}: it has {} (0 to {})", config.camera, m.scene->source().name,
+                          cameras.size(), cameras.size() - 1));
+  }
+  m.config.parameters = resolveParameters(*m.integrator, config.parameters);
+  m.params = m.integrator->packParameters(m.config.mode, m.config.parameters);
+  m.backend = makeBackend(config.backend, m.scene, config.threads);
+  m.needed = m.scene->features();
+  const uint32_t wanted = config.specialise ? m.needed : rl::RL_FEATURE_ALL;
+  for (const PassInfo& pass : m.integrator->passes) {
+    m.passMasks.push_back(m.backend->maskFor(pass.kernel, wanted));
+    m.used |= m.passMasks.back();
+  }
+  const size_t pixels = size_t(config.width) * config.height;
+  for (const BufferInfo& b : m.integrator->buffers) {
+    // What the kernel in use can touch is allocated, so that a superset kernel never meets a null.
+    const bool wantedBuffer = b.neededFeatures == 0 || (b.neededFeatures & m.used) != 0;
+    m.buffers.push_back(wantedBuffer ? m.backend->allocate(pixels * b.bytesPerPixel) : kNoBuffer);
+  }
+  m.radiance = Image(config.width, config.height);
+  rl::FrameData& f = m.frame;
+  f.camera = m.scene->camera(cameras[config.camera], config.width, config.height);
+  f.previousCamera = f.camera;
+  m.nextCamera = f.camera;
+  f.width = config.width;
+  f.height = config.height;
+  f.frame = 0;
+  f.seed = config.seed;
+  f.pixelFilter = config.pixelFilter;
+  // No path with two or more scattering events contributes to direct light: none is traced.
+  const bool directOnly = (config.components & rl::RL_COMPONENT_INDIRECT) == 0;
+  f.maxBounces = directOnly ? std::min(config.maxBounces, 1u) : config.maxBounces;
+  f.components = config.components;
+  const auto hold = m.config.parameters.find("film_hold");
+  f.filmHold = hold == m.config.parameters.end() ? 1u : static_cast<uint32_t>(std::get<int64_t>(hold->second));
+  f.rouletteStart = config.russianRoulette ? 3u : rl::RL_INVALID;
+}
+
+Session::~Session() = default;
+
+FrameStats Session::frame() {
+  Impl& m = *impl_;
+  if (m.frame.frame > 0) m.frame.previousCamera = m.frame.camera;
+  m.frame.camera = m.nextCamera;
+  if (m.frame.frame == 0) m.frame.previousCamera = m.frame.camera;
+  FrameStats stats;
+  PassCounters counters;
+  for (size_t i = 0; i < m.integrator->passes.size(); ++i) {
+    const PassInfo& pass = m.integrator->passes[i];
+    const double timeMs = m.backend->dispatch(pass.kernel, m.passMasks[i], m.frame, m.buffers, m.params, counters);
+    stats.passes.push_back({pass.name, timeMs});
+    stats.timeMs += timeMs;
+  }
+  stats.raysPath = counters.raysPath;
+  stats.raysShadow = counters.raysShadow;
+  std::copy(std::begin(counters.health), std::end(counters.health), stats.health.counts.begin());
+  m.backend->read(m.buffers[0], m.radiance.pixels.data(), m.radiance.pixels.size() * sizeof(glm::vec3));
+  for (size_t i = 0; i < m.buffers.size(); ++i) {
+    const int other = m.integrator->buffers[i].swapWith;
+    if (other > static_cast<int>(i)) std::swap(m.buffers[i], m.buffers[static_cast<size_t>(other)]);
+  }
+  m.lastFrame = m.frame;
+  ++m.frame.frame;
+  return stats;
+}
+
+void Session::reset(uint32_t seed) {
+  Impl& m = *impl_;
+  m.config.seed = seed;
+  m.frame.seed = seed;
+  m.frame.frame = 0;
+  for (BufferId b : m.buffers) {
+    if (b != kNoBuffer) m.backend->clear(b);
+  }
+}
+
+void Session::setCamera(const SceneCamera& camera) {
+  impl_->nextCamera = impl_->scene->camera(camera, impl_->config.width, impl_->config.height);
+}
+
+const Image& Session::radiance() const { return impl_->radiance; }
+
+const std::vector<std::string>& Session::aovNames() { return kAovNames; }
+
+Image Session::aov(const std::string& name) const {
+  Impl& m = *impl_;
+  const auto found = std::find(kAovNames.begin(), kAovNames.end(), name);
+  if (found == kAovNames.end()) {
+    failUsage(fmt::format("unknown AOV '{}'{}; AOVs: {}", name, didYouMean(name, kAovNames),
+                          fmt::join(kAovNames, ", ")));
+  }
+  if (name == "radiance") return m.radiance;
+  const size_t pixels = size_t(m.config.width) * m.config.height;
+  if (m.aovBuffers.empty()) {
+    for (size_t i = 1; i < kAovNames.size(); ++i) m.aovBuffers.push_back(m.backend->allocate(pixels * 12));
+  }
+  PassCounters counters;
+  const uint32_t mask = m.backend->maskFor(kAovKernel, m.config.specialise ? m.needed : rl::RL_FEATURE_ALL);
+  m.backend->dispatch(kAovKernel, mask, m.lastFrame, m.aovBuffers, std::vector<std::byte>(4), counters);
+  Image image(m.config.width, m.config.height);
+  const size_t index = static_cast<size_t>(found - kAovNames.begin()) - 1;
+  m.backend->read(m.aovBuffers[index], image.pixels.data(), pixels * 12);
+  return image;
+}
+
+uint32_t Session::featuresNeeded() const { return impl_->needed; }
+uint32_t Session::featuresUsed() const { return impl_->used; }
+const SessionConfig& Session::config() const { return impl_->config; }
+
+std::vector<std::pair<std::string, size_t>> Session::bufferBytesPerPixel() const {
+  std::vector<std::pair<std::string, size_t>> sizes;
+  for (size_t i = 0; i < impl_->buffers.size(); ++i) {
+    const BufferInfo& b = impl_->integrator->buffers[i];
+    sizes.emplace_back(b.name, impl_->buffers[i] == kNoBuffer ? 0 : b.bytesPerPixel);
+  }
+  return sizes;
+}
+
+size_t Session::bytesPerPixel() const {
+  size_t sum = 0;
+  for (const auto& [name, bytes] : bufferBytesPerPixel()) sum += bytes;
+  return sum;
+}
+
+}  // namespace restlab

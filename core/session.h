@@ -1,0 +1,89 @@
+// Session: scene + integrator + cache + backend -> frames. The one thing that the experiment runner,
+// the renderer, the viewer and the tests all drive.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/image/image.h"
+#include "core/integrator.h"
+#include "core/scene/scene.h"
+
+namespace restlab {
+
+class CompiledScene;  // core/scene/compiled_scene.h
+
+struct SessionConfig {
+  std::string integrator = "path";
+  std::string mode;             // "": the integrator's first
+  std::string cache = "pixel";  // ignored by integrators without reservoirs
+  std::string backend = "cpu";
+  std::string denoiser = "none";
+  uint32_t width = 512, height = 512;
+  uint32_t camera = 0;
+  uint32_t seed = 1;
+  uint32_t maxBounces = 8;
+  uint32_t components = rl::RL_COMPONENT_ALL;
+  uint32_t pixelFilter = rl::RL_FILTER_BOX;
+  bool russianRoulette = false;
+  bool specialise = true;  // false: the general kernel
+  int threads = 0;         // 0: all cores
+  ParameterMap parameters;  // integrator parameters, e.g. confidence_cap
+};
+
+struct PassTiming {
+  std::string name;
+  double timeMs = 0.0;
+};
+
+struct Health {
+  std::array<uint64_t, rl::RL_HEALTH_COUNT> counts{};
+  static const std::array<const char*, rl::RL_HEALTH_COUNT>& names();
+};
+
+struct FrameStats {
+  double timeMs = 0.0;  // sum of the passes; no metrics, no I/O
+  std::vector<PassTiming> passes;
+  uint64_t raysPath = 0, raysShadow = 0;
+  Health health;  // of this frame
+};
+
+class Session {
+ public:
+  // Throws Error on unknown names or parameters. The compiled scene is shared between sessions.
+  Session(std::shared_ptr<const CompiledScene> scene, const SessionConfig& config);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  // Renders the next frame of the history.
+  FrameStats frame();
+  // Drops the history and starts again with another seed (an independent run).
+  void reset(uint32_t seed);
+  // For a moving camera; the previous one is kept for reprojection.
+  void setCamera(const SceneCamera& camera);
+
+  const Image& radiance() const;  // of the last frame
+  // "radiance", "positionW", "normalW", "albedo", and the integrator's own; throws badUsage.
+  Image aov(const std::string& name) const;
+  static const std::vector<std::string>& aovNames();
+
+  uint32_t featuresNeeded() const;
+  uint32_t featuresUsed() const;  // of the smallest compiled superset
+  size_t bytesPerPixel() const;   // of all buffers
+  const SessionConfig& config() const;
+  std::vector<std::pair<std::string, size_t>> bufferBytesPerPixel() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// Names for reports: "textures+alpha", "none".
+std::string featureNames(uint32_t mask);
+
+}  // namespace restlab

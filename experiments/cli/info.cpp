@@ -1,0 +1,176 @@
+// restlab info: what a scene holds, what it needs of the kernels, what each integrator costs in memory.
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "experiments/cli/options.h"
+#include "experiments/cli/verbs.h"
+
+namespace restlab {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct InfoOptions {
+  SceneRequest request;
+  bool json = false;
+};
+
+const char* lightKind(uint32_t kind) {
+  switch (kind) {
+    case rl::RL_LIGHT_POINT: return "point";
+    case rl::RL_LIGHT_SPOT: return "spot";
+    case rl::RL_LIGHT_DIRECTIONAL: return "directional";
+    default: return "light";
+  }
+}
+
+Json camerasJson(const Scene& scene) {
+  Json cameras = Json::array();
+  for (const SceneCamera& camera : scene.cameras) {
+    const bool perspective = camera.kind == rl::RL_CAMERA_PERSPECTIVE;
+    Json json = {{"index", cameras.size()},
+                 {"name", camera.name},
+                 {"kind", perspective ? "perspective" : "orthographic"}};
+    if (perspective) {
+      json["yfov_radians"] = camera.yfov;
+    } else {
+      json["half_extent_m"] = {camera.xmag, camera.ymag};
+    }
+    json["aspect"] = camera.aspect;
+    cameras.push_back(json);
+  }
+  return cameras;
+}
+
+Json integratorsJson(const PreparedScene& prepared) {
+  Json all = Json::array();
+  for (const IntegratorInfo* info : integratorRegistry()) {
+    SessionConfig config;
+    config.integrator = info->name;
+    config.camera = prepared.camera;
+    config.width = config.height = 16;  // the sizes below are per pixel
+    config.threads = 1;
+    const Session session(prepared.scene, config);
+    Json buffers = Json::object();
+    for (const auto& [name, bytes] : session.bufferBytesPerPixel()) buffers[name] = bytes;
+    all.push_back({{"name", info->name},
+                   {"features_used", featureNames(session.featuresUsed())},
+                   {"features_left_out",
+                    featureNames(rl::RL_FEATURE_ALL & ~session.featuresUsed())},
+                   {"bytes_per_pixel", session.bytesPerPixel()},
+                   {"buffers", buffers}});
+  }
+  return all;
+}
+
+Json sceneJson(const PreparedScene& prepared) {
+  const CompiledScene& compiled = *prepared.scene;
+  const Scene& scene = compiled.source();
+  const auto bounds = worldBounds(scene);
+  Json json = {{"scene", scene.name},
+               {"source", scene.source.empty() ? "built-in" : scene.source.string()},
+               {"content_hash", hexHash(prepared.contentHash)},
+               {"triangles", compiled.triangleCount()},
+               {"instanced_triangles", compiled.instancedTriangleCount()},
+               {"emissive_triangles", compiled.emissiveTriangleCount()},
+               {"meshes", scene.geometries.size()},
+               {"instances", scene.instances.size()},
+               {"materials", scene.materials.size()},
+               {"textures", scene.images.size()},
+               {"cameras", camerasJson(scene)}};
+  Json lights = Json::array();
+  for (const PunctualLight& light : scene.lights) {
+    lights.push_back({{"name", light.name},
+                      {"kind", lightKind(light.kind)},
+                      {"intensity", {light.intensity.x, light.intensity.y, light.intensity.z}}});
+  }
+  json["lights"] = lights;
+  if (scene.environment) {
+    json["environment"] = {{"source", prepared.environmentName},
+                           {"width", scene.environment->width},
+                           {"height", scene.environment->height},
+                           {"rotation_radians", scene.environment->rotation},
+                           {"scale", scene.environment->scale}};
+  } else {
+    json["environment"] = nullptr;
+  }
+  json["bounds_m"] = {{bounds[0].x, bounds[0].y, bounds[0].z},
+                      {bounds[1].x, bounds[1].y, bounds[1].z}};
+  json["skipped_primitives"] = scene.skippedPrimitives;
+  json["bytes"] = compiled.bytes();
+  json["load_time_ms"] = prepared.loadTimeMs;
+  json["features_needed"] = featureNames(compiled.features());
+  json["integrators"] = integratorsJson(prepared);
+  json["warnings"] = compiled.warnings();
+  return json;
+}
+
+void printText(const PreparedScene& prepared, const Json& json) {
+  const Scene& scene = prepared.scene->source();
+  const auto bounds = worldBounds(scene);
+  fmt::print("scene        {} ({})\n", scene.name, json["source"].get<std::string>());
+  fmt::print("triangles    {} stored, {} as seen by rays, {} emissive\n",
+             prepared.scene->triangleCount(), prepared.scene->instancedTriangleCount(),
+             prepared.scene->emissiveTriangleCount());
+  fmt::print("objects      {} meshes, {} instances, {} materials, {} textures\n",
+             scene.geometries.size(), scene.instances.size(), scene.materials.size(),
+             scene.images.size());
+  for (const Json& camera : json["cameras"]) {
+    fmt::print("camera       {} '{}' {}\n", camera["index"].get<size_t>(),
+               camera["name"].get<std::string>(), camera["kind"].get<std::string>());
+  }
+  for (const PunctualLight& light : scene.lights) {
+    fmt::print("light        '{}' {} ({:g}, {:g}, {:g})\n", light.name, lightKind(light.kind),
+               light.intensity.x, light.intensity.y, light.intensity.z);
+  }
+  if (scene.environment) {
+    fmt::print("environment  {} {}x{}, rotation {:g} rad, scale {:g}\n", prepared.environmentName,
+               scene.environment->width, scene.environment->height, scene.environment->rotation,
+               scene.environment->scale);
+  } else {
+    fmt::print("environment  none\n");
+  }
+  fmt::print("bounds       ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}) m\n", bounds[0].x, bounds[0].y,
+             bounds[0].z, bounds[1].x, bounds[1].y, bounds[1].z);
+  fmt::print("memory       {:.1f} MiB, loaded in {:.0f} ms\n",
+             double(prepared.scene->bytes()) / (1024.0 * 1024.0), prepared.loadTimeMs);
+  fmt::print("features     needed    {}\n", featureNames(prepared.scene->features()));
+  for (const Json& integrator : json["integrators"]) {
+    fmt::print("{:<12} used      {}\n", integrator["name"].get<std::string>(),
+               integrator["features_used"].get<std::string>());
+    fmt::print("{:<12} left out  {}\n", "", integrator["features_left_out"].get<std::string>());
+    std::string buffers;
+    for (const auto& [name, bytes] : integrator["buffers"].items()) {
+      buffers += fmt::format("{}{} {}", buffers.empty() ? "" : ", ", name, bytes.get<size_t>());
+    }
+    fmt::print("{:<12} bytes per pixel {} ({})\n", "", integrator["bytes_per_pixel"].get<size_t>(),
+               buffers);
+  }
+}
+
+void info(const InfoOptions& options) {
+  const PreparedScene prepared = prepareScene(options.request);
+  printWarnings(prepared);
+  const Json json = sceneJson(prepared);
+  if (options.json) {
+    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+  } else {
+    printText(prepared, json);
+  }
+}
+
+}  // namespace
+
+Action addInfoVerb(CLI::App& app) {
+  auto options = std::make_shared<InfoOptions>();
+  CLI::App* verb = app.add_subcommand("info", "what a scene holds and needs");
+  verb->add_option("scene", options->request.scene, "a glTF file or a built-in scene")->required();
+  verb->add_option("--environment", options->request.environment, "latitude-longitude .hdr or .exr");
+  verb->add_flag("--json", options->json, "JSON on stdout");
+  return [options](Outcome&) { info(*options); };
+}
+
+}  // namespace restlab

@@ -1,0 +1,176 @@
+// restlab list: what there is to choose from.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "core/backend/backend.h"
+#include "core/caches/caches.h"
+#include "core/image/metrics.h"
+#include "experiments/cli/verbs.h"
+#include "experiments/runner/files.h"
+#include "experiments/runner/prepare.h"
+#include "experiments/runner/summary.h"
+
+namespace restlab {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct ListOptions {
+  std::string what;
+  bool json = false;
+};
+
+Json parameterJson(const ParameterInfo& parameter) {
+  Json json = {{"name", parameter.name}};
+  std::visit([&](const auto& value) { json["default"] = value; }, parameter.defaultValue);
+  if (parameter.defaultValue.index() == 1 || parameter.defaultValue.index() == 2) {
+    json["range"] = {parameter.minValue, parameter.maxValue};
+  }
+  if (!parameter.choices.empty()) json["choices"] = parameter.choices;
+  json["help"] = parameter.help;
+  json["source"] = parameter.source;
+  return json;
+}
+
+Json integrators() {
+  Json all = Json::array();
+  for (const IntegratorInfo* info : integratorRegistry()) {
+    Json modes = Json::array(), parameters = Json::array();
+    for (const ModeInfo& mode : info->modes) {
+      modes.push_back({{"name", mode.name}, {"bias", biasName(mode.bias)}, {"why", mode.why}});
+    }
+    for (const ParameterInfo& parameter : info->parameters) {
+      parameters.push_back(parameterJson(parameter));
+    }
+    all.push_back({{"name", info->name},
+                   {"summary", info->summary},
+                   {"uses_cache", info->usesCache},
+                   {"modes", modes},
+                   {"parameters", parameters}});
+  }
+  return all;
+}
+
+Json caches() {
+  Json all = Json::array();
+  for (const CacheInfo& cache : cacheRegistry()) {
+    all.push_back({{"name", cache.name}, {"summary", cache.summary}});
+  }
+  return all;
+}
+
+Json backends() {
+  Json all = Json::array();
+  for (const BackendInfo& backend : backendRegistry()) {
+    Json json = {{"name", backend.name},
+                 {"summary", backend.description},
+                 {"available", backend.available}};
+    if (!backend.available) json["why_not"] = backend.whyNot;
+    all.push_back(json);
+  }
+  return all;
+}
+
+Json metrics() {
+  Json all = Json::array();
+  for (const MetricInfo& metric : metricRegistry()) {
+    all.push_back({{"name", metric.name}, {"summary", metric.formula}});
+  }
+  return all;
+}
+
+// glTF files under the folder of scenes of others, by their path inside it.
+std::vector<std::string> scenesOfOthers() {
+  namespace fs = std::filesystem;
+  std::vector<std::string> names;
+  const fs::path folder = sceneFolder();
+  if (folder.empty()) return names;
+  std::error_code status;
+  for (fs::recursive_directory_iterator it(folder, status), end; !status && it != end;
+       it.increment(status)) {
+    const std::string extension = it->path().extension().string();
+    if (extension != ".gltf" && extension != ".glb") continue;
+    const std::string name = fs::relative(it->path(), folder).string();
+    if (name.rfind("bad-", 0) != 0) names.push_back(name);  // broken files, kept for tests
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+Json scenes() {
+  Json all = Json::array();
+  for (const std::string& name : builtinSceneNames()) {
+    all.push_back({{"name", name}, {"summary", builtinSceneSummary(name)}, {"kind", "built-in"}});
+  }
+  for (const std::string& name : scenesOfOthers()) {
+    all.push_back({{"name", name}, {"summary", "file"}, {"kind", "file"}});
+  }
+  return all;
+}
+
+void printParameters(const Json& integrator) {
+  for (const Json& mode : integrator["modes"]) {
+    fmt::print("  mode {:<12} {}: {}\n", mode["name"].get<std::string>(),
+               mode["bias"].get<std::string>(), mode["why"].get<std::string>());
+  }
+  for (const Json& parameter : integrator["parameters"]) {
+    std::string bounds;
+    if (parameter.contains("range")) {
+      bounds = fmt::format(" in {:g}..{:g}", parameter["range"][0].get<double>(),
+                           parameter["range"][1].get<double>());
+    } else if (parameter.contains("choices")) {
+      bounds = " of " + parameter["choices"].dump();
+    }
+    fmt::print("  {} = {}{}\n      {}\n      source: {}\n", parameter["name"].get<std::string>(),
+               parameter["default"].dump(), bounds, parameter["help"].get<std::string>(),
+               parameter["source"].get<std::string>());
+  }
+}
+
+void list(const ListOptions& options) {
+  const std::vector<std::pair<std::string, Json (*)()>> kinds = {{"integrators", integrators},
+                                                                 {"caches", caches},
+                                                                 {"backends", backends},
+                                                                 {"metrics", metrics},
+                                                                 {"scenes", scenes}};
+  const auto kind = std::find_if(kinds.begin(), kinds.end(),
+                                 [&](const auto& entry) { return entry.first == options.what; });
+  if (kind == kinds.end()) {
+    std::vector<std::string> names;
+    for (const auto& entry : kinds) names.push_back(entry.first);
+    failUsage(fmt::format("list {}: unknown kind (known: {}){}", options.what,
+                          fmt::join(names, ", "), didYouMean(options.what, names)));
+  }
+  const Json all = kind->second();
+  if (options.json) {
+    fmt::print("{}\n", all.dump(2, ' ', false, Json::error_handler_t::replace));
+    return;
+  }
+  size_t width = 0;
+  for (const Json& item : all) width = std::max(width, item["name"].get<std::string>().size());
+  for (const Json& item : all) {
+    fmt::print("{:<{}}  {}", item["name"].get<std::string>(), width,
+               item["summary"].get<std::string>());
+    if (item.contains("why_not")) fmt::print(" (not available: {})", item["why_not"].get<std::string>());
+    fmt::print("\n");
+    if (item.contains("parameters")) printParameters(item);
+  }
+}
+
+}  // namespace
+
+Action addListVerb(CLI::App& app) {
+  auto options = std::make_shared<ListOptions>();
+  CLI::App* verb = app.add_subcommand("list", "integrators, caches, backends, metrics or scenes");
+  verb->add_option("what", options->what, "integrators, caches, backends, metrics or scenes")
+      ->required();
+  verb->add_flag("--json", options->json, "JSON on stdout");
+  return [options](Outcome&) { list(*options); };
+}
+
+}  // namespace restlab

@@ -1,0 +1,130 @@
+// restlab: the command line. Data on stdout; errors, warnings and progress on stderr.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <exception>
+
+#include "experiments/cli/verbs.h"
+#include "experiments/runner/build_info.h"
+#include "experiments/runner/interrupt.h"
+#include "experiments/runner/log.h"
+
+namespace {
+
+using namespace restlab;
+
+constexpr const char* kFooter =
+    "Exit codes: 0 ok, 1 a comparison failed, 2 bad usage or configuration, 3 bad input,\n"
+    "4 device unavailable, 130 interrupted (finished results are kept).\n"
+    "docs/manual.md describes every option, suite key, file and metric.";
+
+struct Verb {
+  const char* name;
+  Action action;
+};
+
+std::vector<std::string> optionNames(const CLI::App& verb) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : verb.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+  }
+  return names;
+}
+
+// Options that the verb does not know, before anything else is said about the command line.
+void checkOptionNames(const CLI::App& verb, const std::vector<std::string>& arguments) {
+  const std::vector<std::string> known = optionNames(verb);
+  for (const std::string& argument : arguments) {
+    if (argument == "--") return;
+    const bool isLong = argument.rfind("--", 0) == 0;
+    const bool isShort = !isLong && argument.size() > 1 && argument[0] == '-' &&
+                         std::isalpha(static_cast<unsigned char>(argument[1]));
+    if (!isLong && !isShort) continue;
+    const std::string name = isLong ? argument.substr(0, argument.find('=')) : argument.substr(0, 2);
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    failUsage(fmt::format("{}: unknown option '{}'{}", verb.get_name(), name,
+                          didYouMean(isLong ? name : argument, known)));
+  }
+}
+
+void addVerbosity(CLI::App& verb) {
+  verb.add_flag_callback("-q,--quiet", [] { setVerbosity(-1); }, "errors and warnings only");
+  verb.add_flag_callback("-v,--verbose", [] { setVerbosity(1); }, "details on stderr");
+  verb.set_help_flag("-h,--help", "this help");
+  verb.footer(kFooter);
+}
+
+int runVerb(CLI::App& app, std::vector<Verb>& verbs, const std::vector<std::string>& argv) {
+  std::vector<std::string> names;
+  for (const Verb& verb : verbs) names.push_back(verb.name);
+  if (argv.size() < 2) {
+    std::fputs(app.help().c_str(), stderr);
+    return int(ExitCode::badUsage);
+  }
+  if (argv[1] == "-h" || argv[1] == "--help" || argv[1] == "help") {
+    std::fputs(app.help().c_str(), stdout);
+    return int(ExitCode::ok);
+  }
+  if (argv[1] == "--version") {
+    fmt::print("restlab {} ({}{}, Embree {})\n", buildInfo().version, buildInfo().gitCommit,
+               buildInfo().gitDirty ? " modified" : "", embreeVersion());
+    return int(ExitCode::ok);
+  }
+  const auto verb = std::find_if(verbs.begin(), verbs.end(),
+                                 [&](const Verb& candidate) { return candidate.name == argv[1]; });
+  if (verb == verbs.end()) {
+    failUsage(fmt::format("unknown verb '{}' (known: {}){}", argv[1], fmt::join(names, ", "),
+                          didYouMean(argv[1], names)));
+  }
+  checkOptionNames(*app.get_subcommand(verb->name), {argv.begin() + 2, argv.end()});
+  try {
+    std::vector<std::string> reversed(argv.rbegin(), argv.rend() - 1);
+    app.parse(reversed);
+  } catch (const CLI::CallForHelp&) {
+    std::fputs(app.get_subcommand(verb->name)->help().c_str(), stdout);
+    return int(ExitCode::ok);
+  } catch (const CLI::ParseError& error) {
+    std::string line = error.what();
+    line.erase(std::min(line.find('\n'), line.size()));
+    failUsage(fmt::format("{}: {} (see restlab {} --help)", verb->name, line, verb->name));
+  }
+  Outcome outcome;
+  outcome.argv = argv;
+  verb->action(outcome);
+  return int(outcome.code);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  installInterruptHandler();
+  CLI::App app("restlab measures ReSTIR-style path tracing against converged references", "restlab");
+  app.require_subcommand(0, 1);
+  app.footer(kFooter);
+  std::vector<Verb> verbs = {{"run", addRunVerb(app)},         {"render", addRenderVerb(app)},
+                             {"reference", addReferenceVerb(app)}, {"compare", addCompareVerb(app)},
+                             {"info", addInfoVerb(app)},       {"list", addListVerb(app)},
+                             {"bench", addBenchVerb(app)}};
+  for (const Verb& verb : verbs) addVerbosity(*app.get_subcommand(verb.name));
+  try {
+    const int code = runVerb(app, verbs, std::vector<std::string>(argv, argv + argc));
+    if (std::fflush(stdout) != 0) {
+      logError("stdout: cannot be written");
+      return int(ExitCode::badInput);
+    }
+    return code;
+  } catch (const Error& error) {
+    std::fflush(stdout);
+    logError(error.what());
+    return int(error.code());
+  } catch (const std::bad_alloc&) {
+    logError("out of memory; choose a smaller resolution or scene");
+    return int(ExitCode::deviceUnavailable);
+  } catch (const std::exception& error) {
+    logError(fmt::format("internal error: {}", error.what()));
+    return int(ExitCode::badInput);
+  }
+}

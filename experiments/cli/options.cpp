@@ -1,0 +1,165 @@
+#include "experiments/cli/options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "core/backend/backend.h"
+#include "core/caches/caches.h"
+#include "core/config.h"
+#include "core/error.h"
+
+namespace restlab {
+
+namespace {
+
+// A whole number of pixels in 1..kMaxSide, or 0 when `text` is none.
+uint32_t parseSide(std::string_view text) {
+  uint32_t side = 0;
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), side);
+  const bool whole = status == std::errc() && end == text.data() + text.size();
+  return whole && side <= kMaxSide ? side : 0;
+}
+
+ParameterMap parseParameters(const IntegratorInfo& info, const std::vector<std::string>& given) {
+  std::vector<std::string> names;
+  for (const ParameterInfo& parameter : info.parameters) names.push_back(parameter.name);
+  ParameterMap parameters;
+  for (const std::string& assignment : given) {
+    const auto [key, value] = splitAssignment(assignment);
+    const auto found = std::find(names.begin(), names.end(), key);
+    if (found == names.end()) {
+      failUsage(fmt::format("--set {}: integrator {} has no parameter '{}'{}", assignment, info.name,
+                            key, didYouMean(key, names)));
+    }
+    parameters[key] = parseParameter(info.parameters[size_t(found - names.begin())], value,
+                                     "--set " + assignment);
+  }
+  return parameters;
+}
+
+void requireBackend(const std::string& name) {
+  std::vector<std::string> names;
+  for (const BackendInfo& info : backendRegistry()) {
+    if (info.name == name) {
+      if (info.available) return;
+      throw Error(ExitCode::deviceUnavailable,
+                  fmt::format("backend {} is not available: {}", name, info.whyNot));
+    }
+    names.push_back(info.name);
+  }
+  failUsage(fmt::format("--backend {}: unknown backend (known: {}){}", name, fmt::join(names, ", "),
+                        didYouMean(name, names)));
+}
+
+}  // namespace
+
+void addThreads(CLI::App& verb, int& threads) {
+  verb.add_option("-t,--threads,--nthreads", threads, "threads; 0: all cores")
+      ->check(CLI::Range(0, 1024));
+}
+
+void addOutput(CLI::App& verb, std::string& output) {
+  verb.add_option("-o,--output,--outfile", output, "EXR file to write")->required();
+}
+
+void addSceneOptions(CLI::App& verb, SceneOptions& options) {
+  SceneRequest& request = options.request;
+  verb.add_option("scene", request.scene, "a glTF file or a built-in scene (restlab list scenes)")
+      ->required();
+  verb.add_option("--resolution", options.resolution, "WxH pixels (default: 512 wide, the camera's "
+                                                      "aspect ratio)");
+  verb.add_option("--width", options.width, "pixels")->check(CLI::Range(1u, kMaxSide));
+  verb.add_option("--height", options.height, "pixels")->check(CLI::Range(1u, kMaxSide));
+  verb.add_option("--seed", options.seed, "random seed (default 1)");
+  verb.add_option("--camera", request.camera, "name or index (default: the first)");
+  verb.add_option("--max-bounces", options.maxBounces,
+                  "scattering events; 0: emission only, 1: direct light (default 8)")
+      ->check(CLI::Range(0u, kMaxBounces));
+  verb.add_option("--environment", request.environment, "latitude-longitude .hdr or .exr");
+  verb.add_option("--environment-rotation", request.environmentRotation, "degrees about +Y")
+      ->check(CLI::Range(-360.0, 360.0));
+  verb.add_option("--environment-scale", request.environmentScale, "factor on its radiance")
+      ->check(CLI::Range(0.0, 1e9));
+  verb.add_option("--component", options.component, "all, direct or indirect light");
+  verb.add_option("--filter", options.filter, "pixel filter: box (one pixel) or center");
+  addThreads(verb, options.threads);
+}
+
+void addMethodOptions(CLI::App& verb, MethodOptions& options) {
+  verb.add_option("--integrator", options.integrator, "restlab list integrators (default path)");
+  verb.add_option("--mode", options.mode, "of the integrator (default: its first)");
+  verb.add_option("--cache", options.cache, "where reservoirs live (default pixel)");
+  verb.add_option("--backend", options.backend, "restlab list backends (default cpu)");
+  verb.add_option("--set", options.parameters, "KEY=VALUE: a parameter of the integrator")
+      ->take_all()
+      ->allow_extra_args(false);
+  verb.add_flag("--rr", options.russianRoulette, "Russian roulette (default off)");
+  verb.add_flag("--general", options.general, "the general kernels instead of specialised ones");
+}
+
+void resolveResolution(SceneOptions& options) {
+  if (options.resolution.empty()) return;
+  if (options.width || options.height) {
+    failUsage("--resolution and --width/--height exclude each other");
+  }
+  const size_t x = options.resolution.find_first_of("xX");
+  const std::string_view text = options.resolution;
+  if (x != std::string::npos) {
+    options.width = parseSide(text.substr(0, x));
+    options.height = parseSide(text.substr(x + 1));
+  }
+  if (!options.width || !options.height) {
+    failUsage(fmt::format("--resolution {}: must be WxH with both sides in 1..{}, for example 640x360",
+                          options.resolution, kMaxSide));
+  }
+}
+
+SessionConfig makeConfig(const SceneOptions& scene, const MethodOptions& method) {
+  SessionConfig config;
+  const IntegratorInfo& info = findIntegrator(method.integrator);
+  std::vector<std::string> modes;
+  for (const ModeInfo& mode : info.modes) modes.push_back(mode.name);
+  config.integrator = info.name;
+  config.mode = method.mode.empty() ? modes.front() : method.mode;
+  if (std::find(modes.begin(), modes.end(), config.mode) == modes.end()) {
+    failUsage(fmt::format("--mode {}: integrator {} knows {}{}", method.mode, info.name,
+                          fmt::join(modes, ", "), didYouMean(method.mode, modes)));
+  }
+  checkCacheName(method.cache);
+  requireBackend(method.backend);
+  config.cache = method.cache;
+  config.backend = method.backend;
+  config.parameters = parseParameters(info, method.parameters);
+  config.russianRoulette = method.russianRoulette;
+  config.specialise = !method.general;
+  config.width = scene.width;
+  config.height = scene.height;
+  config.seed = scene.seed;
+  config.maxBounces = scene.maxBounces;
+  config.components = parseComponent(scene.component, "--component");
+  config.pixelFilter = parseFilter(scene.filter, "--filter");
+  config.threads = scene.threads;
+  return config;
+}
+
+void completeConfig(const PreparedScene& prepared, SessionConfig& config) {
+  config.camera = prepared.camera;
+  completeResolution(prepared, config.width, config.height);
+}
+
+std::vector<std::string> splitList(const std::string& text, const std::string& option) {
+  std::vector<std::string> items;
+  size_t begin = 0;
+  while (begin <= text.size()) {
+    const size_t comma = std::min(text.find(',', begin), text.size());
+    const std::string item = text.substr(begin, comma - begin);
+    if (item.empty()) failUsage(fmt::format("{} '{}': has an empty name", option, text));
+    items.push_back(item);
+    begin = comma + 1;
+  }
+  return items;
+}
+
+}  // namespace restlab

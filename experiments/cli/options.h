@@ -1,0 +1,54 @@
+// Options that several verbs share, and their translation to a session.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/runner/prepare.h"
+
+namespace restlab {
+
+struct SceneOptions {
+  SceneRequest request;
+  std::string resolution;      // "WxH"
+  uint32_t width = 0, height = 0;
+  uint32_t seed = 1;
+  uint32_t maxBounces = 8;
+  std::string component = "all";
+  std::string filter = "box";
+  int threads = 0;
+};
+
+struct MethodOptions {
+  std::string integrator = "path";
+  std::string mode;
+  std::string cache = "pixel";
+  std::string backend = "cpu";
+  std::string denoiser = "none";
+  std::vector<std::string> parameters;  // KEY=VALUE
+  bool russianRoulette = false;
+  bool general = false;
+};
+
+// Bounds that the options state in --help.
+constexpr uint32_t kMaxSide = 16384;
+constexpr uint32_t kMaxBounces = 1024;
+
+void addSceneOptions(CLI::App& verb, SceneOptions& options);
+void addMethodOptions(CLI::App& verb, MethodOptions& options);
+void addOutput(CLI::App& verb, std::string& output);
+void addThreads(CLI::App& verb, int& threads);
+
+// Width and height from --resolution, --width, --height; 0 where not given. Throws badUsage.
+void resolveResolution(SceneOptions& options);
+
+// A validated configuration; camera and size are filled in from the scene. Throws badUsage.
+SessionConfig makeConfig(const SceneOptions& scene, const MethodOptions& method);
+void completeConfig(const PreparedScene& prepared, SessionConfig& config);
+
+// "a,b" to {"a", "b"}; empty items are an error naming `option`.
+std::vector<std::string> splitList(const std::string& text, const std::string& option);
+
+}  // namespace restlab

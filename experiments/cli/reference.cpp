@@ -1,0 +1,71 @@
+// restlab reference: a converged image in two independent halves.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "experiments/cli/options.h"
+#include "experiments/cli/verbs.h"
+#include "experiments/runner/log.h"
+#include "experiments/runner/reference.h"
+
+namespace restlab {
+
+namespace {
+
+struct ReferenceOptions {
+  SceneOptions scene;
+  std::string output, integrator = "path", backend = "cpu";
+  ReferenceTarget target;
+};
+
+void makeReference(ReferenceOptions options) {
+  resolveResolution(options.scene);
+  if (options.integrator != "path") {
+    failUsage(fmt::format("--integrator {}: a reference is made by path, whose error is known",
+                          options.integrator));
+  }
+  if (!options.target.spp && !(options.target.relmse > 0.0) && !(options.target.timeLimitS > 0.0)) {
+    failUsage("reference: needs one of --spp, --target-relmse, --time-limit");
+  }
+  MethodOptions method;
+  method.backend = options.backend;
+  SessionConfig session = makeConfig(options.scene, method);
+  checkWritable(options.output);
+
+  const PreparedScene prepared = prepareScene(options.scene.request);
+  printWarnings(prepared);
+  completeConfig(prepared, session);
+  ReferenceConfig config;
+  config.width = session.width;
+  config.height = session.height;
+  config.maxBounces = session.maxBounces;
+  config.components = session.components;
+  config.pixelFilter = session.pixelFilter;
+  config.seed = session.seed;
+  config.threads = session.threads;
+  const Reference reference = renderReference(prepared, config, options.target);
+  writeReference(options.output, reference);
+  logInfo(fmt::format("{}: {} spp in {:.1f} s, relmse {:.3g} (estimated from the halves)",
+                      options.output, reference.spp, reference.timeS, reference.relmse));
+}
+
+}  // namespace
+
+Action addReferenceVerb(CLI::App& app) {
+  auto options = std::make_shared<ReferenceOptions>();
+  CLI::App* verb = app.add_subcommand("reference", "render a converged reference with its own error");
+  addSceneOptions(*verb, options->scene);
+  addOutput(*verb, options->output);
+  verb->add_option("--integrator", options->integrator, "path, and nothing else");
+  verb->add_option("--backend", options->backend, "restlab list backends (default cpu)");
+  verb->add_option("--spp", options->target.spp, "samples per pixel of both halves together")
+      ->check(CLI::Range(uint64_t(2), uint64_t(1) << 40));
+  verb->add_option("--target-relmse", options->target.relmse,
+                   "until the mean's estimated relmse_e1e-2 is at most this")
+      ->check(CLI::Range(1e-12, 1e6));
+  verb->add_option("--time-limit", options->target.timeLimitS, "seconds of rendering")
+      ->check(CLI::Range(1e-3, 1e9));
+  return [options](Outcome&) { makeReference(*options); };
+}
+
+}  // namespace restlab

@@ -1,0 +1,155 @@
+// restlab render: one image of one integrator.
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+
+#include "core/image/metrics.h"
+#include "core/scene/compiled_scene.h"
+#include "experiments/cli/options.h"
+#include "experiments/cli/verbs.h"
+#include "experiments/runner/accumulate.h"
+#include "experiments/runner/interrupt.h"
+#include "experiments/runner/log.h"
+
+namespace restlab {
+
+namespace {
+
+// `--spp` of a method with a history takes frames after this many.
+constexpr uint64_t kWarmupFrames = 32;
+constexpr uint64_t kMaxCount = 1u << 30;
+
+struct RenderOptions {
+  SceneOptions scene;
+  MethodOptions method;
+  std::string output, png, aovs;
+  uint64_t frames = 0, spp = 0;  // 0: not given
+};
+
+std::vector<std::string> checkedAovs(const std::string& list) {
+  if (list.empty()) return {};
+  const std::vector<std::string> names = splitList(list, "--aov"), known = Session::aovNames();
+  for (const std::string& name : names) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    failUsage(fmt::format("--aov {}: unknown name (known: {}){}", name, fmt::join(known, ", "),
+                          didYouMean(name, known)));
+  }
+  return names;
+}
+
+std::filesystem::path pngPath(const RenderOptions& options) {
+  if (!options.png.empty() && options.png != "beside") return options.png;
+  return std::filesystem::path(options.output).replace_extension(".png");
+}
+
+// What came out of the frames.
+struct Rendered {
+  Image image;
+  HealthSum health;
+  double timeMs = 0.0;  // of the frames in the image
+  uint64_t spp = 1, warmup = 0, frame = 0;
+};
+
+Rendered renderFrames(Session& session, const RenderOptions& options, bool history) {
+  Rendered rendered;
+  const bool mean = options.spp > 0;
+  rendered.spp = mean ? options.spp : 1;
+  if (mean) {
+    rendered.warmup = history ? kWarmupFrames : 0;
+  } else {
+    rendered.warmup = std::max<uint64_t>(options.frames, 1) - 1;
+  }
+  if (mean && history) {
+    logInfo(fmt::format("the image is the mean of {} consecutive frames of one history after {} "
+                        "warm-up frames; they are not independent samples", options.spp,
+                        kWarmupFrames));
+  }
+  const uint64_t total = rendered.warmup + rendered.spp;
+  Progress progress("frame", total);
+  ImageSum sum;
+  for (uint64_t frame = 0; frame < total; ++frame) {
+    throwIfInterrupted("the image is not finished and was not written");
+    const FrameStats stats = session.frame();
+    progress.update(frame + 1);
+    if (frame < rendered.warmup) continue;
+    if (mean) sum.add(session.radiance());
+    rendered.health.add(stats);
+    rendered.timeMs += stats.timeMs;
+  }
+  throwIfInterrupted("the image is not finished and was not written");
+  rendered.image = mean ? sum.mean() : session.radiance();
+  rendered.frame = total - 1;
+  return rendered;
+}
+
+LayeredImage layers(const Session& session, const PreparedScene& prepared, const Rendered& rendered,
+                    const std::vector<std::string>& aovs) {
+  LayeredImage file;
+  for (const std::string& name : aovs) file.layers[name] = session.aov(name);
+  file.layers[""] = rendered.image;
+  file.metadata = describe(prepared, session.config());
+  file.metadata["kind"] = "image";
+  file.metadata["seed"] = std::to_string(session.config().seed);
+  file.metadata["spp"] = std::to_string(rendered.spp);
+  file.metadata["warmup_frames"] = std::to_string(rendered.warmup);
+  file.metadata["frame"] = std::to_string(rendered.frame);
+  file.metadata["render_time_s"] = fmt::format("{:.6g}", rendered.timeMs / 1000.0);
+  file.metadata["health"] = rendered.health.text();
+  file.metadata["features_needed"] = featureNames(session.featuresNeeded());
+  file.metadata["features_left_out"] =
+      featureNames(rl::RL_FEATURE_ALL & ~session.featuresUsed());
+  return file;
+}
+
+void render(RenderOptions options) {
+  resolveResolution(options.scene);
+  SessionConfig config = makeConfig(options.scene, options.method);
+  const std::vector<std::string> aovs = checkedAovs(options.aovs);
+  checkWritable(options.output);
+  const bool png = !options.png.empty();
+  if (png) checkWritable(pngPath(options));
+
+  const PreparedScene prepared = prepareScene(options.scene.request);
+  printWarnings(prepared);
+  completeConfig(prepared, config);
+  Session session(prepared.scene, config);
+  logDetail(fmt::format("{}: {} triangles, loaded in {:.0f} ms; {} at {}x{}",
+                        prepared.scene->source().name, prepared.scene->instancedTriangleCount(),
+                        prepared.loadTimeMs, config.integrator, config.width, config.height));
+  const Rendered rendered = renderFrames(session, options, hasHistory(config));
+  const LayeredImage file = layers(session, prepared, rendered, aovs);
+  writeExr(options.output, file);
+  if (png) writePng(pngPath(options), rendered.image);
+
+  const size_t nonfinite = countNonfinite(rendered.image);
+  const uint64_t dropped = rendered.health.health.counts[rl::RL_HEALTH_NONFINITE];
+  if (nonfinite) logWarning(fmt::format("the image holds {} non-finite values", nonfinite));
+  if (dropped) logWarning(fmt::format("{} non-finite sample values were set to zero", dropped));
+  logInfo(fmt::format("{}: {}x{}, {:.1f} ms per frame, health: {}", options.output, config.width,
+                      config.height, rendered.timeMs / double(rendered.spp),
+                      rendered.health.text()));
+}
+
+}  // namespace
+
+Action addRenderVerb(CLI::App& app) {
+  auto options = std::make_shared<RenderOptions>();
+  CLI::App* verb = app.add_subcommand("render", "render one image");
+  addSceneOptions(*verb, options->scene);
+  addMethodOptions(*verb, options->method);
+  addOutput(*verb, options->output);
+  CLI::Option* frames =
+      verb->add_option("--frames", options->frames, "what a viewer shows at frame N (default 1)")
+          ->check(CLI::Range(uint64_t(1), kMaxCount));
+  verb->add_option("--spp", options->spp, "the mean of N samples per pixel")
+      ->check(CLI::Range(uint64_t(1), kMaxCount))
+      ->excludes(frames);
+  verb->add_option("--aov", options->aovs, "comma-separated layers: radiance, positionW, ...");
+  verb->add_option("--png", options->png, "an sRGB preview; without a name beside the EXR")
+      ->expected(0, 1)
+      ->default_str("beside");
+  return [options](Outcome&) { render(*options); };
+}
+
+}  // namespace restlab

@@ -1,0 +1,88 @@
+// restlab run: a suite of experiments.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "core/backend/backend.h"
+#include "core/caches/caches.h"
+#include "experiments/cli/options.h"
+#include "experiments/cli/verbs.h"
+#include "experiments/runner/files.h"
+#include "experiments/runner/log.h"
+#include "experiments/runner/suite_runner.h"
+
+namespace restlab {
+
+namespace {
+
+struct RunOptions {
+  std::string suite, out, scenes, methods;
+  std::vector<std::string> overrides;
+  int threads = -1;  // -1: as the suite says
+};
+
+// Keeps the items whose name is in the comma-separated list.
+template <class Item>
+void keepNamed(std::vector<Item>& items, const std::string& list, const std::string& option) {
+  if (list.empty()) return;
+  std::vector<std::string> names;
+  for (const Item& item : items) names.push_back(item.name);
+  const std::vector<std::string> wanted = splitList(list, option);
+  for (const std::string& name : wanted) {
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    failUsage(fmt::format("{} {}: not in the suite (it has: {}){}", option, name,
+                          fmt::join(names, ", "), didYouMean(name, names)));
+  }
+  std::erase_if(items, [&](const Item& item) {
+    return std::find(wanted.begin(), wanted.end(), item.name) == wanted.end();
+  });
+}
+
+void runVerb(const RunOptions& options, Outcome& outcome) {
+  Suite suite = loadSuite(options.suite, options.overrides);
+  keepNamed(suite.scenes, options.scenes, "--scenes");
+  keepNamed(suite.methods, options.methods, "--methods");
+  if (options.threads >= 0) suite.threads = options.threads;
+  for (const SuiteMethod& method : suite.methods) checkCacheName(method.session.cache);
+  MethodOptions backend;
+  backend.backend = suite.backend;
+  makeConfig(SceneOptions(), backend);  // checks the name and that the device is there
+  if (suite.runs < 2) {
+    logWarning("runs = 1: no interval and no bias can be given; biased rows will not count");
+  }
+  if (suite.yardstick() == suite.methods.size()) {
+    logWarning("the suite has no method with integrator = \"path\": there is nothing to compare "
+               "with, ratios are nan");
+  }
+  SuiteRequest request;
+  request.out = options.out.empty() ? std::filesystem::path("results") / safeFileName(suite.name)
+                                    : std::filesystem::path(options.out);
+  request.argv = outcome.argv;
+  logInfo(fmt::format("{}: {} scenes, {} methods, {} runs; results in {}", suite.name,
+                      suite.scenes.size(), suite.methods.size(), suite.runs,
+                      request.out.string()));
+  if (!runSuite(suite, request)) {
+    throw Error(ExitCode::interrupted,
+                fmt::format("interrupted: finished runs are kept in {}", request.out.string()));
+  }
+}
+
+}  // namespace
+
+Action addRunVerb(CLI::App& app) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App* verb = app.add_subcommand("run", "run a suite: errors and times against references");
+  verb->add_option("suite", options->suite, "a TOML file (experiments/suites has some)")->required();
+  verb->add_option("-o,--out", options->out, "folder of the results (default results/NAME)");
+  verb->add_option("--set", options->overrides,
+                   "KEY=VALUE: a setting, reference.KEY, method.KEY or method.NAME.KEY")
+      ->take_all()
+      ->allow_extra_args(false);
+  verb->add_option("--scenes", options->scenes, "only these scenes of the suite, comma-separated");
+  verb->add_option("--methods", options->methods, "only these methods, comma-separated");
+  addThreads(*verb, options->threads);
+  return [options](Outcome& outcome) { runVerb(*options, outcome); };
+}
+
+}  // namespace restlab

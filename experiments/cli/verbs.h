@@ -1,0 +1,30 @@
+// One function a verb: adds it to the command line; its callback does the work. Errors are thrown.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+
+namespace restlab {
+
+// What a verb's callback leaves behind.
+struct Outcome {
+  ExitCode code = ExitCode::ok;
+  std::vector<std::string> argv;  // the whole command line, for records
+};
+
+using Action = std::function<void(Outcome&)>;
+
+// Each returns what runs when the verb was given.
+Action addRunVerb(CLI::App& app);
+Action addRenderVerb(CLI::App& app);
+Action addReferenceVerb(CLI::App& app);
+Action addCompareVerb(CLI::App& app);
+Action addInfoVerb(CLI::App& app);
+Action addListVerb(CLI::App& app);
+Action addBenchVerb(CLI::App& app);
+
+}  // namespace restlab

@@ -1,0 +1,105 @@
+#include "experiments/runner/build_info.h"
+
+#include <embree3/rtcore.h>
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/utsname.h>
+#include <tbb/version.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "source_hash.h"
+
+namespace restlab {
+
+namespace {
+
+// The first line of a small system file, or "unknown".
+std::string firstLine(const char* file) {
+  std::ifstream in(file);
+  std::string line;
+  return std::getline(in, line) && !line.empty() ? line : "unknown";
+}
+
+}  // namespace
+
+const BuildInfo& buildInfo() {
+  static const BuildInfo info = {RESTLAB_SOURCE_HASH, RESTLAB_REFERENCE_HASH, RESTLAB_GIT_COMMIT,
+                                 RESTLAB_GIT_DIRTY != 0, RESTLAB_COMPILER,
+                                 RESTLAB_COMPILER_FLAGS, RESTLAB_BUILD_TYPE, RESTLAB_VERSION};
+  return info;
+}
+
+std::string cpuModel() {
+  std::ifstream in("/proc/cpuinfo");
+  std::string line;
+  while (std::getline(in, line)) {
+    const size_t colon = line.find(": ");
+    if (line.rfind("model name", 0) == 0 && colon != std::string::npos) {
+      return line.substr(colon + 2);
+    }
+  }
+  return "unknown";
+}
+
+std::string embreeVersion() {
+  return fmt::format("{}.{}.{}", RTC_VERSION_MAJOR, RTC_VERSION_MINOR, RTC_VERSION_PATCH);
+}
+
+std::string utcNow() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc = {};
+  gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+double peakResidentMiB() {
+  rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  return double(usage.ru_maxrss) / 1024.0;
+}
+
+double processCpuSeconds() {
+  rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+nlohmann::ordered_json buildJson() {
+  const BuildInfo& build = buildInfo();
+  return {{"version", build.version},
+          {"git_commit", build.gitCommit},
+          {"git_dirty", build.gitDirty},
+          {"source_hash", build.sourceHash},
+          {"reference_hash", build.referenceHash},
+          {"compiler", build.compiler},
+          {"flags", build.compilerFlags},
+          {"build_type", build.buildType},
+          {"embree", embreeVersion()},
+          {"tbb", TBB_runtime_version()}};
+}
+
+nlohmann::ordered_json machineJson() {
+  utsname system = {};
+  uname(&system);
+  double load[3] = {-1.0, -1.0, -1.0};
+  if (getloadavg(load, 3) < 1) load[0] = -1.0;
+  const double memoryMiB =
+      double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
+  return {{"cpu", cpuModel()},
+          {"cores", std::thread::hardware_concurrency()},
+          {"governor", firstLine("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor")},
+          {"load_1min", load[0]},
+          {"memory_mib", memoryMiB},
+          {"system", fmt::format("{} {} {}", system.sysname, system.release, system.machine)}};
+}
+
+}  // namespace restlab

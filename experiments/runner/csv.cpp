@@ -1,0 +1,134 @@
+// summary.csv: the columns scripts depend on first and in their order, further ones after them.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "experiments/runner/report.h"
+
+namespace restlab {
+
+namespace {
+
+std::string number(double value) {
+  if (std::isnan(value)) return "nan";
+  if (std::isinf(value)) return value > 0.0 ? "inf" : "-inf";
+  return fmt::format("{:.9g}", value);
+}
+
+// RFC 4180: quoted where a comma, quote or line break stands inside.
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out.append(c == '"' ? 2 : 1, c);
+  out += '"';
+  return out;
+}
+
+struct Column {
+  std::string name;
+  std::string value;
+};
+
+std::vector<Column> contractColumns(const Suite& suite, const MethodSummary& row) {
+  const SessionConfig& session = row.method->session;
+  return {{"scene", row.block->scene},
+          {"camera", row.block->camera},
+          {"integrator", session.integrator},
+          {"mode", session.mode},
+          {"cache", hasHistory(session) ? session.cache : "none"},
+          {"backend", suite.backend},
+          {"denoiser", session.denoiser},
+          {"width", std::to_string(row.block->width)},
+          {"height", std::to_string(row.block->height)},
+          {"frames", std::to_string(suite.timedFrames)},
+          {"runs", std::to_string(row.runs)},
+          {"time_ms_median", number(row.timeMsMedian)},
+          {"time_ms_p95", number(row.timeMsP95)},
+          {"mse", number(row.mse.value)},
+          {"mse_ci_lo", number(row.mse.lo)},
+          {"mse_ci_hi", number(row.mse.hi)},
+          {"relmse_e1e-2", number(row.relmse.value)},
+          {"energy_ratio", number(row.energyRatio.value)},
+          {"nonfinite", std::to_string(row.nonfinite)},
+          {"mse_ratio", number(row.mseRatio.value)},
+          {"time_ratio", number(row.timeRatio)},
+          {"efficiency_ratio", number(row.efficiencyRatio)},
+          {"features_left_out", featuresLeftOut(*row.result)}};
+}
+
+std::vector<Column> furtherColumns(const Suite& suite, const MethodSummary& row) {
+  std::string flags, passes;
+  for (const std::string& flag : row.flags) {
+    flags += flags.empty() ? "" : "; ";
+    flags += flag;
+  }
+  for (const PassTiming& pass : row.passes) {
+    passes += fmt::format("{}{}={:.4g}", passes.empty() ? "" : " ", pass.name, pass.timeMs);
+  }
+  std::vector<Column> columns = {
+      {"component", componentName(row.block->component)},
+      {"method", row.method->name},
+      {"bias_class", biasName(row.bias)},
+      {"counts", row.counts ? "1" : "0"},
+      {"flags", flags},
+      {"mse_ratio_ci_lo", number(row.mseRatio.lo)},
+      {"mse_ratio_ci_hi", number(row.mseRatio.hi)},
+      {"time_ratio_paired", number(row.timeRatioPaired.value)},
+      {"time_ratio_ci_lo", number(row.timeRatioPaired.lo)},
+      {"time_ratio_ci_hi", number(row.timeRatioPaired.hi)},
+      {"efficiency_ratio_ci_lo", number(row.efficiencyPaired.lo)},
+      {"efficiency_ratio_ci_hi", number(row.efficiencyPaired.hi)},
+      {"energy_ratio_ci_lo", number(row.energyRatio.lo)},
+      {"energy_ratio_ci_hi", number(row.energyRatio.hi)},
+      {"relmse_e1e-2_ci_lo", number(row.relmse.lo)},
+      {"relmse_e1e-2_ci_hi", number(row.relmse.hi)},
+      {"bias_squared", number(row.biasSquared)},
+      {"bias_share_of_mse", number(row.biasShare)},
+      {"worst_0.1pct_share_of_mse", number(row.worstShare)},
+      {"rays_per_pixel", number(row.raysPathPerPixel + row.raysShadowPerPixel)},
+      {"path_rays_per_pixel", number(row.raysPathPerPixel)},
+      {"shadow_rays_per_pixel", number(row.raysShadowPerPixel)},
+      {"bytes_per_pixel", std::to_string(row.result->bytesPerPixel)},
+      {"passes_ms_median", passes},
+      {"max_bounces", std::to_string(suite.maxBounces)},
+      {"warmup_frames", std::to_string(suite.warmupFrames)},
+      {"russian_roulette", suite.russianRoulette ? "on" : "off"},
+      {"filter", filterName(suite.pixelFilter)},
+      {"seed", std::to_string(suite.seed)},
+      {"kernel", row.method->session.specialise ? "specialised" : "general"},
+      {"reference_spp", std::to_string(row.block->reference.spp)},
+      {"reference_relmse", number(row.block->reference.relmse)},
+  };
+  for (size_t i = 0; i < rl::RL_HEALTH_COUNT; ++i) {
+    const char* name = Health::names()[i];
+    if (!name || !*name) continue;
+    columns.push_back({fmt::format("health_{}", name),
+                       std::to_string(row.health.health.counts[i])});
+  }
+  return columns;
+}
+
+}  // namespace
+
+std::string summaryCsv(const Suite& suite, const std::vector<MethodSummary>& rows) {
+  std::string heading, lines;
+  for (const MethodSummary& row : rows) {
+    std::vector<Column> columns = contractColumns(suite, row);
+    for (Column& column : furtherColumns(suite, row)) columns.push_back(std::move(column));
+    std::string names, values;
+    for (const Column& column : columns) {
+      if (&column != &columns.front()) {
+        names += ',';
+        values += ',';
+      }
+      names += column.name;
+      values += quoted(column.value);
+    }
+    heading = names;
+    lines += values;
+    lines += '\n';
+  }
+  return heading.empty() ? "" : fmt::format("{}\n{}", heading, lines);
+}
+
+}  // namespace restlab

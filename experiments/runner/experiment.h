@@ -1,0 +1,63 @@
+// Executes one block of a suite: one scene and component, all methods, all runs. The methods are
+// interleaved frame by frame, so that whatever slows the machine down slows all of them alike.
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "experiments/runner/accumulate.h"
+#include "experiments/runner/suite.h"
+
+namespace restlab {
+
+// Errors of one frame against the reference.
+struct FrameError {
+  uint32_t frame = 0;  // of the history, from 0
+  double mse = 0.0;    // against the two halves where the reference has them
+  double relmse = 0.0;
+  double energyRatio = 0.0;
+  double worstShare = 0.0;  // of the MSE, in the worst 0.1 % of the pixels
+  uint64_t nonfinite = 0;   // channel values in the image
+};
+
+struct RunResult {
+  size_t method = 0;
+  uint32_t run = 0, seed = 0;
+  FrameError measured;                  // of the frame after the warm-up
+  std::vector<FrameError> checkpoints;  // the suite's further frames
+  std::vector<double> timesMs;          // of the timed frames: the passes, nothing else
+  std::vector<PassTiming> passes;       // median over the timed frames
+  HealthSum health;                     // over the timed frames
+};
+
+struct MethodResult {
+  std::vector<RunResult> runs;
+  ImageSum evenRuns, oddRuns;  // of the measured frames: two halves for the squared bias
+  Image shown;                 // measured frame of run 0
+  std::map<std::string, std::string> metadata;  // of that image
+  uint32_t featuresNeeded = 0, featuresUsed = 0;
+  size_t bytesPerPixel = 0;
+};
+
+struct BlockResult {
+  std::string scene, camera;
+  uint32_t component = rl::RL_COMPONENT_ALL;
+  uint32_t width = 0, height = 0;
+  Reference reference;
+  std::string referenceFile;
+  std::vector<MethodResult> methods;  // in the suite's order
+};
+
+// Called after every finished run of a method.
+using RunSink = std::function<void(const BlockResult&, const RunResult&)>;
+
+// Renders the block into `block`, whose scene, size and reference are set. Returns false when it was
+// interrupted: the runs that were not finished are absent then, all others are kept.
+bool executeBlock(const Suite& suite, const PreparedScene& prepared, const RunSink& sink,
+                  BlockResult& block);
+
+// Errors of `image` (MSE against the halves where there are halves).
+FrameError measureFrame(const Image& image, const Reference& reference, uint32_t frame);
+
+}  // namespace restlab

@@ -1,0 +1,25 @@
+// Result folders and the search for scenes and environments.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace restlab {
+
+// Appends whole lines; the file is made when absent. Throws Error (badInput).
+void appendLine(const std::filesystem::path& file, const std::string& line);
+
+// Makes a directory and its parents; throws Error (badInput) when it cannot be written to.
+void makeWritableDirectory(const std::filesystem::path& directory);
+
+// `name` as given (a scene's extension may be left out), else under RESTLAB_SCENES, else under
+// ../shared/scenes; empty when nowhere.
+std::filesystem::path findAsset(const std::string& name);
+
+// The folder of scenes of others: RESTLAB_SCENES, else ../shared/scenes; empty when absent.
+std::filesystem::path sceneFolder();
+
+// A name that is safe as part of a file name: letters, digits, '.', '_', '-'.
+std::string safeFileName(const std::string& name);
+
+}  // namespace restlab

@@ -1,0 +1,32 @@
+#include "experiments/runner/interrupt.h"
+
+#include <csignal>
+#include <string>
+
+#include "core/error.h"
+
+namespace restlab {
+
+namespace {
+
+volatile std::sig_atomic_t signalSeen = 0;
+
+void onSignal(int) { signalSeen = 1; }
+
+}  // namespace
+
+void installInterruptHandler() {
+  struct sigaction action = {};
+  action.sa_handler = onSignal;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);  // the second signal has its default effect
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+bool interruptRequested() { return signalSeen != 0; }
+
+void throwIfInterrupted(const char* what) {
+  if (interruptRequested()) throw Error(ExitCode::interrupted, std::string("interrupted: ") + what);
+}
+
+}  // namespace restlab

@@ -1,0 +1,12 @@
+// SIGINT and SIGTERM: the current frame is finished, finished results are kept, exit code 130.
+#pragma once
+
+namespace restlab {
+
+// The first signal sets a flag; a second one ends the process at once.
+void installInterruptHandler();
+bool interruptRequested();
+// Throws Error (ExitCode::interrupted) when a signal has come.
+void throwIfInterrupted(const char* what);
+
+}  // namespace restlab

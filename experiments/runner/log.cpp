@@ -1,0 +1,83 @@
+#include "experiments/runner/log.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace restlab {
+
+namespace {
+
+int level = 0;
+
+// One line whatever a file name or a library's message holds.
+void line(std::string text) {
+  for (char& c : text) {
+    if (c == '\n' || c == '\r') c = ' ';
+  }
+  std::fputs((text + "\n").c_str(), stderr);
+  std::fflush(stderr);
+}
+
+}  // namespace
+
+void setVerbosity(int newLevel) { level = newLevel; }
+int verbosity() { return level; }
+
+void logInfo(const std::string& text) {
+  if (level >= 0) line(text);
+}
+void logDetail(const std::string& text) {
+  if (level >= 1) line(text);
+}
+void logWarning(const std::string& text) { line("warning: " + text); }
+void logError(const std::string& text) { line("error: " + text); }
+
+Progress::Progress(std::string label, uint64_t total)
+    : label_(std::move(label)),
+      total_(total),
+      start_(Clock::now()),
+      lastPrint_(start_),
+      terminal_(isatty(STDERR_FILENO) != 0) {}
+
+Progress::~Progress() { finish(); }
+
+void Progress::update(uint64_t done, const std::string& note) {
+  if (level < 0) return;
+  const auto now = Clock::now();
+  const double sinceLastS = std::chrono::duration<double>(now - lastPrint_).count();
+  const int tenth = total_ ? int(done * 10 / total_) : 0;
+  const bool due = terminal_ ? sinceLastS >= 0.2 || done == total_
+                             : (tenth > lastTenth_ && sinceLastS >= 1.0) || sinceLastS >= 30.0;
+  if (!due) return;
+  lastPrint_ = now;
+  lastTenth_ = tenth;
+  print(done, note);
+}
+
+void Progress::print(uint64_t done, const std::string& note) {
+  const double elapsedS = std::chrono::duration<double>(Clock::now() - start_).count();
+  std::string text = label_;
+  if (total_) {
+    const double leftS = done ? elapsedS * double(total_ - done) / double(done) : 0.0;
+    text += fmt::format(" {}/{} ({:.0f} s elapsed, {:.0f} s left)", done, total_, elapsedS, leftS);
+  } else {
+    text += fmt::format(" {} ({:.0f} s elapsed)", done, elapsedS);
+  }
+  if (!note.empty()) text += " " + note;
+  if (terminal_) {
+    std::fputs(fmt::format("\r{:<78}", text).c_str(), stderr);
+    std::fflush(stderr);
+    open_ = true;
+  } else {
+    line(text);
+  }
+}
+
+void Progress::finish() {
+  if (open_) std::fputs("\n", stderr);
+  open_ = false;
+}
+
+}  // namespace restlab

@@ -1,0 +1,38 @@
+// Lines for people, on stderr; stdout carries data only. No colours, so a file reads the same.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace restlab {
+
+// -1: errors and warnings only (-q); 0: normal; 1 and more: details (-v).
+void setVerbosity(int level);
+int verbosity();
+
+void logInfo(const std::string& line);     // normal
+void logDetail(const std::string& line);   // with -v
+void logWarning(const std::string& line);  // always, prefixed "warning: "
+void logError(const std::string& line);    // always, prefixed "error: "
+
+// Progress of a loop: on a terminal one line that is rewritten, else a line per 10 % or 30 s.
+class Progress {
+ public:
+  // `total` 0: unknown.
+  Progress(std::string label, uint64_t total);
+  ~Progress();
+  void update(uint64_t done, const std::string& note = "");
+  void finish();
+
+ private:
+  void print(uint64_t done, const std::string& note);
+  using Clock = std::chrono::steady_clock;
+  std::string label_;
+  uint64_t total_;
+  Clock::time_point start_, lastPrint_;
+  int lastTenth_ = 0;
+  bool terminal_, open_ = false;
+};
+
+}  // namespace restlab

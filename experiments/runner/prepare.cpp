@@ -1,0 +1,200 @@
+#include "experiments/runner/prepare.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.h"
+#include "experiments/runner/files.h"
+#include "experiments/runner/log.h"
+#include "experiments/runner/build_info.h"
+
+namespace restlab {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool isBuiltin(const std::string& name) {
+  for (const std::string& builtin : builtinSceneNames()) {
+    if (builtin == name) return true;
+  }
+  return false;
+}
+
+// A relative name is tried beside the suite too; "" when it is nowhere.
+std::string locate(const std::string& name, const std::string& suiteFolder) {
+  const fs::path found = findAsset(name);
+  if (!found.empty()) return found.string();
+  std::error_code status;
+  if (!suiteFolder.empty() && fs::exists(fs::path(suiteFolder) / name, status)) {
+    return (fs::path(suiteFolder) / name).string();
+  }
+  return "";
+}
+
+EnvironmentMap readEnvironment(const SceneRequest& request) {
+  const std::string found = locate(request.environment, request.suiteFolder);
+  if (found.empty()) {
+    failInput(fmt::format("{}: environment not found (looked here, in RESTLAB_SCENES and in "
+                          "../shared/scenes)", request.environment));
+  }
+  return loadEnvironment(found);
+}
+
+uint64_t hashEnvironment(const EnvironmentMap& map, uint64_t seed) {
+  const float numbers[4] = {float(map.width), float(map.height), map.rotation, map.scale};
+  uint64_t hash = XXH3_64bits_withSeed(numbers, sizeof(numbers), seed);
+  const size_t bytes = map.radiance.size() * sizeof(glm::vec3);
+  return XXH3_64bits_withSeed(map.radiance.data(), bytes, hash);
+}
+
+}  // namespace
+
+bool assetsMissing(const SceneRequest& request, std::string& missing) {
+  if (!isBuiltin(request.scene) && locate(request.scene, request.suiteFolder).empty()) {
+    missing = request.scene;
+  } else if (!request.environment.empty() &&
+             locate(request.environment, request.suiteFolder).empty()) {
+    missing = request.environment;
+  }
+  return !missing.empty();
+}
+
+PreparedScene prepareScene(const SceneRequest& request) {
+  const auto start = std::chrono::steady_clock::now();
+  PreparedScene prepared;
+  std::string name = request.scene;
+  if (!isBuiltin(name) && !request.suiteFolder.empty()) {
+    const std::string found = locate(name, request.suiteFolder);
+    if (!found.empty()) name = found;
+  }
+  Scene scene = loadScene(name);
+  prepared.environmentName = scene.environment ? scene.environment->source : "none";
+  if (prepared.environmentName.empty()) prepared.environmentName = "built-in";
+  if (!request.environment.empty()) {
+    scene.environment = readEnvironment(request);
+    prepared.environmentName = request.environment;
+  }
+  if (!scene.environment && (request.environmentRotation || request.environmentScale)) {
+    failUsage(fmt::format("{}: has no environment to rotate or scale; give one with --environment",
+                          request.scene));
+  }
+  if (request.environmentRotation) {
+    scene.environment->rotation = float(*request.environmentRotation * std::numbers::pi / 180.0);
+  }
+  if (request.environmentScale) scene.environment->scale = float(*request.environmentScale);
+  prepared.contentHash = scene.contentHash;
+  if (scene.environment) {
+    prepared.contentHash = hashEnvironment(*scene.environment, scene.contentHash);
+  }
+  prepared.camera = request.camera.empty() ? 0 : findCamera(scene, request.camera);
+  const std::string& cameraName = scene.cameras.at(prepared.camera).name;
+  prepared.cameraName = cameraName.empty() ? std::to_string(prepared.camera) : cameraName;
+  prepared.scene = CompiledScene::build(std::move(scene));
+  const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
+  prepared.loadTimeMs = spent.count();
+  return prepared;
+}
+
+void printWarnings(const PreparedScene& prepared) {
+  for (const std::string& warning : prepared.scene->warnings()) {
+    logWarning(fmt::format("{}: {}", prepared.scene->source().name, warning));
+  }
+}
+
+void completeResolution(const PreparedScene& prepared, uint32_t& width, uint32_t& height) {
+  const double aspect = prepared.scene->source().cameras.at(prepared.camera).aspect;
+  const double ratio = aspect > 0.0 ? aspect : 1.0;
+  if (width == 0 && height == 0) width = 512;
+  if (width == 0) width = std::max(1u, uint32_t(std::lround(height * ratio)));
+  if (height == 0) height = std::max(1u, uint32_t(std::lround(width / ratio)));
+}
+
+std::string componentName(uint32_t components) {
+  if (components == rl::RL_COMPONENT_DIRECT) return "direct";
+  if (components == rl::RL_COMPONENT_INDIRECT) return "indirect";
+  return "all";
+}
+
+uint32_t parseComponent(const std::string& name, const std::string& place) {
+  if (name == "all") return rl::RL_COMPONENT_ALL;
+  if (name == "direct") return rl::RL_COMPONENT_DIRECT;
+  if (name == "indirect") return rl::RL_COMPONENT_INDIRECT;
+  failUsage(fmt::format("{}: unknown component '{}' (known: all, direct, indirect){}", place, name,
+                        didYouMean(name, {"all", "direct", "indirect"})));
+}
+
+std::string filterName(uint32_t filter) {
+  return filter == rl::RL_FILTER_CENTER ? "center" : "box";
+}
+
+uint32_t parseFilter(const std::string& name, const std::string& place) {
+  if (name == "box") return rl::RL_FILTER_BOX;
+  if (name == "center") return rl::RL_FILTER_CENTER;
+  failUsage(fmt::format("{}: unknown filter '{}' (known: box, center){}", place, name,
+                        didYouMean(name, {"box", "center"})));
+}
+
+std::string hexHash(uint64_t hash) { return fmt::format("{:016x}", hash); }
+
+std::string parameterText(const ParameterValue& value) {
+  if (const bool* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+  if (const int64_t* integer = std::get_if<int64_t>(&value)) return std::to_string(*integer);
+  if (const double* number = std::get_if<double>(&value)) return fmt::format("{:.9g}", *number);
+  return std::get<std::string>(value);
+}
+
+std::map<std::string, std::string> describe(const PreparedScene& prepared,
+                                            const SessionConfig& config) {
+  const SceneCamera& camera = prepared.scene->source().cameras.at(prepared.camera);
+  std::string matrix;
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      matrix += fmt::format("{}{:.9g}", matrix.empty() ? "" : " ",
+                            camera.cameraToWorld[column][row]);
+    }
+  }
+  const Scene& source = prepared.scene->source();
+  std::map<std::string, std::string> words = {
+      {"program", "restlab"},
+      {"scene", source.name},
+      {"scene_source", source.source.empty() ? "built-in" : source.source.string()},
+      {"scene_hash", hexHash(prepared.contentHash)},
+      {"environment", prepared.environmentName},
+      {"camera", prepared.cameraName},
+      {"camera_index", std::to_string(prepared.camera)},
+      {"camera_to_world", matrix},
+      {"camera_yfov", fmt::format("{:.9g}", camera.yfov)},
+      {"integrator", config.integrator},
+      {"mode", config.mode},
+      {"cache", hasHistory(config) ? config.cache : "none"},
+      {"backend", config.backend},
+      {"denoiser", config.denoiser},
+      {"width", std::to_string(config.width)},
+      {"height", std::to_string(config.height)},
+      {"max_bounces", std::to_string(config.maxBounces)},
+      {"component", componentName(config.components)},
+      {"filter", filterName(config.pixelFilter)},
+      {"russian_roulette", config.russianRoulette ? "on" : "off"},
+      {"kernel", config.specialise ? "specialised" : "general"},
+      {"source_hash", buildInfo().sourceHash},
+      {"reference_sources", buildInfo().referenceHash},
+  };
+  if (source.environment) {
+    words["environment_rotation"] =
+        fmt::format("{:.9g}", source.environment->rotation * 180.0 / std::numbers::pi);
+    words["environment_scale"] = fmt::format("{:.9g}", source.environment->scale);
+  }
+  const ParameterMap all =
+      resolveParameters(findIntegrator(config.integrator), config.parameters);
+  for (const auto& [key, value] : all) words["parameter." + key] = parameterText(value);
+  return words;
+}
+
+bool hasHistory(const SessionConfig& config) { return findIntegrator(config.integrator).usesCache; }
+
+}  // namespace restlab

@@ -1,0 +1,61 @@
+// From names on a command line or in a suite to a compiled scene, and the words that describe it
+// in keys, metadata and results.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/scene/compiled_scene.h"
+#include "core/session.h"
+
+namespace restlab {
+
+struct SceneRequest {
+  std::string scene;
+  std::string camera;                         // name or index; "": the first
+  std::string environment;                    // file; "": the scene's own
+  std::optional<double> environmentRotation;  // degrees about +Y; absent: as the scene has it
+  std::optional<double> environmentScale;     // factor on the radiance
+  std::string suiteFolder;                    // where relative names are looked for as well
+};
+
+struct PreparedScene {
+  std::shared_ptr<const CompiledScene> scene;
+  uint32_t camera = 0;
+  std::string cameraName;
+  std::string environmentName;  // "none", a file or "built-in"
+  uint64_t contentHash = 0;     // scene bytes, environment texels, rotation and scale
+  double loadTimeMs = 0.0;      // import and compilation
+};
+
+// Imports and compiles. Throws Error: badInput for files, badUsage for an unknown camera.
+PreparedScene prepareScene(const SceneRequest& request);
+
+// True when the scene or the environment of the request is a file that is nowhere to be found.
+bool assetsMissing(const SceneRequest& request, std::string& missing);
+
+// Prints the scene's warnings on stderr, each once.
+void printWarnings(const PreparedScene& prepared);
+
+// The size in pixels where only one side, or none, was given: 512 wide, and the height from the
+// camera's aspect ratio, or square where the camera leaves it free.
+void completeResolution(const PreparedScene& prepared, uint32_t& width, uint32_t& height);
+
+std::string componentName(uint32_t components);
+// Throws badUsage with the nearest name; `place` names the option or the file position.
+uint32_t parseComponent(const std::string& name, const std::string& place);
+std::string filterName(uint32_t filter);
+uint32_t parseFilter(const std::string& name, const std::string& place);
+std::string hexHash(uint64_t hash);
+std::string parameterText(const ParameterValue& value);
+
+// The configuration as metadata of an image, without seed, sample count and times.
+std::map<std::string, std::string> describe(const PreparedScene& prepared,
+                                            const SessionConfig& config);
+
+// True when frames of this integrator depend on earlier ones.
+bool hasHistory(const SessionConfig& config);
+
+}  // namespace restlab

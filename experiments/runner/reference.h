@@ -1,0 +1,71 @@
+// Converged references: made by `path` with Russian roulette off, in two independent halves, so
+// that their own error is known; kept under a key of everything they depend on.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "core/image/image.h"
+#include "experiments/runner/prepare.h"
+
+namespace restlab {
+
+// What a reference depends on besides the scene.
+struct ReferenceConfig {
+  uint32_t width = 0, height = 0;
+  uint32_t maxBounces = 8;
+  uint32_t components = rl::RL_COMPONENT_ALL;
+  uint32_t pixelFilter = rl::RL_FILTER_BOX;
+  uint32_t seed = 1;  // not part of the key
+  int threads = 0;
+};
+
+// When to stop: at the first target that is reached; 0 is no target. One must be set.
+struct ReferenceTarget {
+  uint64_t spp = 0;          // samples per pixel of both halves together, at least 2
+  double relmse = 0.0;       // mean d^2/(r^2+1e-2) of the mean, estimated from the halves
+  double timeLimitS = 0.0;   // seconds of rendering
+};
+
+struct Reference {
+  Image mean;
+  std::optional<Image> half0, half1;  // absent in files made by other programs
+  std::optional<Image> variance;      // of the mean, per pixel
+  std::map<std::string, std::string> metadata;
+  uint64_t spp = 0;
+  double relmse = 0.0;  // estimate; NaN where unknown
+  double timeS = 0.0;   // rendering only
+};
+
+// The key: scene and environment bytes, camera, size, bounces, components, filter and the sources of
+// core/ and integrators/path.
+std::string referenceKey(const PreparedScene& prepared, const ReferenceConfig& config);
+
+// Renders until the target is reached; progress on stderr. Throws Error (interrupted) on SIGINT.
+Reference renderReference(const PreparedScene& prepared, const ReferenceConfig& config,
+                          const ReferenceTarget& target);
+
+// EXR with layers "" (mean), "variance", "half0", "half1" and the metadata.
+void writeReference(const std::filesystem::path& file, const Reference& reference);
+Reference readReference(const std::filesystem::path& file);
+
+// True when `reference` is at least as good as the target asks.
+bool meetsTarget(const Reference& reference, const ReferenceTarget& target);
+
+// Throws Error (badInput) naming the first item in which a reference given as a file disagrees with
+// what is asked; a file without restlab's metadata passes with a warning.
+void requireSameConfiguration(const std::string& file,
+                              const std::map<std::string, std::string>& reference,
+                              const std::map<std::string, std::string>& wanted);
+
+// The reference for a row of `run`: from `folder` or the user's cache where the key agrees, else
+// rendered and stored in both. `label` names the file inside `folder`.
+Reference obtainReference(const PreparedScene& prepared, const ReferenceConfig& config,
+                          const ReferenceTarget& target, const std::filesystem::path& folder,
+                          const std::string& label);
+
+// $XDG_CACHE_HOME/restlab/references or ~/.cache/restlab/references; empty where neither is set.
+std::filesystem::path referenceCacheFolder();
+
+}  // namespace restlab

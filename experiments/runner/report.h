@@ -1,0 +1,33 @@
+// What `run` leaves in its folder: results.jsonl, summary.csv, table.md, images, run.json.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/runner/summary.h"
+
+namespace restlab {
+
+// Version of the lines of results.jsonl; raised when a field changes its meaning.
+constexpr int kResultsSchema = 1;
+
+// One line for the measured frame and one for each checkpoint of a finished run.
+std::vector<std::string> resultLines(const Suite& suite, const BlockResult& block,
+                                     const RunResult& run, const std::string& startedUtc);
+
+// Heading and one row a method; numbers that are unknown are "nan".
+std::string summaryCsv(const Suite& suite, const std::vector<MethodSummary>& rows);
+
+// The lecture's table of one block in markdown.
+std::string blockTable(const Suite& suite, const std::vector<MethodSummary>& rows);
+
+// EXR and PNG of the reference and of every method's measured frame of run 0. One exposure for the
+// block's previews, from the reference.
+void writeBlockImages(const std::filesystem::path& folder, const Suite& suite,
+                      const BlockResult& block);
+
+// "cornell-box-all", for file names.
+std::string blockLabel(const BlockResult& block);
+
+}  // namespace restlab

@@ -1,0 +1,211 @@
+#include "experiments/runner/suite.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "core/config.h"
+#include "core/error.h"
+
+namespace restlab {
+
+namespace {
+
+constexpr int64_t kMaxSide = 16384;
+constexpr int64_t kMaxCount = 1000000;
+
+bool startsWith(const std::string& text, const std::string& prefix) {
+  return text.rfind(prefix, 0) == 0;
+}
+
+bool integratorHasParameter(const std::string& integrator, const std::string& key) {
+  for (const IntegratorInfo* info : integratorRegistry()) {
+    if (info->name != integrator) continue;
+    for (const ParameterInfo& parameter : info->parameters) {
+      if (parameter.name == key) return true;
+    }
+  }
+  return false;
+}
+
+// method.KEY or method.NAME.KEY.
+void overrideMethods(const ConfigTable& root, const std::string& key, const std::string& value,
+                     const std::string& place) {
+  const std::string rest = key.substr(std::string("method.").size());
+  const size_t dot = rest.rfind('.');
+  const std::string wanted = dot == std::string::npos ? "" : rest.substr(0, dot);
+  const std::string leaf = dot == std::string::npos ? rest : rest.substr(dot + 1);
+  bool used = false;
+  std::vector<std::string> names;
+  for (ConfigTable& method : root.getTables("method")) {
+    const std::string integrator = method.getString("integrator", "path");
+    const std::string name = method.getString("name", integrator);
+    names.push_back(name);
+    const bool general = leaf == "cache" || leaf == "general";
+    if (wanted.empty() ? general || integratorHasParameter(integrator, leaf) : wanted == name) {
+      method.assign(leaf, value, place);
+      used = true;
+    }
+  }
+  if (used) return;
+  if (wanted.empty()) failUsage(fmt::format("{}: no method has a parameter '{}'", place, leaf));
+  failUsage(fmt::format("{}: no method is named '{}'{}", place, wanted, didYouMean(wanted, names)));
+}
+
+void applyOverride(ConfigTable& root, const std::string& assignment) {
+  const auto [key, value] = splitAssignment(assignment);
+  const std::string place = "--set " + key;
+  if (startsWith(key, "method.")) {
+    overrideMethods(root, key, value, place);
+  } else if (startsWith(key, "reference.")) {
+    root.getTable("reference").assign(key.substr(10), value, place);
+  } else if (startsWith(key, "settings.")) {
+    root.getTable("settings").assign(key.substr(9), value, place);
+  } else if (key == "name" || key == "question" || key == "scenes") {
+    root.assign(key, value, place);
+  } else if (key.find('.') != std::string::npos) {
+    failUsage(fmt::format("{}: unknown table; known are settings, reference and method", place));
+  } else {
+    root.getTable("settings").assign(key, value, place);
+  }
+}
+
+SuiteScene readScene(const ConfigTable& table, const std::string& folder) {
+  SuiteScene scene;
+  scene.request.suiteFolder = folder;
+  scene.request.scene = table.getString("scene", "");
+  scene.request.camera = table.getString("camera", "");
+  scene.request.environment = table.getString("environment", "");
+  if (table.has("environment_rotation")) {
+    scene.request.environmentRotation = table.getNumber("environment_rotation", 0.0, -360.0, 360.0);
+  }
+  if (table.has("environment_scale")) {
+    scene.request.environmentScale = table.getNumber("environment_scale", 1.0, 0.0, 1e9);
+  }
+  const std::filesystem::path path(scene.request.scene);
+  scene.name = table.getString("name", path.stem().string());
+  scene.reference = table.getString("reference", "");
+  scene.width = uint32_t(table.getInteger("width", 0, 1, kMaxSide));
+  scene.height = uint32_t(table.getInteger("height", 0, 1, kMaxSide));
+  scene.optional = table.getBool("optional", false);
+  table.finish();
+  if (scene.request.scene.empty()) table.fail("scene", "[[scene]] needs a key 'scene'");
+  return scene;
+}
+
+SuiteMethod readMethod(const ConfigTable& table) {
+  SuiteMethod method;
+  std::vector<std::string> integrators;
+  for (const IntegratorInfo* info : integratorRegistry()) integrators.push_back(info->name);
+  method.session.integrator = table.getChoice("integrator", "path", integrators);
+  const IntegratorInfo& info = findIntegrator(method.session.integrator);
+  std::vector<std::string> modes;
+  for (const ModeInfo& mode : info.modes) modes.push_back(mode.name);
+  method.session.mode = table.getChoice("mode", modes.front(), modes);
+  method.session.cache = table.getString("cache", "pixel");
+  method.session.specialise = !table.getBool("general", false);
+  const std::string fallback =
+      info.name + (modes.size() < 2 ? "" : " (" + method.session.mode + ")");
+  method.name = table.getString("name", fallback);
+  for (const ParameterInfo& parameter : info.parameters) {
+    if (const auto value = table.getParameter(parameter)) {
+      method.session.parameters[parameter.name] = *value;
+    }
+  }
+  table.finish();
+  return method;
+}
+
+void readSettings(const ConfigTable& table, Suite& suite) {
+  suite.width = uint32_t(table.getInteger("width", 0, 1, kMaxSide));
+  suite.height = uint32_t(table.getInteger("height", 0, 1, kMaxSide));
+  suite.maxBounces = uint32_t(table.getInteger("max_bounces", suite.maxBounces, 0, 1024));
+  suite.russianRoulette = table.getBool("russian_roulette", suite.russianRoulette);
+  suite.warmupFrames = uint32_t(table.getInteger("warmup_frames", suite.warmupFrames, 0, kMaxCount));
+  suite.timedFrames = uint32_t(table.getInteger("frames", suite.timedFrames, 1, kMaxCount));
+  suite.runs = uint32_t(table.getInteger("runs", suite.runs, 1, kMaxCount));
+  suite.seed = uint32_t(table.getInteger("seed", suite.seed, 0, 0x7fffffff));
+  suite.threads = int(table.getInteger("threads", suite.threads, 0, 1024));
+  suite.backend = table.getString("backend", suite.backend);
+  suite.pixelFilter = parseFilter(table.getString("filter", "box"), table.place("filter"));
+  suite.components.clear();
+  for (const std::string& name : table.getStrings("components", {"all"})) {
+    suite.components.push_back(parseComponent(name, table.place("components")));
+  }
+  if (suite.components.empty()) table.fail("components", "'components' is empty");
+  for (const int64_t frame : table.getIntegers("checkpoints", {}, 0, kMaxCount)) {
+    if (frame >= suite.warmupFrames + suite.timedFrames) {
+      table.fail("checkpoints", fmt::format("'checkpoints' has {}, but a run ends at frame {}",
+                                            frame, suite.warmupFrames + suite.timedFrames - 1));
+    }
+    suite.checkpoints.push_back(uint32_t(frame));
+  }
+  table.finish();
+}
+
+void readTarget(const ConfigTable& table, ReferenceTarget& target) {
+  target.spp = uint64_t(table.getInteger("spp", 0, 2, int64_t(1) << 32));
+  target.relmse = table.getNumber("target_relmse", 0.0, 1e-12, 1e6);
+  target.timeLimitS = table.getNumber("time_limit", 0.0, 1e-3, 1e9);
+  if (target.spp == 0 && target.relmse == 0.0 && target.timeLimitS == 0.0) target.spp = 256;
+  table.finish();
+}
+
+void requireUniqueNames(const ConfigTable& root, const Suite& suite) {
+  std::set<std::string> seen;
+  const std::vector<ConfigTable> tables = root.getTables("method");
+  for (size_t i = 0; i < suite.methods.size(); ++i) {
+    if (seen.insert(suite.methods[i].name).second) continue;
+    tables[i].fail("name", fmt::format("two methods are named '{}'; give each its own 'name'",
+                                       suite.methods[i].name));
+  }
+  seen.clear();
+  for (const SuiteScene& scene : suite.scenes) {
+    if (seen.insert(scene.name).second) continue;
+    root.fail("scene", fmt::format("two scenes are named '{}'; give each its own 'name'", scene.name));
+  }
+}
+
+}  // namespace
+
+size_t Suite::yardstick() const {
+  const auto path = std::find_if(methods.begin(), methods.end(), [](const SuiteMethod& method) {
+    return method.session.integrator == "path";
+  });
+  return size_t(path - methods.begin());
+}
+
+Suite loadSuite(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  ConfigTable root = ConfigTable::parseFile(file);
+  for (const std::string& assignment : overrides) applyOverride(root, assignment);
+
+  Suite suite;
+  suite.file = file.string();
+  suite.name = root.getString("name", file.stem().string());
+  suite.question = root.getString("question", "");
+  for (const char* key : {"scenes", "scene", "method", "settings", "reference"}) root.has(key);
+  root.finish();
+  const std::string folder = file.parent_path().string();
+  for (const std::string& name : root.getStrings("scenes")) {
+    SuiteScene scene;
+    scene.request.scene = name;
+    scene.request.suiteFolder = folder;
+    scene.name = std::filesystem::path(name).stem().string();
+    suite.scenes.push_back(scene);
+  }
+  for (const ConfigTable& table : root.getTables("scene")) {
+    suite.scenes.push_back(readScene(table, folder));
+  }
+  if (suite.scenes.empty()) root.fail("", "the suite has no scenes: give scenes = [..] or [[scene]]");
+  for (const ConfigTable& table : root.getTables("method")) {
+    suite.methods.push_back(readMethod(table));
+  }
+  if (suite.methods.empty()) root.fail("", "the suite has no [[method]]");
+  readSettings(root.getTable("settings"), suite);
+  readTarget(root.getTable("reference"), suite.target);
+  requireUniqueNames(root, suite);
+  return suite;
+}
+
+}  // namespace restlab

@@ -1,0 +1,53 @@
+// A suite: the scenes, methods and settings of one experiment, read from TOML (docs/manual.md lists
+// every key).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/runner/prepare.h"
+#include "experiments/runner/reference.h"
+
+namespace restlab {
+
+struct SuiteScene {
+  SceneRequest request;
+  std::string name;       // in tables and file names
+  std::string reference;  // a file; "": rendered and cached
+  uint32_t width = 0, height = 0;  // 0: as [settings] says
+  bool optional = false;  // skipped, with a line, where its files are absent
+};
+
+struct SuiteMethod {
+  std::string name;       // in tables and file names; unique
+  SessionConfig session;  // integrator, mode, cache, parameters, specialise
+};
+
+struct Suite {
+  std::string name, question, file;
+  std::vector<SuiteScene> scenes;
+  std::vector<SuiteMethod> methods;
+  std::vector<uint32_t> components = {rl::RL_COMPONENT_ALL};
+  uint32_t width = 0, height = 0;  // 0: from the camera's aspect ratio
+  uint32_t maxBounces = 8;
+  bool russianRoulette = false;
+  uint32_t warmupFrames = 32;  // the frame after them is the one whose error is measured
+  uint32_t timedFrames = 8;    // per run, the measured one first
+  uint32_t runs = 4;
+  uint32_t seed = 1;                  // of run 0; run r has seed + r
+  std::vector<uint32_t> checkpoints;  // further frames of the history whose error is recorded
+  std::string backend = "cpu";
+  uint32_t pixelFilter = rl::RL_FILTER_BOX;
+  int threads = 0;
+  ReferenceTarget target;
+
+  // Index of the yardstick: the first `path` method; methods.size() where there is none.
+  size_t yardstick() const;
+};
+
+// Reads a suite with `--set KEY=VALUE` overrides: a key of [settings], of [reference] as
+// reference.KEY, of every method that knows it as method.KEY, of one as method.NAME.KEY, or a
+// top-level one. Throws Error (badUsage) with file, line and column.
+Suite loadSuite(const std::filesystem::path& file, const std::vector<std::string>& overrides);
+
+}  // namespace restlab

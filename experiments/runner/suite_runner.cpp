@@ -1,0 +1,210 @@
+#include "experiments/runner/suite_runner.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <deque>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/image/atomic_file.h"
+#include "experiments/runner/build_info.h"
+#include "experiments/runner/files.h"
+#include "experiments/runner/interrupt.h"
+#include "experiments/runner/log.h"
+#include "experiments/runner/report.h"
+
+namespace restlab {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+ReferenceConfig referenceConfig(const Suite& suite, const BlockResult& block) {
+  ReferenceConfig config;
+  config.width = block.width;
+  config.height = block.height;
+  config.maxBounces = suite.maxBounces;
+  config.components = block.component;
+  config.pixelFilter = suite.pixelFilter;
+  config.seed = suite.seed;
+  config.threads = suite.threads;
+  return config;
+}
+
+// The reference given as a file must be of exactly this configuration.
+Reference givenReference(const std::string& file, const PreparedScene& prepared,
+                         const Suite& suite, const BlockResult& block) {
+  const fs::path found = findAsset(file);
+  Reference reference = readReference(found.empty() ? fs::path(file) : found);
+  if (reference.mean.width != block.width || reference.mean.height != block.height) {
+    failInput(fmt::format("{}: the reference is {}x{}, the suite renders {}x{}", file,
+                          reference.mean.width, reference.mean.height, block.width, block.height));
+  }
+  SessionConfig wanted = suite.methods.front().session;
+  wanted.width = block.width;
+  wanted.height = block.height;
+  wanted.maxBounces = suite.maxBounces;
+  wanted.components = block.component;
+  wanted.pixelFilter = suite.pixelFilter;
+  requireSameConfiguration(file, reference.metadata, describe(prepared, wanted));
+  return reference;
+}
+
+class SuiteRun {
+ public:
+  SuiteRun(const Suite& suite, const SuiteRequest& request)
+      : suite_(suite), request_(request), started_(utcNow()) {
+    makeWritableDirectory(request.out);
+    makeWritableDirectory(request.out / "references");
+  }
+
+  bool execute() {
+    writeRecord("running");
+    try {
+      const bool finished = executeAll();
+      writeTables(finished);
+      writeRecord(finished ? "finished" : "interrupted");
+      return finished;
+    } catch (const Error& error) {
+      writeRecord(fmt::format("failed: {}", error.what()));
+      throw;
+    }
+  }
+
+ private:
+  bool executeAll() {
+    requireAssets();
+    bool finished = true;
+    for (const SuiteScene& scene : suite_.scenes) {
+      std::string missing;
+      if (scene.optional && assetsMissing(scene.request, missing)) {
+        skipped_.push_back(fmt::format("skipped {}: {} is not here", scene.name, missing));
+        logInfo(skipped_.back());
+        continue;
+      }
+      const PreparedScene prepared = prepareScene(scene.request);
+      printWarnings(prepared);
+      for (const uint32_t component : suite_.components) {
+        finished = finished && executeOne(scene, prepared, component);
+      }
+      if (!finished) break;
+    }
+    return finished;
+  }
+
+  // A missing file is an error before anything is rendered, not after the scenes before it.
+  void requireAssets() {
+    for (const SuiteScene& scene : suite_.scenes) {
+      std::string missing;
+      if (scene.optional || !assetsMissing(scene.request, missing)) continue;
+      failInput(fmt::format("{}: scene {}: '{}' is neither a built-in scene nor a file here, in "
+                            "RESTLAB_SCENES or in ../shared/scenes{}", suite_.file, scene.name,
+                            missing, didYouMean(missing, builtinSceneNames())));
+    }
+  }
+
+  bool executeOne(const SuiteScene& scene, const PreparedScene& prepared, uint32_t component) {
+    BlockResult& block = blocks_.emplace_back();
+    block.scene = scene.name;
+    block.camera = prepared.cameraName;
+    block.component = component;
+    const bool own = scene.width || scene.height;
+    block.width = own ? scene.width : suite_.width;
+    block.height = own ? scene.height : suite_.height;
+    completeResolution(prepared, block.width, block.height);
+    if (!obtain(scene, prepared, block)) return false;
+    const bool finished = executeBlock(
+        suite_, prepared,
+        [&](const BlockResult& of, const RunResult& run) {
+          for (const std::string& line : resultLines(suite_, of, run, started_)) {
+            appendLine(request_.out / "results.jsonl", line);
+          }
+        },
+        block);
+    writeBlockImages(request_.out / "images", suite_, block);
+    const std::vector<MethodSummary> rows = summarise(suite_, block);
+    std::fputs(blockTable(suite_, rows).c_str(), stdout);
+    std::fflush(stdout);
+    rows_.insert(rows_.end(), rows.begin(), rows.end());
+    for (MethodResult& method : block.methods) {
+      // Only the numbers are needed from here on.
+      method.evenRuns = ImageSum();
+      method.oddRuns = ImageSum();
+      method.shown = Image();
+    }
+    block.reference.mean = Image();
+    block.reference.variance.reset();
+    if (block.reference.half0) block.reference.half0 = block.reference.half1 = Image();
+    writeTables(finished);
+    return finished;
+  }
+
+  bool obtain(const SuiteScene& scene, const PreparedScene& prepared, BlockResult& block) {
+    if (!scene.reference.empty()) {
+      block.reference = givenReference(scene.reference, prepared, suite_, block);
+      block.referenceFile = scene.reference;
+      return true;
+    }
+    const std::string label =
+        fmt::format("{}-{}-{}x{}", blockLabel(block), block.camera, block.width, block.height);
+    try {
+      block.reference = obtainReference(prepared, referenceConfig(suite_, block), suite_.target,
+                                        request_.out / "references", label);
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::interrupted) throw;
+      logInfo(error.what());
+      blocks_.pop_back();
+      return false;
+    }
+    block.referenceFile = "references/" + safeFileName(label) + ".exr";
+    return true;
+  }
+
+  void writeTables(bool finished) {
+    const std::string csv = summaryCsv(suite_, rows_);
+    if (!csv.empty()) writeTextFile(request_.out / "summary.csv", csv);
+    std::string text = fmt::format("# {}\n\n", suite_.name);
+    if (!suite_.question.empty()) text += suite_.question + "\n\n";
+    if (!finished) text += "Interrupted: the rows below are of what was finished.\n\n";
+    for (const std::string& line : skipped_) text += line + "\n\n";
+    for (const BlockResult& block : blocks_) {
+      std::vector<MethodSummary> own;
+      for (const MethodSummary& row : rows_) {
+        if (row.block == &block) own.push_back(row);
+      }
+      text += blockTable(suite_, own);
+    }
+    text += fmt::format("{}, {} cores, Embree {}, {} {}; times are of the passes of a frame by the "
+                        "steady clock, without metrics and files.\n", cpuModel(),
+                        machineJson()["cores"].dump(), embreeVersion(), buildInfo().compiler,
+                        buildInfo().buildType);
+    writeTextFile(request_.out / "table.md", text);
+  }
+
+  // What was run, where, from which sources: whoever finds the folder can run it again.
+  void writeRecord(const std::string& status) {
+    nlohmann::ordered_json record = {{"schema", kResultsSchema}, {"status", status},
+                                     {"suite", suite_.name},     {"file", suite_.file},
+                                     {"argv", request_.argv},    {"started", started_},
+                                     {"written", utcNow()},      {"build", buildJson()},
+                                     {"machine", machineJson()}, {"skipped", skipped_},
+                                     {"peak_resident_mib", peakResidentMiB()}};
+    writeTextFile(request_.out / "run.json", record.dump(2) + "\n");
+  }
+
+  const Suite& suite_;
+  const SuiteRequest& request_;
+  std::string started_;
+  std::vector<std::string> skipped_;
+  std::deque<BlockResult> blocks_;  // rows point into it: addresses must stay
+  std::vector<MethodSummary> rows_;
+};
+
+}  // namespace
+
+bool runSuite(const Suite& suite, const SuiteRequest& request) {
+  return SuiteRun(suite, request).execute();
+}
+
+}  // namespace restlab

@@ -1,0 +1,159 @@
+#include "experiments/runner/summary.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/image/metrics.h"
+
+namespace restlab {
+
+namespace {
+
+std::vector<double> perRun(const MethodResult& result, double (*value)(const RunResult&)) {
+  std::vector<double> values;
+  for (const RunResult& run : result.runs) values.push_back(value(run));
+  return values;
+}
+
+double runMse(const RunResult& run) { return run.measured.mse; }
+double runTimeMs(const RunResult& run) { return median(run.timesMs); }
+double runWork(const RunResult& run) { return run.measured.mse * median(run.timesMs); }
+
+BiasClass biasOf(const SessionConfig& config) {
+  for (const ModeInfo& mode : findIntegrator(config.integrator).modes) {
+    if (mode.name == config.mode) return mode.bias;
+  }
+  return BiasClass::biased;
+}
+
+void summariseTimes(const MethodResult& result, size_t pixels, MethodSummary& row) {
+  std::vector<double> times;
+  for (const RunResult& run : result.runs) {
+    times.insert(times.end(), run.timesMs.begin(), run.timesMs.end());
+    for (size_t i = 0; i < run.health.health.counts.size(); ++i) {
+      row.health.health.counts[i] += run.health.health.counts[i];
+    }
+    row.health.raysPath += run.health.raysPath;
+    row.health.raysShadow += run.health.raysShadow;
+  }
+  row.timedFrames = times.size();
+  row.timeMsMedian = median(times);
+  row.timeMsP95 = percentile(times, 0.95);
+  const double samples = double(times.size()) * double(pixels);
+  row.raysPathPerPixel = double(row.health.raysPath) / samples;
+  row.raysShadowPerPixel = double(row.health.raysShadow) / samples;
+  row.passes = result.runs.front().passes;
+  for (size_t pass = 0; pass < row.passes.size(); ++pass) {
+    std::vector<double> medians;
+    for (const RunResult& run : result.runs) medians.push_back(run.passes.at(pass).timeMs);
+    row.passes[pass].timeMs = median(medians);
+  }
+}
+
+void summariseErrors(const MethodResult& result, const Reference& reference, MethodSummary& row) {
+  row.mse = meanInterval(perRun(result, runMse));
+  row.relmse = meanInterval(
+      perRun(result, [](const RunResult& run) { return run.measured.relmse; }));
+  row.energyRatio = meanInterval(
+      perRun(result, [](const RunResult& run) { return run.measured.energyRatio; }));
+  row.worstShare = meanInterval(perRun(result, [](const RunResult& run) {
+                     return run.measured.worstShare;
+                   })).value;
+  row.nonfinite = row.health.health.counts[rl::RL_HEALTH_NONFINITE];
+  for (const RunResult& run : result.runs) row.nonfinite += run.measured.nonfinite;
+  if (result.oddRuns.count() > 0 && reference.half0 && reference.half1) {
+    row.biasSquared = squaredBias(result.evenRuns.mean(), result.oddRuns.mean(), *reference.half0,
+                                  *reference.half1);
+    row.biasShare = row.biasSquared / row.mse.value;
+  }
+}
+
+void compareWithYardstick(const MethodResult& path, const MethodSummary& pathRow,
+                          const MethodResult& result, MethodSummary& row) {
+  // An interrupted block may have one run more of the first methods.
+  const size_t paired = std::min(path.runs.size(), result.runs.size());
+  const auto both = [&](double (*value)(const RunResult&), bool pathOnTop) {
+    std::vector<double> ours = perRun(result, value), theirs = perRun(path, value);
+    ours.resize(paired);
+    theirs.resize(paired);
+    return pathOnTop ? pairedRatioInterval(theirs, ours) : pairedRatioInterval(ours, theirs);
+  };
+  row.mseRatio = both(runMse, true);
+  row.mseRatio.value = pathRow.mse.value / row.mse.value;
+  row.timeRatio = row.timeMsMedian / pathRow.timeMsMedian;
+  row.timeRatioPaired = both(runTimeMs, false);
+  row.efficiencyRatio = row.mseRatio.value / row.timeRatio;
+  row.efficiencyPaired = both(runWork, true);
+}
+
+void judge(MethodSummary& row) {
+  if (row.nonfinite > 0) {
+    row.counts = false;
+    row.flags.push_back(fmt::format("{} non-finite values", row.nonfinite));
+  }
+  if (row.worstShare > kWorstShareMax) {
+    row.flags.push_back(fmt::format("{:.0f} % of its MSE is in the worst 0.1 % of the pixels: its "
+                                    "interval says little", 100.0 * row.worstShare));
+  }
+  if (row.mse.value <= 0.0) row.flags.push_back("its MSE is below the noise of the reference");
+  if (row.bias != BiasClass::biased) return;
+  if (!(row.energyRatio.value >= kEnergyRatioMin && row.energyRatio.value <= kEnergyRatioMax)) {
+    row.counts = false;
+    row.flags.push_back(fmt::format("does not count: energy ratio {:.3f} is outside {:g}..{:g}",
+                                    row.energyRatio.value, kEnergyRatioMin, kEnergyRatioMax));
+  }
+  if (std::isnan(row.biasShare)) {
+    row.counts = false;
+    row.flags.push_back("does not count: its bias is unknown (needs two runs and a reference in "
+                        "two halves)");
+  } else if (row.biasShare > kBiasShareMax) {
+    row.counts = false;
+    row.flags.push_back(fmt::format("does not count: squared bias is {:.0f} % of its MSE, more "
+                                    "than {:.0f} %", 100.0 * row.biasShare, 100.0 * kBiasShareMax));
+  }
+}
+
+}  // namespace
+
+std::vector<MethodSummary> summarise(const Suite& suite, const BlockResult& block) {
+  std::vector<MethodSummary> rows;
+  const size_t yardstick = suite.yardstick();
+  const size_t pixels = size_t(block.width) * block.height;
+  size_t yardstickRow = suite.methods.size();
+  for (size_t m = 0; m < block.methods.size(); ++m) {
+    const MethodResult& result = block.methods[m];
+    if (result.runs.empty()) continue;
+    MethodSummary row;
+    row.method = &suite.methods[m];
+    row.block = &block;
+    row.result = &result;
+    row.bias = biasOf(suite.methods[m].session);
+    row.runs = uint32_t(result.runs.size());
+    summariseTimes(result, pixels, row);
+    summariseErrors(result, block.reference, row);
+    judge(row);
+    if (m == yardstick) yardstickRow = rows.size();
+    rows.push_back(std::move(row));
+  }
+  if (yardstickRow < rows.size()) {
+    const MethodSummary path = rows[yardstickRow];
+    for (MethodSummary& row : rows) compareWithYardstick(*path.result, path, *row.result, row);
+  }
+  return rows;
+}
+
+std::string featuresLeftOut(const MethodResult& result) {
+  return featureNames(rl::RL_FEATURE_ALL & ~result.featuresUsed);
+}
+
+const char* biasName(BiasClass bias) {
+  switch (bias) {
+    case BiasClass::unbiased: return "unbiased";
+    case BiasClass::consistent: return "consistent";
+    case BiasClass::biased: break;
+  }
+  return "biased";
+}
+
+}  // namespace restlab

@@ -1,0 +1,59 @@
+// From the runs of a block to one row a method: means, 95 % intervals, ratios against `path`.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/image/intervals.h"
+#include "experiments/runner/experiment.h"
+
+namespace restlab {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+// A biased row counts only inside these bounds.
+constexpr double kEnergyRatioMin = 0.95, kEnergyRatioMax = 1.05;
+constexpr double kBiasShareMax = 0.25;
+// Above this share of the MSE in the worst 0.1 % of the pixels its interval says little.
+constexpr double kWorstShareMax = 0.5;
+
+struct MethodSummary {
+  const SuiteMethod* method = nullptr;
+  const BlockResult* block = nullptr;
+  const MethodResult* result = nullptr;
+  BiasClass bias = BiasClass::unbiased;
+  uint32_t runs = 0;
+
+  double timeMsMedian = kUnknown, timeMsP95 = kUnknown;  // over all timed frames of all runs
+  Interval mse, relmse, energyRatio;                     // over runs
+  double biasSquared = kUnknown;  // signed; of the mean over runs; NaN with one run or no halves
+  double biasShare = kUnknown;    // biasSquared / mse
+  double worstShare = kUnknown;   // mean over runs
+  uint64_t nonfinite = 0;         // in images, and sample values set to zero
+
+  // Against the yardstick: path / method for the error, method / path for the time.
+  Interval mseRatio{kUnknown, kUnknown, kUnknown};
+  double timeRatio = kUnknown;  // ratio of the medians
+  Interval timeRatioPaired{kUnknown, kUnknown, kUnknown};  // of the runs' medians, paired
+  double efficiencyRatio = kUnknown;                       // mseRatio / timeRatio
+  Interval efficiencyPaired{kUnknown, kUnknown, kUnknown};  // of the runs' mse x time
+
+  double raysPathPerPixel = kUnknown, raysShadowPerPixel = kUnknown;
+  std::vector<PassTiming> passes;  // median over runs
+  HealthSum health;                // of all timed frames
+  uint64_t timedFrames = 0;
+
+  std::vector<std::string> flags;  // why the row does not count, or what its reader must know
+  bool counts = true;              // false: a biased row out of bounds, or non-finite values
+};
+
+// One summary a method that has at least one finished run.
+std::vector<MethodSummary> summarise(const Suite& suite, const BlockResult& block);
+
+// Names of the features that the kernels left out, "+"-joined, or "none".
+std::string featuresLeftOut(const MethodResult& result);
+
+const char* biasName(BiasClass bias);
+
+}  // namespace restlab

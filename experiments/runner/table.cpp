@@ -1,0 +1,76 @@
+// table.md: the lecture's table of each scene and component, with what its reader must know.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "experiments/runner/report.h"
+
+namespace restlab {
+
+namespace {
+
+std::string interval(double lo, double hi, const char* format) {
+  if (std::isnan(lo) || std::isnan(hi)) return "";
+  if (std::isinf(lo) || std::isinf(hi)) return " [unbounded]";
+  return fmt::format(" [{}, {}]", fmt::format(fmt::runtime(format), lo),
+                     fmt::format(fmt::runtime(format), hi));
+}
+
+std::string timeCell(const MethodSummary& row, bool yardstick) {
+  std::string text = fmt::format("{:.3g} ms", row.timeMsMedian);
+  if (yardstick || std::isnan(row.timeRatio)) return text;
+  return text + fmt::format(" ({:.2f}x{})", row.timeRatio,
+                            interval(row.timeRatioPaired.lo, row.timeRatioPaired.hi, "{:.2f}"));
+}
+
+std::string ratioCell(const MethodSummary& row, bool yardstick) {
+  if (yardstick || std::isnan(row.mseRatio.value)) return "";
+  return fmt::format("{:.1f}x lower{}", row.mseRatio.value,
+                     interval(row.mseRatio.lo, row.mseRatio.hi, "{:.1f}"));
+}
+
+std::string efficiencyCell(const MethodSummary& row, bool yardstick) {
+  if (yardstick || std::isnan(row.efficiencyRatio)) return "";
+  return fmt::format("{:.1f}{}", row.efficiencyRatio,
+                     interval(row.efficiencyPaired.lo, row.efficiencyPaired.hi, "{:.1f}"));
+}
+
+std::string biasCell(const MethodSummary& row) {
+  return std::isnan(row.biasShare) ? "unknown" : fmt::format("{:+.1f} %", 100.0 * row.biasShare);
+}
+
+}  // namespace
+
+std::string blockTable(const Suite& suite, const std::vector<MethodSummary>& rows) {
+  if (rows.empty()) return "";
+  const BlockResult& block = *rows.front().block;
+  const size_t yardstick = suite.yardstick();
+  std::string text = fmt::format(
+      "## {}, {} light\n\nCamera {}, {}x{}, {} scattering events, Russian roulette {}, filter {}; "
+      "{} runs of {} warm-up and {} timed frames; reference {} spp.\n\n", block.scene,
+      componentName(block.component), block.camera, block.width, block.height, suite.maxBounces,
+      suite.russianRoulette ? "on" : "off", filterName(suite.pixelFilter), rows.front().runs,
+      suite.warmupFrames, suite.timedFrames, block.reference.spp);
+  text += "| method | time per frame | MSE | | efficiency | energy | bias^2/MSE | worst 0.1 % | "
+          "rays/px |\n|---|---|---|---|---|---|---|---|---|\n";
+  std::string notes;
+  for (const MethodSummary& row : rows) {
+    const bool isYardstick =
+        yardstick < suite.methods.size() && row.method == &suite.methods[yardstick];
+    text += fmt::format("| {}{} | {} | {:.3g}{} | {} | {} | {:.3f} | {} | {:.0f} % | {:.1f} |\n",
+                        row.method->name, row.counts ? "" : " (*)", timeCell(row, isYardstick),
+                        row.mse.value, interval(row.mse.lo, row.mse.hi, "{:.3g}"),
+                        ratioCell(row, isYardstick), efficiencyCell(row, isYardstick),
+                        row.energyRatio.value, biasCell(row), 100.0 * row.worstShare,
+                        row.raysPathPerPixel + row.raysShadowPerPixel);
+    for (const std::string& flag : row.flags) {
+      notes += fmt::format("- {}{}: {}\n", row.method->name, row.counts ? "" : " (*)", flag);
+    }
+  }
+  if (!block.reference.half0) {
+    notes += "- the reference has no halves: its own noise is part of every MSE\n";
+  }
+  return text + (notes.empty() ? "" : "\n" + notes) + "\n";
+}
+
+}  // namespace restlab

@@ -1,0 +1,93 @@
+// What the reuse loop asks about samples: the bridge for both payloads.
+
+RL_FN real bridgeTarget(RL_IN(real3) f) { return rlLuminance(f); }
+
+// Which frame the donors of the running pass come from is fixed by the kernel (RL_DONORS_BEFORE).
+#ifdef RL_DONORS_BEFORE
+RL_FN void bridgeReadDonor(uint slot, RL_OUT(LightReservoir) r) { cacheReadBefore(slot, r); }
+RL_FN void bridgeReadDonor(uint slot, RL_OUT(PathReservoir) r) { cacheReadBefore(slot, r); }
+RL_FN void bridgeReadAnchor(uint slot, RL_OUT(Anchor) a) { a = cacheAnchorBefore(slot); }
+#else
+RL_FN void bridgeReadDonor(uint slot, RL_OUT(LightReservoir) r) { cacheReadNow(slot, r); }
+RL_FN void bridgeReadDonor(uint slot, RL_OUT(PathReservoir) r) { cacheReadNow(slot, r); }
+RL_FN void bridgeReadAnchor(uint slot, RL_OUT(Anchor) a) { a = cacheAnchorNow(slot); }
+#endif
+
+RL_FN bool bridgeIsSameAnchor(RL_IN(Anchor) a, RL_IN(Anchor) b) {
+  return a.posW == b.posW && a.wo == b.wo && a.nShadeW == b.nShadeW;
+}
+
+// A light sample lives in the measure of its light (area, solid angle of the environment, discrete):
+// receivers share it, the Jacobian is 1.
+RL_FN real3 bridgeShift(RL_IN(LightReservoir) r, RL_IN(Anchor) from, RL_IN(Anchor) to, RL_OUT(real) jacobian) {
+  jacobian = real(1.0f);
+  LightConnection c = lightConnect(r.light, to.posW);
+  vec3 f = bsdfEval(to.bsdf, to.nGeoW, to.nShadeW, to.wo, c.dirW);
+  return f * c.emitted * c.geometry;
+}
+
+// The radiance that x2 sends towards a point, without visibility, zero on its other side.
+RL_FN vec3 pathRadianceTowards(RL_IN(PathVertex) v, RL_IN(PathSuffix) suffix, RL_IN(vec3) dirFromX2) {
+  if (!(dot(v.nGeoW, dirFromX2) > 0.0f)) return vec3(0.0f, 0.0f, 0.0f);
+  if (!RL_HAS(RL_FEATURE_GLOSSY) || v.kind == RL_PATH_LAMBERT) return v.radiance;
+  vec3 f = bsdfEval(suffix.bsdf, v.nGeoW, suffix.nShadeW, dirFromX2, suffix.wi);
+  if (rlIsBlack(f)) return f;
+  // BSDF and MIS weight at x2 belong to the direction: a stored weight would break the partition.
+  float weight = 1.0f;
+  float pdfBsdf = 0.0f;
+  if (suffix.pdfLight > 0.0f) pdfBsdf = bsdfPdf(suffix.bsdf, v.nGeoW, suffix.nShadeW, dirFromX2, suffix.wi);
+  if (v.kind == RL_PATH_LIGHT) {
+    if (suffix.pdfLight > 0.0f) weight = lightMisWeight(suffix.pdfLight, pdfBsdf);
+    return f * v.radiance * weight;
+  }
+  if (suffix.pdfLight > 0.0f) weight = lightMisWeight(pdfBsdf, suffix.pdfLight);
+  return f * (v.radiance + suffix.emitted * weight);
+}
+
+// Reconnection at x2.
+RL_FN real3 bridgeShift(RL_IN(PathReservoir) r, RL_IN(Anchor) from, RL_IN(Anchor) to, RL_OUT(real) jacobian) {
+  real3 zero = real3(real(0.0f));
+  jacobian = shiftReconnectionJacobian(r.vertex.posW, r.vertex.nGeoW, from.posW, to.posW);
+  if (!(jacobian > 0.0f) || !rlIsFinite(jacobian)) {
+    jacobian = real(1.0f);
+    return zero;
+  }
+  if (max(jacobian, 1.0f / jacobian) > gParams.maxJacobian) {
+    RL_HEALTH(RL_HEALTH_REJECTED_JACOBIAN);
+    return zero;
+  }
+  vec3 d = normalize(r.vertex.posW - to.posW);
+  vec3 radiance = pathRadianceTowards(r.vertex, r.suffix, -d);
+  if (rlIsBlack(radiance)) return zero;
+  return bsdfEval(to.bsdf, to.nGeoW, to.nShadeW, to.wo, d) * radiance;
+}
+
+RL_FN real bridgeVisibility(RL_IN(LightReservoir) r, RL_IN(Anchor) at) {
+  LightConnection c = lightConnect(r.light, at.posW);
+  Hit hit;
+  Ray ray = lightShadowRay(r.light, c, at.posW, at.nGeoW, at.posError);
+  return traceRay(ray, RL_RAY_SHADOW, 0u, hit);
+}
+
+RL_FN real bridgeVisibility(RL_IN(PathReservoir) r, RL_IN(Anchor) at) {
+  Ray ray;
+  vec3 d = r.vertex.posW - at.posW;
+  ray.origin = surfaceOffset(at.posW, at.nGeoW, at.posError, d);
+  ray.tMin = 0.0f;
+  ray.dir = surfaceOffset(r.vertex.posW, r.vertex.nGeoW, r.vertex.posError, -d) - ray.origin;
+  ray.tMax = 1.0f;
+  Hit hit;
+  return traceRay(ray, RL_RAY_SHADOW, 0u, hit);
+}
+
+// Lambert parts scale with albedo; a glossy anchor's ratio is taken of diffuse + specular reflectance.
+RL_FN real3 bridgeReflectanceRatio(RL_IN(Anchor) from, RL_IN(Anchor) to) {
+  vec3 a = from.bsdf.diffuse;
+  vec3 b = to.bsdf.diffuse;
+  if (RL_HAS(RL_FEATURE_GLOSSY)) {
+    a += from.bsdf.f0;
+    b += to.bsdf.f0;
+  }
+  vec3 ratio = vec3(rlSafeDivide(b.x, a.x), rlSafeDivide(b.y, a.y), rlSafeDivide(b.z, a.z));
+  return min(ratio, vec3(4.0f, 4.0f, 4.0f));
+}

@@ -1,0 +1,23 @@
+// The reuse loop for both payloads of restir_gi.
+#define RL_ANCHOR Anchor
+#define RL_RESERVOIR LightReservoir
+#include "core/resampling/reuse.glsl"
+#undef RL_RESERVOIR
+#define RL_RESERVOIR PathReservoir
+#include "core/resampling/reuse.glsl"
+#undef RL_RESERVOIR
+#undef RL_ANCHOR
+
+RL_FN bool giWantsDirect() { return (gFrame.components & RL_COMPONENT_DIRECT) != 0u; }
+RL_FN bool giWantsIndirect() {
+  return (gFrame.components & RL_COMPONENT_INDIRECT) != 0u && gFrame.maxBounces >= 2u;
+}
+
+// A donor's confidence after the cap, counted when the cap acts.
+RL_FN real giCappedConfidence(real confidence) {
+  if (confidence > gParams.confidenceCap) {
+    RL_HEALTH(RL_HEALTH_CAPPED_CONFIDENCE);
+    return gParams.confidenceCap;
+  }
+  return confidence;
+}

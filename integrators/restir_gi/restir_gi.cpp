@@ -1,0 +1,124 @@
+// Host side of `restir_gi`: parameters, buffers, passes and the declaration of its bias.
+//
+// Direct light goes through light reservoirs (Bitterli et al. 2020), indirect light through
+// path-sample reservoirs that reconnect at x2 (Ouyang et al. 2021), both merged by generalised RIS
+// with defensive pairwise MIS (Lin et al. 2022; Wyman et al. 2023). Unlike the GI paper, x2 is
+// re-evaluated for the new direction, BSDF and MIS weight, so that glossy x2 are unbiased too.
+#include "integrators/restir_gi/restir_gi.h"
+
+#include <cstring>
+
+#include "core/integrator.h"
+
+namespace restlab {
+
+namespace {
+
+std::vector<ParameterInfo> parameterInfos() {
+  return {
+      {"confidence_cap", 20.0, 1.0, 1000.0, {}, "confidence that a donor from the last frame may carry, in frames",
+       "Lin et al. 2022 and its implementations: 20"},
+      {"light_candidates", int64_t{1}, 1, 64, {}, "light samples per pixel and frame resampled into the light reservoir",
+       "1: the same rays as the path tracer; more pay off with many lights (docs/performance.md)"},
+      {"spatial_neighbours", int64_t{1}, 0, rl::RL_MAX_DONORS, {}, "donors of the spatial pass",
+       "1: best error for its time on hard indirect light (docs/performance.md)"},
+      {"spatial_radius", 16.0, 1.0, 256.0, {}, "pixels; radius of the disk that donors come from",
+       "8-20 px measured alike; 30 in Bitterli et al. 2020"},
+      {"spatial_tries", int64_t{3}, 1, 16, {}, "draws of the disk per donor until one matches the surface",
+       "engineering choice: the anchors' test costs no ray"},
+      {"temporal", true, 0, 0, {}, "temporal reuse", "Ouyang et al. 2021"},
+      {"film_hold", int64_t{16}, 1, 1024, {}, "frames that a pixel keeps its film sample",
+       "measured: docs/decisions.md, 'film samples are held'"},
+      {"normal_threshold", 0.9, -1.0, 1.0, {}, "least cosine between the normals of two anchors",
+       "Bitterli et al. 2020: 25 degrees = 0.906"},
+      {"plane_threshold", 0.05, 0.0, 10.0, {}, "largest distance from each other's plane over the camera distance",
+       "Bitterli et al. 2020 compare depths at 10 %"},
+      {"roughness_limit", 0.2, 0.0, 1.0, {}, "perceptual roughness below which x1 shades its own path (counted)",
+       "Lin et al. 2022, section 6.5: 0.2"},
+      {"max_jacobian", 100.0, 1.0, 1.0e6, {}, "shifts whose Jacobian lies outside [1/x, x] are undefined, both ways",
+       "symmetric rejection keeps the estimator unbiased; Lin et al. 2022"},
+      {"shading", std::string("control_variate"), 0, 0, {"winner", "decoupled", "control_variate"},
+       "what is shown: the selected sample, the weighted sum of all inputs, or that sum with the inputs' "
+       "per-channel estimates carried along",
+       "decoupled: Wyman and Panteleev 2021; control variate: core/resampling/reuse.glsl"},
+      {"mis", std::string("pairwise"), 0, 0, {"pairwise", "confidence"},
+       "resampling MIS weights; `confidence` is 1/M, biased and darker",
+       "Wyman et al. 2023, algorithm 7; Bitterli et al. 2020"},
+      {"omit_jacobian", false, 0, 0, {}, "leaves the Jacobian out of the weights: wrong, for the bias tests only",
+       "negative control"},
+  };
+}
+
+template <typename T>
+T get(const ParameterMap& parameters, const char* name) {
+  return std::get<T>(parameters.at(name));
+}
+
+std::vector<std::byte> pack(const std::string& mode, const ParameterMap& p) {
+  uint32_t flags = 0;
+  if (get<std::string>(p, "mis") == "pairwise") flags |= rl::RL_REUSE_PAIRWISE;
+  if (get<bool>(p, "omit_jacobian")) flags |= rl::RL_REUSE_OMIT_JACOBIAN;
+  const std::string& shading = get<std::string>(p, "shading");
+  if (shading == "control_variate") flags |= rl::RL_REUSE_CONTROL_VARIATE;
+  if (shading == "winner") flags |= rl::RL_REUSE_WINNER_ONLY;
+  rl::RestirGiParams out{};
+  out.temporalFlags = flags;
+  out.spatialFlags = flags;
+  if (mode == "biased") {
+    out.temporalFlags |= rl::RL_REUSE_ASSUME_VISIBLE | rl::RL_REUSE_ASSUME_VISIBLE_HERE;
+  }
+  out.lightCandidates = static_cast<uint32_t>(get<int64_t>(p, "light_candidates"));
+  out.spatialNeighbours = static_cast<uint32_t>(get<int64_t>(p, "spatial_neighbours"));
+  out.spatialTries = static_cast<uint32_t>(get<int64_t>(p, "spatial_tries"));
+  out.temporalReuse = get<bool>(p, "temporal") ? 1u : 0u;
+  out.spatialRadius = static_cast<float>(get<double>(p, "spatial_radius"));
+  out.confidenceCap = static_cast<float>(get<double>(p, "confidence_cap"));
+  out.minNormalDot = static_cast<float>(get<double>(p, "normal_threshold"));
+  out.maxPlaneDistance = static_cast<float>(get<double>(p, "plane_threshold"));
+  const auto roughness = static_cast<float>(get<double>(p, "roughness_limit"));
+  out.minAlpha = roughness * roughness;
+  out.maxJacobian = static_cast<float>(get<double>(p, "max_jacobian"));
+  std::vector<std::byte> bytes(sizeof(out));
+  std::memcpy(bytes.data(), &out, sizeof(out));
+  return bytes;
+}
+
+}  // namespace
+
+const IntegratorInfo& restir_giIntegratorInfo() {
+  static const IntegratorInfo info = [] {
+    IntegratorInfo i;
+    i.name = "restir_gi";
+    i.summary = "ReSTIR GI: light reservoirs for direct, path-sample reservoirs for indirect light";
+    i.modes = {
+        {"unbiased", BiasClass::unbiased,
+         "targets include visibility at every anchor, MIS weights sum to one over those who can produce a sample, "
+         "confidences depend on anchors alone, BSDF and MIS weight at x2 are re-evaluated"},
+        {"biased", BiasClass::biased,
+         "the last frame's sample is taken as visible, and so is a pixel's own sample from its donors: fewer rays, "
+         "a little energy moved at shadow edges"},
+    };
+    i.parameters = parameterInfos();
+    i.usesCache = true;
+    i.buffers = {
+        {"radiance", 12, 0, -1},
+        {"own_light", 12, 0, -1},
+        {"anchors", sizeof(rl::StoredAnchor), 0, 3},
+        {"anchors_previous", sizeof(rl::StoredAnchor), 0, 2},
+        {"anchors_glossy", sizeof(rl::StoredAnchorGlossy), rl::RL_FEATURE_GLOSSY, 5},
+        {"anchors_glossy_previous", sizeof(rl::StoredAnchorGlossy), rl::RL_FEATURE_GLOSSY, 4},
+        {"light_reservoirs", sizeof(rl::LightReservoir), 0, -1},
+        {"light_history", sizeof(rl::LightReservoir), 0, -1},
+        {"path_reservoirs", sizeof(rl::PathVertex), 0, -1},
+        {"path_history", sizeof(rl::PathVertex), 0, -1},
+        {"path_suffixes", sizeof(rl::PathSuffix), rl::RL_FEATURE_GLOSSY, -1},
+        {"path_suffix_history", sizeof(rl::PathSuffix), rl::RL_FEATURE_GLOSSY, -1},
+    };
+    i.passes = {{"initial", "restir_gi_initial"}, {"temporal", "restir_gi_temporal"}, {"spatial", "restir_gi_spatial"}};
+    i.packParameters = pack;
+    return i;
+  }();
+  return info;
+}
+
+}  // namespace restlab

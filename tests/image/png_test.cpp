@@ -1,0 +1,57 @@
+// The PNG preview, decoded again.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+
+#include "core/image/image.h"
+
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_ONLY_PNG
+#include <stb/stb_image.h>
+
+namespace restlab {
+namespace {
+
+TEST(Png, SrgbKnownValues) {
+  std::string folder = (std::filesystem::temp_directory_path() / "restlab-png-XXXXXX").string();
+  ASSERT_NE(::mkdtemp(folder.data()), nullptr);
+  const std::string file = folder + "/a.png";
+
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  // Radiance, exposure 2, and the bytes of IEC 61966-2-1 for twice the radiance.
+  struct Case {
+    glm::vec3 radiance;
+    int bytes[3];
+  };
+  const Case cases[] = {{{0.0f, 0.5f, 7.0f}, {0, 255, 255}},
+                        {{0.09f, 0.25f, 0.1f}, {118, 188, 124}},
+                        {{0.00156f, 0.0005f, -3.0f}, {10, 3, 0}},
+                        {{kInfinity, -kInfinity, 0.0f}, {255, 0, 0}},
+                        {{0.2f, kNan, 0.2f}, {255, 0, 255}},
+                        {{0.105f, 0.405f, 0.4975f}, {126, 232, 254}}};
+  Image image(2, 3);
+  for (size_t i = 0; i < 6; ++i) image.pixels[i] = cases[i].radiance;
+  writePng(file, image, 2.0f);
+
+  int width = 0, height = 0, channels = 0;
+  unsigned char* bytes = stbi_load(file.c_str(), &width, &height, &channels, 0);
+  ASSERT_NE(bytes, nullptr);
+  EXPECT_EQ(width, 2);
+  EXPECT_EQ(height, 3);
+  ASSERT_EQ(channels, 3);
+  for (size_t i = 0; i < 6; ++i) {
+    for (size_t c = 0; c < 3; ++c) {
+      EXPECT_EQ(int(bytes[3 * i + c]), cases[i].bytes[c]) << "pixel " << i << " channel " << c;
+    }
+  }
+  stbi_image_free(bytes);
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace restlab

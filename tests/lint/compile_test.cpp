@@ -1,0 +1,132 @@
+// Every dialect file through three compilers: g++ and clang++ as C++, glslang as GLSL.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <sys/wait.h>
+
+#include "core/backend/glsl_compiler.h"
+#include "core/backend/glsl_preamble.h"
+#include "tests/lint/dialect_files.h"
+
+namespace restlab::lint {
+namespace {
+
+struct CommandResult {
+  int status;
+  std::string output;
+};
+
+CommandResult runCommand(const std::string& command) {
+  CommandResult result{-1, ""};
+  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+  if (!pipe) return result;
+  char buffer[4096];
+  for (size_t n; (n = fread(buffer, 1, sizeof buffer, pipe)) > 0;) result.output.append(buffer, n);
+  const int status = pclose(pipe);
+  result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+  return result;
+}
+
+// Compiles C++ text without producing code; messages name the dialect's files.
+CommandResult checkCpp(const std::string& compiler, const std::string& name, const std::string& text) {
+  const std::filesystem::path folder = std::filesystem::path(RESTLAB_LINT_FOLDER);
+  std::filesystem::create_directories(folder);
+  const std::filesystem::path file = folder / (name + ".cpp");
+  std::ofstream(file) << text;
+  // Relative includes from the repository's root, so that messages start with core/...
+  return runCommand("cd '" RESTLAB_SOURCE_DIR "' && " + compiler +
+                    " -std=c++20 -fsyntax-only -I. -Wall -Wextra -Wshadow -Werror -Wno-unused-function"
+                    " -Wno-unknown-warning-option '" + file.string() + "'");
+}
+
+std::string identifierOf(std::string path) {
+  std::replace_if(path.begin(), path.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+  return path;
+}
+
+std::string kernelUnit(const Kernel& kernel, const std::string& mask) {
+  return "#define RL_KERNEL_NAME " + kernel.name + "\n#define RL_KERNEL_MASK_NAME lint\n#define RL_KERNEL_MASK " +
+         mask + "\n#define RL_KERNEL_HEADER \"" + kernel.header + "\"\n#define RL_KERNEL_FILE \"" + kernel.file +
+         "\"\n#include \"core/backend/cpu_kernel.inl\"\n";
+}
+
+class Cpp : public testing::TestWithParam<std::string> {};
+
+TEST_P(Cpp, EveryHeaderCompilesAlone) {
+  // Twice the same header: an include guard that is missing or misspelt shows.
+  for (const std::string& header : dialectHeaders()) {
+    const std::string include = "#include \"" + header + "\"\n";
+    const CommandResult result = checkCpp(GetParam(), GetParam() + "_" + identifierOf(header), include + include);
+    EXPECT_EQ(result.status, 0) << header << ":\n" << result.output;
+  }
+}
+
+TEST_P(Cpp, EveryKernelCompiles) {
+  for (const Kernel& kernel : kernels()) {
+    for (const char* mask : {"0u", "16383u"}) {
+      const CommandResult result =
+          checkCpp(GetParam(), GetParam() + "_" + kernel.name + "_" + mask, kernelUnit(kernel, mask));
+      EXPECT_EQ(result.status, 0) << kernel.name << ":\n" << result.output;
+    }
+  }
+}
+
+TEST_P(Cpp, ErrorsNameFileAndLine) {
+  const Kernel broken{"broken", "tests/lint/data/broken.glsl", kernels().front().header};
+  const CommandResult result = checkCpp(GetParam(), GetParam() + "_broken", kernelUnit(broken, "16383u"));
+  EXPECT_NE(result.status, 0);
+  EXPECT_NE(result.output.find("tests/lint/data/broken.glsl:3:"), std::string::npos) << result.output;
+}
+
+INSTANTIATE_TEST_SUITE_P(, Cpp, testing::Values(RESTLAB_GXX, RESTLAB_CLANGXX), [](const auto& test) {
+  const bool isClang = test.param.find("clang") != std::string::npos;
+  return isClang ? "clang" : "gcc";
+});
+
+GlslResult compileKernel(const std::string& header, const std::string& file) {
+  const std::string text = glslKernelSource({header, file, "tests/parity/brute_force.glsl"});
+  return compileGlsl(text, "kernel", RESTLAB_SOURCE_DIR);
+}
+
+TEST(Glsl, EveryKernelCompiles) {
+  for (const Kernel& kernel : kernels()) {
+    const GlslResult result = compileKernel(kernel.header, kernel.file);
+    EXPECT_FALSE(result.spirv.empty()) << kernel.name << ":\n" << result.log;
+    EXPECT_EQ(result.log.find("WARNING"), std::string::npos) << kernel.name << ":\n" << result.log;
+  }
+}
+
+TEST(Glsl, ErrorsNameFileAndLine) {
+  const GlslResult result = compileKernel(kernels().front().header, "tests/lint/data/broken.glsl");
+  EXPECT_TRUE(result.spirv.empty());
+  EXPECT_NE(result.log.find("tests/lint/data/broken.glsl:3:"), std::string::npos) << result.log;
+}
+
+TEST(Glsl, EveryFileIsInAKernel) {
+  // A .glsl that no kernel includes is compiled by nobody.
+  for (const std::string& file : allGlslFiles()) {
+    const auto& known = dialectFiles();
+    EXPECT_NE(std::find(known.begin(), known.end(), file), known.end()) << file << " is in no kernel";
+  }
+}
+
+TEST(Glsl, FloatArithmeticIsNeverContracted) {
+  const GlslResult result = compileKernel(kernels().front().header, kernels().front().file);
+  ASSERT_FALSE(result.spirv.empty()) << result.log;
+  size_t operations = 0, decorations = 0;
+  for (size_t i = 5; i < result.spirv.size(); i += result.spirv[i] >> 16) {
+    const uint32_t op = result.spirv[i] & 0xffffu;
+    operations += op == 129 || op == 131 || op == 133;  // OpFAdd, OpFSub, OpFMul
+    decorations += op == 71 && result.spirv[i + 2] == 42;
+  }
+  EXPECT_GT(operations, 100u);
+  EXPECT_GE(decorations, operations);
+  EXPECT_EQ(decorateNoContraction(result.spirv), result.spirv) << "decorating twice must change nothing";
+}
+
+}  // namespace
+}  // namespace restlab::lint

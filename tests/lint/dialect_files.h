@@ -1,0 +1,25 @@
+// Which files are written in the dialect, found by following the includes of every kernel.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace restlab::lint {
+
+// A kernel of rl_add_kernel; paths relative to the repository.
+struct Kernel {
+  std::string name, file, header;
+};
+const std::vector<Kernel>& kernels();
+
+// Text of a file of the repository; fails the test when it cannot be read.
+std::string readSource(const std::string& path);
+
+// Every file that some kernel includes, directly or not: sorted, each once.
+const std::vector<std::string>& dialectFiles();
+std::vector<std::string> dialectHeaders();
+
+// Every .glsl under core/ and integrators/, included or not.
+std::vector<std::string> allGlslFiles();
+
+}  // namespace restlab::lint

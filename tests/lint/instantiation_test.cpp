@@ -1,0 +1,97 @@
+// Specialisation is real: few instantiations, and each specialised kernel is smaller than the general.
+#include <elf.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/backend/cpu_kernel.h"
+#include "core/dialect/features.h"
+
+namespace restlab::lint {
+namespace {
+
+struct Row {
+  std::string mask;
+  uint32_t features;
+};
+
+std::map<std::string, std::vector<Row>> rowsByKernel() {
+  std::map<std::string, std::vector<Row>> result;
+  const rl::CpuKernelTable table = rl::cpuKernelTable();
+  for (uint32_t i = 0; i < table.count; ++i) {
+    result[table.rows[i].name].push_back({table.rows[i].maskName, table.rows[i].mask});
+  }
+  return result;
+}
+
+// Bytes of executable sections of an ELF64 object file, or 0 when it is none.
+size_t codeBytes(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  Elf64_Ehdr header;
+  if (bytes.size() < sizeof header) return 0;
+  std::memcpy(&header, bytes.data(), sizeof header);
+  if (std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0 || header.e_ident[EI_CLASS] != ELFCLASS64) return 0;
+  size_t total = 0;
+  // More than 65279 sections put the count into section 0.
+  Elf64_Shdr first;
+  if (bytes.size() < header.e_shoff + sizeof first) return 0;
+  std::memcpy(&first, bytes.data() + header.e_shoff, sizeof first);
+  const size_t count = header.e_shnum ? header.e_shnum : first.sh_size;
+  for (size_t i = 0; i < count; ++i) {
+    const size_t at = header.e_shoff + i * sizeof(Elf64_Shdr);
+    if (at + sizeof(Elf64_Shdr) > bytes.size()) return 0;
+    Elf64_Shdr section;
+    std::memcpy(&section, bytes.data() + at, sizeof section);
+    if (section.sh_type == SHT_PROGBITS && (section.sh_flags & SHF_EXECINSTR)) total += section.sh_size;
+  }
+  return total;
+}
+
+// The object file of generated/kernels/<kernel>_<mask>.cpp.
+std::string objectFile(const std::string& kernel, const std::string& mask) {
+  std::ifstream list(RESTLAB_KERNEL_OBJECTS);
+  for (std::string path; std::getline(list, path);) {
+    if (path.find("/kernels/" + kernel + "_" + mask + ".cpp") != std::string::npos) return path;
+  }
+  return "";
+}
+
+TEST(Instantiation, AtMostNineMasksAKernel) {
+  const auto kernels = rowsByKernel();
+  ASSERT_FALSE(kernels.empty());
+  for (const auto& [name, rows] : kernels) {
+    EXPECT_LE(rows.size(), 9u) << name;
+    EXPECT_GE(rows.size(), 2u) << name << " is not specialised";
+    size_t general = 0;
+    for (const Row& row : rows) {
+      general += row.features == rl::RL_FEATURE_ALL;
+      EXPECT_EQ(row.features & ~rl::RL_FEATURE_ALL, 0u) << name << " " << row.mask;
+    }
+    EXPECT_EQ(general, 1u) << name;
+  }
+}
+
+TEST(Instantiation, SpecialisedCodeIsSmaller) {
+  for (const auto& [name, rows] : rowsByKernel()) {
+    const size_t general = codeBytes(objectFile(name, "general"));
+    ASSERT_GT(general, 0u) << name << ": no object file of the general kernel";
+    for (const Row& row : rows) {
+      const std::string object = objectFile(name, row.mask);
+      const size_t bytes = codeBytes(object);
+      ASSERT_GT(bytes, 0u) << name << " " << row.mask << ": " << object;
+      std::printf("  %-24s %-20s %8zu bytes of code, %5.1f %% of the general kernel's\n", name.c_str(),
+                  row.mask.c_str(), bytes, 100.0 * double(bytes) / double(general));
+      if (row.features != rl::RL_FEATURE_ALL) EXPECT_LT(bytes, general) << name << " " << row.mask;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace restlab::lint

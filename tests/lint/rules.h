@@ -1,0 +1,48 @@
+// The rules of the kernel dialect that neither compiler checks by itself (docs/dialect.md).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tests/lint/tokens.h"
+
+namespace restlab::lint {
+
+struct Finding {
+  std::string path;
+  int line;
+  std::string message;
+};
+
+// "path:line: message", one a line.
+std::string format(const std::vector<Finding>& findings);
+
+// Words that GLSL or HLSL reserve, used as names.
+std::vector<Finding> findReservedWords(const TokenizedFile& file);
+// Floating literals without f, hexadecimal ones without u, decimal integers without u in a statement
+// that has no int variable.
+std::vector<Finding> findBareLiterals(const TokenizedFile& file);
+// Two random draws in one statement: C++ does not fix the order in which arguments are evaluated.
+std::vector<Finding> findDoubleDraws(const TokenizedFile& file);
+// Member accesses like .xyz or .rgb.
+std::vector<Finding> findSwizzles(const TokenizedFile& file);
+// `#pragma once`, and a .glsl that includes a .h.
+std::vector<Finding> findBadDirectives(const TokenizedFile& file);
+// Default arguments of RL_FN functions.
+std::vector<Finding> findDefaultArguments(const TokenizedFile& file);
+// RL_FN functions that bear the name of a GLSL built-in: a member of that name hides all of GLM's.
+std::vector<Finding> findHiddenBuiltins(const TokenizedFile& file);
+// A function in a .h, a type or constant at file scope in a .glsl.
+std::vector<Finding> findMisplaced(const TokenizedFile& file);
+
+// All of the above.
+std::vector<Finding> findAll(const TokenizedFile& file);
+
+// RL_DIM_* constants that share a number or reach RL_DIMENSIONS. A comment "+ donor index (N at most)"
+// reserves N numbers, which needs the text itself.
+struct SourceText {
+  std::string path, text;
+};
+std::vector<Finding> findDimensionClashes(const std::vector<SourceText>& headers);
+
+}  // namespace restlab::lint

@@ -1,0 +1,9 @@
+set(RL_SCENE_TESTS
+  scene/gltf_builder.cpp
+  scene/gltf_corpus_test.cpp
+  scene/gltf_errors_test.cpp
+  scene/gltf_geometry_test.cpp
+  scene/gltf_material_test.cpp
+  scene/gltf_nodes_test.cpp
+  scene/load_scene_test.cpp
+)
