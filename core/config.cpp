@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <toml++/toml.h>
 #include <cmath>
 #include <fstream>
 #include <set>
 #include <sstream>
-#include <toml++/toml.h>
 
 #include "core/error.h"
 
@@ -16,13 +16,20 @@ namespace {
 
 std::string kindOf(const toml::node& node) {
   switch (node.type()) {
-    case toml::node_type::table: return "a table";
-    case toml::node_type::array: return "an array";
-    case toml::node_type::string: return "a string";
-    case toml::node_type::integer: return "an integer";
-    case toml::node_type::floating_point: return "a number";
-    case toml::node_type::boolean: return "a boolean";
-    default: return "a date or time";
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return "an array";
+    case toml::node_type::string:
+      return "a string";
+    case toml::node_type::integer:
+      return "an integer";
+    case toml::node_type::floating_point:
+      return "a number";
+    case toml::node_type::boolean:
+      return "a boolean";
+    default:
+      return "a date or time";
   }
 }
 
@@ -122,7 +129,8 @@ struct ConfigTable::Node {
 struct ConfigTable::Document {
   toml::table root;
   std::string file;
-  std::map<const toml::table*, Node> nodes;  // tables keep their address: toml++ owns them by pointer
+  std::map<const toml::table*, Node>
+      nodes;  // tables keep their address: toml++ owns them by pointer
 
   Node* nodeOf(toml::table& table) {
     Node& node = nodes[&table];

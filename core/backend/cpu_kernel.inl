@@ -1,11 +1,17 @@
 // Body of a generated kernel translation unit: the dialect's functions as members of
 // Ctx<features>, Embree behind traceRay(), and the tile loop. The generated file defines
-// RL_KERNEL_NAME, RL_KERNEL_MASK_NAME, RL_KERNEL_MASK, RL_KERNEL_HEADER and RL_KERNEL_FILE.
+// RL_KERNEL_NAME, RL_KERNEL_MASK_NAME, RL_KERNEL_MASK, RL_KERNEL_HEADER and RL_KERNEL_FILE; it may
+// define RL_KERNEL_TRACE, the file with the body of traceRay().
 #include <embree3/rtcore.h>
 
+#include "core/backend/alpha_filter.h"
 #include "core/backend/cpu_kernel.h"
 #include "core/dialect/order.h"
 #include RL_KERNEL_HEADER
+
+#ifndef RL_KERNEL_TRACE
+#define RL_KERNEL_TRACE "core/backend/cpu_trace.inl"
+#endif
 
 namespace rl {
 namespace {
@@ -25,7 +31,7 @@ struct Ctx {
   RTCScene embreeScene;
 
 #include "core/dialect/order.glsl"
-#include "core/backend/cpu_trace.inl"
+#include RL_KERNEL_TRACE
 #include RL_KERNEL_FILE
 };
 

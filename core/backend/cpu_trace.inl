@@ -2,7 +2,7 @@
 
 // Embree hands the context back to the alpha filters; the kernel context rides behind it.
 struct TraceContext {
-  RTCIntersectContext embree;
+  AlphaTraceContext alpha;
   Ctx* self;
   uint alphaKey;
   float transmittance;
@@ -37,12 +37,12 @@ static void alphaFilterShadow(const RTCFilterFunctionNArguments* args) {
 
 RL_FN float traceRay(const Ray& ray, uint mode, uint alphaKey, Hit& hit) {
   TraceContext context;
-  rtcInitIntersectContext(&context.embree);
+  rtcInitIntersectContext(&context.alpha.embree);
   if (RL_HAS(RL_FEATURE_ALPHA)) {
     context.self = this;
     context.alphaKey = alphaKey;
     context.transmittance = 1.0f;
-    context.embree.filter = mode == RL_RAY_PATH ? alphaFilterPath : alphaFilterShadow;
+    context.alpha.filter = mode == RL_RAY_PATH ? alphaFilterPath : alphaFilterShadow;
   }
   if (mode == RL_RAY_SHADOW) {
     ++gCounters.raysShadow;
@@ -59,7 +59,7 @@ RL_FN float traceRay(const Ray& ray, uint mode, uint alphaKey, Hit& hit) {
     r.mask = 0xffffffffu;
     r.id = 0u;
     r.flags = 0u;
-    rtcOccluded1(embreeScene, &context.embree, &r);
+    rtcOccluded1(embreeScene, &context.alpha.embree, &r);
     if (r.tfar < 0.0f) return 0.0f;
     if (RL_HAS(RL_FEATURE_ALPHA)) return context.transmittance;
     return 1.0f;
@@ -80,7 +80,7 @@ RL_FN float traceRay(const Ray& ray, uint mode, uint alphaKey, Hit& hit) {
   r.ray.flags = 0u;
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(embreeScene, &context.embree, &r);
+  rtcIntersect1(embreeScene, &context.alpha.embree, &r);
   hit.instance = RL_INVALID;
   if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return 1.0f;
   hit.instance = instanceOf(r.hit.geomID, r.hit.instID[0]);

@@ -21,11 +21,9 @@ class RootIncluder : public glslang::TShader::Includer {
   IncludeResult* includeLocal(const char* header, const char*, size_t) override {
     std::ifstream stream(root_ / header, std::ios::binary);
     if (!stream) return nullptr;  // glslang reports the line of the #include
-    auto text = std::make_unique<std::string>(std::istreambuf_iterator<char>(stream),
-                                              std::istreambuf_iterator<char>());
-    auto result = std::make_unique<IncludeResult>(header, text->data(), text->size(), text.get());
-    text.release();
-    return result.release();
+    // releaseInclude() deletes both.
+    auto* text = new std::string(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+    return new IncludeResult(header, text->data(), text->size(), text);
   }
   IncludeResult* includeSystem(const char*, const char*, size_t) override { return nullptr; }
   void releaseInclude(IncludeResult* result) override {

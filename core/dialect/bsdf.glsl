@@ -3,8 +3,8 @@
 //   bsdfPdf   solid-angle density of bsdfDraw over the non-delta lobes
 //   bsdfDraw  a direction with weight f |cos_i| / pdf
 // Directions are in world space and point away from the surface; nGeo lies on the side of wo.
-// The layering is that of the glTF 2.0 specification, appendix B: base under specular, mixed by the
-// Fresnel term at the half vector.
+// The layering is that of the glTF 2.0 specification, appendix B, but for the share that the specular
+// layer leaves to the Lambert base (bsdfBaseShare).
 
 RL_FN bool bsdfIsBlack(RL_IN(Bsdf) b) { return b.lobes == 0u; }
 
@@ -14,24 +14,37 @@ RL_FN vec2 bsdfLobeProbabilities(RL_IN(Bsdf) b, float cosO) {
   if (!RL_HAS(RL_FEATURE_GLOSSY) || (b.lobes & RL_LOBE_ANY_GLOSSY) == 0u) return vec2(0.0f, 0.0f);
   vec3 f = fresnelOfBsdf(b, cosO);
   float through = 1.0f - min(rlMax3(f), 1.0f);
-  float specular = rlLuminance(f);
-  float diffuse = (b.lobes & RL_LOBE_DIFFUSE) != 0u ? rlLuminance(b.diffuse) * through : 0.0f;
+  bool hasSpecular = (b.lobes & (RL_LOBE_SPECULAR | RL_LOBE_SPECULAR_DELTA)) != 0u;
+  bool hasDiffuse = (b.lobes & RL_LOBE_DIFFUSE) != 0u;
+  float specular = hasSpecular ? rlLuminance(f) : 0.0f;
+  float diffuse = hasDiffuse ? rlLuminance(b.diffuse) * through : 0.0f;
   float transmitted = 0.0f;
   if (RL_HAS(RL_FEATURE_TRANSMISSION) && (b.lobes & RL_LOBE_ANY_TRANSMISSION) != 0u) {
     transmitted = rlLuminance(b.transmission) * through;
   }
+  // No lobe that exists is starved, not even where Fresnel at wo leaves it nothing: microfacets turned
+  // towards wo still let light through. (Delta transmission knows no such facets.)
+  float least = 0.1f * (specular + diffuse + transmitted);
+  if (hasSpecular) specular = max(specular, least);
+  if (hasDiffuse) diffuse = max(diffuse, least);
+  if ((b.lobes & RL_LOBE_TRANSMISSION) != 0u) transmitted = max(transmitted, least);
   float total = specular + diffuse + transmitted;
   if (!(total > 0.0f)) return vec2(1.0f, 0.0f);
-  // No lobe that exists is starved: its weight would be unbounded at other angles.
-  float pSpecular = specular / total;
-  float pTransmitted = transmitted / total;
-  if (diffuse + transmitted > 0.0f) pSpecular = clamp(pSpecular, 0.1f, 0.9f);
-  float rest = 1.0f - pSpecular;
-  if (transmitted > 0.0f) {
-    float share = diffuse > 0.0f ? clamp(transmitted / (transmitted + diffuse), 0.1f, 0.9f) : 1.0f;
-    pTransmitted = rest * share;
-  }
-  return vec2(pSpecular, pTransmitted);
+  return vec2(specular / total, transmitted / total);
+}
+
+// The share of light that passes the specular layer to the Lambert base and out again. It enters as
+// 1 - F(o) and leaves, by reciprocity, as 1 - F(i); divided by the mean of the latter, so that a white
+// base returns all that enters (Ashikhmin & Shirley 2000; Kelemen & Szirmay-Kalos 2001). The factor
+// 1 - F(h) of glTF's appendix B makes energy: a white base under a layer of ior 1.5 would reflect 1.22
+// of the light at 80 degrees.
+RL_FN float bsdfBaseShare(RL_IN(Bsdf) b, float cosO, float cosI) {
+  float enters = 1.0f - min(rlMax3(fresnelOfBsdf(b, cosO)), 1.0f);
+  float leaves = 1.0f - min(rlMax3(fresnelOfBsdf(b, cosI)), 1.0f);
+  // The cosine-weighted mean of Schlick's weight is 1/21; the dielectric curve's is at least 0.
+  float mean = rlMax3(b.f0);
+  if ((b.lobes & RL_LOBE_ANY_TRANSMISSION) == 0u) mean += (b.f90 - mean) * (1.0f / 21.0f);
+  return enters * leaves * rlSafeDivide(1.0f, 1.0f - mean);
 }
 
 RL_FN vec3 bsdfEvalLocal(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) wiL) {
@@ -42,7 +55,7 @@ RL_FN vec3 bsdfEvalLocal(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) wiL) {
       vec3 hL = normalize(woL + wiL);
       vec3 fresnel = fresnelOfBsdf(b, clamp(dot(woL, hL), 0.0f, 1.0f));
       if ((b.lobes & RL_LOBE_SPECULAR) != 0u) f += fresnel * ggxReflectionEval(woL, wiL, hL, b.alpha);
-      f += b.diffuse * (lambertEval(wiL) * (1.0f - min(rlMax3(fresnel), 1.0f)));
+      f += b.diffuse * (lambertEval(wiL) * bsdfBaseShare(b, woL.z, wiL.z));
     } else {
       f += b.diffuse * lambertEval(wiL);
     }

@@ -56,8 +56,8 @@ class FileStream : public Imf::IStream {
   std::ifstream& stream_;
 };
 
-// Walks over the raw header before OpenEXR allocates anything from its numbers: attribute sizes, the
-// data window and the tile size may all lie.
+// Walks over the raw header before OpenEXR allocates anything from its numbers: attribute sizes,
+// the data window and the tile size may all lie.
 class HeaderGuard {
  public:
   HeaderGuard(const fs::path& file, std::ifstream& stream, uint64_t fileBytes)
@@ -76,8 +76,8 @@ class HeaderGuard {
     }
     if (!windowSeen_) failExr(file_, "OpenEXR header has no data window");
     if (tile_[0] != 0) {
-      const uint64_t tiles = ((width_ + tile_[0] - 1) / tile_[0]) *
-                             ((height_ + tile_[1] - 1) / tile_[1]);
+      const uint64_t tiles =
+          ((width_ + tile_[0] - 1) / tile_[0]) * ((height_ + tile_[1] - 1) / tile_[1]);
       if (tiles * 8 > fileBytes_) {
         failExr(file_, "is too short for its table of tiles (truncated or corrupt)");
       }
@@ -111,9 +111,10 @@ class HeaderGuard {
     const int64_t height = box[3] - box[1] + 1;
     if (width < 1 || height < 1 || width > kExrMaxSide || height > kExrMaxSide ||
         uint64_t(width * height) > kExrMaxPixels) {
-      failExr(file_, fmt::format("data window of {}x{} pixels (1 to {} a side and at most {} pixels "
-                                 "are supported)",
-                                 width, height, kExrMaxSide, kExrMaxPixels));
+      failExr(file_,
+              fmt::format("data window of {}x{} pixels (1 to {} a side and at most {} pixels "
+                          "are supported)",
+                          width, height, kExrMaxSide, kExrMaxPixels));
     }
     width_ = uint64_t(width);
     height_ = uint64_t(height);
@@ -187,8 +188,8 @@ std::map<std::string, LayerChannels> findLayers(const fs::path& file, const Imf:
     it = allRgb || !channels.luminance.empty() ? std::next(it) : found.erase(it);
   }
   if (found.empty()) {
-    failExr(file, "has no layer with channels R, G, B or Y alone (channels: " +
-                      all.substr(0, 200) + ")");
+    failExr(file,
+            "has no layer with channels R, G, B or Y alone (channels: " + all.substr(0, 200) + ")");
   }
   return found;
 }
@@ -249,8 +250,8 @@ LayeredImage readOpened(const fs::path& file, std::ifstream& stream, uint64_t fi
   Imf::FrameBuffer frame;
   for (const auto& [name, channels] : layers) {
     Image& layer = result.layers[name];
-    layer = Image(uint32_t(window.max.x - window.min.x + 1),
-                  uint32_t(window.max.y - window.min.y + 1));
+    layer =
+        Image(uint32_t(window.max.x - window.min.x + 1), uint32_t(window.max.y - window.min.y + 1));
     float* first = &layer.pixels[0].x;
     if (!channels.luminance.empty()) {
       addSlice(file, frame, header, channels.luminance, first);

@@ -51,10 +51,10 @@ const Image& checkedFirstLayer(const std::filesystem::path& file, const LayeredI
   }
   if (first.pixels.empty() || first.width > kExrMaxSide || first.height > kExrMaxSide ||
       first.pixels.size() > kExrMaxPixels / image.layers.size()) {
-    failInput(fmt::format("{}: cannot write {} layers of {}x{} pixels (1 to {} a side, at most {} "
-                          "over all layers)",
-                          file.string(), image.layers.size(), first.width, first.height,
-                          kExrMaxSide, kExrMaxPixels));
+    failInput(fmt::format(
+        "{}: cannot write {} layers of {}x{} pixels (1 to {} a side, at most {} "
+        "over all layers)",
+        file.string(), image.layers.size(), first.width, first.height, kExrMaxSide, kExrMaxPixels));
   }
   return first;
 }

@@ -36,8 +36,7 @@ double squaredBias(const Image& runs0, const Image& runs1, const Image& half0, c
   requireSize(runs0, half0, "reference's first half");
   requireSize(runs0, half1, "reference's second half");
   if (!mask.empty() && mask.size() != runs0.pixels.size()) {
-    failInput(fmt::format("mask has {} pixels but the image {}", mask.size(),
-                          runs0.pixels.size()));
+    failInput(fmt::format("mask has {} pixels but the image {}", mask.size(), runs0.pixels.size()));
   }
   double sum = 0.0;
   size_t count = 0;
@@ -78,8 +77,7 @@ double worstPixelShare(const std::vector<double>& errorPerPixel, double fraction
   if (!(total > 0.0) || !std::isfinite(total)) return std::numeric_limits<double>::quiet_NaN();
   std::vector<double> sorted = errorPerPixel;
   std::sort(sorted.begin(), sorted.end(), std::greater<>());
-  const size_t count =
-      std::min(sorted.size(), size_t(std::ceil(fraction * double(sorted.size()))));
+  const size_t count = std::min(sorted.size(), size_t(std::ceil(fraction * double(sorted.size()))));
   double worst = 0.0;
   for (size_t p = 0; p < count; ++p) worst += sorted[p];
   return worst / total;

@@ -75,8 +75,8 @@ Interval ratioInterval(std::span<const double> numerator, std::span<const double
   return fieller(a.mean, b.mean, va, b.varianceOfMean, 0.0, tQuantile(dof, confidence));
 }
 
-Interval pairedRatioInterval(std::span<const double> numerator,
-                             std::span<const double> denominator, double confidence) {
+Interval pairedRatioInterval(std::span<const double> numerator, std::span<const double> denominator,
+                             double confidence) {
   if (numerator.size() != denominator.size()) {
     throw std::invalid_argument("paired runs need as many numerators as denominators");
   }

@@ -7,7 +7,7 @@
 namespace restlab {
 
 struct Interval {
-  double value = 0.0;       // the estimate
+  double value = 0.0;         // the estimate
   double lo = 0.0, hi = 0.0;  // NaN with fewer than two runs: the spread is unknown
 };
 
@@ -15,17 +15,18 @@ struct Interval {
 Interval meanInterval(std::span<const double> runs, double confidence = 0.95);
 
 // mean(numerator) / mean(denominator) of independent sets of runs, which need not have the same
-// size: Fieller's interval with Welch-Satterthwaite degrees of freedom. lo = -inf and hi = +inf when
-// the denominator's own interval holds 0, for then no finite interval has the wanted coverage.
+// size: Fieller's interval with Welch-Satterthwaite degrees of freedom. lo = -inf and hi = +inf
+// when the denominator's own interval holds 0, for then no finite interval has the wanted coverage.
 Interval ratioInterval(std::span<const double> numerator, std::span<const double> denominator,
                        double confidence = 0.95);
 
 // The same where numerator[i] and denominator[i] were measured together (interleaved frame times):
 // their covariance narrows the interval. Throws std::invalid_argument on different sizes.
-Interval pairedRatioInterval(std::span<const double> numerator,
-                             std::span<const double> denominator, double confidence = 0.95);
+Interval pairedRatioInterval(std::span<const double> numerator, std::span<const double> denominator,
+                             double confidence = 0.95);
 
-// The middle value, or the mean of the two middle ones. Throws std::invalid_argument without values.
+// The middle value, or the mean of the two middle ones. Throws std::invalid_argument without
+// values.
 double median(std::span<const double> values);
 
 // The smallest value that at least `fraction` of the values do not exceed (nearest rank).

@@ -114,24 +114,24 @@ std::vector<MetricInfo> makeRegistry() {
   all.push_back({"rmse", "sqrt(mean d^2)", false, [](const Image& image, const Image& reference) {
                    return MetricValue{std::sqrt(mse(image, reference)), ""};
                  }});
-  all.push_back(
-      meanMetric("mae", "mean |d|", [](double i, double r) { return std::abs(i - r); }));
+  all.push_back(meanMetric("mae", "mean |d|", [](double i, double r) { return std::abs(i - r); }));
   all.push_back(meanMetric("relmse_e1e-2", "mean d^2 / (r^2 + 1e-2)", relativeSquared));
   all.push_back({"relmse_e1e-2_trim0.1",
                  "relmse_e1e-2 per pixel, mean without the largest 0.1 % (rounded down) of pixels",
                  false, trimmedRelativeMse});
-  all.push_back(meanMetric(
-      "mape_e1e-2", "mean |d| / (|r| + 1e-2)",
-      [](double i, double r) { return std::abs(i - r) / (std::abs(r) + kEpsilon); }));
-  all.push_back(meanMetric(
-      "smape", "mean |d| / ((|image| + |r|) / 2 + 1e-2)", [](double i, double r) {
+  all.push_back(meanMetric("mape_e1e-2", "mean |d| / (|r| + 1e-2)", [](double i, double r) {
+    return std::abs(i - r) / (std::abs(r) + kEpsilon);
+  }));
+  all.push_back(
+      meanMetric("smape", "mean |d| / ((|image| + |r|) / 2 + 1e-2)", [](double i, double r) {
         return std::abs(i - r) / (0.5 * (std::abs(i) + std::abs(r)) + kEpsilon);
       }));
-  all.push_back({"psnr", "10 log10(peak^2 / mse) in dB, peak = largest reference value", true, psnr});
+  all.push_back(
+      {"psnr", "10 log10(peak^2 / mse) in dB, peak = largest reference value", true, psnr});
   all.push_back({"energy_ratio", "mean(image) / mean(reference), ideal 1", false, energyRatio});
   all.push_back({"max_err", "max |d|, with its pixel and channel", false, maxError});
-  all.push_back({"nonfinite", "count of NaN and infinite channel values of the image", false,
-                 nonfinite});
+  all.push_back(
+      {"nonfinite", "count of NaN and infinite channel values of the image", false, nonfinite});
   return all;
 }
 

@@ -1,8 +1,9 @@
-// Image metrics whose names fix their formulas. d = image - reference, r = reference, both in linear
-// Rec. 709; "mean" runs over all pixels and the three channels.
+// Image metrics whose names fix their formulas. d = image - reference, r = reference, both in
+// linear Rec. 709; "mean" runs over all pixels and the three channels.
 //
 // Sums are doubles taken in pixel order, so a value is the same for any thread count. A NaN or an
-// infinity anywhere in either image makes every metric but `nonfinite` NaN; the detail says how many.
+// infinity anywhere in either image makes every metric but `nonfinite` NaN; the detail says how
+// many.
 #pragma once
 
 #include <cstddef>
@@ -55,9 +56,9 @@ glm::dvec3 energyRatioPerChannel(const Image& image, const Image& reference);
 double mseAgainstHalves(const Image& image, const Image& half0, const Image& half1,
                         const std::vector<uint8_t>& mask = {});
 
-// mean (runs0 - half0)(runs1 - half1): squared bias of a method, where runs0 and runs1 are the means
-// of two disjoint sets of independent runs. Unbiased and signed: about 0, of either sign, for an
-// unbiased method.
+// mean (runs0 - half0)(runs1 - half1): squared bias of a method, where runs0 and runs1 are the
+// means of two disjoint sets of independent runs. Unbiased and signed: about 0, of either sign, for
+// an unbiased method.
 double squaredBias(const Image& runs0, const Image& runs1, const Image& half0, const Image& half1,
                    const std::vector<uint8_t>& mask = {});
 

@@ -18,8 +18,8 @@ namespace {
 uint8_t encodeSrgb8(float linear) {
   if (!(linear > 0.0f)) return 0;
   if (linear >= 1.0f) return 255;
-  const float encoded = linear <= 0.0031308f ? 12.92f * linear
-                                             : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
+  const float encoded =
+      linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
   return uint8_t(encoded * 255.0f + 0.5f);
 }
 

@@ -87,7 +87,7 @@ void addLights(SceneBuilder& scene) {
   panel("light-left", -3.2, -0.2, 0.8, {36.0f, 26.0f, 15.0f});
   panel("light-right", 3.2, -0.2, 0.8, {15.0f, 24.0f, 36.0f});
   panel("light-small", -1.2, 0.2, 0.25, {220.0f, 205.0f, 180.0f});
-  panel("light-spark", 1.4, 0.1, 0.1, {1000.0f, 860.0f, 660.0f});
+  panel("light-spark", 1.4, 0.1, 0.15, {400.0f, 345.0f, 265.0f});
 }
 
 }  // namespace

@@ -42,10 +42,13 @@ void addLamps(SceneBuilder& scene) {
   std::array<MeshGeometry, size_t(kRadianceSteps) * kTints.size()> byMaterial;
   SceneRandom random(2024);
   for (int g = 0; g < kGarlands; ++g) {
-    const glm::dvec3 left(-kHalfWidth + 0.3, random.uniform(5.0, 8.6),
-                          -random.uniform(0.5, kLength - 0.5));
-    const glm::dvec3 right(kHalfWidth - 0.3, random.uniform(5.0, 8.6),
-                           left.z + random.uniform(-0.4, 0.4));
+    // One draw a statement: the order in which arguments are evaluated is the compiler's choice.
+    const double heightLeft = random.uniform(5.0, 8.6);
+    const double heightRight = random.uniform(5.0, 8.6);
+    const double z = -random.uniform(0.5, kLength - 0.5);
+    const double slant = random.uniform(-0.4, 0.4);
+    const glm::dvec3 left(-kHalfWidth + 0.3, heightLeft, z);
+    const glm::dvec3 right(kHalfWidth - 0.3, heightRight, z + slant);
     const double sag = random.uniform(0.4, 2.2);
     for (int i = 0; i < kLampsPerGarland; ++i) {
       const double t = (i + random.uniform(0.2, 0.8)) / kLampsPerGarland;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/backend/alpha_filter.h"
 #include "core/error.h"
 #include "core/scene/light_table.h"
 
@@ -201,16 +202,14 @@ void CompiledScene::Impl::buildEmbree() {
   const bool alpha = (features & rl::RL_FEATURE_ALPHA) != 0;
   // ROBUST: watertight along shared edges. High quality splits triangles, which would report a hit
   // twice to the alpha filter of shadow rays.
-  auto flags = static_cast<unsigned>(RTC_SCENE_FLAG_ROBUST);
-  if (alpha) flags |= static_cast<unsigned>(RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
   const RTCBuildQuality quality = alpha ? RTC_BUILD_QUALITY_MEDIUM : RTC_BUILD_QUALITY_HIGH;
   auto newScene = [&] {
     RTCScene s = rtcNewScene(device);
-    rtcSetSceneFlags(s, static_cast<RTCSceneFlags>(flags));
+    rtcSetSceneFlags(s, RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(s, quality);
     return s;
   };
-  auto newTriangles = [&](const rl::Geometry& g, size_t vertexCount) {
+  auto newTriangles = [&](const rl::Geometry& g, size_t vertexCount, bool isTransparent) {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     // Copied into Embree's own buffers: it asks for padding behind the last vertex.
     auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
@@ -220,6 +219,10 @@ void CompiledScene::Impl::buildEmbree() {
     if (v == nullptr || t == nullptr) failInput(fmt::format("{}: out of memory for the ray-tracing structure", scene.name));
     std::copy_n(&positions[g.firstVertex].x, 3 * vertexCount, v);
     std::copy_n(&triangles[g.firstTriangle].x, 3 * size_t(g.triangleCount), t);
+    if (isTransparent) {
+      rtcSetGeometryIntersectFilterFunction(geometry, rl::alphaFilterTrampoline);
+      rtcSetGeometryOccludedFilterFunction(geometry, rl::alphaFilterTrampoline);
+    }
     rtcCommitGeometry(geometry);
     return geometry;
   };
@@ -234,13 +237,15 @@ void CompiledScene::Impl::buildEmbree() {
     const uint32_t g = inst.geometry;
     if (geometries[g].triangleCount == 0) continue;
     if ((inst.flags & rl::RL_INSTANCE_IDENTITY) != 0) {
-      RTCGeometry geometry = newTriangles(geometries[g], vertexCount(g));
+      const bool isTransparent = alpha && (inst.flags & rl::RL_INSTANCE_ALPHA) != 0;
+      RTCGeometry geometry = newTriangles(geometries[g], vertexCount(g), isTransparent);
       rtcAttachGeometryByID(top, geometry, i);
       rtcReleaseGeometry(geometry);
       continue;
     }
     if (meshScenes[g] == nullptr) {
-      RTCGeometry geometry = newTriangles(geometries[g], vertexCount(g));
+      // Its instances may have different materials: the filter asks each one's.
+      RTCGeometry geometry = newTriangles(geometries[g], vertexCount(g), alpha);
       meshScenes[g] = newScene();
       rtcAttachGeometryByID(meshScenes[g], geometry, 0);
       rtcReleaseGeometry(geometry);

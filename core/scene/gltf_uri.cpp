@@ -80,7 +80,8 @@ bool hasScheme(std::string_view uri) {
 std::vector<std::string> namesIn(const fs::path& directory) {
   std::vector<std::string> names;
   std::error_code error;
-  for (fs::directory_iterator it(directory, error), end; !error && it != end; it.increment(error)) {
+  const fs::path folder = directory.empty() ? fs::path(".") : directory;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
     names.push_back(it->path().filename().string());
   }
   std::sort(names.begin(), names.end());  // the order of a directory is not defined

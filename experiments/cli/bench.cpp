@@ -92,9 +92,11 @@ Json errorPerCpuSecond(const PreparedScene& prepared, const SessionConfig& confi
     const double before = processCpuSeconds();
     session.frame();
     cpuS += (processCpuSeconds() - before) / options.frames;
-    errors.push_back(mseAgainstHalves(session.radiance(), *reference.half0, *reference.half1, mask));
+    errors.push_back(
+        mseAgainstHalves(session.radiance(), *reference.half0, *reference.half1, mask));
   }
-  logDetail(fmt::format("error per CPU second: {:.1f} CPU seconds", processCpuSeconds() - cpuBefore));
+  logDetail(
+      fmt::format("error per CPU second: {:.1f} CPU seconds", processCpuSeconds() - cpuBefore));
   const Interval mse = meanInterval(errors);  // frames of path are independent
   return {{"pixels_without_lights", pixels},
           {"mse_per_frame", mse.value},
@@ -122,6 +124,7 @@ Json frameJson(const PreparedScene& prepared, SessionConfig config, const BenchO
           {"time_ms_p95", rates.p95Ms},
           {"cpu_seconds_per_frame", rates.cpuS},
           {"pixels_per_second", pixels / seconds},
+          {"pixels_per_cpu_second", pixels / rates.cpuS},
           {"path_rays_per_pixel", rates.raysPath / pixels},
           {"shadow_rays_per_pixel", rates.raysShadow / pixels},
           {"rays_per_second", rays / seconds},
@@ -140,17 +143,20 @@ void printText(const Json& json) {
   for (const char* kind : {"primary", "shadow", "incoherent"}) {
     fmt::print("  {:<14} {:8.2f}\n", kind, embree[kind].get<double>() / 1e6);
   }
-  fmt::print("\n{:<10} {:<10} {:>9} {:>9} {:>8} {:>8} {:>9} {:>9} {:>8}\n", "integrator", "mode",
-             "ms/frame", "p95", "Mpix/s", "rays/px", "Mrays/s", "Embree %", "bytes/px");
+  fmt::print("\n{:<10} {:<10} {:>9} {:>9} {:>8} {:>11} {:>8} {:>9} {:>9} {:>8}\n", "integrator",
+             "mode", "ms/frame", "p95", "Mpix/s", "Mpix/CPU-s", "rays/px", "Mrays/s", "Embree %",
+             "bytes/px");
   for (const Json& frame : json["frames"]) {
-    fmt::print("{:<10} {:<10} {:>9.2f} {:>9.2f} {:>8.2f} {:>8.2f} {:>9.2f} {:>9.0f} {:>8}\n",
-               frame["integrator"].get<std::string>(), frame["mode"].get<std::string>(),
-               frame["time_ms_median"].get<double>(), frame["time_ms_p95"].get<double>(),
-               frame["pixels_per_second"].get<double>() / 1e6,
-               frame["path_rays_per_pixel"].get<double>() + frame["shadow_rays_per_pixel"].get<double>(),
-               frame["rays_per_second"].get<double>() / 1e6,
-               100.0 * frame["embree_alone_share_of_time"].get<double>(),
-               frame["bytes_per_pixel"].get<size_t>());
+    fmt::print(
+        "{:<10} {:<10} {:>9.2f} {:>9.2f} {:>8.2f} {:>11.2f} {:>8.2f} {:>9.2f} {:>9.0f} {:>8}\n",
+        frame["integrator"].get<std::string>(), frame["mode"].get<std::string>(),
+        frame["time_ms_median"].get<double>(), frame["time_ms_p95"].get<double>(),
+        frame["pixels_per_second"].get<double>() / 1e6,
+        frame["pixels_per_cpu_second"].get<double>() / 1e6,
+        frame["path_rays_per_pixel"].get<double>() + frame["shadow_rays_per_pixel"].get<double>(),
+        frame["rays_per_second"].get<double>() / 1e6,
+        100.0 * frame["embree_alone_share_of_time"].get<double>(),
+        frame["bytes_per_pixel"].get<size_t>());
   }
   const Json& error = json["path_error"];
   if (!error.is_null()) {
@@ -163,7 +169,8 @@ void printText(const Json& json) {
 
 void bench(BenchOptions options) {
   resolveResolution(options.scene);
-  if (!options.scene.width && !options.scene.height) options.scene.width = options.scene.height = 512;
+  if (!options.scene.width && !options.scene.height)
+    options.scene.width = options.scene.height = 512;
   const PreparedScene prepared = prepareScene(options.scene.request);
   printWarnings(prepared);
   SessionConfig config = makeConfig(options.scene, MethodOptions());
@@ -182,18 +189,17 @@ void bench(BenchOptions options) {
       frames.push_back(frameJson(prepared, method, options, embree));
     }
   }
-  Json json = {{"scene", prepared.scene->source().name},
-               {"width", config.width},
-               {"height", config.height},
-               {"max_bounces", config.maxBounces},
-               {"machine", machineJson()},
-               {"build", buildJson()},
-               {"embree_rays_per_second",
-                {{"primary", embree.primary},
-                 {"shadow", embree.shadow},
-                 {"incoherent", embree.incoherent}}},
-               {"frames", frames},
-               {"path_error", errorPerCpuSecond(prepared, config, options)}};
+  Json json = {
+      {"scene", prepared.scene->source().name},
+      {"width", config.width},
+      {"height", config.height},
+      {"max_bounces", config.maxBounces},
+      {"machine", machineJson()},
+      {"build", buildJson()},
+      {"embree_rays_per_second",
+       {{"primary", embree.primary}, {"shadow", embree.shadow}, {"incoherent", embree.incoherent}}},
+      {"frames", frames},
+      {"path_error", errorPerCpuSecond(prepared, config, options)}};
   json["peak_resident_mib"] = peakResidentMiB();
   if (options.json) {
     fmt::print("{}\n", json.dump(2));

@@ -98,7 +98,8 @@ std::vector<HitPoint> hitPoints(RTCScene scene, const RayBatch& rays) {
 }
 
 glm::vec3 uniformDirection(std::mt19937& random, std::uniform_real_distribution<float>& unit) {
-  const float z = 1.0f - 2.0f * unit(random), angle = 2.0f * std::numbers::pi_v<float> * unit(random);
+  const float z = 1.0f - 2.0f * unit(random),
+              angle = 2.0f * std::numbers::pi_v<float> * unit(random);
   const float radius = std::sqrt(std::max(0.0f, 1.0f - z * z));
   return {radius * std::cos(angle), radius * std::sin(angle), z};
 }
@@ -169,8 +170,8 @@ double rate(size_t count, int threads, double seconds, const Trace& trace) {
 
 }  // namespace
 
-EmbreeRates measureEmbree(const PreparedScene& prepared, uint32_t width, uint32_t height, int threads,
-                          double seconds) {
+EmbreeRates measureEmbree(const PreparedScene& prepared, uint32_t width, uint32_t height,
+                          int threads, double seconds) {
   const CompiledScene& compiled = *prepared.scene;
   const auto scene = static_cast<RTCScene>(compiled.embreeScene());
   const rl::Camera camera =

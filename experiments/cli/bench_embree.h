@@ -16,7 +16,7 @@ struct EmbreeRates {
 
 // Rays are made beforehand; only rtcIntersect1 and rtcOccluded1 are timed, on `threads` threads
 // (0: all). Each kind is repeated for at least `seconds`; the median repetition counts.
-EmbreeRates measureEmbree(const PreparedScene& prepared, uint32_t width, uint32_t height, int threads,
-                          double seconds);
+EmbreeRates measureEmbree(const PreparedScene& prepared, uint32_t width, uint32_t height,
+                          int threads, double seconds);
 
 }  // namespace restlab

@@ -60,8 +60,8 @@ bool identical(const Image& a, const Image& b) {
   return std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(glm::vec3)) == 0;
 }
 
-// `mse` against the halves, where there are halves, has no share of the reference's own noise. It is
-// meant for images that are independent of the reference, which the reference itself is not.
+// `mse` against the halves, where there are halves, has no share of the reference's own noise. It
+// is meant for images that are independent of the reference, which the reference itself is not.
 MetricValue evaluate(const std::string& name, const Image& image, const Reference& reference) {
   if (name != "mse" || !reference.half0 || identical(image, reference.mean)) {
     return evaluateMetric(name, image, reference.mean);
@@ -91,10 +91,12 @@ Compared compareOne(const std::string& file, const CompareOptions& options,
   }
   const Image& image = layer->second;
   if (image.width != reference.mean.width || image.height != reference.mean.height) {
-    failInput(fmt::format("{}: is {}x{}, the reference {} is {}x{}", file, image.width, image.height,
-                          options.reference, reference.mean.width, reference.mean.height));
+    failInput(fmt::format("{}: is {}x{}, the reference {} is {}x{}", file, image.width,
+                          image.height, options.reference, reference.mean.width,
+                          reference.mean.height));
   }
-  const bool bothDescribed = reference.metadata.count("scene_hash") && read.metadata.count("scene_hash");
+  const bool bothDescribed =
+      reference.metadata.count("scene_hash") && read.metadata.count("scene_hash");
   if (bothDescribed && !options.anyReference) {
     try {
       requireSameConfiguration(options.reference, reference.metadata, read.metadata);

@@ -1,4 +1,5 @@
-// restlab info: what a scene holds, what it needs of the kernels, what each integrator costs in memory.
+// restlab info: what a scene holds, what it needs of the kernels, what each integrator costs in
+// memory.
 #include <fmt/format.h>
 
 #include <memory>
@@ -20,10 +21,14 @@ struct InfoOptions {
 
 const char* lightKind(uint32_t kind) {
   switch (kind) {
-    case rl::RL_LIGHT_POINT: return "point";
-    case rl::RL_LIGHT_SPOT: return "spot";
-    case rl::RL_LIGHT_DIRECTIONAL: return "directional";
-    default: return "light";
+    case rl::RL_LIGHT_POINT:
+      return "point";
+    case rl::RL_LIGHT_SPOT:
+      return "spot";
+    case rl::RL_LIGHT_DIRECTIONAL:
+      return "directional";
+    default:
+      return "light";
   }
 }
 
@@ -56,12 +61,12 @@ Json integratorsJson(const PreparedScene& prepared) {
     const Session session(prepared.scene, config);
     Json buffers = Json::object();
     for (const auto& [name, bytes] : session.bufferBytesPerPixel()) buffers[name] = bytes;
-    all.push_back({{"name", info->name},
-                   {"features_used", featureNames(session.featuresUsed())},
-                   {"features_left_out",
-                    featureNames(rl::RL_FEATURE_ALL & ~session.featuresUsed())},
-                   {"bytes_per_pixel", session.bytesPerPixel()},
-                   {"buffers", buffers}});
+    all.push_back(
+        {{"name", info->name},
+         {"features_used", featureNames(session.featuresUsed())},
+         {"features_left_out", featureNames(rl::RL_FEATURE_ALL & ~session.featuresUsed())},
+         {"bytes_per_pixel", session.bytesPerPixel()},
+         {"buffers", buffers}});
   }
   return all;
 }
@@ -168,7 +173,8 @@ Action addInfoVerb(CLI::App& app) {
   auto options = std::make_shared<InfoOptions>();
   CLI::App* verb = app.add_subcommand("info", "what a scene holds and needs");
   verb->add_option("scene", options->request.scene, "a glTF file or a built-in scene")->required();
-  verb->add_option("--environment", options->request.environment, "latitude-longitude .hdr or .exr");
+  verb->add_option("--environment", options->request.environment,
+                   "latitude-longitude .hdr or .exr");
   verb->add_flag("--json", options->json, "JSON on stdout");
   return [options](Outcome&) { info(*options); };
 }

@@ -67,9 +67,8 @@ Json caches() {
 Json backends() {
   Json all = Json::array();
   for (const BackendInfo& backend : backendRegistry()) {
-    Json json = {{"name", backend.name},
-                 {"summary", backend.description},
-                 {"available", backend.available}};
+    Json json = {
+        {"name", backend.name}, {"summary", backend.description}, {"available", backend.available}};
     if (!backend.available) json["why_not"] = backend.whyNot;
     all.push_back(json);
   }
@@ -156,7 +155,8 @@ void list(const ListOptions& options) {
   for (const Json& item : all) {
     fmt::print("{:<{}}  {}", item["name"].get<std::string>(), width,
                item["summary"].get<std::string>());
-    if (item.contains("why_not")) fmt::print(" (not available: {})", item["why_not"].get<std::string>());
+    if (item.contains("why_not"))
+      fmt::print(" (not available: {})", item["why_not"].get<std::string>());
     fmt::print("\n");
     if (item.contains("parameters")) printParameters(item);
   }

@@ -43,7 +43,8 @@ void checkOptionNames(const CLI::App& verb, const std::vector<std::string>& argu
     const bool isShort = !isLong && argument.size() > 1 && argument[0] == '-' &&
                          std::isalpha(static_cast<unsigned char>(argument[1]));
     if (!isLong && !isShort) continue;
-    const std::string name = isLong ? argument.substr(0, argument.find('=')) : argument.substr(0, 2);
+    const std::string name =
+        isLong ? argument.substr(0, argument.find('=')) : argument.substr(0, 2);
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     failUsage(fmt::format("{}: unknown option '{}'{}", verb.get_name(), name,
                           didYouMean(isLong ? name : argument, known)));
@@ -51,8 +52,10 @@ void checkOptionNames(const CLI::App& verb, const std::vector<std::string>& argu
 }
 
 void addVerbosity(CLI::App& verb) {
-  verb.add_flag_callback("-q,--quiet", [] { setVerbosity(-1); }, "errors and warnings only");
-  verb.add_flag_callback("-v,--verbose", [] { setVerbosity(1); }, "details on stderr");
+  verb.add_flag_callback(
+      "-q,--quiet", [] { setVerbosity(-1); }, "errors and warnings only");
+  verb.add_flag_callback(
+      "-v,--verbose", [] { setVerbosity(1); }, "details on stderr");
   verb.set_help_flag("-h,--help", "this help");
   verb.footer(kFooter);
 }
@@ -101,12 +104,16 @@ int runVerb(CLI::App& app, std::vector<Verb>& verbs, const std::vector<std::stri
 
 int main(int argc, char** argv) {
   installInterruptHandler();
-  CLI::App app("restlab measures ReSTIR-style path tracing against converged references", "restlab");
+  CLI::App app("restlab measures ReSTIR-style path tracing against converged references",
+               "restlab");
   app.require_subcommand(0, 1);
   app.footer(kFooter);
-  std::vector<Verb> verbs = {{"run", addRunVerb(app)},         {"render", addRenderVerb(app)},
-                             {"reference", addReferenceVerb(app)}, {"compare", addCompareVerb(app)},
-                             {"info", addInfoVerb(app)},       {"list", addListVerb(app)},
+  std::vector<Verb> verbs = {{"run", addRunVerb(app)},
+                             {"render", addRenderVerb(app)},
+                             {"reference", addReferenceVerb(app)},
+                             {"compare", addCompareVerb(app)},
+                             {"info", addInfoVerb(app)},
+                             {"list", addListVerb(app)},
                              {"bench", addBenchVerb(app)}};
   for (const Verb& verb : verbs) addVerbosity(*app.get_subcommand(verb.name));
   try {

@@ -30,8 +30,8 @@ ParameterMap parseParameters(const IntegratorInfo& info, const std::vector<std::
     const auto [key, value] = splitAssignment(assignment);
     const auto found = std::find(names.begin(), names.end(), key);
     if (found == names.end()) {
-      failUsage(fmt::format("--set {}: integrator {} has no parameter '{}'{}", assignment, info.name,
-                            key, didYouMean(key, names)));
+      failUsage(fmt::format("--set {}: integrator {} has no parameter '{}'{}", assignment,
+                            info.name, key, didYouMean(key, names)));
     }
     parameters[key] = parseParameter(info.parameters[size_t(found - names.begin())], value,
                                      "--set " + assignment);
@@ -68,8 +68,9 @@ void addSceneOptions(CLI::App& verb, SceneOptions& options) {
   SceneRequest& request = options.request;
   verb.add_option("scene", request.scene, "a glTF file or a built-in scene (restlab list scenes)")
       ->required();
-  verb.add_option("--resolution", options.resolution, "WxH pixels (default: 512 wide, the camera's "
-                                                      "aspect ratio)");
+  verb.add_option("--resolution", options.resolution,
+                  "WxH pixels (default: 512 wide, the camera's "
+                  "aspect ratio)");
   verb.add_option("--width", options.width, "pixels")->check(CLI::Range(1u, kMaxSide));
   verb.add_option("--height", options.height, "pixels")->check(CLI::Range(1u, kMaxSide));
   verb.add_option("--seed", options.seed, "random seed (default 1)");
@@ -111,8 +112,9 @@ void resolveResolution(SceneOptions& options) {
     options.height = parseSide(text.substr(x + 1));
   }
   if (!options.width || !options.height) {
-    failUsage(fmt::format("--resolution {}: must be WxH with both sides in 1..{}, for example 640x360",
-                          options.resolution, kMaxSide));
+    failUsage(
+        fmt::format("--resolution {}: must be WxH with both sides in 1..{}, for example 640x360",
+                    options.resolution, kMaxSide));
   }
 }
 

@@ -12,7 +12,7 @@ namespace restlab {
 
 struct SceneOptions {
   SceneRequest request;
-  std::string resolution;      // "WxH"
+  std::string resolution;  // "WxH"
   uint32_t width = 0, height = 0;
   uint32_t seed = 1;
   uint32_t maxBounces = 8;

@@ -53,7 +53,8 @@ void makeReference(ReferenceOptions options) {
 
 Action addReferenceVerb(CLI::App& app) {
   auto options = std::make_shared<ReferenceOptions>();
-  CLI::App* verb = app.add_subcommand("reference", "render a converged reference with its own error");
+  CLI::App* verb =
+      app.add_subcommand("reference", "render a converged reference with its own error");
   addSceneOptions(*verb, options->scene);
   addOutput(*verb, options->output);
   verb->add_option("--integrator", options->integrator, "path, and nothing else");

@@ -61,9 +61,10 @@ Rendered renderFrames(Session& session, const RenderOptions& options, bool histo
     rendered.warmup = std::max<uint64_t>(options.frames, 1) - 1;
   }
   if (mean && history) {
-    logInfo(fmt::format("the image is the mean of {} consecutive frames of one history after {} "
-                        "warm-up frames; they are not independent samples", options.spp,
-                        kWarmupFrames));
+    logInfo(
+        fmt::format("the image is the mean of {} consecutive frames of one history after {} "
+                    "warm-up frames; they are not independent samples",
+                    options.spp, kWarmupFrames));
   }
   const uint64_t total = rendered.warmup + rendered.spp;
   Progress progress("frame", total);
@@ -97,8 +98,7 @@ LayeredImage layers(const Session& session, const PreparedScene& prepared, const
   file.metadata["render_time_s"] = fmt::format("{:.6g}", rendered.timeMs / 1000.0);
   file.metadata["health"] = rendered.health.text();
   file.metadata["features_needed"] = featureNames(session.featuresNeeded());
-  file.metadata["features_left_out"] =
-      featureNames(rl::RL_FEATURE_ALL & ~session.featuresUsed());
+  file.metadata["features_left_out"] = featureNames(rl::RL_FEATURE_ALL & ~session.featuresUsed());
   return file;
 }
 
@@ -146,9 +146,8 @@ Action addRenderVerb(CLI::App& app) {
       ->check(CLI::Range(uint64_t(1), kMaxCount))
       ->excludes(frames);
   verb->add_option("--aov", options->aovs, "comma-separated layers: radiance, positionW, ...");
-  verb->add_option("--png", options->png, "an sRGB preview; without a name beside the EXR")
-      ->expected(0, 1)
-      ->default_str("beside");
+  verb->add_flag("--png{beside}", options->png,
+                 "an sRGB preview beside the EXR; --png=FILE: there");
   return [options](Outcome&) { render(*options); };
 }
 

@@ -52,16 +52,16 @@ void runVerb(const RunOptions& options, Outcome& outcome) {
     logWarning("runs = 1: no interval and no bias can be given; biased rows will not count");
   }
   if (suite.yardstick() == suite.methods.size()) {
-    logWarning("the suite has no method with integrator = \"path\": there is nothing to compare "
-               "with, ratios are nan");
+    logWarning(
+        "the suite has no method with integrator = \"path\": there is nothing to compare "
+        "with, ratios are nan");
   }
   SuiteRequest request;
   request.out = options.out.empty() ? std::filesystem::path("results") / safeFileName(suite.name)
                                     : std::filesystem::path(options.out);
   request.argv = outcome.argv;
   logInfo(fmt::format("{}: {} scenes, {} methods, {} runs; results in {}", suite.name,
-                      suite.scenes.size(), suite.methods.size(), suite.runs,
-                      request.out.string()));
+                      suite.scenes.size(), suite.methods.size(), suite.runs, request.out.string()));
   if (!runSuite(suite, request)) {
     throw Error(ExitCode::interrupted,
                 fmt::format("interrupted: finished runs are kept in {}", request.out.string()));
@@ -73,7 +73,8 @@ void runVerb(const RunOptions& options, Outcome& outcome) {
 Action addRunVerb(CLI::App& app) {
   auto options = std::make_shared<RunOptions>();
   CLI::App* verb = app.add_subcommand("run", "run a suite: errors and times against references");
-  verb->add_option("suite", options->suite, "a TOML file (experiments/suites has some)")->required();
+  verb->add_option("suite", options->suite, "a TOML file (experiments/suites has some)")
+      ->required();
   verb->add_option("-o,--out", options->out, "folder of the results (default results/NAME)");
   verb->add_option("--set", options->overrides,
                    "KEY=VALUE: a setting, reference.KEY, method.KEY or method.NAME.KEY")

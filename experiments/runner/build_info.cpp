@@ -29,9 +29,9 @@ std::string firstLine(const char* file) {
 }  // namespace
 
 const BuildInfo& buildInfo() {
-  static const BuildInfo info = {RESTLAB_SOURCE_HASH, RESTLAB_REFERENCE_HASH, RESTLAB_GIT_COMMIT,
-                                 RESTLAB_GIT_DIRTY != 0, RESTLAB_COMPILER,
-                                 RESTLAB_COMPILER_FLAGS, RESTLAB_BUILD_TYPE, RESTLAB_VERSION};
+  static const BuildInfo info = {
+      RESTLAB_SOURCE_HASH, RESTLAB_REFERENCE_HASH, RESTLAB_GIT_COMMIT, RESTLAB_GIT_DIRTY != 0,
+      RESTLAB_COMPILER,    RESTLAB_COMPILER_FLAGS, RESTLAB_BUILD_TYPE, RESTLAB_VERSION};
   return info;
 }
 

@@ -20,10 +20,10 @@ const BuildInfo& buildInfo();
 nlohmann::ordered_json machineJson();
 nlohmann::ordered_json buildJson();
 
-std::string cpuModel();        // "unknown" where /proc/cpuinfo does not say
-std::string embreeVersion();   // "3.13.5"
-std::string utcNow();          // "2024-05-01T12:00:00Z"
-double peakResidentMiB();      // of this process
-double processCpuSeconds();    // user + system, of this process
+std::string cpuModel();       // "unknown" where /proc/cpuinfo does not say
+std::string embreeVersion();  // "3.13.5"
+std::string utcNow();         // "2024-05-01T12:00:00Z"
+double peakResidentMiB();     // of this process
+double processCpuSeconds();   // user + system, of this process
 
 }  // namespace restlab

@@ -51,8 +51,8 @@ std::vector<Column> contractColumns(const Suite& suite, const MethodSummary& row
           {"energy_ratio", number(row.energyRatio.value)},
           {"nonfinite", std::to_string(row.nonfinite)},
           {"mse_ratio", number(row.mseRatio.value)},
-          {"time_ratio", number(row.timeRatio)},
-          {"efficiency_ratio", number(row.efficiencyRatio)},
+          {"time_ratio", number(row.timeRatio.value)},
+          {"efficiency_ratio", number(row.efficiencyRatio.value)},
           {"features_left_out", featuresLeftOut(*row.result)}};
 }
 
@@ -73,11 +73,11 @@ std::vector<Column> furtherColumns(const Suite& suite, const MethodSummary& row)
       {"flags", flags},
       {"mse_ratio_ci_lo", number(row.mseRatio.lo)},
       {"mse_ratio_ci_hi", number(row.mseRatio.hi)},
-      {"time_ratio_paired", number(row.timeRatioPaired.value)},
-      {"time_ratio_ci_lo", number(row.timeRatioPaired.lo)},
-      {"time_ratio_ci_hi", number(row.timeRatioPaired.hi)},
-      {"efficiency_ratio_ci_lo", number(row.efficiencyPaired.lo)},
-      {"efficiency_ratio_ci_hi", number(row.efficiencyPaired.hi)},
+      {"time_ratio_ci_lo", number(row.timeRatio.lo)},
+      {"time_ratio_ci_hi", number(row.timeRatio.hi)},
+      {"time_ratio_of_medians", number(row.timeRatioOfMedians)},
+      {"efficiency_ratio_ci_lo", number(row.efficiencyRatio.lo)},
+      {"efficiency_ratio_ci_hi", number(row.efficiencyRatio.hi)},
       {"energy_ratio_ci_lo", number(row.energyRatio.lo)},
       {"energy_ratio_ci_hi", number(row.energyRatio.hi)},
       {"relmse_e1e-2_ci_lo", number(row.relmse.lo)},
@@ -102,8 +102,8 @@ std::vector<Column> furtherColumns(const Suite& suite, const MethodSummary& row)
   for (size_t i = 0; i < rl::RL_HEALTH_COUNT; ++i) {
     const char* name = Health::names()[i];
     if (!name || !*name) continue;
-    columns.push_back({fmt::format("health_{}", name),
-                       std::to_string(row.health.health.counts[i])});
+    columns.push_back(
+        {fmt::format("health_{}", name), std::to_string(row.health.health.counts[i])});
   }
   return columns;
 }

@@ -52,8 +52,8 @@ struct BlockResult {
 // Called after every finished run of a method.
 using RunSink = std::function<void(const BlockResult&, const RunResult&)>;
 
-// Renders the block into `block`, whose scene, size and reference are set. Returns false when it was
-// interrupted: the runs that were not finished are absent then, all others are kept.
+// Renders the block into `block`, whose scene, size and reference are set. Returns false when it
+// was interrupted: the runs that were not finished are absent then, all others are kept.
 bool executeBlock(const Suite& suite, const PreparedScene& prepared, const RunSink& sink,
                   BlockResult& block);
 

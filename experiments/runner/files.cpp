@@ -53,7 +53,8 @@ fs::path findAsset(const std::string& name) {
   if (name.empty()) return {};
   std::vector<fs::path> folders = {""};
   if (fs::path(name).is_relative()) {
-    if (const char* given = std::getenv("RESTLAB_SCENES"); given && *given) folders.push_back(given);
+    if (const char* given = std::getenv("RESTLAB_SCENES"); given && *given)
+      folders.push_back(given);
     folders.push_back("../shared/scenes");
   }
   for (const fs::path& folder : folders) {
@@ -68,10 +69,15 @@ fs::path findAsset(const std::string& name) {
 std::string safeFileName(const std::string& name) {
   std::string safe;
   for (const char c : name) {
-    const bool plain = std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '_' || c == '-';
-    safe += plain ? c : '-';
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '_';
+    if (plain) {
+      safe += c;
+    } else if (!safe.empty() && safe.back() != '-') {
+      safe += '-';
+    }
   }
-  return safe.empty() ? "unnamed" : safe;
+  while (!safe.empty() && safe.back() == '-') safe.pop_back();
+  return safe.empty() || safe[0] == '.' ? fmt::format("unnamed{}", safe) : safe;
 }
 
 }  // namespace restlab

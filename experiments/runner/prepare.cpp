@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "experiments/runner/build_info.h"
 #include "experiments/runner/files.h"
 #include "experiments/runner/log.h"
-#include "experiments/runner/build_info.h"
 
 namespace restlab {
 
@@ -39,8 +39,10 @@ std::string locate(const std::string& name, const std::string& suiteFolder) {
 EnvironmentMap readEnvironment(const SceneRequest& request) {
   const std::string found = locate(request.environment, request.suiteFolder);
   if (found.empty()) {
-    failInput(fmt::format("{}: environment not found (looked here, in RESTLAB_SCENES and in "
-                          "../shared/scenes)", request.environment));
+    failInput(
+        fmt::format("{}: environment not found (looked here, in RESTLAB_SCENES and in "
+                    "../shared/scenes)",
+                    request.environment));
   }
   return loadEnvironment(found);
 }
@@ -154,8 +156,8 @@ std::map<std::string, std::string> describe(const PreparedScene& prepared,
   std::string matrix;
   for (int row = 0; row < 4; ++row) {
     for (int column = 0; column < 4; ++column) {
-      matrix += fmt::format("{}{:.9g}", matrix.empty() ? "" : " ",
-                            camera.cameraToWorld[column][row]);
+      matrix +=
+          fmt::format("{}{:.9g}", matrix.empty() ? "" : " ", camera.cameraToWorld[column][row]);
     }
   }
   const Scene& source = prepared.scene->source();
@@ -186,11 +188,10 @@ std::map<std::string, std::string> describe(const PreparedScene& prepared,
   };
   if (source.environment) {
     words["environment_rotation"] =
-        fmt::format("{:.9g}", source.environment->rotation * 180.0 / std::numbers::pi);
+        fmt::format("{:.6g}", source.environment->rotation * 180.0 / std::numbers::pi);
     words["environment_scale"] = fmt::format("{:.9g}", source.environment->scale);
   }
-  const ParameterMap all =
-      resolveParameters(findIntegrator(config.integrator), config.parameters);
+  const ParameterMap all = resolveParameters(findIntegrator(config.integrator), config.parameters);
   for (const auto& [key, value] : all) words["parameter." + key] = parameterText(value);
   return words;
 }

@@ -9,9 +9,9 @@
 
 #include "core/error.h"
 #include "experiments/runner/accumulate.h"
+#include "experiments/runner/build_info.h"
 #include "experiments/runner/interrupt.h"
 #include "experiments/runner/log.h"
-#include "experiments/runner/build_info.h"
 
 namespace restlab {
 
@@ -167,8 +167,8 @@ Reference readReference(const std::filesystem::path& file) {
     slot = std::move(layer->second);
   }
   if (reference.half0.has_value() != reference.half1.has_value()) {
-    failInput(fmt::format("{}: has one of the layers half0 and half1 but not the other",
-                          file.string()));
+    failInput(
+        fmt::format("{}: has one of the layers half0 and half1 but not the other", file.string()));
   }
   reference.metadata = std::move(image.metadata);
   const double spp = metadataNumber(reference.metadata, "spp");

@@ -23,9 +23,9 @@ struct ReferenceConfig {
 
 // When to stop: at the first target that is reached; 0 is no target. One must be set.
 struct ReferenceTarget {
-  uint64_t spp = 0;          // samples per pixel of both halves together, at least 2
-  double relmse = 0.0;       // mean d^2/(r^2+1e-2) of the mean, estimated from the halves
-  double timeLimitS = 0.0;   // seconds of rendering
+  uint64_t spp = 0;         // samples per pixel of both halves together, at least 2
+  double relmse = 0.0;      // mean d^2/(r^2+1e-2) of the mean, estimated from the halves
+  double timeLimitS = 0.0;  // seconds of rendering
 };
 
 struct Reference {
@@ -38,8 +38,8 @@ struct Reference {
   double timeS = 0.0;   // rendering only
 };
 
-// The key: scene and environment bytes, camera, size, bounces, components, filter and the sources of
-// core/ and integrators/path.
+// The key: scene and environment bytes, camera, size, bounces, components, filter and the sources
+// of core/ and integrators/path.
 std::string referenceKey(const PreparedScene& prepared, const ReferenceConfig& config);
 
 // Renders until the target is reached; progress on stderr. Throws Error (interrupted) on SIGINT.

@@ -29,10 +29,11 @@ std::optional<Reference> tryStored(const fs::path& file, const std::string& key,
   }
   const auto stored = reference.metadata.find("reference_key");
   if (stored == reference.metadata.end() || stored->second != key || !reference.half0) {
-    logInfo(fmt::format("{}: is of another scene, setting or version (key {}, wanted {}); "
-                        "rendered anew", file.string(),
-                        stored == reference.metadata.end() ? "none" : stored->second.substr(0, 8),
-                        key.substr(0, 8)));
+    logInfo(fmt::format(
+        "{}: is of another scene, setting or version (key {}, wanted {}); "
+        "rendered anew",
+        file.string(), stored == reference.metadata.end() ? "none" : stored->second.substr(0, 8),
+        key.substr(0, 8)));
     return std::nullopt;
   }
   if (!meetsTarget(reference, target)) {

@@ -119,8 +119,7 @@ std::vector<std::string> resultLines(const Suite& suite, const BlockResult& bloc
     addError(at, checkpoint);
     lines.push_back(at.dump());
   }
-  const double samples =
-      double(run.timesMs.size()) * double(block.width) * double(block.height);
+  const double samples = double(run.timesMs.size()) * double(block.width) * double(block.height);
   line["kind"] = "run";
   addError(line, run.measured);
   line["time_ms"] = timesJson(run);

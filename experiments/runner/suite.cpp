@@ -19,14 +19,13 @@ bool startsWith(const std::string& text, const std::string& prefix) {
   return text.rfind(prefix, 0) == 0;
 }
 
-bool integratorHasParameter(const std::string& integrator, const std::string& key) {
+std::vector<std::string> parameterNames(const std::string& integrator) {
+  std::vector<std::string> names = {"cache", "general"};
   for (const IntegratorInfo* info : integratorRegistry()) {
     if (info->name != integrator) continue;
-    for (const ParameterInfo& parameter : info->parameters) {
-      if (parameter.name == key) return true;
-    }
+    for (const ParameterInfo& parameter : info->parameters) names.push_back(parameter.name);
   }
-  return false;
+  return names;
 }
 
 // method.KEY or method.NAME.KEY.
@@ -37,19 +36,24 @@ void overrideMethods(const ConfigTable& root, const std::string& key, const std:
   const std::string wanted = dot == std::string::npos ? "" : rest.substr(0, dot);
   const std::string leaf = dot == std::string::npos ? rest : rest.substr(dot + 1);
   bool used = false;
-  std::vector<std::string> names;
+  std::vector<std::string> names, leaves;
   for (ConfigTable& method : root.getTables("method")) {
     const std::string integrator = method.getString("integrator", "path");
     const std::string name = method.getString("name", integrator);
     names.push_back(name);
-    const bool general = leaf == "cache" || leaf == "general";
-    if (wanted.empty() ? general || integratorHasParameter(integrator, leaf) : wanted == name) {
+    const std::vector<std::string> known = parameterNames(integrator);
+    leaves.insert(leaves.end(), known.begin(), known.end());
+    const bool knows = std::find(known.begin(), known.end(), leaf) != known.end();
+    if (wanted.empty() ? knows : wanted == name) {
       method.assign(leaf, value, place);
       used = true;
     }
   }
   if (used) return;
-  if (wanted.empty()) failUsage(fmt::format("{}: no method has a parameter '{}'", place, leaf));
+  if (wanted.empty()) {
+    failUsage(
+        fmt::format("{}: no method has a parameter '{}'{}", place, leaf, didYouMean(leaf, leaves)));
+  }
   failUsage(fmt::format("{}: no method is named '{}'{}", place, wanted, didYouMean(wanted, names)));
 }
 
@@ -122,7 +126,8 @@ void readSettings(const ConfigTable& table, Suite& suite) {
   suite.height = uint32_t(table.getInteger("height", 0, 1, kMaxSide));
   suite.maxBounces = uint32_t(table.getInteger("max_bounces", suite.maxBounces, 0, 1024));
   suite.russianRoulette = table.getBool("russian_roulette", suite.russianRoulette);
-  suite.warmupFrames = uint32_t(table.getInteger("warmup_frames", suite.warmupFrames, 0, kMaxCount));
+  suite.warmupFrames =
+      uint32_t(table.getInteger("warmup_frames", suite.warmupFrames, 0, kMaxCount));
   suite.timedFrames = uint32_t(table.getInteger("frames", suite.timedFrames, 1, kMaxCount));
   suite.runs = uint32_t(table.getInteger("runs", suite.runs, 1, kMaxCount));
   suite.seed = uint32_t(table.getInteger("seed", suite.seed, 0, 0x7fffffff));
@@ -163,7 +168,8 @@ void requireUniqueNames(const ConfigTable& root, const Suite& suite) {
   seen.clear();
   for (const SuiteScene& scene : suite.scenes) {
     if (seen.insert(scene.name).second) continue;
-    root.fail("scene", fmt::format("two scenes are named '{}'; give each its own 'name'", scene.name));
+    root.fail("scene",
+              fmt::format("two scenes are named '{}'; give each its own 'name'", scene.name));
   }
 }
 
@@ -197,7 +203,8 @@ Suite loadSuite(const std::filesystem::path& file, const std::vector<std::string
   for (const ConfigTable& table : root.getTables("scene")) {
     suite.scenes.push_back(readScene(table, folder));
   }
-  if (suite.scenes.empty()) root.fail("", "the suite has no scenes: give scenes = [..] or [[scene]]");
+  if (suite.scenes.empty())
+    root.fail("", "the suite has no scenes: give scenes = [..] or [[scene]]");
   for (const ConfigTable& table : root.getTables("method")) {
     suite.methods.push_back(readMethod(table));
   }

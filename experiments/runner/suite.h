@@ -12,10 +12,10 @@ namespace restlab {
 
 struct SuiteScene {
   SceneRequest request;
-  std::string name;       // in tables and file names
-  std::string reference;  // a file; "": rendered and cached
+  std::string name;                // in tables and file names
+  std::string reference;           // a file; "": rendered and cached
   uint32_t width = 0, height = 0;  // 0: as [settings] says
-  bool optional = false;  // skipped, with a line, where its files are absent
+  bool optional = false;           // skipped, with a line, where its files are absent
 };
 
 struct SuiteMethod {

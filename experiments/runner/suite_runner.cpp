@@ -33,8 +33,8 @@ ReferenceConfig referenceConfig(const Suite& suite, const BlockResult& block) {
 }
 
 // The reference given as a file must be of exactly this configuration.
-Reference givenReference(const std::string& file, const PreparedScene& prepared,
-                         const Suite& suite, const BlockResult& block) {
+Reference givenReference(const std::string& file, const PreparedScene& prepared, const Suite& suite,
+                         const BlockResult& block) {
   const fs::path found = findAsset(file);
   Reference reference = readReference(found.empty() ? fs::path(file) : found);
   if (reference.mean.width != block.width || reference.mean.height != block.height) {
@@ -98,9 +98,10 @@ class SuiteRun {
     for (const SuiteScene& scene : suite_.scenes) {
       std::string missing;
       if (scene.optional || !assetsMissing(scene.request, missing)) continue;
-      failInput(fmt::format("{}: scene {}: '{}' is neither a built-in scene nor a file here, in "
-                            "RESTLAB_SCENES or in ../shared/scenes{}", suite_.file, scene.name,
-                            missing, didYouMean(missing, builtinSceneNames())));
+      failInput(
+          fmt::format("{}: scene {}: '{}' is neither a built-in scene nor a file here, in "
+                      "RESTLAB_SCENES or in ../shared/scenes{}",
+                      suite_.file, scene.name, missing, didYouMean(missing, builtinSceneNames())));
     }
   }
 
@@ -175,20 +176,26 @@ class SuiteRun {
       }
       text += blockTable(suite_, own);
     }
-    text += fmt::format("{}, {} cores, Embree {}, {} {}; times are of the passes of a frame by the "
-                        "steady clock, without metrics and files.\n", cpuModel(),
-                        machineJson()["cores"].dump(), embreeVersion(), buildInfo().compiler,
-                        buildInfo().buildType);
+    text += fmt::format(
+        "{}, {} cores, Embree {}, {} {}; times are of the passes of a frame by the "
+        "steady clock, without metrics and files.\n",
+        cpuModel(), machineJson()["cores"].dump(), embreeVersion(), buildInfo().compiler,
+        buildInfo().buildType);
     writeTextFile(request_.out / "table.md", text);
   }
 
   // What was run, where, from which sources: whoever finds the folder can run it again.
   void writeRecord(const std::string& status) {
-    nlohmann::ordered_json record = {{"schema", kResultsSchema}, {"status", status},
-                                     {"suite", suite_.name},     {"file", suite_.file},
-                                     {"argv", request_.argv},    {"started", started_},
-                                     {"written", utcNow()},      {"build", buildJson()},
-                                     {"machine", machineJson()}, {"skipped", skipped_},
+    nlohmann::ordered_json record = {{"schema", kResultsSchema},
+                                     {"status", status},
+                                     {"suite", suite_.name},
+                                     {"file", suite_.file},
+                                     {"argv", request_.argv},
+                                     {"started", started_},
+                                     {"written", utcNow()},
+                                     {"build", buildJson()},
+                                     {"machine", machineJson()},
+                                     {"skipped", skipped_},
                                      {"peak_resident_mib", peakResidentMiB()}};
     writeTextFile(request_.out / "run.json", record.dump(2) + "\n");
   }

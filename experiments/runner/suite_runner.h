@@ -14,8 +14,8 @@ struct SuiteRequest {
   std::vector<std::string> argv;  // recorded in run.json
 };
 
-// Executes every block; prints each table on stdout as soon as it is known. Returns false when it was
-// interrupted: what was finished is written. Throws Error.
+// Executes every block; prints each table on stdout as soon as it is known. Returns false when it
+// was interrupted: what was finished is written. Throws Error.
 bool runSuite(const Suite& suite, const SuiteRequest& request);
 
 }  // namespace restlab

@@ -17,8 +17,14 @@ std::vector<double> perRun(const MethodResult& result, double (*value)(const Run
 }
 
 double runMse(const RunResult& run) { return run.measured.mse; }
-double runTimeMs(const RunResult& run) { return median(run.timesMs); }
-double runWork(const RunResult& run) { return run.measured.mse * median(run.timesMs); }
+
+// Median over the frames of a run of time / time of `path` in the same interleaved round.
+double runTimeRatio(const RunResult& run, const RunResult& path) {
+  std::vector<double> ratios;
+  for (size_t i = 0; i < run.timesMs.size(); ++i)
+    ratios.push_back(run.timesMs[i] / path.timesMs.at(i));
+  return median(ratios);
+}
 
 BiasClass biasOf(const SessionConfig& config) {
   for (const ModeInfo& mode : findIntegrator(config.integrator).modes) {
@@ -53,10 +59,10 @@ void summariseTimes(const MethodResult& result, size_t pixels, MethodSummary& ro
 
 void summariseErrors(const MethodResult& result, const Reference& reference, MethodSummary& row) {
   row.mse = meanInterval(perRun(result, runMse));
-  row.relmse = meanInterval(
-      perRun(result, [](const RunResult& run) { return run.measured.relmse; }));
-  row.energyRatio = meanInterval(
-      perRun(result, [](const RunResult& run) { return run.measured.energyRatio; }));
+  row.relmse =
+      meanInterval(perRun(result, [](const RunResult& run) { return run.measured.relmse; }));
+  row.energyRatio =
+      meanInterval(perRun(result, [](const RunResult& run) { return run.measured.energyRatio; }));
   row.worstShare = meanInterval(perRun(result, [](const RunResult& run) {
                      return run.measured.worstShare;
                    })).value;
@@ -73,18 +79,19 @@ void compareWithYardstick(const MethodResult& path, const MethodSummary& pathRow
                           const MethodResult& result, MethodSummary& row) {
   // An interrupted block may have one run more of the first methods.
   const size_t paired = std::min(path.runs.size(), result.runs.size());
-  const auto both = [&](double (*value)(const RunResult&), bool pathOnTop) {
-    std::vector<double> ours = perRun(result, value), theirs = perRun(path, value);
-    ours.resize(paired);
-    theirs.resize(paired);
-    return pathOnTop ? pairedRatioInterval(theirs, ours) : pairedRatioInterval(ours, theirs);
-  };
-  row.mseRatio = both(runMse, true);
+  std::vector<double> pathMse, mse, timeRatios, work;
+  for (size_t r = 0; r < paired; ++r) {
+    pathMse.push_back(runMse(path.runs[r]));
+    mse.push_back(runMse(result.runs[r]));
+    timeRatios.push_back(runTimeRatio(result.runs[r], path.runs[r]));
+    work.push_back(mse.back() * timeRatios.back());
+  }
+  row.mseRatio = pairedRatioInterval(pathMse, mse);
   row.mseRatio.value = pathRow.mse.value / row.mse.value;
-  row.timeRatio = row.timeMsMedian / pathRow.timeMsMedian;
-  row.timeRatioPaired = both(runTimeMs, false);
-  row.efficiencyRatio = row.mseRatio.value / row.timeRatio;
-  row.efficiencyPaired = both(runWork, true);
+  row.timeRatio = meanInterval(timeRatios);
+  row.timeRatioOfMedians = row.timeMsMedian / pathRow.timeMsMedian;
+  row.efficiencyRatio = pairedRatioInterval(pathMse, work);
+  row.efficiencyRatio.value = row.mseRatio.value / row.timeRatio.value;
 }
 
 void judge(MethodSummary& row) {
@@ -93,8 +100,10 @@ void judge(MethodSummary& row) {
     row.flags.push_back(fmt::format("{} non-finite values", row.nonfinite));
   }
   if (row.worstShare > kWorstShareMax) {
-    row.flags.push_back(fmt::format("{:.0f} % of its MSE is in the worst 0.1 % of the pixels: its "
-                                    "interval says little", 100.0 * row.worstShare));
+    row.flags.push_back(
+        fmt::format("{:.0f} % of its MSE is in the worst 0.1 % of the pixels: its "
+                    "interval says little",
+                    100.0 * row.worstShare));
   }
   if (row.mse.value <= 0.0) row.flags.push_back("its MSE is below the noise of the reference");
   if (row.bias != BiasClass::biased) return;
@@ -105,12 +114,15 @@ void judge(MethodSummary& row) {
   }
   if (std::isnan(row.biasShare)) {
     row.counts = false;
-    row.flags.push_back("does not count: its bias is unknown (needs two runs and a reference in "
-                        "two halves)");
+    row.flags.push_back(
+        "does not count: its bias is unknown (needs two runs and a reference in "
+        "two halves)");
   } else if (row.biasShare > kBiasShareMax) {
     row.counts = false;
-    row.flags.push_back(fmt::format("does not count: squared bias is {:.0f} % of its MSE, more "
-                                    "than {:.0f} %", 100.0 * row.biasShare, 100.0 * kBiasShareMax));
+    row.flags.push_back(
+        fmt::format("does not count: squared bias is {:.0f} % of its MSE, more "
+                    "than {:.0f} %",
+                    100.0 * row.biasShare, 100.0 * kBiasShareMax));
   }
 }
 
@@ -149,9 +161,12 @@ std::string featuresLeftOut(const MethodResult& result) {
 
 const char* biasName(BiasClass bias) {
   switch (bias) {
-    case BiasClass::unbiased: return "unbiased";
-    case BiasClass::consistent: return "consistent";
-    case BiasClass::biased: break;
+    case BiasClass::unbiased:
+      return "unbiased";
+    case BiasClass::consistent:
+      return "consistent";
+    case BiasClass::biased:
+      break;
   }
   return "biased";
 }

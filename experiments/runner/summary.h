@@ -34,10 +34,11 @@ struct MethodSummary {
 
   // Against the yardstick: path / method for the error, method / path for the time.
   Interval mseRatio{kUnknown, kUnknown, kUnknown};
-  double timeRatio = kUnknown;  // ratio of the medians
-  Interval timeRatioPaired{kUnknown, kUnknown, kUnknown};  // of the runs' medians, paired
-  double efficiencyRatio = kUnknown;                       // mseRatio / timeRatio
-  Interval efficiencyPaired{kUnknown, kUnknown, kUnknown};  // of the runs' mse x time
+  // Mean over runs of the run's median over frames of time(method) / time(path) of that frame: what
+  // slows the machine down for a while slows both and cancels.
+  Interval timeRatio{kUnknown, kUnknown, kUnknown};
+  double timeRatioOfMedians = kUnknown;
+  Interval efficiencyRatio{kUnknown, kUnknown, kUnknown};  // mseRatio / timeRatio
 
   double raysPathPerPixel = kUnknown, raysShadowPerPixel = kUnknown;
   std::vector<PassTiming> passes;  // median over runs

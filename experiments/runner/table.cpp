@@ -18,9 +18,9 @@ std::string interval(double lo, double hi, const char* format) {
 
 std::string timeCell(const MethodSummary& row, bool yardstick) {
   std::string text = fmt::format("{:.3g} ms", row.timeMsMedian);
-  if (yardstick || std::isnan(row.timeRatio)) return text;
-  return text + fmt::format(" ({:.2f}x{})", row.timeRatio,
-                            interval(row.timeRatioPaired.lo, row.timeRatioPaired.hi, "{:.2f}"));
+  if (yardstick || std::isnan(row.timeRatio.value)) return text;
+  return text + fmt::format(" ({:.2f}x{})", row.timeRatio.value,
+                            interval(row.timeRatio.lo, row.timeRatio.hi, "{:.2f}"));
 }
 
 std::string ratioCell(const MethodSummary& row, bool yardstick) {
@@ -30,9 +30,9 @@ std::string ratioCell(const MethodSummary& row, bool yardstick) {
 }
 
 std::string efficiencyCell(const MethodSummary& row, bool yardstick) {
-  if (yardstick || std::isnan(row.efficiencyRatio)) return "";
-  return fmt::format("{:.1f}{}", row.efficiencyRatio,
-                     interval(row.efficiencyPaired.lo, row.efficiencyPaired.hi, "{:.1f}"));
+  if (yardstick || std::isnan(row.efficiencyRatio.value)) return "";
+  return fmt::format("{:.1f}{}", row.efficiencyRatio.value,
+                     interval(row.efficiencyRatio.lo, row.efficiencyRatio.hi, "{:.1f}"));
 }
 
 std::string biasCell(const MethodSummary& row) {
@@ -47,12 +47,13 @@ std::string blockTable(const Suite& suite, const std::vector<MethodSummary>& row
   const size_t yardstick = suite.yardstick();
   std::string text = fmt::format(
       "## {}, {} light\n\nCamera {}, {}x{}, {} scattering events, Russian roulette {}, filter {}; "
-      "{} runs of {} warm-up and {} timed frames; reference {} spp.\n\n", block.scene,
-      componentName(block.component), block.camera, block.width, block.height, suite.maxBounces,
-      suite.russianRoulette ? "on" : "off", filterName(suite.pixelFilter), rows.front().runs,
-      suite.warmupFrames, suite.timedFrames, block.reference.spp);
-  text += "| method | time per frame | MSE | | efficiency | energy | bias^2/MSE | worst 0.1 % | "
-          "rays/px |\n|---|---|---|---|---|---|---|---|---|\n";
+      "{} runs of {} warm-up and {} timed frames; reference {} spp.\n\n",
+      block.scene, componentName(block.component), block.camera, block.width, block.height,
+      suite.maxBounces, suite.russianRoulette ? "on" : "off", filterName(suite.pixelFilter),
+      rows.front().runs, suite.warmupFrames, suite.timedFrames, block.reference.spp);
+  text +=
+      "| method | time per frame | MSE | | efficiency | energy | bias^2/MSE | worst 0.1 % | "
+      "rays/px |\n|---|---|---|---|---|---|---|---|---|\n";
   std::string notes;
   for (const MethodSummary& row : rows) {
     const bool isYardstick =

@@ -21,3 +21,8 @@ RL_FN real giCappedConfidence(real confidence) {
   }
   return confidence;
 }
+
+// Nothing to merge: no sample and nothing known beyond samples on either side.
+RL_FN bool giIsEmpty(RL_IN(ReservoirState) state) {
+  return !(state.W > 0.0f) && rlIsBlack(state.residual);
+}

@@ -4,8 +4,8 @@
 
 #ifdef __cplusplus
 #include "core/dialect/order.h"
-#include "core/resampling/reservoir.h"
 #endif
+#include "core/resampling/reservoir.h"
 
 RL_NAMESPACE_BEGIN
 

@@ -25,21 +25,29 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   donors.slot[0] = donorSlot;
   real3 estimate;
   if (giWantsDirect()) {
-    LightReservoir r;
-    LightReservoir donor;
-    cacheReadNow(slot, r);
-    cacheReadBefore(donorSlot, donor);
-    donors.confidence[0] = giCappedConfidence(donor.state.confidence);
-    reuseMerge(r, here, donors, gParams.temporalFlags, rng, RL_DIM_RIS_MERGE_DI, estimate);
-    cacheWriteNow(slot, r);
+    ReservoirState mine = gBuffers.lights.data[slot].state;
+    ReservoirState theirs = gBuffers.lightsHistory.data[donorSlot].state;
+    donors.confidence[0] = giCappedConfidence(theirs.confidence);
+    if (giIsEmpty(mine) && giIsEmpty(theirs)) {
+      gBuffers.lights.data[slot].state.confidence = mine.confidence + donors.confidence[0];
+    } else {
+      LightReservoir r;
+      cacheReadNow(slot, r);
+      reuseMerge(r, here, donors, gParams.temporalFlags, rng, RL_DIM_RIS_MERGE_DI, estimate);
+      cacheWriteNow(slot, r);
+    }
   }
   if (giWantsIndirect()) {
-    PathReservoir r;
-    PathReservoir donor;
-    cacheReadNow(slot, r);
-    cacheReadBefore(donorSlot, donor);
-    donors.confidence[0] = giCappedConfidence(donor.state.confidence);
-    reuseMerge(r, here, donors, gParams.temporalFlags, rng, RL_DIM_RIS_MERGE_GI, estimate);
-    cacheWriteNow(slot, r);
+    ReservoirState mine = gBuffers.paths.data[slot].state;
+    ReservoirState theirs = gBuffers.pathsHistory.data[donorSlot].state;
+    donors.confidence[0] = giCappedConfidence(theirs.confidence);
+    if (giIsEmpty(mine) && giIsEmpty(theirs)) {
+      gBuffers.paths.data[slot].state.confidence = mine.confidence + donors.confidence[0];
+    } else {
+      PathReservoir r;
+      cacheReadNow(slot, r);
+      reuseMerge(r, here, donors, gParams.temporalFlags, rng, RL_DIM_RIS_MERGE_GI, estimate);
+      cacheWriteNow(slot, r);
+    }
   }
 }

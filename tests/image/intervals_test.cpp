@@ -78,7 +78,9 @@ TEST(Intervals, Coverage) {
     for (double& x : b) x = 5.0 + 1.5 * normal(random);
     // Half of the spread of p is common with a.
     for (size_t i = 0; i < p.size(); ++i) p[i] = 5.0 + 0.5 * (a[i] - 10.0) + normal(random);
-    const auto holds = [](const Interval& i, double truth) { return i.lo <= truth && truth <= i.hi; };
+    const auto holds = [](const Interval& i, double truth) {
+      return i.lo <= truth && truth <= i.hi;
+    };
     mean += holds(meanInterval(a), 10.0);
     ratio += holds(ratioInterval(a, b), 2.0);
     paired += holds(pairedRatioInterval(a, p), 2.0);

@@ -1,4 +1,5 @@
-// Metrics against values computed with NumPy from the same formulas, and what they do with bad input.
+// Metrics against values computed with NumPy from the same formulas, and what they do with bad
+// input.
 #include "core/image/metrics.h"
 
 #include <gtest/gtest.h>
@@ -190,8 +191,7 @@ TEST(Metrics, MaskSelectsPixels) {
   const KnownPair pair;
   std::vector<uint8_t> mask(pair.image.pixels.size(), 0);
   mask[5 * 40 + 3] = 255;
-  const glm::dvec3 d =
-      glm::dvec3(pair.image.at(3, 5)) - glm::dvec3(pair.reference.at(3, 5));
+  const glm::dvec3 d = glm::dvec3(pair.image.at(3, 5)) - glm::dvec3(pair.reference.at(3, 5));
   EXPECT_NEAR(mseAgainstHalves(pair.image, pair.reference, pair.reference, mask),
               glm::dot(d, d) / 3.0, 1e-15);
 }

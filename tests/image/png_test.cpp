@@ -28,12 +28,10 @@ TEST(Png, SrgbKnownValues) {
     glm::vec3 radiance;
     int bytes[3];
   };
-  const Case cases[] = {{{0.0f, 0.5f, 7.0f}, {0, 255, 255}},
-                        {{0.09f, 0.25f, 0.1f}, {118, 188, 124}},
-                        {{0.00156f, 0.0005f, -3.0f}, {10, 3, 0}},
-                        {{kInfinity, -kInfinity, 0.0f}, {255, 0, 0}},
-                        {{0.2f, kNan, 0.2f}, {255, 0, 255}},
-                        {{0.105f, 0.405f, 0.4975f}, {126, 232, 254}}};
+  const Case cases[] = {
+      {{0.0f, 0.5f, 7.0f}, {0, 255, 255}},      {{0.09f, 0.25f, 0.1f}, {118, 188, 124}},
+      {{0.00156f, 0.0005f, -3.0f}, {10, 3, 0}}, {{kInfinity, -kInfinity, 0.0f}, {255, 0, 0}},
+      {{0.2f, kNan, 0.2f}, {255, 0, 255}},      {{0.105f, 0.405f, 0.4975f}, {126, 232, 254}}};
   Image image(2, 3);
   for (size_t i = 0; i < 6; ++i) image.pixels[i] = cases[i].radiance;
   writePng(file, image, 2.0f);

@@ -82,7 +82,8 @@ std::vector<Finding> findReservedWords(const TokenizedFile& file) {
 
 std::vector<Finding> findBareLiterals(const TokenizedFile& file) {
   std::vector<Finding> found;
-  std::set<std::string> integers = {"int", "ivec2", "ivec3", "ivec4"};
+  // Host-side words that take plain integers count as int variables do.
+  std::set<std::string> integers = {"int", "ivec2", "ivec3", "ivec4", "RL_STATIC_ASSERT_SIZE"};
   const auto& t = file.tokens;
   for (size_t i = 0; i + 1 < t.size(); ++i) {
     if (t[i].text == "int" && t[i + 1].kind == TokenKind::identifier) integers.insert(t[i + 1].text);

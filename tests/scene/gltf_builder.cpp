@@ -116,6 +116,20 @@ bool warns(const Scene& scene, const std::string& text) {
   return false;
 }
 
+std::string glb(const std::string& jsonText, const std::string& binary, uint32_t extraLength) {
+  const auto u32 = [](size_t number) {
+    const uint32_t value = static_cast<uint32_t>(number);
+    return std::string(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  const auto chunk = [&](uint32_t type, std::string data, char pad) {
+    while (data.size() % 4 != 0) data += pad;
+    return u32(data.size()) + u32(type) + data;
+  };
+  std::string body = chunk(0x4e4f534a, jsonText, ' ');
+  if (!binary.empty()) body += chunk(0x004e4942, binary, '\0');
+  return "glTF" + u32(2) + u32(12 + body.size() + extraLength) + body;
+}
+
 std::string base64(const std::string& bytes) {
   static const char kAlphabet[] =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

@@ -59,6 +59,7 @@ class GltfBuilder {
   std::string error();
   std::filesystem::path write();
   const TempDirectory& directory() const { return directory_; }
+  const std::string& bytes() const { return bytes_; }
 
   static int componentType(int8_t) { return 5120; }
   static int componentType(uint8_t) { return 5121; }
@@ -77,6 +78,8 @@ class GltfBuilder {
 std::string placeAndText(const std::string& line, const std::filesystem::path& file);
 // Whether one of the warnings contains `text`.
 bool warns(const Scene& scene, const std::string& text);
+// A GLB of a JSON chunk and, unless empty, a BIN chunk; its header declares `extraLength` too much.
+std::string glb(const std::string& jsonText, const std::string& binary, uint32_t extraLength = 0);
 std::string base64(const std::string& bytes);
 // A PNG of 2 x 1 pixels: red, then green half transparent (stored without compression).
 std::string tinyPng();

@@ -158,5 +158,39 @@ TEST(GltfCorpus, BrokenFilesBringOneLineAndNothingElse) {
   EXPECT_NE(errorOf(base / "node/node_loop.gltf").find("its own descendant"), std::string::npos);
 }
 
+struct ExpectedMap {
+  const char* path;
+  uint32_t width, height;
+  float peakLow, peakHigh;  // largest luminance
+};
+
+class EnvironmentCorpus : public testing::TestWithParam<ExpectedMap> {};
+
+TEST_P(EnvironmentCorpus, HasItsSizeAndPeak) {
+  const ExpectedMap& expected = GetParam();
+  const fs::path file = sceneFolder() / expected.path;
+  SKIP_WITHOUT(file.parent_path());
+  const EnvironmentMap map = loadEnvironment(file);
+  EXPECT_EQ(map.width, expected.width);
+  EXPECT_EQ(map.height, expected.height);
+  ASSERT_EQ(map.radiance.size(), size_t(map.width) * map.height);
+  float peak = 0.0f;
+  for (const glm::vec3& texel : map.radiance) {
+    peak = std::max(peak, glm::dot(texel, glm::vec3(0.2126f, 0.7152f, 0.0722f)));
+  }
+  EXPECT_GE(peak, expected.peakLow);
+  EXPECT_LE(peak, expected.peakHigh);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Maps, EnvironmentCorpus,
+    testing::Values(ExpectedMap{"environments/kloppenheim_05_1k/kloppenheim_05_1k.hdr", 1024, 512,
+                                78800, 79300},
+                    ExpectedMap{"environments/studio_small_05_1k/studio_small_05_1k.hdr", 1024, 512,
+                                86, 88},
+                    ExpectedMap{"environments/std_env/std_env.hdr", 1500, 750, 9.5f, 10.5f},
+                    ExpectedMap{"environments/museum/museum.exr", 512, 256, 0.1f, 1e5f},
+                    ExpectedMap{"rooms/living-room/env/Sky_19.exr", 2048, 1024, 0.1f, 1e6f}));
+
 }  // namespace
 }  // namespace restlab

@@ -12,6 +12,7 @@ namespace restlab {
 namespace {
 
 using nlohmann::json;
+using test::glb;
 using test::GltfBuilder;
 using test::placeAndText;
 
@@ -28,20 +29,6 @@ std::string errorOf(const std::string& name, const std::string& content) {
   return "";
 }
 
-std::string u32(uint32_t value) {
-  return std::string(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
-std::string glb(const std::string& jsonText, const std::string& binary, uint32_t extraLength = 0) {
-  const auto chunk = [](uint32_t type, std::string data, char pad) {
-    while (data.size() % 4 != 0) data += pad;
-    return u32(static_cast<uint32_t>(data.size())) + u32(type) + data;
-  };
-  std::string body = chunk(0x4e4f534a, jsonText, ' ');
-  if (!binary.empty()) body += chunk(0x004e4942, binary, '\0');
-  return "glTF" + u32(2) + u32(static_cast<uint32_t>(12 + body.size()) + extraLength) + body;
-}
-
 void expectError(GltfBuilder& file, const std::string& expected) {
   const std::string error = file.error();
   EXPECT_NE(error.find(expected), std::string::npos) << "found: " << error;
@@ -50,7 +37,7 @@ void expectError(GltfBuilder& file, const std::string& expected) {
 TEST(GltfErrors, Files) {
   EXPECT_EQ(errorOf("a.gltf", ""), "the file is empty");
   EXPECT_EQ(errorOf("a.obj", "v 0 0 0"), "not a scene file; .gltf or .glb expected");
-  EXPECT_NE(errorOf("a.gltf", "{\"asset\": \n {\"version\" 2}}").find("line 2, column 14"),
+  EXPECT_NE(errorOf("a.gltf", "{\"asset\": \n {\"version\" 2}}").find("line 2, column 13"),
             std::string::npos);
   EXPECT_NE(errorOf("a.gltf", "{\"asset\": {\"version\": \"2.0\"}").find("not valid JSON"),
             std::string::npos);
@@ -69,7 +56,6 @@ TEST(GltfErrors, Files) {
 }
 
 TEST(GltfErrors, Glb) {
-  GltfBuilder file;
   const std::string positions(36, '\0');
   json doc = {{"asset", {{"version", "2.0"}}}, {"buffers", json::array({{{"byteLength", 36}}})}};
   const std::string good = glb(doc.dump(), positions);

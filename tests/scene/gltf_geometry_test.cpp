@@ -59,7 +59,7 @@ TEST(GltfGeometry, StripKeepsItsWinding) {
 TEST(GltfGeometry, StitchedStripLeavesOutEmptyTriangles) {
   GltfBuilder file;
   const int positions = file.accessor(kSquare, "VEC3");
-  const int indices = file.accessor<uint16_t>({0, 1, 2, 2, 1, 1, 4, 3}, "SCALAR");
+  const int indices = file.accessor<uint16_t>({0, 1, 2, 2, 1, 1, 3, 4}, "SCALAR");
   file.node({{"mesh", file.mesh({{"attributes", {{"POSITION", positions}}},
                                  {"indices", indices},
                                  {"mode", 5}})}});
@@ -169,7 +169,7 @@ TEST(GltfGeometry, QuantizedAndNormalized) {
   const MeshGeometry& geometry = scene.geometries.at(0);
   EXPECT_EQ(geometry.positions[1], glm::vec3(100, 0, 0));
   EXPECT_EQ(geometry.positions[2], glm::vec3(-32768, 32767, 0));
-  EXPECT_EQ(geometry.normals[1], glm::vec3(0, 0, 1));
+  EXPECT_EQ(geometry.normals[1], glm::vec3(0, 1, 0));
   EXPECT_EQ(geometry.normals[2], glm::vec3(-1, 0, 0)) << "-128 is -1 as -127 is";
   EXPECT_FLOAT_EQ(geometry.uvs[0][1].x, 0.2f);
   EXPECT_FLOAT_EQ(geometry.uvs[0][2].y, 0.4f);
@@ -235,6 +235,42 @@ TEST(GltfGeometry, SharedMeshesAreInstanced) {
   EXPECT_EQ(scene.instances[1].objectToWorld[3], glm::dvec4(0, 0, 5, 1));
   EXPECT_EQ(scene.instances[1].material, 0u);
   EXPECT_EQ(scene.instances[2].material, 1u);
+}
+
+TEST(GltfGeometry, BinaryChunkAndDataUriHoldTheSameBuffer) {
+  GltfBuilder file;
+  file.node({{"mesh", file.triangle()}});
+  const std::string escaped = [&] {  // every byte as %XX
+    std::string text;
+    for (const unsigned char c : file.bytes()) {
+      text += std::string("%") + "0123456789abcdef"[c >> 4] + "0123456789abcdef"[c & 15];
+    }
+    return text;
+  }();
+  json buffer = {{"byteLength", file.bytes().size()}};
+  file.doc["buffers"] = json::array({buffer});
+  // A binary chunk may be padded beyond the buffer.
+  file.directory().write("a.glb", test::glb(file.doc.dump(), file.bytes() + "pad"));
+  const Scene binary = loadGltf(file.directory().path() / "a.glb");
+  EXPECT_EQ(binary.geometries.at(0).positions[1], glm::vec3(1, 0, 0));
+  for (const std::string& data : {";base64," + test::base64(file.bytes()), "," + escaped}) {
+    file.doc["buffers"][0]["uri"] = "data:application/octet-stream" + data;
+    const Scene embedded = file.load();
+    EXPECT_EQ(embedded.geometries.at(0).positions, binary.geometries[0].positions);
+    EXPECT_TRUE(embedded.warnings.empty()) << embedded.warnings[0];
+  }
+}
+
+TEST(GltfGeometry, ManyLikeWarningsBecomeOneLine) {
+  GltfBuilder file;
+  const int positions = file.accessor(kSquare, "VEC3");
+  for (int i = 0; i < 10; ++i) {
+    file.node({{"mesh", file.mesh({{"attributes", {{"POSITION", positions}}}, {"mode", 0}})}});
+  }
+  file.node({{"mesh", file.triangle()}});
+  const Scene scene = file.load();
+  EXPECT_EQ(scene.warnings.size(), 5u);
+  EXPECT_TRUE(warns(scene, "... and 6 more like the line before"));
 }
 
 TEST(GltfGeometry, IncompleteTrianglesWarn) {

@@ -1,3 +1,4 @@
+include(${CMAKE_CURRENT_LIST_DIR}/builtin_sources.cmake)
 set(RL_SCENE_TESTS
   scene/gltf_builder.cpp
   scene/gltf_corpus_test.cpp
@@ -6,4 +7,5 @@ set(RL_SCENE_TESTS
   scene/gltf_material_test.cpp
   scene/gltf_nodes_test.cpp
   scene/load_scene_test.cpp
+  ${RL_BUILTIN_TESTS}
 )

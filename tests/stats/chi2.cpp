@@ -91,10 +91,10 @@ Chi2Result chi2Test(std::span<const uint64_t> counts, std::span<const double> pr
   result.dof = double(cells.size() - 1);
   result.pValue = boost::math::cdf(
       boost::math::complement(boost::math::chi_squared(result.dof), result.statistic));
-  result.summary = fmt::format("chi2: statistic {:.3f}, {} degrees of freedom, p {:.3g}, {} of {} "
-                               "samples in no cell",
-                               result.statistic, result.dof, result.pValue, result.failures,
-                               samples);
+  result.summary = fmt::format(
+      "chi2: statistic {:.3f}, {} degrees of freedom, p {:.3g}, {} of {} "
+      "samples in no cell",
+      result.statistic, result.dof, result.pValue, result.failures, samples);
   return result;
 }
 

@@ -6,8 +6,8 @@
 
 namespace restlab::stats {
 
-// Adjusted p-values, in the order given: reject where the value is at most the family's error, which
-// then bounds the chance of any false rejection under any dependence between the tests.
+// Adjusted p-values, in the order given: reject where the value is at most the family's error,
+// which then bounds the chance of any false rejection under any dependence between the tests.
 // Throws std::invalid_argument for a p outside [0, 1] or NaN (leave untestable members out).
 std::vector<double> holmAdjusted(std::span<const double> pValues);
 

@@ -48,7 +48,8 @@ double testPower(double shift, double standardError, double dof, double alpha) {
   // 1 - alpha/2 would round for a tiny alpha.
   const double critical = -studentQuantile(0.5 * alpha, dof);
   if (std::isinf(dof) || noncentrality == 0.0) {
-    return studentUpper(critical - noncentrality, dof) + studentUpper(critical + noncentrality, dof);
+    return studentUpper(critical - noncentrality, dof) +
+           studentUpper(critical + noncentrality, dof);
   }
   const boost::math::non_central_t_distribution<double> t(dof, noncentrality);
   return boost::math::cdf(boost::math::complement(t, critical)) + boost::math::cdf(t, -critical);

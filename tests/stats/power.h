@@ -17,7 +17,7 @@ double smallestDetectableShift(double standardError, double dof, double alpha, d
 // Probability that a two-sided t-test at `alpha` rejects a true difference of `shift`.
 double testPower(double shift, double standardError, double dof, double alpha);
 
-// All throw std::invalid_argument unless alpha and power are in (0, 1), power > alpha, and the scale
-// arguments are positive.
+// All throw std::invalid_argument unless alpha and power are in (0, 1), power > alpha, and the
+// scale arguments are positive.
 
 }  // namespace restlab::stats

@@ -27,8 +27,7 @@ struct Comparison {
   const BiasOptions& options;
 
   double scaledSkewness(const CellArea& area, Quantity quantity) const {
-    const double own =
-        skewness(runs.cellMeans(area, quantity)) / std::sqrt(double(runs.runs()));
+    const double own = skewness(runs.cellMeans(area, quantity)) / std::sqrt(double(runs.runs()));
     const double other = truth.skewness(area, quantity);
     return std::abs(own) >= std::abs(other) ? own : other;
   }
@@ -39,8 +38,8 @@ struct Comparison {
 };
 
 // Divides `area` into cells that a t-test may judge, as small as they can be. The four children are
-// kept when all of their area is testable; else they are merged if the merged cell is testable; else
-// they are kept with what is testable among them.
+// kept when all of their area is testable; else they are merged if the merged cell is testable;
+// else they are kept with what is testable among them.
 struct Division {
   std::vector<CellArea> cells;
   bool complete = true;  // every cell is nearly normal
@@ -66,7 +65,8 @@ CellVerdict judge(const Comparison& comparison, const CellArea& area, Quantity q
   v.quantity = quantity;
   const Sample sample = summarise(comparison.runs.cellMeans(area, quantity));
   const Sample truth = comparison.truth.cell(area, quantity);
-  v.skewness = comparison.scaledSkewness(area, quantity) * std::sqrt(double(comparison.runs.runs()));
+  v.skewness =
+      comparison.scaledSkewness(area, quantity) * std::sqrt(double(comparison.runs.runs()));
   v.mean = sample.mean;
   v.reference = truth.mean;
   v.welch = welchTest(sample, truth);
@@ -120,9 +120,8 @@ void statePower(std::vector<CellVerdict>& verdicts, const BiasOptions& options) 
                                     [](const CellVerdict& v) { return v.testable; });
   for (CellVerdict& v : verdicts) {
     if (!v.testable || v.welch.standardError == 0.0) continue;
-    const double shift =
-        smallestDetectableShift(v.welch.standardError, v.welch.dof,
-                                options.familyError / double(family), options.power);
+    const double shift = smallestDetectableShift(
+        v.welch.standardError, v.welch.dof, options.familyError / double(family), options.power);
     v.detectableBias = shift / std::abs(v.reference);
   }
 }
@@ -181,8 +180,8 @@ BiasReport testBias(const RunSet& runs, const Truth& truth, const BiasOptions& o
     for (const CellArea& area : division.cells) {
       report.cells.push_back(judge(first, area, quantity));
     }
-    report.untestableShare = std::max(
-        report.untestableShare, untestableShare(report.cells, runs.grid(), quantity));
+    report.untestableShare =
+        std::max(report.untestableShare, untestableShare(report.cells, runs.grid(), quantity));
     if (options.wholeImage && division.cells.size() > 1) {
       report.cells.push_back(judge(first, whole, quantity));
       report.cells.back().wholeImage = true;
@@ -200,9 +199,8 @@ BiasReport testBias(const RunSet& runs, const Truth& truth, const BiasOptions& o
     }
     report.nonfinite += second.nonfinite();
     confirm(report.cells, Comparison{second, truth, options});
-    report.confirmed =
-        size_t(std::count_if(report.cells.begin(), report.cells.end(),
-                             [](const CellVerdict& v) { return v.confirmed; }));
+    report.confirmed = size_t(std::count_if(report.cells.begin(), report.cells.end(),
+                                            [](const CellVerdict& v) { return v.confirmed; }));
   }
 
   std::vector<double> detectable;
@@ -220,8 +218,8 @@ BiasReport testBias(const RunSet& runs, const Truth& truth, const BiasOptions& o
 }
 
 bool BiasReport::failed() const {
-  const bool anyTestable = std::any_of(cells.begin(), cells.end(),
-                                       [](const CellVerdict& v) { return v.testable; });
+  const bool anyTestable =
+      std::any_of(cells.begin(), cells.end(), [](const CellVerdict& v) { return v.testable; });
   return confirmed > 0 || nonfinite > 0 || !anyTestable;
 }
 
@@ -236,15 +234,14 @@ std::string BiasReport::text() const {
   if (nonfinite > 0) text += fmt::format("\n  {} values are not finite", nonfinite);
   for (const CellVerdict& v : cells) {
     if (v.side == 0) continue;
-    text += fmt::format("\n  {} {}: mean {:.6g}, reference {:.6g} ({:+.3g} %), t {:.2f}, p {:.2g} "
-                        "after Holm, {}, {}",
-                        v.wholeImage ? std::string("whole image")
-                                     : fmt::format("blocks x {} y {} size {}", v.area.x, v.area.y,
-                                                   v.area.size),
-                        quantityName(v.quantity), v.mean, v.reference,
-                        100.0 * v.welch.difference / v.reference, v.welch.t, v.adjustedP,
-                        v.side > 0 ? "brighter" : "darker",
-                        v.confirmed ? "confirmed" : "not confirmed by fresh seeds");
+    text += fmt::format(
+        "\n  {} {}: mean {:.6g}, reference {:.6g} ({:+.3g} %), t {:.2f}, p {:.2g} "
+        "after Holm, {}, {}",
+        v.wholeImage ? std::string("whole image")
+                     : fmt::format("blocks x {} y {} size {}", v.area.x, v.area.y, v.area.size),
+        quantityName(v.quantity), v.mean, v.reference, 100.0 * v.welch.difference / v.reference,
+        v.welch.t, v.adjustedP, v.side > 0 ? "brighter" : "darker",
+        v.confirmed ? "confirmed" : "not confirmed by fresh seeds");
   }
   return text;
 }

@@ -2,12 +2,13 @@
 //
 // The image is divided into at most 64 cells. A t-test needs means that are nearly normal, so cells
 // are merged with their neighbours, four to one from below as in a quad-tree, until
-// |skewness| / sqrt(runs) <= 0.05; what never gets there is untestable, and its share of the area is
-// reported. (The skewness is itself estimated, with a standard error of sqrt(6 / runs): of cells
-// without any skew, 17 % miss the criterion by chance at 64 runs, 4 % at 100, 1 % at 128. So 100 runs
-// or more are the right number; fewer cost resolution, not validity.) Each cell and the whole image are compared by Welch's test with the reference's own
-// variance, and Holm's correction holds the error of the whole family. A rejection counts only if
-// a fresh batch of seeds rejects the same cell on the same side.
+// |skewness| / sqrt(runs) <= 0.05; what never gets there is untestable, and its share of the area
+// is reported. (The skewness is itself estimated, with a standard error of sqrt(6 / runs): of cells
+// without any skew, 17 % miss the criterion by chance at 64 runs, 4 % at 100, 1 % at 128. So 100
+// runs or more are the right number; fewer cost resolution, not validity.) Each cell and the whole
+// image are compared by Welch's test with the reference's own variance, and Holm's correction holds
+// the error of the whole family. A rejection counts only if a fresh batch of seeds rejects the same
+// cell on the same side.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
-// The bias test tested: on a made-up renderer whose truth is known, with skewed and correlated noise
-// like that of path reuse. It must leave a correct estimator alone and find a wrong one.
+// The bias test tested: on a made-up renderer whose truth is known, with skewed and correlated
+// noise like that of path reuse. It must leave a correct estimator alone and find a wrong one.
 #include "tests/stats/replicates.h"
 
 #include <gtest/gtest.h>
@@ -36,8 +36,8 @@ double skewedFactor(std::mt19937_64& random) {
   return -0.5 * std::log(u * v);
 }
 
-// One run: every 2x2 pixels share a skewed factor, every pixel has one of its own. `bias` multiplies
-// the pixels of the left upper quarter.
+// One run: every 2x2 pixels share a skewed factor, every pixel has one of its own. `bias`
+// multiplies the pixels of the left upper quarter.
 Image makeRun(const Image& truth, std::mt19937_64& random, double bias = 1.0) {
   Image run(truth.width, truth.height);
   for (uint32_t y = 0; y < run.height; y += 2) {
@@ -125,15 +125,16 @@ TEST(ReferenceCells, VarianceOfHalvesIsMeasured) {
   // 4096 pixels with one degree of freedom each.
   EXPECT_NEAR(s.n - 1.0, 4096.0, 600.0);
   const Image variance(64, 64, glm::vec3(0.0018f));
-  const Sample given =
-      ReferenceCells::fromVariance(BlockGrid(64, 64), truth, variance).cell({0, 0, 8}, Quantity::red);
+  const Sample given = ReferenceCells::fromVariance(BlockGrid(64, 64), truth, variance)
+                           .cell({0, 0, 8}, Quantity::red);
   EXPECT_NEAR(std::sqrt(given.variance / given.n), std::sqrt(0.0018) / 64.0, 1e-8);
-  EXPECT_EQ(ReferenceCells::exact(BlockGrid(64, 64), truth).cell({1, 1, 2}, Quantity::blue).variance,
-            0.0);
+  EXPECT_EQ(
+      ReferenceCells::exact(BlockGrid(64, 64), truth).cell({1, 1, 2}, Quantity::blue).variance,
+      0.0);
 }
 
-// A correct estimator, 100 seeds. Measured: the first batch rejects in 0 of 100 (0.1 expected), and no
-// area is untestable.
+// A correct estimator, 100 seeds. Measured: the first batch rejects in 0 of 100 (0.1 expected), and
+// no area is untestable.
 TEST(BiasTest, LeavesACorrectEstimatorAlone) {
   const Image truth = truthImage();
   int firstRejections = 0, confirmed = 0;
@@ -162,8 +163,8 @@ TEST(BiasTest, LeavesACorrectEstimatorAlone) {
 }
 
 // A quarter of the image is too dark by what the test says it finds in a cell with power 0.9.
-// Measured: found and confirmed in 40 of 40 seeds; of the single blocks concerned, 266 of 280 (95 %) by
-// the first batch.
+// Measured: found and confirmed in 40 of 40 seeds; of the single blocks concerned, 266 of 280 (95
+// %) by the first batch.
 TEST(BiasTest, FindsABiasOfTheSizeItStates) {
   const Image truth = truthImage();
   const Truth reference = truthOf(makeReference(truth, 77));
@@ -201,9 +202,10 @@ TEST(BiasTest, FindsABiasOfTheSizeItStates) {
 TEST(BiasTest, ComparesTwoMethodsWithoutReference) {
   const Image truth = truthImage();
   const Truth other = truthOf(makeRuns(truth, 1234));
-  EXPECT_FALSE(testBias(makeRuns(truth, 4), other, {}, [&] { return makeRuns(truth, 5); }).failed());
-  const BiasReport brighter = testBias(makeRuns(truth, 6, 1.4), other, {},
-                                       [&] { return makeRuns(truth, 7, 1.4); });
+  EXPECT_FALSE(
+      testBias(makeRuns(truth, 4), other, {}, [&] { return makeRuns(truth, 5); }).failed());
+  const BiasReport brighter =
+      testBias(makeRuns(truth, 6, 1.4), other, {}, [&] { return makeRuns(truth, 7, 1.4); });
   EXPECT_TRUE(brighter.failed());
   EXPECT_NE(brighter.text().find("brighter, confirmed"), std::string::npos) << brighter.text();
 }

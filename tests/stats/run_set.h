@@ -19,7 +19,8 @@ const char* quantityName(Quantity quantity);
 // Of one pixel, linear Rec. 709.
 double quantityOf(const glm::vec3& pixel, Quantity quantity);
 
-// A square grid of blocks over an image; at most 8x8 = 64, fewer for an image below 8 pixels a side.
+// A square grid of blocks over an image; at most 8x8 = 64, fewer for an image below 8 pixels a
+// side.
 struct BlockGrid {
   uint32_t width = 0, height = 0;  // of the image, pixels
   uint32_t side = 0;               // blocks a side: 8, 4, 2 or 1
@@ -48,7 +49,9 @@ class RunSet {
 
   size_t runs() const { return sums_.size(); }
   const BlockGrid& grid() const { return grid_; }
-  uint64_t nonfinite() const { return nonfinite_; }  // channel values seen, which spoil every verdict
+  uint64_t nonfinite() const {
+    return nonfinite_;
+  }  // channel values seen, which spoil every verdict
 
   // The mean over the cell's pixels, one value a run.
   std::vector<double> cellMeans(const CellArea& area, Quantity quantity) const;

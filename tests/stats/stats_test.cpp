@@ -1,5 +1,6 @@
 // The statistics against SciPy 1.10 (chisquare, ttest_ind, ttest_1samp, kstwo and its exact form
-// _kolmogn_DMTW for n = 400, nct, norm), and their behaviour: p-values uniform under the null, impossible events, degenerate input.
+// _kolmogn_DMTW for n = 400, nct, norm), and their behaviour: p-values uniform under the null,
+// impossible events, degenerate input.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -124,7 +125,7 @@ TEST(Tost, IntervalInsideMarginsExactlyWhenEquivalent) {
     for (double& x : a) x = normal(random);
     for (double& x : b) x = normal(random);
     const TostResult r = tostTest(summarise(a), summarise(b), 0.9);
-    EXPECT_EQ(r.pValue < 0.05, r.lo > -0.9 && r.hi < 0.9);
+    EXPECT_EQ(r.pValue<0.05, r.lo> - 0.9 && r.hi < 0.9);
     equivalent += r.pValue < 0.05 ? 1 : 0;
   }
   EXPECT_GT(equivalent, 30);
@@ -145,7 +146,8 @@ TEST(Holm, KnownValues) {
   EXPECT_THROW(holmAdjusted(std::vector<double>{1.1}), std::invalid_argument);
 }
 
-// 20000 families of 10 true hypotheses at 5 %: at least one rejection in 5 % (standard error 0.15 %).
+// 20000 families of 10 true hypotheses at 5 %: at least one rejection in 5 % (standard error 0.15
+// %).
 TEST(Holm, HoldsTheFamilyError) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> uniform;

@@ -24,7 +24,8 @@ struct WelchResult {
   double pValue = 0.0;         // two-sided; NaN when any input is NaN
 };
 
-// Throws std::invalid_argument for n < 1, a negative variance, or a variance other than 0 with n = 1.
+// Throws std::invalid_argument for n < 1, a negative variance, or a variance other than 0 with n
+// = 1.
 WelchResult welchTest(const Sample& a, const Sample& b);
 
 // P(|T| >= |t|) of Student's t; the normal distribution's for infinite dof.

@@ -1,0 +1,102 @@
+#include "tests/bias/independent_runs.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+namespace restlab::bias {
+namespace {
+
+// Batches of one method never share a seed, and neither do methods and truths.
+constexpr uint32_t kFirstBatch = 10'000'000, kSecondBatch = 20'000'000;
+
+// The worst cell by |t|, which may be far from significant.
+const stats::CellVerdict* worstCell(const stats::BiasReport& report) {
+  const stats::CellVerdict* worst = nullptr;
+  for (const stats::CellVerdict& v : report.cells) {
+    if (v.testable && (worst == nullptr || std::abs(v.welch.t) > std::abs(worst->welch.t))) {
+      worst = &v;
+    }
+  }
+  return worst;
+}
+
+}  // namespace
+
+Method pathMethod(uint32_t frames) {
+  Method m;
+  m.name = "path";
+  m.config.integrator = "path";
+  m.config.width = kWidth;
+  m.config.height = kHeight;
+  m.config.threads = 1;
+  m.frames = frames;
+  return m;
+}
+
+Method restirMethod(uint32_t frames, uint32_t skipped, const ParameterMap& parameters) {
+  Method m = pathMethod(frames);
+  m.name = "restir_gi unbiased";
+  m.config.integrator = "restir_gi";
+  m.config.mode = "unbiased";
+  m.config.parameters = parameters;
+  m.skipped = skipped;
+  return m;
+}
+
+std::shared_ptr<const CompiledScene> builtinScene(const std::string& name) {
+  static std::map<std::string, std::shared_ptr<const CompiledScene>> scenes;
+  std::shared_ptr<const CompiledScene>& scene = scenes[name];
+  if (!scene) scene = CompiledScene::build(makeBuiltinScene(name));
+  return scene;
+}
+
+stats::RunSet independentRuns(const std::shared_ptr<const CompiledScene>& scene,
+                              const Method& method, uint32_t firstSeed, size_t runs) {
+  Session session(scene, method.config);
+  stats::RunSet set(stats::BlockGrid(method.config.width, method.config.height));
+  for (size_t run = 0; run < runs; ++run) {
+    session.reset(firstSeed + uint32_t(run));
+    Image shown(method.config.width, method.config.height);
+    for (uint32_t frame = 0; frame < method.frames; ++frame) {
+      if (!method.cameras.empty()) {
+        session.setCamera(method.cameras[std::min<size_t>(frame, method.cameras.size() - 1)]);
+      }
+      session.frame();
+      if (frame < method.skipped) continue;
+      const float weight = 1.0f / float(method.frames - method.skipped);
+      const Image& radiance = session.radiance();
+      for (size_t p = 0; p < shown.pixels.size(); ++p) {
+        shown.pixels[p] += radiance.pixels[p] * weight;
+      }
+    }
+    set.add(shown);
+  }
+  return set;
+}
+
+stats::BiasReport testMethod(const std::shared_ptr<const CompiledScene>& scene,
+                             const Method& method, const stats::Truth& truth, size_t runs,
+                             const stats::BiasOptions& options) {
+  const stats::RunSet first = independentRuns(scene, method, kFirstBatch, runs);
+  const stats::BiasReport report = stats::testBias(first, truth, options, [&] {
+    return independentRuns(scene, method, kSecondBatch, runs);
+  });
+  std::printf("%s\n", describe(scene->source().name + ", " + method.name, report).c_str());
+  std::fflush(stdout);
+  return report;
+}
+
+std::string describe(const std::string& name, const stats::BiasReport& report) {
+  std::string text = fmt::format("{}: {}", name, report.text());
+  if (const stats::CellVerdict* v = worstCell(report)) {
+    text += fmt::format("\n  worst cell: blocks x {} y {} size {}, {:+.2f} %, t {:.2f}", v->area.x,
+                        v->area.y, v->area.size,
+                        100.0 * v->welch.difference / v->reference, v->welch.t);
+  }
+  return text;
+}
+
+}  // namespace restlab::bias

@@ -1,0 +1,123 @@
+// restlab info, list, bench and the top of the command line.
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.h"
+
+namespace restlab::cli_test {
+
+namespace {
+
+using InfoTest = ProgramTest;
+
+TEST_F(InfoTest, SceneInNumbers) {
+  const ProgramResult result = run("info cornell-box --json");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["scene"], "cornell-box");
+  EXPECT_EQ(json["emissive_triangles"], 2);
+  EXPECT_GT(json["triangles"].get<int>(), 30);
+  EXPECT_EQ(json["cameras"].size(), 1u);
+  EXPECT_TRUE(json["environment"].is_null());
+  EXPECT_EQ(json["features_needed"], "area_lights");
+  ASSERT_GE(json["integrators"].size(), 2u);
+  for (const auto& integrator : json["integrators"]) {
+    size_t sum = 0;
+    for (const auto& [name, bytes] : integrator["buffers"].items()) sum += bytes.get<size_t>();
+    EXPECT_EQ(integrator["bytes_per_pixel"].get<size_t>(), sum) << integrator["name"];
+    const std::string leftOut = integrator["features_left_out"];
+    EXPECT_NE(leftOut.find("environment"), std::string::npos) << leftOut;
+    EXPECT_EQ(leftOut.find("area_lights"), std::string::npos) << leftOut;
+  }
+  const ProgramResult text = run("info cornell-box");
+  ASSERT_EQ(text.code, 0);
+  EXPECT_NE(text.out.find("2 emissive"), std::string::npos) << text.out;
+}
+
+TEST_F(InfoTest, LightlessSceneIsWarnedOf) {
+  write("dark.gltf", triangleGltf({0, 0, 0, 1, 0, 0, 0, 1, 0}));
+  std::string text = read("dark.gltf");
+  text.replace(text.find("[1, 1, 1]"), 9, "[0, 0, 0]");
+  write("dark.gltf", text);
+  const ProgramResult result = run("info dark.gltf");
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.err.find("warning: "), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("no light"), std::string::npos) << result.err;
+}
+
+TEST_F(InfoTest, ListsNameWhatTheirVerbsTake) {
+  const auto list = [&](const std::string& what) {
+    const ProgramResult result = run("list " + what + " --json");
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_NE(run("list " + what).out, "");
+    return nlohmann::json::parse(result.out);
+  };
+  const auto integrators = list("integrators");
+  ASSERT_GE(integrators.size(), 2u);
+  for (const auto& integrator : integrators) {
+    for (const auto& mode : integrator["modes"]) {
+      EXPECT_NE(mode["why"], "") << integrator["name"];
+      const std::string bias = mode["bias"];
+      EXPECT_TRUE(bias == "unbiased" || bias == "consistent" || bias == "biased") << bias;
+      // Every listed method renders.
+      EXPECT_EQ(
+          run("render cornell-box -q -o x.exr --resolution 8x8 --integrator " +
+              integrator["name"].get<std::string>() + " --mode " + mode["name"].get<std::string>())
+              .code,
+          0);
+    }
+    for (const auto& parameter : integrator["parameters"]) {
+      EXPECT_NE(parameter["help"], "") << parameter["name"];
+      EXPECT_NE(parameter["source"], "") << parameter["name"];
+    }
+  }
+  EXPECT_EQ(list("caches")[0]["name"], "pixel");
+  const auto backends = list("backends");
+  EXPECT_EQ(backends[0]["name"], "cpu");
+  EXPECT_NE(backends[0]["summary"].get<std::string>().find("Embree 3."), std::string::npos);
+  bool mse = false;
+  for (const auto& metric : list("metrics")) mse = mse || metric["name"] == "mse";
+  EXPECT_TRUE(mse);
+  for (const auto& scene : list("scenes")) {
+    if (scene["kind"] != "built-in") continue;
+    EXPECT_EQ(run("info -q " + scene["name"].get<std::string>()).code, 0) << scene["name"];
+  }
+}
+
+TEST_F(InfoTest, BenchMeasuresEveryMethod) {
+  const ProgramResult result = run(
+      "bench cornell-box --resolution 32x32 --frames 2 --seconds 0.02 --reference-spp 8 --json");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  for (const char* kind : {"primary", "shadow", "incoherent"}) {
+    EXPECT_GT(json["embree_rays_per_second"][kind].get<double>(), 0.0) << kind;
+  }
+  EXPECT_GE(json["frames"].size(), 3u) << "path and both modes of restir_gi";
+  for (const auto& frame : json["frames"]) {
+    EXPECT_GT(frame["rays_per_second"].get<double>(), 0.0);
+    EXPECT_GE(frame["bytes_per_pixel"].get<int>(), 12);
+  }
+  EXPECT_GT(json["path_error"]["mse_times_cpu_seconds"].get<double>(), 0.0);
+  EXPECT_LT(json["path_error"]["pixels_without_lights"].get<int>(), 32 * 32);
+}
+
+TEST_F(InfoTest, HelpAndVersion) {
+  const ProgramResult help = run("--help");
+  EXPECT_EQ(help.code, 0);
+  for (const char* verb : {"run", "render", "reference", "compare", "info", "list", "bench"}) {
+    EXPECT_NE(help.out.find(verb), std::string::npos) << verb;
+    const ProgramResult own = run(std::string(verb) + " --help");
+    EXPECT_EQ(own.code, 0);
+    EXPECT_NE(own.out.find("Exit codes"), std::string::npos) << verb;
+  }
+  EXPECT_EQ(run("--version").code, 0);
+  const ProgramResult nothing = run("");
+  EXPECT_EQ(nothing.code, 2);
+  EXPECT_EQ(nothing.out, "");
+  expectError(run("rendr cornell-box"), 2, {"'rendr'", "'render'"});
+  expectError(run("list integratrs"), 2, {"integratrs", "'integrators'"});
+  expectError(run("list"), 2, {"what"});
+}
+
+}  // namespace
+
+}  // namespace restlab::cli_test

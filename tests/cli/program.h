@@ -1,0 +1,48 @@
+// Runs the built program as a user would, in a folder of its own.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace restlab::cli_test {
+
+struct ProgramResult {
+  int code = -1;  // exit code; 128 + the signal that ended it
+  std::string out, err;
+  // Lines of stderr that start with "error: ".
+  std::vector<std::string> errors() const;
+};
+
+// A temporary folder that is the working directory, the cache and the place of outputs.
+class ProgramTest : public ::testing::Test {
+ protected:
+  void SetUp() override;
+  void TearDown() override;
+
+  // Runs `restlab arguments...`; `signalAfterS` > 0 sends SIGINT after so many seconds.
+  ProgramResult run(const std::vector<std::string>& arguments, double signalAfterS = 0.0) const;
+  // The same with one string, split at blanks.
+  ProgramResult run(const std::string& arguments) const;
+
+  std::filesystem::path path(const std::string& name) const { return folder_ / name; }
+  void write(const std::string& name, const std::string& text) const;
+  std::string read(const std::string& name) const;
+
+  std::filesystem::path folder_;
+};
+
+// Expects an exit code and one error line that holds every one of the fragments.
+void expectError(const ProgramResult& result, int code, const std::vector<std::string>& fragments);
+
+// Rows of a CSV file by column name.
+std::vector<std::map<std::string, std::string>> parseCsv(const std::string& text);
+
+// A glTF file of one triangle and one camera; positions are nine floats, or as many as are given.
+std::string triangleGltf(const std::vector<float>& positions,
+                         const std::string& extraMaterial = "");
+
+}  // namespace restlab::cli_test

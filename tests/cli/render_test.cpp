@@ -1,0 +1,170 @@
+// restlab render: what is in the file, and that it is the same for any thread count.
+#include <cmath>
+
+#include "core/image/image.h"
+#include "tests/cli/program.h"
+
+namespace restlab::cli_test {
+
+namespace {
+
+using RenderTest = ProgramTest;
+
+void expectSame(const Image& a, const Image& b) {
+  ASSERT_EQ(a.width, b.width);
+  ASSERT_EQ(a.height, b.height);
+  for (size_t i = 0; i < a.pixels.size(); ++i) ASSERT_EQ(a.pixels[i], b.pixels[i]) << "pixel " << i;
+}
+
+double meanOf(const Image& image) {
+  double sum = 0.0;
+  for (const glm::vec3& pixel : image.pixels) sum += double(pixel.x) + pixel.y + pixel.z;
+  return sum / (3.0 * double(image.pixels.size()));
+}
+
+TEST_F(RenderTest, WritesLayersAndMetadata) {
+  const ProgramResult result =
+      run("render cornell-box -o image.exr --resolution 40x30 --spp 2 --seed 7 --max-bounces 3 "
+          "--component indirect --filter center --aov albedo,normalW --png");
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(result.out, "") << "stdout is for data";
+  const LayeredImage image = readExr(path("image.exr"));
+  ASSERT_EQ(image.layers.count(""), 1u);
+  ASSERT_EQ(image.layers.count("albedo"), 1u);
+  ASSERT_EQ(image.layers.count("normalW"), 1u);
+  EXPECT_EQ(image.layers.at("").width, 40u);
+  EXPECT_EQ(image.layers.at("").height, 30u);
+  const std::map<std::string, std::string> expected = {
+      {"integrator", "path"},    {"seed", "7"},        {"spp", "2"},         {"max_bounces", "3"},
+      {"component", "indirect"}, {"filter", "center"}, {"width", "40"},      {"height", "30"},
+      {"scene", "cornell-box"},  {"backend", "cpu"},   {"camera_index", "0"}};
+  for (const auto& [key, value] : expected) {
+    ASSERT_EQ(image.metadata.count(key), 1u) << key;
+    EXPECT_EQ(image.metadata.at(key), value) << key;
+  }
+  for (const char* key : {"scene_hash", "source_hash", "render_time_s", "health", "camera_to_world",
+                          "features_left_out"}) {
+    EXPECT_EQ(image.metadata.count(key), 1u) << key;
+  }
+  EXPECT_GT(std::filesystem::file_size(path("image.png")), 100u);
+  EXPECT_EQ(read("image.png").substr(1, 3), "PNG");
+}
+
+TEST_F(RenderTest, PreviewGoesWhereItIsTold) {
+  ASSERT_EQ(run("render -o a.exr --png=b.png --resolution 8x8 cornell-box").code, 0);
+  EXPECT_TRUE(std::filesystem::exists(path("b.png")));
+  ASSERT_EQ(run("render -o a.exr --resolution 8x8 --png cornell-box").code, 0);
+  EXPECT_TRUE(std::filesystem::exists(path("a.png"))) << "the scene is not the preview's name";
+  expectError(run("render cornell-box -o x.exr --png=absent/b.png"), 3, {"absent"});
+}
+
+TEST_F(RenderTest, SameSeedSameImageForAnyThreadCount) {
+  for (const char* method : {"path", "restir_gi"}) {
+    const std::string base = std::string(
+                                 "render door-ajar --resolution 48x27 --frames 5 "
+                                 "--seed 3 --integrator ") +
+                             method;
+    ASSERT_EQ(run(base + " -o one.exr -t 1").code, 0);
+    ASSERT_EQ(run(base + " -o three.exr --nthreads 3").code, 0);
+    ASSERT_EQ(run(base + " -o other.exr --seed 4").code, 2) << "an option given twice";
+    const Image one = readExr(path("one.exr")).layers.at("");
+    expectSame(one, readExr(path("three.exr")).layers.at(""));
+    ASSERT_EQ(run(std::string("render door-ajar --resolution 48x27 --frames 5 --seed 4 "
+                              "--integrator ") +
+                  method + " -o other.exr")
+                  .code,
+              0);
+    const Image other = readExr(path("other.exr")).layers.at("");
+    EXPECT_NE(std::vector<glm::vec3>(one.pixels), std::vector<glm::vec3>(other.pixels));
+  }
+}
+
+TEST_F(RenderTest, SppIsTheMeanOfFrames) {
+  const std::string base = "render cornell-box --resolution 16x16 --seed 5 -q -o ";
+  for (int frame = 1; frame <= 3; ++frame) {
+    const std::string n = std::to_string(frame);
+    ASSERT_EQ(run(base + "frame" + n + ".exr --frames " + n).code, 0);
+  }
+  ASSERT_EQ(run(base + "mean.exr --spp 3").code, 0);
+  const Image mean = readExr(path("mean.exr")).layers.at("");
+  std::vector<glm::dvec3> sum(mean.pixels.size(), glm::dvec3(0.0));
+  for (int frame = 1; frame <= 3; ++frame) {
+    const Image image = readExr(path("frame" + std::to_string(frame) + ".exr")).layers.at("");
+    for (size_t i = 0; i < sum.size(); ++i) sum[i] += glm::dvec3(image.pixels[i]);
+  }
+  for (size_t i = 0; i < sum.size(); ++i) {
+    for (int channel = 0; channel < 3; ++channel) {
+      const double expected = sum[i][channel] / 3.0;
+      EXPECT_NEAR(mean.pixels[i][channel], expected, 1e-6 * (1.0 + std::abs(expected)));
+    }
+  }
+}
+
+TEST_F(RenderTest, SppOfAMethodWithHistorySaysWhatItIs) {
+  const ProgramResult result =
+      run("render cornell-box -o image.exr --resolution 16x16 --integrator restir_gi --spp 2");
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.err.find("mean of 2 consecutive frames of one history"), std::string::npos);
+  EXPECT_EQ(readExr(path("image.exr")).metadata.at("warmup_frames"), "32");
+}
+
+TEST_F(RenderTest, ZeroBouncesIsEmissionAndComponentsAddUp) {
+  const std::string base = "render cornell-box --resolution 32x32 --spp 64 -q ";
+  ASSERT_EQ(run(base + "-o direct.exr --component direct").code, 0);
+  ASSERT_EQ(run(base + "-o indirect.exr --component indirect").code, 0);
+  ASSERT_EQ(run(base + "-o all.exr").code, 0);
+  ASSERT_EQ(run(base + "-o none.exr --max-bounces 0").code, 0);
+  ASSERT_EQ(run(base + "-o noindirect.exr --max-bounces 1 --component indirect").code, 0);
+  const double direct = meanOf(readExr(path("direct.exr")).layers.at(""));
+  const double indirect = meanOf(readExr(path("indirect.exr")).layers.at(""));
+  const double all = meanOf(readExr(path("all.exr")).layers.at(""));
+  EXPECT_NEAR(direct + indirect, all, 0.05 * all);
+  EXPECT_GT(indirect, 0.0);
+  EXPECT_EQ(meanOf(readExr(path("noindirect.exr")).layers.at("")), 0.0);
+  const Image emission = readExr(path("none.exr")).layers.at("");
+  size_t black = 0;
+  for (const glm::vec3& pixel : emission.pixels) black += pixel == glm::vec3(0.0f) ? 1 : 0;
+  EXPECT_GT(black, emission.pixels.size() / 2);
+  EXPECT_LT(black, emission.pixels.size());
+}
+
+TEST_F(RenderTest, ParametersAndTheGeneralKernelChangeWhatTheySay) {
+  const std::string base =
+      "render cornell-box --resolution 24x24 --frames 4 --integrator restir_gi -q ";
+  ASSERT_EQ(run(base + "-o plain.exr").code, 0);
+  ASSERT_EQ(run(base + "-o alone.exr --set spatial_neighbours=0 --set temporal=false").code, 0);
+  ASSERT_EQ(run(base + "-o general.exr --general").code, 0);
+  const Image plain = readExr(path("plain.exr")).layers.at("");
+  EXPECT_NE(plain.pixels, readExr(path("alone.exr")).layers.at("").pixels);
+  EXPECT_EQ(readExr(path("alone.exr")).metadata.at("parameter.spatial_neighbours"), "0");
+  const LayeredImage general = readExr(path("general.exr"));
+  EXPECT_EQ(general.metadata.at("kernel"), "general");
+  EXPECT_EQ(general.metadata.at("features_left_out"), "none");
+}
+
+TEST_F(RenderTest, EnvironmentIsRotatedAndScaled) {
+  LayeredImage map;
+  map.layers[""] = Image(8, 4, glm::vec3(0.5f));
+  writeExr(path("sky.exr"), map);
+  write("triangle.gltf", triangleGltf({0, 0, 0, 1, 0, 0, 0, 1, 0}));
+  ASSERT_EQ(run("render triangle.gltf -o sky-1.exr --environment sky.exr --resolution 8x8 "
+                "--environment-scale 2 --environment-rotation -90 --max-bounces 0")
+                .code,
+            0);
+  const LayeredImage image = readExr(path("sky-1.exr"));
+  const Image& pixels = image.layers.at("");
+  EXPECT_NEAR(pixels.at(0, 0).x, 1.0f, 1e-5f) << "a corner sees the sky, 0.5 times 2";
+  EXPECT_EQ(image.metadata.at("environment_rotation"), "-90");
+}
+
+TEST_F(RenderTest, InterruptedRenderWritesNothing) {
+  const ProgramResult result = run(
+      {"render", "door-ajar", "-o", "long.exr", "--resolution", "320x180", "--spp", "100000"}, 1.5);
+  EXPECT_EQ(result.code, 130) << result.err;
+  EXPECT_EQ(result.errors().size(), 1u);
+  EXPECT_FALSE(std::filesystem::exists(path("long.exr")));
+}
+
+}  // namespace
+
+}  // namespace restlab::cli_test

@@ -1,0 +1,400 @@
+// The proofs, included once per meaning of `real`, with EXACT_SUITE and kTolerance defined before.
+#include "tests/exact/world.inl"
+
+namespace rl {
+namespace {
+
+#define EXACT_TEST(name) TEST(EXACT_SUITE, name)
+
+constexpr uint kPairwise = RL_REUSE_PAIRWISE;
+constexpr double kBiasSeen = 5e-3;  // relative: what a negative test must exceed
+
+double relativeError(const dvec3& value, const dvec3& truth) {
+  // A truth of 0 is compared with what single samples are worth.
+  const double scale = std::max({truth.x, truth.y, truth.z, 0.1});
+  const dvec3 d = abs(value - truth) / scale;
+  return std::max({d.x, d.y, d.z});
+}
+
+void expectTruth(const dvec3& value, const dvec3& truth, const char* what, uint seed) {
+  EXPECT_LE(relativeError(value, truth), kTolerance)
+      << what << ", world " << seed << ": (" << value.x << ", " << value.y << ", " << value.z
+      << ") instead of (" << truth.x << ", " << truth.y << ", " << truth.z << ")";
+}
+
+// Everything that is claimed of an unbiased merge at anchor 0.
+void expectUnbiased(const World& world, const std::vector<Outcome>& outcomes, uint seed) {
+  const dvec3 truth = world.truth(0);
+  expectTruth(meanOfSample(outcomes), truth, "E[F W]", seed);
+  expectTruth(meanOfEstimate(outcomes), truth, "E[estimate]", seed);
+  expectTruth(meanOfResidual(outcomes) + truth, truth, "E[residual] + truth", seed);
+}
+
+Source initialSource(const World& world, uint anchor, uint count, real confidence) {
+  return {anchor, confidence, initialOutcomes(world, anchor, count, confidence)};
+}
+
+// Acceptance is decided at u = w / wSum, strictly.
+EXACT_TEST(AcceptanceThreshold) {
+  Kernel kernel;
+  const real h = real(0.5f);
+  for (const real u : {real(0.0f), real(0.24f), real(0.26f), real(0.99f)}) {
+    real wSum = real(3.0f);
+    EXPECT_EQ(kernel.risAcceptShipped(wSum, real(1.0f), u), u < real(0.25f));
+    EXPECT_EQ(wSum, real(4.0f));
+    wSum = real(0.0f);
+    EXPECT_TRUE(kernel.risAcceptShipped(wSum, h, u));  // the first of positive weight is taken
+  }
+  real wSum = real(3.0f);
+  EXPECT_FALSE(kernel.risAcceptShipped(wSum, real(1.0f), real(0.25f)));
+  // Zero, negative, NaN, infinite and subnormal weights neither count nor win, not even at u = 0.
+  const real bad[] = {real(0.0f),
+                      real(-1.0f),
+                      std::numeric_limits<real>::quiet_NaN(),
+                      std::numeric_limits<real>::infinity(),
+                      -std::numeric_limits<real>::infinity(),
+                      real(1e-38f)};
+  for (const real w : bad) {
+    for (const real start : {real(0.0f), real(2.0f)}) {
+      real sum = start;
+      EXPECT_FALSE(kernel.risAcceptShipped(sum, w, real(0.0f))) << w;
+      EXPECT_EQ(sum, start);
+    }
+  }
+  EXPECT_EQ(kernel.risContributionWeight(real(3.0f), real(0.0f)), real(0.0f));
+  EXPECT_EQ(kernel.risContributionWeight(real(3.0f), real(2.0f)), real(1.5f));
+}
+
+EXACT_TEST(RisOfIndependentCandidates) {
+  for (uint seed = 0; seed < 60; ++seed) {
+    const World world = randomWorld(seed, seed % 3 != 0);
+    for (uint count = 1; count <= 3; ++count) {
+      const auto outcomes = initialOutcomes(world, 0, count, real(1.0f));
+      expectTruth(meanOfSample(outcomes), world.truth(0), "E[F W]", seed);
+    }
+  }
+}
+
+// Candidates of two techniques with overlapping supports under the balance heuristic:
+// w = pHat / sum_t n_t p_t.
+EXACT_TEST(RisUnderTheBalanceHeuristic) {
+  for (uint seed = 0; seed < 60; ++seed) {
+    World world = randomWorld(seed, false);
+    // Technique 0 (the anchor 1's candidates) misses label 0, technique 1 (of anchor 2) label 2;
+    // label 1 and 3 are common.
+    world.candidate[1][0] = 0.0;
+    world.candidate[2][2] = 0.0;
+    const uint draws[2] = {2, 1};
+    dvec3 mean(0.0);
+    Kernel kernel;
+    kernel.world = &world;
+    restlab::exact::enumerate([&](Decisions& decisions) {
+      kernel.decisions = &decisions;
+      real wSum = real(0.0f);
+      real3 selected = real3(real(0.0f));
+      for (uint t = 0; t < 2; ++t) {
+        for (uint n = 0; n < draws[t]; ++n) {
+          double left = 1.0;
+          for (uint l = 0; l < kLabels; ++l) {
+            const double p = world.candidate[1 + t][l];
+            const bool drawn = p > 0.0 && decisions.decide(std::min(1.0, p / left));
+            left -= p;
+            if (!drawn) continue;
+            double density = 0.0;
+            for (uint s = 0; s < 2; ++s) density += draws[s] * world.candidate[1 + s][l];
+            density /= double(world.measure[0][l]);
+            const real3 F = world.f[0][l];
+            if (kernel.risAccept(wSum, kernel.bridgeTarget(F) / real(density), real(0.0f))) {
+              selected = F;
+            }
+            break;
+          }
+        }
+      }
+      const real W = kernel.risContributionWeight(wSum, kernel.bridgeTarget(selected));
+      mean += decisions.probability() * dvec3(selected) * double(W);
+    });
+    expectTruth(mean, world.truth(0), "E[F W]", seed);
+  }
+}
+
+// sum m = 1 for any targets, confidences from 1e-6 to 1e3, and donors that cannot have y.
+EXACT_TEST(PairwiseWeightsSumToOne) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform;
+  Kernel kernel;
+  for (int trial = 0; trial < 20000; ++trial) {
+    const uint donors = 1 + random() % 4;
+    real c[5], pHat[5], cTotal = real(0.0f);
+    for (uint i = 0; i <= donors; ++i) {
+      c[i] = real(std::pow(10.0, 9.0 * uniform(random) - 6.0));
+      if (i > 0 && random() % 8 == 0) c[i] = real(0.0f);  // a donor without history
+      cTotal += c[i];
+      pHat[i] = i > 0 && random() % 3 == 0 ? real(0.0f)
+                                           : real(std::pow(10.0, 8.0 * uniform(random) - 4.0));
+    }
+    real sum = c[0] / cTotal;
+    for (uint i = 1; i <= donors; ++i) {
+      const real donor = kernel.misPairwiseDonor(c[i], c[0], cTotal, pHat[i], pHat[0]);
+      const real term = kernel.misPairwiseCanonicalTerm(c[i], c[0], cTotal, pHat[0], pHat[i]);
+      EXPECT_GE(donor, real(0.0f));
+      EXPECT_GE(term, real(0.0f));
+      if (pHat[i] == real(0.0f)) {
+        EXPECT_EQ(donor, real(0.0f));
+      }
+      sum += donor + term;
+    }
+    ASSERT_NEAR(double(sum), 1.0, kTolerance) << "trial " << trial;
+  }
+}
+
+// The shipped merge of up to four donors: partial supports and shifts, occluders, Jacobians, failed
+// candidates, empty reservoirs, real-valued confidences down to 1e-4.
+EXACT_TEST(DefensivePairwiseMerge) {
+  for (uint seed = 0; seed < 200; ++seed) {
+    const World world = randomWorld(seed, seed % 7 != 0);
+    std::mt19937 random(1000 + seed);
+    std::uniform_real_distribution<double> uniform;
+    const auto confidence = [&] {
+      return real(std::pow(10.0, seed % 2 == 0 ? 2.0 * uniform(random) : -4.0 * uniform(random)));
+    };
+    const uint donorCount = seed % 5;
+    const Source canonical = initialSource(world, 0, donorCount < 3 ? 2 : 1, confidence());
+    std::vector<Source> donors;
+    for (uint k = 0; k < donorCount; ++k) {
+      donors.push_back(initialSource(world, 1 + k, donorCount < 4 ? 1 + k % 2 : 1, confidence()));
+    }
+    double total = double(canonical.confidence);
+    for (const Source& donor : donors) total += double(donor.confidence);
+    for (const uint flags :
+         {kPairwise, kPairwise | RL_REUSE_CONTROL_VARIATE, kPairwise | RL_REUSE_WINNER_ONLY}) {
+      const auto outcomes = mergeOutcomes(world, canonical, donors, flags);
+      expectUnbiased(world, outcomes, seed);
+      for (const Outcome& o : outcomes) {
+        EXPECT_NEAR(double(o.reservoir.state.confidence) / total, 1.0, 1e-6);
+        EXPECT_GE(o.reservoir.state.W, real(0.0f));
+      }
+    }
+  }
+}
+
+// A donor at the very anchor of the canonical sample (a still camera) takes the short way.
+EXACT_TEST(DonorAtTheSameAnchor) {
+  for (uint seed = 0; seed < 100; ++seed) {
+    const World world = randomWorld(seed, true);
+    const auto outcomes = mergeOutcomes(
+        world, initialSource(world, 0, 1, real(1.0f)),
+        {initialSource(world, 0, 2, real(7.5f)), initialSource(world, 1, 1, real(20.0f))},
+        kPairwise | RL_REUSE_CONTROL_VARIATE);
+    expectUnbiased(world, outcomes, seed);
+  }
+}
+
+// No label that the donors can have is seen from here, nor the other way round.
+EXACT_TEST(DisjointSupports) {
+  for (uint seed = 0; seed < 20; ++seed) {
+    World world = randomWorld(seed, false);
+    for (uint l = 0; l < kLabels; ++l) {
+      world.visibility[0][l] = l == seed % 4 ? real(1.0f) : real(0.0f);
+      world.visibility[1][l] = l == (seed + 1) % 4 ? real(1.0f) : real(0.0f);
+      world.visibility[2][l] = l == (seed + 2) % 4 ? real(1.0f) : real(0.0f);
+    }
+    const auto outcomes = mergeOutcomes(
+        world, initialSource(world, 0, 2, real(1.0f)),
+        {initialSource(world, 1, 1, real(20.0f)), initialSource(world, 2, 2, real(3.0f))},
+        kPairwise);
+    expectUnbiased(world, outcomes, seed);
+    expectTruth(world.truth(0), meanOfSample(outcomes), "E[F W]", seed);
+  }
+}
+
+// Nothing anywhere: all stays empty, but confidence grows.
+EXACT_TEST(AllEmpty) {
+  World world = randomWorld(5, false);
+  for (uint a = 0; a < kAnchors; ++a) {
+    for (uint l = 0; l < kLabels; ++l) world.visibility[a][l] = real(0.0f);
+  }
+  const auto outcomes = mergeOutcomes(world, initialSource(world, 0, 1, real(1.0f)),
+                                      {initialSource(world, 1, 1, real(4.0f))}, kPairwise);
+  ASSERT_EQ(outcomes.size(), 1u);
+  EXPECT_EQ(outcomes[0].reservoir.state.W, real(0.0f));
+  EXPECT_EQ(outcomes[0].reservoir.state.confidence, real(5.0f));
+  EXPECT_EQ(outcomes[0].estimate, dvec3(0.0));
+}
+
+// Frames of temporal reuse with a capped confidence and a moving camera: fresh samples at anchors
+// 2, 1, 0, each merged with what the frame before left. Residuals are carried along.
+EXACT_TEST(ChainedMerges) {
+  for (uint seed = 0; seed < 100; ++seed) {
+    const World world = randomWorld(seed, seed % 4 != 0);
+    const real cap = real(1.7f);
+    for (const uint flags : {kPairwise, kPairwise | RL_REUSE_CONTROL_VARIATE}) {
+      Source history = initialSource(world, 3, 1, real(1.0f));
+      for (const uint anchor : {2u, 1u, 0u}) {
+        Source merged{
+            anchor, real(0.0f),
+            mergeOutcomes(world, initialSource(world, anchor, 1, real(1.0f)), {history}, flags)};
+        const real confidence = merged.outcomes.front().reservoir.state.confidence;
+        merged.confidence = confidence < cap ? confidence : cap;
+        expectTruth(meanOfSample(merged.outcomes), world.truth(anchor), "E[F W] of a frame", seed);
+        history = merged;
+      }
+      expectUnbiased(world, history.outcomes, seed);
+    }
+  }
+}
+
+// Two neighbours that serve each other, twice: in the second round the donor holds, in part, the
+// canonical sample's own ancestors. Correlated inputs leave the mean unchanged.
+EXACT_TEST(SharedAncestors) {
+  for (uint seed = 0; seed < 100; ++seed) {
+    const World world = randomWorld(seed, true);
+    const Source a = initialSource(world, 0, 1, real(1.0f));
+    const Source b = initialSource(world, 1, 1, real(2.5f));
+    const uint flags = kPairwise | RL_REUSE_CONTROL_VARIATE;
+    Outcomes result;
+    for (const Outcome& oa : a.outcomes) {
+      for (const Outcome& ob : b.outcomes) {
+        const MergeInput ia{0, oa.reservoir, a.confidence}, ib{1, ob.reservoir, b.confidence};
+        const double p = oa.probability * ob.probability;
+        mergeOnce(world, ia, {ib}, flags, [&](double pa, const WorldReservoir& ra, const dvec3&) {
+          mergeOnce(world, ib, {ia}, flags, [&](double pb, const WorldReservoir& rb, const dvec3&) {
+            mergeOnce(world, {0, ra, ra.state.confidence}, {{1, rb, rb.state.confidence}}, flags,
+                      [&](double pc, const WorldReservoir& r, const dvec3& estimate) {
+                        result.add(p * pa * pb * pc, r, estimate);
+                      });
+          });
+        });
+      }
+    }
+    expectUnbiased(world, result.list(), seed);
+  }
+}
+
+// With full supports and unit Jacobians, weights by confidence alone are right: so what the
+// negative tests below see is the supports and the Jacobian, not the harness.
+EXACT_TEST(ConfidenceWeightsAreExactOnFullSupports) {
+  for (uint seed = 0; seed < 20; ++seed) {
+    const World world = randomWorld(seed, false);
+    for (const uint flags : {0u, 0u | RL_REUSE_CONTROL_VARIATE}) {
+      const auto outcomes = mergeOutcomes(
+          world, initialSource(world, 0, 1, real(1.0f)),
+          {initialSource(world, 1, 1, real(3.0f)), initialSource(world, 2, 1, real(2.0f))}, flags);
+      expectUnbiased(world, outcomes, seed);
+    }
+  }
+}
+
+// What is wrong by design is seen: each deliberate mistake moves the mean in most worlds.
+struct Mistake {
+  int seen = 0, worlds = 0;
+  double signedSum = 0.0;  // of relative errors in luminance
+
+  void add(const World& world, const std::vector<Outcome>& outcomes) {
+    const dvec3 truth = world.truth(0);
+    const dvec3 value = meanOfEstimate(outcomes);
+    if (truth.y <= 0.0) return;
+    ++worlds;
+    seen += relativeError(value, truth) > kBiasSeen ? 1 : 0;
+    signedSum += (value.y - truth.y) / truth.y;
+  }
+};
+
+Mistake mistakeOf(uint flags, const std::function<void(World&)>& change, bool partial) {
+  Mistake mistake;
+  for (uint seed = 0; seed < 30; ++seed) {
+    World world = randomWorld(seed, partial);
+    change(world);
+    mistake.add(world, mergeOutcomes(world, initialSource(world, 0, 1, real(1.0f)),
+                                     {initialSource(world, 1, 1, real(5.0f)),
+                                      initialSource(world, 2, 1, real(5.0f))},
+                                     flags));
+  }
+  return mistake;
+}
+
+// Label 0 is hidden from the donors, all else is seen.
+void hideFromDonors(World& world) { world.visibility[1][0] = world.visibility[2][0] = real(0.0f); }
+
+EXACT_TEST(NegativeConfidenceWeightsWithOccluders) {
+  const Mistake mistake = mistakeOf(0u, hideFromDonors, false);
+  EXPECT_EQ(mistake.seen, mistake.worlds);
+  EXPECT_LT(mistake.signedSum / mistake.worlds, -0.1);  // edges darken
+  EXPECT_EQ(mistakeOf(kPairwise, hideFromDonors, false).seen, 0);
+}
+
+EXACT_TEST(NegativeConfidenceWeightsWithPartialShifts) {
+  const auto change = [](World& world) {
+    for (uint d = 1; d < 3; ++d) world.defined[0][d][1] = world.defined[d][0][1] = false;
+  };
+  const Mistake mistake = mistakeOf(0u, change, false);
+  EXPECT_EQ(mistake.seen, mistake.worlds);
+  EXPECT_EQ(mistakeOf(kPairwise, change, false).seen, 0);
+}
+
+EXACT_TEST(NegativeOmittedJacobian) {
+  const auto none = [](World&) {};
+  const Mistake pairwise = mistakeOf(kPairwise | RL_REUSE_OMIT_JACOBIAN, none, false);
+  EXPECT_EQ(pairwise.seen, pairwise.worlds);
+  const Mistake confidence = mistakeOf(RL_REUSE_OMIT_JACOBIAN, none, false);
+  EXPECT_EQ(confidence.seen, confidence.worlds);
+  EXPECT_EQ(mistakeOf(kPairwise, none, false).seen, 0);
+  // Where all measures agree there is nothing to omit.
+  const auto equal = [](World& world) {
+    for (uint a = 0; a < kAnchors; ++a) {
+      for (uint l = 0; l < kLabels; ++l) world.measure[a][l] = world.measure[0][l];
+    }
+  };
+  EXPECT_EQ(mistakeOf(kPairwise | RL_REUSE_OMIT_JACOBIAN, equal, false).seen, 0);
+}
+
+EXACT_TEST(NegativeAssumedVisibility) {
+  // Donors assumed to see what they do not: their share is missing.
+  const Mistake darker = mistakeOf(kPairwise | RL_REUSE_ASSUME_VISIBLE, hideFromDonors, false);
+  EXPECT_EQ(darker.seen, darker.worlds);
+  EXPECT_LT(darker.signedSum, 0.0);
+  // Light that leaks through an occluder here.
+  const auto hideHere = [](World& world) { world.visibility[0][2] = real(0.0f); };
+  const Mistake leak = mistakeOf(kPairwise | RL_REUSE_ASSUME_VISIBLE_HERE, hideHere, false);
+  EXPECT_EQ(leak.seen, leak.worlds);
+  EXPECT_GT(leak.signedSum, 0.0);
+  EXPECT_EQ(mistakeOf(kPairwise, hideHere, false).seen, 0);
+}
+
+// The canonical candidates must cover what the canonical target can be.
+EXACT_TEST(NegativeCanonicalMissesItsSupport) {
+  const auto change = [](World& world) {
+    hideFromDonors(world);
+    world.candidate[0][0] = 0.0;
+  };
+  const Mistake mistake = mistakeOf(kPairwise, change, false);
+  EXPECT_EQ(mistake.seen, mistake.worlds);
+  EXPECT_LT(mistake.signedSum / mistake.worlds, -0.1);
+}
+
+// Confidence that depends on the sample (here: empty donors do not count) is biased.
+EXACT_TEST(NegativeEmptyDonorsDropped) {
+  int seen = 0, worlds = 0;
+  for (uint seed = 0; seed < 30; ++seed) {
+    World world = randomWorld(seed, false);
+    hideFromDonors(world);
+    const Source canonical = initialSource(world, 0, 1, real(1.0f));
+    const Source donor = initialSource(world, 1, 1, real(5.0f));
+    Outcomes result;
+    for (const Outcome& oc : canonical.outcomes) {
+      for (const Outcome& od : donor.outcomes) {
+        const real confidence = od.reservoir.state.W > real(0.0f) ? donor.confidence : real(0.0f);
+        mergeOnce(world, {0, oc.reservoir, canonical.confidence}, {{1, od.reservoir, confidence}},
+                  kPairwise, [&](double p, const WorldReservoir& r, const dvec3& estimate) {
+                    result.add(oc.probability * od.probability * p, r, estimate);
+                  });
+      }
+    }
+    ++worlds;
+    seen += relativeError(meanOfEstimate(result.list()), world.truth(0)) > kBiasSeen ? 1 : 0;
+  }
+  EXPECT_GE(seen, worlds * 8 / 10);
+}
+
+}  // namespace
+}  // namespace rl

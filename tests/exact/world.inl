@@ -1,0 +1,300 @@
+// A small discrete world under the shipped resampling files. Included by one translation unit per
+// meaning of `real`; everything is in an unnamed namespace, for the two units' types differ.
+//
+// Samples are labels 0..3, shared by all anchors as light points are: a shift keeps the label. At
+// an anchor a label has a measure (the size of its piece of the domain, so that the integral is sum
+// measure f V), which makes the shift's Jacobian measure_to / measure_from. A shift may be
+// undefined for a label, by a predicate symmetric in the two anchors.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <random>
+#include <set>
+#include <vector>
+
+#include "core/dialect/dialect.h"
+#include "core/resampling/reservoir.h"
+#include "tests/exact/enumeration.h"
+
+namespace rl {
+namespace {
+
+using restlab::exact::Decisions;
+
+constexpr uint kLabels = 4;
+constexpr uint kAnchors = 5;
+
+struct WorldAnchor {
+  uint index = 0;
+};
+
+struct WorldReservoir {
+  uint label = 0;
+  ReservoirState state{};
+};
+
+struct World {
+  real3 f[kAnchors][kLabels];          // integrand without visibility
+  real visibility[kAnchors][kLabels];  // transmittance between anchor and sample
+  real measure[kAnchors][kLabels];
+  bool defined[kAnchors][kAnchors][kLabels];
+  double candidate[kAnchors][kLabels];  // probability of drawing the label, sums to 1 or less:
+                                        // the rest fails
+  real3 ratio[kAnchors][kAnchors];      // of reflectances: any numbers at all
+
+  dvec3 truth(uint anchor) const {
+    dvec3 sum(0.0);
+    for (uint l = 0; l < kLabels; ++l) {
+      sum += dvec3(f[anchor][l]) * double(visibility[anchor][l]) * double(measure[anchor][l]);
+    }
+    return sum;
+  }
+};
+
+// The shipped files with the world as their bridge. Random numbers are not drawn but decided: the
+// shipped acceptance is called with a u on the wanted side of its threshold, and must agree.
+struct Kernel {
+  const World* world = nullptr;
+  Decisions* decisions = nullptr;
+  WorldReservoir donorReservoirs[4];
+  uint donorAnchors[4] = {0, 0, 0, 0};
+  std::set<uint> dimensions;  // drawn in this merge
+
+#include "core/dialect/math.glsl"
+#define risAccept risAcceptShipped
+#include "core/resampling/ris.glsl"
+#undef risAccept
+#include "core/resampling/mis.glsl"
+
+  bool risAccept(real& wSum, real w, real) {
+    const real clean = risCleanWeight(w);
+    real after = wSum + clean;
+    const double p = after > real(0.0f) ? double(clean) / double(after) : 0.0;
+    const bool wanted = decisions->decide(p);
+    const real justBelowOne = real(1.0f) - (sizeof(real) == 8 ? real(0x1p-53) : real(0x1p-24));
+    const bool accepted = risAcceptShipped(wSum, w, wanted ? real(0.0f) : justBelowOne);
+    EXPECT_EQ(accepted, wanted) << "weight " << w << " of " << wSum;
+    EXPECT_EQ(wSum, after);
+    return accepted;
+  }
+
+  struct Rng {};
+  float rngDraw(const Rng&, uint dimension) {
+    EXPECT_TRUE(dimensions.insert(dimension).second) << "dimension " << dimension << " drawn twice";
+    return 0.5f;
+  }
+
+  real bridgeTarget(const real3& f) { return rlLuminance(f); }
+  void bridgeReadDonor(uint slot, WorldReservoir& r) { r = donorReservoirs[slot]; }
+  void bridgeReadAnchor(uint slot, WorldAnchor& a) { a.index = donorAnchors[slot]; }
+  bool bridgeIsSameAnchor(const WorldAnchor& a, const WorldAnchor& b) { return a.index == b.index; }
+  real3 bridgeShift(const WorldReservoir& r, const WorldAnchor& from, const WorldAnchor& to,
+                    real& jacobian) {
+    jacobian = real(1.0f);
+    if (!world->defined[from.index][to.index][r.label]) return real3(real(0.0f));
+    jacobian = world->measure[to.index][r.label] / world->measure[from.index][r.label];
+    return world->f[to.index][r.label];
+  }
+  real bridgeVisibility(const WorldReservoir& r, const WorldAnchor& at) {
+    return world->visibility[at.index][r.label];
+  }
+  real3 bridgeReflectanceRatio(const WorldAnchor& from, const WorldAnchor& to) {
+    return world->ratio[from.index][to.index];
+  }
+
+#define RL_ANCHOR WorldAnchor
+#define RL_RESERVOIR WorldReservoir
+#include "core/resampling/reuse.glsl"
+#undef RL_RESERVOIR
+#undef RL_ANCHOR
+};
+
+// A reservoir that a random process may leave, with its probability; equal ones are joined.
+struct Outcome {
+  double probability = 0.0;
+  WorldReservoir reservoir;
+  dvec3 estimate{0.0};
+};
+
+class Outcomes {
+ public:
+  void add(double probability, const WorldReservoir& r, const dvec3& estimate) {
+    const std::array<double, 11> key = {double(r.label),
+                                        double(r.state.W),
+                                        double(r.state.F.x),
+                                        double(r.state.F.y),
+                                        double(r.state.F.z),
+                                        double(r.state.residual.x),
+                                        double(r.state.residual.y),
+                                        double(r.state.residual.z),
+                                        estimate.x,
+                                        estimate.y,
+                                        estimate.z};
+    Outcome& outcome = byValue_[key];
+    outcome.probability += probability;
+    outcome.reservoir = r;
+    outcome.estimate = estimate;
+  }
+
+  std::vector<Outcome> list() const {
+    std::vector<Outcome> result;
+    for (const auto& [key, outcome] : byValue_) result.push_back(outcome);
+    return result;
+  }
+
+ private:
+  std::map<std::array<double, 11>, Outcome> byValue_;
+};
+
+dvec3 meanOfSample(const std::vector<Outcome>& outcomes) {
+  dvec3 sum(0.0);
+  for (const Outcome& o : outcomes) {
+    sum += o.probability * dvec3(o.reservoir.state.F) * double(o.reservoir.state.W);
+  }
+  return sum;
+}
+
+dvec3 meanOfEstimate(const std::vector<Outcome>& outcomes) {
+  dvec3 sum(0.0);
+  for (const Outcome& o : outcomes) sum += o.probability * o.estimate;
+  return sum;
+}
+
+dvec3 meanOfResidual(const std::vector<Outcome>& outcomes) {
+  dvec3 sum(0.0);
+  for (const Outcome& o : outcomes) sum += o.probability * dvec3(o.reservoir.state.residual);
+  return sum;
+}
+
+// Initial resampling of `count` independent candidates at an anchor.
+std::vector<Outcome> initialOutcomes(const World& world, uint anchor, uint count, real confidence) {
+  Outcomes outcomes;
+  Kernel kernel;
+  kernel.world = &world;
+  restlab::exact::enumerate([&](Decisions& decisions) {
+    kernel.decisions = &decisions;
+    WorldReservoir selected;
+    selected.state.confidence = confidence;
+    real wSum = real(0.0f);
+    for (uint c = 0; c < count; ++c) {
+      double left = 1.0;
+      for (uint l = 0; l < kLabels; ++l) {
+        const double p = world.candidate[anchor][l];
+        const bool drawn = p > 0.0 && decisions.decide(std::min(1.0, p / left));
+        left -= p;
+        if (!drawn) continue;
+        const real3 F = world.f[anchor][l] * world.visibility[anchor][l];
+        const real W = real(double(world.measure[anchor][l]) / p);
+        if (kernel.risAccept(wSum, kernel.bridgeTarget(F) * W / real(float(count)), real(0.0f))) {
+          selected.label = l;
+          selected.state.F = F;
+        }
+        break;
+      }
+    }
+    selected.state.W = kernel.risContributionWeight(wSum, kernel.bridgeTarget(selected.state.F));
+    outcomes.add(decisions.probability(), selected,
+                 dvec3(selected.state.F) * double(selected.state.W));
+  });
+  return outcomes.list();
+}
+
+// One shipped merge of given reservoirs, over all its decisions.
+struct MergeInput {
+  uint anchor = 0;
+  WorldReservoir reservoir;
+  real confidence = real(1.0f);  // after the cap
+};
+
+template <class F>
+void mergeOnce(const World& world, const MergeInput& canonical,
+               const std::vector<MergeInput>& donors, uint flags, F use) {
+  Kernel kernel;
+  kernel.world = &world;
+  DonorSet set{};
+  set.count = uint(donors.size());
+  for (uint k = 0; k < set.count; ++k) {
+    set.slot[k] = 3u - k;  // slots are names, not positions
+    set.confidence[k] = donors[k].confidence;
+    kernel.donorReservoirs[set.slot[k]] = donors[k].reservoir;
+    kernel.donorAnchors[set.slot[k]] = donors[k].anchor;
+  }
+  restlab::exact::enumerate([&](Decisions& decisions) {
+    kernel.decisions = &decisions;
+    kernel.dimensions.clear();
+    WorldReservoir r = canonical.reservoir;
+    r.state.confidence = canonical.confidence;
+    real3 estimate;
+    kernel.reuseMerge(r, WorldAnchor{canonical.anchor}, set, flags, Kernel::Rng{}, 7u, estimate);
+    use(decisions.probability(), r, dvec3(estimate));
+  });
+}
+
+// A merge of independent inputs, each in all its outcomes.
+struct Source {
+  uint anchor = 0;
+  real confidence = real(1.0f);
+  std::vector<Outcome> outcomes;
+};
+
+std::vector<Outcome> mergeOutcomes(const World& world, const Source& canonical,
+                                   const std::vector<Source>& donors, uint flags) {
+  Outcomes result;
+  std::vector<MergeInput> inputs(donors.size());
+  std::function<void(size_t, double)> choose = [&](size_t k, double probability) {
+    if (k < donors.size()) {
+      for (const Outcome& o : donors[k].outcomes) {
+        inputs[k] = {donors[k].anchor, o.reservoir, donors[k].confidence};
+        choose(k + 1, probability * o.probability);
+      }
+      return;
+    }
+    for (const Outcome& o : canonical.outcomes) {
+      mergeOnce(world, {canonical.anchor, o.reservoir, canonical.confidence}, inputs, flags,
+                [&](double p, const WorldReservoir& r, const dvec3& estimate) {
+                  result.add(probability * o.probability * p, r, estimate);
+                });
+    }
+  };
+  choose(0, 1.0);
+  return result.list();
+}
+
+// A random world. `partial` leaves out visibility, integrands and shifts here and there; the
+// candidates of every anchor cover what its integrand can be, and draw some zeros too.
+World randomWorld(uint seed, bool partial) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(0.1, 1.0);
+  const auto chance = [&](double p) { return partial && uniform(random) < 0.1 + 0.9 * p; };
+  World w{};
+  for (uint a = 0; a < kAnchors; ++a) {
+    double sum = 0.0;
+    for (uint l = 0; l < kLabels; ++l) {
+      w.f[a][l] = chance(0.2) ? real3(real(0.0f))
+                              : real3(real(uniform(random)), real(uniform(random)),
+                                      real(4.0 * uniform(random)));
+      w.visibility[a][l] = chance(0.3) ? real(0.0f) : chance(0.3) ? real(0.4f) : real(1.0f);
+      w.measure[a][l] = real(std::pow(uniform(random), -1.5));
+      const bool zero = !(w.f[a][l].x > real(0.0f)) || !(w.visibility[a][l] > real(0.0f));
+      w.candidate[a][l] = zero && chance(0.5) ? 0.0 : uniform(random);
+      sum += w.candidate[a][l];
+    }
+    const double fail = partial ? 0.3 * uniform(random) : 0.0;
+    for (uint l = 0; l < kLabels; ++l) {
+      w.candidate[a][l] = sum > 0.0 ? w.candidate[a][l] / sum * (1.0 - fail) : 0.0;
+    }
+    for (uint b = 0; b < kAnchors; ++b) {
+      w.ratio[a][b] = real3(real(uniform(random)), real(3.0 * uniform(random)), real(0.0f));
+      for (uint l = 0; l < kLabels; ++l) {
+        w.defined[a][b][l] = b < a ? w.defined[b][a][l] : a == b || !chance(0.25);
+      }
+    }
+  }
+  return w;
+}
+
+}  // namespace
+}  // namespace rl

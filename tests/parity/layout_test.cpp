@@ -1,0 +1,101 @@
+// Offsets of the shared structs: what glslang lays out as `scalar` against what C++ does.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstring>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/dialect/order.h"
+#include "integrators/restir_gi/restir_gi.h"
+#include "tests/parity/kernel_runner.h"
+
+namespace restlab::parity {
+namespace {
+
+using Offsets = std::map<std::string, uint32_t>;
+
+// Member offsets of every struct that lies in a buffer, by struct and member name, out of SPIR-V.
+std::map<std::string, Offsets> offsetsOf(const std::vector<uint32_t>& spirv) {
+  constexpr uint32_t kOpName = 5, kOpMemberName = 6, kOpMemberDecorate = 72, kDecorationOffset = 35;
+  std::map<uint32_t, std::string> names;
+  std::map<uint32_t, std::map<uint32_t, std::string>> memberNames;
+  std::map<uint32_t, std::map<uint32_t, uint32_t>> offsets;
+  for (size_t i = 5; i < spirv.size(); i += spirv[i] >> 16) {
+    const uint32_t op = spirv[i] & 0xffffu;
+    const uint32_t* word = &spirv[i];
+    if (op == kOpName) names[word[1]] = reinterpret_cast<const char*>(word + 2);
+    if (op == kOpMemberName) memberNames[word[1]][word[2]] = reinterpret_cast<const char*>(word + 3);
+    if (op == kOpMemberDecorate && word[3] == kDecorationOffset) offsets[word[1]][word[2]] = word[4];
+  }
+  std::map<std::string, Offsets> result;
+  for (const auto& [id, members] : offsets) {
+    for (const auto& [index, offset] : members) result[names[id]][memberNames[id][index]] = offset;
+  }
+  return result;
+}
+
+#define FIELD(Struct, member) {#member, static_cast<uint32_t>(offsetof(rl::Struct, member))}
+
+const std::map<std::string, Offsets>& expected() {
+  static const std::map<std::string, Offsets> table = {
+      {"Geometry",
+       {FIELD(Geometry, firstTriangle), FIELD(Geometry, triangleCount), FIELD(Geometry, firstVertex),
+        FIELD(Geometry, normalOffset), FIELD(Geometry, tangentOffset), FIELD(Geometry, colorOffset),
+        FIELD(Geometry, uvOffset)}},
+      {"Instance",
+       {FIELD(Instance, objectToWorldRow0), FIELD(Instance, objectToWorldRow1), FIELD(Instance, objectToWorldRow2),
+        FIELD(Instance, worldToObjectRow0), FIELD(Instance, worldToObjectRow1), FIELD(Instance, worldToObjectRow2),
+        FIELD(Instance, geometry), FIELD(Instance, material), FIELD(Instance, firstLight), FIELD(Instance, flags)}},
+      {"Material",
+       {FIELD(Material, baseColor), FIELD(Material, alpha), FIELD(Material, emission), FIELD(Material, alphaCutoff),
+        FIELD(Material, metallic), FIELD(Material, roughness), FIELD(Material, ior), FIELD(Material, transmission),
+        FIELD(Material, specularColor), FIELD(Material, specular), FIELD(Material, sigmaAbsorption),
+        FIELD(Material, normalScale), FIELD(Material, flags), FIELD(Material, textures)}},
+      {"Texture",
+       {FIELD(Texture, uvRow0), FIELD(Texture, uvRow1), FIELD(Texture, firstTexel), FIELD(Texture, width),
+        FIELD(Texture, height), FIELD(Texture, wrapU), FIELD(Texture, wrapV), FIELD(Texture, flags),
+        FIELD(Texture, uvSet)}},
+      {"Light",
+       {FIELD(Light, p0), FIELD(Light, kind), FIELD(Light, e1), FIELD(Light, pmf), FIELD(Light, e2),
+        FIELD(Light, areaInverse), FIELD(Light, radiance), FIELD(Light, instance), FIELD(Light, primitive),
+        FIELD(Light, flags)}},
+      {"AliasEntry", {FIELD(AliasEntry, keep), FIELD(AliasEntry, other), FIELD(AliasEntry, pmf)}},
+      {"Camera",
+       {FIELD(Camera, posW), FIELD(Camera, kind), FIELD(Camera, rightW), FIELD(Camera, halfWidth), FIELD(Camera, upW),
+        FIELD(Camera, halfHeight), FIELD(Camera, forwardW), FIELD(Camera, padding)}},
+      {"FrameData",
+       {FIELD(FrameData, camera), FIELD(FrameData, previousCamera), FIELD(FrameData, width), FIELD(FrameData, height),
+        FIELD(FrameData, frame), FIELD(FrameData, seed), FIELD(FrameData, pixelFilter), FIELD(FrameData, maxBounces),
+        FIELD(FrameData, components), FIELD(FrameData, filmHold), FIELD(FrameData, rouletteStart)}},
+      {"SceneData",
+       {FIELD(SceneData, positions), FIELD(SceneData, normals), FIELD(SceneData, tangents), FIELD(SceneData, colors),
+        FIELD(SceneData, uvs), FIELD(SceneData, triangles), FIELD(SceneData, geometries), FIELD(SceneData, instances),
+        FIELD(SceneData, materials), FIELD(SceneData, textures), FIELD(SceneData, texels),
+        FIELD(SceneData, srgbToLinear), FIELD(SceneData, lights), FIELD(SceneData, lightAlias),
+        FIELD(SceneData, environment), FIELD(SceneData, environmentAlias), FIELD(SceneData, lightCount),
+        FIELD(SceneData, environmentWidth), FIELD(SceneData, environmentHeight), FIELD(SceneData, environmentLight),
+        FIELD(SceneData, environmentRotation), FIELD(SceneData, instanceCount)}},
+      {"ReservoirState",
+       {FIELD(ReservoirState, F), FIELD(ReservoirState, W), FIELD(ReservoirState, residual),
+        FIELD(ReservoirState, confidence)}},
+      {"LightReservoir", {FIELD(LightReservoir, light), FIELD(LightReservoir, state)}},
+  };
+  return table;
+}
+
+TEST(Layout, StructsLieAlikeInBothLanguages) {
+  const std::map<std::string, Offsets> found = offsetsOf(
+      compileKernel("integrators/restir_gi/restir_gi.h", "integrators/restir_gi/initial.glsl"));
+  for (const auto& [name, offsets] : expected()) {
+    SCOPED_TRACE(name);
+    const auto it = found.find(name);
+    ASSERT_NE(it, found.end()) << "is in no buffer of the kernel";
+    // Also the set of members: a field that is added must be added above.
+    EXPECT_EQ(it->second, offsets);
+  }
+}
+
+}  // namespace
+}  // namespace restlab::parity

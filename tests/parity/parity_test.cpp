@@ -1,0 +1,184 @@
+// The same kernel files, built by the C++ compiler and run by a Vulkan device (lavapipe where there is
+// no GPU), must decide alike and compute alike. Every suitable device of the machine is tried.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "core/backend/cpu_kernel.h"
+#include "core/dialect/features.h"
+#include "core/scene/compiled_scene.h"
+#include "core/scene/scene.h"
+#include "integrators/path/path.h"
+#include "tests/parity/everything_scene.h"
+#include "tests/parity/kernel_runner.h"
+#include "tests/parity/scene_upload.h"
+#undef RL_KERNEL_BUFFERS
+#undef RL_KERNEL_PARAMS
+#include "tests/parity/ris_kernel.h"
+
+namespace rl {
+extern const CpuKernelEntry kernel_parity_ris_general;
+extern const CpuKernelEntry kernel_parity_path_general;
+}  // namespace rl
+
+namespace restlab::parity {
+namespace {
+
+constexpr double kMaxDifferentDecisions = 1e-5;  // share of threads
+constexpr double kMaxRelativeDifference = 1e-4;
+// 1 - Fresnel at grazing angles and the densities of sharp lobes amplify the last bit: this share of
+// the threads may go beyond the line above, none beyond this.
+constexpr double kMaxIllConditioned = 5e-5;
+constexpr double kMaxWorst = 2e-3;
+
+// Largest relative difference of components, against the larger magnitude of the whole vector.
+double relativeDifference(const rl::vec3& a, const rl::vec3& b) {
+  const rl::vec3 d = a - b;
+  const double scale = std::sqrt(double(std::max(dot(a, a), dot(b, b))));
+  const double difference = std::sqrt(double(dot(d, d)));
+  return scale > 0.0 ? difference / scale : difference;
+}
+
+double relativeDifference(float a, float b) {
+  return relativeDifference(rl::vec3(a, 0.0f, 0.0f), rl::vec3(b, 0.0f, 0.0f));
+}
+
+class Parity : public testing::Test {
+ protected:
+  void SetUp() override {
+    devices_ = VulkanDevice::all();
+    if (devices_.empty()) {
+      GTEST_SKIP() << "no Vulkan device with buffer addresses and scalar layout: kernels ran as C++ only";
+    }
+  }
+  std::vector<std::unique_ptr<VulkanDevice>> devices_;
+};
+
+TEST_F(Parity, ResamplingOverRandomSurfaces) {
+  const rl::FrameData frame = plainFrame(512, 512, 7);
+  const size_t threads = size_t{frame.width} * frame.height;
+  const rl::RisParams params{32};
+  std::vector<rl::RisResult> host(threads);
+  const rl::RisBuffers hostBuffers{{host.data()}};
+  runOnHost(rl::kernel_parity_ris_general, rl::SceneData{}, frame, &hostBuffers, &params);
+  const std::vector<uint32_t> spirv = compileKernel("tests/parity/ris_kernel.h", "tests/parity/ris_kernel.glsl");
+  for (const auto& device : devices_) {
+    SCOPED_TRACE(device->name());
+    GpuBuffer& results = device->allocate(threads * sizeof(rl::RisResult));
+    runOnDevice(*device, spirv, 0, frame, {results.address}, &params, sizeof params);
+    const auto* gpu = static_cast<const rl::RisResult*>(results.mapped);
+    size_t picked = 0, lobes = 0, values = 0, selected = 0, transmissive = 0;
+    double worst = 0.0;
+    for (size_t i = 0; i < threads; ++i) {
+      selected += host[i].picked != rl::RL_INVALID;
+      transmissive += host[i].picked != rl::RL_INVALID && i % 4 == 0;
+      lobes += host[i].lobes != gpu[i].lobes;
+      if (host[i].picked != gpu[i].picked) {
+        ++picked;
+        continue;
+      }
+      if (host[i].lobes != gpu[i].lobes) continue;
+      const double difference =
+          std::max({relativeDifference(host[i].W, gpu[i].W), relativeDifference(host[i].f, gpu[i].f),
+                    relativeDifference(host[i].wi, gpu[i].wi)});
+      if (!(difference <= kMaxRelativeDifference)) ++values;
+      worst = std::max(worst, difference);
+    }
+    std::printf("  %s: %zu threads, %zu other selections, %zu other lobes, %zu differ by more than %.0e, worst %.2g\n",
+                device->name().c_str(), threads, picked, lobes, values, kMaxRelativeDifference, worst);
+    EXPECT_GT(selected, threads * 9 / 10) << "the kernel hardly selected anything";
+    EXPECT_GT(transmissive, threads / 5);
+    EXPECT_LT(double(picked), kMaxDifferentDecisions * double(threads));
+    EXPECT_LT(double(lobes), kMaxDifferentDecisions * double(threads));
+    EXPECT_LT(double(values), kMaxIllConditioned * double(threads));
+    EXPECT_LT(worst, kMaxWorst);
+  }
+}
+
+// How two images of the same seed differ.
+struct ImageDifference {
+  size_t pixels = 0;  // that differ by more than kMaxRelativeDifference
+  double worst = 0.0;
+};
+
+ImageDifference compareImages(const rl::vec3* a, const rl::vec3* b, size_t pixels) {
+  ImageDifference result;
+  for (size_t i = 0; i < pixels; ++i) {
+    const double difference = relativeDifference(a[i], b[i]);
+    if (!(difference <= kMaxRelativeDifference)) ++result.pixels;
+    result.worst = std::max(result.worst, difference);
+  }
+  return result;
+}
+
+// What one scene's path-traced frame looks like on each machine.
+struct PathCase {
+  const char* name;
+  Scene (*make)();
+  double maxDifferentShare;  // of the pixels, beyond kMaxRelativeDifference
+  double maxMeanDifference;  // relative, of the whole image
+};
+
+class PathParity : public Parity, public testing::WithParamInterface<PathCase> {};
+
+rl::dvec3 meanOf(const rl::vec3* image, size_t pixels) {
+  rl::dvec3 sum(0.0);
+  for (size_t i = 0; i < pixels; ++i) sum += rl::dvec3(image[i]);
+  return sum / double(pixels);
+}
+
+// A whole path tracer, eight scattering events a path: the C++ build on the same brute-force traversal,
+// the program's own kernel on Embree, and the device.
+TEST_P(PathParity, SameSeedSameImage) {
+  const PathCase& c = GetParam();
+  const auto scene = CompiledScene::build(c.make());
+  rl::FrameData frame = plainFrame(64, 64, 3);
+  frame.camera = scene->camera(scene->source().cameras.front(), frame.width, frame.height);
+  frame.previousCamera = frame.camera;
+  const size_t pixels = size_t{frame.width} * frame.height;
+  const rl::PathParams params{};
+  std::vector<rl::vec3> host(pixels), embree(pixels);
+  const rl::PathBuffers hostBuffers{{host.data()}}, embreeBuffers{{embree.data()}};
+  runOnHost(rl::kernel_parity_path_general, scene->data(), frame, &hostBuffers, &params);
+  runOnHost(rl::findCpuKernel("path", rl::RL_FEATURE_ALL)->entry, scene->data(), frame, &embreeBuffers, &params,
+            scene->embreeScene());
+  size_t lit = 0;
+  for (const rl::vec3& p : host) lit += p.x > 0.0f;
+  EXPECT_GT(lit, pixels * 3 / 4);
+  const rl::dvec3 mean = meanOf(host.data(), pixels);
+
+  const auto expectAlike = [&](const std::string& who, const rl::vec3* image) {
+    const ImageDifference difference = compareImages(host.data(), image, pixels);
+    const double meanDifference = relativeDifference(rl::vec3(mean), rl::vec3(meanOf(image, pixels)));
+    std::printf("  %s: %zu of %zu pixels differ, worst %.2g, means by %.2g\n", who.c_str(), difference.pixels, pixels,
+                difference.worst, meanDifference);
+    EXPECT_LE(double(difference.pixels), c.maxDifferentShare * double(pixels)) << who;
+    EXPECT_LE(meanDifference, c.maxMeanDifference) << who;
+  };
+  expectAlike("Embree", embree.data());
+  const std::vector<uint32_t> spirv = compileKernel("integrators/path/path.h", "integrators/path/path.glsl");
+  for (const auto& device : devices_) {
+    GpuBuffer& radiance = device->allocate(pixels * sizeof(rl::vec3));
+    const uint64_t sceneAddress = uploadScene(*device, scene->data());
+    const GlslCounters counters =
+        runOnDevice(*device, spirv, sceneAddress, frame, {radiance.address}, &params, sizeof params);
+    expectAlike(device->name(), static_cast<const rl::vec3*>(radiance.mapped));
+    EXPECT_EQ(counters.health[rl::RL_HEALTH_NONFINITE], 0u);
+  }
+}
+
+const PathCase kPathCases[] = {
+    {"CornellBox", [] { return makeBuiltinScene("cornell-box"); }, 0.005, 1e-4},
+    {"EveryFeature", makeEverythingScene, 0.05, 5e-3},
+};
+INSTANTIATE_TEST_SUITE_P(, PathParity, testing::ValuesIn(kPathCases), [](const auto& test) { return test.param.name; });
+
+TEST(EverythingScene, NeedsEveryFeature) {
+  // Multiple-scattering compensation is an option of the render, not a need of a scene.
+  EXPECT_EQ(CompiledScene::build(makeEverythingScene())->features(),
+            rl::RL_FEATURE_ALL & ~rl::RL_FEATURE_MULTISCATTER);
+}
+
+}  // namespace
+}  // namespace restlab::parity

@@ -1,0 +1,51 @@
+// Sums of frames: mean and variance of the mean of known samples.
+#include "experiments/runner/accumulate.h"
+
+#include <gtest/gtest.h>
+
+#include "experiments/runner/files.h"
+
+namespace restlab {
+
+namespace {
+
+Image constant(float value) { return Image(2, 1, glm::vec3(value, 2.0f * value, 0.0f)); }
+
+TEST(ImageSum, MeanOfBothWeighsBySamples) {
+  ImageSum a, b;
+  a.add(constant(1.0f));
+  a.add(constant(2.0f));
+  b.add(constant(6.0f));
+  EXPECT_EQ(a.mean().at(1, 0), glm::vec3(1.5f, 3.0f, 0.0f));
+  EXPECT_EQ(ImageSum::meanOfBoth(a, b).at(0, 0), glm::vec3(3.0f, 6.0f, 0.0f));
+  EXPECT_EQ(ImageSum::meanOfBoth(a, ImageSum()).at(0, 0), glm::vec3(1.5f, 3.0f, 0.0f));
+}
+
+TEST(ImageSum, VarianceOfTheMean) {
+  ImageSum a(true), b(true);
+  for (const float value : {1.0f, 2.0f}) a.add(constant(value));
+  for (const float value : {3.0f, 4.0f}) b.add(constant(value));
+  // Samples 1 2 3 4: variance 5/3, of the mean 5/12.
+  const Image variance = ImageSum::varianceOfMean(a, b);
+  EXPECT_NEAR(variance.at(0, 0).x, 5.0 / 12.0, 1e-6);
+  EXPECT_NEAR(variance.at(0, 0).y, 4.0 * 5.0 / 12.0, 1e-6);
+  EXPECT_EQ(variance.at(0, 0).z, 0.0f);
+}
+
+TEST(ImageSum, SmallTermsAreNotLost) {
+  ImageSum sum;
+  sum.add(constant(1e7f));
+  for (int i = 0; i < 1000; ++i) sum.add(constant(0.25f));
+  EXPECT_NEAR(sum.mean().at(0, 0).x, (1e7 + 250.0) / 1001.0, 1e-2);
+}
+
+TEST(Files, NamesAreSafe) {
+  EXPECT_EQ(safeFileName("path traced (1 spp)"), "path-traced-1-spp");
+  EXPECT_EQ(safeFileName("../../etc/passwd"), "unnamed..-..-etc-passwd");
+  EXPECT_EQ(safeFileName(""), "unnamed");
+  EXPECT_EQ(safeFileName("//"), "unnamed");
+}
+
+}  // namespace
+
+}  // namespace restlab

@@ -1,0 +1,155 @@
+// Rows from runs with known numbers: means, ratios, bias, and the rules by which a row counts.
+#include "experiments/runner/summary.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "experiments/runner/report.h"
+
+namespace restlab {
+
+namespace {
+
+constexpr uint32_t kSide = 4;
+
+RunResult makeRun(uint32_t run, double mse, std::vector<double> timesMs) {
+  RunResult result;
+  result.run = run;
+  result.measured.mse = mse;
+  result.measured.relmse = 2.0 * mse;
+  result.measured.energyRatio = 1.0;
+  result.measured.worstShare = 0.1;
+  result.passes = {{"pass", timesMs.front()}};
+  result.timesMs = std::move(timesMs);
+  return result;
+}
+
+// `path` and a biased `restir_gi`, three runs each, with a reference of 1 in exact halves.
+class SummaryTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    suite_.methods.resize(2);
+    suite_.methods[0].name = "path";
+    suite_.methods[0].session.integrator = "path";
+    suite_.methods[0].session.mode = "unbiased";
+    suite_.methods[1].name = "gi";
+    suite_.methods[1].session.integrator = "restir_gi";
+    suite_.methods[1].session.mode = "biased";
+    block_.scene = "scene";
+    block_.width = block_.height = kSide;
+    block_.reference.mean = Image(kSide, kSide, glm::vec3(1.0f));
+    block_.reference.half0 = block_.reference.half1 = block_.reference.mean;
+    block_.methods.resize(2);
+    addRun(0, makeRun(0, 0.8, {10.0, 20.0}), 1.0f);
+    addRun(0, makeRun(1, 1.0, {40.0, 80.0}), 1.0f);
+    addRun(0, makeRun(2, 1.2, {12.0, 24.0}), 1.0f);
+    addRun(1, makeRun(0, 0.10, {11.0, 22.0}), 1.1f);
+    addRun(1, makeRun(1, 0.08, {44.0, 88.0}), 1.1f);
+    addRun(1, makeRun(2, 0.12, {13.2, 26.4}), 1.1f);
+  }
+  void addRun(size_t method, RunResult run, float pixel) {
+    MethodResult& result = block_.methods[method];
+    (run.run % 2 == 0 ? result.evenRuns : result.oddRuns)
+        .add(Image(kSide, kSide, glm::vec3(pixel)));
+    result.runs.push_back(std::move(run));
+  }
+  Suite suite_;
+  BlockResult block_;
+};
+
+TEST_F(SummaryTest, MeansAndRatios) {
+  const auto rows = summarise(suite_, block_);
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_NEAR(rows[0].mse.value, 1.0, 1e-12);
+  EXPECT_NEAR(rows[1].mse.value, 0.1, 1e-12);
+  EXPECT_NEAR(rows[1].mseRatio.value, 10.0, 1e-12);
+  EXPECT_LT(rows[1].mseRatio.lo, 10.0);
+  EXPECT_GT(rows[1].mseRatio.hi, 10.0);
+  EXPECT_NEAR(rows[0].timeMsMedian, 22.0, 1e-12);
+  EXPECT_EQ(rows[0].timedFrames, 6u);
+  // Every frame took 1.1 times as long as the path frame beside it, however the clock wandered.
+  EXPECT_NEAR(rows[1].timeRatio.value, 1.1, 1e-12);
+  EXPECT_NEAR(rows[1].timeRatio.lo, 1.1, 1e-9);
+  EXPECT_NEAR(rows[1].timeRatio.hi, 1.1, 1e-9);
+  EXPECT_NEAR(rows[1].efficiencyRatio.value, 10.0 / 1.1, 1e-9);
+  EXPECT_EQ(rows[0].mseRatio.value, 1.0);
+  EXPECT_EQ(rows[0].timeRatio.value, 1.0);
+}
+
+TEST_F(SummaryTest, SquaredBiasFromHalvesOfTheRuns) {
+  const auto rows = summarise(suite_, block_);
+  EXPECT_NEAR(rows[0].biasSquared, 0.0, 1e-12);
+  EXPECT_NEAR(rows[1].biasSquared, 0.01, 1e-8) << "(1.1 - 1) squared";
+  EXPECT_NEAR(rows[1].biasShare, 0.1, 1e-7);
+  EXPECT_TRUE(rows[1].counts);
+}
+
+TEST_F(SummaryTest, BiasedRowsCountWithinBoundsOnly) {
+  for (RunResult& run : block_.methods[1].runs) run.measured.energyRatio = 0.94;
+  EXPECT_FALSE(summarise(suite_, block_)[1].counts);
+  for (RunResult& run : block_.methods[1].runs) run.measured.energyRatio = 0.951;
+  EXPECT_TRUE(summarise(suite_, block_)[1].counts);
+  for (RunResult& run : block_.methods[1].runs) run.measured.mse = 0.039;  // bias^2 is 0.01
+  EXPECT_FALSE(summarise(suite_, block_)[1].counts);
+  for (RunResult& run : block_.methods[1].runs) run.measured.mse = 0.041;
+  EXPECT_TRUE(summarise(suite_, block_)[1].counts);
+  // The same numbers do not disqualify a method that claims to be unbiased; they are printed.
+  suite_.methods[1].session.mode = "unbiased";
+  for (RunResult& run : block_.methods[1].runs) run.measured.energyRatio = 0.94;
+  EXPECT_TRUE(summarise(suite_, block_)[1].counts);
+}
+
+TEST_F(SummaryTest, OneRunHasNoIntervalAndItsBiasIsUnknown) {
+  for (MethodResult& method : block_.methods) {
+    method.runs.resize(1);
+    method.oddRuns = ImageSum();
+  }
+  const auto rows = summarise(suite_, block_);
+  EXPECT_TRUE(std::isnan(rows[1].mse.lo));
+  EXPECT_TRUE(std::isnan(rows[1].biasSquared));
+  EXPECT_FALSE(rows[1].counts) << "a biased row of unknown bias does not count";
+  EXPECT_NEAR(rows[1].mseRatio.value, 8.0, 1e-12);
+}
+
+TEST_F(SummaryTest, FlagsFirefliesAndNonfiniteValues) {
+  for (RunResult& run : block_.methods[1].runs) run.measured.worstShare = 0.6;
+  auto rows = summarise(suite_, block_);
+  ASSERT_EQ(rows[1].flags.size(), 1u);
+  EXPECT_NE(rows[1].flags[0].find("60 %"), std::string::npos);
+  block_.methods[0].runs[1].measured.nonfinite = 2;
+  block_.methods[0].runs[0].health.health.counts[rl::RL_HEALTH_NONFINITE] = 3;
+  rows = summarise(suite_, block_);
+  EXPECT_EQ(rows[0].nonfinite, 5u);
+  EXPECT_FALSE(rows[0].counts);
+}
+
+TEST_F(SummaryTest, WithoutYardstickRatiosAreUnknown) {
+  suite_.methods[0].session.integrator = "restir_gi";
+  const auto rows = summarise(suite_, block_);
+  EXPECT_TRUE(std::isnan(rows[1].mseRatio.value));
+  EXPECT_NE(summaryCsv(suite_, rows).find(",nan,"), std::string::npos);
+}
+
+TEST_F(SummaryTest, UnfinishedMethodsAreLeftOut) {
+  block_.methods[1].runs.clear();
+  EXPECT_EQ(summarise(suite_, block_).size(), 1u);
+}
+
+TEST_F(SummaryTest, TableSaysWhatDoesNotCount) {
+  for (RunResult& run : block_.methods[1].runs) run.measured.energyRatio = 0.9;
+  const std::string table = blockTable(suite_, summarise(suite_, block_));
+  EXPECT_NE(table.find("| gi (*) |"), std::string::npos) << table;
+  EXPECT_NE(table.find("energy ratio 0.900 is outside 0.95..1.05"), std::string::npos) << table;
+  EXPECT_NE(table.find("10.0x lower"), std::string::npos) << table;
+}
+
+TEST_F(SummaryTest, CsvQuotesWhatNeedsIt) {
+  suite_.methods[1].name = "a \"b\", c";
+  const std::string csv = summaryCsv(suite_, summarise(suite_, block_));
+  EXPECT_NE(csv.find("\"a \"\"b\"\", c\""), std::string::npos) << csv;
+}
+
+}  // namespace
+
+}  // namespace restlab

@@ -1,0 +1,175 @@
+// bsdfDraw against bsdfPdf and bsdfEval: distribution, weights, energy.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/unit/bsdf_cases.h"
+#include "tests/unit/dialect_context.h"
+#include "tests/unit/goodness.h"
+#include "tests/unit/random_inputs.h"
+#include "tests/unit/sphere_grid.h"
+
+namespace restlab::unit {
+namespace {
+
+constexpr uint64_t kSamples = 1'000'000;
+
+// The base under a layer is scaled by the Fresnel term of a smooth one, which a rough layer of ior 1.5
+// exceeds by up to 0.0018 around 50 degrees (a perfectly white base; the loss at other angles is
+// larger).
+constexpr double kEnergyTolerance = 2e-3;
+
+struct Setting {
+  std::string name;
+  rl::Bsdf bsdf;
+  glm::vec3 wo, nGeo, nShade;
+  uint64_t samples = kSamples;
+};
+
+// Where the lobes of a BSDF point, so that the cells resolve them (all normals are near +z).
+SphereGrid gridFor(const Setting& s) {
+  const glm::dvec3 n(s.nShade), wo(s.wo);
+  const double cosO = glm::dot(n, wo), alpha = s.bsdf.alpha;
+  std::vector<SphereGrid::Peak> peaks;
+  if (alpha < 0.6 && (s.bsdf.lobes & rl::RL_LOBE_SPECULAR) != 0) {
+    peaks.push_back({2.0 * cosO * n - wo, 2.0 * alpha});
+  }
+  if (alpha < 0.6 && (s.bsdf.lobes & rl::RL_LOBE_TRANSMISSION) != 0) {
+    const double eta = (s.bsdf.lobes & rl::RL_LOBE_THIN) != 0 ? 1.0 : double(s.bsdf.eta);
+    const double sin2 = (1.0 - cosO * cosO) / (eta * eta);
+    const double cosT = sin2 < 1.0 ? std::sqrt(1.0 - sin2) : 0.0;
+    peaks.push_back({glm::normalize(-wo / eta + n * (cosO / eta - cosT)), alpha});
+  }
+  return SphereGrid(peaks);
+}
+
+struct Estimate {
+  glm::dvec3 mean{0.0}, error{0.0};
+};
+
+// Draws, checks each draw, and returns the mean weight of the continuous lobes.
+Estimate drawAll(Dialect<>& d, const Setting& s, const SphereGrid& grid, std::vector<uint64_t>& counts,
+                 uint64_t seed) {
+  Inputs inputs(seed);
+  glm::dvec3 sum(0.0), squares(0.0);
+  uint64_t wrong = 0;
+  for (uint64_t i = 0; i < s.samples; ++i) {
+    const float uLobe = inputs.uniform();
+    const rl::BsdfDraw draw = d->bsdfDraw(s.bsdf, s.nGeo, s.nShade, s.wo, uLobe, inputs.square());
+    if (draw.lobe == 0u) continue;
+    const glm::dvec3 w(draw.weight);
+    const bool sane = std::isfinite(w.x + w.y + w.z) && std::min({w.x, w.y, w.z}) >= 0.0 &&
+                      std::abs(glm::dot(draw.wi, draw.wi) - 1.0f) < 1e-5f;
+    if (!sane) ++wrong;
+    if ((draw.lobe & rl::RL_LOBE_ANY_DELTA) != 0) continue;
+    sum += w;
+    squares += w * w;
+    if (const auto cell = grid.find(glm::dvec3(draw.wi))) ++counts[*cell];
+    // Every thousandth draw: the weight is what eval and pdf say about this direction.
+    if (i % 1000 != 0) continue;
+    const float pdf = d->bsdfPdf(s.bsdf, s.nGeo, s.nShade, s.wo, draw.wi);
+    const glm::vec3 f = d->bsdfEval(s.bsdf, s.nGeo, s.nShade, s.wo, draw.wi);
+    const double scale = std::max({w.x, w.y, w.z, 1e-6});
+    if (!(std::abs(pdf / draw.pdfSolidAngle - 1.0f) < (s.bsdf.alpha < 0.01f ? 3e-2f : 1e-2f))) ++wrong;
+    if (!(glm::length(glm::dvec3(f) / double(pdf) - w) < 1e-3 * scale)) ++wrong;
+  }
+  EXPECT_EQ(wrong, 0u) << s.name << ": draws with an insane weight or one that is not eval / pdf";
+  Estimate e;
+  const double n = double(s.samples);
+  e.mean = sum / n;
+  e.error = glm::sqrt(glm::max(squares / n - e.mean * e.mean, glm::dvec3(0.0)) / n);
+  return e;
+}
+
+// Refraction into a denser medium concentrates radiance by eta^2, which is no gain of energy: the
+// adjoint's 1 / eta^2 is taken out.
+double fluxScale(const rl::Bsdf& b) {
+  return (b.lobes & rl::RL_LOBE_THIN) != 0 ? 1.0 : double(b.eta) * b.eta;
+}
+
+// The density of draws is bsdfPdf, what it misses of 1 is absorbed; the mean weight is the albedo.
+void checkSetting(const Setting& s, uint64_t seed) {
+  Dialect<> d;
+  const SphereGrid grid = gridFor(s);
+  const SphereGrid::Function pdfAndEval = [&](const glm::dvec3& wi) {
+    const glm::vec3 direction(wi);
+    return glm::dvec4(d->bsdfPdf(s.bsdf, s.nGeo, s.nShade, s.wo, direction),
+                      glm::dvec3(d->bsdfEval(s.bsdf, s.nGeo, s.nShade, s.wo, direction)));
+  };
+  std::vector<glm::dvec4> cells = grid.integrate(pdfAndEval);
+  std::vector<uint64_t> counts(grid.size());
+  const Estimate mean = drawAll(d, s, grid, counts, seed);
+  std::vector<double> probabilities;
+  glm::dvec3 albedo(0.0), flux(0.0);
+  uint64_t hits = 0;
+  for (size_t i = 0; i < cells.size(); ++i) {
+    if (cells[i].x == 0.0 && counts[i] > 0) cells[i] = grid.integrateCell(i, pdfAndEval, 6);
+    const glm::dvec3 f(cells[i].y, cells[i].z, cells[i].w);
+    probabilities.push_back(cells[i].x);
+    albedo += f;
+    flux += f * (grid.isBelow(i) ? fluxScale(s.bsdf) : 1.0);
+    hits += counts[i];
+  }
+  if (hits > 0) expectFits(counts, probabilities, s.samples, s.name);
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(mean.mean[c], albedo[c], 4.5 * mean.error[c] + 2e-4) << s.name << ", channel " << c;
+    EXPECT_LE(flux[c], 1.0 + kEnergyTolerance) << s.name << " makes energy";
+  }
+}
+
+void checkCases(const std::vector<BsdfCase>& cases, uint64_t seed) {
+  const glm::vec3 up(0.0f, 0.0f, 1.0f);
+  for (const BsdfCase& c : cases) {
+    for (const double angle : kAngles) {
+      const std::string name = c.name + " at " + std::to_string(angle).substr(0, 4) + " degrees";
+      checkSetting({name, c.bsdf, directionAt(angle), up, up}, ++seed);
+    }
+  }
+}
+
+TEST(BsdfSampling, ContinuousLobes) { checkCases(continuousBsdfs(), 100); }
+
+TEST(BsdfSampling, ContinuousPartBesideDeltaLobes) { checkCases(deltaBsdfs(), 1000); }
+
+// Interpolated normals: what lands on the wrong side of the face is absorbed, and the pdf says so.
+TEST(BsdfSampling, ShadingNormalOffTheFace) {
+  const glm::vec3 up(0.0f, 0.0f, 1.0f);
+  const glm::vec3 nGeo = glm::normalize(glm::vec3(0.4f, -0.2f, 1.0f));
+  uint64_t seed = 2000;
+  for (const BsdfCase& c : continuousBsdfs()) {
+    if (c.bsdf.alpha < 0.2f) continue;
+    for (const double angle : {20.0, 60.0}) {
+      const std::string name = c.name + ", tilted normal, at " + std::to_string(int(angle)) + " degrees";
+      checkSetting({name, c.bsdf, directionAt(angle), nGeo, up}, ++seed);
+    }
+  }
+}
+
+// The kernel without the glossy feature is the same function for Lambert.
+TEST(BsdfSampling, LambertKernelAgreesWithTheGeneralOne) {
+  Dialect<> general;
+  Dialect<rl::RL_FEATURE_AREA_LIGHTS> lean;
+  const rl::Bsdf bsdf = continuousBsdfs().front().bsdf;
+  ASSERT_EQ(bsdf.lobes, rl::RL_LOBE_DIFFUSE);
+  Inputs inputs(7);
+  for (int i = 0; i < 100'000; ++i) {
+    const glm::vec3 nShade = inputs.direction();
+    const glm::vec3 nGeo = glm::normalize(nShade + 0.4f * inputs.direction());
+    const glm::vec3 wo = inputs.directionAbove(nGeo), wi = inputs.direction();
+    const float uLobe = inputs.uniform();
+    const glm::vec2 u = inputs.square();
+    const rl::BsdfDraw a = general->bsdfDraw(bsdf, nGeo, nShade, wo, uLobe, u);
+    const rl::BsdfDraw b = lean->bsdfDraw(bsdf, nGeo, nShade, wo, uLobe, u);
+    ASSERT_EQ(a.lobe, b.lobe);
+    ASSERT_EQ(a.wi, b.wi);
+    ASSERT_LT(glm::distance(a.weight, b.weight), 1e-6f);
+    ASSERT_NEAR(a.pdfSolidAngle, b.pdfSolidAngle, 1e-6f);
+    ASSERT_NEAR(general->bsdfPdf(bsdf, nGeo, nShade, wo, wi), lean->bsdfPdf(bsdf, nGeo, nShade, wo, wi), 1e-6f);
+    ASSERT_LT(glm::distance(general->bsdfEval(bsdf, nGeo, nShade, wo, wi),
+                            lean->bsdfEval(bsdf, nGeo, nShade, wo, wi)), 1e-6f);
+  }
+}
+
+}  // namespace
+}  // namespace restlab::unit

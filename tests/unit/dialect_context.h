@@ -1,0 +1,58 @@
+// The dialect's functions for tests, as a kernel sees them: members of rl::Ctx<features>, with the
+// scene's own Embree structure behind traceRay().
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <memory>
+
+#include "core/backend/alpha_filter.h"
+#include "core/backend/cpu_kernel.h"
+#include "core/dialect/order.h"
+#include "core/scene/compiled_scene.h"
+
+#define RL_HAS(features) ((kFeatures & (features)) != 0u)
+#define RL_HEALTH(kind) (++gCounters.health[kind])
+
+namespace rl {
+
+template <uint FEATURES>
+struct Ctx {
+  static constexpr uint kFeatures = FEATURES;
+
+  const SceneData& gScene;
+  const FrameData& gFrame;
+  CpuKernelCounters& gCounters;
+  RTCScene embreeScene;
+
+#include "core/dialect/order.glsl"
+// traceRay(); after the functions that its filters call.
+#include "core/backend/cpu_trace.inl"
+};
+
+}  // namespace rl
+
+namespace restlab::unit {
+
+// A kernel context with the storage that it refers to. Without a scene, `scene` can be filled by
+// hand and no ray may be traced.
+template <uint32_t FEATURES = rl::RL_FEATURE_ALL>
+struct Dialect {
+  Dialect() : ctx{scene, frame, counters, nullptr} {}
+  explicit Dialect(std::shared_ptr<const CompiledScene> compiled)
+      : compiledScene(std::move(compiled)),
+        scene(compiledScene->data()),
+        ctx{scene, frame, counters, static_cast<RTCScene>(compiledScene->embreeScene())} {}
+  Dialect(const Dialect&) = delete;
+  Dialect& operator=(const Dialect&) = delete;
+
+  rl::Ctx<FEATURES>* operator->() { return &ctx; }
+
+  std::shared_ptr<const CompiledScene> compiledScene;
+  rl::SceneData scene{};
+  rl::FrameData frame{};
+  rl::CpuKernelCounters counters;
+  rl::Ctx<FEATURES> ctx;
+};
+
+}  // namespace restlab::unit
