@@ -39,6 +39,15 @@ RL_FN_OUTLINE LightSample lightDraw(RL_IN(Rng) rng) {
                                     max(rlMax3(abs(light.p0 + light.e1)), rlMax3(abs(light.p0 + light.e2))));
     s.isTwoSided = light.flags & RL_MATERIAL_DOUBLE_SIDED;
     if (RL_HAS(RL_FEATURE_EMISSIVE_TEXTURES)) s.radiance = s.radiance * lightTexture(light, bary);
+    if (RL_HAS(RL_FEATURE_ALPHA)) {
+      // Path rays meet a partly transparent emitter with probability alpha.
+      Hit hit;
+      hit.instance = light.instance;
+      hit.primitive = light.primitive;
+      hit.bary = bary;
+      hit.t = 0.0f;
+      s.radiance = s.radiance * surfaceAlpha(hit);
+    }
   }
   if (RL_HAS(RL_FEATURE_PUNCTUAL_LIGHTS) && light.kind == RL_LIGHT_DIRECTIONAL) s.point = -light.e1;
   if (RL_HAS(RL_FEATURE_ENVIRONMENT) && light.kind == RL_LIGHT_ENVIRONMENT) {

@@ -19,20 +19,21 @@ RL_FN vec3 surfaceToWorldNormal(RL_IN(Instance) inst, RL_IN(vec3) n) {
 RL_FN TriangleW surfaceTriangle(RL_IN(Instance) inst, RL_IN(Geometry) geometry, RL_IN(uvec3) corners) {
   TriangleW t;
   t.p0 = gScene.positions.data[geometry.firstVertex + corners.x];
-  t.p1 = gScene.positions.data[geometry.firstVertex + corners.y];
-  t.p2 = gScene.positions.data[geometry.firstVertex + corners.z];
-  t.magnitude = 0.0f;
+  vec3 p1 = gScene.positions.data[geometry.firstVertex + corners.y];
+  vec3 p2 = gScene.positions.data[geometry.firstVertex + corners.z];
+  t.e1 = p1 - t.p0;
+  t.e2 = p2 - t.p0;
+  vec3 corner = max(abs(t.p0), max(abs(p1), abs(p2)));
+  t.magnitude = rlMax3(corner);
   if (RL_HAS(RL_FEATURE_INSTANCES) && (inst.flags & RL_INSTANCE_IDENTITY) == 0u) {
     // |M| |p| + |T| bounds every intermediate of the transform.
-    vec3 corner = max(abs(t.p0), max(abs(t.p1), abs(t.p2)));
     vec4 h = vec4(corner, 1.0f);
     t.magnitude = max(dot(abs(inst.objectToWorldRow0), h),
                       max(dot(abs(inst.objectToWorldRow1), h), dot(abs(inst.objectToWorldRow2), h)));
     t.p0 = surfaceToWorldPoint(inst, t.p0);
-    t.p1 = surfaceToWorldPoint(inst, t.p1);
-    t.p2 = surfaceToWorldPoint(inst, t.p2);
-  } else {
-    t.magnitude = max(rlMax3(abs(t.p0)), max(rlMax3(abs(t.p1)), rlMax3(abs(t.p2))));
+    // Edges are transformed as vectors: differences of far corners would leave small triangles no area.
+    t.e1 = surfaceToWorldVector(inst, t.e1);
+    t.e2 = surfaceToWorldVector(inst, t.e2);
   }
   return t;
 }
@@ -90,7 +91,7 @@ RL_FN vec3 surfaceTangentFromUv(RL_IN(TriangleW) t, RL_IN(Geometry) geometry, RL
   float det = d1.x * d2.y - d2.x * d1.y;
   if (det == 0.0f) return vec3(0.0f, 0.0f, 0.0f);
   handedness = det < 0.0f ? 1.0f : -1.0f;  // glTF's v axis points down
-  return ((t.p1 - t.p0) * d2.y - (t.p2 - t.p0) * d1.y) * (1.0f / det);
+  return (t.e1 * d2.y - t.e2 * d1.y) * (1.0f / det);
 }
 
 RL_FN_OUTLINE vec3 surfaceNormalMapped(RL_IN(Instance) inst, RL_IN(Geometry) geometry, RL_IN(Material) material,
@@ -115,6 +116,8 @@ RL_FN_OUTLINE vec3 surfaceNormalMapped(RL_IN(Instance) inst, RL_IN(Geometry) geo
     uint uvSet = gScene.textures.data[material.textures[RL_TEX_NORMAL]].uvSet;
     tangentW = surfaceTangentFromUv(t, geometry, corners, uvSet, handedness);
   }
+  // The image on a mirrored instance is mirrored too, and a cross product is not.
+  if (RL_HAS(RL_FEATURE_INSTANCES) && (inst.flags & RL_INSTANCE_FLIPPED) != 0u) handedness = -handedness;
   tangentW = tangentW - normalW * dot(normalW, tangentW);
   float len2 = dot(tangentW, tangentW);
   if (!(len2 > 0.0f)) return normalW;  // no usable parametrisation: the unperturbed normal
@@ -125,6 +128,19 @@ RL_FN_OUTLINE vec3 surfaceNormalMapped(RL_IN(Instance) inst, RL_IN(Geometry) geo
   return n2 > 0.0f ? n * (1.0f / sqrt(n2)) : normalW;
 }
 
+// A hit within rounding of an edge may lie beyond the face on the other side of it, and rays from there
+// would leak out of a closed mesh. Its position is kept off the edges by the error bound (by a thousandth
+// of a sliver). area2 is the squared length of cross(e1, e2).
+RL_FN vec2 surfaceInnerBary(RL_IN(TriangleW) t, float area2, float posError, RL_IN(vec2) bary) {
+  vec3 e3 = t.e2 - t.e1;
+  float longest2 = max(dot(t.e1, t.e1), max(dot(t.e2, t.e2), dot(e3, e3)));
+  float least = min(posError * sqrt(longest2 / area2), 1.0e-3f);
+  float b0 = 1.0f - bary.x - bary.y;
+  if (!(min(b0, min(bary.x, bary.y)) < least)) return bary;
+  vec2 inner = max(bary, vec2(least, least));
+  return inner * (1.0f / (max(b0, least) + inner.x + inner.y));
+}
+
 RL_FN Surface surfaceLoad(RL_IN(Hit) hit, RL_IN(vec3) rayDir) {
   Surface s;
   Instance inst = gScene.instances.data[hit.instance];
@@ -132,13 +148,15 @@ RL_FN Surface surfaceLoad(RL_IN(Hit) hit, RL_IN(vec3) rayDir) {
   Material material = gScene.materials.data[inst.material];
   uvec3 corners = gScene.triangles.data[geometry.firstTriangle + hit.primitive];
   TriangleW t = surfaceTriangle(inst, geometry, corners);
-  vec3 e1 = t.p1 - t.p0;
-  vec3 e2 = t.p2 - t.p0;
-  s.posW = t.p0 + hit.bary.x * e1 + hit.bary.y * e2;
   s.posError = RL_HIT_ERROR * t.magnitude;
   s.wo = -rayDir;
 
-  vec3 nGeo = normalize(cross(e1, e2));
+  // A triangle so small that its cross product underflows faces the ray: traversal must never see NaN.
+  vec3 area = cross(t.e1, t.e2);
+  float area2 = dot(area, area);
+  vec3 nGeo = area2 > 0.0f ? area * (1.0f / sqrt(area2)) : s.wo;
+  vec2 bary = surfaceInnerBary(t, area2, s.posError, hit.bary);
+  s.posW = t.p0 + bary.x * t.e1 + bary.y * t.e2;
   if (RL_HAS(RL_FEATURE_INSTANCES) && (inst.flags & RL_INSTANCE_FLIPPED) != 0u) nGeo = -nGeo;
   bool isFront = dot(nGeo, s.wo) > 0.0f;
   vec3 nShade = nGeo;

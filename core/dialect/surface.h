@@ -21,17 +21,12 @@ struct Surface {
   Bsdf bsdf;
 };
 
-// The corners of a triangle in world space.
+// A triangle in world space: a corner and the edges to the other two.
 struct TriangleW {
   vec3 p0;
-  vec3 p1;
-  vec3 p2;
+  vec3 e1;
+  vec3 e2;
   float magnitude;  // largest coordinate that its computation went through
-};
-
-// What the texture loop of surface.glsl gathers, one entry a slot.
-struct SlotTexels {
-  vec4 value[7];
 };
 
 RL_NAMESPACE_END

@@ -39,8 +39,8 @@ Scene makeGlass() {
   addRoom(scene);
   const glm::vec3 clearSigma(0.0f);
   const uint32_t clear = scene.addMaterial("clear", glass(0.0f, clearSigma));
-  const uint32_t frosted = scene.addMaterial("frosted", glass(0.35f, clearSigma));
-  const uint32_t satin = scene.addMaterial("satin", glass(0.15f, clearSigma));
+  const uint32_t frosted = scene.addMaterial("frosted", glass(0.55f, clearSigma));
+  const uint32_t satin = scene.addMaterial("satin", glass(0.30f, clearSigma));
   const uint32_t amber = scene.addMaterial("amber", glass(0.0f, {0.35f, 1.6f, 5.0f}));
   const uint32_t bottle = scene.addMaterial("bottle", glass(0.0f, {4.0f, 0.5f, 2.4f}));
   const uint32_t cobalt = scene.addMaterial("cobalt", glass(0.25f, {6.0f, 3.0f, 0.3f}));

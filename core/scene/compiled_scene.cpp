@@ -97,12 +97,14 @@ void CompiledScene::Impl::addGeometry(const MeshGeometry& mesh, const glm::dmat4
       positions[i] = transformPoint(*bake, positions[i]);
     }
     const glm::dmat3 linear(*bake);
-    const glm::dmat3 normalMatrix = glm::transpose(glm::inverse(linear));
+    // Not normalised one by one: kernels do that after interpolation, so that a baked mesh shades as
+    // an instance of it does. The common factor only keeps them in range.
+    glm::dmat3 normalMatrix = glm::transpose(glm::inverse(linear));
+    normalMatrix /= std::max({glm::length(normalMatrix[0]), glm::length(normalMatrix[1]), glm::length(normalMatrix[2])});
     if (g.normalOffset != rl::RL_INVALID) {
       for (size_t i = g.normalOffset; i < normals.size(); ++i) {
         const glm::dvec3 n = normalMatrix * glm::dvec3(normals[i]);
-        const double length = glm::length(n);
-        normals[i] = length > 0.0 ? glm::vec3(n / length) : glm::vec3(0.0f);
+        normals[i] = std::isfinite(n.x + n.y + n.z) ? glm::vec3(n) : glm::vec3(0.0f);
       }
     }
     if (g.tangentOffset != rl::RL_INVALID) {

@@ -11,6 +11,7 @@
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/build_info.h"
 #include "experiments/runner/interrupt.h"
+#include "experiments/runner/light_mask.h"
 #include "experiments/runner/log.h"
 #include "experiments/runner/reference.h"
 
@@ -52,21 +53,6 @@ FrameRates measureFrames(Session& session, uint32_t frames) {
   return rates;
 }
 
-// 1 where no sample of 64 saw a light directly.
-std::vector<uint8_t> maskWithoutLights(const PreparedScene& prepared, SessionConfig config) {
-  config.maxBounces = 0;  // emission only
-  Session emission(prepared.scene, config);
-  std::vector<uint8_t> mask(size_t(config.width) * config.height, 1);
-  for (int frame = 0; frame < 64; ++frame) {
-    emission.frame();
-    const Image& image = emission.radiance();
-    for (size_t i = 0; i < mask.size(); ++i) {
-      if (image.pixels[i] != glm::vec3(0.0f)) mask[i] = 0;
-    }
-  }
-  return mask;
-}
-
 // MSE of single frames over the pixels that show no light, times the CPU seconds of a frame. Both
 // scale as 1/N and N with the number of samples: the product does not depend on it.
 Json errorPerCpuSecond(const PreparedScene& prepared, const SessionConfig& config,
@@ -79,7 +65,7 @@ Json errorPerCpuSecond(const PreparedScene& prepared, const SessionConfig& confi
   ReferenceTarget target;
   target.spp = options.referenceSpp;
   const Reference reference = renderReference(prepared, wanted, target);
-  const std::vector<uint8_t> mask = maskWithoutLights(prepared, config);
+  const std::vector<uint8_t> mask = pixelsWithoutLights(prepared, config);
   uint64_t pixels = 0;
   for (const uint8_t value : mask) pixels += value;
   if (pixels == 0) return nullptr;

@@ -8,6 +8,7 @@
 #include "core/image/intervals.h"
 #include "core/image/metrics.h"
 #include "experiments/runner/interrupt.h"
+#include "experiments/runner/light_mask.h"
 #include "experiments/runner/log.h"
 
 namespace restlab {
@@ -60,20 +61,22 @@ void keepShown(const Session& session, const PreparedScene& prepared, const RunR
 
 }  // namespace
 
-FrameError measureFrame(const Image& image, const Reference& reference, uint32_t frame) {
+FrameError measureFrame(const Image& image, const Reference& reference, uint32_t frame,
+                        const std::vector<uint8_t>& withoutLights) {
+  // A reference without halves stands for both: its own noise is then part of the MSE.
+  const Image& half0 = reference.half0 ? *reference.half0 : reference.mean;
+  const Image& half1 = reference.half1 ? *reference.half1 : reference.mean;
   FrameError error;
   error.frame = frame;
   error.nonfinite = countNonfinite(image);
   error.relmse = evaluateMetric("relmse_e1e-2", image, reference.mean).value;
   error.energyRatio = evaluateMetric("energy_ratio", image, reference.mean).value;
-  if (reference.half0 && reference.half1) {
-    error.mse = mseAgainstHalves(image, *reference.half0, *reference.half1);
-    error.worstShare =
-        worstPixelShare(squaredErrorPerPixel(image, *reference.half0, *reference.half1));
-  } else {
-    error.mse = evaluateMetric("mse", image, reference.mean).value;
-    error.worstShare = worstPixelShare(squaredErrorPerPixel(image, reference.mean));
-  }
+  error.mse = mseAgainstHalves(image, half0, half1);
+  error.worstShare = worstPixelShare(squaredErrorPerPixel(image, half0, half1));
+  const bool any = withoutLights.empty() ||
+                   std::find(withoutLights.begin(), withoutLights.end(), 1) != withoutLights.end();
+  error.mseWithoutLights = any ? mseAgainstHalves(image, half0, half1, withoutLights)
+                               : std::numeric_limits<double>::quiet_NaN();
   return error;
 }
 
@@ -89,6 +92,8 @@ bool executeBlock(const Suite& suite, const PreparedScene& prepared, const RunSi
     block.methods[m].featuresUsed = sessions[m]->featuresUsed();
     block.methods[m].bytesPerPixel = sessions[m]->bytesPerPixel();
   }
+
+  block.withoutLights = pixelsWithoutLights(prepared, sessions.front()->config());
 
   const uint32_t frames = suite.warmupFrames + suite.timedFrames;
   Progress progress(fmt::format("{} ({})", block.scene, componentName(block.component)),
@@ -124,7 +129,7 @@ bool executeBlock(const Suite& suite, const PreparedScene& prepared, const RunSi
       MethodResult& method = block.methods[m];
       result.passes = medianPasses(passes[m]);
       for (auto& [frame, image] : kept[m]) {
-        const FrameError error = measureFrame(image, block.reference, frame);
+        const FrameError error = measureFrame(image, block.reference, frame, block.withoutLights);
         if (frame != suite.warmupFrames) {
           result.checkpoints.push_back(error);
           continue;

@@ -13,8 +13,9 @@ namespace restlab {
 
 // Errors of one frame against the reference.
 struct FrameError {
-  uint32_t frame = 0;  // of the history, from 0
-  double mse = 0.0;    // against the two halves where the reference has them
+  uint32_t frame = 0;             // of the history, from 0
+  double mse = 0.0;               // against the two halves where the reference has them
+  double mseWithoutLights = 0.0;  // over the pixels that show no light; NaN where all do
   double relmse = 0.0;
   double energyRatio = 0.0;
   double worstShare = 0.0;  // of the MSE, in the worst 0.1 % of the pixels
@@ -46,7 +47,8 @@ struct BlockResult {
   uint32_t width = 0, height = 0;
   Reference reference;
   std::string referenceFile;
-  std::vector<MethodResult> methods;  // in the suite's order
+  std::vector<uint8_t> withoutLights;  // one byte a pixel, 1 where no light is seen directly
+  std::vector<MethodResult> methods;   // in the suite's order
 };
 
 // Called after every finished run of a method.
@@ -57,7 +59,9 @@ using RunSink = std::function<void(const BlockResult&, const RunResult&)>;
 bool executeBlock(const Suite& suite, const PreparedScene& prepared, const RunSink& sink,
                   BlockResult& block);
 
-// Errors of `image` (MSE against the halves where there are halves).
-FrameError measureFrame(const Image& image, const Reference& reference, uint32_t frame);
+// Errors of `image` (MSE against the halves where there are halves). `withoutLights` as in
+// BlockResult; empty: all pixels.
+FrameError measureFrame(const Image& image, const Reference& reference, uint32_t frame,
+                        const std::vector<uint8_t>& withoutLights);
 
 }  // namespace restlab

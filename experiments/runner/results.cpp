@@ -57,6 +57,7 @@ Json configurationJson(const Suite& suite, const BlockResult& block, size_t meth
 void addError(Json& line, const FrameError& error) {
   line["frame"] = error.frame;
   line["mse"] = finite(error.mse);
+  line["mse_without_lights"] = finite(error.mseWithoutLights);
   line["relmse_e1e-2"] = finite(error.relmse);
   line["energy_ratio"] = finite(error.energyRatio);
   line["worst_0.1pct_share_of_mse"] = finite(error.worstShare);

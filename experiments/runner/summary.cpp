@@ -17,6 +17,7 @@ std::vector<double> perRun(const MethodResult& result, double (*value)(const Run
 }
 
 double runMse(const RunResult& run) { return run.measured.mse; }
+double runMseWithoutLights(const RunResult& run) { return run.measured.mseWithoutLights; }
 
 // Median over the frames of a run of time / time of `path` in the same interleaved round.
 double runTimeRatio(const RunResult& run, const RunResult& path) {
@@ -59,6 +60,7 @@ void summariseTimes(const MethodResult& result, size_t pixels, MethodSummary& ro
 
 void summariseErrors(const MethodResult& result, const Reference& reference, MethodSummary& row) {
   row.mse = meanInterval(perRun(result, runMse));
+  row.mseWithoutLights = meanInterval(perRun(result, runMseWithoutLights));
   row.relmse =
       meanInterval(perRun(result, [](const RunResult& run) { return run.measured.relmse; }));
   row.energyRatio =
@@ -79,15 +81,19 @@ void compareWithYardstick(const MethodResult& path, const MethodSummary& pathRow
                           const MethodResult& result, MethodSummary& row) {
   // An interrupted block may have one run more of the first methods.
   const size_t paired = std::min(path.runs.size(), result.runs.size());
-  std::vector<double> pathMse, mse, timeRatios, work;
+  std::vector<double> pathMse, mse, timeRatios, work, pathInside, inside;
   for (size_t r = 0; r < paired; ++r) {
     pathMse.push_back(runMse(path.runs[r]));
     mse.push_back(runMse(result.runs[r]));
     timeRatios.push_back(runTimeRatio(result.runs[r], path.runs[r]));
     work.push_back(mse.back() * timeRatios.back());
+    pathInside.push_back(runMseWithoutLights(path.runs[r]));
+    inside.push_back(runMseWithoutLights(result.runs[r]));
   }
   row.mseRatio = pairedRatioInterval(pathMse, mse);
   row.mseRatio.value = pathRow.mse.value / row.mse.value;
+  row.mseRatioWithoutLights = pairedRatioInterval(pathInside, inside);
+  row.mseRatioWithoutLights.value = pathRow.mseWithoutLights.value / row.mseWithoutLights.value;
   row.timeRatio = meanInterval(timeRatios);
   row.timeRatioOfMedians = row.timeMsMedian / pathRow.timeMsMedian;
   row.efficiencyRatio = pairedRatioInterval(pathMse, work);

@@ -23,16 +23,22 @@ std::string timeCell(const MethodSummary& row, bool yardstick) {
                             interval(row.timeRatio.lo, row.timeRatio.hi, "{:.2f}"));
 }
 
-std::string ratioCell(const MethodSummary& row, bool yardstick) {
-  if (yardstick || std::isnan(row.mseRatio.value)) return "";
-  return fmt::format("{:.1f}x lower{}", row.mseRatio.value,
-                     interval(row.mseRatio.lo, row.mseRatio.hi, "{:.1f}"));
+std::string ratioCell(const Interval& ratio, bool yardstick) {
+  if (yardstick || std::isnan(ratio.value)) return "";
+  return fmt::format("{:.1f}x lower{}", ratio.value, interval(ratio.lo, ratio.hi, "{:.1f}"));
 }
 
 std::string efficiencyCell(const MethodSummary& row, bool yardstick) {
   if (yardstick || std::isnan(row.efficiencyRatio.value)) return "";
   return fmt::format("{:.1f}{}", row.efficiencyRatio.value,
                      interval(row.efficiencyRatio.lo, row.efficiencyRatio.hi, "{:.1f}"));
+}
+
+std::string withoutLightsCell(const MethodSummary& row, bool yardstick) {
+  if (std::isnan(row.mseWithoutLights.value)) return "no such pixel";
+  const std::string ratio = ratioCell(row.mseRatioWithoutLights, yardstick);
+  return fmt::format("{:.3g}{}", row.mseWithoutLights.value,
+                     ratio.empty() ? "" : fmt::format(" ({})", ratio));
 }
 
 std::string biasCell(const MethodSummary& row) {
@@ -52,18 +58,19 @@ std::string blockTable(const Suite& suite, const std::vector<MethodSummary>& row
       suite.maxBounces, suite.russianRoulette ? "on" : "off", filterName(suite.pixelFilter),
       rows.front().runs, suite.warmupFrames, suite.timedFrames, block.reference.spp);
   text +=
-      "| method | time per frame | MSE | | efficiency | energy | bias^2/MSE | worst 0.1 % | "
-      "rays/px |\n|---|---|---|---|---|---|---|---|---|\n";
+      "| method | time per frame | MSE | | efficiency | energy | bias^2/MSE | worst 0.1 % | MSE "
+      "without lights in view | rays/px |\n|---|---|---|---|---|---|---|---|---|---|\n";
   std::string notes;
   for (const MethodSummary& row : rows) {
     const bool isYardstick =
         yardstick < suite.methods.size() && row.method == &suite.methods[yardstick];
-    text += fmt::format("| {}{} | {} | {:.3g}{} | {} | {} | {:.3f} | {} | {:.0f} % | {:.1f} |\n",
-                        row.method->name, row.counts ? "" : " (*)", timeCell(row, isYardstick),
-                        row.mse.value, interval(row.mse.lo, row.mse.hi, "{:.3g}"),
-                        ratioCell(row, isYardstick), efficiencyCell(row, isYardstick),
-                        row.energyRatio.value, biasCell(row), 100.0 * row.worstShare,
-                        row.raysPathPerPixel + row.raysShadowPerPixel);
+    text += fmt::format(
+        "| {}{} | {} | {:.3g}{} | {} | {} | {:.3f} | {} | {:.0f} % | {} | {:.1f} |\n",
+        row.method->name, row.counts ? "" : " (*)", timeCell(row, isYardstick), row.mse.value,
+        interval(row.mse.lo, row.mse.hi, "{:.3g}"), ratioCell(row.mseRatio, isYardstick),
+        efficiencyCell(row, isYardstick), row.energyRatio.value, biasCell(row),
+        100.0 * row.worstShare, withoutLightsCell(row, isYardstick),
+        row.raysPathPerPixel + row.raysShadowPerPixel);
     for (const std::string& flag : row.flags) {
       notes += fmt::format("- {}{}: {}\n", row.method->name, row.counts ? "" : " (*)", flag);
     }

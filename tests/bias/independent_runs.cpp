@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -10,7 +11,7 @@ namespace restlab::bias {
 namespace {
 
 // Batches of one method never share a seed, and neither do methods and truths.
-constexpr uint32_t kFirstBatch = 10'000'000, kSecondBatch = 20'000'000;
+constexpr uint32_t kFirstBatch = 10'000'000, kSecondBatch = 20'000'000, kPart = 100'000'000;
 
 // The worst cell by |t|, which may be far from significant.
 const stats::CellVerdict* worstCell(const stats::BiasReport& report) {
@@ -21,6 +22,20 @@ const stats::CellVerdict* worstCell(const stats::BiasReport& report) {
     }
   }
   return worst;
+}
+
+// Renders a history and adds what of it is compared to `shown`.
+void addHistory(Session& session, const Method& method, Image& shown) {
+  const float weight = 1.0f / float(method.frames - method.skipped);
+  for (uint32_t frame = 0; frame < method.frames; ++frame) {
+    if (!method.cameras.empty()) {
+      session.setCamera(method.cameras[std::min<size_t>(frame, method.cameras.size() - 1)]);
+    }
+    session.frame();
+    if (frame < method.skipped) continue;
+    const Image& radiance = session.radiance();
+    for (size_t p = 0; p < shown.pixels.size(); ++p) shown.pixels[p] += radiance.pixels[p] * weight;
+  }
 }
 
 }  // namespace
@@ -55,22 +70,21 @@ std::shared_ptr<const CompiledScene> builtinScene(const std::string& name) {
 
 stats::RunSet independentRuns(const std::shared_ptr<const CompiledScene>& scene,
                               const Method& method, uint32_t firstSeed, size_t runs) {
-  Session session(scene, method.config);
-  stats::RunSet set(stats::BlockGrid(method.config.width, method.config.height));
+  return independentSums(scene, {method}, firstSeed, runs);
+}
+
+stats::RunSet independentSums(const std::shared_ptr<const CompiledScene>& scene,
+                              const std::vector<Method>& methods, uint32_t firstSeed, size_t runs) {
+  const SessionConfig& config = methods.at(0).config;
+  std::vector<std::unique_ptr<Session>> sessions;
+  for (const Method& m : methods) sessions.push_back(std::make_unique<Session>(scene, m.config));
+  stats::RunSet set(stats::BlockGrid(config.width, config.height));
   for (size_t run = 0; run < runs; ++run) {
-    session.reset(firstSeed + uint32_t(run));
-    Image shown(method.config.width, method.config.height);
-    for (uint32_t frame = 0; frame < method.frames; ++frame) {
-      if (!method.cameras.empty()) {
-        session.setCamera(method.cameras[std::min<size_t>(frame, method.cameras.size() - 1)]);
-      }
-      session.frame();
-      if (frame < method.skipped) continue;
-      const float weight = 1.0f / float(method.frames - method.skipped);
-      const Image& radiance = session.radiance();
-      for (size_t p = 0; p < shown.pixels.size(); ++p) {
-        shown.pixels[p] += radiance.pixels[p] * weight;
-      }
+    Image shown(config.width, config.height);
+    for (size_t i = 0; i < methods.size(); ++i) {
+      // Far from the seeds of the other parts.
+      sessions[i]->reset(firstSeed + uint32_t(run) + uint32_t(i) * kPart);
+      addHistory(*sessions[i], methods[i], shown);
     }
     set.add(shown);
   }

@@ -40,6 +40,11 @@ std::shared_ptr<const CompiledScene> builtinScene(const std::string& name);
 stats::RunSet independentRuns(const std::shared_ptr<const CompiledScene>& scene,
                               const Method& method, uint32_t firstSeed, size_t runs);
 
+// Observations that are sums of one run of each method, all of them independent: the images of methods
+// that compute parts of one whole.
+stats::RunSet independentSums(const std::shared_ptr<const CompiledScene>& scene,
+                              const std::vector<Method>& methods, uint32_t firstSeed, size_t runs);
+
 // Runs the method and compares with the truth; the second batch, if it comes to that, has seeds of
 // its own. Prints one line with what was found and the power of the test.
 stats::BiasReport testMethod(const std::shared_ptr<const CompiledScene>& scene,

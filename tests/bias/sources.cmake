@@ -1,4 +1,10 @@
 # Is `path` or an unbiased mode biased? Independent runs against `path`, cell by cell.
 set(RL_BIAS_SOURCES
   bias/independent_runs.cpp
+  bias/test_cameras.cpp
+)
+set(RL_BIAS_TESTS
+  bias/builtin_scenes_test.cpp
+  bias/camera_motion_test.cpp
+  bias/parameters_test.cpp
 )

@@ -2,17 +2,15 @@
 // structure, so that what is compared is the kernel and not a traversal.
 
 RL_FN bool bruteTriangle(RL_IN(Ray) ray, RL_IN(TriangleW) t, float tMax, RL_INOUT(Hit) hit) {
-  vec3 e1 = t.p1 - t.p0;
-  vec3 e2 = t.p2 - t.p0;
-  vec3 p = cross(ray.dir, e2);
-  float det = dot(e1, p);
+  vec3 p = cross(ray.dir, t.e2);
+  float det = dot(t.e1, p);
   if (det == 0.0f) return false;
   float inverse = 1.0f / det;
   vec3 s = ray.origin - t.p0;
   float u = dot(s, p) * inverse;
-  vec3 q = cross(s, e1);
+  vec3 q = cross(s, t.e1);
   float v = dot(ray.dir, q) * inverse;
-  float distance = dot(e2, q) * inverse;
+  float distance = dot(t.e2, q) * inverse;
   if (!(u >= 0.0f && v >= 0.0f && u + v <= 1.0f && distance > ray.tMin && distance < tMax)) return false;
   hit.bary = vec2(u, v);
   hit.t = distance;

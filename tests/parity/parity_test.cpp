@@ -169,8 +169,8 @@ TEST_P(PathParity, SameSeedSameImage) {
 }
 
 const PathCase kPathCases[] = {
-    {"CornellBox", [] { return makeBuiltinScene("cornell-box"); }, 0.005, 1e-4},
-    {"EveryFeature", makeEverythingScene, 0.05, 5e-3},
+    {"CornellBox", [] { return makeBuiltinScene("cornell-box"); }, 0.002, 1e-5},
+    {"EveryFeature", makeEverythingScene, 0.02, 1e-4},
 };
 INSTANTIATE_TEST_SUITE_P(, PathParity, testing::ValuesIn(kPathCases), [](const auto& test) { return test.param.name; });
 

@@ -17,6 +17,7 @@ RunResult makeRun(uint32_t run, double mse, std::vector<double> timesMs) {
   RunResult result;
   result.run = run;
   result.measured.mse = mse;
+  result.measured.mseWithoutLights = run == 0 ? 0.5 * mse : 0.25 * mse;
   result.measured.relmse = 2.0 * mse;
   result.measured.energyRatio = 1.0;
   result.measured.worstShare = 0.1;
@@ -64,6 +65,8 @@ TEST_F(SummaryTest, MeansAndRatios) {
   EXPECT_NEAR(rows[0].mse.value, 1.0, 1e-12);
   EXPECT_NEAR(rows[1].mse.value, 0.1, 1e-12);
   EXPECT_NEAR(rows[1].mseRatio.value, 10.0, 1e-12);
+  // Without lights: path (0.4 + 0.25 + 0.3) / 3, gi (0.05 + 0.02 + 0.03) / 3.
+  EXPECT_NEAR(rows[1].mseRatioWithoutLights.value, 9.5, 1e-9);
   EXPECT_LT(rows[1].mseRatio.lo, 10.0);
   EXPECT_GT(rows[1].mseRatio.hi, 10.0);
   EXPECT_NEAR(rows[0].timeMsMedian, 22.0, 1e-12);

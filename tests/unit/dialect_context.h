@@ -11,6 +11,9 @@
 #include "core/dialect/order.h"
 #include "core/scene/compiled_scene.h"
 
+#ifdef RL_RNG_AUDIT
+#error "rl::Ctx would differ between the files of the program"
+#endif
 #define RL_HAS(features) ((kFeatures & (features)) != 0u)
 #define RL_HEALTH(kind) (++gCounters.health[kind])
 

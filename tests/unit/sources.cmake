@@ -1,11 +1,25 @@
 # Unit tests of the dialect, chi-squared tests of everything that samples, and of the configuration.
 list(APPEND RL_UNIT_TESTS
+  alpha_test.cpp
   bsdf_cases.cpp
+  bsdf_delta_test.cpp
   bsdf_sampling_test.cpp
   bsdf_values_test.cpp
   config_test.cpp
   ggx_reference.cpp
+  environment_test.cpp
+  light_test.cpp
+  camera_test.cpp
   math_test.cpp
+  ray_offset_test.cpp
+  rng_audit_path.cpp
+  rng_audit_restir_initial.cpp
+  rng_audit_restir_spatial.cpp
+  rng_audit_restir_temporal.cpp
+  rng_audit_test.cpp
   rng_test.cpp
   sphere_grid.cpp
+  surface_test.cpp
+  surface_transform_test.cpp
+  texture_test.cpp
 )

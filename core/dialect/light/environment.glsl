@@ -14,7 +14,8 @@ RL_FN vec3 environmentRotate(RL_IN(vec3) d, float angle) {
 RL_FN vec2 environmentUv(RL_IN(vec3) dirW) {
   vec3 d = environmentRotate(dirW, -gScene.environmentRotation);
   float u = atan(d.x, -d.z) * (0.5f * RL_INV_PI) + 0.5f;
-  float v = acos(clamp(d.y, -1.0f, 1.0f)) * RL_INV_PI;
+  // Not acos(y): it has lost half of its digits at the poles.
+  float v = atan(sqrt(d.x * d.x + d.z * d.z), d.y) * RL_INV_PI;
   if (!(u < 1.0f)) u = 0.0f;
   return vec2(max(u, 0.0f), clamp(v, 0.0f, 0.99999994f));
 }
@@ -55,7 +56,7 @@ RL_FN_OUTLINE float environmentPdf(RL_IN(vec3) dirW) {
   uint h = gScene.environmentHeight;
   uint x = min(uint(uv.x * float(w)), w - 1u);
   uint y = min(uint(uv.y * float(h)), h - 1u);
-  return environmentPdfOfTexel(y * w + x, sin(uv.y * RL_PI));
+  return environmentPdfOfTexel(y * w + x, sqrt(dirW.x * dirW.x + dirW.z * dirW.z));
 }
 
 // u picks row and column of the alias table and, by what is left, the place inside the texel; uAlias

@@ -1,0 +1,78 @@
+// `path` and unbiased `restir_gi` on the built-in scenes: no cell of the image may differ from what
+// `path` says with other seeds.
+//
+// restir_gi runs with its defaults and once more with every safeguard open: donors from anywhere,
+// whatever their normal, plane or roughness, and Jacobians of any size. That raises the variance and
+// may not move the mean: what keeps reuse unbiased are its weights, not the tests of similarity.
+#include <gtest/gtest.h>
+
+#include "tests/bias/independent_runs.h"
+
+namespace restlab::bias {
+namespace {
+
+struct Case {
+  const char* name;  // of the test
+  const char* scene;
+  uint32_t components;
+};
+
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
+struct Effort {
+  size_t runs;
+  uint32_t truthFrames, pathFrames;  // of a run of `path`
+  uint32_t frames, skipped;          // of a history of restir_gi
+  int threads;
+};
+
+ParameterMap openParameters() {
+  return {{"normal_threshold", -1.0}, {"plane_threshold", 10.0},       {"roughness_limit", 0.05},
+          {"max_jacobian", 1.0e6},    {"spatial_neighbours", int64_t{2}}, {"spatial_radius", 48.0}};
+}
+
+void expectUnbiased(const Case& c, const Effort& effort) {
+  const auto scene = builtinScene(c.scene);
+  const auto adapted = [&](Method method, const std::string& suffix) {
+    method.name += suffix;
+    method.config.components = c.components;
+    method.config.threads = effort.threads;
+    return method;
+  };
+  const Method truth = adapted(pathMethod(effort.truthFrames), "");
+  const stats::Truth reference = stats::truthOf(independentRuns(scene, truth, 1, effort.runs));
+  const std::vector<Method> methods = {
+      adapted(pathMethod(effort.pathFrames), ""),
+      adapted(restirMethod(effort.frames, effort.skipped), ""),
+      adapted(restirMethod(effort.frames, effort.skipped, openParameters()), ", safeguards open")};
+  for (const Method& method : methods) {
+    const stats::BiasReport report = testMethod(scene, method, reference, effort.runs);
+    EXPECT_FALSE(report.failed()) << c.name << ", " << method.name << ": " << report.text();
+    EXPECT_EQ(report.nonfinite, 0u) << c.name << ", " << method.name;
+  }
+}
+
+constexpr uint32_t kAll = rl::RL_COMPONENT_ALL;
+const std::vector<Case> kCases = {
+    {"cornell_box", "cornell-box", kAll},
+    {"door_ajar", "door-ajar", kAll},
+    {"door_ajar_indirect", "door-ajar", rl::RL_COMPONENT_INDIRECT},
+    {"door_ajar_direct", "door-ajar", rl::RL_COMPONENT_DIRECT},
+    {"glossy_gallery", "glossy-gallery", kAll},
+    {"many_lights", "many-lights", kAll},
+    {"glass", "glass", kAll},
+    {"courtyard", "courtyard", kAll},
+};
+
+std::string caseName(const ::testing::TestParamInfo<Case>& info) { return info.param.name; }
+
+class Unbiased : public ::testing::TestWithParam<Case> {};
+TEST_P(Unbiased, AgreesWithPath) { expectUnbiased(GetParam(), {128, 16, 4, 10, 2, 1}); }
+INSTANTIATE_TEST_SUITE_P(Builtin, Unbiased, ::testing::ValuesIn(kCases), caseName);
+
+class UnbiasedNightly : public ::testing::TestWithParam<Case> {};
+TEST_P(UnbiasedNightly, AgreesWithPath) { expectUnbiased(GetParam(), {512, 128, 32, 48, 8, 0}); }
+INSTANTIATE_TEST_SUITE_P(Builtin, UnbiasedNightly, ::testing::ValuesIn(kCases), caseName);
+
+}  // namespace
+}  // namespace restlab::bias

@@ -1,0 +1,71 @@
+// A moving camera: donors come from other pixels and were lit for another eye. The image of the last
+// camera may not depend on where the camera was before.
+#include <gtest/gtest.h>
+
+#include "tests/bias/independent_runs.h"
+#include "tests/bias/test_cameras.h"
+
+namespace restlab::bias {
+namespace {
+
+struct Walk {
+  const char* name;
+  const char* scene;
+  glm::dvec3 stepW;  // metres a frame
+  double turnDegrees;
+};
+
+void PrintTo(const Walk& w, std::ostream* out) { *out << w.name; }
+
+// Every frame of the history has a camera of its own, so only its last frame may be compared.
+void expectUnbiased(const Walk& walk, const SceneCamera& end, size_t runs, uint32_t truthFrames,
+                    uint32_t frames, int threads) {
+  const auto scene = builtinScene(walk.scene);
+  Method truth = pathMethod(truthFrames);
+  truth.cameras = {end};
+  truth.config.threads = threads;
+  const stats::Truth reference = stats::truthOf(independentRuns(scene, truth, 1, 128));
+  Method method = restirMethod(frames, frames - 1);
+  method.name = std::string(walk.name) + " camera, " + method.name;
+  method.cameras = walkTo(end, frames, walk.stepW, walk.turnDegrees);
+  method.config.threads = threads;
+  const stats::BiasReport report = testMethod(scene, method, reference, runs);
+  EXPECT_FALSE(report.failed()) << walk.name << ": " << report.text();
+}
+
+SceneCamera endOf(const Walk& walk) {
+  const std::string scene = walk.scene;
+  return scene == "cornell-box" ? cornellBelowTheLamp() : makeBuiltinScene(scene).cameras.at(0);
+}
+
+const std::vector<Walk> kWalks = {
+    {"walking", "cornell-box", {0.06, 0.01, -0.05}, 0.0},
+    {"turning", "cornell-box", {0.0, 0.0, 0.0}, 1.5},
+};
+const std::vector<Walk> kNightlyWalks = {
+    {"walking", "cornell-box", {0.06, 0.01, -0.05}, 0.0},
+    {"turning", "cornell-box", {0.0, 0.0, 0.0}, 1.5},
+    {"strolling_glossy", "glossy-gallery", {0.04, 0.0, -0.06}, 0.7},
+    {"strolling_door", "door-ajar", {0.04, 0.0, -0.03}, -0.5},
+    {"strolling_courtyard", "courtyard", {0.05, 0.0, -0.05}, 0.5},
+};
+
+std::string walkName(const ::testing::TestParamInfo<Walk>& info) { return info.param.name; }
+
+class MovingCamera : public ::testing::TestWithParam<Walk> {};
+TEST_P(MovingCamera, LeavesTheMean) { expectUnbiased(GetParam(), endOf(GetParam()), 512, 48, 6, 1); }
+INSTANTIATE_TEST_SUITE_P(Builtin, MovingCamera, ::testing::ValuesIn(kWalks), walkName);
+
+TEST(MovingCameraGlossy, LeavesTheMean) {
+  const Walk walk{"strolling", "glossy-gallery", {0.04, 0.0, -0.06}, 0.7};
+  expectUnbiased(walk, endOf(walk), 256, 16, 5, 1);
+}
+
+class MovingCameraNightly : public ::testing::TestWithParam<Walk> {};
+TEST_P(MovingCameraNightly, LeavesTheMean) {
+  expectUnbiased(GetParam(), endOf(GetParam()), 2048, 384, 16, 0);
+}
+INSTANTIATE_TEST_SUITE_P(Builtin, MovingCameraNightly, ::testing::ValuesIn(kNightlyWalks), walkName);
+
+}  // namespace
+}  // namespace restlab::bias

@@ -1,0 +1,92 @@
+// The mode `biased` is declared so; here is by how much. Its energy must stay within 5 % of the truth
+// and its squared bias within a quarter of its mean squared error, or its figures would not count.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "core/image/metrics.h"
+#include "tests/bias/independent_runs.h"
+
+namespace restlab::bias {
+namespace {
+
+void accumulate(Image& sum, const Image& image, float weight) {
+  for (size_t p = 0; p < sum.pixels.size(); ++p) sum.pixels[p] += image.pixels[p] * weight;
+}
+
+struct Effort {
+  uint32_t truthFrames;  // of each half
+  uint32_t frames;       // of a history: the last one is judged
+  uint32_t runs;         // even
+  int threads;
+};
+
+struct Measured {
+  double energyRatio = 0.0;
+  double mse = 0.0;
+  double squaredBias = 0.0;  // signed: about 0 for an unbiased method
+};
+
+std::array<Image, 2> pathHalves(const std::shared_ptr<const CompiledScene>& scene,
+                                const SessionConfig& config, uint32_t frames) {
+  std::array<Image, 2> halves;
+  for (uint32_t h = 0; h < 2; ++h) {
+    SessionConfig own = config;
+    own.seed = 1 + h;
+    Session session(scene, own);
+    halves[h] = Image(config.width, config.height);
+    for (uint32_t i = 0; i < frames; ++i) {
+      session.frame();
+      accumulate(halves[h], session.radiance(), 1.0f / float(frames));
+    }
+  }
+  return halves;
+}
+
+Measured measure(const std::shared_ptr<const CompiledScene>& scene, const Method& method,
+                 uint32_t runs, const std::array<Image, 2>& halves) {
+  const uint32_t width = method.config.width, height = method.config.height;
+  std::array<Image, 2> means = {Image(width, height), Image(width, height)};
+  Measured result;
+  Session session(scene, method.config);
+  for (uint32_t run = 0; run < runs; ++run) {
+    session.reset(1000 + run);
+    for (uint32_t frame = 0; frame < method.frames; ++frame) session.frame();
+    accumulate(means[run % 2], session.radiance(), 2.0f / float(runs));
+    result.mse += mseAgainstHalves(session.radiance(), halves[0], halves[1]) / double(runs);
+  }
+  result.squaredBias = squaredBias(means[0], means[1], halves[0], halves[1]);
+  Image mean(width, height), truth(width, height);
+  for (uint32_t h = 0; h < 2; ++h) {
+    accumulate(mean, means[h], 0.5f);
+    accumulate(truth, halves[h], 0.5f);
+  }
+  const glm::dvec3 m = channelMeans(mean), t = channelMeans(truth);
+  result.energyRatio = (m.x + m.y + m.z) / (t.x + t.y + t.z);
+  return result;
+}
+
+void expectBounded(const Effort& effort) {
+  const auto scene = builtinScene("door-ajar");
+  Method method = restirMethod(effort.frames, 0);
+  method.config.threads = effort.threads;
+  const std::array<Image, 2> halves =
+      pathHalves(scene, pathMethod(1).config, effort.truthFrames);
+  for (const char* mode : {"biased", "unbiased"}) {
+    method.config.mode = mode;
+    const Measured m = measure(scene, method, effort.runs, halves);
+    std::printf("door-ajar, restir_gi %s: energy ratio %.4f, MSE %.3g, squared bias %.3g (%.1f %%)\n",
+                mode, m.energyRatio, m.mse, m.squaredBias, 100.0 * m.squaredBias / m.mse);
+    EXPECT_GT(m.energyRatio, 0.95) << mode;
+    EXPECT_LT(m.energyRatio, 1.05) << mode;
+    EXPECT_GT(m.mse, 0.0) << mode;
+    EXPECT_LE(m.squaredBias, 0.25 * m.mse) << mode;
+  }
+}
+
+// 32 warm-up frames, as in every published row.
+TEST(BiasedMode, StaysWithinItsDeclaredBound) { expectBounded({512, 33, 48, 1}); }
+TEST(BiasedMode, NightlyStaysWithinItsDeclaredBound) { expectBounded({8192, 33, 512, 0}); }
+
+}  // namespace
+}  // namespace restlab::bias

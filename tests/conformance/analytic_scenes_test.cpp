@@ -1,0 +1,72 @@
+// Scenes with an exact answer: the furnaces and the floor under the tilted rectangle.
+#include <gtest/gtest.h>
+
+#include "core/image/metrics.h"
+#include "tests/analytic/truths.h"
+#include "tests/conformance/variants.h"
+
+namespace restlab::conformance {
+namespace {
+
+Image exact(const Scene& scene, uint32_t width, uint32_t height, uint32_t scatteringEvents) {
+  Image image(width, height);
+  const std::vector<glm::dvec3> truth =
+      analytic::exactImage(scene, width, height, scatteringEvents);
+  for (size_t p = 0; p < truth.size(); ++p) image.pixels[p] = glm::vec3(truth[p]);
+  return image;
+}
+
+class Analytic : public ::testing::TestWithParam<Variant> {
+ protected:
+  // Unbiased modes by t-tests per cell; what is declared biased by the bound of published rows, an
+  // energy within 5 %. Cells without any noise must be equal.
+  void expectExact(const std::string& sceneName, uint32_t maxBounces) {
+    const auto scene = bias::builtinScene(sceneName);
+    bias::Method method = methodOf(GetParam(), 8, 2);
+    method.name += ", " + std::to_string(maxBounces) + " scattering events";
+    method.config.maxBounces = maxBounces;
+    const Image truth =
+        exact(scene->source(), method.config.width, method.config.height, maxBounces);
+    const stats::BlockGrid grid(truth.width, truth.height);
+    stats::BiasOptions options;
+    options.quantities = {stats::Quantity::red, stats::Quantity::green, stats::Quantity::blue};
+    const stats::BiasReport report = bias::testMethod(
+        scene, method, stats::truthOf(stats::ReferenceCells::exact(grid, truth)), 128, options);
+    EXPECT_EQ(report.nonfinite, 0u);
+    if (GetParam().bias == BiasClass::unbiased) {
+      EXPECT_EQ(report.confirmed, 0u) << report.text();
+    }
+    for (const stats::CellVerdict& v : report.cells) {
+      if (v.wholeImage || GetParam().bias != BiasClass::unbiased) {
+        EXPECT_NEAR(v.mean / v.reference, 1.0, v.wholeImage ? 0.05 : 0.2) << method.name;
+      }
+      EXPECT_TRUE(v.testable || v.whyNot == "constant and equal" || v.whyNot == "skewed")
+          << v.whyNot;
+    }
+    EXPECT_LT(report.untestableShare, 0.5) << report.text();
+  }
+};
+
+TEST_P(Analytic, FurnaceAfterEveryNumberOfEvents) {
+  for (const uint32_t events : {1u, 2u, 3u, 8u}) expectExact("furnace", events);
+}
+
+TEST_P(Analytic, FurnaceWithoutScatteringIsItsEmission) {
+  SessionConfig config = configOf(GetParam());
+  config.maxBounces = 0;
+  const Image image = render(bias::builtinScene("furnace"), config, 3);
+  EXPECT_EQ(countDifferent(image, Image(config.width, config.height, glm::vec3(0.5f))), 0u);
+}
+
+TEST_P(Analytic, SphereFurnace) {
+  for (const uint32_t events : {1u, 8u}) expectExact("sphere-furnace", events);
+}
+
+TEST_P(Analytic, FloorUnderATiltedRectangle) {
+  for (const uint32_t events : {1u, 8u}) expectExact("quad-light", events);
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, Analytic, ::testing::ValuesIn(allVariants()), VariantName());
+
+}  // namespace
+}  // namespace restlab::conformance

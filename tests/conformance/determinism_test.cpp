@@ -1,0 +1,76 @@
+// Same seed, same image: for any number of threads, after a reset, and in the general kernel.
+#include <gtest/gtest.h>
+
+#include "tests/conformance/variants.h"
+
+namespace restlab::conformance {
+namespace {
+
+// Two full temporal steps and the change of a film point.
+constexpr uint32_t kFrames = 5;
+
+class Determinism : public ::testing::TestWithParam<Variant> {};
+
+TEST_P(Determinism, OneThreadAndManyThreadsAgreeBitForBit) {
+  for (const char* scene : {"door-ajar", "glossy-gallery", "glass", "courtyard"}) {
+    SessionConfig config = configOf(GetParam(), 67, 35);  // tiles that the image cuts
+    const Image one = render(bias::builtinScene(scene), config, kFrames);
+    for (const int threads : {2, 5}) {
+      config.threads = threads;
+      const Image many = render(bias::builtinScene(scene), config, kFrames);
+      EXPECT_EQ(countDifferent(one, many), 0u) << scene << ", " << threads << " threads";
+    }
+  }
+}
+
+TEST_P(Determinism, ResetStartsTheSameHistoryAgain) {
+  const auto scene = bias::builtinScene("glossy-gallery");
+  SessionConfig config = configOf(GetParam());
+  config.seed = 7;
+  Session session(scene, config);
+  for (uint32_t i = 0; i < kFrames; ++i) session.frame();
+  const Image first = session.radiance();
+  session.reset(8);
+  for (uint32_t i = 0; i < kFrames; ++i) session.frame();
+  const Image other = session.radiance();
+  session.reset(7);
+  for (uint32_t i = 0; i < kFrames; ++i) session.frame();
+  EXPECT_EQ(countDifferent(first, session.radiance()), 0u);
+  EXPECT_GT(countDifferent(first, other), size_t(config.width) * config.height) << "seed unused";
+}
+
+TEST_P(Determinism, FramesOfOneHistoryDiffer) {
+  Session session(bias::builtinScene("cornell-box"), configOf(GetParam()));
+  session.frame();
+  const Image first = session.radiance();
+  session.frame();
+  EXPECT_GT(countDifferent(first, session.radiance()), first.pixels.size() / 2);
+}
+
+// Both kernels are compiled from the same lines; the general one asks at run time what the
+// specialised one knows. Every selection must be the same, and so must be every bit.
+TEST_P(Determinism, SpecialisedKernelsAgreeWithTheGeneralOne) {
+  size_t specialised = 0;
+  for (const std::string& name : builtinSceneNames()) {
+    SessionConfig config = configOf(GetParam());
+    const auto scene = bias::builtinScene(name);
+    config.specialise = false;
+    Session general(scene, config);
+    config.specialise = true;
+    Session special(scene, config);
+    EXPECT_EQ(general.featuresUsed(), rl::RL_FEATURE_ALL) << name;
+    specialised += special.featuresUsed() != rl::RL_FEATURE_ALL;
+    for (uint32_t i = 0; i < kFrames; ++i) {
+      general.frame();
+      special.frame();
+    }
+    EXPECT_EQ(countDifferent(general.radiance(), special.radiance()), 0u)
+        << name << ", " << featureNames(special.featuresUsed());
+  }
+  EXPECT_GE(specialised, 4u) << "hardly any scene has a kernel of its own";
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, Determinism, ::testing::ValuesIn(allVariants()), VariantName());
+
+}  // namespace
+}  // namespace restlab::conformance

@@ -1,0 +1,60 @@
+// No value that is not finite, on any built-in scene and at any size.
+#include <gtest/gtest.h>
+
+#include "core/image/metrics.h"
+#include "tests/conformance/variants.h"
+
+namespace restlab::conformance {
+namespace {
+
+class Healthy : public ::testing::TestWithParam<Variant> {
+ protected:
+  void expectHealthy(const std::string& sceneName, const SessionConfig& config, uint32_t frames) {
+    Session session(bias::builtinScene(sceneName), config);
+    for (uint32_t i = 0; i < frames; ++i) {
+      const FrameStats stats = session.frame();
+      EXPECT_EQ(stats.health.counts[rl::RL_HEALTH_NONFINITE], 0u) << sceneName << ", frame " << i;
+      EXPECT_EQ(countNonfinite(session.radiance()), 0u) << sceneName << ", frame " << i;
+      EXPECT_EQ(session.radiance().width, config.width);
+      EXPECT_EQ(session.radiance().height, config.height);
+      EXPECT_GT(stats.raysPath, 0u);
+    }
+  }
+};
+
+TEST_P(Healthy, OnEveryBuiltinScene) {
+  for (const std::string& scene : builtinSceneNames()) {
+    expectHealthy(scene, configOf(GetParam(), 128, 72), 8);
+  }
+}
+
+TEST_P(Healthy, AtOddSizes) {
+  const std::array<uint32_t, 2> sizes[] = {{1, 1}, {1, 9}, {13, 1}, {17, 16}, {31, 33}, {3, 200}};
+  for (const auto& [width, height] : sizes) {
+    for (const char* scene : {"cornell-box", "glass", "courtyard"}) {
+      expectHealthy(scene, configOf(GetParam(), width, height), 4);
+    }
+  }
+}
+
+// A single pixel is the mean of the image: what it shows, over many seeds, is the image's mean. (The
+// camera's field of view is vertical, so a square image has the same one.)
+TEST_P(Healthy, OnePixelShowsTheMeanOfTheImage) {
+  const auto scene = bias::builtinScene("sphere-furnace");
+  SessionConfig config = configOf(GetParam(), 1, 1);
+  Session session(scene, config);
+  double sum = 0.0;
+  constexpr int kSeeds = 64;
+  for (int i = 0; i < kSeeds; ++i) {
+    session.reset(uint32_t(i + 1));
+    session.frame();
+    session.frame();
+    sum += double(session.radiance().pixels[0].y);
+  }
+  EXPECT_NEAR(sum / kSeeds, 1.0, 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, Healthy, ::testing::ValuesIn(allVariants()), VariantName());
+
+}  // namespace
+}  // namespace restlab::conformance

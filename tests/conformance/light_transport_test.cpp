@@ -1,0 +1,122 @@
+// What the settings of a session mean, for every integrator: bounces, components, pixel filter,
+// Russian roulette.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/bias/test_cameras.h"
+#include "tests/conformance/variants.h"
+
+namespace restlab::conformance {
+namespace {
+
+class LightTransport : public ::testing::TestWithParam<Variant> {};
+class UnbiasedTransport : public ::testing::TestWithParam<Variant> {};
+
+constexpr size_t kRuns = 128;
+
+bias::Method boxMethod(const Variant& variant) {
+  bias::Method method = methodOf(variant, 10, 2);
+  method.cameras = {bias::cornellBelowTheLamp()};
+  return method;
+}
+
+// Emission only: black, or the lamp as it is. With the filter at the pixel's centre no seed matters.
+TEST_P(LightTransport, NoScatteringEventShowsEmissionAlone) {
+  SessionConfig config = configOf(GetParam(), 64, 64);
+  config.maxBounces = 0;
+  config.pixelFilter = rl::RL_FILTER_CENTER;
+  const auto scene = bias::builtinScene("cornell-box");
+  const Image image = render(scene, config, 2);
+  const glm::vec3 lamp(17.0f, 12.0f, 4.0f);
+  size_t lit = 0;
+  for (const glm::vec3& p : image.pixels) {
+    EXPECT_TRUE(p == glm::vec3(0.0f) || p == lamp) << p.x << " " << p.y << " " << p.z;
+    lit += p == lamp;
+  }
+  EXPECT_GT(lit, 20u);
+  EXPECT_LT(lit, 400u);
+  config.seed = 99;
+  EXPECT_EQ(countDifferent(image, render(scene, config, 2)), 0u);
+}
+
+// The box filter sees the lamp's outline partly; the mean over frames is its coverage.
+TEST_P(LightTransport, BoxFilterCoversThePixel) {
+  SessionConfig config = configOf(GetParam(), 64, 64);
+  config.maxBounces = 0;
+  Session session(bias::builtinScene("cornell-box"), config);
+  Image mean(config.width, config.height);
+  constexpr int kMeans = 256;
+  for (int i = 0; i < kMeans; ++i) {
+    session.reset(uint32_t(100 + i));
+    session.frame();
+    for (size_t p = 0; p < mean.pixels.size(); ++p) {
+      mean.pixels[p] += session.radiance().pixels[p] * (1.0f / kMeans);
+    }
+  }
+  const auto partly = std::count_if(mean.pixels.begin(), mean.pixels.end(), [](const glm::vec3& p) {
+    return p.x > 1.0f && p.x < 16.0f;
+  });
+  EXPECT_GT(partly, 8) << "no pixel shows a part of the lamp";
+}
+
+// One scattering event is direct light, whatever says so.
+TEST_P(LightTransport, OneScatteringEventIsDirectLight) {
+  const auto scene = bias::builtinScene("cornell-box");
+  SessionConfig one = configOf(GetParam());
+  one.maxBounces = 1;
+  SessionConfig direct = configOf(GetParam());
+  direct.components = rl::RL_COMPONENT_DIRECT;
+  EXPECT_EQ(countDifferent(render(scene, one, 4), render(scene, direct, 4)), 0u);
+  SessionConfig indirect = one;
+  indirect.components = rl::RL_COMPONENT_INDIRECT;
+  const Image none = render(scene, indirect, 4);
+  EXPECT_EQ(countDifferent(none, Image(one.width, one.height)), 0u) << "indirect light of one event";
+}
+
+TEST_P(UnbiasedTransport, ComponentsAddUp) {
+  const auto scene = bias::builtinScene("cornell-box");
+  const bias::Method all = boxMethod(GetParam());
+  bias::Method direct = all, indirect = all;
+  direct.config.components = rl::RL_COMPONENT_DIRECT;
+  indirect.config.components = rl::RL_COMPONENT_INDIRECT;
+  const stats::Truth whole = stats::truthOf(bias::independentRuns(scene, all, 1, kRuns));
+  const auto sums = [&](uint32_t seed) {
+    return bias::independentSums(scene, {direct, indirect}, seed, kRuns);
+  };
+  const stats::BiasReport report =
+      stats::testBias(sums(1'000), whole, {}, [&] { return sums(2'000); });
+  std::printf("%s\n", bias::describe("direct + indirect, " + GetParam().name(), report).c_str());
+  EXPECT_FALSE(report.failed()) << report.text();
+}
+
+TEST_P(UnbiasedTransport, RussianRouletteLeavesTheMean) {
+  for (const char* name : {"cornell-box", "glass"}) {
+    const auto scene = bias::builtinScene(name);
+    bias::Method off = methodOf(GetParam(), 10, 2);
+    if (std::string(name) == "cornell-box") off = boxMethod(GetParam());
+    bias::Method on = off;
+    on.config.russianRoulette = true;
+    on.name += ", Russian roulette";
+    const stats::Truth truth = stats::truthOf(bias::independentRuns(scene, off, 1, kRuns));
+    const stats::BiasReport report = bias::testMethod(scene, on, truth, kRuns);
+    EXPECT_FALSE(report.failed()) << report.text();
+  }
+}
+
+// It must do something, too.
+TEST_P(LightTransport, RussianRouletteSavesRays) {
+  const auto scene = bias::builtinScene("cornell-box");
+  SessionConfig config = configOf(GetParam());
+  Session off(scene, config);
+  config.russianRoulette = true;
+  Session on(scene, config);
+  EXPECT_LT(double(on.frame().raysPath), 0.9 * double(off.frame().raysPath));
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, LightTransport, ::testing::ValuesIn(allVariants()), VariantName());
+INSTANTIATE_TEST_SUITE_P(Every, UnbiasedTransport, ::testing::ValuesIn(unbiasedVariants()),
+                         VariantName());
+
+}  // namespace
+}  // namespace restlab::conformance

@@ -1,0 +1,64 @@
+#include "tests/conformance/variants.h"
+
+#include <bit>
+#include <ostream>
+#include <stdexcept>
+
+namespace restlab::conformance {
+
+std::string Variant::name() const { return integrator + "_" + mode; }
+
+std::vector<Variant> allVariants() {
+  std::vector<Variant> all;
+  for (const IntegratorInfo* info : integratorRegistry()) {
+    for (const ModeInfo& mode : info->modes) all.push_back({info->name, mode.name, mode.bias});
+  }
+  return all;
+}
+
+std::vector<Variant> unbiasedVariants() {
+  std::vector<Variant> all = allVariants();
+  std::erase_if(all, [](const Variant& v) { return v.bias != BiasClass::unbiased; });
+  return all;
+}
+
+void PrintTo(const Variant& variant, std::ostream* out) { *out << variant.name(); }
+
+SessionConfig configOf(const Variant& variant, uint32_t width, uint32_t height) {
+  SessionConfig config;
+  config.integrator = variant.integrator;
+  config.mode = variant.mode;
+  config.width = width;
+  config.height = height;
+  config.threads = 1;
+  return config;
+}
+
+bias::Method methodOf(const Variant& variant, uint32_t frames, uint32_t skipped) {
+  bias::Method method;
+  method.name = variant.name();
+  method.config = configOf(variant);
+  method.frames = frames;
+  method.skipped = skipped;
+  return method;
+}
+
+Image render(const std::shared_ptr<const CompiledScene>& scene, const SessionConfig& config,
+             uint32_t frames) {
+  Session session(scene, config);
+  for (uint32_t i = 0; i < frames; ++i) session.frame();
+  return session.radiance();
+}
+
+size_t countDifferent(const Image& a, const Image& b) {
+  if (a.width != b.width || a.height != b.height) throw std::invalid_argument("sizes differ");
+  size_t different = 0;
+  for (size_t p = 0; p < a.pixels.size(); ++p) {
+    for (int c = 0; c < 3; ++c) {
+      different += std::bit_cast<uint32_t>(a.pixels[p][c]) != std::bit_cast<uint32_t>(b.pixels[p][c]);
+    }
+  }
+  return different;
+}
+
+}  // namespace restlab::conformance

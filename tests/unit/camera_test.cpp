@@ -1,0 +1,147 @@
+// Cameras: rays through the film and projection back, both kinds, any shape of film; film samples.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <set>
+
+#include "core/scene/builtin_builder.h"
+#include "core/scene/builtin_mesh.h"
+#include "tests/unit/dialect_context.h"
+#include "tests/unit/goodness.h"
+#include "tests/unit/random_inputs.h"
+
+namespace restlab::unit {
+namespace {
+
+std::shared_ptr<const CompiledScene> anyScene() {
+  builtin::SceneBuilder builder("off centre");
+  builder.add(builtin::quad("floor", {40, -1, 7}, {0, 0, 2}, {2, 0, 0}),
+              builder.addMaterial("floor", builtin::lambert(glm::vec3(0.5f))));
+  return CompiledScene::build(builder.finish());
+}
+
+SceneCamera lookingDownX(uint32_t kind) {
+  SceneCamera camera;
+  camera.kind = kind;
+  camera.yfov = 0.9;
+  camera.ymag = 1.5;
+  // From (1, 2, 3) towards +X, rolled a little.
+  camera.cameraToWorld = glm::inverse(glm::lookAt(glm::dvec3(1, 2, 3), glm::dvec3(9, 2, 3), glm::dvec3(0, 1, 0.3)));
+  return camera;
+}
+
+TEST(Camera, AxesAndFieldOfView) {
+  const auto scene = anyScene();
+  Dialect<> d(scene);
+  const glm::vec3 eye(glm::dvec3(1, 2, 3) - scene->origin());
+  const rl::Camera c = scene->camera(lookingDownX(rl::RL_CAMERA_PERSPECTIVE), 640, 360);
+  EXPECT_LT(glm::distance(c.posW, eye), 1e-5f);
+  EXPECT_LT(glm::distance(c.forwardW, glm::vec3(1, 0, 0)), 1e-6f);
+  EXPECT_NEAR(glm::dot(glm::cross(c.rightW, c.upW), -c.forwardW), 1.0f, 1e-6f);
+  EXPECT_NEAR(c.halfHeight, std::tan(0.45), 1e-6);
+  EXPECT_NEAR(c.halfWidth, std::tan(0.45) * 640.0 / 360.0, 1e-6);
+  // Film (0, 0) is the upper left corner: left of and above the axis.
+  const rl::Ray corner = d->cameraRay(c, {0.0f, 0.0f}, {640.0f, 360.0f});
+  EXPECT_LT(glm::dot(corner.dir, c.rightW), 0.0f);
+  EXPECT_GT(glm::dot(corner.dir, c.upW), 0.0f);
+  const rl::Ray top = d->cameraRay(c, {320.0f, 0.0f}, {640.0f, 360.0f});
+  EXPECT_NEAR(std::acos(glm::dot(top.dir, c.forwardW)), 0.45, 1e-5);
+  EXPECT_EQ(top.tMin, 0.0f);
+}
+
+TEST(Camera, ProjectionIsTheInverseOfTheRay) {
+  const auto scene = anyScene();
+  Dialect<> d(scene);
+  Inputs inputs(1);
+  for (uint32_t kind : {rl::RL_CAMERA_PERSPECTIVE, rl::RL_CAMERA_ORTHOGRAPHIC}) {
+    for (const glm::uvec2 size : {glm::uvec2(512, 512), glm::uvec2(640, 360), glm::uvec2(90, 400), glm::uvec2(1, 1)}) {
+      const rl::Camera c = scene->camera(lookingDownX(kind), size.x, size.y);
+      const glm::vec2 resolution(size);
+      for (int i = 0; i < 20'000; ++i) {
+        const glm::vec2 film = inputs.square() * resolution;
+        const rl::Ray ray = d->cameraRay(c, film, resolution);
+        ASSERT_NEAR(glm::length(ray.dir), 1.0f, 1e-6f);
+        const glm::vec3 point = ray.origin + ray.dir * inputs.scale(0.1f, 100.0f);
+        glm::vec2 back;
+        ASSERT_TRUE(d->cameraProject(c, point, resolution, back));
+        // Float positions at a hundred metres: a hundredth of a pixel.
+        ASSERT_LT(glm::distance(back, film), 1e-2f);
+        ASSERT_LT(glm::distance(d->cameraDirectionFrom(c, point), -ray.dir), 1e-4f);
+      }
+    }
+  }
+}
+
+TEST(Camera, NothingProjectsFromBehindAPerspectiveCamera) {
+  const auto scene = anyScene();
+  Dialect<> d(scene);
+  const rl::Camera c = scene->camera(lookingDownX(rl::RL_CAMERA_PERSPECTIVE), 64, 64);
+  glm::vec2 film;
+  EXPECT_FALSE(d->cameraProject(c, c.posW - c.forwardW, {64.0f, 64.0f}, film));
+  EXPECT_FALSE(d->cameraProject(c, c.posW, {64.0f, 64.0f}, film));
+  EXPECT_FALSE(d->cameraProject(c, c.posW + c.rightW, {64.0f, 64.0f}, film));
+}
+
+struct FilmTest : testing::Test {
+  Dialect<> d;
+  FilmTest() {
+    d.frame.width = 32;
+    d.frame.height = 16;
+    d.frame.seed = 3;
+    d.frame.filmHold = 1;
+  }
+};
+
+TEST_F(FilmTest, BoxFilterIsUniformOverThePixel) {
+  d.frame.pixelFilter = rl::RL_FILTER_BOX;
+  std::vector<uint64_t> counts(16 * 16);
+  for (d.frame.frame = 0; d.frame.frame < 2000; ++d.frame.frame) {
+    for (uint32_t y = 0; y < 16; ++y) {
+      for (uint32_t x = 0; x < 32; ++x) {
+        const glm::vec2 offset = d->cameraFilmSample({x, y}) - glm::vec2(float(x), float(y));
+        ASSERT_TRUE(offset.x >= 0.0f && offset.x <= 1.0f && offset.y >= 0.0f && offset.y <= 1.0f);
+        ++counts[std::min(size_t(offset.y * 16.0f), size_t(15)) * 16 + std::min(size_t(offset.x * 16.0f), size_t(15))];
+      }
+    }
+  }
+  expectUniform(counts, "film samples");
+}
+
+TEST_F(FilmTest, CenterFilterIsTheCentre) {
+  d.frame.pixelFilter = rl::RL_FILTER_CENTER;
+  EXPECT_EQ(d->cameraFilmSample({3, 7}), glm::vec2(3.5f, 7.5f));
+}
+
+// Held samples change once in filmHold frames, pixels at different times; each frame alone stays
+// uniform over seeds.
+TEST_F(FilmTest, HeldSamplesChangeOnceInAHold) {
+  d.frame.pixelFilter = rl::RL_FILTER_BOX;
+  d.frame.filmHold = 8;
+  std::set<uint32_t> phases;
+  for (uint32_t x = 0; x < 32; ++x) {
+    int changes = 0;
+    d.frame.frame = 0;
+    glm::vec2 last = d->cameraFilmSample({x, 5});
+    for (d.frame.frame = 1; d.frame.frame <= 64; ++d.frame.frame) {
+      const glm::vec2 now = d->cameraFilmSample({x, 5});
+      if (now != last) {
+        ++changes;
+        phases.insert(d.frame.frame % 8);
+      }
+      last = now;
+    }
+    EXPECT_EQ(changes, 8) << x;
+  }
+  EXPECT_GE(phases.size(), 6u);
+  std::vector<uint64_t> counts(16);
+  d.frame.frame = 13;
+  for (d.frame.seed = 0; d.frame.seed < 100'000; ++d.frame.seed) {
+    const glm::vec2 offset = d->cameraFilmSample({9, 9}) - glm::vec2(9.0f, 9.0f);
+    ++counts[std::min(size_t(offset.y * 4.0f), size_t(3)) * 4 + std::min(size_t(offset.x * 4.0f), size_t(3))];
+  }
+  expectUniform(counts, "film samples of one frame over seeds");
+}
+
+}  // namespace
+}  // namespace restlab::unit

@@ -1,0 +1,146 @@
+// No (key, vertex, dimension) is drawn twice in a frame: two decisions that share a draw are
+// correlated, which biases the result in ways that no image shows.
+#include "tests/unit/rng_audit.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "core/dialect/order.h"
+#include "core/integrator.h"
+#include "core/resampling/reservoir.h"
+#include "core/scene/compiled_scene.h"
+#include "core/scene/scene.h"
+
+namespace restlab::unit {
+namespace {
+
+using Draw = std::array<uint32_t, 4>;
+std::vector<Draw> recorded;
+
+// The repeated draws of the record, which is emptied.
+std::vector<Draw> takeRepeated() {
+  std::sort(recorded.begin(), recorded.end());
+  std::vector<Draw> repeated;
+  for (size_t i = 1; i < recorded.size(); ++i) {
+    if (recorded[i] == recorded[i - 1]) repeated.push_back(recorded[i]);
+  }
+  recorded.clear();
+  return repeated;
+}
+
+constexpr uint32_t kWidth = 28, kHeight = 20;
+
+// Runs frames of an integrator's passes with their audited kernels, as the session does.
+class AuditedRun {
+ public:
+  AuditedRun(const std::string& sceneName, const std::string& integrator, const std::string& mode,
+             const ParameterMap& parameters, std::vector<rl::CpuKernelEntry> passes)
+      : scene_(CompiledScene::build(makeBuiltinScene(sceneName))),
+        info_(findIntegrator(integrator)),
+        passes_(std::move(passes)) {
+    const ParameterMap resolved = resolveParameters(info_, parameters);
+    params_ = info_.packParameters(mode, resolved);
+    for (const BufferInfo& b : info_.buffers) {
+      storage_.emplace_back(size_t(b.bytesPerPixel) * kWidth * kHeight);
+      addresses_.push_back(storage_.back().data());
+    }
+    frame_.camera = scene_->camera(scene_->source().cameras[0], kWidth, kHeight);
+    frame_.previousCamera = frame_.camera;
+    frame_.width = kWidth;
+    frame_.height = kHeight;
+    frame_.seed = 5;
+    frame_.maxBounces = 6;
+    frame_.components = rl::RL_COMPONENT_ALL;
+    const auto hold = resolved.find("film_hold");
+    frame_.filmHold = hold == resolved.end() ? 1u : static_cast<uint32_t>(std::get<int64_t>(hold->second));
+    frame_.rouletteStart = 2;
+  }
+
+  void frame() {
+    rl::CpuKernelArgs args;
+    args.scene = &scene_->data();
+    args.frame = &frame_;
+    args.buffers = addresses_.data();
+    args.params = params_.data();
+    args.embreeScene = scene_->embreeScene();
+    rl::CpuKernelCounters counters;
+    for (const rl::CpuKernelEntry pass : passes_) pass(args, {0, 0, kWidth, kHeight}, counters);
+    for (size_t i = 0; i < addresses_.size(); ++i) {
+      const int other = info_.buffers[i].swapWith;
+      if (other > int(i)) std::swap(addresses_[i], addresses_[size_t(other)]);
+    }
+    ++frame_.frame;
+  }
+
+ private:
+  std::shared_ptr<const CompiledScene> scene_;
+  const IntegratorInfo& info_;
+  std::vector<rl::CpuKernelEntry> passes_;
+  std::vector<std::byte> params_;
+  std::vector<std::vector<std::byte>> storage_;
+  std::vector<void*> addresses_;
+  rl::FrameData frame_{};
+};
+
+void expectNoRepeats(AuditedRun& run, size_t leastDraws, const std::string& what) {
+  for (int frame = 0; frame < 4; ++frame) {
+    recorded.clear();
+    run.frame();
+    const size_t draws = recorded.size();
+    EXPECT_GT(draws, leastDraws) << what << ", frame " << frame;
+    for (const Draw& d : recorded) ASSERT_LT(d[3], rl::RL_DIMENSIONS) << what;
+    const std::vector<Draw> repeated = takeRepeated();
+    EXPECT_TRUE(repeated.empty()) << what << ", frame " << frame << ": " << repeated.size() << " of " << draws
+                                  << " draws repeat another, the first at vertex " << repeated[0][2]
+                                  << ", dimension " << repeated[0][3];
+  }
+}
+
+TEST(RngAudit, TheRecordFindsARepeatedDraw) {
+  recorded.clear();
+  auditDraw(1, 2, 3, 4);
+  auditDraw(1, 2, 3, 5);
+  auditDraw(1, 2, 4, 4);
+  auditDraw(2, 1, 3, 4);
+  EXPECT_TRUE(takeRepeated().empty());
+  auditDraw(1, 2, 3, 4);
+  auditDraw(7, 7, 7, 7);
+  auditDraw(1, 2, 3, 4);
+  EXPECT_EQ(takeRepeated().size(), 1u);
+}
+
+TEST(RngAudit, Path) {
+  for (const std::string& name : builtinSceneNames()) {
+    AuditedRun run(name, "path", "unbiased", {}, {rl::kernel_path_audited});
+    expectNoRepeats(run, size_t(kWidth) * kHeight * 3, "path, " + name);
+  }
+}
+
+TEST(RngAudit, RestirGi) {
+  const std::vector<rl::CpuKernelEntry> passes = {rl::kernel_restir_gi_initial_audited,
+                                                  rl::kernel_restir_gi_temporal_audited,
+                                                  rl::kernel_restir_gi_spatial_audited};
+  // Every loop over draws runs more than once.
+  const ParameterMap busy = {{"light_candidates", int64_t{5}},
+                             {"spatial_neighbours", int64_t{rl::RL_MAX_DONORS}},
+                             {"spatial_tries", int64_t{5}}};
+  for (const std::string& name : builtinSceneNames()) {
+    for (const std::string mode : {"unbiased", "biased"}) {
+      AuditedRun plain(name, "restir_gi", mode, {}, passes);
+      expectNoRepeats(plain, size_t(kWidth) * kHeight * 3, "restir_gi " + mode + ", " + name);
+      AuditedRun loops(name, "restir_gi", mode, busy, passes);
+      expectNoRepeats(loops, size_t(kWidth) * kHeight * 3, "restir_gi " + mode + ", long loops, " + name);
+    }
+  }
+}
+
+}  // namespace
+
+void auditDraw(uint32_t keyX, uint32_t keyY, uint32_t vertex, uint32_t dimension) {
+  recorded.push_back({keyX, keyY, vertex, dimension});
+}
+
+}  // namespace restlab::unit
