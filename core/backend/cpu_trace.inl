@@ -20,7 +20,9 @@ static void alphaFilterPath(const RTCFilterFunctionNArguments* args) {
   hit.bary = vec2(embreeHit->u, embreeHit->v);
   hit.t = 0.0f;
   float alpha = context->self->surfaceAlpha(hit);
-  if (!context->self->traceAlphaAccepts(context->alphaKey, hit, alpha)) args->valid[0] = 0;
+  if (context->self->traceAlphaAccepts(context->alphaKey, hit, alpha)) return;
+  args->valid[0] = 0;
+  context->transmittance *= 1.0f - alpha;
 }
 
 static void alphaFilterShadow(const RTCFilterFunctionNArguments* args) {
@@ -82,10 +84,12 @@ RL_FN float traceRay(const Ray& ray, uint mode, uint alphaKey, Hit& hit) {
   r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(embreeScene, &context.alpha.embree, &r);
   hit.instance = RL_INVALID;
-  if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return 1.0f;
+  float passed = 1.0f;
+  if (RL_HAS(RL_FEATURE_ALPHA)) passed = context.transmittance;
+  if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return passed;
   hit.instance = instanceOf(r.hit.geomID, r.hit.instID[0]);
   hit.primitive = r.hit.primID;
   hit.bary = vec2(r.hit.u, r.hit.v);
   hit.t = r.ray.tfar;
-  return 0.0f;
+  return passed;
 }

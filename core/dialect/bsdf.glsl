@@ -137,7 +137,9 @@ RL_FN BsdfDraw bsdfDraw(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_
   result.pdfSolidAngle = 0.0f;
   result.weight = vec3(0.0f, 0.0f, 0.0f);
   result.lobe = 0u;
-  if (!RL_HAS(RL_FEATURE_GLOSSY)) {
+  // Lambert alone: its weight is the albedo exactly, and the same bits with and without glossy lobes
+  // in the kernel.
+  if (!RL_HAS(RL_FEATURE_GLOSSY) || (b.lobes & RL_LOBE_ANY_GLOSSY) == 0u) {
     vec3 wiL = lambertDraw(u);
     vec3 wi = frameToWorld(nShade, wiL);
     if (!(wiL.z > 0.0f) || !(dot(nGeo, wi) > 0.0f)) return result;

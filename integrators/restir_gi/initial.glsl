@@ -92,6 +92,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   vec3 directF = zero;            // integrand of their selected one
   vec3 foundF = zero;             // integrand of the BSDF sample that met a light
   real foundWeight = 0.0f;        // its resampling weight
+  float foundCoverage = 1.0f;     // of the light that it met: what chance let it meet it
   LightSample found = giNoLight();
 
   PathReservoir path;
@@ -127,6 +128,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   bool hasShadowRay = false;
   bool alive = true;
   bool isSuffix = false;      // beyond x2 on the connectable part
+  bool passedAlpha = false;   // the ray from x1 may have passed something partly transparent
   Ray shadowRay = ray;
 
   for (uint bounces = 0u;; bounces = bounces + 1u) {
@@ -150,6 +152,8 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
         } else {
           ownLight += lightContribution * transmittance;
         }
+      } else if (RL_HAS(RL_FEATURE_ALPHA) && bounces == 1u) {
+        passedAlpha = transmittance < 1.0f;
       }
     }
     if (!alive) break;
@@ -200,6 +204,10 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
         found.posError = s.posError;
         found.pdf = pdfLight * geometry;
         found.radiance = s.emission;
+        if (RL_HAS(RL_FEATURE_ALPHA)) {
+          foundCoverage = surfaceAlpha(hit);
+          found.radiance *= foundCoverage;
+        }
         // Unlit surfaces are not in the light table and shine to both sides.
         found.isTwoSided = RL_MATERIAL_DOUBLE_SIDED;
         if (s.light != RL_INVALID) found.isTwoSided = gScene.lights.data[s.light].flags & RL_MATERIAL_DOUBLE_SIDED;
@@ -318,6 +326,29 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     ray.dir = draw.wi;
   }
 
+  // Path rays pass a partly transparent surface by chance, connections are dimmed by it. What the ray
+  // from x1 has found, it has found with a probability of T, the transmittance up to there: its integrand
+  // gets T, as every other pixel evaluates it, and its weight 1 / T. The coverage of a light that is
+  // itself partly transparent is such a factor, too; that of x2 is the same for every pixel and stays out.
+  float throughAlpha = 1.0f;
+  if (RL_HAS(RL_FEATURE_ALPHA) && reusable && passedAlpha && (hasX2 || foundWeight > 0.0f)) {
+    Ray segment;
+    if (hasX2) {
+      vec3 d = path.vertex.posW - anchor.posW;
+      segment.origin = surfaceOffset(anchor.posW, anchor.nGeoW, anchor.posError, d);
+      segment.tMin = 0.0f;
+      segment.dir = surfaceOffset(path.vertex.posW, path.vertex.nGeoW, path.vertex.posError, -d) - segment.origin;
+      segment.tMax = 1.0f;
+    } else {
+      segment = lightShadowRay(found, lightConnect(found, anchor.posW), anchor.posW, anchor.nGeoW, anchor.posError);
+    }
+    Hit hit;
+    float t = traceRay(segment, RL_RAY_SHADOW, 0u, hit);
+    // 0: the two rays disagree by rounding; the path ray is believed, as it is among opaque surfaces.
+    if (t > 0.0f) throughAlpha = t;
+  }
+  if (RL_HAS(RL_FEATURE_ALPHA)) foundF *= throughAlpha * foundCoverage;  // foundWeight = pHat W stays
+
   if (reusable) {
     // Direct light: one reservoir of two techniques whose balance weights are inside the densities.
     real directW = risContributionWeight(directSum, rlLuminance(directF));
@@ -380,6 +411,10 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
       path.state.W = risContributionWeight(wSum, rlLuminance(path.state.F));
       vec3 estimate = fX1 * (fLight + continuation) * inverseX1;
       path.state.residual = estimate - path.state.F * path.state.W;
+    }
+    if (RL_HAS(RL_FEATURE_ALPHA)) {
+      path.state.F *= throughAlpha;
+      path.state.W /= throughAlpha;
     }
     if (!(path.state.W > 0.0f)) {
       path.state.W = 0.0f;

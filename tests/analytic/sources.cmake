@@ -1,10 +1,12 @@
-# Exact solutions that tests compare with, and their own tests.
+# Solutions that tests compare with, exact or measured once, and their own tests.
 set(RL_ANALYTIC_SOURCES
+  analytic/cornell_tiles.cpp
   analytic/furnace.cpp
   analytic/polygon_irradiance.cpp
   analytic/truths.cpp
 )
 set(RL_ANALYTIC_TESTS
+  analytic/cornell_tiles_test.cpp
   analytic/polygon_irradiance_test.cpp
   analytic/truths_test.cpp
 )

@@ -7,4 +7,5 @@ set(RL_BIAS_TESTS
   bias/builtin_scenes_test.cpp
   bias/camera_motion_test.cpp
   bias/parameters_test.cpp
+  bias/transparency_test.cpp
 )

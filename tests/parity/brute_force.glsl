@@ -41,9 +41,10 @@ RL_FN float traceRay(RL_IN(Ray) ray, uint mode, uint alphaKey, RL_OUT(Hit) hit) 
       } else if (!RL_HAS(RL_FEATURE_ALPHA) || traceAlphaAccepts(alphaKey, cand, alpha)) {
         hit = cand;
         nearest = cand.t;
+      } else {
+        transmittance *= 1.0f - alpha;
       }
     }
   }
-  if (mode == RL_RAY_SHADOW) return transmittance;
-  return hit.instance == RL_INVALID ? 1.0f : 0.0f;
+  return transmittance;
 }

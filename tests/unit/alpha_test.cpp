@@ -25,8 +25,9 @@ std::shared_ptr<const CompiledScene> veils() {
   builtin::SceneBuilder builder("veils");
   const float alphas[4] = {0.5f, 0.2f, 0.9f, 1.0f};
   for (int i = 0; i < 4; ++i) {
-    builder.add(builtin::quad("veil", {-1.1, -1.3, -double(i)}, {2, 0, 0}, {0, 2, 0}),
-                builder.addMaterial("veil", i < 3 ? veil(alphas[i]) : builtin::lambert(glm::vec3(0.5f))));
+    builder.add(
+        builtin::quad("veil", {-1.1, -1.3, -double(i)}, {2, 0, 0}, {0, 2, 0}),
+        builder.addMaterial("veil", i < 3 ? veil(alphas[i]) : builtin::lambert(glm::vec3(0.5f))));
   }
   return CompiledScene::build(builder.finish());
 }

@@ -34,7 +34,8 @@ rl::Material withIor(rl::Material m, float ior) {
   return m;
 }
 
-rl::Material withSpecular(rl::Material m, float specular, const glm::vec3& color = glm::vec3(1.0f)) {
+rl::Material withSpecular(rl::Material m, float specular,
+                          const glm::vec3& color = glm::vec3(1.0f)) {
   m.specular = specular;
   m.specularColor = color;
   return m;
@@ -102,7 +103,8 @@ std::vector<BsdfCase> deltaBsdfs() {
 
 glm::vec3 directionAt(double degrees) {
   const double theta = degrees * std::numbers::pi / 180.0;
-  return glm::vec3(std::sin(theta) * std::cos(0.7), std::sin(theta) * std::sin(0.7), std::cos(theta));
+  return glm::vec3(std::sin(theta) * std::cos(0.7), std::sin(theta) * std::sin(0.7),
+                   std::cos(theta));
 }
 
 }  // namespace restlab::unit

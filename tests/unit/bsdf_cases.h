@@ -1,4 +1,5 @@
-// The materials whose BSDFs are tested, made by the shipped surfaceLoad() from a hand-made triangle.
+// The materials whose BSDFs are tested, made by the shipped surfaceLoad() from a hand-made
+// triangle.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -17,8 +18,8 @@ struct BsdfCase {
   rl::Bsdf bsdf;
 };
 
-// Every combination of lobes that a material can have, over its range of roughness; delta lobes only
-// where asked for.
+// Every combination of lobes that a material can have, over its range of roughness; delta lobes
+// only where asked for.
 std::vector<BsdfCase> continuousBsdfs();
 std::vector<BsdfCase> deltaBsdfs();
 

@@ -57,7 +57,8 @@ TEST(BsdfDelta, FrequencyIsTheDeclaredProbability) {
       for (const auto& [lobe, sum] : drawLobes(c.bsdf, directionAt(angle), n)) {
         if ((lobe & rl::RL_LOBE_ANY_DELTA) == 0) continue;
         const double p = sum.pdf, sigma = std::sqrt(std::max(p * (1.0 - p), 1e-12) / n);
-        EXPECT_NEAR(double(sum.draws) / n, p, 5.0 * sigma) << c.name << " at " << angle << ", lobe " << lobe;
+        EXPECT_NEAR(double(sum.draws) / n, p, 5.0 * sigma)
+            << c.name << " at " << angle << ", lobe " << lobe;
       }
     }
   }
@@ -156,7 +157,8 @@ TEST(BsdfDelta, WhiteBaseUnderASmoothLayerIsAWhiteFurnace) {
 // Roughness below the declared floor becomes a delta lobe, and is counted.
 TEST(BsdfDelta, AlphaFloorIsCounted) {
   builtin::SceneBuilder builder("floor");
-  const float below = std::sqrt(0.999f * rl::RL_ALPHA_FLOOR), above = std::sqrt(1.001f * rl::RL_ALPHA_FLOOR);
+  const float below = std::sqrt(0.999f * rl::RL_ALPHA_FLOOR),
+              above = std::sqrt(1.001f * rl::RL_ALPHA_FLOOR);
   MeshGeometry mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   mesh.triangles = {{0, 1, 2}};
@@ -166,7 +168,8 @@ TEST(BsdfDelta, AlphaFloorIsCounted) {
   const glm::vec3 down(0.0f, 0.0f, -1.0f);
   EXPECT_EQ(d->surfaceLoad({1, 0, {0.2f, 0.2f}, 1.0f}, down).bsdf.lobes, rl::RL_LOBE_SPECULAR);
   EXPECT_EQ(d.counters.health[rl::RL_HEALTH_DELTA_LOBES], 0u);
-  EXPECT_EQ(d->surfaceLoad({0, 0, {0.2f, 0.2f}, 1.0f}, down).bsdf.lobes, rl::RL_LOBE_SPECULAR_DELTA);
+  EXPECT_EQ(d->surfaceLoad({0, 0, {0.2f, 0.2f}, 1.0f}, down).bsdf.lobes,
+            rl::RL_LOBE_SPECULAR_DELTA);
   EXPECT_EQ(d.counters.health[rl::RL_HEALTH_DELTA_LOBES], 1u);
 }
 

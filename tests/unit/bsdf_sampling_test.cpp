@@ -15,9 +15,9 @@ namespace {
 
 constexpr uint64_t kSamples = 1'000'000;
 
-// The base under a layer is scaled by the Fresnel term of a smooth one, which a rough layer of ior 1.5
-// exceeds by up to 0.0018 around 50 degrees (a perfectly white base; the loss at other angles is
-// larger).
+// The base under a layer is scaled by the Fresnel term of a smooth one, which a rough layer of
+// ior 1.5 exceeds by up to 0.0018 around 50 degrees (a perfectly white base; the loss at other
+// angles is larger).
 constexpr double kEnergyTolerance = 2e-3;
 
 struct Setting {
@@ -49,8 +49,8 @@ struct Estimate {
 };
 
 // Draws, checks each draw, and returns the mean weight of the continuous lobes.
-Estimate drawAll(Dialect<>& d, const Setting& s, const SphereGrid& grid, std::vector<uint64_t>& counts,
-                 uint64_t seed) {
+Estimate drawAll(Dialect<>& d, const Setting& s, const SphereGrid& grid,
+                 std::vector<uint64_t>& counts, uint64_t seed) {
   Inputs inputs(seed);
   glm::dvec3 sum(0.0), squares(0.0);
   uint64_t wrong = 0;
@@ -71,7 +71,8 @@ Estimate drawAll(Dialect<>& d, const Setting& s, const SphereGrid& grid, std::ve
     const float pdf = d->bsdfPdf(s.bsdf, s.nGeo, s.nShade, s.wo, draw.wi);
     const glm::vec3 f = d->bsdfEval(s.bsdf, s.nGeo, s.nShade, s.wo, draw.wi);
     const double scale = std::max({w.x, w.y, w.z, 1e-6});
-    if (!(std::abs(pdf / draw.pdfSolidAngle - 1.0f) < (s.bsdf.alpha < 0.01f ? 3e-2f : 1e-2f))) ++wrong;
+    if (!(std::abs(pdf / draw.pdfSolidAngle - 1.0f) < (s.bsdf.alpha < 0.01f ? 3e-2f : 1e-2f)))
+      ++wrong;
     if (!(glm::length(glm::dvec3(f) / double(pdf) - w) < 1e-3 * scale)) ++wrong;
   }
   EXPECT_EQ(wrong, 0u) << s.name << ": draws with an insane weight or one that is not eval / pdf";
@@ -140,7 +141,8 @@ TEST(BsdfSampling, ShadingNormalOffTheFace) {
   for (const BsdfCase& c : continuousBsdfs()) {
     if (c.bsdf.alpha < 0.2f) continue;
     for (const double angle : {20.0, 60.0}) {
-      const std::string name = c.name + ", tilted normal, at " + std::to_string(int(angle)) + " degrees";
+      const std::string name =
+          c.name + ", tilted normal, at " + std::to_string(int(angle)) + " degrees";
       checkSetting({name, c.bsdf, directionAt(angle), nGeo, up}, ++seed);
     }
   }
@@ -165,9 +167,11 @@ TEST(BsdfSampling, LambertKernelAgreesWithTheGeneralOne) {
     ASSERT_EQ(a.wi, b.wi);
     ASSERT_LT(glm::distance(a.weight, b.weight), 1e-6f);
     ASSERT_NEAR(a.pdfSolidAngle, b.pdfSolidAngle, 1e-6f);
-    ASSERT_NEAR(general->bsdfPdf(bsdf, nGeo, nShade, wo, wi), lean->bsdfPdf(bsdf, nGeo, nShade, wo, wi), 1e-6f);
+    ASSERT_NEAR(general->bsdfPdf(bsdf, nGeo, nShade, wo, wi),
+                lean->bsdfPdf(bsdf, nGeo, nShade, wo, wi), 1e-6f);
     ASSERT_LT(glm::distance(general->bsdfEval(bsdf, nGeo, nShade, wo, wi),
-                            lean->bsdfEval(bsdf, nGeo, nShade, wo, wi)), 1e-6f);
+                            lean->bsdfEval(bsdf, nGeo, nShade, wo, wi)),
+              1e-6f);
   }
 }
 

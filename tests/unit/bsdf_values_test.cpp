@@ -1,5 +1,5 @@
-// Known values of the BSDF's parts: Fresnel, refraction, GGX, and their albedos, against formulas in
-// double precision; reciprocity.
+// Known values of the BSDF's parts: Fresnel, refraction, GGX, and their albedos, against formulas
+// in double precision; reciprocity.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,8 +27,8 @@ TEST(Fresnel, KnownValuesOfGlass) {
   EXPECT_NEAR(d->fresnelDielectric(1.0f, 1.5f), 0.04f, 1e-7f);
   EXPECT_NEAR(d->fresnelDielectric(1.0f, 1.0f / 1.5f), 0.04f, 1e-7f);
   EXPECT_NEAR(d->fresnelDielectric(0.0f, 1.5f), 1.0f, 1e-7f);
-  // At Brewster's angle, tan = n, nothing is reflected in the plane of incidence: what is left is half
-  // of ((n^2 - 1) / (n^2 + 1))^2.
+  // At Brewster's angle, tan = n, nothing is reflected in the plane of incidence: what is left is
+  // half of ((n^2 - 1) / (n^2 + 1))^2.
   const double brewster = std::atan(1.5) * 180.0 / kPi;
   EXPECT_NEAR(d->fresnelDielectric(cosine(brewster), 1.5f), 0.5 * std::pow(1.25 / 3.25, 2.0), 1e-6);
   // Total internal reflection from 41.81 degrees on.
@@ -44,7 +44,8 @@ TEST(Fresnel, MatchesComplexAmplitudes) {
   Dialect<> d;
   for (float eta : {0.4f, 0.66f, 0.9f, 1.1f, 1.33f, 1.5f, 2.4f}) {
     for (float cosI = 0.01f; cosI <= 1.0f; cosI += 0.01f) {
-      EXPECT_NEAR(d->fresnelDielectric(cosI, eta), reference::fresnel(cosI, eta), 2e-5) << cosI << " " << eta;
+      EXPECT_NEAR(d->fresnelDielectric(cosI, eta), reference::fresnel(cosI, eta), 2e-5)
+          << cosI << " " << eta;
       const double sin2T = (1.0 - double(cosI) * cosI) / (double(eta) * eta);
       if (sin2T < 0.999) {  // the same interface from the other side
         const auto cosT = static_cast<float>(std::sqrt(1.0 - sin2T));
@@ -86,7 +87,8 @@ TEST(Refraction, SnellsLawInThePlaneOfIncidence) {
     ASSERT_LT(glm::length(woT + double(eta) * wiT), 4e-6);
     // And the half vector finds the facet again.
     if (std::abs(eta - 1.0f) > 0.05f && h.z > 0.1f) {
-      ASSERT_LT(glm::distance(d->transmissionHalfVector(wo, wi, eta), h), 1e-3f / std::abs(eta - 1.0f) * 0.02f);
+      ASSERT_LT(glm::distance(d->transmissionHalfVector(wo, wi, eta), h),
+                1e-3f / std::abs(eta - 1.0f) * 0.02f);
     }
   }
   EXPECT_GT(total, 5000);
@@ -99,7 +101,8 @@ TEST(Ggx, DistributionAndMaskingInFloat) {
   Inputs inputs(2);
   for (float alpha : {0.001f, 0.002f, 0.02f, 0.3f, 1.0f}) {
     for (int i = 0; i < 20'000; ++i) {
-      const double tangent = alpha * std::sqrt(double(inputs.uniform()) / (1.0 - inputs.uniform() * 0.9999));
+      const double tangent =
+          alpha * std::sqrt(double(inputs.uniform()) / (1.0 - inputs.uniform() * 0.9999));
       const double phi = 2.0 * kPi * inputs.uniform(), c = 1.0 / std::sqrt(1.0 + tangent * tangent);
       const glm::vec3 h(glm::dvec3(tangent * c * std::cos(phi), tangent * c * std::sin(phi), c));
       ASSERT_NEAR(d->ggxD(h, alpha) / reference::ggxD(c, alpha), 1.0, 2e-5) << "alpha " << alpha;
@@ -120,7 +123,8 @@ TEST(Ggx, VisibleNormalsFollowTheirDensity) {
       // The mode lies between the normal and wo.
       const SphereGrid grid({{glm::dvec3(0, 0, 1), alpha}});
       const auto density = [&](const glm::dvec3& h) {
-        return glm::dvec4(h.z > 0.0 ? d->ggxPdfVisibleNormal(wo, glm::vec3(h), alpha) : 0.0f, 0.0, 0.0, 0.0);
+        return glm::dvec4(h.z > 0.0 ? d->ggxPdfVisibleNormal(wo, glm::vec3(h), alpha) : 0.0f, 0.0,
+                          0.0, 0.0);
       };
       std::vector<double> probabilities;
       double total = 0.0;
@@ -135,8 +139,9 @@ TEST(Ggx, VisibleNormalsFollowTheirDensity) {
         const glm::vec3 h = d->ggxDrawVisibleNormal(wo, alpha, inputs.square());
         if (const auto cell = grid.find(glm::dvec3(h))) ++counts[*cell];
       }
-      expectFits(counts, probabilities, 1'000'000,
-                 "visible normals, alpha " + std::to_string(alpha) + " at " + std::to_string(int(angle)));
+      expectFits(
+          counts, probabilities, 1'000'000,
+          "visible normals, alpha " + std::to_string(alpha) + " at " + std::to_string(int(angle)));
     }
   }
 }
@@ -173,7 +178,8 @@ Albedo albedoOf(const rl::Bsdf& bsdf, const glm::vec3& wo) {
     return glm::dvec4(glm::dvec3(d->bsdfEval(bsdf, kUp, kUp, wo, glm::vec3(wi))), 0.0);
   });
   Albedo a;
-  for (size_t i = 0; i < cells.size(); ++i) (grid.isBelow(i) ? a.down : a.up) += glm::dvec3(cells[i]);
+  for (size_t i = 0; i < cells.size(); ++i)
+    (grid.isBelow(i) ? a.down : a.up) += glm::dvec3(cells[i]);
   return a;
 }
 
@@ -185,9 +191,11 @@ TEST(Albedo, MetalAgainstIntegralOverMicrofacets) {
       const glm::vec3 wo = directionAt(angle);
       const Albedo a = albedoOf(bsdf, wo);
       for (int c = 0; c < 3; ++c) {
-        const double expected = reference::reflectedAlbedo(
-            wo.z, bsdf.alpha, [&](double cosH) { return reference::fresnelSchlick(cosH, f0[c], 1.0); });
-        EXPECT_NEAR(a.up[c], expected, 1e-3) << "alpha " << alpha << " at " << angle << ", channel " << c;
+        const double expected = reference::reflectedAlbedo(wo.z, bsdf.alpha, [&](double cosH) {
+          return reference::fresnelSchlick(cosH, f0[c], 1.0);
+        });
+        EXPECT_NEAR(a.up[c], expected, 1e-3)
+            << "alpha " << alpha << " at " << angle << ", channel " << c;
         EXPECT_LE(a.up[c], 1.0 + 1e-3);
       }
     }
@@ -206,8 +214,8 @@ TEST(Albedo, RoughGlassAgainstIntegralOverMicrofacets) {
         const Albedo a = albedoOf(bsdf, wo);
         const double reflected = reference::reflectedAlbedo(wo.z, bsdf.alpha, fresnel);
         const double transmitted = reference::transmittedAlbedo(wo.z, bsdf.alpha, eta, fresnel);
-        const std::string where =
-            (front ? "front, alpha " : "back, alpha ") + std::to_string(alpha) + " at " + std::to_string(angle);
+        const std::string where = (front ? "front, alpha " : "back, alpha ") +
+                                  std::to_string(alpha) + " at " + std::to_string(angle);
         EXPECT_NEAR(a.up.x, reflected, 1e-3) << where;
         EXPECT_NEAR(a.down.x, transmitted, 2e-3 * std::max(1.0, transmitted)) << where;
         EXPECT_LE(a.up.x + a.down.x * eta * eta, 1.0 + 1e-3) << where;
@@ -234,7 +242,8 @@ TEST(Reciprocity, OfEveryBsdf) {
   for (const BsdfCase& c : continuousBsdfs()) {
     rl::Bsdf other = c.bsdf;
     other.eta = (c.bsdf.lobes & rl::RL_LOBE_THIN) != 0 ? c.bsdf.eta : 1.0f / c.bsdf.eta;
-    const double eta2 = (c.bsdf.lobes & rl::RL_LOBE_THIN) != 0 ? 1.0 : double(c.bsdf.eta) * c.bsdf.eta;
+    const double eta2 =
+        (c.bsdf.lobes & rl::RL_LOBE_THIN) != 0 ? 1.0 : double(c.bsdf.eta) * c.bsdf.eta;
     int compared = 0;
     for (int i = 0; i < 20'000; ++i) {
       const glm::vec3 wo = inputs.directionAbove(kUp), wi = inputs.direction();
@@ -247,9 +256,11 @@ TEST(Reciprocity, OfEveryBsdf) {
       } else {
         back = glm::dvec3(d->bsdfEval(other, -kUp, -kUp, wi, wo)) / double(cosO) / eta2;
       }
-      // Far from its peak a lobe is a difference of nearly equal numbers: what is left is below 1e-2.
+      // Far from its peak a lobe is a difference of nearly equal numbers: what is left is below
+      // 1e-2.
       const double scale = std::max({there.x, there.y, there.z, 1e-2});
-      ASSERT_LT(glm::length(there - back), 3e-3 * scale) << c.name << ", " << wo.z << " -> " << wi.z;
+      ASSERT_LT(glm::length(there - back), 3e-3 * scale)
+          << c.name << ", " << wo.z << " -> " << wi.z;
       if (scale > 1e-2) ++compared;
     }
     EXPECT_GT(compared, 50) << c.name;

@@ -27,7 +27,8 @@ SceneCamera lookingDownX(uint32_t kind) {
   camera.yfov = 0.9;
   camera.ymag = 1.5;
   // From (1, 2, 3) towards +X, rolled a little.
-  camera.cameraToWorld = glm::inverse(glm::lookAt(glm::dvec3(1, 2, 3), glm::dvec3(9, 2, 3), glm::dvec3(0, 1, 0.3)));
+  camera.cameraToWorld =
+      glm::inverse(glm::lookAt(glm::dvec3(1, 2, 3), glm::dvec3(9, 2, 3), glm::dvec3(0, 1, 0.3)));
   return camera;
 }
 
@@ -55,7 +56,8 @@ TEST(Camera, ProjectionIsTheInverseOfTheRay) {
   Dialect<> d(scene);
   Inputs inputs(1);
   for (uint32_t kind : {rl::RL_CAMERA_PERSPECTIVE, rl::RL_CAMERA_ORTHOGRAPHIC}) {
-    for (const glm::uvec2 size : {glm::uvec2(512, 512), glm::uvec2(640, 360), glm::uvec2(90, 400), glm::uvec2(1, 1)}) {
+    for (const glm::uvec2 size :
+         {glm::uvec2(512, 512), glm::uvec2(640, 360), glm::uvec2(90, 400), glm::uvec2(1, 1)}) {
       const rl::Camera c = scene->camera(lookingDownX(kind), size.x, size.y);
       const glm::vec2 resolution(size);
       for (int i = 0; i < 20'000; ++i) {
@@ -101,7 +103,8 @@ TEST_F(FilmTest, BoxFilterIsUniformOverThePixel) {
       for (uint32_t x = 0; x < 32; ++x) {
         const glm::vec2 offset = d->cameraFilmSample({x, y}) - glm::vec2(float(x), float(y));
         ASSERT_TRUE(offset.x >= 0.0f && offset.x <= 1.0f && offset.y >= 0.0f && offset.y <= 1.0f);
-        ++counts[std::min(size_t(offset.y * 16.0f), size_t(15)) * 16 + std::min(size_t(offset.x * 16.0f), size_t(15))];
+        ++counts[std::min(size_t(offset.y * 16.0f), size_t(15)) * 16 +
+                 std::min(size_t(offset.x * 16.0f), size_t(15))];
       }
     }
   }
@@ -138,7 +141,8 @@ TEST_F(FilmTest, HeldSamplesChangeOnceInAHold) {
   d.frame.frame = 13;
   for (d.frame.seed = 0; d.frame.seed < 100'000; ++d.frame.seed) {
     const glm::vec2 offset = d->cameraFilmSample({9, 9}) - glm::vec2(9.0f, 9.0f);
-    ++counts[std::min(size_t(offset.y * 4.0f), size_t(3)) * 4 + std::min(size_t(offset.x * 4.0f), size_t(3))];
+    ++counts[std::min(size_t(offset.y * 4.0f), size_t(3)) * 4 +
+             std::min(size_t(offset.x * 4.0f), size_t(3))];
   }
   expectUniform(counts, "film samples of one frame over seeds");
 }

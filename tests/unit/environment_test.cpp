@@ -59,7 +59,8 @@ std::shared_ptr<const CompiledScene> sceneWith(const EnvironmentMap& map) {
 // turned by `rotation` about +Y.
 glm::dvec3 directionOf(double u, double v, double rotation) {
   const double phi = (u - 0.5) * 2.0 * kPi, theta = v * kPi;
-  const glm::dvec3 d(std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi));
+  const glm::dvec3 d(std::sin(theta) * std::sin(phi), std::cos(theta),
+                     -std::sin(theta) * std::cos(phi));
   const double c = std::cos(rotation), s = std::sin(rotation);
   return {c * d.x + s * d.z, d.y, c * d.z - s * d.x};
 }
@@ -74,7 +75,8 @@ TEST(Environment, UvIsTheInverseOfTheConvention) {
       ASSERT_NEAR(uv.x, u, 2e-5);
       ASSERT_NEAR(uv.y, v, 2e-5);
     }
-    for (const glm::vec3& axis : {glm::vec3(0, 1, 0), glm::vec3(0, -1, 0), glm::vec3(1, 0, 0), glm::vec3(0, 0, 1)}) {
+    for (const glm::vec3& axis :
+         {glm::vec3(0, 1, 0), glm::vec3(0, -1, 0), glm::vec3(1, 0, 0), glm::vec3(0, 0, 1)}) {
       const glm::vec2 uv = d->environmentUv(axis);
       EXPECT_TRUE(uv.x >= 0.0f && uv.x < 1.0f && uv.y >= 0.0f && uv.y < 1.0f);
     }
@@ -130,9 +132,12 @@ struct MapCase {
 };
 
 std::vector<MapCase> mapCases() {
-  return {{"8x4", noisyMap(8, 4, 0.0f, 5)},       {"8x4 turned", noisyMap(8, 4, 2.2f, 6)},
-          {"zero and sun", harshMap(0.0f)},       {"zero and sun, turned", harshMap(-1.1f)},
-          {"one texel", lonelyMap()},             {"1x1", noisyMap(1, 1, 0.3f, 7)},
+  return {{"8x4", noisyMap(8, 4, 0.0f, 5)},
+          {"8x4 turned", noisyMap(8, 4, 2.2f, 6)},
+          {"zero and sun", harshMap(0.0f)},
+          {"zero and sun, turned", harshMap(-1.1f)},
+          {"one texel", lonelyMap()},
+          {"1x1", noisyMap(1, 1, 0.3f, 7)},
           {"not a power of two", noisyMap(15, 7, 0.5f, 8)}};
 }
 
@@ -148,7 +153,8 @@ TEST(Environment, DrawsFollowTheDensity) {
         double sum = 0.0;
         for (int i = 0; i < 5; ++i) {
           for (int j = 0; j < 5; ++j) {
-            const double u = (x + 0.5 + 0.5 * kGauss5X[i]) / nu, v = (y + 0.5 + 0.5 * kGauss5X[j]) / nv;
+            const double u = (x + 0.5 + 0.5 * kGauss5X[i]) / nu,
+                         v = (y + 0.5 + 0.5 * kGauss5X[j]) / nv;
             sum += 0.25 * kGauss5W[i] * kGauss5W[j] * std::sin(kPi * v) *
                    d->environmentPdf(glm::vec3(directionOf(u, v, c.map.rotation)));
           }
@@ -169,7 +175,8 @@ TEST(Environment, DrawsFollowTheDensity) {
       ASSERT_NEAR(glm::dot(direction, direction), 1.0f, 2e-6f);
       if (std::abs(d->environmentPdf(direction) / pdf - 1.0f) > 1e-2f) ++different;
       const glm::vec2 uv = d->environmentUv(direction);
-      ++counts[size_t(std::min(int(uv.y * float(nv)), nv - 1) * nu + std::min(int(uv.x * float(nu)), nu - 1))];
+      ++counts[size_t(std::min(int(uv.y * float(nv)), nv - 1) * nu +
+                      std::min(int(uv.x * float(nu)), nu - 1))];
     }
     expectFits(counts, probabilities, n, c.name);
     // Rounding may carry a draw over the border of its texel, no more.
@@ -184,7 +191,8 @@ TEST(Environment, DensityIntegratesToOne) {
     constexpr int n = 1'000'000;
     double sum = 0.0;
     for (int i = 0; i < n; ++i) {
-      const double z = 1.0 - 2.0 * (i + 0.5) / n, phi = 2.399963229728653 * i, r = std::sqrt(1.0 - z * z);
+      const double z = 1.0 - 2.0 * (i + 0.5) / n, phi = 2.399963229728653 * i,
+                   r = std::sqrt(1.0 - z * z);
       sum += d->environmentPdf(glm::vec3(r * std::cos(phi), z, r * std::sin(phi)));
     }
     EXPECT_NEAR(sum * 4.0 * kPi / n, 1.0, 3e-3) << c.name;
@@ -210,8 +218,8 @@ TEST(Environment, EstimatesTheWholeSky) {
     for (int y = 0; y < m; ++y) {
       for (int x = 0; x < 2 * m; ++x) {
         const double u = (x + 0.5) / (2 * m), v = (y + 0.5) / m;
-        flux += glm::dvec3(d->environmentRadiance(glm::vec3(directionOf(u, v, c.map.rotation)))) * std::sin(kPi * v) *
-                (kPi * kPi / (double(m) * m));
+        flux += glm::dvec3(d->environmentRadiance(glm::vec3(directionOf(u, v, c.map.rotation)))) *
+                std::sin(kPi * v) * (kPi * kPi / (double(m) * m));
       }
     }
     for (int k = 0; k < 3; ++k) {

@@ -10,18 +10,21 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// Integral of g(h) over the microfacet normals h weighted by D(h) cos_h, which integrates to 1. With
-// tan^2 = alpha^2 u / (1 - u) the weight is uniform in u and azimuth. The midpoint rule in azimuth is
-// exact to rounding for smooth periodic functions; u = 3 t^2 - 2 t^3 crowds points at both ends.
+// Integral of g(h) over the microfacet normals h weighted by D(h) cos_h, which integrates to 1.
+// With tan^2 = alpha^2 u / (1 - u) the weight is uniform in u and azimuth. The midpoint rule in
+// azimuth is exact to rounding for smooth periodic functions; u = 3 t^2 - 2 t^3 crowds points at
+// both ends.
 double overNormals(double alpha, const std::function<double(const glm::dvec3&)>& g) {
   constexpr int nT = 1500, nPhi = 256;
   double sum = 0.0;
   for (int i = 0; i < nT; ++i) {
     const double t = (i + 0.5) / nT, u = t * t * (3.0 - 2.0 * t);
-    const double tangent = alpha * std::sqrt(u / (1.0 - u)), cosine = 1.0 / std::sqrt(1.0 + tangent * tangent);
+    const double tangent = alpha * std::sqrt(u / (1.0 - u)),
+                 cosine = 1.0 / std::sqrt(1.0 + tangent * tangent);
     double row = 0.0;
     for (int j = 0; j < nPhi; ++j) {
-      const double phi = kPi * (j + 0.5) / nPhi;  // wo lies in the plane phi = 0: half the circle is enough
+      const double phi =
+          kPi * (j + 0.5) / nPhi;  // wo lies in the plane phi = 0: half the circle is enough
       row += g({tangent * cosine * std::cos(phi), tangent * cosine * std::sin(phi), cosine});
     }
     sum += row / nPhi * 6.0 * t * (1.0 - t) / nT;
@@ -51,13 +54,17 @@ double fresnel(double cosI, double eta) {
   using Complex = std::complex<double>;
   // Under total internal reflection the cosine is imaginary and both ratios have modulus 1.
   const Complex cosT = std::sqrt(Complex(1.0 - (1.0 - cosI * cosI) / (eta * eta)));
-  const Complex s = (cosI - eta * cosT) / (cosI + eta * cosT), p = (eta * cosI - cosT) / (eta * cosI + cosT);
+  const Complex s = (cosI - eta * cosT) / (cosI + eta * cosT),
+                p = (eta * cosI - cosT) / (eta * cosI + cosT);
   return 0.5 * (std::norm(s) + std::norm(p));
 }
 
-double fresnelSchlick(double cosI, double f0, double f90) { return f0 + (f90 - f0) * std::pow(1.0 - cosI, 5.0); }
+double fresnelSchlick(double cosI, double f0, double f90) {
+  return f0 + (f90 - f0) * std::pow(1.0 - cosI, 5.0);
+}
 
-double reflection(const glm::dvec3& wo, const glm::dvec3& wi, double alpha, const FresnelFunction& f) {
+double reflection(const glm::dvec3& wo, const glm::dvec3& wi, double alpha,
+                  const FresnelFunction& f) {
   const glm::dvec3 h = glm::normalize(wo + wi);
   return f(glm::dot(wo, h)) * ggxD(h.z, alpha) * maskingShadowing(wo.z, wi.z, alpha) / (4.0 * wo.z);
 }

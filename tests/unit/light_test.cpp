@@ -42,7 +42,8 @@ TEST(LightSelection, TenThousandLightsByPower) {
   std::vector<glm::vec3> radiance;
   std::vector<bool> twoSided;
   for (int m = 0; m < 20; ++m) {
-    radiance.push_back(glm::vec3(inputs.scale(1e-3f, 1e3f), inputs.scale(1e-3f, 1e3f), inputs.scale(1e-3f, 1e3f)));
+    radiance.push_back(
+        glm::vec3(inputs.scale(1e-3f, 1e3f), inputs.scale(1e-3f, 1e3f), inputs.scale(1e-3f, 1e3f)));
     rl::Material lamp = builtin::lamp(radiance.back());
     twoSided.push_back(m % 3 == 0);
     if (twoSided.back()) lamp.flags |= rl::RL_MATERIAL_DOUBLE_SIDED;
@@ -108,13 +109,14 @@ TEST(LightSelection, KindsCompeteByPower) {
       // The density is widened to the neighbours of a texel, as bilinear radiance is.
       for (int dy = -1; dy <= 1; ++dy) {
         for (int dx = -1; dx <= 1; ++dx) {
-          flux += row / 9.0 * map.radiance[size_t(std::clamp(y + dy, 0, 3) * 8 + (x + dx + 8) % 8)].x;
+          flux +=
+              row / 9.0 * map.radiance[size_t(std::clamp(y + dy, 0, 3) * 8 + (x + dx + 8) % 8)].x;
         }
       }
     }
   }
-  const double watts[5] = {kPi * 2.0 * 3.0, 4.0 * kPi * 5.0, 2.0 * kPi * (1.0 - std::cos(0.5)) * 7.0, disk * 2.0,
-                           disk * flux};
+  const double watts[5] = {kPi * 2.0 * 3.0, 4.0 * kPi * 5.0,
+                           2.0 * kPi * (1.0 - std::cos(0.5)) * 7.0, disk * 2.0, disk * flux};
   const double total = std::accumulate(watts, watts + 5, 0.0);
   std::vector<double> expected;
   for (uint32_t i = 0; i < 5; ++i) {
@@ -184,19 +186,22 @@ TEST(LightDraw, TriangleIsUniformOverItsArea) {
   // Squares of the barycentric grid, and the triangles along its diagonal.
   size_t k = 0;
   for (int ix = 0; ix < n; ++ix) {
-    for (int iy = 0; iy < n - ix; ++iy) probabilities[k++] = (ix + iy == n - 1 ? 1.0 : 2.0) / (n * n);
+    for (int iy = 0; iy < n - ix; ++iy)
+      probabilities[k++] = (ix + iy == n - 1 ? 1.0 : 2.0) / (n * n);
   }
   expectFits(counts, probabilities, samples, "points on a triangle");
 }
 
 // Solid angle of a small triangle, exactly (Van Oosterom & Strackee 1983).
-double solidAngle(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+double solidAngle(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b,
+                  const glm::dvec3& c) {
   const glm::dvec3 x = glm::normalize(a - p), y = glm::normalize(b - p), z = glm::normalize(c - p);
   return 2.0 * std::abs(std::atan2(glm::dot(x, glm::cross(y, z)),
                                    1.0 + glm::dot(x, y) + glm::dot(y, z) + glm::dot(z, x)));
 }
 
-// Density per solid angle from density per area, against the solid angle of a patch around the point.
+// Density per solid angle from density per area, against the solid angle of a patch around the
+// point.
 TEST(LightConnect, ConvertsAreaToSolidAngle) {
   for (const bool twoSided : {false, true}) {
     OneLamp lamp(twoSided);
@@ -207,7 +212,8 @@ TEST(LightConnect, ConvertsAreaToSolidAngle) {
     int front = 0, back = 0;
     for (uint32_t i = 0; i < 20'000; ++i) {
       const rl::LightSample s = d->lightDraw(rngOf(d, i));
-      const glm::dvec3 at = a + 3.0 * double(inputs.uniform(0.2f, 1.0f)) * glm::dvec3(inputs.direction());
+      const glm::dvec3 at =
+          a + 3.0 * double(inputs.uniform(0.2f, 1.0f)) * glm::dvec3(inputs.direction());
       const rl::LightConnection c = d->lightConnect(s, glm::vec3(at));
       const double side = glm::dot(at - glm::dvec3(s.point), normal);
       if (std::abs(side) < 0.02) continue;
@@ -219,7 +225,8 @@ TEST(LightConnect, ConvertsAreaToSolidAngle) {
       }
       ++front;
       constexpr double h = 1e-4;
-      const glm::dvec3 p(s.point), u = h * glm::normalize(e1), v = h * glm::cross(normal, glm::normalize(e1));
+      const glm::dvec3 p(s.point), u = h * glm::normalize(e1),
+                                   v = h * glm::cross(normal, glm::normalize(e1));
       const glm::dvec3 seen{glm::vec3(at)};
       const double patch = solidAngle(seen, p - u - v, p + u - v, p + u + v) +
                            solidAngle(seen, p - u - v, p + u + v, p - u + v);
@@ -320,7 +327,8 @@ TEST(Punctual, SpotFalloff) {
   for (double angle = 0.0; angle < 1.5; angle += 0.01) {
     const glm::dvec3 direction(std::sin(angle), -std::cos(angle), 0.0);
     const rl::LightConnection c = d->lightConnect(s, glm::vec3(position + 2.0 * direction));
-    const double ramp = std::clamp((std::cos(angle) - std::cos(0.6)) / (std::cos(0.3) - std::cos(0.6)), 0.0, 1.0);
+    const double ramp =
+        std::clamp((std::cos(angle) - std::cos(0.6)) / (std::cos(0.3) - std::cos(0.6)), 0.0, 1.0);
     EXPECT_NEAR(c.emitted.x, 9.0 / 4.0 * ramp * ramp, 1e-4) << angle;
   }
 }
@@ -329,7 +337,8 @@ TEST(Mis, PowerHeuristicSumsToOne) {
   Dialect<> d;
   Inputs inputs(6);
   for (int i = 0; i < 100'000; ++i) {
-    const float p = std::pow(10.0f, inputs.uniform(-30.0f, 30.0f)), q = std::pow(10.0f, inputs.uniform(-30.0f, 30.0f));
+    const float p = std::pow(10.0f, inputs.uniform(-30.0f, 30.0f)),
+                q = std::pow(10.0f, inputs.uniform(-30.0f, 30.0f));
     const float weight = d->lightMisWeight(p, q);
     ASSERT_NEAR(weight + d->lightMisWeight(q, p), 1.0f, 1e-6f);
     const double a = double(p) * p, b = double(q) * q;

@@ -20,7 +20,8 @@ TEST(Math, MulHighIsTheUpperWord) {
   auto check = [&](uint32_t a, uint32_t b) {
     EXPECT_EQ(d->rlMulHigh(a, b), static_cast<uint32_t>(uint64_t(a) * b >> 32)) << a << " x " << b;
   };
-  const uint32_t corners[] = {0u, 1u, 0xffffu, 0x10000u, 0x10001u, 0x7fffffffu, 0x80000000u, 0xfffffffeu, ~0u};
+  const uint32_t corners[] = {0u,          1u,          0xffffu,     0x10000u, 0x10001u,
+                              0x7fffffffu, 0x80000000u, 0xfffffffeu, ~0u};
   for (uint32_t a : corners) {
     for (uint32_t b : corners) check(a, b);
   }
@@ -49,7 +50,8 @@ TEST(Math, CosSin2PiWithinAMillionth) {
 
 TEST(Math, FinitenessSeesEveryKindOfNumber) {
   Dialect<0> d;
-  const float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+  const float inf = std::numeric_limits<float>::infinity(),
+              nan = std::numeric_limits<float>::quiet_NaN();
   for (float x : {0.0f, -0.0f, 1e-45f, -3.4e38f, 3.4e38f}) EXPECT_TRUE(d->rlIsFinite(x)) << x;
   for (float x : {inf, -inf, nan, -nan}) EXPECT_FALSE(d->rlIsFinite(x)) << x;
   EXPECT_TRUE(d->rlIsFinite3(glm::vec3(1.0f, -2.0f, 0.0f)));

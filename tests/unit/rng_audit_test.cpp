@@ -55,7 +55,8 @@ class AuditedRun {
     frame_.maxBounces = 6;
     frame_.components = rl::RL_COMPONENT_ALL;
     const auto hold = resolved.find("film_hold");
-    frame_.filmHold = hold == resolved.end() ? 1u : static_cast<uint32_t>(std::get<int64_t>(hold->second));
+    frame_.filmHold =
+        hold == resolved.end() ? 1u : static_cast<uint32_t>(std::get<int64_t>(hold->second));
     frame_.rouletteStart = 2;
   }
 
@@ -93,7 +94,8 @@ void expectNoRepeats(AuditedRun& run, size_t leastDraws, const std::string& what
     EXPECT_GT(draws, leastDraws) << what << ", frame " << frame;
     for (const Draw& d : recorded) ASSERT_LT(d[3], rl::RL_DIMENSIONS) << what;
     const std::vector<Draw> repeated = takeRepeated();
-    EXPECT_TRUE(repeated.empty()) << what << ", frame " << frame << ": " << repeated.size() << " of " << draws
+    EXPECT_TRUE(repeated.empty()) << what << ", frame " << frame << ": " << repeated.size()
+                                  << " of " << draws
                                   << " draws repeat another, the first at vertex " << repeated[0][2]
                                   << ", dimension " << repeated[0][3];
   }
@@ -132,7 +134,8 @@ TEST(RngAudit, RestirGi) {
       AuditedRun plain(name, "restir_gi", mode, {}, passes);
       expectNoRepeats(plain, size_t(kWidth) * kHeight * 3, "restir_gi " + mode + ", " + name);
       AuditedRun loops(name, "restir_gi", mode, busy, passes);
-      expectNoRepeats(loops, size_t(kWidth) * kHeight * 3, "restir_gi " + mode + ", long loops, " + name);
+      expectNoRepeats(loops, size_t(kWidth) * kHeight * 3,
+                      "restir_gi " + mode + ", long loops, " + name);
     }
   }
 }

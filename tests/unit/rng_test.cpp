@@ -44,7 +44,8 @@ TEST_F(RngTest, SameKeySameDraw) {
   for (int i = 0; i < 1000; ++i) {
     const uint32_t seed = inputs.bits(), pixel = inputs.bits(), frame = inputs.bits();
     const uint32_t vertex = inputs.below(0x4000), dimension = inputs.below(rl::RL_DIMENSIONS);
-    EXPECT_EQ(draw(seed, pixel, frame, vertex, dimension), draw(seed, pixel, frame, vertex, dimension));
+    EXPECT_EQ(draw(seed, pixel, frame, vertex, dimension),
+              draw(seed, pixel, frame, vertex, dimension));
   }
 }
 
@@ -90,7 +91,8 @@ TEST_F(RngTest, UniformAlongEveryAxis) {
   }
   for (uint32_t dimension = 0; dimension < rl::RL_DIMENSIONS; dimension += 7) {
     std::vector<uint64_t> counts(kCells);
-    for (uint32_t i = 0; i < 1'000'000; ++i) ++counts[cell(draw(1, i & 0x3ffu, i >> 10, 2, dimension))];
+    for (uint32_t i = 0; i < 1'000'000; ++i)
+      ++counts[cell(draw(1, i & 0x3ffu, i >> 10, 2, dimension))];
     expectUniform(counts, "dimension " + std::to_string(dimension));
   }
 }
@@ -110,9 +112,12 @@ TEST_F(RngTest, PairsAreIndependent) {
     const char* name;
     uint32_t seed, pixel, frame, vertex, dimension;  // of the second draw, relative to the first
   };
-  const std::vector<Pair> pairs = {{"next dimension", 0, 0, 0, 0, 1}, {"next vertex", 0, 0, 0, 1, 0},
-                                   {"next pixel", 0, 1, 0, 0, 0},     {"next row", 0, 320, 0, 0, 0},
-                                   {"next frame", 0, 0, 1, 0, 0},     {"next seed", 1, 0, 0, 0, 0},
+  const std::vector<Pair> pairs = {{"next dimension", 0, 0, 0, 0, 1},
+                                   {"next vertex", 0, 0, 0, 1, 0},
+                                   {"next pixel", 0, 1, 0, 0, 0},
+                                   {"next row", 0, 320, 0, 0, 0},
+                                   {"next frame", 0, 0, 1, 0, 0},
+                                   {"next seed", 1, 0, 0, 0, 0},
                                    {"one dimension, one vertex", 0, 0, 0, 1, 63},
                                    {"frame against seed", ~0u, 0, 1, 0, 0}};
   constexpr uint32_t n = 32;

@@ -5,11 +5,11 @@ list(APPEND RL_UNIT_TESTS
   bsdf_delta_test.cpp
   bsdf_sampling_test.cpp
   bsdf_values_test.cpp
-  config_test.cpp
-  ggx_reference.cpp
-  environment_test.cpp
-  light_test.cpp
   camera_test.cpp
+  config_test.cpp
+  environment_test.cpp
+  ggx_reference.cpp
+  light_test.cpp
   math_test.cpp
   ray_offset_test.cpp
   rng_audit_path.cpp

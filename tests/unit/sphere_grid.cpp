@@ -39,10 +39,13 @@ bool agree(const glm::dvec4& a, const glm::dvec4& b) {
   return true;
 }
 
-glm::dvec4 adaptive(const SphereGrid::Function& f, const Box& b, const glm::dvec4& coarse, int depth) {
+glm::dvec4 adaptive(const SphereGrid::Function& f, const Box& b, const glm::dvec4& coarse,
+                    int depth) {
   const double t = 0.5 * (b.theta0 + b.theta1), p = 0.5 * (b.phi0 + b.phi1);
-  const Box quarters[4] = {{b.theta0, t, b.phi0, p}, {b.theta0, t, p, b.phi1},
-                           {t, b.theta1, b.phi0, p}, {t, b.theta1, p, b.phi1}};
+  const Box quarters[4] = {{b.theta0, t, b.phi0, p},
+                           {b.theta0, t, p, b.phi1},
+                           {t, b.theta1, b.phi0, p},
+                           {t, b.theta1, p, b.phi1}};
   glm::dvec4 parts[4], fine(0.0);
   for (int i = 0; i < 4; ++i) {
     parts[i] = gauss(f, quarters[i]);
@@ -67,11 +70,13 @@ void addAround(std::vector<double>& edges, double center, double width, double l
 }
 
 // Sorted, without slivers; `fixed` edges stay.
-std::vector<double> tidy(std::vector<double> edges, const std::vector<double>& fixed, double sliver) {
+std::vector<double> tidy(std::vector<double> edges, const std::vector<double>& fixed,
+                         double sliver) {
   std::sort(edges.begin(), edges.end());
   std::vector<double> kept = fixed;
   for (const double e : edges) {
-    const bool isFree = std::all_of(kept.begin(), kept.end(), [&](double k) { return std::abs(e - k) > sliver; });
+    const bool isFree =
+        std::all_of(kept.begin(), kept.end(), [&](double k) { return std::abs(e - k) > sliver; });
     if (isFree) kept.push_back(e);
   }
   std::sort(kept.begin(), kept.end());
@@ -121,7 +126,8 @@ glm::dvec4 SphereGrid::integrateCell(size_t cell, const Function& f, int depth) 
   glm::dvec4 sum(0.0);
   for (int a = 0; a < n; ++a) {
     for (int b = 0; b < n; ++b) {
-      const Box box{thetas_[i] + a * dt, thetas_[i] + (a + 1) * dt, phis_[j] + b * dp, phis_[j] + (b + 1) * dp};
+      const Box box{thetas_[i] + a * dt, thetas_[i] + (a + 1) * dt, phis_[j] + b * dp,
+                    phis_[j] + (b + 1) * dp};
       sum += adaptive(f, box, gauss(f, box), 0);
     }
   }

@@ -29,9 +29,9 @@ class SphereGrid {
   // Does the cell lie below the horizon (z < 0)?
   bool isBelow(size_t cell) const;
 
-  // Integral over solid angle of a vector function, per cell: adaptive Gauss quadrature. The error of
-  // a cell is below 1e-7 + 1e-4 of its value for smooth functions, about 1e-3 of the value where a
-  // discontinuity crosses it.
+  // Integral over solid angle of a vector function, per cell: adaptive Gauss quadrature. The error
+  // of a cell is below 1e-7 + 1e-4 of its value for smooth functions, about 1e-3 of the value where
+  // a discontinuity crosses it.
   using Function = std::function<glm::dvec4(const glm::dvec3&)>;
   std::vector<glm::dvec4> integrate(const Function& f) const;
   // One cell, split into 4^depth parts before anything is believed: finds slivers that the first
@@ -43,8 +43,8 @@ class SphereGrid {
 };
 
 // Gauss-Legendre abscissae and weights of five points on [-1, 1].
-inline constexpr double kGauss5X[5] = {-0.906179845938664, -0.538469310105683, 0.0, 0.538469310105683,
-                                       0.906179845938664};
+inline constexpr double kGauss5X[5] = {-0.906179845938664, -0.538469310105683, 0.0,
+                                       0.538469310105683, 0.906179845938664};
 inline constexpr double kGauss5W[5] = {0.236926885056189, 0.478628670499366, 0.568888888888889,
                                        0.478628670499366, 0.236926885056189};
 

@@ -29,7 +29,8 @@ MeshGeometry fullTriangle() {
 }
 
 // Adds an image and a use of it; returns the index of the use.
-uint32_t addTexture(Scene& scene, uint32_t width, uint32_t height, std::vector<uint32_t> texels, uint32_t uvSet = 0) {
+uint32_t addTexture(Scene& scene, uint32_t width, uint32_t height, std::vector<uint32_t> texels,
+                    uint32_t uvSet = 0) {
   TextureImage image;
   image.width = width;
   image.height = height;
@@ -87,7 +88,8 @@ TEST(Surface, NormalsTurnToTheViewer) {
 // A vertex normal on the far side of its face is mirrored to this one, and stays a unit vector.
 TEST(Surface, ImpossibleShadingNormals) {
   MeshGeometry mesh = fullTriangle();
-  for (const glm::vec3 n : {glm::vec3(0.6f, 0, -0.8f), glm::vec3(0, 0, -1), glm::vec3(1, 0, 0), glm::vec3(0, 0, 0)}) {
+  for (const glm::vec3 n :
+       {glm::vec3(0.6f, 0, -0.8f), glm::vec3(0, 0, -1), glm::vec3(1, 0, 0), glm::vec3(0, 0, 0)}) {
     mesh.normals = {n, n, n};
     Dialect<> d(CompiledScene::build(sceneOf(mesh, builtin::lambert(glm::vec3(0.5f)))));
     const rl::Surface s = load(d, {0.3f, 0.3f});
@@ -102,7 +104,8 @@ TEST(Surface, EmissionHasSides) {
     if (twoSided) lamp.flags |= rl::RL_MATERIAL_DOUBLE_SIDED;
     Dialect<> d(CompiledScene::build(sceneOf(fullTriangle(), lamp)));
     EXPECT_EQ(load(d, {0.2f, 0.2f}).emission, glm::vec3(3.0f, 2.0f, 1.0f));
-    EXPECT_EQ(load(d, {0.2f, 0.2f}, -kDown).emission, twoSided ? glm::vec3(3.0f, 2.0f, 1.0f) : glm::vec3(0.0f));
+    EXPECT_EQ(load(d, {0.2f, 0.2f}, -kDown).emission,
+              twoSided ? glm::vec3(3.0f, 2.0f, 1.0f) : glm::vec3(0.0f));
     EXPECT_EQ(load(d, {0.2f, 0.2f}).light, 0u);
     EXPECT_EQ(load(d, {0.2f, 0.2f}).bsdf.lobes, 0u);
   }
@@ -121,6 +124,20 @@ TEST(Surface, UnlitShowsItsColourOnBothSides) {
   EXPECT_EQ(load(d, {0.2f, 0.2f}).light, rl::RL_INVALID);
 }
 
+// Traversal aborts on rays that are not finite: no triangle, however small, may make one.
+TEST(Surface, TinyTrianglesHaveANormal) {
+  MeshGeometry mesh = fullTriangle();
+  mesh.normals.clear();
+  for (const float size : {1e-3f, 1e-9f, 1e-12f, 1e-20f, 1e-38f, 0.0f}) {
+    mesh.positions = {{0, 0, 0}, {size, 0, 0}, {0, size, 0}};
+    Dialect<> d(CompiledScene::build(sceneOf(mesh, builtin::lambert(glm::vec3(0.5f)))));
+    const rl::Surface s = load(d, {0.3f, 0.3f});
+    EXPECT_NEAR(glm::length(s.nGeoW), 1.0f, 1e-5f) << size;
+    EXPECT_NEAR(glm::length(s.nShadeW), 1.0f, 1e-5f) << size;
+    EXPECT_TRUE(std::isfinite(s.posW.x + s.posW.y + s.posW.z)) << size;
+  }
+}
+
 // Each slot reads its own channels, from its own UV set.
 TEST(Surface, TextureSlots) {
   rl::Material m = builtin::plastic(glm::vec3(0.8f), 0.9f);
@@ -130,16 +147,20 @@ TEST(Surface, TextureSlots) {
   Scene scene = sceneOf(fullTriangle(), m);
   scene.geometries[0].colors.clear();
   rl::Material& material = scene.materials[0].data;
-  auto rgba = [](uint32_t r, uint32_t g, uint32_t b, uint32_t a) { return r | g << 8 | b << 16 | a << 24; };
+  auto rgba = [](uint32_t r, uint32_t g, uint32_t b, uint32_t a) {
+    return r | g << 8 | b << 16 | a << 24;
+  };
   material.textures[rl::RL_TEX_BASE_COLOR] = addTexture(scene, 1, 1, {rgba(255, 102, 51, 255)});
-  material.textures[rl::RL_TEX_METALLIC_ROUGHNESS] = addTexture(scene, 1, 1, {rgba(9, 102, 204, 7)});
+  material.textures[rl::RL_TEX_METALLIC_ROUGHNESS] =
+      addTexture(scene, 1, 1, {rgba(9, 102, 204, 7)});
   material.textures[rl::RL_TEX_EMISSIVE] = addTexture(scene, 1, 1, {rgba(51, 102, 153, 3)});
   material.textures[rl::RL_TEX_TRANSMISSION] = addTexture(scene, 1, 1, {rgba(127, 5, 6, 8)});
   material.textures[rl::RL_TEX_SPECULAR] = addTexture(scene, 1, 1, {rgba(1, 2, 3, 153)});
   material.textures[rl::RL_TEX_SPECULAR_COLOR] = addTexture(scene, 1, 1, {rgba(255, 127, 51, 4)});
   Dialect<> d(CompiledScene::build(std::move(scene)));
   const rl::Surface s = load(d, {0.2f, 0.3f});
-  const float metallic = 0.5f * 0.8f, roughness = 0.9f * 0.4f, transmission = 0.6f * 127.0f / 255.0f, specular = 0.6f;
+  const float metallic = 0.5f * 0.8f, roughness = 0.9f * 0.4f,
+              transmission = 0.6f * 127.0f / 255.0f, specular = 0.6f;
   const glm::vec3 base(0.8f, 0.32f, 0.16f);
   EXPECT_NEAR(s.bsdf.alpha, roughness * roughness, 1e-6f);
   EXPECT_LT(glm::distance(s.bsdf.diffuse, base * (1 - metallic) * (1 - transmission)), 1e-6f);
@@ -154,7 +175,8 @@ TEST(Surface, UvSetsAreKeptApart) {
   Scene scene = sceneOf(fullTriangle(), builtin::lambert(glm::vec3(1.0f)));
   scene.geometries[0].colors.clear();
   // Set 1 runs over v in 0.25 .. 0.75, u in 0 .. 0.5: only the left texels of the two rows.
-  const uint32_t use = addTexture(scene, 2, 2, {0xff0000ffu, 0xffffffffu, 0xff00ff00u, 0xffffffffu}, 1);
+  const uint32_t use =
+      addTexture(scene, 2, 2, {0xff0000ffu, 0xffffffffu, 0xff00ff00u, 0xffffffffu}, 1);
   scene.materials[0].data.textures[rl::RL_TEX_BASE_COLOR] = use;
   Dialect<> d(CompiledScene::build(std::move(scene)));
   EXPECT_EQ(load(d, {0.1f, 0.2f}).bsdf.diffuse, glm::vec3(1, 0, 0));
@@ -189,12 +211,14 @@ TEST(Surface, NormalMapDirections) {
     if (hasTangents) mesh.tangents = {{1, 0, 0, 1}, {1, 0, 0, 1}, {1, 0, 0, 1}};
     for (const bool isRed : {true, false}) {
       Scene scene = sceneOf(mesh, builtin::lambert(glm::vec3(0.5f)));
-      const uint32_t texel = isRed ? 0xffda80dau : 0xffdada80u;  // (0.71, 0, 0.71) and (0, 0.71, 0.71)
+      const uint32_t texel =
+          isRed ? 0xffda80dau : 0xffdada80u;  // (0.71, 0, 0.71) and (0, 0.71, 0.71)
       scene.materials[0].data.textures[rl::RL_TEX_NORMAL] = addTexture(scene, 1, 1, {texel});
       Dialect<> d(CompiledScene::build(std::move(scene)));
       const float h = std::sqrt(0.5f);
       const glm::vec3 expected = isRed ? glm::vec3(h, 0, h) : glm::vec3(0, h, h);
-      EXPECT_LT(glm::distance(load(d, {0.2f, 0.2f}).nShadeW, expected), 0.01f) << hasTangents << isRed;
+      EXPECT_LT(glm::distance(load(d, {0.2f, 0.2f}).nShadeW, expected), 0.01f)
+          << hasTangents << isRed;
       EXPECT_LT(glm::distance(load(d, {0.2f, 0.2f}, -kDown).nShadeW, -expected), 0.01f);
     }
   }
@@ -207,9 +231,11 @@ TEST(Surface, AlphaOfMaskAndBlend) {
   for (const uint32_t flag : {0u, rl::RL_MATERIAL_ALPHA_MASK, rl::RL_MATERIAL_ALPHA_BLEND}) {
     m.flags = flag;
     Scene scene = sceneOf(fullTriangle(), m);
-    scene.materials[0].data.textures[rl::RL_TEX_BASE_COLOR] = addTexture(scene, 1, 1, {0xccffffffu});
+    scene.materials[0].data.textures[rl::RL_TEX_BASE_COLOR] =
+        addTexture(scene, 1, 1, {0xccffffffu});
     Dialect<> d(CompiledScene::build(std::move(scene)));
-    for (const glm::vec2 bary : {glm::vec2(0.1f, 0.1f), glm::vec2(0.1f, 0.6f), glm::vec2(0.5f, 0.5f)}) {
+    for (const glm::vec2 bary :
+         {glm::vec2(0.1f, 0.1f), glm::vec2(0.1f, 0.6f), glm::vec2(0.5f, 0.5f)}) {
       const float coverage = 0.8f * 0.8f * (1.0f - 0.5f * bary.x - bary.y);
       float expected = 1.0f;
       if (flag == rl::RL_MATERIAL_ALPHA_MASK) expected = coverage < 0.3f ? 0.0f : 1.0f;

@@ -24,8 +24,8 @@ std::vector<TransformCase> transforms() {
           {"rotation", turn},
           {"non-uniform scale", turn * glm::scale(one, glm::dvec3(0.3, 2.0, 1.1))},
           {"mirror", glm::scale(one, glm::dvec3(-1, 1, 1))},
-          {"mirror, turned and stretched",
-           glm::translate(one, glm::dvec3(1, 2, 3)) * turn * glm::scale(one, glm::dvec3(1.5, -0.4, 2.0))},
+          {"mirror, turned and stretched", glm::translate(one, glm::dvec3(1, 2, 3)) * turn *
+                                               glm::scale(one, glm::dvec3(1.5, -0.4, 2.0))},
           {"shear", glm::dmat4(1, 0, 0, 0, 0.7, 1, 0, 0, 0, -0.4, 1, 0, 0, 0, 0, 1)},
           {"inverted", glm::scale(one, glm::dvec3(-1, -1, -1))}};
 }
@@ -40,7 +40,9 @@ MeshGeometry patch(bool hasTangents) {
       mesh.positions.emplace_back(u, v, 0.2f * std::sin(3.0f * u) * std::cos(2.0f * v));
       mesh.normals.push_back(glm::normalize(glm::vec3(0.3f * u - 0.1f, 0.4f * v - 0.2f, 1.0f)));
       mesh.uvs[0].emplace_back(0.9f * u + 0.1f * v, 1.0f - v);
-      const glm::vec3 t = glm::vec3(1, 0.1f, 0) - mesh.normals.back() * glm::dot(mesh.normals.back(), glm::vec3(1, 0.1f, 0));
+      const glm::vec3 t =
+          glm::vec3(1, 0.1f, 0) -
+          mesh.normals.back() * glm::dot(mesh.normals.back(), glm::vec3(1, 0.1f, 0));
       if (hasTangents) mesh.tangents.emplace_back(glm::normalize(t), 1.0f);
     }
   }
@@ -55,7 +57,8 @@ MeshGeometry patch(bool hasTangents) {
 }
 
 // The patch under the transform; `shared` places it twice, which makes both instances.
-Scene sceneOf(const MeshGeometry& mesh, const glm::dmat4& matrix, bool shared, bool mapped, const rl::Material& m) {
+Scene sceneOf(const MeshGeometry& mesh, const glm::dmat4& matrix, bool shared, bool mapped,
+              const rl::Material& m) {
   builtin::SceneBuilder builder("instances");
   const uint32_t id = builder.addMaterial("material", m);
   const uint32_t geometry = builder.addGeometry(mesh);
@@ -83,12 +86,14 @@ rl::Hit trace(Dialect<>& d, const glm::vec3& origin, const glm::vec3& dir) {
 }
 
 void expectSameSurfaces(const TransformCase& c, bool hasTangents, bool mapped) {
-  const rl::Material m = builtin::lamp(glm::vec3(1.0f));  // one-sided emission shows which side is front
+  const rl::Material m =
+      builtin::lamp(glm::vec3(1.0f));  // one-sided emission shows which side is front
   const MeshGeometry mesh = patch(hasTangents);
   Dialect<> baked(CompiledScene::build(sceneOf(mesh, c.matrix, false, mapped, m)));
   Dialect<> instanced(CompiledScene::build(sceneOf(mesh, c.matrix, true, mapped, m)));
   ASSERT_EQ(baked.compiledScene->triangleCount(), 2 * instanced.compiledScene->triangleCount());
-  const glm::dvec3 center = glm::dvec3(c.matrix * glm::dvec4(0.5, 0.5, 0.0, 1.0)) - baked.compiledScene->origin();
+  const glm::dvec3 center =
+      glm::dvec3(c.matrix * glm::dvec4(0.5, 0.5, 0.0, 1.0)) - baked.compiledScene->origin();
   Inputs inputs(1);
   int hits = 0, front = 0;
   for (int i = 0; i < 5000; ++i) {
@@ -132,16 +137,20 @@ TEST(Instances, MirroredSurfaceIsTheMirrorImage) {
   const rl::Material m = builtin::lamp(glm::vec3(1.0f));
   for (const bool hasTangents : {false, true}) {
     for (const bool mapped : {false, true}) {
-      Dialect<> original(CompiledScene::build(sceneOf(patch(hasTangents), glm::dmat4(1.0), true, mapped, m)));
-      Dialect<> mirrored(CompiledScene::build(sceneOf(patch(hasTangents), matrix, true, mapped, m)));
+      Dialect<> original(
+          CompiledScene::build(sceneOf(patch(hasTangents), glm::dmat4(1.0), true, mapped, m)));
+      Dialect<> mirrored(
+          CompiledScene::build(sceneOf(patch(hasTangents), matrix, true, mapped, m)));
       Inputs inputs(2);
       for (int i = 0; i < 500; ++i) {
         const float u = inputs.uniform(), v = inputs.uniform() * (1.0f - u);
         const rl::Hit hit{0, inputs.below(18), {u, v}, 1.0f};
         const glm::vec3 dir = inputs.direction();
-        const rl::Surface s = original->surfaceLoad(hit, dir), t = mirrored->surfaceLoad(hit, flip * dir);
+        const rl::Surface s = original->surfaceLoad(hit, dir),
+                          t = mirrored->surfaceLoad(hit, flip * dir);
         ASSERT_LT(glm::distance(s.nGeoW, flip * t.nGeoW), 1e-5f);
-        ASSERT_LT(glm::distance(s.nShadeW, flip * t.nShadeW), 1e-4f) << "tangents " << hasTangents << ", map " << mapped;
+        ASSERT_LT(glm::distance(s.nShadeW, flip * t.nShadeW), 1e-4f)
+            << "tangents " << hasTangents << ", map " << mapped;
         ASSERT_EQ(s.emission, t.emission);
       }
     }

@@ -21,7 +21,8 @@ double decodeSrgb(uint32_t value) {
 int wrapped(int i, int n, uint32_t mode) {
   if (mode == rl::RL_WRAP_CLAMP) return i < 0 ? 0 : (i >= n ? n - 1 : i);
   int k = 0;
-  for (int step = 1, at = 0; at != i; at += i > 0 ? 1 : -1) {  // walk there, turning round at mirrors
+  for (int step = 1, at = 0; at != i;
+       at += i > 0 ? 1 : -1) {  // walk there, turning round at mirrors
     if (mode == rl::RL_WRAP_REPEAT) {
       k = (k + (i > 0 ? 1 : n - 1)) % n;
       continue;
@@ -64,7 +65,8 @@ struct TextureTest : testing::Test {
   }
 
   glm::dvec4 texel(int x, int y) const {
-    const uint32_t t = texels[size_t(7 + wrapped(y, kHeight, tex.wrapV) * kWidth + wrapped(x, kWidth, tex.wrapU))];
+    const uint32_t t =
+        texels[size_t(7 + wrapped(y, kHeight, tex.wrapV) * kWidth + wrapped(x, kWidth, tex.wrapU))];
     glm::dvec4 c;
     for (int i = 0; i < 4; ++i) {
       const uint32_t byte = t >> (8 * i) & 255u;
@@ -74,7 +76,8 @@ struct TextureTest : testing::Test {
   }
 
   glm::dvec4 bilinear(double u, double v) const {
-    const double x = u * kWidth - 0.5, y = v * kHeight - 0.5, fx = x - std::floor(x), fy = y - std::floor(y);
+    const double x = u * kWidth - 0.5, y = v * kHeight - 0.5, fx = x - std::floor(x),
+                 fy = y - std::floor(y);
     const int ix = int(std::floor(x)), iy = int(std::floor(y));
     return (texel(ix, iy) * (1 - fx) + texel(ix + 1, iy) * fx) * (1 - fy) +
            (texel(ix, iy + 1) * (1 - fx) + texel(ix + 1, iy + 1) * fx) * fy;
@@ -85,13 +88,15 @@ TEST_F(TextureTest, WrapsEveryIndex) {
   for (uint32_t mode : {rl::RL_WRAP_REPEAT, rl::RL_WRAP_CLAMP, rl::RL_WRAP_MIRROR}) {
     for (int n : {1, 2, 3, 5, 8}) {
       for (int i = -40; i <= 40; ++i) {
-        EXPECT_EQ(d->textureWrap(i, uint32_t(n), mode), wrapped(i, n, mode)) << mode << ": " << i << " of " << n;
+        EXPECT_EQ(d->textureWrap(i, uint32_t(n), mode), wrapped(i, n, mode))
+            << mode << ": " << i << " of " << n;
       }
     }
   }
   // The mirror, spelled out: 2 1 0 | 0 1 2 | 2 1 0.
   const std::array<int, 9> mirror = {2, 1, 0, 0, 1, 2, 2, 1, 0};
-  for (int i = 0; i < 9; ++i) EXPECT_EQ(d->textureWrap(i - 3, 3u, rl::RL_WRAP_MIRROR), mirror[size_t(i)]);
+  for (int i = 0; i < 9; ++i)
+    EXPECT_EQ(d->textureWrap(i - 3, 3u, rl::RL_WRAP_MIRROR), mirror[size_t(i)]);
 }
 
 TEST_F(TextureTest, TexelsAreLittleEndianRgba) {
@@ -118,9 +123,12 @@ TEST_F(TextureTest, NearestAndBilinearInEveryMode) {
           if ((flags & rl::RL_TEXTURE_NEAREST) != 0) {
             // Rounding decides within a hair of a border.
             if (std::abs(x - std::round(x)) < 1e-5 || std::abs(y - std::round(y)) < 1e-5) continue;
-            ASSERT_LT(glm::distance(glm::dvec4(value), texel(int(std::floor(x)), int(std::floor(y)))), 1e-6);
+            ASSERT_LT(
+                glm::distance(glm::dvec4(value), texel(int(std::floor(x)), int(std::floor(y)))),
+                1e-6);
           } else {
-            ASSERT_LT(glm::distance(glm::dvec4(value), bilinear(uv.x, uv.y)), 2e-5) << uv.x << " " << uv.y;
+            ASSERT_LT(glm::distance(glm::dvec4(value), bilinear(uv.x, uv.y)), 2e-5)
+                << uv.x << " " << uv.y;
           }
         }
       }
@@ -167,7 +175,8 @@ TEST_F(TextureTest, HugeCoordinatesAreSafe) {
       tex.flags = flags;
       for (float x : {1e7f, -1e7f, 3e9f, -3e9f, 1e30f, -1e30f, 3e38f}) {
         const glm::vec4 value = d->textureSample(tex, {x, -x});
-        for (int c = 0; c < 4; ++c) EXPECT_TRUE(value[c] >= 0.0f && value[c] <= 1.0f) << mode << " " << x;
+        for (int c = 0; c < 4; ++c)
+          EXPECT_TRUE(value[c] >= 0.0f && value[c] <= 1.0f) << mode << " " << x;
       }
     }
   }
