@@ -76,10 +76,14 @@ rl_read_masks(${PROJECT_SOURCE_DIR}/core/features.list)
 set(RL_GENERATED_DIR ${PROJECT_BINARY_DIR}/generated)
 add_library(rl_kernels STATIC)
 target_link_libraries(rl_kernels PUBLIC rl_options embree glm::glm)
-# The inner loops of every figure; kept fast in debug builds, light to compile under a sanitizer.
 # The bridge has one signature for every payload: some ignore a parameter.
 target_compile_options(rl_kernels PRIVATE -Wno-unused-parameter)
-target_compile_options(rl_kernels PRIVATE $<IF:$<BOOL:${RESTLAB_SANITIZE}>,-O1,-O3>)
+# The inner loops of every figure; kept fast in debug builds, light to compile under a sanitizer.
+if(RESTLAB_SANITIZE)
+  target_compile_options(rl_kernels PRIVATE -O1)
+else()
+  target_compile_options(rl_kernels PRIVATE -O3)
+endif()
 
 # The translation unit of one mask; the text is written only when it changes.
 function(rl_write_kernel_source path name mask_name mask kernel_file header)
