@@ -70,4 +70,9 @@ ParameterMap resolveParameters(const IntegratorInfo& info, const ParameterMap& g
   return resolved;
 }
 
+uint32_t bytesPerPixelOf(const BufferInfo& buffer, const ParameterMap& parameters) {
+  if (buffer.perParameter == nullptr) return buffer.bytesPerPixel;
+  return buffer.bytesPerPixel * static_cast<uint32_t>(std::get<int64_t>(parameters.at(buffer.perParameter)));
+}
+
 }  // namespace restlab

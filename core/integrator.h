@@ -44,6 +44,7 @@ struct BufferInfo {
   uint32_t bytesPerPixel = 0;
   uint32_t neededFeatures = 0;  // allocated only when the mask has one of these bits; 0: always
   int swapWith = -1;            // index of the buffer it trades places with at the end of a frame
+  const char* perParameter = nullptr;  // an integer parameter: so many entries of bytesPerPixel a pixel
 };
 
 struct PassInfo {
@@ -70,5 +71,7 @@ const std::vector<const IntegratorInfo*>& integratorRegistry();
 const IntegratorInfo& findIntegrator(const std::string& name);
 // Defaults overlaid by `given`; throws Error (badUsage) on unknown names, types, ranges, choices.
 ParameterMap resolveParameters(const IntegratorInfo& info, const ParameterMap& given);
+// Bytes a pixel of a buffer, with resolved parameters.
+uint32_t bytesPerPixelOf(const BufferInfo& buffer, const ParameterMap& parameters);
 
 }  // namespace restlab

@@ -94,7 +94,7 @@ Session::Session(std::shared_ptr<const CompiledScene> scene, const SessionConfig
   for (const BufferInfo& b : m.integrator->buffers) {
     // What the kernel in use can touch is allocated, so that a superset kernel never meets a null.
     const bool wantedBuffer = b.neededFeatures == 0 || (b.neededFeatures & m.used) != 0;
-    m.buffers.push_back(wantedBuffer ? m.backend->allocate(pixels * b.bytesPerPixel) : kNoBuffer);
+    m.buffers.push_back(wantedBuffer ? m.backend->allocate(pixels * bytesPerPixelOf(b, m.config.parameters)) : kNoBuffer);
   }
   m.radiance = Image(config.width, config.height);
   rl::FrameData& f = m.frame;
@@ -190,7 +190,7 @@ std::vector<std::pair<std::string, size_t>> Session::bufferBytesPerPixel() const
   std::vector<std::pair<std::string, size_t>> sizes;
   for (size_t i = 0; i < impl_->buffers.size(); ++i) {
     const BufferInfo& b = impl_->integrator->buffers[i];
-    sizes.emplace_back(b.name, impl_->buffers[i] == kNoBuffer ? 0 : b.bytesPerPixel);
+    sizes.emplace_back(b.name, impl_->buffers[i] == kNoBuffer ? 0 : bytesPerPixelOf(b, impl_->config.parameters));
   }
   return sizes;
 }

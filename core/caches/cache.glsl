@@ -1,6 +1,7 @@
 // A cache answers five questions for the reuse loop:
 //   cacheSlot(pixel)                       my slot
-//   cacheDonor(pixel, here, when, k, ...)  my k-th donor over time or space; false where there is none
+//   cacheDonorOverTime(here, ...)          where my surface was last frame; false where it was not seen
+//   cachePartner(pixel, here, k, ...)      my k-th donor over space, whose k-th donor I am; false: none
 //   cacheAnchor(slot, when)                the surface that the slot's sample is evaluated at
 //   cacheRead / cacheWrite                 the slot's reservoirs (overloaded by type)
 // Which file answers is the `cache` of a run; this one holds what they share.

@@ -15,14 +15,22 @@ struct ReservoirState {
   real confidence;
 };
 
-// Donors of one merge, chosen and tested by the cache before any sample is looked at.
-const uint RL_MAX_DONORS = 4u;
-
-struct DonorSet {
-  uint slot[4];
-  real confidence[4];  // already capped
-  uint count;
+// A sample as another anchor sees it.
+struct Shifted {
+  real3 F;        // integrand there, visibility included; zero where the shift is undefined
+  real jacobian;  // |dT/dx| of the shift; 1 where it is undefined
 };
+
+// What a merge has gathered so far.
+struct MergeState {
+  real cCanonical;
+  real cTotal;      // confidence of all inputs that passed the test of the anchors, empty ones too
+  real mCanonical;  // MIS weight of the canonical sample
+  real wSum;
+  real3 estimate;  // of the integral per channel
+};
+
+const uint RL_MAX_DONORS = 4u;  // of one merge
 
 // How a merge is done; declared by the integrator's mode.
 const uint RL_REUSE_PAIRWISE = 1u;             // defensive pairwise MIS; otherwise weights by confidence only

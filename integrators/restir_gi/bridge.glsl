@@ -2,17 +2,6 @@
 
 RL_FN real bridgeTarget(RL_IN(real3) f) { return rlLuminance(f); }
 
-// Which frame the donors of the running pass come from is fixed by the kernel (RL_DONORS_BEFORE).
-#ifdef RL_DONORS_BEFORE
-RL_FN void bridgeReadDonor(uint slot, RL_OUT(LightReservoir) r) { cacheReadBefore(slot, r); }
-RL_FN void bridgeReadDonor(uint slot, RL_OUT(PathReservoir) r) { cacheReadBefore(slot, r); }
-RL_FN void bridgeReadAnchor(uint slot, RL_OUT(Anchor) a) { a = cacheAnchorBefore(slot); }
-#else
-RL_FN void bridgeReadDonor(uint slot, RL_OUT(LightReservoir) r) { cacheReadNow(slot, r); }
-RL_FN void bridgeReadDonor(uint slot, RL_OUT(PathReservoir) r) { cacheReadNow(slot, r); }
-RL_FN void bridgeReadAnchor(uint slot, RL_OUT(Anchor) a) { a = cacheAnchorNow(slot); }
-#endif
-
 RL_FN bool bridgeIsSameAnchor(RL_IN(Anchor) a, RL_IN(Anchor) b) {
   return a.posW == b.posW && a.wo == b.wo && a.nShadeW == b.nShadeW;
 }

@@ -5,8 +5,9 @@
 //   a delta lobe drawn at x2: that part of the integrand is shaded as it is (which part it is depends
 //   on x2 alone, so the split is the same for every pixel)
 #include "core/resampling/ris.glsl"
-#include "core/caches/pixel.glsl"
 #include "integrators/restir_gi/store.glsl"
+#include "core/caches/cache.glsl"
+#include "core/caches/pixel.glsl"
 
 RL_FN bool giWants(uint bounces) {
   uint component = bounces >= 2u ? RL_COMPONENT_INDIRECT : RL_COMPONENT_DIRECT;

@@ -1,4 +1,12 @@
-// The reuse loop for both payloads of restir_gi.
+// What temporal and spatial merges of restir_gi share.
+#include "core/resampling/ris.glsl"
+#include "core/resampling/mis.glsl"
+#include "core/resampling/shift.glsl"
+#include "integrators/restir_gi/store.glsl"
+#include "core/caches/cache.glsl"
+#include "core/caches/pixel.glsl"
+#include "integrators/restir_gi/bridge.glsl"
+#include "core/resampling/merge.glsl"
 #define RL_ANCHOR Anchor
 #define RL_RESERVOIR LightReservoir
 #include "core/resampling/reuse.glsl"

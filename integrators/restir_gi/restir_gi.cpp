@@ -6,6 +6,8 @@
 // re-evaluated for the new direction, BSDF and MIS weight, so that glossy x2 are unbiased too.
 #include "integrators/restir_gi/restir_gi.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "core/integrator.h"
@@ -22,10 +24,9 @@ std::vector<ParameterInfo> parameterInfos() {
        "1: the same rays as the path tracer; more pay off with many lights (docs/performance.md)"},
       {"spatial_neighbours", int64_t{1}, 0, rl::RL_MAX_DONORS, {}, "donors of the spatial pass",
        "1: best error for its time on hard indirect light (docs/performance.md)"},
-      {"spatial_radius", 16.0, 1.0, 256.0, {}, "pixels; radius of the disk that donors come from",
+      {"spatial_radius", 16.0, 1.0, 256.0, {},
+       "pixels; donors come from a square tile that spreads them as a disk of this radius would",
        "8-20 px measured alike; 30 in Bitterli et al. 2020"},
-      {"spatial_tries", int64_t{3}, 1, 16, {}, "draws of the disk per donor until one matches the surface",
-       "engineering choice: the anchors' test costs no ray"},
       {"temporal", true, 0, 0, {}, "temporal reuse", "Ouyang et al. 2021"},
       {"film_hold", int64_t{16}, 1, 1024, {}, "frames that a pixel keeps its film sample",
        "measured: docs/decisions.md, 'film samples are held'"},
@@ -69,9 +70,11 @@ std::vector<std::byte> pack(const std::string& mode, const ParameterMap& p) {
   }
   out.lightCandidates = static_cast<uint32_t>(get<int64_t>(p, "light_candidates"));
   out.spatialNeighbours = static_cast<uint32_t>(get<int64_t>(p, "spatial_neighbours"));
-  out.spatialTries = static_cast<uint32_t>(get<int64_t>(p, "spatial_tries"));
+  // The root mean square distance of two points of a square of side s is s / sqrt(3), that of a point of a
+  // disk to its centre r / sqrt(2).
+  const double side = std::sqrt(1.5) * get<double>(p, "spatial_radius");
+  out.spatialTile = std::max(2u, static_cast<uint32_t>(std::lround(side)));
   out.temporalReuse = get<bool>(p, "temporal") ? 1u : 0u;
-  out.spatialRadius = static_cast<float>(get<double>(p, "spatial_radius"));
   out.confidenceCap = static_cast<float>(get<double>(p, "confidence_cap"));
   out.minNormalDot = static_cast<float>(get<double>(p, "normal_threshold"));
   out.maxPlaneDistance = static_cast<float>(get<double>(p, "plane_threshold"));
@@ -113,6 +116,9 @@ const IntegratorInfo& restir_giIntegratorInfo() {
         {"path_history", sizeof(rl::PathVertex), 0, -1},
         {"path_suffixes", sizeof(rl::PathSuffix), rl::RL_FEATURE_GLOSSY, -1},
         {"path_suffix_history", sizeof(rl::PathSuffix), rl::RL_FEATURE_GLOSSY, -1},
+        {"partners", sizeof(uint32_t), 0, -1, "spatial_neighbours"},
+        {"shifted_lights", sizeof(rl::Shifted), 0, -1, "spatial_neighbours"},
+        {"shifted_paths", sizeof(rl::Shifted), 0, -1, "spatial_neighbours"},
     };
     i.passes = {{"initial", "restir_gi_initial"}, {"temporal", "restir_gi_temporal"}, {"spatial", "restir_gi_spatial"}};
     i.packParameters = pack;

@@ -79,6 +79,7 @@ struct PathReservoir {
 
 RL_REF(StoredAnchorRef, StoredAnchor)
 RL_REF(StoredAnchorGlossyRef, StoredAnchorGlossy)
+RL_REF(ShiftedRef, Shifted)
 RL_REF(LightReservoirRef, LightReservoir)
 RL_REF(PathVertexRef, PathVertex)
 RL_REF(PathSuffixRef, PathSuffix)
@@ -96,6 +97,10 @@ struct RestirGiBuffers {
   PathVertexRef pathsHistory;
   PathSuffixRef suffixes;
   PathSuffixRef suffixesHistory;
+  // Between the temporal and the spatial pass, spatialNeighbours entries a pixel.
+  UintRef partners;           // slots; RL_INVALID: none
+  ShiftedRef shiftedLights;   // the pixel's sample as the partner sees it
+  ShiftedRef shiftedPaths;
 };
 
 struct RestirGiParams {
@@ -103,9 +108,8 @@ struct RestirGiParams {
   uint spatialFlags;
   uint lightCandidates;
   uint spatialNeighbours;
-  uint spatialTries;
+  uint spatialTile;  // pixels; side of the square within which pixels are paired
   uint temporalReuse;  // 0: off
-  float spatialRadius;  // pixels
   float confidenceCap;
   float minNormalDot;
   float maxPlaneDistance;  // relative to the distance from the camera

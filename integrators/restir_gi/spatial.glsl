@@ -1,71 +1,12 @@
-// restir_gi, spatial pass: merges neighbours' temporal reservoirs, shades, and leaves the history.
-#include "core/resampling/ris.glsl"
-#include "core/resampling/mis.glsl"
-#include "core/resampling/shift.glsl"
-#include "core/caches/cache.glsl"
-#include "core/caches/pixel.glsl"
-#include "integrators/restir_gi/store.glsl"
-#include "integrators/restir_gi/bridge.glsl"
+// restir_gi, spatial pass: merges partners' temporal reservoirs, shades, and leaves the history. It
+// traces no ray: the shifts between partners were made by the temporal pass.
 #include "integrators/restir_gi/merge.glsl"
-
-RL_FN DonorSet giSpatialDonors(RL_IN(uvec2) pixel, RL_IN(Anchor) here, RL_IN(Rng) rng) {
-  DonorSet donors;
-  donors.count = 0u;
-  float cameraDistance = distance(gFrame.camera.posW, here.posW);
-  uint attempts = gParams.spatialNeighbours * gParams.spatialTries;
-  for (uint i = 0u; i < attempts && donors.count < gParams.spatialNeighbours; i = i + 1u) {
-    uint candidate;
-    if (!cacheDonorOverSpace(pixel, rng, i, candidate)) continue;
-    Anchor there = cacheAnchorNow(candidate);
-    if (!cacheAnchorsMatch(here, there, cameraDistance)) continue;
-    donors.slot[donors.count] = candidate;
-    donors.count = donors.count + 1u;
-  }
-  return donors;
-}
-
-// Each returns what the pixel shows and leaves its reservoir in the history.
-RL_FN vec3 giMergeLights(uint slot, RL_IN(Anchor) here, RL_INOUT(DonorSet) donors, RL_IN(Rng) rng) {
-  ReservoirState state = gBuffers.lights.data[slot].state;
-  bool isEmpty = giIsEmpty(state);
-  for (uint k = 0u; k < donors.count; k = k + 1u) {
-    ReservoirState theirs = gBuffers.lights.data[donors.slot[k]].state;
-    donors.confidence[k] = theirs.confidence;
-    state.confidence += theirs.confidence;
-    isEmpty = isEmpty && giIsEmpty(theirs);
-  }
-  if (isEmpty) {
-    gBuffers.lightsHistory.data[slot].state = state;
-    return vec3(0.0f, 0.0f, 0.0f);
-  }
-  LightReservoir r;
-  cacheReadNow(slot, r);
-  real3 estimate;
-  reuseMerge(r, here, donors, gParams.spatialFlags, rng, RL_DIM_RIS_MERGE_DI, estimate);
-  cacheWriteHistory(slot, r);
-  return estimate;
-}
-
-RL_FN vec3 giMergePaths(uint slot, RL_IN(Anchor) here, RL_INOUT(DonorSet) donors, RL_IN(Rng) rng) {
-  ReservoirState state = gBuffers.paths.data[slot].state;
-  bool isEmpty = giIsEmpty(state);
-  for (uint k = 0u; k < donors.count; k = k + 1u) {
-    ReservoirState theirs = gBuffers.paths.data[donors.slot[k]].state;
-    donors.confidence[k] = theirs.confidence;
-    state.confidence += theirs.confidence;
-    isEmpty = isEmpty && giIsEmpty(theirs);
-  }
-  if (isEmpty) {
-    gBuffers.pathsHistory.data[slot].state = state;
-    return vec3(0.0f, 0.0f, 0.0f);
-  }
-  PathReservoir r;
-  cacheReadNow(slot, r);
-  real3 estimate;
-  reuseMerge(r, here, donors, gParams.spatialFlags, rng, RL_DIM_RIS_MERGE_GI, estimate);
-  cacheWriteHistory(slot, r);
-  return estimate;
-}
+#define RL_RESERVOIR LightReservoir
+#include "integrators/restir_gi/over_space.glsl"
+#undef RL_RESERVOIR
+#define RL_RESERVOIR PathReservoir
+#include "integrators/restir_gi/over_space.glsl"
+#undef RL_RESERVOIR
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint slot = cacheSlot(pixel);
@@ -74,9 +15,10 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   if (here.isReusable != 0u) {
     Rng rng = rngInit(gFrame.seed, slot, gFrame.frame);
     rng.vertex = RL_VERTEX_SPATIAL;
-    DonorSet donors = giSpatialDonors(pixel, here, rng);
-    if (giWantsDirect()) radiance += giMergeLights(slot, here, donors, rng);
-    if (giWantsIndirect()) radiance += giMergePaths(slot, here, donors, rng);
+    LightReservoir light;
+    PathReservoir path;
+    if (giWantsDirect()) radiance += giReuseOverSpace(slot, here, rng, RL_DIM_RIS_MERGE_DI, light);
+    if (giWantsIndirect()) radiance += giReuseOverSpace(slot, here, rng, RL_DIM_RIS_MERGE_GI, path);
   }
   if (!rlIsFinite3(radiance)) {
     // A poisoned history would spread: it starts again from nothing here.

@@ -84,3 +84,36 @@ RL_FN void cacheWriteHistory(uint slot, RL_IN(PathReservoir) r) {
   gBuffers.pathsHistory.data[slot] = v;
   if (RL_HAS(RL_FEATURE_GLOSSY)) gBuffers.suffixesHistory.data[slot] = r.suffix;
 }
+
+// The state alone: merges decide by it, and only the winner's payload has to be moved.
+RL_FN void cacheReadStateNow(uint slot, RL_INOUT(LightReservoir) r) { r.state = gBuffers.lights.data[slot].state; }
+RL_FN void cacheReadStateBefore(uint slot, RL_INOUT(LightReservoir) r) {
+  r.state = gBuffers.lightsHistory.data[slot].state;
+}
+RL_FN void cacheWriteStateNow(uint slot, RL_IN(LightReservoir) r) { gBuffers.lights.data[slot].state = r.state; }
+RL_FN void cacheWriteStateHistory(uint slot, RL_IN(LightReservoir) r) {
+  gBuffers.lightsHistory.data[slot].state = r.state;
+}
+RL_FN void cacheReadStateNow(uint slot, RL_INOUT(PathReservoir) r) { r.state = gBuffers.paths.data[slot].state; }
+RL_FN void cacheReadStateBefore(uint slot, RL_INOUT(PathReservoir) r) {
+  r.state = gBuffers.pathsHistory.data[slot].state;
+}
+RL_FN void cacheWriteStateNow(uint slot, RL_IN(PathReservoir) r) { gBuffers.paths.data[slot].state = r.state; }
+RL_FN void cacheWriteStateHistory(uint slot, RL_IN(PathReservoir) r) {
+  gBuffers.pathsHistory.data[slot].state = r.state;
+}
+
+// A slot's sample as its k-th partner sees it.
+RL_FN uint cacheExchangeIndex(uint slot, uint k) { return slot * gParams.spatialNeighbours + k; }
+RL_FN void cacheWriteShifted(uint index, RL_IN(LightReservoir) r, RL_IN(Shifted) s) {
+  gBuffers.shiftedLights.data[index] = s;
+}
+RL_FN void cacheWriteShifted(uint index, RL_IN(PathReservoir) r, RL_IN(Shifted) s) {
+  gBuffers.shiftedPaths.data[index] = s;
+}
+RL_FN void cacheReadShifted(uint index, RL_IN(LightReservoir) r, RL_OUT(Shifted) s) {
+  s = gBuffers.shiftedLights.data[index];
+}
+RL_FN void cacheReadShifted(uint index, RL_IN(PathReservoir) r, RL_OUT(Shifted) s) {
+  s = gBuffers.shiftedPaths.data[index];
+}

@@ -12,7 +12,6 @@
 #include <functional>
 #include <map>
 #include <random>
-#include <set>
 #include <vector>
 
 #include "core/dialect/dialect.h"
@@ -59,10 +58,6 @@ struct World {
 struct Kernel {
   const World* world = nullptr;
   Decisions* decisions = nullptr;
-  WorldReservoir donorReservoirs[4];
-  uint donorAnchors[4] = {0, 0, 0, 0};
-  std::set<uint> dimensions;  // drawn in this merge
-
 #include "core/dialect/math.glsl"
 #define risAccept risAcceptShipped
 #include "core/resampling/ris.glsl"
@@ -81,16 +76,7 @@ struct Kernel {
     return accepted;
   }
 
-  struct Rng {};
-  float rngDraw(const Rng&, uint dimension) {
-    EXPECT_TRUE(dimensions.insert(dimension).second) << "dimension " << dimension << " drawn twice";
-    return 0.5f;
-  }
-
   real bridgeTarget(const real3& f) { return rlLuminance(f); }
-  void bridgeReadDonor(uint slot, WorldReservoir& r) { r = donorReservoirs[slot]; }
-  void bridgeReadAnchor(uint slot, WorldAnchor& a) { a.index = donorAnchors[slot]; }
-  bool bridgeIsSameAnchor(const WorldAnchor& a, const WorldAnchor& b) { return a.index == b.index; }
   real3 bridgeShift(const WorldReservoir& r, const WorldAnchor& from, const WorldAnchor& to,
                     real& jacobian) {
     jacobian = real(1.0f);
@@ -101,10 +87,7 @@ struct Kernel {
   real bridgeVisibility(const WorldReservoir& r, const WorldAnchor& at) {
     return world->visibility[at.index][r.label];
   }
-  real3 bridgeReflectanceRatio(const WorldAnchor& from, const WorldAnchor& to) {
-    return world->ratio[from.index][to.index];
-  }
-
+#include "core/resampling/merge.glsl"
 #define RL_ANCHOR WorldAnchor
 #define RL_RESERVOIR WorldReservoir
 #include "core/resampling/reuse.glsl"
@@ -214,22 +197,33 @@ void mergeOnce(const World& world, const MergeInput& canonical,
                const std::vector<MergeInput>& donors, uint flags, F use) {
   Kernel kernel;
   kernel.world = &world;
-  DonorSet set{};
-  set.count = uint(donors.size());
-  for (uint k = 0; k < set.count; ++k) {
-    set.slot[k] = 3u - k;  // slots are names, not positions
-    set.confidence[k] = donors[k].confidence;
-    kernel.donorReservoirs[set.slot[k]] = donors[k].reservoir;
-    kernel.donorAnchors[set.slot[k]] = donors[k].anchor;
-  }
+  WorldReservoir own = canonical.reservoir;
+  own.state.confidence = canonical.confidence;
+  real cDonors = real(0.0f);
+  for (const MergeInput& donor : donors) cDonors += donor.confidence;
   restlab::exact::enumerate([&](Decisions& decisions) {
     kernel.decisions = &decisions;
-    kernel.dimensions.clear();
-    WorldReservoir r = canonical.reservoir;
-    r.state.confidence = canonical.confidence;
-    real3 estimate;
-    kernel.reuseMerge(r, WorldAnchor{canonical.anchor}, set, flags, Kernel::Rng{}, 7u, estimate);
-    use(decisions.probability(), r, dvec3(estimate));
+    MergeState merge = kernel.mergeBegin(own.state, cDonors);
+    const auto shift = [&](const WorldReservoir& r, uint from, uint to, uint assumed) {
+      if (from == to) return kernel.mergeUnshifted(r.state);
+      return kernel.reuseShift(r, WorldAnchor{from}, WorldAnchor{to}, (flags & assumed) != 0u);
+    };
+    for (const MergeInput& donor : donors) {
+      const Shifted ours = shift(own, canonical.anchor, donor.anchor, RL_REUSE_ASSUME_VISIBLE);
+      kernel.mergeWeighCanonical(merge, own.state, donor.confidence, ours, flags);
+    }
+    kernel.mergeCanonical(merge, own.state, flags);
+    WorldReservoir r = own;
+    for (const MergeInput& donor : donors) {
+      const Shifted theirs =
+          shift(donor.reservoir, donor.anchor, canonical.anchor, RL_REUSE_ASSUME_VISIBLE_HERE);
+      if (kernel.mergeDonor(merge, r.state, donor.reservoir.state, donor.confidence, theirs,
+                            world.ratio[donor.anchor][canonical.anchor], flags, real(0.5f))) {
+        r.label = donor.reservoir.label;
+      }
+    }
+    kernel.mergeEnd(merge, r.state, flags);
+    use(decisions.probability(), r, dvec3(merge.estimate));
   });
 }
 

@@ -39,7 +39,9 @@ class DeviceSession {
     params_ = info_.packParameters(config.mode, parameters);
     for (const PassInfo& pass : info_.passes) shaders_.push_back(compileByName(pass.kernel));
     pixels_ = size_t{config.width} * config.height;
-    for (const BufferInfo& b : info_.buffers) buffers_.push_back(&device.allocate(pixels_ * b.bytesPerPixel));
+    for (const BufferInfo& b : info_.buffers) {
+      buffers_.push_back(&device.allocate(pixels_ * bytesPerPixelOf(b, parameters)));
+    }
     scene_ = uploadScene(device, scene.data());
     frame_ = plainFrame(config.width, config.height, config.seed);
     frame_.camera = scene.camera(scene.source().cameras.front(), config.width, config.height);

@@ -44,7 +44,7 @@ class AuditedRun {
     const ParameterMap resolved = resolveParameters(info_, parameters);
     params_ = info_.packParameters(mode, resolved);
     for (const BufferInfo& b : info_.buffers) {
-      storage_.emplace_back(size_t(b.bytesPerPixel) * kWidth * kHeight);
+      storage_.emplace_back(size_t(bytesPerPixelOf(b, resolved)) * kWidth * kHeight);
       addresses_.push_back(storage_.back().data());
     }
     frame_.camera = scene_->camera(scene_->source().cameras[0], kWidth, kHeight);
@@ -127,8 +127,7 @@ TEST(RngAudit, RestirGi) {
                                                   rl::kernel_restir_gi_spatial_audited};
   // Every loop over draws runs more than once.
   const ParameterMap busy = {{"light_candidates", int64_t{5}},
-                             {"spatial_neighbours", int64_t{rl::RL_MAX_DONORS}},
-                             {"spatial_tries", int64_t{5}}};
+                             {"spatial_neighbours", int64_t{rl::RL_MAX_DONORS}}};
   for (const std::string& name : builtinSceneNames()) {
     for (const std::string mode : {"unbiased", "biased"}) {
       AuditedRun plain(name, "restir_gi", mode, {}, passes);
