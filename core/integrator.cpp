@@ -12,31 +12,38 @@ namespace {
 
 const char* typeName(const ParameterValue& v) {
   switch (v.index()) {
-    case 0: return "a boolean";
-    case 1: return "an integer";
-    case 2: return "a number";
-    default: return "a string";
+    case 0:
+      return "a boolean";
+    case 1:
+      return "an integer";
+    case 2:
+      return "a number";
+    default:
+      return "a string";
   }
 }
 
 void checkRange(const IntegratorInfo& info, const ParameterInfo& p, double value) {
   if (value >= p.minValue && value <= p.maxValue) return;
-  failUsage(fmt::format("{}.{} = {}: must be between {} and {}", info.name, p.name, value, p.minValue, p.maxValue));
+  failUsage(fmt::format("{}.{} = {}: must be between {} and {}", info.name, p.name, value,
+                        p.minValue, p.maxValue));
 }
 
 ParameterValue checked(const IntegratorInfo& info, const ParameterInfo& p, ParameterValue value) {
   // An integer is accepted where a number is meant.
-  if (p.defaultValue.index() == 2 && value.index() == 1) value = static_cast<double>(std::get<int64_t>(value));
+  if (p.defaultValue.index() == 2 && value.index() == 1)
+    value = static_cast<double>(std::get<int64_t>(value));
   if (value.index() != p.defaultValue.index()) {
-    failUsage(fmt::format("{}.{}: is {} but must be {}", info.name, p.name, typeName(value), typeName(p.defaultValue)));
+    failUsage(fmt::format("{}.{}: is {} but must be {}", info.name, p.name, typeName(value),
+                          typeName(p.defaultValue)));
   }
   if (value.index() == 1) checkRange(info, p, static_cast<double>(std::get<int64_t>(value)));
   if (value.index() == 2) checkRange(info, p, std::get<double>(value));
   if (value.index() == 3 && !p.choices.empty()) {
     const std::string& text = std::get<std::string>(value);
     if (std::find(p.choices.begin(), p.choices.end(), text) == p.choices.end()) {
-      failUsage(fmt::format("{}.{} = '{}': must be one of {}{}", info.name, p.name, text, fmt::join(p.choices, ", "),
-                            didYouMean(text, p.choices)));
+      failUsage(fmt::format("{}.{} = '{}': must be one of {}{}", info.name, p.name, text,
+                            fmt::join(p.choices, ", "), didYouMean(text, p.choices)));
     }
   }
   return value;
@@ -50,7 +57,8 @@ const IntegratorInfo& findIntegrator(const std::string& name) {
     if (info->name == name) return *info;
     names.push_back(info->name);
   }
-  failUsage("unknown integrator '" + name + "'" + didYouMean(name, names) + " (see: restlab list integrators)");
+  failUsage("unknown integrator '" + name + "'" + didYouMean(name, names) +
+            " (see: restlab list integrators)");
 }
 
 ParameterMap resolveParameters(const IntegratorInfo& info, const ParameterMap& given) {
@@ -63,16 +71,19 @@ ParameterMap resolveParameters(const IntegratorInfo& info, const ParameterMap& g
   for (const auto& [name, value] : given) {
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) {
-      failUsage(fmt::format("integrator {} has no parameter '{}'{}", info.name, name, didYouMean(name, names)));
+      failUsage(fmt::format("integrator {} has no parameter '{}'{}", info.name, name,
+                            didYouMean(name, names)));
     }
-    resolved[name] = checked(info, info.parameters[static_cast<size_t>(found - names.begin())], value);
+    resolved[name] =
+        checked(info, info.parameters[static_cast<size_t>(found - names.begin())], value);
   }
   return resolved;
 }
 
 uint32_t bytesPerPixelOf(const BufferInfo& buffer, const ParameterMap& parameters) {
   if (buffer.perParameter == nullptr) return buffer.bytesPerPixel;
-  return buffer.bytesPerPixel * static_cast<uint32_t>(std::get<int64_t>(parameters.at(buffer.perParameter)));
+  return buffer.bytesPerPixel *
+         static_cast<uint32_t>(std::get<int64_t>(parameters.at(buffer.perParameter)));
 }
 
 }  // namespace restlab

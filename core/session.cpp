@@ -16,8 +16,10 @@ namespace restlab {
 namespace {
 
 const std::array<const char*, rl::RL_FEATURE_BITS> kFeatureNames = {
-    "area_lights", "punctual_lights", "environment",       "glossy",        "transmission", "volume",    "textures",
-    "normal_maps", "emissive_textures", "vertex_colors", "alpha", "instances", "smooth_normals", "multiscatter"};
+    "area_lights",       "punctual_lights", "environment", "glossy",
+    "transmission",      "volume",          "textures",    "normal_maps",
+    "emissive_textures", "vertex_colors",   "alpha",       "instances",
+    "smooth_normals",    "multiscatter"};
 
 // Buffers of the AOV kernel, in the order of its Buffers struct.
 constexpr const char* kAovKernel = "aov";
@@ -66,20 +68,21 @@ Session::Session(std::shared_ptr<const CompiledScene> scene, const SessionConfig
   m.config = config;
   m.integrator = &findIntegrator(config.integrator);
   if (config.width == 0 || config.height == 0) {
-    failUsage(fmt::format("resolution {}x{}: width and height must be at least 1", config.width, config.height));
+    failUsage(fmt::format("resolution {}x{}: width and height must be at least 1", config.width,
+                          config.height));
   }
   std::vector<std::string> modes;
   for (const ModeInfo& mode : m.integrator->modes) modes.push_back(mode.name);
   if (m.config.mode.empty()) m.config.mode = modes.front();
   if (std::find(modes.begin(), modes.end(), m.config.mode) == modes.end()) {
-    failUsage(fmt::format("integrator {} has no mode '{}'{}; modes: {}", m.integrator->name, m.config.mode,
-                          didYouMean(m.config.mode, modes), fmt::join(modes, ", ")));
+    failUsage(fmt::format("integrator {} has no mode '{}'{}; modes: {}", m.integrator->name,
+                          m.config.mode, didYouMean(m.config.mode, modes), fmt::join(modes, ", ")));
   }
   checkCacheName(m.config.cache);
   const std::vector<SceneCamera>& cameras = m.scene->source().cameras;
   if (config.camera >= cameras.size()) {
-    failUsage(fmt::format("camera {} of scene {}: it has {} (0 to {})", config.camera, m.scene->source().name,
-                          cameras.size(), cameras.size() - 1));
+    failUsage(fmt::format("camera {} of scene {}: it has {} (0 to {})", config.camera,
+                          m.scene->source().name, cameras.size(), cameras.size() - 1));
   }
   m.config.parameters = resolveParameters(*m.integrator, config.parameters);
   m.params = m.integrator->packParameters(m.config.mode, m.config.parameters);
@@ -94,7 +97,9 @@ Session::Session(std::shared_ptr<const CompiledScene> scene, const SessionConfig
   for (const BufferInfo& b : m.integrator->buffers) {
     // What the kernel in use can touch is allocated, so that a superset kernel never meets a null.
     const bool wantedBuffer = b.neededFeatures == 0 || (b.neededFeatures & m.used) != 0;
-    m.buffers.push_back(wantedBuffer ? m.backend->allocate(pixels * bytesPerPixelOf(b, m.config.parameters)) : kNoBuffer);
+    m.buffers.push_back(wantedBuffer
+                            ? m.backend->allocate(pixels * bytesPerPixelOf(b, m.config.parameters))
+                            : kNoBuffer);
   }
   m.radiance = Image(config.width, config.height);
   rl::FrameData& f = m.frame;
@@ -111,7 +116,9 @@ Session::Session(std::shared_ptr<const CompiledScene> scene, const SessionConfig
   f.maxBounces = directOnly ? std::min(config.maxBounces, 1u) : config.maxBounces;
   f.components = config.components;
   const auto hold = m.config.parameters.find("film_hold");
-  f.filmHold = hold == m.config.parameters.end() ? 1u : static_cast<uint32_t>(std::get<int64_t>(hold->second));
+  f.filmHold = hold == m.config.parameters.end()
+                   ? 1u
+                   : static_cast<uint32_t>(std::get<int64_t>(hold->second));
   f.rouletteStart = config.russianRoulette ? 3u : rl::RL_INVALID;
 }
 
@@ -126,14 +133,16 @@ FrameStats Session::frame() {
   PassCounters counters;
   for (size_t i = 0; i < m.integrator->passes.size(); ++i) {
     const PassInfo& pass = m.integrator->passes[i];
-    const double timeMs = m.backend->dispatch(pass.kernel, m.passMasks[i], m.frame, m.buffers, m.params, counters);
+    const double timeMs =
+        m.backend->dispatch(pass.kernel, m.passMasks[i], m.frame, m.buffers, m.params, counters);
     stats.passes.push_back({pass.name, timeMs});
     stats.timeMs += timeMs;
   }
   stats.raysPath = counters.raysPath;
   stats.raysShadow = counters.raysShadow;
   std::copy(std::begin(counters.health), std::end(counters.health), stats.health.counts.begin());
-  m.backend->read(m.buffers[0], m.radiance.pixels.data(), m.radiance.pixels.size() * sizeof(glm::vec3));
+  m.backend->read(m.buffers[0], m.radiance.pixels.data(),
+                  m.radiance.pixels.size() * sizeof(glm::vec3));
   for (size_t i = 0; i < m.buffers.size(); ++i) {
     const int other = m.integrator->buffers[i].swapWith;
     if (other > static_cast<int>(i)) std::swap(m.buffers[i], m.buffers[static_cast<size_t>(other)]);
@@ -171,11 +180,14 @@ Image Session::aov(const std::string& name) const {
   if (name == "radiance") return m.radiance;
   const size_t pixels = size_t(m.config.width) * m.config.height;
   if (m.aovBuffers.empty()) {
-    for (size_t i = 1; i < kAovNames.size(); ++i) m.aovBuffers.push_back(m.backend->allocate(pixels * 12));
+    for (size_t i = 1; i < kAovNames.size(); ++i)
+      m.aovBuffers.push_back(m.backend->allocate(pixels * 12));
   }
   PassCounters counters;
-  const uint32_t mask = m.backend->maskFor(kAovKernel, m.config.specialise ? m.needed : rl::RL_FEATURE_ALL);
-  m.backend->dispatch(kAovKernel, mask, m.lastFrame, m.aovBuffers, std::vector<std::byte>(4), counters);
+  const uint32_t mask =
+      m.backend->maskFor(kAovKernel, m.config.specialise ? m.needed : rl::RL_FEATURE_ALL);
+  m.backend->dispatch(kAovKernel, mask, m.lastFrame, m.aovBuffers, std::vector<std::byte>(4),
+                      counters);
   Image image(m.config.width, m.config.height);
   const size_t index = static_cast<size_t>(found - kAovNames.begin()) - 1;
   m.backend->read(m.aovBuffers[index], image.pixels.data(), pixels * 12);
@@ -190,7 +202,8 @@ std::vector<std::pair<std::string, size_t>> Session::bufferBytesPerPixel() const
   std::vector<std::pair<std::string, size_t>> sizes;
   for (size_t i = 0; i < impl_->buffers.size(); ++i) {
     const BufferInfo& b = impl_->integrator->buffers[i];
-    sizes.emplace_back(b.name, impl_->buffers[i] == kNoBuffer ? 0 : bytesPerPixelOf(b, impl_->config.parameters));
+    sizes.emplace_back(
+        b.name, impl_->buffers[i] == kNoBuffer ? 0 : bytesPerPixelOf(b, impl_->config.parameters));
   }
   return sizes;
 }

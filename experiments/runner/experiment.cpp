@@ -70,6 +70,7 @@ FrameError measureFrame(const Image& image, const Reference& reference, uint32_t
   error.frame = frame;
   error.nonfinite = countNonfinite(image);
   error.relmse = evaluateMetric("relmse_e1e-2", image, reference.mean).value;
+  error.relmseTrimmed = evaluateMetric("relmse_e1e-2_trim0.1", image, reference.mean).value;
   error.energyRatio = evaluateMetric("energy_ratio", image, reference.mean).value;
   error.mse = mseAgainstHalves(image, half0, half1);
   error.worstShare = worstPixelShare(squaredErrorPerPixel(image, half0, half1));

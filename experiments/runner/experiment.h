@@ -17,6 +17,7 @@ struct FrameError {
   double mse = 0.0;               // against the two halves where the reference has them
   double mseWithoutLights = 0.0;  // over the pixels that show no light; NaN where all do
   double relmse = 0.0;
+  double relmseTrimmed = 0.0;  // without the worst 0.1 % of the pixels
   double energyRatio = 0.0;
   double worstShare = 0.0;  // of the MSE, in the worst 0.1 % of the pixels
   uint64_t nonfinite = 0;   // channel values in the image

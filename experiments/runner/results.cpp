@@ -59,6 +59,7 @@ void addError(Json& line, const FrameError& error) {
   line["mse"] = finite(error.mse);
   line["mse_without_lights"] = finite(error.mseWithoutLights);
   line["relmse_e1e-2"] = finite(error.relmse);
+  line["relmse_e1e-2_trim0.1"] = finite(error.relmseTrimmed);
   line["energy_ratio"] = finite(error.energyRatio);
   line["worst_0.1pct_share_of_mse"] = finite(error.worstShare);
   line["nonfinite_in_image"] = error.nonfinite;

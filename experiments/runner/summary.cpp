@@ -17,6 +17,7 @@ std::vector<double> perRun(const MethodResult& result, double (*value)(const Run
 }
 
 double runMse(const RunResult& run) { return run.measured.mse; }
+double runRelmseTrimmed(const RunResult& run) { return run.measured.relmseTrimmed; }
 double runMseWithoutLights(const RunResult& run) { return run.measured.mseWithoutLights; }
 
 // Median over the frames of a run of time / time of `path` in the same interleaved round.
@@ -63,6 +64,7 @@ void summariseErrors(const MethodResult& result, const Reference& reference, Met
   row.mseWithoutLights = meanInterval(perRun(result, runMseWithoutLights));
   row.relmse =
       meanInterval(perRun(result, [](const RunResult& run) { return run.measured.relmse; }));
+  row.relmseTrimmed = meanInterval(perRun(result, runRelmseTrimmed));
   row.energyRatio =
       meanInterval(perRun(result, [](const RunResult& run) { return run.measured.energyRatio; }));
   row.worstShare = meanInterval(perRun(result, [](const RunResult& run) {
@@ -81,7 +83,7 @@ void compareWithYardstick(const MethodResult& path, const MethodSummary& pathRow
                           const MethodResult& result, MethodSummary& row) {
   // An interrupted block may have one run more of the first methods.
   const size_t paired = std::min(path.runs.size(), result.runs.size());
-  std::vector<double> pathMse, mse, timeRatios, work, pathInside, inside;
+  std::vector<double> pathMse, mse, timeRatios, work, pathInside, inside, pathTrimmed, trimmed;
   for (size_t r = 0; r < paired; ++r) {
     pathMse.push_back(runMse(path.runs[r]));
     mse.push_back(runMse(result.runs[r]));
@@ -89,11 +91,15 @@ void compareWithYardstick(const MethodResult& path, const MethodSummary& pathRow
     work.push_back(mse.back() * timeRatios.back());
     pathInside.push_back(runMseWithoutLights(path.runs[r]));
     inside.push_back(runMseWithoutLights(result.runs[r]));
+    pathTrimmed.push_back(runRelmseTrimmed(path.runs[r]));
+    trimmed.push_back(runRelmseTrimmed(result.runs[r]));
   }
   row.mseRatio = pairedRatioInterval(pathMse, mse);
   row.mseRatio.value = pathRow.mse.value / row.mse.value;
   row.mseRatioWithoutLights = pairedRatioInterval(pathInside, inside);
   row.mseRatioWithoutLights.value = pathRow.mseWithoutLights.value / row.mseWithoutLights.value;
+  row.relmseTrimmedRatio = pairedRatioInterval(pathTrimmed, trimmed);
+  row.relmseTrimmedRatio.value = pathRow.relmseTrimmed.value / row.relmseTrimmed.value;
   row.timeRatio = meanInterval(timeRatios);
   row.timeRatioOfMedians = row.timeMsMedian / pathRow.timeMsMedian;
   row.efficiencyRatio = pairedRatioInterval(pathMse, work);

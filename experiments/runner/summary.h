@@ -26,7 +26,7 @@ struct MethodSummary {
   uint32_t runs = 0;
 
   double timeMsMedian = kUnknown, timeMsP95 = kUnknown;  // over all timed frames of all runs
-  Interval mse, mseWithoutLights, relmse, energyRatio;   // over runs
+  Interval mse, mseWithoutLights, relmse, relmseTrimmed, energyRatio;  // over runs
   double biasSquared = kUnknown;  // signed; of the mean over runs; NaN with one run or no halves
   double biasShare = kUnknown;    // biasSquared / mse
   double worstShare = kUnknown;   // mean over runs
@@ -35,6 +35,7 @@ struct MethodSummary {
   // Against the yardstick: path / method for the error, method / path for the time.
   Interval mseRatio{kUnknown, kUnknown, kUnknown};
   Interval mseRatioWithoutLights{kUnknown, kUnknown, kUnknown};
+  Interval relmseTrimmedRatio{kUnknown, kUnknown, kUnknown};
   // Mean over runs of the run's median over frames of time(method) / time(path) of that frame: what
   // slows the machine down for a while slows both and cancels.
   Interval timeRatio{kUnknown, kUnknown, kUnknown};

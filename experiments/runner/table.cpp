@@ -41,6 +41,12 @@ std::string withoutLightsCell(const MethodSummary& row, bool yardstick) {
                      ratio.empty() ? "" : fmt::format(" ({})", ratio));
 }
 
+std::string trimmedCell(const MethodSummary& row, bool yardstick) {
+  const std::string ratio = ratioCell(row.relmseTrimmedRatio, yardstick);
+  return fmt::format("{:.3g}{}", row.relmseTrimmed.value,
+                     ratio.empty() ? "" : fmt::format(" ({})", ratio));
+}
+
 std::string biasCell(const MethodSummary& row) {
   return std::isnan(row.biasShare) ? "unknown" : fmt::format("{:+.1f} %", 100.0 * row.biasShare);
 }
@@ -59,17 +65,18 @@ std::string blockTable(const Suite& suite, const std::vector<MethodSummary>& row
       rows.front().runs, suite.warmupFrames, suite.timedFrames, block.reference.spp);
   text +=
       "| method | time per frame | MSE | | efficiency | energy | bias^2/MSE | worst 0.1 % | MSE "
-      "without lights in view | rays/px |\n|---|---|---|---|---|---|---|---|---|---|\n";
+      "without lights in view | relMSE without the worst 0.1 % | rays/px |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|\n";
   std::string notes;
   for (const MethodSummary& row : rows) {
     const bool isYardstick =
         yardstick < suite.methods.size() && row.method == &suite.methods[yardstick];
     text += fmt::format(
-        "| {}{} | {} | {:.3g}{} | {} | {} | {:.3f} | {} | {:.0f} % | {} | {:.1f} |\n",
+        "| {}{} | {} | {:.3g}{} | {} | {} | {:.3f} | {} | {:.0f} % | {} | {} | {:.1f} |\n",
         row.method->name, row.counts ? "" : " (*)", timeCell(row, isYardstick), row.mse.value,
         interval(row.mse.lo, row.mse.hi, "{:.3g}"), ratioCell(row.mseRatio, isYardstick),
         efficiencyCell(row, isYardstick), row.energyRatio.value, biasCell(row),
-        100.0 * row.worstShare, withoutLightsCell(row, isYardstick),
+        100.0 * row.worstShare, withoutLightsCell(row, isYardstick), trimmedCell(row, isYardstick),
         row.raysPathPerPixel + row.raysShadowPerPixel);
     for (const std::string& flag : row.flags) {
       notes += fmt::format("- {}{}: {}\n", row.method->name, row.counts ? "" : " (*)", flag);

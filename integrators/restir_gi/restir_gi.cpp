@@ -18,34 +18,92 @@ namespace {
 
 std::vector<ParameterInfo> parameterInfos() {
   return {
-      {"confidence_cap", 20.0, 1.0, 1000.0, {}, "confidence that a donor from the last frame may carry, in frames",
+      {"confidence_cap",
+       20.0,
+       1.0,
+       1000.0,
+       {},
+       "confidence that a donor from the last frame may carry, in frames",
        "Lin et al. 2022 and its implementations: 20"},
-      {"light_candidates", int64_t{1}, 1, 64, {}, "light samples per pixel and frame resampled into the light reservoir",
+      {"light_candidates",
+       int64_t{1},
+       1,
+       64,
+       {},
+       "light samples per pixel and frame resampled into the light reservoir",
        "1: the same rays as the path tracer; more pay off with many lights (docs/performance.md)"},
-      {"spatial_neighbours", int64_t{1}, 0, rl::RL_MAX_DONORS, {}, "donors of the spatial pass",
+      {"spatial_neighbours",
+       int64_t{1},
+       0,
+       rl::RL_MAX_DONORS,
+       {},
+       "donors of the spatial pass",
        "1: best error for its time on hard indirect light (docs/performance.md)"},
-      {"spatial_radius", 16.0, 1.0, 256.0, {},
+      {"spatial_radius",
+       16.0,
+       1.0,
+       256.0,
+       {},
        "pixels; donors come from a square tile that spreads them as a disk of this radius would",
        "8-20 px measured alike; 30 in Bitterli et al. 2020"},
       {"temporal", true, 0, 0, {}, "temporal reuse", "Ouyang et al. 2021"},
-      {"film_hold", int64_t{16}, 1, 1024, {}, "frames that a pixel keeps its film sample",
+      {"film_hold",
+       int64_t{16},
+       1,
+       1024,
+       {},
+       "frames that a pixel keeps its film sample",
        "measured: docs/decisions.md, 'film samples are held'"},
-      {"normal_threshold", 0.9, -1.0, 1.0, {}, "least cosine between the normals of two anchors",
+      {"normal_threshold",
+       0.9,
+       -1.0,
+       1.0,
+       {},
+       "least cosine between the normals of two anchors",
        "Bitterli et al. 2020: 25 degrees = 0.906"},
-      {"plane_threshold", 0.05, 0.0, 10.0, {}, "largest distance from each other's plane over the camera distance",
+      {"plane_threshold",
+       0.05,
+       0.0,
+       10.0,
+       {},
+       "largest distance from each other's plane over the camera distance",
        "Bitterli et al. 2020 compare depths at 10 %"},
-      {"roughness_limit", 0.2, 0.0, 1.0, {}, "perceptual roughness below which x1 shades its own path (counted)",
+      {"roughness_limit",
+       0.2,
+       0.0,
+       1.0,
+       {},
+       "perceptual roughness below which x1 shades its own path (counted)",
        "Lin et al. 2022, section 6.5: 0.2"},
-      {"max_jacobian", 100.0, 1.0, 1.0e6, {}, "shifts whose Jacobian lies outside [1/x, x] are undefined, both ways",
+      {"max_jacobian",
+       100.0,
+       1.0,
+       1.0e6,
+       {},
+       "shifts whose Jacobian lies outside [1/x, x] are undefined, both ways",
        "symmetric rejection keeps the estimator unbiased; Lin et al. 2022"},
-      {"shading", std::string("control_variate"), 0, 0, {"winner", "decoupled", "control_variate"},
-       "what is shown: the selected sample, the weighted sum of all inputs, or that sum with the inputs' "
+      {"shading",
+       std::string("control_variate"),
+       0,
+       0,
+       {"winner", "decoupled", "control_variate"},
+       "what is shown: the selected sample, the weighted sum of all inputs, or that sum with the "
+       "inputs' "
        "per-channel estimates carried along",
        "decoupled: Wyman and Panteleev 2021; control variate: core/resampling/reuse.glsl"},
-      {"mis", std::string("pairwise"), 0, 0, {"pairwise", "confidence"},
+      {"mis",
+       std::string("pairwise"),
+       0,
+       0,
+       {"pairwise", "confidence"},
        "resampling MIS weights; `confidence` is 1/M, biased and darker",
        "Wyman et al. 2023, algorithm 7; Bitterli et al. 2020"},
-      {"omit_jacobian", false, 0, 0, {}, "leaves the Jacobian out of the weights: wrong, for the bias tests only",
+      {"omit_jacobian",
+       false,
+       0,
+       0,
+       {},
+       "leaves the Jacobian out of the weights: wrong, for the bias tests only",
        "negative control"},
   };
 }
@@ -70,8 +128,8 @@ std::vector<std::byte> pack(const std::string& mode, const ParameterMap& p) {
   }
   out.lightCandidates = static_cast<uint32_t>(get<int64_t>(p, "light_candidates"));
   out.spatialNeighbours = static_cast<uint32_t>(get<int64_t>(p, "spatial_neighbours"));
-  // The root mean square distance of two points of a square of side s is s / sqrt(3), that of a point of a
-  // disk to its centre r / sqrt(2).
+  // The root mean square distance of two points of a square of side s is s / sqrt(3), that of a
+  // point of a disk to its centre r / sqrt(2).
   const double side = std::sqrt(1.5) * get<double>(p, "spatial_radius");
   out.spatialTile = std::max(2u, static_cast<uint32_t>(std::lround(side)));
   out.temporalReuse = get<bool>(p, "temporal") ? 1u : 0u;
@@ -95,10 +153,12 @@ const IntegratorInfo& restir_giIntegratorInfo() {
     i.summary = "ReSTIR GI: light reservoirs for direct, path-sample reservoirs for indirect light";
     i.modes = {
         {"unbiased", BiasClass::unbiased,
-         "targets include visibility at every anchor, MIS weights sum to one over those who can produce a sample, "
+         "targets include visibility at every anchor, MIS weights sum to one over those who can "
+         "produce a sample, "
          "confidences depend on anchors alone, BSDF and MIS weight at x2 are re-evaluated"},
         {"biased", BiasClass::biased,
-         "the last frame's sample is taken as visible, and so is a pixel's own sample from its donors: fewer rays, "
+         "the last frame's sample is taken as visible, and so is a pixel's own sample from its "
+         "donors: fewer rays, "
          "a little energy moved at shadow edges"},
     };
     i.parameters = parameterInfos();
@@ -120,7 +180,9 @@ const IntegratorInfo& restir_giIntegratorInfo() {
         {"shifted_lights", sizeof(rl::Shifted), 0, -1, "spatial_neighbours"},
         {"shifted_paths", sizeof(rl::Shifted), 0, -1, "spatial_neighbours"},
     };
-    i.passes = {{"initial", "restir_gi_initial"}, {"temporal", "restir_gi_temporal"}, {"spatial", "restir_gi_spatial"}};
+    i.passes = {{"initial", "restir_gi_initial"},
+                {"temporal", "restir_gi_temporal"},
+                {"spatial", "restir_gi_spatial"}};
     i.packParameters = pack;
     return i;
   }();

@@ -1,5 +1,5 @@
-// Every registered integrator, every mode, over several frames of one history: the session on the CPU
-// backend against the same passes as compute shaders.
+// Every registered integrator, every mode, over several frames of one history: the session on the
+// CPU backend against the same passes as compute shaders.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -48,7 +48,8 @@ class DeviceSession {
     frame_.previousCamera = frame_.camera;
     frame_.maxBounces = config.maxBounces;
     const auto hold = parameters.find("film_hold");
-    if (hold != parameters.end()) frame_.filmHold = static_cast<uint32_t>(std::get<int64_t>(hold->second));
+    if (hold != parameters.end())
+      frame_.filmHold = static_cast<uint32_t>(std::get<int64_t>(hold->second));
   }
 
   // Valid until the next frame.
@@ -92,7 +93,8 @@ double differentShare(const std::vector<glm::vec3>& a, const rl::vec3* b) {
 TEST(Integrators, SameHistoryOnBothMachines) {
   const auto devices = VulkanDevice::all();
   if (devices.empty()) {
-    GTEST_SKIP() << "no Vulkan device with buffer addresses and scalar layout: kernels ran as C++ only";
+    GTEST_SKIP()
+        << "no Vulkan device with buffer addresses and scalar layout: kernels ran as C++ only";
   }
   const auto scene = CompiledScene::build(makeEverythingScene());
   for (const auto& device : devices) {
@@ -113,8 +115,8 @@ TEST(Integrators, SameHistoryOnBothMachines) {
           for (const glm::vec3& p : host.radiance().pixels) lit += p.x > 0.0f;
           EXPECT_GT(lit, host.radiance().pixels.size() / 2);
           const double share = differentShare(host.radiance().pixels, gpu.frame());
-          std::printf("  %s %s frame %u: %.2f %% of the pixels differ\n", info->name.c_str(), mode.name.c_str(), f,
-                      100.0 * share);
+          std::printf("  %s %s frame %u: %.2f %% of the pixels differ\n", info->name.c_str(),
+                      mode.name.c_str(), f, 100.0 * share);
           // Reuse spreads a path that took another turn to its neighbours and to the next frames.
           EXPECT_LT(share, 0.01 * (f + 1)) << "frame " << f;
         }
