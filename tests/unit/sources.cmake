@@ -17,6 +17,7 @@ list(APPEND RL_UNIT_TESTS
   rng_audit_restir_initial.cpp
   rng_audit_restir_spatial.cpp
   rng_audit_restir_temporal.cpp
+  rng_audit_template.cpp
   rng_audit_test.cpp
   rng_test.cpp
   sphere_grid.cpp
