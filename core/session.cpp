@@ -86,8 +86,10 @@ Session::Session(std::shared_ptr<const CompiledScene> scene, const SessionConfig
   }
   m.config.parameters = resolveParameters(*m.integrator, config.parameters);
   m.params = m.integrator->packParameters(m.config.mode, m.config.parameters);
+  m.needed = m.scene->features(config.multiscatter);
+  const bool multiscatter = (m.needed & rl::RL_FEATURE_MULTISCATTER) != 0;
+  if (multiscatter) m.scene->bindGgxAlbedo();
   m.backend = makeBackend(config.backend, m.scene, config.threads);
-  m.needed = m.scene->features();
   const uint32_t wanted = config.specialise ? m.needed : rl::RL_FEATURE_ALL;
   for (const PassInfo& pass : m.integrator->passes) {
     m.passMasks.push_back(m.backend->maskFor(pass.kernel, wanted));
@@ -120,6 +122,7 @@ Session::Session(std::shared_ptr<const CompiledScene> scene, const SessionConfig
                    ? 1u
                    : static_cast<uint32_t>(std::get<int64_t>(hold->second));
   f.rouletteStart = config.russianRoulette ? 3u : rl::RL_INVALID;
+  f.multiscatter = multiscatter ? 1u : 0u;
 }
 
 Session::~Session() = default;

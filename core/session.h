@@ -30,6 +30,7 @@ struct SessionConfig {
   uint32_t components = rl::RL_COMPONENT_ALL;
   uint32_t pixelFilter = rl::RL_FILTER_BOX;
   bool russianRoulette = false;
+  bool multiscatter = false;  // multiple-scattering compensation of rough reflection
   bool specialise = true;  // false: the general kernel
   int threads = 0;         // 0: all cores
   ParameterMap parameters;  // integrator parameters, e.g. confidence_cap

@@ -3,13 +3,15 @@
 //   bsdfPdf   solid-angle density of bsdfDraw over the non-delta lobes
 //   bsdfDraw  a direction with weight f |cos_i| / pdf
 // Directions are in world space and point away from the surface; nGeo lies on the side of wo.
-// The layering is that of the glTF 2.0 specification, appendix B, but for the share that the specular
-// layer leaves to the Lambert base (bsdfBaseShare).
+// The layering is that of the glTF 2.0 specification, appendix B, but for the share that the
+// specular layer leaves to the Lambert base (bsdfBaseShare) and, as an option, for light that meets
+// several microfacets (core/dialect/bsdf/multiscatter.glsl): that lobe is drawn by the cosine
+// together with Lambert's.
 
 RL_FN bool bsdfIsBlack(RL_IN(Bsdf) b) { return b.lobes == 0u; }
 
-// Probabilities of drawing the specular and the transmission lobe; the rest goes to Lambert. They
-// depend on wo alone, so that the density of all lobes together is known.
+// Probabilities of drawing the specular and the transmission lobe; the rest goes to the cosine.
+// They depend on wo alone, so that the density of all lobes together is known.
 RL_FN vec2 bsdfLobeProbabilities(RL_IN(Bsdf) b, float cosO) {
   if (!RL_HAS(RL_FEATURE_GLOSSY) || (b.lobes & RL_LOBE_ANY_GLOSSY) == 0u) return vec2(0.0f, 0.0f);
   vec3 f = fresnelOfBsdf(b, cosO);
@@ -18,6 +20,11 @@ RL_FN vec2 bsdfLobeProbabilities(RL_IN(Bsdf) b, float cosO) {
   bool hasDiffuse = (b.lobes & RL_LOBE_DIFFUSE) != 0u;
   float specular = hasSpecular ? rlLuminance(f) : 0.0f;
   float diffuse = hasDiffuse ? rlLuminance(b.diffuse) * through : 0.0f;
+  if (multiscatterApplies(b)) {
+    vec2 shares = multiscatterLuminances(b, cosO);
+    specular = shares.x;
+    diffuse = shares.y;
+  }
   float transmitted = 0.0f;
   if (RL_HAS(RL_FEATURE_TRANSMISSION) && (b.lobes & RL_LOBE_ANY_TRANSMISSION) != 0u) {
     transmitted = rlLuminance(b.transmission) * through;
@@ -47,6 +54,11 @@ RL_FN float bsdfBaseShare(RL_IN(Bsdf) b, float cosO, float cosI) {
   return enters * leaves * rlSafeDivide(1.0f, 1.0f - mean);
 }
 
+// Is a part of it drawn by the cosine?
+RL_FN bool bsdfHasCosineLobe(RL_IN(Bsdf) b) {
+  return (b.lobes & RL_LOBE_DIFFUSE) != 0u || multiscatterApplies(b);
+}
+
 RL_FN vec3 bsdfEvalLocal(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) wiL) {
   vec3 f = vec3(0.0f, 0.0f, 0.0f);
   if (!RL_HAS(RL_FEATURE_GLOSSY)) return b.diffuse * lambertEval(wiL);
@@ -55,6 +67,7 @@ RL_FN vec3 bsdfEvalLocal(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) wiL) {
       vec3 hL = normalize(woL + wiL);
       vec3 fresnel = fresnelOfBsdf(b, clamp(dot(woL, hL), 0.0f, 1.0f));
       if ((b.lobes & RL_LOBE_SPECULAR) != 0u) f += fresnel * ggxReflectionEval(woL, wiL, hL, b.alpha);
+      if (multiscatterApplies(b)) return f + multiscatterEval(b, woL.z, wiL.z);
       f += b.diffuse * (lambertEval(wiL) * bsdfBaseShare(b, woL.z, wiL.z));
     } else {
       f += b.diffuse * lambertEval(wiL);
@@ -81,7 +94,7 @@ RL_FN float bsdfPdfLocal(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) wiL) {
   vec2 p = bsdfLobeProbabilities(b, max(woL.z, 0.0f));
   float pdf = 0.0f;
   if (wiL.z > 0.0f) {
-    if ((b.lobes & RL_LOBE_DIFFUSE) != 0u) pdf += (1.0f - p.x - p.y) * lambertPdf(wiL);
+    if (bsdfHasCosineLobe(b)) pdf += (1.0f - p.x - p.y) * lambertPdf(wiL);
     if ((b.lobes & RL_LOBE_SPECULAR) != 0u && woL.z > 0.0f) {
       vec3 hL = normalize(woL + wiL);
       pdf += p.x * ggxReflectionPdf(woL, hL, b.alpha);
@@ -178,7 +191,8 @@ RL_FN BsdfDraw bsdfDraw(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_
     }
     if (!(wiL.z < 0.0f)) return result;
   } else {
-    if ((b.lobes & RL_LOBE_DIFFUSE) == 0u) return result;
+    if (!bsdfHasCosineLobe(b)) return result;
+    if ((b.lobes & RL_LOBE_DIFFUSE) == 0u) lobe = RL_LOBE_SPECULAR;
     wiL = lambertDraw(u);
     if (!(wiL.z > 0.0f)) return result;
   }

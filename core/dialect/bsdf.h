@@ -21,6 +21,9 @@ const uint RL_LOBE_ANY_GLOSSY = 30u;
 // GGX alpha below this floor becomes a delta lobe, which is counted (RL_HEALTH_DELTA_LOBES).
 const float RL_ALPHA_FLOOR = 1.0e-3f;
 
+// Nodes of sqrt(cos) and of sqrt(alpha) in the table of GGX albedos (core/scene/ggx_albedo.h).
+const uint RL_GGX_NODES = 64u;
+
 struct Bsdf {
   vec3 diffuse;       // albedo of the Lambert lobe, before the Fresnel layer takes its share
   uint lobes;         // RL_LOBE_*

@@ -10,6 +10,7 @@
 #include "core/dialect/bsdf/fresnel.glsl"
 #include "core/dialect/bsdf/ggx.glsl"
 #include "core/dialect/bsdf/transmission.glsl"
+#include "core/dialect/bsdf/multiscatter.glsl"
 #include "core/dialect/bsdf.glsl"
 #include "core/dialect/surface.glsl"
 #include "core/dialect/light/environment.glsl"

@@ -195,6 +195,7 @@ struct SceneData {
   AliasRef lightAlias;
   Vec3Ref environment;           // radiance per texel, already scaled, row 0 on top
   AliasRef environmentAlias;     // pmf per texel
+  Vec2Ref ggxAlbedo;             // core/scene/ggx_albedo.h; null unless a session compensates
   uint lightCount;
   uint environmentWidth;  // 0: no environment
   uint environmentHeight;
@@ -223,8 +224,9 @@ struct FrameData {
   uint components;
   uint filmHold;       // frames that a pixel keeps its film sample; 1: a new one every frame
   uint rouletteStart;  // first scattering event that may end a path by Russian roulette; RL_INVALID: off
+  uint multiscatter;   // 1: GGX lobes are compensated, and the scene has ggxAlbedo; 0: off
 };
-RL_STATIC_ASSERT_SIZE(FrameData, 164);
+RL_STATIC_ASSERT_SIZE(FrameData, 168);
 
 // Numerical health: counters that every kernel adds to; names in core/health.h.
 const uint RL_HEALTH_NONFINITE = 0u;          // non-finite sample values set to zero

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 
 #include "core/backend/alpha_filter.h"
 #include "core/error.h"
+#include "core/scene/ggx_albedo.h"
 #include "core/scene/light_table.h"
 
 namespace restlab {
@@ -46,6 +48,7 @@ std::vector<float> srgbTable() {
 struct CompiledScene::Impl {
   Scene scene;
   uint32_t features = 0;
+  std::once_flag ggxAlbedoBound;
   glm::dvec3 origin{0.0};
   std::vector<std::string> warnings;
   std::vector<glm::vec3> positions, normals;
@@ -323,7 +326,17 @@ std::shared_ptr<const CompiledScene> CompiledScene::build(Scene scene) {
 
 const Scene& CompiledScene::source() const { return impl_->scene; }
 const rl::SceneData& CompiledScene::data() const { return impl_->data; }
-uint32_t CompiledScene::features() const { return impl_->features; }
+uint32_t CompiledScene::features(bool multiscatter) const {
+  const bool changes = multiscatter && hasRoughReflection(impl_->scene);
+  return impl_->features | (changes ? rl::RL_FEATURE_MULTISCATTER : 0u);
+}
+
+void CompiledScene::bindGgxAlbedo() const {
+  std::call_once(impl_->ggxAlbedoBound, [this] {
+    // Kernels only read; the type of the address is that of every buffer.
+    impl_->data.ggxAlbedo.data = const_cast<glm::vec2*>(ggxAlbedoTable().data());
+  });
+}
 const std::vector<std::string>& CompiledScene::warnings() const { return impl_->warnings; }
 size_t CompiledScene::triangleCount() const { return impl_->triangles.size(); }
 size_t CompiledScene::instancedTriangleCount() const { return impl_->instancedTriangles; }

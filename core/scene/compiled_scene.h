@@ -20,7 +20,12 @@ class CompiledScene {
 
   const Scene& source() const;
   const rl::SceneData& data() const;  // addresses stay valid as long as this object
-  uint32_t features() const;          // what the scene needs (RL_FEATURE_*)
+  // What the scene needs (RL_FEATURE_*), with RL_FEATURE_MULTISCATTER where that is asked for and
+  // changes something.
+  uint32_t features(bool multiscatter = false) const;
+  // Makes SceneData::ggxAlbedo point to its table, for sessions that read it; computed at the first
+  // call.
+  void bindGgxAlbedo() const;
   const std::vector<std::string>& warnings() const;  // import's and compilation's
   rl::Camera camera(const SceneCamera& camera, uint32_t width, uint32_t height) const;
   size_t triangleCount() const;           // unique
@@ -38,5 +43,7 @@ class CompiledScene {
 
 // What the scene needs, before compilation (core/scene/feature_scan.cpp).
 uint32_t scanFeatures(const Scene& scene);
+// Has some surface the rough reflection that multiple-scattering compensation changes?
+bool hasRoughReflection(const Scene& scene);
 
 }  // namespace restlab

@@ -1,11 +1,13 @@
 // What a scene needs of the kernels (features.h), exact in one direction and tight in the other: a
 // feature that can change a pixel is never missed, one that cannot is left out as far as factors,
 // texels and vertices tell. Only what an instance with triangles uses counts. The conditions mirror
-// surfaceLoad() in core/dialect/surface.glsl. RL_FEATURE_MULTISCATTER is a method's option, not a
-// scene's need, and is never set here.
+// surfaceLoad() in core/dialect/surface.glsl. RL_FEATURE_MULTISCATTER is a session's option, not a
+// scene's need, and is never set here; hasRoughReflection() says whether the option changes
+// anything.
 #include <algorithm>
 #include <cmath>
 
+#include "core/dialect/bsdf.h"
 #include "core/scene/compiled_scene.h"
 #include "core/scene/texture_range.h"
 
@@ -56,6 +58,22 @@ uint32_t scanSurface(const rl::Material& m, TextureRanges& ranges) {
   if (hasTexture(m, rl::RL_TEX_NORMAL) && m.normalScale != 0.0f)
     features |= rl::RL_FEATURE_NORMAL_MAPS;
   return features;
+}
+
+// Rough reflection of a surface that somewhere transmits nothing.
+bool reflectsRoughly(const rl::Material& m, TextureRanges& ranges) {
+  if ((m.flags & (rl::RL_MATERIAL_UNLIT | rl::RL_MATERIAL_BLACK)) != 0) return false;
+  const TexelRange& range = ranges.ofSlot(m, rl::RL_TEX_METALLIC_ROUGHNESS);
+  const glm::vec3 base = times(m.baseColor, ranges.ofSlot(m, rl::RL_TEX_BASE_COLOR).high);
+  const glm::vec3 tint = times(m.specularColor, ranges.ofSlot(m, rl::RL_TEX_SPECULAR_COLOR).high);
+  const bool isMetal = m.metallic * range.high[2] > 0.0f && isPositive(base);
+  const bool isCoated = m.metallic * range.low[2] < 1.0f && isPositive(tint) && m.ior != 1.0f &&
+                        m.specular * ranges.ofSlot(m, rl::RL_TEX_SPECULAR).high[3] > 0.0f;
+  const float roughness = m.roughness * range.high[1];
+  const bool alwaysTransmits =
+      m.transmission * ranges.ofSlot(m, rl::RL_TEX_TRANSMISSION).low[0] > 0.0f &&
+      m.metallic * range.high[2] < 1.0f;
+  return (isMetal || isCoated) && roughness * roughness >= rl::RL_ALPHA_FLOOR && !alwaysTransmits;
 }
 
 bool emits(const rl::Material& m, TextureRanges& ranges) {
@@ -146,6 +164,15 @@ uint32_t scanFeatures(const Scene& scene) {
     }
   }
   return features;
+}
+
+bool hasRoughReflection(const Scene& scene) {
+  TextureRanges ranges(scene);
+  return std::any_of(scene.instances.begin(), scene.instances.end(),
+                     [&](const MeshInstance& instance) {
+                       return !scene.geometries.at(instance.geometry).triangles.empty() &&
+                              reflectsRoughly(scene.materials.at(instance.material).data, ranges);
+                     });
 }
 
 }  // namespace restlab

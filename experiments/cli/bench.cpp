@@ -61,6 +61,7 @@ Json errorPerCpuSecond(const PreparedScene& prepared, const SessionConfig& confi
   wanted.width = config.width;
   wanted.height = config.height;
   wanted.maxBounces = config.maxBounces;
+  wanted.multiscatter = config.multiscatter;
   wanted.threads = config.threads;
   ReferenceTarget target;
   target.spp = options.referenceSpp;
@@ -180,6 +181,7 @@ void bench(BenchOptions options) {
       {"width", config.width},
       {"height", config.height},
       {"max_bounces", config.maxBounces},
+      {"multiscatter", config.multiscatter},
       {"machine", machineJson()},
       {"build", buildJson()},
       {"embree_rays_per_second",

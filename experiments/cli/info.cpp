@@ -16,6 +16,7 @@ using Json = nlohmann::ordered_json;
 
 struct InfoOptions {
   SceneRequest request;
+  bool multiscatter = false;
   bool json = false;
 };
 
@@ -50,12 +51,13 @@ Json camerasJson(const Scene& scene) {
   return cameras;
 }
 
-Json integratorsJson(const PreparedScene& prepared) {
+Json integratorsJson(const PreparedScene& prepared, bool multiscatter) {
   Json all = Json::array();
   for (const IntegratorInfo* info : integratorRegistry()) {
     SessionConfig config;
     config.integrator = info->name;
     config.camera = prepared.camera;
+    config.multiscatter = multiscatter;
     config.width = config.height = 16;  // the sizes below are per pixel
     config.threads = 1;
     const Session session(prepared.scene, config);
@@ -71,7 +73,7 @@ Json integratorsJson(const PreparedScene& prepared) {
   return all;
 }
 
-Json sceneJson(const PreparedScene& prepared) {
+Json sceneJson(const PreparedScene& prepared, bool multiscatter) {
   const CompiledScene& compiled = *prepared.scene;
   const Scene& scene = compiled.source();
   const auto bounds = worldBounds(scene);
@@ -107,8 +109,8 @@ Json sceneJson(const PreparedScene& prepared) {
   json["skipped_primitives"] = scene.skippedPrimitives;
   json["bytes"] = compiled.bytes();
   json["load_time_ms"] = prepared.loadTimeMs;
-  json["features_needed"] = featureNames(compiled.features());
-  json["integrators"] = integratorsJson(prepared);
+  json["features_needed"] = featureNames(compiled.features(multiscatter));
+  json["integrators"] = integratorsJson(prepared, multiscatter);
   json["warnings"] = compiled.warnings();
   return json;
 }
@@ -142,7 +144,7 @@ void printText(const PreparedScene& prepared, const Json& json) {
              bounds[0].z, bounds[1].x, bounds[1].y, bounds[1].z);
   fmt::print("memory       {:.1f} MiB, loaded in {:.0f} ms\n",
              double(prepared.scene->bytes()) / (1024.0 * 1024.0), prepared.loadTimeMs);
-  fmt::print("features     needed    {}\n", featureNames(prepared.scene->features()));
+  fmt::print("features     needed    {}\n", json["features_needed"].get<std::string>());
   for (const Json& integrator : json["integrators"]) {
     fmt::print("{:<12} used      {}\n", integrator["name"].get<std::string>(),
                integrator["features_used"].get<std::string>());
@@ -159,7 +161,7 @@ void printText(const PreparedScene& prepared, const Json& json) {
 void info(const InfoOptions& options) {
   const PreparedScene prepared = prepareScene(options.request);
   printWarnings(prepared);
-  const Json json = sceneJson(prepared);
+  const Json json = sceneJson(prepared, options.multiscatter);
   if (options.json) {
     fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
   } else {
@@ -175,6 +177,7 @@ Action addInfoVerb(CLI::App& app) {
   verb->add_option("scene", options->request.scene, "a glTF file or a built-in scene")->required();
   verb->add_option("--environment", options->request.environment,
                    "latitude-longitude .hdr or .exr");
+  addMultiscatter(*verb, options->multiscatter);
   verb->add_flag("--json", options->json, "JSON on stdout");
   return [options](Outcome&) { info(*options); };
 }

@@ -60,6 +60,11 @@ void addThreads(CLI::App& verb, int& threads) {
       ->check(CLI::Range(0, 1024));
 }
 
+void addMultiscatter(CLI::App& verb, bool& multiscatter) {
+  verb.add_flag("--multiscatter", multiscatter,
+                "rough reflection keeps the light that meets several microfacets (default off)");
+}
+
 void addOutput(CLI::App& verb, std::string& output) {
   verb.add_option("-o,--output,--outfile", output, "EXR file to write")->required();
 }
@@ -85,6 +90,7 @@ void addSceneOptions(CLI::App& verb, SceneOptions& options) {
       ->check(CLI::Range(0.0, 1e9));
   verb.add_option("--component", options.component, "all, direct or indirect light");
   verb.add_option("--filter", options.filter, "pixel filter: box (one pixel) or center");
+  addMultiscatter(verb, options.multiscatter);
   addThreads(verb, options.threads);
 }
 
@@ -142,6 +148,7 @@ SessionConfig makeConfig(const SceneOptions& scene, const MethodOptions& method)
   config.maxBounces = scene.maxBounces;
   config.components = parseComponent(scene.component, "--component");
   config.pixelFilter = parseFilter(scene.filter, "--filter");
+  config.multiscatter = scene.multiscatter;
   config.threads = scene.threads;
   return config;
 }

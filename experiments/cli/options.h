@@ -18,6 +18,7 @@ struct SceneOptions {
   uint32_t maxBounces = 8;
   std::string component = "all";
   std::string filter = "box";
+  bool multiscatter = false;
   int threads = 0;
 };
 
@@ -40,6 +41,7 @@ void addSceneOptions(CLI::App& verb, SceneOptions& options);
 void addMethodOptions(CLI::App& verb, MethodOptions& options);
 void addOutput(CLI::App& verb, std::string& output);
 void addThreads(CLI::App& verb, int& threads);
+void addMultiscatter(CLI::App& verb, bool& multiscatter);
 
 // Width and height from --resolution, --width, --height; 0 where not given. Throws badUsage.
 void resolveResolution(SceneOptions& options);

@@ -41,6 +41,7 @@ void makeReference(ReferenceOptions options) {
   config.maxBounces = session.maxBounces;
   config.components = session.components;
   config.pixelFilter = session.pixelFilter;
+  config.multiscatter = session.multiscatter;
   config.seed = session.seed;
   config.threads = session.threads;
   const Reference reference = renderReference(prepared, config, options.target);

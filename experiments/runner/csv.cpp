@@ -106,6 +106,7 @@ std::vector<Column> furtherColumns(const Suite& suite, const MethodSummary& row)
       {"warmup_frames", std::to_string(suite.warmupFrames)},
       {"russian_roulette", suite.russianRoulette ? "on" : "off"},
       {"filter", filterName(suite.pixelFilter)},
+      {"multiscatter", suite.multiscatter ? "on" : "off"},
       {"seed", std::to_string(suite.seed)},
       {"kernel", row.method->session.specialise ? "specialised" : "general"},
       {"reference_spp", std::to_string(row.block->reference.spp)},

@@ -26,6 +26,7 @@ SessionConfig methodConfig(const Suite& suite, const SuiteMethod& method,
   config.maxBounces = suite.maxBounces;
   config.components = block.component;
   config.pixelFilter = suite.pixelFilter;
+  config.multiscatter = suite.multiscatter;
   config.russianRoulette = suite.russianRoulette;
   config.threads = suite.threads;
   return config;

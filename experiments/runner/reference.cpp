@@ -38,6 +38,7 @@ SessionConfig pathConfig(const PreparedScene& prepared, const ReferenceConfig& c
   session.maxBounces = config.maxBounces;
   session.components = config.components;
   session.pixelFilter = config.pixelFilter;
+  session.multiscatter = config.multiscatter;
   session.russianRoulette = false;
   session.threads = config.threads;
   return session;
@@ -69,9 +70,10 @@ bool targetReached(const ReferenceTarget& target, uint64_t spp, double relmse, d
 
 std::string referenceKey(const PreparedScene& prepared, const ReferenceConfig& config) {
   const std::string text = fmt::format(
-      "reference-1 {} camera {} {}x{} bounces {} {} {} sources {}", hexHash(prepared.contentHash),
-      prepared.camera, config.width, config.height, config.maxBounces,
-      componentName(config.components), filterName(config.pixelFilter), buildInfo().referenceHash);
+      "reference-2 {} camera {} {}x{} bounces {} {} {} multiscatter {} sources {}",
+      hexHash(prepared.contentHash), prepared.camera, config.width, config.height,
+      config.maxBounces, componentName(config.components), filterName(config.pixelFilter),
+      config.multiscatter ? "on" : "off", buildInfo().referenceHash);
   const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
   return hexHash(hash.high64) + hexHash(hash.low64);
 }
@@ -190,7 +192,7 @@ void requireSameConfiguration(const std::string& file,
     return;
   }
   for (const char* item : {"scene_hash", "camera_index", "width", "height", "max_bounces",
-                           "component", "filter", "reference_sources"}) {
+                           "component", "filter", "multiscatter", "reference_sources"}) {
     const auto have = reference.find(item), want = wanted.find(item);
     if (have == reference.end() || want == wanted.end() || have->second == want->second) continue;
     failInput(fmt::format("{}: the reference is of another configuration: {} is {}, not {}", file,

@@ -17,6 +17,7 @@ struct ReferenceConfig {
   uint32_t maxBounces = 8;
   uint32_t components = rl::RL_COMPONENT_ALL;
   uint32_t pixelFilter = rl::RL_FILTER_BOX;
+  bool multiscatter = false;
   uint32_t seed = 1;  // not part of the key
   int threads = 0;
 };
@@ -38,8 +39,8 @@ struct Reference {
   double timeS = 0.0;   // rendering only
 };
 
-// The key: scene and environment bytes, camera, size, bounces, components, filter and the sources
-// of core/ and integrators/path.
+// The key: scene and environment bytes, camera, size, bounces, components, filter, multiscatter and
+// the sources of core/ and integrators/path.
 std::string referenceKey(const PreparedScene& prepared, const ReferenceConfig& config);
 
 // Renders until the target is reached; progress on stderr. Throws Error (interrupted) on SIGINT.

@@ -48,6 +48,7 @@ Json configurationJson(const Suite& suite, const BlockResult& block, size_t meth
           {"width", block.width},
           {"height", block.height},
           {"max_bounces", suite.maxBounces},
+          {"multiscatter", suite.multiscatter},
           {"russian_roulette", suite.russianRoulette},
           {"filter", filterName(suite.pixelFilter)},
           {"warmup_frames", suite.warmupFrames},

@@ -125,6 +125,7 @@ void readSettings(const ConfigTable& table, Suite& suite) {
   suite.width = uint32_t(table.getInteger("width", 0, 1, kMaxSide));
   suite.height = uint32_t(table.getInteger("height", 0, 1, kMaxSide));
   suite.maxBounces = uint32_t(table.getInteger("max_bounces", suite.maxBounces, 0, 1024));
+  suite.multiscatter = table.getBool("multiscatter", suite.multiscatter);
   suite.russianRoulette = table.getBool("russian_roulette", suite.russianRoulette);
   suite.warmupFrames =
       uint32_t(table.getInteger("warmup_frames", suite.warmupFrames, 0, kMaxCount));

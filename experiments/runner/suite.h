@@ -30,6 +30,7 @@ struct Suite {
   std::vector<uint32_t> components = {rl::RL_COMPONENT_ALL};
   uint32_t width = 0, height = 0;  // 0: from the camera's aspect ratio
   uint32_t maxBounces = 8;
+  bool multiscatter = false;
   bool russianRoulette = false;
   uint32_t warmupFrames = 32;  // the frame after them is the one whose error is measured
   uint32_t timedFrames = 8;    // per run, the measured one first

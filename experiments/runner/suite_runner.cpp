@@ -27,6 +27,7 @@ ReferenceConfig referenceConfig(const Suite& suite, const BlockResult& block) {
   config.maxBounces = suite.maxBounces;
   config.components = block.component;
   config.pixelFilter = suite.pixelFilter;
+  config.multiscatter = suite.multiscatter;
   config.seed = suite.seed;
   config.threads = suite.threads;
   return config;
@@ -47,6 +48,7 @@ Reference givenReference(const std::string& file, const PreparedScene& prepared,
   wanted.maxBounces = suite.maxBounces;
   wanted.components = block.component;
   wanted.pixelFilter = suite.pixelFilter;
+  wanted.multiscatter = suite.multiscatter;
   requireSameConfiguration(file, reference.metadata, describe(prepared, wanted));
   return reference;
 }

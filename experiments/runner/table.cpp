@@ -58,11 +58,13 @@ std::string blockTable(const Suite& suite, const std::vector<MethodSummary>& row
   const BlockResult& block = *rows.front().block;
   const size_t yardstick = suite.yardstick();
   std::string text = fmt::format(
-      "## {}, {} light\n\nCamera {}, {}x{}, {} scattering events, Russian roulette {}, filter {}; "
+      "## {}, {} light\n\nCamera {}, {}x{}, {} scattering events, Russian roulette {}, filter "
+      "{}{}; "
       "{} runs of {} warm-up and {} timed frames; reference {} spp.\n\n",
       block.scene, componentName(block.component), block.camera, block.width, block.height,
       suite.maxBounces, suite.russianRoulette ? "on" : "off", filterName(suite.pixelFilter),
-      rows.front().runs, suite.warmupFrames, suite.timedFrames, block.reference.spp);
+      suite.multiscatter ? ", multiple scattering compensated" : "", rows.front().runs,
+      suite.warmupFrames, suite.timedFrames, block.reference.spp);
   text +=
       "| method | time per frame | MSE | | efficiency | energy | bias^2/MSE | worst 0.1 % | MSE "
       "without lights in view | relMSE without the worst 0.1 % | rays/px |\n"

@@ -2,6 +2,7 @@ set(RL_CLI_TESTS
   bad_input_test.cpp
   compare_test.cpp
   info_list_test.cpp
+  multiscatter_test.cpp
   program.cpp
   reference_test.cpp
   render_test.cpp

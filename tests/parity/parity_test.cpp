@@ -118,6 +118,7 @@ struct PathCase {
   Scene (*make)();
   double maxDifferentShare;  // of the pixels, beyond kMaxRelativeDifference
   double maxMeanDifference;  // relative, of the whole image
+  uint32_t multiscatter;     // FrameData::multiscatter
 };
 
 class PathParity : public Parity, public testing::WithParamInterface<PathCase> {};
@@ -136,6 +137,8 @@ TEST_P(PathParity, SameSeedSameImage) {
   rl::FrameData frame = plainFrame(64, 64, 3);
   frame.camera = scene->camera(scene->source().cameras.front(), frame.width, frame.height);
   frame.previousCamera = frame.camera;
+  frame.multiscatter = c.multiscatter;
+  if (c.multiscatter != 0u) scene->bindGgxAlbedo();
   const size_t pixels = size_t{frame.width} * frame.height;
   const rl::PathParams params{};
   std::vector<rl::vec3> host(pixels), embree(pixels);
@@ -169,8 +172,9 @@ TEST_P(PathParity, SameSeedSameImage) {
 }
 
 const PathCase kPathCases[] = {
-    {"CornellBox", [] { return makeBuiltinScene("cornell-box"); }, 0.002, 1e-5},
-    {"EveryFeature", makeEverythingScene, 0.02, 1e-4},
+    {"CornellBox", [] { return makeBuiltinScene("cornell-box"); }, 0.002, 1e-5, 0u},
+    {"EveryFeature", makeEverythingScene, 0.02, 1e-4, 0u},
+    {"EveryFeatureMultiscatter", makeEverythingScene, 0.02, 1e-4, 1u},
 };
 INSTANTIATE_TEST_SUITE_P(, PathParity, testing::ValuesIn(kPathCases), [](const auto& test) { return test.param.name; });
 

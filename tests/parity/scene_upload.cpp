@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "core/dialect/bsdf.h"
+
 namespace restlab::parity {
 
 namespace {
@@ -80,6 +82,8 @@ uint64_t uploadScene(VulkanDevice& device, const rl::SceneData& scene) {
   move(device, copy.lightAlias.data, scene.lightCount);
   move(device, copy.environment.data, environmentTexels);
   move(device, copy.environmentAlias.data, environmentTexels);
+  const size_t albedos = size_t{rl::RL_GGX_NODES} * (rl::RL_GGX_NODES + 1);
+  move(device, copy.ggxAlbedo.data, copy.ggxAlbedo.data != nullptr ? albedos : 0);
   return device.upload(&copy, sizeof copy).address;
 }
 

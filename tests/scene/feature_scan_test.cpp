@@ -266,5 +266,29 @@ TEST(FeatureScan, MultiscatterIsNeverAScenesNeed) {
   }
 }
 
+TEST(FeatureScan, RoughReflection) {
+  EXPECT_FALSE(hasRoughReflection(square(kGray)));
+  rl::Material m = kGray;
+  m.metallic = 1.0f;
+  m.roughness = 0.5f;
+  EXPECT_TRUE(hasRoughReflection(square(m)));
+  Scene unseen = square(m);
+  unseen.instances.clear();
+  EXPECT_FALSE(hasRoughReflection(unseen)) << "nothing uses it";
+  m.roughness = 0.0f;
+  EXPECT_FALSE(hasRoughReflection(square(m))) << "a mirror loses nothing";
+  m.metallic = 0.0f;
+  m.roughness = 0.5f;
+  m.specular = 1.0f;
+  m.specularColor = glm::vec3(1.0f);
+  m.ior = 1.5f;
+  EXPECT_TRUE(hasRoughReflection(square(m))) << "a coat";
+  m.transmission = 0.5f;
+  EXPECT_FALSE(hasRoughReflection(square(m))) << "rough glass is not compensated";
+  m.transmission = 0.0f;
+  m.flags |= rl::RL_MATERIAL_BLACK;
+  EXPECT_FALSE(hasRoughReflection(square(m)));
+}
+
 }  // namespace
 }  // namespace restlab

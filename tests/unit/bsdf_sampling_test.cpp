@@ -24,6 +24,7 @@ struct Setting {
   std::string name;
   rl::Bsdf bsdf;
   glm::vec3 wo, nGeo, nShade;
+  bool multiscatter = false;
   uint64_t samples = kSamples;
 };
 
@@ -92,6 +93,7 @@ double fluxScale(const rl::Bsdf& b) {
 // The density of draws is bsdfPdf, what it misses of 1 is absorbed; the mean weight is the albedo.
 void checkSetting(const Setting& s, uint64_t seed) {
   Dialect<> d;
+  if (s.multiscatter) d.compensate();
   const SphereGrid grid = gridFor(s);
   const SphereGrid::Function pdfAndEval = [&](const glm::dvec3& wi) {
     const glm::vec3 direction(wi);
@@ -127,6 +129,28 @@ void checkCases(const std::vector<BsdfCase>& cases, uint64_t seed) {
       checkSetting({name, c.bsdf, directionAt(angle), up, up}, ++seed);
     }
   }
+}
+
+bool isCompensated(const rl::Bsdf& b) {
+  return (b.lobes & rl::RL_LOBE_SPECULAR) != 0 && (b.lobes & rl::RL_LOBE_ANY_TRANSMISSION) == 0;
+}
+
+TEST(BsdfSampling, MultipleScattering) {
+  const glm::vec3 up(0.0f, 0.0f, 1.0f), tilted = glm::normalize(glm::vec3(0.4f, -0.2f, 1.0f));
+  uint64_t seed = 3000;
+  size_t tested = 0;
+  for (const BsdfCase& c : continuousBsdfs()) {
+    if (!isCompensated(c.bsdf)) continue;
+    ++tested;
+    for (const double angle : {30.0, 80.0}) {
+      const std::string name = c.name + ", compensated, at " + std::to_string(angle).substr(0, 4);
+      checkSetting({name, c.bsdf, directionAt(angle), up, up, true}, ++seed);
+    }
+    const std::string name = c.name + ", compensated, tilted normal";
+    if (c.bsdf.alpha < 0.2f) continue;
+    checkSetting({name, c.bsdf, directionAt(60.0), tilted, up, true}, ++seed);
+  }
+  EXPECT_GE(tested, 10u);
 }
 
 TEST(BsdfSampling, ContinuousLobes) { checkCases(continuousBsdfs(), 100); }

@@ -10,6 +10,7 @@
 #include "core/backend/cpu_kernel.h"
 #include "core/dialect/order.h"
 #include "core/scene/compiled_scene.h"
+#include "core/scene/ggx_albedo.h"
 
 #ifdef RL_RNG_AUDIT
 #error "rl::Ctx would differ between the files of the program"
@@ -50,6 +51,12 @@ struct Dialect {
   Dialect& operator=(const Dialect&) = delete;
 
   rl::Ctx<FEATURES>* operator->() { return &ctx; }
+
+  // Switches multiple-scattering compensation on, as a session does.
+  void compensate() {
+    scene.ggxAlbedo.data = const_cast<glm::vec2*>(ggxAlbedoTable().data());
+    frame.multiscatter = 1;
+  }
 
   std::shared_ptr<const CompiledScene> compiledScene;
   rl::SceneData scene{};

@@ -15,6 +15,7 @@ void auditDraw(uint32_t keyX, uint32_t keyY, uint32_t vertex, uint32_t dimension
 namespace rl {
 
 extern const CpuKernelEntry kernel_path_audited;
+extern const CpuKernelEntry kernel_template_audited;
 extern const CpuKernelEntry kernel_restir_gi_initial_audited;
 extern const CpuKernelEntry kernel_restir_gi_temporal_audited;
 extern const CpuKernelEntry kernel_restir_gi_spatial_audited;

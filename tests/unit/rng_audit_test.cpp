@@ -121,6 +121,13 @@ TEST(RngAudit, Path) {
   }
 }
 
+TEST(RngAudit, Template) {
+  for (const std::string& name : builtinSceneNames()) {
+    AuditedRun run(name, "template", "unbiased", {}, {rl::kernel_template_audited});
+    expectNoRepeats(run, size_t(kWidth) * kHeight * 3, "template, " + name);
+  }
+}
+
 TEST(RngAudit, RestirGi) {
   const std::vector<rl::CpuKernelEntry> passes = {rl::kernel_restir_gi_initial_audited,
                                                   rl::kernel_restir_gi_temporal_audited,

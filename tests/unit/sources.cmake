@@ -11,11 +11,13 @@ list(APPEND RL_UNIT_TESTS
   ggx_reference.cpp
   light_test.cpp
   math_test.cpp
+  multiscatter_test.cpp
   ray_offset_test.cpp
   rng_audit_path.cpp
   rng_audit_restir_initial.cpp
   rng_audit_restir_spatial.cpp
   rng_audit_restir_temporal.cpp
+  rng_audit_template.cpp
   rng_audit_test.cpp
   rng_test.cpp
   sphere_grid.cpp

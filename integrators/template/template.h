@@ -1,0 +1,26 @@
+// Buffers and parameters of the `template` kernel.
+#ifndef RL_TEMPLATE_H
+#define RL_TEMPLATE_H
+
+#ifdef __cplusplus
+#include "core/dialect/types.h"
+#endif
+
+RL_NAMESPACE_BEGIN
+
+// In the order of IntegratorInfo::buffers; the radiance comes first. Read as gBuffers.
+struct TemplateBuffers {
+  Vec3Ref radiance;
+};
+
+// Filled by packParameters. Read as gParams.
+struct TemplateParams {
+  float misExponent;
+};
+
+RL_NAMESPACE_END
+
+#define RL_KERNEL_BUFFERS TemplateBuffers
+#define RL_KERNEL_PARAMS TemplateParams
+
+#endif
