@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <map>
+#include <stdexcept>
 
 namespace restlab::bias {
 namespace {
@@ -68,6 +70,16 @@ std::shared_ptr<const CompiledScene> builtinScene(const std::string& name) {
   return scene;
 }
 
+uint32_t seedOffset() {
+  constexpr uint32_t kLargest = 8, kStep = 1'000'000;  // all of it below the first batch
+  const char* text = std::getenv("RESTLAB_TEST_SEED");
+  if (text == nullptr || *text == '\0') return 0;
+  if (text[0] < '0' || text[0] > char('0' + kLargest) || text[1] != '\0') {
+    throw std::invalid_argument(fmt::format("RESTLAB_TEST_SEED is '{}', not 0 to 8", text));
+  }
+  return uint32_t(text[0] - '0') * kStep;
+}
+
 stats::RunSet independentRuns(const std::shared_ptr<const CompiledScene>& scene,
                               const Method& method, uint32_t firstSeed, size_t runs) {
   return independentSums(scene, {method}, firstSeed, runs);
@@ -79,11 +91,12 @@ stats::RunSet independentSums(const std::shared_ptr<const CompiledScene>& scene,
   std::vector<std::unique_ptr<Session>> sessions;
   for (const Method& m : methods) sessions.push_back(std::make_unique<Session>(scene, m.config));
   stats::RunSet set(stats::BlockGrid(config.width, config.height));
+  const uint32_t first = firstSeed + seedOffset();
   for (size_t run = 0; run < runs; ++run) {
     Image shown(config.width, config.height);
     for (size_t i = 0; i < methods.size(); ++i) {
       // Far from the seeds of the other parts.
-      sessions[i]->reset(firstSeed + uint32_t(run) + uint32_t(i) * kPart);
+      sessions[i]->reset(first + uint32_t(run) + uint32_t(i) * kPart);
       addHistory(*sessions[i], methods[i], shown);
     }
     set.add(shown);
@@ -95,9 +108,8 @@ stats::BiasReport testMethod(const std::shared_ptr<const CompiledScene>& scene,
                              const Method& method, const stats::Truth& truth, size_t runs,
                              const stats::BiasOptions& options) {
   const stats::RunSet first = independentRuns(scene, method, kFirstBatch, runs);
-  const stats::BiasReport report = stats::testBias(first, truth, options, [&] {
-    return independentRuns(scene, method, kSecondBatch, runs);
-  });
+  const stats::BiasReport report = stats::testBias(
+      first, truth, options, [&] { return independentRuns(scene, method, kSecondBatch, runs); });
   std::printf("%s\n", describe(scene->source().name + ", " + method.name, report).c_str());
   std::fflush(stdout);
   return report;
@@ -107,8 +119,8 @@ std::string describe(const std::string& name, const stats::BiasReport& report) {
   std::string text = fmt::format("{}: {}", name, report.text());
   if (const stats::CellVerdict* v = worstCell(report)) {
     text += fmt::format("\n  worst cell: blocks x {} y {} size {}, {:+.2f} %, t {:.2f}", v->area.x,
-                        v->area.y, v->area.size,
-                        100.0 * v->welch.difference / v->reference, v->welch.t);
+                        v->area.y, v->area.size, 100.0 * v->welch.difference / v->reference,
+                        v->welch.t);
   }
   return text;
 }

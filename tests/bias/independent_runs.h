@@ -1,8 +1,10 @@
-// Independent runs of an integrator, ready for the bias test: a new seed and the whole history again.
+// Independent runs of an integrator, ready for the bias test: a new seed and the whole history
+// again.
 //
-// Frames of one history are correlated through reuse, so consecutive frames may not pose as samples:
-// an observation is one history. Every frame of an unbiased method has the right mean, though, so
-// the mean over a history's frames is as good an observation as its last frame, and a quieter one.
+// Frames of one history are correlated through reuse, so consecutive frames may not pose as
+// samples: an observation is one history. Every frame of an unbiased method has the right mean,
+// though, so the mean over a history's frames is as good an observation as its last frame, and a
+// quieter one.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +24,8 @@ struct Method {
   SessionConfig config;
   uint32_t frames = 1;   // of one history
   uint32_t skipped = 0;  // less than `frames`
-  std::vector<SceneCamera> cameras;  // of frame 0, 1, ...; the last one stays. Empty: the scene's own
+  // Of frame 0, 1, ...; the last one stays. Empty: the scene's own.
+  std::vector<SceneCamera> cameras;
 };
 
 // Small enough for hundreds of runs; the aspect ratio of the lecture's table.
@@ -36,12 +39,17 @@ Method restirMethod(uint32_t frames, uint32_t skipped, const ParameterMap& param
 // Compiled once a process.
 std::shared_ptr<const CompiledScene> builtinScene(const std::string& name);
 
-// Seeds firstSeed, firstSeed + 1, ...
+// The variable RESTLAB_TEST_SEED, 0 to 8, moves all seeds: whether a verdict was luck is asked by
+// running a test again with fresh noise. This is by how much; 0 without it. Throws
+// std::invalid_argument for other values.
+uint32_t seedOffset();
+
+// Seeds firstSeed, firstSeed + 1, ..., all moved by seedOffset().
 stats::RunSet independentRuns(const std::shared_ptr<const CompiledScene>& scene,
                               const Method& method, uint32_t firstSeed, size_t runs);
 
-// Observations that are sums of one run of each method, all of them independent: the images of methods
-// that compute parts of one whole.
+// Observations that are sums of one run of each method, all of them independent: the images of
+// methods that compute parts of one whole.
 stats::RunSet independentSums(const std::shared_ptr<const CompiledScene>& scene,
                               const std::vector<Method>& methods, uint32_t firstSeed, size_t runs);
 

@@ -1,5 +1,5 @@
-// Partly transparent surfaces. Path rays pass them by chance, shadow rays and reconnections are dimmed
-// by them: two pictures of one integrand, which reuse has to bring together.
+// Partly transparent surfaces. Path rays pass them by chance, shadow rays and reconnections are
+// dimmed by them: two pictures of one integrand, which reuse has to bring together.
 #include <gtest/gtest.h>
 
 #include "core/scene/builtin_builder.h"
@@ -9,8 +9,8 @@
 namespace restlab::bias {
 namespace {
 
-// A room divided by screens of coverage 1/2, so that neighbouring pixels see a vertex through them or
-// past them; the large lamp is such a screen itself when `lampCoverage` is below 1.
+// A room divided by screens of coverage 1/2, so that neighbouring pixels see a vertex through them
+// or past them; the large lamp is such a screen itself when `lampCoverage` is below 1.
 std::shared_ptr<const CompiledScene> screens(float lampCoverage) {
   using namespace builtin;
   SceneBuilder scene("screens");
@@ -32,22 +32,35 @@ std::shared_ptr<const CompiledScene> screens(float lampCoverage) {
   return CompiledScene::build(scene.finish());
 }
 
-void expectUnbiased(float lampCoverage) {
+struct Effort {
+  size_t runs;
+  uint32_t truthFrames, frames, skipped;
+  int threads;
+};
+constexpr Effort kEveryDay{128, 16, 8, 2, 1};
+constexpr Effort kNightly{512, 64, 32, 4, 0};
+
+void expectUnbiased(float lampCoverage, const Effort& effort) {
   const auto scene = screens(lampCoverage);
   for (const uint32_t component : {rl::RL_COMPONENT_DIRECT, rl::RL_COMPONENT_INDIRECT}) {
-    Method path = pathMethod(24);
-    path.config.components = component;
-    const stats::Truth truth = stats::truthOf(independentRuns(scene, path, 1, 128));
-    Method method = restirMethod(10, 2);
-    method.config.components = component;
-    method.name += component == rl::RL_COMPONENT_DIRECT ? ", direct" : ", indirect";
-    const stats::BiasReport report = testMethod(scene, method, truth, 128);
+    const auto adapted = [&](Method method) {
+      method.config.components = component;
+      method.config.threads = effort.threads;
+      method.name += component == rl::RL_COMPONENT_DIRECT ? ", direct" : ", indirect";
+      return method;
+    };
+    const stats::Truth truth = stats::truthOf(
+        independentRuns(scene, adapted(pathMethod(effort.truthFrames)), 1, effort.runs));
+    const stats::BiasReport report =
+        testMethod(scene, adapted(restirMethod(effort.frames, effort.skipped)), truth, effort.runs);
     EXPECT_FALSE(report.failed()) << report.text();
   }
 }
 
-TEST(Transparency, ScreensLeaveTheMean) { expectUnbiased(1.0f); }
-TEST(Transparency, ATransparentLampLeavesTheMean) { expectUnbiased(0.5f); }
+TEST(Transparency, ScreensLeaveTheMean) { expectUnbiased(1.0f, kEveryDay); }
+TEST(Transparency, ATransparentLampLeavesTheMean) { expectUnbiased(0.5f, kEveryDay); }
+TEST(Transparency, NightlyScreensLeaveTheMean) { expectUnbiased(1.0f, kNightly); }
+TEST(Transparency, NightlyATransparentLampLeavesTheMean) { expectUnbiased(0.5f, kNightly); }
 
 }  // namespace
 }  // namespace restlab::bias

@@ -1,58 +1,102 @@
 // Deliberately wrong estimators that the bias test must reject. A test that has never rejected
-// anything proves nothing; these are run with the method, the statistics and the effort of tests/bias.
+// anything proves nothing; these are run with the method, the statistics and the effort of
+// tests/bias.
 #include <gtest/gtest.h>
 
 #include "tests/bias/independent_runs.h"
+#include "tests/bias/test_cameras.h"
 
 namespace restlab::bias {
 namespace {
 
 struct Canary {
+  const char* name;
   const char* scene;
-  ParameterMap wrong;  // the error
-  ParameterMap other;  // what makes it matter; with this alone the method is right
-  size_t runs;
-  uint32_t truthFrames, frames, skipped;
+  std::vector<SceneCamera> cameras;  // none: the scene's own
+  ParameterMap wrong;                // the error
+  ParameterMap other;                // what makes it matter; with this alone the method is right
 };
 
+void PrintTo(const Canary& c, std::ostream* out) { *out << c.name; }
+
+struct Effort {
+  size_t runs;
+  uint32_t truthFrames, frames, skipped;
+  int threads;
+};
+constexpr Effort kEveryDay{128, 12, 8, 2, 1};
+constexpr Effort kNightly{512, 32, 24, 4, 0};
+
 // The wrong variant is rejected, and the same settings without the error are not.
-void expectRejected(const Canary& canary, const std::string& name) {
+void expectRejected(const Canary& canary, const Effort& effort) {
   const auto scene = builtinScene(canary.scene);
-  const stats::Truth reference =
-      stats::truthOf(independentRuns(scene, pathMethod(canary.truthFrames), 1, canary.runs));
+  const auto adapted = [&](Method method) {
+    method.cameras = canary.cameras;
+    method.config.threads = effort.threads;
+    return method;
+  };
+  const stats::Truth reference = stats::truthOf(
+      independentRuns(scene, adapted(pathMethod(effort.truthFrames)), 1, effort.runs));
 
   ParameterMap wrong = canary.other;
   wrong.insert(canary.wrong.begin(), canary.wrong.end());
-  Method method = restirMethod(canary.frames, canary.skipped, wrong);
-  method.name = name;
-  const stats::BiasReport rejected = testMethod(scene, method, reference, canary.runs);
-  EXPECT_GT(rejected.confirmed, 0u) << name << " was not rejected: " << rejected.text();
+  Method method = adapted(restirMethod(effort.frames, effort.skipped, wrong));
+  method.name = canary.name;
+  const stats::BiasReport rejected = testMethod(scene, method, reference, effort.runs);
+  EXPECT_GT(rejected.confirmed, 0u) << canary.name << " was not rejected: " << rejected.text();
 
-  method = restirMethod(canary.frames, canary.skipped, canary.other);
+  method = adapted(restirMethod(effort.frames, effort.skipped, canary.other));
   method.name = "the same without the error";
-  const stats::BiasReport accepted = testMethod(scene, method, reference, canary.runs);
+  const stats::BiasReport accepted = testMethod(scene, method, reference, effort.runs);
   EXPECT_FALSE(accepted.failed()) << accepted.text();
 }
 
-// Weights by confidence alone (1/M) ignore that a neighbour behind the door's edge could never have
+// Donors from far away, whatever they look like: the more they differ, the more their weights
+// matter.
+ParameterMap farDonors() {
+  return {{"spatial_neighbours", int64_t{2}},
+          {"spatial_radius", 48.0},
+          {"normal_threshold", -1.0},
+          {"plane_threshold", 10.0}};
+}
+
+// Weights by confidence alone (1/M) ignore that a neighbour behind an occluder could never have
 // produced the sample: darker.
-TEST(Canary, ConfidenceWeightsAreRejected) {
-  expectRejected({"door-ajar", {{"mis", std::string("confidence")}}, {}, 128, 16, 12, 4},
-                 "mis = confidence");
+Canary confidenceInTheBox() {
+  return {"mis = confidence, cornell-box",
+          "cornell-box",
+          {cornellBelowTheLamp()},
+          {{"mis", std::string("confidence")}},
+          {}};
+}
+Canary confidenceBehindTheDoor() {
+  return {"mis = confidence, door-ajar", "door-ajar", {}, {{"mis", std::string("confidence")}}, {}};
 }
 
 // Without the Jacobian of the reconnection, samples that come from afar are weighted as if they had
 // been found here. The errors have both signs, so the cells matter more than the whole image.
-TEST(Canary, AnOmittedJacobianIsRejected) {
-  expectRejected({"door-ajar",
-                  {{"omit_jacobian", true}},
-                  {{"spatial_neighbours", int64_t{2}},
-                   {"spatial_radius", 48.0},
-                   {"normal_threshold", -1.0},
-                   {"plane_threshold", 10.0}},
-                  128, 16, 12, 4},
-                 "omit_jacobian");
+Canary jacobianInTheBox() {
+  return {"omit_jacobian, cornell-box",
+          "cornell-box",
+          {cornellBelowTheLamp()},
+          {{"omit_jacobian", true}},
+          farDonors()};
 }
+Canary jacobianBehindTheDoor() {
+  return {"omit_jacobian, door-ajar", "door-ajar", {}, {{"omit_jacobian", true}}, farDonors()};
+}
+
+TEST(Canary, ConfidenceWeightsAreRejected) { expectRejected(confidenceInTheBox(), kEveryDay); }
+TEST(Canary, AnOmittedJacobianIsRejected) { expectRejected(jacobianInTheBox(), kEveryDay); }
+TEST(Canary, AnOmittedJacobianIsRejectedBehindTheDoor) {
+  expectRejected(jacobianBehindTheDoor(), kEveryDay);
+}
+
+class CanaryNightly : public ::testing::TestWithParam<Canary> {};
+TEST_P(CanaryNightly, IsRejected) { expectRejected(GetParam(), kNightly); }
+INSTANTIATE_TEST_SUITE_P(Wrong, CanaryNightly,
+                         ::testing::Values(confidenceInTheBox(), confidenceBehindTheDoor(),
+                                           jacobianInTheBox(), jacobianBehindTheDoor()));
 
 }  // namespace
 }  // namespace restlab::bias

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -21,10 +22,39 @@ constexpr size_t kFewestRuns = 8;
 // still differs by this much, relatively.
 constexpr double kRounding = 1e-5;
 
-struct Comparison {
+// Cells darker than this share of the whole image's brightness are held to the rounding of that
+// share: where (almost) nothing arrives, a difference relative to the cell itself means nothing.
+constexpr double kDarkness = 0.1;
+
+class Comparison {
+ public:
   const RunSet& runs;
   const Truth& truth;
   const BiasOptions& options;
+
+  Comparison(const RunSet& runsIn, const Truth& truthIn, const BiasOptions& optionsIn)
+      : runs(runsIn), truth(truthIn), options(optionsIn) {
+    const CellArea whole{0, 0, runs.grid().side};
+    for (const Quantity q : options.quantities) {
+      const Sample sample = summarise(runs.cellMeans(whole, q));
+      brightness_[size_t(q)] = std::max(std::abs(sample.mean), std::abs(truth.cell(whole, q).mean));
+    }
+  }
+
+  // What counts as rounding in a cell of these means.
+  double rounding(double mean, double reference, Quantity quantity) const {
+    return kRounding * std::max({std::abs(mean), std::abs(reference),
+                                 kDarkness * brightness_[size_t(quantity)]});
+  }
+
+  // Neither side has noise, and both are equal. (Values that are not finite equal nothing.)
+  bool equal(const CellArea& area, Quantity quantity) const {
+    const Sample sample = summarise(runs.cellMeans(area, quantity));
+    const Sample other = truth.cell(area, quantity);
+    const WelchResult welch = welchTest(sample, other);
+    const double allowed = rounding(sample.mean, other.mean, quantity);
+    return welch.standardError <= allowed && std::abs(welch.difference) <= allowed;
+  }
 
   double scaledSkewness(const CellArea& area, Quantity quantity) const {
     const double own = skewness(runs.cellMeans(area, quantity)) / std::sqrt(double(runs.runs()));
@@ -35,18 +65,25 @@ struct Comparison {
   bool nearlyNormal(const CellArea& area, Quantity quantity) const {
     return std::abs(scaledSkewness(area, quantity)) <= options.maxSkewness;
   }
+
+  bool judgeable(const CellArea& area, Quantity quantity) const {
+    return nearlyNormal(area, quantity) || equal(area, quantity);
+  }
+
+ private:
+  std::array<double, kQuantities> brightness_{};  // of the whole image
 };
 
-// Divides `area` into cells that a t-test may judge, as small as they can be. The four children are
-// kept when all of their area is testable; else they are merged if the merged cell is testable;
-// else they are kept with what is testable among them.
+// Divides `area` into cells that can be judged, as small as they can be. The four children are kept
+// when all of their area is judgeable; else they are merged if the merged cell is; else they are
+// kept with what is judgeable among them.
 struct Division {
   std::vector<CellArea> cells;
-  bool complete = true;  // every cell is nearly normal
+  bool complete = true;  // every cell is judgeable
 };
 
 Division divide(const Comparison& comparison, Quantity quantity, const CellArea& area) {
-  if (area.size == 1) return {{area}, comparison.nearlyNormal(area, quantity)};
+  if (area.size == 1) return {{area}, comparison.judgeable(area, quantity)};
   Division result;
   const uint32_t half = area.size / 2;
   for (uint32_t i = 0; i < 4; ++i) {
@@ -55,7 +92,7 @@ Division divide(const Comparison& comparison, Quantity quantity, const CellArea&
     result.cells.insert(result.cells.end(), part.cells.begin(), part.cells.end());
     result.complete = result.complete && part.complete;
   }
-  if (!result.complete && comparison.nearlyNormal(area, quantity)) return {{area}, true};
+  if (!result.complete && comparison.judgeable(area, quantity)) return {{area}, true};
   return result;
 }
 
@@ -72,9 +109,8 @@ CellVerdict judge(const Comparison& comparison, const CellArea& area, Quantity q
   v.welch = welchTest(sample, truth);
   if (std::isnan(v.welch.pValue)) {
     v.whyNot = "values that are not finite";
-  } else if (std::max(v.welch.standardError, std::abs(v.welch.difference)) <=
-             kRounding * std::max(std::abs(v.mean), std::abs(v.reference))) {
-    v.whyNot = "constant and equal";
+  } else if (comparison.equal(area, quantity)) {
+    v.equal = true;
   } else if (!comparison.nearlyNormal(area, quantity)) {
     v.whyNot = "skewed";
   } else {
@@ -105,7 +141,7 @@ void confirm(std::vector<CellVerdict>& verdicts, const Comparison& fresh) {
     if (v.side == 0) continue;
     CellVerdict second = judge(fresh, v.area, v.quantity);
     // The cell was found testable by the first batch; a fresh batch decides about the mean only.
-    second.testable = !std::isnan(second.welch.pValue);
+    second.testable = !second.equal && !std::isnan(second.welch.pValue);
     again.push_back(second);
   }
   correct(again, fresh.options.familyError);
@@ -126,11 +162,13 @@ void statePower(std::vector<CellVerdict>& verdicts, const BiasOptions& options) 
   }
 }
 
-double untestableShare(const std::vector<CellVerdict>& verdicts, const BlockGrid& grid,
-                       Quantity quantity) {
+// Of the image's area, the cells of a quantity that `counts` accepts.
+template <class F>
+double share(const std::vector<CellVerdict>& verdicts, const BlockGrid& grid, Quantity quantity,
+             F counts) {
   uint64_t pixels = 0;
   for (const CellVerdict& v : verdicts) {
-    if (v.quantity == quantity && !v.wholeImage && !v.testable) pixels += pixelCount(grid, v.area);
+    if (v.quantity == quantity && !v.wholeImage && counts(v)) pixels += pixelCount(grid, v.area);
   }
   return double(pixels) / (double(grid.width) * double(grid.height));
 }
@@ -180,8 +218,14 @@ BiasReport testBias(const RunSet& runs, const Truth& truth, const BiasOptions& o
     for (const CellArea& area : division.cells) {
       report.cells.push_back(judge(first, area, quantity));
     }
+    const auto shareOf = [&](auto counts) {
+      return share(report.cells, runs.grid(), quantity, counts);
+    };
     report.untestableShare =
-        std::max(report.untestableShare, untestableShare(report.cells, runs.grid(), quantity));
+        std::max(report.untestableShare,
+                 shareOf([](const CellVerdict& v) { return !v.testable && !v.equal; }));
+    report.equalShare =
+        std::max(report.equalShare, shareOf([](const CellVerdict& v) { return v.equal; }));
     if (options.wholeImage && division.cells.size() > 1) {
       report.cells.push_back(judge(first, whole, quantity));
       report.cells.back().wholeImage = true;
@@ -218,19 +262,22 @@ BiasReport testBias(const RunSet& runs, const Truth& truth, const BiasOptions& o
 }
 
 bool BiasReport::failed() const {
-  const bool anyTestable =
-      std::any_of(cells.begin(), cells.end(), [](const CellVerdict& v) { return v.testable; });
-  return confirmed > 0 || nonfinite > 0 || !anyTestable;
+  // Black beside black is equal, and says nothing.
+  const bool anyTested = std::any_of(cells.begin(), cells.end(), [](const CellVerdict& v) {
+    return v.testable || (v.equal && std::max(std::abs(v.mean), std::abs(v.reference)) > 0.0);
+  });
+  return confirmed > 0 || nonfinite > 0 || !anyTested;
 }
 
 std::string BiasReport::text() const {
   size_t testable = 0;
   for (const CellVerdict& v : cells) testable += v.testable ? 1u : 0u;
   std::string text = fmt::format(
-      "bias test: {} runs, {} tests, {} rejected, {} confirmed, untestable area {:.1f} %, smallest "
-      "detectable bias {:.3g} % of a cell (median), {:.3g} % of the image",
-      runs, testable, rejected, confirmed, 100.0 * untestableShare, 100.0 * detectableBias,
-      100.0 * detectableBiasWhole);
+      "bias test: {} runs, {} tests, {} rejected, {} confirmed, untestable area {:.1f} %, equal "
+      "without noise {:.1f} %, smallest detectable bias {:.3g} % of a cell (median), {:.3g} % of "
+      "the image",
+      runs, testable, rejected, confirmed, 100.0 * untestableShare, 100.0 * equalShare,
+      100.0 * detectableBias, 100.0 * detectableBiasWhole);
   if (nonfinite > 0) text += fmt::format("\n  {} values are not finite", nonfinite);
   for (const CellVerdict& v : cells) {
     if (v.side == 0) continue;

@@ -9,6 +9,10 @@
 // image are compared by Welch's test with the reference's own variance, and Holm's correction holds
 // the error of the whole family. A rejection counts only if a fresh batch of seeds rejects the same
 // cell on the same side.
+//
+// A cell without noise (a lamp seen directly, a furnace, darkness) leaves a t-test nothing but
+// rounding to judge. Such a cell is compared for equality: within float rounding it is `equal`, and
+// beyond that it is rejected. Equal cells are tested cells, but no members of the family.
 #pragma once
 
 #include <functional>
@@ -31,8 +35,9 @@ struct CellVerdict {
   CellArea area;
   Quantity quantity = Quantity::luminance;
   bool wholeImage = false;
-  bool testable = false;
-  std::string whyNot;  // of an untestable cell
+  bool testable = false;  // by a t-test
+  bool equal = false;     // without noise, and equal but for rounding: a passed test of its own
+  std::string whyNot;     // of a cell that is neither
   double skewness = 0.0;
   double mean = 0.0, reference = 0.0;  // over runs and pixels
   WelchResult welch;
@@ -47,13 +52,15 @@ struct BiasReport {
   std::vector<CellVerdict> cells;
   size_t runs = 0;
   double untestableShare = 0.0;  // of the image's area, largest over the quantities
+  double equalShare = 0.0;       // of the image's area: without noise; largest over the quantities
   uint64_t nonfinite = 0;        // in runs and reference
   size_t rejected = 0;           // by the first batch
   size_t confirmed = 0;
   double detectableBias = 0.0;       // median over testable cells
   double detectableBiasWhole = 0.0;  // of the whole image; NaN when it is not testable
 
-  // True when a rejection was confirmed, a value was not finite, or nothing could be tested.
+  // True when a rejection was confirmed, a value was not finite, or nothing could be tested: every
+  // cell too skewed, or a black image.
   bool failed() const;
   // A few lines: every rejection with its place and side, what could not be tested, and the power.
   std::string text() const;
