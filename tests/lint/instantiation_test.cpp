@@ -1,4 +1,5 @@
-// Specialisation is real: few instantiations, and each specialised kernel is smaller than the general.
+// Specialisation is real: few instantiations, and each specialised kernel is smaller than the
+// general.
 #include <elf.h>
 #include <gtest/gtest.h>
 
@@ -37,7 +38,8 @@ size_t codeBytes(const std::string& path) {
   Elf64_Ehdr header;
   if (bytes.size() < sizeof header) return 0;
   std::memcpy(&header, bytes.data(), sizeof header);
-  if (std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0 || header.e_ident[EI_CLASS] != ELFCLASS64) return 0;
+  if (std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0 || header.e_ident[EI_CLASS] != ELFCLASS64)
+    return 0;
   size_t total = 0;
   // More than 65279 sections put the count into section 0.
   Elf64_Shdr first;
@@ -49,7 +51,8 @@ size_t codeBytes(const std::string& path) {
     if (at + sizeof(Elf64_Shdr) > bytes.size()) return 0;
     Elf64_Shdr section;
     std::memcpy(&section, bytes.data() + at, sizeof section);
-    if (section.sh_type == SHT_PROGBITS && (section.sh_flags & SHF_EXECINSTR)) total += section.sh_size;
+    if (section.sh_type == SHT_PROGBITS && (section.sh_flags & SHF_EXECINSTR))
+      total += section.sh_size;
   }
   return total;
 }
@@ -87,10 +90,17 @@ TEST(Instantiation, SpecialisedCodeIsSmaller) {
       const std::string object = objectFile(name, row.mask);
       const size_t bytes = codeBytes(object);
       ASSERT_GT(bytes, 0u) << name << " " << row.mask << ": " << object;
-      std::printf("  %-24s %-20s %8zu bytes of code, %5.1f %% of the general kernel's\n", name.c_str(),
-                  row.mask.c_str(), bytes, 100.0 * double(bytes) / double(general));
+      std::printf("  %-24s %-20s %8zu bytes of code, %5.1f %% of the general kernel's\n",
+                  name.c_str(), row.mask.c_str(), bytes, 100.0 * double(bytes) / double(general));
       if (row.features == rl::RL_FEATURE_ALL) continue;
-      EXPECT_LT(bytes, general) << name << " " << row.mask;
+      // The spatial pass traces no ray and evaluates no BSDF: of all features it asks for glossy
+      // lobes only, and a mask that has them leaves nothing else out.
+      const bool tracesNothing = name == "restir_gi_spatial";
+      if (tracesNothing && (row.features & rl::RL_FEATURE_GLOSSY) != 0) {
+        EXPECT_LE(bytes, general) << name << " " << row.mask;
+      } else {
+        EXPECT_LT(bytes, general) << name << " " << row.mask;
+      }
     }
   }
 }
