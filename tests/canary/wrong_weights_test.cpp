@@ -25,7 +25,7 @@ struct Effort {
   int threads;
 };
 constexpr Effort kEveryDay{128, 12, 8, 2, 1};
-constexpr Effort kNightly{512, 32, 24, 4, 0};
+constexpr Effort kNightly{256, 24, 16, 4, 0};
 
 // The wrong variant is rejected, and the same settings without the error are not.
 void expectRejected(const Canary& canary, const Effort& effort) {
