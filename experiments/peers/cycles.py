@@ -1,6 +1,6 @@
 # Renders a Lambert glTF scene with Cycles under restlab's settings, for a comparison on one machine:
 #
-#   apt-get install blender
+#   apt-get install blender python3-numpy
 #   blender -b --python experiments/peers/cycles.py -- SCENE.gltf OUT.exr SPP SIZE SCATTERING_EVENTS THREADS
 #   ./lab compare --ref REFERENCE.exr OUT.exr --any-reference
 #
@@ -15,6 +15,11 @@ import sys
 import time
 
 import bpy
+import numpy
+
+# Debian 12's glTF importer uses the alias that its numpy no longer has.
+if not hasattr(numpy, "bool"):
+    numpy.bool = bool
 
 scene_path, out, spp, size, events, threads = sys.argv[sys.argv.index("--") + 1:]
 with open(scene_path) as file:
