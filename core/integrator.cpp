@@ -80,6 +80,14 @@ ParameterMap resolveParameters(const IntegratorInfo& info, const ParameterMap& g
   return resolved;
 }
 
+BiasClass biasClassOf(const IntegratorInfo& info, const std::string& mode, const ParameterMap& parameters) {
+  if (info.biasOfParameters) return info.biasOfParameters(mode, parameters);
+  for (const ModeInfo& m : info.modes) {
+    if (m.name == mode) return m.bias;
+  }
+  return BiasClass::biased;
+}
+
 uint32_t bytesPerPixelOf(const BufferInfo& buffer, const ParameterMap& parameters) {
   if (buffer.perParameter == nullptr) return buffer.bytesPerPixel;
   return buffer.bytesPerPixel *

@@ -61,6 +61,8 @@ struct IntegratorInfo {
   // Buffers in the order of the kernels' Buffers struct; buffer 0 is the radiance (12 bytes).
   std::vector<BufferInfo> buffers;
   std::vector<PassInfo> passes;
+  // Where parameters decide whether a mode keeps its promise; empty: the mode's own class.
+  std::function<BiasClass(const std::string& mode, const ParameterMap&)> biasOfParameters;
   // Packs validated parameters into the block that kernels read as gParams.
   std::function<std::vector<std::byte>(const std::string& mode, const ParameterMap&)> packParameters;
 };
@@ -71,6 +73,8 @@ const std::vector<const IntegratorInfo*>& integratorRegistry();
 const IntegratorInfo& findIntegrator(const std::string& name);
 // Defaults overlaid by `given`; throws Error (badUsage) on unknown names, types, ranges, choices.
 ParameterMap resolveParameters(const IntegratorInfo& info, const ParameterMap& given);
+// What may be said of a mode with these resolved parameters.
+BiasClass biasClassOf(const IntegratorInfo& info, const std::string& mode, const ParameterMap& parameters);
 // Bytes a pixel of a buffer, with resolved parameters.
 uint32_t bytesPerPixelOf(const BufferInfo& buffer, const ParameterMap& parameters);
 

@@ -40,7 +40,7 @@ std::string featureNames(uint32_t mask) {
 const std::array<const char*, rl::RL_HEALTH_COUNT>& Health::names() {
   static const std::array<const char*, rl::RL_HEALTH_COUNT> names = {
       "nonfinite",         "rejected_jacobian", "capped_confidence", "delta_lobes",
-      "unreusable_pixels", "negative",          "empty_reservoirs",  "reserved"};
+      "unreusable_pixels", "negative",          "dropped_weights"};
   return names;
 }
 

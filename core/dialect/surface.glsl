@@ -254,6 +254,12 @@ RL_FN Surface surfaceLoad(RL_IN(Hit) hit, RL_IN(vec3) rayDir) {
   return s;
 }
 
+// Absorption (m^-1) along a ray that leaves a surface towards dirW: that of the medium through which the
+// surface was reached, or, on the other side, of the medium beyond.
+RL_FN vec3 surfaceSigma(RL_IN(Surface) s, RL_IN(vec3) sigmaReached, RL_IN(vec3) dirW) {
+  return dot(s.nGeoW, dirW) >= 0.0f ? sigmaReached : s.sigmaAbsorption;
+}
+
 // Origin of a ray that leaves a surface towards dirW: moved off the plane by the error bound, to the
 // side it goes to.
 RL_FN vec3 surfaceOffset(RL_IN(vec3) posW, RL_IN(vec3) nGeoW, float posError, RL_IN(vec3) dirW) {

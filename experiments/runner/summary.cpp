@@ -29,10 +29,8 @@ double runTimeRatio(const RunResult& run, const RunResult& path) {
 }
 
 BiasClass biasOf(const SessionConfig& config) {
-  for (const ModeInfo& mode : findIntegrator(config.integrator).modes) {
-    if (mode.name == config.mode) return mode.bias;
-  }
-  return BiasClass::biased;
+  const IntegratorInfo& integrator = findIntegrator(config.integrator);
+  return biasClassOf(integrator, config.mode, resolveParameters(integrator, config.parameters));
 }
 
 void summariseTimes(const MethodResult& result, size_t pixels, MethodSummary& row) {

@@ -69,7 +69,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
           weight = lightMisWeight(c.pdfSolidAngle, bsdfPdf(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW));
         }
         lightContribution = throughput * f * c.emitted * (c.geometry * weight / light.pdf);
-        if (RL_HAS(RL_FEATURE_VOLUME)) lightContribution *= exp(-sigma * c.distance);
+        if (RL_HAS(RL_FEATURE_VOLUME)) lightContribution *= exp(-surfaceSigma(s, sigma, c.dirW) * c.distance);
         shadowRay = lightShadowRay(light, c, s.posW, s.nGeoW, s.posError);
         hasShadowRay = true;
       }
@@ -91,7 +91,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
       }
     }
     pdfBsdf = (draw.lobe & RL_LOBE_ANY_DELTA) != 0u ? 0.0f : draw.pdfSolidAngle;
-    if (RL_HAS(RL_FEATURE_VOLUME) && (draw.lobe & RL_LOBE_ANY_TRANSMISSION) != 0u) sigma = s.sigmaAbsorption;
+    if (RL_HAS(RL_FEATURE_VOLUME)) sigma = surfaceSigma(s, sigma, draw.wi);
     ray.origin = surfaceOffset(s.posW, s.nGeoW, s.posError, draw.wi);
     ray.dir = draw.wi;
   }

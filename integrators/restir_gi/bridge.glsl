@@ -2,8 +2,12 @@
 
 RL_FN real bridgeTarget(RL_IN(real3) f) { return rlLuminance(f); }
 
+// The same point of the same surface, seen from the same side. Of two faces that coincide, the material tells.
 RL_FN bool bridgeIsSameAnchor(RL_IN(Anchor) a, RL_IN(Anchor) b) {
-  return a.posW == b.posW && a.wo == b.wo && a.nShadeW == b.nShadeW;
+  if (!(a.posW == b.posW && a.wo == b.wo && a.nShadeW == b.nShadeW && a.bsdf.diffuse == b.bsdf.diffuse)) return false;
+  if (!RL_HAS(RL_FEATURE_GLOSSY)) return true;
+  return a.bsdf.f0 == b.bsdf.f0 && a.bsdf.f90 == b.bsdf.f90 && a.bsdf.alpha == b.bsdf.alpha &&
+         a.bsdf.lobes == b.bsdf.lobes;
 }
 
 // A light sample lives in the measure of its light (area, solid angle of the environment, discrete):
@@ -38,6 +42,7 @@ RL_FN real3 bridgeShift(RL_IN(PathReservoir) r, RL_IN(Anchor) from, RL_IN(Anchor
   real3 zero = real3(real(0.0f));
   jacobian = shiftReconnectionJacobian(r.vertex.posW, r.vertex.nGeoW, from.posW, to.posW);
   if (!(jacobian > 0.0f) || !rlIsFinite(jacobian)) {
+    RL_HEALTH(RL_HEALTH_REJECTED_JACOBIAN);
     jacobian = real(1.0f);
     return zero;
   }

@@ -267,7 +267,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
         }
         if (rlIsBlack(f)) continue;
         vec3 arriving = c.emitted * (c.geometry / light.pdf);
-        if (RL_HAS(RL_FEATURE_VOLUME)) arriving *= exp(-sigma * c.distance);
+        if (RL_HAS(RL_FEATURE_VOLUME)) arriving *= exp(-surfaceSigma(s, sigma, c.dirW) * c.distance);
         shadowRay = lightShadowRay(light, c, s.posW, s.nGeoW, s.posError);
         hasShadowRay = true;
         if (atX2) {
@@ -322,7 +322,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
       }
     }
     pdfBsdf = isDelta ? 0.0f : draw.pdfSolidAngle;
-    if (RL_HAS(RL_FEATURE_VOLUME) && (draw.lobe & RL_LOBE_ANY_TRANSMISSION) != 0u) sigma = s.sigmaAbsorption;
+    if (RL_HAS(RL_FEATURE_VOLUME)) sigma = surfaceSigma(s, sigma, draw.wi);
     ray.origin = surfaceOffset(s.posW, s.nGeoW, s.posError, draw.wi);
     ray.dir = draw.wi;
   }

@@ -39,6 +39,5 @@ RL_FN void giReuseOverTime(uint slot, RL_IN(Anchor) here, uint donorSlot, RL_IN(
 // The slot's sample as its partners see it: each shift serves both merges of a pair.
 RL_FN void giShiftToPartner(uint slot, RL_IN(Anchor) here, uint k, RL_IN(Anchor) there, RL_INOUT(RL_RESERVOIR) r) {
   cacheReadNow(slot, r);
-  bool assumeVisible = (gParams.spatialFlags & RL_REUSE_ASSUME_VISIBLE) != 0u;
-  cacheWriteShifted(cacheExchangeIndex(slot, k), r, reuseShift(r, here, there, assumeVisible));
+  cacheWriteShifted(cacheExchangeIndex(slot, k), r, reuseShift(r, here, there, false));
 }

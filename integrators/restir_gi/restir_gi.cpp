@@ -31,17 +31,17 @@ std::vector<ParameterInfo> parameterInfos() {
        64,
        {},
        "light samples per pixel and frame resampled into the light reservoir",
-       "1: the same rays as the path tracer; more pay off with many lights (docs/performance.md)"},
+       "1: the same rays as the path tracer"},
       {"spatial_neighbours",
        int64_t{1},
        0,
        rl::RL_MAX_DONORS,
        {},
        "donors of the spatial pass",
-       "1: best error for its time on hard indirect light (docs/performance.md)"},
+       "each costs a shift and a ray a pixel and payload; measured: docs/performance.md"},
       {"spatial_radius",
        8.0,
-       1.0,
+       1.5,
        256.0,
        {},
        "pixels; donors come from a square tile that spreads them as a disk of this radius would",
@@ -90,7 +90,7 @@ std::vector<ParameterInfo> parameterInfos() {
        "what is shown: the selected sample, the weighted sum of all inputs, or that sum with the "
        "inputs' "
        "per-channel estimates carried along",
-       "decoupled: Wyman and Panteleev 2021; control variate: core/resampling/reuse.glsl"},
+       "decoupled: Wyman and Panteleev 2021; control variate: core/resampling/merge.glsl"},
       {"mis",
        std::string("pairwise"),
        0,
@@ -131,7 +131,7 @@ std::vector<std::byte> pack(const std::string& mode, const ParameterMap& p) {
   // The root mean square distance of two points of a square of side s is s / sqrt(3), that of a
   // point of a disk to its centre r / sqrt(2).
   const double side = std::sqrt(1.5) * get<double>(p, "spatial_radius");
-  out.spatialTile = std::max(2u, static_cast<uint32_t>(std::lround(side)));
+  out.spatialTile = static_cast<uint32_t>(std::lround(side));
   out.temporalReuse = get<bool>(p, "temporal") ? 1u : 0u;
   out.confidenceCap = static_cast<float>(get<double>(p, "confidence_cap"));
   out.minNormalDot = static_cast<float>(get<double>(p, "normal_threshold"));
@@ -157,9 +157,8 @@ const IntegratorInfo& restir_giIntegratorInfo() {
          "produce a sample, "
          "confidences depend on anchors alone, BSDF and MIS weight at x2 are re-evaluated"},
         {"biased", BiasClass::biased,
-         "the last frame's sample is taken as visible, and so is a pixel's own sample from its "
-         "donors: fewer rays, "
-         "a little energy moved at shadow edges"},
+         "the last frame's sample is taken as visible here, and the pixel's own as visible from "
+         "there: fewer rays, a little energy moved at shadow edges"},
     };
     i.parameters = parameterInfos();
     i.usesCache = true;
@@ -184,6 +183,10 @@ const IntegratorInfo& restir_giIntegratorInfo() {
                 {"temporal", "restir_gi_temporal"},
                 {"spatial", "restir_gi_spatial"}};
     i.packParameters = pack;
+    i.biasOfParameters = [](const std::string& mode, const ParameterMap& p) {
+      const bool isWrong = get<std::string>(p, "mis") != "pairwise" || get<bool>(p, "omit_jacobian");
+      return mode == "biased" || isWrong ? BiasClass::biased : BiasClass::unbiased;
+    };
     return i;
   }();
   return info;

@@ -62,12 +62,12 @@ RL_FN void cacheReadBefore(uint slot, RL_OUT(LightReservoir) r) { r = gBuffers.l
 RL_FN void cacheWriteNow(uint slot, RL_IN(LightReservoir) r) { gBuffers.lights.data[slot] = r; }
 RL_FN void cacheWriteHistory(uint slot, RL_IN(LightReservoir) r) { gBuffers.lightsHistory.data[slot] = r; }
 
-RL_FN void cacheReadNow(uint slot, RL_OUT(PathReservoir) r) {
+RL_FN void cacheReadNow(uint slot, RL_INOUT(PathReservoir) r) {
   r.vertex = gBuffers.paths.data[slot];
   r.state = r.vertex.state;
   if (RL_HAS(RL_FEATURE_GLOSSY)) r.suffix = gBuffers.suffixes.data[slot];
 }
-RL_FN void cacheReadBefore(uint slot, RL_OUT(PathReservoir) r) {
+RL_FN void cacheReadBefore(uint slot, RL_INOUT(PathReservoir) r) {
   r.vertex = gBuffers.pathsHistory.data[slot];
   r.state = r.vertex.state;
   if (RL_HAS(RL_FEATURE_GLOSSY)) r.suffix = gBuffers.suffixesHistory.data[slot];

@@ -64,7 +64,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
         }
         Ray shadowRay = lightShadowRay(light, c, s.posW, s.nGeoW, s.posError);
         vec3 arriving = c.emitted * (c.geometry * weight / light.pdf);
-        if (RL_HAS(RL_FEATURE_VOLUME)) arriving *= exp(-sigma * c.distance);
+        if (RL_HAS(RL_FEATURE_VOLUME)) arriving *= exp(-surfaceSigma(s, sigma, c.dirW) * c.distance);
         Hit unused;
         float transmittance = traceRay(shadowRay, RL_RAY_SHADOW, raySeed, unused);
         radiance += throughput * f * arriving * transmittance;
@@ -84,9 +84,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
       throughput *= 1.0f / survival;
     }
     pdfBsdf = (draw.lobe & RL_LOBE_ANY_DELTA) != 0u ? 0.0f : draw.pdfSolidAngle;
-    if (RL_HAS(RL_FEATURE_VOLUME) && (draw.lobe & RL_LOBE_ANY_TRANSMISSION) != 0u) {
-      sigma = s.sigmaAbsorption;
-    }
+    if (RL_HAS(RL_FEATURE_VOLUME)) sigma = surfaceSigma(s, sigma, draw.wi);
     ray.origin = surfaceOffset(s.posW, s.nGeoW, s.posError, draw.wi);
     ray.dir = draw.wi;
   }

@@ -4,6 +4,7 @@ set(RL_BIAS_SOURCES
   bias/test_cameras.cpp
 )
 set(RL_BIAS_TESTS
+  bias/absorption_test.cpp
   bias/builtin_scenes_test.cpp
   bias/camera_motion_test.cpp
   bias/parameters_test.cpp

@@ -58,6 +58,8 @@ struct World {
 struct Kernel {
   const World* world = nullptr;
   Decisions* decisions = nullptr;
+  uint droppedWeights = 0;
+#define RL_HEALTH(kind) (++droppedWeights)
 #include "core/dialect/math.glsl"
 #define risAccept risAcceptShipped
 #include "core/resampling/ris.glsl"

@@ -101,6 +101,11 @@ TEST_F(SummaryTest, BiasedRowsCountWithinBoundsOnly) {
   suite_.methods[1].session.mode = "unbiased";
   for (RunResult& run : block_.methods[1].runs) run.measured.energyRatio = 0.94;
   EXPECT_TRUE(summarise(suite_, block_)[1].counts);
+  // Nor may a mode keep its name when a parameter takes its ground away.
+  suite_.methods[1].session.parameters["mis"] = std::string("confidence");
+  const MethodSummary row = summarise(suite_, block_)[1];
+  EXPECT_EQ(row.bias, BiasClass::biased);
+  EXPECT_FALSE(row.counts);
 }
 
 TEST_F(SummaryTest, OneRunHasNoIntervalAndItsBiasIsUnknown) {

@@ -12,6 +12,7 @@ list(APPEND RL_UNIT_TESTS
   light_test.cpp
   math_test.cpp
   multiscatter_test.cpp
+  pixel_pairs_test.cpp
   ray_offset_test.cpp
   rng_audit_path.cpp
   rng_audit_restir_initial.cpp
