@@ -46,7 +46,8 @@ PairContext makeContext(uint width, uint height, uint tile, bool stripes, uint u
   for (uint i = 0; i < width * height; ++i) {
     Anchor a{};
     const bool isFar = stripes && (i % width / 5) % 2 == 1;
-    a.posW = vec3(float(i % width), float(i / width), isFar ? -40.0f : -10.0f);
+    const uint row = i / width;
+    a.posW = vec3(float(i % width), float(row), isFar ? -40.0f : -10.0f);
     a.nGeoW = a.nShadeW = vec3(0.0f, 0.0f, 1.0f);
     a.isReusable = unusableEvery != 0 && i % unusableEvery == 0 ? 0u : 1u;
     c.anchors.push_back(a);
