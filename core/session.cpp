@@ -55,7 +55,6 @@ struct Session::Impl {
   rl::FrameData frame{};
   uint32_t needed = 0, used = 0;
   Image radiance;
-  bool cameraMoved = false;
   rl::Camera nextCamera{};
   std::vector<BufferId> aovBuffers;
   rl::FrameData lastFrame{};
@@ -194,6 +193,15 @@ Image Session::aov(const std::string& name) const {
   Image image(m.config.width, m.config.height);
   const size_t index = static_cast<size_t>(found - kAovNames.begin()) - 1;
   m.backend->read(m.aovBuffers[index], image.pixels.data(), pixels * 12);
+  if (name == "positionW") {
+    // Kernels count from the scene's origin; pixels that show nothing stay zero.
+    Image depth(m.config.width, m.config.height);
+    m.backend->read(m.aovBuffers.back(), depth.pixels.data(), pixels * 12);
+    const glm::vec3 origin(m.scene->origin());
+    for (size_t i = 0; i < pixels; ++i) {
+      if (depth.pixels[i].x > 0.0f) image.pixels[i] += origin;
+    }
+  }
   return image;
 }
 

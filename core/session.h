@@ -69,7 +69,10 @@ class Session {
   void setCamera(const SceneCamera& camera);
 
   const Image& radiance() const;  // of the last frame
-  // "radiance", "positionW", "normalW", "albedo", and the integrator's own; throws badUsage.
+  // Of the film samples of the last frame, one of aovNames(): radiance; at the first hit positionW,
+  // normalW (unit, shading, on the viewer's side), albedo (diffuse + specular at normal incidence +
+  // transmission), depth (distance along the ray, in every channel); zero where nothing is hit.
+  // Throws Error (badUsage) with the nearest name.
   Image aov(const std::string& name) const;
   static const std::vector<std::string>& aovNames();
 

@@ -14,7 +14,5 @@ struct DenoiserInfo {
 
 // All denoisers of denoisers.list, in its order.
 const std::vector<const DenoiserInfo*>& denoiserRegistry();
-// Throws Error (badUsage) with the nearest name.
-const DenoiserInfo& findDenoiser(const std::string& name);
 
 }  // namespace restlab

@@ -6,7 +6,7 @@ namespace restlab {
 
 const std::vector<CacheInfo>& cacheRegistry() {
   static const std::vector<CacheInfo> caches = {
-      {"pixel", "one slot a pixel; donors by reprojection over time and from a disk of pixels over space"},
+      {"pixel", "one slot a pixel; donors by reprojection over time and from a mirror partner over space"},
   };
   return caches;
 }

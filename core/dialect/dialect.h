@@ -9,7 +9,6 @@
 
 #ifdef __cplusplus
 
-#include <atomic>
 #include <cmath>
 #include <cstdint>
 
@@ -46,8 +45,6 @@ using real3 = glm::vec3;
   struct Name {         \
     T* data;            \
   };
-#define RL_ATOMIC_ADD(lvalue, n) \
-  std::atomic_ref<rl::uint>(lvalue).fetch_add((n), std::memory_order_relaxed)
 #define RL_STATIC_ASSERT_SIZE(T, bytes) static_assert(sizeof(T) == (bytes), #T " layout changed")
 
 #else  // GLSL 4.60
@@ -66,7 +63,6 @@ using real3 = glm::vec3;
   layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Name { \
     T data[];                                                                 \
   };
-#define RL_ATOMIC_ADD(lvalue, n) atomicAdd(lvalue, n)
 #define RL_STATIC_ASSERT_SIZE(T, bytes)
 
 #endif

@@ -228,7 +228,7 @@ struct FrameData {
 };
 RL_STATIC_ASSERT_SIZE(FrameData, 168);
 
-// Numerical health: counters that every kernel adds to; names in core/health.h.
+// Numerical health: counters that every kernel adds to; names in core/session.cpp.
 const uint RL_HEALTH_NONFINITE = 0u;          // non-finite sample values set to zero
 const uint RL_HEALTH_REJECTED_JACOBIAN = 1u;  // shifts outside the declared Jacobian domain
 const uint RL_HEALTH_CAPPED_CONFIDENCE = 2u;

@@ -6,9 +6,9 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   Rng rng = rngInit(gFrame.seed, pixelIndex, gFrame.frame);
   Ray ray = cameraRay(gFrame.camera, cameraFilmSample(pixel), resolution);
   Hit hit;
-  float transmittance = traceRay(ray, RL_RAY_PATH, rng.key.x, hit);
+  traceRay(ray, RL_RAY_PATH, rng.key.x, hit);
   vec3 zero = vec3(0.0f, 0.0f, 0.0f);
-  if (transmittance > 0.0f) {
+  if (hit.instance == RL_INVALID) {
     gBuffers.positionW.data[pixelIndex] = zero;
     gBuffers.normalW.data[pixelIndex] = zero;
     gBuffers.albedo.data[pixelIndex] = zero;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <mutex>
@@ -64,6 +65,8 @@ struct CompiledScene::Impl {
   LightTable lights;
   rl::SceneData data{};
   size_t instancedTriangles = 0;
+  // Kept by Embree itself; it allocates from several threads.
+  std::atomic<ptrdiff_t> embreeBytes{0};
   RTCDevice device = nullptr;
   RTCScene top = nullptr;
   std::vector<RTCScene> meshScenes;
@@ -204,6 +207,11 @@ void CompiledScene::Impl::buildTextures() {
 void CompiledScene::Impl::buildEmbree() {
   device = rtcNewDevice("");
   if (device == nullptr) throw Error(ExitCode::deviceUnavailable, "Embree could not create a device");
+  const auto count = [](void* bytes, ptrdiff_t change, bool) {
+    static_cast<std::atomic<ptrdiff_t>*>(bytes)->fetch_add(change, std::memory_order_relaxed);
+    return true;
+  };
+  rtcSetDeviceMemoryMonitorFunction(device, count, &embreeBytes);
   const bool alpha = (features & rl::RL_FEATURE_ALPHA) != 0;
   // ROBUST: watertight along shared edges. High quality splits triangles, which would report a hit
   // twice to the alpha filter of shadow rays.
@@ -343,6 +351,8 @@ size_t CompiledScene::instancedTriangleCount() const { return impl_->instancedTr
 size_t CompiledScene::emissiveTriangleCount() const { return impl_->lights.emissiveTriangles; }
 void* CompiledScene::embreeScene() const { return impl_->top; }
 glm::dvec3 CompiledScene::origin() const { return impl_->origin; }
+
+size_t CompiledScene::embreeBytes() const { return size_t(std::max<ptrdiff_t>(0, impl_->embreeBytes)); }
 
 size_t CompiledScene::bytes() const {
   auto of = [](const auto& v) { return v.size() * sizeof(v[0]); };

@@ -31,7 +31,8 @@ class CompiledScene {
   size_t triangleCount() const;           // unique
   size_t instancedTriangleCount() const;  // as seen by rays
   size_t emissiveTriangleCount() const;
-  size_t bytes() const;  // of all buffers, without the ray-tracing structure
+  size_t bytes() const;        // of all buffers that kernels read
+  size_t embreeBytes() const;  // of Embree's copy of the triangles and its hierarchies
   void* embreeScene() const;  // RTCScene
   glm::dvec3 origin() const;  // subtracted from world positions
 

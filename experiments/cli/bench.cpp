@@ -57,15 +57,9 @@ FrameRates measureFrames(Session& session, uint32_t frames) {
 // scale as 1/N and N with the number of samples: the product does not depend on it.
 Json errorPerCpuSecond(const PreparedScene& prepared, const SessionConfig& config,
                        const BenchOptions& options) {
-  ReferenceConfig wanted;
-  wanted.width = config.width;
-  wanted.height = config.height;
-  wanted.maxBounces = config.maxBounces;
-  wanted.multiscatter = config.multiscatter;
-  wanted.threads = config.threads;
   ReferenceTarget target;
   target.spp = options.referenceSpp;
-  const Reference reference = renderReference(prepared, wanted, target);
+  const Reference reference = renderReference(prepared, referenceConfigOf(config), target);
   const std::vector<uint8_t> mask = pixelsWithoutLights(prepared, config);
   uint64_t pixels = 0;
   for (const uint8_t value : mask) pixels += value;
@@ -207,7 +201,7 @@ Action addBenchVerb(CLI::App& app) {
   verb->add_option("--frames", options->frames, "timed frames of each method (default 16)")
       ->check(CLI::Range(1u, 100000u));
   verb->add_option("--seconds", options->seconds, "for each kind of ray through Embree alone")
-      ->check(CLI::Range(0.01, 600.0));
+      ->check(finiteRange(0.01, 600.0));
   verb->add_option("--reference-spp", options->referenceSpp, "for the error (default 128)")
       ->check(CLI::Range(uint64_t(2), uint64_t(1) << 20));
   verb->add_flag("--json", options->json, "JSON on stdout");

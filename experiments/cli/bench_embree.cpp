@@ -9,6 +9,7 @@
 #include <numbers>
 #include <random>
 
+#include "core/backend/alpha_filter.h"
 #include "core/image/intervals.h"
 
 namespace restlab {
@@ -46,14 +47,23 @@ RTCRay makeRay(const RayBatch& rays, size_t i) {
   return ray;
 }
 
+// Embree alone sees no textures: every hit is opaque, also that of a mesh with a filter.
+void acceptHit(const RTCFilterFunctionNArguments*) {}
+
+rl::AlphaTraceContext opaqueContext() {
+  rl::AlphaTraceContext context;
+  rtcInitIntersectContext(&context.embree);
+  context.filter = acceptHit;
+  return context;
+}
+
 RTCRayHit traceClosest(RTCScene scene, const RayBatch& rays, size_t i) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+  rl::AlphaTraceContext context = opaqueContext();
   RTCRayHit query = {};
   query.ray = makeRay(rays, i);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(scene, &context, &query);
+  rtcIntersect1(scene, &context.embree, &query);
   return query;
 }
 
@@ -187,10 +197,9 @@ EmbreeRates measureEmbree(const PreparedScene& prepared, uint32_t width, uint32_
   rates.incoherent = rate(bounces.origins.size(), threads, seconds,
                           [&](size_t i) { traceClosest(scene, bounces, i); });
   rates.shadow = rate(shadows.origins.size(), threads, seconds, [&](size_t i) {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+    rl::AlphaTraceContext context = opaqueContext();
     RTCRay ray = makeRay(shadows, i);
-    rtcOccluded1(scene, &context, &ray);
+    rtcOccluded1(scene, &context.embree, &ray);
   });
   return rates;
 }

@@ -108,6 +108,7 @@ Json sceneJson(const PreparedScene& prepared, bool multiscatter) {
                       {bounds[1].x, bounds[1].y, bounds[1].z}};
   json["skipped_primitives"] = scene.skippedPrimitives;
   json["bytes"] = compiled.bytes();
+  json["embree_bytes"] = compiled.embreeBytes();
   json["load_time_ms"] = prepared.loadTimeMs;
   json["features_needed"] = featureNames(compiled.features(multiscatter));
   json["integrators"] = integratorsJson(prepared, multiscatter);
@@ -142,8 +143,10 @@ void printText(const PreparedScene& prepared, const Json& json) {
   }
   fmt::print("bounds       ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}) m\n", bounds[0].x, bounds[0].y,
              bounds[0].z, bounds[1].x, bounds[1].y, bounds[1].z);
-  fmt::print("memory       {:.1f} MiB, loaded in {:.0f} ms\n",
-             double(prepared.scene->bytes()) / (1024.0 * 1024.0), prepared.loadTimeMs);
+  constexpr double kMiB = 1024.0 * 1024.0;
+  fmt::print("memory       {:.1f} MiB of buffers, {:.1f} MiB of Embree, loaded in {:.0f} ms\n",
+             double(prepared.scene->bytes()) / kMiB, double(prepared.scene->embreeBytes()) / kMiB,
+             prepared.loadTimeMs);
   fmt::print("features     needed    {}\n", json["features_needed"].get<std::string>());
   for (const Json& integrator : json["integrators"]) {
     fmt::print("{:<12} used      {}\n", integrator["name"].get<std::string>(),

@@ -9,6 +9,7 @@
 #include "core/backend/backend.h"
 #include "core/caches/caches.h"
 #include "core/image/metrics.h"
+#include "denoise/denoiser.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/files.h"
 #include "experiments/runner/prepare.h"
@@ -19,6 +20,8 @@ namespace restlab {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr const char* kKinds = "integrators, caches, backends, denoisers, metrics or scenes";
 
 struct ListOptions {
   std::string what;
@@ -71,6 +74,14 @@ Json backends() {
         {"name", backend.name}, {"summary", backend.description}, {"available", backend.available}};
     if (!backend.available) json["why_not"] = backend.whyNot;
     all.push_back(json);
+  }
+  return all;
+}
+
+Json denoisers() {
+  Json all = Json::array();
+  for (const DenoiserInfo* denoiser : denoiserRegistry()) {
+    all.push_back({{"name", denoiser->name}, {"summary", denoiser->summary}});
   }
   return all;
 }
@@ -135,6 +146,7 @@ void list(const ListOptions& options) {
   const std::vector<std::pair<std::string, Json (*)()>> kinds = {{"integrators", integrators},
                                                                  {"caches", caches},
                                                                  {"backends", backends},
+                                                                 {"denoisers", denoisers},
                                                                  {"metrics", metrics},
                                                                  {"scenes", scenes}};
   const auto kind = std::find_if(kinds.begin(), kinds.end(),
@@ -166,8 +178,8 @@ void list(const ListOptions& options) {
 
 Action addListVerb(CLI::App& app) {
   auto options = std::make_shared<ListOptions>();
-  CLI::App* verb = app.add_subcommand("list", "integrators, caches, backends, metrics or scenes");
-  verb->add_option("what", options->what, "integrators, caches, backends, metrics or scenes")
+  CLI::App* verb = app.add_subcommand("list", kKinds);
+  verb->add_option("what", options->what, kKinds)
       ->required();
   verb->add_flag("--json", options->json, "JSON on stdout");
   return [options](Outcome&) { list(*options); };

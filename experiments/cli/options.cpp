@@ -55,6 +55,17 @@ void requireBackend(const std::string& name) {
 
 }  // namespace
 
+CLI::Validator finiteRange(double lo, double hi) {
+  const std::string range = fmt::format("in [{:g} - {:g}]", lo, hi);
+  return CLI::Validator(
+      [=](std::string& text) {
+        double value = 0.0;
+        const bool inside = CLI::detail::lexical_cast(text, value) && value >= lo && value <= hi;
+        return inside ? std::string() : fmt::format("Value {} not {}", text, range);
+      },
+      "FLOAT " + range);
+}
+
 void addThreads(CLI::App& verb, int& threads) {
   verb.add_option("-t,--threads,--nthreads", threads, "threads; 0: all cores")
       ->check(CLI::Range(0, 1024));
@@ -85,9 +96,9 @@ void addSceneOptions(CLI::App& verb, SceneOptions& options) {
       ->check(CLI::Range(0u, kMaxBounces));
   verb.add_option("--environment", request.environment, "latitude-longitude .hdr or .exr");
   verb.add_option("--environment-rotation", request.environmentRotation, "degrees about +Y")
-      ->check(CLI::Range(-360.0, 360.0));
+      ->check(finiteRange(-360.0, 360.0));
   verb.add_option("--environment-scale", request.environmentScale, "factor on its radiance")
-      ->check(CLI::Range(0.0, 1e9));
+      ->check(finiteRange(0.0, 1e9));
   verb.add_option("--component", options.component, "all, direct or indirect light");
   verb.add_option("--filter", options.filter, "pixel filter: box (one pixel) or center");
   addMultiscatter(verb, options.multiscatter);

@@ -27,7 +27,6 @@ struct MethodOptions {
   std::string mode;
   std::string cache = "pixel";
   std::string backend = "cpu";
-  std::string denoiser = "none";
   std::vector<std::string> parameters;  // KEY=VALUE
   bool russianRoulette = false;
   bool general = false;
@@ -36,6 +35,9 @@ struct MethodOptions {
 // Bounds that the options state in --help.
 constexpr uint32_t kMaxSide = 16384;
 constexpr uint32_t kMaxBounces = 1024;
+
+// A number in lo..hi; CLI::Range lets NaN pass.
+CLI::Validator finiteRange(double lo, double hi);
 
 void addSceneOptions(CLI::App& verb, SceneOptions& options);
 void addMethodOptions(CLI::App& verb, MethodOptions& options);

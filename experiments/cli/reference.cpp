@@ -35,16 +35,8 @@ void makeReference(ReferenceOptions options) {
   const PreparedScene prepared = prepareScene(options.scene.request);
   printWarnings(prepared);
   completeConfig(prepared, session);
-  ReferenceConfig config;
-  config.width = session.width;
-  config.height = session.height;
-  config.maxBounces = session.maxBounces;
-  config.components = session.components;
-  config.pixelFilter = session.pixelFilter;
-  config.multiscatter = session.multiscatter;
-  config.seed = session.seed;
-  config.threads = session.threads;
-  const Reference reference = renderReference(prepared, config, options.target);
+  const Reference reference =
+      renderReference(prepared, referenceConfigOf(session), options.target);
   writeReference(options.output, reference);
   logInfo(fmt::format("{}: {} spp in {:.1f} s, relmse {:.3g} (estimated from the halves)",
                       options.output, reference.spp, reference.timeS, reference.relmse));
@@ -64,9 +56,9 @@ Action addReferenceVerb(CLI::App& app) {
       ->check(CLI::Range(uint64_t(2), uint64_t(1) << 40));
   verb->add_option("--target-relmse", options->target.relmse,
                    "until the mean's estimated relmse_e1e-2 is at most this")
-      ->check(CLI::Range(1e-12, 1e6));
+      ->check(finiteRange(1e-12, 1e6));
   verb->add_option("--time-limit", options->target.timeLimitS, "seconds of rendering")
-      ->check(CLI::Range(1e-3, 1e9));
+      ->check(finiteRange(1e-3, 1e9));
   return [options](Outcome&) { makeReference(*options); };
 }
 

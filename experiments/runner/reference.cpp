@@ -68,6 +68,19 @@ bool targetReached(const ReferenceTarget& target, uint64_t spp, double relmse, d
 
 }  // namespace
 
+ReferenceConfig referenceConfigOf(const SessionConfig& session) {
+  ReferenceConfig config;
+  config.width = session.width;
+  config.height = session.height;
+  config.maxBounces = session.maxBounces;
+  config.components = session.components;
+  config.pixelFilter = session.pixelFilter;
+  config.multiscatter = session.multiscatter;
+  config.seed = session.seed;
+  config.threads = session.threads;
+  return config;
+}
+
 std::string referenceKey(const PreparedScene& prepared, const ReferenceConfig& config) {
   const std::string text = fmt::format(
       "reference-2 {} camera {} {}x{} bounces {} {} {} multiscatter {} sources {}",

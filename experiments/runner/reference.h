@@ -22,6 +22,9 @@ struct ReferenceConfig {
   int threads = 0;
 };
 
+// What `session` asks of a reference: the same picture, without its method.
+ReferenceConfig referenceConfigOf(const SessionConfig& session);
+
 // When to stop: at the first target that is reached; 0 is no target. One must be set.
 struct ReferenceTarget {
   uint64_t spp = 0;         // samples per pixel of both halves together, at least 2

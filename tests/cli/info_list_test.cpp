@@ -19,6 +19,9 @@ TEST_F(InfoTest, SceneInNumbers) {
   EXPECT_EQ(json["cameras"].size(), 1u);
   EXPECT_TRUE(json["environment"].is_null());
   EXPECT_EQ(json["features_needed"], "area_lights");
+  // A triangle takes three indices and positions at the least, here and in Embree.
+  EXPECT_GT(json["bytes"].get<int>(), json["triangles"].get<int>() * 48);
+  EXPECT_GT(json["embree_bytes"].get<int>(), json["triangles"].get<int>() * 48);
   ASSERT_GE(json["integrators"].size(), 2u);
   for (const auto& integrator : json["integrators"]) {
     size_t sum = 0;
@@ -74,6 +77,7 @@ TEST_F(InfoTest, ListsNameWhatTheirVerbsTake) {
   const auto backends = list("backends");
   EXPECT_EQ(backends[0]["name"], "cpu");
   EXPECT_NE(backends[0]["summary"].get<std::string>().find("Embree 3."), std::string::npos);
+  EXPECT_EQ(list("denoisers")[0]["name"], "none");
   bool mse = false;
   for (const auto& metric : list("metrics")) mse = mse || metric["name"] == "mse";
   EXPECT_TRUE(mse);
@@ -81,6 +85,19 @@ TEST_F(InfoTest, ListsNameWhatTheirVerbsTake) {
     if (scene["kind"] != "built-in") continue;
     EXPECT_EQ(run("info -q " + scene["name"].get<std::string>()).code, 0) << scene["name"];
   }
+}
+
+TEST_F(InfoTest, BenchTracesTransparentMeshes) {
+  write("thin.gltf",
+        triangleGltf({-1, -1, 0, 2, -1, 0, 0, 2, 0},
+                     R"(, "alphaMode": "BLEND",
+                        "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.5]})"));
+  const ProgramResult result = run(
+      "bench thin.gltf --resolution 16x16 --frames 2 --seconds 0.02 --reference-spp 8 --json");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_GT(json["embree_rays_per_second"]["incoherent"].get<double>(), 0.0);
+  EXPECT_GT(json["embree_rays_per_second"]["shadow"].get<double>(), 0.0);
 }
 
 TEST_F(InfoTest, BenchMeasuresEveryMethod) {

@@ -50,6 +50,40 @@ TEST_F(RenderTest, WritesLayersAndMetadata) {
   EXPECT_EQ(read("image.png").substr(1, 3), "PNG");
 }
 
+TEST_F(RenderTest, FirstHitLayersHoldTheSceneThatIsSeen) {
+  // A triangle in the plane z = 0, far from the middle of its own bounds, that faces the camera at (0.3, 0.3, 2) and fills the left half.
+  write("triangle.gltf",
+        triangleGltf({-9, -9, 0, 0.3F, -9, 0, 0.3F, 9, 0},
+                     R"(, "pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 0, 1],
+                        "metallicFactor": 0})"));
+  ASSERT_EQ(run("render triangle.gltf -o x.exr --resolution 16x16 --filter center "
+                "--aov radiance,positionW,normalW,albedo,depth")
+                .code,
+            0);
+  const LayeredImage image = readExr(path("x.exr"));
+  const glm::vec3 zero(0.0F), eye(0.3F, 0.3F, 2.0F);
+  for (uint32_t y = 0; y < 16; ++y) {
+    for (uint32_t x = 0; x < 16; ++x) {
+      const size_t i = size_t(y) * 16 + x;
+      const auto layer = [&](const char* name) { return image.layers.at(name).pixels[i]; };
+      SCOPED_TRACE(std::to_string(x) + ", " + std::to_string(y));
+      EXPECT_EQ(layer("radiance"), image.layers.at("").pixels[i]);
+      if (x >= 8) {
+        for (const char* name : {"positionW", "normalW", "albedo", "depth"})
+          EXPECT_EQ(layer(name), zero) << name;
+        continue;
+      }
+      const glm::vec3 posW = layer("positionW");
+      EXPECT_NEAR(posW.z, 0.0F, 1e-5F);
+      EXPECT_LT(posW.x, 0.3F);
+      EXPECT_NEAR(layer("depth").x, glm::length(posW - eye), 1e-5F);
+      EXPECT_NEAR(glm::length(layer("normalW") - glm::vec3(0, 0, 1)), 0.0F, 1e-5F);
+      // The diffuse colour and 4 % of specular reflection at normal incidence.
+      EXPECT_NEAR(glm::length(layer("albedo") - glm::vec3(0.54F, 0.29F, 0.04F)), 0.0F, 1e-5F);
+    }
+  }
+}
+
 TEST_F(RenderTest, PreviewGoesWhereItIsTold) {
   ASSERT_EQ(run("render -o a.exr --png=b.png --resolution 8x8 cornell-box").code, 0);
   EXPECT_TRUE(std::filesystem::exists(path("b.png")));

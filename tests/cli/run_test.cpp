@@ -1,6 +1,9 @@
 // restlab run: what it leaves in its folder, the ratios, references, overrides, interruption.
+#include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 
 #include "core/image/image.h"
@@ -227,6 +230,29 @@ TEST_F(RunTest, InterruptKeepsFinishedRuns) {
   EXPECT_LT(finished, 100000u);
   EXPECT_EQ(lines("out/results.jsonl").size(), finished * 2u * 3u) << "whole lines only";
   EXPECT_NE(read("out/table.md").find("Interrupted"), std::string::npos);
+}
+
+// The launcher tells `run` without a suite from one with a suite: it knows which options take a value.
+TEST_F(RunTest, LauncherKnowsTheOptionsThatTakeValues) {
+  std::ifstream file(fs::path(RESTLAB_SOURCE_DIR) / "lab");
+  const std::string launcher((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  const size_t begin = launcher.find("names_suite() {");
+  ASSERT_NE(begin, std::string::npos);
+  std::string known = launcher.substr(begin, launcher.find("\n}", begin) - begin);
+  std::replace(known.begin(), known.end(), ')', ' ');
+  std::istringstream help(run("run --help").out);
+  const std::regex withValue(R"(^  (-[-,a-z]+) (TEXT|INT|UINT|FLOAT).*)");
+  size_t options = 0;
+  for (std::string line; std::getline(help, line);) {
+    std::smatch match;
+    if (!std::regex_match(line, match, withValue)) continue;
+    std::istringstream names(match[1]);
+    for (std::string name; std::getline(names, name, ',');) {
+      ++options;
+      EXPECT_NE(known.find(" " + name + " "), std::string::npos) << name;
+    }
+  }
+  EXPECT_GE(options, 8u) << "-o --out --set --scenes --methods -t --threads --nthreads";
 }
 
 TEST_F(RunTest, BadSuitesNameThePlace) {
