@@ -11,8 +11,8 @@ namespace restlab {
 enum class ExitCode : int {
   ok = 0,
   comparisonFailed = 1,
-  badUsage = 2,           // command line or configuration
-  badInput = 3,           // scene, image or reference
+  badUsage = 2,  // command line or configuration
+  badInput = 3,  // scene, image or reference
   deviceUnavailable = 4,
   interrupted = 130,
 };

@@ -80,7 +80,8 @@ ParameterMap resolveParameters(const IntegratorInfo& info, const ParameterMap& g
   return resolved;
 }
 
-BiasClass biasClassOf(const IntegratorInfo& info, const std::string& mode, const ParameterMap& parameters) {
+BiasClass biasClassOf(const IntegratorInfo& info, const std::string& mode,
+                      const ParameterMap& parameters) {
   if (info.biasOfParameters) return info.biasOfParameters(mode, parameters);
   for (const ModeInfo& m : info.modes) {
     if (m.name == mode) return m.bias;

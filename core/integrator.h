@@ -44,7 +44,8 @@ struct BufferInfo {
   uint32_t bytesPerPixel = 0;
   uint32_t neededFeatures = 0;  // allocated only when the mask has one of these bits; 0: always
   int swapWith = -1;            // index of the buffer it trades places with at the end of a frame
-  const char* perParameter = nullptr;  // an integer parameter: so many entries of bytesPerPixel a pixel
+  const char* perParameter =
+      nullptr;  // an integer parameter: so many entries of bytesPerPixel a pixel
 };
 
 struct PassInfo {
@@ -64,7 +65,8 @@ struct IntegratorInfo {
   // Where parameters decide whether a mode keeps its promise; empty: the mode's own class.
   std::function<BiasClass(const std::string& mode, const ParameterMap&)> biasOfParameters;
   // Packs validated parameters into the block that kernels read as gParams.
-  std::function<std::vector<std::byte>(const std::string& mode, const ParameterMap&)> packParameters;
+  std::function<std::vector<std::byte>(const std::string& mode, const ParameterMap&)>
+      packParameters;
 };
 
 // All integrators of integrators.list, in its order.
@@ -74,7 +76,8 @@ const IntegratorInfo& findIntegrator(const std::string& name);
 // Defaults overlaid by `given`; throws Error (badUsage) on unknown names, types, ranges, choices.
 ParameterMap resolveParameters(const IntegratorInfo& info, const ParameterMap& given);
 // What may be said of a mode with these resolved parameters.
-BiasClass biasClassOf(const IntegratorInfo& info, const std::string& mode, const ParameterMap& parameters);
+BiasClass biasClassOf(const IntegratorInfo& info, const std::string& mode,
+                      const ParameterMap& parameters);
 // Bytes a pixel of a buffer, with resolved parameters.
 uint32_t bytesPerPixelOf(const BufferInfo& buffer, const ParameterMap& parameters);
 

@@ -1,5 +1,5 @@
-// Session: scene + integrator + cache + backend -> frames. The one thing that the experiment runner,
-// the renderer, the viewer and the tests all drive.
+// Session: scene + integrator + cache + backend -> frames. The one thing that the experiment
+// runner, the renderer, the viewer and the tests all drive.
 #pragma once
 
 #include <array>
@@ -31,9 +31,9 @@ struct SessionConfig {
   uint32_t pixelFilter = rl::RL_FILTER_BOX;
   bool russianRoulette = false;
   bool multiscatter = false;  // multiple-scattering compensation of rough reflection
-  bool specialise = true;  // false: the general kernel
-  int threads = 0;         // 0: all cores
-  ParameterMap parameters;  // integrator parameters, e.g. confidence_cap
+  bool specialise = true;     // false: the general kernel
+  int threads = 0;            // 0: all cores
+  ParameterMap parameters;    // integrator parameters, e.g. confidence_cap
 };
 
 struct PassTiming {

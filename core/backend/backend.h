@@ -38,14 +38,15 @@ class Backend {
   virtual void clear(BufferId buffer) = 0;
   virtual void read(BufferId buffer, void* to, size_t bytes) const = 0;
 
-  // The mask of the instantiation that serves `needed`; throws Error (badUsage) for unknown kernels.
+  // The mask of the instantiation that serves `needed`; throws Error (badUsage) for unknown
+  // kernels.
   virtual uint32_t maskFor(const std::string& kernel, uint32_t needed) const = 0;
 
   // Runs a kernel over width x height pixels. `buffers` in the order of the kernel's Buffers struct
   // (kNoBuffer binds null). Returns the time in milliseconds, counters added up.
   virtual double dispatch(const std::string& kernel, uint32_t mask, const rl::FrameData& frame,
-                          const std::vector<BufferId>& buffers, const std::vector<std::byte>& params,
-                          PassCounters& counters) = 0;
+                          const std::vector<BufferId>& buffers,
+                          const std::vector<std::byte>& params, PassCounters& counters) = 0;
 };
 
 std::unique_ptr<Backend> makeCpuBackend(std::shared_ptr<const CompiledScene> scene, int threads);
@@ -53,7 +54,7 @@ BackendInfo cpuBackendInfo();
 
 // All backends, for `restlab list backends`.
 std::vector<BackendInfo> backendRegistry();
-std::unique_ptr<Backend> makeBackend(const std::string& name, std::shared_ptr<const CompiledScene> scene,
-                                     int threads);
+std::unique_ptr<Backend> makeBackend(const std::string& name,
+                                     std::shared_ptr<const CompiledScene> scene, int threads);
 
 }  // namespace restlab

@@ -45,7 +45,8 @@ class CpuBackend final : public Backend {
  public:
   CpuBackend(std::shared_ptr<const CompiledScene> scene, int threads)
       : scene_(std::move(scene)),
-        threads_(threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency())))
+        threads_(threads > 0 ? threads
+                             : static_cast<int>(std::max(1u, std::thread::hardware_concurrency())))
 #ifndef RESTLAB_JTHREAD_TILES
         ,
         arena_(threads_)
@@ -59,15 +60,19 @@ class CpuBackend final : public Backend {
     } catch (const std::bad_alloc&) {
       size_t total = 0;
       for (const auto& b : buffers_) total += b.size();
-      throw Error(ExitCode::deviceUnavailable,
-                  fmt::format("out of memory: a buffer of {} MiB beside {} MiB already allocated; choose a smaller "
-                              "resolution",
-                              bytes >> 20, total >> 20));
+      throw Error(
+          ExitCode::deviceUnavailable,
+          fmt::format(
+              "out of memory: a buffer of {} MiB beside {} MiB already allocated; choose a smaller "
+              "resolution",
+              bytes >> 20, total >> 20));
     }
     return static_cast<BufferId>(buffers_.size() - 1);
   }
 
-  void clear(BufferId buffer) override { std::fill(buffers_[buffer].begin(), buffers_[buffer].end(), std::byte{0}); }
+  void clear(BufferId buffer) override {
+    std::fill(buffers_[buffer].begin(), buffers_[buffer].end(), std::byte{0});
+  }
 
   void read(BufferId buffer, void* to, size_t bytes) const override {
     std::memcpy(to, buffers_[buffer].data(), bytes);
@@ -93,7 +98,8 @@ class CpuBackend final : public Backend {
     args.params = params.data();
     args.embreeScene = scene_->embreeScene();
 
-    const uint32_t tilesX = (frame.width + kTile - 1) / kTile, tilesY = (frame.height + kTile - 1) / kTile;
+    const uint32_t tilesX = (frame.width + kTile - 1) / kTile,
+                   tilesY = (frame.height + kTile - 1) / kTile;
     std::vector<rl::CpuKernelCounters> tileCounters(size_t(tilesX) * tilesY);
     auto runTile = [&](size_t i) {
       const FlushDenormals flush;
@@ -164,19 +170,20 @@ BackendInfo cpuBackendInfo() {
 #else
   const std::string tiles = fmt::format("TBB {}.{} tiles", TBB_VERSION_MAJOR, TBB_VERSION_MINOR);
 #endif
-  info.description =
-      fmt::format("Embree {}, {}, {} threads", RTC_VERSION_STRING, tiles, std::thread::hardware_concurrency());
+  info.description = fmt::format("Embree {}, {}, {} threads", RTC_VERSION_STRING, tiles,
+                                 std::thread::hardware_concurrency());
   return info;
 }
 
 std::vector<BackendInfo> backendRegistry() { return {cpuBackendInfo()}; }
 
-std::unique_ptr<Backend> makeBackend(const std::string& name, std::shared_ptr<const CompiledScene> scene,
-                                     int threads) {
+std::unique_ptr<Backend> makeBackend(const std::string& name,
+                                     std::shared_ptr<const CompiledScene> scene, int threads) {
   std::vector<std::string> names;
   for (const BackendInfo& b : backendRegistry()) names.push_back(b.name);
   if (name == "cpu") return makeCpuBackend(std::move(scene), threads);
-  failUsage("unknown backend '" + name + "'" + didYouMean(name, names) + " (see: restlab list backends)");
+  failUsage("unknown backend '" + name + "'" + didYouMean(name, names) +
+            " (see: restlab list backends)");
 }
 
 }  // namespace restlab
@@ -189,7 +196,8 @@ const CpuKernelInfo* findCpuKernel(const char* name, uint32_t needed) {
   for (uint32_t i = 0; i < table.count; ++i) {
     const CpuKernelInfo& row = table.rows[i];
     if (std::strcmp(row.name, name) != 0 || (row.mask & needed) != needed) continue;
-    if (best == nullptr || __builtin_popcount(row.mask) < __builtin_popcount(best->mask)) best = &row;
+    if (best == nullptr || __builtin_popcount(row.mask) < __builtin_popcount(best->mask))
+      best = &row;
   }
   return best;
 }

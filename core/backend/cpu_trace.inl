@@ -9,7 +9,9 @@ struct TraceContext {
 };
 
 // Shared meshes are Embree instances; meshes used once lie in the top scene under their own number.
-static uint instanceOf(uint geomID, uint instID) { return instID != RTC_INVALID_GEOMETRY_ID ? instID : geomID; }
+static uint instanceOf(uint geomID, uint instID) {
+  return instID != RTC_INVALID_GEOMETRY_ID ? instID : geomID;
+}
 
 static void alphaFilterPath(const RTCFilterFunctionNArguments* args) {
   auto* context = reinterpret_cast<TraceContext*>(args->context);

@@ -22,7 +22,8 @@ class RootIncluder : public glslang::TShader::Includer {
     std::ifstream stream(root_ / header, std::ios::binary);
     if (!stream) return nullptr;  // glslang reports the line of the #include
     // releaseInclude() deletes both.
-    auto* text = new std::string(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+    auto* text =
+        new std::string(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
     return new IncludeResult(header, text->data(), text->size(), text);
   }
   IncludeResult* includeSystem(const char*, const char*, size_t) override { return nullptr; }
@@ -71,11 +72,14 @@ bool isFloatArithmetic(uint32_t op) {
 }
 
 // OpDecorate .. OpGroupMemberDecorate, and their string and id forms: the annotations of a module.
-bool isAnnotation(uint32_t op) { return (op >= 71 && op <= 75) || op == 332 || op == 5632 || op == 5633; }
+bool isAnnotation(uint32_t op) {
+  return (op >= 71 && op <= 75) || op == 332 || op == 5632 || op == 5633;
+}
 
 // Debug instructions and what else stands before the annotations.
 bool isBeforeAnnotations(uint32_t op) {
-  return (op >= 3 && op <= 8) || op == 10 || op == 11 || (op >= 14 && op <= 17) || op == 330 || op == 331;
+  return (op >= 3 && op <= 8) || op == 10 || op == 11 || (op >= 14 && op <= 17) || op == 330 ||
+         op == 331;
 }
 
 }  // namespace
@@ -87,13 +91,15 @@ std::vector<uint32_t> decorateNoContraction(const std::vector<uint32_t>& spirv) 
   for (size_t i = kHeaderWords; i < spirv.size();) {
     const uint32_t op = spirv[i] & 0xffffu;
     const size_t words = spirv[i] >> 16;
-    if (words == 0 || i + words > spirv.size()) return spirv;  // not a module; the driver will say so
+    if (words == 0 || i + words > spirv.size())
+      return spirv;  // not a module; the driver will say so
     if (isBeforeAnnotations(op) || isAnnotation(op)) insertAt = i + words;
     if (op == kOpDecorate && words >= 3 && spirv[i + 2] == kDecorationNoContraction) {
       decorated.insert(spirv[i + 1]);
     }
     if (isFloatArithmetic(op) && !decorated.count(spirv[i + 2])) {
-      additions.insert(additions.end(), {(3u << 16) | kOpDecorate, spirv[i + 2], kDecorationNoContraction});
+      additions.insert(additions.end(),
+                       {(3u << 16) | kOpDecorate, spirv[i + 2], kDecorationNoContraction});
     }
     i += words;
   }

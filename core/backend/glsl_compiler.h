@@ -10,7 +10,7 @@ namespace restlab {
 
 struct GlslResult {
   std::vector<uint32_t> spirv;  // empty when it did not compile
-  std::string log;              // glslang's words, "ERROR: file:line: ..." with the included file's name
+  std::string log;  // glslang's words, "ERROR: file:line: ..." with the included file's name
 };
 
 // Compiles a compute shader for Vulkan 1.2. #include "path" reads root/path; `name` stands for the

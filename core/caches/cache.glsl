@@ -1,13 +1,13 @@
 // A cache answers five questions for the reuse loop:
 //   cacheSlot(pixel)                       my slot
-//   cacheDonorOverTime(here, ...)          where my surface was last frame; false where it was not seen
-//   cachePartner(pixel, here, k, ...)      my k-th donor over space, whose k-th donor I am; false: none
-//   cacheAnchor(slot, when)                the surface that the slot's sample is evaluated at
-//   cacheRead / cacheWrite                 the slot's reservoirs (overloaded by type)
+//   cacheDonorOverTime(here, ...)          where my surface was last frame; false where it was not
+//   seen cachePartner(pixel, here, k, ...)      my k-th donor over space, whose k-th donor I am;
+//   false: none cacheAnchor(slot, when)                the surface that the slot's sample is
+//   evaluated at cacheRead / cacheWrite                 the slot's reservoirs (overloaded by type)
 // Which file answers is the `cache` of a run; this one holds what they share.
 
-// Two anchors are similar enough to exchange samples. Symmetric, and blind to the samples: confidences
-// that depended on samples would bias the result.
+// Two anchors are similar enough to exchange samples. Symmetric, and blind to the samples:
+// confidences that depended on samples would bias the result.
 RL_FN bool cacheAnchorsMatch(RL_IN(Anchor) a, RL_IN(Anchor) b, float distanceToCamera) {
   if (a.isReusable == 0u || b.isReusable == 0u) return false;
   if (dot(a.nShadeW, b.nShadeW) < gParams.minNormalDot) return false;

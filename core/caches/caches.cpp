@@ -6,7 +6,8 @@ namespace restlab {
 
 const std::vector<CacheInfo>& cacheRegistry() {
   static const std::vector<CacheInfo> caches = {
-      {"pixel", "one slot a pixel; donors by reprojection over time and from a mirror partner over space"},
+      {"pixel",
+       "one slot a pixel; donors by reprojection over time and from a mirror partner over space"},
   };
   return caches;
 }
@@ -17,7 +18,8 @@ void checkCacheName(const std::string& name) {
   for (const std::string& n : names) {
     if (n == name) return;
   }
-  failUsage("unknown cache '" + name + "'" + didYouMean(name, names) + " (see: restlab list caches)");
+  failUsage("unknown cache '" + name + "'" + didYouMean(name, names) +
+            " (see: restlab list caches)");
 }
 
 }  // namespace restlab

@@ -29,8 +29,8 @@ RL_FN vec2 bsdfLobeProbabilities(RL_IN(Bsdf) b, float cosO) {
   if (RL_HAS(RL_FEATURE_TRANSMISSION) && (b.lobes & RL_LOBE_ANY_TRANSMISSION) != 0u) {
     transmitted = rlLuminance(b.transmission) * through;
   }
-  // No lobe that exists is starved, not even where Fresnel at wo leaves it nothing: microfacets turned
-  // towards wo still let light through. (Delta transmission knows no such facets.)
+  // No lobe that exists is starved, not even where Fresnel at wo leaves it nothing: microfacets
+  // turned towards wo still let light through. (Delta transmission knows no such facets.)
   float least = 0.1f * (specular + diffuse + transmitted);
   if (hasSpecular) specular = max(specular, least);
   if (hasDiffuse) diffuse = max(diffuse, least);
@@ -41,10 +41,10 @@ RL_FN vec2 bsdfLobeProbabilities(RL_IN(Bsdf) b, float cosO) {
 }
 
 // The share of light that passes the specular layer to the Lambert base and out again. It enters as
-// 1 - F(o) and leaves, by reciprocity, as 1 - F(i); divided by the mean of the latter, so that a white
-// base returns all that enters (Ashikhmin & Shirley 2000; Kelemen & Szirmay-Kalos 2001). The factor
-// 1 - F(h) of glTF's appendix B makes energy: a white base under a layer of ior 1.5 would reflect 1.22
-// of the light at 80 degrees.
+// 1 - F(o) and leaves, by reciprocity, as 1 - F(i); divided by the mean of the latter, so that a
+// white base returns all that enters (Ashikhmin & Shirley 2000; Kelemen & Szirmay-Kalos 2001). The
+// factor 1 - F(h) of glTF's appendix B makes energy: a white base under a layer of ior 1.5 would
+// reflect 1.22 of the light at 80 degrees.
 RL_FN float bsdfBaseShare(RL_IN(Bsdf) b, float cosO, float cosI) {
   float enters = 1.0f - min(rlMax3(fresnelOfBsdf(b, cosO)), 1.0f);
   float leaves = 1.0f - min(rlMax3(fresnelOfBsdf(b, cosI)), 1.0f);
@@ -66,14 +66,15 @@ RL_FN vec3 bsdfEvalLocal(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) wiL) {
     if (woL.z > 0.0f && (b.lobes & RL_LOBE_ANY_GLOSSY) != 0u) {
       vec3 hL = normalize(woL + wiL);
       vec3 fresnel = fresnelOfBsdf(b, clamp(dot(woL, hL), 0.0f, 1.0f));
-      if ((b.lobes & RL_LOBE_SPECULAR) != 0u) f += fresnel * ggxReflectionEval(woL, wiL, hL, b.alpha);
+      if ((b.lobes & RL_LOBE_SPECULAR) != 0u)
+        f += fresnel * ggxReflectionEval(woL, wiL, hL, b.alpha);
       if (multiscatterApplies(b)) return f + multiscatterEval(b, woL.z, wiL.z);
       f += b.diffuse * (lambertEval(wiL) * bsdfBaseShare(b, woL.z, wiL.z));
     } else {
       f += b.diffuse * lambertEval(wiL);
     }
-  } else if (RL_HAS(RL_FEATURE_TRANSMISSION) && (b.lobes & RL_LOBE_TRANSMISSION) != 0u && woL.z > 0.0f &&
-             wiL.z < 0.0f) {
+  } else if (RL_HAS(RL_FEATURE_TRANSMISSION) && (b.lobes & RL_LOBE_TRANSMISSION) != 0u &&
+             woL.z > 0.0f && wiL.z < 0.0f) {
     if ((b.lobes & RL_LOBE_THIN) != 0u) {
       // A thin sheet sends the mirrored reflection lobe to the other side.
       vec3 wiUp = vec3(wiL.x, wiL.y, -wiL.z);
@@ -99,8 +100,8 @@ RL_FN float bsdfPdfLocal(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) wiL) {
       vec3 hL = normalize(woL + wiL);
       pdf += p.x * ggxReflectionPdf(woL, hL, b.alpha);
     }
-  } else if (RL_HAS(RL_FEATURE_TRANSMISSION) && (b.lobes & RL_LOBE_TRANSMISSION) != 0u && woL.z > 0.0f &&
-             wiL.z < 0.0f) {
+  } else if (RL_HAS(RL_FEATURE_TRANSMISSION) && (b.lobes & RL_LOBE_TRANSMISSION) != 0u &&
+             woL.z > 0.0f && wiL.z < 0.0f) {
     if ((b.lobes & RL_LOBE_THIN) != 0u) {
       vec3 wiUp = vec3(wiL.x, wiL.y, -wiL.z);
       vec3 hL = normalize(woL + wiUp);
@@ -120,7 +121,8 @@ RL_FN bool bsdfSideAgrees(RL_IN(vec3) nGeo, RL_IN(vec3) wi, float wiLocalZ) {
   return wiLocalZ > 0.0f ? side > 0.0f : side < 0.0f;
 }
 
-RL_FN vec3 bsdfEval(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(vec3) wo, RL_IN(vec3) wi) {
+RL_FN vec3 bsdfEval(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(vec3) wo,
+                    RL_IN(vec3) wi) {
   if (!RL_HAS(RL_FEATURE_GLOSSY)) {
     if (!(dot(nGeo, wi) > 0.0f)) return vec3(0.0f, 0.0f, 0.0f);
     return b.diffuse * (max(dot(nShade, wi), 0.0f) * RL_INV_PI);
@@ -131,7 +133,8 @@ RL_FN vec3 bsdfEval(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(v
   return bsdfEvalLocal(b, woL, wiL);
 }
 
-RL_FN float bsdfPdf(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(vec3) wo, RL_IN(vec3) wi) {
+RL_FN float bsdfPdf(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(vec3) wo,
+                    RL_IN(vec3) wi) {
   if (!RL_HAS(RL_FEATURE_GLOSSY)) {
     if (!(dot(nGeo, wi) > 0.0f)) return 0.0f;
     return max(dot(nShade, wi), 0.0f) * RL_INV_PI;
@@ -143,15 +146,15 @@ RL_FN float bsdfPdf(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(v
 }
 
 // uLobe chooses the lobe, u the direction. A draw that ends on the wrong side is absorbed (lobe 0).
-RL_FN BsdfDraw bsdfDraw(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(vec3) wo, float uLobe,
-                        RL_IN(vec2) u) {
+RL_FN BsdfDraw bsdfDraw(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(vec3) wo,
+                        float uLobe, RL_IN(vec2) u) {
   BsdfDraw result;
   result.wi = nShade;
   result.pdfSolidAngle = 0.0f;
   result.weight = vec3(0.0f, 0.0f, 0.0f);
   result.lobe = 0u;
-  // Lambert alone: its weight is the albedo exactly, and the same bits with and without glossy lobes
-  // in the kernel.
+  // Lambert alone: its weight is the albedo exactly, and the same bits with and without glossy
+  // lobes in the kernel.
   if (!RL_HAS(RL_FEATURE_GLOSSY) || (b.lobes & RL_LOBE_ANY_GLOSSY) == 0u) {
     vec3 wiL = lambertDraw(u);
     vec3 wi = frameToWorld(nShade, wiL);

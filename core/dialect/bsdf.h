@@ -8,12 +8,12 @@
 
 RL_NAMESPACE_BEGIN
 
-const uint RL_LOBE_DIFFUSE = 1u;             // Lambert under the Fresnel layer
-const uint RL_LOBE_SPECULAR = 2u;            // GGX reflection
-const uint RL_LOBE_SPECULAR_DELTA = 4u;      // mirror reflection (alpha below the floor)
-const uint RL_LOBE_TRANSMISSION = 8u;        // GGX transmission
+const uint RL_LOBE_DIFFUSE = 1u;         // Lambert under the Fresnel layer
+const uint RL_LOBE_SPECULAR = 2u;        // GGX reflection
+const uint RL_LOBE_SPECULAR_DELTA = 4u;  // mirror reflection (alpha below the floor)
+const uint RL_LOBE_TRANSMISSION = 8u;    // GGX transmission
 const uint RL_LOBE_TRANSMISSION_DELTA = 16u;
-const uint RL_LOBE_THIN = 32u;               // transmission without refraction
+const uint RL_LOBE_THIN = 32u;  // transmission without refraction
 const uint RL_LOBE_ANY_DELTA = 20u;
 const uint RL_LOBE_ANY_TRANSMISSION = 24u;
 const uint RL_LOBE_ANY_GLOSSY = 30u;

@@ -17,7 +17,8 @@ RL_FN Ray cameraRay(RL_IN(Camera) camera, RL_IN(vec2) film, RL_IN(vec2) resoluti
 }
 
 // Film coordinates of a world position; false behind a perspective camera.
-RL_FN bool cameraProject(RL_IN(Camera) camera, RL_IN(vec3) posW, RL_IN(vec2) resolution, RL_OUT(vec2) film) {
+RL_FN bool cameraProject(RL_IN(Camera) camera, RL_IN(vec3) posW, RL_IN(vec2) resolution,
+                         RL_OUT(vec2) film) {
   vec3 d = posW - camera.posW;
   float z = dot(d, camera.forwardW);
   float x = dot(d, camera.rightW);
@@ -39,10 +40,10 @@ RL_FN vec3 cameraDirectionFrom(RL_IN(Camera) camera, RL_IN(vec3) posW) {
   return normalize(camera.posW - posW);
 }
 
-// The film point of a pixel in this frame: uniform over the pixel (box filter) or its centre. It is kept
-// for filmHold frames, pixels changing at different times: while it stays and the camera stands still,
-// the first hit is the same point, and what was visible from it last frame is visible now. Over
-// independent runs each frame's film point is uniform, so this changes no expectation.
+// The film point of a pixel in this frame: uniform over the pixel (box filter) or its centre. It is
+// kept for filmHold frames, pixels changing at different times: while it stays and the camera
+// stands still, the first hit is the same point, and what was visible from it last frame is visible
+// now. Over independent runs each frame's film point is uniform, so this changes no expectation.
 RL_FN vec2 cameraFilmSample(RL_IN(uvec2) pixel) {
   vec2 offset = vec2(0.5f, 0.5f);
   if (gFrame.pixelFilter == RL_FILTER_BOX) {

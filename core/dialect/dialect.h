@@ -59,10 +59,8 @@ using real3 = glm::vec3;
 #define RL_INOUT(T) inout T
 #define RL_OUT(T) out T
 #define RL_PROTO(declaration) declaration;
-#define RL_REF(Name, T)                                                       \
-  layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Name { \
-    T data[];                                                                 \
-  };
+#define RL_REF(Name, T) \
+  layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Name { T data[]; };
 #define RL_STATIC_ASSERT_SIZE(T, bytes)
 
 #endif

@@ -1,5 +1,6 @@
-// What a scene may need. Kernels are specialised by a mask of these bits: a template argument on the
-// CPU, a specialization constant on the GPU. The scan that sets them is core/scene/feature_scan.cpp.
+// What a scene may need. Kernels are specialised by a mask of these bits: a template argument on
+// the CPU, a specialization constant on the GPU. The scan that sets them is
+// core/scene/feature_scan.cpp.
 #ifndef RL_FEATURES_H
 #define RL_FEATURES_H
 
@@ -9,20 +10,20 @@
 
 RL_NAMESPACE_BEGIN
 
-const uint RL_FEATURE_AREA_LIGHTS = 1u;         // emissive triangles
-const uint RL_FEATURE_PUNCTUAL_LIGHTS = 2u;     // point, spot, directional
-const uint RL_FEATURE_ENVIRONMENT = 4u;         // environment map
-const uint RL_FEATURE_GLOSSY = 8u;              // any lobe that is not Lambert
-const uint RL_FEATURE_TRANSMISSION = 16u;       // smooth or rough dielectric transmission
-const uint RL_FEATURE_VOLUME = 32u;             // absorption inside dielectrics
-const uint RL_FEATURE_TEXTURES = 64u;           // any texture but emission and normal maps
+const uint RL_FEATURE_AREA_LIGHTS = 1u;      // emissive triangles
+const uint RL_FEATURE_PUNCTUAL_LIGHTS = 2u;  // point, spot, directional
+const uint RL_FEATURE_ENVIRONMENT = 4u;      // environment map
+const uint RL_FEATURE_GLOSSY = 8u;           // any lobe that is not Lambert
+const uint RL_FEATURE_TRANSMISSION = 16u;    // smooth or rough dielectric transmission
+const uint RL_FEATURE_VOLUME = 32u;          // absorption inside dielectrics
+const uint RL_FEATURE_TEXTURES = 64u;        // any texture but emission and normal maps
 const uint RL_FEATURE_NORMAL_MAPS = 128u;
 const uint RL_FEATURE_EMISSIVE_TEXTURES = 256u;
 const uint RL_FEATURE_VERTEX_COLORS = 512u;
-const uint RL_FEATURE_ALPHA = 1024u;            // mask or blend: rays ask the material
-const uint RL_FEATURE_INSTANCES = 2048u;        // transformed instances (shared meshes)
-const uint RL_FEATURE_SMOOTH_NORMALS = 4096u;   // vertex normals that differ from the face normal
-const uint RL_FEATURE_MULTISCATTER = 8192u;     // multiple-scattering compensation of GGX
+const uint RL_FEATURE_ALPHA = 1024u;           // mask or blend: rays ask the material
+const uint RL_FEATURE_INSTANCES = 2048u;       // transformed instances (shared meshes)
+const uint RL_FEATURE_SMOOTH_NORMALS = 4096u;  // vertex normals that differ from the face normal
+const uint RL_FEATURE_MULTISCATTER = 8192u;    // multiple-scattering compensation of GGX
 const uint RL_FEATURE_ALL = 16383u;
 const uint RL_FEATURE_BITS = 14u;
 

@@ -35,8 +35,8 @@ RL_FN_OUTLINE LightSample lightDraw(RL_IN(Rng) rng) {
     s.normal = normalize(cross(light.e1, light.e2));
     if ((light.flags & RL_LIGHT_FLIPPED) != 0u) s.normal = -s.normal;
     s.pdf = light.pmf * light.areaInverse;
-    s.posError = RL_HIT_ERROR * max(rlMax3(abs(light.p0)),
-                                    max(rlMax3(abs(light.p0 + light.e1)), rlMax3(abs(light.p0 + light.e2))));
+    s.posError = RL_HIT_ERROR * max(rlMax3(abs(light.p0)), max(rlMax3(abs(light.p0 + light.e1)),
+                                                               rlMax3(abs(light.p0 + light.e2))));
     s.isTwoSided = light.flags & RL_MATERIAL_DOUBLE_SIDED;
     if (RL_HAS(RL_FEATURE_EMISSIVE_TEXTURES)) s.radiance = s.radiance * lightTexture(light, bary);
     if (RL_HAS(RL_FEATURE_ALPHA)) {
@@ -102,8 +102,8 @@ RL_FN LightConnection lightConnect(RL_IN(LightSample) s, RL_IN(vec3) posW) {
 }
 
 // The shadow ray of a connection: origin to target with tMax 1, both ends moved off their surfaces.
-RL_FN Ray lightShadowRay(RL_IN(LightSample) s, RL_IN(LightConnection) c, RL_IN(vec3) posW, RL_IN(vec3) nGeoW,
-                         float posError) {
+RL_FN Ray lightShadowRay(RL_IN(LightSample) s, RL_IN(LightConnection) c, RL_IN(vec3) posW,
+                         RL_IN(vec3) nGeoW, float posError) {
   Ray ray;
   ray.origin = surfaceOffset(posW, nGeoW, posError, c.dirW);
   ray.tMin = 0.0f;

@@ -1,4 +1,5 @@
-// A point on a light, or a direction to the environment, as drawn by light sampling or found by a ray.
+// A point on a light, or a direction to the environment, as drawn by light sampling or found by a
+// ray.
 #ifndef RL_LIGHT_H
 #define RL_LIGHT_H
 
@@ -9,12 +10,14 @@
 RL_NAMESPACE_BEGIN
 
 struct LightSample {
-  vec3 point;      // world position; a unit direction to the light where kind is directional or environment
-  uint kind;       // RL_LIGHT_*
-  vec3 normal;     // triangle: unit normal of the emitting side; spot: direction of travel
-  float pdf;       // selection included: per area (triangle), per solid angle (environment), discrete else
-  vec3 radiance;   // W sr^-1 m^-2; W/sr for points (spot falloff depends on the receiver's direction);
-                   // W/m^2 for directional lights
+  vec3 point;   // world position; a unit direction to the light where kind is directional or
+                // environment
+  uint kind;    // RL_LIGHT_*
+  vec3 normal;  // triangle: unit normal of the emitting side; spot: direction of travel
+  float
+      pdf;  // selection included: per area (triangle), per solid angle (environment), discrete else
+  vec3 radiance;   // W sr^-1 m^-2; W/sr for points (spot falloff depends on the receiver's
+                   // direction); W/m^2 for directional lights
   float posError;  // metres, of a triangle's point
   vec2 cone;       // spot: scale and offset of the angular falloff
   uint isTwoSided;
@@ -22,11 +25,11 @@ struct LightSample {
 
 // A light sample as a receiver sees it.
 struct LightConnection {
-  vec3 dirW;             // unit, receiver to light
-  float distance;        // metres; 0 means at infinity
-  vec3 emitted;          // radiance for area lights and the environment; irradiance factor for delta lights
-  float geometry;        // |cos_light| / d^2 for triangles, 1 otherwise (d^2 of points is in `emitted`)
-  float pdfSolidAngle;   // of light sampling; 0 for delta lights, which BSDF sampling cannot find
+  vec3 dirW;       // unit, receiver to light
+  float distance;  // metres; 0 means at infinity
+  vec3 emitted;  // radiance for area lights and the environment; irradiance factor for delta lights
+  float geometry;  // |cos_light| / d^2 for triangles, 1 otherwise (d^2 of points is in `emitted`)
+  float pdfSolidAngle;  // of light sampling; 0 for delta lights, which BSDF sampling cannot find
   bool isDelta;
 };
 

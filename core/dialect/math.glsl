@@ -33,7 +33,8 @@ RL_FN vec2 rlCosSin2Pi(float u) {
   uint quadrant = uint(x + 0.5f);
   float a = (x - float(quadrant)) * 1.57079632679490f;
   float a2 = a * a;
-  float s = a * (1.0f + a2 * (-0.166666667f + a2 * (8.33333310e-3f + a2 * (-1.98400e-4f + a2 * 2.7e-6f))));
+  float s = a * (1.0f +
+                 a2 * (-0.166666667f + a2 * (8.33333310e-3f + a2 * (-1.98400e-4f + a2 * 2.7e-6f))));
   float c = 1.0f + a2 * (-0.5f + a2 * (4.16666642e-2f + a2 * (-1.38887e-3f + a2 * 2.47e-5f)));
   uint q = quadrant & 3u;
   if (q == 0u) return vec2(c, s);

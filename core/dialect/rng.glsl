@@ -1,5 +1,5 @@
-// Counter-based random numbers: the same (seed, pixel, frame, vertex, dimension) gives the same draw
-// on every machine and for any thread count.
+// Counter-based random numbers: the same (seed, pixel, frame, vertex, dimension) gives the same
+// draw on every machine and for any thread count.
 
 #ifndef RL_RNG_AUDIT
 #define RL_RNG_AUDIT(rng, dimension)
@@ -38,8 +38,8 @@ RL_FN float rngDraw(RL_IN(Rng) rng, uint dimension) {
   return float(rngBits(rng, dimension) >> 8u) * 5.9604644775390625e-8f;
 }
 
-// 32 bits that many pixels share on purpose, such as where a frame's tiles lie: the same number is meant
-// each time, so that asking again is no repetition.
+// 32 bits that many pixels share on purpose, such as where a frame's tiles lie: the same number is
+// meant each time, so that asking again is no repetition.
 RL_FN uint rngSharedBits(uint group, uint dimension) {
   Rng rng = rngInit(gFrame.seed ^ 0x3c6ef372u, group, gFrame.frame);
   return rngHash(rngHash(dimension ^ rng.key.x) + rng.key.y);

@@ -1,5 +1,6 @@
 // Types and dimension constants of random sampling. Every draw names one of the RL_DIM_* constants;
-// tests/lint asserts that the numbers are unique and tests/unit that no draw happens twice in a frame.
+// tests/lint asserts that the numbers are unique and tests/unit that no draw happens twice in a
+// frame.
 #ifndef RL_SAMPLING_H
 #define RL_SAMPLING_H
 
@@ -31,9 +32,9 @@ const uint RL_DIM_BSDF_LOBE = 6u;
 const uint RL_DIM_BSDF_U = 7u;
 const uint RL_DIM_BSDF_V = 8u;
 const uint RL_DIM_ROULETTE = 9u;
-const uint RL_DIM_RIS_LIGHT = 10u;   // selection among light candidates
-const uint RL_DIM_RIS_DIRECT = 11u;  // light sample or BSDF sample
-const uint RL_DIM_RIS_SUFFIX = 12u;  // light or continuation at a glossy x2
+const uint RL_DIM_RIS_LIGHT = 10u;     // selection among light candidates
+const uint RL_DIM_RIS_DIRECT = 11u;    // light sample or BSDF sample
+const uint RL_DIM_RIS_SUFFIX = 12u;    // light or continuation at a glossy x2
 const uint RL_DIM_RIS_MERGE_DI = 13u;  // + donor index (16 at most)
 const uint RL_DIM_RIS_MERGE_GI = 32u;  // + donor index (16 at most)
 const uint RL_DIM_ENVIRONMENT_ALIAS = 52u;

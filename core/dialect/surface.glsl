@@ -2,7 +2,8 @@
 
 RL_FN vec3 surfaceToWorldPoint(RL_IN(Instance) inst, RL_IN(vec3) p) {
   vec4 h = vec4(p, 1.0f);
-  return vec3(dot(inst.objectToWorldRow0, h), dot(inst.objectToWorldRow1, h), dot(inst.objectToWorldRow2, h));
+  return vec3(dot(inst.objectToWorldRow0, h), dot(inst.objectToWorldRow1, h),
+              dot(inst.objectToWorldRow2, h));
 }
 
 RL_FN vec3 surfaceToWorldVector(RL_IN(Instance) inst, RL_IN(vec3) v) {
@@ -16,7 +17,8 @@ RL_FN vec3 surfaceToWorldNormal(RL_IN(Instance) inst, RL_IN(vec3) n) {
          vec3(inst.worldToObjectRow2) * n.z;
 }
 
-RL_FN TriangleW surfaceTriangle(RL_IN(Instance) inst, RL_IN(Geometry) geometry, RL_IN(uvec3) corners) {
+RL_FN TriangleW surfaceTriangle(RL_IN(Instance) inst, RL_IN(Geometry) geometry,
+                                RL_IN(uvec3) corners) {
   TriangleW t;
   t.p0 = gScene.positions.data[geometry.firstVertex + corners.x];
   vec3 p1 = gScene.positions.data[geometry.firstVertex + corners.y];
@@ -28,10 +30,12 @@ RL_FN TriangleW surfaceTriangle(RL_IN(Instance) inst, RL_IN(Geometry) geometry, 
   if (RL_HAS(RL_FEATURE_INSTANCES) && (inst.flags & RL_INSTANCE_IDENTITY) == 0u) {
     // |M| |p| + |T| bounds every intermediate of the transform.
     vec4 h = vec4(corner, 1.0f);
-    t.magnitude = max(dot(abs(inst.objectToWorldRow0), h),
-                      max(dot(abs(inst.objectToWorldRow1), h), dot(abs(inst.objectToWorldRow2), h)));
+    t.magnitude =
+        max(dot(abs(inst.objectToWorldRow0), h),
+            max(dot(abs(inst.objectToWorldRow1), h), dot(abs(inst.objectToWorldRow2), h)));
     t.p0 = surfaceToWorldPoint(inst, t.p0);
-    // Edges are transformed as vectors: differences of far corners would leave small triangles no area.
+    // Edges are transformed as vectors: differences of far corners would leave small triangles no
+    // area.
     t.e1 = surfaceToWorldVector(inst, t.e1);
     t.e2 = surfaceToWorldVector(inst, t.e2);
   }
@@ -74,14 +78,15 @@ RL_FN_OUTLINE float surfaceAlpha(RL_IN(Hit) hit) {
     float c = gScene.colors.data[geometry.colorOffset + corners.z].w;
     alpha *= a + hit.bary.x * (b - a) + hit.bary.y * (c - a);
   }
-  if ((material.flags & RL_MATERIAL_ALPHA_MASK) != 0u) return alpha < material.alphaCutoff ? 0.0f : 1.0f;
+  if ((material.flags & RL_MATERIAL_ALPHA_MASK) != 0u)
+    return alpha < material.alphaCutoff ? 0.0f : 1.0f;
   return clamp(alpha, 0.0f, 1.0f);
 }
 
 // The tangent of a normal map where the mesh has none: dp/du of the triangle (glTF asks for
 // MikkTSpace; the difference is the interpolation of tangents across triangles).
-RL_FN vec3 surfaceTangentFromUv(RL_IN(TriangleW) t, RL_IN(Geometry) geometry, RL_IN(uvec3) corners, uint uvSet,
-                                RL_OUT(float) handedness) {
+RL_FN vec3 surfaceTangentFromUv(RL_IN(TriangleW) t, RL_IN(Geometry) geometry, RL_IN(uvec3) corners,
+                                uint uvSet, RL_OUT(float) handedness) {
   handedness = 1.0f;
   uint offset = geometry.uvOffset[uvSet];
   if (offset == RL_INVALID) return vec3(0.0f, 0.0f, 0.0f);
@@ -94,12 +99,12 @@ RL_FN vec3 surfaceTangentFromUv(RL_IN(TriangleW) t, RL_IN(Geometry) geometry, RL
   return (t.e1 * d2.y - t.e2 * d1.y) * (1.0f / det);
 }
 
-RL_FN_OUTLINE vec3 surfaceNormalMapped(RL_IN(Instance) inst, RL_IN(Geometry) geometry, RL_IN(Material) material,
-                                       RL_IN(uvec3) corners, RL_IN(vec2) bary, RL_IN(TriangleW) t,
-                                       RL_IN(vec3) normalW) {
+RL_FN_OUTLINE vec3 surfaceNormalMapped(RL_IN(Instance) inst, RL_IN(Geometry) geometry,
+                                       RL_IN(Material) material, RL_IN(uvec3) corners,
+                                       RL_IN(vec2) bary, RL_IN(TriangleW) t, RL_IN(vec3) normalW) {
   vec4 texel = surfaceSlot(material, RL_TEX_NORMAL, geometry, corners, bary);
-  vec3 local = vec3((texel.x * 2.0f - 1.0f) * material.normalScale, (texel.y * 2.0f - 1.0f) * material.normalScale,
-                    texel.z * 2.0f - 1.0f);
+  vec3 local = vec3((texel.x * 2.0f - 1.0f) * material.normalScale,
+                    (texel.y * 2.0f - 1.0f) * material.normalScale, texel.z * 2.0f - 1.0f);
   vec3 tangentW = vec3(0.0f, 0.0f, 0.0f);
   float handedness = 1.0f;
   if (geometry.tangentOffset != RL_INVALID) {
@@ -117,7 +122,8 @@ RL_FN_OUTLINE vec3 surfaceNormalMapped(RL_IN(Instance) inst, RL_IN(Geometry) geo
     tangentW = surfaceTangentFromUv(t, geometry, corners, uvSet, handedness);
   }
   // The image on a mirrored instance is mirrored too, and a cross product is not.
-  if (RL_HAS(RL_FEATURE_INSTANCES) && (inst.flags & RL_INSTANCE_FLIPPED) != 0u) handedness = -handedness;
+  if (RL_HAS(RL_FEATURE_INSTANCES) && (inst.flags & RL_INSTANCE_FLIPPED) != 0u)
+    handedness = -handedness;
   tangentW = tangentW - normalW * dot(normalW, tangentW);
   float len2 = dot(tangentW, tangentW);
   if (!(len2 > 0.0f)) return normalW;  // no usable parametrisation: the unperturbed normal
@@ -128,9 +134,9 @@ RL_FN_OUTLINE vec3 surfaceNormalMapped(RL_IN(Instance) inst, RL_IN(Geometry) geo
   return n2 > 0.0f ? n * (1.0f / sqrt(n2)) : normalW;
 }
 
-// A hit within rounding of an edge may lie beyond the face on the other side of it, and rays from there
-// would leak out of a closed mesh. Its position is kept off the edges by the error bound (by a thousandth
-// of a sliver). area2 is the squared length of cross(e1, e2).
+// A hit within rounding of an edge may lie beyond the face on the other side of it, and rays from
+// there would leak out of a closed mesh. Its position is kept off the edges by the error bound (by
+// a thousandth of a sliver). area2 is the squared length of cross(e1, e2).
 RL_FN vec2 surfaceInnerBary(RL_IN(TriangleW) t, float area2, float posError, RL_IN(vec2) bary) {
   vec3 e3 = t.e2 - t.e1;
   float longest2 = max(dot(t.e1, t.e1), max(dot(t.e2, t.e2), dot(e3, e3)));
@@ -151,7 +157,8 @@ RL_FN Surface surfaceLoad(RL_IN(Hit) hit, RL_IN(vec3) rayDir) {
   s.posError = RL_HIT_ERROR * t.magnitude;
   s.wo = -rayDir;
 
-  // A triangle so small that its cross product underflows faces the ray: traversal must never see NaN.
+  // A triangle so small that its cross product underflows faces the ray: traversal must never see
+  // NaN.
   vec3 area = cross(t.e1, t.e2);
   float area2 = dot(area, area);
   vec3 nGeo = area2 > 0.0f ? area * (1.0f / sqrt(area2)) : s.wo;
@@ -254,14 +261,14 @@ RL_FN Surface surfaceLoad(RL_IN(Hit) hit, RL_IN(vec3) rayDir) {
   return s;
 }
 
-// Absorption (m^-1) along a ray that leaves a surface towards dirW: that of the medium through which the
-// surface was reached, or, on the other side, of the medium beyond.
+// Absorption (m^-1) along a ray that leaves a surface towards dirW: that of the medium through
+// which the surface was reached, or, on the other side, of the medium beyond.
 RL_FN vec3 surfaceSigma(RL_IN(Surface) s, RL_IN(vec3) sigmaReached, RL_IN(vec3) dirW) {
   return dot(s.nGeoW, dirW) >= 0.0f ? sigmaReached : s.sigmaAbsorption;
 }
 
-// Origin of a ray that leaves a surface towards dirW: moved off the plane by the error bound, to the
-// side it goes to.
+// Origin of a ray that leaves a surface towards dirW: moved off the plane by the error bound, to
+// the side it goes to.
 RL_FN vec3 surfaceOffset(RL_IN(vec3) posW, RL_IN(vec3) nGeoW, float posError, RL_IN(vec3) dirW) {
   return dot(nGeoW, dirW) >= 0.0f ? posW + nGeoW * posError : posW - nGeoW * posError;
 }

@@ -11,11 +11,11 @@ RL_NAMESPACE_BEGIN
 
 struct Surface {
   vec3 posW;
-  float posError;        // metres: bound of the rounding error of posW and of a test against its triangle
-  vec3 nGeoW;            // unit, on the side of wo
-  vec3 nShadeW;          // unit, dot(nShadeW, nGeoW) > 0
-  vec3 wo;               // unit, towards where the ray came from
-  vec3 emission;         // radiance towards wo
+  float posError;  // metres: bound of the rounding error of posW and of a test against its triangle
+  vec3 nGeoW;      // unit, on the side of wo
+  vec3 nShadeW;    // unit, dot(nShadeW, nGeoW) > 0
+  vec3 wo;         // unit, towards where the ray came from
+  vec3 emission;   // radiance towards wo
   vec3 sigmaAbsorption;  // m^-1 beyond the surface, for rays that cross it
   uint light;            // index in the light table, RL_INVALID where it does not emit
   Bsdf bsdf;

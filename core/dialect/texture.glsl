@@ -19,9 +19,11 @@ RL_FN vec4 textureTexel(RL_IN(Texture) tex, int x, int y) {
   uint b = (texel >> 16u) & 255u;
   float a = float(texel >> 24u) * (1.0f / 255.0f);
   if ((tex.flags & RL_TEXTURE_SRGB) != 0u) {
-    return vec4(gScene.srgbToLinear.data[r], gScene.srgbToLinear.data[g], gScene.srgbToLinear.data[b], a);
+    return vec4(gScene.srgbToLinear.data[r], gScene.srgbToLinear.data[g],
+                gScene.srgbToLinear.data[b], a);
   }
-  return vec4(float(r) * (1.0f / 255.0f), float(g) * (1.0f / 255.0f), float(b) * (1.0f / 255.0f), a);
+  return vec4(float(r) * (1.0f / 255.0f), float(g) * (1.0f / 255.0f), float(b) * (1.0f / 255.0f),
+              a);
 }
 
 // UV set coordinates in, RGBA out. Coordinates so large that they have no fraction give texel 0.

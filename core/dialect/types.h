@@ -13,7 +13,8 @@ const uint RL_INVALID = 0xffffffffu;
 const uint RL_MAX_UV_SETS = 4u;
 
 // Ray modes of traceRay().
-const uint RL_RAY_PATH = 0u;    // closest hit; alpha decided by a hash of the sample and the primitive
+const uint RL_RAY_PATH =
+    0u;  // closest hit; alpha decided by a hash of the sample and the primitive
 const uint RL_RAY_SHADOW = 1u;  // any hit; alpha multiplies the transmittance
 
 struct Ray {
@@ -30,8 +31,8 @@ struct Hit {
   float t;
 };
 
-// One glTF mesh primitive: triangles [firstTriangle, +triangleCount) index vertices from firstVertex.
-// An attribute offset of RL_INVALID means the attribute is absent.
+// One glTF mesh primitive: triangles [firstTriangle, +triangleCount) index vertices from
+// firstVertex. An attribute offset of RL_INVALID means the attribute is absent.
 struct Geometry {
   uint firstTriangle;
   uint triangleCount;
@@ -62,7 +63,7 @@ struct Instance {
 RL_STATIC_ASSERT_SIZE(Instance, 112);
 
 const uint RL_MATERIAL_DOUBLE_SIDED = 1u;
-const uint RL_MATERIAL_UNLIT = 2u;        // KHR_materials_unlit: emits its base colour, scatters nothing
+const uint RL_MATERIAL_UNLIT = 2u;  // KHR_materials_unlit: emits its base colour, scatters nothing
 const uint RL_MATERIAL_ALPHA_MASK = 4u;   // alpha < alphaCutoff is a hole
 const uint RL_MATERIAL_ALPHA_BLEND = 8u;  // alpha is coverage
 const uint RL_MATERIAL_THIN = 16u;        // transmission without volume: no refraction
@@ -125,17 +126,18 @@ const uint RL_LIGHT_SPOT = 2u;
 const uint RL_LIGHT_DIRECTIONAL = 3u;
 const uint RL_LIGHT_ENVIRONMENT = 4u;
 
-const uint RL_LIGHT_FLIPPED = 2u;  // Light::flags: a mirrored instance, the normal is -cross(e1, e2)
+const uint RL_LIGHT_FLIPPED =
+    2u;  // Light::flags: a mirrored instance, the normal is -cross(e1, e2)
 
 struct Light {
   vec3 p0;  // triangle corner, or position (world)
   uint kind;
-  vec3 e1;  // triangle edge, or direction of light travel (unit)
-  float pmf;  // probability of being selected
-  vec3 e2;    // triangle edge; x,y: spot angle scale and offset
+  vec3 e1;            // triangle edge, or direction of light travel (unit)
+  float pmf;          // probability of being selected
+  vec3 e2;            // triangle edge; x,y: spot angle scale and offset
   float areaInverse;  // 1/m^2 of a triangle
-  vec3 radiance;  // triangle: W sr^-1 m^-2; point, spot: W/sr; directional: W/m^2
-  uint instance;  // of a triangle
+  vec3 radiance;      // triangle: W sr^-1 m^-2; point, spot: W/sr; directional: W/m^2
+  uint instance;      // of a triangle
   uint primitive;
   uint flags;  // RL_MATERIAL_DOUBLE_SIDED, RL_LIGHT_FLIPPED
 };
@@ -193,18 +195,19 @@ struct SceneData {
   FloatRef srgbToLinear;  // 256 entries
   LightRef lights;
   AliasRef lightAlias;
-  Vec3Ref environment;           // radiance per texel, already scaled, row 0 on top
-  AliasRef environmentAlias;     // pmf per texel
-  Vec2Ref ggxAlbedo;             // core/scene/ggx_albedo.h; null unless a session compensates
+  Vec3Ref environment;        // radiance per texel, already scaled, row 0 on top
+  AliasRef environmentAlias;  // pmf per texel
+  Vec2Ref ggxAlbedo;          // core/scene/ggx_albedo.h; null unless a session compensates
   uint lightCount;
   uint environmentWidth;  // 0: no environment
   uint environmentHeight;
-  uint environmentLight;  // its index in the light table, or RL_INVALID
+  uint environmentLight;      // its index in the light table, or RL_INVALID
   float environmentRotation;  // radians about +Y
   uint instanceCount;
 };
 
-const uint RL_COMPONENT_DIRECT = 1u;    // at most one scattering event, emission seen directly included
+const uint RL_COMPONENT_DIRECT =
+    1u;  // at most one scattering event, emission seen directly included
 const uint RL_COMPONENT_INDIRECT = 2u;  // two or more
 const uint RL_COMPONENT_ALL = 3u;
 
@@ -223,7 +226,8 @@ struct FrameData {
   uint maxBounces;  // scattering events
   uint components;
   uint filmHold;       // frames that a pixel keeps its film sample; 1: a new one every frame
-  uint rouletteStart;  // first scattering event that may end a path by Russian roulette; RL_INVALID: off
+  uint rouletteStart;  // first scattering event that may end a path by Russian roulette;
+                       // RL_INVALID: off
   uint multiscatter;   // 1: GGX lobes are compensated, and the scene has ggxAlbedo; 0: off
 };
 RL_STATIC_ASSERT_SIZE(FrameData, 168);
@@ -235,7 +239,8 @@ const uint RL_HEALTH_CAPPED_CONFIDENCE = 2u;
 const uint RL_HEALTH_DELTA_LOBES = 3u;        // roughness below the floor, rendered as a delta lobe
 const uint RL_HEALTH_UNREUSABLE_PIXELS = 4u;  // x1 cannot be reused; the pixel's own path is shaded
 const uint RL_HEALTH_NEGATIVE = 5u;           // negative radiance left by control variates
-const uint RL_HEALTH_DROPPED_WEIGHTS = 6u;    // resampling weights that are no finite, non-negative number
+const uint RL_HEALTH_DROPPED_WEIGHTS =
+    6u;  // resampling weights that are no finite, non-negative number
 const uint RL_HEALTH_COUNT = 7u;
 
 RL_NAMESPACE_END

@@ -1,17 +1,17 @@
-// The reuse algebra: merges donors' reservoirs into the canonical one by generalised RIS with shift maps
-// (Lin et al. 2022) and defensive pairwise MIS. It knows no BSDF, no payload, no pixel and no backend;
-// the same lines serve every method and cache, time and space.
+// The reuse algebra: merges donors' reservoirs into the canonical one by generalised RIS with shift
+// maps (Lin et al. 2022) and defensive pairwise MIS. It knows no BSDF, no payload, no pixel and no
+// backend; the same lines serve every method and cache, time and space.
 //
-// A merge is: mergeBegin(), for every donor mergeWeighCanonical() with the canonical sample as the donor
-// sees it, mergeCanonical(), for every donor mergeDonor() with the donor's sample as it is seen here,
-// mergeEnd(). Where the shifts are computed is the caller's business (core/resampling/reuse.glsl): two
-// anchors that serve each other as donors need the same two.
+// A merge is: mergeBegin(), for every donor mergeWeighCanonical() with the canonical sample as the
+// donor sees it, mergeCanonical(), for every donor mergeDonor() with the donor's sample as it is
+// seen here, mergeEnd(). Where the shifts are computed is the caller's business
+// (core/resampling/reuse.glsl): two anchors that serve each other as donors need the same two.
 //
 // Per-channel estimates: the selected sample carries one colour, which a scalar target cannot see.
 // Each reservoir therefore also carries an estimate E of the whole integral per channel, E = F W +
 // residual with E[residual] = 0 given the anchors. A donor's residual, weighted by its share of the
-// confidence and by the expected ratio of reflectances, is a control variate: it depends on no sample,
-// so its expectation stays zero, and it cancels the colour noise of the donor's selection.
+// confidence and by the expected ratio of reflectances, is a control variate: it depends on no
+// sample, so its expectation stays zero, and it cancels the colour noise of the donor's selection.
 
 // canonical: this anchor's own reservoir; cDonors: the donors' confidences after the cap, summed.
 RL_FN MergeState mergeBegin(RL_IN(ReservoirState) canonical, real cDonors) {
@@ -24,7 +24,8 @@ RL_FN MergeState mergeBegin(RL_IN(ReservoirState) canonical, real cDonors) {
   return merge;
 }
 
-// A sample as an anchor at the same point sees it: nothing to evaluate, no ray, it keeps its integrand.
+// A sample as an anchor at the same point sees it: nothing to evaluate, no ray, it keeps its
+// integrand.
 RL_FN Shifted mergeUnshifted(RL_IN(ReservoirState) r) {
   Shifted s;
   s.F = r.F;
@@ -33,12 +34,12 @@ RL_FN Shifted mergeUnshifted(RL_IN(ReservoirState) r) {
 }
 
 // there: the canonical sample as a donor of confidence cDonor sees it.
-RL_FN void mergeWeighCanonical(RL_INOUT(MergeState) merge, RL_IN(ReservoirState) canonical, real cDonor,
-                               RL_IN(Shifted) there, uint flags) {
+RL_FN void mergeWeighCanonical(RL_INOUT(MergeState) merge, RL_IN(ReservoirState) canonical,
+                               real cDonor, RL_IN(Shifted) there, uint flags) {
   if ((flags & RL_REUSE_PAIRWISE) == 0u) return;
   real pHatThere = bridgeTarget(there.F) * there.jacobian;
-  merge.mCanonical +=
-      misPairwiseCanonicalTerm(cDonor, merge.cCanonical, merge.cTotal, bridgeTarget(canonical.F), pHatThere);
+  merge.mCanonical += misPairwiseCanonicalTerm(cDonor, merge.cCanonical, merge.cTotal,
+                                               bridgeTarget(canonical.F), pHatThere);
 }
 
 // The canonical sample is the first candidate: it stays selected until a donor wins.
@@ -51,11 +52,12 @@ RL_FN void mergeCanonical(RL_INOUT(MergeState) merge, RL_IN(ReservoirState) cano
   merge.wSum = risCleanWeight(bridgeTarget(canonical.F) * contribution);
 }
 
-// A donor's sample, seen here, against what is selected so far. True when it wins: the caller then takes
-// the donor's payload; the state of `selected` is already that of the donor's sample.
+// A donor's sample, seen here, against what is selected so far. True when it wins: the caller then
+// takes the donor's payload; the state of `selected` is already that of the donor's sample.
 // reflectanceRatio: expected integrand here over that at the donor, from the anchors alone.
-RL_FN bool mergeDonor(RL_INOUT(MergeState) merge, RL_INOUT(ReservoirState) selected, RL_IN(ReservoirState) donor,
-                      real cDonor, RL_IN(Shifted) here, RL_IN(real3) reflectanceRatio, uint flags, real u) {
+RL_FN bool mergeDonor(RL_INOUT(MergeState) merge, RL_INOUT(ReservoirState) selected,
+                      RL_IN(ReservoirState) donor, real cDonor, RL_IN(Shifted) here,
+                      RL_IN(real3) reflectanceRatio, uint flags, real u) {
   real pHatHere = bridgeTarget(here.F);
   real mDonor = misConfidenceOnly(cDonor, merge.cTotal);
   if ((flags & RL_REUSE_PAIRWISE) != 0u) {
@@ -80,7 +82,8 @@ RL_FN void mergeEnd(RL_INOUT(MergeState) merge, RL_INOUT(ReservoirState) selecte
     selected.W = real(0.0f);
     selected.F = real3(real(0.0f));
   }
-  // All inputs that passed the test of the anchors count, empty ones too: c must not depend on samples.
+  // All inputs that passed the test of the anchors count, empty ones too: c must not depend on
+  // samples.
   selected.confidence = merge.cTotal;
   real3 shaded = selected.F * selected.W;
   if ((flags & RL_REUSE_WINNER_ONLY) != 0u) merge.estimate = shaded;

@@ -9,8 +9,8 @@
 RL_NAMESPACE_BEGIN
 
 struct ReservoirState {
-  real3 F;         // integrand of the selected sample at its owner, visibility included; pHat = luminance
-  real W;          // unbiased contribution weight: E[F W] is the integral. 0: empty
+  real3 F;  // integrand of the selected sample at its owner, visibility included; pHat = luminance
+  real W;   // unbiased contribution weight: E[F W] is the integral. 0: empty
   real3 residual;  // estimate - F W: what the per-channel estimate knows beyond the selected sample
   real confidence;
 };
@@ -33,12 +33,14 @@ struct MergeState {
 const uint RL_MAX_DONORS = 4u;  // of one merge
 
 // How a merge is done; declared by the integrator's mode.
-const uint RL_REUSE_PAIRWISE = 1u;             // defensive pairwise MIS; otherwise weights by confidence only
-const uint RL_REUSE_OMIT_JACOBIAN = 2u;        // deliberately wrong: for the tests that must reject it
-const uint RL_REUSE_ASSUME_VISIBLE = 4u;       // biased: shifted samples are taken as visible in the MIS weights
-const uint RL_REUSE_CONTROL_VARIATE = 8u;      // carry per-channel estimates through the merges
-const uint RL_REUSE_WINNER_ONLY = 16u;         // shade the selected sample alone
-const uint RL_REUSE_ASSUME_VISIBLE_HERE = 32u; // biased: a donor's sample is taken as visible here too
+const uint RL_REUSE_PAIRWISE = 1u;  // defensive pairwise MIS; otherwise weights by confidence only
+const uint RL_REUSE_OMIT_JACOBIAN = 2u;  // deliberately wrong: for the tests that must reject it
+const uint RL_REUSE_ASSUME_VISIBLE =
+    4u;  // biased: shifted samples are taken as visible in the MIS weights
+const uint RL_REUSE_CONTROL_VARIATE = 8u;  // carry per-channel estimates through the merges
+const uint RL_REUSE_WINNER_ONLY = 16u;     // shade the selected sample alone
+const uint RL_REUSE_ASSUME_VISIBLE_HERE =
+    32u;  // biased: a donor's sample is taken as visible here too
 
 RL_NAMESPACE_END
 

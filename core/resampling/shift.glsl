@@ -1,7 +1,7 @@
 // Shift maps.
 
-// Reconnection at x_k from a source vertex x_{k-1} to a destination y_{k-1}: the solid-angle Jacobian
-// (GRIS eq. 52), with the geometric normal at x_k. It multiplies the resampling weight.
+// Reconnection at x_k from a source vertex x_{k-1} to a destination y_{k-1}: the solid-angle
+// Jacobian (GRIS eq. 52), with the geometric normal at x_k. It multiplies the resampling weight.
 RL_FN real shiftReconnectionJacobian(RL_IN(real3) xk, RL_IN(real3) normalK, RL_IN(real3) source,
                                      RL_IN(real3) destination) {
   real3 toSource = source - xk;

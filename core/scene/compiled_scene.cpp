@@ -103,10 +103,11 @@ void CompiledScene::Impl::addGeometry(const MeshGeometry& mesh, const glm::dmat4
       positions[i] = transformPoint(*bake, positions[i]);
     }
     const glm::dmat3 linear(*bake);
-    // Not normalised one by one: kernels do that after interpolation, so that a baked mesh shades as
-    // an instance of it does. The common factor only keeps them in range.
+    // Not normalised one by one: kernels do that after interpolation, so that a baked mesh shades
+    // as an instance of it does. The common factor only keeps them in range.
     glm::dmat3 normalMatrix = glm::transpose(glm::inverse(linear));
-    normalMatrix /= std::max({glm::length(normalMatrix[0]), glm::length(normalMatrix[1]), glm::length(normalMatrix[2])});
+    normalMatrix /= std::max(
+        {glm::length(normalMatrix[0]), glm::length(normalMatrix[1]), glm::length(normalMatrix[2])});
     if (g.normalOffset != rl::RL_INVALID) {
       for (size_t i = g.normalOffset; i < normals.size(); ++i) {
         const glm::dvec3 n = normalMatrix * glm::dvec3(normals[i]);
@@ -120,9 +121,10 @@ void CompiledScene::Impl::addGeometry(const MeshGeometry& mesh, const glm::dmat4
       }
     }
     if (glm::determinant(linear) < 0.0) {
-      // A mirrored mesh would face inwards. Normals and UVs follow their vertices; the bitangent of a
-      // mirrored tangent frame changes sign with the cross product.
-      for (size_t i = g.firstTriangle; i < triangles.size(); ++i) std::swap(triangles[i].y, triangles[i].z);
+      // A mirrored mesh would face inwards. Normals and UVs follow their vertices; the bitangent of
+      // a mirrored tangent frame changes sign with the cross product.
+      for (size_t i = g.firstTriangle; i < triangles.size(); ++i)
+        std::swap(triangles[i].y, triangles[i].z);
       if (g.tangentOffset != rl::RL_INVALID) {
         for (size_t i = g.tangentOffset; i < tangents.size(); ++i) tangents[i].w = -tangents[i].w;
       }
@@ -167,7 +169,8 @@ void CompiledScene::Impl::flatten() {
     inst.worldToObjectRow1 = row(toObject, 1);
     inst.worldToObjectRow2 = row(toObject, 2);
     const uint32_t alphaFlags = rl::RL_MATERIAL_ALPHA_MASK | rl::RL_MATERIAL_ALPHA_BLEND;
-    if ((scene.materials[m.material].data.flags & alphaFlags) != 0) inst.flags |= rl::RL_INSTANCE_ALPHA;
+    if ((scene.materials[m.material].data.flags & alphaFlags) != 0)
+      inst.flags |= rl::RL_INSTANCE_ALPHA;
     instancedTriangles += mesh.triangles.size();
     instances.push_back(inst);
   }
@@ -181,7 +184,8 @@ void CompiledScene::Impl::buildTextures() {
     total += image.texels.size();
   }
   if (total > std::numeric_limits<uint32_t>::max()) {
-    failInput(fmt::format("{}: textures have {} texels; at most 4294967295 are supported", scene.name, total));
+    failInput(fmt::format("{}: textures have {} texels; at most 4294967295 are supported",
+                          scene.name, total));
   }
   texels.reserve(total);
   for (const TextureImage& image : scene.images) {
@@ -206,7 +210,8 @@ void CompiledScene::Impl::buildTextures() {
 
 void CompiledScene::Impl::buildEmbree() {
   device = rtcNewDevice("");
-  if (device == nullptr) throw Error(ExitCode::deviceUnavailable, "Embree could not create a device");
+  if (device == nullptr)
+    throw Error(ExitCode::deviceUnavailable, "Embree could not create a device");
   const auto count = [](void* bytes, ptrdiff_t change, bool) {
     static_cast<std::atomic<ptrdiff_t>*>(bytes)->fetch_add(change, std::memory_order_relaxed);
     return true;
@@ -225,11 +230,13 @@ void CompiledScene::Impl::buildEmbree() {
   auto newTriangles = [&](const rl::Geometry& g, size_t vertexCount, bool isTransparent) {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     // Copied into Embree's own buffers: it asks for padding behind the last vertex.
-    auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                          RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertexCount));
-    auto* t = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), g.triangleCount));
-    if (v == nullptr || t == nullptr) failInput(fmt::format("{}: out of memory for the ray-tracing structure", scene.name));
+    auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertexCount));
+    auto* t = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
+                                                             RTC_FORMAT_UINT3, 3 * sizeof(uint32_t),
+                                                             g.triangleCount));
+    if (v == nullptr || t == nullptr)
+      failInput(fmt::format("{}: out of memory for the ray-tracing structure", scene.name));
     std::copy_n(&positions[g.firstVertex].x, 3 * vertexCount, v);
     std::copy_n(&triangles[g.firstTriangle].x, 3 * size_t(g.triangleCount), t);
     if (isTransparent) {
@@ -267,7 +274,8 @@ void CompiledScene::Impl::buildEmbree() {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
     rtcSetGeometryInstancedScene(geometry, meshScenes[g]);
     rtcSetGeometryTimeStepCount(geometry, 1);
-    const glm::vec4 r0 = inst.objectToWorldRow0, r1 = inst.objectToWorldRow1, r2 = inst.objectToWorldRow2;
+    const glm::vec4 r0 = inst.objectToWorldRow0, r1 = inst.objectToWorldRow1,
+                    r2 = inst.objectToWorldRow2;
     const float rows[12] = {r0.x, r0.y, r0.z, r0.w, r1.x, r1.y, r1.z, r1.w, r2.x, r2.y, r2.z, r2.w};
     rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, rows);
     rtcCommitGeometry(geometry);
@@ -277,8 +285,8 @@ void CompiledScene::Impl::buildEmbree() {
   rtcCommitScene(top);
   const RTCError error = rtcGetDeviceError(device);
   if (error != RTC_ERROR_NONE) {
-    failInput(fmt::format("{}: building the ray-tracing structure failed (Embree error {})", scene.name,
-                          static_cast<int>(error)));
+    failInput(fmt::format("{}: building the ray-tracing structure failed (Embree error {})",
+                          scene.name, static_cast<int>(error)));
   }
 }
 
@@ -318,14 +326,16 @@ std::shared_ptr<const CompiledScene> CompiledScene::build(Scene scene) {
   impl->flatten();
   for (const SceneMaterial& m : impl->scene.materials) impl->materials.push_back(m.data);
   impl->buildTextures();
-  impl->lights = buildLightTable({impl->scene, impl->positions, impl->uvs, impl->triangles, impl->geometries,
-                                  impl->origin},
-                                 impl->instances, impl->warnings);
+  impl->lights = buildLightTable(
+      {impl->scene, impl->positions, impl->uvs, impl->triangles, impl->geometries, impl->origin},
+      impl->instances, impl->warnings);
   if (impl->lights.lights.empty()) {
     bool unlit = false;
-    for (const SceneMaterial& m : impl->scene.materials) unlit |= (m.data.flags & rl::RL_MATERIAL_UNLIT) != 0;
-    impl->warnings.push_back(impl->scene.name + ": the scene has no light" +
-                             (unlit ? " but unlit materials" : "; every pixel will be black (try --environment FILE)"));
+    for (const SceneMaterial& m : impl->scene.materials)
+      unlit |= (m.data.flags & rl::RL_MATERIAL_UNLIT) != 0;
+    impl->warnings.push_back(
+        impl->scene.name + ": the scene has no light" +
+        (unlit ? " but unlit materials" : "; every pixel will be black (try --environment FILE)"));
   }
   impl->buildEmbree();
   impl->bindAddresses();
@@ -352,14 +362,17 @@ size_t CompiledScene::emissiveTriangleCount() const { return impl_->lights.emiss
 void* CompiledScene::embreeScene() const { return impl_->top; }
 glm::dvec3 CompiledScene::origin() const { return impl_->origin; }
 
-size_t CompiledScene::embreeBytes() const { return size_t(std::max<ptrdiff_t>(0, impl_->embreeBytes)); }
+size_t CompiledScene::embreeBytes() const {
+  return size_t(std::max<ptrdiff_t>(0, impl_->embreeBytes));
+}
 
 size_t CompiledScene::bytes() const {
   auto of = [](const auto& v) { return v.size() * sizeof(v[0]); };
   const Impl& i = *impl_;
-  return of(i.positions) + of(i.normals) + of(i.tangents) + of(i.colors) + of(i.uvs) + of(i.triangles) +
-         of(i.geometries) + of(i.instances) + of(i.materials) + of(i.textures) + of(i.texels) + of(i.srgb) +
-         of(i.lights.lights) + of(i.lights.alias) + of(i.lights.environment) + of(i.lights.environmentAlias);
+  return of(i.positions) + of(i.normals) + of(i.tangents) + of(i.colors) + of(i.uvs) +
+         of(i.triangles) + of(i.geometries) + of(i.instances) + of(i.materials) + of(i.textures) +
+         of(i.texels) + of(i.srgb) + of(i.lights.lights) + of(i.lights.alias) +
+         of(i.lights.environment) + of(i.lights.environmentAlias);
 }
 
 rl::Camera CompiledScene::camera(const SceneCamera& camera, uint32_t width, uint32_t height) const {

@@ -14,7 +14,8 @@ namespace restlab {
 class CompiledScene {
  public:
   // Recentres in double precision, bakes meshes used once into world space, builds the light table
-  // (selection by power) and the environment's alias table. Adds warnings (zero-area lights, no light).
+  // (selection by power) and the environment's alias table. Adds warnings (zero-area lights, no
+  // light).
   static std::shared_ptr<const CompiledScene> build(Scene scene);
   ~CompiledScene();
 
@@ -33,8 +34,8 @@ class CompiledScene {
   size_t emissiveTriangleCount() const;
   size_t bytes() const;        // of all buffers that kernels read
   size_t embreeBytes() const;  // of Embree's copy of the triangles and its hierarchies
-  void* embreeScene() const;  // RTCScene
-  glm::dvec3 origin() const;  // subtracted from world positions
+  void* embreeScene() const;   // RTCScene
+  glm::dvec3 origin() const;   // subtracted from world positions
 
  private:
   struct Impl;

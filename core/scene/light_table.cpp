@@ -49,7 +49,8 @@ double textureFactor(const LightTableInput& in, const rl::Geometry& g, const Tex
     const auto b1 = static_cast<float>(1.0 - s), b2 = static_cast<float>(t * s);
     glm::vec2 uv(0.0f);
     if (offset != rl::RL_INVALID) {
-      const glm::vec2 a = in.uvs[offset + corners.x], b = in.uvs[offset + corners.y], c = in.uvs[offset + corners.z];
+      const glm::vec2 a = in.uvs[offset + corners.x], b = in.uvs[offset + corners.y],
+                      c = in.uvs[offset + corners.z];
       uv = a + b1 * (b - a) + b2 * (c - a);
     }
     sum += texelLuminance(in.scene, use, uv);
@@ -65,8 +66,8 @@ glm::vec3 toWorld(const rl::Instance& inst, const glm::vec3& p) {
 }
 
 // Appends the triangles of an emitting instance with their power (W, up to a common factor).
-size_t addTriangles(const LightTableInput& in, const rl::Instance& inst, uint32_t instanceIndex, LightTable& table,
-                    std::vector<double>& power) {
+size_t addTriangles(const LightTableInput& in, const rl::Instance& inst, uint32_t instanceIndex,
+                    LightTable& table, std::vector<double>& power) {
   const rl::Material& material = in.scene.materials[inst.material].data;
   const rl::Geometry& g = in.geometries[inst.geometry];
   const bool twoSided = (material.flags & rl::RL_MATERIAL_DOUBLE_SIDED) != 0;
@@ -82,7 +83,8 @@ size_t addTriangles(const LightTableInput& in, const rl::Instance& inst, uint32_
     const double area = 0.5 * glm::length(glm::cross(glm::dvec3(light.e1), glm::dvec3(light.e2)));
     double radiance = luminance(glm::dvec3(material.emission));
     const uint32_t texture = material.textures[rl::RL_TEX_EMISSIVE];
-    if (texture != rl::RL_INVALID) radiance *= textureFactor(in, g, in.scene.textureUses[texture], corners);
+    if (texture != rl::RL_INVALID)
+      radiance *= textureFactor(in, g, in.scene.textureUses[texture], corners);
     light.radiance = material.emission;
     light.instance = instanceIndex;
     light.primitive = t;
@@ -119,7 +121,8 @@ rl::Light punctual(const PunctualLight& source, const glm::dvec3& origin) {
 double addEnvironment(const EnvironmentMap& map, LightTable& table) {
   const int w = int(map.width), h = int(map.height);
   table.environment.resize(size_t(w) * h);
-  for (size_t i = 0; i < table.environment.size(); ++i) table.environment[i] = map.radiance[i] * map.scale;
+  for (size_t i = 0; i < table.environment.size(); ++i)
+    table.environment[i] = map.radiance[i] * map.scale;
   std::vector<double> weights(table.environment.size());
   double flux = 0.0;
   for (int y = 0; y < h; ++y) {
@@ -188,9 +191,9 @@ LightTable buildLightTable(const LightTableInput& in, std::vector<rl::Instance>&
     const size_t before = table.emissiveTriangles;
     const size_t zeroArea = addTriangles(in, instances[i], i, table, power);
     if (zeroArea > 0) {
-      warnings.push_back(fmt::format("{}: {}: {} of {} emissive triangles have no area and give no light",
-                                     in.scene.name, in.scene.instances[i].name, zeroArea,
-                                     table.lights.size() - first));
+      warnings.push_back(fmt::format(
+          "{}: {}: {} of {} emissive triangles have no area and give no light", in.scene.name,
+          in.scene.instances[i].name, zeroArea, table.lights.size() - first));
     }
     if (table.emissiveTriangles == before) {
       table.lights.resize(first);
@@ -205,10 +208,12 @@ LightTable buildLightTable(const LightTableInput& in, std::vector<rl::Instance>&
   for (const PunctualLight& source : in.scene.lights) {
     const double intensity = luminance(glm::dvec3(source.intensity));
     double watts = 4.0 * kPi * intensity;
-    if (source.kind == rl::RL_LIGHT_SPOT) watts = 2.0 * kPi * (1.0 - std::cos(source.outerConeAngle)) * intensity;
+    if (source.kind == rl::RL_LIGHT_SPOT)
+      watts = 2.0 * kPi * (1.0 - std::cos(source.outerConeAngle)) * intensity;
     if (source.kind == rl::RL_LIGHT_DIRECTIONAL) watts = kPi * radius * radius * intensity;
     if (!(watts > 0.0)) {
-      warnings.push_back(fmt::format("{}: light '{}' has no intensity", in.scene.name, source.name));
+      warnings.push_back(
+          fmt::format("{}: light '{}' has no intensity", in.scene.name, source.name));
       continue;
     }
     table.lights.push_back(punctual(source, in.origin));

@@ -83,14 +83,15 @@ struct EnvironmentMap {
 };
 
 struct Scene {
-  std::string name;             // a built-in's name or the file's stem
+  std::string name;              // a built-in's name or the file's stem
   std::filesystem::path source;  // empty for a built-in
   std::vector<MeshGeometry> geometries;
   std::vector<MeshInstance> instances;
   std::vector<SceneMaterial> materials;
   std::vector<TextureUse> textureUses;
   std::vector<TextureImage> images;
-  std::vector<SceneCamera> cameras;  // never empty after loading: one is made when the file has none
+  std::vector<SceneCamera>
+      cameras;  // never empty after loading: one is made when the file has none
   std::vector<PunctualLight> lights;
   std::optional<EnvironmentMap> environment;
   std::vector<std::string> warnings;  // one line each, printed by the program

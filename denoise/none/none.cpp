@@ -1,5 +1,5 @@
-// none: the frame as it was shaded. The session shows the radiance buffer itself, without a copy, so
-// that a row of the table without a denoiser pays for none.
+// none: the frame as it was shaded. The session shows the radiance buffer itself, without a copy,
+// so that a row of the table without a denoiser pays for none.
 #include "denoise/denoiser.h"
 
 namespace restlab {

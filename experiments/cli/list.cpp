@@ -143,12 +143,9 @@ void printParameters(const Json& integrator) {
 }
 
 void list(const ListOptions& options) {
-  const std::vector<std::pair<std::string, Json (*)()>> kinds = {{"integrators", integrators},
-                                                                 {"caches", caches},
-                                                                 {"backends", backends},
-                                                                 {"denoisers", denoisers},
-                                                                 {"metrics", metrics},
-                                                                 {"scenes", scenes}};
+  const std::vector<std::pair<std::string, Json (*)()>> kinds = {
+      {"integrators", integrators}, {"caches", caches},   {"backends", backends},
+      {"denoisers", denoisers},     {"metrics", metrics}, {"scenes", scenes}};
   const auto kind = std::find_if(kinds.begin(), kinds.end(),
                                  [&](const auto& entry) { return entry.first == options.what; });
   if (kind == kinds.end()) {
@@ -179,8 +176,7 @@ void list(const ListOptions& options) {
 Action addListVerb(CLI::App& app) {
   auto options = std::make_shared<ListOptions>();
   CLI::App* verb = app.add_subcommand("list", kKinds);
-  verb->add_option("what", options->what, kKinds)
-      ->required();
+  verb->add_option("what", options->what, kKinds)->required();
   verb->add_flag("--json", options->json, "JSON on stdout");
   return [options](Outcome&) { list(*options); };
 }

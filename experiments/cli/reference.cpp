@@ -35,8 +35,7 @@ void makeReference(ReferenceOptions options) {
   const PreparedScene prepared = prepareScene(options.scene.request);
   printWarnings(prepared);
   completeConfig(prepared, session);
-  const Reference reference =
-      renderReference(prepared, referenceConfigOf(session), options.target);
+  const Reference reference = renderReference(prepared, referenceConfigOf(session), options.target);
   writeReference(options.output, reference);
   logInfo(fmt::format("{}: {} spp in {:.1f} s, relmse {:.3g} (estimated from the halves)",
                       options.output, reference.spp, reference.timeS, reference.relmse));

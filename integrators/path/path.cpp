@@ -9,9 +9,11 @@ const IntegratorInfo& pathIntegratorInfo() {
   static const IntegratorInfo info = [] {
     IntegratorInfo i;
     i.name = "path";
-    i.summary = "1 path per pixel and frame; light and BSDF sampling with multiple importance sampling";
+    i.summary =
+        "1 path per pixel and frame; light and BSDF sampling with multiple importance sampling";
     i.modes = {{"unbiased", BiasClass::unbiased,
-                "every path up to max_bounces scattering events has positive density in one technique, and the "
+                "every path up to max_bounces scattering events has positive density in one "
+                "technique, and the "
                 "power-heuristic weights sum to one"}};
     i.buffers = {{"radiance", sizeof(glm::vec3), 0, -1}};
     i.passes = {{"path", "path"}};

@@ -18,7 +18,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   vec3 radiance = vec3(0.0f, 0.0f, 0.0f);
   vec3 throughput = vec3(1.0f, 1.0f, 1.0f);
   vec3 sigma = vec3(0.0f, 0.0f, 0.0f);  // absorption of the medium that the ray travels in
-  float pdfBsdf = 0.0f;                 // 0: camera ray or delta lobe, which light sampling cannot make
+  float pdfBsdf = 0.0f;  // 0: camera ray or delta lobe, which light sampling cannot make
   vec3 lightContribution = vec3(0.0f, 0.0f, 0.0f);
   bool hasShadowRay = false;
   bool alive = true;
@@ -66,10 +66,12 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
       if (light.pdf > 0.0f && !rlIsBlack(f) && !rlIsBlack(c.emitted)) {
         float weight = 1.0f;
         if (!c.isDelta) {
-          weight = lightMisWeight(c.pdfSolidAngle, bsdfPdf(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW));
+          weight =
+              lightMisWeight(c.pdfSolidAngle, bsdfPdf(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW));
         }
         lightContribution = throughput * f * c.emitted * (c.geometry * weight / light.pdf);
-        if (RL_HAS(RL_FEATURE_VOLUME)) lightContribution *= exp(-surfaceSigma(s, sigma, c.dirW) * c.distance);
+        if (RL_HAS(RL_FEATURE_VOLUME))
+          lightContribution *= exp(-surfaceSigma(s, sigma, c.dirW) * c.distance);
         shadowRay = lightShadowRay(light, c, s.posW, s.nGeoW, s.posError);
         hasShadowRay = true;
       }

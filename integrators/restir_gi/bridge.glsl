@@ -2,17 +2,21 @@
 
 RL_FN real bridgeTarget(RL_IN(real3) f) { return rlLuminance(f); }
 
-// The same point of the same surface, seen from the same side. Of two faces that coincide, the material tells.
+// The same point of the same surface, seen from the same side. Of two faces that coincide, the
+// material tells.
 RL_FN bool bridgeIsSameAnchor(RL_IN(Anchor) a, RL_IN(Anchor) b) {
-  if (!(a.posW == b.posW && a.wo == b.wo && a.nShadeW == b.nShadeW && a.bsdf.diffuse == b.bsdf.diffuse)) return false;
+  if (!(a.posW == b.posW && a.wo == b.wo && a.nShadeW == b.nShadeW &&
+        a.bsdf.diffuse == b.bsdf.diffuse))
+    return false;
   if (!RL_HAS(RL_FEATURE_GLOSSY)) return true;
   return a.bsdf.f0 == b.bsdf.f0 && a.bsdf.f90 == b.bsdf.f90 && a.bsdf.alpha == b.bsdf.alpha &&
          a.bsdf.lobes == b.bsdf.lobes;
 }
 
-// A light sample lives in the measure of its light (area, solid angle of the environment, discrete):
-// receivers share it, the Jacobian is 1.
-RL_FN real3 bridgeShift(RL_IN(LightReservoir) r, RL_IN(Anchor) from, RL_IN(Anchor) to, RL_OUT(real) jacobian) {
+// A light sample lives in the measure of its light (area, solid angle of the environment,
+// discrete): receivers share it, the Jacobian is 1.
+RL_FN real3 bridgeShift(RL_IN(LightReservoir) r, RL_IN(Anchor) from, RL_IN(Anchor) to,
+                        RL_OUT(real) jacobian) {
   jacobian = real(1.0f);
   LightConnection c = lightConnect(r.light, to.posW);
   vec3 f = bsdfEval(to.bsdf, to.nGeoW, to.nShadeW, to.wo, c.dirW);
@@ -20,7 +24,8 @@ RL_FN real3 bridgeShift(RL_IN(LightReservoir) r, RL_IN(Anchor) from, RL_IN(Ancho
 }
 
 // The radiance that x2 sends towards a point, without visibility, zero on its other side.
-RL_FN vec3 pathRadianceTowards(RL_IN(PathVertex) v, RL_IN(PathSuffix) suffix, RL_IN(vec3) dirFromX2) {
+RL_FN vec3 pathRadianceTowards(RL_IN(PathVertex) v, RL_IN(PathSuffix) suffix,
+                               RL_IN(vec3) dirFromX2) {
   if (!(dot(v.nGeoW, dirFromX2) > 0.0f)) return vec3(0.0f, 0.0f, 0.0f);
   if (!RL_HAS(RL_FEATURE_GLOSSY) || v.kind == RL_PATH_LAMBERT) return v.radiance;
   vec3 f = bsdfEval(suffix.bsdf, v.nGeoW, suffix.nShadeW, dirFromX2, suffix.wi);
@@ -28,7 +33,8 @@ RL_FN vec3 pathRadianceTowards(RL_IN(PathVertex) v, RL_IN(PathSuffix) suffix, RL
   // BSDF and MIS weight at x2 belong to the direction: a stored weight would break the partition.
   float weight = 1.0f;
   float pdfBsdf = 0.0f;
-  if (suffix.pdfLight > 0.0f) pdfBsdf = bsdfPdf(suffix.bsdf, v.nGeoW, suffix.nShadeW, dirFromX2, suffix.wi);
+  if (suffix.pdfLight > 0.0f)
+    pdfBsdf = bsdfPdf(suffix.bsdf, v.nGeoW, suffix.nShadeW, dirFromX2, suffix.wi);
   if (v.kind == RL_PATH_LIGHT) {
     if (suffix.pdfLight > 0.0f) weight = lightMisWeight(suffix.pdfLight, pdfBsdf);
     return f * v.radiance * weight;
@@ -38,7 +44,8 @@ RL_FN vec3 pathRadianceTowards(RL_IN(PathVertex) v, RL_IN(PathSuffix) suffix, RL
 }
 
 // Reconnection at x2.
-RL_FN real3 bridgeShift(RL_IN(PathReservoir) r, RL_IN(Anchor) from, RL_IN(Anchor) to, RL_OUT(real) jacobian) {
+RL_FN real3 bridgeShift(RL_IN(PathReservoir) r, RL_IN(Anchor) from, RL_IN(Anchor) to,
+                        RL_OUT(real) jacobian) {
   real3 zero = real3(real(0.0f));
   jacobian = shiftReconnectionJacobian(r.vertex.posW, r.vertex.nGeoW, from.posW, to.posW);
   if (!(jacobian > 0.0f) || !rlIsFinite(jacobian)) {
@@ -74,7 +81,8 @@ RL_FN real bridgeVisibility(RL_IN(PathReservoir) r, RL_IN(Anchor) at) {
   return traceRay(ray, RL_RAY_SHADOW, 0u, hit);
 }
 
-// Lambert parts scale with albedo; a glossy anchor's ratio is taken of diffuse + specular reflectance.
+// Lambert parts scale with albedo; a glossy anchor's ratio is taken of diffuse + specular
+// reflectance.
 RL_FN real3 bridgeReflectanceRatio(RL_IN(Anchor) from, RL_IN(Anchor) to) {
   vec3 a = from.bsdf.diffuse;
   vec3 b = to.bsdf.diffuse;

@@ -2,8 +2,8 @@
 //   x1 cannot be reused (mirror, glass, roughness below the limit): the path is shaded as it is
 //   direct light    light samples and the BSDF sample of x1 -> the light reservoir
 //   indirect light  x2 and what it sends to x1 -> the path reservoir
-//   a delta lobe drawn at x2: that part of the integrand is shaded as it is (which part it is depends
-//   on x2 alone, so the split is the same for every pixel)
+//   a delta lobe drawn at x2: that part of the integrand is shaded as it is (which part it is
+//   depends on x2 alone, so the split is the same for every pixel)
 #include "core/resampling/ris.glsl"
 #include "integrators/restir_gi/store.glsl"
 #include "core/caches/cache.glsl"
@@ -60,8 +60,8 @@ RL_FN bool giIsReusable(RL_IN(Bsdf) b) {
   return (b.lobes & RL_LOBE_SPECULAR) == 0u || b.alpha >= gParams.minAlpha;
 }
 
-// Density of the light samples of one pixel plus that of its BSDF sample, in the measure of the light
-// sample (area, solid angle of the environment, discrete). dirW points to the light.
+// Density of the light samples of one pixel plus that of its BSDF sample, in the measure of the
+// light sample (area, solid angle of the environment, discrete). dirW points to the light.
 RL_FN float giDirectDensity(RL_IN(LightSample) light, RL_IN(LightConnection) c, RL_IN(Anchor) a) {
   float density = float(gParams.lightCandidates) * light.pdf;
   if (!c.isDelta) density += bsdfPdf(a.bsdf, a.nGeoW, a.nShadeW, a.wo, c.dirW) * c.geometry;
@@ -89,11 +89,11 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   LightReservoir direct;
   direct.light = giNoLight();
   direct.state = giEmptyState();
-  real directSum = 0.0f;          // resampling weights of the light samples
-  vec3 directF = zero;            // integrand of their selected one
-  vec3 foundF = zero;             // integrand of the BSDF sample that met a light
-  real foundWeight = 0.0f;        // its resampling weight
-  float foundCoverage = 1.0f;     // of the light that it met: what chance let it meet it
+  real directSum = 0.0f;       // resampling weights of the light samples
+  vec3 directF = zero;         // integrand of their selected one
+  vec3 foundF = zero;          // integrand of the BSDF sample that met a light
+  real foundWeight = 0.0f;     // its resampling weight
+  float foundCoverage = 1.0f;  // of the light that it met: what chance let it meet it
   LightSample found = giNoLight();
 
   PathReservoir path;
@@ -106,21 +106,22 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   path.suffix = giNoSuffix();
   path.state = giEmptyState();
 
-  // The path is cut at x2: `throughput` is that of x1 up to there, `suffixThroughput` that from x3 on.
-  vec3 throughput = vec3(1.0f, 1.0f, 1.0f);        // up to the current vertex, as in `path`
+  // The path is cut at x2: `throughput` is that of x1 up to there, `suffixThroughput` that from x3
+  // on.
+  vec3 throughput = vec3(1.0f, 1.0f, 1.0f);  // up to the current vertex, as in `path`
   vec3 suffixThroughput = vec3(1.0f, 1.0f, 1.0f);
-  bool hasX2 = false;         // a connectable x2 was found
-  vec3 fX1 = zero;            // f |cos| at x1 towards x2
+  bool hasX2 = false;  // a connectable x2 was found
+  vec3 fX1 = zero;     // f |cos| at x1 towards x2
   float pdfX1 = 0.0f;
-  vec3 lightAtX2 = zero;      // light sample at x2 over its density, without BSDF and MIS weight at x2
+  vec3 lightAtX2 = zero;  // light sample at x2 over its density, without BSDF and MIS weight at x2
   vec3 lightDirX2 = zero;
   float lightPdfX2 = 0.0f;
-  float pdfX2 = 0.0f;         // of the continuation at x2
-  vec3 weightX2 = zero;       // f |cos| / pdf of it
+  float pdfX2 = 0.0f;    // of the continuation at x2
+  vec3 weightX2 = zero;  // f |cos| / pdf of it
   vec3 dirX2 = zero;
   vec3 emittedAtX3 = zero;
   float pdfLightAtX3 = 0.0f;
-  vec3 rest = zero;           // light beyond x3
+  vec3 rest = zero;  // light beyond x3
   vec3 woX2 = vec3(0.0f, 0.0f, 1.0f);
 
   vec3 sigma = zero;
@@ -128,8 +129,8 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   vec3 lightContribution = zero;
   bool hasShadowRay = false;
   bool alive = true;
-  bool isSuffix = false;      // beyond x2 on the connectable part
-  bool passedAlpha = false;   // the ray from x1 may have passed something partly transparent
+  bool isSuffix = false;     // beyond x2 on the connectable part
+  bool passedAlpha = false;  // the ray from x1 may have passed something partly transparent
   Ray shadowRay = ray;
 
   for (uint bounces = 0u;; bounces = bounces + 1u) {
@@ -170,7 +171,8 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
           found.pdf = pdfLight;
           found.radiance = radiance;
           foundF = fX1 * radiance;
-          foundWeight = rlLuminance(foundF) * rlSafeDivide(1.0f, float(gParams.lightCandidates) * pdfLight + pdfX1);
+          foundWeight = rlLuminance(foundF) *
+                        rlSafeDivide(1.0f, float(gParams.lightCandidates) * pdfLight + pdfX1);
         } else if (isSuffix && bounces == 2u) {
           emittedAtX3 = radiance;
           pdfLightAtX3 = pdfLight;
@@ -211,10 +213,12 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
         }
         // Unlit surfaces are not in the light table and shine to both sides.
         found.isTwoSided = RL_MATERIAL_DOUBLE_SIDED;
-        if (s.light != RL_INVALID) found.isTwoSided = gScene.lights.data[s.light].flags & RL_MATERIAL_DOUBLE_SIDED;
+        if (s.light != RL_INVALID)
+          found.isTwoSided = gScene.lights.data[s.light].flags & RL_MATERIAL_DOUBLE_SIDED;
         foundF = fX1 * s.emission * geometry;
-        foundWeight = rlLuminance(foundF) *
-                      rlSafeDivide(1.0f, (float(gParams.lightCandidates) * pdfLight + pdfX1) * geometry);
+        foundWeight =
+            rlLuminance(foundF) *
+            rlSafeDivide(1.0f, (float(gParams.lightCandidates) * pdfLight + pdfX1) * geometry);
       } else if (isSuffix && bounces == 2u) {
         emittedAtX3 = s.emission * absorbed;
         pdfLightAtX3 = pdfLight;
@@ -267,7 +271,8 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
         }
         if (rlIsBlack(f)) continue;
         vec3 arriving = c.emitted * (c.geometry / light.pdf);
-        if (RL_HAS(RL_FEATURE_VOLUME)) arriving *= exp(-surfaceSigma(s, sigma, c.dirW) * c.distance);
+        if (RL_HAS(RL_FEATURE_VOLUME))
+          arriving *= exp(-surfaceSigma(s, sigma, c.dirW) * c.distance);
         shadowRay = lightShadowRay(light, c, s.posW, s.nGeoW, s.posError);
         hasShadowRay = true;
         if (atX2) {
@@ -278,7 +283,8 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
         }
         float weight = 1.0f;
         if (!c.isDelta) {
-          weight = lightMisWeight(c.pdfSolidAngle, bsdfPdf(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW));
+          weight =
+              lightMisWeight(c.pdfSolidAngle, bsdfPdf(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW));
         }
         lightContribution = (isSuffix ? suffixThroughput : throughput) * f * arriving * weight;
       }
@@ -327,10 +333,11 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     ray.dir = draw.wi;
   }
 
-  // Path rays pass a partly transparent surface by chance, connections are dimmed by it. What the ray
-  // from x1 has found, it has found with a probability of T, the transmittance up to there: its integrand
-  // gets T, as every other pixel evaluates it, and its weight 1 / T. The coverage of a light that is
-  // itself partly transparent is such a factor, too; that of x2 is the same for every pixel and stays out.
+  // Path rays pass a partly transparent surface by chance, connections are dimmed by it. What the
+  // ray from x1 has found, it has found with a probability of T, the transmittance up to there: its
+  // integrand gets T, as every other pixel evaluates it, and its weight 1 / T. The coverage of a
+  // light that is itself partly transparent is such a factor, too; that of x2 is the same for every
+  // pixel and stays out.
   float throughAlpha = 1.0f;
   if (RL_HAS(RL_FEATURE_ALPHA) && reusable && passedAlpha && (hasX2 || foundWeight > 0.0f)) {
     Ray segment;
@@ -338,25 +345,31 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
       vec3 d = path.vertex.posW - anchor.posW;
       segment.origin = surfaceOffset(anchor.posW, anchor.nGeoW, anchor.posError, d);
       segment.tMin = 0.0f;
-      segment.dir = surfaceOffset(path.vertex.posW, path.vertex.nGeoW, path.vertex.posError, -d) - segment.origin;
+      segment.dir = surfaceOffset(path.vertex.posW, path.vertex.nGeoW, path.vertex.posError, -d) -
+                    segment.origin;
       segment.tMax = 1.0f;
     } else {
-      segment = lightShadowRay(found, lightConnect(found, anchor.posW), anchor.posW, anchor.nGeoW, anchor.posError);
+      segment = lightShadowRay(found, lightConnect(found, anchor.posW), anchor.posW, anchor.nGeoW,
+                               anchor.posError);
     }
     Hit hit;
     float t = traceRay(segment, RL_RAY_SHADOW, 0u, hit);
-    // 0: the two rays disagree by rounding; the path ray is believed, as it is among opaque surfaces.
+    // 0: the two rays disagree by rounding; the path ray is believed, as it is among opaque
+    // surfaces.
     if (t > 0.0f) throughAlpha = t;
   }
-  if (RL_HAS(RL_FEATURE_ALPHA)) foundF *= throughAlpha * foundCoverage;  // foundWeight = pHat W stays
+  if (RL_HAS(RL_FEATURE_ALPHA))
+    foundF *= throughAlpha * foundCoverage;  // foundWeight = pHat W stays
 
   if (reusable) {
     // Direct light: one reservoir of two techniques whose balance weights are inside the densities.
     real directW = risContributionWeight(directSum, rlLuminance(directF));
-    vec3 estimate = directF * directW + foundF * risContributionWeight(foundWeight, rlLuminance(foundF));
+    vec3 estimate =
+        directF * directW + foundF * risContributionWeight(foundWeight, rlLuminance(foundF));
     real wSum = 0.0f;
     direct.state.F = directF;
-    bool keep = risAccept(wSum, directSum, 0.0f);  // the first candidate is kept unless its weight is zero
+    bool keep =
+        risAccept(wSum, directSum, 0.0f);  // the first candidate is kept unless its weight is zero
     if (!keep) direct.state.F = zero;
     rng.vertex = RL_VERTEX_PIXEL;
     if (risAccept(wSum, foundWeight, rngDraw(rng, RL_DIM_RIS_DIRECT))) {
@@ -367,8 +380,8 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     direct.state.residual = estimate - direct.state.F * direct.state.W;
   }
   if (hasX2) {
-    vec3 fLight = zero;         // at x2, light sample
-    vec3 continuation = zero;   // at x2, over pdfX2
+    vec3 fLight = zero;        // at x2, light sample
+    vec3 continuation = zero;  // at x2, over pdfX2
     Bsdf bsdfX2 = path.suffix.bsdf;
     vec3 nGeoX2 = path.vertex.nGeoW;
     vec3 nShadeX2 = path.suffix.nShadeW;
@@ -423,7 +436,8 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
       path.state.residual = zero;
     }
   }
-  bool finite = rlIsFinite3(ownLight) && rlIsFinite3(direct.state.F * direct.state.W + direct.state.residual) &&
+  bool finite = rlIsFinite3(ownLight) &&
+                rlIsFinite3(direct.state.F * direct.state.W + direct.state.residual) &&
                 rlIsFinite3(path.state.F * path.state.W + path.state.residual);
   if (!finite) {
     RL_HEALTH(RL_HEALTH_NONFINITE);

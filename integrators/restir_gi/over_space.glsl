@@ -1,7 +1,7 @@
 // Included once per payload, with RL_RESERVOIR defined, by the spatial pass.
 
-// Merges the partners' temporal reservoirs into the slot's, leaves the result in the history and returns
-// what the pixel shows. `r` only tells which payload; donor k's draw has dimension + k.
+// Merges the partners' temporal reservoirs into the slot's, leaves the result in the history and
+// returns what the pixel shows. `r` only tells which payload; donor k's draw has dimension + k.
 RL_FN vec3 giReuseOverSpace(uint slot, RL_IN(Anchor) here, RL_IN(Rng) rng, uint dimension,
                             RL_INOUT(RL_RESERVOIR) r) {
   uint flags = gParams.spatialFlags;
@@ -41,7 +41,8 @@ RL_FN vec3 giReuseOverSpace(uint slot, RL_IN(Anchor) here, RL_IN(Rng) rng, uint 
     cacheReadShifted(cacheExchangeIndex(partner, k), r, theirs);
     vec3 ratio = bridgeReflectanceRatio(cacheAnchorNow(partner), here);
     float u = rngDraw(rng, dimension + k);
-    if (mergeDonor(merge, selected, donor.state, donor.state.confidence, theirs, ratio, flags, u)) winner = partner;
+    if (mergeDonor(merge, selected, donor.state, donor.state.confidence, theirs, ratio, flags, u))
+      winner = partner;
   }
   mergeEnd(merge, selected, flags);
   cacheReadNow(winner, r);

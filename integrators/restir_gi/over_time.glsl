@@ -1,8 +1,9 @@
 // Included once per payload, with RL_RESERVOIR defined, by the temporal pass.
 
-// Merges the last frame's reservoir of the same surface into this frame's, in place. `r` only tells which.
-RL_FN void giReuseOverTime(uint slot, RL_IN(Anchor) here, uint donorSlot, RL_IN(Anchor) there, real u,
-                           RL_INOUT(RL_RESERVOIR) r) {
+// Merges the last frame's reservoir of the same surface into this frame's, in place. `r` only tells
+// which.
+RL_FN void giReuseOverTime(uint slot, RL_IN(Anchor) here, uint donorSlot, RL_IN(Anchor) there,
+                           real u, RL_INOUT(RL_RESERVOIR) r) {
   RL_RESERVOIR donor;
   cacheReadStateNow(slot, r);
   cacheReadStateBefore(donorSlot, donor);
@@ -37,7 +38,8 @@ RL_FN void giReuseOverTime(uint slot, RL_IN(Anchor) here, uint donorSlot, RL_IN(
 }
 
 // The slot's sample as its partners see it: each shift serves both merges of a pair.
-RL_FN void giShiftToPartner(uint slot, RL_IN(Anchor) here, uint k, RL_IN(Anchor) there, RL_INOUT(RL_RESERVOIR) r) {
+RL_FN void giShiftToPartner(uint slot, RL_IN(Anchor) here, uint k, RL_IN(Anchor) there,
+                            RL_INOUT(RL_RESERVOIR) r) {
   cacheReadNow(slot, r);
   cacheWriteShifted(cacheExchangeIndex(slot, k), r, reuseShift(r, here, there, false));
 }

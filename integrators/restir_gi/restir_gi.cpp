@@ -184,7 +184,8 @@ const IntegratorInfo& restir_giIntegratorInfo() {
                 {"spatial", "restir_gi_spatial"}};
     i.packParameters = pack;
     i.biasOfParameters = [](const std::string& mode, const ParameterMap& p) {
-      const bool isWrong = get<std::string>(p, "mis") != "pairwise" || get<bool>(p, "omit_jacobian");
+      const bool isWrong =
+          get<std::string>(p, "mis") != "pairwise" || get<bool>(p, "omit_jacobian");
       return mode == "biased" || isWrong ? BiasClass::biased : BiasClass::unbiased;
     };
     return i;

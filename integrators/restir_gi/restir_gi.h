@@ -9,8 +9,9 @@
 
 RL_NAMESPACE_BEGIN
 
-// Where a pixel's samples are evaluated: its first hit, as stored for its neighbours and the next frame.
-// The pixel itself shades with what it stored, so that a stored target is what anyone recomputes.
+// Where a pixel's samples are evaluated: its first hit, as stored for its neighbours and the next
+// frame. The pixel itself shades with what it stored, so that a stored target is what anyone
+// recomputes.
 struct Anchor {
   vec3 posW;
   float posError;
@@ -98,8 +99,8 @@ struct RestirGiBuffers {
   PathSuffixRef suffixes;
   PathSuffixRef suffixesHistory;
   // Between the temporal and the spatial pass, spatialNeighbours entries a pixel.
-  UintRef partners;           // slots; RL_INVALID: none
-  ShiftedRef shiftedLights;   // the pixel's sample as the partner sees it
+  UintRef partners;          // slots; RL_INVALID: none
+  ShiftedRef shiftedLights;  // the pixel's sample as the partner sees it
   ShiftedRef shiftedPaths;
 };
 
@@ -108,7 +109,7 @@ struct RestirGiParams {
   uint spatialFlags;
   uint lightCandidates;
   uint spatialNeighbours;
-  uint spatialTile;  // pixels; side of the square within which pixels are paired
+  uint spatialTile;    // pixels; side of the square within which pixels are paired
   uint temporalReuse;  // 0: off
   float confidenceCap;
   float minNormalDot;

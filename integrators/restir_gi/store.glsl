@@ -56,11 +56,14 @@ RL_FN void cacheWriteAnchor(uint slot, RL_IN(Anchor) a) {
   }
 }
 
-
 RL_FN void cacheReadNow(uint slot, RL_OUT(LightReservoir) r) { r = gBuffers.lights.data[slot]; }
-RL_FN void cacheReadBefore(uint slot, RL_OUT(LightReservoir) r) { r = gBuffers.lightsHistory.data[slot]; }
+RL_FN void cacheReadBefore(uint slot, RL_OUT(LightReservoir) r) {
+  r = gBuffers.lightsHistory.data[slot];
+}
 RL_FN void cacheWriteNow(uint slot, RL_IN(LightReservoir) r) { gBuffers.lights.data[slot] = r; }
-RL_FN void cacheWriteHistory(uint slot, RL_IN(LightReservoir) r) { gBuffers.lightsHistory.data[slot] = r; }
+RL_FN void cacheWriteHistory(uint slot, RL_IN(LightReservoir) r) {
+  gBuffers.lightsHistory.data[slot] = r;
+}
 
 RL_FN void cacheReadNow(uint slot, RL_INOUT(PathReservoir) r) {
   r.vertex = gBuffers.paths.data[slot];
@@ -86,19 +89,27 @@ RL_FN void cacheWriteHistory(uint slot, RL_IN(PathReservoir) r) {
 }
 
 // The state alone: merges decide by it, and only the winner's payload has to be moved.
-RL_FN void cacheReadStateNow(uint slot, RL_INOUT(LightReservoir) r) { r.state = gBuffers.lights.data[slot].state; }
+RL_FN void cacheReadStateNow(uint slot, RL_INOUT(LightReservoir) r) {
+  r.state = gBuffers.lights.data[slot].state;
+}
 RL_FN void cacheReadStateBefore(uint slot, RL_INOUT(LightReservoir) r) {
   r.state = gBuffers.lightsHistory.data[slot].state;
 }
-RL_FN void cacheWriteStateNow(uint slot, RL_IN(LightReservoir) r) { gBuffers.lights.data[slot].state = r.state; }
+RL_FN void cacheWriteStateNow(uint slot, RL_IN(LightReservoir) r) {
+  gBuffers.lights.data[slot].state = r.state;
+}
 RL_FN void cacheWriteStateHistory(uint slot, RL_IN(LightReservoir) r) {
   gBuffers.lightsHistory.data[slot].state = r.state;
 }
-RL_FN void cacheReadStateNow(uint slot, RL_INOUT(PathReservoir) r) { r.state = gBuffers.paths.data[slot].state; }
+RL_FN void cacheReadStateNow(uint slot, RL_INOUT(PathReservoir) r) {
+  r.state = gBuffers.paths.data[slot].state;
+}
 RL_FN void cacheReadStateBefore(uint slot, RL_INOUT(PathReservoir) r) {
   r.state = gBuffers.pathsHistory.data[slot].state;
 }
-RL_FN void cacheWriteStateNow(uint slot, RL_IN(PathReservoir) r) { gBuffers.paths.data[slot].state = r.state; }
+RL_FN void cacheWriteStateNow(uint slot, RL_IN(PathReservoir) r) {
+  gBuffers.paths.data[slot].state = r.state;
+}
 RL_FN void cacheWriteStateHistory(uint slot, RL_IN(PathReservoir) r) {
   gBuffers.pathsHistory.data[slot].state = r.state;
 }

@@ -1,5 +1,5 @@
-// restir_gi, temporal pass: merges the last frame's reservoir of the same surface into the new one, then
-// shifts the result to the pixel's partners of the spatial pass.
+// restir_gi, temporal pass: merges the last frame's reservoir of the same surface into the new one,
+// then shifts the result to the pixel's partners of the spatial pass.
 #include "integrators/restir_gi/merge.glsl"
 #define RL_RESERVOIR LightReservoir
 #include "integrators/restir_gi/over_time.glsl"

@@ -64,7 +64,8 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
         }
         Ray shadowRay = lightShadowRay(light, c, s.posW, s.nGeoW, s.posError);
         vec3 arriving = c.emitted * (c.geometry * weight / light.pdf);
-        if (RL_HAS(RL_FEATURE_VOLUME)) arriving *= exp(-surfaceSigma(s, sigma, c.dirW) * c.distance);
+        if (RL_HAS(RL_FEATURE_VOLUME))
+          arriving *= exp(-surfaceSigma(s, sigma, c.dirW) * c.distance);
         Hit unused;
         float transmittance = traceRay(shadowRay, RL_RAY_SHADOW, raySeed, unused);
         radiance += throughput * f * arriving * transmittance;

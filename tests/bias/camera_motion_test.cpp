@@ -1,5 +1,5 @@
-// A moving camera: donors come from other pixels and were lit for another eye. The image of the last
-// camera may not depend on where the camera was before.
+// A moving camera: donors come from other pixels and were lit for another eye. The image of the
+// last camera may not depend on where the camera was before.
 #include <gtest/gtest.h>
 
 #include "tests/bias/independent_runs.h"
@@ -53,7 +53,9 @@ const std::vector<Walk> kNightlyWalks = {
 std::string walkName(const ::testing::TestParamInfo<Walk>& info) { return info.param.name; }
 
 class MovingCamera : public ::testing::TestWithParam<Walk> {};
-TEST_P(MovingCamera, LeavesTheMean) { expectUnbiased(GetParam(), endOf(GetParam()), 512, 48, 6, 1); }
+TEST_P(MovingCamera, LeavesTheMean) {
+  expectUnbiased(GetParam(), endOf(GetParam()), 512, 48, 6, 1);
+}
 INSTANTIATE_TEST_SUITE_P(Builtin, MovingCamera, ::testing::ValuesIn(kWalks), walkName);
 
 TEST(MovingCameraGlossy, LeavesTheMean) {
@@ -65,7 +67,8 @@ class MovingCameraNightly : public ::testing::TestWithParam<Walk> {};
 TEST_P(MovingCameraNightly, LeavesTheMean) {
   expectUnbiased(GetParam(), endOf(GetParam()), 2048, 384, 16, 0);
 }
-INSTANTIATE_TEST_SUITE_P(Builtin, MovingCameraNightly, ::testing::ValuesIn(kNightlyWalks), walkName);
+INSTANTIATE_TEST_SUITE_P(Builtin, MovingCameraNightly, ::testing::ValuesIn(kNightlyWalks),
+                         walkName);
 
 }  // namespace
 }  // namespace restlab::bias

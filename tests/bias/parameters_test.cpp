@@ -1,6 +1,7 @@
 // Parameter invariance: no setting of an unbiased mode may move the mean. Theory gives these tests
 // for free, and each reaches code that the defaults leave untouched. Red and blue are tested beside
-// luminance: the three ways of shading have the same luminance by construction and differ in colour.
+// luminance: the three ways of shading have the same luminance by construction and differ in
+// colour.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -80,7 +81,8 @@ void expectInvariant(const std::string& sceneName, const std::vector<SceneCamera
   }
 }
 
-// The box from inside, its lamp out of view: seen directly, the lamp's outline is most of the noise.
+// The box from inside, its lamp out of view: seen directly, the lamp's outline is most of the
+// noise.
 TEST(ParameterInvariance, ShadingOnCornellBox) {
   expectInvariant("cornell-box", {cornellBelowTheLamp()}, kShading, kEveryDay);
 }

@@ -1,5 +1,6 @@
-// The mode `biased` is declared so; here is by how much. Its energy must stay within 5 % of the truth
-// and its squared bias within a quarter of its mean squared error, or its figures would not count.
+// The mode `biased` is declared so; here is by how much. Its energy must stay within 5 % of the
+// truth and its squared bias within a quarter of its mean squared error, or its figures would not
+// count.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -70,13 +71,13 @@ void expectBounded(const Effort& effort) {
   const auto scene = builtinScene("door-ajar");
   Method method = restirMethod(effort.frames, 0);
   method.config.threads = effort.threads;
-  const std::array<Image, 2> halves =
-      pathHalves(scene, pathMethod(1).config, effort.truthFrames);
+  const std::array<Image, 2> halves = pathHalves(scene, pathMethod(1).config, effort.truthFrames);
   for (const char* mode : {"biased", "unbiased"}) {
     method.config.mode = mode;
     const Measured m = measure(scene, method, effort.runs, halves);
-    std::printf("door-ajar, restir_gi %s: energy ratio %.4f, MSE %.3g, squared bias %.3g (%.1f %%)\n",
-                mode, m.energyRatio, m.mse, m.squaredBias, 100.0 * m.squaredBias / m.mse);
+    std::printf(
+        "door-ajar, restir_gi %s: energy ratio %.4f, MSE %.3g, squared bias %.3g (%.1f %%)\n", mode,
+        m.energyRatio, m.mse, m.squaredBias, 100.0 * m.squaredBias / m.mse);
     EXPECT_GT(m.energyRatio, 0.95) << mode;
     EXPECT_LT(m.energyRatio, 1.05) << mode;
     EXPECT_GT(m.mse, 0.0) << mode;

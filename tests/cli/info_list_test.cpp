@@ -88,12 +88,11 @@ TEST_F(InfoTest, ListsNameWhatTheirVerbsTake) {
 }
 
 TEST_F(InfoTest, BenchTracesTransparentMeshes) {
-  write("thin.gltf",
-        triangleGltf({-1, -1, 0, 2, -1, 0, 0, 2, 0},
-                     R"(, "alphaMode": "BLEND",
+  write("thin.gltf", triangleGltf({-1, -1, 0, 2, -1, 0, 0, 2, 0},
+                                  R"(, "alphaMode": "BLEND",
                         "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.5]})"));
-  const ProgramResult result = run(
-      "bench thin.gltf --resolution 16x16 --frames 2 --seconds 0.02 --reference-spp 8 --json");
+  const ProgramResult result =
+      run("bench thin.gltf --resolution 16x16 --frames 2 --seconds 0.02 --reference-spp 8 --json");
   ASSERT_EQ(result.code, 0) << result.err;
   const auto json = nlohmann::json::parse(result.out);
   EXPECT_GT(json["embree_rays_per_second"]["incoherent"].get<double>(), 0.0);

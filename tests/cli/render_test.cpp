@@ -51,7 +51,8 @@ TEST_F(RenderTest, WritesLayersAndMetadata) {
 }
 
 TEST_F(RenderTest, FirstHitLayersHoldTheSceneThatIsSeen) {
-  // A triangle in the plane z = 0, far from the middle of its own bounds, that faces the camera at (0.3, 0.3, 2) and fills the left half.
+  // A triangle in the plane z = 0, far from the middle of its own bounds, that faces the camera at
+  // (0.3, 0.3, 2) and fills the left half.
   write("triangle.gltf",
         triangleGltf({-9, -9, 0, 0.3F, -9, 0, 0.3F, 9, 0},
                      R"(, "pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 0, 1],

@@ -232,10 +232,12 @@ TEST_F(RunTest, InterruptKeepsFinishedRuns) {
   EXPECT_NE(read("out/table.md").find("Interrupted"), std::string::npos);
 }
 
-// The launcher tells `run` without a suite from one with a suite: it knows which options take a value.
+// The launcher tells `run` without a suite from one with a suite: it knows which options take a
+// value.
 TEST_F(RunTest, LauncherKnowsTheOptionsThatTakeValues) {
   std::ifstream file(fs::path(RESTLAB_SOURCE_DIR) / "lab");
-  const std::string launcher((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  const std::string launcher((std::istreambuf_iterator<char>(file)),
+                             std::istreambuf_iterator<char>());
   const size_t begin = launcher.find("names_suite() {");
   ASSERT_NE(begin, std::string::npos);
   std::string known = launcher.substr(begin, launcher.find("\n}", begin) - begin);

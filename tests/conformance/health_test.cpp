@@ -37,8 +37,8 @@ TEST_P(Healthy, AtOddSizes) {
   }
 }
 
-// A single pixel is the mean of the image: what it shows, over many seeds, is the image's mean. (The
-// camera's field of view is vertical, so a square image has the same one.)
+// A single pixel is the mean of the image: what it shows, over many seeds, is the image's mean.
+// (The camera's field of view is vertical, so a square image has the same one.)
 TEST_P(Healthy, OnePixelShowsTheMeanOfTheImage) {
   const auto scene = bias::builtinScene("sphere-furnace");
   SessionConfig config = configOf(GetParam(), 1, 1);

@@ -21,7 +21,8 @@ bias::Method boxMethod(const Variant& variant) {
   return method;
 }
 
-// Emission only: black, or the lamp as it is. With the filter at the pixel's centre no seed matters.
+// Emission only: black, or the lamp as it is. With the filter at the pixel's centre no seed
+// matters.
 TEST_P(LightTransport, NoScatteringEventShowsEmissionAlone) {
   SessionConfig config = configOf(GetParam(), 64, 64);
   config.maxBounces = 0;
@@ -54,9 +55,8 @@ TEST_P(LightTransport, BoxFilterCoversThePixel) {
       mean.pixels[p] += session.radiance().pixels[p] * (1.0f / kMeans);
     }
   }
-  const auto partly = std::count_if(mean.pixels.begin(), mean.pixels.end(), [](const glm::vec3& p) {
-    return p.x > 1.0f && p.x < 16.0f;
-  });
+  const auto partly = std::count_if(mean.pixels.begin(), mean.pixels.end(),
+                                    [](const glm::vec3& p) { return p.x > 1.0f && p.x < 16.0f; });
   EXPECT_GT(partly, 8) << "no pixel shows a part of the lamp";
 }
 
@@ -71,7 +71,8 @@ TEST_P(LightTransport, OneScatteringEventIsDirectLight) {
   SessionConfig indirect = one;
   indirect.components = rl::RL_COMPONENT_INDIRECT;
   const Image none = render(scene, indirect, 4);
-  EXPECT_EQ(countDifferent(none, Image(one.width, one.height)), 0u) << "indirect light of one event";
+  EXPECT_EQ(countDifferent(none, Image(one.width, one.height)), 0u)
+      << "indirect light of one event";
 }
 
 TEST_P(UnbiasedTransport, ComponentsAddUp) {

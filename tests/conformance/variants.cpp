@@ -55,7 +55,8 @@ size_t countDifferent(const Image& a, const Image& b) {
   size_t different = 0;
   for (size_t p = 0; p < a.pixels.size(); ++p) {
     for (int c = 0; c < 3; ++c) {
-      different += std::bit_cast<uint32_t>(a.pixels[p][c]) != std::bit_cast<uint32_t>(b.pixels[p][c]);
+      different +=
+          std::bit_cast<uint32_t>(a.pixels[p][c]) != std::bit_cast<uint32_t>(b.pixels[p][c]);
     }
   }
   return different;

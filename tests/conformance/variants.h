@@ -1,5 +1,5 @@
-// What every integrator has to pass: the tests of this folder run over the registry, so an integrator
-// that is added is under all of them at once.
+// What every integrator has to pass: the tests of this folder run over the registry, so an
+// integrator that is added is under all of them at once.
 #pragma once
 
 #include <memory>
@@ -37,8 +37,8 @@ struct VariantName {
 // A small session's configuration, one thread, defaults otherwise.
 SessionConfig configOf(const Variant& variant, uint32_t width = 48, uint32_t height = 27);
 
-// The same as a method of the bias tests: histories of `frames` frames, the first `skipped` ones not
-// compared.
+// The same as a method of the bias tests: histories of `frames` frames, the first `skipped` ones
+// not compared.
 bias::Method methodOf(const Variant& variant, uint32_t frames, uint32_t skipped);
 
 // The last of `frames` frames.

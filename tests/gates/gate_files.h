@@ -16,8 +16,8 @@ std::filesystem::path gateFolder(const std::string& gate);
 }  // namespace restlab::gates
 
 // Ends the test with a visible line where the gate is absent.
-#define RESTLAB_NEED_GATE(gate)                                                              \
-  if (!std::filesystem::exists(::restlab::gates::gateFolder(gate))) {                        \
+#define RESTLAB_NEED_GATE(gate)                                                                  \
+  if (!std::filesystem::exists(::restlab::gates::gateFolder(gate))) {                            \
     std::printf("skipped: gate %s is absent (RESTLAB_SCENES names the scenes' folder)\n", gate); \
-    GTEST_SKIP() << "gate " << (gate) << " is absent";                                       \
+    GTEST_SKIP() << "gate " << (gate) << " is absent";                                           \
   }

@@ -1,5 +1,5 @@
-// Two images of Mitsuba, direct light of a directional light: units of KHR_lights_punctual, shadows,
-// and linear vertex colours that multiply the base colour.
+// Two images of Mitsuba, direct light of a directional light: units of KHR_lights_punctual,
+// shadows, and linear vertex colours that multiply the base colour.
 #include "core/image/metrics.h"
 #include "tests/bias/independent_runs.h"
 #include "tests/gates/gate_files.h"
@@ -8,8 +8,8 @@
 namespace restlab::gates {
 namespace {
 
-// The images have a noise of their own, that of some 20,000 samples a pixel: found by comparison with
-// as many of ours, since their file of variances has negative entries. In the mean their three
+// The images have a noise of their own, that of some 20,000 samples a pixel: found by comparison
+// with as many of ours, since their file of variances has negative entries. In the mean their three
 // channels, equal by construction, lie up to 0.12 % apart.
 constexpr double kTheirSamples = 20'000.0;
 constexpr double kMargin = 0.002;  // of the mean, for equivalence
@@ -36,7 +36,8 @@ void expectAgreement(const std::string& gate, size_t runs, uint32_t frames) {
   }
   for (size_t p = 0; p < mean.pixels.size(); ++p) {
     const glm::vec3 m = mean.pixels[p];
-    variance.pixels[p] = glm::max(variance.pixels[p] - m * m, glm::vec3(0.0f)) / float(kTheirSamples);
+    variance.pixels[p] =
+        glm::max(variance.pixels[p] - m * m, glm::vec3(0.0f)) / float(kTheirSamples);
   }
   const stats::BlockGrid grid(truth.width, truth.height);
   const stats::Truth reference =

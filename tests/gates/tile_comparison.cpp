@@ -111,7 +111,8 @@ TileComparison compareTiles(const Parts& parts, const std::vector<glm::dvec3>& t
 
 std::string TileComparison::text() const {
   return fmt::format(
-      "mean {:+.3f} {:+.3f} {:+.3f} % (standard error {:.3f} %), tiles: median {:.2f} %, p90 {:.2f} "
+      "mean {:+.3f} {:+.3f} {:+.3f} % (standard error {:.3f} %), tiles: median {:.2f} %, p90 "
+      "{:.2f} "
       "%, worst {:.2f} % (own noise {:.2f} %)",
       100.0 * (meanRatio.x - 1.0), 100.0 * (meanRatio.y - 1.0), 100.0 * (meanRatio.z - 1.0),
       100.0 * std::max({meanRatioError.x, meanRatioError.y, meanRatioError.z}), 100.0 * p50,

@@ -2,42 +2,28 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <sys/wait.h>
 
 #include "core/backend/glsl_compiler.h"
 #include "core/backend/glsl_preamble.h"
+#include "tests/lint/command.h"
 #include "tests/lint/dialect_files.h"
 
 namespace restlab::lint {
 namespace {
 
-struct CommandResult {
-  int status;
-  std::string output;
-};
-
-CommandResult runCommand(const std::string& command) {
-  CommandResult result{-1, ""};
-  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-  if (!pipe) return result;
-  char buffer[4096];
-  for (size_t n; (n = fread(buffer, 1, sizeof buffer, pipe)) > 0;) result.output.append(buffer, n);
-  const int status = pclose(pipe);
-  result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
-  return result;
-}
-
 std::string identifierOf(std::string path) {
-  std::replace_if(path.begin(), path.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+  std::replace_if(
+      path.begin(), path.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); },
+      '_');
   return path;
 }
 
 // Compiles C++ text without producing code; messages name the dialect's files.
-CommandResult checkCpp(const std::string& compiler, const std::string& name, const std::string& text) {
+CommandResult checkCpp(const std::string& compiler, const std::string& name,
+                       const std::string& text) {
   const std::filesystem::path folder = RESTLAB_LINT_FOLDER;
   std::filesystem::create_directories(folder);
   const std::filesystem::path file = folder / (identifierOf(compiler + "_" + name) + ".cpp");
@@ -48,9 +34,10 @@ CommandResult checkCpp(const std::string& compiler, const std::string& name, con
 }
 
 std::string kernelUnit(const Kernel& kernel, const std::string& mask) {
-  return "#define RL_KERNEL_NAME " + kernel.name + "\n#define RL_KERNEL_MASK_NAME lint\n#define RL_KERNEL_MASK " +
-         mask + "\n#define RL_KERNEL_HEADER \"" + kernel.header + "\"\n#define RL_KERNEL_FILE \"" + kernel.file +
-         "\"\n#include \"core/backend/cpu_kernel.inl\"\n";
+  return "#define RL_KERNEL_NAME " + kernel.name +
+         "\n#define RL_KERNEL_MASK_NAME lint\n#define RL_KERNEL_MASK " + mask +
+         "\n#define RL_KERNEL_HEADER \"" + kernel.header + "\"\n#define RL_KERNEL_FILE \"" +
+         kernel.file + "\"\n#include \"core/backend/cpu_kernel.inl\"\n";
 }
 
 class Cpp : public testing::TestWithParam<std::string> {};
@@ -78,13 +65,15 @@ TEST_P(Cpp, ErrorsNameFileAndLine) {
   const Kernel broken{"broken", "tests/lint/data/broken.glsl", kernels().front().header};
   const CommandResult result = checkCpp(GetParam(), "broken", kernelUnit(broken, "16383u"));
   EXPECT_NE(result.status, 0);
-  EXPECT_NE(result.output.find("tests/lint/data/broken.glsl:3:"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("tests/lint/data/broken.glsl:3:"), std::string::npos)
+      << result.output;
 }
 
-INSTANTIATE_TEST_SUITE_P(, Cpp, testing::Values(RESTLAB_GXX, RESTLAB_CLANGXX), [](const auto& test) {
-  const bool isClang = test.param.find("clang") != std::string::npos;
-  return isClang ? "clang" : "gcc";
-});
+INSTANTIATE_TEST_SUITE_P(, Cpp, testing::Values(RESTLAB_GXX, RESTLAB_CLANGXX),
+                         [](const auto& test) {
+                           const bool isClang = test.param.find("clang") != std::string::npos;
+                           return isClang ? "clang" : "gcc";
+                         });
 
 GlslResult compileKernel(const std::string& header, const std::string& file) {
   const std::string text = glslKernelSource({header, file, "tests/parity/brute_force.glsl"});
@@ -109,7 +98,8 @@ TEST(Glsl, EveryFileIsInAKernel) {
   // A .glsl that no kernel includes is compiled by nobody.
   for (const std::string& file : allGlslFiles()) {
     const auto& known = dialectFiles();
-    EXPECT_NE(std::find(known.begin(), known.end(), file), known.end()) << file << " is in no kernel";
+    EXPECT_NE(std::find(known.begin(), known.end(), file), known.end())
+        << file << " is in no kernel";
   }
 }
 
@@ -124,7 +114,8 @@ TEST(Glsl, FloatArithmeticIsNeverContracted) {
   }
   EXPECT_GT(operations, 100u);
   EXPECT_GE(decorations, operations);
-  EXPECT_EQ(decorateNoContraction(result.spirv), result.spirv) << "decorating twice must change nothing";
+  EXPECT_EQ(decorateNoContraction(result.spirv), result.spirv)
+      << "decorating twice must change nothing";
 }
 
 }  // namespace

@@ -36,7 +36,8 @@ std::vector<Finding> findDimensionClashes(const std::vector<SourceText>& headers
       if (std::regex_search(comment, range, donors)) {
         count = std::stoul(range[1]);
       } else if (comment.find("donor index") != std::string::npos) {
-        found.push_back({header.path, number, fmt::format("{}: say how many, '(N at most)'", match[1].str())});
+        found.push_back(
+            {header.path, number, fmt::format("{}: say how many, '(N at most)'", match[1].str())});
       }
       dimensions.push_back({{header.path, number, ""}, match[1], value, count});
     }

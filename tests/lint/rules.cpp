@@ -11,21 +11,25 @@ namespace {
 
 const std::set<std::string>& reservedWords() {
   static const std::set<std::string> words = {
-      "active", "asm",      "buffer",  "cast",      "centroid", "coherent", "common",  "external",
-      "filter", "fixed",    "flat",    "goto",      "half",     "input",    "interface", "invariant",
-      "long",   "noinline", "output",  "partition", "patch",    "precise",  "public",  "resource",
-      "sample", "shared",   "short",   "sizeof",    "smooth",   "subroutine", "superp", "this",
-      "typedef", "union",   "unsigned", "using",    "varying",  "volatile", "texture", "sampler"};
+      "active",    "asm",        "buffer",   "cast",     "centroid", "coherent",  "common",
+      "external",  "filter",     "fixed",    "flat",     "goto",     "half",      "input",
+      "interface", "invariant",  "long",     "noinline", "output",   "partition", "patch",
+      "precise",   "public",     "resource", "sample",   "shared",   "short",     "sizeof",
+      "smooth",    "subroutine", "superp",   "this",     "typedef",  "union",     "unsigned",
+      "using",     "varying",    "volatile", "texture",  "sampler"};
   return words;
 }
 
 const std::set<std::string>& builtins() {
   static const std::set<std::string> names = {
-      "abs",  "acos", "all",   "any",       "asin",      "atan",  "ceil",      "clamp",  "cos",   "cross",
-      "degrees", "determinant", "distance", "dot", "equal", "exp", "exp2", "faceforward", "floor", "fma",
-      "fract", "inverse", "inversesqrt", "isinf", "isnan", "length", "log", "log2", "max", "min", "mix",
-      "mod", "normalize", "not", "outerProduct", "pow", "radians", "reflect", "refract", "round", "sign",
-      "sin", "smoothstep", "sqrt", "step", "tan", "transpose", "trunc"};
+      "abs",        "acos",    "all",       "any",     "asin",         "atan",
+      "ceil",       "clamp",   "cos",       "cross",   "degrees",      "determinant",
+      "distance",   "dot",     "equal",     "exp",     "exp2",         "faceforward",
+      "floor",      "fma",     "fract",     "inverse", "inversesqrt",  "isinf",
+      "isnan",      "length",  "log",       "log2",    "max",          "min",
+      "mix",        "mod",     "normalize", "not",     "outerProduct", "pow",
+      "radians",    "reflect", "refract",   "round",   "sign",         "sin",
+      "smoothstep", "sqrt",    "step",      "tan",     "transpose",    "trunc"};
   return names;
 }
 
@@ -33,7 +37,9 @@ bool endsWith(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-bool isHex(const std::string& number) { return number.compare(0, 2, "0x") == 0 || number.compare(0, 2, "0X") == 0; }
+bool isHex(const std::string& number) {
+  return number.compare(0, 2, "0x") == 0 || number.compare(0, 2, "0X") == 0;
+}
 
 bool isFloating(const std::string& number) {
   return !isHex(number) && number.find_first_of(".eE") != std::string::npos;
@@ -86,20 +92,25 @@ std::vector<Finding> findBareLiterals(const TokenizedFile& file) {
   std::set<std::string> integers = {"int", "ivec2", "ivec3", "ivec4", "RL_STATIC_ASSERT_SIZE"};
   const auto& t = file.tokens;
   for (size_t i = 0; i + 1 < t.size(); ++i) {
-    if (t[i].text == "int" && t[i + 1].kind == TokenKind::identifier) integers.insert(t[i + 1].text);
+    if (t[i].text == "int" && t[i + 1].kind == TokenKind::identifier)
+      integers.insert(t[i + 1].text);
   }
   for (const TokenRange& range : statements(file)) {
     const auto first = t.begin() + std::ptrdiff_t(range.first);
     const auto last = t.begin() + std::ptrdiff_t(range.last);
-    const bool hasInt = std::any_of(first, last, [&](const Token& token) { return integers.count(token.text) > 0; });
+    const bool hasInt = std::any_of(
+        first, last, [&](const Token& token) { return integers.count(token.text) > 0; });
     for (size_t i = range.first; i < range.last; ++i) {
       if (t[i].kind != TokenKind::number) continue;
       const std::string& number = t[i].text;
       const bool isArraySize = i > 0 && t[i - 1].text == "[";
       if (isFloating(number) && !endsWith(number, "f")) {
-        found.push_back({file.path, t[i].line, fmt::format("literal {} needs the suffix f", number)});
-      } else if (!isFloating(number) && !endsWith(number, "u") && (isHex(number) || (!hasInt && !isArraySize))) {
-        found.push_back({file.path, t[i].line, fmt::format("literal {} needs the suffix u", number)});
+        found.push_back(
+            {file.path, t[i].line, fmt::format("literal {} needs the suffix f", number)});
+      } else if (!isFloating(number) && !endsWith(number, "u") &&
+                 (isHex(number) || (!hasInt && !isArraySize))) {
+        found.push_back(
+            {file.path, t[i].line, fmt::format("literal {} needs the suffix u", number)});
       }
     }
   }
@@ -129,7 +140,8 @@ std::vector<Finding> findSwizzles(const TokenizedFile& file) {
     if (member.size() < 2 || member.size() > 4) continue;
     for (const char* letters : {"xyzw", "rgba", "stpq"}) {
       if (member.find_first_not_of(letters) == std::string::npos) {
-        found.push_back({file.path, t[i + 1].line, fmt::format("swizzle .{}: only .x .y .z .w", member)});
+        found.push_back(
+            {file.path, t[i + 1].line, fmt::format("swizzle .{}: only .x .y .z .w", member)});
       }
     }
   }
@@ -140,11 +152,13 @@ std::vector<Finding> findBadDirectives(const TokenizedFile& file) {
   std::vector<Finding> found;
   for (const Directive& d : file.directives) {
     if (d.text.find("pragma") != std::string::npos && d.text.find("once") != std::string::npos) {
-      found.push_back({file.path, d.line, "#pragma once: glslang ignores it; use an include guard"});
+      found.push_back(
+          {file.path, d.line, "#pragma once: glslang ignores it; use an include guard"});
     }
     const bool isInclude = d.text.find("include") != std::string::npos;
     if (isInclude && endsWith(file.path, ".glsl") && d.text.find(".h\"") != std::string::npos) {
-      found.push_back({file.path, d.line, "a .glsl never includes a .h: headers come before the kernel context"});
+      found.push_back({file.path, d.line,
+                       "a .glsl never includes a .h: headers come before the kernel context"});
     }
   }
   return found;
@@ -155,8 +169,9 @@ std::vector<Finding> findDefaultArguments(const TokenizedFile& file) {
   forEachFunction(file, [&](size_t name, size_t open, size_t close) {
     for (size_t i = open; i < close; ++i) {
       if (file.tokens[i].text == "=") {
-        found.push_back({file.path, file.tokens[i].line,
-                         fmt::format("default argument of {}(): write an overload", file.tokens[name].text)});
+        found.push_back(
+            {file.path, file.tokens[i].line,
+             fmt::format("default argument of {}(): write an overload", file.tokens[name].text)});
       }
     }
   });
@@ -168,7 +183,8 @@ std::vector<Finding> findHiddenBuiltins(const TokenizedFile& file) {
   forEachFunction(file, [&](size_t name, size_t, size_t) {
     const Token& token = file.tokens[name];
     if (builtins().count(token.text)) {
-      found.push_back({file.path, token.line, fmt::format("{}() hides a built-in function", token.text)});
+      found.push_back(
+          {file.path, token.line, fmt::format("{}() hides a built-in function", token.text)});
     }
   });
   return found;
@@ -182,10 +198,13 @@ std::vector<Finding> findMisplaced(const TokenizedFile& file) {
     if (t.text == "{") ++depth;
     if (t.text == "}") --depth;
     if (isHeader && (t.text == "RL_FN" || t.text == "RL_FN_OUTLINE")) {
-      found.push_back({file.path, t.line, "a function in a .h: functions live in a .glsl, inside the kernel context"});
+      found.push_back({file.path, t.line,
+                       "a function in a .h: functions live in a .glsl, inside the kernel context"});
     }
     if (!isHeader && depth == 0 && (t.text == "struct" || t.text == "const")) {
-      found.push_back({file.path, t.line, fmt::format("'{}' at file scope of a .glsl: types and constants live in a .h", t.text)});
+      found.push_back(
+          {file.path, t.line,
+           fmt::format("'{}' at file scope of a .glsl: types and constants live in a .h", t.text)});
     }
   }
   return found;
@@ -193,8 +212,8 @@ std::vector<Finding> findMisplaced(const TokenizedFile& file) {
 
 std::vector<Finding> findAll(const TokenizedFile& file) {
   std::vector<Finding> found;
-  for (auto* rule : {findReservedWords, findBareLiterals, findDoubleDraws, findSwizzles, findBadDirectives,
-                     findDefaultArguments, findHiddenBuiltins, findMisplaced}) {
+  for (auto* rule : {findReservedWords, findBareLiterals, findDoubleDraws, findSwizzles,
+                     findBadDirectives, findDefaultArguments, findHiddenBuiltins, findMisplaced}) {
     const std::vector<Finding> more = rule(file);
     found.insert(found.end(), more.begin(), more.end());
   }

@@ -19,8 +19,8 @@ std::string format(const std::vector<Finding>& findings);
 
 // Words that GLSL or HLSL reserve, used as names.
 std::vector<Finding> findReservedWords(const TokenizedFile& file);
-// Floating literals without f, hexadecimal ones without u, decimal integers without u in a statement
-// that has no int variable.
+// Floating literals without f, hexadecimal ones without u, decimal integers without u in a
+// statement that has no int variable.
 std::vector<Finding> findBareLiterals(const TokenizedFile& file);
 // Two random draws in one statement: C++ does not fix the order in which arguments are evaluated.
 std::vector<Finding> findDoubleDraws(const TokenizedFile& file);
@@ -38,8 +38,8 @@ std::vector<Finding> findMisplaced(const TokenizedFile& file);
 // All of the above.
 std::vector<Finding> findAll(const TokenizedFile& file);
 
-// RL_DIM_* constants that share a number or reach RL_DIMENSIONS. A comment "+ donor index (N at most)"
-// reserves N numbers, which needs the text itself.
+// RL_DIM_* constants that share a number or reach RL_DIMENSIONS. A comment "+ donor index (N at
+// most)" reserves N numbers, which needs the text itself.
 struct SourceText {
   std::string path, text;
 };

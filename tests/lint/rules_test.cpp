@@ -41,7 +41,8 @@ const Case kCases[] = {
     {"HexWithoutU", findBareLiterals, "a.glsl", "int y = 3;\nint x = y ^ 0xe5;", 2},
     {"IntOfIntVariable", findBareLiterals, "a.glsl", "int y = 3;\nx = wrap(y + 1);", 0},
     {"ArraySize", findBareLiterals, "a.h", "struct S {\n  uint textures[7];\n};", 0},
-    {"TwoDraws", findDoubleDraws, "a.glsl", "a = rngDraw(r, A);\nv = vec2(rngDraw(r, B),\n rngDraw(r, C));", 3},
+    {"TwoDraws", findDoubleDraws, "a.glsl",
+     "a = rngDraw(r, A);\nv = vec2(rngDraw(r, B),\n rngDraw(r, C));", 3},
     {"DrawsApart", findDoubleDraws, "a.glsl", "a = rngDraw(r, A); b = rngDraw(r, B);", 0},
     {"Swizzle", findSwizzles, "a.glsl", "a = b.x;\nc = d.xyz;", 2},
     {"ColourSwizzle", findSwizzles, "a.glsl", "c = d.rgb;", 1},
@@ -49,28 +50,36 @@ const Case kCases[] = {
     {"PragmaOnce", findBadDirectives, "a.h", "\n#pragma once\n", 2},
     {"HeaderInGlsl", findBadDirectives, "a.glsl", "#include \"b.glsl\"\n#include \"b.h\"", 2},
     {"HeaderInHeader", findBadDirectives, "a.h", "#include \"b.h\"", 0},
-    {"DefaultArgument", findDefaultArguments, "a.glsl", "RL_FN float f(float x,\n float y = 1.0f) { return x; }", 2},
-    {"NoDefaultArgument", findDefaultArguments, "a.glsl", "RL_FN float f(RL_IN(vec3) x) { float y = x.x; return y; }", 0},
+    {"DefaultArgument", findDefaultArguments, "a.glsl",
+     "RL_FN float f(float x,\n float y = 1.0f) { return x; }", 2},
+    {"NoDefaultArgument", findDefaultArguments, "a.glsl",
+     "RL_FN float f(RL_IN(vec3) x) { float y = x.x; return y; }", 0},
     {"HiddenBuiltin", findHiddenBuiltins, "a.glsl", "\nRL_FN float mix(float a) { return a; }", 2},
-    {"OwnName", findHiddenBuiltins, "a.glsl", "RL_FN float rlMix(float a) { return mix(a, a, a); }", 0},
-    {"FunctionInHeader", findMisplaced, "a.h", "struct A {\n float b;\n};\nRL_FN float f() { return 1.0f; }", 4},
-    {"ConstantInGlsl", findMisplaced, "a.glsl", "RL_FN float f() { const float a = 1.0f; return a; }\nconst uint A = 1u;", 2},
+    {"OwnName", findHiddenBuiltins, "a.glsl", "RL_FN float rlMix(float a) { return mix(a, a, a); }",
+     0},
+    {"FunctionInHeader", findMisplaced, "a.h",
+     "struct A {\n float b;\n};\nRL_FN float f() { return 1.0f; }", 4},
+    {"ConstantInGlsl", findMisplaced, "a.glsl",
+     "RL_FN float f() { const float a = 1.0f; return a; }\nconst uint A = 1u;", 2},
     {"ContinuedMacro", findReservedWords, "a.h", "#define A \\\n  this\nfloat x;\nfloat half;", 4},
 };
-INSTANTIATE_TEST_SUITE_P(, Rule, testing::ValuesIn(kCases), [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(, Rule, testing::ValuesIn(kCases),
+                         [](const auto& test) { return test.param.name; });
 
 TEST(Dimensions, ClashIsFound) {
   const std::vector<Finding> found = findDimensionClashes(
-      {{"a.h", "const uint RL_DIM_A = 1u;\nconst uint RL_DIM_B = 2u;  // + donor index (3 at most)\n"},
-       {"b.h", "const uint RL_DIM_C = 4u;\nconst uint RL_DIM_D = 5u;\nconst uint RL_DIMENSIONS = 6u;\n"}});
+      {{"a.h",
+        "const uint RL_DIM_A = 1u;\nconst uint RL_DIM_B = 2u;  // + donor index (3 at most)\n"},
+       {"b.h",
+        "const uint RL_DIM_C = 4u;\nconst uint RL_DIM_D = 5u;\nconst uint RL_DIMENSIONS = 6u;\n"}});
   ASSERT_EQ(found.size(), 1u) << format(found);
   EXPECT_EQ(found[0].path, "b.h");
   EXPECT_EQ(found[0].line, 1);
 }
 
 TEST(Dimensions, OneBeyondTheLastIsFound) {
-  const std::vector<Finding> found =
-      findDimensionClashes({{"a.h", "const uint RL_DIM_A = 3u;\nconst uint RL_DIMENSIONS = 3u;\n"}});
+  const std::vector<Finding> found = findDimensionClashes(
+      {{"a.h", "const uint RL_DIM_A = 3u;\nconst uint RL_DIMENSIONS = 3u;\n"}});
   ASSERT_EQ(found.size(), 1u) << format(found);
 }
 
@@ -79,7 +88,8 @@ TEST(Dimensions, AreUnique) {
   size_t constants = 0;
   for (const std::string& path : dialectHeaders()) {
     headers.push_back({path, readSource(path)});
-    for (size_t at = 0; (at = headers.back().text.find("const uint RL_DIM_", at)) != std::string::npos; ++at) {
+    for (size_t at = 0;
+         (at = headers.back().text.find("const uint RL_DIM_", at)) != std::string::npos; ++at) {
       ++constants;
     }
   }

@@ -11,7 +11,8 @@ RL_FN bool bruteTriangle(RL_IN(Ray) ray, RL_IN(TriangleW) t, float tMax, RL_INOU
   vec3 q = cross(s, t.e1);
   float v = dot(ray.dir, q) * inverse;
   float distance = dot(t.e2, q) * inverse;
-  if (!(u >= 0.0f && v >= 0.0f && u + v <= 1.0f && distance > ray.tMin && distance < tMax)) return false;
+  if (!(u >= 0.0f && v >= 0.0f && u + v <= 1.0f && distance > ray.tMin && distance < tMax))
+    return false;
   hit.bary = vec2(u, v);
   hit.t = distance;
   return true;
@@ -28,7 +29,8 @@ RL_FN float traceRay(RL_IN(Ray) ray, uint mode, uint alphaKey, RL_OUT(Hit) hit) 
     Instance inst = gScene.instances.data[i];
     Geometry geometry = gScene.geometries.data[inst.geometry];
     for (uint k = 0u; k < geometry.triangleCount; k = k + 1u) {
-      TriangleW t = surfaceTriangle(inst, geometry, gScene.triangles.data[geometry.firstTriangle + k]);
+      TriangleW t =
+          surfaceTriangle(inst, geometry, gScene.triangles.data[geometry.firstTriangle + k]);
       Hit cand = hit;
       if (!bruteTriangle(ray, t, nearest, cand)) continue;
       cand.instance = i;

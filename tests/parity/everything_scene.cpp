@@ -8,13 +8,16 @@ namespace {
 
 enum Mesh { kFloor, kCeiling, kBackWall, kRightWall, kLeftWall, kShortBlock, kTallBlock, kLamp };
 
-uint32_t texel(uint32_t r, uint32_t g, uint32_t b, uint32_t a) { return r | g << 8 | b << 16 | a << 24; }
+uint32_t texel(uint32_t r, uint32_t g, uint32_t b, uint32_t a) {
+  return r | g << 8 | b << 16 | a << 24;
+}
 
 // 4 x 4 texels that differ in every channel.
 uint32_t addImage(Scene& scene, uint32_t base, uint32_t alphaStep) {
   TextureImage image{"pattern", 4, 4, {}};
   for (uint32_t i = 0; i < 16; ++i) {
-    image.texels.push_back(texel(base + 7 * i, 255 - 9 * i, 120 + 5 * (i % 4), 255 - alphaStep * i));
+    image.texels.push_back(
+        texel(base + 7 * i, 255 - 9 * i, 120 + 5 * (i % 4), 255 - alphaStep * i));
   }
   scene.images.push_back(image);
   return static_cast<uint32_t>(scene.images.size() - 1);
@@ -41,15 +44,18 @@ rl::Material& ownMaterial(Scene& scene, Mesh mesh) {
 }
 
 void addUvs(MeshGeometry& geometry) {
-  for (const glm::vec3& p : geometry.positions) geometry.uvs[0].emplace_back(0.31f * p.x + 0.11f * p.z, 0.23f * p.y - 0.2f * p.z);
+  for (const glm::vec3& p : geometry.positions)
+    geometry.uvs[0].emplace_back(0.31f * p.x + 0.11f * p.z, 0.23f * p.y - 0.2f * p.z);
 }
 
 void addTextures(Scene& scene) {
-  for (Mesh mesh : {kFloor, kBackWall, kLeftWall, kRightWall, kLamp}) addUvs(scene.geometries[mesh]);
+  for (Mesh mesh : {kFloor, kBackWall, kLeftWall, kRightWall, kLamp})
+    addUvs(scene.geometries[mesh]);
   const uint32_t pattern = addImage(scene, 100, 0), holes = addImage(scene, 90, 12);
   rl::Material& floor = ownMaterial(scene, kFloor);
   floor.textures[rl::RL_TEX_BASE_COLOR] = addUse(scene, pattern, rl::RL_WRAP_REPEAT, true, false);
-  floor.textures[rl::RL_TEX_METALLIC_ROUGHNESS] = addUse(scene, pattern, rl::RL_WRAP_MIRROR, false, true);
+  floor.textures[rl::RL_TEX_METALLIC_ROUGHNESS] =
+      addUse(scene, pattern, rl::RL_WRAP_MIRROR, false, true);
   floor.metallic = 0.8f;
   floor.roughness = 0.9f;
   rl::Material& back = ownMaterial(scene, kBackWall);
@@ -61,7 +67,8 @@ void addTextures(Scene& scene) {
   rl::Material& lamp = ownMaterial(scene, kLamp);
   lamp.textures[rl::RL_TEX_EMISSIVE] = addUse(scene, pattern, rl::RL_WRAP_REPEAT, true, false);
   for (size_t i = 0; i < scene.geometries[kRightWall].positions.size(); ++i) {
-    scene.geometries[kRightWall].colors.emplace_back(0.3f + 0.1f * float(i), 0.9f - 0.1f * float(i), 0.5f, 1.0f);
+    scene.geometries[kRightWall].colors.emplace_back(0.3f + 0.1f * float(i), 0.9f - 0.1f * float(i),
+                                                     0.5f, 1.0f);
   }
 }
 
@@ -88,13 +95,20 @@ void addInstance(Scene& scene) {
 }
 
 void addLights(Scene& scene) {
-  PunctualLight point{"point", rl::RL_LIGHT_POINT, {-1.0, 3.0, -1.0}, {0, -1, 0}, glm::vec3(3.0f, 2.0f, 1.0f)};
-  PunctualLight spot{"spot", rl::RL_LIGHT_SPOT, {-4.0, 5.0, -2.0}, {0.2, -0.95, 0.1}, glm::vec3(9.0f), 0.3f, 0.6f};
+  PunctualLight point{
+      "point", rl::RL_LIGHT_POINT, {-1.0, 3.0, -1.0}, {0, -1, 0}, glm::vec3(3.0f, 2.0f, 1.0f)};
+  PunctualLight spot{
+      "spot", rl::RL_LIGHT_SPOT, {-4.0, 5.0, -2.0}, {0.2, -0.95, 0.1}, glm::vec3(9.0f), 0.3f, 0.6f};
   spot.dirW = glm::normalize(spot.dirW);
-  PunctualLight sun{"sun", rl::RL_LIGHT_DIRECTIONAL, {}, glm::normalize(glm::dvec3(0.1, -0.4, -0.9)), glm::vec3(0.5f)};
+  PunctualLight sun{"sun",
+                    rl::RL_LIGHT_DIRECTIONAL,
+                    {},
+                    glm::normalize(glm::dvec3(0.1, -0.4, -0.9)),
+                    glm::vec3(0.5f)};
   scene.lights = {point, spot, sun};
   EnvironmentMap sky{"sky", 8, 4, {}, 0.7f, 1.0f};
-  for (uint32_t i = 0; i < 32; ++i) sky.radiance.push_back(glm::vec3(0.2f, 0.3f, 0.5f) * (1.0f + 0.2f * float(i % 5)));
+  for (uint32_t i = 0; i < 32; ++i)
+    sky.radiance.push_back(glm::vec3(0.2f, 0.3f, 0.5f) * (1.0f + 0.2f * float(i % 5)));
   scene.environment = sky;
 }
 

@@ -5,8 +5,9 @@
 
 namespace restlab::parity {
 
-// The Cornell box with textures, a normal map, vertex colours, alpha, metal, glass with absorption, a
-// mirrored second instance, punctual lights, an emissive texture and, through the missing wall, a sky.
+// The Cornell box with textures, a normal map, vertex colours, alpha, metal, glass with absorption,
+// a mirrored second instance, punctual lights, an emissive texture and, through the missing wall, a
+// sky.
 Scene makeEverythingScene();
 
 }  // namespace restlab::parity

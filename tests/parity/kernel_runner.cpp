@@ -25,8 +25,8 @@ GlslCounters runOnDevice(VulkanDevice& device, const std::vector<uint32_t>& spir
   push.buffers = device.upload(buffers.data(), buffers.size() * sizeof(uint64_t)).address;
   push.params = device.upload(params, paramBytes).address;
   push.counters = counters.address;
-  device.run(spirv, rl::RL_FEATURE_ALL, &push, sizeof push, (frame.width + kGlslTile - 1) / kGlslTile,
-             (frame.height + kGlslTile - 1) / kGlslTile);
+  device.run(spirv, rl::RL_FEATURE_ALL, &push, sizeof push,
+             (frame.width + kGlslTile - 1) / kGlslTile, (frame.height + kGlslTile - 1) / kGlslTile);
   GlslCounters result;
   std::memcpy(&result, counters.mapped, sizeof result);
   return result;

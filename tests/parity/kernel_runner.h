@@ -12,7 +12,8 @@
 
 namespace restlab::parity {
 
-// SPIR-V of a kernel on the brute-force traversal. Throws std::runtime_error with the compiler's words.
+// SPIR-V of a kernel on the brute-force traversal. Throws std::runtime_error with the compiler's
+// words.
 std::vector<uint32_t> compileKernel(const std::string& header, const std::string& file);
 
 // Runs it over frame.width x frame.height threads. `scene` is a device address (0: none), `buffers`
@@ -21,7 +22,8 @@ GlslCounters runOnDevice(VulkanDevice& device, const std::vector<uint32_t>& spir
                          const rl::FrameData& frame, const std::vector<uint64_t>& buffers,
                          const void* params, size_t paramBytes);
 
-// The C++ build of the same kernel, on the calling thread; `embreeScene` for kernels that trace with it.
+// The C++ build of the same kernel, on the calling thread; `embreeScene` for kernels that trace
+// with it.
 rl::CpuKernelCounters runOnHost(rl::CpuKernelEntry entry, const rl::SceneData& scene,
                                 const rl::FrameData& frame, const void* buffers, const void* params,
                                 void* embreeScene = nullptr);

@@ -1,5 +1,5 @@
-// The same kernel files, built by the C++ compiler and run by a Vulkan device (lavapipe where there is
-// no GPU), must decide alike and compute alike. Every suitable device of the machine is tried.
+// The same kernel files, built by the C++ compiler and run by a Vulkan device (lavapipe where there
+// is no GPU), must decide alike and compute alike. Every suitable device of the machine is tried.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,8 +27,8 @@ namespace {
 
 constexpr double kMaxDifferentDecisions = 1e-5;  // share of threads
 constexpr double kMaxRelativeDifference = 1e-4;
-// 1 - Fresnel at grazing angles and the densities of sharp lobes amplify the last bit: this share of
-// the threads may go beyond the line above, none beyond this.
+// 1 - Fresnel at grazing angles and the densities of sharp lobes amplify the last bit: this share
+// of the threads may go beyond the line above, none beyond this.
 constexpr double kMaxIllConditioned = 5e-5;
 constexpr double kMaxWorst = 2e-3;
 
@@ -49,7 +49,8 @@ class Parity : public testing::Test {
   void SetUp() override {
     devices_ = VulkanDevice::all();
     if (devices_.empty()) {
-      GTEST_SKIP() << "no Vulkan device with buffer addresses and scalar layout: kernels ran as C++ only";
+      GTEST_SKIP()
+          << "no Vulkan device with buffer addresses and scalar layout: kernels ran as C++ only";
     }
   }
   std::vector<std::unique_ptr<VulkanDevice>> devices_;
@@ -62,7 +63,8 @@ TEST_F(Parity, ResamplingOverRandomSurfaces) {
   std::vector<rl::RisResult> host(threads);
   const rl::RisBuffers hostBuffers{{host.data()}};
   runOnHost(rl::kernel_parity_ris_general, rl::SceneData{}, frame, &hostBuffers, &params);
-  const std::vector<uint32_t> spirv = compileKernel("tests/parity/ris_kernel.h", "tests/parity/ris_kernel.glsl");
+  const std::vector<uint32_t> spirv =
+      compileKernel("tests/parity/ris_kernel.h", "tests/parity/ris_kernel.glsl");
   for (const auto& device : devices_) {
     SCOPED_TRACE(device->name());
     GpuBuffer& results = device->allocate(threads * sizeof(rl::RisResult));
@@ -79,14 +81,16 @@ TEST_F(Parity, ResamplingOverRandomSurfaces) {
         continue;
       }
       if (host[i].lobes != gpu[i].lobes) continue;
-      const double difference =
-          std::max({relativeDifference(host[i].W, gpu[i].W), relativeDifference(host[i].f, gpu[i].f),
-                    relativeDifference(host[i].wi, gpu[i].wi)});
+      const double difference = std::max({relativeDifference(host[i].W, gpu[i].W),
+                                          relativeDifference(host[i].f, gpu[i].f),
+                                          relativeDifference(host[i].wi, gpu[i].wi)});
       if (!(difference <= kMaxRelativeDifference)) ++values;
       worst = std::max(worst, difference);
     }
-    std::printf("  %s: %zu threads, %zu other selections, %zu other lobes, %zu differ by more than %.0e, worst %.2g\n",
-                device->name().c_str(), threads, picked, lobes, values, kMaxRelativeDifference, worst);
+    std::printf(
+        "  %s: %zu threads, %zu other selections, %zu other lobes, %zu differ by more than %.0e, "
+        "worst %.2g\n",
+        device->name().c_str(), threads, picked, lobes, values, kMaxRelativeDifference, worst);
     EXPECT_GT(selected, threads * 9 / 10) << "the kernel hardly selected anything";
     EXPECT_GT(transmissive, threads / 5);
     EXPECT_LT(double(picked), kMaxDifferentDecisions * double(threads));
@@ -129,8 +133,8 @@ rl::dvec3 meanOf(const rl::vec3* image, size_t pixels) {
   return sum / double(pixels);
 }
 
-// A whole path tracer, eight scattering events a path: the C++ build on the same brute-force traversal,
-// the program's own kernel on Embree, and the device.
+// A whole path tracer, eight scattering events a path: the C++ build on the same brute-force
+// traversal, the program's own kernel on Embree, and the device.
 TEST_P(PathParity, SameSeedSameImage) {
   const PathCase& c = GetParam();
   const auto scene = CompiledScene::build(c.make());
@@ -144,8 +148,8 @@ TEST_P(PathParity, SameSeedSameImage) {
   std::vector<rl::vec3> host(pixels), embree(pixels);
   const rl::PathBuffers hostBuffers{{host.data()}}, embreeBuffers{{embree.data()}};
   runOnHost(rl::kernel_parity_path_general, scene->data(), frame, &hostBuffers, &params);
-  runOnHost(rl::findCpuKernel("path", rl::RL_FEATURE_ALL)->entry, scene->data(), frame, &embreeBuffers, &params,
-            scene->embreeScene());
+  runOnHost(rl::findCpuKernel("path", rl::RL_FEATURE_ALL)->entry, scene->data(), frame,
+            &embreeBuffers, &params, scene->embreeScene());
   size_t lit = 0;
   for (const rl::vec3& p : host) lit += p.x > 0.0f;
   EXPECT_GT(lit, pixels * 3 / 4);
@@ -153,19 +157,21 @@ TEST_P(PathParity, SameSeedSameImage) {
 
   const auto expectAlike = [&](const std::string& who, const rl::vec3* image) {
     const ImageDifference difference = compareImages(host.data(), image, pixels);
-    const double meanDifference = relativeDifference(rl::vec3(mean), rl::vec3(meanOf(image, pixels)));
-    std::printf("  %s: %zu of %zu pixels differ, worst %.2g, means by %.2g\n", who.c_str(), difference.pixels, pixels,
-                difference.worst, meanDifference);
+    const double meanDifference =
+        relativeDifference(rl::vec3(mean), rl::vec3(meanOf(image, pixels)));
+    std::printf("  %s: %zu of %zu pixels differ, worst %.2g, means by %.2g\n", who.c_str(),
+                difference.pixels, pixels, difference.worst, meanDifference);
     EXPECT_LE(double(difference.pixels), c.maxDifferentShare * double(pixels)) << who;
     EXPECT_LE(meanDifference, c.maxMeanDifference) << who;
   };
   expectAlike("Embree", embree.data());
-  const std::vector<uint32_t> spirv = compileKernel("integrators/path/path.h", "integrators/path/path.glsl");
+  const std::vector<uint32_t> spirv =
+      compileKernel("integrators/path/path.h", "integrators/path/path.glsl");
   for (const auto& device : devices_) {
     GpuBuffer& radiance = device->allocate(pixels * sizeof(rl::vec3));
     const uint64_t sceneAddress = uploadScene(*device, scene->data());
-    const GlslCounters counters =
-        runOnDevice(*device, spirv, sceneAddress, frame, {radiance.address}, &params, sizeof params);
+    const GlslCounters counters = runOnDevice(*device, spirv, sceneAddress, frame,
+                                              {radiance.address}, &params, sizeof params);
     expectAlike(device->name(), static_cast<const rl::vec3*>(radiance.mapped));
     EXPECT_EQ(counters.health[rl::RL_HEALTH_NONFINITE], 0u);
   }
@@ -176,7 +182,8 @@ const PathCase kPathCases[] = {
     {"EveryFeature", makeEverythingScene, 0.02, 1e-4, 0u},
     {"EveryFeatureMultiscatter", makeEverythingScene, 0.02, 1e-4, 1u},
 };
-INSTANTIATE_TEST_SUITE_P(, PathParity, testing::ValuesIn(kPathCases), [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(, PathParity, testing::ValuesIn(kPathCases),
+                         [](const auto& test) { return test.param.name; });
 
 TEST(EverythingScene, NeedsEveryFeature) {
   // Multiple-scattering compensation is an option of the render, not a need of a scene.

@@ -9,12 +9,12 @@
 RL_NAMESPACE_BEGIN
 
 struct RisResult {
-  uint picked;   // index of the selected candidate, RL_INVALID: none
-  uint lobes;    // lobe of every candidate's draw, hashed together: all the discrete decisions
-  float W;       // unbiased contribution weight
+  uint picked;  // index of the selected candidate, RL_INVALID: none
+  uint lobes;   // lobe of every candidate's draw, hashed together: all the discrete decisions
+  float W;      // unbiased contribution weight
   float wSum;
-  vec3 f;        // integrand of the selected candidate
-  vec3 wi;       // and its direction
+  vec3 f;   // integrand of the selected candidate
+  vec3 wi;  // and its direction
 };
 RL_STATIC_ASSERT_SIZE(RisResult, 40);
 

@@ -77,7 +77,8 @@ std::vector<std::unique_ptr<VulkanDevice>> VulkanDevice::all() {
   uint32_t count = 0;
   check(vkEnumeratePhysicalDevices(instance.get(), &count, nullptr), "vkEnumeratePhysicalDevices");
   std::vector<VkPhysicalDevice> physical(count);
-  check(vkEnumeratePhysicalDevices(instance.get(), &count, physical.data()), "vkEnumeratePhysicalDevices");
+  check(vkEnumeratePhysicalDevices(instance.get(), &count, physical.data()),
+        "vkEnumeratePhysicalDevices");
   for (VkPhysicalDevice p : physical) {
     const std::optional<uint32_t> family = computeQueueFamily(p);
     const std::optional<uint32_t> memoryType = coherentMemoryType(p);
@@ -88,8 +89,8 @@ std::vector<std::unique_ptr<VulkanDevice>> VulkanDevice::all() {
   return devices;
 }
 
-void VulkanDevice::open(std::shared_ptr<VkInstance_T> instance, VkPhysicalDevice physical, uint32_t queueFamily,
-                        uint32_t memoryType) {
+void VulkanDevice::open(std::shared_ptr<VkInstance_T> instance, VkPhysicalDevice physical,
+                        uint32_t queueFamily, uint32_t memoryType) {
   instance_ = std::move(instance);
   memoryType_ = memoryType;
   VkPhysicalDeviceProperties properties;
@@ -141,7 +142,8 @@ GpuBuffer& VulkanDevice::allocate(size_t bytes) {
   check(vkCreateBuffer(device_, &info, nullptr, &b.buffer), "vkCreateBuffer");
   VkMemoryRequirements needs;
   vkGetBufferMemoryRequirements(device_, b.buffer, &needs);
-  if (!(needs.memoryTypeBits & (1u << memoryType_))) throw std::runtime_error("Vulkan: no memory for buffers");
+  if (!(needs.memoryTypeBits & (1u << memoryType_)))
+    throw std::runtime_error("Vulkan: no memory for buffers");
   VkMemoryAllocateFlagsInfo flags{};
   flags.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO;
   flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
@@ -167,8 +169,8 @@ GpuBuffer& VulkanDevice::upload(const void* data, size_t bytes) {
   return b;
 }
 
-void VulkanDevice::run(const std::vector<uint32_t>& spirv, uint32_t mask, const void* push, uint32_t pushBytes,
-                       uint32_t groupsX, uint32_t groupsY) {
+void VulkanDevice::run(const std::vector<uint32_t>& spirv, uint32_t mask, const void* push,
+                       uint32_t pushBytes, uint32_t groupsX, uint32_t groupsY) {
   VkShaderModuleCreateInfo moduleInfo{};
   moduleInfo.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
   moduleInfo.codeSize = spirv.size() * sizeof(uint32_t);
@@ -195,7 +197,8 @@ void VulkanDevice::run(const std::vector<uint32_t>& spirv, uint32_t mask, const 
   info.stage.pSpecializationInfo = &specialization;
   info.layout = layout;
   VkPipeline pipeline = VK_NULL_HANDLE;
-  check(vkCreateComputePipelines(device_, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline), "vkCreateComputePipelines");
+  check(vkCreateComputePipelines(device_, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
+        "vkCreateComputePipelines");
 
   VkCommandBufferAllocateInfo commandInfo{};
   commandInfo.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
@@ -216,8 +219,8 @@ void VulkanDevice::run(const std::vector<uint32_t>& spirv, uint32_t mask, const 
   barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
   barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
   barrier.dstAccessMask = VK_ACCESS_HOST_READ_BIT;
-  vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0,
-                       nullptr, 0, nullptr);
+  vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_HOST_BIT,
+                       0, 1, &barrier, 0, nullptr, 0, nullptr);
   check(vkEndCommandBuffer(commands), "vkEndCommandBuffer");
   VkSubmitInfo submit{};
   submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;

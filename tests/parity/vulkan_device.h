@@ -35,7 +35,8 @@ class VulkanDevice {
   // Allocates and fills.
   GpuBuffer& upload(const void* data, size_t bytes);
 
-  // Runs a shader with specialization constant 0 = mask over groupsX x groupsY workgroups, and waits.
+  // Runs a shader with specialization constant 0 = mask over groupsX x groupsY workgroups, and
+  // waits.
   void run(const std::vector<uint32_t>& spirv, uint32_t mask, const void* push, uint32_t pushBytes,
            uint32_t groupsX, uint32_t groupsY);
 

@@ -1,4 +1,5 @@
-#pragma GCC diagnostic ignored "-Wunused-parameter"  // the bridge has one signature for every payload
+#pragma GCC diagnostic ignored \
+    "-Wunused-parameter"  // the bridge has one signature for every payload
 #include "tests/unit/rng_audit.h"
 
 #define RL_KERNEL_NAME restir_gi_initial

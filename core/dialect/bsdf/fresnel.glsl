@@ -16,8 +16,8 @@ RL_FN float fresnelDielectric(float cosI, float eta) {
   return 0.5f * (parallel * parallel + perpendicular * perpendicular);
 }
 
-// Reflectance of the layer at the angle between direction and microfacet normal. Opaque materials use
-// Schlick's form; transmissive ones the exact dielectric curve, rescaled to go from f0 to f90.
+// Reflectance of the layer at the angle between direction and microfacet normal. Opaque materials
+// use Schlick's form; transmissive ones the exact dielectric curve, rescaled to go from f0 to f90.
 RL_FN vec3 fresnelOfBsdf(RL_IN(Bsdf) b, float cosVH) {
   float weight = 0.0f;
   if (RL_HAS(RL_FEATURE_TRANSMISSION) && (b.lobes & RL_LOBE_ANY_TRANSMISSION) != 0u) {

@@ -2,7 +2,8 @@
 // Walter et al. 2007 (distribution, transmission), Heitz 2014 (height-correlated masking),
 // Dupuy & Benyoub 2023 (sampling of visible normals by spherical caps).
 
-// Normal distribution in its float32-stable form: sin^2 from the tangential part, not from 1 - cos^2.
+// Normal distribution in its float32-stable form: sin^2 from the tangential part, not from 1 -
+// cos^2.
 RL_FN float ggxD(RL_IN(vec3) hL, float alpha) {
   float sin2 = hL.x * hL.x + hL.y * hL.y;
   float a2 = alpha * alpha;

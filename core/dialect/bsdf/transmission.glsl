@@ -19,7 +19,8 @@ RL_FN bool transmissionRefract(RL_IN(vec3) wo, RL_IN(vec3) h, float eta, RL_OUT(
 }
 
 // f |cos_i| without the factor (1 - F) and tint.
-RL_FN float transmissionEval(RL_IN(vec3) woL, RL_IN(vec3) wiL, RL_IN(vec3) hL, float alpha, float eta) {
+RL_FN float transmissionEval(RL_IN(vec3) woL, RL_IN(vec3) wiL, RL_IN(vec3) hL, float alpha,
+                             float eta) {
   float dotO = dot(woL, hL);
   float dotI = dot(wiL, hL);
   if (dotO <= 0.0f || dotI >= 0.0f) return 0.0f;
@@ -29,7 +30,8 @@ RL_FN float transmissionEval(RL_IN(vec3) woL, RL_IN(vec3) wiL, RL_IN(vec3) hL, f
   return abs(dotO * dotI) * ggxD(hL, alpha) * g / (woL.z * d * d);
 }
 
-RL_FN float transmissionPdf(RL_IN(vec3) woL, RL_IN(vec3) wiL, RL_IN(vec3) hL, float alpha, float eta) {
+RL_FN float transmissionPdf(RL_IN(vec3) woL, RL_IN(vec3) wiL, RL_IN(vec3) hL, float alpha,
+                            float eta) {
   float dotO = dot(woL, hL);
   float dotI = dot(wiL, hL);
   if (dotO <= 0.0f || dotI >= 0.0f) return 0.0f;

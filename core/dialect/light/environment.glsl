@@ -1,8 +1,10 @@
-// The environment: a latitude-longitude map, row 0 at +Y, its centre column towards -Z before rotation
-// about +Y. Radiance is bilinear; the density is piecewise constant over texels.
+// The environment: a latitude-longitude map, row 0 at +Y, its centre column towards -Z before
+// rotation about +Y. Radiance is bilinear; the density is piecewise constant over texels.
 
 // A kernel may be specialised for more than the scene has.
-RL_FN bool environmentExists() { return RL_HAS(RL_FEATURE_ENVIRONMENT) && gScene.environmentWidth != 0u; }
+RL_FN bool environmentExists() {
+  return RL_HAS(RL_FEATURE_ENVIRONMENT) && gScene.environmentWidth != 0u;
+}
 
 RL_FN vec3 environmentRotate(RL_IN(vec3) d, float angle) {
   float c = cos(angle);
@@ -59,8 +61,8 @@ RL_FN_OUTLINE float environmentPdf(RL_IN(vec3) dirW) {
   return environmentPdfOfTexel(y * w + x, sqrt(dirW.x * dirW.x + dirW.z * dirW.z));
 }
 
-// u picks row and column of the alias table and, by what is left, the place inside the texel; uAlias
-// decides between the column's own texel and its alias.
+// u picks row and column of the alias table and, by what is left, the place inside the texel;
+// uAlias decides between the column's own texel and its alias.
 RL_FN_OUTLINE vec3 environmentDraw(RL_IN(vec2) u, float uAlias, RL_OUT(float) pdfSolidAngle) {
   uint w = gScene.environmentWidth;
   uint h = gScene.environmentHeight;

@@ -1,0 +1,51 @@
+// Every source file is as clang-format 16 leaves it; other versions disagree with it here and there.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/lint/command.h"
+
+namespace restlab::lint {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Differences of a file from what the formatter makes of it, as a diff; empty where there are none.
+CommandResult formatDiff(const std::string& path) {
+  // The dialect's files are formatted as C++.
+  return runCommand("cd '" RESTLAB_SOURCE_DIR "' && " RESTLAB_CLANG_FORMAT
+                    " --assume-filename=x.cpp < '" +
+                    path + "' | diff -u '" + path + "' -");
+}
+
+std::vector<std::string> sourceFiles() {
+  std::vector<std::string> files;
+  for (const char* folder : {"core", "integrators", "denoise", "experiments", "tests"}) {
+    for (const auto& entry :
+         fs::recursive_directory_iterator(fs::path(RESTLAB_SOURCE_DIR) / folder)) {
+      const fs::path& path = entry.path();
+      if (path.parent_path().filename() == "data") continue;  // broken on purpose
+      for (const char* extension : {".cpp", ".h", ".inl", ".glsl"}) {
+        if (path.extension() == extension) files.push_back(path.string());
+      }
+    }
+  }
+  return files;
+}
+
+TEST(Format, EveryFileIsFormatted) {
+  if (std::string(RESTLAB_CLANG_FORMAT).find("NOTFOUND") != std::string::npos) {
+    GTEST_SKIP() << "clang-format 16 is not installed";
+  }
+  const std::vector<std::string> files = sourceFiles();
+  EXPECT_GT(files.size(), 100u);
+  for (const std::string& file : files) {
+    const CommandResult result = formatDiff(file);
+    EXPECT_EQ(result.status, 0) << result.output;
+  }
+}
+
+}  // namespace
+}  // namespace restlab::lint
