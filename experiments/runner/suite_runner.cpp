@@ -20,8 +20,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-ReferenceConfig referenceConfig(const Suite& suite, const BlockResult& block) {
-  ReferenceConfig config;
+// What every method of a block, and its reference, must agree in.
+SessionConfig pictureOf(const Suite& suite, const BlockResult& block) {
+  SessionConfig config;
   config.width = block.width;
   config.height = block.height;
   config.maxBounces = suite.maxBounces;
@@ -42,14 +43,7 @@ Reference givenReference(const std::string& file, const PreparedScene& prepared,
     failInput(fmt::format("{}: the reference is {}x{}, the suite renders {}x{}", file,
                           reference.mean.width, reference.mean.height, block.width, block.height));
   }
-  SessionConfig wanted = suite.methods.front().session;
-  wanted.width = block.width;
-  wanted.height = block.height;
-  wanted.maxBounces = suite.maxBounces;
-  wanted.components = block.component;
-  wanted.pixelFilter = suite.pixelFilter;
-  wanted.multiscatter = suite.multiscatter;
-  requireSameConfiguration(file, reference.metadata, describe(prepared, wanted));
+  requireSameConfiguration(file, reference.metadata, describe(prepared, pictureOf(suite, block)));
   return reference;
 }
 
@@ -152,8 +146,8 @@ class SuiteRun {
     const std::string label =
         fmt::format("{}-{}-{}x{}", blockLabel(block), block.camera, block.width, block.height);
     try {
-      block.reference = obtainReference(prepared, referenceConfig(suite_, block), suite_.target,
-                                        request_.out / "references", label);
+      block.reference = obtainReference(prepared, referenceConfigOf(pictureOf(suite_, block)),
+                                        suite_.target, request_.out / "references", label);
     } catch (const Error& error) {
       if (error.code() != ExitCode::interrupted) throw;
       logInfo(error.what());
