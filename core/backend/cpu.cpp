@@ -203,3 +203,12 @@ const CpuKernelInfo* findCpuKernel(const char* name, uint32_t needed) {
 }
 
 }  // namespace rl
+
+#ifdef RESTLAB_JTHREAD_TILES
+// Embree builds its hierarchies on the distribution's TBB, whose synchronisation this sanitizer
+// does not see. What is looked for is in our own code, which runs on std::jthread here.
+extern "C" const char* __tsan_default_suppressions();
+extern "C" const char* __tsan_default_suppressions() {
+  return "called_from_lib:libembree3.so\nrace:libembree3.so\nrace:libtbb.so\n";
+}
+#endif

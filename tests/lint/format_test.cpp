@@ -1,4 +1,5 @@
-// Every source file is as clang-format 16 leaves it; other versions disagree with it here and there.
+// Every source file is as clang-format 16 leaves it; other versions disagree with it here and
+// there.
 #include <gtest/gtest.h>
 
 #include <filesystem>
