@@ -213,7 +213,7 @@ void CompiledScene::Impl::buildEmbree() {
   if (device == nullptr)
     throw Error(ExitCode::deviceUnavailable, "Embree could not create a device");
   const auto count = [](void* bytes, ptrdiff_t change, bool) {
-    static_cast<std::atomic<ptrdiff_t>*>(bytes)->fetch_add(change, std::memory_order_relaxed);
+    static_cast<std::atomic<ptrdiff_t>*>(bytes)->fetch_add(change);
     return true;
   };
   rtcSetDeviceMemoryMonitorFunction(device, count, &embreeBytes);
