@@ -1,8 +1,7 @@
 // Ray traversal has one signature; each backend supplies the body (Embree on the CPU; a traversal
 // of our own or ray queries on the GPU).
-//   RL_RAY_PATH    hit.instance is RL_INVALID when nothing was hit; alpha is decided by `alphaKey`,
-//   so
-//                  that the decision does not depend on the order in which surfaces are visited.
+//   RL_RAY_PATH    hit.instance is RL_INVALID when nothing was hit; alpha is decided by `alphaKey`:
+//                  the decision does not depend on the order in which surfaces are visited.
 //                  The return value is 1 when no partly transparent surface was passed, less when
 //                  one may have been (those beyond the hit count too, if traversal has met them)
 //   RL_RAY_SHADOW  the return value is the transmittance: 0 blocked, 1 free, between through alpha
