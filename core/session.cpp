@@ -120,7 +120,7 @@ Session::Session(std::shared_ptr<const CompiledScene> scene, const SessionConfig
   f.filmHold = hold == m.config.parameters.end()
                    ? 1u
                    : static_cast<uint32_t>(std::get<int64_t>(hold->second));
-  f.rouletteStart = config.russianRoulette ? 3u : rl::RL_INVALID;
+  f.rouletteStart = config.russianRoulette ? rl::RL_ROULETTE_EARLIEST : rl::RL_INVALID;
   f.multiscatter = multiscatter ? 1u : 0u;
 }
 

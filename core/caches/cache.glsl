@@ -1,9 +1,12 @@
 // A cache answers five questions for the reuse loop:
-//   cacheSlot(pixel)                       my slot
-//   cacheDonorOverTime(here, ...)          where my surface was last frame; false where it was not
-//   seen cachePartner(pixel, here, k, ...)      my k-th donor over space, whose k-th donor I am;
-//   false: none cacheAnchor(slot, when)                the surface that the slot's sample is
-//   evaluated at cacheRead / cacheWrite                 the slot's reservoirs (overloaded by type)
+// - cacheSlot(pixel): my slot;
+// - cacheDonorOverTime(here, slot): where my surface was last frame; false where it was not seen;
+// - cachePartner(pixel, here, k, slot): my k-th donor over space, whose k-th donor I am; or false;
+// - cacheAnchorNow, cacheAnchorBefore, cacheWriteAnchor: the surface at which a slot's sample is
+//   evaluated, in this frame and in the last;
+// - cacheReadNow, cacheReadBefore, cacheWriteNow, cacheWriteHistory: a slot's reservoirs,
+// overloaded
+//   by type.
 // Which file answers is the `cache` of a run; this one holds what they share.
 
 // Two anchors are similar enough to exchange samples. Symmetric, and blind to the samples:

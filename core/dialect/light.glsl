@@ -35,8 +35,7 @@ RL_FN_OUTLINE LightSample lightDraw(RL_IN(Rng) rng) {
     s.normal = normalize(cross(light.e1, light.e2));
     if ((light.flags & RL_LIGHT_FLIPPED) != 0u) s.normal = -s.normal;
     s.pdf = light.pmf * light.areaInverse;
-    s.posError = RL_HIT_ERROR * max(rlMax3(abs(light.p0)), max(rlMax3(abs(light.p0 + light.e1)),
-                                                               rlMax3(abs(light.p0 + light.e2))));
+    s.posError = RL_HIT_ERROR * light.magnitude;
     s.isTwoSided = light.flags & RL_MATERIAL_DOUBLE_SIDED;
     if (RL_HAS(RL_FEATURE_EMISSIVE_TEXTURES)) s.radiance = s.radiance * lightTexture(light, bary);
     if (RL_HAS(RL_FEATURE_ALPHA)) {

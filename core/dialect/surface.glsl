@@ -245,7 +245,9 @@ RL_FN Surface surfaceLoad(RL_IN(Hit) hit, RL_IN(vec3) rayDir) {
     if (scatters && b.f90 > 0.0f && !rlIsBlack(b.f0)) {
       b.lobes = isDelta ? RL_LOBE_SPECULAR_DELTA : RL_LOBE_SPECULAR;
     }
-    if (RL_HAS(RL_FEATURE_TRANSMISSION) && scatters && transmission > 0.0f && metallic < 1.0f) {
+    // An index of 0 stands for full reflection: there is no direction to refract to.
+    bool canTransmit = transmission > 0.0f && metallic < 1.0f && material.ior > 0.0f;
+    if (RL_HAS(RL_FEATURE_TRANSMISSION) && scatters && canTransmit) {
       b.transmission = baseColor * ((1.0f - metallic) * transmission);
       b.lobes |= isDelta ? RL_LOBE_TRANSMISSION_DELTA : RL_LOBE_TRANSMISSION;
       bool isThin = (material.flags & RL_MATERIAL_THIN) != 0u;

@@ -139,9 +139,10 @@ struct Light {
   vec3 radiance;      // triangle: W sr^-1 m^-2; point, spot: W/sr; directional: W/m^2
   uint instance;      // of a triangle
   uint primitive;
-  uint flags;  // RL_MATERIAL_DOUBLE_SIDED, RL_LIGHT_FLIPPED
+  uint flags;       // RL_MATERIAL_DOUBLE_SIDED, RL_LIGHT_FLIPPED
+  float magnitude;  // metres; of a triangle's corners and of what its transform went through
 };
-RL_STATIC_ASSERT_SIZE(Light, 72);
+RL_STATIC_ASSERT_SIZE(Light, 76);
 
 // Vose alias method: column i keeps i with probability `keep`, otherwise gives `other`.
 struct AliasEntry {
@@ -210,6 +211,11 @@ const uint RL_COMPONENT_DIRECT =
     1u;  // at most one scattering event, emission seen directly included
 const uint RL_COMPONENT_INDIRECT = 2u;  // two or more
 const uint RL_COMPONENT_ALL = 3u;
+
+// The first scattering event after which Russian roulette may end a path. restir_gi keeps what it
+// finds up to the third vertex apart, without the survival probability: 3 is the least it can
+// serve.
+const uint RL_ROULETTE_EARLIEST = 3u;
 
 const uint RL_FILTER_BOX = 0u;
 const uint RL_FILTER_CENTER = 1u;

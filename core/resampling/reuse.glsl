@@ -1,11 +1,10 @@
 // Shifts of samples between anchors. Included once per payload type with RL_RESERVOIR (a struct
 // with a ReservoirState `state`) and RL_ANCHOR (where a sample is evaluated) defined. The bridge,
 // per payload:
-//   bridgeShift(reservoir, from, to, J)   integrand of the shifted sample at `to` without
-//   visibility;
-//                                         zero where the shift is undefined (by a predicate that is
-//                                         the same in both directions)
-//   bridgeVisibility(reservoir, at)       transmittance between a sample and an anchor
+// - bridgeShift(reservoir, from, to, J): integrand of the shifted sample at `to` without
+// visibility;
+//   zero where the shift is undefined, by a predicate that is the same in both directions;
+// - bridgeVisibility(reservoir, at): transmittance between a sample and an anchor;
 // and for all of them bridgeTarget(F), the scalar target.
 
 // The sample of a reservoir that lives at `from`, as `to` sees it.

@@ -77,7 +77,7 @@ bool reflectsRoughly(const rl::Material& m, TextureRanges& ranges) {
 }
 
 bool emits(const rl::Material& m, TextureRanges& ranges) {
-  if ((m.flags & rl::RL_MATERIAL_UNLIT) != 0) return false;  // seen, but lights nothing
+  if ((m.flags & rl::RL_MATERIAL_UNLIT) != 0) return false;  // not in the light table
   return isPositive(times(m.emission, ranges.ofSlot(m, rl::RL_TEX_EMISSIVE).high));
 }
 

@@ -288,6 +288,8 @@ void readAttributes(const tinygltf::Model& model, const tinygltf::Primitive& pri
         break;
     }
   }
+  // The specification: without normals the primitive is flat, and its tangents are ignored.
+  if (geometry.normals.empty()) geometry.tangents.clear();
 }
 
 }  // namespace restlab::gltf

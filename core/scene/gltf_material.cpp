@@ -11,6 +11,9 @@ namespace {
 // Absorption of a channel whose attenuation colour is 0 would be infinite; this transmittance over
 // the attenuation distance is black in 8 bits and finite in Beer-Lambert's exponent.
 constexpr double kSmallestTransmittance = 1e-4;
+// Of a material that transmits: nothing transparent bends light more, and beyond it the half
+// vectors of rough refraction lose their digits.
+constexpr double kLargestIor = 4.0;
 
 // Numbers of an extension's object; absent ones have the value that the caller gives.
 class Properties {
@@ -151,6 +154,16 @@ class MaterialImporter {
   void importTransmission() {
     const Properties transmission(material_.extensions, "KHR_materials_transmission");
     data_->transmission = static_cast<float>(transmission.number("transmissionFactor", 0.0));
+    if (data_->transmission > 0.0f && data_->ior > kLargestIor) {
+      report_.warn("out of range", placeOf("KHR_materials_ior") + ".ior",
+                   fmt::format("{:g} is used instead of {:g}: the material transmits", kLargestIor,
+                               data_->ior));
+      data_->ior = static_cast<float>(kLargestIor);
+    }
+    if (data_->transmission > 0.0f && data_->ior == 0.0f) {
+      report_.warn("full reflection", placeOf("KHR_materials_ior") + ".ior",
+                   "0 stands for full reflection; nothing is transmitted");
+    }
     const Properties volume(material_.extensions, "KHR_materials_volume");
     const bool solid = volume.number("thicknessFactor", 0.0) > 0.0;
     if (data_->transmission == 0.0f) {

@@ -65,6 +65,22 @@ glm::vec3 toWorld(const rl::Instance& inst, const glm::vec3& p) {
           glm::dot(inst.objectToWorldRow2, h)};
 }
 
+glm::vec3 vectorToWorld(const rl::Instance& inst, const glm::vec3& v) {
+  if ((inst.flags & rl::RL_INSTANCE_IDENTITY) != 0) return v;
+  const glm::vec4 h(v, 0.0f);
+  return {glm::dot(inst.objectToWorldRow0, h), glm::dot(inst.objectToWorldRow1, h),
+          glm::dot(inst.objectToWorldRow2, h)};
+}
+
+// What bounds the rounding error of a triangle's points, as in surfaceTriangle(): |M| |p| + |T|.
+float magnitudeOf(const rl::Instance& inst, const glm::vec3& corner) {
+  if ((inst.flags & rl::RL_INSTANCE_IDENTITY) != 0) return std::max({corner.x, corner.y, corner.z});
+  const glm::vec4 h(corner, 1.0f);
+  return std::max({glm::dot(glm::abs(inst.objectToWorldRow0), h),
+                   glm::dot(glm::abs(inst.objectToWorldRow1), h),
+                   glm::dot(glm::abs(inst.objectToWorldRow2), h)});
+}
+
 // Appends the triangles of an emitting instance with their power (W, up to a common factor).
 size_t addTriangles(const LightTableInput& in, const rl::Instance& inst, uint32_t instanceIndex,
                     LightTable& table, std::vector<double>& power) {
@@ -77,9 +93,15 @@ size_t addTriangles(const LightTableInput& in, const rl::Instance& inst, uint32_
     const glm::uvec3 corners = in.triangles[g.firstTriangle + t];
     rl::Light light{};
     light.kind = rl::RL_LIGHT_TRIANGLE;
-    light.p0 = toWorld(inst, in.positions[g.firstVertex + corners.x]);
-    light.e1 = toWorld(inst, in.positions[g.firstVertex + corners.y]) - light.p0;
-    light.e2 = toWorld(inst, in.positions[g.firstVertex + corners.z]) - light.p0;
+    const glm::vec3 p0 = in.positions[g.firstVertex + corners.x],
+                    p1 = in.positions[g.firstVertex + corners.y],
+                    p2 = in.positions[g.firstVertex + corners.z];
+    light.p0 = toWorld(inst, p0);
+    // As vectors: differences of far corners would leave small triangles no area.
+    light.e1 = vectorToWorld(inst, p1 - p0);
+    light.e2 = vectorToWorld(inst, p2 - p0);
+    light.magnitude =
+        magnitudeOf(inst, glm::max(glm::abs(p0), glm::max(glm::abs(p1), glm::abs(p2))));
     const double area = 0.5 * glm::length(glm::cross(glm::dvec3(light.e1), glm::dvec3(light.e2)));
     double radiance = luminance(glm::dvec3(material.emission));
     const uint32_t texture = material.textures[rl::RL_TEX_EMISSIVE];
@@ -209,7 +231,8 @@ LightTable buildLightTable(const LightTableInput& in, std::vector<rl::Instance>&
     const double intensity = luminance(glm::dvec3(source.intensity));
     double watts = 4.0 * kPi * intensity;
     if (source.kind == rl::RL_LIGHT_SPOT)
-      watts = 2.0 * kPi * (1.0 - std::cos(source.outerConeAngle)) * intensity;
+      // 1 - cos, without its cancellation
+      watts = 4.0 * kPi * std::pow(std::sin(0.5 * double(source.outerConeAngle)), 2.0) * intensity;
     if (source.kind == rl::RL_LIGHT_DIRECTIONAL) watts = kPi * radius * radius * intensity;
     if (!(watts > 0.0)) {
       warnings.push_back(

@@ -91,5 +91,6 @@ RL_FN real3 bridgeReflectanceRatio(RL_IN(Anchor) from, RL_IN(Anchor) to) {
     b += to.bsdf.f0;
   }
   vec3 ratio = vec3(rlSafeDivide(b.x, a.x), rlSafeDivide(b.y, a.y), rlSafeDivide(b.z, a.z));
-  return min(ratio, vec3(4.0f, 4.0f, 4.0f));
+  float bound = gParams.maxReflectanceRatio;
+  return min(ratio, vec3(bound, bound, bound));
 }

@@ -82,6 +82,14 @@ std::vector<ParameterInfo> parameterInfos() {
        {},
        "shifts whose Jacobian lies outside [1/x, x] are undefined, both ways",
        "symmetric rejection keeps the estimator unbiased; Lin et al. 2022"},
+      {"max_reflectance_ratio",
+       4.0,
+       0.0,
+       1.0e6,
+       {},
+       "bound per channel on the ratio of reflectances by which a donor's per-channel estimate is "
+       "scaled; any bound is unbiased, a large one carries noise, 0 carries nothing",
+       "control variate: core/resampling/merge.glsl; docs/decisions.md"},
       {"shading",
        std::string("control_variate"),
        0,
@@ -139,6 +147,7 @@ std::vector<std::byte> pack(const std::string& mode, const ParameterMap& p) {
   const auto roughness = static_cast<float>(get<double>(p, "roughness_limit"));
   out.minAlpha = roughness * roughness;
   out.maxJacobian = static_cast<float>(get<double>(p, "max_jacobian"));
+  out.maxReflectanceRatio = static_cast<float>(get<double>(p, "max_reflectance_ratio"));
   std::vector<std::byte> bytes(sizeof(out));
   std::memcpy(bytes.data(), &out, sizeof(out));
   return bytes;

@@ -113,9 +113,10 @@ struct RestirGiParams {
   uint temporalReuse;  // 0: off
   float confidenceCap;
   float minNormalDot;
-  float maxPlaneDistance;  // relative to the distance from the camera
-  float minAlpha;          // GGX alpha below which x1 is not reused
-  float maxJacobian;       // shifts outside [1/x, x] are undefined, both ways
+  float maxPlaneDistance;     // relative to the distance from the camera
+  float minAlpha;             // GGX alpha below which x1 is not reused
+  float maxJacobian;          // shifts outside [1/x, x] are undefined, both ways
+  float maxReflectanceRatio;  // per channel, of anchors, for the carried per-channel estimates
 };
 
 RL_NAMESPACE_END

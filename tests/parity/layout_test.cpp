@@ -66,7 +66,7 @@ const std::map<std::string, Offsets>& expected() {
       {"Light",
        {FIELD(Light, p0), FIELD(Light, kind), FIELD(Light, e1), FIELD(Light, pmf), FIELD(Light, e2),
         FIELD(Light, areaInverse), FIELD(Light, radiance), FIELD(Light, instance),
-        FIELD(Light, primitive), FIELD(Light, flags)}},
+        FIELD(Light, primitive), FIELD(Light, flags), FIELD(Light, magnitude)}},
       {"AliasEntry", {FIELD(AliasEntry, keep), FIELD(AliasEntry, other), FIELD(AliasEntry, pmf)}},
       {"Camera",
        {FIELD(Camera, posW), FIELD(Camera, kind), FIELD(Camera, rightW), FIELD(Camera, halfWidth),
@@ -134,7 +134,7 @@ const std::map<std::string, Offsets>& expected() {
         FIELD(RestirGiParams, spatialTile), FIELD(RestirGiParams, temporalReuse),
         FIELD(RestirGiParams, confidenceCap), FIELD(RestirGiParams, minNormalDot),
         FIELD(RestirGiParams, maxPlaneDistance), FIELD(RestirGiParams, minAlpha),
-        FIELD(RestirGiParams, maxJacobian)}},
+        FIELD(RestirGiParams, maxJacobian), FIELD(RestirGiParams, maxReflectanceRatio)}},
       {"LightReservoir", {FIELD(LightReservoir, light), FIELD(LightReservoir, state)}},
   };
   return table;

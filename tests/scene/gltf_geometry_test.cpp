@@ -211,10 +211,19 @@ TEST(GltfGeometry, NormalsAndTangentsAreMadeUnit) {
 TEST(GltfGeometry, TangentsWithoutDirectionAreLeftOut) {
   GltfBuilder file;
   const int tangents = file.accessor<float>({1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 0, 1}, "VEC4");
-  file.node({{"mesh", file.triangle({{"attributes", {{"TANGENT", tangents}}}})}});
+  const int normals = file.accessor<float>({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
+  file.node(
+      {{"mesh", file.triangle({{"attributes", {{"NORMAL", normals}, {"TANGENT", tangents}}}})}});
   const Scene scene = file.load();
   EXPECT_TRUE(scene.geometries.at(0).tangents.empty());
   EXPECT_TRUE(warns(scene, "TANGENT: vertex 1 has no tangent direction"));
+}
+
+TEST(GltfGeometry, TangentsWithoutNormalsAreIgnored) {
+  GltfBuilder file;
+  const int tangents = file.accessor<float>({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4");
+  file.node({{"mesh", file.triangle({{"attributes", {{"TANGENT", tangents}}}})}});
+  EXPECT_TRUE(file.load().geometries.at(0).tangents.empty());
 }
 
 TEST(GltfGeometry, SharedMeshesAreInstanced) {

@@ -122,6 +122,23 @@ TEST(GltfMaterial, TransmissionIsThinWithoutThickness) {
   }
 }
 
+TEST(GltfMaterial, ExtremeIndicesOfRefraction) {
+  for (const bool transmits : {false, true}) {
+    for (const double ior : {0.0, 4.0, 1e30}) {
+      GltfBuilder file;
+      const Loaded loaded = loadMaterial(
+          file,
+          {{"extensions",
+            {{"KHR_materials_ior", {{"ior", ior}}},
+             {"KHR_materials_transmission", {{"transmissionFactor", transmits ? 1 : 0}}}}}},
+          {"KHR_materials_transmission", "KHR_materials_ior"});
+      EXPECT_EQ(loaded.data.ior, transmits && ior > 4.0 ? 4.0f : float(ior));
+      EXPECT_EQ(warns(loaded.scene, "4 is used instead of 1e+30"), transmits && ior > 4.0);
+      EXPECT_EQ(warns(loaded.scene, "0 stands for full reflection"), transmits && ior == 0.0);
+    }
+  }
+}
+
 TEST(GltfMaterial, OutOfRangeFactorsAreDeclared) {
   GltfBuilder file;
   const Loaded loaded = loadMaterial(

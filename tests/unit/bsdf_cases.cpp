@@ -80,6 +80,9 @@ std::vector<BsdfCase> continuousBsdfs() {
   add("metallic 0.5, transmission 0.5, from inside", transmissive(0.5f, 0.5f, 0.5f), false);
   add("transmission 0.5, ior 1", withIor(transmissive(0.4f, 0.5f, 0.0f), 1.0f));
   add("transmission 0.5, specular 0", withSpecular(transmissive(0.4f, 0.5f, 0.0f), 0.0f));
+  add("transmission 0.5, ior 0", withIor(transmissive(0.4f, 0.5f, 0.0f), 0.0f));
+  add("transmission 0.5, ior 4", withIor(transmissive(0.4f, 0.5f, 0.0f), 4.0f));
+  add("transmission 0.5, ior 4, from inside", withIor(transmissive(0.4f, 0.5f, 0.0f), 4.0f), false);
   add("transmission 0.5, ior 1.8, thin", thin(withIor(transmissive(0.3f, 0.5f, 0.0f), 1.8f)));
   return cases;
 }
@@ -97,6 +100,9 @@ std::vector<BsdfCase> deltaBsdfs() {
   add("smooth, metallic 0.5, transmission 0.5", transmissive(0.0f, 0.5f, 0.5f));
   add("smooth, metallic 0.5, transmission 0.5, inside", transmissive(0.0f, 0.5f, 0.5f), false);
   add("smooth, transmission 0.5, ior 1", withIor(transmissive(0.0f, 0.5f, 0.0f), 1.0f));
+  add("smooth, transmission 0.5, ior 0", withIor(transmissive(0.0f, 0.5f, 0.0f), 0.0f));
+  add("smooth, transmission 0.5, ior 4, inside", withIor(transmissive(0.0f, 0.5f, 0.0f), 4.0f),
+      false);
   add("smooth, transmission 0.5, specular 0", withSpecular(transmissive(0.0f, 0.5f, 0.0f), 0.0f));
   return cases;
 }

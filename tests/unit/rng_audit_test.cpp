@@ -57,7 +57,7 @@ class AuditedRun {
     const auto hold = resolved.find("film_hold");
     frame_.filmHold =
         hold == resolved.end() ? 1u : static_cast<uint32_t>(std::get<int64_t>(hold->second));
-    frame_.rouletteStart = 2;
+    frame_.rouletteStart = rl::RL_ROULETTE_EARLIEST;
   }
 
   void frame() {

@@ -9,7 +9,7 @@ RL_FN float fresnelSchlickWeight(float cosTheta) {
 // Unpolarised dielectric reflectance; eta = n beyond / n on the side of the incident direction.
 RL_FN float fresnelDielectric(float cosI, float eta) {
   float sin2T = (1.0f - cosI * cosI) / (eta * eta);
-  if (sin2T >= 1.0f) return 1.0f;  // total internal reflection
+  if (!(sin2T < 1.0f)) return 1.0f;  // total internal reflection
   float cosT = sqrt(1.0f - sin2T);
   float parallel = (eta * cosI - cosT) / (eta * cosI + cosT);
   float perpendicular = (cosI - eta * cosT) / (cosI + eta * cosT);
@@ -23,6 +23,7 @@ RL_FN vec3 fresnelOfBsdf(RL_IN(Bsdf) b, float cosVH) {
   if (RL_HAS(RL_FEATURE_TRANSMISSION) && (b.lobes & RL_LOBE_ANY_TRANSMISSION) != 0u) {
     float r = (1.0f - b.eta) / (1.0f + b.eta);
     float r0 = r * r;
+    if (!(r0 < 1.0f)) return vec3(b.f90, b.f90, b.f90);
     weight = (fresnelDielectric(cosVH, b.eta) - r0) / (1.0f - r0);
   } else {
     weight = fresnelSchlickWeight(cosVH);
