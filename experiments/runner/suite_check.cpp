@@ -7,6 +7,7 @@
 #include "core/memory.h"
 #include "experiments/runner/experiment.h"
 #include "experiments/runner/files.h"
+#include "experiments/runner/interrupt.h"
 
 namespace restlab {
 
@@ -107,6 +108,7 @@ std::optional<PreparedScene> checkSuite(const Suite& suite) {
   }
   for (const SuiteScene& scene : suite.scenes) {
     if (scene.optional && assetsMissing(scene.request, missing)) continue;
+    throwIfInterrupted("nothing was rendered");
     PreparedScene prepared = checkScene(suite, scene);
     if (suite.scenes.size() == 1) return prepared;
   }

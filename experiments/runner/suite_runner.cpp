@@ -23,12 +23,22 @@ namespace {
 
 // summary.csv, table.md and the images belong to one run: what an earlier one left would pass for
 // this one's where this one ends early. results.jsonl says of every line which run it is of.
-void removeEarlierResults(const fs::path& out) {
+// A file that the suite itself reads stays.
+void removeEarlierResults(const fs::path& out, const Suite& suite) {
   std::error_code status;
+  const auto isRead = [&](const fs::path& file) {
+    for (const SuiteScene& scene : suite.scenes) {
+      for (const std::string& name : {scene.reference, scene.request.environment}) {
+        if (!name.empty() && fs::equivalent(file, findAsset(name), status)) return true;
+      }
+    }
+    return false;
+  };
   std::vector<fs::path> old = {out / "summary.csv", out / "table.md"};
   for (const fs::directory_entry& entry : fs::directory_iterator(out / "images", status)) {
     const fs::path extension = entry.path().extension();
-    if (extension == ".exr" || extension == ".png") old.push_back(entry.path());
+    const bool isImage = extension == ".exr" || extension == ".png";
+    if (isImage && !isRead(entry.path())) old.push_back(entry.path());
   }
   for (const fs::path& file : old) {
     if (!fs::is_directory(file, status)) fs::remove(file, status);
@@ -46,7 +56,7 @@ class SuiteRun {
   bool execute() {
     check();
     makeWritableDirectory(request_.out / "references");
-    removeEarlierResults(request_.out);
+    removeEarlierResults(request_.out, suite_);
     writeRecord("running");
     try {
       const bool finished = executeAll();

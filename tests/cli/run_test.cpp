@@ -244,6 +244,20 @@ TEST_F(RunTest, EarlierResultsDoNotPassForNewOnes) {
   EXPECT_EQ(lines("out/results.jsonl").size(), 18u) << "append-only";
 }
 
+TEST_F(RunTest, ReferenceAmongEarlierImagesStays) {
+  ASSERT_EQ(run("reference cornell-box -o ref.exr --resolution 24x16 --max-bounces 3 --spp 8").code,
+            0);
+  fs::create_directories(path("out/images"));
+  fs::rename(path("ref.exr"), path("out/images/ref.exr"));
+  replaceInSuite("scenes = [\"cornell-box\"]", "");
+  write("suite.toml", read("suite.toml") +
+                          "[[scene]]\nscene = \"cornell-box\"\n"
+                          "reference = \"out/images/ref.exr\"\n");
+  const ProgramResult result = run("run suite.toml --out out");
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_TRUE(fs::exists(path("out/images/ref.exr")));
+}
+
 TEST_F(RunTest, SelectionAndOverrides) {
   ASSERT_EQ(run("run suite.toml --out out --methods gi --set runs=2 --set settings.frames=1 "
                 "--set method.gi.confidence_cap=3 --set scenes=[\"quad-light\",\"cornell-box\"] "
