@@ -6,7 +6,6 @@
 #include <cmath>
 #include <fstream>
 #include <set>
-#include <sstream>
 
 #include "core/error.h"
 
@@ -35,6 +34,9 @@ std::string kindOf(const toml::node& node) {
 
 // A value given by --set has no line: its "file" is the place itself.
 const char kAssignedPrefix[] = "--set ";
+
+// What people write is far smaller.
+constexpr size_t kMaxFileBytes = size_t(1) << 20;
 
 std::string formatPlace(const toml::source_region& source, const std::string& file) {
   const std::string name = source.path ? *source.path : file;
@@ -159,11 +161,19 @@ ConfigTable ConfigTable::parseFile(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(file, status)) {
     failUsage(fmt::format("{}: is a directory, not a TOML file", file.string()));
   }
+  if (std::filesystem::exists(file, status) && !std::filesystem::is_regular_file(file, status)) {
+    failUsage(fmt::format("{}: is not a regular file", file.string()));  // a device may never end
+  }
   std::ifstream in(file, std::ios::binary);
   if (!in) failUsage(fmt::format("{}: cannot be read (no such file?)", file.string()));
-  std::ostringstream text;
-  text << in.rdbuf();
-  return parseText(text.str(), file.string());
+  std::string text(kMaxFileBytes + 1, '\0');
+  in.read(text.data(), std::streamsize(text.size()));
+  text.resize(size_t(in.gcount()));
+  if (text.size() > kMaxFileBytes) {
+    failUsage(fmt::format("{}: is larger than {} bytes, no TOML file of settings", file.string(),
+                          kMaxFileBytes));
+  }
+  return parseText(text, file.string());
 }
 
 bool ConfigTable::has(const std::string& key) const { return node_->find(key) != nullptr; }

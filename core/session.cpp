@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
 
 #include "core/backend/backend.h"
 #include "core/caches/caches.h"
 #include "core/dialect/features.h"
 #include "core/error.h"
+#include "core/memory.h"
 #include "core/scene/compiled_scene.h"
 
 namespace restlab {
@@ -60,7 +62,8 @@ struct Session::Impl {
   rl::FrameData lastFrame{};
 };
 
-Session::Session(std::shared_ptr<const CompiledScene> scene, const SessionConfig& config)
+Session::Session(std::shared_ptr<const CompiledScene> scene, const SessionConfig& config,
+                 size_t hostBytesPerPixel)
     : impl_(std::make_unique<Impl>()) {
   Impl& m = *impl_;
   m.scene = std::move(scene);
@@ -95,12 +98,16 @@ Session::Session(std::shared_ptr<const CompiledScene> scene, const SessionConfig
     m.used |= m.passMasks.back();
   }
   const size_t pixels = size_t(config.width) * config.height;
+  std::vector<size_t> sizes;  // bytes per pixel of each buffer
   for (const BufferInfo& b : m.integrator->buffers) {
     // What the kernel in use can touch is allocated, so that a superset kernel never meets a null.
     const bool wantedBuffer = b.neededFeatures == 0 || (b.neededFeatures & m.used) != 0;
-    m.buffers.push_back(wantedBuffer
-                            ? m.backend->allocate(pixels * bytesPerPixelOf(b, m.config.parameters))
-                            : kNoBuffer);
+    sizes.push_back(wantedBuffer ? bytesPerPixelOf(b, m.config.parameters) : 0);
+  }
+  requireMemory(m.integrator->name, config.width, config.height,
+                std::accumulate(sizes.begin(), sizes.end(), sizeof(glm::vec3) + hostBytesPerPixel));
+  for (const size_t size : sizes) {
+    m.buffers.push_back(size > 0 ? m.backend->allocate(pixels * size) : kNoBuffer);
   }
   m.radiance = Image(config.width, config.height);
   rl::FrameData& f = m.frame;

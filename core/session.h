@@ -55,8 +55,11 @@ struct FrameStats {
 
 class Session {
  public:
-  // Throws Error on unknown names or parameters. The compiled scene is shared between sessions.
-  Session(std::shared_ptr<const CompiledScene> scene, const SessionConfig& config);
+  // Throws Error on unknown names or parameters, and before anything is allocated where there is
+  // not enough memory for the buffers and `hostBytesPerPixel` that the caller will hold beside
+  // them. The compiled scene is shared between sessions.
+  Session(std::shared_ptr<const CompiledScene> scene, const SessionConfig& config,
+          size_t hostBytesPerPixel = 0);
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;

@@ -6,6 +6,9 @@
 #include <ImfStringAttribute.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/error.h"
 #include "core/image/atomic_file.h"
 #include "core/image/exr_limits.h"
@@ -60,6 +63,18 @@ const Image& checkedFirstLayer(const std::filesystem::path& file, const LayeredI
 }
 
 }  // namespace
+
+void requireExrSize(const std::string& what, uint32_t width, uint32_t height, uint32_t layers) {
+  const double limit = double(kExrMaxPixels / layers);
+  const double pixels = double(width) * double(height);
+  if (pixels <= limit) return;
+  const double scale = std::sqrt(limit / pixels);
+  const auto fitting = [&](uint32_t side) { return std::max(1.0, std::floor(side * scale)); };
+  failUsage(fmt::format(
+      "{}: {}x{} pixels in {} layers are more than an EXR file may hold ({} pixels over "
+      "all layers); at most {:.0f}x{:.0f} would do",
+      what, width, height, layers, kExrMaxPixels, fitting(width), fitting(height)));
+}
 
 void writeExr(const std::filesystem::path& file, const LayeredImage& image) {
   const Image& first = checkedFirstLayer(file, image);

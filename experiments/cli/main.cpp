@@ -100,6 +100,11 @@ int runVerb(CLI::App& app, std::vector<Verb>& verbs, const std::vector<std::stri
   return int(outcome.code);
 }
 
+int failStdout() {
+  logError("stdout: cannot be written (is the disk full?)");
+  return int(ExitCode::badInput);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -118,11 +123,7 @@ int main(int argc, char** argv) {
   for (const Verb& verb : verbs) addVerbosity(*app.get_subcommand(verb.name));
   try {
     const int code = runVerb(app, verbs, std::vector<std::string>(argv, argv + argc));
-    if (std::fflush(stdout) != 0) {
-      logError("stdout: cannot be written");
-      return int(ExitCode::badInput);
-    }
-    return code;
+    return std::fflush(stdout) == 0 && std::ferror(stdout) == 0 ? code : failStdout();
   } catch (const Error& error) {
     std::fflush(stdout);
     logError(error.what());
@@ -131,6 +132,8 @@ int main(int argc, char** argv) {
     logError("out of memory; choose a smaller resolution or scene");
     return int(ExitCode::deviceUnavailable);
   } catch (const std::exception& error) {
+    // The formatting library throws where a stream takes no more.
+    if (std::ferror(stdout) != 0) return failStdout();
     logError(fmt::format("internal error: {}", error.what()));
     return int(ExitCode::badInput);
   }

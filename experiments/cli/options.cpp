@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
+#include <map>
 
 #include "core/backend/backend.h"
 #include "core/caches/caches.h"
 #include "core/config.h"
 #include "core/error.h"
+#include "experiments/runner/files.h"
 
 namespace restlab {
 
@@ -167,6 +170,34 @@ SessionConfig makeConfig(const SceneOptions& scene, const MethodOptions& method)
 void completeConfig(const PreparedScene& prepared, SessionConfig& config) {
   config.camera = prepared.camera;
   completeResolution(prepared, config.width, config.height);
+}
+
+void checkOutputs(const std::vector<OutputFile>& outputs, const SceneRequest& request) {
+  std::map<std::filesystem::path, std::string> taken;  // by what it is
+  const auto resolved = [](const std::filesystem::path& file) {
+    std::error_code status;
+    const std::filesystem::path real = std::filesystem::weakly_canonical(file, status);
+    return status ? file : real;
+  };
+  for (const auto& [what, name] :
+       {std::pair("scene", request.scene), std::pair("environment", request.environment)}) {
+    const std::filesystem::path found = findAsset(name);
+    if (!found.empty()) taken.emplace(resolved(found), what);
+  }
+  for (const OutputFile& output : outputs) {
+    const std::string name = output.file.string();
+    std::string extension = output.file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (extension != output.extension) {
+      failUsage(fmt::format("{} {}: must be named *{}", output.option, name, output.extension));
+    }
+    const auto [other, isFree] = taken.emplace(resolved(output.file), output.option);
+    if (!isFree) {
+      failUsage(fmt::format("{} {}: is the same file as the {}; give it another name",
+                            output.option, name, other->second));
+    }
+  }
 }
 
 std::vector<std::string> splitList(const std::string& text, const std::string& option) {

@@ -33,7 +33,6 @@ struct MethodOptions {
 };
 
 // Bounds that the options state in --help.
-constexpr uint32_t kMaxSide = 16384;
 constexpr uint32_t kMaxBounces = 1024;
 
 // A number in lo..hi; CLI::Range lets NaN pass.
@@ -51,6 +50,16 @@ void resolveResolution(SceneOptions& options);
 // A validated configuration; camera and size are filled in from the scene. Throws badUsage.
 SessionConfig makeConfig(const SceneOptions& scene, const MethodOptions& method);
 void completeConfig(const PreparedScene& prepared, SessionConfig& config);
+
+struct OutputFile {
+  std::string option;  // as the user named it, for errors
+  std::filesystem::path file;
+  std::string extension;  // that it must have, in either case
+};
+
+// Throws badUsage where an output has another extension, or is another output, the scene or the
+// environment.
+void checkOutputs(const std::vector<OutputFile>& outputs, const SceneRequest& request);
 
 // "a,b" to {"a", "b"}; empty items are an error naming `option`.
 std::vector<std::string> splitList(const std::string& text, const std::string& option);

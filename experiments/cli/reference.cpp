@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "core/image/exr_limits.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/log.h"
@@ -31,10 +32,12 @@ void makeReference(ReferenceOptions options) {
   method.backend = options.backend;
   SessionConfig session = makeConfig(options.scene, method);
   checkWritable(options.output);
+  checkOutputs({{"--output", options.output, ".exr"}}, options.scene.request);
 
   const PreparedScene prepared = prepareScene(options.scene.request);
   printWarnings(prepared);
   completeConfig(prepared, session);
+  requireExrSize(options.output, session.width, session.height, kReferenceLayers);
   const Reference reference = renderReference(prepared, referenceConfigOf(session), options.target);
   writeReference(options.output, reference);
   logInfo(fmt::format("{}: {} spp in {:.1f} s, relmse {:.3g} (estimated from the halves)",

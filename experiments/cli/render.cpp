@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "core/image/exr_limits.h"
 #include "core/image/metrics.h"
 #include "core/scene/compiled_scene.h"
 #include "experiments/cli/options.h"
@@ -84,6 +85,13 @@ Rendered renderFrames(Session& session, const RenderOptions& options, bool histo
   return rendered;
 }
 
+// Beside the buffers: the image, twice; the sums of its mean; AOVs as buffers and as layers.
+size_t hostBytesPerPixel(const RenderOptions& options, const std::vector<std::string>& aovs) {
+  const size_t image = sizeof(glm::vec3), sum = sizeof(glm::dvec3);
+  const size_t aov = aovs.empty() ? 0 : Session::aovNames().size() + aovs.size();
+  return 2 * image + (options.spp > 0 ? sum : 0) + aov * image;
+}
+
 LayeredImage layers(const Session& session, const PreparedScene& prepared, const Rendered& rendered,
                     const std::vector<std::string>& aovs) {
   LayeredImage file;
@@ -108,12 +116,16 @@ void render(RenderOptions options) {
   const std::vector<std::string> aovs = checkedAovs(options.aovs);
   checkWritable(options.output);
   const bool png = !options.png.empty();
+  std::vector<OutputFile> outputs = {{"--output", options.output, ".exr"}};
+  if (png) outputs.push_back({"--png", pngPath(options), ".png"});
+  checkOutputs(outputs, options.scene.request);
   if (png) checkWritable(pngPath(options));
 
   const PreparedScene prepared = prepareScene(options.scene.request);
   printWarnings(prepared);
   completeConfig(prepared, config);
-  Session session(prepared.scene, config);
+  requireExrSize(options.output, config.width, config.height, 1 + uint32_t(aovs.size()));
+  Session session(prepared.scene, config, hostBytesPerPixel(options, aovs));
   logDetail(fmt::format("{}: {} triangles, loaded in {:.0f} ms; {} at {}x{}",
                         prepared.scene->source().name, prepared.scene->instancedTriangleCount(),
                         prepared.loadTimeMs, config.integrator, config.width, config.height));

@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "core/backend/backend.h"
-#include "core/caches/caches.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/files.h"
@@ -44,10 +43,9 @@ void runVerb(const RunOptions& options, Outcome& outcome) {
   keepNamed(suite.scenes, options.scenes, "--scenes");
   keepNamed(suite.methods, options.methods, "--methods");
   if (options.threads >= 0) suite.threads = options.threads;
-  for (const SuiteMethod& method : suite.methods) checkCacheName(method.session.cache);
   MethodOptions backend;
   backend.backend = suite.backend;
-  makeConfig(SceneOptions(), backend);  // checks the name and that the device is there
+  makeConfig(SceneOptions(), backend);  // checks that the device is there
   if (suite.runs < 2) {
     logWarning("runs = 1: no interval and no bias can be given; biased rows will not count");
   }

@@ -10,27 +10,11 @@
 #include "experiments/runner/interrupt.h"
 #include "experiments/runner/light_mask.h"
 #include "experiments/runner/log.h"
+#include "experiments/runner/suite_check.h"
 
 namespace restlab {
 
 namespace {
-
-SessionConfig methodConfig(const Suite& suite, const SuiteMethod& method,
-                           const PreparedScene& prepared, const BlockResult& block) {
-  SessionConfig config = method.session;
-  config.backend = suite.backend;
-  config.width = block.width;
-  config.height = block.height;
-  config.camera = prepared.camera;
-  config.seed = suite.seed;
-  config.maxBounces = suite.maxBounces;
-  config.components = block.component;
-  config.pixelFilter = suite.pixelFilter;
-  config.multiscatter = suite.multiscatter;
-  config.russianRoulette = suite.russianRoulette;
-  config.threads = suite.threads;
-  return config;
-}
 
 // Median over frames of each pass, in the order of the first frame.
 std::vector<PassTiming> medianPasses(const std::vector<std::vector<PassTiming>>& frames) {
@@ -62,6 +46,26 @@ void keepShown(const Session& session, const PreparedScene& prepared, const RunR
 
 }  // namespace
 
+SessionConfig methodConfig(const Suite& suite, const SuiteMethod& method,
+                           const PreparedScene& prepared, const SessionConfig& picture) {
+  SessionConfig config = picture;
+  config.integrator = method.session.integrator;
+  config.mode = method.session.mode;
+  config.cache = method.session.cache;
+  config.parameters = method.session.parameters;
+  config.specialise = method.session.specialise;
+  config.backend = suite.backend;
+  config.camera = prepared.camera;
+  config.russianRoulette = suite.russianRoulette;
+  return config;
+}
+
+size_t hostBytesPerPixelOfMethod(const Suite& suite) {
+  // The session's image, those that are kept of a run, the one that is shown, and the two sums.
+  const size_t images = 3 + suite.checkpoints.size();
+  return images * sizeof(glm::vec3) + 2 * sizeof(glm::dvec3);
+}
+
 FrameError measureFrame(const Image& image, const Reference& reference, uint32_t frame,
                         const std::vector<uint8_t>& withoutLights) {
   // A reference without halves stands for both: its own noise is then part of the MSE.
@@ -87,9 +91,11 @@ bool executeBlock(const Suite& suite, const PreparedScene& prepared, const RunSi
   const size_t count = suite.methods.size();
   std::vector<std::unique_ptr<Session>> sessions;
   block.methods.assign(count, MethodResult());
+  const SessionConfig picture = pictureOf(suite, block.width, block.height, block.component);
   for (size_t m = 0; m < count; ++m) {
     sessions.push_back(std::make_unique<Session>(
-        prepared.scene, methodConfig(suite, suite.methods[m], prepared, block)));
+        prepared.scene, methodConfig(suite, suite.methods[m], prepared, picture),
+        hostBytesPerPixelOfMethod(suite)));
     block.methods[m].featuresNeeded = sessions[m]->featuresNeeded();
     block.methods[m].featuresUsed = sessions[m]->featuresUsed();
     block.methods[m].bytesPerPixel = sessions[m]->bytesPerPixel();

@@ -52,6 +52,13 @@ struct BlockResult {
   std::vector<MethodResult> methods;   // in the suite's order
 };
 
+// The session of a method that renders `picture`.
+SessionConfig methodConfig(const Suite& suite, const SuiteMethod& method,
+                           const PreparedScene& prepared, const SessionConfig& picture);
+
+// What a block holds of each method beside the buffers of its session, roughly.
+size_t hostBytesPerPixelOfMethod(const Suite& suite);
+
 // Called after every finished run of a method.
 using RunSink = std::function<void(const BlockResult&, const RunResult&)>;
 

@@ -54,9 +54,16 @@ uint64_t hashEnvironment(const EnvironmentMap& map, uint64_t seed) {
   return XXH3_64bits_withSeed(map.radiance.data(), bytes, hash);
 }
 
+void setCamera(PreparedScene& prepared, const Scene& scene, const std::string& nameOrIndex) {
+  prepared.camera = nameOrIndex.empty() ? 0 : findCamera(scene, nameOrIndex);
+  const std::string& name = scene.cameras.at(prepared.camera).name;
+  prepared.cameraName = name.empty() ? std::to_string(prepared.camera) : name;
+}
+
 }  // namespace
 
 bool assetsMissing(const SceneRequest& request, std::string& missing) {
+  missing.clear();
   if (!isBuiltin(request.scene) && locate(request.scene, request.suiteFolder).empty()) {
     missing = request.scene;
   } else if (!request.environment.empty() &&
@@ -93,27 +100,47 @@ PreparedScene prepareScene(const SceneRequest& request) {
   if (scene.environment) {
     prepared.contentHash = hashEnvironment(*scene.environment, scene.contentHash);
   }
-  prepared.camera = request.camera.empty() ? 0 : findCamera(scene, request.camera);
-  const std::string& cameraName = scene.cameras.at(prepared.camera).name;
-  prepared.cameraName = cameraName.empty() ? std::to_string(prepared.camera) : cameraName;
+  // Before the scene is compiled, which can take long.
+  setCamera(prepared, scene, request.camera);
   prepared.scene = CompiledScene::build(std::move(scene));
   const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
   prepared.loadTimeMs = spent.count();
   return prepared;
 }
 
+void chooseCamera(PreparedScene& prepared, const std::string& nameOrIndex) {
+  setCamera(prepared, prepared.scene->source(), nameOrIndex);
+}
+
 void printWarnings(const PreparedScene& prepared) {
-  for (const std::string& warning : prepared.scene->warnings()) {
-    logWarning(fmt::format("{}: {}", prepared.scene->source().name, warning));
+  // Every line starts with the scene already. A map that was given and is black needs no advice to
+  // give one.
+  const std::string advice = " (try --environment FILE)";
+  for (std::string warning : prepared.scene->warnings()) {
+    const size_t found = warning.find(advice);
+    if (prepared.scene->source().environment && found != std::string::npos) {
+      warning.erase(found, advice.size());
+    }
+    logWarning(warning);
   }
 }
 
 void completeResolution(const PreparedScene& prepared, uint32_t& width, uint32_t& height) {
-  const double aspect = prepared.scene->source().cameras.at(prepared.camera).aspect;
+  const Scene& scene = prepared.scene->source();
+  const double aspect = scene.cameras.at(prepared.camera).aspect;
   const double ratio = aspect > 0.0 ? aspect : 1.0;
   if (width == 0 && height == 0) width = 512;
-  if (width == 0) width = std::max(1u, uint32_t(std::lround(height * ratio)));
-  if (height == 0) height = std::max(1u, uint32_t(std::lround(width / ratio)));
+  if (width != 0 && height != 0) return;
+  const double wanted = std::round(width == 0 ? height * ratio : width / ratio);
+  // In floating point: the ratio may be anything.
+  if (!(wanted >= 1.0 && wanted <= double(kMaxSide))) {
+    failInput(
+        fmt::format("{}: camera '{}' has the aspect ratio {:g}: {} pixels {} would be {:g} {}, "
+                    "which must be 1 to {}; give both width and height",
+                    scene.name, prepared.cameraName, aspect, width == 0 ? height : width,
+                    width == 0 ? "high" : "wide", wanted, width == 0 ? "wide" : "high", kMaxSide));
+  }
+  (width == 0 ? width : height) = uint32_t(wanted);
 }
 
 std::string componentName(uint32_t components) {

@@ -12,6 +12,8 @@
 
 namespace restlab {
 
+constexpr uint32_t kMaxSide = 16384;  // pixels
+
 struct SceneRequest {
   std::string scene;
   std::string camera;                         // name or index; "": the first
@@ -33,6 +35,9 @@ struct PreparedScene {
 // Imports and compiles. Throws Error: badInput for files, badUsage for an unknown camera.
 PreparedScene prepareScene(const SceneRequest& request);
 
+// Another camera of the same scene; throws badUsage where there is none.
+void chooseCamera(PreparedScene& prepared, const std::string& nameOrIndex);
+
 // True when the scene or the environment of the request is a file that is nowhere to be found.
 bool assetsMissing(const SceneRequest& request, std::string& missing);
 
@@ -40,7 +45,8 @@ bool assetsMissing(const SceneRequest& request, std::string& missing);
 void printWarnings(const PreparedScene& prepared);
 
 // The size in pixels where only one side, or none, was given: 512 wide, and the height from the
-// camera's aspect ratio, or square where the camera leaves it free.
+// camera's aspect ratio, or square where the camera leaves it free. Throws badInput naming the
+// camera where its ratio asks for a side outside 1..kMaxSide.
 void completeResolution(const PreparedScene& prepared, uint32_t& width, uint32_t& height);
 
 std::string componentName(uint32_t components);

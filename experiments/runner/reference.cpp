@@ -99,7 +99,7 @@ Reference renderReference(const PreparedScene& prepared, const ReferenceConfig& 
   if (target.spp == 1) failUsage("a reference needs at least 2 spp: one for each of its halves");
   SessionConfig session = pathConfig(prepared, config);
   session.seed = halfSeed(config.seed, 0);
-  Session first(prepared.scene, session);
+  Session first(prepared.scene, session, kReferenceBytesPerPixel - 2 * sizeof(glm::vec3));
   session.seed = halfSeed(config.seed, 1);
   Session second(prepared.scene, session);
 

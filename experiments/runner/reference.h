@@ -42,6 +42,14 @@ struct Reference {
   double timeS = 0.0;   // rendering only
 };
 
+// Layers of the file that writeReference makes: the mean, its variance, two halves.
+constexpr uint32_t kReferenceLayers = 4;
+
+// What renderReference holds, roughly: two sessions of `path`, each a buffer and an image; two sums
+// with squares; the layers and their copies.
+constexpr size_t kReferenceBytesPerPixel =
+    4 * sizeof(glm::vec3) + 4 * sizeof(glm::dvec3) + 2 * kReferenceLayers * sizeof(glm::vec3);
+
 // The key: scene and environment bytes, camera, size, bounces, components, filter, multiscatter and
 // the sources of core/ and integrators/path.
 std::string referenceKey(const PreparedScene& prepared, const ReferenceConfig& config);

@@ -3,16 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
+#include <map>
 
+#include "core/backend/backend.h"
+#include "core/caches/caches.h"
 #include "core/config.h"
 #include "core/error.h"
+#include "experiments/runner/files.h"
 
 namespace restlab {
 
 namespace {
 
-constexpr int64_t kMaxSide = 16384;
 constexpr int64_t kMaxCount = 1000000;
 
 bool startsWith(const std::string& text, const std::string& prefix) {
@@ -90,6 +92,9 @@ SuiteScene readScene(const ConfigTable& table, const std::string& folder) {
   const std::filesystem::path path(scene.request.scene);
   scene.name = table.getString("name", path.stem().string());
   scene.reference = table.getString("reference", "");
+  scene.place = table.place("scene");
+  scene.cameraPlace = table.place("camera");
+  scene.referencePlace = table.place("reference");
   scene.width = uint32_t(table.getInteger("width", 0, 1, kMaxSide));
   scene.height = uint32_t(table.getInteger("height", 0, 1, kMaxSide));
   scene.optional = table.getBool("optional", false);
@@ -107,7 +112,9 @@ SuiteMethod readMethod(const ConfigTable& table) {
   std::vector<std::string> modes;
   for (const ModeInfo& mode : info.modes) modes.push_back(mode.name);
   method.session.mode = table.getChoice("mode", modes.front(), modes);
-  method.session.cache = table.getString("cache", "pixel");
+  std::vector<std::string> caches;
+  for (const CacheInfo& cache : cacheRegistry()) caches.push_back(cache.name);
+  method.session.cache = table.getChoice("cache", "pixel", caches);
   method.session.specialise = !table.getBool("general", false);
   const std::string fallback =
       info.name + (modes.size() < 2 ? "" : " (" + method.session.mode + ")");
@@ -133,11 +140,18 @@ void readSettings(const ConfigTable& table, Suite& suite) {
   suite.runs = uint32_t(table.getInteger("runs", suite.runs, 1, kMaxCount));
   suite.seed = uint32_t(table.getInteger("seed", suite.seed, 0, 0x7fffffff));
   suite.threads = int(table.getInteger("threads", suite.threads, 0, 1024));
-  suite.backend = table.getString("backend", suite.backend);
+  std::vector<std::string> backends;
+  for (const BackendInfo& backend : backendRegistry()) backends.push_back(backend.name);
+  suite.backend = table.getChoice("backend", suite.backend, backends);
   suite.pixelFilter = parseFilter(table.getString("filter", "box"), table.place("filter"));
   suite.components.clear();
   for (const std::string& name : table.getStrings("components", {"all"})) {
-    suite.components.push_back(parseComponent(name, table.place("components")));
+    const uint32_t component = parseComponent(name, table.place("components"));
+    if (std::find(suite.components.begin(), suite.components.end(), component) !=
+        suite.components.end()) {
+      table.fail("components", fmt::format("'components' holds '{}' twice", name));
+    }
+    suite.components.push_back(component);
   }
   if (suite.components.empty()) table.fail("components", "'components' is empty");
   for (const int64_t frame : table.getIntegers("checkpoints", {}, 0, kMaxCount)) {
@@ -158,19 +172,36 @@ void readTarget(const ConfigTable& table, ReferenceTarget& target) {
   table.finish();
 }
 
+// Notes a name by what file names keep of it. Fails at `place` where another one, in `seen`, is or
+// looks the same: the images of both would have one name.
+void requireUniqueName(std::map<std::string, std::string>& seen, const std::string& what,
+                       const std::string& name, const std::string& place) {
+  const auto [other, isNew] = seen.emplace(safeFileName(name), name);
+  if (isNew) return;
+  if (other->second == name) {
+    failUsage(
+        fmt::format("{}: two {}s are named '{}'; give each its own 'name'", place, what, name));
+  }
+  failUsage(
+      fmt::format("{}: the {}s '{}' and '{}' are both '{}' in file names; give one another "
+                  "'name'",
+                  place, what, other->second, name, other->first));
+}
+
 void requireUniqueNames(const ConfigTable& root, const Suite& suite) {
-  std::set<std::string> seen;
+  std::map<std::string, std::string> methods, scenes;
   const std::vector<ConfigTable> tables = root.getTables("method");
   for (size_t i = 0; i < suite.methods.size(); ++i) {
-    if (seen.insert(suite.methods[i].name).second) continue;
-    tables[i].fail("name", fmt::format("two methods are named '{}'; give each its own 'name'",
-                                       suite.methods[i].name));
+    const std::string& name = suite.methods[i].name;
+    requireUniqueName(methods, "method", name, tables[i].place("name"));
+    if (safeFileName(name) == "reference") {
+      tables[i].fail("name", fmt::format("'{}' is what the images of the reference are named; "
+                                         "give the method another 'name'",
+                                         name));
+    }
   }
-  seen.clear();
   for (const SuiteScene& scene : suite.scenes) {
-    if (seen.insert(scene.name).second) continue;
-    root.fail("scene",
-              fmt::format("two scenes are named '{}'; give each its own 'name'", scene.name));
+    requireUniqueName(scenes, "scene", scene.name, scene.place);
   }
 }
 
@@ -199,6 +230,7 @@ Suite loadSuite(const std::filesystem::path& file, const std::vector<std::string
     scene.request.scene = name;
     scene.request.suiteFolder = folder;
     scene.name = std::filesystem::path(name).stem().string();
+    scene.place = scene.cameraPlace = scene.referencePlace = root.place("scenes");
     suite.scenes.push_back(scene);
   }
   for (const ConfigTable& table : root.getTables("scene")) {

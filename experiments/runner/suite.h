@@ -16,6 +16,8 @@ struct SuiteScene {
   std::string reference;           // a file; "": rendered and cached
   uint32_t width = 0, height = 0;  // 0: as [settings] says
   bool optional = false;           // skipped, with a line, where its files are absent
+  // Where the suite says so, for errors: file:line:column.
+  std::string place, cameraPlace, referencePlace;
 };
 
 struct SuiteMethod {

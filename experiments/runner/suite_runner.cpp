@@ -13,6 +13,7 @@
 #include "experiments/runner/interrupt.h"
 #include "experiments/runner/log.h"
 #include "experiments/runner/report.h"
+#include "experiments/runner/suite_check.h"
 
 namespace restlab {
 
@@ -20,42 +21,42 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// What every method of a block, and its reference, must agree in.
-SessionConfig pictureOf(const Suite& suite, const BlockResult& block) {
-  SessionConfig config;
-  config.width = block.width;
-  config.height = block.height;
-  config.maxBounces = suite.maxBounces;
-  config.components = block.component;
-  config.pixelFilter = suite.pixelFilter;
-  config.multiscatter = suite.multiscatter;
-  config.seed = suite.seed;
-  config.threads = suite.threads;
-  return config;
-}
-
-// The reference given as a file must be of exactly this configuration.
-Reference givenReference(const std::string& file, const PreparedScene& prepared, const Suite& suite,
-                         const BlockResult& block) {
-  const fs::path found = findAsset(file);
-  Reference reference = readReference(found.empty() ? fs::path(file) : found);
-  if (reference.mean.width != block.width || reference.mean.height != block.height) {
-    failInput(fmt::format("{}: the reference is {}x{}, the suite renders {}x{}", file,
-                          reference.mean.width, reference.mean.height, block.width, block.height));
+// summary.csv, table.md and the images belong to one run: what an earlier one left would pass for
+// this one's where this one ends early. results.jsonl says of every line which run it is of.
+// A file that the suite itself reads stays.
+void removeEarlierResults(const fs::path& out, const Suite& suite) {
+  std::error_code status;
+  const auto isRead = [&](const fs::path& file) {
+    for (const SuiteScene& scene : suite.scenes) {
+      for (const std::string& name : {scene.reference, scene.request.environment}) {
+        if (!name.empty() && fs::equivalent(file, findAsset(name), status)) return true;
+      }
+    }
+    return false;
+  };
+  std::vector<fs::path> old = {out / "summary.csv", out / "table.md"};
+  for (const fs::directory_entry& entry : fs::directory_iterator(out / "images", status)) {
+    const fs::path extension = entry.path().extension();
+    const bool isImage = extension == ".exr" || extension == ".png";
+    if (isImage && !isRead(entry.path())) old.push_back(entry.path());
   }
-  requireSameConfiguration(file, reference.metadata, describe(prepared, pictureOf(suite, block)));
-  return reference;
+  for (const fs::path& file : old) {
+    if (!fs::is_directory(file, status)) fs::remove(file, status);
+    if (fs::is_regular_file(file, status)) {
+      failInput(fmt::format("{}: is of an earlier run and cannot be removed", file.string()));
+    }
+  }
 }
 
 class SuiteRun {
  public:
   SuiteRun(const Suite& suite, const SuiteRequest& request)
-      : suite_(suite), request_(request), started_(utcNow()) {
-    makeWritableDirectory(request.out);
-    makeWritableDirectory(request.out / "references");
-  }
+      : suite_(suite), request_(request), started_(utcNow()) {}
 
   bool execute() {
+    check();
+    makeWritableDirectory(request_.out / "references");
+    removeEarlierResults(request_.out, suite_);
     writeRecord("running");
     try {
       const bool finished = executeAll();
@@ -69,8 +70,20 @@ class SuiteRun {
   }
 
  private:
+  // Before anything in the folder changes: a wrong suite costs no earlier result.
+  void check() {
+    std::error_code status;
+    const bool isNew = !fs::exists(request_.out, status);
+    makeWritableDirectory(request_.out);  // quickly said, unlike what follows
+    try {
+      only_ = checkSuite(suite_);
+    } catch (const Error&) {
+      if (isNew) fs::remove(request_.out, status);
+      throw;
+    }
+  }
+
   bool executeAll() {
-    requireAssets();
     bool finished = true;
     for (const SuiteScene& scene : suite_.scenes) {
       std::string missing;
@@ -79,7 +92,7 @@ class SuiteRun {
         logInfo(skipped_.back());
         continue;
       }
-      const PreparedScene prepared = prepareScene(scene.request);
+      const PreparedScene prepared = only_ ? *only_ : prepareScene(scene.request);
       printWarnings(prepared);
       for (const uint32_t component : suite_.components) {
         finished = finished && executeOne(scene, prepared, component);
@@ -89,27 +102,12 @@ class SuiteRun {
     return finished;
   }
 
-  // A missing file is an error before anything is rendered, not after the scenes before it.
-  void requireAssets() {
-    for (const SuiteScene& scene : suite_.scenes) {
-      std::string missing;
-      if (scene.optional || !assetsMissing(scene.request, missing)) continue;
-      failInput(
-          fmt::format("{}: scene {}: '{}' is neither a built-in scene nor a file here, in "
-                      "RESTLAB_SCENES or in ../shared/scenes{}",
-                      suite_.file, scene.name, missing, didYouMean(missing, builtinSceneNames())));
-    }
-  }
-
   bool executeOne(const SuiteScene& scene, const PreparedScene& prepared, uint32_t component) {
     BlockResult& block = blocks_.emplace_back();
     block.scene = scene.name;
     block.camera = prepared.cameraName;
     block.component = component;
-    const bool own = scene.width || scene.height;
-    block.width = own ? scene.width : suite_.width;
-    block.height = own ? scene.height : suite_.height;
-    completeResolution(prepared, block.width, block.height);
+    sceneResolution(suite_, scene, prepared, block.width, block.height);
     if (!obtain(scene, prepared, block)) return false;
     const bool finished = executeBlock(
         suite_, prepared,
@@ -139,15 +137,18 @@ class SuiteRun {
 
   bool obtain(const SuiteScene& scene, const PreparedScene& prepared, BlockResult& block) {
     if (!scene.reference.empty()) {
-      block.reference = givenReference(scene.reference, prepared, suite_, block);
+      // Of this configuration, as checkSuite() found.
+      const fs::path found = findAsset(scene.reference);
+      block.reference = readReference(found.empty() ? fs::path(scene.reference) : found);
       block.referenceFile = scene.reference;
       return true;
     }
     const std::string label =
         fmt::format("{}-{}-{}x{}", blockLabel(block), block.camera, block.width, block.height);
     try {
-      block.reference = obtainReference(prepared, referenceConfigOf(pictureOf(suite_, block)),
-                                        suite_.target, request_.out / "references", label);
+      const SessionConfig picture = pictureOf(suite_, block.width, block.height, block.component);
+      block.reference = obtainReference(prepared, referenceConfigOf(picture), suite_.target,
+                                        request_.out / "references", label);
     } catch (const Error& error) {
       if (error.code() != ExitCode::interrupted) throw;
       logInfo(error.what());
@@ -199,6 +200,7 @@ class SuiteRun {
   const Suite& suite_;
   const SuiteRequest& request_;
   std::string started_;
+  std::optional<PreparedScene> only_;  // the scene of a suite that has one
   std::vector<std::string> skipped_;
   std::deque<BlockResult> blocks_;  // rows point into it: addresses must stay
   std::vector<MethodSummary> rows_;

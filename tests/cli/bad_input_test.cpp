@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "core/image/image.h"
+#include "core/memory.h"
 #include "tests/cli/program.h"
 
 namespace restlab::cli_test {
@@ -34,10 +35,21 @@ class BadInputTest : public ProgramTest, public ::testing::WithParamInterface<Ba
     write("required.gltf", required);
     write("text.exr", "this is no image");
     write("negative.exr", "");
+    LayeredImage sky;
+    sky.layers[""] = Image(4, 2, glm::vec3(1.0f));
+    writeExr(path("sky.exr"), sky);
+    writeExr(path("sky.EXR"), sky);
+    std::filesystem::create_directory(path("sub"));
     LayeredImage negative;
     negative.layers[""] = Image(4, 2, glm::vec3(-1.0f));
     writeExr(path("negative.exr"), negative);
     write("file", "");
+    std::string narrow = good;
+    narrow.insert(narrow.find("\"yfov\""), "\"aspectRatio\": 1e-9, ");
+    write("narrow.gltf", narrow);
+    std::string wide = good;
+    wide.insert(wide.find("\"yfov\""), "\"aspectRatio\": 1e9, ");
+    write("wide.gltf", wide);
   }
 };
 
@@ -121,6 +133,29 @@ const BadInput kBadInputs[] = {
      {"environment"}},
     {"OutputFolderMissing", "render good.gltf -o absent/x.exr", 3, {"absent"}},
     {"OutputIsFolder", "render good.gltf -o .", 3, {"."}},
+    {"OutputIsNoExr", "render good.gltf -o x.png", 2, {"x.png", ".exr"}},
+    {"OutputIsNoExrBeside", "render good.gltf -o x.png --png", 2, {"x.png", ".exr"}},
+    {"PreviewIsNoPng", "render good.gltf -o x.exr --png=x.exr", 2, {"x.exr", ".png"}},
+    {"OutputIsScene", "render good.gltf -o good.gltf", 2, {"good.gltf", ".exr"}},
+    {"OutputIsEnvironment",
+     "render good.gltf -o ./sub/../sky.exr --environment sky.exr",
+     2,
+     {"sky.exr", "environment"}},
+    {"ReferenceIsNoExr", "reference good.gltf -o x.png --spp 2", 2, {"x.png", ".exr"}},
+    {"ReferenceIsEnvironment",
+     "reference good.gltf -o sky.EXR --environment sky.EXR --spp 2",
+     2,
+     {"sky.EXR", "environment"}},
+    {"LayersTooLarge",
+     "render good.gltf -o x.exr --resolution 16384x16384 --aov albedo,depth,normalW",
+     2,
+     {"16384x16384", "4 layers", "8192x8192"}},
+    {"ReferenceTooLarge",
+     "reference good.gltf -o x.exr --spp 2 --resolution 16384x8192",
+     2,
+     {"16384x8192", "4 layers", "11585x5792"}},
+    {"NarrowCamera", "render narrow.gltf -o x.exr", 3, {"narrow", "camera", "aspect ratio 1e-09"}},
+    {"WideCamera", "render wide.gltf -o x.exr", 3, {"wide", "camera", "aspect ratio 1e+09"}},
     {"OutputUnderFile", "render good.gltf -o file/x.exr", 3, {"file"}},
     {"ReferenceWithoutTarget", "reference good.gltf -o x.exr", 2, {"--spp", "--time-limit"}},
     {"ReferenceOfOneSample", "reference good.gltf -o x.exr --spp 1", 2, {"--spp"}},
@@ -173,6 +208,61 @@ TEST_F(OutputTest, ZeroAreaLightIsWarnedOf) {
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_NE(result.err.find("warning: "), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("area"), std::string::npos) << result.err;
+}
+
+TEST_F(OutputTest, WarningsNameTheSceneOnceAndFitWhatWasGiven) {
+  write("dark.gltf", triangleGltf({0, 0, 0, 1, 0, 0, 1, 0, 0}));
+  LayeredImage black;
+  black.layers[""] = Image(4, 2);
+  writeExr(path("black.exr"), black);
+  const std::string none = run("render dark.gltf -o x.exr --resolution 8x8").err;
+  EXPECT_NE(none.find("no light"), std::string::npos) << none;
+  EXPECT_NE(none.find("--environment FILE"), std::string::npos) << none;
+  EXPECT_EQ(none.find("dark: dark"), std::string::npos) << none;
+  const std::string given =
+      run("render dark.gltf -o x.exr --resolution 8x8 --environment black.exr").err;
+  EXPECT_NE(given.find("environment is black"), std::string::npos) << given;
+  EXPECT_NE(given.find("no light"), std::string::npos) << given;
+  EXPECT_EQ(given.find("--environment FILE"), std::string::npos) << given;
+}
+
+TEST_F(OutputTest, FullDiskIsSaid) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  for (const char* words : {"list scenes", "list integrators --json", "info cornell-box", "--help",
+                            "bench quad-light --width 8 --frames 1 --seconds 0.01"}) {
+    const ProgramResult result = runInto("/dev/full", words);
+    EXPECT_EQ(result.code, 3) << words;
+    ASSERT_EQ(result.errors().size(), 1u) << result.err;
+    EXPECT_NE(result.errors()[0].find("stdout: cannot be written"), std::string::npos)
+        << result.err;
+  }
+}
+
+TEST_F(OutputTest, WhatDoesNotFitIntoMemoryIsRefused) {
+  const auto available = availableMemory();
+  if (!available) GTEST_SKIP() << "this system does not say how much memory there is";
+  // 127 GiB, most of it reservoirs.
+  if (*available > uint64_t(96) << 30) GTEST_SKIP() << "there may be enough memory here";
+  expectError(run("render cornell-box -o x.exr --integrator restir_gi --resolution 16384x16384"), 4,
+              {"restir_gi", "16384x16384", "MiB", "available", "smaller resolution"});
+  EXPECT_FALSE(std::filesystem::exists(path("x.exr")));
+}
+
+TEST_F(OutputTest, AvailableMemoryIsTheLeastOfMachineAndControlGroup) {
+  const std::filesystem::path root = path("root");
+  EXPECT_FALSE(availableMemory(root).has_value()) << "no answer is no limit";
+  write("root/proc/meminfo", "MemTotal:  4096 kB\nMemFree:  10 kB\nMemAvailable:  2048 kB\n");
+  EXPECT_EQ(availableMemory(root), 2048u * 1024u);
+  write("root/sys/fs/cgroup/memory.max", "max\n");
+  write("root/sys/fs/cgroup/memory.current", "900000\n");
+  EXPECT_EQ(availableMemory(root), 2048u * 1024u);
+  write("root/sys/fs/cgroup/memory.max", "1000000\n");
+  EXPECT_EQ(availableMemory(root), 100000u);
+  // Cached files make room.
+  write("root/sys/fs/cgroup/memory.stat", "anon 5\ninactive_file 300000\nactive_file 100000\n");
+  EXPECT_EQ(availableMemory(root), 500000u);
+  write("root/sys/fs/cgroup/memory.current", "2000000\n");
+  EXPECT_EQ(availableMemory(root), 0u);
 }
 
 TEST_F(OutputTest, FailureLeavesTheOldFile) {

@@ -26,22 +26,30 @@ std::string readFile(const fs::path& file) {
 }
 
 // In the child: streams to files, the folder as working directory, then the program.
-[[noreturn]] void becomeProgram(const fs::path& folder, const std::vector<std::string>& arguments) {
+[[noreturn]] void becomeProgram(const fs::path& folder, const fs::path& outFile,
+                                const std::vector<std::string>& arguments) {
   const int in = open("/dev/null", O_RDONLY);
-  const int out = open((folder / ".stdout").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  const int out = open(outFile.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   const int err = open((folder / ".stderr").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   dup2(in, STDIN_FILENO);
   dup2(out, STDOUT_FILENO);
   dup2(err, STDERR_FILENO);
   if (chdir(folder.c_str()) != 0) _exit(127);
   setenv("XDG_CACHE_HOME", (folder / "cache").c_str(), 1);
-  std::vector<std::string> words = {RESTLAB_PROGRAM};
-  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<std::string> line = {RESTLAB_PROGRAM};
+  line.insert(line.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
+  for (std::string& word : line) argv.push_back(word.data());
   argv.push_back(nullptr);
   execv(argv[0], argv.data());
   _exit(127);
+}
+
+std::vector<std::string> words(const std::string& arguments) {
+  std::istringstream text(arguments);
+  std::vector<std::string> list;
+  for (std::string word; text >> word;) list.push_back(word);
+  return list;
 }
 
 }  // namespace
@@ -68,8 +76,15 @@ void ProgramTest::TearDown() {
 
 ProgramResult ProgramTest::run(const std::vector<std::string>& arguments,
                                double signalAfterS) const {
+  ProgramResult result = start(arguments, folder_ / ".stdout", signalAfterS);
+  result.out = readFile(folder_ / ".stdout");
+  return result;
+}
+
+ProgramResult ProgramTest::start(const std::vector<std::string>& arguments, const fs::path& out,
+                                 double signalAfterS) const {
   const pid_t child = fork();
-  if (child == 0) becomeProgram(folder_, arguments);
+  if (child == 0) becomeProgram(folder_, out, arguments);
   ProgramResult result;
   if (child < 0) {
     ADD_FAILURE() << "fork: " << std::strerror(errno);
@@ -83,16 +98,14 @@ ProgramResult ProgramTest::run(const std::vector<std::string>& arguments,
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   result.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  result.out = readFile(folder_ / ".stdout");
   result.err = readFile(folder_ / ".stderr");
   return result;
 }
 
-ProgramResult ProgramTest::run(const std::string& arguments) const {
-  std::istringstream words(arguments);
-  std::vector<std::string> list;
-  for (std::string word; words >> word;) list.push_back(word);
-  return run(list);
+ProgramResult ProgramTest::run(const std::string& arguments) const { return run(words(arguments)); }
+
+ProgramResult ProgramTest::runInto(const std::string& file, const std::string& arguments) const {
+  return start(words(arguments), file, 0.0);
 }
 
 void ProgramTest::write(const std::string& name, const std::string& text) const {

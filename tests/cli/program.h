@@ -27,12 +27,18 @@ class ProgramTest : public ::testing::Test {
   ProgramResult run(const std::vector<std::string>& arguments, double signalAfterS = 0.0) const;
   // The same with one string, split at blanks.
   ProgramResult run(const std::string& arguments) const;
+  // The same with stdout going to `file`, which is not read back.
+  ProgramResult runInto(const std::string& file, const std::string& arguments) const;
 
   std::filesystem::path path(const std::string& name) const { return folder_ / name; }
   void write(const std::string& name, const std::string& text) const;
   std::string read(const std::string& name) const;
 
   std::filesystem::path folder_;
+
+ private:
+  ProgramResult start(const std::vector<std::string>& arguments, const std::filesystem::path& out,
+                      double signalAfterS) const;
 };
 
 // Expects an exit code and one error line that holds every one of the fragments.

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "core/image/image.h"
+#include "core/memory.h"
 #include "tests/cli/program.h"
 
 namespace restlab::cli_test {
@@ -183,9 +184,78 @@ TEST_F(RunTest, GivenReferenceMustAgree) {
         read("suite.toml") + "[[scene]]\nscene = \"cornell-box\"\nreference = \"good.exr\"\n");
   EXPECT_EQ(run("run suite.toml --out out").code, 0);
   replaceInSuite("good.exr", "bad.exr");
-  expectError(run("run suite.toml --out out -q"), 3, {"bad.exr", "max_bounces", "4", "3"});
-  EXPECT_NE(nlohmann::json::parse(read("out/run.json"))["status"].get<std::string>().find("failed"),
-            std::string::npos);
+  expectError(run("run suite.toml --out out -q"), 3,
+              {"suite.toml:29:13", "bad.exr", "max_bounces", "4", "3"});
+  EXPECT_FALSE(parseCsv(read("out/summary.csv")).empty()) << "a wrong suite costs no results";
+  replaceInSuite("width = 24", "width = 23");
+  expectError(run("run suite.toml --out out -q"), 3, {"suite.toml:29:13", "24x16", "23x16"});
+  replaceInSuite("bad.exr", "absent.exr");
+  expectError(run("run suite.toml --out out -q"), 3, {"suite.toml:29:13", "absent.exr"});
+}
+
+TEST_F(RunTest, NothingIsRenderedBeforeEverySceneIsChecked) {
+  replaceInSuite("scenes = [\"cornell-box\"]", "");
+  const std::string base = read("suite.toml") + "[[scene]]\nscene = \"quad-light\"\n";
+  const auto last = [&](const std::string& keys, int code,
+                        const std::vector<std::string>& fragments) {
+    write("suite.toml", base + "[[scene]]\nscene = \"cornell-box\"\n" + keys);
+    expectError(run("run suite.toml --out out -q"), code, fragments);
+    EXPECT_FALSE(fs::exists(path("out"))) << "rendered, or left a folder";
+  };
+  last("camera = \"nobody\"\n", 2, {"suite.toml:31:10", "'nobody'"});
+  last("camera = \"7\"\n", 2, {"suite.toml:31:10", "camera 7"});
+  last("environment_scale = 2\n", 2, {"suite.toml:30:9", "environment"});
+  last("reference = \"absent.exr\"\n", 3, {"suite.toml:31:13", "absent.exr"});
+  last("width = 16384\nheight = 16384\n", 2,
+       {"suite.toml:30:9", "16384x16384", "4 layers", "8192x8192"});
+}
+
+TEST_F(RunTest, MemoryIsCheckedBeforeAnythingIsRendered) {
+  const auto available = availableMemory();
+  if (!available) GTEST_SKIP() << "this system does not say how much memory there is";
+  std::string suite = kSuite;
+  // Enough methods for four times what there is, at no less than 64 bytes a pixel each.
+  const uint64_t methods = 1 + *available / 16 / (uint64_t(8192) * 8192);
+  for (uint64_t i = 0; i < methods; ++i) {
+    suite += "[[method]]\nintegrator = \"restir_gi\"\nname = \"gi" + std::to_string(i) + "\"\n";
+  }
+  write("suite.toml", suite);
+  expectError(run("run suite.toml --out out -q --set width=8192 --set height=8192"), 4,
+              {"suite.toml:3:10", "cornell-box", "MiB", "smaller resolution"});
+  EXPECT_FALSE(fs::exists(path("out")));
+}
+
+TEST_F(RunTest, EarlierResultsDoNotPassForNewOnes) {
+  ASSERT_EQ(run("run suite.toml --out out").code, 0);
+  write("out/images/notes.txt", "mine");
+  fs::create_directory(path("out/images/folder.png"));
+  fs::remove_all(path("cache"));
+  fs::remove_all(path("out/references"));
+  // Interrupted in its reference, before it has a row.
+  const ProgramResult result =
+      run({"run", "suite.toml", "--out", "out", "--set", "reference.spp=100000000"}, 1.5);
+  EXPECT_EQ(result.code, 130) << result.err;
+  EXPECT_FALSE(fs::exists(path("out/summary.csv")));
+  EXPECT_EQ(read("out/table.md").find("| gi |"), std::string::npos);
+  for (const auto& entry : fs::directory_iterator(path("out/images"))) {
+    const std::string name = entry.path().filename().string();
+    EXPECT_TRUE(name == "notes.txt" || name == "folder.png") << name;
+  }
+  EXPECT_EQ(lines("out/results.jsonl").size(), 18u) << "append-only";
+}
+
+TEST_F(RunTest, ReferenceAmongEarlierImagesStays) {
+  ASSERT_EQ(run("reference cornell-box -o ref.exr --resolution 24x16 --max-bounces 3 --spp 8").code,
+            0);
+  fs::create_directories(path("out/images"));
+  fs::rename(path("ref.exr"), path("out/images/ref.exr"));
+  replaceInSuite("scenes = [\"cornell-box\"]", "");
+  write("suite.toml", read("suite.toml") +
+                          "[[scene]]\nscene = \"cornell-box\"\n"
+                          "reference = \"out/images/ref.exr\"\n");
+  const ProgramResult result = run("run suite.toml --out out");
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_TRUE(fs::exists(path("out/images/ref.exr")));
 }
 
 TEST_F(RunTest, SelectionAndOverrides) {
@@ -278,10 +348,20 @@ TEST_F(RunTest, BadSuitesNameThePlace) {
   broken("\"restir_gi\"", "\"restir_gy\"", 2, {"suite.toml:24:14", "'restir_gi'"});
   broken("[\"all\"]", "[\"al\"]", 2, {"suite.toml:13", "'al'", "'all'"});
   broken("name = \"gi\"", "name = \"path\"", 2, {"two methods", "'path'"});
+  broken("name = \"gi\"", "name = \"path-\"", 2, {"suite.toml:23:8", "'path'", "'path-'"});
+  broken("name = \"gi\"", "name = \"reference\"", 2, {"suite.toml:23:8", "'reference'"});
+  broken("[\"cornell-box\"]", "[\"cornell-box\", \"cornell-box\"]", 2,
+         {"suite.toml:3:10", "two scenes", "'cornell-box'"});
+  broken("[\"all\"]", "[\"all\", \"all\"]", 2, {"suite.toml:13:14", "'all' twice"});
+  broken("mode = \"unbiased\"", "cache = \"pixl\"", 2, {"suite.toml:25:9", "'pixl'", "'pixel'"});
+  broken("runs = 3", "backend = \"cpuu\"", 2, {"suite.toml:11:11", "'cpuu'", "'cpu'"});
   broken("[reference]", "[reference", 2, {"suite.toml:15"});
   broken("checkpoints = [0, 1]", "checkpoints = [0, 50]", 2, {"suite.toml:12", "50"});
   broken("spp = 32", "spp = 1", 2, {"suite.toml:16", "'spp'"});
   expectError(run("run absent.toml"), 2, {"absent.toml"});
+  expectError(run("run /dev/zero --out out"), 2, {"/dev/zero", "regular file"});
+  write("large.toml", std::string((1 << 20) + 1, '#'));
+  expectError(run("run large.toml --out out"), 2, {"large.toml", "1048576"});
   write("suite.toml", kSuite);
   expectError(run("run suite.toml --out out -q --set runz=2"), 2, {"--set runz", "'runs'"});
   expectError(run("run suite.toml --out out -q --set method.gy.mode=biased"), 2, {"'gy'", "'gi'"});
