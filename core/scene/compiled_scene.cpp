@@ -333,9 +333,9 @@ std::shared_ptr<const CompiledScene> CompiledScene::build(Scene scene) {
     bool unlit = false;
     for (const SceneMaterial& m : impl->scene.materials)
       unlit |= (m.data.flags & rl::RL_MATERIAL_UNLIT) != 0;
-    impl->warnings.push_back(
-        impl->scene.name + ": the scene has no light" +
-        (unlit ? " but unlit materials" : "; every pixel will be black (try --environment FILE)"));
+    impl->warnings.push_back(impl->scene.name + ": the scene has no light" +
+                             (unlit ? " but unlit materials" : "; every pixel will be black") +
+                             (unlit || impl->scene.environment ? "" : " (try --environment FILE)"));
   }
   impl->buildEmbree();
   impl->bindAddresses();

@@ -113,16 +113,7 @@ void chooseCamera(PreparedScene& prepared, const std::string& nameOrIndex) {
 }
 
 void printWarnings(const PreparedScene& prepared) {
-  // Every line starts with the scene already. A map that was given and is black needs no advice to
-  // give one.
-  const std::string advice = " (try --environment FILE)";
-  for (std::string warning : prepared.scene->warnings()) {
-    const size_t found = warning.find(advice);
-    if (prepared.scene->source().environment && found != std::string::npos) {
-      warning.erase(found, advice.size());
-    }
-    logWarning(warning);
-  }
+  for (const std::string& warning : prepared.scene->warnings()) logWarning(warning);
 }
 
 void completeResolution(const PreparedScene& prepared, uint32_t& width, uint32_t& height) {
