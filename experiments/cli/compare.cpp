@@ -191,6 +191,12 @@ void compare(const CompareOptions& options, Outcome& outcome) {
     if (std::find(unique.begin(), unique.end(), name) == unique.end()) unique.push_back(name);
   }
   const Reference reference = readReference(options.reference);
+  const auto kind = reference.metadata.find("kind");
+  const bool isRendered = reference.metadata.count("integrator") != 0;
+  if (isRendered && (kind == reference.metadata.end() || kind->second != "reference")) {
+    logWarning(fmt::format("{}: is an image, not a reference: its own noise is in every number",
+                           options.reference));
+  }
   std::vector<Compared> all;
   for (const std::string& file : options.images) {
     all.push_back(compareOne(file, options, reference, unique));

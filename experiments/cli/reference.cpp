@@ -40,6 +40,12 @@ void makeReference(ReferenceOptions options) {
   requireExrSize(options.output, session.width, session.height, kReferenceLayers);
   const Reference reference = renderReference(prepared, referenceConfigOf(session), options.target);
   writeReference(options.output, reference);
+  if (options.target.relmse > 0.0 && !(reference.relmse <= options.target.relmse)) {
+    logWarning(fmt::format(
+        "{}: relmse {:.3g} is above the target of {:g}: stopped by {}", options.output,
+        reference.relmse, options.target.relmse,
+        options.target.spp > 0 && reference.spp >= options.target.spp ? "--spp" : "--time-limit"));
+  }
   logInfo(fmt::format("{}: {} spp in {:.1f} s, relmse {:.3g} (estimated from the halves)",
                       options.output, reference.spp, reference.timeS, reference.relmse));
 }

@@ -48,8 +48,10 @@ void Progress::update(uint64_t done, const std::string& note) {
   const auto now = Clock::now();
   const double sinceLastS = std::chrono::duration<double>(now - lastPrint_).count();
   const int tenth = total_ ? int(done * 10 / total_) : 0;
+  // In a log: the tenths, a first line soon, and a sign of life.
+  const double silenceS = lastPrint_ == start_ ? 3.0 : 30.0;
   const bool due = terminal_ ? sinceLastS >= 0.2 || done == total_
-                             : (tenth > lastTenth_ && sinceLastS >= 1.0) || sinceLastS >= 30.0;
+                             : (tenth > lastTenth_ && sinceLastS >= 1.0) || sinceLastS >= silenceS;
   if (!due) return;
   lastPrint_ = now;
   lastTenth_ = tenth;

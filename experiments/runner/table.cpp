@@ -60,11 +60,11 @@ std::string blockTable(const Suite& suite, const std::vector<MethodSummary>& row
   std::string text = fmt::format(
       "## {}, {} light\n\nCamera {}, {}x{}, {} scattering events, Russian roulette {}, filter "
       "{}{}; "
-      "{} runs of {} warm-up and {} timed frames; reference {} spp.\n\n",
+      "{} runs of {} warm-up and {} timed frames; reference {} spp (relMSE {:.2g}).\n\n",
       block.scene, componentName(block.component), block.camera, block.width, block.height,
       suite.maxBounces, suite.russianRoulette ? "on" : "off", filterName(suite.pixelFilter),
       suite.multiscatter ? ", multiple scattering compensated" : "", rows.front().runs,
-      suite.warmupFrames, suite.timedFrames, block.reference.spp);
+      suite.warmupFrames, suite.timedFrames, block.reference.spp, block.reference.relmse);
   text +=
       "| method | time per frame | MSE | | efficiency | energy | bias^2/MSE | worst 0.1 % | MSE "
       "without lights in view | relMSE without the worst 0.1 % | rays/px |\n"

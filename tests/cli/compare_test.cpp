@@ -66,6 +66,14 @@ TEST_F(CompareTest, ImageAgainstItselfIsZero) {
   EXPECT_EQ(result["images"][0]["metrics"]["psnr"], "inf") << "JSON has no infinity";
 }
 
+TEST_F(CompareTest, ImageAsReferenceIsSaid) {
+  ASSERT_EQ(run("render cornell-box -o image.exr --resolution 16x16").code, 0);
+  ASSERT_EQ(run("reference cornell-box -o ref.exr --resolution 16x16 --spp 2").code, 0);
+  EXPECT_NE(run("compare --ref image.exr image.exr").err.find("image.exr: is an image, not a"),
+            std::string::npos);
+  EXPECT_EQ(run("compare --ref ref.exr image.exr").err.find("not a reference"), std::string::npos);
+}
+
 TEST_F(CompareTest, TableHasOneRowAnImage) {
   writeConstant("ref.exr", 0.5f);
   writeConstant("a.exr", 0.4f);

@@ -57,6 +57,15 @@ TEST_F(ReferenceTest, TimeLimitStops) {
   EXPECT_GE(std::stoul(metadata.at("spp")), 2u);
 }
 
+TEST_F(ReferenceTest, TargetThatIsMissedIsSaid) {
+  const std::string start = "reference cornell-box -o ref.exr --resolution 24x24 --spp 8 ";
+  const ProgramResult missed = run(start + "--target-relmse 1e-9");
+  EXPECT_EQ(missed.code, 0) << missed.err;
+  EXPECT_NE(missed.err.find("warning: ref.exr: relmse "), std::string::npos) << missed.err;
+  EXPECT_NE(missed.err.find("stopped by --spp"), std::string::npos) << missed.err;
+  EXPECT_EQ(run(start).err.find("warning"), std::string::npos);
+}
+
 TEST_F(ReferenceTest, SeedsOfMethodsAreNotSeedsOfHalves) {
   // A half that shared its samples with a method's image would hide that image's error.
   ASSERT_EQ(run("reference cornell-box -o ref.exr --resolution 16x16 --spp 2 --seed 1").code, 0);
