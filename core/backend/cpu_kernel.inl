@@ -18,6 +18,7 @@ namespace {
 
 #define RL_HAS(features) ((kFeatures & (features)) != 0u)
 #define RL_HEALTH(kind) (++gCounters.health[kind])
+#define RL_COUNT_RAY(mode) (++((mode) == RL_RAY_SHADOW ? gCounters.raysShadow : gCounters.raysPath))
 
 template <uint FEATURES>
 struct Ctx {

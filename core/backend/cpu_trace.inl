@@ -48,8 +48,8 @@ RL_FN float traceRay(const Ray& ray, uint mode, uint alphaKey, Hit& hit) {
     context.transmittance = 1.0f;
     context.alpha.filter = mode == RL_RAY_PATH ? alphaFilterPath : alphaFilterShadow;
   }
+  RL_COUNT_RAY(mode);
   if (mode == RL_RAY_SHADOW) {
-    ++gCounters.raysShadow;
     RTCRay r;
     r.org_x = ray.origin.x;
     r.org_y = ray.origin.y;
@@ -68,7 +68,6 @@ RL_FN float traceRay(const Ray& ray, uint mode, uint alphaKey, Hit& hit) {
     if (RL_HAS(RL_FEATURE_ALPHA)) return context.transmittance;
     return 1.0f;
   }
-  ++gCounters.raysPath;
   RTCRayHit r;
   r.ray.org_x = ray.origin.x;
   r.ray.org_y = ray.origin.y;

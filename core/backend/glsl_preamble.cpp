@@ -48,6 +48,7 @@ layout(push_constant, scalar) uniform RlPushConstants {{
 #define gParams rlPush.params.v
 #define RL_HAS(features) ((kFeatures & (features)) != 0u)
 #define RL_HEALTH(kind) atomicAdd(rlPush.counters.health[kind], 1u)
+#define RL_COUNT_RAY(mode) if ((mode) == RL_RAY_SHADOW) atomicAdd(rlPush.counters.raysShadow, 1u); else atomicAdd(rlPush.counters.raysPath, 1u)
 
 #include "core/dialect/order.glsl"
 #include "{trace}"

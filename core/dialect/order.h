@@ -9,4 +9,5 @@
 #include "core/dialect/bsdf.h"
 #include "core/dialect/surface.h"
 #include "core/dialect/light.h"
+#include "core/dialect/trace_bvh.h"
 #endif

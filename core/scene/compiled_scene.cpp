@@ -49,7 +49,8 @@ std::vector<float> srgbTable() {
 struct CompiledScene::Impl {
   Scene scene;
   uint32_t features = 0;
-  std::once_flag ggxAlbedoBound;
+  std::once_flag ggxAlbedoBound, bvhBound;
+  Bvh bvh;
   glm::dvec3 origin{0.0};
   std::vector<std::string> warnings;
   std::vector<glm::vec3> positions, normals;
@@ -354,6 +355,16 @@ void CompiledScene::bindGgxAlbedo() const {
     // Kernels only read; the type of the address is that of every buffer.
     impl_->data.ggxAlbedo.data = const_cast<glm::vec2*>(ggxAlbedoTable().data());
   });
+}
+const Bvh& CompiledScene::bindBvh() const {
+  Impl& m = *impl_;
+  std::call_once(m.bvhBound, [&] {
+    m.bvh = buildBvh(m.device, {m.positions, m.triangles, m.geometries, m.instances});
+    m.data.bvhNodes.data = m.bvh.nodes.data();
+    m.data.bvhTriangles.data = m.bvh.triangles.data();
+    m.data.bvhRoots.data = m.bvh.roots.data();
+  });
+  return m.bvh;
 }
 const std::vector<std::string>& CompiledScene::warnings() const { return impl_->warnings; }
 size_t CompiledScene::triangleCount() const { return impl_->triangles.size(); }

@@ -7,6 +7,7 @@
 
 #include "core/dialect/features.h"
 #include "core/dialect/types.h"
+#include "core/scene/bvh.h"
 #include "core/scene/scene.h"
 
 namespace restlab {
@@ -27,6 +28,9 @@ class CompiledScene {
   // Makes SceneData::ggxAlbedo point to its table, for sessions that read it; computed at the first
   // call.
   void bindGgxAlbedo() const;
+  // Makes SceneData::bvhNodes and its neighbours point to the project's own hierarchy, for sessions
+  // that trace it; built at the first call. Returns it.
+  const Bvh& bindBvh() const;
   const std::vector<std::string>& warnings() const;  // import's and compilation's
   rl::Camera camera(const SceneCamera& camera, uint32_t width, uint32_t height) const;
   size_t triangleCount() const;           // unique

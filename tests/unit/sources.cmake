@@ -5,6 +5,7 @@ list(APPEND RL_UNIT_TESTS
   bsdf_delta_test.cpp
   bsdf_sampling_test.cpp
   bsdf_values_test.cpp
+  bvh_test.cpp
   camera_test.cpp
   config_test.cpp
   environment_test.cpp

@@ -1,0 +1,26 @@
+// State of a traversal of the project's own hierarchy.
+#ifndef RL_TRACE_BVH_H
+#define RL_TRACE_BVH_H
+
+#ifdef __cplusplus
+#include "core/dialect/dialect.h"
+#include "core/dialect/types.h"
+#endif
+
+RL_NAMESPACE_BEGIN
+
+// A ray in the space of the level that is traversed.
+struct BvhRay {
+  vec3 origin;
+  vec3 dir;
+  vec3 inverseDir;
+};
+
+struct BvhStack {
+  uint child[RL_BVH_STACK];
+  float entry[RL_BVH_STACK];  // where the ray enters the child's bounds
+};
+
+RL_NAMESPACE_END
+
+#endif
