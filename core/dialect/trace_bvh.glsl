@@ -1,10 +1,22 @@
 // traceRay() on the project's own hierarchy: front to back, both levels in one loop. The ray keeps
 // its parameter in an instance, where its direction is transformed and not normalised.
 
+// The components of v, that of `axis` last.
+RL_FN vec3 bvhAxisLast(RL_IN(vec3) v, uint axis) {
+  if (axis == 0u) return vec3(v.y, v.z, v.x);
+  if (axis == 1u) return vec3(v.z, v.x, v.y);
+  return v;
+}
+
 RL_FN BvhRay bvhRay(RL_IN(vec3) origin, RL_IN(vec3) dir) {
   BvhRay r;
   r.origin = origin;
   r.dir = dir;
+  vec3 size = abs(dir);
+  r.axis = size.x > size.y ? 0u : 1u;
+  if (size.z > max(size.x, size.y)) r.axis = 2u;
+  vec3 along = bvhAxisLast(dir, r.axis);
+  r.shear = vec2(along.x / along.z, along.y / along.z);
   // No infinities: 0 times one of them would be no number.
   vec3 d = dir;
   if (abs(d.x) < 1.0e-18f) d.x = 1.0e-18f;
@@ -26,36 +38,44 @@ RL_FN float bvhEnter(RL_IN(BvhRay) r, RL_IN(vec3) low, RL_IN(vec3) high, float t
   return enter <= min(leave, tMax) ? enter : 3.0e38f;
 }
 
-// The edge functions of neighbours differ by their sign alone, bit for bit, and an edge belongs to
-// both: a ray between two triangles does not exist. (Pluecker coordinates, as in Embree's robust
-// mode.)
+// A corner, relative to the origin, as the ray sees it.
+RL_FN vec2 bvhCorner(RL_IN(BvhRay) r, RL_IN(vec3) corner) {
+  vec3 v = bvhAxisLast(corner, r.axis);
+  return vec2(v.x - r.shear.x * v.z, v.y - r.shear.y * v.z);
+}
+
+// Watertight (Woop, Benthin and Wald 2013): rounding is monotonic, so that the difference of two
+// products has the right sign or is 0, and an edge (0) belongs to both of its triangles.
 RL_FN bool bvhTriangle(RL_IN(BvhRay) r, RL_IN(BvhTriangle) triangle, float tMin, float tMax,
                        RL_INOUT(Hit) hit) {
-  vec3 v0 = triangle.p0 - r.origin;
-  vec3 v1 = triangle.p1 - r.origin;
-  vec3 v2 = triangle.p2 - r.origin;
-  vec3 e0 = v2 - v0;
-  vec3 e1 = v0 - v1;
-  vec3 e2 = v1 - v2;
-  float u = dot(cross(e0, v2 + v0), r.dir);
-  float v = dot(cross(e1, v0 + v1), r.dir);
-  float w = dot(cross(e2, v1 + v2), r.dir);
-  float sum = u + v + w;
+  vec3 p0 = triangle.p0 - r.origin;
+  vec3 p1 = triangle.p1 - r.origin;
+  vec3 p2 = triangle.p2 - r.origin;
+  vec2 a = bvhCorner(r, p0);
+  vec2 b = bvhCorner(r, p1);
+  vec2 c = bvhCorner(r, p2);
+  float u = c.x * b.y - c.y * b.x;
+  float v = a.x * c.y - a.y * c.x;
+  float w = b.x * a.y - b.y * a.x;
   bool isInside = min(u, min(v, w)) >= 0.0f || max(u, max(v, w)) <= 0.0f;
+  float sum = u + v + w;
   if (!isInside || sum == 0.0f) return false;
-  // The normal from the two shorter edges' product would do; the largest of the three is stable.
-  vec3 n01 = cross(e0, e1);
+  // The distance by the plane: its error is that of a point near the plane (RL_HIT_ERROR), however
+  // far the corners are. The largest of the three products of edges is the stable normal.
+  vec3 e0 = p2 - p0;
+  vec3 e1 = p0 - p1;
+  vec3 e2 = p1 - p2;
+  vec3 n = cross(e0, e1);
   vec3 n12 = cross(e1, e2);
   vec3 n20 = cross(e2, e0);
-  vec3 n = n01;
   if (dot(n12, n12) > dot(n, n)) n = n12;
   if (dot(n20, n20) > dot(n, n)) n = n20;
   float den = dot(n, r.dir);
   if (den == 0.0f) return false;
-  float t = dot(v0, n) / den;
+  float t = dot(p0, n) / den;
   if (!(t >= tMin && t <= tMax)) return false;
   hit.t = t;
-  hit.bary = vec2(u / sum, v / sum);
+  hit.bary = vec2(v / sum, w / sum);
   return true;
 }
 

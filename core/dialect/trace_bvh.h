@@ -14,6 +14,8 @@ struct BvhRay {
   vec3 origin;
   vec3 dir;
   vec3 inverseDir;
+  uint axis;   // the largest component of dir
+  vec2 shear;  // takes dir to that axis: the other two over it
 };
 
 struct BvhStack {

