@@ -1,5 +1,6 @@
 # Every library comes from the distribution; ./lab installs the packages of packages.txt.
 find_package(Threads REQUIRED)
+find_package(Vulkan 1.2 REQUIRED)
 find_package(embree 3.13 REQUIRED)
 find_package(TBB REQUIRED)
 find_package(glm REQUIRED)

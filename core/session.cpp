@@ -10,7 +10,6 @@
 #include "core/caches/caches.h"
 #include "core/dialect/features.h"
 #include "core/error.h"
-#include "core/memory.h"
 #include "core/scene/compiled_scene.h"
 
 namespace restlab {
@@ -57,9 +56,15 @@ struct Session::Impl {
   rl::FrameData frame{};
   uint32_t needed = 0, used = 0;
   Image radiance;
+  bool isRadianceRead = true;  // `radiance` is that of the last frame
+  StartupReport startup;
   rl::Camera nextCamera{};
   std::vector<BufferId> aovBuffers;
   rl::FrameData lastFrame{};
+
+  std::vector<PassRun> passes() const;
+  void submitFrame();
+  FrameStats collectFrame();
 };
 
 Session::Session(std::shared_ptr<const CompiledScene> scene, const SessionConfig& config,
@@ -91,7 +96,8 @@ Session::Session(std::shared_ptr<const CompiledScene> scene, const SessionConfig
   m.needed = m.scene->features(config.multiscatter);
   const bool multiscatter = (m.needed & rl::RL_FEATURE_MULTISCATTER) != 0;
   if (multiscatter) m.scene->bindGgxAlbedo();
-  m.backend = makeBackend(config.backend, m.scene, config.threads);
+  m.backend = makeBackend(config.backend, m.scene,
+                          {config.threads, config.device, config.rayTracing, config.validate});
   const uint32_t wanted = config.specialise ? m.needed : rl::RL_FEATURE_ALL;
   for (const PassInfo& pass : m.integrator->passes) {
     m.passMasks.push_back(m.backend->maskFor(pass.kernel, wanted));
@@ -104,10 +110,14 @@ Session::Session(std::shared_ptr<const CompiledScene> scene, const SessionConfig
     const bool wantedBuffer = b.neededFeatures == 0 || (b.neededFeatures & m.used) != 0;
     sizes.push_back(wantedBuffer ? bytesPerPixelOf(b, m.config.parameters) : 0);
   }
-  requireMemory(m.integrator->name, config.width, config.height,
-                std::accumulate(sizes.begin(), sizes.end(), sizeof(glm::vec3) + hostBytesPerPixel));
+  m.backend->requireMemory(m.integrator->name, config.width, config.height,
+                           std::accumulate(sizes.begin(), sizes.end(), size_t{0}),
+                           sizeof(glm::vec3) + hostBytesPerPixel);
   for (const size_t size : sizes) {
     m.buffers.push_back(size > 0 ? m.backend->allocate(pixels * size) : kNoBuffer);
+  }
+  for (size_t i = 0; i < m.passMasks.size(); ++i) {
+    m.backend->prepare(m.integrator->passes[i].kernel, m.passMasks[i], m.startup);
   }
   m.radiance = Image(config.width, config.height);
   rl::FrameData& f = m.frame;
@@ -133,32 +143,55 @@ Session::Session(std::shared_ptr<const CompiledScene> scene, const SessionConfig
 
 Session::~Session() = default;
 
-FrameStats Session::frame() {
-  Impl& m = *impl_;
-  if (m.frame.frame > 0) m.frame.previousCamera = m.frame.camera;
-  m.frame.camera = m.nextCamera;
-  if (m.frame.frame == 0) m.frame.previousCamera = m.frame.camera;
+std::vector<PassRun> Session::Impl::passes() const {
+  std::vector<PassRun> runs;
+  for (size_t i = 0; i < integrator->passes.size(); ++i)
+    runs.push_back({integrator->passes[i].kernel, passMasks[i], buffers, params});
+  return runs;
+}
+
+void Session::Impl::submitFrame() {
+  if (frame.frame > 0) frame.previousCamera = frame.camera;
+  frame.camera = nextCamera;
+  if (frame.frame == 0) frame.previousCamera = frame.camera;
+  backend->submit(passes(), frame);
+  for (size_t i = 0; i < buffers.size(); ++i) {
+    const int other = integrator->buffers[i].swapWith;
+    if (other > static_cast<int>(i)) std::swap(buffers[i], buffers[static_cast<size_t>(other)]);
+  }
+  lastFrame = frame;
+  isRadianceRead = false;
+  ++frame.frame;
+}
+
+FrameStats Session::Impl::collectFrame() {
+  const FrameResult result = backend->collect();
   FrameStats stats;
-  PassCounters counters;
-  for (size_t i = 0; i < m.integrator->passes.size(); ++i) {
-    const PassInfo& pass = m.integrator->passes[i];
-    const double timeMs =
-        m.backend->dispatch(pass.kernel, m.passMasks[i], m.frame, m.buffers, m.params, counters);
-    stats.passes.push_back({pass.name, timeMs});
-    stats.timeMs += timeMs;
+  for (size_t i = 0; i < result.timesMs.size(); ++i) {
+    stats.passes.push_back({integrator->passes[i].name, result.timesMs[i]});
+    stats.timeMs += result.timesMs[i];
   }
-  stats.raysPath = counters.raysPath;
-  stats.raysShadow = counters.raysShadow;
-  std::copy(std::begin(counters.health), std::end(counters.health), stats.health.counts.begin());
-  m.backend->read(m.buffers[0], m.radiance.pixels.data(),
-                  m.radiance.pixels.size() * sizeof(glm::vec3));
-  for (size_t i = 0; i < m.buffers.size(); ++i) {
-    const int other = m.integrator->buffers[i].swapWith;
-    if (other > static_cast<int>(i)) std::swap(m.buffers[i], m.buffers[static_cast<size_t>(other)]);
-  }
-  m.lastFrame = m.frame;
-  ++m.frame.frame;
+  stats.raysPath = result.counters.raysPath;
+  stats.raysShadow = result.counters.raysShadow;
+  std::copy(std::begin(result.counters.health), std::end(result.counters.health),
+            stats.health.counts.begin());
   return stats;
+}
+
+FrameStats Session::frame() {
+  impl_->submitFrame();
+  return impl_->collectFrame();
+}
+
+std::vector<FrameStats> Session::frames(uint32_t count) {
+  std::vector<FrameStats> all;
+  const uint32_t inFlight = impl_->backend->framesInFlight();
+  for (uint32_t i = 0; i < count; ++i) {
+    if (i >= inFlight) all.push_back(impl_->collectFrame());
+    impl_->submitFrame();
+  }
+  while (all.size() < count) all.push_back(impl_->collectFrame());
+  return all;
 }
 
 void Session::reset(uint32_t seed) {
@@ -175,7 +208,15 @@ void Session::setCamera(const SceneCamera& camera) {
   impl_->nextCamera = impl_->scene->camera(camera, impl_->config.width, impl_->config.height);
 }
 
-const Image& Session::radiance() const { return impl_->radiance; }
+const Image& Session::radiance() const {
+  Impl& m = *impl_;
+  if (!m.isRadianceRead) {
+    m.backend->read(m.buffers[0], m.radiance.pixels.data(),
+                    m.radiance.pixels.size() * sizeof(glm::vec3));
+    m.isRadianceRead = true;
+  }
+  return m.radiance;
+}
 
 const std::vector<std::string>& Session::aovNames() { return kAovNames; }
 
@@ -186,17 +227,17 @@ Image Session::aov(const std::string& name) const {
     failUsage(fmt::format("unknown AOV '{}'{}; AOVs: {}", name, didYouMean(name, kAovNames),
                           fmt::join(kAovNames, ", ")));
   }
-  if (name == "radiance") return m.radiance;
+  if (name == "radiance") return radiance();
   const size_t pixels = size_t(m.config.width) * m.config.height;
   if (m.aovBuffers.empty()) {
     for (size_t i = 1; i < kAovNames.size(); ++i)
       m.aovBuffers.push_back(m.backend->allocate(pixels * 12));
   }
-  PassCounters counters;
   const uint32_t mask =
       m.backend->maskFor(kAovKernel, m.config.specialise ? m.needed : rl::RL_FEATURE_ALL);
-  m.backend->dispatch(kAovKernel, mask, m.lastFrame, m.aovBuffers, std::vector<std::byte>(4),
-                      counters);
+  m.backend->prepare(kAovKernel, mask, m.startup);
+  m.backend->submit({{kAovKernel, mask, m.aovBuffers, std::vector<std::byte>(4)}}, m.lastFrame);
+  m.backend->collect();
   Image image(m.config.width, m.config.height);
   const size_t index = static_cast<size_t>(found - kAovNames.begin()) - 1;
   m.backend->read(m.aovBuffers[index], image.pixels.data(), pixels * 12);
@@ -215,6 +256,9 @@ Image Session::aov(const std::string& name) const {
 uint32_t Session::featuresNeeded() const { return impl_->needed; }
 uint32_t Session::featuresUsed() const { return impl_->used; }
 const SessionConfig& Session::config() const { return impl_->config; }
+const StartupReport& Session::startup() const { return impl_->startup; }
+std::string Session::rayTracing() const { return impl_->backend->rayTracing(); }
+std::string Session::device() const { return impl_->backend->device(); }
 
 std::vector<std::pair<std::string, size_t>> Session::bufferBytesPerPixel() const {
   std::vector<std::pair<std::string, size_t>> sizes;

@@ -15,13 +15,17 @@
 
 namespace restlab {
 
-class CompiledScene;  // core/scene/compiled_scene.h
+class CompiledScene;    // core/scene/compiled_scene.h
+struct StartupReport;   // core/backend/backend.h
 
 struct SessionConfig {
   std::string integrator = "path";
   std::string mode;             // "": the integrator's first
   std::string cache = "pixel";  // ignored by integrators without reservoirs
   std::string backend = "cpu";
+  std::string device;      // of the Vulkan backend, a part of its name; "": the preferred one
+  std::string rayTracing;  // "embree", "bvh", "query"; "": the backend's best
+  bool validate = false;   // with Vulkan's validation layers
   std::string denoiser = "none";
   uint32_t width = 512, height = 512;
   uint32_t camera = 0;
@@ -66,12 +70,15 @@ class Session {
 
   // Renders the next frame of the history.
   FrameStats frame();
+  // Renders the next frames, whose images nobody asks for: a device need not wait between them.
+  std::vector<FrameStats> frames(uint32_t count);
   // Drops the history and starts again with another seed (an independent run).
   void reset(uint32_t seed);
   // For a moving camera; the previous one is kept for reprojection.
   void setCamera(const SceneCamera& camera);
 
-  const Image& radiance() const;  // of the last frame
+  // Of the last frame; read from the device when it is first asked for.
+  const Image& radiance() const;
   // Of the film samples of the last frame, one of aovNames(): radiance; at the first hit positionW,
   // normalW (unit, shading, on the viewer's side), albedo (diffuse + specular at normal incidence +
   // transmission), depth (distance along the ray, in every channel); zero where nothing is hit.
@@ -83,6 +90,9 @@ class Session {
   uint32_t featuresUsed() const;  // of the smallest compiled superset
   size_t bytesPerPixel() const;   // of all buffers
   const SessionConfig& config() const;
+  const StartupReport& startup() const;  // what was compiled, and how long it took
+  std::string rayTracing() const;        // the one in use
+  std::string device() const;            // what kernels run on
   std::vector<std::pair<std::string, size_t>> bufferBytesPerPixel() const;
 
  private:

@@ -1,4 +1,5 @@
-// A backend runs kernels over pixels: it owns the buffers, dispatches passes and times them.
+// A backend runs kernels over pixels: it owns the buffers, runs the passes of a frame and times
+// them.
 #pragma once
 
 #include <cstddef>
@@ -27,34 +28,91 @@ struct BackendInfo {
   std::string description;  // device, library versions
   bool available = true;
   std::string whyNot;
+  // What its devices are and support, one line each; empty where it has but one.
+  std::vector<std::string> devices;
+};
+
+// How a session's kernels are run.
+struct BackendOptions {
+  int threads = 0;         // of the CPU backend; 0: all cores
+  std::string device;      // of the Vulkan backend, a part of its name; "": the preferred one
+  std::string rayTracing;  // "embree", "bvh", "query"; "": the backend's best
+  bool validate = false;   // Vulkan's validation layers
+};
+
+// A kernel that was made ready for a device.
+struct KernelReport {
+  std::string kernel;
+  uint32_t mask = 0;
+  bool fromDisk = false;              // its SPIR-V was
+  double glslMs = 0.0, driverMs = 0.0;  // dialect to SPIR-V, SPIR-V to code
+};
+
+// What a session did before its first frame.
+struct StartupReport {
+  double timeMs = 0.0;  // of the kernels; 0 where they were compiled with the program
+  std::vector<KernelReport> kernels;
+  std::vector<std::string> notices;  // one line each, for the user
+};
+
+// One pass of a frame: a kernel over all pixels.
+struct PassRun {
+  std::string kernel;
+  uint32_t mask = 0;
+  // In the order of the kernel's Buffers struct; kNoBuffer binds null.
+  std::vector<BufferId> buffers;
+  std::vector<std::byte> params;
+};
+
+struct FrameResult {
+  std::vector<double> timesMs;  // of each pass
+  PassCounters counters;        // added up
 };
 
 class Backend {
  public:
   virtual ~Backend() = default;
 
+  // Throws Error (deviceUnavailable) with the sizes where width x height pixels, of so many bytes
+  // in buffers here and so many beside them on the host, do not fit.
+  virtual void requireMemory(const std::string& what, uint32_t width, uint32_t height,
+                             uint64_t bufferBytes, uint64_t hostBytes) const = 0;
   // Zeroed memory; throws Error (deviceUnavailable) with the sizes when there is not enough.
   virtual BufferId allocate(size_t bytes) = 0;
   virtual void clear(BufferId buffer) = 0;
-  virtual void read(BufferId buffer, void* to, size_t bytes) const = 0;
+  virtual void read(BufferId buffer, void* to, size_t bytes) = 0;
 
-  // The mask of the instantiation that serves `needed`; throws Error (badUsage) for unknown
+  // The mask of the specialisation that serves `needed`; throws Error (badUsage) for unknown
   // kernels.
   virtual uint32_t maskFor(const std::string& kernel, uint32_t needed) const = 0;
+  // Makes a kernel ready to run, so that no frame has to wait for a compiler.
+  virtual void prepare(const std::string& kernel, uint32_t mask, StartupReport& report) = 0;
 
-  // Runs a kernel over width x height pixels. `buffers` in the order of the kernel's Buffers struct
-  // (kNoBuffer binds null). Returns the time in milliseconds, counters added up.
-  virtual double dispatch(const std::string& kernel, uint32_t mask, const rl::FrameData& frame,
-                          const std::vector<BufferId>& buffers,
-                          const std::vector<std::byte>& params, PassCounters& counters) = 0;
+  // Starts a frame: the passes one after another. At most framesInFlight() of them may be under
+  // way; more are waited for.
+  virtual void submit(const std::vector<PassRun>& passes, const rl::FrameData& frame) = 0;
+  // Waits for the oldest frame under way.
+  virtual FrameResult collect() = 0;
+  virtual uint32_t framesInFlight() const = 0;
+
+  virtual std::string rayTracing() const = 0;  // the one in use
+  virtual std::string device() const = 0;      // what it runs on, for reports
 };
 
-std::unique_ptr<Backend> makeCpuBackend(std::shared_ptr<const CompiledScene> scene, int threads);
+std::unique_ptr<Backend> makeCpuBackend(std::shared_ptr<const CompiledScene> scene,
+                                        const BackendOptions& options);
 BackendInfo cpuBackendInfo();
+std::unique_ptr<Backend> makeVulkanBackend(std::shared_ptr<const CompiledScene> scene,
+                                           const BackendOptions& options);
+BackendInfo vulkanBackendInfo();
 
+// Names of all backends; nothing is opened.
+const std::vector<std::string>& backendNames();
 // All backends, for `restlab list backends`.
 std::vector<BackendInfo> backendRegistry();
+// Throws Error (badUsage) for an unknown name, (deviceUnavailable) where it cannot run here.
 std::unique_ptr<Backend> makeBackend(const std::string& name,
-                                     std::shared_ptr<const CompiledScene> scene, int threads);
+                                     std::shared_ptr<const CompiledScene> scene,
+                                     const BackendOptions& options);
 
 }  // namespace restlab

@@ -6,10 +6,12 @@
 
 #include <chrono>
 #include <cstring>
+#include <deque>
 #include <thread>
 
 #include "core/backend/backend.h"
 #include "core/error.h"
+#include "core/memory.h"
 #include "core/scene/compiled_scene.h"
 
 #ifdef RESTLAB_JTHREAD_TILES
@@ -43,15 +45,29 @@ class FlushDenormals {
 
 class CpuBackend final : public Backend {
  public:
-  CpuBackend(std::shared_ptr<const CompiledScene> scene, int threads)
+  CpuBackend(std::shared_ptr<const CompiledScene> scene, const BackendOptions& options)
       : scene_(std::move(scene)),
-        threads_(threads > 0 ? threads
-                             : static_cast<int>(std::max(1u, std::thread::hardware_concurrency())))
+        rayTracing_(options.rayTracing.empty() ? "embree" : options.rayTracing),
+        threads_(options.threads > 0
+                     ? options.threads
+                     : static_cast<int>(std::max(1u, std::thread::hardware_concurrency())))
 #ifndef RESTLAB_JTHREAD_TILES
         ,
         arena_(threads_)
 #endif
   {
+    if (!options.device.empty())
+      failUsage("--device " + options.device + ": is of the Vulkan backend; the CPU has no choice");
+    if (rayTracing_ != "embree" && rayTracing_ != "bvh") {
+      failUsage(
+          fmt::format("--ray-tracing {}: the CPU backend knows embree and bvh", rayTracing_));
+    }
+    if (rayTracing_ == "bvh") scene_->bindBvh();
+  }
+
+  void requireMemory(const std::string& what, uint32_t width, uint32_t height,
+                     uint64_t bufferBytes, uint64_t hostBytes) const override {
+    restlab::requireMemory(what, width, height, bufferBytes + hostBytes);
   }
 
   BufferId allocate(size_t bytes) override {
@@ -74,28 +90,54 @@ class CpuBackend final : public Backend {
     std::fill(buffers_[buffer].begin(), buffers_[buffer].end(), std::byte{0});
   }
 
-  void read(BufferId buffer, void* to, size_t bytes) const override {
+  void read(BufferId buffer, void* to, size_t bytes) override {
     std::memcpy(to, buffers_[buffer].data(), bytes);
   }
 
   uint32_t maskFor(const std::string& kernel, uint32_t needed) const override {
-    const rl::CpuKernelInfo* info = rl::findCpuKernel(kernel.c_str(), needed);
-    if (info == nullptr) failUsage("no kernel '" + kernel + "' in this build");
-    return info->mask;
+    return find(kernel, needed).mask;
   }
 
-  double dispatch(const std::string& kernel, uint32_t mask, const rl::FrameData& frame,
-                  const std::vector<BufferId>& buffers, const std::vector<std::byte>& params,
-                  PassCounters& counters) override {
-    const rl::CpuKernelInfo* info = rl::findCpuKernel(kernel.c_str(), mask);
+  // Kernels are compiled with the program.
+  void prepare(const std::string& kernel, uint32_t mask, StartupReport&) override {
+    find(kernel, mask);
+  }
+
+  void submit(const std::vector<PassRun>& passes, const rl::FrameData& frame) override {
+    FrameResult result;
+    for (const PassRun& pass : passes)
+      result.timesMs.push_back(run(pass, frame, result.counters));
+    finished_.push_back(std::move(result));
+  }
+
+  FrameResult collect() override {
+    FrameResult result = std::move(finished_.front());
+    finished_.pop_front();
+    return result;
+  }
+
+  uint32_t framesInFlight() const override { return 1; }
+  std::string rayTracing() const override { return rayTracing_; }
+  std::string device() const override { return cpuBackendInfo().description; }
+
+ private:
+  const rl::CpuKernelInfo& find(const std::string& kernel, uint32_t needed) const {
+    const rl::CpuKernelInfo* info =
+        rl::findCpuKernel(kernel.c_str(), needed, rayTracing_.c_str());
     if (info == nullptr) failUsage("no kernel '" + kernel + "' in this build");
+    return *info;
+  }
+
+  double run(const PassRun& pass, const rl::FrameData& frame, PassCounters& counters) {
+    const rl::CpuKernelInfo& info = find(pass.kernel, pass.mask);
     std::vector<void*> addresses;
-    for (BufferId b : buffers) addresses.push_back(b == kNoBuffer ? nullptr : buffers_[b].data());
+    for (BufferId b : pass.buffers)
+      addresses.push_back(b == kNoBuffer ? nullptr : buffers_[b].data());
     rl::CpuKernelArgs args;
     args.scene = &scene_->data();
     args.frame = &frame;
     args.buffers = addresses.data();
-    args.params = params.data();
+    args.params = pass.params.data();
     args.embreeScene = scene_->embreeScene();
 
     const uint32_t tilesX = (frame.width + kTile - 1) / kTile,
@@ -108,7 +150,7 @@ class CpuBackend final : public Backend {
                                    std::min((ty + 1) * kTile, frame.height)};
       // Counted locally: neighbouring entries of the vector share cache lines.
       rl::CpuKernelCounters local;
-      info->entry(args, tile, local);
+      info.entry(args, tile, local);
       tileCounters[i] = local;
     };
     const auto start = std::chrono::steady_clock::now();
@@ -122,7 +164,6 @@ class CpuBackend final : public Backend {
     return std::chrono::duration<double, std::milli>(end - start).count();
   }
 
- private:
 #ifdef RESTLAB_JTHREAD_TILES
   template <typename F>
   void forEachTile(size_t count, const F& run) {
@@ -149,17 +190,20 @@ class CpuBackend final : public Backend {
 #endif
 
   std::shared_ptr<const CompiledScene> scene_;
+  std::string rayTracing_;
   int threads_;
 #ifndef RESTLAB_JTHREAD_TILES
   tbb::task_arena arena_;
 #endif
   std::vector<std::vector<std::byte>> buffers_;
+  std::deque<FrameResult> finished_;
 };
 
 }  // namespace
 
-std::unique_ptr<Backend> makeCpuBackend(std::shared_ptr<const CompiledScene> scene, int threads) {
-  return std::make_unique<CpuBackend>(std::move(scene), threads);
+std::unique_ptr<Backend> makeCpuBackend(std::shared_ptr<const CompiledScene> scene,
+                                        const BackendOptions& options) {
+  return std::make_unique<CpuBackend>(std::move(scene), options);
 }
 
 BackendInfo cpuBackendInfo() {
@@ -175,27 +219,18 @@ BackendInfo cpuBackendInfo() {
   return info;
 }
 
-std::vector<BackendInfo> backendRegistry() { return {cpuBackendInfo()}; }
-
-std::unique_ptr<Backend> makeBackend(const std::string& name,
-                                     std::shared_ptr<const CompiledScene> scene, int threads) {
-  std::vector<std::string> names;
-  for (const BackendInfo& b : backendRegistry()) names.push_back(b.name);
-  if (name == "cpu") return makeCpuBackend(std::move(scene), threads);
-  failUsage("unknown backend '" + name + "'" + didYouMean(name, names) +
-            " (see: restlab list backends)");
-}
-
 }  // namespace restlab
 
 namespace rl {
 
-const CpuKernelInfo* findCpuKernel(const char* name, uint32_t needed) {
+const CpuKernelInfo* findCpuKernel(const char* name, uint32_t needed, const char* trace) {
   const CpuKernelTable table = cpuKernelTable();
   const CpuKernelInfo* best = nullptr;
   for (uint32_t i = 0; i < table.count; ++i) {
     const CpuKernelInfo& row = table.rows[i];
-    if (std::strcmp(row.name, name) != 0 || (row.mask & needed) != needed) continue;
+    if (std::strcmp(row.name, name) != 0 || std::strcmp(row.trace, trace) != 0 ||
+        (row.mask & needed) != needed)
+      continue;
     if (best == nullptr || __builtin_popcount(row.mask) < __builtin_popcount(best->mask))
       best = &row;
   }

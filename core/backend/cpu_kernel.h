@@ -33,6 +33,7 @@ using CpuKernelEntry = void (*)(const CpuKernelArgs&, const CpuKernelTile&, CpuK
 struct CpuKernelInfo {
   const char* name;
   const char* maskName;
+  const char* trace;  // what finds hits: "embree" or "bvh"
   uint32_t mask;
   CpuKernelEntry entry;
 };
@@ -44,6 +45,8 @@ struct CpuKernelTable {
 CpuKernelTable cpuKernelTable();
 
 // The instantiation with the smallest mask that covers `needed`; null when there is no such kernel.
-const CpuKernelInfo* findCpuKernel(const char* name, uint32_t needed);
+// The project's own hierarchy is compiled into the general mask only.
+const CpuKernelInfo* findCpuKernel(const char* name, uint32_t needed,
+                                   const char* trace = "embree");
 
 }  // namespace rl

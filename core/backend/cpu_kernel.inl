@@ -1,7 +1,7 @@
 // Body of a generated kernel translation unit: the dialect's functions as members of
 // Ctx<features>, Embree behind traceRay(), and the tile loop. The generated file defines
-// RL_KERNEL_NAME, RL_KERNEL_MASK_NAME, RL_KERNEL_MASK, RL_KERNEL_HEADER and RL_KERNEL_FILE; it may
-// define RL_KERNEL_TRACE, the file with the body of traceRay().
+// RL_KERNEL_NAME, RL_KERNEL_MASK_NAME, RL_KERNEL_MASK, RL_KERNEL_HEADER, RL_KERNEL_FILE and
+// RL_KERNEL_TRACE, the file with the body of traceRay() (without it, Embree's).
 #include <embree3/rtcore.h>
 
 #include "core/backend/alpha_filter.h"

@@ -1,6 +1,4 @@
-# rl_glsl: kernels as GLSL and their compilation. Apart from rl_core, so that a build without tests
-# needs no glslang.
-find_package(Threads REQUIRED) # which glslang's package files name without finding
+# rl_glsl: kernels as GLSL and their compilation.
 find_package(glslang 12 REQUIRED CONFIG)
 
 add_library(rl_glsl STATIC

@@ -13,17 +13,16 @@ namespace restlab {
 
 namespace {
 
-// Reads #include files below one root and names them in messages by their path below it.
-class RootIncluder : public glslang::TShader::Includer {
+// Names included files in messages by their path.
+class Includer : public glslang::TShader::Includer {
  public:
-  explicit RootIncluder(std::filesystem::path root) : root_(std::move(root)) {}
+  explicit Includer(const SourceReader& read) : read_(read) {}
 
   IncludeResult* includeLocal(const char* header, const char*, size_t) override {
-    std::ifstream stream(root_ / header, std::ios::binary);
-    if (!stream) return nullptr;  // glslang reports the line of the #include
+    std::optional<std::string> found = read_(header);
+    if (!found) return nullptr;  // glslang reports the line of the #include
     // releaseInclude() deletes both.
-    auto* text =
-        new std::string(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+    auto* text = new std::string(std::move(*found));
     return new IncludeResult(header, text->data(), text->size(), text);
   }
   IncludeResult* includeSystem(const char*, const char*, size_t) override { return nullptr; }
@@ -34,7 +33,7 @@ class RootIncluder : public glslang::TShader::Includer {
   }
 
  private:
-  std::filesystem::path root_;
+  const SourceReader& read_;
 };
 
 // glslang keeps process-wide tables between these two calls.
@@ -84,6 +83,14 @@ bool isBeforeAnnotations(uint32_t op) {
 
 }  // namespace
 
+SourceReader readBelow(const std::filesystem::path& root) {
+  return [root](const std::string& path) -> std::optional<std::string> {
+    std::ifstream stream(root / path, std::ios::binary);
+    if (!stream) return std::nullopt;
+    return std::string(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+  };
+}
+
 std::vector<uint32_t> decorateNoContraction(const std::vector<uint32_t>& spirv) {
   std::set<uint32_t> decorated;
   std::vector<uint32_t> additions;
@@ -110,7 +117,7 @@ std::vector<uint32_t> decorateNoContraction(const std::vector<uint32_t>& spirv) 
 }
 
 GlslResult compileGlsl(const std::string& text, const std::string& name,
-                       const std::filesystem::path& root) {
+                       const SourceReader& read) {
   static const Process process;
   glslang::TShader shader(EShLangCompute);
   const char* strings[] = {text.c_str()};
@@ -121,7 +128,7 @@ GlslResult compileGlsl(const std::string& text, const std::string& name,
   shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_2);
   shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_5);
   const auto messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);
-  RootIncluder includer(root);
+  Includer includer(read);
   GlslResult result;
   bool ok = shader.parse(GetDefaultResources(), 460, ENoProfile, false, false, messages, includer);
   result.log = shader.getInfoLog();

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,11 +15,14 @@ struct GlslResult {
   std::string log;  // glslang's words, "ERROR: file:line: ..." with the included file's name
 };
 
-// Compiles a compute shader for Vulkan 1.2. #include "path" reads root/path; `name` stands for the
-// text itself in messages. Every float operation is decorated NoContraction: a backend that fused
+// What #include "path" reads; nothing where there is no such file.
+using SourceReader = std::function<std::optional<std::string>(const std::string& path)>;
+SourceReader readBelow(const std::filesystem::path& root);
+
+// Compiles a compute shader for Vulkan 1.2; `name` stands for the text itself in messages. Every float operation is decorated NoContraction: a backend that fused
 // multiplications with additions would decide otherwise than the CPU.
 GlslResult compileGlsl(const std::string& text, const std::string& name,
-                       const std::filesystem::path& root);
+                       const SourceReader& read);
 
 // Adds NoContraction to the float arithmetic of a module that lacks it.
 std::vector<uint32_t> decorateNoContraction(const std::vector<uint32_t>& spirv);

@@ -10,7 +10,9 @@ constexpr const char* kText = R"(#version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require
-#include "core/dialect/order.h"
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+{extensions}#include "core/dialect/order.h"
 #include "{header}"
 
 layout(local_size_x = {tile}, local_size_y = {tile}) in;
@@ -47,8 +49,11 @@ layout(push_constant, scalar) uniform RlPushConstants {{
 #define gBuffers rlPush.buffers.v
 #define gParams rlPush.params.v
 #define RL_HAS(features) ((kFeatures & (features)) != 0u)
+// Health is rare; rays are counted by each thread and added up once by each subgroup.
 #define RL_HEALTH(kind) atomicAdd(rlPush.counters.health[kind], 1u)
-#define RL_COUNT_RAY(mode) if ((mode) == RL_RAY_SHADOW) atomicAdd(rlPush.counters.raysShadow, 1u); else atomicAdd(rlPush.counters.raysPath, 1u)
+uint rlRaysPath = 0u;
+uint rlRaysShadow = 0u;
+#define RL_COUNT_RAY(mode) if ((mode) == RL_RAY_SHADOW) ++rlRaysShadow; else ++rlRaysPath
 
 #include "core/dialect/order.glsl"
 #include "{trace}"
@@ -57,6 +62,12 @@ layout(push_constant, scalar) uniform RlPushConstants {{
 void main() {{
   uvec2 pixel = gl_GlobalInvocationID.xy;
   if (pixel.x < gFrame.width && pixel.y < gFrame.height) kernelMain(pixel);
+  uint raysPath = subgroupAdd(rlRaysPath);
+  uint raysShadow = subgroupAdd(rlRaysShadow);
+  if (subgroupElect()) {{
+    if (raysPath != 0u) atomicAdd(rlPush.counters.raysPath, raysPath);
+    if (raysShadow != 0u) atomicAdd(rlPush.counters.raysShadow, raysShadow);
+  }}
 }}
 )";
 
@@ -64,7 +75,8 @@ void main() {{
 
 std::string glslKernelSource(const GlslKernel& kernel) {
   return fmt::format(kText, fmt::arg("header", kernel.header), fmt::arg("file", kernel.file),
-                     fmt::arg("trace", kernel.traceFile), fmt::arg("tile", kGlslTile));
+                     fmt::arg("trace", kernel.traceFile), fmt::arg("tile", kGlslTile),
+                     fmt::arg("extensions", kernel.extensions));
 }
 
 }  // namespace restlab

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <mutex>
 
@@ -366,6 +367,39 @@ const Bvh& CompiledScene::bindBvh() const {
   });
   return m.bvh;
 }
+
+rl::SceneData CompiledScene::placedAt(const Place& place) const {
+  const Impl& m = *impl_;
+  rl::SceneData placed = m.data;
+  const auto move = [&](auto& ref, size_t count) {
+    static_assert(sizeof ref.data == sizeof(uint64_t));
+    const bool isEmpty = count == 0 || ref.data == nullptr;
+    const uint64_t address = isEmpty ? 0 : place(ref.data, count * sizeof ref.data[0]);
+    std::memcpy(&ref.data, &address, sizeof address);
+  };
+  move(placed.positions, m.positions.size());
+  move(placed.normals, m.normals.size());
+  move(placed.tangents, m.tangents.size());
+  move(placed.colors, m.colors.size());
+  move(placed.uvs, m.uvs.size());
+  move(placed.triangles, m.triangles.size());
+  move(placed.geometries, m.geometries.size());
+  move(placed.instances, m.instances.size());
+  move(placed.materials, m.materials.size());
+  move(placed.textures, m.textures.size());
+  move(placed.texels, m.texels.size());
+  move(placed.srgbToLinear, m.srgb.size());
+  move(placed.lights, m.lights.lights.size());
+  move(placed.lightAlias, m.lights.alias.size());
+  move(placed.environment, m.lights.environment.size());
+  move(placed.environmentAlias, m.lights.environmentAlias.size());
+  move(placed.ggxAlbedo, m.data.ggxAlbedo.data != nullptr ? ggxAlbedoTable().size() : 0);
+  move(placed.bvhNodes, m.bvh.nodes.size());
+  move(placed.bvhTriangles, m.bvh.triangles.size());
+  move(placed.bvhRoots, m.bvh.roots.size());
+  return placed;
+}
+
 const std::vector<std::string>& CompiledScene::warnings() const { return impl_->warnings; }
 size_t CompiledScene::triangleCount() const { return impl_->triangles.size(); }
 size_t CompiledScene::instancedTriangleCount() const { return impl_->instancedTriangles; }

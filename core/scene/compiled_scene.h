@@ -1,6 +1,7 @@
 // A Scene made ready for kernels: flat buffers, light table, feature mask, Embree scene.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,6 +32,10 @@ class CompiledScene {
   // Makes SceneData::bvhNodes and its neighbours point to the project's own hierarchy, for sessions
   // that trace it; built at the first call. Returns it.
   const Bvh& bindBvh() const;
+  // data() for a machine with memory of its own: every address replaced by what `place` returns
+  // for the bytes there (0 for an empty buffer).
+  using Place = std::function<uint64_t(const void* bytes, size_t count)>;
+  rl::SceneData placedAt(const Place& place) const;
   const std::vector<std::string>& warnings() const;  // import's and compilation's
   rl::Camera camera(const SceneCamera& camera, uint32_t width, uint32_t height) const;
   size_t triangleCount() const;           // unique

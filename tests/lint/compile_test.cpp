@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(, Cpp, testing::Values(RESTLAB_GXX, RESTLAB_CLANGXX),
 
 GlslResult compileKernel(const std::string& header, const std::string& file) {
   const std::string text = glslKernelSource({header, file, "tests/parity/brute_force.glsl"});
-  return compileGlsl(text, "kernel", RESTLAB_SOURCE_DIR);
+  return compileGlsl(text, "kernel", readBelow(RESTLAB_SOURCE_DIR));
 }
 
 TEST(Glsl, EveryKernelCompiles) {

@@ -10,7 +10,7 @@ namespace restlab::parity {
 
 std::vector<uint32_t> compileKernel(const std::string& header, const std::string& file) {
   const std::string text = glslKernelSource({header, file, "tests/parity/brute_force.glsl"});
-  GlslResult result = compileGlsl(text, file, RESTLAB_SOURCE_DIR);
+  GlslResult result = compileGlsl(text, file, readBelow(RESTLAB_SOURCE_DIR));
   if (result.spirv.empty()) throw std::runtime_error(result.log);
   return result.spirv;
 }

@@ -1,0 +1,28 @@
+# rl_embed_dialect: generated/dialect_sources_table.cpp, the tables of core/backend/dialect_sources.h.
+# Called once, after the last rl_add_kernel.
+function(rl_embed_dialect target)
+  set(patterns "")
+  foreach(folder IN ITEMS core/dialect core/kernels core/resampling core/caches integrators denoise)
+    list(APPEND patterns ${PROJECT_SOURCE_DIR}/${folder}/*.glsl ${PROJECT_SOURCE_DIR}/${folder}/*.h)
+  endforeach()
+  file(GLOB_RECURSE files CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${patterns})
+  list(SORT files)
+  list(TRANSFORM files PREPEND ${PROJECT_SOURCE_DIR}/ OUTPUT_VARIABLE paths)
+  get_property(names GLOBAL PROPERTY RL_KERNELS)
+  get_property(kernel_files GLOBAL PROPERTY RL_KERNEL_FILES)
+  get_property(headers GLOBAL PROPERTY RL_KERNEL_HEADERS)
+  set(kernels "")
+  foreach(name file header IN ZIP_LISTS names kernel_files headers)
+    list(APPEND kernels "${name}|${file}|${header}")
+  endforeach()
+  list(JOIN files "," files)
+  list(JOIN kernels "," kernels)
+  set(output ${RL_GENERATED_DIR}/dialect_sources_table.cpp)
+  add_custom_command(OUTPUT ${output}
+    COMMAND ${CMAKE_COMMAND} -D SOURCE_DIR=${PROJECT_SOURCE_DIR} -D OUTPUT=${output}
+      -D "FILES=${files}" -D "KERNELS=${kernels}"
+      -P ${PROJECT_SOURCE_DIR}/cmake/embed_sources.cmake
+    DEPENDS ${paths} ${PROJECT_SOURCE_DIR}/cmake/embed_sources.cmake
+    COMMENT "Embedding the dialect" VERBATIM)
+  target_sources(${target} PRIVATE ${output})
+endfunction()

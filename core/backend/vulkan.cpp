@@ -1,0 +1,428 @@
+// The Vulkan backend: kernels as compute shaders. Passes are recorded once and replayed; what
+// changes from frame to frame (frame data, buffer addresses, parameters) lies in memory that the
+// host writes.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstring>
+#include <deque>
+#include <map>
+
+#include "core/backend/backend.h"
+#include "core/backend/dialect_sources.h"
+#include "core/backend/vulkan_kernels.h"
+#include "core/backend/vulkan_scene.h"
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/scene/compiled_scene.h"
+
+namespace restlab {
+
+namespace {
+
+constexpr uint32_t kSlots = 2;              // frames in flight
+constexpr uint32_t kFirstBandPixels = 1u << 18;  // of a dispatch, before its time is known
+constexpr double kLongestBandMs = 500.0;    // watchdogs end dispatches of a few seconds
+
+// What sessions on one device share.
+struct Context {
+  std::shared_ptr<VulkanDevice> device;
+  std::shared_ptr<VulkanMemory> memory;
+  std::shared_ptr<VulkanKernels> kernels;
+
+  static std::shared_ptr<Context> of(const VulkanOptions& options) {
+    // The last one stays open: compiling its kernels again would cost the next session seconds.
+    static std::map<const VulkanDevice*, std::weak_ptr<Context>> known;
+    static std::shared_ptr<Context> last;
+    std::shared_ptr<VulkanDevice> device = VulkanDevice::open(options);
+    std::weak_ptr<Context>& entry = known[device.get()];
+    if (auto context = entry.lock()) {
+      last = context;
+      return context;
+    }
+    auto context = std::make_shared<Context>();
+    context->device = device;
+    context->memory = std::make_shared<VulkanMemory>(device);
+    context->kernels = std::make_shared<VulkanKernels>(context->memory, device,
+                                                       KernelCache::defaultFolder());
+    entry = context;
+    last = context;
+    return context;
+  }
+};
+
+// The rows of workgroups that one dispatch of a pass covers.
+struct Band {
+  uint32_t pass = 0, firstRow = 0, rows = 0;
+};
+
+// A frame's commands, with timestamps around every band.
+struct Recording {
+  std::vector<VkCommandBuffer> commands;  // one a band
+  std::vector<Band> bands;
+  VkQueryPool queries = VK_NULL_HANDLE;
+};
+
+// Which recording serves a frame.
+struct RecordingKey {
+  std::vector<VkPipeline> pipelines;
+  uint32_t width = 0, height = 0;
+  auto operator<=>(const RecordingKey&) const = default;
+};
+
+// Memory that the host writes before a frame and reads after it.
+struct Slot {
+  GpuBuffer inputs;    // frame data, then for each pass the addresses of its buffers and parameters
+  GpuBuffer counters;  // GlslCounters for each band
+  VkFence fence = VK_NULL_HANDLE;
+  std::map<RecordingKey, Recording> recordings;
+  const Recording* running = nullptr;
+  RecordingKey runningKey;
+  std::chrono::steady_clock::time_point started;
+};
+
+constexpr size_t kInputBytes = 64 * 1024;
+constexpr size_t kCounterBytes = 64 * 1024;
+constexpr size_t kPassBytes = 2048;  // addresses, then parameters
+constexpr size_t kPassParams = 1024;
+
+class VulkanBackend final : public Backend {
+ public:
+  VulkanBackend(const std::shared_ptr<const CompiledScene>& scene, const BackendOptions& options)
+      : context_(Context::of({options.device, options.validate})),
+        device_(*context_->device),
+        memory_(*context_->memory) {
+    rayTracing_ = options.rayTracing.empty() ? "bvh" : options.rayTracing;
+    if (rayTracing_ != "bvh") {
+      failUsage(fmt::format("--ray-tracing {}: the Vulkan backend knows bvh", rayTracing_));
+    }
+    traceFile_ = "core/dialect/trace_bvh.glsl";
+    scene_ = VulkanScene::of(context_->memory, scene);
+    for (Slot& slot : slots_) {
+      slot.inputs = memory_.allocate(kInputBytes, MemoryKind::upload);
+      slot.counters = memory_.allocate(kCounterBytes, MemoryKind::readback);
+      VkFenceCreateInfo fence{};
+      fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+      device_.check(vkCreateFence(device_.handle(), &fence, nullptr, &slot.fence), "vkCreateFence");
+    }
+  }
+
+  ~VulkanBackend() override {
+    vkDeviceWaitIdle(device_.handle());
+    for (Slot& slot : slots_) {
+      for (auto& entry : slot.recordings) release(entry.second);
+      if (slot.fence != VK_NULL_HANDLE) vkDestroyFence(device_.handle(), slot.fence, nullptr);
+      memory_.free(slot.inputs);
+      memory_.free(slot.counters);
+    }
+    for (const GpuBuffer& buffer : buffers_) memory_.free(buffer);
+  }
+
+  void requireMemory(const std::string& what, uint32_t width, uint32_t height,
+                     uint64_t bufferBytes, uint64_t hostBytes) const override {
+    const bool isHost = device_.info().kind == "cpu";
+    restlab::requireMemory(what, width, height, hostBytes + (isHost ? bufferBytes : 0));
+    const uint64_t pixels = uint64_t(width) * height;
+    const uint64_t available = memory_.bytesAvailable(MemoryKind::device);
+    if (bufferBytes == 0 || pixels <= available / bufferBytes) return;
+    throw Error(ExitCode::deviceUnavailable,
+                fmt::format("{}: {}x{} pixels of {} bytes need {:.0f} MiB of the memory of {}, {} "
+                            "MiB are available; choose a smaller resolution",
+                            what, width, height, bufferBytes,
+                            double(pixels) * double(bufferBytes) / double(1 << 20), device_.name(),
+                            available >> 20));
+  }
+
+  BufferId allocate(size_t bytes) override {
+    buffers_.push_back(memory_.allocate(bytes, MemoryKind::device));
+    memory_.clear(buffers_.back());
+    return static_cast<BufferId>(buffers_.size() - 1);
+  }
+  void clear(BufferId buffer) override { memory_.clear(buffers_[buffer]); }
+  void read(BufferId buffer, void* to, size_t bytes) override {
+    memory_.read(buffers_[buffer], to, bytes);
+  }
+
+  uint32_t maskFor(const std::string& kernel, uint32_t needed) const override {
+    find(kernel);
+    return needed;  // compiled when it is wanted: exactly what is needed
+  }
+
+  void prepare(const std::string& kernel, uint32_t mask, StartupReport& report) override {
+    pipelineOf(kernel, mask, report);
+  }
+
+  void submit(const std::vector<PassRun>& passes, const rl::FrameData& frame) override {
+    if (underWay_.size() == kSlots) finished_.push_back(finishOldest());
+    Slot& slot = slots_[next_];
+    next_ = (next_ + 1) % kSlots;
+    RecordingKey key{{}, frame.width, frame.height};
+    StartupReport ignored;
+    for (const PassRun& pass : passes)
+      key.pipelines.push_back(pipelineOf(pass.kernel, pass.mask, ignored));
+    writeInputs(slot, passes, frame);
+    auto found = slot.recordings.find(key);
+    if (found == slot.recordings.end())
+      found = slot.recordings.emplace(key, record(slot, key)).first;
+    slot.running = &found->second;
+    slot.runningKey = key;
+    std::memset(slot.counters.mapped, 0, kCounterBytes);
+    device_.check(vkResetFences(device_.handle(), 1, &slot.fence), "vkResetFences");
+    slot.started = std::chrono::steady_clock::now();
+    const std::vector<VkCommandBuffer>& commands = slot.running->commands;
+    for (size_t i = 0; i < commands.size(); ++i) {
+      const bool isLast = i + 1 == commands.size();
+      device_.submit(commands[i], isLast ? slot.fence : VK_NULL_HANDLE, "a frame");
+    }
+    underWay_.push_back(&slot);
+  }
+
+  FrameResult collect() override {
+    if (finished_.empty()) return finishOldest();
+    FrameResult result = finished_.front();
+    finished_.pop_front();
+    return result;
+  }
+
+  uint32_t framesInFlight() const override { return kSlots; }
+  std::string rayTracing() const override { return rayTracing_; }
+  std::string device() const override {
+    return fmt::format("{}, {}", device_.name(), device_.info().driver);
+  }
+
+ private:
+  static const DialectKernel& find(const std::string& kernel) {
+    for (const DialectKernel& known : dialectKernels()) {
+      if (known.name == kernel) return known;
+    }
+    failUsage("no kernel '" + kernel + "' in this build");
+  }
+
+  VkPipeline pipelineOf(const std::string& kernel, uint32_t mask, StartupReport& report) {
+    VkPipeline& known = pipelines_[{kernel, mask}];
+    if (known == VK_NULL_HANDLE) {
+      const DialectKernel& files = find(kernel);
+      known = context_->kernels->pipeline({files.header, files.file, traceFile_, ""}, kernel, mask,
+                                          dialectSource, report);
+    }
+    return known;
+  }
+
+  static size_t passOffset(size_t pass) { return 256 + pass * kPassBytes; }
+
+  void writeInputs(Slot& slot, const std::vector<PassRun>& passes, const rl::FrameData& frame) {
+    std::memcpy(slot.inputs.mapped, &frame, sizeof frame);
+    for (size_t i = 0; i < passes.size(); ++i) {
+      std::vector<uint64_t> addresses;
+      for (BufferId b : passes[i].buffers)
+        addresses.push_back(b == kNoBuffer ? 0 : buffers_[b].address);
+      std::byte* at = slot.inputs.mapped + passOffset(i);
+      const size_t addressBytes = addresses.size() * sizeof(uint64_t);
+      const size_t paramBytes = passes[i].params.size();
+      if (addressBytes > kPassParams || paramBytes > kPassBytes - kPassParams ||
+          passOffset(i + 1) > kInputBytes) {
+        throw std::logic_error("a pass has more buffers or parameters than a slot holds");
+      }
+      std::memcpy(at, addresses.data(), addressBytes);
+      std::memcpy(at + kPassParams, passes[i].params.data(), paramBytes);
+    }
+  }
+
+  Recording record(Slot& slot, const RecordingKey& key) {
+    Recording recording;
+    const uint32_t groupsX = (key.width + kGlslTile - 1) / kGlslTile;
+    const uint32_t groupsY = (key.height + kGlslTile - 1) / kGlslTile;
+    for (uint32_t pass = 0; pass < key.pipelines.size(); ++pass) {
+      const uint32_t rows = rowsPerBand(key.pipelines[pass], groupsX);
+      for (uint32_t row = 0; row < groupsY; row += rows)
+        recording.bands.push_back({pass, row, std::min(rows, groupsY - row)});
+    }
+    if (recording.bands.size() * sizeof(GlslCounters) > kCounterBytes)
+      throw std::logic_error("a frame has more dispatches than a slot has counters");
+    const auto bandCount = static_cast<uint32_t>(recording.bands.size());
+    if (device_.hasTimestamps()) {
+      VkQueryPoolCreateInfo queries{};
+      queries.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
+      queries.queryType = VK_QUERY_TYPE_TIMESTAMP;
+      queries.queryCount = 2 * bandCount;
+      device_.check(vkCreateQueryPool(device_.handle(), &queries, nullptr, &recording.queries),
+                    "vkCreateQueryPool");
+    }
+    for (uint32_t band = 0; band < bandCount; ++band) {
+      recording.commands.push_back(recordBand(slot, key, recording, band, groupsX));
+    }
+    return recording;
+  }
+
+  VkCommandBuffer recordBand(const Slot& slot, const RecordingKey& key, const Recording& recording,
+                             uint32_t index, uint32_t groupsX) {
+    const Band& band = recording.bands[index];
+    VkCommandBuffer commands = device_.newCommands();
+    VkCommandBufferBeginInfo begin{};
+    begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+    device_.check(vkBeginCommandBuffer(commands, &begin), "vkBeginCommandBuffer");
+    if (index == 0 && recording.queries != VK_NULL_HANDLE) {
+      const auto count = static_cast<uint32_t>(2 * recording.bands.size());
+      vkCmdResetQueryPool(commands, recording.queries, 0, count);
+    }
+    // What came before: the other passes, and clears or copies between frames.
+    VkMemoryBarrier before{};
+    before.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+    before.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
+    before.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT;
+    vkCmdPipelineBarrier(commands,
+                         VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                         VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, 1, &before, 0, nullptr, 0,
+                         nullptr);
+    GlslPushConstants push;
+    push.scene = scene_->address();
+    push.frame = slot.inputs.address;
+    push.buffers = slot.inputs.address + passOffset(band.pass);
+    push.params = push.buffers + kPassParams;
+    push.counters = slot.counters.address + index * sizeof(GlslCounters);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, key.pipelines[band.pass]);
+    vkCmdPushConstants(commands, context_->kernels->layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                       sizeof push, &push);
+    timestamp(commands, recording, 2 * index);
+    vkCmdDispatchBase(commands, 0, band.firstRow, 0, groupsX, band.rows, 1);
+    timestamp(commands, recording, 2 * index + 1);
+    VkMemoryBarrier after{};
+    after.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+    after.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
+    after.dstAccessMask = VK_ACCESS_HOST_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT;
+    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                         VK_PIPELINE_STAGE_HOST_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 1, &after,
+                         0, nullptr, 0, nullptr);
+    device_.check(vkEndCommandBuffer(commands), "vkEndCommandBuffer");
+    return commands;
+  }
+
+  static void timestamp(VkCommandBuffer commands, const Recording& recording, uint32_t query) {
+    if (recording.queries != VK_NULL_HANDLE)
+      vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, recording.queries, query);
+  }
+
+  uint32_t rowsPerBand(VkPipeline pipeline, uint32_t groupsX) {
+    const auto found = bandPixels_.find(pipeline);
+    const uint32_t pixels = found == bandPixels_.end() ? kFirstBandPixels : found->second;
+    return std::max(1u, pixels / (groupsX * kGlslTile * kGlslTile));
+  }
+
+  void release(Recording& recording) {
+    for (VkCommandBuffer commands : recording.commands) device_.freeCommands(commands);
+    if (recording.queries != VK_NULL_HANDLE)
+      vkDestroyQueryPool(device_.handle(), recording.queries, nullptr);
+  }
+
+  FrameResult finishOldest() {
+    if (underWay_.empty()) throw std::logic_error("no frame is under way");
+    Slot& slot = *underWay_.front();
+    underWay_.pop_front();
+    device_.check(vkWaitForFences(device_.handle(), 1, &slot.fence, VK_TRUE, ~uint64_t{0}),
+                  "a frame");
+    const double wallMs = std::chrono::duration<double, std::milli>(
+                              std::chrono::steady_clock::now() - slot.started)
+                              .count();
+    device_.throwValidationMessages();
+    const Recording& recording = *slot.running;
+    FrameResult result;
+    result.timesMs.assign(slot.runningKey.pipelines.size(), 0.0);
+    std::vector<uint64_t> stamps(2 * recording.bands.size());
+    if (recording.queries != VK_NULL_HANDLE) {
+      device_.check(
+          vkGetQueryPoolResults(device_.handle(), recording.queries, 0,
+                                static_cast<uint32_t>(stamps.size()),
+                                stamps.size() * sizeof(uint64_t), stamps.data(), sizeof(uint64_t),
+                                VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+          "vkGetQueryPoolResults");
+    }
+    bool isTooLong = false;
+    for (size_t i = 0; i < recording.bands.size(); ++i) {
+      const Band& band = recording.bands[i];
+      const double timeMs = recording.queries != VK_NULL_HANDLE
+                                ? device_.timestampMs(stamps[2 * i], stamps[2 * i + 1])
+                                : wallMs / double(recording.bands.size());
+      result.timesMs[band.pass] += timeMs;
+      isTooLong |= shortenBands(slot.runningKey, band, timeMs);
+      GlslCounters counters;
+      std::memcpy(&counters, slot.counters.mapped + i * sizeof counters, sizeof counters);
+      result.counters.raysPath += counters.raysPath;
+      result.counters.raysShadow += counters.raysShadow;
+      for (uint32_t k = 0; k < rl::RL_HEALTH_COUNT; ++k)
+        result.counters.health[k] += counters.health[k];
+    }
+    if (isTooLong) isStale_ = true;
+    if (isStale_ && underWay_.empty()) forgetRecordings();
+    return result;
+  }
+
+  // Halves what one dispatch of a pass covers where it took too long; true when it did.
+  bool shortenBands(const RecordingKey& key, const Band& band, double timeMs) {
+    if (timeMs <= kLongestBandMs || band.rows <= 1) return false;
+    const uint32_t groupsX = (key.width + kGlslTile - 1) / kGlslTile;
+    const uint32_t rows =
+        std::max(1u, static_cast<uint32_t>(double(band.rows) * kLongestBandMs / (2.0 * timeMs)));
+    const uint32_t pixels = rows * groupsX * kGlslTile * kGlslTile;
+    uint32_t& known = bandPixels_.emplace(key.pipelines[band.pass], pixels).first->second;
+    known = std::min(known, pixels);
+    return true;
+  }
+
+  void forgetRecordings() {
+    for (Slot& slot : slots_) {
+      for (auto& entry : slot.recordings) release(entry.second);
+      slot.recordings.clear();
+      slot.running = nullptr;
+    }
+    isStale_ = false;
+  }
+
+  std::shared_ptr<Context> context_;
+  VulkanDevice& device_;
+  VulkanMemory& memory_;
+  std::shared_ptr<VulkanScene> scene_;
+  std::string rayTracing_, traceFile_;
+  std::vector<GpuBuffer> buffers_;
+  std::map<std::pair<std::string, uint32_t>, VkPipeline> pipelines_;
+  std::map<VkPipeline, uint32_t> bandPixels_;  // of passes whose first bands took too long
+  std::array<Slot, kSlots> slots_;
+  uint32_t next_ = 0;
+  std::deque<Slot*> underWay_;
+  std::deque<FrameResult> finished_;
+  bool isStale_ = false;  // the recordings have bands that are too long
+};
+
+}  // namespace
+
+std::unique_ptr<Backend> makeVulkanBackend(std::shared_ptr<const CompiledScene> scene,
+                                           const BackendOptions& options) {
+  return std::make_unique<VulkanBackend>(scene, options);
+}
+
+BackendInfo vulkanBackendInfo() {
+  BackendInfo info;
+  info.name = "vulkan";
+  std::vector<VulkanDeviceInfo> devices;
+  try {
+    devices = vulkanDeviceInfos();
+  } catch (const Error& error) {
+    info.whyNot = error.what();
+  }
+  for (const VulkanDeviceInfo& device : devices) {
+    std::string line = fmt::format("{} ({}; {}; {} MiB; rays: bvh{})", device.name, device.kind,
+                                   device.driver, device.memoryBytes >> 20,
+                                   device.hasRayQuery ? ", query" : "");
+    if (!device.whyNot.empty()) line += " cannot be used: " + device.whyNot;
+    info.devices.push_back(line);
+  }
+  info.available = !devices.empty() && devices.front().whyNot.empty();
+  info.description = devices.empty() ? "compute shaders" : "compute shaders on " + devices[0].name;
+  if (devices.empty() && info.whyNot.empty())
+    info.whyNot = "no Vulkan device; the package mesa-vulkan-drivers has one in software";
+  if (!devices.empty() && !devices.front().whyNot.empty()) info.whyNot = devices.front().whyNot;
+  return info;
+}
+
+}  // namespace restlab

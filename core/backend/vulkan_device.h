@@ -1,0 +1,79 @@
+// A Vulkan device opened for compute: which there are, which is taken, and its one queue.
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace restlab {
+
+// What can be said of a device before it is opened.
+struct VulkanDeviceInfo {
+  std::string name;    // the driver's
+  std::string kind;    // "discrete", "integrated", "virtual", "cpu", "other"
+  std::string driver;  // name and version, as the driver says them
+  std::string whyNot;  // what it lacks for this program; empty: it can be used
+  bool hasRayQuery = false;
+  uint64_t memoryBytes = 0;  // of its largest device-local heap
+};
+
+// All devices in the order in which they are preferred: discrete, integrated, virtual, CPU; those
+// that cannot be used last. Empty where there is no Vulkan driver.
+std::vector<VulkanDeviceInfo> vulkanDeviceInfos();
+
+struct VulkanOptions {
+  std::string device;     // a part of its name, in either case; "": the first that can be used
+  bool validate = false;  // with the validation layers, core and synchronisation
+};
+
+class VulkanDevice {
+ public:
+  // The device that the options name; the same object for the same options. Throws Error
+  // (deviceUnavailable) that says what is missing.
+  static std::shared_ptr<VulkanDevice> open(const VulkanOptions& options);
+  ~VulkanDevice();
+  VulkanDevice(const VulkanDevice&) = delete;
+  VulkanDevice& operator=(const VulkanDevice&) = delete;
+
+  const VulkanDeviceInfo& info() const { return info_; }
+  const std::string& name() const { return info_.name; }
+  VkDevice handle() const { return device_; }
+  VkPhysicalDevice physical() const { return physical_; }
+  const VkPhysicalDeviceProperties& properties() const { return properties_; }
+  bool hasTimestamps() const { return timestampBits_ != 0; }
+  // Milliseconds between two timestamps.
+  double timestampMs(uint64_t begin, uint64_t end) const;
+
+  VkCommandBuffer newCommands();
+  void freeCommands(VkCommandBuffer commands);
+  // Submits; `fence` may be null.
+  void submit(VkCommandBuffer commands, VkFence fence, const char* what);
+  // Records, submits and waits.
+  void runNow(const std::function<void(VkCommandBuffer)>& record, const char* what);
+  void check(VkResult result, const char* what) const;
+  // Throws std::runtime_error with the first message that the validation layers have had since the
+  // last call.
+  void throwValidationMessages();
+
+  uint32_t memoryTypeOf(VkMemoryPropertyFlags wanted) const;  // RL_INVALID: there is none
+
+ private:
+  VulkanDevice() = default;
+  struct Instance;
+  std::shared_ptr<Instance> instance_;
+  VulkanDeviceInfo info_;
+  VkPhysicalDeviceProperties properties_{};
+  VkPhysicalDeviceMemoryProperties memory_{};
+  VkPhysicalDevice physical_ = VK_NULL_HANDLE;
+  VkDevice device_ = VK_NULL_HANDLE;
+  VkQueue queue_ = VK_NULL_HANDLE;
+  VkCommandPool pool_ = VK_NULL_HANDLE;
+  uint32_t timestampBits_ = 0;
+
+  friend std::vector<VulkanDeviceInfo> vulkanDeviceInfos();
+};
+
+}  // namespace restlab

@@ -1,0 +1,50 @@
+// Kernels as pipelines of a device: compiled once per feature mask, kept in memory and on disk.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/backend/backend.h"
+#include "core/backend/glsl_compiler.h"
+#include "core/backend/glsl_preamble.h"
+#include "core/backend/kernel_cache.h"
+#include "core/backend/vulkan_memory.h"
+
+namespace restlab {
+
+class VulkanKernels {
+ public:
+  // `read` gives the dialect's files, `kernels` what there is.
+  VulkanKernels(std::shared_ptr<VulkanMemory> memory, std::shared_ptr<VulkanDevice> device,
+                std::filesystem::path cacheFolder);
+  ~VulkanKernels();
+  VulkanKernels(const VulkanKernels&) = delete;
+  VulkanKernels& operator=(const VulkanKernels&) = delete;
+
+  // The pipeline of a kernel, compiled where it is not known yet, which `report` then says. Throws
+  // Error (badUsage) for an unknown kernel, (deviceUnavailable) with file and line where it does
+  // not compile.
+  VkPipeline pipeline(const GlslKernel& kernel, const std::string& name, uint32_t mask,
+                      const SourceReader& read, StartupReport& report);
+  VkPipelineLayout layout() const { return layout_; }
+
+ private:
+  std::vector<uint32_t> spirvOf(const GlslKernel& kernel, const std::string& name,
+                                const SourceReader& read, bool& fromDisk);
+  void prime(VkPipeline pipeline);
+  void saveDriverCache();
+
+  std::shared_ptr<VulkanDevice> device_;
+  std::shared_ptr<VulkanMemory> memory_;
+  std::vector<std::string> notices_;
+  KernelCache cache_;
+  std::string driverCacheName_;
+  VkPipelineCache driverCache_ = VK_NULL_HANDLE;
+  VkPipelineLayout layout_ = VK_NULL_HANDLE;
+  GpuBuffer primer_;  // a frame of no pixels, then counters
+  std::map<std::pair<std::string, uint32_t>, VkPipeline> pipelines_;  // by its files and mask
+};
+
+}  // namespace restlab

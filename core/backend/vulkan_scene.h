@@ -1,0 +1,34 @@
+// A compiled scene on a Vulkan device.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/backend/vulkan_memory.h"
+
+namespace restlab {
+
+class CompiledScene;
+
+class VulkanScene {
+ public:
+  // The scene as it is bound now, with the project's own hierarchy; sessions of one scene share it.
+  static std::shared_ptr<VulkanScene> of(const std::shared_ptr<VulkanMemory>& memory,
+                                         const std::shared_ptr<const CompiledScene>& scene);
+  ~VulkanScene();
+  VulkanScene(const VulkanScene&) = delete;
+  VulkanScene& operator=(const VulkanScene&) = delete;
+
+  uint64_t address() const { return data_.address; }  // of the SceneData
+  size_t bytes() const { return bytes_; }
+
+ private:
+  VulkanScene(std::shared_ptr<VulkanMemory> memory, std::shared_ptr<const CompiledScene> scene);
+  std::shared_ptr<VulkanMemory> memory_;
+  std::shared_ptr<const CompiledScene> scene_;
+  std::vector<GpuBuffer> buffers_;
+  GpuBuffer data_;
+  size_t bytes_ = 0;
+};
+
+}  // namespace restlab
