@@ -15,8 +15,8 @@
 
 namespace restlab {
 
-class CompiledScene;    // core/scene/compiled_scene.h
-struct StartupReport;   // core/backend/backend.h
+class CompiledScene;   // core/scene/compiled_scene.h
+struct StartupReport;  // core/backend/backend.h
 
 struct SessionConfig {
   std::string integrator = "path";

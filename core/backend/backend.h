@@ -44,7 +44,7 @@ struct BackendOptions {
 struct KernelReport {
   std::string kernel;
   uint32_t mask = 0;
-  bool fromDisk = false;              // its SPIR-V was
+  bool fromDisk = false;                // its SPIR-V was
   double glslMs = 0.0, driverMs = 0.0;  // dialect to SPIR-V, SPIR-V to code
 };
 

@@ -59,14 +59,13 @@ class CpuBackend final : public Backend {
     if (!options.device.empty())
       failUsage("--device " + options.device + ": is of the Vulkan backend; the CPU has no choice");
     if (rayTracing_ != "embree" && rayTracing_ != "bvh") {
-      failUsage(
-          fmt::format("--ray-tracing {}: the CPU backend knows embree and bvh", rayTracing_));
+      failUsage(fmt::format("--ray-tracing {}: the CPU backend knows embree and bvh", rayTracing_));
     }
     if (rayTracing_ == "bvh") scene_->bindBvh();
   }
 
-  void requireMemory(const std::string& what, uint32_t width, uint32_t height,
-                     uint64_t bufferBytes, uint64_t hostBytes) const override {
+  void requireMemory(const std::string& what, uint32_t width, uint32_t height, uint64_t bufferBytes,
+                     uint64_t hostBytes) const override {
     restlab::requireMemory(what, width, height, bufferBytes + hostBytes);
   }
 
@@ -105,8 +104,7 @@ class CpuBackend final : public Backend {
 
   void submit(const std::vector<PassRun>& passes, const rl::FrameData& frame) override {
     FrameResult result;
-    for (const PassRun& pass : passes)
-      result.timesMs.push_back(run(pass, frame, result.counters));
+    for (const PassRun& pass : passes) result.timesMs.push_back(run(pass, frame, result.counters));
     finished_.push_back(std::move(result));
   }
 
@@ -122,8 +120,7 @@ class CpuBackend final : public Backend {
 
  private:
   const rl::CpuKernelInfo& find(const std::string& kernel, uint32_t needed) const {
-    const rl::CpuKernelInfo* info =
-        rl::findCpuKernel(kernel.c_str(), needed, rayTracing_.c_str());
+    const rl::CpuKernelInfo* info = rl::findCpuKernel(kernel.c_str(), needed, rayTracing_.c_str());
     if (info == nullptr) failUsage("no kernel '" + kernel + "' in this build");
     return *info;
   }

@@ -46,7 +46,6 @@ CpuKernelTable cpuKernelTable();
 
 // The instantiation with the smallest mask that covers `needed`; null when there is no such kernel.
 // The project's own hierarchy is compiled into the general mask only.
-const CpuKernelInfo* findCpuKernel(const char* name, uint32_t needed,
-                                   const char* trace = "embree");
+const CpuKernelInfo* findCpuKernel(const char* name, uint32_t needed, const char* trace = "embree");
 
 }  // namespace rl

@@ -116,8 +116,7 @@ std::vector<uint32_t> decorateNoContraction(const std::vector<uint32_t>& spirv) 
   return result;
 }
 
-GlslResult compileGlsl(const std::string& text, const std::string& name,
-                       const SourceReader& read) {
+GlslResult compileGlsl(const std::string& text, const std::string& name, const SourceReader& read) {
   static const Process process;
   glslang::TShader shader(EShLangCompute);
   const char* strings[] = {text.c_str()};

@@ -19,10 +19,10 @@ struct GlslResult {
 using SourceReader = std::function<std::optional<std::string>(const std::string& path)>;
 SourceReader readBelow(const std::filesystem::path& root);
 
-// Compiles a compute shader for Vulkan 1.2; `name` stands for the text itself in messages. Every float operation is decorated NoContraction: a backend that fused
-// multiplications with additions would decide otherwise than the CPU.
-GlslResult compileGlsl(const std::string& text, const std::string& name,
-                       const SourceReader& read);
+// Compiles a compute shader for Vulkan 1.2; `name` stands for the text itself in messages. Every
+// float operation is decorated NoContraction: a backend that fused multiplications with additions
+// would decide otherwise than the CPU.
+GlslResult compileGlsl(const std::string& text, const std::string& name, const SourceReader& read);
 
 // Adds NoContraction to the float arithmetic of a module that lacks it.
 std::vector<uint32_t> decorateNoContraction(const std::vector<uint32_t>& spirv);

@@ -11,10 +11,10 @@ namespace restlab {
 
 // A kernel as rl_add_kernel names it; paths are relative to the repository.
 struct GlslKernel {
-  std::string header;     // Buffers and Params, RL_KERNEL_BUFFERS and RL_KERNEL_PARAMS
-  std::string file;       // defines kernelMain()
-  std::string traceFile;  // defines traceRay()
-  std::string extensions;  // "#extension" lines that the trace file needs
+  std::string header;           // Buffers and Params, RL_KERNEL_BUFFERS and RL_KERNEL_PARAMS
+  std::string file;             // defines kernelMain()
+  std::string traceFile;        // defines traceRay()
+  std::string extensions = {};  // "#extension" lines that the trace file needs
 };
 
 // Threads of a workgroup in x and y: a tile of the image.

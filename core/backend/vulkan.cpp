@@ -22,9 +22,9 @@ namespace restlab {
 
 namespace {
 
-constexpr uint32_t kSlots = 2;              // frames in flight
+constexpr uint32_t kSlots = 2;                   // frames in flight
 constexpr uint32_t kFirstBandPixels = 1u << 18;  // of a dispatch, before its time is known
-constexpr double kLongestBandMs = 500.0;    // watchdogs end dispatches of a few seconds
+constexpr double kLongestBandMs = 500.0;         // watchdogs end dispatches of a few seconds
 
 // What sessions on one device share.
 struct Context {
@@ -45,8 +45,8 @@ struct Context {
     auto context = std::make_shared<Context>();
     context->device = device;
     context->memory = std::make_shared<VulkanMemory>(device);
-    context->kernels = std::make_shared<VulkanKernels>(context->memory, device,
-                                                       KernelCache::defaultFolder());
+    context->kernels =
+        std::make_shared<VulkanKernels>(context->memory, device, KernelCache::defaultFolder());
     entry = context;
     last = context;
     return context;
@@ -120,8 +120,8 @@ class VulkanBackend final : public Backend {
     for (const GpuBuffer& buffer : buffers_) memory_.free(buffer);
   }
 
-  void requireMemory(const std::string& what, uint32_t width, uint32_t height,
-                     uint64_t bufferBytes, uint64_t hostBytes) const override {
+  void requireMemory(const std::string& what, uint32_t width, uint32_t height, uint64_t bufferBytes,
+                     uint64_t hostBytes) const override {
     const bool isHost = device_.info().kind == "cpu";
     restlab::requireMemory(what, width, height, hostBytes + (isHost ? bufferBytes : 0));
     const uint64_t pixels = uint64_t(width) * height;
@@ -204,7 +204,7 @@ class VulkanBackend final : public Backend {
     VkPipeline& known = pipelines_[{kernel, mask}];
     if (known == VK_NULL_HANDLE) {
       const DialectKernel& files = find(kernel);
-      known = context_->kernels->pipeline({files.header, files.file, traceFile_, ""}, kernel, mask,
+      known = context_->kernels->pipeline({files.header, files.file, traceFile_}, kernel, mask,
                                           dialectSource, report);
     }
     return known;
@@ -272,10 +272,9 @@ class VulkanBackend final : public Backend {
     before.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
     before.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
     before.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT;
-    vkCmdPipelineBarrier(commands,
-                         VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                         VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, 1, &before, 0, nullptr, 0,
-                         nullptr);
+    vkCmdPipelineBarrier(
+        commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+        VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, 1, &before, 0, nullptr, 0, nullptr);
     GlslPushConstants push;
     push.scene = scene_->address();
     push.frame = slot.inputs.address;
@@ -322,9 +321,9 @@ class VulkanBackend final : public Backend {
     underWay_.pop_front();
     device_.check(vkWaitForFences(device_.handle(), 1, &slot.fence, VK_TRUE, ~uint64_t{0}),
                   "a frame");
-    const double wallMs = std::chrono::duration<double, std::milli>(
-                              std::chrono::steady_clock::now() - slot.started)
-                              .count();
+    const double wallMs =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - slot.started)
+            .count();
     device_.throwValidationMessages();
     const Recording& recording = *slot.running;
     FrameResult result;
@@ -411,9 +410,9 @@ BackendInfo vulkanBackendInfo() {
     info.whyNot = error.what();
   }
   for (const VulkanDeviceInfo& device : devices) {
-    std::string line = fmt::format("{} ({}; {}; {} MiB; rays: bvh{})", device.name, device.kind,
-                                   device.driver, device.memoryBytes >> 20,
-                                   device.hasRayQuery ? ", query" : "");
+    std::string line =
+        fmt::format("{} ({}; {}; {} MiB; rays: bvh{})", device.name, device.kind, device.driver,
+                    device.memoryBytes >> 20, device.hasRayQuery ? ", query" : "");
     if (!device.whyNot.empty()) line += " cannot be used: " + device.whyNot;
     info.devices.push_back(line);
   }

@@ -124,7 +124,8 @@ GpuBuffer VulkanMemory::allocate(size_t bytes, MemoryKind kind) {
   for (uint32_t i = 0; i < blocks_.size() && index == 0xffffffffu; ++i) {
     if (blocks_[i].buffer == VK_NULL_HANDLE || blocks_[i].kind != kind) continue;
     std::map<size_t, size_t>& holes = blocks_[i].holes;
-    hole = std::find_if(holes.begin(), holes.end(), [&](const auto& h) { return h.second >= size; });
+    hole =
+        std::find_if(holes.begin(), holes.end(), [&](const auto& h) { return h.second >= size; });
     if (hole != holes.end()) index = i;
   }
   if (index == 0xffffffffu) {
