@@ -28,6 +28,7 @@ struct Features {
   VkPhysicalDeviceVulkan12Features v12{};
   VkPhysicalDeviceAccelerationStructureFeaturesKHR acceleration{};
   VkPhysicalDeviceRayQueryFeaturesKHR rayQuery{};
+  VkSubgroupFeatureFlags subgroupOperations = 0;
 
   explicit Features(bool withRays) {
     core.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
@@ -104,6 +105,9 @@ std::string whatIsMissing(VkPhysicalDevice device, const VkPhysicalDevicePropert
   if (properties.apiVersion < VK_API_VERSION_1_2) missing.emplace_back("Vulkan 1.2");
   if (!features.v12.bufferDeviceAddress) missing.emplace_back("bufferDeviceAddress");
   if (!features.v12.scalarBlockLayout) missing.emplace_back("scalarBlockLayout");
+  if (!features.core.features.shaderInt64) missing.emplace_back("shaderInt64");
+  if ((features.subgroupOperations & VK_SUBGROUP_FEATURE_ARITHMETIC_BIT) == 0)
+    missing.emplace_back("arithmetic of subgroups");
   if (computeQueueFamily(device, nullptr) == kNone) missing.emplace_back("a compute queue");
   return missing.empty() ? "" : fmt::format("the driver lacks {}", fmt::join(missing, ", "));
 }
@@ -121,8 +125,13 @@ VulkanDeviceInfo describe(VkPhysicalDevice device) {
   const bool mayTrace = hasExtensions(device, std::begin(kRayExtensions), std::end(kRayExtensions));
   Features features(mayTrace && is12);
   if (is12) {
+    VkPhysicalDeviceVulkan11Properties v11{};
+    v11.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES;
     properties.pNext = &driver;
+    driver.pNext = &v11;
     vkGetPhysicalDeviceProperties2(device, &properties);
+    if ((v11.subgroupSupportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0)
+      features.subgroupOperations = v11.subgroupSupportedOperations;
     vkGetPhysicalDeviceFeatures2(device, &features.core);
     info.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
   }
@@ -296,6 +305,7 @@ std::shared_ptr<VulkanDevice> VulkanDevice::open(const VulkanOptions& given) {
   Features features(device->info_.hasRayQuery);
   features.v12.bufferDeviceAddress = VK_TRUE;
   features.v12.scalarBlockLayout = VK_TRUE;
+  features.core.features.shaderInt64 = VK_TRUE;
   features.acceleration.accelerationStructure = VK_TRUE;
   features.rayQuery.rayQuery = VK_TRUE;
   const float priority = 1.0f;

@@ -45,6 +45,12 @@ using real3 = glm::vec3;
   struct Name {         \
     T* data;            \
   };
+// The address of pairs of words: RL_PAIR(name, i) reads two words in one access.
+#define RL_PAIR_REF(Name) \
+  struct Name {           \
+    uvec2* data;          \
+  };
+#define RL_PAIR(ref, i) ((ref).data[i])
 #define RL_STATIC_ASSERT_SIZE(T, bytes) static_assert(sizeof(T) == (bytes), #T " layout changed")
 
 #else  // GLSL 4.60
@@ -61,6 +67,9 @@ using real3 = glm::vec3;
 #define RL_PROTO(declaration) declaration;
 #define RL_REF(Name, T) \
   layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Name { T data[]; };
+#define RL_PAIR_REF(Name) \
+  layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Name { uint64_t data[]; };
+#define RL_PAIR(ref, i) unpackUint2x32((ref).data[i])
 #define RL_STATIC_ASSERT_SIZE(T, bytes)
 
 #endif

@@ -26,16 +26,68 @@ RL_FN BvhRay bvhRay(RL_IN(vec3) origin, RL_IN(vec3) dir) {
   return r;
 }
 
-// Where the ray enters a box, at least tMin; 3e38 where it misses. The exit is moved out by the
-// rounding error of the slab test (Ize 2013), so that no box hides what it holds.
-RL_FN float bvhEnter(RL_IN(BvhRay) r, RL_IN(vec3) low, RL_IN(vec3) high, float tMin, float tMax) {
-  vec3 a = (low - r.origin) * r.inverseDir;
-  vec3 b = (high - r.origin) * r.inverseDir;
-  vec3 near = min(a, b);
-  vec3 far = max(a, b);
-  float enter = max(max(near.x, near.y), max(near.z, tMin));
-  float leave = min(min(far.x, far.y), far.z) * 1.0000008f;
+// Where the ray enters child k of a node, at least tMin; 3e38 where it misses. near and far: the
+// bytes of the planes that the ray meets first and last. The exit is moved out by the rounding
+// error of the slab test (Ize 2013), so that no box hides what it holds.
+RL_FN float bvhEnter(RL_IN(BvhRay) r, RL_IN(vec3) origin, RL_IN(vec3) cell, RL_IN(uvec3) near,
+                     RL_IN(uvec3) far, uint k, float tMin, float tMax) {
+  uint shift = 8u * k;
+  vec3 nearBytes = vec3(float((near.x >> shift) & 255u), float((near.y >> shift) & 255u),
+                        float((near.z >> shift) & 255u));
+  vec3 farBytes = vec3(float((far.x >> shift) & 255u), float((far.y >> shift) & 255u),
+                       float((far.z >> shift) & 255u));
+  vec3 a = (origin + nearBytes * cell - r.origin) * r.inverseDir;
+  vec3 b = (origin + farBytes * cell - r.origin) * r.inverseDir;
+  float enter = max(max(a.x, a.y), max(a.z, tMin));
+  float leave = min(min(b.x, b.y), b.z) * 1.0000008f;
   return enter <= min(leave, tMax) ? enter : 3.0e38f;
+}
+
+// Exchanges entries i and j of the list where they are out of order.
+RL_FN void bvhOrder(RL_INOUT(BvhHits) hits, uint i, uint j) {
+  bool swaps = hits.entry[j] < hits.entry[i];
+  float entry = hits.entry[i];
+  uint child = hits.child[i];
+  hits.entry[i] = swaps ? hits.entry[j] : entry;
+  hits.child[i] = swaps ? hits.child[j] : child;
+  hits.entry[j] = swaps ? entry : hits.entry[j];
+  hits.child[j] = swaps ? child : hits.child[j];
+}
+
+RL_FN BvhHits bvhChildren(RL_IN(BvhRay) r, uint node, float tMin, float tMax) {
+  uint at = node * RL_BVH_NODE_PAIRS;
+  uvec2 w0 = RL_PAIR(gScene.bvhNodes, at);
+  uvec2 w1 = RL_PAIR(gScene.bvhNodes, at + 1u);
+  uvec2 w2 = RL_PAIR(gScene.bvhNodes, at + 2u);
+  uvec2 w3 = RL_PAIR(gScene.bvhNodes, at + 3u);
+  uvec2 w4 = RL_PAIR(gScene.bvhNodes, at + 4u);
+  uvec2 w5 = RL_PAIR(gScene.bvhNodes, at + 5u);
+  uvec2 w6 = RL_PAIR(gScene.bvhNodes, at + 6u);
+  vec3 origin = vec3(uintBitsToFloat(w0.x), uintBitsToFloat(w0.y), uintBitsToFloat(w1.x));
+  vec3 cell = vec3(uintBitsToFloat((w1.y & 255u) << 23u),
+                   uintBitsToFloat(((w1.y >> 8u) & 255u) << 23u),
+                   uintBitsToFloat(((w1.y >> 16u) & 255u) << 23u));
+  uvec3 low = uvec3(w2.x, w2.y, w3.x);
+  uvec3 high = uvec3(w3.y, w4.x, w4.y);
+  uvec3 near = uvec3(r.inverseDir.x < 0.0f ? high.x : low.x, r.inverseDir.y < 0.0f ? high.y : low.y,
+                     r.inverseDir.z < 0.0f ? high.z : low.z);
+  uvec3 far = uvec3(r.inverseDir.x < 0.0f ? low.x : high.x, r.inverseDir.y < 0.0f ? low.y : high.y,
+                    r.inverseDir.z < 0.0f ? low.z : high.z);
+  BvhHits hits;
+  hits.child[0] = w5.x;
+  hits.child[1] = w5.y;
+  hits.child[2] = w6.x;
+  hits.child[3] = w6.y;
+  for (uint k = 0u; k < 4u; k = k + 1u) {
+    float entry = bvhEnter(r, origin, cell, near, far, k, tMin, tMax);
+    hits.entry[k] = hits.child[k] != RL_INVALID ? entry : 3.0e38f;
+  }
+  bvhOrder(hits, 0u, 1u);
+  bvhOrder(hits, 2u, 3u);
+  bvhOrder(hits, 0u, 2u);
+  bvhOrder(hits, 1u, 3u);
+  bvhOrder(hits, 1u, 2u);
+  return hits;
 }
 
 // A corner, relative to the origin, as the ray sees it.
@@ -46,11 +98,17 @@ RL_FN vec2 bvhCorner(RL_IN(BvhRay) r, RL_IN(vec3) corner) {
 
 // Watertight (Woop, Benthin and Wald 2013): rounding is monotonic, so that the difference of two
 // products has the right sign or is 0, and an edge (0) belongs to both of its triangles.
-RL_FN bool bvhTriangle(RL_IN(BvhRay) r, RL_IN(BvhTriangle) triangle, float tMin, float tMax,
-                       RL_INOUT(Hit) hit) {
-  vec3 p0 = triangle.p0 - r.origin;
-  vec3 p1 = triangle.p1 - r.origin;
-  vec3 p2 = triangle.p2 - r.origin;
+RL_FN bool bvhTriangle(RL_IN(BvhRay) r, uint at, float tMin, float tMax, RL_INOUT(Hit) hit,
+                       RL_INOUT(uint) isTransparent) {
+  uvec2 w0 = RL_PAIR(gScene.bvhTriangles, at);
+  uvec2 w1 = RL_PAIR(gScene.bvhTriangles, at + 1u);
+  uvec2 w2 = RL_PAIR(gScene.bvhTriangles, at + 2u);
+  uvec2 w3 = RL_PAIR(gScene.bvhTriangles, at + 3u);
+  uvec2 w4 = RL_PAIR(gScene.bvhTriangles, at + 4u);
+  vec3 p0 = vec3(uintBitsToFloat(w0.x), uintBitsToFloat(w0.y), uintBitsToFloat(w1.x)) - r.origin;
+  vec3 p1 = vec3(uintBitsToFloat(w1.y), uintBitsToFloat(w2.x), uintBitsToFloat(w2.y)) - r.origin;
+  vec3 p2 = vec3(uintBitsToFloat(w3.x), uintBitsToFloat(w3.y), uintBitsToFloat(w4.x)) - r.origin;
+  isTransparent = w4.y;
   vec2 a = bvhCorner(r, p0);
   vec2 b = bvhCorner(r, p1);
   vec2 c = bvhCorner(r, p2);
@@ -99,33 +157,32 @@ RL_FN float traceRay(RL_IN(Ray) ray, uint mode, uint alphaKey, RL_OUT(Hit) hit) 
     bool pops = true;
     uint kind = current & RL_BVH_KIND;
     if (kind == 0u) {
-      BvhNode node = gScene.bvhNodes.data[current];
-      float enter0 = bvhEnter(r, node.low0, node.high0, ray.tMin, nearest);
-      float enter1 = bvhEnter(r, node.low1, node.high1, ray.tMin, nearest);
-      bool is0First = enter0 <= enter1;
-      float enterNear = min(enter0, enter1);
-      float enterFar = max(enter0, enter1);
-      if (enterNear < 3.0e38f) {
-        current = is0First ? node.child0 : node.child1;
-        pops = false;
-        if (enterFar < 3.0e38f) {
-          stack.child[height] = is0First ? node.child1 : node.child0;
-          stack.entry[height] = enterFar;
+      BvhHits hits = bvhChildren(r, current, ray.tMin, nearest);
+      for (uint k = 3u; k > 0u; k = k - 1u) {
+        if (hits.entry[k] < 3.0e38f) {
+          stack.child[height] = hits.child[k];
+          stack.entry[height] = hits.entry[k];
           height = height + 1u;
         }
+      }
+      if (hits.entry[0] < 3.0e38f) {
+        current = hits.child[0];
+        pops = false;
       }
     } else if (kind == RL_BVH_LEAF) {
       uint first = current & RL_BVH_LEAF_FIRST;
       uint count = (current & ~RL_BVH_KIND) >> RL_BVH_LEAF_COUNT_SHIFT;
       for (uint i = 0u; i < count; i = i + 1u) {
-        BvhTriangle triangle = gScene.bvhTriangles.data[first + i];
+        uint at = (first + i) * RL_BVH_TRIANGLE_PAIRS;
         Hit cand = hit;
-        if (!bvhTriangle(r, triangle, ray.tMin, nearest, cand)) continue;
-        cand.instance = instance == RL_INVALID ? triangle.instance : instance;
-        cand.primitive = triangle.primitive;
+        uint isTriangleTransparent;
+        if (!bvhTriangle(r, at, ray.tMin, nearest, cand, isTriangleTransparent)) continue;
+        uvec2 numbers = RL_PAIR(gScene.bvhTriangles, at + 5u);
+        cand.instance = instance == RL_INVALID ? numbers.x : instance;
+        cand.primitive = numbers.y;
         float alpha = 1.0f;
         if (RL_HAS(RL_FEATURE_ALPHA)) {
-          bool asks = instance == RL_INVALID ? triangle.isTransparent != 0u : isTransparent;
+          bool asks = instance == RL_INVALID ? isTriangleTransparent != 0u : isTransparent;
           if (asks) alpha = surfaceAlpha(cand);
         }
         if (mode == RL_RAY_SHADOW) {

@@ -18,6 +18,12 @@ struct BvhRay {
   vec2 shear;  // takes dir to that axis: the other two over it
 };
 
+// Children of a node that the ray enters, nearest first; entry 3e38: none.
+struct BvhHits {
+  uint child[4];
+  float entry[4];
+};
+
 struct BvhStack {
   uint child[RL_BVH_STACK];
   float entry[RL_BVH_STACK];  // where the ray enters the child's bounds

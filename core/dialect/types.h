@@ -152,36 +152,18 @@ struct AliasEntry {
 };
 RL_STATIC_ASSERT_SIZE(AliasEntry, 12);
 
-// The project's own bounding volume hierarchy (core/scene/bvh.h): binary, each node with the bounds
-// of both children. A child is a node's number, or one of:
+// The project's own bounding volume hierarchy (core/scene/bvh.h): four children a node, read in
+// pairs of words. A child is a node's number, RL_INVALID (none), or one of:
 const uint RL_BVH_LEAF = 0x40000000u;      // count << 26 | first triangle
 const uint RL_BVH_INSTANCE = 0x80000000u;  // | number of the instance
 const uint RL_BVH_KIND = 0xc0000000u;      // mask of the two
 const uint RL_BVH_LEAF_COUNT_SHIFT = 26u;
 const uint RL_BVH_LEAF_FIRST = 0x03ffffffu;  // mask
+const uint RL_BVH_NODE_PAIRS = 8u;
+const uint RL_BVH_TRIANGLE_PAIRS = 6u;
 // Largest number of nodes between a root and a leaf; the two levels have one each.
-const uint RL_BVH_MAX_DEPTH = 40u;
-const uint RL_BVH_STACK = 96u;  // both levels and the way back from an instance
-
-struct BvhNode {
-  vec3 low0;
-  vec3 high0;
-  vec3 low1;  // an absent child has low > high
-  vec3 high1;
-  uint child0;
-  uint child1;
-};
-RL_STATIC_ASSERT_SIZE(BvhNode, 56);
-
-struct BvhTriangle {
-  vec3 p0;
-  uint instance;  // of a mesh in world space; RL_INVALID in a shared mesh
-  vec3 p1;
-  uint primitive;
-  vec3 p2;
-  uint isTransparent;  // in part, perhaps: rays ask the material
-};
-RL_STATIC_ASSERT_SIZE(BvhTriangle, 48);
+const uint RL_BVH_MAX_DEPTH = 26u;
+const uint RL_BVH_STACK = 160u;  // three children left behind at every node of both levels
 
 const uint RL_CAMERA_PERSPECTIVE = 0u;
 const uint RL_CAMERA_ORTHOGRAPHIC = 1u;
@@ -210,8 +192,7 @@ RL_REF(MaterialRef, Material)
 RL_REF(TextureRef, Texture)
 RL_REF(LightRef, Light)
 RL_REF(AliasRef, AliasEntry)
-RL_REF(BvhNodeRef, BvhNode)
-RL_REF(BvhTriangleRef, BvhTriangle)
+RL_PAIR_REF(PairRef)
 
 // Everything a kernel reads of the scene, by address.
 struct SceneData {
@@ -233,8 +214,8 @@ struct SceneData {
   AliasRef environmentAlias;  // pmf per texel
   Vec2Ref ggxAlbedo;          // core/scene/ggx_albedo.h; null unless a session compensates
   // The project's own hierarchy: null unless a session traces it. The world's root is node 0.
-  BvhNodeRef bvhNodes;
-  BvhTriangleRef bvhTriangles;
+  PairRef bvhNodes;      // RL_BVH_NODE_PAIRS each
+  PairRef bvhTriangles;  // RL_BVH_TRIANGLE_PAIRS each
   UintRef bvhRoots;  // node of each geometry that is shared by instances
   uint lightCount;
   uint environmentWidth;  // 0: no environment

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -17,8 +19,7 @@ namespace restlab {
 namespace {
 
 constexpr uint32_t kLeafSize = 4;
-// A place that no ray reaches: the bounds of a child that is not there.
-constexpr float kNowhere = 3.0e38f;
+constexpr uint32_t kWidth = 4;  // children of a node
 
 struct Box {
   glm::vec3 low{std::numeric_limits<float>::infinity()};
@@ -32,8 +33,8 @@ struct Box {
 // A node of the builder's tree, in its own memory.
 struct BuildNode {
   bool isLeaf = false;
-  BuildNode* children[2] = {nullptr, nullptr};
-  Box boxes[2];
+  BuildNode* children[kWidth] = {};
+  Box boxes[kWidth];
   uint32_t count = 0;
   uint32_t items[kLeafSize] = {};
 };
@@ -65,6 +66,61 @@ void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* pri
   return leaf;
 }
 
+struct Child {
+  uint32_t number = 0;
+  Box box;
+};
+
+// The bounds of the children along one axis as bytes; false where the grid is too fine for them.
+// The sums are those of the kernel, in its precision: no rounding lets a child out of its bounds.
+bool quantise(const std::vector<Child>& children, int axis, float origin, uint32_t exponent,
+              uint32_t& low, uint32_t& high) {
+  const float cell = std::bit_cast<float>(exponent << 23);
+  low = high = 0;
+  for (uint32_t k = 0; k < children.size(); ++k) {
+    const Box& box = children[k].box;
+    const auto cells = [&](float at) {
+      return cell > 0.0f ? (double(at) - double(origin)) / double(cell) : 0.0;
+    };
+    int first = static_cast<int>(std::clamp(std::floor(cells(box.low[axis])), 0.0, 255.0));
+    int last = static_cast<int>(std::clamp(std::ceil(cells(box.high[axis])), 0.0, 256.0));
+    while (first > 0 && origin + float(first) * cell > box.low[axis]) --first;
+    while (last <= 255 && origin + float(last) * cell < box.high[axis]) ++last;
+    if (last > 255) return false;
+    low |= static_cast<uint32_t>(first) << (8 * k);
+    high |= static_cast<uint32_t>(last) << (8 * k);
+  }
+  return true;
+}
+
+BvhNode nodeOf(const std::vector<Child>& children) {
+  BvhNode node;
+  Box box;
+  for (uint32_t k = 0; k < children.size(); ++k) {
+    node.children[k] = children[k].number;
+    box.add(children[k].box.low);
+    box.add(children[k].box.high);
+  }
+  if (children.empty()) return node;
+  node.origin = box.low;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float cell = (box.high[axis] - box.low[axis]) / 255.0f;
+    // Beyond the largest exponent a box is as large as numbers are.
+    uint32_t exponent = std::min(std::bit_cast<uint32_t>(cell) >> 23, 254u);
+    while (!quantise(children, axis, node.origin[axis], exponent, node.low[axis],
+                     node.high[axis])) {
+      if (exponent == 254) {
+        node.low[axis] = 0;
+        node.high[axis] = 0xffffffffu;
+        break;
+      }
+      ++exponent;
+    }
+    node.exponents |= exponent << (8 * axis);
+  }
+  return node;
+}
+
 struct ReleaseBvh {
   void operator()(RTCBVH bvh) const { rtcReleaseBVH(bvh); }
 };
@@ -75,7 +131,7 @@ class Builder {
 
   Bvh build() {
     bvh_.roots.assign(in_.geometries.size(), rl::RL_INVALID);
-    bvh_.nodes.push_back(nodeOfNothing());
+    bvh_.nodes.emplace_back();
     std::vector<Triangle> world;
     std::vector<uint32_t> placed;  // instances
     for (uint32_t i = 0; i < in_.instances.size(); ++i) {
@@ -88,33 +144,15 @@ class Builder {
       const bool isTransparent = (inst.flags & rl::RL_INSTANCE_ALPHA) != 0;
       addTriangles(world, inst.geometry, i, isTransparent);
     }
-    setChild(0, 0, treeOfTriangles(world));
+    std::vector<Child> trees = treeOfTriangles(world);
     for (const uint32_t i : placed) buildGeometry(in_.instances[i].geometry);
-    setChild(0, 1, treeOfInstances(placed));
+    for (const Child& tree : treeOfInstances(placed)) trees.push_back(tree);
+    bvh_.nodes[0] = nodeOf(trees);
     return std::move(bvh_);
   }
 
  private:
-  using Triangle = rl::BvhTriangle;
-  struct Child {
-    uint32_t number = 0;
-    Box box;
-    bool exists = false;
-  };
-
-  static rl::BvhNode nodeOfNothing() {
-    rl::BvhNode node{};
-    node.low0 = node.high0 = node.low1 = node.high1 = glm::vec3(kNowhere);
-    return node;
-  }
-
-  void setChild(uint32_t node, int side, const Child& child) {
-    if (!child.exists) return;
-    rl::BvhNode& n = bvh_.nodes[node];
-    (side == 0 ? n.child0 : n.child1) = child.number;
-    (side == 0 ? n.low0 : n.low1) = child.box.low;
-    (side == 0 ? n.high0 : n.high1) = child.box.high;
-  }
+  using Triangle = BvhTriangle;
 
   void addTriangles(std::vector<Triangle>& out, uint32_t geometry, uint32_t instance,
                     bool isTransparent) const {
@@ -173,17 +211,17 @@ class Builder {
     }
     geometryBoxes_.resize(in_.geometries.size());
     geometryBoxes_[geometry] = box;
-    const Child tree = treeOfTriangles(triangles);
-    if ((tree.number & rl::RL_BVH_KIND) == 0u) {
-      bvh_.roots[geometry] = tree.number;
+    const std::vector<Child> tree = treeOfTriangles(triangles);
+    if ((tree.front().number & rl::RL_BVH_KIND) == 0u) {
+      bvh_.roots[geometry] = tree.front().number;
       return;
     }
     bvh_.roots[geometry] = static_cast<uint32_t>(bvh_.nodes.size());
-    bvh_.nodes.push_back(nodeOfNothing());
-    setChild(bvh_.roots[geometry], 0, tree);
+    bvh_.nodes.push_back(nodeOf(tree));
   }
 
-  Child treeOfTriangles(const std::vector<Triangle>& triangles) {
+  // A tree as the one child of what stands above it; none where there is nothing.
+  std::vector<Child> treeOfTriangles(const std::vector<Triangle>& triangles) {
     std::vector<Box> boxes;
     for (const Triangle& t : triangles) boxes.push_back(boxOf(t));
     return tree(boxes, kLeafSize, [&](const BuildNode& leaf) {
@@ -199,7 +237,7 @@ class Builder {
     });
   }
 
-  Child treeOfInstances(const std::vector<uint32_t>& instances) {
+  std::vector<Child> treeOfInstances(const std::vector<uint32_t>& instances) {
     std::vector<Box> boxes;
     for (const uint32_t i : instances) boxes.push_back(boxOf(in_.instances[i]));
     return tree(boxes, 1, [&](const BuildNode& leaf) {
@@ -209,9 +247,9 @@ class Builder {
 
   // `number` gives the number of a leaf as a child.
   template <class Number>
-  Child tree(const std::vector<Box>& boxes, uint32_t leafSize, const Number& number) {
+  std::vector<Child> tree(const std::vector<Box>& boxes, uint32_t leafSize, const Number& number) {
     Child child;
-    if (boxes.empty()) return child;
+    if (boxes.empty()) return {};
     std::vector<RTCBuildPrimitive> primitives(boxes.size());
     for (size_t i = 0; i < boxes.size(); ++i) {
       primitives[i] = {boxes[i].low.x,  boxes[i].low.y,  boxes[i].low.z,  0,
@@ -222,7 +260,7 @@ class Builder {
     const std::unique_ptr<std::remove_pointer_t<RTCBVH>, ReleaseBvh> memory(rtcNewBVH(device_));
     RTCBuildArguments arguments = rtcDefaultBuildArguments();
     arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
-    arguments.maxBranchingFactor = 2;
+    arguments.maxBranchingFactor = kWidth;
     arguments.maxDepth = rl::RL_BVH_MAX_DEPTH;
     arguments.minLeafSize = 1;
     arguments.maxLeafSize = leafSize;
@@ -241,8 +279,7 @@ class Builder {
                               boxes.size(), static_cast<int>(rtcGetDeviceError(device_))));
     }
     child.number = place(*root, 1, number);
-    child.exists = true;
-    return child;
+    return {child};
   }
 
   template <class Number>
@@ -254,15 +291,13 @@ class Builder {
     }
     if (node.isLeaf) return number(node);
     const auto index = static_cast<uint32_t>(bvh_.nodes.size());
-    bvh_.nodes.push_back(nodeOfNothing());
-    for (int side = 0; side < 2; ++side) {
-      if (node.children[side] == nullptr) continue;
-      Child child;
-      child.exists = true;
-      child.box = node.boxes[side];
-      child.number = place(*node.children[side], depth + 1, number);
-      setChild(index, side, child);
+    bvh_.nodes.emplace_back();
+    std::vector<Child> children;
+    for (uint32_t k = 0; k < kWidth; ++k) {
+      if (node.children[k] == nullptr) continue;
+      children.push_back({place(*node.children[k], depth + 1, number), node.boxes[k]});
     }
+    bvh_.nodes[index] = nodeOf(children);
     return index;
   }
 

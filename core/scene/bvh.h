@@ -1,7 +1,8 @@
 // The project's own bounding volume hierarchy, for machines that Embree does not run on. Two
 // levels: a tree over all triangles in world space and one over instances, joined in node 0; and a
 // tree for every geometry that instances share. Built by Embree's builder (binned surface area
-// heuristic).
+// heuristic) with four children a node, whose bounds are bytes on a grid of the node (Ylitie,
+// Karras and Laine 2017, section 3): a kernel's time is that of its memory accesses.
 #pragma once
 
 #include <span>
@@ -13,9 +14,28 @@ struct RTCDeviceTy;
 
 namespace restlab {
 
+// Bounds of child k along an axis: origin + byte k of low or high, times 2^(exponent - 127).
+struct BvhNode {
+  glm::vec3 origin{0.0f};
+  uint32_t exponents = 0;  // a byte an axis
+  uint32_t low[3] = {};    // of each axis, byte k of child k
+  uint32_t high[3] = {};
+  uint32_t children[4] = {rl::RL_INVALID, rl::RL_INVALID, rl::RL_INVALID, rl::RL_INVALID};
+  uint32_t unused[2] = {};
+};
+static_assert(sizeof(BvhNode) == 8 * rl::RL_BVH_NODE_PAIRS);
+
+struct BvhTriangle {
+  glm::vec3 p0{0.0f}, p1{0.0f}, p2{0.0f};
+  uint32_t isTransparent = 0;  // in part, perhaps: rays ask the material
+  uint32_t instance = 0;       // of a mesh in world space; RL_INVALID in a shared mesh
+  uint32_t primitive = 0;
+};
+static_assert(sizeof(BvhTriangle) == 8 * rl::RL_BVH_TRIANGLE_PAIRS);
+
 struct Bvh {
-  std::vector<rl::BvhNode> nodes;          // depth first, a parent before its children
-  std::vector<rl::BvhTriangle> triangles;  // in the order of the leaves
+  std::vector<BvhNode> nodes;          // depth first, a parent before its children
+  std::vector<BvhTriangle> triangles;  // in the order of the leaves
   std::vector<uint32_t> roots;             // of a geometry, RL_INVALID where none is shared
   uint32_t depth = 0;                      // nodes from a root to the deepest leaf
   size_t bytes() const;
