@@ -26,12 +26,11 @@ RL_FN BvhRay bvhRay(RL_IN(vec3) origin, RL_IN(vec3) dir) {
   return r;
 }
 
-// Where the ray enters child k of a node, at least tMin; 3e38 where it misses. near and far: the
-// bytes of the planes that the ray meets first and last. The exit is moved out by the rounding
+// Where the ray enters child `shift / 8` of a node, at least tMin; 3e38 where it misses. near and
+// far: the bytes of the planes that the ray meets first and last. The exit is moved out by the rounding
 // error of the slab test (Ize 2013), so that no box hides what it holds.
 RL_FN float bvhEnter(RL_IN(BvhRay) r, RL_IN(vec3) origin, RL_IN(vec3) cell, RL_IN(uvec3) near,
-                     RL_IN(uvec3) far, uint k, float tMin, float tMax) {
-  uint shift = 8u * k;
+                     RL_IN(uvec3) far, uint shift, float tMin, float tMax) {
   vec3 nearBytes = vec3(float((near.x >> shift) & 255u), float((near.y >> shift) & 255u),
                         float((near.z >> shift) & 255u));
   vec3 farBytes = vec3(float((far.x >> shift) & 255u), float((far.y >> shift) & 255u),
@@ -43,15 +42,16 @@ RL_FN float bvhEnter(RL_IN(BvhRay) r, RL_IN(vec3) origin, RL_IN(vec3) cell, RL_I
   return enter <= min(leave, tMax) ? enter : 3.0e38f;
 }
 
-// Exchanges entries i and j of the list where they are out of order.
-RL_FN void bvhOrder(RL_INOUT(BvhHits) hits, uint i, uint j) {
-  bool swaps = hits.entry[j] < hits.entry[i];
-  float entry = hits.entry[i];
-  uint child = hits.child[i];
-  hits.entry[i] = swaps ? hits.entry[j] : entry;
-  hits.child[i] = swaps ? hits.child[j] : child;
-  hits.entry[j] = swaps ? entry : hits.entry[j];
-  hits.child[j] = swaps ? child : hits.child[j];
+// Two children, the nearer one first.
+RL_FN void bvhOrder(RL_INOUT(float) entryA, RL_INOUT(uint) childA, RL_INOUT(float) entryB,
+                    RL_INOUT(uint) childB) {
+  bool swaps = entryB < entryA;
+  float entry = entryA;
+  uint child = childA;
+  entryA = swaps ? entryB : entry;
+  childA = swaps ? childB : child;
+  entryB = swaps ? entry : entryB;
+  childB = swaps ? child : childB;
 }
 
 RL_FN BvhHits bvhChildren(RL_IN(BvhRay) r, uint node, float tMin, float tMax) {
@@ -73,20 +73,26 @@ RL_FN BvhHits bvhChildren(RL_IN(BvhRay) r, uint node, float tMin, float tMax) {
                      r.inverseDir.z < 0.0f ? high.z : low.z);
   uvec3 far = uvec3(r.inverseDir.x < 0.0f ? low.x : high.x, r.inverseDir.y < 0.0f ? low.y : high.y,
                     r.inverseDir.z < 0.0f ? low.z : high.z);
+  float e0 = bvhEnter(r, origin, cell, near, far, 0u, tMin, tMax);
+  float e1 = bvhEnter(r, origin, cell, near, far, 8u, tMin, tMax);
+  float e2 = bvhEnter(r, origin, cell, near, far, 16u, tMin, tMax);
+  float e3 = bvhEnter(r, origin, cell, near, far, 24u, tMin, tMax);
+  uint c0 = w5.x;
+  uint c1 = w5.y;
+  uint c2 = w6.x;
+  uint c3 = w6.y;
+  e0 = c0 != RL_INVALID ? e0 : 3.0e38f;
+  e1 = c1 != RL_INVALID ? e1 : 3.0e38f;
+  e2 = c2 != RL_INVALID ? e2 : 3.0e38f;
+  e3 = c3 != RL_INVALID ? e3 : 3.0e38f;
+  bvhOrder(e0, c0, e1, c1);
+  bvhOrder(e2, c2, e3, c3);
+  bvhOrder(e0, c0, e2, c2);
+  bvhOrder(e1, c1, e3, c3);
+  bvhOrder(e1, c1, e2, c2);
   BvhHits hits;
-  hits.child[0] = w5.x;
-  hits.child[1] = w5.y;
-  hits.child[2] = w6.x;
-  hits.child[3] = w6.y;
-  for (uint k = 0u; k < 4u; k = k + 1u) {
-    float entry = bvhEnter(r, origin, cell, near, far, k, tMin, tMax);
-    hits.entry[k] = hits.child[k] != RL_INVALID ? entry : 3.0e38f;
-  }
-  bvhOrder(hits, 0u, 1u);
-  bvhOrder(hits, 2u, 3u);
-  bvhOrder(hits, 0u, 2u);
-  bvhOrder(hits, 1u, 3u);
-  bvhOrder(hits, 1u, 2u);
+  hits.child = uvec4(c0, c1, c2, c3);
+  hits.entry = vec4(e0, e1, e2, e3);
   return hits;
 }
 
@@ -158,15 +164,23 @@ RL_FN float traceRay(RL_IN(Ray) ray, uint mode, uint alphaKey, RL_OUT(Hit) hit) 
     uint kind = current & RL_BVH_KIND;
     if (kind == 0u) {
       BvhHits hits = bvhChildren(r, current, ray.tMin, nearest);
-      for (uint k = 3u; k > 0u; k = k - 1u) {
-        if (hits.entry[k] < 3.0e38f) {
-          stack.child[height] = hits.child[k];
-          stack.entry[height] = hits.entry[k];
-          height = height + 1u;
-        }
+      if (hits.entry.w < 3.0e38f) {
+        stack.child[height] = hits.child.w;
+        stack.entry[height] = hits.entry.w;
+        height = height + 1u;
       }
-      if (hits.entry[0] < 3.0e38f) {
-        current = hits.child[0];
+      if (hits.entry.z < 3.0e38f) {
+        stack.child[height] = hits.child.z;
+        stack.entry[height] = hits.entry.z;
+        height = height + 1u;
+      }
+      if (hits.entry.y < 3.0e38f) {
+        stack.child[height] = hits.child.y;
+        stack.entry[height] = hits.entry.y;
+        height = height + 1u;
+      }
+      if (hits.entry.x < 3.0e38f) {
+        current = hits.child.x;
         pops = false;
       }
     } else if (kind == RL_BVH_LEAF) {

@@ -18,10 +18,10 @@ struct BvhRay {
   vec2 shear;  // takes dir to that axis: the other two over it
 };
 
-// Children of a node that the ray enters, nearest first; entry 3e38: none.
+// Children of a node, x nearest; entry 3e38: the ray misses it.
 struct BvhHits {
-  uint child[4];
-  float entry[4];
+  uvec4 child;
+  vec4 entry;
 };
 
 struct BvhStack {
