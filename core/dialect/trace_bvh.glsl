@@ -184,13 +184,16 @@ RL_FN float traceRay(RL_IN(Ray) ray, uint mode, uint alphaKey, RL_OUT(Hit) hit) 
         pops = false;
       }
     } else if (kind == RL_BVH_LEAF) {
-      uint first = current & RL_BVH_LEAF_FIRST;
-      uint count = (current & ~RL_BVH_KIND) >> RL_BVH_LEAF_COUNT_SHIFT;
-      for (uint i = 0u; i < count; i = i + 1u) {
-        uint at = (first + i) * RL_BVH_TRIANGLE_PAIRS;
-        Hit cand = hit;
-        uint isTriangleTransparent;
-        if (!bvhTriangle(r, at, ray.tMin, nearest, cand, isTriangleTransparent)) continue;
+      // One triangle a round: rays side by side that have other numbers of them need not wait.
+      uint at = (current & RL_BVH_LEAF_FIRST) * RL_BVH_TRIANGLE_PAIRS;
+      uint left = ((current & ~RL_BVH_KIND) >> RL_BVH_LEAF_COUNT_SHIFT) - 1u;
+      if (left > 0u) {
+        current = current + 1u - (1u << RL_BVH_LEAF_COUNT_SHIFT);
+        pops = false;
+      }
+      Hit cand = hit;
+      uint isTriangleTransparent;
+      if (bvhTriangle(r, at, ray.tMin, nearest, cand, isTriangleTransparent)) {
         uvec2 numbers = RL_PAIR(gScene.bvhTriangles, at + 5u);
         cand.instance = instance == RL_INVALID ? numbers.x : instance;
         cand.primitive = numbers.y;
@@ -199,23 +202,18 @@ RL_FN float traceRay(RL_IN(Ray) ray, uint mode, uint alphaKey, RL_OUT(Hit) hit) 
           bool asks = instance == RL_INVALID ? isTriangleTransparent != 0u : isTransparent;
           if (asks) alpha = surfaceAlpha(cand);
         }
-        if (mode == RL_RAY_SHADOW) {
-          transmittance *= 1.0f - alpha;
-          if (transmittance == 0.0f) return 0.0f;
-        } else {
-          bool accepts = true;
-          if (RL_HAS(RL_FEATURE_ALPHA) && alpha < 1.0f) {
-            accepts = traceAlphaAccepts(alphaKey, cand, alpha);
-          }
-          if (accepts) {
-            hit = cand;
-            nearest = cand.t;
-          } else {
-            transmittance *= 1.0f - alpha;
-          }
+        bool accepts = true;
+        if (RL_HAS(RL_FEATURE_ALPHA) && alpha < 1.0f) {
+          accepts = mode == RL_RAY_PATH && traceAlphaAccepts(alphaKey, cand, alpha);
+          if (!accepts) transmittance *= 1.0f - alpha;
+        }
+        if (accepts) {
+          hit = cand;
+          nearest = cand.t;
+          if (mode == RL_RAY_SHADOW) return 0.0f;
         }
       }
-    } else {
+    } else if (kind == RL_BVH_INSTANCE) {
       instance = current & ~RL_BVH_KIND;
       Instance inst = gScene.instances.data[instance];
       isTransparent = (inst.flags & RL_INSTANCE_ALPHA) != 0u;
@@ -229,15 +227,15 @@ RL_FN float traceRay(RL_IN(Ray) ray, uint mode, uint alphaKey, RL_OUT(Hit) hit) 
       current = gScene.bvhRoots.data[inst.geometry];
       pops = false;
     }
-    while (pops) {
+    if (pops) {
       if (instance != RL_INVALID && height == floorOfInstance) {
         instance = RL_INVALID;
         r = world;
       }
       if (height == 0u) return transmittance;
       height = height - 1u;
-      current = stack.child[height];
-      pops = !(stack.entry[height] <= nearest);
+      // What lies behind the nearest hit is passed over: the next round takes the next entry.
+      current = stack.entry[height] <= nearest ? stack.child[height] : RL_INVALID;
     }
   }
 }
