@@ -54,15 +54,15 @@ RL_FN void bvhOrder(RL_INOUT(float) entryA, RL_INOUT(uint) childA, RL_INOUT(floa
   childB = swaps ? child : childB;
 }
 
-RL_FN BvhHits bvhChildren(RL_IN(BvhRay) r, uint node, float tMin, float tMax) {
+RL_FN BvhHits bvhChildren(RL_IN(BvhRay) r, PairRef nodes, uint node, float tMin, float tMax) {
   uint at = node * RL_BVH_NODE_PAIRS;
-  uvec2 w0 = RL_PAIR(gScene.bvhNodes, at);
-  uvec2 w1 = RL_PAIR(gScene.bvhNodes, at + 1u);
-  uvec2 w2 = RL_PAIR(gScene.bvhNodes, at + 2u);
-  uvec2 w3 = RL_PAIR(gScene.bvhNodes, at + 3u);
-  uvec2 w4 = RL_PAIR(gScene.bvhNodes, at + 4u);
-  uvec2 w5 = RL_PAIR(gScene.bvhNodes, at + 5u);
-  uvec2 w6 = RL_PAIR(gScene.bvhNodes, at + 6u);
+  uvec2 w0 = RL_PAIR(nodes, at);
+  uvec2 w1 = RL_PAIR(nodes, at + 1u);
+  uvec2 w2 = RL_PAIR(nodes, at + 2u);
+  uvec2 w3 = RL_PAIR(nodes, at + 3u);
+  uvec2 w4 = RL_PAIR(nodes, at + 4u);
+  uvec2 w5 = RL_PAIR(nodes, at + 5u);
+  uvec2 w6 = RL_PAIR(nodes, at + 6u);
   vec3 origin = vec3(uintBitsToFloat(w0.x), uintBitsToFloat(w0.y), uintBitsToFloat(w1.x));
   vec3 cell = vec3(uintBitsToFloat((w1.y & 255u) << 23u),
                    uintBitsToFloat(((w1.y >> 8u) & 255u) << 23u),
@@ -104,13 +104,13 @@ RL_FN vec2 bvhCorner(RL_IN(BvhRay) r, RL_IN(vec3) corner) {
 
 // Watertight (Woop, Benthin and Wald 2013): rounding is monotonic, so that the difference of two
 // products has the right sign or is 0, and an edge (0) belongs to both of its triangles.
-RL_FN bool bvhTriangle(RL_IN(BvhRay) r, uint at, float tMin, float tMax, RL_INOUT(Hit) hit,
+RL_FN bool bvhTriangle(RL_IN(BvhRay) r, PairRef triangles, uint at, float tMin, float tMax, RL_INOUT(Hit) hit,
                        RL_INOUT(uint) isTransparent) {
-  uvec2 w0 = RL_PAIR(gScene.bvhTriangles, at);
-  uvec2 w1 = RL_PAIR(gScene.bvhTriangles, at + 1u);
-  uvec2 w2 = RL_PAIR(gScene.bvhTriangles, at + 2u);
-  uvec2 w3 = RL_PAIR(gScene.bvhTriangles, at + 3u);
-  uvec2 w4 = RL_PAIR(gScene.bvhTriangles, at + 4u);
+  uvec2 w0 = RL_PAIR(triangles, at);
+  uvec2 w1 = RL_PAIR(triangles, at + 1u);
+  uvec2 w2 = RL_PAIR(triangles, at + 2u);
+  uvec2 w3 = RL_PAIR(triangles, at + 3u);
+  uvec2 w4 = RL_PAIR(triangles, at + 4u);
   vec3 p0 = vec3(uintBitsToFloat(w0.x), uintBitsToFloat(w0.y), uintBitsToFloat(w1.x)) - r.origin;
   vec3 p1 = vec3(uintBitsToFloat(w1.y), uintBitsToFloat(w2.x), uintBitsToFloat(w2.y)) - r.origin;
   vec3 p2 = vec3(uintBitsToFloat(w3.x), uintBitsToFloat(w3.y), uintBitsToFloat(w4.x)) - r.origin;
@@ -159,11 +159,14 @@ RL_FN float traceRay(RL_IN(Ray) ray, uint mode, uint alphaKey, RL_OUT(Hit) hit) 
   uint height = 0u;
   uint current = 0u;
   BvhStack stack;
+  // Read once: no compiler may take them out of the loop, as kernels write to other buffers.
+  PairRef nodes = gScene.bvhNodes;
+  PairRef triangles = gScene.bvhTriangles;
   for (;;) {
     bool pops = true;
     uint kind = current & RL_BVH_KIND;
     if (kind == 0u) {
-      BvhHits hits = bvhChildren(r, current, ray.tMin, nearest);
+      BvhHits hits = bvhChildren(r, nodes, current, ray.tMin, nearest);
       if (hits.entry.w < 3.0e38f) {
         stack.child[height] = hits.child.w;
         stack.entry[height] = hits.entry.w;
@@ -193,8 +196,8 @@ RL_FN float traceRay(RL_IN(Ray) ray, uint mode, uint alphaKey, RL_OUT(Hit) hit) 
       }
       Hit cand = hit;
       uint isTriangleTransparent;
-      if (bvhTriangle(r, at, ray.tMin, nearest, cand, isTriangleTransparent)) {
-        uvec2 numbers = RL_PAIR(gScene.bvhTriangles, at + 5u);
+      if (bvhTriangle(r, triangles, at, ray.tMin, nearest, cand, isTriangleTransparent)) {
+        uvec2 numbers = RL_PAIR(triangles, at + 5u);
         cand.instance = instance == RL_INVALID ? numbers.x : instance;
         cand.primitive = numbers.y;
         float alpha = 1.0f;
@@ -213,7 +216,7 @@ RL_FN float traceRay(RL_IN(Ray) ray, uint mode, uint alphaKey, RL_OUT(Hit) hit) 
           if (mode == RL_RAY_SHADOW) return 0.0f;
         }
       }
-    } else if (kind == RL_BVH_INSTANCE) {
+    } else if (RL_HAS(RL_FEATURE_INSTANCES) && kind == RL_BVH_INSTANCE) {
       instance = current & ~RL_BVH_KIND;
       Instance inst = gScene.instances.data[instance];
       isTransparent = (inst.flags & RL_INSTANCE_ALPHA) != 0u;
@@ -228,7 +231,7 @@ RL_FN float traceRay(RL_IN(Ray) ray, uint mode, uint alphaKey, RL_OUT(Hit) hit) 
       pops = false;
     }
     if (pops) {
-      if (instance != RL_INVALID && height == floorOfInstance) {
+      if (RL_HAS(RL_FEATURE_INSTANCES) && instance != RL_INVALID && height == floorOfInstance) {
         instance = RL_INVALID;
         r = world;
       }
