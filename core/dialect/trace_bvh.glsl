@@ -54,21 +54,13 @@ RL_FN void bvhOrder(RL_INOUT(float) entryA, RL_INOUT(uint) childA, RL_INOUT(floa
   childB = swaps ? child : childB;
 }
 
-RL_FN BvhHits bvhChildren(RL_IN(BvhRay) r, PairRef nodes, uint node, float tMin, float tMax) {
-  uint at = node * RL_BVH_NODE_PAIRS;
-  uvec2 w0 = RL_PAIR(nodes, at);
-  uvec2 w1 = RL_PAIR(nodes, at + 1u);
-  uvec2 w2 = RL_PAIR(nodes, at + 2u);
-  uvec2 w3 = RL_PAIR(nodes, at + 3u);
-  uvec2 w4 = RL_PAIR(nodes, at + 4u);
-  uvec2 w5 = RL_PAIR(nodes, at + 5u);
-  uvec2 w6 = RL_PAIR(nodes, at + 6u);
-  vec3 origin = vec3(uintBitsToFloat(w0.x), uintBitsToFloat(w0.y), uintBitsToFloat(w1.x));
-  vec3 cell = vec3(uintBitsToFloat((w1.y & 255u) << 23u),
-                   uintBitsToFloat(((w1.y >> 8u) & 255u) << 23u),
-                   uintBitsToFloat(((w1.y >> 16u) & 255u) << 23u));
-  uvec3 low = uvec3(w2.x, w2.y, w3.x);
-  uvec3 high = uvec3(w3.y, w4.x, w4.y);
+RL_FN BvhHits bvhChildren(RL_IN(BvhRay) r, RL_IN(BvhWords) record, float tMin, float tMax) {
+  vec3 origin = vec3(uintBitsToFloat(record.w0.x), uintBitsToFloat(record.w0.y), uintBitsToFloat(record.w1.x));
+  vec3 cell = vec3(uintBitsToFloat((record.w1.y & 255u) << 23u),
+                   uintBitsToFloat(((record.w1.y >> 8u) & 255u) << 23u),
+                   uintBitsToFloat(((record.w1.y >> 16u) & 255u) << 23u));
+  uvec3 low = uvec3(record.w2.x, record.w2.y, record.w3.x);
+  uvec3 high = uvec3(record.w3.y, record.w4.x, record.w4.y);
   uvec3 near = uvec3(r.inverseDir.x < 0.0f ? high.x : low.x, r.inverseDir.y < 0.0f ? high.y : low.y,
                      r.inverseDir.z < 0.0f ? high.z : low.z);
   uvec3 far = uvec3(r.inverseDir.x < 0.0f ? low.x : high.x, r.inverseDir.y < 0.0f ? low.y : high.y,
@@ -77,10 +69,10 @@ RL_FN BvhHits bvhChildren(RL_IN(BvhRay) r, PairRef nodes, uint node, float tMin,
   float e1 = bvhEnter(r, origin, cell, near, far, 8u, tMin, tMax);
   float e2 = bvhEnter(r, origin, cell, near, far, 16u, tMin, tMax);
   float e3 = bvhEnter(r, origin, cell, near, far, 24u, tMin, tMax);
-  uint c0 = w5.x;
-  uint c1 = w5.y;
-  uint c2 = w6.x;
-  uint c3 = w6.y;
+  uint c0 = record.w5.x;
+  uint c1 = record.w5.y;
+  uint c2 = record.w6.x;
+  uint c3 = record.w6.y;
   e0 = c0 != RL_INVALID ? e0 : 3.0e38f;
   e1 = c1 != RL_INVALID ? e1 : 3.0e38f;
   e2 = c2 != RL_INVALID ? e2 : 3.0e38f;
@@ -104,17 +96,11 @@ RL_FN vec2 bvhCorner(RL_IN(BvhRay) r, RL_IN(vec3) corner) {
 
 // Watertight (Woop, Benthin and Wald 2013): rounding is monotonic, so that the difference of two
 // products has the right sign or is 0, and an edge (0) belongs to both of its triangles.
-RL_FN bool bvhTriangle(RL_IN(BvhRay) r, PairRef triangles, uint at, float tMin, float tMax, RL_INOUT(Hit) hit,
-                       RL_INOUT(uint) isTransparent) {
-  uvec2 w0 = RL_PAIR(triangles, at);
-  uvec2 w1 = RL_PAIR(triangles, at + 1u);
-  uvec2 w2 = RL_PAIR(triangles, at + 2u);
-  uvec2 w3 = RL_PAIR(triangles, at + 3u);
-  uvec2 w4 = RL_PAIR(triangles, at + 4u);
-  vec3 p0 = vec3(uintBitsToFloat(w0.x), uintBitsToFloat(w0.y), uintBitsToFloat(w1.x)) - r.origin;
-  vec3 p1 = vec3(uintBitsToFloat(w1.y), uintBitsToFloat(w2.x), uintBitsToFloat(w2.y)) - r.origin;
-  vec3 p2 = vec3(uintBitsToFloat(w3.x), uintBitsToFloat(w3.y), uintBitsToFloat(w4.x)) - r.origin;
-  isTransparent = w4.y;
+RL_FN bool bvhTriangle(RL_IN(BvhRay) r, RL_IN(BvhWords) record, float tMin, float tMax,
+                       RL_INOUT(Hit) hit) {
+  vec3 p0 = vec3(uintBitsToFloat(record.w0.x), uintBitsToFloat(record.w0.y), uintBitsToFloat(record.w1.x)) - r.origin;
+  vec3 p1 = vec3(uintBitsToFloat(record.w1.y), uintBitsToFloat(record.w2.x), uintBitsToFloat(record.w2.y)) - r.origin;
+  vec3 p2 = vec3(uintBitsToFloat(record.w3.x), uintBitsToFloat(record.w3.y), uintBitsToFloat(record.w4.x)) - r.origin;
   vec2 a = bvhCorner(r, p0);
   vec2 b = bvhCorner(r, p1);
   vec2 c = bvhCorner(r, p2);
@@ -160,13 +146,24 @@ RL_FN float traceRay(RL_IN(Ray) ray, uint mode, uint alphaKey, RL_OUT(Hit) hit) 
   uint current = 0u;
   BvhStack stack;
   // Read once: no compiler may take them out of the loop, as kernels write to other buffers.
-  PairRef nodes = gScene.bvhNodes;
-  PairRef triangles = gScene.bvhTriangles;
+  PairRef records = gScene.bvh;
   for (;;) {
     bool pops = true;
     uint kind = current & RL_BVH_KIND;
+    // One reading for nodes and triangles alike: where both branches below cost the same to rays
+    // side by side, this one does not.
+    uint at = (current & RL_BVH_INSTANCE) == 0u ? current & RL_BVH_LEAF_FIRST : 0u;
+    at = at * RL_BVH_RECORD_PAIRS;
+    BvhWords record;
+    record.w0 = RL_PAIR(records, at);
+    record.w1 = RL_PAIR(records, at + 1u);
+    record.w2 = RL_PAIR(records, at + 2u);
+    record.w3 = RL_PAIR(records, at + 3u);
+    record.w4 = RL_PAIR(records, at + 4u);
+    record.w5 = RL_PAIR(records, at + 5u);
+    record.w6 = RL_PAIR(records, at + 6u);
     if (kind == 0u) {
-      BvhHits hits = bvhChildren(r, nodes, current, ray.tMin, nearest);
+      BvhHits hits = bvhChildren(r, record, ray.tMin, nearest);
       if (hits.entry.w < 3.0e38f) {
         stack.child[height] = hits.child.w;
         stack.entry[height] = hits.entry.w;
@@ -188,21 +185,18 @@ RL_FN float traceRay(RL_IN(Ray) ray, uint mode, uint alphaKey, RL_OUT(Hit) hit) 
       }
     } else if (kind == RL_BVH_LEAF) {
       // One triangle a round: rays side by side that have other numbers of them need not wait.
-      uint at = (current & RL_BVH_LEAF_FIRST) * RL_BVH_TRIANGLE_PAIRS;
       uint left = ((current & ~RL_BVH_KIND) >> RL_BVH_LEAF_COUNT_SHIFT) - 1u;
       if (left > 0u) {
         current = current + 1u - (1u << RL_BVH_LEAF_COUNT_SHIFT);
         pops = false;
       }
       Hit cand = hit;
-      uint isTriangleTransparent;
-      if (bvhTriangle(r, triangles, at, ray.tMin, nearest, cand, isTriangleTransparent)) {
-        uvec2 numbers = RL_PAIR(triangles, at + 5u);
-        cand.instance = instance == RL_INVALID ? numbers.x : instance;
-        cand.primitive = numbers.y;
+      if (bvhTriangle(r, record, ray.tMin, nearest, cand)) {
+        cand.instance = instance == RL_INVALID ? record.w5.x : instance;
+        cand.primitive = record.w5.y;
         float alpha = 1.0f;
         if (RL_HAS(RL_FEATURE_ALPHA)) {
-          bool asks = instance == RL_INVALID ? isTriangleTransparent != 0u : isTransparent;
+          bool asks = instance == RL_INVALID ? record.w4.y != 0u : isTransparent;
           if (asks) alpha = surfaceAlpha(cand);
         }
         bool accepts = true;

@@ -18,6 +18,17 @@ struct BvhRay {
   vec2 shear;  // takes dir to that axis: the other two over it
 };
 
+// Seven pairs of the next node or triangle.
+struct BvhWords {
+  uvec2 w0;
+  uvec2 w1;
+  uvec2 w2;
+  uvec2 w3;
+  uvec2 w4;
+  uvec2 w5;
+  uvec2 w6;
+};
+
 // Children of a node, x nearest; entry 3e38: the ray misses it.
 struct BvhHits {
   uvec4 child;

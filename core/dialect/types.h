@@ -153,14 +153,13 @@ struct AliasEntry {
 RL_STATIC_ASSERT_SIZE(AliasEntry, 12);
 
 // The project's own bounding volume hierarchy (core/scene/bvh.h): four children a node, read in
-// pairs of words. A child is a node's number, RL_INVALID (none), or one of:
-const uint RL_BVH_LEAF = 0x40000000u;      // count << 26 | first triangle
+// pairs of words. A child is a node's record, RL_INVALID (none), or one of:
+const uint RL_BVH_LEAF = 0x40000000u;      // count << 26 | record of its first triangle
 const uint RL_BVH_INSTANCE = 0x80000000u;  // | number of the instance
 const uint RL_BVH_KIND = 0xc0000000u;      // mask of the two
 const uint RL_BVH_LEAF_COUNT_SHIFT = 26u;
 const uint RL_BVH_LEAF_FIRST = 0x03ffffffu;  // mask
-const uint RL_BVH_NODE_PAIRS = 8u;
-const uint RL_BVH_TRIANGLE_PAIRS = 6u;
+const uint RL_BVH_RECORD_PAIRS = 8u;  // of a node or a triangle
 // Largest number of nodes between a root and a leaf; the two levels have one each.
 const uint RL_BVH_MAX_DEPTH = 26u;
 const uint RL_BVH_STACK = 160u;  // three children left behind at every node of both levels
@@ -213,10 +212,9 @@ struct SceneData {
   Vec3Ref environment;        // radiance per texel, already scaled, row 0 on top
   AliasRef environmentAlias;  // pmf per texel
   Vec2Ref ggxAlbedo;          // core/scene/ggx_albedo.h; null unless a session compensates
-  // The project's own hierarchy: null unless a session traces it. The world's root is node 0.
-  PairRef bvhNodes;      // RL_BVH_NODE_PAIRS each
-  PairRef bvhTriangles;  // RL_BVH_TRIANGLE_PAIRS each
-  UintRef bvhRoots;  // node of each geometry that is shared by instances
+  // The project's own hierarchy: null unless a session traces it. The world's root is record 0.
+  PairRef bvh;       // RL_BVH_RECORD_PAIRS a record
+  UintRef bvhRoots;  // record of the root of each geometry that is shared by instances
   uint lightCount;
   uint environmentWidth;  // 0: no environment
   uint environmentHeight;

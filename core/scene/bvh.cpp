@@ -131,7 +131,7 @@ class Builder {
 
   Bvh build() {
     bvh_.roots.assign(in_.geometries.size(), rl::RL_INVALID);
-    bvh_.nodes.emplace_back();
+    newNode();
     std::vector<Triangle> world;
     std::vector<uint32_t> placed;  // instances
     for (uint32_t i = 0; i < in_.instances.size(); ++i) {
@@ -147,12 +147,31 @@ class Builder {
     std::vector<Child> trees = treeOfTriangles(world);
     for (const uint32_t i : placed) buildGeometry(in_.instances[i].geometry);
     for (const Child& tree : treeOfInstances(placed)) trees.push_back(tree);
-    bvh_.nodes[0] = nodeOf(trees);
+    bvh_.records[0] = std::bit_cast<BvhRecord>(nodeOf(trees));
     return std::move(bvh_);
   }
 
  private:
   using Triangle = BvhTriangle;
+
+  // The number of the next record; throws where `count` more of them have none.
+  uint32_t nextRecord(uint32_t count) const {
+    const size_t next = bvh_.records.size();
+    if (next + count > rl::RL_BVH_LEAF_FIRST) {
+      throw Error(ExitCode::deviceUnavailable,
+                  fmt::format("the scene has too many triangles: its hierarchy has more than {} "
+                              "nodes and triangles",
+                              rl::RL_BVH_LEAF_FIRST));
+    }
+    return static_cast<uint32_t>(next);
+  }
+
+  uint32_t newNode() {
+    const uint32_t index = nextRecord(1);
+    bvh_.records.push_back(std::bit_cast<BvhRecord>(BvhNode()));
+    ++bvh_.nodeCount;
+    return index;
+  }
 
   void addTriangles(std::vector<Triangle>& out, uint32_t geometry, uint32_t instance,
                     bool isTransparent) const {
@@ -216,8 +235,8 @@ class Builder {
       bvh_.roots[geometry] = tree.front().number;
       return;
     }
-    bvh_.roots[geometry] = static_cast<uint32_t>(bvh_.nodes.size());
-    bvh_.nodes.push_back(nodeOf(tree));
+    bvh_.roots[geometry] = newNode();
+    bvh_.records[bvh_.roots[geometry]] = std::bit_cast<BvhRecord>(nodeOf(tree));
   }
 
   // A tree as the one child of what stands above it; none where there is nothing.
@@ -225,14 +244,10 @@ class Builder {
     std::vector<Box> boxes;
     for (const Triangle& t : triangles) boxes.push_back(boxOf(t));
     return tree(boxes, kLeafSize, [&](const BuildNode& leaf) {
-      const auto first = static_cast<uint32_t>(bvh_.triangles.size());
-      if (first + leaf.count > rl::RL_BVH_LEAF_FIRST) {
-        throw Error(ExitCode::deviceUnavailable,
-                    fmt::format("the scene has more than {} triangles, which the project's own "
-                                "hierarchy cannot number",
-                                rl::RL_BVH_LEAF_FIRST));
-      }
-      for (uint32_t i = 0; i < leaf.count; ++i) bvh_.triangles.push_back(triangles[leaf.items[i]]);
+      const uint32_t first = nextRecord(leaf.count);
+      for (uint32_t i = 0; i < leaf.count; ++i)
+        bvh_.records.push_back(std::bit_cast<BvhRecord>(triangles[leaf.items[i]]));
+      bvh_.triangleCount += leaf.count;
       return rl::RL_BVH_LEAF | leaf.count << rl::RL_BVH_LEAF_COUNT_SHIFT | first;
     });
   }
@@ -290,14 +305,13 @@ class Builder {
           fmt::format("a hierarchy deeper than {} nodes", rl::RL_BVH_MAX_DEPTH));
     }
     if (node.isLeaf) return number(node);
-    const auto index = static_cast<uint32_t>(bvh_.nodes.size());
-    bvh_.nodes.emplace_back();
+    const uint32_t index = newNode();
     std::vector<Child> children;
     for (uint32_t k = 0; k < kWidth; ++k) {
       if (node.children[k] == nullptr) continue;
       children.push_back({place(*node.children[k], depth + 1, number), node.boxes[k]});
     }
-    bvh_.nodes[index] = nodeOf(children);
+    bvh_.records[index] = std::bit_cast<BvhRecord>(nodeOf(children));
     return index;
   }
 
@@ -310,8 +324,7 @@ class Builder {
 }  // namespace
 
 size_t Bvh::bytes() const {
-  return nodes.size() * sizeof(nodes[0]) + triangles.size() * sizeof(triangles[0]) +
-         roots.size() * sizeof(roots[0]);
+  return records.size() * sizeof(records[0]) + roots.size() * sizeof(roots[0]);
 }
 
 Bvh buildBvh(RTCDevice device, const BvhInput& input) { return Builder(device, input).build(); }

@@ -23,21 +23,25 @@ struct BvhNode {
   uint32_t children[4] = {rl::RL_INVALID, rl::RL_INVALID, rl::RL_INVALID, rl::RL_INVALID};
   uint32_t unused[2] = {};
 };
-static_assert(sizeof(BvhNode) == 8 * rl::RL_BVH_NODE_PAIRS);
-
 struct BvhTriangle {
   glm::vec3 p0{0.0f}, p1{0.0f}, p2{0.0f};
   uint32_t isTransparent = 0;  // in part, perhaps: rays ask the material
   uint32_t instance = 0;       // of a mesh in world space; RL_INVALID in a shared mesh
   uint32_t primitive = 0;
+  uint32_t unused[4] = {};
 };
-static_assert(sizeof(BvhTriangle) == 8 * rl::RL_BVH_TRIANGLE_PAIRS);
+
+// A node or a triangle, of one size: a ray reads the next of either kind in the same step.
+struct BvhRecord {
+  uint32_t words[2 * rl::RL_BVH_RECORD_PAIRS] = {};
+};
+static_assert(sizeof(BvhNode) == sizeof(BvhRecord) && sizeof(BvhTriangle) == sizeof(BvhRecord));
 
 struct Bvh {
-  std::vector<BvhNode> nodes;          // depth first, a parent before its children
-  std::vector<BvhTriangle> triangles;  // in the order of the leaves
-  std::vector<uint32_t> roots;             // of a geometry, RL_INVALID where none is shared
-  uint32_t depth = 0;                      // nodes from a root to the deepest leaf
+  std::vector<BvhRecord> records;  // depth first, a parent before its children; 0 is the world's
+  std::vector<uint32_t> roots;             // record of a geometry, RL_INVALID where none is shared
+  size_t nodeCount = 0, triangleCount = 0;
+  uint32_t depth = 0;  // nodes from a root to the deepest leaf
   size_t bytes() const;
 };
 

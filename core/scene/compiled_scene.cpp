@@ -361,8 +361,7 @@ const Bvh& CompiledScene::bindBvh() const {
   Impl& m = *impl_;
   std::call_once(m.bvhBound, [&] {
     m.bvh = buildBvh(m.device, {m.positions, m.triangles, m.geometries, m.instances});
-    m.data.bvhNodes.data = reinterpret_cast<glm::uvec2*>(m.bvh.nodes.data());
-    m.data.bvhTriangles.data = reinterpret_cast<glm::uvec2*>(m.bvh.triangles.data());
+    m.data.bvh.data = reinterpret_cast<glm::uvec2*>(m.bvh.records.data());
     m.data.bvhRoots.data = m.bvh.roots.data();
   });
   return m.bvh;
@@ -394,8 +393,7 @@ rl::SceneData CompiledScene::placedAt(const Place& place) const {
   move(placed.environment, m.lights.environment.size());
   move(placed.environmentAlias, m.lights.environmentAlias.size());
   move(placed.ggxAlbedo, m.data.ggxAlbedo.data != nullptr ? ggxAlbedoTable().size() : 0);
-  move(placed.bvhNodes, m.bvh.nodes.size() * rl::RL_BVH_NODE_PAIRS);
-  move(placed.bvhTriangles, m.bvh.triangles.size() * rl::RL_BVH_TRIANGLE_PAIRS);
+  move(placed.bvh, m.bvh.records.size() * rl::RL_BVH_RECORD_PAIRS);
   move(placed.bvhRoots, m.bvh.roots.size());
   return placed;
 }

@@ -29,7 +29,7 @@ class CompiledScene {
   // Makes SceneData::ggxAlbedo point to its table, for sessions that read it; computed at the first
   // call.
   void bindGgxAlbedo() const;
-  // Makes SceneData::bvhNodes and its neighbours point to the project's own hierarchy, for sessions
+  // Makes SceneData::bvh and bvhRoots point to the project's own hierarchy, for sessions
   // that trace it; built at the first call. Returns it.
   const Bvh& bindBvh() const;
   // data() for a machine with memory of its own: every address replaced by what `place` returns
