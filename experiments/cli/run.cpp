@@ -43,9 +43,7 @@ void runVerb(const RunOptions& options, Outcome& outcome) {
   keepNamed(suite.scenes, options.scenes, "--scenes");
   keepNamed(suite.methods, options.methods, "--methods");
   if (options.threads >= 0) suite.threads = options.threads;
-  MethodOptions backend;
-  backend.backend = suite.backend;
-  makeConfig(SceneOptions(), backend);  // checks that the device is there
+
   if (suite.runs < 2) {
     logWarning("runs = 1: no interval and no bias can be given; biased rows will not count");
   }
