@@ -72,6 +72,7 @@ Json backends() {
   for (const BackendInfo& backend : backendRegistry()) {
     Json json = {
         {"name", backend.name}, {"summary", backend.description}, {"available", backend.available}};
+    json["devices"] = backend.devices;
     if (!backend.available) json["why_not"] = backend.whyNot;
     all.push_back(json);
   }
@@ -167,6 +168,10 @@ void list(const ListOptions& options) {
     if (item.contains("why_not"))
       fmt::print(" (not available: {})", item["why_not"].get<std::string>());
     fmt::print("\n");
+    if (item.contains("devices")) {
+      for (const Json& device : item["devices"])
+        fmt::print("{:<{}}    {}\n", "", width, device.get<std::string>());
+    }
     if (item.contains("parameters")) printParameters(item);
   }
 }

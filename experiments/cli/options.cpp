@@ -11,6 +11,7 @@
 #include "core/caches/caches.h"
 #include "core/config.h"
 #include "core/error.h"
+#include "experiments/runner/backend_choice.h"
 #include "experiments/runner/files.h"
 
 namespace restlab {
@@ -42,18 +43,31 @@ ParameterMap parseParameters(const IntegratorInfo& info, const std::vector<std::
   return parameters;
 }
 
-void requireBackend(const std::string& name) {
-  std::vector<std::string> names;
-  for (const BackendInfo& info : backendRegistry()) {
-    if (info.name == name) {
-      if (info.available) return;
-      throw Error(ExitCode::deviceUnavailable,
-                  fmt::format("backend {} is not available: {}", name, info.whyNot));
-    }
-    names.push_back(info.name);
+// What can be said without opening anything; whether a device is there the session says.
+void applyBackend(const BackendChoice& choice, SessionConfig& config) {
+  const std::vector<std::string>& backends = backendNames();
+  if (std::find(backends.begin(), backends.end(), choice.backend) == backends.end()) {
+    failUsage(fmt::format("--backend {}: unknown backend (known: {}){}", choice.backend,
+                          fmt::join(backends, ", "), didYouMean(choice.backend, backends)));
   }
-  failUsage(fmt::format("--backend {}: unknown backend (known: {}){}", name, fmt::join(names, ", "),
-                        didYouMean(name, names)));
+  const std::vector<std::string>& ways = rayTracingNames();
+  if (!choice.rayTracing.empty() &&
+      std::find(ways.begin(), ways.end(), choice.rayTracing) == ways.end()) {
+    failUsage(fmt::format("--ray-tracing {}: unknown (known: {}){}", choice.rayTracing,
+                          fmt::join(ways, ", "), didYouMean(choice.rayTracing, ways)));
+  }
+  if (choice.backend == "cpu" && !choice.device.empty()) {
+    failUsage(
+        fmt::format("--device {}: only the Vulkan backend has devices to choose from; add "
+                    "--backend vulkan",
+                    choice.device));
+  }
+  if (choice.backend == "cpu" && choice.validate)
+    failUsage("--validate: is of the Vulkan backend; add --backend vulkan");
+  config.backend = choice.backend;
+  config.device = choice.device;
+  config.rayTracing = choice.rayTracing;
+  config.validate = choice.validate;
 }
 
 }  // namespace
@@ -77,6 +91,14 @@ void addThreads(CLI::App& verb, int& threads) {
 void addMultiscatter(CLI::App& verb, bool& multiscatter) {
   verb.add_flag("--multiscatter", multiscatter,
                 "rough reflection keeps the light that meets several microfacets (default off)");
+}
+
+void addBackendOptions(CLI::App& verb, BackendChoice& options) {
+  verb.add_option("--backend", options.backend, "restlab list backends (default cpu)");
+  verb.add_option("--device", options.device, "a part of a Vulkan device's name");
+  verb.add_option("--ray-tracing", options.rayTracing,
+                  "embree, bvh or query (default: the backend's best)");
+  verb.add_flag("--validate", options.validate, "Vulkan's validation layers (slow)");
 }
 
 void addOutput(CLI::App& verb, std::string& output) {
@@ -112,7 +134,7 @@ void addMethodOptions(CLI::App& verb, MethodOptions& options) {
   verb.add_option("--integrator", options.integrator, "restlab list integrators (default path)");
   verb.add_option("--mode", options.mode, "of the integrator (default: its first)");
   verb.add_option("--cache", options.cache, "where reservoirs live (default pixel)");
-  verb.add_option("--backend", options.backend, "restlab list backends (default cpu)");
+  addBackendOptions(verb, options.backend);
   verb.add_option("--set", options.parameters, "KEY=VALUE: a parameter of the integrator")
       ->take_all()
       ->allow_extra_args(false);
@@ -150,9 +172,8 @@ SessionConfig makeConfig(const SceneOptions& scene, const MethodOptions& method)
                           fmt::join(modes, ", "), didYouMean(method.mode, modes)));
   }
   checkCacheName(method.cache);
-  requireBackend(method.backend);
+  applyBackend(method.backend, config);
   config.cache = method.cache;
-  config.backend = method.backend;
   config.parameters = parseParameters(info, method.parameters);
   config.russianRoulette = method.russianRoulette;
   config.specialise = !method.general;

@@ -22,11 +22,19 @@ struct SceneOptions {
   int threads = 0;
 };
 
+// What kernels run on.
+struct BackendChoice {
+  std::string backend = "cpu";
+  std::string device;      // a part of its name
+  std::string rayTracing;  // "": the backend's best
+  bool validate = false;
+};
+
 struct MethodOptions {
   std::string integrator = "path";
   std::string mode;
   std::string cache = "pixel";
-  std::string backend = "cpu";
+  BackendChoice backend;
   std::vector<std::string> parameters;  // KEY=VALUE
   bool russianRoulette = false;
   bool general = false;
@@ -40,6 +48,7 @@ CLI::Validator finiteRange(double lo, double hi);
 
 void addSceneOptions(CLI::App& verb, SceneOptions& options);
 void addMethodOptions(CLI::App& verb, MethodOptions& options);
+void addBackendOptions(CLI::App& verb, BackendChoice& options);
 void addOutput(CLI::App& verb, std::string& output);
 void addThreads(CLI::App& verb, int& threads);
 void addMultiscatter(CLI::App& verb, bool& multiscatter);

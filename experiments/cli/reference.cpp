@@ -15,7 +15,8 @@ namespace {
 
 struct ReferenceOptions {
   SceneOptions scene;
-  std::string output, integrator = "path", backend = "cpu";
+  std::string output, integrator = "path";
+  BackendChoice backend;
   ReferenceTarget target;
 };
 
@@ -59,7 +60,7 @@ Action addReferenceVerb(CLI::App& app) {
   addSceneOptions(*verb, options->scene);
   addOutput(*verb, options->output);
   verb->add_option("--integrator", options->integrator, "path, and nothing else");
-  verb->add_option("--backend", options->backend, "restlab list backends (default cpu)");
+  addBackendOptions(*verb, options->backend);
   verb->add_option("--spp", options->target.spp, "samples per pixel of both halves together")
       ->check(CLI::Range(uint64_t(2), uint64_t(1) << 40));
   verb->add_option("--target-relmse", options->target.relmse,

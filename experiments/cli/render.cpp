@@ -10,6 +10,7 @@
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/accumulate.h"
+#include "experiments/runner/backend_choice.h"
 #include "experiments/runner/interrupt.h"
 #include "experiments/runner/log.h"
 
@@ -19,6 +20,9 @@ namespace {
 
 // `--spp` of a method with a history takes frames after this many.
 constexpr uint64_t kWarmupFrames = 32;
+// Frames that a device gets at once where nobody asks for their images: an interrupt waits for
+// them.
+constexpr uint64_t kFramesAtOnce = 4;
 constexpr uint64_t kMaxCount = 1u << 30;
 
 struct RenderOptions {
@@ -70,11 +74,18 @@ Rendered renderFrames(Session& session, const RenderOptions& options, bool histo
   const uint64_t total = rendered.warmup + rendered.spp;
   Progress progress("frame", total);
   ImageSum sum;
-  for (uint64_t frame = 0; frame < total; ++frame) {
+  const uint64_t atOnce = session.config().backend == "cpu" ? 1 : kFramesAtOnce;
+  for (uint64_t frame = 0; frame < rendered.warmup;) {
+    throwIfInterrupted("the image is not finished and was not written");
+    const uint64_t count = std::min(atOnce, rendered.warmup - frame);
+    session.frames(uint32_t(count));
+    frame += count;
+    progress.update(frame);
+  }
+  for (uint64_t frame = rendered.warmup; frame < total; ++frame) {
     throwIfInterrupted("the image is not finished and was not written");
     const FrameStats stats = session.frame();
     progress.update(frame + 1);
-    if (frame < rendered.warmup) continue;
     if (mean) sum.add(session.radiance());
     rendered.health.add(stats);
     rendered.timeMs += stats.timeMs;
@@ -98,6 +109,8 @@ LayeredImage layers(const Session& session, const PreparedScene& prepared, const
   for (const std::string& name : aovs) file.layers[name] = session.aov(name);
   file.layers[""] = rendered.image;
   file.metadata = describe(prepared, session.config());
+  file.metadata["device"] = session.device();
+  file.metadata["ray_tracing"] = session.rayTracing();
   file.metadata["kind"] = "image";
   file.metadata["seed"] = std::to_string(session.config().seed);
   file.metadata["spp"] = std::to_string(rendered.spp);
@@ -126,11 +139,17 @@ void render(RenderOptions options) {
   completeConfig(prepared, config);
   requireExrSize(options.output, config.width, config.height, 1 + uint32_t(aovs.size()));
   Session session(prepared.scene, config, hostBytesPerPixel(options, aovs));
+  logStartup(session);
+  const size_t kernels = session.startup().kernels.size();
+  const size_t notices = session.startup().notices.size();
   logDetail(fmt::format("{}: {} triangles, loaded in {:.0f} ms; {} at {}x{}",
                         prepared.scene->source().name, prepared.scene->instancedTriangleCount(),
                         prepared.loadTimeMs, config.integrator, config.width, config.height));
   const Rendered rendered = renderFrames(session, options, hasHistory(config));
   const LayeredImage file = layers(session, prepared, rendered, aovs);
+  StartupLog further;  // of the layers
+  further.add(session, kernels, notices);
+  further.print();
   writeExr(options.output, file);
   if (png) writePng(pngPath(options), rendered.image);
 

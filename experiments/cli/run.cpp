@@ -21,21 +21,40 @@ struct RunOptions {
   int threads = -1;  // -1: as the suite says
 };
 
-// Keeps the items whose name is in the comma-separated list.
+const std::string& baseName(const SuiteScene& scene) { return scene.name; }
+const std::string& baseName(const SuiteMethod& method) { return method.base; }
+
+// Keeps the items whose name, or what several backends call alike, is in the comma-separated list.
 template <class Item>
 void keepNamed(std::vector<Item>& items, const std::string& list, const std::string& option) {
   if (list.empty()) return;
   std::vector<std::string> names;
   for (const Item& item : items) names.push_back(item.name);
+  const std::vector<std::string> shown = names;
+  for (const Item& item : items) names.push_back(baseName(item));
   const std::vector<std::string> wanted = splitList(list, option);
   for (const std::string& name : wanted) {
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
     failUsage(fmt::format("{} {}: not in the suite (it has: {}){}", option, name,
-                          fmt::join(names, ", "), didYouMean(name, names)));
+                          fmt::join(shown, ", "), didYouMean(name, names)));
   }
   std::erase_if(items, [&](const Item& item) {
-    return std::find(wanted.begin(), wanted.end(), item.name) == wanted.end();
+    return std::find(wanted.begin(), wanted.end(), item.name) == wanted.end() &&
+           std::find(wanted.begin(), wanted.end(), baseName(item)) == wanted.end();
   });
+}
+
+void warnOfYardsticks(const Suite& suite) {
+  for (const std::string& backend : suite.methodBackends()) {
+    const auto first =
+        std::find_if(suite.methods.begin(), suite.methods.end(),
+                     [&](const SuiteMethod& method) { return method.session.backend == backend; });
+    if (suite.yardstick(size_t(first - suite.methods.begin())) < suite.methods.size()) continue;
+    logWarning(
+        fmt::format("the suite has no method with integrator = \"path\" on {}: there is nothing to "
+                    "compare with, ratios are nan",
+                    backend));
+  }
 }
 
 void runVerb(const RunOptions& options, Outcome& outcome) {
@@ -43,17 +62,10 @@ void runVerb(const RunOptions& options, Outcome& outcome) {
   keepNamed(suite.scenes, options.scenes, "--scenes");
   keepNamed(suite.methods, options.methods, "--methods");
   if (options.threads >= 0) suite.threads = options.threads;
-  MethodOptions backend;
-  backend.backend = suite.backend;
-  makeConfig(SceneOptions(), backend);  // checks that the device is there
   if (suite.runs < 2) {
     logWarning("runs = 1: no interval and no bias can be given; biased rows will not count");
   }
-  if (suite.yardstick() == suite.methods.size()) {
-    logWarning(
-        "the suite has no method with integrator = \"path\": there is nothing to compare "
-        "with, ratios are nan");
-  }
+  warnOfYardsticks(suite);
   SuiteRequest request;
   request.out = options.out.empty() ? std::filesystem::path("results") / safeFileName(suite.name)
                                     : std::filesystem::path(options.out);

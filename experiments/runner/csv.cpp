@@ -36,7 +36,7 @@ std::vector<Column> contractColumns(const Suite& suite, const MethodSummary& row
           {"integrator", session.integrator},
           {"mode", session.mode},
           {"cache", hasHistory(session) ? session.cache : "none"},
-          {"backend", suite.backend},
+          {"backend", session.backend},
           {"denoiser", session.denoiser},
           {"width", std::to_string(row.block->width)},
           {"height", std::to_string(row.block->height)},
@@ -111,6 +111,12 @@ std::vector<Column> furtherColumns(const Suite& suite, const MethodSummary& row)
       {"kernel", row.method->session.specialise ? "specialised" : "general"},
       {"reference_spp", std::to_string(row.block->reference.spp)},
       {"reference_relmse", number(row.block->reference.relmse)},
+      {"device", row.result->use.device},
+      {"ray_tracing", row.result->use.rayTracing},
+      {"startup_ms", number(row.result->startupMs)},
+      {"time_ratio_to_first_backend", number(row.timeToFirstBackend.value)},
+      {"time_ratio_to_first_backend_ci_lo", number(row.timeToFirstBackend.lo)},
+      {"time_ratio_to_first_backend_ci_hi", number(row.timeToFirstBackend.hi)},
   };
   for (size_t i = 0; i < rl::RL_HEALTH_COUNT; ++i) {
     const char* name = Health::names()[i];

@@ -36,6 +36,8 @@ void keepShown(const Session& session, const PreparedScene& prepared, const RunR
                Image image, MethodResult& method) {
   method.shown = std::move(image);
   method.metadata = describe(prepared, session.config());
+  method.metadata["device"] = method.use.device;
+  method.metadata["ray_tracing"] = method.use.rayTracing;
   method.metadata["seed"] = std::to_string(run.seed);
   method.metadata["spp"] = "1";
   method.metadata["frame"] = std::to_string(run.measured.frame);
@@ -54,7 +56,8 @@ SessionConfig methodConfig(const Suite& suite, const SuiteMethod& method,
   config.cache = method.session.cache;
   config.parameters = method.session.parameters;
   config.specialise = method.session.specialise;
-  config.backend = suite.backend;
+  config.backend = method.session.backend;
+  suite.chooseDevice(config);
   config.camera = prepared.camera;
   config.russianRoulette = suite.russianRoulette;
   return config;
@@ -92,6 +95,7 @@ bool executeBlock(const Suite& suite, const PreparedScene& prepared, const RunSi
   std::vector<std::unique_ptr<Session>> sessions;
   block.methods.assign(count, MethodResult());
   const SessionConfig picture = pictureOf(suite, block.width, block.height, block.component);
+  StartupLog startup;
   for (size_t m = 0; m < count; ++m) {
     sessions.push_back(std::make_unique<Session>(
         prepared.scene, methodConfig(suite, suite.methods[m], prepared, picture),
@@ -99,7 +103,12 @@ bool executeBlock(const Suite& suite, const PreparedScene& prepared, const RunSi
     block.methods[m].featuresNeeded = sessions[m]->featuresNeeded();
     block.methods[m].featuresUsed = sessions[m]->featuresUsed();
     block.methods[m].bytesPerPixel = sessions[m]->bytesPerPixel();
+    block.methods[m].use = deviceUseOf(*sessions[m]);
+    block.methods[m].startupMs =
+        sessions[m]->startup().timeMs + (block.startupMs.empty() ? 0.0 : block.startupMs.at(m));
+    startup.add(*sessions[m]);
   }
+  startup.print();
 
   block.withoutLights = pixelsWithoutLights(prepared, sessions.front()->config());
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/runner/accumulate.h"
+#include "experiments/runner/backend_choice.h"
 #include "experiments/runner/suite.h"
 
 namespace restlab {
@@ -40,6 +41,8 @@ struct MethodResult {
   std::map<std::string, std::string> metadata;  // of that image
   uint32_t featuresNeeded = 0, featuresUsed = 0;
   size_t bytesPerPixel = 0;
+  DeviceUse use;
+  double startupMs = 0.0;  // until its kernels were ready, wherever in this program that was
 };
 
 struct BlockResult {
@@ -48,6 +51,8 @@ struct BlockResult {
   uint32_t width = 0, height = 0;
   Reference reference;
   std::string referenceFile;
+  // Of each method's kernels, what was spent on this scene before the block; empty: nothing.
+  std::vector<double> startupMs;
   std::vector<uint8_t> withoutLights;  // one byte a pixel, 1 where no light is seen directly
   std::vector<MethodResult> methods;   // in the suite's order
 };
@@ -62,7 +67,8 @@ size_t hostBytesPerPixelOfMethod(const Suite& suite);
 // Called after every finished run of a method.
 using RunSink = std::function<void(const BlockResult&, const RunResult&)>;
 
-// Renders the block into `block`, whose scene, size and reference are set. Returns false when it
+// Renders the block into `block`, whose scene, size, reference and earlier
+// start-up are set. Returns false when it
 // was interrupted: the runs that were not finished are absent then, all others are kept.
 bool executeBlock(const Suite& suite, const PreparedScene& prepared, const RunSink& sink,
                   BlockResult& block);

@@ -1,5 +1,7 @@
 #include "experiments/runner/light_mask.h"
 
+#include "experiments/runner/backend_choice.h"
+
 namespace restlab {
 
 std::vector<uint8_t> pixelsWithoutLights(const PreparedScene& prepared, SessionConfig config) {
@@ -11,6 +13,7 @@ std::vector<uint8_t> pixelsWithoutLights(const PreparedScene& prepared, SessionC
   config.components = rl::RL_COMPONENT_ALL;
   config.seed = 1;
   Session emission(prepared.scene, config);
+  logStartup(emission);
   std::vector<uint8_t> mask(size_t(config.width) * config.height, 1);
   for (int sample = 0; sample < kSamples; ++sample) {
     emission.frame();

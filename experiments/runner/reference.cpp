@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "experiments/runner/accumulate.h"
+#include "experiments/runner/backend_choice.h"
 #include "experiments/runner/build_info.h"
 #include "experiments/runner/interrupt.h"
 #include "experiments/runner/log.h"
@@ -41,6 +42,10 @@ SessionConfig pathConfig(const PreparedScene& prepared, const ReferenceConfig& c
   session.multiscatter = config.multiscatter;
   session.russianRoulette = false;
   session.threads = config.threads;
+  session.backend = config.backend;
+  session.device = config.device;
+  session.rayTracing = config.rayTracing;
+  session.validate = config.validate;
   return session;
 }
 
@@ -78,6 +83,10 @@ ReferenceConfig referenceConfigOf(const SessionConfig& session) {
   config.multiscatter = session.multiscatter;
   config.seed = session.seed;
   config.threads = session.threads;
+  config.backend = session.backend;
+  config.device = session.device;
+  config.rayTracing = session.rayTracing;
+  config.validate = session.validate;
   return config;
 }
 
@@ -102,6 +111,7 @@ Reference renderReference(const PreparedScene& prepared, const ReferenceConfig& 
   Session first(prepared.scene, session, kReferenceBytesPerPixel - 2 * sizeof(glm::vec3));
   session.seed = halfSeed(config.seed, 1);
   Session second(prepared.scene, session);
+  logStartup(first);
 
   ImageSum sum0(true), sum1(true);
   HealthSum health;
@@ -132,6 +142,8 @@ Reference renderReference(const PreparedScene& prepared, const ReferenceConfig& 
   reference.relmse = estimateRelmse(sum0, sum1);
   reference.timeS = timeS;
   reference.metadata = describe(prepared, first.config());
+  reference.metadata["device"] = first.device();
+  reference.metadata["ray_tracing"] = first.rayTracing();
   reference.metadata["kind"] = "reference";
   reference.metadata["reference_key"] = referenceKey(prepared, config);
   reference.metadata["seed"] = std::to_string(config.seed);

@@ -20,9 +20,13 @@ struct ReferenceConfig {
   bool multiscatter = false;
   uint32_t seed = 1;  // not part of the key
   int threads = 0;
+  // What renders it; not part of the key either.
+  std::string backend = "cpu", device, rayTracing;
+  bool validate = false;
 };
 
-// What `session` asks of a reference: the same picture, without its method.
+// What `session` asks of a reference: the same picture on the same device, without its
+// method.
 ReferenceConfig referenceConfigOf(const SessionConfig& session);
 
 // When to stop: at the first target that is reached; 0 is no target. One must be set.

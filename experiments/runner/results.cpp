@@ -41,7 +41,9 @@ Json configurationJson(const Suite& suite, const BlockResult& block, size_t meth
           {"integrator", session.integrator},
           {"mode", session.mode},
           {"cache", hasHistory(session) ? session.cache : "none"},
-          {"backend", suite.backend},
+          {"backend", session.backend},
+          {"device", block.methods[method].use.device},
+          {"ray_tracing", block.methods[method].use.rayTracing},
           {"denoiser", session.denoiser},
           {"kernel", session.specialise ? "specialised" : "general"},
           {"parameters", parametersJson(session)},
@@ -66,10 +68,12 @@ void addError(Json& line, const FrameError& error) {
   line["nonfinite_in_image"] = error.nonfinite;
 }
 
-Json timesJson(const RunResult& run) {
+Json timesJson(const RunResult& run, const std::string& backend) {
   Json passes = Json::object();
   for (const PassTiming& pass : run.passes) passes[pass.name] = pass.timeMs;
-  return {{"clock", "steady, passes only: no metrics, no files"},
+  const std::string clock =
+      backend == "vulkan" ? "the device's timestamps, steady where it has none" : "steady";
+  return {{"clock", clock + ", passes only: no metrics, no files"},
           {"median", median(run.timesMs)},
           {"p95", percentile(run.timesMs, 0.95)},
           {"frames", run.timesMs},
@@ -110,6 +114,7 @@ std::vector<std::string> resultLines(const Suite& suite, const BlockResult& bloc
   line["seed"] = run.seed;
   line["features_left_out"] = featuresLeftOut(block.methods[run.method]);
   line["bytes_per_pixel"] = block.methods[run.method].bytesPerPixel;
+  line["startup_ms"] = block.methods[run.method].startupMs;
   line["reference"] = {{"file", block.referenceFile},
                        {"spp", block.reference.spp},
                        {"relmse_estimate", finite(block.reference.relmse)}};
@@ -125,7 +130,7 @@ std::vector<std::string> resultLines(const Suite& suite, const BlockResult& bloc
   const double samples = double(run.timesMs.size()) * double(block.width) * double(block.height);
   line["kind"] = "run";
   addError(line, run.measured);
-  line["time_ms"] = timesJson(run);
+  line["time_ms"] = timesJson(run, suite.methods[run.method].session.backend);
   line["path_rays_per_pixel"] = double(run.health.raysPath) / samples;
   line["shadow_rays_per_pixel"] = double(run.health.raysShadow) / samples;
   line["health"] = healthJson(run.health);

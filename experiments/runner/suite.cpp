@@ -9,6 +9,7 @@
 #include "core/caches/caches.h"
 #include "core/config.h"
 #include "core/error.h"
+#include "experiments/runner/backend_choice.h"
 #include "experiments/runner/files.h"
 
 namespace restlab {
@@ -22,7 +23,7 @@ bool startsWith(const std::string& text, const std::string& prefix) {
 }
 
 std::vector<std::string> parameterNames(const std::string& integrator) {
-  std::vector<std::string> names = {"cache", "general"};
+  std::vector<std::string> names = {"cache", "general", "backend"};
   for (const IntegratorInfo* info : integratorRegistry()) {
     if (info->name != integrator) continue;
     for (const ParameterInfo& parameter : info->parameters) names.push_back(parameter.name);
@@ -103,7 +104,27 @@ SuiteScene readScene(const ConfigTable& table, const std::string& folder) {
   return scene;
 }
 
-SuiteMethod readMethod(const ConfigTable& table) {
+// One name or several; "cpu" and so on, each once.
+std::vector<std::string> readBackends(const ConfigTable& table,
+                                      const std::vector<std::string>& fallback) {
+  const std::vector<std::string> given = table.getStrings("backend", fallback);
+  const std::vector<std::string>& known = backendNames();
+  for (size_t i = 0; i < given.size(); ++i) {
+    if (std::find(known.begin(), known.end(), given[i]) == known.end()) {
+      table.fail("backend", fmt::format("unknown backend '{}' (known: {}){}", given[i],
+                                        fmt::join(known, ", "), didYouMean(given[i], known)));
+    }
+    if (std::find(given.begin(), given.begin() + std::ptrdiff_t(i), given[i]) !=
+        given.begin() + std::ptrdiff_t(i))
+      table.fail("backend", fmt::format("'backend' holds '{}' twice", given[i]));
+  }
+  if (given.empty()) table.fail("backend", "'backend' is empty");
+  return given;
+}
+
+// A method, once for each of its backends.
+std::vector<SuiteMethod> readMethod(const ConfigTable& table, const ConfigTable& settings,
+                                    const Suite& suite) {
   SuiteMethod method;
   std::vector<std::string> integrators;
   for (const IntegratorInfo* info : integratorRegistry()) integrators.push_back(info->name);
@@ -124,8 +145,48 @@ SuiteMethod readMethod(const ConfigTable& table) {
       method.session.parameters[parameter.name] = *value;
     }
   }
+  const std::vector<std::string> backends = readBackends(table, suite.backends);
   table.finish();
-  return method;
+  method.base = method.name;
+  method.namePlace = table.place("name");
+  const bool isGeneral = !table.has("backend") && settings.has("backend");
+  method.backendPlace = (isGeneral ? settings : table).place("backend");
+  std::vector<SuiteMethod> all;
+  for (const std::string& backend : backends) {
+    method.session.backend = backend;
+    suite.chooseDevice(method.session);
+    all.push_back(method);
+  }
+  return all;
+}
+
+// In a table of several backends every name says which one it is of.
+void nameByBackend(Suite& suite) {
+  if (suite.methodBackends().size() < 2) return;
+  for (SuiteMethod& method : suite.methods)
+    method.name = fmt::format("{} @{}", method.base, method.session.backend);
+}
+
+// A setting that no backend in use could have would be ignored in silence.
+void requireSomeUse(const ConfigTable& settings, const Suite& suite) {
+  std::vector<std::string> used = suite.methodBackends();
+  used.push_back(suite.referenceBackend);
+  const bool vulkan = std::find(used.begin(), used.end(), "vulkan") != used.end();
+  if (!vulkan && !suite.device.empty()) {
+    settings.fail("device", fmt::format("'device' is '{}', but nothing runs on the backend vulkan",
+                                        suite.device));
+  }
+  if (!vulkan && suite.validate)
+    settings.fail("validate", "'validate' is true, but nothing runs on the backend vulkan");
+  const bool traced = suite.rayTracing.empty() ||
+                      std::any_of(used.begin(), used.end(), [&](const std::string& backend) {
+                        return mayTraceBy(backend, suite.rayTracing);
+                      });
+  if (!traced) {
+    settings.fail("ray_tracing", fmt::format("'ray_tracing' is '{}', which no backend in use has: "
+                                             "embree is of cpu, query of vulkan, bvh of both",
+                                             suite.rayTracing));
+  }
 }
 
 void readSettings(const ConfigTable& table, Suite& suite) {
@@ -140,9 +201,14 @@ void readSettings(const ConfigTable& table, Suite& suite) {
   suite.runs = uint32_t(table.getInteger("runs", suite.runs, 1, kMaxCount));
   suite.seed = uint32_t(table.getInteger("seed", suite.seed, 0, 0x7fffffff));
   suite.threads = int(table.getInteger("threads", suite.threads, 0, 1024));
-  std::vector<std::string> backends;
-  for (const BackendInfo& backend : backendRegistry()) backends.push_back(backend.name);
-  suite.backend = table.getChoice("backend", suite.backend, backends);
+  suite.backends = readBackends(table, suite.backends);
+  suite.device = table.getString("device", "");
+  suite.devicePlace = table.place("device");
+  suite.rayTracingPlace = table.place("ray_tracing");
+  if (table.has("ray_tracing")) {
+    suite.rayTracing = table.getChoice("ray_tracing", rayTracingNames().front(), rayTracingNames());
+  }
+  suite.validate = table.getBool("validate", suite.validate);
   suite.pixelFilter = parseFilter(table.getString("filter", "box"), table.place("filter"));
   suite.components.clear();
   for (const std::string& name : table.getStrings("components", {"all"})) {
@@ -164,7 +230,10 @@ void readSettings(const ConfigTable& table, Suite& suite) {
   table.finish();
 }
 
-void readTarget(const ConfigTable& table, ReferenceTarget& target) {
+void readReference(const ConfigTable& table, Suite& suite) {
+  suite.referenceBackend = table.getChoice("backend", suite.referenceBackend, backendNames());
+  suite.referenceBackendPlace = table.place("backend");
+  ReferenceTarget& target = suite.target;
   target.spp = uint64_t(table.getInteger("spp", 0, 2, int64_t(1) << 32));
   target.relmse = table.getNumber("target_relmse", 0.0, 1e-12, 1e6);
   target.timeLimitS = table.getNumber("time_limit", 0.0, 1e-3, 1e9);
@@ -188,16 +257,15 @@ void requireUniqueName(std::map<std::string, std::string>& seen, const std::stri
                   place, what, other->second, name, other->first));
 }
 
-void requireUniqueNames(const ConfigTable& root, const Suite& suite) {
+void requireUniqueNames(const Suite& suite) {
   std::map<std::string, std::string> methods, scenes;
-  const std::vector<ConfigTable> tables = root.getTables("method");
-  for (size_t i = 0; i < suite.methods.size(); ++i) {
-    const std::string& name = suite.methods[i].name;
-    requireUniqueName(methods, "method", name, tables[i].place("name"));
-    if (safeFileName(name) == "reference") {
-      tables[i].fail("name", fmt::format("'{}' is what the images of the reference are named; "
-                                         "give the method another 'name'",
-                                         name));
+  for (const SuiteMethod& method : suite.methods) {
+    requireUniqueName(methods, "method", method.name, method.namePlace);
+    if (safeFileName(method.name) == "reference") {
+      failUsage(
+          fmt::format("{}: '{}' is what the images of the reference are named; give the "
+                      "method another 'name'",
+                      method.namePlace, method.name));
     }
   }
   for (const SuiteScene& scene : suite.scenes) {
@@ -207,11 +275,38 @@ void requireUniqueNames(const ConfigTable& root, const Suite& suite) {
 
 }  // namespace
 
-size_t Suite::yardstick() const {
-  const auto path = std::find_if(methods.begin(), methods.end(), [](const SuiteMethod& method) {
-    return method.session.integrator == "path";
+size_t Suite::yardstick(size_t method) const {
+  const std::string& backend = methods[method].session.backend;
+  const auto path = std::find_if(methods.begin(), methods.end(), [&](const SuiteMethod& other) {
+    return other.session.integrator == "path" && other.session.backend == backend;
   });
   return size_t(path - methods.begin());
+}
+
+size_t Suite::onFirstBackend(size_t method) const {
+  const SuiteMethod& own = methods[method];
+  const auto first = std::find_if(methods.begin(), methods.end(), [&](const SuiteMethod& other) {
+    const SessionConfig &a = own.session, &b = other.session;
+    return own.base == other.base && a.integrator == b.integrator && a.mode == b.mode &&
+           a.cache == b.cache && a.specialise == b.specialise && a.parameters == b.parameters;
+  });
+  return size_t(first - methods.begin());
+}
+
+std::vector<std::string> Suite::methodBackends() const {
+  std::vector<std::string> names;
+  for (const SuiteMethod& method : methods) {
+    if (std::find(names.begin(), names.end(), method.session.backend) == names.end())
+      names.push_back(method.session.backend);
+  }
+  return names;
+}
+
+void Suite::chooseDevice(SessionConfig& config) const {
+  const bool vulkan = config.backend == "vulkan";
+  config.device = vulkan ? device : "";
+  config.validate = vulkan && validate;
+  config.rayTracing = mayTraceBy(config.backend, rayTracing) ? rayTracing : "";
 }
 
 Suite loadSuite(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
@@ -238,13 +333,17 @@ Suite loadSuite(const std::filesystem::path& file, const std::vector<std::string
   }
   if (suite.scenes.empty())
     root.fail("", "the suite has no scenes: give scenes = [..] or [[scene]]");
+  const ConfigTable settings = root.getTable("settings");
+  readSettings(settings, suite);
   for (const ConfigTable& table : root.getTables("method")) {
-    suite.methods.push_back(readMethod(table));
+    for (SuiteMethod& method : readMethod(table, settings, suite))
+      suite.methods.push_back(std::move(method));
   }
   if (suite.methods.empty()) root.fail("", "the suite has no [[method]]");
-  readSettings(root.getTable("settings"), suite);
-  readTarget(root.getTable("reference"), suite.target);
-  requireUniqueNames(root, suite);
+  readReference(root.getTable("reference"), suite);
+  requireSomeUse(settings, suite);
+  nameByBackend(suite);
+  requireUniqueNames(suite);
   return suite;
 }
 

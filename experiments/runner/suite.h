@@ -22,7 +22,10 @@ struct SuiteScene {
 
 struct SuiteMethod {
   std::string name;       // in tables and file names; unique
-  SessionConfig session;  // integrator, mode, cache, parameters, specialise
+  std::string base;       // the same on every backend; the name where the suite has only one
+  SessionConfig session;  // integrator, mode, cache, parameters, specialise, and what runs them
+  // Where the suite says so, for errors: file:line:column.
+  std::string backendPlace, namePlace;
 };
 
 struct Suite {
@@ -39,13 +42,26 @@ struct Suite {
   uint32_t runs = 4;
   uint32_t seed = 1;                  // of run 0; run r has seed + r
   std::vector<uint32_t> checkpoints;  // further frames of the history whose error is recorded
-  std::string backend = "cpu";
+  // Of all methods that do not say their own.
+  std::vector<std::string> backends = {"cpu"};
+  std::string device, rayTracing;  // for the backends that can have them
+  bool validate = false;
+  std::string devicePlace, rayTracingPlace;  // for errors
+  std::string referenceBackend = "cpu", referenceBackendPlace;
   uint32_t pixelFilter = rl::RL_FILTER_BOX;
   int threads = 0;
   ReferenceTarget target;
 
-  // Index of the yardstick: the first `path` method; methods.size() where there is none.
-  size_t yardstick() const;
+  // Index of a method's yardstick: the first `path` method on the same backend; methods.size()
+  // where there is none.
+  size_t yardstick(size_t method) const;
+  // Index of the first method that differs in nothing but the backend; itself where it is the
+  // first.
+  size_t onFirstBackend(size_t method) const;
+  // Backends of the methods, in their order, each once.
+  std::vector<std::string> methodBackends() const;
+  // Completes `config`, whose backend is set, by what the settings say of that backend.
+  void chooseDevice(SessionConfig& config) const;
 };
 
 // Reads a suite with `--set KEY=VALUE` overrides: a key of [settings], of [reference] as

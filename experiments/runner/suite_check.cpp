@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "core/image/exr_limits.h"
 #include "core/memory.h"
@@ -25,6 +27,24 @@ auto at(const std::string& place, const Check& check) {
   }
 }
 
+// A session of one pixel. What is wrong with its device is said where the suite chooses it; such
+// errors begin with the option that chooses it on a command line.
+Session open(const Suite& suite, const std::string& backendPlace, const PreparedScene& prepared,
+             const SessionConfig& config) {
+  try {
+    return Session(prepared.scene, config);
+  } catch (const Error& error) {
+    const std::string text = error.what();
+    const bool ofDevice = text.rfind("--device", 0) == 0;
+    const bool ofRayTracing = text.rfind("--ray-tracing", 0) == 0;
+    throw Error(error.code(), fmt::format("{}: {}",
+                                          ofDevice       ? suite.devicePlace
+                                          : ofRayTracing ? suite.rayTracingPlace
+                                                         : backendPlace,
+                                          text));
+  }
+}
+
 // The reference given as a file must be of exactly the suite's configuration.
 void checkReference(const Suite& suite, const SuiteScene& scene, const PreparedScene& prepared,
                     uint32_t width, uint32_t height) {
@@ -41,22 +61,34 @@ void checkReference(const Suite& suite, const SuiteScene& scene, const PreparedS
   }
 }
 
-// All methods of a block are there at once, as their frames take turns.
-void checkMemory(const Suite& suite, const SuiteScene& scene, const PreparedScene& prepared,
-                 uint32_t width, uint32_t height) {
+// Opens every method's device and makes its kernels ready. Returns the bytes per pixel of all
+// methods of a block together, which are there at once, as their frames take turns.
+size_t openMethods(const Suite& suite, const SuiteScene& scene, const PreparedScene& prepared,
+                   SuiteCheck& found) {
+  // A session of one pixel knows the bytes of every pixel.
+  const SessionConfig picture = pictureOf(suite, 1, 1, suite.components.front());
+  StartupLog startup;
   size_t bytesPerPixel = 0;
   for (const SuiteMethod& method : suite.methods) {
-    // A session of one pixel knows the bytes of every pixel.
-    const SessionConfig config =
-        methodConfig(suite, method, prepared, pictureOf(suite, 1, 1, suite.components.front()));
-    bytesPerPixel +=
-        Session(prepared.scene, config).bytesPerPixel() + hostBytesPerPixelOfMethod(suite);
+    const Session session =
+        open(suite, method.backendPlace, prepared, methodConfig(suite, method, prepared, picture));
+    bytesPerPixel += session.bytesPerPixel() + hostBytesPerPixelOfMethod(suite);
+    found.startupMs[scene.name].push_back(session.startup().timeMs);
+    startup.add(session);
+    const DeviceUse use = deviceUseOf(session);
+    if (std::find(found.devices.begin(), found.devices.end(), use) == found.devices.end())
+      found.devices.push_back(use);
   }
-  requireMemory(fmt::format("scene {}", scene.name), width, height,
-                std::max(bytesPerPixel, kReferenceBytesPerPixel));
+  if (scene.reference.empty()) {
+    SessionConfig config = picture;
+    config.camera = prepared.camera;
+    startup.add(open(suite, suite.referenceBackendPlace, prepared, config));
+  }
+  startup.print();
+  return bytesPerPixel;
 }
 
-PreparedScene checkScene(const Suite& suite, const SuiteScene& scene) {
+PreparedScene checkScene(const Suite& suite, const SuiteScene& scene, SuiteCheck& found) {
   SceneRequest request = scene.request;
   request.camera.clear();  // looked for below, at a place of its own
   PreparedScene prepared = at(scene.place, [&] { return prepareScene(request); });
@@ -70,7 +102,11 @@ PreparedScene checkScene(const Suite& suite, const SuiteScene& scene) {
   } else {
     at(scene.referencePlace, [&] { checkReference(suite, scene, prepared, width, height); });
   }
-  at(scene.place, [&] { checkMemory(suite, scene, prepared, width, height); });
+  const size_t bytesPerPixel = openMethods(suite, scene, prepared, found);
+  at(scene.place, [&] {
+    requireMemory(fmt::format("scene {}", scene.name), width, height,
+                  std::max(bytesPerPixel, kReferenceBytesPerPixel));
+  });
   return prepared;
 }
 
@@ -94,10 +130,13 @@ SessionConfig pictureOf(const Suite& suite, uint32_t width, uint32_t height, uin
   config.multiscatter = suite.multiscatter;
   config.seed = suite.seed;
   config.threads = suite.threads;
+  config.backend = suite.referenceBackend;
+  suite.chooseDevice(config);
   return config;
 }
 
-std::optional<PreparedScene> checkSuite(const Suite& suite) {
+SuiteCheck checkSuite(const Suite& suite) {
+  SuiteCheck found;
   std::string missing;
   for (const SuiteScene& scene : suite.scenes) {
     if (scene.optional || !assetsMissing(scene.request, missing)) continue;
@@ -109,10 +148,10 @@ std::optional<PreparedScene> checkSuite(const Suite& suite) {
   for (const SuiteScene& scene : suite.scenes) {
     if (scene.optional && assetsMissing(scene.request, missing)) continue;
     throwIfInterrupted("nothing was rendered");
-    PreparedScene prepared = checkScene(suite, scene);
-    if (suite.scenes.size() == 1) return prepared;
+    PreparedScene prepared = checkScene(suite, scene, found);
+    if (suite.scenes.size() == 1) found.only = prepared;
   }
-  return std::nullopt;
+  return found;
 }
 
 }  // namespace restlab

@@ -2,8 +2,10 @@
 // camera of its last scene.
 #pragma once
 
+#include <map>
 #include <optional>
 
+#include "experiments/runner/backend_choice.h"
 #include "experiments/runner/suite.h"
 
 namespace restlab {
@@ -12,12 +14,20 @@ namespace restlab {
 void sceneResolution(const Suite& suite, const SuiteScene& scene, const PreparedScene& prepared,
                      uint32_t& width, uint32_t& height);
 
-// What every method of a block, and its reference, must agree in.
+// What every method of a block, and its reference, must agree in; on the reference's backend.
 SessionConfig pictureOf(const Suite& suite, uint32_t width, uint32_t height, uint32_t component);
+
+// What the check found out on its way.
+struct SuiteCheck {
+  std::optional<PreparedScene> only;  // of a suite with one scene, so that it is not loaded twice
+  std::map<std::string, std::vector<double>> startupMs;  // by scene: of each method's kernels
+  std::vector<DeviceUse> devices;                        // of the methods, each once
+};
 
 // Loads every scene that is here, one after the other, and checks files, cameras, given references,
 // the sizes of the files to write and the memory. Throws Error that starts with the place in the
-// suite. Returns the scene of a suite that has only one, so that it is not loaded twice.
-std::optional<PreparedScene> checkSuite(const Suite& suite);
+// suite. Kernels are made ready on the way: a device that is absent is known before the first
+// frame.
+SuiteCheck checkSuite(const Suite& suite);
 
 }  // namespace restlab

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <deque>
 #include <nlohmann/json.hpp>
@@ -76,7 +77,7 @@ class SuiteRun {
     const bool isNew = !fs::exists(request_.out, status);
     makeWritableDirectory(request_.out);  // quickly said, unlike what follows
     try {
-      only_ = checkSuite(suite_);
+      check_ = checkSuite(suite_);
     } catch (const Error&) {
       if (isNew) fs::remove(request_.out, status);
       throw;
@@ -92,7 +93,7 @@ class SuiteRun {
         logInfo(skipped_.back());
         continue;
       }
-      const PreparedScene prepared = only_ ? *only_ : prepareScene(scene.request);
+      const PreparedScene prepared = check_.only ? *check_.only : prepareScene(scene.request);
       printWarnings(prepared);
       for (const uint32_t component : suite_.components) {
         finished = finished && executeOne(scene, prepared, component);
@@ -108,6 +109,7 @@ class SuiteRun {
     block.camera = prepared.cameraName;
     block.component = component;
     sceneResolution(suite_, scene, prepared, block.width, block.height);
+    block.startupMs = check_.startupMs[scene.name];
     if (!obtain(scene, prepared, block)) return false;
     const bool finished = executeBlock(
         suite_, prepared,
@@ -175,14 +177,28 @@ class SuiteRun {
     }
     text += fmt::format(
         "{}, {} cores, Embree {}, {} {}; times are of the passes of a frame by the "
-        "steady clock, without metrics and files.\n",
+        "steady clock{}, without metrics and files.\n",
         cpuModel(), machineJson()["cores"].dump(), embreeVersion(), buildInfo().compiler,
-        buildInfo().buildType);
+        buildInfo().buildType, usesVulkan() ? " (vulkan: by the device's timestamps)" : "");
+    for (const DeviceUse& use : check_.devices)
+      text += fmt::format("\n{}: {}; rays by {}.\n", use.backend, use.device, use.rayTracing);
     writeTextFile(request_.out / "table.md", text);
+  }
+
+  bool usesVulkan() const {
+    return std::any_of(check_.devices.begin(), check_.devices.end(),
+                       [](const DeviceUse& use) { return use.backend == "vulkan"; });
   }
 
   // What was run, where, from which sources: whoever finds the folder can run it again.
   void writeRecord(const std::string& status) {
+    nlohmann::ordered_json devices = nlohmann::ordered_json::array();
+    for (const DeviceUse& use : check_.devices) {
+      devices.push_back({{"backend", use.backend},
+                         {"device", use.device},
+                         {"ray_tracing", use.rayTracing},
+                         {"validate", use.backend == "vulkan" && suite_.validate}});
+    }
     nlohmann::ordered_json record = {{"schema", kResultsSchema},
                                      {"status", status},
                                      {"suite", suite_.name},
@@ -192,6 +208,8 @@ class SuiteRun {
                                      {"written", utcNow()},
                                      {"build", buildJson()},
                                      {"machine", machineJson()},
+                                     {"devices", devices},
+                                     {"reference_backend", suite_.referenceBackend},
                                      {"skipped", skipped_},
                                      {"peak_resident_mib", peakResidentMiB()}};
     writeTextFile(request_.out / "run.json", record.dump(2) + "\n");
@@ -200,7 +218,7 @@ class SuiteRun {
   const Suite& suite_;
   const SuiteRequest& request_;
   std::string started_;
-  std::optional<PreparedScene> only_;  // the scene of a suite that has one
+  SuiteCheck check_;
   std::vector<std::string> skipped_;
   std::deque<BlockResult> blocks_;  // rows point into it: addresses must stay
   std::vector<MethodSummary> rows_;

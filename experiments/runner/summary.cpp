@@ -20,11 +20,11 @@ double runMse(const RunResult& run) { return run.measured.mse; }
 double runRelmseTrimmed(const RunResult& run) { return run.measured.relmseTrimmed; }
 double runMseWithoutLights(const RunResult& run) { return run.measured.mseWithoutLights; }
 
-// Median over the frames of a run of time / time of `path` in the same interleaved round.
-double runTimeRatio(const RunResult& run, const RunResult& path) {
+// Median over the frames of a run of time / time of `other` in the same interleaved round.
+double runTimeRatio(const RunResult& run, const RunResult& other) {
   std::vector<double> ratios;
   for (size_t i = 0; i < run.timesMs.size(); ++i)
-    ratios.push_back(run.timesMs[i] / path.timesMs.at(i));
+    ratios.push_back(run.timesMs[i] / other.timesMs.at(i));
   return median(ratios);
 }
 
@@ -104,6 +104,14 @@ void compareWithYardstick(const MethodResult& path, const MethodSummary& pathRow
   row.efficiencyRatio.value = row.mseRatio.value / row.timeRatio.value;
 }
 
+// The time of a method against that of the same method on another backend.
+Interval timeAgainst(const MethodResult& result, const MethodResult& first) {
+  std::vector<double> ratios;
+  for (size_t r = 0; r < std::min(result.runs.size(), first.runs.size()); ++r)
+    ratios.push_back(runTimeRatio(result.runs[r], first.runs[r]));
+  return meanInterval(ratios);
+}
+
 void judge(MethodSummary& row) {
   if (row.nonfinite > 0) {
     row.counts = false;
@@ -140,9 +148,8 @@ void judge(MethodSummary& row) {
 
 std::vector<MethodSummary> summarise(const Suite& suite, const BlockResult& block) {
   std::vector<MethodSummary> rows;
-  const size_t yardstick = suite.yardstick();
   const size_t pixels = size_t(block.width) * block.height;
-  size_t yardstickRow = suite.methods.size();
+  std::vector<size_t> rowOf(suite.methods.size() + 1, suite.methods.size());
   for (size_t m = 0; m < block.methods.size(); ++m) {
     const MethodResult& result = block.methods[m];
     if (result.runs.empty()) continue;
@@ -155,12 +162,20 @@ std::vector<MethodSummary> summarise(const Suite& suite, const BlockResult& bloc
     summariseTimes(result, pixels, row);
     summariseErrors(result, block.reference, row);
     judge(row);
-    if (m == yardstick) yardstickRow = rows.size();
+    row.isYardstick = m == suite.yardstick(m);
+    rowOf[m] = rows.size();
     rows.push_back(std::move(row));
   }
-  if (yardstickRow < rows.size()) {
-    const MethodSummary path = rows[yardstickRow];
-    for (MethodSummary& row : rows) compareWithYardstick(*path.result, path, *row.result, row);
+  for (size_t m = 0; m < block.methods.size(); ++m) {
+    if (rowOf[m] >= rows.size()) continue;
+    MethodSummary& row = rows[rowOf[m]];
+    if (const size_t path = rowOf[suite.yardstick(m)]; path < rows.size()) {
+      const MethodSummary yardstick = rows[path];
+      compareWithYardstick(*yardstick.result, yardstick, *row.result, row);
+    }
+    const size_t first = suite.onFirstBackend(m);
+    if (first != m && rowOf[first] < rows.size())
+      row.timeToFirstBackend = timeAgainst(*row.result, block.methods[first]);
   }
   return rows;
 }

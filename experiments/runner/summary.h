@@ -32,7 +32,8 @@ struct MethodSummary {
   double worstShare = kUnknown;   // mean over runs
   uint64_t nonfinite = 0;         // in images, and sample values set to zero
 
-  // Against the yardstick: path / method for the error, method / path for the time.
+  // Against the yardstick on the same backend: path / method for the error, method / path for the
+  // time.
   Interval mseRatio{kUnknown, kUnknown, kUnknown};
   Interval mseRatioWithoutLights{kUnknown, kUnknown, kUnknown};
   Interval relmseTrimmedRatio{kUnknown, kUnknown, kUnknown};
@@ -40,6 +41,9 @@ struct MethodSummary {
   // slows the machine down for a while slows both and cancels.
   Interval timeRatio{kUnknown, kUnknown, kUnknown};
   double timeRatioOfMedians = kUnknown;
+  // The same against this method on the suite's first backend; unknown on that one itself.
+  Interval timeToFirstBackend{kUnknown, kUnknown, kUnknown};
+  bool isYardstick = false;
   Interval efficiencyRatio{kUnknown, kUnknown, kUnknown};  // mseRatio / timeRatio
 
   double raysPathPerPixel = kUnknown, raysShadowPerPixel = kUnknown;

@@ -16,35 +16,55 @@ std::string interval(double lo, double hi, const char* format) {
                      fmt::format(fmt::runtime(format), hi));
 }
 
-std::string timeCell(const MethodSummary& row, bool yardstick) {
+std::string timeCell(const MethodSummary& row) {
   std::string text = fmt::format("{:.3g} ms", row.timeMsMedian);
-  if (yardstick || std::isnan(row.timeRatio.value)) return text;
+  if (row.isYardstick || std::isnan(row.timeRatio.value)) return text;
   return text + fmt::format(" ({:.2f}x{})", row.timeRatio.value,
                             interval(row.timeRatio.lo, row.timeRatio.hi, "{:.2f}"));
 }
 
-std::string ratioCell(const Interval& ratio, bool yardstick) {
-  if (yardstick || std::isnan(ratio.value)) return "";
+std::string ratioCell(const Interval& ratio, bool isYardstick) {
+  if (isYardstick || std::isnan(ratio.value)) return "";
   return fmt::format("{:.1f}x lower{}", ratio.value, interval(ratio.lo, ratio.hi, "{:.1f}"));
 }
 
-std::string efficiencyCell(const MethodSummary& row, bool yardstick) {
-  if (yardstick || std::isnan(row.efficiencyRatio.value)) return "";
+std::string efficiencyCell(const MethodSummary& row) {
+  if (row.isYardstick || std::isnan(row.efficiencyRatio.value)) return "";
   return fmt::format("{:.1f}{}", row.efficiencyRatio.value,
                      interval(row.efficiencyRatio.lo, row.efficiencyRatio.hi, "{:.1f}"));
 }
 
-std::string withoutLightsCell(const MethodSummary& row, bool yardstick) {
+std::string withoutLightsCell(const MethodSummary& row) {
   if (std::isnan(row.mseWithoutLights.value)) return "no such pixel";
-  const std::string ratio = ratioCell(row.mseRatioWithoutLights, yardstick);
+  const std::string ratio = ratioCell(row.mseRatioWithoutLights, row.isYardstick);
   return fmt::format("{:.3g}{}", row.mseWithoutLights.value,
                      ratio.empty() ? "" : fmt::format(" ({})", ratio));
 }
 
-std::string trimmedCell(const MethodSummary& row, bool yardstick) {
-  const std::string ratio = ratioCell(row.relmseTrimmedRatio, yardstick);
+std::string trimmedCell(const MethodSummary& row) {
+  const std::string ratio = ratioCell(row.relmseTrimmedRatio, row.isYardstick);
   return fmt::format("{:.3g}{}", row.relmseTrimmed.value,
                      ratio.empty() ? "" : fmt::format(" ({})", ratio));
+}
+
+// Heading of the column that compares backends; "" where no row has another one to compare with.
+std::string backendColumn(const Suite& suite, const std::vector<MethodSummary>& rows) {
+  std::string first;
+  for (const MethodSummary& row : rows) {
+    if (std::isnan(row.timeToFirstBackend.value)) continue;
+    const size_t method = size_t(row.method - suite.methods.data());
+    const std::string& backend = suite.methods[suite.onFirstBackend(method)].session.backend;
+    if (first.empty()) first = backend;
+    if (first != backend) first = "first backend";
+  }
+  return first.empty() ? "" : "time / " + first;
+}
+
+std::string backendCell(const MethodSummary& row, const std::string& column) {
+  if (column.empty()) return "";
+  const Interval& ratio = row.timeToFirstBackend;
+  if (std::isnan(ratio.value)) return " |";
+  return fmt::format(" {:.2f}x{} |", ratio.value, interval(ratio.lo, ratio.hi, "{:.2f}"));
 }
 
 std::string biasCell(const MethodSummary& row) {
@@ -56,7 +76,7 @@ std::string biasCell(const MethodSummary& row) {
 std::string blockTable(const Suite& suite, const std::vector<MethodSummary>& rows) {
   if (rows.empty()) return "";
   const BlockResult& block = *rows.front().block;
-  const size_t yardstick = suite.yardstick();
+  const std::string backends = backendColumn(suite, rows);
   std::string text = fmt::format(
       "## {}, {} light\n\nCamera {}, {}x{}, {} scattering events, Russian roulette {}, filter "
       "{}{}; "
@@ -65,20 +85,19 @@ std::string blockTable(const Suite& suite, const std::vector<MethodSummary>& row
       suite.maxBounces, suite.russianRoulette ? "on" : "off", filterName(suite.pixelFilter),
       suite.multiscatter ? ", multiple scattering compensated" : "", rows.front().runs,
       suite.warmupFrames, suite.timedFrames, block.reference.spp, block.reference.relmse);
-  text +=
-      "| method | time per frame | MSE | | efficiency | energy | bias^2/MSE | worst 0.1 % | MSE "
+  text += fmt::format(
+      "| method | time per frame |{} MSE | | efficiency | energy | bias^2/MSE | worst 0.1 % | MSE "
       "without lights in view | relMSE without the worst 0.1 % | rays/px |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|\n";
+      "|---|---|{}---|---|---|---|---|---|---|---|---|\n",
+      backends.empty() ? "" : fmt::format(" {} |", backends), backends.empty() ? "" : "---|");
   std::string notes;
   for (const MethodSummary& row : rows) {
-    const bool isYardstick =
-        yardstick < suite.methods.size() && row.method == &suite.methods[yardstick];
     text += fmt::format(
-        "| {}{} | {} | {:.3g}{} | {} | {} | {:.3f} | {} | {:.0f} % | {} | {} | {:.1f} |\n",
-        row.method->name, row.counts ? "" : " (*)", timeCell(row, isYardstick), row.mse.value,
-        interval(row.mse.lo, row.mse.hi, "{:.3g}"), ratioCell(row.mseRatio, isYardstick),
-        efficiencyCell(row, isYardstick), row.energyRatio.value, biasCell(row),
-        100.0 * row.worstShare, withoutLightsCell(row, isYardstick), trimmedCell(row, isYardstick),
+        "| {}{} | {} |{} {:.3g}{} | {} | {} | {:.3f} | {} | {:.0f} % | {} | {} | {:.1f} |\n",
+        row.method->name, row.counts ? "" : " (*)", timeCell(row), backendCell(row, backends),
+        row.mse.value, interval(row.mse.lo, row.mse.hi, "{:.3g}"),
+        ratioCell(row.mseRatio, row.isYardstick), efficiencyCell(row), row.energyRatio.value,
+        biasCell(row), 100.0 * row.worstShare, withoutLightsCell(row), trimmedCell(row),
         row.raysPathPerPixel + row.raysShadowPerPixel);
     for (const std::string& flag : row.flags) {
       notes += fmt::format("- {}{}: {}\n", row.method->name, row.counts ? "" : " (*)", flag);

@@ -1,4 +1,5 @@
 set(RL_CLI_TESTS
+  backend_test.cpp
   bad_input_test.cpp
   compare_test.cpp
   info_list_test.cpp

@@ -1,2 +1,2 @@
-set(RL_RUNNER_TESTS accumulate_test.cpp summary_test.cpp)
+set(RL_RUNNER_TESTS accumulate_test.cpp suite_test.cpp summary_test.cpp)
 set(RL_RUNNER_LIBRARIES rl_runner)

@@ -139,6 +139,50 @@ TEST_F(SummaryTest, WithoutYardstickRatiosAreUnknown) {
   EXPECT_NE(summaryCsv(suite_, rows).find(",nan,"), std::string::npos);
 }
 
+// The same two methods on a second backend, which is three times as fast and a little noisier.
+TEST_F(SummaryTest, RatiosStayWithinABackend) {
+  for (size_t m = 0; m < 2; ++m) {
+    SuiteMethod method = suite_.methods[m];
+    suite_.methods[m].base = method.base = method.name;
+    suite_.methods[m].name += " @cpu";
+    method.name += " @vulkan";
+    method.session.backend = "vulkan";
+    suite_.methods.push_back(method);
+    MethodResult result = block_.methods[m];
+    for (RunResult& run : result.runs) {
+      run.measured.mse *= m == 0 ? 2.0 : 1.0;
+      for (double& timeMs : run.timesMs) timeMs /= 3.0;
+    }
+    block_.methods.push_back(std::move(result));
+  }
+  const auto rows = summarise(suite_, block_);
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_NEAR(rows[1].mseRatio.value, 10.0, 1e-12);
+  EXPECT_NEAR(rows[3].mseRatio.value, 20.0, 1e-12) << "against path @vulkan";
+  EXPECT_NEAR(rows[3].timeRatio.value, 1.1, 1e-12);
+  EXPECT_EQ(rows[2].timeRatio.value, 1.0);
+  EXPECT_TRUE(rows[0].isYardstick && rows[2].isYardstick);
+  EXPECT_FALSE(rows[1].isYardstick || rows[3].isYardstick);
+  EXPECT_TRUE(std::isnan(rows[0].timeToFirstBackend.value));
+  EXPECT_TRUE(std::isnan(rows[1].timeToFirstBackend.value));
+  EXPECT_NEAR(rows[2].timeToFirstBackend.value, 1.0 / 3.0, 1e-12);
+  EXPECT_NEAR(rows[3].timeToFirstBackend.value, 1.0 / 3.0, 1e-12);
+  const std::string table = blockTable(suite_, rows);
+  EXPECT_NE(table.find("| time / cpu |"), std::string::npos) << table;
+  EXPECT_NE(table.find("| path @vulkan | 7.33 ms | 0.33x [0.33, 0.33] |"), std::string::npos)
+      << table;
+  // Without its yardstick a backend has no ratios, but still a first backend.
+  block_.methods[2].runs.clear();
+  const auto fewer = summarise(suite_, block_);
+  ASSERT_EQ(fewer.size(), 3u);
+  EXPECT_TRUE(std::isnan(fewer[2].mseRatio.value));
+  EXPECT_NEAR(fewer[2].timeToFirstBackend.value, 1.0 / 3.0, 1e-12);
+}
+
+TEST_F(SummaryTest, OneBackendHasNoColumnForOthers) {
+  EXPECT_EQ(blockTable(suite_, summarise(suite_, block_)).find("time / "), std::string::npos);
+}
+
 TEST_F(SummaryTest, UnfinishedMethodsAreLeftOut) {
   block_.methods[1].runs.clear();
   EXPECT_EQ(summarise(suite_, block_).size(), 1u);

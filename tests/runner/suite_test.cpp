@@ -1,0 +1,109 @@
+// Suites of several backends: which methods there are, what each is compared with, and what of the
+// settings reaches which backend. Nothing is rendered.
+#include "experiments/runner/suite.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "core/error.h"
+
+namespace restlab {
+
+namespace {
+
+class SuiteTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (std::filesystem::temp_directory_path() / "restlab-suite-XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  Suite load(const std::string& settings, const std::string& methods,
+             const std::vector<std::string>& overrides = {}) const {
+    const std::filesystem::path file = folder_ / "suite.toml";
+    std::ofstream(file) << "scenes = [\"cornell-box\"]\n[settings]\n" << settings << methods;
+    return loadSuite(file, overrides);
+  }
+  std::vector<std::string> names(const Suite& suite) const {
+    std::vector<std::string> all;
+    for (const SuiteMethod& method : suite.methods) all.push_back(method.name);
+    return all;
+  }
+  std::filesystem::path folder_;
+};
+
+using Names = std::vector<std::string>;
+
+constexpr const char* kMethods =
+    "[[method]]\nname = \"gi\"\nintegrator = \"restir_gi\"\n[[method]]\nname = \"path\"\n";
+
+TEST_F(SuiteTest, EveryMethodRunsOnEveryBackend) {
+  const Suite suite = load("backend = [\"vulkan\", \"cpu\"]\n", kMethods);
+  EXPECT_EQ(names(suite), (Names{"gi @vulkan", "gi @cpu", "path @vulkan", "path @cpu"}));
+  EXPECT_EQ(suite.methodBackends(), (Names{"vulkan", "cpu"}));
+  EXPECT_EQ(suite.methods[1].session.backend, "cpu");
+  // Its yardstick is of its own backend; its counterpart of the first.
+  EXPECT_EQ(suite.yardstick(0), 2u);
+  EXPECT_EQ(suite.yardstick(1), 3u);
+  EXPECT_EQ(suite.yardstick(3), 3u);
+  EXPECT_EQ(suite.onFirstBackend(0), 0u);
+  EXPECT_EQ(suite.onFirstBackend(1), 0u);
+  EXPECT_EQ(suite.onFirstBackend(3), 2u);
+}
+
+TEST_F(SuiteTest, OneBackendLeavesNamesAlone) {
+  EXPECT_EQ(names(load("", kMethods)), (Names{"gi", "path"}));
+  EXPECT_EQ(load("", kMethods).methods[0].session.backend, "cpu");
+  const Suite suite = load("backend = \"cpu\"\n", kMethods, {"backend=vulkan"});
+  EXPECT_EQ(names(suite), (Names{"gi", "path"}));
+  EXPECT_EQ(suite.methods[0].session.backend, "vulkan");
+  EXPECT_EQ(suite.referenceBackend, "cpu") << "references do not follow the methods";
+  EXPECT_EQ(load("", kMethods, {"reference.backend=vulkan"}).referenceBackend, "vulkan");
+}
+
+TEST_F(SuiteTest, AMethodsOwnBackendWins) {
+  const std::string own = std::string(kMethods) + "backend = \"vulkan\"\n";
+  const Suite suite = load("backend = [\"cpu\", \"vulkan\"]\n", own);
+  EXPECT_EQ(names(suite), (Names{"gi @cpu", "gi @vulkan", "path @vulkan"}));
+  EXPECT_EQ(suite.yardstick(0), suite.methods.size()) << "no path on the CPU";
+  EXPECT_EQ(suite.yardstick(1), 2u);
+  EXPECT_EQ(names(load("", own)), (Names{"gi @cpu", "path @vulkan"}));
+  EXPECT_EQ(names(load("", kMethods, {"method.path.backend=[\"cpu\",\"vulkan\"]"})),
+            (Names{"gi @cpu", "path @cpu", "path @vulkan"}));
+  EXPECT_EQ(names(load("", kMethods, {"method.backend=vulkan"})), (Names{"gi", "path"}));
+}
+
+TEST_F(SuiteTest, MethodsThatDifferInMoreThanTheBackendAreNotCompared) {
+  const std::string gi = "[[method]]\nname = \"gi\"\nintegrator = \"restir_gi\"\n";
+  const Suite same = load("", gi + gi + "backend = \"vulkan\"\n");
+  EXPECT_EQ(names(same), (Names{"gi @cpu", "gi @vulkan"}));
+  EXPECT_EQ(same.onFirstBackend(1), 0u);
+  const Suite other = load("", gi + gi + "backend = \"vulkan\"\nconfidence_cap = 3.0\n");
+  EXPECT_EQ(other.onFirstBackend(1), 1u);
+  EXPECT_THROW(load("", gi + gi), Error) << "two methods of one name on one backend";
+}
+
+TEST_F(SuiteTest, SettingsReachTheBackendsThatHaveThem) {
+  const Suite suite = load(
+      "backend = [\"cpu\", \"vulkan\"]\ndevice = \"x\"\nvalidate = true\nray_tracing = \"query\"\n",
+      kMethods);
+  for (const SuiteMethod& method : suite.methods) {
+    const bool vulkan = method.session.backend == "vulkan";
+    EXPECT_EQ(method.session.device, vulkan ? "x" : "");
+    EXPECT_EQ(method.session.validate, vulkan);
+    EXPECT_EQ(method.session.rayTracing, vulkan ? "query" : "");
+  }
+  const Suite both = load("backend = [\"cpu\", \"vulkan\"]\nray_tracing = \"bvh\"\n", kMethods);
+  for (const SuiteMethod& method : both.methods) EXPECT_EQ(method.session.rayTracing, "bvh");
+  EXPECT_THROW(load("ray_tracing = \"query\"\n", kMethods), Error);
+  EXPECT_THROW(load("device = \"x\"\n", kMethods), Error);
+  EXPECT_THROW(load("validate = true\n", kMethods), Error);
+  EXPECT_EQ(load("device = \"x\"\n", kMethods, {"reference.backend=vulkan"}).device, "x");
+}
+
+}  // namespace
+
+}  // namespace restlab
