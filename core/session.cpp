@@ -168,13 +168,15 @@ FrameStats Session::Impl::collectFrame() {
   const FrameResult result = backend->collect();
   FrameStats stats;
   for (size_t i = 0; i < result.timesMs.size(); ++i) {
-    stats.passes.push_back({integrator->passes[i].name, result.timesMs[i]});
+    const PassCounters& counters = result.counters[i];
+    stats.passes.push_back(
+        {integrator->passes[i].name, result.timesMs[i], counters.raysPath, counters.raysShadow});
     stats.timeMs += result.timesMs[i];
+    stats.raysPath += counters.raysPath;
+    stats.raysShadow += counters.raysShadow;
+    for (size_t k = 0; k < stats.health.counts.size(); ++k)
+      stats.health.counts[k] += counters.health[k];
   }
-  stats.raysPath = result.counters.raysPath;
-  stats.raysShadow = result.counters.raysShadow;
-  std::copy(std::begin(result.counters.health), std::end(result.counters.health),
-            stats.health.counts.begin());
   return stats;
 }
 

@@ -43,6 +43,7 @@ struct SessionConfig {
 struct PassTiming {
   std::string name;
   double timeMs = 0.0;
+  uint64_t raysPath = 0, raysShadow = 0;
 };
 
 struct Health {

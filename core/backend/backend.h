@@ -65,8 +65,8 @@ struct PassRun {
 };
 
 struct FrameResult {
-  std::vector<double> timesMs;  // of each pass
-  PassCounters counters;        // added up
+  std::vector<double> timesMs;         // of each pass
+  std::vector<PassCounters> counters;  // of each pass
 };
 
 class Backend {
@@ -80,6 +80,7 @@ class Backend {
   // Zeroed memory; throws Error (deviceUnavailable) with the sizes when there is not enough.
   virtual BufferId allocate(size_t bytes) = 0;
   virtual void clear(BufferId buffer) = 0;
+  virtual void write(BufferId buffer, const void* from, size_t bytes) = 0;
   virtual void read(BufferId buffer, void* to, size_t bytes) = 0;
 
   // The mask of the specialisation that serves `needed`; throws Error (badUsage) for unknown

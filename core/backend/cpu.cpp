@@ -89,6 +89,10 @@ class CpuBackend final : public Backend {
     std::fill(buffers_[buffer].begin(), buffers_[buffer].end(), std::byte{0});
   }
 
+  void write(BufferId buffer, const void* from, size_t bytes) override {
+    std::memcpy(buffers_[buffer].data(), from, bytes);
+  }
+
   void read(BufferId buffer, void* to, size_t bytes) override {
     std::memcpy(to, buffers_[buffer].data(), bytes);
   }
@@ -104,7 +108,8 @@ class CpuBackend final : public Backend {
 
   void submit(const std::vector<PassRun>& passes, const rl::FrameData& frame) override {
     FrameResult result;
-    for (const PassRun& pass : passes) result.timesMs.push_back(run(pass, frame, result.counters));
+    for (const PassRun& pass : passes)
+      result.timesMs.push_back(run(pass, frame, result.counters.emplace_back()));
     finished_.push_back(std::move(result));
   }
 

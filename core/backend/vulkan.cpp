@@ -141,6 +141,9 @@ class VulkanBackend final : public Backend {
     return static_cast<BufferId>(buffers_.size() - 1);
   }
   void clear(BufferId buffer) override { memory_.clear(buffers_[buffer]); }
+  void write(BufferId buffer, const void* from, size_t bytes) override {
+    memory_.write(buffers_[buffer], from, bytes);
+  }
   void read(BufferId buffer, void* to, size_t bytes) override {
     memory_.read(buffers_[buffer], to, bytes);
   }
@@ -328,6 +331,7 @@ class VulkanBackend final : public Backend {
     const Recording& recording = *slot.running;
     FrameResult result;
     result.timesMs.assign(slot.runningKey.pipelines.size(), 0.0);
+    result.counters.resize(result.timesMs.size());
     std::vector<uint64_t> stamps(2 * recording.bands.size());
     if (recording.queries != VK_NULL_HANDLE) {
       device_.check(
@@ -347,10 +351,10 @@ class VulkanBackend final : public Backend {
       isTooLong |= shortenBands(slot.runningKey, band, timeMs);
       GlslCounters counters;
       std::memcpy(&counters, slot.counters.mapped + i * sizeof counters, sizeof counters);
-      result.counters.raysPath += counters.raysPath;
-      result.counters.raysShadow += counters.raysShadow;
-      for (uint32_t k = 0; k < rl::RL_HEALTH_COUNT; ++k)
-        result.counters.health[k] += counters.health[k];
+      PassCounters& sum = result.counters[band.pass];
+      sum.raysPath += counters.raysPath;
+      sum.raysShadow += counters.raysShadow;
+      for (uint32_t k = 0; k < rl::RL_HEALTH_COUNT; ++k) sum.health[k] += counters.health[k];
     }
     if (isTooLong) isStale_ = true;
     if (isStale_ && underWay_.empty()) forgetRecordings();

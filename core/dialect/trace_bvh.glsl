@@ -27,8 +27,8 @@ RL_FN BvhRay bvhRay(RL_IN(vec3) origin, RL_IN(vec3) dir) {
 }
 
 // Where the ray enters child `shift / 8` of a node, at least tMin; 3e38 where it misses. near and
-// far: the bytes of the planes that the ray meets first and last. The exit is moved out by the rounding
-// error of the slab test (Ize 2013), so that no box hides what it holds.
+// far: the bytes of the planes that the ray meets first and last. The exit is moved out by the
+// rounding error of the slab test (Ize 2013), so that no box hides what it holds.
 RL_FN float bvhEnter(RL_IN(BvhRay) r, RL_IN(vec3) origin, RL_IN(vec3) cell, RL_IN(uvec3) near,
                      RL_IN(uvec3) far, uint shift, float tMin, float tMax) {
   vec3 nearBytes = vec3(float((near.x >> shift) & 255u), float((near.y >> shift) & 255u),
@@ -55,7 +55,8 @@ RL_FN void bvhOrder(RL_INOUT(float) entryA, RL_INOUT(uint) childA, RL_INOUT(floa
 }
 
 RL_FN BvhHits bvhChildren(RL_IN(BvhRay) r, RL_IN(BvhWords) record, float tMin, float tMax) {
-  vec3 origin = vec3(uintBitsToFloat(record.w0.x), uintBitsToFloat(record.w0.y), uintBitsToFloat(record.w1.x));
+  vec3 origin = vec3(uintBitsToFloat(record.w0.x), uintBitsToFloat(record.w0.y),
+                     uintBitsToFloat(record.w1.x));
   vec3 cell = vec3(uintBitsToFloat((record.w1.y & 255u) << 23u),
                    uintBitsToFloat(((record.w1.y >> 8u) & 255u) << 23u),
                    uintBitsToFloat(((record.w1.y >> 16u) & 255u) << 23u));
@@ -98,9 +99,15 @@ RL_FN vec2 bvhCorner(RL_IN(BvhRay) r, RL_IN(vec3) corner) {
 // products has the right sign or is 0, and an edge (0) belongs to both of its triangles.
 RL_FN bool bvhTriangle(RL_IN(BvhRay) r, RL_IN(BvhWords) record, float tMin, float tMax,
                        RL_INOUT(Hit) hit) {
-  vec3 p0 = vec3(uintBitsToFloat(record.w0.x), uintBitsToFloat(record.w0.y), uintBitsToFloat(record.w1.x)) - r.origin;
-  vec3 p1 = vec3(uintBitsToFloat(record.w1.y), uintBitsToFloat(record.w2.x), uintBitsToFloat(record.w2.y)) - r.origin;
-  vec3 p2 = vec3(uintBitsToFloat(record.w3.x), uintBitsToFloat(record.w3.y), uintBitsToFloat(record.w4.x)) - r.origin;
+  vec3 p0 = vec3(uintBitsToFloat(record.w0.x), uintBitsToFloat(record.w0.y),
+                 uintBitsToFloat(record.w1.x)) -
+            r.origin;
+  vec3 p1 = vec3(uintBitsToFloat(record.w1.y), uintBitsToFloat(record.w2.x),
+                 uintBitsToFloat(record.w2.y)) -
+            r.origin;
+  vec3 p2 = vec3(uintBitsToFloat(record.w3.x), uintBitsToFloat(record.w3.y),
+                 uintBitsToFloat(record.w4.x)) -
+            r.origin;
   vec2 a = bvhCorner(r, p0);
   vec2 b = bvhCorner(r, p1);
   vec2 c = bvhCorner(r, p2);

@@ -107,8 +107,8 @@ BvhNode nodeOf(const std::vector<Child>& children) {
     const float cell = (box.high[axis] - box.low[axis]) / 255.0f;
     // Beyond the largest exponent a box is as large as numbers are.
     uint32_t exponent = std::min(std::bit_cast<uint32_t>(cell) >> 23, 254u);
-    while (!quantise(children, axis, node.origin[axis], exponent, node.low[axis],
-                     node.high[axis])) {
+    while (
+        !quantise(children, axis, node.origin[axis], exponent, node.low[axis], node.high[axis])) {
       if (exponent == 254) {
         node.low[axis] = 0;
         node.high[axis] = 0xffffffffu;

@@ -39,7 +39,7 @@ static_assert(sizeof(BvhNode) == sizeof(BvhRecord) && sizeof(BvhTriangle) == siz
 
 struct Bvh {
   std::vector<BvhRecord> records;  // depth first, a parent before its children; 0 is the world's
-  std::vector<uint32_t> roots;             // record of a geometry, RL_INVALID where none is shared
+  std::vector<uint32_t> roots;     // record of a geometry, RL_INVALID where none is shared
   size_t nodeCount = 0, triangleCount = 0;
   uint32_t depth = 0;  // nodes from a root to the deepest leaf
   size_t bytes() const;

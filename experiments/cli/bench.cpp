@@ -6,9 +6,10 @@
 
 #include "core/image/intervals.h"
 #include "core/image/metrics.h"
-#include "experiments/cli/bench_embree.h"
+#include "experiments/cli/bench_rays.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
+#include "experiments/runner/backend_choice.h"
 #include "experiments/runner/build_info.h"
 #include "experiments/runner/interrupt.h"
 #include "experiments/runner/light_mask.h"
@@ -23,33 +24,49 @@ using Json = nlohmann::ordered_json;
 
 struct BenchOptions {
   SceneOptions scene;
+  BackendChoice backend;
   uint32_t frames = 16;
   uint64_t referenceSpp = 128;
   double seconds = 1.0;
   bool json = false;
 };
 
+// What the frames of one session were, on average or in the median.
 struct FrameRates {
   double timeMs = 0.0, p95Ms = 0.0, cpuS = 0.0;
   double raysPath = 0.0, raysShadow = 0.0;  // per frame
+  std::vector<PassTiming> passes;           // median time
 };
 
-FrameRates measureFrames(Session& session, uint32_t frames) {
+// The sessions take turns frame by frame: what slows the machine down slows all of them.
+std::vector<FrameRates> measureFrames(const std::vector<std::unique_ptr<Session>>& sessions,
+                                      uint32_t frames) {
   constexpr uint32_t kWarmup = 4;  // caches, page faults, the clock's frequency
-  for (uint32_t i = 0; i < kWarmup; ++i) session.frame();
-  std::vector<double> times;
-  FrameRates rates;
-  for (uint32_t i = 0; i < frames; ++i) {
-    throwIfInterrupted("the benchmark is not finished");
-    const double cpuBefore = processCpuSeconds();
-    const FrameStats stats = session.frame();
-    rates.cpuS += (processCpuSeconds() - cpuBefore) / frames;
-    times.push_back(stats.timeMs);
-    rates.raysPath += double(stats.raysPath) / frames;
-    rates.raysShadow += double(stats.raysShadow) / frames;
+  std::vector<FrameRates> rates(sessions.size());
+  std::vector<std::vector<double>> times(sessions.size());
+  std::vector<std::vector<std::vector<double>>> passTimes(sessions.size());
+  for (uint32_t i = 0; i < kWarmup + frames; ++i) {
+    for (size_t s = 0; s < sessions.size(); ++s) {
+      throwIfInterrupted("the benchmark is not finished");
+      const double cpuBefore = processCpuSeconds();
+      const FrameStats stats = sessions[s]->frame();
+      if (i < kWarmup) continue;
+      rates[s].cpuS += (processCpuSeconds() - cpuBefore) / frames;
+      times[s].push_back(stats.timeMs);
+      rates[s].raysPath += double(stats.raysPath) / frames;
+      rates[s].raysShadow += double(stats.raysShadow) / frames;
+      passTimes[s].resize(stats.passes.size());
+      for (size_t p = 0; p < stats.passes.size(); ++p)
+        passTimes[s][p].push_back(stats.passes[p].timeMs);
+      rates[s].passes = stats.passes;
+    }
   }
-  rates.timeMs = median(times);
-  rates.p95Ms = percentile(times, 0.95);
+  for (size_t s = 0; s < sessions.size(); ++s) {
+    rates[s].timeMs = median(times[s]);
+    rates[s].p95Ms = percentile(times[s], 0.95);
+    for (size_t p = 0; p < rates[s].passes.size(); ++p)
+      rates[s].passes[p].timeMs = median(passTimes[s][p]);
+  }
   return rates;
 }
 
@@ -87,10 +104,31 @@ Json errorPerCpuSecond(const PreparedScene& prepared, const SessionConfig& confi
           {"reference_spp", reference.spp}};
 }
 
-Json frameJson(const PreparedScene& prepared, SessionConfig config, const BenchOptions& options,
-               const EmbreeRates& embree) {
-  Session session(prepared.scene, config);
-  const FrameRates rates = measureFrames(session, options.frames);
+// Each pass beside the least time that its rays, at the rates of rays alone, and the buffers of
+// its integrator, once at the rate of a copy, would take.
+Json passesJson(const Session& session, const FrameRates& rates, const BackendRates& roofs) {
+  const double pixels = double(session.config().width) * session.config().height;
+  const double bytes = double(session.bytesPerPixel()) * pixels;
+  Json passes = Json::array();
+  for (const PassTiming& pass : rates.passes) {
+    double raysS = 0.0;
+    if (pass.raysPath > 0) raysS += double(pass.raysPath) / roofs.incoherent;
+    if (pass.raysShadow > 0) raysS += double(pass.raysShadow) / roofs.shadow;
+    const double bytesS = bytes / roofs.bytesPerSecond;
+    const double roofMs = 1e3 * std::max(raysS, bytesS);
+    passes.push_back({{"name", pass.name},
+                      {"time_ms_median", pass.timeMs},
+                      {"rays_per_pixel", double(pass.raysPath + pass.raysShadow) / pixels},
+                      {"rays_alone_ms", 1e3 * raysS},
+                      {"buffers_once_ms", 1e3 * bytesS},
+                      {"time_over_roof", pass.timeMs / roofMs}});
+  }
+  return passes;
+}
+
+Json frameJson(const Session& session, const FrameRates& rates, const EmbreeRates& embree,
+               const BackendRates& roofs) {
+  const SessionConfig& config = session.config();
   const double pixels = double(config.width) * config.height;
   const double seconds = rates.timeMs / 1000.0;
   const double rays = rates.raysPath + rates.raysShadow;
@@ -100,7 +138,8 @@ Json frameJson(const PreparedScene& prepared, SessionConfig config, const BenchO
   Json buffers = Json::object();
   for (const auto& [name, bytes] : session.bufferBytesPerPixel()) buffers[name] = bytes;
   return {{"integrator", config.integrator},
-          {"mode", session.config().mode},
+          {"mode", config.mode},
+          {"backend", config.backend},
           {"time_ms_median", rates.timeMs},
           {"time_ms_p95", rates.p95Ms},
           {"cpu_seconds_per_frame", rates.cpuS},
@@ -110,9 +149,21 @@ Json frameJson(const PreparedScene& prepared, SessionConfig config, const BenchO
           {"shadow_rays_per_pixel", rates.raysShadow / pixels},
           {"rays_per_second", rays / seconds},
           {"embree_alone_share_of_time", alone / seconds},
+          {"passes", passesJson(session, rates, roofs)},
           {"bytes_per_pixel", session.bytesPerPixel()},
           {"mib_at_1920x1080", double(session.bytesPerPixel()) * 1920.0 * 1080.0 / (1 << 20)},
           {"buffers", buffers}};
+}
+
+Json ratesJson(const BackendRates& rates, const std::string& backend, const std::string& device,
+               const std::string& rayTracing) {
+  return {{"backend", backend},
+          {"device", device},
+          {"ray_tracing", rayTracing},
+          {"primary_rays_per_second", rates.primary},
+          {"shadow_rays_per_second", rates.shadow},
+          {"incoherent_rays_per_second", rates.incoherent},
+          {"copied_bytes_per_second", rates.bytesPerSecond}};
 }
 
 void printText(const Json& json) {
@@ -124,20 +175,43 @@ void printText(const Json& json) {
   for (const char* kind : {"primary", "shadow", "incoherent"}) {
     fmt::print("  {:<14} {:8.2f}\n", kind, embree[kind].get<double>() / 1e6);
   }
-  fmt::print("\n{:<10} {:<10} {:>9} {:>9} {:>8} {:>11} {:>8} {:>9} {:>9} {:>8}\n", "integrator",
-             "mode", "ms/frame", "p95", "Mpix/s", "Mpix/CPU-s", "rays/px", "Mrays/s", "Embree %",
-             "bytes/px");
+  fmt::print("\n{:<8} {:<8} {:>8} {:>8} {:>10}   million rays per second; GB/s of a copy\n",
+             "kernels", "rays by", "primary", "shadow", "incoherent");
+  for (const Json& rates : json["backends"]) {
+    fmt::print("{:<8} {:<8} {:>8.2f} {:>8.2f} {:>10.2f}   {:.1f} GB/s   {}\n",
+               rates["backend"].get<std::string>(), rates["ray_tracing"].get<std::string>(),
+               rates["primary_rays_per_second"].get<double>() / 1e6,
+               rates["shadow_rays_per_second"].get<double>() / 1e6,
+               rates["incoherent_rays_per_second"].get<double>() / 1e6,
+               rates["copied_bytes_per_second"].get<double>() / 1e9,
+               rates["device"].get<std::string>());
+  }
+  fmt::print("\n{:<10} {:<9} {:<8} {:>9} {:>9} {:>8} {:>11} {:>8} {:>9} {:>9} {:>8}\n",
+             "integrator", "mode", "backend", "ms/frame", "p95", "Mpix/s", "Mpix/CPU-s", "rays/px",
+             "Mrays/s", "Embree %", "bytes/px");
   for (const Json& frame : json["frames"]) {
     fmt::print(
-        "{:<10} {:<10} {:>9.2f} {:>9.2f} {:>8.2f} {:>11.2f} {:>8.2f} {:>9.2f} {:>9.0f} {:>8}\n",
+        "{:<10} {:<9} {:<8} {:>9.2f} {:>9.2f} {:>8.2f} {:>11.2f} {:>8.2f} {:>9.2f} {:>9.0f} "
+        "{:>8}\n",
         frame["integrator"].get<std::string>(), frame["mode"].get<std::string>(),
-        frame["time_ms_median"].get<double>(), frame["time_ms_p95"].get<double>(),
-        frame["pixels_per_second"].get<double>() / 1e6,
+        frame["backend"].get<std::string>(), frame["time_ms_median"].get<double>(),
+        frame["time_ms_p95"].get<double>(), frame["pixels_per_second"].get<double>() / 1e6,
         frame["pixels_per_cpu_second"].get<double>() / 1e6,
         frame["path_rays_per_pixel"].get<double>() + frame["shadow_rays_per_pixel"].get<double>(),
         frame["rays_per_second"].get<double>() / 1e6,
         100.0 * frame["embree_alone_share_of_time"].get<double>(),
         frame["bytes_per_pixel"].get<size_t>());
+    for (const Json& pass : frame["passes"]) {
+      fmt::print(
+          "  {:<27} {:>9.2f}   {:.2f} rays/px; rays alone {:.2f} ms, buffers once {:.2f} "
+          "ms: {:.1f} x the longer\n",
+          pass["name"].get<std::string>(), pass["time_ms_median"].get<double>(),
+          pass["rays_per_pixel"].get<double>(), pass["rays_alone_ms"].get<double>(),
+          pass["buffers_once_ms"].get<double>(), pass["time_over_roof"].get<double>());
+    }
+    if (frame.contains("time_over_cpu")) {
+      fmt::print("  {:<27} {:>9.2f} x the CPU's time\n", "", frame["time_over_cpu"].get<double>());
+    }
   }
   const Json& error = json["path_error"];
   if (!error.is_null()) {
@@ -154,20 +228,51 @@ void bench(BenchOptions options) {
     options.scene.width = options.scene.height = 512;
   const PreparedScene prepared = prepareScene(options.scene.request);
   printWarnings(prepared);
-  SessionConfig config = makeConfig(options.scene, MethodOptions());
+  MethodOptions chosen;
+  chosen.backend = options.backend;
+  SessionConfig config = makeConfig(options.scene, chosen);
   completeConfig(prepared, config);
+  // The backend that was asked for stands beside the CPU, measured in turns.
+  std::vector<SessionConfig> configs = {config};
+  if (config.backend != "cpu") {
+    SessionConfig cpu = config;
+    cpu.backend = "cpu";
+    cpu.device.clear();
+    cpu.rayTracing.clear();
+    cpu.validate = false;
+    configs.insert(configs.begin(), cpu);
+  }
 
-  logInfo("measuring Embree alone");
-  const EmbreeRates embree =
-      measureEmbree(prepared, config.width, config.height, config.threads, options.seconds);
+  logInfo("measuring rays alone");
+  const RaySets rays = makeRays(prepared, config.width, config.height);
+  const EmbreeRates embree = measureEmbree(prepared, rays, config.threads, options.seconds);
+  std::vector<BackendRates> roofs;
+  Json backends = Json::array();
+  for (const SessionConfig& c : configs) {
+    roofs.push_back(measureBackend(prepared, c.backend,
+                                   {c.threads, c.device, c.rayTracing, c.validate}, rays,
+                                   options.seconds));
+  }
   Json frames = Json::array();
   for (const IntegratorInfo* info : integratorRegistry()) {
     for (const ModeInfo& mode : info->modes) {
       logInfo(fmt::format("measuring {} {}", info->name, mode.name));
-      SessionConfig method = config;
-      method.integrator = info->name;
-      method.mode = mode.name;
-      frames.push_back(frameJson(prepared, method, options, embree));
+      std::vector<std::unique_ptr<Session>> sessions;
+      for (SessionConfig c : configs) {
+        c.integrator = info->name;
+        c.mode = mode.name;
+        sessions.push_back(std::make_unique<Session>(prepared.scene, c));
+        logStartup(*sessions.back());
+        if (backends.size() < configs.size()) {
+          backends.push_back(ratesJson(roofs[backends.size()], c.backend, sessions.back()->device(),
+                                       sessions.back()->rayTracing()));
+        }
+      }
+      const std::vector<FrameRates> rates = measureFrames(sessions, options.frames);
+      for (size_t i = 0; i < sessions.size(); ++i) {
+        frames.push_back(frameJson(*sessions[i], rates[i], embree, roofs[i]));
+        if (i > 0) frames.back()["time_over_cpu"] = rates[i].timeMs / rates[0].timeMs;
+      }
     }
   }
   Json json = {
@@ -180,8 +285,9 @@ void bench(BenchOptions options) {
       {"build", buildJson()},
       {"embree_rays_per_second",
        {{"primary", embree.primary}, {"shadow", embree.shadow}, {"incoherent", embree.incoherent}}},
+      {"backends", backends},
       {"frames", frames},
-      {"path_error", errorPerCpuSecond(prepared, config, options)}};
+      {"path_error", errorPerCpuSecond(prepared, configs.front(), options)}};
   json["peak_resident_mib"] = peakResidentMiB();
   if (options.json) {
     fmt::print("{}\n", json.dump(2));
@@ -198,9 +304,10 @@ Action addBenchVerb(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("bench", "rays, paths and error per second; bytes per pixel");
   addSceneOptions(*verb, options->scene);
   verb->get_option("scene")->required(false);
+  addBackendOptions(*verb, options->backend);
   verb->add_option("--frames", options->frames, "timed frames of each method (default 16)")
       ->check(CLI::Range(1u, 100000u));
-  verb->add_option("--seconds", options->seconds, "for each kind of ray through Embree alone")
+  verb->add_option("--seconds", options->seconds, "for each kind of ray alone (default 1)")
       ->check(finiteRange(0.01, 600.0));
   verb->add_option("--reference-spp", options->referenceSpp, "for the error (default 128)")
       ->check(CLI::Range(uint64_t(2), uint64_t(1) << 20));

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -18,16 +19,12 @@ namespace {
 
 constexpr uint32_t kTile = 16;
 
-struct RayBatch {
-  std::vector<glm::vec3> origins, directions;
-  std::vector<float> lengths;
+using RayBatch = std::vector<rl::Ray>;
 
-  void add(const glm::vec3& origin, const glm::vec3& direction, float length) {
-    origins.push_back(origin);
-    directions.push_back(direction);
-    lengths.push_back(length);
-  }
-};
+void addRay(RayBatch& rays, const glm::vec3& origin, const glm::vec3& direction,
+            float length = std::numeric_limits<float>::max()) {
+  rays.push_back({origin, 1e-4f, direction, length});
+}
 
 struct HitPoint {
   glm::vec3 posW, normalW;  // the normal looks back along the ray
@@ -35,14 +32,14 @@ struct HitPoint {
 
 RTCRay makeRay(const RayBatch& rays, size_t i) {
   RTCRay ray = {};
-  ray.org_x = rays.origins[i].x;
-  ray.org_y = rays.origins[i].y;
-  ray.org_z = rays.origins[i].z;
-  ray.dir_x = rays.directions[i].x;
-  ray.dir_y = rays.directions[i].y;
-  ray.dir_z = rays.directions[i].z;
-  ray.tnear = 1e-4f;
-  ray.tfar = rays.lengths[i];
+  ray.org_x = rays[i].origin.x;
+  ray.org_y = rays[i].origin.y;
+  ray.org_z = rays[i].origin.z;
+  ray.dir_x = rays[i].dir.x;
+  ray.dir_y = rays[i].dir.y;
+  ray.dir_z = rays[i].dir.z;
+  ray.tnear = rays[i].tMin;
+  ray.tfar = rays[i].tMax;
   ray.mask = 0xffffffffu;
   return ray;
 }
@@ -74,10 +71,9 @@ RayBatch cameraRays(const rl::Camera& camera, uint32_t width, uint32_t height) {
     const float v = (1.0f - 2.0f * (float(y) + 0.5f) / float(height)) * camera.halfHeight;
     const glm::vec3 aside = camera.rightW * u + camera.upW * v;
     if (camera.kind == rl::RL_CAMERA_ORTHOGRAPHIC) {
-      rays.add(camera.posW + aside, camera.forwardW, std::numeric_limits<float>::infinity());
+      addRay(rays, camera.posW + aside, camera.forwardW);
     } else {
-      rays.add(camera.posW, glm::normalize(camera.forwardW + aside),
-               std::numeric_limits<float>::infinity());
+      addRay(rays, camera.posW, glm::normalize(camera.forwardW + aside));
     }
   };
   for (uint32_t tileY = 0; tileY < height; tileY += kTile) {
@@ -92,7 +88,7 @@ RayBatch cameraRays(const rl::Camera& camera, uint32_t width, uint32_t height) {
 
 std::vector<HitPoint> hitPoints(RTCScene scene, const RayBatch& rays) {
   std::vector<HitPoint> points;
-  for (size_t i = 0; i < rays.origins.size(); ++i) {
+  for (size_t i = 0; i < rays.size(); ++i) {
     const RTCRayHit query = traceClosest(scene, rays, i);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
     // The normal of an instance is in its own space; for directions of a benchmark that will do.
@@ -100,8 +96,8 @@ std::vector<HitPoint> hitPoints(RTCScene scene, const RayBatch& rays) {
     const float length = glm::length(normal);
     if (!(length > 0.0f)) continue;
     normal /= length;
-    if (glm::dot(normal, rays.directions[i]) > 0.0f) normal = -normal;
-    const glm::vec3 posW = rays.origins[i] + rays.directions[i] * query.ray.tfar;
+    if (glm::dot(normal, rays[i].dir) > 0.0f) normal = -normal;
+    const glm::vec3 posW = rays[i].origin + rays[i].dir * query.ray.tfar;
     points.push_back({posW + normal * (1e-4f * (1.0f + glm::length(posW))), normal});
   }
   return points;
@@ -123,7 +119,7 @@ RayBatch bounceRays(const std::vector<HitPoint>& points) {
     glm::vec3 direction = point.normalW + uniformDirection(random, unit);
     const float length = glm::length(direction);
     direction = length > 1e-3f ? direction / length : point.normalW;
-    rays.add(point.posW, direction, std::numeric_limits<float>::infinity());
+    addRay(rays, point.posW, direction);
   }
   return rays;
 }
@@ -151,7 +147,7 @@ RayBatch lightRays(const std::vector<HitPoint>& points, const rl::SceneData& sce
         span = light.p0 - point.posW;
       }
     }
-    rays.add(point.posW, span, 0.999f);
+    addRay(rays, point.posW, span, 0.999f);
   }
   return rays;
 }
@@ -180,25 +176,30 @@ double rate(size_t count, int threads, double seconds, const Trace& trace) {
 
 }  // namespace
 
-EmbreeRates measureEmbree(const PreparedScene& prepared, uint32_t width, uint32_t height,
-                          int threads, double seconds) {
+RaySets makeRays(const PreparedScene& prepared, uint32_t width, uint32_t height) {
   const CompiledScene& compiled = *prepared.scene;
   const auto scene = static_cast<RTCScene>(compiled.embreeScene());
   const rl::Camera camera =
       compiled.camera(compiled.source().cameras.at(prepared.camera), width, height);
-  const RayBatch primary = cameraRays(camera, width, height);
-  const std::vector<HitPoint> points = hitPoints(scene, primary);
-  const RayBatch bounces = bounceRays(points), shadows = lightRays(points, compiled.data());
+  RaySets rays;
+  rays.primary = cameraRays(camera, width, height);
+  const std::vector<HitPoint> points = hitPoints(scene, rays.primary);
+  rays.incoherent = bounceRays(points);
+  rays.shadow = lightRays(points, compiled.data());
+  return rays;
+}
 
+EmbreeRates measureEmbree(const PreparedScene& prepared, const RaySets& rays, int threads,
+                          double seconds) {
+  const auto scene = static_cast<RTCScene>(prepared.scene->embreeScene());
   EmbreeRates rates;
-  rates.hits = points.size();
-  rates.primary = rate(primary.origins.size(), threads, seconds,
-                       [&](size_t i) { traceClosest(scene, primary, i); });
-  rates.incoherent = rate(bounces.origins.size(), threads, seconds,
-                          [&](size_t i) { traceClosest(scene, bounces, i); });
-  rates.shadow = rate(shadows.origins.size(), threads, seconds, [&](size_t i) {
+  rates.primary = rate(rays.primary.size(), threads, seconds,
+                       [&](size_t i) { traceClosest(scene, rays.primary, i); });
+  rates.incoherent = rate(rays.incoherent.size(), threads, seconds,
+                          [&](size_t i) { traceClosest(scene, rays.incoherent, i); });
+  rates.shadow = rate(rays.shadow.size(), threads, seconds, [&](size_t i) {
     rl::AlphaTraceContext context = opaqueContext();
-    RTCRay ray = makeRay(shadows, i);
+    RTCRay ray = makeRay(rays.shadow, i);
     rtcOccluded1(scene, &context.embree, &ray);
   });
   return rates;

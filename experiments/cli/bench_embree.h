@@ -1,22 +1,28 @@
 // Rays per second through Embree alone: the roof that a frame's rays per second are held against.
 #pragma once
 
-#include <cstddef>
+#include <vector>
 
 #include "experiments/runner/prepare.h"
 
 namespace restlab {
 
 struct EmbreeRates {
-  double primary = 0.0;     // closest hit, camera rays in 16x16 tiles; rays per second
-  double shadow = 0.0;      // any hit, from the camera rays' hits to points on lights
-  double incoherent = 0.0;  // closest hit, cosine-distributed directions from the same hits
-  size_t hits = 0;          // camera rays that hit something
+  double primary = 0.0, shadow = 0.0, incoherent = 0.0;  // rays per second
 };
 
-// Rays are made beforehand; only rtcIntersect1 and rtcOccluded1 are timed, on `threads` threads
+struct RaySets {
+  std::vector<rl::Ray> primary;     // closest hit, camera rays in 16x16 tiles
+  std::vector<rl::Ray> shadow;      // any hit, from the camera rays' hits to points on lights
+  std::vector<rl::Ray> incoherent;  // closest hit, cosine-distributed from the same hits
+};
+
+// Of the camera of the scene; hits are found by Embree.
+RaySets makeRays(const PreparedScene& prepared, uint32_t width, uint32_t height);
+
+// Only rtcIntersect1 and rtcOccluded1 are timed, on `threads` threads
 // (0: all). Each kind is repeated for at least `seconds`; the median repetition counts.
-EmbreeRates measureEmbree(const PreparedScene& prepared, uint32_t width, uint32_t height,
-                          int threads, double seconds);
+EmbreeRates measureEmbree(const PreparedScene& prepared, const RaySets& rays, int threads,
+                          double seconds);
 
 }  // namespace restlab

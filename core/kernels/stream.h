@@ -1,0 +1,27 @@
+// Buffers of the `stream` kernel, whose time is that of memory alone.
+#ifndef RL_STREAM_KERNEL_H
+#define RL_STREAM_KERNEL_H
+
+#ifdef __cplusplus
+#include "core/dialect/types.h"
+#endif
+
+RL_NAMESPACE_BEGIN
+
+const uint RL_STREAM_WORDS = 16u;  // that each pixel reads and writes
+
+struct StreamBuffers {
+  UintRef from;
+  UintRef to;
+};
+
+struct StreamParams {
+  uint padding;
+};
+
+RL_NAMESPACE_END
+
+#define RL_KERNEL_BUFFERS StreamBuffers
+#define RL_KERNEL_PARAMS StreamParams
+
+#endif

@@ -1,0 +1,17 @@
+// trace: nothing but rays. 64 rays that follow one another are traced by one tile of 8 x 8 pixels.
+
+RL_FN void kernelMain(RL_IN(uvec2) pixel) {
+  uint tile = (pixel.y / 8u) * (gFrame.width / 8u) + pixel.x / 8u;
+  uint index = tile * 64u + (pixel.y % 8u) * 8u + pixel.x % 8u;
+  if (index >= gParams.count) return;
+  Hit hit;
+  hit.instance = RL_INVALID;
+  hit.primitive = RL_INVALID;
+  hit.bary = vec2(0.0f, 0.0f);
+  hit.t = 0.0f;
+  Ray ray = gBuffers.rays.data[index];
+  TraceResult result;
+  result.transmittance = traceRay(ray, gParams.mode, gParams.alphaKey, hit);
+  result.hit = hit;
+  gBuffers.results.data[index] = result;
+}

@@ -1,0 +1,90 @@
+#include "experiments/cli/bench_rays.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+
+#include "core/image/intervals.h"
+#include "core/kernels/stream.h"
+#undef RL_KERNEL_BUFFERS
+#undef RL_KERNEL_PARAMS
+#include "core/kernels/trace.h"
+#include "core/scene/compiled_scene.h"
+#include "experiments/runner/interrupt.h"
+
+namespace restlab {
+
+namespace {
+
+// A frame of at least so many pixels, in whole workgroups.
+rl::FrameData frameOf(size_t pixels) {
+  rl::FrameData frame{};
+  frame.width = 1024;
+  frame.height = std::max(8u, static_cast<uint32_t>((pixels + 8191) / 8192 * 8));
+  return frame;
+}
+
+// Median time of a pass in seconds.
+double secondsOf(Backend& backend, const PassRun& pass, const rl::FrameData& frame,
+                 double seconds) {
+  using Clock = std::chrono::steady_clock;
+  StartupReport ignored;
+  backend.prepare(pass.kernel, pass.mask, ignored);
+  std::vector<double> times;
+  const auto begin = Clock::now();
+  do {
+    throwIfInterrupted("the benchmark is not finished");
+    backend.submit({pass}, frame);
+    times.push_back(backend.collect().timesMs.front() * 1e-3);
+  } while (times.size() < 3 ||
+           std::chrono::duration<double>(Clock::now() - begin).count() < seconds);
+  return median(times);
+}
+
+template <class Params>
+std::vector<std::byte> bytesOf(const Params& params) {
+  std::vector<std::byte> bytes(sizeof params);
+  std::memcpy(bytes.data(), &params, sizeof params);
+  return bytes;
+}
+
+double rayRate(Backend& backend, uint32_t mask, const std::vector<rl::Ray>& rays, uint32_t mode,
+               double seconds) {
+  if (rays.empty()) return 0.0;
+  PassRun pass;
+  pass.kernel = "trace";
+  pass.mask = mask;
+  pass.buffers = {backend.allocate(rays.size() * sizeof(rl::Ray)),
+                  backend.allocate(rays.size() * sizeof(rl::TraceResult))};
+  backend.write(pass.buffers[0], rays.data(), rays.size() * sizeof(rl::Ray));
+  pass.params = bytesOf(rl::TraceParams{static_cast<uint32_t>(rays.size()), mode, 1});
+  return double(rays.size()) / secondsOf(backend, pass, frameOf(rays.size()), seconds);
+}
+
+double copyRate(Backend& backend, double seconds) {
+  constexpr size_t kPixels = size_t{1} << 20;  // 64 MiB each way: more than any cache of a CPU
+  const rl::FrameData frame = frameOf(kPixels);
+  const size_t bytes = size_t{frame.width} * frame.height * rl::RL_STREAM_WORDS * sizeof(uint32_t);
+  PassRun pass;
+  pass.kernel = "stream";
+  pass.mask = backend.maskFor("stream", 0);
+  pass.buffers = {backend.allocate(bytes), backend.allocate(bytes)};
+  pass.params = bytesOf(rl::StreamParams{0});
+  return 2.0 * double(bytes) / secondsOf(backend, pass, frame, seconds);
+}
+
+}  // namespace
+
+BackendRates measureBackend(const PreparedScene& prepared, const std::string& name,
+                            const BackendOptions& options, const RaySets& rays, double seconds) {
+  const std::unique_ptr<Backend> backend = makeBackend(name, prepared.scene, options);
+  const uint32_t mask = backend->maskFor("trace", prepared.scene->features());
+  BackendRates rates;
+  rates.primary = rayRate(*backend, mask, rays.primary, rl::RL_RAY_PATH, seconds);
+  rates.incoherent = rayRate(*backend, mask, rays.incoherent, rl::RL_RAY_PATH, seconds);
+  rates.shadow = rayRate(*backend, mask, rays.shadow, rl::RL_RAY_SHADOW, seconds);
+  rates.bytesPerSecond = copyRate(*backend, seconds);
+  return rates;
+}
+
+}  // namespace restlab
