@@ -179,7 +179,7 @@ TEST_F(BackendTest, TooManyPixelsAreRefusedWithTheSizes) {
   EXPECT_TRUE(failure.holds("16384x16384")) << failure.line;
   EXPECT_TRUE(failure.holds("MiB")) << failure.line;
   EXPECT_EQ(failure.line.find('\n'), std::string::npos) << failure.line;
-  config = configOf({"template", "", ""}, kVulkan, 16, 16, 1);
+  config = configOf({"template", "", ""}, kVulkanSpecialised, 16, 16, 1);
   Session session(scene, config);
   session.frame();
   EXPECT_GT(glm::length(session.radiance().pixels[8 * 16 + 8]), 0.0f);

@@ -23,21 +23,11 @@ void dispatch(TestDevice& device, VkPipeline pipeline, const GlslPushConstants& 
               const rl::FrameData& frame) {
   device.device->runNow(
       [&](VkCommandBuffer commands) {
-        // Between the copies to the device, the kernel and the copies from it.
-        VkMemoryBarrier barrier{};
-        barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
-        barrier.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_SHADER_WRITE_BIT;
-        barrier.dstAccessMask =
-            VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT;
-        const VkPipelineStageFlags stages =
-            VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
-        vkCmdPipelineBarrier(commands, stages, stages, 0, 1, &barrier, 0, nullptr, 0, nullptr);
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
         vkCmdPushConstants(commands, device.kernels->layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
                            sizeof push, &push);
         vkCmdDispatch(commands, (frame.width + kGlslTile - 1) / kGlslTile,
                       (frame.height + kGlslTile - 1) / kGlslTile, 1);
-        vkCmdPipelineBarrier(commands, stages, stages, 0, 1, &barrier, 0, nullptr, 0, nullptr);
       },
       "a kernel under test");
 }
