@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <ostream>
 
 #include "core/backend/vulkan_device.h"
 #include "core/caches/caches.h"
@@ -113,6 +114,8 @@ std::string Combination::name() const {
   if (!cache.empty()) text += "_" + cache;
   return text;
 }
+
+void PrintTo(const Combination& what, std::ostream* out) { *out << what.name(); }
 
 std::vector<Combination> combinations() {
   std::vector<Combination> all;

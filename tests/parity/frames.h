@@ -2,6 +2,7 @@
 // difference.
 #pragma once
 
+#include <iosfwd>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ struct Combination {
   std::string integrator, mode, cache;
   std::string name() const;
 };
+void PrintTo(const Combination& what, std::ostream* out);
 std::vector<Combination> combinations();
 
 // Where a session runs.

@@ -118,7 +118,7 @@ std::string identifier(std::string name) {
 
 constexpr const char* kNoHistory = "has no history: frame 32 is like frame 0";
 constexpr Size kSmall{64, 36, 4, 1};
-constexpr Size kLarge{672, 378, 4, 0};
+constexpr Size kLarge{704, 396, 4, 0};  // more than one dispatch a pass
 
 TEST_P(Frames, AsOnTheCpuWithTheSameHierarchy) {
   expectParity(GetParam(), sceneNames(), kVulkan, kCpuBvh, kSmall);
@@ -198,6 +198,57 @@ TEST_P(Frames, ValidatedFrame) {
   for (const std::string& name : Session::aovNames()) session->aov(name);
   session->reset(4);
   session->frame();
+}
+
+// What one dispatch does not cover: a message here, or rows of the image left out.
+TEST(LargeFrame, IsValidInSeveralDispatches) {
+  if (!hasVulkan()) GTEST_SKIP() << kNoDevice;
+  const auto scene = sceneNamed("furnace");
+  const auto imageOn = [&](const Machine& where) {
+    SessionConfig config = configOf({"path", "", ""}, where, kLarge.width, kLarge.height, 3);
+    config.maxBounces = 1;
+    config.validate = std::string(where.backend) == "vulkan";
+    Session session(scene, config);
+    session.frames(2);
+    return session.radiance();
+  };
+  try {
+    const FrameDifference difference =
+        countDifferent(imageOn(kVulkanSpecialised), imageOn(kCpuBvh));
+    EXPECT_LT(difference.share(), kMaxShare) << difference.text();
+  } catch (const Error& error) {
+    if (std::string(error.what()).find("layers are not installed") == std::string::npos) throw;
+    GTEST_SKIP() << error.what();
+  }
+}
+
+// The classes themselves, on one machine.
+FrameDifference classesOf(const SessionConfig& left, const SessionConfig& right) {
+  const auto scene = sceneNamed("cornell-box");
+  Session a(scene, left), b(scene, right);
+  a.frame();
+  b.frame();
+  const FrameDifference result = classify(scene, a, b);
+  EXPECT_EQ(result.edges + result.ties + result.later + result.unexplained, result.different);
+  return result;
+}
+
+TEST(FrameDifference, AnotherDecisionLaterHasTheSameFirstHit) {
+  const SessionConfig left = configOf({"path", "", ""}, kCpuBvh, 64, 64, 1);
+  SessionConfig right = left;
+  EXPECT_EQ(classesOf(left, right).different, 0u);
+  right.maxBounces = 2;
+  const FrameDifference found = classesOf(left, right);
+  EXPECT_GT(found.different, found.pixels / 4);
+  EXPECT_EQ(found.later, found.different) << found.text();
+}
+
+TEST(FrameDifference, AnotherFirstHitIsNotExplainedWithoutAnEdge) {
+  const SessionConfig left = configOf({"path", "", ""}, kCpuBvh, 64, 64, 1);
+  SessionConfig right = left;
+  right.seed = 2;  // other places on the film
+  const FrameDifference found = classesOf(left, right);
+  EXPECT_GT(found.unexplained, found.pixels / 4) << found.text();
 }
 
 INSTANTIATE_TEST_SUITE_P(, Frames, kCombinations,
