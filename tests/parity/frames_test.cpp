@@ -22,8 +22,6 @@ namespace restlab::parity {
 namespace {
 
 constexpr double kMaxShare = 1e-3;  // of the pixels of a first frame, that differ
-// Of a later frame, for each frame of its history.
-constexpr double kMaxGrowth = 1e-2;
 // What a few pixels more than their share may say by chance, where an image is small.
 constexpr double kChance = 1e-4;
 
@@ -39,6 +37,12 @@ double mostDifferent(size_t pixels) {
   const double expected = kMaxShare * double(pixels);
   if (expected >= 250.0) return expected;
   return quantile(complement(boost::math::poisson(expected), kChance));
+}
+
+// How many pixels of a frame may differ for one of the first. Without reuse: one. With it, every
+// frame brings its own, and a pixel that differs takes its spatial partner along into the next.
+double spreadAt(const Combination& what, uint32_t frame) {
+  return what.cache.empty() ? 1.0 : double((2u << frame) - 1u);
 }
 
 // One scene on two machines, frame by frame; the difference of the first frames.
@@ -78,7 +82,9 @@ void expectParity(const Combination& what, const std::vector<std::string>& scene
     later.resize(laterHere.size());
     for (size_t f = 0; f < laterHere.size(); ++f) {
       std::printf("    frame %zu: %.2g differ\n", f + 1, laterHere[f].share());
-      EXPECT_LE(laterHere[f].share(), kMaxGrowth * double(f + 2)) << scene << ", frame " << f + 1;
+      EXPECT_LE(double(laterHere[f].different),
+                mostDifferent(first.pixels) * spreadAt(what, uint32_t(f + 1)))
+          << scene << ", frame " << f + 1;
       later[f].add(laterHere[f]);
     }
     std::fflush(stdout);
