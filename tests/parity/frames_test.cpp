@@ -139,6 +139,8 @@ TEST_P(Frames, AsWithoutSpecialisation) {
 TEST_P(FramesNightly, AsOnTheCpuWithTheSameHierarchy) {
   expectParity(combination(), scenes(), kVulkan, kCpuBvh, kLarge);
 }
+// Known to fail on many-lights (docs/roadmap.md): there the two intersectors differ that much on
+// one machine.
 TEST_P(FramesNightly, AsOnTheCpuWithEmbree) {
   expectParity(combination(), scenes(), kVulkan, kCpuEmbree, kLarge);
 }
