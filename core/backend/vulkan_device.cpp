@@ -171,6 +171,9 @@ struct VulkanDevice::Instance {
       destroy(handle, messenger, nullptr);
     }
     if (handle != VK_NULL_HANDLE) vkDestroyInstance(handle, nullptr);
+    // What was said after the last call that could throw, of objects that are still alive.
+    for (const std::string& message : messages)
+      fmt::print(stderr, "the Vulkan validation layers: {}\n", message);
   }
 
   static VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
@@ -380,6 +383,13 @@ void VulkanDevice::runNow(const std::function<void(VkCommandBuffer)>& record, co
   begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
   begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
   check(vkBeginCommandBuffer(commands, &begin), what);
+  // That a queue was waited for does not make what it wrote visible to its next commands.
+  VkMemoryBarrier before{};
+  before.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+  before.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
+  before.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
+  vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
+                       VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 1, &before, 0, nullptr, 0, nullptr);
   record(commands);
   check(vkEndCommandBuffer(commands), what);
   submit(commands, VK_NULL_HANDLE, what);

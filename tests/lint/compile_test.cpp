@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "core/backend/glsl_compiler.h"
 #include "core/backend/glsl_preamble.h"
@@ -33,8 +34,10 @@ CommandResult checkCpp(const std::string& compiler, const std::string& name,
                     " -std=c++20 -fsyntax-only -I. " RESTLAB_WARNINGS " '" + file.string() + "'");
 }
 
-std::string kernelUnit(const Kernel& kernel, const std::string& mask) {
-  return "#define RL_KERNEL_NAME " + kernel.name +
+// `trace`: a file with traceRay(); "": the one that kernels have without being told.
+std::string kernelUnit(const Kernel& kernel, const std::string& mask, const std::string& trace) {
+  const std::string traceLine = trace.empty() ? "" : "#define RL_KERNEL_TRACE \"" + trace + "\"\n";
+  return traceLine + "#define RL_KERNEL_NAME " + kernel.name +
          "\n#define RL_KERNEL_MASK_NAME lint\n#define RL_KERNEL_MASK " + mask +
          "\n#define RL_KERNEL_HEADER \"" + kernel.header + "\"\n#define RL_KERNEL_FILE \"" +
          kernel.file + "\"\n#include \"core/backend/cpu_kernel.inl\"\n";
@@ -52,18 +55,22 @@ TEST_P(Cpp, EveryHeaderCompilesAlone) {
 }
 
 TEST_P(Cpp, EveryKernelCompiles) {
+  std::vector<std::string> traces = traceFiles();
+  traces.emplace_back();  // Embree's
   for (const Kernel& kernel : kernels()) {
     for (const char* mask : {"0u", "16383u"}) {
-      const CommandResult result =
-          checkCpp(GetParam(), kernel.name + "_" + mask, kernelUnit(kernel, mask));
-      EXPECT_EQ(result.status, 0) << kernel.name << ":\n" << result.output;
+      for (const std::string& trace : traces) {
+        const std::string name = kernel.name + "_" + mask + "_" + trace;
+        const CommandResult result = checkCpp(GetParam(), name, kernelUnit(kernel, mask, trace));
+        EXPECT_EQ(result.status, 0) << name << ":\n" << result.output;
+      }
     }
   }
 }
 
 TEST_P(Cpp, ErrorsNameFileAndLine) {
   const Kernel broken{"broken", "tests/lint/data/broken.glsl", kernels().front().header};
-  const CommandResult result = checkCpp(GetParam(), "broken", kernelUnit(broken, "16383u"));
+  const CommandResult result = checkCpp(GetParam(), "broken", kernelUnit(broken, "16383u", ""));
   EXPECT_NE(result.status, 0);
   EXPECT_NE(result.output.find("tests/lint/data/broken.glsl:3:"), std::string::npos)
       << result.output;
@@ -75,16 +82,23 @@ INSTANTIATE_TEST_SUITE_P(, Cpp, testing::Values(RESTLAB_GXX, RESTLAB_CLANGXX),
                            return isClang ? "clang" : "gcc";
                          });
 
-GlslResult compileKernel(const std::string& header, const std::string& file) {
-  const std::string text = glslKernelSource({header, file, "tests/parity/brute_force.glsl"});
+GlslResult compileKernel(const std::string& header, const std::string& file,
+                         const std::string& trace = traceFiles().front()) {
+  const std::string text = glslKernelSource({header, file, trace});
   return compileGlsl(text, "kernel", readBelow(RESTLAB_SOURCE_DIR));
 }
 
 TEST(Glsl, EveryKernelCompiles) {
   for (const Kernel& kernel : kernels()) {
-    const GlslResult result = compileKernel(kernel.header, kernel.file);
-    EXPECT_FALSE(result.spirv.empty()) << kernel.name << ":\n" << result.log;
-    EXPECT_EQ(result.log.find("WARNING"), std::string::npos) << kernel.name << ":\n" << result.log;
+    std::vector<std::string> traces = traceFiles();
+    traces.emplace_back("tests/parity/brute_force.glsl");
+    for (const std::string& trace : traces) {
+      const GlslResult result = compileKernel(kernel.header, kernel.file, trace);
+      EXPECT_FALSE(result.spirv.empty()) << kernel.name << ", " << trace << ":\n" << result.log;
+      EXPECT_EQ(result.log.find("WARNING"), std::string::npos)
+          << kernel.name << ", " << trace << ":\n"
+          << result.log;
+    }
   }
 }
 

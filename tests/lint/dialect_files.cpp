@@ -37,6 +37,11 @@ const std::vector<Kernel>& kernels() {
   return list;
 }
 
+const std::vector<std::string>& traceFiles() {
+  static const std::vector<std::string> files = {"core/dialect/trace_bvh.glsl"};
+  return files;
+}
+
 std::string readSource(const std::string& path) {
   std::ifstream stream(kRoot / path, std::ios::binary);
   if (!stream) throw std::runtime_error("cannot read " + (kRoot / path).string());
@@ -48,6 +53,7 @@ const std::vector<std::string>& dialectFiles() {
     std::set<std::string> seen;
     follow("core/dialect/order.h", seen);
     follow("core/dialect/order.glsl", seen);
+    for (const std::string& trace : traceFiles()) follow(trace, seen);
     for (const Kernel& kernel : kernels()) {
       follow(kernel.header, seen);
       follow(kernel.file, seen);

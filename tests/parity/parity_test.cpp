@@ -6,13 +6,13 @@
 #include <cstring>
 
 #include "core/backend/cpu_kernel.h"
+#include "core/backend/vulkan_scene.h"
 #include "core/dialect/features.h"
 #include "core/scene/compiled_scene.h"
 #include "core/scene/scene.h"
 #include "integrators/path/path.h"
 #include "tests/parity/everything_scene.h"
 #include "tests/parity/kernel_runner.h"
-#include "tests/parity/scene_upload.h"
 #undef RL_KERNEL_BUFFERS
 #undef RL_KERNEL_PARAMS
 #include "tests/parity/ris_kernel.h"
@@ -47,29 +47,30 @@ double relativeDifference(float a, float b) {
 class Parity : public testing::Test {
  protected:
   void SetUp() override {
-    devices_ = VulkanDevice::all();
-    if (devices_.empty()) {
-      GTEST_SKIP()
-          << "no Vulkan device with buffer addresses and scalar layout: kernels ran as C++ only";
-    }
+    devices_ = testDevices();
+    if (devices_.empty()) GTEST_SKIP() << kNoDevice;
   }
-  std::vector<std::unique_ptr<VulkanDevice>> devices_;
+  std::vector<TestDevice> devices_;
 };
 
-TEST_F(Parity, ResamplingOverRandomSurfaces) {
-  const rl::FrameData frame = plainFrame(512, 512, 7);
+using ParityNightly = Parity;
+
+// On both machines, over as many random surfaces as there are pixels.
+void compareResampling(std::vector<TestDevice>& devices, const rl::FrameData& frame) {
   const size_t threads = size_t{frame.width} * frame.height;
   const rl::RisParams params{32};
   std::vector<rl::RisResult> host(threads);
   const rl::RisBuffers hostBuffers{{host.data()}};
   runOnHost(rl::kernel_parity_ris_general, rl::SceneData{}, frame, &hostBuffers, &params);
-  const std::vector<uint32_t> spirv =
-      compileKernel("tests/parity/ris_kernel.h", "tests/parity/ris_kernel.glsl");
-  for (const auto& device : devices_) {
-    SCOPED_TRACE(device->name());
-    GpuBuffer& results = device->allocate(threads * sizeof(rl::RisResult));
-    runOnDevice(*device, spirv, 0, frame, {results.address}, &params, sizeof params);
-    const auto* gpu = static_cast<const rl::RisResult*>(results.mapped);
+  for (TestDevice& device : devices) {
+    SCOPED_TRACE(device.name());
+    const GpuBuffer results =
+        device.memory->allocate(threads * sizeof(rl::RisResult), MemoryKind::device);
+    runOnDevice(device, "tests/parity/ris_kernel.h", "tests/parity/ris_kernel.glsl", 0, frame,
+                {results.address}, &params, sizeof params);
+    std::vector<rl::RisResult> gpu(threads);
+    device.memory->read(results, gpu.data(), threads * sizeof(rl::RisResult));
+    device.memory->free(results);
     size_t picked = 0, lobes = 0, values = 0, selected = 0, transmissive = 0;
     double worst = 0.0;
     for (size_t i = 0; i < threads; ++i) {
@@ -90,7 +91,7 @@ TEST_F(Parity, ResamplingOverRandomSurfaces) {
     std::printf(
         "  %s: %zu threads, %zu other selections, %zu other lobes, %zu differ by more than %.0e, "
         "worst %.2g\n",
-        device->name().c_str(), threads, picked, lobes, values, kMaxRelativeDifference, worst);
+        device.name().c_str(), threads, picked, lobes, values, kMaxRelativeDifference, worst);
     EXPECT_GT(selected, threads * 9 / 10) << "the kernel hardly selected anything";
     EXPECT_GT(transmissive, threads / 5);
     EXPECT_LT(double(picked), kMaxDifferentDecisions * double(threads));
@@ -98,6 +99,15 @@ TEST_F(Parity, ResamplingOverRandomSurfaces) {
     EXPECT_LT(double(values), kMaxIllConditioned * double(threads));
     EXPECT_LT(worst, kMaxWorst);
   }
+}
+
+TEST_F(Parity, ResamplingOverRandomSurfaces) {
+  compareResampling(devices_, plainFrame(512, 512, 7));
+}
+
+// A share of 1e-5 is ten of these.
+TEST_F(ParityNightly, ResamplingOverRandomSurfaces) {
+  compareResampling(devices_, plainFrame(1024, 1024, 8));
 }
 
 // How two images of the same seed differ.
@@ -165,14 +175,17 @@ TEST_P(PathParity, SameSeedSameImage) {
     EXPECT_LE(meanDifference, c.maxMeanDifference) << who;
   };
   expectAlike("Embree", embree.data());
-  const std::vector<uint32_t> spirv =
-      compileKernel("integrators/path/path.h", "integrators/path/path.glsl");
-  for (const auto& device : devices_) {
-    GpuBuffer& radiance = device->allocate(pixels * sizeof(rl::vec3));
-    const uint64_t sceneAddress = uploadScene(*device, scene->data());
-    const GlslCounters counters = runOnDevice(*device, spirv, sceneAddress, frame,
-                                              {radiance.address}, &params, sizeof params);
-    expectAlike(device->name(), static_cast<const rl::vec3*>(radiance.mapped));
+  for (TestDevice& device : devices_) {
+    const GpuBuffer radiance =
+        device.memory->allocate(pixels * sizeof(rl::vec3), MemoryKind::device);
+    const std::shared_ptr<VulkanScene> uploaded = VulkanScene::of(device.memory, scene);
+    const GlslCounters counters =
+        runOnDevice(device, "integrators/path/path.h", "integrators/path/path.glsl",
+                    uploaded->address(), frame, {radiance.address}, &params, sizeof params);
+    std::vector<rl::vec3> gpu(pixels);
+    device.memory->read(radiance, gpu.data(), pixels * sizeof(rl::vec3));
+    device.memory->free(radiance);
+    expectAlike(device.name(), gpu.data());
     EXPECT_EQ(counters.health[rl::RL_HEALTH_NONFINITE], 0u);
   }
 }

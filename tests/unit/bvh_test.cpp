@@ -178,8 +178,9 @@ TEST(Bvh, ClosedMeshesAreWatertight) {
   }
 }
 
-// Any-hit rays: what Embree's filters multiply, the traversal multiplies.
-TEST(Bvh, ShadowRaysPassTransparentSheetsAlike) {
+// Any-hit rays: what Embree's filters multiply, the traversal multiplies; closest hits: what they
+// let through, it lets through.
+void compareTransparentSheets(uint64_t rays) {
   builtin::SceneBuilder builder("sheets");
   rl::Material veil = builtin::lambert(glm::vec3(0.5f));
   veil.flags |= rl::RL_MATERIAL_ALPHA_BLEND;
@@ -195,7 +196,8 @@ TEST(Bvh, ShadowRaysPassTransparentSheetsAlike) {
   BothTracers both(CompiledScene::build(builder.finish()));
   Inputs inputs(9);
   uint64_t between = 0, different = 0;
-  for (int i = 0; i < 100'000; ++i) {
+  Comparison paths;
+  for (uint64_t i = 0; i < rays; ++i) {
     const glm::vec3 from(inputs.uniform(-8.0f, -6.0f), inputs.uniform(-1.0f, 1.0f),
                          inputs.uniform(-1.0f, 1.0f)),
         to(inputs.uniform(1.0f, 8.0f), inputs.uniform(-1.0f, 1.0f), inputs.uniform(-1.0f, 1.0f));
@@ -205,10 +207,15 @@ TEST(Bvh, ShadowRaysPassTransparentSheetsAlike) {
                 b = both.own.traceRay(ray, rl::RL_RAY_SHADOW, 0, hit);
     if (a > 0.0f && a < 1.0f) ++between;
     if (std::abs(a - b) > 1e-5f) ++different;
+    compareRay(both, rayFrom(from, to - from), inputs.bits(), paths, hit);
   }
-  EXPECT_GT(between, 20'000u);
-  EXPECT_LT(different, 20u) << "only rays through an edge";
+  EXPECT_GT(between, rays / 5);
+  EXPECT_LT(double(different), 2e-4 * double(rays)) << "only rays through an edge";
+  expectAgreement(paths, "sheets");
 }
+
+TEST(Bvh, RaysPassTransparentSheetsAlike) { compareTransparentSheets(100'000); }
+TEST(BvhNightly, RaysPassTransparentSheetsAlike) { compareTransparentSheets(1'000'000); }
 
 TEST(Bvh, EmptySceneIsMissed) {
   builtin::SceneBuilder builder("nothing");

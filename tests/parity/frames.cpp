@@ -1,0 +1,241 @@
+#include "tests/parity/frames.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <ostream>
+
+#include "core/backend/vulkan_device.h"
+#include "core/caches/caches.h"
+#include "core/integrator.h"
+#include "tests/parity/everything_scene.h"
+#include "tests/unit/dialect_context.h"
+
+namespace rl {
+
+// The dialect with traceRay() on the project's own hierarchy.
+struct OwnTraceCtx {
+  static constexpr uint kFeatures = RL_FEATURE_ALL;
+
+  const SceneData& gScene;
+  const FrameData& gFrame;
+  CpuKernelCounters& gCounters;
+
+#include "core/dialect/order.glsl"
+#include "core/dialect/trace_bvh.glsl"
+};
+
+}  // namespace rl
+
+namespace restlab::parity {
+
+namespace {
+
+constexpr float kNearEdge = 1e-4f;  // as a share of the triangle
+
+bool isNearEdge(const rl::Hit& hit) {
+  if (hit.instance == rl::RL_INVALID) return false;
+  return std::min({hit.bary.x, hit.bary.y, 1.0f - hit.bary.x - hit.bary.y}) < kNearEdge;
+}
+
+// The first hits of a session's pixels, found again on both intersectors.
+class FirstHits {
+ public:
+  FirstHits(const std::shared_ptr<const CompiledScene>& scene, const SessionConfig& config)
+      : embree_(scene), own_{(scene->bindBvh(), scene->data()), embree_.frame, embree_.counters} {
+    rl::FrameData& f = embree_.frame;
+    f.width = config.width;
+    f.height = config.height;
+    f.seed = config.seed;
+    f.pixelFilter = config.pixelFilter;
+    f.filmHold = 1;
+    const SceneCamera& camera = scene->source().cameras.front();
+    f.camera = scene->camera(camera, config.width, config.height);
+  }
+
+  // Does the ray through a pixel pass so close to an edge that rounding decides?
+  bool passesAnEdge(uint32_t x, uint32_t y) {
+    const rl::FrameData& f = embree_.frame;
+    const rl::uvec2 pixel(x, y);
+    const rl::Rng rng = embree_->rngInit(f.seed, y * f.width + x, f.frame);
+    const rl::Ray ray = embree_->cameraRay(f.camera, embree_->cameraFilmSample(pixel),
+                                           rl::vec2(float(f.width), float(f.height)));
+    rl::Hit a{}, b{};
+    embree_->traceRay(ray, rl::RL_RAY_PATH, rng.key.x, a);
+    own_.traceRay(ray, rl::RL_RAY_PATH, rng.key.x, b);
+    return isNearEdge(a) || isNearEdge(b);
+  }
+
+ private:
+  unit::Dialect<> embree_;
+  rl::OwnTraceCtx own_;
+};
+
+double meanLength(const Image& image) {
+  double sum = 0.0;
+  for (const glm::vec3& p : image.pixels) sum += double(glm::length(p));
+  return sum / double(image.pixels.size());
+}
+
+// |a - b| / (|v| + mean); infinite for what is no number.
+class Distance {
+ public:
+  Distance(const Image& a, const Image& b)
+      : a_(a), b_(b), mean_(0.5 * (meanLength(a) + meanLength(b))) {}
+  double operator()(size_t i) const {
+    const double difference = glm::length(glm::dvec3(a_.pixels[i]) - glm::dvec3(b_.pixels[i]));
+    const double size =
+        std::max(glm::length(glm::dvec3(a_.pixels[i])), glm::length(glm::dvec3(b_.pixels[i])));
+    if (difference == 0.0) return 0.0;
+    const double result = difference / (size + mean_);
+    return result == result ? result : 1e30;
+  }
+
+ private:
+  const Image& a_;
+  const Image& b_;
+  double mean_;
+};
+
+struct Aovs {
+  Image positionW, normalW, depth;
+  explicit Aovs(const Session& session)
+      : positionW(session.aov("positionW")),
+        normalW(session.aov("normalW")),
+        depth(session.aov("depth")) {}
+};
+
+}  // namespace
+
+std::string Combination::name() const {
+  std::string text = integrator;
+  if (!mode.empty()) text += "_" + mode;
+  if (!cache.empty()) text += "_" + cache;
+  return text;
+}
+
+void PrintTo(const Combination& what, std::ostream* out) { *out << what.name(); }
+
+std::vector<Combination> combinations() {
+  std::vector<Combination> all;
+  for (const IntegratorInfo* info : integratorRegistry()) {
+    std::vector<std::string> caches = {""};
+    if (info->usesCache) {
+      caches.clear();
+      for (const CacheInfo& cache : cacheRegistry()) caches.push_back(cache.name);
+    }
+    for (const ModeInfo& mode : info->modes) {
+      for (const std::string& cache : caches) all.push_back({info->name, mode.name, cache});
+    }
+  }
+  return all;
+}
+
+SessionConfig configOf(const Combination& what, const Machine& where, uint32_t width,
+                       uint32_t height, uint32_t seed) {
+  SessionConfig config;
+  config.integrator = what.integrator;
+  config.mode = what.mode;
+  if (!what.cache.empty()) config.cache = what.cache;
+  config.backend = where.backend;
+  config.rayTracing = where.rayTracing;
+  config.specialise = where.specialise;
+  config.width = width;
+  config.height = height;
+  config.seed = seed;
+  return config;
+}
+
+void FrameDifference::add(const FrameDifference& other) {
+  pixels += other.pixels;
+  different += other.different;
+  edges += other.edges;
+  ties += other.ties;
+  later += other.later;
+  if (unexplained == 0) firstUnexplained = other.firstUnexplained;
+  unexplained += other.unexplained;
+  beyond1em4 += other.beyond1em4;
+  beyond1em2 += other.beyond1em2;
+  beyond1em1 += other.beyond1em1;
+}
+
+std::string FrameDifference::text() const {
+  return fmt::format(
+      "{} of {} pixels differ ({:.2g}): {} at edges, {} ties, {} later decisions, {} unexplained; "
+      "beyond 1e-4: {}, 1e-2: {}, 1e-1: {}",
+      different, pixels, share(), edges, ties, later, unexplained, beyond1em4, beyond1em2,
+      beyond1em1);
+}
+
+FrameDifference countDifferent(const Image& a, const Image& b) {
+  FrameDifference result;
+  result.pixels = a.pixels.size();
+  const Distance distance(a, b);
+  for (size_t i = 0; i < result.pixels; ++i) {
+    const double d = distance(i);
+    result.different += d > kSameWithin;
+    result.beyond1em4 += d > 1e-4;
+    result.beyond1em2 += d > 1e-2;
+    result.beyond1em1 += d > 1e-1;
+  }
+  return result;
+}
+
+FrameDifference classify(const std::shared_ptr<const CompiledScene>& scene, Session& a,
+                         Session& b) {
+  FrameDifference result = countDifferent(a.radiance(), b.radiance());
+  if (result.different == 0) return result;
+  const Distance distance(a.radiance(), b.radiance());
+  const Aovs left(a), right(b);
+  FirstHits hits(scene, a.config());
+  const glm::vec3 origin(scene->origin());
+  for (size_t i = 0; i < result.pixels; ++i) {
+    if (!(distance(i) > kSameWithin)) continue;
+    const float da = left.depth.pixels[i].x, db = right.depth.pixels[i].x;
+    // Distances are rounded at the size of the coordinates.
+    const glm::vec3 p = glm::abs(left.positionW.pixels[i] - origin);
+    const float tolerance = 1e-4f * da + 2e-5f * std::max({p.x, p.y, p.z});
+    const bool isOneMissed = (da == 0.0f) != (db == 0.0f);
+    const bool isSameDepth = !isOneMissed && std::abs(da - db) <= tolerance;
+    const bool isSameNormal =
+        glm::length(left.normalW.pixels[i] - right.normalW.pixels[i]) <= 1e-3f;
+    const auto x = static_cast<uint32_t>(i % a.config().width),
+               y = static_cast<uint32_t>(i / a.config().width);
+    if (isSameDepth && isSameNormal) {
+      ++result.later;
+    } else if (hits.passesAnEdge(x, y)) {
+      ++result.edges;
+    } else if (isSameDepth) {
+      ++result.ties;
+    } else if (result.unexplained++ == 0) {
+      result.firstUnexplained = fmt::format("pixel {} {}: depths {} and {}", x, y, da, db);
+    }
+  }
+  return result;
+}
+
+std::vector<std::string> sceneNames() {
+  std::vector<std::string> names = builtinSceneNames();
+  names.emplace_back("everything");
+  return names;
+}
+
+std::shared_ptr<const CompiledScene> sceneNamed(const std::string& name) {
+  static std::map<std::string, std::shared_ptr<const CompiledScene>> known;
+  std::shared_ptr<const CompiledScene>& scene = known[name];
+  if (!scene) {
+    scene =
+        CompiledScene::build(name == "everything" ? makeEverythingScene() : makeBuiltinScene(name));
+  }
+  return scene;
+}
+
+bool hasVulkan() {
+  for (const VulkanDeviceInfo& info : vulkanDeviceInfos()) {
+    if (info.whyNot.empty()) return true;
+  }
+  return false;
+}
+
+}  // namespace restlab::parity
