@@ -86,7 +86,9 @@ TEST(Instantiation, AtMostNineMasksAKernel) {
       general += row.features == rl::RL_FEATURE_ALL;
     }
     EXPECT_LE(embree, 9u) << name;
-    EXPECT_GE(embree, 2u) << name << " is not specialised";
+    // `stream` copies memory: no scene can have or lack anything that it asks for.
+    const size_t least = name == "stream" ? 1 : 2;
+    EXPECT_GE(embree, least) << name << " is not specialised";
     EXPECT_EQ(general, 1u) << name;
     EXPECT_EQ(bvh, 1u) << name;
   }
