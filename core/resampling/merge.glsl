@@ -33,6 +33,11 @@ RL_FN Shifted mergeUnshifted(RL_IN(ReservoirState) r) {
   return s;
 }
 
+// Whether a sample, shifted without visibility, needs it: nothing comes from where it is zero.
+RL_FN bool reuseAsksVisibility(RL_IN(Shifted) s, bool assumeVisible) {
+  return !assumeVisible && bridgeTarget(s.F) > real(0.0f);
+}
+
 // there: the canonical sample as a donor of confidence cDonor sees it.
 RL_FN void mergeWeighCanonical(RL_INOUT(MergeState) merge, RL_IN(ReservoirState) canonical,
                                real cDonor, RL_IN(Shifted) there, uint flags) {

@@ -63,22 +63,20 @@ RL_FN real3 bridgeShift(RL_IN(PathReservoir) r, RL_IN(Anchor) from, RL_IN(Anchor
   return bsdfEval(to.bsdf, to.nGeoW, to.nShadeW, to.wo, d) * radiance;
 }
 
-RL_FN real bridgeVisibility(RL_IN(LightReservoir) r, RL_IN(Anchor) at) {
+// The shadow ray between a sample and an anchor.
+RL_FN Ray bridgeSegment(RL_IN(LightReservoir) r, RL_IN(Anchor) at) {
   LightConnection c = lightConnect(r.light, at.posW);
-  Hit hit;
-  Ray ray = lightShadowRay(r.light, c, at.posW, at.nGeoW, at.posError);
-  return traceRay(ray, RL_RAY_SHADOW, 0u, hit);
+  return lightShadowRay(r.light, c, at.posW, at.nGeoW, at.posError);
 }
 
-RL_FN real bridgeVisibility(RL_IN(PathReservoir) r, RL_IN(Anchor) at) {
+RL_FN Ray bridgeSegment(RL_IN(PathReservoir) r, RL_IN(Anchor) at) {
   Ray ray;
   vec3 d = r.vertex.posW - at.posW;
   ray.origin = surfaceOffset(at.posW, at.nGeoW, at.posError, d);
   ray.tMin = 0.0f;
   ray.dir = surfaceOffset(r.vertex.posW, r.vertex.nGeoW, r.vertex.posError, -d) - ray.origin;
   ray.tMax = 1.0f;
-  Hit hit;
-  return traceRay(ray, RL_RAY_SHADOW, 0u, hit);
+  return ray;
 }
 
 // Lambert parts scale with albedo; a glossy anchor's ratio is taken of diffuse + specular

@@ -1,27 +1,48 @@
 // Included once per payload, with RL_RESERVOIR defined, by the temporal pass.
 
-// Merges the last frame's reservoir of the same surface into this frame's, in place. `r` only tells
-// which.
-RL_FN void giReuseOverTime(uint slot, RL_IN(Anchor) here, uint donorSlot, RL_IN(Anchor) there,
-                           real u, RL_INOUT(RL_RESERVOIR) r) {
-  RL_RESERVOIR donor;
+// The shift of a sample to an anchor, its shadow ray as segment `which`.
+RL_FN Shifted giShift(RL_IN(RL_RESERVOIR) r, RL_IN(Anchor) from, RL_IN(Anchor) to,
+                      bool assumeVisible, uint which, RL_INOUT(GiSegments) segments) {
+  Shifted s = reuseShift(r, from, to);
+  if (reuseAsksVisibility(s, assumeVisible)) {
+    segments.rays[which] = bridgeSegment(r, to);
+    segments.asks[which] = 1u;
+  }
+  return s;
+}
+
+// Reads this frame's reservoir and the last frame's of the same surface, and shifts each sample to
+// the other's anchor. False where there is nothing to merge.
+RL_FN bool giShiftOverTime(uint slot, RL_IN(Anchor) here, uint donorSlot, RL_IN(Anchor) there,
+                           uint which, RL_INOUT(RL_RESERVOIR) r, RL_INOUT(RL_RESERVOIR) donor,
+                           RL_INOUT(Shifted) ours, RL_INOUT(Shifted) theirs,
+                           RL_INOUT(GiSegments) segments) {
   cacheReadStateNow(slot, r);
   cacheReadStateBefore(donorSlot, donor);
-  real cDonor = giCappedConfidence(donor.state.confidence);
   if (giIsEmpty(r.state) && giIsEmpty(donor.state)) {
-    r.state.confidence += cDonor;
+    r.state.confidence += giCappedConfidence(donor.state.confidence);
     cacheWriteStateNow(slot, r);
-    return;
+    return false;
   }
   uint flags = gParams.temporalFlags;
-  Shifted ours = mergeUnshifted(r.state);
-  Shifted theirs = mergeUnshifted(donor.state);
+  ours = mergeUnshifted(r.state);
+  theirs = mergeUnshifted(donor.state);
   if (!bridgeIsSameAnchor(here, there)) {
     cacheReadNow(slot, r);
     cacheReadBefore(donorSlot, donor);
-    ours = reuseShift(r, here, there, (flags & RL_REUSE_ASSUME_VISIBLE) != 0u);
-    theirs = reuseShift(donor, there, here, (flags & RL_REUSE_ASSUME_VISIBLE_HERE) != 0u);
+    ours = giShift(r, here, there, (flags & RL_REUSE_ASSUME_VISIBLE) != 0u, which, segments);
+    theirs = giShift(donor, there, here, (flags & RL_REUSE_ASSUME_VISIBLE_HERE) != 0u, which + 1u,
+                     segments);
   }
+  return true;
+}
+
+// Merges them in place of this frame's. ours, theirs: the samples as the other anchor sees them.
+RL_FN void giMergeOverTime(uint slot, RL_IN(Anchor) here, uint donorSlot, RL_IN(Anchor) there,
+                           real u, RL_IN(Shifted) ours, RL_IN(Shifted) theirs,
+                           RL_INOUT(RL_RESERVOIR) r, RL_INOUT(RL_RESERVOIR) donor) {
+  uint flags = gParams.temporalFlags;
+  real cDonor = giCappedConfidence(donor.state.confidence);
   MergeState merge = mergeBegin(r.state, cDonor);
   mergeWeighCanonical(merge, r.state, cDonor, ours, flags);
   mergeCanonical(merge, r.state, flags);
@@ -35,11 +56,4 @@ RL_FN void giReuseOverTime(uint slot, RL_IN(Anchor) here, uint donorSlot, RL_IN(
   } else {
     cacheWriteStateNow(slot, r);
   }
-}
-
-// The slot's sample as its partners see it: each shift serves both merges of a pair.
-RL_FN void giShiftToPartner(uint slot, RL_IN(Anchor) here, uint k, RL_IN(Anchor) there,
-                            RL_INOUT(RL_RESERVOIR) r) {
-  cacheReadNow(slot, r);
-  cacheWriteShifted(cacheExchangeIndex(slot, k), r, reuseShift(r, here, there, false));
 }

@@ -78,6 +78,16 @@ struct PathReservoir {
   ReservoirState state;
 };
 
+// Shadow rays of a round of shifts, traced by one call: light and path samples, each seen by
+// another and seen here. A visibility of 1 stays where none is asked for.
+const uint RL_GI_SEGMENTS = 4u;
+
+struct GiSegments {
+  Ray rays[RL_GI_SEGMENTS];
+  uint asks[RL_GI_SEGMENTS];
+  float visibility[RL_GI_SEGMENTS];
+};
+
 RL_REF(StoredAnchorRef, StoredAnchor)
 RL_REF(StoredAnchorGlossyRef, StoredAnchorGlossy)
 RL_REF(ShiftedRef, Shifted)

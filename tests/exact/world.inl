@@ -208,7 +208,10 @@ void mergeOnce(const World& world, const MergeInput& canonical,
     MergeState merge = kernel.mergeBegin(own.state, cDonors);
     const auto shift = [&](const WorldReservoir& r, uint from, uint to, uint assumed) {
       if (from == to) return kernel.mergeUnshifted(r.state);
-      return kernel.reuseShift(r, WorldAnchor{from}, WorldAnchor{to}, (flags & assumed) != 0u);
+      Shifted s = kernel.reuseShift(r, WorldAnchor{from}, WorldAnchor{to});
+      if (kernel.reuseAsksVisibility(s, (flags & assumed) != 0u))
+        s.F *= kernel.bridgeVisibility(r, WorldAnchor{to});
+      return s;
     };
     for (const MergeInput& donor : donors) {
       const Shifted ours = shift(own, canonical.anchor, donor.anchor, RL_REUSE_ASSUME_VISIBLE);
