@@ -215,6 +215,7 @@ struct SceneData {
   // The project's own hierarchy: null unless a session traces it. The world's root is record 0.
   PairRef bvh;       // RL_BVH_RECORD_PAIRS a record
   UintRef bvhRoots;  // record of the root of each geometry that is shared by instances
+  uvec2 accelerationStructure;  // its address on a device that traces by ray queries; else 0
   uint lightCount;
   uint environmentWidth;  // 0: no environment
   uint environmentHeight;
