@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "core/backend/vulkan_device.h"
 #include "core/scene/compiled_scene.h"
@@ -23,17 +24,23 @@ struct QueryCase {
 };
 
 Scene everything() { return makeEverythingScene(); }
-// Instances of one mesh, some of which let light through, beside meshes in world space that do.
+// Blocks in the middle of the room that let light through, one before the other, beside opaque
+// instances of the same mesh.
 Scene alphaInstances() {
   Scene scene = makeEverythingScene();
   scene.materials.push_back(scene.materials[scene.instances.back().material]);
   rl::Material& material = scene.materials.back().data;
   material.flags |= rl::RL_MATERIAL_ALPHA_BLEND;
   material.alpha = 0.6f;
-  MeshInstance moved = scene.instances.back();
-  moved.material = static_cast<uint32_t>(scene.materials.size() - 1);
-  moved.objectToWorld[3] += glm::dvec4(1.4, 0.7, 0.3, 0.0);
-  scene.instances.push_back(moved);
+  MeshInstance block = scene.instances.back();
+  block.material = static_cast<uint32_t>(scene.materials.size() - 1);
+  for (const double side : {-1.0, 1.0}) {
+    block.objectToWorld =
+        glm::rotate(glm::translate(glm::dmat4(1.0), {-2.8 + 1.5 * side, 2.2, -0.4 + 0.7 * side}),
+                    0.5, {1.0, 2.0, 3.0});
+    block.objectToWorld = glm::scale(block.objectToWorld, {side, 1.2, 0.8});
+    scene.instances.push_back(block);
+  }
   return scene;
 }
 Scene cornell() { return makeBuiltinScene("cornell-box"); }
