@@ -159,7 +159,7 @@ const uint RL_BVH_INSTANCE = 0x80000000u;  // | number of the instance
 const uint RL_BVH_KIND = 0xc0000000u;      // mask of the two
 const uint RL_BVH_LEAF_COUNT_SHIFT = 26u;
 const uint RL_BVH_LEAF_FIRST = 0x03ffffffu;  // mask
-const uint RL_BVH_RECORD_PAIRS = 8u;  // of a node or a triangle
+const uint RL_BVH_RECORD_PAIRS = 8u;         // of a node or a triangle
 // Largest number of nodes between a root and a leaf; the two levels have one each.
 const uint RL_BVH_MAX_DEPTH = 26u;
 const uint RL_BVH_STACK = 160u;  // three children left behind at every node of both levels
@@ -213,8 +213,8 @@ struct SceneData {
   AliasRef environmentAlias;  // pmf per texel
   Vec2Ref ggxAlbedo;          // core/scene/ggx_albedo.h; null unless a session compensates
   // The project's own hierarchy: null unless a session traces it. The world's root is record 0.
-  PairRef bvh;       // RL_BVH_RECORD_PAIRS a record
-  UintRef bvhRoots;  // record of the root of each geometry that is shared by instances
+  PairRef bvh;                  // RL_BVH_RECORD_PAIRS a record
+  UintRef bvhRoots;             // record of the root of each geometry that is shared by instances
   uvec2 accelerationStructure;  // its address on a device that traces by ray queries; else 0
   uint lightCount;
   uint environmentWidth;  // 0: no environment

@@ -2,7 +2,7 @@
 # A Vulkan device with ray queries on any machine: lavapipe of Mesa 25, from Debian's backports,
 # unpacked into FOLDER beside the system's and never installed.
 #   tests/parity/mesa_backport.sh FOLDER COMMAND...    runs the command on it
-#   eval "$(tests/parity/mesa_backport.sh FOLDER)"     sets the two variables for all that follows
+#   eval "$(tests/parity/mesa_backport.sh FOLDER)"     the same for all that follows
 # Needs no root; what FOLDER has is not fetched again. Exit code 77 where it cannot be had, with one
 # line that says why.
 set -u
@@ -71,8 +71,9 @@ if [ $# -gt 0 ]; then
   VK_ICD_FILENAMES=$manifest
   LD_LIBRARY_PATH=$libraries${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
   export VK_ICD_FILENAMES LD_LIBRARY_PATH
-  unset VK_DRIVER_FILES # would come first
+  unset VK_DRIVER_FILES # would be preferred
   exec "$@"
 fi
+echo "unset VK_DRIVER_FILES"
 echo "export VK_ICD_FILENAMES='$manifest'"
 echo "export LD_LIBRARY_PATH='$libraries'\${LD_LIBRARY_PATH:+:\$LD_LIBRARY_PATH}"
