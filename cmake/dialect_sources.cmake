@@ -5,6 +5,7 @@ function(rl_embed_dialect target)
   foreach(folder IN ITEMS core/dialect core/kernels core/resampling core/caches integrators denoise)
     list(APPEND patterns ${PROJECT_SOURCE_DIR}/${folder}/*.glsl ${PROJECT_SOURCE_DIR}/${folder}/*.h)
   endforeach()
+  list(APPEND patterns ${PROJECT_SOURCE_DIR}/core/backend/*.glsl) # of devices alone
   file(GLOB_RECURSE files CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${patterns})
   list(SORT files)
   list(TRANSFORM files PREPEND ${PROJECT_SOURCE_DIR}/ OUTPUT_VARIABLE paths)

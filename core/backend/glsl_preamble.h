@@ -17,6 +17,15 @@ struct GlslKernel {
   std::string extensions = {};  // "#extension" lines that the trace file needs
 };
 
+// What defines traceRay().
+struct GlslTrace {
+  const char* file;
+  const char* extensions;
+};
+constexpr GlslTrace kGlslTraceBvh = {"core/dialect/trace_bvh.glsl", ""};
+constexpr GlslTrace kGlslTraceQuery = {"core/backend/trace_query.glsl",
+                                       "#extension GL_EXT_ray_query : require\n"};
+
 // Threads of a workgroup in x and y: a tile of the image.
 constexpr uint32_t kGlslTile = 8;
 

@@ -94,12 +94,23 @@ class VulkanBackend final : public Backend {
       : context_(Context::of({options.device, options.validate})),
         device_(*context_->device),
         memory_(*context_->memory) {
-    rayTracing_ = options.rayTracing.empty() ? "bvh" : options.rayTracing;
-    if (rayTracing_ != "bvh") {
-      failUsage(fmt::format("--ray-tracing {}: the Vulkan backend knows bvh", rayTracing_));
+    const bool hasQuery = device_.info().hasRayQuery;
+    rayTracing_ = options.rayTracing;
+    // A driver in software traces faster by the hierarchy that kernels hold themselves.
+    if (rayTracing_.empty())
+      rayTracing_ = hasQuery && device_.info().kind != "cpu" ? "query" : "bvh";
+    if (rayTracing_ != "bvh" && rayTracing_ != "query") {
+      failUsage(
+          fmt::format("--ray-tracing {}: the Vulkan backend knows bvh and query", rayTracing_));
     }
-    traceFile_ = "core/dialect/trace_bvh.glsl";
-    scene_ = VulkanScene::of(context_->memory, scene);
+    const bool queries = rayTracing_ == "query";
+    if (queries && !hasQuery) {
+      throw Error(ExitCode::deviceUnavailable,
+                  fmt::format("--ray-tracing query: {} has no ray queries; --ray-tracing bvh works",
+                              device_.name()));
+    }
+    trace_ = queries ? kGlslTraceQuery : kGlslTraceBvh;
+    scene_ = VulkanScene::of(context_->memory, scene, queries ? SceneRays::query : SceneRays::bvh);
     for (Slot& slot : slots_) {
       slot.inputs = memory_.allocate(kInputBytes, MemoryKind::upload);
       slot.counters = memory_.allocate(kCounterBytes, MemoryKind::readback);
@@ -207,8 +218,9 @@ class VulkanBackend final : public Backend {
     VkPipeline& known = pipelines_[{kernel, mask}];
     if (known == VK_NULL_HANDLE) {
       const DialectKernel& files = find(kernel);
-      known = context_->kernels->pipeline({files.header, files.file, traceFile_}, kernel, mask,
-                                          dialectSource, report);
+      known =
+          context_->kernels->pipeline({files.header, files.file, trace_.file, trace_.extensions},
+                                      kernel, mask, dialectSource, report);
     }
     return known;
   }
@@ -386,7 +398,8 @@ class VulkanBackend final : public Backend {
   VulkanDevice& device_;
   VulkanMemory& memory_;
   std::shared_ptr<VulkanScene> scene_;
-  std::string rayTracing_, traceFile_;
+  std::string rayTracing_;
+  GlslTrace trace_{};
   std::vector<GpuBuffer> buffers_;
   std::map<std::pair<std::string, uint32_t>, VkPipeline> pipelines_;
   std::map<VkPipeline, uint32_t> bandPixels_;  // of passes whose first bands took too long

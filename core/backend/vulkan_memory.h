@@ -44,6 +44,7 @@ class VulkanMemory {
   void read(const GpuBuffer& from, void* data, size_t bytes);
   void clear(const GpuBuffer& buffer);
 
+  VulkanDevice& device() const { return *device_; }
   uint64_t bytesAllocated() const { return bytesAllocated_; }  // in blocks
   uint64_t bytesAvailable(MemoryKind kind) const;
 

@@ -8,28 +8,36 @@
 namespace restlab {
 
 std::shared_ptr<VulkanScene> VulkanScene::of(const std::shared_ptr<VulkanMemory>& memory,
-                                             const std::shared_ptr<const CompiledScene>& scene) {
-  static std::map<std::tuple<const void*, const void*, bool>, std::weak_ptr<VulkanScene>> known;
-  scene->bindBvh();
+                                             const std::shared_ptr<const CompiledScene>& scene,
+                                             SceneRays rays) {
+  using Key = std::tuple<const void*, const void*, bool, SceneRays>;
+  static std::map<Key, std::weak_ptr<VulkanScene>> known;
+  if (rays == SceneRays::bvh) scene->bindBvh();
   // A table that a session binds later is not in what was uploaded before.
   const bool hasAlbedo = scene->data().ggxAlbedo.data != nullptr;
-  std::weak_ptr<VulkanScene>& entry = known[{memory.get(), scene.get(), hasAlbedo}];
+  std::weak_ptr<VulkanScene>& entry = known[{memory.get(), scene.get(), hasAlbedo, rays}];
   if (auto uploaded = entry.lock()) return uploaded;
   std::shared_ptr<VulkanScene> uploaded(new VulkanScene(memory, scene));
+  uploaded->upload(rays);
   entry = uploaded;
   return uploaded;
 }
 
-VulkanScene::VulkanScene(std::shared_ptr<VulkanMemory> memory,
-                         std::shared_ptr<const CompiledScene> scene)
-    : memory_(std::move(memory)), scene_(std::move(scene)) {
-  const rl::SceneData placed = scene_->placedAt([&](const void* bytes, size_t count) {
+void VulkanScene::upload(SceneRays rays) {
+  const auto place = [&](const void* bytes, size_t count) {
     const GpuBuffer buffer = memory_->allocate(count, MemoryKind::device);
     buffers_.push_back(buffer);
     bytes_ += buffer.bytes;
     memory_->write(buffer, bytes, count);
     return buffer.address;
-  });
+  };
+  rl::SceneData placed = scene_->placedAt(place, rays == SceneRays::bvh);
+  if (rays == SceneRays::query) {
+    acceleration_ = VulkanAcceleration::build(memory_, scene_->bvhInput(), placed);
+    const uint64_t address = acceleration_->address();
+    placed.accelerationStructure = {uint32_t(address), uint32_t(address >> 32)};
+    bytes_ += acceleration_->bytes();
+  }
   data_ = memory_->allocate(sizeof placed, MemoryKind::device);
   memory_->write(data_, &placed, sizeof placed);
 }

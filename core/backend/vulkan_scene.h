@@ -4,17 +4,23 @@
 #include <memory>
 #include <vector>
 
+#include "core/backend/vulkan_acceleration.h"
 #include "core/backend/vulkan_memory.h"
 
 namespace restlab {
 
 class CompiledScene;
 
+// What rays are traced by: the project's own hierarchy, or an acceleration structure of the driver.
+enum class SceneRays { bvh, query };
+
 class VulkanScene {
  public:
-  // The scene as it is bound now, with the project's own hierarchy; sessions of one scene share it.
+  // The scene as it is bound now, with what the rays need and no more; sessions of one scene share
+  // it.
   static std::shared_ptr<VulkanScene> of(const std::shared_ptr<VulkanMemory>& memory,
-                                         const std::shared_ptr<const CompiledScene>& scene);
+                                         const std::shared_ptr<const CompiledScene>& scene,
+                                         SceneRays rays);
   ~VulkanScene();
   VulkanScene(const VulkanScene&) = delete;
   VulkanScene& operator=(const VulkanScene&) = delete;
@@ -23,10 +29,14 @@ class VulkanScene {
   size_t bytes() const { return bytes_; }
 
  private:
-  VulkanScene(std::shared_ptr<VulkanMemory> memory, std::shared_ptr<const CompiledScene> scene);
+  VulkanScene(std::shared_ptr<VulkanMemory> memory, std::shared_ptr<const CompiledScene> scene)
+      : memory_(std::move(memory)), scene_(std::move(scene)) {}
+  void upload(SceneRays rays);
+
   std::shared_ptr<VulkanMemory> memory_;
   std::shared_ptr<const CompiledScene> scene_;
   std::vector<GpuBuffer> buffers_;
+  std::unique_ptr<VulkanAcceleration> acceleration_;
   GpuBuffer data_;
   size_t bytes_ = 0;
 };

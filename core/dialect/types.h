@@ -213,8 +213,9 @@ struct SceneData {
   AliasRef environmentAlias;  // pmf per texel
   Vec2Ref ggxAlbedo;          // core/scene/ggx_albedo.h; null unless a session compensates
   // The project's own hierarchy: null unless a session traces it. The world's root is record 0.
-  PairRef bvh;       // RL_BVH_RECORD_PAIRS a record
-  UintRef bvhRoots;  // record of the root of each geometry that is shared by instances
+  PairRef bvh;                  // RL_BVH_RECORD_PAIRS a record
+  UintRef bvhRoots;             // record of the root of each geometry that is shared by instances
+  uvec2 accelerationStructure;  // its address on a device that traces by ray queries; else 0
   uint lightCount;
   uint environmentWidth;  // 0: no environment
   uint environmentHeight;

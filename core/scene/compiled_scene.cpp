@@ -360,14 +360,19 @@ void CompiledScene::bindGgxAlbedo() const {
 const Bvh& CompiledScene::bindBvh() const {
   Impl& m = *impl_;
   std::call_once(m.bvhBound, [&] {
-    m.bvh = buildBvh(m.device, {m.positions, m.triangles, m.geometries, m.instances});
+    m.bvh = buildBvh(m.device, bvhInput());
     m.data.bvh.data = reinterpret_cast<glm::uvec2*>(m.bvh.records.data());
     m.data.bvhRoots.data = m.bvh.roots.data();
   });
   return m.bvh;
 }
 
-rl::SceneData CompiledScene::placedAt(const Place& place) const {
+BvhInput CompiledScene::bvhInput() const {
+  const Impl& m = *impl_;
+  return {m.positions, m.triangles, m.geometries, m.instances};
+}
+
+rl::SceneData CompiledScene::placedAt(const Place& place, bool withBvh) const {
   const Impl& m = *impl_;
   rl::SceneData placed = m.data;
   const auto move = [&](auto& ref, size_t count) {
@@ -393,8 +398,8 @@ rl::SceneData CompiledScene::placedAt(const Place& place) const {
   move(placed.environment, m.lights.environment.size());
   move(placed.environmentAlias, m.lights.environmentAlias.size());
   move(placed.ggxAlbedo, m.data.ggxAlbedo.data != nullptr ? ggxAlbedoTable().size() : 0);
-  move(placed.bvh, m.bvh.records.size() * rl::RL_BVH_RECORD_PAIRS);
-  move(placed.bvhRoots, m.bvh.roots.size());
+  move(placed.bvh, withBvh ? m.bvh.records.size() * rl::RL_BVH_RECORD_PAIRS : 0);
+  move(placed.bvhRoots, withBvh ? m.bvh.roots.size() : 0);
   return placed;
 }
 

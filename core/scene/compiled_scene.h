@@ -32,10 +32,12 @@ class CompiledScene {
   // Makes SceneData::bvh and bvhRoots point to the project's own hierarchy, for sessions
   // that trace it; built at the first call. Returns it.
   const Bvh& bindBvh() const;
+  BvhInput bvhInput() const;  // what hierarchies are built of; valid as long as this object
   // data() for a machine with memory of its own: every address replaced by what `place` returns
-  // for the bytes there (0 for an empty buffer).
+  // for the bytes there (0 for an empty buffer); with the project's own hierarchy where it is
+  // bound and wanted.
   using Place = std::function<uint64_t(const void* bytes, size_t count)>;
-  rl::SceneData placedAt(const Place& place) const;
+  rl::SceneData placedAt(const Place& place, bool withBvh) const;
   const std::vector<std::string>& warnings() const;  // import's and compilation's
   rl::Camera camera(const SceneCamera& camera, uint32_t width, uint32_t height) const;
   size_t triangleCount() const;           // unique

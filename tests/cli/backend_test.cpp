@@ -189,6 +189,21 @@ TEST_F(VulkanTest, UnknownDeviceNamesThoseThereAre) {
       << "a part of the name is enough";
 }
 
+TEST_F(VulkanTest, RayQueriesOfADeviceWithoutThemAreOneLine) {
+  const std::string device = backend("vulkan")["devices"][0];
+  const std::string render = "render cornell-box -q -o x.exr --resolution 8x8 --backend vulkan";
+  if (device.find(", query") != std::string::npos) {
+    ASSERT_EQ(run(render).code, 0);
+    EXPECT_EQ(readExr(path("x.exr")).metadata.at("ray_tracing"), "query");
+    GTEST_SKIP() << "SKIPPED: " << device;
+  }
+  expectError(run(render + " --ray-tracing query"), 4,
+              {"--ray-tracing query", "has no ray queries", "--ray-tracing bvh works"});
+  EXPECT_FALSE(fs::exists(path("x.exr")));
+  ASSERT_EQ(run(render).code, 0);
+  EXPECT_EQ(readExr(path("x.exr")).metadata.at("ray_tracing"), "bvh");
+}
+
 TEST_F(VulkanTest, ValidationIsAskedForByTheOption) {
   const Variable layers("VK_LAYER_PATH", "/nonexistent");
   const std::string render = "render cornell-box -q -o x.exr --resolution 8x8 --backend vulkan";

@@ -102,6 +102,16 @@ TEST(Glsl, EveryKernelCompiles) {
   }
 }
 
+TEST(Glsl, EveryKernelCompilesWithRayQueries) {
+  for (const Kernel& kernel : kernels()) {
+    const std::string text = glslKernelSource(
+        {kernel.header, kernel.file, kGlslTraceQuery.file, kGlslTraceQuery.extensions});
+    const GlslResult result = compileGlsl(text, "kernel", readBelow(RESTLAB_SOURCE_DIR));
+    EXPECT_FALSE(result.spirv.empty()) << kernel.name << ":\n" << result.log;
+    EXPECT_EQ(result.log.find("WARNING"), std::string::npos) << kernel.name << ":\n" << result.log;
+  }
+}
+
 TEST(Glsl, ErrorsNameFileAndLine) {
   const GlslResult result = compileKernel(kernels().front().header, "tests/lint/data/broken.glsl");
   EXPECT_TRUE(result.spirv.empty());

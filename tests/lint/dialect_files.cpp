@@ -76,7 +76,8 @@ std::vector<std::string> allGlslFiles() {
   for (const char* folder : {"core", "integrators"}) {
     for (const auto& entry : std::filesystem::recursive_directory_iterator(kRoot / folder)) {
       if (!entry.is_regular_file() || entry.path().extension() != ".glsl") continue;
-      files.push_back(std::filesystem::relative(entry.path(), kRoot).generic_string());
+      const std::string path = std::filesystem::relative(entry.path(), kRoot).generic_string();
+      if (!path.starts_with("core/backend/")) files.push_back(path);
     }
   }
   std::sort(files.begin(), files.end());

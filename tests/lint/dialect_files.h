@@ -25,7 +25,8 @@ std::string readSource(const std::string& path);
 const std::vector<std::string>& dialectFiles();
 std::vector<std::string> dialectHeaders();
 
-// Every .glsl under core/ and integrators/, included or not.
+// Every .glsl under core/ and integrators/, included or not; but for core/backend/, where GLSL is
+// that of devices alone.
 std::vector<std::string> allGlslFiles();
 
 }  // namespace restlab::lint

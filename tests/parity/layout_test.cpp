@@ -98,6 +98,7 @@ const std::map<std::string, Offsets>& expected() {
         FIELD(SceneData, ggxAlbedo),
         FIELD(SceneData, bvh),
         FIELD(SceneData, bvhRoots),
+        FIELD(SceneData, accelerationStructure),
         FIELD(SceneData, lightCount),
         FIELD(SceneData, environmentWidth),
         FIELD(SceneData, environmentHeight),

@@ -1,0 +1,43 @@
+// traceRay() by ray queries (GL_EXT_ray_query), of devices that have them: GLSL alone, not the
+// dialect. Instances that are opaque say so in the acceleration structure (core/backend/
+// vulkan_acceleration.h): the loop below only sees those that may be transparent in part.
+float traceRay(in Ray ray, uint mode, uint alphaKey, out Hit hit) {
+  RL_COUNT_RAY(mode);
+  hit.instance = RL_INVALID;
+  hit.primitive = RL_INVALID;
+  hit.bary = vec2(0.0f, 0.0f);
+  hit.t = 0.0f;
+  // An empty or undefined interval contains nothing; a query's must neither be.
+  if (!(ray.tMin <= ray.tMax)) return 1.0f;
+  float transmittance = 1.0f;
+  uint flags = mode == RL_RAY_SHADOW ? gl_RayFlagsTerminateOnFirstHitEXT : gl_RayFlagsNoneEXT;
+  if (!RL_HAS(RL_FEATURE_ALPHA)) flags |= gl_RayFlagsOpaqueEXT;
+  rayQueryEXT query;
+  rayQueryInitializeEXT(query, accelerationStructureEXT(gScene.accelerationStructure), flags, 0xffu,
+                        ray.origin, ray.tMin, ray.dir, ray.tMax);
+  while (rayQueryProceedEXT(query)) {
+    if (RL_HAS(RL_FEATURE_ALPHA)) {
+      Hit cand;
+      cand.instance = uint(rayQueryGetIntersectionInstanceCustomIndexEXT(query, false));
+      cand.primitive = uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, false));
+      cand.bary = rayQueryGetIntersectionBarycentricsEXT(query, false);
+      cand.t = rayQueryGetIntersectionTEXT(query, false);
+      float alpha = surfaceAlpha(cand);
+      bool accepts = alpha >= 1.0f;
+      if (!accepts && mode == RL_RAY_PATH) accepts = traceAlphaAccepts(alphaKey, cand, alpha);
+      if (accepts) {
+        rayQueryConfirmIntersectionEXT(query);
+      } else {
+        transmittance *= 1.0f - alpha;
+      }
+    }
+  }
+  if (rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT)
+    return transmittance;
+  if (mode == RL_RAY_SHADOW) return 0.0f;
+  hit.instance = uint(rayQueryGetIntersectionInstanceCustomIndexEXT(query, true));
+  hit.primitive = uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, true));
+  hit.bary = rayQueryGetIntersectionBarycentricsEXT(query, true);
+  hit.t = rayQueryGetIntersectionTEXT(query, true);
+  return transmittance;
+}

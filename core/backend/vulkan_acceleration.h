@@ -1,0 +1,60 @@
+// What ray queries traverse: a bottom level for each geometry that instances use, a top level over
+// the instances. The driver builds both on the device, out of the scene's own buffers there.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/backend/vulkan_memory.h"
+#include "core/scene/bvh.h"
+
+namespace restlab {
+
+class VulkanAcceleration {
+ public:
+  // `scene`: what the host has of it; `placed`: the same with addresses of the device. Throws Error
+  // (deviceUnavailable) where memory or the device's limits do not suffice.
+  static std::unique_ptr<VulkanAcceleration> build(std::shared_ptr<VulkanMemory> memory,
+                                                   const BvhInput& scene,
+                                                   const rl::SceneData& placed);
+  ~VulkanAcceleration();
+  VulkanAcceleration(const VulkanAcceleration&) = delete;
+  VulkanAcceleration& operator=(const VulkanAcceleration&) = delete;
+
+  uint64_t address() const { return top_.address; }  // SceneData::accelerationStructure
+  size_t bytes() const;
+
+ private:
+  struct Calls;
+  struct Level {
+    VkAccelerationStructureKHR handle = VK_NULL_HANDLE;
+    GpuBuffer storage;
+    uint64_t address = 0;
+  };
+  // A level that is to be built; Vulkan's structs point into each other.
+  struct Plan {
+    VkAccelerationStructureGeometryKHR geometry{};
+    VkAccelerationStructureBuildGeometryInfoKHR info{};
+    VkAccelerationStructureBuildRangeInfoKHR range{};
+    VkDeviceSize scratchBytes = 0;
+    Level* level = nullptr;
+  };
+
+  explicit VulkanAcceleration(std::shared_ptr<VulkanMemory> memory);
+  void buildBottom(const BvhInput& scene, const rl::SceneData& placed);
+  void buildTop(const BvhInput& scene);
+  void checkLimits(const BvhInput& scene) const;
+  void create(Plan& plan);
+  void run(std::vector<Plan*> plans);
+  GpuBuffer allocateOnce(size_t bytes);
+
+  std::shared_ptr<VulkanMemory> memory_;
+  VulkanDevice& device_;
+  std::unique_ptr<Calls> calls_;
+  VkPhysicalDeviceAccelerationStructurePropertiesKHR limits_{};
+  std::vector<Level> bottom_;  // of each geometry; null where no instance uses it
+  Level top_;
+  std::vector<GpuBuffer> temporary_;  // freed when all is built
+};
+
+}  // namespace restlab

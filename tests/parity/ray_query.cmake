@@ -1,0 +1,11 @@
+# Ray queries: tested on the machine's own device where it has them, and everywhere on a driver that is
+# fetched for it. Without the network that test skips, visibly.
+target_sources(rl_tests_parity PRIVATE ${CMAKE_CURRENT_LIST_DIR}/ray_query_test.cpp)
+target_compile_definitions(rl_tests_parity PRIVATE
+  RESTLAB_RAY_QUERY_CACHE="${CMAKE_CURRENT_BINARY_DIR}/ray_query_cache")
+add_test(NAME parity.mesa_backport
+  COMMAND ${CMAKE_CURRENT_LIST_DIR}/mesa_backport.sh ${CMAKE_CURRENT_BINARY_DIR}/mesa_backport
+          $<TARGET_FILE:rl_tests_parity> --gtest_filter=*RayQuery*)
+# The driver is there for its ray queries: a case that finds none has failed.
+set_tests_properties(parity.mesa_backport PROPERTIES LABELS parity TIMEOUT 1200 COST 50
+  SKIP_RETURN_CODE 77 FAIL_REGULAR_EXPRESSION "SKIPPED: no Vulkan device")
