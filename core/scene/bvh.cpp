@@ -121,6 +121,43 @@ BvhNode nodeOf(const std::vector<Child>& children) {
   return node;
 }
 
+// The bounds of a triangle on either side of a plane, within what earlier splits have left of it.
+// A point where an edge meets the plane is moved out by its rounding error.
+void splitTriangle(const RTCBuildPrimitive* primitive, unsigned int axis, float position,
+                   RTCBounds* left, RTCBounds* right, void* user) {
+  const BvhTriangle& triangle = static_cast<const BvhTriangle*>(user)[primitive->primID];
+  const glm::vec3 corners[3] = {triangle.p0, triangle.p1, triangle.p2};
+  const int dim = static_cast<int>(axis);
+  Box sides[2];
+  for (int i = 0; i < 3; ++i) {
+    const glm::vec3 a = corners[i], b = corners[(i + 1) % 3];
+    if (a[dim] <= position) sides[0].add(a);
+    if (a[dim] >= position) sides[1].add(a);
+    if ((a[dim] < position) == (b[dim] < position) || a[dim] == b[dim]) continue;
+    const glm::vec3 at = a + (b - a) * ((position - a[dim]) / (b[dim] - a[dim]));
+    const glm::vec3 error = 4e-7f * glm::max(glm::abs(a), glm::abs(b));
+    for (Box& side : sides) {
+      side.add(at - error);
+      side.add(at + error);
+    }
+  }
+  const glm::vec3 low(primitive->lower_x, primitive->lower_y, primitive->lower_z);
+  const glm::vec3 high(primitive->upper_x, primitive->upper_y, primitive->upper_z);
+  for (int k = 0; k < 2; ++k) {
+    glm::vec3 from = glm::max(sides[k].low, low), to = glm::min(sides[k].high, high);
+    (k == 0 ? to : from)[dim] = position;
+    // Rounding may leave nothing of a sliver; a box with the wrong order would be none.
+    to = glm::max(from, to);
+    RTCBounds& bounds = k == 0 ? *left : *right;
+    bounds.lower_x = from.x;
+    bounds.lower_y = from.y;
+    bounds.lower_z = from.z;
+    bounds.upper_x = to.x;
+    bounds.upper_y = to.y;
+    bounds.upper_z = to.z;
+  }
+}
+
 struct ReleaseBvh {
   void operator()(RTCBVH bvh) const { rtcReleaseBVH(bvh); }
 };
@@ -243,7 +280,12 @@ class Builder {
   std::vector<Child> treeOfTriangles(const std::vector<Triangle>& triangles) {
     std::vector<Box> boxes;
     for (const Triangle& t : triangles) boxes.push_back(boxOf(t));
-    return tree(boxes, kLeafSize, [&](const BuildNode& leaf) {
+    // A triangle in two leaves would dim a shadow ray twice where it is transparent.
+    const bool mayRepeat =
+        std::none_of(in_.instances.begin(), in_.instances.end(),
+                     [](const rl::Instance& i) { return (i.flags & rl::RL_INSTANCE_ALPHA) != 0; });
+    const Triangle* splits = mayRepeat ? triangles.data() : nullptr;
+    return tree(boxes, kLeafSize, splits, [&](const BuildNode& leaf) {
       const uint32_t first = nextRecord(leaf.count);
       for (uint32_t i = 0; i < leaf.count; ++i)
         bvh_.records.push_back(std::bit_cast<BvhRecord>(triangles[leaf.items[i]]));
@@ -255,14 +297,16 @@ class Builder {
   std::vector<Child> treeOfInstances(const std::vector<uint32_t>& instances) {
     std::vector<Box> boxes;
     for (const uint32_t i : instances) boxes.push_back(boxOf(in_.instances[i]));
-    return tree(boxes, 1, [&](const BuildNode& leaf) {
+    return tree(boxes, 1, nullptr, [&](const BuildNode& leaf) {
       return rl::RL_BVH_INSTANCE | instances[leaf.items[0]];
     });
   }
 
-  // `number` gives the number of a leaf as a child.
+  // `number` gives the number of a leaf as a child. `splits`: the triangles of the boxes, where
+  // they may be split by planes (spatial splits, Stich et al. 2009); null: boxes stay whole.
   template <class Number>
-  std::vector<Child> tree(const std::vector<Box>& boxes, uint32_t leafSize, const Number& number) {
+  std::vector<Child> tree(const std::vector<Box>& boxes, uint32_t leafSize, const Triangle* splits,
+                          const Number& number) {
     Child child;
     if (boxes.empty()) return {};
     std::vector<RTCBuildPrimitive> primitives(boxes.size());
@@ -275,13 +319,19 @@ class Builder {
     const std::unique_ptr<std::remove_pointer_t<RTCBVH>, ReleaseBvh> memory(rtcNewBVH(device_));
     RTCBuildArguments arguments = rtcDefaultBuildArguments();
     arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
+    if (splits != nullptr) {
+      arguments.buildQuality = RTC_BUILD_QUALITY_HIGH;
+      arguments.splitPrimitive = splitTriangle;
+      arguments.userPtr = const_cast<Triangle*>(splits);
+      primitives.resize(boxes.size() + boxes.size() / 2);  // room for a half more
+    }
     arguments.maxBranchingFactor = kWidth;
     arguments.maxDepth = rl::RL_BVH_MAX_DEPTH;
     arguments.minLeafSize = 1;
     arguments.maxLeafSize = leafSize;
     arguments.bvh = memory.get();
     arguments.primitives = primitives.data();
-    arguments.primitiveCount = primitives.size();
+    arguments.primitiveCount = boxes.size();
     arguments.primitiveArrayCapacity = primitives.size();
     arguments.createNode = createNode;
     arguments.setNodeChildren = setChildren;

@@ -178,7 +178,8 @@ TEST_P(PathParity, SameSeedSameImage) {
   for (TestDevice& device : devices_) {
     const GpuBuffer radiance =
         device.memory->allocate(pixels * sizeof(rl::vec3), MemoryKind::device);
-    const std::shared_ptr<VulkanScene> uploaded = VulkanScene::of(device.memory, scene, SceneRays::bvh);
+    const std::shared_ptr<VulkanScene> uploaded =
+        VulkanScene::of(device.memory, scene, SceneRays::bvh);
     const GlslCounters counters =
         runOnDevice(device, "integrators/path/path.h", "integrators/path/path.glsl",
                     uploaded->address(), frame, {radiance.address}, &params, sizeof params);
