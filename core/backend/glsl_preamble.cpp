@@ -13,7 +13,7 @@ constexpr const char* kText = R"(#version 460
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
-{extensions}#include "core/dialect/order.h"
+{extensions}{reads}#include "core/dialect/order.h"
 #include "{header}"
 
 layout(local_size_x = {tile}, local_size_y = {tile}) in;
@@ -26,7 +26,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer RlS
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer RlFrameRef {{
   FrameData v;
 }};
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer RlBuffersRef {{
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer RlBuffersRef {{
   RL_KERNEL_BUFFERS v;
 }};
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer RlParamsRef {{
@@ -43,12 +43,71 @@ layout(push_constant, scalar) uniform RlPushConstants {{
   RlBuffersRef buffers;
   RlParamsRef params;
   RlCountersRef counters;
+  uint64_t sceneBase;  // address of the texels of the scene, and of the buffers
+  uint64_t stateBase;
 }} rlPush;
 
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer RlQuads {{ uvec4 data[]; }};
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer RlPairs {{ uint64_t data[]; }};
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer RlTriples {{ uvec3 data[]; }};
+#define RL_QUAD(ref, i) (RlQuads(uint64_t(ref)).data[i])
+
+#ifdef RL_TEXELS
+layout(set = 0, binding = 0, scalar) uniform RlScene {{ SceneData v; }} rlScene;
+layout(set = 0, binding = 1, scalar) uniform RlFrame {{ FrameData v; }} rlFrame;
+layout(set = 0, binding = 2, scalar) uniform RlBuffers {{ RL_KERNEL_BUFFERS v; }} rlBuffers;
+layout(set = 0, binding = 3, scalar) uniform RlParams {{ RL_KERNEL_PARAMS v; }} rlParams;
+layout(set = 0, binding = 4) uniform usamplerBuffer rlSceneQuads;
+layout(set = 0, binding = 5) uniform usamplerBuffer rlSceneWords;
+layout(set = 0, binding = 6) uniform usamplerBuffer rlStateQuads;
+#define gScene rlScene.v
+#define gFrame rlFrame.v
+#define gBuffers rlBuffers.v
+#define gParams rlParams.v
+int rlSceneQuadAt(uint64_t ref, uint i) {{ return int(uint((ref - rlPush.sceneBase) >> 4) + i); }}
+int rlSceneWordAt(uint64_t ref, uint i) {{ return int(uint((ref - rlPush.sceneBase) >> 2) + i); }}
+int rlStateQuadAt(uint64_t ref, uint i) {{ return int(uint((ref - rlPush.stateBase) >> 4) + i); }}
+uint rlSceneUint(uint64_t ref, uint i) {{ return texelFetch(rlSceneWords, rlSceneWordAt(ref, i)).x; }}
+uvec2 rlSceneUvec2(uint64_t ref, uint i) {{
+  int at = rlSceneWordAt(ref, i * 2u);
+  return uvec2(texelFetch(rlSceneWords, at).x, texelFetch(rlSceneWords, at + 1).x);
+}}
+uvec3 rlSceneUvec3(uint64_t ref, uint i) {{
+  int at = rlSceneWordAt(ref, i * 3u);
+  return uvec3(texelFetch(rlSceneWords, at).x, texelFetch(rlSceneWords, at + 1).x,
+               texelFetch(rlSceneWords, at + 2).x);
+}}
+void rlWriteQuad(uint64_t ref, uint i, uvec4 value) {{
+  RlPairs pairs = RlPairs(ref);
+  pairs.data[2u * i] = packUint2x32(uvec2(value.x, value.y));
+  pairs.data[2u * i + 1u] = packUint2x32(uvec2(value.z, value.w));
+}}
+#define RL_WRITE_QUAD(ref, i, value) rlWriteQuad(uint64_t(ref), i, value)
+#define RL_SCENE_QUAD(ref, i) texelFetch(rlSceneQuads, rlSceneQuadAt(uint64_t(ref), i))
+#define RL_PAST_QUAD(ref, i) texelFetch(rlStateQuads, rlStateQuadAt(uint64_t(ref), i))
+#define RL_SCENE_UINT(ref, i) rlSceneUint(uint64_t(ref), i)
+#define RL_SCENE_FLOAT(ref, i) uintBitsToFloat(rlSceneUint(uint64_t(ref), i))
+#define RL_SCENE_VEC2(ref, i) uintBitsToFloat(rlSceneUvec2(uint64_t(ref), i))
+#define RL_SCENE_VEC3(ref, i) uintBitsToFloat(rlSceneUvec3(uint64_t(ref), i))
+#define RL_SCENE_UVEC3(ref, i) rlSceneUvec3(uint64_t(ref), i)
+#define RL_LESSER(a, b) ((a) < (b) ? (a) : (b))
+#define RL_GREATER(a, b) ((a) > (b) ? (a) : (b))
+#else
 #define gScene rlPush.scene.v
 #define gFrame rlPush.frame.v
 #define gBuffers rlPush.buffers.v
 #define gParams rlPush.params.v
+#define RL_WRITE_QUAD(ref, i, value) RlQuads(uint64_t(ref)).data[i] = (value)
+#define RL_SCENE_QUAD(ref, i) RL_QUAD(ref, i)
+#define RL_PAST_QUAD(ref, i) RL_QUAD(ref, i)
+#define RL_SCENE_UINT(ref, i) ((ref).data[i])
+#define RL_SCENE_FLOAT(ref, i) ((ref).data[i])
+#define RL_SCENE_VEC2(ref, i) ((ref).data[i])
+#define RL_SCENE_VEC3(ref, i) ((ref).data[i])
+#define RL_SCENE_UVEC3(ref, i) (RlTriples(uint64_t(ref)).data[i])
+#define RL_LESSER(a, b) min(a, b)
+#define RL_GREATER(a, b) max(a, b)
+#endif
 #define RL_HAS(features) ((kFeatures & (features)) != 0u)
 // Health is rare; rays are counted by each thread and added up once by each subgroup.
 #define RL_HEALTH(kind) atomicAdd(rlPush.counters.health[kind], 1u)
@@ -77,7 +136,8 @@ void main() {{
 std::string glslKernelSource(const GlslKernel& kernel) {
   return fmt::format(kText, fmt::arg("header", kernel.header), fmt::arg("file", kernel.file),
                      fmt::arg("trace", kernel.traceFile), fmt::arg("tile", kGlslTile),
-                     fmt::arg("extensions", kernel.extensions));
+                     fmt::arg("extensions", kernel.extensions),
+                     fmt::arg("reads", kernel.readsTexels ? "#define RL_TEXELS\n" : ""));
 }
 
 }  // namespace restlab

@@ -15,6 +15,7 @@ struct GlslKernel {
   std::string file;             // defines kernelMain()
   std::string traceFile;        // defines traceRay()
   std::string extensions = {};  // "#extension" lines that the trace file needs
+  bool readsTexels = false;     // reads by texels and uniform blocks instead of addresses
 };
 
 // What defines traceRay().
@@ -36,6 +37,20 @@ struct GlslCounters {
   std::array<uint32_t, rl::RL_HEALTH_COUNT> health{};
 };
 
+// Bindings of set 0 of kernels that read by texels: the four structs as uniform blocks, the last
+// two with dynamic offsets, then the scene in texels of four words and of one, and the buffers in
+// texels of four.
+enum GlslBinding : uint32_t {
+  kGlslScene,
+  kGlslFrame,
+  kGlslBuffers,
+  kGlslParams,
+  kGlslSceneQuads,
+  kGlslSceneWords,
+  kGlslStateQuads,
+  kGlslBindingCount
+};
+
 // The push constants: device addresses of SceneData, FrameData, the kernel's Buffers and Params
 // structs, and GlslCounters.
 struct GlslPushConstants {
@@ -44,6 +59,9 @@ struct GlslPushConstants {
   uint64_t buffers = 0;
   uint64_t params = 0;
   uint64_t counters = 0;
+  // Where the scene's texels and those of the buffers begin, for kernels that read by texels.
+  uint64_t sceneBase = 0;
+  uint64_t stateBase = 0;
 };
 
 // The whole compute shader, with #include lines that the compiler's includer resolves against the

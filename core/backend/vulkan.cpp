@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
 #include <deque>
 #include <map>
+#include <tuple>
 
 #include "core/backend/backend.h"
 #include "core/backend/dialect_sources.h"
@@ -77,6 +79,7 @@ struct Slot {
   GpuBuffer inputs;    // frame data, then for each pass the addresses of its buffers and parameters
   GpuBuffer counters;  // GlslCounters for each band
   VkFence fence = VK_NULL_HANDLE;
+  VulkanKernels::Bound bound;  // where kernels read by texels
   std::map<RecordingKey, Recording> recordings;
   const Recording* running = nullptr;
   RecordingKey runningKey;
@@ -85,6 +88,8 @@ struct Slot {
 
 constexpr size_t kInputBytes = 64 * 1024;
 constexpr size_t kCounterBytes = 64 * 1024;
+constexpr size_t kPassOffset = 256;
+constexpr size_t kPlaceBytes = 256;  // alignment of a session's buffers
 constexpr size_t kPassBytes = 2048;  // addresses, then parameters
 constexpr size_t kPassParams = 1024;
 
@@ -124,11 +129,13 @@ class VulkanBackend final : public Backend {
     vkDeviceWaitIdle(device_.handle());
     for (Slot& slot : slots_) {
       for (auto& entry : slot.recordings) release(entry.second);
+      context_->kernels->release(slot.bound);
       if (slot.fence != VK_NULL_HANDLE) vkDestroyFence(device_.handle(), slot.fence, nullptr);
       memory_.free(slot.inputs);
       memory_.free(slot.counters);
     }
-    for (const GpuBuffer& buffer : buffers_) memory_.free(buffer);
+    for (const GpuBuffer& buffer : alone_) memory_.free(buffer);
+    memory_.free(together_);
   }
 
   void requireMemory(const std::string& what, uint32_t width, uint32_t height, uint64_t bufferBytes,
@@ -146,16 +153,25 @@ class VulkanBackend final : public Backend {
                             available >> 20));
   }
 
+  // Buffers wait for the first use of any: where kernels read by texels, they then get their places
+  // in one piece of memory. What comes later has its own.
   BufferId allocate(size_t bytes) override {
-    buffers_.push_back(memory_.allocate(bytes, MemoryKind::device));
-    memory_.clear(buffers_.back());
+    GpuBuffer buffer;
+    buffer.bytes = (std::max<size_t>(bytes, 1) + kPlaceBytes - 1) & ~(kPlaceBytes - 1);
+    if (isPlaced_) placeAlone(buffer);
+    buffers_.push_back(buffer);
     return static_cast<BufferId>(buffers_.size() - 1);
   }
-  void clear(BufferId buffer) override { memory_.clear(buffers_[buffer]); }
+  void clear(BufferId buffer) override {
+    placeBuffers();
+    memory_.clear(buffers_[buffer]);
+  }
   void write(BufferId buffer, const void* from, size_t bytes) override {
+    placeBuffers();
     memory_.write(buffers_[buffer], from, bytes);
   }
   void read(BufferId buffer, void* to, size_t bytes) override {
+    placeBuffers();
     memory_.read(buffers_[buffer], to, bytes);
   }
 
@@ -165,17 +181,20 @@ class VulkanBackend final : public Backend {
   }
 
   void prepare(const std::string& kernel, uint32_t mask, StartupReport& report) override {
-    pipelineOf(kernel, mask, report);
+    placeBuffers();
+    pipelineOf(kernel, mask, readsTexels_, report);
   }
 
   void submit(const std::vector<PassRun>& passes, const rl::FrameData& frame) override {
+    placeBuffers();
     if (underWay_.size() == kSlots) finished_.push_back(finishOldest());
     Slot& slot = slots_[next_];
     next_ = (next_ + 1) % kSlots;
     RecordingKey key{{}, frame.width, frame.height};
     StartupReport ignored;
     for (const PassRun& pass : passes)
-      key.pipelines.push_back(pipelineOf(pass.kernel, pass.mask, ignored));
+      key.pipelines.push_back(
+          pipelineOf(pass.kernel, pass.mask, readsTexels_ && isWithinTexels(pass), ignored));
     writeInputs(slot, passes, frame);
     auto found = slot.recordings.find(key);
     if (found == slot.recordings.end())
@@ -214,18 +233,76 @@ class VulkanBackend final : public Backend {
     failUsage("no kernel '" + kernel + "' in this build");
   }
 
-  VkPipeline pipelineOf(const std::string& kernel, uint32_t mask, StartupReport& report) {
-    VkPipeline& known = pipelines_[{kernel, mask}];
+  VkPipeline pipelineOf(const std::string& kernel, uint32_t mask, bool readsTexels,
+                        StartupReport& report) {
+    VkPipeline& known = pipelines_[{kernel, mask, readsTexels}];
     if (known == VK_NULL_HANDLE) {
       const DialectKernel& files = find(kernel);
-      known =
-          context_->kernels->pipeline({files.header, files.file, trace_.file, trace_.extensions},
-                                      kernel, mask, dialectSource, report);
+      known = context_->kernels->pipeline(
+          {files.header, files.file, trace_.file, trace_.extensions, readsTexels}, kernel, mask,
+          dialectSource, report);
     }
     return known;
   }
 
-  static size_t passOffset(size_t pass) { return 256 + pass * kPassBytes; }
+  void placeAlone(GpuBuffer& buffer) {
+    buffer = memory_.allocate(buffer.bytes, MemoryKind::device);
+    memory_.clear(buffer);
+    alone_.push_back(buffer);
+  }
+
+  void placeBuffers() {
+    if (isPlaced_) return;
+    isPlaced_ = true;
+    size_t total = 0;
+    for (const GpuBuffer& buffer : buffers_) total += buffer.bytes;
+    readsTexels_ = choosesTexels(total);
+    if (!readsTexels_) {
+      for (GpuBuffer& buffer : buffers_) placeAlone(buffer);
+      return;
+    }
+    together_ = memory_.allocate(total, MemoryKind::device);
+    memory_.clear(together_);
+    size_t offset = 0;
+    for (GpuBuffer& buffer : buffers_) {
+      buffer = VulkanMemory::part(together_, offset, buffer.bytes);
+      offset += buffer.bytes;
+    }
+    for (Slot& slot : slots_) {
+      const auto part = [&](size_t begin, size_t bytes) {
+        return VulkanMemory::part(slot.inputs, begin, bytes);
+      };
+      slot.bound = context_->kernels->bind(
+          {scene_->data(), part(0, kPassOffset), part(kPassOffset, kPassParams),
+           part(kPassOffset + kPassParams, kPassBytes - kPassParams), *scene_->arrays(),
+           together_});
+    }
+  }
+
+  // A driver in software reads four words through a texel in the time that one takes by address,
+  // which there is a loop over the lanes of a vector. RESTLAB_VULKAN_READS chooses otherwise.
+  bool choosesTexels(size_t bytes) const {
+    const size_t texels = device_.properties().limits.maxTexelBufferElements;
+    const GpuBuffer* arrays = scene_->arrays();
+    const bool fits = arrays != nullptr && arrays->bytes / 4 <= texels && bytes / 16 <= texels &&
+                      bytes <= device_.largestAllocation();
+    const char* wanted = std::getenv("RESTLAB_VULKAN_READS");
+    if (wanted == nullptr || *wanted == 0) return fits && device_.info().kind == "cpu";
+    if (std::string(wanted) != "texels" && std::string(wanted) != "addresses") {
+      failUsage(fmt::format("RESTLAB_VULKAN_READS={}: texels or addresses would be right", wanted));
+    }
+    return fits && std::string(wanted) == "texels";
+  }
+
+  // Texels reach the buffers that were placed together; a pass with others reads by address.
+  bool isWithinTexels(const PassRun& pass) const {
+    return std::all_of(pass.buffers.begin(), pass.buffers.end(), [this](BufferId b) {
+      return b == kNoBuffer ||
+             buffers_[b].address - together_.address < static_cast<uint64_t>(together_.bytes);
+    });
+  }
+
+  static size_t passOffset(size_t pass) { return kPassOffset + pass * kPassBytes; }
 
   void writeInputs(Slot& slot, const std::vector<PassRun>& passes, const rl::FrameData& frame) {
     std::memcpy(slot.inputs.mapped, &frame, sizeof frame);
@@ -286,7 +363,8 @@ class VulkanBackend final : public Backend {
     VkMemoryBarrier before{};
     before.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
     before.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
-    before.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT;
+    before.dstAccessMask =
+        VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_UNIFORM_READ_BIT;
     vkCmdPipelineBarrier(
         commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
         VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, 1, &before, 0, nullptr, 0, nullptr);
@@ -296,7 +374,15 @@ class VulkanBackend final : public Backend {
     push.buffers = slot.inputs.address + passOffset(band.pass);
     push.params = push.buffers + kPassParams;
     push.counters = slot.counters.address + index * sizeof(GlslCounters);
+    push.sceneBase = readsTexels_ ? scene_->arrays()->address : 0;
+    push.stateBase = together_.address;
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, key.pipelines[band.pass]);
+    if (slot.bound.set != VK_NULL_HANDLE) {
+      const auto offset = static_cast<uint32_t>(band.pass * kPassBytes);
+      const std::array<uint32_t, 2> offsets = {offset, offset};
+      vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, context_->kernels->layout(),
+                              0, 1, &slot.bound.set, offsets.size(), offsets.data());
+    }
     vkCmdPushConstants(commands, context_->kernels->layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
                        sizeof push, &push);
     timestamp(commands, recording, 2 * index);
@@ -400,8 +486,12 @@ class VulkanBackend final : public Backend {
   std::shared_ptr<VulkanScene> scene_;
   std::string rayTracing_;
   GlslTrace trace_{};
-  std::vector<GpuBuffer> buffers_;
-  std::map<std::pair<std::string, uint32_t>, VkPipeline> pipelines_;
+  std::vector<GpuBuffer> buffers_;  // by BufferId; of those not placed yet, the bytes
+  std::vector<GpuBuffer> alone_;    // those of them that are not parts of together_
+  GpuBuffer together_;
+  bool isPlaced_ = false;
+  bool readsTexels_ = false;
+  std::map<std::tuple<std::string, uint32_t, bool>, VkPipeline> pipelines_;
   std::map<VkPipeline, uint32_t> bandPixels_;  // of passes whose first bands took too long
   std::array<Slot, kSlots> slots_;
   uint32_t next_ = 0;

@@ -301,7 +301,14 @@ std::shared_ptr<VulkanDevice> VulkanDevice::open(const VulkanOptions& given) {
   device->instance_ = instance;
   device->info_ = chosen->first;
   device->physical_ = chosen->second;
-  vkGetPhysicalDeviceProperties(device->physical_, &device->properties_);
+  VkPhysicalDeviceMaintenance3Properties maintenance{};
+  maintenance.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;
+  VkPhysicalDeviceProperties2 properties{};
+  properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+  properties.pNext = &maintenance;
+  vkGetPhysicalDeviceProperties2(device->physical_, &properties);
+  device->properties_ = properties.properties;
+  device->largestAllocation_ = maintenance.maxMemoryAllocationSize;
   vkGetPhysicalDeviceMemoryProperties(device->physical_, &device->memory_);
   const uint32_t family = computeQueueFamily(device->physical_, &device->timestampBits_);
 

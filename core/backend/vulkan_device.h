@@ -43,6 +43,7 @@ class VulkanDevice {
   VkDevice handle() const { return device_; }
   VkPhysicalDevice physical() const { return physical_; }
   const VkPhysicalDeviceProperties& properties() const { return properties_; }
+  uint64_t largestAllocation() const { return largestAllocation_; }  // bytes
   bool hasTimestamps() const { return timestampBits_ != 0; }
   // Milliseconds between two timestamps.
   double timestampMs(uint64_t begin, uint64_t end) const;
@@ -66,6 +67,7 @@ class VulkanDevice {
   std::shared_ptr<Instance> instance_;
   VulkanDeviceInfo info_;
   VkPhysicalDeviceProperties properties_{};
+  uint64_t largestAllocation_ = 0;
   VkPhysicalDeviceMemoryProperties memory_{};
   VkPhysicalDevice physical_ = VK_NULL_HANDLE;
   VkDevice device_ = VK_NULL_HANDLE;

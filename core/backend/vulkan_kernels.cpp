@@ -34,6 +34,15 @@ std::string driverCacheNameOf(const VkPhysicalDeviceProperties& properties) {
                      properties.driverVersion);
 }
 
+constexpr size_t kPrimerBytes = 1024;
+
+VkDescriptorType typeOf(uint32_t binding) {
+  if (binding == kGlslScene || binding == kGlslFrame) return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+  if (binding == kGlslBuffers || binding == kGlslParams)
+    return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC;
+  return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+}
+
 // Everything that the shader is made of: its own text and that of all it may include.
 std::string expandedKey(const std::string& text, const SourceReader& read) {
   std::string all = fmt::format("glslang {}.{}.{} ", GLSLANG_VERSION_MAJOR, GLSLANG_VERSION_MINOR,
@@ -66,9 +75,20 @@ VulkanKernels::VulkanKernels(std::shared_ptr<VulkanMemory> memory,
       memory_(std::move(memory)),
       cache_(std::move(cacheFolder), [this](const std::string& line) { notices_.push_back(line); }),
       driverCacheName_(driverCacheNameOf(device_->properties())) {
+  std::array<VkDescriptorSetLayoutBinding, kGlslBindingCount> bindings{};
+  for (uint32_t i = 0; i < kGlslBindingCount; ++i)
+    bindings[i] = {i, typeOf(i), 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
+  VkDescriptorSetLayoutCreateInfo setLayout{};
+  setLayout.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+  setLayout.bindingCount = kGlslBindingCount;
+  setLayout.pBindings = bindings.data();
+  device_->check(vkCreateDescriptorSetLayout(device_->handle(), &setLayout, nullptr, &setLayout_),
+                 "vkCreateDescriptorSetLayout");
   const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(GlslPushConstants)};
   VkPipelineLayoutCreateInfo layout{};
   layout.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+  layout.setLayoutCount = 1;
+  layout.pSetLayouts = &setLayout_;
   layout.pushConstantRangeCount = 1;
   layout.pPushConstantRanges = &range;
   device_->check(vkCreatePipelineLayout(device_->handle(), &layout, nullptr, &layout_),
@@ -82,15 +102,19 @@ VulkanKernels::VulkanKernels(std::shared_ptr<VulkanMemory> memory,
   }
   device_->check(vkCreatePipelineCache(device_->handle(), &info, nullptr, &driverCache_),
                  "vkCreatePipelineCache");
-  primer_ = memory_->allocate(sizeof(rl::FrameData) + sizeof(GlslCounters), MemoryKind::device);
+  primer_ = memory_->allocate(kPrimerBytes, MemoryKind::device);
   memory_->clear(primer_);
+  primerBound_ = bind({primer_, primer_, primer_, primer_, primer_, primer_});
 }
 
 VulkanKernels::~VulkanKernels() {
   for (const auto& entry : pipelines_) vkDestroyPipeline(device_->handle(), entry.second, nullptr);
   if (driverCache_ != VK_NULL_HANDLE)
     vkDestroyPipelineCache(device_->handle(), driverCache_, nullptr);
+  release(primerBound_);
   if (layout_ != VK_NULL_HANDLE) vkDestroyPipelineLayout(device_->handle(), layout_, nullptr);
+  if (setLayout_ != VK_NULL_HANDLE)
+    vkDestroyDescriptorSetLayout(device_->handle(), setLayout_, nullptr);
   memory_->free(primer_);
 }
 
@@ -116,7 +140,8 @@ std::vector<uint32_t> VulkanKernels::spirvOf(const GlslKernel& kernel, const std
 
 VkPipeline VulkanKernels::pipeline(const GlslKernel& kernel, const std::string& name, uint32_t mask,
                                    const SourceReader& read, StartupReport& report) {
-  VkPipeline& known = pipelines_[{kernel.file + " " + kernel.traceFile, mask}];
+  const char* reads = kernel.readsTexels ? " texels" : "";
+  VkPipeline& known = pipelines_[{kernel.file + " " + kernel.traceFile + reads, mask}];
   if (known != VK_NULL_HANDLE) return known;
   const auto start = std::chrono::steady_clock::now();
   KernelReport done;
@@ -162,15 +187,80 @@ VkPipeline VulkanKernels::pipeline(const GlslKernel& kernel, const std::string& 
   return known;
 }
 
+VulkanKernels::Bound VulkanKernels::bind(const BoundRanges& ranges) {
+  Bound bound;
+  const VkDevice device = device_->handle();
+  const std::array<VkDescriptorPoolSize, 3> sizes = {
+      {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2},
+       {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, 2},
+       {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 3}}};
+  VkDescriptorPoolCreateInfo pool{};
+  pool.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+  pool.maxSets = 1;
+  pool.poolSizeCount = sizes.size();
+  pool.pPoolSizes = sizes.data();
+  device_->check(vkCreateDescriptorPool(device, &pool, nullptr, &bound.pool),
+                 "vkCreateDescriptorPool");
+  VkDescriptorSetAllocateInfo allocation{};
+  allocation.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+  allocation.descriptorPool = bound.pool;
+  allocation.descriptorSetCount = 1;
+  allocation.pSetLayouts = &setLayout_;
+  device_->check(vkAllocateDescriptorSets(device, &allocation, &bound.set),
+                 "vkAllocateDescriptorSets");
+  const auto viewOf = [&](const GpuBuffer& texels, VkFormat format) {
+    VkBufferViewCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO;
+    info.buffer = texels.buffer;
+    info.format = format;
+    info.offset = texels.offset;
+    info.range = texels.bytes;
+    VkBufferView view = VK_NULL_HANDLE;
+    device_->check(vkCreateBufferView(device, &info, nullptr, &view), "vkCreateBufferView");
+    return view;
+  };
+  bound.views = {viewOf(ranges.sceneTexels, VK_FORMAT_R32G32B32A32_UINT),
+                 viewOf(ranges.sceneTexels, VK_FORMAT_R32_UINT),
+                 viewOf(ranges.stateTexels, VK_FORMAT_R32G32B32A32_UINT)};
+  const std::array<const GpuBuffer*, 4> structs = {&ranges.scene, &ranges.frame, &ranges.buffers,
+                                                   &ranges.params};
+  std::array<VkDescriptorBufferInfo, 4> infos{};
+  std::array<VkWriteDescriptorSet, kGlslBindingCount> writes{};
+  for (uint32_t i = 0; i < kGlslBindingCount; ++i) {
+    writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+    writes[i].dstSet = bound.set;
+    writes[i].dstBinding = i;
+    writes[i].descriptorCount = 1;
+    writes[i].descriptorType = typeOf(i);
+    if (i < kGlslSceneQuads) {
+      infos[i] = {structs[i]->buffer, structs[i]->offset, structs[i]->bytes};
+      writes[i].pBufferInfo = &infos[i];
+    } else {
+      writes[i].pTexelBufferView = &bound.views[i - kGlslSceneQuads];
+    }
+  }
+  vkUpdateDescriptorSets(device, writes.size(), writes.data(), 0, nullptr);
+  return bound;
+}
+
+void VulkanKernels::release(Bound& bound) {
+  for (VkBufferView view : bound.views) vkDestroyBufferView(device_->handle(), view, nullptr);
+  if (bound.pool != VK_NULL_HANDLE) vkDestroyDescriptorPool(device_->handle(), bound.pool, nullptr);
+  bound = Bound();
+}
+
 // A first dispatch over no pixels: some drivers generate code only then, and that belongs to
 // start-up, not into a frame.
 void VulkanKernels::prime(VkPipeline pipeline) {
   GlslPushConstants push;
   push.frame = primer_.address;
   push.counters = primer_.address + sizeof(rl::FrameData);
+  const std::array<uint32_t, 2> offsets{};
   device_->runNow(
       [&](VkCommandBuffer commands) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1,
+                                &primerBound_.set, offsets.size(), offsets.data());
         vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof push, &push);
         vkCmdDispatch(commands, 1, 1, 1);
       },

@@ -1,6 +1,7 @@
 // Kernels as pipelines of a device: compiled once per feature mask, kept in memory and on disk.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -30,6 +31,20 @@ class VulkanKernels {
                       const SourceReader& read, StartupReport& report);
   VkPipelineLayout layout() const { return layout_; }
 
+  // The bindings of kernels that read by texels (GlslBinding); buffers and parameters lie at
+  // dynamic offsets behind those of `inputs`. End them with release().
+  struct Bound {
+    VkDescriptorPool pool = VK_NULL_HANDLE;
+    VkDescriptorSet set = VK_NULL_HANDLE;
+    std::array<VkBufferView, 3> views{};
+  };
+  struct BoundRanges {
+    GpuBuffer scene, frame, buffers, params;  // structs; the last two of one pass
+    GpuBuffer sceneTexels, stateTexels;
+  };
+  Bound bind(const BoundRanges& ranges);
+  void release(Bound& bound);
+
  private:
   std::vector<uint32_t> spirvOf(const GlslKernel& kernel, const std::string& name,
                                 const SourceReader& read, bool& fromDisk);
@@ -42,9 +57,11 @@ class VulkanKernels {
   KernelCache cache_;
   std::string driverCacheName_;
   VkPipelineCache driverCache_ = VK_NULL_HANDLE;
+  VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
-  GpuBuffer primer_;  // a frame of no pixels, then counters
-  std::map<std::pair<std::string, uint32_t>, VkPipeline> pipelines_;  // by its files and mask
+  Bound primerBound_;
+  GpuBuffer primer_;  // zeros: a frame of no pixels, counters
+  std::map<std::pair<std::string, uint32_t>, VkPipeline> pipelines_;  // by what it is and its mask
 };
 
 }  // namespace restlab

@@ -65,7 +65,8 @@ uint32_t VulkanMemory::newBlock(size_t bytes, MemoryKind kind) {
   VkBufferCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
   info.size = bytes;
-  info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
+  info.usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
+               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
                VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
   if (device_->info().hasRayQuery)
     info.usage |= VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR |
@@ -166,10 +167,19 @@ void VulkanMemory::free(const GpuBuffer& buffer) {
   if (block.holes.size() == 1 && block.holes.begin()->second == block.bytes) release(block);
 }
 
-void VulkanMemory::write(const GpuBuffer& to, const void* data, size_t bytes) {
+GpuBuffer VulkanMemory::part(const GpuBuffer& whole, size_t offset, size_t bytes) {
+  GpuBuffer buffer = whole;
+  buffer.offset += offset;
+  buffer.address += offset;
+  if (buffer.mapped != nullptr) buffer.mapped += offset;
+  buffer.bytes = bytes;
+  return buffer;
+}
+
+void VulkanMemory::write(const GpuBuffer& to, const void* data, size_t bytes, size_t offset) {
   if (bytes == 0) return;
   if (to.mapped != nullptr) {
-    std::memcpy(to.mapped, data, bytes);
+    std::memcpy(to.mapped + offset, data, bytes);
     return;
   }
   const GpuBuffer staging = allocate(std::min(bytes, kStagingBytes), MemoryKind::upload);
@@ -178,7 +188,7 @@ void VulkanMemory::write(const GpuBuffer& to, const void* data, size_t bytes) {
     std::memcpy(staging.mapped, static_cast<const std::byte*>(data) + done, part);
     device_->runNow(
         [&](VkCommandBuffer commands) {
-          const VkBufferCopy region{staging.offset, to.offset + done, part};
+          const VkBufferCopy region{staging.offset, to.offset + offset + done, part};
           vkCmdCopyBuffer(commands, staging.buffer, to.buffer, 1, &region);
         },
         "copying to the device");

@@ -40,13 +40,15 @@ class VulkanMemory {
   void free(const GpuBuffer& buffer);
 
   // Copies through memory that both sides see; wait until it is done.
-  void write(const GpuBuffer& to, const void* data, size_t bytes);
+  void write(const GpuBuffer& to, const void* data, size_t bytes, size_t offset = 0);
   void read(const GpuBuffer& from, void* data, size_t bytes);
   void clear(const GpuBuffer& buffer);
 
   VulkanDevice& device() const { return *device_; }
   uint64_t bytesAllocated() const { return bytesAllocated_; }  // in blocks
   uint64_t bytesAvailable(MemoryKind kind) const;
+  // A part of a buffer; not to be freed.
+  static GpuBuffer part(const GpuBuffer& whole, size_t offset, size_t bytes);
 
  private:
   struct Block {

@@ -24,14 +24,29 @@ std::shared_ptr<VulkanScene> VulkanScene::of(const std::shared_ptr<VulkanMemory>
 }
 
 void VulkanScene::upload(SceneRays rays) {
+  // All arrays lie in one buffer, which kernels may read through one view of texels.
+  const auto roundUp = [](size_t count) { return (count + 255) & ~size_t{255}; };
+  size_t total = 0;
+  const auto measure = [&](const void*, size_t count) {
+    total += roundUp(count);
+    return uint64_t{0};
+  };
+  scene_->placedAt(measure, rays == SceneRays::bvh);
+  const bool isWhole = total <= memory_->device().largestAllocation();
+  if (isWhole) buffers_.push_back(memory_->allocate(total, MemoryKind::device));
+  size_t offset = 0;
   const auto place = [&](const void* bytes, size_t count) {
-    const GpuBuffer buffer = memory_->allocate(count, MemoryKind::device);
-    buffers_.push_back(buffer);
-    bytes_ += buffer.bytes;
-    memory_->write(buffer, bytes, count);
-    return buffer.address;
+    if (!isWhole) {
+      buffers_.push_back(memory_->allocate(count, MemoryKind::device));
+      offset = 0;
+    }
+    memory_->write(buffers_.back(), bytes, count, offset);
+    const uint64_t address = buffers_.back().address + offset;
+    offset += roundUp(count);
+    return address;
   };
   rl::SceneData placed = scene_->placedAt(place, rays == SceneRays::bvh);
+  for (const GpuBuffer& buffer : buffers_) bytes_ += buffer.bytes;
   if (rays == SceneRays::query) {
     acceleration_ = VulkanAcceleration::build(memory_, scene_->bvhInput(), placed);
     const uint64_t address = acceleration_->address();

@@ -27,6 +27,9 @@ class VulkanScene {
 
   uint64_t address() const { return data_.address; }  // of the SceneData
   size_t bytes() const { return bytes_; }
+  const GpuBuffer& data() const { return data_; }  // the SceneData
+  // All that it leads to, but for acceleration structures; null where that is more than one buffer.
+  const GpuBuffer* arrays() const { return buffers_.size() == 1 ? buffers_.data() : nullptr; }
 
  private:
   VulkanScene(std::shared_ptr<VulkanMemory> memory, std::shared_ptr<const CompiledScene> scene)

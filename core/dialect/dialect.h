@@ -10,7 +10,9 @@
 #ifdef __cplusplus
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include <glm/glm.hpp>
 
@@ -27,6 +29,24 @@ using real3 = glm::dvec3;
 using real = float;
 using real3 = glm::vec3;
 #endif
+
+inline uint wordAt(const void* from, std::size_t i) {
+  uint word;
+  std::memcpy(&word, static_cast<const unsigned char*>(from) + 4 * i, sizeof word);
+  return word;
+}
+// Word by word: a compiler keeps each where it is needed, and reads no others.
+inline uvec4 quadAt(const void* from, uint i) {
+  const std::size_t at = std::size_t{4} * i;
+  return uvec4(wordAt(from, at), wordAt(from, at + 1), wordAt(from, at + 2), wordAt(from, at + 3));
+}
+inline uvec3 tripleAt(const void* from, uint i) {
+  const std::size_t at = std::size_t{3} * i;
+  return uvec3(wordAt(from, at), wordAt(from, at + 1), wordAt(from, at + 2));
+}
+inline void writeQuadAt(void* to, uint i, const uvec4& quad) {
+  std::memcpy(static_cast<unsigned char*>(to) + std::size_t{16} * i, &quad, sizeof quad);
+}
 
 }  // namespace rl
 
@@ -45,12 +65,23 @@ using real3 = glm::vec3;
   struct Name {         \
     T* data;            \
   };
-// The address of pairs of words: RL_PAIR(name, i) reads two words in one access.
-#define RL_PAIR_REF(Name) \
-  struct Name {           \
-    uvec2* data;          \
-  };
-#define RL_PAIR(ref, i) ((ref).data[i])
+// The lesser and the greater of two numbers that are not NaN: where one may be, min() and max()
+// cost some machines three instructions.
+#define RL_LESSER(a, b) ((a) < (b) ? (a) : (b))
+#define RL_GREATER(a, b) ((a) > (b) ? (a) : (b))
+// Four words in one access, whatever the type behind the address: quad i lies 16 i bytes behind it.
+#define RL_QUAD(ref, i) ::rl::quadAt((ref).data, i)
+#define RL_WRITE_QUAD(ref, i, value) ::rl::writeQuadAt((ref).data, i, value)
+// Of the scene, which no kernel writes: these may go through texels
+// (core/backend/glsl_preamble.cpp).
+#define RL_SCENE_QUAD(ref, i) RL_QUAD(ref, i)
+#define RL_SCENE_UINT(ref, i) ((ref).data[i])
+#define RL_SCENE_FLOAT(ref, i) ((ref).data[i])
+#define RL_SCENE_VEC2(ref, i) ((ref).data[i])
+#define RL_SCENE_VEC3(ref, i) ((ref).data[i])
+#define RL_SCENE_UVEC3(ref, i) ::rl::tripleAt((ref).data, i)
+// Of a buffer that the kernel which asks does not write.
+#define RL_PAST_QUAD(ref, i) RL_QUAD(ref, i)
 #define RL_STATIC_ASSERT_SIZE(T, bytes) static_assert(sizeof(T) == (bytes), #T " layout changed")
 
 #else  // GLSL 4.60
@@ -67,9 +98,6 @@ using real3 = glm::vec3;
 #define RL_PROTO(declaration) declaration;
 #define RL_REF(Name, T) \
   layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Name { T data[]; };
-#define RL_PAIR_REF(Name) \
-  layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Name { uint64_t data[]; };
-#define RL_PAIR(ref, i) unpackUint2x32((ref).data[i])
 #define RL_STATIC_ASSERT_SIZE(T, bytes)
 
 #endif

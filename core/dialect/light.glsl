@@ -7,7 +7,7 @@ RL_FN uint lightSelect(RL_IN(Rng) rng) {
   // 32 bits: 24 would favour some of 10^5 lights by a percent.
   uint i = rlMulHigh(rngBits(rng, RL_DIM_LIGHT_SELECT), gScene.lightCount);
   float uAlias = rngDraw(rng, RL_DIM_LIGHT_ALIAS);
-  AliasEntry entry = gScene.lightAlias.data[i];
+  AliasEntry entry = recordAlias(RL_SCENE_UVEC3(gScene.lightAlias, i));
   return uAlias < entry.keep ? i : entry.other;
 }
 
@@ -19,7 +19,7 @@ RL_FN_OUTLINE LightSample lightDraw(RL_IN(Rng) rng) {
   vec2 u;
   u.x = rngDraw(rng, RL_DIM_LIGHT_U);
   u.y = rngDraw(rng, RL_DIM_LIGHT_V);
-  Light light = gScene.lights.data[lightSelect(rng)];
+  Light light = recordLight(lightSelect(rng));
   s.kind = light.kind;
   s.point = light.p0;
   s.normal = vec3(0.0f, 0.0f, 0.0f);
@@ -119,7 +119,7 @@ RL_FN Ray lightShadowRay(RL_IN(LightSample) s, RL_IN(LightConnection) c, RL_IN(v
 
 // Solid-angle density with which lightDraw finds the emissive triangle that a path ray has hit.
 RL_FN float lightPdfOfHit(uint lightIndex, RL_IN(vec3) nGeoW, RL_IN(vec3) dirW, float distance) {
-  Light light = gScene.lights.data[lightIndex];
+  Light light = recordLight(lightIndex);
   float cosLight = abs(dot(nGeoW, dirW));
   return cosLight > 0.0f ? light.pmf * light.areaInverse * distance * distance / cosLight : 0.0f;
 }
@@ -127,7 +127,7 @@ RL_FN float lightPdfOfHit(uint lightIndex, RL_IN(vec3) nGeoW, RL_IN(vec3) dirW, 
 // The same for the environment seen in a direction.
 RL_FN float lightPdfOfEnvironment(RL_IN(vec3) dirW) {
   if (gScene.environmentLight == RL_INVALID) return 0.0f;
-  return gScene.lights.data[gScene.environmentLight].pmf * environmentPdf(dirW);
+  return recordLight(gScene.environmentLight).pmf * environmentPdf(dirW);
 }
 
 // Weight of a technique with density p against one with density q (power heuristic, exponent 2).

@@ -20,9 +20,9 @@ RL_FN vec3 surfaceToWorldNormal(RL_IN(Instance) inst, RL_IN(vec3) n) {
 RL_FN TriangleW surfaceTriangle(RL_IN(Instance) inst, RL_IN(Geometry) geometry,
                                 RL_IN(uvec3) corners) {
   TriangleW t;
-  t.p0 = gScene.positions.data[geometry.firstVertex + corners.x];
-  vec3 p1 = gScene.positions.data[geometry.firstVertex + corners.y];
-  vec3 p2 = gScene.positions.data[geometry.firstVertex + corners.z];
+  t.p0 = RL_SCENE_VEC3(gScene.positions, geometry.firstVertex + corners.x);
+  vec3 p1 = RL_SCENE_VEC3(gScene.positions, geometry.firstVertex + corners.y);
+  vec3 p2 = RL_SCENE_VEC3(gScene.positions, geometry.firstVertex + corners.z);
   t.e1 = p1 - t.p0;
   t.e2 = p2 - t.p0;
   vec3 corner = max(abs(t.p0), max(abs(p1), abs(p2)));
@@ -45,9 +45,9 @@ RL_FN TriangleW surfaceTriangle(RL_IN(Instance) inst, RL_IN(Geometry) geometry,
 RL_FN vec2 surfaceUv(RL_IN(Geometry) geometry, RL_IN(uvec3) corners, RL_IN(vec2) bary, uint uvSet) {
   uint offset = geometry.uvOffset[uvSet];
   if (offset == RL_INVALID) return vec2(0.0f, 0.0f);
-  vec2 a = gScene.uvs.data[offset + corners.x];
-  vec2 b = gScene.uvs.data[offset + corners.y];
-  vec2 c = gScene.uvs.data[offset + corners.z];
+  vec2 a = RL_SCENE_VEC2(gScene.uvs, offset + corners.x);
+  vec2 b = RL_SCENE_VEC2(gScene.uvs, offset + corners.y);
+  vec2 c = RL_SCENE_VEC2(gScene.uvs, offset + corners.z);
   return a + bary.x * (b - a) + bary.y * (c - a);
 }
 
@@ -56,26 +56,26 @@ RL_FN_OUTLINE vec4 surfaceSlot(RL_IN(Material) material, uint slot, RL_IN(Geomet
                                RL_IN(uvec3) corners, RL_IN(vec2) bary) {
   uint id = material.textures[slot];
   if (id == RL_INVALID) return vec4(1.0f, 1.0f, 1.0f, 1.0f);
-  Texture tex = gScene.textures.data[id];
+  Texture tex = recordTexture(id);
   return textureSample(tex, surfaceUv(geometry, corners, bary, tex.uvSet));
 }
 
 // Coverage of a hit: 1 opaque, 0 a hole.
 RL_FN_OUTLINE float surfaceAlpha(RL_IN(Hit) hit) {
-  Instance inst = gScene.instances.data[hit.instance];
-  Material material = gScene.materials.data[inst.material];
+  Instance inst = recordInstance(hit.instance);
+  Material material = recordMaterial(inst.material);
   if ((material.flags & (RL_MATERIAL_ALPHA_MASK | RL_MATERIAL_ALPHA_BLEND)) == 0u) return 1.0f;
-  Geometry geometry = gScene.geometries.data[inst.geometry];
-  uvec3 corners = gScene.triangles.data[geometry.firstTriangle + hit.primitive];
+  Geometry geometry = recordGeometry(inst.geometry);
+  uvec3 corners = RL_SCENE_UVEC3(gScene.triangles, geometry.firstTriangle + hit.primitive);
   float alpha = material.alpha;
   if (RL_HAS(RL_FEATURE_TEXTURES)) {
     vec4 texel = surfaceSlot(material, RL_TEX_BASE_COLOR, geometry, corners, hit.bary);
     alpha *= texel.w;
   }
   if (RL_HAS(RL_FEATURE_VERTEX_COLORS) && geometry.colorOffset != RL_INVALID) {
-    float a = gScene.colors.data[geometry.colorOffset + corners.x].w;
-    float b = gScene.colors.data[geometry.colorOffset + corners.y].w;
-    float c = gScene.colors.data[geometry.colorOffset + corners.z].w;
+    float a = recordVec4(RL_SCENE_QUAD(gScene.colors, geometry.colorOffset + corners.x)).w;
+    float b = recordVec4(RL_SCENE_QUAD(gScene.colors, geometry.colorOffset + corners.y)).w;
+    float c = recordVec4(RL_SCENE_QUAD(gScene.colors, geometry.colorOffset + corners.z)).w;
     alpha *= a + hit.bary.x * (b - a) + hit.bary.y * (c - a);
   }
   if ((material.flags & RL_MATERIAL_ALPHA_MASK) != 0u)
@@ -90,9 +90,9 @@ RL_FN vec3 surfaceTangentFromUv(RL_IN(TriangleW) t, RL_IN(Geometry) geometry, RL
   handedness = 1.0f;
   uint offset = geometry.uvOffset[uvSet];
   if (offset == RL_INVALID) return vec3(0.0f, 0.0f, 0.0f);
-  vec2 uv0 = gScene.uvs.data[offset + corners.x];
-  vec2 d1 = gScene.uvs.data[offset + corners.y] - uv0;
-  vec2 d2 = gScene.uvs.data[offset + corners.z] - uv0;
+  vec2 uv0 = RL_SCENE_VEC2(gScene.uvs, offset + corners.x);
+  vec2 d1 = RL_SCENE_VEC2(gScene.uvs, offset + corners.y) - uv0;
+  vec2 d2 = RL_SCENE_VEC2(gScene.uvs, offset + corners.z) - uv0;
   float det = d1.x * d2.y - d2.x * d1.y;
   if (det == 0.0f) return vec3(0.0f, 0.0f, 0.0f);
   handedness = det < 0.0f ? 1.0f : -1.0f;  // glTF's v axis points down
@@ -108,9 +108,9 @@ RL_FN_OUTLINE vec3 surfaceNormalMapped(RL_IN(Instance) inst, RL_IN(Geometry) geo
   vec3 tangentW = vec3(0.0f, 0.0f, 0.0f);
   float handedness = 1.0f;
   if (geometry.tangentOffset != RL_INVALID) {
-    vec4 a = gScene.tangents.data[geometry.tangentOffset + corners.x];
-    vec4 b = gScene.tangents.data[geometry.tangentOffset + corners.y];
-    vec4 c = gScene.tangents.data[geometry.tangentOffset + corners.z];
+    vec4 a = recordVec4(RL_SCENE_QUAD(gScene.tangents, geometry.tangentOffset + corners.x));
+    vec4 b = recordVec4(RL_SCENE_QUAD(gScene.tangents, geometry.tangentOffset + corners.y));
+    vec4 c = recordVec4(RL_SCENE_QUAD(gScene.tangents, geometry.tangentOffset + corners.z));
     vec4 v = a + bary.x * (b - a) + bary.y * (c - a);
     tangentW = vec3(v);
     handedness = v.w < 0.0f ? -1.0f : 1.0f;
@@ -118,7 +118,7 @@ RL_FN_OUTLINE vec3 surfaceNormalMapped(RL_IN(Instance) inst, RL_IN(Geometry) geo
       tangentW = surfaceToWorldVector(inst, tangentW);
     }
   } else {
-    uint uvSet = gScene.textures.data[material.textures[RL_TEX_NORMAL]].uvSet;
+    uint uvSet = recordTexture(material.textures[RL_TEX_NORMAL]).uvSet;
     tangentW = surfaceTangentFromUv(t, geometry, corners, uvSet, handedness);
   }
   // The image on a mirrored instance is mirrored too, and a cross product is not.
@@ -149,10 +149,10 @@ RL_FN vec2 surfaceInnerBary(RL_IN(TriangleW) t, float area2, float posError, RL_
 
 RL_FN Surface surfaceLoad(RL_IN(Hit) hit, RL_IN(vec3) rayDir) {
   Surface s;
-  Instance inst = gScene.instances.data[hit.instance];
-  Geometry geometry = gScene.geometries.data[inst.geometry];
-  Material material = gScene.materials.data[inst.material];
-  uvec3 corners = gScene.triangles.data[geometry.firstTriangle + hit.primitive];
+  Instance inst = recordInstance(hit.instance);
+  Geometry geometry = recordGeometry(inst.geometry);
+  Material material = recordMaterial(inst.material);
+  uvec3 corners = RL_SCENE_UVEC3(gScene.triangles, geometry.firstTriangle + hit.primitive);
   TriangleW t = surfaceTriangle(inst, geometry, corners);
   s.posError = RL_HIT_ERROR * t.magnitude;
   s.wo = -rayDir;
@@ -168,9 +168,9 @@ RL_FN Surface surfaceLoad(RL_IN(Hit) hit, RL_IN(vec3) rayDir) {
   bool isFront = dot(nGeo, s.wo) > 0.0f;
   vec3 nShade = nGeo;
   if (RL_HAS(RL_FEATURE_SMOOTH_NORMALS) && geometry.normalOffset != RL_INVALID) {
-    vec3 a = gScene.normals.data[geometry.normalOffset + corners.x];
-    vec3 b = gScene.normals.data[geometry.normalOffset + corners.y];
-    vec3 c = gScene.normals.data[geometry.normalOffset + corners.z];
+    vec3 a = RL_SCENE_VEC3(gScene.normals, geometry.normalOffset + corners.x);
+    vec3 b = RL_SCENE_VEC3(gScene.normals, geometry.normalOffset + corners.y);
+    vec3 c = RL_SCENE_VEC3(gScene.normals, geometry.normalOffset + corners.z);
     vec3 n = a + hit.bary.x * (b - a) + hit.bary.y * (c - a);
     if (RL_HAS(RL_FEATURE_INSTANCES) && (inst.flags & RL_INSTANCE_IDENTITY) == 0u) {
       n = surfaceToWorldNormal(inst, n);
@@ -196,9 +196,16 @@ RL_FN Surface surfaceLoad(RL_IN(Hit) hit, RL_IN(vec3) rayDir) {
   float specular = material.specular;
   vec3 specularColor = material.specularColor;
   if (RL_HAS(RL_FEATURE_TEXTURES | RL_FEATURE_EMISSIVE_TEXTURES)) {
-    // One call site of texture filtering for all slots.
+    uint waiting = 0u;
     for (uint slot = 0u; slot < RL_TEX_COUNT; slot = slot + 1u) {
-      if (slot == RL_TEX_NORMAL || material.textures[slot] == RL_INVALID) continue;
+      if (slot != RL_TEX_NORMAL && material.textures[slot] != RL_INVALID)
+        waiting = waiting | (1u << slot);
+    }
+    // One call site of texture filtering for all slots; a round for each that is there, as rays
+    // side by side pay for every round of any.
+    while (waiting != 0u) {
+      uint slot = uint(findLSB(waiting));
+      waiting = waiting & (waiting - 1u);
       vec4 texel = surfaceSlot(material, slot, geometry, corners, hit.bary);
       if (slot == RL_TEX_BASE_COLOR) baseColor *= vec3(texel);
       if (slot == RL_TEX_METALLIC_ROUGHNESS) {
@@ -212,9 +219,9 @@ RL_FN Surface surfaceLoad(RL_IN(Hit) hit, RL_IN(vec3) rayDir) {
     }
   }
   if (RL_HAS(RL_FEATURE_VERTEX_COLORS) && geometry.colorOffset != RL_INVALID) {
-    vec4 a = gScene.colors.data[geometry.colorOffset + corners.x];
-    vec4 b = gScene.colors.data[geometry.colorOffset + corners.y];
-    vec4 c = gScene.colors.data[geometry.colorOffset + corners.z];
+    vec4 a = recordVec4(RL_SCENE_QUAD(gScene.colors, geometry.colorOffset + corners.x));
+    vec4 b = recordVec4(RL_SCENE_QUAD(gScene.colors, geometry.colorOffset + corners.y));
+    vec4 c = recordVec4(RL_SCENE_QUAD(gScene.colors, geometry.colorOffset + corners.z));
     baseColor *= vec3(a + hit.bary.x * (b - a) + hit.bary.y * (c - a));
   }
 

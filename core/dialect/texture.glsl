@@ -13,14 +13,14 @@ RL_FN int textureWrap(int i, uint n, uint mode) {
 RL_FN vec4 textureTexel(RL_IN(Texture) tex, int x, int y) {
   uint index = tex.firstTexel + uint(textureWrap(y, tex.height, tex.wrapV)) * tex.width +
                uint(textureWrap(x, tex.width, tex.wrapU));
-  uint texel = gScene.texels.data[index];
+  uint texel = RL_SCENE_UINT(gScene.texels, index);
   uint r = texel & 255u;
   uint g = (texel >> 8u) & 255u;
   uint b = (texel >> 16u) & 255u;
   float a = float(texel >> 24u) * (1.0f / 255.0f);
   if ((tex.flags & RL_TEXTURE_SRGB) != 0u) {
-    return vec4(gScene.srgbToLinear.data[r], gScene.srgbToLinear.data[g],
-                gScene.srgbToLinear.data[b], a);
+    return vec4(RL_SCENE_FLOAT(gScene.srgbToLinear, r), RL_SCENE_FLOAT(gScene.srgbToLinear, g),
+                RL_SCENE_FLOAT(gScene.srgbToLinear, b), a);
   }
   return vec4(float(r) * (1.0f / 255.0f), float(g) * (1.0f / 255.0f), float(b) * (1.0f / 255.0f),
               a);

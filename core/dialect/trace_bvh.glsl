@@ -37,9 +37,12 @@ RL_FN float bvhEnter(RL_IN(BvhRay) r, RL_IN(vec3) origin, RL_IN(vec3) cell, RL_I
                        float((far.z >> shift) & 255u));
   vec3 a = (origin + nearBytes * cell - r.origin) * r.inverseDir;
   vec3 b = (origin + farBytes * cell - r.origin) * r.inverseDir;
-  float enter = max(max(a.x, a.y), max(a.z, tMin));
-  float leave = min(min(b.x, b.y), b.z) * 1.0000008f;
-  return enter <= min(leave, tMax) ? enter : 3.0e38f;
+  float enterXY = RL_GREATER(a.x, a.y);
+  float enterZ = RL_GREATER(a.z, tMin);
+  float enter = RL_GREATER(enterXY, enterZ);
+  float leaveXY = RL_LESSER(b.x, b.y);
+  float leave = RL_LESSER(leaveXY, b.z) * 1.0000008f;
+  return enter <= leave && enter <= tMax ? enter : 3.0e38f;
 }
 
 // Two children, the nearer one first.
@@ -55,13 +58,13 @@ RL_FN void bvhOrder(RL_INOUT(float) entryA, RL_INOUT(uint) childA, RL_INOUT(floa
 }
 
 RL_FN BvhHits bvhChildren(RL_IN(BvhRay) r, RL_IN(BvhWords) record, float tMin, float tMax) {
-  vec3 origin = vec3(uintBitsToFloat(record.w0.x), uintBitsToFloat(record.w0.y),
-                     uintBitsToFloat(record.w1.x));
-  vec3 cell = vec3(uintBitsToFloat((record.w1.y & 255u) << 23u),
-                   uintBitsToFloat(((record.w1.y >> 8u) & 255u) << 23u),
-                   uintBitsToFloat(((record.w1.y >> 16u) & 255u) << 23u));
-  uvec3 low = uvec3(record.w2.x, record.w2.y, record.w3.x);
-  uvec3 high = uvec3(record.w3.y, record.w4.x, record.w4.y);
+  vec3 origin = vec3(uintBitsToFloat(record.q0.x), uintBitsToFloat(record.q0.y),
+                     uintBitsToFloat(record.q0.z));
+  vec3 cell = vec3(uintBitsToFloat((record.q0.w & 255u) << 23u),
+                   uintBitsToFloat(((record.q0.w >> 8u) & 255u) << 23u),
+                   uintBitsToFloat(((record.q0.w >> 16u) & 255u) << 23u));
+  uvec3 low = uvec3(record.q1.x, record.q1.y, record.q1.z);
+  uvec3 high = uvec3(record.q1.w, record.q2.x, record.q2.y);
   uvec3 near = uvec3(r.inverseDir.x < 0.0f ? high.x : low.x, r.inverseDir.y < 0.0f ? high.y : low.y,
                      r.inverseDir.z < 0.0f ? high.z : low.z);
   uvec3 far = uvec3(r.inverseDir.x < 0.0f ? low.x : high.x, r.inverseDir.y < 0.0f ? low.y : high.y,
@@ -70,10 +73,10 @@ RL_FN BvhHits bvhChildren(RL_IN(BvhRay) r, RL_IN(BvhWords) record, float tMin, f
   float e1 = bvhEnter(r, origin, cell, near, far, 8u, tMin, tMax);
   float e2 = bvhEnter(r, origin, cell, near, far, 16u, tMin, tMax);
   float e3 = bvhEnter(r, origin, cell, near, far, 24u, tMin, tMax);
-  uint c0 = record.w5.x;
-  uint c1 = record.w5.y;
-  uint c2 = record.w6.x;
-  uint c3 = record.w6.y;
+  uint c0 = record.q2.z;
+  uint c1 = record.q2.w;
+  uint c2 = record.q3.x;
+  uint c3 = record.q3.y;
   e0 = c0 != RL_INVALID ? e0 : 3.0e38f;
   e1 = c1 != RL_INVALID ? e1 : 3.0e38f;
   e2 = c2 != RL_INVALID ? e2 : 3.0e38f;
@@ -99,14 +102,14 @@ RL_FN vec2 bvhCorner(RL_IN(BvhRay) r, RL_IN(vec3) corner) {
 // products has the right sign or is 0, and an edge (0) belongs to both of its triangles.
 RL_FN bool bvhTriangle(RL_IN(BvhRay) r, RL_IN(BvhWords) record, float tMin, float tMax,
                        RL_INOUT(Hit) hit) {
-  vec3 p0 = vec3(uintBitsToFloat(record.w0.x), uintBitsToFloat(record.w0.y),
-                 uintBitsToFloat(record.w1.x)) -
+  vec3 p0 = vec3(uintBitsToFloat(record.q0.x), uintBitsToFloat(record.q0.y),
+                 uintBitsToFloat(record.q0.z)) -
             r.origin;
-  vec3 p1 = vec3(uintBitsToFloat(record.w1.y), uintBitsToFloat(record.w2.x),
-                 uintBitsToFloat(record.w2.y)) -
+  vec3 p1 = vec3(uintBitsToFloat(record.q0.w), uintBitsToFloat(record.q1.x),
+                 uintBitsToFloat(record.q1.y)) -
             r.origin;
-  vec3 p2 = vec3(uintBitsToFloat(record.w3.x), uintBitsToFloat(record.w3.y),
-                 uintBitsToFloat(record.w4.x)) -
+  vec3 p2 = vec3(uintBitsToFloat(record.q1.z), uintBitsToFloat(record.q1.w),
+                 uintBitsToFloat(record.q2.x)) -
             r.origin;
   vec2 a = bvhCorner(r, p0);
   vec2 b = bvhCorner(r, p1);
@@ -152,23 +155,18 @@ RL_FN float traceRay(RL_IN(Ray) ray, uint mode, uint alphaKey, RL_OUT(Hit) hit) 
   uint height = 0u;
   uint current = 0u;
   BvhStack stack;
-  // Read once: no compiler may take them out of the loop, as kernels write to other buffers.
-  PairRef records = gScene.bvh;
   for (;;) {
     bool pops = true;
     uint kind = current & RL_BVH_KIND;
     // One reading for nodes and triangles alike: where both branches below cost the same to rays
     // side by side, this one does not.
     uint at = (current & RL_BVH_INSTANCE) == 0u ? current & RL_BVH_LEAF_FIRST : 0u;
-    at = at * RL_BVH_RECORD_PAIRS;
+    at = at * RL_BVH_RECORD_QUADS;
     BvhWords record;
-    record.w0 = RL_PAIR(records, at);
-    record.w1 = RL_PAIR(records, at + 1u);
-    record.w2 = RL_PAIR(records, at + 2u);
-    record.w3 = RL_PAIR(records, at + 3u);
-    record.w4 = RL_PAIR(records, at + 4u);
-    record.w5 = RL_PAIR(records, at + 5u);
-    record.w6 = RL_PAIR(records, at + 6u);
+    record.q0 = RL_SCENE_QUAD(gScene.bvh, at);
+    record.q1 = RL_SCENE_QUAD(gScene.bvh, at + 1u);
+    record.q2 = RL_SCENE_QUAD(gScene.bvh, at + 2u);
+    record.q3 = RL_SCENE_QUAD(gScene.bvh, at + 3u);
     if (kind == 0u) {
       BvhHits hits = bvhChildren(r, record, ray.tMin, nearest);
       if (hits.entry.w < 3.0e38f) {
@@ -199,11 +197,11 @@ RL_FN float traceRay(RL_IN(Ray) ray, uint mode, uint alphaKey, RL_OUT(Hit) hit) 
       }
       Hit cand = hit;
       if (bvhTriangle(r, record, ray.tMin, nearest, cand)) {
-        cand.instance = instance == RL_INVALID ? record.w5.x : instance;
-        cand.primitive = record.w5.y;
+        cand.instance = instance == RL_INVALID ? record.q2.z : instance;
+        cand.primitive = record.q2.w;
         float alpha = 1.0f;
         if (RL_HAS(RL_FEATURE_ALPHA)) {
-          bool asks = instance == RL_INVALID ? record.w4.y != 0u : isTransparent;
+          bool asks = instance == RL_INVALID ? record.q2.y != 0u : isTransparent;
           if (asks) alpha = surfaceAlpha(cand);
         }
         bool accepts = true;
@@ -219,7 +217,7 @@ RL_FN float traceRay(RL_IN(Ray) ray, uint mode, uint alphaKey, RL_OUT(Hit) hit) 
       }
     } else if (RL_HAS(RL_FEATURE_INSTANCES) && kind == RL_BVH_INSTANCE) {
       instance = current & ~RL_BVH_KIND;
-      Instance inst = gScene.instances.data[instance];
+      Instance inst = recordInstance(instance);
       isTransparent = (inst.flags & RL_INSTANCE_ALPHA) != 0u;
       floorOfInstance = height;
       vec4 o = vec4(world.origin, 1.0f);
@@ -228,7 +226,7 @@ RL_FN float traceRay(RL_IN(Ray) ray, uint mode, uint alphaKey, RL_OUT(Hit) hit) 
                       dot(inst.worldToObjectRow2, o)),
                  vec3(dot(inst.worldToObjectRow0, d), dot(inst.worldToObjectRow1, d),
                       dot(inst.worldToObjectRow2, d)));
-      current = gScene.bvhRoots.data[inst.geometry];
+      current = RL_SCENE_UINT(gScene.bvhRoots, inst.geometry);
       pops = false;
     }
     if (pops) {

@@ -18,15 +18,12 @@ struct BvhRay {
   vec2 shear;  // takes dir to that axis: the other two over it
 };
 
-// Seven pairs of the next node or triangle.
+// The next node or triangle.
 struct BvhWords {
-  uvec2 w0;
-  uvec2 w1;
-  uvec2 w2;
-  uvec2 w3;
-  uvec2 w4;
-  uvec2 w5;
-  uvec2 w6;
+  uvec4 q0;
+  uvec4 q1;
+  uvec4 q2;
+  uvec4 q3;
 };
 
 // Children of a node, x nearest; entry 3e38: the ray misses it.

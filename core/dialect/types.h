@@ -41,8 +41,10 @@ struct Geometry {
   uint tangentOffset;
   uint colorOffset;
   uint uvOffset[4];
+  uint padding0;
+  uint padding1;
 };
-RL_STATIC_ASSERT_SIZE(Geometry, 40);
+RL_STATIC_ASSERT_SIZE(Geometry, 48);
 
 const uint RL_INSTANCE_IDENTITY = 1u;  // vertices are stored in world space
 const uint RL_INSTANCE_FLIPPED = 2u;   // the transform mirrors: winding is reversed
@@ -116,8 +118,11 @@ struct Texture {
   uint wrapV;
   uint flags;
   uint uvSet;
+  uint padding0;
+  uint padding1;
+  uint padding2;
 };
-RL_STATIC_ASSERT_SIZE(Texture, 52);
+RL_STATIC_ASSERT_SIZE(Texture, 64);
 
 // Kinds of entries in the light table.
 const uint RL_LIGHT_TRIANGLE = 0u;
@@ -141,8 +146,9 @@ struct Light {
   uint primitive;
   uint flags;       // RL_MATERIAL_DOUBLE_SIDED, RL_LIGHT_FLIPPED
   float magnitude;  // metres; of a triangle's corners and of what its transform went through
+  uint padding;
 };
-RL_STATIC_ASSERT_SIZE(Light, 76);
+RL_STATIC_ASSERT_SIZE(Light, 80);
 
 // Vose alias method: column i keeps i with probability `keep`, otherwise gives `other`.
 struct AliasEntry {
@@ -153,13 +159,13 @@ struct AliasEntry {
 RL_STATIC_ASSERT_SIZE(AliasEntry, 12);
 
 // The project's own bounding volume hierarchy (core/scene/bvh.h): four children a node, read in
-// pairs of words. A child is a node's record, RL_INVALID (none), or one of:
+// quads of words. A child is a node's record, RL_INVALID (none), or one of:
 const uint RL_BVH_LEAF = 0x40000000u;      // count << 26 | record of its first triangle
 const uint RL_BVH_INSTANCE = 0x80000000u;  // | number of the instance
 const uint RL_BVH_KIND = 0xc0000000u;      // mask of the two
 const uint RL_BVH_LEAF_COUNT_SHIFT = 26u;
 const uint RL_BVH_LEAF_FIRST = 0x03ffffffu;  // mask
-const uint RL_BVH_RECORD_PAIRS = 8u;         // of a node or a triangle
+const uint RL_BVH_RECORD_QUADS = 4u;         // of a node or a triangle
 // Largest number of nodes between a root and a leaf; the two levels have one each.
 const uint RL_BVH_MAX_DEPTH = 26u;
 const uint RL_BVH_STACK = 160u;  // three children left behind at every node of both levels
@@ -191,9 +197,11 @@ RL_REF(MaterialRef, Material)
 RL_REF(TextureRef, Texture)
 RL_REF(LightRef, Light)
 RL_REF(AliasRef, AliasEntry)
-RL_PAIR_REF(PairRef)
+RL_REF(QuadRef, uvec4)
 
-// Everything a kernel reads of the scene, by address.
+// Everything a kernel reads of the scene, by address; through core/dialect/records.glsl. Geometry,
+// Instance, Material, Texture and Light are read in quads of words: their sizes are multiples
+// of 16.
 struct SceneData {
   Vec3Ref positions;
   Vec3Ref normals;
@@ -213,7 +221,7 @@ struct SceneData {
   AliasRef environmentAlias;  // pmf per texel
   Vec2Ref ggxAlbedo;          // core/scene/ggx_albedo.h; null unless a session compensates
   // The project's own hierarchy: null unless a session traces it. The world's root is record 0.
-  PairRef bvh;                  // RL_BVH_RECORD_PAIRS a record
+  QuadRef bvh;                  // RL_BVH_RECORD_QUADS a record
   UintRef bvhRoots;             // record of the root of each geometry that is shared by instances
   uvec2 accelerationStructure;  // its address on a device that traces by ray queries; else 0
   uint lightCount;

@@ -8,11 +8,11 @@
 
 RL_NAMESPACE_BEGIN
 
-const uint RL_STREAM_WORDS = 16u;  // that each pixel reads and writes
+const uint RL_STREAM_QUADS = 4u;  // that each pixel reads and writes
 
 struct StreamBuffers {
-  UintRef from;
-  UintRef to;
+  QuadRef from;
+  QuadRef to;
 };
 
 struct StreamParams {

@@ -9,9 +9,16 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   hit.primitive = RL_INVALID;
   hit.bary = vec2(0.0f, 0.0f);
   hit.t = 0.0f;
-  Ray ray = gBuffers.rays.data[index];
+  uvec4 q0 = RL_PAST_QUAD(gBuffers.queries, 3u * index);
+  uvec4 q1 = RL_PAST_QUAD(gBuffers.queries, 3u * index + 1u);
+  uvec4 q2 = RL_PAST_QUAD(gBuffers.queries, 3u * index + 2u);
+  Ray ray;
+  ray.origin = recordVec3(q0);
+  ray.tMin = uintBitsToFloat(q0.w);
+  ray.dir = recordVec3(q1);
+  ray.tMax = uintBitsToFloat(q1.w);
   TraceResult result;
-  result.transmittance = traceRay(ray, gParams.mode, gParams.alphaKey, hit);
+  result.transmittance = traceRay(ray, q2.x, q2.y, hit);
   result.hit = hit;
   gBuffers.results.data[index] = result;
 }

@@ -14,18 +14,25 @@ struct TraceResult {
 };
 RL_STATIC_ASSERT_SIZE(TraceResult, 24);
 
-RL_REF(RayRef, Ray)
+// A ray to trace, read in quads. Each has its mode, as rays of integrators do.
+struct TraceQuery {
+  Ray ray;
+  uint mode;  // RL_RAY_PATH or RL_RAY_SHADOW
+  uint alphaKey;
+  uint padding0;
+  uint padding1;
+};
+RL_STATIC_ASSERT_SIZE(TraceQuery, 48);
+
 RL_REF(TraceResultRef, TraceResult)
 
 struct TraceBuffers {
-  RayRef rays;
+  QuadRef queries;
   TraceResultRef results;
 };
 
 struct TraceParams {
   uint count;  // rays; at least this many pixels are dispatched
-  uint mode;   // RL_RAY_PATH or RL_RAY_SHADOW
-  uint alphaKey;
 };
 
 RL_NAMESPACE_END

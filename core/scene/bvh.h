@@ -33,7 +33,7 @@ struct BvhTriangle {
 
 // A node or a triangle, of one size: a ray reads the next of either kind in the same step.
 struct BvhRecord {
-  uint32_t words[2 * rl::RL_BVH_RECORD_PAIRS] = {};
+  uint32_t words[4 * rl::RL_BVH_RECORD_QUADS] = {};
 };
 static_assert(sizeof(BvhNode) == sizeof(BvhRecord) && sizeof(BvhTriangle) == sizeof(BvhRecord));
 

@@ -361,7 +361,7 @@ const Bvh& CompiledScene::bindBvh() const {
   Impl& m = *impl_;
   std::call_once(m.bvhBound, [&] {
     m.bvh = buildBvh(m.device, bvhInput());
-    m.data.bvh.data = reinterpret_cast<glm::uvec2*>(m.bvh.records.data());
+    m.data.bvh.data = reinterpret_cast<glm::uvec4*>(m.bvh.records.data());
     m.data.bvhRoots.data = m.bvh.roots.data();
   });
   return m.bvh;
@@ -398,7 +398,7 @@ rl::SceneData CompiledScene::placedAt(const Place& place, bool withBvh) const {
   move(placed.environment, m.lights.environment.size());
   move(placed.environmentAlias, m.lights.environmentAlias.size());
   move(placed.ggxAlbedo, m.data.ggxAlbedo.data != nullptr ? ggxAlbedoTable().size() : 0);
-  move(placed.bvh, withBvh ? m.bvh.records.size() * rl::RL_BVH_RECORD_PAIRS : 0);
+  move(placed.bvh, withBvh ? m.bvh.records.size() * rl::RL_BVH_RECORD_QUADS : 0);
   move(placed.bvhRoots, withBvh ? m.bvh.roots.size() : 0);
   return placed;
 }

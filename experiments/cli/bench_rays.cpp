@@ -48,29 +48,41 @@ std::vector<std::byte> bytesOf(const Params& params) {
   return bytes;
 }
 
-double rayRate(Backend& backend, uint32_t mask, const std::vector<rl::Ray>& rays, uint32_t mode,
-               double seconds) {
-  if (rays.empty()) return 0.0;
+// Buffers are allocated before the first pass runs: a backend places them together.
+PassRun rayPass(Backend& backend, uint32_t mask, const std::vector<rl::Ray>& rays) {
   PassRun pass;
   pass.kernel = "trace";
   pass.mask = mask;
-  pass.buffers = {backend.allocate(rays.size() * sizeof(rl::Ray)),
+  pass.buffers = {backend.allocate(rays.size() * sizeof(rl::TraceQuery)),
                   backend.allocate(rays.size() * sizeof(rl::TraceResult))};
-  backend.write(pass.buffers[0], rays.data(), rays.size() * sizeof(rl::Ray));
-  pass.params = bytesOf(rl::TraceParams{static_cast<uint32_t>(rays.size()), mode, 1});
+  pass.params = bytesOf(rl::TraceParams{static_cast<uint32_t>(rays.size())});
+  return pass;
+}
+
+double rayRate(Backend& backend, const PassRun& pass, const std::vector<rl::Ray>& rays,
+               uint32_t mode, double seconds) {
+  if (rays.empty()) return 0.0;
+  std::vector<rl::TraceQuery> queries;
+  queries.reserve(rays.size());
+  for (const rl::Ray& ray : rays) queries.push_back({ray, mode, 1, 0, 0});
+  backend.write(pass.buffers[0], queries.data(), queries.size() * sizeof queries[0]);
   return double(rays.size()) / secondsOf(backend, pass, frameOf(rays.size()), seconds);
 }
 
-double copyRate(Backend& backend, double seconds) {
-  constexpr size_t kPixels = size_t{1} << 20;  // 64 MiB each way: more than any cache of a CPU
-  const rl::FrameData frame = frameOf(kPixels);
-  const size_t bytes = size_t{frame.width} * frame.height * rl::RL_STREAM_WORDS * sizeof(uint32_t);
+// 64 MiB each way: more than any cache of a CPU.
+rl::FrameData streamFrame() { return frameOf(size_t{1} << 20); }
+size_t streamBytes() {
+  const rl::FrameData frame = streamFrame();
+  return size_t{frame.width} * frame.height * rl::RL_STREAM_QUADS * 16;
+}
+
+PassRun streamPass(Backend& backend) {
   PassRun pass;
   pass.kernel = "stream";
   pass.mask = backend.maskFor("stream", 0);
-  pass.buffers = {backend.allocate(bytes), backend.allocate(bytes)};
+  pass.buffers = {backend.allocate(streamBytes()), backend.allocate(streamBytes())};
   pass.params = bytesOf(rl::StreamParams{0});
-  return 2.0 * double(bytes) / secondsOf(backend, pass, frame, seconds);
+  return pass;
 }
 
 }  // namespace
@@ -80,10 +92,15 @@ BackendRates measureBackend(const PreparedScene& prepared, const std::string& na
   const std::unique_ptr<Backend> backend = makeBackend(name, prepared.scene, options);
   const uint32_t mask = backend->maskFor("trace", prepared.scene->features());
   BackendRates rates;
-  rates.primary = rayRate(*backend, mask, rays.primary, rl::RL_RAY_PATH, seconds);
-  rates.incoherent = rayRate(*backend, mask, rays.incoherent, rl::RL_RAY_PATH, seconds);
-  rates.shadow = rayRate(*backend, mask, rays.shadow, rl::RL_RAY_SHADOW, seconds);
-  rates.bytesPerSecond = copyRate(*backend, seconds);
+  const PassRun primary = rayPass(*backend, mask, rays.primary);
+  const PassRun incoherent = rayPass(*backend, mask, rays.incoherent);
+  const PassRun shadow = rayPass(*backend, mask, rays.shadow);
+  const PassRun stream = streamPass(*backend);
+  rates.primary = rayRate(*backend, primary, rays.primary, rl::RL_RAY_PATH, seconds);
+  rates.incoherent = rayRate(*backend, incoherent, rays.incoherent, rl::RL_RAY_PATH, seconds);
+  rates.shadow = rayRate(*backend, shadow, rays.shadow, rl::RL_RAY_SHADOW, seconds);
+  rates.bytesPerSecond =
+      2.0 * double(streamBytes()) / secondsOf(*backend, stream, streamFrame(), seconds);
   return rates;
 }
 

@@ -102,7 +102,6 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   path.vertex.nGeoW = vec3(0.0f, 0.0f, 1.0f);
   path.vertex.kind = RL_PATH_LAMBERT;
   path.vertex.radiance = zero;
-  path.vertex.state = giEmptyState();
   path.suffix = giNoSuffix();
   path.state = giEmptyState();
 

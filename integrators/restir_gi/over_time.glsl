@@ -11,14 +11,13 @@ RL_FN Shifted giShift(RL_IN(RL_RESERVOIR) r, RL_IN(Anchor) from, RL_IN(Anchor) t
   return s;
 }
 
-// Reads this frame's reservoir and the last frame's of the same surface, and shifts each sample to
-// the other's anchor. False where there is nothing to merge.
+// Reads the last frame's reservoir of the same surface, and shifts its sample and that of this
+// frame each to the other's anchor. False where there is nothing to merge.
 RL_FN bool giShiftOverTime(uint slot, RL_IN(Anchor) here, uint donorSlot, RL_IN(Anchor) there,
                            uint which, RL_INOUT(RL_RESERVOIR) r, RL_INOUT(RL_RESERVOIR) donor,
                            RL_INOUT(Shifted) ours, RL_INOUT(Shifted) theirs,
                            RL_INOUT(GiSegments) segments) {
-  cacheReadStateNow(slot, r);
-  cacheReadStateBefore(donorSlot, donor);
+  cacheReadBefore(donorSlot, donor);
   if (giIsEmpty(r.state) && giIsEmpty(donor.state)) {
     r.state.confidence += giCappedConfidence(donor.state.confidence);
     cacheWriteStateNow(slot, r);
@@ -28,8 +27,6 @@ RL_FN bool giShiftOverTime(uint slot, RL_IN(Anchor) here, uint donorSlot, RL_IN(
   ours = mergeUnshifted(r.state);
   theirs = mergeUnshifted(donor.state);
   if (!bridgeIsSameAnchor(here, there)) {
-    cacheReadNow(slot, r);
-    cacheReadBefore(donorSlot, donor);
     ours = giShift(r, here, there, (flags & RL_REUSE_ASSUME_VISIBLE) != 0u, which, segments);
     theirs = giShift(donor, there, here, (flags & RL_REUSE_ASSUME_VISIBLE_HERE) != 0u, which + 1u,
                      segments);
@@ -37,10 +34,11 @@ RL_FN bool giShiftOverTime(uint slot, RL_IN(Anchor) here, uint donorSlot, RL_IN(
   return true;
 }
 
-// Merges them in place of this frame's. ours, theirs: the samples as the other anchor sees them.
-RL_FN void giMergeOverTime(uint slot, RL_IN(Anchor) here, uint donorSlot, RL_IN(Anchor) there,
-                           real u, RL_IN(Shifted) ours, RL_IN(Shifted) theirs,
-                           RL_INOUT(RL_RESERVOIR) r, RL_INOUT(RL_RESERVOIR) donor) {
+// Merges them in place of this frame's, here and in the buffer. ours, theirs: the samples as the
+// other anchor sees them.
+RL_FN void giMergeOverTime(uint slot, RL_IN(Anchor) here, RL_IN(Anchor) there, real u,
+                           RL_IN(Shifted) ours, RL_IN(Shifted) theirs, RL_INOUT(RL_RESERVOIR) r,
+                           RL_INOUT(RL_RESERVOIR) donor) {
   uint flags = gParams.temporalFlags;
   real cDonor = giCappedConfidence(donor.state.confidence);
   MergeState merge = mergeBegin(r.state, cDonor);
@@ -50,9 +48,9 @@ RL_FN void giMergeOverTime(uint slot, RL_IN(Anchor) here, uint donorSlot, RL_IN(
   bool won = mergeDonor(merge, r.state, donor.state, cDonor, theirs, ratio, flags, u);
   mergeEnd(merge, r.state, flags);
   if (won) {
-    cacheReadBefore(donorSlot, donor);
     donor.state = r.state;
-    cacheWriteNow(slot, donor);
+    r = donor;
+    cacheWriteNow(slot, r);
   } else {
     cacheWriteStateNow(slot, r);
   }

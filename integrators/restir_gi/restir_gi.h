@@ -22,31 +22,11 @@ struct Anchor {
   Bsdf bsdf;  // without transmission: such pixels are not reusable
 };
 
-struct StoredAnchor {
-  vec3 posW;
-  float posError;
-  vec3 nGeoW;
-  uint isReusable;
-  vec3 nShadeW;
-  vec3 diffuse;
-};
-RL_STATIC_ASSERT_SIZE(StoredAnchor, 56);
-
-// The rest of an anchor where the scene has glossy lobes.
-struct StoredAnchorGlossy {
-  vec3 f0;
-  float f90;
-  float alpha;
-  uint lobes;
-};
-RL_STATIC_ASSERT_SIZE(StoredAnchorGlossy, 24);
-
 // Direct light: a point of a light or a direction to the environment.
 struct LightReservoir {
   LightSample light;
   ReservoirState state;
 };
-RL_STATIC_ASSERT_SIZE(LightReservoir, 92);
 
 // Indirect light: the vertex x2 and what it sends towards x1.
 const uint RL_PATH_LAMBERT = 0u;       // x2 is Lambert: `radiance` leaves it in every direction
@@ -59,9 +39,7 @@ struct PathVertex {
   vec3 nGeoW;  // on the side of x1
   uint kind;
   vec3 radiance;
-  ReservoirState state;
 };
-RL_STATIC_ASSERT_SIZE(PathVertex, 76);
 
 // What a glossy x2 needs to be evaluated for another direction.
 struct PathSuffix {
@@ -88,30 +66,30 @@ struct GiSegments {
   float visibility[RL_GI_SEGMENTS];
 };
 
-RL_REF(StoredAnchorRef, StoredAnchor)
-RL_REF(StoredAnchorGlossyRef, StoredAnchorGlossy)
-RL_REF(ShiftedRef, Shifted)
-RL_REF(LightReservoirRef, LightReservoir)
-RL_REF(PathVertexRef, PathVertex)
-RL_REF(PathSuffixRef, PathSuffix)
+// What a slot has in the buffers, in quads of words (integrators/restir_gi/store.glsl). A
+// reservoir's state is its last two quads.
+const uint RL_GI_ANCHOR_QUADS = 4u;
+const uint RL_GI_LIGHT_QUADS = 6u;
+const uint RL_GI_PATH_QUADS = 5u;
+const uint RL_GI_SUFFIX_QUADS = 6u;
 
 struct RestirGiBuffers {
   Vec3Ref radiance;
   Vec3Ref ownLight;  // what is shaded by the pixel's own path: emission, unreusable parts
-  StoredAnchorRef anchors;
-  StoredAnchorRef previousAnchors;
-  StoredAnchorGlossyRef anchorsGlossy;
-  StoredAnchorGlossyRef previousAnchorsGlossy;
-  LightReservoirRef lights;         // of this frame: initial, then temporal
-  LightReservoirRef lightsHistory;  // of the last frame; replaced by the spatial pass
-  PathVertexRef paths;
-  PathVertexRef pathsHistory;
-  PathSuffixRef suffixes;
-  PathSuffixRef suffixesHistory;
+  QuadRef anchors;
+  QuadRef previousAnchors;
+  QuadRef anchorsGlossy;  // one quad: the rest of an anchor where the scene has glossy lobes
+  QuadRef previousAnchorsGlossy;
+  QuadRef lights;         // of this frame: initial, then temporal
+  QuadRef lightsHistory;  // of the last frame; replaced by the spatial pass
+  QuadRef paths;
+  QuadRef pathsHistory;
+  QuadRef suffixes;
+  QuadRef suffixesHistory;
   // Between the temporal and the spatial pass, spatialNeighbours entries a pixel.
-  UintRef partners;          // slots; RL_INVALID: none
-  ShiftedRef shiftedLights;  // the pixel's sample as the partner sees it
-  ShiftedRef shiftedPaths;
+  UintRef partners;       // slots; RL_INVALID: none
+  QuadRef shiftedLights;  // one quad: the pixel's sample as the partner sees it
+  QuadRef shiftedPaths;
 };
 
 struct RestirGiParams {

@@ -24,13 +24,15 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     // A poisoned history would spread: it starts again from nothing here.
     RL_HEALTH(RL_HEALTH_NONFINITE);
     radiance = vec3(0.0f, 0.0f, 0.0f);
-    ReservoirState empty;
-    empty.W = 0.0f;
-    empty.F = vec3(0.0f, 0.0f, 0.0f);
-    empty.residual = vec3(0.0f, 0.0f, 0.0f);
-    empty.confidence = 1.0f;
-    if (giWantsDirect()) gBuffers.lightsHistory.data[slot].state = empty;
-    if (giWantsIndirect()) gBuffers.pathsHistory.data[slot].state = empty;
+    LightReservoir light;
+    PathReservoir path;
+    light.state.W = 0.0f;
+    light.state.F = vec3(0.0f, 0.0f, 0.0f);
+    light.state.residual = vec3(0.0f, 0.0f, 0.0f);
+    light.state.confidence = 1.0f;
+    path.state = light.state;
+    if (giWantsDirect()) cacheWriteStateHistory(slot, light);
+    if (giWantsIndirect()) cacheWriteStateHistory(slot, path);
   }
   if (min(radiance.x, min(radiance.y, radiance.z)) < 0.0f) RL_HEALTH(RL_HEALTH_NEGATIVE);
   gBuffers.radiance.data[slot] = radiance;

@@ -16,6 +16,10 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   if (here.isReusable == 0u) return;
   LightReservoir light;
   PathReservoir path;
+  // Kept from round to round: what this pass has written it may not read. One that is not wanted is
+  // read too and not used.
+  cacheReadNow(slot, light);
+  cacheReadNow(slot, path);
   ReservoirState nothing;
   nothing.F = vec3(0.0f, 0.0f, 0.0f);
   nothing.W = 0.0f;
@@ -36,10 +40,8 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     Anchor there = here;
     uint other = RL_INVALID;  // the slot that is exchanged with
     bool hasOther = false;
-    LightReservoir lightDonor;
-    PathReservoir pathDonor;
-    lightDonor.state = nothing;
-    pathDonor.state = nothing;
+    LightReservoir lightDonor = light;
+    PathReservoir pathDonor = path;
     Shifted lightOurs = mergeUnshifted(nothing);
     Shifted lightTheirs = lightOurs;
     Shifted pathOurs = lightOurs;
@@ -63,14 +65,8 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     } else {
       hasOther = cachePartner(pixel, here, round - 1u, other);
       if (hasOther) there = cacheAnchorNow(other);
-      if (hasOther && lightMerges) {
-        cacheReadNow(slot, light);
-        lightOurs = giShift(light, here, there, false, 0u, segments);
-      }
-      if (hasOther && pathMerges) {
-        cacheReadNow(slot, path);
-        pathOurs = giShift(path, here, there, false, 2u, segments);
-      }
+      if (hasOther && lightMerges) lightOurs = giShift(light, here, there, false, 0u, segments);
+      if (hasOther && pathMerges) pathOurs = giShift(path, here, there, false, 2u, segments);
     }
     for (uint i = 0u; i < RL_GI_SEGMENTS; i = i + 1u) {
       if (segments.asks[i] == 0u) continue;
@@ -85,13 +81,12 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
       if (hasOther && lightMerges) {
         lightOurs.F *= segments.visibility[0];
         lightTheirs.F *= segments.visibility[1];
-        giMergeOverTime(slot, here, other, there, uLight, lightOurs, lightTheirs, light,
-                        lightDonor);
+        giMergeOverTime(slot, here, there, uLight, lightOurs, lightTheirs, light, lightDonor);
       }
       if (hasOther && pathMerges) {
         pathOurs.F *= segments.visibility[2];
         pathTheirs.F *= segments.visibility[3];
-        giMergeOverTime(slot, here, other, there, uPath, pathOurs, pathTheirs, path, pathDonor);
+        giMergeOverTime(slot, here, there, uPath, pathOurs, pathTheirs, path, pathDonor);
       }
     } else {
       uint index = cacheExchangeIndex(slot, round - 1u);

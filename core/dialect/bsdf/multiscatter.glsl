@@ -19,13 +19,13 @@ RL_FN void multiscatterAlbedo(float alpha, float cosTheta, RL_OUT(vec2) at, RL_O
   float tx = x - float(column);
   uint low = row * (RL_GGX_NODES + 1u);
   uint high = low + RL_GGX_NODES + 1u;
-  vec2 a = gScene.ggxAlbedo.data[low + column];
-  vec2 b = gScene.ggxAlbedo.data[low + column + 1u];
-  vec2 c = gScene.ggxAlbedo.data[high + column];
-  vec2 d = gScene.ggxAlbedo.data[high + column + 1u];
+  vec2 a = RL_SCENE_VEC2(gScene.ggxAlbedo, low + column);
+  vec2 b = RL_SCENE_VEC2(gScene.ggxAlbedo, low + column + 1u);
+  vec2 c = RL_SCENE_VEC2(gScene.ggxAlbedo, high + column);
+  vec2 d = RL_SCENE_VEC2(gScene.ggxAlbedo, high + column + 1u);
   at = (a * (1.0f - tx) + b * tx) * (1.0f - ty) + (c * (1.0f - tx) + d * tx) * ty;
-  vec2 lowMean = gScene.ggxAlbedo.data[low + RL_GGX_NODES];
-  vec2 highMean = gScene.ggxAlbedo.data[high + RL_GGX_NODES];
+  vec2 lowMean = RL_SCENE_VEC2(gScene.ggxAlbedo, low + RL_GGX_NODES);
+  vec2 highMean = RL_SCENE_VEC2(gScene.ggxAlbedo, high + RL_GGX_NODES);
   mean = lowMean * (1.0f - ty) + highMean * ty;
 }
 

@@ -27,7 +27,7 @@ RL_FN vec3 environmentTexel(int x, int y) {
   int h = int(gScene.environmentHeight);
   int xx = x < 0 ? x + w : (x >= w ? x - w : x);
   int yy = clamp(y, 0, h - 1);
-  return gScene.environment.data[uint(yy * w + xx)];
+  return RL_SCENE_VEC3(gScene.environment, uint(yy * w + xx));
 }
 
 RL_FN_OUTLINE vec3 environmentRadiance(RL_IN(vec3) dirW) {
@@ -49,7 +49,8 @@ RL_FN_OUTLINE vec3 environmentRadiance(RL_IN(vec3) dirW) {
 RL_FN float environmentPdfOfTexel(uint texel, float sinTheta) {
   float texels = float(gScene.environmentWidth) * float(gScene.environmentHeight);
   if (!(sinTheta > 0.0f)) return 0.0f;
-  return gScene.environmentAlias.data[texel].pmf * texels / (2.0f * RL_PI * RL_PI * sinTheta);
+  return recordAlias(RL_SCENE_UVEC3(gScene.environmentAlias, texel)).pmf * texels /
+         (2.0f * RL_PI * RL_PI * sinTheta);
 }
 
 RL_FN_OUTLINE float environmentPdf(RL_IN(vec3) dirW) {
@@ -71,7 +72,7 @@ RL_FN_OUTLINE vec3 environmentDraw(RL_IN(vec2) u, float uAlias, RL_OUT(float) pd
   float restX = clamp(u.x * float(w) - float(column), 0.0f, 0.99999994f);
   float restY = clamp(u.y * float(h) - float(row), 0.0f, 0.99999994f);
   uint i = row * w + column;
-  AliasEntry entry = gScene.environmentAlias.data[i];
+  AliasEntry entry = recordAlias(RL_SCENE_UVEC3(gScene.environmentAlias, i));
   if (!(uAlias < entry.keep)) i = entry.other;
   uint y = i / w;
   uint x = i - y * w;

@@ -1,0 +1,72 @@
+// Kernels that read through texels and uniform blocks, as a driver in software is served best,
+// against the same kernels that read by addresses, as every other device does: the same bits.
+#include <gtest/gtest.h>
+
+#include <stdlib.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+
+#include "core/error.h"
+#include "tests/parity/frames.h"
+#include "tests/parity/kernel_runner.h"
+
+namespace restlab::parity {
+namespace {
+
+// RESTLAB_VULKAN_READS for the time of a scope.
+class Reads {
+ public:
+  explicit Reads(const char* how) { setenv("RESTLAB_VULKAN_READS", how, 1); }
+  ~Reads() { unsetenv("RESTLAB_VULKAN_READS"); }
+  Reads(const Reads&) = delete;
+  Reads& operator=(const Reads&) = delete;
+};
+
+// The third frame, then a layer, whose buffers are allocated after it: they lie elsewhere.
+std::vector<Image> seenBy(const char* how, const std::string& scene, const Combination& what) {
+  const Reads reads(how);
+  Session session(sceneNamed(scene), configOf(what, kVulkanSpecialised, 64, 48, 11));
+  session.frames(3);
+  return {session.radiance(), session.aov("albedo")};
+}
+
+class ReadsTest : public testing::TestWithParam<Combination> {};
+
+TEST_P(ReadsTest, ByTexelsAndByAddressesGiveTheSameBits) {
+  if (!hasVulkan()) GTEST_SKIP() << kNoDevice;
+  // All features; and a scene without most of them.
+  for (const char* scene : {"everything", "cornell-box"}) {
+    SCOPED_TRACE(scene);
+    const std::vector<Image> texels = seenBy("texels", scene, GetParam());
+    const std::vector<Image> addresses = seenBy("addresses", scene, GetParam());
+    for (size_t i = 0; i < texels.size(); ++i) {
+      const auto& a = texels[i].pixels;
+      const auto& b = addresses[i].pixels;
+      ASSERT_EQ(a.size(), b.size());
+      EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]), 0) << "image " << i;
+      EXPECT_TRUE(std::any_of(a.begin(), a.end(), [](const glm::vec3& v) { return v.x > 0.0f; }));
+    }
+  }
+}
+
+TEST(Reads, AnotherWordIsRefused) {
+  if (!hasVulkan()) GTEST_SKIP() << kNoDevice;
+  try {
+    seenBy("both", "cornell-box", {"path", "", ""});
+    FAIL() << "nothing was thrown";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::badUsage);
+    EXPECT_NE(std::string(error.what()).find("texels or addresses"), std::string::npos);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, ReadsTest, testing::ValuesIn(combinations()), [](const auto& test) {
+  std::string name = test.param.name();
+  for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+  return name;
+});
+
+}  // namespace
+}  // namespace restlab::parity
