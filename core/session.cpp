@@ -116,9 +116,7 @@ Session::Session(std::shared_ptr<const CompiledScene> scene, const SessionConfig
   for (const size_t size : sizes) {
     m.buffers.push_back(size > 0 ? m.backend->allocate(pixels * size) : kNoBuffer);
   }
-  for (size_t i = 0; i < m.passMasks.size(); ++i) {
-    m.backend->prepare(m.integrator->passes[i].kernel, m.passMasks[i], m.startup);
-  }
+  for (const PassRun& pass : m.passes()) m.backend->prepare(pass, m.startup);
   m.radiance = Image(config.width, config.height);
   rl::FrameData& f = m.frame;
   f.camera = m.scene->camera(cameras[config.camera], config.width, config.height);
@@ -237,8 +235,9 @@ Image Session::aov(const std::string& name) const {
   }
   const uint32_t mask =
       m.backend->maskFor(kAovKernel, m.config.specialise ? m.needed : rl::RL_FEATURE_ALL);
-  m.backend->prepare(kAovKernel, mask, m.startup);
-  m.backend->submit({{kAovKernel, mask, m.aovBuffers, std::vector<std::byte>(4)}}, m.lastFrame);
+  const PassRun pass{kAovKernel, mask, m.aovBuffers, std::vector<std::byte>(4)};
+  m.backend->prepare(pass, m.startup);
+  m.backend->submit({pass}, m.lastFrame);
   m.backend->collect();
   Image image(m.config.width, m.config.height);
   const size_t index = static_cast<size_t>(found - kAovNames.begin()) - 1;

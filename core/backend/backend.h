@@ -52,6 +52,7 @@ struct KernelReport {
 struct StartupReport {
   double timeMs = 0.0;  // of the kernels; 0 where they were compiled with the program
   std::vector<KernelReport> kernels;
+  bool readsTexels = false;          // the last kernel reads through texels, not by address
   std::vector<std::string> notices;  // one line each, for the user
 };
 
@@ -86,8 +87,8 @@ class Backend {
   // The mask of the specialisation that serves `needed`; throws Error (badUsage) for unknown
   // kernels.
   virtual uint32_t maskFor(const std::string& kernel, uint32_t needed) const = 0;
-  // Makes a kernel ready to run, so that no frame has to wait for a compiler.
-  virtual void prepare(const std::string& kernel, uint32_t mask, StartupReport& report) = 0;
+  // Makes a pass ready to run, so that no frame has to wait for a compiler.
+  virtual void prepare(const PassRun& pass, StartupReport& report) = 0;
 
   // Starts a frame: the passes one after another. At most framesInFlight() of them may be under
   // way; more are waited for.

@@ -102,9 +102,7 @@ class CpuBackend final : public Backend {
   }
 
   // Kernels are compiled with the program.
-  void prepare(const std::string& kernel, uint32_t mask, StartupReport&) override {
-    find(kernel, mask);
-  }
+  void prepare(const PassRun& pass, StartupReport&) override { find(pass.kernel, pass.mask); }
 
   void submit(const std::vector<PassRun>& passes, const rl::FrameData& frame) override {
     FrameResult result;

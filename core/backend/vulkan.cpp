@@ -24,9 +24,11 @@ namespace restlab {
 
 namespace {
 
-constexpr uint32_t kSlots = 2;                   // frames in flight
-constexpr uint32_t kFirstBandPixels = 1u << 18;  // of a dispatch, before its time is known
-constexpr double kLongestBandMs = 500.0;         // watchdogs end dispatches of a few seconds
+constexpr uint32_t kSlots = 2;  // frames in flight
+// Of a dispatch, before its time is known: on a graphics card, and in software.
+constexpr uint32_t kFirstBandPixels = 1u << 18;
+constexpr uint32_t kFirstBandPixelsOfCpu = 1u << 16;
+constexpr double kLongestBandMs = 500.0;  // watchdogs end dispatches of a few seconds
 
 // What sessions on one device share.
 struct Context {
@@ -82,6 +84,7 @@ struct Slot {
   VulkanKernels::Bound bound;  // where kernels read by texels
   std::map<RecordingKey, Recording> recordings;
   const Recording* running = nullptr;
+  bool isStale = false;  // the recordings have bands that are too long
   RecordingKey runningKey;
   std::chrono::steady_clock::time_point started;
 };
@@ -180,9 +183,10 @@ class VulkanBackend final : public Backend {
     return needed;  // compiled when it is wanted: exactly what is needed
   }
 
-  void prepare(const std::string& kernel, uint32_t mask, StartupReport& report) override {
+  void prepare(const PassRun& pass, StartupReport& report) override {
     placeBuffers();
-    pipelineOf(kernel, mask, readsTexels_, report);
+    report.readsTexels = readsTexels(pass);
+    pipelineOf(pass, report);
   }
 
   void submit(const std::vector<PassRun>& passes, const rl::FrameData& frame) override {
@@ -192,10 +196,13 @@ class VulkanBackend final : public Backend {
     next_ = (next_ + 1) % kSlots;
     RecordingKey key{{}, frame.width, frame.height};
     StartupReport ignored;
-    for (const PassRun& pass : passes)
-      key.pipelines.push_back(
-          pipelineOf(pass.kernel, pass.mask, readsTexels_ && isWithinTexels(pass), ignored));
+    for (const PassRun& pass : passes) key.pipelines.push_back(pipelineOf(pass, ignored));
     writeInputs(slot, passes, frame);
+    if (slot.isStale) {
+      for (auto& entry : slot.recordings) release(entry.second);
+      slot.recordings.clear();
+      slot.isStale = false;
+    }
     auto found = slot.recordings.find(key);
     if (found == slot.recordings.end())
       found = slot.recordings.emplace(key, record(slot, key)).first;
@@ -233,14 +240,14 @@ class VulkanBackend final : public Backend {
     failUsage("no kernel '" + kernel + "' in this build");
   }
 
-  VkPipeline pipelineOf(const std::string& kernel, uint32_t mask, bool readsTexels,
-                        StartupReport& report) {
-    VkPipeline& known = pipelines_[{kernel, mask, readsTexels}];
+  VkPipeline pipelineOf(const PassRun& pass, StartupReport& report) {
+    const bool texels = readsTexels(pass);
+    VkPipeline& known = pipelines_[{pass.kernel, pass.mask, texels}];
     if (known == VK_NULL_HANDLE) {
-      const DialectKernel& files = find(kernel);
+      const DialectKernel& files = find(pass.kernel);
       known = context_->kernels->pipeline(
-          {files.header, files.file, trace_.file, trace_.extensions, readsTexels}, kernel, mask,
-          dialectSource, report);
+          {files.header, files.file, trace_.file, trace_.extensions, texels}, pass.kernel,
+          pass.mask, dialectSource, report);
     }
     return known;
   }
@@ -253,12 +260,12 @@ class VulkanBackend final : public Backend {
 
   void placeBuffers() {
     if (isPlaced_) return;
-    isPlaced_ = true;
     size_t total = 0;
     for (const GpuBuffer& buffer : buffers_) total += buffer.bytes;
     readsTexels_ = choosesTexels(total);
     if (!readsTexels_) {
       for (GpuBuffer& buffer : buffers_) placeAlone(buffer);
+      isPlaced_ = true;
       return;
     }
     together_ = memory_.allocate(total, MemoryKind::device);
@@ -277,6 +284,7 @@ class VulkanBackend final : public Backend {
            part(kPassOffset + kPassParams, kPassBytes - kPassParams), *scene_->arrays(),
            together_});
     }
+    isPlaced_ = true;
   }
 
   // A driver in software reads four words through a texel in the time that one takes by address,
@@ -291,11 +299,18 @@ class VulkanBackend final : public Backend {
     if (std::string(wanted) != "texels" && std::string(wanted) != "addresses") {
       failUsage(fmt::format("RESTLAB_VULKAN_READS={}: texels or addresses would be right", wanted));
     }
-    return fits && std::string(wanted) == "texels";
+    if (std::string(wanted) == "texels" && !fits) {
+      throw Error(ExitCode::deviceUnavailable,
+                  fmt::format("RESTLAB_VULKAN_READS=texels: {} has views of {} texels, which the "
+                              "scene or the {} MiB of the session exceed; addresses would be right",
+                              device_.name(), texels, bytes >> 20));
+    }
+    return std::string(wanted) == "texels";
   }
 
   // Texels reach the buffers that were placed together; a pass with others reads by address.
-  bool isWithinTexels(const PassRun& pass) const {
+  bool readsTexels(const PassRun& pass) const {
+    if (!readsTexels_) return false;
     return std::all_of(pass.buffers.begin(), pass.buffers.end(), [this](BufferId b) {
       return b == kNoBuffer ||
              buffers_[b].address - together_.address < static_cast<uint64_t>(together_.bytes);
@@ -327,7 +342,11 @@ class VulkanBackend final : public Backend {
     const uint32_t groupsX = (key.width + kGlslTile - 1) / kGlslTile;
     const uint32_t groupsY = (key.height + kGlslTile - 1) / kGlslTile;
     for (uint32_t pass = 0; pass < key.pipelines.size(); ++pass) {
-      const uint32_t rows = rowsPerBand(key.pipelines[pass], groupsX);
+      // No more bands than there are counters for.
+      const auto most =
+          static_cast<uint32_t>(kCounterBytes / sizeof(GlslCounters) / key.pipelines.size());
+      const uint32_t rows =
+          std::max(rowsPerBand(key.pipelines[pass], groupsX), (groupsY + most - 1) / most);
       for (uint32_t row = 0; row < groupsY; row += rows)
         recording.bands.push_back({pass, row, std::min(rows, groupsY - row)});
     }
@@ -406,7 +425,9 @@ class VulkanBackend final : public Backend {
 
   uint32_t rowsPerBand(VkPipeline pipeline, uint32_t groupsX) {
     const auto found = bandPixels_.find(pipeline);
-    const uint32_t pixels = found == bandPixels_.end() ? kFirstBandPixels : found->second;
+    const bool isCpu = device_.info().kind == "cpu";
+    const uint32_t first = isCpu ? kFirstBandPixelsOfCpu : kFirstBandPixels;
+    const uint32_t pixels = found == bandPixels_.end() ? first : found->second;
     return std::max(1u, pixels / (groupsX * kGlslTile * kGlslTile));
   }
 
@@ -454,8 +475,9 @@ class VulkanBackend final : public Backend {
       sum.raysShadow += counters.raysShadow;
       for (uint32_t k = 0; k < rl::RL_HEALTH_COUNT; ++k) sum.health[k] += counters.health[k];
     }
-    if (isTooLong) isStale_ = true;
-    if (isStale_ && underWay_.empty()) forgetRecordings();
+    if (isTooLong) {
+      for (Slot& each : slots_) each.isStale = true;
+    }
     return result;
   }
 
@@ -469,15 +491,6 @@ class VulkanBackend final : public Backend {
     uint32_t& known = bandPixels_.emplace(key.pipelines[band.pass], pixels).first->second;
     known = std::min(known, pixels);
     return true;
-  }
-
-  void forgetRecordings() {
-    for (Slot& slot : slots_) {
-      for (auto& entry : slot.recordings) release(entry.second);
-      slot.recordings.clear();
-      slot.running = nullptr;
-    }
-    isStale_ = false;
   }
 
   std::shared_ptr<Context> context_;
@@ -497,7 +510,6 @@ class VulkanBackend final : public Backend {
   uint32_t next_ = 0;
   std::deque<Slot*> underWay_;
   std::deque<FrameResult> finished_;
-  bool isStale_ = false;  // the recordings have bands that are too long
 };
 
 }  // namespace

@@ -189,6 +189,16 @@ VkPipeline VulkanKernels::pipeline(const GlslKernel& kernel, const std::string& 
 
 VulkanKernels::Bound VulkanKernels::bind(const BoundRanges& ranges) {
   Bound bound;
+  try {
+    fill(bound, ranges);
+  } catch (...) {
+    release(bound);
+    throw;
+  }
+  return bound;
+}
+
+void VulkanKernels::fill(Bound& bound, const BoundRanges& ranges) {
   const VkDevice device = device_->handle();
   const std::array<VkDescriptorPoolSize, 3> sizes = {
       {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2},
@@ -208,20 +218,19 @@ VulkanKernels::Bound VulkanKernels::bind(const BoundRanges& ranges) {
   allocation.pSetLayouts = &setLayout_;
   device_->check(vkAllocateDescriptorSets(device, &allocation, &bound.set),
                  "vkAllocateDescriptorSets");
-  const auto viewOf = [&](const GpuBuffer& texels, VkFormat format) {
+  const auto addView = [&](size_t i, const GpuBuffer& texels, VkFormat format) {
     VkBufferViewCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO;
     info.buffer = texels.buffer;
     info.format = format;
     info.offset = texels.offset;
     info.range = texels.bytes;
-    VkBufferView view = VK_NULL_HANDLE;
-    device_->check(vkCreateBufferView(device, &info, nullptr, &view), "vkCreateBufferView");
-    return view;
+    device_->check(vkCreateBufferView(device, &info, nullptr, &bound.views[i]),
+                   "vkCreateBufferView");
   };
-  bound.views = {viewOf(ranges.sceneTexels, VK_FORMAT_R32G32B32A32_UINT),
-                 viewOf(ranges.sceneTexels, VK_FORMAT_R32_UINT),
-                 viewOf(ranges.stateTexels, VK_FORMAT_R32G32B32A32_UINT)};
+  addView(0, ranges.sceneTexels, VK_FORMAT_R32G32B32A32_UINT);
+  addView(1, ranges.sceneTexels, VK_FORMAT_R32_UINT);
+  addView(2, ranges.stateTexels, VK_FORMAT_R32G32B32A32_UINT);
   const std::array<const GpuBuffer*, 4> structs = {&ranges.scene, &ranges.frame, &ranges.buffers,
                                                    &ranges.params};
   std::array<VkDescriptorBufferInfo, 4> infos{};
@@ -240,7 +249,6 @@ VulkanKernels::Bound VulkanKernels::bind(const BoundRanges& ranges) {
     }
   }
   vkUpdateDescriptorSets(device, writes.size(), writes.data(), 0, nullptr);
-  return bound;
 }
 
 void VulkanKernels::release(Bound& bound) {

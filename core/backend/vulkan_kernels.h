@@ -31,8 +31,8 @@ class VulkanKernels {
                       const SourceReader& read, StartupReport& report);
   VkPipelineLayout layout() const { return layout_; }
 
-  // The bindings of kernels that read by texels (GlslBinding); buffers and parameters lie at
-  // dynamic offsets behind those of `inputs`. End them with release().
+  // The bindings of kernels that read by texels (GlslBinding), whose buffers and parameters are
+  // given for the first pass: those of others lie at dynamic offsets from them. Ends by release().
   struct Bound {
     VkDescriptorPool pool = VK_NULL_HANDLE;
     VkDescriptorSet set = VK_NULL_HANDLE;
@@ -48,6 +48,7 @@ class VulkanKernels {
  private:
   std::vector<uint32_t> spirvOf(const GlslKernel& kernel, const std::string& name,
                                 const SourceReader& read, bool& fromDisk);
+  void fill(Bound& bound, const BoundRanges& ranges);
   void prime(VkPipeline pipeline);
   void saveDriverCache();
 

@@ -80,7 +80,7 @@ inline void writeQuadAt(void* to, uint i, const uvec4& quad) {
 #define RL_SCENE_VEC2(ref, i) ((ref).data[i])
 #define RL_SCENE_VEC3(ref, i) ((ref).data[i])
 #define RL_SCENE_UVEC3(ref, i) ::rl::tripleAt((ref).data, i)
-// Of a buffer that the kernel which asks does not write.
+// What an earlier pass left: read before this pass writes there, never after.
 #define RL_PAST_QUAD(ref, i) RL_QUAD(ref, i)
 #define RL_STATIC_ASSERT_SIZE(T, bytes) static_assert(sizeof(T) == (bytes), #T " layout changed")
 

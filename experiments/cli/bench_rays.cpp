@@ -29,7 +29,7 @@ double secondsOf(Backend& backend, const PassRun& pass, const rl::FrameData& fra
                  double seconds) {
   using Clock = std::chrono::steady_clock;
   StartupReport ignored;
-  backend.prepare(pass.kernel, pass.mask, ignored);
+  backend.prepare(pass, ignored);
   std::vector<double> times;
   const auto begin = Clock::now();
   do {

@@ -213,7 +213,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
         // Unlit surfaces are not in the light table and shine to both sides.
         found.isTwoSided = RL_MATERIAL_DOUBLE_SIDED;
         if (s.light != RL_INVALID)
-          found.isTwoSided = gScene.lights.data[s.light].flags & RL_MATERIAL_DOUBLE_SIDED;
+          found.isTwoSided = recordLight(s.light).flags & RL_MATERIAL_DOUBLE_SIDED;
         foundF = fX1 * s.emission * geometry;
         foundWeight =
             rlLuminance(foundF) *

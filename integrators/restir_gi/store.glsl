@@ -1,5 +1,5 @@
 // Anchors and reservoirs to and from their buffers: the read and write of the cache. Reads are of
-// what earlier passes wrote (RL_PAST_QUAD): no pass may read what it has written itself.
+// what earlier passes left (RL_PAST_QUAD): no pass reads what it has written itself.
 
 RL_FN Anchor anchorUnpack(RL_IN(uvec4) q0, RL_IN(uvec4) q1, RL_IN(uvec4) q2, RL_IN(uvec4) q3,
                           RL_IN(Camera) camera) {

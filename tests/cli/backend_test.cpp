@@ -194,7 +194,9 @@ TEST_F(VulkanTest, RayQueriesOfADeviceWithoutThemAreOneLine) {
   const std::string render = "render cornell-box -q -o x.exr --resolution 8x8 --backend vulkan";
   if (device.find(", query") != std::string::npos) {
     ASSERT_EQ(run(render).code, 0);
-    EXPECT_EQ(readExr(path("x.exr")).metadata.at("ray_tracing"), "query");
+    // In software the hierarchy is faster.
+    const bool isSoftware = device.find("(cpu;") != std::string::npos;
+    EXPECT_EQ(readExr(path("x.exr")).metadata.at("ray_tracing"), isSoftware ? "bvh" : "query");
     GTEST_SKIP() << "SKIPPED: " << device;
   }
   expectError(run(render + " --ray-tracing query"), 4,

@@ -104,12 +104,14 @@ TEST(Glsl, EveryKernelCompiles) {
 
 TEST(Glsl, EveryKernelCompilesWithTexels) {
   for (const Kernel& kernel : kernels()) {
-    GlslKernel what{kernel.header, kernel.file, kGlslTraceBvh.file};
-    what.readsTexels = true;
-    const GlslResult result =
-        compileGlsl(glslKernelSource(what), "kernel", readBelow(RESTLAB_SOURCE_DIR));
-    EXPECT_FALSE(result.spirv.empty()) << kernel.name << ":\n" << result.log;
-    EXPECT_EQ(result.log.find("WARNING"), std::string::npos) << kernel.name << ":\n" << result.log;
+    for (const GlslTrace& trace : {kGlslTraceBvh, kGlslTraceQuery}) {
+      const std::string text =
+          glslKernelSource({kernel.header, kernel.file, trace.file, trace.extensions, true});
+      const GlslResult result = compileGlsl(text, "kernel", readBelow(RESTLAB_SOURCE_DIR));
+      EXPECT_FALSE(result.spirv.empty()) << kernel.name << ":\n" << result.log;
+      EXPECT_EQ(result.log.find("WARNING"), std::string::npos) << kernel.name << ":\n"
+                                                               << result.log;
+    }
   }
 }
 

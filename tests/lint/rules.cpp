@@ -210,10 +210,24 @@ std::vector<Finding> findMisplaced(const TokenizedFile& file) {
   return found;
 }
 
+std::vector<Finding> findSceneByAddress(const TokenizedFile& file) {
+  std::vector<Finding> found;
+  const auto& t = file.tokens;
+  for (size_t i = 0; i + 4 < t.size(); ++i) {
+    if (t[i].text == "gScene" && t[i + 1].text == "." && t[i + 3].text == "." &&
+        t[i + 4].text == "data") {
+      found.push_back({file.path, t[i].line,
+                       fmt::format("gScene.{}.data: RL_SCENE_* reads the scene", t[i + 2].text)});
+    }
+  }
+  return found;
+}
+
 std::vector<Finding> findAll(const TokenizedFile& file) {
   std::vector<Finding> found;
-  for (auto* rule : {findReservedWords, findBareLiterals, findDoubleDraws, findSwizzles,
-                     findBadDirectives, findDefaultArguments, findHiddenBuiltins, findMisplaced}) {
+  for (auto* rule :
+       {findReservedWords, findBareLiterals, findDoubleDraws, findSwizzles, findBadDirectives,
+        findDefaultArguments, findHiddenBuiltins, findMisplaced, findSceneByAddress}) {
     const std::vector<Finding> more = rule(file);
     found.insert(found.end(), more.begin(), more.end());
   }

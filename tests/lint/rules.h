@@ -34,6 +34,8 @@ std::vector<Finding> findDefaultArguments(const TokenizedFile& file);
 std::vector<Finding> findHiddenBuiltins(const TokenizedFile& file);
 // A function in a .h, a type or constant at file scope in a .glsl.
 std::vector<Finding> findMisplaced(const TokenizedFile& file);
+// `gScene.<array>.data`: the scene's arrays are read by RL_SCENE_*, which may go through texels.
+std::vector<Finding> findSceneByAddress(const TokenizedFile& file);
 
 // All of the above.
 std::vector<Finding> findAll(const TokenizedFile& file);

@@ -61,6 +61,10 @@ const Case kCases[] = {
      "struct A {\n float b;\n};\nRL_FN float f() { return 1.0f; }", 4},
     {"ConstantInGlsl", findMisplaced, "a.glsl",
      "RL_FN float f() { const float a = 1.0f; return a; }\nconst uint A = 1u;", 2},
+    {"SceneByAddress", findSceneByAddress, "a.glsl",
+     "uint n = gScene.lightCount;\nLight l = gScene.lights.data[n];", 2},
+    {"SceneByWord", findSceneByAddress, "a.glsl",
+     "vec2 a = RL_SCENE_VEC2(gScene.uvs, 0u);\nb = gBuffers.partners.data[0];", 0},
     {"ContinuedMacro", findReservedWords, "a.h", "#define A \\\n  this\nfloat x;\nfloat half;", 4},
 };
 INSTANTIATE_TEST_SUITE_P(, Rule, testing::ValuesIn(kCases),

@@ -26,11 +26,11 @@ RL_FN float traceRay(RL_IN(Ray) ray, uint mode, uint alphaKey, RL_OUT(Hit) hit) 
   float transmittance = 1.0f;
   float nearest = ray.tMax;
   for (uint i = 0u; i < gScene.instanceCount; i = i + 1u) {
-    Instance inst = gScene.instances.data[i];
-    Geometry geometry = gScene.geometries.data[inst.geometry];
+    Instance inst = recordInstance(i);
+    Geometry geometry = recordGeometry(inst.geometry);
     for (uint k = 0u; k < geometry.triangleCount; k = k + 1u) {
-      TriangleW t =
-          surfaceTriangle(inst, geometry, gScene.triangles.data[geometry.firstTriangle + k]);
+      TriangleW t = surfaceTriangle(inst, geometry,
+                                    RL_SCENE_UVEC3(gScene.triangles, geometry.firstTriangle + k));
       Hit cand = hit;
       if (!bruteTriangle(ray, t, nearest, cand)) continue;
       cand.instance = i;

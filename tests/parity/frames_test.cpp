@@ -16,6 +16,7 @@
 #include "core/error.h"
 #include "tests/parity/frames.h"
 #include "tests/parity/kernel_runner.h"
+#include "tests/parity/reads.h"
 #include "tests/stats/replicates.h"
 
 namespace restlab::parity {
@@ -192,27 +193,32 @@ TEST_P(Frames, ValidatedFrame) {
   const auto scene = sceneNamed("everything");
   SessionConfig config = configOf(GetParam(), kVulkan, 32, 18, 3);
   config.validate = true;
-  std::unique_ptr<Session> session;
-  try {
-    session = std::make_unique<Session>(scene, config);
-  } catch (const Error& error) {
-    if (std::string(error.what()).find("layers are not installed") == std::string::npos) throw;
-    GTEST_SKIP() << error.what();
+  for (const char* how : {"texels", "addresses"}) {
+    SCOPED_TRACE(how);
+    const Reads reads(how);
+    std::unique_ptr<Session> session;
+    try {
+      session = std::make_unique<Session>(scene, config);
+    } catch (const Error& error) {
+      if (std::string(error.what()).find("layers are not installed") == std::string::npos) throw;
+      GTEST_SKIP() << error.what();
+    }
+    session->frames(3);
+    double light = 0.0;
+    for (const glm::vec3& p : session->radiance().pixels) light += double(p.x);
+    EXPECT_GT(light, 0.0);
+    for (const std::string& name : Session::aovNames()) session->aov(name);
+    session->reset(4);
+    session->frame();
   }
-  session->frames(3);
-  double light = 0.0;
-  for (const glm::vec3& p : session->radiance().pixels) light += double(p.x);
-  EXPECT_GT(light, 0.0);
-  for (const std::string& name : Session::aovNames()) session->aov(name);
-  session->reset(4);
-  session->frame();
 }
 
 // What one dispatch does not cover: a message here, or rows of the image left out.
 TEST(LargeFrame, IsValidInSeveralDispatches) {
   if (!hasVulkan()) GTEST_SKIP() << kNoDevice;
   const auto scene = sceneNamed("furnace");
-  const auto imageOn = [&](const Machine& where) {
+  const auto imageOn = [&](const Machine& where, const char* reads = "addresses") {
+    const Reads how(reads);
     SessionConfig config = configOf({"path", "", ""}, where, kLarge.width, kLarge.height, 3);
     config.maxBounces = 1;
     config.validate = std::string(where.backend) == "vulkan";
@@ -221,9 +227,12 @@ TEST(LargeFrame, IsValidInSeveralDispatches) {
     return session.radiance();
   };
   try {
-    const FrameDifference difference =
-        countDifferent(imageOn(kVulkanSpecialised), imageOn(kCpuBvh));
-    EXPECT_LT(difference.share(), kMaxShare) << difference.text();
+    const Image cpu = imageOn(kCpuBvh);
+    for (const char* reads : {"texels", "addresses"}) {
+      SCOPED_TRACE(reads);
+      const FrameDifference difference = countDifferent(imageOn(kVulkanSpecialised, reads), cpu);
+      EXPECT_LT(difference.share(), kMaxShare) << difference.text();
+    }
   } catch (const Error& error) {
     if (std::string(error.what()).find("layers are not installed") == std::string::npos) throw;
     GTEST_SKIP() << error.what();

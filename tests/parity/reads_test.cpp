@@ -2,8 +2,6 @@
 // against the same kernels that read by addresses, as every other device does: the same bits.
 #include <gtest/gtest.h>
 
-#include <stdlib.h>
-
 #include <algorithm>
 #include <cctype>
 #include <cstring>
@@ -11,23 +9,17 @@
 #include "core/error.h"
 #include "tests/parity/frames.h"
 #include "tests/parity/kernel_runner.h"
+#include "tests/parity/rays.h"
+#include "tests/parity/reads.h"
 
 namespace restlab::parity {
 namespace {
-
-// RESTLAB_VULKAN_READS for the time of a scope.
-class Reads {
- public:
-  explicit Reads(const char* how) { setenv("RESTLAB_VULKAN_READS", how, 1); }
-  ~Reads() { unsetenv("RESTLAB_VULKAN_READS"); }
-  Reads(const Reads&) = delete;
-  Reads& operator=(const Reads&) = delete;
-};
 
 // The third frame, then a layer, whose buffers are allocated after it: they lie elsewhere.
 std::vector<Image> seenBy(const char* how, const std::string& scene, const Combination& what) {
   const Reads reads(how);
   Session session(sceneNamed(scene), configOf(what, kVulkanSpecialised, 64, 48, 11));
+  EXPECT_EQ(session.startup().readsTexels, std::string(how) == "texels");
   session.frames(3);
   return {session.radiance(), session.aov("albedo")};
 }
@@ -49,6 +41,21 @@ TEST_P(ReadsTest, ByTexelsAndByAddressesGiveTheSameBits) {
       EXPECT_TRUE(std::any_of(a.begin(), a.end(), [](const glm::vec3& v) { return v.x > 0.0f; }));
     }
   }
+}
+
+// Texels do not reach buffers that came after the first pass: its rays are read all the same.
+TEST(Reads, BuffersThatCameLaterAreRead) {
+  if (!hasVulkan()) GTEST_SKIP() << kNoDevice;
+  const Reads reads("texels");
+  const auto scene = sceneNamed("cornell-box");
+  const std::vector<rl::TraceQuery> queries = randomQueries(scene, 4096, 3);
+  RayTracer tracer(scene, "vulkan", "bvh");
+  const std::vector<rl::TraceResult> first = tracer.trace(queries);
+  EXPECT_TRUE(tracer.readsTexels());
+  const std::vector<rl::TraceResult> later = tracer.trace(queries);
+  EXPECT_FALSE(tracer.readsTexels());
+  ASSERT_EQ(first.size(), later.size());
+  EXPECT_EQ(std::memcmp(first.data(), later.data(), first.size() * sizeof first[0]), 0);
 }
 
 TEST(Reads, AnotherWordIsRefused) {
