@@ -155,6 +155,7 @@ void FrameDifference::add(const FrameDifference& other) {
   later += other.later;
   if (unexplained == 0) firstUnexplained = other.firstUnexplained;
   unexplained += other.unexplained;
+  excused += other.excused;
   beyond1em4 += other.beyond1em4;
   beyond1em2 += other.beyond1em2;
   beyond1em1 += other.beyond1em1;
@@ -163,8 +164,8 @@ void FrameDifference::add(const FrameDifference& other) {
 std::string FrameDifference::text() const {
   return fmt::format(
       "{} of {} pixels differ ({:.2g}): {} at edges, {} ties, {} later decisions, {} unexplained; "
-      "beyond 1e-4: {}, 1e-2: {}, 1e-1: {}",
-      different, pixels, share(), edges, ties, later, unexplained, beyond1em4, beyond1em2,
+      "{} by another intersector alone; beyond 1e-4: {}, 1e-2: {}, 1e-1: {}",
+      different, pixels, share(), edges, ties, later, unexplained, excused, beyond1em4, beyond1em2,
       beyond1em1);
 }
 
@@ -180,6 +181,12 @@ FrameDifference countDifferent(const Image& a, const Image& b) {
     result.beyond1em1 += d > 1e-1;
   }
   return result;
+}
+
+void excuse(FrameDifference& difference, const Image& a, const Image& b, const Image& other) {
+  const Distance between(a, b), alone(other, b);
+  for (size_t i = 0; i < difference.pixels; ++i)
+    difference.excused += between(i) > kSameWithin && alone(i) > kSameWithin ? 1 : 0;
 }
 
 FrameDifference classify(const std::shared_ptr<const CompiledScene>& scene, Session& a,

@@ -23,6 +23,9 @@ namespace restlab::parity {
 namespace {
 
 constexpr double kMaxShare = 1e-3;  // of the pixels of a first frame, that differ
+// And that two intersectors make differ on the CPU alone. Most in many-lights, 1.4e-3 after eight
+// bounces between round columns.
+constexpr double kMaxShareOfIntersectors = 3e-3;
 // What a few pixels more than their share may say by chance, where an image is small.
 constexpr double kChance = 1e-4;
 
@@ -34,8 +37,8 @@ struct Size {
 
 // The count that a share of kMaxShare exceeds with kChance only; the share itself where there are
 // pixels enough.
-double mostDifferent(size_t pixels) {
-  const double expected = kMaxShare * double(pixels);
+double mostDifferent(size_t pixels, double share = kMaxShare) {
+  const double expected = share * double(pixels);
   if (expected >= 250.0) return expected;
   return quantile(complement(boost::math::poisson(expected), kChance));
 }
@@ -57,15 +60,24 @@ FrameDifference compareFrames(const Combination& what, const std::string& sceneN
     return std::make_unique<Session>(scene, config);
   };
   const auto a = open(left), b = open(right);
+  // What b's machine makes with the intersector of a.
+  const bool isEmbree = std::string(right.rayTracing) == "embree";
+  const auto other = isEmbree ? open(kCpuBvh) : nullptr;
   FrameDifference first;
   later.resize(size.frames - 1);
   for (uint32_t f = 0; f < size.frames; ++f) {
     a->frame();
     b->frame();
+    FrameDifference here =
+        f == 0 ? classify(scene, *a, *b) : countDifferent(a->radiance(), b->radiance());
+    if (isEmbree) {
+      other->frame();
+      excuse(here, a->radiance(), b->radiance(), other->radiance());
+    }
     if (f == 0) {
-      first = classify(scene, *a, *b);
+      first = here;
     } else {
-      later[f - 1].add(countDifferent(a->radiance(), b->radiance()));
+      later[f - 1].add(here);
     }
   }
   return first;
@@ -83,13 +95,18 @@ void expectParity(const Combination& what, const std::vector<std::string>& scene
     later.resize(laterHere.size());
     for (size_t f = 0; f < laterHere.size(); ++f) {
       std::printf("    frame %zu: %.2g differ\n", f + 1, laterHere[f].share());
-      EXPECT_LE(double(laterHere[f].different),
-                mostDifferent(first.pixels) * spreadAt(what, uint32_t(f + 1)))
+      const double spread = spreadAt(what, uint32_t(f + 1));
+      EXPECT_LE(double(laterHere[f].counted()), mostDifferent(first.pixels) * spread)
+          << scene << ", frame " << f + 1;
+      EXPECT_LE(double(laterHere[f].excused),
+                mostDifferent(first.pixels, kMaxShareOfIntersectors) * spread)
           << scene << ", frame " << f + 1;
       later[f].add(laterHere[f]);
     }
     std::fflush(stdout);
-    EXPECT_LE(double(first.different), mostDifferent(first.pixels))
+    EXPECT_LE(double(first.counted()), mostDifferent(first.pixels))
+        << scene << ": " << first.text();
+    EXPECT_LE(double(first.excused), mostDifferent(first.pixels, kMaxShareOfIntersectors))
         << scene << ": " << first.text();
     EXPECT_EQ(first.unexplained, 0u) << scene << ": " << first.firstUnexplained;
     all.add(first);
@@ -97,7 +114,7 @@ void expectParity(const Combination& what, const std::vector<std::string>& scene
   if (scenes.size() == 1) return;
   std::printf("  %s, all scenes, %s against %s: %s\n", what.name().c_str(), left.name, right.name,
               all.text().c_str());
-  EXPECT_LE(double(all.different), mostDifferent(all.pixels)) << all.text();
+  EXPECT_LE(double(all.counted()), mostDifferent(all.pixels)) << all.text();
 }
 
 class Frames : public testing::TestWithParam<Combination> {
@@ -140,8 +157,6 @@ TEST_P(Frames, AsWithoutSpecialisation) {
 TEST_P(FramesNightly, AsOnTheCpuWithTheSameHierarchy) {
   expectParity(combination(), scenes(), kVulkan, kCpuBvh, kLarge);
 }
-// Known to fail on many-lights (docs/roadmap.md): there the two intersectors differ that much on
-// one machine.
 TEST_P(FramesNightly, AsOnTheCpuWithEmbree) {
   expectParity(combination(), scenes(), kVulkan, kCpuEmbree, kLarge);
 }

@@ -35,8 +35,8 @@ bool isNearEdge(const rl::Hit& hit) {
 struct Agreement {
   uint64_t rays = 0, hits = 0, ties = 0, edges = 0, unexplained = 0;
   uint64_t grazing = 0;  // the same triangle, almost along its plane: t is ill-conditioned
-  uint64_t starts = 0;  // on a surface, to rounding: only one of the two has hit it
-  std::string first;  // that is not explained
+  uint64_t starts = 0;   // on a surface, to rounding: only one of the two has hit it
+  std::string first;     // that is not explained
 };
 
 void compare(const std::vector<rl::TraceQuery>& queries, const std::vector<rl::TraceResult>& embree,
@@ -87,18 +87,19 @@ void expectEmbreesHits(const std::string& sceneName, const std::string& rayTraci
     ray.dir = inputs.direction();
   }
   compare(queries, embree.trace(queries), device.trace(queries), sum);
-  std::printf("  %s, %s: %llu rays, %llu hits, %llu ties, %llu at edges, %llu at their start, %llu "
-              "grazing, "
-              "%llu unexplained\n",
-              sceneName.c_str(), rayTracing.c_str(), static_cast<unsigned long long>(sum.rays),
-              static_cast<unsigned long long>(sum.hits), static_cast<unsigned long long>(sum.ties),
-              static_cast<unsigned long long>(sum.edges),
-              static_cast<unsigned long long>(sum.starts),
-              static_cast<unsigned long long>(sum.grazing),
-              static_cast<unsigned long long>(sum.unexplained));
+  std::printf(
+      "  %s, %s: %llu rays, %llu hits, %llu ties, %llu at edges, %llu at their start, %llu "
+      "grazing, "
+      "%llu unexplained\n",
+      sceneName.c_str(), rayTracing.c_str(), static_cast<unsigned long long>(sum.rays),
+      static_cast<unsigned long long>(sum.hits), static_cast<unsigned long long>(sum.ties),
+      static_cast<unsigned long long>(sum.edges), static_cast<unsigned long long>(sum.starts),
+      static_cast<unsigned long long>(sum.grazing),
+      static_cast<unsigned long long>(sum.unexplained));
   EXPECT_EQ(sum.unexplained, 0u) << sceneName << ": " << sum.first;
   EXPECT_GT(sum.hits, sum.rays / 10) << sceneName;
-  EXPECT_LT(double(sum.ties + sum.edges + sum.starts + sum.grazing), 1e-2 * double(sum.rays)) << sceneName;
+  EXPECT_LT(double(sum.ties + sum.edges + sum.starts + sum.grazing), 1e-2 * double(sum.rays))
+      << sceneName;
 }
 
 // From inside a closed mesh, at its corners and along its edges: none gets out.
@@ -174,10 +175,6 @@ void expectSameTransmittance(const std::string& rayTracing) {
 }
 
 TEST(Rays, HitWhatEmbreesHit) {
-  if (!hasVulkan()) GTEST_SKIP() << kNoDevice;
-  for (const std::string& scene : sceneNames()) expectEmbreesHits(scene, "bvh", 50'000);
-}
-TEST(RaysNightly, HitWhatEmbreesHit) {
   if (!hasVulkan()) GTEST_SKIP() << kNoDevice;
   for (const std::string& scene : sceneNames()) expectEmbreesHits(scene, "bvh", 500'000);
 }
