@@ -16,6 +16,7 @@ list(APPEND RL_UNIT_TESTS
   pixel_pairs_test.cpp
   ray_offset_test.cpp
   records_test.cpp
+  reservoir_store_test.cpp
   rng_audit_path.cpp
   rng_audit_restir_initial.cpp
   rng_audit_restir_spatial.cpp
