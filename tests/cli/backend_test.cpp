@@ -207,6 +207,7 @@ TEST_F(VulkanTest, RayQueriesOfADeviceWithoutThemAreOneLine) {
 }
 
 TEST_F(VulkanTest, ValidationIsAskedForByTheOption) {
+  const Variable always("RESTLAB_VALIDATE", "0");
   const Variable layers("VK_LAYER_PATH", "/nonexistent");
   const std::string render = "render cornell-box -q -o x.exr --resolution 8x8 --backend vulkan";
   EXPECT_EQ(run(render).code, 0);

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <ostream>
 
@@ -228,13 +230,38 @@ std::vector<std::string> sceneNames() {
   return names;
 }
 
+std::vector<std::string> gateNames() {
+  return {"gates/cornell-box/cornell-box.gltf", "gates/cornell-d8/cornell.gltf",
+          "gates/mi-directional/mi-directional.gltf", "gates/mi-vertex-color/mi-vertex-color.gltf"};
+}
+
+namespace {
+
+bool isGate(const std::string& scene) { return scene.rfind("gates/", 0) == 0; }
+
+std::filesystem::path gateFile(const std::string& scene) {
+  const char* variable = std::getenv("RESTLAB_SCENES");
+  const std::filesystem::path root =
+      variable != nullptr ? std::filesystem::path(variable)
+                          : std::filesystem::path(RESTLAB_SOURCE_DIR) / "../shared/scenes";
+  return root / scene;
+}
+
+Scene makeScene(const std::string& name) {
+  if (name == "everything") return makeEverythingScene();
+  return isGate(name) ? loadScene(gateFile(name).string()) : makeBuiltinScene(name);
+}
+
+}  // namespace
+
+bool isAtHand(const std::string& scene) {
+  return !isGate(scene) || std::filesystem::exists(gateFile(scene));
+}
+
 std::shared_ptr<const CompiledScene> sceneNamed(const std::string& name) {
   static std::map<std::string, std::shared_ptr<const CompiledScene>> known;
   std::shared_ptr<const CompiledScene>& scene = known[name];
-  if (!scene) {
-    scene =
-        CompiledScene::build(name == "everything" ? makeEverythingScene() : makeBuiltinScene(name));
-  }
+  if (!scene) scene = CompiledScene::build(makeScene(name));
   return scene;
 }
 

@@ -67,9 +67,14 @@ void excuse(FrameDifference& difference, const Image& a, const Image& b, const I
 // Of the first frames of two sessions over one scene.
 FrameDifference classify(const std::shared_ptr<const CompiledScene>& scene, Session& a, Session& b);
 
-// The built-in scene, or "everything" (everything_scene.h); compiled once a process.
+// The built-in scene, or "everything" (everything_scene.h), or one of gateNames(); compiled once a
+// process.
 std::shared_ptr<const CompiledScene> sceneNamed(const std::string& name);
 std::vector<std::string> sceneNames();
+// Scenes with other renderers' images, which are not part of the project: "gates/...".
+std::vector<std::string> gateNames();
+// False for a gate whose file is not at hand (RESTLAB_SCENES names the collection).
+bool isAtHand(const std::string& scene);
 
 // True where some device can be used. A test is skipped otherwise, with kNoDevice.
 bool hasVulkan();
