@@ -1,11 +1,15 @@
 // Texture filtering: nearest or bilinear, repeat, clamp or mirror; sRGB decoded before filtering.
 
+// i: at most one texel before the first and two periods behind it, where textureSample() has left
+// it. No division: a vector of integers is divided one by one.
 RL_FN int textureWrap(int i, uint n, uint mode) {
   int size = int(n);
   if (mode == RL_WRAP_CLAMP) return clamp(i, 0, size - 1);
   int period = mode == RL_WRAP_MIRROR ? 2 * size : size;
-  int r = i - (i / period) * period;  // truncates towards zero
+  int r = i;
   if (r < 0) r += period;
+  if (r >= period) r -= period;
+  if (r >= period) r -= period;
   if (r >= size) r = period - 1 - r;
   return r;
 }
