@@ -104,7 +104,7 @@ class Backend {
 std::unique_ptr<Backend> makeCpuBackend(std::shared_ptr<const CompiledScene> scene,
                                         const BackendOptions& options);
 BackendInfo cpuBackendInfo();
-std::unique_ptr<Backend> makeVulkanBackend(std::shared_ptr<const CompiledScene> scene,
+std::unique_ptr<Backend> makeVulkanBackend(const std::shared_ptr<const CompiledScene>& scene,
                                            const BackendOptions& options);
 BackendInfo vulkanBackendInfo();
 

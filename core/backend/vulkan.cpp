@@ -514,7 +514,7 @@ class VulkanBackend final : public Backend {
 
 }  // namespace
 
-std::unique_ptr<Backend> makeVulkanBackend(std::shared_ptr<const CompiledScene> scene,
+std::unique_ptr<Backend> makeVulkanBackend(const std::shared_ptr<const CompiledScene>& scene,
                                            const BackendOptions& options) {
   return std::make_unique<VulkanBackend>(scene, options);
 }
