@@ -14,6 +14,7 @@
 
 #include "core/backend/backend.h"
 #include "core/backend/dialect_sources.h"
+#include "core/backend/vulkan_buffers.h"
 #include "core/backend/vulkan_kernels.h"
 #include "core/backend/vulkan_scene.h"
 #include "core/error.h"
@@ -92,7 +93,6 @@ struct Slot {
 constexpr size_t kInputBytes = 64 * 1024;
 constexpr size_t kCounterBytes = 64 * 1024;
 constexpr size_t kPassOffset = 256;
-constexpr size_t kPlaceBytes = 256;  // alignment of a session's buffers
 constexpr size_t kPassBytes = 2048;  // addresses, then parameters
 constexpr size_t kPassParams = 1024;
 
@@ -101,7 +101,8 @@ class VulkanBackend final : public Backend {
   VulkanBackend(const std::shared_ptr<const CompiledScene>& scene, const BackendOptions& options)
       : context_(Context::of({options.device, options.validate})),
         device_(*context_->device),
-        memory_(*context_->memory) {
+        memory_(*context_->memory),
+        buffers_(context_->memory) {
     const bool hasQuery = device_.info().hasRayQuery;
     rayTracing_ = options.rayTracing;
     // A driver in software traces faster by the hierarchy that kernels hold themselves.
@@ -137,8 +138,6 @@ class VulkanBackend final : public Backend {
       memory_.free(slot.inputs);
       memory_.free(slot.counters);
     }
-    for (const GpuBuffer& buffer : alone_) memory_.free(buffer);
-    memory_.free(together_);
   }
 
   void requireMemory(const std::string& what, uint32_t width, uint32_t height, uint64_t bufferBytes,
@@ -156,15 +155,7 @@ class VulkanBackend final : public Backend {
                             available >> 20));
   }
 
-  // Buffers wait for the first use of any: where kernels read by texels, they then get their places
-  // in one piece of memory. What comes later has its own.
-  BufferId allocate(size_t bytes) override {
-    GpuBuffer buffer;
-    buffer.bytes = (std::max<size_t>(bytes, 1) + kPlaceBytes - 1) & ~(kPlaceBytes - 1);
-    if (isPlaced_) placeAlone(buffer);
-    buffers_.push_back(buffer);
-    return static_cast<BufferId>(buffers_.size() - 1);
-  }
+  BufferId allocate(size_t bytes) override { return buffers_.allocate(bytes); }
   void clear(BufferId buffer) override {
     placeBuffers();
     memory_.clear(buffers_[buffer]);
@@ -252,29 +243,12 @@ class VulkanBackend final : public Backend {
     return known;
   }
 
-  void placeAlone(GpuBuffer& buffer) {
-    buffer = memory_.allocate(buffer.bytes, MemoryKind::device);
-    memory_.clear(buffer);
-    alone_.push_back(buffer);
-  }
-
+  // At the first use of any buffer.
   void placeBuffers() {
-    if (isPlaced_) return;
-    size_t total = 0;
-    for (const GpuBuffer& buffer : buffers_) total += buffer.bytes;
-    readsTexels_ = choosesTexels(total);
-    if (!readsTexels_) {
-      for (GpuBuffer& buffer : buffers_) placeAlone(buffer);
-      isPlaced_ = true;
-      return;
-    }
-    together_ = memory_.allocate(total, MemoryKind::device);
-    memory_.clear(together_);
-    size_t offset = 0;
-    for (GpuBuffer& buffer : buffers_) {
-      buffer = VulkanMemory::part(together_, offset, buffer.bytes);
-      offset += buffer.bytes;
-    }
+    if (buffers_.isPlaced()) return;
+    readsTexels_ = choosesTexels(buffers_.bytes());
+    buffers_.place(readsTexels_);
+    if (!readsTexels_) return;
     for (Slot& slot : slots_) {
       const auto part = [&](size_t begin, size_t bytes) {
         return VulkanMemory::part(slot.inputs, begin, bytes);
@@ -282,9 +256,8 @@ class VulkanBackend final : public Backend {
       slot.bound = context_->kernels->bind(
           {scene_->data(), part(0, kPassOffset), part(kPassOffset, kPassParams),
            part(kPassOffset + kPassParams, kPassBytes - kPassParams), *scene_->arrays(),
-           together_});
+           buffers_.together()});
     }
-    isPlaced_ = true;
   }
 
   // A driver in software reads four words through a texel in the time that one takes by address,
@@ -310,11 +283,7 @@ class VulkanBackend final : public Backend {
 
   // Texels reach the buffers that were placed together; a pass with others reads by address.
   bool readsTexels(const PassRun& pass) const {
-    if (!readsTexels_) return false;
-    return std::all_of(pass.buffers.begin(), pass.buffers.end(), [this](BufferId b) {
-      return b == kNoBuffer ||
-             buffers_[b].address - together_.address < static_cast<uint64_t>(together_.bytes);
-    });
+    return readsTexels_ && buffers_.areTogether(pass.buffers);
   }
 
   static size_t passOffset(size_t pass) { return kPassOffset + pass * kPassBytes; }
@@ -394,7 +363,7 @@ class VulkanBackend final : public Backend {
     push.params = push.buffers + kPassParams;
     push.counters = slot.counters.address + index * sizeof(GlslCounters);
     push.sceneBase = readsTexels_ ? scene_->arrays()->address : 0;
-    push.stateBase = together_.address;
+    push.stateBase = buffers_.together().address;
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, key.pipelines[band.pass]);
     if (slot.bound.set != VK_NULL_HANDLE) {
       const auto offset = static_cast<uint32_t>(band.pass * kPassBytes);
@@ -499,10 +468,7 @@ class VulkanBackend final : public Backend {
   std::shared_ptr<VulkanScene> scene_;
   std::string rayTracing_;
   GlslTrace trace_{};
-  std::vector<GpuBuffer> buffers_;  // by BufferId; of those not placed yet, the bytes
-  std::vector<GpuBuffer> alone_;    // those of them that are not parts of together_
-  GpuBuffer together_;
-  bool isPlaced_ = false;
+  VulkanBuffers buffers_;
   bool readsTexels_ = false;
   std::map<std::tuple<std::string, uint32_t, bool>, VkPipeline> pipelines_;
   std::map<VkPipeline, uint32_t> bandPixels_;  // of passes whose first bands took too long
@@ -517,30 +483,6 @@ class VulkanBackend final : public Backend {
 std::unique_ptr<Backend> makeVulkanBackend(const std::shared_ptr<const CompiledScene>& scene,
                                            const BackendOptions& options) {
   return std::make_unique<VulkanBackend>(scene, options);
-}
-
-BackendInfo vulkanBackendInfo() {
-  BackendInfo info;
-  info.name = "vulkan";
-  std::vector<VulkanDeviceInfo> devices;
-  try {
-    devices = vulkanDeviceInfos();
-  } catch (const Error& error) {
-    info.whyNot = error.what();
-  }
-  for (const VulkanDeviceInfo& device : devices) {
-    std::string line =
-        fmt::format("{} ({}; {}; {} MiB; rays: bvh{})", device.name, device.kind, device.driver,
-                    device.memoryBytes >> 20, device.hasRayQuery ? ", query" : "");
-    if (!device.whyNot.empty()) line += " cannot be used: " + device.whyNot;
-    info.devices.push_back(line);
-  }
-  info.available = !devices.empty() && devices.front().whyNot.empty();
-  info.description = devices.empty() ? "compute shaders" : "compute shaders on " + devices[0].name;
-  if (devices.empty() && info.whyNot.empty())
-    info.whyNot = "no Vulkan device; the package mesa-vulkan-drivers has one in software";
-  if (!devices.empty() && !devices.front().whyNot.empty()) info.whyNot = devices.front().whyNot;
-  return info;
 }
 
 }  // namespace restlab

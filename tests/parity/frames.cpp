@@ -12,34 +12,12 @@
 #include "core/caches/caches.h"
 #include "core/integrator.h"
 #include "tests/parity/everything_scene.h"
-#include "tests/unit/dialect_context.h"
-
-namespace rl {
-
-// The dialect with traceRay() on the project's own hierarchy.
-struct OwnTraceCtx {
-  static constexpr uint kFeatures = RL_FEATURE_ALL;
-
-  const SceneData& gScene;
-  const FrameData& gFrame;
-  CpuKernelCounters& gCounters;
-
-#include "core/dialect/order.glsl"
-#include "core/dialect/trace_bvh.glsl"
-};
-
-}  // namespace rl
+#include "tests/unit/bvh_context.h"
+#include "tests/unit/ray_cases.h"
 
 namespace restlab::parity {
 
 namespace {
-
-constexpr float kNearEdge = 1e-4f;  // as a share of the triangle
-
-bool isNearEdge(const rl::Hit& hit) {
-  if (hit.instance == rl::RL_INVALID) return false;
-  return std::min({hit.bary.x, hit.bary.y, 1.0f - hit.bary.x - hit.bary.y}) < kNearEdge;
-}
 
 // The first hits of a session's pixels, found again on both intersectors.
 class FirstHits {
@@ -66,12 +44,12 @@ class FirstHits {
     rl::Hit a{}, b{};
     embree_->traceRay(ray, rl::RL_RAY_PATH, rng.key.x, a);
     own_.traceRay(ray, rl::RL_RAY_PATH, rng.key.x, b);
-    return isNearEdge(a) || isNearEdge(b);
+    return unit::isNearEdge(a) || unit::isNearEdge(b);
   }
 
  private:
   unit::Dialect<> embree_;
-  rl::OwnTraceCtx own_;
+  rl::BvhCtx own_;
 };
 
 double meanLength(const Image& image) {

@@ -7,12 +7,11 @@
 #include <cstdio>
 
 #include "core/backend/vulkan_device.h"
-#include "core/scene/builtin_builder.h"
-#include "core/scene/builtin_mesh.h"
 #include "tests/parity/frames.h"
 #include "tests/parity/kernel_runner.h"
 #include "tests/parity/rays.h"
 #include "tests/unit/random_inputs.h"
+#include "tests/unit/ray_cases.h"
 
 namespace restlab::parity {
 namespace {
@@ -26,48 +25,9 @@ bool hasRayQuery() {
   return !devices.empty() && devices[0].whyNot.empty() && devices[0].hasRayQuery;
 }
 
-// Within 1e-4 of an edge, as a share of the triangle.
-bool isNearEdge(const rl::Hit& hit) {
-  if (hit.instance == rl::RL_INVALID) return false;
-  return std::min({hit.bary.x, hit.bary.y, 1.0f - hit.bary.x - hit.bary.y}) < 1e-4f;
-}
-
-struct Agreement {
-  uint64_t rays = 0, hits = 0, ties = 0, edges = 0, unexplained = 0;
-  uint64_t grazing = 0;  // the same triangle, almost along its plane: t is ill-conditioned
-  uint64_t starts = 0;   // on a surface, to rounding: only one of the two has hit it
-  std::string first;     // that is not explained
-};
-
 void compare(const std::vector<rl::TraceQuery>& queries, const std::vector<rl::TraceResult>& embree,
-             const std::vector<rl::TraceResult>& device, Agreement& sum) {
-  for (size_t i = 0; i < queries.size(); ++i) {
-    const rl::Hit &a = embree[i].hit, &b = device[i].hit;
-    const bool hitsA = a.instance != rl::RL_INVALID, hitsB = b.instance != rl::RL_INVALID;
-    // Distances are rounded at the size of the coordinates.
-    const glm::vec3 o = glm::abs(queries[i].ray.origin);
-    const float atOrigin = 2e-5f * std::max({o.x, o.y, o.z});
-    const float tolerance = 1e-4f * a.t + atOrigin;
-    const bool isAsFar = hitsA && hitsB && std::abs(a.t - b.t) <= tolerance;
-    const bool isSame = a.instance == b.instance && (!hitsA || a.primitive == b.primitive);
-    ++sum.rays;
-    sum.hits += hitsA ? 1 : 0;
-    if (isSame && (!hitsA || isAsFar)) continue;
-    if (isAsFar) {
-      ++sum.ties;
-    } else if (isSame && std::abs(a.t - b.t) <= 1e-2f * a.t) {
-      ++sum.grazing;
-    } else if ((hitsA && a.t <= atOrigin) || (hitsB && b.t <= atOrigin)) {
-      ++sum.starts;
-    } else if (isNearEdge(a) || isNearEdge(b)) {
-      ++sum.edges;
-    } else if (sum.unexplained++ == 0) {
-      char text[200];
-      std::snprintf(text, sizeof text, "ray %zu: Embree %d %d t %g, device %d %d t %g", i,
-                    int(a.instance), int(a.primitive), a.t, int(b.instance), int(b.primitive), b.t);
-      sum.first = text;
-    }
-  }
+             const std::vector<rl::TraceResult>& device, unit::RayAgreement& sum) {
+  for (size_t i = 0; i < queries.size(); ++i) sum.add(queries[i].ray, embree[i].hit, device[i].hit);
 }
 
 // `count` rays in all directions, and as many that leave what the first ones have hit.
@@ -76,7 +36,7 @@ void expectEmbreesHits(const std::string& sceneName, const std::string& rayTraci
   RayTracer embree(scene, "cpu", "embree"), device(scene, "vulkan", rayTracing);
   std::vector<rl::TraceQuery> queries = randomQueries(scene, count, 17);
   const std::vector<rl::TraceResult> found = embree.trace(queries);
-  Agreement sum;
+  unit::RayAgreement sum;
   compare(queries, found, device.trace(queries), sum);
   unit::Inputs inputs(18);
   for (size_t i = 0; i < count; ++i) {
@@ -87,39 +47,20 @@ void expectEmbreesHits(const std::string& sceneName, const std::string& rayTraci
     ray.dir = inputs.direction();
   }
   compare(queries, embree.trace(queries), device.trace(queries), sum);
-  std::printf(
-      "  %s, %s: %llu rays, %llu hits, %llu ties, %llu at edges, %llu at their start, %llu "
-      "grazing, "
-      "%llu unexplained\n",
-      sceneName.c_str(), rayTracing.c_str(), static_cast<unsigned long long>(sum.rays),
-      static_cast<unsigned long long>(sum.hits), static_cast<unsigned long long>(sum.ties),
-      static_cast<unsigned long long>(sum.edges), static_cast<unsigned long long>(sum.starts),
-      static_cast<unsigned long long>(sum.grazing),
-      static_cast<unsigned long long>(sum.unexplained));
+  std::printf("  %s, %s: %s\n", sceneName.c_str(), rayTracing.c_str(), sum.text().c_str());
   EXPECT_EQ(sum.unexplained, 0u) << sceneName << ": " << sum.first;
   EXPECT_GT(sum.hits, sum.rays / 10) << sceneName;
-  EXPECT_LT(double(sum.ties + sum.edges + sum.starts + sum.grazing), 1e-2 * double(sum.rays))
-      << sceneName;
+  EXPECT_LT(sum.explainedShare(), 1e-2) << sceneName;
 }
 
 // From inside a closed mesh, at its corners and along its edges: none gets out.
 void expectWatertight(const std::string& rayTracing) {
-  builtin::SceneBuilder builder("closed");
-  const uint32_t id = builder.addMaterial("grey", builtin::lambert(glm::vec3(0.5f)));
-  const MeshGeometry mesh = builtin::sphere("ball", {0, 0, 0}, 1.0, 5, true);
-  builder.add(mesh, id);
-  const Compiled scene = CompiledScene::build(builder.finish());
-  unit::Inputs inputs(5);
-  std::vector<rl::TraceQuery> queries(200'000);
-  for (size_t i = 0; i < queries.size(); ++i) {
-    const glm::uvec3 t = mesh.triangles[inputs.below(uint32_t(mesh.triangles.size()))];
-    const float u = i % 4 == 0 ? 0.0f : inputs.uniform();  // a corner, or a place on an edge
-    const glm::vec3 target = mesh.positions[t.x] + u * (mesh.positions[t.y] - mesh.positions[t.x]);
-    const glm::vec3 from = 0.5f * inputs.uniform() * inputs.direction();
-    queries[i].ray = {from - glm::vec3(scene->origin()), 0.0f, target - from, 3e38f};
-  }
+  const unit::ClosedBall ball(glm::dvec3(0.0));
+  std::vector<rl::TraceQuery> queries;
+  for (const rl::Ray& ray : ball.raysAtEdges(200'000, 5))
+    queries.push_back({ray, rl::RL_RAY_PATH, 0, 0, 0});
   size_t leaks = 0;
-  for (const rl::TraceResult& result : RayTracer(scene, "vulkan", rayTracing).trace(queries))
+  for (const rl::TraceResult& result : RayTracer(ball.scene, "vulkan", rayTracing).trace(queries))
     leaks += result.hit.instance != 0u ? 1 : 0;
   std::printf("  %s: %zu of %zu rays at edges and corners pass\n", rayTracing.c_str(), leaks,
               queries.size());
@@ -131,35 +72,11 @@ void expectWatertight(const std::string& rayTracing) {
 
 // Shadow rays through veils: what Embree's filters multiply, the device multiplies.
 void expectSameTransmittance(const std::string& rayTracing) {
-  builtin::SceneBuilder builder("veils");
-  rl::Material veil = builtin::lambert(glm::vec3(0.5f));
-  veil.flags |= rl::RL_MATERIAL_ALPHA_BLEND;
-  veil.alpha = 0.25f;
-  const uint32_t id = builder.addMaterial("veil", veil),
-                 solid = builder.addMaterial("solid", builtin::lambert(glm::vec3(0.5f)));
-  const uint32_t mesh = builder.addGeometry(builtin::sphere("ball", {0, 0, 0}, 1.0, 2, false));
-  for (const double x : {0.0, 3.0}) {
-    glm::dmat4 place(1.0);
-    place[3] = {x, 0, 0, 1};
-    builder.place("ball", mesh, id, place);
-  }
-  builder.add(builtin::sphere("own", {6, 0, 0}, 1.0, 2, false), id);
-  builder.add(builtin::box("block", {8, -1, -1}, {9, 1, 1}), solid);
-  const Compiled scene = CompiledScene::build(builder.finish());
-  const glm::vec3 origin(scene->origin());
+  const Compiled scene = unit::veils();
   unit::Inputs inputs(9);
-  std::vector<rl::TraceQuery> queries(100'000);
-  for (rl::TraceQuery& q : queries) {
-    glm::vec3 from, to;
-    from.x = inputs.uniform(-8.0f, -6.0f);
-    to.x = inputs.uniform(1.0f, 10.0f);
-    from.y = inputs.uniform(-1.0f, 1.0f);
-    to.y = inputs.uniform(-1.0f, 1.0f);
-    from.z = inputs.uniform(-1.0f, 1.0f);
-    to.z = inputs.uniform(-1.0f, 1.0f);
-    q.ray = {from - origin, 0.0f, to - from, 1.0f};
-    q.mode = rl::RL_RAY_SHADOW;
-  }
+  std::vector<rl::TraceQuery> queries;
+  for (int i = 0; i < 100'000; ++i)
+    queries.push_back({unit::rayThroughVeils(*scene, inputs), rl::RL_RAY_SHADOW, 0, 0, 0});
   const auto embree = RayTracer(scene, "cpu", "embree").trace(queries);
   const auto device = RayTracer(scene, "vulkan", rayTracing).trace(queries);
   size_t between = 0, blocked = 0, different = 0;

@@ -1,0 +1,19 @@
+// The dialect's functions with traceRay() on the project's own hierarchy.
+#pragma once
+
+#include "tests/unit/dialect_context.h"
+
+namespace rl {
+
+struct BvhCtx {
+  static constexpr uint kFeatures = RL_FEATURE_ALL;
+
+  const SceneData& gScene;
+  const FrameData& gFrame;
+  CpuKernelCounters& gCounters;
+
+#include "core/dialect/order.glsl"
+#include "core/dialect/trace_bvh.glsl"
+};
+
+}  // namespace rl
