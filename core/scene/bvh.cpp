@@ -20,6 +20,9 @@ namespace {
 
 constexpr uint32_t kLeafSize = 4;
 constexpr uint32_t kWidth = 4;  // children of a node
+// Room of the builder for pieces of triangles, in triangles. It is dealt out to parts of the scene
+// by their size, not by their need: with little of it, parts with thin crossing triangles stay bad.
+constexpr size_t kSplitRoom = 4;
 
 struct Box {
   glm::vec3 low{std::numeric_limits<float>::infinity()};
@@ -323,7 +326,7 @@ class Builder {
       arguments.buildQuality = RTC_BUILD_QUALITY_HIGH;
       arguments.splitPrimitive = splitTriangle;
       arguments.userPtr = const_cast<Triangle*>(splits);
-      primitives.resize(boxes.size() + boxes.size() / 2);  // room for a half more
+      primitives.resize(kSplitRoom * boxes.size());
     }
     arguments.maxBranchingFactor = kWidth;
     arguments.maxDepth = rl::RL_BVH_MAX_DEPTH;
