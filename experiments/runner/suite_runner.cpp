@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <deque>
+#include <exception>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
@@ -111,14 +112,21 @@ class SuiteRun {
     sceneResolution(suite_, scene, prepared, block.width, block.height);
     block.startupMs = check_.startupMs[scene.name];
     if (!obtain(scene, prepared, block)) return false;
-    const bool finished = executeBlock(
-        suite_, prepared,
-        [&](const BlockResult& of, const RunResult& run) {
-          for (const std::string& line : resultLines(suite_, of, run, started_)) {
-            appendLine(request_.out / "results.jsonl", line);
-          }
-        },
-        block);
+    bool finished = false;
+    std::exception_ptr failure;  // a lost device, say: what was finished before it is kept
+    try {
+      finished = executeBlock(
+          suite_, prepared,
+          [&](const BlockResult& of, const RunResult& run) {
+            for (const std::string& line : resultLines(suite_, of, run, started_)) {
+              appendLine(request_.out / "results.jsonl", line);
+            }
+          },
+          block);
+    } catch (const Error&) {
+      if (block.methods.empty() || block.methods.back().runs.empty()) throw;
+      failure = std::current_exception();
+    }
     writeBlockImages(request_.out / "images", suite_, block);
     const std::vector<MethodSummary> rows = summarise(suite_, block);
     std::fputs(blockTable(suite_, rows).c_str(), stdout);
@@ -134,6 +142,7 @@ class SuiteRun {
     block.reference.variance.reset();
     if (block.reference.half0) block.reference.half0 = block.reference.half1 = Image();
     writeTables(finished);
+    if (failure) std::rethrow_exception(failure);
     return finished;
   }
 
@@ -166,7 +175,7 @@ class SuiteRun {
     if (!csv.empty()) writeTextFile(request_.out / "summary.csv", csv);
     std::string text = fmt::format("# {}\n\n", suite_.name);
     if (!suite_.question.empty()) text += suite_.question + "\n\n";
-    if (!finished) text += "Interrupted: the rows below are of what was finished.\n\n";
+    if (!finished) text += "Not finished: the rows below are of what was.\n\n";
     for (const std::string& line : skipped_) text += line + "\n\n";
     for (const BlockResult& block : blocks_) {
       std::vector<MethodSummary> own;

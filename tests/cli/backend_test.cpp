@@ -58,7 +58,7 @@ class Variable {
 class BackendTest : public ProgramTest {
   // The driver in software (Mesa 22.3) leaves 128 bytes behind, with no frame that names it; in a
   // build that looks for leaks each program would end with an error. Other tests look for our own.
-  const Variable leaks_{"ASAN_OPTIONS", "detect_leaks=0"};
+  const Variable leaks_{"ASAN_OPTIONS", "detect_leaks=0:verify_asan_link_order=0"};
 
  protected:
   void SetUp() override {
@@ -321,6 +321,37 @@ TEST_F(VulkanTest, SeveralBackendsShareATable) {
   EXPECT_EQ(parseCsv(read("few/summary.csv")).size(), 2u);
   ASSERT_EQ(run({"run", "suite.toml", "--out", "one", "--methods", "path @vulkan"}).code, 0);
   EXPECT_EQ(parseCsv(read("one/summary.csv")).size(), 1u);
+}
+
+TEST_F(VulkanTest, ALostDeviceIsOneLineAndFinishedRunsStay) {
+  const Variable library("LD_PRELOAD", RESTLAB_LOST_DEVICE);
+  const Variable counts("RESTLAB_TEST_SUBMISSION_COUNT", path("count").c_str());
+  const std::string suite = "run suite.toml -q --out out --set backend=vulkan --set runs=3";
+  const std::string render = "render cornell-box -q --resolution 8x8 --backend vulkan --spp 4 ";
+  ASSERT_EQ(run(render + "-o there.exr").code, 0);
+  ASSERT_GT(std::stol(read("count")), 1) << "the library is not asked";
+  const std::vector<std::string> lost = {"the device was lost", "--backend cpu"};
+  {
+    const Variable limit("RESTLAB_TEST_SUBMISSIONS", "2");
+    expectError(run(render + "-o lost.exr"), 4, lost);
+    EXPECT_FALSE(fs::exists(path("lost.exr")));
+    expectError(run(suite), 4, lost);
+    EXPECT_FALSE(fs::exists(path("out/summary.csv"))) << "no run was finished";
+  }
+  ASSERT_EQ(run(suite).code, 0);
+  EXPECT_EQ(parseCsv(read("out/summary.csv"))[0].at("runs"), "3");
+  const std::string last = std::to_string(std::stol(read("count")) - 2);
+  const Variable limit("RESTLAB_TEST_SUBMISSIONS", last.c_str());
+  const ProgramResult result = run(suite);
+  EXPECT_EQ(result.code, 4) << result.err;
+  ASSERT_EQ(result.errors().size(), 1u) << result.err;
+  EXPECT_NE(result.errors()[0].find(lost[0]), std::string::npos) << result.err;
+  const auto rows = parseCsv(read("out/summary.csv"));
+  ASSERT_EQ(rows.size(), 2u);
+  for (const auto& row : rows) EXPECT_EQ(row.at("runs"), "2");
+  EXPECT_NE(read("out/table.md").find("Not finished"), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(read("out/run.json"))["status"].get<std::string>().find("failed"),
+            0u);
 }
 
 TEST_F(VulkanTest, AMethodsOwnBackendWins) {
