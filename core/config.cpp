@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <toml++/toml.h>
+#include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <set>
+#include <sstream>
 
+#include "core/config_include.h"
 #include "core/error.h"
 
 namespace restlab {
@@ -32,16 +34,13 @@ std::string kindOf(const toml::node& node) {
   }
 }
 
-// A value given by --set has no line: its "file" is the place itself.
-const char kAssignedPrefix[] = "--set ";
-
-// What people write is far smaller.
-constexpr size_t kMaxFileBytes = size_t(1) << 20;
+// An assigned value has no line of its own: its "file" is this and the place that assigned it.
+constexpr char kAssigned = '\x01';
 
 std::string formatPlace(const toml::source_region& source, const std::string& file) {
   const std::string name = source.path ? *source.path : file;
-  if (name.rfind(kAssignedPrefix, 0) == 0 || source.begin.line == 0) return name;
-  return fmt::format("{}:{}:{}", name, source.begin.line, source.begin.column);
+  const bool isAssigned = !name.empty() && name.front() == kAssigned;
+  return isAssigned ? name.substr(1) : tomlPlace(source, file);
 }
 
 std::string quotedList(const std::vector<std::string>& names) {
@@ -104,7 +103,7 @@ std::string convertParameter(const ParameterInfo& info, const toml::node& node,
 toml::table parseValue(const std::string& text, const std::string& place) {
   if (text.find('\n') == std::string::npos && text.find('#') == std::string::npos) {
     try {
-      return toml::parse("value = " + text, place);
+      return toml::parse("value = " + text, kAssigned + place);
     } catch (const toml::parse_error&) {
       // Not a TOML value: a bare word such as `unbiased` or a path.
     }
@@ -147,33 +146,17 @@ ConfigTable::ConfigTable(std::shared_ptr<Document> document, Node* node)
 ConfigTable ConfigTable::parseText(const std::string& text, const std::string& name) {
   auto document = std::make_shared<Document>();
   document->file = name;
-  try {
-    document->root = toml::parse(text, name);
-  } catch (const toml::parse_error& error) {
-    failUsage(fmt::format("{}: {}", formatPlace(error.source(), name), error.description()));
-  }
+  document->root = parseTomlWithIncludes(text, name, "");
   Node* node = document->nodeOf(document->root);
   return ConfigTable(std::move(document), node);
 }
 
 ConfigTable ConfigTable::parseFile(const std::filesystem::path& file) {
-  std::error_code status;
-  if (std::filesystem::is_directory(file, status)) {
-    failUsage(fmt::format("{}: is a directory, not a TOML file", file.string()));
-  }
-  if (std::filesystem::exists(file, status) && !std::filesystem::is_regular_file(file, status)) {
-    failUsage(fmt::format("{}: is not a regular file", file.string()));  // a device may never end
-  }
-  std::ifstream in(file, std::ios::binary);
-  if (!in) failUsage(fmt::format("{}: cannot be read (no such file?)", file.string()));
-  std::string text(kMaxFileBytes + 1, '\0');
-  in.read(text.data(), std::streamsize(text.size()));
-  text.resize(size_t(in.gcount()));
-  if (text.size() > kMaxFileBytes) {
-    failUsage(fmt::format("{}: is larger than {} bytes, no TOML file of settings", file.string(),
-                          kMaxFileBytes));
-  }
-  return parseText(text, file.string());
+  auto document = std::make_shared<Document>();
+  document->file = file.string();
+  document->root = parseTomlWithIncludes(readTomlText(file), document->file, file.parent_path());
+  Node* node = document->nodeOf(document->root);
+  return ConfigTable(std::move(document), node);
 }
 
 bool ConfigTable::has(const std::string& key) const { return node_->find(key) != nullptr; }
@@ -282,6 +265,45 @@ std::vector<int64_t> ConfigTable::getIntegers(const std::string& key,
   return values;
 }
 
+std::vector<std::string> ConfigTable::getTexts(const std::string& key) const {
+  const toml::node* node = node_->find(key);
+  if (!node) return {};
+  std::vector<std::string> texts;
+  const auto add = [&](const toml::node& value) {
+    if (value.is_table()) fail(key, fmt::format("'{}' must hold values, not tables", key));
+    std::ostringstream text;
+    value.visit([&](const auto& typed) { text << typed; });
+    texts.push_back(text.str());
+  };
+  if (const toml::array* array = node->as_array()) {
+    for (const toml::node& element : *array) add(element);
+  } else {
+    add(*node);
+  }
+  return texts;
+}
+
+std::vector<std::string> ConfigTable::keys() const {
+  std::vector<const toml::key*> found;
+  for (const auto& [key, value] : *node_->table) found.push_back(&key);
+  std::stable_sort(found.begin(), found.end(), [](const toml::key* a, const toml::key* b) {
+    return a->source().begin < b->source().begin;
+  });
+  std::vector<std::string> names;
+  for (const toml::key* key : found) names.emplace_back(key->str());
+  return names;
+}
+
+std::vector<std::string> ConfigTable::known() const {
+  return {node_->known.begin(), node_->known.end()};
+}
+
+std::string ConfigTable::text() const {
+  std::ostringstream text;
+  text << *node_->table << '\n';
+  return text.str();
+}
+
 ConfigTable ConfigTable::getTable(const std::string& key) const {
   const toml::node* found = node_->find(key);
   if (!found) {
@@ -346,10 +368,11 @@ ParameterValue parseParameter(const ParameterInfo& info, const std::string& text
   return value;
 }
 
-std::pair<std::string, std::string> splitAssignment(const std::string& assignment) {
+std::pair<std::string, std::string> splitAssignment(const std::string& assignment,
+                                                    const std::string& option) {
   const size_t equals = assignment.find('=');
   if (equals == std::string::npos || equals == 0) {
-    failUsage(fmt::format("--set {}: must be KEY=VALUE", assignment));
+    failUsage(fmt::format("{} {}: must be KEY=VALUE", option, assignment));
   }
   return {assignment.substr(0, equals), assignment.substr(equals + 1)};
 }

@@ -18,6 +18,7 @@ namespace restlab {
 
 class ConfigTable {
  public:
+  // With the files that it includes (core/config_include.h).
   static ConfigTable parseFile(const std::filesystem::path& file);
   // `name` stands where the file name would in messages.
   static ConfigTable parseText(const std::string& text, const std::string& name);
@@ -39,6 +40,14 @@ class ConfigTable {
                                       const std::vector<std::string>& fallback = {}) const;
   std::vector<int64_t> getIntegers(const std::string& key, const std::vector<int64_t>& fallback,
                                    int64_t min, int64_t max) const;
+  // The values of an array, or one value, each as TOML text that assign() takes.
+  std::vector<std::string> getTexts(const std::string& key) const;
+  // In the order of the file.
+  std::vector<std::string> keys() const;
+  // The keys that were asked for, in alphabetical order.
+  std::vector<std::string> known() const;
+  // The table, with what was assigned, as TOML.
+  std::string text() const;
   // [key]: an empty table where the key is absent.
   ConfigTable getTable(const std::string& key) const;
   // [[key]]: the tables in the order of the file.
@@ -69,7 +78,8 @@ class ConfigTable {
 ParameterValue parseParameter(const ParameterInfo& info, const std::string& text,
                               const std::string& place);
 
-// Splits "KEY=VALUE"; throws badUsage where there is no '=' or no key.
-std::pair<std::string, std::string> splitAssignment(const std::string& assignment);
+// Splits "KEY=VALUE" of an option; throws badUsage where there is no '=' or no key.
+std::pair<std::string, std::string> splitAssignment(const std::string& assignment,
+                                                    const std::string& option = "--set");
 
 }  // namespace restlab

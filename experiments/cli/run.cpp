@@ -17,8 +17,9 @@ namespace {
 
 struct RunOptions {
   std::string suite, out, scenes, methods;
-  std::vector<std::string> overrides;
+  std::vector<std::string> overrides, sweeps;
   int threads = -1;  // -1: as the suite says
+  bool force = false;
 };
 
 const std::string& baseName(const SuiteScene& scene) { return scene.name; }
@@ -58,10 +59,13 @@ void warnOfYardsticks(const Suite& suite) {
 }
 
 void runVerb(const RunOptions& options, Outcome& outcome) {
-  Suite suite = loadSuite(options.suite, options.overrides);
-  keepNamed(suite.scenes, options.scenes, "--scenes");
-  keepNamed(suite.methods, options.methods, "--methods");
-  if (options.threads >= 0) suite.threads = options.threads;
+  std::vector<Suite> points = loadSuites(options.suite, options.overrides, options.sweeps);
+  for (Suite& suite : points) {
+    keepNamed(suite.scenes, options.scenes, "--scenes");
+    keepNamed(suite.methods, options.methods, "--methods");
+    if (options.threads >= 0) suite.threads = options.threads;
+  }
+  const Suite& suite = points.front();
   if (suite.runs < 2) {
     logWarning("runs = 1: no interval and no bias can be given; biased rows will not count");
   }
@@ -70,11 +74,14 @@ void runVerb(const RunOptions& options, Outcome& outcome) {
   request.out = options.out.empty() ? std::filesystem::path("results") / safeFileName(suite.name)
                                     : std::filesystem::path(options.out);
   request.argv = outcome.argv;
-  logInfo(fmt::format("{}: {} scenes, {} methods, {} runs; results in {}", suite.name,
+  request.force = options.force;
+  logInfo(fmt::format("{}: {}{} scenes, {} methods, {} runs; results in {}", suite.name,
+                      points.size() > 1 ? fmt::format("{} points, ", points.size()) : "",
                       suite.scenes.size(), suite.methods.size(), suite.runs, request.out.string()));
-  if (!runSuite(suite, request)) {
+  if (!runSuite(points, request)) {
     throw Error(ExitCode::interrupted,
-                fmt::format("interrupted: finished runs are kept in {}", request.out.string()));
+                fmt::format("interrupted: finished runs are kept in {}; the same command goes on",
+                            request.out.string()));
   }
 }
 
@@ -90,6 +97,11 @@ Action addRunVerb(CLI::App& app) {
                    "KEY=VALUE: a setting, reference.KEY, method.KEY or method.NAME.KEY")
       ->take_all()
       ->allow_extra_args(false);
+  verb->add_option("--sweep", options->sweeps,
+                   "KEY=VALUES: a setting, or something of methods, with a,b,c or 1..8")
+      ->take_all()
+      ->allow_extra_args(false);
+  verb->add_flag("--force", options->force, "make runs anew that are there already");
   verb->add_option("--scenes", options->scenes, "only these scenes of the suite, comma-separated");
   verb->add_option("--methods", options->methods, "only these methods, comma-separated");
   addThreads(*verb, options->threads);

@@ -20,6 +20,9 @@ using Action = std::function<void(Outcome&)>;
 
 // Each returns what runs when the verb was given.
 Action addRunVerb(CLI::App& app);
+Action addStatusVerb(CLI::App& app);
+Action addReportVerb(CLI::App& app);
+Action addCleanVerb(CLI::App& app);
 Action addRenderVerb(CLI::App& app);
 Action addReferenceVerb(CLI::App& app);
 Action addCompareVerb(CLI::App& app);

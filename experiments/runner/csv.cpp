@@ -53,10 +53,21 @@ std::vector<Column> contractColumns(const Suite& suite, const MethodSummary& row
           {"mse_ratio", number(row.mseRatio.value)},
           {"time_ratio", number(row.timeRatio.value)},
           {"efficiency_ratio", number(row.efficiencyRatio.value)},
-          {"features_left_out", featuresLeftOut(*row.result)}};
+          {"features_left_out", row.result->featuresLeftOut}};
+}
+
+// "confidence_cap=20 film_hold=32": all of them, defaults too.
+std::string parametersText(const SessionConfig& session) {
+  std::string text;
+  const ParameterMap all =
+      resolveParameters(findIntegrator(session.integrator), session.parameters);
+  for (const auto& [key, value] : all)
+    text += fmt::format("{}{}={}", text.empty() ? "" : " ", key, parameterText(value));
+  return text;
 }
 
 std::vector<Column> furtherColumns(const Suite& suite, const MethodSummary& row) {
+  const SessionConfig& session = row.method->session;
   std::string flags, passes;
   for (const std::string& flag : row.flags) {
     flags += flags.empty() ? "" : "; ";
@@ -117,6 +128,8 @@ std::vector<Column> furtherColumns(const Suite& suite, const MethodSummary& row)
       {"time_ratio_to_first_backend", number(row.timeToFirstBackend.value)},
       {"time_ratio_to_first_backend_ci_lo", number(row.timeToFirstBackend.lo)},
       {"time_ratio_to_first_backend_ci_hi", number(row.timeToFirstBackend.hi)},
+      {"point", suite.point},
+      {"parameters", parametersText(session)},
   };
   for (size_t i = 0; i < rl::RL_HEALTH_COUNT; ++i) {
     const char* name = Health::names()[i];

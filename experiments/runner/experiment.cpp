@@ -3,14 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <memory>
 
 #include "core/image/intervals.h"
 #include "core/image/metrics.h"
 #include "experiments/runner/interrupt.h"
 #include "experiments/runner/light_mask.h"
-#include "experiments/runner/log.h"
+#include "experiments/runner/run_record.h"
 #include "experiments/runner/suite_check.h"
+#include "experiments/runner/temporal.h"
 
 namespace restlab {
 
@@ -32,18 +34,23 @@ bool isCheckpoint(const Suite& suite, uint32_t frame) {
          suite.checkpoints.end();
 }
 
-void keepShown(const Session& session, const PreparedScene& prepared, const RunResult& run,
-               Image image, MethodResult& method) {
-  method.shown = std::move(image);
-  method.metadata = describe(prepared, session.config());
-  method.metadata["device"] = method.use.device;
-  method.metadata["ray_tracing"] = method.use.rayTracing;
-  method.metadata["seed"] = std::to_string(run.seed);
-  method.metadata["spp"] = "1";
-  method.metadata["frame"] = std::to_string(run.measured.frame);
-  method.metadata["mse"] = fmt::format("{:.9g}", run.measured.mse);
-  method.metadata["time_ms_median"] = fmt::format("{:.6g}", median(run.timesMs));
-  method.metadata["health"] = run.health.text();
+// 1, 2, 4, ... frames, and all of them.
+bool isAccumulationPoint(uint32_t count, uint32_t all) {
+  return count == all || (count & (count - 1)) == 0;
+}
+
+std::map<std::string, std::string> imageMetadata(const PreparedScene& prepared,
+                                                 const Session& session, const RunResult& run) {
+  std::map<std::string, std::string> metadata = describe(prepared, session.config());
+  metadata["device"] = session.device();
+  metadata["ray_tracing"] = session.rayTracing();
+  metadata["seed"] = std::to_string(run.seed);
+  metadata["spp"] = "1";
+  metadata["frame"] = std::to_string(run.measured.frame);
+  metadata["mse"] = fmt::format("{:.9g}", run.measured.mse);
+  metadata["time_ms_median"] = fmt::format("{:.6g}", median(run.timesMs));
+  metadata["health"] = run.health.text();
+  return metadata;
 }
 
 }  // namespace
@@ -65,8 +72,16 @@ SessionConfig methodConfig(const Suite& suite, const SuiteMethod& method,
 
 size_t hostBytesPerPixelOfMethod(const Suite& suite) {
   // The session's image, those that are kept of a run, the one that is shown, and the two sums.
-  const size_t images = 3 + suite.checkpoints.size();
-  return images * sizeof(glm::vec3) + 2 * sizeof(glm::dvec3);
+  size_t images = 3 + suite.checkpoints.size(), sums = 2;
+  if (suite.accumulate) {
+    images += 2 + size_t(std::bit_width(suite.timedFrames));
+    ++sums;
+  }
+  if (suite.temporal) {
+    images += TemporalSum::kLags + 1;
+    sums += 2;
+  }
+  return images * sizeof(glm::vec3) + sums * sizeof(glm::dvec3);
 }
 
 FrameError measureFrame(const Image& image, const Reference& reference, uint32_t frame,
@@ -89,77 +104,147 @@ FrameError measureFrame(const Image& image, const Reference& reference, uint32_t
   return error;
 }
 
-bool executeBlock(const Suite& suite, const PreparedScene& prepared, const RunSink& sink,
-                  BlockResult& block) {
-  const size_t count = suite.methods.size();
-  std::vector<std::unique_ptr<Session>> sessions;
-  block.methods.assign(count, MethodResult());
-  const SessionConfig picture = pictureOf(suite, block.width, block.height, block.component);
-  StartupLog startup;
-  for (size_t m = 0; m < count; ++m) {
-    sessions.push_back(std::make_unique<Session>(
-        prepared.scene, methodConfig(suite, suite.methods[m], prepared, picture),
-        hostBytesPerPixelOfMethod(suite)));
-    block.methods[m].featuresNeeded = sessions[m]->featuresNeeded();
-    block.methods[m].featuresUsed = sessions[m]->featuresUsed();
-    block.methods[m].bytesPerPixel = sessions[m]->bytesPerPixel();
-    block.methods[m].use = deviceUseOf(*sessions[m]);
-    block.methods[m].startupMs =
-        sessions[m]->startup().timeMs + (block.startupMs.empty() ? 0.0 : block.startupMs.at(m));
-    startup.add(*sessions[m]);
+struct BlockExecutor::Impl {
+  Impl(const Suite& ofSuite, const PreparedScene& ofScene, BlockResult& ofBlock)
+      : suite(ofSuite), prepared(ofScene), block(ofBlock) {}
+
+  void open() {
+    const SessionConfig picture = pictureOf(suite, block.width, block.height, block.component);
+    StartupLog startup;
+    for (size_t m = 0; m < suite.methods.size(); ++m) {
+      sessions.push_back(std::make_unique<Session>(
+          prepared.scene, methodConfig(suite, suite.methods[m], prepared, picture),
+          hostBytesPerPixelOfMethod(suite)));
+      const Session& session = *sessions.back();
+      MethodResult method;
+      method.featuresLeftOut = featureNames(rl::RL_FEATURE_ALL & ~session.featuresUsed());
+      method.bytesPerPixel = session.bytesPerPixel();
+      method.use = deviceUseOf(session);
+      method.startupMs =
+          session.startup().timeMs + (block.startupMs.empty() ? 0.0 : block.startupMs.at(m));
+      descriptions.push_back(std::move(method));
+      startup.add(session);
+    }
+    startup.print();
+    if (block.withoutLights.empty())
+      block.withoutLights = pixelsWithoutLights(prepared, sessions.front()->config());
   }
-  startup.print();
 
-  block.withoutLights = pixelsWithoutLights(prepared, sessions.front()->config());
+  // What one method's frames of a run leave.
+  struct Frames {
+    std::vector<std::vector<PassTiming>> passes;
+    std::vector<std::pair<uint32_t, Image>> kept;          // by frame
+    std::vector<std::pair<AccumulatedError, Image>> sums;  // means of the first frames
+    ImageSum sum;
+    double timeMs = 0.0;  // since the history began
+    std::optional<TemporalSum> temporal;
+  };
 
-  const uint32_t frames = suite.warmupFrames + suite.timedFrames;
-  Progress progress(fmt::format("{} ({})", block.scene, componentName(block.component)),
-                    uint64_t(suite.runs) * frames);
-  for (uint32_t run = 0; run < suite.runs; ++run) {
+  void take(size_t m, uint32_t frame, const FrameStats& stats, RunResult& result, Frames& frames) {
+    frames.timeMs += stats.timeMs;
+    const bool isTimed = frame >= suite.warmupFrames;
+    if (isTimed) {
+      result.timesMs.push_back(stats.timeMs);
+      result.health.add(stats);
+      frames.passes.push_back(stats.passes);
+    }
+    // Only copied here: errors are computed after the run, not between timed frames.
+    if (frame == suite.warmupFrames || isCheckpoint(suite, frame))
+      frames.kept.emplace_back(frame, sessions[m]->radiance());
+    if (!isTimed) return;
+    if (suite.accumulate) {
+      frames.sum.add(sessions[m]->radiance());
+      const uint32_t count = frame - suite.warmupFrames + 1;
+      if (isAccumulationPoint(count, suite.timedFrames)) {
+        AccumulatedError point;
+        point.frames = count;
+        point.timeMs = frames.timeMs;
+        point.error.frame = frame;
+        frames.sums.emplace_back(point, frames.sum.mean());
+      }
+    }
+    if (suite.temporal) {
+      if (!frames.temporal) frames.temporal.emplace(block.reference);
+      frames.temporal->add(sessions[m]->radiance());
+    }
+  }
+
+  void measure(RunResult& result, Frames& frames, Image& measured) const {
+    result.passes = medianPasses(frames.passes);
+    for (auto& [frame, image] : frames.kept) {
+      const FrameError error = measureFrame(image, block.reference, frame, block.withoutLights);
+      if (isCheckpoint(suite, frame)) result.checkpoints.push_back(error);
+      if (frame != suite.warmupFrames) continue;
+      result.measured = error;
+      measured = std::move(image);
+    }
+    for (auto& [point, image] : frames.sums) {
+      point.error = measureFrame(image, block.reference, point.error.frame, block.withoutLights);
+      result.accumulated.push_back(point);
+    }
+    if (frames.temporal) result.temporal = frames.temporal->figures();
+  }
+
+  std::optional<JobData> execute(uint32_t run, const std::string& job,
+                                 const std::string& startedUtc) {
+    if (sessions.empty()) open();
+    const size_t count = suite.methods.size();
     std::vector<RunResult> results(count);
-    std::vector<std::vector<std::vector<PassTiming>>> passes(count);
-    std::vector<std::vector<std::pair<uint32_t, Image>>> kept(count);  // by frame
+    std::vector<Frames> frames(count);
     for (size_t m = 0; m < count; ++m) {
       results[m].method = m;
       results[m].run = run;
       results[m].seed = suite.seed + run;
       sessions[m]->reset(results[m].seed);
     }
-    for (uint32_t frame = 0; frame < frames; ++frame) {
+    const uint32_t length = suite.warmupFrames + suite.timedFrames;
+    for (uint32_t frame = 0; frame < length; ++frame) {
       for (size_t m = 0; m < count; ++m) {
         const FrameStats stats = sessions[m]->frame();
-        if (interruptRequested()) return false;
-        if (frame >= suite.warmupFrames) {
-          results[m].timesMs.push_back(stats.timeMs);
-          results[m].health.add(stats);
-          passes[m].push_back(stats.passes);
-        }
-        // Only copied here: errors are computed after the run, not between timed frames.
-        if (frame == suite.warmupFrames || isCheckpoint(suite, frame)) {
-          kept[m].emplace_back(frame, sessions[m]->radiance());
-        }
+        if (interruptRequested()) return std::nullopt;
+        take(m, frame, stats, results[m], frames[m]);
       }
-      progress.update(uint64_t(run) * frames + frame + 1);
     }
+    JobData data;
     for (size_t m = 0; m < count; ++m) {
-      RunResult& result = results[m];
-      MethodResult& method = block.methods[m];
-      result.passes = medianPasses(passes[m]);
-      for (auto& [frame, image] : kept[m]) {
-        const FrameError error = measureFrame(image, block.reference, frame, block.withoutLights);
-        if (frame != suite.warmupFrames) {
-          result.checkpoints.push_back(error);
-          continue;
-        }
-        result.measured = error;
-        (run % 2 == 0 ? method.evenRuns : method.oddRuns).add(image);
-        if (run == 0) keepShown(*sessions[m], prepared, result, std::move(image), method);
-      }
-      method.runs.push_back(std::move(result));
-      sink(block, method.runs.back());
+      JobMethod& method = data.methods.emplace_back();
+      measure(results[m], frames[m], method.measured);
+      method.metadata = imageMetadata(prepared, *sessions[m], results[m]);
+      method.lines = runLines(suite, block, descriptions[m], results[m], job, startedUtc);
     }
+    return data;
   }
-  return true;
+
+  const Suite& suite;
+  const PreparedScene& prepared;
+  BlockResult& block;
+  std::vector<std::unique_ptr<Session>> sessions;
+  std::vector<MethodResult> descriptions;  // what is the same in every run
+};
+
+BlockExecutor::BlockExecutor(const Suite& suite, const PreparedScene& prepared, BlockResult& block)
+    : impl_(std::make_unique<Impl>(suite, prepared, block)) {}
+
+BlockExecutor::~BlockExecutor() = default;
+
+std::optional<JobData> BlockExecutor::execute(uint32_t run, const std::string& job,
+                                              const std::string& startedUtc) {
+  return impl_->execute(run, job, startedUtc);
+}
+
+void addJob(const JobData& job, BlockResult& block) {
+  block.methods.resize(job.methods.size());
+  for (size_t m = 0; m < job.methods.size(); ++m) {
+    MethodResult& method = block.methods[m];
+    RunResult run = runOfLines(job.methods[m].lines, method);
+    run.method = m;
+    (run.run % 2 == 0 ? method.evenRuns : method.oddRuns).add(job.methods[m].measured);
+    if (run.run == 0) {
+      method.shown = job.methods[m].measured;
+      method.metadata = job.methods[m].metadata;
+    }
+    method.runs.push_back(std::move(run));
+  }
 }
 
 }  // namespace restlab

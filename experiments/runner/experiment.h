@@ -1,9 +1,12 @@
-// Executes one block of a suite: one scene and component, all methods, all runs. The methods are
-// interleaved frame by frame, so that whatever slows the machine down slows all of them alike.
+// Executes one block of a suite: one scene and component, all methods, run after run. The methods
+// are interleaved frame by frame, so that whatever slows the machine down slows all of them alike.
 #pragma once
 
-#include <functional>
+#include <array>
 #include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <vector>
 
 #include "experiments/runner/accumulate.h"
@@ -12,9 +15,9 @@
 
 namespace restlab {
 
-// Errors of one frame against the reference.
+// Errors of one image against the reference.
 struct FrameError {
-  uint32_t frame = 0;             // of the history, from 0
+  uint32_t frame = 0;             // of the history, from 0; of an accumulation its last one
   double mse = 0.0;               // against the two halves where the reference has them
   double mseWithoutLights = 0.0;  // over the pixels that show no light; NaN where all do
   double relmse = 0.0;
@@ -24,14 +27,33 @@ struct FrameError {
   uint64_t nonfinite = 0;   // channel values in the image
 };
 
+// Error of the mean of the first frames after the warm-up.
+struct AccumulatedError {
+  uint32_t frames = 0;
+  double timeMs = 0.0;  // passes since the history began, warm-up included
+  FrameError error;
+};
+
+// How the timed frames hang together. Errors are taken against the two halves of the reference in
+// turns, so that its own noise is in none of the products.
+struct TemporalFigures {
+  double variance = 0.0;    // mean over pixels of the sample variance over frames: flicker
+  double difference = 0.0;  // mean |f_t - f_{t-1}|
+  // mean (f_t - half0)(f_{t+k} - half1) over that of k = 0, k = 1...; NaN where there are too few
+  // frames or no halves.
+  std::array<double, 8> autocorrelation{};
+};
+
 struct RunResult {
   size_t method = 0;
   uint32_t run = 0, seed = 0;
-  FrameError measured;                  // of the frame after the warm-up
-  std::vector<FrameError> checkpoints;  // the suite's further frames
-  std::vector<double> timesMs;          // of the timed frames: the passes, nothing else
-  std::vector<PassTiming> passes;       // median over the timed frames
-  HealthSum health;                     // over the timed frames
+  FrameError measured;                        // of the frame after the warm-up
+  std::vector<FrameError> checkpoints;        // the suite's further frames
+  std::vector<AccumulatedError> accumulated;  // 1, 2, 4, ... frames, where the suite asks for it
+  std::optional<TemporalFigures> temporal;    // where the suite asks for it
+  std::vector<double> timesMs;                // of the timed frames: the passes, nothing else
+  std::vector<PassTiming> passes;             // median over the timed frames
+  HealthSum health;                           // over the timed frames
 };
 
 struct MethodResult {
@@ -39,7 +61,7 @@ struct MethodResult {
   ImageSum evenRuns, oddRuns;  // of the measured frames: two halves for the squared bias
   Image shown;                 // measured frame of run 0
   std::map<std::string, std::string> metadata;  // of that image
-  uint32_t featuresNeeded = 0, featuresUsed = 0;
+  std::string featuresLeftOut;                  // "+"-joined, or "none"
   size_t bytesPerPixel = 0;
   DeviceUse use;
   double startupMs = 0.0;  // until its kernels were ready, wherever in this program that was
@@ -57,6 +79,16 @@ struct BlockResult {
   std::vector<MethodResult> methods;   // in the suite's order
 };
 
+// One run of every method: what a job folder holds.
+struct JobMethod {
+  std::vector<nlohmann::ordered_json> lines;  // of results.jsonl
+  Image measured;
+  std::map<std::string, std::string> metadata;  // of that image
+};
+struct JobData {
+  std::vector<JobMethod> methods;  // in the suite's order
+};
+
 // The session of a method that renders `picture`.
 SessionConfig methodConfig(const Suite& suite, const SuiteMethod& method,
                            const PreparedScene& prepared, const SessionConfig& picture);
@@ -64,14 +96,26 @@ SessionConfig methodConfig(const Suite& suite, const SuiteMethod& method,
 // What a block holds of each method beside the buffers of its session, roughly.
 size_t hostBytesPerPixelOfMethod(const Suite& suite);
 
-// Called after every finished run of a method.
-using RunSink = std::function<void(const BlockResult&, const RunResult&)>;
+// Renders runs of a block whose scene, size, reference and earlier start-up are set.
+class BlockExecutor {
+ public:
+  BlockExecutor(const Suite& suite, const PreparedScene& prepared, BlockResult& block);
+  ~BlockExecutor();
+  BlockExecutor(const BlockExecutor&) = delete;
+  BlockExecutor& operator=(const BlockExecutor&) = delete;
 
-// Renders the block into `block`, whose scene, size, reference and earlier
-// start-up are set. Returns false when it
-// was interrupted: the runs that were not finished are absent then, all others are kept.
-bool executeBlock(const Suite& suite, const PreparedScene& prepared, const RunSink& sink,
-                  BlockResult& block);
+  // Opens the sessions at the first call. `job`: the key that the lines carry. Nothing when it was
+  // interrupted.
+  std::optional<JobData> execute(uint32_t run, const std::string& job,
+                                 const std::string& startedUtc);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// Adds a run of every method to the block; throws std::exception where the job does not hold it.
+void addJob(const JobData& job, BlockResult& block);
 
 // Errors of `image` (MSE against the halves where there are halves). `withoutLights` as in
 // BlockResult; empty: all pixels.

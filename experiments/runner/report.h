@@ -9,13 +9,6 @@
 
 namespace restlab {
 
-// Version of the lines of results.jsonl; raised when a field changes its meaning.
-constexpr int kResultsSchema = 1;
-
-// One line for the measured frame and one for each checkpoint of a finished run.
-std::vector<std::string> resultLines(const Suite& suite, const BlockResult& block,
-                                     const RunResult& run, const std::string& startedUtc);
-
 // Heading and one row a method; numbers that are unknown are "nan".
 std::string summaryCsv(const Suite& suite, const std::vector<MethodSummary>& rows);
 
@@ -27,7 +20,7 @@ std::string blockTable(const Suite& suite, const std::vector<MethodSummary>& row
 void writeBlockImages(const std::filesystem::path& folder, const Suite& suite,
                       const BlockResult& block);
 
-// "cornell-box-all", for file names.
-std::string blockLabel(const BlockResult& block);
+// "cornell-box-all", with the point of a sweep behind it; for file names.
+std::string blockLabel(const Suite& suite, const BlockResult& block);
 
 }  // namespace restlab

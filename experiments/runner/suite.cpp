@@ -9,8 +9,10 @@
 #include "core/caches/caches.h"
 #include "core/config.h"
 #include "core/error.h"
+#include "denoise/denoiser.h"
 #include "experiments/runner/backend_choice.h"
 #include "experiments/runner/files.h"
+#include "experiments/runner/sweep.h"
 
 namespace restlab {
 
@@ -18,17 +20,13 @@ namespace {
 
 constexpr int64_t kMaxCount = 1000000;
 
-bool startsWith(const std::string& text, const std::string& prefix) {
-  return text.rfind(prefix, 0) == 0;
+std::string unquoted(const std::string& text) {
+  const bool quoted = text.size() >= 2 && (text.front() == '\'' || text.front() == '"');
+  return quoted ? text.substr(1, text.size() - 2) : text;
 }
 
-std::vector<std::string> parameterNames(const std::string& integrator) {
-  std::vector<std::string> names = {"cache", "general", "backend"};
-  for (const IntegratorInfo* info : integratorRegistry()) {
-    if (info->name != integrator) continue;
-    for (const ParameterInfo& parameter : info->parameters) names.push_back(parameter.name);
-  }
-  return names;
+bool startsWith(const std::string& text, const std::string& prefix) {
+  return text.rfind(prefix, 0) == 0;
 }
 
 // method.KEY or method.NAME.KEY.
@@ -44,7 +42,7 @@ void overrideMethods(const ConfigTable& root, const std::string& key, const std:
     const std::string integrator = method.getString("integrator", "path");
     const std::string name = method.getString("name", integrator);
     names.push_back(name);
-    const std::vector<std::string> known = parameterNames(integrator);
+    const std::vector<std::string> known = methodKeys(integrator);
     leaves.insert(leaves.end(), known.begin(), known.end());
     const bool knows = std::find(known.begin(), known.end(), leaf) != known.end();
     if (wanted.empty() ? knows : wanted == name) {
@@ -69,10 +67,13 @@ void applyOverride(ConfigTable& root, const std::string& assignment) {
     root.getTable("reference").assign(key.substr(10), value, place);
   } else if (startsWith(key, "settings.")) {
     root.getTable("settings").assign(key.substr(9), value, place);
+  } else if (startsWith(key, "sweep.")) {
+    root.getTable("sweep").assign(key.substr(6), value, place);
   } else if (key == "name" || key == "question" || key == "scenes") {
     root.assign(key, value, place);
   } else if (key.find('.') != std::string::npos) {
-    failUsage(fmt::format("{}: unknown table; known are settings, reference and method", place));
+    failUsage(
+        fmt::format("{}: unknown table; known are settings, reference, method and sweep", place));
   } else {
     root.getTable("settings").assign(key, value, place);
   }
@@ -137,6 +138,9 @@ std::vector<SuiteMethod> readMethod(const ConfigTable& table, const ConfigTable&
   for (const CacheInfo& cache : cacheRegistry()) caches.push_back(cache.name);
   method.session.cache = table.getChoice("cache", "pixel", caches);
   method.session.specialise = !table.getBool("general", false);
+  std::vector<std::string> denoisers;
+  for (const DenoiserInfo* denoiser : denoiserRegistry()) denoisers.push_back(denoiser->name);
+  method.session.denoiser = table.getChoice("denoiser", "none", denoisers);
   const std::string fallback =
       info.name + (modes.size() < 2 ? "" : " (" + method.session.mode + ")");
   method.name = table.getString("name", fallback);
@@ -156,6 +160,58 @@ std::vector<SuiteMethod> readMethod(const ConfigTable& table, const ConfigTable&
     method.session.backend = backend;
     suite.chooseDevice(method.session);
     all.push_back(method);
+  }
+  return all;
+}
+
+// Whether a sweep over all methods means this integrator: `path` has one mode and no cache.
+bool isMeant(const SweepAxis& axis, const std::string& integrator) {
+  const std::vector<std::string> known = methodKeys(integrator);
+  if (std::find(known.begin(), known.end(), axis.leaf) == known.end()) return false;
+  if (!axis.method.empty()) return true;
+  for (const IntegratorInfo* info : integratorRegistry()) {
+    if (info->name != integrator) continue;
+    if (axis.leaf == "mode") return info->modes.size() > 1;
+    if (axis.leaf == "cache") return info->usesCache;
+  }
+  return true;
+}
+
+// A method's table once for every combination of what is swept of it.
+std::vector<SuiteMethod> readMethods(ConfigTable& table, const ConfigTable& settings,
+                                     const Sweep& sweep, const Suite& suite) {
+  const std::string integrator = table.getString("integrator", "path");
+  const std::string name = table.getString("name", integrator);
+  const bool isNamed = table.has("name");
+  std::vector<std::string> integrators = {integrator};
+  for (const SweepAxis& axis : sweep.methods) {
+    if (axis.leaf != "integrator") continue;
+    for (const std::string& text : axis.texts) integrators.push_back(unquoted(text));
+  }
+  std::vector<SweepAxis> axes;
+  for (const SweepAxis& axis : sweep.methods) {
+    if (!axis.method.empty() && axis.method != name) continue;
+    const bool isKnown = std::any_of(integrators.begin(), integrators.end(),
+                                     [&](const std::string& of) { return isMeant(axis, of); });
+    if (isKnown) axes.push_back(axis);
+  }
+  std::vector<SuiteMethod> all;
+  for (const std::vector<size_t>& choice : combinations(axes)) {
+    std::vector<SweepAxis> shown;
+    std::vector<size_t> shownChoice;
+    for (size_t i = 0; i < axes.size(); ++i) {
+      table.assign(axes[i].leaf, axes[i].texts[choice[i]], axes[i].place);
+      // A method without a name of its own is named by its integrator and mode.
+      if (!isNamed && (axes[i].leaf == "integrator" || axes[i].leaf == "mode")) continue;
+      if (axes[i].leaf == "backend") continue;  // nameByBackend() says it
+      shown.push_back(axes[i]);
+      shownChoice.push_back(choice[i]);
+    }
+    for (SuiteMethod& method : readMethod(table, settings, suite)) {
+      const std::string label = sweepLabel(shown, shownChoice);
+      if (!label.empty()) method.name = method.base = fmt::format("{}, {}", method.base, label);
+      all.push_back(std::move(method));
+    }
   }
   return all;
 }
@@ -209,6 +265,8 @@ void readSettings(const ConfigTable& table, Suite& suite) {
     suite.rayTracing = table.getChoice("ray_tracing", rayTracingNames().front(), rayTracingNames());
   }
   suite.validate = table.getBool("validate", suite.validate);
+  suite.accumulate = table.getBool("accumulate", suite.accumulate);
+  suite.temporal = table.getBool("temporal", suite.temporal);
   suite.pixelFilter = parseFilter(table.getString("filter", "box"), table.place("filter"));
   suite.components.clear();
   for (const std::string& name : table.getStrings("components", {"all"})) {
@@ -228,6 +286,17 @@ void readSettings(const ConfigTable& table, Suite& suite) {
     suite.checkpoints.push_back(uint32_t(frame));
   }
   table.finish();
+}
+
+// The keys that [settings] has: those that readSettings() asks for.
+const std::vector<std::string>& settingsKeys() {
+  static const std::vector<std::string> keys = [] {
+    const ConfigTable table = ConfigTable::parseText("", "settings");
+    Suite suite;
+    readSettings(table, suite);
+    return table.known();
+  }();
+  return keys;
 }
 
 void readReference(const ConfigTable& table, Suite& suite) {
@@ -309,15 +378,16 @@ void Suite::chooseDevice(SessionConfig& config) const {
   config.rayTracing = mayTraceBy(config.backend, rayTracing) ? rayTracing : "";
 }
 
-Suite loadSuite(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  ConfigTable root = ConfigTable::parseFile(file);
-  for (const std::string& assignment : overrides) applyOverride(root, assignment);
+namespace {
 
+// One point of the sweep over settings. `root` holds all overrides and this point's values.
+Suite readSuite(const ConfigTable& root, const std::filesystem::path& file, const Sweep& sweep) {
   Suite suite;
   suite.file = file.string();
   suite.name = root.getString("name", file.stem().string());
   suite.question = root.getString("question", "");
-  for (const char* key : {"scenes", "scene", "method", "settings", "reference"}) root.has(key);
+  for (const char* key : {"scenes", "scene", "method", "settings", "reference", "sweep"})
+    root.has(key);
   root.finish();
   const std::string folder = file.parent_path().string();
   for (const std::string& name : root.getStrings("scenes")) {
@@ -335,8 +405,8 @@ Suite loadSuite(const std::filesystem::path& file, const std::vector<std::string
     root.fail("", "the suite has no scenes: give scenes = [..] or [[scene]]");
   const ConfigTable settings = root.getTable("settings");
   readSettings(settings, suite);
-  for (const ConfigTable& table : root.getTables("method")) {
-    for (SuiteMethod& method : readMethod(table, settings, suite))
+  for (ConfigTable& table : root.getTables("method")) {
+    for (SuiteMethod& method : readMethods(table, settings, sweep, suite))
       suite.methods.push_back(std::move(method));
   }
   if (suite.methods.empty()) root.fail("", "the suite has no [[method]]");
@@ -345,6 +415,46 @@ Suite loadSuite(const std::filesystem::path& file, const std::vector<std::string
   nameByBackend(suite);
   requireUniqueNames(suite);
   return suite;
+}
+
+}  // namespace
+
+std::vector<Suite> loadSuites(const std::filesystem::path& file,
+                              const std::vector<std::string>& overrides,
+                              const std::vector<std::string>& sweeps) {
+  const auto load = [&] {
+    ConfigTable root = ConfigTable::parseFile(file);
+    for (const std::string& assignment : overrides) applyOverride(root, assignment);
+    for (const std::string& assignment : sweeps) {
+      const auto [key, values] = splitAssignment(assignment, "--sweep");
+      root.getTable("sweep").assign(key, sweepValues(key, values), "--sweep " + key);
+    }
+    return root;
+  };
+  const ConfigTable root = load();
+  const Sweep sweep = readSweep(root, settingsKeys());
+  std::vector<Suite> points;
+  for (const std::vector<size_t>& choice : combinations(sweep.settings)) {
+    const ConfigTable point = load();
+    ConfigTable settings = point.getTable("settings");
+    for (size_t i = 0; i < choice.size(); ++i) {
+      const SweepAxis& axis = sweep.settings[i];
+      settings.assign(axis.leaf, axis.texts[choice[i]], axis.place);
+    }
+    points.push_back(readSuite(point, file, sweep));
+    points.back().point = sweepLabel(sweep.settings, choice);
+    points.back().resolved = root.text();
+  }
+  return points;
+}
+
+Suite loadSuite(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  std::vector<Suite> points = loadSuites(file, overrides, {});
+  if (points.size() > 1) {
+    failUsage(fmt::format("{}: [sweep] makes {} tables, where one is meant", file.string(),
+                          points.size()));
+  }
+  return std::move(points.front());
 }
 
 }  // namespace restlab

@@ -30,6 +30,8 @@ struct SuiteMethod {
 
 struct Suite {
   std::string name, question, file;
+  std::string point;     // of the sweep over settings, "max_bounces=4"; "" without one
+  std::string resolved;  // the suite with its includes, overrides and sweeps, as TOML
   std::vector<SuiteScene> scenes;
   std::vector<SuiteMethod> methods;
   std::vector<uint32_t> components = {rl::RL_COMPONENT_ALL};
@@ -42,6 +44,8 @@ struct Suite {
   uint32_t runs = 4;
   uint32_t seed = 1;                  // of run 0; run r has seed + r
   std::vector<uint32_t> checkpoints;  // further frames of the history whose error is recorded
+  bool accumulate = false;  // the error of the mean of 1, 2, 4, ... timed frames is recorded
+  bool temporal = false;    // flicker and correlation of the timed frames are recorded
   // Of all methods that do not say their own.
   std::vector<std::string> backends = {"cpu"};
   std::string device, rayTracing;  // for the backends that can have them
@@ -65,8 +69,15 @@ struct Suite {
 };
 
 // Reads a suite with `--set KEY=VALUE` overrides: a key of [settings], of [reference] as
-// reference.KEY, of every method that knows it as method.KEY, of one as method.NAME.KEY, or a
-// top-level one. Throws Error (badUsage) with file, line and column.
+// reference.KEY, of every method that knows it as method.KEY, of one as method.NAME.KEY, of [sweep]
+// as sweep.KEY, or a top-level one; and with `--sweep KEY=VALUES`, further keys of [sweep]. One
+// suite for every combination of the settings that are swept. Throws Error (badUsage) with file,
+// line and column.
+std::vector<Suite> loadSuites(const std::filesystem::path& file,
+                              const std::vector<std::string>& overrides,
+                              const std::vector<std::string>& sweeps);
+
+// The same where nothing sweeps settings; throws Error (badUsage) where something does.
 Suite loadSuite(const std::filesystem::path& file, const std::vector<std::string>& overrides);
 
 }  // namespace restlab

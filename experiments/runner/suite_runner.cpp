@@ -4,17 +4,21 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <deque>
 #include <exception>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "core/error.h"
 #include "core/image/atomic_file.h"
 #include "experiments/runner/build_info.h"
 #include "experiments/runner/files.h"
-#include "experiments/runner/interrupt.h"
+#include "experiments/runner/folder_lock.h"
+#include "experiments/runner/job.h"
 #include "experiments/runner/log.h"
+#include "experiments/runner/outputs.h"
 #include "experiments/runner/report.h"
+#include "experiments/runner/results_log.h"
+#include "experiments/runner/run_record.h"
 #include "experiments/runner/suite_check.h"
 
 namespace restlab {
@@ -50,20 +54,43 @@ void removeEarlierResults(const fs::path& out, const Suite& suite) {
   }
 }
 
+// A block's place in the plan of run.json, with the keys of its jobs.
+nlohmann::ordered_json planOf(const Suite& suite, const BlockResult& block) {
+  return {{"point", suite.point},
+          {"scene", block.scene},
+          {"camera", block.camera},
+          {"component", componentName(block.component)},
+          {"width", block.width},
+          {"height", block.height},
+          {"reference", block.referenceFile},
+          {"jobs", nlohmann::ordered_json::array()}};
+}
+
 class SuiteRun {
  public:
-  SuiteRun(const Suite& suite, const SuiteRequest& request)
-      : suite_(suite), request_(request), started_(utcNow()) {}
+  SuiteRun(const std::vector<Suite>& points, const SuiteRequest& request)
+      : points_(points),
+        request_(request),
+        started_(utcNow()),
+        outputs_(request.out),
+        store_(request.out) {}
 
   bool execute() {
     check();
+    lock_.emplace(request_.out);
     makeWritableDirectory(request_.out / "references");
-    removeEarlierResults(request_.out, suite_);
+    log_.emplace(request_.out / "results.jsonl");
+    removeEarlierResults(request_.out, points_.front());
+    writeTextFile(request_.out / "suite.toml", points_.front().resolved);
+    outputs_.use(devices_);
+    makePlan();
     writeRecord("running");
     try {
       const bool finished = executeAll();
-      writeTables(finished);
+      outputs_.write(points_.front(), finished);
       writeRecord(finished ? "finished" : "interrupted");
+      if (reused_ > 0)
+        logInfo(fmt::format("{} of {} runs were there already", reused_, reused_ + made_));
       return finished;
     } catch (const Error& error) {
       writeRecord(fmt::format("failed: {}", error.what()));
@@ -78,165 +105,194 @@ class SuiteRun {
     const bool isNew = !fs::exists(request_.out, status);
     makeWritableDirectory(request_.out);  // quickly said, unlike what follows
     try {
-      check_ = checkSuite(suite_);
+      for (const Suite& suite : points_) {
+        checks_.push_back(checkSuite(suite));
+        for (const DeviceUse& use : checks_.back().devices) {
+          if (std::find(devices_.begin(), devices_.end(), use) == devices_.end())
+            devices_.push_back(use);
+        }
+      }
     } catch (const Error&) {
       if (isNew) fs::remove(request_.out, status);
       throw;
     }
   }
 
-  bool executeAll() {
-    bool finished = true;
-    for (const SuiteScene& scene : suite_.scenes) {
-      std::string missing;
-      if (scene.optional && assetsMissing(scene.request, missing)) {
-        skipped_.push_back(fmt::format("skipped {}: {} is not here", scene.name, missing));
-        logInfo(skipped_.back());
-        continue;
+  // Every block, in the order of executeAll(), before anything of it is known but its name.
+  void makePlan() {
+    std::string missing;
+    for (size_t s = 0; s < points_.front().scenes.size(); ++s) {
+      const SuiteScene& scene = points_.front().scenes[s];
+      if (scene.optional && assetsMissing(scene.request, missing)) continue;
+      for (const Suite& suite : points_) {
+        for (const uint32_t component : suite.components) {
+          BlockResult block;
+          block.scene = scene.name;
+          block.component = component;
+          plan_.push_back(planOf(suite, block));
+        }
       }
-      const PreparedScene prepared = check_.only ? *check_.only : prepareScene(scene.request);
-      printWarnings(prepared);
-      for (const uint32_t component : suite_.components) {
-        finished = finished && executeOne(scene, prepared, component);
-      }
-      if (!finished) break;
     }
-    return finished;
   }
 
-  bool executeOne(const SuiteScene& scene, const PreparedScene& prepared, uint32_t component) {
-    BlockResult& block = blocks_.emplace_back();
+  bool executeAll() {
+    // Scenes are the same at every point.
+    for (size_t s = 0; s < points_.front().scenes.size(); ++s) {
+      const SuiteScene& scene = points_.front().scenes[s];
+      std::string missing;
+      if (scene.optional && assetsMissing(scene.request, missing)) {
+        const std::string line = fmt::format("skipped {}: {} is not here", scene.name, missing);
+        skipped_.push_back(line);
+        outputs_.note(line);
+        logInfo(line);
+        continue;
+      }
+      const SuiteCheck& first = checks_.front();
+      const PreparedScene prepared = first.only ? *first.only : prepareScene(scene.request);
+      printWarnings(prepared);
+      for (size_t p = 0; p < points_.size(); ++p) {
+        for (const uint32_t component : points_[p].components) {
+          if (!executeBlock(p, points_[p].scenes[s], prepared, component)) return false;
+        }
+      }
+    }
+    return true;
+  }
+
+  bool executeBlock(size_t point, const SuiteScene& scene, const PreparedScene& prepared,
+                    uint32_t component) {
+    const Suite& suite = points_[point];
+    BlockResult block;
     block.scene = scene.name;
     block.camera = prepared.cameraName;
     block.component = component;
-    sceneResolution(suite_, scene, prepared, block.width, block.height);
-    block.startupMs = check_.startupMs[scene.name];
-    if (!obtain(scene, prepared, block)) return false;
+    sceneResolution(suite, scene, prepared, block.width, block.height);
+    block.startupMs = checks_[point].startupMs[scene.name];
+    if (!obtain(suite, scene, prepared, block)) return false;
+    nlohmann::ordered_json& plan = plan_.at(next_++);
+    plan = planOf(suite, block);
     bool finished = false;
     std::exception_ptr failure;  // a lost device, say: what was finished before it is kept
     try {
-      finished = executeBlock(
-          suite_, prepared,
-          [&](const BlockResult& of, const RunResult& run) {
-            for (const std::string& line : resultLines(suite_, of, run, started_)) {
-              appendLine(request_.out / "results.jsonl", line);
-            }
-          },
-          block);
+      finished = executeRuns(suite, prepared, block, plan);
     } catch (const Error&) {
-      if (block.methods.empty() || block.methods.back().runs.empty()) throw;
+      if (block.methods.empty()) throw;
       failure = std::current_exception();
     }
-    writeBlockImages(request_.out / "images", suite_, block);
-    const std::vector<MethodSummary> rows = summarise(suite_, block);
-    std::fputs(blockTable(suite_, rows).c_str(), stdout);
-    std::fflush(stdout);
-    rows_.insert(rows_.end(), rows.begin(), rows.end());
-    for (MethodResult& method : block.methods) {
-      // Only the numbers are needed from here on.
-      method.evenRuns = ImageSum();
-      method.oddRuns = ImageSum();
-      method.shown = Image();
+    if (!block.methods.empty()) {
+      std::fputs(outputs_.add(suite, std::move(block)).c_str(), stdout);
+      std::fflush(stdout);
     }
-    block.reference.mean = Image();
-    block.reference.variance.reset();
-    if (block.reference.half0) block.reference.half0 = block.reference.half1 = Image();
-    writeTables(finished);
+    outputs_.write(points_.front(), false);
     if (failure) std::rethrow_exception(failure);
     return finished;
   }
 
-  bool obtain(const SuiteScene& scene, const PreparedScene& prepared, BlockResult& block) {
+  bool executeRuns(const Suite& suite, const PreparedScene& prepared, BlockResult& block,
+                   nlohmann::ordered_json& plan) {
+    const std::string reference = referenceHash(block.reference);
+    Progress progress(blockLabel(suite, block), suite.runs);
+    BlockExecutor executor(suite, prepared, block);
+    for (uint32_t run = 0; run < suite.runs; ++run) {
+      const JobIdentity identity =
+          jobIdentity(suite, prepared, block, run, buildInfo().sourceHash, reference, devices_);
+      const std::string key = identity.key();
+      std::optional<JobData> job;
+      if (!request_.force) job = store_.load(key);
+      const bool isThere = job.has_value();
+      if (!isThere) {
+        job = executor.execute(run, key, started_);
+        if (!job) return false;
+        store_.save(identity, *job);
+      }
+      ++(isThere ? reused_ : made_);
+      log_->add(key, *job);
+      addJob(*job, block);
+      plan["jobs"].push_back(key);
+      writeRecord("running");
+      progress.update(run + 1);
+    }
+    return true;
+  }
+
+  bool obtain(const Suite& suite, const SuiteScene& scene, const PreparedScene& prepared,
+              BlockResult& block) {
     if (!scene.reference.empty()) {
       // Of this configuration, as checkSuite() found.
       const fs::path found = findAsset(scene.reference);
       block.reference = readReference(found.empty() ? fs::path(scene.reference) : found);
-      block.referenceFile = scene.reference;
+      block.referenceFile =
+          fs::absolute(found.empty() ? fs::path(scene.reference) : found).string();
       return true;
     }
-    const std::string label =
-        fmt::format("{}-{}-{}x{}", blockLabel(block), block.camera, block.width, block.height);
+    const std::string label = fmt::format("{}-{}-{}x{}", blockLabel(suite, block), block.camera,
+                                          block.width, block.height);
     try {
-      const SessionConfig picture = pictureOf(suite_, block.width, block.height, block.component);
-      block.reference = obtainReference(prepared, referenceConfigOf(picture), suite_.target,
+      const SessionConfig picture = pictureOf(suite, block.width, block.height, block.component);
+      block.reference = obtainReference(prepared, referenceConfigOf(picture), suite.target,
                                         request_.out / "references", label);
     } catch (const Error& error) {
       if (error.code() != ExitCode::interrupted) throw;
       logInfo(error.what());
-      blocks_.pop_back();
       return false;
     }
     block.referenceFile = "references/" + safeFileName(label) + ".exr";
     return true;
   }
 
-  void writeTables(bool finished) {
-    const std::string csv = summaryCsv(suite_, rows_);
-    if (!csv.empty()) writeTextFile(request_.out / "summary.csv", csv);
-    std::string text = fmt::format("# {}\n\n", suite_.name);
-    if (!suite_.question.empty()) text += suite_.question + "\n\n";
-    if (!finished) text += "Not finished: the rows below are of what was.\n\n";
-    for (const std::string& line : skipped_) text += line + "\n\n";
-    for (const BlockResult& block : blocks_) {
-      std::vector<MethodSummary> own;
-      for (const MethodSummary& row : rows_) {
-        if (row.block == &block) own.push_back(row);
-      }
-      text += blockTable(suite_, own);
-    }
-    text += fmt::format(
-        "{}, {} cores, Embree {}, {} {}; times are of the passes of a frame by the "
-        "steady clock{}, without metrics and files.\n",
-        cpuModel(), machineJson()["cores"].dump(), embreeVersion(), buildInfo().compiler,
-        buildInfo().buildType, usesVulkan() ? " (vulkan: by the device's timestamps)" : "");
-    for (const DeviceUse& use : check_.devices)
-      text += fmt::format("\n{}: {}; rays by {}.\n", use.backend, use.device, use.rayTracing);
-    writeTextFile(request_.out / "table.md", text);
-  }
-
-  bool usesVulkan() const {
-    return std::any_of(check_.devices.begin(), check_.devices.end(),
-                       [](const DeviceUse& use) { return use.backend == "vulkan"; });
+  // --methods may have taken some of the suite's.
+  std::vector<std::string> methodNames() const {
+    std::vector<std::string> names;
+    for (const SuiteMethod& method : points_.front().methods) names.push_back(method.name);
+    return names;
   }
 
   // What was run, where, from which sources: whoever finds the folder can run it again.
   void writeRecord(const std::string& status) {
     nlohmann::ordered_json devices = nlohmann::ordered_json::array();
-    for (const DeviceUse& use : check_.devices) {
+    for (const DeviceUse& use : devices_) {
       devices.push_back({{"backend", use.backend},
                          {"device", use.device},
                          {"ray_tracing", use.rayTracing},
-                         {"validate", use.backend == "vulkan" && suite_.validate}});
+                         {"validate", use.backend == "vulkan" && points_.front().validate}});
     }
     nlohmann::ordered_json record = {{"schema", kResultsSchema},
                                      {"status", status},
-                                     {"suite", suite_.name},
-                                     {"file", suite_.file},
+                                     {"suite", points_.front().name},
+                                     {"file", points_.front().file},
                                      {"argv", request_.argv},
+                                     {"methods", methodNames()},
                                      {"started", started_},
                                      {"written", utcNow()},
                                      {"build", buildJson()},
                                      {"machine", machineJson()},
                                      {"devices", devices},
-                                     {"reference_backend", suite_.referenceBackend},
+                                     {"reference_backend", points_.front().referenceBackend},
                                      {"skipped", skipped_},
+                                     {"plan", plan_},
                                      {"peak_resident_mib", peakResidentMiB()}};
     writeTextFile(request_.out / "run.json", record.dump(2) + "\n");
   }
 
-  const Suite& suite_;
+  const std::vector<Suite>& points_;
   const SuiteRequest& request_;
   std::string started_;
-  SuiteCheck check_;
+  Outputs outputs_;
+  JobStore store_;
+  std::optional<FolderLock> lock_;
+  std::optional<ResultsLog> log_;
+  std::vector<SuiteCheck> checks_;  // of the points
+  std::vector<DeviceUse> devices_;
   std::vector<std::string> skipped_;
-  std::deque<BlockResult> blocks_;  // rows point into it: addresses must stay
-  std::vector<MethodSummary> rows_;
+  std::vector<nlohmann::ordered_json> plan_;
+  size_t next_ = 0;  // block of the plan
+  size_t made_ = 0, reused_ = 0;
 };
 
 }  // namespace
 
-bool runSuite(const Suite& suite, const SuiteRequest& request) {
-  return SuiteRun(suite, request).execute();
+bool runSuite(const std::vector<Suite>& points, const SuiteRequest& request) {
+  return SuiteRun(points, request).execute();
 }
 
 }  // namespace restlab

@@ -180,10 +180,6 @@ std::vector<MethodSummary> summarise(const Suite& suite, const BlockResult& bloc
   return rows;
 }
 
-std::string featuresLeftOut(const MethodResult& result) {
-  return featureNames(rl::RL_FEATURE_ALL & ~result.featuresUsed);
-}
-
 const char* biasName(BiasClass bias) {
   switch (bias) {
     case BiasClass::unbiased:

@@ -58,9 +58,6 @@ struct MethodSummary {
 // One summary a method that has at least one finished run.
 std::vector<MethodSummary> summarise(const Suite& suite, const BlockResult& block);
 
-// Names of the features that the kernels left out, "+"-joined, or "none".
-std::string featuresLeftOut(const MethodResult& result);
-
 const char* biasName(BiasClass bias);
 
 }  // namespace restlab

@@ -78,11 +78,12 @@ std::string blockTable(const Suite& suite, const std::vector<MethodSummary>& row
   const BlockResult& block = *rows.front().block;
   const std::string backends = backendColumn(suite, rows);
   std::string text = fmt::format(
-      "## {}, {} light\n\nCamera {}, {}x{}, {} scattering events, Russian roulette {}, filter "
+      "## {}, {} light{}\n\nCamera {}, {}x{}, {} scattering events, Russian roulette {}, filter "
       "{}{}; "
       "{} runs of {} warm-up and {} timed frames; reference {} spp (relMSE {:.2g}).\n\n",
-      block.scene, componentName(block.component), block.camera, block.width, block.height,
-      suite.maxBounces, suite.russianRoulette ? "on" : "off", filterName(suite.pixelFilter),
+      block.scene, componentName(block.component), suite.point.empty() ? "" : ", " + suite.point,
+      block.camera, block.width, block.height, suite.maxBounces,
+      suite.russianRoulette ? "on" : "off", filterName(suite.pixelFilter),
       suite.multiscatter ? ", multiple scattering compensated" : "", rows.front().runs,
       suite.warmupFrames, suite.timedFrames, block.reference.spp, block.reference.relmse);
   text += fmt::format(

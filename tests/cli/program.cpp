@@ -3,9 +3,11 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstring>
 #include <fstream>
@@ -27,14 +29,20 @@ std::string readFile(const fs::path& file) {
 
 // In the child: streams to files, the folder as working directory, then the program.
 [[noreturn]] void becomeProgram(const fs::path& folder, const fs::path& outFile,
+                                const fs::path& errFile, const Weather& weather,
                                 const std::vector<std::string>& arguments) {
   const int in = open("/dev/null", O_RDONLY);
   const int out = open(outFile.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  const int err = open((folder / ".stderr").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  const int err = open(errFile.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   dup2(in, STDIN_FILENO);
   dup2(out, STDOUT_FILENO);
   dup2(err, STDERR_FILENO);
   if (chdir(folder.c_str()) != 0) _exit(127);
+  if (weather.fileLimitKiB > 0) {
+    signal(SIGXFSZ, SIG_IGN);  // a write fails, as on a full disk, instead of ending the program
+    const rlimit limit = {rlim_t(weather.fileLimitKiB) * 1024, rlim_t(weather.fileLimitKiB) * 1024};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
   setenv("XDG_CACHE_HOME", (folder / "cache").c_str(), 1);
   std::vector<std::string> line = {RESTLAB_PROGRAM};
   line.insert(line.end(), arguments.begin(), arguments.end());
@@ -76,36 +84,47 @@ void ProgramTest::TearDown() {
 
 ProgramResult ProgramTest::run(const std::vector<std::string>& arguments,
                                double signalAfterS) const {
-  ProgramResult result = start(arguments, folder_ / ".stdout", signalAfterS);
-  result.out = readFile(folder_ / ".stdout");
+  Weather weather;
+  weather.signalAfterS = signalAfterS;
+  return run(arguments, weather);
+}
+
+ProgramResult ProgramTest::run(const std::vector<std::string>& arguments,
+                               const Weather& weather) const {
+  static std::atomic<int> count{0};
+  const fs::path out = folder_ / fmt::format(".stdout{}", ++count);
+  ProgramResult result = start(arguments, out, weather);
+  result.out = readFile(out);
   return result;
 }
 
 ProgramResult ProgramTest::start(const std::vector<std::string>& arguments, const fs::path& out,
-                                 double signalAfterS) const {
+                                 const Weather& weather) const {
+  static std::atomic<int> count{0};
+  const fs::path err = folder_ / fmt::format(".stderr{}", ++count);
   const pid_t child = fork();
-  if (child == 0) becomeProgram(folder_, out, arguments);
+  if (child == 0) becomeProgram(folder_, out, err, weather, arguments);
   ProgramResult result;
   if (child < 0) {
     ADD_FAILURE() << "fork: " << std::strerror(errno);
     return result;
   }
-  if (signalAfterS > 0.0) {
-    std::this_thread::sleep_for(std::chrono::duration<double>(signalAfterS));
-    kill(child, SIGINT);
+  if (weather.signalAfterS > 0.0) {
+    std::this_thread::sleep_for(std::chrono::duration<double>(weather.signalAfterS));
+    kill(child, weather.signal);
   }
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   result.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  result.err = readFile(folder_ / ".stderr");
+  result.err = readFile(err);
   return result;
 }
 
 ProgramResult ProgramTest::run(const std::string& arguments) const { return run(words(arguments)); }
 
 ProgramResult ProgramTest::runInto(const std::string& file, const std::string& arguments) const {
-  return start(words(arguments), file, 0.0);
+  return start(words(arguments), file, Weather());
 }
 
 void ProgramTest::write(const std::string& name, const std::string& text) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <signal.h>
 
 #include <filesystem>
 #include <map>
@@ -17,14 +18,23 @@ struct ProgramResult {
   std::vector<std::string> errors() const;
 };
 
+// What happens to the program while it runs.
+struct Weather {
+  double signalAfterS = 0.0;  // 0: none
+  int signal = SIGINT;
+  long fileLimitKiB = 0;  // files cannot grow beyond it, as on a full disk; 0: no limit
+};
+
 // A temporary folder that is the working directory, the cache and the place of outputs.
 class ProgramTest : public ::testing::Test {
  protected:
   void SetUp() override;
   void TearDown() override;
 
-  // Runs `restlab arguments...`; `signalAfterS` > 0 sends SIGINT after so many seconds.
+  // Runs `restlab arguments...`; `signalAfterS` > 0 sends SIGINT after so many seconds. Several may
+  // run at once.
   ProgramResult run(const std::vector<std::string>& arguments, double signalAfterS = 0.0) const;
+  ProgramResult run(const std::vector<std::string>& arguments, const Weather& weather) const;
   // The same with one string, split at blanks.
   ProgramResult run(const std::string& arguments) const;
   // The same with stdout going to `file`, which is not read back.
@@ -38,7 +48,7 @@ class ProgramTest : public ::testing::Test {
 
  private:
   ProgramResult start(const std::vector<std::string>& arguments, const std::filesystem::path& out,
-                      double signalAfterS) const;
+                      const Weather& weather) const;
 };
 
 // Expects an exit code and one error line that holds every one of the fragments.

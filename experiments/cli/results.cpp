@@ -1,0 +1,109 @@
+// restlab status, report, clean: folders that `run` left.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "experiments/cli/verbs.h"
+#include "experiments/runner/folder_lock.h"
+#include "experiments/runner/job.h"
+#include "experiments/runner/log.h"
+#include "experiments/runner/results_folder.h"
+
+namespace restlab {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct FolderOptions {
+  std::string folder;
+  bool json = false;
+};
+
+// Which of a block's jobs are there.
+size_t countThere(const PlannedBlock& block, const std::vector<std::string>& there) {
+  return size_t(std::count_if(block.jobs.begin(), block.jobs.end(), [&](const std::string& key) {
+    return std::binary_search(there.begin(), there.end(), key);
+  }));
+}
+
+void showStatus(const FolderOptions& options) {
+  const ResultsFolder results = openResults(options.folder);
+  const std::vector<std::string> there = JobStore(options.folder).keys();
+  Json blocks = Json::array();
+  for (const PlannedBlock& block : results.plan) {
+    const Suite& suite = suiteOf(results, block);
+    blocks.push_back({{"scene", block.scene},
+                      {"component", block.component},
+                      {"point", block.point},
+                      {"runs_wanted", suite.runs},
+                      {"runs_there", countThere(block, there)}});
+  }
+  if (options.json) {
+    fmt::print("{}\n", Json({{"folder", options.folder},
+                             {"suite", results.record.at("suite")},
+                             {"status", results.record.at("status")},
+                             {"started", results.record.at("started")},
+                             {"written", results.record.at("written")},
+                             {"blocks", blocks}})
+                           .dump(2));
+    return;
+  }
+  fmt::print("{}: {}, {} (written {})\n", options.folder,
+             results.record.at("suite").get<std::string>(),
+             results.record.at("status").get<std::string>(),
+             results.record.at("written").get<std::string>());
+  for (const Json& block : blocks) {
+    const std::string point = block["point"].get<std::string>();
+    fmt::print("  {} ({}){}: {} of {} runs\n", block["scene"].get<std::string>(),
+               block["component"].get<std::string>(), point.empty() ? "" : ", " + point,
+               block["runs_there"].dump(), block["runs_wanted"].dump());
+  }
+}
+
+void cleanFolder(const FolderOptions& options) {
+  const ResultsFolder results = openResults(options.folder);
+  const FolderLock lock(options.folder);
+  std::vector<std::string> keep;
+  for (const PlannedBlock& block : results.plan)
+    keep.insert(keep.end(), block.jobs.begin(), block.jobs.end());
+  const size_t removed = JobStore(options.folder).clean(keep);
+  logInfo(
+      fmt::format("{}: {} folders of jobs removed, {} kept", options.folder, removed, keep.size()));
+}
+
+CLI::App* addFolderVerb(CLI::App& app, const char* name, const char* help,
+                        const std::shared_ptr<FolderOptions>& options) {
+  CLI::App* verb = app.add_subcommand(name, help);
+  verb->add_option("folder", options->folder, "a folder that `run` left")->required();
+  return verb;
+}
+
+}  // namespace
+
+Action addStatusVerb(CLI::App& app) {
+  auto options = std::make_shared<FolderOptions>();
+  CLI::App* verb =
+      addFolderVerb(app, "status", "what a folder of results has and what is missing", options);
+  verb->add_flag("--json", options->json, "as JSON");
+  return [options](Outcome&) { showStatus(*options); };
+}
+
+Action addReportVerb(CLI::App& app) {
+  auto options = std::make_shared<FolderOptions>();
+  addFolderVerb(app, "report", "makes tables, plots and report again from finished runs", options);
+  return [options](Outcome&) {
+    std::fputs(writeReport(options->folder).c_str(), stdout);
+    logInfo(fmt::format("{}: written", options->folder));
+  };
+}
+
+Action addCleanVerb(CLI::App& app) {
+  auto options = std::make_shared<FolderOptions>();
+  addFolderVerb(app, "clean", "removes runs that the folder's last suite does not use", options);
+  return [options](Outcome&) { cleanFolder(*options); };
+}
+
+}  // namespace restlab

@@ -1,0 +1,53 @@
+// The images of a block.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "experiments/runner/files.h"
+#include "experiments/runner/report.h"
+
+namespace restlab {
+
+namespace {
+
+// Exposure that brings the reference's mean luminance to mid grey.
+float previewExposure(const Image& reference) {
+  double sum = 0.0;
+  for (const glm::vec3& pixel : reference.pixels) {
+    const double luminance = 0.2126 * pixel.x + 0.7152 * pixel.y + 0.0722 * pixel.z;
+    // The mean of logarithms: a lamp in view does not darken the picture.
+    sum += std::log(std::max(luminance, 1e-4));
+  }
+  return float(0.18 / std::exp(sum / double(reference.pixels.size())));
+}
+
+}  // namespace
+
+std::string blockLabel(const Suite& suite, const BlockResult& block) {
+  const std::string point = suite.point.empty() ? "" : "-" + suite.point;
+  return safeFileName(block.scene + "-" + componentName(block.component) + point);
+}
+
+void writeBlockImages(const std::filesystem::path& folder, const Suite& suite,
+                      const BlockResult& block) {
+  makeWritableDirectory(folder);
+  const float exposure = previewExposure(block.reference.mean);
+  const std::string label = blockLabel(suite, block);
+  const auto write = [&](const std::string& name, const Image& image,
+                         std::map<std::string, std::string> metadata) {
+    LayeredImage file;
+    file.layers[""] = image;
+    file.metadata = std::move(metadata);
+    file.metadata["preview_exposure"] = fmt::format("{:.6g}", exposure);
+    const std::string stem = label + "-" + safeFileName(name);
+    writeExr(folder / (stem + ".exr"), file);
+    writePng(folder / (stem + ".png"), image, exposure);
+  };
+  write("reference", block.reference.mean, block.reference.metadata);
+  for (size_t m = 0; m < block.methods.size(); ++m) {
+    const MethodResult& method = block.methods[m];
+    if (!method.runs.empty()) write(suite.methods[m].name, method.shown, method.metadata);
+  }
+}
+
+}  // namespace restlab

@@ -1,0 +1,56 @@
+#include "experiments/runner/outputs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/image/atomic_file.h"
+#include "experiments/runner/build_info.h"
+#include "experiments/runner/report.h"
+
+namespace restlab {
+
+std::string Outputs::add(const Suite& suite, BlockResult result) {
+  writeBlockImages(out_ / "images", suite, result);
+  Block& block = blocks_.emplace_back(Block{&suite, std::move(result), {}});
+  block.rows = summarise(suite, block.result);
+  for (MethodResult& method : block.result.methods) {
+    // Only the numbers are needed from here on.
+    method.evenRuns = ImageSum();
+    method.oddRuns = ImageSum();
+    method.shown = Image();
+  }
+  Reference& reference = block.result.reference;
+  reference.mean = Image();
+  reference.variance.reset();
+  if (reference.half0) reference.half0 = reference.half1 = Image();
+  block.result.withoutLights.clear();
+  return blockTable(suite, block.rows);
+}
+
+void Outputs::write(const Suite& suite, bool finished) const {
+  std::string csv;
+  for (const Block& block : blocks_) {
+    const std::string part = summaryCsv(*block.suite, block.rows);
+    // All blocks have the same columns: one heading is enough.
+    csv += csv.empty() ? part : part.substr(std::min(part.size(), part.find('\n') + 1));
+  }
+  if (!csv.empty()) writeTextFile(out_ / "summary.csv", csv);
+  std::string text = fmt::format("# {}\n\n", suite.name);
+  if (!suite.question.empty()) text += suite.question + "\n\n";
+  if (!finished) text += "Not finished: the rows below are of what was.\n\n";
+  for (const std::string& line : notes_) text += line + "\n\n";
+  for (const Block& block : blocks_) text += blockTable(*block.suite, block.rows);
+  const bool usesVulkan = std::any_of(devices_.begin(), devices_.end(),
+                                      [](const DeviceUse& use) { return use.backend == "vulkan"; });
+  text += fmt::format(
+      "{}, {} cores, Embree {}, {} {}; times are of the passes of a frame by the "
+      "steady clock{}, without metrics and files.\n",
+      cpuModel(), machineJson()["cores"].dump(), embreeVersion(), buildInfo().compiler,
+      buildInfo().buildType, usesVulkan ? " (vulkan: by the device's timestamps)" : "");
+  for (const DeviceUse& use : devices_)
+    text += fmt::format("\n{}: {}; rays by {}.\n", use.backend, use.device, use.rayTracing);
+  writeTextFile(out_ / "table.md", text);
+}
+
+}  // namespace restlab

@@ -1,0 +1,227 @@
+#include "experiments/runner/run_record.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "core/image/intervals.h"
+#include "experiments/runner/build_info.h"
+
+namespace restlab {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json parametersJson(const SessionConfig& config) {
+  Json json = Json::object();
+  for (const auto& [key, value] :
+       resolveParameters(findIntegrator(config.integrator), config.parameters)) {
+    std::visit([&, &name = key](const auto& typed) { json[name] = typed; }, value);
+  }
+  return json;
+}
+
+Json configurationJson(const Suite& suite, const BlockResult& block, size_t method,
+                       const DeviceUse& use) {
+  const SessionConfig& session = suite.methods[method].session;
+  return {{"suite", suite.name},
+          {"point", suite.point},
+          {"scene", block.scene},
+          {"camera", block.camera},
+          {"component", componentName(block.component)},
+          {"method", suite.methods[method].name},
+          {"integrator", session.integrator},
+          {"mode", session.mode},
+          {"cache", hasHistory(session) ? session.cache : "none"},
+          {"backend", session.backend},
+          {"device", use.device},
+          {"ray_tracing", use.rayTracing},
+          {"denoiser", session.denoiser},
+          {"kernel", session.specialise ? "specialised" : "general"},
+          {"parameters", parametersJson(session)},
+          {"width", block.width},
+          {"height", block.height},
+          {"max_bounces", suite.maxBounces},
+          {"multiscatter", suite.multiscatter},
+          {"russian_roulette", suite.russianRoulette},
+          {"filter", filterName(suite.pixelFilter)},
+          {"warmup_frames", suite.warmupFrames},
+          {"timed_frames", suite.timedFrames}};
+}
+
+void addError(Json& line, const FrameError& error) {
+  line["frame"] = error.frame;
+  line["mse"] = finiteJson(error.mse);
+  line["mse_without_lights"] = finiteJson(error.mseWithoutLights);
+  line["relmse_e1e-2"] = finiteJson(error.relmse);
+  line["relmse_e1e-2_trim0.1"] = finiteJson(error.relmseTrimmed);
+  line["energy_ratio"] = finiteJson(error.energyRatio);
+  line["worst_0.1pct_share_of_mse"] = finiteJson(error.worstShare);
+  line["nonfinite_in_image"] = error.nonfinite;
+}
+
+Json timesJson(const RunResult& run, const std::string& backend) {
+  Json passes = Json::object();
+  for (const PassTiming& pass : run.passes) passes[pass.name] = pass.timeMs;
+  const std::string clock =
+      backend == "vulkan" ? "the device's timestamps, steady where it has none" : "steady";
+  return {{"clock", clock + ", passes only: no metrics, no files"},
+          {"median", median(run.timesMs)},
+          {"p95", percentile(run.timesMs, 0.95)},
+          {"frames", run.timesMs},
+          {"passes_median", passes}};
+}
+
+Json healthJson(const HealthSum& sum) {
+  Json json = Json::object();
+  for (size_t i = 0; i < sum.health.counts.size(); ++i) {
+    const char* name = Health::names()[i];
+    if (name && *name) json[name] = sum.health.counts[i];
+  }
+  return json;
+}
+
+FrameError errorOf(const Json& line) {
+  FrameError error;
+  error.frame = line.at("frame").get<uint32_t>();
+  error.mse = finiteNumber(line.at("mse"));
+  error.mseWithoutLights = finiteNumber(line.at("mse_without_lights"));
+  error.relmse = finiteNumber(line.at("relmse_e1e-2"));
+  error.relmseTrimmed = finiteNumber(line.at("relmse_e1e-2_trim0.1"));
+  error.energyRatio = finiteNumber(line.at("energy_ratio"));
+  error.worstShare = finiteNumber(line.at("worst_0.1pct_share_of_mse"));
+  error.nonfinite = line.at("nonfinite_in_image").get<uint64_t>();
+  return error;
+}
+
+Json temporalJson(const TemporalFigures& figures) {
+  Json lags = Json::array();
+  for (const double value : figures.autocorrelation) lags.push_back(finiteJson(value));
+  return {{"variance", finiteJson(figures.variance)},
+          {"difference", finiteJson(figures.difference)},
+          {"autocorrelation", lags}};
+}
+
+TemporalFigures temporalOf(const Json& json) {
+  TemporalFigures figures;
+  figures.variance = finiteNumber(json.at("variance"));
+  figures.difference = finiteNumber(json.at("difference"));
+  for (size_t lag = 0; lag < figures.autocorrelation.size(); ++lag)
+    figures.autocorrelation[lag] = finiteNumber(json.at("autocorrelation").at(lag));
+  return figures;
+}
+
+Health healthOf(const Json& json) {
+  Health health;
+  for (size_t i = 0; i < health.counts.size(); ++i) {
+    const char* name = Health::names()[i];
+    if (name && *name) health.counts[i] = json.at(name).get<uint64_t>();
+  }
+  return health;
+}
+
+}  // namespace
+
+Json finiteJson(double value) {
+  if (std::isnan(value)) return "nan";
+  if (std::isinf(value)) return value > 0.0 ? "inf" : "-inf";
+  return value;
+}
+
+double finiteNumber(const Json& value) {
+  if (value.is_number()) return value.get<double>();
+  const std::string text = value.get<std::string>();
+  if (text == "nan") return std::numeric_limits<double>::quiet_NaN();
+  if (text == "inf") return std::numeric_limits<double>::infinity();
+  if (text == "-inf") return -std::numeric_limits<double>::infinity();
+  throw std::invalid_argument("'" + text + "' is no number");
+}
+
+std::vector<Json> runLines(const Suite& suite, const BlockResult& block, const MethodResult& method,
+                           const RunResult& run, const std::string& job,
+                           const std::string& startedUtc) {
+  Json line = {
+      {"schema", kResultsSchema}, {"job", job}, {"started", startedUtc}, {"finished", utcNow()}};
+  line.update(configurationJson(suite, block, run.method, method.use));
+  line["run"] = run.run;
+  line["seed"] = run.seed;
+  line["features_left_out"] = method.featuresLeftOut;
+  line["bytes_per_pixel"] = method.bytesPerPixel;
+  line["startup_ms"] = method.startupMs;
+  line["reference"] = {{"file", block.referenceFile},
+                       {"spp", block.reference.spp},
+                       {"relmse_estimate", finiteJson(block.reference.relmse)}};
+  line["source_hash"] = buildInfo().sourceHash;
+
+  std::vector<Json> lines;
+  for (const FrameError& checkpoint : run.checkpoints) {
+    Json at = line;
+    at["kind"] = "checkpoint";
+    addError(at, checkpoint);
+    lines.push_back(std::move(at));
+  }
+  for (const AccumulatedError& point : run.accumulated) {
+    Json at = line;
+    at["kind"] = "accumulated";
+    at["frames_accumulated"] = point.frames;
+    at["time_ms_since_start"] = point.timeMs;
+    addError(at, point.error);
+    lines.push_back(std::move(at));
+  }
+  const double samples = double(run.timesMs.size()) * double(block.width) * double(block.height);
+  line["kind"] = "run";
+  addError(line, run.measured);
+  line["time_ms"] = timesJson(run, suite.methods[run.method].session.backend);
+  line["rays_path"] = run.health.raysPath;
+  line["rays_shadow"] = run.health.raysShadow;
+  line["path_rays_per_pixel"] = double(run.health.raysPath) / samples;
+  line["shadow_rays_per_pixel"] = double(run.health.raysShadow) / samples;
+  if (run.temporal) line["temporal"] = temporalJson(*run.temporal);
+  line["health"] = healthJson(run.health);
+  lines.push_back(std::move(line));
+  return lines;
+}
+
+RunResult runOfLines(const std::vector<Json>& lines, MethodResult& method) {
+  RunResult run;
+  bool isWhole = false;
+  for (const Json& line : lines) {
+    if (line.at("schema").get<int>() != kResultsSchema)
+      throw std::invalid_argument("lines of another schema");
+    const std::string kind = line.at("kind").get<std::string>();
+    if (kind == "checkpoint") {
+      run.checkpoints.push_back(errorOf(line));
+      continue;
+    }
+    if (kind == "accumulated") {
+      run.accumulated.push_back({line.at("frames_accumulated").get<uint32_t>(),
+                                 line.at("time_ms_since_start").get<double>(), errorOf(line)});
+      continue;
+    }
+    if (kind != "run") throw std::invalid_argument("lines of an unknown kind");
+    isWhole = true;
+    run.run = line.at("run").get<uint32_t>();
+    run.seed = line.at("seed").get<uint32_t>();
+    run.measured = errorOf(line);
+    run.timesMs = line.at("time_ms").at("frames").get<std::vector<double>>();
+    if (run.timesMs.empty()) throw std::invalid_argument("no times");
+    for (const auto& [name, timeMs] : line.at("time_ms").at("passes_median").items())
+      run.passes.push_back({name, timeMs.get<double>(), 0, 0});
+    run.health.health = healthOf(line.at("health"));
+    run.health.raysPath = line.at("rays_path").get<uint64_t>();
+    run.health.raysShadow = line.at("rays_shadow").get<uint64_t>();
+    if (line.contains("temporal")) run.temporal = temporalOf(line.at("temporal"));
+    method.featuresLeftOut = line.at("features_left_out").get<std::string>();
+    method.bytesPerPixel = line.at("bytes_per_pixel").get<size_t>();
+    method.startupMs = std::max(method.startupMs, line.at("startup_ms").get<double>());
+    method.use.backend = line.at("backend").get<std::string>();
+    method.use.device = line.at("device").get<std::string>();
+    method.use.rayTracing = line.at("ray_tracing").get<std::string>();
+  }
+  if (!isWhole) throw std::invalid_argument("no line of kind run");
+  return run;
+}
+
+}  // namespace restlab

@@ -1,0 +1,250 @@
+// restlab run goes on where it stopped: jobs, their keys, damage, locks, full disks; status,
+// report, clean.
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "core/image/image.h"
+#include "tests/cli/program.h"
+
+namespace restlab::cli_test {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kSuite = R"(name = "small"
+scenes = ["cornell-box"]
+[settings]
+width = 24
+height = 16
+max_bounces = 3
+warmup_frames = 3
+frames = 2
+runs = 3
+[reference]
+spp = 32
+[[method]]
+name = "path"
+[[method]]
+name = "gi"
+integrator = "restir_gi"
+)";
+
+class ResumeTest : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    write("suite.toml", kSuite);
+  }
+  std::vector<fs::path> jobs() const {
+    std::vector<fs::path> found;
+    for (const auto& entry : fs::directory_iterator(path("out/jobs")))
+      found.push_back(entry.path());
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+  size_t lines() const {
+    const std::string text = read("out/results.jsonl");
+    return size_t(std::count(text.begin(), text.end(), '\n'));
+  }
+  void expectWhole(const std::string& csv) const {
+    EXPECT_EQ(parseCsv(csv).at(0).at("runs"), "3");
+    EXPECT_EQ(nlohmann::json::parse(read("out/run.json"))["status"], "finished");
+    EXPECT_EQ(jobs().size(), 3u);
+    EXPECT_EQ(lines(), 6u);
+  }
+};
+
+// All but times, which differ from run to run.
+std::vector<std::map<std::string, std::string>> errorsOf(const std::string& csv) {
+  auto rows = parseCsv(csv);
+  for (auto& row : rows) {
+    std::erase_if(row, [](const auto& cell) {
+      return cell.first.find("time") != std::string::npos ||
+             cell.first.find("efficiency") != std::string::npos ||
+             cell.first.find("passes") != std::string::npos;
+    });
+  }
+  return rows;
+}
+
+TEST_F(ResumeTest, FinishedRunsAreTakenAsTheyAre) {
+  ASSERT_EQ(run("run suite.toml --out out").code, 0);
+  const std::string csv = read("out/summary.csv"), table = read("out/table.md");
+  expectWhole(csv);
+  const ProgramResult again = run("run suite.toml --out out");
+  ASSERT_EQ(again.code, 0) << again.err;
+  EXPECT_NE(again.err.find("3 of 3 runs were there already"), std::string::npos) << again.err;
+  EXPECT_EQ(read("out/summary.csv"), csv) << "to the last digit, times too";
+  EXPECT_EQ(read("out/table.md"), table);
+  expectWhole(csv);
+  const ProgramResult more = run("run suite.toml --out out --set runs=5");
+  EXPECT_NE(more.err.find("3 of 5 runs were there already"), std::string::npos) << more.err;
+  EXPECT_EQ(parseCsv(read("out/summary.csv"))[0].at("runs"), "5");
+  const ProgramResult forced = run("run suite.toml --out out --force");
+  EXPECT_EQ(forced.err.find("already"), std::string::npos) << forced.err;
+  EXPECT_EQ(errorsOf(read("out/summary.csv")), errorsOf(csv)) << "same seeds, same images";
+}
+
+TEST_F(ResumeTest, WhatChangesTheNumbersMakesTheRunAnew) {
+  ASSERT_EQ(run("run suite.toml --out out").code, 0);
+  for (const char* change :
+       {"seed=7", "warmup_frames=4", "frames=3", "checkpoints=[1]", "method.gi.confidence_cap=5",
+        "max_bounces=4", "reference.spp=64", "temporal=true", "accumulate=true", "threads=1"}) {
+    const ProgramResult result = run(std::string("run suite.toml --out out --set ") + change);
+    ASSERT_EQ(result.code, 0) << result.err;
+    const bool isShifted = std::string(change) == "seed=7";
+    EXPECT_EQ(result.err.find("already"), std::string::npos) << change << result.err << isShifted;
+  }
+  EXPECT_GT(jobs().size(), 10u * 3u);
+  EXPECT_EQ(run("run suite.toml --out out").code, 0);
+  const ProgramResult cleaned = run("clean out");
+  EXPECT_EQ(cleaned.code, 0) << cleaned.err;
+  EXPECT_EQ(jobs().size(), 3u) << "those of the last suite";
+  EXPECT_NE(run("run suite.toml --out out").err.find("3 of 3"), std::string::npos);
+}
+
+TEST_F(ResumeTest, InterruptedAndKilledRunsGoOn) {
+  ASSERT_EQ(run("run suite.toml --out whole").code, 0);
+  const std::string whole = read("whole/summary.csv");
+  // Slow enough that a signal comes between the runs.
+  const std::vector<std::string> slow = {"run", "suite.toml", "--out", "out", "--set", "runs=2000"};
+  EXPECT_EQ(run(slow, 2.5).code, 130);
+  const size_t interrupted = jobs().size();
+  EXPECT_GE(interrupted, 1u);
+  EXPECT_EQ(run(slow, Weather{2.5, SIGKILL, 0}).code, 128 + SIGKILL);
+  EXPECT_GT(jobs().size(), interrupted) << "it went on";
+  for (const fs::path& job : jobs()) {
+    if (job.filename().string().front() == '.') continue;
+    EXPECT_TRUE(fs::exists(job / "job.json")) << "whole or not at all";
+  }
+  const ProgramResult rest = run("run suite.toml --out out");
+  ASSERT_EQ(rest.code, 0) << rest.err;
+  EXPECT_NE(rest.err.find("3 of 3 runs were there already"), std::string::npos) << rest.err;
+  EXPECT_EQ(errorsOf(read("out/summary.csv")), errorsOf(whole));
+  ASSERT_EQ(run("clean out").code, 0);
+  EXPECT_EQ(jobs().size(), 3u);
+}
+
+TEST_F(ResumeTest, DamagedJobsAreMadeAnewWithALine) {
+  ASSERT_EQ(run("run suite.toml --out out").code, 0);
+  const std::string csv = read("out/summary.csv");
+  const auto damage = [&](const std::string& file, const auto& how) {
+    const fs::path name = jobs().front() / file;
+    std::string bytes = read(name.string());
+    how(bytes);
+    write(name.string(), bytes);
+    const ProgramResult result = run("run suite.toml --out out");
+    ASSERT_EQ(result.code, 0) << result.err;
+    EXPECT_NE(result.err.find("made anew"), std::string::npos) << file << result.err;
+    EXPECT_NE(result.err.find("2 of 3 runs were there already"), std::string::npos) << result.err;
+    EXPECT_EQ(errorsOf(read("out/summary.csv")), errorsOf(csv));
+  };
+  damage("job.json", [](std::string& bytes) { bytes.resize(bytes.size() / 2); });
+  damage("job.json", [](std::string& bytes) { bytes.clear(); });
+  damage("job.json", [](std::string& bytes) {
+    const size_t at = bytes.find("\"mse\": ") + 7;
+    bytes[at] = bytes[at] == '1' ? '2' : '1';  // a number that parses
+  });
+  damage("method0.exr", [](std::string& bytes) { bytes[bytes.size() - 9] ^= 1; });
+  damage("method1.exr", [](std::string& bytes) { bytes.resize(100); });
+  fs::remove(jobs().front() / "method1.exr");
+  EXPECT_NE(run("run suite.toml --out out").err.find("made anew"), std::string::npos);
+  EXPECT_EQ(lines(), 6u) << "a job's lines are there once";
+}
+
+TEST_F(ResumeTest, ATornLineIsCutOffAndWrittenAgain) {
+  ASSERT_EQ(run("run suite.toml --out out").code, 0);
+  std::string text = read("out/results.jsonl");
+  const std::string whole = text;
+  // The last job's two lines: one whole, one torn.
+  text.resize(text.size() - 40);
+  write("out/results.jsonl", text);
+  const ProgramResult result = run("run suite.toml --out out");
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.err.find("cut off"), std::string::npos) << result.err;
+  EXPECT_EQ(read("out/results.jsonl"), whole) << "nothing is lost, nothing is there twice";
+  write("out/results.jsonl", "no JSON\n");
+  expectError(run("run suite.toml --out out -q"), 3, {"results.jsonl:1", "no JSON object"});
+}
+
+TEST_F(ResumeTest, TwoProgramsInOneFolder) {
+  ASSERT_EQ(run("run suite.toml --out out").code, 0);
+  std::thread first([&] {
+    run({"run", "suite.toml", "--out", "out", "--set", "runs=100000"}, 4.0);
+  });
+  std::this_thread::sleep_for(std::chrono::milliseconds(2000));
+  expectError(run("run suite.toml --out out -q"), 3, {"another restlab", "process"});
+  expectError(run("report out -q"), 3, {"another restlab"});
+  expectError(run("clean out -q"), 3, {"another restlab"});
+  EXPECT_EQ(run("status out").code, 0) << "looking is free";
+  first.join();
+  EXPECT_EQ(run("run suite.toml --out out").code, 0) << "a program that ended holds no lock";
+}
+
+TEST_F(ResumeTest, AFullDiskLeavesNothingThatLooksWhole) {
+  ASSERT_EQ(run("run suite.toml --out out").code, 0);
+  const std::string csv = read("out/summary.csv");
+  // Files of at most so many bytes: what is larger cannot be written, as on a full disk.
+  for (const long kib : {1, 4, 8}) {
+    fs::remove_all(path("out/jobs"));
+    fs::remove_all(path("out/results.jsonl"));
+    const ProgramResult result =
+        run({"run", "suite.toml", "--out", "out"}, Weather{0.0, SIGINT, kib});
+    EXPECT_EQ(result.code, 3) << kib << result.err;
+    ASSERT_EQ(result.errors().size(), 1u) << result.err;
+    if (!fs::exists(path("out/jobs"))) continue;
+    for (const fs::path& job : jobs()) EXPECT_TRUE(fs::exists(job / "job.json")) << job;
+  }
+  const ProgramResult rest = run("run suite.toml --out out");
+  ASSERT_EQ(rest.code, 0) << rest.err;
+  EXPECT_EQ(errorsOf(read("out/summary.csv")), errorsOf(csv));
+  expectWhole(read("out/summary.csv"));
+}
+
+TEST_F(ResumeTest, ReportMakesTheSameFilesAgain) {
+  ASSERT_EQ(run("run suite.toml --out out --methods gi,path --sweep max_bounces=1,3").code, 0);
+  const std::string csv = read("out/summary.csv"), table = read("out/table.md");
+  fs::remove(path("out/summary.csv"));
+  fs::remove(path("out/table.md"));
+  fs::remove_all(path("out/images"));
+  const ProgramResult result = run("report out");
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(read("out/summary.csv"), csv);
+  EXPECT_EQ(read("out/table.md"), table);
+  EXPECT_EQ(readExr(path("out/images/cornell-box-all-max_bounces-3-gi.exr")).layers.at("").width,
+            24u);
+  const auto status = nlohmann::json::parse(run("status out --json").out);
+  EXPECT_EQ(status["blocks"].size(), 2u);
+  for (const auto& block : status["blocks"]) EXPECT_EQ(block["runs_there"], 3);
+  fs::remove_all(jobs().front());
+  const ProgramResult less = run("report out");
+  EXPECT_EQ(less.code, 0) << less.err;
+  EXPECT_NE(less.err.find("missing or damaged"), std::string::npos) << less.err;
+  EXPECT_NE(read("out/table.md").find("Not finished"), std::string::npos);
+  expectError(run("report nowhere -q"), 3, {"nowhere/run.json"});
+  expectError(run("status nowhere -q"), 3, {"nowhere/run.json"});
+}
+
+TEST_F(ResumeTest, SweepsMakeTablesAndMethods) {
+  const ProgramResult result =
+      run("run suite.toml --out out --sweep max_bounces=1..2 --sweep confidence_cap=4.0,8.0 --set "
+          "runs=2");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto rows = parseCsv(read("out/summary.csv"));
+  ASSERT_EQ(rows.size(), 6u);
+  for (size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(rows[i].at("point"), i < 3 ? "max_bounces=1" : "max_bounces=2");
+    EXPECT_EQ(rows[i].at("max_bounces"), i < 3 ? "1" : "2");
+  }
+  EXPECT_EQ(rows[1].at("method"), "gi, confidence_cap=4.0");
+  EXPECT_NE(rows[2].at("parameters").find("confidence_cap=8"), std::string::npos);
+  EXPECT_NE(result.out.find("## cornell-box, all light, max_bounces=2"), std::string::npos);
+}
+
+}  // namespace
+
+}  // namespace restlab::cli_test

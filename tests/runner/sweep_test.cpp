@@ -1,0 +1,160 @@
+// Sweeps and includes: which suites and methods they make, and where errors are said to be.
+#include "experiments/runner/sweep.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "core/error.h"
+#include "experiments/runner/suite.h"
+
+namespace restlab {
+
+namespace {
+
+using Names = std::vector<std::string>;
+
+constexpr const char* kBase = R"(scenes = ["cornell-box"]
+[settings]
+width = 8
+runs = 2
+[[method]]
+name = "path"
+[[method]]
+name = "gi"
+integrator = "restir_gi"
+[[method]]
+integrator = "restir_gi"
+)";
+
+class SweepTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (std::filesystem::temp_directory_path() / "restlab-sweep-XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    std::filesystem::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name) << text;
+    return folder_ / name;
+  }
+  std::vector<Suite> load(const std::string& text, const Names& overrides = {},
+                          const Names& sweeps = {}) const {
+    return loadSuites(write("suite.toml", text), overrides, sweeps);
+  }
+  std::string errorOf(const std::string& text, const Names& overrides = {},
+                      const Names& sweeps = {}) const {
+    try {
+      load(text, overrides, sweeps);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::badUsage);
+      std::string message = error.what();
+      const size_t at = message.find(folder_.string() + "/");
+      return at == std::string::npos ? message : message.substr(folder_.string().size() + 1);
+    }
+    ADD_FAILURE() << "nothing was thrown";
+    return "";
+  }
+  static Names names(const Suite& suite) {
+    Names all;
+    for (const SuiteMethod& method : suite.methods) all.push_back(method.name);
+    return all;
+  }
+  static Names points(const std::vector<Suite>& suites) {
+    Names all;
+    for (const Suite& suite : suites) all.push_back(suite.point);
+    return all;
+  }
+  std::filesystem::path folder_;
+};
+
+TEST_F(SweepTest, SettingsMakePoints) {
+  const auto suites =
+      load(std::string(kBase) + "[sweep]\nmax_bounces = [2, 4]\nwidth = [8, 16, 32]\n");
+  EXPECT_EQ(points(suites), (Names{"max_bounces=2, width=8", "max_bounces=2, width=16",
+                                   "max_bounces=2, width=32", "max_bounces=4, width=8",
+                                   "max_bounces=4, width=16", "max_bounces=4, width=32"}));
+  EXPECT_EQ(suites[5].maxBounces, 4u);
+  EXPECT_EQ(suites[5].width, 32u);
+  EXPECT_EQ(suites[5].runs, 2u);
+  EXPECT_EQ(names(suites[5]), (Names{"path", "gi", "restir_gi (unbiased)"}));
+  EXPECT_EQ(points(load(kBase)), Names{""});
+  EXPECT_EQ(points(load(kBase, {}, {"seed=1..3"})), (Names{"seed=1", "seed=2", "seed=3"}));
+  EXPECT_EQ(points(load(kBase, {}, {"filter=box,center"})), (Names{"filter=box", "filter=center"}));
+  EXPECT_THROW(loadSuite(write("s.toml", std::string(kBase) + "[sweep]\nruns = [2, 3]\n"), {}),
+               Error);
+}
+
+TEST_F(SweepTest, MethodKeysMakeMethods) {
+  const auto suites = load(kBase, {}, {"confidence_cap=4.0,8.0"});
+  ASSERT_EQ(suites.size(), 1u);
+  EXPECT_EQ(names(suites[0]), (Names{"path", "gi, confidence_cap=4.0", "gi, confidence_cap=8.0",
+                                     "restir_gi (unbiased), confidence_cap=4.0",
+                                     "restir_gi (unbiased), confidence_cap=8.0"}));
+  EXPECT_EQ(std::get<double>(suites[0].methods[2].session.parameters.at("confidence_cap")), 8.0);
+  EXPECT_EQ(
+      names(load(kBase, {}, {"method.gi.confidence_cap=4.0,8.0"})[0]),
+      (Names{"path", "gi, confidence_cap=4.0", "gi, confidence_cap=8.0", "restir_gi (unbiased)"}));
+  EXPECT_EQ(names(load(kBase, {}, {"mode=biased,unbiased"})[0]),
+            (Names{"path", "gi, mode=biased", "gi, mode=unbiased", "restir_gi (biased)",
+                   "restir_gi (unbiased)"}))
+      << "path has one mode: it is not meant";
+  EXPECT_EQ(names(load(kBase, {}, {"backend=cpu,vulkan", "method.gi.general=true,false"})[0]),
+            (Names{"path @cpu", "path @vulkan", "gi, general=true @cpu", "gi, general=false @cpu",
+                   "gi, general=true @vulkan", "gi, general=false @vulkan",
+                   "restir_gi (unbiased) @cpu", "restir_gi (unbiased) @vulkan"}));
+  EXPECT_EQ(load(kBase, {"sweep.max_bounces=[1,2]"}).size(), 2u);
+}
+
+TEST_F(SweepTest, ErrorsNameThePlace) {
+  const std::string base = kBase;
+  EXPECT_EQ(errorOf(base + "[sweep]\nmax_bounce = [1]\n"),
+            "suite.toml:13:14: neither a setting nor something of a method in the suite: "
+            "'max_bounce'; did you mean 'max_bounces'?");
+  EXPECT_EQ(errorOf(base + "[sweep]\nmax_bounces = []\n"),
+            "suite.toml:13:15: 'max_bounces' has no values");
+  EXPECT_EQ(errorOf(base + "[sweep]\nmax_bounces = [1, 1]\n"),
+            "suite.toml:13:15: 'max_bounces' has a value twice");
+  EXPECT_EQ(errorOf(base + "[sweep]\nmax_bounces = [1, -1]\n"),
+            "suite.toml:13:15: 'max_bounces' must be in 0..1024, not -1");
+  EXPECT_NE(errorOf(base, {}, {"method.gy.confidence_cap=1"}).find("did you mean 'gi'"),
+            std::string::npos);
+  EXPECT_NE(errorOf(base, {}, {"runs"}).find("--sweep runs: must be KEY=VALUE"), std::string::npos);
+  EXPECT_NE(errorOf(base, {}, {"runs=3..1"}).find("--sweep runs: 3..1"), std::string::npos);
+  EXPECT_NE(errorOf(base, {}, {"runs=1,,2"}).find("empty value"), std::string::npos);
+}
+
+TEST_F(SweepTest, IncludesAreMergedAndKeepTheirPlaces) {
+  write("parts/base.toml", kBase);
+  write("parts/more.toml", "include = \"base.toml\"\n[settings]\nruns = 5\nmax_bounces = 3\n");
+  const auto suites = load(
+      "include = [\"parts/more.toml\"]\nname = \"top\"\n[settings]\nmax_bounces = 7\n"
+      "[[method]]\nname = \"third\"\n");
+  ASSERT_EQ(suites.size(), 1u);
+  EXPECT_EQ(suites[0].name, "top");
+  EXPECT_EQ(suites[0].runs, 5u) << "the later file wins";
+  EXPECT_EQ(suites[0].maxBounces, 7u) << "the including file wins";
+  EXPECT_EQ(suites[0].width, 8u);
+  EXPECT_EQ(names(suites[0]), (Names{"path", "gi", "restir_gi (unbiased)", "third"}));
+  // What is written out means the same.
+  const auto again = load(suites[0].resolved);
+  EXPECT_EQ(again[0].maxBounces, 7u);
+  EXPECT_EQ(names(again[0]), names(suites[0]));
+
+  write("parts/more.toml", "[settings]\nruns = \"many\"\n");
+  EXPECT_EQ(errorOf("include = \"parts/more.toml\"\nscenes = [\"cornell-box\"]\n[[method]]\n"),
+            "parts/more.toml:2:8: 'runs' must be an integer, not a string");
+  write("parts/more.toml", "include = \"../suite.toml\"\n");
+  EXPECT_NE(errorOf("include = \"parts/more.toml\"\n").find("parts/more.toml:1:11"),
+            std::string::npos);
+  EXPECT_NE(errorOf("include = \"absent.toml\"\n").find("absent.toml: cannot be read"),
+            std::string::npos);
+  EXPECT_EQ(errorOf("include = 3\n"), "suite.toml:1:11: 'include' must hold names of files");
+}
+
+}  // namespace
+
+}  // namespace restlab
