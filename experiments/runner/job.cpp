@@ -49,12 +49,13 @@ JobData read(const fs::path& folder, const std::string& key) {
   const std::string sum = document.at("checksum").get<std::string>();
   document.erase("checksum");
   if (hashOfText(document.dump()) != sum) failInput("job.json is damaged");
-  if (document.at("schema").get<int>() != kJobSchema || document.at("key") != key)
+  if (document.at("schema").get<int>() != kJobSchema ||
+      document.at("key").get<std::string>() != key)
     failInput("job.json is of another job");
   JobData job;
   for (const Json& method : document.at("methods")) {
     const fs::path file = folder / method.at("image").get<std::string>();
-    if (hashOfFile(file) != method.at("image_hash"))
+    if (hashOfFile(file) != method.at("image_hash").get<std::string>())
       failInput(fmt::format("{} is damaged", file.filename().string()));
     LayeredImage image = readExr(file);
     JobMethod& read = job.methods.emplace_back();

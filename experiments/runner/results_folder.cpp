@@ -106,7 +106,7 @@ std::string writeReport(const fs::path& folder) {
   outputs.use(devices);
   for (const Json& line : results.record.at("skipped")) outputs.note(line.get<std::string>());
   std::string tables;
-  bool finished = results.record.at("status") == "finished";
+  bool finished = results.record.at("status").get<std::string>() == "finished";
   for (const PlannedBlock& planned : results.plan) {
     if (planned.jobs.empty()) continue;
     const Suite& suite = suiteOf(results, planned);
