@@ -4,6 +4,7 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <vector>
 
@@ -91,6 +92,31 @@ Interval pairedRatioInterval(std::span<const double> numerator, std::span<const 
   covariance /= (a.n - 1.0) * a.n;
   return fieller(a.mean, b.mean, a.varianceOfMean, b.varianceOfMean, covariance,
                  tQuantile(a.n - 1.0, confidence));
+}
+
+Interval jackknifeInterval(size_t runs,
+                           const std::function<double(std::span<const size_t>)>& statistic,
+                           double confidence) {
+  if (runs == 0) throw std::invalid_argument("an interval needs at least one run");
+  std::vector<size_t> all(runs);
+  std::iota(all.begin(), all.end(), size_t{0});
+  Interval interval;
+  interval.value = statistic(all);
+  interval.lo = interval.hi = std::numeric_limits<double>::quiet_NaN();
+  if (runs < 3) return interval;
+  std::vector<double> pseudo;
+  for (size_t left = 0; left < runs; ++left) {
+    std::vector<size_t> others;
+    for (const size_t i : all) {
+      if (i != left) others.push_back(i);
+    }
+    const double n = double(runs);
+    pseudo.push_back(n * interval.value - (n - 1.0) * statistic(others));
+  }
+  const Interval around = meanInterval(pseudo, confidence);
+  interval.lo = interval.value + (around.lo - around.value);
+  interval.hi = interval.value + (around.hi - around.value);
+  return interval;
 }
 
 double median(std::span<const double> values) {

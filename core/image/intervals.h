@@ -2,6 +2,8 @@
 // frame time, ...), not one a frame or pixel: those are correlated and give intervals too narrow.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <span>
 
 namespace restlab {
@@ -24,6 +26,14 @@ Interval ratioInterval(std::span<const double> numerator, std::span<const double
 // their covariance narrows the interval. Throws std::invalid_argument on different sizes.
 Interval pairedRatioInterval(std::span<const double> numerator, std::span<const double> denominator,
                              double confidence = 0.95);
+
+// The jackknife over runs (Tukey): `statistic` of the runs with these indices, for statistics that
+// are no mean: a fitted slope, the logarithm of a ratio. The interval is Student's t of the
+// pseudo-values; lo and hi are NaN with fewer than three runs. Throws std::invalid_argument without
+// any run.
+Interval jackknifeInterval(size_t runs,
+                           const std::function<double(std::span<const size_t>)>& statistic,
+                           double confidence = 0.95);
 
 // The middle value, or the mean of the two middle ones. Throws std::invalid_argument without
 // values.

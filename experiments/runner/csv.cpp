@@ -131,6 +131,24 @@ std::vector<Column> furtherColumns(const Suite& suite, const MethodSummary& row)
       {"point", suite.point},
       {"parameters", parametersText(session)},
   };
+  const Interval none{kUnknown, kUnknown, kUnknown};
+  const auto add = [&](const std::string& name, const Interval& interval) {
+    columns.push_back({name, number(interval.value)});
+    columns.push_back({name + "_ci_lo", number(interval.lo)});
+    columns.push_back({name + "_ci_hi", number(interval.hi)});
+  };
+  add("accumulated_slope", row.convergence ? row.convergence->slope : none);
+  add("equal_time_mse_ratio", row.speedUp ? row.speedUp->equalTime : none);
+  columns.push_back({"equal_time_ms", number(row.speedUp ? row.speedUp->timeMs : kUnknown)});
+  add("equal_error_time_ratio", row.speedUp ? row.speedUp->equalError : none);
+  columns.push_back({"equal_error_mse", number(row.speedUp ? row.speedUp->mse : kUnknown)});
+  const TemporalFigures* temporal = row.temporal ? &*row.temporal : nullptr;
+  columns.push_back({"temporal_variance", number(temporal ? temporal->variance : kUnknown)});
+  columns.push_back({"temporal_difference", number(temporal ? temporal->difference : kUnknown)});
+  for (size_t lag = 1; lag <= TemporalFigures().autocorrelation.size(); ++lag) {
+    columns.push_back({fmt::format("error_autocorrelation_{}", lag),
+                       number(temporal ? temporal->autocorrelation[lag - 1] : kUnknown)});
+  }
   for (size_t i = 0; i < rl::RL_HEALTH_COUNT; ++i) {
     const char* name = Health::names()[i];
     if (!name || !*name) continue;

@@ -112,6 +112,20 @@ Interval timeAgainst(const MethodResult& result, const MethodResult& first) {
   return meanInterval(ratios);
 }
 
+// Nothing where a run has none.
+std::optional<TemporalFigures> meanOf(const std::vector<RunResult>& runs) {
+  TemporalFigures mean;
+  const double share = 1.0 / double(runs.size());
+  for (const RunResult& run : runs) {
+    if (!run.temporal) return std::nullopt;
+    mean.variance += share * run.temporal->variance;
+    mean.difference += share * run.temporal->difference;
+    for (size_t lag = 0; lag < mean.autocorrelation.size(); ++lag)
+      mean.autocorrelation[lag] += share * run.temporal->autocorrelation[lag];
+  }
+  return mean;
+}
+
 void judge(MethodSummary& row) {
   if (row.nonfinite > 0) {
     row.counts = false;
@@ -154,6 +168,7 @@ std::vector<MethodSummary> summarise(const Suite& suite, const BlockResult& bloc
     const MethodResult& result = block.methods[m];
     if (result.runs.empty()) continue;
     MethodSummary row;
+    row.suite = &suite;
     row.method = &suite.methods[m];
     row.block = &block;
     row.result = &result;
@@ -161,6 +176,8 @@ std::vector<MethodSummary> summarise(const Suite& suite, const BlockResult& bloc
     row.runs = uint32_t(result.runs.size());
     summariseTimes(result, pixels, row);
     summariseErrors(result, block.reference, row);
+    row.convergence = convergenceOf(result.runs);
+    row.temporal = meanOf(result.runs);
     judge(row);
     row.isYardstick = m == suite.yardstick(m);
     rowOf[m] = rows.size();
@@ -172,6 +189,7 @@ std::vector<MethodSummary> summarise(const Suite& suite, const BlockResult& bloc
     if (const size_t path = rowOf[suite.yardstick(m)]; path < rows.size()) {
       const MethodSummary yardstick = rows[path];
       compareWithYardstick(*yardstick.result, yardstick, *row.result, row);
+      row.speedUp = speedUpOf(yardstick.result->runs, row.result->runs);
     }
     const size_t first = suite.onFirstBackend(m);
     if (first != m && rowOf[first] < rows.size())

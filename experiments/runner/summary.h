@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/image/intervals.h"
+#include "experiments/runner/convergence.h"
 #include "experiments/runner/experiment.h"
 
 namespace restlab {
@@ -19,6 +20,7 @@ constexpr double kBiasShareMax = 0.25;
 constexpr double kWorstShareMax = 0.5;
 
 struct MethodSummary {
+  const Suite* suite = nullptr;
   const SuiteMethod* method = nullptr;
   const BlockResult* block = nullptr;
   const MethodResult* result = nullptr;
@@ -45,6 +47,10 @@ struct MethodSummary {
   Interval timeToFirstBackend{kUnknown, kUnknown, kUnknown};
   bool isYardstick = false;
   Interval efficiencyRatio{kUnknown, kUnknown, kUnknown};  // mseRatio / timeRatio
+
+  std::optional<Convergence> convergence;   // where the suite accumulates
+  std::optional<SpeedUp> speedUp;           // against the yardstick
+  std::optional<TemporalFigures> temporal;  // mean over runs, where the suite asks for it
 
   double raysPathPerPixel = kUnknown, raysShadowPerPixel = kUnknown;
   std::vector<PassTiming> passes;  // median over runs

@@ -71,6 +71,50 @@ std::string biasCell(const MethodSummary& row) {
   return std::isnan(row.biasShare) ? "unknown" : fmt::format("{:+.1f} %", 100.0 * row.biasShare);
 }
 
+// Slopes and speed-ups; "" where nothing was accumulated.
+std::string accumulatedTable(const std::vector<MethodSummary>& rows) {
+  std::string text;
+  for (const MethodSummary& row : rows) {
+    if (!row.convergence || row.convergence->points.empty()) continue;
+    const ConvergencePoint& last = row.convergence->points.back();
+    text += fmt::format("| {} | {} | {:.4g} ms | {:.3g}{} | {:.2f}{} |", row.method->name,
+                        last.frames, last.timeMs, last.mse.value,
+                        interval(last.mse.lo, last.mse.hi, "{:.3g}"), row.convergence->slope.value,
+                        interval(row.convergence->slope.lo, row.convergence->slope.hi, "{:.2f}"));
+    if (row.speedUp && !row.isYardstick) {
+      const SpeedUp& up = *row.speedUp;
+      text += fmt::format(" {:.1f}x lower{} at {:.3g} ms | {:.1f}x faster{} to {:.2g} |\n",
+                          up.equalTime.value, interval(up.equalTime.lo, up.equalTime.hi, "{:.1f}"),
+                          up.timeMs, up.equalError.value,
+                          interval(up.equalError.lo, up.equalError.hi, "{:.1f}"), up.mse);
+    } else {
+      text += " | |\n";
+    }
+  }
+  if (text.empty()) return "";
+  return "\nFrames accumulated, time from the beginning of the history; slopes and ratios are of "
+         "lines fitted to log(MSE) over log(time):\n\n"
+         "| method | frames | time | MSE | slope | at equal time | to equal error |\n"
+         "|---|---|---|---|---|---|---|\n" +
+         text;
+}
+
+std::string temporalTable(const std::vector<MethodSummary>& rows) {
+  std::string text;
+  for (const MethodSummary& row : rows) {
+    if (!row.temporal) continue;
+    const TemporalFigures& t = *row.temporal;
+    text += fmt::format("| {} | {:.3g} | {:.3g} | {:.3f} | {:.3f} | {:.3f} | {:.3f} |\n",
+                        row.method->name, t.variance, t.difference, t.autocorrelation[0],
+                        t.autocorrelation[1], t.autocorrelation[3], t.autocorrelation[7]);
+  }
+  if (text.empty()) return "";
+  return "\nOver the timed frames of a run: variance of a pixel, difference of frames, correlation "
+         "of errors by the number of frames between them:\n\n"
+         "| method | variance | difference | 1 | 2 | 4 | 8 |\n|---|---|---|---|---|---|---|\n" +
+         text;
+}
+
 }  // namespace
 
 std::string blockTable(const Suite& suite, const std::vector<MethodSummary>& rows) {
@@ -104,6 +148,8 @@ std::string blockTable(const Suite& suite, const std::vector<MethodSummary>& row
       notes += fmt::format("- {}{}: {}\n", row.method->name, row.counts ? "" : " (*)", flag);
     }
   }
+  text += accumulatedTable(rows);
+  text += temporalTable(rows);
   if (!block.reference.half0) {
     notes += "- the reference has no halves: its own noise is part of every MSE\n";
   }
