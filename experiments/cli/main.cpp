@@ -109,6 +109,7 @@ int failStdout() {
 
 int main(int argc, char** argv) {
   installInterruptHandler();
+  setArguments(std::vector<std::string>(argv, argv + argc));
   CLI::App app("restlab measures ReSTIR-style path tracing against converged references",
                "restlab");
   app.require_subcommand(0, 1);

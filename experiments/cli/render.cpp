@@ -12,6 +12,7 @@
 #include "experiments/runner/accumulate.h"
 #include "experiments/runner/backend_choice.h"
 #include "experiments/runner/interrupt.h"
+#include "experiments/runner/build_info.h"
 #include "experiments/runner/log.h"
 
 namespace restlab {
@@ -111,6 +112,7 @@ LayeredImage layers(const Session& session, const PreparedScene& prepared, const
   file.metadata = describe(prepared, session.config());
   file.metadata["device"] = session.device();
   file.metadata["ray_tracing"] = session.rayTracing();
+  file.metadata.merge(provenanceWords());
   file.metadata["kind"] = "image";
   file.metadata["seed"] = std::to_string(session.config().seed);
   file.metadata["spp"] = std::to_string(rendered.spp);

@@ -2,11 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <memory>
 
 #include "core/backend/backend.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
+#include "experiments/runner/dry_run.h"
 #include "experiments/runner/files.h"
 #include "experiments/runner/log.h"
 #include "experiments/runner/suite_runner.h"
@@ -19,7 +21,7 @@ struct RunOptions {
   std::string suite, out, scenes, methods;
   std::vector<std::string> overrides, sweeps;
   int threads = -1;  // -1: as the suite says
-  bool force = false;
+  bool force = false, dryRun = false;
 };
 
 const std::string& baseName(const SuiteScene& scene) { return scene.name; }
@@ -78,6 +80,10 @@ void runVerb(const RunOptions& options, Outcome& outcome) {
   logInfo(fmt::format("{}: {}{} scenes, {} methods, {} runs; results in {}", suite.name,
                       points.size() > 1 ? fmt::format("{} points, ", points.size()) : "",
                       suite.scenes.size(), suite.methods.size(), suite.runs, request.out.string()));
+  if (options.dryRun) {
+    std::fputs(planText(points, request).c_str(), stdout);
+    return;
+  }
   if (!runSuite(points, request)) {
     throw Error(ExitCode::interrupted,
                 fmt::format("interrupted: finished runs are kept in {}; the same command goes on",
@@ -102,6 +108,8 @@ Action addRunVerb(CLI::App& app) {
       ->take_all()
       ->allow_extra_args(false);
   verb->add_flag("--force", options->force, "make runs anew that are there already");
+  verb->add_flag("--dry-run", options->dryRun,
+                 "what would be run, with estimates of time and memory; nothing is written");
   verb->add_option("--scenes", options->scenes, "only these scenes of the suite, comma-separated");
   verb->add_option("--methods", options->methods, "only these methods, comma-separated");
   addThreads(*verb, options->threads);

@@ -28,6 +28,11 @@ std::string blockLabel(const Suite& suite, const BlockResult& block) {
   return safeFileName(block.scene + "-" + componentName(block.component) + point);
 }
 
+std::string referenceLabel(const Suite& suite, const BlockResult& block) {
+  return safeFileName(fmt::format("{}-{}-{}x{}", blockLabel(suite, block), block.camera,
+                                  block.width, block.height));
+}
+
 void writeBlockImages(const std::filesystem::path& folder, const Suite& suite,
                       const BlockResult& block) {
   makeWritableDirectory(folder);

@@ -26,7 +26,31 @@ std::string firstLine(const char* file) {
   return std::getline(in, line) && !line.empty() ? line : "unknown";
 }
 
+std::vector<std::string> argvOfProgram;
+
+// As a shell would take it.
+std::string commandLine() {
+  std::string line;
+  for (const std::string& word : argvOfProgram) {
+    const bool isPlain = !word.empty() && word.find_first_not_of(
+                                              "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                              "0123456789_-+=./:,@%") == std::string::npos;
+    line += line.empty() ? "" : " ";
+    if (isPlain) {
+      line += word;
+      continue;
+    }
+    line += "'";
+    for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    line += "'";
+  }
+  return line;
+}
+
 }  // namespace
+
+void setArguments(std::vector<std::string> argv) { argvOfProgram = std::move(argv); }
+const std::vector<std::string>& arguments() { return argvOfProgram; }
 
 const BuildInfo& buildInfo() {
   static const BuildInfo info = {
@@ -100,6 +124,31 @@ nlohmann::ordered_json machineJson() {
           {"load_1min", load[0]},
           {"memory_mib", memoryMiB},
           {"system", fmt::format("{} {} {}", system.sysname, system.release, system.machine)}};
+}
+
+nlohmann::ordered_json provenanceJson() {
+  return {{"utc", utcNow()},
+          {"command", commandLine()},
+          {"build", buildJson()},
+          {"machine", machineJson()},
+          {"peak_resident_mib", peakResidentMiB()}};
+}
+
+std::map<std::string, std::string> provenanceWords() {
+  const BuildInfo& build = buildInfo();
+  const nlohmann::ordered_json machine = machineJson();
+  return {
+      {"utc", utcNow()},
+      {"command", commandLine()},
+      {"version", build.version},
+      {"git_commit", build.gitCommit + (build.gitDirty ? " modified" : "")},
+      {"compiler", fmt::format("{} {} {}", build.compiler, build.buildType, build.compilerFlags)},
+      {"libraries", fmt::format("Embree {}, TBB {}", embreeVersion(), TBB_runtime_version())},
+      {"cpu", cpuModel()},
+      {"cores", machine["cores"].dump()},
+      {"load_1min", machine["load_1min"].dump()},
+      {"system", machine["system"].get<std::string>()},
+      {"peak_resident_mib", fmt::format("{:.1f}", peakResidentMiB())}};
 }
 
 }  // namespace restlab

@@ -1,8 +1,10 @@
 // What this program was built from, and the machine it runs on.
 #pragma once
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace restlab {
 
@@ -19,6 +21,15 @@ const BuildInfo& buildInfo();
 // CPU, cores, governor, load, memory, operating system, library versions; for run.json.
 nlohmann::ordered_json machineJson();
 nlohmann::ordered_json buildJson();
+
+// The command line of this program, for records; set once, by main().
+void setArguments(std::vector<std::string> argv);
+const std::vector<std::string>& arguments();
+
+// Build, machine, arguments, time and peak memory as metadata of an image.
+std::map<std::string, std::string> provenanceWords();
+// The same of a line of results.jsonl.
+nlohmann::ordered_json provenanceJson();
 
 std::string cpuModel();       // "unknown" where /proc/cpuinfo does not say
 std::string embreeVersion();  // "3.13.5"

@@ -8,6 +8,7 @@
 
 #include "core/image/intervals.h"
 #include "core/image/metrics.h"
+#include "experiments/runner/build_info.h"
 #include "experiments/runner/interrupt.h"
 #include "experiments/runner/light_mask.h"
 #include "experiments/runner/run_record.h"
@@ -44,6 +45,7 @@ std::map<std::string, std::string> imageMetadata(const PreparedScene& prepared,
   std::map<std::string, std::string> metadata = describe(prepared, session.config());
   metadata["device"] = session.device();
   metadata["ray_tracing"] = session.rayTracing();
+  metadata.merge(provenanceWords());
   metadata["seed"] = std::to_string(run.seed);
   metadata["spp"] = "1";
   metadata["frame"] = std::to_string(run.measured.frame);

@@ -36,6 +36,9 @@ void Outputs::write(const Suite& suite, bool finished) const {
     csv += csv.empty() ? part : part.substr(std::min(part.size(), part.find('\n') + 1));
   }
   if (!csv.empty()) writeTextFile(out_ / "summary.csv", csv);
+  std::string tex;
+  for (const Block& block : blocks_) tex += blockTex(*block.suite, block.rows);
+  if (!tex.empty()) writeTextFile(out_ / "table.tex", tex);
   std::string text = fmt::format("# {}\n\n", suite.name);
   if (!suite.question.empty()) text += suite.question + "\n\n";
   if (!finished) text += "Not finished: the rows below are of what was.\n\n";

@@ -22,7 +22,7 @@ class Outputs {
   void note(const std::string& line) { notes_.push_back(line); }
   // What methods ran on; shown below the tables.
   void use(const std::vector<DeviceUse>& devices) { devices_ = devices; }
-  // summary.csv and table.md. `suite`: any point, for name and question.
+  // summary.csv, table.md and table.tex. `suite`: any point, for name and question.
   void write(const Suite& suite, bool finished) const;
 
  private:

@@ -172,6 +172,7 @@ std::vector<Json> runLines(const Suite& suite, const BlockResult& block, const M
   }
   const double samples = double(run.timesMs.size()) * double(block.width) * double(block.height);
   line["kind"] = "run";
+  line["provenance"] = provenanceJson();
   addError(line, run.measured);
   line["time_ms"] = timesJson(run, suite.methods[run.method].session.backend);
   line["rays_path"] = run.health.raysPath;

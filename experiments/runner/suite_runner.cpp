@@ -40,7 +40,7 @@ void removeEarlierResults(const fs::path& out, const Suite& suite) {
     }
     return false;
   };
-  std::vector<fs::path> old = {out / "summary.csv", out / "table.md"};
+  std::vector<fs::path> old = {out / "summary.csv", out / "table.md", out / "table.tex"};
   for (const fs::directory_entry& entry : fs::directory_iterator(out / "images", status)) {
     const fs::path extension = entry.path().extension();
     const bool isImage = extension == ".exr" || extension == ".png";
@@ -225,8 +225,7 @@ class SuiteRun {
           fs::absolute(found.empty() ? fs::path(scene.reference) : found).string();
       return true;
     }
-    const std::string label = fmt::format("{}-{}-{}x{}", blockLabel(suite, block), block.camera,
-                                          block.width, block.height);
+    const std::string label = referenceLabel(suite, block);
     try {
       const SessionConfig picture = pictureOf(suite, block.width, block.height, block.component);
       block.reference = obtainReference(prepared, referenceConfigOf(picture), suite.target,
@@ -236,7 +235,7 @@ class SuiteRun {
       logInfo(error.what());
       return false;
     }
-    block.referenceFile = "references/" + safeFileName(label) + ".exr";
+    block.referenceFile = "references/" + label + ".exr";
     return true;
   }
 

@@ -229,6 +229,42 @@ TEST_F(ResumeTest, ReportMakesTheSameFilesAgain) {
   expectError(run("status nowhere -q"), 3, {"nowhere/run.json"});
 }
 
+TEST_F(ResumeTest, ADryRunWritesNothingAndKnowsWhatIsThere) {
+  const std::string line = "run suite.toml --out out --sweep max_bounces=2,3 --dry-run";
+  const ProgramResult first = run(line);
+  ASSERT_EQ(first.code, 0) << first.err;
+  EXPECT_FALSE(fs::exists(path("out")));
+  EXPECT_NE(first.out.find("| cornell-box-all-max_bounces-3 | 24x16 | 2 | 0 of 3 | to be made |"),
+            std::string::npos)
+      << first.out;
+  EXPECT_NE(first.out.find("6 jobs, 0 there"), std::string::npos) << first.out;
+  ASSERT_EQ(run("run suite.toml --out out --sweep max_bounces=2").code, 0);
+  const ProgramResult second = run(line);
+  EXPECT_NE(second.out.find("6 jobs, 3 there"), std::string::npos) << second.out;
+  expectError(run("run suite.toml --dry-run -q --set width=0"), 2, {"--set width"});
+}
+
+TEST_F(ResumeTest, EveryRowAndImageSaysWhereItComesFrom) {
+  ASSERT_EQ(run({"run", "suite.toml", "--out", "out", "--set", "name=it's"}).code, 0);
+  std::istringstream text(read("out/results.jsonl"));
+  size_t count = 0;
+  for (std::string line; std::getline(text, line); ++count) {
+    const auto provenance = nlohmann::json::parse(line)["provenance"];
+    EXPECT_NE(provenance["command"].get<std::string>().find("run suite.toml --out out --set "),
+              std::string::npos);
+    EXPECT_FALSE(provenance["build"]["git_commit"].get<std::string>().empty());
+    EXPECT_FALSE(provenance["build"]["compiler"].get<std::string>().empty());
+    EXPECT_FALSE(provenance["machine"]["cpu"].get<std::string>().empty());
+    EXPECT_GT(provenance["peak_resident_mib"].get<double>(), 1.0);
+    EXPECT_EQ(provenance["utc"].get<std::string>().back(), 'Z');
+  }
+  EXPECT_EQ(count, 6u);
+  const auto words = readExr(path("out/images/cornell-box-all-gi.exr")).metadata;
+  for (const char* word : {"git_commit", "compiler", "cpu", "cores", "load_1min", "libraries",
+                           "utc", "command", "seed", "device", "peak_resident_mib"})
+    EXPECT_NE(words.count(word), 0u) << word;
+}
+
 TEST_F(ResumeTest, SweepsMakeTablesAndMethods) {
   const ProgramResult result =
       run("run suite.toml --out out --sweep max_bounces=1..2 --sweep confidence_cap=4.0,8.0 --set "
@@ -243,6 +279,10 @@ TEST_F(ResumeTest, SweepsMakeTablesAndMethods) {
   EXPECT_EQ(rows[1].at("method"), "gi, confidence_cap=4.0");
   EXPECT_NE(rows[2].at("parameters").find("confidence_cap=8"), std::string::npos);
   EXPECT_NE(result.out.find("## cornell-box, all light, max_bounces=2"), std::string::npos);
+  const std::string tex = read("out/table.tex");
+  EXPECT_NE(tex.find("gi, confidence\\_cap=4.0 & "), std::string::npos) << tex;
+  EXPECT_NE(tex.find("\\toprule"), std::string::npos);
+  EXPECT_EQ(std::count(tex.begin(), tex.end(), '{'), std::count(tex.begin(), tex.end(), '}'));
 }
 
 }  // namespace
