@@ -1,0 +1,59 @@
+// Which part of the images all views of a viewer show: the image position at the middle of a view,
+// and CSS pixels per image pixel.
+class Camera {
+  constructor(width, height) {
+    this.width = width;
+    this.height = height;
+    this.fit();
+  }
+
+  fit() {
+    this.fitted = true;
+    this.x = this.width / 2;
+    this.y = this.height / 2;
+  }
+
+  // Called for each drawing, as views change their size.
+  adapt(viewWidth, viewHeight) {
+    this.fitScale = Math.min(viewWidth / this.width, viewHeight / this.height);
+    if (this.fitted) this.scale = this.fitScale;
+  }
+
+  get least() { return Math.min(this.fitScale, 1); }
+  get most() { return 256; }
+
+  // Keeps the image position at (dx, dy), CSS pixels from the view's middle, where it is. False
+  // where the scale is at its end already.
+  zoom(factor, dx, dy) {
+    const scale = Math.min(this.most, Math.max(this.least, this.scale * factor));
+    if (scale === this.scale) return false;
+    this.fitted = false;
+    this.x += dx / this.scale - dx / scale;
+    this.y += dy / this.scale - dy / scale;
+    this.scale = scale;
+    this.keepInside();
+    return true;
+  }
+
+  pan(dx, dy) {
+    this.fitted = false;
+    this.x -= dx / this.scale;
+    this.y -= dy / this.scale;
+    this.keepInside();
+  }
+
+  keepInside() {
+    this.x = Math.min(this.width, Math.max(0, this.x));
+    this.y = Math.min(this.height, Math.max(0, this.y));
+  }
+
+  // View position (CSS pixels) of an image position, and back.
+  toView(view, x, y) {
+    return [view.x + view.width / 2 + (x - this.x) * this.scale,
+            view.y + view.height / 2 + (y - this.y) * this.scale];
+  }
+  toImage(view, x, y) {
+    return [this.x + (x - view.x - view.width / 2) / this.scale,
+            this.y + (y - view.y - view.height / 2) / this.scale];
+  }
+}

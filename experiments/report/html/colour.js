@@ -1,0 +1,80 @@
+// Colours: sRGB of linear Rec. 709, and the maps of errors and false colour.
+
+// A map of 256 colours, linear in sRGB between equally spaced anchors.
+function colourMap(anchors) {
+  const rgb = anchors.map(hex => [1, 3, 5].map(at => parseInt(hex.slice(at, at + 2), 16)));
+  const table = new Uint8Array(3 * 256);
+  for (let i = 0; i < 256; ++i) {
+    const at = i / 255 * (rgb.length - 1);
+    const k = Math.min(Math.floor(at), rgb.length - 2);
+    for (let c = 0; c < 3; ++c) {
+      table[3 * i + c] = Math.round(rgb[k][c] + (at - k) * (rgb[k + 1][c] - rgb[k][c]));
+    }
+  }
+  return table;
+}
+
+const MAPS = {
+  // Its lightness rises all the way: larger is lighter.
+  rising: colourMap(
+      ['#07070c', '#1c1850', '#4b1d7c', '#8a2679', '#c63a60', '#ec6b3a', '#fbb13f', '#fdf7b8']),
+  // Blue below 0, white at 0, orange above.
+  diverging: colourMap(['#08306b', '#2f78b7', '#a3c9e2', '#f6f6f6', '#f2b67c', '#d0651c', '#7f2704']),
+  spectrum: colourMap(['#17124f', '#2350c4', '#1fa7d1', '#36b56a', '#c9cf3a', '#f0912a', '#cf2a20',
+                       '#f7d9d4'])
+};
+
+// What is no number has a colour that no map has.
+const NAN_COLOUR = [255, 0, 255], INF_COLOUR = [0, 255, 0];
+
+function cssOf(table, index) {
+  return `rgb(${table[3 * index]},${table[3 * index + 1]},${table[3 * index + 2]})`;
+}
+
+function cssGradient(table) {
+  const stops = [];
+  for (let i = 0; i < 256; i += 15) stops.push(cssOf(table, i));
+  return `linear-gradient(to right, ${stops.join(', ')})`;
+}
+
+// Where values lie in a map: 0 at lo, 1 at hi, by logarithm or in proportion.
+function makeScale(lo, hi, log, map) {
+  const logLo = Math.log2(lo), logSpan = Math.log2(hi / lo), span = hi - lo;
+  return {
+    lo, hi, log, map,
+    position: value => log ? (value > 0 ? (Math.log2(value) - logLo) / logSpan : -1)
+                           : (value - lo) / span,
+    // NaN has no index.
+    index(value) {
+      const at = this.position(value) * 255;
+      return at <= 0 ? 0 : at >= 255 ? 255 : Math.round(at);
+    }
+  };
+}
+
+// Linear radiance times exposure from which sRGB rounds to level i of 255 (IEC 61966-2-1).
+const SRGB_LEVELS = (() => {
+  const levels = new Float64Array(257);
+  for (let i = 1; i < 256; ++i) {
+    const encoded = (i - 0.5) / 255;
+    levels[i] = encoded <= 0.04045 ? encoded / 12.92 : Math.pow((encoded + 0.055) / 1.055, 2.4);
+  }
+  levels[256] = Infinity;
+  return levels;
+})();
+
+// The level of 255 of a value: a table by the value's upper 16 bits below the sign, then exactly.
+function srgbEncoder(exposure) {
+  const levels = SRGB_LEVELS.map(level => level / exposure);
+  const table = new Uint8Array(65536);
+  const word = new Uint32Array(1), value = new Float32Array(word.buffer);
+  let level = 0;
+  for (let i = 0; i < 0xff00; ++i) {
+    word[0] = i << 15;
+    while (value[0] >= levels[level + 1]) ++level;
+    table[i] = level;
+  }
+  return {levels, table};
+}
+
+function luminance(r, g, b) { return 0.2126 * r + 0.7152 * g + 0.0722 * b; }

@@ -1,0 +1,33 @@
+// Elements made by script. All text goes in as text, never as markup.
+
+// make('button', {class: 'x', type: 'button'}, 'text', child...)
+function make(tag, attributes, ...children) {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes || {})) {
+    if (value !== null && value !== undefined) element.setAttribute(name, value);
+  }
+  element.append(...children);
+  return element;
+}
+
+// A group of buttons of which one is pressed. `choices`: [value, label, help]...
+function makeChoice(label, choices, choose) {
+  const buttons = new Map();
+  const group = make('div', {class: 'group', role: 'group', 'aria-label': label});
+  for (const [value, text, help] of choices) {
+    const button = make('button', {type: 'button', title: help, 'data-value': value}, text);
+    button.addEventListener('click', () => choose(value));
+    buttons.set(value, button);
+    group.append(button);
+  }
+  return {
+    element: group,
+    show: value => buttons.forEach((button, of) => button.setAttribute('aria-pressed', of === value))
+  };
+}
+
+function makeButton(text, help, action) {
+  const button = make('button', {type: 'button', title: help, 'aria-label': help}, text);
+  button.addEventListener('click', action);
+  return button;
+}

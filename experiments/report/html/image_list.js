@@ -1,0 +1,63 @@
+// The table below a viewer: one row an image, with its key, its mean error and its values at the
+// pixel under the pointer.
+class ImageList {
+  // `whole`: the images are no crops.
+  constructor(images, whole, actions) {
+    Object.assign(this, {images, whole});
+    const head = make('tr', {}, make('th', {scope: 'col'}, 'key'),
+                      make('th', {scope: 'col'}, 'image'), make('th', {scope: 'col'}, 'compare with'),
+                      this.meanTitle = make('th', {scope: 'col', class: 'num'}),
+                      make('th', {scope: 'col', class: 'num'}, 'R'),
+                      make('th', {scope: 'col', class: 'num'}, 'G'),
+                      make('th', {scope: 'col', class: 'num'}, 'B'),
+                      this.hereTitle = make('th', {scope: 'col', class: 'num'}));
+    this.rows = images.map((image, i) => this.makeRow(image, i, actions));
+    const table = make('table', {class: 'images'}, make('thead', {}, head),
+                       make('tbody', {}, ...this.rows.map(row => row.element)));
+    this.element = make('div', {class: 'scroll', role: 'region', tabindex: 0,
+                                'aria-label': 'Images and their values'}, table);
+  }
+
+  makeRow(image, i, actions) {
+    const name = make('button', {type: 'button', class: 'name', title: 'show this image'},
+                      image.name);
+    name.addEventListener('click', () => actions.choose(i));
+    const compare = make('button', {type: 'button', class: 'compare',
+                                    'aria-label': `compare with ${image.name}`,
+                                    title: `errors against this image (Shift+${i + 1})`});
+    compare.addEventListener('click', () => actions.compare(i));
+    const note = image.nonfinite.length
+        ? make('span', {class: 'bad'}, ` ${image.nonfinite.length} non-finite`) : '';
+    const values = ['mean', 'r', 'g', 'b', 'here'].map(
+        part => make('td', {class: 'num', 'data-part': part}));
+    const element = make('tr', {}, make('td', {}, i < 9 ? make('kbd', {}, String(i + 1)) : ''),
+                         make('th', {scope: 'row'}, name, note), make('td', {}, compare), ...values);
+    return {element, name, compare, values};
+  }
+
+  // `pixel`: {x, y} or null.
+  show(state, painter, pixel) {
+    const kind = state.error;
+    const metric = kind === 'none' ? '' : ERRORS[kind].metric;
+    this.meanTitle.textContent = metric && !this.whole ? `${metric}, crop` : metric;
+    this.meanTitle.title = metric && `mean over the pixels here, against ${
+        this.images[state.compare].name}`;
+    this.hereTitle.textContent = kind === 'none' ? '' : 'error here';
+    this.rows.forEach((row, i) => {
+      const image = this.images[i];
+      row.element.classList.toggle('current', i === state.current);
+      row.name.setAttribute('aria-pressed', i === state.current);
+      row.compare.setAttribute('aria-pressed', i === state.compare);
+      const hasError = kind !== 'none' && i !== state.compare;
+      const at = pixel ? pixel.y * image.width + pixel.x : -1;
+      const texts = [
+        hasError ? shortNumber(painter.plane(kind, i).mean) : '',
+        ...[0, 1, 2].map(c => pixel ? exactFloat(image.data[3 * at + c]) : ''),
+        hasError && pixel ? shortNumber(painter.plane(kind, i).values[at]) : ''
+      ];
+      row.values.forEach((cell, k) => {
+        if (cell.textContent !== texts[k]) cell.textContent = texts[k];
+      });
+    });
+  }
+}

@@ -1,0 +1,40 @@
+// Brings the page to life: tables at once, viewers when they come near the window.
+
+async function openViewer(root) {
+  const data = JSON.parse(document.getElementById(root.dataset.source).textContent);
+  root.replaceChildren(make('p', {class: 'status'}, 'Unpacking the images \u2026'));
+  const images = [];
+  for (const {name, role, pixels} of data.images) {
+    let values;
+    try {
+      const text = document.getElementById(pixels).textContent;
+      values = await decodePixels(text, data.width * data.height);
+    } catch (error) {
+      root.replaceChildren(
+          make('p', {class: 'bad'}, `The images cannot be shown: ${name}: ${error.message}`));
+      root.dataset.failed = 'true';
+      throw error;
+    }
+    images.push({name, role, width: data.width, height: data.height, data: values,
+                 nonfinite: nonfinitePixels(values)});
+  }
+  const viewer = new Viewer(root, data, images);
+  root.viewer = viewer;
+  return viewer;
+}
+
+document.querySelectorAll('table.results, table.health').forEach(makeSortable);
+
+const viewers = [];
+const roots = Array.from(document.querySelectorAll('.viewer'));
+if (roots.length) {
+  const near = new IntersectionObserver(entries => {
+    for (const entry of entries) {
+      if (!entry.isIntersecting) continue;
+      near.unobserve(entry.target);
+      openViewer(entry.target).then(viewer => viewers.push(viewer));
+    }
+  }, {rootMargin: '600px'});
+  for (const root of roots) near.observe(root);
+  addKeys(viewers, makeHelp());
+}

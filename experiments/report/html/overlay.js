@@ -1,0 +1,84 @@
+// What is drawn over a picture that is enlarged: grid, values, marks. All take a view (CSS pixels),
+// inside which the caller clips.
+
+// From these sizes on of an image pixel, in CSS pixels.
+const GRID_FROM = 14, VALUES_FROM = 56;
+const MOST_MARKS = 400;
+
+// Image pixels that a view shows, as [x0, y0, x1, y1], the ends excluded.
+function shownPixels(camera, view, width, height) {
+  const [left, top] = camera.toImage(view, view.x, view.y);
+  const [right, bottom] = camera.toImage(view, view.x + view.width, view.y + view.height);
+  return [Math.max(0, Math.floor(left)), Math.max(0, Math.floor(top)),
+          Math.min(width, Math.ceil(right)), Math.min(height, Math.ceil(bottom))];
+}
+
+function drawGrid(context, camera, view, shown) {
+  const [x0, y0, x1, y1] = shown;
+  context.beginPath();
+  for (let x = x0; x <= x1; ++x) {
+    const [at, top] = camera.toView(view, x, y0);
+    context.moveTo(at, top);
+    context.lineTo(at, camera.toView(view, x, y1)[1]);
+  }
+  for (let y = y0; y <= y1; ++y) {
+    const [left, at] = camera.toView(view, x0, y);
+    context.moveTo(left, at);
+    context.lineTo(camera.toView(view, x1, y)[0], at);
+  }
+  context.strokeStyle = 'rgba(128,128,128,0.45)';
+  context.lineWidth = 1;
+  context.stroke();
+}
+
+// `lines(i)`: the texts of pixel i; `isLight(i)`: whether its picture is light.
+function drawValues(context, camera, view, shown, width, lines, isLight) {
+  const [x0, y0, x1, y1] = shown;
+  const size = Math.min(15, camera.scale / 5);
+  context.font = `${size}px ui-monospace, Menlo, Consolas, 'DejaVu Sans Mono', monospace`;
+  context.textAlign = 'center';
+  context.textBaseline = 'middle';
+  for (let y = y0; y < y1; ++y) {
+    for (let x = x0; x < x1; ++x) {
+      const texts = lines(y * width + x);
+      const [cx, cy] = camera.toView(view, x + 0.5, y + 0.5);
+      context.fillStyle = isLight(y * width + x) ? '#000' : '#fff';
+      texts.forEach((text, k) => context.fillText(
+                        text, cx, cy + (k - (texts.length - 1) / 2) * 1.25 * size));
+    }
+  }
+}
+
+// Boxes around pixels that hold no number: at least nine pixels wide, so that one is seen in a
+// picture of any size.
+function drawNonfinite(context, camera, view, image) {
+  const size = Math.max(9, camera.scale + 4);
+  let marks = 0;
+  for (const i of image.nonfinite) {
+    const [x, y] =
+        camera.toView(view, i % image.width + 0.5, Math.floor(i / image.width) + 0.5);
+    if (x < view.x - size || x > view.x + view.width + size || y < view.y - size ||
+        y > view.y + view.height + size) {
+      continue;
+    }
+    if (++marks > MOST_MARKS) break;
+    for (const [colour, thick] of [['#fff', 4], ['#f0f', 2]]) {
+      context.strokeStyle = colour;
+      context.lineWidth = thick;
+      context.strokeRect(x - size / 2, y - size / 2, size, size);
+    }
+  }
+}
+
+// Where the pointer is, in the views that it is not over.
+function drawPointer(context, camera, view, pixel) {
+  const [x, y] = camera.toView(view, pixel.x, pixel.y);
+  const size = Math.max(7, camera.scale);
+  const left = camera.scale < 7 ? x - (7 - camera.scale) / 2 : x;
+  const top = camera.scale < 7 ? y - (7 - camera.scale) / 2 : y;
+  for (const [colour, thick] of [['#000', 3], ['#fff', 1]]) {
+    context.strokeStyle = colour;
+    context.lineWidth = thick;
+    context.strokeRect(left, top, size, size);
+  }
+}

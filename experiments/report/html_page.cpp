@@ -1,0 +1,83 @@
+// Head, foot and figures of the page.
+#include <fmt/format.h>
+
+#include "experiments/report/html_parts.h"
+#include "experiments/report/pixels.h"
+#include "experiments/report/svg_bars.h"
+#include "experiments/report/svg_plot.h"
+#include "experiments/report/text.h"
+
+namespace restlab::html {
+namespace {
+
+std::string paragraph(const char* cssClass, const std::string& text) {
+  return text.empty() ? "" : fmt::format("<p class=\"{}\">{}</p>\n", cssClass, escapeMarkup(text));
+}
+
+}  // namespace
+
+std::string plotFigures(const ReportModel& block) {
+  std::string figures;
+  for (const ReportModel& plot : reportList(block, "plots")) {
+    figures += fmt::format("<figure>{}</figure>\n", plotSvg(plotFromModel(plot)));
+  }
+  const auto bars = block.find("bars");
+  if (bars != block.end() && !(*bars)["rows"].empty()) {
+    figures += fmt::format("<figure>{}</figure>\n", barsSvg(barsFromModel(*bars)));
+  }
+  return figures.empty() ? "" : fmt::format("<div class=\"figures\">\n{}</div>\n", figures);
+}
+
+std::string reportHead(const ReportModel& model) {
+  std::string out =
+      fmt::format("<header>\n<h1>{}</h1>\n", escapeMarkup(reportText(model, "title")));
+  out += paragraph("question", reportText(model, "question"));
+  const std::string generated = reportText(model, "generated");
+  const std::string command = reportText(model, "command");
+  if (!generated.empty() || !command.empty()) {
+    out +=
+        fmt::format("<p class=\"made\">{}{}</p>\n", escapeMarkup(generated),
+                    command.empty() ? "" : fmt::format(" <code>{}</code>", escapeMarkup(command)));
+  }
+  std::string notes;
+  for (const ReportModel& note : reportList(model, "notes")) {
+    notes += fmt::format("<li>{}</li>\n", escapeMarkup(note.get<std::string>()));
+  }
+  if (!notes.empty()) out += fmt::format("<ul class=\"notes\">\n{}</ul>\n", notes);
+  if (model["blocks"].size() > 1) {
+    std::string links;
+    for (const ReportModel& block : model["blocks"]) {
+      links +=
+          fmt::format("<li><a href=\"#b-{}\">{}</a></li>\n", escapeMarkup(reportText(block, "id")),
+                      escapeMarkup(reportText(block, "title")));
+    }
+    out += fmt::format("<nav aria-label=\"Contents\"><ul>\n{}</ul></nav>\n", links);
+  }
+  return out + "</header>\n";
+}
+
+std::string reportFoot(const ReportModel& model, size_t limit) {
+  std::string out = "<footer>\n";
+  std::string rows;
+  for (const ReportModel& pair : reportList(model, "provenance")) {
+    rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n",
+                        escapeMarkup(pair[0].get<std::string>()),
+                        escapeMarkup(pair[1].get<std::string>()));
+  }
+  if (!rows.empty()) {
+    out += fmt::format(
+        "<details class=\"provenance\"><summary>Provenance</summary>\n<div class=\"scroll\">"
+        "<table><tbody>\n{}</tbody></table></div></details>\n",
+        rows);
+  }
+  out += fmt::format(
+      "<p>One file, no network: everything that is shown is in it. Images are lossless: whole up "
+      "to "
+      "{} pixels in this report (a report holds at most {} pixels of an image and about {} in "
+      "all), "
+      "crops beyond.</p>\n</footer>\n",
+      groupedDigits(limit), groupedDigits(kReportImagePixels), groupedDigits(kReportTotalPixels));
+  return out;
+}
+
+}  // namespace restlab::html

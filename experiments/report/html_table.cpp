@@ -1,0 +1,177 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "experiments/report/html_parts.h"
+#include "experiments/report/text.h"
+
+namespace restlab::html {
+namespace {
+
+bool counts(const ReportModel& row) { return row.value("counts", true); }
+
+// A cell of a row, or null.
+const ReportModel* cellOf(const ReportModel& row, const std::string& key) {
+  const auto found = row["cells"].find(key);
+  return found == row["cells"].end() ? nullptr : &*found;
+}
+
+// The best finite value of a column among at least two rows that count; NaN where there is none.
+double bestValue(const ReportModel& block, const ReportModel& column) {
+  const std::string better = column.value("better", "none");
+  double best = std::numeric_limits<double>::quiet_NaN();
+  if (better == "none") return best;
+  size_t values = 0;
+  for (const ReportModel& row : block["rows"]) {
+    const ReportModel* cell = cellOf(row, column["key"].get<std::string>());
+    if (!cell || !counts(row)) continue;
+    const double value = reportNumber((*cell)["value"]);
+    if (!std::isfinite(value)) continue;
+    ++values;
+    if (std::isnan(best) || (better == "lower" ? value < best : value > best)) best = value;
+  }
+  return values < 2 ? std::numeric_limits<double>::quiet_NaN() : best;
+}
+
+// The value that a script sorts by: all digits, and nothing for NaN, which stays last.
+std::string sortValue(double value) {
+  if (std::isnan(value)) return "";
+  if (std::isinf(value)) return value > 0.0 ? "Infinity" : "-Infinity";
+  return fmt::format("{:.17g}", value);
+}
+
+std::string cellHtml(const ReportModel* cell, double best) {
+  if (!cell) return "<td class=\"num none\" data-value=\"\">\xe2\x80\x93</td>";
+  const double value = reportNumber((*cell)["value"]);
+  std::string shown;
+  if (cell->contains("text")) {
+    shown = escapeMarkup(reportText(*cell, "text"));
+  } else {
+    shown = shortNumber(value);
+    const std::string interval = intervalText(reportNumber(*cell, "lo", std::nan("")),
+                                              reportNumber(*cell, "hi", std::nan("")));
+    if (!interval.empty())
+      shown += fmt::format(" <span class=\"ci\">{}</span>", interval.substr(1));
+  }
+  return fmt::format("<td class=\"num{}\" data-value=\"{}\">{}</td>", value == best ? " best" : "",
+                     sortValue(value), shown);
+}
+
+std::string rowHead(const ReportModel& row) {
+  std::string flags;
+  for (const ReportModel& flag : reportList(row, "flags")) {
+    flags += fmt::format("<li>{}</li>", escapeMarkup(flag.get<std::string>()));
+  }
+  return fmt::format("<th scope=\"row\"><span class=\"method\">{}</span>{}{}</th>",
+                     escapeMarkup(reportText(row, "method")),
+                     counts(row) ? "" : " <span class=\"badge\">does not count</span>",
+                     flags.empty() ? "" : fmt::format("<ul class=\"flags\">{}</ul>", flags));
+}
+
+std::string columnHead(const ReportModel& column) {
+  const std::string unit = reportText(column, "unit"), help = reportText(column, "help");
+  return fmt::format(
+      "<th scope=\"col\" class=\"num\" aria-sort=\"none\" data-better=\"{}\"><button "
+      "type=\"button\"{}>{}{}</button></th>",
+      column.value("better", "none"),
+      help.empty() ? "" : fmt::format(" title=\"{}\"", escapeMarkup(help)),
+      escapeMarkup(reportText(column, "title")),
+      unit.empty() ? "" : fmt::format(" <span class=\"unit\">{}</span>", escapeMarkup(unit)));
+}
+
+std::string columnHelp(const ReportModel& block) {
+  std::string list;
+  for (const ReportModel& column : block["columns"]) {
+    const std::string help = reportText(column, "help");
+    if (help.empty()) continue;
+    list += fmt::format("<dt>{}</dt><dd>{}</dd>", escapeMarkup(reportText(column, "title")),
+                        escapeMarkup(help));
+  }
+  if (list.empty()) return "";
+  return fmt::format(
+      "<details class=\"columns\"><summary>What the columns mean</summary><dl>{}</dl></details>\n",
+      list);
+}
+
+}  // namespace
+
+std::string resultTable(const ReportModel& block) {
+  if (block["columns"].empty()) return "";
+  std::string head =
+      "<th scope=\"col\" aria-sort=\"none\"><button type=\"button\">method</button></th>";
+  std::vector<double> best;
+  for (const ReportModel& column : block["columns"]) {
+    head += columnHead(column);
+    best.push_back(bestValue(block, column));
+  }
+  std::string body;
+  for (const ReportModel& row : block["rows"]) {
+    body += fmt::format("<tr{}>{}", counts(row) ? "" : " class=\"no\"", rowHead(row));
+    for (size_t i = 0; i < best.size(); ++i) {
+      const ReportModel* cell = cellOf(row, block["columns"][i]["key"].get<std::string>());
+      body += cellHtml(cell, counts(row) ? best[i] : std::nan(""));
+    }
+    body += "</tr>\n";
+  }
+  return fmt::format(
+      "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"Results: {}\">\n"
+      "<table class=\"results\">\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody>\n</table></div>\n"
+      "{}",
+      escapeMarkup(reportText(block, "title")), head, body, columnHelp(block));
+}
+
+std::string healthTable(const ReportModel& block) {
+  const auto health = block.find("health");
+  if (health == block.end() || (*health)["rows"].empty()) return "";
+  std::string head =
+      "<th scope=\"col\" aria-sort=\"none\"><button type=\"button\">method</button></th>";
+  std::vector<bool> bad;
+  for (const ReportModel& column : (*health)["columns"]) {
+    const bool isName = column.is_string();
+    const std::string help = isName ? "" : reportText(column, "help");
+    bad.push_back(!isName && column.value("bad", false));
+    head += fmt::format(
+        "<th scope=\"col\" class=\"num\" aria-sort=\"none\"><button type=\"button\"{}>{}</button>"
+        "</th>",
+        help.empty() ? "" : fmt::format(" title=\"{}\"", escapeMarkup(help)),
+        escapeMarkup(isName ? column.get<std::string>() : reportText(column, "name")));
+  }
+  std::string body;
+  for (const ReportModel& row : (*health)["rows"]) {
+    body += fmt::format("<tr><th scope=\"row\">{}</th>", escapeMarkup(reportText(row, "method")));
+    for (size_t i = 0; i < bad.size(); ++i) {
+      const uint64_t count = row["counts"][i].get<uint64_t>();
+      const char* mark = count == 0 ? " zero" : bad[i] ? " bad" : "";
+      body += fmt::format("<td class=\"num{}\" data-value=\"{}\">{}</td>", mark, count,
+                          groupedDigits(count));
+    }
+    body += "</tr>\n";
+  }
+  return fmt::format(
+      "<h3>Numerical health</h3>\n<div class=\"scroll\" role=\"region\" tabindex=\"0\" "
+      "aria-label=\"Numerical health: {}\">\n<table class=\"health\">\n<thead><tr>{}</tr></thead>\n"
+      "<tbody>\n{}</tbody>\n</table></div>\n",
+      escapeMarkup(reportText(block, "title")), head, body);
+}
+
+std::string leftOutList(const ReportModel& block) {
+  std::string rows;
+  for (const ReportModel& entry : reportList(block, "left_out")) {
+    std::string features;
+    for (const ReportModel& feature : entry["features"]) {
+      features += fmt::format("<li>{}</li>", escapeMarkup(feature.get<std::string>()));
+    }
+    rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n",
+                        escapeMarkup(reportText(entry, "method")),
+                        features.empty() ? "nothing" : "<ul class=\"chips\">" + features + "</ul>");
+  }
+  if (rows.empty()) return "";
+  return fmt::format(
+      "<h3>Left out of the kernels</h3>\n<p class=\"hint\">Features that this scene does not need, "
+      "and that the kernels of each method were compiled without.</p>\n<div class=\"scroll\">"
+      "<table class=\"left-out\"><tbody>\n{}</tbody></table></div>\n",
+      rows);
+}
+
+}  // namespace restlab::html

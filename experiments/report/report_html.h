@@ -1,0 +1,20 @@
+// report.html and plots/*.svg of a report model.
+#pragma once
+
+#include <filesystem>
+
+#include "experiments/report/report_model.h"
+
+namespace restlab {
+
+// Writes folder/report.html: one file that opens in any browser without a network. `model` is as
+// report_model.h says; its image files are read below `folder`. The file appears whole or not at
+// all. Throws Error (badInput) naming a wrong field of the model, an image that cannot be used, or
+// a file that cannot be written.
+void writeReport(const std::filesystem::path& folder, const ReportModel& model);
+
+// Writes folder/plots/BLOCK-PLOT.svg for each plot of the model and folder/plots/BLOCK-bars.svg for
+// bars; makes folder/plots. Files that are there from earlier stay. Throws as writeReport.
+void writePlots(const std::filesystem::path& folder, const ReportModel& model);
+
+}  // namespace restlab

@@ -1,0 +1,282 @@
+#include "experiments/report/svg_plot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/report/svg_style.h"
+#include "experiments/report/text.h"
+
+namespace restlab {
+namespace {
+
+constexpr double kLegendRow = 19.0, kLegendTop = 56.0;
+constexpr double kNameWidth = 330.0;
+
+struct Canvas {
+  Axis x, y;
+
+  double px(double value) const {
+    return kPlotArea.left + kPlotArea.width * std::clamp(x.position(value), 0.0, 1.0);
+  }
+  double py(double value) const {
+    return kPlotArea.top + kPlotArea.height * (1.0 - std::clamp(y.position(value), 0.0, 1.0));
+  }
+  bool shows(const PlotPoint& point) const { return x.shows(point.x) && y.shows(point.y); }
+};
+
+std::vector<PlotPoint> shownPoints(const Canvas& canvas, const PlotSeries& series) {
+  std::vector<PlotPoint> shown;
+  for (const PlotPoint& point : series.points) {
+    if (canvas.shows(point)) shown.push_back(point);
+  }
+  return shown;
+}
+
+// A tick's label; an exponent is raised.
+std::string tickLabel(double x, double y, const char* anchor, const Tick& tick) {
+  if (tick.exponent.empty()) return svg::text(x, y, anchor, tick.label, "class=\"tick\"");
+  return fmt::format(
+      "<text x=\"{}\" y=\"{}\" text-anchor=\"{}\" class=\"tick\">{}<tspan dy=\"-4.5\" "
+      "font-size=\"9\">{}</tspan></text>\n",
+      svg::coordinate(x), svg::coordinate(y), anchor, tick.label, tick.exponent);
+}
+
+std::string axes(const Canvas& canvas, const PlotSpec& plot) {
+  const double left = kPlotArea.left, right = left + kPlotArea.width;
+  const double top = kPlotArea.top, bottom = top + kPlotArea.height;
+  std::string grid, labels;
+  for (const Tick& tick : axisTicks(canvas.x)) {
+    const double at = canvas.px(tick.value);
+    grid += svg::line(at, top, at, bottom, tick.label.empty() ? "fine" : "grid");
+    if (!tick.label.empty()) labels += tickLabel(at, bottom + 17.0, "middle", tick);
+  }
+  for (const Tick& tick : axisTicks(canvas.y)) {
+    const double at = canvas.py(tick.value);
+    grid += svg::line(left, at, right, at, tick.label.empty() ? "fine" : "grid");
+    if (!tick.label.empty()) labels += tickLabel(left - 7.0, at + 4.0, "end", tick);
+  }
+  const std::string frame =
+      svg::line(left, bottom, right, bottom, "frame") + svg::line(left, top, left, bottom, "frame");
+  const double middle = top + kPlotArea.height / 2.0;
+  const std::string titles =
+      svg::text(left + kPlotArea.width / 2.0, bottom + 37.0, "middle", plot.x.title) +
+      svg::text(15.0, middle, "middle", plot.y.title,
+                fmt::format("transform=\"rotate(-90 15 {})\"", svg::coordinate(middle)));
+  return grid + frame + labels + titles;
+}
+
+bool hasInterval(const PlotPoint& point) { return !std::isnan(point.lo) && !std::isnan(point.hi); }
+
+// Where an end of an interval is drawn: at the axis's end where it lies beyond it.
+double clamped(const Canvas& canvas, double value) {
+  return std::isfinite(value) ? std::clamp(value, canvas.y.lo, canvas.y.hi)
+         : value > 0.0        ? canvas.y.hi
+                              : canvas.y.lo;
+}
+
+// The band of each unbroken row of intervals; whiskers where one stands alone.
+std::string band(const Canvas& canvas, const std::vector<PlotPoint>& points, size_t index) {
+  std::string out;
+  for (size_t begin = 0; begin < points.size(); ++begin) {
+    size_t end = begin;
+    while (end < points.size() && hasInterval(points[end])) ++end;
+    if (end == begin) continue;
+    std::string upper, lower;
+    for (size_t i = begin; i < end; ++i) {
+      const double x = canvas.px(points[i].x);
+      const double hi = canvas.py(clamped(canvas, points[i].hi));
+      const double lo = canvas.py(clamped(canvas, points[i].lo));
+      upper += fmt::format("{},{} ", svg::coordinate(x), svg::coordinate(hi));
+      lower.insert(0, fmt::format("{},{} ", svg::coordinate(x), svg::coordinate(lo)));
+      if (end - begin > 1) continue;
+      out += fmt::format(
+          "<path d=\"M{0} {1}V{2}M{3} {1}h8M{3} {2}h8\" stroke=\"{4}\" fill=\"none\" "
+          "class=\"whisker "
+          "s{5}\"/>\n",
+          svg::coordinate(x), svg::coordinate(hi), svg::coordinate(lo), svg::coordinate(x - 4.0),
+          svg::colour(index), index % svg::kColours);
+    }
+    if (end - begin > 1) {
+      lower.pop_back();
+      out += fmt::format(
+          "<polygon points=\"{}{}\" fill=\"{}\" fill-opacity=\"0.2\" class=\"band f{}\"/>\n", upper,
+          lower, svg::colour(index), index % svg::kColours);
+    }
+    begin = end;
+  }
+  return out;
+}
+
+std::string lineThrough(const Canvas& canvas, const std::vector<PlotPoint>& points, size_t index) {
+  if (points.size() < 2) return "";
+  std::string path;
+  for (const PlotPoint& point : points) {
+    path += fmt::format("{}{},{}", path.empty() ? "" : " ", svg::coordinate(canvas.px(point.x)),
+                        svg::coordinate(canvas.py(point.y)));
+  }
+  const std::string dash = svg::dashes(index);
+  return fmt::format(
+      "<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.75\" "
+      "stroke-linejoin=\"round\"{} class=\"line s{}\"/>\n",
+      path, svg::colour(index), dash.empty() ? "" : fmt::format(" stroke-dasharray=\"{}\"", dash),
+      index % svg::kColours);
+}
+
+// The fitted line over the range of the series, as far as it lies inside the axes.
+std::string fitted(const Canvas& canvas, const std::vector<PlotPoint>& points, const PlotFit& fit,
+                   size_t index) {
+  if (points.empty() || !std::isfinite(fit.slope) || !std::isfinite(fit.intercept)) return "";
+  const auto scaled = [](const Axis& axis, double value) {
+    return axis.log ? std::log10(value) : value;
+  };
+  double from = scaled(canvas.x, points.front().x), to = scaled(canvas.x, points.back().x);
+  const double lo = scaled(canvas.y, canvas.y.lo), hi = scaled(canvas.y, canvas.y.hi);
+  if (fit.slope != 0.0) {
+    const double atLo = (lo - fit.intercept) / fit.slope, atHi = (hi - fit.intercept) / fit.slope;
+    from = std::max(from, std::min(atLo, atHi));
+    to = std::min(to, std::max(atLo, atHi));
+  } else if (fit.intercept < lo || fit.intercept > hi) {
+    return "";
+  }
+  if (!(from < to)) return "";
+  const auto pixel = [&](double at) {
+    const double y = fit.intercept + fit.slope * at;
+    const double xValue = canvas.x.log ? std::pow(10.0, at) : at;
+    const double yValue = canvas.y.log ? std::pow(10.0, y) : y;
+    return std::pair(svg::coordinate(canvas.px(xValue)), svg::coordinate(canvas.py(yValue)));
+  };
+  const auto [x0, y0] = pixel(from);
+  const auto [x1, y1] = pixel(to);
+  return fmt::format(
+      "<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\" stroke=\"{}\" stroke-width=\"1\" "
+      "stroke-dasharray=\"5 4\" class=\"fit s{}\"/>\n",
+      x0, y0, x1, y1, svg::colour(index), index % svg::kColours);
+}
+
+std::string seriesMarks(const Canvas& canvas, const PlotSpec& plot, size_t index) {
+  const PlotSeries& series = plot.series[index];
+  const std::vector<PlotPoint> points = shownPoints(canvas, series);
+  std::string out = lineThrough(canvas, points, index);
+  if (series.fit) out += fitted(canvas, points, *series.fit, index);
+  for (const PlotPoint& point : points) {
+    const std::string tip =
+        fmt::format("{}\n{}: {}\n{}: {}{}", series.name, plot.x.title, shortNumber(point.x),
+                    plot.y.title, shortNumber(point.y), intervalText(point.lo, point.hi));
+    out += svg::marker(index, canvas.px(point.x), canvas.py(point.y), tip);
+  }
+  return out;
+}
+
+std::string legend(const PlotSpec& plot, double top) {
+  std::string out;
+  for (size_t i = 0; i < plot.series.size(); ++i) {
+    const double y = top + kLegendRow * double(i);
+    const std::string dash = svg::dashes(i);
+    out += fmt::format(
+        "<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\" stroke=\"{}\" stroke-width=\"1.75\"{} "
+        "class=\"line s{}\"/>\n",
+        svg::coordinate(kPlotArea.left), svg::coordinate(y), svg::coordinate(kPlotArea.left + 30.0),
+        svg::coordinate(y), svg::colour(i),
+        dash.empty() ? "" : fmt::format(" stroke-dasharray=\"{}\"", dash), i % svg::kColours);
+    out += svg::marker(i, kPlotArea.left + 15.0, y);
+    const PlotSeries& series = plot.series[i];
+    const double nameLeft = kPlotArea.left + 40.0;
+    out += svg::text(nameLeft, y + 4.0, "start", svg::fitText(series.name, kNameWidth, 12.0));
+    if (!series.fit || !std::isfinite(series.fit->slope)) continue;
+    out += svg::text(nameLeft + kNameWidth + 10.0, y + 4.0, "start",
+                     fmt::format("slope {:.2f}{}", series.fit->slope,
+                                 std::isnan(series.fit->slopeLo) || std::isnan(series.fit->slopeHi)
+                                     ? ""
+                                     : fmt::format(" [{:.2f}, {:.2f}]", series.fit->slopeLo,
+                                                   series.fit->slopeHi)),
+                     "class=\"slope\"");
+  }
+  return out;
+}
+
+void collect(const PlotSpec& plot, bool isX, std::vector<double>& inner,
+             std::vector<double>& outer) {
+  for (const PlotSeries& series : plot.series) {
+    for (const PlotPoint& point : series.points) {
+      // A point counts for neither axis where one of them cannot show it.
+      const auto can = [](bool log, double v) { return std::isfinite(v) && (!log || v > 0.0); };
+      if (!can(plot.x.log, point.x) || !can(plot.y.log, point.y)) continue;
+      inner.push_back(isX ? point.x : point.y);
+      if (isX) continue;
+      outer.push_back(point.lo);
+      outer.push_back(point.hi);
+    }
+  }
+}
+
+}  // namespace
+
+Axis plotAxisX(const PlotSpec& plot) {
+  std::vector<double> inner, outer;
+  collect(plot, true, inner, outer);
+  return fitAxis(plot.x.log, inner, outer);
+}
+
+Axis plotAxisY(const PlotSpec& plot) {
+  std::vector<double> inner, outer;
+  collect(plot, false, inner, outer);
+  return fitAxis(plot.y.log, inner, outer);
+}
+
+std::string plotSvg(const PlotSpec& plot) {
+  const Canvas canvas = {plotAxisX(plot), plotAxisY(plot)};
+  size_t hidden = 0;
+  for (const PlotSeries& series : plot.series) {
+    hidden += series.points.size() - shownPoints(canvas, series).size();
+  }
+  const double legendTop = kPlotArea.top + kPlotArea.height + kLegendTop;
+  const double legendEnd = legendTop + kLegendRow * double(plot.series.size());
+  std::string out =
+      svg::open(kPlotWidth, legendEnd + (hidden ? kLegendRow : 0.0), plot.title, "plot");
+  out += svg::text(kPlotArea.left, 22.0, "start",
+                   svg::fitText(plot.title, kPlotWidth - kPlotArea.left - 8.0, 14.5),
+                   "font-size=\"14\" font-weight=\"bold\"");
+  out += axes(canvas, plot);
+  // Bands below all lines.
+  for (size_t i = 0; i < plot.series.size(); ++i) {
+    out += band(canvas, shownPoints(canvas, plot.series[i]), i);
+  }
+  for (size_t i = 0; i < plot.series.size(); ++i) out += seriesMarks(canvas, plot, i);
+  out += legend(plot, legendTop);
+  if (hidden) {
+    out += svg::text(kPlotArea.left, legendEnd + 4.0, "start",
+                     fmt::format("{} point{} left out: not finite{}", hidden, hidden > 1 ? "s" : "",
+                                 plot.x.log || plot.y.log ? ", or not above 0" : ""),
+                     "class=\"hidden\" font-style=\"italic\"");
+  }
+  return out + "</svg>\n";
+}
+
+PlotSpec plotFromModel(const ReportModel& model) {
+  constexpr double kUnknownEnd = std::numeric_limits<double>::quiet_NaN();
+  PlotSpec plot;
+  plot.title = reportText(model, "title");
+  plot.x = {reportText(model["x"], "title"), model["x"].value("log", false)};
+  plot.y = {reportText(model["y"], "title"), model["y"].value("log", false)};
+  for (const ReportModel& from : model["series"]) {
+    PlotSeries& series = plot.series.emplace_back();
+    series.name = reportText(from, "name");
+    for (const ReportModel& numbers : from["points"]) {
+      PlotPoint& point = series.points.emplace_back();
+      point.x = reportNumber(numbers[0]);
+      point.y = reportNumber(numbers[1]);
+      if (numbers.size() < 4) continue;
+      point.lo = reportNumber(numbers[2]);
+      point.hi = reportNumber(numbers[3]);
+    }
+    const auto fit = from.find("fit");
+    if (fit == from.end()) continue;
+    series.fit = PlotFit{reportNumber((*fit)["slope"]), reportNumber(*fit, "lo", kUnknownEnd),
+                         reportNumber(*fit, "hi", kUnknownEnd), reportNumber((*fit)["intercept"])};
+  }
+  return plot;
+}
+
+}  // namespace restlab

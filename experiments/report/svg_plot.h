@@ -1,0 +1,62 @@
+// Plots of series with confidence bands and fitted lines as SVG, for a page and for print.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/report/axis.h"
+#include "experiments/report/report_model.h"
+
+namespace restlab {
+
+struct PlotPoint {
+  double x = 0.0, y = 0.0;
+  // The interval of y; NaN: unknown.
+  double lo = std::numeric_limits<double>::quiet_NaN();
+  double hi = std::numeric_limits<double>::quiet_NaN();
+};
+
+// y = intercept + slope x, where a logarithmic axis enters as log10; slopeLo and slopeHi NaN:
+// unknown.
+struct PlotFit {
+  double slope = 0.0, slopeLo = 0.0, slopeHi = 0.0, intercept = 0.0;
+};
+
+struct PlotSeries {
+  std::string name;
+  std::vector<PlotPoint> points;  // in order of x
+  std::optional<PlotFit> fit;
+};
+
+struct PlotAxis {
+  std::string title;
+  bool log = false;
+};
+
+struct PlotSpec {
+  std::string title;
+  PlotAxis x, y;
+  std::vector<PlotSeries> series;
+};
+
+// The part of an image, in its pixels, that the axes span.
+struct PlotArea {
+  double left = 0.0, top = 0.0, width = 0.0, height = 0.0;
+};
+constexpr double kPlotWidth = 640.0;
+constexpr PlotArea kPlotArea = {68.0, 36.0, 556.0, 300.0};
+
+// The axes that plotSvg draws.
+Axis plotAxisX(const PlotSpec& plot);
+Axis plotAxisY(const PlotSpec& plot);
+
+// A whole SVG document, the same bytes for the same plot. Points that an axis cannot show (not
+// finite; not positive on a logarithmic axis) are left out, and a line below the plot counts them.
+std::string plotSvg(const PlotSpec& plot);
+
+// A member of "plots" of a checked model.
+PlotSpec plotFromModel(const ReportModel& plot);
+
+}  // namespace restlab

@@ -1,0 +1,14 @@
+set(RL_REPORT_TESTS
+  report/browser.cpp
+  report/browser_test.cpp
+  report/html_test.cpp
+  report/model_test.cpp
+  report/page.cpp
+  report/pixels_test.cpp
+  report/plot_test.cpp
+  report/sample.cpp
+  report/text_test.cpp
+  report/viewer_test.cpp
+  report/xml.cpp
+)
+set(RL_REPORT_LIBRARIES rl_report)

@@ -1,0 +1,56 @@
+// Text of others inside markup and scripts.
+#include "experiments/report/text.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace restlab {
+namespace {
+
+TEST(EscapeMarkup, LeavesNoMarkup) {
+  EXPECT_EQ(escapeMarkup("<b>&\"'"), "&lt;b&gt;&amp;&quot;&#39;");
+  EXPECT_EQ(escapeMarkup("</script><!--"), "&lt;/script&gt;&lt;!--");
+  EXPECT_EQ(escapeMarkup("a b\tc\nd"), "a b\tc\nd");
+}
+
+TEST(CleanText, KeepsUnicode) {
+  const std::string text = "\xc3\xa9 \xe2\x80\xa6 \xf0\x9f\x8c\x88";  // é … and a rainbow
+  EXPECT_EQ(cleanText(text), text);
+}
+
+TEST(CleanText, ReplacesWhatXmlForbids) {
+  const std::string bad = "\xef\xbf\xbd";
+  EXPECT_EQ(cleanText(std::string("a\0b", 3)), "a" + bad + "b");
+  EXPECT_EQ(cleanText("\x01\x1b[31m\x7f"), bad + bad + "[31m" + bad);
+  EXPECT_EQ(cleanText("\xff\xfe"), bad + bad);
+  EXPECT_EQ(cleanText("\xc3"), bad) << "cut off";
+  EXPECT_EQ(cleanText("\xc0\xaf"), bad + bad) << "an overlong '/'";
+  EXPECT_EQ(cleanText("\xed\xa0\x80"), bad + bad + bad) << "half a surrogate pair";
+  EXPECT_EQ(cleanText("\xef\xbf\xbf"), bad + bad + bad) << "U+FFFF";
+  EXPECT_EQ(cleanText("\xf4\x90\x80\x80"), bad + bad + bad + bad) << "above U+10FFFF";
+}
+
+TEST(ScriptJson, CannotEndAScript) {
+  const nlohmann::ordered_json json = {{"</script>", "<!-- & \xe2\x80\xa8 \xff"}};
+  const std::string text = scriptJson(json);
+  EXPECT_EQ(text.find_first_of("<>&"), std::string::npos) << text;
+  EXPECT_EQ(text.find("\xe2\x80\xa8"), std::string::npos) << "a line end in old scripts";
+  const auto back = nlohmann::ordered_json::parse(text);
+  EXPECT_EQ(back["</script>"], "<!-- & \xe2\x80\xa8 \xef\xbf\xbd");
+}
+
+TEST(Numbers, AreShort) {
+  EXPECT_EQ(shortNumber(0.0123456), "0.0123");
+  EXPECT_EQ(shortNumber(std::numeric_limits<double>::quiet_NaN()), "nan");
+  EXPECT_EQ(intervalText(1.0, 2.5), " [1, 2.5]");
+  EXPECT_EQ(intervalText(-std::numeric_limits<double>::infinity(), 1.0), " [unbounded]");
+  EXPECT_EQ(intervalText(std::numeric_limits<double>::quiet_NaN(), 1.0), "");
+  EXPECT_EQ(groupedDigits(0), "0");
+  EXPECT_EQ(groupedDigits(999), "999");
+  EXPECT_EQ(groupedDigits(1000), "1,000");
+  EXPECT_EQ(groupedDigits(12582912), "12,582,912");
+}
+
+}  // namespace
+}  // namespace restlab
