@@ -95,7 +95,7 @@ Action addReportVerb(CLI::App& app) {
   auto options = std::make_shared<FolderOptions>();
   addFolderVerb(app, "report", "makes tables, plots and report again from finished runs", options);
   return [options](Outcome&) {
-    std::fputs(writeReport(options->folder).c_str(), stdout);
+    std::fputs(remakeOutputs(options->folder).c_str(), stdout);
     logInfo(fmt::format("{}: written", options->folder));
   };
 }

@@ -5,12 +5,12 @@
 
 #include "experiments/runner/files.h"
 #include "experiments/runner/report.h"
+#include "experiments/runner/report_document.h"
 
 namespace restlab {
 
-namespace {
+namespace {}  // namespace
 
-// Exposure that brings the reference's mean luminance to mid grey.
 float previewExposure(const Image& reference) {
   double sum = 0.0;
   for (const glm::vec3& pixel : reference.pixels) {
@@ -20,8 +20,6 @@ float previewExposure(const Image& reference) {
   }
   return float(0.18 / std::exp(sum / double(reference.pixels.size())));
 }
-
-}  // namespace
 
 std::string blockLabel(const Suite& suite, const BlockResult& block) {
   const std::string point = suite.point.empty() ? "" : "-" + suite.point;
@@ -34,9 +32,8 @@ std::string referenceLabel(const Suite& suite, const BlockResult& block) {
 }
 
 void writeBlockImages(const std::filesystem::path& folder, const Suite& suite,
-                      const BlockResult& block) {
+                      const BlockResult& block, float exposure) {
   makeWritableDirectory(folder);
-  const float exposure = previewExposure(block.reference.mean);
   const std::string label = blockLabel(suite, block);
   const auto write = [&](const std::string& name, const Image& image,
                          std::map<std::string, std::string> metadata) {

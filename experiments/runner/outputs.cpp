@@ -5,13 +5,16 @@
 #include <algorithm>
 
 #include "core/image/atomic_file.h"
+#include "experiments/report/report_html.h"
 #include "experiments/runner/build_info.h"
 #include "experiments/runner/report.h"
+#include "experiments/runner/report_document.h"
 
 namespace restlab {
 
 std::string Outputs::add(const Suite& suite, BlockResult result) {
-  writeBlockImages(out_ / "images", suite, result);
+  const float exposure = previewExposure(result.reference.mean);
+  writeBlockImages(out_ / "images", suite, result, exposure);
   Block& block = blocks_.emplace_back(Block{&suite, std::move(result), {}});
   block.rows = summarise(suite, block.result);
   for (MethodResult& method : block.result.methods) {
@@ -25,7 +28,15 @@ std::string Outputs::add(const Suite& suite, BlockResult result) {
   reference.variance.reset();
   if (reference.half0) reference.half0 = reference.half1 = Image();
   block.result.withoutLights.clear();
+  documents_.push_back(blockDocument(suite, block.rows, exposure));
   return blockTable(suite, block.rows);
+}
+
+void Outputs::writePages(const Suite& suite, const nlohmann::ordered_json& record) const {
+  if (documents_.empty()) return;
+  const nlohmann::ordered_json document = reportDocument(suite, record, documents_, notes_);
+  writePlots(out_, document);
+  writeReport(out_, document);
 }
 
 void Outputs::write(const Suite& suite, bool finished) const {

@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,8 @@ class Outputs {
   void use(const std::vector<DeviceUse>& devices) { devices_ = devices; }
   // summary.csv, table.md and table.tex. `suite`: any point, for name and question.
   void write(const Suite& suite, bool finished) const;
+  // report.html and plots/*.svg; `record`: run.json. Nothing where there is no block.
+  void writePages(const Suite& suite, const nlohmann::ordered_json& record) const;
 
  private:
   struct Block {
@@ -32,7 +35,8 @@ class Outputs {
     std::vector<MethodSummary> rows;  // point into `result`
   };
   std::filesystem::path out_;
-  std::deque<Block> blocks_;  // addresses must stay
+  std::deque<Block> blocks_;                       // addresses must stay
+  std::vector<nlohmann::ordered_json> documents_;  // of the blocks
   std::vector<std::string> notes_;
   std::vector<DeviceUse> devices_;
 };

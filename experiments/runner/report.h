@@ -18,10 +18,10 @@ std::string blockTable(const Suite& suite, const std::vector<MethodSummary>& row
 // The same for LaTeX with booktabs: time, error and their ratios, the best rows that count in bold.
 std::string blockTex(const Suite& suite, const std::vector<MethodSummary>& rows);
 
-// EXR and PNG of the reference and of every method's measured frame of run 0. One exposure for the
-// block's previews, from the reference.
+// EXR and PNG of the reference and of every method's measured frame of run 0. The previews of a
+// block have one exposure.
 void writeBlockImages(const std::filesystem::path& folder, const Suite& suite,
-                      const BlockResult& block);
+                      const BlockResult& block, float exposure);
 
 // "cornell-box-all", with the point of a sweep behind it; for file names.
 std::string blockLabel(const Suite& suite, const BlockResult& block);

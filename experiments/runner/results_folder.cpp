@@ -94,7 +94,7 @@ BlockResult loadBlock(const ResultsFolder& results, const PlannedBlock& planned)
   return block;
 }
 
-std::string writeReport(const fs::path& folder) {
+std::string remakeOutputs(const fs::path& folder) {
   const ResultsFolder results = openResults(folder);
   const FolderLock lock(folder);
   Outputs outputs(folder);
@@ -116,6 +116,7 @@ std::string writeReport(const fs::path& folder) {
     if (runs > 0) tables += outputs.add(suite, std::move(block));
   }
   outputs.write(results.points.front(), finished);
+  outputs.writePages(results.points.front(), results.record);
   return tables;
 }
 

@@ -36,6 +36,6 @@ BlockResult loadBlock(const ResultsFolder& results, const PlannedBlock& block);
 
 // Everything that `run` writes besides jobs, references and results.jsonl, made again; the tables
 // are returned. Throws Error.
-std::string writeReport(const std::filesystem::path& folder);
+std::string remakeOutputs(const std::filesystem::path& folder);
 
 }  // namespace restlab

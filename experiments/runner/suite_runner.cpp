@@ -40,11 +40,15 @@ void removeEarlierResults(const fs::path& out, const Suite& suite) {
     }
     return false;
   };
-  std::vector<fs::path> old = {out / "summary.csv", out / "table.md", out / "table.tex"};
+  std::vector<fs::path> old = {out / "summary.csv", out / "table.md", out / "table.tex",
+                               out / "report.html"};
   for (const fs::directory_entry& entry : fs::directory_iterator(out / "images", status)) {
     const fs::path extension = entry.path().extension();
     const bool isImage = extension == ".exr" || extension == ".png";
     if (isImage && !isRead(entry.path())) old.push_back(entry.path());
+  }
+  for (const fs::directory_entry& entry : fs::directory_iterator(out / "plots", status)) {
+    if (entry.path().extension() == ".svg") old.push_back(entry.path());
   }
   for (const fs::path& file : old) {
     if (!fs::is_directory(file, status)) fs::remove(file, status);
@@ -89,6 +93,7 @@ class SuiteRun {
       const bool finished = executeAll();
       outputs_.write(points_.front(), finished);
       writeRecord(finished ? "finished" : "interrupted");
+      outputs_.writePages(points_.front(), record_);
       if (reused_ > 0)
         logInfo(fmt::format("{} of {} runs were there already", reused_, reused_ + made_));
       return finished;
@@ -255,22 +260,22 @@ class SuiteRun {
                          {"ray_tracing", use.rayTracing},
                          {"validate", use.backend == "vulkan" && points_.front().validate}});
     }
-    nlohmann::ordered_json record = {{"schema", kResultsSchema},
-                                     {"status", status},
-                                     {"suite", points_.front().name},
-                                     {"file", points_.front().file},
-                                     {"argv", request_.argv},
-                                     {"methods", methodNames()},
-                                     {"started", started_},
-                                     {"written", utcNow()},
-                                     {"build", buildJson()},
-                                     {"machine", machineJson()},
-                                     {"devices", devices},
-                                     {"reference_backend", points_.front().referenceBackend},
-                                     {"skipped", skipped_},
-                                     {"plan", plan_},
-                                     {"peak_resident_mib", peakResidentMiB()}};
-    writeTextFile(request_.out / "run.json", record.dump(2) + "\n");
+    record_ = {{"schema", kResultsSchema},
+               {"status", status},
+               {"suite", points_.front().name},
+               {"file", points_.front().file},
+               {"argv", request_.argv},
+               {"methods", methodNames()},
+               {"started", started_},
+               {"written", utcNow()},
+               {"build", buildJson()},
+               {"machine", machineJson()},
+               {"devices", devices},
+               {"reference_backend", points_.front().referenceBackend},
+               {"skipped", skipped_},
+               {"plan", plan_},
+               {"peak_resident_mib", peakResidentMiB()}};
+    writeTextFile(request_.out / "run.json", record_.dump(2) + "\n");
   }
 
   const std::vector<Suite>& points_;
@@ -284,7 +289,8 @@ class SuiteRun {
   std::vector<DeviceUse> devices_;
   std::vector<std::string> skipped_;
   std::vector<nlohmann::ordered_json> plan_;
-  size_t next_ = 0;  // block of the plan
+  nlohmann::ordered_json record_;  // run.json
+  size_t next_ = 0;                // block of the plan
   size_t made_ = 0, reused_ = 0;
 };
 

@@ -1,0 +1,302 @@
+#include "experiments/runner/report_document.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "experiments/runner/files.h"
+#include "experiments/runner/report.h"
+#include "experiments/runner/run_record.h"
+
+namespace restlab {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kLn10 = 2.302585092994046;
+
+struct Column {
+  const char *key, *title, *unit, *better, *help;
+  Interval (*value)(const MethodSummary&);
+};
+
+Interval only(double value) { return {value, kUnknown, kUnknown}; }
+const Interval kNone{kUnknown, kUnknown, kUnknown};
+
+Interval slopeOf(const MethodSummary& row) {
+  return row.convergence ? row.convergence->slope : kNone;
+}
+Interval equalTimeOf(const MethodSummary& row) {
+  return row.speedUp ? row.speedUp->equalTime : kNone;
+}
+Interval equalErrorOf(const MethodSummary& row) {
+  return row.speedUp ? row.speedUp->equalError : kNone;
+}
+Interval varianceOf(const MethodSummary& row) {
+  return only(row.temporal ? row.temporal->variance : kUnknown);
+}
+Interval differenceOf(const MethodSummary& row) {
+  return only(row.temporal ? row.temporal->difference : kUnknown);
+}
+Interval correlationOf(const MethodSummary& row) {
+  return only(row.temporal ? row.temporal->autocorrelation[0] : kUnknown);
+}
+
+// A column that is unknown in every row is left out.
+const std::vector<Column>& columns() {
+  static const std::vector<Column> all = {
+      {"time_ms", "time per frame", "ms", "lower", "median over timed frames: passes, nothing else",
+       [](const MethodSummary& row) { return only(row.timeMsMedian); }},
+      {"time_ratio", "time / path", "", "lower",
+       "mean over runs of the median over frames of time / time of the path frame beside it",
+       [](const MethodSummary& row) { return row.timeRatio; }},
+      {"mse", "MSE", "", "lower", "of the frame after the warm-up, against the reference's halves",
+       [](const MethodSummary& row) { return row.mse; }},
+      {"mse_ratio", "MSE of path / MSE", "", "higher", "how many times lower than path tracing",
+       [](const MethodSummary& row) { return row.mseRatio; }},
+      {"efficiency", "efficiency", "", "higher", "MSE ratio / time ratio",
+       [](const MethodSummary& row) { return row.efficiencyRatio; }},
+      {"energy", "energy", "", "none", "mean(image) / mean(reference); its ideal is 1",
+       [](const MethodSummary& row) { return row.energyRatio; }},
+      {"bias_share", "bias^2 / MSE", "", "none", "signed; from two halves of the runs",
+       [](const MethodSummary& row) { return only(row.biasShare); }},
+      {"worst_share", "worst 0.1 %", "", "none",
+       "share of the MSE in the worst thousandth of the pixels",
+       [](const MethodSummary& row) { return only(row.worstShare); }},
+      {"mse_without_lights", "MSE without lights in view", "", "lower",
+       "over the pixels that show no light directly",
+       [](const MethodSummary& row) { return row.mseWithoutLights; }},
+      {"relmse_trimmed", "relMSE without the worst 0.1 %", "", "lower", "relmse_e1e-2_trim0.1",
+       [](const MethodSummary& row) { return row.relmseTrimmed; }},
+      {"slope", "slope", "", "lower", "of log(MSE) over log(time) while frames accumulate",
+       slopeOf},
+      {"equal_time", "lower at equal time", "", "higher", "off the fitted lines", equalTimeOf},
+      {"equal_error", "faster to equal error", "", "higher", "off the fitted lines", equalErrorOf},
+      {"temporal_variance", "variance over frames", "", "lower", "flicker of a pixel", varianceOf},
+      {"temporal_difference", "frame difference", "", "lower", "mean |f_t - f_(t-1)|",
+       differenceOf},
+      {"correlation", "correlation of errors", "", "lower", "of frames side by side",
+       correlationOf},
+      {"rays", "rays / pixel", "", "none", "path and shadow rays of a frame",
+       [](const MethodSummary& row) {
+         return only(row.raysPathPerPixel + row.raysShadowPerPixel);
+       }},
+      {"bytes", "bytes / pixel", "", "lower", "of all buffers",
+       [](const MethodSummary& row) { return only(double(row.result->bytesPerPixel)); }}};
+  return all;
+}
+
+Json cellOf(const Interval& interval) {
+  Json cell = {{"value", finiteJson(interval.value)}};
+  if (!std::isnan(interval.lo)) cell["lo"] = finiteJson(interval.lo);
+  if (!std::isnan(interval.hi)) cell["hi"] = finiteJson(interval.hi);
+  return cell;
+}
+
+void addTable(const std::vector<MethodSummary>& rows, Json& block) {
+  Json heads = Json::array(), lines = Json::array();
+  for (const MethodSummary& row : rows) {
+    lines.push_back({{"method", row.method->name},
+                     {"counts", row.counts},
+                     {"flags", row.flags},
+                     {"cells", Json::object()}});
+  }
+  for (const Column& column : columns()) {
+    bool isKnown = false;
+    for (const MethodSummary& row : rows) isKnown = isKnown || !std::isnan(column.value(row).value);
+    if (!isKnown) continue;
+    heads.push_back({{"key", column.key},
+                     {"title", column.title},
+                     {"unit", column.unit},
+                     {"better", column.better},
+                     {"help", column.help}});
+    for (size_t i = 0; i < rows.size(); ++i)
+      lines[i]["cells"][column.key] = cellOf(column.value(rows[i]));
+  }
+  block["columns"] = std::move(heads);
+  block["rows"] = std::move(lines);
+}
+
+// MSE of accumulated frames over `x` of a point.
+Json curves(const std::vector<MethodSummary>& rows, const char* id, const char* title,
+            const char* xTitle, double (*x)(const ConvergencePoint&), bool isFitted) {
+  Json series = Json::array();
+  for (const MethodSummary& row : rows) {
+    if (!row.convergence) continue;
+    Json points = Json::array();
+    for (const ConvergencePoint& point : row.convergence->points) {
+      points.push_back({finiteJson(x(point)), finiteJson(point.mse.value), finiteJson(point.mse.lo),
+                        finiteJson(point.mse.hi)});
+    }
+    Json one = {{"name", row.method->name}, {"points", std::move(points)}};
+    const Interval& slope = row.convergence->slope;
+    if (isFitted && !std::isnan(slope.value)) {
+      one["fit"] = {{"slope", slope.value},
+                    {"lo", finiteJson(slope.lo)},
+                    {"hi", finiteJson(slope.hi)},
+                    {"intercept", row.convergence->intercept / kLn10}};
+    }
+    series.push_back(std::move(one));
+  }
+  return {{"id", id},
+          {"title", title},
+          {"x", {{"title", xTitle}, {"log", true}}},
+          {"y", {{"title", "MSE"}, {"log", true}}},
+          {"series", std::move(series)}};
+}
+
+// Error of a single frame over its time: where a viewer stands.
+Json singleFrames(const std::vector<MethodSummary>& rows) {
+  Json series = Json::array();
+  for (const MethodSummary& row : rows) {
+    series.push_back({{"name", row.method->name},
+                      {"points",
+                       {{finiteJson(row.timeMsMedian), finiteJson(row.mse.value),
+                         finiteJson(row.mse.lo), finiteJson(row.mse.hi)}}}});
+  }
+  return {{"id", "single-frame"},
+          {"title", "MSE of a single frame over its time"},
+          {"x", {{"title", "time per frame, ms"}, {"log", true}}},
+          {"y", {{"title", "MSE"}, {"log", true}}},
+          {"series", std::move(series)}};
+}
+
+Json correlations(const std::vector<MethodSummary>& rows) {
+  Json series = Json::array();
+  for (const MethodSummary& row : rows) {
+    if (!row.temporal) continue;
+    Json points = Json::array();
+    for (size_t lag = 1; lag <= row.temporal->autocorrelation.size(); ++lag)
+      points.push_back({double(lag), finiteJson(row.temporal->autocorrelation[lag - 1])});
+    series.push_back({{"name", row.method->name}, {"points", std::move(points)}});
+  }
+  return {{"id", "correlation"},
+          {"title", "correlation of errors over frames"},
+          {"x", {{"title", "frames between"}, {"log", false}}},
+          {"y", {{"title", "correlation"}, {"log", false}}},
+          {"series", std::move(series)}};
+}
+
+Json barsOf(const std::vector<MethodSummary>& rows) {
+  Json bars = Json::array();
+  for (const MethodSummary& row : rows) {
+    Json parts = Json::array();
+    for (const PassTiming& pass : row.passes) parts.push_back({pass.name, pass.timeMs});
+    bars.push_back({{"name", row.method->name}, {"parts", std::move(parts)}});
+  }
+  return {{"title", "time of the passes"}, {"unit", "ms"}, {"rows", std::move(bars)}};
+}
+
+std::vector<std::string> split(const std::string& list) {
+  std::vector<std::string> parts;
+  for (size_t at = 0; at <= list.size();) {
+    const size_t plus = std::min(list.find('+', at), list.size());
+    parts.push_back(list.substr(at, plus - at));
+    at = plus + 1;
+  }
+  return parts;
+}
+
+Json healthOf(const std::vector<MethodSummary>& rows) {
+  Json heads = Json::array(), lines = Json::array();
+  for (size_t i = 0; i < rl::RL_HEALTH_COUNT; ++i) {
+    const char* name = Health::names()[i];
+    if (!name || !*name) continue;
+    const bool isFault = i == rl::RL_HEALTH_NONFINITE || std::string(name) == "dropped_weights";
+    heads.push_back({{"name", name}, {"bad", isFault}});
+  }
+  for (const MethodSummary& row : rows) {
+    Json counts = Json::array();
+    for (size_t i = 0; i < rl::RL_HEALTH_COUNT; ++i) {
+      const char* name = Health::names()[i];
+      if (name && *name) counts.push_back(row.health.health.counts[i]);
+    }
+    lines.push_back({{"method", row.method->name}, {"counts", std::move(counts)}});
+  }
+  return {{"columns", std::move(heads)}, {"rows", std::move(lines)}};
+}
+
+}  // namespace
+
+Json blockDocument(const Suite& suite, const std::vector<MethodSummary>& rows, float exposure) {
+  const BlockResult& block = *rows.front().block;
+  const std::string label = blockLabel(suite, block);
+  Json document = {
+      {"id", label},
+      {"title", fmt::format("{}, {} light{}", block.scene, componentName(block.component),
+                            suite.point.empty() ? "" : ", " + suite.point)},
+      {"subtitle",
+       fmt::format(
+           "camera {}, {}x{}, {} scattering events, Russian roulette {}, filter {}{}; {} "
+           "runs of {} warm-up and {} timed frames; reference {} spp, relMSE {:.2g}{}",
+           block.camera, block.width, block.height, suite.maxBounces,
+           suite.russianRoulette ? "on" : "off", filterName(suite.pixelFilter),
+           suite.multiscatter ? ", multiple scattering compensated" : "", rows.front().runs,
+           suite.warmupFrames, suite.timedFrames, block.reference.spp, block.reference.relmse,
+           block.reference.half0 ? "" : ", without halves: its own noise is part of every MSE")}};
+  addTable(rows, document);
+  Json plots = Json::array();
+  if (rows.front().convergence) {
+    plots.push_back(curves(
+        rows, "error-time", "MSE of accumulated frames over time", "time, ms",
+        [](const ConvergencePoint& point) { return point.timeMs; }, true));
+    plots.push_back(curves(
+        rows, "error-frames", "MSE of accumulated frames over their number", "frames",
+        [](const ConvergencePoint& point) { return double(point.frames); }, false));
+  }
+  plots.push_back(singleFrames(rows));
+  if (rows.front().temporal) plots.push_back(correlations(rows));
+  document["plots"] = std::move(plots);
+  document["bars"] = barsOf(rows);
+  Json left = Json::array(), images = Json::array();
+  images.push_back({{"name", "reference"},
+                    {"file", fmt::format("images/{}-reference.exr", label)},
+                    {"role", "reference"}});
+  for (const MethodSummary& row : rows) {
+    left.push_back(
+        {{"method", row.method->name}, {"features", split(row.result->featuresLeftOut)}});
+    images.push_back(
+        {{"name", row.method->name},
+         {"file", fmt::format("images/{}-{}.exr", label, safeFileName(row.method->name))},
+         {"role", "method"}});
+  }
+  document["left_out"] = std::move(left);
+  document["health"] = healthOf(rows);
+  document["images"] = std::move(images);
+  document["exposure"] = exposure;
+  return document;
+}
+
+Json reportDocument(const Suite& suite, const Json& record, std::vector<Json> blocks,
+                    const std::vector<std::string>& notes) {
+  Json provenance = Json::array();
+  const auto add = [&](const std::string& prefix, const Json& object) {
+    for (const auto& [key, value] : object.items()) {
+      provenance.push_back(
+          {prefix + key, value.is_string() ? value.get<std::string>() : value.dump()});
+    }
+  };
+  add("", {{"suite file", record.at("file")},
+           {"started", record.at("started")},
+           {"written", record.at("written")},
+           {"status", record.at("status")},
+           {"results schema", record.at("schema")}});
+  add("build ", record.at("build"));
+  add("machine ", record.at("machine"));
+  for (const Json& device : record.at("devices")) provenance.push_back({"device", device.dump()});
+  provenance.push_back({"peak resident MiB", record.at("peak_resident_mib").dump()});
+  std::string command;
+  for (const Json& word : record.at("argv"))
+    command += (command.empty() ? "" : " ") + word.get<std::string>();
+  return {{"schema", 1},
+          {"title", suite.name},
+          {"question", suite.question},
+          {"generated", record.at("written")},
+          {"command", command},
+          {"notes", notes},
+          {"provenance", std::move(provenance)},
+          {"blocks", std::move(blocks)}};
+}
+
+}  // namespace restlab
