@@ -24,7 +24,8 @@ const std::array<const char*, rl::RL_FEATURE_BITS> kFeatureNames = {
 
 // Buffers of the AOV kernel, in the order of its Buffers struct.
 constexpr const char* kAovKernel = "aov";
-const std::vector<std::string> kAovNames = {"radiance", "positionW", "normalW", "albedo", "depth"};
+const std::vector<std::string> kAovNames = {"radiance", "positionW", "normalW",
+                                            "albedo",   "depth",     "object"};
 
 }  // namespace
 
@@ -239,13 +240,16 @@ Image Session::aov(const std::string& name) const {
   m.backend->prepare(pass, m.startup);
   m.backend->submit({pass}, m.lastFrame);
   m.backend->collect();
-  Image image(m.config.width, m.config.height);
-  const size_t index = static_cast<size_t>(found - kAovNames.begin()) - 1;
-  m.backend->read(m.aovBuffers[index], image.pixels.data(), pixels * 12);
+  const auto read = [&](const std::string& layer) {
+    const auto at = std::find(kAovNames.begin(), kAovNames.end(), layer) - kAovNames.begin() - 1;
+    Image image(m.config.width, m.config.height);
+    m.backend->read(m.aovBuffers[size_t(at)], image.pixels.data(), pixels * 12);
+    return image;
+  };
+  Image image = read(name);
   if (name == "positionW") {
     // Kernels count from the scene's origin; pixels that show nothing stay zero.
-    Image depth(m.config.width, m.config.height);
-    m.backend->read(m.aovBuffers.back(), depth.pixels.data(), pixels * 12);
+    const Image depth = read("depth");
     const glm::vec3 origin(m.scene->origin());
     for (size_t i = 0; i < pixels; ++i) {
       if (depth.pixels[i].x > 0.0f) image.pixels[i] += origin;

@@ -82,7 +82,8 @@ class Session {
   const Image& radiance() const;
   // Of the film samples of the last frame, one of aovNames(): radiance; at the first hit positionW,
   // normalW (unit, shading, on the viewer's side), albedo (diffuse + specular at normal incidence +
-  // transmission), depth (distance along the ray, in every channel); zero where nothing is hit.
+  // transmission), depth (distance along the ray, in every channel), object (1 + the index in
+  // Scene::instances, in every channel); zero where nothing is hit.
   // Throws Error (badUsage) with the nearest name.
   Image aov(const std::string& name) const;
   static const std::vector<std::string>& aovNames();

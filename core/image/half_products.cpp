@@ -31,27 +31,35 @@ double product(glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d) {
 }  // namespace
 
 double squaredBias(const Image& runs0, const Image& runs1, const Image& half0, const Image& half1,
-                   const std::vector<uint8_t>& mask) {
+                   const PixelMask& mask) {
   requireSize(runs0, runs1, "second set of runs");
   requireSize(runs0, half0, "reference's first half");
   requireSize(runs0, half1, "reference's second half");
-  if (!mask.empty() && mask.size() != runs0.pixels.size()) {
-    failInput(fmt::format("mask has {} pixels but the image {}", mask.size(), runs0.pixels.size()));
-  }
+  const size_t count = countSelected(mask, runs0.pixels.size());
   double sum = 0.0;
-  size_t count = 0;
   for (size_t p = 0; p < runs0.pixels.size(); ++p) {
-    if (!mask.empty() && mask[p] == 0) continue;
+    if (!isSelected(mask, p)) continue;
     sum += product(runs0.pixels[p], half0.pixels[p], runs1.pixels[p], half1.pixels[p]);
-    ++count;
   }
-  if (count == 0) failInput("mask selects no pixel: metrics need at least one");
   // inf * 0 is NaN already; an infinite pixel must not pass as a merely large error.
   return std::isfinite(sum) ? sum / double(count) : std::numeric_limits<double>::quiet_NaN();
 }
 
+MetricValue biasRms(const Image& runs0, const Image& runs1, const Image& half0, const Image& half1,
+                    const PixelMask& mask) {
+  const double squared = squaredBias(runs0, runs1, half0, half1, mask);
+  const size_t inRuns = countNonfinite(runs0, mask) + countNonfinite(runs1, mask);
+  const size_t inHalves = countNonfinite(half0, mask) + countNonfinite(half1, mask);
+  if (inRuns + inHalves > 0) {
+    return {std::numeric_limits<double>::quiet_NaN(),
+            fmt::format("{} non-finite values in the means of the runs, {} in the reference",
+                        inRuns, inHalves)};
+  }
+  return {std::sqrt(std::max(0.0, squared)), fmt::format("squared bias {:+.6g}", squared)};
+}
+
 double mseAgainstHalves(const Image& image, const Image& half0, const Image& half1,
-                        const std::vector<uint8_t>& mask) {
+                        const PixelMask& mask) {
   return squaredBias(image, image, half0, half1, mask);
 }
 

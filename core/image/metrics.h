@@ -1,9 +1,9 @@
 // Image metrics whose names fix their formulas. d = image - reference, r = reference, both in
-// linear Rec. 709; "mean" runs over all pixels and the three channels.
+// linear Rec. 709; "mean" runs over all pixels that count and the three channels.
 //
 // Sums are doubles taken in pixel order, so a value is the same for any thread count. A NaN or an
-// infinity anywhere in either image makes every metric but `nonfinite` NaN; the detail says how
-// many.
+// infinity in a pixel that counts, of either image, makes every metric but `nonfinite` NaN; the
+// detail says how many. Nothing else is left out, unless the formula says so.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,9 @@
 #include <string>
 #include <vector>
 
+#include "core/image/flip.h"
 #include "core/image/image.h"
+#include "core/image/mask.h"
 
 namespace restlab {
 
@@ -22,11 +24,23 @@ struct MetricValue {
   std::string detail;  // what else the number needs: the pixel, the peak, the dropped pixels; or ""
 };
 
+struct MetricOptions {
+  PixelMask mask;  // the pixels that count
+  FlipOptions flip;
+};
+
 struct MetricInfo {
   std::string name;
   std::string formula;          // one line for lists and reports
   bool higherIsBetter = false;  // energy_ratio: neither, its ideal is 1 (the formula says so)
-  std::function<MetricValue(const Image& image, const Image& reference)> function;
+  // Computed on the whole image, of which a mask then picks pixels: a value that is not finite
+  // counts wherever it is.
+  bool readsNeighbours = false;
+  // Needs several images (biasRms below); of a single one it is NaN.
+  bool needsRuns = false;
+  std::function<MetricValue(const Image& image, const Image& reference,
+                            const MetricOptions& options)>
+      function;
 };
 
 // All metrics, in the order of reports.
@@ -36,31 +50,37 @@ std::vector<std::string> metricNames();
 // Throws Error (badUsage) with the nearest name.
 const MetricInfo& findMetric(const std::string& name);
 
-// Throws Error: badUsage for an unknown name, badInput for empty images or different sizes.
-MetricValue evaluateMetric(const std::string& name, const Image& image, const Image& reference);
+// Throws Error: badUsage for an unknown name or options out of range, badInput for empty images,
+// different sizes or a mask of another size or of no pixel.
+MetricValue evaluateMetric(const std::string& name, const Image& image, const Image& reference,
+                           const MetricOptions& options = {});
 
 // NaN and infinite channel values in an image.
-size_t countNonfinite(const Image& image);
+size_t countNonfinite(const Image& image, const PixelMask& mask = {});
 
-// Mean of each channel, and of all.
-glm::dvec3 channelMeans(const Image& image);
+// Mean of each channel.
+glm::dvec3 channelMeans(const Image& image, const PixelMask& mask = {});
 
 // mean(image) / mean(reference), channel by channel. Throws Error (badInput) on different sizes.
 glm::dvec3 energyRatioPerChannel(const Image& image, const Image& reference);
 
 // mean (image - half0)(image - half1): the mean squared error of one image against the truth, with
 // no share of the reference's own error, where half0 and half1 are independent, unbiased halves of
-// the reference. May be negative when the error is below the reference's noise. `mask`, if not
-// empty, holds one byte a pixel; only pixels with a byte other than 0 count.
+// the reference. May be negative when the error is below the reference's noise.
 // Throws Error (badInput) on different sizes or a mask that selects nothing.
 double mseAgainstHalves(const Image& image, const Image& half0, const Image& half1,
-                        const std::vector<uint8_t>& mask = {});
+                        const PixelMask& mask = {});
 
 // mean (runs0 - half0)(runs1 - half1): squared bias of a method, where runs0 and runs1 are the
 // means of two disjoint sets of independent runs. Unbiased and signed: about 0, of either sign, for
 // an unbiased method.
 double squaredBias(const Image& runs0, const Image& runs1, const Image& half0, const Image& half1,
-                   const std::vector<uint8_t>& mask = {});
+                   const PixelMask& mask = {});
+
+// The metric bias_rms: the root of squaredBias, or 0 where that is negative; the detail has the
+// signed square.
+MetricValue biasRms(const Image& runs0, const Image& runs1, const Image& half0, const Image& half1,
+                    const PixelMask& mask = {});
 
 // One value a pixel, averaged over channels, whose mean is `mse` or `mseAgainstHalves`.
 std::vector<double> squaredErrorPerPixel(const Image& image, const Image& reference);

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/image/atomic_file.h"
+#include "core/image/color.h"
 #include "core/image/image.h"
 
 // Static, so that another library's copy of stb_image_write cannot clash with this one.
@@ -14,13 +15,11 @@
 namespace restlab {
 namespace {
 
-// IEC 61966-2-1. The comparisons are such that NaN cannot reach the conversion to an integer.
+// The comparisons are such that NaN cannot reach the conversion to an integer.
 uint8_t encodeSrgb8(float linear) {
   if (!(linear > 0.0f)) return 0;
   if (linear >= 1.0f) return 255;
-  const float encoded =
-      linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
-  return uint8_t(encoded * 255.0f + 0.5f);
+  return uint8_t(encodeSrgb(linear) * 255.0f + 0.5f);
 }
 
 void appendBytes(void* stream, void* data, int size) {

@@ -2,10 +2,18 @@ target_sources(rl_core PRIVATE
   image/atomic_file.cpp
   image/exr_read.cpp
   image/exr_write.cpp
+  image/flip.cpp
+  image/flip_color.cpp
+  image/flip_exposures.cpp
   image/half_products.cpp
   image/intervals.cpp
+  image/mask.cpp
   image/metrics.cpp
+  image/pixel_metrics.cpp
+  image/plane.cpp
   image/png.cpp
+  image/ssim.cpp
+  image/window_metrics.cpp
 )
 target_link_libraries(rl_core PUBLIC OpenEXR::OpenEXR PRIVATE Boost::headers)
 # As system headers, so that our warnings do not judge them.

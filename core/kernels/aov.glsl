@@ -13,6 +13,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     gBuffers.normalW.data[pixelIndex] = zero;
     gBuffers.albedo.data[pixelIndex] = zero;
     gBuffers.depth.data[pixelIndex] = zero;
+    gBuffers.object.data[pixelIndex] = zero;
     return;
   }
   Surface s = surfaceLoad(hit, ray.dir);
@@ -20,4 +21,6 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   gBuffers.normalW.data[pixelIndex] = s.nShadeW;
   gBuffers.albedo.data[pixelIndex] = s.bsdf.diffuse + s.bsdf.f0 + s.bsdf.transmission;
   gBuffers.depth.data[pixelIndex] = vec3(hit.t, hit.t, hit.t);
+  float object = float(hit.instance + 1u);
+  gBuffers.object.data[pixelIndex] = vec3(object, object, object);
 }

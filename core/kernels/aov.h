@@ -12,7 +12,8 @@ struct AovBuffers {
   Vec3Ref positionW;
   Vec3Ref normalW;
   Vec3Ref albedo;
-  Vec3Ref depth;  // metres along the ray, the same in all three channels; 0 where nothing is hit
+  Vec3Ref depth;   // metres along the ray, the same in all three channels; 0 where nothing is hit
+  Vec3Ref object;  // 1 + the scene's number of the instance, as depth
 };
 
 struct AovParams {

@@ -1,60 +1,22 @@
 // restlab compare: errors of images against a reference.
+#include "experiments/cli/compare.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <memory>
-#include <nlohmann/json.hpp>
 
-#include "core/image/metrics.h"
+#include "core/image/pixel_metrics.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/log.h"
-#include "experiments/runner/reference.h"
 
 namespace restlab {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-struct CompareOptions {
-  std::string reference, metrics;
-  std::vector<std::string> images, expectations;
-  bool json = false, anyReference = false;
-};
-
-// "mse<0.01": a bound that fails the comparison (exit code 1).
-struct Expectation {
-  std::string text, metric, relation;
-  double bound = 0.0;
-  bool holds(double value) const {
-    if (relation == "<") return value < bound;
-    if (relation == "<=") return value <= bound;
-    if (relation == ">") return value > bound;
-    return value >= bound;
-  }
-};
-
-Expectation parseExpectation(const std::string& text) {
-  Expectation expectation;
-  expectation.text = text;
-  const size_t at = text.find_first_of("<>");
-  if (at == std::string::npos || at == 0) {
-    failUsage(fmt::format("--expect {}: must be METRIC<VALUE, with <, <=, > or >=", text));
-  }
-  const size_t length = at + 1 < text.size() && text[at + 1] == '=' ? 2 : 1;
-  expectation.metric = findMetric(text.substr(0, at)).name;
-  expectation.relation = text.substr(at, length);
-  const std::string number = text.substr(at + length);
-  char* end = nullptr;
-  expectation.bound = std::strtod(number.c_str(), &end);
-  if (number.empty() || *end != '\0' || std::isnan(expectation.bound)) {
-    failUsage(fmt::format("--expect {}: '{}' is not a number", text, number));
-  }
-  return expectation;
-}
 
 bool identical(const Image& a, const Image& b) {
   return std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(glm::vec3)) == 0;
@@ -62,28 +24,21 @@ bool identical(const Image& a, const Image& b) {
 
 // `mse` against the halves, where there are halves, has no share of the reference's own noise. It
 // is meant for images that are independent of the reference, which the reference itself is not.
-MetricValue evaluate(const std::string& name, const Image& image, const Reference& reference) {
+MetricValue evaluate(const std::string& name, const Image& image, const Reference& reference,
+                     const MetricOptions& options) {
   if (name != "mse" || !reference.half0 || identical(image, reference.mean)) {
-    return evaluateMetric(name, image, reference.mean);
+    return evaluateMetric(name, image, reference.mean, options);
   }
-  return {mseAgainstHalves(image, *reference.half0, *reference.half1),
-          "against the reference's two halves"};
+  const double value = mseAgainstHalves(image, *reference.half0, *reference.half1, options.mask);
+  if (!std::isnan(value)) return {value, "against the reference's two halves"};
+  return {value, fmt::format("{} non-finite values in the image, {} in the reference's halves",
+                             countNonfinite(image, options.mask),
+                             countNonfinite(*reference.half0, options.mask) +
+                                 countNonfinite(*reference.half1, options.mask))};
 }
 
-Json finite(double value) {
-  if (std::isnan(value)) return "nan";
-  if (std::isinf(value)) return value > 0.0 ? "inf" : "-inf";
-  return value;
-}
-
-struct Compared {
-  std::string file;
-  size_t nonfinite = 0;
-  std::vector<MetricValue> values;
-};
-
-Compared compareOne(const std::string& file, const CompareOptions& options,
-                    const Reference& reference, const std::vector<std::string>& metrics) {
+LayeredImage readImage(const std::string& file, const CompareOptions& options,
+                       const Reference& reference) {
   LayeredImage read = readExr(file);
   const auto layer = read.layers.find("");
   if (layer == read.layers.end()) {
@@ -105,108 +60,150 @@ Compared compareOne(const std::string& file, const CompareOptions& options,
                                             error.what(), file));
     }
   }
-  Compared compared;
-  compared.file = file;
-  compared.nonfinite = countNonfinite(image);
-  for (const std::string& metric : metrics) {
-    compared.values.push_back(evaluate(metric, image, reference));
-  }
-  return compared;
+  return read;
 }
 
-void printTable(const std::vector<Compared>& all, const std::vector<std::string>& metrics) {
-  size_t width = std::strlen("image");
-  for (const Compared& one : all) width = std::max(width, one.file.size());
-  fmt::print("{:<{}}", "image", width);
-  for (const std::string& metric : metrics) fmt::print("  {:>14}", metric);
-  fmt::print("\n");
-  for (const Compared& one : all) {
-    fmt::print("{:<{}}", one.file, width);
-    for (size_t i = 0; i < metrics.size(); ++i) {
-      fmt::print("  {:>{}.6g}", one.values[i].value, std::max<size_t>(14, metrics[i].size()));
-    }
-    fmt::print("\n");
-    for (size_t i = 0; i < metrics.size(); ++i) {
-      if (!one.values[i].detail.empty()) {
-        logDetail(fmt::format("{}: {}: {}", one.file, metrics[i], one.values[i].detail));
-      }
-    }
-  }
-}
-
-void printJson(const std::vector<Compared>& all, const std::vector<std::string>& metrics,
-               const CompareOptions& options, const Reference& reference) {
-  Json json = {{"reference", options.reference},
-               {"reference_spp", reference.spp},
-               {"reference_has_halves", reference.half0.has_value()},
-               {"images", Json::array()}};
-  for (const Compared& one : all) {
-    Json values = Json::object(), details = Json::object();
-    for (size_t i = 0; i < metrics.size(); ++i) {
-      values[metrics[i]] = finite(one.values[i].value);
-      if (!one.values[i].detail.empty()) details[metrics[i]] = one.values[i].detail;
-    }
-    json["images"].push_back({{"file", one.file},
-                              {"nonfinite", one.nonfinite},
-                              {"metrics", values},
-                              {"details", details}});
-  }
-  fmt::print("{}\n", json.dump(2));
-}
-
-// Exit code 1 and a line for each image that holds non-finite values or breaks a bound.
-ExitCode judge(const std::vector<Compared>& all, const std::vector<std::string>& metrics,
-               const std::vector<Expectation>& expectations) {
-  ExitCode code = ExitCode::ok;
-  for (const Compared& one : all) {
-    if (one.nonfinite) {
-      logError(fmt::format("{}: holds {} non-finite values", one.file, one.nonfinite));
-      code = ExitCode::comparisonFailed;
-    }
-    for (const Expectation& expectation : expectations) {
-      const auto at = std::find(metrics.begin(), metrics.end(), expectation.metric);
-      const double value = one.values[size_t(at - metrics.begin())].value;
-      if (expectation.holds(value)) continue;
-      logError(fmt::format("{}: {} is {:.6g}, expected {}", one.file, expectation.metric, value,
-                           expectation.text));
-      code = ExitCode::comparisonFailed;
-    }
-  }
-  return code;
-}
-
-void compare(const CompareOptions& options, Outcome& outcome) {
+// Of all images together where a metric needs runs.
+std::vector<std::string> chosenMetrics(const CompareOptions& options,
+                                       const std::vector<Expectation>& expectations) {
   std::vector<std::string> metrics = {"mse", "relmse_e1e-2", "mape_e1e-2", "energy_ratio"};
-  if (!options.metrics.empty()) {
-    metrics = options.metrics == "all" ? metricNames() : splitList(options.metrics, "--metrics");
+  if (options.metrics == "all") {
+    metrics.clear();
+    for (const MetricInfo& metric : metricRegistry()) {
+      if (!metric.needsRuns) metrics.push_back(metric.name);
+    }
+  } else if (!options.metrics.empty()) {
+    metrics = splitList(options.metrics, "--metrics");
   }
-  std::vector<Expectation> expectations;
-  for (const std::string& text : options.expectations) {
-    expectations.push_back(parseExpectation(text));
-    metrics.push_back(expectations.back().metric);
+  if (!options.conventions.empty()) {
+    const std::vector<std::string>& known = relmseConventions();
+    for (const std::string& name : splitList(options.conventions, "--relmse-convention")) {
+      if (std::find(known.begin(), known.end(), name) == known.end()) {
+        failUsage(fmt::format("--relmse-convention {}: unknown (known: {}){}", name,
+                              fmt::join(known, ", "), didYouMean(name, known)));
+      }
+      metrics.push_back("relmse_" + name);
+    }
   }
+  for (const Expectation& expectation : expectations) metrics.push_back(expectation.metric);
   std::vector<std::string> unique;
   for (const std::string& metric : metrics) {
     const std::string& name = findMetric(metric).name;
     if (std::find(unique.begin(), unique.end(), name) == unique.end()) unique.push_back(name);
   }
-  const Reference reference = readReference(options.reference);
+  return unique;
+}
+
+FlipOptions flipOptions(const CompareOptions& options) {
+  FlipOptions flip;
+  flip.pixelsPerDegree = options.pixelsPerDegree;
+  if (options.flipExposures.empty()) return flip;
+  const std::vector<std::string> parts = splitList(options.flipExposures, "--flip-exposures");
+  double numbers[3] = {};
+  bool isGood = parts.size() == 3;
+  for (size_t i = 0; isGood && i < 3; ++i) {
+    const char* end = parts[i].data() + parts[i].size();
+    const auto [rest, status] = std::from_chars(parts[i].data(), end, numbers[i]);
+    isGood = status == std::errc() && rest == end;
+  }
+  isGood = isGood && numbers[2] >= 1.0 && numbers[2] <= kFlipMaxExposures &&
+           numbers[2] == std::floor(numbers[2]);
+  if (!isGood) {
+    failUsage(fmt::format("--flip-exposures {}: must be START,STOP,COUNT: stops, and 1 to {}",
+                          options.flipExposures, kFlipMaxExposures));
+  }
+  flip.exposures = FlipExposures{numbers[0], numbers[1], uint32_t(numbers[2])};
+  return flip;
+}
+
+void compare(const CompareOptions& options, Outcome& outcome) {
+  std::vector<Expectation> expectations;
+  for (const std::string& text : options.expectations) {
+    expectations.push_back(parseExpectation(text));
+  }
+  for (const std::string& text : options.maxima) expectations.push_back(parseMaximum(text));
+  Comparison comparison;
+  bool needsRuns = false;
+  for (const std::string& name : chosenMetrics(options, expectations)) {
+    if (!findMetric(name).needsRuns) {
+      comparison.metrics.push_back(name);
+    } else if (options.images.size() < 2) {
+      failUsage(fmt::format("{}: needs two images or more, independent runs of one method", name));
+    } else {
+      needsRuns = true;
+    }
+  }
+  MetricOptions metricOptions;
+  metricOptions.flip = flipOptions(options);
+  requireFlipOptions(metricOptions.flip);
+
+  comparison.reference = readReference(options.reference);
+  const Reference& reference = comparison.reference;
   const auto kind = reference.metadata.find("kind");
   const bool isRendered = reference.metadata.count("integrator") != 0;
   if (isRendered && (kind == reference.metadata.end() || kind->second != "reference")) {
     logWarning(fmt::format("{}: is an image, not a reference: its own noise is in every number",
                            options.reference));
   }
-  std::vector<Compared> all;
+  comparison.mask = chooseMask(options, reference);
+  metricOptions.mask = comparison.mask.mask;
+  RunHalves runs;
   for (const std::string& file : options.images) {
-    all.push_back(compareOne(file, options, reference, unique));
+    const LayeredImage read = readImage(file, options, reference);
+    const Image& image = read.layers.at("");
+    if (needsRuns) runs.add(file, read);
+    ComparedImage compared{file, countNonfinite(image), {}};
+    for (const std::string& metric : comparison.metrics) {
+      compared.values.push_back(evaluate(metric, image, reference, metricOptions));
+    }
+    comparison.images.push_back(std::move(compared));
   }
+  if (needsRuns) comparison.runs = runs.bias(reference, metricOptions.mask);
   if (options.json) {
-    printJson(all, unique, options, reference);
+    printJson(comparison, options);
   } else {
-    printTable(all, unique);
+    printTable(comparison);
   }
-  outcome.code = judge(all, unique, expectations);
+  outcome.code = judge(comparison, expectations);
+}
+
+void addMetricOptions(CLI::App& verb, CompareOptions& options) {
+  verb.add_option("--metrics", options.metrics,
+                  "comma-separated names (restlab list metrics), or all that a single image has; "
+                  "FLIP takes seconds; bias_rms takes the images as independent runs");
+  verb.add_option("--relmse-convention", options.conventions,
+                  "also the relative MSE as others compute it: pbrt, tev, jeri, siio, mean2");
+  verb.add_option("--ppd", options.pixelsPerDegree,
+                  "of FLIP: pixels per degree of the viewer's field (default 67.0206)")
+      ->check(finiteRange(kFlipMinPixelsPerDegree, kFlipMaxPixelsPerDegree));
+  verb.add_option("--flip-exposures", options.flipExposures,
+                  "of flip_hdr: START,STOP,COUNT in stops (default: from the reference)");
+}
+
+void addBoundOptions(CLI::App& verb, CompareOptions& options) {
+  verb.add_option("--max", options.maxima,
+                  "METRIC=VALUE: exit code 1 where an image has more, or NaN")
+      ->take_all()
+      ->allow_extra_args(false);
+  verb.add_option("--expect", options.expectations,
+                  "METRIC<VALUE (or <=, >, >=); exit code 1 where it does not hold")
+      ->take_all()
+      ->allow_extra_args(false);
+}
+
+void addMaskOptions(CLI::App& verb, CompareOptions& options) {
+  verb.add_option("--rect", options.rectangles,
+                  "X0,Y0,X1,Y1: only the pixels X0 <= x < X1, Y0 <= y < Y1; several are united")
+      ->take_all()
+      ->allow_extra_args(false);
+  verb.add_option("--object", options.objects,
+                  "name or number (--aov object): only pixels whose centre shows it; several are "
+                  "united")
+      ->take_all()
+      ->allow_extra_args(false);
+  verb.add_flag("--without-lights", options.withoutLights,
+                "only pixels that see no light or environment directly");
+  verb.add_option("--mask", options.maskFile, "EXR: only pixels where it is not 0");
 }
 
 }  // namespace
@@ -216,12 +213,9 @@ Action addCompareVerb(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("compare", "errors of images against a reference");
   verb->add_option("-r,--ref", options->reference, "the reference, an EXR")->required();
   verb->add_option("images", options->images, "EXR files")->required();
-  verb->add_option("--metrics", options->metrics,
-                   "comma-separated names, or all (restlab list metrics)");
-  verb->add_option("--expect", options->expectations,
-                   "METRIC<VALUE (or <=, >, >=); exit code 1 where it does not hold")
-      ->take_all()
-      ->allow_extra_args(false);
+  addMetricOptions(*verb, *options);
+  addMaskOptions(*verb, *options);
+  addBoundOptions(*verb, *options);
   verb->add_flag("--any-reference", options->anyReference,
                  "compare with a reference of another scene or setting");
   verb->add_flag("--json", options->json, "JSON on stdout");

@@ -90,7 +90,10 @@ Json denoisers() {
 Json metrics() {
   Json all = Json::array();
   for (const MetricInfo& metric : metricRegistry()) {
-    all.push_back({{"name", metric.name}, {"summary", metric.formula}});
+    all.push_back({{"name", metric.name},
+                   {"summary", metric.formula},
+                   {"higher_is_better", metric.higherIsBetter},
+                   {"needs_runs", metric.needsRuns}});
   }
   return all;
 }

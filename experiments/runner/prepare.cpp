@@ -54,6 +54,15 @@ uint64_t hashEnvironment(const EnvironmentMap& map, uint64_t seed) {
   return XXH3_64bits_withSeed(map.radiance.data(), bytes, hash);
 }
 
+float radiansOf(double degrees) { return float(degrees * std::numbers::pi / 180.0); }
+
+// In degrees, with as many digits as give the same radians again.
+std::string rotationText(float radians) {
+  const double degrees = radians * 180.0 / std::numbers::pi;
+  const std::string text = fmt::format("{:.6g}", degrees);
+  return radiansOf(std::stod(text)) == radians ? text : fmt::format("{:.12g}", degrees);
+}
+
 void setCamera(PreparedScene& prepared, const Scene& scene, const std::string& nameOrIndex) {
   prepared.camera = nameOrIndex.empty() ? 0 : findCamera(scene, nameOrIndex);
   const std::string& name = scene.cameras.at(prepared.camera).name;
@@ -93,7 +102,7 @@ PreparedScene prepareScene(const SceneRequest& request) {
                           request.scene));
   }
   if (request.environmentRotation) {
-    scene.environment->rotation = float(*request.environmentRotation * std::numbers::pi / 180.0);
+    scene.environment->rotation = radiansOf(*request.environmentRotation);
   }
   if (request.environmentScale) scene.environment->scale = float(*request.environmentScale);
   prepared.contentHash = scene.contentHash;
@@ -206,8 +215,7 @@ std::map<std::string, std::string> describe(const PreparedScene& prepared,
       {"reference_sources", buildInfo().referenceHash},
   };
   if (source.environment) {
-    words["environment_rotation"] =
-        fmt::format("{:.6g}", source.environment->rotation * 180.0 / std::numbers::pi);
+    words["environment_rotation"] = rotationText(source.environment->rotation);
     words["environment_scale"] = fmt::format("{:.9g}", source.environment->scale);
   }
   const ParameterMap all = resolveParameters(findIntegrator(config.integrator), config.parameters);

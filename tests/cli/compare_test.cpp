@@ -1,35 +1,11 @@
 // restlab compare: known errors, exit codes, JSON.
 #include <limits>
-#include <nlohmann/json.hpp>
 
-#include "core/image/image.h"
-#include "tests/cli/program.h"
+#include "tests/cli/compare_fixture.h"
 
 namespace restlab::cli_test {
 
 namespace {
-
-class CompareTest : public ProgramTest {
- protected:
-  void writeConstant(const std::string& name, float value, uint32_t side = 8) const {
-    LayeredImage image;
-    image.layers[""] = Image(side, side, glm::vec3(value));
-    writeExr(path(name), image);
-  }
-  // A reference of value 0.5 whose halves are 0.5 +- 0.1.
-  void writeReferenceWithHalves() const {
-    LayeredImage image;
-    image.layers[""] = Image(8, 8, glm::vec3(0.5f));
-    image.layers["half0"] = Image(8, 8, glm::vec3(0.6f));
-    image.layers["half1"] = Image(8, 8, glm::vec3(0.4f));
-    writeExr(path("ref.exr"), image);
-  }
-  nlohmann::json json(const std::string& arguments) const {
-    const ProgramResult result = run("compare " + arguments + " --json");
-    EXPECT_EQ(result.code, 0) << result.err;
-    return nlohmann::json::parse(result.out);
-  }
-};
 
 TEST_F(CompareTest, KnownErrors) {
   writeConstant("ref.exr", 0.5f);
@@ -96,6 +72,73 @@ TEST_F(CompareTest, BrokenExpectationIsExitCode1) {
   EXPECT_NE(broken.out, "") << "the table is printed all the same";
 }
 
+TEST_F(CompareTest, MaximumIsForScripts) {
+  writeConstant("ref.exr", 0.5f);
+  writeConstant("a.exr", 0.4f);
+  EXPECT_EQ(run("compare --ref ref.exr a.exr --max mse=0.02 --max mae=0.11").code, 0);
+  const ProgramResult above = run("compare --ref ref.exr a.exr ref.exr --max mse=0.02 --max mae=0");
+  EXPECT_EQ(above.code, 1);
+  ASSERT_EQ(above.errors().size(), 1u) << "a.exr, but not the reference itself";
+  EXPECT_NE(above.errors()[0].find("a.exr: mae is 0.1"), std::string::npos) << above.err;
+  EXPECT_NE(above.out.find("mae"), std::string::npos) << "a bound's metric is printed";
+  // NaN is not below anything.
+  writeConstant("black.exr", 0.0f);
+  EXPECT_EQ(run("compare --ref black.exr a.exr --max flip_hdr=1").code, 1);
+  EXPECT_EQ(run("compare --ref black.exr a.exr --max relmse_mean2=inf").code, 1);
+}
+
+TEST_F(CompareTest, RadianceIsReadAsItIs) {
+  writeConstant("ref.exr", 40.0f);
+  writeConstant("a.exr", 50.0f);
+  writeConstant("b.exr", -1.0f);
+  const auto result = json("--ref ref.exr a.exr b.exr --metrics mse,max_err");
+  EXPECT_NEAR(result["images"][0]["metrics"]["mse"].get<double>(), 100.0, 1e-9);
+  EXPECT_NEAR(result["images"][1]["metrics"]["max_err"].get<double>(), 41.0, 1e-9);
+}
+
+TEST_F(CompareTest, ConventionsAreInTheNames) {
+  writeConstant("ref.exr", 0.5f);
+  writeConstant("a.exr", 0.4f);
+  const auto result = json("--ref ref.exr a.exr --relmse-convention pbrt,jeri --metrics mae");
+  const auto& values = result["images"][0]["metrics"];
+  EXPECT_EQ(values.size(), 3u);
+  EXPECT_NEAR(values["relmse_pbrt"].get<double>(), 0.01 / (0.51 * 0.51), 1e-6);
+  EXPECT_NEAR(values["relmse_jeri"].get<double>(), 0.01 / 0.2501, 1e-6);
+  const ProgramResult list = run("list metrics");
+  for (const char* formula : {"relmse_pbrt           mean d^2 / (r + 1e-2)^2", "mean(r)^2",
+                              "Andersson et al. 2020", "Wang et al. 2004", "bias_rms"}) {
+    EXPECT_NE(list.out.find(formula), std::string::npos) << list.out;
+  }
+}
+
+// Seconds of work that nobody asked for.
+TEST_F(CompareTest, FlipIsComputedWhenAsked) {
+  writeConstant("ref.exr", 0.5f);
+  writeConstant("a.exr", 0.4f);
+  EXPECT_EQ(run("compare --ref ref.exr a.exr").out.find("flip"), std::string::npos);
+  const auto all = json("--ref ref.exr a.exr --metrics all");
+  EXPECT_NEAR(all["images"][0]["metrics"]["flip_ldr"].get<double>(), 0.2155923, 1e-6);
+  EXPECT_FALSE(all.contains("runs")) << "nobody said that the images are runs of one method";
+  const auto flip = json(
+      "--ref ref.exr a.exr --metrics flip_hdr,flip_ldr --ppd 30 "
+      "--flip-exposures -1,2,4");
+  const std::string detail = flip["images"][0]["details"]["flip_hdr"].get<std::string>();
+  for (const char* part : {"30 pixels per degree", "ACES", "4 exposures"}) {
+    EXPECT_NE(detail.find(part), std::string::npos) << detail;
+  }
+  EXPECT_NE(run("compare --ref ref.exr a.exr --metrics flip_ldr").err.find("67.0206 pixels"),
+            std::string::npos)
+      << "a number of FLIP comes with how it was computed";
+}
+
+TEST_F(CompareTest, ReasonOfNanIsSaid) {
+  writeConstant("black.exr", 0.0f);
+  writeConstant("a.exr", 0.4f);
+  const ProgramResult result = run("compare --ref black.exr a.exr --metrics flip_hdr -q");
+  EXPECT_NE(result.out.find("nan"), std::string::npos);
+  EXPECT_NE(result.err.find("no light"), std::string::npos) << result.err;
+}
+
 TEST_F(CompareTest, NonfiniteImageFails) {
   writeConstant("ref.exr", 0.5f);
   LayeredImage image;
@@ -104,9 +147,15 @@ TEST_F(CompareTest, NonfiniteImageFails) {
   writeExr(path("nan.exr"), image);
   const ProgramResult result = run("compare --ref ref.exr nan.exr --json");
   EXPECT_EQ(result.code, 1);
-  const auto json = nlohmann::json::parse(result.out);
+  auto json = nlohmann::json::parse(result.out);
   EXPECT_EQ(json["images"][0]["nonfinite"], 1);
   EXPECT_EQ(json["images"][0]["metrics"]["mse"], "nan") << "never silently skipped";
+  EXPECT_NE(json["images"][0]["details"]["mse"].get<std::string>().find("1 non-finite"),
+            std::string::npos);
+  // Outside of a mask it does not matter to the metric, but to the image.
+  const ProgramResult masked = run("compare --ref ref.exr nan.exr --rect 0,0,3,3 --json");
+  EXPECT_EQ(masked.code, 1);
+  EXPECT_EQ(nlohmann::json::parse(masked.out)["images"][0]["metrics"]["mse"], 0.0);
 }
 
 TEST_F(CompareTest, OtherSizeIsExitCode3) {
@@ -133,6 +182,15 @@ TEST_F(CompareTest, BadArguments) {
   expectError(run("compare --ref ref.exr ref.exr --metrics msee"), 2, {"msee", "'mse'"});
   expectError(run("compare --ref ref.exr ref.exr --expect mse=1"), 2, {"mse=1"});
   expectError(run("compare --ref ref.exr ref.exr --expect mse<x"), 2, {"'x'"});
+  expectError(run("compare --ref ref.exr ref.exr --max mse<1"), 2, {"mse<1", "METRIC=VALUE"});
+  expectError(run("compare --ref ref.exr ref.exr --max mse=x"), 2, {"'x'"});
+  expectError(run("compare --ref ref.exr ref.exr --max msee=1"), 2, {"msee", "'mse'"});
+  expectError(run("compare --ref ref.exr ref.exr --relmse-convention tve"), 2, {"'tev'"});
+  expectError(run("compare --ref ref.exr ref.exr --ppd 0"), 2, {"--ppd"});
+  for (const char* exposures : {"1,2", "1,2,0", "1,2,3.5", "1,2,x", "2,1,3", "1,200,3"}) {
+    expectError(run(std::string("compare --ref ref.exr ref.exr --flip-exposures ") + exposures), 2,
+                {"xposures"});
+  }
   expectError(run("compare --ref absent.exr ref.exr"), 3, {"absent.exr"});
   expectError(run("compare --ref ref.exr absent.exr"), 3, {"absent.exr"});
   expectError(run("compare --ref broken.exr ref.exr"), 3, {"broken.exr"});

@@ -58,7 +58,7 @@ TEST_F(RenderTest, FirstHitLayersHoldTheSceneThatIsSeen) {
                      R"(, "pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 0, 1],
                         "metallicFactor": 0})"));
   ASSERT_EQ(run("render triangle.gltf -o x.exr --resolution 16x16 --filter center "
-                "--aov radiance,positionW,normalW,albedo,depth")
+                "--aov radiance,positionW,normalW,albedo,depth,object")
                 .code,
             0);
   const LayeredImage image = readExr(path("x.exr"));
@@ -70,7 +70,7 @@ TEST_F(RenderTest, FirstHitLayersHoldTheSceneThatIsSeen) {
       SCOPED_TRACE(std::to_string(x) + ", " + std::to_string(y));
       EXPECT_EQ(layer("radiance"), image.layers.at("").pixels[i]);
       if (x >= 8) {
-        for (const char* name : {"positionW", "normalW", "albedo", "depth"})
+        for (const char* name : {"positionW", "normalW", "albedo", "depth", "object"})
           EXPECT_EQ(layer(name), zero) << name;
         continue;
       }
@@ -79,6 +79,7 @@ TEST_F(RenderTest, FirstHitLayersHoldTheSceneThatIsSeen) {
       EXPECT_LT(posW.x, 0.3F);
       EXPECT_NEAR(layer("depth").x, glm::length(posW - eye), 1e-5F);
       EXPECT_NEAR(glm::length(layer("normalW") - glm::vec3(0, 0, 1)), 0.0F, 1e-5F);
+      EXPECT_EQ(layer("object"), glm::vec3(1.0F));
       // The diffuse colour and 4 % of specular reflection at normal incidence.
       EXPECT_NEAR(glm::length(layer("albedo") - glm::vec3(0.54F, 0.29F, 0.04F)), 0.0F, 1e-5F);
     }

@@ -1,8 +1,12 @@
 set(RL_IMAGE_TESTS
   image/exr_damage_test.cpp
   image/exr_test.cpp
+  image/flip_test.cpp
   image/intervals_test.cpp
+  image/metric_mask_test.cpp
+  image/metric_traps_test.cpp
   image/metrics_test.cpp
   image/output_test.cpp
   image/png_test.cpp
+  image/ssim_test.cpp
 )

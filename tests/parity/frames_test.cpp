@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <set>
 #include <tuple>
 
 #include "core/error.h"
@@ -260,6 +261,29 @@ TEST(LargeFrame, IsValidInSeveralDispatches) {
   } catch (const Error& error) {
     if (std::string(error.what()).find("layers are not installed") == std::string::npos) throw;
     GTEST_SKIP() << error.what();
+  }
+}
+
+// The number of an instance, which each way of tracing rays finds in another place.
+TEST(FirstHitLayers, ObjectsHaveTheSameNumbers) {
+  if (!hasVulkan()) GTEST_SKIP() << kNoDevice;
+  const auto scene = sceneNamed("courtyard");
+  const auto objectsOn = [&](const Machine& where) {
+    Session session(scene, configOf({"path", "", ""}, where, 40, 30, 3));
+    session.frame();
+    return session.aov("object");
+  };
+  const Image cpu = objectsOn(kCpuEmbree);
+  for (const Machine& where : {kCpuBvh, kVulkanSpecialised}) {
+    const Image other = objectsOn(where);
+    size_t different = 0;
+    std::set<float> seen;
+    for (size_t i = 0; i < cpu.pixels.size(); ++i) {
+      different += other.pixels[i] == cpu.pixels[i] ? 0 : 1;
+      seen.insert(other.pixels[i].x);
+    }
+    EXPECT_LE(different, 2u) << where.name << ": rays past an edge";
+    EXPECT_GT(seen.size(), 20u) << where.name;
   }
 }
 

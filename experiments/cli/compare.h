@@ -1,0 +1,88 @@
+// What the parts of `restlab compare` share.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/image/metrics.h"
+#include "experiments/runner/accumulate.h"
+#include "experiments/runner/reference.h"
+
+namespace restlab {
+
+struct CompareOptions {
+  std::string reference, metrics, conventions, flipExposures, maskFile;
+  std::vector<std::string> images, expectations, maxima, rectangles, objects;
+  double pixelsPerDegree = kFlipPixelsPerDegree;
+  bool json = false, anyReference = false, withoutLights = false;
+};
+
+// A bound that fails the comparison (exit code 1). NaN never holds.
+struct Expectation {
+  std::string text, metric, relation;
+  double bound = 0.0;
+  bool holds(double value) const;
+};
+
+// From --expect "mse<0.01" and --max "mse=0.01". Throws Error (badUsage).
+Expectation parseExpectation(const std::string& text);
+Expectation parseMaximum(const std::string& text);
+
+struct MaskChoice {
+  PixelMask mask;    // empty: all pixels
+  std::string text;  // what it selects; "" for all pixels
+};
+
+// The pixels that count, by --mask, --rect, --object and --without-lights: those that all of them
+// select. The latter two trace the scene that the reference's metadata name. Throws Error:
+// badUsage, badInput.
+MaskChoice chooseMask(const CompareOptions& options, const Reference& reference);
+
+struct ComparedImage {
+  std::string file;
+  size_t nonfinite = 0;  // in all of its pixels
+  std::vector<MetricValue> values;
+};
+
+// bias_rms of all images together.
+struct ComparedRuns {
+  size_t count = 0;
+  double squaredBias = 0.0;  // signed
+  MetricValue biasRms;
+};
+
+// Images that are independent runs of one method, in two halves.
+class RunHalves {
+ public:
+  // Throws Error (badInput) naming what says that `image` is no independent run of the method of
+  // the others.
+  void add(const std::string& file, const LayeredImage& image);
+  ComparedRuns bias(const Reference& reference, const PixelMask& mask) const;
+
+ private:
+  struct Run {
+    std::string file;
+    std::map<std::string, std::string> metadata;
+    uint64_t pixelHash = 0;
+  };
+  std::vector<Run> runs_;
+  ImageSum halves_[2];
+};
+
+struct Comparison {
+  Reference reference;
+  std::vector<std::string> metrics;  // of one image each
+  MaskChoice mask;
+  std::vector<ComparedImage> images;
+  std::optional<ComparedRuns> runs;
+};
+
+void printTable(const Comparison& comparison);
+void printJson(const Comparison& comparison, const CompareOptions& options);
+
+// Logs an error for each image that holds non-finite values and for each bound that does not hold.
+ExitCode judge(const Comparison& comparison, const std::vector<Expectation>& expectations);
+
+}  // namespace restlab

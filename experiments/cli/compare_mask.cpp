@@ -1,0 +1,94 @@
+// Which pixels `restlab compare` looks at.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "experiments/cli/compare.h"
+#include "experiments/cli/options.h"
+#include "experiments/runner/image_scene.h"
+#include "experiments/runner/light_mask.h"
+#include "experiments/runner/object_mask.h"
+
+namespace restlab {
+
+namespace {
+
+PixelRectangle parseRectangle(const std::string& text) {
+  const std::vector<std::string> parts = splitList(text, "--rect");
+  uint32_t sides[4] = {};
+  bool isGood = parts.size() == 4;
+  for (size_t i = 0; isGood && i < 4; ++i) {
+    const char* end = parts[i].data() + parts[i].size();
+    const auto [rest, status] = std::from_chars(parts[i].data(), end, sides[i]);
+    isGood = status == std::errc() && rest == end;
+  }
+  if (!isGood) {
+    failUsage(fmt::format("--rect {}: must be X0,Y0,X1,Y1, whole pixels from the upper left corner",
+                          text));
+  }
+  return {sides[0], sides[1], sides[2], sides[3]};
+}
+
+PixelMask readMask(const std::string& file, const Image& reference) {
+  const LayeredImage read = readExr(file);
+  const auto layer = read.layers.find("");
+  if (layer == read.layers.end()) {
+    failInput(fmt::format("{}: has no R, G, B channels outside named layers", file));
+  }
+  const Image& image = layer->second;
+  if (image.width != reference.width || image.height != reference.height) {
+    failInput(fmt::format("{}: the mask is {}x{}, the reference {}x{}", file, image.width,
+                          image.height, reference.width, reference.height));
+  }
+  return maskOfImage(image);
+}
+
+class MaskBuilder {
+ public:
+  // Only pixels that `mask` selects; `text` says which.
+  void keep(const PixelMask& mask, const std::string& text) {
+    choice_.mask = intersection(choice_.mask, mask);
+    choice_.text += (choice_.text.empty() ? "" : ", ") + text;
+  }
+  // Throws where no pixel is left.
+  MaskChoice finish() const {
+    const auto isSet = [](uint8_t byte) { return byte != 0; };
+    if (!choice_.mask.empty() && std::none_of(choice_.mask.begin(), choice_.mask.end(), isSet)) {
+      failInput(fmt::format("no pixel is left to compare: {}", choice_.text));
+    }
+    return choice_;
+  }
+
+ private:
+  MaskChoice choice_;
+};
+
+}  // namespace
+
+MaskChoice chooseMask(const CompareOptions& options, const Reference& reference) {
+  const Image& image = reference.mean;
+  MaskBuilder builder;
+  if (!options.maskFile.empty()) {
+    builder.keep(readMask(options.maskFile, image), "--mask " + options.maskFile);
+  }
+  if (!options.rectangles.empty()) {
+    std::vector<PixelRectangle> rectangles;
+    for (const std::string& text : options.rectangles) rectangles.push_back(parseRectangle(text));
+    builder.keep(maskOfRectangles(image.width, image.height, rectangles),
+                 fmt::format("--rect {}", fmt::join(options.rectangles, " ")));
+  }
+  if (!options.objects.empty() || options.withoutLights) {
+    const ImageScene scene = sceneOfImage(options.reference, reference.metadata);
+    if (!options.objects.empty()) {
+      builder.keep(pixelsOfObjects(scene.prepared, scene.config, options.objects),
+                   fmt::format("--object {}", fmt::join(options.objects, " ")));
+    }
+    if (options.withoutLights) {
+      builder.keep(pixelsWithoutLights(scene.prepared, scene.config), "--without-lights");
+    }
+  }
+  return builder.finish();
+}
+
+}  // namespace restlab

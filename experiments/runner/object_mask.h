@@ -1,0 +1,18 @@
+// Which pixels show an object.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/image/mask.h"
+#include "experiments/runner/prepare.h"
+
+namespace restlab {
+
+// 1 where the ray through the pixel's centre first meets one of the objects. An object is a name
+// that instances of the scene have, or a number as in the AOV layer `object`. `config` gives camera
+// and size. Throws Error (badUsage) with the nearest name.
+PixelMask pixelsOfObjects(const PreparedScene& prepared, SessionConfig config,
+                          const std::vector<std::string>& objects);
+
+}  // namespace restlab
