@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 
 #include "core/image/pixel_metrics.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
+#include "experiments/runner/compare_folders.h"
 #include "experiments/runner/log.h"
 
 namespace restlab {
@@ -206,20 +209,43 @@ void addMaskOptions(CLI::App& verb, CompareOptions& options) {
   verb.add_option("--mask", options.maskFile, "EXR: only pixels where it is not 0");
 }
 
+// Two folders instead of a reference and images.
+void compareResults(const CompareOptions& options) {
+  const std::vector<std::string>& folders = options.images;
+  const bool areFolders = std::all_of(folders.begin(), folders.end(), [](const std::string& name) {
+    std::error_code status;
+    return std::filesystem::is_directory(name, status);
+  });
+  if (!areFolders) failUsage("compare: images need --ref, the reference they are compared with");
+  if (folders.size() != 2)
+    failUsage(fmt::format("compare: takes two folders of results, not {}", folders.size()));
+  const FolderComparison comparison = compareFolders(folders[0], folders[1]);
+  if (options.json) {
+    fmt::print("{}\n", comparisonJson(comparison).dump(2));
+  } else {
+    std::fputs(comparisonTable(comparison).c_str(), stdout);
+  }
+}
+
 }  // namespace
 
 Action addCompareVerb(CLI::App& app) {
   auto options = std::make_shared<CompareOptions>();
   CLI::App* verb = app.add_subcommand("compare", "errors of images against a reference");
-  verb->add_option("-r,--ref", options->reference, "the reference, an EXR")->required();
-  verb->add_option("images", options->images, "EXR files")->required();
+  verb->add_option("-r,--ref", options->reference, "the reference, an EXR");
+  verb->add_option("images", options->images,
+                   "EXR files; or two folders that `run` left, the older first")
+      ->required();
   addMetricOptions(*verb, *options);
   addMaskOptions(*verb, *options);
   addBoundOptions(*verb, *options);
   verb->add_flag("--any-reference", options->anyReference,
                  "compare with a reference of another scene or setting");
   verb->add_flag("--json", options->json, "JSON on stdout");
-  return [options](Outcome& outcome) { compare(*options, outcome); };
+  return [options](Outcome& outcome) {
+    if (!options->reference.empty()) return compare(*options, outcome);
+    compareResults(*options);
+  };
 }
 
 }  // namespace restlab

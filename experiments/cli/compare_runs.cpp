@@ -3,8 +3,10 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <map>
 
 #include "experiments/cli/compare.h"
+#include "experiments/runner/build_info.h"
 
 namespace restlab {
 
@@ -14,8 +16,9 @@ namespace {
 bool mayDiffer(const std::string& key) {
   static const std::vector<std::string> keys = {
       "seed",        "render_time_s",     "health", "backend", "device",
-      "ray_tracing", "features_left_out", "kernel"};
-  return std::find(keys.begin(), keys.end(), key) != keys.end();
+      "ray_tracing", "features_left_out", "kernel", "mse",     "time_ms_median"};
+  static const std::map<std::string, std::string> provenance = provenanceWords();
+  return std::find(keys.begin(), keys.end(), key) != keys.end() || provenance.count(key) != 0;
 }
 
 }  // namespace

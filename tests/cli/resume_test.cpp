@@ -265,6 +265,37 @@ TEST_F(ResumeTest, EveryRowAndImageSaysWhereItComesFrom) {
     EXPECT_NE(words.count(word), 0u) << word;
 }
 
+TEST_F(ResumeTest, FoldersAreComparedMethodByMethod) {
+  ASSERT_EQ(run("run suite.toml --out a --set runs=6").code, 0);
+  ASSERT_EQ(run("run suite.toml --out b --set runs=6").code, 0);
+  // The same sources and seeds: the same errors, bit for bit.
+  const auto same = nlohmann::json::parse(run("compare a b --json").out);
+  ASSERT_EQ(same["rows"].size(), 2u);
+  for (const auto& row : same["rows"]) {
+    EXPECT_EQ(row["mse_ratio"]["value"], 1.0);
+    EXPECT_EQ(row["error"], "not told apart");
+    EXPECT_EQ(row["times_over_path"], row["method"] == "gi");
+  }
+  // A reservoir that forgets is worse: the interval of the ratio leaves out 1.
+  ASSERT_EQ(
+      run("run suite.toml --out c --set runs=6 --set warmup_frames=24 --set scenes=door-ajar").code,
+      0);
+  ASSERT_EQ(
+      run("run suite.toml --out d --set runs=6 --set warmup_frames=0 --set scenes=door-ajar").code,
+      0);
+  const auto worse = nlohmann::json::parse(run("compare c d --json").out);
+  EXPECT_EQ(worse["rows"][1]["method"], "gi");
+  EXPECT_EQ(worse["rows"][1]["error"], "worse") << worse.dump(1);
+  const auto better = nlohmann::json::parse(run("compare d c --json").out);
+  EXPECT_EQ(better["rows"][1]["error"], "better");
+  const ProgramResult table = run("compare d c");
+  EXPECT_EQ(table.code, 0) << table.err;
+  EXPECT_NE(table.out.find("| door-ajar-all | gi |"), std::string::npos) << table.out;
+  expectError(run("compare a c -q"), 3, {"no method of a table in common"});
+  expectError(run("compare a -q"), 2, {"two folders"});
+  expectError(run("compare a nowhere.exr -q"), 2, {"--ref"});
+}
+
 TEST_F(ResumeTest, SweepsMakeTablesAndMethods) {
   const ProgramResult result =
       run("run suite.toml --out out --sweep max_bounces=1..2 --sweep confidence_cap=4.0,8.0 --set "
