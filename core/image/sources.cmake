@@ -6,6 +6,7 @@ target_sources(rl_core PRIVATE
   image/intervals.cpp
   image/metrics.cpp
   image/png.cpp
+  image/srgb.cpp
 )
 target_link_libraries(rl_core PUBLIC OpenEXR::OpenEXR PRIVATE Boost::headers)
 # As system headers, so that our warnings do not judge them.

@@ -7,11 +7,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "core/image/metrics.h"
+#include "experiments/cli/against_reference.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/log.h"
-#include "experiments/runner/reference.h"
 
 namespace restlab {
 
@@ -56,20 +55,6 @@ Expectation parseExpectation(const std::string& text) {
   return expectation;
 }
 
-bool identical(const Image& a, const Image& b) {
-  return std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(glm::vec3)) == 0;
-}
-
-// `mse` against the halves, where there are halves, has no share of the reference's own noise. It
-// is meant for images that are independent of the reference, which the reference itself is not.
-MetricValue evaluate(const std::string& name, const Image& image, const Reference& reference) {
-  if (name != "mse" || !reference.half0 || identical(image, reference.mean)) {
-    return evaluateMetric(name, image, reference.mean);
-  }
-  return {mseAgainstHalves(image, *reference.half0, *reference.half1),
-          "against the reference's two halves"};
-}
-
 Json finite(double value) {
   if (std::isnan(value)) return "nan";
   if (std::isinf(value)) return value > 0.0 ? "inf" : "-inf";
@@ -84,32 +69,12 @@ struct Compared {
 
 Compared compareOne(const std::string& file, const CompareOptions& options,
                     const Reference& reference, const std::vector<std::string>& metrics) {
-  LayeredImage read = readExr(file);
-  const auto layer = read.layers.find("");
-  if (layer == read.layers.end()) {
-    failInput(fmt::format("{}: has no R, G, B channels outside named layers", file));
-  }
-  const Image& image = layer->second;
-  if (image.width != reference.mean.width || image.height != reference.mean.height) {
-    failInput(fmt::format("{}: is {}x{}, the reference {} is {}x{}", file, image.width,
-                          image.height, options.reference, reference.mean.width,
-                          reference.mean.height));
-  }
-  const bool bothDescribed =
-      reference.metadata.count("scene_hash") && read.metadata.count("scene_hash");
-  if (bothDescribed && !options.anyReference) {
-    try {
-      requireSameConfiguration(options.reference, reference.metadata, read.metadata);
-    } catch (const Error& error) {
-      throw Error(error.code(), fmt::format("{} as in {} (--any-reference compares all the same)",
-                                            error.what(), file));
-    }
-  }
+  const Image image = readBeside(file, options.reference, reference, options.anyReference);
   Compared compared;
   compared.file = file;
   compared.nonfinite = countNonfinite(image);
   for (const std::string& metric : metrics) {
-    compared.values.push_back(evaluate(metric, image, reference));
+    compared.values.push_back(errorAgainst(metric, image, reference));
   }
   return compared;
 }
@@ -191,12 +156,7 @@ void compare(const CompareOptions& options, Outcome& outcome) {
     if (std::find(unique.begin(), unique.end(), name) == unique.end()) unique.push_back(name);
   }
   const Reference reference = readReference(options.reference);
-  const auto kind = reference.metadata.find("kind");
-  const bool isRendered = reference.metadata.count("integrator") != 0;
-  if (isRendered && (kind == reference.metadata.end() || kind->second != "reference")) {
-    logWarning(fmt::format("{}: is an image, not a reference: its own noise is in every number",
-                           options.reference));
-  }
+  warnOfNoReference(options.reference, reference);
   std::vector<Compared> all;
   for (const std::string& file : options.images) {
     all.push_back(compareOne(file, options, reference, unique));

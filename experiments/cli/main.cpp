@@ -117,6 +117,7 @@ int main(int argc, char** argv) {
                              {"render", addRenderVerb(app)},
                              {"reference", addReferenceVerb(app)},
                              {"compare", addCompareVerb(app)},
+                             {"figure", addFigureVerb(app)},
                              {"info", addInfoVerb(app)},
                              {"list", addListVerb(app)},
                              {"bench", addBenchVerb(app)}};

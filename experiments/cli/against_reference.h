@@ -1,0 +1,25 @@
+// Images beside a reference: what must agree, and their errors.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "core/image/metrics.h"
+#include "experiments/runner/reference.h"
+
+namespace restlab {
+
+// The R, G, B of an EXR. Throws Error (badInput) where it cannot be read, has none outside named
+// layers, has another size than the reference, or, unless `anyReference`, says that it is of
+// another scene or setting.
+Image readBeside(const std::string& file, const std::string& referenceFile,
+                 const Reference& reference, bool anyReference);
+
+// `mse` against the reference's halves where it has them and is not the image itself: without the
+// reference's own noise. Every other metric against its mean.
+MetricValue errorAgainst(const std::string& metric, const Image& image, const Reference& reference);
+
+// Says in a warning where the reference is a rendered image, whose own noise is in every number.
+void warnOfNoReference(const std::string& file, const Reference& reference);
+
+}  // namespace restlab
