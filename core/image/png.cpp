@@ -1,11 +1,9 @@
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "core/error.h"
 #include "core/image/atomic_file.h"
-#include "core/image/color.h"
 #include "core/image/image.h"
+#include "core/image/srgb.h"
 
 // Static, so that another library's copy of stb_image_write cannot clash with this one.
 #define STB_IMAGE_WRITE_STATIC
@@ -14,13 +12,6 @@
 
 namespace restlab {
 namespace {
-
-// The comparisons are such that NaN cannot reach the conversion to an integer.
-uint8_t encodeSrgb8(float linear) {
-  if (!(linear > 0.0f)) return 0;
-  if (linear >= 1.0f) return 255;
-  return uint8_t(encodeSrgb(linear) * 255.0f + 0.5f);
-}
 
 void appendBytes(void* stream, void* data, int size) {
   static_cast<std::ofstream*>(stream)->write(static_cast<const char*>(data), size);
@@ -35,15 +26,7 @@ void writePng(const std::filesystem::path& file, const Image& image, float expos
     failInput(fmt::format("{}: cannot write a PNG of {}x{} pixels", file.string(), image.width,
                           image.height));
   }
-  std::vector<uint8_t> bytes;
-  bytes.reserve(image.pixels.size() * 3);
-  for (const glm::vec3& pixel : image.pixels) {
-    if (std::isnan(pixel.x) || std::isnan(pixel.y) || std::isnan(pixel.z)) {
-      bytes.insert(bytes.end(), {255, 0, 255});  // magenta: a NaN must be seen
-    } else {
-      for (int c = 0; c < 3; ++c) bytes.push_back(encodeSrgb8(pixel[c] * exposure));
-    }
-  }
+  const std::vector<uint8_t> bytes = srgbBytes(image, exposure);
   AtomicFile output(file);
   if (stbi_write_png_to_func(appendBytes, &output.stream(), int(image.width), int(image.height), 3,
                              bytes.data(), int(image.width) * 3) == 0) {

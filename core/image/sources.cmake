@@ -14,6 +14,7 @@ target_sources(rl_core PRIVATE
   image/png.cpp
   image/ssim.cpp
   image/window_metrics.cpp
+  image/srgb.cpp
 )
 target_link_libraries(rl_core PUBLIC OpenEXR::OpenEXR PRIVATE Boost::headers)
 # As system headers, so that our warnings do not judge them.

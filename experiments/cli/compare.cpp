@@ -12,6 +12,7 @@
 #include <memory>
 
 #include "core/image/pixel_metrics.h"
+#include "experiments/cli/against_reference.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/compare_folders.h"
@@ -20,51 +21,6 @@
 namespace restlab {
 
 namespace {
-
-bool identical(const Image& a, const Image& b) {
-  return std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(glm::vec3)) == 0;
-}
-
-// `mse` against the halves, where there are halves, has no share of the reference's own noise. It
-// is meant for images that are independent of the reference, which the reference itself is not.
-MetricValue evaluate(const std::string& name, const Image& image, const Reference& reference,
-                     const MetricOptions& options) {
-  if (name != "mse" || !reference.half0 || identical(image, reference.mean)) {
-    return evaluateMetric(name, image, reference.mean, options);
-  }
-  const double value = mseAgainstHalves(image, *reference.half0, *reference.half1, options.mask);
-  if (!std::isnan(value)) return {value, "against the reference's two halves"};
-  return {value, fmt::format("{} non-finite values in the image, {} in the reference's halves",
-                             countNonfinite(image, options.mask),
-                             countNonfinite(*reference.half0, options.mask) +
-                                 countNonfinite(*reference.half1, options.mask))};
-}
-
-LayeredImage readImage(const std::string& file, const CompareOptions& options,
-                       const Reference& reference) {
-  LayeredImage read = readExr(file);
-  const auto layer = read.layers.find("");
-  if (layer == read.layers.end()) {
-    failInput(fmt::format("{}: has no R, G, B channels outside named layers", file));
-  }
-  const Image& image = layer->second;
-  if (image.width != reference.mean.width || image.height != reference.mean.height) {
-    failInput(fmt::format("{}: is {}x{}, the reference {} is {}x{}", file, image.width,
-                          image.height, options.reference, reference.mean.width,
-                          reference.mean.height));
-  }
-  const bool bothDescribed =
-      reference.metadata.count("scene_hash") && read.metadata.count("scene_hash");
-  if (bothDescribed && !options.anyReference) {
-    try {
-      requireSameConfiguration(options.reference, reference.metadata, read.metadata);
-    } catch (const Error& error) {
-      throw Error(error.code(), fmt::format("{} as in {} (--any-reference compares all the same)",
-                                            error.what(), file));
-    }
-  }
-  return read;
-}
 
 // Of all images together where a metric needs runs.
 std::vector<std::string> chosenMetrics(const CompareOptions& options,
@@ -142,22 +98,17 @@ void compare(const CompareOptions& options, Outcome& outcome) {
 
   comparison.reference = readReference(options.reference);
   const Reference& reference = comparison.reference;
-  const auto kind = reference.metadata.find("kind");
-  const bool isRendered = reference.metadata.count("integrator") != 0;
-  if (isRendered && (kind == reference.metadata.end() || kind->second != "reference")) {
-    logWarning(fmt::format("{}: is an image, not a reference: its own noise is in every number",
-                           options.reference));
-  }
+  warnOfNoReference(options.reference, reference);
   comparison.mask = chooseMask(options, reference);
   metricOptions.mask = comparison.mask.mask;
   RunHalves runs;
   for (const std::string& file : options.images) {
-    const LayeredImage read = readImage(file, options, reference);
+    const LayeredImage read = readBeside(file, options.reference, reference, options.anyReference);
     const Image& image = read.layers.at("");
     if (needsRuns) runs.add(file, read);
     ComparedImage compared{file, countNonfinite(image), {}};
     for (const std::string& metric : comparison.metrics) {
-      compared.values.push_back(evaluate(metric, image, reference, metricOptions));
+      compared.values.push_back(errorAgainst(metric, image, reference, metricOptions));
     }
     comparison.images.push_back(std::move(compared));
   }

@@ -26,6 +26,7 @@ Action addCleanVerb(CLI::App& app);
 Action addRenderVerb(CLI::App& app);
 Action addReferenceVerb(CLI::App& app);
 Action addCompareVerb(CLI::App& app);
+Action addFigureVerb(CLI::App& app);
 Action addInfoVerb(CLI::App& app);
 Action addListVerb(CLI::App& app);
 Action addBenchVerb(CLI::App& app);

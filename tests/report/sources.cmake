@@ -1,6 +1,7 @@
 set(RL_REPORT_TESTS
   report/browser.cpp
   report/browser_test.cpp
+  report/figure_test.cpp
   report/html_test.cpp
   report/model_test.cpp
   report/page.cpp

@@ -1,0 +1,119 @@
+#include "experiments/report/picture.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <new>
+
+#include "core/image/srgb.h"
+
+namespace restlab {
+namespace {
+
+void appendBigEndian(std::string& out, uint32_t value) {
+  for (int shift = 24; shift >= 0; shift -= 8) out += char(value >> shift & 0xff);
+}
+
+void appendChunk(std::string& out, const std::string& type, const std::string& data) {
+  appendBigEndian(out, uint32_t(data.size()));
+  const std::string body = type + data;
+  out += body;
+  appendBigEndian(
+      out, uint32_t(crc32(0, reinterpret_cast<const Bytef*>(body.data()), uInt(body.size()))));
+}
+
+// The part of [a, a + 1) x scale that each source pixel fills: begin, end and the weights' ends.
+struct Span {
+  uint32_t begin, end;
+  double first, last;  // of the first and the last pixel; 1 in between
+};
+
+Span spanOf(uint32_t target, uint32_t targets, uint32_t sources) {
+  const double from = double(target) * sources / targets;
+  const double to = double(target + 1) * sources / targets;
+  Span span;
+  span.begin = std::min(uint32_t(from), sources - 1);
+  span.end = std::clamp(uint32_t(std::max(0.0, to - 1e-9)) + 1, span.begin + 1, sources);
+  span.first = span.end == span.begin + 1 ? to - from : double(span.begin + 1) - from;
+  span.last = to - double(span.end - 1);
+  return span;
+}
+
+}  // namespace
+
+Picture pictureOf(const Image& image, const Crop& crop, float exposure, uint32_t scale) {
+  Image part(crop.width, crop.height);
+  for (uint32_t y = 0; y < crop.height; ++y) {
+    for (uint32_t x = 0; x < crop.width; ++x) part.at(x, y) = image.at(crop.x + x, crop.y + y);
+  }
+  const std::vector<uint8_t> bytes = srgbBytes(part, exposure);
+  Picture picture = {crop.width * scale, crop.height * scale, {}};
+  picture.bytes.reserve(size_t(picture.width) * picture.height * 3);
+  for (uint32_t y = 0; y < picture.height; ++y) {
+    for (uint32_t x = 0; x < picture.width; ++x) {
+      const auto pixel =
+          bytes.begin() + std::ptrdiff_t(3 * (size_t(y / scale) * crop.width + x / scale));
+      picture.bytes.insert(picture.bytes.end(), pixel, pixel + 3);
+    }
+  }
+  return picture;
+}
+
+Image resized(const Image& image, uint32_t width, uint32_t height) {
+  Image out(width, height);
+  for (uint32_t y = 0; y < height; ++y) {
+    const Span rows = spanOf(y, height, image.height);
+    for (uint32_t x = 0; x < width; ++x) {
+      const Span columns = spanOf(x, width, image.width);
+      glm::dvec3 sum(0.0);
+      double weights = 0.0;
+      for (uint32_t sy = rows.begin; sy < rows.end; ++sy) {
+        const double wy = sy == rows.begin ? rows.first : sy + 1 == rows.end ? rows.last : 1.0;
+        for (uint32_t sx = columns.begin; sx < columns.end; ++sx) {
+          const double wx = sx == columns.begin     ? columns.first
+                            : sx + 1 == columns.end ? columns.last
+                                                    : 1.0;
+          sum += wx * wy * glm::dvec3(image.at(sx, sy));
+          weights += wx * wy;
+        }
+      }
+      out.at(x, y) = glm::vec3(sum / weights);
+    }
+  }
+  return out;
+}
+
+std::string encodePng(const Picture& picture) {
+  std::string header;
+  appendBigEndian(header, picture.width);
+  appendBigEndian(header, picture.height);
+  header += std::string("\x08\x02\x00\x00\x00", 5);  // 8 bits, R G B, deflate, no interlacing
+
+  // Filter 2: each row as its difference from the one above, which an enlarged row repeats.
+  const size_t stride = size_t(picture.width) * 3;
+  std::string rows;
+  rows.reserve((stride + 1) * picture.height);
+  for (size_t y = 0; y < picture.height; ++y) {
+    rows += '\x02';
+    for (size_t i = 0; i < stride; ++i) {
+      const uint8_t above = y ? picture.bytes[(y - 1) * stride + i] : 0;
+      rows += char(uint8_t(picture.bytes[y * stride + i] - above));
+    }
+  }
+  uLongf size = compressBound(uLong(rows.size()));
+  std::string packed(size, '\0');
+  if (compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
+                reinterpret_cast<const Bytef*>(rows.data()), uLong(rows.size()),
+                Z_BEST_COMPRESSION) != Z_OK) {
+    throw std::bad_alloc();  // the only failure with a buffer of this size
+  }
+  packed.resize(size);
+  std::string out = "\x89PNG\r\n\x1a\n";
+  appendChunk(out, "IHDR", header);
+  appendChunk(out, "sRGB", std::string(1, '\0'));
+  appendChunk(out, "IDAT", packed);
+  appendChunk(out, "IEND", "");
+  return out;
+}
+
+}  // namespace restlab

@@ -1,0 +1,30 @@
+// 8-bit pictures of figures, and their PNGs.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/image/image.h"
+#include "experiments/report/pixels.h"
+
+namespace restlab {
+
+// Row 0 on top; R, G, B of sRGB for each pixel.
+struct Picture {
+  uint32_t width = 0, height = 0;
+  std::vector<uint8_t> bytes;
+};
+
+// Radiance x exposure of the crop, as core/image/srgb.h has it, each pixel a square of `scale` x
+// `scale`.
+Picture pictureOf(const Image& image, const Crop& crop, float exposure, uint32_t scale);
+
+// Another size by mean over the areas that become one pixel, of radiance: a smaller picture keeps
+// its brightness.
+Image resized(const Image& image, uint32_t width, uint32_t height);
+
+// A PNG file (ISO 15948), 8 bits a channel, sRGB. The same bytes for the same picture.
+std::string encodePng(const Picture& picture);
+
+}  // namespace restlab
