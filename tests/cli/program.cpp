@@ -2,7 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -27,7 +27,7 @@ std::string readFile(const fs::path& file) {
 
 // In the child: streams to files, the folder as working directory, then the program.
 [[noreturn]] void becomeProgram(const fs::path& folder, const fs::path& outFile,
-                                const std::vector<std::string>& arguments) {
+                                const std::vector<std::string>& arguments, uint64_t maxFileBytes) {
   const int in = open("/dev/null", O_RDONLY);
   const int out = open(outFile.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   const int err = open((folder / ".stderr").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
@@ -36,6 +36,10 @@ std::string readFile(const fs::path& file) {
   dup2(err, STDERR_FILENO);
   if (chdir(folder.c_str()) != 0) _exit(127);
   setenv("XDG_CACHE_HOME", (folder / "cache").c_str(), 1);
+  if (maxFileBytes > 0) {
+    const rlimit limit = {maxFileBytes, maxFileBytes};
+    if (setrlimit(RLIMIT_FSIZE, &limit) != 0) _exit(127);
+  }
   std::vector<std::string> line = {RESTLAB_PROGRAM};
   line.insert(line.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
@@ -43,6 +47,33 @@ std::string readFile(const fs::path& file) {
   argv.push_back(nullptr);
   execv(argv[0], argv.data());
   _exit(127);
+}
+
+constexpr std::chrono::seconds kPatience{60};
+
+// Sends the signal that was asked for, unless the program ends before. Returns its status.
+int waitFor(pid_t child, const Circumstances& circumstances) {
+  const auto now = [] { return std::chrono::steady_clock::now(); };
+  const auto start = now();
+  const std::chrono::duration<double> delay(circumstances.signalAfterS);
+  int status = 0;
+  while (circumstances.signalAfterS > 0.0 || circumstances.signalWhen) {
+    if (waitpid(child, &status, WNOHANG) != 0) return status;
+    const bool holds = circumstances.signalWhen && circumstances.signalWhen();
+    if (now() - start > kPatience) {
+      ADD_FAILURE() << "the program runs, and what it was to be signalled at does not come";
+      kill(child, SIGKILL);
+      break;
+    }
+    if (holds || (circumstances.signalAfterS > 0.0 && now() - start >= delay)) {
+      kill(child, circumstances.signal);
+      break;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
 }
 
 std::vector<std::string> words(const std::string& arguments) {
@@ -76,27 +107,30 @@ void ProgramTest::TearDown() {
 
 ProgramResult ProgramTest::run(const std::vector<std::string>& arguments,
                                double signalAfterS) const {
-  ProgramResult result = start(arguments, folder_ / ".stdout", signalAfterS);
+  Circumstances circumstances;
+  circumstances.signalAfterS = signalAfterS;
+  ProgramResult result = start(arguments, folder_ / ".stdout", circumstances);
+  result.out = readFile(folder_ / ".stdout");
+  return result;
+}
+
+ProgramResult ProgramTest::run(const std::string& arguments,
+                               const Circumstances& circumstances) const {
+  ProgramResult result = start(words(arguments), folder_ / ".stdout", circumstances);
   result.out = readFile(folder_ / ".stdout");
   return result;
 }
 
 ProgramResult ProgramTest::start(const std::vector<std::string>& arguments, const fs::path& out,
-                                 double signalAfterS) const {
+                                 const Circumstances& circumstances) const {
   const pid_t child = fork();
-  if (child == 0) becomeProgram(folder_, out, arguments);
+  if (child == 0) becomeProgram(folder_, out, arguments, circumstances.maxFileBytes);
   ProgramResult result;
   if (child < 0) {
     ADD_FAILURE() << "fork: " << std::strerror(errno);
     return result;
   }
-  if (signalAfterS > 0.0) {
-    std::this_thread::sleep_for(std::chrono::duration<double>(signalAfterS));
-    kill(child, SIGINT);
-  }
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
+  const int status = waitFor(child, circumstances);
   result.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   result.err = readFile(folder_ / ".stderr");
   return result;
@@ -105,7 +139,7 @@ ProgramResult ProgramTest::start(const std::vector<std::string>& arguments, cons
 ProgramResult ProgramTest::run(const std::string& arguments) const { return run(words(arguments)); }
 
 ProgramResult ProgramTest::runInto(const std::string& file, const std::string& arguments) const {
-  return start(words(arguments), file, 0.0);
+  return start(words(arguments), file, {});
 }
 
 void ProgramTest::write(const std::string& name, const std::string& text) const {

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <csignal>
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -17,6 +20,14 @@ struct ProgramResult {
   std::vector<std::string> errors() const;
 };
 
+// What happens to the program while it runs.
+struct Circumstances {
+  int signal = SIGINT;
+  double signalAfterS = 0.0;         // > 0: the signal comes after so many seconds
+  std::function<bool()> signalWhen;  // or as soon as this holds
+  uint64_t maxFileBytes = 0;         // > 0: no file may grow beyond (RLIMIT_FSIZE)
+};
+
 // A temporary folder that is the working directory, the cache and the place of outputs.
 class ProgramTest : public ::testing::Test {
  protected:
@@ -27,6 +38,7 @@ class ProgramTest : public ::testing::Test {
   ProgramResult run(const std::vector<std::string>& arguments, double signalAfterS = 0.0) const;
   // The same with one string, split at blanks.
   ProgramResult run(const std::string& arguments) const;
+  ProgramResult run(const std::string& arguments, const Circumstances& circumstances) const;
   // The same with stdout going to `file`, which is not read back.
   ProgramResult runInto(const std::string& file, const std::string& arguments) const;
 
@@ -38,7 +50,7 @@ class ProgramTest : public ::testing::Test {
 
  private:
   ProgramResult start(const std::vector<std::string>& arguments, const std::filesystem::path& out,
-                      double signalAfterS) const;
+                      const Circumstances& circumstances) const;
 };
 
 // Expects an exit code and one error line that holds every one of the fragments.
