@@ -60,6 +60,7 @@ struct Session::Impl {
   bool isRadianceRead = true;  // `radiance` is that of the last frame
   StartupReport startup;
   rl::Camera nextCamera{};
+  bool isFirstFrame = true;  // of its history
   std::vector<BufferId> aovBuffers;
   rl::FrameData lastFrame{};
 
@@ -150,9 +151,9 @@ std::vector<PassRun> Session::Impl::passes() const {
 }
 
 void Session::Impl::submitFrame() {
-  if (frame.frame > 0) frame.previousCamera = frame.camera;
+  frame.previousCamera = isFirstFrame ? nextCamera : frame.camera;
   frame.camera = nextCamera;
-  if (frame.frame == 0) frame.previousCamera = frame.camera;
+  isFirstFrame = false;
   backend->submit(passes(), frame);
   for (size_t i = 0; i < buffers.size(); ++i) {
     const int other = integrator->buffers[i].swapWith;
@@ -195,11 +196,16 @@ std::vector<FrameStats> Session::frames(uint32_t count) {
   return all;
 }
 
-void Session::reset(uint32_t seed) {
+void Session::reset(uint32_t seed, uint32_t firstFrame) {
   Impl& m = *impl_;
+  if (firstFrame > 0 && m.integrator->usesCache) {
+    failUsage(fmt::format("integrator {}: a history starts at frame 0, not at {}",
+                          m.integrator->name, firstFrame));
+  }
   m.config.seed = seed;
   m.frame.seed = seed;
-  m.frame.frame = 0;
+  m.frame.frame = firstFrame;
+  m.isFirstFrame = true;
   for (BufferId b : m.buffers) {
     if (b != kNoBuffer) m.backend->clear(b);
   }

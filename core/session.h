@@ -73,9 +73,12 @@ class Session {
   FrameStats frame();
   // Renders the next frames, whose images nobody asks for: a device need not wait between them.
   std::vector<FrameStats> frames(uint32_t count);
-  // Drops the history and starts again with another seed (an independent run).
-  void reset(uint32_t seed);
-  // For a moving camera; the previous one is kept for reprojection.
+  // Drops the history and starts again with another seed (an independent run). The next frame has
+  // the number `firstFrame`: a method without a history then renders what it would have rendered
+  // after that many frames. Throws badUsage where a method with a history is to start anywhere
+  // but at 0.
+  void reset(uint32_t seed, uint32_t firstFrame = 0);
+  // For a moving camera, from the next frame on; the previous one is kept for reprojection.
   void setCamera(const SceneCamera& camera);
 
   // Of the last frame; read from the device when it is first asked for.

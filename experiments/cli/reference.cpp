@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 
 #include "core/image/exr_limits.h"
 #include "experiments/cli/options.h"
@@ -18,7 +19,52 @@ struct ReferenceOptions {
   std::string output, integrator = "path";
   BackendChoice backend;
   ReferenceTarget target;
+  double checkpointS = ReferenceStore().intervalS;
+  bool anew = false;
 };
+
+// What is at `file` already, of the same samples; `unused` says why it does not serve.
+std::optional<Reference> sameReference(const std::string& file, const ReferenceId& id,
+                                       const ReferenceTarget& target, std::string& unused) {
+  StoredReference stored = readStored(file, id.key);
+  unused = stored.unused;
+  if (!stored.reference) return std::nullopt;
+  for (const auto& [item, wanted] :
+       {std::pair("seed", std::to_string(id.seed)), std::pair("backend", id.backend)}) {
+    const std::string its = stored.reference->metadata[item];
+    if (its == wanted) continue;
+    unused = fmt::format("{}: is of {} {}, not {}", file, item, its, wanted);
+    return std::nullopt;
+  }
+  if (meetsTarget(*stored.reference, target)) return std::move(stored.reference);
+  unused = fmt::format("{}: has {} spp, less than wanted", file, stored.reference->spp);
+  return std::nullopt;
+}
+
+// The reference at --output, made or extended where it has to be.
+Reference updatedReference(const PreparedScene& prepared, const ReferenceConfig& config,
+                           const ReferenceOptions& options) {
+  ReferenceStore store;
+  std::string unused;
+  if (!options.anew) {
+    const ReferenceId id{referenceKey(prepared, config), config.seed, config.backend};
+    std::optional<Reference> same = sameReference(options.output, id, options.target, unused);
+    if (same) {
+      logInfo(fmt::format("{}: is of this scene and these settings already, and stays as it is",
+                          options.output));
+      return std::move(*same);
+    }
+    store.folder = referenceCacheFolder();
+    store.intervalS = options.checkpointS;
+    if (store.folder.empty()) {
+      logWarning(
+          "the progress of the reference is not kept: neither XDG_CACHE_HOME nor HOME is set");
+    }
+  }
+  Reference reference = renderReference(prepared, config, options.target, store, unused);
+  writeReference(options.output, reference);
+  return reference;
+}
 
 void makeReference(ReferenceOptions options) {
   resolveResolution(options.scene);
@@ -39,8 +85,7 @@ void makeReference(ReferenceOptions options) {
   printWarnings(prepared);
   completeConfig(prepared, session);
   requireExrSize(options.output, session.width, session.height, kReferenceLayers);
-  const Reference reference = renderReference(prepared, referenceConfigOf(session), options.target);
-  writeReference(options.output, reference);
+  const Reference reference = updatedReference(prepared, referenceConfigOf(session), options);
   if (options.target.relmse > 0.0 && !(reference.relmse <= options.target.relmse)) {
     logWarning(fmt::format(
         "{}: relmse {:.3g} is above the target of {:g}: stopped by {}", options.output,
@@ -62,12 +107,17 @@ Action addReferenceVerb(CLI::App& app) {
   verb->add_option("--integrator", options->integrator, "path, and nothing else");
   addBackendOptions(*verb, options->backend);
   verb->add_option("--spp", options->target.spp, "samples per pixel of both halves together")
-      ->check(CLI::Range(uint64_t(2), uint64_t(1) << 40));
+      ->check(CLI::Range(uint64_t(2), uint64_t(1) << 32));
   verb->add_option("--target-relmse", options->target.relmse,
                    "until the mean's estimated relmse_e1e-2 is at most this")
       ->check(finiteRange(1e-12, 1e6));
   verb->add_option("--time-limit", options->target.timeLimitS, "seconds of rendering")
       ->check(finiteRange(1e-3, 1e9));
+  verb->add_option("--checkpoint", options->checkpointS,
+                   "seconds between two writes of the progress (default 30)")
+      ->check(finiteRange(0.0, 1e9));
+  verb->add_flag("--anew", options->anew,
+                 "from the first sample to exactly the target; no progress is read or kept");
   return [options](Outcome&) { makeReference(*options); };
 }
 

@@ -4,19 +4,29 @@
 
 namespace restlab {
 
-void ImageSum::add(const Image& frame) {
+ImageSum::ImageSum(uint32_t width, uint32_t height, uint64_t count, std::vector<glm::dvec3> sums)
+    : width_(width), height_(height), count_(count), sum_(std::move(sums)) {}
+
+void ImageSum::begin(const Image& frame) {
   if (count_ == 0) {
     width_ = frame.width;
     height_ = frame.height;
     sum_.assign(frame.pixels.size(), glm::dvec3(0.0));
-    if (squares_) sumSquares_.assign(frame.pixels.size(), glm::dvec3(0.0));
-  }
-  for (size_t i = 0; i < sum_.size(); ++i) {
-    const glm::dvec3 value(frame.pixels[i]);
-    sum_[i] += value;
-    if (squares_) sumSquares_[i] += value * value;
   }
   ++count_;
+}
+
+void ImageSum::add(const Image& frame) {
+  begin(frame);
+  for (size_t i = 0; i < sum_.size(); ++i) sum_[i] += glm::dvec3(frame.pixels[i]);
+}
+
+void ImageSum::addSquares(const Image& frame) {
+  begin(frame);
+  for (size_t i = 0; i < sum_.size(); ++i) {
+    const glm::dvec3 value(frame.pixels[i]);
+    sum_[i] += value * value;
+  }
 }
 
 Image ImageSum::mean() const {
@@ -36,12 +46,12 @@ Image ImageSum::meanOfBoth(const ImageSum& a, const ImageSum& b) {
   return image;
 }
 
-Image ImageSum::varianceOfMean(const ImageSum& a, const ImageSum& b) {
+Image ImageSum::varianceOfMean(const ImageSum& a, const ImageSum& b, const ImageSum& squares) {
   Image image(a.width_, a.height_);
   const double n = double(a.count_ + b.count_);
   for (size_t i = 0; i < a.sum_.size(); ++i) {
     const glm::dvec3 mean = (a.sum_[i] + b.sum_[i]) / n;
-    const glm::dvec3 meanSquare = (a.sumSquares_[i] + b.sumSquares_[i]) / n;
+    const glm::dvec3 meanSquare = squares.sum_[i] / n;
     // Rounding can leave a variance of a constant pixel a hair below zero.
     const glm::dvec3 variance = glm::max(meanSquare - mean * mean, glm::dvec3(0.0));
     image.pixels[i] = glm::vec3(variance / (n - 1.0));

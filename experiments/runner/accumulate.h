@@ -10,24 +10,34 @@
 
 namespace restlab {
 
-// Sum, and optionally sum of squares, of equally sized frames.
+// Sum of equally sized frames, or of their squares.
 class ImageSum {
  public:
-  explicit ImageSum(bool squares = false) : squares_(squares) {}
+  ImageSum() = default;
+  // A sum as it was after `count` frames (at least one) of that size.
+  ImageSum(uint32_t width, uint32_t height, uint64_t count, std::vector<glm::dvec3> sums);
+
   void add(const Image& frame);
+  void addSquares(const Image& frame);
   uint64_t count() const { return count_; }
+  uint32_t width() const { return width_; }
+  uint32_t height() const { return height_; }
+  // Row by row, row 0 on top; empty before the first frame.
+  const std::vector<glm::dvec3>& sums() const { return sum_; }
+
   // Mean of the frames; at least one frame must have been added.
   Image mean() const;
   // Mean of the frames of both sums.
   static Image meanOfBoth(const ImageSum& a, const ImageSum& b);
-  // Per-pixel variance of that mean, from the sample variance over all frames (at least two).
-  static Image varianceOfMean(const ImageSum& a, const ImageSum& b);
+  // Per-pixel variance of that mean, from the sample variance over all frames (at least two);
+  // `squares` is the sum of the squares of all of them.
+  static Image varianceOfMean(const ImageSum& a, const ImageSum& b, const ImageSum& squares);
 
  private:
-  bool squares_;
+  void begin(const Image& frame);
   uint32_t width_ = 0, height_ = 0;
   uint64_t count_ = 0;
-  std::vector<glm::dvec3> sum_, sumSquares_;
+  std::vector<glm::dvec3> sum_;
 };
 
 // Counters of several frames.

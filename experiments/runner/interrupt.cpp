@@ -21,6 +21,8 @@ void installInterruptHandler() {
   action.sa_flags = static_cast<int>(SA_RESETHAND);  // the second signal has its default effect
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  // A limit on the size of files is an error of the write that meets it, not the program's end.
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 bool interruptRequested() { return signalSeen != 0; }

@@ -34,9 +34,10 @@ void logDetail(const std::string& text) {
 void logWarning(const std::string& text) { line("warning: " + text); }
 void logError(const std::string& text) { line("error: " + text); }
 
-Progress::Progress(std::string label, uint64_t total)
+Progress::Progress(std::string label, uint64_t total, uint64_t already)
     : label_(std::move(label)),
       total_(total),
+      already_(already),
       start_(Clock::now()),
       lastPrint_(start_),
       terminal_(isatty(STDERR_FILENO) != 0) {}
@@ -62,7 +63,9 @@ void Progress::print(uint64_t done, const std::string& note) {
   const double elapsedS = std::chrono::duration<double>(Clock::now() - start_).count();
   std::string text = label_;
   if (total_) {
-    const double leftS = done ? elapsedS * double(total_ - done) / double(done) : 0.0;
+    const double leftS = done > already_ && done < total_
+                             ? elapsedS * double(total_ - done) / double(done - already_)
+                             : 0.0;
     text += fmt::format(" {}/{} ({:.0f} s elapsed, {:.0f} s left)", done, total_, elapsedS, leftS);
   } else {
     text += fmt::format(" {} ({:.0f} s elapsed)", done, elapsedS);

@@ -19,8 +19,8 @@ void logError(const std::string& line);    // always, prefixed "error: "
 // Progress of a loop: on a terminal one line that is rewritten, else a line per 10 % or 30 s.
 class Progress {
  public:
-  // `total` 0: unknown.
-  Progress(std::string label, uint64_t total);
+  // `total` 0: unknown. `already` were done before the loop began.
+  Progress(std::string label, uint64_t total, uint64_t already = 0);
   ~Progress();
   void update(uint64_t done, const std::string& note = "");
   void finish();
@@ -29,7 +29,7 @@ class Progress {
   void print(uint64_t done, const std::string& note);
   using Clock = std::chrono::steady_clock;
   std::string label_;
-  uint64_t total_;
+  uint64_t total_, already_;
   Clock::time_point start_, lastPrint_;
   int lastTenth_ = 0;
   bool terminal_, open_ = false;

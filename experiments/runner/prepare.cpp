@@ -179,14 +179,6 @@ std::string parameterText(const ParameterValue& value) {
 
 std::map<std::string, std::string> describe(const PreparedScene& prepared,
                                             const SessionConfig& config) {
-  const SceneCamera& camera = prepared.scene->source().cameras.at(prepared.camera);
-  std::string matrix;
-  for (int row = 0; row < 4; ++row) {
-    for (int column = 0; column < 4; ++column) {
-      matrix +=
-          fmt::format("{}{:.9g}", matrix.empty() ? "" : " ", camera.cameraToWorld[column][row]);
-    }
-  }
   const Scene& source = prepared.scene->source();
   std::map<std::string, std::string> words = {
       {"program", "restlab"},
@@ -194,10 +186,6 @@ std::map<std::string, std::string> describe(const PreparedScene& prepared,
       {"scene_source", source.source.empty() ? "built-in" : source.source.string()},
       {"scene_hash", hexHash(prepared.contentHash)},
       {"environment", prepared.environmentName},
-      {"camera", prepared.cameraName},
-      {"camera_index", std::to_string(prepared.camera)},
-      {"camera_to_world", matrix},
-      {"camera_yfov", fmt::format("{:.9g}", camera.yfov)},
       {"integrator", config.integrator},
       {"mode", config.mode},
       {"cache", hasHistory(config) ? config.cache : "none"},
@@ -214,6 +202,9 @@ std::map<std::string, std::string> describe(const PreparedScene& prepared,
       {"source_hash", buildInfo().sourceHash},
       {"reference_sources", buildInfo().referenceHash},
   };
+  describeCamera(source.cameras.at(prepared.camera), words);
+  words["camera"] = prepared.cameraName;
+  words["camera_index"] = std::to_string(prepared.camera);
   if (source.environment) {
     words["environment_rotation"] = rotationText(source.environment->rotation);
     words["environment_scale"] = fmt::format("{:.9g}", source.environment->scale);
@@ -221,6 +212,20 @@ std::map<std::string, std::string> describe(const PreparedScene& prepared,
   const ParameterMap all = resolveParameters(findIntegrator(config.integrator), config.parameters);
   for (const auto& [key, value] : all) words["parameter." + key] = parameterText(value);
   return words;
+}
+
+void describeCamera(const SceneCamera& camera, std::map<std::string, std::string>& words) {
+  std::string matrix;
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      matrix +=
+          fmt::format("{}{:.9g}", matrix.empty() ? "" : " ", camera.cameraToWorld[column][row]);
+    }
+  }
+  words["camera"] = camera.name;
+  words["camera_index"] = "none";
+  words["camera_to_world"] = matrix;
+  words["camera_yfov"] = fmt::format("{:.9g}", camera.yfov);
 }
 
 bool hasHistory(const SessionConfig& config) { return findIntegrator(config.integrator).usesCache; }

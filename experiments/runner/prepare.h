@@ -57,9 +57,13 @@ uint32_t parseFilter(const std::string& name, const std::string& place);
 std::string hexHash(uint64_t hash);
 std::string parameterText(const ParameterValue& value);
 
-// The configuration as metadata of an image, without seed, sample count and times.
+// The configuration as metadata of an image, without seed, sample count and times. The camera is
+// the scene's.
 std::map<std::string, std::string> describe(const PreparedScene& prepared,
                                             const SessionConfig& config);
+
+// Replaces the camera in `words` by one that is not of the scene: `camera_index` is "none".
+void describeCamera(const SceneCamera& camera, std::map<std::string, std::string>& words);
 
 // True when frames of this integrator depend on earlier ones.
 bool hasHistory(const SessionConfig& config);

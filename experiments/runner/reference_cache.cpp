@@ -15,33 +15,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The stored reference where it can serve; otherwise one line says why it cannot.
-std::optional<Reference> tryStored(const fs::path& file, const std::string& key,
-                                   const ReferenceTarget& target) {
-  std::error_code status;
-  if (file.empty() || !fs::exists(file, status)) return std::nullopt;
-  Reference reference;
-  try {
-    reference = readReference(file);
-  } catch (const Error& error) {
-    logInfo(fmt::format("{}; rendered anew", error.what()));
-    return std::nullopt;
-  }
-  const auto stored = reference.metadata.find("reference_key");
-  if (stored == reference.metadata.end() || stored->second != key || !reference.half0) {
-    logInfo(fmt::format(
-        "{}: is of another scene, setting or version (key {}, wanted {}); "
-        "rendered anew",
-        file.string(), stored == reference.metadata.end() ? "none" : stored->second.substr(0, 8),
-        key.substr(0, 8)));
-    return std::nullopt;
-  }
-  if (!meetsTarget(reference, target)) {
-    logInfo(fmt::format("{}: has {} spp, less than wanted; rendered anew", file.string(),
-                        reference.spp));
-    return std::nullopt;
-  }
-  return reference;
+uint32_t seedOf(const Reference& reference) {
+  const auto seed = reference.metadata.find("seed");
+  return seed == reference.metadata.end()
+             ? 0
+             : uint32_t(std::strtoul(seed->second.c_str(), nullptr, 10));
 }
 
 void storeInCache(const fs::path& file, const Reference& reference) {
@@ -56,14 +34,24 @@ void storeInCache(const fs::path& file, const Reference& reference) {
 
 }  // namespace
 
-fs::path referenceCacheFolder() {
-  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache == '/') {
-    return fs::path(cache) / "restlab" / "references";
+StoredReference readStored(const fs::path& file, const std::string& key) {
+  StoredReference stored;
+  std::error_code status;
+  if (file.empty() || !fs::exists(file, status)) return stored;
+  try {
+    Reference reference = readReference(file);
+    const auto found = reference.metadata.find("reference_key");
+    const std::string its = found == reference.metadata.end() ? "none" : found->second;
+    if (its == key && reference.half0) {
+      stored.reference = std::move(reference);
+    } else {
+      stored.unused = fmt::format("{}: is of another scene, setting or version (key {}, wanted {})",
+                                  file.string(), its.substr(0, 8), key.substr(0, 8));
+    }
+  } catch (const Error& error) {
+    stored.unused = error.what();
   }
-  if (const char* home = std::getenv("HOME"); home && *home == '/') {
-    return fs::path(home) / ".cache" / "restlab" / "references";
-  }
-  return {};
+  return stored;
 }
 
 Reference obtainReference(const PreparedScene& prepared, const ReferenceConfig& config,
@@ -71,18 +59,28 @@ Reference obtainReference(const PreparedScene& prepared, const ReferenceConfig& 
                           const std::string& label) {
   const std::string key = referenceKey(prepared, config);
   const fs::path local = folder / (safeFileName(label) + ".exr");
-  const fs::path cacheFolder = referenceCacheFolder();
-  const fs::path cached = cacheFolder.empty() ? fs::path() : cacheFolder / (key + ".exr");
-  if (std::optional<Reference> found = tryStored(local, key, target)) {
-    logInfo(fmt::format("reference: {} ({} spp)", local.string(), found->spp));
-    return std::move(*found);
+  ReferenceStore store;
+  store.folder = referenceCacheFolder();
+  const fs::path cached = store.folder.empty() ? fs::path() : store.folder / (key + ".exr");
+  ReferenceConfig wanted = config;
+  std::string unused;  // what is wrong with the first file
+  for (const fs::path& file : {local, cached}) {
+    StoredReference stored = readStored(file, key);
+    if (stored.reference && meetsTarget(*stored.reference, target)) {
+      logInfo(fmt::format("reference: {} ({} spp)", file.string(), stored.reference->spp));
+      if (file != local) writeReference(local, *stored.reference);
+      return std::move(*stored.reference);
+    }
+    if (stored.reference) {
+      stored.unused =
+          fmt::format("{}: has {} spp, less than wanted", file.string(), stored.reference->spp);
+      const ReferenceId id{key, seedOf(*stored.reference), config.backend};
+      std::error_code status;
+      if (fs::exists(stateFile(store.folder, id), status)) wanted.seed = id.seed;
+    }
+    if (unused.empty()) unused = stored.unused;
   }
-  if (std::optional<Reference> found = tryStored(cached, key, target)) {
-    logInfo(fmt::format("reference: {} ({} spp)", cached.string(), found->spp));
-    writeReference(local, *found);
-    return std::move(*found);
-  }
-  Reference reference = renderReference(prepared, config, target);
+  Reference reference = renderReference(prepared, wanted, target, store, unused);
   logInfo(fmt::format("reference: {} spp in {:.1f} s, relmse {:.3g}", reference.spp,
                       reference.timeS, reference.relmse));
   writeReference(local, reference);

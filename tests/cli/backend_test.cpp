@@ -354,6 +354,22 @@ TEST_F(VulkanTest, ALostDeviceIsOneLineAndFinishedRunsStay) {
             0u);
 }
 
+TEST_F(VulkanTest, ReferencesAreContinuedOnTheirBackendOnly) {
+  const std::string scene = " cornell-box --resolution 32x24 --max-bounces 3";
+  ASSERT_EQ(run("reference -o r.exr --spp 6" + scene).code, 0);
+  const ProgramResult other = run("reference -o r.exr --spp 4 --backend vulkan" + scene);
+  EXPECT_NE(other.err.find("r.exr: is of backend cpu, not vulkan; rendered anew"),
+            std::string::npos)
+      << other.err;
+  const ProgramResult more = run("reference -o r.exr --spp 9 --backend vulkan" + scene);
+  EXPECT_NE(more.err.find("continues after the 4 spp"), std::string::npos) << more.err;
+  ASSERT_EQ(run("reference -o whole.exr --spp 9 --backend vulkan --anew" + scene).code, 0);
+  const LayeredImage extended = readExr(path("r.exr")), whole = readExr(path("whole.exr"));
+  for (const auto& [name, layer] : whole.layers)
+    EXPECT_EQ(layer.pixels, extended.layers.at(name).pixels) << name;
+  EXPECT_EQ(extended.metadata.at("device"), whole.metadata.at("device"));
+}
+
 TEST_F(VulkanTest, AMethodsOwnBackendWins) {
   write("suite.toml", std::string(kSuite) + "[[method]]\nname = \"own\"\nbackend = \"vulkan\"\n");
   const ProgramResult result =

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -29,8 +28,8 @@ std::string readFile(const fs::path& file) {
 
 // In the child: streams to files, the folder as working directory, then the program.
 [[noreturn]] void becomeProgram(const fs::path& folder, const fs::path& outFile,
-                                const fs::path& errFile, const Weather& weather,
-                                const std::vector<std::string>& arguments) {
+                                const fs::path& errFile, const std::vector<std::string>& arguments,
+                                uint64_t maxFileBytes) {
   const int in = open("/dev/null", O_RDONLY);
   const int out = open(outFile.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   const int err = open(errFile.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
@@ -38,12 +37,11 @@ std::string readFile(const fs::path& file) {
   dup2(out, STDOUT_FILENO);
   dup2(err, STDERR_FILENO);
   if (chdir(folder.c_str()) != 0) _exit(127);
-  if (weather.fileLimitKiB > 0) {
-    signal(SIGXFSZ, SIG_IGN);  // a write fails, as on a full disk, instead of ending the program
-    const rlimit limit = {rlim_t(weather.fileLimitKiB) * 1024, rlim_t(weather.fileLimitKiB) * 1024};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
   setenv("XDG_CACHE_HOME", (folder / "cache").c_str(), 1);
+  if (maxFileBytes > 0) {
+    const rlimit limit = {maxFileBytes, maxFileBytes};
+    if (setrlimit(RLIMIT_FSIZE, &limit) != 0) _exit(127);
+  }
   std::vector<std::string> line = {RESTLAB_PROGRAM};
   line.insert(line.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
@@ -51,6 +49,33 @@ std::string readFile(const fs::path& file) {
   argv.push_back(nullptr);
   execv(argv[0], argv.data());
   _exit(127);
+}
+
+constexpr std::chrono::seconds kPatience{60};
+
+// Sends the signal that was asked for, unless the program ends before. Returns its status.
+int waitFor(pid_t child, const Circumstances& circumstances) {
+  const auto now = [] { return std::chrono::steady_clock::now(); };
+  const auto start = now();
+  const std::chrono::duration<double> delay(circumstances.signalAfterS);
+  int status = 0;
+  while (circumstances.signalAfterS > 0.0 || circumstances.signalWhen) {
+    if (waitpid(child, &status, WNOHANG) != 0) return status;
+    const bool holds = circumstances.signalWhen && circumstances.signalWhen();
+    if (now() - start > kPatience) {
+      ADD_FAILURE() << "the program runs, and what it was to be signalled at does not come";
+      kill(child, SIGKILL);
+      break;
+    }
+    if (holds || (circumstances.signalAfterS > 0.0 && now() - start >= delay)) {
+      kill(child, circumstances.signal);
+      break;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
 }
 
 std::vector<std::string> words(const std::string& arguments) {
@@ -84,38 +109,37 @@ void ProgramTest::TearDown() {
 
 ProgramResult ProgramTest::run(const std::vector<std::string>& arguments,
                                double signalAfterS) const {
-  Weather weather;
-  weather.signalAfterS = signalAfterS;
-  return run(arguments, weather);
+  Circumstances circumstances;
+  circumstances.signalAfterS = signalAfterS;
+  return run(arguments, circumstances);
 }
 
 ProgramResult ProgramTest::run(const std::vector<std::string>& arguments,
-                               const Weather& weather) const {
+                               const Circumstances& circumstances) const {
   static std::atomic<int> count{0};
   const fs::path out = folder_ / fmt::format(".stdout{}", ++count);
-  ProgramResult result = start(arguments, out, weather);
+  ProgramResult result = start(arguments, out, circumstances);
   result.out = readFile(out);
   return result;
 }
 
+ProgramResult ProgramTest::run(const std::string& arguments,
+                               const Circumstances& circumstances) const {
+  return run(words(arguments), circumstances);
+}
+
 ProgramResult ProgramTest::start(const std::vector<std::string>& arguments, const fs::path& out,
-                                 const Weather& weather) const {
+                                 const Circumstances& circumstances) const {
   static std::atomic<int> count{0};
   const fs::path err = folder_ / fmt::format(".stderr{}", ++count);
   const pid_t child = fork();
-  if (child == 0) becomeProgram(folder_, out, err, weather, arguments);
+  if (child == 0) becomeProgram(folder_, out, err, arguments, circumstances.maxFileBytes);
   ProgramResult result;
   if (child < 0) {
     ADD_FAILURE() << "fork: " << std::strerror(errno);
     return result;
   }
-  if (weather.signalAfterS > 0.0) {
-    std::this_thread::sleep_for(std::chrono::duration<double>(weather.signalAfterS));
-    kill(child, weather.signal);
-  }
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
+  const int status = waitFor(child, circumstances);
   result.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   result.err = readFile(err);
   return result;
@@ -124,7 +148,7 @@ ProgramResult ProgramTest::start(const std::vector<std::string>& arguments, cons
 ProgramResult ProgramTest::run(const std::string& arguments) const { return run(words(arguments)); }
 
 ProgramResult ProgramTest::runInto(const std::string& file, const std::string& arguments) const {
-  return start(words(arguments), file, Weather());
+  return start(words(arguments), file, {});
 }
 
 void ProgramTest::write(const std::string& name, const std::string& text) const {

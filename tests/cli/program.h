@@ -2,9 +2,11 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <signal.h>
 
+#include <csignal>
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -19,10 +21,11 @@ struct ProgramResult {
 };
 
 // What happens to the program while it runs.
-struct Weather {
-  double signalAfterS = 0.0;  // 0: none
+struct Circumstances {
   int signal = SIGINT;
-  long fileLimitKiB = 0;  // files cannot grow beyond it, as on a full disk; 0: no limit
+  double signalAfterS = 0.0;         // > 0: the signal comes after so many seconds
+  std::function<bool()> signalWhen;  // or as soon as this holds
+  uint64_t maxFileBytes = 0;         // > 0: no file may grow beyond (RLIMIT_FSIZE)
 };
 
 // A temporary folder that is the working directory, the cache and the place of outputs.
@@ -34,9 +37,11 @@ class ProgramTest : public ::testing::Test {
   // Runs `restlab arguments...`; `signalAfterS` > 0 sends SIGINT after so many seconds. Several may
   // run at once.
   ProgramResult run(const std::vector<std::string>& arguments, double signalAfterS = 0.0) const;
-  ProgramResult run(const std::vector<std::string>& arguments, const Weather& weather) const;
+  ProgramResult run(const std::vector<std::string>& arguments,
+                    const Circumstances& circumstances) const;
   // The same with one string, split at blanks.
   ProgramResult run(const std::string& arguments) const;
+  ProgramResult run(const std::string& arguments, const Circumstances& circumstances) const;
   // The same with stdout going to `file`, which is not read back.
   ProgramResult runInto(const std::string& file, const std::string& arguments) const;
 
@@ -48,7 +53,7 @@ class ProgramTest : public ::testing::Test {
 
  private:
   ProgramResult start(const std::vector<std::string>& arguments, const std::filesystem::path& out,
-                      const Weather& weather) const;
+                      const Circumstances& circumstances) const;
 };
 
 // Expects an exit code and one error line that holds every one of the fragments.

@@ -77,14 +77,6 @@ TEST_F(ReferenceTest, SeedsOfMethodsAreNotSeedsOfHalves) {
   EXPECT_NE(reference.layers.at("half0").pixels, reference.layers.at("half1").pixels);
 }
 
-TEST_F(ReferenceTest, InterruptedReferenceWritesNothing) {
-  const ProgramResult result = run(
-      {"reference", "door-ajar", "-o", "long.exr", "--resolution", "320x180", "--spp", "100000"},
-      1.5);
-  EXPECT_EQ(result.code, 130) << result.err;
-  EXPECT_FALSE(std::filesystem::exists(path("long.exr")));
-}
-
 }  // namespace
 
 }  // namespace restlab::cli_test

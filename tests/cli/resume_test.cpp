@@ -113,9 +113,12 @@ TEST_F(ResumeTest, InterruptedAndKilledRunsGoOn) {
   // Slow enough that a signal comes between the runs.
   const std::vector<std::string> slow = {"run", "suite.toml", "--out", "out", "--set", "runs=2000"};
   EXPECT_EQ(run(slow, 2.5).code, 130);
+  Circumstances killed;
+  killed.signal = SIGKILL;
+  killed.signalAfterS = 2.5;
   const size_t interrupted = jobs().size();
   EXPECT_GE(interrupted, 1u);
-  EXPECT_EQ(run(slow, Weather{2.5, SIGKILL, 0}).code, 128 + SIGKILL);
+  EXPECT_EQ(run(slow, killed).code, 128 + SIGKILL);
   EXPECT_GT(jobs().size(), interrupted) << "it went on";
   for (const fs::path& job : jobs()) {
     if (job.filename().string().front() == '.') continue;
@@ -189,11 +192,12 @@ TEST_F(ResumeTest, AFullDiskLeavesNothingThatLooksWhole) {
   ASSERT_EQ(run("run suite.toml --out out").code, 0);
   const std::string csv = read("out/summary.csv");
   // Files of at most so many bytes: what is larger cannot be written, as on a full disk.
-  for (const long kib : {1, 4, 8}) {
+  for (const uint64_t kib : {1, 4, 8}) {
+    Circumstances full;
+    full.maxFileBytes = kib * 1024;
     fs::remove_all(path("out/jobs"));
     fs::remove_all(path("out/results.jsonl"));
-    const ProgramResult result =
-        run({"run", "suite.toml", "--out", "out"}, Weather{0.0, SIGINT, kib});
+    const ProgramResult result = run("run suite.toml --out out", full);
     EXPECT_EQ(result.code, 3) << kib << result.err;
     ASSERT_EQ(result.errors().size(), 1u) << result.err;
     if (!fs::exists(path("out/jobs"))) continue;

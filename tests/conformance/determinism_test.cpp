@@ -1,6 +1,7 @@
 // Same seed, same image: for any number of threads, after a reset, and in the general kernel.
 #include <gtest/gtest.h>
 
+#include "core/error.h"
 #include "tests/conformance/variants.h"
 
 namespace restlab::conformance {
@@ -37,6 +38,27 @@ TEST_P(Determinism, ResetStartsTheSameHistoryAgain) {
   for (uint32_t i = 0; i < kFrames; ++i) session.frame();
   EXPECT_EQ(countDifferent(first, session.radiance()), 0u);
   EXPECT_GT(countDifferent(first, other), size_t(config.width) * config.height) << "seed unused";
+}
+
+// References go on where they ended. A history cannot: what it would go on from is not there.
+TEST_P(Determinism, FramesGoOnFromANumber) {
+  const auto scene = bias::builtinScene("glossy-gallery");
+  Session session(scene, configOf(GetParam()));
+  if (findIntegrator(GetParam().integrator).usesCache) {
+    EXPECT_THROW(session.reset(7, 3), Error);
+    EXPECT_NO_THROW(session.reset(7, 0));
+    return;
+  }
+  session.reset(7);
+  for (uint32_t i = 0; i < 3; ++i) session.frame();
+  const Image third = session.radiance();
+  session.frame();
+  const Image fourth = session.radiance();
+  Session other(scene, configOf(GetParam()));
+  other.reset(7, 3);
+  other.frame();
+  EXPECT_EQ(countDifferent(fourth, other.radiance()), 0u);
+  EXPECT_GT(countDifferent(third, other.radiance()), 0u);
 }
 
 TEST_P(Determinism, FramesOfOneHistoryDiffer) {

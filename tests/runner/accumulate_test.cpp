@@ -22,11 +22,12 @@ TEST(ImageSum, MeanOfBothWeighsBySamples) {
 }
 
 TEST(ImageSum, VarianceOfTheMean) {
-  ImageSum a(true), b(true);
+  ImageSum a, b, squares;
   for (const float value : {1.0f, 2.0f}) a.add(constant(value));
   for (const float value : {3.0f, 4.0f}) b.add(constant(value));
+  for (const float value : {1.0f, 3.0f, 2.0f, 4.0f}) squares.addSquares(constant(value));
   // Samples 1 2 3 4: variance 5/3, of the mean 5/12.
-  const Image variance = ImageSum::varianceOfMean(a, b);
+  const Image variance = ImageSum::varianceOfMean(a, b, squares);
   EXPECT_NEAR(variance.at(0, 0).x, 5.0 / 12.0, 1e-6);
   EXPECT_NEAR(variance.at(0, 0).y, 4.0 * 5.0 / 12.0, 1e-6);
   EXPECT_EQ(variance.at(0, 0).z, 0.0f);

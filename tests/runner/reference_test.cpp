@@ -1,0 +1,191 @@
+// References in the library: extended bit for bit, of cameras that the scene does not have, under
+// keys that tell cameras apart.
+#include "experiments/runner/reference.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "core/error.h"
+#include "tests/runner/temporary_folder.h"
+
+namespace restlab {
+
+namespace {
+
+PreparedScene prepared() {
+  SceneRequest request;
+  request.scene = "cornell-box";
+  return prepareScene(request);
+}
+
+ReferenceConfig smallConfig() {
+  ReferenceConfig config;
+  config.width = 21;
+  config.height = 13;
+  config.maxBounces = 3;
+  config.threads = 1;
+  return config;
+}
+
+// The scene's camera, a step to the side.
+SceneCamera aside(const PreparedScene& scene, double metres = 0.25) {
+  SceneCamera camera = scene.scene->source().cameras.at(scene.camera);
+  camera.cameraToWorld[3].x += metres;
+  return camera;
+}
+
+void expectSame(const Reference& a, const Reference& b) {
+  EXPECT_EQ(a.spp, b.spp);
+  EXPECT_EQ(a.mean.pixels, b.mean.pixels);
+  EXPECT_EQ(a.half0->pixels, b.half0->pixels);
+  EXPECT_EQ(a.half1->pixels, b.half1->pixels);
+  EXPECT_EQ(a.variance->pixels, b.variance->pixels);
+  EXPECT_EQ(a.relmse, b.relmse);
+  auto wordsA = a.metadata, wordsB = b.metadata;
+  wordsA.erase("render_time_s");
+  wordsB.erase("render_time_s");
+  EXPECT_EQ(wordsA, wordsB);
+}
+
+using ReferenceRendering = TemporaryFolder;
+
+TEST_F(ReferenceRendering, ExtendedIsBitForBitThatOfOneGo) {
+  const PreparedScene scene = prepared();
+  ReferenceStore store;
+  store.folder = folder();
+  // An odd number in between: the second half has the next sample.
+  for (const uint64_t spp : {2, 9, 10, 27}) {
+    const Reference inParts = renderReference(scene, smallConfig(), {.spp = spp}, store);
+    expectSame(inParts, renderReference(scene, smallConfig(), {.spp = spp}));
+  }
+}
+
+TEST_F(ReferenceRendering, TargetOfErrorIsMetAtTheSameSample) {
+  const PreparedScene scene = prepared();
+  ReferenceStore store;
+  store.folder = folder();
+  renderReference(scene, smallConfig(), {.spp = 19}, store);
+  const ReferenceTarget target{.relmse = 0.004};
+  const Reference inOneGo = renderReference(scene, smallConfig(), target);
+  EXPECT_GT(inOneGo.spp, 24u) << "or this says little";
+  expectSame(renderReference(scene, smallConfig(), target, store), inOneGo);
+}
+
+TEST_F(ReferenceRendering, TimeOfEarlierCallsCounts) {
+  const PreparedScene scene = prepared();
+  ReferenceStore store;
+  store.folder = folder();
+  const Reference first = renderReference(scene, smallConfig(), {.timeLimitS = 0.05}, store);
+  EXPECT_GE(first.timeS, 0.05);
+  const Reference again = renderReference(scene, smallConfig(), {.timeLimitS = 0.05}, store);
+  EXPECT_EQ(again.spp, first.spp);
+  EXPECT_EQ(again.timeS, first.timeS);
+  const Reference more = renderReference(scene, smallConfig(), {.spp = first.spp + 1}, store);
+  EXPECT_GT(more.timeS, first.timeS);
+}
+
+TEST_F(ReferenceRendering, SeedsAreSequencesOfTheirOwn) {
+  const PreparedScene scene = prepared();
+  ReferenceStore store;
+  store.folder = folder();
+  ReferenceConfig other = smallConfig();
+  other.seed = 2;
+  renderReference(scene, smallConfig(), {.spp = 4}, store);
+  const Reference second = renderReference(scene, other, {.spp = 8}, store);
+  expectSame(second, renderReference(scene, other, {.spp = 8}));
+  EXPECT_NE(second.mean.pixels, renderReference(scene, smallConfig(), {.spp = 8}).mean.pixels);
+}
+
+TEST(ReferenceKey, TellsCamerasApart) {
+  const PreparedScene scene = prepared();
+  const std::string own = referenceKey(scene, smallConfig());
+  ReferenceConfig config = smallConfig();
+  const SceneCamera start = aside(scene, 0.0);
+  config.camera = start;
+  EXPECT_EQ(referenceKey(scene, config), own) << "the scene's camera, given as another one";
+  config.camera->cameraToWorld[3].x += 0.0;
+  config.camera->name = "of a path";
+  EXPECT_EQ(referenceKey(scene, config), own) << "a name makes no image";
+
+  std::vector<std::string> keys = {own};
+  const auto add = [&](const char* what, const std::function<void(SceneCamera&)>& change) {
+    config.camera = start;
+    change(*config.camera);
+    const std::string key = referenceKey(scene, config);
+    EXPECT_EQ(std::count(keys.begin(), keys.end(), key), 0) << what;
+    keys.push_back(key);
+  };
+  const auto nudge = [](double& value) { value = std::nextafter(value, 1e9); };
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 4; ++row) {
+      add("the matrix", [&](SceneCamera& camera) { nudge(camera.cameraToWorld[column][row]); });
+    }
+  }
+  add("the field of view", [&](SceneCamera& camera) { nudge(camera.yfov); });
+  add("the kind", [&](SceneCamera& camera) { camera.kind = rl::RL_CAMERA_ORTHOGRAPHIC; });
+  add("the magnification", [&](SceneCamera& camera) {
+    camera.kind = rl::RL_CAMERA_ORTHOGRAPHIC;
+    nudge(camera.ymag);
+  });
+}
+
+TEST(ReferenceKey, ZeroHasOneSign) {
+  const PreparedScene scene = prepared();
+  ReferenceConfig plus = smallConfig(), minus = smallConfig();
+  plus.camera = minus.camera = aside(scene);
+  plus.camera->cameraToWorld[0][1] = 0.0;
+  minus.camera->cameraToWorld[0][1] = -0.0;
+  EXPECT_EQ(referenceKey(scene, plus), referenceKey(scene, minus));
+}
+
+TEST(ReferenceCamera, IsTheOneThatIsGiven) {
+  const PreparedScene scene = prepared();
+  ReferenceConfig config = smallConfig();
+  config.camera = aside(scene);
+  config.camera->yfov *= 1.1;
+  config.camera->name = "step";
+  // A scene that has this camera renders the same image.
+  Scene changed = scene.scene->source();
+  changed.cameras[0] = *config.camera;
+  PreparedScene own = scene;
+  own.scene = CompiledScene::build(std::move(changed));
+  const Reference given = renderReference(scene, config, {.spp = 6});
+  const Reference wanted = renderReference(own, smallConfig(), {.spp = 6});
+  EXPECT_EQ(given.mean.pixels, wanted.mean.pixels);
+  EXPECT_EQ(given.half1->pixels, wanted.half1->pixels);
+  EXPECT_NE(given.mean.pixels, renderReference(scene, smallConfig(), {.spp = 6}).mean.pixels);
+  EXPECT_EQ(given.metadata.at("camera_to_world"), wanted.metadata.at("camera_to_world"));
+  EXPECT_EQ(given.metadata.at("camera_yfov"), wanted.metadata.at("camera_yfov"));
+  EXPECT_EQ(given.metadata.at("camera"), "step");
+  EXPECT_EQ(given.metadata.at("camera_index"), "none");
+}
+
+TEST(ReferenceCamera, AnotherOneIsAnotherConfiguration) {
+  const PreparedScene scene = prepared();
+  ReferenceConfig first = smallConfig(), second = smallConfig();
+  first.camera = aside(scene, 0.25);
+  second.camera = aside(scene, 0.5);
+  const Reference a = renderReference(scene, first, {.spp = 2});
+  const Reference b = renderReference(scene, second, {.spp = 2});
+  const Reference own = renderReference(scene, smallConfig(), {.spp = 2});
+  EXPECT_NO_THROW(requireSameConfiguration("a.exr", a.metadata, a.metadata));
+  EXPECT_THROW(requireSameConfiguration("a.exr", a.metadata, b.metadata), Error);
+  EXPECT_THROW(requireSameConfiguration("a.exr", a.metadata, own.metadata), Error);
+}
+
+TEST_F(ReferenceRendering, OfAnotherCameraIsExtendedToo) {
+  const PreparedScene scene = prepared();
+  ReferenceConfig config = smallConfig();
+  config.camera = aside(scene);
+  ReferenceStore store;
+  store.folder = folder();
+  renderReference(scene, config, {.spp = 5}, store);
+  expectSame(renderReference(scene, config, {.spp = 12}, store),
+             renderReference(scene, config, {.spp = 12}));
+}
+
+}  // namespace
+
+}  // namespace restlab
