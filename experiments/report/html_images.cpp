@@ -70,12 +70,14 @@ void writeImages(std::ostream& out, const ReportModel& block, size_t index,
   }
   out << fmt::format(
       "<h3>Images</h3>\n<p class=\"hint\">{}</p>\n"
-      "<div class=\"viewer\" role=\"group\" aria-label=\"Images: {}\" data-source=\"images-{}\">"
+      "<div class=\"viewer\" role=\"group\" aria-label=\"Images: {}\" data-source=\"images-{}\" "
+      "style=\"--ratio: {:.4f}\">"
       "<noscript><p class=\"bad\">The images need JavaScript; the EXR files stand beside this "
       "report.</p></noscript></div>\n"
       "<script type=\"application/json\" id=\"images-{}\">{}</script>\n",
       extentText(first, crop, limit, reference && images.size() > 1),
-      escapeMarkup(reportText(block, "title")), index, index, scriptJson(data));
+      escapeMarkup(reportText(block, "title")), index, double(crop.height) / double(crop.width),
+      index, scriptJson(data));
   for (size_t i = 0; i < images.size(); ++i) {
     out << fmt::format("<script type=\"application/octet-stream\" id=\"pixels-{}-{}\">", index, i)
         << packPixels(images[i], crop) << "</script>\n";

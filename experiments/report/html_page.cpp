@@ -19,7 +19,7 @@ std::string paragraph(const char* cssClass, const std::string& text) {
 std::string plotFigures(const ReportModel& block) {
   std::string figures;
   for (const ReportModel& plot : reportList(block, "plots")) {
-    figures += fmt::format("<figure>{}</figure>\n", plotSvg(plotFromModel(plot)));
+    figures += fmt::format("<figure>{}</figure>\n", plotSvg(plotFromModel(block, plot)));
   }
   const auto bars = block.find("bars");
   if (bars != block.end() && !(*bars)["rows"].empty()) {

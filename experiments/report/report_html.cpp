@@ -75,7 +75,7 @@ void writePlots(const fs::path& folder, const ReportModel& model) {
     const std::string id = reportText(block, "id");
     for (const ReportModel& plot : reportList(block, "plots")) {
       writeTextFile(plots / fmt::format("{}-{}.svg", id, reportText(plot, "id")),
-                    plotSvg(plotFromModel(plot)));
+                    plotSvg(plotFromModel(block, plot)));
     }
     const auto bars = block.find("bars");
     if (bars == block.end() || (*bars)["rows"].empty()) continue;

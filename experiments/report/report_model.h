@@ -32,9 +32,10 @@
 // "?" stands after what may be left out. A number is a JSON number or "nan", "inf", "-inf"; a NaN
 // "lo" or "hi" is an unknown one. `counts` false: the row does not count, `flags` says why; it is
 // true by default. `text` is shown in place of the formatted numbers; sorting goes by `value`.
-// `fit`: log10 y = intercept + slope log10 x where both axes are logarithmic (a linear axis enters
-// without its logarithm); lo and hi are the slope's interval. `bad`: any count above 0 is a fault.
-// `file` is relative to the report's folder; the images of a block have one size.
+// A series that has the name of a row looks the same in all plots of the block. `fit`: log10 y =
+// intercept + slope log10 x where both axes are logarithmic (a linear axis enters without its
+// logarithm); lo and hi are the slope's interval. `bad`: any count above 0 is a fault. `file` is
+// relative to the report's folder; the images of a block have one size.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -155,8 +155,13 @@ std::string fitted(const Canvas& canvas, const std::vector<PlotPoint>& points, c
       x0, y0, x1, y1, svg::colour(index), index % svg::kColours);
 }
 
-std::string seriesMarks(const Canvas& canvas, const PlotSpec& plot, size_t index) {
-  const PlotSeries& series = plot.series[index];
+size_t styleOf(const PlotSpec& plot, size_t index) {
+  return plot.series[index].style.value_or(index);
+}
+
+std::string seriesMarks(const Canvas& canvas, const PlotSpec& plot, size_t place) {
+  const PlotSeries& series = plot.series[place];
+  const size_t index = styleOf(plot, place);
   const std::vector<PlotPoint> points = shownPoints(canvas, series);
   std::string out = lineThrough(canvas, points, index);
   if (series.fit) out += fitted(canvas, points, *series.fit, index);
@@ -173,14 +178,15 @@ std::string legend(const PlotSpec& plot, double top) {
   std::string out;
   for (size_t i = 0; i < plot.series.size(); ++i) {
     const double y = top + kLegendRow * double(i);
-    const std::string dash = svg::dashes(i);
+    const size_t style = styleOf(plot, i);
+    const std::string dash = svg::dashes(style);
     out += fmt::format(
         "<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\" stroke=\"{}\" stroke-width=\"1.75\"{} "
         "class=\"line s{}\"/>\n",
         svg::coordinate(kPlotArea.left), svg::coordinate(y), svg::coordinate(kPlotArea.left + 30.0),
-        svg::coordinate(y), svg::colour(i),
-        dash.empty() ? "" : fmt::format(" stroke-dasharray=\"{}\"", dash), i % svg::kColours);
-    out += svg::marker(i, kPlotArea.left + 15.0, y);
+        svg::coordinate(y), svg::colour(style),
+        dash.empty() ? "" : fmt::format(" stroke-dasharray=\"{}\"", dash), style % svg::kColours);
+    out += svg::marker(style, kPlotArea.left + 15.0, y);
     const PlotSeries& series = plot.series[i];
     const double nameLeft = kPlotArea.left + 40.0;
     out += svg::text(nameLeft, y + 4.0, "start", svg::fitText(series.name, kNameWidth, 12.0));
@@ -209,6 +215,14 @@ void collect(const PlotSpec& plot, bool isX, std::vector<double>& inner,
       outer.push_back(point.hi);
     }
   }
+}
+
+// The place of the row of that name; of series that are no rows: after all rows.
+size_t styleByName(const ReportModel& rows, const std::string& name, size_t place) {
+  for (size_t i = 0; i < rows.size(); ++i) {
+    if (reportText(rows[i], "method") == name) return i;
+  }
+  return rows.size() + place;
 }
 
 }  // namespace
@@ -241,7 +255,7 @@ std::string plotSvg(const PlotSpec& plot) {
   out += axes(canvas, plot);
   // Bands below all lines.
   for (size_t i = 0; i < plot.series.size(); ++i) {
-    out += band(canvas, shownPoints(canvas, plot.series[i]), i);
+    out += band(canvas, shownPoints(canvas, plot.series[i]), styleOf(plot, i));
   }
   for (size_t i = 0; i < plot.series.size(); ++i) out += seriesMarks(canvas, plot, i);
   out += legend(plot, legendTop);
@@ -254,7 +268,7 @@ std::string plotSvg(const PlotSpec& plot) {
   return out + "</svg>\n";
 }
 
-PlotSpec plotFromModel(const ReportModel& model) {
+PlotSpec plotFromModel(const ReportModel& block, const ReportModel& model) {
   constexpr double kUnknownEnd = std::numeric_limits<double>::quiet_NaN();
   PlotSpec plot;
   plot.title = reportText(model, "title");
@@ -263,6 +277,7 @@ PlotSpec plotFromModel(const ReportModel& model) {
   for (const ReportModel& from : model["series"]) {
     PlotSeries& series = plot.series.emplace_back();
     series.name = reportText(from, "name");
+    series.style = styleByName(block["rows"], series.name, plot.series.size() - 1);
     for (const ReportModel& numbers : from["points"]) {
       PlotPoint& point = series.points.emplace_back();
       point.x = reportNumber(numbers[0]);

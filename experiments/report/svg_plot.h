@@ -27,7 +27,9 @@ struct PlotFit {
 struct PlotSeries {
   std::string name;
   std::vector<PlotPoint> points;  // in order of x
-  std::optional<PlotFit> fit;
+  std::optional<PlotFit> fit = std::nullopt;
+  std::optional<size_t> style =
+      std::nullopt;  // colour and marker; its place among the series by default
 };
 
 struct PlotAxis {
@@ -56,7 +58,8 @@ Axis plotAxisY(const PlotSpec& plot);
 // finite; not positive on a logarithmic axis) are left out, and a line below the plot counts them.
 std::string plotSvg(const PlotSpec& plot);
 
-// A member of "plots" of a checked model.
-PlotSpec plotFromModel(const ReportModel& plot);
+// A member of "plots" of a block of a checked model. A series that has the name of one of the
+// block's rows has the style of its place there, so that a method looks the same in every plot.
+PlotSpec plotFromModel(const ReportModel& block, const ReportModel& plot);
 
 }  // namespace restlab

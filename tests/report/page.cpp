@@ -47,6 +47,8 @@ void PageTest::open(const ReportModel& model) {
   if (browser_->evaluate("document.querySelectorAll('.viewer').length") == 0) return;
   browser_->evaluate(element(".viewer") + ".scrollIntoView()");
   browser_->waitFor("document.querySelector('.viewer').dataset.drawn !== undefined");
+  browser_->evaluate(element(".viewer") + ".scrollIntoView()");
+  settle();
 }
 
 void PageTest::settle() {

@@ -149,6 +149,19 @@ TEST(Plot, TicksStandAtTheirValues) {
   EXPECT_NEAR(labels["10"], expectedX(plot, 10.0), 0.01);
 }
 
+TEST(Plot, AMethodLooksTheSameInEveryPlot) {
+  const ReportModel block = ReportModel::parse(R"({
+    "rows": [{"method": "path"}, {"method": "gi"}],
+    "plot": {"title": "", "x": {"title": ""}, "y": {"title": ""}, "series": [
+      {"name": "gi", "points": []}, {"name": "path", "points": []}, {"name": "x", "points": []}]}})");
+  const PlotSpec plot = plotFromModel(block, block["plot"]);
+  EXPECT_EQ(plot.series[0].style, 1u);
+  EXPECT_EQ(plot.series[1].style, 0u);
+  EXPECT_EQ(plot.series[2].style, 4u) << "none of a method";
+  const XmlElement svg = parseXml(plotSvg(plot));
+  EXPECT_EQ(findAll(svg, "line", "line").at(0)->attributes.at("stroke"), svg::colour(1));
+}
+
 TEST(Plot, IsDeterministic) { EXPECT_EQ(plotSvg(logPlot()), plotSvg(logPlot())); }
 
 TEST(Plot, TextIsHarmless) {

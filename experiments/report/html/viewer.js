@@ -91,6 +91,8 @@ class Viewer {
     this.showStatus();
     this.list.show(this.state, this.painter, this.pixel);
     this.toolbar.showZoom(this.camera);
+    // A finger moves the page until there is something to move in the view.
+    this.canvas.style.touchAction = this.camera.fitted ? 'pan-y' : 'none';
     this.root.dataset.scale = this.camera.scale;
     this.root.dataset.drawn = Number(this.root.dataset.drawn || 0) + 1;
   }
@@ -106,6 +108,8 @@ class Viewer {
       const tag = make('span', {}, this.label(view));
       const current = this.state.mode === 'side' && view.image === this.state.current;
       tag.className = current ? 'tag current' : 'tag';
+      // Out of the way of what the pointer is at.
+      if (this.pointer && Math.abs(this.pointer[1] - view.y) < 48) tag.classList.add('faint');
       const [left, right] = view.clip || [view.x, view.x + view.width];
       const atRight = view.clip && left > 0;
       tag.style.top = `${view.y}px`;
