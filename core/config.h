@@ -39,6 +39,9 @@ class ConfigTable {
                                       const std::vector<std::string>& fallback = {}) const;
   std::vector<int64_t> getIntegers(const std::string& key, const std::vector<int64_t>& fallback,
                                    int64_t min, int64_t max) const;
+  // An array of `count` numbers, each inside the range.
+  std::vector<double> getNumbers(const std::string& key, const std::vector<double>& fallback,
+                                 size_t count, double min, double max) const;
   // [key]: an empty table where the key is absent.
   ConfigTable getTable(const std::string& key) const;
   // [[key]]: the tables in the order of the file.
