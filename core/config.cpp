@@ -304,6 +304,28 @@ std::string ConfigTable::text() const {
   return text.str();
 }
 
+std::vector<double> ConfigTable::getNumbers(const std::string& key,
+                                            const std::vector<double>& fallback, size_t count,
+                                            double min, double max) const {
+  const toml::node* node = node_->find(key);
+  if (!node) return fallback;
+  const toml::array* array = node->as_array();
+  if (!array || array->size() != count) {
+    fail(key, fmt::format("'{}' must be an array of {} numbers", key, count));
+  }
+  std::vector<double> values;
+  for (const toml::node& element : *array) {
+    const auto value = element.is_number() ? element.value<double>() : std::nullopt;
+    if (!value || !(*value >= min && *value <= max)) {
+      failUsage(fmt::format("{}: '{}' must hold numbers {}",
+                            formatPlace(element.source(), document_->file), key,
+                            rangeText(min, max)));
+    }
+    values.push_back(*value);
+  }
+  return values;
+}
+
 ConfigTable ConfigTable::getTable(const std::string& key) const {
   const toml::node* found = node_->find(key);
   if (!found) {

@@ -1,4 +1,7 @@
 target_sources(rl_core PRIVATE
+  scene/camera_aim.cpp
+  scene/camera_path.cpp
+  scene/camera_path_config.cpp
   scene/content_hash.cpp
   scene/environment.cpp
   scene/gltf_accessor.cpp

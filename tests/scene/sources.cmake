@@ -1,5 +1,8 @@
 include(${CMAKE_CURRENT_LIST_DIR}/builtin_sources.cmake)
 set(RL_SCENE_TESTS
+  scene/camera_keyframes_test.cpp
+  scene/camera_path_config_test.cpp
+  scene/camera_path_test.cpp
   scene/gltf_builder.cpp
   scene/gltf_corpus_test.cpp
   scene/gltf_errors_test.cpp

@@ -36,6 +36,8 @@ TEST(Config, TypedValuesAndFallbacks) {
   EXPECT_EQ(table.getStrings("list"), (std::vector<std::string>{"x", "y"}));
   EXPECT_EQ(table.getStrings("one"), std::vector<std::string>{"z"});
   EXPECT_EQ(table.getIntegers("numbers", {}, 0, 9), (std::vector<int64_t>{1, 2}));
+  EXPECT_EQ(table.getNumbers("numbers", {}, 2, 0.0, 9.0), (std::vector<double>{1.0, 2.0}));
+  EXPECT_EQ(table.getNumbers("absent", {0.5}, 3, 1.0, 9.0), std::vector<double>{0.5});
   EXPECT_EQ(table.getString("absent", "fallback"), "fallback");
   EXPECT_EQ(table.getInteger("absent", 0, 1, 2), 0) << "a fallback may lie outside the range";
   EXPECT_NO_THROW(table.finish());

@@ -1,0 +1,88 @@
+// Moving cameras. The camera of a frame depends on the frame's number alone: no error adds up, and
+// any frame can be asked for, in any order.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scene/scene.h"
+
+namespace restlab {
+
+class ConfigTable;  // core/config.h
+
+// What each does is said at the member of CameraPath that it needs. +Y is up, angles are
+// right-handed about their axis: seen from above, a camera that orbits or turns about +Y by a
+// positive angle does so anticlockwise.
+enum class CameraPathKind { still, orbit, dolly, pan, cut, keyframes };
+
+// Where the camera is at one frame.
+struct CameraKeyframe {
+  uint32_t frame = 0;
+  // A camera of the scene, by name or index; or, where this is empty, a camera at `positionW` that
+  // looks at `targetW`, upright (its right is horizontal). Metres.
+  std::string camera;
+  glm::dvec3 positionW{0.0}, targetW{0.0};
+  // Radians, vertical; absent: that of the camera, or of the one that the path starts with.
+  std::optional<double> yfov;
+  std::string place;  // starts errors: "suite.toml:4:1"
+};
+
+struct CameraPath {
+  CameraPathKind kind = CameraPathKind::still;
+  // orbit: the camera turns about the vertical through the target as if both were one piece: what
+  // is on that axis stays where it is in the image, and the distance to it what it is.
+  // pan: the camera turns where it stands.
+  double degreesPerFrame = 0.0;
+  // dolly: the camera walks along its view; negative: backwards.
+  double metresPerFrame = 0.0;
+  // orbit, cut by an angle: absent is the point that the camera looks at (pointLookedAt).
+  std::optional<glm::dvec3> targetW;
+  // pan: about the camera's own up; else about +Y.
+  bool aboutCameraUp = false;
+  // cut: from `cutFrame` on another camera stands still: one of the scene, by name or index, or,
+  // where `cutCamera` is empty, the same one after an orbit by `cutDegrees`.
+  uint32_t cutFrame = 0;
+  std::string cutCamera;
+  double cutDegrees = 0.0;
+  // keyframes: in the order of their frames. At its frame the camera is exactly that of the
+  // keyframe; before the first and after the last it stands still. In between positions and fields
+  // of view (angles; an orthographic camera's extents) are linear in the frame. Between two
+  // keyframes with targets the target is linear too, and the camera upright: while it walks it
+  // keeps looking at a target that both name. Otherwise it turns evenly, the shorter way round.
+  std::vector<CameraKeyframe> keyframes;
+  std::string place;  // starts errors; "": the path's kind does
+};
+
+// A path in a scene: names looked up, targets found.
+struct CameraMotion {
+  CameraPath path;
+  SceneCamera start, afterCut;
+  glm::dvec3 targetW{0.0};              // of an orbit
+  std::vector<SceneCamera> keyCameras;  // of path.keyframes
+};
+
+// The path that starts with the scene's camera of that index. Throws Error (badUsage) at the place
+// of what is wrong: unknown cameras, keyframes out of order, keyframes of perspective and
+// orthographic cameras in one path, targets in, straight above or straight below the camera.
+CameraMotion resolveCameraPath(const CameraPath& path, const Scene& scene, uint32_t camera);
+
+// The camera of a frame, counted from 0. Its name and aspect ratio are those of the first frame's
+// camera. Frame 0 of an orbit, dolly or pan, and every frame in which an angle has come round to a
+// multiple of 360 degrees, is that camera to the last bit. Throws Error (badUsage) where keyframes
+// lead the camera through its target, or straight above or below it.
+SceneCamera cameraAt(const CameraMotion& motion, uint32_t frame);
+
+// The first surface on the axis of the view, whatever its material and whichever side it shows.
+// Where there is none: the point of the axis nearest to the middle of the scene's bounds, or, where
+// that lies behind the camera, as far ahead as the bounds are large (1 m where they are empty).
+glm::dvec3 pointLookedAt(const Scene& scene, const SceneCamera& camera);
+
+// A path from a table such as { kind = "orbit", degrees_per_frame = 0.5 }; docs/manual.md lists the
+// keys. Throws Error (badUsage) with place. Unknown keys are errors, but for those that the caller
+// has asked for before.
+CameraPath parseCameraPath(const ConfigTable& table);
+
+}  // namespace restlab

@@ -1,0 +1,121 @@
+// Camera paths as TOML tables.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "core/config.h"
+#include "core/scene/camera_path.h"
+
+namespace restlab {
+
+namespace {
+
+constexpr int64_t kMaxFrame = int64_t(1) << 31;
+constexpr double kMaxMetres = 1e9;
+
+// In the order of CameraPathKind.
+const std::vector<std::string> kKinds = {"still", "orbit", "dolly", "pan", "cut", "keyframes"};
+
+double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
+
+void require(const ConfigTable& table, const std::string& what, const std::string& key) {
+  if (!table.has(key)) table.fail("", fmt::format("{} needs '{}'", what, key));
+}
+
+glm::dvec3 getPoint(const ConfigTable& table, const std::string& key) {
+  const std::vector<double> numbers = table.getNumbers(key, {}, 3, -kMaxMetres, kMaxMetres);
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+uint32_t getFrame(const ConfigTable& table, const std::string& what) {
+  require(table, what, "frame");
+  return uint32_t(table.getInteger("frame", 0, 0, kMaxFrame));
+}
+
+void readCut(const ConfigTable& table, CameraPath& path) {
+  path.cutFrame = getFrame(table, "a camera path of the kind 'cut'");
+  const bool toCamera = table.has("camera"), byAngle = table.has("degrees");
+  if (toCamera == byAngle) {
+    table.fail(toCamera ? "degrees" : "",
+               "a cut needs either 'camera' or 'degrees' (of an orbit), and not both");
+  }
+  if (toCamera && table.has("target")) {
+    table.fail("target", "a cut to another camera has no 'target'");
+  }
+  path.cutCamera = table.getString("camera", "");
+  if (toCamera && path.cutCamera.empty()) table.fail("camera", "'camera' is empty");
+  path.cutDegrees = table.getNumber("degrees", 0.0, -360.0, 360.0);
+}
+
+CameraKeyframe readKeyframe(const ConfigTable& table) {
+  CameraKeyframe key;
+  key.place = table.place();
+  key.frame = getFrame(table, "a keyframe");
+  const bool ofCamera = table.has("camera");
+  if (ofCamera == (table.has("position") || table.has("target"))) {
+    table.fail(ofCamera ? "camera" : "",
+               "a keyframe needs either 'camera' or 'position' and 'target', and not both");
+  }
+  if (ofCamera) {
+    key.camera = table.getString("camera", "");
+    if (key.camera.empty()) table.fail("camera", "'camera' is empty");
+  } else {
+    for (const char* point : {"position", "target"}) {
+      require(table, "a keyframe without 'camera'", point);
+    }
+    key.positionW = getPoint(table, "position");
+    key.targetW = getPoint(table, "target");
+  }
+  if (table.has("yfov_degrees")) {
+    key.yfov = radians(table.getNumber("yfov_degrees", 0.0, 0.01, 179.0));
+  }
+  table.finish();
+  return key;
+}
+
+}  // namespace
+
+CameraPath parseCameraPath(const ConfigTable& table) {
+  CameraPath path;
+  path.place = table.place();
+  if (!table.has("kind")) {
+    table.fail("", fmt::format("a camera path needs a 'kind' ({})", fmt::join(kKinds, ", ")));
+  }
+  const std::string kind = table.getChoice("kind", "", kKinds);
+  path.kind = CameraPathKind(std::find(kKinds.begin(), kKinds.end(), kind) - kKinds.begin());
+  const std::string what = fmt::format("a camera path of the kind '{}'", kind);
+  const bool isOrbit = path.kind == CameraPathKind::orbit;
+  if (isOrbit || path.kind == CameraPathKind::pan) {
+    require(table, what, "degrees_per_frame");
+    path.degreesPerFrame = table.getNumber("degrees_per_frame", 0.0, -180.0, 180.0);
+  }
+  if (path.kind == CameraPathKind::dolly) {
+    require(table, what, "metres_per_frame");
+    path.metresPerFrame = table.getNumber("metres_per_frame", 0.0, -kMaxMetres, kMaxMetres);
+  }
+  if (path.kind == CameraPathKind::pan) {
+    path.aboutCameraUp = table.getChoice("about", "world", {"world", "camera"}) == "camera";
+  }
+  if (path.kind == CameraPathKind::cut) readCut(table, path);
+  if ((isOrbit || path.kind == CameraPathKind::cut) && table.has("target")) {
+    path.targetW = getPoint(table, "target");
+  }
+  if (path.kind == CameraPathKind::keyframes) {
+    for (const ConfigTable& key : table.getTables("keyframe")) {
+      path.keyframes.push_back(readKeyframe(key));
+      const size_t count = path.keyframes.size();
+      if (count > 1 && path.keyframes[count - 1].frame <= path.keyframes[count - 2].frame) {
+        key.fail("frame",
+                 fmt::format("frame {} comes after frame {}: keyframes stand in the order "
+                             "of their frames",
+                             path.keyframes[count - 1].frame, path.keyframes[count - 2].frame));
+      }
+    }
+    if (path.keyframes.empty()) table.fail("", what + " needs [[keyframe]]");
+  }
+  table.finish();
+  return path;
+}
+
+}  // namespace restlab
