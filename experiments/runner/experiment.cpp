@@ -241,7 +241,7 @@ void addJob(const JobData& job, BlockResult& block) {
     RunResult run = runOfLines(job.methods[m].lines, method);
     run.method = m;
     (run.run % 2 == 0 ? method.evenRuns : method.oddRuns).add(job.methods[m].measured);
-    if (run.run == 0) {
+    if (method.runs.empty()) {  // run 0 where it is there
       method.shown = job.methods[m].measured;
       method.metadata = job.methods[m].metadata;
     }

@@ -59,7 +59,7 @@ struct RunResult {
 struct MethodResult {
   std::vector<RunResult> runs;
   ImageSum evenRuns, oddRuns;  // of the measured frames: two halves for the squared bias
-  Image shown;                 // measured frame of run 0
+  Image shown;                 // measured frame of the first run that is there
   std::map<std::string, std::string> metadata;  // of that image
   std::string featuresLeftOut;                  // "+"-joined, or "none"
   size_t bytesPerPixel = 0;
