@@ -74,8 +74,8 @@ std::string barsSvg(const BarsSpec& bars) {
   }
   const size_t columns = std::max<size_t>(1, size_t((kWidth - 24.0) / entry));
   const double legendTop = bottom + 50.0;
-  const double height =
-      legendTop + kLegendRow * double((names.size() + columns - 1) / columns) + 2.0;
+  const size_t legendRows = (names.size() + columns - 1) / columns;
+  const double height = legendTop + kLegendRow * double(legendRows) + 2.0;
 
   std::string out = svg::open(kWidth, height, bars.title, "bars");
   out += svg::text(12.0, 22.0, "start", svg::fitText(bars.title, kWidth - 24.0, 14.5),
@@ -105,7 +105,8 @@ std::string barsSvg(const BarsSpec& bars) {
   out += svg::line(left, kTop, left, bottom, "frame");
   for (size_t i = 0; i < names.size(); ++i) {
     const double x = 12.0 + entry * double(i % columns);
-    const double y = legendTop + kLegendRow * double(i / columns);
+    const size_t row = i / columns;
+    const double y = legendTop + kLegendRow * double(row);
     out += box(x, y - 10.0, 14.0, 12.0, i, names[i]);
     out += svg::text(x + 20.0, y, "start", svg::fitText(names[i], kLongestName, 12.0));
   }

@@ -22,8 +22,12 @@ float previewExposure(const Image& reference) {
 }
 
 std::string blockLabel(const Suite& suite, const BlockResult& block) {
+  const std::string path = suite.hasMovingCamera() ? "-" + suite.cameraPathName : "";
+  // Where paths are swept, the point names them.
+  const bool isNamed = suite.point.find("camera_path=") != std::string::npos;
   const std::string point = suite.point.empty() ? "" : "-" + suite.point;
-  return safeFileName(block.scene + "-" + componentName(block.component) + point);
+  return safeFileName(block.scene + "-" + componentName(block.component) + (isNamed ? "" : path) +
+                      point);
 }
 
 std::string referenceLabel(const Suite& suite, const BlockResult& block) {

@@ -145,6 +145,9 @@ std::vector<Column> furtherColumns(const Suite& suite, const MethodSummary& row)
   const TemporalFigures* temporal = row.temporal ? &*row.temporal : nullptr;
   columns.push_back({"temporal_variance", number(temporal ? temporal->variance : kUnknown)});
   columns.push_back({"temporal_difference", number(temporal ? temporal->difference : kUnknown)});
+  columns.push_back({"temporal_difference_of_reference",
+                     number(temporal ? temporal->referenceDifference : kUnknown)});
+  columns.push_back({"camera_path", suite.cameraPathName});
   for (size_t lag = 1; lag <= TemporalFigures().autocorrelation.size(); ++lag) {
     columns.push_back({fmt::format("error_autocorrelation_{}", lag),
                        number(temporal ? temporal->autocorrelation[lag - 1] : kUnknown)});

@@ -41,16 +41,12 @@ double secondsOfFrame(const PreparedScene& prepared, const SessionConfig& config
 }
 
 // One that a run would take as it is.
-std::optional<Reference> findReference(const Suite& suite, const SuiteScene& scene,
-                                       const PreparedScene& prepared, const SessionConfig& picture,
-                                       const fs::path& out, const BlockResult& block) {
-  if (!scene.reference.empty()) {
-    const fs::path found = findAsset(scene.reference);
-    return readReference(found.empty() ? fs::path(scene.reference) : found);
-  }
-  const std::string key = referenceKey(prepared, referenceConfigOf(picture));
-  for (const fs::path& file : {out / "references" / (referenceLabel(suite, block) + ".exr"),
-                               referenceCacheFolder() / (key + ".exr")}) {
+std::optional<Reference> findReference(const Suite& suite, const PreparedScene& prepared,
+                                       const ReferenceConfig& config, const fs::path& out,
+                                       const std::string& label) {
+  const std::string key = referenceKey(prepared, config);
+  for (const fs::path& file :
+       {out / "references" / (label + ".exr"), referenceCacheFolder() / (key + ".exr")}) {
     std::error_code status;
     if (!fs::exists(file, status)) continue;
     try {
@@ -63,6 +59,31 @@ std::optional<Reference> findReference(const Suite& suite, const SuiteScene& sce
     }
   }
   return std::nullopt;
+}
+
+// All that a block is measured against: what there is of it, and the hash that its jobs' keys hold;
+// "" where some of it is to be made.
+std::string referencesThere(const Suite& suite, const SuiteScene& scene,
+                            const PreparedScene& prepared, const SessionConfig& picture,
+                            const fs::path& out, const BlockResult& block, std::string& hash) {
+  if (!scene.reference.empty()) {
+    const fs::path found = findAsset(scene.reference);
+    hash = referenceHash(readReference(found.empty() ? fs::path(scene.reference) : found));
+    return "a file";
+  }
+  ReferenceConfig config = referenceConfigOf(picture);
+  const std::string label = referenceLabel(suite, block);
+  if (block.motion) config.camera = cameraAt(*block.motion, suite.warmupFrames);
+  const std::optional<Reference> measured = findReference(suite, prepared, config, out, label);
+  if (!measured) return "";
+  hash = referenceHash(*measured);
+  if (block.motion && suite.temporal && suite.warmupFrames > 0) {
+    config.camera = cameraAt(*block.motion, suite.warmupFrames - 1);
+    const auto before = findReference(suite, prepared, config, out, label + "-before");
+    if (!before) return "";
+    hash += referenceHash(*before);
+  }
+  return fmt::format("{} spp", measured->spp);
 }
 
 struct Cost {
@@ -87,11 +108,9 @@ Cost costOf(const Suite& suite, const SuiteScene& scene, const PreparedScene& pr
   const size_t pixels = size_t(block.width) * block.height;
   cost.memoryMiB =
       double(pixels) * double(std::max(bytesPerPixel, kReferenceBytesPerPixel)) / (1024.0 * 1024.0);
-  const std::optional<Reference> found =
-      findReference(suite, scene, prepared, picture, request.out, block);
-  if (found) {
-    cost.reference = fmt::format("{} spp", found->spp);
-    const std::string hash = referenceHash(*found);
+  std::string hash;
+  cost.reference = referencesThere(suite, scene, prepared, picture, request.out, block, hash);
+  if (!cost.reference.empty()) {
     const JobStore store(request.out);
     for (uint32_t run = 0; run < suite.runs; ++run) {
       const JobIdentity identity =
@@ -144,6 +163,7 @@ std::string planText(const std::vector<Suite>& points, const SuiteRequest& reque
         block.camera = prepared.cameraName;
         block.component = component;
         sceneResolution(suite, suite.scenes[s], prepared, block.width, block.height);
+        block.motion = motionOf(suite, prepared);
         const Cost cost = costOf(suite, suite.scenes[s], prepared, block, request, devices);
         const double runsS = cost.runS * double(suite.runs - cost.there);
         lines += fmt::format("| {} | {}x{} | {} | {} of {} | {} | {} | {:.0f} MiB |\n",

@@ -129,7 +129,14 @@ struct BlockExecutor::Impl {
     }
     startup.print();
     if (block.withoutLights.empty())
-      block.withoutLights = pixelsWithoutLights(prepared, sessions.front()->config());
+      block.withoutLights =
+          pixelsWithoutLights(prepared, sessions.front()->config(), measuredCamera());
+  }
+
+  // Instead of the scene's.
+  std::optional<SceneCamera> measuredCamera() const {
+    if (!block.motion) return std::nullopt;
+    return cameraAt(*block.motion, suite.warmupFrames);
   }
 
   // What one method's frames of a run leave.
@@ -151,7 +158,8 @@ struct BlockExecutor::Impl {
       frames.passes.push_back(stats.passes);
     }
     // Only copied here: errors are computed after the run, not between timed frames.
-    if (frame == suite.warmupFrames || isCheckpoint(suite, frame))
+    const bool isBefore = block.referenceBefore && frame + 1 == suite.warmupFrames;
+    if (frame == suite.warmupFrames || isBefore || isCheckpoint(suite, frame))
       frames.kept.emplace_back(frame, sessions[m]->radiance());
     if (!isTimed) return;
     if (suite.accumulate) {
@@ -165,7 +173,7 @@ struct BlockExecutor::Impl {
         frames.sums.emplace_back(point, frames.sum.mean());
       }
     }
-    if (suite.temporal) {
+    if (suite.temporal && !block.motion) {
       if (!frames.temporal) frames.temporal.emplace(block.reference);
       frames.temporal->add(sessions[m]->radiance());
     }
@@ -173,6 +181,11 @@ struct BlockExecutor::Impl {
 
   void measure(RunResult& result, Frames& frames, Image& measured) const {
     result.passes = medianPasses(frames.passes);
+    if (block.referenceBefore && frames.kept.size() > 1) {
+      result.temporal = figuresOfPair(frames.kept[0].second, frames.kept[1].second,
+                                      *block.referenceBefore, block.reference);
+      frames.kept.erase(frames.kept.begin());
+    }
     for (auto& [frame, image] : frames.kept) {
       const FrameError error = measureFrame(image, block.reference, frame, block.withoutLights);
       if (isCheckpoint(suite, frame)) result.checkpoints.push_back(error);
@@ -201,7 +214,10 @@ struct BlockExecutor::Impl {
     }
     const uint32_t length = suite.warmupFrames + suite.timedFrames;
     for (uint32_t frame = 0; frame < length; ++frame) {
+      std::optional<SceneCamera> camera;
+      if (block.motion) camera = cameraAt(*block.motion, frame);
       for (size_t m = 0; m < count; ++m) {
+        if (camera) sessions[m]->setCamera(*camera);
         const FrameStats stats = sessions[m]->frame();
         if (interruptRequested()) return std::nullopt;
         take(m, frame, stats, results[m], frames[m]);
@@ -212,6 +228,11 @@ struct BlockExecutor::Impl {
       JobMethod& method = data.methods.emplace_back();
       measure(results[m], frames[m], method.measured);
       method.metadata = imageMetadata(prepared, *sessions[m], results[m]);
+      if (const auto camera = measuredCamera()) {
+        describeCamera(*camera, method.metadata);
+        method.metadata["camera_index"] = "none";
+        method.metadata["camera_path"] = suite.cameraPathName;
+      }
       method.lines = runLines(suite, block, descriptions[m], results[m], job, startedUtc);
     }
     return data;

@@ -34,11 +34,14 @@ struct AccumulatedError {
   FrameError error;
 };
 
-// How the timed frames hang together. Errors are taken against the two halves of the reference in
-// turns, so that its own noise is in none of the products.
+// How the timed frames hang together; with a moving camera only the measured frame and the one
+// before it, whose references are known: all but the differences are NaN then. Errors are taken
+// against the two halves of the reference in turns, so that its own noise is in none of the
+// products.
 struct TemporalFigures {
-  double variance = 0.0;    // mean over pixels of the sample variance over frames: flicker
-  double difference = 0.0;  // mean |f_t - f_{t-1}|
+  double variance = 0.0;             // mean over pixels of the sample variance over frames: flicker
+  double difference = 0.0;           // mean |f_t - f_{t-1}|
+  double referenceDifference = 0.0;  // the same of the references: what moved; 0 of a still camera
   // mean (f_t - half0)(f_{t+k} - half1) over that of k = 0, k = 1...; NaN where there are too few
   // frames or no halves.
   std::array<double, 8> autocorrelation{};
@@ -71,7 +74,10 @@ struct BlockResult {
   std::string scene, camera;
   uint32_t component = rl::RL_COMPONENT_ALL;
   uint32_t width = 0, height = 0;
-  Reference reference;
+  // The path of a moving camera; nothing where it is the scene's in every frame.
+  std::optional<CameraMotion> motion;
+  Reference reference;                       // of the measured frame's camera
+  std::optional<Reference> referenceBefore;  // of the frame before it, where it is asked for
   std::string referenceFile;
   // Of each method's kernels, what was spent on this scene before the block; empty: nothing.
   std::vector<double> startupMs;

@@ -42,6 +42,17 @@ std::string hashOfFile(const fs::path& file) {
 
 std::string imageName(size_t method) { return fmt::format("method{}.exr", method); }
 
+// Every bit of a view.
+std::string cameraWords(const SceneCamera& camera) {
+  std::string words =
+      fmt::format("{} {:a} {:a} {:a}", camera.kind, camera.yfov, camera.xmag, camera.ymag);
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 4; ++row)
+      words += fmt::format(" {:a}", camera.cameraToWorld[column][row]);
+  }
+  return words;
+}
+
 JobData read(const fs::path& folder, const std::string& key) {
   std::ifstream in(folder / "job.json", std::ios::binary);
   if (!in) failInput("has no job.json");
@@ -101,6 +112,10 @@ JobIdentity jobIdentity(const Suite& suite, const PreparedScene& prepared, const
   }
   Json uses = Json::array();
   for (const DeviceUse& use : devices) uses.push_back({use.backend, use.device, use.rayTracing});
+  // The path is where it leads.
+  Json cameras = Json::array();
+  for (uint32_t frame = 0; block.motion && frame < suite.warmupFrames + suite.timedFrames; ++frame)
+    cameras.push_back(cameraWords(cameraAt(*block.motion, frame)));
   JobIdentity identity;
   identity.words = {{"schema", kJobSchema},
                     {"results_schema", kResultsSchema},
@@ -113,6 +128,8 @@ JobIdentity jobIdentity(const Suite& suite, const PreparedScene& prepared, const
                     {"accumulate", suite.accumulate},
                     {"temporal", suite.temporal},
                     {"threads", suite.threads},
+                    {"camera_path", suite.cameraPathName},
+                    {"cameras", hashOfText(cameras.dump())},
                     {"reference", referenceHash},
                     {"cpu", cpuModel()},
                     {"devices", std::move(uses)},

@@ -4,7 +4,8 @@
 
 namespace restlab {
 
-std::vector<uint8_t> pixelsWithoutLights(const PreparedScene& prepared, SessionConfig config) {
+std::vector<uint8_t> pixelsWithoutLights(const PreparedScene& prepared, SessionConfig config,
+                                         const std::optional<SceneCamera>& camera) {
   constexpr int kSamples = 64;
   config.integrator = "path";
   config.mode = "";
@@ -14,6 +15,7 @@ std::vector<uint8_t> pixelsWithoutLights(const PreparedScene& prepared, SessionC
   config.seed = 1;
   Session emission(prepared.scene, config);
   logStartup(emission);
+  if (camera) emission.setCamera(*camera);
   std::vector<uint8_t> mask(size_t(config.width) * config.height, 1);
   for (int sample = 0; sample < kSamples; ++sample) {
     emission.frame();

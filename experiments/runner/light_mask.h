@@ -3,14 +3,16 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "experiments/runner/prepare.h"
 
 namespace restlab {
 
-// One byte a pixel: 1 where none of 64 samples saw emission or environment directly. `config` gives
-// scene, camera, size and filter.
-std::vector<uint8_t> pixelsWithoutLights(const PreparedScene& prepared, SessionConfig config);
+// `camera`: instead of the scene's. One byte a pixel: 1 where none of 64 samples saw emission or
+// environment directly. `config` gives scene, camera, size and filter.
+std::vector<uint8_t> pixelsWithoutLights(const PreparedScene& prepared, SessionConfig config,
+                                         const std::optional<SceneCamera>& camera = {});
 
 }  // namespace restlab

@@ -37,7 +37,8 @@ Interval varianceOf(const MethodSummary& row) {
   return only(row.temporal ? row.temporal->variance : kUnknown);
 }
 Interval differenceOf(const MethodSummary& row) {
-  return only(row.temporal ? row.temporal->difference : kUnknown);
+  return only(row.temporal ? row.temporal->difference - row.temporal->referenceDifference
+                           : kUnknown);
 }
 Interval correlationOf(const MethodSummary& row) {
   return only(row.temporal ? row.temporal->autocorrelation[0] : kUnknown);
@@ -74,8 +75,8 @@ const std::vector<Column>& columns() {
       {"equal_time", "lower at equal time", "", "higher", "off the fitted lines", equalTimeOf},
       {"equal_error", "faster to equal error", "", "higher", "off the fitted lines", equalErrorOf},
       {"temporal_variance", "variance over frames", "", "lower", "flicker of a pixel", varianceOf},
-      {"temporal_difference", "frame difference", "", "lower", "mean |f_t - f_(t-1)|",
-       differenceOf},
+      {"temporal_difference", "frame difference", "", "lower",
+       "mean |f_t - f_(t-1)|, less that of the references", differenceOf},
       {"correlation", "correlation of errors", "", "lower", "of frames side by side",
        correlationOf},
       {"rays", "rays / pixel", "", "none", "path and shadow rays of a frame",
@@ -228,10 +229,12 @@ Json blockDocument(const Suite& suite, const std::vector<MethodSummary>& rows, f
                             suite.point.empty() ? "" : ", " + suite.point)},
       {"subtitle",
        fmt::format(
-           "camera {}, {}x{}, {} scattering events, Russian roulette {}, filter {}{}; {} "
+           "camera {}{}, {}x{}, {} scattering events, Russian roulette {}, filter {}{}; {} "
            "runs of {} warm-up and {} timed frames; reference {} spp, relMSE {:.2g}{}",
-           block.camera, block.width, block.height, suite.maxBounces,
-           suite.russianRoulette ? "on" : "off", filterName(suite.pixelFilter),
+           block.camera,
+           suite.hasMovingCamera() ? fmt::format(", path {}", suite.cameraPathName) : "",
+           block.width, block.height, suite.maxBounces, suite.russianRoulette ? "on" : "off",
+           filterName(suite.pixelFilter),
            suite.multiscatter ? ", multiple scattering compensated" : "", rows.front().runs,
            suite.warmupFrames, suite.timedFrames, block.reference.spp, block.reference.relmse,
            block.reference.half0 ? "" : ", without halves: its own noise is part of every MSE")}};
@@ -246,7 +249,8 @@ Json blockDocument(const Suite& suite, const std::vector<MethodSummary>& rows, f
         [](const ConvergencePoint& point) { return double(point.frames); }, false));
   }
   plots.push_back(singleFrames(rows));
-  if (rows.front().temporal) plots.push_back(correlations(rows));
+  const bool isStill = !suite.hasMovingCamera();
+  if (rows.front().temporal && isStill) plots.push_back(correlations(rows));
   document["plots"] = std::move(plots);
   document["bars"] = barsOf(rows);
   Json left = Json::array(), images = Json::array();

@@ -30,6 +30,7 @@ Json configurationJson(const Suite& suite, const BlockResult& block, size_t meth
           {"point", suite.point},
           {"scene", block.scene},
           {"camera", block.camera},
+          {"camera_path", suite.cameraPathName},
           {"component", componentName(block.component)},
           {"method", suite.methods[method].name},
           {"integrator", session.integrator},
@@ -101,6 +102,7 @@ Json temporalJson(const TemporalFigures& figures) {
   for (const double value : figures.autocorrelation) lags.push_back(finiteJson(value));
   return {{"variance", finiteJson(figures.variance)},
           {"difference", finiteJson(figures.difference)},
+          {"reference_difference", finiteJson(figures.referenceDifference)},
           {"autocorrelation", lags}};
 }
 
@@ -108,6 +110,7 @@ TemporalFigures temporalOf(const Json& json) {
   TemporalFigures figures;
   figures.variance = finiteNumber(json.at("variance"));
   figures.difference = finiteNumber(json.at("difference"));
+  figures.referenceDifference = finiteNumber(json.at("reference_difference"));
   for (size_t lag = 0; lag < figures.autocorrelation.size(); ++lag)
     figures.autocorrelation[lag] = finiteNumber(json.at("autocorrelation").at(lag));
   return figures;

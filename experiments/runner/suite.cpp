@@ -265,6 +265,8 @@ void readSettings(const ConfigTable& table, Suite& suite) {
     suite.rayTracing = table.getChoice("ray_tracing", rayTracingNames().front(), rayTracingNames());
   }
   suite.validate = table.getBool("validate", suite.validate);
+  suite.cameraPathName = table.getString("camera_path", suite.cameraPathName);
+  suite.cameraPathPlace = table.place("camera_path");
   suite.accumulate = table.getBool("accumulate", suite.accumulate);
   suite.temporal = table.getBool("temporal", suite.temporal);
   suite.pixelFilter = parseFilter(table.getString("filter", "box"), table.place("filter"));
@@ -286,6 +288,35 @@ void readSettings(const ConfigTable& table, Suite& suite) {
     suite.checkpoints.push_back(uint32_t(frame));
   }
   table.finish();
+}
+
+// The [[camera_path]] that the settings name; "still" needs none.
+void chooseCameraPath(const ConfigTable& root, const ConfigTable& settings, Suite& suite) {
+  std::vector<std::string> names = {"still"};
+  bool isFound = suite.cameraPathName == "still";
+  for (const ConfigTable& table : root.getTables("camera_path")) {
+    const std::string name = table.getString("name", "");
+    if (name.empty()) table.fail("name", "[[camera_path]] needs a 'name'");
+    if (std::find(names.begin(), names.end(), name) != names.end())
+      table.fail("name", fmt::format("two camera paths are named '{}'", name));
+    names.push_back(name);
+    const CameraPath path = parseCameraPath(table);
+    if (name != suite.cameraPathName) continue;
+    suite.cameraPath = path;
+    isFound = true;
+  }
+  if (!isFound) {
+    settings.fail("camera_path",
+                  fmt::format("no [[camera_path]] is named '{}'{}", suite.cameraPathName,
+                              didYouMean(suite.cameraPathName, names)));
+  }
+  if (!suite.hasMovingCamera()) return;
+  // There is one reference, of the measured frame's camera.
+  if (!suite.checkpoints.empty())
+    settings.fail("checkpoints",
+                  "'checkpoints' are of a still camera: each would need a reference");
+  if (suite.accumulate)
+    settings.fail("accumulate", "'accumulate' is of a still camera: frames of a moving one differ");
 }
 
 // The keys that [settings] has: those that readSettings() asks for.
@@ -386,7 +417,8 @@ Suite readSuite(const ConfigTable& root, const std::filesystem::path& file, cons
   suite.file = file.string();
   suite.name = root.getString("name", file.stem().string());
   suite.question = root.getString("question", "");
-  for (const char* key : {"scenes", "scene", "method", "settings", "reference", "sweep"})
+  for (const char* key :
+       {"scenes", "scene", "method", "settings", "reference", "sweep", "camera_path"})
     root.has(key);
   root.finish();
   const std::string folder = file.parent_path().string();
@@ -405,6 +437,7 @@ Suite readSuite(const ConfigTable& root, const std::filesystem::path& file, cons
     root.fail("", "the suite has no scenes: give scenes = [..] or [[scene]]");
   const ConfigTable settings = root.getTable("settings");
   readSettings(settings, suite);
+  chooseCameraPath(root, settings, suite);
   for (ConfigTable& table : root.getTables("method")) {
     for (SuiteMethod& method : readMethods(table, settings, sweep, suite))
       suite.methods.push_back(std::move(method));

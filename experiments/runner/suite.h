@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/scene/camera_path.h"
 #include "experiments/runner/prepare.h"
 #include "experiments/runner/reference.h"
 
@@ -46,6 +47,8 @@ struct Suite {
   std::vector<uint32_t> checkpoints;  // further frames of the history whose error is recorded
   bool accumulate = false;  // the error of the mean of 1, 2, 4, ... timed frames is recorded
   bool temporal = false;    // flicker and correlation of the timed frames are recorded
+  CameraPath cameraPath;    // of every scene, from its camera
+  std::string cameraPathName = "still", cameraPathPlace;
   // Of all methods that do not say their own.
   std::vector<std::string> backends = {"cpu"};
   std::string device, rayTracing;  // for the backends that can have them
@@ -64,6 +67,8 @@ struct Suite {
   size_t onFirstBackend(size_t method) const;
   // Backends of the methods, in their order, each once.
   std::vector<std::string> methodBackends() const;
+  // True where the camera is not the scene's in every frame.
+  bool hasMovingCamera() const { return cameraPath.kind != CameraPathKind::still; }
   // Completes `config`, whose backend is set, by what the settings say of that backend.
   void chooseDevice(SessionConfig& config) const;
 };

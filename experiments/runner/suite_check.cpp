@@ -95,6 +95,11 @@ PreparedScene checkScene(const Suite& suite, const SuiteScene& scene, SuiteCheck
   if (!scene.request.camera.empty()) {
     at(scene.cameraPlace, [&] { chooseCamera(prepared, scene.request.camera); });
   }
+  motionOf(suite, prepared);
+  if (suite.hasMovingCamera() && !scene.reference.empty()) {
+    failUsage(fmt::format("{}: a reference as a file is of a still camera, not of the path '{}'",
+                          scene.referencePlace, suite.cameraPathName));
+  }
   uint32_t width = 0, height = 0;
   at(scene.place, [&] { sceneResolution(suite, scene, prepared, width, height); });
   if (scene.reference.empty()) {
@@ -118,6 +123,16 @@ void sceneResolution(const Suite& suite, const SuiteScene& scene, const Prepared
   width = own ? scene.width : suite.width;
   height = own ? scene.height : suite.height;
   completeResolution(prepared, width, height);
+}
+
+std::optional<CameraMotion> motionOf(const Suite& suite, const PreparedScene& prepared) {
+  if (!suite.hasMovingCamera()) return std::nullopt;
+  CameraMotion motion =
+      resolveCameraPath(suite.cameraPath, prepared.scene->source(), prepared.camera);
+  // Every frame: a path that leads through its target is found before the first one is rendered.
+  for (uint32_t frame = 0; frame < suite.warmupFrames + suite.timedFrames; ++frame)
+    cameraAt(motion, frame);
+  return motion;
 }
 
 SessionConfig pictureOf(const Suite& suite, uint32_t width, uint32_t height, uint32_t component) {

@@ -17,6 +17,10 @@ void sceneResolution(const Suite& suite, const SuiteScene& scene, const Prepared
 // What every method of a block, and its reference, must agree in; on the reference's backend.
 SessionConfig pictureOf(const Suite& suite, uint32_t width, uint32_t height, uint32_t component);
 
+// The suite's camera path in the scene; nothing where the camera is the scene's in every frame.
+// Throws Error (badUsage) at the place of what is wrong.
+std::optional<CameraMotion> motionOf(const Suite& suite, const PreparedScene& prepared);
+
 // What the check found out on its way.
 struct SuiteCheck {
   std::optional<PreparedScene> only;  // of a suite with one scene, so that it is not loaded twice

@@ -173,6 +173,7 @@ class SuiteRun {
     block.component = component;
     sceneResolution(suite, scene, prepared, block.width, block.height);
     block.startupMs = checks_[point].startupMs[scene.name];
+    block.motion = motionOf(suite, prepared);
     if (!obtain(suite, scene, prepared, block)) return false;
     nlohmann::ordered_json& plan = plan_.at(next_++);
     plan = planOf(suite, block);
@@ -195,7 +196,8 @@ class SuiteRun {
 
   bool executeRuns(const Suite& suite, const PreparedScene& prepared, BlockResult& block,
                    nlohmann::ordered_json& plan) {
-    const std::string reference = referenceHash(block.reference);
+    std::string reference = referenceHash(block.reference);
+    if (block.referenceBefore) reference += referenceHash(*block.referenceBefore);
     Progress progress(blockLabel(suite, block), suite.runs);
     BlockExecutor executor(suite, prepared, block);
     for (uint32_t run = 0; run < suite.runs; ++run) {
@@ -233,8 +235,15 @@ class SuiteRun {
     const std::string label = referenceLabel(suite, block);
     try {
       const SessionConfig picture = pictureOf(suite, block.width, block.height, block.component);
-      block.reference = obtainReference(prepared, referenceConfigOf(picture), suite.target,
-                                        request_.out / "references", label);
+      ReferenceConfig config = referenceConfigOf(picture);
+      const fs::path folder = request_.out / "references";
+      if (block.motion) config.camera = cameraAt(*block.motion, suite.warmupFrames);
+      block.reference = obtainReference(prepared, config, suite.target, folder, label);
+      if (block.motion && suite.temporal && suite.warmupFrames > 0) {
+        config.camera = cameraAt(*block.motion, suite.warmupFrames - 1);
+        block.referenceBefore =
+            obtainReference(prepared, config, suite.target, folder, label + "-before");
+      }
     } catch (const Error& error) {
       if (error.code() != ExitCode::interrupted) throw;
       logInfo(error.what());

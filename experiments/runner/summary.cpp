@@ -120,6 +120,7 @@ std::optional<TemporalFigures> meanOf(const std::vector<RunResult>& runs) {
     if (!run.temporal) return std::nullopt;
     mean.variance += share * run.temporal->variance;
     mean.difference += share * run.temporal->difference;
+    mean.referenceDifference += share * run.temporal->referenceDifference;
     for (size_t lag = 0; lag < mean.autocorrelation.size(); ++lag)
       mean.autocorrelation[lag] += share * run.temporal->autocorrelation[lag];
   }

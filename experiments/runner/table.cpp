@@ -104,12 +104,20 @@ std::string temporalTable(const std::vector<MethodSummary>& rows) {
   for (const MethodSummary& row : rows) {
     if (!row.temporal) continue;
     const TemporalFigures& t = *row.temporal;
+    // A moving camera has two frames with a reference, and so differences alone.
+    if (std::isnan(t.variance)) {
+      text += fmt::format("| {} | | {:.3g} ({:+.3g}) | | | | |\n", row.method->name, t.difference,
+                          t.difference - t.referenceDifference);
+      continue;
+    }
     text += fmt::format("| {} | {:.3g} | {:.3g} | {:.3f} | {:.3f} | {:.3f} | {:.3f} |\n",
                         row.method->name, t.variance, t.difference, t.autocorrelation[0],
                         t.autocorrelation[1], t.autocorrelation[3], t.autocorrelation[7]);
   }
   if (text.empty()) return "";
-  return "\nOver the timed frames of a run: variance of a pixel, difference of frames, correlation "
+  return "\nOver the timed frames of a run: variance of a pixel, difference of frames (in brackets "
+         "less that "
+         "of the references, where the camera moves), correlation "
          "of errors by the number of frames between them:\n\n"
          "| method | variance | difference | 1 | 2 | 4 | 8 |\n|---|---|---|---|---|---|---|\n" +
          text;
@@ -122,14 +130,16 @@ std::string blockTable(const Suite& suite, const std::vector<MethodSummary>& row
   const BlockResult& block = *rows.front().block;
   const std::string backends = backendColumn(suite, rows);
   std::string text = fmt::format(
-      "## {}, {} light{}\n\nCamera {}, {}x{}, {} scattering events, Russian roulette {}, filter "
+      "## {}, {} light{}\n\nCamera {}{}, {}x{}, {} scattering events, Russian roulette {}, filter "
       "{}{}; "
       "{} runs of {} warm-up and {} timed frames; reference {} spp (relMSE {:.2g}).\n\n",
       block.scene, componentName(block.component), suite.point.empty() ? "" : ", " + suite.point,
-      block.camera, block.width, block.height, suite.maxBounces,
-      suite.russianRoulette ? "on" : "off", filterName(suite.pixelFilter),
-      suite.multiscatter ? ", multiple scattering compensated" : "", rows.front().runs,
-      suite.warmupFrames, suite.timedFrames, block.reference.spp, block.reference.relmse);
+      block.camera,
+      suite.hasMovingCamera() ? fmt::format(" on the path '{}'", suite.cameraPathName) : "",
+      block.width, block.height, suite.maxBounces, suite.russianRoulette ? "on" : "off",
+      filterName(suite.pixelFilter), suite.multiscatter ? ", multiple scattering compensated" : "",
+      rows.front().runs, suite.warmupFrames, suite.timedFrames, block.reference.spp,
+      block.reference.relmse);
   text += fmt::format(
       "| method | time per frame |{} MSE | | efficiency | energy | bias^2/MSE | worst 0.1 % | MSE "
       "without lights in view | relMSE without the worst 0.1 % | rays/px |\n"

@@ -30,6 +30,16 @@ double meanAbsoluteDifference(const Image& a, const Image& b) {
 
 }  // namespace
 
+TemporalFigures figuresOfPair(const Image& before, const Image& measured,
+                              const Reference& referenceBefore, const Reference& reference) {
+  TemporalFigures figures;
+  figures.variance = kNan;
+  figures.autocorrelation.fill(kNan);
+  figures.difference = meanAbsoluteDifference(measured, before);
+  figures.referenceDifference = meanAbsoluteDifference(reference.mean, referenceBefore.mean);
+  return figures;
+}
+
 void TemporalSum::add(const Image& frame) {
   sum_.resize(frame.pixels.size());
   sumSquares_.resize(frame.pixels.size());

@@ -10,6 +10,10 @@
 namespace restlab {
 
 // Takes frames of one size, one after the other, against one reference (a still camera).
+// Of the measured frame and the one before it, and of their references, of a moving camera.
+TemporalFigures figuresOfPair(const Image& before, const Image& measured,
+                              const Reference& referenceBefore, const Reference& reference);
+
 class TemporalSum {
  public:
   static constexpr size_t kLags = std::tuple_size_v<decltype(TemporalFigures::autocorrelation)>;

@@ -304,6 +304,47 @@ TEST_F(ResumeTest, FoldersAreComparedMethodByMethod) {
   expectError(run("compare a nowhere.exr -q"), 2, {"--ref"});
 }
 
+TEST_F(ResumeTest, CamerasMoveAlongPaths) {
+  const std::string paths =
+      "[[camera_path]]\nname = \"orbit\"\nkind = \"orbit\"\ndegrees_per_frame = 2.0\n"
+      "[[camera_path]]\nname = \"cut\"\nkind = \"cut\"\nframe = 3\ndegrees = 20.0\n";
+  write("suite.toml", kSuite + paths);
+  const std::string line =
+      "run suite.toml --out out --set temporal=true --sweep camera_path=still,orbit,cut";
+  const ProgramResult result = run(line);
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto rows = parseCsv(read("out/summary.csv"));
+  ASSERT_EQ(rows.size(), 6u);
+  EXPECT_EQ(rows[2].at("camera_path"), "orbit");
+  EXPECT_EQ(rows[0].at("temporal_difference_of_reference"), "0");
+  for (const size_t moving : {2u, 3u, 4u, 5u}) {
+    EXPECT_GT(std::stod(rows[moving].at("temporal_difference_of_reference")), 0.0);
+    EXPECT_GT(std::stod(rows[moving].at("temporal_difference")), 0.0);
+    EXPECT_EQ(rows[moving].at("temporal_variance"), "nan");
+  }
+  EXPECT_EQ(rows[0].at("temporal_variance").find("nan"), std::string::npos);
+  // Reference and images are of the measured frame's camera: their errors are those of noise.
+  for (const auto& row : rows) EXPECT_NEAR(std::stod(row.at("energy_ratio")), 1.0, 0.5);
+  const auto still = readExr(path("out/images/cornell-box-all-camera_path-still-path.exr"));
+  const auto orbit = readExr(path("out/images/cornell-box-all-camera_path-orbit-path.exr"));
+  EXPECT_EQ(orbit.metadata.at("camera_path"), "orbit");
+  EXPECT_NE(orbit.metadata.at("camera_to_world"), still.metadata.at("camera_to_world"));
+  const ProgramResult compared =
+      run({"compare", "--ref", "out/images/cornell-box-all-camera_path-orbit-reference.exr",
+           "out/images/cornell-box-all-camera_path-orbit-path.exr"});
+  EXPECT_EQ(compared.code, 0) << compared.err;
+  const ProgramResult again = run(line);
+  EXPECT_NE(again.err.find("9 of 9 runs were there"), std::string::npos) << again.err;
+  EXPECT_NE(run(line + " --dry-run").out.find("9 jobs, 9 there"), std::string::npos);
+  expectError(run("run suite.toml --out o -q --set camera_path=orbt"), 2, {"'orbt'", "'orbit'"});
+  expectError(run("run suite.toml --out o -q --set camera_path=orbit --set accumulate=true"), 2,
+              {"--set accumulate", "still camera"});
+  expectError(run("run suite.toml --out o -q --set camera_path=orbit --set checkpoints=[1]"), 2,
+              {"--set checkpoints", "still camera"});
+  write("suite.toml", std::string(kSuite) + "[[camera_path]]\nname = \"x\"\nkind = \"orbt\"\n");
+  expectError(run("run suite.toml --out o -q"), 2, {"suite.toml:19:8", "orbit"});
+}
+
 TEST_F(ResumeTest, SweepsMakeTablesAndMethods) {
   const ProgramResult result =
       run("run suite.toml --out out --sweep max_bounces=1..2 --sweep confidence_cap=4.0,8.0 --set "

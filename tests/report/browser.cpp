@@ -97,6 +97,15 @@ Browser::Browser(const fs::path& folder, int width, int height) {
   close(fromChild[1]);
   in_ = toChild[1];
   out_ = fromChild[0];
+  try {
+    attach(width, height);
+  } catch (...) {
+    end();
+    throw;
+  }
+}
+
+void Browser::attach(int width, int height) {
   const Json target = call("Target.createTarget", {{"url", "about:blank"}}, false);
   const Json attached =
       call("Target.attachToTarget", {{"targetId", target["targetId"]}, {"flatten", true}}, false);
@@ -107,7 +116,9 @@ Browser::Browser(const fs::path& folder, int width, int height) {
   resize(width, height);
 }
 
-Browser::~Browser() {
+Browser::~Browser() { end(); }
+
+void Browser::end() {
   close(in_);
   close(out_);
   // It ends when its pipe does; if not, its whole group is ended.

@@ -53,6 +53,9 @@ class Browser {
   const std::vector<std::string>& complaints() const { return complaints_; }
 
  private:
+  // Makes a page of its own.
+  void attach(int width, int height);
+  void end();
   Json call(const std::string& method, const Json& parameters, bool ofPage = true);
   Json receive(double deadlineS);
   void note(const Json& event);

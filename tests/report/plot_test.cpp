@@ -183,15 +183,9 @@ TEST(AxisTicks, LabelsOfDecades) {
     if (!tick.label.empty()) labels.push_back(tick.label + tick.exponent);
   }
   // Every second of many decades; raised exponents where digits would be long.
+  const std::string minus = "\xe2\x88\x92";
   const std::vector<std::string> expected = {
-      "10\xe2\x88\x92"
-      "6",
-      "10\xe2\x88\x92"
-      "4",
-      "0.01",
-      "1",
-      "100",
-      "10000"};
+      "10" + minus + "6", "10" + minus + "4", "0.01", "1", "100", "10000"};
   EXPECT_EQ(labels, expected);
 }
 

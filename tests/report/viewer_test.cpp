@@ -302,7 +302,8 @@ TEST_F(ViewerTest, SignedErrorIsBlueBelowAndOrangeAbove) {
     if (d.x > 0.0f && i > kSampleWidth * 8) light = i;
   }
   const auto colour = [&](uint32_t i) {
-    return canvasColour(pixelPosition(i % kSampleWidth, i / kSampleWidth));
+    const uint32_t x = i % kSampleWidth, y = i / kSampleWidth;
+    return canvasColour(pixelPosition(x, y));
   };
   EXPECT_LT(colour(dark)[0], colour(dark)[2]);
   EXPECT_GT(colour(light)[0], colour(light)[2]);

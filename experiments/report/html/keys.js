@@ -64,8 +64,9 @@ function addKeys(viewers, help) {
       event.preventDefault();
       return;
     }
-    // Arrows scroll what is scrolled by them.
-    if (event.key.startsWith('Arrow') && event.target.closest('.scroll')) return;
+    // Arrows scroll a table that is wider than its place.
+    const table = event.key.startsWith('Arrow') && event.target.closest('.scroll');
+    if (table && table.scrollWidth > table.clientWidth) return;
     const action = keyAction(event);
     const viewer = action && keyTarget(viewers, event.target);
     if (!viewer) return;

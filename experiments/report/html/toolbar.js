@@ -34,7 +34,7 @@ class Toolbar {
     const help = makeButton('?', 'keys (?)', () => viewer.root.dispatchEvent(
                                                  new CustomEvent('help', {bubbles: true})));
     this.error.element.append(this.log);
-    this.element = make('div', {class: 'toolbar', role: 'toolbar', 'aria-label': 'Image viewer'},
+    this.element = make('div', {class: 'toolbar', role: 'group', 'aria-label': 'Image viewer'},
                         this.mode.element, this.error.element, this.tone.element, exposure, zoom,
                         make('div', {class: 'group'}, help));
   }
