@@ -43,6 +43,15 @@ struct MetricInfo {
       function;
 };
 
+template <class Function>
+MetricInfo metric(const char* name, const char* formula, Function function) {
+  MetricInfo info;
+  info.name = name;
+  info.formula = formula;
+  info.function = function;
+  return info;
+}
+
 // All metrics, in the order of reports.
 const std::vector<MetricInfo>& metricRegistry();
 std::vector<std::string> metricNames();

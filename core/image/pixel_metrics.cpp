@@ -139,15 +139,6 @@ MetricValue nonfinite(const Image& image, const Image& reference, const MetricOp
   return {double(inside), detail};
 }
 
-template <class Function>
-MetricInfo metric(const char* name, const char* formula, Function function) {
-  MetricInfo info;
-  info.name = name;
-  info.formula = formula;
-  info.function = function;
-  return info;
-}
-
 // A metric that is a mean over pixels and channels.
 template <class Term>
 MetricInfo meanMetric(const char* name, const char* formula, Term term) {

@@ -65,11 +65,8 @@ MetricValue flipHdr(const Image& image, const Image& reference, const MetricOpti
 
 template <class Function>
 MetricInfo windowMetric(const char* name, const char* formula, Function function) {
-  MetricInfo info;
-  info.name = name;
-  info.formula = formula;
+  MetricInfo info = metric(name, formula, function);
   info.readsNeighbours = true;
-  info.function = function;
   return info;
 }
 

@@ -12,6 +12,7 @@
 #include "denoise/denoiser.h"
 #include "experiments/runner/backend_choice.h"
 #include "experiments/runner/files.h"
+#include "experiments/runner/suite_overrides.h"
 #include "experiments/runner/sweep.h"
 
 namespace restlab {
@@ -19,65 +20,6 @@ namespace restlab {
 namespace {
 
 constexpr int64_t kMaxCount = 1000000;
-
-std::string unquoted(const std::string& text) {
-  const bool quoted = text.size() >= 2 && (text.front() == '\'' || text.front() == '"');
-  return quoted ? text.substr(1, text.size() - 2) : text;
-}
-
-bool startsWith(const std::string& text, const std::string& prefix) {
-  return text.rfind(prefix, 0) == 0;
-}
-
-// method.KEY or method.NAME.KEY.
-void overrideMethods(const ConfigTable& root, const std::string& key, const std::string& value,
-                     const std::string& place) {
-  const std::string rest = key.substr(std::string("method.").size());
-  const size_t dot = rest.rfind('.');
-  const std::string wanted = dot == std::string::npos ? "" : rest.substr(0, dot);
-  const std::string leaf = dot == std::string::npos ? rest : rest.substr(dot + 1);
-  bool used = false;
-  std::vector<std::string> names, leaves;
-  for (ConfigTable& method : root.getTables("method")) {
-    const std::string integrator = method.getString("integrator", "path");
-    const std::string name = method.getString("name", integrator);
-    names.push_back(name);
-    const std::vector<std::string> known = methodKeys(integrator);
-    leaves.insert(leaves.end(), known.begin(), known.end());
-    const bool knows = std::find(known.begin(), known.end(), leaf) != known.end();
-    if (wanted.empty() ? knows : wanted == name) {
-      method.assign(leaf, value, place);
-      used = true;
-    }
-  }
-  if (used) return;
-  if (wanted.empty()) {
-    failUsage(
-        fmt::format("{}: no method has a parameter '{}'{}", place, leaf, didYouMean(leaf, leaves)));
-  }
-  failUsage(fmt::format("{}: no method is named '{}'{}", place, wanted, didYouMean(wanted, names)));
-}
-
-void applyOverride(ConfigTable& root, const std::string& assignment) {
-  const auto [key, value] = splitAssignment(assignment);
-  const std::string place = "--set " + key;
-  if (startsWith(key, "method.")) {
-    overrideMethods(root, key, value, place);
-  } else if (startsWith(key, "reference.")) {
-    root.getTable("reference").assign(key.substr(10), value, place);
-  } else if (startsWith(key, "settings.")) {
-    root.getTable("settings").assign(key.substr(9), value, place);
-  } else if (startsWith(key, "sweep.")) {
-    root.getTable("sweep").assign(key.substr(6), value, place);
-  } else if (key == "name" || key == "question" || key == "scenes") {
-    root.assign(key, value, place);
-  } else if (key.find('.') != std::string::npos) {
-    failUsage(
-        fmt::format("{}: unknown table; known are settings, reference, method and sweep", place));
-  } else {
-    root.getTable("settings").assign(key, value, place);
-  }
-}
 
 SuiteScene readScene(const ConfigTable& table, const std::string& folder) {
   SuiteScene scene;

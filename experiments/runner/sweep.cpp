@@ -20,23 +20,6 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-std::string bare(const std::string& text) {
-  const bool quoted = text.size() >= 2 && (text.front() == '\'' || text.front() == '"') &&
-                      text.back() == text.front();
-  return quoted ? text.substr(1, text.size() - 2) : text;
-}
-
-// "method.KEY" and "method.NAME.KEY" into name and key; false for what is neither.
-bool splitMethodKey(const std::string& key, std::string& method, std::string& leaf) {
-  const std::string prefix = "method.";
-  if (key.rfind(prefix, 0) != 0) return false;
-  const std::string rest = key.substr(prefix.size());
-  const size_t dot = rest.rfind('.');
-  method = dot == std::string::npos ? "" : rest.substr(0, dot);
-  leaf = dot == std::string::npos ? rest : rest.substr(dot + 1);
-  return true;
-}
-
 // Throws unless some method of the suite has the axis's key.
 void requireSomeMethod(const ConfigTable& root, const std::vector<std::string>& settingsKeys,
                        const SweepAxis& axis) {
@@ -62,6 +45,22 @@ void requireSomeMethod(const ConfigTable& root, const std::vector<std::string>& 
 }
 
 }  // namespace
+
+std::string unquoted(const std::string& text) {
+  const bool quoted = text.size() >= 2 && (text.front() == '\'' || text.front() == '"') &&
+                      text.back() == text.front();
+  return quoted ? text.substr(1, text.size() - 2) : text;
+}
+
+bool splitMethodKey(const std::string& key, std::string& method, std::string& leaf) {
+  const std::string prefix = "method.";
+  if (key.rfind(prefix, 0) != 0) return false;
+  const std::string rest = key.substr(prefix.size());
+  const size_t dot = rest.rfind('.');
+  method = dot == std::string::npos ? "" : rest.substr(0, dot);
+  leaf = dot == std::string::npos ? rest : rest.substr(dot + 1);
+  return true;
+}
 
 const std::vector<std::string>& methodKeys() {
   static const std::vector<std::string> keys = {"integrator", "mode",    "cache",
@@ -145,8 +144,8 @@ std::vector<std::vector<size_t>> combinations(const std::vector<SweepAxis>& axes
 std::string sweepLabel(const std::vector<SweepAxis>& axes, const std::vector<size_t>& choice) {
   std::string label;
   for (size_t i = 0; i < axes.size(); ++i) {
-    label +=
-        fmt::format("{}{}={}", i == 0 ? "" : ", ", axes[i].leaf, bare(axes[i].texts[choice[i]]));
+    label += fmt::format("{}{}={}", i == 0 ? "" : ", ", axes[i].leaf,
+                         unquoted(axes[i].texts[choice[i]]));
   }
   return label;
 }

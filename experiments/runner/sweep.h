@@ -26,6 +26,12 @@ const std::vector<std::string>& methodKeys();
 // And with the parameters of that integrator.
 std::vector<std::string> methodKeys(const std::string& integrator);
 
+// "method.KEY" or "method.NAME.KEY" into name ("" in the first case) and key; false for others.
+bool splitMethodKey(const std::string& key, std::string& method, std::string& leaf);
+
+// A TOML string without its quotes; any other value as it is.
+std::string unquoted(const std::string& text);
+
 // "--sweep KEY=VALUES" as a TOML array: 1..8 counts, a,b,c are values or bare words, [..] is
 // itself. Throws Error (badUsage) naming the option.
 std::string sweepValues(const std::string& key, const std::string& values);

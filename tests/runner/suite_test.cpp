@@ -8,22 +8,17 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "tests/runner/temporary_folder.h"
 
 namespace restlab {
 
 namespace {
 
-class SuiteTest : public ::testing::Test {
+class SuiteTest : public TemporaryFolder {
  protected:
-  void SetUp() override {
-    std::string name = (std::filesystem::temp_directory_path() / "restlab-suite-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
   Suite load(const std::string& settings, const std::string& methods,
              const std::vector<std::string>& overrides = {}) const {
-    const std::filesystem::path file = folder_ / "suite.toml";
+    const std::filesystem::path file = folder() / "suite.toml";
     std::ofstream(file) << "scenes = [\"cornell-box\"]\n[settings]\n" << settings << methods;
     return loadSuite(file, overrides);
   }
@@ -32,7 +27,6 @@ class SuiteTest : public ::testing::Test {
     for (const SuiteMethod& method : suite.methods) all.push_back(method.name);
     return all;
   }
-  std::filesystem::path folder_;
 };
 
 using Names = std::vector<std::string>;

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "experiments/runner/suite.h"
+#include "tests/runner/temporary_folder.h"
 
 namespace restlab {
 
@@ -28,18 +29,12 @@ integrator = "restir_gi"
 integrator = "restir_gi"
 )";
 
-class SweepTest : public ::testing::Test {
+class SweepTest : public TemporaryFolder {
  protected:
-  void SetUp() override {
-    std::string name = (std::filesystem::temp_directory_path() / "restlab-sweep-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
   std::filesystem::path write(const std::string& name, const std::string& text) const {
-    std::filesystem::create_directories((folder_ / name).parent_path());
-    std::ofstream(folder_ / name) << text;
-    return folder_ / name;
+    std::filesystem::create_directories((folder() / name).parent_path());
+    std::ofstream(folder() / name) << text;
+    return folder() / name;
   }
   std::vector<Suite> load(const std::string& text, const Names& overrides = {},
                           const Names& sweeps = {}) const {
@@ -52,8 +47,8 @@ class SweepTest : public ::testing::Test {
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ExitCode::badUsage);
       std::string message = error.what();
-      const size_t at = message.find(folder_.string() + "/");
-      return at == std::string::npos ? message : message.substr(folder_.string().size() + 1);
+      const size_t at = message.find(folder().string() + "/");
+      return at == std::string::npos ? message : message.substr(folder().string().size() + 1);
     }
     ADD_FAILURE() << "nothing was thrown";
     return "";
@@ -68,7 +63,6 @@ class SweepTest : public ::testing::Test {
     for (const Suite& suite : suites) all.push_back(suite.point);
     return all;
   }
-  std::filesystem::path folder_;
 };
 
 TEST_F(SweepTest, SettingsMakePoints) {
