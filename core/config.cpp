@@ -309,9 +309,11 @@ std::vector<double> ConfigTable::getNumbers(const std::string& key,
                                             double min, double max) const {
   const toml::node* node = node_->find(key);
   if (!node) return fallback;
+  if (count == 1 && node->is_number()) return {getNumber(key, 0.0, min, max)};
   const toml::array* array = node->as_array();
   if (!array || array->size() != count) {
-    fail(key, fmt::format("'{}' must be an array of {} numbers", key, count));
+    fail(key, count == 1 ? fmt::format("'{}' must be a number", key)
+                         : fmt::format("'{}' must be an array of {} numbers", key, count));
   }
   std::vector<double> values;
   for (const toml::node& element : *array) {

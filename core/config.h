@@ -48,7 +48,7 @@ class ConfigTable {
   std::vector<std::string> known() const;
   // The table, with what was assigned, as TOML.
   std::string text() const;
-  // An array of `count` numbers, each inside the range.
+  // An array of `count` numbers, each inside the range; one number for an array of one.
   std::vector<double> getNumbers(const std::string& key, const std::vector<double>& fallback,
                                  size_t count, double min, double max) const;
   // [key]: an empty table where the key is absent.

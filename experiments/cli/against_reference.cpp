@@ -2,22 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <cstring>
-
 #include "core/error.h"
-#include "core/image/pixel_metrics.h"
 #include "experiments/runner/log.h"
 
 namespace restlab {
-
-namespace {
-
-bool identical(const Image& a, const Image& b) {
-  return std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(glm::vec3)) == 0;
-}
-
-}  // namespace
 
 LayeredImage readBeside(const std::string& file, const std::string& referenceFile,
                         const Reference& reference, bool anyReference) {
@@ -43,20 +31,6 @@ LayeredImage readBeside(const std::string& file, const std::string& referenceFil
     }
   }
   return read;
-}
-
-MetricValue errorAgainst(const std::string& metric, const Image& image, const Reference& reference,
-                         const MetricOptions& options) {
-  // The halves are for images that are independent of the reference, which it itself is not.
-  if (metric != "mse" || !reference.half0 || identical(image, reference.mean)) {
-    return evaluateMetric(metric, image, reference.mean, options);
-  }
-  const double value = mseAgainstHalves(image, *reference.half0, *reference.half1, options.mask);
-  if (!std::isnan(value)) return {value, "against the reference's two halves"};
-  return {value, fmt::format("{} non-finite values in the image, {} in the reference's halves",
-                             countNonfinite(image, options.mask),
-                             countNonfinite(*reference.half0, options.mask) +
-                                 countNonfinite(*reference.half1, options.mask))};
 }
 
 void warnOfNoReference(const std::string& file, const Reference& reference) {

@@ -4,7 +4,6 @@
 #include <map>
 #include <string>
 
-#include "core/image/metrics.h"
 #include "experiments/runner/reference.h"
 
 namespace restlab {
@@ -14,11 +13,6 @@ namespace restlab {
 // scene or setting.
 LayeredImage readBeside(const std::string& file, const std::string& referenceFile,
                         const Reference& reference, bool anyReference);
-
-// `mse` against the reference's halves where it has them and is not the image itself: without the
-// reference's own noise. Every other metric against its mean.
-MetricValue errorAgainst(const std::string& metric, const Image& image, const Reference& reference,
-                         const MetricOptions& options = {});
 
 // Says in a warning where the reference is a rendered image, whose own noise is in every number.
 void warnOfNoReference(const std::string& file, const Reference& reference);

@@ -17,6 +17,7 @@
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/compare_folders.h"
 #include "experiments/runner/log.h"
+#include "experiments/runner/reference_error.h"
 
 namespace restlab {
 

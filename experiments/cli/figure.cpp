@@ -14,6 +14,7 @@
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/log.h"
+#include "experiments/runner/reference_error.h"
 
 namespace restlab {
 

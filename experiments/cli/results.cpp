@@ -67,8 +67,10 @@ void cleanFolder(const FolderOptions& options) {
   const ResultsFolder results = openResults(options.folder);
   const FolderLock lock(options.folder);
   std::vector<std::string> keep;
-  for (const PlannedBlock& block : results.plan)
+  for (const PlannedBlock& block : results.plan) {
     keep.insert(keep.end(), block.jobs.begin(), block.jobs.end());
+    keep.insert(keep.end(), block.images.begin(), block.images.end());
+  }
   const size_t removed = JobStore(options.folder).clean(keep);
   logInfo(
       fmt::format("{}: {} folders of jobs removed, {} kept", options.folder, removed, keep.size()));

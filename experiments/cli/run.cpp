@@ -21,6 +21,7 @@ struct RunOptions {
   std::string suite, out, scenes, methods;
   std::vector<std::string> overrides, sweeps;
   int threads = -1;  // -1: as the suite says
+  uint32_t jobs = 1;
   bool force = false, dryRun = false;
 };
 
@@ -60,12 +61,27 @@ void warnOfYardsticks(const Suite& suite) {
   }
 }
 
+void setJobs(uint32_t jobs, Suite& suite) {
+  suite.jobs = jobs;
+  if (jobs < 2) return;
+  if (suite.timing) {
+    failUsage(
+        fmt::format("-j {}: runs side by side disturb each other's times; give --set timing=false "
+                    "to go without times",
+                    jobs));
+  }
+  const std::vector<std::string> backends = suite.methodBackends();
+  if (std::find(backends.begin(), backends.end(), "vulkan") != backends.end())
+    failUsage(fmt::format("-j {}: runs on vulkan are made one after the other", jobs));
+}
+
 void runVerb(const RunOptions& options, Outcome& outcome) {
   std::vector<Suite> points = loadSuites(options.suite, options.overrides, options.sweeps);
   for (Suite& suite : points) {
     keepNamed(suite.scenes, options.scenes, "--scenes");
     keepNamed(suite.methods, options.methods, "--methods");
     if (options.threads >= 0) suite.threads = options.threads;
+    setJobs(options.jobs, suite);
   }
   const Suite& suite = points.front();
   if (suite.runs < 2) {
@@ -113,6 +129,11 @@ Action addRunVerb(CLI::App& app) {
   verb->add_option("--scenes", options->scenes, "only these scenes of the suite, comma-separated");
   verb->add_option("--methods", options->methods, "only these methods, comma-separated");
   addThreads(*verb, options->threads);
+  verb->add_option("-j,--jobs", options->jobs,
+                   "runs side by side, each with its share of the cores; needs timing = false")
+      ->check(CLI::Range(1, 1024));
+  verb->add_flag_callback(
+      "--json", [] { setEventLog(true); }, "on stderr, one JSON object a line and event");
   return [options](Outcome& outcome) { runVerb(*options, outcome); };
 }
 

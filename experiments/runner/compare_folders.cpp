@@ -25,11 +25,11 @@ struct Table {
 std::map<std::string, Table> tablesOf(const ResultsFolder& results) {
   std::map<std::string, Table> tables;
   for (const PlannedBlock& planned : results.plan) {
-    if (planned.jobs.empty()) continue;
+    if (planned.jobs.empty() && planned.images.empty()) continue;
     const Suite& suite = suiteOf(results, planned);
     Table table;
     table.suite = &suite;
-    table.block = loadBlock(results, planned);
+    table.block = loadBlock(results, planned).result;
     if (table.block.methods.empty()) continue;
     table.reference = referenceHash(table.block.reference);
     table.block.reference.mean = Image();
@@ -63,6 +63,11 @@ std::vector<double> msesOf(const std::vector<RunResult>& runs) {
   return all;
 }
 
+bool haveTimes(const std::vector<RunResult>& runs) {
+  return std::none_of(runs.begin(), runs.end(),
+                      [](const RunResult& run) { return run.timesMs.empty(); });
+}
+
 // One number a run: its median time, over that of `path` frame by frame where there is one.
 std::vector<double> timesOf(const std::vector<RunResult>& runs,
                             const std::vector<RunResult>* path) {
@@ -77,7 +82,7 @@ std::vector<double> timesOf(const std::vector<RunResult>& runs,
 }
 
 const std::vector<RunResult>* yardstickRuns(const Table& table, const MethodSummary& row) {
-  if (row.isYardstick) return nullptr;
+  if (row.isYardstick || row.method->images) return nullptr;
   const size_t path = table.suite->yardstick(size_t(row.method - table.suite->methods.data()));
   if (path >= table.block.methods.size()) return nullptr;
   const std::vector<RunResult>& runs = table.block.methods[path].runs;
@@ -101,15 +106,21 @@ ComparedRow compareRows(const std::string& label, const Table& a, const MethodSu
   const std::vector<RunResult>& runsA = before.result->runs;
   const std::vector<RunResult>& runsB = after.result->runs;
   const std::vector<double> mseA = msesOf(runsA), mseB = msesOf(runsB);
-  row.mseRatio =
-      hasSameSeeds(runsA, runsB) ? pairedRatioInterval(mseA, mseB) : ratioInterval(mseA, mseB);
+  // Images have no seeds.
+  const bool isPaired = !before.method->images && hasSameSeeds(runsA, runsB);
+  row.mseRatio = isPaired ? pairedRatioInterval(mseA, mseB) : ratioInterval(mseA, mseB);
+  row.errorVerdict = verdict(row.mseRatio);
+  if (!haveTimes(runsA) || !haveTimes(runsB)) {
+    row.timeRatio = {kUnknown, kUnknown, kUnknown};
+    row.timeVerdict = "not known";
+    return row;
+  }
   const std::vector<RunResult>* pathA = yardstickRuns(a, before);
   const std::vector<RunResult>* pathB = yardstickRuns(b, after);
   row.timesOverPath = pathA != nullptr && pathB != nullptr;
   const auto timesA = timesOf(runsA, row.timesOverPath ? pathA : nullptr);
   const auto timesB = timesOf(runsB, row.timesOverPath ? pathB : nullptr);
   row.timeRatio = ratioInterval(timesB, timesA);
-  row.errorVerdict = verdict(row.mseRatio);
   // Less time is better.
   row.timeVerdict =
       verdict({1.0 / row.timeRatio.value, 1.0 / row.timeRatio.hi, 1.0 / row.timeRatio.lo});

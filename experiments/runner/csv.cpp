@@ -35,7 +35,7 @@ std::vector<Column> contractColumns(const Suite& suite, const MethodSummary& row
           {"camera", row.block->camera},
           {"integrator", session.integrator},
           {"mode", session.mode},
-          {"cache", hasHistory(session) ? session.cache : "none"},
+          {"cache", row.method->cacheName()},
           {"backend", session.backend},
           {"denoiser", session.denoiser},
           {"width", std::to_string(row.block->width)},
@@ -57,17 +57,14 @@ std::vector<Column> contractColumns(const Suite& suite, const MethodSummary& row
 }
 
 // "confidence_cap=20 film_hold=32": all of them, defaults too.
-std::string parametersText(const SessionConfig& session) {
+std::string parametersText(const SuiteMethod& method) {
   std::string text;
-  const ParameterMap all =
-      resolveParameters(findIntegrator(session.integrator), session.parameters);
-  for (const auto& [key, value] : all)
+  for (const auto& [key, value] : method.parameters())
     text += fmt::format("{}{}={}", text.empty() ? "" : " ", key, parameterText(value));
   return text;
 }
 
 std::vector<Column> furtherColumns(const Suite& suite, const MethodSummary& row) {
-  const SessionConfig& session = row.method->session;
   std::string flags, passes;
   for (const std::string& flag : row.flags) {
     flags += flags.empty() ? "" : "; ";
@@ -119,7 +116,9 @@ std::vector<Column> furtherColumns(const Suite& suite, const MethodSummary& row)
       {"filter", filterName(suite.pixelFilter)},
       {"multiscatter", suite.multiscatter ? "on" : "off"},
       {"seed", std::to_string(suite.seed)},
-      {"kernel", row.method->session.specialise ? "specialised" : "general"},
+      {"kernel", row.method->images               ? "none"
+                 : row.method->session.specialise ? "specialised"
+                                                  : "general"},
       {"reference_spp", std::to_string(row.block->reference.spp)},
       {"reference_relmse", number(row.block->reference.relmse)},
       {"device", row.result->use.device},
@@ -129,7 +128,7 @@ std::vector<Column> furtherColumns(const Suite& suite, const MethodSummary& row)
       {"time_ratio_to_first_backend_ci_lo", number(row.timeToFirstBackend.lo)},
       {"time_ratio_to_first_backend_ci_hi", number(row.timeToFirstBackend.hi)},
       {"point", suite.point},
-      {"parameters", parametersText(session)},
+      {"parameters", parametersText(*row.method)},
   };
   const Interval none{kUnknown, kUnknown, kUnknown};
   const auto add = [&](const std::string& name, const Interval& interval) {
@@ -152,6 +151,7 @@ std::vector<Column> furtherColumns(const Suite& suite, const MethodSummary& row)
     columns.push_back({fmt::format("error_autocorrelation_{}", lag),
                        number(temporal ? temporal->autocorrelation[lag - 1] : kUnknown)});
   }
+  for (const auto& [name, interval] : row.figures) add(name, interval);
   for (size_t i = 0; i < rl::RL_HEALTH_COUNT; ++i) {
     const char* name = Health::names()[i];
     if (!name || !*name) continue;

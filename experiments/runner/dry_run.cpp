@@ -99,7 +99,7 @@ Cost costOf(const Suite& suite, const SuiteScene& scene, const PreparedScene& pr
   const SessionConfig picture = pictureOf(suite, block.width, block.height, block.component);
   const double frames = double(suite.warmupFrames) + double(suite.timedFrames);
   size_t bytesPerPixel = 0;
-  for (const SuiteMethod& method : suite.methods) {
+  for (const SuiteMethod& method : suite.rendered()) {
     size_t own = 0;
     cost.runS +=
         frames * secondsOfFrame(prepared, methodConfig(suite, method, prepared, picture), own);

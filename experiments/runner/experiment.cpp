@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <bit>
 #include <memory>
+#include <stdexcept>
+#include <thread>
 
 #include "core/image/intervals.h"
 #include "core/image/metrics.h"
+#include "experiments/runner/block_masks.h"
 #include "experiments/runner/build_info.h"
+#include "experiments/runner/figures.h"
 #include "experiments/runner/interrupt.h"
-#include "experiments/runner/light_mask.h"
 #include "experiments/runner/run_record.h"
 #include "experiments/runner/suite_check.h"
 #include "experiments/runner/temporal.h"
@@ -50,7 +53,7 @@ std::map<std::string, std::string> imageMetadata(const PreparedScene& prepared,
   metadata["spp"] = "1";
   metadata["frame"] = std::to_string(run.measured.frame);
   metadata["mse"] = fmt::format("{:.9g}", run.measured.mse);
-  metadata["time_ms_median"] = fmt::format("{:.6g}", median(run.timesMs));
+  if (!run.timesMs.empty()) metadata["time_ms_median"] = fmt::format("{:.6g}", median(run.timesMs));
   metadata["health"] = run.health.text();
   return metadata;
 }
@@ -69,6 +72,8 @@ SessionConfig methodConfig(const Suite& suite, const SuiteMethod& method,
   suite.chooseDevice(config);
   config.camera = prepared.camera;
   config.russianRoulette = suite.russianRoulette;
+  if (suite.jobs > 1 && suite.threads == 0)
+    config.threads = int(std::max(1u, std::thread::hardware_concurrency() / suite.jobs));
   return config;
 }
 
@@ -113,7 +118,7 @@ struct BlockExecutor::Impl {
   void open() {
     const SessionConfig picture = pictureOf(suite, block.width, block.height, block.component);
     StartupLog startup;
-    for (size_t m = 0; m < suite.methods.size(); ++m) {
+    for (size_t m = 0; m < suite.rendered().size(); ++m) {
       sessions.push_back(std::make_unique<Session>(
           prepared.scene, methodConfig(suite, suite.methods[m], prepared, picture),
           hostBytesPerPixelOfMethod(suite)));
@@ -128,15 +133,7 @@ struct BlockExecutor::Impl {
       startup.add(session);
     }
     startup.print();
-    if (block.withoutLights.empty())
-      block.withoutLights =
-          pixelsWithoutLights(prepared, sessions.front()->config(), measuredCamera());
-  }
-
-  // Instead of the scene's.
-  std::optional<SceneCamera> measuredCamera() const {
-    if (!block.motion) return std::nullopt;
-    return cameraAt(*block.motion, suite.warmupFrames);
+    prepareMasks(suite, prepared, block);
   }
 
   // What one method's frames of a run leave.
@@ -153,9 +150,11 @@ struct BlockExecutor::Impl {
     frames.timeMs += stats.timeMs;
     const bool isTimed = frame >= suite.warmupFrames;
     if (isTimed) {
-      result.timesMs.push_back(stats.timeMs);
       result.health.add(stats);
-      frames.passes.push_back(stats.passes);
+      if (suite.timing) {
+        result.timesMs.push_back(stats.timeMs);
+        frames.passes.push_back(stats.passes);
+      }
     }
     // Only copied here: errors are computed after the run, not between timed frames.
     const bool isBefore = block.referenceBefore && frame + 1 == suite.warmupFrames;
@@ -168,7 +167,7 @@ struct BlockExecutor::Impl {
       if (isAccumulationPoint(count, suite.timedFrames)) {
         AccumulatedError point;
         point.frames = count;
-        point.timeMs = frames.timeMs;
+        point.timeMs = suite.timing ? frames.timeMs : std::numeric_limits<double>::quiet_NaN();
         point.error.frame = frame;
         frames.sums.emplace_back(point, frames.sum.mean());
       }
@@ -180,7 +179,7 @@ struct BlockExecutor::Impl {
   }
 
   void measure(RunResult& result, Frames& frames, Image& measured) const {
-    result.passes = medianPasses(frames.passes);
+    if (suite.timing) result.passes = medianPasses(frames.passes);
     if (block.referenceBefore && frames.kept.size() > 1) {
       result.temporal = figuresOfPair(frames.kept[0].second, frames.kept[1].second,
                                       *block.referenceBefore, block.reference);
@@ -191,6 +190,7 @@ struct BlockExecutor::Impl {
       if (isCheckpoint(suite, frame)) result.checkpoints.push_back(error);
       if (frame != suite.warmupFrames) continue;
       result.measured = error;
+      result.figures = measureFigures(suite, block, image);
       measured = std::move(image);
     }
     for (auto& [point, image] : frames.sums) {
@@ -203,7 +203,7 @@ struct BlockExecutor::Impl {
   std::optional<JobData> execute(uint32_t run, const std::string& job,
                                  const std::string& startedUtc) {
     if (sessions.empty()) open();
-    const size_t count = suite.methods.size();
+    const size_t count = suite.rendered().size();
     std::vector<RunResult> results(count);
     std::vector<Frames> frames(count);
     for (size_t m = 0; m < count; ++m) {
@@ -228,7 +228,7 @@ struct BlockExecutor::Impl {
       JobMethod& method = data.methods.emplace_back();
       measure(results[m], frames[m], method.measured);
       method.metadata = imageMetadata(prepared, *sessions[m], results[m]);
-      if (const auto camera = measuredCamera()) {
+      if (const auto camera = measuredCamera(suite, block)) {
         describeCamera(*camera, method.metadata);
         method.metadata["camera_index"] = "none";
         method.metadata["camera_path"] = suite.cameraPathName;
@@ -255,16 +255,22 @@ std::optional<JobData> BlockExecutor::execute(uint32_t run, const std::string& j
   return impl_->execute(run, job, startedUtc);
 }
 
-void addJob(const JobData& job, BlockResult& block) {
-  block.methods.resize(job.methods.size());
-  for (size_t m = 0; m < job.methods.size(); ++m) {
+void addJob(const Suite& suite, const JobData& job, BlockResult& block) {
+  block.methods.resize(suite.methods.size());
+  for (const JobMethod& own : job.methods) {
+    const std::string name = own.lines.at(0).at("method").get<std::string>();
+    const auto found = std::find_if(suite.methods.begin(), suite.methods.end(),
+                                    [&](const SuiteMethod& method) { return method.name == name; });
+    if (found == suite.methods.end())
+      throw std::invalid_argument(fmt::format("the suite has no method '{}'", name));
+    const size_t m = size_t(found - suite.methods.begin());
     MethodResult& method = block.methods[m];
-    RunResult run = runOfLines(job.methods[m].lines, method);
+    RunResult run = runOfLines(own.lines, method);
     run.method = m;
-    (run.run % 2 == 0 ? method.evenRuns : method.oddRuns).add(job.methods[m].measured);
+    (run.run % 2 == 0 ? method.evenRuns : method.oddRuns).add(own.measured);
     if (method.runs.empty()) {  // run 0 where it is there
-      method.shown = job.methods[m].measured;
-      method.metadata = job.methods[m].metadata;
+      method.shown = own.measured;
+      method.metadata = own.metadata;
     }
     method.runs.push_back(std::move(run));
   }

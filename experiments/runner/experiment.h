@@ -30,7 +30,7 @@ struct FrameError {
 // Error of the mean of the first frames after the warm-up.
 struct AccumulatedError {
   uint32_t frames = 0;
-  double timeMs = 0.0;  // passes since the history began, warm-up included
+  double timeMs = 0.0;  // passes since the history began, warm-up included; NaN: not measured
   FrameError error;
 };
 
@@ -54,9 +54,12 @@ struct RunResult {
   std::vector<FrameError> checkpoints;        // the suite's further frames
   std::vector<AccumulatedError> accumulated;  // 1, 2, 4, ... frames, where the suite asks for it
   std::optional<TemporalFigures> temporal;    // where the suite asks for it
-  std::vector<double> timesMs;                // of the timed frames: the passes, nothing else
-  std::vector<PassTiming> passes;             // median over the timed frames
-  HealthSum health;                           // over the timed frames
+  // Of the timed frames: the passes, nothing else; empty where they were not measured. Of an image
+  // what the suite says.
+  std::vector<double> timesMs;
+  std::vector<std::pair<std::string, double>> figures;  // further ones, of the measured frame
+  std::vector<PassTiming> passes;                       // median over the timed frames
+  HealthSum health;                                     // over the timed frames
 };
 
 struct MethodResult {
@@ -82,17 +85,18 @@ struct BlockResult {
   // Of each method's kernels, what was spent on this scene before the block; empty: nothing.
   std::vector<double> startupMs;
   std::vector<uint8_t> withoutLights;  // one byte a pixel, 1 where no light is seen directly
+  std::vector<PixelMask> masks;        // the suite's; empty where one is of another scene
   std::vector<MethodResult> methods;   // in the suite's order
 };
 
-// One run of every method: what a job folder holds.
+// One run of every rendered method, or of the rows of images: what a job folder holds.
 struct JobMethod {
   std::vector<nlohmann::ordered_json> lines;  // of results.jsonl
   Image measured;
   std::map<std::string, std::string> metadata;  // of that image
 };
 struct JobData {
-  std::vector<JobMethod> methods;  // in the suite's order
+  std::vector<JobMethod> methods;  // in the suite's order; the lines name them
 };
 
 // The session of a method that renders `picture`.
@@ -120,8 +124,8 @@ class BlockExecutor {
   std::unique_ptr<Impl> impl_;
 };
 
-// Adds a run of every method to the block; throws std::exception where the job does not hold it.
-void addJob(const JobData& job, BlockResult& block);
+// Adds the job's runs to the block; throws std::exception where the job does not hold them.
+void addJob(const Suite& suite, const JobData& job, BlockResult& block);
 
 // Errors of `image` (MSE against the halves where there are halves). `withoutLights` as in
 // BlockResult; empty: all pixels.

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/image/atomic_file.h"
 #include "experiments/runner/build_info.h"
+#include "experiments/runner/figures.h"
 #include "experiments/runner/files.h"
 #include "experiments/runner/log.h"
 #include "experiments/runner/run_record.h"
@@ -81,6 +82,10 @@ JobData read(const fs::path& folder, const std::string& key) {
 
 std::string JobIdentity::key() const { return hashOfText(words.dump()); }
 
+std::string imageHash(const Image& image) {
+  return hexOf(XXH3_128bits(image.pixels.data(), image.pixels.size() * sizeof(glm::vec3)));
+}
+
 std::string referenceHash(const Reference& reference) {
   XXH3_state_t* state = XXH3_createState();
   XXH3_128bits_reset(state);
@@ -100,7 +105,7 @@ JobIdentity jobIdentity(const Suite& suite, const PreparedScene& prepared, const
                         const std::string& referenceHash, const std::vector<DeviceUse>& devices) {
   const SessionConfig picture = pictureOf(suite, block.width, block.height, block.component);
   Json methods = Json::array();
-  for (const SuiteMethod& method : suite.methods) {
+  for (const SuiteMethod& method : suite.rendered()) {
     const SessionConfig config = methodConfig(suite, method, prepared, picture);
     Json words = describe(prepared, config);
     words["name"] = method.name;
@@ -127,6 +132,8 @@ JobIdentity jobIdentity(const Suite& suite, const PreparedScene& prepared, const
                     {"checkpoints", suite.checkpoints},
                     {"accumulate", suite.accumulate},
                     {"temporal", suite.temporal},
+                    {"timing", suite.timing},
+                    {"figures", figuresWords(suite)},
                     {"threads", suite.threads},
                     {"camera_path", suite.cameraPathName},
                     {"cameras", hashOfText(cameras.dump())},

@@ -24,6 +24,8 @@ JobIdentity jobIdentity(const Suite& suite, const PreparedScene& prepared, const
                         uint32_t run, const std::string& sourceHash,
                         const std::string& referenceHash, const std::vector<DeviceUse>& devices);
 
+// Of the pixels.
+std::string imageHash(const Image& image);
 // Of the pixels of the mean and the halves.
 std::string referenceHash(const Reference& reference);
 

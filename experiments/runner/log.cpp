@@ -4,12 +4,16 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "experiments/runner/build_info.h"
 
 namespace restlab {
 
 namespace {
 
 int level = 0;
+bool isEventLog = false;
 
 // One line whatever a file name or a library's message holds.
 void line(std::string text) {
@@ -20,19 +24,39 @@ void line(std::string text) {
   std::fflush(stderr);
 }
 
+void say(const char* event, const char* prefix, const std::string& text) {
+  if (isEventLog) {
+    logEvent({{"event", event}, {"text", text}});
+  } else {
+    line(prefix + text);
+  }
+}
+
 }  // namespace
+
+void setEventLog(bool isOn) { isEventLog = isOn; }
+
+void logEvent(const nlohmann::ordered_json& event) {
+  if (!isEventLog) return;
+  nlohmann::ordered_json line = {{"utc", utcNow()}};
+  line.update(event);
+  // Names of files may hold anything.
+  const auto anyBytes = nlohmann::ordered_json::error_handler_t::replace;
+  std::fputs((line.dump(-1, ' ', false, anyBytes) + "\n").c_str(), stderr);
+  std::fflush(stderr);
+}
 
 void setVerbosity(int newLevel) { level = newLevel; }
 int verbosity() { return level; }
 
 void logInfo(const std::string& text) {
-  if (level >= 0) line(text);
+  if (level >= 0) say("info", "", text);
 }
 void logDetail(const std::string& text) {
-  if (level >= 1) line(text);
+  if (level >= 1) say("detail", "", text);
 }
-void logWarning(const std::string& text) { line("warning: " + text); }
-void logError(const std::string& text) { line("error: " + text); }
+void logWarning(const std::string& text) { say("warning", "warning: ", text); }
+void logError(const std::string& text) { say("error", "error: ", text); }
 
 Progress::Progress(std::string label, uint64_t total, uint64_t already)
     : label_(std::move(label)),
@@ -40,7 +64,7 @@ Progress::Progress(std::string label, uint64_t total, uint64_t already)
       already_(already),
       start_(Clock::now()),
       lastPrint_(start_),
-      terminal_(isatty(STDERR_FILENO) != 0) {}
+      terminal_(isatty(STDERR_FILENO) != 0 && !isEventLog) {}
 
 Progress::~Progress() { finish(); }
 
@@ -61,11 +85,18 @@ void Progress::update(uint64_t done, const std::string& note) {
 
 void Progress::print(uint64_t done, const std::string& note) {
   const double elapsedS = std::chrono::duration<double>(Clock::now() - start_).count();
+  const double leftS = done > already_ && done < total_
+                           ? elapsedS * double(total_ - done) / double(done - already_)
+                           : 0.0;
+  if (isEventLog) {
+    nlohmann::ordered_json event = {
+        {"event", "progress"}, {"of", label_}, {"done", done}, {"elapsed_s", elapsedS}};
+    if (total_) event.update({{"total", total_}, {"left_s", leftS}});
+    if (!note.empty()) event["note"] = note;
+    return logEvent(event);
+  }
   std::string text = label_;
   if (total_) {
-    const double leftS = done > already_ && done < total_
-                             ? elapsedS * double(total_ - done) / double(done - already_)
-                             : 0.0;
     text += fmt::format(" {}/{} ({:.0f} s elapsed, {:.0f} s left)", done, total_, elapsedS, leftS);
   } else {
     text += fmt::format(" {} ({:.0f} s elapsed)", done, elapsedS);

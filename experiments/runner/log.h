@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace restlab {
@@ -15,6 +16,12 @@ void logInfo(const std::string& line);     // normal
 void logDetail(const std::string& line);   // with -v
 void logWarning(const std::string& line);  // always, prefixed "warning: "
 void logError(const std::string& line);    // always, prefixed "error: "
+
+// Instead of lines for people one JSON object a line: "event" ("info", "detail", "warning",
+// "error", "progress", or what logEvent() is given), "utc" and what belongs to it.
+void setEventLog(bool isOn);
+// Nothing where lines are for people. May be called by several threads, as all of these.
+void logEvent(const nlohmann::ordered_json& event);
 
 // Progress of a loop: on a terminal one line that is rewritten, else a line per 10 % or 30 s.
 class Progress {

@@ -36,14 +36,15 @@ void markObject(const Scene& scene, const std::string& object, std::vector<uint8
   const std::string more = names.size() > kShown ? ", ..." : "";
   const std::string suggestion = didYouMean(object, names);
   names.resize(std::min(names.size(), kShown));
-  failUsage(fmt::format("--object {}: '{}' has the objects 1 to {} ({}{}){}", object, scene.name,
+  failUsage(fmt::format("object {}: '{}' has the objects 1 to {} ({}{}){}", object, scene.name,
                         scene.instances.size(), fmt::join(names, ", "), more, suggestion));
 }
 
 }  // namespace
 
 PixelMask pixelsOfObjects(const PreparedScene& prepared, SessionConfig config,
-                          const std::vector<std::string>& objects) {
+                          const std::vector<std::string>& objects,
+                          const std::optional<SceneCamera>& camera) {
   const Scene& scene = prepared.scene->source();
   std::vector<uint8_t> isWanted(scene.instances.size() + 1, 0);
   for (const std::string& object : objects) markObject(scene, object, isWanted);
@@ -54,6 +55,7 @@ PixelMask pixelsOfObjects(const PreparedScene& prepared, SessionConfig config,
   config.pixelFilter = rl::RL_FILTER_CENTER;
   Session session(prepared.scene, config, (Session::aovNames().size() + 1) * sizeof(glm::vec3));
   logStartup(session);
+  if (camera) session.setCamera(*camera);
   session.frame();
   const Image layer = session.aov("object");
   PixelMask mask;

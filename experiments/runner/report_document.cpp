@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "core/image/metrics.h"
+#include "experiments/runner/figures.h"
 #include "experiments/runner/files.h"
 #include "experiments/runner/report.h"
 #include "experiments/runner/run_record.h"
@@ -83,8 +85,9 @@ const std::vector<Column>& columns() {
        [](const MethodSummary& row) {
          return only(row.raysPathPerPixel + row.raysShadowPerPixel);
        }},
-      {"bytes", "bytes / pixel", "", "lower", "of all buffers",
-       [](const MethodSummary& row) { return only(double(row.result->bytesPerPixel)); }}};
+      {"bytes", "bytes / pixel", "", "lower", "of all buffers", [](const MethodSummary& row) {
+         return only(row.method->images ? kUnknown : double(row.result->bytesPerPixel));
+       }}};
   return all;
 }
 
@@ -114,6 +117,19 @@ void addTable(const std::vector<MethodSummary>& rows, Json& block) {
                      {"help", column.help}});
     for (size_t i = 0; i < rows.size(); ++i)
       lines[i]["cells"][column.key] = cellOf(column.value(rows[i]));
+  }
+  for (size_t f = 0; f < rows.front().figures.size(); ++f) {
+    const FigureInfo figure = figureInfos(*rows.front().suite).at(f);
+    const MetricInfo& metric = findMetric(figure.metric);
+    const bool hasIdeal = figure.metric == "energy_ratio";
+    const std::string better = hasIdeal ? "none" : metric.higherIsBetter ? "higher" : "lower";
+    heads.push_back({{"key", figure.name},
+                     {"title", figure.name},
+                     {"unit", ""},
+                     {"better", better},
+                     {"help", metric.formula}});
+    for (size_t i = 0; i < rows.size(); ++i)
+      lines[i]["cells"][figure.name] = cellOf(rows[i].figures[f].second);
   }
   block["columns"] = std::move(heads);
   block["rows"] = std::move(lines);
@@ -151,6 +167,7 @@ Json curves(const std::vector<MethodSummary>& rows, const char* id, const char* 
 Json singleFrames(const std::vector<MethodSummary>& rows) {
   Json series = Json::array();
   for (const MethodSummary& row : rows) {
+    if (std::isnan(row.timeMsMedian)) continue;
     series.push_back({{"name", row.method->name},
                       {"points",
                        {{finiteJson(row.timeMsMedian), finiteJson(row.mse.value),
@@ -182,6 +199,7 @@ Json correlations(const std::vector<MethodSummary>& rows) {
 Json barsOf(const std::vector<MethodSummary>& rows) {
   Json bars = Json::array();
   for (const MethodSummary& row : rows) {
+    if (row.passes.empty()) continue;
     Json parts = Json::array();
     for (const PassTiming& pass : row.passes) parts.push_back({pass.name, pass.timeMs});
     bars.push_back({{"name", row.method->name}, {"parts", std::move(parts)}});
@@ -208,6 +226,7 @@ Json healthOf(const std::vector<MethodSummary>& rows) {
     heads.push_back({{"name", name}, {"bad", isFault}});
   }
   for (const MethodSummary& row : rows) {
+    if (row.method->images) continue;
     Json counts = Json::array();
     for (size_t i = 0; i < rl::RL_HEALTH_COUNT; ++i) {
       const char* name = Health::names()[i];
@@ -241,25 +260,29 @@ Json blockDocument(const Suite& suite, const std::vector<MethodSummary>& rows, f
   addTable(rows, document);
   Json plots = Json::array();
   if (rows.front().convergence) {
-    plots.push_back(curves(
-        rows, "error-time", "MSE of accumulated frames over time", "time, ms",
-        [](const ConvergencePoint& point) { return point.timeMs; }, true));
+    if (suite.timing) {
+      plots.push_back(curves(
+          rows, "error-time", "MSE of accumulated frames over time", "time, ms",
+          [](const ConvergencePoint& point) { return point.timeMs; }, true));
+    }
     plots.push_back(curves(
         rows, "error-frames", "MSE of accumulated frames over their number", "frames",
         [](const ConvergencePoint& point) { return double(point.frames); }, false));
   }
-  plots.push_back(singleFrames(rows));
+  if (suite.timing) plots.push_back(singleFrames(rows));
   const bool isStill = !suite.hasMovingCamera();
   if (rows.front().temporal && isStill) plots.push_back(correlations(rows));
   document["plots"] = std::move(plots);
-  document["bars"] = barsOf(rows);
+  if (suite.timing) document["bars"] = barsOf(rows);
   Json left = Json::array(), images = Json::array();
   images.push_back({{"name", "reference"},
                     {"file", fmt::format("images/{}-reference.exr", label)},
                     {"role", "reference"}});
   for (const MethodSummary& row : rows) {
-    left.push_back(
-        {{"method", row.method->name}, {"features", split(row.result->featuresLeftOut)}});
+    if (!row.method->images) {
+      left.push_back(
+          {{"method", row.method->name}, {"features", split(row.result->featuresLeftOut)}});
+    }
     images.push_back(
         {{"name", row.method->name},
          {"file", fmt::format("images/{}-{}.exr", label, safeFileName(row.method->name))},

@@ -30,6 +30,7 @@ PlannedBlock blockOf(const Json& json) {
   block.width = json.at("width").get<uint32_t>();
   block.height = json.at("height").get<uint32_t>();
   block.jobs = json.at("jobs").get<std::vector<std::string>>();
+  if (json.contains("images")) block.images = json.at("images").get<std::vector<std::string>>();
   return block;
 }
 
@@ -73,9 +74,11 @@ const Suite& suiteOf(const ResultsFolder& results, const PlannedBlock& block) {
                         (results.folder / "suite.toml").string(), block.point));
 }
 
-BlockResult loadBlock(const ResultsFolder& results, const PlannedBlock& planned) {
+LoadedBlock loadBlock(const ResultsFolder& results, const PlannedBlock& planned) {
   const JobStore store(results.folder);
-  BlockResult block;
+  const Suite& suite = suiteOf(results, planned);
+  LoadedBlock loaded;
+  BlockResult& block = loaded.result;
   block.scene = planned.scene;
   block.camera = planned.camera;
   block.component = parseComponent(planned.component, "run.json");
@@ -83,15 +86,18 @@ BlockResult loadBlock(const ResultsFolder& results, const PlannedBlock& planned)
   block.height = planned.height;
   block.referenceFile = planned.reference;
   block.reference = readReference(results.folder / planned.reference);
-  for (const std::string& key : planned.jobs) {
-    const std::optional<JobData> job = store.load(key);
-    if (job) {
-      addJob(*job, block);
-    } else {
+  for (const auto* keys : {&planned.jobs, &planned.images}) {
+    for (const std::string& key : *keys) {
+      const std::optional<JobData> job = store.load(key);
+      if (job) {
+        addJob(suite, *job, block);
+        continue;
+      }
+      ++loaded.missing;
       logWarning(fmt::format("{}: is missing or damaged; left out", store.folderOf(key).string()));
     }
   }
-  return block;
+  return loaded;
 }
 
 std::string remakeOutputs(const fs::path& folder) {
@@ -108,12 +114,11 @@ std::string remakeOutputs(const fs::path& folder) {
   std::string tables;
   bool finished = results.record.at("status").get<std::string>() == "finished";
   for (const PlannedBlock& planned : results.plan) {
-    if (planned.jobs.empty()) continue;
-    const Suite& suite = suiteOf(results, planned);
-    BlockResult block = loadBlock(results, planned);
-    const size_t runs = block.methods.empty() ? 0 : block.methods.front().runs.size();
-    finished = finished && runs == planned.jobs.size();
-    if (runs > 0) tables += outputs.add(suite, std::move(block));
+    if (planned.jobs.empty() && planned.images.empty()) continue;
+    LoadedBlock block = loadBlock(results, planned);
+    finished = finished && block.missing == 0;
+    if (!block.result.methods.empty())
+      tables += outputs.add(suiteOf(results, planned), std::move(block.result));
   }
   outputs.write(results.points.front(), finished);
   outputs.writePages(results.points.front(), results.record);

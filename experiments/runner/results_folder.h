@@ -14,7 +14,8 @@ namespace restlab {
 struct PlannedBlock {
   std::string point, scene, camera, component, reference;
   uint32_t width = 0, height = 0;
-  std::vector<std::string> jobs;  // keys, in the order of their runs
+  std::vector<std::string> jobs;    // keys, in the order of their runs
+  std::vector<std::string> images;  // the same of the rows of images
 };
 
 struct ResultsFolder {
@@ -31,8 +32,13 @@ ResultsFolder openResults(const std::filesystem::path& folder);
 // The suite of a block's point; throws Error (badInput) where suite.toml has none.
 const Suite& suiteOf(const ResultsFolder& results, const PlannedBlock& block);
 
-// The block with every job of the plan that is there. A job that is missing or damaged is one line.
-BlockResult loadBlock(const ResultsFolder& results, const PlannedBlock& block);
+// The block with every job of the plan that is there. A job that is missing or damaged is one line
+// and counted.
+struct LoadedBlock {
+  BlockResult result;
+  size_t missing = 0;
+};
+LoadedBlock loadBlock(const ResultsFolder& results, const PlannedBlock& block);
 
 // Everything that `run` writes besides jobs, references and results.jsonl, made again; the tables
 // are returned. Throws Error.

@@ -14,10 +14,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json parametersJson(const SessionConfig& config) {
+Json parametersJson(const SuiteMethod& method) {
   Json json = Json::object();
-  for (const auto& [key, value] :
-       resolveParameters(findIntegrator(config.integrator), config.parameters)) {
+  for (const auto& [key, value] : method.parameters()) {
     std::visit([&, &name = key](const auto& typed) { json[name] = typed; }, value);
   }
   return json;
@@ -35,13 +34,13 @@ Json configurationJson(const Suite& suite, const BlockResult& block, size_t meth
           {"method", suite.methods[method].name},
           {"integrator", session.integrator},
           {"mode", session.mode},
-          {"cache", hasHistory(session) ? session.cache : "none"},
+          {"cache", suite.methods[method].cacheName()},
           {"backend", session.backend},
           {"device", use.device},
           {"ray_tracing", use.rayTracing},
           {"denoiser", session.denoiser},
           {"kernel", session.specialise ? "specialised" : "general"},
-          {"parameters", parametersJson(session)},
+          {"parameters", parametersJson(suite.methods[method])},
           {"width", block.width},
           {"height", block.height},
           {"max_bounces", suite.maxBounces},
@@ -50,6 +49,12 @@ Json configurationJson(const Suite& suite, const BlockResult& block, size_t meth
           {"filter", filterName(suite.pixelFilter)},
           {"warmup_frames", suite.warmupFrames},
           {"timed_frames", suite.timedFrames}};
+}
+
+Json referenceJson(const BlockResult& block) {
+  return {{"file", block.referenceFile},
+          {"spp", block.reference.spp},
+          {"relmse_estimate", finiteJson(block.reference.relmse)}};
 }
 
 void addError(Json& line, const FrameError& error) {
@@ -63,7 +68,20 @@ void addError(Json& line, const FrameError& error) {
   line["nonfinite_in_image"] = error.nonfinite;
 }
 
+void addFigures(Json& line, const RunResult& run) {
+  Json figures = Json::object();
+  for (const auto& [name, value] : run.figures) figures[name] = finiteJson(value);
+  line["figures"] = std::move(figures);
+}
+
+void readFigures(const Json& line, RunResult& run) {
+  if (!line.contains("figures")) return;
+  for (const auto& [name, value] : line.at("figures").items())
+    run.figures.emplace_back(name, finiteNumber(value));
+}
+
 Json timesJson(const RunResult& run, const std::string& backend) {
+  if (run.timesMs.empty()) return {{"clock", "not measured"}, {"frames", Json::array()}};
   Json passes = Json::object();
   for (const PassTiming& pass : run.passes) passes[pass.name] = pass.timeMs;
   const std::string clock =
@@ -142,6 +160,31 @@ double finiteNumber(const Json& value) {
   throw std::invalid_argument("'" + text + "' is no number");
 }
 
+Json imageLine(const Suite& suite, const BlockResult& block, const RunResult& run,
+               const std::string& file, const std::string& job, const std::string& startedUtc) {
+  Json line = {{"schema", kResultsSchema},
+               {"job", job},
+               {"started", startedUtc},
+               {"finished", utcNow()},
+               {"suite", suite.name},
+               {"point", suite.point},
+               {"scene", block.scene},
+               {"camera", block.camera},
+               {"component", componentName(block.component)},
+               {"method", suite.methods[run.method].name},
+               {"integrator", suite.methods[run.method].session.integrator},
+               {"file", file},
+               {"width", block.width},
+               {"height", block.height},
+               {"run", run.run},
+               {"kind", "image"},
+               {"reference", referenceJson(block)}};
+  addError(line, run.measured);
+  addFigures(line, run);
+  line["time_ms"] = {{"clock", "as the suite says"}, {"frames", run.timesMs}};
+  return line;
+}
+
 std::vector<Json> runLines(const Suite& suite, const BlockResult& block, const MethodResult& method,
                            const RunResult& run, const std::string& job,
                            const std::string& startedUtc) {
@@ -153,9 +196,7 @@ std::vector<Json> runLines(const Suite& suite, const BlockResult& block, const M
   line["features_left_out"] = method.featuresLeftOut;
   line["bytes_per_pixel"] = method.bytesPerPixel;
   line["startup_ms"] = method.startupMs;
-  line["reference"] = {{"file", block.referenceFile},
-                       {"spp", block.reference.spp},
-                       {"relmse_estimate", finiteJson(block.reference.relmse)}};
+  line["reference"] = referenceJson(block);
   line["source_hash"] = buildInfo().sourceHash;
 
   std::vector<Json> lines;
@@ -169,14 +210,15 @@ std::vector<Json> runLines(const Suite& suite, const BlockResult& block, const M
     Json at = line;
     at["kind"] = "accumulated";
     at["frames_accumulated"] = point.frames;
-    at["time_ms_since_start"] = point.timeMs;
+    at["time_ms_since_start"] = finiteJson(point.timeMs);
     addError(at, point.error);
     lines.push_back(std::move(at));
   }
-  const double samples = double(run.timesMs.size()) * double(block.width) * double(block.height);
+  const double samples = double(suite.timedFrames) * double(block.width) * double(block.height);
   line["kind"] = "run";
   line["provenance"] = provenanceJson();
   addError(line, run.measured);
+  addFigures(line, run);
   line["time_ms"] = timesJson(run, suite.methods[run.method].session.backend);
   line["rays_path"] = run.health.raysPath;
   line["rays_shadow"] = run.health.raysShadow;
@@ -201,7 +243,16 @@ RunResult runOfLines(const std::vector<Json>& lines, MethodResult& method) {
     }
     if (kind == "accumulated") {
       run.accumulated.push_back({line.at("frames_accumulated").get<uint32_t>(),
-                                 line.at("time_ms_since_start").get<double>(), errorOf(line)});
+                                 finiteNumber(line.at("time_ms_since_start")), errorOf(line)});
+      continue;
+    }
+    if (kind == "image") {
+      isWhole = true;
+      run.run = line.at("run").get<uint32_t>();
+      run.measured = errorOf(line);
+      readFigures(line, run);
+      run.timesMs = line.at("time_ms").at("frames").get<std::vector<double>>();
+      method.featuresLeftOut = "none";
       continue;
     }
     if (kind != "run") throw std::invalid_argument("lines of an unknown kind");
@@ -210,9 +261,11 @@ RunResult runOfLines(const std::vector<Json>& lines, MethodResult& method) {
     run.seed = line.at("seed").get<uint32_t>();
     run.measured = errorOf(line);
     run.timesMs = line.at("time_ms").at("frames").get<std::vector<double>>();
-    if (run.timesMs.empty()) throw std::invalid_argument("no times");
-    for (const auto& [name, timeMs] : line.at("time_ms").at("passes_median").items())
-      run.passes.push_back({name, timeMs.get<double>(), 0, 0});
+    readFigures(line, run);
+    if (!run.timesMs.empty()) {
+      for (const auto& [name, timeMs] : line.at("time_ms").at("passes_median").items())
+        run.passes.push_back({name, timeMs.get<double>(), 0, 0});
+    }
     run.health.health = healthOf(line.at("health"));
     run.health.raysPath = line.at("rays_path").get<uint64_t>();
     run.health.raysShadow = line.at("rays_shadow").get<uint64_t>();
@@ -224,7 +277,7 @@ RunResult runOfLines(const std::vector<Json>& lines, MethodResult& method) {
     method.use.device = line.at("device").get<std::string>();
     method.use.rayTracing = line.at("ray_tracing").get<std::string>();
   }
-  if (!isWhole) throw std::invalid_argument("no line of kind run");
+  if (!isWhole) throw std::invalid_argument("no line of kind run or image");
   return run;
 }
 

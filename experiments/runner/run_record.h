@@ -22,6 +22,11 @@ std::vector<nlohmann::ordered_json> runLines(const Suite& suite, const BlockResu
                                              const MethodResult& method, const RunResult& run,
                                              const std::string& job, const std::string& startedUtc);
 
+// An image of another program as a line of kind "image".
+nlohmann::ordered_json imageLine(const Suite& suite, const BlockResult& block, const RunResult& run,
+                                 const std::string& file, const std::string& job,
+                                 const std::string& startedUtc);
+
 // The run that these lines, of one run of one method, were made of; `method` also takes what is the
 // same in all of its runs. Throws std::exception where something is missing.
 RunResult runOfLines(const std::vector<nlohmann::ordered_json>& lines, MethodResult& method);

@@ -9,6 +9,7 @@
 #include "core/caches/caches.h"
 #include "core/config.h"
 #include "core/error.h"
+#include "core/image/metrics.h"
 #include "denoise/denoiser.h"
 #include "experiments/runner/backend_choice.h"
 #include "experiments/runner/files.h"
@@ -63,6 +64,39 @@ std::vector<std::string> readBackends(const ConfigTable& table,
   }
   if (given.empty()) table.fail("backend", "'backend' is empty");
   return given;
+}
+
+// A row of images: [[method]] with a key 'image'.
+SuiteMethod readImageRow(const ConfigTable& table, const std::string& folder) {
+  ImageRow row;
+  row.files = table.getStrings("image");
+  row.filesPlace = table.place("image");
+  row.folder = folder;
+  if (row.files.empty()) table.fail("image", "'image' is empty");
+  if (table.has("time_ms")) {
+    const size_t count = table.getTexts("time_ms").size();
+    row.timesMs = table.getNumbers("time_ms", {}, count == 1 ? 1 : row.files.size(), 1e-9, 1e12);
+    if (count == 1) row.timesMs.resize(row.files.size(), row.timesMs.front());
+  }
+  const std::string bias = table.getChoice("bias", "biased", {"unbiased", "consistent", "biased"});
+  row.bias = bias == "unbiased"     ? BiasClass::unbiased
+             : bias == "consistent" ? BiasClass::consistent
+                                    : BiasClass::biased;
+  SuiteMethod method;
+  method.name = method.base = table.getString("name", "");
+  method.namePlace = table.place("name");
+  if (method.name.empty()) table.fail("name", "[[method]] with 'image' needs a 'name'");
+  for (const char* key : {"integrator", "mode", "cache", "backend", "denoiser"}) {
+    if (table.has(key))
+      table.fail(
+          key,
+          fmt::format("'{}' and 'image' exclude each other: images are not rendered here", key));
+  }
+  table.finish();
+  method.session.integrator = "image";
+  method.session.mode = method.session.cache = method.session.backend = "none";
+  method.images = std::move(row);
+  return method;
 }
 
 // A method, once for each of its backends.
@@ -161,8 +195,9 @@ std::vector<SuiteMethod> readMethods(ConfigTable& table, const ConfigTable& sett
 // In a table of several backends every name says which one it is of.
 void nameByBackend(Suite& suite) {
   if (suite.methodBackends().size() < 2) return;
-  for (SuiteMethod& method : suite.methods)
-    method.name = fmt::format("{} @{}", method.base, method.session.backend);
+  for (SuiteMethod& method : suite.methods) {
+    if (!method.images) method.name = fmt::format("{} @{}", method.base, method.session.backend);
+  }
 }
 
 // A setting that no backend in use could have would be ignored in silence.
@@ -184,6 +219,56 @@ void requireSomeUse(const ConfigTable& settings, const Suite& suite) {
     settings.fail("ray_tracing", fmt::format("'ray_tracing' is '{}', which no backend in use has: "
                                              "embree is of cpu, query of vulkan, bvh of both",
                                              suite.rayTracing));
+  }
+}
+
+void addMetric(const ConfigTable& settings, const std::string& given,
+               std::vector<std::string>& metrics) {
+  const std::vector<std::string> known = metricNames();
+  if (std::find(known.begin(), known.end(), given) == known.end()) {
+    settings.fail("metrics", fmt::format("unknown metric '{}' (restlab list metrics){}", given,
+                                         didYouMean(given, known)));
+  }
+  if (findMetric(given).needsRuns)
+    settings.fail("metrics", fmt::format("'{}' is of several runs: see bias_squared", given));
+  if (std::find(metrics.begin(), metrics.end(), given) != metrics.end())
+    settings.fail("metrics", fmt::format("'metrics' holds '{}' twice", given));
+  metrics.push_back(given);
+}
+
+void readMasks(const ConfigTable& root, Suite& suite) {
+  for (const ConfigTable& table : root.getTables("mask")) {
+    SuiteMask mask;
+    mask.place = table.place("");
+    mask.name = table.getString("name", "");
+    mask.scene = table.getString("scene", "");
+    mask.objects = table.getStrings("objects", {});
+    mask.withoutLights = table.getBool("without_lights", false);
+    if (table.has("rectangle")) {
+      const std::vector<int64_t> sides = table.getIntegers("rectangle", {}, 0, kMaxSide);
+      if (sides.size() != 4) {
+        table.fail("rectangle",
+                   "'rectangle' must be [X0, Y0, X1, Y1], from the upper left corner of the image");
+      }
+      mask.rectangles = {
+          {uint32_t(sides[0]), uint32_t(sides[1]), uint32_t(sides[2]), uint32_t(sides[3])}};
+    }
+    table.finish();
+    if (mask.name.empty()) table.fail("name", "[[mask]] needs a 'name'");
+    for (const SuiteMask& other : suite.masks) {
+      if (other.name == mask.name)
+        table.fail("name", fmt::format("two masks are named '{}'", mask.name));
+    }
+    if (mask.objects.empty() && mask.rectangles.empty() && !mask.withoutLights)
+      table.fail("", "[[mask]] needs 'objects', 'rectangle' or 'without_lights'");
+    std::vector<std::string> scenes;
+    for (const SuiteScene& scene : suite.scenes) scenes.push_back(scene.name);
+    if (!mask.scene.empty() &&
+        std::find(scenes.begin(), scenes.end(), mask.scene) == scenes.end()) {
+      table.fail("scene", fmt::format("the suite has no scene named '{}'{}", mask.scene,
+                                      didYouMean(mask.scene, scenes)));
+    }
+    suite.masks.push_back(std::move(mask));
   }
 }
 
@@ -211,6 +296,9 @@ void readSettings(const ConfigTable& table, Suite& suite) {
   suite.cameraPathPlace = table.place("camera_path");
   suite.accumulate = table.getBool("accumulate", suite.accumulate);
   suite.temporal = table.getBool("temporal", suite.temporal);
+  suite.timing = table.getBool("timing", suite.timing);
+  for (const std::string& given : table.getStrings("metrics", {}))
+    addMetric(table, given, suite.metrics);
   suite.pixelFilter = parseFilter(table.getString("filter", "box"), table.place("filter"));
   suite.components.clear();
   for (const std::string& name : table.getStrings("components", {"all"})) {
@@ -317,16 +405,41 @@ void requireUniqueNames(const Suite& suite) {
 
 }  // namespace
 
-size_t Suite::yardstick(size_t method) const {
-  const std::string& backend = methods[method].session.backend;
-  const auto path = std::find_if(methods.begin(), methods.end(), [&](const SuiteMethod& other) {
-    return other.session.integrator == "path" && other.session.backend == backend;
+std::string SuiteMethod::cacheName() const {
+  return !images && hasHistory(session) ? session.cache : "none";
+}
+
+ParameterMap SuiteMethod::parameters() const {
+  if (images) return {};
+  return resolveParameters(findIntegrator(session.integrator), session.parameters);
+}
+
+BiasClass SuiteMethod::bias() const {
+  if (images) return images->bias;
+  return biasClassOf(findIntegrator(session.integrator), session.mode, parameters());
+}
+
+std::span<const SuiteMethod> Suite::rendered() const {
+  const auto end = std::find_if(methods.begin(), methods.end(), [](const SuiteMethod& method) {
+    return method.images.has_value();
   });
-  return size_t(path - methods.begin());
+  return {methods.data(), size_t(end - methods.begin())};
+}
+
+size_t Suite::yardstick(size_t method) const {
+  const std::span<const SuiteMethod> all = rendered();
+  for (size_t other = 0; other < all.size(); ++other) {
+    const SessionConfig& session = all[other].session;
+    const std::string& backend =
+        (methods[method].images ? all.front() : methods[method]).session.backend;
+    if (session.integrator == "path" && session.backend == backend) return other;
+  }
+  return methods.size();
 }
 
 size_t Suite::onFirstBackend(size_t method) const {
   const SuiteMethod& own = methods[method];
+  if (own.images) return method;
   const auto first = std::find_if(methods.begin(), methods.end(), [&](const SuiteMethod& other) {
     const SessionConfig &a = own.session, &b = other.session;
     return own.base == other.base && a.integrator == b.integrator && a.mode == b.mode &&
@@ -337,7 +450,7 @@ size_t Suite::onFirstBackend(size_t method) const {
 
 std::vector<std::string> Suite::methodBackends() const {
   std::vector<std::string> names;
-  for (const SuiteMethod& method : methods) {
+  for (const SuiteMethod& method : rendered()) {
     if (std::find(names.begin(), names.end(), method.session.backend) == names.end())
       names.push_back(method.session.backend);
   }
@@ -360,7 +473,7 @@ Suite readSuite(const ConfigTable& root, const std::filesystem::path& file, cons
   suite.name = root.getString("name", file.stem().string());
   suite.question = root.getString("question", "");
   for (const char* key :
-       {"scenes", "scene", "method", "settings", "reference", "sweep", "camera_path"})
+       {"scenes", "scene", "method", "settings", "reference", "sweep", "camera_path", "mask"})
     root.has(key);
   root.finish();
   const std::string folder = file.parent_path().string();
@@ -380,11 +493,18 @@ Suite readSuite(const ConfigTable& root, const std::filesystem::path& file, cons
   const ConfigTable settings = root.getTable("settings");
   readSettings(settings, suite);
   chooseCameraPath(root, settings, suite);
+  readMasks(root, suite);
+  std::vector<SuiteMethod> imageRows;
   for (ConfigTable& table : root.getTables("method")) {
+    if (table.has("image")) {
+      imageRows.push_back(readImageRow(table, folder));
+      continue;
+    }
     for (SuiteMethod& method : readMethods(table, settings, sweep, suite))
       suite.methods.push_back(std::move(method));
   }
-  if (suite.methods.empty()) root.fail("", "the suite has no [[method]]");
+  if (suite.methods.empty()) root.fail("", "the suite has no [[method]] that is rendered");
+  std::move(imageRows.begin(), imageRows.end(), std::back_inserter(suite.methods));
   readReference(root.getTable("reference"), suite);
   requireSomeUse(settings, suite);
   nameByBackend(suite);

@@ -2,9 +2,12 @@
 // every key).
 #pragma once
 
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "core/image/mask.h"
 #include "core/scene/camera_path.h"
 #include "experiments/runner/prepare.h"
 #include "experiments/runner/reference.h"
@@ -21,12 +24,38 @@ struct SuiteScene {
   std::string place, cameraPlace, referencePlace;
 };
 
+// What another program rendered, as a row of the tables.
+struct ImageRow {
+  std::vector<std::string> files;  // one a run; {scene} and {component} stand for the block's
+  std::vector<double> timesMs;     // per frame, one a run; empty: unknown
+  BiasClass bias = BiasClass::biased;
+  std::string folder;  // of the suite: where relative names are looked for as well
+  std::string filesPlace;
+};
+
 struct SuiteMethod {
   std::string name;       // in tables and file names; unique
   std::string base;       // the same on every backend; the name where the suite has only one
   SessionConfig session;  // integrator, mode, cache, parameters, specialise, and what runs them
+  std::optional<ImageRow> images;  // then nothing is rendered, and `session` says nothing
   // Where the suite says so, for errors: file:line:column.
   std::string backendPlace, namePlace;
+
+  // As tables say it: "none" without reservoirs.
+  std::string cacheName() const;
+  // All of the integrator's, defaults too.
+  ParameterMap parameters() const;
+  BiasClass bias() const;
+};
+
+// Pixels of which further figures are taken; what is given is intersected.
+struct SuiteMask {
+  std::string name;                        // "table" makes the figures "mse@table", ...
+  std::string scene;                       // "": of every scene
+  std::vector<std::string> objects;        // any of them
+  std::vector<PixelRectangle> rectangles;  // any of them
+  bool withoutLights = false;
+  std::string place;
 };
 
 struct Suite {
@@ -34,7 +63,7 @@ struct Suite {
   std::string point;     // of the sweep over settings, "max_bounces=4"; "" without one
   std::string resolved;  // the suite with its includes, overrides and sweeps, as TOML
   std::vector<SuiteScene> scenes;
-  std::vector<SuiteMethod> methods;
+  std::vector<SuiteMethod> methods;  // rows of images after those that are rendered
   std::vector<uint32_t> components = {rl::RL_COMPONENT_ALL};
   uint32_t width = 0, height = 0;  // 0: from the camera's aspect ratio
   uint32_t maxBounces = 8;
@@ -42,12 +71,16 @@ struct Suite {
   bool russianRoulette = false;
   uint32_t warmupFrames = 32;  // the frame after them is the one whose error is measured
   uint32_t timedFrames = 8;    // per run, the measured one first
-  uint32_t runs = 4;
+  uint32_t runs = 8;
   uint32_t seed = 1;                  // of run 0; run r has seed + r
   std::vector<uint32_t> checkpoints;  // further frames of the history whose error is recorded
   bool accumulate = false;  // the error of the mean of 1, 2, 4, ... timed frames is recorded
   bool temporal = false;    // flicker and correlation of the timed frames are recorded
-  CameraPath cameraPath;    // of every scene, from its camera
+  bool timing = true;       // false: no times, so that runs may be made side by side
+  uint32_t jobs = 1;        // runs side by side
+  std::vector<std::string> metrics;  // further ones, of the measured frame
+  std::vector<SuiteMask> masks;
+  CameraPath cameraPath;  // of every scene, from its camera
   std::string cameraPathName = "still", cameraPathPlace;
   // Of all methods that do not say their own.
   std::vector<std::string> backends = {"cpu"};
@@ -59,8 +92,10 @@ struct Suite {
   int threads = 0;
   ReferenceTarget target;
 
-  // Index of a method's yardstick: the first `path` method on the same backend; methods.size()
-  // where there is none.
+  // The methods that are no rows of images.
+  std::span<const SuiteMethod> rendered() const;
+  // Index of a method's yardstick: the first `path` method on the same backend, for a row of images
+  // on the first one; methods.size() where there is none.
   size_t yardstick(size_t method) const;
   // Index of the first method that differs in nothing but the backend; itself where it is the
   // first.

@@ -7,8 +7,10 @@
 #include "core/error.h"
 #include "core/image/exr_limits.h"
 #include "core/memory.h"
+#include "experiments/runner/block_masks.h"
 #include "experiments/runner/experiment.h"
 #include "experiments/runner/files.h"
+#include "experiments/runner/image_rows.h"
 #include "experiments/runner/interrupt.h"
 
 namespace restlab {
@@ -69,7 +71,7 @@ size_t openMethods(const Suite& suite, const SuiteScene& scene, const PreparedSc
   const SessionConfig picture = pictureOf(suite, 1, 1, suite.components.front());
   StartupLog startup;
   size_t bytesPerPixel = 0;
-  for (const SuiteMethod& method : suite.methods) {
+  for (const SuiteMethod& method : suite.rendered()) {
     const Session session =
         open(suite, method.backendPlace, prepared, methodConfig(suite, method, prepared, picture));
     bytesPerPixel += session.bytesPerPixel() + hostBytesPerPixelOfMethod(suite);
@@ -107,10 +109,20 @@ PreparedScene checkScene(const Suite& suite, const SuiteScene& scene, SuiteCheck
   } else {
     at(scene.referencePlace, [&] { checkReference(suite, scene, prepared, width, height); });
   }
+  for (const uint32_t component : suite.components)
+    checkImageRows(suite, scene.name, component, width, height);
+  if (!suite.masks.empty()) {
+    BlockResult block;
+    block.scene = scene.name;
+    block.width = width;
+    block.height = height;
+    block.motion = motionOf(suite, prepared);
+    prepareMasks(suite, prepared, block);
+  }
   const size_t bytesPerPixel = openMethods(suite, scene, prepared, found);
   at(scene.place, [&] {
     requireMemory(fmt::format("scene {}", scene.name), width, height,
-                  std::max(bytesPerPixel, kReferenceBytesPerPixel));
+                  std::max(bytesPerPixel * suite.jobs, kReferenceBytesPerPixel));
   });
   return prepared;
 }

@@ -26,7 +26,7 @@ void overrideMethods(const ConfigTable& root, const std::string& key, const std:
     const std::string integrator = method.getString("integrator", "path");
     const std::string name = method.getString("name", integrator);
     names.push_back(name);
-    const std::vector<std::string> known = methodKeys(integrator);
+    const std::vector<std::string> known = methodKeys(method);
     leaves.insert(leaves.end(), known.begin(), known.end());
     const bool knows = std::find(known.begin(), known.end(), leaf) != known.end();
     if (wanted.empty() ? knows : wanted == name) {

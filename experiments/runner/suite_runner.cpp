@@ -3,16 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
 #include <exception>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
+#include <thread>
 
 #include "core/error.h"
 #include "core/image/atomic_file.h"
+#include "experiments/runner/block_masks.h"
 #include "experiments/runner/build_info.h"
 #include "experiments/runner/files.h"
 #include "experiments/runner/folder_lock.h"
+#include "experiments/runner/image_rows.h"
 #include "experiments/runner/job.h"
 #include "experiments/runner/log.h"
 #include "experiments/runner/outputs.h"
@@ -33,6 +39,9 @@ namespace {
 void removeEarlierResults(const fs::path& out, const Suite& suite) {
   std::error_code status;
   const auto isRead = [&](const fs::path& file) {
+    for (const fs::path& image : imageFiles(suite)) {
+      if (fs::equivalent(file, image, status)) return true;
+    }
     for (const SuiteScene& scene : suite.scenes) {
       for (const std::string& name : {scene.reference, scene.request.environment}) {
         if (!name.empty() && fs::equivalent(file, findAsset(name), status)) return true;
@@ -67,7 +76,8 @@ nlohmann::ordered_json planOf(const Suite& suite, const BlockResult& block) {
           {"width", block.width},
           {"height", block.height},
           {"reference", block.referenceFile},
-          {"jobs", nlohmann::ordered_json::array()}};
+          {"jobs", nlohmann::ordered_json::array()},
+          {"images", nlohmann::ordered_json::array()}};
 }
 
 class SuiteRun {
@@ -94,6 +104,10 @@ class SuiteRun {
       outputs_.write(points_.front(), finished);
       writeRecord(finished ? "finished" : "interrupted");
       outputs_.writePages(points_.front(), record_);
+      logEvent({{"event", finished ? "finished" : "interrupted"},
+                {"folder", request_.out.string()},
+                {"made", made_},
+                {"were_there", reused_}});
       if (reused_ > 0)
         logInfo(fmt::format("{} of {} runs were there already", reused_, reused_ + made_));
       return finished;
@@ -198,28 +212,97 @@ class SuiteRun {
                    nlohmann::ordered_json& plan) {
     std::string reference = referenceHash(block.reference);
     if (block.referenceBefore) reference += referenceHash(*block.referenceBefore);
-    Progress progress(blockLabel(suite, block), suite.runs);
     BlockExecutor executor(suite, prepared, block);
+    measureImageRows(suite, prepared, block, reference, plan);
+    Progress progress(blockLabel(suite, block), suite.runs);
+    const std::set<std::string> made = makeSideBySide(suite, prepared, block, reference, progress);
     for (uint32_t run = 0; run < suite.runs; ++run) {
-      const JobIdentity identity =
-          jobIdentity(suite, prepared, block, run, buildInfo().sourceHash, reference, devices_);
+      const JobIdentity identity = identityOf(suite, prepared, block, run, reference);
       const std::string key = identity.key();
       std::optional<JobData> job;
-      if (!request_.force) job = store_.load(key);
-      const bool isThere = job.has_value();
-      if (!isThere) {
+      if (!request_.force || made.count(key) != 0) job = store_.load(key);
+      const bool isThere = job.has_value() && made.count(key) == 0;
+      if (!job) {
         job = executor.execute(run, key, started_);
         if (!job) return false;
         store_.save(identity, *job);
       }
       ++(isThere ? reused_ : made_);
       log_->add(key, *job);
-      addJob(*job, block);
+      addJob(suite, *job, block);
       plan["jobs"].push_back(key);
+      logEvent({{"event", "run"},
+                {"table", blockLabel(suite, block)},
+                {"run", run},
+                {"job", key},
+                {"was_there", isThere}});
       writeRecord("running");
       progress.update(run + 1);
     }
     return true;
+  }
+
+  JobIdentity identityOf(const Suite& suite, const PreparedScene& prepared,
+                         const BlockResult& block, uint32_t run,
+                         const std::string& reference) const {
+    return jobIdentity(suite, prepared, block, run, buildInfo().sourceHash, reference, devices_);
+  }
+
+  // The missing runs where several are made at once; the keys of those that were finished, in the
+  // store.
+  std::set<std::string> makeSideBySide(const Suite& suite, const PreparedScene& prepared,
+                                       BlockResult& block, const std::string& reference,
+                                       Progress& progress) {
+    std::set<std::string> made;
+    if (suite.jobs < 2) return made;
+    prepareMasks(suite, prepared, block);  // not by each of them
+    std::vector<uint32_t> missing;
+    for (uint32_t run = 0; run < suite.runs; ++run) {
+      const std::string key = identityOf(suite, prepared, block, run, reference).key();
+      if (request_.force || !store_.load(key)) missing.push_back(run);
+    }
+    std::mutex mutex;  // guards made, failure and progress
+    std::exception_ptr failure;
+    std::atomic<size_t> next = 0;
+    const auto work = [&] {
+      try {
+        BlockExecutor executor(suite, prepared, block);
+        for (size_t i = next++; i < missing.size(); i = next++) {
+          const JobIdentity identity = identityOf(suite, prepared, block, missing[i], reference);
+          const std::optional<JobData> job = executor.execute(missing[i], identity.key(), started_);
+          if (!job) return;
+          store_.save(identity, *job);
+          const std::lock_guard lock(mutex);
+          made.insert(identity.key());
+          progress.update(suite.runs - missing.size() + made.size());
+        }
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        if (!failure) failure = std::current_exception();
+        next = missing.size();
+      }
+    };
+    {
+      std::vector<std::jthread> workers;
+      for (size_t i = 0; i < std::min<size_t>(suite.jobs, missing.size()); ++i)
+        workers.emplace_back(work);
+    }
+    if (failure) std::rethrow_exception(failure);
+    return made;
+  }
+
+  // Quickly done, and so not taken again.
+  void measureImageRows(const Suite& suite, const PreparedScene& prepared, BlockResult& block,
+                        const std::string& reference, nlohmann::ordered_json& plan) {
+    if (imageRuns(suite) > 0) prepareMasks(suite, prepared, block);
+    for (uint32_t run = 0; run < imageRuns(suite); ++run) {
+      const ImageJob job = measureImages(suite, block, run, reference, started_);
+      const std::string key = job.identity.key();
+      store_.save(job.identity, job.data);
+      log_->add(key, job.data);
+      addJob(suite, job.data, block);
+      plan["images"].push_back(key);
+    }
   }
 
   bool obtain(const Suite& suite, const SuiteScene& scene, const PreparedScene& prepared,

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/image/metrics.h"
+#include "experiments/runner/figures.h"
 
 namespace restlab {
 
@@ -22,15 +23,11 @@ double runMseWithoutLights(const RunResult& run) { return run.measured.mseWithou
 
 // Median over the frames of a run of time / time of `other` in the same interleaved round.
 double runTimeRatio(const RunResult& run, const RunResult& other) {
+  if (run.timesMs.empty()) return kUnknown;
   std::vector<double> ratios;
   for (size_t i = 0; i < run.timesMs.size(); ++i)
     ratios.push_back(run.timesMs[i] / other.timesMs.at(i));
   return median(ratios);
-}
-
-BiasClass biasOf(const SessionConfig& config) {
-  const IntegratorInfo& integrator = findIntegrator(config.integrator);
-  return biasClassOf(integrator, config.mode, resolveParameters(integrator, config.parameters));
 }
 
 void summariseTimes(const MethodResult& result, size_t pixels, MethodSummary& row) {
@@ -43,10 +40,13 @@ void summariseTimes(const MethodResult& result, size_t pixels, MethodSummary& ro
     row.health.raysPath += run.health.raysPath;
     row.health.raysShadow += run.health.raysShadow;
   }
-  row.timedFrames = times.size();
-  row.timeMsMedian = median(times);
-  row.timeMsP95 = percentile(times, 0.95);
-  const double samples = double(times.size()) * double(pixels);
+  if (!times.empty()) {
+    row.timeMsMedian = median(times);
+    row.timeMsP95 = percentile(times, 0.95);
+  }
+  if (row.method->images) return;
+  row.timedFrames = size_t(row.suite->timedFrames) * result.runs.size();
+  const double samples = double(row.timedFrames) * double(pixels);
   row.raysPathPerPixel = double(row.health.raysPath) / samples;
   row.raysShadowPerPixel = double(row.health.raysShadow) / samples;
   row.passes = result.runs.front().passes;
@@ -77,8 +77,23 @@ void summariseErrors(const MethodResult& result, const Reference& reference, Met
   }
 }
 
+// Images of another program are independent of all runs, and their frames took no turns with any.
+void compareImages(const MethodResult& path, const MethodSummary& pathRow,
+                   const MethodResult& result, MethodSummary& row) {
+  const auto ratioOf = [&](double (*value)(const RunResult&)) {
+    return ratioInterval(perRun(path, value), perRun(result, value));
+  };
+  row.mseRatio = ratioOf(runMse);
+  row.mseRatioWithoutLights = ratioOf(runMseWithoutLights);
+  row.relmseTrimmedRatio = ratioOf(runRelmseTrimmed);
+  if (std::isnan(row.timeMsMedian) || std::isnan(pathRow.timeMsMedian)) return;
+  row.timeRatio.value = row.timeRatioOfMedians = row.timeMsMedian / pathRow.timeMsMedian;
+  row.efficiencyRatio.value = row.mseRatio.value / row.timeRatio.value;
+}
+
 void compareWithYardstick(const MethodResult& path, const MethodSummary& pathRow,
                           const MethodResult& result, MethodSummary& row) {
+  if (row.method->images) return compareImages(path, pathRow, result, row);
   // An interrupted block may have one run more of the first methods.
   const size_t paired = std::min(path.runs.size(), result.runs.size());
   std::vector<double> pathMse, mse, timeRatios, work, pathInside, inside, pathTrimmed, trimmed;
@@ -127,6 +142,24 @@ std::optional<TemporalFigures> meanOf(const std::vector<RunResult>& runs) {
   return mean;
 }
 
+// One value a run; nothing where a run lacks it.
+std::vector<std::pair<std::string, Interval>> figuresOf(const Suite& suite,
+                                                        const std::vector<RunResult>& runs) {
+  std::vector<std::pair<std::string, Interval>> figures;
+  for (const FigureInfo& figure : figureInfos(suite)) {
+    std::vector<double> values;
+    for (const RunResult& run : runs) {
+      for (const auto& [name, value] : run.figures) {
+        if (name == figure.name) values.push_back(value);
+      }
+    }
+    const bool isKnown = values.size() == runs.size();
+    figures.emplace_back(figure.name,
+                         isKnown ? meanInterval(values) : Interval{kUnknown, kUnknown, kUnknown});
+  }
+  return figures;
+}
+
 void judge(MethodSummary& row) {
   if (row.nonfinite > 0) {
     row.counts = false;
@@ -173,12 +206,13 @@ std::vector<MethodSummary> summarise(const Suite& suite, const BlockResult& bloc
     row.method = &suite.methods[m];
     row.block = &block;
     row.result = &result;
-    row.bias = biasOf(suite.methods[m].session);
+    row.bias = row.method->bias();
     row.runs = uint32_t(result.runs.size());
     summariseTimes(result, pixels, row);
     summariseErrors(result, block.reference, row);
     row.convergence = convergenceOf(result.runs);
     row.temporal = meanOf(result.runs);
+    row.figures = figuresOf(suite, result.runs);
     judge(row);
     row.isYardstick = m == suite.yardstick(m);
     rowOf[m] = rows.size();

@@ -52,6 +52,10 @@ struct MethodSummary {
   std::optional<SpeedUp> speedUp;           // against the yardstick
   std::optional<TemporalFigures> temporal;  // mean over runs, where the suite asks for it
 
+  // The suite's further figures, in the order of figureInfos(); unknown where the mask is of
+  // another scene.
+  std::vector<std::pair<std::string, Interval>> figures;
+
   double raysPathPerPixel = kUnknown, raysShadowPerPixel = kUnknown;
   std::vector<PassTiming> passes;  // median over runs
   HealthSum health;                // of all timed frames

@@ -31,6 +31,8 @@ void requireSomeMethod(const ConfigTable& root, const std::vector<std::string>& 
     names.push_back(name);
     if (!axis.method.empty() && axis.method != name) continue;
     named = true;
+    // An image is of one setting.
+    if (table.has("image")) continue;
     const std::vector<std::string> known = methodKeys(integrator);
     if (contains(known, axis.leaf)) return;
     leaves.insert(leaves.end(), known.begin(), known.end());
@@ -75,6 +77,11 @@ std::vector<std::string> methodKeys(const std::string& integrator) {
     for (const ParameterInfo& parameter : info->parameters) names.push_back(parameter.name);
   }
   return names;
+}
+
+std::vector<std::string> methodKeys(const ConfigTable& method) {
+  if (method.has("image")) return {"image", "time_ms", "bias"};
+  return methodKeys(method.getString("integrator", "path"));
 }
 
 std::string sweepValues(const std::string& key, const std::string& values) {

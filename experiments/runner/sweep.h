@@ -25,6 +25,8 @@ struct Sweep {
 const std::vector<std::string>& methodKeys();
 // And with the parameters of that integrator.
 std::vector<std::string> methodKeys(const std::string& integrator);
+// Of a [[method]], whether it is rendered or a row of images.
+std::vector<std::string> methodKeys(const ConfigTable& method);
 
 // "method.KEY" or "method.NAME.KEY" into name ("" in the first case) and key; false for others.
 bool splitMethodKey(const std::string& key, std::string& method, std::string& leaf);

@@ -1,6 +1,7 @@
 // table.md: the lecture's table of each scene and component, with what its reader must know.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "experiments/runner/report.h"
@@ -12,11 +13,13 @@ namespace {
 std::string interval(double lo, double hi, const char* format) {
   if (std::isnan(lo) || std::isnan(hi)) return "";
   if (std::isinf(lo) || std::isinf(hi)) return " [unbounded]";
+  if (std::abs(lo) >= 1e5 || std::abs(hi) >= 1e5) format = "{:.2g}";
   return fmt::format(" [{}, {}]", fmt::format(fmt::runtime(format), lo),
                      fmt::format(fmt::runtime(format), hi));
 }
 
 std::string timeCell(const MethodSummary& row) {
+  if (std::isnan(row.timeMsMedian)) return "unknown";
   std::string text = fmt::format("{:.3g} ms", row.timeMsMedian);
   if (row.isYardstick || std::isnan(row.timeRatio.value)) return text;
   return text + fmt::format(" ({:.2f}x{})", row.timeRatio.value,
@@ -67,6 +70,11 @@ std::string backendCell(const MethodSummary& row, const std::string& column) {
   return fmt::format(" {:.2f}x{} |", ratio.value, interval(ratio.lo, ratio.hi, "{:.2f}"));
 }
 
+std::string raysCell(const MethodSummary& row) {
+  const double rays = row.raysPathPerPixel + row.raysShadowPerPixel;
+  return std::isnan(rays) ? "" : fmt::format("{:.1f}", rays);
+}
+
 std::string biasCell(const MethodSummary& row) {
   return std::isnan(row.biasShare) ? "unknown" : fmt::format("{:+.1f} %", 100.0 * row.biasShare);
 }
@@ -77,10 +85,14 @@ std::string accumulatedTable(const std::vector<MethodSummary>& rows) {
   for (const MethodSummary& row : rows) {
     if (!row.convergence || row.convergence->points.empty()) continue;
     const ConvergencePoint& last = row.convergence->points.back();
-    text += fmt::format("| {} | {} | {:.4g} ms | {:.3g}{} | {:.2f}{} |", row.method->name,
-                        last.frames, last.timeMs, last.mse.value,
-                        interval(last.mse.lo, last.mse.hi, "{:.3g}"), row.convergence->slope.value,
-                        interval(row.convergence->slope.lo, row.convergence->slope.hi, "{:.2f}"));
+    const Interval& slope = row.convergence->slope;
+    text += fmt::format(
+        "| {} | {} | {} | {:.3g}{} | {} |", row.method->name, last.frames,
+        std::isnan(last.timeMs) ? "unknown" : fmt::format("{:.4g} ms", last.timeMs), last.mse.value,
+        interval(last.mse.lo, last.mse.hi, "{:.3g}"),
+        std::isnan(slope.value)
+            ? ""
+            : fmt::format("{:.2f}{}", slope.value, interval(slope.lo, slope.hi, "{:.2f}")));
     if (row.speedUp && !row.isYardstick) {
       const SpeedUp& up = *row.speedUp;
       text += fmt::format(" {:.1f}x lower{} at {:.3g} ms | {:.1f}x faster{} to {:.2g} |\n",
@@ -97,6 +109,32 @@ std::string accumulatedTable(const std::vector<MethodSummary>& rows) {
          "| method | frames | time | MSE | slope | at equal time | to equal error |\n"
          "|---|---|---|---|---|---|---|\n" +
          text;
+}
+
+std::string figuresTable(const std::vector<MethodSummary>& rows) {
+  const auto& named = rows.front().figures;
+  std::string heads, rule, lines;
+  std::vector<bool> isKnown;
+  for (size_t i = 0; i < named.size(); ++i) {
+    isKnown.push_back(std::any_of(rows.begin(), rows.end(), [&](const MethodSummary& row) {
+      return !std::isnan(row.figures[i].second.value);
+    }));
+    if (!isKnown[i]) continue;
+    heads += fmt::format(" {} |", named[i].first);
+    rule += "---|";
+  }
+  if (heads.empty()) return "";
+  for (const MethodSummary& row : rows) {
+    lines += fmt::format("| {} |", row.method->name);
+    for (size_t i = 0; i < row.figures.size(); ++i) {
+      const Interval& figure = row.figures[i].second;
+      if (isKnown[i]) {
+        lines += fmt::format(" {:.3g}{} |", figure.value, interval(figure.lo, figure.hi, "{:.3g}"));
+      }
+    }
+    lines += "\n";
+  }
+  return fmt::format("\nOf the measured frame:\n\n| method |{}\n|---|{}\n{}", heads, rule, lines);
 }
 
 std::string temporalTable(const std::vector<MethodSummary>& rows) {
@@ -148,16 +186,17 @@ std::string blockTable(const Suite& suite, const std::vector<MethodSummary>& row
   std::string notes;
   for (const MethodSummary& row : rows) {
     text += fmt::format(
-        "| {}{} | {} |{} {:.3g}{} | {} | {} | {:.3f} | {} | {:.0f} % | {} | {} | {:.1f} |\n",
+        "| {}{} | {} |{} {:.3g}{} | {} | {} | {:.3f} | {} | {:.0f} % | {} | {} | {} |\n",
         row.method->name, row.counts ? "" : " (*)", timeCell(row), backendCell(row, backends),
         row.mse.value, interval(row.mse.lo, row.mse.hi, "{:.3g}"),
         ratioCell(row.mseRatio, row.isYardstick), efficiencyCell(row), row.energyRatio.value,
         biasCell(row), 100.0 * row.worstShare, withoutLightsCell(row), trimmedCell(row),
-        row.raysPathPerPixel + row.raysShadowPerPixel);
+        raysCell(row));
     for (const std::string& flag : row.flags) {
       notes += fmt::format("- {}{}: {}\n", row.method->name, row.counts ? "" : " (*)", flag);
     }
   }
+  text += figuresTable(rows);
   text += accumulatedTable(rows);
   text += temporalTable(rows);
   if (!block.reference.half0) {

@@ -64,7 +64,8 @@ template <class Value>
 double best(const std::vector<MethodSummary>& rows, const Value& value) {
   double smallest = std::nan("");
   for (const MethodSummary& row : rows) {
-    if (row.counts && !(value(row) >= smallest)) smallest = value(row);
+    if (!row.counts || std::isnan(value(row))) continue;
+    if (!(value(row) >= smallest)) smallest = value(row);
   }
   return smallest;
 }

@@ -31,6 +31,7 @@ class SummaryTest : public ::testing::Test {
  protected:
   void SetUp() override {
     suite_.methods.resize(2);
+    suite_.timedFrames = 2;
     suite_.methods[0].name = "path";
     suite_.methods[0].session.integrator = "path";
     suite_.methods[0].session.mode = "unbiased";

@@ -1,0 +1,54 @@
+#include "experiments/runner/block_masks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "experiments/runner/light_mask.h"
+#include "experiments/runner/object_mask.h"
+#include "experiments/runner/suite_check.h"
+
+namespace restlab {
+
+namespace {
+
+PixelMask pixelsOf(const SuiteMask& mask, const PreparedScene& prepared,
+                   const SessionConfig& picture, const BlockResult& block,
+                   const std::optional<SceneCamera>& camera) {
+  PixelMask pixels;
+  if (!mask.rectangles.empty())
+    pixels = maskOfRectangles(picture.width, picture.height, mask.rectangles);
+  if (!mask.objects.empty())
+    pixels = intersection(pixels, pixelsOfObjects(prepared, picture, mask.objects, camera));
+  if (mask.withoutLights) pixels = intersection(pixels, block.withoutLights);
+  countSelected(pixels, size_t(picture.width) * picture.height);
+  return pixels;
+}
+
+}  // namespace
+
+std::optional<SceneCamera> measuredCamera(const Suite& suite, const BlockResult& block) {
+  if (!block.motion) return std::nullopt;
+  return cameraAt(*block.motion, suite.warmupFrames);
+}
+
+void prepareMasks(const Suite& suite, const PreparedScene& prepared, BlockResult& block) {
+  if (!block.withoutLights.empty()) return;
+  SessionConfig picture = pictureOf(suite, block.width, block.height, block.component);
+  picture.camera = prepared.camera;
+  const std::optional<SceneCamera> camera = measuredCamera(suite, block);
+  block.withoutLights = pixelsWithoutLights(prepared, picture, camera);
+  for (const SuiteMask& mask : suite.masks) {
+    PixelMask& pixels = block.masks.emplace_back();
+    if (!mask.scene.empty() && mask.scene != block.scene) continue;
+    try {
+      pixels = pixelsOf(mask, prepared, picture, block, camera);
+    } catch (const Error& error) {
+      throw Error(error.code(),
+                  fmt::format("{}: mask '{}': {}", mask.place, mask.name, error.what()));
+    }
+  }
+}
+
+}  // namespace restlab
