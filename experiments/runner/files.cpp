@@ -16,14 +16,6 @@ namespace restlab {
 
 namespace fs = std::filesystem;
 
-void appendLine(const fs::path& file, const std::string& line) {
-  std::ofstream out(file, std::ios::binary | std::ios::app);
-  out << line + "\n" << std::flush;
-  if (!out) {
-    failInput(fmt::format("{}: cannot be written: {}", file.string(), std::strerror(errno)));
-  }
-}
-
 void makeWritableDirectory(const fs::path& directory) {
   std::error_code status;
   fs::create_directories(directory, status);
@@ -33,10 +25,11 @@ void makeWritableDirectory(const fs::path& directory) {
   }
   const fs::path probe = directory / fmt::format(".probe{}", getpid());
   std::ofstream out(probe);
-  const bool writable = bool(out);
+  const std::string reason = out ? "" : std::strerror(errno);
   out.close();
   fs::remove(probe, status);
-  if (!writable) failInput(fmt::format("{}: cannot be written to", directory.string()));
+  if (!reason.empty())
+    failInput(fmt::format("{}: cannot be written to: {}", directory.string(), reason));
 }
 
 fs::path sceneFolder() {

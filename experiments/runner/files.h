@@ -6,9 +6,6 @@
 
 namespace restlab {
 
-// Appends whole lines; the file is made when absent. Throws Error (badInput).
-void appendLine(const std::filesystem::path& file, const std::string& line);
-
 // Makes a directory and its parents; throws Error (badInput) when it cannot be written to.
 void makeWritableDirectory(const std::filesystem::path& directory);
 

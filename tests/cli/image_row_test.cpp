@@ -92,14 +92,17 @@ bias = "unbiased"
   }
   ASSERT_EQ(theirMse.size(), 3u);
   const Interval ratio = ratioInterval(pathMse, theirMse);
-  EXPECT_NEAR(number(theirs, "mse_ratio_without_lights_ci_lo"), ratio.lo, 1e-6 * std::abs(ratio.lo));
-  EXPECT_NEAR(number(theirs, "mse_ratio_without_lights_ci_hi"), ratio.hi, 1e-6 * std::abs(ratio.hi));
+  EXPECT_NEAR(number(theirs, "mse_ratio_without_lights_ci_lo"), ratio.lo,
+              1e-6 * std::abs(ratio.lo));
+  EXPECT_NEAR(number(theirs, "mse_ratio_without_lights_ci_hi"), ratio.hi,
+              1e-6 * std::abs(ratio.hi));
 
   EXPECT_NE(result.out.find("| theirs | 5 ms"), std::string::npos) << result.out;
   EXPECT_TRUE(fs::exists(this->path("out/images/cornell-box-all-theirs.exr")));
   const std::string csv = read("out/summary.csv"), page = read("out/table.md");
   fs::remove(this->path("out/summary.csv"));
-  for (const char* image : {"their0.exr", "their1.exr", "their2.exr"}) fs::remove(this->path(image));
+  for (const char* image : {"their0.exr", "their1.exr", "their2.exr"})
+    fs::remove(this->path(image));
   ASSERT_EQ(run("report out").code, 0);
   EXPECT_EQ(read("out/summary.csv"), csv) << "the folder holds what the rows were made of";
   EXPECT_EQ(read("out/table.md"), page);
@@ -179,7 +182,8 @@ TEST_F(ImageRowTest, WrongRowsAreToldBeforeAnythingIsRendered) {
   expect("name = \"x\"\nimage = \"small.exr\"\n", 3, {"suite.toml:20:9", "8x8", "24x16"});
   expect("image = \"small.exr\"\n", 2, {"suite.toml:18:1", "'name'"});
   expect("name = \"x\"\nimage = []\n", 2, {"suite.toml:20:9", "empty"});
-  expect("name = \"x\"\nimage = \"small.exr\"\nmode = \"biased\"\n", 2, {"suite.toml:21:8", "mode"});
+  expect("name = \"x\"\nimage = \"small.exr\"\nmode = \"biased\"\n", 2,
+         {"suite.toml:21:8", "mode"});
   expect("name = \"x\"\nimage = \"small.exr\"\ntime_ms = [1, 2]\n", 2,
          {"suite.toml:21:11", "time_ms", "number"});
   expect("name = \"x\"\nimage = \"small.exr\"\ntime_ms = 0\n", 2, {"suite.toml:21:11", "time_ms"});

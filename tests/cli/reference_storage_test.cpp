@@ -1,13 +1,11 @@
 // Where references cannot be stored: full disks, limits, folders that cannot be written to, files
 // that are damaged. What was there before stays, and nothing half-written looks complete.
-#include <sched.h>
-#include <sys/mount.h>
 #include <unistd.h>
 
-#include <cstring>
 #include <fstream>
 
 #include "tests/cli/reference_files.h"
+#include "tests/cli/small_disk.h"
 
 namespace restlab::cli_test {
 
@@ -72,14 +70,9 @@ TEST_F(ReferenceStorage, ProgressThatDoesNotFitCostsNoReference) {
 }
 
 TEST_F(ReferenceStorage, FullDiskIsOneLine) {
-  // A mount that only this process and its children see, gone with them.
-  if (unshare(CLONE_NEWNS) != 0 || mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0) {
-    GTEST_SKIP() << "SKIPPED: no file system can be mounted here: " << std::strerror(errno);
-  }
   fs::create_directory(path("small"));
-  if (mount("tmpfs", path("small").c_str(), "tmpfs", 0, "size=160k") != 0) {
-    GTEST_SKIP() << "SKIPPED: no file system can be mounted here: " << std::strerror(errno);
-  }
+  SmallDisk disk(path("small"), "size=160k");
+  if (!disk.whyNot().empty()) GTEST_SKIP() << disk.whyNot();
   // A state of 108 KiB fits, another one beside it does not, nor does an image.
   fs::rename(path("cache"), path("cache-before"));
   fs::create_directories(path("small/cache"));
@@ -94,9 +87,8 @@ TEST_F(ReferenceStorage, FullDiskIsOneLine) {
   EXPECT_FALSE(fs::exists(path("small/ref.exr")));
   EXPECT_EQ(filesIn(path("small")), 1u) << "unfinished files";
   // The same command, once there is room.
-  ASSERT_EQ(mount("tmpfs", path("small").c_str(), "tmpfs", MS_REMOUNT, "size=4m"), 0);
+  ASSERT_TRUE(disk.remount("size=4m"));
   expectUnharmed();
-  ASSERT_EQ(umount2(path("small").c_str(), MNT_DETACH), 0);
 }
 
 TEST_F(ReferenceStorage, CacheThatCannotBeWrittenIsAWarning) {

@@ -56,7 +56,8 @@ class SideBySideTest : public ProgramTest {
 };
 
 TEST_F(SideBySideTest, GiveTheSameNumbers) {
-  const ProgramResult one = run("run suite.toml -o one"), several = run("run suite.toml -o many -j 3");
+  const ProgramResult one = run("run suite.toml -o one"),
+                      several = run("run suite.toml -o many -j 3");
   ASSERT_EQ(one.code, 0) << one.err;
   ASSERT_EQ(several.code, 0) << several.err;
   EXPECT_EQ(read("many/summary.csv"), read("one/summary.csv"));

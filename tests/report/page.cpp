@@ -43,7 +43,11 @@ void PageTest::TearDown() {
 
 void PageTest::open(const ReportModel& model) {
   writeReport(folder_.path(), model);
-  browser_->open(folder_.path() / "report.html");
+  openFile(folder_.path() / "report.html");
+}
+
+void PageTest::openFile(const std::filesystem::path& report) {
+  browser_->open(report);
   if (browser_->evaluate("document.querySelectorAll('.viewer').length") == 0) return;
   browser_->evaluate(element(".viewer") + ".scrollIntoView()");
   browser_->waitFor("document.querySelector('.viewer').dataset.drawn !== undefined");
@@ -102,9 +106,9 @@ std::string PageTest::state(const std::string& name) {
 Position PageTest::pixelPosition(double x, double y) {
   const Json box = browser_->evaluate(
       "(() => { const b = document.querySelector('.stage canvas').getBoundingClientRect(); "
-      "return [b.x, b.y, b.width, b.height]; })()");
-  return {double(box[0]) + (x + 0.5) * double(box[2]) / kSampleWidth,
-          double(box[1]) + (y + 0.5) * double(box[3]) / kSampleHeight};
+      "const image = document.querySelector('.viewer').viewer.images[0]; "
+      "return [b.x, b.y, b.width / image.width, b.height / image.height]; })()");
+  return {double(box[0]) + (x + 0.5) * double(box[2]), double(box[1]) + (y + 0.5) * double(box[3])};
 }
 
 void PageTest::pointAt(double x, double y) {

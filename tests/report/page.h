@@ -32,6 +32,8 @@ class PageTest : public testing::Test {
 
   // Writes the report of a model and opens it; returns once its first viewer is there.
   void open(const ReportModel& model);
+  // The same with a report that is there.
+  void openFile(const std::filesystem::path& report);
   // Waits until what was asked for is drawn.
   void settle();
   // A picture for people, in the folder RESTLAB_SCREENSHOTS where that is set.

@@ -7,6 +7,7 @@ set(RL_REPORT_TESTS
   report/page.cpp
   report/pixels_test.cpp
   report/plot_test.cpp
+  report/run_folder_test.cpp
   report/sample.cpp
   report/text_test.cpp
   report/viewer_test.cpp
