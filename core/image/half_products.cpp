@@ -45,19 +45,6 @@ double squaredBias(const Image& runs0, const Image& runs1, const Image& half0, c
   return std::isfinite(sum) ? sum / double(count) : std::numeric_limits<double>::quiet_NaN();
 }
 
-MetricValue biasRms(const Image& runs0, const Image& runs1, const Image& half0, const Image& half1,
-                    const PixelMask& mask) {
-  const double squared = squaredBias(runs0, runs1, half0, half1, mask);
-  const size_t inRuns = countNonfinite(runs0, mask) + countNonfinite(runs1, mask);
-  const size_t inHalves = countNonfinite(half0, mask) + countNonfinite(half1, mask);
-  if (inRuns + inHalves > 0) {
-    return {std::numeric_limits<double>::quiet_NaN(),
-            fmt::format("{} non-finite values in the means of the runs, {} in the reference",
-                        inRuns, inHalves)};
-  }
-  return {std::sqrt(std::max(0.0, squared)), fmt::format("squared bias {:+.6g}", squared)};
-}
-
 double mseAgainstHalves(const Image& image, const Image& half0, const Image& half1,
                         const PixelMask& mask) {
   return squaredBias(image, image, half0, half1, mask);

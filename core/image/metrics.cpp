@@ -27,8 +27,8 @@ MetricInfo biasRmsInfo() {
   MetricInfo info;
   info.name = "bias_rms";
   info.formula =
-      "sqrt(max(0, mean (runs0 - half0)(runs1 - half1))), runs0 and runs1 the means of two halves "
-      "of independent runs, half0 and half1 those of the reference; the signed mean is said";
+      "sqrt(max(0, b)), b = mean over pixels and over all pairs i != j of independent runs of "
+      "(run_i - half0)(run_j - half1), half0 and half1 those of the reference; b is said, signed";
   info.needsRuns = true;
   info.function = [](const Image&, const Image&, const MetricOptions&) {
     return MetricValue{kNan, "needs several independent runs"};

@@ -36,7 +36,7 @@ struct MetricInfo {
   // Computed on the whole image, of which a mask then picks pixels: a value that is not finite
   // counts wherever it is.
   bool readsNeighbours = false;
-  // Needs several images (biasRms below); of a single one it is NaN.
+  // Needs several images (core/image/bias_runs.h); of a single one it is NaN.
   bool needsRuns = false;
   std::function<MetricValue(const Image& image, const Image& reference,
                             const MetricOptions& options)>
@@ -85,11 +85,6 @@ double mseAgainstHalves(const Image& image, const Image& half0, const Image& hal
 // an unbiased method.
 double squaredBias(const Image& runs0, const Image& runs1, const Image& half0, const Image& half1,
                    const PixelMask& mask = {});
-
-// The metric bias_rms: the root of squaredBias, or 0 where that is negative; the detail has the
-// signed square.
-MetricValue biasRms(const Image& runs0, const Image& runs1, const Image& half0, const Image& half1,
-                    const PixelMask& mask = {});
 
 // One value a pixel, averaged over channels, whose mean is `mse` or `mseAgainstHalves`.
 std::vector<double> squaredErrorPerPixel(const Image& image, const Image& reference);

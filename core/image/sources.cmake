@@ -1,5 +1,6 @@
 target_sources(rl_core PRIVATE
   image/atomic_file.cpp
+  image/bias_runs.cpp
   image/exr_read.cpp
   image/exr_write.cpp
   image/flip.cpp

@@ -102,7 +102,7 @@ void compare(const CompareOptions& options, Outcome& outcome) {
   warnOfNoReference(options.reference, reference);
   comparison.mask = chooseMask(options, reference);
   metricOptions.mask = comparison.mask.mask;
-  RunHalves runs;
+  ComparedMethod runs;
   for (const std::string& file : options.images) {
     const LayeredImage read = readBeside(file, options.reference, reference, options.anyReference);
     const Image& image = read.layers.at("");

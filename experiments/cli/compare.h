@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/image/bias_runs.h"
 #include "core/image/metrics.h"
-#include "experiments/runner/accumulate.h"
 #include "experiments/runner/reference.h"
 
 namespace restlab {
@@ -49,12 +49,12 @@ struct ComparedImage {
 // bias_rms of all images together.
 struct ComparedRuns {
   size_t count = 0;
-  double squaredBias = 0.0;  // signed
+  Interval squaredBias;  // signed
   MetricValue biasRms;
 };
 
-// Images that are independent runs of one method, in two halves.
-class RunHalves {
+// Images that are independent runs of one method.
+class ComparedMethod {
  public:
   // Throws Error (badInput) naming what says that `image` is no independent run of the method of
   // the others.
@@ -68,7 +68,7 @@ class RunHalves {
     uint64_t pixelHash = 0;
   };
   std::vector<Run> runs_;
-  ImageSum halves_[2];
+  BiasRuns pixels_;
 };
 
 struct Comparison {

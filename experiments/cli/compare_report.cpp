@@ -91,7 +91,9 @@ void printJson(const Comparison& comparison, const CompareOptions& options) {
     const ComparedRuns& runs = *comparison.runs;
     json["runs"] = {{"count", runs.count},
                     {"metrics", {{"bias_rms", finite(runs.biasRms.value)}}},
-                    {"squared_bias", finite(runs.squaredBias)},
+                    {"squared_bias", finite(runs.squaredBias.value)},
+                    {"squared_bias_ci_lo", finite(runs.squaredBias.lo)},
+                    {"squared_bias_ci_hi", finite(runs.squaredBias.hi)},
                     {"details", {{"bias_rms", runs.biasRms.detail}}}};
   }
   fmt::print("{}\n", json.dump(2));

@@ -23,7 +23,7 @@ bool mayDiffer(const std::string& key) {
 
 }  // namespace
 
-void RunHalves::add(const std::string& file, const LayeredImage& image) {
+void ComparedMethod::add(const std::string& file, const LayeredImage& image) {
   const Image& pixels = image.layers.at("");
   const Run run{file, image.metadata,
                 XXH3_64bits(pixels.pixels.data(), pixels.pixels.size() * sizeof(glm::vec3))};
@@ -45,21 +45,20 @@ void RunHalves::add(const std::string& file, const LayeredImage& image) {
       }
     }
   }
-  halves_[runs_.size() % 2].add(pixels);
+  pixels_.add(pixels);
   runs_.push_back(run);
 }
 
-ComparedRuns RunHalves::bias(const Reference& reference, const PixelMask& mask) const {
-  const Image even = halves_[0].mean(), odd = halves_[1].mean();
+ComparedRuns ComparedMethod::bias(const Reference& reference, const PixelMask& mask) const {
   const bool hasHalves = reference.half0.has_value();
   const Image& half0 = hasHalves ? *reference.half0 : reference.mean;
   const Image& half1 = hasHalves ? *reference.half1 : reference.mean;
   ComparedRuns runs;
   runs.count = runs_.size();
-  runs.squaredBias = squaredBias(even, odd, half0, half1, mask);
-  runs.biasRms = biasRms(even, odd, half0, half1, mask);
+  runs.squaredBias = pixels_.squaredBias(half0, half1, mask);
+  runs.biasRms = pixels_.biasRms(half0, half1, mask);
   runs.biasRms.detail += fmt::format(
-      ", means of {} and {} runs against {}", halves_[0].count(), halves_[1].count(),
+      ", pairs of {} runs against {}", pixels_.count(),
       hasHalves ? "the reference's two halves" : "a reference without halves, whose noise it has");
   return runs;
 }

@@ -38,7 +38,7 @@ std::map<std::string, Table> tablesOf(const ResultsFolder& results) {
     Table& placed = tables.emplace(label, std::move(table)).first->second;
     placed.rows = summarise(suite, placed.block);
     for (MethodResult& method : placed.block.methods) {
-      method.evenRuns = method.oddRuns = ImageSum();
+      method.measured = BiasRuns();
       method.shown = Image();
     }
   }

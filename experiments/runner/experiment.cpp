@@ -78,8 +78,9 @@ SessionConfig methodConfig(const Suite& suite, const SuiteMethod& method,
 }
 
 size_t hostBytesPerPixelOfMethod(const Suite& suite) {
-  // The session's image, those that are kept of a run, the one that is shown, and the two sums.
-  size_t images = 3 + suite.checkpoints.size(), sums = 2;
+  // The session's image, those that are kept of a run, the one that is shown, those of the runs.
+  size_t images = 3 + suite.checkpoints.size(), sums = 0;
+  images += std::min<size_t>(suite.runs, BiasRuns::kGroups);
   if (suite.accumulate) {
     images += 2 + size_t(std::bit_width(suite.timedFrames));
     ++sums;
@@ -267,7 +268,7 @@ void addJob(const Suite& suite, const JobData& job, BlockResult& block) {
     MethodResult& method = block.methods[m];
     RunResult run = runOfLines(own.lines, method);
     run.method = m;
-    (run.run % 2 == 0 ? method.evenRuns : method.oddRuns).add(own.measured);
+    method.measured.add(own.measured);
     if (method.runs.empty()) {  // run 0 where it is there
       method.shown = own.measured;
       method.metadata = own.metadata;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/image/bias_runs.h"
 #include "experiments/runner/accumulate.h"
 #include "experiments/runner/backend_choice.h"
 #include "experiments/runner/suite.h"
@@ -64,8 +65,8 @@ struct RunResult {
 
 struct MethodResult {
   std::vector<RunResult> runs;
-  ImageSum evenRuns, oddRuns;  // of the measured frames: two halves for the squared bias
-  Image shown;                 // measured frame of the first run that is there
+  BiasRuns measured;                            // the measured frames
+  Image shown;                                  // measured frame of the first run that is there
   std::map<std::string, std::string> metadata;  // of that image
   std::string featuresLeftOut;                  // "+"-joined, or "none"
   size_t bytesPerPixel = 0;

@@ -19,8 +19,7 @@ std::string Outputs::add(const Suite& suite, BlockResult result) {
   block.rows = summarise(suite, block.result);
   for (MethodResult& method : block.result.methods) {
     // Only the numbers are needed from here on.
-    method.evenRuns = ImageSum();
-    method.oddRuns = ImageSum();
+    method.measured = BiasRuns();
     method.shown = Image();
   }
   Reference& reference = block.result.reference;

@@ -70,10 +70,10 @@ void summariseErrors(const MethodResult& result, const Reference& reference, Met
                    })).value;
   row.nonfinite = row.health.health.counts[rl::RL_HEALTH_NONFINITE];
   for (const RunResult& run : result.runs) row.nonfinite += run.measured.nonfinite;
-  if (result.oddRuns.count() > 0 && reference.half0 && reference.half1) {
-    row.biasSquared = squaredBias(result.evenRuns.mean(), result.oddRuns.mean(), *reference.half0,
-                                  *reference.half1);
-    row.biasShare = row.biasSquared / row.mse.value;
+  if (reference.half0 && reference.half1) {
+    row.biasSquared = result.measured.squaredBias(*reference.half0, *reference.half1);
+    row.biasShare = {row.biasSquared.value / row.mse.value, row.biasSquared.lo / row.mse.value,
+                     row.biasSquared.hi / row.mse.value};
   }
 }
 
@@ -178,17 +178,17 @@ void judge(MethodSummary& row) {
     row.flags.push_back(fmt::format("does not count: energy ratio {:.3f} is outside {:g}..{:g}",
                                     row.energyRatio.value, kEnergyRatioMin, kEnergyRatioMax));
   }
-  if (std::isnan(row.biasShare)) {
+  if (std::isnan(row.biasShare.value)) {
     row.counts = false;
     row.flags.push_back(
         "does not count: its bias is unknown (needs two runs and a reference in "
         "two halves)");
-  } else if (row.biasShare > kBiasShareMax) {
+  } else if (row.biasShare.value > kBiasShareMax) {
     row.counts = false;
     row.flags.push_back(
         fmt::format("does not count: squared bias is {:.0f} % of its MSE, more "
                     "than {:.0f} %",
-                    100.0 * row.biasShare, 100.0 * kBiasShareMax));
+                    100.0 * row.biasShare.value, 100.0 * kBiasShareMax));
   }
 }
 

@@ -29,10 +29,11 @@ struct MethodSummary {
 
   double timeMsMedian = kUnknown, timeMsP95 = kUnknown;  // over all timed frames of all runs
   Interval mse, mseWithoutLights, relmse, relmseTrimmed, energyRatio;  // over runs
-  double biasSquared = kUnknown;  // signed; of the mean over runs; NaN with one run or no halves
-  double biasShare = kUnknown;    // biasSquared / mse
-  double worstShare = kUnknown;   // mean over runs
-  uint64_t nonfinite = 0;         // in images, and sample values set to zero
+  // Signed; over all pairs of runs; unknown with one run or no halves.
+  Interval biasSquared{kUnknown, kUnknown, kUnknown};
+  Interval biasShare{kUnknown, kUnknown, kUnknown};  // biasSquared / mse.value
+  double worstShare = kUnknown;                      // mean over runs
+  uint64_t nonfinite = 0;                            // in images, and sample values set to zero
 
   // Against the yardstick on the same backend: path / method for the error, method / path for the
   // time.

@@ -76,7 +76,10 @@ std::string raysCell(const MethodSummary& row) {
 }
 
 std::string biasCell(const MethodSummary& row) {
-  return std::isnan(row.biasShare) ? "unknown" : fmt::format("{:+.1f} %", 100.0 * row.biasShare);
+  const Interval& share = row.biasShare;
+  if (std::isnan(share.value)) return "unknown";
+  return fmt::format("{:+.1f}{} %", 100.0 * share.value,
+                     interval(100.0 * share.lo, 100.0 * share.hi, "{:+.1f}"));
 }
 
 // Slopes and speed-ups; "" where nothing was accumulated.

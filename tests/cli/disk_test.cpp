@@ -1,5 +1,5 @@
-// restlab run on disks that are full or read-only: what is there is whole, and the same command goes
-// on once there is room.
+// restlab run on disks that are full or read-only: what is there is whole, and the same command
+// goes on once there is room.
 #include <nlohmann/json.hpp>
 
 #include "core/image/image.h"

@@ -147,22 +147,5 @@ TEST(MetricTraps, LostEnergyShows) {
   EXPECT_NEAR(value("energy_ratio", dark, pair.reference), 0.6, 1e-6);
 }
 
-TEST(MetricTraps, BiasRmsIsSignedInItsDetail) {
-  const Image half0 = constant(1.0f), half1 = constant(1.0f);
-  const MetricValue biased = biasRms(constant(1.5f), constant(1.5f), half0, half1);
-  EXPECT_NEAR(biased.value, 0.5, 1e-7);
-  EXPECT_EQ(biased.detail, "squared bias +0.25");
-  // Deviations of opposite sign: noise, not bias. A root of |...| would call it a bias of 0.5.
-  const MetricValue noise = biasRms(constant(1.5f), constant(0.5f), half0, half1);
-  EXPECT_EQ(noise.value, 0.0);
-  EXPECT_EQ(noise.detail, "squared bias -0.25");
-  Image bad = constant(1.5f);
-  bad.at(0, 0).x = std::numeric_limits<float>::infinity();
-  const MetricValue nan = biasRms(bad, constant(1.5f), half0, half1);
-  EXPECT_TRUE(std::isnan(nan.value));
-  EXPECT_NE(nan.detail.find("1 non-finite"), std::string::npos) << nan.detail;
-  EXPECT_TRUE(std::isnan(value("bias_rms", half0, half1))) << "a single image has none";
-}
-
 }  // namespace
 }  // namespace restlab

@@ -1,4 +1,5 @@
 set(RL_IMAGE_TESTS
+  image/bias_runs_test.cpp
   image/exr_damage_test.cpp
   image/exr_test.cpp
   image/flip_test.cpp

@@ -52,8 +52,7 @@ class SummaryTest : public ::testing::Test {
   }
   void addRun(size_t method, RunResult run, float pixel) {
     MethodResult& result = block_.methods[method];
-    (run.run % 2 == 0 ? result.evenRuns : result.oddRuns)
-        .add(Image(kSide, kSide, glm::vec3(pixel)));
+    result.measured.add(Image(kSide, kSide, glm::vec3(pixel)));
     result.runs.push_back(std::move(run));
   }
   Suite suite_;
@@ -83,9 +82,9 @@ TEST_F(SummaryTest, MeansAndRatios) {
 
 TEST_F(SummaryTest, SquaredBiasFromHalvesOfTheRuns) {
   const auto rows = summarise(suite_, block_);
-  EXPECT_NEAR(rows[0].biasSquared, 0.0, 1e-12);
-  EXPECT_NEAR(rows[1].biasSquared, 0.01, 1e-8) << "(1.1 - 1) squared";
-  EXPECT_NEAR(rows[1].biasShare, 0.1, 1e-7);
+  EXPECT_NEAR(rows[0].biasSquared.value, 0.0, 1e-12);
+  EXPECT_NEAR(rows[1].biasSquared.value, 0.01, 1e-8) << "(1.1 - 1) squared";
+  EXPECT_NEAR(rows[1].biasShare.value, 0.1, 1e-7);
   EXPECT_TRUE(rows[1].counts);
 }
 
@@ -112,11 +111,12 @@ TEST_F(SummaryTest, BiasedRowsCountWithinBoundsOnly) {
 TEST_F(SummaryTest, OneRunHasNoIntervalAndItsBiasIsUnknown) {
   for (MethodResult& method : block_.methods) {
     method.runs.resize(1);
-    method.oddRuns = ImageSum();
+    method.measured = BiasRuns();
+    method.measured.add(Image(kSide, kSide, glm::vec3(1.0f)));
   }
   const auto rows = summarise(suite_, block_);
   EXPECT_TRUE(std::isnan(rows[1].mse.lo));
-  EXPECT_TRUE(std::isnan(rows[1].biasSquared));
+  EXPECT_TRUE(std::isnan(rows[1].biasSquared.value));
   EXPECT_FALSE(rows[1].counts) << "a biased row of unknown bias does not count";
   EXPECT_NEAR(rows[1].mseRatio.value, 8.0, 1e-12);
 }

@@ -1,0 +1,86 @@
+#include "core/image/bias_runs.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+
+namespace restlab {
+
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+void BiasRuns::add(const Image& run) {
+  if (!groups_.empty()) {
+    const Image& first = groups_.front().sum;
+    if (run.width != first.width || run.height != first.height) {
+      failInput(fmt::format("a run is {}x{}, those before it {}x{}", run.width, run.height,
+                            first.width, first.height));
+    }
+  }
+  const size_t g = count_++ % kGroups;
+  if (g == groups_.size()) {
+    groups_.push_back({run, 1});
+    return;
+  }
+  Group& group = groups_[g];
+  for (size_t p = 0; p < run.pixels.size(); ++p) group.sum.pixels[p] += run.pixels[p];
+  ++group.count;
+}
+
+std::vector<Image> BiasRuns::means() const {
+  std::vector<Image> all;
+  for (const Group& group : groups_) {
+    Image& mean = all.emplace_back(group.sum);
+    for (glm::vec3& pixel : mean.pixels) pixel /= float(group.count);
+  }
+  return all;
+}
+
+Interval BiasRuns::squaredBias(const Image& half0, const Image& half1,
+                               const PixelMask& mask) const {
+  const size_t n = groups_.size();
+  if (n < 2) return {kNan, kNan, kNan};
+  const std::vector<Image> mean = means();
+  std::vector<double> product(n * n, 0.0);
+  for (size_t i = 0; i < n; ++i) {
+    for (size_t j = 0; j < n; ++j) {
+      if (i != j)
+        product[i * n + j] = restlab::squaredBias(mean[i], mean[j], half0, half1, mask);
+    }
+  }
+  // A pair of groups is as many pairs of runs.
+  const auto meanOfPairs = [&](std::span<const size_t> chosen) {
+    double sum = 0.0, pairs = 0.0;
+    for (const size_t i : chosen) {
+      for (const size_t j : chosen) {
+        if (i == j) continue;
+        const double weight = double(groups_[i].count) * double(groups_[j].count);
+        sum += weight * product[i * n + j];
+        pairs += weight;
+      }
+    }
+    return sum / pairs;
+  };
+  return jackknifeInterval(n, meanOfPairs);
+}
+
+MetricValue BiasRuns::biasRms(const Image& half0, const Image& half1, const PixelMask& mask) const {
+  const Interval squared = squaredBias(half0, half1, mask);
+  if (std::isnan(squared.value)) {
+    size_t inRuns = 0;
+    for (const Image& mean : means()) inRuns += countNonfinite(mean, mask);
+    return {kNan, fmt::format("{} non-finite values in the runs, {} in the reference", inRuns,
+                              countNonfinite(half0, mask) + countNonfinite(half1, mask))};
+  }
+  std::string detail = fmt::format("squared bias {:+.6g}", squared.value);
+  if (!std::isnan(squared.lo)) detail += fmt::format(" [{:+.3g}, {:+.3g}]", squared.lo, squared.hi);
+  return {std::sqrt(std::max(0.0, squared.value)), detail};
+}
+
+}  // namespace restlab
