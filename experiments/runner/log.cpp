@@ -5,6 +5,8 @@
 
 #include <cstdio>
 
+#include "core/error.h"
+
 namespace restlab {
 
 namespace {
@@ -12,11 +14,8 @@ namespace {
 int level = 0;
 
 // One line whatever a file name or a library's message holds.
-void line(std::string text) {
-  for (char& c : text) {
-    if (c == '\n' || c == '\r') c = ' ';
-  }
-  std::fputs((text + "\n").c_str(), stderr);
+void line(const std::string& text) {
+  std::fputs((oneLine(text) + "\n").c_str(), stderr);
   std::fflush(stderr);
 }
 
