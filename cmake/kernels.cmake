@@ -79,7 +79,11 @@ target_link_libraries(rl_kernels PUBLIC rl_options embree glm::glm)
 # The bridge has one signature for every payload: some ignore a parameter.
 target_compile_options(rl_kernels PRIVATE -Wno-unused-parameter)
 # The inner loops of every figure; kept fast in debug builds, light to compile under a sanitizer.
-if(RESTLAB_SANITIZE)
+if(RESTLAB_FUZZ)
+  # Only linked: what is fuzzed runs no kernel.
+  set_target_properties(rl_kernels PROPERTIES RL_NOT_SANITIZED ON)
+  target_compile_options(rl_kernels PRIVATE -O0)
+elseif(RESTLAB_SANITIZE)
   target_compile_options(rl_kernels PRIVATE -O1)
 else()
   target_compile_options(rl_kernels PRIVATE -O3)

@@ -1,6 +1,11 @@
 option(RESTLAB_TESTS "Build the tests" ON)
 option(RESTLAB_WERROR "Warnings of our own code are errors" ON)
 set(RESTLAB_SANITIZE "" CACHE STRING "Comma-separated -fsanitize= list")
+option(RESTLAB_FUZZ "Build the libFuzzer targets of tests/fuzz, with clang, instead of the other tests" OFF)
+if(RESTLAB_FUZZ AND NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+  message(FATAL_ERROR "RESTLAB_FUZZ takes libFuzzer, which only clang has: CMAKE_CXX_COMPILER is "
+                      "${CMAKE_CXX_COMPILER}; the preset 'fuzz' says clang++-16")
+endif()
 
 add_library(rl_options INTERFACE)
 target_include_directories(rl_options INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
@@ -17,8 +22,10 @@ endif()
 # Same seed, same image: no contraction, no fast-math; errno and traps are never read.
 target_compile_options(rl_options INTERFACE -ffp-contract=off -fno-math-errno -fno-trapping-math)
 if(RESTLAB_SANITIZE)
-  target_compile_options(rl_options INTERFACE -fsanitize=${RESTLAB_SANITIZE} -fno-omit-frame-pointer
-                                              -fno-sanitize-recover=all)
+  # A target with RL_NOT_SANITIZED is left out.
+  set(sanitized $<NOT:$<BOOL:$<TARGET_PROPERTY:RL_NOT_SANITIZED>>>)
+  target_compile_options(rl_options INTERFACE
+    "$<${sanitized}:-fsanitize=${RESTLAB_SANITIZE};-fno-omit-frame-pointer;-fno-sanitize-recover=all>")
   target_link_options(rl_options INTERFACE -fsanitize=${RESTLAB_SANITIZE})
 endif()
 string(REGEX MATCH "thread" RESTLAB_TSAN "${RESTLAB_SANITIZE}")

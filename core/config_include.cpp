@@ -16,6 +16,8 @@ namespace {
 
 // What people write is far smaller.
 constexpr size_t kMaxFileBytes = size_t(1) << 20;
+// Files that include one file twice, which includes one twice, ... read it 2^n times.
+constexpr size_t kMaxIncludes = 100;
 
 bool isArrayOfTables(const toml::node& node) {
   return node.is_array() && !node.as_array()->empty() &&
@@ -45,9 +47,10 @@ toml::table parse(const std::string& text, const std::string& name) {
   }
 }
 
-// `open`: the files whose includes are being read, to find one that includes itself.
+// `open`: the files whose includes are being read, to find one that includes itself. `included`:
+// how many files were included so far.
 toml::table parseOpen(const std::string& text, const std::string& name, const fs::path& folder,
-                      std::vector<fs::path>& open) {
+                      std::vector<fs::path>& open, size_t& included) {
   toml::table own = parse(text, name);
   toml::table all;
   const toml::node* include = own.get("include");
@@ -72,14 +75,16 @@ toml::table parseOpen(const std::string& text, const std::string& name, const fs
     const fs::path whole = fs::weakly_canonical(path, status);
     if (std::find(open.begin(), open.end(), whole) != open.end())
       failUsage(fmt::format("{}: '{}' includes itself", place, file));
+    if (++included > kMaxIncludes)
+      failUsage(fmt::format("{}: more than {} files are included", place, kMaxIncludes));
     open.push_back(whole);
-    std::string included;
+    std::string content;
     try {
-      included = readTomlText(path);
+      content = readTomlText(path);
     } catch (const Error& error) {
       failUsage(fmt::format("{}: {}", place, error.what()));
     }
-    mergeInto(all, parseOpen(included, path.string(), path.parent_path(), open));
+    mergeInto(all, parseOpen(content, path.string(), path.parent_path(), open, included));
     open.pop_back();
   }
   if (files.empty()) return own;
@@ -117,7 +122,8 @@ toml::table parseTomlWithIncludes(const std::string& text, const std::string& na
                                   const fs::path& folder) {
   std::error_code status;
   std::vector<fs::path> open = {fs::weakly_canonical(fs::path(name), status)};
-  return parseOpen(text, name, folder, open);
+  size_t included = 0;
+  return parseOpen(text, name, folder, open, included);
 }
 
 }  // namespace restlab

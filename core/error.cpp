@@ -31,6 +31,13 @@ size_t editDistance(const std::string& a, const std::string& b) {
 
 }  // namespace
 
+std::string oneLine(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  }
+  return text;
+}
+
 std::string nearestName(const std::string& name, const std::vector<std::string>& candidates) {
   // Up to a third of the letters may differ: "cornel" finds "cornell-box" only as a prefix.
   constexpr size_t kLongestCompared = 256;

@@ -17,9 +17,13 @@ enum class ExitCode : int {
   interrupted = 130,
 };
 
+// `text` with every control character as a blank: names inside files may hold line breaks and the
+// escapes of terminals.
+std::string oneLine(std::string text);
+
 class Error : public std::runtime_error {
  public:
-  Error(ExitCode code, const std::string& line) : std::runtime_error(line), code_(code) {}
+  Error(ExitCode code, const std::string& line) : std::runtime_error(oneLine(line)), code_(code) {}
   ExitCode code() const { return code_; }
 
  private:

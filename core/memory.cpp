@@ -67,4 +67,16 @@ void requireMemory(const std::string& what, uint32_t width, uint32_t height,
                   double(pixels) * double(bytesPerPixel) / double(1 << 20), *available >> 20));
 }
 
+void MemoryGuard::take(const std::string& what, uint64_t bytes) {
+  constexpr uint64_t kAsked = uint64_t(32) << 20;
+  notAsked_ += std::min(bytes, ~notAsked_);
+  if (notAsked_ < kAsked) return;
+  notAsked_ = 0;
+  const std::optional<uint64_t> available = availableMemory();
+  if (!available || bytes <= *available) return;
+  throw Error(ExitCode::deviceUnavailable,
+              fmt::format("{}: needs {} MiB of memory, {} MiB are available", what, bytes >> 20,
+                          *available >> 20));
+}
+
 }  // namespace restlab

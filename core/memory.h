@@ -19,4 +19,16 @@ std::optional<uint64_t> availableMemory(const std::filesystem::path& root = "/")
 void requireMemory(const std::string& what, uint32_t width, uint32_t height,
                    uint64_t bytesPerPixel);
 
+// What reading a file takes, piece by piece, on the word of that file.
+class MemoryGuard {
+ public:
+  // Before `bytes` bytes are allocated: throws Error (deviceUnavailable) where they are more than
+  // what is available; `what` starts the line. Small pieces are added up and asked for together, as
+  // asking costs a tenth of a millisecond.
+  void take(const std::string& what, uint64_t bytes);
+
+ private:
+  uint64_t notAsked_ = 0;
+};
+
 }  // namespace restlab

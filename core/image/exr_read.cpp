@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "core/image/exr_limits.h"
 #include "core/image/image.h"
+#include "core/memory.h"
 
 namespace restlab {
 
@@ -245,6 +246,9 @@ LayeredImage readOpened(const fs::path& file, std::ifstream& stream, uint64_t fi
   const auto layers = findLayers(file, header);
   checkSizes(file, header, guard.pixelCount(), fileBytes, layers.size());
   if (!exr.isComplete()) failExr(file, "is incomplete (truncated or still being written)");
+  MemoryGuard().take(
+      fmt::format("{}: {} layers of {} pixels", file.string(), layers.size(), guard.pixelCount()),
+      layers.size() * guard.pixelCount() * sizeof(glm::vec3));
 
   LayeredImage result;
   Imf::FrameBuffer frame;

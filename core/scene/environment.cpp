@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/image/image.h"
+#include "core/memory.h"
 #include "core/scene/image_decode.h"
 #include "core/scene/scene.h"
 
@@ -29,6 +30,13 @@ void readHdrMap(const fs::path& file, EnvironmentMap& map) {
   std::ifstream stream(file, std::ios::binary);
   stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
   if (!stream || static_cast<uint64_t>(stream.gcount()) != size) fail(file, "cannot be read");
+  ImageSize pixels;
+  if (checkHdrHeader(bytes, pixels).empty()) {
+    // As the decoder's floats, and as the map's.
+    constexpr uint64_t kBytesPerPixel = 2 * sizeof(glm::vec3);
+    MemoryGuard().take(fmt::format("{}: {}x{} pixels", file.string(), pixels.width, pixels.height),
+                       kBytesPerPixel * pixels.width * pixels.height);
+  }
   DecodedHdr decoded;
   if (const std::string problem = decodeHdr(bytes, decoded); !problem.empty()) {
     fail(file, problem + "; a complete Radiance HDR image expected");

@@ -10,7 +10,8 @@
 namespace restlab::gltf {
 namespace {
 
-// An accessor without buffer view costs a file nothing; no real one overrides zeros so often.
+// Of all accessors without buffer view, which cost a file nothing; no real one overrides zeros so
+// often.
 constexpr size_t kMaxElementsWithoutData = size_t(1) << 24;
 
 size_t componentBytes(int componentType) {
@@ -123,7 +124,8 @@ void checkSparse(const tinygltf::Model& model, const tinygltf::Accessor& accesso
   }
 }
 
-void checkAccessor(const tinygltf::Model& model, size_t index, Report& report) {
+void checkAccessor(const tinygltf::Model& model, size_t index, size_t& elementsWithoutData,
+                   Report& report) {
   const tinygltf::Accessor& accessor = model.accessors[index];
   const std::string place = fmt::format("accessors[{}]", index);
   const ElementSize element = elementSize(accessor);
@@ -142,10 +144,13 @@ void checkAccessor(const tinygltf::Model& model, size_t index, Report& report) {
     checkRange(model, accessor.bufferView, accessor.byteOffset, accessor.count,
                stride == 0 ? element.stride : stride, element.extent,
                componentBytes(accessor.componentType), place, report);
-  } else if (accessor.count > kMaxElementsWithoutData) {
-    report.fail(place + ".count", fmt::format("{} elements without a bufferView; at most {} are "
-                                              "accepted",
-                                              accessor.count, kMaxElementsWithoutData));
+  } else if (accessor.count > kMaxElementsWithoutData - elementsWithoutData) {
+    report.fail(place + ".count",
+                fmt::format("{} elements without a bufferView; at most {} in all accessors are "
+                            "accepted",
+                            accessor.count, kMaxElementsWithoutData));
+  } else {
+    elementsWithoutData += accessor.count;
   }
   if (accessor.sparse.isSparse) checkSparse(model, accessor, place + ".sparse", report);
 }
@@ -191,7 +196,10 @@ void surveyAccessor(const tinygltf::Model& model, size_t index, Report& report) 
 }  // namespace
 
 void checkAccessors(const tinygltf::Model& model, Report& report) {
-  for (size_t i = 0; i < model.accessors.size(); ++i) checkAccessor(model, i, report);
+  size_t elementsWithoutData = 0;
+  for (size_t i = 0; i < model.accessors.size(); ++i) {
+    checkAccessor(model, i, elementsWithoutData, report);
+  }
 }
 
 void surveyAccessors(const tinygltf::Model& model, Report& report) {

@@ -59,6 +59,8 @@ nlohmann::json parseJson(std::string_view text, Report& report) {
     text.remove_prefix(3);
   }
   checkDepth(text, report);
+  // A value of two characters, "0,", becomes a node of 16 bytes.
+  report.takeMemory("", fmt::format("JSON of {} bytes", text.size()), text.size() * 8);
   nlohmann::json json;
   try {
     json = nlohmann::json::parse(text);
@@ -142,7 +144,7 @@ Container readGlb(std::vector<uint8_t> bytes, Report& report) {
 
 }  // namespace
 
-std::vector<uint8_t> readFile(const fs::path& file, const std::string& place, const Report& report,
+std::vector<uint8_t> readFile(const fs::path& file, const std::string& place, Report& report,
                               uint64_t bytes) {
   std::error_code error;
   const uint64_t size = fs::file_size(file, error);
@@ -153,6 +155,8 @@ std::vector<uint8_t> readFile(const fs::path& file, const std::string& place, co
   if (error) report.fail(place, named(fmt::format("cannot be read: {}", error.message())));
   std::ifstream stream(file, std::ios::binary);
   if (!stream) report.fail(place, named("cannot be opened for reading"));
+  report.takeMemory(place, fmt::format("file '{}'", file.filename().string()),
+                    std::min(size, bytes));
   std::vector<uint8_t> content(std::min(size, bytes));
   stream.read(reinterpret_cast<char*>(content.data()),
               static_cast<std::streamsize>(content.size()));
@@ -172,6 +176,11 @@ Container readContainer(const fs::path& file, Report& report) {
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (extension != ".gltf" && extension != ".glb") {
     report.fail("", "not a scene file; .gltf or .glb expected");
+  }
+  constexpr uint64_t kMaxFileBytes = UINT32_MAX;  // what a GLB's header can say
+  const uint64_t size = fs::file_size(file, error);
+  if (!error && size > kMaxFileBytes) {
+    report.fail("", fmt::format("{} bytes are too many; at most {} are read", size, kMaxFileBytes));
   }
   std::vector<uint8_t> bytes = readFile(file, "", report);
   if (bytes.empty()) report.fail("", "the file is empty");

@@ -19,7 +19,7 @@ struct Container {
 
 // Reads the first `bytes` bytes of a regular file (all of it by default). Fails at `place`.
 std::vector<uint8_t> readFile(const std::filesystem::path& file, const std::string& place,
-                              const Report& report, uint64_t bytes = UINT64_MAX);
+                              Report& report, uint64_t bytes = UINT64_MAX);
 
 // Reads, checks the GLB structure and parses. Which of the two a file is, its first bytes decide.
 Container readContainer(const std::filesystem::path& file, Report& report);

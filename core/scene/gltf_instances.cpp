@@ -126,6 +126,8 @@ class InstanceAdder {
     if (transforms.count() == 0) {
       report_.fail(place, "has no TRANSLATION, ROTATION or SCALE; at least one expected");
     }
+    report_.takeMemory(place, fmt::format("{} instances", transforms.count()),
+                       transforms.count() * parts.size() * sizeof(MeshInstance));
     for (size_t i = 0; i < transforms.count(); ++i) {
       addParts(parts, fmt::format("{}[{}]", name, i), placed.toWorld * transforms.transform(i),
                place);

@@ -1,6 +1,7 @@
 // loadGltf(): the order in which the parts of the import run.
 #include <new>
 
+#include "core/error.h"
 #include "core/scene/gltf_accessor.h"
 #include "core/scene/gltf_container.h"
 #include "core/scene/gltf_document.h"
@@ -54,7 +55,7 @@ Scene loadGltf(const std::filesystem::path& file) {
     scene.warnings = report.lines();
     return scene;
   } catch (const std::bad_alloc&) {
-    report.fail("", "not enough memory for this scene");
+    throw Error(ExitCode::deviceUnavailable, file.string() + ": not enough memory for this scene");
   }
 }
 

@@ -53,6 +53,14 @@ std::optional<MeshGeometry> MeshImporter::decode(const tinygltf::Primitive& prim
     report_.fail(place,
                  fmt::format("{} vertices; fewer than {} expected", vertexCount, rl::RL_INVALID));
   }
+  // Any number of primitives may share one buffer, each with a copy of its own.
+  const size_t indexCount = primitive.indices < 0
+                                ? vertexCount
+                                : model.accessors[static_cast<size_t>(primitive.indices)].count;
+  constexpr uint64_t kVertexBytes = 4 + sizeof(glm::vec3);  // the renumbering and the position
+  constexpr uint64_t kIndexBytes = 4 + sizeof(glm::uvec3);
+  report_.takeMemory(place, fmt::format("{} vertices and {} indices", vertexCount, indexCount),
+                     vertexCount * kVertexBytes + indexCount * kIndexBytes);
   MeshGeometry geometry;
   geometry.name = name;
   geometry.triangles = readTriangles(model, primitive, vertexCount, place, report_);

@@ -5,17 +5,6 @@
 #include "core/error.h"
 
 namespace restlab::gltf {
-namespace {
-
-// Names in a file may hold anything; a report line stays one line of text.
-std::string oneLine(std::string text) {
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  }
-  return text;
-}
-
-}  // namespace
 
 std::string Report::line(std::string_view place, std::string_view text) const {
   return oneLine(place.empty() ? fmt::format("{}: {}", file_, text)
@@ -24,6 +13,10 @@ std::string Report::line(std::string_view place, std::string_view text) const {
 
 void Report::fail(std::string_view place, std::string_view text) const {
   failInput(line(place, text));
+}
+
+void Report::takeMemory(std::string_view place, std::string_view what, uint64_t bytes) {
+  memory_.take(line(place, what), bytes);
 }
 
 void Report::warn(const std::string& kind, std::string_view place, std::string_view text) {

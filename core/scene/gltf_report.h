@@ -1,10 +1,13 @@
 // Errors and warnings of the glTF import: `<file>: <place>: what is wrong; what would be right`.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "core/memory.h"
 
 namespace restlab::gltf {
 
@@ -15,6 +18,10 @@ class Report {
 
   // Throws Error (badInput). `place` is a path such as meshes[0].primitives[1].indices, or "".
   [[noreturn]] void fail(std::string_view place, std::string_view text) const;
+
+  // Before `bytes` bytes are allocated for what stands at `place`: throws Error (deviceUnavailable)
+  // where they do not fit into the memory.
+  void takeMemory(std::string_view place, std::string_view what, uint64_t bytes);
 
   // Lines of one `kind` are counted: the first kShown are kept, the rest become one line.
   void warn(const std::string& kind, std::string_view place, std::string_view text);
@@ -33,6 +40,7 @@ class Report {
   std::string file_;
   std::map<std::string, size_t> indexOfKind_;
   std::vector<Kind> kinds_;
+  MemoryGuard memory_;
 };
 
 }  // namespace restlab::gltf

@@ -53,6 +53,14 @@ uint32_t TextureImporter::decodedImage(int index, const std::string& place) {
   if (sceneIndex != rl::RL_INVALID) return sceneIndex;
   const EncodedImage& encoded = document_.images[static_cast<size_t>(index)];
   const std::string imagePlace = fmt::format("images[{}]", index);
+  ImageSize size;
+  if (checkImageHeader(encoded.bytes, size).empty()) {
+    // Inflated, as pixels of the decoder, and as texels; more where a channel has 16 bits.
+    constexpr uint64_t kBytesPerPixel = 16;
+    report_.takeMemory(imagePlace,
+                       fmt::format("{}: {}x{} pixels", encoded.source, size.width, size.height),
+                       kBytesPerPixel * size.width * size.height);
+  }
   DecodedImage decoded;
   if (const std::string problem = decodeImage(encoded.bytes, decoded); !problem.empty()) {
     report_.fail(imagePlace, fmt::format("{}: {}; a complete PNG or JPEG expected (used by {})",
@@ -130,7 +138,8 @@ void TextureImporter::checkUnusedImages() {
                    fmt::format("{} is {}, but declared as {}", encoded.source, found, declared));
     }
     if (sceneImage_[i] != rl::RL_INVALID) continue;
-    const std::string problem = checkImageHeader(encoded.bytes);
+    ImageSize size;
+    const std::string problem = checkImageHeader(encoded.bytes, size);
     if (problem.empty()) continue;
     // A PNG or JPEG that is broken is a broken file; another format is a matter of extensions.
     if (!found.empty()) report_.fail(place, encoded.source + ": " + problem);

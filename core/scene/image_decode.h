@@ -25,10 +25,17 @@ struct DecodedHdr {
 // "image/png", "image/jpeg", "image/vnd.radiance", or "" for anything else.
 std::string sniffImageType(const std::vector<uint8_t>& bytes);
 
+struct ImageSize {
+  uint32_t width = 0, height = 0;
+};
+
 // Return "" on success, else what is wrong ("truncated", "16385x2 pixels, at most ..."). A file
-// that ends early is an error even where the decoder would fill the rest with grey.
-std::string checkImageHeader(const std::vector<uint8_t>& bytes);
+// that ends early is an error even where the decoder would fill the rest with grey. The size is
+// refused before anything is allocated where the bytes are too few for it, however well they are
+// compressed; what decoding allocates then is at most 32 bytes a pixel, 2 times the file and 4 MiB.
+std::string checkImageHeader(const std::vector<uint8_t>& bytes, ImageSize& size);
 std::string decodeImage(const std::vector<uint8_t>& bytes, DecodedImage& image);
+std::string checkHdrHeader(const std::vector<uint8_t>& bytes, ImageSize& size);
 std::string decodeHdr(const std::vector<uint8_t>& bytes, DecodedHdr& image);
 
 }  // namespace restlab

@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "core/error.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
 
@@ -128,11 +129,11 @@ void printText(const PreparedScene& prepared, const Json& json) {
              scene.images.size());
   for (const Json& camera : json["cameras"]) {
     fmt::print("camera       {} '{}' {}\n", camera["index"].get<size_t>(),
-               camera["name"].get<std::string>(), camera["kind"].get<std::string>());
+               oneLine(camera["name"].get<std::string>()), camera["kind"].get<std::string>());
   }
   for (const PunctualLight& light : scene.lights) {
-    fmt::print("light        '{}' {} ({:g}, {:g}, {:g})\n", light.name, lightKind(light.kind),
-               light.intensity.x, light.intensity.y, light.intensity.z);
+    fmt::print("light        '{}' {} ({:g}, {:g}, {:g})\n", oneLine(light.name),
+               lightKind(light.kind), light.intensity.x, light.intensity.y, light.intensity.z);
   }
   if (scene.environment) {
     fmt::print("environment  {} {}x{}, rotation {:g} rad, scale {:g}\n", prepared.environmentName,

@@ -8,6 +8,8 @@
 
 #include "experiments/runner/build_info.h"
 
+#include "core/error.h"
+
 namespace restlab {
 
 namespace {
@@ -16,11 +18,8 @@ int level = 0;
 bool isEventLog = false;
 
 // One line whatever a file name or a library's message holds.
-void line(std::string text) {
-  for (char& c : text) {
-    if (c == '\n' || c == '\r') c = ' ';
-  }
-  std::fputs((text + "\n").c_str(), stderr);
+void line(const std::string& text) {
+  std::fputs((oneLine(text) + "\n").c_str(), stderr);
   std::fflush(stderr);
 }
 

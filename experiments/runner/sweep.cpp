@@ -136,6 +136,11 @@ Sweep readSweep(const ConfigTable& root, const std::vector<std::string>& setting
 std::vector<std::vector<size_t>> combinations(const std::vector<SweepAxis>& axes) {
   std::vector<std::vector<size_t>> all = {{}};
   for (const SweepAxis& axis : axes) {
+    if (axis.texts.size() > size_t(kMaxCounted) / all.size()) {
+      failUsage(
+          fmt::format("{}: with the {} values of '{}' the sweep has more than {} combinations",
+                      axis.place, axis.texts.size(), axis.key, kMaxCounted));
+    }
     std::vector<std::vector<size_t>> longer;
     for (const std::vector<size_t>& choice : all) {
       for (size_t value = 0; value < axis.texts.size(); ++value) {

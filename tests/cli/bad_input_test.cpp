@@ -39,6 +39,11 @@ class BadInputTest : public ProgramTest, public ::testing::WithParamInterface<Ba
     sky.layers[""] = Image(4, 2, glm::vec3(1.0f));
     writeExr(path("sky.exr"), sky);
     writeExr(path("sky.EXR"), sky);
+    std::string lying = read("sky.exr");
+    const char window[] = "dataWindow\0box2i\0\x10\0\0";
+    const size_t maxX = lying.find(std::string(window, sizeof window)) + sizeof window + 8;
+    write("lying.exr", lying.replace(maxX, 8, std::string("\xff\x3f\0\0\xff\x3f\0\0", 8)));
+    write("lying.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 16384 +X 16384\n....");
     std::filesystem::create_directory(path("sub"));
     LayeredImage negative;
     negative.layers[""] = Image(4, 2, glm::vec3(-1.0f));
@@ -141,6 +146,23 @@ const BadInput kBadInputs[] = {
      "render good.gltf -o x.exr --environment negative.exr",
      3,
      {"negative.exr"}},
+    {"LyingEnvironment",
+     "render good.gltf -o x.exr --environment lying.hdr",
+     3,
+     {"lying.hdr", "16384x16384 pixels in ", "at least"}},
+    {"LyingExrEnvironment",
+     "info good.gltf --environment lying.exr",
+     3,
+     {"lying.exr", "the file ends too early"}},
+    {"LyingImage", "compare --ref sky.exr lying.exr", 3, {"lying.exr", "the file ends too early"}},
+    {"LyingReference",
+     "compare --ref lying.exr sky.exr",
+     3,
+     {"lying.exr", "the file ends too early"}},
+    {"LyingMask",
+     "compare --ref sky.exr sky.exr --mask lying.exr",
+     3,
+     {"lying.exr", "the file ends too early"}},
     {"RotationOfNothing",
      "render good.gltf -o x.exr --environment-rotation 90",
      2,

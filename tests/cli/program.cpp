@@ -29,7 +29,7 @@ std::string readFile(const fs::path& file) {
 // In the child: streams to files, the folder as working directory, then the program.
 [[noreturn]] void becomeProgram(const fs::path& folder, const fs::path& outFile,
                                 const fs::path& errFile, const std::vector<std::string>& arguments,
-                                uint64_t maxFileBytes) {
+                                const Circumstances& circumstances) {
   const int in = open("/dev/null", O_RDONLY);
   const int out = open(outFile.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   const int err = open(errFile.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
@@ -38,10 +38,12 @@ std::string readFile(const fs::path& file) {
   dup2(err, STDERR_FILENO);
   if (chdir(folder.c_str()) != 0) _exit(127);
   setenv("XDG_CACHE_HOME", (folder / "cache").c_str(), 1);
-  if (maxFileBytes > 0) {
-    const rlimit limit = {maxFileBytes, maxFileBytes};
-    if (setrlimit(RLIMIT_FSIZE, &limit) != 0) _exit(127);
-  }
+  const auto setLimit = [](auto resource, rlim_t most) {
+    const rlimit limit = {most, most};
+    if (most > 0 && setrlimit(resource, &limit) != 0) _exit(127);
+  };
+  setLimit(RLIMIT_FSIZE, circumstances.maxFileBytes);
+  setLimit(RLIMIT_CPU, static_cast<rlim_t>(circumstances.maxCpuS));
   std::vector<std::string> line = {RESTLAB_PROGRAM};
   line.insert(line.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
@@ -54,13 +56,13 @@ std::string readFile(const fs::path& file) {
 constexpr std::chrono::seconds kPatience{60};
 
 // Sends the signal that was asked for, unless the program ends before. Returns its status.
-int waitFor(pid_t child, const Circumstances& circumstances) {
+int waitFor(pid_t child, const Circumstances& circumstances, rusage& usage) {
   const auto now = [] { return std::chrono::steady_clock::now(); };
   const auto start = now();
   const std::chrono::duration<double> delay(circumstances.signalAfterS);
   int status = 0;
   while (circumstances.signalAfterS > 0.0 || circumstances.signalWhen) {
-    if (waitpid(child, &status, WNOHANG) != 0) return status;
+    if (wait4(child, &status, WNOHANG, &usage) != 0) return status;
     const bool holds = circumstances.signalWhen && circumstances.signalWhen();
     if (now() - start > kPatience) {
       ADD_FAILURE() << "the program runs, and what it was to be signalled at does not come";
@@ -73,7 +75,7 @@ int waitFor(pid_t child, const Circumstances& circumstances) {
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  while (wait4(child, &status, 0, &usage) < 0 && errno == EINTR) {
   }
   return status;
 }
@@ -133,14 +135,16 @@ ProgramResult ProgramTest::start(const std::vector<std::string>& arguments, cons
   static std::atomic<int> count{0};
   const fs::path err = folder_ / fmt::format(".stderr{}", ++count);
   const pid_t child = fork();
-  if (child == 0) becomeProgram(folder_, out, err, arguments, circumstances.maxFileBytes);
+  if (child == 0) becomeProgram(folder_, out, err, arguments, circumstances);
   ProgramResult result;
   if (child < 0) {
     ADD_FAILURE() << "fork: " << std::strerror(errno);
     return result;
   }
-  const int status = waitFor(child, circumstances);
+  rusage usage{};
+  const int status = waitFor(child, circumstances, usage);
   result.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  result.peakBytes = uint64_t(usage.ru_maxrss) << 10;
   result.err = readFile(err);
   return result;
 }

@@ -16,6 +16,7 @@ namespace restlab::cli_test {
 struct ProgramResult {
   int code = -1;  // exit code; 128 + the signal that ended it
   std::string out, err;
+  uint64_t peakBytes = 0;  // largest resident memory
   // Lines of stderr that start with "error: ".
   std::vector<std::string> errors() const;
 };
@@ -26,6 +27,7 @@ struct Circumstances {
   double signalAfterS = 0.0;         // > 0: the signal comes after so many seconds
   std::function<bool()> signalWhen;  // or as soon as this holds
   uint64_t maxFileBytes = 0;         // > 0: no file may grow beyond (RLIMIT_FSIZE)
+  double maxCpuS = 0.0;              // > 0: more time ends the program by a signal (RLIMIT_CPU)
 };
 
 // A temporary folder that is the working directory, the cache and the place of outputs.

@@ -126,6 +126,21 @@ TEST_F(ExrTest, LyingHeadersAreRefusedBeforeAllocation) {
   ASSERT_EQ(::setrlimit(RLIMIT_AS, &before), 0);
 }
 
+TEST_F(ExrTest, OtherKindsAreRefusedByName) {
+  LayeredImage image;
+  image.layers[""] = testImage(16, 16);
+  writeExr(path("whole.exr"), image);
+  const auto errorOfVersion = [&](int byte, int bits) {
+    std::string bytes = readBytes(path("whole.exr"));
+    bytes[size_t(byte)] = char(bytes[size_t(byte)] | bits);
+    writeBytes(path("other.exr"), bytes);
+    return errorLine([&] { readExr(path("other.exr")); });
+  };
+  EXPECT_NE(errorOfVersion(4, 1).find("file version 3 is not supported"), std::string::npos);
+  EXPECT_NE(errorOfVersion(5, 0x08).find("deep OpenEXR images"), std::string::npos);
+  EXPECT_NE(errorOfVersion(5, 0x10).find("multi-part OpenEXR images"), std::string::npos);
+}
+
 TEST_F(ExrTest, NotAnImage) {
   EXPECT_NE(errorLine([&] { readExr(path("absent.exr")); }).find("no such file"),
             std::string::npos);

@@ -149,6 +149,29 @@ TEST_F(SweepTest, IncludesAreMergedAndKeepTheirPlaces) {
   EXPECT_EQ(errorOf("include = 3\n"), "suite.toml:1:11: 'include' must hold names of files");
 }
 
+TEST_F(SweepTest, EndlessSweepsAreRefused) {
+  std::string axes;
+  for (const char* key : {"max_bounces", "width", "height", "warmup_frames"}) {
+    axes += std::string(key) + " = [";
+    for (int i = 1; i <= 30; ++i) axes += std::to_string(i) + ", ";
+    axes += "]\n";
+  }
+  const std::string error = errorOf(std::string(kBase) + "[sweep]\n" + axes);
+  EXPECT_NE(error.find("'height'"), std::string::npos) << error;  // 30^3 are more than 10000
+  EXPECT_NE(error.find("more than 10000 combinations"), std::string::npos) << error;
+}
+
+TEST_F(SweepTest, IncludesThatDoubleAreRefused) {
+  // 2^30 readings of the last file.
+  for (int i = 0; i < 30; ++i) {
+    const std::string next = std::to_string(i + 1) + ".toml";
+    write(std::to_string(i) + ".toml", "include = [\"" + next + "\", \"" + next + "\"]\n");
+  }
+  write("30.toml", "");
+  const std::string error = errorOf("include = \"0.toml\"\n" + std::string(kBase));
+  EXPECT_NE(error.find("more than 100 files are included"), std::string::npos) << error;
+}
+
 }  // namespace
 
 }  // namespace restlab

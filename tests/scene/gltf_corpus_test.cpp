@@ -3,40 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
-#include <iostream>
 
 #include "core/error.h"
 #include "core/scene/scene.h"
+#include "tests/scene/corpus.h"
 
 namespace restlab {
 namespace {
 
 namespace fs = std::filesystem;
 
-fs::path sceneFolder() {
-  const char* variable = std::getenv("RESTLAB_SCENES");
-  return variable && *variable ? variable : "../shared/scenes";
-}
-
-std::vector<fs::path> gltfsBelow(const fs::path& folder) {
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    const fs::path extension = entry.path().extension();
-    if (entry.is_regular_file() && (extension == ".gltf" || extension == ".glb")) {
-      files.push_back(entry.path());
-    }
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-#define SKIP_WITHOUT(folder)                                                                      \
-  if (!fs::is_directory(folder)) {                                                                \
-    std::cout << "skipped: " << (folder) << " is absent (RESTLAB_SCENES names the collection)\n"; \
-    GTEST_SKIP() << (folder) << " is absent";                                                     \
-  }
+using test::gltfsBelow;
+using test::sceneFolder;
 
 size_t instancedTriangles(const Scene& scene) {
   size_t triangles = 0;

@@ -9,6 +9,10 @@ set(RL_SCENE_TESTS
   scene/gltf_geometry_test.cpp
   scene/gltf_material_test.cpp
   scene/gltf_nodes_test.cpp
+  scene/gltf_limits_test.cpp
+  scene/gltf_uri_test.cpp
+  scene/gltf_validator_test.cpp
+  scene/image_limits_test.cpp
   scene/load_scene_test.cpp
   ${RL_BUILTIN_TESTS}
 )

@@ -1,0 +1,13 @@
+#include "core/scene/compiled_scene.h"
+#include "tests/fuzz/entries.h"
+#include "tests/fuzz/input_file.h"
+
+namespace restlab::fuzz {
+
+bool readGltf(const uint8_t* bytes, size_t count) {
+  // The first bytes decide whether it is a GLB, not the name.
+  const std::filesystem::path file = inputFile("scene.gltf", bytes, count);
+  return isRead(file, ExitCode::badInput, [&] { CompiledScene::build(loadGltf(file)); });
+}
+
+}  // namespace restlab::fuzz

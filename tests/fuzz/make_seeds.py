@@ -1,0 +1,343 @@
+#!/usr/bin/env python3
+"""Writes the seeds of the fuzz targets that are made by rule: tests/fuzz/seeds/TARGET/NAME.
+
+Names that begin with 'read' are of files that are read; all others are refused. Files named
+found-* came out of fuzzing and are not made here.
+"""
+
+import base64
+import json
+import pathlib
+import struct
+import zlib
+
+SEEDS = pathlib.Path(__file__).parent / "seeds"
+
+
+def write(target, name, data):
+    folder = SEEDS / target
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / name).write_bytes(data if isinstance(data, bytes) else data.encode())
+
+
+# ---- PNG, JPEG ------------------------------------------------------------------------------------
+
+
+def png_chunk(kind, data):
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+
+def png(width, height, depth, colour, raw, interlaced=0, extra=b""):
+    head = struct.pack(">IIBBBBB", width, height, depth, colour, 0, 0, interlaced)
+    return (b"\x89PNG\r\n\x1a\n" + png_chunk(b"IHDR", head) + extra
+            + png_chunk(b"IDAT", zlib.compress(raw, 9)) + png_chunk(b"IEND", b""))
+
+
+def jpeg_segment(marker, data):
+    return bytes([0xFF, marker]) + struct.pack(">H", len(data) + 2) + data
+
+
+def jpeg(width, height, scan, progressive=False):
+    """One grey component; a Huffman table whose only DC code '0' is category 0 and whose only AC
+    code '0' is the end of the block: a block of zero bits is flat grey."""
+    one_code = bytes([1] + [0] * 15 + [0])
+    frame = struct.pack(">BHHB", 8, height, width, 1) + bytes([1, 0x11, 0])
+    spectral = bytes([0, 0, 0]) if progressive else bytes([0, 63, 0])
+    return (b"\xff\xd8" + jpeg_segment(0xDB, bytes([0]) + bytes([1] * 64))
+            + jpeg_segment(0xC2 if progressive else 0xC0, frame)
+            + jpeg_segment(0xC4, bytes([0x00]) + one_code) + jpeg_segment(0xC4, bytes([0x10]) + one_code)
+            + jpeg_segment(0xDA, bytes([1, 1, 0x00]) + spectral) + scan + b"\xff\xd9")
+
+
+PNG_RGBA = png(2, 1, 8, 6, b"\0" + bytes([255, 0, 0, 255, 0, 255, 0, 128]))
+
+
+def textures():
+    write("texture", "read-rgba.png", PNG_RGBA)
+    write("texture", "read-rgb-filters.png",
+          png(3, 5, 8, 2, b"".join(bytes([f]) + bytes(range(f, f + 9)) for f in range(5))))
+    write("texture", "read-grey-16.png", png(2, 2, 16, 0, b"\0\1\2\3\4\1\5\6\7\10"))
+    write("texture", "read-grey-alpha.png", png(1, 2, 8, 4, b"\0\1\2\0\3\4"))
+    palette = png_chunk(b"PLTE", bytes(range(12))) + png_chunk(b"tRNS", b"\0\x80")
+    write("texture", "read-palette-2-bit.png", png(5, 1, 2, 3, b"\0\x1b\xc0", extra=palette))
+    write("texture", "read-interlaced.png", png(2, 2, 8, 0, b"\0\1\0\2\0\3\4", interlaced=1))
+    write("texture", "read-grey.jpg", jpeg(8, 8, b"\x3f"))
+    write("texture", "read-grey-16x8.jpg", jpeg(16, 8, b"\x0f"))
+    write("texture", "read-progressive.jpg", jpeg(8, 8, b"\x7f", progressive=True))
+    write("texture", "truncated.png", PNG_RGBA[:50])
+    write("texture", "huge.png", png(100000, 100000, 8, 6, b"\0" * 100))
+    write("texture", "lying.png", png(16384, 16384, 8, 6, b"\0" * 100))
+    write("texture", "bomb.png", png(1, 1, 8, 0, b"\0" * 16000000))
+    write("texture", "huge.jpg", jpeg(65500, 65500, b"\x3f"))
+    write("texture", "lying.jpg", jpeg(16384, 16384, b"\x3f"))
+    write("texture", "no-scan.jpg", jpeg(8, 8, b"")[:40])
+
+
+# ---- Radiance HDR ---------------------------------------------------------------------------------
+
+
+def hdr(width, height, pixels, first=b"#?RADIANCE\n"):
+    return first + b"FORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n" % (height, width) + pixels
+
+
+def hdr_row(width, runs):
+    return struct.pack(">BBH", 2, 2, width) + runs
+
+
+def environments():
+    write("hdr", "read-flat.hdr", hdr(2, 1, bytes([128, 64, 0, 129, 0, 0, 0, 0])))
+    row = hdr_row(8, (b"\x88\x40") * 4)
+    write("hdr", "read-runs.hdr", hdr(8, 2, row + row))
+    row = hdr_row(8, b"\x08abcdefgh" * 3 + b"\x04\x80\x80\x81\x81\x84\x7f")
+    write("hdr", "read-literals.hdr", hdr(8, 1, row, b"#?RGBE\nEXPOSURE=1\n"))
+    write("hdr", "short.hdr", hdr(8, 2, hdr_row(8, b"\x88\x40")))
+    write("hdr", "overrun.hdr", hdr(8, 1, hdr_row(8, b"\xff\x40" * 4)))
+    write("hdr", "huge.hdr", hdr(100000, 100000, b"\0" * 64))
+    write("hdr", "lying.hdr", hdr(16384, 16384, b"\0" * 64))
+    write("hdr", "negative.hdr", hdr(-8, 2, b"\0" * 64))
+    write("hdr", "no-format.hdr", b"#?RADIANCE\n\n-Y 1 +X 1\n\0\0\0\0")
+    write("hdr", "no-size.hdr", b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n")
+
+
+# ---- EXR ------------------------------------------------------------------------------------------
+
+
+def attribute(name, kind, data):
+    return name + b"\0" + kind + b"\0" + struct.pack("<I", len(data)) + data
+
+
+def channels(names, kind):
+    rows = b"".join(n + b"\0" + struct.pack("<iB3xii", kind, 0, 1, 1) for n in names)
+    return attribute(b"channels", b"chlist", rows + b"\0")
+
+
+def exr(names=(b"B", b"G", b"R"), kind=2, window=(0, 0, 1, 1), compression=0, tile=None, chunks=None,
+        extra=b"", version=2):
+    """kind: 0 uint, 1 half, 2 float; one chunk a row, or one a tile."""
+    x0, y0, x1, y1 = window
+    box = struct.pack("<4i", *window)
+    head = struct.pack("<II", 20000630, version | (0x200 if tile else 0))
+    head += channels(names, kind) + attribute(b"compression", b"compression", bytes([compression]))
+    head += attribute(b"dataWindow", b"box2i", box) + attribute(b"displayWindow", b"box2i", box)
+    head += attribute(b"lineOrder", b"lineOrder", b"\0")
+    head += attribute(b"pixelAspectRatio", b"float", struct.pack("<f", 1))
+    head += attribute(b"screenWindowCenter", b"v2f", struct.pack("<ff", 0, 0))
+    head += attribute(b"screenWindowWidth", b"float", struct.pack("<f", 1))
+    if tile:
+        head += attribute(b"tiles", b"tiledesc", struct.pack("<IIB", tile[0], tile[1], 0))
+    head += extra + b"\0"
+    if chunks is None:
+        size = {0: 4, 1: 2, 2: 4}[kind]
+        value = {0: struct.pack("<I", 1), 1: struct.pack("<e", 1), 2: struct.pack("<f", 1)}[kind]
+        width, height = x1 - x0 + 1, y1 - y0 + 1
+        if tile:
+            data = value * (width * height * len(names))
+            chunks = [struct.pack("<5i", 0, 0, 0, 0, len(data)) + data]
+        else:
+            data = value * (width * len(names))
+            rows = 16 if compression == 3 else 1
+            chunks = []
+            for y in range(y0, y1 + 1, rows):
+                block = data * min(rows, y1 + 1 - y)
+                chunks.append(struct.pack("<ii", y, len(block)) + block)
+        assert len(data) == size * width * len(names) * (height if tile else 1)
+    table, at = b"", len(head) + 8 * len(chunks)
+    for chunk in chunks:
+        table += struct.pack("<Q", at)
+        at += len(chunk)
+    return head + table + b"".join(chunks)
+
+
+def zip_rows(data):
+    """What EXR's ZIP makes of a block: bytes in two halves, differences, deflate."""
+    halves = data[0::2] + data[1::2]
+    delta = bytes([halves[0]]) + bytes((halves[i] - halves[i - 1] + 128) & 255 for i in range(1, len(halves)))
+    return zlib.compress(delta)
+
+
+def images():
+    write("exr", "read-float.exr", exr())
+    write("exr", "read-half.exr", exr(kind=1))
+    write("exr", "read-grey.exr", exr(names=(b"Y",), kind=1))
+    write("exr", "read-layers.exr", exr(names=(b"B", b"G", b"R", b"half0.B", b"half0.G", b"half0.R"), kind=1))
+    write("exr", "read-offset.exr", exr(window=(-3, 5, -1, 6)))
+    write("exr", "read-tile.exr", exr(tile=(8, 8)))
+    block = zip_rows(struct.pack("<f", 1) * 48)
+    write("exr", "read-zip.exr", exr(window=(0, 0, 7, 1), compression=3,
+                                     chunks=[struct.pack("<ii", 0, len(block)) + block]))
+    write("exr", "read-text.exr", exr(extra=attribute(b"restlab:scene", b"string", b"room")))
+    write("exr", "integers.exr", exr(kind=0))
+    write("exr", "one-channel.exr", exr(names=(b"R",)))
+    write("exr", "lying.exr", exr(window=(0, 0, 16383, 16383), chunks=[b"\0" * 32]))
+    write("exr", "huge.exr", exr(window=(0, 0, 99999, 99999), chunks=[b"\0" * 32]))
+    write("exr", "negative.exr", exr(window=(5, 5, 1, 1), chunks=[b"\0" * 32]))
+    write("exr", "overflow.exr", exr(window=(-2**31, -2**31, 2**31 - 1, 2**31 - 1), chunks=[b"\0" * 32]))
+    write("exr", "tiles.exr", exr(tile=(1, 1), window=(0, 0, 16383, 8191), chunks=[b"\0" * 32]))
+    write("exr", "deep.exr", exr(version=2 | 0x800))
+    write("exr", "parts.exr", exr(version=2 | 0x1000))
+    write("exr", "long-attribute.exr", exr(extra=b"note\0string\0" + struct.pack("<I", 0x7FFFFFF0)))
+    write("exr", "lying-preview.exr", exr(extra=attribute(b"preview", b"preview", struct.pack("<II", 65535, 65535))))
+    write("exr", "lying-strings.exr", exr(extra=attribute(b"multiView", b"stringvector", struct.pack("<i", 2**31 - 1))))
+    many = tuple(sorted(b"x%04d.R" % i for i in range(300)))
+    write("exr", "many-channels.exr", exr(names=many, window=(0, 0, 0, 0)))
+
+
+# ---- glTF -----------------------------------------------------------------------------------------
+
+
+def uri(data, kind="application/octet-stream"):
+    return f"data:{kind};base64," + base64.b64encode(data).decode()
+
+
+CORNERS = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
+
+
+def triangle(**more):
+    document = {
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "buffers": [{"byteLength": 36, "uri": uri(CORNERS)}],
+    }
+    document.update(more)
+    return document
+
+
+def glb(document, binary):
+    text = json.dumps(document, separators=(",", ":")).encode()
+    text += b" " * (-len(text) % 4)
+    body = struct.pack("<I", len(text)) + b"JSON" + text
+    body += struct.pack("<I", len(binary)) + b"BIN\0" + binary
+    return b"glTF" + struct.pack("<II", 2, 12 + len(body)) + body
+
+
+def scenes():
+    compact = lambda document: json.dumps(document, separators=(",", ":"))
+    write("gltf", "read-empty.gltf", compact({"asset": {"version": "2.0"}}))
+    write("gltf", "read-triangle.gltf", compact(triangle()))
+    write("gltf", "read-triangle.glb", glb(triangle(buffers=[{"byteLength": 36}]), CORNERS))
+    write("gltf", "read-material.gltf", compact(triangle(
+        extensionsUsed=["KHR_texture_transform", "KHR_materials_transmission", "KHR_materials_volume",
+                        "KHR_materials_ior", "KHR_materials_specular", "KHR_materials_emissive_strength"],
+        materials=[{
+            "pbrMetallicRoughness": {
+                "baseColorFactor": [1, 0.5, 0.25, 0.5], "metallicFactor": 0, "roughnessFactor": 0.5,
+                "baseColorTexture": {"index": 0, "extensions": {
+                    "KHR_texture_transform": {"offset": [0.5, 0], "rotation": 1, "scale": [2, 2]}}}},
+            "emissiveFactor": [1, 1, 1], "alphaMode": "MASK", "alphaCutoff": 0.25, "doubleSided": True,
+            "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1},
+                           "KHR_materials_volume": {"attenuationDistance": 2, "thicknessFactor": 1},
+                           "KHR_materials_ior": {"ior": 1.3},
+                           "KHR_materials_specular": {"specularFactor": 0.5},
+                           "KHR_materials_emissive_strength": {"emissiveStrength": 5}}}],
+        meshes=[{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+        textures=[{"source": 0, "sampler": 0}], samplers=[{"wrapS": 33071, "magFilter": 9728}],
+        images=[{"uri": uri(PNG_RGBA, "image/png")}])))
+    write("gltf", "read-indices.gltf", compact(triangle(
+        meshes=[{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 0}, "indices": 1, "mode": 5}]}],
+        accessors=[{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+                   {"bufferView": 1, "componentType": 5121, "count": 4, "type": "SCALAR"}],
+        bufferViews=[{"buffer": 0, "byteLength": 36}, {"buffer": 1, "byteLength": 4}],
+        buffers=[{"byteLength": 36, "uri": uri(struct.pack("<9f", 0, 0, 1, 1, 0, 0, 0, 1, 0))},
+                 {"byteLength": 4, "uri": uri(bytes([0, 1, 2, 0]))}])))
+    write("gltf", "read-sparse.gltf", compact(triangle(
+        accessors=[{"componentType": 5126, "count": 3, "type": "VEC3", "sparse": {
+            "count": 3, "indices": {"bufferView": 1, "componentType": 5123},
+            "values": {"bufferView": 0}}}],
+        bufferViews=[{"buffer": 0, "byteLength": 36}, {"buffer": 1, "byteLength": 6}],
+        buffers=[{"byteLength": 36, "uri": uri(CORNERS)},
+                 {"byteLength": 6, "uri": uri(struct.pack("<3H", 0, 1, 2))}])))
+    write("gltf", "read-lights-cameras.gltf", compact({
+        "asset": {"version": "2.0"}, "extensionsUsed": ["KHR_lights_punctual"],
+        "extensions": {"KHR_lights_punctual": {"lights": [
+            {"type": "spot", "spot": {"innerConeAngle": 0.1, "outerConeAngle": 0.5}, "intensity": 3},
+            {"type": "directional", "color": [1, 0.5, 0]}, {"type": "point"}]}},
+        "cameras": [{"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}},
+                    {"type": "orthographic",
+                     "orthographic": {"xmag": 1, "ymag": 2, "znear": 0, "zfar": 10}}],
+        "nodes": [{"camera": 0, "extensions": {"KHR_lights_punctual": {"light": 0}}},
+                  {"camera": 1, "rotation": [0, 1, 0, 0], "children": [2]},
+                  {"extensions": {"KHR_lights_punctual": {"light": 1}}, "scale": [-1, 2, 3]}]}))
+    write("gltf", "read-instances.gltf", compact(triangle(
+        extensionsUsed=["EXT_mesh_gpu_instancing"],
+        nodes=[{"mesh": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 2, 3, 4, 1], "extensions": {
+            "EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 0}}}}])))
+    write("gltf", "loop.gltf", compact(triangle(nodes=[{"mesh": 0, "children": [1]}, {"children": [0]}])))
+    write("gltf", "outside.gltf", compact(triangle(buffers=[{"byteLength": 36, "uri": "../corners.bin"}])))
+    write("gltf", "huge-count.gltf", compact(triangle(accessors=[
+        {"bufferView": 0, "componentType": 5126, "count": 2**53 - 1, "type": "VEC3"}])))
+    write("gltf", "zeros.gltf", compact(triangle(accessors=[
+        {"componentType": 5126, "count": 2**31, "type": "VEC3"}])))
+    write("gltf", "huge-view.gltf", compact(triangle(bufferViews=[
+        {"buffer": 0, "byteOffset": 2**53 - 1, "byteLength": 2**53 - 1}])))
+    write("gltf", "huge-buffer.gltf", compact(triangle(buffers=[
+        {"byteLength": 2**53 - 1, "uri": uri(CORNERS)}])))
+    write("gltf", "deep.gltf", "[" * 1000)
+    write("gltf", "short.glb", glb(triangle(), CORNERS)[:-5])
+
+
+# ---- Suites ---------------------------------------------------------------------------------------
+
+
+def suites():
+    write("suite", "read-all.toml", """name = "all"
+scenes = ["cornell-box", 'door-ajar']
+[settings]
+width = 32
+height = 18
+runs = 2
+frames = 1
+components = ["all", "indirect"]
+accumulate = true
+checkpoints = [1, 2]
+camera_path = "turn"
+[reference]
+spp = 4
+[[camera_path]]
+name = "turn"
+kind = "orbit"
+degrees_per_frame = 0.5
+target = [0.0, 1, 0]
+[[scene]]
+scene = "quad-light"
+camera = "0"
+environment_scale = 2.5
+optional = true
+[[method]]
+[[method]]
+name = "gi"
+integrator = "restir_gi"
+mode = "biased"
+confidence_cap = 10.0
+""".replace('accumulate = true\ncheckpoints = [1, 2]\ncamera_path = "turn"', 'camera_path = "turn"'))
+    write("suite", "read-sweep.toml", """scenes = ["cornell-box"]
+[sweep]
+max_bounces = [2, 4]
+"method.gi.confidence_cap" = [10.0, 20.0]
+[[method]]
+name = "gi"
+integrator = "restir_gi"
+""")
+    write("suite", "read-accumulate.toml", """scenes = "cornell-box"
+settings = { frames = 8, accumulate = true, checkpoints = [1, 2], temporal = true }
+method = [{}, { name = "b", integrator = "restir_gi", mode = "unbiased" }]
+""")
+    write("suite", "unknown-key.toml", "scenes = ['cornell-box']\nsceen = 1\n[[method]]\n")
+    write("suite", "wrong-type.toml", "scenes = [1]\n[[method]]\n")
+    write("suite", "no-toml.toml", "scenes = [\n")
+    write("suite", "deep.toml", "a = " + "[" * 1000)
+    write("suite", "deep-tables.toml", "[" + ".".join(["a"] * 1000) + "]\n")
+    write("suite", "include-itself.toml", 'include = "suite.toml"\n')
+    axes = "".join(f"{key} = [{', '.join(map(str, range(1, 101)))}]\n"
+                   for key in ("max_bounces", "width", "height", "seed", "frames", "warmup_frames"))
+    write("suite", "endless-sweep.toml", "scenes = ['cornell-box']\n[sweep]\n" + axes + "[[method]]\n")
+    write("suite", "control.toml", b'scenes = ["a\\u001b[31m"]\n"\\u001b[31m\\nx" = 1\n[[method]]\n')
+    write("suite", "bytes.toml", bytes(range(256)))
+
+
+for make in (textures, environments, images, scenes, suites):
+    make()
