@@ -13,3 +13,7 @@ find_package(fmt REQUIRED CONFIG)
 find_package(Boost REQUIRED) # header-only Boost.Math distributions
 find_path(XXHASH_INCLUDE_DIR xxhash.h REQUIRED)
 find_path(STB_INCLUDE_DIR stb_image.h PATH_SUFFIXES stb REQUIRED)
+find_path(SPNG_INCLUDE_DIR spng.h REQUIRED)
+find_library(SPNG_LIBRARY spng REQUIRED)
+find_path(TURBOJPEG_INCLUDE_DIR turbojpeg.h REQUIRED)
+find_library(TURBOJPEG_LIBRARY turbojpeg REQUIRED)

@@ -50,8 +50,7 @@ Interval BiasRuns::squaredBias(const Image& half0, const Image& half1,
   std::vector<double> product(n * n, 0.0);
   for (size_t i = 0; i < n; ++i) {
     for (size_t j = 0; j < n; ++j) {
-      if (i != j)
-        product[i * n + j] = restlab::squaredBias(mean[i], mean[j], half0, half1, mask);
+      if (i != j) product[i * n + j] = restlab::squaredBias(mean[i], mean[j], half0, half1, mask);
     }
   }
   // A pair of groups is as many pairs of runs.

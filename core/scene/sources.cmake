@@ -22,17 +22,17 @@ target_sources(rl_core PRIVATE
   scene/gltf_triangles.cpp
   scene/gltf_uri.cpp
   scene/gltf_validate.cpp
+  scene/hdr_decode.cpp
   scene/image_decode.cpp
+  scene/jpeg_decode.cpp
   scene/load_scene.cpp
+  scene/png_decode.cpp
   scene/scene_bounds.cpp
   scene/tinygltf.cpp
 )
 # tinygltf is compiled into tinygltf.cpp (with its own file and image access left out), xxHash and stb
 # are headers.
 target_link_libraries(rl_core PUBLIC nlohmann_json::nlohmann_json)
+target_include_directories(rl_core SYSTEM PRIVATE ${SPNG_INCLUDE_DIR} ${TURBOJPEG_INCLUDE_DIR})
+target_link_libraries(rl_core PRIVATE ${SPNG_LIBRARY} ${TURBOJPEG_LIBRARY})
 include(${CMAKE_CURRENT_LIST_DIR}/builtin_sources.cmake)
-# The decoder of images computes with what a file says; its overflows are to wrap, not to be undefined.
-# Where the data of a JPEG end too early it shifts by 32 bits and more: any value will do there, and the
-# sanitizers are not to end the program.
-set_source_files_properties(scene/image_decode.cpp PROPERTIES
-  COMPILE_OPTIONS "-fwrapv;-fno-sanitize=shift-exponent")

@@ -67,7 +67,7 @@ def textures():
     write("texture", "truncated.png", PNG_RGBA[:50])
     write("texture", "huge.png", png(100000, 100000, 8, 6, b"\0" * 100))
     write("texture", "lying.png", png(16384, 16384, 8, 6, b"\0" * 100))
-    write("texture", "bomb.png", png(1, 1, 8, 0, b"\0" * 16000000))
+    write("texture", "read-bomb.png", png(1, 1, 8, 0, b"\0" * 16000000))
     write("texture", "huge.jpg", jpeg(65500, 65500, b"\x3f"))
     write("texture", "lying.jpg", jpeg(16384, 16384, b"\x3f"))
     write("texture", "no-scan.jpg", jpeg(8, 8, b"")[:40])

@@ -46,14 +46,14 @@ TEST(ImageLimits, PngChunkThatClaimsTheRest) {
   // The length of the chunk of pixels, behind the signature and the header's chunk of 25 bytes.
   std::string png = test::tinyPng();
   ASSERT_EQ(png.substr(37, 4), "IDAT");
-  const std::string problem = problemOf(png.replace(33, 4, bigEndian(1u << 30)));
-  EXPECT_NE(problem.find("holds more data than its pixels can be"), std::string::npos) << problem;
+  EXPECT_EQ(problemOf(png.replace(33, 4, bigEndian(1u << 30))), "truncated");
 }
 
-TEST(ImageLimits, PngWithoutPixels) {
+// Nothing forbids it.
+TEST(ImageLimits, PngThatBeginsWithAnEmptyChunkOfPixels) {
   std::string png = test::tinyPng();
   png.insert(33, std::string("\0\0\0\0IDAT\x35\xaf\x06\x1e", 12));
-  EXPECT_EQ(problemOf(png), "the first chunk of pixels is empty");
+  EXPECT_EQ(problemOf(png), "");
 }
 
 // Chunks of a JPEG of one grey component: 'd' the baseline frame or its progressive relative.
@@ -83,10 +83,11 @@ TEST(ImageLimits, JpegThatClaimsMorePixels) {
 }
 
 TEST(ImageLimits, JpegOfManyScans) {
-  EXPECT_EQ(problemOf(jpeg(8, 8, 100, true)), "");
-  EXPECT_EQ(problemOf(jpeg(8, 8, 101, true)), "more than 100 scans");
+  EXPECT_EQ(problemOf(jpeg(8, 8, 500, true)), "");
+  const std::string problem = problemOf(jpeg(8, 8, 501, true));
+  EXPECT_NE(problem.find("has more than 500 scans"), std::string::npos) << problem;
   // A picture inside a segment, as cameras store, is no scan of this one.
-  const std::string inside = jpeg(8, 8, 101, true);
+  const std::string inside = jpeg(8, 8, 501, true);
   std::string file = jpeg(8, 8, 1);
   file.insert(2, "\xff\xe1" + bigEndian(static_cast<uint32_t>(inside.size()) + 2, 2) + inside);
   EXPECT_EQ(problemOf(file), "");
@@ -100,7 +101,7 @@ TEST(ImageLimits, JpegOfTooManyCodes) {
   file.replace(table, 2 + 2 + 1 + 16 + 1,
                "\xff\xc4" + bigEndian(2 + 1 + 16 + 285, 2) + '\0' + std::string(15, '\2') + '\xff' +
                    std::string(285, '\0'));
-  EXPECT_EQ(problemOf(file), "a Huffman table of 285 codes; at most 256 expected");
+  EXPECT_EQ(problemOf(file), "cannot be decoded (Bogus Huffman table definition)");
 }
 
 TEST(ImageLimits, HdrThatClaimsMorePixels) {

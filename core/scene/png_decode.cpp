@@ -1,0 +1,79 @@
+// PNG by libspng. Values are taken as they are: glTF has no use for gamma and colour profiles.
+#include <fmt/format.h>
+#include <spng.h>
+
+#include <array>
+#include <memory>
+
+#include "core/scene/image_formats.h"
+
+namespace restlab {
+
+namespace {
+
+using Context = std::unique_ptr<spng_ctx, decltype(&spng_ctx_free)>;
+
+std::string messageOf(int error) {
+  if (error == SPNG_IO_EOF) return "truncated";
+  return fmt::format("cannot be decoded ({})", spng_strerror(error));
+}
+
+// Reads the header.
+Context open(const std::vector<uint8_t>& bytes, spng_ihdr& header, std::string& problem) {
+  Context context(spng_ctx_new(0), &spng_ctx_free);
+  if (!context) throw std::bad_alloc();
+  spng_set_image_limits(context.get(), kMaxImageSize, kMaxImageSize);
+  // A chunk is no longer than its file, whatever it says, and what is kept of texts no more.
+  spng_set_chunk_limits(context.get(), bytes.size(), bytes.size());
+  spng_set_crc_action(context.get(), SPNG_CRC_ERROR, SPNG_CRC_DISCARD);
+  spng_set_png_buffer(context.get(), bytes.data(), bytes.size());
+  const int error = spng_get_ihdr(context.get(), &header);
+  if (error == SPNG_EUSER_WIDTH || error == SPNG_EUSER_HEIGHT) {
+    problem = fmt::format("more than {} pixels a side", kMaxImageSize);
+  } else if (error != 0) {
+    problem = messageOf(error);
+  }
+  return context;
+}
+
+// Deflate shrinks to 1 / 1032 at most.
+uint64_t fewestBytes(const spng_ihdr& header) {
+  constexpr std::array<uint64_t, 7> kChannels = {1, 1, 3, 1, 2, 1, 4};
+  const uint64_t bitsPerPixel = header.bit_depth * kChannels.at(header.color_type);
+  return (header.width * bitsPerPixel / 8 + 1) * header.height / 1032;
+}
+
+}  // namespace
+
+std::string checkPngHeader(const std::vector<uint8_t>& bytes, ImageSize& size) {
+  spng_ihdr header = {};
+  std::string problem;
+  const Context context = open(bytes, header, problem);
+  if (!problem.empty()) return problem;
+  if (problem = checkPixelCount(header.width, header.height); !problem.empty()) return problem;
+  size = {header.width, header.height};
+  return checkFileSize(bytes.size(), fewestBytes(header), size);
+}
+
+std::string decodePng(const std::vector<uint8_t>& bytes, DecodedImage& image) {
+  spng_ihdr header = {};
+  std::string problem;
+  const Context context = open(bytes, header, problem);
+  if (!problem.empty()) return problem;
+  image.roundedFrom16Bit = header.bit_depth == 16;
+  const spng_format format = image.roundedFrom16Bit ? SPNG_FMT_RGBA16 : SPNG_FMT_RGBA8;
+  std::vector<uint16_t> values;
+  if (image.roundedFrom16Bit) values.resize(4 * image.texels.size());
+  void* out = image.roundedFrom16Bit ? static_cast<void*>(values.data()) : image.texels.data();
+  const size_t room = image.texels.size() * (image.roundedFrom16Bit ? 8 : 4);
+  const int error = spng_decode_image(context.get(), out, room, format, SPNG_DECODE_TRNS);
+  if (error != 0) return messageOf(error);
+  if (!image.roundedFrom16Bit) return "";
+  // Nearest of 256 levels: v / 65535 * 255, rounded.
+  const auto round = [&](size_t i) { return (uint32_t(values[i]) + 128u) / 257u; };
+  for (size_t i = 0; i < image.texels.size(); ++i)
+    image.texels[i] = packRgba(round(4 * i), round(4 * i + 1), round(4 * i + 2), round(4 * i + 3));
+  return "";
+}
+
+}  // namespace restlab
