@@ -80,6 +80,8 @@ void runVerb(const RunOptions& options, Outcome& outcome) {
   for (Suite& suite : points) {
     keepNamed(suite.scenes, options.scenes, "--scenes");
     keepNamed(suite.methods, options.methods, "--methods");
+    if (suite.rendered().empty())
+      failUsage(fmt::format("--methods {}: leaves no method that is rendered", options.methods));
     if (options.threads >= 0) suite.threads = options.threads;
     setJobs(options.jobs, suite);
   }

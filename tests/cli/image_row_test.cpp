@@ -187,6 +187,8 @@ TEST_F(ImageRowTest, WrongRowsAreToldBeforeAnythingIsRendered) {
   expect("name = \"x\"\nimage = \"small.exr\"\ntime_ms = [1, 2]\n", 2,
          {"suite.toml:21:11", "time_ms", "number"});
   expect("name = \"x\"\nimage = \"small.exr\"\ntime_ms = 0\n", 2, {"suite.toml:21:11", "time_ms"});
+  writeSuite("[[method]]\nname = \"x\"\nimage = \"small.exr\"\n");
+  expectError(run("run suite.toml -o out -q --methods x"), 2, {"--methods x", "rendered"});
   expect("name = \"x\"\nimage = \"small.exr\"\nspatial_radius = 3\n", 2,
          {"suite.toml:21:1", "spatial_radius"});
 }
