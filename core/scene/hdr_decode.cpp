@@ -113,7 +113,10 @@ std::string checkHdrHeader(const std::vector<uint8_t>& bytes, ImageSize& size) {
   if (!stbi_info_from_callbacks(&kCallbacks, &source, &width, &height, &channels)) {
     return decoderMessage(source);
   }
-  if (std::string problem = checkPixelCount(uint64_t(std::max(width, 0)), uint64_t(std::max(height, 0))); !problem.empty()) return problem;
+  if (std::string problem =
+          checkPixelCount(uint64_t(std::max(width, 0)), uint64_t(std::max(height, 0)));
+      !problem.empty())
+    return problem;
   size = {static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
   return checkFileSize(bytes.size(), fewestBytes(size), size);
 }

@@ -189,6 +189,7 @@ class SuiteRun {
     block.startupMs = checks_[point].startupMs[scene.name];
     block.motion = motionOf(suite, prepared);
     if (!obtain(suite, scene, prepared, block)) return false;
+    warnOfBlack(suite, block);
     nlohmann::ordered_json& plan = plan_.at(next_++);
     plan = planOf(suite, block);
     bool finished = false;
@@ -206,6 +207,18 @@ class SuiteRun {
     outputs_.write(points_.front(), false);
     if (failure) std::rethrow_exception(failure);
     return finished;
+  }
+
+  // A camera that has left the room, say: nothing can be said of an image without light.
+  void warnOfBlack(const Suite& suite, const BlockResult& block) {
+    const std::vector<glm::vec3>& pixels = block.reference.mean.pixels;
+    const bool isBlack = std::all_of(pixels.begin(), pixels.end(),
+                                     [](const glm::vec3& p) { return p == glm::vec3(0.0f); });
+    if (!isBlack) return;
+    const std::string line =
+        fmt::format("{}: its reference is black; its rows say nothing", blockLabel(suite, block));
+    logWarning(line);
+    outputs_.note("Warning: " + line);
   }
 
   bool executeRuns(const Suite& suite, const PreparedScene& prepared, BlockResult& block,

@@ -13,7 +13,6 @@ namespace {
 std::string interval(double lo, double hi, const char* format) {
   if (std::isnan(lo) || std::isnan(hi)) return "";
   if (std::isinf(lo) || std::isinf(hi)) return " [unbounded]";
-  if (std::abs(lo) >= 1e5 || std::abs(hi) >= 1e5) format = "{:.2g}";
   return fmt::format(" [{}, {}]", fmt::format(fmt::runtime(format), lo),
                      fmt::format(fmt::runtime(format), hi));
 }
@@ -26,15 +25,32 @@ std::string timeCell(const MethodSummary& row) {
                             interval(row.timeRatio.lo, row.timeRatio.hi, "{:.2f}"));
 }
 
-std::string ratioCell(const Interval& ratio, bool isYardstick) {
-  if (isYardstick || std::isnan(ratio.value)) return "";
-  return fmt::format("{:.1f}x lower{}", ratio.value, interval(ratio.lo, ratio.hi, "{:.1f}"));
+// Two digits that count below 1, one behind the point above.
+std::string ratio(double value) {
+  return value < 1.0 && value > -1.0 ? fmt::format("{:.2g}", value) : fmt::format("{:.1f}", value);
+}
+
+std::string ratioEnds(const Interval& of) {
+  if (std::isnan(of.lo) || std::isnan(of.hi)) return "";
+  if (std::isinf(of.lo) || std::isinf(of.hi)) return " [unbounded]";
+  if (std::abs(of.hi) >= 1e5) return fmt::format(" [{:.2g}, {:.2g}]", of.lo, of.hi);
+  return fmt::format(" [{}, {}]", ratio(of.lo), ratio(of.hi));
+}
+
+// Of many frames: whole milliseconds are enough.
+std::string longTime(double timeMs) {
+  if (std::isnan(timeMs)) return "unknown";
+  return timeMs < 1000.0 ? fmt::format("{:.4g} ms", timeMs) : fmt::format("{:.0f} ms", timeMs);
+}
+
+std::string ratioCell(const Interval& of, bool isYardstick) {
+  if (isYardstick || std::isnan(of.value)) return "";
+  return fmt::format("{}x lower{}", ratio(of.value), ratioEnds(of));
 }
 
 std::string efficiencyCell(const MethodSummary& row) {
   if (row.isYardstick || std::isnan(row.efficiencyRatio.value)) return "";
-  return fmt::format("{:.1f}{}", row.efficiencyRatio.value,
-                     interval(row.efficiencyRatio.lo, row.efficiencyRatio.hi, "{:.1f}"));
+  return ratio(row.efficiencyRatio.value) + ratioEnds(row.efficiencyRatio);
 }
 
 std::string withoutLightsCell(const MethodSummary& row) {
@@ -90,18 +106,16 @@ std::string accumulatedTable(const std::vector<MethodSummary>& rows) {
     const ConvergencePoint& last = row.convergence->points.back();
     const Interval& slope = row.convergence->slope;
     text += fmt::format(
-        "| {} | {} | {} | {:.3g}{} | {} |", row.method->name, last.frames,
-        std::isnan(last.timeMs) ? "unknown" : fmt::format("{:.4g} ms", last.timeMs), last.mse.value,
-        interval(last.mse.lo, last.mse.hi, "{:.3g}"),
+        "| {} | {} | {} | {:.3g}{} | {} |", row.method->name, last.frames, longTime(last.timeMs),
+        last.mse.value, interval(last.mse.lo, last.mse.hi, "{:.3g}"),
         std::isnan(slope.value)
             ? ""
             : fmt::format("{:.2f}{}", slope.value, interval(slope.lo, slope.hi, "{:.2f}")));
     if (row.speedUp && !row.isYardstick) {
       const SpeedUp& up = *row.speedUp;
-      text += fmt::format(" {:.1f}x lower{} at {:.3g} ms | {:.1f}x faster{} to {:.2g} |\n",
-                          up.equalTime.value, interval(up.equalTime.lo, up.equalTime.hi, "{:.1f}"),
-                          up.timeMs, up.equalError.value,
-                          interval(up.equalError.lo, up.equalError.hi, "{:.1f}"), up.mse);
+      text += fmt::format(" {}x lower{} at {} | {}x faster{} to {:.2g} |\n",
+                          ratio(up.equalTime.value), ratioEnds(up.equalTime), longTime(up.timeMs),
+                          ratio(up.equalError.value), ratioEnds(up.equalError), up.mse);
     } else {
       text += " | |\n";
     }
@@ -151,9 +165,12 @@ std::string temporalTable(const std::vector<MethodSummary>& rows) {
                           t.difference - t.referenceDifference);
       continue;
     }
-    text += fmt::format("| {} | {:.3g} | {:.3g} | {:.3f} | {:.3f} | {:.3f} | {:.3f} |\n",
-                        row.method->name, t.variance, t.difference, t.autocorrelation[0],
-                        t.autocorrelation[1], t.autocorrelation[3], t.autocorrelation[7]);
+    text += fmt::format("| {} | {:.3g} | {:.3g} |", row.method->name, t.variance, t.difference);
+    for (const size_t lag : {1, 2, 4, 8}) {
+      const double correlation = t.autocorrelation[lag - 1];
+      text += std::isnan(correlation) ? " |" : fmt::format(" {:.3f} |", correlation);
+    }
+    text += "\n";
   }
   if (text.empty()) return "";
   return "\nOver the timed frames of a run: variance of a pixel, difference of frames (in brackets "
