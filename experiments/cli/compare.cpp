@@ -168,6 +168,11 @@ void compareResults(const CompareOptions& options) {
     std::error_code status;
     return std::filesystem::is_directory(name, status);
   });
+  for (const std::string& name : folders) {
+    std::error_code status;
+    if (folders.size() == 2 && !std::filesystem::exists(name, status))
+      failInput(fmt::format("compare: {}: there is no such file or folder", name));
+  }
   if (!areFolders) failUsage("compare: images need --ref, the reference they are compared with");
   if (folders.size() != 2)
     failUsage(fmt::format("compare: takes two folders of results, not {}", folders.size()));

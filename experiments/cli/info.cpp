@@ -47,6 +47,14 @@ Json camerasJson(const Scene& scene) {
       json["half_extent_m"] = {camera.xmag, camera.ymag};
     }
     json["aspect"] = camera.aspect;
+    // As another program wants it: where it is, along which axis it looks, which way is up.
+    const auto axis = [&](int column, double sign) {
+      const glm::dvec4 c = sign * camera.cameraToWorld[column];
+      return Json{c.x, c.y, c.z};
+    };
+    json["position_m"] = axis(3, 1.0);
+    json["forward"] = axis(2, -1.0);
+    json["up"] = axis(1, 1.0);
     cameras.push_back(json);
   }
   return cameras;
@@ -128,8 +136,18 @@ void printText(const PreparedScene& prepared, const Json& json) {
              scene.geometries.size(), scene.instances.size(), scene.materials.size(),
              scene.images.size());
   for (const Json& camera : json["cameras"]) {
-    fmt::print("camera       {} '{}' {}\n", camera["index"].get<size_t>(),
-               oneLine(camera["name"].get<std::string>()), camera["kind"].get<std::string>());
+    const auto point = [&](const char* key) {
+      const auto p = camera[key].get<std::array<double, 3>>();
+      return fmt::format("({:.5g}, {:.5g}, {:.5g})", p[0], p[1], p[2]);
+    };
+    fmt::print("camera       {} '{}' {}, at {} m, looks along {}, up {}{}\n",
+               camera["index"].get<size_t>(), oneLine(camera["name"].get<std::string>()),
+               camera["kind"].get<std::string>(), point("position_m"), point("forward"),
+               point("up"),
+               camera.contains("yfov_radians")
+                   ? fmt::format(", {:.4g} degrees high",
+                                 glm::degrees(camera["yfov_radians"].get<double>()))
+                   : "");
   }
   for (const PunctualLight& light : scene.lights) {
     fmt::print("light        '{}' {} ({:g}, {:g}, {:g})\n", oneLine(light.name),

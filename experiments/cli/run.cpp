@@ -25,30 +25,47 @@ struct RunOptions {
   bool force = false, dryRun = false;
 };
 
-const std::string& baseName(const SuiteScene& scene) { return scene.name; }
-const std::string& baseName(const SuiteMethod& method) { return method.base; }
+std::vector<std::string> namesOf(const SuiteScene& scene) { return {scene.name}; }
+std::vector<std::string> namesOf(const SuiteMethod& method) {
+  return {method.name, method.base, method.given};
+}
 
-// Keeps the items whose name, or what several backends call alike, is in the comma-separated list.
+// Keeps the items one of whose names is in the comma-separated list, or is the list: what is swept
+// has commas in its name.
 template <class Item>
 void keepNamed(std::vector<Item>& items, const std::string& list, const std::string& option) {
   if (list.empty()) return;
-  std::vector<std::string> names;
-  for (const Item& item : items) names.push_back(item.name);
-  const std::vector<std::string> shown = names;
-  for (const Item& item : items) names.push_back(baseName(item));
-  const std::vector<std::string> wanted = splitList(list, option);
+  std::vector<std::string> names, shown;
+  for (const Item& item : items) {
+    shown.push_back(item.name);
+    for (const std::string& name : namesOf(item)) names.push_back(name);
+  }
+  const bool isOne = std::find(names.begin(), names.end(), list) != names.end();
+  const std::vector<std::string> wanted =
+      isOne ? std::vector<std::string>{list} : splitList(list, option);
   for (const std::string& name : wanted) {
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-    failUsage(fmt::format("{} {}: not in the suite (it has: {}){}", option, name,
-                          fmt::join(shown, ", "), didYouMean(name, names)));
+    failUsage(fmt::format("{} {}: not in the suite (it has: '{}'){}", option, name,
+                          fmt::join(shown, "', '"), didYouMean(name, names)));
   }
   std::erase_if(items, [&](const Item& item) {
-    return std::find(wanted.begin(), wanted.end(), item.name) == wanted.end() &&
-           std::find(wanted.begin(), wanted.end(), baseName(item)) == wanted.end();
+    const std::vector<std::string> own = namesOf(item);
+    return std::none_of(own.begin(), own.end(), [&](const std::string& name) {
+      return std::find(wanted.begin(), wanted.end(), name) != wanted.end();
+    });
   });
 }
 
+std::string counted(size_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
 void warnOfYardsticks(const Suite& suite) {
+  if (!suite.baseline.empty()) {
+    if (suite.yardstick(0) == suite.methods.size())
+      failUsage(fmt::format("--methods leaves out '{}', the baseline", suite.baseline));
+    return;
+  }
   for (const std::string& backend : suite.methodBackends()) {
     const auto first =
         std::find_if(suite.methods.begin(), suite.methods.end(),
@@ -95,9 +112,11 @@ void runVerb(const RunOptions& options, Outcome& outcome) {
                                     : std::filesystem::path(options.out);
   request.argv = outcome.argv;
   request.force = options.force;
-  logInfo(fmt::format("{}: {}{} scenes, {} methods, {} runs; results in {}", suite.name,
-                      points.size() > 1 ? fmt::format("{} points, ", points.size()) : "",
-                      suite.scenes.size(), suite.methods.size(), suite.runs, request.out.string()));
+  logInfo(fmt::format("{}: {}{}, {}, {}; results in {}", suite.name,
+                      points.size() > 1 ? counted(points.size(), "point") + ", " : "",
+                      counted(suite.scenes.size(), "scene"),
+                      counted(suite.methods.size(), "method"), counted(suite.runs, "run"),
+                      request.out.string()));
   if (options.dryRun) {
     std::fputs(planText(points, request).c_str(), stdout);
     return;

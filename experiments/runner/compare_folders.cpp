@@ -91,6 +91,7 @@ const std::vector<RunResult>* yardstickRuns(const Table& table, const MethodSumm
 
 // `ratio` above 1 is better.
 std::string verdict(const Interval& ratio) {
+  if (ratio.value == 1.0 && ratio.lo == 1.0 && ratio.hi == 1.0) return "the same";
   if (ratio.lo > 1.0) return "better";
   if (ratio.hi < 1.0) return "worse";
   return "not told apart";
@@ -140,6 +141,19 @@ nlohmann::ordered_json json(const Interval& interval) {
           {"hi", finiteJson(interval.hi)}};
 }
 
+// Whatever else ran on the machine is in the times, also in those over `path`.
+void noteLoads(const ResultsFolder& first, const ResultsFolder& second,
+               FolderComparison& comparison) {
+  const double before = first.record.at("machine").at("load_1min").get<double>();
+  const double after = second.record.at("machine").at("load_1min").get<double>();
+  const double cores = second.record.at("machine").at("cores").get<double>();
+  if (std::abs(after - before) < 0.5 && std::max(before, after) < cores + 0.5) return;
+  comparison.notes.push_back(
+      fmt::format("the machine's load was {:.1f} and {:.1f} on {:.0f} cores: what ran beside is in "
+                  "the times; measure again on a quiet one",
+                  before, after, cores));
+}
+
 }  // namespace
 
 FolderComparison compareFolders(const std::filesystem::path& before,
@@ -147,6 +161,7 @@ FolderComparison compareFolders(const std::filesystem::path& before,
   const ResultsFolder first = openResults(before), second = openResults(after);
   const std::map<std::string, Table> a = tablesOf(first), b = tablesOf(second);
   FolderComparison comparison;
+  noteLoads(first, second, comparison);
   const auto only = [&](const std::string& what, const std::filesystem::path& folder) {
     comparison.notes.push_back(fmt::format("{}: only in {}", what, folder.string()));
   };

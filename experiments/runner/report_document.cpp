@@ -51,12 +51,13 @@ const std::vector<Column>& columns() {
   static const std::vector<Column> all = {
       {"time_ms", "time per frame", "ms", "lower", "median over timed frames: passes, nothing else",
        [](const MethodSummary& row) { return only(row.timeMsMedian); }},
-      {"time_ratio", "time / path", "", "lower",
-       "mean over runs of the median over frames of time / time of the path frame beside it",
+      {"time_ratio", "time ratio", "", "lower",
+       "mean over runs of the median over frames of time / time of the baseline's frame beside it "
+       "(path, unless the suite names another)",
        [](const MethodSummary& row) { return row.timeRatio; }},
       {"mse", "MSE", "", "lower", "of the frame after the warm-up, against the reference's halves",
        [](const MethodSummary& row) { return row.mse; }},
-      {"mse_ratio", "MSE of path / MSE", "", "higher", "how many times lower than path tracing",
+      {"mse_ratio", "MSE, times lower", "", "higher", "MSE of the baseline / MSE",
        [](const MethodSummary& row) { return row.mseRatio; }},
       {"efficiency", "efficiency", "", "higher", "MSE ratio / time ratio",
        [](const MethodSummary& row) { return row.efficiencyRatio; }},
@@ -115,8 +116,12 @@ void addTable(const std::vector<MethodSummary>& rows, Json& block) {
                      {"unit", column.unit},
                      {"better", column.better},
                      {"help", column.help}});
-    for (size_t i = 0; i < rows.size(); ++i)
-      lines[i]["cells"][column.key] = cellOf(column.value(rows[i]));
+    for (size_t i = 0; i < rows.size(); ++i) {
+      // NaN says that an image held one; what is only unknown is an empty cell.
+      const Interval value = column.value(rows[i]);
+      if (!std::isnan(value.value) || rows[i].nonfinite > 0)
+        lines[i]["cells"][column.key] = cellOf(value);
+    }
   }
   for (size_t f = 0; f < rows.front().figures.size(); ++f) {
     const FigureInfo figure = figureInfos(*rows.front().suite).at(f);

@@ -75,6 +75,11 @@ SuiteMethod readImageRow(const ConfigTable& table, const std::string& folder) {
   if (row.files.empty()) table.fail("image", "'image' is empty");
   if (table.has("time_ms")) {
     const size_t count = table.getTexts("time_ms").size();
+    if (count != 1 && count != row.files.size()) {
+      table.fail("time_ms", fmt::format("'time_ms' has {} numbers for {} image{}; one for each, or "
+                                        "one number for all",
+                                        count, row.files.size(), row.files.size() == 1 ? "" : "s"));
+    }
     row.timesMs = table.getNumbers("time_ms", {}, count == 1 ? 1 : row.files.size(), 1e-9, 1e12);
     if (count == 1) row.timesMs.resize(row.files.size(), row.timesMs.front());
   }
@@ -83,7 +88,7 @@ SuiteMethod readImageRow(const ConfigTable& table, const std::string& folder) {
              : bias == "consistent" ? BiasClass::consistent
                                     : BiasClass::biased;
   SuiteMethod method;
-  method.name = method.base = table.getString("name", "");
+  method.name = method.base = method.given = table.getString("name", "");
   method.namePlace = table.place("name");
   if (method.name.empty()) table.fail("name", "[[method]] with 'image' needs a 'name'");
   for (const char* key : {"integrator", "mode", "cache", "backend", "denoiser"}) {
@@ -127,7 +132,7 @@ std::vector<SuiteMethod> readMethod(const ConfigTable& table, const ConfigTable&
   }
   const std::vector<std::string> backends = readBackends(table, suite.backends);
   table.finish();
-  method.base = method.name;
+  method.base = method.given = method.name;
   method.namePlace = table.place("name");
   const bool isGeneral = !table.has("backend") && settings.has("backend");
   method.backendPlace = (isGeneral ? settings : table).place("backend");
@@ -297,6 +302,7 @@ void readSettings(const ConfigTable& table, Suite& suite) {
   suite.accumulate = table.getBool("accumulate", suite.accumulate);
   suite.temporal = table.getBool("temporal", suite.temporal);
   suite.timing = table.getBool("timing", suite.timing);
+  suite.baseline = table.getString("baseline", suite.baseline);
   for (const std::string& given : table.getStrings("metrics", {}))
     addMetric(table, given, suite.metrics);
   suite.pixelFilter = parseFilter(table.getString("filter", "box"), table.place("filter"));
@@ -387,6 +393,18 @@ void requireUniqueName(std::map<std::string, std::string>& seen, const std::stri
                   place, what, other->second, name, other->first));
 }
 
+void requireBaseline(const ConfigTable& settings, const Suite& suite) {
+  std::vector<std::string> names;
+  for (const SuiteMethod& method : suite.rendered()) names.push_back(method.name);
+  if (suite.baseline.empty() ||
+      std::find(names.begin(), names.end(), suite.baseline) != names.end())
+    return;
+  settings.fail(
+      "baseline",
+      fmt::format("no method that is rendered is named '{}' (there are: '{}'){}", suite.baseline,
+                  fmt::join(names, "', '"), didYouMean(suite.baseline, names)));
+}
+
 void requireUniqueNames(const Suite& suite) {
   std::map<std::string, std::string> methods, scenes;
   for (const SuiteMethod& method : suite.methods) {
@@ -428,6 +446,11 @@ std::span<const SuiteMethod> Suite::rendered() const {
 
 size_t Suite::yardstick(size_t method) const {
   const std::span<const SuiteMethod> all = rendered();
+  if (!baseline.empty()) {
+    const auto named = std::find_if(
+        all.begin(), all.end(), [&](const SuiteMethod& other) { return other.name == baseline; });
+    return named == all.end() ? methods.size() : size_t(named - all.begin());
+  }
   for (size_t other = 0; other < all.size(); ++other) {
     const SessionConfig& session = all[other].session;
     const std::string& backend =
@@ -509,6 +532,7 @@ Suite readSuite(const ConfigTable& root, const std::filesystem::path& file, cons
   requireSomeUse(settings, suite);
   nameByBackend(suite);
   requireUniqueNames(suite);
+  requireBaseline(settings, suite);
   return suite;
 }
 

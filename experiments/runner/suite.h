@@ -36,6 +36,7 @@ struct ImageRow {
 struct SuiteMethod {
   std::string name;       // in tables and file names; unique
   std::string base;       // the same on every backend; the name where the suite has only one
+  std::string given;      // as the suite says it, without what is swept
   SessionConfig session;  // integrator, mode, cache, parameters, specialise, and what runs them
   std::optional<ImageRow> images;  // then nothing is rendered, and `session` says nothing
   // Where the suite says so, for errors: file:line:column.
@@ -78,6 +79,7 @@ struct Suite {
   bool temporal = false;    // flicker and correlation of the timed frames are recorded
   bool timing = true;       // false: no times, so that runs may be made side by side
   uint32_t jobs = 1;        // runs side by side
+  std::string baseline;     // name of the method that ratios are against; "": the first `path`
   std::vector<std::string> metrics;  // further ones, of the measured frame
   std::vector<SuiteMask> masks;
   CameraPath cameraPath;  // of every scene, from its camera
@@ -94,8 +96,8 @@ struct Suite {
 
   // The methods that are no rows of images.
   std::span<const SuiteMethod> rendered() const;
-  // Index of a method's yardstick: the first `path` method on the same backend, for a row of images
-  // on the first one; methods.size() where there is none.
+  // Index of a method's yardstick: the baseline, else the first `path` method on the same backend,
+  // for a row of images on the first one; methods.size() where there is none.
   size_t yardstick(size_t method) const;
   // Index of the first method that differs in nothing but the backend; itself where it is the
   // first.

@@ -213,6 +213,9 @@ std::vector<MethodSummary> summarise(const Suite& suite, const BlockResult& bloc
     row.convergence = convergenceOf(result.runs);
     row.temporal = meanOf(result.runs);
     row.figures = figuresOf(suite, result.runs);
+    if (row.method->images && row.runs != suite.runs) {
+      row.flags.push_back(row.runs == 1 ? "one image" : fmt::format("{} images", row.runs));
+    }
     judge(row);
     row.isYardstick = m == suite.yardstick(m);
     rowOf[m] = rows.size();

@@ -10,6 +10,8 @@ namespace restlab {
 
 namespace {
 
+constexpr uint32_t kFewRuns = 4;
+
 std::string interval(double lo, double hi, const char* format) {
   if (std::isnan(lo) || std::isnan(hi)) return "";
   if (std::isinf(lo) || std::isinf(hi)) return " [unbounded]";
@@ -96,6 +98,13 @@ std::string biasCell(const MethodSummary& row) {
   if (std::isnan(share.value)) return "unknown";
   return fmt::format("{:+.1f}{} %", 100.0 * share.value,
                      interval(100.0 * share.lo, 100.0 * share.hi, "{:+.1f}"));
+}
+
+// Where all methods run on one that is not the usual one; several are in the methods' names.
+std::string onBackend(const Suite& suite) {
+  const std::vector<std::string> backends = suite.methodBackends();
+  return backends.size() == 1 && backends[0] != "cpu" ? fmt::format("Backend {}. ", backends[0])
+                                                      : "";
 }
 
 // Slopes and speed-ups; "" where nothing was accumulated.
@@ -188,11 +197,12 @@ std::string blockTable(const Suite& suite, const std::vector<MethodSummary>& row
   const BlockResult& block = *rows.front().block;
   const std::string backends = backendColumn(suite, rows);
   std::string text = fmt::format(
-      "## {}, {} light{}\n\nCamera {}{}, {}x{}, {} scattering events, Russian roulette {}, filter "
+      "## {}, {} light{}\n\n{}Camera {}{}, {}x{}, {} scattering events, Russian roulette {}, "
+      "filter "
       "{}{}; "
       "{} runs of {} warm-up and {} timed frames; reference {} spp (relMSE {:.2g}).\n\n",
       block.scene, componentName(block.component), suite.point.empty() ? "" : ", " + suite.point,
-      block.camera,
+      onBackend(suite), block.camera,
       suite.hasMovingCamera() ? fmt::format(" on the path '{}'", suite.cameraPathName) : "",
       block.width, block.height, suite.maxBounces, suite.russianRoulette ? "on" : "off",
       filterName(suite.pixelFilter), suite.multiscatter ? ", multiple scattering compensated" : "",
@@ -204,6 +214,12 @@ std::string blockTable(const Suite& suite, const std::vector<MethodSummary>& row
       "|---|---|{}---|---|---|---|---|---|---|---|---|\n",
       backends.empty() ? "" : fmt::format(" {} |", backends), backends.empty() ? "" : "---|");
   std::string notes;
+  if (!suite.baseline.empty()) notes += fmt::format("- ratios are against {}\n", suite.baseline);
+  if (rows.front().runs < kFewRuns) {
+    notes += fmt::format(
+        "- {}: intervals of fewer than {} say little\n",
+        rows.front().runs == 1 ? "one run" : fmt::format("{} runs", rows.front().runs), kFewRuns);
+  }
   for (const MethodSummary& row : rows) {
     text += fmt::format(
         "| {}{} | {} |{} {:.3g}{} | {} | {} | {:.3f} | {} | {:.0f} % | {} | {} | {} |\n",

@@ -84,7 +84,10 @@ std::string blockTex(const Suite& suite, const std::vector<MethodSummary>& rows)
       block.reference.spp, escaped(block.scene), componentName(block.component),
       suite.point.empty() ? "" : ", " + escaped(suite.point));
   const double mse = best(rows, [](const MethodSummary& row) { return row.mse.value; });
-  const double timeMs = best(rows, [](const MethodSummary& row) { return row.timeMsMedian; });
+  // What others say of their time was not measured beside ours.
+  const double timeMs = best(rows, [](const MethodSummary& row) {
+    return row.method->images ? kUnknown : row.timeMsMedian;
+  });
   for (const MethodSummary& row : rows) {
     const Interval unknown{kUnknown, kUnknown, kUnknown};
     const std::string ms = number(row.timeMsMedian);

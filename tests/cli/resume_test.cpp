@@ -281,7 +281,7 @@ TEST_F(ResumeTest, FoldersAreComparedMethodByMethod) {
   ASSERT_EQ(same["rows"].size(), 2u);
   for (const auto& row : same["rows"]) {
     EXPECT_EQ(row["mse_ratio"]["value"], 1.0);
-    EXPECT_EQ(row["error"], "not told apart");
+    EXPECT_EQ(row["error"], "the same");
     EXPECT_EQ(row["times_over_path"], row["method"] == "gi");
   }
   // A reservoir that forgets is worse: the interval of the ratio leaves out 1.
@@ -301,7 +301,7 @@ TEST_F(ResumeTest, FoldersAreComparedMethodByMethod) {
   EXPECT_NE(table.out.find("| door-ajar-all | gi |"), std::string::npos) << table.out;
   expectError(run("compare a c -q"), 3, {"no method of a table in common"});
   expectError(run("compare a -q"), 2, {"two folders"});
-  expectError(run("compare a nowhere.exr -q"), 2, {"--ref"});
+  expectError(run("compare a suite.toml -q"), 2, {"--ref"});
 }
 
 TEST_F(ResumeTest, CamerasMoveAlongPaths) {
