@@ -84,8 +84,8 @@ TEST_F(BaselineTest, MustBeThere) {
 TEST_F(BaselineTest, MethodsAreChosenByAnyOfTheirNames) {
   ASSERT_EQ(run("run suite.toml -o out -q --methods path,gi").code, 0);
   EXPECT_EQ(rows().size(), 3u);
-  ASSERT_EQ(run({"run", "suite.toml", "-o", "out", "-q", "--methods", "gi, spatial_radius=8.0"}).code,
-            0);
+  ASSERT_EQ(
+      run({"run", "suite.toml", "-o", "out", "-q", "--methods", "gi, spatial_radius=8.0"}).code, 0);
   ASSERT_EQ(rows().size(), 1u);
   EXPECT_EQ(rows()[0].at("method"), "gi, spatial_radius=8.0");
   expectError(run("run suite.toml -o out -q --methods g"), 2, {"'gi, spatial_radius=4.0'"});
@@ -94,7 +94,8 @@ TEST_F(BaselineTest, MethodsAreChosenByAnyOfTheirNames) {
 TEST_F(BaselineTest, ABlackReferenceIsSaid) {
   std::string suite = kSuite;
   suite.replace(suite.find("runs = 4"), 8, "runs = 2\ncamera_path = \"away\"");
-  write("suite.toml", suite + "[[camera_path]]\nname = \"away\"\nkind = \"pan\"\ndegrees_per_frame = 60\n");
+  write("suite.toml",
+        suite + "[[camera_path]]\nname = \"away\"\nkind = \"pan\"\ndegrees_per_frame = 60\n");
   const ProgramResult result = run("run suite.toml -o out");
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_NE(result.err.find("warning: cornell-box-all-away: its reference is black"),
