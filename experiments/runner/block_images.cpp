@@ -9,8 +9,6 @@
 
 namespace restlab {
 
-namespace {}  // namespace
-
 float previewExposure(const Image& reference) {
   double sum = 0.0;
   for (const glm::vec3& pixel : reference.pixels) {

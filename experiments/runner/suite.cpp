@@ -5,22 +5,18 @@
 #include <algorithm>
 #include <map>
 
-#include "core/backend/backend.h"
-#include "core/caches/caches.h"
 #include "core/config.h"
 #include "core/error.h"
-#include "core/image/metrics.h"
-#include "denoise/denoiser.h"
 #include "experiments/runner/backend_choice.h"
 #include "experiments/runner/files.h"
+#include "experiments/runner/suite_methods.h"
 #include "experiments/runner/suite_overrides.h"
+#include "experiments/runner/suite_settings.h"
 #include "experiments/runner/sweep.h"
 
 namespace restlab {
 
 namespace {
-
-constexpr int64_t kMaxCount = 1000000;
 
 SuiteScene readScene(const ConfigTable& table, const std::string& folder) {
   SuiteScene scene;
@@ -46,155 +42,6 @@ SuiteScene readScene(const ConfigTable& table, const std::string& folder) {
   table.finish();
   if (scene.request.scene.empty()) table.fail("scene", "[[scene]] needs a key 'scene'");
   return scene;
-}
-
-// One name or several; "cpu" and so on, each once.
-std::vector<std::string> readBackends(const ConfigTable& table,
-                                      const std::vector<std::string>& fallback) {
-  const std::vector<std::string> given = table.getStrings("backend", fallback);
-  const std::vector<std::string>& known = backendNames();
-  for (size_t i = 0; i < given.size(); ++i) {
-    if (std::find(known.begin(), known.end(), given[i]) == known.end()) {
-      table.fail("backend", fmt::format("unknown backend '{}' (known: {}){}", given[i],
-                                        fmt::join(known, ", "), didYouMean(given[i], known)));
-    }
-    if (std::find(given.begin(), given.begin() + std::ptrdiff_t(i), given[i]) !=
-        given.begin() + std::ptrdiff_t(i))
-      table.fail("backend", fmt::format("'backend' holds '{}' twice", given[i]));
-  }
-  if (given.empty()) table.fail("backend", "'backend' is empty");
-  return given;
-}
-
-// A row of images: [[method]] with a key 'image'.
-SuiteMethod readImageRow(const ConfigTable& table, const std::string& folder) {
-  ImageRow row;
-  row.files = table.getStrings("image");
-  row.filesPlace = table.place("image");
-  row.folder = folder;
-  if (row.files.empty()) table.fail("image", "'image' is empty");
-  if (table.has("time_ms")) {
-    const size_t count = table.getTexts("time_ms").size();
-    if (count != 1 && count != row.files.size()) {
-      table.fail("time_ms", fmt::format("'time_ms' has {} numbers for {} image{}; one for each, or "
-                                        "one number for all",
-                                        count, row.files.size(), row.files.size() == 1 ? "" : "s"));
-    }
-    row.timesMs = table.getNumbers("time_ms", {}, count == 1 ? 1 : row.files.size(), 1e-9, 1e12);
-    if (count == 1) row.timesMs.resize(row.files.size(), row.timesMs.front());
-  }
-  const std::string bias = table.getChoice("bias", "biased", {"unbiased", "consistent", "biased"});
-  row.bias = bias == "unbiased"     ? BiasClass::unbiased
-             : bias == "consistent" ? BiasClass::consistent
-                                    : BiasClass::biased;
-  SuiteMethod method;
-  method.name = method.base = method.given = table.getString("name", "");
-  method.namePlace = table.place("name");
-  if (method.name.empty()) table.fail("name", "[[method]] with 'image' needs a 'name'");
-  for (const char* key : {"integrator", "mode", "cache", "backend", "denoiser"}) {
-    if (table.has(key))
-      table.fail(
-          key,
-          fmt::format("'{}' and 'image' exclude each other: images are not rendered here", key));
-  }
-  table.finish();
-  method.session.integrator = "image";
-  method.session.mode = method.session.cache = method.session.backend = "none";
-  method.images = std::move(row);
-  return method;
-}
-
-// A method, once for each of its backends.
-std::vector<SuiteMethod> readMethod(const ConfigTable& table, const ConfigTable& settings,
-                                    const Suite& suite) {
-  SuiteMethod method;
-  std::vector<std::string> integrators;
-  for (const IntegratorInfo* info : integratorRegistry()) integrators.push_back(info->name);
-  method.session.integrator = table.getChoice("integrator", "path", integrators);
-  const IntegratorInfo& info = findIntegrator(method.session.integrator);
-  std::vector<std::string> modes;
-  for (const ModeInfo& mode : info.modes) modes.push_back(mode.name);
-  method.session.mode = table.getChoice("mode", modes.front(), modes);
-  std::vector<std::string> caches;
-  for (const CacheInfo& cache : cacheRegistry()) caches.push_back(cache.name);
-  method.session.cache = table.getChoice("cache", "pixel", caches);
-  method.session.specialise = !table.getBool("general", false);
-  std::vector<std::string> denoisers;
-  for (const DenoiserInfo* denoiser : denoiserRegistry()) denoisers.push_back(denoiser->name);
-  method.session.denoiser = table.getChoice("denoiser", "none", denoisers);
-  const std::string fallback =
-      info.name + (modes.size() < 2 ? "" : " (" + method.session.mode + ")");
-  method.name = table.getString("name", fallback);
-  for (const ParameterInfo& parameter : info.parameters) {
-    if (const auto value = table.getParameter(parameter)) {
-      method.session.parameters[parameter.name] = *value;
-    }
-  }
-  const std::vector<std::string> backends = readBackends(table, suite.backends);
-  table.finish();
-  method.base = method.given = method.name;
-  method.namePlace = table.place("name");
-  const bool isGeneral = !table.has("backend") && settings.has("backend");
-  method.backendPlace = (isGeneral ? settings : table).place("backend");
-  std::vector<SuiteMethod> all;
-  for (const std::string& backend : backends) {
-    method.session.backend = backend;
-    suite.chooseDevice(method.session);
-    all.push_back(method);
-  }
-  return all;
-}
-
-// Whether a sweep over all methods means this integrator: `path` has one mode and no cache.
-bool isMeant(const SweepAxis& axis, const std::string& integrator) {
-  const std::vector<std::string> known = methodKeys(integrator);
-  if (std::find(known.begin(), known.end(), axis.leaf) == known.end()) return false;
-  if (!axis.method.empty()) return true;
-  for (const IntegratorInfo* info : integratorRegistry()) {
-    if (info->name != integrator) continue;
-    if (axis.leaf == "mode") return info->modes.size() > 1;
-    if (axis.leaf == "cache") return info->usesCache;
-  }
-  return true;
-}
-
-// A method's table once for every combination of what is swept of it.
-std::vector<SuiteMethod> readMethods(ConfigTable& table, const ConfigTable& settings,
-                                     const Sweep& sweep, const Suite& suite) {
-  const std::string integrator = table.getString("integrator", "path");
-  const std::string name = table.getString("name", integrator);
-  const bool isNamed = table.has("name");
-  std::vector<std::string> integrators = {integrator};
-  for (const SweepAxis& axis : sweep.methods) {
-    if (axis.leaf != "integrator") continue;
-    for (const std::string& text : axis.texts) integrators.push_back(unquoted(text));
-  }
-  std::vector<SweepAxis> axes;
-  for (const SweepAxis& axis : sweep.methods) {
-    if (!axis.method.empty() && axis.method != name) continue;
-    const bool isKnown = std::any_of(integrators.begin(), integrators.end(),
-                                     [&](const std::string& of) { return isMeant(axis, of); });
-    if (isKnown) axes.push_back(axis);
-  }
-  std::vector<SuiteMethod> all;
-  for (const std::vector<size_t>& choice : combinations(axes)) {
-    std::vector<SweepAxis> shown;
-    std::vector<size_t> shownChoice;
-    for (size_t i = 0; i < axes.size(); ++i) {
-      table.assign(axes[i].leaf, axes[i].texts[choice[i]], axes[i].place);
-      // A method without a name of its own is named by its integrator and mode.
-      if (!isNamed && (axes[i].leaf == "integrator" || axes[i].leaf == "mode")) continue;
-      if (axes[i].leaf == "backend") continue;  // nameByBackend() says it
-      shown.push_back(axes[i]);
-      shownChoice.push_back(choice[i]);
-    }
-    for (SuiteMethod& method : readMethod(table, settings, suite)) {
-      const std::string label = sweepLabel(shown, shownChoice);
-      if (!label.empty()) method.name = method.base = fmt::format("{}, {}", method.base, label);
-      all.push_back(std::move(method));
-    }
-  }
-  return all;
 }
 
 // In a table of several backends every name says which one it is of.
@@ -225,156 +72,6 @@ void requireSomeUse(const ConfigTable& settings, const Suite& suite) {
                                              "embree is of cpu, query of vulkan, bvh of both",
                                              suite.rayTracing));
   }
-}
-
-void addMetric(const ConfigTable& settings, const std::string& given,
-               std::vector<std::string>& metrics) {
-  const std::vector<std::string> known = metricNames();
-  if (std::find(known.begin(), known.end(), given) == known.end()) {
-    settings.fail("metrics", fmt::format("unknown metric '{}' (restlab list metrics){}", given,
-                                         didYouMean(given, known)));
-  }
-  if (findMetric(given).needsRuns)
-    settings.fail("metrics", fmt::format("'{}' is of several runs: see bias_squared", given));
-  if (std::find(metrics.begin(), metrics.end(), given) != metrics.end())
-    settings.fail("metrics", fmt::format("'metrics' holds '{}' twice", given));
-  metrics.push_back(given);
-}
-
-void readMasks(const ConfigTable& root, Suite& suite) {
-  for (const ConfigTable& table : root.getTables("mask")) {
-    SuiteMask mask;
-    mask.place = table.place("");
-    mask.name = table.getString("name", "");
-    mask.scene = table.getString("scene", "");
-    mask.objects = table.getStrings("objects", {});
-    mask.withoutLights = table.getBool("without_lights", false);
-    if (table.has("rectangle")) {
-      const std::vector<int64_t> sides = table.getIntegers("rectangle", {}, 0, kMaxSide);
-      if (sides.size() != 4) {
-        table.fail("rectangle",
-                   "'rectangle' must be [X0, Y0, X1, Y1], from the upper left corner of the image");
-      }
-      mask.rectangles = {
-          {uint32_t(sides[0]), uint32_t(sides[1]), uint32_t(sides[2]), uint32_t(sides[3])}};
-    }
-    table.finish();
-    if (mask.name.empty()) table.fail("name", "[[mask]] needs a 'name'");
-    for (const SuiteMask& other : suite.masks) {
-      if (other.name == mask.name)
-        table.fail("name", fmt::format("two masks are named '{}'", mask.name));
-    }
-    if (mask.objects.empty() && mask.rectangles.empty() && !mask.withoutLights)
-      table.fail("", "[[mask]] needs 'objects', 'rectangle' or 'without_lights'");
-    std::vector<std::string> scenes;
-    for (const SuiteScene& scene : suite.scenes) scenes.push_back(scene.name);
-    if (!mask.scene.empty() &&
-        std::find(scenes.begin(), scenes.end(), mask.scene) == scenes.end()) {
-      table.fail("scene", fmt::format("the suite has no scene named '{}'{}", mask.scene,
-                                      didYouMean(mask.scene, scenes)));
-    }
-    suite.masks.push_back(std::move(mask));
-  }
-}
-
-void readSettings(const ConfigTable& table, Suite& suite) {
-  suite.width = uint32_t(table.getInteger("width", 0, 1, kMaxSide));
-  suite.height = uint32_t(table.getInteger("height", 0, 1, kMaxSide));
-  suite.maxBounces = uint32_t(table.getInteger("max_bounces", suite.maxBounces, 0, 1024));
-  suite.multiscatter = table.getBool("multiscatter", suite.multiscatter);
-  suite.russianRoulette = table.getBool("russian_roulette", suite.russianRoulette);
-  suite.warmupFrames =
-      uint32_t(table.getInteger("warmup_frames", suite.warmupFrames, 0, kMaxCount));
-  suite.timedFrames = uint32_t(table.getInteger("frames", suite.timedFrames, 1, kMaxCount));
-  suite.runs = uint32_t(table.getInteger("runs", suite.runs, 1, kMaxCount));
-  suite.seed = uint32_t(table.getInteger("seed", suite.seed, 0, 0x7fffffff));
-  suite.threads = int(table.getInteger("threads", suite.threads, 0, 1024));
-  suite.backends = readBackends(table, suite.backends);
-  suite.device = table.getString("device", "");
-  suite.devicePlace = table.place("device");
-  suite.rayTracingPlace = table.place("ray_tracing");
-  if (table.has("ray_tracing")) {
-    suite.rayTracing = table.getChoice("ray_tracing", rayTracingNames().front(), rayTracingNames());
-  }
-  suite.validate = table.getBool("validate", suite.validate);
-  suite.cameraPathName = table.getString("camera_path", suite.cameraPathName);
-  suite.cameraPathPlace = table.place("camera_path");
-  suite.accumulate = table.getBool("accumulate", suite.accumulate);
-  suite.temporal = table.getBool("temporal", suite.temporal);
-  suite.timing = table.getBool("timing", suite.timing);
-  suite.baseline = table.getString("baseline", suite.baseline);
-  for (const std::string& given : table.getStrings("metrics", {}))
-    addMetric(table, given, suite.metrics);
-  suite.pixelFilter = parseFilter(table.getString("filter", "box"), table.place("filter"));
-  suite.components.clear();
-  for (const std::string& name : table.getStrings("components", {"all"})) {
-    const uint32_t component = parseComponent(name, table.place("components"));
-    if (std::find(suite.components.begin(), suite.components.end(), component) !=
-        suite.components.end()) {
-      table.fail("components", fmt::format("'components' holds '{}' twice", name));
-    }
-    suite.components.push_back(component);
-  }
-  if (suite.components.empty()) table.fail("components", "'components' is empty");
-  for (const int64_t frame : table.getIntegers("checkpoints", {}, 0, kMaxCount)) {
-    if (frame >= suite.warmupFrames + suite.timedFrames) {
-      table.fail("checkpoints", fmt::format("'checkpoints' has {}, but a run ends at frame {}",
-                                            frame, suite.warmupFrames + suite.timedFrames - 1));
-    }
-    suite.checkpoints.push_back(uint32_t(frame));
-  }
-  table.finish();
-}
-
-// The [[camera_path]] that the settings name; "still" needs none.
-void chooseCameraPath(const ConfigTable& root, const ConfigTable& settings, Suite& suite) {
-  std::vector<std::string> names = {"still"};
-  bool isFound = suite.cameraPathName == "still";
-  for (const ConfigTable& table : root.getTables("camera_path")) {
-    const std::string name = table.getString("name", "");
-    if (name.empty()) table.fail("name", "[[camera_path]] needs a 'name'");
-    if (std::find(names.begin(), names.end(), name) != names.end())
-      table.fail("name", fmt::format("two camera paths are named '{}'", name));
-    names.push_back(name);
-    const CameraPath path = parseCameraPath(table);
-    if (name != suite.cameraPathName) continue;
-    suite.cameraPath = path;
-    isFound = true;
-  }
-  if (!isFound) {
-    settings.fail("camera_path",
-                  fmt::format("no [[camera_path]] is named '{}'{}", suite.cameraPathName,
-                              didYouMean(suite.cameraPathName, names)));
-  }
-  if (!suite.hasMovingCamera()) return;
-  // There is one reference, of the measured frame's camera.
-  if (!suite.checkpoints.empty())
-    settings.fail("checkpoints",
-                  "'checkpoints' are of a still camera: each would need a reference");
-  if (suite.accumulate)
-    settings.fail("accumulate", "'accumulate' is of a still camera: frames of a moving one differ");
-}
-
-// The keys that [settings] has: those that readSettings() asks for.
-const std::vector<std::string>& settingsKeys() {
-  static const std::vector<std::string> keys = [] {
-    const ConfigTable table = ConfigTable::parseText("", "settings");
-    Suite suite;
-    readSettings(table, suite);
-    return table.known();
-  }();
-  return keys;
-}
-
-void readReference(const ConfigTable& table, Suite& suite) {
-  suite.referenceBackend = table.getChoice("backend", suite.referenceBackend, backendNames());
-  suite.referenceBackendPlace = table.place("backend");
-  ReferenceTarget& target = suite.target;
-  target.spp = uint64_t(table.getInteger("spp", 0, 2, int64_t(1) << 32));
-  target.relmse = table.getNumber("target_relmse", 0.0, 1e-12, 1e6);
-  target.timeLimitS = table.getNumber("time_limit", 0.0, 1e-3, 1e9);
-  if (target.spp == 0 && target.relmse == 0.0 && target.timeLimitS == 0.0) target.spp = 256;
-  table.finish();
 }
 
 // Notes a name by what file names keep of it. Fails at `place` where another one, in `seen`, is or
@@ -517,17 +214,7 @@ Suite readSuite(const ConfigTable& root, const std::filesystem::path& file, cons
   readSettings(settings, suite);
   chooseCameraPath(root, settings, suite);
   readMasks(root, suite);
-  std::vector<SuiteMethod> imageRows;
-  for (ConfigTable& table : root.getTables("method")) {
-    if (table.has("image")) {
-      imageRows.push_back(readImageRow(table, folder));
-      continue;
-    }
-    for (SuiteMethod& method : readMethods(table, settings, sweep, suite))
-      suite.methods.push_back(std::move(method));
-  }
-  if (suite.methods.empty()) root.fail("", "the suite has no [[method]] that is rendered");
-  std::move(imageRows.begin(), imageRows.end(), std::back_inserter(suite.methods));
+  readMethods(root, settings, sweep, folder, suite);
   readReference(root.getTable("reference"), suite);
   requireSomeUse(settings, suite);
   nameByBackend(suite);

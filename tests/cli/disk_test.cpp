@@ -4,6 +4,7 @@
 
 #include "core/image/image.h"
 #include "tests/cli/program.h"
+#include "tests/cli/small_suite.h"
 #include "tests/cli/small_disk.h"
 
 namespace restlab::cli_test {
@@ -12,29 +13,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kSuite = R"(name = "small"
-scenes = ["cornell-box"]
-[settings]
-width = 32
-height = 24
-max_bounces = 3
-warmup_frames = 2
-frames = 2
-runs = 4
-[reference]
-spp = 16
-[[method]]
-name = "path"
-[[method]]
-name = "gi"
-integrator = "restir_gi"
-)";
-
 class DiskTest : public ProgramTest {
  protected:
   void SetUp() override {
     ProgramTest::SetUp();
-    write("suite.toml", kSuite);
+    write("suite.toml", kSmallSuite);
     fs::create_directory(path("disk"));
   }
   std::vector<std::string> errors(const std::string& folder) const {

@@ -5,31 +5,13 @@
 #include "core/image/image.h"
 #include "core/image/intervals.h"
 #include "tests/cli/program.h"
+#include "tests/cli/small_suite.h"
 
 namespace restlab::cli_test {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kSuite = R"(name = "small"
-scenes = ["cornell-box"]
-[settings]
-width = 24
-height = 16
-max_bounces = 3
-warmup_frames = 3
-frames = 2
-runs = 3
-[reference]
-spp = 32
-[[method]]
-name = "path"
-integrator = "path"
-[[method]]
-name = "gi"
-integrator = "restir_gi"
-)";
 
 class ImageRowTest : public ProgramTest {
  protected:
@@ -41,7 +23,7 @@ class ImageRowTest : public ProgramTest {
             std::to_string(1 + run_) + " -o " + file);
     ASSERT_EQ(result.code, 0) << result.err;
   }
-  void writeSuite(const std::string& rows) const { write("suite.toml", kSuite + rows); }
+  void writeSuite(const std::string& rows) const { write("suite.toml", kSmallSuite + rows); }
   std::vector<std::map<std::string, std::string>> rows() const {
     return parseCsv(read("out/summary.csv"));
   }
@@ -155,9 +137,9 @@ TEST_F(ImageRowTest, EverySceneAndComponentHasItsOwnFile) {
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_EQ(rows().size(), 12u);
   writeSuite("[[method]]\nname = \"theirs\"\nimage = \"a.exr\"\n");
-  expectError(run(two), 2, {"suite.toml:20:9", "'a.exr'", "2 scenes", "{scene}"});
+  expectError(run(two), 2, {"suite.toml:19:9", "'a.exr'", "2 scenes", "{scene}"});
   writeSuite("[[method]]\nname = \"theirs\"\nimage = \"{scene}_all.exr\"\n");
-  expectError(run(two), 2, {"suite.toml:20:9", "2 components", "{component}"});
+  expectError(run(two), 2, {"suite.toml:19:9", "2 components", "{component}"});
 }
 
 TEST_F(ImageRowTest, ImagesOfTheFolderItselfStay) {
@@ -178,19 +160,19 @@ TEST_F(ImageRowTest, WrongRowsAreToldBeforeAnythingIsRendered) {
     EXPECT_FALSE(fs::exists(path("out")));
   };
   ASSERT_EQ(run("render quad-light --resolution 8x8 -o small.exr").code, 0);
-  expect("name = \"x\"\nimage = \"absent.exr\"\n", 3, {"suite.toml:20:9", "absent.exr"});
-  expect("name = \"x\"\nimage = \"small.exr\"\n", 3, {"suite.toml:20:9", "8x8", "24x16"});
-  expect("image = \"small.exr\"\n", 2, {"suite.toml:18:1", "'name'"});
-  expect("name = \"x\"\nimage = []\n", 2, {"suite.toml:20:9", "empty"});
+  expect("name = \"x\"\nimage = \"absent.exr\"\n", 3, {"suite.toml:19:9", "absent.exr"});
+  expect("name = \"x\"\nimage = \"small.exr\"\n", 3, {"suite.toml:19:9", "8x8", "24x16"});
+  expect("image = \"small.exr\"\n", 2, {"suite.toml:17:1", "'name'"});
+  expect("name = \"x\"\nimage = []\n", 2, {"suite.toml:19:9", "empty"});
   expect("name = \"x\"\nimage = \"small.exr\"\nmode = \"biased\"\n", 2,
-         {"suite.toml:21:8", "mode"});
+         {"suite.toml:20:8", "mode"});
   expect("name = \"x\"\nimage = \"small.exr\"\ntime_ms = [1, 2]\n", 2,
-         {"suite.toml:21:11", "time_ms", "number"});
-  expect("name = \"x\"\nimage = \"small.exr\"\ntime_ms = 0\n", 2, {"suite.toml:21:11", "time_ms"});
+         {"suite.toml:20:11", "time_ms", "number"});
+  expect("name = \"x\"\nimage = \"small.exr\"\ntime_ms = 0\n", 2, {"suite.toml:20:11", "time_ms"});
   writeSuite("[[method]]\nname = \"x\"\nimage = \"small.exr\"\n");
   expectError(run("run suite.toml -o out -q --methods x"), 2, {"--methods x", "rendered"});
   expect("name = \"x\"\nimage = \"small.exr\"\nspatial_radius = 3\n", 2,
-         {"suite.toml:21:1", "spatial_radius"});
+         {"suite.toml:20:1", "spatial_radius"});
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "core/image/image.h"
 #include "tests/cli/program.h"
+#include "tests/cli/small_suite.h"
 
 namespace restlab::cli_test {
 
@@ -15,29 +16,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kSuite = R"(name = "small"
-scenes = ["cornell-box"]
-[settings]
-width = 24
-height = 16
-max_bounces = 3
-warmup_frames = 3
-frames = 2
-runs = 3
-[reference]
-spp = 32
-[[method]]
-name = "path"
-[[method]]
-name = "gi"
-integrator = "restir_gi"
-)";
-
 class ResumeTest : public ProgramTest {
  protected:
   void SetUp() override {
     ProgramTest::SetUp();
-    write("suite.toml", kSuite);
+    write("suite.toml", kSmallSuite);
   }
   std::vector<fs::path> jobs() const {
     std::vector<fs::path> found;
@@ -308,7 +291,7 @@ TEST_F(ResumeTest, CamerasMoveAlongPaths) {
   const std::string paths =
       "[[camera_path]]\nname = \"orbit\"\nkind = \"orbit\"\ndegrees_per_frame = 2.0\n"
       "[[camera_path]]\nname = \"cut\"\nkind = \"cut\"\nframe = 3\ndegrees = 20.0\n";
-  write("suite.toml", kSuite + paths);
+  write("suite.toml", kSmallSuite + paths);
   const std::string line =
       "run suite.toml --out out --set temporal=true --sweep camera_path=still,orbit,cut";
   const ProgramResult result = run(line);
@@ -341,7 +324,8 @@ TEST_F(ResumeTest, CamerasMoveAlongPaths) {
               {"--set accumulate", "still camera"});
   expectError(run("run suite.toml --out o -q --set camera_path=orbit --set checkpoints=[1]"), 2,
               {"--set checkpoints", "still camera"});
-  write("suite.toml", std::string(kSuite) + "[[camera_path]]\nname = \"x\"\nkind = \"orbt\"\n");
+  write("suite.toml",
+        std::string(kSmallSuite) + "[[camera_path]]\nname = \"x\"\nkind = \"orbt\"\n");
   expectError(run("run suite.toml --out o -q"), 2, {"suite.toml:19:8", "orbit"});
 }
 
