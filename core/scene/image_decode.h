@@ -32,7 +32,7 @@ struct ImageSize {
 // Return "" on success, else what is wrong ("truncated", "16385x2 pixels, at most ..."). A file
 // that ends early is an error even where the decoder would fill the rest with grey. The size is
 // refused before anything is allocated where the bytes are too few for it, however well they are
-// compressed; what decoding allocates then is at most 32 bytes a pixel, 2 times the file and 4 MiB.
+// compressed.
 std::string checkImageHeader(const std::vector<uint8_t>& bytes, ImageSize& size);
 std::string decodeImage(const std::vector<uint8_t>& bytes, DecodedImage& image);
 std::string checkHdrHeader(const std::vector<uint8_t>& bytes, ImageSize& size);
