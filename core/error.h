@@ -39,6 +39,16 @@ class Error : public std::runtime_error {
   throw Error(ExitCode::badInput, line);
 }
 
+// Runs `step`; its error is said again with `place` ("file:line:column") before it.
+template <class Step>
+auto atPlace(const std::string& place, const Step& step) {
+  try {
+    return step();
+  } catch (const Error& error) {
+    throw Error(error.code(), place + ": " + error.what());
+  }
+}
+
 // The candidate nearest to `name` by edit distance, or "" when none is close.
 std::string nearestName(const std::string& name, const std::vector<std::string>& candidates);
 

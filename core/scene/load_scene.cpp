@@ -76,6 +76,29 @@ void collectNames(const fs::path& directory, const fs::path& prefix,
   }
 }
 
+// A scene of this name further down in a folder of scenes, as one would give it; "" where there is
+// none.
+std::string namesakeBelow(const fs::path& folder, const fs::path& name) {
+  constexpr int kDepth = 3;
+  std::error_code error;
+  std::vector<std::string> found;
+  fs::recursive_directory_iterator it(folder, error), end;
+  for (; !error && it != end; it.increment(error)) {
+    if (it.depth() + 1 >= kDepth) it.disable_recursion_pending();
+    const fs::path& path = it->path();
+    std::error_code ignored;
+    const bool isOne = it->is_directory(ignored) ? scenesIn(path).size() == 1 : isScene(path);
+    if (isOne && path.stem() == name.stem())
+      found.push_back(path.lexically_relative(folder).string());
+  }
+  // The shortest: a folder before the file in it.
+  const auto isShorter = [](const std::string& a, const std::string& b) {
+    return std::pair(a.size(), a) < std::pair(b.size(), b);
+  };
+  const auto shortest = std::min_element(found.begin(), found.end(), isShorter);
+  return shortest == found.end() ? "" : *shortest;
+}
+
 }  // namespace
 
 Scene loadScene(const std::string& nameOrPath) {
@@ -93,17 +116,20 @@ Scene loadScene(const std::string& nameOrPath) {
     folders.emplace_back("../shared/scenes");
   }
   std::vector<std::string> near = builtins;
-  std::string tried;
+  std::string tried, namesake;
   for (const fs::path& folder : folders) {
     const fs::path candidate = folder / path;
     if (const fs::path file = resolve(candidate); !file.empty()) return loadGltf(file);
     tried += (tried.empty() ? "" : ", ") + candidate.string();
     const fs::path parent = candidate.parent_path();
     collectNames(parent.empty() ? "." : parent, path.parent_path(), near);
+    if (namesake.empty() && !folder.empty()) namesake = namesakeBelow(folder, path);
   }
   std::sort(near.begin() + static_cast<ptrdiff_t>(builtins.size()), near.end());
   failInput(fmt::format("scene '{}': neither a built-in scene nor a file (tried {}){}", nameOrPath,
-                        tried, didYouMean(nameOrPath, near)));
+                        tried,
+                        namesake.empty() ? didYouMean(nameOrPath, near)
+                                         : fmt::format("; did you mean '{}'?", namesake)));
 }
 
 uint32_t findCamera(const Scene& scene, const std::string& nameOrIndex) {

@@ -41,19 +41,13 @@ std::string sortValue(double value) {
   return fmt::format("{:.17g}", value);
 }
 
-std::string cellHtml(const ReportModel* cell, double best) {
+std::string cellHtml(const ReportModel* cell, int digits, double best) {
   if (!cell) return "<td class=\"num none\" data-value=\"\">\xe2\x80\x93</td>";
   const double value = reportNumber((*cell)["value"]);
-  std::string shown;
-  if (cell->contains("text")) {
-    shown = escapeMarkup(reportText(*cell, "text"));
-  } else {
-    shown = shortNumber(value);
-    const std::string interval = intervalText(reportNumber(*cell, "lo", std::nan("")),
-                                              reportNumber(*cell, "hi", std::nan("")));
-    if (!interval.empty())
-      shown += fmt::format(" <span class=\"ci\">{}</span>", interval.substr(1));
-  }
+  std::string shown = shortNumber(value, digits);
+  const std::string interval = intervalText(reportNumber(*cell, "lo", std::nan("")),
+                                            reportNumber(*cell, "hi", std::nan("")), digits);
+  if (!interval.empty()) shown += fmt::format(" <span class=\"ci\">{}</span>", interval.substr(1));
   return fmt::format("<td class=\"num{}\" data-value=\"{}\">{}</td>", value == best ? " best" : "",
                      sortValue(value), shown);
 }
@@ -109,8 +103,9 @@ std::string resultTable(const ReportModel& block) {
   for (const ReportModel& row : block["rows"]) {
     body += fmt::format("<tr{}>{}", counts(row) ? "" : " class=\"no\"", rowHead(row));
     for (size_t i = 0; i < best.size(); ++i) {
-      const ReportModel* cell = cellOf(row, block["columns"][i]["key"].get<std::string>());
-      body += cellHtml(cell, counts(row) ? best[i] : std::nan(""));
+      const ReportModel& column = block["columns"][i];
+      const ReportModel* cell = cellOf(row, column["key"].get<std::string>());
+      body += cellHtml(cell, column.value("digits", kDigits), counts(row) ? best[i] : std::nan(""));
     }
     body += "</tr>\n";
   }

@@ -98,9 +98,13 @@ void uniqueId(const Place& at, std::set<std::string>& seen) {
 std::set<std::string> columns(const Place& at) {
   std::set<std::string> keys;
   forEach(at, [&](const Place& column) {
-    requireObject(column, {"key", "title"}, {"unit", "better", "help"});
+    requireObject(column, {"key", "title"}, {"unit", "better", "digits", "help"});
     for (const char* name : {"key", "title", "unit", "help"}) member(column, name, text);
     member(column, "better", [](const Place& p) { oneOf(p, {"lower", "higher", "none"}); });
+    member(column, "digits", [](const Place& p) {
+      if (!p.json.is_number_integer() || p.json < 1 || p.json > 17)
+        failAt(p.path, "must be an integer of 1 to 17");
+    });
     if (!keys.insert(column.json["key"].get<std::string>()).second) {
       failAt(column.path + ".key", "is there twice");
     }
@@ -118,9 +122,8 @@ void row(const Place& at, const std::set<std::string>& keys) {
   for (const auto& item : cells.json.items()) {
     const Place cell{item.value(), joined(cells.path, item.key())};
     if (!keys.count(item.key())) failAt(cell.path, "no column has this key");
-    requireObject(cell, {"value"}, {"lo", "hi", "text"});
+    requireObject(cell, {"value"}, {"lo", "hi"});
     for (const char* name : {"value", "lo", "hi"}) member(cell, name, number);
-    member(cell, "text", text);
   }
 }
 

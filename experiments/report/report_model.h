@@ -8,11 +8,11 @@
 //     "id": text                                       [A-Za-z0-9._-]+, once in the document
 //     "title": text, "subtitle": text?,
 //     "columns": [ { "key": text, "title": text, "unit": text?, "help": text?,
-//                    "better": "lower" | "higher" | "none"? } ]
+//                    "better": "lower" | "higher" | "none"?,
+//                    "digits": integer? } ]            that count, 1 to 17; 3 by default
 //     "rows": [ { "method": text, "counts": bool?, "flags": [text...]?,
-//                 "cells": { KEY: { "value": number, "lo": number?, "hi": number?, "text": text? }
-//                 }
-//             } ]                                      KEY is a column's; cells may be missing
+//                 "cells": { KEY: { "value": number, "lo": number?, "hi": number? } } } ]
+//                                                          KEY is a column's; cells may be missing
 //     "plots": [ { "id": text                          as a block's, once in the block
 //                  "title": text,
 //                  "x": { "title": text, "log": bool? }, "y": likewise,
@@ -31,7 +31,7 @@
 //
 // "?" stands after what may be left out. A number is a JSON number or "nan", "inf", "-inf"; a NaN
 // "lo" or "hi" is an unknown one. `counts` false: the row does not count, `flags` says why; it is
-// true by default. `text` is shown in place of the formatted numbers; sorting goes by `value`.
+// true by default.
 // A series that has the name of a row looks the same in all plots of the block. `fit`: log10 y =
 // intercept + slope log10 x where both axes are logarithmic (a linear axis enters without its
 // logarithm); lo and hi are the slope's interval. `bad`: any count above 0 is a fault. `file` is

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <cstdio>
 
 namespace restlab {
 namespace {
@@ -86,16 +88,26 @@ std::string scriptJson(const nlohmann::ordered_json& json) {
   return out;
 }
 
-std::string shortNumber(double value) {
+std::string shortNumber(double value, int digits) {
   if (std::isnan(value)) return "nan";
   if (std::isinf(value)) return value > 0.0 ? "inf" : "-inf";
-  return fmt::format("{:.3g}", value);
+  const bool isReadable = std::abs(value) < 1e6;
+  if (isReadable && value == std::round(value)) return fmt::format("{:.0f}", value);
+  // Not fmt's "#", which has a zero too many where no digit is behind the point ("123.0").
+  std::array<char, 64> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%#.*g", digits, value);
+  std::string text = buffer.data();
+  // Digits before the point are all said: "1234", not "1.23e+03".
+  if (isReadable && std::abs(value) >= 1.0 && text.find('e') != std::string::npos)
+    return fmt::format("{:.0f}", value);
+  if (text.back() == '.') text.pop_back();
+  return text;
 }
 
-std::string intervalText(double lo, double hi) {
+std::string intervalText(double lo, double hi, int digits) {
   if (std::isnan(lo) || std::isnan(hi)) return "";
   if (std::isinf(lo) || std::isinf(hi)) return " [unbounded]";
-  return fmt::format(" [{}, {}]", shortNumber(lo), shortNumber(hi));
+  return fmt::format(" [{}, {}]", shortNumber(lo, digits), shortNumber(hi, digits));
 }
 
 std::string groupedDigits(uint64_t value) {

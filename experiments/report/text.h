@@ -16,11 +16,17 @@ std::string escapeMarkup(std::string_view text);
 // Compact JSON that may stand inside <script>: no '<', '>', '&' and no line separators.
 std::string scriptJson(const nlohmann::ordered_json& json);
 
-// Three significant digits, as tables have them; "nan", "inf", "-inf".
-std::string shortNumber(double value);
+// Significant digits, zeros at the end included, as table.md, table.tex and report.html have them:
+// "1.20", "0.0175", "1234"; integers as they are, powers of ten below 1e-4 and from 1e6 on; "nan",
+// "inf", "-inf".
+constexpr int kDigits = 3;
+std::string shortNumber(double value, int digits = kDigits);
 
 // " [lo, hi]", " [unbounded]", or "" where an end is unknown.
-std::string intervalText(double lo, double hi);
+std::string intervalText(double lo, double hi, int digits = kDigits);
+
+// Digits of a mean energy over that of the reference, whose ideal is 1.
+constexpr int kEnergyDigits = 4;
 
 // 1234567 as "1,234,567".
 std::string groupedDigits(uint64_t value);

@@ -16,13 +16,19 @@ namespace {
 PixelMask pixelsOf(const SuiteMask& mask, const PreparedScene& prepared,
                    const SessionConfig& picture, const BlockResult& block,
                    const std::optional<SceneCamera>& camera) {
+  const auto at = [&](const std::string& place, const auto& step) {
+    return atPlace(fmt::format("{}: mask '{}'", place, mask.name), step);
+  };
   PixelMask pixels;
   if (!mask.rectangles.empty())
-    pixels = maskOfRectangles(picture.width, picture.height, mask.rectangles);
+    pixels = at(mask.rectanglePlace,
+                [&] { return maskOfRectangles(picture.width, picture.height, mask.rectangles); });
   if (!mask.objects.empty())
-    pixels = intersection(pixels, pixelsOfObjects(prepared, picture, mask.objects, camera));
+    pixels = at(mask.objectsPlace, [&] {
+      return intersection(pixels, pixelsOfObjects(prepared, picture, mask.objects, camera));
+    });
   if (mask.withoutLights) pixels = intersection(pixels, block.withoutLights);
-  countSelected(pixels, size_t(picture.width) * picture.height);
+  at(mask.place, [&] { countSelected(pixels, size_t(picture.width) * picture.height); });
   return pixels;
 }
 
@@ -42,12 +48,7 @@ void prepareMasks(const Suite& suite, const PreparedScene& prepared, BlockResult
   for (const SuiteMask& mask : suite.masks) {
     PixelMask& pixels = block.masks.emplace_back();
     if (!mask.scene.empty() && mask.scene != block.scene) continue;
-    try {
-      pixels = pixelsOf(mask, prepared, picture, block, camera);
-    } catch (const Error& error) {
-      throw Error(error.code(),
-                  fmt::format("{}: mask '{}': {}", mask.place, mask.name, error.what()));
-    }
+    pixels = pixelsOf(mask, prepared, picture, block, camera);
   }
 }
 

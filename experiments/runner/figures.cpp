@@ -1,8 +1,13 @@
 #include "experiments/runner/figures.h"
 
+#include "experiments/report/text.h"
 #include "experiments/runner/reference_error.h"
 
 namespace restlab {
+
+int digitsOf(const FigureInfo& figure) {
+  return figure.metric == "energy_ratio" ? kEnergyDigits : kDigits;
+}
 
 std::vector<FigureInfo> figureInfos(const Suite& suite) {
   std::vector<FigureInfo> all;

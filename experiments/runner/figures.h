@@ -17,6 +17,9 @@ struct FigureInfo {
   int mask = -1;       // index in Suite::masks; -1: all pixels
 };
 
+// Digits that tables show of it.
+int digitsOf(const FigureInfo& figure);
+
 // The suite's metrics, then of each mask the MSE and the suite's metrics.
 std::vector<FigureInfo> figureInfos(const Suite& suite);
 

@@ -36,17 +36,6 @@ std::string locate(const std::string& name, const std::string& suiteFolder) {
   return "";
 }
 
-EnvironmentMap readEnvironment(const SceneRequest& request) {
-  const std::string found = locate(request.environment, request.suiteFolder);
-  if (found.empty()) {
-    failInput(
-        fmt::format("{}: environment not found (looked here, in RESTLAB_SCENES and in "
-                    "../shared/scenes)",
-                    request.environment));
-  }
-  return loadEnvironment(found);
-}
-
 uint64_t hashEnvironment(const EnvironmentMap& map, uint64_t seed) {
   const float numbers[4] = {float(map.width), float(map.height), map.rotation, map.scale};
   uint64_t hash = XXH3_64bits_withSeed(numbers, sizeof(numbers), seed);
@@ -82,7 +71,23 @@ bool assetsMissing(const SceneRequest& request, std::string& missing) {
   return !missing.empty();
 }
 
+std::optional<EnvironmentMap> readEnvironment(const SceneRequest& request) {
+  if (request.environment.empty()) return std::nullopt;
+  const std::string found = locate(request.environment, request.suiteFolder);
+  if (found.empty()) {
+    failInput(
+        fmt::format("{}: environment not found (looked here, in RESTLAB_SCENES and in "
+                    "../shared/scenes)",
+                    request.environment));
+  }
+  return loadEnvironment(found);
+}
+
 PreparedScene prepareScene(const SceneRequest& request) {
+  return prepareScene(request, readEnvironment(request));
+}
+
+PreparedScene prepareScene(const SceneRequest& request, std::optional<EnvironmentMap> environment) {
   const auto start = std::chrono::steady_clock::now();
   PreparedScene prepared;
   std::string name = request.scene;
@@ -93,8 +98,8 @@ PreparedScene prepareScene(const SceneRequest& request) {
   Scene scene = loadScene(name);
   prepared.environmentName = scene.environment ? scene.environment->source : "none";
   if (prepared.environmentName.empty()) prepared.environmentName = "built-in";
-  if (!request.environment.empty()) {
-    scene.environment = readEnvironment(request);
+  if (environment) {
+    scene.environment = std::move(environment);
     prepared.environmentName = request.environment;
   }
   if (!scene.environment && (request.environmentRotation || request.environmentScale)) {

@@ -35,6 +35,11 @@ struct PreparedScene {
 // Imports and compiles. Throws Error: badInput for files, badUsage for an unknown camera.
 PreparedScene prepareScene(const SceneRequest& request);
 
+// In two steps, for callers that know more of where a request comes from. The environment that the
+// request names; nothing where it names none.
+std::optional<EnvironmentMap> readEnvironment(const SceneRequest& request);
+PreparedScene prepareScene(const SceneRequest& request, std::optional<EnvironmentMap> environment);
+
 // Another camera of the same scene; throws badUsage where there is none.
 void chooseCamera(PreparedScene& prepared, const std::string& nameOrIndex);
 

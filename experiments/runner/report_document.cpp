@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/image/metrics.h"
+#include "experiments/report/text.h"
 #include "experiments/runner/figures.h"
 #include "experiments/runner/files.h"
 #include "experiments/runner/report.h"
@@ -23,6 +24,7 @@ struct Column {
   Interval (*value)(const MethodSummary&);
 };
 
+Interval percent(const Interval& of) { return {100.0 * of.value, 100.0 * of.lo, 100.0 * of.hi}; }
 Interval only(double value) { return {value, kUnknown, kUnknown}; }
 const Interval kNone{kUnknown, kUnknown, kUnknown};
 
@@ -63,11 +65,11 @@ const std::vector<Column>& columns() {
        [](const MethodSummary& row) { return row.efficiencyRatio; }},
       {"energy", "energy", "", "none", "mean(image) / mean(reference); its ideal is 1",
        [](const MethodSummary& row) { return row.energyRatio; }},
-      {"bias_share", "bias^2 / MSE", "", "none", "signed; over all pairs of runs",
-       [](const MethodSummary& row) { return row.biasShare; }},
-      {"worst_share", "worst 0.1 %", "", "none",
+      {"bias_share", "bias^2 / MSE", "%", "none", "signed; over all pairs of runs",
+       [](const MethodSummary& row) { return percent(row.biasShare); }},
+      {"worst_share", "worst 0.1 %", "%", "none",
        "share of the MSE in the worst thousandth of the pixels",
-       [](const MethodSummary& row) { return only(row.worstShare); }},
+       [](const MethodSummary& row) { return only(100.0 * row.worstShare); }},
       {"mse_without_lights", "MSE without lights in view", "", "lower",
        "over the pixels that show no light directly",
        [](const MethodSummary& row) { return row.mseWithoutLights; }},
@@ -115,6 +117,7 @@ void addTable(const std::vector<MethodSummary>& rows, Json& block) {
                      {"title", column.title},
                      {"unit", column.unit},
                      {"better", column.better},
+                     {"digits", column.key == std::string("energy") ? kEnergyDigits : kDigits},
                      {"help", column.help}});
     for (size_t i = 0; i < rows.size(); ++i) {
       // NaN says that an image held one; what is only unknown is an empty cell.
@@ -132,6 +135,7 @@ void addTable(const std::vector<MethodSummary>& rows, Json& block) {
                      {"title", figure.name},
                      {"unit", ""},
                      {"better", better},
+                     {"digits", digitsOf(figure)},
                      {"help", metric.formula}});
     for (size_t i = 0; i < rows.size(); ++i)
       lines[i]["cells"][figure.name] = cellOf(rows[i].figures[f].second);

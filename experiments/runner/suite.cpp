@@ -35,6 +35,7 @@ SuiteScene readScene(const ConfigTable& table, const std::string& folder) {
   scene.reference = table.getString("reference", "");
   scene.place = table.place("scene");
   scene.cameraPlace = table.place("camera");
+  scene.environmentPlace = table.place("environment");
   scene.referencePlace = table.place("reference");
   scene.width = uint32_t(table.getInteger("width", 0, 1, kMaxSide));
   scene.height = uint32_t(table.getInteger("height", 0, 1, kMaxSide));
@@ -202,7 +203,8 @@ Suite readSuite(const ConfigTable& root, const std::filesystem::path& file, cons
     scene.request.scene = name;
     scene.request.suiteFolder = folder;
     scene.name = std::filesystem::path(name).stem().string();
-    scene.place = scene.cameraPlace = scene.referencePlace = root.place("scenes");
+    scene.place = root.place("scenes");
+    scene.cameraPlace = scene.environmentPlace = scene.referencePlace = scene.place;
     suite.scenes.push_back(scene);
   }
   for (const ConfigTable& table : root.getTables("scene")) {

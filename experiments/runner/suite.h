@@ -21,7 +21,7 @@ struct SuiteScene {
   uint32_t width = 0, height = 0;  // 0: as [settings] says
   bool optional = false;           // skipped, with a line, where its files are absent
   // Where the suite says so, for errors: file:line:column.
-  std::string place, cameraPlace, referencePlace;
+  std::string place, cameraPlace, environmentPlace, referencePlace;
 };
 
 // What another program rendered, as a row of the tables.
@@ -56,7 +56,8 @@ struct SuiteMask {
   std::vector<std::string> objects;        // any of them
   std::vector<PixelRectangle> rectangles;  // any of them
   bool withoutLights = false;
-  std::string place;
+  // Where the suite says so, for errors: file:line:column.
+  std::string place, objectsPlace, rectanglePlace;
 };
 
 struct Suite {

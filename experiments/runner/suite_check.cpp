@@ -19,16 +19,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Runs `check`; its error is said at `place`.
-template <class Check>
-auto at(const std::string& place, const Check& check) {
-  try {
-    return check();
-  } catch (const Error& error) {
-    throw Error(error.code(), fmt::format("{}: {}", place, error.what()));
-  }
-}
-
 // A session of one pixel. What is wrong with its device is said where the suite chooses it; such
 // errors begin with the option that chooses it on a command line.
 Session open(const Suite& suite, const std::string& backendPlace, const PreparedScene& prepared,
@@ -93,9 +83,12 @@ size_t openMethods(const Suite& suite, const SuiteScene& scene, const PreparedSc
 PreparedScene checkScene(const Suite& suite, const SuiteScene& scene, SuiteCheck& found) {
   SceneRequest request = scene.request;
   request.camera.clear();  // looked for below, at a place of its own
-  PreparedScene prepared = at(scene.place, [&] { return prepareScene(request); });
+  std::optional<EnvironmentMap> environment =
+      atPlace(scene.environmentPlace, [&] { return readEnvironment(request); });
+  PreparedScene prepared =
+      atPlace(scene.place, [&] { return prepareScene(request, std::move(environment)); });
   if (!scene.request.camera.empty()) {
-    at(scene.cameraPlace, [&] { chooseCamera(prepared, scene.request.camera); });
+    atPlace(scene.cameraPlace, [&] { chooseCamera(prepared, scene.request.camera); });
   }
   motionOf(suite, prepared);
   if (suite.hasMovingCamera() && !scene.reference.empty()) {
@@ -103,11 +96,11 @@ PreparedScene checkScene(const Suite& suite, const SuiteScene& scene, SuiteCheck
                           scene.referencePlace, suite.cameraPathName));
   }
   uint32_t width = 0, height = 0;
-  at(scene.place, [&] { sceneResolution(suite, scene, prepared, width, height); });
+  atPlace(scene.place, [&] { sceneResolution(suite, scene, prepared, width, height); });
   if (scene.reference.empty()) {
-    at(scene.place, [&] { requireExrSize("its reference", width, height, kReferenceLayers); });
+    atPlace(scene.place, [&] { requireExrSize("its reference", width, height, kReferenceLayers); });
   } else {
-    at(scene.referencePlace, [&] { checkReference(suite, scene, prepared, width, height); });
+    atPlace(scene.referencePlace, [&] { checkReference(suite, scene, prepared, width, height); });
   }
   for (const uint32_t component : suite.components)
     checkImageRows(suite, scene.name, component, width, height);
@@ -120,7 +113,7 @@ PreparedScene checkScene(const Suite& suite, const SuiteScene& scene, SuiteCheck
     prepareMasks(suite, prepared, block);
   }
   const size_t bytesPerPixel = openMethods(suite, scene, prepared, found);
-  at(scene.place, [&] {
+  atPlace(scene.place, [&] {
     requireMemory(fmt::format("scene {}", scene.name), width, height,
                   std::max(bytesPerPixel * suite.jobs, kReferenceBytesPerPixel));
   });
@@ -167,10 +160,10 @@ SuiteCheck checkSuite(const Suite& suite) {
   std::string missing;
   for (const SuiteScene& scene : suite.scenes) {
     if (scene.optional || !assetsMissing(scene.request, missing)) continue;
-    failInput(
-        fmt::format("{}: scene {}: '{}' is neither a built-in scene nor a file here, in "
-                    "RESTLAB_SCENES or in ../shared/scenes{}",
-                    scene.place, scene.name, missing, didYouMean(missing, builtinSceneNames())));
+    // What reads them says what is wrong, before the scenes that are there take their time.
+    if (missing == scene.request.environment)
+      atPlace(scene.environmentPlace, [&] { return readEnvironment(scene.request); });
+    atPlace(scene.place, [&] { return prepareScene(scene.request, std::nullopt); });
   }
   for (const SuiteScene& scene : suite.scenes) {
     if (scene.optional && assetsMissing(scene.request, missing)) continue;

@@ -52,6 +52,8 @@ void readMasks(const ConfigTable& root, Suite& suite) {
   for (const ConfigTable& table : root.getTables("mask")) {
     SuiteMask mask;
     mask.place = table.place("");
+    mask.objectsPlace = table.place("objects");
+    mask.rectanglePlace = table.place("rectangle");
     mask.name = table.getString("name", "");
     mask.scene = table.getString("scene", "");
     mask.objects = table.getStrings("objects", {});

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/report/text.h"
+#include "experiments/runner/figures.h"
 #include "experiments/runner/report.h"
 
 namespace restlab {
@@ -12,59 +14,44 @@ namespace {
 
 constexpr uint32_t kFewRuns = 4;
 
-std::string interval(double lo, double hi, const char* format) {
-  if (std::isnan(lo) || std::isnan(hi)) return "";
-  if (std::isinf(lo) || std::isinf(hi)) return " [unbounded]";
-  return fmt::format(" [{}, {}]", fmt::format(fmt::runtime(format), lo),
-                     fmt::format(fmt::runtime(format), hi));
+std::string endsOf(const Interval& of) { return intervalText(of.lo, of.hi); }
+
+// Value and interval.
+std::string withEnds(const Interval& of, int digits = kDigits) {
+  return shortNumber(of.value, digits) + intervalText(of.lo, of.hi, digits);
 }
 
 std::string timeCell(const MethodSummary& row) {
   if (std::isnan(row.timeMsMedian)) return "unknown";
-  std::string text = fmt::format("{:.3g} ms", row.timeMsMedian);
+  const std::string text = shortNumber(row.timeMsMedian) + " ms";
   if (row.isYardstick || std::isnan(row.timeRatio.value)) return text;
-  return text + fmt::format(" ({:.2f}x{})", row.timeRatio.value,
-                            interval(row.timeRatio.lo, row.timeRatio.hi, "{:.2f}"));
+  return text + fmt::format(" ({}x{})", shortNumber(row.timeRatio.value), endsOf(row.timeRatio));
 }
 
-// Two digits that count below 1, one behind the point above.
-std::string ratio(double value) {
-  return value < 1.0 && value > -1.0 ? fmt::format("{:.2g}", value) : fmt::format("{:.1f}", value);
-}
-
-std::string ratioEnds(const Interval& of) {
-  if (std::isnan(of.lo) || std::isnan(of.hi)) return "";
-  if (std::isinf(of.lo) || std::isinf(of.hi)) return " [unbounded]";
-  if (std::abs(of.hi) >= 1e5) return fmt::format(" [{:.2g}, {:.2g}]", of.lo, of.hi);
-  return fmt::format(" [{}, {}]", ratio(of.lo), ratio(of.hi));
-}
-
-// Of many frames: whole milliseconds are enough.
 std::string longTime(double timeMs) {
-  if (std::isnan(timeMs)) return "unknown";
-  return timeMs < 1000.0 ? fmt::format("{:.4g} ms", timeMs) : fmt::format("{:.0f} ms", timeMs);
+  return std::isnan(timeMs) ? "unknown" : shortNumber(timeMs) + " ms";
 }
 
 std::string ratioCell(const Interval& of, bool isYardstick) {
   if (isYardstick || std::isnan(of.value)) return "";
-  return fmt::format("{}x lower{}", ratio(of.value), ratioEnds(of));
+  return fmt::format("{}x lower{}", shortNumber(of.value), endsOf(of));
 }
 
 std::string efficiencyCell(const MethodSummary& row) {
   if (row.isYardstick || std::isnan(row.efficiencyRatio.value)) return "";
-  return ratio(row.efficiencyRatio.value) + ratioEnds(row.efficiencyRatio);
+  return withEnds(row.efficiencyRatio);
 }
 
 std::string withoutLightsCell(const MethodSummary& row) {
   if (std::isnan(row.mseWithoutLights.value)) return "no such pixel";
   const std::string ratio = ratioCell(row.mseRatioWithoutLights, row.isYardstick);
-  return fmt::format("{:.3g}{}", row.mseWithoutLights.value,
+  return fmt::format("{}{}", shortNumber(row.mseWithoutLights.value),
                      ratio.empty() ? "" : fmt::format(" ({})", ratio));
 }
 
 std::string trimmedCell(const MethodSummary& row) {
   const std::string ratio = ratioCell(row.relmseTrimmedRatio, row.isYardstick);
-  return fmt::format("{:.3g}{}", row.relmseTrimmed.value,
+  return fmt::format("{}{}", shortNumber(row.relmseTrimmed.value),
                      ratio.empty() ? "" : fmt::format(" ({})", ratio));
 }
 
@@ -85,19 +72,21 @@ std::string backendCell(const MethodSummary& row, const std::string& column) {
   if (column.empty()) return "";
   const Interval& ratio = row.timeToFirstBackend;
   if (std::isnan(ratio.value)) return " |";
-  return fmt::format(" {:.2f}x{} |", ratio.value, interval(ratio.lo, ratio.hi, "{:.2f}"));
+  return fmt::format(" {}x{} |", shortNumber(ratio.value), endsOf(ratio));
 }
 
 std::string raysCell(const MethodSummary& row) {
   const double rays = row.raysPathPerPixel + row.raysShadowPerPixel;
-  return std::isnan(rays) ? "" : fmt::format("{:.1f}", rays);
+  return std::isnan(rays) ? "" : shortNumber(rays);
 }
 
 std::string biasCell(const MethodSummary& row) {
   const Interval& share = row.biasShare;
   if (std::isnan(share.value)) return "unknown";
-  return fmt::format("{:+.1f}{} %", 100.0 * share.value,
-                     interval(100.0 * share.lo, 100.0 * share.hi, "{:+.1f}"));
+  const std::string text = fmt::format("{:+.1f}", 100.0 * share.value);
+  if (std::isnan(share.lo) || std::isnan(share.hi)) return text + " %";
+  if (std::isinf(share.lo) || std::isinf(share.hi)) return text + " [unbounded] %";
+  return fmt::format("{} [{:+.1f}, {:+.1f}] %", text, 100.0 * share.lo, 100.0 * share.hi);
 }
 
 // Where all methods run on one that is not the usual one; several are in the methods' names.
@@ -114,17 +103,15 @@ std::string accumulatedTable(const std::vector<MethodSummary>& rows) {
     if (!row.convergence || row.convergence->points.empty()) continue;
     const ConvergencePoint& last = row.convergence->points.back();
     const Interval& slope = row.convergence->slope;
-    text += fmt::format(
-        "| {} | {} | {} | {:.3g}{} | {} |", row.method->name, last.frames, longTime(last.timeMs),
-        last.mse.value, interval(last.mse.lo, last.mse.hi, "{:.3g}"),
-        std::isnan(slope.value)
-            ? ""
-            : fmt::format("{:.2f}{}", slope.value, interval(slope.lo, slope.hi, "{:.2f}")));
+    text += fmt::format("| {} | {} | {} | {} | {} |", row.method->name, last.frames,
+                        longTime(last.timeMs), withEnds(last.mse),
+                        std::isnan(slope.value) ? "" : withEnds(slope));
     if (row.speedUp && !row.isYardstick) {
       const SpeedUp& up = *row.speedUp;
-      text += fmt::format(" {}x lower{} at {} | {}x faster{} to {:.2g} |\n",
-                          ratio(up.equalTime.value), ratioEnds(up.equalTime), longTime(up.timeMs),
-                          ratio(up.equalError.value), ratioEnds(up.equalError), up.mse);
+      text +=
+          fmt::format(" {}x lower{} at {} | {}x faster{} to {} |\n",
+                      shortNumber(up.equalTime.value), endsOf(up.equalTime), longTime(up.timeMs),
+                      shortNumber(up.equalError.value), endsOf(up.equalError), shortNumber(up.mse));
     } else {
       text += " | |\n";
     }
@@ -139,6 +126,7 @@ std::string accumulatedTable(const std::vector<MethodSummary>& rows) {
 
 std::string figuresTable(const std::vector<MethodSummary>& rows) {
   const auto& named = rows.front().figures;
+  const std::vector<FigureInfo> infos = figureInfos(*rows.front().suite);
   std::string heads, rule, lines;
   std::vector<bool> isKnown;
   for (size_t i = 0; i < named.size(); ++i) {
@@ -155,7 +143,7 @@ std::string figuresTable(const std::vector<MethodSummary>& rows) {
     for (size_t i = 0; i < row.figures.size(); ++i) {
       const Interval& figure = row.figures[i].second;
       if (isKnown[i]) {
-        lines += fmt::format(" {:.3g}{} |", figure.value, interval(figure.lo, figure.hi, "{:.3g}"));
+        lines += fmt::format(" {} |", withEnds(figure, digitsOf(infos[i])));
       }
     }
     lines += "\n";
@@ -170,14 +158,16 @@ std::string temporalTable(const std::vector<MethodSummary>& rows) {
     const TemporalFigures& t = *row.temporal;
     // A moving camera has two frames with a reference, and so differences alone.
     if (std::isnan(t.variance)) {
-      text += fmt::format("| {} | | {:.3g} ({:+.3g}) | | | | |\n", row.method->name, t.difference,
-                          t.difference - t.referenceDifference);
+      text +=
+          fmt::format("| {} | | {} ({}) | | | | |\n", row.method->name, shortNumber(t.difference),
+                      shortNumber(t.difference - t.referenceDifference));
       continue;
     }
-    text += fmt::format("| {} | {:.3g} | {:.3g} |", row.method->name, t.variance, t.difference);
+    text += fmt::format("| {} | {} | {} |", row.method->name, shortNumber(t.variance),
+                        shortNumber(t.difference));
     for (const size_t lag : {1, 2, 4, 8}) {
       const double correlation = t.autocorrelation[lag - 1];
-      text += std::isnan(correlation) ? " |" : fmt::format(" {:.3f} |", correlation);
+      text += std::isnan(correlation) ? " |" : " " + shortNumber(correlation) + " |";
     }
     text += "\n";
   }
@@ -222,12 +212,11 @@ std::string blockTable(const Suite& suite, const std::vector<MethodSummary>& row
   }
   for (const MethodSummary& row : rows) {
     text += fmt::format(
-        "| {}{} | {} |{} {:.3g}{} | {} | {} | {:.3f} | {} | {:.0f} % | {} | {} | {} |\n",
-        row.method->name, row.counts ? "" : " (*)", timeCell(row), backendCell(row, backends),
-        row.mse.value, interval(row.mse.lo, row.mse.hi, "{:.3g}"),
-        ratioCell(row.mseRatio, row.isYardstick), efficiencyCell(row), row.energyRatio.value,
-        biasCell(row), 100.0 * row.worstShare, withoutLightsCell(row), trimmedCell(row),
-        raysCell(row));
+        "| {}{} | {} |{} {} | {} | {} | {} | {} | {:.0f} % | {} | {} | {} |\n", row.method->name,
+        row.counts ? "" : " (*)", timeCell(row), backendCell(row, backends), withEnds(row.mse),
+        ratioCell(row.mseRatio, row.isYardstick), efficiencyCell(row),
+        shortNumber(row.energyRatio.value, kEnergyDigits), biasCell(row), 100.0 * row.worstShare,
+        withoutLightsCell(row), trimmedCell(row), raysCell(row));
     for (const std::string& flag : row.flags) {
       notes += fmt::format("- {}{}: {}\n", row.method->name, row.counts ? "" : " (*)", flag);
     }

@@ -206,6 +206,7 @@ TEST_F(RunTest, NothingIsRenderedBeforeEverySceneIsChecked) {
   last("camera = \"nobody\"\n", 2, {"suite.toml:31:10", "'nobody'"});
   last("camera = \"7\"\n", 2, {"suite.toml:31:10", "camera 7"});
   last("environment_scale = 2\n", 2, {"suite.toml:30:9", "environment"});
+  last("environment = \"absent.hdr\"\n", 3, {"suite.toml:31:15", "absent.hdr", "not found"});
   last("reference = \"absent.exr\"\n", 3, {"suite.toml:31:13", "absent.exr"});
   last("width = 16384\nheight = 16384\n", 2,
        {"suite.toml:30:9", "16384x16384", "4 layers", "8192x8192"});

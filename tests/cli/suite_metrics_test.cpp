@@ -87,6 +87,10 @@ TEST_F(SuiteMetricsTest, AreWhatCompareSays) {
   EXPECT_EQ(rows[1].at("mse@block"), "nan");
   EXPECT_NE(rows[1].at("mse@elsewhere"), "nan");
   EXPECT_LT(std::stod(rows[0].at("flip_ldr_ci_lo")), std::stod(rows[0].at("flip_ldr")));
+  const std::string tex = read("out/table.tex");
+  EXPECT_NE(tex.find("\nmethod & flip\\_ldr & rmse & mse@left & "), std::string::npos) << tex;
+  EXPECT_EQ(tex.find("\\textbf"), std::string::npos) << "one row has no best";
+  EXPECT_GT(tex.find("@elsewhere"), tex.rfind("@left")) << "in the other scene's alone";
   EXPECT_NE(result.out.find("| method | flip_ldr | rmse | mse@left |"), std::string::npos)
       << result.out;
   EXPECT_NE(read("out/report.html").find("flip_ldr@left"), std::string::npos);
@@ -122,9 +126,9 @@ TEST_F(SuiteMetricsTest, MistakesAreToldBeforeAnythingIsRendered) {
   expect("", mask + "without_lights = true\n" + mask + "without_lights = true\n", 2,
          {"suite.toml:19:8", "two masks are named 'm'"});
   expect("", mask + "rectangle = [0, 0, 1]\n", 2, {"suite.toml:17:13", "X0, Y0"});
-  expect("", mask + "rectangle = [0, 0, 25, 16]\n", 3, {"suite.toml:15:1", "mask 'm'", "<= 24"});
+  expect("", mask + "rectangle = [0, 0, 25, 16]\n", 3, {"suite.toml:17:13", "mask 'm'", "<= 24"});
   expect("", mask + "objects = [\"Shortblock\"]\n", 2,
-         {"suite.toml:15:1", "mask 'm'", "'ShortBlock'"});
+         {"suite.toml:17:11", "mask 'm'", "'ShortBlock'"});
   expect("", mask + "without_lights = true\nscene = \"cornell\"\n", 2,
          {"suite.toml:18:9", "'cornell'", "cornell-box"});
   expect("", mask + "objects = [\"Light\"]\nwithout_lights = true\n", 3,

@@ -62,7 +62,8 @@ TEST(Plot, MarkersDifferAndTellTheirNumbers) {
   ASSERT_EQ(circles.size(), 4u) << "three points and the legend";
   EXPECT_NEAR(circles[1]->number("cx"), expectedX(logPlot(), 1.0), 0.01);
   EXPECT_NEAR(circles[1]->number("cy"), expectedY(logPlot(), 0.1), 0.01);
-  EXPECT_EQ(circles[1]->children.at(0).text, "path\nrender time (s): 1\nMSE: 0.1 [0.08, 0.125]");
+  EXPECT_EQ(circles[1]->children.at(0).text,
+            "path\nrender time (s): 1\nMSE: 0.100 [0.0800, 0.125]");
   EXPECT_EQ(findAll(svg, "polygon", "mark").size(), 4u) << "the other series has squares";
 }
 

@@ -43,7 +43,18 @@ TEST(ScriptJson, CannotEndAScript) {
 TEST(Numbers, AreShort) {
   EXPECT_EQ(shortNumber(0.0123456), "0.0123");
   EXPECT_EQ(shortNumber(std::numeric_limits<double>::quiet_NaN()), "nan");
-  EXPECT_EQ(intervalText(1.0, 2.5), " [1, 2.5]");
+  EXPECT_EQ(shortNumber(1.2), "1.20") << "the digits that count, zeros included";
+  EXPECT_EQ(shortNumber(15.06), "15.1");
+  EXPECT_EQ(shortNumber(999.6), "1000");
+  EXPECT_EQ(shortNumber(1234.4), "1234");
+  EXPECT_EQ(shortNumber(123.4), "123");
+  EXPECT_EQ(shortNumber(-0.98), "-0.980");
+  EXPECT_EQ(shortNumber(0.0000123), "1.23e-05");
+  EXPECT_EQ(shortNumber(12345678.0), "1.23e+07");
+  EXPECT_EQ(shortNumber(0.0), "0");
+  EXPECT_EQ(shortNumber(64.0), "64");
+  EXPECT_EQ(shortNumber(1.00212, kEnergyDigits), "1.002");
+  EXPECT_EQ(intervalText(1.0, 2.5), " [1, 2.50]");
   EXPECT_EQ(intervalText(-std::numeric_limits<double>::infinity(), 1.0), " [unbounded]");
   EXPECT_EQ(intervalText(std::numeric_limits<double>::quiet_NaN(), 1.0), "");
   EXPECT_EQ(groupedDigits(0), "0");

@@ -73,6 +73,8 @@ TEST(LoadScene, SceneFolderOfTheEnvironment) {
             std::string::npos)
       << error;
   EXPECT_NE(error.find("did you mean 'halls/nave'?"), std::string::npos) << error;
+  const std::string bare = errorOf([] { loadScene("nave"); });
+  EXPECT_NE(bare.find("did you mean 'halls/nave'?"), std::string::npos) << bare;
 }
 
 TEST(LoadScene, BuiltInNamesGoFirst) {
