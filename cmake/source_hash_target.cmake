@@ -4,6 +4,10 @@ string(TOUPPER "${CMAKE_BUILD_TYPE}" _config)
 set(_flags "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${_config}}")
 get_target_property(_options rl_options INTERFACE_COMPILE_OPTIONS)
 list(FILTER _options INCLUDE REGEX "^-(f|m|O)")
+list(FILTER _options EXCLUDE REGEX ">$") # the end of a generator expression: the sanitizers'
+if(RESTLAB_SANITIZE)
+  list(APPEND _options "-fsanitize=${RESTLAB_SANITIZE}")
+endif()
 list(JOIN _options " " _options)
 string(STRIP "${_flags} ${_options}" _flags)
 

@@ -42,6 +42,41 @@ std::vector<Image> BiasRuns::means() const {
   return all;
 }
 
+// The mean over pairs of different groups, by the number of pairs of runs that each stands for,
+// with the jackknife's interval. `value` has a value for groups i and j at i * n + j.
+Interval BiasRuns::overPairs(const std::vector<double>& value) const {
+  const size_t n = groups_.size();
+  const auto meanOfPairs = [&](std::span<const size_t> chosen) {
+    double sum = 0.0, pairs = 0.0;
+    for (const size_t i : chosen) {
+      for (const size_t j : chosen) {
+        if (i == j) continue;
+        const double weight = double(groups_[i].count) * double(groups_[j].count);
+        sum += weight * value[i * n + j];
+        pairs += weight;
+      }
+    }
+    return sum / pairs;
+  };
+  return jackknifeInterval(n, meanOfPairs);
+}
+
+Interval BiasRuns::variance(const PixelMask& mask) const {
+  const size_t n = groups_.size();
+  if (n < 2) return {kNan, kNan, kNan};
+  const std::vector<Image> mean = means();
+  std::vector<double> halfSquares(n * n, 0.0);
+  for (size_t i = 0; i < n; ++i) {
+    for (size_t j = 0; j < i; ++j) {
+      // The difference of two means has the variance of a run by the sum of the shares.
+      const double shares = 1.0 / double(groups_[i].count) + 1.0 / double(groups_[j].count);
+      const double square = mseAgainstHalves(mean[i], mean[j], mean[j], mask) / shares;
+      halfSquares[i * n + j] = halfSquares[j * n + i] = square;
+    }
+  }
+  return overPairs(halfSquares);
+}
+
 Interval BiasRuns::squaredBias(const Image& half0, const Image& half1,
                                const PixelMask& mask) const {
   const size_t n = groups_.size();
@@ -53,20 +88,7 @@ Interval BiasRuns::squaredBias(const Image& half0, const Image& half1,
       if (i != j) product[i * n + j] = restlab::squaredBias(mean[i], mean[j], half0, half1, mask);
     }
   }
-  // A pair of groups is as many pairs of runs.
-  const auto meanOfPairs = [&](std::span<const size_t> chosen) {
-    double sum = 0.0, pairs = 0.0;
-    for (const size_t i : chosen) {
-      for (const size_t j : chosen) {
-        if (i == j) continue;
-        const double weight = double(groups_[i].count) * double(groups_[j].count);
-        sum += weight * product[i * n + j];
-        pairs += weight;
-      }
-    }
-    return sum / pairs;
-  };
-  return jackknifeInterval(n, meanOfPairs);
+  return overPairs(product);
 }
 
 MetricValue BiasRuns::biasRms(const Image& half0, const Image& half1, const PixelMask& mask) const {

@@ -29,6 +29,10 @@ class BiasRuns {
   // share, is not in it. The value is NaN with fewer than two runs or with values that are not
   // finite, the ends with fewer than three. Throws Error (badInput) on different sizes.
   Interval squaredBias(const Image& half0, const Image& half1, const PixelMask& mask = {}) const;
+  // The other part of the MSE: the mean over pixels of the sample variance over runs, from
+  // differences of runs alone, so that no reference is in it. With up to kGroups runs it is exactly
+  // their mean MSE less squaredBias(). Interval and what is unknown as there.
+  Interval variance(const PixelMask& mask = {}) const;
   // The metric bias_rms: its root, or 0 where it is negative; the detail has the signed square, or
   // how many values are not finite.
   MetricValue biasRms(const Image& half0, const Image& half1, const PixelMask& mask = {}) const;
@@ -39,6 +43,7 @@ class BiasRuns {
     size_t count = 0;
   };
   std::vector<Image> means() const;
+  Interval overPairs(const std::vector<double>& value) const;
   std::vector<Group> groups_;
   size_t count_ = 0;
 };

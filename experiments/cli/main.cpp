@@ -73,7 +73,7 @@ int runVerb(CLI::App& app, std::vector<Verb>& verbs, const std::vector<std::stri
   }
   if (argv[1] == "--version") {
     fmt::print("restlab {} ({}{}, Embree {})\n", buildInfo().version, buildInfo().gitCommit,
-               buildInfo().gitDirty ? " modified" : "", embreeVersion());
+               buildInfo().gitDirty ? " modified" : "", librariesText());
     return int(ExitCode::ok);
   }
   const auto verb = std::find_if(verbs.begin(), verbs.end(),

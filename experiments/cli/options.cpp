@@ -18,14 +18,6 @@ namespace restlab {
 
 namespace {
 
-// A whole number of pixels in 1..kMaxSide, or 0 when `text` is none.
-uint32_t parseSide(std::string_view text) {
-  uint32_t side = 0;
-  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), side);
-  const bool whole = status == std::errc() && end == text.data() + text.size();
-  return whole && side <= kMaxSide ? side : 0;
-}
-
 ParameterMap parseParameters(const IntegratorInfo& info, const std::vector<std::string>& given) {
   std::vector<std::string> names;
   for (const ParameterInfo& parameter : info.parameters) names.push_back(parameter.name);
@@ -147,17 +139,7 @@ void resolveResolution(SceneOptions& options) {
   if (options.width || options.height) {
     failUsage("--resolution and --width/--height exclude each other");
   }
-  const size_t x = options.resolution.find_first_of("xX");
-  const std::string_view text = options.resolution;
-  if (x != std::string::npos) {
-    options.width = parseSide(text.substr(0, x));
-    options.height = parseSide(text.substr(x + 1));
-  }
-  if (!options.width || !options.height) {
-    failUsage(
-        fmt::format("--resolution {}: must be WxH with both sides in 1..{}, for example 640x360",
-                    options.resolution, kMaxSide));
-  }
+  parseResolution(options.resolution, "--resolution", options.width, options.height);
 }
 
 SessionConfig makeConfig(const SceneOptions& scene, const MethodOptions& method) {

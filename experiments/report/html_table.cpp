@@ -17,6 +17,10 @@ const ReportModel* cellOf(const ReportModel& row, const std::string& key) {
   return found == row["cells"].end() ? nullptr : &*found;
 }
 
+bool isRanked(const ReportModel& row, const ReportModel* cell) {
+  return cell && counts(row) && cell->value("ranked", true);
+}
+
 // The best finite value of a column among at least two rows that count; NaN where there is none.
 double bestValue(const ReportModel& block, const ReportModel& column) {
   const std::string better = column.value("better", "none");
@@ -25,7 +29,7 @@ double bestValue(const ReportModel& block, const ReportModel& column) {
   size_t values = 0;
   for (const ReportModel& row : block["rows"]) {
     const ReportModel* cell = cellOf(row, column["key"].get<std::string>());
-    if (!cell || !counts(row)) continue;
+    if (!isRanked(row, cell)) continue;
     const double value = reportNumber((*cell)["value"]);
     if (!std::isfinite(value)) continue;
     ++values;
@@ -48,6 +52,8 @@ std::string cellHtml(const ReportModel* cell, int digits, double best) {
   const std::string interval = intervalText(reportNumber(*cell, "lo", std::nan("")),
                                             reportNumber(*cell, "hi", std::nan("")), digits);
   if (!interval.empty()) shown += fmt::format(" <span class=\"ci\">{}</span>", interval.substr(1));
+  const std::string note = reportText(*cell, "note");
+  if (!note.empty()) shown += fmt::format(" <span class=\"ci\">{}</span>", escapeMarkup(note));
   return fmt::format("<td class=\"num{}\" data-value=\"{}\">{}</td>", value == best ? " best" : "",
                      sortValue(value), shown);
 }
@@ -105,7 +111,8 @@ std::string resultTable(const ReportModel& block) {
     for (size_t i = 0; i < best.size(); ++i) {
       const ReportModel& column = block["columns"][i];
       const ReportModel* cell = cellOf(row, column["key"].get<std::string>());
-      body += cellHtml(cell, column.value("digits", kDigits), counts(row) ? best[i] : std::nan(""));
+      body += cellHtml(cell, column.value("digits", kDigits),
+                       isRanked(row, cell) ? best[i] : std::nan(""));
     }
     body += "</tr>\n";
   }

@@ -122,8 +122,10 @@ void row(const Place& at, const std::set<std::string>& keys) {
   for (const auto& item : cells.json.items()) {
     const Place cell{item.value(), joined(cells.path, item.key())};
     if (!keys.count(item.key())) failAt(cell.path, "no column has this key");
-    requireObject(cell, {"value"}, {"lo", "hi"});
+    requireObject(cell, {"value"}, {"lo", "hi", "note", "ranked"});
     for (const char* name : {"value", "lo", "hi"}) member(cell, name, number);
+    member(cell, "note", text);
+    member(cell, "ranked", flag);
   }
 }
 

@@ -11,7 +11,8 @@
 //                    "better": "lower" | "higher" | "none"?,
 //                    "digits": integer? } ]            that count, 1 to 17; 3 by default
 //     "rows": [ { "method": text, "counts": bool?, "flags": [text...]?,
-//                 "cells": { KEY: { "value": number, "lo": number?, "hi": number? } } } ]
+//                 "cells": { KEY: { "value": number, "lo": number?, "hi": number?, "note": text?,
+//                                  "ranked": bool? } } } ]
 //                                                          KEY is a column's; cells may be missing
 //     "plots": [ { "id": text                          as a block's, once in the block
 //                  "title": text,
@@ -31,7 +32,8 @@
 //
 // "?" stands after what may be left out. A number is a JSON number or "nan", "inf", "-inf"; a NaN
 // "lo" or "hi" is an unknown one. `counts` false: the row does not count, `flags` says why; it is
-// true by default.
+// true by default. `note` stands behind the number. `ranked` false: the number is not compared with
+// those of other rows, and never the best; true by default.
 // A series that has the name of a row looks the same in all plots of the block. `fit`: log10 y =
 // intercept + slope log10 x where both axes are logarithmic (a linear axis enters without its
 // logarithm); lo and hi are the slope's interval. `bad`: any count above 0 is a fault. `file` is

@@ -1,10 +1,8 @@
 #include "experiments/runner/build_info.h"
 
-#include <embree3/rtcore.h>
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <sys/utsname.h>
-#include <tbb/version.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -13,6 +11,7 @@
 #include <sstream>
 #include <thread>
 
+#include "core/libraries.h"
 #include "source_hash.h"
 
 namespace restlab {
@@ -54,9 +53,17 @@ const std::vector<std::string>& arguments() { return argvOfProgram; }
 
 const BuildInfo& buildInfo() {
   static const BuildInfo info = {
-      RESTLAB_SOURCE_HASH, RESTLAB_REFERENCE_HASH, RESTLAB_GIT_COMMIT, RESTLAB_GIT_DIRTY != 0,
-      RESTLAB_COMPILER,    RESTLAB_COMPILER_FLAGS, RESTLAB_BUILD_TYPE, RESTLAB_VERSION};
+      RESTLAB_SOURCE_HASH,    RESTLAB_REFERENCE_HASH, RESTLAB_MEASURING_HASH,
+      RESTLAB_GIT_COMMIT,     RESTLAB_GIT_DIRTY != 0, RESTLAB_COMPILER,
+      RESTLAB_COMPILER_FLAGS, RESTLAB_BUILD_TYPE,     RESTLAB_VERSION};
   return info;
+}
+
+std::string librariesText() {
+  std::string text;
+  for (const auto& [name, version] : libraryVersions())
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, version);
+  return text;
 }
 
 std::string cpuModel() {
@@ -69,10 +76,6 @@ std::string cpuModel() {
     }
   }
   return "unknown";
-}
-
-std::string embreeVersion() {
-  return fmt::format("{}.{}.{}", RTC_VERSION_MAJOR, RTC_VERSION_MINOR, RTC_VERSION_PATCH);
 }
 
 std::string utcNow() {
@@ -107,8 +110,8 @@ nlohmann::ordered_json buildJson() {
           {"compiler", build.compiler},
           {"flags", build.compilerFlags},
           {"build_type", build.buildType},
-          {"embree", embreeVersion()},
-          {"tbb", TBB_runtime_version()}};
+          {"measuring_hash", build.measuringHash},
+          {"libraries", librariesText()}};
 }
 
 nlohmann::ordered_json machineJson() {
@@ -143,10 +146,11 @@ std::map<std::string, std::string> provenanceWords() {
       {"version", build.version},
       {"git_commit", build.gitCommit + (build.gitDirty ? " modified" : "")},
       {"compiler", fmt::format("{} {} {}", build.compiler, build.buildType, build.compilerFlags)},
-      {"libraries", fmt::format("Embree {}, TBB {}", embreeVersion(), TBB_runtime_version())},
+      {"libraries", librariesText()},
       {"cpu", cpuModel()},
       {"cores", machine["cores"].dump()},
       {"load_1min", machine["load_1min"].dump()},
+      {"governor", machine["governor"].get<std::string>()},
       {"system", machine["system"].get<std::string>()},
       {"peak_resident_mib", fmt::format("{:.1f}", peakResidentMiB())}};
 }

@@ -11,6 +11,7 @@ namespace restlab {
 struct BuildInfo {
   std::string sourceHash;     // of core/, integrators/, denoise/
   std::string referenceHash;  // of core/, integrators/path/
+  std::string measuringHash;  // of what takes a run's numbers, in experiments/runner/
   std::string gitCommit;      // "unknown" outside a repository
   bool gitDirty = false;
   std::string compiler, compilerFlags, buildType;
@@ -31,8 +32,8 @@ std::map<std::string, std::string> provenanceWords();
 // The same of a line of results.jsonl.
 nlohmann::ordered_json provenanceJson();
 
+std::string librariesText();  // "Embree 3.13.5, TBB 2021.8.0, ..."
 std::string cpuModel();       // "unknown" where /proc/cpuinfo does not say
-std::string embreeVersion();  // "3.13.5"
 std::string utcNow();         // "2024-05-01T12:00:00Z"
 double peakResidentMiB();     // of this process
 double processCpuSeconds();   // user + system, of this process

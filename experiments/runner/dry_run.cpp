@@ -114,7 +114,7 @@ Cost costOf(const Suite& suite, const SuiteScene& scene, const PreparedScene& pr
     const JobStore store(request.out);
     for (uint32_t run = 0; run < suite.runs; ++run) {
       const JobIdentity identity =
-          jobIdentity(suite, prepared, block, run, buildInfo().sourceHash, hash, devices);
+          jobIdentity(suite, prepared, block, run, buildInfo(), hash, devices);
       cost.there += store.load(identity.key()).has_value();
     }
     return cost;

@@ -50,6 +50,7 @@ std::map<std::string, std::string> imageMetadata(const PreparedScene& prepared,
   metadata["ray_tracing"] = session.rayTracing();
   metadata.merge(provenanceWords());
   metadata["seed"] = std::to_string(run.seed);
+  metadata["kind"] = "image";
   metadata["spp"] = "1";
   metadata["frame"] = std::to_string(run.measured.frame);
   metadata["mse"] = fmt::format("{:.9g}", run.measured.mse);
@@ -68,6 +69,7 @@ SessionConfig methodConfig(const Suite& suite, const SuiteMethod& method,
   config.cache = method.session.cache;
   config.parameters = method.session.parameters;
   config.specialise = method.session.specialise;
+  config.denoiser = method.session.denoiser;
   config.backend = method.session.backend;
   suite.chooseDevice(config);
   config.camera = prepared.camera;
@@ -150,8 +152,8 @@ struct BlockExecutor::Impl {
   void take(size_t m, uint32_t frame, const FrameStats& stats, RunResult& result, Frames& frames) {
     frames.timeMs += stats.timeMs;
     const bool isTimed = frame >= suite.warmupFrames;
+    (isTimed ? result.health : result.warmupHealth).add(stats);
     if (isTimed) {
-      result.health.add(stats);
       if (suite.timing) {
         result.timesMs.push_back(stats.timeMs);
         frames.passes.push_back(stats.passes);

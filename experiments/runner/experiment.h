@@ -61,6 +61,7 @@ struct RunResult {
   std::vector<std::pair<std::string, double>> figures;  // further ones, of the measured frame
   std::vector<PassTiming> passes;                       // median over the timed frames
   HealthSum health;                                     // over the timed frames
+  HealthSum warmupHealth;                               // over those before: the history's
 };
 
 struct MethodResult {

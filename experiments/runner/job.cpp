@@ -101,15 +101,15 @@ std::string referenceHash(const Reference& reference) {
 }
 
 JobIdentity jobIdentity(const Suite& suite, const PreparedScene& prepared, const BlockResult& block,
-                        uint32_t run, const std::string& sourceHash,
-                        const std::string& referenceHash, const std::vector<DeviceUse>& devices) {
+                        uint32_t run, const BuildInfo& build, const std::string& referenceHash,
+                        const std::vector<DeviceUse>& devices) {
   const SessionConfig picture = pictureOf(suite, block.width, block.height, block.component);
   Json methods = Json::array();
   for (const SuiteMethod& method : suite.rendered()) {
     const SessionConfig config = methodConfig(suite, method, prepared, picture);
     Json words = describe(prepared, config);
     words["name"] = method.name;
-    words["source_hash"] = sourceHash;
+    words["source_hash"] = build.sourceHash;
     words["device"] = config.device;
     words["ray_tracing"] = config.rayTracing;
     words["validate"] = config.validate;
@@ -138,6 +138,10 @@ JobIdentity jobIdentity(const Suite& suite, const PreparedScene& prepared, const
                     {"camera_path", suite.cameraPathName},
                     {"cameras", hashOfText(cameras.dump())},
                     {"reference", referenceHash},
+                    {"measuring", build.measuringHash},
+                    {"compiler", build.compiler},
+                    {"flags", build.compilerFlags},
+                    {"build_type", build.buildType},
                     {"cpu", cpuModel()},
                     {"devices", std::move(uses)},
                     {"methods", std::move(methods)}};

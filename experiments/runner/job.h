@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/runner/build_info.h"
 #include "experiments/runner/experiment.h"
 
 namespace restlab {
@@ -18,11 +19,11 @@ struct JobIdentity {
   std::string key() const;  // 32 hexadecimal digits
 };
 
-// `sourceHash`: of core/, integrators/ and denoise/ as they were built; `referenceHash`: of the
+// `build`: what this program was built from, and how; `referenceHash`: of the
 // pixels that errors are measured against; `devices`: what kernels run on.
 JobIdentity jobIdentity(const Suite& suite, const PreparedScene& prepared, const BlockResult& block,
-                        uint32_t run, const std::string& sourceHash,
-                        const std::string& referenceHash, const std::vector<DeviceUse>& devices);
+                        uint32_t run, const BuildInfo& build, const std::string& referenceHash,
+                        const std::vector<DeviceUse>& devices);
 
 // Of the pixels.
 std::string imageHash(const Image& image);

@@ -59,7 +59,7 @@ void Outputs::write(const Suite& suite, bool finished) const {
   text += fmt::format(
       "{}, {} cores, Embree {}, {} {}; times are of the passes of a frame by the "
       "steady clock{}, without metrics and files.\n",
-      cpuModel(), machineJson()["cores"].dump(), embreeVersion(), buildInfo().compiler,
+      cpuModel(), machineJson()["cores"].dump(), librariesText(), buildInfo().compiler,
       buildInfo().buildType, usesVulkan ? " (vulkan: by the device's timestamps)" : "");
   for (const DeviceUse& use : devices_)
     text += fmt::format("\n{}: {}; rays by {}.\n", use.backend, use.device, use.rayTracing);

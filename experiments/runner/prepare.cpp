@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <numbers>
@@ -50,6 +51,14 @@ std::string rotationText(float radians) {
   const double degrees = radians * 180.0 / std::numbers::pi;
   const std::string text = fmt::format("{:.6g}", degrees);
   return radiansOf(std::stod(text)) == radians ? text : fmt::format("{:.12g}", degrees);
+}
+
+// A whole number of pixels in 1..kMaxSide, or 0 when `text` is none.
+uint32_t parseSide(std::string_view text) {
+  uint32_t side = 0;
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), side);
+  const bool whole = status == std::errc() && end == text.data() + text.size();
+  return whole && side <= kMaxSide ? side : 0;
 }
 
 void setCamera(PreparedScene& prepared, const Scene& scene, const std::string& nameOrIndex) {
@@ -128,6 +137,16 @@ void chooseCamera(PreparedScene& prepared, const std::string& nameOrIndex) {
 
 void printWarnings(const PreparedScene& prepared) {
   for (const std::string& warning : prepared.scene->warnings()) logWarning(warning);
+}
+
+void parseResolution(const std::string& text, const std::string& place, uint32_t& width,
+                     uint32_t& height) {
+  const size_t x = std::min(text.find_first_of("xX"), text.size());
+  width = parseSide(std::string_view(text).substr(0, x));
+  height = x < text.size() ? parseSide(std::string_view(text).substr(x + 1)) : 0;
+  if (width && height) return;
+  failUsage(fmt::format("{} {}: must be WxH with both sides in 1..{}, for example 640x360", place,
+                        text, kMaxSide));
 }
 
 void completeResolution(const PreparedScene& prepared, uint32_t& width, uint32_t& height) {

@@ -49,6 +49,11 @@ bool assetsMissing(const SceneRequest& request, std::string& missing);
 // Prints the scene's warnings on stderr, each once.
 void printWarnings(const PreparedScene& prepared);
 
+// Sides of "640x360"; throws badUsage with `place` where it is none or a side is outside
+// 1..kMaxSide.
+void parseResolution(const std::string& text, const std::string& place, uint32_t& width,
+                     uint32_t& height);
+
 // The size in pixels where only one side, or none, was given: 512 wide, and the height from the
 // camera's aspect ratio, or square where the camera leaves it free. Throws badInput naming the
 // camera where its ratio asks for a side outside 1..kMaxSide.

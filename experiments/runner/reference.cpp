@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/error.h"
+#include "core/image/metrics.h"
 #include "experiments/runner/build_info.h"
 #include "experiments/runner/log.h"
 
@@ -68,6 +72,36 @@ std::string referenceKey(const PreparedScene& prepared, const ReferenceConfig& c
 
 bool meetsTarget(const Reference& reference, const ReferenceTarget& target) {
   return targetReached(target, reference.spp, reference.relmse, reference.timeS);
+}
+
+void requireUsable(const std::string& file, const Reference& reference) {
+  const auto word = [&](const char* name) {
+    const auto found = reference.metadata.find(name);
+    return found == reference.metadata.end() ? std::string() : found->second;
+  };
+  const bool isOurs = !word("scene_hash").empty();
+  if (isOurs && word("kind") != "reference") {
+    failInput(
+        fmt::format("{}: is an image of {} with {} spp, not a reference (restlab reference "
+                    "makes one)",
+                    file, word("integrator"), word("spp")));
+  }
+  for (const Image* image : {&reference.mean, reference.half0 ? &*reference.half0 : nullptr,
+                             reference.half1 ? &*reference.half1 : nullptr}) {
+    if (!image) continue;
+    const size_t count = countNonfinite(*image);
+    if (count == 0) continue;
+    const auto first =
+        std::find_if(image->pixels.begin(), image->pixels.end(), [](const glm::vec3& pixel) {
+          return !(std::isfinite(pixel.x) && std::isfinite(pixel.y) && std::isfinite(pixel.z));
+        });
+    const size_t at = size_t(first - image->pixels.begin());
+    failInput(
+        fmt::format("{}: {} values of its {} are not finite, the first at pixel ({}, {}); "
+                    "a reference must be finite",
+                    file, count, image == &reference.mean ? "image" : "halves", at % image->width,
+                    at / image->width));
+  }
 }
 
 void requireSameConfiguration(const std::string& file,

@@ -96,6 +96,10 @@ StoredReference readStored(const std::filesystem::path& file, const std::string&
 // True when `reference` is at least as good as the target asks.
 bool meetsTarget(const Reference& reference, const ReferenceTarget& target);
 
+// Throws Error (badInput) where a reference given as a file holds values that are not finite, or is
+// an image of restlab's that no reference is.
+void requireUsable(const std::string& file, const Reference& reference);
+
 // Throws Error (badInput) naming the first item in which a reference given as a file disagrees with
 // what is asked; a file without restlab's metadata passes with a warning.
 void requireSameConfiguration(const std::string& file,

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "experiments/runner/build_info.h"
 #include "experiments/runner/backend_choice.h"
 #include "experiments/runner/interrupt.h"
 #include "experiments/runner/log.h"
@@ -166,6 +167,7 @@ Reference referenceOf(const PreparedScene& prepared, const ReferenceConfig& conf
   if (const SceneCamera* camera = cameraInsteadOf(prepared, config)) {
     describeCamera(*camera, reference.metadata);
   }
+  reference.metadata.merge(provenanceWords());  // of the program that rendered the last of it
   reference.metadata["device"] = joined(state.devices);
   reference.metadata["ray_tracing"] = joined(state.rayTracing);
   reference.metadata["kind"] = "reference";

@@ -22,6 +22,7 @@ constexpr double kLn10 = 2.302585092994046;
 struct Column {
   const char *key, *title, *unit, *better, *help;
   Interval (*value)(const MethodSummary&);
+  std::string (*note)(const MethodSummary&) = nullptr;
 };
 
 Interval percent(const Interval& of) { return {100.0 * of.value, 100.0 * of.lo, 100.0 * of.hi}; }
@@ -67,18 +68,28 @@ const std::vector<Column>& columns() {
        [](const MethodSummary& row) { return row.energyRatio; }},
       {"bias_share", "bias^2 / MSE", "%", "none", "signed; over all pairs of runs",
        [](const MethodSummary& row) { return percent(row.biasShare); }},
+      {"variance", "variance", "", "lower", "MSE less bias^2: mean over pixels, from pairs of runs",
+       [](const MethodSummary& row) { return row.variance; }},
       {"worst_share", "worst 0.1 %", "%", "none",
        "share of the MSE in the worst thousandth of the pixels",
        [](const MethodSummary& row) { return only(100.0 * row.worstShare); }},
       {"mse_without_lights", "MSE without lights in view", "", "lower",
        "over the pixels that show no light directly",
        [](const MethodSummary& row) { return row.mseWithoutLights; }},
+      {"relmse", "relMSE", "", "lower", "relmse_e1e-2",
+       [](const MethodSummary& row) { return row.relmse; }},
       {"relmse_trimmed", "relMSE without the worst 0.1 %", "", "lower", "relmse_e1e-2_trim0.1",
        [](const MethodSummary& row) { return row.relmseTrimmed; }},
       {"slope", "slope", "", "lower", "of log(MSE) over log(time) while frames accumulate",
        slopeOf},
-      {"equal_time", "lower at equal time", "", "higher", "off the fitted lines", equalTimeOf},
-      {"equal_error", "faster to equal error", "", "higher", "off the fitted lines", equalErrorOf},
+      {"equal_time", "lower at equal time", "", "higher", "off the fitted lines", equalTimeOf,
+       [](const MethodSummary& row) {
+         return row.speedUp ? fmt::format("at {} ms", shortNumber(row.speedUp->timeMs)) : "";
+       }},
+      {"equal_error", "faster to equal error", "", "higher", "off the fitted lines", equalErrorOf,
+       [](const MethodSummary& row) {
+         return row.speedUp ? "to " + shortNumber(row.speedUp->mse) : "";
+       }},
       {"temporal_variance", "variance over frames", "", "lower", "flicker of a pixel", varianceOf},
       {"temporal_difference", "frame difference", "", "lower",
        "mean |f_t - f_(t-1)|, less that of the references", differenceOf},
@@ -98,6 +109,25 @@ Json cellOf(const Interval& interval) {
   Json cell = {{"value", finiteJson(interval.value)}};
   if (!std::isnan(interval.lo)) cell["lo"] = finiteJson(interval.lo);
   if (!std::isnan(interval.hi)) cell["hi"] = finiteJson(interval.hi);
+  return cell;
+}
+
+// Whether a value is one to compare with other rows': an error below the reference's noise is not,
+// nor what another program says of its time.
+bool isRanked(const Column& column, const MethodSummary& row, double value) {
+  const std::string key = column.key;
+  const bool isTime = key == "time_ms" || key == "time_ratio" || key == "efficiency";
+  if (isTime) return !row.method->images;
+  const bool isError = key == "mse" || key == "mse_without_lights" || key == "relmse_trimmed" ||
+                       key == "relmse" || key == "variance";
+  return !isError || value > 0.0;
+}
+
+Json cellOf(const Column& column, const MethodSummary& row, const Interval& value) {
+  Json cell = cellOf(value);
+  const std::string note = column.note && !std::isnan(value.value) ? column.note(row) : "";
+  if (!note.empty()) cell["note"] = note;
+  if (!isRanked(column, row, value.value)) cell["ranked"] = false;
   return cell;
 }
 
@@ -123,7 +153,7 @@ void addTable(const std::vector<MethodSummary>& rows, Json& block) {
       // NaN says that an image held one; what is only unknown is an empty cell.
       const Interval value = column.value(rows[i]);
       if (!std::isnan(value.value) || rows[i].nonfinite > 0)
-        lines[i]["cells"][column.key] = cellOf(value);
+        lines[i]["cells"][column.key] = cellOf(column, rows[i], value);
     }
   }
   for (size_t f = 0; f < rows.front().figures.size(); ++f) {
@@ -281,6 +311,12 @@ Json blockDocument(const Suite& suite, const std::vector<MethodSummary>& rows, f
   if (suite.timing) plots.push_back(singleFrames(rows));
   const bool isStill = !suite.hasMovingCamera();
   if (rows.front().temporal && isStill) plots.push_back(correlations(rows));
+  // A figure that leaves the report must still say what it was measured against.
+  for (Json& plot : plots) {
+    plot["title"] =
+        fmt::format("{} (reference {} spp, relMSE {})", plot["title"].get<std::string>(),
+                    block.reference.spp, shortNumber(block.reference.relmse));
+  }
   document["plots"] = std::move(plots);
   if (suite.timing) document["bars"] = barsOf(rows);
   Json left = Json::array(), images = Json::array();

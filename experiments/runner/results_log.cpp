@@ -42,13 +42,15 @@ ResultsLog::ResultsLog(fs::path file) : file_(std::move(file)) {
   if (status) failInput(fmt::format("{}: cannot be mended: {}", file_.string(), status.message()));
 }
 
-void ResultsLog::add(const std::string& key, const JobData& job) {
-  if (jobs_.count(key) != 0) return;
+void ResultsLog::add(const std::string& key, const JobData& job, bool isMadeAnew) {
+  const bool isThere = jobs_.count(key) != 0;
+  if (isThere && !isMadeAnew) return;
   // The last line of a job says so: a reader knows whether all of them are there.
   std::string text;
   for (const JobMethod& method : job.methods) {
     for (const nlohmann::ordered_json& own : method.lines) {
       nlohmann::ordered_json line = own;
+      if (isThere) line["replaces_earlier"] = true;
       line["job_ends"] = &method == &job.methods.back() && &own == &method.lines.back();
       text += line.dump() + "\n";
     }

@@ -17,9 +17,10 @@ class ResultsLog {
   // (badInput) with file and line.
   explicit ResultsLog(std::filesystem::path file);
 
-  // Adds the job's lines unless they are there. All of them or none: throws Error (badInput) where
-  // the disk is full or read-only, with the file as it was.
-  void add(const std::string& key, const JobData& job);
+  // Adds the job's lines unless they are there; lines of a job that was made anew are added in any
+  // case, with `replaces_earlier`. All of them or none: throws Error (badInput) where the disk is
+  // full or read-only, with the file as it was.
+  void add(const std::string& key, const JobData& job, bool isMadeAnew = false);
 
  private:
   std::filesystem::path file_;

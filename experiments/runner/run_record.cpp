@@ -178,7 +178,9 @@ Json imageLine(const Suite& suite, const BlockResult& block, const RunResult& ru
                {"height", block.height},
                {"run", run.run},
                {"kind", "image"},
-               {"reference", referenceJson(block)}};
+               {"reference", referenceJson(block)},
+               {"source_hash", buildInfo().sourceHash},
+               {"provenance", provenanceJson()}};
   addError(line, run.measured);
   addFigures(line, run);
   line["time_ms"] = {{"clock", "as the suite says"}, {"frames", run.timesMs}};
@@ -198,6 +200,7 @@ std::vector<Json> runLines(const Suite& suite, const BlockResult& block, const M
   line["startup_ms"] = method.startupMs;
   line["reference"] = referenceJson(block);
   line["source_hash"] = buildInfo().sourceHash;
+  line["provenance"] = provenanceJson();
 
   std::vector<Json> lines;
   for (const FrameError& checkpoint : run.checkpoints) {
@@ -216,7 +219,6 @@ std::vector<Json> runLines(const Suite& suite, const BlockResult& block, const M
   }
   const double samples = double(suite.timedFrames) * double(block.width) * double(block.height);
   line["kind"] = "run";
-  line["provenance"] = provenanceJson();
   addError(line, run.measured);
   addFigures(line, run);
   line["time_ms"] = timesJson(run, suite.methods[run.method].session.backend);
@@ -226,6 +228,7 @@ std::vector<Json> runLines(const Suite& suite, const BlockResult& block, const M
   line["shadow_rays_per_pixel"] = double(run.health.raysShadow) / samples;
   if (run.temporal) line["temporal"] = temporalJson(*run.temporal);
   line["health"] = healthJson(run.health);
+  line["health_of_warmup"] = healthJson(run.warmupHealth);
   lines.push_back(std::move(line));
   return lines;
 }
@@ -267,6 +270,7 @@ RunResult runOfLines(const std::vector<Json>& lines, MethodResult& method) {
         run.passes.push_back({name, timeMs.get<double>(), 0, 0});
     }
     run.health.health = healthOf(line.at("health"));
+    run.warmupHealth.health = healthOf(line.at("health_of_warmup"));
     run.health.raysPath = line.at("rays_path").get<uint64_t>();
     run.health.raysShadow = line.at("rays_shadow").get<uint64_t>();
     if (line.contains("temporal")) run.temporal = temporalOf(line.at("temporal"));

@@ -10,7 +10,7 @@
 namespace restlab {
 
 // Version of the lines of results.jsonl; raised when a field changes its meaning.
-constexpr int kResultsSchema = 2;
+constexpr int kResultsSchema = 3;
 
 // JSON has no NaN and no infinity: they become the strings "nan", "inf", "-inf".
 nlohmann::ordered_json finiteJson(double value);

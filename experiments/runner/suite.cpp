@@ -225,6 +225,24 @@ Suite readSuite(const ConfigTable& root, const std::filesystem::path& file, cons
   return suite;
 }
 
+// Run r has the seed `seed` + r: seeds of a sweep that are nearer than there are runs would make
+// the same runs twice, which look like two.
+void requireOwnSeeds(const std::vector<SweepAxis>& axes, const std::vector<Suite>& points) {
+  const Suite& last = points.back();
+  for (const SweepAxis& axis : axes) {
+    if (axis.leaf != "seed") continue;
+    for (const Suite& other : points) {
+      const uint32_t apart =
+          other.seed < last.seed ? last.seed - other.seed : other.seed - last.seed;
+      if (apart == 0 || apart >= std::min(last.runs, other.runs)) continue;
+      failUsage(
+          fmt::format("{}: seeds {} and {} have runs in common, as run r has the seed "
+                      "'seed' + r; leave at least {} between them",
+                      axis.place, other.seed, last.seed, last.runs));
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<Suite> loadSuites(const std::filesystem::path& file,
@@ -250,6 +268,7 @@ std::vector<Suite> loadSuites(const std::filesystem::path& file,
       settings.assign(axis.leaf, axis.texts[choice[i]], axis.place);
     }
     points.push_back(readSuite(point, file, sweep));
+    requireOwnSeeds(sweep.settings, points);
     points.back().point = sweepLabel(sweep.settings, choice);
     points.back().resolved = root.text();
   }

@@ -47,6 +47,7 @@ void checkReference(const Suite& suite, const SuiteScene& scene, const PreparedS
     failInput(fmt::format("{}: the reference is {}x{}, the suite renders {}x{}", file,
                           reference.mean.width, reference.mean.height, width, height));
   }
+  requireUsable(file, reference);
   for (const uint32_t component : suite.components) {
     requireSameConfiguration(file, reference.metadata,
                              describe(prepared, pictureOf(suite, width, height, component)));

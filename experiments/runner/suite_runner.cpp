@@ -241,7 +241,7 @@ class SuiteRun {
         store_.save(identity, *job);
       }
       ++(isThere ? reused_ : made_);
-      log_->add(key, *job);
+      log_->add(key, *job, !isThere);
       addJob(suite, *job, block);
       plan["jobs"].push_back(key);
       logEvent({{"event", "run"},
@@ -258,7 +258,7 @@ class SuiteRun {
   JobIdentity identityOf(const Suite& suite, const PreparedScene& prepared,
                          const BlockResult& block, uint32_t run,
                          const std::string& reference) const {
-    return jobIdentity(suite, prepared, block, run, buildInfo().sourceHash, reference, devices_);
+    return jobIdentity(suite, prepared, block, run, buildInfo(), reference, devices_);
   }
 
   // The missing runs where several are made at once; the keys of those that were finished, in the

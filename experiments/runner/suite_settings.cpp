@@ -89,6 +89,13 @@ void readMasks(const ConfigTable& root, Suite& suite) {
 void readSettings(const ConfigTable& table, Suite& suite) {
   suite.width = uint32_t(table.getInteger("width", 0, 1, kMaxSide));
   suite.height = uint32_t(table.getInteger("height", 0, 1, kMaxSide));
+  if (table.has("resolution")) {
+    if (suite.width || suite.height) {
+      table.fail("resolution", "'resolution' and 'width' or 'height' exclude each other");
+    }
+    parseResolution(table.getString("resolution", ""), table.place("resolution") + ": 'resolution'",
+                    suite.width, suite.height);
+  }
   suite.maxBounces = uint32_t(table.getInteger("max_bounces", suite.maxBounces, 0, 1024));
   suite.multiscatter = table.getBool("multiscatter", suite.multiscatter);
   suite.russianRoulette = table.getBool("russian_roulette", suite.russianRoulette);

@@ -69,12 +69,18 @@ void summariseErrors(const MethodResult& result, const Reference& reference, Met
                      return run.measured.worstShare;
                    })).value;
   row.nonfinite = row.health.health.counts[rl::RL_HEALTH_NONFINITE];
-  for (const RunResult& run : result.runs) row.nonfinite += run.measured.nonfinite;
+  for (const RunResult& run : result.runs) {
+    row.nonfinite +=
+        run.measured.nonfinite + run.warmupHealth.health.counts[rl::RL_HEALTH_NONFINITE];
+  }
   if (reference.half0 && reference.half1) {
     row.biasSquared = result.measured.squaredBias(*reference.half0, *reference.half1);
-    row.biasShare = {row.biasSquared.value / row.mse.value, row.biasSquared.lo / row.mse.value,
-                     row.biasSquared.hi / row.mse.value};
+    if (row.mse.value > 0.0) {
+      row.biasShare = {row.biasSquared.value / row.mse.value, row.biasSquared.lo / row.mse.value,
+                       row.biasSquared.hi / row.mse.value};
+    }
   }
+  row.variance = result.measured.variance();
 }
 
 // Images of another program are independent of all runs, and their frames took no turns with any.
@@ -160,6 +166,42 @@ std::vector<std::pair<std::string, Interval>> figuresOf(const Suite& suite,
   return figures;
 }
 
+// Standard error of the reference's energy relative to it; 0 where it does not say.
+double energyNoise(const Reference& reference) {
+  if (!reference.variance) return 0.0;
+  double variance = 0.0, energy = 0.0;
+  for (size_t p = 0; p < reference.mean.pixels.size(); ++p) {
+    for (int c = 0; c < 3; ++c) {
+      variance += reference.variance->pixels[p][c];
+      energy += reference.mean.pixels[p][c];
+    }
+  }
+  return energy > 0.0 ? std::sqrt(variance) / energy : 0.0;
+}
+
+// What an unbiased method shows of a mistake in it, or in what it was told.
+void judgeUnbiased(MethodSummary& row) {
+  const Interval& energy = row.energyRatio;
+  const double noise = 2.0 * energyNoise(row.block->reference);
+  const double allowed = kDoubtHalfWidths * std::hypot((energy.hi - energy.lo) / 2.0, noise);
+  if (std::abs(energy.value - 1.0) > allowed) {
+    const bool isInside = energy.value >= kEnergyRatioMin && energy.value <= kEnergyRatioMax;
+    row.counts = row.counts && isInside;
+    row.flags.push_back(fmt::format(
+        "{}declared unbiased, but its energy ratio {:.4g} [{:.4g}, {:.4g}] leaves out 1",
+        isInside ? "" : "does not count: ", energy.value, energy.lo, energy.hi));
+  }
+  const Interval& share = row.biasShare;
+  if (share.value > kDoubtHalfWidths * (share.value - share.lo)) {
+    const bool isSmall = share.value <= kBiasShareMax;
+    row.counts = row.counts && isSmall;
+    row.flags.push_back(fmt::format(
+        "{}declared unbiased, but its squared bias is {:.2g} % [{:.2g}, {:.2g}] of its MSE",
+        isSmall ? "" : "does not count: ", 100.0 * share.value, 100.0 * share.lo,
+        100.0 * share.hi));
+  }
+}
+
 void judge(MethodSummary& row) {
   if (row.nonfinite > 0) {
     row.counts = false;
@@ -172,7 +214,7 @@ void judge(MethodSummary& row) {
                     100.0 * row.worstShare));
   }
   if (row.mse.value <= 0.0) row.flags.push_back("its MSE is below the noise of the reference");
-  if (row.bias != BiasClass::biased) return;
+  if (row.bias == BiasClass::unbiased) return judgeUnbiased(row);
   if (!(row.energyRatio.value >= kEnergyRatioMin && row.energyRatio.value <= kEnergyRatioMax)) {
     row.counts = false;
     row.flags.push_back(fmt::format("does not count: energy ratio {:.3f} is outside {:g}..{:g}",

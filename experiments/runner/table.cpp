@@ -199,9 +199,10 @@ std::string blockTable(const Suite& suite, const std::vector<MethodSummary>& row
       rows.front().runs, suite.warmupFrames, suite.timedFrames, block.reference.spp,
       block.reference.relmse);
   text += fmt::format(
-      "| method | time per frame |{} MSE | | efficiency | energy | bias^2/MSE | worst 0.1 % | MSE "
+      "| method | time per frame |{} MSE | | efficiency | energy | bias^2/MSE | variance | worst "
+      "0.1 % | MSE "
       "without lights in view | relMSE without the worst 0.1 % | rays/px |\n"
-      "|---|---|{}---|---|---|---|---|---|---|---|---|\n",
+      "|---|---|{}---|---|---|---|---|---|---|---|---|---|\n",
       backends.empty() ? "" : fmt::format(" {} |", backends), backends.empty() ? "" : "---|");
   std::string notes;
   if (!suite.baseline.empty()) notes += fmt::format("- ratios are against {}\n", suite.baseline);
@@ -212,10 +213,11 @@ std::string blockTable(const Suite& suite, const std::vector<MethodSummary>& row
   }
   for (const MethodSummary& row : rows) {
     text += fmt::format(
-        "| {}{} | {} |{} {} | {} | {} | {} | {} | {:.0f} % | {} | {} | {} |\n", row.method->name,
-        row.counts ? "" : " (*)", timeCell(row), backendCell(row, backends), withEnds(row.mse),
-        ratioCell(row.mseRatio, row.isYardstick), efficiencyCell(row),
-        shortNumber(row.energyRatio.value, kEnergyDigits), biasCell(row), 100.0 * row.worstShare,
+        "| {}{} | {} |{} {} | {} | {} | {} | {} | {} | {:.0f} % | {} | {} | {} |\n",
+        row.method->name, row.counts ? "" : " (*)", timeCell(row), backendCell(row, backends),
+        withEnds(row.mse), ratioCell(row.mseRatio, row.isYardstick), efficiencyCell(row),
+        withEnds(row.energyRatio, kEnergyDigits), biasCell(row),
+        std::isnan(row.variance.value) ? "unknown" : withEnds(row.variance), 100.0 * row.worstShare,
         withoutLightsCell(row), trimmedCell(row), raysCell(row));
     for (const std::string& flag : row.flags) {
       notes += fmt::format("- {}{}: {}\n", row.method->name, row.counts ? "" : " (*)", flag);

@@ -77,25 +77,43 @@ double best(const std::vector<MethodSummary>& rows, const Value& value) {
   return values < 2 ? kUnknown : smallest;
 }
 
-constexpr const char* kTableEnd = "\\bottomrule\n\\end{tabular}\n\\end{table}\n\n";
+// "scene, all light, max_bounces=2", as every caption begins.
+std::string subjectOf(const Suite& suite, const BlockResult& block) {
+  return fmt::format("{}, {} light{}", escaped(block.scene), componentName(block.component),
+                     suite.point.empty() ? "" : ", " + escaped(suite.point));
+}
+
+std::string nameCell(const MethodSummary& row) {
+  return escaped(row.method->name) + (row.counts ? "" : "$^*$");
+}
+
+// `heads` of the columns behind the method; `lines` are whole, and stand between the rules.
+std::string tableOf(const std::string& caption, const std::vector<std::string>& heads,
+                    const std::string& lines, const std::string& notes) {
+  std::string row = "method";
+  for (const std::string& head : heads) row += " & " + head;
+  return fmt::format(
+      "\\begin{{table}}\n\\centering\n\\caption{{{}}}\n\\begin{{tabular}}{{l{}}}\n\\toprule\n"
+      "{} \\\\\n\\midrule\n{}\\bottomrule\n\\end{{tabular}}\n{}\\end{{table}}\n\n",
+      caption, std::string(heads.size(), 'r'), row, lines, notes);
+}
 
 // The suite's further metrics and masks, a column each; "" where it has none.
 std::string figuresTex(const Suite& suite, const std::vector<MethodSummary>& rows) {
   const std::vector<FigureInfo> infos = figureInfos(suite);
-  const BlockResult& block = *rows.front().block;
   struct Column {
     size_t figure;
     double best;
     int digits;
   };
   std::vector<Column> columns;
-  std::string heads;
+  std::vector<std::string> heads;
   for (size_t f = 0; f < infos.size(); ++f) {
     const bool isKnown = std::any_of(rows.begin(), rows.end(), [&](const MethodSummary& row) {
       return !std::isnan(row.figures[f].second.value);
     });
     if (!isKnown) continue;  // a mask of another scene
-    heads += " & " + escaped(infos[f].name);
+    heads.push_back(escaped(infos[f].name));
     const double sign = findMetric(infos[f].metric).higherIsBetter ? -1.0 : 1.0;
     const double first =
         best(rows, [&](const MethodSummary& row) { return sign * row.figures[f].second.value; });
@@ -103,21 +121,53 @@ std::string figuresTex(const Suite& suite, const std::vector<MethodSummary>& row
     columns.push_back({f, isEnergy ? kUnknown : sign * first, digitsOf(infos[f])});
   }
   if (columns.empty()) return "";
-  std::string text = fmt::format(
-      "\\begin{{table}}\n\\centering\n\\caption{{{}, {} light{}: further figures of the measured "
-      "frame}}\n\\begin{{tabular}}{{l{}}}\n\\toprule\nmethod{} \\\\\n\\midrule\n",
-      escaped(block.scene), componentName(block.component),
-      suite.point.empty() ? "" : ", " + escaped(suite.point), std::string(columns.size(), 'r'),
-      heads);
+  std::string lines;
   for (const MethodSummary& row : rows) {
-    text += escaped(row.method->name) + (row.counts ? "" : "$^*$");
+    lines += nameCell(row);
     for (const Column& column : columns) {
       const Interval& figure = row.figures[column.figure].second;
-      text += " & " + cell(figure, row.counts && figure.value == column.best, "", column.digits);
+      lines += " & " + cell(figure, row.counts && figure.value == column.best, "", column.digits);
     }
-    text += " \\\\\n";
+    lines += " \\\\\n";
   }
-  return text + kTableEnd;
+  return tableOf(subjectOf(suite, *rows.front().block) + ": further figures of the measured frame",
+                 heads, lines, "");
+}
+
+// Slopes and speed-ups; "" where nothing was accumulated.
+std::string accumulatedTex(const Suite& suite, const std::vector<MethodSummary>& rows) {
+  std::string lines;
+  for (const MethodSummary& row : rows) {
+    if (!row.convergence || row.convergence->points.empty()) continue;
+    lines += fmt::format("{} & {} & {}", nameCell(row), row.convergence->points.back().frames,
+                         cell(row.convergence->slope, false));
+    if (!row.speedUp || row.isYardstick) {
+      lines += " & & \\\\\n";
+      continue;
+    }
+    const SpeedUp& up = *row.speedUp;
+    const auto read = [](const Interval& value, const std::string& where) {
+      return std::isnan(value.value) ? "" : cell(value, false, "$\\times$") + " " + where;
+    };
+    lines += fmt::format(" & {} & {} \\\\\n",
+                         read(up.equalTime, fmt::format("at {} ms", number(up.timeMs))),
+                         read(up.equalError, fmt::format("to {}", number(up.mse))));
+  }
+  if (lines.empty()) return "";
+  return tableOf(subjectOf(suite, *rows.front().block) +
+                     ": frames accumulated; slope of log(MSE) over log(time), MSE times lower at "
+                     "equal time, times faster to equal MSE",
+                 {"frames", "slope", "lower", "faster"}, lines, "");
+}
+
+// What a row's reader must know stands below the table, as in table.md.
+std::string notesOf(const std::vector<MethodSummary>& rows) {
+  std::string notes;
+  for (const MethodSummary& row : rows) {
+    for (const std::string& flag : row.flags)
+      notes += fmt::format("\\par{{\\footnotesize {}: {}}}\n", nameCell(row), escaped(flag));
+  }
+  return notes;
 }
 
 }  // namespace
@@ -125,31 +175,36 @@ std::string figuresTex(const Suite& suite, const std::vector<MethodSummary>& row
 std::string blockTex(const Suite& suite, const std::vector<MethodSummary>& rows) {
   if (rows.empty()) return "";
   const BlockResult& block = *rows.front().block;
-  std::string text = fmt::format(
-      "% {}x{}, {} runs of {} warm-up and {} timed frames, reference {} spp; 95 % intervals\n"
-      "\\begin{{table}}\n\\centering\n\\caption{{{}, {} light{}}}\n"
-      "\\begin{{tabular}}{{lrrrrr}}\n\\toprule\n"
-      "method & ms & time & MSE & lower & energy \\\\\n\\midrule\n",
-      block.width, block.height, rows.front().runs, suite.warmupFrames, suite.timedFrames,
-      block.reference.spp, escaped(block.scene), componentName(block.component),
-      suite.point.empty() ? "" : ", " + escaped(suite.point));
-  const double mse = best(rows, [](const MethodSummary& row) { return row.mse.value; });
+  // An error below the reference's noise is no best.
+  const double mse = best(rows, [](const MethodSummary& row) {
+    return row.mse.value > 0.0 ? row.mse.value : kUnknown;
+  });
   // What others say of their time was not measured beside ours.
   const double timeMs = best(rows, [](const MethodSummary& row) {
     return row.method->images ? kUnknown : row.timeMsMedian;
   });
+  std::string lines;
   for (const MethodSummary& row : rows) {
     const Interval unknown{kUnknown, kUnknown, kUnknown};
     const std::string ms = number(row.timeMsMedian);
-    text += fmt::format(
-        "{}{} & {} & {} & {} & {} & {} \\\\\n", escaped(row.method->name), row.counts ? "" : "$^*$",
+    const double bias = 100.0 * row.biasShare.value;
+    lines += fmt::format(
+        "{} & {} & {} & {} & {} & {} & {} \\\\\n", nameCell(row),
         row.counts && row.timeMsMedian == timeMs ? fmt::format("\\textbf{{{}}}", ms) : ms,
         cell(row.isYardstick ? unknown : row.timeRatio, false, "$\\times$"),
         cell(row.mse, row.counts && row.mse.value == mse),
         cell(row.isYardstick ? unknown : row.mseRatio, false, "$\\times$"),
-        number(row.energyRatio.value, kEnergyDigits));
+        cell(row.energyRatio, false, "", kEnergyDigits),
+        std::isnan(bias) ? "--" : fmt::format("${:+.1f}$\\,\\%", bias));
   }
-  return text + kTableEnd + figuresTex(suite, rows);
+  const std::string caption = fmt::format(
+      "{}: {}$\\times${}, {} runs of {} warm-up and {} timed frames, reference of {} spp (relMSE "
+      "{}); 95\\,\\% intervals",
+      subjectOf(suite, block), block.width, block.height, rows.front().runs, suite.warmupFrames,
+      suite.timedFrames, block.reference.spp, number(block.reference.relmse));
+  return tableOf(caption, {"ms", "time", "MSE", "lower", "energy", "bias$^2$"}, lines,
+                 notesOf(rows)) +
+         accumulatedTex(suite, rows) + figuresTex(suite, rows);
 }
 
 }  // namespace restlab

@@ -36,8 +36,11 @@ void ReferenceFilesTest::expectSame(const std::string& a, const std::string& b) 
   for (const auto& [name, layer] : first.layers) {
     EXPECT_EQ(layer.pixels, second.layers.at(name).pixels) << a << ", " << b << ": " << name;
   }
-  first.metadata.erase("render_time_s");
-  second.metadata.erase("render_time_s");
+  // What says how and when it was made.
+  for (const char* word : {"render_time_s", "utc", "command", "load_1min", "peak_resident_mib"}) {
+    EXPECT_EQ(first.metadata.erase(word), 1u) << word;
+    EXPECT_EQ(second.metadata.erase(word), 1u) << word;
+  }
   EXPECT_EQ(first.metadata, second.metadata);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <thread>
 
@@ -67,8 +68,17 @@ TEST_F(ResumeTest, FinishedRunsAreTakenAsTheyAre) {
   const ProgramResult more = run("run suite.toml --out out --set runs=5");
   EXPECT_NE(more.err.find("3 of 5 runs were there already"), std::string::npos) << more.err;
   EXPECT_EQ(parseCsv(read("out/summary.csv"))[0].at("runs"), "5");
+  const size_t before = lines();
   const ProgramResult forced = run("run suite.toml --out out --force");
   EXPECT_EQ(forced.err.find("already"), std::string::npos) << forced.err;
+  // Times differ: the log says those that tables show, and that they replace others.
+  EXPECT_EQ(lines(), before + 6);
+  const std::string log = read("out/results.jsonl");
+  const auto last = nlohmann::json::parse(log.substr(log.rfind('\n', log.size() - 2) + 1));
+  EXPECT_TRUE(last["replaces_earlier"].get<bool>());
+  const auto job =
+      nlohmann::json::parse(read("out/jobs/" + last["job"].get<std::string>() + "/job.json"));
+  EXPECT_EQ(job["methods"][1]["lines"].back()["time_ms"], last["time_ms"]);
   EXPECT_EQ(errorsOf(read("out/summary.csv")), errorsOf(csv)) << "same seeds, same images";
 }
 
@@ -139,7 +149,7 @@ TEST_F(ResumeTest, DamagedJobsAreMadeAnewWithALine) {
   damage("method1.exr", [](std::string& bytes) { bytes.resize(100); });
   fs::remove(jobs().front() / "method1.exr");
   EXPECT_NE(run("run suite.toml --out out").err.find("made anew"), std::string::npos);
-  EXPECT_EQ(lines(), 6u) << "a job's lines are there once";
+  EXPECT_EQ(lines(), 6u + 6u * 2u) << "a line of each method that replaces the earlier one";
 }
 
 TEST_F(ResumeTest, ATornLineIsCutOffAndWrittenAgain) {
@@ -236,11 +246,21 @@ TEST_F(ResumeTest, ADryRunWritesNothingAndKnowsWhatIsThere) {
 }
 
 TEST_F(ResumeTest, EveryRowAndImageSaysWhereItComesFrom) {
-  ASSERT_EQ(run({"run", "suite.toml", "--out", "out", "--set", "name=it's"}).code, 0);
+  ASSERT_EQ(run("render cornell-box --resolution 24x16 --max-bounces 3 -o theirs.exr").code, 0);
+  const std::string image = "[[method]]\nname = \"theirs\"\nimage = \"theirs.exr\"\n";
+  write("suite.toml", read("suite.toml") + image);
+  ASSERT_EQ(run({"run", "suite.toml", "--out", "out", "--set", "name=it's", "--set",
+                 "accumulate=true", "--set", "warmup_frames=0", "--set", "checkpoints=[1]"})
+                .code,
+            0);
   std::istringstream text(read("out/results.jsonl"));
   size_t count = 0;
+  std::set<std::string> kinds;
   for (std::string line; std::getline(text, line); ++count) {
-    const auto provenance = nlohmann::json::parse(line)["provenance"];
+    const auto row = nlohmann::json::parse(line);
+    kinds.insert(row["kind"].get<std::string>());
+    EXPECT_EQ(row["source_hash"].get<std::string>().size(), 16u);
+    const auto& provenance = row["provenance"];
     EXPECT_NE(provenance["command"].get<std::string>().find("run suite.toml --out out --set "),
               std::string::npos);
     EXPECT_FALSE(provenance["build"]["git_commit"].get<std::string>().empty());
@@ -249,11 +269,21 @@ TEST_F(ResumeTest, EveryRowAndImageSaysWhereItComesFrom) {
     EXPECT_GT(provenance["peak_resident_mib"].get<double>(), 1.0);
     EXPECT_EQ(provenance["utc"].get<std::string>().back(), 'Z');
   }
-  EXPECT_EQ(count, 6u);
-  const auto words = readExr(path("out/images/cornell-box-all-gi.exr")).metadata;
-  for (const char* word : {"git_commit", "compiler", "cpu", "cores", "load_1min", "libraries",
-                           "utc", "command", "seed", "device", "peak_resident_mib"})
-    EXPECT_NE(words.count(word), 0u) << word;
+  EXPECT_GT(count, 6u);
+  EXPECT_EQ(kinds, (std::set<std::string>{"run", "checkpoint", "accumulated", "image"}));
+  std::vector<fs::path> files = {path("out/images/cornell-box-all-gi.exr"),
+                                 path("out/images/cornell-box-all-reference.exr")};
+  for (const auto& entry : fs::directory_iterator(path("out/references")))
+    files.push_back(entry.path());
+  EXPECT_EQ(files.size(), 3u);
+  for (const fs::path& file : files) {
+    const auto words = readExr(file).metadata;
+    for (const char* word :
+         {"git_commit", "compiler", "cpu", "cores", "load_1min", "governor", "libraries", "utc",
+          "command", "seed", "device", "peak_resident_mib", "kind"})
+      EXPECT_NE(words.count(word), 0u) << file << word;
+    EXPECT_NE(words.at("libraries").find("OpenEXR 3"), std::string::npos) << words.at("libraries");
+  }
 }
 
 TEST_F(ResumeTest, FoldersAreComparedMethodByMethod) {

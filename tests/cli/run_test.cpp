@@ -112,7 +112,7 @@ TEST_F(RunTest, LeavesWhatTheContractSays) {
   EXPECT_EQ(results.size(), 2u * 3u * 3u) << "methods x runs x (two checkpoints and the run)";
   double mse = 0.0;
   for (const auto& line : results) {
-    EXPECT_EQ(line["schema"], 2);
+    EXPECT_EQ(line["schema"], 3);
     if (line["kind"] == "run" && line["method"] == "gi") {
       mse += line["mse"].get<double>() / 3.0;
       EXPECT_EQ(line["frame"], 3);
@@ -192,6 +192,18 @@ TEST_F(RunTest, GivenReferenceMustAgree) {
   expectError(run("run suite.toml --out out -q"), 3, {"suite.toml:29:13", "24x16", "23x16"});
   replaceInSuite("bad.exr", "absent.exr");
   expectError(run("run suite.toml --out out -q"), 3, {"suite.toml:29:13", "absent.exr"});
+  // What is no reference: an image with the noise of one sample, and one with a hole.
+  replaceInSuite("width = 23", "width = 24");
+  replaceInSuite("absent.exr", "out/images/cornell-box-all-path.exr");
+  expectError(run("run suite.toml --out out -q"), 3,
+              {"suite.toml:29:13", "is an image of path with 1 spp, not a reference"});
+  LayeredImage hole;
+  hole.layers[""] = Image(24, 16);
+  hole.layers[""].pixels[24 * 3 + 5].y = std::numeric_limits<float>::quiet_NaN();
+  writeExr(path("hole.exr"), hole);
+  replaceInSuite("out/images/cornell-box-all-path.exr", "hole.exr");
+  expectError(run("run suite.toml --out out -q"), 3,
+              {"suite.toml:29:13", "1 values of its image are not finite", "pixel (5, 3)"});
 }
 
 TEST_F(RunTest, NothingIsRenderedBeforeEverySceneIsChecked) {

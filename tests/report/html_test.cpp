@@ -94,6 +94,7 @@ TEST_F(HtmlTest, TextIsHarmless) {
   for (const char* key : {"title", "subtitle"}) block[key] = hostile;
   for (const char* key : {"title", "unit", "help"}) block["columns"][1][key] = hostile;
   block["rows"][1]["method"] = block["rows"][1]["flags"][0] = hostile;
+  block["rows"][1]["cells"]["mse"]["note"] = hostile;
   block["plots"][0]["title"] = block["plots"][0]["series"][0]["name"] = hostile;
   block["bars"]["title"] = block["bars"]["rows"][0]["name"] = hostile;
   block["left_out"][0]["method"] = block["left_out"][0]["features"][0] = hostile;

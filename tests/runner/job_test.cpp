@@ -26,10 +26,10 @@ class JobTest : public ::testing::Test {
     block_.scene = "cornell-box";
     block_.width = block_.height = 8;
   }
-  std::string key(const std::string& sources = "sources", const std::string& reference = "ref",
-                  uint32_t run = 0) const {
-    return jobIdentity(suite_, prepared_, block_, run, sources, reference, devices_).key();
+  std::string key(const std::string& reference = "ref", uint32_t run = 0) const {
+    return jobIdentity(suite_, prepared_, block_, run, build_, reference, devices_).key();
   }
+  BuildInfo build_ = buildInfo();
   Suite suite_;
   PreparedScene prepared_;
   BlockResult block_;
@@ -43,9 +43,20 @@ TEST_F(JobTest, TheKeyHoldsWhatTheNumbersDependOn) {
   const auto differs = [&](const std::string& what) {
     EXPECT_TRUE(keys.insert(key()).second) << what;
   };
-  EXPECT_TRUE(keys.insert(key("a changed host source")).second);
-  EXPECT_TRUE(keys.insert(key("sources", "another reference")).second);
-  EXPECT_TRUE(keys.insert(key("sources", "ref", 1)).second);
+  EXPECT_TRUE(keys.insert(key("another reference")).second);
+  EXPECT_TRUE(keys.insert(key("ref", 1)).second);
+  build_.sourceHash = "a changed host source";
+  differs("sources");
+  build_.measuringHash = "a changed file of those that measure";
+  differs("what measures");
+  build_.compiler = "another";
+  differs("compiler");
+  build_.compilerFlags = "-O0";
+  differs("flags");
+  build_.buildType = "Debug";
+  differs("build type");
+  build_.gitCommit = "another";
+  EXPECT_FALSE(keys.insert(key()).second) << "the sources count, not the commit";
   suite_.maxBounces = 3;
   differs("bounces");
   suite_.seed = 9;

@@ -76,7 +76,7 @@ TEST_F(SweepTest, SettingsMakePoints) {
   EXPECT_EQ(suites[5].runs, 2u);
   EXPECT_EQ(names(suites[5]), (Names{"path", "gi", "restir_gi (unbiased)"}));
   EXPECT_EQ(points(load(kBase)), Names{""});
-  EXPECT_EQ(points(load(kBase, {}, {"seed=1..3"})), (Names{"seed=1", "seed=2", "seed=3"}));
+  EXPECT_EQ(points(load(kBase, {}, {"seed=1,3,5"})), (Names{"seed=1", "seed=3", "seed=5"}));
   EXPECT_EQ(points(load(kBase, {}, {"filter=box,center"})), (Names{"filter=box", "filter=center"}));
   EXPECT_THROW(loadSuite(write("s.toml", std::string(kBase) + "[sweep]\nruns = [2, 3]\n"), {}),
                Error);
@@ -118,6 +118,10 @@ TEST_F(SweepTest, ErrorsNameThePlace) {
             std::string::npos);
   EXPECT_NE(errorOf(base, {}, {"runs"}).find("--sweep runs: must be KEY=VALUE"), std::string::npos);
   EXPECT_NE(errorOf(base, {}, {"runs=3..1"}).find("--sweep runs: 3..1"), std::string::npos);
+  EXPECT_EQ(errorOf(base, {}, {"seed=1..3"}),
+            "--sweep seed: seeds 1 and 2 have runs in common, as run r has the seed 'seed' + r; "
+            "leave at least 2 between them");
+  EXPECT_NE(errorOf(base, {}, {"resolution=8x8"}).find("exclude each other"), std::string::npos);
   EXPECT_NE(errorOf(base, {}, {"runs=1,,2"}).find("empty value"), std::string::npos);
 }
 

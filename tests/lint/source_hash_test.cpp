@@ -1,0 +1,102 @@
+// cmake/source_hash.cmake: a changed source changes the keys of jobs or references that it is
+// under.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <sstream>
+#include <string>
+
+#include "tests/lint/command.h"
+#include "tests/runner/temporary_folder.h"
+
+namespace restlab::lint {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class SourceHash : public TemporaryFolder {
+ protected:
+  void SetUp() override {
+    TemporaryFolder::SetUp();
+    for (const char* file :
+         {"core/session.cpp", "core/kernels/path.h", "core/CMakeLists.txt", "core/readme.md",
+          "integrators/path/path.cpp", "integrators/restir_gi/reuse.glsl", "denoise/none/none.cpp",
+          "experiments/runner/temporal.cpp", "experiments/runner/experiment.h",
+          "experiments/runner/table.cpp", "tests/unit/rng_test.cpp"})
+      write(file, "one");
+  }
+  void write(const fs::path& file, const std::string& text) const {
+    fs::create_directories((folder() / file).parent_path());
+    std::ofstream(folder() / file) << text;
+  }
+  // By name: SOURCE, REFERENCE, MEASURING.
+  std::map<std::string, std::string> hashes() const {
+    const fs::path header = folder() / "source_hash.h";
+    const CommandResult result =
+        runCommand("cmake -D SOURCE_DIR=" + folder().string() + " -D OUTPUT=" + header.string() +
+                   " -D COMPILER=x -D FLAGS=y -D BUILD_TYPE=z -P " RESTLAB_SOURCE_DIR
+                   "/cmake/source_hash.cmake");
+    EXPECT_EQ(result.status, 0) << result.output;
+    std::ifstream in(header);
+    std::ostringstream text;
+    text << in.rdbuf();
+    std::map<std::string, std::string> found;
+    const std::string all = text.str();
+    const std::regex define("RESTLAB_(\\w+)_HASH \"([0-9a-f]{16})\"");
+    for (std::sregex_iterator it(all.begin(), all.end(), define), end; it != end; ++it)
+      found[(*it)[1]] = (*it)[2];
+    EXPECT_EQ(found.size(), 3u) << all;
+    return found;
+  }
+  // Which of the hashes another text of `file` changes: "SOURCE REFERENCE " and the like.
+  std::string changedBy(const fs::path& file) const {
+    const auto before = hashes();
+    write(file, "two");
+    std::string changed;
+    for (const auto& [name, hash] : hashes())
+      if (before.at(name) != hash) changed += name + " ";
+    return changed;
+  }
+};
+
+TEST_F(SourceHash, IsOfTheSourcesThatDecideTheNumbers) {
+  EXPECT_EQ(hashes(), hashes());
+  EXPECT_EQ(changedBy("core/session.cpp"), "REFERENCE SOURCE ");
+  EXPECT_EQ(changedBy("core/kernels/path.h"), "REFERENCE SOURCE ");
+  EXPECT_EQ(changedBy("core/CMakeLists.txt"), "REFERENCE SOURCE ");
+  EXPECT_EQ(changedBy("integrators/path/path.cpp"), "REFERENCE SOURCE ");
+  EXPECT_EQ(changedBy("integrators/restir_gi/reuse.glsl"), "SOURCE ");
+  EXPECT_EQ(changedBy("denoise/none/none.cpp"), "SOURCE ");
+  EXPECT_EQ(changedBy("experiments/runner/temporal.cpp"), "MEASURING ");
+  EXPECT_EQ(changedBy("experiments/runner/experiment.h"), "MEASURING ");
+  for (const char* layout :
+       {"experiments/runner/table.cpp", "core/readme.md", "tests/unit/rng_test.cpp"})
+    EXPECT_EQ(changedBy(layout), "") << layout;
+  const auto before = hashes();
+  fs::rename(folder() / "core/session.cpp", folder() / "core/sessions.cpp");
+  EXPECT_NE(hashes().at("SOURCE"), before.at("SOURCE")) << "names count";
+}
+
+// A file that is renamed must not leave the hash in silence.
+TEST(MeasuringSources, AreAllThere) {
+  std::ifstream in(RESTLAB_SOURCE_DIR "/cmake/source_hash.cmake");
+  std::ostringstream text;
+  text << in.rdbuf();
+  const std::string all = text.str();
+  std::smatch list;
+  ASSERT_TRUE(std::regex_search(all, list, std::regex("set\\(measuring ([^)]*)\\)")));
+  std::istringstream names(list[1].str());
+  size_t count = 0;
+  for (std::string name; names >> name; ++count)
+    EXPECT_TRUE(fs::exists(fs::path(RESTLAB_SOURCE_DIR "/experiments/runner") / (name + ".cpp")))
+        << name;
+  EXPECT_GE(count, 8u);
+}
+
+}  // namespace
+
+}  // namespace restlab::lint
