@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/error.h"
+#include "core/image/halves_noise.h"
 
 namespace restlab {
 
@@ -66,7 +68,14 @@ Interval BiasRuns::squaredBias(const Image& half0, const Image& half1,
     }
     return sum / pairs;
   };
-  return jackknifeInterval(n, meanOfPairs);
+  return widened(jackknifeInterval(n, meanOfPairs), sharedVariance(half0, half1, mask));
+}
+
+double BiasRuns::sharedVariance(const Image& half0, const Image& half1,
+                                const PixelMask& mask) const {
+  const double ofAnyMethod = halvesNoise(half0, half1, mask).varianceOfProduct;
+  if (groups_.size() < 2) return ofAnyMethod;
+  return std::max(ofAnyMethod, restlab::sharedVariance(means(), half0, half1, mask));
 }
 
 MetricValue BiasRuns::biasRms(const Image& half0, const Image& half1, const PixelMask& mask) const {
