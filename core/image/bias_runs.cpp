@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/error.h"
+#include "core/image/halves_noise.h"
 
 namespace restlab {
 
@@ -23,12 +25,15 @@ void BiasRuns::add(const Image& run) {
                             first.width, first.height));
     }
   }
+  if (groups_.empty()) first_ = run;
+  const double squares = mseAgainstHalves(run, first_, first_);
   const size_t g = count_++ % kGroups;
   if (g == groups_.size()) {
-    groups_.push_back({run, 1});
+    groups_.push_back({run, 1, squares});
     return;
   }
   Group& group = groups_[g];
+  group.squares += squares;
   for (size_t p = 0; p < run.pixels.size(); ++p) group.sum.pixels[p] += run.pixels[p];
   ++group.count;
 }
@@ -42,39 +47,29 @@ std::vector<Image> BiasRuns::means() const {
   return all;
 }
 
-// The mean over pairs of different groups, by the number of pairs of runs that each stands for,
-// with the jackknife's interval. `value` has a value for groups i and j at i * n + j.
-Interval BiasRuns::overPairs(const std::vector<double>& value) const {
-  const size_t n = groups_.size();
-  const auto meanOfPairs = [&](std::span<const size_t> chosen) {
-    double sum = 0.0, pairs = 0.0;
-    for (const size_t i : chosen) {
-      for (const size_t j : chosen) {
-        if (i == j) continue;
-        const double weight = double(groups_[i].count) * double(groups_[j].count);
-        sum += weight * value[i * n + j];
-        pairs += weight;
-      }
-    }
-    return sum / pairs;
-  };
-  return jackknifeInterval(n, meanOfPairs);
-}
-
-Interval BiasRuns::variance(const PixelMask& mask) const {
+Interval BiasRuns::variance() const {
   const size_t n = groups_.size();
   if (n < 2) return {kNan, kNan, kNan};
+  // Of differences from the first run, so that no large mean is taken from large squares.
   const std::vector<Image> mean = means();
-  std::vector<double> halfSquares(n * n, 0.0);
+  std::vector<double> product(n * n);
   for (size_t i = 0; i < n; ++i) {
-    for (size_t j = 0; j < i; ++j) {
-      // The difference of two means has the variance of a run by the sum of the shares.
-      const double shares = 1.0 / double(groups_[i].count) + 1.0 / double(groups_[j].count);
-      const double square = mseAgainstHalves(mean[i], mean[j], mean[j], mask) / shares;
-      halfSquares[i * n + j] = halfSquares[j * n + i] = square;
+    for (size_t j = 0; j <= i; ++j) {
+      product[i * n + j] = product[j * n + i] =
+          restlab::squaredBias(mean[i], mean[j], first_, first_);
     }
   }
-  return overPairs(halfSquares);
+  const auto sampleVariance = [&](std::span<const size_t> chosen) {
+    double runs = 0.0, squares = 0.0, squareOfSum = 0.0;
+    for (const size_t i : chosen) {
+      runs += double(groups_[i].count);
+      squares += groups_[i].squares;
+      for (const size_t j : chosen)
+        squareOfSum += double(groups_[i].count) * double(groups_[j].count) * product[i * n + j];
+    }
+    return (squares - squareOfSum / runs) / (runs - 1.0);
+  };
+  return jackknifeInterval(n, sampleVariance);
 }
 
 Interval BiasRuns::squaredBias(const Image& half0, const Image& half1,
@@ -88,7 +83,27 @@ Interval BiasRuns::squaredBias(const Image& half0, const Image& half1,
       if (i != j) product[i * n + j] = restlab::squaredBias(mean[i], mean[j], half0, half1, mask);
     }
   }
-  return overPairs(product);
+  // A pair of groups is as many pairs of runs.
+  const auto meanOfPairs = [&](std::span<const size_t> chosen) {
+    double sum = 0.0, pairs = 0.0;
+    for (const size_t i : chosen) {
+      for (const size_t j : chosen) {
+        if (i == j) continue;
+        const double weight = double(groups_[i].count) * double(groups_[j].count);
+        sum += weight * product[i * n + j];
+        pairs += weight;
+      }
+    }
+    return sum / pairs;
+  };
+  return widened(jackknifeInterval(n, meanOfPairs), sharedVariance(half0, half1, mask));
+}
+
+double BiasRuns::sharedVariance(const Image& half0, const Image& half1,
+                                const PixelMask& mask) const {
+  const double ofAnyMethod = halvesNoise(half0, half1, mask).varianceOfProduct;
+  if (groups_.size() < 2) return ofAnyMethod;
+  return std::max(ofAnyMethod, restlab::sharedVariance(means(), half0, half1, mask));
 }
 
 MetricValue BiasRuns::biasRms(const Image& half0, const Image& half1, const PixelMask& mask) const {

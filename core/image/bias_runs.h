@@ -25,26 +25,32 @@ class BiasRuns {
   void add(const Image& run);
   size_t count() const { return count_; }
 
-  // With a 95 % interval, the jackknife's over groups: the noise of the halves, which all pairs
-  // share, is not in it. The value is NaN with fewer than two runs or with values that are not
-  // finite, the ends with fewer than three. Throws Error (badInput) on different sizes.
+  // With a 95 % interval: the jackknife's over groups, widened by the noise of the halves, which
+  // all pairs share. The value is NaN with fewer than two runs or with values that are not finite,
+  // the ends with fewer than three. Throws Error (badInput) on different sizes.
   Interval squaredBias(const Image& half0, const Image& half1, const PixelMask& mask = {}) const;
-  // The other part of the MSE: the mean over pixels of the sample variance over runs, from
-  // differences of runs alone, so that no reference is in it. With up to kGroups runs it is exactly
-  // their mean MSE less squaredBias(). Interval and what is unknown as there.
-  Interval variance(const PixelMask& mask = {}) const;
+  // The other part of the MSE: the mean over pixels of the sample variance over all runs, without
+  // the reference. With up to kGroups runs it is exactly their mean MSE less squaredBias(). The
+  // interval is the jackknife's over groups; what is unknown as there.
+  Interval variance() const;
+  // Variance of the noise of the halves that all runs share, in their squared bias and in the mean
+  // of their MSE alike (core/image/halves_noise.h): of all pairs, and at least what any method has.
+  double sharedVariance(const Image& half0, const Image& half1, const PixelMask& mask = {}) const;
   // The metric bias_rms: its root, or 0 where it is negative; the detail has the signed square, or
   // how many values are not finite.
   MetricValue biasRms(const Image& half0, const Image& half1, const PixelMask& mask = {}) const;
+
+  // Of the groups: the runs themselves where there are no more than kGroups.
+  std::vector<Image> means() const;
 
  private:
   struct Group {
     Image sum;
     size_t count = 0;
+    double squares = 0.0;  // sum over its runs of mean (run - first)^2
   };
-  std::vector<Image> means() const;
-  Interval overPairs(const std::vector<double>& value) const;
   std::vector<Group> groups_;
+  Image first_;
   size_t count_ = 0;
 };
 

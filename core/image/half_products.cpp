@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/image/metrics.h"
+#include "core/image/pixel_metrics.h"
 
 namespace restlab {
 namespace {
@@ -48,6 +49,29 @@ double squaredBias(const Image& runs0, const Image& runs1, const Image& half0, c
 double mseAgainstHalves(const Image& image, const Image& half0, const Image& half1,
                         const PixelMask& mask) {
   return squaredBias(image, image, half0, half1, mask);
+}
+
+RelativeError relmseAgainstHalves(const Image& image, const Image& divisor, const Image& half0,
+                                  const Image& half1, const PixelMask& mask) {
+  requireSize(image, divisor, "reference");
+  requireSize(image, half0, "reference's first half");
+  requireSize(image, half1, "reference's second half");
+  std::vector<double> errors;
+  errors.reserve(countSelected(mask, image.pixels.size()));
+  double sum = 0.0;
+  for (size_t p = 0; p < image.pixels.size(); ++p) {
+    if (!isSelected(mask, p)) continue;
+    const glm::dvec3 i(image.pixels[p]), a(half0.pixels[p]), b(half1.pixels[p]),
+        r(divisor.pixels[p]);
+    const glm::dvec3 relative = (i - a) * (i - b) / (r * r + kRelmseEpsilon);
+    errors.push_back((relative.x + relative.y + relative.z) / 3.0);
+    sum += errors.back();
+  }
+  const double kNan = std::numeric_limits<double>::quiet_NaN();
+  if (!std::isfinite(sum)) return {kNan, kNan, ""};
+  const double relmse = sum / double(errors.size());
+  const MetricValue trimmed = trimmedMean(std::move(errors));
+  return {relmse, trimmed.value, trimmed.detail};
 }
 
 std::vector<double> squaredErrorPerPixel(const Image& image, const Image& reference) {

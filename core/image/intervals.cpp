@@ -1,6 +1,7 @@
 #include "core/image/intervals.h"
 
 #include <algorithm>
+#include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
@@ -39,9 +40,20 @@ double tQuantile(double dof, double confidence) {
   return boost::math::quantile(boost::math::complement(t, 0.5 * (1.0 - confidence)));
 }
 
+double normalQuantile(double confidence) {
+  const boost::math::normal_distribution<double> normal;
+  return boost::math::quantile(boost::math::complement(normal, 0.5 * (1.0 - confidence)));
+}
+
 // Fieller's interval: all ratios q for which a - q b is within t standard errors of 0, that is
 // (b^2 - t^2 vb) q^2 - 2 (a b - t^2 vab) q + (a^2 - t^2 va) <= 0, with the (co)variances of means.
-Interval fieller(double a, double b, double va, double vb, double vab, double t) {
+Interval fieller(double a, double b, double va, double vb, double vab, double t,
+                 const SharedNoise& shared, double confidence) {
+  // Of the shared noise as many normal deviations.
+  const double z = normalQuantile(confidence);
+  va += z * z / (t * t) * shared.numerator;
+  vb += z * z / (t * t) * shared.denominator;
+  vab += z * z / (t * t) * shared.covariance;
   const double ratio = a / b;
   const double quadratic = b * b - t * t * vb;
   if (!(quadratic > 0.0)) return {ratio, -kInfinity, kInfinity};
@@ -53,6 +65,12 @@ Interval fieller(double a, double b, double va, double vb, double vab, double t)
 
 }  // namespace
 
+Interval widened(const Interval& interval, double sharedVariance, double confidence) {
+  const double own = normalQuantile(confidence) * std::sqrt(sharedVariance);
+  return {interval.value, interval.value - std::hypot(interval.value - interval.lo, own),
+          interval.value + std::hypot(interval.hi - interval.value, own)};
+}
+
 Interval meanInterval(std::span<const double> runs, double confidence) {
   const Moments m = momentsOf(runs);
   if (runs.size() < 2 || std::isnan(m.mean)) return {m.mean, kNan, kNan};
@@ -61,7 +79,7 @@ Interval meanInterval(std::span<const double> runs, double confidence) {
 }
 
 Interval ratioInterval(std::span<const double> numerator, std::span<const double> denominator,
-                       double confidence) {
+                       const SharedNoise& shared, double confidence) {
   const Moments a = momentsOf(numerator);
   const Moments b = momentsOf(denominator);
   const double ratio = a.mean / b.mean;
@@ -71,13 +89,15 @@ Interval ratioInterval(std::span<const double> numerator, std::span<const double
   // Welch-Satterthwaite for a - ratio b.
   const double va = a.varianceOfMean;
   const double vb = ratio * ratio * b.varianceOfMean;
-  if (va + vb == 0.0) return {ratio, ratio, ratio};
-  const double dof = (va + vb) * (va + vb) / (va * va / (a.n - 1.0) + vb * vb / (b.n - 1.0));
-  return fieller(a.mean, b.mean, va, b.varianceOfMean, 0.0, tQuantile(dof, confidence));
+  const double dof = va + vb == 0.0
+                         ? std::min(a.n, b.n) - 1.0
+                         : (va + vb) * (va + vb) / (va * va / (a.n - 1.0) + vb * vb / (b.n - 1.0));
+  return fieller(a.mean, b.mean, va, b.varianceOfMean, 0.0, tQuantile(dof, confidence), shared,
+                 confidence);
 }
 
 Interval pairedRatioInterval(std::span<const double> numerator, std::span<const double> denominator,
-                             double confidence) {
+                             const SharedNoise& shared, double confidence) {
   if (numerator.size() != denominator.size()) {
     throw std::invalid_argument("paired runs need as many numerators as denominators");
   }
@@ -91,7 +111,7 @@ Interval pairedRatioInterval(std::span<const double> numerator, std::span<const 
   }
   covariance /= (a.n - 1.0) * a.n;
   return fieller(a.mean, b.mean, a.varianceOfMean, b.varianceOfMean, covariance,
-                 tQuantile(a.n - 1.0, confidence));
+                 tQuantile(a.n - 1.0, confidence), shared, confidence);
 }
 
 Interval jackknifeInterval(size_t runs,

@@ -13,19 +13,30 @@ struct Interval {
   double lo = 0.0, hi = 0.0;  // NaN with fewer than two runs: the spread is unknown
 };
 
+// Variance of the noise that all runs share, and that their spread does not show, in the numbers of
+// numerator and denominator.
+struct SharedNoise {
+  double numerator = 0.0, denominator = 0.0, covariance = 0.0;
+};
+
+// The interval with noise of this variance, which all runs share, added to it: half-widths are
+// squared, added and rooted, its own being a normal deviation of the same confidence.
+Interval widened(const Interval& interval, double sharedVariance, double confidence = 0.95);
+
 // Mean and its Student t interval. Throws std::invalid_argument without any run.
 Interval meanInterval(std::span<const double> runs, double confidence = 0.95);
 
 // mean(numerator) / mean(denominator) of independent sets of runs, which need not have the same
 // size: Fieller's interval with Welch-Satterthwaite degrees of freedom. lo = -inf and hi = +inf
 // when the denominator's own interval holds 0, for then no finite interval has the wanted coverage.
+// `shared` widens it as widened() does.
 Interval ratioInterval(std::span<const double> numerator, std::span<const double> denominator,
-                       double confidence = 0.95);
+                       const SharedNoise& shared = {}, double confidence = 0.95);
 
 // The same where numerator[i] and denominator[i] were measured together (interleaved frame times):
 // their covariance narrows the interval. Throws std::invalid_argument on different sizes.
 Interval pairedRatioInterval(std::span<const double> numerator, std::span<const double> denominator,
-                             double confidence = 0.95);
+                             const SharedNoise& shared = {}, double confidence = 0.95);
 
 // The jackknife over runs (Tukey): `statistic` of the runs with these indices, for statistics that
 // are no mean: a fitted slope, the logarithm of a ratio. The interval is Student's t of the

@@ -86,6 +86,17 @@ double mseAgainstHalves(const Image& image, const Image& half0, const Image& hal
 double squaredBias(const Image& runs0, const Image& runs1, const Image& half0, const Image& half1,
                    const PixelMask& mask = {});
 
+// mean (image - half0)(image - half1) / (divisor^2 + 1e-2): relmse_e1e-2 with no share of the
+// reference's own error in its numerators, and without the 0.1 % of the pixels in which it is
+// largest. `divisor` is the mean of the reference; a half of it shows how much hangs on its noise.
+// Throws Error (badInput) on different sizes or a mask that selects nothing.
+struct RelativeError {
+  double relmse = 0.0, trimmed = 0.0;  // NaN where a value that counts is not finite
+  std::string detail;                  // of `trimmed`
+};
+RelativeError relmseAgainstHalves(const Image& image, const Image& divisor, const Image& half0,
+                                  const Image& half1, const PixelMask& mask = {});
+
 // One value a pixel, averaged over channels, whose mean is `mse` or `mseAgainstHalves`.
 std::vector<double> squaredErrorPerPixel(const Image& image, const Image& reference);
 std::vector<double> squaredErrorPerPixel(const Image& image, const Image& half0,

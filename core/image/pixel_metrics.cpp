@@ -10,8 +10,8 @@ namespace restlab {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kEpsilon = 1e-2;       // the e1e-2 and mean1e-2 of the names
-constexpr double kTrimFraction = 1e-3;  // the trim0.1 (per cent) of the names
+constexpr double kEpsilon = kRelmseEpsilon;  // of the mean1e-2 of the names as well
+constexpr double kTrimFraction = 1e-3;       // the trim0.1 (per cent) of the names
 
 double squared(double x) { return x * x; }
 
@@ -59,13 +59,7 @@ MetricValue trimmedRelativeMse(const Image& image, const Image& reference,
     pixelSum = (c == 0 ? 0.0 : pixelSum) + relativeSquared(i, r);
     if (c == 2) errors.push_back(pixelSum / 3.0);
   });
-  const size_t dropped = size_t(kTrimFraction * double(errors.size()));
-  // Summed in ascending order: equal values are interchangeable, so the order is fixed.
-  std::sort(errors.begin(), errors.end());
-  double sum = 0.0;
-  for (size_t p = 0; p + dropped < errors.size(); ++p) sum += errors[p];
-  return {sum / double(errors.size() - dropped),
-          fmt::format("dropped {} of {} pixels", dropped, errors.size())};
+  return trimmedMean(std::move(errors));
 }
 
 // The only convention that leaves something out; how much is said.
@@ -149,6 +143,16 @@ MetricInfo meanMetric(const char* name, const char* formula, Term term) {
 }
 
 }  // namespace
+
+MetricValue trimmedMean(std::vector<double> errors) {
+  const size_t dropped = size_t(kTrimFraction * double(errors.size()));
+  // Summed in ascending order: equal values are interchangeable, so the order is fixed.
+  std::sort(errors.begin(), errors.end());
+  double sum = 0.0;
+  for (size_t p = 0; p + dropped < errors.size(); ++p) sum += errors[p];
+  return {sum / double(errors.size() - dropped),
+          fmt::format("dropped {} of {} pixels", dropped, errors.size())};
+}
 
 const std::vector<std::string>& relmseConventions() {
   static const std::vector<std::string> names = {"pbrt", "tev", "jeri", "siio", "mean2"};

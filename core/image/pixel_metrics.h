@@ -11,6 +11,12 @@ namespace restlab {
 // In the order of reports. Those of relmseConventions are among them.
 std::vector<MetricInfo> pixelMetrics();
 
+constexpr double kRelmseEpsilon = 1e-2;  // the e1e-2 of the names
+
+// Mean of the errors, one a pixel, without the largest 0.1 % of them (rounded down); the detail has
+// how many. No error at all is an error of the caller.
+MetricValue trimmedMean(std::vector<double> errors);
+
 // relmse as other programs compute it: metrics `relmse_` + name.
 const std::vector<std::string>& relmseConventions();
 

@@ -7,6 +7,7 @@ target_sources(rl_core PRIVATE
   image/flip_color.cpp
   image/flip_exposures.cpp
   image/half_products.cpp
+  image/halves_noise.cpp
   image/intervals.cpp
   image/mask.cpp
   image/metrics.cpp

@@ -32,11 +32,11 @@ std::map<std::string, Table> tablesOf(const ResultsFolder& results) {
     table.block = loadBlock(results, planned).result;
     if (table.block.methods.empty()) continue;
     table.reference = referenceHash(table.block.reference);
-    table.block.reference.mean = Image();
     table.block.reference.variance.reset();
     const std::string label = blockLabel(suite, table.block);
     Table& placed = tables.emplace(label, std::move(table)).first->second;
     placed.rows = summarise(suite, placed.block);
+    placed.block.reference.mean = Image();
     for (MethodResult& method : placed.block.methods) {
       method.measured = BiasRuns();
       method.shown = Image();
@@ -109,7 +109,10 @@ ComparedRow compareRows(const std::string& label, const Table& a, const MethodSu
   const std::vector<double> mseA = msesOf(runsA), mseB = msesOf(runsB);
   // Images have no seeds.
   const bool isPaired = !before.method->images && hasSameSeeds(runsA, runsB);
-  row.mseRatio = isPaired ? pairedRatioInterval(mseA, mseB) : ratioInterval(mseA, mseB);
+  SharedNoise shared = sharedNoise(before.noise, after.noise, mseA == mseB);
+  if (a.reference != b.reference) shared.covariance = 0.0;
+  row.mseRatio =
+      isPaired ? pairedRatioInterval(mseA, mseB, shared) : ratioInterval(mseA, mseB, shared);
   row.errorVerdict = verdict(row.mseRatio);
   if (!haveTimes(runsA) || !haveTimes(runsB)) {
     row.timeRatio = {kUnknown, kUnknown, kUnknown};

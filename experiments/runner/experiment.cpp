@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "core/image/halves_noise.h"
 #include "core/image/intervals.h"
 #include "core/image/metrics.h"
 #include "experiments/runner/block_masks.h"
@@ -82,7 +83,7 @@ SessionConfig methodConfig(const Suite& suite, const SuiteMethod& method,
 size_t hostBytesPerPixelOfMethod(const Suite& suite) {
   // The session's image, those that are kept of a run, the one that is shown, those of the runs.
   size_t images = 3 + suite.checkpoints.size(), sums = 0;
-  images += std::min<size_t>(suite.runs, BiasRuns::kGroups);
+  images += 1 + std::min<size_t>(suite.runs, BiasRuns::kGroups);
   if (suite.accumulate) {
     images += 2 + size_t(std::bit_width(suite.timedFrames));
     ++sums;
@@ -102,10 +103,12 @@ FrameError measureFrame(const Image& image, const Reference& reference, uint32_t
   FrameError error;
   error.frame = frame;
   error.nonfinite = countNonfinite(image);
-  error.relmse = evaluateMetric("relmse_e1e-2", image, reference.mean).value;
-  error.relmseTrimmed = evaluateMetric("relmse_e1e-2_trim0.1", image, reference.mean).value;
+  const RelativeError relative = relmseAgainstHalves(image, reference.mean, half0, half1);
+  error.relmse = relative.relmse;
+  error.relmseTrimmed = relative.trimmed;
   error.energyRatio = evaluateMetric("energy_ratio", image, reference.mean).value;
   error.mse = mseAgainstHalves(image, half0, half1);
+  if (reference.half0) error.mseVarianceAtMost = sharedVarianceAtMost(image, half0, half1);
   error.worstShare = worstPixelShare(squaredErrorPerPixel(image, half0, half1));
   const bool any = withoutLights.empty() ||
                    std::find(withoutLights.begin(), withoutLights.end(), 1) != withoutLights.end();

@@ -21,7 +21,10 @@ struct FrameError {
   uint32_t frame = 0;             // of the history, from 0; of an accumulation its last one
   double mse = 0.0;               // against the two halves where the reference has them
   double mseWithoutLights = 0.0;  // over the pixels that show no light; NaN where all do
-  double relmse = 0.0;
+  // Of what the noise of the halves adds to the MSE of all runs, and at most that: the image's own
+  // noise is in it (core/image/halves_noise.h). 0 without halves, NaN where it was not recorded.
+  double mseVarianceAtMost = 0.0;
+  double relmse = 0.0;         // its numerators against the two halves, like mse
   double relmseTrimmed = 0.0;  // without the worst 0.1 % of the pixels
   double energyRatio = 0.0;
   double worstShare = 0.0;  // of the MSE, in the worst 0.1 % of the pixels

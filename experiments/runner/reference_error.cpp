@@ -18,15 +18,27 @@ bool identical(const Image& a, const Image& b) {
 MetricValue errorAgainst(const std::string& metric, const Image& image, const Reference& reference,
                          const MetricOptions& options) {
   // The halves are for images that are independent of the reference, which it itself is not.
-  if (metric != "mse" || !reference.half0 || identical(image, reference.mean)) {
+  const bool isRelative = metric == "relmse_e1e-2" || metric == "relmse_e1e-2_trim0.1";
+  if (!(metric == "mse" || isRelative) || !reference.half0 || identical(image, reference.mean)) {
     return evaluateMetric(metric, image, reference.mean, options);
   }
-  const double value = mseAgainstHalves(image, *reference.half0, *reference.half1, options.mask);
-  if (!std::isnan(value)) return {value, "against the reference's two halves"};
-  return {value, fmt::format("{} non-finite values in the image, {} in the reference's halves",
-                             countNonfinite(image, options.mask),
-                             countNonfinite(*reference.half0, options.mask) +
-                                 countNonfinite(*reference.half1, options.mask))};
+  const Image &half0 = *reference.half0, &half1 = *reference.half1;
+  MetricValue error;
+  if (isRelative) {
+    const RelativeError both =
+        relmseAgainstHalves(image, reference.mean, half0, half1, options.mask);
+    error.value = metric == "relmse_e1e-2" ? both.relmse : both.trimmed;
+    error.detail = "against the reference's two halves";
+    if (metric != "relmse_e1e-2") error.detail += ", " + both.detail;
+  } else {
+    error = {mseAgainstHalves(image, half0, half1, options.mask),
+             "against the reference's two halves"};
+  }
+  if (!std::isnan(error.value)) return error;
+  return {error.value,
+          fmt::format("{} non-finite values in the image, {} in the reference's halves",
+                      countNonfinite(image, options.mask),
+                      countNonfinite(half0, options.mask) + countNonfinite(half1, options.mask))};
 }
 
 }  // namespace restlab

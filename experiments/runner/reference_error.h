@@ -6,8 +6,8 @@
 
 namespace restlab {
 
-// As evaluateMetric(), but `mse` is taken against the two halves where the reference has them and
-// the image is not the reference itself.
+// As evaluateMetric(), but `mse`, `relmse_e1e-2` and `relmse_e1e-2_trim0.1` are taken against the
+// two halves where the reference has them and the image is not the reference itself.
 MetricValue errorAgainst(const std::string& metric, const Image& image, const Reference& reference,
                          const MetricOptions& options = {});
 

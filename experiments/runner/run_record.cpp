@@ -61,6 +61,7 @@ void addError(Json& line, const FrameError& error) {
   line["frame"] = error.frame;
   line["mse"] = finiteJson(error.mse);
   line["mse_without_lights"] = finiteJson(error.mseWithoutLights);
+  line["mse_variance_of_halves_at_most"] = finiteJson(error.mseVarianceAtMost);
   line["relmse_e1e-2"] = finiteJson(error.relmse);
   line["relmse_e1e-2_trim0.1"] = finiteJson(error.relmseTrimmed);
   line["energy_ratio"] = finiteJson(error.energyRatio);
@@ -107,6 +108,10 @@ FrameError errorOf(const Json& line) {
   error.frame = line.at("frame").get<uint32_t>();
   error.mse = finiteNumber(line.at("mse"));
   error.mseWithoutLights = finiteNumber(line.at("mse_without_lights"));
+  // Lines of before it was recorded have none.
+  const auto variance = line.find("mse_variance_of_halves_at_most");
+  error.mseVarianceAtMost =
+      variance == line.end() ? std::numeric_limits<double>::quiet_NaN() : finiteNumber(*variance);
   error.relmse = finiteNumber(line.at("relmse_e1e-2"));
   error.relmseTrimmed = finiteNumber(line.at("relmse_e1e-2_trim0.1"));
   error.energyRatio = finiteNumber(line.at("energy_ratio"));

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/image/metrics.h"
+#include "experiments/report/text.h"
 #include "experiments/runner/figures.h"
 
 namespace restlab {
@@ -58,8 +59,11 @@ void summariseTimes(const MethodResult& result, size_t pixels, MethodSummary& ro
 }
 
 void summariseErrors(const MethodResult& result, const Reference& reference, MethodSummary& row) {
-  row.mse = meanInterval(perRun(result, runMse));
-  row.mseWithoutLights = meanInterval(perRun(result, runMseWithoutLights));
+  row.noise = noiseOf(reference, result.measured);
+  row.noiseWithoutLights = noiseOf(reference, result.measured, row.block->withoutLights);
+  row.mse = widened(meanInterval(perRun(result, runMse)), row.noise.shared);
+  row.mseWithoutLights =
+      widened(meanInterval(perRun(result, runMseWithoutLights)), row.noiseWithoutLights.shared);
   row.relmse =
       meanInterval(perRun(result, [](const RunResult& run) { return run.measured.relmse; }));
   row.relmseTrimmed = meanInterval(perRun(result, runRelmseTrimmed));
@@ -86,12 +90,13 @@ void summariseErrors(const MethodResult& result, const Reference& reference, Met
 // Images of another program are independent of all runs, and their frames took no turns with any.
 void compareImages(const MethodResult& path, const MethodSummary& pathRow,
                    const MethodResult& result, MethodSummary& row) {
-  const auto ratioOf = [&](double (*value)(const RunResult&)) {
-    return ratioInterval(perRun(path, value), perRun(result, value));
+  const auto ratioOf = [&](double (*value)(const RunResult&), const SharedNoise& shared) {
+    return ratioInterval(perRun(path, value), perRun(result, value), shared);
   };
-  row.mseRatio = ratioOf(runMse);
-  row.mseRatioWithoutLights = ratioOf(runMseWithoutLights);
-  row.relmseTrimmedRatio = ratioOf(runRelmseTrimmed);
+  row.mseRatio = ratioOf(runMse, sharedNoise(pathRow.noise, row.noise));
+  row.mseRatioWithoutLights =
+      ratioOf(runMseWithoutLights, sharedNoise(pathRow.noiseWithoutLights, row.noiseWithoutLights));
+  row.relmseTrimmedRatio = ratioOf(runRelmseTrimmed, {});
   if (std::isnan(row.timeMsMedian) || std::isnan(pathRow.timeMsMedian)) return;
   row.timeRatio.value = row.timeRatioOfMedians = row.timeMsMedian / pathRow.timeMsMedian;
   row.efficiencyRatio.value = row.mseRatio.value / row.timeRatio.value;
@@ -113,15 +118,21 @@ void compareWithYardstick(const MethodResult& path, const MethodSummary& pathRow
     pathTrimmed.push_back(runRelmseTrimmed(path.runs[r]));
     trimmed.push_back(runRelmseTrimmed(result.runs[r]));
   }
-  row.mseRatio = pairedRatioInterval(pathMse, mse);
+  const bool isSame = &path == &result;
+  const SharedNoise shared = sharedNoise(pathRow.noise, row.noise, isSame);
+  row.mseRatio = pairedRatioInterval(pathMse, mse, shared);
   row.mseRatio.value = pathRow.mse.value / row.mse.value;
-  row.mseRatioWithoutLights = pairedRatioInterval(pathInside, inside);
+  row.mseRatioWithoutLights = pairedRatioInterval(
+      pathInside, inside, sharedNoise(pathRow.noiseWithoutLights, row.noiseWithoutLights, isSame));
   row.mseRatioWithoutLights.value = pathRow.mseWithoutLights.value / row.mseWithoutLights.value;
   row.relmseTrimmedRatio = pairedRatioInterval(pathTrimmed, trimmed);
   row.relmseTrimmedRatio.value = pathRow.relmseTrimmed.value / row.relmseTrimmed.value;
   row.timeRatio = meanInterval(timeRatios);
   row.timeRatioOfMedians = row.timeMsMedian / pathRow.timeMsMedian;
-  row.efficiencyRatio = pairedRatioInterval(pathMse, work);
+  const double time = row.timeRatio.value;
+  row.efficiencyRatio = pairedRatioInterval(
+      pathMse, work,
+      {shared.numerator, time * time * shared.denominator, time * shared.covariance});
   row.efficiencyRatio.value = row.mseRatio.value / row.timeRatio.value;
 }
 
@@ -131,6 +142,10 @@ Interval timeAgainst(const MethodResult& result, const MethodResult& first) {
   for (size_t r = 0; r < std::min(result.runs.size(), first.runs.size()); ++r)
     ratios.push_back(runTimeRatio(result.runs[r], first.runs[r]));
   return meanInterval(ratios);
+}
+
+AccumulatedNoise accumulatedNoise(const MethodSummary& row) {
+  return {row.noise.common, row.bias == BiasClass::unbiased};
 }
 
 // Nothing where a run has none.
@@ -150,18 +165,23 @@ std::optional<TemporalFigures> meanOf(const std::vector<RunResult>& runs) {
 
 // One value a run; nothing where a run lacks it.
 std::vector<std::pair<std::string, Interval>> figuresOf(const Suite& suite,
-                                                        const std::vector<RunResult>& runs) {
+                                                        const BlockResult& block,
+                                                        const MethodResult& result) {
   std::vector<std::pair<std::string, Interval>> figures;
   for (const FigureInfo& figure : figureInfos(suite)) {
     std::vector<double> values;
-    for (const RunResult& run : runs) {
+    for (const RunResult& run : result.runs) {
       for (const auto& [name, value] : run.figures) {
         if (name == figure.name) values.push_back(value);
       }
     }
-    const bool isKnown = values.size() == runs.size();
-    figures.emplace_back(figure.name,
-                         isKnown ? meanInterval(values) : Interval{kUnknown, kUnknown, kUnknown});
+    const bool isKnown = values.size() == result.runs.size();
+    Interval over = isKnown ? meanInterval(values) : Interval{kUnknown, kUnknown, kUnknown};
+    if (isKnown && figure.metric == "mse") {
+      const PixelMask mask = figure.mask < 0 ? PixelMask() : block.masks.at(size_t(figure.mask));
+      over = widened(over, noiseOf(block.reference, result.measured, mask).shared);
+    }
+    figures.emplace_back(figure.name, over);
   }
   return figures;
 }
@@ -202,6 +222,30 @@ void judgeUnbiased(MethodSummary& row) {
   }
 }
 
+// What hangs on the reference's own noise. No reason for a row not to count.
+void flagNoise(MethodSummary& row) {
+  const auto near = [&](const std::string& what, double mse) {
+    row.flags.push_back(fmt::format(
+        "{} is {} times the variance of a half of the reference ({} spp): what is left of its "
+        "interval with more runs is the reference's noise",
+        what, shortNumber(mse / row.noise.varianceOfHalf), row.block->reference.spp));
+  };
+  if (row.mse.value <= 0.0) {
+    row.flags.push_back("its MSE is below the noise of the reference");
+  } else if (isNearNoise(row.mse.value, row.noise)) {
+    near("its MSE", row.mse.value);
+  }
+  if (row.convergence) {
+    for (const ConvergencePoint& point : row.convergence->points) {
+      if (!isNearNoise(point.mse.value, row.noise)) continue;
+      near(fmt::format("its MSE of {} accumulated frames", point.frames), point.mse.value);
+      break;
+    }
+  }
+  const std::string relmse = relmseFlag(row.block->reference, row.result->measured);
+  if (!relmse.empty()) row.flags.push_back(relmse);
+}
+
 void judge(MethodSummary& row) {
   if (row.nonfinite > 0) {
     row.counts = false;
@@ -213,7 +257,7 @@ void judge(MethodSummary& row) {
                     "interval says little",
                     100.0 * row.worstShare));
   }
-  if (row.mse.value <= 0.0) row.flags.push_back("its MSE is below the noise of the reference");
+  flagNoise(row);
   if (row.bias == BiasClass::unbiased) return judgeUnbiased(row);
   if (!(row.energyRatio.value >= kEnergyRatioMin && row.energyRatio.value <= kEnergyRatioMax)) {
     row.counts = false;
@@ -252,9 +296,9 @@ std::vector<MethodSummary> summarise(const Suite& suite, const BlockResult& bloc
     row.runs = uint32_t(result.runs.size());
     summariseTimes(result, pixels, row);
     summariseErrors(result, block.reference, row);
-    row.convergence = convergenceOf(result.runs);
+    row.convergence = convergenceOf(result.runs, accumulatedNoise(row));
     row.temporal = meanOf(result.runs);
-    row.figures = figuresOf(suite, result.runs);
+    row.figures = figuresOf(suite, block, result);
     if (row.method->images && row.runs != suite.runs) {
       row.flags.push_back(row.runs == 1 ? "one image" : fmt::format("{} images", row.runs));
     }
@@ -269,7 +313,8 @@ std::vector<MethodSummary> summarise(const Suite& suite, const BlockResult& bloc
     if (const size_t path = rowOf[suite.yardstick(m)]; path < rows.size()) {
       const MethodSummary yardstick = rows[path];
       compareWithYardstick(*yardstick.result, yardstick, *row.result, row);
-      row.speedUp = speedUpOf(yardstick.result->runs, row.result->runs);
+      row.speedUp = speedUpOf(yardstick.result->runs, row.result->runs, accumulatedNoise(yardstick),
+                              accumulatedNoise(row));
     }
     const size_t first = suite.onFirstBackend(m);
     if (first != m && rowOf[first] < rows.size())

@@ -8,6 +8,7 @@
 #include "core/image/intervals.h"
 #include "experiments/runner/convergence.h"
 #include "experiments/runner/experiment.h"
+#include "experiments/runner/reference_noise.h"
 
 namespace restlab {
 
@@ -32,7 +33,10 @@ struct MethodSummary {
   uint32_t runs = 0;
 
   double timeMsMedian = kUnknown, timeMsP95 = kUnknown;  // over all timed frames of all runs
-  Interval mse, mseWithoutLights, relmse, relmseTrimmed, energyRatio;  // over runs
+  // Over runs. The noise of the reference's halves, which all runs share, is in the intervals of
+  // mse, mseWithoutLights, biasSquared and of their ratios.
+  Interval mse, mseWithoutLights, relmse, relmseTrimmed, energyRatio;
+  ReferenceNoise noise, noiseWithoutLights;
   // Signed; over all pairs of runs; unknown with one run or no halves.
   Interval biasSquared{kUnknown, kUnknown, kUnknown};
   Interval biasShare{kUnknown, kUnknown, kUnknown};  // biasSquared / mse.value, where that is > 0

@@ -28,6 +28,26 @@ TEST(Intervals, KnownValues) {
                  2.0264317180616738, 1.9735420971296276, 2.0849343109802434);
 }
 
+// By a solution of (a - q b)^2 = t^2 (va - 2 q vab + q^2 vb) + z^2 (sa - 2 q sab + q^2 sb) for q.
+TEST(Intervals, SharedNoiseWidens) {
+  const double z = 1.959963984540054;
+  expectInterval(widened({1.0, 0.7, 1.4}, 0.01), 1.0, 1.0 - std::hypot(0.3, 0.1 * z),
+                 1.0 + std::hypot(0.4, 0.1 * z));
+  EXPECT_TRUE(std::isnan(widened({1.0, std::nan(""), 1.4}, 0.01).lo));
+  const std::vector<double> constant = {2.0, 2.0, 2.0}, four = {4.0, 4.0};
+  const SharedNoise noise = {0.09, 0.04, 0.03};
+  // (2 - 4 q)^2 = z^2 (0.09 - 0.06 q + 0.04 q^2), for runs without a spread.
+  const double zz = z * z, a = 16.0 - 0.04 * zz, b = 8.0 - 0.03 * zz, c = 4.0 - 0.09 * zz;
+  const double root = std::sqrt(b * b - a * c);
+  expectInterval(ratioInterval(constant, four, noise), 0.5, (b - root) / a, (b + root) / a);
+  const std::vector<double> fours = {4.0, 4.0, 4.0};
+  expectInterval(pairedRatioInterval(constant, fours, noise), 0.5, (b - root) / a, (b + root) / a);
+  // What moves both alike moves no ratio of equals.
+  expectInterval(pairedRatioInterval(kB, kB, {0.04, 0.04, 0.04}), 1.0, 1.0, 1.0);
+  EXPECT_LT(ratioInterval(kA, kB, noise).lo, ratioInterval(kA, kB).lo);
+  EXPECT_GT(ratioInterval(kA, kB, noise).hi, ratioInterval(kA, kB).hi);
+}
+
 TEST(Intervals, TooFewRunsHaveNoWidth) {
   const std::vector<double> one = {2.0};
   EXPECT_EQ(meanInterval(one).value, 2.0);

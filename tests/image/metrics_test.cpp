@@ -147,6 +147,26 @@ TEST(Metrics, UsersErrors) {
 }
 
 // Image = truth + noise of variance 1/4; the halves carry noise of variance 1/9 each.
+TEST(Metrics, RelativeErrorAgainstHalves) {
+  const Image image(2, 1, glm::vec3(3.0f)), divisor(2, 1, glm::vec3(2.0f));
+  Image half0(2, 1, glm::vec3(1.0f)), half1(2, 1, glm::vec3(2.5f));
+  half0.at(1, 0) = glm::vec3(3.5f);
+  // (2 * 0.5 - 0.5 * 0.5) / 2 over 2^2 + 0.01, signed.
+  const RelativeError error = relmseAgainstHalves(image, divisor, half0, half1);
+  EXPECT_NEAR(error.relmse, 0.375 / 4.01, 1e-12);
+  EXPECT_NEAR(error.trimmed, 0.375 / 4.01, 1e-12) << "a thousandth of two pixels is none";
+  EXPECT_EQ(error.detail, "dropped 0 of 2 pixels");
+  EXPECT_NEAR(relmseAgainstHalves(image, divisor, half0, half1, {1, 0}).relmse, 1.0 / 4.01, 1e-12);
+  // A reference that stands for both halves leaves the metrics of the registry.
+  const RelativeError plain = relmseAgainstHalves(image, half0, half0, half0);
+  EXPECT_NEAR(plain.relmse, evaluateMetric("relmse_e1e-2", image, half0).value, 1e-12);
+  EXPECT_NEAR(plain.trimmed, evaluateMetric("relmse_e1e-2_trim0.1", image, half0).value, 1e-12);
+  half0.at(1, 0).y = std::numeric_limits<float>::infinity();
+  EXPECT_TRUE(std::isnan(relmseAgainstHalves(image, half0, half0, half1).relmse));
+  EXPECT_TRUE(std::isnan(relmseAgainstHalves(image, half0, half0, half1).trimmed));
+  EXPECT_THROW(relmseAgainstHalves(image, Image(1, 1, glm::vec3(1.0f)), half0, half1), Error);
+}
+
 TEST(Metrics, HalvesCarryNoErrorOfTheReference) {
   std::mt19937 random(7);
   std::normal_distribution<float> normal;

@@ -3,6 +3,7 @@ set(RL_IMAGE_TESTS
   image/exr_damage_test.cpp
   image/exr_test.cpp
   image/flip_test.cpp
+  image/halves_noise_test.cpp
   image/intervals_test.cpp
   image/metric_mask_test.cpp
   image/metric_traps_test.cpp

@@ -1,0 +1,169 @@
+// What rows say of the reference's noise: wider intervals, flags, and a relMSE that does not take
+// the reference's noise for the method's.
+#include "experiments/runner/reference_noise.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "experiments/runner/reference_error.h"
+#include "experiments/runner/summary.h"
+
+namespace restlab {
+
+namespace {
+
+constexpr uint32_t kSide = 32;
+
+// Dark and bright pixels, as rooms have; noise is relative to the light.
+float truthOf(size_t pixel) { return pixel % 2 == 0 ? 0.05f : 1.0f; }
+
+Image noisy(uint32_t seed, float deviation) {
+  std::mt19937 random(seed);
+  std::normal_distribution<float> normal;
+  Image image(kSide, kSide);
+  for (size_t p = 0; p < image.pixels.size(); ++p)
+    image.pixels[p] = glm::vec3(truthOf(p) * (1.0f + deviation * normal(random)));
+  return image;
+}
+
+Reference referenceOf(float deviationOfHalf) {
+  Reference reference;
+  reference.half0 = noisy(1, deviationOfHalf);
+  reference.half1 = noisy(2, deviationOfHalf);
+  reference.mean = Image(kSide, kSide);
+  for (size_t p = 0; p < reference.mean.pixels.size(); ++p)
+    reference.mean.pixels[p] = 0.5f * (reference.half0->pixels[p] + reference.half1->pixels[p]);
+  reference.spp = 64;
+  return reference;
+}
+
+struct Fixture {
+  explicit Fixture(float deviationOfHalf, float deviationOfRuns = 0.5f) {
+    suite.methods.resize(2);
+    suite.timedFrames = 1;
+    suite.methods[0].name = "path";
+    suite.methods[0].session.mode = "unbiased";
+    suite.methods[0].session.integrator = "path";
+    suite.methods[1].name = "gi";
+    suite.methods[1].session.integrator = "restir_gi";
+    suite.methods[1].session.mode = "unbiased";
+    block.width = block.height = kSide;
+    block.reference = referenceOf(deviationOfHalf);
+    block.methods.resize(2);
+    for (size_t m = 0; m < 2; ++m) {
+      for (uint32_t run = 0; run < 8; ++run) {
+        const Image image = noisy(10 + 10 * uint32_t(m) + run, deviationOfRuns / (1.0f + float(m)));
+        RunResult result;
+        result.run = run;
+        result.measured = measureFrame(image, block.reference, 0, {});
+        result.passes = {{"pass", 1.0}};
+        result.timesMs = {1.0};
+        AccumulatedError point{1, 1.0, result.measured};
+        result.accumulated.push_back(point);
+        point.frames = 2;
+        point.timeMs = 2.0;
+        point.error.mse /= 100.0;
+        result.accumulated.push_back(point);
+        block.methods[m].measured.add(image);
+        block.methods[m].runs.push_back(result);
+      }
+    }
+  }
+  Suite suite;
+  BlockResult block;
+};
+
+bool hasFlag(const MethodSummary& row, const std::string& words) {
+  for (const std::string& flag : row.flags) {
+    if (flag.find(words) != std::string::npos) return true;
+  }
+  return false;
+}
+
+std::string flagsOf(const MethodSummary& row) {
+  std::string all;
+  for (const std::string& flag : row.flags) all += flag + "\n";
+  return all;
+}
+
+TEST(ReferenceNoise, IntervalsOfARowHaveIt) {
+  const Fixture fixture(0.5f);
+  const auto rows = summarise(fixture.suite, fixture.block);
+  std::vector<double> mse;
+  for (const RunResult& run : fixture.block.methods[1].runs) mse.push_back(run.measured.mse);
+  const Interval ofRuns = meanInterval(mse);
+  const MethodSummary& gi = rows[1];
+  ASSERT_GT(gi.noise.shared, 0.0);
+  EXPECT_NEAR(gi.mse.hi, widened(ofRuns, gi.noise.shared).hi, 1e-12);
+  EXPECT_GT(gi.mse.hi - gi.mse.lo, 1.2 * (ofRuns.hi - ofRuns.lo));
+  // Of every interval that is taken against the halves.
+  EXPECT_LT(gi.mseWithoutLights.lo, gi.mse.value);
+  Fixture without(0.5f);
+  without.block.reference.half0.reset();
+  without.block.reference.half1.reset();
+  const MethodSummary unknown = summarise(without.suite, without.block)[1];
+  EXPECT_EQ(unknown.noise.shared, 0.0) << "without halves the noise is in the MSE";
+  EXPECT_NEAR(unknown.mse.hi, ofRuns.hi, 1e-12);
+  EXPECT_LT(gi.mseRatio.lo, unknown.mseRatio.lo);
+  EXPECT_GT(gi.mseRatio.hi, unknown.mseRatio.hi);
+  EXPECT_LT(gi.efficiencyRatio.lo, unknown.efficiencyRatio.lo);
+  EXPECT_LT(gi.mseRatioWithoutLights.lo, unknown.mseRatioWithoutLights.lo);
+  EXPECT_GT(gi.convergence->points[1].noise, 0.0);
+  EXPECT_LT(gi.convergence->points[1].mse.lo, unknown.convergence->points[1].mse.lo);
+  EXPECT_EQ(rows[0].mseRatio.lo, 1.0) << "of path against itself";
+}
+
+TEST(ReferenceNoise, NearItRowsAreFlagged) {
+  // gi has a variance of (0.5 / 2)^2 times the light, a half of 0.5^2 or of 0.05^2 times it.
+  const Fixture near(0.5f), far(0.05f);
+  const MethodSummary gi = summarise(near.suite, near.block)[1];
+  EXPECT_TRUE(hasFlag(gi, "its MSE is 0.2")) << flagsOf(gi);
+  EXPECT_TRUE(hasFlag(gi, "times the variance of a half of the reference (64 spp)")) << flagsOf(gi);
+  EXPECT_TRUE(gi.counts);
+  const auto rows = summarise(far.suite, far.block);
+  EXPECT_FALSE(hasFlag(rows[1], "its MSE is ")) << flagsOf(rows[1]);
+  EXPECT_TRUE(hasFlag(rows[1], "its MSE of 2 accumulated frames is ")) << flagsOf(rows[1]);
+  EXPECT_FALSE(hasFlag(rows[1], "relMSE")) << flagsOf(rows[1]);
+}
+
+// Numerators have the reference's noise by the mean of the halves, but not by their product.
+TEST(ReferenceNoise, RelativeErrorHasNoShareOfIt) {
+  const Image image = noisy(7, 0.1f);
+  const Reference good = referenceOf(0.001f), poor = referenceOf(0.1f);
+  const double truth = errorAgainst("relmse_e1e-2", image, good).value;
+  EXPECT_NEAR(errorAgainst("relmse_e1e-2", image, poor).value, truth, 0.1 * truth);
+  EXPECT_GT(evaluateMetric("relmse_e1e-2", image, poor.mean).value, 1.3 * truth);
+  const double trimmed = errorAgainst("relmse_e1e-2_trim0.1", image, good).value;
+  EXPECT_NEAR(errorAgainst("relmse_e1e-2_trim0.1", image, poor).value, trimmed, 0.1 * trimmed);
+  EXPECT_EQ(errorAgainst("relmse_e1e-2", image, poor).detail, "against the reference's two halves");
+  // As `run` has it.
+  EXPECT_EQ(measureFrame(image, poor, 0, {}).relmse,
+            errorAgainst("relmse_e1e-2", image, poor).value);
+  EXPECT_EQ(measureFrame(image, poor, 0, {}).relmseTrimmed,
+            errorAgainst("relmse_e1e-2_trim0.1", image, poor).value);
+  // Other programs' conventions and images of the reference itself keep their formulas.
+  EXPECT_EQ(errorAgainst("relmse_tev", image, poor).value,
+            evaluateMetric("relmse_tev", image, poor.mean).value);
+  EXPECT_EQ(errorAgainst("relmse_e1e-2", poor.mean, poor).value, 0.0);
+}
+
+// What is left is in the denominators: pixels that a half has too dark.
+TEST(ReferenceNoise, RelativeErrorThatHangsOnTheDivisorIsFlagged) {
+  BiasRuns runs;
+  for (uint32_t run = 0; run < 3; ++run) runs.add(noisy(50 + run, 0.5f));
+  EXPECT_EQ(relmseFlag(referenceOf(0.05f), runs), "");
+  const std::string flag = relmseFlag(referenceOf(0.8f), runs);
+  EXPECT_NE(flag.find("relMSE depends on the reference's noise: "), std::string::npos) << flag;
+  EXPECT_NE(flag.find(" by the half that divides"), std::string::npos) << flag;
+  Reference whole = referenceOf(0.8f);
+  whole.half0.reset();
+  whole.half1.reset();
+  EXPECT_EQ(relmseFlag(whole, runs), "");
+}
+
+}  // namespace
+
+}  // namespace restlab
