@@ -114,6 +114,10 @@ FrameError measureFrame(const Image& image, const Reference& reference, uint32_t
                    std::find(withoutLights.begin(), withoutLights.end(), 1) != withoutLights.end();
   error.mseWithoutLights = any ? mseAgainstHalves(image, half0, half1, withoutLights)
                                : std::numeric_limits<double>::quiet_NaN();
+  if (any && reference.half0) {
+    error.insideVarianceAtMost = sharedVarianceAtMost(image, half0, half1, withoutLights);
+    error.insideVarianceCommon = halvesNoise(half0, half1, withoutLights).varianceOfProduct;
+  }
   return error;
 }
 

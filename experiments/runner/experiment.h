@@ -24,6 +24,8 @@ struct FrameError {
   // Of what the noise of the halves adds to the MSE of all runs, and at most that: the image's own
   // noise is in it (core/image/halves_noise.h). 0 without halves, NaN where it was not recorded.
   double mseVarianceAtMost = 0.0;
+  // The same of mseWithoutLights, whose mask is not kept, and what every unbiased method has of it.
+  double insideVarianceAtMost = 0.0, insideVarianceCommon = 0.0;
   double relmse = 0.0;         // its numerators against the two halves, like mse
   double relmseTrimmed = 0.0;  // without the worst 0.1 % of the pixels
   double energyRatio = 0.0;

@@ -27,14 +27,12 @@ struct ByDivisor {
 
 }  // namespace
 
-ReferenceNoise noiseOf(const Reference& reference, const BiasRuns& runs, const PixelMask& mask) {
-  const bool selectsNothing = !mask.empty() && std::all_of(mask.begin(), mask.end(),
-                                                           [](uint8_t byte) { return byte == 0; });
-  if (!reference.half0 || selectsNothing) return {};
+ReferenceNoise noiseOf(const Reference& reference, const BiasRuns& runs) {
+  if (!reference.half0) return {};
   const Image &half0 = *reference.half0, &half1 = *reference.half1;
-  const HalvesNoise halves = halvesNoise(half0, half1, mask);
+  const HalvesNoise halves = halvesNoise(half0, half1);
   return {halves.varianceOfHalf, halves.varianceOfProduct, halves.varianceOfProductAtLeast(),
-          runs.sharedVariance(half0, half1, mask)};
+          runs.sharedVariance(half0, half1)};
 }
 
 SharedNoise sharedNoise(const ReferenceNoise& numerator, const ReferenceNoise& denominator,

@@ -18,9 +18,7 @@ struct ReferenceNoise {
   double shared = 0.0;  // variance of what it adds to the MSE of all runs of this one
 };
 
-// Of the pixels in `mask`; all 0 where it selects nothing.
-ReferenceNoise noiseOf(const Reference& reference, const BiasRuns& runs,
-                       const PixelMask& mask = {});
+ReferenceNoise noiseOf(const Reference& reference, const BiasRuns& runs);
 
 // Of the ratio of two methods' MSE against the same halves.
 SharedNoise sharedNoise(const ReferenceNoise& numerator, const ReferenceNoise& denominator,

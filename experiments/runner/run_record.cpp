@@ -62,6 +62,8 @@ void addError(Json& line, const FrameError& error) {
   line["mse"] = finiteJson(error.mse);
   line["mse_without_lights"] = finiteJson(error.mseWithoutLights);
   line["mse_variance_of_halves_at_most"] = finiteJson(error.mseVarianceAtMost);
+  line["mse_without_lights_variance_of_halves_at_most"] = finiteJson(error.insideVarianceAtMost);
+  line["mse_without_lights_variance_of_halves"] = finiteJson(error.insideVarianceCommon);
   line["relmse_e1e-2"] = finiteJson(error.relmse);
   line["relmse_e1e-2_trim0.1"] = finiteJson(error.relmseTrimmed);
   line["energy_ratio"] = finiteJson(error.energyRatio);
@@ -103,15 +105,21 @@ Json healthJson(const HealthSum& sum) {
   return json;
 }
 
+// NaN, which is not known, in lines of before it was recorded.
+double recordedNumber(const Json& line, const char* key) {
+  const auto found = line.find(key);
+  return found == line.end() ? std::numeric_limits<double>::quiet_NaN() : finiteNumber(*found);
+}
+
 FrameError errorOf(const Json& line) {
   FrameError error;
   error.frame = line.at("frame").get<uint32_t>();
   error.mse = finiteNumber(line.at("mse"));
   error.mseWithoutLights = finiteNumber(line.at("mse_without_lights"));
-  // Lines of before it was recorded have none.
-  const auto variance = line.find("mse_variance_of_halves_at_most");
-  error.mseVarianceAtMost =
-      variance == line.end() ? std::numeric_limits<double>::quiet_NaN() : finiteNumber(*variance);
+  error.mseVarianceAtMost = recordedNumber(line, "mse_variance_of_halves_at_most");
+  error.insideVarianceAtMost =
+      recordedNumber(line, "mse_without_lights_variance_of_halves_at_most");
+  error.insideVarianceCommon = recordedNumber(line, "mse_without_lights_variance_of_halves");
   error.relmse = finiteNumber(line.at("relmse_e1e-2"));
   error.relmseTrimmed = finiteNumber(line.at("relmse_e1e-2_trim0.1"));
   error.energyRatio = finiteNumber(line.at("energy_ratio"));

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "core/image/halves_noise.h"
 #include "core/image/metrics.h"
 #include "experiments/report/text.h"
 #include "experiments/runner/figures.h"
@@ -58,9 +60,23 @@ void summariseTimes(const MethodResult& result, size_t pixels, MethodSummary& ro
   }
 }
 
+// Of the pixels without lights, by what the runs recorded.
+ReferenceNoise noiseInside(const std::vector<RunResult>& runs, bool isUnbiased) {
+  HalvesNoise halves;
+  halves.varianceOfProduct = runs.front().measured.insideVarianceCommon;
+  ReferenceNoise noise;
+  noise.common = halves.varianceOfProduct;
+  noise.commonAtLeast = halves.varianceOfProductAtLeast();
+  double atMost = 0.0;
+  for (const RunResult& run : runs)
+    atMost += run.measured.insideVarianceAtMost / double(runs.size());
+  noise.shared = isUnbiased ? noise.common : std::max(atMost, noise.common);
+  return noise;
+}
+
 void summariseErrors(const MethodResult& result, const Reference& reference, MethodSummary& row) {
   row.noise = noiseOf(reference, result.measured);
-  row.noiseWithoutLights = noiseOf(reference, result.measured, row.block->withoutLights);
+  row.noiseWithoutLights = noiseInside(result.runs, row.bias == BiasClass::unbiased);
   row.mse = widened(meanInterval(perRun(result, runMse)), row.noise.shared);
   row.mseWithoutLights =
       widened(meanInterval(perRun(result, runMseWithoutLights)), row.noiseWithoutLights.shared);
@@ -165,8 +181,8 @@ std::optional<TemporalFigures> meanOf(const std::vector<RunResult>& runs) {
 
 // One value a run; nothing where a run lacks it.
 std::vector<std::pair<std::string, Interval>> figuresOf(const Suite& suite,
-                                                        const BlockResult& block,
-                                                        const MethodResult& result) {
+                                                        const MethodResult& result,
+                                                        const ReferenceNoise& noise) {
   std::vector<std::pair<std::string, Interval>> figures;
   for (const FigureInfo& figure : figureInfos(suite)) {
     std::vector<double> values;
@@ -177,10 +193,8 @@ std::vector<std::pair<std::string, Interval>> figuresOf(const Suite& suite,
     }
     const bool isKnown = values.size() == result.runs.size();
     Interval over = isKnown ? meanInterval(values) : Interval{kUnknown, kUnknown, kUnknown};
-    if (isKnown && figure.metric == "mse") {
-      const PixelMask mask = figure.mask < 0 ? PixelMask() : block.masks.at(size_t(figure.mask));
-      over = widened(over, noiseOf(block.reference, result.measured, mask).shared);
-    }
+    // Of a mask the pixels are not kept.
+    if (figure.metric == "mse" && figure.mask < 0) over = widened(over, noise.shared);
     figures.emplace_back(figure.name, over);
   }
   return figures;
@@ -298,7 +312,7 @@ std::vector<MethodSummary> summarise(const Suite& suite, const BlockResult& bloc
     summariseErrors(result, block.reference, row);
     row.convergence = convergenceOf(result.runs, accumulatedNoise(row));
     row.temporal = meanOf(result.runs);
-    row.figures = figuresOf(suite, block, result);
+    row.figures = figuresOf(suite, result, row.noise);
     if (row.method->images && row.runs != suite.runs) {
       row.flags.push_back(row.runs == 1 ? "one image" : fmt::format("{} images", row.runs));
     }
