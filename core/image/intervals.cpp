@@ -45,6 +45,21 @@ double normalQuantile(double confidence) {
   return boost::math::quantile(boost::math::complement(normal, 0.5 * (1.0 - confidence)));
 }
 
+// Welch-Satterthwaite degrees of freedom of a difference of means with these variances.
+double welchDof(double va, double na, double vb, double nb) {
+  return (va + vb) * (va + vb) / (va * va / (na - 1.0) + vb * vb / (nb - 1.0));
+}
+
+std::vector<double> logarithms(std::span<const double> positive) {
+  std::vector<double> logs;
+  for (const double x : positive) logs.push_back(x > 0.0 ? std::log(x) : kNan);
+  return logs;
+}
+
+Interval exponential(const Interval& logs) {
+  return {std::exp(logs.value), std::exp(logs.lo), std::exp(logs.hi)};
+}
+
 // Fieller's interval: all ratios q for which a - q b is within t standard errors of 0, that is
 // (b^2 - t^2 vb) q^2 - 2 (a b - t^2 vab) q + (a^2 - t^2 va) <= 0, with the (co)variances of means.
 Interval fieller(double a, double b, double va, double vb, double vab, double t,
@@ -89,9 +104,7 @@ Interval ratioInterval(std::span<const double> numerator, std::span<const double
   // Welch-Satterthwaite for a - ratio b.
   const double va = a.varianceOfMean;
   const double vb = ratio * ratio * b.varianceOfMean;
-  const double dof = va + vb == 0.0
-                         ? std::min(a.n, b.n) - 1.0
-                         : (va + vb) * (va + vb) / (va * va / (a.n - 1.0) + vb * vb / (b.n - 1.0));
+  const double dof = va + vb == 0.0 ? std::min(a.n, b.n) - 1.0 : welchDof(va, a.n, vb, b.n);
   return fieller(a.mean, b.mean, va, b.varianceOfMean, 0.0, tQuantile(dof, confidence), shared,
                  confidence);
 }
@@ -112,6 +125,23 @@ Interval pairedRatioInterval(std::span<const double> numerator, std::span<const 
   covariance /= (a.n - 1.0) * a.n;
   return fieller(a.mean, b.mean, a.varianceOfMean, b.varianceOfMean, covariance,
                  tQuantile(a.n - 1.0, confidence), shared, confidence);
+}
+
+Interval geometricMeanInterval(std::span<const double> runs, double confidence) {
+  return exponential(meanInterval(logarithms(runs), confidence));
+}
+
+Interval geometricRatioInterval(std::span<const double> numerator,
+                                std::span<const double> denominator, double confidence) {
+  const Moments a = momentsOf(logarithms(numerator));
+  const Moments b = momentsOf(logarithms(denominator));
+  const double ratio = a.mean - b.mean;
+  if (numerator.size() < 2 || denominator.size() < 2 || std::isnan(ratio))
+    return exponential({ratio, kNan, kNan});
+  const double va = a.varianceOfMean, vb = b.varianceOfMean;
+  if (va + vb == 0.0) return exponential({ratio, ratio, ratio});
+  const double half = tQuantile(welchDof(va, a.n, vb, b.n), confidence) * std::sqrt(va + vb);
+  return exponential({ratio, ratio - half, ratio + half});
 }
 
 Interval jackknifeInterval(size_t runs,

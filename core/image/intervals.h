@@ -38,6 +38,16 @@ Interval ratioInterval(std::span<const double> numerator, std::span<const double
 Interval pairedRatioInterval(std::span<const double> numerator, std::span<const double> denominator,
                              const SharedNoise& shared = {}, double confidence = 0.95);
 
+// For positive numbers with a ratio scale, times above all: the geometric mean exp(mean(log)),
+// whose interval is Student's t of the logarithms and so never reaches 0, and never holds a
+// negative ratio however few the runs are. Where a number is not positive nothing but NaN is known.
+Interval geometricMeanInterval(std::span<const double> runs, double confidence = 0.95);
+
+// The ratio of the geometric means of independent sets of positive numbers: Welch's interval of the
+// difference of the means of logarithms. The inverse ratio has the inverse interval.
+Interval geometricRatioInterval(std::span<const double> numerator,
+                                std::span<const double> denominator, double confidence = 0.95);
+
 // The jackknife over runs (Tukey): `statistic` of the runs with these indices, for statistics that
 // are no mean: a fitted slope, the logarithm of a ratio. The interval is Student's t of the
 // pseudo-values; lo and hi are NaN with fewer than three runs. Throws std::invalid_argument without

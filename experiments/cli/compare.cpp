@@ -23,6 +23,8 @@ namespace restlab {
 
 namespace {
 
+constexpr const char* kFailIfWorse = "--fail-if-worse";
+
 // Of all images together where a metric needs runs.
 std::vector<std::string> chosenMetrics(const CompareOptions& options,
                                        const std::vector<Expectation>& expectations) {
@@ -161,9 +163,20 @@ void addMaskOptions(CLI::App& verb, CompareOptions& options) {
   verb.add_option("--mask", options.maskFile, "EXR: only pixels where it is not 0");
 }
 
-// Two folders instead of a reference and images.
-void compareResults(const CompareOptions& options) {
-  const std::vector<std::string>& folders = options.images;
+// What is asked of images says nothing of folders, and would be passed over.
+void refuseImageOptions(const CLI::App& verb) {
+  const std::vector<std::string> known = {"images",  "--json",    kFailIfWorse,
+                                          "--quiet", "--verbose", "--help"};
+  for (const CLI::Option* option : verb.get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() == 0 || std::find(known.begin(), known.end(), name) != known.end())
+      continue;
+    failUsage(fmt::format("compare: {} is for images beside --ref; two folders take --json and {}",
+                          name, kFailIfWorse));
+  }
+}
+
+void requireTwoFolders(const std::vector<std::string>& folders) {
   const bool areFolders = std::all_of(folders.begin(), folders.end(), [](const std::string& name) {
     std::error_code status;
     return std::filesystem::is_directory(name, status);
@@ -176,11 +189,26 @@ void compareResults(const CompareOptions& options) {
   if (!areFolders) failUsage("compare: images need --ref, the reference they are compared with");
   if (folders.size() != 2)
     failUsage(fmt::format("compare: takes two folders of results, not {}", folders.size()));
-  const FolderComparison comparison = compareFolders(folders[0], folders[1]);
+}
+
+// Two folders instead of a reference and images.
+void compareResults(const CLI::App& verb, const CompareOptions& options, Outcome& outcome) {
+  requireTwoFolders(options.images);
+  refuseImageOptions(verb);
+  const FolderComparison comparison = compareFolders(options.images[0], options.images[1]);
   if (options.json) {
     fmt::print("{}\n", comparisonJson(comparison).dump(2));
   } else {
     std::fputs(comparisonTable(comparison).c_str(), stdout);
+  }
+  if (!options.failIfWorse) return;
+  for (const ComparedRow& row : comparison.rows) {
+    if (!row.isWorse()) continue;
+    logError(fmt::format("{}, {}: {} is worse", row.table, row.method,
+                         row.error != Verdict::worse  ? "the time"
+                         : row.time != Verdict::worse ? "the MSE"
+                                                      : "the MSE and the time"));
+    outcome.code = ExitCode::comparisonFailed;
   }
 }
 
@@ -188,7 +216,8 @@ void compareResults(const CompareOptions& options) {
 
 Action addCompareVerb(CLI::App& app) {
   auto options = std::make_shared<CompareOptions>();
-  CLI::App* verb = app.add_subcommand("compare", "errors of images against a reference");
+  CLI::App* verb = app.add_subcommand(
+      "compare", "errors of images against a reference, or two folders of `run`");
   verb->add_option("-r,--ref", options->reference, "the reference, an EXR");
   verb->add_option("images", options->images,
                    "EXR files; or two folders that `run` left, the older first")
@@ -198,10 +227,15 @@ Action addCompareVerb(CLI::App& app) {
   addBoundOptions(*verb, *options);
   verb->add_flag("--any-reference", options->anyReference,
                  "compare with a reference of another scene or setting");
+  verb->add_flag(kFailIfWorse, options->failIfWorse,
+                 "of two folders: exit code 1 where the MSE or the time of a row is worse");
   verb->add_flag("--json", options->json, "JSON on stdout");
-  return [options](Outcome& outcome) {
-    if (!options->reference.empty()) return compare(*options, outcome);
-    compareResults(*options);
+  return [options, verb](Outcome& outcome) {
+    if (options->reference.empty()) return compareResults(*verb, *options, outcome);
+    if (options->failIfWorse)
+      failUsage(fmt::format("compare: {} is for two folders; images take --max and --expect",
+                            kFailIfWorse));
+    compare(*options, outcome);
   };
 }
 

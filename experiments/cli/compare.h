@@ -16,7 +16,7 @@ struct CompareOptions {
   std::string reference, metrics, conventions, flipExposures, maskFile;
   std::vector<std::string> images, expectations, maxima, rectangles, objects;
   double pixelsPerDegree = kFlipPixelsPerDegree;
-  bool json = false, anyReference = false, withoutLights = false;
+  bool json = false, anyReference = false, withoutLights = false, failIfWorse = false;
 };
 
 // A bound that fails the comparison (exit code 1). NaN never holds.

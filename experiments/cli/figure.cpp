@@ -64,11 +64,38 @@ std::vector<Crop> parseCrops(const std::vector<std::string>& texts) {
   return crops;
 }
 
-std::vector<std::string> labelsOf(const FigureOptions& options) {
-  std::vector<std::string> labels;
-  for (const std::string& image : options.images) {
-    labels.push_back(std::filesystem::path(image).stem().string());
+// How many characters all names have in common at their front, up to a '-' and with it; 0 where
+// that would leave nothing of one.
+size_t commonFront(const std::vector<std::string>& names) {
+  size_t length = names.front().size();
+  for (const std::string& name : names) {
+    const auto end = std::mismatch(name.begin(), name.begin() + std::min(length, name.size()),
+                                   names.front().begin());
+    length = size_t(end.first - name.begin());
   }
+  const size_t dash = names.front().substr(0, length).rfind('-');
+  if (dash == std::string::npos) return 0;
+  const bool isRest = std::all_of(names.begin(), names.end(),
+                                  [&](const std::string& name) { return name.size() > dash + 1; });
+  return isRest ? dash + 1 : 0;
+}
+
+// "path" and "gi" of cornell-box-all-path.exr and cornell-box-all-gi.exr. What one image alone has
+// in common with others, its reference's name tells.
+std::vector<std::string> namesOf(const FigureOptions& options) {
+  std::vector<std::string> names;
+  for (const std::string& image : options.images)
+    names.push_back(std::filesystem::path(image).stem().string());
+  std::vector<std::string> compared = names;
+  if (names.size() == 1)
+    compared.push_back(std::filesystem::path(options.reference).stem().string());
+  const size_t front = commonFront(compared);
+  for (std::string& name : names) name.erase(0, front);
+  return names;
+}
+
+std::vector<std::string> labelsOf(const FigureOptions& options) {
+  std::vector<std::string> labels = namesOf(options);
   labels.emplace_back("reference");
   if (options.labels.empty()) return labels;
   std::vector<std::string> given = splitList(options.labels, "--labels");
@@ -224,7 +251,7 @@ Action addFigureVerb(CLI::App& app) {
       ->allow_extra_args(false);
   verb->add_option("-o,--output", options->output, "*.svg (text stays text) or *.png")->required();
   verb->add_option("--labels", options->labels,
-                   "comma-separated, one an image (default: the files' names)");
+                   "comma-separated, one an image (default: what tells the files' names apart)");
   verb->add_option("--title", options->title, "above the whole image (default: the scene)");
   verb->add_option("--metric", options->metric, "restlab list metrics (default mse)");
   verb->add_option("--exposure", options->exposure,

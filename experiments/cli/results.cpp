@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "experiments/cli/verbs.h"
-#include "experiments/runner/folder_lock.h"
+#include "experiments/runner/clean.h"
 #include "experiments/runner/job.h"
 #include "experiments/runner/log.h"
 #include "experiments/runner/results_folder.h"
@@ -64,16 +64,20 @@ void showStatus(const FolderOptions& options) {
 }
 
 void cleanFolder(const FolderOptions& options) {
-  const ResultsFolder results = openResults(options.folder);
-  const FolderLock lock(options.folder);
-  std::vector<std::string> keep;
-  for (const PlannedBlock& block : results.plan) {
-    keep.insert(keep.end(), block.jobs.begin(), block.jobs.end());
-    keep.insert(keep.end(), block.images.begin(), block.images.end());
+  const Cleaned cleaned = cleanResults(options.folder);
+  if (!cleaned.isFinished) {
+    logInfo(
+        fmt::format("{}: its last run is not finished, and may need any of its jobs and "
+                    "references; only what was half made is removed",
+                    options.folder));
   }
-  const size_t removed = JobStore(options.folder).clean(keep);
-  logInfo(
-      fmt::format("{}: {} folders of jobs removed, {} kept", options.folder, removed, keep.size()));
+  logInfo(fmt::format(
+      "{}: removed {} folders of jobs, {} references{}{} and {} half-made files or folders: "
+      "{:.1f} MiB; kept {} jobs and {} references",
+      options.folder, cleaned.jobs, cleaned.references.size(),
+      cleaned.references.empty() ? "" : ": ", fmt::join(cleaned.references, ", "),
+      cleaned.unfinished, double(cleaned.bytes) / (1024.0 * 1024.0), cleaned.jobsKept,
+      cleaned.referencesKept));
 }
 
 CLI::App* addFolderVerb(CLI::App& app, const char* name, const char* help,
@@ -104,7 +108,8 @@ Action addReportVerb(CLI::App& app) {
 
 Action addCleanVerb(CLI::App& app) {
   auto options = std::make_shared<FolderOptions>();
-  addFolderVerb(app, "clean", "removes runs that the folder's last suite does not use", options);
+  addFolderVerb(app, "clean",
+                "removes runs and references that the folder's last suite does not use", options);
   return [options](Outcome&) { cleanFolder(*options); };
 }
 

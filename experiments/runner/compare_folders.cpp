@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "core/error.h"
 #include "experiments/runner/job.h"
+#include "experiments/runner/reference_noise.h"
 #include "experiments/runner/report.h"
-#include "experiments/runner/run_record.h"
 
 namespace restlab {
 
@@ -19,7 +20,8 @@ struct Table {
   const Suite* suite = nullptr;
   BlockResult block;
   std::vector<MethodSummary> rows;
-  std::string reference;  // hash of its pixels
+  std::map<std::string, Words> words;  // of the methods
+  std::string reference;               // of its pixels
 };
 
 std::map<std::string, Table> tablesOf(const ResultsFolder& results) {
@@ -31,12 +33,13 @@ std::map<std::string, Table> tablesOf(const ResultsFolder& results) {
     table.suite = &suite;
     table.block = loadBlock(results, planned).result;
     if (table.block.methods.empty()) continue;
+    table.words = blockWords(results, planned, table.block.reference);
     table.reference = referenceHash(table.block.reference);
-    table.block.reference.variance.reset();
     const std::string label = blockLabel(suite, table.block);
     Table& placed = tables.emplace(label, std::move(table)).first->second;
     placed.rows = summarise(suite, placed.block);
     placed.block.reference.mean = Image();
+    placed.block.reference.variance.reset();
     for (MethodResult& method : placed.block.methods) {
       method.measured = BiasRuns();
       method.shown = Image();
@@ -89,14 +92,6 @@ const std::vector<RunResult>* yardstickRuns(const Table& table, const MethodSumm
   return runs.size() >= row.result->runs.size() ? &runs : nullptr;
 }
 
-// `ratio` above 1 is better.
-std::string verdict(const Interval& ratio) {
-  if (ratio.value == 1.0 && ratio.lo == 1.0 && ratio.hi == 1.0) return "the same";
-  if (ratio.lo > 1.0) return "better";
-  if (ratio.hi < 1.0) return "worse";
-  return "not told apart";
-}
-
 ComparedRow compareRows(const std::string& label, const Table& a, const MethodSummary& before,
                         const Table& b, const MethodSummary& after) {
   ComparedRow row;
@@ -109,39 +104,22 @@ ComparedRow compareRows(const std::string& label, const Table& a, const MethodSu
   const std::vector<double> mseA = msesOf(runsA), mseB = msesOf(runsB);
   // Images have no seeds.
   const bool isPaired = !before.method->images && hasSameSeeds(runsA, runsB);
-  SharedNoise shared = sharedNoise(before.noise, after.noise, mseA == mseB);
+  SharedNoise shared = sharedNoise(after.noise, before.noise, mseA == mseB);
   if (a.reference != b.reference) shared.covariance = 0.0;
   row.mseRatio =
-      isPaired ? pairedRatioInterval(mseA, mseB, shared) : ratioInterval(mseA, mseB, shared);
-  row.errorVerdict = verdict(row.mseRatio);
-  if (!haveTimes(runsA) || !haveTimes(runsB)) {
-    row.timeRatio = {kUnknown, kUnknown, kUnknown};
-    row.timeVerdict = "not known";
-    return row;
-  }
+      isPaired ? pairedRatioInterval(mseB, mseA, shared) : ratioInterval(mseB, mseA, shared);
+  if (isPaired && mseA == mseB) row.mseRatio = {1.0, 1.0, 1.0};  // however few runs there are
+  row.error = verdictOf(row.mseRatio);
+  row.timeRatio = {kUnknown, kUnknown, kUnknown};
+  if (!haveTimes(runsA) || !haveTimes(runsB)) return row;
   const std::vector<RunResult>* pathA = yardstickRuns(a, before);
   const std::vector<RunResult>* pathB = yardstickRuns(b, after);
   row.timesOverPath = pathA != nullptr && pathB != nullptr;
   const auto timesA = timesOf(runsA, row.timesOverPath ? pathA : nullptr);
   const auto timesB = timesOf(runsB, row.timesOverPath ? pathB : nullptr);
-  row.timeRatio = ratioInterval(timesB, timesA);
-  // Less time is better.
-  row.timeVerdict =
-      verdict({1.0 / row.timeRatio.value, 1.0 / row.timeRatio.hi, 1.0 / row.timeRatio.lo});
+  row.timeRatio = geometricRatioInterval(timesB, timesA);
+  row.time = verdictOf(row.timeRatio);
   return row;
-}
-
-std::string text(const Interval& interval) {
-  const bool isKnown = std::isfinite(interval.lo) && std::isfinite(interval.hi);
-  return fmt::format(
-      "{:.4g}{}", interval.value,
-      isKnown ? fmt::format(" [{:.4g}, {:.4g}]", interval.lo, interval.hi) : " [unknown]");
-}
-
-nlohmann::ordered_json json(const Interval& interval) {
-  return {{"value", finiteJson(interval.value)},
-          {"lo", finiteJson(interval.lo)},
-          {"hi", finiteJson(interval.hi)}};
 }
 
 // Whatever else ran on the machine is in the times, also in those over `path`.
@@ -157,80 +135,113 @@ void noteLoads(const ResultsFolder& first, const ResultsFolder& second,
                   before, after, cores));
 }
 
+// Whoever made the folders, and whether they are whole.
+void noteOrigins(FolderComparison& comparison) {
+  const std::vector<std::string> differences =
+      originDifferences(comparison.before, comparison.after);
+  if (!differences.empty())
+    comparison.notes.push_back(fmt::format("made differently: {}", fmt::join(differences, ", ")));
+  for (const FolderOrigin* origin : {&comparison.before, &comparison.after}) {
+    if (origin->status == "finished") continue;
+    comparison.notes.push_back(
+        fmt::format("{}: is not finished ({}): runs are missing", origin->folder, origin->status));
+  }
+}
+
+void noteDifferences(const std::string& where, const std::vector<Difference>& differences,
+                     FolderComparison& comparison) {
+  for (const bool areSettings : {true, false}) {
+    std::vector<std::string> texts;
+    for (const Difference& difference : differences) {
+      if (difference.isSetting == areSettings) texts.push_back(difference.text);
+    }
+    if (texts.empty()) continue;
+    comparison.notes.push_back(fmt::format("{}: {}: {}", where,
+                                           areSettings ? "settings differ" : "differ as well",
+                                           fmt::join(texts, ", ")));
+  }
+}
+
+// What differs in all rows of a table is said once.
+void compareTables(const std::string& label, const Table& a, const Table& b,
+                   FolderComparison& comparison) {
+  std::vector<std::pair<std::string, std::vector<Difference>>> differences;
+  std::map<std::string, size_t> counts;
+  for (const MethodSummary& row : a.rows) {
+    const std::string& name = row.method->name;
+    const MethodSummary* same = find(b, name);
+    if (same == nullptr) continue;
+    ComparedRow& compared = comparison.rows.emplace_back(compareRows(label, a, row, b, *same));
+    const auto& own =
+        differences.emplace_back(name, differencesOf(a.words.at(name), b.words.at(name))).second;
+    for (const Difference& difference : own) {
+      ++counts[difference.text];
+      if (difference.isSetting) compared.unlike.push_back(difference.text);
+    }
+  }
+  if (differences.empty()) return;
+  std::vector<Difference> common;
+  for (const Difference& difference : differences.front().second) {
+    if (counts[difference.text] == differences.size()) common.push_back(difference);
+  }
+  noteDifferences(label, common, comparison);
+  for (auto& [name, own] : differences) {
+    std::erase_if(own, [&](const Difference& difference) {
+      return counts[difference.text] == differences.size();
+    });
+    noteDifferences(fmt::format("{}, {}", label, name), own, comparison);
+  }
+}
+
+void noteOnly(const std::map<std::string, Table>& tables,
+              const std::map<std::string, Table>& others, const std::filesystem::path& folder,
+              FolderComparison& comparison) {
+  const auto only = [&](const std::string& what) {
+    comparison.notes.push_back(fmt::format("{}: only in {}", what, folder.string()));
+  };
+  for (const auto& [label, table] : tables) {
+    const auto other = others.find(label);
+    if (other == others.end()) {
+      only(label);
+      continue;
+    }
+    for (const MethodSummary& row : table.rows) {
+      if (find(other->second, row.method->name) == nullptr)
+        only(fmt::format("{}, {}", label, row.method->name));
+    }
+  }
+}
+
 }  // namespace
+
+Verdict verdictOf(const Interval& afterOverBefore) {
+  const auto& [value, lo, hi] = afterOverBefore;
+  if (value == 1.0 && lo == 1.0 && hi == 1.0) return Verdict::same;
+  if (!(lo > 0.0) || !std::isfinite(hi)) return Verdict::notToldApart;
+  if (hi < 1.0) return Verdict::better;
+  return lo > 1.0 ? Verdict::worse : Verdict::notToldApart;
+}
 
 FolderComparison compareFolders(const std::filesystem::path& before,
                                 const std::filesystem::path& after) {
   const ResultsFolder first = openResults(before), second = openResults(after);
   const std::map<std::string, Table> a = tablesOf(first), b = tablesOf(second);
   FolderComparison comparison;
+  comparison.before = originOf(first);
+  comparison.after = originOf(second);
+  noteOrigins(comparison);
   noteLoads(first, second, comparison);
-  const auto only = [&](const std::string& what, const std::filesystem::path& folder) {
-    comparison.notes.push_back(fmt::format("{}: only in {}", what, folder.string()));
-  };
   for (const auto& [label, table] : a) {
     const auto other = b.find(label);
-    if (other == b.end()) {
-      only(label, before);
-      continue;
-    }
-    if (table.reference != other->second.reference) {
-      comparison.notes.push_back(
-          fmt::format("{}: the two are measured against different references", label));
-    }
-    for (const MethodSummary& row : table.rows) {
-      if (const MethodSummary* same = find(other->second, row.method->name)) {
-        comparison.rows.push_back(compareRows(label, table, row, other->second, *same));
-      } else {
-        only(fmt::format("{}, {}", label, row.method->name), before);
-      }
-    }
-    for (const MethodSummary& row : other->second.rows) {
-      if (find(table, row.method->name) == nullptr)
-        only(fmt::format("{}, {}", label, row.method->name), after);
-    }
+    if (other != b.end()) compareTables(label, table, other->second, comparison);
   }
-  for (const auto& [label, table] : b) {
-    if (a.count(label) == 0) only(label, after);
-  }
+  noteOnly(a, b, before, comparison);
+  noteOnly(b, a, after, comparison);
   if (comparison.rows.empty()) {
     failInput(fmt::format("{} and {} have no method of a table in common", before.string(),
                           after.string()));
   }
   return comparison;
-}
-
-std::string comparisonTable(const FolderComparison& comparison) {
-  std::string lines =
-      "| table | method | MSE before | MSE after | MSE before / after | | time after / before | |\n"
-      "|---|---|---|---|---|---|---|---|\n";
-  bool overPath = false;
-  for (const ComparedRow& row : comparison.rows) {
-    overPath = overPath || row.timesOverPath;
-    lines += fmt::format("| {} | {} | {} | {} | {} | {} | {}{} | {} |\n", row.table, row.method,
-                         text(row.before), text(row.after), text(row.mseRatio), row.errorVerdict,
-                         text(row.timeRatio), row.timesOverPath ? " (*)" : "", row.timeVerdict);
-  }
-  if (overPath || !comparison.notes.empty()) lines += "\n";
-  if (overPath) lines += "- (*) of the times over those of `path` in the same folder\n";
-  for (const std::string& note : comparison.notes) lines += "- " + note + "\n";
-  return lines;
-}
-
-nlohmann::ordered_json comparisonJson(const FolderComparison& comparison) {
-  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-  for (const ComparedRow& row : comparison.rows) {
-    rows.push_back({{"table", row.table},
-                    {"method", row.method},
-                    {"mse_before", json(row.before)},
-                    {"mse_after", json(row.after)},
-                    {"mse_ratio", json(row.mseRatio)},
-                    {"error", row.errorVerdict},
-                    {"time_ratio", json(row.timeRatio)},
-                    {"times_over_path", row.timesOverPath},
-                    {"time", row.timeVerdict}});
-  }
-  return {{"rows", rows}, {"notes", comparison.notes}};
 }
 
 }  // namespace restlab

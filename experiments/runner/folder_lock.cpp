@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "experiments/runner/log.h"
 
 namespace restlab {
 
@@ -25,7 +26,13 @@ FolderLock::FolderLock(const std::filesystem::path& folder) {
     close(file_);
     file_ = -1;
     // Where the file system knows no locks, nobody can be kept out.
-    if (reason != EWOULDBLOCK) return;
+    if (reason != EWOULDBLOCK) {
+      logWarning(
+          fmt::format("{}: cannot be locked ({}): see to it that no second restlab works "
+                      "there",
+                      folder.string(), std::strerror(reason)));
+      return;
+    }
     failInput(
         fmt::format("{}: another restlab (process {}) is at work there; wait for it or choose "
                     "another folder",

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <set>
 
 #include "core/error.h"
 #include "core/image/atomic_file.h"
@@ -54,7 +53,7 @@ std::string cameraWords(const SceneCamera& camera) {
   return words;
 }
 
-JobData read(const fs::path& folder, const std::string& key) {
+Json readRecord(const fs::path& folder, const std::string& key) {
   std::ifstream in(folder / "job.json", std::ios::binary);
   if (!in) failInput("has no job.json");
   Json document = Json::parse(in);
@@ -64,6 +63,11 @@ JobData read(const fs::path& folder, const std::string& key) {
   if (document.at("schema").get<int>() != kJobSchema ||
       document.at("key").get<std::string>() != key)
     failInput("job.json is of another job");
+  return document;
+}
+
+JobData read(const fs::path& folder, const std::string& key) {
+  const Json document = readRecord(folder, key);
   JobData job;
   for (const Json& method : document.at("methods")) {
     const fs::path file = folder / method.at("image").get<std::string>();
@@ -160,6 +164,14 @@ std::optional<JobData> JobStore::load(const std::string& key) const {
   }
 }
 
+std::optional<Json> JobStore::record(const std::string& key) const {
+  try {
+    return readRecord(folderOf(key), key);
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
 void JobStore::save(const JobIdentity& identity, const JobData& job) const {
   const std::string key = identity.key();
   makeWritableDirectory(folder_);
@@ -204,17 +216,6 @@ std::vector<std::string> JobStore::keys() const {
   }
   std::sort(found.begin(), found.end());
   return found;
-}
-
-size_t JobStore::clean(const std::vector<std::string>& keep) const {
-  const std::set<std::string> kept(keep.begin(), keep.end());
-  std::vector<fs::path> old;
-  std::error_code status;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder_, status)) {
-    if (kept.count(entry.path().filename().string()) == 0) old.push_back(entry.path());
-  }
-  for (const fs::path& folder : old) fs::remove_all(folder, status);
-  return old.size();
 }
 
 }  // namespace restlab

@@ -41,12 +41,12 @@ class JobStore {
   // Lines and images of the job; nothing where it is not there or, with one line that says what is
   // wrong, where it is damaged.
   std::optional<JobData> load(const std::string& key) const;
+  // Its job.json without the images: "identity" in words, "methods" with their "lines". Nothing
+  // where that is not there or damaged, about which nothing is said.
+  std::optional<nlohmann::ordered_json> record(const std::string& key) const;
   // Writes it under its key. Throws Error (badInput) where the disk is full or read-only; nothing
   // is left under the key then.
   void save(const JobIdentity& identity, const JobData& job) const;
-  // Removes what interrupted writers left, and jobs whose key is not in `keep`; the number of
-  // folders.
-  size_t clean(const std::vector<std::string>& keep) const;
   // Keys of the jobs that are there, sorted.
   std::vector<std::string> keys() const;
 

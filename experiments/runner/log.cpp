@@ -67,7 +67,7 @@ Progress::Progress(std::string label, uint64_t total, uint64_t already)
 
 Progress::~Progress() { finish(); }
 
-void Progress::update(uint64_t done, const std::string& note) {
+void Progress::update(uint64_t done, const std::string& note, const WholeProgress& whole) {
   if (level < 0) return;
   const auto now = Clock::now();
   const double sinceLastS = std::chrono::duration<double>(now - lastPrint_).count();
@@ -79,10 +79,10 @@ void Progress::update(uint64_t done, const std::string& note) {
   if (!due) return;
   lastPrint_ = now;
   lastTenth_ = tenth;
-  print(done, note);
+  print(done, note, whole);
 }
 
-void Progress::print(uint64_t done, const std::string& note) {
+void Progress::print(uint64_t done, const std::string& note, const WholeProgress& whole) {
   const double elapsedS = std::chrono::duration<double>(Clock::now() - start_).count();
   const double leftS = done > already_ && done < total_
                            ? elapsedS * double(total_ - done) / double(done - already_)
@@ -91,6 +91,11 @@ void Progress::print(uint64_t done, const std::string& note) {
     nlohmann::ordered_json event = {
         {"event", "progress"}, {"of", label_}, {"done", done}, {"elapsed_s", elapsedS}};
     if (total_) event.update({{"total", total_}, {"left_s", leftS}});
+    if (whole.total) {
+      event.update({{"suite_done", whole.done},
+                    {"suite_total", whole.total},
+                    {"suite_left_s", whole.leftS}});
+    }
     if (!note.empty()) event["note"] = note;
     return logEvent(event);
   }
@@ -100,6 +105,9 @@ void Progress::print(uint64_t done, const std::string& note) {
   } else {
     text += fmt::format(" {} ({:.0f} s elapsed)", done, elapsedS);
   }
+  // A suite of one table has said it all.
+  if (whole.total > total_)
+    text += fmt::format("; suite {}/{} ({:.0f} s left)", whole.done, whole.total, whole.leftS);
   if (!note.empty()) text += " " + note;
   if (terminal_) {
     std::fputs(fmt::format("\r{:<78}", text).c_str(), stderr);

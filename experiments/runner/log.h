@@ -23,17 +23,23 @@ void setEventLog(bool isOn);
 // Nothing where lines are for people. May be called by several threads, as all of these.
 void logEvent(const nlohmann::ordered_json& event);
 
+// Of all loops of which a loop is one: what is left of them, by those that are done.
+struct WholeProgress {
+  uint64_t done = 0, total = 0;  // total 0: unknown
+  double leftS = 0.0;
+};
+
 // Progress of a loop: on a terminal one line that is rewritten, else a line per 10 % or 30 s.
 class Progress {
  public:
   // `total` 0: unknown. `already` were done before the loop began.
   Progress(std::string label, uint64_t total, uint64_t already = 0);
   ~Progress();
-  void update(uint64_t done, const std::string& note = "");
+  void update(uint64_t done, const std::string& note = "", const WholeProgress& whole = {});
   void finish();
 
  private:
-  void print(uint64_t done, const std::string& note);
+  void print(uint64_t done, const std::string& note, const WholeProgress& whole);
   using Clock = std::chrono::steady_clock;
   std::string label_;
   uint64_t total_, already_;

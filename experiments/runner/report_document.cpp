@@ -55,8 +55,8 @@ const std::vector<Column>& columns() {
       {"time_ms", "time per frame", "ms", "lower", "median over timed frames: passes, nothing else",
        [](const MethodSummary& row) { return only(row.timeMsMedian); }},
       {"time_ratio", "time ratio", "", "lower",
-       "mean over runs of the median over frames of time / time of the baseline's frame beside it "
-       "(path, unless the suite names another)",
+       "geometric mean over runs of the median over frames of time / time of the baseline's frame "
+       "beside it (path, unless the suite names another)",
        [](const MethodSummary& row) { return row.timeRatio; }},
       {"mse", "MSE", "", "lower", "of the frame after the warm-up, against the reference's halves",
        [](const MethodSummary& row) { return row.mse; }},

@@ -16,12 +16,14 @@
 #include "core/image/atomic_file.h"
 #include "experiments/runner/block_masks.h"
 #include "experiments/runner/build_info.h"
+#include "experiments/runner/clean.h"
 #include "experiments/runner/files.h"
 #include "experiments/runner/folder_lock.h"
 #include "experiments/runner/image_rows.h"
 #include "experiments/runner/job.h"
 #include "experiments/runner/log.h"
 #include "experiments/runner/outputs.h"
+#include "experiments/runner/pace.h"
 #include "experiments/runner/report.h"
 #include "experiments/runner/results_log.h"
 #include "experiments/runner/run_record.h"
@@ -38,23 +40,12 @@ namespace {
 // A file that the suite itself reads stays.
 void removeEarlierResults(const fs::path& out, const Suite& suite) {
   std::error_code status;
-  const auto isRead = [&](const fs::path& file) {
-    for (const fs::path& image : imageFiles(suite)) {
-      if (fs::equivalent(file, image, status)) return true;
-    }
-    for (const SuiteScene& scene : suite.scenes) {
-      for (const std::string& name : {scene.reference, scene.request.environment}) {
-        if (!name.empty() && fs::equivalent(file, findAsset(name), status)) return true;
-      }
-    }
-    return false;
-  };
   std::vector<fs::path> old = {out / "summary.csv", out / "table.md", out / "table.tex",
                                out / "report.html"};
   for (const fs::directory_entry& entry : fs::directory_iterator(out / "images", status)) {
     const fs::path extension = entry.path().extension();
     const bool isImage = extension == ".exr" || extension == ".png";
-    if (isImage && !isRead(entry.path())) old.push_back(entry.path());
+    if (isImage && !readsFile(suite, entry.path())) old.push_back(entry.path());
   }
   for (const fs::directory_entry& entry : fs::directory_iterator(out / "plots", status)) {
     if (entry.path().extension() == ".svg") old.push_back(entry.path());
@@ -149,6 +140,7 @@ class SuiteRun {
           block.scene = scene.name;
           block.component = component;
           plan_.push_back(planOf(suite, block));
+          pace_.plan(suite.runs);
         }
       }
     }
@@ -236,23 +228,33 @@ class SuiteRun {
       if (!request_.force || made.count(key) != 0) job = store_.load(key);
       const bool isThere = job.has_value() && made.count(key) == 0;
       if (!job) {
+        Stopwatch watch;
         job = executor.execute(run, key, started_);
         if (!job) return false;
         store_.save(identity, *job);
+        pace_.made(watch.lap());
+      } else if (isThere) {
+        pace_.found();
       }
       ++(isThere ? reused_ : made_);
       log_->add(key, *job, !isThere);
       addJob(suite, *job, block);
       plan["jobs"].push_back(key);
-      logEvent({{"event", "run"},
-                {"table", blockLabel(suite, block)},
-                {"run", run},
-                {"job", key},
-                {"was_there", isThere}});
+      if (made.count(key) == 0) logRun(suite, block, run, key, isThere);
       writeRecord("running");
-      progress.update(run + 1);
+      // What was made side by side was counted then, together with what was there.
+      if (suite.jobs < 2) progress.update(run + 1, "", pace_.progress());
     }
     return true;
+  }
+
+  static void logRun(const Suite& suite, const BlockResult& block, uint32_t run,
+                     const std::string& key, bool wasThere) {
+    logEvent({{"event", "run"},
+              {"table", blockLabel(suite, block)},
+              {"run", run},
+              {"job", key},
+              {"was_there", wasThere}});
   }
 
   JobIdentity identityOf(const Suite& suite, const PreparedScene& prepared,
@@ -274,7 +276,8 @@ class SuiteRun {
       const std::string key = identityOf(suite, prepared, block, run, reference).key();
       if (request_.force || !store_.load(key)) missing.push_back(run);
     }
-    std::mutex mutex;  // guards made, failure and progress
+    std::mutex mutex;  // guards made, failure, progress, pace_ and watch
+    Stopwatch watch;
     std::exception_ptr failure;
     std::atomic<size_t> next = 0;
     const auto work = [&] {
@@ -287,7 +290,9 @@ class SuiteRun {
           store_.save(identity, *job);
           const std::lock_guard lock(mutex);
           made.insert(identity.key());
-          progress.update(suite.runs - missing.size() + made.size());
+          pace_.made(watch.lap());
+          logRun(suite, block, missing[i], identity.key(), false);
+          progress.update(suite.runs - missing.size() + made.size(), "", pace_.progress());
         }
       } catch (...) {
         const std::lock_guard lock(mutex);
@@ -395,7 +400,8 @@ class SuiteRun {
   std::vector<std::string> skipped_;
   std::vector<nlohmann::ordered_json> plan_;
   nlohmann::ordered_json record_;  // run.json
-  size_t next_ = 0;                // block of the plan
+  Pace pace_;
+  size_t next_ = 0;  // block of the plan
   size_t made_ = 0, reused_ = 0;
 };
 

@@ -143,7 +143,7 @@ void compareWithYardstick(const MethodResult& path, const MethodSummary& pathRow
   row.mseRatioWithoutLights.value = pathRow.mseWithoutLights.value / row.mseWithoutLights.value;
   row.relmseTrimmedRatio = pairedRatioInterval(pathTrimmed, trimmed);
   row.relmseTrimmedRatio.value = pathRow.relmseTrimmed.value / row.relmseTrimmed.value;
-  row.timeRatio = meanInterval(timeRatios);
+  row.timeRatio = geometricMeanInterval(timeRatios);
   row.timeRatioOfMedians = row.timeMsMedian / pathRow.timeMsMedian;
   const double time = row.timeRatio.value;
   row.efficiencyRatio = pairedRatioInterval(
@@ -157,7 +157,7 @@ Interval timeAgainst(const MethodResult& result, const MethodResult& first) {
   std::vector<double> ratios;
   for (size_t r = 0; r < std::min(result.runs.size(), first.runs.size()); ++r)
     ratios.push_back(runTimeRatio(result.runs[r], first.runs[r]));
-  return meanInterval(ratios);
+  return geometricMeanInterval(ratios);
 }
 
 AccumulatedNoise accumulatedNoise(const MethodSummary& row) {

@@ -49,8 +49,8 @@ struct MethodSummary {
   Interval mseRatio{kUnknown, kUnknown, kUnknown};
   Interval mseRatioWithoutLights{kUnknown, kUnknown, kUnknown};
   Interval relmseTrimmedRatio{kUnknown, kUnknown, kUnknown};
-  // Mean over runs of the run's median over frames of time(method) / time(path) of that frame: what
-  // slows the machine down for a while slows both and cancels.
+  // Geometric mean over runs of the run's median over frames of time(method) / time(path) of that
+  // frame: what slows the machine down for a while slows both and cancels.
   Interval timeRatio{kUnknown, kUnknown, kUnknown};
   double timeRatioOfMedians = kUnknown;
   // The same against this method on the suite's first backend; unknown on that one itself.

@@ -43,6 +43,33 @@ TEST_F(FigureTest, FilesNameTheColumns) {
   EXPECT_NE(read("strip.svg").find(">a<"), std::string::npos);
 }
 
+TEST_F(FigureTest, LabelsAreWhatTellsTheNamesApart) {
+  const auto labels = [&](const std::string& reference, const std::vector<std::string>& images) {
+    std::string line = "figure -r " + reference;
+    for (const std::string& image : images) {
+      writeConstant(image, 0.4f, 32, 24);
+      line += " " + image;
+    }
+    EXPECT_EQ(run(line + " --crop 0,0,32,24 --scale 8 -o strip.svg").code, 0);
+    return read("strip.svg");
+  };
+  const auto expectAll = [](const std::string& svg, const std::vector<std::string>& texts) {
+    for (const std::string& text : texts)
+      EXPECT_NE(svg.find(">" + text + "<"), std::string::npos) << text;
+  };
+  expectAll(labels("ref.exr", {"box-all-path.exr", "box-all-gi-unbiased.exr"}),
+            {"path", "gi-unbiased"});
+  // Up to a '-', not inside a word.
+  expectAll(labels("ref.exr", {"box-pairs.exr", "box-path.exr"}), {"pairs", "path"});
+  expectAll(labels("ref.exr", {"pairs.exr", "path.exr"}), {"pairs", "path"});
+  // Nothing would be left of the first.
+  expectAll(labels("ref.exr", {"box-.exr", "box-path.exr"}), {"box-", "box-path"});
+  // One alone: what its reference's name has, too.
+  expectAll(labels("ref.exr", {"box-all-path.exr"}), {"box-all-path"});
+  writeConstant("box-all-reference.exr", 0.5f, 32, 24);
+  expectAll(labels("box-all-reference.exr", {"box-all-gi-biased.exr"}), {"gi-biased"});
+}
+
 TEST_F(FigureTest, PngToo) {
   ASSERT_EQ(run("figure -r ref.exr a.exr --crop 0,0,8,8 --scale 4 -o strip.png").code, 0);
   EXPECT_EQ(read("strip.png").substr(1, 3), "PNG");

@@ -245,6 +245,113 @@ TEST_F(ResumeTest, ADryRunWritesNothingAndKnowsWhatIsThere) {
   expectError(run("run suite.toml --dry-run -q --set width=0"), 2, {"--set width"});
 }
 
+TEST_F(ResumeTest, ADryRunIsTheMatrixAndSaysWhatItDoesNotKnow) {
+  write("theirs.toml",
+        std::string(kSmallSuite) + "[[method]]\nname = \"theirs\"\nimage = \"their.exr\"\n");
+  const ProgramResult methods =
+      run("run theirs.toml --out out --dry-run --methods path,gi --sweep confidence_cap=4.0,8.0 "
+          "--sweep max_bounces=1,2");
+  ASSERT_EQ(methods.code, 0) << methods.err;
+  const std::string row =
+      "| gi, confidence_cap=8.0 | restir_gi | unbiased | pixel | cpu | "
+      "confidence_cap = 8 |\n";
+  ASSERT_NE(methods.out.find(row), std::string::npos) << methods.out;
+  EXPECT_EQ(methods.out.find(row), methods.out.rfind(row)) << "once, not for each point";
+  EXPECT_NE(methods.out.find("| path | path | unbiased | none | cpu |  |"), std::string::npos);
+  // How long a relmse takes is not known.
+  EXPECT_NE(methods.out.find("; about "), std::string::npos) << methods.out;
+  write("relmse.toml",
+        std::string(kSmallSuite)
+            .replace(std::string(kSmallSuite).find("spp = 32"), 8, "target_relmse = 1e-3"));
+  const ProgramResult relmse = run("run relmse.toml --out out --dry-run");
+  ASSERT_EQ(relmse.code, 0) << relmse.err;
+  EXPECT_NE(relmse.out.find("| to be made | at least "), std::string::npos) << relmse.out;
+  EXPECT_NE(relmse.out.find("0 there; at least "), std::string::npos) << relmse.out;
+  EXPECT_NE(relmse.out.find("relmse is not known"), std::string::npos) << relmse.out;
+  const ProgramResult limited =
+      run("run relmse.toml --out out --dry-run --set reference.time_limit=3600");
+  EXPECT_NE(limited.out.find("| to be made | 60 min |"), std::string::npos) << limited.out;
+  EXPECT_EQ(limited.out.find("at least"), std::string::npos) << limited.out;
+}
+
+TEST_F(ResumeTest, ADryRunCountsSecondReferencesAndRunsSideBySide) {
+  const std::string text = kSmallSuite;
+  write("orbit.toml", std::string(text).replace(text.find("spp = 32"), 8, "time_limit = 3600.0") +
+                          "[[camera_path]]\nname = \"orbit\"\nkind = \"orbit\"\n"
+                          "degrees_per_frame = 2.0\n");
+  const std::string line = "run orbit.toml --out out --dry-run --set camera_path=orbit";
+  EXPECT_NE(run(line).out.find("| to be made | 60 min |"), std::string::npos);
+  const ProgramResult two = run(line + " --set temporal=true");
+  EXPECT_NE(two.out.find("| 2 to be made | 120 min |"), std::string::npos) << two.out;
+  // Every one of them has buffers: 128x128 pixels are enough for whole MiB.
+  const auto memory = [&](const std::string& jobs) {
+    const std::string said = run("run suite.toml --out out --dry-run --set width=256 --set "
+                                 "height=256 --set timing=false" +
+                                 jobs)
+                                 .out;
+    const size_t at = said.find(" MiB of buffers");
+    return std::stod(said.substr(said.rfind(' ', at - 1)));
+  };
+  EXPECT_NEAR(memory(" -j 3"), 3.0 * memory(""), 2.0);
+  EXPECT_EQ(memory(" -j 64"), memory(" -j 3")) << "there are three runs";
+}
+
+TEST_F(ResumeTest, CleanTakesWhatNoTableUsesAndSaysWhat) {
+  ASSERT_EQ(run("run suite.toml --out out --sweep max_bounces=1,2").code, 0);
+  ASSERT_EQ(run("run suite.toml --out out").code, 0);
+  const fs::path used = path("out/references/cornell-box-all-Camera-24x16.exr");
+  EXPECT_TRUE(fs::exists(used));
+  write("out/references/notes.txt", "mine");
+  write("out/references/x.exr.tmp-12-0", "half");
+  write("out/summary.csv.tmp-12-0", "half");
+  fs::create_directories(path("out/jobs/.unfinished-abc-12"));
+  const ProgramResult cleaned = run("clean out");
+  ASSERT_EQ(cleaned.code, 0) << cleaned.err;
+  EXPECT_NE(cleaned.err.find("removed 6 folders of jobs, 2 references: "
+                             "cornell-box-all-max_bounces-1-Camera-24x16.exr, "
+                             "cornell-box-all-max_bounces-2-Camera-24x16.exr and 3 half-made"),
+            std::string::npos)
+      << cleaned.err;
+  EXPECT_NE(cleaned.err.find("kept 3 jobs"), std::string::npos) << cleaned.err;
+  EXPECT_TRUE(fs::exists(used));
+  EXPECT_EQ(read("out/references/notes.txt"), "mine");
+  EXPECT_EQ(std::distance(fs::directory_iterator(path("out/references")), {}), 2);
+  EXPECT_FALSE(fs::exists(path("out/summary.csv.tmp-12-0")));
+  EXPECT_EQ(jobs().size(), 3u);
+  EXPECT_EQ(run("report out").code, 0);
+  EXPECT_NE(run("clean out").err.find("removed 0 folders of jobs, 0 references and 0 half-made"),
+            std::string::npos);
+}
+
+TEST_F(ResumeTest, CleanKeepsWhatAnUnfinishedSuiteMayNeed) {
+  const std::string sweep = "run suite.toml --out out --sweep max_bounces=1,2";
+  ASSERT_EQ(run(sweep).code, 0);
+  // As an interrupted run leaves it: the second table was not reached.
+  auto record = nlohmann::ordered_json::parse(read("out/run.json"));
+  record["status"] = "interrupted";
+  record["plan"][1]["jobs"].clear();
+  record["plan"][1]["reference"] = "";
+  write("out/run.json", record.dump());
+  write("out/references/x.exr.tmp-12-0", "half");
+  const ProgramResult cleaned = run("clean out");
+  EXPECT_EQ(cleaned.code, 0) << cleaned.err;
+  EXPECT_NE(cleaned.err.find("not finished"), std::string::npos) << cleaned.err;
+  EXPECT_FALSE(fs::exists(path("out/references/x.exr.tmp-12-0")));
+  EXPECT_NE(run(sweep).err.find("6 of 6 runs were there already"), std::string::npos);
+}
+
+TEST_F(ResumeTest, CleanKeepsBothReferencesOfAMovingCamera) {
+  write("suite.toml", std::string(kSmallSuite) +
+                          "[[camera_path]]\nname = \"orbit\"\nkind = \"orbit\"\n"
+                          "degrees_per_frame = 2.0\n");
+  ASSERT_EQ(
+      run("run suite.toml --out out --set temporal=true --set camera_path=orbit --set runs=2").code,
+      0);
+  const ProgramResult cleaned = run("clean out");
+  EXPECT_NE(cleaned.err.find(" 0 references"), std::string::npos) << cleaned.err;
+  EXPECT_NE(cleaned.err.find("kept 2 jobs and 2 references"), std::string::npos) << cleaned.err;
+}
+
 TEST_F(ResumeTest, EveryRowAndImageSaysWhereItComesFrom) {
   ASSERT_EQ(run("render cornell-box --resolution 24x16 --max-bounces 3 -o theirs.exr").code, 0);
   const std::string image = "[[method]]\nname = \"theirs\"\nimage = \"theirs.exr\"\n";
@@ -284,37 +391,6 @@ TEST_F(ResumeTest, EveryRowAndImageSaysWhereItComesFrom) {
       EXPECT_NE(words.count(word), 0u) << file << word;
     EXPECT_NE(words.at("libraries").find("OpenEXR 3"), std::string::npos) << words.at("libraries");
   }
-}
-
-TEST_F(ResumeTest, FoldersAreComparedMethodByMethod) {
-  ASSERT_EQ(run("run suite.toml --out a --set runs=6").code, 0);
-  ASSERT_EQ(run("run suite.toml --out b --set runs=6").code, 0);
-  // The same sources and seeds: the same errors, bit for bit.
-  const auto same = nlohmann::json::parse(run("compare a b --json").out);
-  ASSERT_EQ(same["rows"].size(), 2u);
-  for (const auto& row : same["rows"]) {
-    EXPECT_EQ(row["mse_ratio"]["value"], 1.0);
-    EXPECT_EQ(row["error"], "the same");
-    EXPECT_EQ(row["times_over_path"], row["method"] == "gi");
-  }
-  // A reservoir that forgets is worse: the interval of the ratio leaves out 1.
-  ASSERT_EQ(
-      run("run suite.toml --out c --set runs=6 --set warmup_frames=24 --set scenes=door-ajar").code,
-      0);
-  ASSERT_EQ(
-      run("run suite.toml --out d --set runs=6 --set warmup_frames=0 --set scenes=door-ajar").code,
-      0);
-  const auto worse = nlohmann::json::parse(run("compare c d --json").out);
-  EXPECT_EQ(worse["rows"][1]["method"], "gi");
-  EXPECT_EQ(worse["rows"][1]["error"], "worse") << worse.dump(1);
-  const auto better = nlohmann::json::parse(run("compare d c --json").out);
-  EXPECT_EQ(better["rows"][1]["error"], "better");
-  const ProgramResult table = run("compare d c");
-  EXPECT_EQ(table.code, 0) << table.err;
-  EXPECT_NE(table.out.find("| door-ajar-all | gi |"), std::string::npos) << table.out;
-  expectError(run("compare a c -q"), 3, {"no method of a table in common"});
-  expectError(run("compare a -q"), 2, {"two folders"});
-  expectError(run("compare a suite.toml -q"), 2, {"--ref"});
 }
 
 TEST_F(ResumeTest, CamerasMoveAlongPaths) {

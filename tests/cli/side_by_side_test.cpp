@@ -1,5 +1,6 @@
 // restlab run -j: runs side by side, and --json: its events.
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "core/image/image.h"
@@ -135,6 +136,16 @@ TEST_F(SideBySideTest, EventsAreOneObjectALine) {
   for (const Json& event : again) there += event["event"] == "run" && event["was_there"] == true;
   EXPECT_EQ(there, 5u);
 
+  // Of runs side by side as each ends, and each once.
+  const auto beside = events(run("run suite.toml -o beside --json -j 2 --set runs=40").err);
+  std::set<uint32_t> ended;
+  for (const Json& event : beside) {
+    if (event["event"] != "run") continue;
+    EXPECT_TRUE(ended.insert(event["run"].get<uint32_t>()).second) << event;
+    EXPECT_EQ(event["was_there"], false);
+  }
+  EXPECT_EQ(ended.size(), 40u);
+
   const ProgramResult wrong = run("run absent.toml --json");
   EXPECT_EQ(wrong.code, 2);
   const auto said = events(wrong.err);
@@ -154,6 +165,29 @@ TEST_F(SideBySideTest, EventsAreOneObjectALine) {
     EXPECT_GT(event["done"].get<uint64_t>(), 0u);
     EXPECT_GT(event["left_s"].get<double>(), 0.0);
   }
+  EXPECT_TRUE(isProgress) << cut.err;
+}
+
+// Not when all of the table are made.
+TEST_F(SideBySideTest, EventsOfRunsComeWhenTheyEnd) {
+  Circumstances circumstances;
+  circumstances.signalAfterS = 5.0;
+  const ProgramResult cut =
+      run("run suite.toml -o out --json -j 2 --set runs=2000 --set width=96 "
+          "--set height=64 --sweep max_bounces=2,3",
+          circumstances);
+  EXPECT_EQ(cut.code, 130);
+  size_t ended = 0;
+  bool isProgress = false;
+  for (const Json& event : events(cut.err)) {
+    ended += event["event"] == "run";
+    if (event["event"] != "progress" || !event.contains("suite_total")) continue;
+    isProgress = true;
+    EXPECT_EQ(event["suite_total"], 4000);
+    EXPECT_EQ(event["suite_done"], event["done"]) << "of the first table";
+    EXPECT_GT(event["suite_left_s"].get<double>(), event["left_s"].get<double>());
+  }
+  EXPECT_GT(ended, 0u);
   EXPECT_TRUE(isProgress) << cut.err;
 }
 

@@ -86,6 +86,29 @@ TEST(Intervals, MedianAndPercentile) {
   EXPECT_THROW(percentile(hundred, 0.0), std::invalid_argument);
 }
 
+TEST(Intervals, OfRatiosStayPositive) {
+  // Two runs of 1.5 and 4: the mean's interval reaches far below 0.
+  const std::vector<double> two = {1.5, 4.0};
+  EXPECT_LT(meanInterval(two).lo, 0.0);
+  const Interval ratio = geometricMeanInterval(two);
+  EXPECT_NEAR(ratio.value, std::sqrt(6.0), 1e-12);
+  EXPECT_GT(ratio.lo, 0.0);
+  EXPECT_NEAR(ratio.lo * ratio.hi, 6.0, 1e-9) << "symmetric as ratios are";
+  // Inverted numbers have the inverted interval.
+  const Interval there = geometricRatioInterval(kA, kB), back = geometricRatioInterval(kB, kA);
+  EXPECT_NEAR(there.value * back.value, 1.0, 1e-12);
+  EXPECT_NEAR(there.lo * back.hi, 1.0, 1e-12);
+  EXPECT_NEAR(there.hi * back.lo, 1.0, 1e-12);
+  // Welch's t test of the logarithms, by numerical integration in Python.
+  expectInterval(there, 2.03898118870679, 1.8343907313273649, 2.266389715615183);
+  const std::vector<double> four = {4.0, 4.0}, eight = {8.0, 8.0, 8.0}, one = {1.0};
+  EXPECT_EQ(geometricRatioInterval(eight, four).lo, geometricRatioInterval(eight, four).hi);
+  EXPECT_TRUE(std::isnan(geometricRatioInterval(one, four).lo));
+  EXPECT_TRUE(std::isnan(geometricMeanInterval(one).hi));
+  EXPECT_TRUE(std::isnan(geometricMeanInterval(std::vector<double>{1.0, -1.0, 2.0}).value));
+  EXPECT_TRUE(std::isnan(geometricRatioInterval(kA, std::vector<double>{0.0, 1.0, 2.0}).lo));
+}
+
 // 4000 experiments: the share of 95 % intervals that hold the truth has a standard error of 0.34 %.
 TEST(Intervals, Coverage) {
   std::mt19937_64 random(11);
@@ -108,6 +131,49 @@ TEST(Intervals, Coverage) {
   EXPECT_NEAR(double(mean) / kExperiments, 0.95, 0.012);
   EXPECT_NEAR(double(ratio) / kExperiments, 0.95, 0.012);
   EXPECT_NEAR(double(paired) / kExperiments, 0.95, 0.012);
+}
+
+// Times that spread by a tenth; where they are disturbed, every tenth run takes half as long again,
+// as on a busy machine. Of 4000 sets of 2, 3 and 8 runs the interval of the geometric mean held the
+// truth in 95.1, 94.1 and 95.3 % (disturbed 94.7, 94.5 and 92.1 %: eight runs show the skewness),
+// that of the ratio in 98.0, 96.5 and 95.3 % (98.0, 97.8 and 96.0 %; Welch's degrees of freedom are
+// cautious for few runs), and wholly above it, a false "worse", were 0.9, 1.6 and 2.3 % (1.0, 1.1
+// and 2.0 %).
+TEST(Intervals, CoverageOfRatiosOfTimes) {
+  std::mt19937_64 random(23);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform;
+  const double slow = std::log(1.5);
+  const auto times = [&](size_t runs, double scale, double spread, bool isDisturbed) {
+    std::vector<double> all(runs);
+    for (double& x : all) {
+      const bool isSlow = isDisturbed && uniform(random) < 0.1;
+      x = scale * std::exp(spread * normal(random) + (isSlow ? slow : 0.0));
+    }
+    return all;
+  };
+  for (const size_t runs : {size_t(2), size_t(3), size_t(8)}) {
+    for (const bool isDisturbed : {false, true}) {
+      constexpr int kSets = 4000;
+      const double truth = 1.2 * std::exp(isDisturbed ? 0.1 * slow : 0.0);
+      int mean = 0, ratio = 0, falselyWorse = 0;
+      for (int set = 0; set < kSets; ++set) {
+        const auto a = times(runs, 1.2, 0.1, isDisturbed), b = times(runs, 1.0, 0.1, isDisturbed);
+        const auto holds = [](const Interval& i, double value) {
+          return i.lo <= value && value <= i.hi;
+        };
+        const Interval ofA = geometricMeanInterval(a), ofBoth = geometricRatioInterval(a, b);
+        EXPECT_GT(std::min(ofA.lo, ofBoth.lo), 0.0);
+        mean += holds(ofA, truth);
+        ratio += holds(ofBoth, 1.2);
+        falselyWorse += ofBoth.lo > 1.2;
+      }
+      SCOPED_TRACE(testing::Message() << runs << " runs, disturbed: " << isDisturbed);
+      EXPECT_NEAR(double(mean) / kSets, isDisturbed ? 0.935 : 0.95, isDisturbed ? 0.025 : 0.012);
+      EXPECT_GT(double(ratio) / kSets, 0.95 - 0.012);
+      EXPECT_LT(double(falselyWorse) / kSets, 0.025 + 0.0075);
+    }
+  }
 }
 
 }  // namespace

@@ -82,6 +82,16 @@ TEST_F(SummaryTest, MeansAndRatios) {
   EXPECT_EQ(rows[0].timeRatio.value, 1.0);
 }
 
+TEST_F(SummaryTest, RatiosOfTimesAreGeometricMeans) {
+  block_.methods[1].runs[0].timesMs = {10.0, 20.0};   // as long as path
+  block_.methods[1].runs[1].timesMs = {80.0, 160.0};  // twice
+  block_.methods[1].runs[2].timesMs = {48.0, 96.0};   // four times
+  const Interval ratio = summarise(suite_, block_)[1].timeRatio;
+  EXPECT_NEAR(ratio.value, 2.0, 1e-12);
+  EXPECT_GT(ratio.lo, 0.0) << "no time is negative";
+  EXPECT_NEAR(ratio.lo * ratio.hi, 4.0, 1e-9);
+}
+
 TEST_F(SummaryTest, SquaredBiasFromHalvesOfTheRuns) {
   const auto rows = summarise(suite_, block_);
   EXPECT_NEAR(rows[0].biasSquared.value, 0.0, 1e-12);
