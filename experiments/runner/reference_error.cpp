@@ -29,4 +29,17 @@ MetricValue errorAgainst(const std::string& metric, const Image& image, const Re
                                  countNonfinite(*reference.half1, options.mask))};
 }
 
+double sharedNoiseOfMse(const Reference& reference) {
+  if (!reference.half0 || !reference.half1) return 0.0;
+  const std::vector<glm::vec3>&half0 = reference.half0->pixels, &half1 = reference.half1->pixels;
+  double sum = 0.0;
+  for (size_t i = 0; i < half0.size(); ++i) {
+    // d^2 / 2 estimates the variance of a half, and its square three times that variance's.
+    const glm::dvec3 d = glm::dvec3(half0[i]) - glm::dvec3(half1[i]);
+    const double variance = glm::dot(d, d) / 6.0;
+    sum += variance * variance / 3.0;
+  }
+  return std::sqrt(sum) / double(half0.size());
+}
+
 }  // namespace restlab

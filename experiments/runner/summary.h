@@ -8,6 +8,7 @@
 #include "core/image/intervals.h"
 #include "experiments/runner/convergence.h"
 #include "experiments/runner/experiment.h"
+#include "experiments/runner/speed_up.h"
 
 namespace restlab {
 
@@ -18,6 +19,19 @@ constexpr double kEnergyRatioMin = 0.95, kEnergyRatioMax = 1.05;
 constexpr double kBiasShareMax = 0.25;
 // Above this share of the MSE in the worst 0.1 % of the pixels its interval says little.
 constexpr double kWorstShareMax = 0.5;
+// Accumulated errors below so many standard deviations of the reference's own noise are not fitted.
+constexpr double kNoiseOfFittedErrors = 4.0;
+
+// The noise of the references is said where it may be more than this share of their difference.
+constexpr double kReferenceDifferenceNoiseMax = 0.05;
+
+// Of TemporalFigures, over runs.
+struct TemporalSummary {
+  Interval variance, difference, errorDifferenceSquared;
+  double referenceDifference = kUnknown, referenceDifferenceNoise = kUnknown;  // of no run
+  std::array<Interval, std::tuple_size_v<decltype(TemporalFigures::autocorrelation)>>
+      autocorrelation;
+};
 
 struct MethodSummary {
   const Suite* suite = nullptr;
@@ -51,7 +65,7 @@ struct MethodSummary {
 
   std::optional<Convergence> convergence;   // where the suite accumulates
   std::optional<SpeedUp> speedUp;           // against the yardstick
-  std::optional<TemporalFigures> temporal;  // mean over runs, where the suite asks for it
+  std::optional<TemporalSummary> temporal;  // where the suite asks for it
 
   // The suite's further figures, in the order of figureInfos(); unknown where the mask is of
   // another scene.
