@@ -147,26 +147,38 @@ Interval geometricRatioInterval(std::span<const double> numerator,
 Interval jackknifeInterval(size_t runs,
                            const std::function<double(std::span<const size_t>)>& statistic,
                            double confidence) {
+  const auto one = [&](std::span<const size_t> chosen) {
+    return std::vector<double>{statistic(chosen)};
+  };
+  return jackknifeIntervals(runs, one, confidence).front();
+}
+
+std::vector<Interval> jackknifeIntervals(
+    size_t runs, const std::function<std::vector<double>(std::span<const size_t>)>& statistics,
+    double confidence) {
   if (runs == 0) throw std::invalid_argument("an interval needs at least one run");
   std::vector<size_t> all(runs);
   std::iota(all.begin(), all.end(), size_t{0});
-  Interval interval;
-  interval.value = statistic(all);
-  interval.lo = interval.hi = std::numeric_limits<double>::quiet_NaN();
-  if (runs < 3) return interval;
-  std::vector<double> pseudo;
+  std::vector<Interval> intervals;
+  for (const double value : statistics(all)) intervals.push_back({value, kNan, kNan});
+  if (runs < 3) return intervals;
+  const double n = double(runs);
+  std::vector<std::vector<double>> pseudo(intervals.size());
   for (size_t left = 0; left < runs; ++left) {
     std::vector<size_t> others;
     for (const size_t i : all) {
       if (i != left) others.push_back(i);
     }
-    const double n = double(runs);
-    pseudo.push_back(n * interval.value - (n - 1.0) * statistic(others));
+    const std::vector<double> without = statistics(others);
+    for (size_t s = 0; s < intervals.size(); ++s)
+      pseudo[s].push_back(n * intervals[s].value - (n - 1.0) * without.at(s));
   }
-  const Interval around = meanInterval(pseudo, confidence);
-  interval.lo = interval.value + (around.lo - around.value);
-  interval.hi = interval.value + (around.hi - around.value);
-  return interval;
+  for (size_t s = 0; s < intervals.size(); ++s) {
+    const Interval around = meanInterval(pseudo[s], confidence);
+    intervals[s].lo = intervals[s].value + (around.lo - around.value);
+    intervals[s].hi = intervals[s].value + (around.hi - around.value);
+  }
+  return intervals;
 }
 
 double median(std::span<const double> values) {

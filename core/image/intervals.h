@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <span>
+#include <vector>
 
 namespace restlab {
 
@@ -55,6 +56,11 @@ Interval geometricRatioInterval(std::span<const double> numerator,
 Interval jackknifeInterval(size_t runs,
                            const std::function<double(std::span<const size_t>)>& statistic,
                            double confidence = 0.95);
+
+// The same for several statistics of the same runs, in the order in which `statistics` has them.
+std::vector<Interval> jackknifeIntervals(
+    size_t runs, const std::function<std::vector<double>(std::span<const size_t>)>& statistics,
+    double confidence = 0.95);
 
 // The middle value, or the mean of the two middle ones. Throws std::invalid_argument without
 // values.

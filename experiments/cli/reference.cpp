@@ -86,10 +86,12 @@ void makeReference(ReferenceOptions options) {
   completeConfig(prepared, session);
   requireExrSize(options.output, session.width, session.height, kReferenceLayers);
   const Reference reference = updatedReference(prepared, referenceConfigOf(session), options);
-  if (options.target.relmse > 0.0 && !(reference.relmse <= options.target.relmse)) {
+  if (options.target.relmse > 0.0 && !(reference.relmseSinceHalf <= options.target.relmse)) {
+    const bool isBelow = reference.relmse <= options.target.relmse;
     logWarning(fmt::format(
-        "{}: relmse {:.3g} is above the target of {:g}: stopped by {}", options.output,
-        reference.relmse, options.target.relmse,
+        "{}: relmse {:.3g} is {} the target of {:g}{}: stopped by {}", options.output,
+        reference.relmse, isBelow ? "not above" : "above", options.target.relmse,
+        isBelow ? ", but has not been so since half of the samples" : "",
         options.target.spp > 0 && reference.spp >= options.target.spp ? "--spp" : "--time-limit"));
   }
   logInfo(fmt::format("{}: {} spp in {:.1f} s, relmse {:.3g} (estimated from the halves)",
@@ -109,7 +111,8 @@ Action addReferenceVerb(CLI::App& app) {
   verb->add_option("--spp", options->target.spp, "samples per pixel of both halves together")
       ->check(CLI::Range(uint64_t(2), uint64_t(1) << 32));
   verb->add_option("--target-relmse", options->target.relmse,
-                   "until the mean's estimated relmse_e1e-2 is at most this")
+                   "until the mean's estimated relmse_e1e-2 is at most this, and was since half of "
+                   "the samples")
       ->check(finiteRange(1e-12, 1e6));
   verb->add_option("--time-limit", options->target.timeLimitS, "seconds of rendering")
       ->check(finiteRange(1e-3, 1e9));

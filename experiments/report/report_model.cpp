@@ -130,7 +130,7 @@ void row(const Place& at, const std::set<std::string>& keys) {
 }
 
 void series(const Place& at) {
-  requireObject(at, {"name", "points"}, {"fit"});
+  requireObject(at, {"name", "points"}, {"hollow", "fit"});
   member(at, "name", text);
   member(at, "points", [](const Place& points) {
     forEach(points, [](const Place& point) {
@@ -138,6 +138,13 @@ void series(const Place& at) {
       if (point.json.size() != 2 && point.json.size() != 4) {
         failAt(point.path, "must be [x, y] or [x, y, lo, hi]");
       }
+    });
+  });
+  member(at, "hollow", [&](const Place& places) {
+    const size_t points = at.json["points"].size();
+    forEach(places, [points](const Place& place) {
+      if (!place.json.is_number_integer() || place.json < 0 || place.json >= points)
+        failAt(place.path, fmt::format("must be the place of one of {} points, from 0", points));
     });
   });
   member(at, "fit", [](const Place& fit) {

@@ -19,6 +19,7 @@
 //                  "x": { "title": text, "log": bool? }, "y": likewise,
 //                  "series": [ { "name": text,
 //                                "points": [[x, y] | [x, y, lo, hi]...]   in order of x
+//                                "hollow": [integer...]?    places among the points, from 0
 //                                "fit": { "slope": number, "lo": number?, "hi": number?,
 //                                         "intercept": number }? } ] } ]?
 //     "bars": { "title": text, "unit": text?, "rows": [ { "name": text,
@@ -36,8 +37,9 @@
 // those of other rows, and never the best; true by default.
 // A series that has the name of a row looks the same in all plots of the block. `fit`: log10 y =
 // intercept + slope log10 x where both axes are logarithmic (a linear axis enters without its
-// logarithm); lo and hi are the slope's interval. `bad`: any count above 0 is a fault. `file` is
-// relative to the report's folder; the images of a block have one size.
+// logarithm); lo and hi are the slope's interval. `hollow`: points that the fit leaves out. `bad`:
+// any count above 0 is a fault. `file` is relative to the report's folder; the images of a block
+// have one size.
 #pragma once
 
 #include <nlohmann/json.hpp>

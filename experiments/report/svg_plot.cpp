@@ -169,7 +169,8 @@ std::string seriesMarks(const Canvas& canvas, const PlotSpec& plot, size_t place
     const std::string tip =
         fmt::format("{}\n{}: {}\n{}: {}{}", series.name, plot.x.title, shortNumber(point.x),
                     plot.y.title, shortNumber(point.y), intervalText(point.lo, point.hi));
-    out += svg::marker(index, canvas.px(point.x), canvas.py(point.y), tip);
+    out += svg::marker(index, canvas.px(point.x), canvas.py(point.y),
+                       point.isHollow ? tip + "\nleft out of the line" : tip, point.isHollow);
   }
   return out;
 }
@@ -225,6 +226,20 @@ size_t styleByName(const ReportModel& rows, const std::string& name, size_t plac
   return rows.size() + place;
 }
 
+// What is not there, or not in the lines.
+std::string notesOf(const PlotSpec& plot, size_t hidden, size_t hollow) {
+  std::string notes;
+  if (hidden) {
+    notes = fmt::format("{} point{} left out: not finite{}", hidden, hidden > 1 ? "s" : "",
+                        plot.x.log || plot.y.log ? ", or not above 0" : "");
+  }
+  if (hollow) {
+    notes += fmt::format("{}{} hollow point{} left out of the lines", notes.empty() ? "" : "; ",
+                         hollow, hollow > 1 ? "s" : "");
+  }
+  return notes;
+}
+
 }  // namespace
 
 Axis plotAxisX(const PlotSpec& plot) {
@@ -241,14 +256,17 @@ Axis plotAxisY(const PlotSpec& plot) {
 
 std::string plotSvg(const PlotSpec& plot) {
   const Canvas canvas = {plotAxisX(plot), plotAxisY(plot)};
-  size_t hidden = 0;
+  size_t hidden = 0, hollow = 0;
   for (const PlotSeries& series : plot.series) {
-    hidden += series.points.size() - shownPoints(canvas, series).size();
+    const std::vector<PlotPoint> shown = shownPoints(canvas, series);
+    hidden += series.points.size() - shown.size();
+    for (const PlotPoint& point : shown) hollow += point.isHollow;
   }
+  const std::string notes = notesOf(plot, hidden, hollow);
   const double legendTop = kPlotArea.top + kPlotArea.height + kLegendTop;
   const double legendEnd = legendTop + kLegendRow * double(plot.series.size());
   std::string out =
-      svg::open(kPlotWidth, legendEnd + (hidden ? kLegendRow : 0.0), plot.title, "plot");
+      svg::open(kPlotWidth, legendEnd + (notes.empty() ? 0.0 : kLegendRow), plot.title, "plot");
   out += svg::text(kPlotArea.left, 22.0, "start",
                    svg::fitText(plot.title, kPlotWidth - kPlotArea.left - 8.0, 14.5),
                    "font-size=\"14\" font-weight=\"bold\"");
@@ -259,10 +277,8 @@ std::string plotSvg(const PlotSpec& plot) {
   }
   for (size_t i = 0; i < plot.series.size(); ++i) out += seriesMarks(canvas, plot, i);
   out += legend(plot, legendTop);
-  if (hidden) {
-    out += svg::text(kPlotArea.left, legendEnd + 4.0, "start",
-                     fmt::format("{} point{} left out: not finite{}", hidden, hidden > 1 ? "s" : "",
-                                 plot.x.log || plot.y.log ? ", or not above 0" : ""),
+  if (!notes.empty()) {
+    out += svg::text(kPlotArea.left, legendEnd + 4.0, "start", notes,
                      "class=\"hidden\" font-style=\"italic\"");
   }
   return out + "</svg>\n";
@@ -286,6 +302,8 @@ PlotSpec plotFromModel(const ReportModel& block, const ReportModel& model) {
       point.lo = reportNumber(numbers[2]);
       point.hi = reportNumber(numbers[3]);
     }
+    for (const ReportModel& place : reportList(from, "hollow"))
+      series.points.at(place.get<size_t>()).isHollow = true;
     const auto fit = from.find("fit");
     if (fit == from.end()) continue;
     series.fit = PlotFit{reportNumber((*fit)["slope"]), reportNumber(*fit, "lo", kUnknownEnd),

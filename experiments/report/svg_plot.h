@@ -16,6 +16,7 @@ struct PlotPoint {
   // The interval of y; NaN: unknown.
   double lo = std::numeric_limits<double>::quiet_NaN();
   double hi = std::numeric_limits<double>::quiet_NaN();
+  bool isHollow = false;  // the fit leaves it out
 };
 
 // y = intercept + slope x, where a logarithmic axis enters as log10; slopeLo and slopeHi NaN:

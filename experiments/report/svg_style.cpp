@@ -52,10 +52,13 @@ const char* dashes(size_t index) {
   return patterns[index / kColours % 4];
 }
 
-std::string marker(size_t index, double x, double y, std::string_view tooltip) {
+std::string marker(size_t index, double x, double y, std::string_view tooltip, bool isHollow) {
   const std::string shape =
-      fmt::format(R"({} fill="{}" stroke="#ffffff" stroke-width="0.75" class="mark f{}")",
-                  outline(index, x, y), colour(index), index % kColours);
+      isHollow
+          ? fmt::format(R"({} fill="#ffffff" stroke="{}" stroke-width="1.5" class="hollow s{}")",
+                        outline(index, x, y), colour(index), index % kColours)
+          : fmt::format(R"({} fill="{}" stroke="#ffffff" stroke-width="0.75" class="mark f{}")",
+                        outline(index, x, y), colour(index), index % kColours);
   if (tooltip.empty()) return shape + "/>\n";
   const char* element = index % 6 == 0 ? "circle" : "polygon";
   return fmt::format("{}><title>{}</title></{}>\n", shape, escapeMarkup(tooltip), element);

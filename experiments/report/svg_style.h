@@ -19,8 +19,9 @@ const char* colour(size_t index);
 const char* dashes(size_t index);
 
 // A marker centred at x, y: circle, square, triangle, diamond, ..., in the colour of `index`, with
-// `tooltip` as its title where that is not empty.
-std::string marker(size_t index, double x, double y, std::string_view tooltip = {});
+// `tooltip` as its title where that is not empty; hollow: its outline alone, about the ground.
+std::string marker(size_t index, double x, double y, std::string_view tooltip = {},
+                   bool isHollow = false);
 
 // Coordinates with two digits after the point and no trailing zeros.
 std::string coordinate(double value);

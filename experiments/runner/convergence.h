@@ -1,11 +1,11 @@
-// Error against run time while frames accumulate: curves, fitted lines, speed-ups.
+// Error against run time while frames accumulate: curves, and the lines fitted to them.
 #pragma once
 
 #include <optional>
 #include <vector>
 
 #include "core/image/intervals.h"
-#include "experiments/runner/experiment.h"
+#include "experiments/runner/accumulated_curve.h"
 
 namespace restlab {
 
@@ -13,8 +13,7 @@ struct ConvergencePoint {
   uint32_t frames = 0;
   double timeMs = 0.0;   // mean over runs of the time since the history began
   Interval mse;          // mean over runs
-  double noise = 0.0;    // standard deviation of what the reference adds to all of them
-  bool isFitted = true;  // false: its interval holds 0, the error is below the reference's noise
+  bool isFitted = true;  // false: not above the noise of the reference
 };
 
 // log(mse) = intercept + slope log(timeMs), least squares over the fitted points, each of them the
@@ -25,32 +24,25 @@ struct Convergence {
   std::vector<ConvergencePoint> points;
   Interval slope;  // -1 for independent frames without start-up; NaN with fewer than two points
   double intercept = 0.0;
+  // The largest |log10(mse / line)| of the fitted points. `isNoLine`: some of them stand further
+  // from it than the spread of the runs explains, and than kMisfitMin.
+  double misfit = 0.0;
+  bool isNoLine = false;
+
+  size_t fitted() const;
 };
 
-// What the reference's noise adds to all runs of a method, in points of an accumulation.
-struct AccumulatedNoise {
-  double common = 0.0;  // variance in the MSE of every unbiased method
-  // Images of accumulations are not kept, so that of another one only an upper bound is known, that
-  // of its runs (FrameError::mseVarianceAtMost).
-  bool isUnbiased = true;
-};
-
-// Against the yardstick, off the two fitted lines; intervals by the jackknife over runs paired by
-// seed, of the logarithm.
-struct SpeedUp {
-  Interval equalTime;   // mse(path) / mse(method) at `timeMs`
-  double timeMs = 0.0;  // the end of the shorter of the two curves
-  Interval equalError;  // time(path) / time(method) at `mse`
-  double mse = 0.0;     // the error at the end of the worse of the two lines
-};
+// Of all 95 sets in 100 whose curve is a line none of the points counts as off it; and what is less
+// than 5 % off counts for none.
+constexpr double kMisfitConfidence = 0.95;
+constexpr double kMisfitMin = 0.0212;  // log10(1.05)
 
 // Nothing where the runs hold no accumulation.
 std::optional<Convergence> convergenceOf(const std::vector<RunResult>& runs,
                                          const AccumulatedNoise& noise = {});
-// Nothing where one of them has no line.
-std::optional<SpeedUp> speedUpOf(const std::vector<RunResult>& path,
-                                 const std::vector<RunResult>& method,
-                                 const AccumulatedNoise& pathNoise = {},
-                                 const AccumulatedNoise& methodNoise = {});
+
+// False where the interval of a slope does not say that the error falls; with too few runs for an
+// interval the slope itself decides.
+bool isFalling(const Interval& slope);
 
 }  // namespace restlab

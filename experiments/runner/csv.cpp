@@ -142,20 +142,31 @@ std::vector<Column> furtherColumns(const Suite& suite, const MethodSummary& row)
     columns.push_back({name + "_ci_hi", number(interval.hi)});
   };
   add("accumulated_slope", row.convergence ? row.convergence->slope : none);
-  add("equal_time_mse_ratio", row.speedUp ? row.speedUp->equalTime : none);
-  columns.push_back({"equal_time_ms", number(row.speedUp ? row.speedUp->timeMs : kUnknown)});
-  add("equal_error_time_ratio", row.speedUp ? row.speedUp->equalError : none);
-  columns.push_back({"equal_error_mse", number(row.speedUp ? row.speedUp->mse : kUnknown)});
-  const TemporalFigures* temporal = row.temporal ? &*row.temporal : nullptr;
-  columns.push_back({"temporal_variance", number(temporal ? temporal->variance : kUnknown)});
-  columns.push_back({"temporal_difference", number(temporal ? temporal->difference : kUnknown)});
-  columns.push_back({"temporal_difference_of_reference",
-                     number(temporal ? temporal->referenceDifference : kUnknown)});
+  const Convergence curve = row.convergence.value_or(Convergence());
+  columns.push_back({"accumulated_points", std::to_string(curve.points.size())});
+  columns.push_back({"accumulated_points_fitted", std::to_string(curve.fitted())});
+  columns.push_back(
+      {"accumulated_misfit_log10", number(curve.fitted() > 1 ? curve.misfit : kUnknown)});
+  const CurveReading unread = {none, none, kUnknown, false, ""};
+  const SpeedUp up = row.speedUp.value_or(SpeedUp{unread, unread});
+  add("equal_time_mse_ratio", up.equalTime.ratio);
+  add("equal_time_mse_ratio_measured", up.equalTime.measured);
+  columns.push_back({"equal_time_ms", number(up.equalTime.at)});
+  add("equal_error_time_ratio", up.equalError.ratio);
+  add("equal_error_time_ratio_measured", up.equalError.measured);
+  columns.push_back({"equal_error_mse", number(up.equalError.at)});
+  TemporalSummary unmeasured = {none, none, none, kUnknown, kUnknown, {}};
+  unmeasured.autocorrelation.fill(none);
+  const TemporalSummary temporal = row.temporal.value_or(unmeasured);
+  add("temporal_variance", temporal.variance);
+  add("temporal_difference", temporal.difference);
+  add("temporal_error_difference_squared", temporal.errorDifferenceSquared);
+  columns.push_back({"temporal_difference_of_reference", number(temporal.referenceDifference)});
+  columns.push_back(
+      {"temporal_difference_of_reference_noise", number(temporal.referenceDifferenceNoise)});
   columns.push_back({"camera_path", suite.cameraPathName});
-  for (size_t lag = 1; lag <= TemporalFigures().autocorrelation.size(); ++lag) {
-    columns.push_back({fmt::format("error_autocorrelation_{}", lag),
-                       number(temporal ? temporal->autocorrelation[lag - 1] : kUnknown)});
-  }
+  for (size_t lag = 1; lag <= temporal.autocorrelation.size(); ++lag)
+    add(fmt::format("error_autocorrelation_{}", lag), temporal.autocorrelation[lag - 1]);
   for (const auto& [name, interval] : row.figures) add(name, interval);
   for (size_t i = 0; i < rl::RL_HEALTH_COUNT; ++i) {
     const char* name = Health::names()[i];

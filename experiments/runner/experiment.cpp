@@ -85,7 +85,7 @@ size_t hostBytesPerPixelOfMethod(const Suite& suite) {
   size_t images = 3 + suite.checkpoints.size(), sums = 0;
   images += 1 + std::min<size_t>(suite.runs, BiasRuns::kGroups);
   if (suite.accumulate) {
-    images += 2 + size_t(std::bit_width(suite.timedFrames));
+    images += 2 + size_t(std::bit_width(suite.warmupFrames + suite.timedFrames));
     ++sums;
   }
   if (suite.temporal) {
@@ -170,22 +170,23 @@ struct BlockExecutor::Impl {
     const bool isBefore = block.referenceBefore && frame + 1 == suite.warmupFrames;
     if (frame == suite.warmupFrames || isBefore || isCheckpoint(suite, frame))
       frames.kept.emplace_back(frame, sessions[m]->radiance());
-    if (!isTimed) return;
-    if (suite.accumulate) {
-      frames.sum.add(sessions[m]->radiance());
-      const uint32_t count = frame - suite.warmupFrames + 1;
-      if (isAccumulationPoint(count, suite.timedFrames)) {
-        AccumulatedError point;
-        point.frames = count;
-        point.timeMs = suite.timing ? frames.timeMs : std::numeric_limits<double>::quiet_NaN();
-        point.error.frame = frame;
-        frames.sums.emplace_back(point, frames.sum.mean());
-      }
-    }
-    if (suite.temporal && !block.motion) {
+    if (suite.accumulate) accumulate(sessions[m]->radiance(), frame, frames);
+    if (isTimed && suite.temporal && !block.motion) {
       if (!frames.temporal) frames.temporal.emplace(block.reference);
       frames.temporal->add(sessions[m]->radiance());
     }
+  }
+
+  // From the first frame of the history on: the time of the warm-up has its samples.
+  void accumulate(const Image& image, uint32_t frame, Frames& frames) const {
+    frames.sum.add(image);
+    const uint32_t count = frame + 1;
+    if (!isAccumulationPoint(count, suite.warmupFrames + suite.timedFrames)) return;
+    AccumulatedError point;
+    point.frames = count;
+    point.timeMs = suite.timing ? frames.timeMs : std::numeric_limits<double>::quiet_NaN();
+    point.error.frame = frame;
+    frames.sums.emplace_back(point, frames.sum.mean());
   }
 
   void measure(RunResult& result, Frames& frames, Image& measured) const {

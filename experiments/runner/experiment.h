@@ -33,10 +33,10 @@ struct FrameError {
   uint64_t nonfinite = 0;   // channel values in the image
 };
 
-// Error of the mean of the first frames after the warm-up.
+// Error of the mean of the first frames of the history, those of the warm-up included.
 struct AccumulatedError {
   uint32_t frames = 0;
-  double timeMs = 0.0;  // passes since the history began, warm-up included; NaN: not measured
+  double timeMs = 0.0;  // passes since the history began; NaN: not measured
   FrameError error;
 };
 
@@ -48,6 +48,11 @@ struct TemporalFigures {
   double variance = 0.0;             // mean over pixels of the sample variance over frames: flicker
   double difference = 0.0;           // mean |f_t - f_{t-1}|
   double referenceDifference = 0.0;  // the same of the references: what moved; 0 of a still camera
+  // At most so much of that is the references' own noise.
+  double referenceDifferenceNoise = 0.0;
+  // mean (e_t - e_{t-1})^2 of the errors e = f - reference: what changes though nothing moved. The
+  // differences are taken against those of the two halves, so that their noise cancels.
+  double errorDifferenceSquared = 0.0;
   // mean (f_t - half0)(f_{t+k} - half1) over that of k = 0, k = 1...; NaN where there are too few
   // frames or no halves.
   std::array<double, 8> autocorrelation{};

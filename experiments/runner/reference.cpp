@@ -29,10 +29,11 @@ std::string exactly(const SceneCamera& camera) {
 
 }  // namespace
 
-bool targetReached(const ReferenceTarget& target, uint64_t spp, double relmse, double timeS) {
+bool targetReached(const ReferenceTarget& target, uint64_t spp, double relmseSinceHalf,
+                   double timeS) {
   if (target.spp && spp >= target.spp) return true;
   if (target.timeLimitS > 0.0 && timeS >= target.timeLimitS && spp >= 2) return true;
-  return target.relmse > 0.0 && spp >= kMinSppForError && relmse <= target.relmse;
+  return target.relmse > 0.0 && relmseSinceHalf <= target.relmse;
 }
 
 const SceneCamera* cameraInsteadOf(const PreparedScene& prepared, const ReferenceConfig& config) {
@@ -71,7 +72,7 @@ std::string referenceKey(const PreparedScene& prepared, const ReferenceConfig& c
 }
 
 bool meetsTarget(const Reference& reference, const ReferenceTarget& target) {
-  return targetReached(target, reference.spp, reference.relmse, reference.timeS);
+  return targetReached(target, reference.spp, reference.relmseSinceHalf, reference.timeS);
 }
 
 void requireUsable(const std::string& file, const Reference& reference) {

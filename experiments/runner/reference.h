@@ -37,18 +37,17 @@ ReferenceConfig referenceConfigOf(const SessionConfig& session);
 const SceneCamera* cameraInsteadOf(const PreparedScene& prepared, const ReferenceConfig& config);
 
 // When to stop: at the first target that is reached; 0 is no target. One must be set. What was
-// rendered in earlier calls counts.
+// rendered in earlier calls counts. `relmse` is reached when all estimates since half of the
+// samples are at most that.
 struct ReferenceTarget {
   uint64_t spp = 0;         // samples per pixel of both halves together, at least 2
   double relmse = 0.0;      // mean d^2/(r^2+1e-2) of the mean, estimated from the halves
   double timeLimitS = 0.0;  // seconds of rendering
 };
 
-// Below this many samples the two halves say too little about their own error.
-constexpr uint64_t kMinSppForError = 16;
-
-// `relmse` is NaN where it is not known.
-bool targetReached(const ReferenceTarget& target, uint64_t spp, double relmse, double timeS);
+// `relmseSinceHalf` as RelmseChecks has it; NaN where it is not known.
+bool targetReached(const ReferenceTarget& target, uint64_t spp, double relmseSinceHalf,
+                   double timeS);
 
 struct Reference {
   Image mean;
@@ -56,8 +55,9 @@ struct Reference {
   std::optional<Image> variance;      // of the mean, per pixel
   std::map<std::string, std::string> metadata;
   uint64_t spp = 0;
-  double relmse = 0.0;  // estimate; NaN where unknown
-  double timeS = 0.0;   // rendering only
+  double relmse = 0.0;           // estimate; NaN where unknown
+  double relmseSinceHalf = 0.0;  // the largest of its checks; NaN where unknown
+  double timeS = 0.0;            // rendering only
 };
 
 // Layers of the file that writeReference makes: the mean, its variance, two halves.

@@ -57,6 +57,7 @@ Reference readReference(const std::filesystem::path& file) {
   const double spp = metadataNumber(reference.metadata, "spp");
   reference.spp = spp > 0.0 ? uint64_t(spp) : 0;
   reference.relmse = metadataNumber(reference.metadata, "relmse_estimate");
+  reference.relmseSinceHalf = metadataNumber(reference.metadata, "relmse_since_half");
   reference.timeS = metadataNumber(reference.metadata, "render_time_s");
   return reference;
 }

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <limits>
 
 #include <xxhash.h>
 
@@ -19,10 +17,6 @@
 namespace restlab {
 
 namespace {
-
-// The error is estimated after every so many samples: it costs about a tenth of a frame. Nowhere
-// else, so that a rendering that was interrupted stops where it would have stopped.
-constexpr uint64_t kSppPerCheck = 8;
 
 // The seeds of the halves are far from those that methods are run with.
 uint32_t halfSeed(uint32_t seed, uint32_t half) {
@@ -64,13 +58,6 @@ double estimateRelmse(const ImageSum& a, const ImageSum& b) {
     sum += relative.x + relative.y + relative.z;
   }
   return sum / (3.0 * double(mean.pixels.size()));
-}
-
-// The estimate where it is due, else `last`.
-double checkedRelmse(const ReferenceState& state, double last) {
-  const uint64_t spp = state.spp();
-  if (spp < kMinSppForError || spp % kSppPerCheck != 0) return last;
-  return estimateRelmse(state.half0, state.half1);
 }
 
 void addName(std::vector<std::string>& names, const std::string& name) {
@@ -127,8 +114,7 @@ void renderUntil(Halves& halves, ReferenceState& state, const ReferenceTarget& t
   Progress progress("reference", target.spp, state.spp());
   const double earlierS = state.timeS;
   const auto start = std::chrono::steady_clock::now();
-  double relmse = checkedRelmse(state, std::numeric_limits<double>::quiet_NaN());
-  while (!targetReached(target, state.spp(), relmse, state.timeS)) {
+  while (!targetReached(target, state.spp(), state.checks.sinceHalf(), state.timeS)) {
     if (interruptRequested()) {
       progress.finish();
       throw Error(ExitCode::interrupted,
@@ -142,9 +128,11 @@ void renderUntil(Halves& halves, ReferenceState& state, const ReferenceTarget& t
     halves.addSample();
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     state.timeS = earlierS + spent.count();
-    relmse = checkedRelmse(state, relmse);
+    if (RelmseChecks::isDue(state.spp()))
+      state.checks.add(estimateRelmse(state.half0, state.half1));
     kept.update(state);
-    progress.update(state.spp(), std::isnan(relmse) ? "" : fmt::format("relmse {:.3g}", relmse));
+    const std::vector<double>& checks = state.checks.kept();
+    progress.update(state.spp(), checks.empty() ? "" : fmt::format("relmse {:.3g}", checks.back()));
   }
   progress.finish();
 }
@@ -162,6 +150,7 @@ Reference referenceOf(const PreparedScene& prepared, const ReferenceConfig& conf
   reference.variance = ImageSum::varianceOfMean(state.half0, state.half1, state.squares);
   reference.spp = state.spp();
   reference.relmse = estimateRelmse(state.half0, state.half1);
+  reference.relmseSinceHalf = state.checks.sinceHalf();
   reference.timeS = state.timeS;
   reference.metadata = describe(prepared, pathConfig(prepared, config));
   if (const SceneCamera* camera = cameraInsteadOf(prepared, config)) {
@@ -175,6 +164,7 @@ Reference referenceOf(const PreparedScene& prepared, const ReferenceConfig& conf
   reference.metadata["seed"] = std::to_string(state.id.seed);
   reference.metadata["spp"] = std::to_string(reference.spp);
   reference.metadata["relmse_estimate"] = fmt::format("{:.9g}", reference.relmse);
+  reference.metadata["relmse_since_half"] = fmt::format("{:.17g}", reference.relmseSinceHalf);
   reference.metadata["render_time_s"] = fmt::format("{:.6g}", state.timeS);
   reference.metadata["health"] = state.health.text();
   return reference;
@@ -197,8 +187,7 @@ Reference renderReference(const PreparedScene& prepared, const ReferenceConfig& 
   state.id = id;
   if (found) state = std::move(*found);
 
-  const double relmse = checkedRelmse(state, std::numeric_limits<double>::quiet_NaN());
-  const bool isEnough = targetReached(target, state.spp(), relmse, state.timeS);
+  const bool isEnough = targetReached(target, state.spp(), state.checks.sinceHalf(), state.timeS);
   if (found) {
     logInfo(fmt::format("{}: {} {} spp of {}", unused.empty() ? "reference" : unused,
                         isEnough ? "made of the" : "continues after the", state.spp(),

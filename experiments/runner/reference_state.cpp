@@ -55,6 +55,7 @@ nlohmann::ordered_json headerOf(const ReferenceState& state) {
           {"height", state.half0.height()},
           {"samples_half0", state.half0.count()},
           {"samples_half1", state.half1.count()},
+          {"relmse_checks", state.checks.kept()},
           {"render_time_s", state.timeS},
           {"health", state.health.health.counts},
           {"rays_path", state.health.raysPath},
@@ -91,6 +92,9 @@ ReferenceState fromHeader(const fs::path& file, const nlohmann::json& header) {
   ReferenceState state;
   state.id = idOf(header);
   state.timeS = header.at("render_time_s").get<double>();
+  // Earlier versions kept none: then a target of error waits for new ones.
+  if (const auto checks = header.find("relmse_checks"); checks != header.end())
+    state.checks = RelmseChecks(checks->get<std::vector<double>>());
   const auto health = header.at("health").get<std::vector<uint64_t>>();
   if (health.size() != state.health.health.counts.size()) {
     failDamaged(file, "its counters are not those of this program");

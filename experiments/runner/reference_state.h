@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "experiments/runner/accumulate.h"
+#include "experiments/runner/relmse_checks.h"
 
 namespace restlab {
 
@@ -24,6 +25,7 @@ struct ReferenceState {
   // Samples go by turns, half0 first. What a half has summed is also the number of its next frame.
   ImageSum half0, half1;
   ImageSum squares;  // of the samples of both
+  RelmseChecks checks;
   HealthSum health;
   double timeS = 0.0;  // spent rendering
   // What rendered it, in the order in which they came, each named once.

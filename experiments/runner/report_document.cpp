@@ -33,20 +33,22 @@ Interval slopeOf(const MethodSummary& row) {
   return row.convergence ? row.convergence->slope : kNone;
 }
 Interval equalTimeOf(const MethodSummary& row) {
-  return row.speedUp ? row.speedUp->equalTime : kNone;
+  return row.speedUp ? row.speedUp->equalTime.ratio : kNone;
 }
 Interval equalErrorOf(const MethodSummary& row) {
-  return row.speedUp ? row.speedUp->equalError : kNone;
+  return row.speedUp ? row.speedUp->equalError.ratio : kNone;
 }
 Interval varianceOf(const MethodSummary& row) {
-  return only(row.temporal ? row.temporal->variance : kUnknown);
+  return row.temporal ? row.temporal->variance : kNone;
 }
 Interval differenceOf(const MethodSummary& row) {
-  return only(row.temporal ? row.temporal->difference - row.temporal->referenceDifference
-                           : kUnknown);
+  return row.temporal ? row.temporal->difference : kNone;
+}
+Interval errorDifferenceOf(const MethodSummary& row) {
+  return row.temporal ? row.temporal->errorDifferenceSquared : kNone;
 }
 Interval correlationOf(const MethodSummary& row) {
-  return only(row.temporal ? row.temporal->autocorrelation[0] : kUnknown);
+  return row.temporal ? row.temporal->autocorrelation[0] : kNone;
 }
 
 // A column that is unknown in every row is left out.
@@ -84,15 +86,19 @@ const std::vector<Column>& columns() {
        slopeOf},
       {"equal_time", "lower at equal time", "", "higher", "off the fitted lines", equalTimeOf,
        [](const MethodSummary& row) {
-         return row.speedUp ? fmt::format("at {} ms", shortNumber(row.speedUp->timeMs)) : "";
+         return row.speedUp ? fmt::format("at {} ms", shortNumber(row.speedUp->equalTime.at)) : "";
        }},
       {"equal_error", "faster to equal error", "", "higher", "off the fitted lines", equalErrorOf,
        [](const MethodSummary& row) {
-         return row.speedUp ? "to " + shortNumber(row.speedUp->mse) : "";
+         return row.speedUp ? "to " + shortNumber(row.speedUp->equalError.at) : "";
        }},
       {"temporal_variance", "variance over frames", "", "lower", "flicker of a pixel", varianceOf},
-      {"temporal_difference", "frame difference", "", "lower",
-       "mean |f_t - f_(t-1)|, less that of the references", differenceOf},
+      {"temporal_difference", "frame difference", "", "none",
+       "mean |f_t - f_(t-1)|, motion included", differenceOf},
+      {"temporal_error_difference", "change of errors", "", "lower",
+       "mean (e_t - e_(t-1))^2 of the errors against the reference's halves: without motion and "
+       "without the reference's noise",
+       errorDifferenceOf},
       {"correlation", "correlation of errors", "", "lower", "of frames side by side",
        correlationOf},
       {"rays", "rays / pixel", "", "none", "path and shadow rays of a frame",
@@ -180,12 +186,14 @@ Json curves(const std::vector<MethodSummary>& rows, const char* id, const char* 
   Json series = Json::array();
   for (const MethodSummary& row : rows) {
     if (!row.convergence) continue;
-    Json points = Json::array();
+    Json points = Json::array(), hollow = Json::array();
     for (const ConvergencePoint& point : row.convergence->points) {
+      if (isFitted && !point.isFitted) hollow.push_back(points.size());
       points.push_back({finiteJson(x(point)), finiteJson(point.mse.value), finiteJson(point.mse.lo),
                         finiteJson(point.mse.hi)});
     }
     Json one = {{"name", row.method->name}, {"points", std::move(points)}};
+    if (!hollow.empty()) one["hollow"] = std::move(hollow);
     const Interval& slope = row.convergence->slope;
     if (isFitted && !std::isnan(slope.value)) {
       one["fit"] = {{"slope", slope.value},
@@ -224,8 +232,10 @@ Json correlations(const std::vector<MethodSummary>& rows) {
   for (const MethodSummary& row : rows) {
     if (!row.temporal) continue;
     Json points = Json::array();
-    for (size_t lag = 1; lag <= row.temporal->autocorrelation.size(); ++lag)
-      points.push_back({double(lag), finiteJson(row.temporal->autocorrelation[lag - 1])});
+    for (size_t lag = 1; lag <= row.temporal->autocorrelation.size(); ++lag) {
+      const Interval& of = row.temporal->autocorrelation[lag - 1];
+      points.push_back({double(lag), finiteJson(of.value), finiteJson(of.lo), finiteJson(of.hi)});
+    }
     series.push_back({{"name", row.method->name}, {"points", std::move(points)}});
   }
   return {{"id", "correlation"},

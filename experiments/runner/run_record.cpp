@@ -134,7 +134,15 @@ Json temporalJson(const TemporalFigures& figures) {
   return {{"variance", finiteJson(figures.variance)},
           {"difference", finiteJson(figures.difference)},
           {"reference_difference", finiteJson(figures.referenceDifference)},
+          {"reference_difference_noise", finiteJson(figures.referenceDifferenceNoise)},
+          {"error_difference_squared", finiteJson(figures.errorDifferenceSquared)},
           {"autocorrelation", lags}};
+}
+
+// A figure that jobs of earlier versions lack.
+double laterFigure(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  return found == json.end() ? std::numeric_limits<double>::quiet_NaN() : finiteNumber(*found);
 }
 
 TemporalFigures temporalOf(const Json& json) {
@@ -142,6 +150,8 @@ TemporalFigures temporalOf(const Json& json) {
   figures.variance = finiteNumber(json.at("variance"));
   figures.difference = finiteNumber(json.at("difference"));
   figures.referenceDifference = finiteNumber(json.at("reference_difference"));
+  figures.referenceDifferenceNoise = laterFigure(json, "reference_difference_noise");
+  figures.errorDifferenceSquared = laterFigure(json, "error_difference_squared");
   for (size_t lag = 0; lag < figures.autocorrelation.size(); ++lag)
     figures.autocorrelation[lag] = finiteNumber(json.at("autocorrelation").at(lag));
   return figures;

@@ -76,7 +76,7 @@ struct Suite {
   uint32_t runs = 8;
   uint32_t seed = 1;                  // of run 0; run r has seed + r
   std::vector<uint32_t> checkpoints;  // further frames of the history whose error is recorded
-  bool accumulate = false;  // the error of the mean of 1, 2, 4, ... timed frames is recorded
+  bool accumulate = false;  // the error of the mean of the first 1, 2, 4, ... frames is recorded
   bool temporal = false;    // flicker and correlation of the timed frames are recorded
   bool timing = true;       // false: no times, so that runs may be made side by side
   uint32_t jobs = 1;        // runs side by side

@@ -9,6 +9,7 @@
 #include "core/image/metrics.h"
 #include "experiments/report/text.h"
 #include "experiments/runner/figures.h"
+#include "experiments/runner/reference_error.h"
 
 namespace restlab {
 
@@ -165,18 +166,37 @@ AccumulatedNoise accumulatedNoise(const MethodSummary& row) {
 }
 
 // Nothing where a run has none.
-std::optional<TemporalFigures> meanOf(const std::vector<RunResult>& runs) {
-  TemporalFigures mean;
-  const double share = 1.0 / double(runs.size());
+std::optional<TemporalSummary> temporalOf(const std::vector<RunResult>& runs) {
   for (const RunResult& run : runs) {
     if (!run.temporal) return std::nullopt;
-    mean.variance += share * run.temporal->variance;
-    mean.difference += share * run.temporal->difference;
-    mean.referenceDifference += share * run.temporal->referenceDifference;
-    for (size_t lag = 0; lag < mean.autocorrelation.size(); ++lag)
-      mean.autocorrelation[lag] += share * run.temporal->autocorrelation[lag];
   }
-  return mean;
+  const auto over = [&](auto value) {
+    std::vector<double> values;
+    for (const RunResult& run : runs) values.push_back(value(*run.temporal));
+    return meanInterval(values);
+  };
+  TemporalSummary all;
+  all.variance = over([](const TemporalFigures& figures) { return figures.variance; });
+  all.difference = over([](const TemporalFigures& figures) { return figures.difference; });
+  all.errorDifferenceSquared =
+      over([](const TemporalFigures& figures) { return figures.errorDifferenceSquared; });
+  all.referenceDifference = runs.front().temporal->referenceDifference;
+  all.referenceDifferenceNoise = runs.front().temporal->referenceDifferenceNoise;
+  for (size_t lag = 0; lag < all.autocorrelation.size(); ++lag) {
+    all.autocorrelation[lag] =
+        over([lag](const TemporalFigures& figures) { return figures.autocorrelation[lag]; });
+  }
+  return all;
+}
+
+// Of the references, and so of every row.
+void noteTemporal(MethodSummary& row) {
+  if (!row.temporal) return;
+  const double share = row.temporal->referenceDifferenceNoise / row.temporal->referenceDifference;
+  if (!(share > kReferenceDifferenceNoiseMax)) return;
+  row.flags.push_back(
+      fmt::format("of the difference of the references, up to {:.0f} % is their noise: more spp",
+                  100.0 * share));
 }
 
 // One value a run; nothing where a run lacks it.
@@ -260,6 +280,30 @@ void flagNoise(MethodSummary& row) {
   if (!relmse.empty()) row.flags.push_back(relmse);
 }
 
+void noteConvergence(MethodSummary& row) {
+  if (!row.convergence || !row.convergence->isNoLine) return;
+  row.flags.push_back(
+      fmt::format("its accumulated errors do not lie on a line: up to {}x off it, more than the "
+                  "spread of the runs",
+                  shortNumber(std::pow(10.0, row.convergence->misfit))));
+}
+
+void noteReading(const CurveReading& reading, const char* what, const char* gain,
+                 MethodSummary& row) {
+  if (!reading.why.empty()) row.flags.push_back(fmt::format("nothing {}: {}", what, reading.why));
+  if (!reading.isOffTheLines) return;
+  row.flags.push_back(fmt::format(
+      "{} {}x{} {} between the measured points, not {}x as off the lines", what,
+      shortNumber(reading.measured.value), intervalText(reading.measured.lo, reading.measured.hi),
+      gain, shortNumber(reading.ratio.value)));
+}
+
+void noteSpeedUp(MethodSummary& row) {
+  if (!row.speedUp || row.isYardstick) return;
+  noteReading(row.speedUp->equalTime, "at equal time", "lower", row);
+  noteReading(row.speedUp->equalError, "to equal error", "faster", row);
+}
+
 void judge(MethodSummary& row) {
   if (row.nonfinite > 0) {
     row.counts = false;
@@ -311,7 +355,9 @@ std::vector<MethodSummary> summarise(const Suite& suite, const BlockResult& bloc
     summariseTimes(result, pixels, row);
     summariseErrors(result, block.reference, row);
     row.convergence = convergenceOf(result.runs, accumulatedNoise(row));
-    row.temporal = meanOf(result.runs);
+    noteConvergence(row);
+    row.temporal = temporalOf(result.runs);
+    noteTemporal(row);
     row.figures = figuresOf(suite, result, row.noise);
     if (row.method->images && row.runs != suite.runs) {
       row.flags.push_back(row.runs == 1 ? "one image" : fmt::format("{} images", row.runs));
@@ -329,6 +375,7 @@ std::vector<MethodSummary> summarise(const Suite& suite, const BlockResult& bloc
       compareWithYardstick(*yardstick.result, yardstick, *row.result, row);
       row.speedUp = speedUpOf(yardstick.result->runs, row.result->runs, accumulatedNoise(yardstick),
                               accumulatedNoise(row));
+      noteSpeedUp(row);
     }
     const size_t first = suite.onFirstBackend(m);
     if (first != m && rowOf[first] < rows.size())

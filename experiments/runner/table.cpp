@@ -96,6 +96,25 @@ std::string onBackend(const Suite& suite) {
                                                       : "";
 }
 
+// "6 of 8 points (not 1, 2 frames), up to 1.04x off"; "" without a line.
+std::string fitCell(const Convergence& curve) {
+  if (std::isnan(curve.slope.value)) return "";
+  std::string left;
+  for (const ConvergencePoint& point : curve.points) {
+    if (!point.isFitted) left += fmt::format("{}{}", left.empty() ? "" : ", ", point.frames);
+  }
+  return fmt::format("{} of {} points{}, up to {}x off", curve.fitted(), curve.points.size(),
+                     left.empty() ? "" : fmt::format(" (not {} frames)", left),
+                     shortNumber(std::pow(10.0, curve.misfit)));
+}
+
+std::string readingCell(const CurveReading& reading, const std::string& gain,
+                        const std::string& at) {
+  if (std::isnan(reading.ratio.value)) return "";
+  return fmt::format("{}x {}{} {}", shortNumber(reading.ratio.value), gain, endsOf(reading.ratio),
+                     at);
+}
+
 // Slopes and speed-ups; "" where nothing was accumulated.
 std::string accumulatedTable(const std::vector<MethodSummary>& rows) {
   std::string text;
@@ -103,15 +122,13 @@ std::string accumulatedTable(const std::vector<MethodSummary>& rows) {
     if (!row.convergence || row.convergence->points.empty()) continue;
     const ConvergencePoint& last = row.convergence->points.back();
     const Interval& slope = row.convergence->slope;
-    text += fmt::format("| {} | {} | {} | {} | {} |", row.method->name, last.frames,
+    text += fmt::format("| {} | {} | {} | {} | {} | {} |", row.method->name, last.frames,
                         longTime(last.timeMs), withEnds(last.mse),
-                        std::isnan(slope.value) ? "" : withEnds(slope));
+                        std::isnan(slope.value) ? "" : withEnds(slope), fitCell(*row.convergence));
     if (row.speedUp && !row.isYardstick) {
-      const SpeedUp& up = *row.speedUp;
-      text +=
-          fmt::format(" {}x lower{} at {} | {}x faster{} to {} |\n",
-                      shortNumber(up.equalTime.value), endsOf(up.equalTime), longTime(up.timeMs),
-                      shortNumber(up.equalError.value), endsOf(up.equalError), shortNumber(up.mse));
+      const CurveReading &time = row.speedUp->equalTime, &error = row.speedUp->equalError;
+      text += fmt::format(" {} | {} |\n", readingCell(time, "lower", "at " + longTime(time.at)),
+                          readingCell(error, "faster", "to " + shortNumber(error.at)));
     } else {
       text += " | |\n";
     }
@@ -119,8 +136,8 @@ std::string accumulatedTable(const std::vector<MethodSummary>& rows) {
   if (text.empty()) return "";
   return "\nFrames accumulated, time from the beginning of the history; slopes and ratios are of "
          "lines fitted to log(MSE) over log(time):\n\n"
-         "| method | frames | time | MSE | slope | at equal time | to equal error |\n"
-         "|---|---|---|---|---|---|---|\n" +
+         "| method | frames | time | MSE | slope | line | at equal time | to equal error |\n"
+         "|---|---|---|---|---|---|---|---|\n" +
          text;
 }
 
@@ -152,31 +169,28 @@ std::string figuresTable(const std::vector<MethodSummary>& rows) {
 }
 
 std::string temporalTable(const std::vector<MethodSummary>& rows) {
-  std::string text;
+  std::string text, moved;
+  const auto cellOf = [](const Interval& of) {
+    return std::isnan(of.value) ? std::string(" |") : " " + withEnds(of) + " |";
+  };
   for (const MethodSummary& row : rows) {
     if (!row.temporal) continue;
-    const TemporalFigures& t = *row.temporal;
-    // A moving camera has two frames with a reference, and so differences alone.
-    if (std::isnan(t.variance)) {
-      text +=
-          fmt::format("| {} | | {} ({}) | | | | |\n", row.method->name, shortNumber(t.difference),
-                      shortNumber(t.difference - t.referenceDifference));
-      continue;
-    }
-    text += fmt::format("| {} | {} | {} |", row.method->name, shortNumber(t.variance),
-                        shortNumber(t.difference));
-    for (const size_t lag : {1, 2, 4, 8}) {
-      const double correlation = t.autocorrelation[lag - 1];
-      text += std::isnan(correlation) ? " |" : " " + shortNumber(correlation) + " |";
-    }
+    const TemporalSummary& t = *row.temporal;
+    text += fmt::format("| {} |", row.method->name) + cellOf(t.variance) + cellOf(t.difference) +
+            cellOf(t.errorDifferenceSquared);
+    for (const size_t lag : {1, 2, 4, 8}) text += cellOf(t.autocorrelation[lag - 1]);
     text += "\n";
+    if (row.suite->hasMovingCamera())
+      moved = "; the two references differ by " + shortNumber(t.referenceDifference);
   }
   if (text.empty()) return "";
-  return "\nOver the timed frames of a run: variance of a pixel, difference of frames (in brackets "
-         "less that "
-         "of the references, where the camera moves), correlation "
-         "of errors by the number of frames between them:\n\n"
-         "| method | variance | difference | 1 | 2 | 4 | 8 |\n|---|---|---|---|---|---|---|\n" +
+  return "\nOver the timed frames of a run: variance of a pixel, mean absolute difference of frames"
+         ", mean squared change of errors, correlation of errors by the number of frames between "
+         "them" +
+         moved +
+         ":\n\n"
+         "| method | variance | difference | change of errors | 1 | 2 | 4 | 8 |\n"
+         "|---|---|---|---|---|---|---|---|\n" +
          text;
 }
 

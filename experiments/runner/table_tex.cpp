@@ -145,13 +145,13 @@ std::string accumulatedTex(const Suite& suite, const std::vector<MethodSummary>&
       lines += " & & \\\\\n";
       continue;
     }
-    const SpeedUp& up = *row.speedUp;
-    const auto read = [](const Interval& value, const std::string& where) {
-      return std::isnan(value.value) ? "" : cell(value, false, "$\\times$") + " " + where;
+    const auto read = [](const CurveReading& reading, const char* where, const char* unit) {
+      if (std::isnan(reading.ratio.value)) return std::string();
+      return fmt::format("{} {} {}{}", cell(reading.ratio, false, "$\\times$"), where,
+                         number(reading.at), unit);
     };
-    lines += fmt::format(" & {} & {} \\\\\n",
-                         read(up.equalTime, fmt::format("at {} ms", number(up.timeMs))),
-                         read(up.equalError, fmt::format("to {}", number(up.mse))));
+    lines += fmt::format(" & {} & {} \\\\\n", read(row.speedUp->equalTime, "at", " ms"),
+                         read(row.speedUp->equalError, "to", ""));
   }
   if (lines.empty()) return "";
   return tableOf(subjectOf(suite, *rows.front().block) +

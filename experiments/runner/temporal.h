@@ -9,11 +9,11 @@
 
 namespace restlab {
 
-// Takes frames of one size, one after the other, against one reference (a still camera).
 // Of the measured frame and the one before it, and of their references, of a moving camera.
 TemporalFigures figuresOfPair(const Image& before, const Image& measured,
                               const Reference& referenceBefore, const Reference& reference);
 
+// Takes frames of one size, one after the other, against one reference (a still camera).
 class TemporalSum {
  public:
   static constexpr size_t kLags = std::tuple_size_v<decltype(TemporalFigures::autocorrelation)>;
@@ -29,7 +29,7 @@ class TemporalSum {
   std::deque<Image> last_;  // the newest first
   std::vector<glm::dvec3> sum_, sumSquares_;
   size_t frames_ = 0;
-  double differences_ = 0.0;
+  double differences_ = 0.0, squaredDifferences_ = 0.0;
   std::array<double, kLags + 1> products_{};  // of errors k frames apart, mean over pixels
 };
 

@@ -410,6 +410,9 @@ TEST_F(ResumeTest, CamerasMoveAlongPaths) {
     EXPECT_GT(std::stod(rows[moving].at("temporal_difference_of_reference")), 0.0);
     EXPECT_GT(std::stod(rows[moving].at("temporal_difference")), 0.0);
     EXPECT_EQ(rows[moving].at("temporal_variance"), "nan");
+    EXPECT_GT(std::stod(rows[moving].at("temporal_error_difference_squared")), 0.0);
+    EXPECT_GT(std::stod(rows[moving].at("temporal_error_difference_squared_ci_hi")), 0.0);
+    EXPECT_GT(std::stod(rows[moving].at("temporal_difference_of_reference_noise")), 0.0);
   }
   EXPECT_EQ(rows[0].at("temporal_variance").find("nan"), std::string::npos);
   // Reference and images are of the measured frame's camera: their errors are those of noise.

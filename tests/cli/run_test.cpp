@@ -384,6 +384,30 @@ TEST_F(RunTest, BadSuitesNameThePlace) {
   expectError(run("run suite.toml --out plain/out -q"), 3, {"plain/out"});
 }
 
+// The warm-up's time counts, and so do its frames: it only says which frame is measured alone.
+TEST_F(RunTest, AccumulationBeginsWithTheHistory) {
+  const auto accumulated = [&](const std::string& settings) {
+    fs::remove_all(path("out"));
+    const ProgramResult result =
+        run("run suite.toml --out out -q --set accumulate=true " + settings);
+    EXPECT_EQ(result.code, 0) << result.err;
+    std::vector<std::pair<uint32_t, double>> points;
+    std::istringstream text(read("out/results.jsonl"));
+    for (std::string line; std::getline(text, line);) {
+      const auto json = nlohmann::json::parse(line);
+      if (json.at("kind") != "accumulated") continue;
+      points.emplace_back(json.at("frames_accumulated").get<uint32_t>(),
+                          json.at("mse").get<double>());
+    }
+    return points;
+  };
+  const auto warm = accumulated("--set warmup_frames=3 --set frames=3");
+  ASSERT_EQ(warm.size(), 24u) << "1, 2, 4 and 6 frames of two methods and three runs";
+  EXPECT_EQ(warm[0].first, 1u);
+  EXPECT_EQ(warm[3].first, 6u);
+  EXPECT_EQ(warm, accumulated("--set warmup_frames=0 --set frames=6"));
+}
+
 }  // namespace
 
 }  // namespace restlab::cli_test

@@ -117,6 +117,21 @@ TEST(Plot, WhatCannotBeShownIsCounted) {
   EXPECT_TRUE(findAll(parseXml(plotSvg(logPlot())), "text", "hidden").empty());
 }
 
+TEST(Plot, PointsThatTheLineLeavesOutAreHollow) {
+  const ReportModel block = ReportModel::parse(R"({
+    "rows": [{"method": "path"}],
+    "plot": {"title": "", "x": {"title": "", "log": true}, "y": {"title": "", "log": true},
+      "series": [{"name": "path", "points": [[1, 1], [2, 0.5], [4, 0.25]], "hollow": [1]}]}})");
+  const PlotSpec plot = plotFromModel(block, block["plot"]);
+  const XmlElement svg = parseXml(plotSvg(plot));
+  const auto hollow = findAll(svg, "circle", "hollow");
+  ASSERT_EQ(hollow.size(), 1u);
+  EXPECT_NEAR(hollow[0]->number("cx"), expectedX(plot, 2.0), 0.01);
+  EXPECT_EQ(hollow[0]->attributes.at("stroke"), svg::colour(0));
+  EXPECT_EQ(findAll(svg, "circle", "mark").size(), 3u) << "two points and the legend";
+  EXPECT_EQ(findAll(svg, "text", "hidden").at(0)->text, "1 hollow point left out of the lines");
+}
+
 TEST(Plot, IntervalsBeyondTheAxesEndThere) {
   PlotSpec plot = logPlot();
   plot.series[0].points[1].lo = -kInf;

@@ -102,6 +102,8 @@ TEST_F(JobTest, ARunSurvivesDiskToTheLastBit) {
   run.accumulated = {{1, 2.5, run.measured}, {2, 5.25, run.measured}};
   run.temporal = TemporalFigures();
   run.temporal->variance = 1e-300;
+  run.temporal->referenceDifferenceNoise = 0.1 + 0.2;
+  run.temporal->errorDifferenceSquared = 1.0 / 3.0;
   run.temporal->autocorrelation[3] = std::nan("");
   run.timesMs = {1.1, 2.2};
   run.passes = {{"second first", 2.0, 0, 0}, {"a", 1.0, 0, 0}};
@@ -130,6 +132,8 @@ TEST_F(JobTest, ARunSurvivesDiskToTheLastBit) {
   EXPECT_EQ(back.accumulated[1].timeMs, 5.25);
   ASSERT_TRUE(back.temporal.has_value());
   EXPECT_EQ(back.temporal->variance, 1e-300);
+  EXPECT_EQ(back.temporal->referenceDifferenceNoise, 0.1 + 0.2);
+  EXPECT_EQ(back.temporal->errorDifferenceSquared, 1.0 / 3.0);
   EXPECT_TRUE(std::isnan(back.temporal->autocorrelation[3]));
   EXPECT_EQ(back.timesMs, run.timesMs);
   ASSERT_EQ(back.passes.size(), 2u);
@@ -137,6 +141,9 @@ TEST_F(JobTest, ARunSurvivesDiskToTheLastBit) {
   EXPECT_EQ(back.health.health.counts, run.health.health.counts);
   EXPECT_EQ(again.featuresLeftOut, "alpha");
   EXPECT_EQ(again.use, devices_[0]);
+  read.back()["temporal"].erase("error_difference_squared");
+  EXPECT_TRUE(std::isnan(runOfLines(read, again).temporal->errorDifferenceSquared))
+      << "of an earlier version";
   read.pop_back();
   EXPECT_ANY_THROW(runOfLines(read, again)) << "without its last line it is no run";
 }

@@ -35,6 +35,7 @@ ReferenceState makeState(uint32_t spp) {
   }
   state.health.health.counts[2] = uint64_t(1) << 60;
   state.health.raysPath = 12345678901234;
+  state.checks = RelmseChecks({0.1 + 0.2, 1.0 / 3.0});
   state.timeS = 0.1 + 0.2;
   state.devices = {"a device", "another \"one\""};
   state.rayTracing = {"embree"};
@@ -53,6 +54,7 @@ void expectSame(const ReferenceState& a, const ReferenceState& b) {
   EXPECT_EQ(a.half1.height(), b.half1.height());
   EXPECT_EQ(a.health.health.counts, b.health.health.counts);
   EXPECT_EQ(a.health.raysPath, b.health.raysPath);
+  EXPECT_EQ(a.checks.kept(), b.checks.kept());
   EXPECT_EQ(a.timeS, b.timeS);
   EXPECT_EQ(a.devices, b.devices);
   EXPECT_EQ(a.rayTracing, b.rayTracing);

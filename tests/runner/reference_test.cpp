@@ -64,27 +64,45 @@ TEST_F(ReferenceRendering, ExtendedIsBitForBitThatOfOneGo) {
 
 TEST_F(ReferenceRendering, TargetOfErrorIsMetAtTheSameSample) {
   const PreparedScene scene = prepared();
+  const ReferenceTarget target = {.relmse = 0.01};
+  const Reference inOneGo = renderReference(scene, smallConfig(), target);
+  ASSERT_GE(inOneGo.spp, 40u) << "checks of several calls are needed";
+  EXPECT_LE(inOneGo.relmse, target.relmse);
+  EXPECT_LE(inOneGo.relmseSinceHalf, target.relmse);
+  // Interrupted wherever that may be, between two checks and on one.
+  for (const uint64_t spp : {uint64_t(2), inOneGo.spp / 2, inOneGo.spp / 2 + 1, inOneGo.spp - 1}) {
+    ReferenceStore store;
+    store.folder = folder() / std::to_string(spp);
+    renderReference(scene, smallConfig(), {.spp = spp}, store);
+    expectSame(renderReference(scene, smallConfig(), target, store), inOneGo);
+  }
+  // What has been rendered beyond it is known, and counts.
   ReferenceStore store;
   store.folder = folder();
-  // A number of samples that is enough, where no multiple of eight before it is: there one
-  // rendering does not look, and an interrupted one must not either.
-  double bestSeen = std::numeric_limits<double>::infinity();
-  uint64_t spp = 16;
-  ReferenceTarget target;
-  for (; !(target.relmse > 0.0); ++spp) {
-    ASSERT_LT(spp, 100u);
-    const double relmse = renderReference(scene, smallConfig(), {.spp = spp}).relmse;
-    if (spp % 8 == 0) {
-      bestSeen = std::min(bestSeen, relmse);
-    } else if (relmse < bestSeen) {
-      target.relmse = relmse;
-    }
-  }
-  renderReference(scene, smallConfig(), {.spp = spp - 1}, store);
-  const Reference inOneGo = renderReference(scene, smallConfig(), target);
-  EXPECT_GE(inOneGo.spp, spp);
-  EXPECT_EQ(inOneGo.spp % 8, 0u);
-  expectSame(renderReference(scene, smallConfig(), target, store), inOneGo);
+  const Reference more = renderReference(scene, smallConfig(), {.spp = 4 * inOneGo.spp}, store);
+  EXPECT_EQ(more.relmseSinceHalf <= target.relmse,
+            renderReference(scene, smallConfig(), target, store).spp == more.spp);
+}
+
+TEST_F(ReferenceRendering, OneEstimateBelowTheTargetIsNotEnough) {
+  const PreparedScene scene = prepared();
+  // What 64 samples say of themselves, which those before them did not.
+  const double relmse = renderReference(scene, smallConfig(), {.spp = 64}).relmse;
+  const Reference reference = renderReference(scene, smallConfig(), {.relmse = relmse});
+  EXPECT_GT(reference.spp, 64u);
+  Reference before = reference;
+  before.relmseSinceHalf = 2.0 * relmse;
+  EXPECT_TRUE(meetsTarget(reference, {.relmse = relmse}));
+  EXPECT_FALSE(meetsTarget(before, {.relmse = relmse}));
+  before.relmseSinceHalf = NAN;
+  EXPECT_FALSE(meetsTarget(before, {.relmse = relmse})) << "of an earlier version";
+}
+
+TEST_F(ReferenceRendering, FilesHoldWhatTargetsAsk) {
+  const PreparedScene scene = prepared();
+  const Reference reference = renderReference(scene, smallConfig(), {.spp = 64});
+  writeReference(folder() / "ref.exr", reference);
+  EXPECT_EQ(readReference(folder() / "ref.exr").relmseSinceHalf, reference.relmseSinceHalf);
 }
 
 TEST_F(ReferenceRendering, TimeOfEarlierCallsCounts) {

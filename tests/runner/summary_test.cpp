@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <random>
@@ -274,6 +275,89 @@ TEST_F(SummaryTest, CsvQuotesWhatNeedsIt) {
   suite_.methods[1].name = "a \"b\", c";
   const std::string csv = summaryCsv(suite_, summarise(suite_, block_));
   EXPECT_NE(csv.find("\"a \"\"b\"\", c\""), std::string::npos) << csv;
+}
+
+// Errors after 1, 2, 4, 8 frames, the same in every run but for a hair.
+void accumulate(MethodResult& method, const std::vector<double>& mse, double frameMs) {
+  for (RunResult& run : method.runs) {
+    run.accumulated.clear();
+    for (size_t k = 0; k < mse.size(); ++k) {
+      AccumulatedError point;
+      point.frames = 1u << k;
+      point.timeMs = frameMs * double(point.frames);
+      point.error.mse = mse[k] * (1.0 + 1e-3 * double(run.run));
+      run.accumulated.push_back(point);
+    }
+  }
+}
+
+bool hasFlag(const MethodSummary& row, const std::string& text) {
+  return std::any_of(row.flags.begin(), row.flags.end(),
+                     [&](const std::string& flag) { return flag.find(text) != std::string::npos; });
+}
+
+TEST_F(SummaryTest, AccumulatedErrorsSayWhatWasReadOffTheirLines) {
+  accumulate(block_.methods[0], {8.0, 4.0, 2.0, 1.0}, 10.0);
+  accumulate(block_.methods[1], {4.0, 2.0, 1.0, 0.5}, 10.0);
+  auto rows = summarise(suite_, block_);
+  std::string table = blockTable(suite_, rows);
+  EXPECT_NE(table.find("| 4 of 4 points, up to 1.00x off | 2.00x lower"), std::string::npos)
+      << table;
+  EXPECT_TRUE(rows[1].flags.empty()) << rows[1].flags[0];
+  // The method stands after two frames, where the line goes on.
+  accumulate(block_.methods[1], {4.0, 2.0, 2.0, 2.0}, 10.0);
+  rows = summarise(suite_, block_);
+  EXPECT_TRUE(hasFlag(rows[1], "do not lie on a line: up to 1.32x off"));
+  EXPECT_TRUE(hasFlag(rows[1], "at equal time 0.500x")) << "8 frames each: 1 over 2";
+  // Not one error was measured of both.
+  accumulate(block_.methods[1], {0.4, 0.2, 0.1, 0.05}, 10.0);
+  rows = summarise(suite_, block_);
+  EXPECT_TRUE(hasFlag(rows[1], "nothing to equal error: outside the measured range"));
+  table = blockTable(suite_, rows);
+  EXPECT_NE(table.find("20.0x lower"), std::string::npos) << table;
+  EXPECT_EQ(table.find("x faster"), std::string::npos) << table;
+  EXPECT_NE(summaryCsv(suite_, rows).find("accumulated_points_fitted"), std::string::npos);
+}
+
+TEST_F(SummaryTest, ErrorsInTheNoiseOfTheReferenceAreNotFitted) {
+  accumulate(block_.methods[0], {8.0, 4.0, 2.0, 1.0}, 10.0);
+  // Halves 4 apart: 8 / sqrt(3) a pixel, over 16 pixels 1.15, four times which is 4.6.
+  block_.reference.half0 = Image(kSide, kSide, glm::vec3(3.0f));
+  block_.reference.half1 = Image(kSide, kSide, glm::vec3(-1.0f));
+  const auto rows = summarise(suite_, block_);
+  EXPECT_EQ(rows[0].convergence->fitted(), 1u);
+  block_.reference.half0 = Image(kSide, kSide, glm::vec3(2.0f));
+  block_.reference.half1 = Image(kSide, kSide, glm::vec3(0.0f));
+  const auto more = summarise(suite_, block_);
+  EXPECT_EQ(more[0].convergence->fitted(), 3u) << "a quarter of that: 1.15 leaves 8, 4, 2";
+  EXPECT_NE(blockTable(suite_, more).find("(not 8 frames)"), std::string::npos);
+}
+
+TEST_F(SummaryTest, TemporalFiguresHaveIntervals) {
+  for (RunResult& run : block_.methods[1].runs) {
+    run.temporal.emplace();
+    run.temporal->variance = 1.0 + double(run.run);
+    run.temporal->errorDifferenceSquared = 2.0;
+    run.temporal->autocorrelation[0] = 0.5 + 0.1 * double(run.run);
+    run.temporal->referenceDifference = 1.0;
+    run.temporal->referenceDifferenceNoise = 0.04;
+  }
+  auto rows = summarise(suite_, block_);
+  EXPECT_FALSE(rows[0].temporal.has_value());
+  ASSERT_TRUE(rows[1].temporal.has_value());
+  EXPECT_NEAR(rows[1].temporal->variance.value, 2.0, 1e-12);
+  EXPECT_NEAR(rows[1].temporal->variance.hi, 2.0 + 4.303 / std::sqrt(3.0), 1e-3);
+  EXPECT_NEAR(rows[1].temporal->autocorrelation[0].value, 0.6, 1e-12);
+  EXPECT_LT(rows[1].temporal->autocorrelation[0].lo, 0.5);
+  EXPECT_TRUE(rows[1].flags.empty());
+  const std::string csv = summaryCsv(suite_, rows), table = blockTable(suite_, rows);
+  for (const char* column : {"temporal_variance_ci_lo", "error_autocorrelation_8_ci_hi",
+                             "temporal_error_difference_squared_ci_hi"})
+    EXPECT_NE(csv.find(column), std::string::npos) << column;
+  EXPECT_NE(table.find("| gi | 2 [-0.484, 4.48] |"), std::string::npos) << table;
+  for (RunResult& run : block_.methods[1].runs) run.temporal->referenceDifferenceNoise = 0.06;
+  rows = summarise(suite_, block_);
+  EXPECT_TRUE(hasFlag(rows[1], "up to 6 % is their noise"));
 }
 
 }  // namespace
