@@ -28,7 +28,7 @@ void logDetailOf(const std::string& file, const std::string& metric, const Metri
   const std::string line = fmt::format("{}: {}: {}", file, metric, value.detail);
   if (std::isnan(value.value)) {
     logWarning(line);
-  } else if (findMetric(metric).readsNeighbours) {
+  } else if (findMetric(metric).readsNeighbours || metric == "max_err") {
     logInfo(line);
   } else {
     logDetail(line);
@@ -64,12 +64,18 @@ void printTable(const Comparison& comparison) {
                comparison.runs->biasRms.detail);
   }
   if (!comparison.mask.text.empty()) logInfo("mask: " + maskText(comparison));
+  const Reference& reference = comparison.reference;
+  if (reference.half0) {
+    logInfo(
+        fmt::format("reference: {} spp, its own relMSE {:.3g}", reference.spp, reference.relmse));
+  }
 }
 
 void printJson(const Comparison& comparison, const CompareOptions& options) {
   const Reference& reference = comparison.reference;
   Json json = {{"reference", options.reference},
                {"reference_spp", reference.spp},
+               {"reference_relmse", finite(reference.relmse)},
                {"reference_has_halves", reference.half0.has_value()}};
   if (!comparison.mask.text.empty()) {
     json["mask"] = {{"pixels", countSelected(comparison.mask.mask, reference.mean.pixels.size())},

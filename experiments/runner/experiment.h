@@ -68,10 +68,10 @@ struct RunResult {
   // Of the timed frames: the passes, nothing else; empty where they were not measured. Of an image
   // what the suite says.
   std::vector<double> timesMs;
-  std::vector<std::pair<std::string, double>> figures;  // further ones, of the measured frame
-  std::vector<PassTiming> passes;                       // median over the timed frames
-  HealthSum health;                                     // over the timed frames
-  HealthSum warmupHealth;                               // over those before: the history's
+  std::vector<std::pair<std::string, MetricValue>> figures;  // further ones, of the measured frame
+  std::vector<PassTiming> passes;                            // median over the timed frames
+  HealthSum health;                                          // over the timed frames
+  HealthSum warmupHealth;                                    // over those before: the history's
 };
 
 struct MethodResult {

@@ -31,18 +31,17 @@ nlohmann::ordered_json figuresWords(const Suite& suite) {
   return {suite.metrics, masks};
 }
 
-std::vector<std::pair<std::string, double>> measureFigures(const Suite& suite,
-                                                           const BlockResult& block,
-                                                           const Image& image) {
-  std::vector<std::pair<std::string, double>> figures;
+std::vector<std::pair<std::string, MetricValue>> measureFigures(const Suite& suite,
+                                                                const BlockResult& block,
+                                                                const Image& image) {
+  std::vector<std::pair<std::string, MetricValue>> figures;
   for (const FigureInfo& figure : figureInfos(suite)) {
     MetricOptions options;
     if (figure.mask >= 0) {
       options.mask = block.masks.at(size_t(figure.mask));
       if (options.mask.empty()) continue;
     }
-    figures.emplace_back(figure.name,
-                         errorAgainst(figure.metric, image, block.reference, options).value);
+    figures.emplace_back(figure.name, errorAgainst(figure.metric, image, block.reference, options));
   }
   return figures;
 }

@@ -28,8 +28,8 @@ std::vector<FigureInfo> figureInfos(const Suite& suite);
 nlohmann::ordered_json figuresWords(const Suite& suite);
 
 // In the order of figureInfos(), without those whose mask is of another scene.
-std::vector<std::pair<std::string, double>> measureFigures(const Suite& suite,
-                                                           const BlockResult& block,
-                                                           const Image& image);
+std::vector<std::pair<std::string, MetricValue>> measureFigures(const Suite& suite,
+                                                                const BlockResult& block,
+                                                                const Image& image);
 
 }  // namespace restlab

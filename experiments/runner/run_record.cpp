@@ -73,14 +73,23 @@ void addError(Json& line, const FrameError& error) {
 
 void addFigures(Json& line, const RunResult& run) {
   Json figures = Json::object();
-  for (const auto& [name, value] : run.figures) figures[name] = finiteJson(value);
+  // The pixel of an extreme, the exposures of FLIP: what the number is not known without.
+  Json details = Json::object();
+  for (const auto& [name, figure] : run.figures) {
+    figures[name] = finiteJson(figure.value);
+    if (!figure.detail.empty()) details[name] = figure.detail;
+  }
   line["figures"] = std::move(figures);
+  if (!details.empty()) line["figure_details"] = std::move(details);
 }
 
 void readFigures(const Json& line, RunResult& run) {
   if (!line.contains("figures")) return;
-  for (const auto& [name, value] : line.at("figures").items())
-    run.figures.emplace_back(name, finiteNumber(value));
+  const Json details = line.value("figure_details", Json::object());
+  for (const auto& [name, value] : line.at("figures").items()) {
+    run.figures.emplace_back(name,
+                             MetricValue{finiteNumber(value), details.value(name, std::string())});
+  }
 }
 
 Json timesJson(const RunResult& run, const std::string& backend) {

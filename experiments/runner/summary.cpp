@@ -207,8 +207,8 @@ std::vector<std::pair<std::string, Interval>> figuresOf(const Suite& suite,
   for (const FigureInfo& figure : figureInfos(suite)) {
     std::vector<double> values;
     for (const RunResult& run : result.runs) {
-      for (const auto& [name, value] : run.figures) {
-        if (name == figure.name) values.push_back(value);
+      for (const auto& [name, measured] : run.figures) {
+        if (name == figure.name) values.push_back(measured.value);
       }
     }
     const bool isKnown = values.size() == result.runs.size();

@@ -57,7 +57,7 @@ class SuiteMetricsTest : public ProgramTest {
 };
 
 TEST_F(SuiteMetricsTest, AreWhatCompareSays) {
-  writeSuite("metrics = [\"flip_ldr\", \"rmse\"]\n", kMasks);
+  writeSuite("metrics = [\"flip_ldr\", \"rmse\", \"max_err\"]\n", kMasks);
   const ProgramResult result =
       run("run suite.toml -o out --set scenes=[\"cornell-box\",\"quad-light\"]");
   ASSERT_EQ(result.code, 0) << result.err;
@@ -66,7 +66,12 @@ TEST_F(SuiteMetricsTest, AreWhatCompareSays) {
   ASSERT_EQ(line["scene"], "cornell-box");
   ASSERT_EQ(line["run"], 0);
   const auto& figures = line["figures"];
-  EXPECT_EQ(figures.size(), 8u) << figures << ": none of the mask of the other scene";
+  EXPECT_EQ(figures.size(), 11u) << figures << ": none of the mask of the other scene";
+  const auto pixelOf = [&](const char* name) {
+    return line["figure_details"][name].get<std::string>();
+  };
+  EXPECT_NE(pixelOf("max_err").find("at x "), std::string::npos) << pixelOf("max_err");
+  EXPECT_EQ(line["figure_details"].count("rmse"), 0u);
   const std::string left = "--rect 0,0,12,16",
                     block = "--object ShortBlock --object TallBlock --without-lights";
   for (const auto& [name, metric, mask] :
@@ -88,10 +93,11 @@ TEST_F(SuiteMetricsTest, AreWhatCompareSays) {
   EXPECT_NE(rows[1].at("mse@elsewhere"), "nan");
   EXPECT_LT(std::stod(rows[0].at("flip_ldr_ci_lo")), std::stod(rows[0].at("flip_ldr")));
   const std::string tex = read("out/table.tex");
-  EXPECT_NE(tex.find("\nmethod & flip\\_ldr & rmse & mse@left & "), std::string::npos) << tex;
+  EXPECT_NE(tex.find("\nmethod & flip\\_ldr & rmse & max\\_err & mse@left & "), std::string::npos)
+      << tex;
   EXPECT_EQ(tex.find("\\textbf"), std::string::npos) << "one row has no best";
   EXPECT_GT(tex.find("@elsewhere"), tex.rfind("@left")) << "in the other scene's alone";
-  EXPECT_NE(result.out.find("| method | flip_ldr | rmse | mse@left |"), std::string::npos)
+  EXPECT_NE(result.out.find("| method | flip_ldr | rmse | max_err | mse@left |"), std::string::npos)
       << result.out;
   EXPECT_NE(read("out/report.html").find("flip_ldr@left"), std::string::npos);
   const std::string csv = read("out/summary.csv");
