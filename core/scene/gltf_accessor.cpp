@@ -14,6 +14,10 @@ namespace {
 // often.
 constexpr size_t kMaxElementsWithoutData = size_t(1) << 24;
 
+// Accessors may overlap, and each is read whole: what they name together, by what there is.
+constexpr uint64_t kMaxReadsOfAByte = 64;
+constexpr uint64_t kFreeBytes = uint64_t(1) << 26;  // of small files nobody waits for the rest
+
 size_t componentBytes(int componentType) {
   return static_cast<size_t>(
       tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(componentType)));
@@ -196,9 +200,22 @@ void surveyAccessor(const tinygltf::Model& model, size_t index, Report& report) 
 }  // namespace
 
 void checkAccessors(const tinygltf::Model& model, Report& report) {
+  uint64_t bytes = 0;
+  for (const tinygltf::Buffer& buffer : model.buffers) bytes += buffer.data.size();
+  const uint64_t allowed = kMaxReadsOfAByte * bytes + kFreeBytes;
+  uint64_t named = 0;
   size_t elementsWithoutData = 0;
   for (size_t i = 0; i < model.accessors.size(); ++i) {
     checkAccessor(model, i, elementsWithoutData, report);
+    // Its range was found inside of a buffer, so that no product or sum overflows.
+    const tinygltf::Accessor& accessor = model.accessors[i];
+    if (accessor.bufferView >= 0) named += uint64_t(accessor.count) * elementSize(accessor).extent;
+    if (named > allowed) {
+      report.fail(fmt::format("accessors[{}]", i),
+                  fmt::format("with those before it names {} bytes of the {} in all buffers; at "
+                              "most {} are read",
+                              named, bytes, allowed));
+    }
   }
 }
 

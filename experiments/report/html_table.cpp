@@ -59,14 +59,22 @@ std::string cellHtml(const ReportModel* cell, int digits, double best) {
 }
 
 std::string rowHead(const ReportModel& row) {
-  std::string flags;
-  for (const ReportModel& flag : reportList(row, "flags")) {
-    flags += fmt::format("<li>{}</li>", escapeMarkup(flag.get<std::string>()));
-  }
-  return fmt::format("<th scope=\"row\"><span class=\"method\">{}</span>{}{}</th>",
+  return fmt::format("<th scope=\"row\"><span class=\"method\">{}</span>{}</th>",
                      escapeMarkup(reportText(row, "method")),
-                     counts(row) ? "" : " <span class=\"badge\">does not count</span>",
-                     flags.empty() ? "" : fmt::format("<ul class=\"flags\">{}</ul>", flags));
+                     counts(row) ? "" : " <span class=\"badge\">does not count</span>");
+}
+
+// Below the table, where lines are long enough to be read.
+std::string flagList(const ReportModel& block) {
+  std::string list;
+  for (const ReportModel& row : block["rows"]) {
+    for (const ReportModel& flag : reportList(row, "flags")) {
+      list += fmt::format(
+          "<li{}><span class=\"method\">{}</span>: {}</li>", counts(row) ? "" : " class=\"no\"",
+          escapeMarkup(reportText(row, "method")), escapeMarkup(flag.get<std::string>()));
+    }
+  }
+  return list.empty() ? "" : fmt::format("<ul class=\"flags\">{}</ul>\n", list);
 }
 
 std::string columnHead(const ReportModel& column) {
@@ -119,8 +127,8 @@ std::string resultTable(const ReportModel& block) {
   return fmt::format(
       "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"Results: {}\">\n"
       "<table class=\"results\">\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody>\n</table></div>\n"
-      "{}",
-      escapeMarkup(reportText(block, "title")), head, body, columnHelp(block));
+      "{}{}",
+      escapeMarkup(reportText(block, "title")), head, body, flagList(block), columnHelp(block));
 }
 
 std::string healthTable(const ReportModel& block) {

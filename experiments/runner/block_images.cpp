@@ -10,13 +10,16 @@
 namespace restlab {
 
 float previewExposure(const Image& reference) {
-  double sum = 0.0;
+  double sum = 0.0, lit = 0.0;
   for (const glm::vec3& pixel : reference.pixels) {
     const double luminance = 0.2126 * pixel.x + 0.7152 * pixel.y + 0.0722 * pixel.z;
-    // The mean of logarithms: a lamp in view does not darken the picture.
+    // The mean of logarithms: a lamp in view does not darken the picture. What is black, beside a
+    // room that is open to nothing, say, does not brighten it.
+    if (luminance <= 0.0) continue;
     sum += std::log(std::max(luminance, 1e-4));
+    lit += 1.0;
   }
-  return float(0.18 / std::exp(sum / double(reference.pixels.size())));
+  return lit > 0.0 ? float(0.18 / std::exp(sum / lit)) : 1.0f;
 }
 
 std::string blockLabel(const Suite& suite, const BlockResult& block) {

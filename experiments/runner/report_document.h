@@ -11,7 +11,7 @@
 namespace restlab {
 
 // Exposure at which the block's previews and its images in the report are shown: the logarithmic
-// mean of the reference's luminance becomes mid grey.
+// mean of the luminance of the reference's pixels that are not black becomes mid grey.
 float previewExposure(const Image& reference);
 
 // A member of "blocks". The files are those that writeBlockImages() made.

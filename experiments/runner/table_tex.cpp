@@ -160,12 +160,15 @@ std::string accumulatedTex(const Suite& suite, const std::vector<MethodSummary>&
                  {"frames", "slope", "lower", "faster"}, lines, "");
 }
 
-// What a row's reader must know stands below the table, as in table.md.
+// Why rows do not count stands below the table; what else table.md says of rows is for the author.
 std::string notesOf(const std::vector<MethodSummary>& rows) {
   std::string notes;
   for (const MethodSummary& row : rows) {
-    for (const std::string& flag : row.flags)
-      notes += fmt::format("\\par{{\\footnotesize {}: {}}}\n", nameCell(row), escaped(flag));
+    for (const std::string& flag : row.flags) {
+      const std::string note = fmt::format("{}: {}", nameCell(row), escaped(flag));
+      notes += row.counts ? fmt::format("% {}\n", note)
+                          : fmt::format("\\par{{\\footnotesize {}}}\n", note);
+    }
   }
   return notes;
 }

@@ -60,6 +60,24 @@ TEST(GltfLimits, CountsBeyondTheirData) {
   }
 }
 
+// Time, not memory: each accessor is looked through.
+TEST(GltfLimits, OverlappingAccessorsCountTogether) {
+  GltfBuilder file;
+  file.triangle();
+  const std::vector<float> data(size_t(1) << 20);  // 4 MiB
+  const int view = file.bufferView(data.data(), data.size() * sizeof(float));
+  for (int i = 0; i < 70; ++i) {
+    file.doc["accessors"].push_back({{"bufferView", view},
+                                     {"componentType", 5126},
+                                     {"count", data.size()},
+                                     {"type", "SCALAR"}});
+  }
+  EXPECT_EQ(file.error(), "");
+  for (int i = 0; i < 20; ++i) file.doc["accessors"].push_back(file.doc["accessors"].back());
+  EXPECT_NE(file.error().find("accessors[81]: with those before it names"), std::string::npos)
+      << file.error();
+}
+
 TEST(GltfLimits, ElementsWithoutDataCountTogether) {
   GltfBuilder file;
   file.add("accessors", zeros(1u << 24));
