@@ -8,6 +8,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/error.h"
+#include "experiments/runner/build_info.h"
 #include "tests/runner/temporary_folder.h"
 
 namespace restlab {
@@ -44,8 +45,13 @@ void expectSame(const Reference& a, const Reference& b) {
   EXPECT_EQ(a.variance->pixels, b.variance->pixels);
   EXPECT_EQ(a.relmse, b.relmse);
   auto wordsA = a.metadata, wordsB = b.metadata;
-  wordsA.erase("render_time_s");
-  wordsB.erase("render_time_s");
+  // What says how and when it was made.
+  auto circumstances = provenanceWords();
+  circumstances["render_time_s"];
+  for (const auto& [word, ignored] : circumstances) {
+    EXPECT_EQ(wordsA.erase(word), 1u) << word;
+    EXPECT_EQ(wordsB.erase(word), 1u) << word;
+  }
   EXPECT_EQ(wordsA, wordsB);
 }
 
