@@ -72,7 +72,7 @@ int runVerb(CLI::App& app, std::vector<Verb>& verbs, const std::vector<std::stri
     return int(ExitCode::ok);
   }
   if (argv[1] == "--version") {
-    fmt::print("restlab {} ({}{}, Embree {})\n", buildInfo().version, buildInfo().gitCommit,
+    fmt::print("restlab {} ({}{}, {})\n", buildInfo().version, buildInfo().gitCommit,
                buildInfo().gitDirty ? " modified" : "", librariesText());
     return int(ExitCode::ok);
   }

@@ -161,8 +161,9 @@ void plots(const Place& at) {
     member(plot, "title", text);
     for (const char* axis : {"x", "y"}) {
       member(plot, axis, [](const Place& p) {
-        requireObject(p, {"title"}, {"log"});
+        requireObject(p, {"title"}, {"log", "note"});
         member(p, "title", text);
+        member(p, "note", text);
         member(p, "log", flag);
       });
     }

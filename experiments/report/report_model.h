@@ -16,7 +16,9 @@
 //                                                          KEY is a column's; cells may be missing
 //     "plots": [ { "id": text                          as a block's, once in the block
 //                  "title": text,
-//                  "x": { "title": text, "log": bool? }, "y": likewise,
+//                  "x": { "title": text, "log": bool?, "note": text? },
+//                                                   a note stands behind the title
+//                  "y": likewise,
 //                  "series": [ { "name": text,
 //                                "points": [[x, y] | [x, y, lo, hi]...]   in order of x
 //                                "hollow": [integer...]?    places among the points, from 0

@@ -60,9 +60,12 @@ std::string axes(const Canvas& canvas, const PlotSpec& plot) {
   const std::string frame =
       svg::line(left, bottom, right, bottom, "frame") + svg::line(left, top, left, bottom, "frame");
   const double middle = top + kPlotArea.height / 2.0;
+  const auto whole = [](const PlotAxis& axis) {
+    return axis.note.empty() ? axis.title : fmt::format("{} ({})", axis.title, axis.note);
+  };
   const std::string titles =
-      svg::text(left + kPlotArea.width / 2.0, bottom + 37.0, "middle", plot.x.title) +
-      svg::text(15.0, middle, "middle", plot.y.title,
+      svg::text(left + kPlotArea.width / 2.0, bottom + 37.0, "middle", whole(plot.x)) +
+      svg::text(15.0, middle, "middle", whole(plot.y),
                 fmt::format("transform=\"rotate(-90 15 {})\"", svg::coordinate(middle)));
   return grid + frame + labels + titles;
 }
@@ -288,8 +291,11 @@ PlotSpec plotFromModel(const ReportModel& block, const ReportModel& model) {
   constexpr double kUnknownEnd = std::numeric_limits<double>::quiet_NaN();
   PlotSpec plot;
   plot.title = reportText(model, "title");
-  plot.x = {reportText(model["x"], "title"), model["x"].value("log", false)};
-  plot.y = {reportText(model["y"], "title"), model["y"].value("log", false)};
+  const auto axis = [](const ReportModel& from) {
+    return PlotAxis{reportText(from, "title"), from.value("log", false), reportText(from, "note")};
+  };
+  plot.x = axis(model["x"]);
+  plot.y = axis(model["y"]);
   for (const ReportModel& from : model["series"]) {
     PlotSeries& series = plot.series.emplace_back();
     series.name = reportText(from, "name");

@@ -36,6 +36,7 @@ struct PlotSeries {
 struct PlotAxis {
   std::string title;
   bool log = false;
+  std::string note = "";  // behind the title, in brackets
 };
 
 struct PlotSpec {

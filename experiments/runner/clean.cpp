@@ -1,13 +1,19 @@
 #include "experiments/runner/clean.h"
 
+#include <fmt/format.h>
+#include <signal.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <regex>
 #include <set>
 
+#include "core/error.h"
 #include "experiments/runner/files.h"
 #include "experiments/runner/folder_lock.h"
 #include "experiments/runner/image_rows.h"
 #include "experiments/runner/job.h"
+#include "experiments/runner/log.h"
 #include "experiments/runner/results_folder.h"
 
 namespace restlab {
@@ -29,10 +35,25 @@ uint64_t bytesOf(const fs::path& path) {
   return bytes;
 }
 
-// As JobStore and AtomicFile name them. The lock says that nobody is writing.
+// As JobStore and AtomicFile name them, with the process that wrote it. The lock keeps `run` and
+// `report` away, but `render` and `figure` may write here as well.
 bool isUnfinished(const fs::path& file) {
-  static const std::regex names(R"(\.unfinished-.*|.+\.tmp-[0-9]+-[0-9]+)");
-  return std::regex_match(file.filename().string(), names);
+  static const std::regex names(R"(\.unfinished-.*-([0-9]+)|.+\.tmp-([0-9]+)-[0-9]+)");
+  std::smatch match;
+  const std::string name = file.filename().string();
+  if (!std::regex_match(name, match, names)) return false;
+  const std::string process = match[1].matched ? match[1].str() : match[2].str();
+  return process.size() > 9 || (kill(pid_t(std::stol(process)), 0) != 0 && errno == ESRCH);
+}
+
+// A link leads to what may be somebody else's.
+bool isOwnFolder(const fs::path& folder) {
+  std::error_code status;
+  if (fs::is_symlink(folder, status)) {
+    logInfo(fmt::format("{}: is a link; nothing is removed there", folder.string()));
+    return false;
+  }
+  return fs::is_directory(folder, status);
 }
 
 std::vector<fs::path> entriesOf(const fs::path& folder) {
@@ -72,16 +93,24 @@ bool readsFile(const Suite& suite, const fs::path& file) {
 }
 
 Cleaned cleanResults(const fs::path& folder) {
-  const ResultsFolder results = openResults(folder);
+  openResults(folder);  // says where it is no folder of results, before it is locked
   const FolderLock lock(folder);
+  const ResultsFolder results = openResults(folder);
   Cleaned cleaned;
   cleaned.isFinished = results.record.at("status").get<std::string>() == "finished";
   std::error_code status;
   const auto remove = [&](const fs::path& path) {
-    cleaned.bytes += bytesOf(path);
+    const uint64_t bytes = bytesOf(path);
     fs::remove_all(path, status);
+    if (status)
+      failInput(fmt::format("{}: cannot be removed: {}", path.string(), status.message()));
+    cleaned.bytes += bytes;
   };
-  for (const char* part : {"", "jobs", "references", "images", "plots"}) {
+  std::set<std::string> parts = {""};
+  for (const char* part : {"jobs", "references", "images", "plots"}) {
+    if (isOwnFolder(folder / part)) parts.insert(part);
+  }
+  for (const std::string& part : parts) {
     for (const fs::path& path : entriesOf(folder / part)) {
       if (!isUnfinished(path)) continue;
       remove(path);
@@ -99,12 +128,13 @@ Cleaned cleanResults(const fs::path& folder) {
     used.insert(block.images.begin(), block.images.end());
   }
   for (const std::string& key : store.keys()) {
-    if (used.count(key) != 0) continue;
+    if (used.count(key) != 0 || parts.count("jobs") == 0) continue;
     remove(store.folderOf(key));
     ++cleaned.jobs;
   }
   for (const fs::path& file : references) {
     if (file.extension() != ".exr" || usesReference(results, file)) continue;
+    if (parts.count("references") == 0) continue;
     remove(file);
     cleaned.references.push_back(file.filename().string());
   }

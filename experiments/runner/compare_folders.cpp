@@ -108,7 +108,8 @@ ComparedRow compareRows(const std::string& label, const Table& a, const MethodSu
   if (a.reference != b.reference) shared.covariance = 0.0;
   row.mseRatio =
       isPaired ? pairedRatioInterval(mseB, mseA, shared) : ratioInterval(mseB, mseA, shared);
-  if (isPaired && mseA == mseB) row.mseRatio = {1.0, 1.0, 1.0};  // however few runs there are
+  if ((isPaired || before.method->images) && mseA == mseB)
+    row.mseRatio = {1.0, 1.0, 1.0};  // however few runs there are
   row.error = verdictOf(row.mseRatio);
   row.timeRatio = {kUnknown, kUnknown, kUnknown};
   if (!haveTimes(runsA) || !haveTimes(runsB)) return row;
@@ -127,6 +128,7 @@ void noteLoads(const ResultsFolder& first, const ResultsFolder& second,
                FolderComparison& comparison) {
   const double before = first.record.at("machine").at("load_1min").get<double>();
   const double after = second.record.at("machine").at("load_1min").get<double>();
+  if (before < 0.0 || after < 0.0) return;  // not known
   const double cores = second.record.at("machine").at("cores").get<double>();
   if (std::abs(after - before) < 0.5 && std::max(before, after) < cores + 0.5) return;
   comparison.notes.push_back(

@@ -31,7 +31,9 @@ void judgeLine(const std::vector<RunResult>& runs, const AccumulatedNoise& noise
   for (const Interval& off : curveIntervals(runs.size(), statistics, 1.0 - each)) {
     if (std::isnan(off.value)) continue;
     curve.misfit = std::max(curve.misfit, std::abs(off.value));
-    if (std::abs(off.value) > kMisfitMin && (off.lo > 0.0 || off.hi < 0.0)) curve.isNoLine = true;
+    if (std::abs(off.value) <= kMisfitMin || !(off.lo > 0.0 || off.hi < 0.0)) continue;
+    curve.isNoLine = true;
+    curve.significantMisfit = std::max(curve.significantMisfit, std::abs(off.value));
   }
 }
 

@@ -27,6 +27,7 @@ struct Convergence {
   // The largest |log10(mse / line)| of the fitted points. `isNoLine`: some of them stand further
   // from it than the spread of the runs explains, and than kMisfitMin.
   double misfit = 0.0;
+  double significantMisfit = 0.0;  // the largest of those points
   bool isNoLine = false;
 
   size_t fitted() const;

@@ -144,7 +144,8 @@ std::vector<Column> furtherColumns(const Suite& suite, const MethodSummary& row)
   add("accumulated_slope", row.convergence ? row.convergence->slope : none);
   const Convergence curve = row.convergence.value_or(Convergence());
   columns.push_back({"accumulated_points", std::to_string(curve.points.size())});
-  columns.push_back({"accumulated_points_fitted", std::to_string(curve.fitted())});
+  columns.push_back(
+      {"accumulated_points_fitted", suite.timing ? std::to_string(curve.fitted()) : "nan"});
   columns.push_back(
       {"accumulated_misfit_log10", number(curve.fitted() > 1 ? curve.misfit : kUnknown)});
   const CurveReading unread = {none, none, kUnknown, false, ""};

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <set>
 
-#include "core/image/intervals.h"
 #include "core/error.h"
 #include "experiments/runner/build_info.h"
 #include "experiments/runner/experiment.h"
@@ -30,15 +29,14 @@ double secondsOfFrame(const PreparedScene& prepared, const SessionConfig& config
                       size_t& bytesPerPixel) {
   Session session(prepared.scene, config);
   bytesPerPixel = session.bytesPerPixel();
-  std::vector<double> seconds;
+  double seconds = 0.0;
   for (uint32_t i = 0; i < kProbeFrames; ++i) {
     throwIfInterrupted("nothing was written");
     const auto start = std::chrono::steady_clock::now();
     session.frame();
-    seconds.push_back(
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
-  return seconds.back();
+  return seconds;
 }
 
 // One that a run would take as it is.

@@ -212,7 +212,9 @@ std::vector<std::string> JobStore::keys() const {
   std::error_code status;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_, status)) {
     const std::string name = entry.path().filename().string();
-    if (name.rfind('.', 0) != 0 && entry.is_directory(status)) found.push_back(name);
+    const bool isKey =
+        name.size() == 32 && name.find_first_not_of("0123456789abcdef") == std::string::npos;
+    if (isKey && entry.is_directory(status)) found.push_back(name);
   }
   std::sort(found.begin(), found.end());
   return found;

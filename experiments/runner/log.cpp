@@ -6,9 +6,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "experiments/runner/build_info.h"
-
 #include "core/error.h"
+#include "experiments/runner/build_info.h"
 
 namespace restlab {
 

@@ -57,7 +57,7 @@ void Outputs::write(const Suite& suite, bool finished) const {
   const bool usesVulkan = std::any_of(devices_.begin(), devices_.end(),
                                       [](const DeviceUse& use) { return use.backend == "vulkan"; });
   text += fmt::format(
-      "{}, {} cores, Embree {}, {} {}; times are of the passes of a frame by the "
+      "{}, {} cores, {}, {} {}; times are of the passes of a frame by the "
       "steady clock{}, without metrics and files.\n",
       cpuModel(), machineJson()["cores"].dump(), librariesText(), buildInfo().compiler,
       buildInfo().buildType, usesVulkan ? " (vulkan: by the device's timestamps)" : "");

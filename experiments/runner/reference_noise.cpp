@@ -20,8 +20,8 @@ struct ByDivisor {
     return change > kRelmseChangeMax * std::abs(mean);
   }
   std::string text() const {
-    return fmt::format("{} by its mean, {} and {} by the half that divides", shortNumber(mean),
-                       shortNumber(half0), shortNumber(half1));
+    return fmt::format("{:+.0f} % and {:+.0f} % where a half of it divides instead of its mean",
+                       100.0 * (half0 / mean - 1.0), 100.0 * (half1 / mean - 1.0));
   }
 };
 
@@ -64,7 +64,11 @@ std::string relmseFlag(const Reference& reference, const BiasRuns& runs) {
     add(trimmed, share * mean.trimmed, share * by0.trimmed, share * by1.trimmed);
   }
   if (!relmse.differs() && !trimmed.differs()) return "";
-  return fmt::format("relMSE depends on the reference's noise: {}{}", relmse.text(),
+  // Of many runs only means of groups are left, whose errors are smaller.
+  const std::string of = runs.count() > images.size()
+                             ? fmt::format(" (of means of {} runs)", runs.count() / images.size())
+                             : "";
+  return fmt::format("relMSE{} depends on the reference's noise: {}{}", of, relmse.text(),
                      trimmed.differs() ? "; without the worst pixels " + trimmed.text() : "");
 }
 

@@ -1,15 +1,15 @@
 // Rendering of references: samples go by turns to two halves, from wherever stored progress ended.
 #include <fmt/format.h>
 
+#include <xxhash.h>
+
 #include <algorithm>
 #include <chrono>
 
-#include <xxhash.h>
-
 #include "core/error.h"
 #include "core/memory.h"
-#include "experiments/runner/build_info.h"
 #include "experiments/runner/backend_choice.h"
+#include "experiments/runner/build_info.h"
 #include "experiments/runner/interrupt.h"
 #include "experiments/runner/log.h"
 #include "experiments/runner/reference.h"

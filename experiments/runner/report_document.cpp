@@ -323,9 +323,8 @@ Json blockDocument(const Suite& suite, const std::vector<MethodSummary>& rows, f
   if (rows.front().temporal && isStill) plots.push_back(correlations(rows));
   // A figure that leaves the report must still say what it was measured against.
   for (Json& plot : plots) {
-    Json& title = plot["x"]["title"];
-    title = fmt::format("{} (reference: {} spp, relMSE {})", title.get<std::string>(),
-                        block.reference.spp, shortNumber(block.reference.relmse));
+    plot["x"]["note"] = fmt::format("reference: {} spp, relMSE {}", block.reference.spp,
+                                    shortNumber(block.reference.relmse));
   }
   document["plots"] = std::move(plots);
   if (suite.timing) document["bars"] = barsOf(rows);

@@ -114,21 +114,15 @@ Json healthJson(const HealthSum& sum) {
   return json;
 }
 
-// NaN, which is not known, in lines of before it was recorded.
-double recordedNumber(const Json& line, const char* key) {
-  const auto found = line.find(key);
-  return found == line.end() ? std::numeric_limits<double>::quiet_NaN() : finiteNumber(*found);
-}
-
 FrameError errorOf(const Json& line) {
   FrameError error;
   error.frame = line.at("frame").get<uint32_t>();
   error.mse = finiteNumber(line.at("mse"));
   error.mseWithoutLights = finiteNumber(line.at("mse_without_lights"));
-  error.mseVarianceAtMost = recordedNumber(line, "mse_variance_of_halves_at_most");
+  error.mseVarianceAtMost = finiteNumber(line.at("mse_variance_of_halves_at_most"));
   error.insideVarianceAtMost =
-      recordedNumber(line, "mse_without_lights_variance_of_halves_at_most");
-  error.insideVarianceCommon = recordedNumber(line, "mse_without_lights_variance_of_halves");
+      finiteNumber(line.at("mse_without_lights_variance_of_halves_at_most"));
+  error.insideVarianceCommon = finiteNumber(line.at("mse_without_lights_variance_of_halves"));
   error.relmse = finiteNumber(line.at("relmse_e1e-2"));
   error.relmseTrimmed = finiteNumber(line.at("relmse_e1e-2_trim0.1"));
   error.energyRatio = finiteNumber(line.at("energy_ratio"));
@@ -148,19 +142,13 @@ Json temporalJson(const TemporalFigures& figures) {
           {"autocorrelation", lags}};
 }
 
-// A figure that jobs of earlier versions lack.
-double laterFigure(const Json& json, const char* key) {
-  const auto found = json.find(key);
-  return found == json.end() ? std::numeric_limits<double>::quiet_NaN() : finiteNumber(*found);
-}
-
 TemporalFigures temporalOf(const Json& json) {
   TemporalFigures figures;
   figures.variance = finiteNumber(json.at("variance"));
   figures.difference = finiteNumber(json.at("difference"));
   figures.referenceDifference = finiteNumber(json.at("reference_difference"));
-  figures.referenceDifferenceNoise = laterFigure(json, "reference_difference_noise");
-  figures.errorDifferenceSquared = laterFigure(json, "error_difference_squared");
+  figures.referenceDifferenceNoise = finiteNumber(json.at("reference_difference_noise"));
+  figures.errorDifferenceSquared = finiteNumber(json.at("error_difference_squared"));
   for (size_t lag = 0; lag < figures.autocorrelation.size(); ++lag)
     figures.autocorrelation[lag] = finiteNumber(json.at("autocorrelation").at(lag));
   return figures;

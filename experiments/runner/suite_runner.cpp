@@ -233,7 +233,7 @@ class SuiteRun {
         if (!job) return false;
         store_.save(identity, *job);
         pace_.made(watch.lap());
-      } else if (isThere) {
+      } else if (isThere && suite.jobs < 2) {
         pace_.found();
       }
       ++(isThere ? reused_ : made_);
@@ -274,7 +274,11 @@ class SuiteRun {
     std::vector<uint32_t> missing;
     for (uint32_t run = 0; run < suite.runs; ++run) {
       const std::string key = identityOf(suite, prepared, block, run, reference).key();
-      if (request_.force || !store_.load(key)) missing.push_back(run);
+      if (request_.force || !store_.load(key)) {
+        missing.push_back(run);
+      } else {
+        pace_.found();
+      }
     }
     std::mutex mutex;  // guards made, failure, progress, pace_ and watch
     Stopwatch watch;

@@ -150,7 +150,10 @@ void compareWithYardstick(const MethodResult& path, const MethodSummary& pathRow
   row.efficiencyRatio = pairedRatioInterval(
       pathMse, work,
       {shared.numerator, time * time * shared.denominator, time * shared.covariance});
-  row.efficiencyRatio.value = row.mseRatio.value / row.timeRatio.value;
+  // Fieller's is of the arithmetic mean of the time ratios, the value of their geometric mean.
+  const double value = row.mseRatio.value / time;
+  const double shift = value / row.efficiencyRatio.value;
+  row.efficiencyRatio = {value, shift * row.efficiencyRatio.lo, shift * row.efficiencyRatio.hi};
 }
 
 // The time of a method against that of the same method on another backend.
@@ -272,7 +275,12 @@ void flagNoise(MethodSummary& row) {
   if (row.convergence) {
     for (const ConvergencePoint& point : row.convergence->points) {
       if (!isNearNoise(point.mse.value, row.noise)) continue;
-      near(fmt::format("its MSE of {} accumulated frames", point.frames), point.mse.value);
+      const std::string what = fmt::format("its MSE of {} accumulated frames", point.frames);
+      if (point.mse.value > 0.0) {
+        near(what, point.mse.value);
+      } else {
+        row.flags.push_back(what + " is below the noise of the reference");
+      }
       break;
     }
   }
@@ -285,7 +293,7 @@ void noteConvergence(MethodSummary& row) {
   row.flags.push_back(
       fmt::format("its accumulated errors do not lie on a line: up to {}x off it, more than the "
                   "spread of the runs",
-                  shortNumber(std::pow(10.0, row.convergence->misfit))));
+                  shortNumber(std::pow(10.0, row.convergence->significantMisfit))));
 }
 
 void noteReading(const CurveReading& reading, const char* what, const char* gain,

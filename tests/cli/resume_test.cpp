@@ -1,5 +1,7 @@
 // restlab run goes on where it stopped: jobs, their keys, damage, locks, full disks; status,
 // report, clean.
+#include <unistd.h>
+
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -302,9 +304,9 @@ TEST_F(ResumeTest, CleanTakesWhatNoTableUsesAndSaysWhat) {
   const fs::path used = path("out/references/cornell-box-all-Camera-24x16.exr");
   EXPECT_TRUE(fs::exists(used));
   write("out/references/notes.txt", "mine");
-  write("out/references/x.exr.tmp-12-0", "half");
-  write("out/summary.csv.tmp-12-0", "half");
-  fs::create_directories(path("out/jobs/.unfinished-abc-12"));
+  write("out/references/x.exr.tmp-4999999-0", "half");
+  write("out/summary.csv.tmp-4999999-0", "half");
+  fs::create_directories(path("out/jobs/.unfinished-abc-4999999"));
   const ProgramResult cleaned = run("clean out");
   ASSERT_EQ(cleaned.code, 0) << cleaned.err;
   EXPECT_NE(cleaned.err.find("removed 6 folders of jobs, 2 references: "
@@ -316,11 +318,33 @@ TEST_F(ResumeTest, CleanTakesWhatNoTableUsesAndSaysWhat) {
   EXPECT_TRUE(fs::exists(used));
   EXPECT_EQ(read("out/references/notes.txt"), "mine");
   EXPECT_EQ(std::distance(fs::directory_iterator(path("out/references")), {}), 2);
-  EXPECT_FALSE(fs::exists(path("out/summary.csv.tmp-12-0")));
+  EXPECT_FALSE(fs::exists(path("out/summary.csv.tmp-4999999-0")));
   EXPECT_EQ(jobs().size(), 3u);
   EXPECT_EQ(run("report out").code, 0);
   EXPECT_NE(run("clean out").err.find("removed 0 folders of jobs, 0 references and 0 half-made"),
             std::string::npos);
+}
+
+TEST_F(ResumeTest, CleanStaysInItsFolderAndAtItsOwn) {
+  ASSERT_EQ(run("run suite.toml --out out --set runs=1").code, 0);
+  // References that several folders share, and what somebody put beside the jobs.
+  fs::create_directories(path("shared"));
+  write("shared/other.exr", "of another suite");
+  for (const auto& entry : fs::directory_iterator(path("out/references")))
+    fs::rename(entry.path(), path("shared") / entry.path().filename());
+  fs::remove(path("out/references"));
+  fs::create_directory_symlink(path("shared"), path("out/references"));
+  write("out/jobs/backup/file", "mine");
+  // A program that still runs is writing: this one.
+  const std::string writing = "out/images/x.exr.tmp-" + std::to_string(getpid()) + "-0";
+  write(writing, "half");
+  const ProgramResult cleaned = run("clean out");
+  ASSERT_EQ(cleaned.code, 0) << cleaned.err;
+  EXPECT_NE(cleaned.err.find("references: is a link; nothing is removed there"), std::string::npos)
+      << cleaned.err;
+  EXPECT_EQ(read("shared/other.exr"), "of another suite");
+  EXPECT_EQ(read("out/jobs/backup/file"), "mine");
+  EXPECT_EQ(read(writing), "half");
 }
 
 TEST_F(ResumeTest, CleanKeepsWhatAnUnfinishedSuiteMayNeed) {
@@ -332,11 +356,11 @@ TEST_F(ResumeTest, CleanKeepsWhatAnUnfinishedSuiteMayNeed) {
   record["plan"][1]["jobs"].clear();
   record["plan"][1]["reference"] = "";
   write("out/run.json", record.dump());
-  write("out/references/x.exr.tmp-12-0", "half");
+  write("out/references/x.exr.tmp-4999999-0", "half");
   const ProgramResult cleaned = run("clean out");
   EXPECT_EQ(cleaned.code, 0) << cleaned.err;
   EXPECT_NE(cleaned.err.find("not finished"), std::string::npos) << cleaned.err;
-  EXPECT_FALSE(fs::exists(path("out/references/x.exr.tmp-12-0")));
+  EXPECT_FALSE(fs::exists(path("out/references/x.exr.tmp-4999999-0")));
   EXPECT_NE(run(sweep).err.find("6 of 6 runs were there already"), std::string::npos);
 }
 

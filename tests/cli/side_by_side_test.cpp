@@ -191,6 +191,17 @@ TEST_F(SideBySideTest, EventsOfRunsComeWhenTheyEnd) {
   EXPECT_TRUE(isProgress) << cut.err;
 }
 
+TEST_F(SideBySideTest, RunsThatAreThereAreNotLeft) {
+  ASSERT_EQ(run("run suite.toml -o out -j 2 --set runs=5").code, 0);
+  const ProgramResult rest = run("run suite.toml -o out --json -j 2 --set runs=7");
+  ASSERT_EQ(rest.code, 0) << rest.err;
+  for (const Json& event : events(rest.err)) {
+    if (event["event"] != "progress" || !event.contains("suite_total")) continue;
+    EXPECT_EQ(event["suite_done"], event["done"]) << event;
+    EXPECT_GE(event["suite_done"], 6);
+  }
+}
+
 }  // namespace
 
 }  // namespace restlab::cli_test
