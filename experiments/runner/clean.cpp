@@ -35,14 +35,15 @@ uint64_t bytesOf(const fs::path& path) {
   return bytes;
 }
 
-// As JobStore and AtomicFile name them, with the process that wrote it. The lock keeps `run` and
-// `report` away, but `render` and `figure` may write here as well.
+// As JobStore and AtomicFile name them. Jobs are written under the lock, which is ours; files may
+// be written by `render` or `figure` as well, and their names have the process.
 bool isUnfinished(const fs::path& file) {
-  static const std::regex names(R"(\.unfinished-.*-([0-9]+)|.+\.tmp-([0-9]+)-[0-9]+)");
-  std::smatch match;
   const std::string name = file.filename().string();
+  if (name.rfind(".unfinished-", 0) == 0) return true;
+  static const std::regex names(R"(.+\.tmp-([0-9]+)-[0-9]+)");
+  std::smatch match;
   if (!std::regex_match(name, match, names)) return false;
-  const std::string process = match[1].matched ? match[1].str() : match[2].str();
+  const std::string process = match[1].str();
   return process.size() > 9 || (kill(pid_t(std::stol(process)), 0) != 0 && errno == ESRCH);
 }
 

@@ -135,8 +135,9 @@ TEST_F(ConvergenceSuite, LeavesWhatIsDocumented) {
     EXPECT_NE(page.find(method), std::string::npos) << method;
     EXPECT_NE(table.find(std::string("| ") + method), std::string::npos) << table;
   }
-  for (const char* column : {"MSE", "slope", "lower at equal time", "faster to equal error",
-                             "efficiency", "relMSE without the worst 0.1 %", "bytes / pixel"})
+  // Not the speed-ups: whether so short curves have a time or an error in common is the machine's.
+  for (const char* column :
+       {"MSE", "slope", "efficiency", "relMSE without the worst 0.1 %", "bytes / pixel"})
     EXPECT_NE(page.find(column), std::string::npos) << column << " is in no table of the report";
   const std::string title = "cornell-box, all light";
   EXPECT_NE(table.find("## " + title), std::string::npos) << table;
