@@ -56,10 +56,6 @@ std::vector<double> logarithms(std::span<const double> positive) {
   return logs;
 }
 
-Interval exponential(const Interval& logs) {
-  return {std::exp(logs.value), std::exp(logs.lo), std::exp(logs.hi)};
-}
-
 // Fieller's interval: all ratios q for which a - q b is within t standard errors of 0, that is
 // (b^2 - t^2 vb) q^2 - 2 (a b - t^2 vab) q + (a^2 - t^2 va) <= 0, with the (co)variances of means.
 Interval fieller(double a, double b, double va, double vb, double vab, double t,
@@ -79,6 +75,10 @@ Interval fieller(double a, double b, double va, double vb, double vab, double t,
 }
 
 }  // namespace
+
+Interval exponential(const Interval& logarithm) {
+  return {std::exp(logarithm.value), std::exp(logarithm.lo), std::exp(logarithm.hi)};
+}
 
 Interval widened(const Interval& interval, double sharedVariance, double confidence) {
   const double own = normalQuantile(confidence) * std::sqrt(sharedVariance);

@@ -24,6 +24,9 @@ struct SharedNoise {
 // squared, added and rooted, its own being a normal deviation of the same confidence.
 Interval widened(const Interval& interval, double sharedVariance, double confidence = 0.95);
 
+// exp() of the estimate and of both ends: an interval of a logarithm as that of the number itself.
+Interval exponential(const Interval& logarithm);
+
 // Mean and its Student t interval. Throws std::invalid_argument without any run.
 Interval meanInterval(std::span<const double> runs, double confidence = 0.95);
 

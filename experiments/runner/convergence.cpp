@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "experiments/runner/accumulated_curve.h"
 
@@ -10,14 +11,13 @@ namespace restlab {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kLn10 = 2.302585092994046;
 
 // log10(mse / line) of every point; NaN where it is not fitted.
 std::vector<double> residuals(const AccumulatedCurve& curve, size_t points) {
   std::vector<double> all(points, kNan);
   const CurveLine line = fitLine(curve);
   for (const CurvePoint& point : curve)
-    all[point.index] = (point.logMse - line.at(point.logTime)) / kLn10;
+    all[point.index] = (point.logMse - line.at(point.logTime)) / std::numbers::ln10;
   return all;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "core/image/metrics.h"
 #include "experiments/report/text.h"
@@ -16,8 +17,6 @@ namespace restlab {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kLn10 = 2.302585092994046;
 
 struct Column {
   const char *key, *title, *unit, *better, *help;
@@ -199,7 +198,7 @@ Json curves(const std::vector<MethodSummary>& rows, const char* id, const char* 
       one["fit"] = {{"slope", slope.value},
                     {"lo", finiteJson(slope.lo)},
                     {"hi", finiteJson(slope.hi)},
-                    {"intercept", row.convergence->intercept / kLn10}};
+                    {"intercept", row.convergence->intercept / std::numbers::ln10}};
     }
     series.push_back(std::move(one));
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include "experiments/runner/accumulated_curve.h"
 #include "experiments/runner/convergence.h"
@@ -12,10 +13,6 @@ namespace restlab {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-Interval exponential(const Interval& of) {
-  return {std::exp(of.value), std::exp(of.lo), std::exp(of.hi)};
-}
 
 struct Range {
   double lo = 0.0, hi = 0.0;
@@ -54,7 +51,7 @@ struct Pair {
     CurveReading reading;
     reading.ratio = exponential(of[0]);
     reading.measured = exponential(of[1]);
-    const bool isMore = std::abs(of[2].value) > kMisfitMin * std::log(10.0);
+    const bool isMore = std::abs(of[2].value) > kMisfitMin * std::numbers::ln10;
     reading.isOffTheLines = isMore && (of[2].lo > 0.0 || of[2].hi < 0.0);
     reading.at = std::exp(at);
     return reading;
