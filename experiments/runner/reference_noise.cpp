@@ -36,9 +36,9 @@ ReferenceNoise noiseOf(const Reference& reference, const BiasRuns& runs) {
 }
 
 SharedNoise sharedNoise(const ReferenceNoise& numerator, const ReferenceNoise& denominator,
-                        bool isSameMethod) {
+                        bool areSameImages) {
   return {numerator.shared, denominator.shared,
-          isSameMethod ? numerator.shared : numerator.commonAtLeast};
+          areSameImages ? numerator.shared : numerator.commonAtLeast};
 }
 
 bool isNearNoise(double mse, const ReferenceNoise& noise) {

@@ -22,7 +22,7 @@ ReferenceNoise noiseOf(const Reference& reference, const BiasRuns& runs);
 
 // Of the ratio of two methods' MSE against the same halves.
 SharedNoise sharedNoise(const ReferenceNoise& numerator, const ReferenceNoise& denominator,
-                        bool isSameMethod = false);
+                        bool areSameImages = false);
 
 // Below this many variances of a half an MSE is flagged. The interval is right there, too, but more
 // samples of the reference would narrow it, not more runs.

@@ -119,6 +119,18 @@ TEST(ReferenceNoise, IntervalsOfARowHaveIt) {
   EXPECT_EQ(rows[0].mseRatio.lo, 1.0) << "of path against itself";
 }
 
+// Kernels of another feature mask render the same images: the noise cancels, and nothing is unsure.
+TEST(ReferenceNoise, CancelsWhereImagesAreTheSame) {
+  Fixture fixture(0.5f);
+  fixture.block.methods[1] = fixture.block.methods[0];
+  const MethodSummary same = summarise(fixture.suite, fixture.block)[1];
+  ASSERT_GT(same.noise.shared, 0.0);
+  for (const Interval& ratio : {same.mseRatio, same.mseRatioWithoutLights}) {
+    EXPECT_NEAR(ratio.lo, 1.0, 1e-6);
+    EXPECT_NEAR(ratio.hi, 1.0, 1e-6);
+  }
+}
+
 TEST(ReferenceNoise, NearItRowsAreFlagged) {
   // gi has a variance of (0.5 / 2)^2 times the light, a half of 0.5^2 or of 0.05^2 times it.
   const Fixture near(0.5f), far(0.05f);
