@@ -36,9 +36,13 @@ if(GIT)
                   OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE RESULT_VARIABLE status ERROR_QUIET)
   if(status EQUAL 0)
     set(GIT_COMMIT ${commit})
-    execute_process(COMMAND ${GIT} -C ${SOURCE_DIR} status --porcelain
+    execute_process(COMMAND ${GIT} -C ${SOURCE_DIR} status --porcelain --untracked-files=no
                     OUTPUT_VARIABLE changes ERROR_QUIET)
-    if(NOT changes STREQUAL "")
+    # New files count where they may be sources; somebody's suites and notes do not.
+    execute_process(COMMAND ${GIT} -C ${SOURCE_DIR} ls-files --others --exclude-standard
+                            core integrators denoise cmake experiments/*.cpp experiments/*.h
+                    OUTPUT_VARIABLE new ERROR_QUIET)
+    if(NOT "${changes}${new}" STREQUAL "")
       set(GIT_DIRTY 1)
     endif()
   endif()

@@ -104,6 +104,10 @@ Json sceneJson(const PreparedScene& prepared, bool multiscatter) {
                       {"intensity", {light.intensity.x, light.intensity.y, light.intensity.z}}});
   }
   json["lights"] = lights;
+  // As `objects` of a mask takes them, whose numbers begin at 1.
+  Json objects = Json::array();
+  for (const MeshInstance& instance : scene.instances) objects.push_back(instance.name);
+  json["objects"] = objects;
   if (scene.environment) {
     json["environment"] = {{"source", prepared.environmentName},
                            {"width", scene.environment->width},

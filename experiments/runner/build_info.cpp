@@ -27,10 +27,11 @@ std::string firstLine(const char* file) {
 
 std::vector<std::string> argvOfProgram;
 
-// As a shell would take it.
-std::string commandLine() {
+}  // namespace
+
+std::string shellCommand(const std::vector<std::string>& words) {
   std::string line;
-  for (const std::string& word : argvOfProgram) {
+  for (const std::string& word : words) {
     const bool isPlain = !word.empty() && word.find_first_not_of(
                                               "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
                                               "0123456789_-+=./:,@%") == std::string::npos;
@@ -45,8 +46,6 @@ std::string commandLine() {
   }
   return line;
 }
-
-}  // namespace
 
 void setArguments(std::vector<std::string> argv) { argvOfProgram = std::move(argv); }
 const std::vector<std::string>& arguments() { return argvOfProgram; }
@@ -131,7 +130,7 @@ nlohmann::ordered_json machineJson() {
 
 nlohmann::ordered_json provenanceJson() {
   return {{"utc", utcNow()},
-          {"command", commandLine()},
+          {"command", shellCommand(argvOfProgram)},
           {"build", buildJson()},
           {"machine", machineJson()},
           {"peak_resident_mib", peakResidentMiB()}};
@@ -142,7 +141,7 @@ std::map<std::string, std::string> provenanceWords() {
   const nlohmann::ordered_json machine = machineJson();
   return {
       {"utc", utcNow()},
-      {"command", commandLine()},
+      {"command", shellCommand(argvOfProgram)},
       {"version", build.version},
       {"git_commit", build.gitCommit + (build.gitDirty ? " modified" : "")},
       {"compiler", fmt::format("{} {} {}", build.compiler, build.buildType, build.compilerFlags)},

@@ -26,6 +26,8 @@ nlohmann::ordered_json buildJson();
 // The command line of this program, for records; set once, by main().
 void setArguments(std::vector<std::string> argv);
 const std::vector<std::string>& arguments();
+// Words as a shell takes them, quoted where it matters.
+std::string shellCommand(const std::vector<std::string>& words);
 
 // Build, machine, arguments, time and peak memory as metadata of an image.
 std::map<std::string, std::string> provenanceWords();

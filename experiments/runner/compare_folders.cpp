@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "core/error.h"
@@ -55,9 +56,24 @@ const MethodSummary* find(const Table& table, const std::string& name) {
   return nullptr;
 }
 
-bool hasSameSeeds(const std::vector<RunResult>& a, const std::vector<RunResult>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const RunResult& x, const RunResult& y) { return x.seed == y.seed; });
+struct Mses {
+  std::vector<double> before, after;  // of runs
+};
+
+// Of the runs that have a partner of the same seed, in pairs; nothing where some of the smaller set
+// have none.
+std::optional<Mses> pairedMses(const std::vector<RunResult>& before,
+                               const std::vector<RunResult>& after) {
+  Mses pairs;
+  for (const RunResult& x : before) {
+    for (const RunResult& y : after) {
+      if (x.seed != y.seed) continue;
+      pairs.before.push_back(x.measured.mse);
+      pairs.after.push_back(y.measured.mse);
+    }
+  }
+  if (pairs.before.size() < std::min(before.size(), after.size())) return std::nullopt;
+  return pairs;
 }
 
 std::vector<double> msesOf(const std::vector<RunResult>& runs) {
@@ -101,15 +117,21 @@ ComparedRow compareRows(const std::string& label, const Table& a, const MethodSu
   row.after = after.mse;
   const std::vector<RunResult>& runsA = before.result->runs;
   const std::vector<RunResult>& runsB = after.result->runs;
-  const std::vector<double> mseA = msesOf(runsA), mseB = msesOf(runsB);
   // Images have no seeds.
-  const bool isPaired = !before.method->images && hasSameSeeds(runsA, runsB);
-  SharedNoise shared = sharedNoise(after.noise, before.noise, mseA == mseB);
+  std::optional<Mses> pairs;
+  if (!before.method->images) pairs = pairedMses(runsA, runsB);
+  const Mses mses = pairs ? *pairs : Mses{msesOf(runsA), msesOf(runsB)};
+  const bool areSame = mses.before == mses.after;
+  SharedNoise shared = sharedNoise(after.noise, before.noise, areSame);
   if (a.reference != b.reference) shared.covariance = 0.0;
-  row.mseRatio =
-      isPaired ? pairedRatioInterval(mseB, mseA, shared) : ratioInterval(mseB, mseA, shared);
-  if ((isPaired || before.method->images) && mseA == mseB)
+  row.mseRatio = pairs ? pairedRatioInterval(mses.after, mses.before, shared)
+                       : ratioInterval(mses.after, mses.before, shared);
+  if ((pairs || before.method->images) && areSame)
     row.mseRatio = {1.0, 1.0, 1.0};  // however few runs there are
+  const bool isWhole = runsA.size() == runsB.size() && (pairs || before.method->images);
+  if (!isWhole)
+    row.runsOfRatio = pairs ? fmt::format("of the {} runs whose seeds both have", mses.after.size())
+                            : "of runs that are not paired, as their seeds differ";
   row.error = verdictOf(row.mseRatio);
   row.timeRatio = {kUnknown, kUnknown, kUnknown};
   if (!haveTimes(runsA) || !haveTimes(runsB)) return row;
@@ -168,12 +190,13 @@ void noteDifferences(const std::string& where, const std::vector<Difference>& di
 void compareTables(const std::string& label, const Table& a, const Table& b,
                    FolderComparison& comparison) {
   std::vector<std::pair<std::string, std::vector<Difference>>> differences;
-  std::map<std::string, size_t> counts;
+  std::map<std::string, size_t> counts, ratios;
   for (const MethodSummary& row : a.rows) {
     const std::string& name = row.method->name;
     const MethodSummary* same = find(b, name);
     if (same == nullptr) continue;
     ComparedRow& compared = comparison.rows.emplace_back(compareRows(label, a, row, b, *same));
+    if (!compared.runsOfRatio.empty()) ++ratios[compared.runsOfRatio];
     const auto& own =
         differences.emplace_back(name, differencesOf(a.words.at(name), b.words.at(name))).second;
     for (const Difference& difference : own) {
@@ -181,6 +204,8 @@ void compareTables(const std::string& label, const Table& a, const Table& b,
       if (difference.isSetting) compared.unlike.push_back(difference.text);
     }
   }
+  for (const auto& [runs, rows] : ratios)
+    comparison.notes.push_back(fmt::format("{}: ratios of the MSE are {}", label, runs));
   if (differences.empty()) return;
   std::vector<Difference> common;
   for (const Difference& difference : differences.front().second) {

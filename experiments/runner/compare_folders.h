@@ -18,11 +18,12 @@ Verdict verdictOf(const Interval& afterOverBefore);
 struct ComparedRow {
   std::string table, method;
   Interval before, after;  // MSE
-  // after / before: below 1 is better. Of the MSE, runs paired where both folders have the same
-  // seeds; of the time, each over that of its own `path` where both tables have one, as the clocks
-  // of two hours differ.
+  // after / before: below 1 is better. Of the MSE, runs paired where the seeds of one folder are
+  // among those of the other; of the time, each over that of its own `path` where both tables have
+  // one, as the clocks of two hours differ.
   Interval mseRatio, timeRatio;
   bool timesOverPath = false;
+  std::string runsOfRatio;  // where the MSE's ratio is not of all runs in pairs: of which, and how
   Verdict error = Verdict::notKnown, time = Verdict::notKnown;
   // Settings that define what is measured and differ, "max_bounces 8 / 2": then unlike things are
   // compared, and the verdicts say so.

@@ -7,6 +7,7 @@
 
 #include "core/image/metrics.h"
 #include "experiments/report/text.h"
+#include "experiments/runner/build_info.h"
 #include "experiments/runner/figures.h"
 #include "experiments/runner/files.h"
 #include "experiments/runner/report.h"
@@ -366,14 +367,11 @@ Json reportDocument(const Suite& suite, const Json& record, std::vector<Json> bl
   add("machine ", record.at("machine"));
   for (const Json& device : record.at("devices")) provenance.push_back({"device", device.dump()});
   provenance.push_back({"peak resident MiB", record.at("peak_resident_mib").dump()});
-  std::string command;
-  for (const Json& word : record.at("argv"))
-    command += (command.empty() ? "" : " ") + word.get<std::string>();
   return {{"schema", 1},
           {"title", suite.name},
           {"question", suite.question},
           {"generated", record.at("written")},
-          {"command", command},
+          {"command", shellCommand(record.at("argv").get<std::vector<std::string>>())},
           {"notes", notes},
           {"provenance", std::move(provenance)},
           {"blocks", std::move(blocks)}};

@@ -243,6 +243,23 @@ void requireOwnSeeds(const std::vector<SweepAxis>& axes, const std::vector<Suite
   }
 }
 
+// Every value of the sweep would replace what was set, in silence.
+void requireSetKeysAreNotSwept(const Sweep& sweep, const std::vector<std::string>& overrides) {
+  for (const std::string& assignment : overrides) {
+    const std::string key = splitAssignment(assignment).first;
+    std::string method, leaf = key.rfind("settings.", 0) == 0 ? key.substr(9) : key;
+    const bool isOfMethods = splitMethodKey(key, method, leaf);
+    for (const SweepAxis& axis : isOfMethods ? sweep.methods : sweep.settings) {
+      const bool isAll = axis.method.empty() || axis.method == method;
+      if (axis.leaf != leaf || !isAll) continue;
+      failUsage(
+          fmt::format("{}: the values of this sweep replace that of --set {}; --sweep "
+                      "{}=VALUE gives it a single one",
+                      axis.place, key, axis.key));
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<Suite> loadSuites(const std::filesystem::path& file,
@@ -259,6 +276,7 @@ std::vector<Suite> loadSuites(const std::filesystem::path& file,
   };
   const ConfigTable root = load();
   const Sweep sweep = readSweep(root, settingsKeys());
+  requireSetKeysAreNotSwept(sweep, overrides);
   std::vector<Suite> points;
   for (const std::vector<size_t>& choice : combinations(sweep.settings)) {
     const ConfigTable point = load();

@@ -245,7 +245,19 @@ class SuiteRun {
       // What was made side by side was counted then, together with what was there.
       if (suite.jobs < 2) progress.update(run + 1, "", pace_.progress());
     }
+    sayWhatIsLeft(suite, prepared, block, reference);
     return true;
+  }
+
+  // Of an earlier `run` with more runs: the tables are about to lose them.
+  void sayWhatIsLeft(const Suite& suite, const PreparedScene& prepared, const BlockResult& block,
+                     const std::string& reference) const {
+    uint32_t runs = suite.runs;
+    while (fs::exists(store_.folderOf(identityOf(suite, prepared, block, runs, reference).key())))
+      ++runs;
+    if (runs == suite.runs) return;
+    logInfo(fmt::format("{}: {} more runs are there, and not taken; --set runs={} takes them",
+                        blockLabel(suite, block), runs - suite.runs, runs));
   }
 
   static void logRun(const Suite& suite, const BlockResult& block, uint32_t run,

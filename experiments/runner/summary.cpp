@@ -59,6 +59,12 @@ void summariseTimes(const MethodResult& result, size_t pixels, MethodSummary& ro
     for (const RunResult& run : result.runs) medians.push_back(run.passes.at(pass).timeMs);
     row.passes[pass].timeMs = median(medians);
   }
+  // The median frame is no sum of medians: they are its shares, so that bars end where it does.
+  double sum = 0.0;
+  for (const PassTiming& pass : row.passes) sum += pass.timeMs;
+  if (sum > 0.0 && row.timeMsMedian > 0.0) {
+    for (PassTiming& pass : row.passes) pass.timeMs *= row.timeMsMedian / sum;
+  }
 }
 
 // Of the pixels without lights, by what the runs recorded.

@@ -78,7 +78,7 @@ struct MethodSummary {
   std::vector<std::pair<std::string, Interval>> figures;
 
   double raysPathPerPixel = kUnknown, raysShadowPerPixel = kUnknown;
-  std::vector<PassTiming> passes;  // median over runs
+  std::vector<PassTiming> passes;  // shares of timeMsMedian, by the medians over runs
   HealthSum health;                // of all timed frames
   uint64_t timedFrames = 0;
 

@@ -26,6 +26,17 @@ class BaselineTest : public ProgramTest {
   }
 };
 
+// Fewer runs than there are: the tables lose some, which must not look like all there is.
+TEST_F(BaselineTest, FewerRunsThanThereAreIsSaid) {
+  ASSERT_EQ(run("run suite.toml -o out --set runs=5").code, 0);
+  const ProgramResult result = run("run suite.toml -o out");
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.err.find("cornell-box-all: 2 more runs are there, and not taken; --set runs=5"),
+            std::string::npos)
+      << result.err;
+  EXPECT_EQ(run("run suite.toml -o out --set runs=5").err.find("more runs"), std::string::npos);
+}
+
 TEST_F(BaselineTest, CountsTheRunsThatAreThereAnew) {
   ASSERT_EQ(run("run suite.toml -o out").code, 0);
   std::vector<double> four, eight;
@@ -53,6 +64,9 @@ TEST_F(BaselineTest, CountsTheRunsThatAreThereAnew) {
   EXPECT_NEAR(std::stod(all[2].at("mse_ratio_without_lights_ci_lo")), ratio.lo, near(ratio.lo));
   EXPECT_NEAR(std::stod(all[2].at("mse_ratio_without_lights_ci_hi")), ratio.hi, near(ratio.hi));
   EXPECT_LT(std::stod(all[0].at("mse_ratio_without_lights")), 1.0) << "path is the worse one";
+  EXPECT_NE(read("out/report.html").find("--set &#39;baseline=gi, spatial_radius=4.0&#39;"),
+            std::string::npos)
+      << "a command that can be pasted";
   const std::string csv = read("out/summary.csv");
   ASSERT_EQ(run("report out").code, 0);
   EXPECT_EQ(read("out/summary.csv"), csv);

@@ -77,6 +77,20 @@ TEST_F(CompareFoldersTest, MethodByMethod) {
   expectError(run("compare a suite.toml -q"), 2, {"--ref"});
 }
 
+// More runs of the same: what both have is still compared in pairs.
+TEST_F(CompareFoldersTest, FewerRunsArePairedWithTheirs) {
+  runInto("a", "--set runs=5");
+  runInto("b", "--set runs=2");
+  const Json pairs = compared("a b");
+  for (const Json& row : pairs["rows"]) EXPECT_EQ(row["error"], "the same") << row;
+  EXPECT_TRUE(hasNote(pairs, "ratios of the MSE are of the 2 runs whose seeds both have"))
+      << pairs["notes"];
+  runInto("c", "--set runs=3 --set seed=4");
+  const Json others = compared("a c");  // seeds 1-5 and 4-6
+  for (const Json& row : others["rows"]) EXPECT_EQ(row["error"], "not told apart") << row;
+  EXPECT_TRUE(hasNote(others, "of runs that are not paired")) << others["notes"];
+}
+
 // Two runs say next to nothing: their intervals are unbounded.
 TEST_F(CompareFoldersTest, NothingKnownIsNotWorse) {
   runInto("a", "--set runs=1");

@@ -19,6 +19,8 @@ TEST_F(InfoTest, SceneInNumbers) {
   EXPECT_EQ(json["cameras"].size(), 1u);
   EXPECT_TRUE(json["environment"].is_null());
   EXPECT_EQ(json["features_needed"], "area_lights");
+  ASSERT_EQ(json["objects"].size(), json["instances"].get<size_t>());
+  EXPECT_NE(json["objects"].dump().find("\"Light\""), std::string::npos) << json["objects"];
   // A triangle takes three indices and positions at the least, here and in Embree.
   EXPECT_GT(json["bytes"].get<int>(), json["triangles"].get<int>() * 48);
   EXPECT_GT(json["embree_bytes"].get<int>(), json["triangles"].get<int>() * 48);

@@ -81,6 +81,34 @@ TEST_F(SourceHash, IsOfTheSourcesThatDecideTheNumbers) {
   EXPECT_NE(hashes().at("SOURCE"), before.at("SOURCE")) << "names count";
 }
 
+// Somebody's suites and notes make no commit another one; changed and new sources do.
+TEST_F(SourceHash, DirtyAreSourcesOnly) {
+  const auto isDirty = [&] {
+    hashes();
+    std::ifstream in(folder() / "source_hash.h");
+    std::ostringstream text;
+    text << in.rdbuf();
+    return text.str().find("#define RESTLAB_GIT_DIRTY 1") != std::string::npos;
+  };
+  const std::string git = "git -C " + folder().string() + " -c user.name=x -c user.email=x ";
+  const CommandResult made =
+      runCommand(git + "init -q && " + git + "add . && " + git + "commit -q -m one");
+  ASSERT_EQ(made.status, 0) << made.output;
+  EXPECT_FALSE(isDirty());
+  write("mine.toml", "one");
+  write("experiments/suites/mine.toml", "one");
+  EXPECT_FALSE(isDirty());
+  write("core/new.glsl", "one");
+  EXPECT_TRUE(isDirty());
+  fs::remove(folder() / "core/new.glsl");
+  write("experiments/runner/new.cpp", "one");
+  EXPECT_TRUE(isDirty());
+  fs::remove(folder() / "experiments/runner/new.cpp");
+  EXPECT_FALSE(isDirty());
+  write("core/readme.md", "two");
+  EXPECT_TRUE(isDirty());
+}
+
 // A file that is renamed must not leave the hash in silence.
 TEST(MeasuringSources, AreAllThere) {
   std::ifstream in(RESTLAB_SOURCE_DIR "/cmake/source_hash.cmake");

@@ -83,6 +83,18 @@ TEST_F(SummaryTest, MeansAndRatios) {
   EXPECT_EQ(rows[0].timeRatio.value, 1.0);
 }
 
+// The median of sums is no sum of medians: what is drawn ends where the table's time is.
+TEST_F(SummaryTest, PassesAddUpToTheTimeOfAFrame) {
+  for (RunResult& run : block_.methods[1].runs)
+    run.passes = {{"initial", 3.0 + run.run}, {"spatial", 1.0}};
+  const auto rows = summarise(suite_, block_);
+  ASSERT_EQ(rows[1].passes.size(), 2u);
+  EXPECT_NEAR(rows[1].timeMsMedian, 24.2, 1e-12);
+  EXPECT_NEAR(rows[1].passes[0].timeMs, 24.2 * 0.8, 1e-9) << "medians of 4 and 1";
+  EXPECT_NEAR(rows[1].passes[1].timeMs, 24.2 * 0.2, 1e-9);
+  EXPECT_NEAR(rows[0].passes[0].timeMs, rows[0].timeMsMedian, 1e-9);
+}
+
 TEST_F(SummaryTest, RatiosOfTimesAreGeometricMeans) {
   block_.methods[1].runs[0].timesMs = {10.0, 20.0};   // as long as path
   block_.methods[1].runs[1].timesMs = {80.0, 160.0};  // twice

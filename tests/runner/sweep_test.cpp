@@ -125,6 +125,25 @@ TEST_F(SweepTest, ErrorsNameThePlace) {
   EXPECT_NE(errorOf(base, {}, {"runs=1,,2"}).find("empty value"), std::string::npos);
 }
 
+// The sweep's values would replace it in silence.
+TEST_F(SweepTest, WhatIsSweptIsNotSet) {
+  const std::string swept = std::string(kBase) +
+                            "[sweep]\nmax_bounces = [2, 4]\n"
+                            "\"method.gi.spatial_radius\" = [4.0, 8.0]\n";
+  EXPECT_EQ(
+      errorOf(swept, {"method.gi.spatial_radius=12"}),
+      "suite.toml:14:30: the values of this sweep replace that of --set "
+      "method.gi.spatial_radius; --sweep method.gi.spatial_radius=VALUE gives it a single one");
+  for (const char* set : {"max_bounces=8", "settings.max_bounces=8"})
+    EXPECT_NE(errorOf(swept, {set}).find("--sweep max_bounces=VALUE"), std::string::npos) << set;
+  const std::string all = std::string(kBase) + "[sweep]\n\"method.spatial_radius\" = [4.0, 8.0]\n";
+  EXPECT_NE(errorOf(all, {"method.gi.spatial_radius=12"}).find("--sweep method.spatial_radius"),
+            std::string::npos);
+  // Another method's, or one that the sweep leaves to others.
+  EXPECT_EQ(load(swept, {"method.spatial_radius=12", "method.restir_gi.spatial_radius=3"}).size(),
+            2u);
+}
+
 TEST_F(SweepTest, IncludesAreMergedAndKeepTheirPlaces) {
   write("parts/base.toml", kBase);
   write("parts/more.toml", "include = \"base.toml\"\n[settings]\nruns = 5\nmax_bounces = 3\n");
