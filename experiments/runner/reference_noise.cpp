@@ -20,7 +20,7 @@ struct ByDivisor {
     return change > kRelmseChangeMax * std::abs(mean);
   }
   std::string text() const {
-    return fmt::format("{:+.0f} % and {:+.0f} % where a half of it divides instead of its mean",
+    return fmt::format("{:+.0f} % and {:+.0f} % if its halves divide instead of their mean",
                        100.0 * (half0 / mean - 1.0), 100.0 * (half1 / mean - 1.0));
   }
 };

@@ -256,8 +256,8 @@ TEST_F(ExperimentsDocument, EveryCommandRuns) {
   std::printf("    %zu commands ran, %zu lines skipped\n", commands, skipped);
   EXPECT_GE(commands, 6u);
   EXPECT_LE(skipped, 1u);
-  for (const char* file :
-       {"results/radius/report.html", "results/radius/table.tex", "crops.svg", "after/report.html"})
+  for (const char* file : {"results/radius/report.html", "results/radius/table.tex", "crops.svg",
+                           "results/after/report.html"})
     EXPECT_TRUE(fs::exists(path(file))) << file;
 }
 

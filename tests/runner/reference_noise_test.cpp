@@ -172,8 +172,7 @@ TEST(ReferenceNoise, RelativeErrorThatHangsOnTheDivisorIsFlagged) {
   EXPECT_EQ(relmseFlag(referenceOf(0.05f), runs), "");
   const std::string flag = relmseFlag(referenceOf(0.8f), runs);
   EXPECT_NE(flag.find("relMSE depends on the reference's noise: "), std::string::npos) << flag;
-  EXPECT_NE(flag.find(" % where a half of it divides instead of its mean"), std::string::npos)
-      << flag;
+  EXPECT_NE(flag.find(" % if its halves divide instead of their mean"), std::string::npos) << flag;
   Reference whole = referenceOf(0.8f);
   whole.half0.reset();
   whole.half1.reset();
