@@ -84,7 +84,7 @@ if(RESTLAB_FUZZ)
   set_target_properties(rl_kernels PROPERTIES RL_NOT_SANITIZED ON)
   target_compile_options(rl_kernels PRIVATE -O0)
 elseif(RESTLAB_SANITIZE)
-  # Line tables are all that a report needs; tracking variables takes twice as long as the rest.
+  # Line tables are all that a report needs; tracking variables takes as long as the rest.
   target_compile_options(rl_kernels PRIVATE -O1 -g1)
 else()
   target_compile_options(rl_kernels PRIVATE -O3)

@@ -117,21 +117,22 @@ ComparedRow compareRows(const std::string& label, const Table& a, const MethodSu
   row.after = after.mse;
   const std::vector<RunResult>& runsA = before.result->runs;
   const std::vector<RunResult>& runsB = after.result->runs;
-  // Images have no seeds.
+  const bool haveSeeds = !before.method->images && !after.method->images;
   std::optional<Mses> pairs;
-  if (!before.method->images) pairs = pairedMses(runsA, runsB);
+  if (haveSeeds) pairs = pairedMses(runsA, runsB);
   const Mses mses = pairs ? *pairs : Mses{msesOf(runsA), msesOf(runsB)};
   const bool areSame = mses.before == mses.after;
   SharedNoise shared = sharedNoise(after.noise, before.noise, areSame);
   if (a.reference != b.reference) shared.covariance = 0.0;
   row.mseRatio = pairs ? pairedRatioInterval(mses.after, mses.before, shared)
                        : ratioInterval(mses.after, mses.before, shared);
-  if ((pairs || before.method->images) && areSame)
+  if ((pairs || !haveSeeds) && areSame)
     row.mseRatio = {1.0, 1.0, 1.0};  // however few runs there are
-  const bool isWhole = runsA.size() == runsB.size() && (pairs || before.method->images);
-  if (!isWhole)
-    row.runsOfRatio = pairs ? fmt::format("of the {} runs whose seeds both have", mses.after.size())
-                            : "of runs that are not paired, as their seeds differ";
+  if (haveSeeds && !pairs) {
+    row.runsOfRatio = "of runs that are not paired, as their seeds differ";
+  } else if (haveSeeds && runsA.size() != runsB.size()) {
+    row.runsOfRatio = fmt::format("of the {} runs whose seeds both have", mses.after.size());
+  }
   row.error = verdictOf(row.mseRatio);
   row.timeRatio = {kUnknown, kUnknown, kUnknown};
   if (!haveTimes(runsA) || !haveTimes(runsB)) return row;
@@ -190,13 +191,14 @@ void noteDifferences(const std::string& where, const std::vector<Difference>& di
 void compareTables(const std::string& label, const Table& a, const Table& b,
                    FolderComparison& comparison) {
   std::vector<std::pair<std::string, std::vector<Difference>>> differences;
-  std::map<std::string, size_t> counts, ratios;
+  std::map<std::string, size_t> counts;
+  std::map<std::string, std::vector<std::string>> ratios;  // the methods, by which runs they are of
   for (const MethodSummary& row : a.rows) {
     const std::string& name = row.method->name;
     const MethodSummary* same = find(b, name);
     if (same == nullptr) continue;
     ComparedRow& compared = comparison.rows.emplace_back(compareRows(label, a, row, b, *same));
-    if (!compared.runsOfRatio.empty()) ++ratios[compared.runsOfRatio];
+    if (!compared.runsOfRatio.empty()) ratios[compared.runsOfRatio].push_back(name);
     const auto& own =
         differences.emplace_back(name, differencesOf(a.words.at(name), b.words.at(name))).second;
     for (const Difference& difference : own) {
@@ -204,8 +206,12 @@ void compareTables(const std::string& label, const Table& a, const Table& b,
       if (difference.isSetting) compared.unlike.push_back(difference.text);
     }
   }
-  for (const auto& [runs, rows] : ratios)
-    comparison.notes.push_back(fmt::format("{}: ratios of the MSE are {}", label, runs));
+  for (const auto& [runs, methods] : ratios) {
+    const bool areAll = methods.size() == differences.size();
+    comparison.notes.push_back(
+        fmt::format("{}{}: ratios of the MSE are {}", label,
+                    areAll ? "" : fmt::format(", {}", fmt::join(methods, ", ")), runs));
+  }
   if (differences.empty()) return;
   std::vector<Difference> common;
   for (const Difference& difference : differences.front().second) {

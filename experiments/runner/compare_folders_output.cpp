@@ -85,6 +85,7 @@ Json comparisonJson(const FolderComparison& comparison) {
                     {"mse_before", json(row.before)},
                     {"mse_after", json(row.after)},
                     {"mse_after_over_before", json(row.mseRatio)},
+                    {"mse_ratio_is", row.runsOfRatio},
                     {"error", row.verdictText(row.error)},
                     {"time_after_over_before", json(row.timeRatio)},
                     {"times_over_path", row.timesOverPath},

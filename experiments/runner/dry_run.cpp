@@ -188,11 +188,10 @@ std::string methodsText(const std::vector<Suite>& points) {
 }  // namespace
 
 std::string planText(const std::vector<Suite>& points, const SuiteRequest& request) {
-  std::vector<SuiteCheck> checks;
+  const std::vector<SuiteCheck> checks = checkSuites(points);
   std::vector<DeviceUse> devices;
-  for (const Suite& suite : points) {
-    checks.push_back(checkSuite(suite));
-    for (const DeviceUse& use : checks.back().devices) {
+  for (const SuiteCheck& found : checks) {
+    for (const DeviceUse& use : found.devices) {
       if (std::find(devices.begin(), devices.end(), use) == devices.end()) devices.push_back(use);
     }
   }

@@ -249,7 +249,9 @@ void requireSetKeysAreNotSwept(const Sweep& sweep, const std::vector<std::string
     const std::string key = splitAssignment(assignment).first;
     std::string method, leaf = key.rfind("settings.", 0) == 0 ? key.substr(9) : key;
     const bool isOfMethods = splitMethodKey(key, method, leaf);
-    for (const SweepAxis& axis : isOfMethods ? sweep.methods : sweep.settings) {
+    // A swept `backend` is the methods', in place of the list of [settings].
+    const bool isBackend = !isOfMethods && leaf == "backend";
+    for (const SweepAxis& axis : isOfMethods || isBackend ? sweep.methods : sweep.settings) {
       const bool isAll = axis.method.empty() || axis.method == method;
       if (axis.leaf != leaf || !isAll) continue;
       failUsage(

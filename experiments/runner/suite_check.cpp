@@ -81,7 +81,7 @@ size_t openMethods(const Suite& suite, const SuiteScene& scene, const PreparedSc
   return bytesPerPixel;
 }
 
-PreparedScene checkScene(const Suite& suite, const SuiteScene& scene, SuiteCheck& found) {
+PreparedScene loadScene(const SuiteScene& scene) {
   SceneRequest request = scene.request;
   request.camera.clear();  // looked for below, at a place of its own
   std::optional<EnvironmentMap> environment =
@@ -91,6 +91,11 @@ PreparedScene checkScene(const Suite& suite, const SuiteScene& scene, SuiteCheck
   if (!scene.request.camera.empty()) {
     atPlace(scene.cameraPlace, [&] { chooseCamera(prepared, scene.request.camera); });
   }
+  return prepared;
+}
+
+void checkScene(const Suite& suite, const SuiteScene& scene, const PreparedScene& prepared,
+                SuiteCheck& found) {
   motionOf(suite, prepared);
   if (suite.hasMovingCamera() && !scene.reference.empty()) {
     failUsage(fmt::format("{}: a reference as a file is of a still camera, not of the path '{}'",
@@ -118,7 +123,6 @@ PreparedScene checkScene(const Suite& suite, const SuiteScene& scene, SuiteCheck
     requireMemory(fmt::format("scene {}", scene.name), width, height,
                   std::max(bytesPerPixel * suite.jobs, kReferenceBytesPerPixel));
   });
-  return prepared;
 }
 
 }  // namespace
@@ -156,21 +160,26 @@ SessionConfig pictureOf(const Suite& suite, uint32_t width, uint32_t height, uin
   return config;
 }
 
-SuiteCheck checkSuite(const Suite& suite) {
-  SuiteCheck found;
+std::vector<SuiteCheck> checkSuites(const std::vector<Suite>& points) {
+  std::vector<SuiteCheck> found(points.size());
+  const std::vector<SuiteScene>& scenes = points.front().scenes;
   std::string missing;
-  for (const SuiteScene& scene : suite.scenes) {
+  for (const SuiteScene& scene : scenes) {
     if (scene.optional || !assetsMissing(scene.request, missing)) continue;
     // What reads them says what is wrong, before the scenes that are there take their time.
     if (missing == scene.request.environment)
       atPlace(scene.environmentPlace, [&] { return readEnvironment(scene.request); });
     atPlace(scene.place, [&] { return prepareScene(scene.request, std::nullopt); });
   }
-  for (const SuiteScene& scene : suite.scenes) {
-    if (scene.optional && assetsMissing(scene.request, missing)) continue;
+  for (size_t s = 0; s < scenes.size(); ++s) {
+    if (scenes[s].optional && assetsMissing(scenes[s].request, missing)) continue;
     throwIfInterrupted("nothing was rendered");
-    PreparedScene prepared = checkScene(suite, scene, found);
-    if (suite.scenes.size() == 1) found.only = prepared;
+    const PreparedScene prepared = loadScene(scenes[s]);
+    for (size_t p = 0; p < points.size(); ++p) {
+      throwIfInterrupted("nothing was rendered");
+      checkScene(points[p], points[p].scenes[s], prepared, found[p]);
+    }
+    if (scenes.size() == 1) found.front().only = prepared;
   }
   return found;
 }

@@ -23,15 +23,15 @@ std::optional<CameraMotion> motionOf(const Suite& suite, const PreparedScene& pr
 
 // What the check found out on its way.
 struct SuiteCheck {
-  std::optional<PreparedScene> only;  // of a suite with one scene, so that it is not loaded twice
+  std::optional<PreparedScene> only;  // the first point's, where there is one scene: loaded once
   std::map<std::string, std::vector<double>> startupMs;  // by scene: of each method's kernels
   std::vector<DeviceUse> devices;                        // of the methods, each once
 };
 
-// Loads every scene that is here, one after the other, and checks files, cameras, given references,
-// the sizes of the files to write and the memory. Throws Error that starts with the place in the
-// suite. Kernels are made ready on the way: a device that is absent is known before the first
-// frame.
-SuiteCheck checkSuite(const Suite& suite);
+// Loads every scene that is here, one after the other (they are the same at every point of a
+// sweep), and checks for each point files, cameras, given references, the sizes of the files to
+// write and the memory. Throws Error that starts with the place in the suite. Kernels are made
+// ready on the way: a device that is absent is known before the first frame.
+std::vector<SuiteCheck> checkSuites(const std::vector<Suite>& points);
 
 }  // namespace restlab

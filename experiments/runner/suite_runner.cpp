@@ -115,9 +115,9 @@ class SuiteRun {
     const bool isNew = !fs::exists(request_.out, status);
     makeWritableDirectory(request_.out);  // quickly said, unlike what follows
     try {
-      for (const Suite& suite : points_) {
-        checks_.push_back(checkSuite(suite));
-        for (const DeviceUse& use : checks_.back().devices) {
+      checks_ = checkSuites(points_);
+      for (const SuiteCheck& found : checks_) {
+        for (const DeviceUse& use : found.devices) {
           if (std::find(devices_.begin(), devices_.end(), use) == devices_.end())
             devices_.push_back(use);
         }
@@ -245,6 +245,7 @@ class SuiteRun {
       // What was made side by side was counted then, together with what was there.
       if (suite.jobs < 2) progress.update(run + 1, "", pace_.progress());
     }
+    progress.finish();
     sayWhatIsLeft(suite, prepared, block, reference);
     return true;
   }
@@ -253,10 +254,9 @@ class SuiteRun {
   void sayWhatIsLeft(const Suite& suite, const PreparedScene& prepared, const BlockResult& block,
                      const std::string& reference) const {
     uint32_t runs = suite.runs;
-    while (fs::exists(store_.folderOf(identityOf(suite, prepared, block, runs, reference).key())))
-      ++runs;
+    while (store_.record(identityOf(suite, prepared, block, runs, reference).key())) ++runs;
     if (runs == suite.runs) return;
-    logInfo(fmt::format("{}: {} more runs are there, and not taken; --set runs={} takes them",
+    logInfo(fmt::format("{}: not taken, though there: {} of further runs; --set runs={} takes them",
                         blockLabel(suite, block), runs - suite.runs, runs));
   }
 
@@ -342,7 +342,7 @@ class SuiteRun {
   bool obtain(const Suite& suite, const SuiteScene& scene, const PreparedScene& prepared,
               BlockResult& block) {
     if (!scene.reference.empty()) {
-      // Of this configuration, as checkSuite() found.
+      // Of this configuration, as checkSuites() found.
       const fs::path found = findAsset(scene.reference);
       block.reference = readReference(found.empty() ? fs::path(scene.reference) : found);
       block.referenceFile =

@@ -43,7 +43,7 @@ std::string sweepValues(const std::string& key, const std::string& values);
 Sweep readSweep(const ConfigTable& root, const std::vector<std::string>& settingsKeys);
 
 // Every combination of the axes' values, the last axis fastest; one empty one where there is none.
-// Throws Error (badUsage) at the axis that makes more than 10000 of them.
+// Throws Error (badUsage) at the axis that makes more than 2000 of them.
 std::vector<std::vector<size_t>> combinations(const std::vector<SweepAxis>& axes);
 
 // "confidence_cap=20, mode=biased", without the quotes of strings.
