@@ -1,5 +1,6 @@
 #include "experiments/runner/interrupt.h"
 
+#include <atomic>
 #include <csignal>
 #include <string>
 
@@ -9,9 +10,11 @@ namespace restlab {
 
 namespace {
 
-volatile std::sig_atomic_t signalSeen = 0;
+// Read by the threads of `-j` while a handler on another one writes: no sig_atomic_t.
+std::atomic<bool> signalSeen = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "as a signal handler needs");
 
-void onSignal(int) { signalSeen = 1; }
+void onSignal(int) { signalSeen.store(true, std::memory_order_relaxed); }
 
 }  // namespace
 
@@ -25,7 +28,7 @@ void installInterruptHandler() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-bool interruptRequested() { return signalSeen != 0; }
+bool interruptRequested() { return signalSeen.load(std::memory_order_relaxed); }
 
 void throwIfInterrupted(const char* what) {
   if (interruptRequested()) throw Error(ExitCode::interrupted, std::string("interrupted: ") + what);
