@@ -51,6 +51,14 @@ class SideBySideTest : public ProgramTest {
     }
     return all;
   }
+  // On stderr by now, by any program of this test.
+  bool isSaid(const std::string& words) const {
+    for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+      const std::string name = entry.path().filename().string();
+      if (name.rfind(".stderr", 0) == 0 && read(name).find(words) != std::string::npos) return true;
+    }
+    return false;
+  }
   std::vector<std::string> jobs(const std::string& folder) const {
     return Json::parse(read(folder + "/run.json"))["plan"][0]["jobs"];
   }
@@ -154,7 +162,7 @@ TEST_F(SideBySideTest, EventsAreOneObjectALine) {
   EXPECT_NE(said[0]["text"].get<std::string>().find("absent.toml"), std::string::npos);
 
   Circumstances circumstances;
-  circumstances.signalAfterS = 4.0;
+  circumstances.signalWhen = [&] { return isSaid("\"total\":1000000000"); };
   const ProgramResult cut =
       run("run suite.toml -o cut --json --set reference.spp=1000000000", circumstances);
   EXPECT_EQ(cut.code, 130);
@@ -171,7 +179,7 @@ TEST_F(SideBySideTest, EventsAreOneObjectALine) {
 // Not when all of the table are made.
 TEST_F(SideBySideTest, EventsOfRunsComeWhenTheyEnd) {
   Circumstances circumstances;
-  circumstances.signalAfterS = 5.0;
+  circumstances.signalWhen = [&] { return isSaid("\"suite_total\""); };
   const ProgramResult cut =
       run("run suite.toml -o out --json -j 2 --set runs=2000 --set width=96 "
           "--set height=64 --sweep max_bounces=2,3",
