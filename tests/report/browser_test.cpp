@@ -1,4 +1,5 @@
 // The page itself in a browser: tables, text of others, light and dark.
+#include "experiments/report/report_html.h"
 #include "tests/report/page.h"
 
 namespace restlab::report_test {
@@ -106,6 +107,28 @@ TEST_F(ReportPage, ReportWithoutImagesWorks) {
   open(model);
   click("#b-second .results thead th:nth-child(2) button");
   EXPECT_EQ(texts("#b-second .results tbody .method").front(), "gi biased");
+}
+
+// Programs that take a picture of the page do not scroll; images that nobody sees cost nothing.
+TEST_F(ReportPage, FirstImagesOpenAtOnceAndOthersWhenNear) {
+  ReportModel model = sampleModel(folder_.path());
+  model["blocks"][1]["images"] = model["blocks"][0]["images"];
+  writeReport(folder_.path(), model);
+  browser_->resize(500, 100);
+  browser_->open(folder_.path() / "report.html");
+  const auto isDrawn = [](int i) {
+    return "document.querySelectorAll('.viewer')[" + std::to_string(i) +
+           "].dataset.drawn !== undefined";
+  };
+  ASSERT_GT(browser_->evaluate("document.querySelector('.viewer').getBoundingClientRect().y"),
+            700.0)
+      << "farther away than an image that is opened because it is near";
+  browser_->waitFor(isDrawn(0));
+  settle();
+  EXPECT_EQ(browser_->evaluate("scrollY"), 0);
+  EXPECT_EQ(browser_->evaluate(isDrawn(1)), false);
+  browser_->evaluate("document.querySelectorAll('.viewer')[1].scrollIntoView()");
+  browser_->waitFor(isDrawn(1));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Brings the page to life: tables at once, viewers when they come near the window.
+// Brings the page to life: tables and the first viewer at once, the others when they come near the
+// window.
 
 async function openViewer(root) {
   const data = JSON.parse(document.getElementById(root.dataset.source).textContent);
@@ -26,15 +27,19 @@ async function openViewer(root) {
 document.querySelectorAll('table.results, table.health').forEach(makeSortable);
 
 const viewers = [];
+const start = root => openViewer(root).then(viewer => viewers.push(viewer));
 const roots = Array.from(document.querySelectorAll('.viewer'));
 if (roots.length) {
+  // Not by the observer, which tells nothing before the window's first frame: a browser that only
+  // takes a picture of the page may not have one in time.
+  start(roots[0]);
   const near = new IntersectionObserver(entries => {
     for (const entry of entries) {
       if (!entry.isIntersecting) continue;
       near.unobserve(entry.target);
-      openViewer(entry.target).then(viewer => viewers.push(viewer));
+      start(entry.target);
     }
   }, {rootMargin: '600px'});
-  for (const root of roots) near.observe(root);
+  for (const root of roots.slice(1)) near.observe(root);
   addKeys(viewers, makeHelp());
 }
