@@ -57,8 +57,39 @@ class FileStream : public Imf::IStream {
   std::ifstream& stream_;
 };
 
+// Attribute types whose values OpenEXR reads with a size of their own, whatever the header claims.
+const std::map<std::string, uint32_t>& fixedSizes() {
+  static const std::map<std::string, uint32_t> sizes = {{"box2f", 16},
+                                                        {"box2i", 16},
+                                                        {"chromaticities", 32},
+                                                        {"compression", 1},
+                                                        {"deepImageState", 1},
+                                                        {"double", 8},
+                                                        {"envmap", 1},
+                                                        {"float", 4},
+                                                        {"int", 4},
+                                                        {"keycode", 28},
+                                                        {"lineOrder", 1},
+                                                        {"m33d", 72},
+                                                        {"m33f", 36},
+                                                        {"m44d", 128},
+                                                        {"m44f", 64},
+                                                        {"rational", 8},
+                                                        {"tiledesc", 9},
+                                                        {"timecode", 8},
+                                                        {"v2d", 16},
+                                                        {"v2f", 8},
+                                                        {"v2i", 8},
+                                                        {"v3d", 24},
+                                                        {"v3f", 12},
+                                                        {"v3i", 12}};
+  return sizes;
+}
+
 // Walks over the raw header before OpenEXR allocates anything from its numbers: attribute sizes,
-// the data window and the tile size may all lie.
+// the data window and the tile size may all lie. Where OpenEXR would not take an attribute's size
+// at its word it would read on elsewhere than this does, and find sizes that nobody checked:
+// refused.
 class HeaderGuard {
  public:
   HeaderGuard(const fs::path& file, std::ifstream& stream, uint64_t fileBytes)
@@ -99,10 +130,29 @@ class HeaderGuard {
                                  "left (truncated or corrupt)",
                                  name, size));
     }
-    if (name == "dataWindow" && type == "box2i" && size == 16) checkWindow();
-    if (name == "tiles" && type == "tiledesc" && size == 9) checkTiles();
+    const auto fixed = fixedSizes().find(type);
+    if (fixed != fixedSizes().end() && size != fixed->second) {
+      failSize(name, size, fmt::format("{} has {}", type, fixed->second));
+    }
+    if (type == "floatvector" && size % 4 != 0) failSize(name, size, "floats have 4 each");
+    if (type == "chlist") checkChannels(name, begin, size);
+    if (name == "dataWindow" && type == "box2i") checkWindow();
+    if (name == "tiles" && type == "tiledesc") checkTiles();
     stream_.seekg(std::streamoff(begin + size));
     return true;
+  }
+
+  // Names with 16 bytes each, and an empty name: OpenEXR reads to that one.
+  void checkChannels(const std::string& name, uint64_t begin, uint32_t size) {
+    while (!readName().empty()) stream_.ignore(16);
+    if (!stream_) failShort();
+    const uint64_t bytes = uint64_t(std::streamoff(stream_.tellg())) - begin;
+    if (bytes != size) failSize(name, size, fmt::format("its channels take {}", bytes));
+  }
+
+  [[noreturn]] void failSize(const std::string& name, uint32_t size, const std::string& right) {
+    failExr(file_, fmt::format("OpenEXR attribute '{}' claims {} bytes where {} (corrupt)", name,
+                               size, right));
   }
 
   void checkWindow() {

@@ -178,6 +178,10 @@ def images():
     write("exr", "long-attribute.exr", exr(extra=b"note\0string\0" + struct.pack("<I", 0x7FFFFFF0)))
     write("exr", "lying-preview.exr", exr(extra=attribute(b"preview", b"preview", struct.pack("<II", 65535, 65535))))
     write("exr", "lying-strings.exr", exr(extra=attribute(b"multiView", b"stringvector", struct.pack("<i", 2**31 - 1))))
+    big = b"note\0string\0" + struct.pack("<I", 0x7FFFFFF0)
+    write("exr", "hidden-size.exr", exr(extra=attribute(b"gain", b"float", b"1234" + big)))
+    hidden = attribute(b"more", b"chlist", channels((b"R",), 1)[len(b"channels\0chlist\0") + 4:-1])
+    write("exr", "hidden-channels.exr", exr(extra=hidden + b"\0" + big))
     many = tuple(sorted(b"x%04d.R" % i for i in range(300)))
     write("exr", "many-channels.exr", exr(names=many, window=(0, 0, 0, 0)))
 

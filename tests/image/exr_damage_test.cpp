@@ -118,11 +118,33 @@ TEST_F(ExrTest, LyingHeadersAreRefusedBeforeAllocation) {
     EXPECT_TRUE(named) << line;
     EXPECT_EQ(line.find("memory"), std::string::npos) << line;
   }
-  // An attribute that claims 2 GiB.
+  // An attribute that claims 2 GiB, also where only OpenEXR would come upon it: inside of a value
+  // that claims more bytes than its type has, and behind channels that go on after their size.
   std::string lying = bytes;
   putInt(lying, attributeValue(bytes, "restlab:note", "string") - 4, 0x7ffffff0);
   writeBytes(path("lie.exr"), lying);
   EXPECT_NE(errorLine([&] { readExr(path("lie.exr")); }).find("restlab:note"), std::string::npos);
+  const auto attribute = [](const std::string& name, const std::string& type, uint32_t size,
+                            const std::string& value) {
+    std::string raw = name + '\0' + type + '\0' + std::string(4, '\0') + value;
+    putInt(raw, name.size() + type.size() + 2, int32_t(size));
+    return raw;
+  };
+  const std::string big = attribute("note", "string", 0x7ffffff0, "");
+  const std::string channel = std::string("R") + '\0' + std::string(16, '\1');
+  const size_t first = 8;  // behind the magic number and the version
+  for (const std::string& hiding :
+       {attribute("gain", "float", uint32_t(4 + big.size()), "1234" + big),
+        attribute("weights", "floatvector", 7 + uint32_t(big.size()), "1234567" + big),
+        attribute("more", "chlist", 1 + uint32_t(big.size()), '\0' + big),
+        attribute("more", "chlist", uint32_t(channel.size()), channel + '\0' + big),
+        attribute("more", "chlist", uint32_t(channel.size()), channel + channel)}) {
+    lying = bytes;
+    lying.insert(first, hiding);
+    writeBytes(path("lie.exr"), lying);
+    const std::string line = errorLine([&] { readExr(path("lie.exr")); });
+    EXPECT_NE(line.find("bytes where"), std::string::npos) << line;
+  }
   ASSERT_EQ(::setrlimit(RLIMIT_AS, &before), 0);
 }
 
