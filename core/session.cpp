@@ -4,13 +4,16 @@
 
 #include <algorithm>
 #include <cstring>
-#include <numeric>
+#include <optional>
 
 #include "core/backend/backend.h"
 #include "core/caches/caches.h"
 #include "core/dialect/features.h"
 #include "core/error.h"
+#include "core/method.h"
+#include "core/pipeline.h"
 #include "core/scene/compiled_scene.h"
+#include "core/visible_surfaces.h"
 
 namespace restlab {
 
@@ -49,13 +52,11 @@ const std::array<const char*, rl::RL_HEALTH_COUNT>& Health::names() {
 struct Session::Impl {
   std::shared_ptr<const CompiledScene> scene;
   SessionConfig config;
-  const IntegratorInfo* integrator = nullptr;
+  Method method;
   std::unique_ptr<Backend> backend;
-  std::vector<BufferId> buffers;  // in the order of IntegratorInfo::buffers; swaps permute this
-  std::vector<std::byte> params;
-  std::vector<uint32_t> passMasks;
+  std::optional<Pipeline> pipeline;
   rl::FrameData frame{};
-  uint32_t needed = 0, used = 0;
+  uint32_t needed = 0;
   Image radiance;
   bool isRadianceRead = true;  // `radiance` is that of the last frame
   StartupReport startup;
@@ -64,7 +65,6 @@ struct Session::Impl {
   std::vector<BufferId> aovBuffers;
   rl::FrameData lastFrame{};
 
-  std::vector<PassRun> passes() const;
   void submitFrame();
   FrameStats collectFrame();
 };
@@ -75,50 +75,43 @@ Session::Session(std::shared_ptr<const CompiledScene> scene, const SessionConfig
   Impl& m = *impl_;
   m.scene = std::move(scene);
   m.config = config;
-  m.integrator = &findIntegrator(config.integrator);
+  m.method = findMethod(config);
   if (config.width == 0 || config.height == 0) {
     failUsage(fmt::format("resolution {}x{}: width and height must be at least 1", config.width,
                           config.height));
   }
   std::vector<std::string> modes;
-  for (const ModeInfo& mode : m.integrator->modes) modes.push_back(mode.name);
+  for (const ModeInfo& mode : m.method.integrator->modes) modes.push_back(mode.name);
   if (m.config.mode.empty()) m.config.mode = modes.front();
   if (std::find(modes.begin(), modes.end(), m.config.mode) == modes.end()) {
-    failUsage(fmt::format("integrator {} has no mode '{}'{}; modes: {}", m.integrator->name,
+    failUsage(fmt::format("integrator {} has no mode '{}'{}; modes: {}", m.method.integrator->name,
                           m.config.mode, didYouMean(m.config.mode, modes), fmt::join(modes, ", ")));
   }
-  checkCacheName(m.config.cache);
+  if (m.config.cache.empty() && m.method.integrator->usesCache)
+    m.config.cache = cacheRegistry().front().name;
+  if (!m.config.cache.empty()) checkCacheName(m.config.cache);
+  if (!m.config.cache.empty() && !m.method.integrator->usesCache) {
+    failUsage(fmt::format("cache {}: integrator {} keeps no reservoirs: it has no use for one",
+                          m.config.cache, m.method.integrator->name));
+  }
   const std::vector<SceneCamera>& cameras = m.scene->source().cameras;
   if (config.camera >= cameras.size()) {
     failUsage(fmt::format("camera {} of scene {}: it has {} (0 to {})", config.camera,
                           m.scene->source().name, cameras.size(), cameras.size() - 1));
   }
-  m.config.parameters = resolveParameters(*m.integrator, config.parameters);
-  m.params = m.integrator->packParameters(m.config.mode, m.config.parameters);
+  m.config.parameters = resolveParameters(m.method, config.parameters);
   m.needed = m.scene->features(config.multiscatter);
   const bool multiscatter = (m.needed & rl::RL_FEATURE_MULTISCATTER) != 0;
   if (multiscatter) m.scene->bindGgxAlbedo();
   m.backend = makeBackend(config.backend, m.scene,
                           {config.threads, config.device, config.rayTracing, config.validate});
   const uint32_t wanted = config.specialise ? m.needed : rl::RL_FEATURE_ALL;
-  for (const PassInfo& pass : m.integrator->passes) {
-    m.passMasks.push_back(m.backend->maskFor(pass.kernel, wanted));
-    m.used |= m.passMasks.back();
-  }
-  const size_t pixels = size_t(config.width) * config.height;
-  std::vector<size_t> sizes;  // bytes per pixel of each buffer
-  for (const BufferInfo& b : m.integrator->buffers) {
-    // What the kernel in use can touch is allocated, so that a superset kernel never meets a null.
-    const bool wantedBuffer = b.neededFeatures == 0 || (b.neededFeatures & m.used) != 0;
-    sizes.push_back(wantedBuffer ? bytesPerPixelOf(b, m.config.parameters) : 0);
-  }
-  m.backend->requireMemory(m.integrator->name, config.width, config.height,
-                           std::accumulate(sizes.begin(), sizes.end(), size_t{0}),
-                           sizeof(glm::vec3) + hostBytesPerPixel);
-  for (const size_t size : sizes) {
-    m.buffers.push_back(size > 0 ? m.backend->allocate(pixels * size) : kNoBuffer);
-  }
-  for (const PassRun& pass : m.passes()) m.backend->prepare(pass, m.startup);
+  m.pipeline.emplace(*m.backend, withVisibleSurfaces(m.method.parts()), m.config.mode,
+                     m.config.parameters, wanted);
+  m.backend->requireMemory(m.method.integrator->name, config.width, config.height,
+                           m.pipeline->bytesPerPixel(), sizeof(glm::vec3) + hostBytesPerPixel);
+  m.pipeline->allocate(size_t(config.width) * config.height);
+  m.pipeline->prepare(m.startup);
   m.radiance = Image(config.width, config.height);
   rl::FrameData& f = m.frame;
   f.camera = m.scene->camera(cameras[config.camera], config.width, config.height);
@@ -143,39 +136,29 @@ Session::Session(std::shared_ptr<const CompiledScene> scene, const SessionConfig
 
 Session::~Session() = default;
 
-std::vector<PassRun> Session::Impl::passes() const {
-  std::vector<PassRun> runs;
-  for (size_t i = 0; i < integrator->passes.size(); ++i)
-    runs.push_back({integrator->passes[i].kernel, passMasks[i], buffers, params});
-  return runs;
-}
-
 void Session::Impl::submitFrame() {
   frame.previousCamera = isFirstFrame ? nextCamera : frame.camera;
   frame.camera = nextCamera;
+  const bool isStill =
+      !isFirstFrame && std::memcmp(&frame.camera, &frame.previousCamera, sizeof(rl::Camera)) == 0;
+  frame.isStillView = isStill ? 1u : 0u;
   isFirstFrame = false;
-  backend->submit(passes(), frame);
-  for (size_t i = 0; i < buffers.size(); ++i) {
-    const int other = integrator->buffers[i].swapWith;
-    if (other > static_cast<int>(i)) std::swap(buffers[i], buffers[static_cast<size_t>(other)]);
-  }
+  backend->submit(pipeline->beginFrame(!isStill), frame);
   lastFrame = frame;
   isRadianceRead = false;
   ++frame.frame;
 }
 
 FrameStats Session::Impl::collectFrame() {
-  const FrameResult result = backend->collect();
   FrameStats stats;
-  for (size_t i = 0; i < result.timesMs.size(); ++i) {
-    const PassCounters& counters = result.counters[i];
+  for (const Pipeline::PassResult& pass : pipeline->collect(backend->collect())) {
     stats.passes.push_back(
-        {integrator->passes[i].name, result.timesMs[i], counters.raysPath, counters.raysShadow});
-    stats.timeMs += result.timesMs[i];
-    stats.raysPath += counters.raysPath;
-    stats.raysShadow += counters.raysShadow;
+        {pass.name, pass.timeMs, pass.counters.raysPath, pass.counters.raysShadow});
+    stats.timeMs += pass.timeMs;
+    stats.raysPath += pass.counters.raysPath;
+    stats.raysShadow += pass.counters.raysShadow;
     for (size_t k = 0; k < stats.health.counts.size(); ++k)
-      stats.health.counts[k] += counters.health[k];
+      stats.health.counts[k] += pass.counters.health[k];
   }
   return stats;
 }
@@ -198,17 +181,15 @@ std::vector<FrameStats> Session::frames(uint32_t count) {
 
 void Session::reset(uint32_t seed, uint32_t firstFrame) {
   Impl& m = *impl_;
-  if (firstFrame > 0 && m.integrator->usesCache) {
-    failUsage(fmt::format("integrator {}: a history starts at frame 0, not at {}",
-                          m.integrator->name, firstFrame));
+  if (firstFrame > 0 && m.method.hasHistory()) {
+    failUsage(fmt::format("integrator {} with denoiser {}: a history starts at frame 0, not at {}",
+                          m.method.integrator->name, m.method.denoiser->name, firstFrame));
   }
   m.config.seed = seed;
   m.frame.seed = seed;
   m.frame.frame = firstFrame;
   m.isFirstFrame = true;
-  for (BufferId b : m.buffers) {
-    if (b != kNoBuffer) m.backend->clear(b);
-  }
+  m.pipeline->clear();
 }
 
 void Session::setCamera(const SceneCamera& camera) {
@@ -218,7 +199,7 @@ void Session::setCamera(const SceneCamera& camera) {
 const Image& Session::radiance() const {
   Impl& m = *impl_;
   if (!m.isRadianceRead) {
-    m.backend->read(m.buffers[0], m.radiance.pixels.data(),
+    m.backend->read(m.pipeline->shown(), m.radiance.pixels.data(),
                     m.radiance.pixels.size() * sizeof(glm::vec3));
     m.isRadianceRead = true;
   }
@@ -265,26 +246,16 @@ Image Session::aov(const std::string& name) const {
 }
 
 uint32_t Session::featuresNeeded() const { return impl_->needed; }
-uint32_t Session::featuresUsed() const { return impl_->used; }
+uint32_t Session::featuresUsed() const { return impl_->pipeline->featuresUsed(); }
 const SessionConfig& Session::config() const { return impl_->config; }
 const StartupReport& Session::startup() const { return impl_->startup; }
 std::string Session::rayTracing() const { return impl_->backend->rayTracing(); }
 std::string Session::device() const { return impl_->backend->device(); }
 
 std::vector<std::pair<std::string, size_t>> Session::bufferBytesPerPixel() const {
-  std::vector<std::pair<std::string, size_t>> sizes;
-  for (size_t i = 0; i < impl_->buffers.size(); ++i) {
-    const BufferInfo& b = impl_->integrator->buffers[i];
-    sizes.emplace_back(
-        b.name, impl_->buffers[i] == kNoBuffer ? 0 : bytesPerPixelOf(b, impl_->config.parameters));
-  }
-  return sizes;
+  return impl_->pipeline->bufferBytesPerPixel();
 }
 
-size_t Session::bytesPerPixel() const {
-  size_t sum = 0;
-  for (const auto& [name, bytes] : bufferBytesPerPixel()) sum += bytes;
-  return sum;
-}
+size_t Session::bytesPerPixel() const { return impl_->pipeline->bytesPerPixel(); }
 
 }  // namespace restlab

@@ -20,8 +20,8 @@ struct StartupReport;  // core/backend/backend.h
 
 struct SessionConfig {
   std::string integrator = "path";
-  std::string mode;             // "": the integrator's first
-  std::string cache = "pixel";  // ignored by integrators without reservoirs
+  std::string mode;   // "": the integrator's first
+  std::string cache;  // "": the first one; of integrators with reservoirs only
   std::string backend = "cpu";
   std::string device;      // of the Vulkan backend, a part of its name; "": the preferred one
   std::string rayTracing;  // "embree", "bvh", "query"; "": the backend's best

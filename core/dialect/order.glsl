@@ -6,6 +6,7 @@
 #include "core/dialect/frame.glsl"
 #include "core/dialect/warp.glsl"
 #include "core/dialect/camera.glsl"
+#include "core/dialect/visible.glsl"
 #include "core/dialect/texture.glsl"
 #include "core/dialect/bsdf/lambert.glsl"
 #include "core/dialect/bsdf/fresnel.glsl"

@@ -10,4 +10,5 @@
 #include "core/dialect/surface.h"
 #include "core/dialect/light.h"
 #include "core/dialect/trace_bvh.h"
+#include "core/dialect/visible.h"
 #endif

@@ -178,10 +178,19 @@ SceneCamera cameraAt(const CameraMotion& motion, uint32_t frame) {
                     path.degreesPerFrame * frame);
     case CameraPathKind::cut:
       return frame < path.cutFrame ? start : motion.afterCut;
+    case CameraPathKind::back:
+      return frame < path.cutFrame ? turned(start, positionOf(start), kUpW, path.cutDegrees)
+                                   : start;
     case CameraPathKind::keyframes:
       return keyframed(motion, frame);
   }
   return start;
+}
+
+std::optional<uint32_t> firstStillFrame(const CameraPath& path) {
+  if (path.kind == CameraPathKind::still) return 0;
+  if (path.kind == CameraPathKind::cut || path.kind == CameraPathKind::back) return path.cutFrame;
+  return std::nullopt;
 }
 
 }  // namespace restlab

@@ -16,7 +16,7 @@ class ConfigTable;  // core/config.h
 // What each does is said at the member of CameraPath that it needs. +Y is up, angles are
 // right-handed about their axis: seen from above, a camera that orbits or turns about +Y by a
 // positive angle does so anticlockwise.
-enum class CameraPathKind { still, orbit, dolly, pan, cut, keyframes };
+enum class CameraPathKind { still, orbit, dolly, pan, cut, back, keyframes };
 
 // Where the camera is at one frame.
 struct CameraKeyframe {
@@ -47,6 +47,8 @@ struct CameraPath {
   uint32_t cutFrame = 0;
   std::string cutCamera;
   double cutDegrees = 0.0;
+  // back: the camera stands turned about +Y by `cutDegrees` until `cutFrame`, from which on it is
+  // the scene's own: a cut whose reference is that of the still camera.
   // keyframes: in the order of their frames. At its frame the camera is exactly that of the
   // keyframe; before the first and after the last it stands still. In between positions and fields
   // of view (angles; an orthographic camera's extents) are linear in the frame. Between two
@@ -84,5 +86,9 @@ glm::dvec3 pointLookedAt(const Scene& scene, const SceneCamera& camera);
 // keys. Throws Error (badUsage) with place. Unknown keys are errors, but for those that the caller
 // has asked for before.
 CameraPath parseCameraPath(const ConfigTable& table);
+
+// The frame from which on the view stands still: 0, or that of the cut; nothing where it keeps
+// moving.
+std::optional<uint32_t> firstStillFrame(const CameraPath& path);
 
 }  // namespace restlab

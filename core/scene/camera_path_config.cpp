@@ -15,7 +15,8 @@ constexpr int64_t kMaxFrame = int64_t(1) << 31;
 constexpr double kMaxMetres = 1e9;
 
 // In the order of CameraPathKind.
-const std::vector<std::string> kKinds = {"still", "orbit", "dolly", "pan", "cut", "keyframes"};
+const std::vector<std::string> kKinds = {"still", "orbit", "dolly",    "pan",
+                                         "cut",   "back",  "keyframes"};
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
@@ -98,6 +99,10 @@ CameraPath parseCameraPath(const ConfigTable& table) {
     path.aboutCameraUp = table.getChoice("about", "world", {"world", "camera"}) == "camera";
   }
   if (path.kind == CameraPathKind::cut) readCut(table, path);
+  if (path.kind == CameraPathKind::back) {
+    path.cutFrame = getFrame(table, what);
+    path.cutDegrees = table.getNumber("degrees", 180.0, -360.0, 360.0);
+  }
   if ((isOrbit || path.kind == CameraPathKind::cut) && table.has("target")) {
     path.targetW = getPoint(table, "target");
   }

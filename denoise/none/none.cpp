@@ -1,13 +1,19 @@
 // none: the frame as it was shaded. The session shows the radiance buffer itself, without a copy,
 // so that a row of the table without a denoiser pays for none.
-#include "denoise/denoiser.h"
+#include "core/denoiser.h"
 
 namespace restlab {
 
 const DenoiserInfo& noneDenoiserInfo();
 
 const DenoiserInfo& noneDenoiserInfo() {
-  static const DenoiserInfo info{"none", "the frame as it was shaded"};
+  static const DenoiserInfo info = [] {
+    DenoiserInfo i;
+    i.name = "none";
+    i.summary = "the frame as it was shaded";
+    i.why = "nothing is changed";
+    return i;
+  }();
   return info;
 }
 

@@ -9,7 +9,7 @@
 #include "core/backend/backend.h"
 #include "core/caches/caches.h"
 #include "core/image/metrics.h"
-#include "denoise/denoiser.h"
+#include "core/denoiser.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/files.h"
 #include "experiments/runner/prepare.h"
@@ -40,21 +40,25 @@ Json parameterJson(const ParameterInfo& parameter) {
   return json;
 }
 
+Json parametersJson(const PartInfo& part) {
+  Json parameters = Json::array();
+  for (const ParameterInfo& parameter : part.parameters)
+    parameters.push_back(parameterJson(parameter));
+  return parameters;
+}
+
 Json integrators() {
   Json all = Json::array();
   for (const IntegratorInfo* info : integratorRegistry()) {
-    Json modes = Json::array(), parameters = Json::array();
+    Json modes = Json::array();
     for (const ModeInfo& mode : info->modes) {
       modes.push_back({{"name", mode.name}, {"bias", biasName(mode.bias)}, {"why", mode.why}});
-    }
-    for (const ParameterInfo& parameter : info->parameters) {
-      parameters.push_back(parameterJson(parameter));
     }
     all.push_back({{"name", info->name},
                    {"summary", info->summary},
                    {"uses_cache", info->usesCache},
                    {"modes", modes},
-                   {"parameters", parameters}});
+                   {"parameters", parametersJson(*info)}});
   }
   return all;
 }
@@ -82,7 +86,12 @@ Json backends() {
 Json denoisers() {
   Json all = Json::array();
   for (const DenoiserInfo* denoiser : denoiserRegistry()) {
-    all.push_back({{"name", denoiser->name}, {"summary", denoiser->summary}});
+    all.push_back({{"name", denoiser->name},
+                   {"summary", denoiser->summary},
+                   {"bias_still", biasName(denoiser->biasOfStillView)},
+                   {"bias_moving", biasName(denoiser->biasOfMovingView)},
+                   {"why", denoiser->why},
+                   {"parameters", parametersJson(*denoiser)}});
   }
   return all;
 }
@@ -127,12 +136,17 @@ Json scenes() {
   return all;
 }
 
-void printParameters(const Json& integrator) {
-  for (const Json& mode : integrator["modes"]) {
+void printParameters(const Json& part) {
+  if (part.contains("why")) {
+    fmt::print("  {} in a still view, {} in a moving one: {}\n",
+               part["bias_still"].get<std::string>(), part["bias_moving"].get<std::string>(),
+               part["why"].get<std::string>());
+  }
+  for (const Json& mode : part.value("modes", Json::array())) {
     fmt::print("  mode {:<12} {}: {}\n", mode["name"].get<std::string>(),
                mode["bias"].get<std::string>(), mode["why"].get<std::string>());
   }
-  for (const Json& parameter : integrator["parameters"]) {
+  for (const Json& parameter : part["parameters"]) {
     std::string bounds;
     if (parameter.contains("range")) {
       bounds = fmt::format(" in {:g}..{:g}", parameter["range"][0].get<double>(),

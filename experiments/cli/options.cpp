@@ -10,6 +10,7 @@
 #include "core/caches/caches.h"
 #include "core/config.h"
 #include "core/error.h"
+#include "core/method.h"
 #include "experiments/runner/backend_choice.h"
 #include "experiments/runner/files.h"
 
@@ -17,19 +18,22 @@ namespace restlab {
 
 namespace {
 
-ParameterMap parseParameters(const IntegratorInfo& info, const std::vector<std::string>& given) {
+ParameterMap parseParameters(const Method& method, const std::vector<std::string>& given) {
+  const std::vector<ParameterInfo> known = method.parameters();
   std::vector<std::string> names;
-  for (const ParameterInfo& parameter : info.parameters) names.push_back(parameter.name);
+  for (const ParameterInfo& parameter : known) names.push_back(parameter.name);
   ParameterMap parameters;
   for (const std::string& assignment : given) {
     const auto [key, value] = splitAssignment(assignment);
     const auto found = std::find(names.begin(), names.end(), key);
     if (found == names.end()) {
-      failUsage(fmt::format("--set {}: integrator {} has no parameter '{}'{}", assignment,
-                            info.name, key, didYouMean(key, names)));
+      const bool isPlain = method.denoiser->parameters.empty();
+      failUsage(fmt::format(
+          "--set {}: integrator {}{} has no parameter '{}'{}", assignment, method.integrator->name,
+          isPlain ? "" : " with denoiser " + method.denoiser->name, key, didYouMean(key, names)));
     }
-    parameters[key] = parseParameter(info.parameters[size_t(found - names.begin())], value,
-                                     "--set " + assignment);
+    parameters[key] =
+        parseParameter(known[size_t(found - names.begin())], value, "--set " + assignment);
   }
   return parameters;
 }
@@ -125,8 +129,10 @@ void addMethodOptions(CLI::App& verb, MethodOptions& options) {
   verb.add_option("--integrator", options.integrator, "restlab list integrators (default path)");
   verb.add_option("--mode", options.mode, "of the integrator (default: its first)");
   verb.add_option("--cache", options.cache, "where reservoirs live (default pixel)");
+  verb.add_option("--denoiser", options.denoiser, "restlab list denoisers (default none)");
   addBackendOptions(verb, options.backend);
-  verb.add_option("--set", options.parameters, "KEY=VALUE: a parameter of the integrator")
+  verb.add_option("--set", options.parameters,
+                  "KEY=VALUE: a parameter of the integrator or the denoiser")
       ->take_all()
       ->allow_extra_args(false);
   verb.add_flag("--rr", options.russianRoulette, "Russian roulette (default off)");
@@ -152,10 +158,15 @@ SessionConfig makeConfig(const SceneOptions& scene, const MethodOptions& method)
     failUsage(fmt::format("--mode {}: integrator {} knows {}{}", method.mode, info.name,
                           fmt::join(modes, ", "), didYouMean(method.mode, modes)));
   }
-  checkCacheName(method.cache);
+  if (!method.cache.empty()) checkCacheName(method.cache);
+  if (!method.cache.empty() && !info.usesCache) {
+    failUsage(fmt::format("--cache {}: integrator {} keeps no reservoirs: it has no use for one",
+                          method.cache, info.name));
+  }
   applyBackend(method.backend, config);
   config.cache = method.cache;
-  config.parameters = parseParameters(info, method.parameters);
+  config.denoiser = findDenoiser(method.denoiser).name;
+  config.parameters = parseParameters(findMethod(config), method.parameters);
   config.russianRoulette = method.russianRoulette;
   config.specialise = !method.general;
   config.width = scene.width;

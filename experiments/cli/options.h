@@ -33,7 +33,8 @@ struct BackendChoice {
 struct MethodOptions {
   std::string integrator = "path";
   std::string mode;
-  std::string cache = "pixel";
+  std::string cache;  // "": the first, where the integrator has a use for one
+  std::string denoiser = "none";
   BackendChoice backend;
   std::vector<std::string> parameters;  // KEY=VALUE
   bool russianRoulette = false;

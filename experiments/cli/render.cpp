@@ -6,6 +6,7 @@
 
 #include "core/image/exr_limits.h"
 #include "core/image/metrics.h"
+#include "core/method.h"
 #include "core/scene/compiled_scene.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
@@ -147,7 +148,7 @@ void render(RenderOptions options) {
   logDetail(fmt::format("{}: {} triangles, loaded in {:.0f} ms; {} at {}x{}",
                         prepared.scene->source().name, prepared.scene->instancedTriangleCount(),
                         prepared.loadTimeMs, config.integrator, config.width, config.height));
-  const Rendered rendered = renderFrames(session, options, hasHistory(config));
+  const Rendered rendered = renderFrames(session, options, findMethod(config).hasHistory());
   const LayeredImage file = layers(session, prepared, rendered, aovs);
   StartupLog further;  // of the layers
   further.add(session, kernels, notices);

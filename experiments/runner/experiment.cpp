@@ -34,9 +34,11 @@ std::vector<PassTiming> medianPasses(const std::vector<std::vector<PassTiming>>&
   return medians;
 }
 
-bool isCheckpoint(const Suite& suite, uint32_t frame) {
-  return std::find(suite.checkpoints.begin(), suite.checkpoints.end(), frame) !=
-         suite.checkpoints.end();
+// The age at which the error of this frame is recorded; 0: it is not.
+uint32_t ageOf(const Suite& suite, uint32_t frame) {
+  const auto found = std::find_if(suite.ages.begin(), suite.ages.end(),
+                                  [&](uint32_t age) { return suite.frameOfAge(age) == frame; });
+  return found == suite.ages.end() ? 0 : *found;
 }
 
 // 1, 2, 4, ... frames, and all of them.
@@ -82,7 +84,7 @@ SessionConfig methodConfig(const Suite& suite, const SuiteMethod& method,
 
 size_t hostBytesPerPixelOfMethod(const Suite& suite) {
   // The session's image, those that are kept of a run, the one that is shown, those of the runs.
-  size_t images = 3 + suite.checkpoints.size(), sums = 0;
+  size_t images = 3 + suite.ages.size(), sums = 0;
   images += 1 + std::min<size_t>(suite.runs, BiasRuns::kGroups);
   if (suite.accumulate) {
     images += 2 + size_t(std::bit_width(suite.warmupFrames + suite.timedFrames));
@@ -168,7 +170,13 @@ struct BlockExecutor::Impl {
     }
     // Only copied here: errors are computed after the run, not between timed frames.
     const bool isBefore = block.referenceBefore && frame + 1 == suite.warmupFrames;
-    if (frame == suite.warmupFrames || isBefore || isCheckpoint(suite, frame))
+    const uint32_t age = ageOf(suite, frame);
+    if (age > 0) {
+      AgedError& aged = result.aged.emplace_back();
+      aged.age = age;
+      aged.timeMs = suite.timing ? stats.timeMs : std::numeric_limits<double>::quiet_NaN();
+    }
+    if (frame == suite.warmupFrames || isBefore || age > 0)
       frames.kept.emplace_back(frame, sessions[m]->radiance());
     if (suite.accumulate) accumulate(sessions[m]->radiance(), frame, frames);
     if (isTimed && suite.temporal && !block.motion) {
@@ -191,14 +199,19 @@ struct BlockExecutor::Impl {
 
   void measure(RunResult& result, Frames& frames, Image& measured) const {
     if (suite.timing) result.passes = medianPasses(frames.passes);
-    if (block.referenceBefore && frames.kept.size() > 1) {
-      result.temporal = figuresOfPair(frames.kept[0].second, frames.kept[1].second,
-                                      *block.referenceBefore, block.reference);
-      frames.kept.erase(frames.kept.begin());
+    if (block.referenceBefore) {
+      const auto at = std::find_if(frames.kept.begin(), frames.kept.end(), [&](const auto& kept) {
+        return kept.first + 1 == suite.warmupFrames;
+      });
+      result.temporal =
+          figuresOfPair(at->second, (at + 1)->second, *block.referenceBefore, block.reference);
+      if (ageOf(suite, at->first) == 0) frames.kept.erase(at);
     }
     for (auto& [frame, image] : frames.kept) {
       const FrameError error = measureFrame(image, block.reference, frame, block.withoutLights);
-      if (isCheckpoint(suite, frame)) result.checkpoints.push_back(error);
+      for (AgedError& aged : result.aged) {
+        if (suite.frameOfAge(aged.age) == frame) aged.error = error;
+      }
       if (frame != suite.warmupFrames) continue;
       result.measured = error;
       result.figures = measureFigures(suite, block, image);

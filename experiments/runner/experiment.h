@@ -58,11 +58,18 @@ struct TemporalFigures {
   std::array<double, 8> autocorrelation{};
 };
 
+// Error of one frame of the history, and what it cost.
+struct AgedError {
+  uint32_t age = 0;     // frames since the view stands still, this one included
+  double timeMs = 0.0;  // of this frame's passes; NaN: not measured
+  FrameError error;
+};
+
 struct RunResult {
   size_t method = 0;
   uint32_t run = 0, seed = 0;
   FrameError measured;                        // of the frame after the warm-up
-  std::vector<FrameError> checkpoints;        // the suite's further frames
+  std::vector<AgedError> aged;                // of the suite's ages
   std::vector<AccumulatedError> accumulated;  // 1, 2, 4, ... frames, where the suite asks for it
   std::optional<TemporalFigures> temporal;    // where the suite asks for it
   // Of the timed frames: the passes, nothing else; empty where they were not measured. Of an image

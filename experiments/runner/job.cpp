@@ -133,7 +133,7 @@ JobIdentity jobIdentity(const Suite& suite, const PreparedScene& prepared, const
                     {"run", run},
                     {"warmup_frames", suite.warmupFrames},
                     {"timed_frames", suite.timedFrames},
-                    {"checkpoints", suite.checkpoints},
+                    {"ages", suite.ages},
                     {"accumulate", suite.accumulate ? Json("from the first frame") : Json(false)},
                     {"temporal", suite.temporal ? Json("with squares") : Json(false)},
                     {"timing", suite.timing},

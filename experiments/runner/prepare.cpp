@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "core/method.h"
 #include "experiments/runner/build_info.h"
 #include "experiments/runner/files.h"
 #include "experiments/runner/log.h"
@@ -212,7 +213,7 @@ std::map<std::string, std::string> describe(const PreparedScene& prepared,
       {"environment", prepared.environmentName},
       {"integrator", config.integrator},
       {"mode", config.mode},
-      {"cache", hasHistory(config) ? config.cache : "none"},
+      {"cache", findIntegrator(config.integrator).usesCache ? config.cache : "none"},
       {"backend", config.backend},
       {"denoiser", config.denoiser},
       {"width", std::to_string(config.width)},
@@ -233,7 +234,7 @@ std::map<std::string, std::string> describe(const PreparedScene& prepared,
     words["environment_rotation"] = rotationText(source.environment->rotation);
     words["environment_scale"] = fmt::format("{:.9g}", source.environment->scale);
   }
-  const ParameterMap all = resolveParameters(findIntegrator(config.integrator), config.parameters);
+  const ParameterMap all = resolveParameters(findMethod(config), config.parameters);
   for (const auto& [key, value] : all) words["parameter." + key] = parameterText(value);
   return words;
 }
@@ -251,7 +252,5 @@ void describeCamera(const SceneCamera& camera, std::map<std::string, std::string
   words["camera_to_world"] = matrix;
   words["camera_yfov"] = fmt::format("{:.9g}", camera.yfov);
 }
-
-bool hasHistory(const SessionConfig& config) { return findIntegrator(config.integrator).usesCache; }
 
 }  // namespace restlab

@@ -75,7 +75,4 @@ std::map<std::string, std::string> describe(const PreparedScene& prepared,
 // Replaces the camera in `words` by one that is not of the scene: `camera_index` is "none".
 void describeCamera(const SceneCamera& camera, std::map<std::string, std::string>& words);
 
-// True when frames of this integrator depend on earlier ones.
-bool hasHistory(const SessionConfig& config);
-
 }  // namespace restlab

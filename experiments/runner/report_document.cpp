@@ -64,6 +64,9 @@ const std::vector<Column>& columns() {
        [](const MethodSummary& row) { return row.mse; }},
       {"mse_ratio", "MSE, times lower", "", "higher", "MSE of the baseline / MSE",
        [](const MethodSummary& row) { return row.mseRatio; }},
+      {"average_ratio", "than its average", "", "higher",
+       "MSE of the plain average of the baseline's frames (path + accumulate) / MSE",
+       [](const MethodSummary& row) { return row.ratioToAverage; }},
       {"efficiency", "efficiency", "", "higher", "MSE ratio / time ratio",
        [](const MethodSummary& row) { return row.efficiencyRatio; }},
       {"energy", "energy", "", "none", "mean(image) / mean(reference); its ideal is 1",
@@ -227,6 +230,39 @@ Json singleFrames(const std::vector<MethodSummary>& rows) {
           {"series", std::move(series)}};
 }
 
+// A figure of single frames over the age of the history. `ratio`: of nothing where it is unknown.
+Json agePlot(const std::vector<MethodSummary>& rows, const char* id, const std::string& title,
+             const char* yTitle, Interval (*value)(const AgeSummary&)) {
+  Json series = Json::array();
+  for (const MethodSummary& row : rows) {
+    Json points = Json::array();
+    for (const AgeSummary& age : row.ages) {
+      const Interval of = value(age);
+      if (std::isnan(of.value)) continue;
+      points.push_back(
+          {double(age.age), finiteJson(of.value), finiteJson(of.lo), finiteJson(of.hi)});
+    }
+    if (!points.empty()) series.push_back({{"name", row.method->name}, {"points", points}});
+  }
+  return {{"id", id},
+          {"title", title},
+          {"x", {{"title", "frames since the view stands still"}, {"log", true}}},
+          {"y", {{"title", yTitle}, {"log", true}}},
+          {"series", std::move(series)}};
+}
+
+void addAgePlots(const std::vector<MethodSummary>& rows, Json& plots) {
+  if (rows.front().ages.empty()) return;
+  plots.push_back(agePlot(rows, "age", "MSE of a single frame over the age of the history", "MSE",
+                          [](const AgeSummary& age) { return age.mse; }));
+  plots.push_back(agePlot(rows, "age-path", "times lower than path traced, by age",
+                          "MSE of path / MSE", [](const AgeSummary& age) { return age.mseRatio; }));
+  Json average =
+      agePlot(rows, "age-average", "times lower than the average of its frames, by age",
+              "MSE of the average / MSE", [](const AgeSummary& age) { return age.ratioToAverage; });
+  if (!average["series"].empty()) plots.push_back(std::move(average));
+}
+
 Json correlations(const std::vector<MethodSummary>& rows) {
   Json series = Json::array();
   for (const MethodSummary& row : rows) {
@@ -318,6 +354,7 @@ Json blockDocument(const Suite& suite, const std::vector<MethodSummary>& rows, f
         rows, "error-frames", "MSE of accumulated frames over their number", "frames",
         [](const ConvergencePoint& point) { return double(point.frames); }, false));
   }
+  addAgePlots(rows, plots);
   if (suite.timing) plots.push_back(singleFrames(rows));
   const bool isStill = !suite.hasMovingCamera();
   if (rows.front().temporal && isStill) plots.push_back(correlations(rows));

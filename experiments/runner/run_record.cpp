@@ -223,10 +223,12 @@ std::vector<Json> runLines(const Suite& suite, const BlockResult& block, const M
   line["provenance"] = provenanceJson();
 
   std::vector<Json> lines;
-  for (const FrameError& checkpoint : run.checkpoints) {
+  for (const AgedError& aged : run.aged) {
     Json at = line;
-    at["kind"] = "checkpoint";
-    addError(at, checkpoint);
+    at["kind"] = "age";
+    at["age"] = aged.age;
+    at["time_ms_of_frame"] = finiteJson(aged.timeMs);
+    addError(at, aged.error);
     lines.push_back(std::move(at));
   }
   for (const AccumulatedError& point : run.accumulated) {
@@ -260,8 +262,9 @@ RunResult runOfLines(const std::vector<Json>& lines, MethodResult& method) {
     if (line.at("schema").get<int>() != kResultsSchema)
       throw std::invalid_argument("lines of another schema");
     const std::string kind = line.at("kind").get<std::string>();
-    if (kind == "checkpoint") {
-      run.checkpoints.push_back(errorOf(line));
+    if (kind == "age") {
+      run.aged.push_back({line.at("age").get<uint32_t>(), finiteNumber(line.at("time_ms_of_frame")),
+                          errorOf(line)});
       continue;
     }
     if (kind == "accumulated") {

@@ -7,6 +7,7 @@
 
 #include "core/config.h"
 #include "core/error.h"
+#include "core/method.h"
 #include "experiments/runner/backend_choice.h"
 #include "experiments/runner/files.h"
 #include "experiments/runner/suite_methods.h"
@@ -122,17 +123,17 @@ void requireUniqueNames(const Suite& suite) {
 }  // namespace
 
 std::string SuiteMethod::cacheName() const {
-  return !images && hasHistory(session) ? session.cache : "none";
+  return !images && findIntegrator(session.integrator).usesCache ? session.cache : "none";
 }
 
 ParameterMap SuiteMethod::parameters() const {
   if (images) return {};
-  return resolveParameters(findIntegrator(session.integrator), session.parameters);
+  return resolveParameters(findMethod(session), session.parameters);
 }
 
-BiasClass SuiteMethod::bias() const {
+BiasClass SuiteMethod::bias(bool cameraMoves) const {
   if (images) return images->bias;
-  return biasClassOf(findIntegrator(session.integrator), session.mode, parameters());
+  return findMethod(session).bias(session.mode, parameters(), cameraMoves);
 }
 
 std::span<const SuiteMethod> Suite::rendered() const {
@@ -149,13 +150,25 @@ size_t Suite::yardstick(size_t method) const {
         all.begin(), all.end(), [&](const SuiteMethod& other) { return other.name == baseline; });
     return named == all.end() ? methods.size() : size_t(named - all.begin());
   }
-  for (size_t other = 0; other < all.size(); ++other) {
-    const SessionConfig& session = all[other].session;
-    const std::string& backend =
-        (methods[method].images ? all.front() : methods[method]).session.backend;
-    if (session.integrator == "path" && session.backend == backend) return other;
-  }
-  return methods.size();
+  return firstPath(method, "none");
+}
+
+size_t Suite::average(size_t method) const { return firstPath(method, "accumulate"); }
+
+size_t Suite::firstPath(size_t method, const std::string& denoiser) const {
+  const std::span<const SuiteMethod> all = rendered();
+  const std::string& backend =
+      (methods[method].images ? all.front() : methods[method]).session.backend;
+  const auto first = std::find_if(all.begin(), all.end(), [&](const SuiteMethod& other) {
+    const SessionConfig& session = other.session;
+    return session.integrator == "path" && session.denoiser == denoiser &&
+           session.backend == backend;
+  });
+  return first == all.end() ? methods.size() : size_t(first - all.begin());
+}
+
+uint32_t Suite::frameOfAge(uint32_t age) const {
+  return firstStillFrame(cameraPath).value_or(0) + age - 1;
 }
 
 size_t Suite::onFirstBackend(size_t method) const {

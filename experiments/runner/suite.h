@@ -46,7 +46,7 @@ struct SuiteMethod {
   std::string cacheName() const;
   // All of the integrator's, defaults too.
   ParameterMap parameters() const;
-  BiasClass bias() const;
+  BiasClass bias(bool cameraMoves) const;
 };
 
 // Pixels of which further figures are taken; what is given is intersected.
@@ -74,8 +74,9 @@ struct Suite {
   uint32_t warmupFrames = 32;  // the frame after them is the one whose error is measured
   uint32_t timedFrames = 8;    // per run, the measured one first
   uint32_t runs = 8;
-  uint32_t seed = 1;                  // of run 0; run r has seed + r
-  std::vector<uint32_t> checkpoints;  // further frames of the history whose error is recorded
+  uint32_t seed = 1;  // of run 0; run r has seed + r
+  // Frames since the view stands still, the first one being 1, whose error is recorded too.
+  std::vector<uint32_t> ages;
   bool accumulate = false;  // the error of the mean of the first 1, 2, 4, ... frames is recorded
   bool temporal = false;    // flicker and correlation of the timed frames are recorded
   bool timing = true;       // false: no times, so that runs may be made side by side
@@ -100,15 +101,23 @@ struct Suite {
   // Index of a method's yardstick: the baseline, else the first `path` method on the same backend,
   // for a row of images on the first one; methods.size() where there is none.
   size_t yardstick(size_t method) const;
+  // Index of the plain average of that yardstick's frames: the first `path` with the denoiser
+  // `accumulate` on the same backend; methods.size() where there is none.
+  size_t average(size_t method) const;
   // Index of the first method that differs in nothing but the backend; itself where it is the
   // first.
   size_t onFirstBackend(size_t method) const;
   // Backends of the methods, in their order, each once.
   std::vector<std::string> methodBackends() const;
+  // Of the history; `age` as in `ages`.
+  uint32_t frameOfAge(uint32_t age) const;
   // True where the camera is not the scene's in every frame.
   bool hasMovingCamera() const { return cameraPath.kind != CameraPathKind::still; }
   // Completes `config`, whose backend is set, by what the settings say of that backend.
   void chooseDevice(SessionConfig& config) const;
+
+ private:
+  size_t firstPath(size_t method, const std::string& denoiser) const;
 };
 
 // Reads a suite with `--set KEY=VALUE` overrides: a key of [settings], of [reference] as

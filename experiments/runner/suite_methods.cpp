@@ -7,7 +7,7 @@
 
 #include "core/caches/caches.h"
 #include "core/error.h"
-#include "denoise/denoiser.h"
+#include "core/method.h"
 #include "experiments/runner/suite_settings.h"
 
 namespace restlab {
@@ -65,15 +65,21 @@ std::vector<SuiteMethod> readMethod(const ConfigTable& table, const ConfigTable&
   method.session.mode = table.getChoice("mode", modes.front(), modes);
   std::vector<std::string> caches;
   for (const CacheInfo& cache : cacheRegistry()) caches.push_back(cache.name);
-  method.session.cache = table.getChoice("cache", "pixel", caches);
+  if (info.usesCache) {
+    method.session.cache = table.getChoice("cache", caches.front(), caches);
+  } else if (table.has("cache")) {
+    table.fail("cache", fmt::format("integrator {} keeps no reservoirs: it has no use for a cache",
+                                    info.name));
+  }
   method.session.specialise = !table.getBool("general", false);
   std::vector<std::string> denoisers;
   for (const DenoiserInfo* denoiser : denoiserRegistry()) denoisers.push_back(denoiser->name);
   method.session.denoiser = table.getChoice("denoiser", "none", denoisers);
   const std::string fallback =
-      info.name + (modes.size() < 2 ? "" : " (" + method.session.mode + ")");
+      info.name + (modes.size() < 2 ? "" : " (" + method.session.mode + ")") +
+      (method.session.denoiser == "none" ? "" : " + " + method.session.denoiser);
   method.name = table.getString("name", fallback);
-  for (const ParameterInfo& parameter : info.parameters) {
+  for (const ParameterInfo& parameter : findMethod(method.session).parameters()) {
     if (const auto value = table.getParameter(parameter)) {
       method.session.parameters[parameter.name] = *value;
     }
@@ -93,9 +99,9 @@ std::vector<SuiteMethod> readMethod(const ConfigTable& table, const ConfigTable&
   return all;
 }
 
-// Whether a sweep over all methods means this integrator: `path` has one mode and no cache.
-bool isMeant(const SweepAxis& axis, const std::string& integrator) {
-  const std::vector<std::string> known = methodKeys(integrator);
+// Whether a sweep over all methods means these parts: `path` has one mode and no cache.
+bool isMeant(const SweepAxis& axis, const std::string& integrator, const std::string& denoiser) {
+  const std::vector<std::string> known = methodKeys(integrator, denoiser);
   if (std::find(known.begin(), known.end(), axis.leaf) == known.end()) return false;
   if (!axis.method.empty()) return true;
   for (const IntegratorInfo* info : integratorRegistry()) {
@@ -113,15 +119,22 @@ std::vector<SuiteMethod> readSwept(ConfigTable& table, const ConfigTable& settin
   const std::string name = table.getString("name", integrator);
   const bool isNamed = table.has("name");
   std::vector<std::string> integrators = {integrator};
+  std::vector<std::string> denoisers = {table.getString("denoiser", "none")};
   for (const SweepAxis& axis : sweep.methods) {
-    if (axis.leaf != "integrator") continue;
-    for (const std::string& text : axis.texts) integrators.push_back(unquoted(text));
+    std::vector<std::string>* parts = axis.leaf == "integrator" ? &integrators
+                                      : axis.leaf == "denoiser" ? &denoisers
+                                                                : nullptr;
+    for (const std::string& text : axis.texts) {
+      if (parts) parts->push_back(unquoted(text));
+    }
   }
   std::vector<SweepAxis> axes;
   for (const SweepAxis& axis : sweep.methods) {
     if (!axis.method.empty() && axis.method != name) continue;
-    const bool isKnown = std::any_of(integrators.begin(), integrators.end(),
-                                     [&](const std::string& of) { return isMeant(axis, of); });
+    const bool isKnown = std::any_of(integrators.begin(), integrators.end(), [&](const auto& of) {
+      return std::any_of(denoisers.begin(), denoisers.end(),
+                         [&](const auto& with) { return isMeant(axis, of, with); });
+    });
     if (isKnown) axes.push_back(axis);
   }
   std::vector<SuiteMethod> all;

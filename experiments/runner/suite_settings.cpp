@@ -132,12 +132,12 @@ void readSettings(const ConfigTable& table, Suite& suite) {
     suite.components.push_back(component);
   }
   if (suite.components.empty()) table.fail("components", "'components' is empty");
-  for (const int64_t frame : table.getIntegers("checkpoints", {}, 0, kMaxCount)) {
-    if (frame >= suite.warmupFrames + suite.timedFrames) {
-      table.fail("checkpoints", fmt::format("'checkpoints' has {}, but a run ends at frame {}",
-                                            frame, suite.warmupFrames + suite.timedFrames - 1));
+  for (const int64_t age : table.getIntegers("ages", {}, 1, kMaxCount)) {
+    if (!suite.ages.empty() && suite.ages.back() >= age) {
+      table.fail("ages", fmt::format("'ages' has {} after {}: they stand in order, each once", age,
+                                     suite.ages.back()));
     }
-    suite.checkpoints.push_back(uint32_t(frame));
+    suite.ages.push_back(uint32_t(age));
   }
   table.finish();
 }
@@ -161,11 +161,22 @@ void chooseCameraPath(const ConfigTable& root, const ConfigTable& settings, Suit
                   fmt::format("no [[camera_path]] is named '{}'{}", suite.cameraPathName,
                               didYouMean(suite.cameraPathName, names)));
   }
-  if (!suite.hasMovingCamera()) return;
+  const uint32_t length = suite.warmupFrames + suite.timedFrames;
   // There is one reference, of the measured frame's camera.
-  if (!suite.checkpoints.empty())
-    settings.fail("checkpoints",
-                  "'checkpoints' are of a still camera: each would need a reference");
+  const std::optional<uint32_t> still = firstStillFrame(suite.cameraPath);
+  if (!suite.ages.empty() && (!still || *still > suite.warmupFrames)) {
+    settings.fail("ages", fmt::format("'ages' count the frames of a view that stands still; on the "
+                                      "path '{}' {}",
+                                      suite.cameraPathName,
+                                      still ? "the cut comes after the measured frame"
+                                            : "each would need a reference"));
+  }
+  if (!suite.ages.empty() && suite.frameOfAge(suite.ages.back()) >= length) {
+    settings.fail("ages",
+                  fmt::format("'ages' has {}, which is frame {}, but a run ends at frame {}",
+                              suite.ages.back(), suite.frameOfAge(suite.ages.back()), length - 1));
+  }
+  if (!suite.hasMovingCamera()) return;
   if (suite.accumulate)
     settings.fail("accumulate", "'accumulate' is of a still camera: frames of a moving one differ");
 }

@@ -351,6 +351,29 @@ void judge(MethodSummary& row) {
   }
 }
 
+// Against the average of the yardstick's frames, and all of both over the age of the history.
+void compareAges(const Suite& suite, const BlockResult& block, size_t m,
+                 const std::vector<size_t>& rowOf, std::vector<MethodSummary>& rows) {
+  MethodSummary& row = rows[rowOf[m]];
+  const auto runsOf = [&](size_t method) {
+    const size_t at = rowOf[method];
+    return at < rows.size() ? AgeYardstick{&block.methods[method].runs, rows[at].noise}
+                            : AgeYardstick{};
+  };
+  const AgeYardstick own = runsOf(m), average = runsOf(suite.average(m));
+  row.isAverage = m == suite.average(m);
+  if (average.runs && !row.isAverage && !row.method->images) {
+    const size_t paired = std::min(own.runs->size(), average.runs->size());
+    std::vector<double> mse, others;
+    for (size_t r = 0; r < paired; ++r) {
+      mse.push_back(runMse((*own.runs)[r]));
+      others.push_back(runMse((*average.runs)[r]));
+    }
+    row.ratioToAverage = pairedRatioInterval(others, mse, sharedNoise(average.noise, own.noise));
+  }
+  if (!own.runs->front().aged.empty()) row.ages = agesOf(own, runsOf(suite.yardstick(m)), average);
+}
+
 }  // namespace
 
 std::vector<MethodSummary> summarise(const Suite& suite, const BlockResult& block) {
@@ -365,7 +388,7 @@ std::vector<MethodSummary> summarise(const Suite& suite, const BlockResult& bloc
     row.method = &suite.methods[m];
     row.block = &block;
     row.result = &result;
-    row.bias = row.method->bias();
+    row.bias = row.method->bias(suite.hasMovingCamera());
     row.runs = uint32_t(result.runs.size());
     summariseTimes(result, pixels, row);
     summariseErrors(result, block.reference, row);
@@ -392,6 +415,7 @@ std::vector<MethodSummary> summarise(const Suite& suite, const BlockResult& bloc
                               accumulatedNoise(row));
       noteSpeedUp(row);
     }
+    compareAges(suite, block, m, rowOf, rows);
     const size_t first = suite.onFirstBackend(m);
     if (first != m && rowOf[first] < rows.size())
       row.timeToFirstBackend = timeAgainst(*row.result, block.methods[first]);

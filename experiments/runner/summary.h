@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/image/intervals.h"
+#include "experiments/runner/age.h"
 #include "experiments/runner/convergence.h"
 #include "experiments/runner/experiment.h"
 #include "experiments/runner/reference_noise.h"
@@ -68,6 +69,11 @@ struct MethodSummary {
   Interval timeToFirstBackend{kUnknown, kUnknown, kUnknown};
   bool isYardstick = false;
   Interval efficiencyRatio{kUnknown, kUnknown, kUnknown};  // mseRatio / timeRatio
+
+  // MSE of the plain average of the yardstick's frames / MSE; unknown where the suite has none.
+  Interval ratioToAverage{kUnknown, kUnknown, kUnknown};
+  bool isAverage = false;        // this row is that average
+  std::vector<AgeSummary> ages;  // the suite's
 
   std::optional<Convergence> convergence;   // where the suite accumulates
   std::optional<SpeedUp> speedUp;           // against the yardstick

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "core/error.h"
-#include "core/integrator.h"
+#include "core/method.h"
 
 namespace restlab {
 
@@ -34,7 +34,7 @@ void requireSomeMethod(const ConfigTable& root, const std::vector<std::string>& 
     named = true;
     // An image is of one setting.
     if (table.has("image")) continue;
-    const std::vector<std::string> known = methodKeys(integrator);
+    const std::vector<std::string> known = methodKeys(table);
     if (contains(known, axis.leaf)) return;
     leaves.insert(leaves.end(), known.begin(), known.end());
   }
@@ -71,18 +71,20 @@ const std::vector<std::string>& methodKeys() {
   return keys;
 }
 
-std::vector<std::string> methodKeys(const std::string& integrator) {
+std::vector<std::string> methodKeys(const std::string& integrator, const std::string& denoiser) {
   std::vector<std::string> names = methodKeys();
-  for (const IntegratorInfo* info : integratorRegistry()) {
-    if (info->name != integrator) continue;
-    for (const ParameterInfo& parameter : info->parameters) names.push_back(parameter.name);
-  }
+  const auto add = [&](const PartInfo& part, const std::string& chosen) {
+    if (part.name != chosen) return;
+    for (const ParameterInfo& parameter : part.parameters) names.push_back(parameter.name);
+  };
+  for (const IntegratorInfo* info : integratorRegistry()) add(*info, integrator);
+  for (const DenoiserInfo* info : denoiserRegistry()) add(*info, denoiser);
   return names;
 }
 
 std::vector<std::string> methodKeys(const ConfigTable& method) {
   if (method.has("image")) return {"image", "time_ms", "bias"};
-  return methodKeys(method.getString("integrator", "path"));
+  return methodKeys(method.getString("integrator", "path"), method.getString("denoiser", "none"));
 }
 
 std::string sweepValues(const std::string& key, const std::string& values) {

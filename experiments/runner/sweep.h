@@ -24,7 +24,7 @@ struct Sweep {
 // What --set and [sweep] may change of a method besides its integrator's parameters.
 const std::vector<std::string>& methodKeys();
 // And with the parameters of that integrator.
-std::vector<std::string> methodKeys(const std::string& integrator);
+std::vector<std::string> methodKeys(const std::string& integrator, const std::string& denoiser);
 // Of a [[method]], whether it is rendered or a row of images.
 std::vector<std::string> methodKeys(const ConfigTable& method);
 

@@ -194,12 +194,87 @@ std::string temporalTable(const std::vector<MethodSummary>& rows) {
          text;
 }
 
+std::string markedName(const MethodSummary& row) {
+  return row.method->name + (row.counts ? "" : " (*)");
+}
+
+// What each row costs and what it leaves.
+std::string errorTable(const std::vector<MethodSummary>& rows) {
+  const bool hasAverage = std::any_of(rows.begin(), rows.end(), [](const MethodSummary& row) {
+    return !std::isnan(row.ratioToAverage.value);
+  });
+  std::string text = fmt::format(
+      "| method | time per frame | MSE | than the path tracer |{} energy |\n"
+      "|---|---|---|---|{}---|\n",
+      hasAverage ? " than its average |" : "", hasAverage ? "---|" : "");
+  for (const MethodSummary& row : rows) {
+    text += fmt::format("| {} | {} | {} | {} |", markedName(row), timeCell(row), withEnds(row.mse),
+                        ratioCell(row.mseRatio, row.isYardstick));
+    if (hasAverage) text += fmt::format(" {} |", ratioCell(row.ratioToAverage, row.isAverage));
+    text += fmt::format(" {} |\n", withEnds(row.energyRatio, kEnergyDigits));
+  }
+  return text;
+}
+
+// What makes up the error, and what it took.
+std::string detailsTable(const std::vector<MethodSummary>& rows) {
+  const std::string backends = backendColumn(*rows.front().suite, rows);
+  std::string text = fmt::format(
+      "\n| method | efficiency | bias^2/MSE | variance | worst 0.1 % | rays/px |{}\n"
+      "|---|---|---|---|---|---|{}\n",
+      backends.empty() ? "" : fmt::format(" {} |", backends), backends.empty() ? "" : "---|");
+  for (const MethodSummary& row : rows) {
+    text += fmt::format("| {} | {} | {} | {} | {:.0f} % | {} |{}\n", markedName(row),
+                        efficiencyCell(row), biasCell(row),
+                        std::isnan(row.variance.value) ? "unknown" : withEnds(row.variance),
+                        100.0 * row.worstShare, raysCell(row), backendCell(row, backends));
+  }
+  text +=
+      "\n| method | MSE without lights in view | relMSE without the worst 0.1 % |\n"
+      "|---|---|---|\n";
+  for (const MethodSummary& row : rows) {
+    text += fmt::format("| {} | {} | {} |\n", markedName(row), withoutLightsCell(row),
+                        trimmedCell(row));
+  }
+  return text;
+}
+
+// One line an age, one column a method; "" where nothing is known.
+std::string agesTable(const std::vector<MethodSummary>& rows, const char* against,
+                      Interval (*ratio)(const AgeSummary&)) {
+  std::vector<const MethodSummary*> known;
+  for (const MethodSummary& row : rows) {
+    const bool isItself = std::all_of(row.ages.begin(), row.ages.end(), [&](const AgeSummary& age) {
+      const Interval of = ratio(age);
+      return std::isnan(of.value) || (of.value == 1.0 && of.lo == 1.0 && of.hi == 1.0);
+    });
+    if (!isItself) known.push_back(&row);
+  }
+  if (known.empty()) return "";
+  std::string text = fmt::format(
+      "\nMSE of {} over MSE, by the number of frames since the view stands still; above 1: lower "
+      "error:\n\n| frame |",
+      against);
+  std::string rule = "|---|";
+  for (const MethodSummary* row : known) {
+    text += fmt::format(" {} |", markedName(*row));
+    rule += "---|";
+  }
+  text += "\n" + rule + "\n";
+  for (size_t i = 0; i < known.front()->ages.size(); ++i) {
+    text += fmt::format("| {} |", known.front()->ages[i].age);
+    for (const MethodSummary* row : known)
+      text += fmt::format(" {} |", withEnds(ratio(row->ages[i])));
+    text += "\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string blockTable(const Suite& suite, const std::vector<MethodSummary>& rows) {
   if (rows.empty()) return "";
   const BlockResult& block = *rows.front().block;
-  const std::string backends = backendColumn(suite, rows);
   std::string text = fmt::format(
       "## {}, {} light{}\n\n{}Camera {}{}, {}x{}, {} scattering events, Russian roulette {}, "
       "filter "
@@ -212,12 +287,7 @@ std::string blockTable(const Suite& suite, const std::vector<MethodSummary>& row
       filterName(suite.pixelFilter), suite.multiscatter ? ", multiple scattering compensated" : "",
       rows.front().runs, suite.warmupFrames, suite.timedFrames, block.reference.spp,
       block.reference.relmse);
-  text += fmt::format(
-      "| method | time per frame |{} MSE | | efficiency | energy | bias^2/MSE | variance | worst "
-      "0.1 % | MSE "
-      "without lights in view | relMSE without the worst 0.1 % | rays/px |\n"
-      "|---|---|{}---|---|---|---|---|---|---|---|---|---|\n",
-      backends.empty() ? "" : fmt::format(" {} |", backends), backends.empty() ? "" : "---|");
+  text += errorTable(rows);
   std::string notes;
   if (!suite.baseline.empty()) notes += fmt::format("- ratios are against {}\n", suite.baseline);
   if (rows.front().runs < kFewRuns) {
@@ -226,17 +296,14 @@ std::string blockTable(const Suite& suite, const std::vector<MethodSummary>& row
         rows.front().runs == 1 ? "one run" : fmt::format("{} runs", rows.front().runs), kFewRuns);
   }
   for (const MethodSummary& row : rows) {
-    text += fmt::format(
-        "| {}{} | {} |{} {} | {} | {} | {} | {} | {} | {:.0f} % | {} | {} | {} |\n",
-        row.method->name, row.counts ? "" : " (*)", timeCell(row), backendCell(row, backends),
-        withEnds(row.mse), ratioCell(row.mseRatio, row.isYardstick), efficiencyCell(row),
-        withEnds(row.energyRatio, kEnergyDigits), biasCell(row),
-        std::isnan(row.variance.value) ? "unknown" : withEnds(row.variance), 100.0 * row.worstShare,
-        withoutLightsCell(row), trimmedCell(row), raysCell(row));
     for (const std::string& flag : row.flags) {
       notes += fmt::format("- {}{}: {}\n", row.method->name, row.counts ? "" : " (*)", flag);
     }
   }
+  text += detailsTable(rows);
+  text += agesTable(rows, "path", [](const AgeSummary& age) { return age.mseRatio; });
+  text += agesTable(rows, "the average of its frames",
+                    [](const AgeSummary& age) { return age.ratioToAverage; });
   text += figuresTable(rows);
   text += accumulatedTable(rows);
   text += temporalTable(rows);

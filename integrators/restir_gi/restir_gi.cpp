@@ -171,6 +171,7 @@ const IntegratorInfo& restir_giIntegratorInfo() {
     };
     i.parameters = parameterInfos();
     i.usesCache = true;
+    i.hasHistory = true;
     i.buffers = {
         {"radiance", 12, 0, -1},
         {"own_light", 12, 0, -1},

@@ -79,7 +79,11 @@ TEST_F(InfoTest, ListsNameWhatTheirVerbsTake) {
   const auto backends = list("backends");
   EXPECT_EQ(backends[0]["name"], "cpu");
   EXPECT_NE(backends[0]["summary"].get<std::string>().find("Embree 3."), std::string::npos);
-  EXPECT_EQ(list("denoisers")[0]["name"], "none");
+  const auto denoisers = list("denoisers");
+  EXPECT_EQ(denoisers[0]["name"], "none");
+  EXPECT_EQ(denoisers[1]["name"], "accumulate");
+  EXPECT_EQ(denoisers[1]["bias_still"], "unbiased");
+  EXPECT_EQ(denoisers[1]["parameters"][0]["default"], 20.0);
   bool mse = false;
   for (const auto& metric : list("metrics")) mse = mse || metric["name"] == "mse";
   EXPECT_TRUE(mse);

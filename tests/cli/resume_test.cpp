@@ -87,7 +87,7 @@ TEST_F(ResumeTest, FinishedRunsAreTakenAsTheyAre) {
 TEST_F(ResumeTest, WhatChangesTheNumbersMakesTheRunAnew) {
   ASSERT_EQ(run("run suite.toml --out out").code, 0);
   for (const char* change :
-       {"seed=7", "warmup_frames=4", "frames=3", "checkpoints=[1]", "method.gi.confidence_cap=5",
+       {"seed=7", "warmup_frames=4", "frames=3", "ages=[1]", "method.gi.confidence_cap=5",
         "max_bounces=4", "reference.spp=64", "temporal=true", "accumulate=true", "threads=1"}) {
     const ProgramResult result = run(std::string("run suite.toml --out out --set ") + change);
     ASSERT_EQ(result.code, 0) << result.err;
@@ -381,7 +381,7 @@ TEST_F(ResumeTest, EveryRowAndImageSaysWhereItComesFrom) {
   const std::string image = "[[method]]\nname = \"theirs\"\nimage = \"theirs.exr\"\n";
   write("suite.toml", read("suite.toml") + image);
   ASSERT_EQ(run({"run", "suite.toml", "--out", "out", "--set", "name=it's", "--set",
-                 "accumulate=true", "--set", "warmup_frames=0", "--set", "checkpoints=[1]"})
+                 "accumulate=true", "--set", "warmup_frames=0", "--set", "ages=[1]"})
                 .code,
             0);
   std::istringstream text(read("out/results.jsonl"));
@@ -401,7 +401,7 @@ TEST_F(ResumeTest, EveryRowAndImageSaysWhereItComesFrom) {
     EXPECT_EQ(provenance["utc"].get<std::string>().back(), 'Z');
   }
   EXPECT_GT(count, 6u);
-  EXPECT_EQ(kinds, (std::set<std::string>{"run", "checkpoint", "accumulated", "image"}));
+  EXPECT_EQ(kinds, (std::set<std::string>{"run", "age", "accumulated", "image"}));
   std::vector<fs::path> files = {path("out/images/cornell-box-all-gi.exr"),
                                  path("out/images/cornell-box-all-reference.exr")};
   for (const auto& entry : fs::directory_iterator(path("out/references")))
@@ -455,8 +455,8 @@ TEST_F(ResumeTest, CamerasMoveAlongPaths) {
   expectError(run("run suite.toml --out o -q --set camera_path=orbt"), 2, {"'orbt'", "'orbit'"});
   expectError(run("run suite.toml --out o -q --set camera_path=orbit --set accumulate=true"), 2,
               {"--set accumulate", "still camera"});
-  expectError(run("run suite.toml --out o -q --set camera_path=orbit --set checkpoints=[1]"), 2,
-              {"--set checkpoints", "still camera"});
+  expectError(run("run suite.toml --out o -q --set camera_path=orbit --set ages=[1]"), 2,
+              {"--set ages", "orbit", "reference"});
   write("suite.toml",
         std::string(kSmallSuite) + "[[camera_path]]\nname = \"x\"\nkind = \"orbt\"\n");
   expectError(run("run suite.toml --out o -q"), 2, {"suite.toml:19:8", "orbit"});

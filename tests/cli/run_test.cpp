@@ -27,7 +27,7 @@ max_bounces = 3
 warmup_frames = 3
 frames = 2
 runs = 3
-checkpoints = [0, 1]
+ages = [1, 2]
 components = ["all"]
 
 [reference]
@@ -109,7 +109,7 @@ TEST_F(RunTest, LeavesWhatTheContractSays) {
   EXPECT_EQ(number(path, "efficiency_ratio"), 1.0);
 
   const auto results = lines("out/results.jsonl");
-  EXPECT_EQ(results.size(), 2u * 3u * 3u) << "methods x runs x (two checkpoints and the run)";
+  EXPECT_EQ(results.size(), 2u * 3u * 3u) << "methods x runs x (two ages and the run)";
   double mse = 0.0;
   for (const auto& line : results) {
     EXPECT_EQ(line["schema"], 3);
@@ -370,7 +370,7 @@ TEST_F(RunTest, BadSuitesNameThePlace) {
   broken("mode = \"unbiased\"", "cache = \"pixl\"", 2, {"suite.toml:25:9", "'pixl'", "'pixel'"});
   broken("runs = 3", "backend = \"cpuu\"", 2, {"suite.toml:11:11", "'cpuu'", "'cpu'"});
   broken("[reference]", "[reference", 2, {"suite.toml:15"});
-  broken("checkpoints = [0, 1]", "checkpoints = [0, 50]", 2, {"suite.toml:12", "50"});
+  broken("ages = [1, 2]", "ages = [1, 50]", 2, {"suite.toml:12", "50"});
   broken("spp = 32", "spp = 1", 2, {"suite.toml:16", "'spp'"});
   expectError(run("run absent.toml"), 2, {"absent.toml"});
   expectError(run("run /dev/zero --out out"), 2, {"/dev/zero", "regular file"});

@@ -110,8 +110,8 @@ TEST_F(ConvergenceSuite, LeavesWhatIsDocumented) {
   ASSERT_EQ(result.code, 0) << result.err;
   std::set<std::string> expected = {"report.html", "results.jsonl", "run.json", "suite.toml",
                                     "summary.csv", "table.md",      "table.tex"};
-  const std::vector<std::string> methods = {"path-traced", "ReSTIR-GI-biased",
-                                            "ReSTIR-GI-unbiased"};
+  const std::vector<std::string> methods = {"path-traced", "path-accumulate", "ReSTIR-GI-biased",
+                                            "ReSTIR-GI-unbiased", "ReSTIR-GI-unbiased-accumulate"};
   for (const char* plot : {"error-time", "error-frames", "single-frame", "bars"})
     expected.insert(std::string("plots/cornell-box-all-") + plot + ".svg");
   for (const char* extension : {".exr", ".png"}) {
@@ -149,7 +149,7 @@ TEST_F(ConvergenceSuite, LeavesWhatIsDocumented) {
   std::istringstream lines(read("out/results.jsonl"));
   for (std::string line; std::getline(lines, line);)
     accumulated += nlohmann::json::parse(line)["kind"] == "accumulated";
-  EXPECT_EQ(accumulated, 3u * 8u * 3u) << "methods x runs x (1, 2 and 4 frames)";
+  EXPECT_EQ(accumulated, 5u * 8u * 3u) << "methods x runs x (1, 2 and 4 frames)";
 }
 
 // docs/experiments.md, whose code blocks are indented by four blanks.

@@ -6,12 +6,20 @@
 
 namespace restlab::conformance {
 
-std::string Variant::name() const { return integrator + "_" + mode; }
+std::string Variant::name() const {
+  return integrator + "_" + mode + (denoiser == "none" ? "" : "_" + denoiser);
+}
 
 std::vector<Variant> allVariants() {
   std::vector<Variant> all;
   for (const IntegratorInfo* info : integratorRegistry()) {
-    for (const ModeInfo& mode : info->modes) all.push_back({info->name, mode.name, mode.bias});
+    for (const ModeInfo& mode : info->modes)
+      all.push_back({info->name, mode.name, mode.bias, "none"});
+  }
+  for (const DenoiserInfo* info : denoiserRegistry()) {
+    if (info->name == "none") continue;
+    all.push_back(
+        {"path", findIntegrator("path").modes.front().name, info->biasOfStillView, info->name});
   }
   return all;
 }
@@ -28,6 +36,7 @@ SessionConfig configOf(const Variant& variant, uint32_t width, uint32_t height) 
   SessionConfig config;
   config.integrator = variant.integrator;
   config.mode = variant.mode;
+  config.denoiser = variant.denoiser;
   config.width = width;
   config.height = height;
   config.threads = 1;

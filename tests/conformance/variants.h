@@ -6,16 +6,17 @@
 #include <string>
 #include <vector>
 
-#include "core/integrator.h"
+#include "core/method.h"
 #include "tests/bias/independent_runs.h"
 
 namespace restlab::conformance {
 
-// One integrator in one of its modes.
+// One integrator in one of its modes, or `path` with a denoiser.
 struct Variant {
   std::string integrator;
   std::string mode;
-  BiasClass bias = BiasClass::unbiased;
+  BiasClass bias = BiasClass::unbiased;  // in a still view
+  std::string denoiser = "none";
 
   std::string name() const;  // "restir_gi_unbiased", fit for a test's name
 };

@@ -297,7 +297,7 @@ runs = 2
 frames = 1
 components = ["all", "indirect"]
 accumulate = true
-checkpoints = [1, 2]
+ages = [1, 2]
 camera_path = "turn"
 [reference]
 spp = 4
@@ -317,7 +317,7 @@ name = "gi"
 integrator = "restir_gi"
 mode = "biased"
 confidence_cap = 10.0
-""".replace('accumulate = true\ncheckpoints = [1, 2]\ncamera_path = "turn"', 'camera_path = "turn"'))
+""".replace('accumulate = true\nages = [1, 2]\ncamera_path = "turn"', 'camera_path = "turn"'))
     write("suite", "read-sweep.toml", """scenes = ["cornell-box"]
 [sweep]
 max_bounces = [2, 4]
@@ -327,7 +327,7 @@ name = "gi"
 integrator = "restir_gi"
 """)
     write("suite", "read-accumulate.toml", """scenes = "cornell-box"
-settings = { frames = 8, accumulate = true, checkpoints = [1, 2], temporal = true }
+settings = { frames = 8, accumulate = true, ages = [1, 2], temporal = true }
 method = [{}, { name = "b", integrator = "restir_gi", mode = "unbiased" }]
 """)
     write("suite", "unknown-key.toml", "scenes = ['cornell-box']\nsceen = 1\n[[method]]\n")

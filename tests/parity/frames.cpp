@@ -10,7 +10,7 @@
 
 #include "core/backend/vulkan_device.h"
 #include "core/caches/caches.h"
-#include "core/integrator.h"
+#include "core/method.h"
 #include "tests/parity/everything_scene.h"
 #include "tests/unit/bvh_context.h"
 #include "tests/unit/ray_cases.h"
@@ -92,6 +92,7 @@ std::string Combination::name() const {
   std::string text = integrator;
   if (!mode.empty()) text += "_" + mode;
   if (!cache.empty()) text += "_" + cache;
+  if (denoiser != "none") text += "_" + denoiser;
   return text;
 }
 
@@ -106,8 +107,12 @@ std::vector<Combination> combinations() {
       for (const CacheInfo& cache : cacheRegistry()) caches.push_back(cache.name);
     }
     for (const ModeInfo& mode : info->modes) {
-      for (const std::string& cache : caches) all.push_back({info->name, mode.name, cache});
+      for (const std::string& cache : caches) all.push_back({info->name, mode.name, cache, "none"});
     }
+  }
+  for (const DenoiserInfo* info : denoiserRegistry()) {
+    if (info->name != "none")
+      all.push_back({"path", findIntegrator("path").modes.front().name, "", info->name});
   }
   return all;
 }
@@ -117,6 +122,7 @@ SessionConfig configOf(const Combination& what, const Machine& where, uint32_t w
   SessionConfig config;
   config.integrator = what.integrator;
   config.mode = what.mode;
+  config.denoiser = what.denoiser;
   if (!what.cache.empty()) config.cache = what.cache;
   config.backend = where.backend;
   config.rayTracing = where.rayTracing;

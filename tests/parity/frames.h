@@ -12,9 +12,10 @@
 
 namespace restlab::parity {
 
-// An integrator in a mode on a cache; integrators without reservoirs have no cache to choose.
+// An integrator in a mode on a cache; integrators without reservoirs have no cache to choose. Or
+// `path` with a denoiser.
 struct Combination {
-  std::string integrator, mode, cache;
+  std::string integrator, mode, cache, denoiser = "none";
   std::string name() const;
 };
 void PrintTo(const Combination& what, std::ostream* out);

@@ -97,8 +97,8 @@ TEST_F(JobTest, ARunSurvivesDiskToTheLastBit) {
   run.measured.relmse = INFINITY;
   run.measured.energyRatio = 0.1 + 0.2;
   run.measured.nonfinite = 12345678901234ull;
-  run.checkpoints = {run.measured, run.measured};
-  run.checkpoints[1].frame = 7;
+  run.aged = {{1, 0.5, run.measured}, {8, std::nan(""), run.measured}};
+  run.aged[1].error.frame = 7;
   run.accumulated = {{1, 2.5, run.measured}, {2, 5.25, run.measured}};
   run.temporal = TemporalFigures();
   run.temporal->variance = 1e-300;
@@ -126,8 +126,11 @@ TEST_F(JobTest, ARunSurvivesDiskToTheLastBit) {
   EXPECT_TRUE(std::isinf(back.measured.relmse));
   EXPECT_EQ(back.measured.energyRatio, run.measured.energyRatio);
   EXPECT_EQ(back.measured.nonfinite, run.measured.nonfinite);
-  ASSERT_EQ(back.checkpoints.size(), 2u);
-  EXPECT_EQ(back.checkpoints[1].frame, 7u);
+  ASSERT_EQ(back.aged.size(), 2u);
+  EXPECT_EQ(back.aged[0].timeMs, 0.5);
+  EXPECT_EQ(back.aged[1].age, 8u);
+  EXPECT_TRUE(std::isnan(back.aged[1].timeMs));
+  EXPECT_EQ(back.aged[1].error.frame, 7u);
   ASSERT_EQ(back.accumulated.size(), 2u);
   EXPECT_EQ(back.accumulated[1].timeMs, 5.25);
   ASSERT_TRUE(back.temporal.has_value());

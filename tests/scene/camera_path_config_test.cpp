@@ -90,7 +90,7 @@ struct Wrong {
 TEST(CameraPathConfig, EveryErrorIsOneLineWithItsPlace) {
   const std::vector<Wrong> all = {
       {"path = {}",
-       "a.toml:1:8: a camera path needs a 'kind' (still, orbit, dolly, pan, cut, "
+       "a.toml:1:8: a camera path needs a 'kind' (still, orbit, dolly, pan, cut, back, "
        "keyframes)"},
       {"path = { kind = \"orbt\" }", "a.toml:1:17: unknown kind 'orbt', did you mean 'orbit'?"},
       {"path = { kind = 3 }", "a.toml:1:17: 'kind' must be a string, not an integer"},

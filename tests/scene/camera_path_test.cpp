@@ -209,6 +209,26 @@ TEST(CameraPath, CutIsAtItsFrame) {
   EXPECT_EQ(cameraAt(motionOf(path), 10).cameraToWorld, cameraAt(motionOf(orbit), 1).cameraToWorld);
 }
 
+TEST(CameraPath, BackIsTurnedAwayAndThenTheScenesCamera) {
+  CameraPath path = pathOf(CameraPathKind::back);
+  path.cutFrame = 10;
+  path.cutDegrees = 180.0;
+  const CameraMotion motion = motionOf(path);
+  const glm::dmat4 start = kCameras[1].cameraToWorld;
+  for (const uint32_t frame : {0u, 9u}) {
+    const glm::dmat4 away = cameraAt(motion, frame).cameraToWorld;
+    EXPECT_EQ(away[3], start[3]) << "it turns where it stands";
+    EXPECT_NEAR(away[2].x, -start[2].x, 1e-12);
+    EXPECT_NEAR(away[2].y, start[2].y, 1e-12);
+    EXPECT_NEAR(away[2].z, -start[2].z, 1e-12);
+  }
+  for (const uint32_t frame : {10u, 11u, 1000u})
+    EXPECT_EQ(cameraAt(motion, frame).cameraToWorld, start);
+  EXPECT_EQ(firstStillFrame(path), 10u);
+  EXPECT_EQ(firstStillFrame(pathOf(CameraPathKind::still)), 0u);
+  EXPECT_FALSE(firstStillFrame(pathOf(CameraPathKind::orbit)).has_value());
+}
+
 TEST(CameraAim, IsTheFirstSurface) {
   const SceneCamera camera = cameraAtPoint({1, 4, 3}, {-2, 0, 1});
   Scene scene = sceneWith(camera);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/dialect/order.h"
-#include "core/integrator.h"
+#include "core/method.h"
 #include "core/resampling/reservoir.h"
 #include "core/scene/compiled_scene.h"
 #include "core/scene/scene.h"
@@ -41,7 +41,7 @@ class AuditedRun {
       : scene_(CompiledScene::build(makeBuiltinScene(sceneName))),
         info_(findIntegrator(integrator)),
         passes_(std::move(passes)) {
-    const ParameterMap resolved = resolveParameters(info_, parameters);
+    const ParameterMap resolved = resolveParameters(findMethod(integrator, "none"), parameters);
     params_ = info_.packParameters(mode, resolved);
     for (const BufferInfo& b : info_.buffers) {
       storage_.emplace_back(size_t(bytesPerPixelOf(b, resolved)) * kWidth * kHeight);

@@ -1,0 +1,23 @@
+// What the centre of a pixel shows: the key by which histories follow surfaces. It knows no film
+// sample: a test that looked at the sample which it lets through would bias what it lets through.
+#ifndef RL_VISIBLE_H
+#define RL_VISIBLE_H
+
+#ifdef __cplusplus
+#include "core/dialect/types.h"
+#endif
+
+RL_NAMESPACE_BEGIN
+
+struct VisibleSurface {
+  vec3 posW;   // where nothing is hit: the direction of the view, unit
+  uint isHit;  // 0: the background
+  vec3 nGeoW;  // unit, on the side of the camera
+  vec3 nShadeW;
+};
+
+const uint RL_VISIBLE_QUADS = 2u;  // of one in a buffer
+
+RL_NAMESPACE_END
+
+#endif

@@ -1,0 +1,24 @@
+// visible: what each pixel shows at its centre. One ray a pixel, in frames whose view is new.
+
+RL_FN void kernelMain(RL_IN(uvec2) pixel) {
+  uint pixelIndex = pixel.y * gFrame.width + pixel.x;
+  vec2 resolution = vec2(float(gFrame.width), float(gFrame.height));
+  vec2 centre = vec2(float(pixel.x) + 0.5f, float(pixel.y) + 0.5f);
+  Ray ray = cameraRay(gFrame.camera, centre, resolution);
+  Hit hit;
+  // The same decision at partly transparent surfaces in every frame.
+  traceRay(ray, RL_RAY_PATH, pixelIndex, hit);
+  VisibleSurface v;
+  v.posW = ray.dir;
+  v.isHit = 0u;
+  v.nGeoW = -ray.dir;
+  v.nShadeW = -ray.dir;
+  if (hit.instance != RL_INVALID) {
+    Surface s = surfaceLoad(hit, ray.dir);
+    v.posW = s.posW;
+    v.isHit = 1u;
+    v.nGeoW = s.nGeoW;
+    v.nShadeW = s.nShadeW;
+  }
+  visibleWrite(gBuffers.visible, pixelIndex, v);
+}

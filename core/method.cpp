@@ -1,0 +1,120 @@
+#include "core/method.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/session.h"
+
+namespace restlab {
+
+namespace {
+
+const char* typeName(const ParameterValue& v) {
+  switch (v.index()) {
+    case 0:
+      return "a boolean";
+    case 1:
+      return "an integer";
+    case 2:
+      return "a number";
+    default:
+      return "a string";
+  }
+}
+
+void checkRange(const std::string& owner, const ParameterInfo& p, double value) {
+  if (value >= p.minValue && value <= p.maxValue) return;
+  failUsage(fmt::format("{}.{} = {}: must be between {} and {}", owner, p.name, value, p.minValue,
+                        p.maxValue));
+}
+
+ParameterValue checked(const std::string& owner, const ParameterInfo& p, ParameterValue value) {
+  // An integer is accepted where a number is meant.
+  if (p.defaultValue.index() == 2 && value.index() == 1)
+    value = static_cast<double>(std::get<int64_t>(value));
+  if (value.index() != p.defaultValue.index()) {
+    failUsage(fmt::format("{}.{}: is {} but must be {}", owner, p.name, typeName(value),
+                          typeName(p.defaultValue)));
+  }
+  if (value.index() == 1) checkRange(owner, p, static_cast<double>(std::get<int64_t>(value)));
+  if (value.index() == 2) checkRange(owner, p, std::get<double>(value));
+  if (value.index() == 3 && !p.choices.empty()) {
+    const std::string& text = std::get<std::string>(value);
+    if (std::find(p.choices.begin(), p.choices.end(), text) == p.choices.end()) {
+      failUsage(fmt::format("{}.{} = '{}': must be one of {}{}", owner, p.name, text,
+                            fmt::join(p.choices, ", "), didYouMean(text, p.choices)));
+    }
+  }
+  return value;
+}
+
+}  // namespace
+
+const DenoiserInfo& findDenoiser(const std::string& name) {
+  std::vector<std::string> names;
+  for (const DenoiserInfo* info : denoiserRegistry()) {
+    if (info->name == name) return *info;
+    names.push_back(info->name);
+  }
+  failUsage("unknown denoiser '" + name + "'" + didYouMean(name, names) +
+            " (see: restlab list denoisers)");
+}
+
+Method findMethod(const std::string& integrator, const std::string& denoiser) {
+  return {&findIntegrator(integrator), &findDenoiser(denoiser)};
+}
+
+Method findMethod(const SessionConfig& config) {
+  return findMethod(config.integrator, config.denoiser);
+}
+
+std::vector<const PartInfo*> Method::parts() const { return {integrator, denoiser}; }
+
+std::vector<ParameterInfo> Method::parameters() const {
+  std::vector<ParameterInfo> all;
+  for (const PartInfo* part : parts())
+    all.insert(all.end(), part->parameters.begin(), part->parameters.end());
+  return all;
+}
+
+bool Method::hasHistory() const {
+  const std::vector<const PartInfo*> all = parts();
+  return std::any_of(all.begin(), all.end(), [](const PartInfo* part) { return part->hasHistory; });
+}
+
+BiasClass Method::bias(const std::string& mode, const ParameterMap& resolved,
+                       bool cameraMoves) const {
+  return std::max(biasClassOf(*integrator, mode, resolved),
+                  cameraMoves ? denoiser->biasOfMovingView : denoiser->biasOfStillView);
+}
+
+ParameterMap resolveParameters(const Method& method, const ParameterMap& given) {
+  ParameterMap resolved;
+  std::vector<std::string> names;
+  for (const PartInfo* part : method.parts()) {
+    for (const ParameterInfo& p : part->parameters) {
+      const auto value = given.find(p.name);
+      resolved[p.name] =
+          value == given.end() ? p.defaultValue : checked(part->name, p, value->second);
+      names.push_back(p.name);
+    }
+  }
+  for (const auto& [name, value] : given) {
+    if (resolved.contains(name)) continue;
+    const bool isPlain = method.denoiser->parameters.empty();
+    failUsage(fmt::format("integrator {}{} has no parameter '{}'{}", method.integrator->name,
+                          isPlain ? "" : fmt::format(" with denoiser {}", method.denoiser->name),
+                          name, didYouMean(name, names)));
+  }
+  return resolved;
+}
+
+uint32_t bytesPerPixelOf(const BufferInfo& buffer, const ParameterMap& parameters) {
+  if (buffer.perParameter == nullptr) return buffer.bytesPerPixel;
+  return buffer.bytesPerPixel *
+         static_cast<uint32_t>(std::get<int64_t>(parameters.at(buffer.perParameter)));
+}
+
+}  // namespace restlab

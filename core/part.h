@@ -1,0 +1,76 @@
+// What integrators, caches and denoisers have in common: parameters, buffers and passes. A session
+// runs the passes of its parts, one part after another.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace restlab {
+
+using ParameterValue = std::variant<bool, int64_t, double, std::string>;
+
+// A tunable constant: its default, range, meaning and where the default comes from.
+struct ParameterInfo {
+  std::string name;  // unique among all parts: a method's parameters are one table
+  ParameterValue defaultValue;
+  double minValue = 0.0, maxValue = 0.0;  // inclusive; numbers only
+  std::vector<std::string> choices;       // strings only
+  std::string help;
+  std::string source;  // paper, equation, or the measurement behind the default
+};
+
+using ParameterMap = std::map<std::string, ParameterValue>;
+
+// How far the mean over independent runs is from the truth.
+enum class BiasClass { unbiased, consistent, biased };
+
+// A buffer of bytesPerPixel x pixels.
+struct BufferInfo {
+  std::string name;  // unique among the parts of a method
+  uint32_t bytesPerPixel = 0;
+  uint32_t neededFeatures = 0;  // allocated only when the mask has one of these bits; 0: always
+  int swapWith = -1;            // index of the buffer it trades places with from frame to frame
+  const char* perParameter =
+      nullptr;  // an integer parameter: so many entries of bytesPerPixel a pixel
+};
+
+struct PassInfo {
+  std::string name;    // as in the time columns
+  std::string kernel;  // as in CMake's rl_add_kernel
+};
+
+struct PartInfo {
+  std::string name;
+  std::string summary;  // one line
+  std::vector<ParameterInfo> parameters;
+  // Buffers of earlier parts by name, which the kernels' Buffers struct begins with.
+  std::vector<std::string> inputs;
+  // The part's own buffers: the rest of that struct, in order.
+  std::vector<BufferInfo> buffers;
+  std::vector<PassInfo> passes;
+  bool hasHistory = false;  // a frame depends on those before it
+  // The passes run where this frame's view is not that of the last one; otherwise what they left
+  // stands, and buffers that swap are both that of the last run.
+  bool onlyOnNewViews = false;
+  // Packs validated parameters into the block that kernels read as gParams. `mode` is the
+  // integrator's.
+  std::function<std::vector<std::byte>(const std::string& mode, const ParameterMap&)>
+      packParameters;
+};
+
+// Bytes a pixel of a buffer, with resolved parameters.
+uint32_t bytesPerPixelOf(const BufferInfo& buffer, const ParameterMap& parameters);
+
+// For packParameters: the bytes of a Params struct.
+template <typename T>
+std::vector<std::byte> bytesOf(const T& params) {
+  const auto* from = reinterpret_cast<const std::byte*>(&params);
+  return std::vector<std::byte>(from, from + sizeof(T));
+}
+
+}  // namespace restlab

@@ -1,0 +1,150 @@
+#include "core/pipeline.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.h"
+
+namespace restlab {
+
+Pipeline::Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const std::string& mode,
+                   const ParameterMap& parameters, uint32_t wanted)
+    : backend_(backend) {
+  for (const PartInfo* part : parts) {
+    Stage stage;
+    stage.info = part;
+    if (part->packParameters) stage.params = part->packParameters(mode, parameters);
+    for (const PassInfo& pass : part->passes) {
+      stage.masks.push_back(backend.maskFor(pass.kernel, wanted));
+      used_ |= stage.masks.back();
+    }
+    stages_.push_back(std::move(stage));
+  }
+  for (size_t s = 0; s < stages_.size(); ++s) {
+    for (const std::string& input : stages_[s].info->inputs) find(input, s);
+    for (const BufferInfo& buffer : stages_[s].info->buffers) {
+      // What the kernels in use can touch is there, so that a superset kernel never meets a null.
+      const bool isWanted = buffer.neededFeatures == 0 || (buffer.neededFeatures & used_) != 0;
+      stages_[s].bytes.push_back(isWanted ? bytesPerPixelOf(buffer, parameters) : 0);
+    }
+  }
+}
+
+std::pair<size_t, size_t> Pipeline::find(const std::string& name, size_t before) const {
+  for (size_t s = 0; s < before; ++s) {
+    const std::vector<BufferInfo>& buffers = stages_[s].info->buffers;
+    for (size_t b = 0; b < buffers.size(); ++b) {
+      if (buffers[b].name == name) return {s, b};
+    }
+  }
+  failUsage(
+      fmt::format("{}: no part before it has a buffer '{}'", stages_[before].info->name, name));
+}
+
+std::vector<std::pair<std::string, size_t>> Pipeline::bufferBytesPerPixel() const {
+  std::vector<std::pair<std::string, size_t>> sizes;
+  for (const Stage& stage : stages_) {
+    for (size_t b = 0; b < stage.bytes.size(); ++b)
+      sizes.emplace_back(stage.info->buffers[b].name, stage.bytes[b]);
+  }
+  return sizes;
+}
+
+size_t Pipeline::bytesPerPixel() const {
+  size_t sum = 0;
+  for (const auto& [name, bytes] : bufferBytesPerPixel()) sum += bytes;
+  return sum;
+}
+
+void Pipeline::allocate(size_t pixels) {
+  for (Stage& stage : stages_) {
+    for (const size_t bytes : stage.bytes)
+      stage.buffers.push_back(bytes > 0 ? backend_.allocate(pixels * bytes) : kNoBuffer);
+  }
+}
+
+void Pipeline::prepare(StartupReport& report) {
+  for (size_t s = 0; s < stages_.size(); ++s) {
+    const Stage& stage = stages_[s];
+    for (size_t p = 0; p < stage.masks.size(); ++p) {
+      const PassRun run{stage.info->passes[p].kernel, stage.masks[p], bindings(s), stage.params};
+      backend_.prepare(run, report);
+    }
+  }
+}
+
+void Pipeline::clear() {
+  for (const Stage& stage : stages_) {
+    for (const BufferId buffer : stage.buffers) {
+      if (buffer != kNoBuffer) backend_.clear(buffer);
+    }
+  }
+}
+
+// Where the stage did not run, a buffer and the one that it swaps with are both the last run's.
+BufferId Pipeline::bound(const Stage& stage, size_t buffer) const {
+  const int other = stage.info->buffers[buffer].swapWith;
+  if (!stage.runs && other >= 0) return stage.buffers[std::min(buffer, static_cast<size_t>(other))];
+  return stage.buffers[buffer];
+}
+
+std::vector<BufferId> Pipeline::bindings(size_t stage) const {
+  std::vector<BufferId> ids;
+  for (const std::string& input : stages_[stage].info->inputs) {
+    const auto [s, b] = find(input, stage);
+    ids.push_back(bound(stages_[s], b));
+  }
+  for (size_t b = 0; b < stages_[stage].buffers.size(); ++b)
+    ids.push_back(bound(stages_[stage], b));
+  return ids;
+}
+
+std::vector<PassRun> Pipeline::beginFrame(bool isNewView) {
+  std::vector<bool> ran;
+  for (Stage& stage : stages_) {
+    stage.runs = isNewView || !stage.info->onlyOnNewViews;
+    ran.push_back(stage.runs);
+    // What the last run left becomes the history.
+    for (size_t b = 0; stage.runs && b < stage.buffers.size(); ++b) {
+      const int other = stage.info->buffers[b].swapWith;
+      if (other > static_cast<int>(b)) std::swap(stage.buffers[b], stage.buffers[size_t(other)]);
+    }
+  }
+  ran_.push_back(std::move(ran));
+  std::vector<PassRun> runs;
+  for (size_t s = 0; s < stages_.size(); ++s) {
+    const Stage& stage = stages_[s];
+    for (size_t p = 0; stage.runs && p < stage.masks.size(); ++p)
+      runs.push_back({stage.info->passes[p].kernel, stage.masks[p], bindings(s), stage.params});
+  }
+  return runs;
+}
+
+std::vector<Pipeline::PassResult> Pipeline::collect(const FrameResult& result) {
+  std::vector<PassResult> passes;
+  const std::vector<bool> ran = std::move(ran_.front());
+  ran_.pop_front();
+  size_t next = 0;
+  for (size_t s = 0; s < stages_.size(); ++s) {
+    for (const PassInfo& pass : stages_[s].info->passes) {
+      PassResult& out = passes.emplace_back();
+      out.name = pass.name;
+      if (!ran[s]) continue;
+      out.timeMs = result.timesMs[next];
+      out.counters = result.counters[next];
+      ++next;
+    }
+  }
+  return passes;
+}
+
+BufferId Pipeline::shown() const {
+  // A denoiser without passes shows what came before it.
+  for (size_t s = stages_.size(); s-- > 0;) {
+    if (!stages_[s].buffers.empty()) return stages_[s].buffers.front();
+  }
+  return kNoBuffer;
+}
+
+}  // namespace restlab

@@ -1,0 +1,66 @@
+// The passes of a frame and the buffers that they work on: those of a method's parts, in order.
+#pragma once
+
+#include <deque>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/backend/backend.h"
+#include "core/part.h"
+
+namespace restlab {
+
+class Pipeline {
+ public:
+  // `wanted`: the features of the kernels. Throws Error (badUsage) where a part asks for a buffer
+  // that no earlier part has. Nothing is allocated yet.
+  Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const std::string& mode,
+           const ParameterMap& parameters, uint32_t wanted);
+
+  uint32_t featuresUsed() const { return used_; }
+  // Of the buffers that the kernels in use can touch: one that they cannot is not allocated.
+  std::vector<std::pair<std::string, size_t>> bufferBytesPerPixel() const;
+  size_t bytesPerPixel() const;
+
+  void allocate(size_t pixels);
+  void prepare(StartupReport& report);
+  // Zeroes every buffer.
+  void clear();
+
+  // The passes of the next frame, after histories have traded places. `isNewView`: its camera is
+  // not that of the frame before it.
+  std::vector<PassRun> beginFrame(bool isNewView);
+  // Names and times of a frame's passes, of which results holds those that ran; in the order of
+  // beginFrame(). A pass that had nothing to do has no time.
+  struct PassResult {
+    std::string name;
+    double timeMs = 0.0;
+    PassCounters counters;
+  };
+  std::vector<PassResult> collect(const FrameResult& result);
+
+  // Of the frame that was submitted last.
+  BufferId shown() const;
+
+ private:
+  struct Stage {
+    const PartInfo* info = nullptr;
+    std::vector<std::byte> params;
+    std::vector<uint32_t> masks;    // of each pass
+    std::vector<size_t> bytes;      // a pixel, of each own buffer; 0: not allocated
+    std::vector<BufferId> buffers;  // the part's own
+    bool runs = true;               // in the frame that was begun last
+  };
+
+  std::pair<size_t, size_t> find(const std::string& name, size_t before) const;
+  BufferId bound(const Stage& stage, size_t buffer) const;
+  std::vector<BufferId> bindings(size_t stage) const;
+
+  Backend& backend_;
+  std::vector<Stage> stages_;
+  uint32_t used_ = 0;
+  std::deque<std::vector<bool>> ran_;  // by stage, of the frames under way
+};
+
+}  // namespace restlab

@@ -1,0 +1,39 @@
+// Buffers and parameters of the `accumulate` kernel.
+#ifndef RL_ACCUMULATE_H
+#define RL_ACCUMULATE_H
+
+#ifdef __cplusplus
+#include "core/dialect/types.h"
+#endif
+
+RL_NAMESPACE_BEGIN
+
+const uint RL_ACCUMULATE_BILINEAR = 1u;  // flag: the history is read between pixels
+
+struct History {
+  vec3 mean;
+  float frames;  // in the mean, at most the cap; between pixels no whole number
+};
+
+struct AccumulateBuffers {
+  Vec3Ref radiance;  // of this frame
+  QuadRef visible;   // core/dialect/visible.h
+  QuadRef visibleBefore;
+  Vec3Ref accumulated;  // what is shown
+  QuadRef history;      // one quad: the mean, and how many frames are in it
+  QuadRef historyBefore;
+};
+
+struct AccumulateParams {
+  float cap;  // frames
+  float minNormalDot;
+  float maxPlaneDistance;  // over the distance to the camera
+  uint flags;              // RL_ACCUMULATE_*
+};
+
+RL_NAMESPACE_END
+
+#define RL_KERNEL_BUFFERS AccumulateBuffers
+#define RL_KERNEL_PARAMS AccumulateParams
+
+#endif

@@ -1,0 +1,6 @@
+# Denoisers: what each does to images whose answer is known.
+set(RL_DENOISE_TESTS
+  accumulate_kernel_test.cpp
+  accumulate_test.cpp
+  conformance/variants.cpp
+)
