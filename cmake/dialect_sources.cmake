@@ -1,8 +1,8 @@
-# rl_embed_dialect: generated/dialect_sources_table.cpp, the tables of core/backend/dialect_sources.h.
-# Called once, after the last rl_add_kernel.
-function(rl_embed_dialect target)
+# rl_embed_dialect: writes <output> when it is built, which registers the tables of
+# core/backend/dialect_sources.h. After the last rl_add_kernel.
+function(rl_embed_dialect output)
   set(patterns "")
-  foreach(folder IN ITEMS core/dialect core/kernels core/resampling core/caches integrators denoise)
+  foreach(folder IN ITEMS core/dialect core/kernels core/transport core/resampling core/caches integrators denoise)
     list(APPEND patterns ${PROJECT_SOURCE_DIR}/${folder}/*.glsl ${PROJECT_SOURCE_DIR}/${folder}/*.h)
   endforeach()
   list(APPEND patterns ${PROJECT_SOURCE_DIR}/core/backend/*.glsl) # of devices alone
@@ -18,12 +18,10 @@ function(rl_embed_dialect target)
   endforeach()
   list(JOIN files "," files)
   list(JOIN kernels "," kernels)
-  set(output ${RL_GENERATED_DIR}/dialect_sources_table.cpp)
   add_custom_command(OUTPUT ${output}
     COMMAND ${CMAKE_COMMAND} -D SOURCE_DIR=${PROJECT_SOURCE_DIR} -D OUTPUT=${output}
       -D "FILES=${files}" -D "KERNELS=${kernels}"
       -P ${PROJECT_SOURCE_DIR}/cmake/embed_sources.cmake
     DEPENDS ${paths} ${PROJECT_SOURCE_DIR}/cmake/embed_sources.cmake
     COMMENT "Embedding the dialect" VERBATIM)
-  target_sources(${target} PRIVATE ${output})
 endfunction()

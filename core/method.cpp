@@ -50,7 +50,26 @@ ParameterValue checked(const std::string& owner, const ParameterInfo& p, Paramet
   return value;
 }
 
+struct Registry {
+  std::vector<const IntegratorInfo*> integrators;
+  std::vector<const DenoiserInfo*> denoisers;
+};
+
+Registry& registry() {
+  static Registry all;
+  return all;
+}
+
 }  // namespace
+
+bool registerMethods(std::vector<const IntegratorInfo*> integrators,
+                     std::vector<const DenoiserInfo*> denoisers) {
+  registry() = {std::move(integrators), std::move(denoisers)};
+  return true;
+}
+
+const std::vector<const IntegratorInfo*>& integratorRegistry() { return registry().integrators; }
+const std::vector<const DenoiserInfo*>& denoiserRegistry() { return registry().denoisers; }
 
 const DenoiserInfo& findDenoiser(const std::string& name) {
   std::vector<std::string> names;

@@ -27,6 +27,11 @@ struct Method {
   BiasClass bias(const std::string& mode, const ParameterMap& resolved, bool cameraMoves) const;
 };
 
+// Fills the registries of core/integrator.h and core/denoiser.h. Called by the table that is
+// generated from integrators.list and denoisers.list, when the program starts; always true.
+bool registerMethods(std::vector<const IntegratorInfo*> integrators,
+                     std::vector<const DenoiserInfo*> denoisers);
+
 // Throws Error (badUsage) with the nearest name.
 Method findMethod(const std::string& integrator, const std::string& denoiser);
 Method findMethod(const SessionConfig& config);

@@ -223,6 +223,22 @@ BackendInfo cpuBackendInfo() {
 
 namespace rl {
 
+namespace {
+
+CpuKernelTable& registeredKernels() {
+  static CpuKernelTable table{};
+  return table;
+}
+
+}  // namespace
+
+CpuKernelTable cpuKernelTable() { return registeredKernels(); }
+
+bool registerCpuKernels(CpuKernelTable table) {
+  registeredKernels() = table;
+  return true;
+}
+
 const CpuKernelInfo* findCpuKernel(const char* name, uint32_t needed, const char* trace) {
   const CpuKernelTable table = cpuKernelTable();
   const CpuKernelInfo* best = nullptr;

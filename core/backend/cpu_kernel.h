@@ -42,7 +42,10 @@ struct CpuKernelTable {
   const CpuKernelInfo* rows;
   uint32_t count;
 };
+// All kernels of the program.
 CpuKernelTable cpuKernelTable();
+// Called by the generated table alone; always true.
+bool registerCpuKernels(CpuKernelTable table);
 
 // The instantiation with the smallest mask that covers `needed`; null when there is no such kernel.
 // The project's own hierarchy is compiled into the general mask only.

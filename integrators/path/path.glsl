@@ -1,106 +1,59 @@
 // path: the yardstick. One path per pixel and frame; at each vertex one light sample and one BSDF
 // sample, combined by the power heuristic (Veach 1997, chapter 9). Unbiased.
-//
-// Each round of the loop traces at most two rays through one call site: the shadow ray of the last
-// vertex's light sample, then the path's own next ray.
+#define RL_WALK_STATE PathState
 
-RL_FN bool pathWants(uint bounces) {
-  uint component = bounces >= 2u ? RL_COMPONENT_INDIRECT : RL_COMPONENT_DIRECT;
-  return (gFrame.components & component) != 0u;
+RL_FN void walkEscapes(RL_INOUT(PathState) state, RL_IN(Walk) walk, RL_IN(vec3) radiance,
+                       float pdfLight) {
+  float weight = pdfLight > 0.0f ? lightMisWeight(walk.pdfBsdf, pdfLight) : 1.0f;
+  state.radiance += walk.throughput * radiance * weight;
 }
+
+RL_FN void walkEmits(RL_INOUT(PathState) state, RL_IN(Walk) walk, RL_IN(Surface) s, RL_IN(Hit) hit,
+                     float pdfLight) {
+  float weight = pdfLight > 0.0f ? lightMisWeight(walk.pdfBsdf, pdfLight) : 1.0f;
+  state.radiance += walk.throughput * s.emission * weight;
+}
+
+RL_FN void walkAbsorbs(RL_INOUT(PathState) state, RL_IN(Walk) walk, RL_IN(vec3) transmittance) {}
+
+RL_FN uint walkArrives(RL_INOUT(PathState) state, RL_IN(Walk) walk, RL_INOUT(Surface) s) {
+  return 1u;
+}
+
+RL_FN bool walkLights(RL_INOUT(PathState) state, RL_IN(Walk) walk, RL_IN(Rng) rng, RL_IN(Surface) s,
+                      RL_IN(LightSample) light, RL_IN(LightConnection) c) {
+  vec3 f = bsdfEval(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW);
+  if (rlIsBlack(f)) return false;
+  float weight = 1.0f;
+  if (!c.isDelta) {
+    weight = lightMisWeight(c.pdfSolidAngle, bsdfPdf(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW));
+  }
+  state.unseen = walk.throughput * f * c.emitted * (c.geometry * weight / light.pdf);
+  if (RL_HAS(RL_FEATURE_VOLUME))
+    state.unseen *= exp(-surfaceSigma(s, walk.sigma, c.dirW) * c.distance);
+  return true;
+}
+
+RL_FN void walkSees(RL_INOUT(PathState) state, RL_IN(Walk) walk, float transmittance) {
+  state.radiance += state.unseen * transmittance;
+}
+
+RL_FN void walkScatters(RL_INOUT(PathState) state, RL_IN(Walk) walk, RL_IN(Surface) s,
+                        RL_IN(BsdfDraw) draw) {}
+
+RL_FN void walkSurvives(RL_INOUT(PathState) state, RL_IN(Walk) walk, float factor) {}
+
+#include "core/transport/walk.glsl"
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint pixelIndex = pixel.y * gFrame.width + pixel.x;
-  vec2 resolution = vec2(float(gFrame.width), float(gFrame.height));
-  Rng rng = rngInit(gFrame.seed, pixelIndex, gFrame.frame);
-  Ray ray = cameraRay(gFrame.camera, cameraFilmSample(pixel), resolution);
-
-  vec3 radiance = vec3(0.0f, 0.0f, 0.0f);
-  vec3 throughput = vec3(1.0f, 1.0f, 1.0f);
-  vec3 sigma = vec3(0.0f, 0.0f, 0.0f);  // absorption of the medium that the ray travels in
-  float pdfBsdf = 0.0f;  // 0: camera ray or delta lobe, which light sampling cannot make
-  vec3 lightContribution = vec3(0.0f, 0.0f, 0.0f);
-  bool hasShadowRay = false;
-  bool alive = true;
-  Ray shadowRay = ray;
-
-  for (uint bounces = 0u;; bounces = bounces + 1u) {
-    Hit hit;
-    hit.instance = RL_INVALID;
-    for (uint which = 0u; which < 2u; which = which + 1u) {
-      bool isShadow = which == 0u;
-      if (isShadow ? !hasShadowRay : !alive) continue;
-      Ray traced = ray;
-      if (isShadow) traced = shadowRay;
-      uint mode = isShadow ? RL_RAY_SHADOW : RL_RAY_PATH;
-      float transmittance = traceRay(traced, mode, rng.key.x + bounces * 0x632be59bu, hit);
-      if (isShadow) radiance += lightContribution * transmittance;
-    }
-    if (!alive) break;
-    hasShadowRay = false;
-
-    if (hit.instance == RL_INVALID) {
-      if (environmentExists() && pathWants(bounces)) {
-        float weight = 1.0f;
-        if (pdfBsdf > 0.0f) weight = lightMisWeight(pdfBsdf, lightPdfOfEnvironment(ray.dir));
-        radiance += throughput * environmentRadiance(ray.dir) * weight;
-      }
-      break;
-    }
-    Surface s = surfaceLoad(hit, ray.dir);
-    if (RL_HAS(RL_FEATURE_VOLUME)) throughput *= exp(-sigma * hit.t);
-    if (!rlIsBlack(s.emission) && pathWants(bounces)) {
-      float weight = 1.0f;
-      if (pdfBsdf > 0.0f && s.light != RL_INVALID) {
-        weight = lightMisWeight(pdfBsdf, lightPdfOfHit(s.light, s.nGeoW, ray.dir, hit.t));
-      }
-      radiance += throughput * s.emission * weight;
-    }
-    if (bounces >= gFrame.maxBounces || bsdfIsBlack(s.bsdf)) break;
-    rng.vertex = bounces + 1u;
-
-    if (lightExists() && pathWants(bounces + 1u)) {
-      LightSample light = lightDraw(rng);
-      LightConnection c = lightConnect(light, s.posW);
-      vec3 f = bsdfEval(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW);
-      if (light.pdf > 0.0f && !rlIsBlack(f) && !rlIsBlack(c.emitted)) {
-        float weight = 1.0f;
-        if (!c.isDelta) {
-          weight =
-              lightMisWeight(c.pdfSolidAngle, bsdfPdf(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW));
-        }
-        lightContribution = throughput * f * c.emitted * (c.geometry * weight / light.pdf);
-        if (RL_HAS(RL_FEATURE_VOLUME))
-          lightContribution *= exp(-surfaceSigma(s, sigma, c.dirW) * c.distance);
-        shadowRay = lightShadowRay(light, c, s.posW, s.nGeoW, s.posError);
-        hasShadowRay = true;
-      }
-    }
-
-    float uLobe = rngDraw(rng, RL_DIM_BSDF_LOBE);
-    vec2 u;
-    u.x = rngDraw(rng, RL_DIM_BSDF_U);
-    u.y = rngDraw(rng, RL_DIM_BSDF_V);
-    BsdfDraw draw = bsdfDraw(s.bsdf, s.nGeoW, s.nShadeW, s.wo, uLobe, u);
-    alive = draw.lobe != 0u && !rlIsBlack(draw.weight);
-    throughput *= draw.weight;
-    if (alive && bounces + 1u >= gFrame.rouletteStart) {
-      float survival = min(rlMax3(throughput), 0.95f);
-      if (rngDraw(rng, RL_DIM_ROULETTE) < survival) {
-        throughput *= 1.0f / survival;
-      } else {
-        alive = false;
-      }
-    }
-    pdfBsdf = (draw.lobe & RL_LOBE_ANY_DELTA) != 0u ? 0.0f : draw.pdfSolidAngle;
-    if (RL_HAS(RL_FEATURE_VOLUME)) sigma = surfaceSigma(s, sigma, draw.wi);
-    ray.origin = surfaceOffset(s.posW, s.nGeoW, s.posError, draw.wi);
-    ray.dir = draw.wi;
-  }
-
-  if (!rlIsFinite3(radiance)) {
+  PathState state;
+  state.radiance = vec3(0.0f, 0.0f, 0.0f);
+  state.unseen = state.radiance;
+  walkPath(state, pixel);
+  if (!rlIsFinite3(state.radiance)) {
     RL_HEALTH(RL_HEALTH_NONFINITE);
-    radiance = vec3(0.0f, 0.0f, 0.0f);
+    state.radiance = vec3(0.0f, 0.0f, 0.0f);
   }
-  gBuffers.radiance.data[pixelIndex] = radiance;
+  gBuffers.radiance.data[pixelIndex] = state.radiance;
 }

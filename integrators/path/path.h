@@ -1,10 +1,11 @@
-// Buffers and parameters of the `path` kernel.
+// Buffers, parameters and state of the `path` kernel.
 #ifndef RL_PATH_H
 #define RL_PATH_H
 
 #ifdef __cplusplus
 #include "core/dialect/types.h"
 #endif
+#include "core/transport/walk.h"
 
 RL_NAMESPACE_BEGIN
 
@@ -14,6 +15,11 @@ struct PathBuffers {
 
 struct PathParams {
   uint padding;
+};
+
+struct PathState {
+  vec3 radiance;
+  vec3 unseen;  // of the last light sample, without its visibility
 };
 
 RL_NAMESPACE_END

@@ -4,95 +4,69 @@
 // direction drawn from its BSDF, which may meet a light, too. MIS weights: p^b / (p^b + q^b) of the
 // two densities (Veach 1997, section 9.2.3; b is the parameter mis_exponent). Bias: none, the
 // weights of the techniques that can make a path sum to one, and every path has one.
-
-// Direct light is what has scattered once at most; the rest is indirect.
-RL_FN bool templateWants(uint bounces) {
-  uint component = bounces >= 2u ? RL_COMPONENT_INDIRECT : RL_COMPONENT_DIRECT;
-  return (gFrame.components & component) != 0u;
-}
+//
+// The walk traces the path (core/transport/walk.glsl); these functions say what becomes of the
+// light that it meets.
+#define RL_WALK_STATE TemplateState
 
 // Of a technique with density p beside one with density q.
 RL_FN float templateMisWeight(float p, float q) {
   return p > 0.0f ? 1.0f / (1.0f + pow(q / p, gParams.misExponent)) : 0.0f;
 }
 
+// A ray left the scene, or met something that shines.
+RL_FN void templateAdd(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, RL_IN(vec3) radiance,
+                       float pdfLight) {
+  float weight = pdfLight > 0.0f ? templateMisWeight(walk.pdfBsdf, pdfLight) : 1.0f;
+  state.radiance += walk.throughput * radiance * weight;
+}
+RL_FN void walkEscapes(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, RL_IN(vec3) radiance,
+                       float pdfLight) {
+  templateAdd(state, walk, radiance, pdfLight);
+}
+RL_FN void walkEmits(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, RL_IN(Surface) s,
+                     RL_IN(Hit) hit, float pdfLight) {
+  templateAdd(state, walk, s.emission, pdfLight);
+}
+
+// The light sample of a vertex, and whether it was seen from there.
+RL_FN bool walkLights(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, RL_IN(Rng) rng,
+                      RL_IN(Surface) s, RL_IN(LightSample) light, RL_IN(LightConnection) c) {
+  vec3 f = bsdfEval(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW);
+  if (rlIsBlack(f)) return false;
+  float weight = 1.0f;  // a point or a direction is met by no ray
+  if (!c.isDelta) {
+    float pdf = bsdfPdf(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW);
+    weight = templateMisWeight(c.pdfSolidAngle, pdf);
+  }
+  vec3 arriving = c.emitted * (c.geometry * weight / light.pdf);
+  if (RL_HAS(RL_FEATURE_VOLUME)) arriving *= exp(-surfaceSigma(s, walk.sigma, c.dirW) * c.distance);
+  state.unseen = walk.throughput * f * arriving;
+  return true;
+}
+RL_FN void walkSees(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, float transmittance) {
+  state.radiance += state.unseen * transmittance;
+}
+
+// Nothing else is kept of the path; one light sample a vertex.
+RL_FN uint walkArrives(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, RL_INOUT(Surface) s) {
+  return 1u;
+}
+RL_FN void walkAbsorbs(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, RL_IN(vec3) passed) {}
+RL_FN void walkScatters(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, RL_IN(Surface) s,
+                        RL_IN(BsdfDraw) draw) {}
+RL_FN void walkSurvives(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, float factor) {}
+
+#include "core/transport/walk.glsl"
+
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
-  uint pixelIndex = pixel.y * gFrame.width + pixel.x;
-  vec2 resolution = vec2(float(gFrame.width), float(gFrame.height));
-  Rng rng = rngInit(gFrame.seed, pixelIndex, gFrame.frame);
-  Ray ray = cameraRay(gFrame.camera, cameraFilmSample(pixel), resolution);
-
-  vec3 radiance = vec3(0.0f, 0.0f, 0.0f);
-  vec3 throughput = vec3(1.0f, 1.0f, 1.0f);
-  vec3 sigma = vec3(0.0f, 0.0f, 0.0f);  // absorption of the medium that the ray travels in
-  float pdfBsdf = 0.0f;                 // of the ray; 0 where no light sample competes with it
-
-  for (uint bounces = 0u;; bounces = bounces + 1u) {
-    // What the hash decides is which partly transparent surfaces the ray passes.
-    uint raySeed = rng.key.x + bounces * 0x632be59bu;
-    Hit hit;
-    traceRay(ray, RL_RAY_PATH, raySeed, hit);
-    if (hit.instance == RL_INVALID) {
-      if (environmentExists() && templateWants(bounces)) {
-        float weight = 1.0f;
-        if (pdfBsdf > 0.0f) weight = templateMisWeight(pdfBsdf, lightPdfOfEnvironment(ray.dir));
-        radiance += throughput * environmentRadiance(ray.dir) * weight;
-      }
-      break;
-    }
-    Surface s = surfaceLoad(hit, ray.dir);
-    if (RL_HAS(RL_FEATURE_VOLUME)) throughput *= exp(-sigma * hit.t);
-    if (!rlIsBlack(s.emission) && templateWants(bounces)) {
-      float weight = 1.0f;
-      if (pdfBsdf > 0.0f && s.light != RL_INVALID) {
-        weight = templateMisWeight(pdfBsdf, lightPdfOfHit(s.light, s.nGeoW, ray.dir, hit.t));
-      }
-      radiance += throughput * s.emission * weight;
-    }
-    if (bounces >= gFrame.maxBounces || bsdfIsBlack(s.bsdf)) break;
-    rng.vertex = bounces + 1u;  // draws of different vertices are independent
-
-    if (lightExists() && templateWants(bounces + 1u)) {
-      LightSample light = lightDraw(rng);
-      LightConnection c = lightConnect(light, s.posW);
-      vec3 f = bsdfEval(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW);
-      if (light.pdf > 0.0f && !rlIsBlack(f) && !rlIsBlack(c.emitted)) {
-        float weight = 1.0f;  // a point or a direction is met by no ray
-        if (!c.isDelta) {
-          float pdf = bsdfPdf(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW);
-          weight = templateMisWeight(c.pdfSolidAngle, pdf);
-        }
-        Ray shadowRay = lightShadowRay(light, c, s.posW, s.nGeoW, s.posError);
-        vec3 arriving = c.emitted * (c.geometry * weight / light.pdf);
-        if (RL_HAS(RL_FEATURE_VOLUME))
-          arriving *= exp(-surfaceSigma(s, sigma, c.dirW) * c.distance);
-        Hit unused;
-        float transmittance = traceRay(shadowRay, RL_RAY_SHADOW, raySeed, unused);
-        radiance += throughput * f * arriving * transmittance;
-      }
-    }
-
-    float uLobe = rngDraw(rng, RL_DIM_BSDF_LOBE);
-    vec2 u;
-    u.x = rngDraw(rng, RL_DIM_BSDF_U);
-    u.y = rngDraw(rng, RL_DIM_BSDF_V);
-    BsdfDraw draw = bsdfDraw(s.bsdf, s.nGeoW, s.nShadeW, s.wo, uLobe, u);
-    throughput *= draw.weight;
-    if (draw.lobe == 0u || rlIsBlack(throughput)) break;
-    if (bounces + 1u >= gFrame.rouletteStart) {
-      float survival = min(rlMax3(throughput), 0.95f);
-      if (!(rngDraw(rng, RL_DIM_ROULETTE) < survival)) break;
-      throughput *= 1.0f / survival;
-    }
-    pdfBsdf = (draw.lobe & RL_LOBE_ANY_DELTA) != 0u ? 0.0f : draw.pdfSolidAngle;
-    if (RL_HAS(RL_FEATURE_VOLUME)) sigma = surfaceSigma(s, sigma, draw.wi);
-    ray.origin = surfaceOffset(s.posW, s.nGeoW, s.posError, draw.wi);
-    ray.dir = draw.wi;
-  }
-
-  if (!rlIsFinite3(radiance)) {
+  TemplateState state;
+  state.radiance = vec3(0.0f, 0.0f, 0.0f);
+  state.unseen = state.radiance;
+  walkPath(state, pixel);
+  if (!rlIsFinite3(state.radiance)) {
     RL_HEALTH(RL_HEALTH_NONFINITE);
-    radiance = vec3(0.0f, 0.0f, 0.0f);
+    state.radiance = vec3(0.0f, 0.0f, 0.0f);
   }
-  gBuffers.radiance.data[pixelIndex] = radiance;
+  gBuffers.radiance.data[pixel.y * gFrame.width + pixel.x] = state.radiance;
 }

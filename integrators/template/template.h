@@ -1,10 +1,11 @@
-// Buffers and parameters of the `template` kernel.
+// Buffers, parameters and state of the `template` kernel.
 #ifndef RL_TEMPLATE_H
 #define RL_TEMPLATE_H
 
 #ifdef __cplusplus
 #include "core/dialect/types.h"
 #endif
+#include "core/transport/walk.h"
 
 RL_NAMESPACE_BEGIN
 
@@ -16,6 +17,12 @@ struct TemplateBuffers {
 // Filled by packParameters. Read as gParams.
 struct TemplateParams {
   float misExponent;
+};
+
+// What is kept of a path while it is traced.
+struct TemplateState {
+  vec3 radiance;
+  vec3 unseen;  // of the last light sample, without its visibility
 };
 
 RL_NAMESPACE_END

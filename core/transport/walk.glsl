@@ -1,0 +1,136 @@
+// The one path loop of the project. Everything that traces paths includes this file and says what
+// becomes of the light that a path meets; the loop decides where the path goes, and which rays and
+// random numbers that takes. At each vertex light samples and one BSDF sample are drawn; each round
+// traces at most two rays by one call: the shadow ray of the last vertex's light sample, then the
+// path's own next ray.
+//
+// The includer defines RL_WALK_STATE, a struct, and before the #include these functions, which get
+// the state as RL_INOUT(RL_WALK_STATE) and the Walk. Vertices are counted as scattering events are:
+// x1, the first, is where walk.bounces is 0.
+//   walkEscapes(state, walk, radiance, pdfLight)   the ray left the scene: the environment's
+//       radiance. pdfLight: solid-angle density of light sampling for the ray; 0 where none
+//       competes
+//   walkEmits(state, walk, surface, hit, pdfLight) the ray met an emitter, s.emission towards it
+//   walkAbsorbs(state, walk, transmittance)        through a medium, up to the next vertex
+//   walkArrives(state, walk, surface)              a vertex that scatters, before anything is
+//   drawn;
+//       returns how many light samples are drawn there
+//   walkLights(state, walk, rng, surface, light, connection)  a light sample at the vertex, without
+//       its visibility; true: its shadow ray is to be traced (of several the last one)
+//   walkSees(state, walk, transmittance)           of that shadow ray. walk.bounces counts the
+//       scattering event at its origin already
+//   walkScatters(state, walk, surface, draw)       the BSDF sample, before walk.throughput has it
+//   walkSurvives(state, walk, factor)              Russian roulette: 1 / probability of survival
+// Light is only looked for where gFrame.components wants it.
+
+RL_FN bool walkWants(uint bounces) {
+  uint component = bounces >= 2u ? RL_COMPONENT_INDIRECT : RL_COMPONENT_DIRECT;
+  return (gFrame.components & component) != 0u;
+}
+
+// The shadow ray of a light sample and whether there is one. shadowRay is set where it is.
+RL_FN bool walkDrawLights(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, RL_IN(Surface) s,
+                          uint candidates, RL_INOUT(Ray) shadowRay) {
+  bool hasShadowRay = false;
+  for (uint i = 0u; i < candidates; i = i + 1u) {
+    Rng rng = walk.rng;
+    if (i > 0u) rng.vertex = RL_VERTEX_CANDIDATES + i;
+    LightSample light = lightDraw(rng);
+    LightConnection c = lightConnect(light, s.posW);
+    if (!(light.pdf > 0.0f) || rlIsBlack(c.emitted)) continue;
+    if (walkLights(state, walk, rng, s, light, c)) {
+      shadowRay = lightShadowRay(light, c, s.posW, s.nGeoW, s.posError);
+      hasShadowRay = true;
+    }
+  }
+  return hasShadowRay;
+}
+
+// Draws where the path goes on, and moves the walk there.
+RL_FN void walkScatter(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk, RL_IN(Surface) s) {
+  float uLobe = rngDraw(walk.rng, RL_DIM_BSDF_LOBE);
+  vec2 u;
+  u.x = rngDraw(walk.rng, RL_DIM_BSDF_U);
+  u.y = rngDraw(walk.rng, RL_DIM_BSDF_V);
+  BsdfDraw draw = bsdfDraw(s.bsdf, s.nGeoW, s.nShadeW, s.wo, uLobe, u);
+  walk.isAlive = draw.lobe != 0u && !rlIsBlack(draw.weight) ? 1u : 0u;
+  walkScatters(state, walk, s, draw);
+  walk.throughput *= draw.weight;
+  if (walk.isAlive != 0u && walk.bounces + 1u >= gFrame.rouletteStart) {
+    float survival = min(rlMax3(walk.throughput), 0.95f);
+    if (rngDraw(walk.rng, RL_DIM_ROULETTE) < survival) {
+      walk.throughput *= 1.0f / survival;
+      walkSurvives(state, walk, 1.0f / survival);
+    } else {
+      walk.isAlive = 0u;
+    }
+  }
+  walk.pdfBsdf = (draw.lobe & RL_LOBE_ANY_DELTA) != 0u ? 0.0f : draw.pdfSolidAngle;
+  if (RL_HAS(RL_FEATURE_VOLUME)) walk.sigma = surfaceSigma(s, walk.sigma, draw.wi);
+  walk.ray.origin = surfaceOffset(s.posW, s.nGeoW, s.posError, draw.wi);
+  walk.ray.dir = draw.wi;
+}
+
+// The path of a pixel in this frame, from the film to its end.
+RL_FN void walkPath(RL_INOUT(RL_WALK_STATE) state, RL_IN(uvec2) pixel) {
+  vec2 resolution = vec2(float(gFrame.width), float(gFrame.height));
+  Walk walk;
+  walk.rng = rngInit(gFrame.seed, pixel.y * gFrame.width + pixel.x, gFrame.frame);
+  walk.ray = cameraRay(gFrame.camera, cameraFilmSample(pixel), resolution);
+  walk.throughput = vec3(1.0f, 1.0f, 1.0f);
+  walk.sigma = vec3(0.0f, 0.0f, 0.0f);
+  walk.pdfBsdf = 0.0f;
+  walk.passed = 1.0f;
+  walk.isAlive = 1u;
+  bool hasShadowRay = false;
+  Ray shadowRay = walk.ray;
+  for (walk.bounces = 0u;; walk.bounces = walk.bounces + 1u) {
+    Hit hit;
+    hit.instance = RL_INVALID;
+    hit.primitive = RL_INVALID;
+    hit.bary = vec2(0.0f, 0.0f);
+    hit.t = 0.0f;
+    for (uint which = 0u; which < 2u; which = which + 1u) {
+      bool isShadow = which == 0u;
+      if (isShadow ? !hasShadowRay : walk.isAlive == 0u) continue;
+      Ray traced = walk.ray;
+      if (isShadow) traced = shadowRay;
+      uint mode = isShadow ? RL_RAY_SHADOW : RL_RAY_PATH;
+      float passed = traceRay(traced, mode, walk.rng.key.x + walk.bounces * 0x632be59bu, hit);
+      if (isShadow) {
+        walkSees(state, walk, passed);
+      } else {
+        walk.passed = passed;
+      }
+    }
+    if (walk.isAlive == 0u) break;
+    hasShadowRay = false;
+
+    if (hit.instance == RL_INVALID) {
+      if (environmentExists() && walkWants(walk.bounces)) {
+        vec3 radiance = environmentRadiance(walk.ray.dir);
+        float pdfLight = walk.pdfBsdf > 0.0f ? lightPdfOfEnvironment(walk.ray.dir) : 0.0f;
+        walkEscapes(state, walk, radiance, pdfLight);
+      }
+      break;
+    }
+    Surface s = surfaceLoad(hit, walk.ray.dir);
+    if (RL_HAS(RL_FEATURE_VOLUME)) {
+      vec3 transmittance = exp(-walk.sigma * hit.t);
+      walk.throughput *= transmittance;
+      walkAbsorbs(state, walk, transmittance);
+    }
+    if (!rlIsBlack(s.emission) && walkWants(walk.bounces)) {
+      float pdfLight = 0.0f;
+      if (walk.pdfBsdf > 0.0f && s.light != RL_INVALID)
+        pdfLight = lightPdfOfHit(s.light, s.nGeoW, walk.ray.dir, hit.t);
+      walkEmits(state, walk, s, hit, pdfLight);
+    }
+    if (walk.bounces >= gFrame.maxBounces || bsdfIsBlack(s.bsdf)) break;
+    walk.rng.vertex = walk.bounces + 1u;
+    uint candidates = walkArrives(state, walk, s);
+    if (lightExists() && walkWants(walk.bounces + 1u))
+      hasShadowRay = walkDrawLights(state, walk, s, candidates, shadowRay);
+    walkScatter(state, walk, s);
+  }
+}

@@ -1,0 +1,25 @@
+// State of a path while it is traced (core/transport/walk.glsl).
+#ifndef RL_WALK_H
+#define RL_WALK_H
+
+#ifdef __cplusplus
+#include "core/dialect/order.h"
+#endif
+
+RL_NAMESPACE_BEGIN
+
+struct Walk {
+  Rng rng;          // its vertex is that of the scattering event under way
+  Ray ray;          // the next ray of the path
+  uint bounces;     // scattering events before that ray
+  vec3 throughput;  // of the path up to the ray's origin: f |cos| / pdf of every event
+  vec3 sigma;       // m^-1, absorption of the medium that the ray travels in
+  float
+      pdfBsdf;  // solid-angle density of the ray; 0: camera or delta lobe, no light sample competes
+  float passed;  // of the ray, by traceRay(): below 1 it may have passed something transparent
+  uint isAlive;  // 0: absorbed, or ended by Russian roulette
+};
+
+RL_NAMESPACE_END
+
+#endif

@@ -1,0 +1,258 @@
+// restir_gi: what the initial pass keeps of a pixel's path. The path is the same as that of `path`.
+//   x1 cannot be reused (mirror, glass, roughness below the limit): the light is shaded as it is
+//   direct light    light samples and the BSDF sample of x1
+//   indirect light  x2 and what it sends to x1
+//   a delta lobe drawn at x2: that part of the integrand is shaded as it is (which part it is
+//   depends on x2 alone, so the split is the same for every pixel)
+#define RL_WALK_STATE GiPath
+
+RL_FN LightSample giNoLight() {
+  LightSample s;
+  s.point = vec3(0.0f, 0.0f, 0.0f);
+  s.kind = RL_LIGHT_POINT;
+  s.normal = vec3(0.0f, 0.0f, 0.0f);
+  s.pdf = 0.0f;
+  s.radiance = vec3(0.0f, 0.0f, 0.0f);
+  s.posError = 0.0f;
+  s.cone = vec2(0.0f, 0.0f);
+  s.isTwoSided = 0u;
+  return s;
+}
+
+RL_FN PathSuffix giNoSuffix() {
+  PathSuffix s;
+  s.nShadeW = vec3(0.0f, 0.0f, 1.0f);
+  s.wi = vec3(0.0f, 0.0f, 1.0f);
+  s.emitted = vec3(0.0f, 0.0f, 0.0f);
+  s.pdfLight = 0.0f;
+  s.bsdf.diffuse = vec3(0.0f, 0.0f, 0.0f);
+  s.bsdf.lobes = 0u;
+  s.bsdf.f0 = vec3(0.0f, 0.0f, 0.0f);
+  s.bsdf.f90 = 0.0f;
+  s.bsdf.transmission = vec3(0.0f, 0.0f, 0.0f);
+  s.bsdf.alpha = 1.0f;
+  s.bsdf.eta = 1.0f;
+  return s;
+}
+
+// Can this surface's samples be exchanged? Decided by the surface alone.
+RL_FN bool giIsReusable(RL_IN(Bsdf) b) {
+  if (bsdfIsBlack(b)) return false;
+  if (!RL_HAS(RL_FEATURE_GLOSSY)) return true;
+  if ((b.lobes & (RL_LOBE_ANY_DELTA | RL_LOBE_ANY_TRANSMISSION)) != 0u) return false;
+  return (b.lobes & RL_LOBE_SPECULAR) == 0u || b.alpha >= gParams.minAlpha;
+}
+
+// Density of the light samples of one pixel plus that of its BSDF sample, in the measure of the
+// light sample (area, solid angle of the environment, discrete). dirW points to the light.
+RL_FN float giDirectDensity(RL_IN(LightSample) light, RL_IN(LightConnection) c, RL_IN(Anchor) a) {
+  float density = float(gParams.lightCandidates) * light.pdf;
+  if (!c.isDelta) density += bsdfPdf(a.bsdf, a.nGeoW, a.nShadeW, a.wo, c.dirW) * c.geometry;
+  return density;
+}
+
+RL_FN GiPath giNoPath() {
+  vec3 zero = vec3(0.0f, 0.0f, 0.0f);
+  GiPath p;
+  p.ownLight = zero;
+  p.anchor.posW = zero;
+  p.anchor.posError = 0.0f;
+  p.anchor.nGeoW = vec3(0.0f, 0.0f, 1.0f);
+  p.anchor.nShadeW = p.anchor.nGeoW;
+  p.anchor.wo = p.anchor.nGeoW;
+  p.anchor.isReusable = 0u;
+  p.anchor.bsdf = giNoSuffix().bsdf;
+  p.unseen = zero;
+  p.absorbed = vec3(1.0f, 1.0f, 1.0f);
+  p.suffixThroughput = vec3(1.0f, 1.0f, 1.0f);
+  p.fX1 = zero;
+  p.pdfX1 = 0.0f;
+  p.passedX1 = 1.0f;
+  p.light = giNoLight();
+  p.lightSum = 0.0f;
+  p.lightF = zero;
+  p.found = giNoLight();
+  p.foundF = zero;
+  p.foundWeight = 0.0f;
+  p.foundCoverage = 1.0f;
+  p.hasX2 = 0u;
+  p.x2.posW = zero;
+  p.x2.posError = 0.0f;
+  p.x2.nGeoW = vec3(0.0f, 0.0f, 1.0f);
+  p.x2.kind = RL_PATH_LAMBERT;
+  p.x2.radiance = zero;
+  p.suffix = giNoSuffix();
+  p.woX2 = vec3(0.0f, 0.0f, 1.0f);
+  p.lightAtX2 = zero;
+  p.lightDirX2 = zero;
+  p.lightPdfX2 = 0.0f;
+  p.isSuffix = 0u;
+  p.pdfX2 = 0.0f;
+  p.weightX2 = zero;
+  p.dirX2 = zero;
+  p.emittedAtX3 = zero;
+  p.pdfLightAtX3 = 0.0f;
+  p.rest = zero;
+  return p;
+}
+
+// Light that is carried neither by a light sample of x1 nor by x2's: beyond x3, or not reusable.
+RL_FN void giAddLight(RL_INOUT(GiPath) p, RL_IN(Walk) walk, RL_IN(vec3) contribution) {
+  if (p.isSuffix != 0u) {
+    p.rest += p.suffixThroughput * contribution;
+  } else {
+    p.ownLight += walk.throughput * contribution;
+  }
+}
+
+RL_FN bool giIsAtX1(RL_IN(GiPath) p, RL_IN(Walk) walk) {
+  return p.anchor.isReusable != 0u && walk.bounces == 0u;
+}
+RL_FN bool giIsAtX2(RL_IN(GiPath) p, RL_IN(Walk) walk) {
+  return p.anchor.isReusable != 0u && walk.bounces == 1u;
+}
+
+RL_FN void walkEscapes(RL_INOUT(GiPath) p, RL_IN(Walk) walk, RL_IN(vec3) radiance, float pdfLight) {
+  if (giIsAtX2(p, walk)) {
+    p.passedX1 = walk.passed;
+    p.found.kind = RL_LIGHT_ENVIRONMENT;
+    p.found.point = walk.ray.dir;
+    p.found.pdf = pdfLight;
+    p.found.radiance = radiance;
+    p.foundF = p.fX1 * radiance;
+    p.foundWeight = rlLuminance(p.foundF) *
+                    rlSafeDivide(1.0f, float(gParams.lightCandidates) * pdfLight + p.pdfX1);
+  } else if (p.isSuffix != 0u && walk.bounces == 2u) {
+    p.emittedAtX3 = radiance;
+    p.pdfLightAtX3 = pdfLight;
+  } else {
+    giAddLight(p, walk,
+               radiance * (pdfLight > 0.0f ? lightMisWeight(walk.pdfBsdf, pdfLight) : 1.0f));
+  }
+}
+
+RL_FN void walkEmits(RL_INOUT(GiPath) p, RL_IN(Walk) walk, RL_IN(Surface) s, RL_IN(Hit) hit,
+                     float pdfLight) {
+  if (giIsAtX2(p, walk)) {
+    p.passedX1 = walk.passed;
+    float cosLight = abs(dot(s.nGeoW, walk.ray.dir));
+    float geometry = cosLight / (hit.t * hit.t);
+    p.found.kind = RL_LIGHT_TRIANGLE;
+    p.found.point = s.posW;
+    p.found.normal = s.nGeoW;
+    p.found.posError = s.posError;
+    p.found.pdf = pdfLight * geometry;
+    p.found.radiance = s.emission;
+    if (RL_HAS(RL_FEATURE_ALPHA)) {
+      p.foundCoverage = surfaceAlpha(hit);
+      p.found.radiance *= p.foundCoverage;
+    }
+    // Unlit surfaces are not in the light table and shine to both sides.
+    p.found.isTwoSided = RL_MATERIAL_DOUBLE_SIDED;
+    if (s.light != RL_INVALID)
+      p.found.isTwoSided = recordLight(s.light).flags & RL_MATERIAL_DOUBLE_SIDED;
+    p.foundF = p.fX1 * s.emission * geometry;
+    p.foundWeight =
+        rlLuminance(p.foundF) *
+        rlSafeDivide(1.0f, (float(gParams.lightCandidates) * pdfLight + p.pdfX1) * geometry);
+  } else if (p.isSuffix != 0u && walk.bounces == 2u) {
+    p.emittedAtX3 = s.emission * p.absorbed;
+    p.pdfLightAtX3 = pdfLight;
+  } else {
+    giAddLight(p, walk,
+               s.emission * (pdfLight > 0.0f ? lightMisWeight(walk.pdfBsdf, pdfLight) : 1.0f));
+  }
+}
+
+RL_FN void walkAbsorbs(RL_INOUT(GiPath) p, RL_IN(Walk) walk, RL_IN(vec3) transmittance) {
+  p.absorbed = transmittance;
+  p.suffixThroughput *= transmittance;
+}
+
+RL_FN uint walkArrives(RL_INOUT(GiPath) p, RL_IN(Walk) walk, RL_INOUT(Surface) s) {
+  if (walk.bounces == 0u) {
+    p.anchor.posW = s.posW;
+    p.anchor.posError = s.posError;
+    p.anchor.nGeoW = s.nGeoW;
+    p.anchor.nShadeW = s.nShadeW;
+    p.anchor.bsdf = s.bsdf;
+    // What its neighbours and the next frame recompute.
+    p.anchor.wo = cameraDirectionFrom(gFrame.camera, s.posW);
+    s.wo = p.anchor.wo;
+    p.anchor.isReusable = giIsReusable(s.bsdf) ? 1u : 0u;
+    if (p.anchor.isReusable == 0u) RL_HEALTH(RL_HEALTH_UNREUSABLE_PIXELS);
+  }
+  if (walk.bounces == 1u) p.passedX1 = walk.passed;
+  return giIsAtX1(p, walk) ? gParams.lightCandidates : 1u;
+}
+
+RL_FN bool walkLights(RL_INOUT(GiPath) p, RL_IN(Walk) walk, RL_IN(Rng) rng, RL_IN(Surface) s,
+                      RL_IN(LightSample) light, RL_IN(LightConnection) c) {
+  vec3 f = bsdfEval(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW);
+  if (giIsAtX1(p, walk)) {
+    vec3 integrand = f * c.emitted * c.geometry;
+    real w = rlLuminance(integrand) * rlSafeDivide(1.0f, giDirectDensity(light, c, p.anchor));
+    if (!risAccept(p.lightSum, w, rngDraw(rng, RL_DIM_RIS_LIGHT))) return false;
+    p.light = light;
+    p.lightF = integrand;
+    return true;
+  }
+  if (rlIsBlack(f)) return false;
+  vec3 arriving = c.emitted * (c.geometry / light.pdf);
+  if (RL_HAS(RL_FEATURE_VOLUME)) arriving *= exp(-surfaceSigma(s, walk.sigma, c.dirW) * c.distance);
+  if (giIsAtX2(p, walk)) {
+    p.lightAtX2 = arriving;
+    p.lightDirX2 = c.dirW;
+    p.lightPdfX2 = c.isDelta ? 0.0f : c.pdfSolidAngle;
+    return true;
+  }
+  float weight = 1.0f;
+  if (!c.isDelta) {
+    weight = lightMisWeight(c.pdfSolidAngle, bsdfPdf(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW));
+  }
+  p.unseen = (p.isSuffix != 0u ? p.suffixThroughput : walk.throughput) * f * arriving * weight;
+  return true;
+}
+
+RL_FN void walkSees(RL_INOUT(GiPath) p, RL_IN(Walk) walk, float transmittance) {
+  if (p.anchor.isReusable != 0u && walk.bounces == 1u) {
+    p.lightF *= transmittance;
+    p.lightSum *= transmittance;
+  } else if (p.hasX2 != 0u && walk.bounces == 2u) {
+    p.lightAtX2 *= transmittance;
+  } else if (p.isSuffix != 0u) {
+    p.rest += p.unseen * transmittance;
+  } else {
+    p.ownLight += p.unseen * transmittance;
+  }
+}
+
+RL_FN void walkScatters(RL_INOUT(GiPath) p, RL_IN(Walk) walk, RL_IN(Surface) s,
+                        RL_IN(BsdfDraw) draw) {
+  if (giIsAtX1(p, walk)) {
+    p.fX1 = draw.weight * draw.pdfSolidAngle;
+    p.pdfX1 = draw.pdfSolidAngle;
+  } else if (giIsAtX2(p, walk)) {
+    p.x2.posW = s.posW;
+    p.x2.posError = s.posError;
+    p.x2.nGeoW = s.nGeoW;
+    p.suffix.nShadeW = s.nShadeW;
+    p.suffix.bsdf = s.bsdf;
+    p.woX2 = s.wo;
+    p.hasX2 = 1u;
+    if (walk.isAlive != 0u && (draw.lobe & RL_LOBE_ANY_DELTA) == 0u) {
+      p.isSuffix = 1u;
+      p.pdfX2 = draw.pdfSolidAngle;
+      p.weightX2 = draw.weight;
+      p.dirX2 = draw.wi;
+    }
+  } else if (p.isSuffix != 0u) {
+    p.suffixThroughput *= draw.weight;
+  }
+}
+
+RL_FN void walkSurvives(RL_INOUT(GiPath) p, RL_IN(Walk) walk, float factor) {
+  p.suffixThroughput *= factor;
+}
+
+#include "core/transport/walk.glsl"
