@@ -76,7 +76,7 @@ rl_read_masks(${PROJECT_SOURCE_DIR}/core/features.list)
 set(RL_GENERATED_DIR ${PROJECT_BINARY_DIR}/generated)
 add_library(rl_kernels STATIC)
 target_link_libraries(rl_kernels PUBLIC rl_options embree glm::glm)
-# The bridge has one signature for every payload: some ignore a parameter.
+# As core/backend/cpu_kernel.inl says; for clang++, which tests/lint compiles kernels with.
 target_compile_options(rl_kernels PRIVATE -Wno-unused-parameter)
 # The inner loops of every figure; kept fast in debug builds, light to compile under a sanitizer.
 if(RESTLAB_FUZZ)

@@ -9,6 +9,10 @@
 #include "core/dialect/order.h"
 #include RL_KERNEL_HEADER
 
+// Functions that a kernel hands to the path loop or to a bridge have one signature: some ignore a
+// parameter.
+#pragma GCC diagnostic ignored "-Wunused-parameter"
+
 #ifndef RL_KERNEL_TRACE
 #define RL_KERNEL_TRACE "core/backend/cpu_trace.inl"
 #endif
