@@ -126,10 +126,6 @@ Session::Session(std::shared_ptr<const CompiledScene> scene, const SessionConfig
   const bool directOnly = (config.components & rl::RL_COMPONENT_INDIRECT) == 0;
   f.maxBounces = directOnly ? std::min(config.maxBounces, 1u) : config.maxBounces;
   f.components = config.components;
-  const auto hold = m.config.parameters.find("film_hold");
-  f.filmHold = hold == m.config.parameters.end()
-                   ? 1u
-                   : static_cast<uint32_t>(std::get<int64_t>(hold->second));
   f.rouletteStart = config.russianRoulette ? rl::RL_ROULETTE_EARLIEST : rl::RL_INVALID;
   f.multiscatter = multiscatter ? 1u : 0u;
 }

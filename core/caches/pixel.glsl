@@ -1,26 +1,22 @@
 // The pixel cache: one slot a pixel. Donor over time: the pixel that the surface was seen in last
 // frame; over space: the pixel that a frame's random pairing gives.
+#include "core/caches/cache.glsl"
 
 RL_FN uint cacheSlot(RL_IN(uvec2) pixel) { return pixel.y * gFrame.width + pixel.x; }
 
-RL_FN bool cacheSlotOfFilm(RL_IN(vec2) film, RL_OUT(uint) slot) {
-  slot = 0u;
-  if (!(film.x >= 0.0f && film.y >= 0.0f && film.x < float(gFrame.width) &&
-        film.y < float(gFrame.height))) {
-    return false;
-  }
-  slot =
-      min(uint(film.y), gFrame.height - 1u) * gFrame.width + min(uint(film.x), gFrame.width - 1u);
-  return true;
-}
+RL_FN uvec2 cachePixel(uint slot) { return uvec2(slot % gFrame.width, slot / gFrame.width); }
 
-RL_FN bool cacheDonorOverTime(RL_IN(Anchor) here, RL_OUT(uint) slot) {
-  vec2 film;
-  slot = 0u;
-  vec2 resolution = vec2(float(gFrame.width), float(gFrame.height));
+RL_FN VisibleSurface cacheSurface(uint slot) { return visibleRead(gBuffers.visible, slot); }
+
+RL_FN bool cacheDonorOverTime(uint slot, RL_OUT(uint) donor) {
+  donor = slot;
   if (gFrame.frame == 0u) return false;
-  if (!cameraProject(gFrame.previousCamera, here.posW, resolution, film)) return false;
-  return cacheSlotOfFilm(film, slot);
+  if (gFrame.isStillView != 0u) return true;
+  VisibleSurface here = cacheSurface(slot);
+  vec2 film;
+  if (!visibleFilmBefore(here, film)) return false;
+  donor = uint(film.y) * gFrame.width + uint(film.x);
+  return cacheSurfacesMatch(here, visibleRead(gBuffers.visibleBefore, donor));
 }
 
 // Pairs for the exchange over space: the frame is cut into tiles of spatialTile pixels, randomly
@@ -29,7 +25,7 @@ RL_FN bool cacheDonorOverTime(RL_IN(Anchor) here, RL_OUT(uint) slot) {
 // is equally likely. `pairing` numbers independent pairings. False where the partner is the pixel
 // itself or outside the image.
 RL_FN bool cacheMirror(RL_IN(uvec2) pixel, uint pairing, RL_OUT(uvec2) partner) {
-  uint side = gParams.spatialTile;
+  uint side = gParams.cache.tile;
   uint shift = rngSharedBits(pairing, RL_DIM_DONOR_U);
   uint shiftX = (shift & 0xffffu) % side;
   uint shiftY = (shift >> 16u) % side;
@@ -45,25 +41,19 @@ RL_FN bool cacheMirror(RL_IN(uvec2) pixel, uint pairing, RL_OUT(uvec2) partner) 
          (partner.x != pixel.x || partner.y != pixel.y);
 }
 
-RL_FN bool cacheMirrorMatches(RL_IN(uvec2) pixel, RL_IN(Anchor) here, uint pairing,
-                              RL_OUT(uvec2) partner) {
+RL_FN bool cacheMirrorMatches(RL_IN(uvec2) pixel, uint pairing, RL_OUT(uvec2) partner) {
   if (!cacheMirror(pixel, pairing, partner)) return false;
-  Anchor there = cacheAnchorNow(cacheSlot(partner));
-  vec3 camera = gFrame.camera.posW;
-  return cacheAnchorsMatch(here, there,
-                           max(distance(camera, here.posW), distance(camera, there.posW)));
+  return cacheSurfacesMatch(cacheSurface(cacheSlot(pixel)), cacheSurface(cacheSlot(partner)));
 }
 
-// My k-th donor over space, whose k-th donor I am. Two pairings are tried; the second pairs only
-// those whom the first has left alone.
-RL_FN bool cachePartner(RL_IN(uvec2) pixel, RL_IN(Anchor) here, uint k, RL_OUT(uint) slot) {
+// Two pairings are tried; the second pairs only those whom the first has left alone.
+RL_FN bool cachePartner(RL_IN(uvec2) pixel, uint k, RL_OUT(uint) slot) {
   slot = RL_INVALID;
   uvec2 partner;
-  if (!cacheMirrorMatches(pixel, here, 2u * k, partner)) {
-    if (!cacheMirrorMatches(pixel, here, 2u * k + 1u, partner)) return false;
-    Anchor there = cacheAnchorNow(cacheSlot(partner));
+  if (!cacheMirrorMatches(pixel, 2u * k, partner)) {
+    if (!cacheMirrorMatches(pixel, 2u * k + 1u, partner)) return false;
     uvec2 first;
-    if (cacheMirrorMatches(partner, there, 2u * k, first)) return false;
+    if (cacheMirrorMatches(partner, 2u * k, first)) return false;
   }
   slot = cacheSlot(partner);
   return true;

@@ -222,3 +222,37 @@ RL_FN BsdfDraw bsdfDraw(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_
   result.lobe = lobe;
   return result;
 }
+
+// A surface that scatters nothing.
+RL_FN Bsdf bsdfNone() {
+  Bsdf b;
+  b.diffuse = vec3(0.0f, 0.0f, 0.0f);
+  b.lobes = 0u;
+  b.f0 = vec3(0.0f, 0.0f, 0.0f);
+  b.f90 = 0.0f;
+  b.transmission = vec3(0.0f, 0.0f, 0.0f);
+  b.alpha = 1.0f;
+  b.eta = 1.0f;
+  return b;
+}
+
+// Lambert alone: what it sends does not depend on the direction.
+RL_FN bool bsdfIsLambert(RL_IN(Bsdf) b) {
+  return !RL_HAS(RL_FEATURE_GLOSSY) || b.lobes == RL_LOBE_DIFFUSE;
+}
+
+// Can paths that arrive from other directions be exchanged here? Not where it is a mirror, glass or
+// smoother than minAlpha.
+RL_FN bool bsdfIsReusable(RL_IN(Bsdf) b, float minAlpha) {
+  if (bsdfIsBlack(b)) return false;
+  if (!RL_HAS(RL_FEATURE_GLOSSY)) return true;
+  if ((b.lobes & (RL_LOBE_ANY_DELTA | RL_LOBE_ANY_TRANSMISSION)) != 0u) return false;
+  return (b.lobes & RL_LOBE_SPECULAR) == 0u || b.alpha >= minAlpha;
+}
+
+// Share of the light that is reflected, roughly: diffuse and specular at normal incidence.
+RL_FN vec3 bsdfReflectance(RL_IN(Bsdf) b) {
+  vec3 reflectance = b.diffuse;
+  if (RL_HAS(RL_FEATURE_GLOSSY)) reflectance += b.f0;
+  return reflectance;
+}

@@ -40,18 +40,29 @@ RL_FN vec3 cameraDirectionFrom(RL_IN(Camera) camera, RL_IN(vec3) posW) {
   return normalize(camera.posW - posW);
 }
 
-// The film point of a pixel in this frame: uniform over the pixel (box filter) or its centre. It is
-// kept for filmHold frames, pixels changing at different times: while it stays and the camera
-// stands still, the first hit is the same point, and what was visible from it last frame is visible
-// now. Over independent runs each frame's film point is uniform, so this changes no expectation.
-RL_FN vec2 cameraFilmSample(RL_IN(uvec2) pixel) {
+// The film sample of a pixel in this frame: a fraction of the pixel's width in the low half word, of
+// its height in the high one.
+RL_FN uint cameraFilmBits(RL_IN(uvec2) pixel) {
+  Rng rng = rngInit(gFrame.seed ^ 0x5bd1e995u, pixel.y * gFrame.width + pixel.x, gFrame.frame);
+  uint x = rngBits(rng, RL_DIM_FILTER_X);
+  uint y = rngBits(rng, RL_DIM_FILTER_Y);
+  return (x >> 16u) | (y & 0xffff0000u);
+}
+
+// Its film coordinates: anywhere in the pixel (box filter), or the centre.
+RL_FN vec2 cameraFilmPoint(RL_IN(uvec2) pixel, uint film) {
   vec2 offset = vec2(0.5f, 0.5f);
   if (gFrame.pixelFilter == RL_FILTER_BOX) {
-    uint pixelIndex = pixel.y * gFrame.width + pixel.x;
-    uint epoch = (gFrame.frame + rngHash(pixelIndex) % gFrame.filmHold) / gFrame.filmHold;
-    Rng rng = rngInit(gFrame.seed ^ 0x5bd1e995u, pixelIndex, epoch);
-    offset.x = rngDraw(rng, RL_DIM_FILTER_X);
-    offset.y = rngDraw(rng, RL_DIM_FILTER_Y);
+    offset.x = (float(film & 0xffffu) + 0.5f) * 1.52587890625e-5f;
+    offset.y = (float(film >> 16u) + 0.5f) * 1.52587890625e-5f;
   }
   return vec2(float(pixel.x) + offset.x, float(pixel.y) + offset.y);
 }
+
+// The ray through a film sample, and the key by which it decides on partly transparent surfaces:
+// part of the film sample, so that whoever traces it again meets the same surface.
+RL_FN Ray cameraFilmRay(RL_IN(Camera) camera, RL_IN(uvec2) pixel, uint film) {
+  vec2 resolution = vec2(float(gFrame.width), float(gFrame.height));
+  return cameraRay(camera, cameraFilmPoint(pixel, film), resolution);
+}
+RL_FN uint cameraAlphaKey(uint film) { return rngHash(film ^ 0x27d4eb2fu); }

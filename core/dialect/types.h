@@ -256,13 +256,12 @@ struct FrameData {
   uint pixelFilter;
   uint maxBounces;  // scattering events
   uint components;
-  uint filmHold;       // frames that a pixel keeps its film sample; 1: a new one every frame
   uint rouletteStart;  // first scattering event that may end a path by Russian roulette;
                        // RL_INVALID: off
   uint multiscatter;   // 1: GGX lobes are compensated, and the scene has ggxAlbedo; 0: off
   uint isStillView;    // 1: the camera is that of the frame before; 0: it moved, or there was none
 };
-RL_STATIC_ASSERT_SIZE(FrameData, 172);
+RL_STATIC_ASSERT_SIZE(FrameData, 168);
 
 // Numerical health: counters that every kernel adds to; names in core/session.cpp.
 const uint RL_HEALTH_NONFINITE = 0u;          // non-finite sample values set to zero

@@ -31,6 +31,19 @@ RL_FN vec3 visibleUnpackNormal(uint packed) {
   return normalize(vec3(x, y, z));
 }
 
+// Three numbers of 0 to 1, in 10 bits each.
+RL_FN uint visiblePackColor(RL_IN(vec3) c) {
+  uint r = uint(clamp(c.x, 0.0f, 1.0f) * 1023.0f + 0.5f);
+  uint g = uint(clamp(c.y, 0.0f, 1.0f) * 1023.0f + 0.5f);
+  uint b = uint(clamp(c.z, 0.0f, 1.0f) * 1023.0f + 0.5f);
+  return r | (g << 10u) | (b << 20u);
+}
+RL_FN vec3 visibleUnpackColor(uint packed) {
+  return vec3(float(packed & 0x3ffu), float((packed >> 10u) & 0x3ffu),
+              float((packed >> 20u) & 0x3ffu)) *
+         (1.0f / 1023.0f);
+}
+
 RL_FN VisibleSurface visibleRead(RL_IN(QuadRef) quads, uint pixelIndex) {
   uvec4 q0 = RL_PAST_QUAD(quads, pixelIndex * RL_VISIBLE_QUADS);
   uvec4 q1 = RL_PAST_QUAD(quads, pixelIndex * RL_VISIBLE_QUADS + 1u);
@@ -39,13 +52,15 @@ RL_FN VisibleSurface visibleRead(RL_IN(QuadRef) quads, uint pixelIndex) {
   v.isHit = q0.w;
   v.nGeoW = visibleUnpackNormal(q1.x);
   v.nShadeW = visibleUnpackNormal(q1.y);
+  v.reflectance = visibleUnpackColor(q1.z);
   return v;
 }
 
 RL_FN void visibleWrite(RL_IN(QuadRef) quads, uint pixelIndex, RL_IN(VisibleSurface) v) {
   RL_WRITE_QUAD(quads, pixelIndex * RL_VISIBLE_QUADS, recordQuad(v.posW, v.isHit));
   RL_WRITE_QUAD(quads, pixelIndex * RL_VISIBLE_QUADS + 1u,
-                uvec4(visiblePackNormal(v.nGeoW), visiblePackNormal(v.nShadeW), 0u, 0u));
+                uvec4(visiblePackNormal(v.nGeoW), visiblePackNormal(v.nShadeW),
+                      visiblePackColor(v.reflectance), 0u));
 }
 
 // Are two of them alike enough to share a history? Symmetric. distanceToCamera: in metres.

@@ -14,6 +14,7 @@ struct VisibleSurface {
   uint isHit;  // 0: the background
   vec3 nGeoW;  // unit, on the side of the camera
   vec3 nShadeW;
+  vec3 reflectance;  // bsdfReflectance(), 0 to 1
 };
 
 const uint RL_VISIBLE_QUADS = 2u;  // of one in a buffer

@@ -2,11 +2,10 @@
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint pixelIndex = pixel.y * gFrame.width + pixel.x;
-  vec2 resolution = vec2(float(gFrame.width), float(gFrame.height));
-  Rng rng = rngInit(gFrame.seed, pixelIndex, gFrame.frame);
-  Ray ray = cameraRay(gFrame.camera, cameraFilmSample(pixel), resolution);
+  uint film = cameraFilmBits(pixel);
+  Ray ray = cameraFilmRay(gFrame.camera, pixel, film);
   Hit hit;
-  traceRay(ray, RL_RAY_PATH, rng.key.x, hit);
+  traceRay(ray, RL_RAY_PATH, cameraAlphaKey(film), hit);
   vec3 zero = vec3(0.0f, 0.0f, 0.0f);
   if (hit.instance == RL_INVALID) {
     gBuffers.positionW.data[pixelIndex] = zero;

@@ -13,12 +13,14 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   v.isHit = 0u;
   v.nGeoW = -ray.dir;
   v.nShadeW = -ray.dir;
+  v.reflectance = vec3(0.0f, 0.0f, 0.0f);
   if (hit.instance != RL_INVALID) {
     Surface s = surfaceLoad(hit, ray.dir);
     v.posW = s.posW;
     v.isHit = 1u;
     v.nGeoW = s.nGeoW;
     v.nShadeW = s.nShadeW;
+    v.reflectance = bsdfReflectance(s.bsdf);
   }
   visibleWrite(gBuffers.visible, pixelIndex, v);
 }

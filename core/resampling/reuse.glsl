@@ -1,21 +1,28 @@
-// Shifts of samples between anchors. Included once per payload type with RL_RESERVOIR (a struct
-// with a ReservoirState `state`) and RL_ANCHOR (where a sample is evaluated) defined. The bridge,
-// per payload:
-// - bridgeShift(reservoir, from, to, J): integrand of the shifted sample at `to` without
-//   visibility; zero where the shift is undefined, by a predicate that is the same in both
-//   directions;
-// and for all of them bridgeTarget(F), the scalar target.
+// What merges over time and over space share beside the algebra (core/resampling/merge.glsl).
 
-// The sample of a reservoir that lives at `from`, as `to` sees it, without visibility: where
-// reuseAsksVisibility() says so, the caller multiplies F by the transmittance between the sample
-// and `to`. The rays of several shifts can then be traced by one call.
-RL_FN Shifted reuseShift(RL_IN(RL_RESERVOIR) r, RL_IN(RL_ANCHOR) from, RL_IN(RL_ANCHOR) to) {
-  Shifted s;
-  s.F = real3(real(0.0f));
-  s.jacobian = real(1.0f);
-  if (!(r.state.W > real(0.0f))) return s;
-  real jacobian = real(1.0f);
-  s.F = bridgeShift(r, from, to, jacobian);
-  s.jacobian = jacobian;
-  return s;
+// Nothing to merge: no sample, and nothing known beyond samples.
+RL_FN bool reuseIsEmpty(RL_IN(ReservoirState) state) {
+  return !(state.W > real(0.0f)) && state.residual.x == real(0.0f) &&
+         state.residual.y == real(0.0f) && state.residual.z == real(0.0f);
+}
+
+// A donor's confidence after the cap, counted when the cap acts.
+RL_FN real reuseCapped(real confidence, real cap) {
+  if (!(confidence > cap)) return confidence;
+  RL_HEALTH(RL_HEALTH_CAPPED_CONFIDENCE);
+  return cap;
+}
+
+// The share of its confidence with which a donor over space enters the merge of a pixel whose
+// history holds `age` frames. A history averages a pixel's own noise down, but not the difference of
+// two pixels at a donor's one sample: of a frame's variance that is `noise`, and a donor's estimate,
+// at best as good as the pixel's own, is worth 1 / (1 + noise age) of it. Any share that does not
+// depend on the samples is unbiased.
+RL_FN real reuseDonorShare(real age, real noise) { return real(1.0f) / (real(1.0f) + noise * (age - real(1.0f))); }
+
+// Expected integrand of `to` over that of `from`: of the carried estimates, which scale with the
+// surface. At most `bound` per channel.
+RL_FN real3 reuseReflectanceRatio(RL_IN(real3) from, RL_IN(real3) to, real bound) {
+  real3 ratio = real3(misDivide(to.x, from.x), misDivide(to.y, from.y), misDivide(to.z, from.z));
+  return min(ratio, real3(bound));
 }

@@ -73,10 +73,10 @@ RL_FN void walkScatter(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk, RL_IN
 
 // The path of a pixel in this frame, from the film to its end.
 RL_FN void walkPath(RL_INOUT(RL_WALK_STATE) state, RL_IN(uvec2) pixel) {
-  vec2 resolution = vec2(float(gFrame.width), float(gFrame.height));
   Walk walk;
   walk.rng = rngInit(gFrame.seed, pixel.y * gFrame.width + pixel.x, gFrame.frame);
-  walk.ray = cameraRay(gFrame.camera, cameraFilmSample(pixel), resolution);
+  walk.film = cameraFilmBits(pixel);
+  walk.ray = cameraFilmRay(gFrame.camera, pixel, walk.film);
   walk.throughput = vec3(1.0f, 1.0f, 1.0f);
   walk.sigma = vec3(0.0f, 0.0f, 0.0f);
   walk.pdfBsdf = 0.0f;
@@ -96,7 +96,9 @@ RL_FN void walkPath(RL_INOUT(RL_WALK_STATE) state, RL_IN(uvec2) pixel) {
       Ray traced = walk.ray;
       if (isShadow) traced = shadowRay;
       uint mode = isShadow ? RL_RAY_SHADOW : RL_RAY_PATH;
-      float passed = traceRay(traced, mode, walk.rng.key.x + walk.bounces * 0x632be59bu, hit);
+      uint alphaKey = walk.rng.key.x + walk.bounces * 0x632be59bu;
+      if (walk.bounces == 0u) alphaKey = cameraAlphaKey(walk.film);
+      float passed = traceRay(traced, mode, alphaKey, hit);
       if (isShadow) {
         walkSees(state, walk, passed);
       } else {

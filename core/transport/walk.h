@@ -10,6 +10,7 @@ RL_NAMESPACE_BEGIN
 
 struct Walk {
   Rng rng;          // its vertex is that of the scattering event under way
+  uint film;        // the film sample that the path begins with
   Ray ray;          // the next ray of the path
   uint bounces;     // scattering events before that ray
   vec3 throughput;  // of the path up to the ray's origin: f |cos| / pdf of every event

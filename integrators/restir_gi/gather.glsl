@@ -19,49 +19,23 @@ RL_FN LightSample giNoLight() {
   return s;
 }
 
-RL_FN PathSuffix giNoSuffix() {
-  PathSuffix s;
-  s.nShadeW = vec3(0.0f, 0.0f, 1.0f);
-  s.wi = vec3(0.0f, 0.0f, 1.0f);
-  s.emitted = vec3(0.0f, 0.0f, 0.0f);
-  s.pdfLight = 0.0f;
-  s.bsdf.diffuse = vec3(0.0f, 0.0f, 0.0f);
-  s.bsdf.lobes = 0u;
-  s.bsdf.f0 = vec3(0.0f, 0.0f, 0.0f);
-  s.bsdf.f90 = 0.0f;
-  s.bsdf.transmission = vec3(0.0f, 0.0f, 0.0f);
-  s.bsdf.alpha = 1.0f;
-  s.bsdf.eta = 1.0f;
-  return s;
-}
-
-// Can this surface's samples be exchanged? Decided by the surface alone.
-RL_FN bool giIsReusable(RL_IN(Bsdf) b) {
-  if (bsdfIsBlack(b)) return false;
-  if (!RL_HAS(RL_FEATURE_GLOSSY)) return true;
-  if ((b.lobes & (RL_LOBE_ANY_DELTA | RL_LOBE_ANY_TRANSMISSION)) != 0u) return false;
-  return (b.lobes & RL_LOBE_SPECULAR) == 0u || b.alpha >= gParams.minAlpha;
-}
-
 // Density of the light samples of one pixel plus that of its BSDF sample, in the measure of the
 // light sample (area, solid angle of the environment, discrete). dirW points to the light.
-RL_FN float giDirectDensity(RL_IN(LightSample) light, RL_IN(LightConnection) c, RL_IN(Anchor) a) {
+RL_FN float giDirectDensity(RL_IN(LightSample) light, RL_IN(LightConnection) c, RL_IN(Surface) s) {
   float density = float(gParams.lightCandidates) * light.pdf;
-  if (!c.isDelta) density += bsdfPdf(a.bsdf, a.nGeoW, a.nShadeW, a.wo, c.dirW) * c.geometry;
+  if (!c.isDelta) density += bsdfPdf(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW) * c.geometry;
   return density;
 }
 
-RL_FN GiPath giNoPath() {
+RL_FN GiPath giNoPath(uint film) {
   vec3 zero = vec3(0.0f, 0.0f, 0.0f);
   GiPath p;
   p.ownLight = zero;
-  p.anchor.posW = zero;
-  p.anchor.posError = 0.0f;
-  p.anchor.nGeoW = vec3(0.0f, 0.0f, 1.0f);
-  p.anchor.nShadeW = p.anchor.nGeoW;
-  p.anchor.wo = p.anchor.nGeoW;
-  p.anchor.isReusable = 0u;
-  p.anchor.bsdf = giNoSuffix().bsdf;
+  p.film = film;
+  p.isReusable = 0u;
+  p.x1PosW = zero;
+  p.x1NGeoW = zero;
+  p.x1PosError = 0.0f;
   p.unseen = zero;
   p.absorbed = vec3(1.0f, 1.0f, 1.0f);
   p.suffixThroughput = vec3(1.0f, 1.0f, 1.0f);
@@ -76,12 +50,7 @@ RL_FN GiPath giNoPath() {
   p.foundWeight = 0.0f;
   p.foundCoverage = 1.0f;
   p.hasX2 = 0u;
-  p.x2.posW = zero;
-  p.x2.posError = 0.0f;
-  p.x2.nGeoW = vec3(0.0f, 0.0f, 1.0f);
-  p.x2.kind = RL_PATH_LAMBERT;
-  p.x2.radiance = zero;
-  p.suffix = giNoSuffix();
+  p.x2 = pathOfLight(giNoLight(), film);
   p.woX2 = vec3(0.0f, 0.0f, 1.0f);
   p.lightAtX2 = zero;
   p.lightDirX2 = zero;
@@ -106,10 +75,10 @@ RL_FN void giAddLight(RL_INOUT(GiPath) p, RL_IN(Walk) walk, RL_IN(vec3) contribu
 }
 
 RL_FN bool giIsAtX1(RL_IN(GiPath) p, RL_IN(Walk) walk) {
-  return p.anchor.isReusable != 0u && walk.bounces == 0u;
+  return p.isReusable != 0u && walk.bounces == 0u;
 }
 RL_FN bool giIsAtX2(RL_IN(GiPath) p, RL_IN(Walk) walk) {
-  return p.anchor.isReusable != 0u && walk.bounces == 1u;
+  return p.isReusable != 0u && walk.bounces == 1u;
 }
 
 RL_FN void walkEscapes(RL_INOUT(GiPath) p, RL_IN(Walk) walk, RL_IN(vec3) radiance, float pdfLight) {
@@ -171,16 +140,13 @@ RL_FN void walkAbsorbs(RL_INOUT(GiPath) p, RL_IN(Walk) walk, RL_IN(vec3) transmi
 
 RL_FN uint walkArrives(RL_INOUT(GiPath) p, RL_IN(Walk) walk, RL_INOUT(Surface) s) {
   if (walk.bounces == 0u) {
-    p.anchor.posW = s.posW;
-    p.anchor.posError = s.posError;
-    p.anchor.nGeoW = s.nGeoW;
-    p.anchor.nShadeW = s.nShadeW;
-    p.anchor.bsdf = s.bsdf;
-    // What its neighbours and the next frame recompute.
-    p.anchor.wo = cameraDirectionFrom(gFrame.camera, s.posW);
-    s.wo = p.anchor.wo;
-    p.anchor.isReusable = giIsReusable(s.bsdf) ? 1u : 0u;
-    if (p.anchor.isReusable == 0u) RL_HEALTH(RL_HEALTH_UNREUSABLE_PIXELS);
+    p.x1PosW = s.posW;
+    p.x1NGeoW = s.nGeoW;
+    p.x1PosError = s.posError;
+    // What other pixels compute of this x1.
+    s.wo = cameraDirectionFrom(gFrame.camera, s.posW);
+    p.isReusable = bsdfIsReusable(s.bsdf, gParams.minAlpha) ? 1u : 0u;
+    if (p.isReusable == 0u) RL_HEALTH(RL_HEALTH_UNREUSABLE_PIXELS);
   }
   if (walk.bounces == 1u) p.passedX1 = walk.passed;
   return giIsAtX1(p, walk) ? gParams.lightCandidates : 1u;
@@ -191,7 +157,7 @@ RL_FN bool walkLights(RL_INOUT(GiPath) p, RL_IN(Walk) walk, RL_IN(Rng) rng, RL_I
   vec3 f = bsdfEval(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW);
   if (giIsAtX1(p, walk)) {
     vec3 integrand = f * c.emitted * c.geometry;
-    real w = rlLuminance(integrand) * rlSafeDivide(1.0f, giDirectDensity(light, c, p.anchor));
+    real w = rlLuminance(integrand) * rlSafeDivide(1.0f, giDirectDensity(light, c, s));
     if (!risAccept(p.lightSum, w, rngDraw(rng, RL_DIM_RIS_LIGHT))) return false;
     p.light = light;
     p.lightF = integrand;
@@ -215,7 +181,7 @@ RL_FN bool walkLights(RL_INOUT(GiPath) p, RL_IN(Walk) walk, RL_IN(Rng) rng, RL_I
 }
 
 RL_FN void walkSees(RL_INOUT(GiPath) p, RL_IN(Walk) walk, float transmittance) {
-  if (p.anchor.isReusable != 0u && walk.bounces == 1u) {
+  if (p.isReusable != 0u && walk.bounces == 1u) {
     p.lightF *= transmittance;
     p.lightSum *= transmittance;
   } else if (p.hasX2 != 0u && walk.bounces == 2u) {
@@ -235,9 +201,11 @@ RL_FN void walkScatters(RL_INOUT(GiPath) p, RL_IN(Walk) walk, RL_IN(Surface) s,
   } else if (giIsAtX2(p, walk)) {
     p.x2.posW = s.posW;
     p.x2.posError = s.posError;
-    p.x2.nGeoW = s.nGeoW;
-    p.suffix.nShadeW = s.nShadeW;
-    p.suffix.bsdf = s.bsdf;
+    p.x2.normalW = s.nGeoW;
+    p.x2.kind = RL_PATH_LAMBERT;
+    p.x2.geometry = pathGeometry(p.x2, p.x1PosW);
+    p.x2.suffix.nShadeW = s.nShadeW;
+    p.x2.suffix.bsdf = s.bsdf;
     p.woX2 = s.wo;
     p.hasX2 = 1u;
     if (walk.isAlive != 0u && (draw.lobe & RL_LOBE_ANY_DELTA) == 0u) {

@@ -1,19 +1,12 @@
-// restir_gi, initial pass: traces the pixel's path and turns what it met (gather.glsl) into the
-// reservoirs of direct and of indirect light.
+// restir_gi, initial pass: traces the pixel's path and turns what it met (gather.glsl) into one
+// reservoir. What no other pixel could use (mirrors, glass, lights in view) is averaged over time
+// alone: the shift of a still view is the identity, whatever the path.
 #include "core/resampling/ris.glsl"
-#include "integrators/restir_gi/store.glsl"
-#include "core/caches/cache.glsl"
+#include "core/resampling/shift.glsl"
+#include "core/payload/path_sample.glsl"
 #include "core/caches/pixel.glsl"
+#include "integrators/restir_gi/store.glsl"
 #include "integrators/restir_gi/gather.glsl"
-
-RL_FN ReservoirState giEmptyState() {
-  ReservoirState state;
-  state.F = vec3(0.0f, 0.0f, 0.0f);
-  state.W = 0.0f;
-  state.residual = vec3(0.0f, 0.0f, 0.0f);
-  state.confidence = 1.0f;
-  return state;
-}
 
 // Path rays pass a partly transparent surface by chance, connections are dimmed by it. What the
 // ray from x1 has found, it has found with a probability of T, the transmittance up to there: its
@@ -22,18 +15,18 @@ RL_FN ReservoirState giEmptyState() {
 // pixel and stays out.
 RL_FN float giThroughAlpha(RL_IN(GiPath) p) {
   if (!RL_HAS(RL_FEATURE_ALPHA)) return 1.0f;
-  if (p.anchor.isReusable == 0u || !(p.passedX1 < 1.0f)) return 1.0f;
+  if (p.isReusable == 0u || !(p.passedX1 < 1.0f)) return 1.0f;
   if (p.hasX2 == 0u && !(p.foundWeight > 0.0f)) return 1.0f;
-  Anchor a = p.anchor;
   Ray segment;
   if (p.hasX2 != 0u) {
-    vec3 d = p.x2.posW - a.posW;
-    segment.origin = surfaceOffset(a.posW, a.nGeoW, a.posError, d);
+    vec3 d = p.x2.posW - p.x1PosW;
+    segment.origin = surfaceOffset(p.x1PosW, p.x1NGeoW, p.x1PosError, d);
     segment.tMin = 0.0f;
-    segment.dir = surfaceOffset(p.x2.posW, p.x2.nGeoW, p.x2.posError, -d) - segment.origin;
+    segment.dir = surfaceOffset(p.x2.posW, p.x2.normalW, p.x2.posError, -d) - segment.origin;
     segment.tMax = 1.0f;
   } else {
-    segment = lightShadowRay(p.found, lightConnect(p.found, a.posW), a.posW, a.nGeoW, a.posError);
+    segment = lightShadowRay(p.found, lightConnect(p.found, p.x1PosW), p.x1PosW, p.x1NGeoW,
+                             p.x1PosError);
   }
   Hit hit;
   float t = traceRay(segment, RL_RAY_SHADOW, 0u, hit);
@@ -42,111 +35,113 @@ RL_FN float giThroughAlpha(RL_IN(GiPath) p) {
   return t > 0.0f ? t : 1.0f;
 }
 
-// Direct light: one reservoir of two techniques whose balance weights are inside the densities.
-RL_FN LightReservoir giDirectReservoir(RL_IN(GiPath) p, RL_IN(vec3) foundF, RL_IN(Rng) rng) {
-  LightReservoir r;
-  r.light = p.light;
-  r.state = giEmptyState();
-  if (p.anchor.isReusable == 0u) return r;
-  real lightW = risContributionWeight(p.lightSum, rlLuminance(p.lightF));
-  vec3 estimate =
-      p.lightF * lightW + foundF * risContributionWeight(p.foundWeight, rlLuminance(foundF));
-  real wSum = 0.0f;
+// Direct light: two techniques whose balance weights are inside the densities.
+RL_FN void giAddDirect(RL_IN(GiPath) p, RL_IN(vec3) foundF, RL_IN(Rng) rng, RL_INOUT(real) wSum,
+                       RL_INOUT(vec3) estimate, RL_INOUT(PathReservoir) r) {
+  estimate += p.lightF * risContributionWeight(p.lightSum, rlLuminance(p.lightF)) +
+              foundF * risContributionWeight(p.foundWeight, rlLuminance(foundF));
   // The first candidate is kept unless its weight is zero.
-  if (risAccept(wSum, p.lightSum, 0.0f)) r.state.F = p.lightF;
+  if (risAccept(wSum, p.lightSum, 0.0f)) {
+    r.path = pathOfLight(p.light, p.film);
+    r.state.F = p.lightF;
+  }
   if (risAccept(wSum, p.foundWeight, rngDraw(rng, RL_DIM_RIS_DIRECT))) {
-    r.light = p.found;
+    r.path = pathOfLight(p.found, p.film);
     r.state.F = foundF;
   }
-  r.state.W = risContributionWeight(wSum, rlLuminance(r.state.F));
-  r.state.residual = estimate - r.state.F * r.state.W;
-  return r;
 }
 
-// Indirect light: x2 and what it sends to x1, of which a glossy x2 keeps one of two kinds.
-RL_FN PathReservoir giIndirectReservoir(RL_IN(GiPath) p, float throughAlpha, RL_IN(Rng) rng) {
-  PathReservoir r;
-  r.vertex = p.x2;
-  r.suffix = p.suffix;
-  r.state = giEmptyState();
-  if (p.hasX2 == 0u) return r;
+// Indirect light: x2 and what it sends to x1; a glossy x2 has two kinds of paths, lit by a light
+// sample and continued.
+RL_FN void giAddIndirect(RL_IN(GiPath) p, float throughAlpha, RL_IN(Rng) rng, RL_INOUT(real) wSum,
+                         RL_INOUT(vec3) estimate, RL_INOUT(PathReservoir) r) {
   vec3 zero = vec3(0.0f, 0.0f, 0.0f);
   vec3 fLight = zero;        // at x2, light sample
   vec3 continuation = zero;  // at x2, over pdfX2
+  Bsdf b = p.x2.suffix.bsdf;
+  vec3 nShadeX2 = p.x2.suffix.nShadeW;
   if (!rlIsBlack(p.lightAtX2)) {
     float weight = 1.0f;
     if (p.lightPdfX2 > 0.0f) {
-      weight = lightMisWeight(
-          p.lightPdfX2, bsdfPdf(p.suffix.bsdf, p.x2.nGeoW, p.suffix.nShadeW, p.woX2, p.lightDirX2));
+      weight = lightMisWeight(p.lightPdfX2,
+                              bsdfPdf(b, p.x2.normalW, nShadeX2, p.woX2, p.lightDirX2));
     }
-    fLight = bsdfEval(p.suffix.bsdf, p.x2.nGeoW, p.suffix.nShadeW, p.woX2, p.lightDirX2) *
-             p.lightAtX2 * weight;
+    fLight = bsdfEval(b, p.x2.normalW, nShadeX2, p.woX2, p.lightDirX2) * p.lightAtX2 * weight;
   }
   if (p.isSuffix != 0u) {
     float weight = p.pdfLightAtX3 > 0.0f ? lightMisWeight(p.pdfX2, p.pdfLightAtX3) : 1.0f;
     continuation = p.weightX2 * (p.rest + p.emittedAtX3 * weight);
   }
+  // Of its resampling weight pHat W, W keeps what chance let the ray from x1 pass (giThroughAlpha).
   float inverseX1 = rlSafeDivide(1.0f, p.pdfX1);
-  if (!RL_HAS(RL_FEATURE_GLOSSY) || p.suffix.bsdf.lobes == RL_LOBE_DIFFUSE) {
-    r.vertex.radiance = fLight + continuation;
-    r.state.F = p.fX1 * r.vertex.radiance;
-    r.state.W = rlLuminance(r.state.F) > 0.0f ? inverseX1 : 0.0f;
-  } else {
-    // Two disjoint kinds of paths: one is selected, the estimate keeps the colours of both.
-    vec3 fOfContinuation = p.fX1 * continuation * p.pdfX2;
-    real wSum = 0.0f;
-    r.state.F = p.fX1 * fLight;
-    bool any = risAccept(wSum, rlLuminance(r.state.F) * inverseX1, 0.0f);
-    r.vertex.kind = RL_PATH_LIGHT;
-    r.vertex.radiance = p.lightAtX2;
-    r.suffix.wi = p.lightDirX2;
-    r.suffix.pdfLight = p.lightPdfX2;
-    real wContinuation = rlLuminance(fOfContinuation) * inverseX1 * rlSafeDivide(1.0f, p.pdfX2);
-    if (risAccept(wSum, wContinuation, rngDraw(rng, RL_DIM_RIS_SUFFIX)) || !any) {
-      r.vertex.kind = RL_PATH_CONTINUATION;
-      r.vertex.radiance = p.rest;
-      r.suffix.wi = p.dirX2;
-      r.suffix.emitted = p.emittedAtX3;
-      r.suffix.pdfLight = p.pdfLightAtX3;
-      r.state.F = fOfContinuation;
+  estimate += p.fX1 * (fLight + continuation) * inverseX1;
+  bool isLambert = bsdfIsLambert(b);
+  for (uint i = 0u; i < 2u; i = i + 1u) {
+    bool isLight = i == 0u;
+    if (isLambert && !isLight) break;
+    vec3 sent = isLambert ? fLight + continuation : isLight ? fLight : continuation;
+    real w = rlLuminance(p.fX1 * sent) * inverseX1;
+    float u = isLight ? rngDraw(rng, RL_DIM_RIS_INDIRECT) : rngDraw(rng, RL_DIM_RIS_SUFFIX);
+    if (!risAccept(wSum, w, u)) continue;
+    r.path = p.x2;
+    r.state.F = p.fX1 * sent * throughAlpha;
+    r.path.radiance = sent;
+    if (isLambert) continue;
+    if (isLight) {
+      r.path.kind = RL_PATH_LIGHT;
+      r.path.radiance = p.lightAtX2;
+      r.path.suffix.wi = p.lightDirX2;
+      r.path.suffix.pdfLight = p.lightPdfX2;
+    } else {
+      r.path.kind = RL_PATH_CONTINUATION;
+      r.path.radiance = p.rest;
+      r.path.suffix.wi = p.dirX2;
+      r.path.suffix.emitted = p.emittedAtX3;
+      r.path.suffix.pdfLight = p.pdfLightAtX3;
+      r.state.F *= p.pdfX2;
     }
-    r.state.W = risContributionWeight(wSum, rlLuminance(r.state.F));
-    vec3 estimate = p.fX1 * (fLight + continuation) * inverseX1;
-    r.state.residual = estimate - r.state.F * r.state.W;
   }
-  if (RL_HAS(RL_FEATURE_ALPHA)) {
-    r.state.F *= throughAlpha;
-    r.state.W /= throughAlpha;
-  }
-  if (!(r.state.W > 0.0f)) {
-    r.state.W = 0.0f;
-    r.state.F = zero;
-    r.state.residual = zero;
-  }
+}
+
+RL_FN PathReservoir giReservoir(RL_IN(GiPath) p, RL_IN(Rng) rng) {
+  PathReservoir r;
+  r.path = pathOfLight(giNoLight(), p.film);
+  r.state = giEmptyState();
+  if (p.isReusable == 0u) return r;
+  float throughAlpha = giThroughAlpha(p);
+  vec3 foundF = p.foundF;
+  if (RL_HAS(RL_FEATURE_ALPHA)) foundF *= throughAlpha * p.foundCoverage;  // its weight stays
+  real wSum = 0.0f;
+  vec3 estimate = vec3(0.0f, 0.0f, 0.0f);
+  if (walkWants(1u)) giAddDirect(p, foundF, rng, wSum, estimate, r);
+  if (walkWants(2u) && p.hasX2 != 0u) giAddIndirect(p, throughAlpha, rng, wSum, estimate, r);
+  r.state.W = risContributionWeight(wSum, rlLuminance(r.state.F));
+  r.state.residual = estimate - r.state.F * r.state.W;
   return r;
 }
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint slot = cacheSlot(pixel);
-  GiPath p = giNoPath();
+  GiPath p = giNoPath(cameraFilmBits(pixel));
   walkPath(p, pixel);
-  float throughAlpha = giThroughAlpha(p);
-  vec3 foundF = p.foundF;
-  if (RL_HAS(RL_FEATURE_ALPHA)) foundF *= throughAlpha * p.foundCoverage;  // its weight stays
-  Rng rng = rngInit(gFrame.seed, slot, gFrame.frame);
-  LightReservoir direct = giDirectReservoir(p, foundF, rng);
-  PathReservoir path = giIndirectReservoir(p, throughAlpha, rng);
-  bool finite = rlIsFinite3(p.ownLight) &&
-                rlIsFinite3(direct.state.F * direct.state.W + direct.state.residual) &&
-                rlIsFinite3(path.state.F * path.state.W + path.state.residual);
-  if (!finite) {
+  PathReservoir r = giReservoir(p, rngInit(gFrame.seed, slot, gFrame.frame));
+  vec3 estimate = r.state.F * r.state.W + r.state.residual;
+  if (!rlIsFinite3(p.ownLight) || !rlIsFinite3(estimate)) {
     RL_HEALTH(RL_HEALTH_NONFINITE);
     p.ownLight = vec3(0.0f, 0.0f, 0.0f);
-    direct.state = giEmptyState();
-    path.state = giEmptyState();
+    r.state = giEmptyState();
   }
-  gBuffers.ownLight.data[slot] = p.ownLight;
-  cacheWriteAnchor(slot, p.anchor);
-  if (walkWants(1u)) cacheWriteNow(slot, direct);
-  if (walkWants(2u)) cacheWriteNow(slot, path);
+  giWriteNow(slot, r);
+  // How many frames the pixel's history holds, this one included, and the average of its own light.
+  float age = 1.0f;
+  uint before;
+  if (gParams.temporalReuse != 0u && cacheDonorOverTime(slot, before)) {
+    vec4 own = recordVec4(RL_PAST_QUAD(gBuffers.ownBefore, before));
+    age = min(own.w, gParams.confidenceCap) + 1.0f;
+    if (gFrame.isStillView != 0u) {
+      float weight = 1.0f / age;
+      p.ownLight = vec3(own.x, own.y, own.z) * (1.0f - weight) + p.ownLight * weight;
+    }
+  }
+  RL_WRITE_QUAD(gBuffers.own, slot, recordQuad(p.ownLight, floatBitsToUint(age)));
 }

@@ -1,14 +1,14 @@
 // Host side of `restir_gi`: parameters, buffers, passes and the declaration of its bias.
 //
-// Direct light goes through light reservoirs (Bitterli et al. 2020), indirect light through
-// path-sample reservoirs that reconnect at x2 (Ouyang et al. 2021), both merged by generalised RIS
-// with defensive pairwise MIS (Lin et al. 2022; Wyman et al. 2023). Unlike the GI paper, x2 is
-// re-evaluated for the new direction, BSDF and MIS weight, so that glossy x2 are unbiased too.
+// One reservoir a pixel over film samples and paths: light samples at x1 (Bitterli et al. 2020) and
+// paths that reconnect at x2 (Ouyang et al. 2021), merged by generalised RIS with defensive
+// pairwise MIS (Lin et al. 2022; Wyman et al. 2023). The film sample is part of the path, as in
+// Area ReSTIR (Zhang et al. 2024): a shift traces x1 anew. Unlike the GI paper, x2 is re-evaluated
+// for the new direction, BSDF and MIS weight, so that glossy x2 are unbiased too.
 #include "integrators/restir_gi/restir_gi.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "core/integrator.h"
 
@@ -33,12 +33,33 @@ std::vector<ParameterInfo> parameterInfos() {
        "light samples per pixel and frame resampled into the light reservoir",
        "1: the same rays as the path tracer"},
       {"spatial_neighbours",
+       int64_t{4},
+       0,
+       rl::RL_MAX_DONORS,
+       {},
+       "donors of the spatial pass while the history is young",
+       "each costs a shift, two rays a pixel; measured: docs/performance.md"},
+      {"aged_neighbours",
        int64_t{1},
        0,
        rl::RL_MAX_DONORS,
        {},
-       "donors of the spatial pass",
-       "each costs a shift and a ray a pixel and payload; measured: docs/performance.md"},
+       "donors of the spatial pass afterwards; no more than spatial_neighbours",
+       "measured: docs/performance.md"},
+      {"young_frames",
+       8.0,
+       0.0,
+       1000.0,
+       {},
+       "frames up to which a history is young",
+       "measured: docs/performance.md"},
+      {"donor_noise",
+       0.5,
+       0.0,
+       1000.0,
+       {},
+       "how fast a donor's share falls with the age of the history: 1 / (1 + this x (age - 1))",
+       "core/resampling/reuse.glsl; measured: docs/performance.md"},
       {"spatial_radius",
        8.0,
        1.5,
@@ -47,13 +68,6 @@ std::vector<ParameterInfo> parameterInfos() {
        "pixels; donors come from a square tile that spreads them as a disk of this radius would",
        "measured: docs/performance.md; Bitterli et al. 2020 use 30"},
       {"temporal", true, 0, 0, {}, "temporal reuse", "Ouyang et al. 2021"},
-      {"film_hold",
-       int64_t{32},
-       1,
-       1024,
-       {},
-       "frames that a pixel keeps its film sample",
-       "measured: docs/decisions.md, 'film samples are held'"},
       {"normal_threshold",
        0.9,
        -1.0,
@@ -139,18 +153,20 @@ std::vector<std::byte> pack(const std::string& mode, const ParameterMap& p) {
   // The root mean square distance of two points of a square of side s is s / sqrt(3), that of a
   // point of a disk to its centre r / sqrt(2).
   const double side = std::sqrt(1.5) * get<double>(p, "spatial_radius");
-  out.spatialTile = static_cast<uint32_t>(std::lround(side));
+  out.cache.tile = static_cast<uint32_t>(std::lround(side));
+  out.agedNeighbours =
+      std::min(static_cast<uint32_t>(get<int64_t>(p, "aged_neighbours")), out.spatialNeighbours);
+  out.youngFrames = static_cast<float>(get<double>(p, "young_frames"));
+  out.donorNoise = static_cast<float>(get<double>(p, "donor_noise"));
   out.temporalReuse = get<bool>(p, "temporal") ? 1u : 0u;
   out.confidenceCap = static_cast<float>(get<double>(p, "confidence_cap"));
-  out.minNormalDot = static_cast<float>(get<double>(p, "normal_threshold"));
-  out.maxPlaneDistance = static_cast<float>(get<double>(p, "plane_threshold"));
+  out.cache.minNormalDot = static_cast<float>(get<double>(p, "normal_threshold"));
+  out.cache.maxPlaneDistance = static_cast<float>(get<double>(p, "plane_threshold"));
   const auto roughness = static_cast<float>(get<double>(p, "roughness_limit"));
   out.minAlpha = roughness * roughness;
   out.maxJacobian = static_cast<float>(get<double>(p, "max_jacobian"));
   out.maxReflectanceRatio = static_cast<float>(get<double>(p, "max_reflectance_ratio"));
-  std::vector<std::byte> bytes(sizeof(out));
-  std::memcpy(bytes.data(), &out, sizeof(out));
-  return bytes;
+  return bytesOf(out);
 }
 
 }  // namespace
@@ -172,22 +188,17 @@ const IntegratorInfo& restir_giIntegratorInfo() {
     i.parameters = parameterInfos();
     i.usesCache = true;
     i.hasHistory = true;
+    i.inputs = {"visible", "visible_before"};
     i.buffers = {
         {"radiance", 12, 0, -1},
-        {"own_light", 12, 0, -1},
-        {"anchors", 16 * rl::RL_GI_ANCHOR_QUADS, 0, 3},
-        {"anchors_previous", 16 * rl::RL_GI_ANCHOR_QUADS, 0, 2},
-        {"anchors_glossy", 16, rl::RL_FEATURE_GLOSSY, 5},
-        {"anchors_glossy_previous", 16, rl::RL_FEATURE_GLOSSY, 4},
-        {"light_reservoirs", 16 * rl::RL_GI_LIGHT_QUADS, 0, -1},
-        {"light_history", 16 * rl::RL_GI_LIGHT_QUADS, 0, -1},
-        {"path_reservoirs", 16 * rl::RL_GI_PATH_QUADS, 0, -1},
-        {"path_history", 16 * rl::RL_GI_PATH_QUADS, 0, -1},
-        {"path_suffixes", 16 * rl::RL_GI_SUFFIX_QUADS, rl::RL_FEATURE_GLOSSY, -1},
-        {"path_suffix_history", 16 * rl::RL_GI_SUFFIX_QUADS, rl::RL_FEATURE_GLOSSY, -1},
+        {"own_light", 16, 0, 2},
+        {"own_light_before", 16, 0, 1},
+        {"reservoirs", 16 * rl::RL_PATH_RESERVOIR_QUADS, 0, -1},
+        {"history", 16 * rl::RL_PATH_RESERVOIR_QUADS, 0, -1},
+        {"path_suffixes", 16 * rl::RL_PATH_SUFFIX_QUADS, rl::RL_FEATURE_GLOSSY, -1},
+        {"path_suffix_history", 16 * rl::RL_PATH_SUFFIX_QUADS, rl::RL_FEATURE_GLOSSY, -1},
         {"partners", sizeof(uint32_t), 0, -1, "spatial_neighbours"},
-        {"shifted_lights", 16, 0, -1, "spatial_neighbours"},
-        {"shifted_paths", 16, 0, -1, "spatial_neighbours"},
+        {"shifted", 16, 0, -1, "spatial_neighbours"},
     };
     i.passes = {{"initial", "restir_gi_initial"},
                 {"temporal", "restir_gi_temporal"},

@@ -1,104 +1,134 @@
 // restir_gi, temporal pass: merges the last frame's reservoir of the same surface into the new one,
-// then shifts the result to the pixel's partners of the spatial pass, each shift once for both
-// merges of a pair. Round 0 is that of time, each further one that of a partner: a round makes its
-// shifts, traces their shadow rays by the one call of the kernel, and uses them.
-#include "integrators/restir_gi/merge.glsl"
-#define RL_RESERVOIR LightReservoir
-#include "integrators/restir_gi/over_time.glsl"
-#undef RL_RESERVOIR
-#define RL_RESERVOIR PathReservoir
-#include "integrators/restir_gi/over_time.glsl"
-#undef RL_RESERVOIR
+// then shows the result to the pixel's partners of the spatial pass, each shift once for both merges
+// of a pair. In a still view the shift over time is the identity: no ray. Round 0 is that of time,
+// each further one that of a partner. A round's shifts take two rays each, the camera's to the x1 of
+// the other pixel and the segment from there; all are traced by the one call of the kernel.
+#include "core/resampling/ris.glsl"
+#include "core/resampling/mis.glsl"
+#include "core/resampling/shift.glsl"
+#include "core/payload/path_sample.glsl"
+#include "core/resampling/merge.glsl"
+#include "core/resampling/reuse.glsl"
+#include "core/caches/pixel.glsl"
+#include "integrators/restir_gi/store.glsl"
+#include "integrators/restir_gi/donors.glsl"
+
+// A shift of `path` to a pixel of one of the two frames' cameras.
+RL_FN void giAskShift(RL_INOUT(GiShift) shift, RL_IN(PathReservoir) r, RL_IN(uvec2) pixel,
+                      RL_IN(Camera) camera, bool assumeVisible) {
+  shift.shifted.F = vec3(0.0f, 0.0f, 0.0f);
+  shift.shifted.jacobian = 1.0f;
+  shift.camera = camera;
+  shift.ray = cameraFilmRay(camera, pixel, r.path.film);
+  shift.asks = r.state.W > 0.0f ? RL_GI_ASKS_X1 : 0u;
+  shift.assumesVisible = assumeVisible ? 1u : 0u;
+}
+
+// The ray through the film sample has met x1.
+RL_FN void giReconnect(RL_INOUT(GiShift) shift, RL_IN(PathReservoir) r, RL_IN(Hit) hit) {
+  shift.asks = 0u;
+  if (hit.instance == RL_INVALID) return;
+  Surface x1 = surfaceLoad(hit, shift.ray.dir);
+  if (!bsdfIsReusable(x1.bsdf, gParams.minAlpha)) return;
+  x1.wo = cameraDirectionFrom(shift.camera, x1.posW);
+  shift.shifted = pathShift(r.path, x1, gParams.maxJacobian);
+  if (!reuseAsksVisibility(shift.shifted, shift.assumesVisible != 0u)) return;
+  shift.ray = pathSegment(r.path, x1);
+  shift.asks = RL_GI_ASKS_SEGMENT;
+}
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint slot = cacheSlot(pixel);
-  Anchor here = cacheAnchorNow(slot);
-  if (here.isReusable == 0u) return;
-  LightReservoir light;
-  PathReservoir path;
-  // Kept from round to round: what this pass has written it may not read. One that is not wanted is
-  // read too and not used.
-  cacheReadNow(slot, light);
-  cacheReadNow(slot, path);
-  ReservoirState nothing;
-  nothing.F = vec3(0.0f, 0.0f, 0.0f);
-  nothing.W = 0.0f;
-  nothing.residual = nothing.F;
-  nothing.confidence = 0.0f;
-  Ray noRay;
-  noRay.origin = here.posW;
-  noRay.tMin = 0.0f;
-  noRay.dir = here.nGeoW;
-  noRay.tMax = 0.0f;
+  uint flags = gParams.temporalFlags;
+  Rng rng = rngInit(gFrame.seed, slot, gFrame.frame);
+  rng.vertex = RL_VERTEX_TEMPORAL;
+  PathReservoir r;
+  r.path.suffix = pathNoSuffix();
+  giReadNow(slot, r);  // kept from round to round: what this pass has written it may not read
+  uint rounds = giDonors(slot);
   for (uint round = 0u; round <= gParams.spatialNeighbours; round = round + 1u) {
-    GiSegments segments;
-    for (uint i = 0u; i < RL_GI_SEGMENTS; i = i + 1u) {
-      segments.rays[i] = noRay;
-      segments.asks[i] = 0u;
-      segments.visibility[i] = 1.0f;
-    }
-    Anchor there = here;
     uint other = RL_INVALID;  // the slot that is exchanged with
-    bool hasOther = false;
-    LightReservoir lightDonor = light;
-    PathReservoir pathDonor = path;
-    Shifted lightOurs = mergeUnshifted(nothing);
-    Shifted lightTheirs = lightOurs;
-    Shifted pathOurs = lightOurs;
-    Shifted pathTheirs = lightOurs;
-    bool lightMerges = giWantsDirect();
-    bool pathMerges = giWantsIndirect();
+    bool merges = false;
+    PathReservoir donor = r;
+    GiShift ours;    // this pixel's sample as the other sees it
+    GiShift theirs;  // the other's sample as this pixel sees it
+    giAskShift(ours, r, pixel, gFrame.camera, false);
+    ours.asks = 0u;
+    theirs = ours;
     if (round == 0u) {
-      hasOther = gParams.temporalReuse != 0u && cacheDonorOverTime(here, other);
-      if (hasOther) {
-        there = cacheAnchorBefore(other);
-        hasOther = cacheAnchorsMatch(here, there, distance(gFrame.camera.posW, here.posW));
+      merges = gParams.temporalReuse != 0u && cacheDonorOverTime(slot, other);
+      if (merges) giReadBefore(other, donor);
+      if (merges && reuseIsEmpty(r.state) && reuseIsEmpty(donor.state)) {
+        r.state.confidence += reuseCapped(donor.state.confidence, gParams.confidenceCap);
+        giWriteStateNow(slot, r.state);
+        merges = false;
       }
-      if (hasOther && lightMerges) {
-        lightMerges = giShiftOverTime(slot, here, other, there, 0u, light, lightDonor, lightOurs,
-                                      lightTheirs, segments);
-      }
-      if (hasOther && pathMerges) {
-        pathMerges = giShiftOverTime(slot, here, other, there, 2u, path, pathDonor, pathOurs,
-                                     pathTheirs, segments);
+      if (merges && gFrame.isStillView != 0u) {
+        ours.shifted = mergeUnshifted(r.state);
+        theirs.shifted = mergeUnshifted(donor.state);
+      } else if (merges) {
+        giAskShift(ours, r, cachePixel(other), gFrame.previousCamera,
+                   (flags & RL_REUSE_ASSUME_VISIBLE) != 0u);
+        giAskShift(theirs, donor, pixel, gFrame.camera,
+                   (flags & RL_REUSE_ASSUME_VISIBLE_HERE) != 0u);
       }
     } else {
-      hasOther = cachePartner(pixel, here, round - 1u, other);
-      if (hasOther) there = cacheAnchorNow(other);
-      if (hasOther && lightMerges) lightOurs = giShift(light, here, there, false, 0u, segments);
-      if (hasOther && pathMerges) pathOurs = giShift(path, here, there, false, 2u, segments);
+      merges = cachePartner(pixel, round - 1u, other);
+      if (merges) merges = round <= max(rounds, giDonors(other));
+      if (merges) giAskShift(ours, r, cachePixel(other), gFrame.camera, false);
     }
-    for (uint i = 0u; i < RL_GI_SEGMENTS; i = i + 1u) {
-      if (segments.asks[i] == 0u) continue;
+    // Two rays of each shift, one after the other.
+    for (uint i = 0u; i < 4u; i = i + 1u) {
+      bool isOurs = (i & 1u) == 0u;
+      uint stage = i < 2u ? RL_GI_ASKS_X1 : RL_GI_ASKS_SEGMENT;
+      if ((isOurs ? ours.asks : theirs.asks) != stage) continue;
+      Ray ray = theirs.ray;
+      uint film = donor.path.film;
+      if (isOurs) {
+        ray = ours.ray;
+        film = r.path.film;
+      }
       Hit hit;
-      segments.visibility[i] = traceRay(segments.rays[i], RL_RAY_SHADOW, 0u, hit);
+      hit.instance = RL_INVALID;
+      hit.primitive = RL_INVALID;
+      hit.bary = vec2(0.0f, 0.0f);
+      hit.t = 0.0f;
+      uint mode = stage == RL_GI_ASKS_X1 ? RL_RAY_PATH : RL_RAY_SHADOW;
+      float transmittance = traceRay(ray, mode, cameraAlphaKey(film), hit);
+      if (stage == RL_GI_ASKS_SEGMENT) {
+        if (isOurs) ours.shifted.F *= transmittance;
+        if (!isOurs) theirs.shifted.F *= transmittance;
+      } else if (isOurs) {
+        giReconnect(ours, r, hit);
+      } else {
+        giReconnect(theirs, donor, hit);
+      }
     }
-    if (round == 0u) {
-      Rng rng = rngInit(gFrame.seed, slot, gFrame.frame);
-      rng.vertex = RL_VERTEX_TEMPORAL;
-      float uLight = rngDraw(rng, RL_DIM_RIS_MERGE_DI);
-      float uPath = rngDraw(rng, RL_DIM_RIS_MERGE_GI);
-      if (hasOther && lightMerges) {
-        lightOurs.F *= segments.visibility[0];
-        lightTheirs.F *= segments.visibility[1];
-        giMergeOverTime(slot, here, there, uLight, lightOurs, lightTheirs, light, lightDonor);
-      }
-      if (hasOther && pathMerges) {
-        pathOurs.F *= segments.visibility[2];
-        pathTheirs.F *= segments.visibility[3];
-        giMergeOverTime(slot, here, there, uPath, pathOurs, pathTheirs, path, pathDonor);
-      }
+    if (round > 0u) {
+      uint index = giExchangeIndex(slot, round - 1u);
+      if (merges) giWriteShifted(index, ours.shifted);
+      gBuffers.partners.data[index] = merges ? other : RL_INVALID;
+      continue;
+    }
+    if (!merges) continue;
+    real cDonor = reuseCapped(donor.state.confidence, gParams.confidenceCap);
+    // Where both are samples of one pixel their targets are one: weights by confidence are exact.
+    if (gFrame.isStillView != 0u) flags = flags & ~RL_REUSE_PAIRWISE;
+    MergeState merge = mergeBegin(r.state, cDonor);
+    mergeWeighCanonical(merge, r.state, cDonor, ours.shifted, flags);
+    mergeCanonical(merge, r.state, flags);
+    vec3 ratio = vec3(1.0f, 1.0f, 1.0f);
+    if (gFrame.isStillView == 0u) ratio = giRatio(visibleRead(gBuffers.visibleBefore, other), slot);
+    float u = rngDraw(rng, RL_DIM_RIS_MERGE);
+    bool won =
+        mergeDonor(merge, r.state, donor.state, cDonor, theirs.shifted, ratio, flags, u);
+    mergeEnd(merge, r.state, flags);
+    if (won) {
+      r.path = donor.path;
+      r.path.geometry *= theirs.shifted.jacobian;
+      giWriteNow(slot, r);
     } else {
-      uint index = cacheExchangeIndex(slot, round - 1u);
-      if (hasOther && lightMerges) {
-        lightOurs.F *= segments.visibility[0];
-        cacheWriteShifted(index, light, lightOurs);
-      }
-      if (hasOther && pathMerges) {
-        pathOurs.F *= segments.visibility[2];
-        cacheWriteShifted(index, path, pathOurs);
-      }
-      gBuffers.partners.data[index] = other;
+      giWriteStateNow(slot, r.state);
     }
   }
 }

@@ -23,13 +23,14 @@ const std::vector<Setting> kShading = {
     {"shading winner", {{"shading", std::string("winner")}}},
     {"shading decoupled", {{"shading", std::string("decoupled")}}},
     {"shading control_variate", {{"shading", std::string("control_variate")}}},
-    {"film_hold 1", {{"film_hold", int64_t{1}}}},
-    {"film_hold 4", {{"film_hold", int64_t{4}}}},
     {"light_candidates 4", {{"light_candidates", int64_t{4}}}},
 };
 const std::vector<Setting> kReuse = {
     {"spatial_neighbours 0", {{"spatial_neighbours", int64_t{0}}}},
     {"spatial_neighbours 3", {{"spatial_neighbours", int64_t{3}}}},
+    {"donor_noise 0", {{"donor_noise", 0.0}, {"aged_neighbours", int64_t{4}}}},
+    {"donor_noise 10", {{"donor_noise", 10.0}}},
+    {"young_frames 0", {{"young_frames", 0.0}}},
     {"spatial_radius 64", {{"spatial_radius", 64.0}}},
     {"confidence_cap 5", {{"confidence_cap", 5.0}}},
     {"confidence_cap 50", {{"confidence_cap", 50.0}}},
@@ -55,7 +56,7 @@ struct Effort {
   uint32_t frames, skipped;
   int threads;
 };
-// A history longer than a confidence cap of 5 and than a film point is held for in 4.
+// A history longer than a confidence cap of 5.
 constexpr Effort kEveryDay{48, 27, 128, 32, 10, 2, 1};
 constexpr Effort kNightly{64, 36, 512, 128, 64, 8, 0};
 

@@ -79,22 +79,19 @@ struct Kernel {
   }
 
   real bridgeTarget(const real3& f) { return rlLuminance(f); }
-  real3 bridgeShift(const WorldReservoir& r, const WorldAnchor& from, const WorldAnchor& to,
-                    real& jacobian) {
-    jacobian = real(1.0f);
-    if (!world->defined[from.index][to.index][r.label]) return real3(real(0.0f));
-    jacobian = world->measure[to.index][r.label] / world->measure[from.index][r.label];
-    return world->f[to.index][r.label];
+  // The sample of a reservoir that lives at `from`, as `to` sees it, without visibility.
+  Shifted shift(const WorldReservoir& r, const WorldAnchor& from, const WorldAnchor& to) const {
+    Shifted s{real3(real(0.0f)), real(1.0f)};
+    if (!(r.state.W > real(0.0f)) || !world->defined[from.index][to.index][r.label]) return s;
+    s.jacobian = world->measure[to.index][r.label] / world->measure[from.index][r.label];
+    s.F = world->f[to.index][r.label];
+    return s;
   }
   real bridgeVisibility(const WorldReservoir& r, const WorldAnchor& at) {
     return world->visibility[at.index][r.label];
   }
 #include "core/resampling/merge.glsl"
-#define RL_ANCHOR WorldAnchor
-#define RL_RESERVOIR WorldReservoir
 #include "core/resampling/reuse.glsl"
-#undef RL_RESERVOIR
-#undef RL_ANCHOR
 };
 
 // A reservoir that a random process may leave, with its probability; equal ones are joined.
@@ -208,7 +205,7 @@ void mergeOnce(const World& world, const MergeInput& canonical,
     MergeState merge = kernel.mergeBegin(own.state, cDonors);
     const auto shift = [&](const WorldReservoir& r, uint from, uint to, uint assumed) {
       if (from == to) return kernel.mergeUnshifted(r.state);
-      Shifted s = kernel.reuseShift(r, WorldAnchor{from}, WorldAnchor{to});
+      Shifted s = kernel.shift(r, WorldAnchor{from}, WorldAnchor{to});
       if (kernel.reuseAsksVisibility(s, (flags & assumed) != 0u))
         s.F *= kernel.bridgeVisibility(r, WorldAnchor{to});
       return s;

@@ -29,7 +29,6 @@ class FirstHits {
     f.height = config.height;
     f.seed = config.seed;
     f.pixelFilter = config.pixelFilter;
-    f.filmHold = 1;
     const SceneCamera& camera = scene->source().cameras.front();
     f.camera = scene->camera(camera, config.width, config.height);
   }
@@ -38,12 +37,11 @@ class FirstHits {
   bool passesAnEdge(uint32_t x, uint32_t y) {
     const rl::FrameData& f = embree_.frame;
     const rl::uvec2 pixel(x, y);
-    const rl::Rng rng = embree_->rngInit(f.seed, y * f.width + x, f.frame);
-    const rl::Ray ray = embree_->cameraRay(f.camera, embree_->cameraFilmSample(pixel),
-                                           rl::vec2(float(f.width), float(f.height)));
+    const uint32_t film = embree_->cameraFilmBits(pixel);
+    const rl::Ray ray = embree_->cameraFilmRay(f.camera, pixel, film);
     rl::Hit a{}, b{};
-    embree_->traceRay(ray, rl::RL_RAY_PATH, rng.key.x, a);
-    own_.traceRay(ray, rl::RL_RAY_PATH, rng.key.x, b);
+    embree_->traceRay(ray, rl::RL_RAY_PATH, embree_->cameraAlphaKey(film), a);
+    own_.traceRay(ray, rl::RL_RAY_PATH, embree_->cameraAlphaKey(film), b);
     return unit::isNearEdge(a) || unit::isNearEdge(b);
   }
 

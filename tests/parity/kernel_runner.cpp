@@ -107,7 +107,6 @@ rl::FrameData plainFrame(uint32_t width, uint32_t height, uint32_t seed) {
   frame.seed = seed;
   frame.maxBounces = 8;
   frame.components = rl::RL_COMPONENT_ALL;
-  frame.filmHold = 1;
   frame.rouletteStart = rl::RL_INVALID;
   return frame;
 }

@@ -91,7 +91,6 @@ struct FilmTest : testing::Test {
     d.frame.width = 32;
     d.frame.height = 16;
     d.frame.seed = 3;
-    d.frame.filmHold = 1;
   }
 };
 
@@ -101,7 +100,8 @@ TEST_F(FilmTest, BoxFilterIsUniformOverThePixel) {
   for (d.frame.frame = 0; d.frame.frame < 2000; ++d.frame.frame) {
     for (uint32_t y = 0; y < 16; ++y) {
       for (uint32_t x = 0; x < 32; ++x) {
-        const glm::vec2 offset = d->cameraFilmSample({x, y}) - glm::vec2(float(x), float(y));
+        const glm::vec2 offset =
+            d->cameraFilmPoint({x, y}, d->cameraFilmBits({x, y})) - glm::vec2(float(x), float(y));
         ASSERT_TRUE(offset.x >= 0.0f && offset.x <= 1.0f && offset.y >= 0.0f && offset.y <= 1.0f);
         ++counts[std::min(size_t(offset.y * 16.0f), size_t(15)) * 16 +
                  std::min(size_t(offset.x * 16.0f), size_t(15))];
@@ -113,34 +113,23 @@ TEST_F(FilmTest, BoxFilterIsUniformOverThePixel) {
 
 TEST_F(FilmTest, CenterFilterIsTheCentre) {
   d.frame.pixelFilter = rl::RL_FILTER_CENTER;
-  EXPECT_EQ(d->cameraFilmSample({3, 7}), glm::vec2(3.5f, 7.5f));
+  EXPECT_EQ(d->cameraFilmPoint({3, 7}, d->cameraFilmBits({3, 7})), glm::vec2(3.5f, 7.5f));
 }
 
-// Held samples change once in filmHold frames, pixels at different times; each frame alone stays
-// uniform over seeds.
-TEST_F(FilmTest, HeldSamplesChangeOnceInAHold) {
+// Another one in every frame, each uniform over seeds; its bits are its place to the last one.
+TEST_F(FilmTest, SamplesAreFreshAndTheirBitsAreTheirPlace) {
   d.frame.pixelFilter = rl::RL_FILTER_BOX;
-  d.frame.filmHold = 8;
-  std::set<uint32_t> phases;
-  for (uint32_t x = 0; x < 32; ++x) {
-    int changes = 0;
-    d.frame.frame = 0;
-    glm::vec2 last = d->cameraFilmSample({x, 5});
-    for (d.frame.frame = 1; d.frame.frame <= 64; ++d.frame.frame) {
-      const glm::vec2 now = d->cameraFilmSample({x, 5});
-      if (now != last) {
-        ++changes;
-        phases.insert(d.frame.frame % 8);
-      }
-      last = now;
-    }
-    EXPECT_EQ(changes, 8) << x;
-  }
-  EXPECT_GE(phases.size(), 6u);
+  std::set<uint32_t> seen;
+  for (d.frame.frame = 0; d.frame.frame < 64; ++d.frame.frame)
+    seen.insert(d->cameraFilmBits({9, 9}));
+  EXPECT_EQ(seen.size(), 64u);
   std::vector<uint64_t> counts(16);
   d.frame.frame = 13;
   for (d.frame.seed = 0; d.frame.seed < 100'000; ++d.frame.seed) {
-    const glm::vec2 offset = d->cameraFilmSample({9, 9}) - glm::vec2(9.0f, 9.0f);
+    const uint32_t bits = d->cameraFilmBits({9, 9});
+    const glm::vec2 offset = d->cameraFilmPoint({9, 9}, bits) - glm::vec2(9.0f, 9.0f);
+    ASSERT_EQ(uint32_t(offset.x * 65536.0f), bits & 0xffffu);
+    ASSERT_EQ(uint32_t(offset.y * 65536.0f), bits >> 16);
     ++counts[std::min(size_t(offset.y * 4.0f), size_t(3)) * 4 +
              std::min(size_t(offset.x * 4.0f), size_t(3))];
   }

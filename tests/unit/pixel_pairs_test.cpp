@@ -15,42 +15,50 @@
 namespace rl {
 namespace {
 
-// The pixel cache over anchors made by hand.
+// The pixel cache over surfaces made by hand.
 struct PairContext {
   FrameData gFrame{};
   RestirGiParams gParams{};
-  std::vector<Anchor> anchors;
+  RestirGiBuffers gBuffers{};
+  std::vector<VisibleSurface> surfaces;
 
 #define RL_HAS(features) false
 #define RL_HEALTH(kind) (void)(kind)
+  vec3 recordVec3(const uvec4& q) const {
+    return vec3(uintBitsToFloat(q.x), uintBitsToFloat(q.y), uintBitsToFloat(q.z));
+  }
+  uvec4 recordQuad(const vec3& v, uint w) const {
+    return uvec4(floatBitsToUint(v.x), floatBitsToUint(v.y), floatBitsToUint(v.z), w);
+  }
 #include "core/dialect/camera.glsl"
 #include "core/dialect/frame.glsl"
 #include "core/dialect/math.glsl"
 #include "core/dialect/rng.glsl"
 #include "core/dialect/warp.glsl"
-  Anchor cacheAnchorNow(uint slot) { return anchors[slot]; }
-#include "core/caches/cache.glsl"
+#include "core/dialect/visible.glsl"
+#define visibleRead(quads, slot) surfaces[slot]
 #include "core/caches/pixel.glsl"
+#undef visibleRead
 };
 
-// `share` of the pixels is reusable; surfaces are two parallel planes, in stripes, that do not
+// Every so many pixels show nothing; surfaces are two parallel planes, in stripes, that do not
 // match.
 PairContext makeContext(uint width, uint height, uint tile, bool stripes, uint unusableEvery) {
   PairContext c;
   c.gFrame.width = width;
   c.gFrame.height = height;
   c.gFrame.seed = 11;
-  c.gParams.spatialTile = tile;
-  c.gParams.minNormalDot = 0.9f;
-  c.gParams.maxPlaneDistance = 0.05f;
+  c.gParams.cache.tile = tile;
+  c.gParams.cache.minNormalDot = 0.9f;
+  c.gParams.cache.maxPlaneDistance = 0.05f;
   for (uint i = 0; i < width * height; ++i) {
-    Anchor a{};
+    VisibleSurface a{};
     const bool isFar = stripes && (i % width / 5) % 2 == 1;
     const uint row = i / width;
     a.posW = vec3(float(i % width), float(row), isFar ? -40.0f : -10.0f);
     a.nGeoW = a.nShadeW = vec3(0.0f, 0.0f, 1.0f);
-    a.isReusable = unusableEvery != 0 && i % unusableEvery == 0 ? 0u : 1u;
-    c.anchors.push_back(a);
+    a.isHit = unusableEvery != 0 && i % unusableEvery == 0 ? 0u : 1u;
+    c.surfaces.push_back(a);
   }
   return c;
 }
@@ -58,7 +66,7 @@ PairContext makeContext(uint width, uint height, uint tile, bool stripes, uint u
 uint partnerOf(PairContext& c, uint slot, uint k) {
   const uvec2 pixel(slot % c.gFrame.width, slot / c.gFrame.width);
   uint partner = 0;
-  const bool found = c.cachePartner(pixel, c.anchors[slot], k, partner);
+  const bool found = c.cachePartner(pixel, k, partner);
   EXPECT_EQ(found, partner != RL_INVALID);
   return partner;
 }
@@ -70,14 +78,14 @@ TEST(PixelPairs, ThePartnerOfThePartnerIsThePixel) {
       for (const bool stripes : {false, true}) {
         PairContext c = makeContext(size[0], size[1], tile, stripes, stripes ? 7 : 0);
         for (c.gFrame.frame = 0; c.gFrame.frame < 6; ++c.gFrame.frame) {
-          for (uint slot = 0; slot < c.anchors.size(); ++slot) {
+          for (uint slot = 0; slot < c.surfaces.size(); ++slot) {
             for (uint k = 0; k < RL_MAX_DONORS; ++k) {
               const uint partner = partnerOf(c, slot, k);
               if (partner == RL_INVALID) continue;
-              ASSERT_LT(partner, c.anchors.size());
+              ASSERT_LT(partner, c.surfaces.size());
               ASSERT_NE(partner, slot);
-              ASSERT_EQ(c.anchors[slot].isReusable & c.anchors[partner].isReusable, 1u);
-              ASSERT_EQ(c.anchors[slot].posW.z, c.anchors[partner].posW.z);
+              ASSERT_EQ(c.surfaces[slot].isHit & c.surfaces[partner].isHit, 1u);
+              ASSERT_EQ(c.surfaces[slot].posW.z, c.surfaces[partner].posW.z);
               ASSERT_EQ(partnerOf(c, partner, k), slot)
                   << size[0] << "x" << size[1] << ", tile " << tile << ", k " << k;
             }
@@ -94,9 +102,9 @@ TEST(PixelPairs, MostPixelsHaveOne) {
   const auto share = [](bool stripes) {
     PairContext c = makeContext(200, 200, 10, stripes, 0);
     size_t found = 0;
-    for (uint slot = 0; slot < c.anchors.size(); ++slot)
+    for (uint slot = 0; slot < c.surfaces.size(); ++slot)
       found += partnerOf(c, slot, 0) != RL_INVALID;
-    return double(found) / double(c.anchors.size());
+    return double(found) / double(c.surfaces.size());
   };
   EXPECT_GT(share(false), 0.94);  // border tiles reach out of the image
   EXPECT_GT(share(true), 0.55);

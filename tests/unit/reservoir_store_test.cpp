@@ -1,4 +1,4 @@
-// Anchors and reservoirs of restir_gi: what a pass writes, the next one reads.
+// Reservoirs of restir_gi: what a pass writes, the next one reads.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -24,6 +24,8 @@ struct StoreCtx {
   CpuKernelCounters& gCounters;
 
 #include "core/dialect/order.glsl"
+#include "core/resampling/shift.glsl"
+#include "core/payload/path_sample.glsl"
 #include "integrators/restir_gi/store.glsl"
 };
 
@@ -58,18 +60,11 @@ struct Store {
       ref.data = memory.back().data();
     };
     memory.reserve(16);
-    give(buffers.anchors, rl::RL_GI_ANCHOR_QUADS);
-    give(buffers.previousAnchors, rl::RL_GI_ANCHOR_QUADS);
-    give(buffers.anchorsGlossy, 1);
-    give(buffers.previousAnchorsGlossy, 1);
-    give(buffers.lights, rl::RL_GI_LIGHT_QUADS);
-    give(buffers.lightsHistory, rl::RL_GI_LIGHT_QUADS);
-    give(buffers.paths, rl::RL_GI_PATH_QUADS);
-    give(buffers.pathsHistory, rl::RL_GI_PATH_QUADS);
-    give(buffers.suffixes, rl::RL_GI_SUFFIX_QUADS);
-    give(buffers.suffixesHistory, rl::RL_GI_SUFFIX_QUADS);
-    give(buffers.shiftedLights, 1);
-    give(buffers.shiftedPaths, 1);
+    give(buffers.reservoirs, rl::RL_PATH_RESERVOIR_QUADS);
+    give(buffers.history, rl::RL_PATH_RESERVOIR_QUADS);
+    give(buffers.suffixes, rl::RL_PATH_SUFFIX_QUADS);
+    give(buffers.suffixesHistory, rl::RL_PATH_SUFFIX_QUADS);
+    give(buffers.shifted, 1);
   }
   // Words that differ from what they were at first, outside of the slot.
   size_t touchedElsewhere() const {
@@ -96,52 +91,28 @@ void expectReservoirs() {
   Store<FEATURES> store;
   auto& c = store.ctx;
   const bool isGlossy = (FEATURES & rl::RL_FEATURE_GLOSSY) != 0;
-  const auto light = distinct<rl::LightReservoir>(0), older = distinct<rl::LightReservoir>(50);
-  const auto path = distinct<rl::PathReservoir>(100), olderPath = distinct<rl::PathReservoir>(200);
-  c.cacheWriteNow(kSlot, light);
-  c.cacheWriteHistory(kSlot, older);
-  c.cacheWriteNow(kSlot, path);
-  c.cacheWriteHistory(kSlot, olderPath);
-  rl::LightReservoir readLight;
-  c.cacheReadNow(kSlot, readLight);
-  EXPECT_TRUE(isSame(readLight, light));
-  c.cacheReadBefore(kSlot, readLight);
-  EXPECT_TRUE(isSame(readLight, older));
-  rl::PathReservoir readPath{};
-  const auto expectPath = [&](const rl::PathReservoir& written) {
-    EXPECT_TRUE(isSame(readPath.vertex, written.vertex));
-    EXPECT_TRUE(isSame(readPath.state, written.state));
-    EXPECT_TRUE(isSame(readPath.suffix, isGlossy ? written.suffix : rl::PathSuffix{}));
+  const auto now = distinct<rl::PathReservoir>(0), before = distinct<rl::PathReservoir>(100);
+  c.giWriteNow(kSlot, now);
+  c.giWriteHistory(kSlot, before);
+  const auto expect = [&](const rl::PathReservoir& read, const rl::PathReservoir& written) {
+    rl::PathReservoir kept = written;
+    if (!isGlossy) kept.path.suffix = rl::PathSuffix{};
+    EXPECT_TRUE(isSame(read, kept));
   };
-  c.cacheReadNow(kSlot, readPath);
-  expectPath(path);
-  c.cacheReadBefore(kSlot, readPath);
-  expectPath(olderPath);
-  // The state alone leaves the payload as it is.
-  rl::LightReservoir changed = light;
+  rl::PathReservoir read{};
+  c.giReadNow(kSlot, read);
+  expect(read, now);
+  c.giReadBefore(kSlot, read);
+  expect(read, before);
+  // The state alone leaves the path as it is.
+  rl::PathReservoir changed = now;
   changed.state = distinct<rl::ReservoirState>(300);
-  c.cacheWriteStateNow(kSlot, changed);
-  c.cacheReadNow(kSlot, readLight);
-  EXPECT_TRUE(isSame(readLight, changed));
-  rl::LightReservoir state = light;
-  c.cacheReadStateNow(kSlot, state);
-  EXPECT_TRUE(isSame(state, changed));
-  c.cacheWriteStateHistory(kSlot, changed);
-  c.cacheReadBefore(kSlot, readLight);
-  EXPECT_TRUE(isSame(readLight.state, changed.state));
-  EXPECT_TRUE(isSame(readLight.light, older.light));
-  rl::PathReservoir changedPath = path;
-  changedPath.state = distinct<rl::ReservoirState>(400);
-  c.cacheWriteStateNow(kSlot, changedPath);
-  c.cacheReadNow(kSlot, readPath);
-  expectPath(changedPath);
-  readPath.state = path.state;
-  c.cacheReadStateNow(kSlot, readPath);
-  expectPath(changedPath);
-  c.cacheWriteStateHistory(kSlot, changedPath);
-  c.cacheReadBefore(kSlot, readPath);
-  EXPECT_TRUE(isSame(readPath.state, changedPath.state));
-  EXPECT_TRUE(isSame(readPath.vertex, olderPath.vertex));
+  c.giWriteStateNow(kSlot, changed.state);
+  c.giReadNow(kSlot, read);
+  expect(read, changed);
+  rl::ReservoirState state{};
+  c.giReadStateNow(kSlot, state);
+  EXPECT_TRUE(isSame(state, changed.state));
   EXPECT_EQ(store.touchedElsewhere(), 0u);
 }
 
@@ -150,59 +121,25 @@ TEST(ReservoirStore, ReservoirsAreReadAsTheyWereWritten) {
   expectReservoirs<0>();
 }
 
-TEST(ReservoirStore, ShiftedSamplesOfBothKindsLieApart) {
+TEST(ReservoirStore, ShiftedSamplesAreReadAsTheyWereWritten) {
   Store<rl::RL_FEATURE_ALL> store;
   store.params.spatialNeighbours = 1;
-  const auto a = distinct<rl::Shifted>(0), b = distinct<rl::Shifted>(10);
-  const rl::LightReservoir light{};
-  const rl::PathReservoir path{};
-  const uint32_t index = store.ctx.cacheExchangeIndex(kSlot, 0);
-  store.ctx.cacheWriteShifted(index, light, a);
-  store.ctx.cacheWriteShifted(index, path, b);
-  rl::Shifted read;
-  store.ctx.cacheReadShifted(index, light, read);
-  EXPECT_TRUE(isSame(read, a));
-  store.ctx.cacheReadShifted(index, path, read);
-  EXPECT_TRUE(isSame(read, b));
+  const auto written = distinct<rl::Shifted>(0);
+  const uint32_t index = store.ctx.giExchangeIndex(kSlot, 0);
+  store.ctx.giWriteShifted(index, written);
+  EXPECT_TRUE(isSame(store.ctx.giReadShifted(index), written));
   EXPECT_EQ(store.touchedElsewhere(), 0u);
 }
 
-template <uint32_t FEATURES>
-void expectAnchors() {
-  Store<FEATURES> store;
-  store.frame.camera.kind = rl::RL_CAMERA_PERSPECTIVE;
-  store.frame.camera.posW = {1.0f, 2.0f, 3.0f};
-  store.frame.previousCamera = store.frame.camera;
-  store.frame.previousCamera.posW = {4.0f, 5.0f, 6.0f};
-  const auto written = distinct<rl::Anchor>(0);
-  store.ctx.cacheWriteAnchor(kSlot, written);
-  const auto expectRead = [&](const rl::Anchor& read, const rl::Camera& camera) {
-    EXPECT_EQ(read.posW, written.posW);
-    EXPECT_EQ(read.posError, written.posError);
-    EXPECT_EQ(read.nGeoW, written.nGeoW);
-    EXPECT_EQ(read.nShadeW, written.nShadeW);
-    EXPECT_EQ(read.isReusable, written.isReusable);
-    EXPECT_EQ(read.bsdf.diffuse, written.bsdf.diffuse);
-    EXPECT_LT(glm::length(read.wo - glm::normalize(camera.posW - written.posW)), 1e-6f);
-    EXPECT_EQ(read.bsdf.eta, 1.0f);
-    EXPECT_EQ(read.bsdf.transmission, glm::vec3(0.0f));
-    const bool isGlossy = (FEATURES & rl::RL_FEATURE_GLOSSY) != 0;
-    EXPECT_EQ(read.bsdf.f0, isGlossy ? written.bsdf.f0 : glm::vec3(0.0f));
-    EXPECT_EQ(read.bsdf.f90, isGlossy ? written.bsdf.f90 : 0.0f);
-    EXPECT_EQ(read.bsdf.alpha, isGlossy ? written.bsdf.alpha : 1.0f);
-    EXPECT_EQ(read.bsdf.lobes, isGlossy ? written.bsdf.lobes : rl::RL_LOBE_DIFFUSE);
-  };
-  expectRead(store.ctx.cacheAnchorNow(kSlot), store.frame.camera);
-  // As sessions do between frames.
-  std::swap(store.buffers.anchors, store.buffers.previousAnchors);
-  std::swap(store.buffers.anchorsGlossy, store.buffers.previousAnchorsGlossy);
-  expectRead(store.ctx.cacheAnchorBefore(kSlot), store.frame.previousCamera);
-  EXPECT_EQ(store.touchedElsewhere(), 0u);
-}
-
-TEST(ReservoirStore, AnchorsAreReadAsTheyWereWritten) {
-  expectAnchors<rl::RL_FEATURE_ALL>();
-  expectAnchors<0>();
+// A light in a reservoir is the light again.
+TEST(ReservoirStore, LightsComeBack) {
+  Store<rl::RL_FEATURE_ALL> store;
+  auto light = distinct<rl::LightSample>(0);
+  light.kind = rl::RL_LIGHT_SPOT;
+  light.isTwoSided = 0;
+  const rl::LightSample back = store.ctx.pathLight(store.ctx.pathOfLight(light, 7));
+  light.pdf = 0.0f;  // is not kept
+  EXPECT_TRUE(isSame(back, light));
 }
 
 }  // namespace

@@ -43,6 +43,11 @@ class AuditedRun {
         passes_(std::move(passes)) {
     const ParameterMap resolved = resolveParameters(findMethod(integrator, "none"), parameters);
     params_ = info_.packParameters(mode, resolved);
+    // What pixels show at their centres, in this view and in the last, which are the same.
+    for (size_t i = 0; i < info_.inputs.size(); ++i) {
+      storage_.emplace_back(size_t(16) * rl::RL_VISIBLE_QUADS * kWidth * kHeight);
+      addresses_.push_back(storage_.back().data());
+    }
     for (const BufferInfo& b : info_.buffers) {
       storage_.emplace_back(size_t(bytesPerPixelOf(b, resolved)) * kWidth * kHeight);
       addresses_.push_back(storage_.back().data());
@@ -54,29 +59,38 @@ class AuditedRun {
     frame_.seed = 5;
     frame_.maxBounces = 6;
     frame_.components = rl::RL_COMPONENT_ALL;
-    const auto hold = resolved.find("film_hold");
-    frame_.filmHold =
-        hold == resolved.end() ? 1u : static_cast<uint32_t>(std::get<int64_t>(hold->second));
     frame_.rouletteStart = rl::RL_ROULETTE_EARLIEST;
+    if (info_.inputs.empty()) return;
+    rl::CpuKernelCounters counters;
+    rl::findCpuKernel("visible", rl::RL_FEATURE_ALL)
+        ->entry(arguments(), {0, 0, kWidth, kHeight}, counters);
+    std::copy(storage_[0].begin(), storage_[0].end(), storage_[1].begin());
   }
 
   void frame() {
+    rl::CpuKernelCounters counters;
+    for (const rl::CpuKernelEntry pass : passes_)
+      pass(arguments(), {0, 0, kWidth, kHeight}, counters);
+    const size_t own = info_.inputs.size();
+    for (size_t i = 0; i < info_.buffers.size(); ++i) {
+      const int other = info_.buffers[i].swapWith;
+      if (other > int(i)) std::swap(addresses_[own + i], addresses_[own + size_t(other)]);
+    }
+    ++frame_.frame;
+    frame_.isStillView = 1;
+  }
+
+ private:
+  rl::CpuKernelArgs arguments() {
     rl::CpuKernelArgs args;
     args.scene = &scene_->data();
     args.frame = &frame_;
     args.buffers = addresses_.data();
     args.params = params_.data();
     args.embreeScene = scene_->embreeScene();
-    rl::CpuKernelCounters counters;
-    for (const rl::CpuKernelEntry pass : passes_) pass(args, {0, 0, kWidth, kHeight}, counters);
-    for (size_t i = 0; i < addresses_.size(); ++i) {
-      const int other = info_.buffers[i].swapWith;
-      if (other > int(i)) std::swap(addresses_[i], addresses_[size_t(other)]);
-    }
-    ++frame_.frame;
+    return args;
   }
 
- private:
   std::shared_ptr<const CompiledScene> scene_;
   const IntegratorInfo& info_;
   std::vector<rl::CpuKernelEntry> passes_;

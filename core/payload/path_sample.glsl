@@ -1,0 +1,149 @@
+// Paths in reservoirs: to and from buffers, and how another pixel sees them. The shift of a path
+// keeps its film sample, traces x1 anew and reconnects it: the caller traces the two rays that this
+// takes (the camera's, then the segment from x1), several shifts by one call.
+
+#define RL_PACK_F(i, v, s) RL_WRITE_QUAD(quads, at + i, recordQuad(p.v, floatBitsToUint(p.s)));
+#define RL_PACK_U(i, v, s) RL_WRITE_QUAD(quads, at + i, recordQuad(p.v, p.s));
+#define RL_UNPACK_F(i, v, s)            \
+  q = RL_PAST_QUAD(quads, at + i);      \
+  p.v = recordVec3(q);                  \
+  p.s = uintBitsToFloat(q.w);
+#define RL_UNPACK_U(i, v, s)            \
+  q = RL_PAST_QUAD(quads, at + i);      \
+  p.v = recordVec3(q);                  \
+  p.s = q.w;
+
+RL_FN void pathSampleWrite(RL_IN(QuadRef) quads, uint at, RL_IN(PathSample) p) {
+  RL_PATH_SAMPLE_FIELDS(RL_PACK_F, RL_PACK_U)
+}
+RL_FN void pathSampleRead(RL_IN(QuadRef) quads, uint at, RL_INOUT(PathSample) p) {
+  uvec4 q;
+  RL_PATH_SAMPLE_FIELDS(RL_UNPACK_F, RL_UNPACK_U)
+}
+// Only where the scene has glossy lobes.
+RL_FN void pathSuffixWrite(RL_IN(QuadRef) quads, uint at, RL_IN(PathSample) p) {
+  RL_PATH_SUFFIX_FIELDS(RL_PACK_F, RL_PACK_U)
+}
+RL_FN void pathSuffixRead(RL_IN(QuadRef) quads, uint at, RL_INOUT(PathSample) p) {
+  uvec4 q;
+  RL_PATH_SUFFIX_FIELDS(RL_UNPACK_F, RL_UNPACK_U)
+}
+RL_FN void reservoirStateWrite(RL_IN(QuadRef) quads, uint at, RL_IN(ReservoirState) p) {
+  RL_PACK_F(0u, F, W)
+  RL_PACK_F(1u, residual, confidence)
+}
+RL_FN void reservoirStateRead(RL_IN(QuadRef) quads, uint at, RL_INOUT(ReservoirState) p) {
+  uvec4 q;
+  RL_UNPACK_F(0u, F, W)
+  RL_UNPACK_F(1u, residual, confidence)
+}
+
+// The scalar by which paths compete, for the resampling algebra.
+RL_FN real bridgeTarget(RL_IN(real3) f) { return rlLuminance(f); }
+
+RL_FN PathSuffix pathNoSuffix() {
+  PathSuffix s;
+  s.nShadeW = vec3(0.0f, 0.0f, 1.0f);
+  s.pdfLight = 0.0f;
+  s.wi = vec3(0.0f, 0.0f, 1.0f);
+  s.emitted = vec3(0.0f, 0.0f, 0.0f);
+  s.bsdf = bsdfNone();
+  return s;
+}
+
+RL_FN uint pathKind(RL_IN(PathSample) p) { return p.kind & RL_PATH_KIND_MASK; }
+
+RL_FN PathSample pathOfLight(RL_IN(LightSample) light, uint film) {
+  PathSample p;
+  p.posW = light.point;
+  p.posError = light.posError;
+  p.normalW = light.normal;
+  p.kind = RL_PATH_DIRECT | (light.kind << RL_PATH_LIGHT_SHIFT);
+  if (light.isTwoSided != 0u) p.kind = p.kind | RL_PATH_TWO_SIDED;
+  p.radiance = light.radiance;
+  p.film = film;
+  p.cone = vec3(light.cone.x, light.cone.y, 0.0f);
+  p.geometry = 0.0f;
+  p.suffix = pathNoSuffix();
+  return p;
+}
+
+RL_FN LightSample pathLight(RL_IN(PathSample) p) {
+  LightSample light;
+  light.point = p.posW;
+  light.kind = (p.kind >> RL_PATH_LIGHT_SHIFT) & 0xffu;
+  light.normal = p.normalW;
+  light.pdf = 0.0f;
+  light.radiance = p.radiance;
+  light.posError = p.posError;
+  light.cone = vec2(p.cone.x, p.cone.y);
+  light.isTwoSided = p.kind & RL_PATH_TWO_SIDED;
+  return light;
+}
+
+// The radiance that x2 sends towards a point, without visibility; zero on its other side.
+RL_FN vec3 pathRadianceTowards(RL_IN(PathSample) p, RL_IN(vec3) dirFromX2) {
+  if (!(dot(p.normalW, dirFromX2) > 0.0f)) return vec3(0.0f, 0.0f, 0.0f);
+  if (!RL_HAS(RL_FEATURE_GLOSSY) || pathKind(p) == RL_PATH_LAMBERT) return p.radiance;
+  PathSuffix suffix = p.suffix;
+  vec3 f = bsdfEval(suffix.bsdf, p.normalW, suffix.nShadeW, dirFromX2, suffix.wi);
+  if (rlIsBlack(f)) return f;
+  // BSDF and MIS weight at x2 belong to the direction: a stored weight would break the partition.
+  float weight = 1.0f;
+  float pdfBsdf = 0.0f;
+  if (suffix.pdfLight > 0.0f)
+    pdfBsdf = bsdfPdf(suffix.bsdf, p.normalW, suffix.nShadeW, dirFromX2, suffix.wi);
+  if (pathKind(p) == RL_PATH_LIGHT) {
+    if (suffix.pdfLight > 0.0f) weight = lightMisWeight(suffix.pdfLight, pdfBsdf);
+    return f * p.radiance * weight;
+  }
+  if (suffix.pdfLight > 0.0f) weight = lightMisWeight(pdfBsdf, suffix.pdfLight);
+  return f * (p.radiance + suffix.emitted * weight);
+}
+
+RL_FN real pathGeometry(RL_IN(PathSample) p, RL_IN(vec3) x1) {
+  return shiftGeometryTerm(p.posW, p.normalW, x1);
+}
+
+// The segment from x1 to a vertex x2 or a light, as a shadow ray.
+RL_FN Ray pathSegment(RL_IN(PathSample) p, RL_IN(Surface) x1) {
+  if (pathKind(p) == RL_PATH_DIRECT) {
+    LightSample light = pathLight(p);
+    return lightShadowRay(light, lightConnect(light, x1.posW), x1.posW, x1.nGeoW, x1.posError);
+  }
+  Ray ray;
+  vec3 d = p.posW - x1.posW;
+  ray.origin = surfaceOffset(x1.posW, x1.nGeoW, x1.posError, d);
+  ray.tMin = 0.0f;
+  ray.dir = surfaceOffset(p.posW, p.normalW, p.posError, -d) - ray.origin;
+  ray.tMax = 1.0f;
+  return ray;
+}
+
+// A path as it is seen with another x1, without the visibility of its segment. Lights live in the
+// measure of their light (area, solid angle of the environment, discrete), which all share: J = 1.
+// Of a vertex it is the ratio of geometry terms; outside [1 / maxJacobian, maxJacobian] the shift is
+// undefined, both ways (Lin et al. 2022).
+RL_FN Shifted pathShift(RL_IN(PathSample) p, RL_IN(Surface) x1, real maxJacobian) {
+  Shifted s;
+  s.F = real3(real(0.0f));
+  s.jacobian = real(1.0f);
+  if (pathKind(p) == RL_PATH_DIRECT) {
+    LightConnection c = lightConnect(pathLight(p), x1.posW);
+    vec3 f = bsdfEval(x1.bsdf, x1.nGeoW, x1.nShadeW, x1.wo, c.dirW);
+    s.F = f * c.emitted * c.geometry;
+    return s;
+  }
+  real jacobian = rlSafeDivide(pathGeometry(p, x1.posW), p.geometry);
+  if (!(jacobian > 0.0f) || !rlIsFinite(jacobian) ||
+      max(jacobian, 1.0f / jacobian) > maxJacobian) {
+    RL_HEALTH(RL_HEALTH_REJECTED_JACOBIAN);
+    return s;
+  }
+  vec3 d = normalize(p.posW - x1.posW);
+  vec3 radiance = pathRadianceTowards(p, -d);
+  if (rlIsBlack(radiance)) return s;
+  s.jacobian = jacobian;
+  s.F = bsdfEval(x1.bsdf, x1.nGeoW, x1.nShadeW, x1.wo, d) * radiance;
+  return s;
+}
