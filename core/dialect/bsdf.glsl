@@ -1,12 +1,14 @@
 // The BSDF: lobes under one Fresnel layer, the same three functions for every consumer.
-//   bsdfEval  f |cos_i| of the non-delta lobes
-//   bsdfPdf   solid-angle density of bsdfDraw over the non-delta lobes
-//   bsdfDraw  a direction with weight f |cos_i| / pdf
+//   bsdfEval        f |cos_i| of the non-delta lobes
+//   bsdfPdf         solid-angle density of bsdfDraw over the non-delta lobes
+//   bsdfEvalAndPdf  both at once
+//   bsdfDraw        a direction with weight f |cos_i| / pdf
 // Directions are in world space and point away from the surface; nGeo lies on the side of wo.
 // The layering is that of the glTF 2.0 specification, appendix B, but for the share that the
 // specular layer leaves to the Lambert base (bsdfBaseShare) and, as an option, for light that meets
 // several microfacets (core/dialect/bsdf/multiscatter.glsl): that lobe is drawn by the cosine
-// together with Lambert's.
+// together with Lambert's. Where the shading normal is not that of the face,
+// core/dialect/bsdf/bent_normal.glsl says what becomes of light that would go through it.
 
 RL_FN bool bsdfIsBlack(RL_IN(Bsdf) b) { return b.lobes == 0u; }
 
@@ -59,7 +61,8 @@ RL_FN bool bsdfHasCosineLobe(RL_IN(Bsdf) b) {
   return (b.lobes & RL_LOBE_DIFFUSE) != 0u || multiscatterApplies(b);
 }
 
-RL_FN vec3 bsdfEvalLocal(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) wiL) {
+// What the lobes send to wiL, the cosine's part only where it is asked for.
+RL_FN vec3 bsdfEvalLocal(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) wiL, bool withCosine) {
   vec3 f = vec3(0.0f, 0.0f, 0.0f);
   if (!RL_HAS(RL_FEATURE_GLOSSY)) return b.diffuse * lambertEval(wiL);
   if (wiL.z > 0.0f) {
@@ -68,9 +71,10 @@ RL_FN vec3 bsdfEvalLocal(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) wiL) {
       vec3 fresnel = fresnelOfBsdf(b, clamp(dot(woL, hL), 0.0f, 1.0f));
       if ((b.lobes & RL_LOBE_SPECULAR) != 0u)
         f += fresnel * ggxReflectionEval(woL, wiL, hL, b.alpha);
+      if (!withCosine) return f;
       if (multiscatterApplies(b)) return f + multiscatterEval(b, woL.z, wiL.z);
       f += b.diffuse * (lambertEval(wiL) * bsdfBaseShare(b, woL.z, wiL.z));
-    } else {
+    } else if (withCosine) {
       f += b.diffuse * lambertEval(wiL);
     }
   } else if (RL_HAS(RL_FEATURE_TRANSMISSION) && (b.lobes & RL_LOBE_TRANSMISSION) != 0u &&
@@ -90,12 +94,12 @@ RL_FN vec3 bsdfEvalLocal(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) wiL) {
   return f;
 }
 
-RL_FN float bsdfPdfLocal(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) wiL) {
+RL_FN float bsdfPdfLocal(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) wiL, bool withCosine) {
   if (!RL_HAS(RL_FEATURE_GLOSSY)) return lambertPdf(wiL);
   vec2 p = bsdfLobeProbabilities(b, max(woL.z, 0.0f));
   float pdf = 0.0f;
   if (wiL.z > 0.0f) {
-    if (bsdfHasCosineLobe(b)) pdf += (1.0f - p.x - p.y) * lambertPdf(wiL);
+    if (withCosine && bsdfHasCosineLobe(b)) pdf += (1.0f - p.x - p.y) * lambertPdf(wiL);
     if ((b.lobes & RL_LOBE_SPECULAR) != 0u && woL.z > 0.0f) {
       vec3 hL = normalize(woL + wiL);
       pdf += p.x * ggxReflectionPdf(woL, hL, b.alpha);
@@ -114,38 +118,50 @@ RL_FN float bsdfPdfLocal(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) wiL) {
   return max(pdf, 0.0f);
 }
 
-// Reflection must stay on the geometric side of wo, transmission must leave it: no light leaks
-// through a face where the interpolated normal says otherwise.
-RL_FN bool bsdfSideAgrees(RL_IN(vec3) nGeo, RL_IN(vec3) wi, float wiLocalZ) {
-  float side = dot(nGeo, wi);
-  return wiLocalZ > 0.0f ? side > 0.0f : side < 0.0f;
+// Sums over the directions that end in one, as they are and mirrored at the face, both local to the
+// normal; (0, 0, 0) where there is none. One call site for both.
+RL_FN vec3 bsdfSumLocal(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) asItIsL, RL_IN(vec3) mirroredL,
+                        RL_OUT(float) pdf) {
+  vec3 f = vec3(0.0f, 0.0f, 0.0f);
+  pdf = 0.0f;
+  for (uint i = asItIsL.z != 0.0f ? 0u : 1u; i < (mirroredL.z != 0.0f ? 2u : 1u); i = i + 1u) {
+    vec3 sourceL = i == 0u ? asItIsL : mirroredL;
+    pdf += bsdfPdfLocal(b, woL, sourceL, i == 0u);
+    f += bsdfEvalLocal(b, woL, sourceL, i == 0u);
+  }
+  return f;
+}
+
+RL_FN vec3 bsdfEvalAndPdf(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(vec3) wo,
+                          RL_IN(vec3) wi, RL_OUT(float) pdf) {
+  if (!RL_HAS(RL_FEATURE_GLOSSY)) {
+    pdf = 0.0f;
+    if (!(dot(nGeo, wi) > 0.0f)) return vec3(0.0f, 0.0f, 0.0f);
+    pdf = max(dot(nShade, wi), 0.0f) * RL_INV_PI;
+    return b.diffuse * pdf;
+  }
+  vec3 n = bentNormal(b, nGeo, nShade, wo, dot(nShade, wo));
+  vec3 woL = frameToLocal(n, wo);
+  vec3 wiL = frameToLocal(n, wi);
+  vec3 mirroredL = bentOrigin(b, nGeo, n, wi, wiL);
+  if (!bentSideAgrees(dot(nGeo, wi), wiL.z)) wiL = vec3(0.0f, 0.0f, 0.0f);
+  return bsdfSumLocal(b, woL, wiL, mirroredL, pdf);
 }
 
 RL_FN vec3 bsdfEval(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(vec3) wo,
                     RL_IN(vec3) wi) {
-  if (!RL_HAS(RL_FEATURE_GLOSSY)) {
-    if (!(dot(nGeo, wi) > 0.0f)) return vec3(0.0f, 0.0f, 0.0f);
-    return b.diffuse * (max(dot(nShade, wi), 0.0f) * RL_INV_PI);
-  }
-  vec3 woL = frameToLocal(nShade, wo);
-  vec3 wiL = frameToLocal(nShade, wi);
-  if (!bsdfSideAgrees(nGeo, wi, wiL.z)) return vec3(0.0f, 0.0f, 0.0f);
-  return bsdfEvalLocal(b, woL, wiL);
+  float pdf;
+  return bsdfEvalAndPdf(b, nGeo, nShade, wo, wi, pdf);
 }
 
 RL_FN float bsdfPdf(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(vec3) wo,
                     RL_IN(vec3) wi) {
-  if (!RL_HAS(RL_FEATURE_GLOSSY)) {
-    if (!(dot(nGeo, wi) > 0.0f)) return 0.0f;
-    return max(dot(nShade, wi), 0.0f) * RL_INV_PI;
-  }
-  vec3 woL = frameToLocal(nShade, wo);
-  vec3 wiL = frameToLocal(nShade, wi);
-  if (!bsdfSideAgrees(nGeo, wi, wiL.z)) return 0.0f;
-  return bsdfPdfLocal(b, woL, wiL);
+  float pdf;
+  bsdfEvalAndPdf(b, nGeo, nShade, wo, wi, pdf);
+  return pdf;
 }
 
-// uLobe chooses the lobe, u the direction. A draw that ends on the wrong side is absorbed (lobe 0).
+// uLobe chooses the lobe, u the direction. lobe 0: absorbed.
 RL_FN BsdfDraw bsdfDraw(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(vec3) wo,
                         float uLobe, RL_IN(vec2) u) {
   BsdfDraw result;
@@ -165,10 +181,12 @@ RL_FN BsdfDraw bsdfDraw(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_
     result.lobe = RL_LOBE_DIFFUSE;
     return result;
   }
-  vec3 woL = frameToLocal(nShade, wo);
+  vec3 n = bentNormal(b, nGeo, nShade, wo, dot(nShade, wo));
+  vec3 woL = frameToLocal(n, wo);
   vec2 p = bsdfLobeProbabilities(b, max(woL.z, 0.0f));
   vec3 wiL = vec3(0.0f, 0.0f, 1.0f);
   uint lobe = RL_LOBE_DIFFUSE;
+  bool byCosine = false;
   if (uLobe < p.x) {
     if (!(woL.z > 0.0f)) return result;
     if ((b.lobes & RL_LOBE_SPECULAR_DELTA) != 0u) {
@@ -196,11 +214,24 @@ RL_FN BsdfDraw bsdfDraw(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_
   } else {
     if (!bsdfHasCosineLobe(b)) return result;
     if ((b.lobes & RL_LOBE_DIFFUSE) == 0u) lobe = RL_LOBE_SPECULAR;
+    byCosine = true;
     wiL = lambertDraw(u);
     if (!(wiL.z > 0.0f)) return result;
   }
-  vec3 wi = frameToWorld(nShade, wiL);
-  if (!bsdfSideAgrees(nGeo, wi, wiL.z)) return result;
+  vec3 wi = frameToWorld(n, wiL);
+  float side = dot(nGeo, wi);
+  bool agrees = bentSideAgrees(side, wiL.z);
+  vec3 asItIsL = wiL;
+  vec3 mirroredL = wiL;
+  if (agrees) {
+    mirroredL = bentOrigin(b, nGeo, n, wi, wiL);
+  } else {
+    if (byCosine || side == 0.0f || !bentExists(b)) return result;
+    // What was drawn is mirrored; what it becomes may be drawn as it is.
+    wi -= nGeo * (2.0f * side);
+    asItIsL = frameToLocal(n, wi);
+    if (!bentSideAgrees(-side, asItIsL.z)) asItIsL = vec3(0.0f, 0.0f, 0.0f);
+  }
   result.wi = wi;
   if ((lobe & RL_LOBE_ANY_DELTA) != 0u) {
     vec3 fresnel = fresnelOfBsdf(b, woL.z);
@@ -215,10 +246,11 @@ RL_FN BsdfDraw bsdfDraw(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_
     result.lobe = lobe;
     return result;
   }
-  float pdf = bsdfPdfLocal(b, woL, wiL);
+  float pdf;
+  vec3 f = bsdfSumLocal(b, woL, asItIsL, mirroredL, pdf);
   if (!(pdf > 0.0f)) return result;
   result.pdfSolidAngle = pdf;
-  result.weight = bsdfEvalLocal(b, woL, wiL) * (1.0f / pdf);
+  result.weight = f * (1.0f / pdf);
   result.lobe = lobe;
   return result;
 }

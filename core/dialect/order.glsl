@@ -13,6 +13,7 @@
 #include "core/dialect/bsdf/ggx.glsl"
 #include "core/dialect/bsdf/transmission.glsl"
 #include "core/dialect/bsdf/multiscatter.glsl"
+#include "core/dialect/bsdf/bent_normal.glsl"
 #include "core/dialect/bsdf.glsl"
 #include "core/dialect/surface.glsl"
 #include "core/dialect/light/environment.glsl"

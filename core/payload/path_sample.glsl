@@ -86,13 +86,11 @@ RL_FN vec3 pathRadianceTowards(RL_IN(PathSample) p, RL_IN(vec3) dirFromX2) {
   if (!(dot(p.normalW, dirFromX2) > 0.0f)) return vec3(0.0f, 0.0f, 0.0f);
   if (!RL_HAS(RL_FEATURE_GLOSSY) || pathKind(p) == RL_PATH_LAMBERT) return p.radiance;
   PathSuffix suffix = p.suffix;
-  vec3 f = bsdfEval(suffix.bsdf, p.normalW, suffix.nShadeW, dirFromX2, suffix.wi);
-  if (rlIsBlack(f)) return f;
   // BSDF and MIS weight at x2 belong to the direction: a stored weight would break the partition.
+  float pdfBsdf;
+  vec3 f = bsdfEvalAndPdf(suffix.bsdf, p.normalW, suffix.nShadeW, dirFromX2, suffix.wi, pdfBsdf);
+  if (rlIsBlack(f)) return f;
   float weight = 1.0f;
-  float pdfBsdf = 0.0f;
-  if (suffix.pdfLight > 0.0f)
-    pdfBsdf = bsdfPdf(suffix.bsdf, p.normalW, suffix.nShadeW, dirFromX2, suffix.wi);
   if (pathKind(p) == RL_PATH_LIGHT) {
     if (suffix.pdfLight > 0.0f) weight = lightMisWeight(suffix.pdfLight, pdfBsdf);
     return f * p.radiance * weight;

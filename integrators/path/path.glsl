@@ -22,12 +22,10 @@ RL_FN uint walkArrives(RL_INOUT(PathState) state, RL_IN(Walk) walk, RL_INOUT(Sur
 
 RL_FN bool walkLights(RL_INOUT(PathState) state, RL_IN(Walk) walk, RL_IN(Rng) rng, RL_IN(Surface) s,
                       RL_IN(LightSample) light, RL_IN(LightConnection) c) {
-  vec3 f = bsdfEval(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW);
+  float pdf;
+  vec3 f = bsdfEvalAndPdf(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW, pdf);
   if (rlIsBlack(f)) return false;
-  float weight = 1.0f;
-  if (!c.isDelta) {
-    weight = lightMisWeight(c.pdfSolidAngle, bsdfPdf(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW));
-  }
+  float weight = c.isDelta ? 1.0f : lightMisWeight(c.pdfSolidAngle, pdf);
   state.unseen = walk.throughput * f * c.emitted * (c.geometry * weight / light.pdf);
   if (RL_HAS(RL_FEATURE_VOLUME))
     state.unseen *= exp(-surfaceSigma(s, walk.sigma, c.dirW) * c.distance);

@@ -19,11 +19,12 @@ RL_FN LightSample giNoLight() {
   return s;
 }
 
-// Density of the light samples of one pixel plus that of its BSDF sample, in the measure of the
-// light sample (area, solid angle of the environment, discrete). dirW points to the light.
-RL_FN float giDirectDensity(RL_IN(LightSample) light, RL_IN(LightConnection) c, RL_IN(Surface) s) {
+// Density of the light samples of one pixel plus that of its BSDF sample (pdfSolidAngle towards the
+// light), in the measure of the light sample (area, solid angle of the environment, discrete).
+RL_FN float giDirectDensity(RL_IN(LightSample) light, RL_IN(LightConnection) c,
+                            float pdfSolidAngle) {
   float density = float(gParams.lightCandidates) * light.pdf;
-  if (!c.isDelta) density += bsdfPdf(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW) * c.geometry;
+  if (!c.isDelta) density += pdfSolidAngle * c.geometry;
   return density;
 }
 
@@ -154,10 +155,11 @@ RL_FN uint walkArrives(RL_INOUT(GiPath) p, RL_IN(Walk) walk, RL_INOUT(Surface) s
 
 RL_FN bool walkLights(RL_INOUT(GiPath) p, RL_IN(Walk) walk, RL_IN(Rng) rng, RL_IN(Surface) s,
                       RL_IN(LightSample) light, RL_IN(LightConnection) c) {
-  vec3 f = bsdfEval(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW);
+  float pdf;
+  vec3 f = bsdfEvalAndPdf(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW, pdf);
   if (giIsAtX1(p, walk)) {
     vec3 integrand = f * c.emitted * c.geometry;
-    real w = rlLuminance(integrand) * rlSafeDivide(1.0f, giDirectDensity(light, c, s));
+    real w = rlLuminance(integrand) * rlSafeDivide(1.0f, giDirectDensity(light, c, pdf));
     if (!risAccept(p.lightSum, w, rngDraw(rng, RL_DIM_RIS_LIGHT))) return false;
     p.light = light;
     p.lightF = integrand;
@@ -172,10 +174,7 @@ RL_FN bool walkLights(RL_INOUT(GiPath) p, RL_IN(Walk) walk, RL_IN(Rng) rng, RL_I
     p.lightPdfX2 = c.isDelta ? 0.0f : c.pdfSolidAngle;
     return true;
   }
-  float weight = 1.0f;
-  if (!c.isDelta) {
-    weight = lightMisWeight(c.pdfSolidAngle, bsdfPdf(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW));
-  }
+  float weight = c.isDelta ? 1.0f : lightMisWeight(c.pdfSolidAngle, pdf);
   p.unseen = (p.isSuffix != 0u ? p.suffixThroughput : walk.throughput) * f * arriving * weight;
   return true;
 }

@@ -61,12 +61,10 @@ RL_FN void giAddIndirect(RL_IN(GiPath) p, float throughAlpha, RL_IN(Rng) rng, RL
   Bsdf b = p.x2.suffix.bsdf;
   vec3 nShadeX2 = p.x2.suffix.nShadeW;
   if (!rlIsBlack(p.lightAtX2)) {
-    float weight = 1.0f;
-    if (p.lightPdfX2 > 0.0f) {
-      weight = lightMisWeight(p.lightPdfX2,
-                              bsdfPdf(b, p.x2.normalW, nShadeX2, p.woX2, p.lightDirX2));
-    }
-    fLight = bsdfEval(b, p.x2.normalW, nShadeX2, p.woX2, p.lightDirX2) * p.lightAtX2 * weight;
+    float pdf;
+    vec3 f = bsdfEvalAndPdf(b, p.x2.normalW, nShadeX2, p.woX2, p.lightDirX2, pdf);
+    float weight = p.lightPdfX2 > 0.0f ? lightMisWeight(p.lightPdfX2, pdf) : 1.0f;
+    fLight = f * p.lightAtX2 * weight;
   }
   if (p.isSuffix != 0u) {
     float weight = p.pdfLightAtX3 > 0.0f ? lightMisWeight(p.pdfX2, p.pdfLightAtX3) : 1.0f;

@@ -32,13 +32,11 @@ RL_FN void walkEmits(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, RL_IN(Surf
 // The light sample of a vertex, and whether it was seen from there.
 RL_FN bool walkLights(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, RL_IN(Rng) rng,
                       RL_IN(Surface) s, RL_IN(LightSample) light, RL_IN(LightConnection) c) {
-  vec3 f = bsdfEval(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW);
+  float pdf;
+  vec3 f = bsdfEvalAndPdf(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW, pdf);
   if (rlIsBlack(f)) return false;
-  float weight = 1.0f;  // a point or a direction is met by no ray
-  if (!c.isDelta) {
-    float pdf = bsdfPdf(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW);
-    weight = templateMisWeight(c.pdfSolidAngle, pdf);
-  }
+  // A point or a direction is met by no ray.
+  float weight = c.isDelta ? 1.0f : templateMisWeight(c.pdfSolidAngle, pdf);
   vec3 arriving = c.emitted * (c.geometry * weight / light.pdf);
   if (RL_HAS(RL_FEATURE_VOLUME)) arriving *= exp(-surfaceSigma(s, walk.sigma, c.dirW) * c.distance);
   state.unseen = walk.throughput * f * arriving;

@@ -60,7 +60,9 @@ void addTextures(Scene& scene) {
   floor.roughness = 0.9f;
   rl::Material& back = ownMaterial(scene, kBackWall);
   back.textures[rl::RL_TEX_NORMAL] = addUse(scene, pattern, rl::RL_WRAP_CLAMP, false, false);
-  back.normalScale = 0.4f;
+  back.normalScale = 0.4f;  // bent so far that reflections go through the wall
+  back.metallic = 0.7f;
+  back.roughness = 0.5f;
   rl::Material& left = ownMaterial(scene, kLeftWall);
   left.textures[rl::RL_TEX_BASE_COLOR] = addUse(scene, holes, rl::RL_WRAP_REPEAT, true, false);
   left.flags |= rl::RL_MATERIAL_ALPHA_BLEND | rl::RL_MATERIAL_DOUBLE_SIDED;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/scene/builtin_builder.h"
 #include "tests/unit/bsdf_cases.h"
 #include "tests/unit/dialect_context.h"
 #include "tests/unit/goodness.h"
@@ -157,17 +158,61 @@ TEST(BsdfSampling, ContinuousLobes) { checkCases(continuousBsdfs(), 100); }
 
 TEST(BsdfSampling, ContinuousPartBesideDeltaLobes) { checkCases(deltaBsdfs(), 1000); }
 
-// Interpolated normals: what lands on the wrong side of the face is absorbed, and the pdf says so.
+// Interpolated normals: what lands on the wrong side of the face is mirrored at it, or absorbed
+// where the cosine drew it, and the pdf says so. The last of the directions sees the normal from
+// behind.
 TEST(BsdfSampling, ShadingNormalOffTheFace) {
   const glm::vec3 up(0.0f, 0.0f, 1.0f);
-  const glm::vec3 nGeo = glm::normalize(glm::vec3(0.4f, -0.2f, 1.0f));
+  const glm::vec3 slightly = glm::normalize(glm::vec3(0.4f, -0.2f, 1.0f));
+  const glm::vec3 steeply = glm::normalize(glm::vec3(1.0f, 0.8f, 0.6f));
   uint64_t seed = 2000;
   for (const BsdfCase& c : continuousBsdfs()) {
     if (c.bsdf.alpha < 0.2f) continue;
-    for (const double angle : {20.0, 60.0}) {
+    for (const auto& [nGeo, angle] : {std::pair(slightly, 20.0), std::pair(slightly, 60.0),
+                                      std::pair(steeply, 75.0), std::pair(steeply, 105.0)}) {
+      ASSERT_GT(glm::dot(nGeo, directionAt(angle)), 0.0f);
       const std::string name =
           c.name + ", tilted normal, at " + std::to_string(int(angle)) + " degrees";
       checkSetting({name, c.bsdf, directionAt(angle), nGeo, up}, ++seed);
+    }
+  }
+}
+
+// Under a bent normal a lobe returns what it does under one that is not: the albedo of white metal
+// and glass depends on the angle between wo and the normal alone.
+TEST(BsdfSampling, BentNormalsKeepTheAlbedoOfALobe) {
+  const glm::vec3 up(0.0f, 0.0f, 1.0f);
+  Dialect<> d;
+  Inputs inputs(31);
+  const auto albedoOf = [&](const rl::Bsdf& bsdf, const glm::vec3& nGeo, const glm::vec3& nShade,
+                            const glm::vec3& wo) {
+    double sum = 0.0;
+    int wrong = 0;
+    constexpr int n = 100'000;
+    for (int i = 0; i < n; ++i) {
+      const float uLobe = inputs.uniform();
+      const rl::BsdfDraw draw = d->bsdfDraw(bsdf, nGeo, nShade, wo, uLobe, inputs.square());
+      // What is reflected stays on this side of the face, what is transmitted leaves it.
+      const bool passes = (draw.lobe & rl::RL_LOBE_ANY_TRANSMISSION) != 0u;
+      wrong += draw.lobe != 0u && (glm::dot(draw.wi, nGeo) < 0.0f) != passes;
+      sum += draw.weight.x / n;
+    }
+    EXPECT_EQ(wrong, 0);
+    return sum;
+  };
+  const glm::vec3 white(1.0f);
+  for (const rl::Material& material :
+       {builtin::metal(white, 0.0f), builtin::metal(white, 0.3f), builtin::metal(white, 0.7f),
+        builtin::glass(0.0f, glm::vec3(0.0f)), builtin::glass(0.4f, glm::vec3(0.0f))}) {
+    const rl::Bsdf bsdf = bsdfOf(material, true);
+    for (int i = 0; i < 20; ++i) {
+      const glm::vec3 wo = inputs.directionAbove(up);
+      const glm::vec3 nShade = inputs.directionAbove(up);
+      if (wo.z < 0.05f || std::abs(glm::dot(nShade, wo)) < 0.05f) continue;
+      const glm::vec3 facing = glm::dot(nShade, wo) > 0.0f ? nShade : -nShade;
+      EXPECT_NEAR(albedoOf(bsdf, up, nShade, wo), albedoOf(bsdf, facing, facing, wo), 0.01)
+          << "roughness " << material.roughness << ", transmission " << material.transmission
+          << ", wo " << wo.z << ", normal " << nShade.z << ", between " << glm::dot(nShade, wo);
     }
   }
 }

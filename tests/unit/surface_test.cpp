@@ -98,6 +98,26 @@ TEST(Surface, ImpossibleShadingNormals) {
   }
 }
 
+// What reuse stores of a vertex is evaluated for other directions: the normal may depend on the
+// side of the face that is seen, and on nothing else of the direction. (bent_normal.glsl turns
+// normals that wo sees from behind, at every evaluation.)
+TEST(Surface, ShadingNormalsAreThoseOfASide) {
+  MeshGeometry mesh = fullTriangle();
+  mesh.normals = {{0.9f, 0, 0.3f}, {0, 0.9f, 0.1f}, {0.9f, -0.5f, 0.2f}};
+  Dialect<> d(CompiledScene::build(sceneOf(mesh, builtin::metal(glm::vec3(0.9f), 0.3f))));
+  Inputs inputs(3);
+  for (const float side : {1.0f, -1.0f}) {
+    const glm::vec3 expected = load(d, {0.3f, 0.3f}, side * kDown).nShadeW;
+    int fromBehind = 0;
+    for (int i = 0; i < 1000; ++i) {
+      const rl::Surface s = load(d, {0.3f, 0.3f}, inputs.directionAbove(side * kDown));
+      ASSERT_EQ(s.nShadeW, expected);
+      fromBehind += glm::dot(s.nShadeW, s.wo) < 0.0f;
+    }
+    EXPECT_GT(fromBehind, 100);
+  }
+}
+
 TEST(Surface, EmissionHasSides) {
   for (const bool twoSided : {false, true}) {
     rl::Material lamp = builtin::lamp(glm::vec3(3.0f, 2.0f, 1.0f));
