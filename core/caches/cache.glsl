@@ -1,6 +1,7 @@
 // What caches share. A cache says where reservoirs live and who serves whom as a donor:
 // - cacheSlot(pixel): my slot;
-// - cacheDonorOverTime(slot, donor): the slot that held my surface in the last frame; false where it
+// - cacheDonorOverTime(slot, donor): the slot that held my surface in the last frame; false where
+// it
 //   was not seen. In a still view it is my own;
 // - cachePartner(pixel, k, partner): my k-th donor over space, whose k-th donor I am; or false.
 // Their answers depend on what pixels show at their centres and on the frame's number alone: an

@@ -40,8 +40,8 @@ RL_FN vec3 cameraDirectionFrom(RL_IN(Camera) camera, RL_IN(vec3) posW) {
   return normalize(camera.posW - posW);
 }
 
-// The film sample of a pixel in this frame: a fraction of the pixel's width in the low half word, of
-// its height in the high one.
+// The film sample of a pixel in this frame: a fraction of the pixel's width in the low half word,
+// of its height in the high one.
 RL_FN uint cameraFilmBits(RL_IN(uvec2) pixel) {
   Rng rng = rngInit(gFrame.seed ^ 0x5bd1e995u, pixel.y * gFrame.width + pixel.x, gFrame.frame);
   uint x = rngBits(rng, RL_DIM_FILTER_X);

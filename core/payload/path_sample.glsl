@@ -4,35 +4,35 @@
 
 #define RL_PACK_F(i, v, s) RL_WRITE_QUAD(quads, at + i, recordQuad(p.v, floatBitsToUint(p.s)));
 #define RL_PACK_U(i, v, s) RL_WRITE_QUAD(quads, at + i, recordQuad(p.v, p.s));
-#define RL_UNPACK_F(i, v, s)            \
-  q = RL_PAST_QUAD(quads, at + i);      \
-  p.v = recordVec3(q);                  \
+#define RL_UNPACK_F(i, v, s)       \
+  q = RL_PAST_QUAD(quads, at + i); \
+  p.v = recordVec3(q);             \
   p.s = uintBitsToFloat(q.w);
-#define RL_UNPACK_U(i, v, s)            \
-  q = RL_PAST_QUAD(quads, at + i);      \
-  p.v = recordVec3(q);                  \
+#define RL_UNPACK_U(i, v, s)       \
+  q = RL_PAST_QUAD(quads, at + i); \
+  p.v = recordVec3(q);             \
   p.s = q.w;
 
-RL_FN void pathSampleWrite(RL_IN(QuadRef) quads, uint at, RL_IN(PathSample) p) {
-  RL_PATH_SAMPLE_FIELDS(RL_PACK_F, RL_PACK_U)
-}
-RL_FN void pathSampleRead(RL_IN(QuadRef) quads, uint at, RL_INOUT(PathSample) p) {
+RL_FN void pathSampleWrite(RL_IN(QuadRef) quads, uint at, RL_IN(PathSample) p){
+    RL_PATH_SAMPLE_FIELDS(RL_PACK_F, RL_PACK_U)} RL_FN void pathSampleRead(RL_IN(QuadRef) quads,
+                                                                           uint at,
+                                                                           RL_INOUT(PathSample) p) {
   uvec4 q;
   RL_PATH_SAMPLE_FIELDS(RL_UNPACK_F, RL_UNPACK_U)
 }
 // Only where the scene has glossy lobes.
-RL_FN void pathSuffixWrite(RL_IN(QuadRef) quads, uint at, RL_IN(PathSample) p) {
-  RL_PATH_SUFFIX_FIELDS(RL_PACK_F, RL_PACK_U)
-}
-RL_FN void pathSuffixRead(RL_IN(QuadRef) quads, uint at, RL_INOUT(PathSample) p) {
+RL_FN void pathSuffixWrite(RL_IN(QuadRef) quads, uint at, RL_IN(PathSample) p){
+    RL_PATH_SUFFIX_FIELDS(RL_PACK_F, RL_PACK_U)} RL_FN void pathSuffixRead(RL_IN(QuadRef) quads,
+                                                                           uint at,
+                                                                           RL_INOUT(PathSample) p) {
   uvec4 q;
   RL_PATH_SUFFIX_FIELDS(RL_UNPACK_F, RL_UNPACK_U)
 }
-RL_FN void reservoirStateWrite(RL_IN(QuadRef) quads, uint at, RL_IN(ReservoirState) p) {
-  RL_PACK_F(0u, F, W)
-  RL_PACK_F(1u, residual, confidence)
-}
-RL_FN void reservoirStateRead(RL_IN(QuadRef) quads, uint at, RL_INOUT(ReservoirState) p) {
+RL_FN void reservoirStateWrite(RL_IN(QuadRef) quads, uint at, RL_IN(ReservoirState) p){
+    RL_PACK_F(0u, F, W)
+        RL_PACK_F(1u, residual,
+                  confidence)} RL_FN void reservoirStateRead(RL_IN(QuadRef) quads, uint at,
+                                                             RL_INOUT(ReservoirState) p) {
   uvec4 q;
   RL_UNPACK_F(0u, F, W)
   RL_UNPACK_F(1u, residual, confidence)
@@ -120,8 +120,8 @@ RL_FN Ray pathSegment(RL_IN(PathSample) p, RL_IN(Surface) x1) {
 
 // A path as it is seen with another x1, without the visibility of its segment. Lights live in the
 // measure of their light (area, solid angle of the environment, discrete), which all share: J = 1.
-// Of a vertex it is the ratio of geometry terms; outside [1 / maxJacobian, maxJacobian] the shift is
-// undefined, both ways (Lin et al. 2022).
+// Of a vertex it is the ratio of geometry terms; outside [1 / maxJacobian, maxJacobian] the shift
+// is undefined, both ways (Lin et al. 2022).
 RL_FN Shifted pathShift(RL_IN(PathSample) p, RL_IN(Surface) x1, real maxJacobian) {
   Shifted s;
   s.F = real3(real(0.0f));
@@ -133,8 +133,7 @@ RL_FN Shifted pathShift(RL_IN(PathSample) p, RL_IN(Surface) x1, real maxJacobian
     return s;
   }
   real jacobian = rlSafeDivide(pathGeometry(p, x1.posW), p.geometry);
-  if (!(jacobian > 0.0f) || !rlIsFinite(jacobian) ||
-      max(jacobian, 1.0f / jacobian) > maxJacobian) {
+  if (!(jacobian > 0.0f) || !rlIsFinite(jacobian) || max(jacobian, 1.0f / jacobian) > maxJacobian) {
     RL_HEALTH(RL_HEALTH_REJECTED_JACOBIAN);
     return s;
   }

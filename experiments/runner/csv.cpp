@@ -56,7 +56,7 @@ std::vector<Column> contractColumns(const Suite& suite, const MethodSummary& row
           {"features_left_out", row.result->featuresLeftOut}};
 }
 
-// "confidence_cap=20 film_hold=32": all of them, defaults too.
+// "confidence_cap=20 temporal=true": all of them, defaults too.
 std::string parametersText(const SuiteMethod& method) {
   std::string text;
   for (const auto& [key, value] : method.parameters())

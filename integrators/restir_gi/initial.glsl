@@ -25,8 +25,8 @@ RL_FN float giThroughAlpha(RL_IN(GiPath) p) {
     segment.dir = surfaceOffset(p.x2.posW, p.x2.normalW, p.x2.posError, -d) - segment.origin;
     segment.tMax = 1.0f;
   } else {
-    segment = lightShadowRay(p.found, lightConnect(p.found, p.x1PosW), p.x1PosW, p.x1NGeoW,
-                             p.x1PosError);
+    segment =
+        lightShadowRay(p.found, lightConnect(p.found, p.x1PosW), p.x1PosW, p.x1NGeoW, p.x1PosError);
   }
   Hit hit;
   float t = traceRay(segment, RL_RAY_SHADOW, 0u, hit);

@@ -61,7 +61,7 @@ std::vector<ParameterInfo> parameterInfos() {
        "how fast a donor's share falls with the age of the history: 1 / (1 + this x (age - 1))",
        "core/resampling/reuse.glsl; measured: docs/performance.md"},
       {"spatial_radius",
-       8.0,
+       3.0,
        1.5,
        256.0,
        {},

@@ -1,5 +1,5 @@
-// restir_gi, spatial pass: merges partners' reservoirs, shades, and leaves the history. It traces no
-// ray: the shifts between partners were made by the temporal pass.
+// restir_gi, spatial pass: merges partners' reservoirs, shades, and leaves the history. It traces
+// no ray: the shifts between partners were made by the temporal pass.
 #include "core/resampling/ris.glsl"
 #include "core/resampling/mis.glsl"
 #include "core/resampling/shift.glsl"

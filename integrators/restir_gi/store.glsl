@@ -41,12 +41,12 @@ RL_FN void giWriteHistory(uint slot, RL_IN(PathReservoir) r) {
 
 // The state alone: merges decide by it, and only the winner's path has to be moved.
 RL_FN void giReadStateNow(uint slot, RL_INOUT(ReservoirState) state) {
-  reservoirStateRead(gBuffers.reservoirs,
-                     slot * RL_PATH_RESERVOIR_QUADS + RL_PATH_SAMPLE_QUADS, state);
+  reservoirStateRead(gBuffers.reservoirs, slot * RL_PATH_RESERVOIR_QUADS + RL_PATH_SAMPLE_QUADS,
+                     state);
 }
 RL_FN void giWriteStateNow(uint slot, RL_IN(ReservoirState) state) {
-  reservoirStateWrite(gBuffers.reservoirs,
-                      slot * RL_PATH_RESERVOIR_QUADS + RL_PATH_SAMPLE_QUADS, state);
+  reservoirStateWrite(gBuffers.reservoirs, slot * RL_PATH_RESERVOIR_QUADS + RL_PATH_SAMPLE_QUADS,
+                      state);
 }
 
 // A slot's sample as its k-th partner sees it.

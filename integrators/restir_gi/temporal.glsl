@@ -1,8 +1,9 @@
 // restir_gi, temporal pass: merges the last frame's reservoir of the same surface into the new one,
-// then shows the result to the pixel's partners of the spatial pass, each shift once for both merges
-// of a pair. In a still view the shift over time is the identity: no ray. Round 0 is that of time,
-// each further one that of a partner. A round's shifts take two rays each, the camera's to the x1 of
-// the other pixel and the segment from there; all are traced by the one call of the kernel.
+// then shows the result to the pixel's partners of the spatial pass, each shift once for both
+// merges of a pair. In a still view the shift over time is the identity: no ray. Round 0 is that of
+// time, each further one that of a partner. A round's shifts take two rays each, the camera's to
+// the x1 of the other pixel and the segment from there; all are traced by the one call of the
+// kernel.
 #include "core/resampling/ris.glsl"
 #include "core/resampling/mis.glsl"
 #include "core/resampling/shift.glsl"
@@ -120,8 +121,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     vec3 ratio = vec3(1.0f, 1.0f, 1.0f);
     if (gFrame.isStillView == 0u) ratio = giRatio(visibleRead(gBuffers.visibleBefore, other), slot);
     float u = rngDraw(rng, RL_DIM_RIS_MERGE);
-    bool won =
-        mergeDonor(merge, r.state, donor.state, cDonor, theirs.shifted, ratio, flags, u);
+    bool won = mergeDonor(merge, r.state, donor.state, cDonor, theirs.shifted, ratio, flags, u);
     mergeEnd(merge, r.state, flags);
     if (won) {
       r.path = donor.path;

@@ -2,5 +2,6 @@
 set(RL_DENOISE_TESTS
   accumulate_kernel_test.cpp
   accumulate_test.cpp
+  reuse_over_time_test.cpp
   conformance/variants.cpp
 )
