@@ -71,11 +71,11 @@ RL_FN void walkScatter(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk, RL_IN
   walk.ray.dir = draw.wi;
 }
 
-// The path of a pixel in this frame, from the film to its end.
-RL_FN void walkPath(RL_INOUT(RL_WALK_STATE) state, RL_IN(uvec2) pixel) {
+// The path of a pixel in this frame, from its film sample (cameraFilmBits) to its end.
+RL_FN void walkPath(RL_INOUT(RL_WALK_STATE) state, RL_IN(uvec2) pixel, uint film) {
   Walk walk;
   walk.rng = rngInit(gFrame.seed, pixel.y * gFrame.width + pixel.x, gFrame.frame);
-  walk.film = cameraFilmBits(pixel);
+  walk.film = film;
   walk.ray = cameraFilmRay(gFrame.camera, pixel, walk.film);
   walk.throughput = vec3(1.0f, 1.0f, 1.0f);
   walk.sigma = vec3(0.0f, 0.0f, 0.0f);

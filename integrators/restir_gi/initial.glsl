@@ -120,8 +120,9 @@ RL_FN PathReservoir giReservoir(RL_IN(GiPath) p, RL_IN(Rng) rng) {
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint slot = cacheSlot(pixel);
-  GiPath p = giNoPath(cameraFilmBits(pixel));
-  walkPath(p, pixel);
+  uint film = cameraFilmBits(pixel);
+  GiPath p = giNoPath(film);
+  walkPath(p, pixel, film);
   PathReservoir r = giReservoir(p, rngInit(gFrame.seed, slot, gFrame.frame));
   vec3 estimate = r.state.F * r.state.W + r.state.residual;
   if (!rlIsFinite3(p.ownLight) || !rlIsFinite3(estimate)) {

@@ -61,7 +61,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   TemplateState state;
   state.radiance = vec3(0.0f, 0.0f, 0.0f);
   state.unseen = state.radiance;
-  walkPath(state, pixel);
+  walkPath(state, pixel, cameraFilmBits(pixel));
   if (!rlIsFinite3(state.radiance)) {
     RL_HEALTH(RL_HEALTH_NONFINITE);
     state.radiance = vec3(0.0f, 0.0f, 0.0f);
