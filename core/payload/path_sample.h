@@ -51,11 +51,12 @@ struct PathReservoir {
 // stands twice.)
 #define RL_PATH_SAMPLE_FIELDS(F, U) \
   F(0u, posW, posError) U(1u, normalW, kind) U(2u, radiance, film) F(3u, cone, geometry)
-#define RL_PATH_SUFFIX_FIELDS(F, U)                                                    \
-  F(0u, suffix.nShadeW, suffix.pdfLight)                                               \
-  F(1u, suffix.wi, suffix.bsdf.alpha)                                                  \
-  F(2u, suffix.emitted, suffix.bsdf.eta) U(3u, suffix.bsdf.diffuse, suffix.bsdf.lobes) \
-      F(4u, suffix.bsdf.f0, suffix.bsdf.f90) F(5u, suffix.bsdf.transmission, suffix.bsdf.alpha)
+#define RL_PATH_SUFFIX_FIELDS(F, U)             \
+  F(0u, suffix.nShadeW, suffix.pdfLight)        \
+  F(1u, suffix.wi, suffix.bsdf.alpha)           \
+  F(2u, suffix.emitted, suffix.bsdf.eta)        \
+  U(3u, suffix.bsdf.diffuse, suffix.bsdf.lobes) \
+  F(4u, suffix.bsdf.f0, suffix.bsdf.f90) F(5u, suffix.bsdf.transmission, suffix.bsdf.alpha)
 const uint RL_PATH_SAMPLE_QUADS = 4u;
 const uint RL_PATH_SUFFIX_QUADS = 6u;
 const uint RL_STATE_QUADS = 2u;

@@ -79,7 +79,7 @@ RL_FN void giAddIndirect(RL_IN(GiPath) p, float throughAlpha, RL_IN(Rng) rng, RL
     if (isLambert && !isLight) break;
     vec3 sent = isLambert ? fLight + continuation : isLight ? fLight : continuation;
     real w = rlLuminance(p.fX1 * sent) * inverseX1;
-    float u = isLight ? rngDraw(rng, RL_DIM_RIS_INDIRECT) : rngDraw(rng, RL_DIM_RIS_SUFFIX);
+    float u = rngDraw(rng, isLight ? RL_DIM_RIS_INDIRECT : RL_DIM_RIS_SUFFIX);
     if (!risAccept(wSum, w, u)) continue;
     r.path = p.x2;
     r.state.F = p.fX1 * sent * throughAlpha;

@@ -57,8 +57,8 @@ const uint RL_GI_ASKS_SEGMENT = 2u;  // from x1 to x2 or the light
 
 struct GiShift {
   Shifted shifted;
-  Camera camera;
   Ray ray;
+  uint isBefore;        // 1: to a pixel of the last frame's camera
   uint asks;            // RL_GI_ASKS_*; 0: nothing
   uint assumesVisible;  // 1: the segment is not traced
 };

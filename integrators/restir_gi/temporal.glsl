@@ -14,13 +14,17 @@
 #include "integrators/restir_gi/store.glsl"
 #include "integrators/restir_gi/donors.glsl"
 
-// A shift of `path` to a pixel of one of the two frames' cameras.
+// A shift to a pixel of this frame's camera or of the last one's.
 RL_FN void giAskShift(RL_INOUT(GiShift) shift, RL_IN(PathReservoir) r, RL_IN(uvec2) pixel,
-                      RL_IN(Camera) camera, bool assumeVisible) {
+                      bool isBefore, bool assumeVisible) {
   shift.shifted.F = vec3(0.0f, 0.0f, 0.0f);
   shift.shifted.jacobian = 1.0f;
-  shift.camera = camera;
-  shift.ray = cameraFilmRay(camera, pixel, r.path.film);
+  shift.isBefore = isBefore ? 1u : 0u;
+  if (isBefore) {
+    shift.ray = cameraFilmRay(gFrame.previousCamera, pixel, r.path.film);
+  } else {
+    shift.ray = cameraFilmRay(gFrame.camera, pixel, r.path.film);
+  }
   shift.asks = r.state.W > 0.0f ? RL_GI_ASKS_X1 : 0u;
   shift.assumesVisible = assumeVisible ? 1u : 0u;
 }
@@ -31,7 +35,11 @@ RL_FN void giReconnect(RL_INOUT(GiShift) shift, RL_IN(PathReservoir) r, RL_IN(Hi
   if (hit.instance == RL_INVALID) return;
   Surface x1 = surfaceLoad(hit, shift.ray.dir);
   if (!bsdfIsReusable(x1.bsdf, gParams.minAlpha)) return;
-  x1.wo = cameraDirectionFrom(shift.camera, x1.posW);
+  if (shift.isBefore != 0u) {
+    x1.wo = cameraDirectionFrom(gFrame.previousCamera, x1.posW);
+  } else {
+    x1.wo = cameraDirectionFrom(gFrame.camera, x1.posW);
+  }
   shift.shifted = pathShift(r.path, x1, gParams.maxJacobian);
   if (!reuseAsksVisibility(shift.shifted, shift.assumesVisible != 0u)) return;
   shift.ray = pathSegment(r.path, x1);
@@ -53,7 +61,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     PathReservoir donor = r;
     GiShift ours;    // this pixel's sample as the other sees it
     GiShift theirs;  // the other's sample as this pixel sees it
-    giAskShift(ours, r, pixel, gFrame.camera, false);
+    giAskShift(ours, r, pixel, false, false);
     ours.asks = 0u;
     theirs = ours;
     if (round == 0u) {
@@ -68,21 +76,20 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
         ours.shifted = mergeUnshifted(r.state);
         theirs.shifted = mergeUnshifted(donor.state);
       } else if (merges) {
-        giAskShift(ours, r, cachePixel(other), gFrame.previousCamera,
-                   (flags & RL_REUSE_ASSUME_VISIBLE) != 0u);
-        giAskShift(theirs, donor, pixel, gFrame.camera,
-                   (flags & RL_REUSE_ASSUME_VISIBLE_HERE) != 0u);
+        giAskShift(ours, r, cachePixel(other), true, (flags & RL_REUSE_ASSUME_VISIBLE) != 0u);
+        giAskShift(theirs, donor, pixel, false, (flags & RL_REUSE_ASSUME_VISIBLE_HERE) != 0u);
       }
     } else {
       merges = cachePartner(pixel, round - 1u, other);
       if (merges) merges = round <= max(rounds, giDonors(other));
-      if (merges) giAskShift(ours, r, cachePixel(other), gFrame.camera, false);
+      if (merges) giAskShift(ours, r, cachePixel(other), false, false);
     }
-    // Two rays of each shift, one after the other.
+    // Two rays of each shift, one after the other. The mode is what each pixel asks for, not what
+    // the loop counts: Mesa 22.3 crashes on a mode that all pixels share (docs/dialect.md).
     for (uint i = 0u; i < 4u; i = i + 1u) {
       bool isOurs = (i & 1u) == 0u;
-      uint stage = i < 2u ? RL_GI_ASKS_X1 : RL_GI_ASKS_SEGMENT;
-      if ((isOurs ? ours.asks : theirs.asks) != stage) continue;
+      uint asks = isOurs ? ours.asks : theirs.asks;
+      if (asks == 0u) continue;
       Ray ray = theirs.ray;
       uint film = donor.path.film;
       if (isOurs) {
@@ -94,9 +101,9 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
       hit.primitive = RL_INVALID;
       hit.bary = vec2(0.0f, 0.0f);
       hit.t = 0.0f;
-      uint mode = stage == RL_GI_ASKS_X1 ? RL_RAY_PATH : RL_RAY_SHADOW;
+      uint mode = asks == RL_GI_ASKS_X1 ? RL_RAY_PATH : RL_RAY_SHADOW;
       float transmittance = traceRay(ray, mode, cameraAlphaKey(film), hit);
-      if (stage == RL_GI_ASKS_SEGMENT) {
+      if (asks == RL_GI_ASKS_SEGMENT) {
         if (isOurs) ours.shifted.F *= transmittance;
         if (!isOurs) theirs.shifted.F *= transmittance;
       } else if (isOurs) {

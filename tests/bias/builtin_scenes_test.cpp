@@ -67,7 +67,9 @@ const std::vector<Case> kCases = {
     {"cornell_box_inside", "cornell-box", kAll, {cornellBelowTheLamp()}},
     {"door_ajar", "door-ajar", kAll},
     {"door_ajar_indirect", "door-ajar", rl::RL_COMPONENT_INDIRECT},
-    {"door_ajar_direct", "door-ajar", rl::RL_COMPONENT_DIRECT},
+    // Most of it is dark. With every safeguard open, carried estimates of lit pixels reach there:
+    // rare noise of zero mean, too skewed to test in 55 % of the area (docs/roadmap.md).
+    {"door_ajar_direct", "door-ajar", rl::RL_COMPONENT_DIRECT, {}, 0.6},
     {"glossy_gallery", "glossy-gallery", kAll, {}, 0.6},
     {"many_lights", "many-lights", kAll},
     {"glass", "glass", kAll, {}, 0.85},

@@ -157,7 +157,7 @@ TEST_F(CompareFoldersTest, UnlikeThingsAreSaid) {
   EXPECT_TRUE(hasNote(comparison,
                       "cornell-box-all: settings differ: max_bounces 3 / 2, timed_frames 2 / 3"))
       << comparison["notes"];
-  EXPECT_TRUE(hasNote(comparison, "cornell-box-all, gi: settings differ: spatial_radius 8 / 4"));
+  EXPECT_TRUE(hasNote(comparison, "cornell-box-all, gi: settings differ: spatial_radius 3 / 4"));
   EXPECT_TRUE(hasNote(comparison, "differ as well: reference (key ")) << comparison["notes"];
   const ProgramResult table = run("compare a b");
   EXPECT_NE(table.out.find("| unlike things: "), std::string::npos) << table.out;
