@@ -243,26 +243,90 @@ double energyNoise(const Reference& reference) {
   return energy > 0.0 ? std::sqrt(variance) / energy : 0.0;
 }
 
+// What the runs say of a bound: nothing is beyond it, or inside, for its estimate alone.
+enum class Verdict { inside, outside, undecided };
+
+Verdict energyVerdict(const Interval& energy) {
+  if (energy.lo > kEnergyRatioMax || energy.hi < kEnergyRatioMin) return Verdict::outside;
+  const bool isInside = energy.lo >= kEnergyRatioMin && energy.hi <= kEnergyRatioMax;
+  return isInside ? Verdict::inside : Verdict::undecided;
+}
+
+Verdict biasVerdict(const Interval& share) {
+  if (share.lo > kBiasShareMax) return Verdict::outside;
+  return share.hi <= kBiasShareMax ? Verdict::inside : Verdict::undecided;
+}
+
+std::string energyText(const Interval& energy) {
+  if (std::isnan(energy.lo)) return fmt::format("{:.4g} [unknown]", energy.value);
+  return fmt::format("{:.4g} [{:.4g}, {:.4g}]", energy.value, energy.lo, energy.hi);
+}
+
+std::string shareText(const Interval& share) {
+  if (std::isnan(share.lo)) return fmt::format("{:.2g} % [unknown]", 100.0 * share.value);
+  return fmt::format("{:.2g} % [{:.2g}, {:.2g}]", 100.0 * share.value, 100.0 * share.lo,
+                     100.0 * share.hi);
+}
+
 // What an unbiased method shows of a mistake in it, or in what it was told.
 void judgeUnbiased(MethodSummary& row) {
   const Interval& energy = row.energyRatio;
   const double noise = 2.0 * energyNoise(row.block->reference);
   const double allowed = kDoubtHalfWidths * std::hypot((energy.hi - energy.lo) / 2.0, noise);
   if (std::abs(energy.value - 1.0) > allowed) {
-    const bool isInside = energy.value >= kEnergyRatioMin && energy.value <= kEnergyRatioMax;
-    row.counts = row.counts && isInside;
-    row.flags.push_back(fmt::format(
-        "{}declared unbiased, but its energy ratio {:.4g} [{:.4g}, {:.4g}] leaves out 1",
-        isInside ? "" : "does not count: ", energy.value, energy.lo, energy.hi));
+    const bool isOutside = energyVerdict(energy) == Verdict::outside;
+    row.counts = row.counts && !isOutside;
+    row.flags.push_back(fmt::format("{}declared unbiased, but its energy ratio {} leaves out 1",
+                                    isOutside ? "does not count: " : "", energyText(energy)));
   }
   const Interval& share = row.biasShare;
   if (share.value > kDoubtHalfWidths * (share.value - share.lo)) {
-    const bool isSmall = share.value <= kBiasShareMax;
-    row.counts = row.counts && isSmall;
-    row.flags.push_back(fmt::format(
-        "{}declared unbiased, but its squared bias is {:.2g} % [{:.2g}, {:.2g}] of its MSE",
-        isSmall ? "" : "does not count: ", 100.0 * share.value, 100.0 * share.lo,
-        100.0 * share.hi));
+    const bool isLarge = biasVerdict(share) == Verdict::outside;
+    row.counts = row.counts && !isLarge;
+    row.flags.push_back(fmt::format("{}declared unbiased, but its squared bias is {} of its MSE",
+                                    isLarge ? "does not count: " : "", shareText(share)));
+  }
+}
+
+// Bounds of a biased method. A row is left out for what its runs show, not for what they leave
+// open.
+void judgeBiased(MethodSummary& row) {
+  switch (energyVerdict(row.energyRatio)) {
+    case Verdict::outside:
+      row.counts = false;
+      row.flags.push_back(fmt::format("does not count: energy ratio {} is outside {:g}..{:g}",
+                                      energyText(row.energyRatio), kEnergyRatioMin,
+                                      kEnergyRatioMax));
+      break;
+    case Verdict::undecided:
+      row.flags.push_back(
+          fmt::format("the runs do not decide whether its energy ratio {} is inside {:g}..{:g}",
+                      energyText(row.energyRatio), kEnergyRatioMin, kEnergyRatioMax));
+      break;
+    case Verdict::inside:
+      break;
+  }
+  if (std::isnan(row.biasShare.value)) {
+    row.counts = false;
+    row.flags.push_back(
+        "does not count: its bias is unknown (needs two runs and a reference in "
+        "two halves)");
+    return;
+  }
+  switch (biasVerdict(row.biasShare)) {
+    case Verdict::outside:
+      row.counts = false;
+      row.flags.push_back(
+          fmt::format("does not count: squared bias is {} of its MSE, more than {:.0f} %",
+                      shareText(row.biasShare), 100.0 * kBiasShareMax));
+      break;
+    case Verdict::undecided:
+      row.flags.push_back(fmt::format(
+          "the runs do not decide whether its squared bias, {} of its MSE, is at most {:.0f} %",
+          shareText(row.biasShare), 100.0 * kBiasShareMax));
+      break;
+    case Verdict::inside:
+      break;
   }
 }
 
@@ -331,23 +395,10 @@ void judge(MethodSummary& row) {
                     100.0 * row.worstShare));
   }
   flagNoise(row);
-  if (row.bias == BiasClass::unbiased) return judgeUnbiased(row);
-  if (!(row.energyRatio.value >= kEnergyRatioMin && row.energyRatio.value <= kEnergyRatioMax)) {
-    row.counts = false;
-    row.flags.push_back(fmt::format("does not count: energy ratio {:.3f} is outside {:g}..{:g}",
-                                    row.energyRatio.value, kEnergyRatioMin, kEnergyRatioMax));
-  }
-  if (std::isnan(row.biasShare.value)) {
-    row.counts = false;
-    row.flags.push_back(
-        "does not count: its bias is unknown (needs two runs and a reference in "
-        "two halves)");
-  } else if (row.biasShare.value > kBiasShareMax) {
-    row.counts = false;
-    row.flags.push_back(
-        fmt::format("does not count: squared bias is {:.0f} % of its MSE, more "
-                    "than {:.0f} %",
-                    100.0 * row.biasShare.value, 100.0 * kBiasShareMax));
+  if (row.bias == BiasClass::unbiased) {
+    judgeUnbiased(row);
+  } else {
+    judgeBiased(row);
   }
 }
 

@@ -16,7 +16,7 @@ namespace restlab {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-// A biased row counts only inside these bounds.
+// A biased row does not count where a whole interval lies outside these bounds.
 constexpr double kEnergyRatioMin = 0.95, kEnergyRatioMax = 1.05;
 constexpr double kBiasShareMax = 0.25;
 // A row that is declared unbiased is doubted where its energy or its squared bias is further from
@@ -89,7 +89,7 @@ struct MethodSummary {
   uint64_t timedFrames = 0;
 
   std::vector<std::string> flags;  // why the row does not count, or what its reader must know
-  bool counts = true;              // false: a biased row out of bounds, or non-finite values
+  bool counts = true;              // false: shown to be out of bounds, or non-finite values
 };
 
 // One summary a method that has at least one finished run.

@@ -122,6 +122,7 @@ TEST_F(SummaryTest, BiasedRowsCountWithinBoundsOnly) {
   EXPECT_FALSE(summarise(suite_, block_)[1].counts);
   for (RunResult& run : block_.methods[1].runs) run.measured.mse = 0.041;
   EXPECT_TRUE(summarise(suite_, block_)[1].counts);
+  EXPECT_TRUE(summarise(suite_, block_)[1].flags.empty());
   // A mode may not keep its name when a parameter takes its ground away.
   suite_.methods[1].session.mode = "unbiased";
   for (RunResult& run : block_.methods[1].runs) run.measured.energyRatio = 0.94;
@@ -129,6 +130,63 @@ TEST_F(SummaryTest, BiasedRowsCountWithinBoundsOnly) {
   const MethodSummary row = summarise(suite_, block_)[1];
   EXPECT_EQ(row.bias, BiasClass::biased);
   EXPECT_FALSE(row.counts);
+}
+
+// An estimate out of bounds whose interval is not is left open by the runs, and so is one in
+// bounds.
+TEST_F(SummaryTest, BiasedRowsAreJudgedByIntervals) {
+  auto& runs = block_.methods[1].runs;
+  const auto setEnergies = [&](double middle, double spread) {
+    for (size_t r = 0; r < 3; ++r)
+      runs[r].measured.energyRatio = middle + spread * (double(r) - 1.0);
+    return summarise(suite_, block_)[1];
+  };
+  // Student's t of three runs: a half width of 2.48 times the spread.
+  for (const double middle : {1.061, 0.939, 1.0}) {
+    const MethodSummary open = setEnergies(middle, 0.065);
+    EXPECT_TRUE(open.counts) << middle;
+    ASSERT_EQ(open.flags.size(), 1u);
+    EXPECT_NE(open.flags[0].find("the runs do not decide whether its energy ratio "),
+              std::string::npos)
+        << open.flags[0];
+    EXPECT_NE(open.flags[0].find("is inside 0.95..1.05"), std::string::npos) << open.flags[0];
+  }
+  EXPECT_NE(setEnergies(1.061, 0.065).flags[0].find("1.061 [0.8995, 1.222]"), std::string::npos);
+  EXPECT_TRUE(setEnergies(1.0, 0.02).flags.empty());
+  const MethodSummary off = setEnergies(1.061, 0.004);
+  EXPECT_FALSE(off.counts);
+  ASSERT_EQ(off.flags.size(), 1u);
+  EXPECT_EQ(off.flags[0],
+            "does not count: energy ratio 1.061 [1.051, 1.071] is outside 0.95..1.05");
+  EXPECT_FALSE(setEnergies(0.939, 0.004).counts);
+
+  // Squared bias of nothing, 0.01 and 0.04 in three runs: a mean of 0.011 that hangs on one of
+  // them.
+  setEnergies(1.0, 0.0);
+  block_.methods[1].measured = BiasRuns();
+  for (const float pixel : {1.0f, 1.1f, 1.2f})
+    block_.methods[1].measured.add(Image(kSide, kSide, glm::vec3(pixel)));
+  const auto setMse = [&](double mse) {
+    for (RunResult& run : runs) run.measured.mse = mse;
+    return summarise(suite_, block_)[1];
+  };
+  const MethodSummary open = setMse(0.02);
+  EXPECT_GT(open.biasShare.value, 0.25);
+  EXPECT_LT(open.biasShare.lo, 0.25);
+  EXPECT_TRUE(open.counts);
+  ASSERT_EQ(open.flags.size(), 1u);
+  EXPECT_NE(open.flags[0].find("the runs do not decide whether its squared bias, "),
+            std::string::npos)
+      << open.flags[0];
+  EXPECT_TRUE(setMse(1.0).flags.empty());
+  // Two runs are one pair, whose spread is unknown.
+  runs.pop_back();
+  block_.methods[1].measured = BiasRuns();
+  for (int r = 0; r < 2; ++r) block_.methods[1].measured.add(Image(kSide, kSide, glm::vec3(1.1f)));
+  const MethodSummary pair = setMse(0.02);
+  EXPECT_TRUE(pair.counts);
+  ASSERT_EQ(pair.flags.size(), 1u);
+  EXPECT_NE(pair.flags[0].find("50 % [unknown] of its MSE"), std::string::npos) << pair.flags[0];
 }
 
 TEST_F(SummaryTest, UnbiasedRowsAreDoubtedWhereTheyContradictThemselves) {
@@ -324,7 +382,8 @@ TEST_F(SummaryTest, TableSaysWhatDoesNotCount) {
   for (RunResult& run : block_.methods[1].runs) run.measured.energyRatio = 0.9;
   const std::string table = blockTable(suite_, summarise(suite_, block_));
   EXPECT_NE(table.find("| gi (*) |"), std::string::npos) << table;
-  EXPECT_NE(table.find("energy ratio 0.900 is outside 0.95..1.05"), std::string::npos) << table;
+  EXPECT_NE(table.find("energy ratio 0.9 [0.9, 0.9] is outside 0.95..1.05"), std::string::npos)
+      << table;
   EXPECT_NE(table.find("10x lower [5.68, 17.6]"), std::string::npos) << table;
 }
 
