@@ -47,14 +47,16 @@ Json camerasJson(const Scene& scene) {
       json["half_extent_m"] = {camera.xmag, camera.ymag};
     }
     json["aspect"] = camera.aspect;
-    // As another program wants it: where it is, along which axis it looks, which way is up.
-    const auto axis = [&](int column, double sign) {
-      const glm::dvec4 c = sign * camera.cameraToWorld[column];
-      return Json{c.x, c.y, c.z};
-    };
-    json["position_m"] = axis(3, 1.0);
-    json["forward"] = axis(2, -1.0);
-    json["up"] = axis(1, 1.0);
+    // As another program wants it: where it is, along which axis it looks, which way is up. A node
+    // may scale or shear; the axes are those that rays are made of (CompiledScene::camera), of unit
+    // length.
+    const glm::dmat3 axes(camera.cameraToWorld);
+    const glm::dvec3 back = glm::normalize(axes[2]);
+    const glm::dvec3 up = glm::normalize(glm::cross(back, axes[0]));
+    const auto triple = [](const glm::dvec3& v) { return Json{v.x, v.y, v.z}; };
+    json["position_m"] = triple(glm::dvec3(camera.cameraToWorld[3]));
+    json["forward"] = triple(-back);
+    json["up"] = triple(up);
     cameras.push_back(json);
   }
   return cameras;

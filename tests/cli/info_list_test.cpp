@@ -1,4 +1,5 @@
 // restlab info, list, bench and the top of the command line.
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/program.h"
@@ -36,6 +37,33 @@ TEST_F(InfoTest, SceneInNumbers) {
   const ProgramResult text = run("info cornell-box");
   ASSERT_EQ(text.code, 0);
   EXPECT_NE(text.out.find("2 emissive"), std::string::npos) << text.out;
+}
+
+// Directions are unit vectors whatever the node does; of a sheared one up is across the view, as
+// the rays have it.
+TEST_F(InfoTest, CamerasUnderScaledNodesHaveUnitDirections) {
+  write("scene.gltf", triangleGltf({0, 0, 0, 1, 0, 0, 0, 1, 0}));
+  const std::string plain = read("scene.gltf");
+  const std::string node = R"("translation": [0.3, 0.3, 2])";
+  const auto camera = [&](const std::string& transform) {
+    std::string text = plain;
+    text.replace(text.find(node), node.size(), transform);
+    write("scene.gltf", text);
+    const ProgramResult result = run("info scene.gltf --json");
+    EXPECT_EQ(result.code, 0) << result.err;
+    return nlohmann::json::parse(result.out)["cameras"].at(0);
+  };
+  const auto expect = [](const nlohmann::json& found, const char* key, std::array<double, 3> v) {
+    const auto at = found[key].get<std::array<double, 3>>();
+    for (size_t i = 0; i < 3; ++i) EXPECT_NEAR(at[i], v[i], 1e-12) << key << " " << found;
+  };
+  const auto scaled = camera(node + R"(, "rotation": [0.5, 0.5, 0.5, 0.5], "scale": [2, 3, 0.5])");
+  expect(scaled, "position_m", {0.3, 0.3, 2.0});
+  expect(scaled, "forward", {-1.0, 0.0, 0.0});
+  expect(scaled, "up", {0.0, 0.0, 1.0});
+  const auto sheared = camera(R"("matrix": [2, 0, 0, 0, 1, 3, 0, 0, 0, 4, 3, 0, 0.3, 0.3, 2, 1])");
+  expect(sheared, "forward", {0.0, -0.8, -0.6});
+  expect(sheared, "up", {0.0, 0.6, -0.8});
 }
 
 TEST_F(InfoTest, LightlessSceneIsWarnedOf) {
