@@ -40,8 +40,9 @@ struct BufferInfo {
 };
 
 struct PassInfo {
-  std::string name;    // as in the time columns
-  std::string kernel;  // as in CMake's rl_add_kernel
+  std::string name;         // as in the time columns
+  std::string kernel;       // as in CMake's rl_add_kernel
+  bool hasFeatures = true;  // false: NO_FEATURES, it is the same for every scene
 };
 
 struct PartInfo {

@@ -17,7 +17,7 @@ Pipeline::Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const s
     if (part->packParameters) stage.params = part->packParameters(mode, parameters);
     for (const PassInfo& pass : part->passes) {
       stage.masks.push_back(backend.maskFor(pass.kernel, wanted));
-      used_ |= stage.masks.back();
+      if (pass.hasFeatures) used_ |= stage.masks.back();
     }
     stages_.push_back(std::move(stage));
   }

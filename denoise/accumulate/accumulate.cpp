@@ -50,7 +50,7 @@ const DenoiserInfo& accumulateDenoiserInfo() {
     i.buffers = {{"accumulated", sizeof(glm::vec3), 0, -1},
                  {"accumulate_history", 16, 0, 2},
                  {"accumulate_history_before", 16, 0, 1}};
-    i.passes = {{"accumulate", "accumulate"}};
+    i.passes = {{"accumulate", "accumulate", false}};
     i.hasHistory = true;
     i.packParameters = [](const std::string&, const ParameterMap& p) {
       rl::AccumulateParams out{};
