@@ -40,9 +40,10 @@ struct BufferInfo {
 };
 
 struct PassInfo {
-  std::string name;         // as in the time columns
-  std::string kernel;       // as in CMake's rl_add_kernel
-  bool hasFeatures = true;  // false: NO_FEATURES, it is the same for every scene
+  std::string name;             // as in the time columns
+  std::string kernel;           // as in CMake's rl_add_kernel
+  bool hasFeatures = true;      // false: NO_FEATURES, it is the same for every scene
+  bool onlyOnNewViews = false;  // it has nothing to do where the view is that of the last frame
 };
 
 struct PartInfo {

@@ -104,20 +104,24 @@ std::vector<PassRun> Pipeline::beginFrame(bool isNewView) {
   std::vector<bool> ran;
   for (Stage& stage : stages_) {
     stage.runs = isNewView || !stage.info->onlyOnNewViews;
-    ran.push_back(stage.runs);
+    for (const PassInfo& pass : stage.info->passes)
+      ran.push_back(stage.runs && (isNewView || !pass.onlyOnNewViews));
     // What the last run left becomes the history.
     for (size_t b = 0; stage.runs && b < stage.buffers.size(); ++b) {
       const int other = stage.info->buffers[b].swapWith;
       if (other > static_cast<int>(b)) std::swap(stage.buffers[b], stage.buffers[size_t(other)]);
     }
   }
-  ran_.push_back(std::move(ran));
   std::vector<PassRun> runs;
+  size_t next = 0;
   for (size_t s = 0; s < stages_.size(); ++s) {
     const Stage& stage = stages_[s];
-    for (size_t p = 0; stage.runs && p < stage.masks.size(); ++p)
-      runs.push_back({stage.info->passes[p].kernel, stage.masks[p], bindings(s), stage.params});
+    for (size_t p = 0; p < stage.masks.size(); ++p) {
+      if (ran[next++])
+        runs.push_back({stage.info->passes[p].kernel, stage.masks[p], bindings(s), stage.params});
+    }
   }
+  ran_.push_back(std::move(ran));
   return runs;
 }
 
@@ -125,12 +129,12 @@ std::vector<Pipeline::PassResult> Pipeline::collect(const FrameResult& result) {
   std::vector<PassResult> passes;
   const std::vector<bool> ran = std::move(ran_.front());
   ran_.pop_front();
-  size_t next = 0;
-  for (size_t s = 0; s < stages_.size(); ++s) {
-    for (const PassInfo& pass : stages_[s].info->passes) {
+  size_t pass = 0, next = 0;
+  for (const Stage& stage : stages_) {
+    for (const PassInfo& info : stage.info->passes) {
       PassResult& out = passes.emplace_back();
-      out.name = pass.name;
-      if (!ran[s]) continue;
+      out.name = info.name;
+      if (!ran[pass++]) continue;
       out.timeMs = result.timesMs[next];
       out.counters = result.counters[next];
       ++next;

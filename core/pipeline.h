@@ -60,7 +60,7 @@ class Pipeline {
   Backend& backend_;
   std::vector<Stage> stages_;
   uint32_t used_ = 0;
-  std::deque<std::vector<bool>> ran_;  // by stage, of the frames under way
+  std::deque<std::vector<bool>> ran_;  // by pass, of the frames under way
 };
 
 }  // namespace restlab

@@ -34,12 +34,6 @@ RL_FN bool cameraProject(RL_IN(Camera) camera, RL_IN(vec3) posW, RL_IN(vec2) res
   return true;
 }
 
-// Unit direction from a surface point to the camera.
-RL_FN vec3 cameraDirectionFrom(RL_IN(Camera) camera, RL_IN(vec3) posW) {
-  if (camera.kind == RL_CAMERA_ORTHOGRAPHIC) return -camera.forwardW;
-  return normalize(camera.posW - posW);
-}
-
 // The film sample of a pixel in this frame: a fraction of the pixel's width in the low half word,
 // of its height in the high one.
 RL_FN uint cameraFilmBits(RL_IN(uvec2) pixel) {

@@ -1,6 +1,4 @@
-// Paths in reservoirs: to and from buffers, and how another pixel sees them. The shift of a path
-// keeps its film sample, traces x1 anew and reconnects it: the caller traces the two rays that this
-// takes (the camera's, then the segment from x1), several shifts by one call.
+// Paths in reservoirs: to and from buffers, and how another x1 sees them.
 
 #define RL_PACK_F(i, v, s) RL_WRITE_QUAD(quads, at + i, recordQuad(p.v, floatBitsToUint(p.s)));
 #define RL_PACK_U(i, v, s) RL_WRITE_QUAD(quads, at + i, recordQuad(p.v, p.s));
@@ -122,7 +120,7 @@ RL_FN Ray pathSegment(RL_IN(PathSample) p, RL_IN(Surface) x1) {
 // measure of their light (area, solid angle of the environment, discrete), which all share: J = 1.
 // Of a vertex it is the ratio of geometry terms; outside [1 / maxJacobian, maxJacobian] the shift
 // is undefined, both ways (Lin et al. 2022).
-RL_FN Shifted pathShift(RL_IN(PathSample) p, RL_IN(Surface) x1, real maxJacobian) {
+RL_FN Shifted pathReconnect(RL_IN(PathSample) p, RL_IN(Surface) x1, real maxJacobian) {
   Shifted s;
   s.F = real3(real(0.0f));
   s.jacobian = real(1.0f);

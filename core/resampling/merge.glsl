@@ -4,8 +4,7 @@
 //
 // A merge is: mergeBegin(), for every donor mergeWeighCanonical() with the canonical sample as the
 // donor sees it, mergeCanonical(), for every donor mergeDonor() with the donor's sample as it is
-// seen here, mergeEnd(). Where the shifts are computed is the caller's business
-// (core/resampling/reuse.glsl): two anchors that serve each other as donors need the same two.
+// seen here, mergeEnd() (core/resampling/reuse.glsl).
 //
 // Per-channel estimates: the selected sample carries one colour, which a scalar target cannot see.
 // Each reservoir therefore also carries an estimate E of the whole integral per channel, E = F W +
@@ -33,11 +32,6 @@ RL_FN Shifted mergeUnshifted(RL_IN(ReservoirState) r) {
   return s;
 }
 
-// Whether a sample, shifted without visibility, needs it: nothing comes from where it is zero.
-RL_FN bool reuseAsksVisibility(RL_IN(Shifted) s, bool assumeVisible) {
-  return !assumeVisible && bridgeTarget(s.F) > real(0.0f);
-}
-
 // there: the canonical sample as a donor of confidence cDonor sees it.
 RL_FN void mergeWeighCanonical(RL_INOUT(MergeState) merge, RL_IN(ReservoirState) canonical,
                                real cDonor, RL_IN(Shifted) there, uint flags) {
@@ -61,9 +55,10 @@ RL_FN void mergeCanonical(RL_INOUT(MergeState) merge, RL_IN(ReservoirState) cano
 // takes the donor's payload; the state of `selected` is already that of the donor's sample.
 // reflectanceRatio: expected integrand here over that at the donor, from the anchors alone.
 RL_FN bool mergeDonor(RL_INOUT(MergeState) merge, RL_INOUT(ReservoirState) selected,
-                      RL_IN(ReservoirState) donor, real cDonor, RL_IN(Shifted) here,
+                      RL_IN(ReservoirState) donor, RL_IN(Shifted) here,
                       RL_IN(real3) reflectanceRatio, uint flags, real u) {
   real pHatHere = bridgeTarget(here.F);
+  real cDonor = donor.confidence;
   real mDonor = misConfidenceOnly(cDonor, merge.cTotal);
   if ((flags & RL_REUSE_PAIRWISE) != 0u) {
     real pHatFrom = misDivide(bridgeTarget(donor.F), here.jacobian);

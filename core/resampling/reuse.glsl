@@ -1,30 +1,42 @@
-// What merges over time and over space share beside the algebra (core/resampling/merge.glsl).
+// The reuse loop: merges a slot's reservoir with those of its donors, over time or over space, of
+// any payload and cache (core/resampling/merge.glsl has the algebra).
+//
+// The includer defines RL_REUSE_STATE, a struct, and before the #include these functions, which get
+// it. They give the same answer whenever they are asked:
+//   bool reuseDonor(state, k, out ReservoirState)  the k-th donor, with the confidence that it
+//       enters with; false: there is none
+//   Shifted reuseOurs(state, k)    the slot's sample as that donor sees it
+//   Shifted reuseTheirs(state, k)  that donor's sample as the slot sees it
+//   real3 reuseRatio(state, k)     expected integrand here over that at the donor, known without
+//       samples: it scales the estimates that donors carry
+//   real reuseUniform(state, k)    a number in [0, 1)
 
-// Nothing to merge: no sample, and nothing known beyond samples.
-RL_FN bool reuseIsEmpty(RL_IN(ReservoirState) state) {
-  return !(state.W > real(0.0f)) && state.residual.x == real(0.0f) &&
-         state.residual.y == real(0.0f) && state.residual.z == real(0.0f);
-}
-
-// A donor's confidence after the cap, counted when the cap acts.
-RL_FN real reuseCapped(real confidence, real cap) {
-  if (!(confidence > cap)) return confidence;
-  RL_HEALTH(RL_HEALTH_CAPPED_CONFIDENCE);
-  return cap;
-}
-
-// The share of its confidence with which a donor over space enters the merge of a pixel whose
-// history holds `age` frames. A history averages a pixel's own noise down, but not the difference
-// of two pixels at a donor's one sample: of a frame's variance that is `noise`, and a donor's
-// estimate, at best as good as the pixel's own, is worth 1 / (1 + noise age) of it. Any share that
-// does not depend on the samples is unbiased.
-RL_FN real reuseDonorShare(real age, real noise) {
-  return real(1.0f) / (real(1.0f) + noise * (age - real(1.0f)));
-}
-
-// Expected integrand of `to` over that of `from`: of the carried estimates, which scale with the
-// surface. At most `bound` per channel.
-RL_FN real3 reuseReflectanceRatio(RL_IN(real3) from, RL_IN(real3) to, real bound) {
-  real3 ratio = real3(misDivide(to.x, from.x), misDivide(to.y, from.y), misDivide(to.z, from.z));
-  return min(ratio, real3(bound));
+// Merges `count` donors. `r` becomes the state of what is selected; `winner` is the donor that it
+// came from, RL_INVALID where the slot keeps its own, and `jacobian` that of its shift. Returns the
+// estimate of the integral, per channel.
+RL_FN real3 reuseMerge(RL_IN(RL_REUSE_STATE) state, uint count, uint flags,
+                       RL_INOUT(ReservoirState) r, RL_OUT(uint) winner, RL_OUT(real) jacobian) {
+  winner = RL_INVALID;
+  jacobian = real(1.0f);
+  ReservoirState donor = r;
+  real cDonors = real(0.0f);
+  for (uint k = 0u; k < count; k = k + 1u) {
+    if (reuseDonor(state, k, donor)) cDonors += donor.confidence;
+  }
+  MergeState merge = mergeBegin(r, cDonors);
+  for (uint k = 0u; k < count; k = k + 1u) {
+    if (!reuseDonor(state, k, donor)) continue;
+    mergeWeighCanonical(merge, r, donor.confidence, reuseOurs(state, k), flags);
+  }
+  mergeCanonical(merge, r, flags);
+  for (uint k = 0u; k < count; k = k + 1u) {
+    if (!reuseDonor(state, k, donor)) continue;
+    Shifted theirs = reuseTheirs(state, k);
+    if (mergeDonor(merge, r, donor, theirs, reuseRatio(state, k), flags, reuseUniform(state, k))) {
+      winner = k;
+      jacobian = theirs.jacobian;
+    }
+  }
+  mergeEnd(merge, r, flags);
+  return merge.estimate;
 }

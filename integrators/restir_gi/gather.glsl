@@ -144,9 +144,7 @@ RL_FN uint walkArrives(RL_INOUT(GiPath) p, RL_IN(Walk) walk, RL_INOUT(Surface) s
     p.x1PosW = s.posW;
     p.x1NGeoW = s.nGeoW;
     p.x1PosError = s.posError;
-    // What other pixels compute of this x1.
-    s.wo = cameraDirectionFrom(gFrame.camera, s.posW);
-    p.isReusable = bsdfIsReusable(s.bsdf, gParams.minAlpha) ? 1u : 0u;
+    p.isReusable = bsdfIsReusable(s.bsdf, gParams.shift.minAlpha) ? 1u : 0u;
     if (p.isReusable == 0u) RL_HEALTH(RL_HEALTH_UNREUSABLE_PIXELS);
   }
   if (walk.bounces == 1u) p.passedX1 = walk.passed;

@@ -1,11 +1,15 @@
 // restir_gi, initial pass: traces the pixel's path and turns what it met (gather.glsl) into one
-// reservoir. What no other pixel could use (mirrors, glass, lights in view) is averaged over time
-// alone: the shift of a still view is the identity, whatever the path.
+// reservoir. In a still view the last frame's sample is one of the same pixel: it is merged here.
+// What no other pixel could use (mirrors, glass, lights in view) is averaged over time alone.
 #include "core/resampling/ris.glsl"
 #include "core/resampling/shift.glsl"
 #include "core/payload/path_sample.glsl"
+#include "core/resampling/mis.glsl"
+#include "core/resampling/merge.glsl"
+#include "core/resampling/donors.glsl"
 #include "core/caches/pixel.glsl"
 #include "integrators/restir_gi/store.glsl"
+#include "integrators/restir_gi/over_time.glsl"
 #include "integrators/restir_gi/gather.glsl"
 
 // Path rays pass a partly transparent surface by chance, connections are dimmed by it. What the
@@ -118,6 +122,22 @@ RL_FN PathReservoir giReservoir(RL_IN(GiPath) p, RL_IN(Rng) rng) {
   return r;
 }
 
+// The merge over time of a still view: the shift is the identity, for every surface and path. Both
+// are samples of one pixel, with one target: weights by confidence are exact.
+RL_FN void giMergeStillView(uint slot, RL_INOUT(PathReservoir) r) {
+  ReservoirState donor;
+  giReadStateBefore(slot, donor);
+  GiOverTime t;
+  giBeginOverTime(t, donor, slot);
+  t.ours = mergeUnshifted(r.state);
+  t.theirs = mergeUnshifted(donor);
+  t.ratio = vec3(1.0f, 1.0f, 1.0f);
+  uint winner;
+  float jacobian;
+  reuseMerge(t, 1u, gParams.temporalFlags & ~RL_REUSE_PAIRWISE, r.state, winner, jacobian);
+  if (winner != RL_INVALID) giReadPathBefore(slot, r.path);
+}
+
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint slot = cacheSlot(pixel);
   uint film = cameraFilmBits(pixel);
@@ -130,7 +150,6 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     p.ownLight = vec3(0.0f, 0.0f, 0.0f);
     r.state = giEmptyState();
   }
-  giWriteNow(slot, r);
   // How many frames the pixel's history holds, this one included, and the average of its own light.
   float age = 1.0f;
   uint before;
@@ -140,7 +159,9 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     if (gFrame.isStillView != 0u) {
       float weight = 1.0f / age;
       p.ownLight = vec3(own.x, own.y, own.z) * (1.0f - weight) + p.ownLight * weight;
+      giMergeStillView(slot, r);
     }
   }
+  giWriteNow(slot, r);
   RL_WRITE_QUAD(gBuffers.own, slot, recordQuad(p.ownLight, floatBitsToUint(age)));
 }

@@ -163,8 +163,8 @@ std::vector<std::byte> pack(const std::string& mode, const ParameterMap& p) {
   out.cache.minNormalDot = static_cast<float>(get<double>(p, "normal_threshold"));
   out.cache.maxPlaneDistance = static_cast<float>(get<double>(p, "plane_threshold"));
   const auto roughness = static_cast<float>(get<double>(p, "roughness_limit"));
-  out.minAlpha = roughness * roughness;
-  out.maxJacobian = static_cast<float>(get<double>(p, "max_jacobian"));
+  out.shift.minAlpha = roughness * roughness;
+  out.shift.maxJacobian = static_cast<float>(get<double>(p, "max_jacobian"));
   out.maxReflectanceRatio = static_cast<float>(get<double>(p, "max_reflectance_ratio"));
   return bytesOf(out);
 }
@@ -201,7 +201,8 @@ const IntegratorInfo& restir_giIntegratorInfo() {
         {"shifted", 16, 0, -1, "spatial_neighbours"},
     };
     i.passes = {{"initial", "restir_gi_initial"},
-                {"temporal", "restir_gi_temporal"},
+                {"temporal", "restir_gi_temporal", true, true},
+                {"exchange", "restir_gi_exchange"},
                 {"spatial", "restir_gi_spatial"}};
     i.packParameters = pack;
     i.biasOfParameters = [](const std::string& mode, const ParameterMap& p) {

@@ -7,6 +7,7 @@
 #endif
 #include "core/caches/pixel.h"
 #include "core/payload/path_sample.h"
+#include "core/payload/path_shift.h"
 #include "core/transport/walk.h"
 
 RL_NAMESPACE_BEGIN
@@ -51,30 +52,34 @@ struct GiPath {
   vec3 unseen;    // of the last light sample, without its visibility
 };
 
-// A sample on its way to another pixel: its shift, and the ray that it asks for next.
-const uint RL_GI_ASKS_X1 = 1u;       // through the film sample
-const uint RL_GI_ASKS_SEGMENT = 2u;  // from x1 to x2 or the light
+// The merge over time: of one donor.
+struct GiOverTime {
+  ReservoirState donor;  // its confidence capped
+  Shifted ours;
+  Shifted theirs;
+  vec3 ratio;
+  float u;
+};
 
-struct GiShift {
-  Shifted shifted;
-  Ray ray;
-  uint isBefore;        // 1: to a pixel of the last frame's camera
-  uint asks;            // RL_GI_ASKS_*; 0: nothing
-  uint assumesVisible;  // 1: the segment is not traced
+// The merge over space: of the slot's partners.
+struct GiOverSpace {
+  uint slot;
+  float share;  // of their confidence
+  Rng rng;
 };
 
 struct RestirGiBuffers {
   QuadRef visible;  // core/dialect/visible.h
   QuadRef visibleBefore;
   Vec3Ref radiance;
-  QuadRef
-      own;  // one quad: light that no other pixel could use, averaged over time; age of the history
+  // One quad: light that no other pixel could use, averaged over time; age of the history.
+  QuadRef own;
   QuadRef ownBefore;
   QuadRef reservoirs;  // of this frame: initial, then temporal
   QuadRef history;     // of the last frame; replaced by the spatial pass
   QuadRef suffixes;
   QuadRef suffixesHistory;
-  // Between the temporal and the spatial pass, spatialNeighbours entries a pixel.
+  // Between the exchange and the spatial pass, spatialNeighbours entries a pixel.
   UintRef partners;  // slots; RL_INVALID: none
   QuadRef shifted;   // one quad: the pixel's sample as the partner sees it
 };
@@ -89,9 +94,8 @@ struct RestirGiParams {
   float donorNoise;    // reuseDonorShare()
   uint temporalReuse;  // 0: off
   float confidenceCap;
-  float minAlpha;             // GGX alpha below which x1 is not reused
-  float maxJacobian;          // shifts outside [1/x, x] are undefined, both ways
   float maxReflectanceRatio;  // per channel, of surfaces, for the carried per-channel estimates
+  PathShiftParams shift;
   PixelCacheParams cache;
 };
 

@@ -1,74 +1,65 @@
 // restir_gi, spatial pass: merges partners' reservoirs, shades, and leaves the history. It traces
-// no ray: the shifts between partners were made by the temporal pass.
+// no ray: the exchange pass has made the shifts.
 #include "core/resampling/ris.glsl"
 #include "core/resampling/mis.glsl"
 #include "core/resampling/shift.glsl"
 #include "core/payload/path_sample.glsl"
 #include "core/resampling/merge.glsl"
-#include "core/resampling/reuse.glsl"
+#include "core/resampling/donors.glsl"
 #include "core/caches/pixel.glsl"
 #include "integrators/restir_gi/store.glsl"
-#include "integrators/restir_gi/donors.glsl"
+#include "integrators/restir_gi/ratio.glsl"
 
-// Merges the partners' reservoirs into the slot's; returns what the pixel shows of it.
-RL_FN vec3 giReuseOverSpace(uint slot, RL_INOUT(PathReservoir) r) {
-  uint flags = gParams.spatialFlags;
-  Rng rng = rngInit(gFrame.seed, slot, gFrame.frame);
-  rng.vertex = RL_VERTEX_SPATIAL;
-  real share = reuseDonorShare(giAge(slot), gParams.donorNoise);
-  giReadNow(slot, r);
-  ReservoirState donor = r.state;
-  real cDonors = 0.0f;
-  for (uint k = 0u; k < gParams.spatialNeighbours; k = k + 1u) {
-    uint partner = gBuffers.partners.data[giExchangeIndex(slot, k)];
-    if (partner == RL_INVALID) continue;
-    giReadStateNow(partner, donor);
-    cDonors += share * donor.confidence;
-  }
-  MergeState merge = mergeBegin(r.state, cDonors);
-  for (uint k = 0u; k < gParams.spatialNeighbours; k = k + 1u) {
-    uint partner = gBuffers.partners.data[giExchangeIndex(slot, k)];
-    if (partner == RL_INVALID) continue;
-    giReadStateNow(partner, donor);
-    mergeWeighCanonical(merge, r.state, share * donor.confidence,
-                        giReadShifted(giExchangeIndex(slot, k)), flags);
-  }
-  mergeCanonical(merge, r.state, flags);
-  ReservoirState selected = r.state;
-  uint winner = slot;
-  float jacobian = 1.0f;
-  for (uint k = 0u; k < gParams.spatialNeighbours; k = k + 1u) {
-    uint partner = gBuffers.partners.data[giExchangeIndex(slot, k)];
-    if (partner == RL_INVALID) continue;
-    giReadStateNow(partner, donor);
-    Shifted theirs = giReadShifted(giExchangeIndex(partner, k));
-    vec3 ratio = giRatio(cacheSurface(partner), slot);
-    float u = rngDraw(rng, RL_DIM_RIS_MERGE + k);
-    if (mergeDonor(merge, selected, donor, share * donor.confidence, theirs, ratio, flags, u)) {
-      winner = partner;
-      jacobian = theirs.jacobian;
-    }
-  }
-  mergeEnd(merge, selected, flags);
-  if (winner != slot) giReadNow(winner, r);
-  r.path.geometry *= jacobian;
-  r.state = selected;
-  return merge.estimate;
+#define RL_REUSE_STATE GiOverSpace
+
+RL_FN uint giPartner(uint slot, uint k) { return gBuffers.partners.data[giExchangeIndex(slot, k)]; }
+RL_FN bool reuseDonor(RL_IN(GiOverSpace) s, uint k, RL_OUT(ReservoirState) donor) {
+  donor = giEmptyState();
+  uint partner = giPartner(s.slot, k);
+  if (partner == RL_INVALID) return false;
+  giReadStateNow(partner, donor);
+  donor.confidence *= s.share;
+  return true;
+}
+RL_FN Shifted reuseOurs(RL_IN(GiOverSpace) s, uint k) {
+  return giReadShifted(giExchangeIndex(s.slot, k));
+}
+RL_FN Shifted reuseTheirs(RL_IN(GiOverSpace) s, uint k) {
+  return giReadShifted(giExchangeIndex(giPartner(s.slot, k), k));
+}
+RL_FN real3 reuseRatio(RL_IN(GiOverSpace) s, uint k) {
+  return giRatio(cacheSurface(giPartner(s.slot, k)), s.slot);
+}
+RL_FN real reuseUniform(RL_IN(GiOverSpace) s, uint k) {
+  Rng rng = s.rng;
+  return rngDraw(rng, RL_DIM_RIS_MERGE + k);
 }
 
+#include "core/resampling/reuse.glsl"
+
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
-  uint slot = cacheSlot(pixel);
+  GiOverSpace s;
+  s.slot = cacheSlot(pixel);
+  s.share = reuseDonorShare(giAge(s.slot), gParams.donorNoise);
+  s.rng = rngInit(gFrame.seed, s.slot, gFrame.frame);
+  s.rng.vertex = RL_VERTEX_SPATIAL;
   PathReservoir r;
   r.path.suffix = pathNoSuffix();
-  vec3 radiance = recordVec3(RL_PAST_QUAD(gBuffers.own, slot));
-  radiance += giReuseOverSpace(slot, r);
+  giReadNow(s.slot, r);
+  uint winner;
+  float jacobian;
+  vec3 radiance = recordVec3(RL_PAST_QUAD(gBuffers.own, s.slot));
+  radiance +=
+      reuseMerge(s, gParams.spatialNeighbours, gParams.spatialFlags, r.state, winner, jacobian);
+  if (winner != RL_INVALID) giReadPathNow(giPartner(s.slot, winner), r.path);
+  r.path.geometry *= jacobian;
   if (!rlIsFinite3(radiance)) {
     // A poisoned history would spread: it starts again from nothing here.
     RL_HEALTH(RL_HEALTH_NONFINITE);
     radiance = vec3(0.0f, 0.0f, 0.0f);
     r.state = giEmptyState();
   }
-  giWriteHistory(slot, r);
+  giWriteHistory(s.slot, r);
   if (min(radiance.x, min(radiance.y, radiance.z)) < 0.0f) RL_HEALTH(RL_HEALTH_NEGATIVE);
-  gBuffers.radiance.data[slot] = radiance;
+  gBuffers.radiance.data[s.slot] = radiance;
 }

@@ -11,42 +11,53 @@ RL_FN ReservoirState giEmptyState() {
   return state;
 }
 
-RL_FN void giRead(RL_IN(QuadRef) quads, RL_IN(QuadRef) suffixes, uint slot,
-                  RL_INOUT(PathReservoir) r) {
-  uint at = slot * RL_PATH_RESERVOIR_QUADS;
-  pathSampleRead(quads, at, r.path);
-  reservoirStateRead(quads, at + RL_PATH_SAMPLE_QUADS, r.state);
-  if (RL_HAS(RL_FEATURE_GLOSSY)) pathSuffixRead(suffixes, slot * RL_PATH_SUFFIX_QUADS, r.path);
+RL_FN void giReadPath(RL_IN(QuadRef) quads, RL_IN(QuadRef) suffixes, uint slot,
+                      RL_INOUT(PathSample) path) {
+  pathSampleRead(quads, slot * RL_PATH_RESERVOIR_QUADS, path);
+  if (RL_HAS(RL_FEATURE_GLOSSY)) pathSuffixRead(suffixes, slot * RL_PATH_SUFFIX_QUADS, path);
+}
+RL_FN void giReadState(RL_IN(QuadRef) quads, uint slot, RL_INOUT(ReservoirState) state) {
+  reservoirStateRead(quads, slot * RL_PATH_RESERVOIR_QUADS + RL_PATH_SAMPLE_QUADS, state);
+}
+RL_FN void giWriteState(RL_IN(QuadRef) quads, uint slot, RL_IN(ReservoirState) state) {
+  reservoirStateWrite(quads, slot * RL_PATH_RESERVOIR_QUADS + RL_PATH_SAMPLE_QUADS, state);
 }
 RL_FN void giWrite(RL_IN(QuadRef) quads, RL_IN(QuadRef) suffixes, uint slot,
                    RL_IN(PathReservoir) r) {
-  uint at = slot * RL_PATH_RESERVOIR_QUADS;
-  pathSampleWrite(quads, at, r.path);
-  reservoirStateWrite(quads, at + RL_PATH_SAMPLE_QUADS, r.state);
+  pathSampleWrite(quads, slot * RL_PATH_RESERVOIR_QUADS, r.path);
+  giWriteState(quads, slot, r.state);
   if (RL_HAS(RL_FEATURE_GLOSSY)) pathSuffixWrite(suffixes, slot * RL_PATH_SUFFIX_QUADS, r.path);
 }
 
+// Merges decide by states, and only the winner's path has to be moved: they are read on their own.
+RL_FN void giReadPathNow(uint slot, RL_INOUT(PathSample) path) {
+  giReadPath(gBuffers.reservoirs, gBuffers.suffixes, slot, path);
+}
+RL_FN void giReadPathBefore(uint slot, RL_INOUT(PathSample) path) {
+  giReadPath(gBuffers.history, gBuffers.suffixesHistory, slot, path);
+}
+RL_FN void giReadStateNow(uint slot, RL_INOUT(ReservoirState) state) {
+  giReadState(gBuffers.reservoirs, slot, state);
+}
+RL_FN void giReadStateBefore(uint slot, RL_INOUT(ReservoirState) state) {
+  giReadState(gBuffers.history, slot, state);
+}
+RL_FN void giWriteStateNow(uint slot, RL_IN(ReservoirState) state) {
+  giWriteState(gBuffers.reservoirs, slot, state);
+}
 RL_FN void giReadNow(uint slot, RL_INOUT(PathReservoir) r) {
-  giRead(gBuffers.reservoirs, gBuffers.suffixes, slot, r);
+  giReadPathNow(slot, r.path);
+  giReadStateNow(slot, r.state);
 }
 RL_FN void giReadBefore(uint slot, RL_INOUT(PathReservoir) r) {
-  giRead(gBuffers.history, gBuffers.suffixesHistory, slot, r);
+  giReadPathBefore(slot, r.path);
+  giReadStateBefore(slot, r.state);
 }
 RL_FN void giWriteNow(uint slot, RL_IN(PathReservoir) r) {
   giWrite(gBuffers.reservoirs, gBuffers.suffixes, slot, r);
 }
 RL_FN void giWriteHistory(uint slot, RL_IN(PathReservoir) r) {
   giWrite(gBuffers.history, gBuffers.suffixesHistory, slot, r);
-}
-
-// The state alone: merges decide by it, and only the winner's path has to be moved.
-RL_FN void giReadStateNow(uint slot, RL_INOUT(ReservoirState) state) {
-  reservoirStateRead(gBuffers.reservoirs, slot * RL_PATH_RESERVOIR_QUADS + RL_PATH_SAMPLE_QUADS,
-                     state);
-}
-RL_FN void giWriteStateNow(uint slot, RL_IN(ReservoirState) state) {
-  reservoirStateWrite(gBuffers.reservoirs, slot * RL_PATH_RESERVOIR_QUADS + RL_PATH_SAMPLE_QUADS,
-                      state);
 }
 
 // A slot's sample as its k-th partner sees it.

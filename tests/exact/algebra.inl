@@ -222,6 +222,39 @@ EXACT_TEST(AllEmpty) {
   EXPECT_EQ(outcomes[0].estimate, dvec3(0.0));
 }
 
+// A donor that is not there changes nothing, wherever it stands in the list.
+EXACT_TEST(AbsentDonorsChangeNothing) {
+  const uint flags = kPairwise | RL_REUSE_CONTROL_VARIATE;
+  for (uint seed = 0; seed < 20; ++seed) {
+    const World world = randomWorld(seed, true);
+    const auto input = [&](uint anchor) {
+      const Source s = initialSource(world, anchor, 1, real(1.0f));
+      return MergeInput{anchor, s.outcomes.back().reservoir, real(float(anchor) + 0.5f)};
+    };
+    const auto merged = [&](const std::vector<MergeInput>& donors) {
+      Outcomes result;
+      mergeOnce(world, input(0), donors, flags,
+                [&](double p, const WorldReservoir& r, const dvec3& e) { result.add(p, r, e); });
+      return result.list();
+    };
+    MergeInput absent = input(3);
+    absent.exists = false;
+    const auto wanted = merged({input(1), input(2)});
+    for (const auto& donors : {std::vector<MergeInput>{absent, input(1), input(2)},
+                               std::vector<MergeInput>{input(1), absent, input(2)},
+                               std::vector<MergeInput>{input(1), input(2), absent}}) {
+      const auto found = merged(donors);
+      ASSERT_EQ(found.size(), wanted.size());
+      for (size_t i = 0; i < found.size(); ++i) {
+        EXPECT_EQ(found[i].probability, wanted[i].probability);
+        EXPECT_EQ(found[i].estimate, wanted[i].estimate);
+        EXPECT_EQ(found[i].reservoir.state.W, wanted[i].reservoir.state.W);
+        EXPECT_EQ(found[i].reservoir.state.confidence, wanted[i].reservoir.state.confidence);
+      }
+    }
+  }
+}
+
 // Frames of temporal reuse with a capped confidence and a moving camera: fresh samples at anchors
 // 2, 1, 0, each merged with what the frame before left. Residuals are carried along.
 EXACT_TEST(ChainedMerges) {
@@ -235,7 +268,7 @@ EXACT_TEST(ChainedMerges) {
             anchor, real(0.0f),
             mergeOutcomes(world, initialSource(world, anchor, 1, real(1.0f)), {history}, flags)};
         const real confidence = merged.outcomes.front().reservoir.state.confidence;
-        merged.confidence = confidence < cap ? confidence : cap;
+        merged.confidence = Kernel{}.reuseCapped(confidence, cap);
         expectTruth(meanOfSample(merged.outcomes), world.truth(anchor), "E[F W] of a frame", seed);
         history = merged;
       }

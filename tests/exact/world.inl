@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/dialect/dialect.h"
+#include "core/dialect/types.h"
 #include "core/resampling/reservoir.h"
 #include "tests/exact/enumeration.h"
 
@@ -51,6 +52,21 @@ struct World {
     }
     return sum;
   }
+};
+
+// An input of a merge.
+struct MergeInput {
+  uint anchor = 0;
+  WorldReservoir reservoir;
+  real confidence = real(1.0f);  // after the cap
+  bool exists = true;            // of a donor
+};
+
+// What the shipped loop asks for.
+struct WorldMerge {
+  std::vector<MergeInput> donors;
+  std::vector<Shifted> ours, theirs;
+  std::vector<real3> ratios;
 };
 
 // The shipped files with the world as their bridge. Random numbers are not drawn but decided: the
@@ -90,6 +106,17 @@ struct Kernel {
   real bridgeVisibility(const WorldReservoir& r, const WorldAnchor& at) {
     return world->visibility[at.index][r.label];
   }
+#define RL_REUSE_STATE WorldMerge
+  bool reuseDonor(const WorldMerge& m, uint k, ReservoirState& donor) const {
+    donor = m.donors[k].reservoir.state;
+    donor.confidence = m.donors[k].confidence;
+    return m.donors[k].exists;
+  }
+  Shifted reuseOurs(const WorldMerge& m, uint k) const { return m.ours[k]; }
+  Shifted reuseTheirs(const WorldMerge& m, uint k) const { return m.theirs[k]; }
+  real3 reuseRatio(const WorldMerge& m, uint k) const { return m.ratios[k]; }
+  real reuseUniform(const WorldMerge&, uint) const { return real(0.5f); }
+#include "core/resampling/donors.glsl"
 #include "core/resampling/merge.glsl"
 #include "core/resampling/reuse.glsl"
 };
@@ -185,12 +212,6 @@ std::vector<Outcome> initialOutcomes(const World& world, uint anchor, uint count
 }
 
 // One shipped merge of given reservoirs, over all its decisions.
-struct MergeInput {
-  uint anchor = 0;
-  WorldReservoir reservoir;
-  real confidence = real(1.0f);  // after the cap
-};
-
 template <class F>
 void mergeOnce(const World& world, const MergeInput& canonical,
                const std::vector<MergeInput>& donors, uint flags, F use) {
@@ -198,34 +219,32 @@ void mergeOnce(const World& world, const MergeInput& canonical,
   kernel.world = &world;
   WorldReservoir own = canonical.reservoir;
   own.state.confidence = canonical.confidence;
-  real cDonors = real(0.0f);
-  for (const MergeInput& donor : donors) cDonors += donor.confidence;
+  WorldMerge merge;
+  merge.donors = donors;
+  const auto shift = [&](const WorldReservoir& r, uint from, uint to, uint assumed) {
+    if (from == to) return kernel.mergeUnshifted(r.state);
+    Shifted s = kernel.shift(r, WorldAnchor{from}, WorldAnchor{to});
+    if ((flags & assumed) == 0u) s.F *= kernel.bridgeVisibility(r, WorldAnchor{to});
+    return s;
+  };
+  for (const MergeInput& donor : donors) {
+    merge.ours.push_back(shift(own, canonical.anchor, donor.anchor, RL_REUSE_ASSUME_VISIBLE));
+    merge.theirs.push_back(
+        shift(donor.reservoir, donor.anchor, canonical.anchor, RL_REUSE_ASSUME_VISIBLE_HERE));
+    merge.ratios.push_back(world.ratio[donor.anchor][canonical.anchor]);
+  }
   restlab::exact::enumerate([&](Decisions& decisions) {
     kernel.decisions = &decisions;
-    MergeState merge = kernel.mergeBegin(own.state, cDonors);
-    const auto shift = [&](const WorldReservoir& r, uint from, uint to, uint assumed) {
-      if (from == to) return kernel.mergeUnshifted(r.state);
-      Shifted s = kernel.shift(r, WorldAnchor{from}, WorldAnchor{to});
-      if (kernel.reuseAsksVisibility(s, (flags & assumed) != 0u))
-        s.F *= kernel.bridgeVisibility(r, WorldAnchor{to});
-      return s;
-    };
-    for (const MergeInput& donor : donors) {
-      const Shifted ours = shift(own, canonical.anchor, donor.anchor, RL_REUSE_ASSUME_VISIBLE);
-      kernel.mergeWeighCanonical(merge, own.state, donor.confidence, ours, flags);
-    }
-    kernel.mergeCanonical(merge, own.state, flags);
     WorldReservoir r = own;
-    for (const MergeInput& donor : donors) {
-      const Shifted theirs =
-          shift(donor.reservoir, donor.anchor, canonical.anchor, RL_REUSE_ASSUME_VISIBLE_HERE);
-      if (kernel.mergeDonor(merge, r.state, donor.reservoir.state, donor.confidence, theirs,
-                            world.ratio[donor.anchor][canonical.anchor], flags, real(0.5f))) {
-        r.label = donor.reservoir.label;
-      }
+    uint winner = 0;
+    real jacobian = real(0.0f);
+    const real3 estimate =
+        kernel.reuseMerge(merge, uint(donors.size()), flags, r.state, winner, jacobian);
+    if (winner != RL_INVALID) {
+      r.label = donors[winner].reservoir.label;
+      EXPECT_EQ(jacobian, merge.theirs[winner].jacobian);
     }
-    kernel.mergeEnd(merge, r.state, flags);
-    use(decisions.probability(), r, dvec3(merge.estimate));
+    use(decisions.probability(), r, dvec3(estimate));
   });
 }
 

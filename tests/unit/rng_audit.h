@@ -18,6 +18,7 @@ extern const CpuKernelEntry kernel_path_audited;
 extern const CpuKernelEntry kernel_template_audited;
 extern const CpuKernelEntry kernel_restir_gi_initial_audited;
 extern const CpuKernelEntry kernel_restir_gi_temporal_audited;
+extern const CpuKernelEntry kernel_restir_gi_exchange_audited;
 extern const CpuKernelEntry kernel_restir_gi_spatial_audited;
 
 }  // namespace rl

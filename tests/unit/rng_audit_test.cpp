@@ -69,15 +69,18 @@ class AuditedRun {
 
   void frame() {
     rl::CpuKernelCounters counters;
-    for (const rl::CpuKernelEntry pass : passes_)
-      pass(arguments(), {0, 0, kWidth, kHeight}, counters);
+    for (size_t i = 0; i < passes_.size(); ++i) {
+      if (frame_.isStillView != 0 && info_.passes[i].onlyOnNewViews) continue;
+      passes_[i](arguments(), {0, 0, kWidth, kHeight}, counters);
+    }
     const size_t own = info_.inputs.size();
     for (size_t i = 0; i < info_.buffers.size(); ++i) {
       const int other = info_.buffers[i].swapWith;
       if (other > int(i)) std::swap(addresses_[own + i], addresses_[own + size_t(other)]);
     }
     ++frame_.frame;
-    frame_.isStillView = 1;
+    // Every other frame runs what new views take.
+    frame_.isStillView = frame_.frame % 2;
   }
 
  private:
@@ -143,9 +146,9 @@ TEST(RngAudit, Template) {
 }
 
 TEST(RngAudit, RestirGi) {
-  const std::vector<rl::CpuKernelEntry> passes = {rl::kernel_restir_gi_initial_audited,
-                                                  rl::kernel_restir_gi_temporal_audited,
-                                                  rl::kernel_restir_gi_spatial_audited};
+  const std::vector<rl::CpuKernelEntry> passes = {
+      rl::kernel_restir_gi_initial_audited, rl::kernel_restir_gi_temporal_audited,
+      rl::kernel_restir_gi_exchange_audited, rl::kernel_restir_gi_spatial_audited};
   // Every loop over draws runs more than once.
   const ParameterMap busy = {{"light_candidates", int64_t{5}},
                              {"spatial_neighbours", int64_t{rl::RL_MAX_DONORS}}};

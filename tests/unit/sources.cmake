@@ -18,6 +18,7 @@ list(APPEND RL_UNIT_TESTS
   records_test.cpp
   reservoir_store_test.cpp
   rng_audit_path.cpp
+  rng_audit_restir_exchange.cpp
   rng_audit_restir_initial.cpp
   rng_audit_restir_spatial.cpp
   rng_audit_restir_temporal.cpp

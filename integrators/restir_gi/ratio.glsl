@@ -1,8 +1,3 @@
-// How many donors over space a slot takes: young histories more.
-RL_FN uint giDonors(uint slot) {
-  return giAge(slot) <= gParams.youngFrames ? gParams.spatialNeighbours : gParams.agedNeighbours;
-}
-
 // Reflectance here over that of a donor's surface, for carried estimates.
 RL_FN vec3 giRatio(RL_IN(VisibleSurface) donor, uint slot) {
   return reuseReflectanceRatio(donor.reflectance, cacheSurface(slot).reflectance,

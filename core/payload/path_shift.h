@@ -1,0 +1,32 @@
+// A path sample on its way to another pixel.
+#ifndef RL_PATH_SHIFT_H
+#define RL_PATH_SHIFT_H
+
+#ifdef __cplusplus
+#include "core/dialect/order.h"
+#endif
+#include "core/payload/path_sample.h"
+
+RL_NAMESPACE_BEGIN
+
+// The ray that a shift asks for next.
+const uint RL_SHIFT_DONE = 0u;
+const uint RL_SHIFT_ASKS_X1 = 1u;       // the camera's, through the film sample
+const uint RL_SHIFT_ASKS_SEGMENT = 2u;  // from x1 to x2 or the light
+
+struct PathShift {
+  Shifted shifted;  // what the shift gives once it asks for nothing
+  Ray ray;
+  uint asks;            // RL_SHIFT_*
+  uint assumesVisible;  // 1: the segment is not traced
+};
+
+// In the kernels' gParams.shift.
+struct PathShiftParams {
+  float minAlpha;     // GGX alpha below which x1 is not reused
+  float maxJacobian;  // shifts outside [1/x, x] are undefined, both ways (Lin et al. 2022)
+};
+
+RL_NAMESPACE_END
+
+#endif

@@ -1,0 +1,30 @@
+// restir_gi, exchange pass: every pixel shows its sample to the partners that it serves over space.
+// Partners are mutual, so that each shift serves the merges of both.
+#include "core/resampling/shift.glsl"
+#include "core/payload/path_sample.glsl"
+#include "core/payload/path_shift.glsl"
+#include "core/caches/pixel.glsl"
+#include "integrators/restir_gi/store.glsl"
+
+// How many donors over space a slot takes: young histories more.
+RL_FN uint giDonors(uint slot) {
+  return giAge(slot) <= gParams.youngFrames ? gParams.spatialNeighbours : gParams.agedNeighbours;
+}
+
+RL_FN void kernelMain(RL_IN(uvec2) pixel) {
+  uint slot = cacheSlot(pixel);
+  PathReservoir r;
+  r.path.suffix = pathNoSuffix();
+  giReadNow(slot, r);
+  for (uint k = 0u; k < gParams.spatialNeighbours; k = k + 1u) {
+    uint index = giExchangeIndex(slot, k);
+    uint partner;
+    bool exists = cachePartner(pixel, k, partner);
+    if (exists) exists = k < max(giDonors(slot), giDonors(partner));  // one of the two wants it
+    gBuffers.partners.data[index] = exists ? partner : RL_INVALID;
+    if (!exists) continue;
+    PathShift shift = pathShiftTo(r, cachePixel(partner), false, false);
+    pathShiftTrace(shift, r.path);
+    giWriteShifted(index, shift.shifted);
+  }
+}
