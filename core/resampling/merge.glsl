@@ -1,5 +1,5 @@
 // The reuse algebra: merges donors' reservoirs into the canonical one by generalised RIS with shift
-// maps (Lin et al. 2022) and defensive pairwise MIS. It knows no BSDF, no payload, no pixel and no
+// maps and pairwise MIS (Lin et al. 2022). It knows no BSDF, no payload, no pixel and no
 // backend; the same lines serve every method and cache, time and space.
 //
 // A merge is: mergeBegin(), for every donor mergeWeighCanonical() with the canonical sample as the
@@ -13,11 +13,14 @@
 // sample, so its expectation stays zero, and it cancels the colour noise of the donor's selection.
 
 // canonical: this anchor's own reservoir; cDonors: the donors' confidences after the cap, summed.
-RL_FN MergeState mergeBegin(RL_IN(ReservoirState) canonical, real cDonors) {
+RL_FN MergeState mergeBegin(RL_IN(ReservoirState) canonical, real cDonors, uint flags) {
   MergeState merge;
   merge.cCanonical = canonical.confidence;
   merge.cTotal = canonical.confidence + cDonors;
+  merge.cDonors = cDonors;
   merge.mCanonical = merge.cCanonical / merge.cTotal;
+  bool isPairwise = (flags & RL_REUSE_PAIRWISE) != 0u && (flags & RL_REUSE_DEFENSIVE) == 0u;
+  if (isPairwise && cDonors > real(0.0f)) merge.mCanonical = real(0.0f);
   merge.wSum = real(0.0f);
   merge.estimate = real3(real(0.0f));
   return merge;
@@ -37,8 +40,9 @@ RL_FN void mergeWeighCanonical(RL_INOUT(MergeState) merge, RL_IN(ReservoirState)
                                real cDonor, RL_IN(Shifted) there, uint flags) {
   if ((flags & RL_REUSE_PAIRWISE) == 0u) return;
   real pHatThere = bridgeTarget(there.F) * there.jacobian;
-  merge.mCanonical += misPairwiseCanonicalTerm(cDonor, merge.cCanonical, merge.cTotal,
-                                               bridgeTarget(canonical.F), pHatThere);
+  merge.mCanonical +=
+      misPairwiseCanonicalTerm(cDonor, merge.cCanonical, merge.cDonors, bridgeTarget(canonical.F),
+                               pHatThere, (flags & RL_REUSE_DEFENSIVE) != 0u);
 }
 
 // The canonical sample is the first candidate: it stays selected until a donor wins.
@@ -62,7 +66,8 @@ RL_FN bool mergeDonor(RL_INOUT(MergeState) merge, RL_INOUT(ReservoirState) selec
   real mDonor = misConfidenceOnly(cDonor, merge.cTotal);
   if ((flags & RL_REUSE_PAIRWISE) != 0u) {
     real pHatFrom = misDivide(bridgeTarget(donor.F), here.jacobian);
-    mDonor = misPairwiseDonor(cDonor, merge.cCanonical, merge.cTotal, pHatFrom, pHatHere);
+    mDonor = misPairwiseDonor(cDonor, merge.cCanonical, merge.cDonors, pHatFrom, pHatHere,
+                              (flags & RL_REUSE_DEFENSIVE) != 0u);
   }
   real weightJ = (flags & RL_REUSE_OMIT_JACOBIAN) != 0u ? real(1.0f) : here.jacobian;
   real contribution = mDonor * donor.W * weightJ;

@@ -1,24 +1,27 @@
-// Resampling MIS weights. c are confidences, C their sum over all inputs, pHatFrom the target of an
+// Resampling MIS weights. c are confidences, pHatFrom the target of an
 // input pulled back to the canonical domain: pHat_i(T_i^-1(y)) |dT_i^-1/dy|, which for a sample y
 // that came from i is pHat_i(x_i) / J (GRIS eq. 35).
 
 // x / y, 0 where y is 0.
 RL_FN real misDivide(real x, real y) { return y > real(0.0f) ? x / y : real(0.0f); }
 
-// Defensive pairwise weight of donor i (Wyman et al. 2023, course notes algorithm 7).
-RL_FN real misPairwiseDonor(real cI, real cCanonical, real cTotal, real pHatFromI,
-                            real pHatCanonical) {
-  real others = cTotal - cCanonical;
-  return cI / cTotal *
-         misDivide(others * pHatFromI, others * pHatFromI + cCanonical * pHatCanonical);
+// Pairwise MIS (Lin et al. 2022, section 5.4): each donor is weighed against the canonical input
+// alone, as if all donors were like it. Where targets are equal, a weight is the input's share of
+// the confidence. The defensive form (Wyman et al. 2023, algorithm 7) first gives the canonical
+// sample its share of every donor's part. cDonors: of all donors.
+RL_FN real misPairwiseDonor(real cI, real cCanonical, real cDonors, real pHatFromI,
+                            real pHatCanonical, bool isDefensive) {
+  real share = misDivide(cI, isDefensive ? cCanonical + cDonors : cDonors);
+  return share * misDivide(cDonors * pHatFromI, cDonors * pHatFromI + cCanonical * pHatCanonical);
 }
 
-// The canonical sample's weight is cCanonical / cTotal plus this term for every donor j.
-RL_FN real misPairwiseCanonicalTerm(real cJ, real cCanonical, real cTotal, real pHatCanonical,
-                                    real pHatFromJ) {
-  real others = cTotal - cCanonical;
-  return cJ / cTotal *
-         misDivide(cCanonical * pHatCanonical, cCanonical * pHatCanonical + others * pHatFromJ);
+// The canonical sample's weight is the sum of these over all donors j, in the defensive form plus
+// its share of the confidence; 1 without donors.
+RL_FN real misPairwiseCanonicalTerm(real cJ, real cCanonical, real cDonors, real pHatCanonical,
+                                    real pHatFromJ, bool isDefensive) {
+  real share = misDivide(cJ, isDefensive ? cCanonical + cDonors : cDonors);
+  return share *
+         misDivide(cCanonical * pHatCanonical, cCanonical * pHatCanonical + cDonors * pHatFromJ);
 }
 
 // Weights that ignore who could have produced the sample: 1/M of Bitterli et al. 2020. Biased where

@@ -24,6 +24,7 @@ struct Shifted {
 // What a merge has gathered so far.
 struct MergeState {
   real cCanonical;
+  real cDonors;     // of all donors
   real cTotal;      // confidence of all inputs that passed the test of the anchors, empty ones too
   real mCanonical;  // MIS weight of the canonical sample
   real wSum;
@@ -33,14 +34,15 @@ struct MergeState {
 const uint RL_MAX_DONORS = 4u;  // of one merge
 
 // How a merge is done; declared by the integrator's mode.
-const uint RL_REUSE_PAIRWISE = 1u;  // defensive pairwise MIS; otherwise weights by confidence only
+const uint RL_REUSE_PAIRWISE = 1u;       // pairwise MIS; otherwise weights by confidence only
 const uint RL_REUSE_OMIT_JACOBIAN = 2u;  // deliberately wrong: for the tests that must reject it
 const uint RL_REUSE_ASSUME_VISIBLE =
     4u;  // biased: shifted samples are taken as visible in the MIS weights
 const uint RL_REUSE_CONTROL_VARIATE = 8u;  // carry per-channel estimates through the merges
 const uint RL_REUSE_WINNER_ONLY = 16u;     // shade the selected sample alone
 const uint RL_REUSE_ASSUME_VISIBLE_HERE =
-    32u;  // biased: a donor's sample is taken as visible here too
+    32u;                              // biased: a donor's sample is taken as visible here too
+const uint RL_REUSE_DEFENSIVE = 64u;  // with PAIRWISE: its defensive form
 
 RL_NAMESPACE_END
 

@@ -23,7 +23,7 @@ RL_FN real3 reuseMerge(RL_IN(RL_REUSE_STATE) state, uint count, uint flags,
   for (uint k = 0u; k < count; k = k + 1u) {
     if (reuseDonor(state, k, donor)) cDonors += donor.confidence;
   }
-  MergeState merge = mergeBegin(r, cDonors);
+  MergeState merge = mergeBegin(r, cDonors, flags);
   for (uint k = 0u; k < count; k = k + 1u) {
     if (!reuseDonor(state, k, donor)) continue;
     mergeWeighCanonical(merge, r, donor.confidence, reuseOurs(state, k), flags);

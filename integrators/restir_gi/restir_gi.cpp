@@ -1,8 +1,8 @@
 // Host side of `restir_gi`: parameters, buffers, passes and the declaration of its bias.
 //
 // One reservoir a pixel over film samples and paths: light samples at x1 (Bitterli et al. 2020) and
-// paths that reconnect at x2 (Ouyang et al. 2021), merged by generalised RIS with defensive
-// pairwise MIS (Lin et al. 2022; Wyman et al. 2023). The film sample is part of the path, as in
+// paths that reconnect at x2 (Ouyang et al. 2021), merged by generalised RIS with pairwise
+// MIS (Lin et al. 2022). The film sample is part of the path, as in
 // Area ReSTIR (Zhang et al. 2024): a shift traces x1 anew. Unlike the GI paper, x2 is re-evaluated
 // for the new direction, BSDF and MIS weight, so that glossy x2 are unbiased too.
 #include "integrators/restir_gi/restir_gi.h"
@@ -117,9 +117,10 @@ std::vector<ParameterInfo> parameterInfos() {
        std::string("pairwise"),
        0,
        0,
-       {"pairwise", "confidence"},
-       "resampling MIS weights; `confidence` is 1/M, biased and darker",
-       "Wyman et al. 2023, algorithm 7; Bitterli et al. 2020"},
+       {"pairwise", "defensive", "confidence"},
+       "resampling MIS weights; `defensive` favours the pixel's own sample, `confidence` is 1/M, "
+       "biased and darker",
+       "Lin et al. 2022, section 5.4; Wyman et al. 2023, algorithm 7; Bitterli et al. 2020"},
       {"omit_jacobian",
        false,
        0,
@@ -137,7 +138,9 @@ T get(const ParameterMap& parameters, const char* name) {
 
 std::vector<std::byte> pack(const std::string& mode, const ParameterMap& p) {
   uint32_t flags = 0;
-  if (get<std::string>(p, "mis") == "pairwise") flags |= rl::RL_REUSE_PAIRWISE;
+  const std::string& mis = get<std::string>(p, "mis");
+  if (mis != "confidence") flags |= rl::RL_REUSE_PAIRWISE;
+  if (mis == "defensive") flags |= rl::RL_REUSE_DEFENSIVE;
   if (get<bool>(p, "omit_jacobian")) flags |= rl::RL_REUSE_OMIT_JACOBIAN;
   const std::string& shading = get<std::string>(p, "shading");
   if (shading == "control_variate") flags |= rl::RL_REUSE_CONTROL_VARIATE;
@@ -207,7 +210,7 @@ const IntegratorInfo& restir_giIntegratorInfo() {
     i.packParameters = pack;
     i.biasOfParameters = [](const std::string& mode, const ParameterMap& p) {
       const bool isWrong =
-          get<std::string>(p, "mis") != "pairwise" || get<bool>(p, "omit_jacobian");
+          get<std::string>(p, "mis") == "confidence" || get<bool>(p, "omit_jacobian");
       return mode == "biased" || isWrong ? BiasClass::biased : BiasClass::unbiased;
     };
     return i;

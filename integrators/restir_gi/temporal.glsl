@@ -29,6 +29,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   PathShift shift =
       pathShiftTo(here, cachePixel(before), true, (flags & RL_REUSE_ASSUME_VISIBLE) != 0u);
   PathSample path = here.path;
+  t.ours = shift.shifted;
   for (uint i = 0u; i < 2u; i = i + 1u) {
     if (i == 1u) {
       t.ours = shift.shifted;

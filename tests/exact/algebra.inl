@@ -7,6 +7,7 @@ namespace {
 #define EXACT_TEST(name) TEST(EXACT_SUITE, name)
 
 constexpr uint kPairwise = RL_REUSE_PAIRWISE;
+constexpr uint kDefensive = RL_REUSE_PAIRWISE | RL_REUSE_DEFENSIVE;
 constexpr double kBiasSeen = 5e-3;  // relative: what a negative test must exceed
 
 double relativeError(const dvec3& value, const dvec3& truth) {
@@ -125,32 +126,80 @@ EXACT_TEST(PairwiseWeightsSumToOne) {
   Kernel kernel;
   for (int trial = 0; trial < 20000; ++trial) {
     const uint donors = 1 + random() % 4;
-    real c[5], pHat[5], cTotal = real(0.0f);
+    real c[5], pHat[5], cDonors = real(0.0f);
     for (uint i = 0; i <= donors; ++i) {
       c[i] = real(std::pow(10.0, 9.0 * uniform(random) - 6.0));
       if (i > 0 && random() % 8 == 0) c[i] = real(0.0f);  // a donor without history
-      cTotal += c[i];
+      if (i > 0) cDonors += c[i];
       pHat[i] = i > 0 && random() % 3 == 0 ? real(0.0f)
                                            : real(std::pow(10.0, 8.0 * uniform(random) - 4.0));
     }
-    real sum = c[0] / cTotal;
-    for (uint i = 1; i <= donors; ++i) {
-      const real donor = kernel.misPairwiseDonor(c[i], c[0], cTotal, pHat[i], pHat[0]);
-      const real term = kernel.misPairwiseCanonicalTerm(c[i], c[0], cTotal, pHat[0], pHat[i]);
-      EXPECT_GE(donor, real(0.0f));
-      EXPECT_GE(term, real(0.0f));
-      if (pHat[i] == real(0.0f)) {
-        EXPECT_EQ(donor, real(0.0f));
+    for (const bool isDefensive : {false, true}) {
+      const uint flags = isDefensive ? kDefensive : kPairwise;
+      ReservoirState canonical{};
+      canonical.confidence = c[0];
+      real sum = kernel.mergeBegin(canonical, cDonors, flags).mCanonical;
+      for (uint i = 1; i <= donors; ++i) {
+        const real donor =
+            kernel.misPairwiseDonor(c[i], c[0], cDonors, pHat[i], pHat[0], isDefensive);
+        const real term =
+            kernel.misPairwiseCanonicalTerm(c[i], c[0], cDonors, pHat[0], pHat[i], isDefensive);
+        EXPECT_GE(donor, real(0.0f));
+        EXPECT_GE(term, real(0.0f));
+        if (pHat[i] == real(0.0f)) {
+          EXPECT_EQ(donor, real(0.0f));
+        }
+        sum += donor + term;
       }
-      sum += donor + term;
+      ASSERT_NEAR(double(sum), 1.0, kTolerance) << "trial " << trial << ", " << isDefensive;
     }
-    ASSERT_NEAR(double(sum), 1.0, kTolerance) << "trial " << trial;
+  }
+}
+
+// Donors that are like the canonical input in everything: the estimate is the mean of all
+// estimates, weighed by confidence, whatever is selected. (The defensive form has more of the
+// canonical sample than of its carried estimate.)
+EXACT_TEST(AlikeInputsAreAveraged) {
+  for (uint seed = 0; seed < 50; ++seed) {
+    World world = randomWorld(seed, seed % 2 != 0);
+    for (uint a = 1; a < 3; ++a) {
+      for (uint l = 0; l < kLabels; ++l) {
+        world.f[a][l] = world.f[0][l];
+        world.visibility[a][l] = world.visibility[0][l];
+        world.measure[a][l] = world.measure[0][l];
+        world.defined[a][0][l] = world.defined[0][a][l] = true;
+      }
+      world.ratio[a][0] = real3(real(1.0f));
+    }
+    const real c[] = {real(4.0f), real(1.0f), real(2.5f)};
+    std::vector<MergeInput> inputs;
+    dvec3 mean(0.0);
+    for (uint a = 0; a < 3; ++a) {
+      const Source source = initialSource(world, a, 2, c[a]);
+      MergeInput input{a, source.outcomes[(seed + a) % source.outcomes.size()].reservoir, c[a]};
+      input.reservoir.state.residual = real3(real(0.3f), real(-0.1f), real(0.2f)) * c[a];
+      const ReservoirState& state = input.reservoir.state;
+      mean += dvec3(state.F * state.W + state.residual) * double(c[a] / real(7.5f));
+      inputs.push_back(input);
+    }
+    double defensiveError = 0.0;
+    for (const uint flags : {kPairwise, kDefensive}) {
+      mergeOnce(world, inputs[0], {inputs[1], inputs[2]}, flags | RL_REUSE_CONTROL_VARIATE,
+                [&](double, const WorldReservoir&, const dvec3& estimate) {
+                  if (flags == kPairwise) expectTruth(estimate, mean, "estimate", seed);
+                  defensiveError = std::max(defensiveError, relativeError(estimate, mean));
+                });
+    }
+    const auto isEmpty = [](const MergeInput& i) { return !(i.reservoir.state.W > real(0.0f)); };
+    if (std::none_of(inputs.begin(), inputs.end(), isEmpty)) {
+      EXPECT_GT(defensiveError, 1e-3);
+    }
   }
 }
 
 // The shipped merge of up to four donors: partial supports and shifts, occluders, Jacobians, failed
 // candidates, empty reservoirs, real-valued confidences down to 1e-4.
-EXACT_TEST(DefensivePairwiseMerge) {
+EXACT_TEST(PairwiseMerge) {
   for (uint seed = 0; seed < 200; ++seed) {
     const World world = randomWorld(seed, seed % 7 != 0);
     std::mt19937 random(1000 + seed);
@@ -167,7 +216,8 @@ EXACT_TEST(DefensivePairwiseMerge) {
     double total = double(canonical.confidence);
     for (const Source& donor : donors) total += double(donor.confidence);
     for (const uint flags :
-         {kPairwise, kPairwise | RL_REUSE_CONTROL_VARIATE, kPairwise | RL_REUSE_WINNER_ONLY}) {
+         {kPairwise, kPairwise | RL_REUSE_CONTROL_VARIATE, kPairwise | RL_REUSE_WINNER_ONLY,
+          kDefensive, kDefensive | RL_REUSE_CONTROL_VARIATE}) {
       const auto outcomes = mergeOutcomes(world, canonical, donors, flags);
       expectUnbiased(world, outcomes, seed);
       for (const Outcome& o : outcomes) {
