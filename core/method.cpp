@@ -52,6 +52,7 @@ ParameterValue checked(const std::string& owner, const ParameterInfo& p, Paramet
 
 struct Registry {
   std::vector<const IntegratorInfo*> integrators;
+  std::vector<const CacheInfo*> caches;
   std::vector<const DenoiserInfo*> denoisers;
 };
 
@@ -63,13 +64,25 @@ Registry& registry() {
 }  // namespace
 
 bool registerMethods(std::vector<const IntegratorInfo*> integrators,
+                     std::vector<const CacheInfo*> caches,
                      std::vector<const DenoiserInfo*> denoisers) {
-  registry() = {std::move(integrators), std::move(denoisers)};
+  registry() = {std::move(integrators), std::move(caches), std::move(denoisers)};
   return true;
 }
 
 const std::vector<const IntegratorInfo*>& integratorRegistry() { return registry().integrators; }
+const std::vector<const CacheInfo*>& cacheRegistry() { return registry().caches; }
 const std::vector<const DenoiserInfo*>& denoiserRegistry() { return registry().denoisers; }
+
+const CacheInfo& findCache(const std::string& name) {
+  std::vector<std::string> names;
+  for (const CacheInfo* info : cacheRegistry()) {
+    if (info->name == name) return *info;
+    names.push_back(info->name);
+  }
+  failUsage("unknown cache '" + name + "'" + didYouMean(name, names) +
+            " (see: restlab list caches)");
+}
 
 const DenoiserInfo& findDenoiser(const std::string& name) {
   std::vector<std::string> names;
@@ -81,15 +94,26 @@ const DenoiserInfo& findDenoiser(const std::string& name) {
             " (see: restlab list denoisers)");
 }
 
-Method findMethod(const std::string& integrator, const std::string& denoiser) {
-  return {&findIntegrator(integrator), &findDenoiser(denoiser)};
+Method findMethod(const std::string& integrator, const std::string& cache,
+                  const std::string& denoiser) {
+  Method method{&findIntegrator(integrator), nullptr, &findDenoiser(denoiser)};
+  if (!cache.empty()) method.cache = &findCache(cache);
+  if (method.integrator->usesCache && cache.empty()) method.cache = cacheRegistry().front();
+  if (!method.integrator->usesCache && !cache.empty()) {
+    failUsage(fmt::format("cache {}: integrator {} keeps no reservoirs: it has no use for one",
+                          cache, integrator));
+  }
+  return method;
 }
 
 Method findMethod(const SessionConfig& config) {
-  return findMethod(config.integrator, config.denoiser);
+  return findMethod(config.integrator, config.cache, config.denoiser);
 }
 
-std::vector<const PartInfo*> Method::parts() const { return {integrator, denoiser}; }
+std::vector<const PartInfo*> Method::parts() const {
+  if (cache == nullptr) return {integrator, denoiser};
+  return {cache, integrator, denoiser};
+}
 
 std::vector<ParameterInfo> Method::parameters() const {
   std::vector<ParameterInfo> all;
@@ -130,10 +154,14 @@ ParameterMap resolveParameters(const Method& method, const ParameterMap& given) 
   return resolved;
 }
 
-uint32_t bytesPerPixelOf(const BufferInfo& buffer, const ParameterMap& parameters) {
-  if (buffer.perParameter == nullptr) return buffer.bytesPerPixel;
-  return buffer.bytesPerPixel *
-         static_cast<uint32_t>(std::get<int64_t>(parameters.at(buffer.perParameter)));
+size_t bufferBytes(const BufferInfo& buffer, const ParameterMap& parameters, size_t pixels) {
+  const auto number = [&](const char* parameter) {
+    return static_cast<size_t>(std::get<int64_t>(parameters.at(parameter)));
+  };
+  size_t entries = pixels;
+  if (buffer.perParameter != nullptr) entries = pixels * number(buffer.perParameter);
+  if (buffer.entriesParameter != nullptr) entries = number(buffer.entriesParameter);
+  return entries * buffer.entryBytes;
 }
 
 }  // namespace restlab

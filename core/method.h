@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/cache.h"
 #include "core/denoiser.h"
 #include "core/integrator.h"
 
@@ -15,6 +16,7 @@ struct SessionConfig;
 
 struct Method {
   const IntegratorInfo* integrator = nullptr;
+  const CacheInfo* cache = nullptr;  // null: the integrator keeps no reservoirs
   const DenoiserInfo* denoiser = nullptr;
 
   // Its parts, in the order in which their passes run.
@@ -27,13 +29,16 @@ struct Method {
   BiasClass bias(const std::string& mode, const ParameterMap& resolved, bool cameraMoves) const;
 };
 
-// Fills the registries of core/integrator.h and core/denoiser.h. Called by the table that is
-// generated from integrators.list and denoisers.list, when the program starts; always true.
+// Fills the registries of core/integrator.h, core/cache.h and core/denoiser.h. Called by the table
+// that is generated from their lists, when the program starts; always true.
 bool registerMethods(std::vector<const IntegratorInfo*> integrators,
+                     std::vector<const CacheInfo*> caches,
                      std::vector<const DenoiserInfo*> denoisers);
 
-// Throws Error (badUsage) with the nearest name.
-Method findMethod(const std::string& integrator, const std::string& denoiser);
+// Throws Error (badUsage) with the nearest name, and where an integrator has no use for a cache.
+// `cache`: "" is the first one, of an integrator that has use for it.
+Method findMethod(const std::string& integrator, const std::string& cache,
+                  const std::string& denoiser);
 Method findMethod(const SessionConfig& config);
 
 // Defaults overlaid by `given`; throws Error (badUsage) on unknown names, types, ranges, choices.

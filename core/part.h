@@ -29,14 +29,16 @@ using ParameterMap = std::map<std::string, ParameterValue>;
 // How far the mean over independent runs is from the truth.
 enum class BiasClass { unbiased, consistent, biased };
 
-// A buffer of bytesPerPixel x pixels.
+// A buffer of as many entries as there are pixels, or as a parameter says.
 struct BufferInfo {
   std::string name;  // unique among the parts of a method
-  uint32_t bytesPerPixel = 0;
+  uint32_t entryBytes = 0;
   uint32_t neededFeatures = 0;  // allocated only when the mask has one of these bits; 0: always
   int swapWith = -1;            // index of the buffer it trades places with from frame to frame
-  const char* perParameter =
-      nullptr;  // an integer parameter: so many entries of bytesPerPixel a pixel
+  // Names of integer parameters, or null: so many entries a pixel; so many, however many pixels
+  // there are.
+  const char* perParameter = nullptr;
+  const char* entriesParameter = nullptr;
 };
 
 struct PassInfo {
@@ -44,6 +46,9 @@ struct PassInfo {
   std::string kernel;           // as in CMake's rl_add_kernel
   bool hasFeatures = true;      // false: NO_FEATURES, it is the same for every scene
   bool onlyOnNewViews = false;  // it has nothing to do where the view is that of the last frame
+  bool seesCache = false;       // EVERY_CACHE: it is that of the method's cache
+  // An integer parameter: the pass runs over so many entries (RL_ENTRY_ROW), not over pixels.
+  const char* entriesParameter = nullptr;
 };
 
 struct PartInfo {
@@ -65,8 +70,8 @@ struct PartInfo {
       packParameters;
 };
 
-// Bytes a pixel of a buffer, with resolved parameters.
-uint32_t bytesPerPixelOf(const BufferInfo& buffer, const ParameterMap& parameters);
+// Of a buffer, with resolved parameters.
+size_t bufferBytes(const BufferInfo& buffer, const ParameterMap& parameters, size_t pixels);
 
 // For packParameters: the bytes of a Params struct.
 template <typename T>

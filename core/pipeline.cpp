@@ -8,16 +8,24 @@
 
 namespace restlab {
 
-Pipeline::Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const std::string& mode,
-                   const ParameterMap& parameters, uint32_t wanted)
-    : backend_(backend) {
+Pipeline::Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const PartInfo* cache,
+                   const std::string& mode, const ParameterMap& parameters, uint32_t wanted,
+                   size_t pixels)
+    : backend_(backend), pixels_(pixels) {
   for (const PartInfo* part : parts) {
+    if (part == cache) cache_ = stages_.size();
     Stage stage;
     stage.info = part;
     if (part->packParameters) stage.params = part->packParameters(mode, parameters);
     for (const PassInfo& pass : part->passes) {
-      stage.masks.push_back(backend.maskFor(pass.kernel, wanted));
+      stage.kernels.push_back(pass.kernel);
+      if (pass.seesCache) stage.kernels.back() += "_" + cache->name;
+      stage.masks.push_back(backend.maskFor(stage.kernels.back(), wanted));
       if (pass.hasFeatures) used_ |= stage.masks.back();
+      stage.entries.push_back(0);
+      if (pass.entriesParameter != nullptr)
+        stage.entries.back() =
+            static_cast<uint32_t>(std::get<int64_t>(parameters.at(pass.entriesParameter)));
     }
     stages_.push_back(std::move(stage));
   }
@@ -26,7 +34,7 @@ Pipeline::Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const s
     for (const BufferInfo& buffer : stages_[s].info->buffers) {
       // What the kernels in use can touch is there, so that a superset kernel never meets a null.
       const bool isWanted = buffer.neededFeatures == 0 || (buffer.neededFeatures & used_) != 0;
-      stages_[s].bytes.push_back(isWanted ? bytesPerPixelOf(buffer, parameters) : 0);
+      stages_[s].bytes.push_back(isWanted ? bufferBytes(buffer, parameters, pixels) : 0);
     }
   }
 }
@@ -46,7 +54,7 @@ std::vector<std::pair<std::string, size_t>> Pipeline::bufferBytesPerPixel() cons
   std::vector<std::pair<std::string, size_t>> sizes;
   for (const Stage& stage : stages_) {
     for (size_t b = 0; b < stage.bytes.size(); ++b)
-      sizes.emplace_back(stage.info->buffers[b].name, stage.bytes[b]);
+      sizes.emplace_back(stage.info->buffers[b].name, (stage.bytes[b] + pixels_ - 1) / pixels_);
   }
   return sizes;
 }
@@ -57,20 +65,17 @@ size_t Pipeline::bytesPerPixel() const {
   return sum;
 }
 
-void Pipeline::allocate(size_t pixels) {
+void Pipeline::allocate() {
   for (Stage& stage : stages_) {
     for (const size_t bytes : stage.bytes)
-      stage.buffers.push_back(bytes > 0 ? backend_.allocate(pixels * bytes) : kNoBuffer);
+      stage.buffers.push_back(bytes > 0 ? backend_.allocate(bytes) : kNoBuffer);
   }
 }
 
 void Pipeline::prepare(StartupReport& report) {
   for (size_t s = 0; s < stages_.size(); ++s) {
     const Stage& stage = stages_[s];
-    for (size_t p = 0; p < stage.masks.size(); ++p) {
-      const PassRun run{stage.info->passes[p].kernel, stage.masks[p], bindings(s), stage.params};
-      backend_.prepare(run, report);
-    }
+    for (size_t p = 0; p < stage.masks.size(); ++p) backend_.prepare(runOf(s, p), report);
   }
 }
 
@@ -100,6 +105,20 @@ std::vector<BufferId> Pipeline::bindings(size_t stage) const {
   return ids;
 }
 
+// What is the cache's comes first, as in a kernel's structs.
+PassRun Pipeline::runOf(size_t stage, size_t pass) const {
+  const Stage& own = stages_[stage];
+  PassRun run{own.kernels[pass], own.masks[pass], {}, {}, own.entries[pass]};
+  if (own.info->passes[pass].seesCache) {
+    run.buffers = bindings(cache_);
+    run.params = stages_[cache_].params;
+  }
+  const std::vector<BufferId> buffers = bindings(stage);
+  run.buffers.insert(run.buffers.end(), buffers.begin(), buffers.end());
+  run.params.insert(run.params.end(), own.params.begin(), own.params.end());
+  return run;
+}
+
 std::vector<PassRun> Pipeline::beginFrame(bool isNewView) {
   std::vector<bool> ran;
   for (Stage& stage : stages_) {
@@ -117,8 +136,7 @@ std::vector<PassRun> Pipeline::beginFrame(bool isNewView) {
   for (size_t s = 0; s < stages_.size(); ++s) {
     const Stage& stage = stages_[s];
     for (size_t p = 0; p < stage.masks.size(); ++p) {
-      if (ran[next++])
-        runs.push_back({stage.info->passes[p].kernel, stage.masks[p], bindings(s), stage.params});
+      if (ran[next++]) runs.push_back(runOf(s, p));
     }
   }
   ran_.push_back(std::move(ran));

@@ -15,15 +15,17 @@ class Pipeline {
  public:
   // `wanted`: the features of the kernels. Throws Error (badUsage) where a part asks for a buffer
   // that no earlier part has. Nothing is allocated yet.
-  Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const std::string& mode,
-           const ParameterMap& parameters, uint32_t wanted);
+  // Passes that see a cache see `cache`, one of the parts; null: none do.
+  Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const PartInfo* cache,
+           const std::string& mode, const ParameterMap& parameters, uint32_t wanted, size_t pixels);
 
   uint32_t featuresUsed() const { return used_; }
   // Of the buffers that the kernels in use can touch: one that they cannot is not allocated.
+  // Rounded up.
   std::vector<std::pair<std::string, size_t>> bufferBytesPerPixel() const;
   size_t bytesPerPixel() const;
 
-  void allocate(size_t pixels);
+  void allocate();
   void prepare(StartupReport& report);
   // Zeroes every buffer.
   void clear();
@@ -47,8 +49,10 @@ class Pipeline {
   struct Stage {
     const PartInfo* info = nullptr;
     std::vector<std::byte> params;
-    std::vector<uint32_t> masks;    // of each pass
-    std::vector<size_t> bytes;      // a pixel, of each own buffer; 0: not allocated
+    std::vector<std::string> kernels;  // of each pass
+    std::vector<uint32_t> masks;
+    std::vector<uint32_t> entries;  // of each pass; 0: pixels
+    std::vector<size_t> bytes;      // of each own buffer; 0: not allocated
     std::vector<BufferId> buffers;  // the part's own
     bool runs = true;               // in the frame that was begun last
   };
@@ -56,9 +60,12 @@ class Pipeline {
   std::pair<size_t, size_t> find(const std::string& name, size_t before) const;
   BufferId bound(const Stage& stage, size_t buffer) const;
   std::vector<BufferId> bindings(size_t stage) const;
+  PassRun runOf(size_t stage, size_t pass) const;
 
   Backend& backend_;
   std::vector<Stage> stages_;
+  size_t cache_ = 0;  // its stage
+  size_t pixels_ = 0;
   uint32_t used_ = 0;
   std::deque<std::vector<bool>> ran_;  // by pass, of the frames under way
 };

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "core/backend/backend.h"
-#include "core/caches/caches.h"
 #include "core/dialect/features.h"
 #include "core/error.h"
 #include "core/method.h"
@@ -87,13 +86,7 @@ Session::Session(std::shared_ptr<const CompiledScene> scene, const SessionConfig
     failUsage(fmt::format("integrator {} has no mode '{}'{}; modes: {}", m.method.integrator->name,
                           m.config.mode, didYouMean(m.config.mode, modes), fmt::join(modes, ", ")));
   }
-  if (m.config.cache.empty() && m.method.integrator->usesCache)
-    m.config.cache = cacheRegistry().front().name;
-  if (!m.config.cache.empty()) checkCacheName(m.config.cache);
-  if (!m.config.cache.empty() && !m.method.integrator->usesCache) {
-    failUsage(fmt::format("cache {}: integrator {} keeps no reservoirs: it has no use for one",
-                          m.config.cache, m.method.integrator->name));
-  }
+  if (m.method.cache != nullptr) m.config.cache = m.method.cache->name;
   const std::vector<SceneCamera>& cameras = m.scene->source().cameras;
   if (config.camera >= cameras.size()) {
     failUsage(fmt::format("camera {} of scene {}: it has {} (0 to {})", config.camera,
@@ -106,11 +99,12 @@ Session::Session(std::shared_ptr<const CompiledScene> scene, const SessionConfig
   m.backend = makeBackend(config.backend, m.scene,
                           {config.threads, config.device, config.rayTracing, config.validate});
   const uint32_t wanted = config.specialise ? m.needed : rl::RL_FEATURE_ALL;
-  m.pipeline.emplace(*m.backend, withVisibleSurfaces(m.method.parts()), m.config.mode,
-                     m.config.parameters, wanted);
+  m.pipeline.emplace(*m.backend, withVisibleSurfaces(m.method.parts()), m.method.cache,
+                     m.config.mode, m.config.parameters, wanted,
+                     size_t(config.width) * config.height);
   m.backend->requireMemory(m.method.integrator->name, config.width, config.height,
                            m.pipeline->bytesPerPixel(), sizeof(glm::vec3) + hostBytesPerPixel);
-  m.pipeline->allocate(size_t(config.width) * config.height);
+  m.pipeline->allocate();
   m.pipeline->prepare(m.startup);
   m.radiance = Image(config.width, config.height);
   rl::FrameData& f = m.frame;
@@ -219,7 +213,7 @@ Image Session::aov(const std::string& name) const {
   }
   const uint32_t mask =
       m.backend->maskFor(kAovKernel, m.config.specialise ? m.needed : rl::RL_FEATURE_ALL);
-  const PassRun pass{kAovKernel, mask, m.aovBuffers, std::vector<std::byte>(4)};
+  const PassRun pass{kAovKernel, mask, m.aovBuffers, std::vector<std::byte>(4), 0};
   m.backend->prepare(pass, m.startup);
   m.backend->submit({pass}, m.lastFrame);
   m.backend->collect();

@@ -56,13 +56,19 @@ struct StartupReport {
   std::vector<std::string> notices;  // one line each, for the user
 };
 
-// One pass of a frame: a kernel over all pixels.
+// One pass of a frame: a kernel over all pixels, or over entries.
 struct PassRun {
   std::string kernel;
   uint32_t mask = 0;
   // In the order of the kernel's Buffers struct; kNoBuffer binds null.
   std::vector<BufferId> buffers;
   std::vector<std::byte> params;
+  uint32_t entries = 0;  // 0: a pixel each
+
+  glm::uvec2 size(const rl::FrameData& frame) const {
+    if (entries == 0) return {frame.width, frame.height};
+    return {rl::RL_ENTRY_ROW, (entries + rl::RL_ENTRY_ROW - 1) / rl::RL_ENTRY_ROW};
+  }
 };
 
 struct FrameResult {

@@ -140,14 +140,14 @@ class CpuBackend final : public Backend {
     args.params = pass.params.data();
     args.embreeScene = scene_->embreeScene();
 
-    const uint32_t tilesX = (frame.width + kTile - 1) / kTile,
-                   tilesY = (frame.height + kTile - 1) / kTile;
+    const glm::uvec2 size = pass.size(frame);
+    const uint32_t tilesX = (size.x + kTile - 1) / kTile, tilesY = (size.y + kTile - 1) / kTile;
     std::vector<rl::CpuKernelCounters> tileCounters(size_t(tilesX) * tilesY);
     auto runTile = [&](size_t i) {
       const FlushDenormals flush;
       const auto tx = static_cast<uint32_t>(i % tilesX), ty = static_cast<uint32_t>(i / tilesX);
-      const rl::CpuKernelTile tile{tx * kTile, ty * kTile, std::min((tx + 1) * kTile, frame.width),
-                                   std::min((ty + 1) * kTile, frame.height)};
+      const rl::CpuKernelTile tile{tx * kTile, ty * kTile, std::min((tx + 1) * kTile, size.x),
+                                   std::min((ty + 1) * kTile, size.y)};
       // Counted locally: neighbouring entries of the vector share cache lines.
       rl::CpuKernelCounters local;
       info.entry(args, tile, local);

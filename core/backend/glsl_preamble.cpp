@@ -14,7 +14,23 @@ constexpr const char* kText = R"(#version 460
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 {extensions}{reads}#include "core/dialect/order.h"
-#include "{header}"
+{headers}
+struct RlKernelBuffers {{
+#ifdef RL_CACHE_BUFFERS
+  RL_CACHE_BUFFERS cache;
+#endif
+#ifdef RL_KERNEL_BUFFERS
+  RL_KERNEL_BUFFERS own;
+#endif
+}};
+struct RlKernelParams {{
+#ifdef RL_CACHE_PARAMS
+  RL_CACHE_PARAMS cache;
+#endif
+#ifdef RL_KERNEL_PARAMS
+  RL_KERNEL_PARAMS own;
+#endif
+}};
 
 layout(local_size_x = {tile}, local_size_y = {tile}) in;
 layout(constant_id = 0) const uint kFeatures = RL_FEATURE_ALL;
@@ -27,10 +43,10 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer RlF
   FrameData v;
 }};
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer RlBuffersRef {{
-  RL_KERNEL_BUFFERS v;
+  RlKernelBuffers v;
 }};
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer RlParamsRef {{
-  RL_KERNEL_PARAMS v;
+  RlKernelParams v;
 }};
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer RlCountersRef {{
   uint raysPath;
@@ -45,6 +61,8 @@ layout(push_constant, scalar) uniform RlPushConstants {{
   RlCountersRef counters;
   uint64_t sceneBase;  // address of the texels of the scene, and of the buffers
   uint64_t stateBase;
+  uint width;
+  uint height;
 }} rlPush;
 
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer RlQuads {{ uvec4 data[]; }};
@@ -55,15 +73,17 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer RlTriples {{
 #ifdef RL_TEXELS
 layout(set = 0, binding = 0, scalar) uniform RlScene {{ SceneData v; }} rlScene;
 layout(set = 0, binding = 1, scalar) uniform RlFrame {{ FrameData v; }} rlFrame;
-layout(set = 0, binding = 2, scalar) uniform RlBuffers {{ RL_KERNEL_BUFFERS v; }} rlBuffers;
-layout(set = 0, binding = 3, scalar) uniform RlParams {{ RL_KERNEL_PARAMS v; }} rlParams;
+layout(set = 0, binding = 2, scalar) uniform RlBuffers {{ RlKernelBuffers v; }} rlBuffers;
+layout(set = 0, binding = 3, scalar) uniform RlParams {{ RlKernelParams v; }} rlParams;
 layout(set = 0, binding = 4) uniform usamplerBuffer rlSceneQuads;
 layout(set = 0, binding = 5) uniform usamplerBuffer rlSceneWords;
 layout(set = 0, binding = 6) uniform usamplerBuffer rlStateQuads;
 #define gScene rlScene.v
 #define gFrame rlFrame.v
-#define gBuffers rlBuffers.v
-#define gParams rlParams.v
+#define gBuffers rlBuffers.v.own
+#define gParams rlParams.v.own
+#define gCache rlBuffers.v.cache
+#define gCacheParams rlParams.v.cache
 int rlSceneQuadAt(uint64_t ref, uint i) {{ return int(uint((ref - rlPush.sceneBase) >> 4) + i); }}
 int rlSceneWordAt(uint64_t ref, uint i) {{ return int(uint((ref - rlPush.sceneBase) >> 2) + i); }}
 int rlStateQuadAt(uint64_t ref, uint i) {{ return int(uint((ref - rlPush.stateBase) >> 4) + i); }}
@@ -95,8 +115,10 @@ void rlWriteQuad(uint64_t ref, uint i, uvec4 value) {{
 #else
 #define gScene rlPush.scene.v
 #define gFrame rlPush.frame.v
-#define gBuffers rlPush.buffers.v
-#define gParams rlPush.params.v
+#define gBuffers rlPush.buffers.v.own
+#define gParams rlPush.params.v.own
+#define gCache rlPush.buffers.v.cache
+#define gCacheParams rlPush.params.v.cache
 #define RL_WRITE_QUAD(ref, i, value) RlQuads(uint64_t(ref)).data[i] = (value)
 #define RL_SCENE_QUAD(ref, i) RL_QUAD(ref, i)
 #define RL_PAST_QUAD(ref, i) RL_QUAD(ref, i)
@@ -117,11 +139,11 @@ uint rlRaysShadow = 0u;
 
 #include "core/dialect/order.glsl"
 #include "{trace}"
-#include "{file}"
+{files}
 
 void main() {{
   uvec2 pixel = gl_GlobalInvocationID.xy;
-  if (pixel.x < gFrame.width && pixel.y < gFrame.height) kernelMain(pixel);
+  if (pixel.x < rlPush.width && pixel.y < rlPush.height) kernelMain(pixel);
   uint raysPath = subgroupAdd(rlRaysPath);
   uint raysShadow = subgroupAdd(rlRaysShadow);
   if (subgroupElect()) {{
@@ -134,7 +156,14 @@ void main() {{
 }  // namespace
 
 std::string glslKernelSource(const GlslKernel& kernel) {
-  return fmt::format(kText, fmt::arg("header", kernel.header), fmt::arg("file", kernel.file),
+  std::string headers, files;
+  if (!kernel.cache.empty()) {
+    headers = fmt::format("#include \"core/caches/{0}/{0}.h\"\n", kernel.cache);
+    files = fmt::format("#include \"core/caches/{0}/{0}.glsl\"\n", kernel.cache);
+  }
+  if (!kernel.header.empty()) headers += fmt::format("#include \"{}\"\n", kernel.header);
+  files += fmt::format("#include \"{}\"\n", kernel.file);
+  return fmt::format(kText, fmt::arg("headers", headers), fmt::arg("files", files),
                      fmt::arg("trace", kernel.traceFile), fmt::arg("tile", kGlslTile),
                      fmt::arg("extensions", kernel.extensions),
                      fmt::arg("reads", kernel.readsTexels ? "#define RL_TEXELS\n" : ""));

@@ -11,11 +11,12 @@ namespace restlab {
 
 // A kernel as rl_add_kernel names it; paths are relative to the repository.
 struct GlslKernel {
-  std::string header;           // Buffers and Params, RL_KERNEL_BUFFERS and RL_KERNEL_PARAMS
+  std::string header;           // Buffers and Params, RL_KERNEL_BUFFERS and RL_KERNEL_PARAMS; or ""
   std::string file;             // defines kernelMain()
   std::string traceFile;        // defines traceRay()
   std::string extensions = {};  // "#extension" lines that the trace file needs
   bool readsTexels = false;     // reads by texels and uniform blocks instead of addresses
+  std::string cache = {};       // the cache that it sees, a folder of core/caches; ""
 };
 
 // What defines traceRay().
@@ -52,7 +53,7 @@ enum GlslBinding : uint32_t {
 };
 
 // The push constants: device addresses of SceneData, FrameData, the kernel's Buffers and Params
-// structs, and GlslCounters.
+// structs (a cache's first), and GlslCounters.
 struct GlslPushConstants {
   uint64_t scene = 0;
   uint64_t frame = 0;
@@ -62,6 +63,8 @@ struct GlslPushConstants {
   // Where the scene's texels and those of the buffers begin, for kernels that read by texels.
   uint64_t sceneBase = 0;
   uint64_t stateBase = 0;
+  // How many pixels, or entries in rows, the pass runs over.
+  uint32_t width = 0, height = 0;
 };
 
 // The whole compute shader, with #include lines that the compiler's includer resolves against the

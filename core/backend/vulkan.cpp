@@ -73,8 +73,12 @@ struct Recording {
 // Which recording serves a frame.
 struct RecordingKey {
   std::vector<VkPipeline> pipelines;
-  uint32_t width = 0, height = 0;
+  std::vector<std::array<uint32_t, 2>> sizes;  // of the passes
   auto operator<=>(const RecordingKey&) const = default;
+
+  uint32_t groups(size_t pass, int axis) const {
+    return (sizes[pass][size_t(axis)] + kGlslTile - 1) / kGlslTile;
+  }
 };
 
 // Memory that the host writes before a frame and reads after it.
@@ -185,9 +189,13 @@ class VulkanBackend final : public Backend {
     if (underWay_.size() == kSlots) finished_.push_back(finishOldest());
     Slot& slot = slots_[next_];
     next_ = (next_ + 1) % kSlots;
-    RecordingKey key{{}, frame.width, frame.height};
+    RecordingKey key;
     StartupReport ignored;
-    for (const PassRun& pass : passes) key.pipelines.push_back(pipelineOf(pass, ignored));
+    for (const PassRun& pass : passes) {
+      const glm::uvec2 size = pass.size(frame);
+      key.pipelines.push_back(pipelineOf(pass, ignored));
+      key.sizes.push_back({size.x, size.y});
+    }
     writeInputs(slot, passes, frame);
     if (slot.isStale) {
       for (auto& entry : slot.recordings) release(entry.second);
@@ -237,8 +245,8 @@ class VulkanBackend final : public Backend {
     if (known == VK_NULL_HANDLE) {
       const DialectKernel& files = find(pass.kernel);
       known = context_->kernels->pipeline(
-          {files.header, files.file, trace_.file, trace_.extensions, texels}, pass.kernel,
-          pass.mask, dialectSource, report);
+          {files.header, files.file, trace_.file, trace_.extensions, texels, files.cache},
+          pass.kernel, pass.mask, dialectSource, report);
     }
     return known;
   }
@@ -308,9 +316,8 @@ class VulkanBackend final : public Backend {
 
   Recording record(Slot& slot, const RecordingKey& key) {
     Recording recording;
-    const uint32_t groupsX = (key.width + kGlslTile - 1) / kGlslTile;
-    const uint32_t groupsY = (key.height + kGlslTile - 1) / kGlslTile;
     for (uint32_t pass = 0; pass < key.pipelines.size(); ++pass) {
+      const uint32_t groupsX = key.groups(pass, 0), groupsY = key.groups(pass, 1);
       // No more bands than there are counters for.
       const auto most =
           static_cast<uint32_t>(kCounterBytes / sizeof(GlslCounters) / key.pipelines.size());
@@ -331,13 +338,13 @@ class VulkanBackend final : public Backend {
                     "vkCreateQueryPool");
     }
     for (uint32_t band = 0; band < bandCount; ++band) {
-      recording.commands.push_back(recordBand(slot, key, recording, band, groupsX));
+      recording.commands.push_back(recordBand(slot, key, recording, band));
     }
     return recording;
   }
 
   VkCommandBuffer recordBand(const Slot& slot, const RecordingKey& key, const Recording& recording,
-                             uint32_t index, uint32_t groupsX) {
+                             uint32_t index) {
     const Band& band = recording.bands[index];
     VkCommandBuffer commands = device_.newCommands();
     VkCommandBufferBeginInfo begin{};
@@ -364,6 +371,8 @@ class VulkanBackend final : public Backend {
     push.counters = slot.counters.address + index * sizeof(GlslCounters);
     push.sceneBase = readsTexels_ ? scene_->arrays()->address : 0;
     push.stateBase = buffers_.together().address;
+    push.width = key.sizes[band.pass][0];
+    push.height = key.sizes[band.pass][1];
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, key.pipelines[band.pass]);
     if (slot.bound.set != VK_NULL_HANDLE) {
       const auto offset = static_cast<uint32_t>(band.pass * kPassBytes);
@@ -374,7 +383,7 @@ class VulkanBackend final : public Backend {
     vkCmdPushConstants(commands, context_->kernels->layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
                        sizeof push, &push);
     timestamp(commands, recording, 2 * index);
-    vkCmdDispatchBase(commands, 0, band.firstRow, 0, groupsX, band.rows, 1);
+    vkCmdDispatchBase(commands, 0, band.firstRow, 0, key.groups(band.pass, 0), band.rows, 1);
     timestamp(commands, recording, 2 * index + 1);
     VkMemoryBarrier after{};
     after.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
@@ -453,10 +462,9 @@ class VulkanBackend final : public Backend {
   // Halves what one dispatch of a pass covers where it took too long; true when it did.
   bool shortenBands(const RecordingKey& key, const Band& band, double timeMs) {
     if (timeMs <= kLongestBandMs || band.rows <= 1) return false;
-    const uint32_t groupsX = (key.width + kGlslTile - 1) / kGlslTile;
     const uint32_t rows =
         std::max(1u, static_cast<uint32_t>(double(band.rows) * kLongestBandMs / (2.0 * timeMs)));
-    const uint32_t pixels = rows * groupsX * kGlslTile * kGlslTile;
+    const uint32_t pixels = rows * key.groups(band.pass, 0) * kGlslTile * kGlslTile;
     uint32_t& known = bandPixels_.emplace(key.pipelines[band.pass], pixels).first->second;
     known = std::min(known, pixels);
     return true;

@@ -9,6 +9,7 @@
 
 #ifdef __cplusplus
 
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -48,6 +49,21 @@ inline void writeQuadAt(void* to, uint i, const uvec4& quad) {
   std::memcpy(static_cast<unsigned char*>(to) + std::size_t{16} * i, &quad, sizeof quad);
 }
 
+inline std::atomic_ref<uint> atomicAt(uint* data, std::size_t i) {
+  return std::atomic_ref<uint>(data[i]);
+}
+inline uint atomicCas(uint* data, std::size_t i, uint expected, uint value) {
+  atomicAt(data, i).compare_exchange_strong(expected, value, std::memory_order_relaxed);
+  return expected;
+}
+inline uint atomicGreatest(uint* data, std::size_t i, uint value) {
+  uint before = atomicAt(data, i).load(std::memory_order_relaxed);
+  while (before < value &&
+         !atomicAt(data, i).compare_exchange_weak(before, value, std::memory_order_relaxed)) {
+  }
+  return before;
+}
+
 }  // namespace rl
 
 #define RL_NAMESPACE_BEGIN namespace rl {
@@ -82,6 +98,13 @@ inline void writeQuadAt(void* to, uint i, const uvec4& quad) {
 #define RL_SCENE_UVEC3(ref, i) ::rl::tripleAt((ref).data, i)
 // What an earlier pass left: read before this pass writes there, never after.
 #define RL_PAST_QUAD(ref, i) RL_QUAD(ref, i)
+// On uints of a buffer, for what several pixels write in one pass; each returns what was there
+// before. Results must not depend on who comes first: sums and greatest values do not, a
+// compare-and-swap that claims a place does where the place decides anything.
+#define RL_ATOMIC_ADD(ref, i, value) \
+  ::rl::atomicAt((ref).data, i).fetch_add(value, std::memory_order_relaxed)
+#define RL_ATOMIC_MAX(ref, i, value) ::rl::atomicGreatest((ref).data, i, value)
+#define RL_ATOMIC_CAS(ref, i, expected, value) ::rl::atomicCas((ref).data, i, expected, value)
 #define RL_STATIC_ASSERT_SIZE(T, bytes) static_assert(sizeof(T) == (bytes), #T " layout changed")
 
 #else  // GLSL 4.60
@@ -98,6 +121,9 @@ inline void writeQuadAt(void* to, uint i, const uvec4& quad) {
 #define RL_PROTO(declaration) declaration;
 #define RL_REF(Name, T) \
   layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Name { T data[]; };
+#define RL_ATOMIC_ADD(ref, i, value) atomicAdd((ref).data[i], value)
+#define RL_ATOMIC_MAX(ref, i, value) atomicMax((ref).data[i], value)
+#define RL_ATOMIC_CAS(ref, i, expected, value) atomicCompSwap((ref).data[i], expected, value)
 #define RL_STATIC_ASSERT_SIZE(T, bytes)
 
 #endif

@@ -10,6 +10,9 @@
 RL_NAMESPACE_BEGIN
 
 const uint RL_INVALID = 0xffffffffu;
+// A pass over entries instead of pixels: kernelMain() gets entry i as (i % this, i / this), and of
+// the last row also some that are not there.
+const uint RL_ENTRY_ROW = 1024u;
 const uint RL_MAX_UV_SETS = 4u;
 
 // Ray modes of traceRay().

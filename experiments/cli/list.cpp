@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/backend/backend.h"
-#include "core/caches/caches.h"
+#include "core/cache.h"
 #include "core/image/metrics.h"
 #include "core/denoiser.h"
 #include "experiments/cli/verbs.h"
@@ -65,8 +65,10 @@ Json integrators() {
 
 Json caches() {
   Json all = Json::array();
-  for (const CacheInfo& cache : cacheRegistry()) {
-    all.push_back({{"name", cache.name}, {"summary", cache.summary}});
+  for (const CacheInfo* cache : cacheRegistry()) {
+    all.push_back({{"name", cache->name},
+                   {"summary", cache->summary},
+                   {"parameters", parametersJson(*cache)}});
   }
   return all;
 }

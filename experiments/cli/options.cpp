@@ -7,7 +7,7 @@
 #include <map>
 
 #include "core/backend/backend.h"
-#include "core/caches/caches.h"
+#include "core/cache.h"
 #include "core/config.h"
 #include "core/error.h"
 #include "core/method.h"
@@ -158,7 +158,7 @@ SessionConfig makeConfig(const SceneOptions& scene, const MethodOptions& method)
     failUsage(fmt::format("--mode {}: integrator {} knows {}{}", method.mode, info.name,
                           fmt::join(modes, ", "), didYouMean(method.mode, modes)));
   }
-  if (!method.cache.empty()) checkCacheName(method.cache);
+  if (!method.cache.empty()) findCache(method.cache);
   if (!method.cache.empty() && !info.usesCache) {
     failUsage(fmt::format("--cache {}: integrator {} keeps no reservoirs: it has no use for one",
                           method.cache, info.name));

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "core/caches/caches.h"
+#include "core/cache.h"
 #include "core/error.h"
 #include "core/method.h"
 #include "experiments/runner/suite_settings.h"
@@ -64,7 +64,7 @@ std::vector<SuiteMethod> readMethod(const ConfigTable& table, const ConfigTable&
   for (const ModeInfo& mode : info.modes) modes.push_back(mode.name);
   method.session.mode = table.getChoice("mode", modes.front(), modes);
   std::vector<std::string> caches;
-  for (const CacheInfo& cache : cacheRegistry()) caches.push_back(cache.name);
+  for (const CacheInfo* cache : cacheRegistry()) caches.push_back(cache->name);
   if (info.usesCache) {
     method.session.cache = table.getChoice("cache", caches.front(), caches);
   } else if (table.has("cache")) {

@@ -78,6 +78,11 @@ std::vector<std::string> methodKeys(const std::string& integrator, const std::st
     for (const ParameterInfo& parameter : part.parameters) names.push_back(parameter.name);
   };
   for (const IntegratorInfo* info : integratorRegistry()) add(*info, integrator);
+  const bool usesCache = std::any_of(
+      integratorRegistry().begin(), integratorRegistry().end(),
+      [&](const IntegratorInfo* info) { return info->name == integrator && info->usesCache; });
+  // Of every cache: which one it is may be swept, too.
+  for (const CacheInfo* info : cacheRegistry()) add(*info, usesCache ? info->name : "");
   for (const DenoiserInfo* info : denoiserRegistry()) add(*info, denoiser);
   return names;
 }

@@ -3,12 +3,13 @@
 #include "core/resampling/shift.glsl"
 #include "core/payload/path_sample.glsl"
 #include "core/payload/path_shift.glsl"
-#include "core/caches/pixel.glsl"
 #include "integrators/restir_gi/store.glsl"
 
-// How many donors over space a slot takes: young histories more.
-RL_FN uint giDonors(uint slot) {
-  return giAge(slot) <= gParams.youngFrames ? gParams.spatialNeighbours : gParams.agedNeighbours;
+// How many donors over space a slot wants of which `other` could be one: young histories more. An
+// old one is hurt by what differs from it in every sample, as two pixels at an outline do.
+RL_FN uint giDonors(uint slot, uint other) {
+  if (giAge(slot) <= gParams.youngFrames) return gParams.spatialNeighbours;
+  return cacheIsOutline(slot) || cacheIsOutline(other) ? 0u : gParams.agedNeighbours;
 }
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
@@ -20,7 +21,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     uint index = giExchangeIndex(slot, k);
     uint partner;
     bool exists = cachePartner(pixel, k, partner);
-    if (exists) exists = k < max(giDonors(slot), giDonors(partner));  // one of the two wants it
+    if (exists) exists = k < max(giDonors(slot, partner), giDonors(partner, slot));
     gBuffers.partners.data[index] = exists ? partner : RL_INVALID;
     if (!exists) continue;
     PathShift shift = pathShiftTo(r, cachePixel(partner), false, false);

@@ -7,7 +7,6 @@
 #include "core/resampling/mis.glsl"
 #include "core/resampling/merge.glsl"
 #include "core/resampling/donors.glsl"
-#include "core/caches/pixel.glsl"
 #include "integrators/restir_gi/store.glsl"
 #include "integrators/restir_gi/over_time.glsl"
 #include "integrators/restir_gi/gather.glsl"

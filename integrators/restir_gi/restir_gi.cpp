@@ -60,28 +60,7 @@ std::vector<ParameterInfo> parameterInfos() {
        {},
        "how fast a donor's share falls with the age of the history: 1 / (1 + this x (age - 1))",
        "core/resampling/reuse.glsl; measured: docs/performance.md"},
-      {"spatial_radius",
-       3.0,
-       1.5,
-       256.0,
-       {},
-       "pixels; donors come from a square tile that spreads them as a disk of this radius would",
-       "measured: docs/performance.md; Bitterli et al. 2020 use 30"},
       {"temporal", true, 0, 0, {}, "temporal reuse", "Ouyang et al. 2021"},
-      {"normal_threshold",
-       0.9,
-       -1.0,
-       1.0,
-       {},
-       "least cosine between the normals of two anchors",
-       "Bitterli et al. 2020: 25 degrees = 0.906"},
-      {"plane_threshold",
-       0.05,
-       0.0,
-       10.0,
-       {},
-       "largest distance from each other's plane over the camera distance",
-       "Bitterli et al. 2020 compare depths at 10 %"},
       {"roughness_limit",
        0.2,
        0.0,
@@ -153,18 +132,12 @@ std::vector<std::byte> pack(const std::string& mode, const ParameterMap& p) {
   }
   out.lightCandidates = static_cast<uint32_t>(get<int64_t>(p, "light_candidates"));
   out.spatialNeighbours = static_cast<uint32_t>(get<int64_t>(p, "spatial_neighbours"));
-  // The root mean square distance of two points of a square of side s is s / sqrt(3), that of a
-  // point of a disk to its centre r / sqrt(2).
-  const double side = std::sqrt(1.5) * get<double>(p, "spatial_radius");
-  out.cache.tile = static_cast<uint32_t>(std::lround(side));
   out.agedNeighbours =
       std::min(static_cast<uint32_t>(get<int64_t>(p, "aged_neighbours")), out.spatialNeighbours);
   out.youngFrames = static_cast<float>(get<double>(p, "young_frames"));
   out.donorNoise = static_cast<float>(get<double>(p, "donor_noise"));
   out.temporalReuse = get<bool>(p, "temporal") ? 1u : 0u;
   out.confidenceCap = static_cast<float>(get<double>(p, "confidence_cap"));
-  out.cache.minNormalDot = static_cast<float>(get<double>(p, "normal_threshold"));
-  out.cache.maxPlaneDistance = static_cast<float>(get<double>(p, "plane_threshold"));
   const auto roughness = static_cast<float>(get<double>(p, "roughness_limit"));
   out.shift.minAlpha = roughness * roughness;
   out.shift.maxJacobian = static_cast<float>(get<double>(p, "max_jacobian"));
@@ -191,7 +164,6 @@ const IntegratorInfo& restir_giIntegratorInfo() {
     i.parameters = parameterInfos();
     i.usesCache = true;
     i.hasHistory = true;
-    i.inputs = {"visible", "visible_before"};
     i.buffers = {
         {"radiance", 12, 0, -1},
         {"own_light", 16, 0, 2},
@@ -207,6 +179,7 @@ const IntegratorInfo& restir_giIntegratorInfo() {
                 {"temporal", "restir_gi_temporal", true, true},
                 {"exchange", "restir_gi_exchange"},
                 {"spatial", "restir_gi_spatial"}};
+    for (PassInfo& pass : i.passes) pass.seesCache = true;
     i.packParameters = pack;
     i.biasOfParameters = [](const std::string& mode, const ParameterMap& p) {
       const bool isWrong =

@@ -5,7 +5,6 @@
 #ifdef __cplusplus
 #include "core/dialect/order.h"
 #endif
-#include "core/caches/pixel.h"
 #include "core/payload/path_sample.h"
 #include "core/payload/path_shift.h"
 #include "core/transport/walk.h"
@@ -69,8 +68,6 @@ struct GiOverSpace {
 };
 
 struct RestirGiBuffers {
-  QuadRef visible;  // core/dialect/visible.h
-  QuadRef visibleBefore;
   Vec3Ref radiance;
   // One quad: light that no other pixel could use, averaged over time; age of the history.
   QuadRef own;
@@ -96,7 +93,6 @@ struct RestirGiParams {
   float confidenceCap;
   float maxReflectanceRatio;  // per channel, of surfaces, for the carried per-channel estimates
   PathShiftParams shift;
-  PixelCacheParams cache;
 };
 
 RL_NAMESPACE_END

@@ -6,7 +6,6 @@
 #include "core/payload/path_sample.glsl"
 #include "core/resampling/merge.glsl"
 #include "core/resampling/donors.glsl"
-#include "core/caches/pixel.glsl"
 #include "integrators/restir_gi/store.glsl"
 #include "integrators/restir_gi/ratio.glsl"
 

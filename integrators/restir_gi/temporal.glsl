@@ -7,7 +7,6 @@
 #include "core/payload/path_shift.glsl"
 #include "core/resampling/merge.glsl"
 #include "core/resampling/donors.glsl"
-#include "core/caches/pixel.glsl"
 #include "integrators/restir_gi/store.glsl"
 #include "integrators/restir_gi/over_time.glsl"
 #include "integrators/restir_gi/ratio.glsl"
@@ -24,7 +23,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   giReadBefore(before, donor);
   GiOverTime t;
   giBeginOverTime(t, donor.state, slot);
-  t.ratio = giRatio(visibleRead(gBuffers.visibleBefore, before), slot);
+  t.ratio = giRatio(cacheSurfaceBefore(before), slot);
   // The pixel's own sample as the last frame sees it, then the last frame's as the pixel sees it.
   PathShift shift =
       pathShiftTo(here, cachePixel(before), true, (flags & RL_REUSE_ASSUME_VISIBLE) != 0u);

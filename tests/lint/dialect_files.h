@@ -9,7 +9,12 @@ namespace restlab::lint {
 
 // A kernel of rl_add_kernel; paths relative to the repository.
 struct Kernel {
-  std::string name, file, header;
+  std::string name, file, header, cache;
+
+  // A file of the cache that it sees; "" without one.
+  std::string cacheFile(const std::string& extension) const {
+    return cache.empty() ? "" : "core/caches/" + cache + "/" + cache + "." + extension;
+  }
 };
 const std::vector<Kernel>& kernels();
 

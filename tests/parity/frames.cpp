@@ -9,7 +9,7 @@
 #include <ostream>
 
 #include "core/backend/vulkan_device.h"
-#include "core/caches/caches.h"
+#include "core/cache.h"
 #include "core/method.h"
 #include "tests/parity/everything_scene.h"
 #include "tests/unit/bvh_context.h"
@@ -102,7 +102,7 @@ std::vector<Combination> combinations() {
     std::vector<std::string> caches = {""};
     if (info->usesCache) {
       caches.clear();
-      for (const CacheInfo& cache : cacheRegistry()) caches.push_back(cache.name);
+      for (const CacheInfo* cache : cacheRegistry()) caches.push_back(cache->name);
     }
     for (const ModeInfo& mode : info->modes) {
       for (const std::string& cache : caches) all.push_back({info->name, mode.name, cache, "none"});

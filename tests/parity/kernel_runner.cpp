@@ -15,8 +15,9 @@ namespace {
 // Sessions of the tests neither read nor fill the user's own cache.
 const int kCacheIsSet = setenv("XDG_CACHE_HOME", RESTLAB_PARITY_CACHE, 1);
 
-GlslKernel bruteForceKernel(const std::string& header, const std::string& file) {
-  return {header, file, "tests/parity/brute_force.glsl"};
+GlslKernel bruteForceKernel(const std::string& header, const std::string& file,
+                            const std::string& cache = "") {
+  return {header, file, "tests/parity/brute_force.glsl", "", false, cache};
 }
 
 void dispatch(TestDevice& device, VkPipeline pipeline, const GlslPushConstants& push,
@@ -52,8 +53,9 @@ std::vector<TestDevice> testDevices() {
   return devices;
 }
 
-std::vector<uint32_t> compileKernel(const std::string& header, const std::string& file) {
-  const std::string text = glslKernelSource(bruteForceKernel(header, file));
+std::vector<uint32_t> compileKernel(const std::string& header, const std::string& file,
+                                    const std::string& cache) {
+  const std::string text = glslKernelSource(bruteForceKernel(header, file, cache));
   GlslResult result = compileGlsl(text, file, readBelow(RESTLAB_SOURCE_DIR));
   if (result.spirv.empty()) throw std::runtime_error(result.log);
   return result.spirv;
@@ -80,6 +82,8 @@ GlslCounters runOnDevice(TestDevice& device, const std::string& header, const st
   push.buffers = upload(buffers.data(), buffers.size() * sizeof(uint64_t));
   push.params = upload(params, paramBytes);
   push.counters = upload(&counters, sizeof counters);
+  push.width = frame.width;
+  push.height = frame.height;
   dispatch(device, pipeline, push, frame);
   memory.read(inputs.back(), &counters, sizeof counters);
   for (const GpuBuffer& buffer : inputs) memory.free(buffer);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/dialect/order.h"
+#include "core/caches/pixel/pixel.h"
 #include "integrators/restir_gi/restir_gi.h"
 #include "tests/parity/kernel_runner.h"
 
@@ -109,8 +110,7 @@ const std::map<std::string, Offsets>& expected() {
         FIELD(SceneData, environmentRotation),
         FIELD(SceneData, instanceCount)}},
       {"RestirGiBuffers",
-       {FIELD(RestirGiBuffers, visible), FIELD(RestirGiBuffers, visibleBefore),
-        FIELD(RestirGiBuffers, radiance), FIELD(RestirGiBuffers, own),
+       {FIELD(RestirGiBuffers, radiance), FIELD(RestirGiBuffers, own),
         FIELD(RestirGiBuffers, ownBefore), FIELD(RestirGiBuffers, reservoirs),
         FIELD(RestirGiBuffers, history), FIELD(RestirGiBuffers, suffixes),
         FIELD(RestirGiBuffers, suffixesHistory), FIELD(RestirGiBuffers, partners),
@@ -121,8 +121,11 @@ const std::map<std::string, Offsets>& expected() {
         FIELD(RestirGiParams, agedNeighbours), FIELD(RestirGiParams, youngFrames),
         FIELD(RestirGiParams, donorNoise), FIELD(RestirGiParams, temporalReuse),
         FIELD(RestirGiParams, confidenceCap), FIELD(RestirGiParams, maxReflectanceRatio),
-        FIELD(RestirGiParams, shift), FIELD(RestirGiParams, cache)}},
+        FIELD(RestirGiParams, shift)}},
       {"PathShiftParams", {FIELD(PathShiftParams, minAlpha), FIELD(PathShiftParams, maxJacobian)}},
+      {"PixelCacheBuffers",
+       {FIELD(PixelCacheBuffers, visible), FIELD(PixelCacheBuffers, visibleBefore),
+        FIELD(PixelCacheBuffers, outlines)}},
       {"PixelCacheParams",
        {FIELD(PixelCacheParams, tile), FIELD(PixelCacheParams, minNormalDot),
         FIELD(PixelCacheParams, maxPlaneDistance)}},
@@ -131,8 +134,8 @@ const std::map<std::string, Offsets>& expected() {
 }
 
 TEST(Layout, StructsLieAlikeInBothLanguages) {
-  const std::map<std::string, Offsets> found = offsetsOf(
-      compileKernel("integrators/restir_gi/restir_gi.h", "integrators/restir_gi/initial.glsl"));
+  const std::map<std::string, Offsets> found = offsetsOf(compileKernel(
+      "integrators/restir_gi/restir_gi.h", "integrators/restir_gi/initial.glsl", "pixel"));
   for (const auto& [name, offsets] : expected()) {
     SCOPED_TRACE(name);
     const auto it = found.find(name);

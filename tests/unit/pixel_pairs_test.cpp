@@ -10,7 +10,7 @@
 
 #include "core/dialect/order.h"
 #include "core/resampling/reservoir.h"
-#include "integrators/restir_gi/restir_gi.h"
+#include "core/caches/pixel/pixel.h"
 
 namespace rl {
 namespace {
@@ -18,8 +18,8 @@ namespace {
 // The pixel cache over surfaces made by hand.
 struct PairContext {
   FrameData gFrame{};
-  RestirGiParams gParams{};
-  RestirGiBuffers gBuffers{};
+  PixelCacheBuffers gCache{};
+  PixelCacheParams gCacheParams{};
   std::vector<VisibleSurface> surfaces;
 
 #define RL_HAS(features) false
@@ -37,7 +37,7 @@ struct PairContext {
 #include "core/dialect/warp.glsl"
 #include "core/dialect/visible.glsl"
 #define visibleRead(quads, slot) surfaces[slot]
-#include "core/caches/pixel.glsl"
+#include "core/caches/pixel/pixel.glsl"
 #undef visibleRead
 };
 
@@ -48,9 +48,9 @@ PairContext makeContext(uint width, uint height, uint tile, bool stripes, uint u
   c.gFrame.width = width;
   c.gFrame.height = height;
   c.gFrame.seed = 11;
-  c.gParams.cache.tile = tile;
-  c.gParams.cache.minNormalDot = 0.9f;
-  c.gParams.cache.maxPlaneDistance = 0.05f;
+  c.gCacheParams.tile = tile;
+  c.gCacheParams.minNormalDot = 0.9f;
+  c.gCacheParams.maxPlaneDistance = 0.05f;
   for (uint i = 0; i < width * height; ++i) {
     VisibleSurface a{};
     const bool isFar = stripes && (i % width / 5) % 2 == 1;

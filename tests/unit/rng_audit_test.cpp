@@ -41,15 +41,22 @@ class AuditedRun {
       : scene_(CompiledScene::build(makeBuiltinScene(sceneName))),
         info_(findIntegrator(integrator)),
         passes_(std::move(passes)) {
-    const ParameterMap resolved = resolveParameters(findMethod(integrator, "none"), parameters);
-    params_ = info_.packParameters(mode, resolved);
-    // What pixels show at their centres, in this view and in the last, which are the same.
-    for (size_t i = 0; i < info_.inputs.size(); ++i) {
-      storage_.emplace_back(size_t(16) * rl::RL_VISIBLE_QUADS * kWidth * kHeight);
-      addresses_.push_back(storage_.back().data());
+    const Method method = findMethod(integrator, "", "none");
+    const ParameterMap resolved = resolveParameters(method, parameters);
+    if (method.cache != nullptr) {
+      params_ = method.cache->packParameters(mode, resolved);
+      // What pixels show at their centres, in this view and in the last, which are the same; no
+      // outlines.
+      for (const size_t bytes : {16 * rl::RL_VISIBLE_QUADS, 16 * rl::RL_VISIBLE_QUADS, 4u}) {
+        storage_.emplace_back(bytes * kWidth * kHeight);
+        addresses_.push_back(storage_.back().data());
+      }
     }
+    own_ = addresses_.size();
+    const std::vector<std::byte> ownParams = info_.packParameters(mode, resolved);
+    params_.insert(params_.end(), ownParams.begin(), ownParams.end());
     for (const BufferInfo& b : info_.buffers) {
-      storage_.emplace_back(size_t(bytesPerPixelOf(b, resolved)) * kWidth * kHeight);
+      storage_.emplace_back(bufferBytes(b, resolved, kWidth * kHeight));
       addresses_.push_back(storage_.back().data());
     }
     frame_.camera = scene_->camera(scene_->source().cameras[0], kWidth, kHeight);
@@ -60,7 +67,7 @@ class AuditedRun {
     frame_.maxBounces = 6;
     frame_.components = rl::RL_COMPONENT_ALL;
     frame_.rouletteStart = rl::RL_ROULETTE_EARLIEST;
-    if (info_.inputs.empty()) return;
+    if (method.cache == nullptr) return;
     rl::CpuKernelCounters counters;
     rl::findCpuKernel("visible", rl::RL_FEATURE_ALL)
         ->entry(arguments(), {0, 0, kWidth, kHeight}, counters);
@@ -73,10 +80,9 @@ class AuditedRun {
       if (frame_.isStillView != 0 && info_.passes[i].onlyOnNewViews) continue;
       passes_[i](arguments(), {0, 0, kWidth, kHeight}, counters);
     }
-    const size_t own = info_.inputs.size();
     for (size_t i = 0; i < info_.buffers.size(); ++i) {
       const int other = info_.buffers[i].swapWith;
-      if (other > int(i)) std::swap(addresses_[own + i], addresses_[own + size_t(other)]);
+      if (other > int(i)) std::swap(addresses_[own_ + i], addresses_[own_ + size_t(other)]);
     }
     ++frame_.frame;
     // Every other frame runs what new views take.
@@ -100,6 +106,7 @@ class AuditedRun {
   std::vector<std::byte> params_;
   std::vector<std::vector<std::byte>> storage_;
   std::vector<void*> addresses_;
+  size_t own_ = 0;  // where the integrator's buffers begin
   rl::FrameData frame_{};
 };
 

@@ -1,12 +1,24 @@
 // The pixel cache: one slot a pixel. Donor over time: the pixel that the surface was seen in last
 // frame; over space: the pixel that a frame's random pairing gives.
-#include "core/caches/cache.glsl"
-
 RL_FN uint cacheSlot(RL_IN(uvec2) pixel) { return pixel.y * gFrame.width + pixel.x; }
 
 RL_FN uvec2 cachePixel(uint slot) { return uvec2(slot % gFrame.width, slot / gFrame.width); }
 
-RL_FN VisibleSurface cacheSurface(uint slot) { return visibleRead(gBuffers.visible, slot); }
+RL_FN VisibleSurface cacheSurface(uint slot) { return visibleRead(gCache.visible, slot); }
+RL_FN VisibleSurface cacheSurfaceBefore(uint slot) {
+  return visibleRead(gCache.visibleBefore, slot);
+}
+
+RL_FN bool cacheIsOutline(uint slot) { return gCache.outlines.data[slot] != 0u; }
+
+// Two surfaces are alike enough to exchange samples. Symmetric.
+RL_FN bool cacheSurfacesMatch(RL_IN(VisibleSurface) a, RL_IN(VisibleSurface) b) {
+  if (a.isHit == 0u || b.isHit == 0u) return false;
+  vec3 camera = gFrame.camera.posW;
+  float distanceToCamera = max(distance(camera, a.posW), distance(camera, b.posW));
+  return visibleMatch(a, b, distanceToCamera, gCacheParams.minNormalDot,
+                      gCacheParams.maxPlaneDistance);
+}
 
 RL_FN bool cacheDonorOverTime(uint slot, RL_OUT(uint) donor) {
   donor = slot;
@@ -16,7 +28,7 @@ RL_FN bool cacheDonorOverTime(uint slot, RL_OUT(uint) donor) {
   vec2 film;
   if (!visibleFilmBefore(here, film)) return false;
   donor = uint(film.y) * gFrame.width + uint(film.x);
-  return cacheSurfacesMatch(here, visibleRead(gBuffers.visibleBefore, donor));
+  return cacheSurfacesMatch(here, cacheSurfaceBefore(donor));
 }
 
 // Pairs for the exchange over space: the frame is cut into tiles of spatialTile pixels, randomly
@@ -25,7 +37,7 @@ RL_FN bool cacheDonorOverTime(uint slot, RL_OUT(uint) donor) {
 // is equally likely. `pairing` numbers independent pairings. False where the partner is the pixel
 // itself or outside the image.
 RL_FN bool cacheMirror(RL_IN(uvec2) pixel, uint pairing, RL_OUT(uvec2) partner) {
-  uint side = gParams.cache.tile;
+  uint side = gCacheParams.tile;
   uint shift = rngSharedBits(pairing, RL_DIM_DONOR_U);
   uint shiftX = (shift & 0xffffu) % side;
   uint shiftY = (shift >> 16u) % side;
