@@ -51,6 +51,15 @@ struct PassInfo {
   const char* entriesParameter = nullptr;
 };
 
+// What a part keeps of a pixel, for people.
+struct ProbeValue {
+  std::string name;
+  std::string value;
+};
+// The words of a pixel's entry in a buffer of the part, by its name; empty where it is not
+// allocated.
+using ReadEntry = std::function<std::vector<uint32_t>(const std::string& buffer)>;
+
 struct PartInfo {
   std::string name;
   std::string summary;  // one line
@@ -68,6 +77,8 @@ struct PartInfo {
   // integrator's.
   std::function<std::vector<std::byte>(const std::string& mode, const ParameterMap&)>
       packParameters;
+  // Empty: nothing to say. Called after a frame.
+  std::function<std::vector<ProbeValue>(const ReadEntry&)> probe;
 };
 
 // Of a buffer, with resolved parameters.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 
 #include "core/error.h"
 
@@ -16,27 +17,68 @@ Pipeline::Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const P
     if (part == cache) cache_ = stages_.size();
     Stage stage;
     stage.info = part;
-    if (part->packParameters) stage.params = part->packParameters(mode, parameters);
+    pack(stage, mode, parameters);
     for (const PassInfo& pass : part->passes) {
       stage.kernels.push_back(pass.kernel);
       if (pass.seesCache) stage.kernels.back() += "_" + cache->name;
       stage.masks.push_back(backend.maskFor(stage.kernels.back(), wanted));
       if (pass.hasFeatures) used_ |= stage.masks.back();
-      stage.entries.push_back(0);
-      if (pass.entriesParameter != nullptr)
-        stage.entries.back() =
-            static_cast<uint32_t>(std::get<int64_t>(parameters.at(pass.entriesParameter)));
     }
     stages_.push_back(std::move(stage));
   }
   for (size_t s = 0; s < stages_.size(); ++s) {
     for (const std::string& input : stages_[s].info->inputs) find(input, s);
-    for (const BufferInfo& buffer : stages_[s].info->buffers) {
-      // What the kernels in use can touch is there, so that a superset kernel never meets a null.
-      const bool isWanted = buffer.neededFeatures == 0 || (buffer.neededFeatures & used_) != 0;
-      stages_[s].bytes.push_back(isWanted ? bufferBytes(buffer, parameters, pixels) : 0);
+    for (const BufferInfo& buffer : stages_[s].info->buffers)
+      stages_[s].bytes.push_back(bytesOf(buffer, parameters));
+  }
+}
+
+// What the kernels in use can touch is there, so that a superset kernel never meets a null.
+size_t Pipeline::bytesOf(const BufferInfo& buffer, const ParameterMap& parameters) const {
+  const bool isWanted = buffer.neededFeatures == 0 || (buffer.neededFeatures & used_) != 0;
+  return isWanted ? bufferBytes(buffer, parameters, pixels_) : 0;
+}
+
+void Pipeline::pack(Stage& stage, const std::string& mode, const ParameterMap& parameters) const {
+  if (stage.info->packParameters) stage.params = stage.info->packParameters(mode, parameters);
+  stage.entries.clear();
+  for (const PassInfo& pass : stage.info->passes) {
+    const char* name = pass.entriesParameter;
+    stage.entries.push_back(
+        name == nullptr ? 0 : static_cast<uint32_t>(std::get<int64_t>(parameters.at(name))));
+  }
+}
+
+bool Pipeline::setParameters(const std::string& mode, const ParameterMap& parameters) {
+  for (const Stage& stage : stages_) {
+    for (size_t b = 0; b < stage.bytes.size(); ++b) {
+      if (bytesOf(stage.info->buffers[b], parameters) != stage.bytes[b]) return false;
     }
   }
+  for (Stage& stage : stages_) pack(stage, mode, parameters);
+  return true;
+}
+
+std::vector<ProbeValue> Pipeline::probe(size_t pixel) {
+  std::vector<ProbeValue> values;
+  for (const Stage& stage : stages_) {
+    if (!stage.info->probe) continue;
+    const ReadEntry read = [&](const std::string& name) {
+      std::vector<uint32_t> words;
+      for (size_t b = 0; b < stage.bytes.size(); ++b) {
+        const BufferInfo& buffer = stage.info->buffers[b];
+        if (buffer.name != name || stage.bytes[b] == 0) continue;
+        const size_t perPixel = stage.bytes[b] / pixels_;
+        std::vector<std::byte> all((pixel + 1) * perPixel);
+        backend_.read(bound(stage, b), all.data(), all.size());
+        words.resize(perPixel / sizeof(uint32_t));
+        std::memcpy(words.data(), all.data() + pixel * perPixel, words.size() * sizeof(uint32_t));
+      }
+      return words;
+    };
+    for (ProbeValue& value : stage.info->probe(read)) values.push_back(std::move(value));
+  }
+  return values;
 }
 
 std::pair<size_t, size_t> Pipeline::find(const std::string& name, size_t before) const {

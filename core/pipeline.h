@@ -25,6 +25,12 @@ class Pipeline {
   std::vector<std::pair<std::string, size_t>> bufferBytesPerPixel() const;
   size_t bytesPerPixel() const;
 
+  // Other parameters, of the same mode. False, and nothing is done, where buffers would have
+  // another size.
+  bool setParameters(const std::string& mode, const ParameterMap& parameters);
+  // What the parts keep of a pixel.
+  std::vector<ProbeValue> probe(size_t pixel);
+
   void allocate();
   void prepare(StartupReport& report);
   // Zeroes every buffer.
@@ -57,6 +63,8 @@ class Pipeline {
     bool runs = true;               // in the frame that was begun last
   };
 
+  size_t bytesOf(const BufferInfo& buffer, const ParameterMap& parameters) const;
+  void pack(Stage& stage, const std::string& mode, const ParameterMap& parameters) const;
   std::pair<size_t, size_t> find(const std::string& name, size_t before) const;
   BufferId bound(const Stage& stage, size_t buffer) const;
   std::vector<BufferId> bindings(size_t stage) const;

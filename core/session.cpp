@@ -61,9 +61,13 @@ struct Session::Impl {
   StartupReport startup;
   rl::Camera nextCamera{};
   bool isFirstFrame = true;  // of its history
+  size_t hostBytesPerPixel = 0;
   std::vector<BufferId> aovBuffers;
+  bool isAovTraced = false;  // of the last frame
   rl::FrameData lastFrame{};
 
+  // Backend, buffers and the first frame of a history, for the configuration.
+  void open();
   void submitFrame();
   FrameStats collectFrame();
 };
@@ -74,11 +78,8 @@ Session::Session(std::shared_ptr<const CompiledScene> scene, const SessionConfig
   Impl& m = *impl_;
   m.scene = std::move(scene);
   m.config = config;
+  m.hostBytesPerPixel = hostBytesPerPixel;
   m.method = findMethod(config);
-  if (config.width == 0 || config.height == 0) {
-    failUsage(fmt::format("resolution {}x{}: width and height must be at least 1", config.width,
-                          config.height));
-  }
   std::vector<std::string> modes;
   for (const ModeInfo& mode : m.method.integrator->modes) modes.push_back(mode.name);
   if (m.config.mode.empty()) m.config.mode = modes.front();
@@ -93,9 +94,21 @@ Session::Session(std::shared_ptr<const CompiledScene> scene, const SessionConfig
                           m.scene->source().name, cameras.size(), cameras.size() - 1));
   }
   m.config.parameters = resolveParameters(m.method, config.parameters);
+  m.open();
+}
+
+void Session::Impl::open() {
+  if (config.width == 0 || config.height == 0) {
+    failUsage(fmt::format("resolution {}x{}: width and height must be at least 1", config.width,
+                          config.height));
+  }
+  Impl& m = *this;
   m.needed = m.scene->features(config.multiscatter);
   const bool multiscatter = (m.needed & rl::RL_FEATURE_MULTISCATTER) != 0;
   if (multiscatter) m.scene->bindGgxAlbedo();
+  m.pipeline.reset();
+  m.backend.reset();
+  m.aovBuffers.clear();
   m.backend = makeBackend(config.backend, m.scene,
                           {config.threads, config.device, config.rayTracing, config.validate});
   const uint32_t wanted = config.specialise ? m.needed : rl::RL_FEATURE_ALL;
@@ -103,10 +116,13 @@ Session::Session(std::shared_ptr<const CompiledScene> scene, const SessionConfig
                      m.config.mode, m.config.parameters, wanted,
                      size_t(config.width) * config.height);
   m.backend->requireMemory(m.method.integrator->name, config.width, config.height,
-                           m.pipeline->bytesPerPixel(), sizeof(glm::vec3) + hostBytesPerPixel);
+                           m.pipeline->bytesPerPixel(), sizeof(glm::vec3) + m.hostBytesPerPixel);
   m.pipeline->allocate();
   m.pipeline->prepare(m.startup);
   m.radiance = Image(config.width, config.height);
+  m.isRadianceRead = true;
+  m.isFirstFrame = true;
+  const std::vector<SceneCamera>& cameras = m.scene->source().cameras;
   rl::FrameData& f = m.frame;
   f.camera = m.scene->camera(cameras[config.camera], config.width, config.height);
   f.previousCamera = f.camera;
@@ -131,11 +147,12 @@ void Session::Impl::submitFrame() {
   frame.camera = nextCamera;
   const bool isStill =
       !isFirstFrame && std::memcmp(&frame.camera, &frame.previousCamera, sizeof(rl::Camera)) == 0;
-  frame.isStillView = isStill ? 1u : 0u;
+  frame.stillFrames = isStill ? frame.stillFrames + 1 : 0;
   isFirstFrame = false;
   backend->submit(pipeline->beginFrame(!isStill), frame);
   lastFrame = frame;
   isRadianceRead = false;
+  isAovTraced = false;
   ++frame.frame;
 }
 
@@ -182,6 +199,40 @@ void Session::reset(uint32_t seed, uint32_t firstFrame) {
   m.pipeline->clear();
 }
 
+bool Session::setParameters(const ParameterMap& parameters) {
+  Impl& m = *impl_;
+  ParameterMap all = m.config.parameters;
+  for (const auto& [name, value] : parameters) all[name] = value;
+  m.config.parameters = resolveParameters(m.method, all);
+  if (m.pipeline->setParameters(m.config.mode, m.config.parameters)) return false;
+  const rl::Camera camera = m.nextCamera;
+  m.open();
+  m.nextCamera = camera;
+  return true;
+}
+
+void Session::resize(uint32_t width, uint32_t height) {
+  const SessionConfig before = impl_->config;
+  impl_->config.width = width;
+  impl_->config.height = height;
+  try {
+    impl_->open();
+  } catch (const Error&) {
+    impl_->config = before;
+    impl_->open();
+    throw;
+  }
+}
+
+std::vector<ProbeValue> Session::probe(uint32_t x, uint32_t y) const {
+  const Impl& m = *impl_;
+  if (x >= m.config.width || y >= m.config.height) {
+    failUsage(
+        fmt::format("probe {},{}: the image is {}x{}", x, y, m.config.width, m.config.height));
+  }
+  return impl_->pipeline->probe(size_t(y) * m.config.width + x);
+}
+
 void Session::setCamera(const SceneCamera& camera) {
   impl_->nextCamera = impl_->scene->camera(camera, impl_->config.width, impl_->config.height);
 }
@@ -214,9 +265,12 @@ Image Session::aov(const std::string& name) const {
   const uint32_t mask =
       m.backend->maskFor(kAovKernel, m.config.specialise ? m.needed : rl::RL_FEATURE_ALL);
   const PassRun pass{kAovKernel, mask, m.aovBuffers, std::vector<std::byte>(4), 0};
-  m.backend->prepare(pass, m.startup);
-  m.backend->submit({pass}, m.lastFrame);
-  m.backend->collect();
+  if (!m.isAovTraced) {
+    m.backend->prepare(pass, m.startup);
+    m.backend->submit({pass}, m.lastFrame);
+    m.backend->collect();
+    m.isAovTraced = true;
+  }
   const auto read = [&](const std::string& layer) {
     const auto at = std::find(kAovNames.begin(), kAovNames.end(), layer) - kAovNames.begin() - 1;
     Image image(m.config.width, m.config.height);

@@ -78,16 +78,25 @@ class Session {
   // after that many frames. Throws badUsage where a method with a history is to start anywhere
   // but at 0.
   void reset(uint32_t seed, uint32_t firstFrame = 0);
+  // Changes parameters of the method, from the next frame on; what is not named keeps its value.
+  // True where the history starts anew, as buffers have another size. Throws Error (badUsage) as
+  // the constructor does, and changes nothing then.
+  bool setParameters(const ParameterMap& parameters);
+  // Another size of the image, with the camera of the configuration; the history starts anew.
+  // Throws Error as the constructor does.
+  void resize(uint32_t width, uint32_t height);
+  // What the method keeps of a pixel after the last frame: its reservoir and path, by name.
+  std::vector<ProbeValue> probe(uint32_t x, uint32_t y) const;
   // For a moving camera, from the next frame on; the previous one is kept for reprojection.
   void setCamera(const SceneCamera& camera);
 
   // Of the last frame; read from the device when it is first asked for.
   const Image& radiance() const;
-  // Of the film samples of the last frame, one of aovNames(): radiance; at the first hit positionW,
-  // normalW (unit, shading, on the viewer's side), albedo (diffuse + specular at normal incidence +
-  // transmission), depth (distance along the ray, in every channel), object (1 + the index in
-  // Scene::instances, in every channel); zero where nothing is hit.
-  // Throws Error (badUsage) with the nearest name.
+  // Of the film samples of the last frame, traced once when the first is asked for; one of
+  // aovNames(): radiance; at the first hit positionW, normalW (unit, shading, on the viewer's
+  // side), albedo (diffuse + specular at normal incidence + transmission), depth (distance along
+  // the ray, in every channel), object (1 + the index in Scene::instances, in every channel); zero
+  // where nothing is hit. Throws Error (badUsage) with the nearest name.
   Image aov(const std::string& name) const;
   static const std::vector<std::string>& aovNames();
 

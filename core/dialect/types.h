@@ -262,7 +262,7 @@ struct FrameData {
   uint rouletteStart;  // first scattering event that may end a path by Russian roulette;
                        // RL_INVALID: off
   uint multiscatter;   // 1: GGX lobes are compensated, and the scene has ggxAlbedo; 0: off
-  uint isStillView;    // 1: the camera is that of the frame before; 0: it moved, or there was none
+  uint stillFrames;  // frames just before this one with its camera; 0: it moved, or there were none
 };
 RL_STATIC_ASSERT_SIZE(FrameData, 168);
 

@@ -67,7 +67,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   History history;
   history.mean = vec3(0.0f, 0.0f, 0.0f);
   history.frames = 0.0f;
-  if (gFrame.isStillView != 0u) {
+  if (gFrame.stillFrames != 0u) {
     history = historyOf(pixelIndex);
   } else if (gFrame.frame > 0u) {
     history = historyReprojected(pixelIndex);

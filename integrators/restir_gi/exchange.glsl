@@ -4,20 +4,15 @@
 #include "core/payload/path_sample.glsl"
 #include "core/payload/path_shift.glsl"
 #include "integrators/restir_gi/store.glsl"
-
-// How many donors over space a slot wants of which `other` could be one: young histories more. An
-// old one is hurt by what differs from it in every sample, as two pixels at an outline do.
-RL_FN uint giDonors(uint slot, uint other) {
-  if (giAge(slot) <= gParams.youngFrames) return gParams.spatialNeighbours;
-  return cacheIsOutline(slot) || cacheIsOutline(other) ? 0u : gParams.agedNeighbours;
-}
+#include "integrators/restir_gi/donors.glsl"
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint slot = cacheSlot(pixel);
   PathReservoir r;
   r.path.suffix = pathNoSuffix();
   giReadNow(slot, r);
-  for (uint k = 0u; k < gParams.spatialNeighbours; k = k + 1u) {
+  uint most = giMostDonors();
+  for (uint k = 0u; k < most; k = k + 1u) {
     uint index = giExchangeIndex(slot, k);
     uint partner;
     bool exists = cachePartner(pixel, k, partner);

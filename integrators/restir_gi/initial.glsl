@@ -155,7 +155,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   if (gParams.temporalReuse != 0u && cacheDonorOverTime(slot, before)) {
     vec4 own = recordVec4(RL_PAST_QUAD(gBuffers.ownBefore, before));
     age = min(own.w, gParams.confidenceCap) + 1.0f;
-    if (gFrame.isStillView != 0u) {
+    if (gFrame.stillFrames != 0u) {
       float weight = 1.0f / age;
       p.ownLight = vec3(own.x, own.y, own.z) * (1.0f - weight) + p.ownLight * weight;
       giMergeStillView(slot, r);

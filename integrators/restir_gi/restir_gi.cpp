@@ -7,8 +7,11 @@
 // for the new direction, BSDF and MIS weight, so that glossy x2 are unbiased too.
 #include "integrators/restir_gi/restir_gi.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <bit>
 
 #include "core/integrator.h"
 
@@ -135,6 +138,10 @@ std::vector<std::byte> pack(const std::string& mode, const ParameterMap& p) {
   out.agedNeighbours =
       std::min(static_cast<uint32_t>(get<int64_t>(p, "aged_neighbours")), out.spatialNeighbours);
   out.youngFrames = static_cast<float>(get<double>(p, "young_frames"));
+  // A history of n still frames before this one has the age min(n, cap) + 1.
+  const double young = get<double>(p, "young_frames");
+  const bool settles = get<bool>(p, "temporal") && get<double>(p, "confidence_cap") + 1.0 > young;
+  out.settledFrames = settles ? static_cast<uint32_t>(young) : rl::RL_INVALID;
   out.donorNoise = static_cast<float>(get<double>(p, "donor_noise"));
   out.temporalReuse = get<bool>(p, "temporal") ? 1u : 0u;
   out.confidenceCap = static_cast<float>(get<double>(p, "confidence_cap"));
@@ -143,6 +150,33 @@ std::vector<std::byte> pack(const std::string& mode, const ParameterMap& p) {
   out.shift.maxJacobian = static_cast<float>(get<double>(p, "max_jacobian"));
   out.maxReflectanceRatio = static_cast<float>(get<double>(p, "max_reflectance_ratio"));
   return bytesOf(out);
+}
+
+std::vector<ProbeValue> probe(const ReadEntry& read) {
+  const std::vector<uint32_t> words = read("history"), own = read("own_light");
+  const auto number = [](const std::vector<uint32_t>& from, size_t at) {
+    return std::bit_cast<float>(from.at(at));
+  };
+  const auto three = [&](const std::vector<uint32_t>& from, size_t quad) {
+    return fmt::format("{:.6g} {:.6g} {:.6g}", number(from, 4 * quad), number(from, 4 * quad + 1),
+                       number(from, 4 * quad + 2));
+  };
+  // As RL_PATH_SAMPLE_FIELDS and reservoirStateWrite() lay them out.
+  constexpr size_t kState = rl::RL_PATH_SAMPLE_QUADS;
+  static const std::array<const char*, 4> kinds = {
+      "light at x1", "Lambert x2", "glossy x2, light sample", "glossy x2, continued"};
+  const uint32_t kind = words[7] & rl::RL_PATH_KIND_MASK, film = words[11];
+  return {{"age", fmt::format("{:.6g}", number(own, 3))},
+          {"own light", three(own, 0)},
+          {"confidence", fmt::format("{:.6g}", number(words, 4 * kState + 7))},
+          {"W", fmt::format("{:.6g}", number(words, 4 * kState + 3))},
+          {"F", three(words, kState)},
+          {"residual", three(words, kState + 1)},
+          {"kind", kind < kinds.size() ? kinds[kind] : "unknown"},
+          {"film", fmt::format("{:.4f} {:.4f}", double(film & 0xffffu) / 65536.0,
+                               double(film >> 16) / 65536.0)},
+          {"position or direction", three(words, 0)},
+          {"radiance", three(words, 2)}};
 }
 
 }  // namespace
@@ -181,6 +215,7 @@ const IntegratorInfo& restir_giIntegratorInfo() {
                 {"spatial", "restir_gi_spatial"}};
     for (PassInfo& pass : i.passes) pass.seesCache = true;
     i.packParameters = pack;
+    i.probe = probe;
     i.biasOfParameters = [](const std::string& mode, const ParameterMap& p) {
       const bool isWrong =
           get<std::string>(p, "mis") == "confidence" || get<bool>(p, "omit_jacobian");

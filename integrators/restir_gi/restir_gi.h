@@ -88,6 +88,7 @@ struct RestirGiParams {
   uint spatialNeighbours;  // of a young history; at least agedNeighbours
   uint agedNeighbours;
   float youngFrames;   // up to this age a history is young
+  uint settledFrames;  // after so many still frames none is
   float donorNoise;    // reuseDonorShare()
   uint temporalReuse;  // 0: off
   float confidenceCap;

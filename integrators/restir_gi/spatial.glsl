@@ -8,6 +8,7 @@
 #include "core/resampling/donors.glsl"
 #include "integrators/restir_gi/store.glsl"
 #include "integrators/restir_gi/ratio.glsl"
+#include "integrators/restir_gi/donors.glsl"
 
 #define RL_REUSE_STATE GiOverSpace
 
@@ -48,8 +49,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint winner;
   float jacobian;
   vec3 radiance = recordVec3(RL_PAST_QUAD(gBuffers.own, s.slot));
-  radiance +=
-      reuseMerge(s, gParams.spatialNeighbours, gParams.spatialFlags, r.state, winner, jacobian);
+  radiance += reuseMerge(s, giMostDonors(), gParams.spatialFlags, r.state, winner, jacobian);
   if (winner != RL_INVALID) giReadPathNow(giPartner(s.slot, winner), r.path);
   r.path.geometry *= jacobian;
   if (!rlIsFinite3(radiance)) {

@@ -4,5 +4,6 @@ set(RL_CONFORMANCE_TESTS
   conformance/determinism_test.cpp
   conformance/health_test.cpp
   conformance/light_transport_test.cpp
+  conformance/live_session_test.cpp
   conformance/variants.cpp
 )

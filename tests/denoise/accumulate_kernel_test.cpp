@@ -19,7 +19,7 @@ class Kernel {
  public:
   Kernel() {
     frame_.width = frame_.height = kSide;
-    frame_.isStillView = 1;
+    frame_.stillFrames = 1;
     params_.cap = 20.0f;
   }
 

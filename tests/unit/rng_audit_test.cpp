@@ -77,7 +77,7 @@ class AuditedRun {
   void frame() {
     rl::CpuKernelCounters counters;
     for (size_t i = 0; i < passes_.size(); ++i) {
-      if (frame_.isStillView != 0 && info_.passes[i].onlyOnNewViews) continue;
+      if (frame_.stillFrames != 0 && info_.passes[i].onlyOnNewViews) continue;
       passes_[i](arguments(), {0, 0, kWidth, kHeight}, counters);
     }
     for (size_t i = 0; i < info_.buffers.size(); ++i) {
@@ -86,7 +86,7 @@ class AuditedRun {
     }
     ++frame_.frame;
     // Every other frame runs what new views take.
-    frame_.isStillView = frame_.frame % 2;
+    frame_.stillFrames = frame_.frame % 2;
   }
 
  private:

@@ -23,7 +23,7 @@ RL_FN bool cacheSurfacesMatch(RL_IN(VisibleSurface) a, RL_IN(VisibleSurface) b) 
 RL_FN bool cacheDonorOverTime(uint slot, RL_OUT(uint) donor) {
   donor = slot;
   if (gFrame.frame == 0u) return false;
-  if (gFrame.isStillView != 0u) return true;
+  if (gFrame.stillFrames != 0u) return true;
   VisibleSurface here = cacheSurface(slot);
   vec2 film;
   if (!visibleFilmBefore(here, film)) return false;

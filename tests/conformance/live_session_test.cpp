@@ -1,0 +1,112 @@
+// A session that is changed while it runs, as an interactive program does.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/session.h"
+#include "tests/conformance/variants.h"
+
+namespace restlab::conformance {
+namespace {
+
+SessionConfig smallConfig() {
+  SessionConfig config;
+  config.integrator = "restir_gi";
+  config.width = 40;
+  config.height = 24;
+  config.threads = 1;
+  return config;
+}
+
+Image shown(Session& session, uint32_t frames) {
+  for (uint32_t i = 0; i < frames; ++i) session.frame();
+  return session.radiance();
+}
+
+// A parameter that changes no buffer: the history goes on, and from then on frames are those of the
+// new value.
+TEST(LiveSession, ParametersChangeWithoutANewHistory) {
+  const auto scene = bias::builtinScene("door-ajar");
+  SessionConfig config = smallConfig();
+  config.parameters["confidence_cap"] = 5.0;
+  Session changed(scene, config), kept(scene, config);
+  EXPECT_EQ(countDifferent(shown(changed, 6), shown(kept, 6)), 0u);
+  EXPECT_FALSE(changed.setParameters({{"confidence_cap", 40.0}}));
+  EXPECT_EQ(std::get<double>(changed.config().parameters.at("confidence_cap")), 40.0);
+  const Image after = shown(changed, 3), before = shown(kept, 3);
+  EXPECT_GT(countDifferent(after, before), 0u);
+  // It is the ninth frame of a history, not the third.
+  EXPECT_EQ(changed.probe(20, 12).front().name, "age");
+  EXPECT_EQ(changed.probe(20, 12).front().value, "9");
+}
+
+TEST(LiveSession, AnUnknownParameterChangesNothing) {
+  const auto scene = bias::builtinScene("cornell-box");
+  Session changed(scene, smallConfig()), kept(scene, smallConfig());
+  EXPECT_THROW(changed.setParameters({{"confidence_cap", 7.0}, {"spatial_radus", 3.0}}), Error);
+  EXPECT_THROW(changed.setParameters({{"confidence_cap", -1.0}}), Error);
+  EXPECT_EQ(countDifferent(shown(changed, 4), shown(kept, 4)), 0u);
+}
+
+// One that does change buffers: a new session in all but name.
+TEST(LiveSession, OtherBuffersStartANewHistory) {
+  const auto scene = bias::builtinScene("cornell-box");
+  Session changed(scene, smallConfig());
+  shown(changed, 3);
+  EXPECT_TRUE(changed.setParameters({{"spatial_neighbours", int64_t{2}}}));
+  SessionConfig config = smallConfig();
+  config.parameters["spatial_neighbours"] = int64_t{2};
+  Session fresh(scene, config);
+  EXPECT_EQ(countDifferent(shown(changed, 4), shown(fresh, 4)), 0u);
+}
+
+TEST(LiveSession, AResizedImageIsThatOfAFreshSession) {
+  const auto scene = bias::builtinScene("glossy-gallery");
+  Session changed(scene, smallConfig());
+  shown(changed, 3);
+  changed.resize(64, 36);
+  SessionConfig config = smallConfig();
+  config.width = 64;
+  config.height = 36;
+  Session fresh(scene, config);
+  EXPECT_EQ(countDifferent(shown(changed, 4), shown(fresh, 4)), 0u);
+  EXPECT_EQ(countDifferent(changed.aov("normalW"), fresh.aov("normalW")), 0u);
+  EXPECT_THROW(changed.resize(0, 36), Error);
+}
+
+// Layers of a frame are of that frame, whichever was asked for first, and of the next one after it.
+TEST(LiveSession, LayersAreTracedOnceAFrame) {
+  const auto scene = bias::builtinScene("cornell-box");
+  Session one(scene, smallConfig()), other(scene, smallConfig());
+  one.frame();
+  other.frame();
+  const Image normal = one.aov("normalW"), depth = one.aov("depth");
+  EXPECT_EQ(countDifferent(depth, other.aov("depth")), 0u);
+  EXPECT_EQ(countDifferent(normal, other.aov("normalW")), 0u);
+  one.frame();
+  EXPECT_GT(countDifferent(one.aov("depth"), depth), 0u);  // other film samples
+}
+
+TEST(LiveSession, AProbeShowsTheReservoir) {
+  const auto scene = bias::builtinScene("cornell-box");
+  Session session(scene, smallConfig());
+  for (int i = 0; i < 5; ++i) session.frame();
+  const std::vector<ProbeValue> values = session.probe(20, 18);
+  const auto valueOf = [&](const std::string& name) {
+    const auto found = std::find_if(values.begin(), values.end(),
+                                    [&](const ProbeValue& v) { return v.name == name; });
+    return found == values.end() ? std::string() : found->value;
+  };
+  EXPECT_EQ(valueOf("age"), "5");
+  EXPECT_GE(std::stod(valueOf("confidence")), 5.0);
+  EXPECT_GT(std::stod(valueOf("W")), 0.0);
+  EXPECT_NE(valueOf("kind"), "");
+  EXPECT_THROW(session.probe(40, 0), Error);
+  SessionConfig plain = smallConfig();
+  plain.integrator = "path";
+  EXPECT_TRUE(Session(scene, plain).probe(0, 0).empty());
+}
+
+}  // namespace
+}  // namespace restlab::conformance
