@@ -36,7 +36,7 @@ std::vector<ParameterInfo> parameterInfos() {
        "light samples per pixel and frame resampled into the light reservoir",
        "1: the same rays as the path tracer"},
       {"spatial_neighbours",
-       int64_t{4},
+       int64_t{3},
        0,
        rl::RL_MAX_DONORS,
        {},
@@ -103,6 +103,13 @@ std::vector<ParameterInfo> parameterInfos() {
        "resampling MIS weights; `defensive` favours the pixel's own sample, `confidence` is 1/M, "
        "biased and darker",
        "Lin et al. 2022, section 5.4; Wyman et al. 2023, algorithm 7; Bitterli et al. 2020"},
+      {"donors_by_sample",
+       false,
+       0,
+       0,
+       {},
+       "counts donors over space only where their sample is seen: wrong, for the bias tests only",
+       "negative control"},
       {"omit_jacobian",
        false,
        0,
@@ -143,6 +150,7 @@ std::vector<std::byte> pack(const std::string& mode, const ParameterMap& p) {
   const bool settles = get<bool>(p, "temporal") && get<double>(p, "confidence_cap") + 1.0 > young;
   out.settledFrames = settles ? static_cast<uint32_t>(young) : rl::RL_INVALID;
   out.donorNoise = static_cast<float>(get<double>(p, "donor_noise"));
+  out.donorsBySample = get<bool>(p, "donors_by_sample") ? 1u : 0u;
   out.temporalReuse = get<bool>(p, "temporal") ? 1u : 0u;
   out.confidenceCap = static_cast<float>(get<double>(p, "confidence_cap"));
   const auto roughness = static_cast<float>(get<double>(p, "roughness_limit"));
@@ -217,8 +225,8 @@ const IntegratorInfo& restir_giIntegratorInfo() {
     i.packParameters = pack;
     i.probe = probe;
     i.biasOfParameters = [](const std::string& mode, const ParameterMap& p) {
-      const bool isWrong =
-          get<std::string>(p, "mis") == "confidence" || get<bool>(p, "omit_jacobian");
+      const bool isWrong = get<std::string>(p, "mis") == "confidence" ||
+                           get<bool>(p, "omit_jacobian") || get<bool>(p, "donors_by_sample");
       return mode == "biased" || isWrong ? BiasClass::biased : BiasClass::unbiased;
     };
     return i;

@@ -87,10 +87,11 @@ struct RestirGiParams {
   uint lightCandidates;
   uint spatialNeighbours;  // of a young history; at least agedNeighbours
   uint agedNeighbours;
-  float youngFrames;   // up to this age a history is young
-  uint settledFrames;  // after so many still frames none is
-  float donorNoise;    // reuseDonorShare()
-  uint temporalReuse;  // 0: off
+  float youngFrames;    // up to this age a history is young
+  uint settledFrames;   // after so many still frames none is
+  float donorNoise;     // reuseDonorShare()
+  uint donorsBySample;  // 1: wrong by design, for the tests that must reject it
+  uint temporalReuse;   // 0: off
   float confidenceCap;
   float maxReflectanceRatio;  // per channel, of surfaces, for the carried per-channel estimates
   PathShiftParams shift;

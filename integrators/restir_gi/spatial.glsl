@@ -13,19 +13,21 @@
 #define RL_REUSE_STATE GiOverSpace
 
 RL_FN uint giPartner(uint slot, uint k) { return gBuffers.partners.data[giExchangeIndex(slot, k)]; }
+RL_FN Shifted reuseOurs(RL_IN(GiOverSpace) s, uint k) {
+  return giReadShifted(giExchangeIndex(s.slot, k));
+}
+RL_FN Shifted reuseTheirs(RL_IN(GiOverSpace) s, uint k) {
+  return giReadShifted(giExchangeIndex(giPartner(s.slot, k), k));
+}
 RL_FN bool reuseDonor(RL_IN(GiOverSpace) s, uint k, RL_OUT(ReservoirState) donor) {
   donor = giEmptyState();
   uint partner = giPartner(s.slot, k);
   if (partner == RL_INVALID) return false;
   giReadStateNow(partner, donor);
   donor.confidence *= s.share;
+  // A donor that counts only where its sample is seen is chosen by its sample: that is wrong.
+  if (gParams.donorsBySample != 0u) return bridgeTarget(reuseTheirs(s, k).F) > 0.0f;
   return true;
-}
-RL_FN Shifted reuseOurs(RL_IN(GiOverSpace) s, uint k) {
-  return giReadShifted(giExchangeIndex(s.slot, k));
-}
-RL_FN Shifted reuseTheirs(RL_IN(GiOverSpace) s, uint k) {
-  return giReadShifted(giExchangeIndex(giPartner(s.slot, k), k));
 }
 RL_FN real3 reuseRatio(RL_IN(GiOverSpace) s, uint k) {
   return giRatio(cacheSurface(giPartner(s.slot, k)), s.slot);

@@ -86,6 +86,17 @@ Canary jacobianBehindTheDoor() {
   return {"omit_jacobian, door-ajar", "door-ajar", {}, {{"omit_jacobian", true}}, farDonors()};
 }
 
+// A donor counts only where its sample, film sample included, is seen from here: confidences then
+// depend on samples.
+Canary donorsBySample() {
+  return {"donors_by_sample, cornell-box",
+          "cornell-box",
+          {cornellBelowTheLamp()},
+          {{"donors_by_sample", true}},
+          farDonors()};
+}
+
+TEST(Canary, DonorsChosenByTheirSamplesAreRejected) { expectRejected(donorsBySample(), kEveryDay); }
 TEST(Canary, ConfidenceWeightsAreRejected) { expectRejected(confidenceInTheBox(), kEveryDay); }
 TEST(Canary, AnOmittedJacobianIsRejected) { expectRejected(jacobianInTheBox(), kEveryDay); }
 TEST(Canary, AnOmittedJacobianIsRejectedBehindTheDoor) {
@@ -96,7 +107,8 @@ class CanaryNightly : public ::testing::TestWithParam<Canary> {};
 TEST_P(CanaryNightly, IsRejected) { expectRejected(GetParam(), kNightly); }
 INSTANTIATE_TEST_SUITE_P(Wrong, CanaryNightly,
                          ::testing::Values(confidenceInTheBox(), confidenceBehindTheDoor(),
-                                           jacobianInTheBox(), jacobianBehindTheDoor()));
+                                           jacobianInTheBox(), jacobianBehindTheDoor(),
+                                           donorsBySample()));
 
 }  // namespace
 }  // namespace restlab::bias
