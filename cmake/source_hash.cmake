@@ -22,8 +22,8 @@ endfunction()
 hash_of(SOURCE_HASH core/* integrators/* denoise/*)
 hash_of(REFERENCE_HASH core/* integrators/path/*)
 # What a run's numbers go through before they are in a job.
-set(measuring accumulate block_masks experiment figures image_rows light_mask object_mask reference_error run_record
-    temporal)
+set(measuring reference/block_masks reference/reference_error run/experiment run/image_rows run/light_mask
+    run/object_mask run/run_record summary/accumulate summary/figures summary/temporal)
 list(TRANSFORM measuring REPLACE "(.+)" "experiments/runner/\\1.*")
 hash_of(MEASURING_HASH ${measuring})
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "experiments/runner/log.h"
+#include "experiments/runner/run/log.h"
 
 namespace restlab {
 

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "experiments/runner/reference.h"
+#include "experiments/runner/reference/reference.h"
 
 namespace restlab {
 

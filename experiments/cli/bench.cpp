@@ -9,12 +9,12 @@
 #include "experiments/cli/bench_rays.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
-#include "experiments/runner/backend_choice.h"
-#include "experiments/runner/build_info.h"
-#include "experiments/runner/interrupt.h"
-#include "experiments/runner/light_mask.h"
-#include "experiments/runner/log.h"
-#include "experiments/runner/reference.h"
+#include "experiments/runner/suite/backend_choice.h"
+#include "experiments/runner/run/build_info.h"
+#include "experiments/runner/run/interrupt.h"
+#include "experiments/runner/run/light_mask.h"
+#include "experiments/runner/run/log.h"
+#include "experiments/runner/reference/reference.h"
 
 namespace restlab {
 

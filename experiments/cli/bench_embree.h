@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "experiments/runner/prepare.h"
+#include "experiments/runner/run/prepare.h"
 
 namespace restlab {
 

@@ -10,7 +10,7 @@
 #undef RL_KERNEL_PARAMS
 #include "core/kernels/trace.h"
 #include "core/scene/compiled_scene.h"
-#include "experiments/runner/interrupt.h"
+#include "experiments/runner/run/interrupt.h"
 
 namespace restlab {
 

@@ -4,7 +4,7 @@
 
 #include "core/backend/backend.h"
 #include "experiments/cli/bench_embree.h"
-#include "experiments/runner/prepare.h"
+#include "experiments/runner/run/prepare.h"
 
 namespace restlab {
 

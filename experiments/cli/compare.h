@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/image/bias_runs.h"
 #include "core/image/metrics.h"
-#include "experiments/runner/reference.h"
+#include "experiments/runner/reference/reference.h"
 
 namespace restlab {
 

@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "experiments/cli/compare.h"
-#include "experiments/runner/log.h"
+#include "experiments/runner/run/log.h"
 
 namespace restlab {
 

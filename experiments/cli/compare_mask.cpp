@@ -6,9 +6,9 @@
 
 #include "experiments/cli/compare.h"
 #include "experiments/cli/options.h"
-#include "experiments/runner/image_scene.h"
-#include "experiments/runner/light_mask.h"
-#include "experiments/runner/object_mask.h"
+#include "experiments/runner/run/image_scene.h"
+#include "experiments/runner/run/light_mask.h"
+#include "experiments/runner/run/object_mask.h"
 
 namespace restlab {
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/cli/compare.h"
-#include "experiments/runner/log.h"
+#include "experiments/runner/run/log.h"
 
 namespace restlab {
 

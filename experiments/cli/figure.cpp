@@ -13,8 +13,8 @@
 #include "experiments/cli/against_reference.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
-#include "experiments/runner/log.h"
-#include "experiments/runner/reference_error.h"
+#include "experiments/runner/run/log.h"
+#include "experiments/runner/reference/reference_error.h"
 
 namespace restlab {
 

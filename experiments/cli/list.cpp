@@ -11,9 +11,9 @@
 #include "core/image/metrics.h"
 #include "core/denoiser.h"
 #include "experiments/cli/verbs.h"
-#include "experiments/runner/files.h"
-#include "experiments/runner/prepare.h"
-#include "experiments/runner/summary.h"
+#include "experiments/runner/run/files.h"
+#include "experiments/runner/run/prepare.h"
+#include "experiments/runner/summary/summary.h"
 
 namespace restlab {
 

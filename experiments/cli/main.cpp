@@ -7,9 +7,9 @@
 #include <exception>
 
 #include "experiments/cli/verbs.h"
-#include "experiments/runner/build_info.h"
-#include "experiments/runner/interrupt.h"
-#include "experiments/runner/log.h"
+#include "experiments/runner/run/build_info.h"
+#include "experiments/runner/run/interrupt.h"
+#include "experiments/runner/run/log.h"
 
 namespace {
 

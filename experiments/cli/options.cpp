@@ -11,8 +11,8 @@
 #include "core/config.h"
 #include "core/error.h"
 #include "core/method.h"
-#include "experiments/runner/backend_choice.h"
-#include "experiments/runner/files.h"
+#include "experiments/runner/suite/backend_choice.h"
+#include "experiments/runner/run/files.h"
 
 namespace restlab {
 

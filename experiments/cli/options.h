@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/runner/prepare.h"
+#include "experiments/runner/run/prepare.h"
 
 namespace restlab {
 

@@ -7,8 +7,8 @@
 #include "core/image/exr_limits.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
-#include "experiments/runner/log.h"
-#include "experiments/runner/reference.h"
+#include "experiments/runner/run/log.h"
+#include "experiments/runner/reference/reference.h"
 
 namespace restlab {
 

@@ -10,11 +10,11 @@
 #include "core/scene/compiled_scene.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
-#include "experiments/runner/accumulate.h"
-#include "experiments/runner/backend_choice.h"
-#include "experiments/runner/interrupt.h"
-#include "experiments/runner/build_info.h"
-#include "experiments/runner/log.h"
+#include "experiments/runner/summary/accumulate.h"
+#include "experiments/runner/suite/backend_choice.h"
+#include "experiments/runner/run/interrupt.h"
+#include "experiments/runner/run/build_info.h"
+#include "experiments/runner/run/log.h"
 
 namespace restlab {
 

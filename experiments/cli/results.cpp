@@ -6,10 +6,10 @@
 #include <memory>
 
 #include "experiments/cli/verbs.h"
-#include "experiments/runner/clean.h"
-#include "experiments/runner/job.h"
-#include "experiments/runner/log.h"
-#include "experiments/runner/results_folder.h"
+#include "experiments/runner/run/clean.h"
+#include "experiments/runner/run/job.h"
+#include "experiments/runner/run/log.h"
+#include "experiments/runner/run/results_folder.h"
 
 namespace restlab {
 

@@ -8,10 +8,10 @@
 #include "core/backend/backend.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
-#include "experiments/runner/dry_run.h"
-#include "experiments/runner/files.h"
-#include "experiments/runner/log.h"
-#include "experiments/runner/suite_runner.h"
+#include "experiments/runner/suite/dry_run.h"
+#include "experiments/runner/run/files.h"
+#include "experiments/runner/run/log.h"
+#include "experiments/runner/run/suite_runner.h"
 
 namespace restlab {
 

@@ -1,4 +1,4 @@
-#include "experiments/runner/suite.h"
+#include "experiments/runner/suite/suite.h"
 
 #include "tests/fuzz/entries.h"
 #include "tests/fuzz/input_file.h"

@@ -25,8 +25,8 @@ class SourceHash : public TemporaryFolder {
     for (const char* file :
          {"core/session.cpp", "core/kernels/path.h", "core/CMakeLists.txt", "core/readme.md",
           "integrators/path/path.cpp", "integrators/restir_gi/reuse.glsl", "denoise/none/none.cpp",
-          "experiments/runner/temporal.cpp", "experiments/runner/experiment.h",
-          "experiments/runner/table.cpp", "tests/unit/rng_test.cpp"})
+          "experiments/runner/summary/temporal.cpp", "experiments/runner/run/experiment.h",
+          "experiments/runner/summary/table.cpp", "tests/unit/rng_test.cpp"})
       write(file, "one");
   }
   void write(const fs::path& file, const std::string& text) const {
@@ -71,10 +71,10 @@ TEST_F(SourceHash, IsOfTheSourcesThatDecideTheNumbers) {
   EXPECT_EQ(changedBy("integrators/path/path.cpp"), "REFERENCE SOURCE ");
   EXPECT_EQ(changedBy("integrators/restir_gi/reuse.glsl"), "SOURCE ");
   EXPECT_EQ(changedBy("denoise/none/none.cpp"), "SOURCE ");
-  EXPECT_EQ(changedBy("experiments/runner/temporal.cpp"), "MEASURING ");
-  EXPECT_EQ(changedBy("experiments/runner/experiment.h"), "MEASURING ");
+  EXPECT_EQ(changedBy("experiments/runner/summary/temporal.cpp"), "MEASURING ");
+  EXPECT_EQ(changedBy("experiments/runner/run/experiment.h"), "MEASURING ");
   for (const char* layout :
-       {"experiments/runner/table.cpp", "core/readme.md", "tests/unit/rng_test.cpp"})
+       {"experiments/runner/summary/table.cpp", "core/readme.md", "tests/unit/rng_test.cpp"})
     EXPECT_EQ(changedBy(layout), "") << layout;
   const auto before = hashes();
   fs::rename(folder() / "core/session.cpp", folder() / "core/sessions.cpp");

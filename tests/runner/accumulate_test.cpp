@@ -1,9 +1,9 @@
 // Sums of frames: mean and variance of the mean of known samples.
-#include "experiments/runner/accumulate.h"
+#include "experiments/runner/summary/accumulate.h"
 
 #include <gtest/gtest.h>
 
-#include "experiments/runner/files.h"
+#include "experiments/runner/run/files.h"
 
 namespace restlab {
 

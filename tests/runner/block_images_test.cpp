@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "experiments/runner/report_document.h"
+#include "experiments/runner/summary/report_document.h"
 
 namespace restlab {
 

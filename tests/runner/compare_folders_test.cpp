@@ -1,5 +1,5 @@
 // Verdicts of intervals, and what makes two folders' numbers unlike things.
-#include "experiments/runner/compare_folders.h"
+#include "experiments/runner/compare/compare_folders.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 // Fitted lines on runs whose truth is known, how often their intervals hold it, and how often a
 // line is called none.
-#include "experiments/runner/convergence.h"
+#include "experiments/runner/summary/convergence.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "experiments/runner/accumulated_curve.h"
-#include "experiments/runner/speed_up.h"
+#include "experiments/runner/summary/accumulated_curve.h"
+#include "experiments/runner/summary/speed_up.h"
 #include "tests/runner/synthetic_runs.h"
 
 namespace restlab {

@@ -1,5 +1,5 @@
 // Locks of folders where the file system has none, as some network ones: flock() is replaced.
-#include "experiments/runner/folder_lock.h"
+#include "experiments/runner/run/folder_lock.h"
 
 #include <gtest/gtest.h>
 #include <sys/syscall.h>

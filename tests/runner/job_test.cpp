@@ -1,5 +1,5 @@
 // What a job's key depends on, and what of a run survives the way to disk and back.
-#include "experiments/runner/job.h"
+#include "experiments/runner/run/job.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <set>
 
-#include "experiments/runner/run_record.h"
+#include "experiments/runner/run/run_record.h"
 
 namespace restlab {
 

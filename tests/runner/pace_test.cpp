@@ -1,5 +1,5 @@
 // How long the rest of a suite takes, by the runs that were made.
-#include "experiments/runner/pace.h"
+#include "experiments/runner/run/pace.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // What rows say of the reference's noise: wider intervals, flags, and a relMSE that does not take
 // the reference's noise for the method's.
-#include "experiments/runner/reference_noise.h"
+#include "experiments/runner/reference/reference_noise.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <limits>
 #include <random>
 
-#include "experiments/runner/reference_error.h"
-#include "experiments/runner/summary.h"
+#include "experiments/runner/reference/reference_error.h"
+#include "experiments/runner/summary/summary.h"
 
 namespace restlab {
 

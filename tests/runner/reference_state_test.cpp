@@ -1,5 +1,5 @@
 // The file of a reference's progress: bit for bit what was written, or one line.
-#include "experiments/runner/reference_state.h"
+#include "experiments/runner/reference/reference_state.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "core/error.h"
-#include "experiments/runner/reference_progress.h"
+#include "experiments/runner/reference/reference_progress.h"
 #include "tests/runner/temporary_folder.h"
 
 namespace restlab {

@@ -1,6 +1,6 @@
 // References in the library: extended bit for bit, of cameras that the scene does not have, under
 // keys that tell cameras apart.
-#include "experiments/runner/reference.h"
+#include "experiments/runner/reference/reference.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/error.h"
-#include "experiments/runner/build_info.h"
+#include "experiments/runner/run/build_info.h"
 #include "tests/runner/temporary_folder.h"
 
 namespace restlab {

@@ -1,5 +1,5 @@
 // When references are checked, and how seldom they stop before they are good enough.
-#include "experiments/runner/relmse_checks.h"
+#include "experiments/runner/reference/relmse_checks.h"
 
 #include <gtest/gtest.h>
 

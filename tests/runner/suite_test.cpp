@@ -1,6 +1,6 @@
 // Suites of several backends: which methods there are, what each is compared with, and what of the
 // settings reaches which backend. Nothing is rendered.
-#include "experiments/runner/suite.h"
+#include "experiments/runner/suite/suite.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Rows from runs with known numbers: means, ratios, bias, and the rules by which a row counts.
-#include "experiments/runner/summary.h"
+#include "experiments/runner/summary/summary.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <random>
 
-#include "experiments/runner/report.h"
+#include "experiments/runner/summary/report.h"
 
 namespace restlab {
 

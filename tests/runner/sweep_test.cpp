@@ -1,5 +1,5 @@
 // Sweeps and includes: which suites and methods they make, and where errors are said to be.
-#include "experiments/runner/sweep.h"
+#include "experiments/runner/suite/sweep.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "core/error.h"
-#include "experiments/runner/suite.h"
+#include "experiments/runner/suite/suite.h"
 #include "tests/runner/temporary_folder.h"
 
 namespace restlab {

@@ -1,5 +1,5 @@
 // Flicker and correlation of errors, on frames whose figures are known.
-#include "experiments/runner/temporal.h"
+#include "experiments/runner/summary/temporal.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,102 @@
+// What `compare DIR DIR` prints.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "experiments/runner/compare/compare_folders.h"
+#include "experiments/runner/run/run_record.h"
+
+namespace restlab {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string text(const Interval& interval) {
+  std::string ends = " [unknown]";
+  if (std::isfinite(interval.lo) && std::isfinite(interval.hi)) {
+    ends = fmt::format(" [{:.4g}, {:.4g}]", interval.lo, interval.hi);
+  } else if (std::isinf(interval.lo)) {
+    ends = " [unbounded]";
+  }
+  return fmt::format("{:.4g}{}", interval.value, ends);
+}
+
+Json json(const Interval& interval) {
+  return {{"value", finiteJson(interval.value)},
+          {"lo", finiteJson(interval.lo)},
+          {"hi", finiteJson(interval.hi)}};
+}
+
+Json json(const FolderOrigin& origin) {
+  Json words = {{"folder", origin.folder}, {"status", origin.status}};
+  for (const auto& [name, word] : origin.words) words[name] = word;
+  return words;
+}
+
+const char* name(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::same:
+      return "the same";
+    case Verdict::better:
+      return "better";
+    case Verdict::worse:
+      return "worse";
+    case Verdict::notToldApart:
+      return "not told apart";
+    case Verdict::notKnown:
+      break;
+  }
+  return "not known";
+}
+
+}  // namespace
+
+std::string ComparedRow::verdictText(Verdict verdict) const {
+  return fmt::format("{}{}", unlike.empty() ? "" : "unlike things: ", name(verdict));
+}
+
+std::string comparisonTable(const FolderComparison& comparison) {
+  std::string lines = fmt::format(
+      "- before: {}\n- after: {}\n\n"
+      "| table | method | MSE before | MSE after | MSE, after / before | | time, after / before | "
+      "|\n"
+      "|---|---|---|---|---|---|---|---|\n",
+      originText(comparison.before), originText(comparison.after));
+  bool overPath = false;
+  for (const ComparedRow& row : comparison.rows) {
+    overPath = overPath || row.timesOverPath;
+    lines += fmt::format("| {} | {} | {} | {} | {} | {} | {}{} | {} |\n", row.table, row.method,
+                         text(row.before), text(row.after), text(row.mseRatio),
+                         row.verdictText(row.error), text(row.timeRatio),
+                         row.timesOverPath ? " (*)" : "", row.verdictText(row.time));
+  }
+  lines += "\n- ratios below 1 are better\n";
+  if (overPath) lines += "- (*) of the times over those of `path` in the same folder\n";
+  for (const std::string& note : comparison.notes) lines += "- " + note + "\n";
+  return lines;
+}
+
+Json comparisonJson(const FolderComparison& comparison) {
+  Json rows = Json::array();
+  for (const ComparedRow& row : comparison.rows) {
+    rows.push_back({{"table", row.table},
+                    {"method", row.method},
+                    {"mse_before", json(row.before)},
+                    {"mse_after", json(row.after)},
+                    {"mse_after_over_before", json(row.mseRatio)},
+                    {"mse_ratio_is", row.runsOfRatio},
+                    {"error", row.verdictText(row.error)},
+                    {"time_after_over_before", json(row.timeRatio)},
+                    {"times_over_path", row.timesOverPath},
+                    {"time", row.verdictText(row.time)},
+                    {"unlike", row.unlike},
+                    {"is_worse", row.isWorse()}});
+  }
+  return {{"before", json(comparison.before)},
+          {"after", json(comparison.after)},
+          {"rows", rows},
+          {"notes", comparison.notes}};
+}
+
+}  // namespace restlab

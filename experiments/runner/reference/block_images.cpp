@@ -1,0 +1,60 @@
+// The images of a block.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "experiments/runner/run/files.h"
+#include "experiments/runner/summary/report.h"
+#include "experiments/runner/summary/report_document.h"
+
+namespace restlab {
+
+float previewExposure(const Image& reference) {
+  double sum = 0.0, lit = 0.0;
+  for (const glm::vec3& pixel : reference.pixels) {
+    const double luminance = 0.2126 * pixel.x + 0.7152 * pixel.y + 0.0722 * pixel.z;
+    // The mean of logarithms: a lamp in view does not darken the picture. What is black, beside a
+    // room that is open to nothing, say, does not brighten it.
+    if (luminance <= 0.0) continue;
+    sum += std::log(std::max(luminance, 1e-4));
+    lit += 1.0;
+  }
+  return lit > 0.0 ? float(0.18 / std::exp(sum / lit)) : 1.0f;
+}
+
+std::string blockLabel(const Suite& suite, const BlockResult& block) {
+  const std::string path = suite.hasMovingCamera() ? "-" + suite.cameraPathName : "";
+  // Where paths are swept, the point names them.
+  const bool isNamed = suite.point.find("camera_path=") != std::string::npos;
+  const std::string point = suite.point.empty() ? "" : "-" + suite.point;
+  return safeFileName(block.scene + "-" + componentName(block.component) + (isNamed ? "" : path) +
+                      point);
+}
+
+std::string referenceLabel(const Suite& suite, const BlockResult& block) {
+  return safeFileName(fmt::format("{}-{}-{}x{}", blockLabel(suite, block), block.camera,
+                                  block.width, block.height));
+}
+
+void writeBlockImages(const std::filesystem::path& folder, const Suite& suite,
+                      const BlockResult& block, float exposure) {
+  makeWritableDirectory(folder);
+  const std::string label = blockLabel(suite, block);
+  const auto write = [&](const std::string& name, const Image& image,
+                         std::map<std::string, std::string> metadata) {
+    LayeredImage file;
+    file.layers[""] = image;
+    file.metadata = std::move(metadata);
+    file.metadata["preview_exposure"] = fmt::format("{:.6g}", exposure);
+    const std::string stem = label + "-" + safeFileName(name);
+    writeExr(folder / (stem + ".exr"), file);
+    writePng(folder / (stem + ".png"), image, exposure);
+  };
+  write("reference", block.reference.mean, block.reference.metadata);
+  for (size_t m = 0; m < block.methods.size(); ++m) {
+    const MethodResult& method = block.methods[m];
+    if (!method.runs.empty()) write(suite.methods[m].name, method.shown, method.metadata);
+  }
+}
+
+}  // namespace restlab

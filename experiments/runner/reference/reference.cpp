@@ -1,0 +1,125 @@
+#include "experiments/runner/reference/reference.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/image/metrics.h"
+#include "experiments/runner/run/build_info.h"
+#include "experiments/runner/run/log.h"
+
+namespace restlab {
+
+namespace {
+
+// All numbers of a camera that its image depends on, exactly. A zero has one sign here.
+std::string exactly(const SceneCamera& camera) {
+  std::string text = camera.kind == rl::RL_CAMERA_ORTHOGRAPHIC ? "orthographic" : "perspective";
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 4; ++row) {
+      text += fmt::format(" {:a}", camera.cameraToWorld[column][row] + 0.0);
+    }
+  }
+  if (camera.kind != rl::RL_CAMERA_ORTHOGRAPHIC) return text + fmt::format(" {:a}", camera.yfov);
+  return text + fmt::format(" {:a}", camera.ymag);  // the film's shape gives the width
+}
+
+}  // namespace
+
+bool targetReached(const ReferenceTarget& target, uint64_t spp, double relmseSinceHalf,
+                   double timeS) {
+  if (target.spp && spp >= target.spp) return true;
+  if (target.timeLimitS > 0.0 && timeS >= target.timeLimitS && spp >= 2) return true;
+  return target.relmse > 0.0 && relmseSinceHalf <= target.relmse;
+}
+
+const SceneCamera* cameraInsteadOf(const PreparedScene& prepared, const ReferenceConfig& config) {
+  if (!config.camera) return nullptr;
+  const SceneCamera& own = prepared.scene->source().cameras.at(prepared.camera);
+  return exactly(*config.camera) == exactly(own) ? nullptr : &*config.camera;
+}
+
+ReferenceConfig referenceConfigOf(const SessionConfig& session) {
+  ReferenceConfig config;
+  config.width = session.width;
+  config.height = session.height;
+  config.maxBounces = session.maxBounces;
+  config.components = session.components;
+  config.pixelFilter = session.pixelFilter;
+  config.multiscatter = session.multiscatter;
+  config.seed = session.seed;
+  config.threads = session.threads;
+  config.backend = session.backend;
+  config.device = session.device;
+  config.rayTracing = session.rayTracing;
+  config.validate = session.validate;
+  return config;
+}
+
+std::string referenceKey(const PreparedScene& prepared, const ReferenceConfig& config) {
+  const SceneCamera* camera = cameraInsteadOf(prepared, config);
+  const std::string text = fmt::format(
+      "reference-2 {} camera {} {}x{} bounces {} {} {} multiscatter {} sources {}",
+      hexHash(prepared.contentHash), camera ? exactly(*camera) : std::to_string(prepared.camera),
+      config.width, config.height, config.maxBounces, componentName(config.components),
+      filterName(config.pixelFilter), config.multiscatter ? "on" : "off",
+      buildInfo().referenceHash);
+  const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
+  return hexHash(hash.high64) + hexHash(hash.low64);
+}
+
+bool meetsTarget(const Reference& reference, const ReferenceTarget& target) {
+  return targetReached(target, reference.spp, reference.relmseSinceHalf, reference.timeS);
+}
+
+void requireUsable(const std::string& file, const Reference& reference) {
+  const auto word = [&](const char* name) {
+    const auto found = reference.metadata.find(name);
+    return found == reference.metadata.end() ? std::string() : found->second;
+  };
+  const bool isOurs = !word("scene_hash").empty();
+  if (isOurs && word("kind") != "reference") {
+    failInput(
+        fmt::format("{}: is an image of {} with {} spp, not a reference (restlab reference "
+                    "makes one)",
+                    file, word("integrator"), word("spp")));
+  }
+  for (const Image* image : {&reference.mean, reference.half0 ? &*reference.half0 : nullptr,
+                             reference.half1 ? &*reference.half1 : nullptr}) {
+    if (!image) continue;
+    const size_t count = countNonfinite(*image);
+    if (count == 0) continue;
+    const auto first =
+        std::find_if(image->pixels.begin(), image->pixels.end(), [](const glm::vec3& pixel) {
+          return !(std::isfinite(pixel.x) && std::isfinite(pixel.y) && std::isfinite(pixel.z));
+        });
+    const size_t at = size_t(first - image->pixels.begin());
+    failInput(
+        fmt::format("{}: {} values of its {} are not finite, the first at pixel ({}, {}); "
+                    "a reference must be finite",
+                    file, count, image == &reference.mean ? "image" : "halves", at % image->width,
+                    at / image->width));
+  }
+}
+
+void requireSameConfiguration(const std::string& file,
+                              const std::map<std::string, std::string>& reference,
+                              const std::map<std::string, std::string>& wanted) {
+  if (reference.find("scene_hash") == reference.end()) {
+    logWarning(fmt::format("{}: says nothing about its scene and settings; taken on trust", file));
+    return;
+  }
+  for (const char* item :
+       {"scene_hash", "camera_index", "camera_to_world", "camera_yfov", "width", "height",
+        "max_bounces", "component", "filter", "multiscatter", "reference_sources"}) {
+    const auto have = reference.find(item), want = wanted.find(item);
+    if (have == reference.end() || want == wanted.end() || have->second == want->second) continue;
+    failInput(fmt::format("{}: the reference is of another configuration: {} is {}, not {}", file,
+                          item, have->second, want->second));
+  }
+}
+
+}  // namespace restlab

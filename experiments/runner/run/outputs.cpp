@@ -1,0 +1,69 @@
+#include "experiments/runner/run/outputs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/image/atomic_file.h"
+#include "experiments/report/report_html.h"
+#include "experiments/runner/run/build_info.h"
+#include "experiments/runner/summary/report.h"
+#include "experiments/runner/summary/report_document.h"
+
+namespace restlab {
+
+std::string Outputs::add(const Suite& suite, BlockResult result) {
+  const float exposure = previewExposure(result.reference.mean);
+  writeBlockImages(out_ / "images", suite, result, exposure);
+  Block& block = blocks_.emplace_back(Block{&suite, std::move(result), {}});
+  block.rows = summarise(suite, block.result);
+  for (MethodResult& method : block.result.methods) {
+    // Only the numbers are needed from here on.
+    method.measured = BiasRuns();
+    method.shown = Image();
+  }
+  Reference& reference = block.result.reference;
+  reference.mean = Image();
+  reference.variance.reset();
+  if (reference.half0) reference.half0 = reference.half1 = Image();
+  block.result.withoutLights.clear();
+  documents_.push_back(blockDocument(suite, block.rows, exposure));
+  return blockTable(suite, block.rows);
+}
+
+void Outputs::writePages(const Suite& suite, const nlohmann::ordered_json& record) const {
+  if (documents_.empty()) return;
+  const nlohmann::ordered_json document = reportDocument(suite, record, documents_, notes_);
+  writePlots(out_, document);
+  writeReport(out_, document);
+}
+
+void Outputs::write(const Suite& suite, bool finished) const {
+  std::string csv;
+  for (const Block& block : blocks_) {
+    const std::string part = summaryCsv(*block.suite, block.rows);
+    // All blocks have the same columns: one heading is enough.
+    csv += csv.empty() ? part : part.substr(std::min(part.size(), part.find('\n') + 1));
+  }
+  if (!csv.empty()) writeTextFile(out_ / "summary.csv", csv);
+  std::string tex;
+  for (const Block& block : blocks_) tex += blockTex(*block.suite, block.rows);
+  if (!tex.empty()) writeTextFile(out_ / "table.tex", tex);
+  std::string text = fmt::format("# {}\n\n", suite.name);
+  if (!suite.question.empty()) text += suite.question + "\n\n";
+  if (!finished) text += "Not finished: the rows below are of what was.\n\n";
+  for (const std::string& line : notes_) text += line + "\n\n";
+  for (const Block& block : blocks_) text += blockTable(*block.suite, block.rows);
+  const bool usesVulkan = std::any_of(devices_.begin(), devices_.end(),
+                                      [](const DeviceUse& use) { return use.backend == "vulkan"; });
+  text += fmt::format(
+      "{}, {} cores, {}, {} {}; times are of the passes of a frame by the "
+      "steady clock{}, without metrics and files.\n",
+      cpuModel(), machineJson()["cores"].dump(), librariesText(), buildInfo().compiler,
+      buildInfo().buildType, usesVulkan ? " (vulkan: by the device's timestamps)" : "");
+  for (const DeviceUse& use : devices_)
+    text += fmt::format("\n{}: {}; rays by {}.\n", use.backend, use.device, use.rayTracing);
+  writeTextFile(out_ / "table.md", text);
+}
+
+}  // namespace restlab

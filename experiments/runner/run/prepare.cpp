@@ -1,0 +1,256 @@
+#include "experiments/runner/run/prepare.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.h"
+#include "core/method.h"
+#include "experiments/runner/run/build_info.h"
+#include "experiments/runner/run/files.h"
+#include "experiments/runner/run/log.h"
+
+namespace restlab {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool isBuiltin(const std::string& name) {
+  for (const std::string& builtin : builtinSceneNames()) {
+    if (builtin == name) return true;
+  }
+  return false;
+}
+
+// A relative name is tried beside the suite too; "" when it is nowhere.
+std::string locate(const std::string& name, const std::string& suiteFolder) {
+  const fs::path found = findAsset(name);
+  if (!found.empty()) return found.string();
+  std::error_code status;
+  if (!suiteFolder.empty() && fs::exists(fs::path(suiteFolder) / name, status)) {
+    return (fs::path(suiteFolder) / name).string();
+  }
+  return "";
+}
+
+uint64_t hashEnvironment(const EnvironmentMap& map, uint64_t seed) {
+  const float numbers[4] = {float(map.width), float(map.height), map.rotation, map.scale};
+  uint64_t hash = XXH3_64bits_withSeed(numbers, sizeof(numbers), seed);
+  const size_t bytes = map.radiance.size() * sizeof(glm::vec3);
+  return XXH3_64bits_withSeed(map.radiance.data(), bytes, hash);
+}
+
+float radiansOf(double degrees) { return float(degrees * std::numbers::pi / 180.0); }
+
+// In degrees, with as many digits as give the same radians again.
+std::string rotationText(float radians) {
+  const double degrees = radians * 180.0 / std::numbers::pi;
+  const std::string text = fmt::format("{:.6g}", degrees);
+  return radiansOf(std::stod(text)) == radians ? text : fmt::format("{:.12g}", degrees);
+}
+
+// A whole number of pixels in 1..kMaxSide, or 0 when `text` is none.
+uint32_t parseSide(std::string_view text) {
+  uint32_t side = 0;
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), side);
+  const bool whole = status == std::errc() && end == text.data() + text.size();
+  return whole && side <= kMaxSide ? side : 0;
+}
+
+void setCamera(PreparedScene& prepared, const Scene& scene, const std::string& nameOrIndex) {
+  prepared.camera = nameOrIndex.empty() ? 0 : findCamera(scene, nameOrIndex);
+  const std::string& name = scene.cameras.at(prepared.camera).name;
+  prepared.cameraName = name.empty() ? std::to_string(prepared.camera) : name;
+}
+
+}  // namespace
+
+bool assetsMissing(const SceneRequest& request, std::string& missing) {
+  missing.clear();
+  if (!isBuiltin(request.scene) && locate(request.scene, request.suiteFolder).empty()) {
+    missing = request.scene;
+  } else if (!request.environment.empty() &&
+             locate(request.environment, request.suiteFolder).empty()) {
+    missing = request.environment;
+  }
+  return !missing.empty();
+}
+
+std::optional<EnvironmentMap> readEnvironment(const SceneRequest& request) {
+  if (request.environment.empty()) return std::nullopt;
+  const std::string found = locate(request.environment, request.suiteFolder);
+  if (found.empty()) {
+    failInput(
+        fmt::format("{}: environment not found (looked here, in RESTLAB_SCENES and in "
+                    "../shared/scenes)",
+                    request.environment));
+  }
+  return loadEnvironment(found);
+}
+
+PreparedScene prepareScene(const SceneRequest& request) {
+  return prepareScene(request, readEnvironment(request));
+}
+
+PreparedScene prepareScene(const SceneRequest& request, std::optional<EnvironmentMap> environment) {
+  const auto start = std::chrono::steady_clock::now();
+  PreparedScene prepared;
+  std::string name = request.scene;
+  if (!isBuiltin(name) && !request.suiteFolder.empty()) {
+    const std::string found = locate(name, request.suiteFolder);
+    if (!found.empty()) name = found;
+  }
+  Scene scene = loadScene(name);
+  prepared.environmentName = scene.environment ? scene.environment->source : "none";
+  if (prepared.environmentName.empty()) prepared.environmentName = "built-in";
+  if (environment) {
+    scene.environment = std::move(environment);
+    prepared.environmentName = request.environment;
+  }
+  if (!scene.environment && (request.environmentRotation || request.environmentScale)) {
+    failUsage(fmt::format("{}: has no environment to rotate or scale; give one with --environment",
+                          request.scene));
+  }
+  if (request.environmentRotation) {
+    scene.environment->rotation = radiansOf(*request.environmentRotation);
+  }
+  if (request.environmentScale) scene.environment->scale = float(*request.environmentScale);
+  prepared.contentHash = scene.contentHash;
+  if (scene.environment) {
+    prepared.contentHash = hashEnvironment(*scene.environment, scene.contentHash);
+  }
+  // Before the scene is compiled, which can take long.
+  setCamera(prepared, scene, request.camera);
+  prepared.scene = CompiledScene::build(std::move(scene));
+  const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
+  prepared.loadTimeMs = spent.count();
+  return prepared;
+}
+
+void chooseCamera(PreparedScene& prepared, const std::string& nameOrIndex) {
+  setCamera(prepared, prepared.scene->source(), nameOrIndex);
+}
+
+void printWarnings(const PreparedScene& prepared) {
+  for (const std::string& warning : prepared.scene->warnings()) logWarning(warning);
+}
+
+void parseResolution(const std::string& text, const std::string& place, uint32_t& width,
+                     uint32_t& height) {
+  const size_t x = std::min(text.find_first_of("xX"), text.size());
+  width = parseSide(std::string_view(text).substr(0, x));
+  height = x < text.size() ? parseSide(std::string_view(text).substr(x + 1)) : 0;
+  if (width && height) return;
+  failUsage(fmt::format("{} {}: must be WxH with both sides in 1..{}, for example 640x360", place,
+                        text, kMaxSide));
+}
+
+void completeResolution(const PreparedScene& prepared, uint32_t& width, uint32_t& height) {
+  const Scene& scene = prepared.scene->source();
+  const double aspect = scene.cameras.at(prepared.camera).aspect;
+  const double ratio = aspect > 0.0 ? aspect : 1.0;
+  if (width == 0 && height == 0) width = 512;
+  if (width != 0 && height != 0) return;
+  const double wanted = std::round(width == 0 ? height * ratio : width / ratio);
+  // In floating point: the ratio may be anything.
+  if (!(wanted >= 1.0 && wanted <= double(kMaxSide))) {
+    failInput(
+        fmt::format("{}: camera '{}' has the aspect ratio {:g}: {} pixels {} would be {:g} {}, "
+                    "which must be 1 to {}; give both width and height",
+                    scene.name, prepared.cameraName, aspect, width == 0 ? height : width,
+                    width == 0 ? "high" : "wide", wanted, width == 0 ? "wide" : "high", kMaxSide));
+  }
+  (width == 0 ? width : height) = uint32_t(wanted);
+}
+
+std::string componentName(uint32_t components) {
+  if (components == rl::RL_COMPONENT_DIRECT) return "direct";
+  if (components == rl::RL_COMPONENT_INDIRECT) return "indirect";
+  return "all";
+}
+
+uint32_t parseComponent(const std::string& name, const std::string& place) {
+  if (name == "all") return rl::RL_COMPONENT_ALL;
+  if (name == "direct") return rl::RL_COMPONENT_DIRECT;
+  if (name == "indirect") return rl::RL_COMPONENT_INDIRECT;
+  failUsage(fmt::format("{}: unknown component '{}' (known: all, direct, indirect){}", place, name,
+                        didYouMean(name, {"all", "direct", "indirect"})));
+}
+
+std::string filterName(uint32_t filter) {
+  return filter == rl::RL_FILTER_CENTER ? "center" : "box";
+}
+
+uint32_t parseFilter(const std::string& name, const std::string& place) {
+  if (name == "box") return rl::RL_FILTER_BOX;
+  if (name == "center") return rl::RL_FILTER_CENTER;
+  failUsage(fmt::format("{}: unknown filter '{}' (known: box, center){}", place, name,
+                        didYouMean(name, {"box", "center"})));
+}
+
+std::string hexHash(uint64_t hash) { return fmt::format("{:016x}", hash); }
+
+std::string parameterText(const ParameterValue& value) {
+  if (const bool* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+  if (const int64_t* integer = std::get_if<int64_t>(&value)) return std::to_string(*integer);
+  if (const double* number = std::get_if<double>(&value)) return fmt::format("{:.9g}", *number);
+  return std::get<std::string>(value);
+}
+
+std::map<std::string, std::string> describe(const PreparedScene& prepared,
+                                            const SessionConfig& config) {
+  const Scene& source = prepared.scene->source();
+  std::map<std::string, std::string> words = {
+      {"program", "restlab"},
+      {"scene", source.name},
+      {"scene_source", source.source.empty() ? "built-in" : source.source.string()},
+      {"scene_hash", hexHash(prepared.contentHash)},
+      {"environment", prepared.environmentName},
+      {"integrator", config.integrator},
+      {"mode", config.mode},
+      {"cache", findIntegrator(config.integrator).usesCache ? config.cache : "none"},
+      {"backend", config.backend},
+      {"denoiser", config.denoiser},
+      {"width", std::to_string(config.width)},
+      {"height", std::to_string(config.height)},
+      {"max_bounces", std::to_string(config.maxBounces)},
+      {"component", componentName(config.components)},
+      {"filter", filterName(config.pixelFilter)},
+      {"multiscatter", config.multiscatter ? "on" : "off"},
+      {"russian_roulette", config.russianRoulette ? "on" : "off"},
+      {"kernel", config.specialise ? "specialised" : "general"},
+      {"source_hash", buildInfo().sourceHash},
+      {"reference_sources", buildInfo().referenceHash},
+  };
+  describeCamera(source.cameras.at(prepared.camera), words);
+  words["camera"] = prepared.cameraName;
+  words["camera_index"] = std::to_string(prepared.camera);
+  if (source.environment) {
+    words["environment_rotation"] = rotationText(source.environment->rotation);
+    words["environment_scale"] = fmt::format("{:.9g}", source.environment->scale);
+  }
+  const ParameterMap all = resolveParameters(findMethod(config), config.parameters);
+  for (const auto& [key, value] : all) words["parameter." + key] = parameterText(value);
+  return words;
+}
+
+void describeCamera(const SceneCamera& camera, std::map<std::string, std::string>& words) {
+  std::string matrix;
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      matrix +=
+          fmt::format("{}{:.9g}", matrix.empty() ? "" : " ", camera.cameraToWorld[column][row]);
+    }
+  }
+  words["camera"] = camera.name;
+  words["camera_index"] = "none";
+  words["camera_to_world"] = matrix;
+  words["camera_yfov"] = fmt::format("{:.9g}", camera.yfov);
+}
+
+}  // namespace restlab

@@ -1,0 +1,430 @@
+#include "experiments/runner/run/suite_runner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <exception>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <thread>
+
+#include "core/error.h"
+#include "core/image/atomic_file.h"
+#include "experiments/runner/reference/block_masks.h"
+#include "experiments/runner/run/build_info.h"
+#include "experiments/runner/run/clean.h"
+#include "experiments/runner/run/files.h"
+#include "experiments/runner/run/folder_lock.h"
+#include "experiments/runner/run/image_rows.h"
+#include "experiments/runner/run/job.h"
+#include "experiments/runner/run/log.h"
+#include "experiments/runner/run/outputs.h"
+#include "experiments/runner/run/pace.h"
+#include "experiments/runner/summary/report.h"
+#include "experiments/runner/run/results_log.h"
+#include "experiments/runner/run/run_record.h"
+#include "experiments/runner/suite/suite_check.h"
+
+namespace restlab {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// summary.csv, table.md and the images belong to one run: what an earlier one left would pass for
+// this one's where this one ends early. results.jsonl says of every line which run it is of.
+// A file that the suite itself reads stays.
+void removeEarlierResults(const fs::path& out, const Suite& suite) {
+  std::error_code status;
+  std::vector<fs::path> old = {out / "summary.csv", out / "table.md", out / "table.tex",
+                               out / "report.html"};
+  for (const fs::directory_entry& entry : fs::directory_iterator(out / "images", status)) {
+    const fs::path extension = entry.path().extension();
+    const bool isImage = extension == ".exr" || extension == ".png";
+    if (isImage && !readsFile(suite, entry.path())) old.push_back(entry.path());
+  }
+  for (const fs::directory_entry& entry : fs::directory_iterator(out / "plots", status)) {
+    if (entry.path().extension() == ".svg") old.push_back(entry.path());
+  }
+  for (const fs::path& file : old) {
+    if (!fs::is_directory(file, status)) fs::remove(file, status);
+    if (fs::is_regular_file(file, status)) {
+      failInput(fmt::format("{}: is of an earlier run and cannot be removed", file.string()));
+    }
+  }
+}
+
+// A block's place in the plan of run.json, with the keys of its jobs.
+nlohmann::ordered_json planOf(const Suite& suite, const BlockResult& block) {
+  return {{"point", suite.point},
+          {"scene", block.scene},
+          {"camera", block.camera},
+          {"component", componentName(block.component)},
+          {"width", block.width},
+          {"height", block.height},
+          {"reference", block.referenceFile},
+          {"jobs", nlohmann::ordered_json::array()},
+          {"images", nlohmann::ordered_json::array()}};
+}
+
+class SuiteRun {
+ public:
+  SuiteRun(const std::vector<Suite>& points, const SuiteRequest& request)
+      : points_(points),
+        request_(request),
+        started_(utcNow()),
+        outputs_(request.out),
+        store_(request.out) {}
+
+  bool execute() {
+    check();
+    lock_.emplace(request_.out);
+    makeWritableDirectory(request_.out / "references");
+    log_.emplace(request_.out / "results.jsonl");
+    removeEarlierResults(request_.out, points_.front());
+    writeTextFile(request_.out / "suite.toml", points_.front().resolved);
+    outputs_.use(devices_);
+    makePlan();
+    writeRecord("running");
+    try {
+      const bool finished = executeAll();
+      outputs_.write(points_.front(), finished);
+      writeRecord(finished ? "finished" : "interrupted");
+      outputs_.writePages(points_.front(), record_);
+      logEvent({{"event", finished ? "finished" : "interrupted"},
+                {"folder", request_.out.string()},
+                {"made", made_},
+                {"were_there", reused_}});
+      if (reused_ > 0)
+        logInfo(fmt::format("{} of {} runs were there already", reused_, reused_ + made_));
+      return finished;
+    } catch (const Error& error) {
+      writeRecord(fmt::format("failed: {}", error.what()));
+      throw;
+    }
+  }
+
+ private:
+  // Before anything in the folder changes: a wrong suite costs no earlier result.
+  void check() {
+    std::error_code status;
+    const bool isNew = !fs::exists(request_.out, status);
+    makeWritableDirectory(request_.out);  // quickly said, unlike what follows
+    try {
+      checks_ = checkSuites(points_);
+      for (const SuiteCheck& found : checks_) {
+        for (const DeviceUse& use : found.devices) {
+          if (std::find(devices_.begin(), devices_.end(), use) == devices_.end())
+            devices_.push_back(use);
+        }
+      }
+    } catch (const Error&) {
+      if (isNew) fs::remove(request_.out, status);
+      throw;
+    }
+  }
+
+  // Every block, in the order of executeAll(), before anything of it is known but its name.
+  void makePlan() {
+    std::string missing;
+    for (size_t s = 0; s < points_.front().scenes.size(); ++s) {
+      const SuiteScene& scene = points_.front().scenes[s];
+      if (scene.optional && assetsMissing(scene.request, missing)) continue;
+      for (const Suite& suite : points_) {
+        for (const uint32_t component : suite.components) {
+          BlockResult block;
+          block.scene = scene.name;
+          block.component = component;
+          plan_.push_back(planOf(suite, block));
+          pace_.plan(suite.runs);
+        }
+      }
+    }
+  }
+
+  bool executeAll() {
+    // Scenes are the same at every point.
+    for (size_t s = 0; s < points_.front().scenes.size(); ++s) {
+      const SuiteScene& scene = points_.front().scenes[s];
+      std::string missing;
+      if (scene.optional && assetsMissing(scene.request, missing)) {
+        const std::string line = fmt::format("skipped {}: {} is not here", scene.name, missing);
+        skipped_.push_back(line);
+        outputs_.note(line);
+        logInfo(line);
+        continue;
+      }
+      const SuiteCheck& first = checks_.front();
+      const PreparedScene prepared = first.only ? *first.only : prepareScene(scene.request);
+      printWarnings(prepared);
+      for (size_t p = 0; p < points_.size(); ++p) {
+        for (const uint32_t component : points_[p].components) {
+          if (!executeBlock(p, points_[p].scenes[s], prepared, component)) return false;
+        }
+      }
+    }
+    return true;
+  }
+
+  bool executeBlock(size_t point, const SuiteScene& scene, const PreparedScene& prepared,
+                    uint32_t component) {
+    const Suite& suite = points_[point];
+    BlockResult block;
+    block.scene = scene.name;
+    block.camera = prepared.cameraName;
+    block.component = component;
+    sceneResolution(suite, scene, prepared, block.width, block.height);
+    block.startupMs = checks_[point].startupMs[scene.name];
+    block.motion = motionOf(suite, prepared);
+    if (!obtain(suite, scene, prepared, block)) return false;
+    warnOfBlack(suite, block);
+    nlohmann::ordered_json& plan = plan_.at(next_++);
+    plan = planOf(suite, block);
+    bool finished = false;
+    std::exception_ptr failure;  // a lost device, say: what was finished before it is kept
+    try {
+      finished = executeRuns(suite, prepared, block, plan);
+    } catch (const Error&) {
+      if (block.methods.empty()) throw;
+      failure = std::current_exception();
+    }
+    if (!block.methods.empty()) {
+      std::fputs(outputs_.add(suite, std::move(block)).c_str(), stdout);
+      std::fflush(stdout);
+    }
+    outputs_.write(points_.front(), false);
+    if (failure) std::rethrow_exception(failure);
+    return finished;
+  }
+
+  // A camera that has left the room, say: nothing can be said of an image without light.
+  void warnOfBlack(const Suite& suite, const BlockResult& block) {
+    const std::vector<glm::vec3>& pixels = block.reference.mean.pixels;
+    const bool isBlack = std::all_of(pixels.begin(), pixels.end(),
+                                     [](const glm::vec3& p) { return p == glm::vec3(0.0f); });
+    if (!isBlack) return;
+    const std::string line =
+        fmt::format("{}: its reference is black; its rows say nothing", blockLabel(suite, block));
+    logWarning(line);
+    outputs_.note("Warning: " + line);
+  }
+
+  bool executeRuns(const Suite& suite, const PreparedScene& prepared, BlockResult& block,
+                   nlohmann::ordered_json& plan) {
+    std::string reference = referenceHash(block.reference);
+    if (block.referenceBefore) reference += referenceHash(*block.referenceBefore);
+    BlockExecutor executor(suite, prepared, block);
+    measureImageRows(suite, prepared, block, reference, plan);
+    Progress progress(blockLabel(suite, block), suite.runs);
+    const std::set<std::string> made = makeSideBySide(suite, prepared, block, reference, progress);
+    for (uint32_t run = 0; run < suite.runs; ++run) {
+      const JobIdentity identity = identityOf(suite, prepared, block, run, reference);
+      const std::string key = identity.key();
+      std::optional<JobData> job;
+      if (!request_.force || made.count(key) != 0) job = store_.load(key);
+      const bool isThere = job.has_value() && made.count(key) == 0;
+      if (!job) {
+        Stopwatch watch;
+        job = executor.execute(run, key, started_);
+        if (!job) return false;
+        store_.save(identity, *job);
+        pace_.made(watch.lap());
+      } else if (isThere && suite.jobs < 2) {
+        pace_.found();
+      }
+      ++(isThere ? reused_ : made_);
+      log_->add(key, *job, !isThere);
+      addJob(suite, *job, block);
+      plan["jobs"].push_back(key);
+      if (made.count(key) == 0) logRun(suite, block, run, key, isThere);
+      writeRecord("running");
+      // What was made side by side was counted then, together with what was there.
+      if (suite.jobs < 2) progress.update(run + 1, "", pace_.progress());
+    }
+    progress.finish();
+    sayWhatIsLeft(suite, prepared, block, reference);
+    return true;
+  }
+
+  // Of an earlier `run` with more runs: the tables are about to lose them.
+  void sayWhatIsLeft(const Suite& suite, const PreparedScene& prepared, const BlockResult& block,
+                     const std::string& reference) const {
+    uint32_t runs = suite.runs;
+    while (store_.record(identityOf(suite, prepared, block, runs, reference).key())) ++runs;
+    if (runs == suite.runs) return;
+    logInfo(fmt::format("{}: not taken, though there: {} of further runs; --set runs={} takes them",
+                        blockLabel(suite, block), runs - suite.runs, runs));
+  }
+
+  static void logRun(const Suite& suite, const BlockResult& block, uint32_t run,
+                     const std::string& key, bool wasThere) {
+    logEvent({{"event", "run"},
+              {"table", blockLabel(suite, block)},
+              {"run", run},
+              {"job", key},
+              {"was_there", wasThere}});
+  }
+
+  JobIdentity identityOf(const Suite& suite, const PreparedScene& prepared,
+                         const BlockResult& block, uint32_t run,
+                         const std::string& reference) const {
+    return jobIdentity(suite, prepared, block, run, buildInfo(), reference, devices_);
+  }
+
+  // The missing runs where several are made at once; the keys of those that were finished, in the
+  // store.
+  std::set<std::string> makeSideBySide(const Suite& suite, const PreparedScene& prepared,
+                                       BlockResult& block, const std::string& reference,
+                                       Progress& progress) {
+    std::set<std::string> made;
+    if (suite.jobs < 2) return made;
+    prepareMasks(suite, prepared, block);  // not by each of them
+    std::vector<uint32_t> missing;
+    for (uint32_t run = 0; run < suite.runs; ++run) {
+      const std::string key = identityOf(suite, prepared, block, run, reference).key();
+      if (request_.force || !store_.load(key)) {
+        missing.push_back(run);
+      } else {
+        pace_.found();
+      }
+    }
+    std::mutex mutex;  // guards made, failure, progress, pace_ and watch
+    Stopwatch watch;
+    std::exception_ptr failure;
+    std::atomic<size_t> next = 0;
+    const auto work = [&] {
+      try {
+        BlockExecutor executor(suite, prepared, block);
+        for (size_t i = next++; i < missing.size(); i = next++) {
+          const JobIdentity identity = identityOf(suite, prepared, block, missing[i], reference);
+          const std::optional<JobData> job = executor.execute(missing[i], identity.key(), started_);
+          if (!job) return;
+          store_.save(identity, *job);
+          const std::lock_guard lock(mutex);
+          made.insert(identity.key());
+          pace_.made(watch.lap());
+          logRun(suite, block, missing[i], identity.key(), false);
+          progress.update(suite.runs - missing.size() + made.size(), "", pace_.progress());
+        }
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        if (!failure) failure = std::current_exception();
+        next = missing.size();
+      }
+    };
+    {
+      std::vector<std::jthread> workers;
+      for (size_t i = 0; i < std::min<size_t>(suite.jobs, missing.size()); ++i)
+        workers.emplace_back(work);
+    }
+    if (failure) std::rethrow_exception(failure);
+    return made;
+  }
+
+  // Quickly done, and so not taken again.
+  void measureImageRows(const Suite& suite, const PreparedScene& prepared, BlockResult& block,
+                        const std::string& reference, nlohmann::ordered_json& plan) {
+    if (imageRuns(suite) > 0) prepareMasks(suite, prepared, block);
+    for (uint32_t run = 0; run < imageRuns(suite); ++run) {
+      const ImageJob job = measureImages(suite, block, run, reference, started_);
+      const std::string key = job.identity.key();
+      store_.save(job.identity, job.data);
+      log_->add(key, job.data);
+      addJob(suite, job.data, block);
+      plan["images"].push_back(key);
+    }
+  }
+
+  bool obtain(const Suite& suite, const SuiteScene& scene, const PreparedScene& prepared,
+              BlockResult& block) {
+    if (!scene.reference.empty()) {
+      // Of this configuration, as checkSuites() found.
+      const fs::path found = findAsset(scene.reference);
+      block.reference = readReference(found.empty() ? fs::path(scene.reference) : found);
+      block.referenceFile =
+          fs::absolute(found.empty() ? fs::path(scene.reference) : found).string();
+      return true;
+    }
+    const std::string label = referenceLabel(suite, block);
+    try {
+      const SessionConfig picture = pictureOf(suite, block.width, block.height, block.component);
+      ReferenceConfig config = referenceConfigOf(picture);
+      const fs::path folder = request_.out / "references";
+      if (block.motion) config.camera = cameraAt(*block.motion, suite.warmupFrames);
+      block.reference = obtainReference(prepared, config, suite.target, folder, label);
+      if (block.motion && suite.temporal && suite.warmupFrames > 0) {
+        config.camera = cameraAt(*block.motion, suite.warmupFrames - 1);
+        block.referenceBefore =
+            obtainReference(prepared, config, suite.target, folder, label + "-before");
+      }
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::interrupted) throw;
+      logInfo(error.what());
+      return false;
+    }
+    block.referenceFile = "references/" + label + ".exr";
+    return true;
+  }
+
+  // --methods may have taken some of the suite's.
+  std::vector<std::string> methodNames() const {
+    std::vector<std::string> names;
+    for (const SuiteMethod& method : points_.front().methods) names.push_back(method.name);
+    return names;
+  }
+
+  // What was run, where, from which sources: whoever finds the folder can run it again.
+  void writeRecord(const std::string& status) {
+    nlohmann::ordered_json devices = nlohmann::ordered_json::array();
+    for (const DeviceUse& use : devices_) {
+      devices.push_back({{"backend", use.backend},
+                         {"device", use.device},
+                         {"ray_tracing", use.rayTracing},
+                         {"validate", use.backend == "vulkan" && points_.front().validate}});
+    }
+    record_ = {{"schema", kResultsSchema},
+               {"status", status},
+               {"suite", points_.front().name},
+               {"file", points_.front().file},
+               {"argv", request_.argv},
+               {"methods", methodNames()},
+               {"started", started_},
+               {"written", utcNow()},
+               {"build", buildJson()},
+               {"machine", machineJson()},
+               {"devices", devices},
+               {"reference_backend", points_.front().referenceBackend},
+               {"skipped", skipped_},
+               {"plan", plan_},
+               {"peak_resident_mib", peakResidentMiB()}};
+    writeTextFile(request_.out / "run.json", record_.dump(2) + "\n");
+  }
+
+  const std::vector<Suite>& points_;
+  const SuiteRequest& request_;
+  std::string started_;
+  Outputs outputs_;
+  JobStore store_;
+  std::optional<FolderLock> lock_;
+  std::optional<ResultsLog> log_;
+  std::vector<SuiteCheck> checks_;  // of the points
+  std::vector<DeviceUse> devices_;
+  std::vector<std::string> skipped_;
+  std::vector<nlohmann::ordered_json> plan_;
+  nlohmann::ordered_json record_;  // run.json
+  Pace pace_;
+  size_t next_ = 0;  // block of the plan
+  size_t made_ = 0, reused_ = 0;
+};
+
+}  // namespace
+
+bool runSuite(const std::vector<Suite>& points, const SuiteRequest& request) {
+  return SuiteRun(points, request).execute();
+}
+
+}  // namespace restlab

@@ -1,0 +1,320 @@
+#include "experiments/runner/suite/suite.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "core/config.h"
+#include "core/error.h"
+#include "core/method.h"
+#include "experiments/runner/suite/backend_choice.h"
+#include "experiments/runner/run/files.h"
+#include "experiments/runner/suite/suite_methods.h"
+#include "experiments/runner/suite/suite_overrides.h"
+#include "experiments/runner/suite/suite_settings.h"
+#include "experiments/runner/suite/sweep.h"
+
+namespace restlab {
+
+namespace {
+
+SuiteScene readScene(const ConfigTable& table, const std::string& folder) {
+  SuiteScene scene;
+  scene.request.suiteFolder = folder;
+  scene.request.scene = table.getString("scene", "");
+  scene.request.camera = table.getString("camera", "");
+  scene.request.environment = table.getString("environment", "");
+  if (table.has("environment_rotation")) {
+    scene.request.environmentRotation = table.getNumber("environment_rotation", 0.0, -360.0, 360.0);
+  }
+  if (table.has("environment_scale")) {
+    scene.request.environmentScale = table.getNumber("environment_scale", 1.0, 0.0, 1e9);
+  }
+  const std::filesystem::path path(scene.request.scene);
+  scene.name = table.getString("name", path.stem().string());
+  scene.reference = table.getString("reference", "");
+  scene.place = table.place("scene");
+  scene.cameraPlace = table.place("camera");
+  scene.environmentPlace = table.place("environment");
+  scene.referencePlace = table.place("reference");
+  scene.width = uint32_t(table.getInteger("width", 0, 1, kMaxSide));
+  scene.height = uint32_t(table.getInteger("height", 0, 1, kMaxSide));
+  scene.optional = table.getBool("optional", false);
+  table.finish();
+  if (scene.request.scene.empty()) table.fail("scene", "[[scene]] needs a key 'scene'");
+  return scene;
+}
+
+// In a table of several backends every name says which one it is of.
+void nameByBackend(Suite& suite) {
+  if (suite.methodBackends().size() < 2) return;
+  for (SuiteMethod& method : suite.methods) {
+    if (!method.images) method.name = fmt::format("{} @{}", method.base, method.session.backend);
+  }
+}
+
+// A setting that no backend in use could have would be ignored in silence.
+void requireSomeUse(const ConfigTable& settings, const Suite& suite) {
+  std::vector<std::string> used = suite.methodBackends();
+  used.push_back(suite.referenceBackend);
+  const bool vulkan = std::find(used.begin(), used.end(), "vulkan") != used.end();
+  if (!vulkan && !suite.device.empty()) {
+    settings.fail("device", fmt::format("'device' is '{}', but nothing runs on the backend vulkan",
+                                        suite.device));
+  }
+  if (!vulkan && suite.validate)
+    settings.fail("validate", "'validate' is true, but nothing runs on the backend vulkan");
+  const bool traced = suite.rayTracing.empty() ||
+                      std::any_of(used.begin(), used.end(), [&](const std::string& backend) {
+                        return mayTraceBy(backend, suite.rayTracing);
+                      });
+  if (!traced) {
+    settings.fail("ray_tracing", fmt::format("'ray_tracing' is '{}', which no backend in use has: "
+                                             "embree is of cpu, query of vulkan, bvh of both",
+                                             suite.rayTracing));
+  }
+}
+
+// Notes a name by what file names keep of it. Fails at `place` where another one, in `seen`, is or
+// looks the same: the images of both would have one name.
+void requireUniqueName(std::map<std::string, std::string>& seen, const std::string& what,
+                       const std::string& name, const std::string& place) {
+  const auto [other, isNew] = seen.emplace(safeFileName(name), name);
+  if (isNew) return;
+  if (other->second == name) {
+    failUsage(
+        fmt::format("{}: two {}s are named '{}'; give each its own 'name'", place, what, name));
+  }
+  failUsage(
+      fmt::format("{}: the {}s '{}' and '{}' are both '{}' in file names; give one another "
+                  "'name'",
+                  place, what, other->second, name, other->first));
+}
+
+void requireBaseline(const ConfigTable& settings, const Suite& suite) {
+  std::vector<std::string> names;
+  for (const SuiteMethod& method : suite.rendered()) names.push_back(method.name);
+  if (suite.baseline.empty() ||
+      std::find(names.begin(), names.end(), suite.baseline) != names.end())
+    return;
+  settings.fail(
+      "baseline",
+      fmt::format("no method that is rendered is named '{}' (there are: '{}'){}", suite.baseline,
+                  fmt::join(names, "', '"), didYouMean(suite.baseline, names)));
+}
+
+void requireUniqueNames(const Suite& suite) {
+  std::map<std::string, std::string> methods, scenes;
+  for (const SuiteMethod& method : suite.methods) {
+    requireUniqueName(methods, "method", method.name, method.namePlace);
+    if (safeFileName(method.name) == "reference") {
+      failUsage(
+          fmt::format("{}: '{}' is what the images of the reference are named; give the "
+                      "method another 'name'",
+                      method.namePlace, method.name));
+    }
+  }
+  for (const SuiteScene& scene : suite.scenes) {
+    requireUniqueName(scenes, "scene", scene.name, scene.place);
+  }
+}
+
+}  // namespace
+
+std::string SuiteMethod::cacheName() const {
+  return !images && findIntegrator(session.integrator).usesCache ? session.cache : "none";
+}
+
+ParameterMap SuiteMethod::parameters() const {
+  if (images) return {};
+  return resolveParameters(findMethod(session), session.parameters);
+}
+
+BiasClass SuiteMethod::bias(bool cameraMoves) const {
+  if (images) return images->bias;
+  return findMethod(session).bias(session.mode, parameters(), cameraMoves);
+}
+
+std::span<const SuiteMethod> Suite::rendered() const {
+  const auto end = std::find_if(methods.begin(), methods.end(), [](const SuiteMethod& method) {
+    return method.images.has_value();
+  });
+  return {methods.data(), size_t(end - methods.begin())};
+}
+
+size_t Suite::yardstick(size_t method) const {
+  const std::span<const SuiteMethod> all = rendered();
+  if (!baseline.empty()) {
+    const auto named = std::find_if(
+        all.begin(), all.end(), [&](const SuiteMethod& other) { return other.name == baseline; });
+    return named == all.end() ? methods.size() : size_t(named - all.begin());
+  }
+  return firstPath(method, "none");
+}
+
+size_t Suite::average(size_t method) const { return firstPath(method, "accumulate"); }
+
+size_t Suite::firstPath(size_t method, const std::string& denoiser) const {
+  const std::span<const SuiteMethod> all = rendered();
+  const std::string& backend =
+      (methods[method].images ? all.front() : methods[method]).session.backend;
+  const auto first = std::find_if(all.begin(), all.end(), [&](const SuiteMethod& other) {
+    const SessionConfig& session = other.session;
+    return session.integrator == "path" && session.denoiser == denoiser &&
+           session.backend == backend;
+  });
+  return first == all.end() ? methods.size() : size_t(first - all.begin());
+}
+
+uint32_t Suite::frameOfAge(uint32_t age) const {
+  return firstStillFrame(cameraPath).value_or(0) + age - 1;
+}
+
+size_t Suite::onFirstBackend(size_t method) const {
+  const SuiteMethod& own = methods[method];
+  if (own.images) return method;
+  const auto first = std::find_if(methods.begin(), methods.end(), [&](const SuiteMethod& other) {
+    const SessionConfig &a = own.session, &b = other.session;
+    return own.base == other.base && a.integrator == b.integrator && a.mode == b.mode &&
+           a.cache == b.cache && a.specialise == b.specialise && a.parameters == b.parameters;
+  });
+  return size_t(first - methods.begin());
+}
+
+std::vector<std::string> Suite::methodBackends() const {
+  std::vector<std::string> names;
+  for (const SuiteMethod& method : rendered()) {
+    if (std::find(names.begin(), names.end(), method.session.backend) == names.end())
+      names.push_back(method.session.backend);
+  }
+  return names;
+}
+
+void Suite::chooseDevice(SessionConfig& config) const {
+  const bool vulkan = config.backend == "vulkan";
+  config.device = vulkan ? device : "";
+  config.validate = vulkan && validate;
+  config.rayTracing = mayTraceBy(config.backend, rayTracing) ? rayTracing : "";
+}
+
+namespace {
+
+// One point of the sweep over settings. `root` holds all overrides and this point's values.
+Suite readSuite(const ConfigTable& root, const std::filesystem::path& file, const Sweep& sweep) {
+  Suite suite;
+  suite.file = file.string();
+  suite.name = root.getString("name", file.stem().string());
+  suite.question = root.getString("question", "");
+  for (const char* key :
+       {"scenes", "scene", "method", "settings", "reference", "sweep", "camera_path", "mask"})
+    root.has(key);
+  root.finish();
+  const std::string folder = file.parent_path().string();
+  for (const std::string& name : root.getStrings("scenes")) {
+    SuiteScene scene;
+    scene.request.scene = name;
+    scene.request.suiteFolder = folder;
+    scene.name = std::filesystem::path(name).stem().string();
+    scene.place = root.place("scenes");
+    scene.cameraPlace = scene.environmentPlace = scene.referencePlace = scene.place;
+    suite.scenes.push_back(scene);
+  }
+  for (const ConfigTable& table : root.getTables("scene")) {
+    suite.scenes.push_back(readScene(table, folder));
+  }
+  if (suite.scenes.empty())
+    root.fail("", "the suite has no scenes: give scenes = [..] or [[scene]]");
+  const ConfigTable settings = root.getTable("settings");
+  readSettings(settings, suite);
+  chooseCameraPath(root, settings, suite);
+  readMasks(root, suite);
+  readMethods(root, settings, sweep, folder, suite);
+  readReference(root.getTable("reference"), suite);
+  requireSomeUse(settings, suite);
+  nameByBackend(suite);
+  requireUniqueNames(suite);
+  requireBaseline(settings, suite);
+  return suite;
+}
+
+// Run r has the seed `seed` + r: seeds of a sweep that are nearer than there are runs would make
+// the same runs twice, which look like two.
+void requireOwnSeeds(const std::vector<SweepAxis>& axes, const std::vector<Suite>& points) {
+  const Suite& last = points.back();
+  for (const SweepAxis& axis : axes) {
+    if (axis.leaf != "seed") continue;
+    for (const Suite& other : points) {
+      const uint32_t apart =
+          other.seed < last.seed ? last.seed - other.seed : other.seed - last.seed;
+      if (apart == 0 || apart >= std::min(last.runs, other.runs)) continue;
+      failUsage(
+          fmt::format("{}: seeds {} and {} have runs in common, as run r has the seed "
+                      "'seed' + r; leave at least {} between them",
+                      axis.place, other.seed, last.seed, last.runs));
+    }
+  }
+}
+
+// Every value of the sweep would replace what was set, in silence.
+void requireSetKeysAreNotSwept(const Sweep& sweep, const std::vector<std::string>& overrides) {
+  for (const std::string& assignment : overrides) {
+    const std::string key = splitAssignment(assignment).first;
+    std::string method, leaf = key.rfind("settings.", 0) == 0 ? key.substr(9) : key;
+    const bool isOfMethods = splitMethodKey(key, method, leaf);
+    // A swept `backend` is the methods', in place of the list of [settings].
+    const bool isBackend = !isOfMethods && leaf == "backend";
+    for (const SweepAxis& axis : isOfMethods || isBackend ? sweep.methods : sweep.settings) {
+      const bool isAll = axis.method.empty() || axis.method == method;
+      if (axis.leaf != leaf || !isAll) continue;
+      failUsage(
+          fmt::format("{}: the values of this sweep replace that of --set {}; --sweep "
+                      "{}=VALUE gives it a single one",
+                      axis.place, key, axis.key));
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Suite> loadSuites(const std::filesystem::path& file,
+                              const std::vector<std::string>& overrides,
+                              const std::vector<std::string>& sweeps) {
+  const auto load = [&] {
+    ConfigTable root = ConfigTable::parseFile(file);
+    for (const std::string& assignment : overrides) applyOverride(root, assignment);
+    for (const std::string& assignment : sweeps) {
+      const auto [key, values] = splitAssignment(assignment, "--sweep");
+      root.getTable("sweep").assign(key, sweepValues(key, values), "--sweep " + key);
+    }
+    return root;
+  };
+  const ConfigTable root = load();
+  const Sweep sweep = readSweep(root, settingsKeys());
+  requireSetKeysAreNotSwept(sweep, overrides);
+  std::vector<Suite> points;
+  for (const std::vector<size_t>& choice : combinations(sweep.settings)) {
+    const ConfigTable point = load();
+    ConfigTable settings = point.getTable("settings");
+    for (size_t i = 0; i < choice.size(); ++i) {
+      const SweepAxis& axis = sweep.settings[i];
+      settings.assign(axis.leaf, axis.texts[choice[i]], axis.place);
+    }
+    points.push_back(readSuite(point, file, sweep));
+    requireOwnSeeds(sweep.settings, points);
+    points.back().point = sweepLabel(sweep.settings, choice);
+    points.back().resolved = root.text();
+  }
+  return points;
+}
+
+Suite loadSuite(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  std::vector<Suite> points = loadSuites(file, overrides, {});
+  if (points.size() > 1) {
+    failUsage(fmt::format("{}: [sweep] makes {} tables, where one is meant", file.string(),
+                          points.size()));
+  }
+  return std::move(points.front());
+}
+
+}  // namespace restlab

@@ -1,0 +1,187 @@
+#include "experiments/runner/suite/suite_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/image/exr_limits.h"
+#include "core/memory.h"
+#include "experiments/runner/reference/block_masks.h"
+#include "experiments/runner/run/experiment.h"
+#include "experiments/runner/run/files.h"
+#include "experiments/runner/run/image_rows.h"
+#include "experiments/runner/run/interrupt.h"
+
+namespace restlab {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// A session of one pixel. What is wrong with its device is said where the suite chooses it; such
+// errors begin with the option that chooses it on a command line.
+Session open(const Suite& suite, const std::string& backendPlace, const PreparedScene& prepared,
+             const SessionConfig& config) {
+  try {
+    return Session(prepared.scene, config);
+  } catch (const Error& error) {
+    const std::string text = error.what();
+    const bool ofDevice = text.rfind("--device", 0) == 0;
+    const bool ofRayTracing = text.rfind("--ray-tracing", 0) == 0;
+    throw Error(error.code(), fmt::format("{}: {}",
+                                          ofDevice       ? suite.devicePlace
+                                          : ofRayTracing ? suite.rayTracingPlace
+                                                         : backendPlace,
+                                          text));
+  }
+}
+
+// The reference given as a file must be of exactly the suite's configuration.
+void checkReference(const Suite& suite, const SuiteScene& scene, const PreparedScene& prepared,
+                    uint32_t width, uint32_t height) {
+  const std::string& file = scene.reference;
+  const fs::path found = findAsset(file);
+  const Reference reference = readReference(found.empty() ? fs::path(file) : found);
+  if (reference.mean.width != width || reference.mean.height != height) {
+    failInput(fmt::format("{}: the reference is {}x{}, the suite renders {}x{}", file,
+                          reference.mean.width, reference.mean.height, width, height));
+  }
+  requireUsable(file, reference);
+  for (const uint32_t component : suite.components) {
+    requireSameConfiguration(file, reference.metadata,
+                             describe(prepared, pictureOf(suite, width, height, component)));
+  }
+}
+
+// Opens every method's device and makes its kernels ready. Returns the bytes per pixel of all
+// methods of a block together, which are there at once, as their frames take turns.
+size_t openMethods(const Suite& suite, const SuiteScene& scene, const PreparedScene& prepared,
+                   SuiteCheck& found) {
+  // A session of one pixel knows the bytes of every pixel.
+  const SessionConfig picture = pictureOf(suite, 1, 1, suite.components.front());
+  StartupLog startup;
+  size_t bytesPerPixel = 0;
+  for (const SuiteMethod& method : suite.rendered()) {
+    const Session session =
+        open(suite, method.backendPlace, prepared, methodConfig(suite, method, prepared, picture));
+    bytesPerPixel += session.bytesPerPixel() + hostBytesPerPixelOfMethod(suite);
+    found.startupMs[scene.name].push_back(session.startup().timeMs);
+    startup.add(session);
+    const DeviceUse use = deviceUseOf(session);
+    if (std::find(found.devices.begin(), found.devices.end(), use) == found.devices.end())
+      found.devices.push_back(use);
+  }
+  if (scene.reference.empty()) {
+    SessionConfig config = picture;
+    config.camera = prepared.camera;
+    startup.add(open(suite, suite.referenceBackendPlace, prepared, config));
+  }
+  startup.print();
+  return bytesPerPixel;
+}
+
+PreparedScene loadScene(const SuiteScene& scene) {
+  SceneRequest request = scene.request;
+  request.camera.clear();  // looked for below, at a place of its own
+  std::optional<EnvironmentMap> environment =
+      atPlace(scene.environmentPlace, [&] { return readEnvironment(request); });
+  PreparedScene prepared =
+      atPlace(scene.place, [&] { return prepareScene(request, std::move(environment)); });
+  if (!scene.request.camera.empty()) {
+    atPlace(scene.cameraPlace, [&] { chooseCamera(prepared, scene.request.camera); });
+  }
+  return prepared;
+}
+
+void checkScene(const Suite& suite, const SuiteScene& scene, const PreparedScene& prepared,
+                SuiteCheck& found) {
+  motionOf(suite, prepared);
+  if (suite.hasMovingCamera() && !scene.reference.empty()) {
+    failUsage(fmt::format("{}: a reference as a file is of a still camera, not of the path '{}'",
+                          scene.referencePlace, suite.cameraPathName));
+  }
+  uint32_t width = 0, height = 0;
+  atPlace(scene.place, [&] { sceneResolution(suite, scene, prepared, width, height); });
+  if (scene.reference.empty()) {
+    atPlace(scene.place, [&] { requireExrSize("its reference", width, height, kReferenceLayers); });
+  } else {
+    atPlace(scene.referencePlace, [&] { checkReference(suite, scene, prepared, width, height); });
+  }
+  for (const uint32_t component : suite.components)
+    checkImageRows(suite, scene.name, component, width, height);
+  if (!suite.masks.empty()) {
+    BlockResult block;
+    block.scene = scene.name;
+    block.width = width;
+    block.height = height;
+    block.motion = motionOf(suite, prepared);
+    prepareMasks(suite, prepared, block);
+  }
+  const size_t bytesPerPixel = openMethods(suite, scene, prepared, found);
+  atPlace(scene.place, [&] {
+    requireMemory(fmt::format("scene {}", scene.name), width, height,
+                  std::max(bytesPerPixel * suite.jobs, kReferenceBytesPerPixel));
+  });
+}
+
+}  // namespace
+
+void sceneResolution(const Suite& suite, const SuiteScene& scene, const PreparedScene& prepared,
+                     uint32_t& width, uint32_t& height) {
+  const bool own = scene.width || scene.height;
+  width = own ? scene.width : suite.width;
+  height = own ? scene.height : suite.height;
+  completeResolution(prepared, width, height);
+}
+
+std::optional<CameraMotion> motionOf(const Suite& suite, const PreparedScene& prepared) {
+  if (!suite.hasMovingCamera()) return std::nullopt;
+  CameraMotion motion =
+      resolveCameraPath(suite.cameraPath, prepared.scene->source(), prepared.camera);
+  // Every frame: a path that leads through its target is found before the first one is rendered.
+  for (uint32_t frame = 0; frame < suite.warmupFrames + suite.timedFrames; ++frame)
+    cameraAt(motion, frame);
+  return motion;
+}
+
+SessionConfig pictureOf(const Suite& suite, uint32_t width, uint32_t height, uint32_t component) {
+  SessionConfig config;
+  config.width = width;
+  config.height = height;
+  config.maxBounces = suite.maxBounces;
+  config.components = component;
+  config.pixelFilter = suite.pixelFilter;
+  config.multiscatter = suite.multiscatter;
+  config.seed = suite.seed;
+  config.threads = suite.threads;
+  config.backend = suite.referenceBackend;
+  suite.chooseDevice(config);
+  return config;
+}
+
+std::vector<SuiteCheck> checkSuites(const std::vector<Suite>& points) {
+  std::vector<SuiteCheck> found(points.size());
+  const std::vector<SuiteScene>& scenes = points.front().scenes;
+  std::string missing;
+  for (const SuiteScene& scene : scenes) {
+    if (scene.optional || !assetsMissing(scene.request, missing)) continue;
+    // What reads them says what is wrong, before the scenes that are there take their time.
+    if (missing == scene.request.environment)
+      atPlace(scene.environmentPlace, [&] { return readEnvironment(scene.request); });
+    atPlace(scene.place, [&] { return prepareScene(scene.request, std::nullopt); });
+  }
+  for (size_t s = 0; s < scenes.size(); ++s) {
+    if (scenes[s].optional && assetsMissing(scenes[s].request, missing)) continue;
+    throwIfInterrupted("nothing was rendered");
+    const PreparedScene prepared = loadScene(scenes[s]);
+    for (size_t p = 0; p < points.size(); ++p) {
+      throwIfInterrupted("nothing was rendered");
+      checkScene(points[p], points[p].scenes[s], prepared, found[p]);
+    }
+    if (scenes.size() == 1) found.front().only = prepared;
+  }
+  return found;
+}
+
+}  // namespace restlab

@@ -1,0 +1,16 @@
+// The methods of a suite: [[method]] tables, once for each of what is swept and each backend, and
+// rows of images.
+#pragma once
+
+#include "core/config.h"
+#include "experiments/runner/suite/suite.h"
+#include "experiments/runner/suite/sweep.h"
+
+namespace restlab {
+
+// Fills `suite.methods`, whose settings are read. `folder`: of the suite's file. Throws Error
+// (badUsage) with the place.
+void readMethods(const ConfigTable& root, const ConfigTable& settings, const Sweep& sweep,
+                 const std::string& folder, Suite& suite);
+
+}  // namespace restlab

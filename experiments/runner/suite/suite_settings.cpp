@@ -1,0 +1,205 @@
+#include "experiments/runner/suite/suite_settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/backend/backend.h"
+#include "core/error.h"
+#include "core/image/metrics.h"
+#include "experiments/runner/suite/backend_choice.h"
+
+namespace restlab {
+
+namespace {
+
+constexpr int64_t kMaxCount = 1000000;
+
+void addMetric(const ConfigTable& settings, const std::string& given,
+               std::vector<std::string>& metrics) {
+  const std::vector<std::string> known = metricNames();
+  if (std::find(known.begin(), known.end(), given) == known.end()) {
+    settings.fail("metrics", fmt::format("unknown metric '{}' (restlab list metrics){}", given,
+                                         didYouMean(given, known)));
+  }
+  if (findMetric(given).needsRuns)
+    settings.fail("metrics", fmt::format("'{}' is of several runs: see bias_squared", given));
+  if (std::find(metrics.begin(), metrics.end(), given) != metrics.end())
+    settings.fail("metrics", fmt::format("'metrics' holds '{}' twice", given));
+  metrics.push_back(given);
+}
+
+}  // namespace
+
+std::vector<std::string> readBackends(const ConfigTable& table,
+                                      const std::vector<std::string>& fallback) {
+  const std::vector<std::string> given = table.getStrings("backend", fallback);
+  const std::vector<std::string>& known = backendNames();
+  for (size_t i = 0; i < given.size(); ++i) {
+    if (std::find(known.begin(), known.end(), given[i]) == known.end()) {
+      table.fail("backend", fmt::format("unknown backend '{}' (known: {}){}", given[i],
+                                        fmt::join(known, ", "), didYouMean(given[i], known)));
+    }
+    if (std::find(given.begin(), given.begin() + std::ptrdiff_t(i), given[i]) !=
+        given.begin() + std::ptrdiff_t(i))
+      table.fail("backend", fmt::format("'backend' holds '{}' twice", given[i]));
+  }
+  if (given.empty()) table.fail("backend", "'backend' is empty");
+  return given;
+}
+
+void readMasks(const ConfigTable& root, Suite& suite) {
+  for (const ConfigTable& table : root.getTables("mask")) {
+    SuiteMask mask;
+    mask.place = table.place("");
+    mask.objectsPlace = table.place("objects");
+    mask.rectanglePlace = table.place("rectangle");
+    mask.name = table.getString("name", "");
+    mask.scene = table.getString("scene", "");
+    mask.objects = table.getStrings("objects", {});
+    mask.withoutLights = table.getBool("without_lights", false);
+    if (table.has("rectangle")) {
+      const std::vector<int64_t> sides = table.getIntegers("rectangle", {}, 0, kMaxSide);
+      if (sides.size() != 4) {
+        table.fail("rectangle",
+                   "'rectangle' must be [X0, Y0, X1, Y1], from the upper left corner of the image");
+      }
+      mask.rectangles = {
+          {uint32_t(sides[0]), uint32_t(sides[1]), uint32_t(sides[2]), uint32_t(sides[3])}};
+    }
+    table.finish();
+    if (mask.name.empty()) table.fail("name", "[[mask]] needs a 'name'");
+    for (const SuiteMask& other : suite.masks) {
+      if (other.name == mask.name)
+        table.fail("name", fmt::format("two masks are named '{}'", mask.name));
+    }
+    if (mask.objects.empty() && mask.rectangles.empty() && !mask.withoutLights)
+      table.fail("", "[[mask]] needs 'objects', 'rectangle' or 'without_lights'");
+    std::vector<std::string> scenes;
+    for (const SuiteScene& scene : suite.scenes) scenes.push_back(scene.name);
+    if (!mask.scene.empty() &&
+        std::find(scenes.begin(), scenes.end(), mask.scene) == scenes.end()) {
+      table.fail("scene", fmt::format("the suite has no scene named '{}'{}", mask.scene,
+                                      didYouMean(mask.scene, scenes)));
+    }
+    suite.masks.push_back(std::move(mask));
+  }
+}
+
+void readSettings(const ConfigTable& table, Suite& suite) {
+  suite.width = uint32_t(table.getInteger("width", 0, 1, kMaxSide));
+  suite.height = uint32_t(table.getInteger("height", 0, 1, kMaxSide));
+  if (table.has("resolution")) {
+    if (suite.width || suite.height) {
+      table.fail("resolution", "'resolution' and 'width' or 'height' exclude each other");
+    }
+    parseResolution(table.getString("resolution", ""), table.place("resolution") + ": 'resolution'",
+                    suite.width, suite.height);
+  }
+  suite.maxBounces = uint32_t(table.getInteger("max_bounces", suite.maxBounces, 0, 1024));
+  suite.multiscatter = table.getBool("multiscatter", suite.multiscatter);
+  suite.russianRoulette = table.getBool("russian_roulette", suite.russianRoulette);
+  suite.warmupFrames =
+      uint32_t(table.getInteger("warmup_frames", suite.warmupFrames, 0, kMaxCount));
+  suite.timedFrames = uint32_t(table.getInteger("frames", suite.timedFrames, 1, kMaxCount));
+  suite.runs = uint32_t(table.getInteger("runs", suite.runs, 1, kMaxCount));
+  suite.seed = uint32_t(table.getInteger("seed", suite.seed, 0, 0x7fffffff));
+  suite.threads = int(table.getInteger("threads", suite.threads, 0, 1024));
+  suite.backends = readBackends(table, suite.backends);
+  suite.device = table.getString("device", "");
+  suite.devicePlace = table.place("device");
+  suite.rayTracingPlace = table.place("ray_tracing");
+  if (table.has("ray_tracing")) {
+    suite.rayTracing = table.getChoice("ray_tracing", rayTracingNames().front(), rayTracingNames());
+  }
+  suite.validate = table.getBool("validate", suite.validate);
+  suite.cameraPathName = table.getString("camera_path", suite.cameraPathName);
+  suite.cameraPathPlace = table.place("camera_path");
+  suite.accumulate = table.getBool("accumulate", suite.accumulate);
+  suite.temporal = table.getBool("temporal", suite.temporal);
+  suite.timing = table.getBool("timing", suite.timing);
+  suite.baseline = table.getString("baseline", suite.baseline);
+  for (const std::string& given : table.getStrings("metrics", {}))
+    addMetric(table, given, suite.metrics);
+  suite.pixelFilter = parseFilter(table.getString("filter", "box"), table.place("filter"));
+  suite.components.clear();
+  for (const std::string& name : table.getStrings("components", {"all"})) {
+    const uint32_t component = parseComponent(name, table.place("components"));
+    if (std::find(suite.components.begin(), suite.components.end(), component) !=
+        suite.components.end()) {
+      table.fail("components", fmt::format("'components' holds '{}' twice", name));
+    }
+    suite.components.push_back(component);
+  }
+  if (suite.components.empty()) table.fail("components", "'components' is empty");
+  for (const int64_t age : table.getIntegers("ages", {}, 1, kMaxCount)) {
+    if (!suite.ages.empty() && suite.ages.back() >= age) {
+      table.fail("ages", fmt::format("'ages' has {} after {}: they stand in order, each once", age,
+                                     suite.ages.back()));
+    }
+    suite.ages.push_back(uint32_t(age));
+  }
+  table.finish();
+}
+
+void chooseCameraPath(const ConfigTable& root, const ConfigTable& settings, Suite& suite) {
+  std::vector<std::string> names = {"still"};
+  bool isFound = suite.cameraPathName == "still";
+  for (const ConfigTable& table : root.getTables("camera_path")) {
+    const std::string name = table.getString("name", "");
+    if (name.empty()) table.fail("name", "[[camera_path]] needs a 'name'");
+    if (std::find(names.begin(), names.end(), name) != names.end())
+      table.fail("name", fmt::format("two camera paths are named '{}'", name));
+    names.push_back(name);
+    const CameraPath path = parseCameraPath(table);
+    if (name != suite.cameraPathName) continue;
+    suite.cameraPath = path;
+    isFound = true;
+  }
+  if (!isFound) {
+    settings.fail("camera_path",
+                  fmt::format("no [[camera_path]] is named '{}'{}", suite.cameraPathName,
+                              didYouMean(suite.cameraPathName, names)));
+  }
+  const uint32_t length = suite.warmupFrames + suite.timedFrames;
+  // There is one reference, of the measured frame's camera.
+  const std::optional<uint32_t> still = firstStillFrame(suite.cameraPath);
+  if (!suite.ages.empty() && (!still || *still > suite.warmupFrames)) {
+    settings.fail("ages", fmt::format("'ages' count the frames of a view that stands still; on the "
+                                      "path '{}' {}",
+                                      suite.cameraPathName,
+                                      still ? "the cut comes after the measured frame"
+                                            : "each would need a reference"));
+  }
+  if (!suite.ages.empty() && suite.frameOfAge(suite.ages.back()) >= length) {
+    settings.fail("ages",
+                  fmt::format("'ages' has {}, which is frame {}, but a run ends at frame {}",
+                              suite.ages.back(), suite.frameOfAge(suite.ages.back()), length - 1));
+  }
+  if (!suite.hasMovingCamera()) return;
+  if (suite.accumulate)
+    settings.fail("accumulate", "'accumulate' is of a still camera: frames of a moving one differ");
+}
+
+const std::vector<std::string>& settingsKeys() {
+  static const std::vector<std::string> keys = [] {
+    const ConfigTable table = ConfigTable::parseText("", "settings");
+    Suite suite;
+    readSettings(table, suite);
+    return table.known();
+  }();
+  return keys;
+}
+
+void readReference(const ConfigTable& table, Suite& suite) {
+  suite.referenceBackend = table.getChoice("backend", suite.referenceBackend, backendNames());
+  suite.referenceBackendPlace = table.place("backend");
+  ReferenceTarget& target = suite.target;
+  target.spp = uint64_t(table.getInteger("spp", 0, 2, int64_t(1) << 32));
+  target.relmse = table.getNumber("target_relmse", 0.0, 1e-12, 1e6);
+  target.timeLimitS = table.getNumber("time_limit", 0.0, 1e-3, 1e9);
+  if (target.spp == 0 && target.relmse == 0.0 && target.timeLimitS == 0.0) target.spp = 256;
+  table.finish();
+}
+
+}  // namespace restlab

@@ -1,0 +1,31 @@
+// Error over the age of the history, against the yardstick and against the plain average of its
+// frames, which is what anyone gets for no ray more.
+#pragma once
+
+#include <vector>
+
+#include "core/image/intervals.h"
+#include "experiments/runner/run/experiment.h"
+#include "experiments/runner/reference/reference_noise.h"
+
+namespace restlab {
+
+struct AgeSummary {
+  uint32_t age = 0;
+  Interval mse;
+  Interval timeRatio;       // this frame's time over that of the yardstick's
+  Interval mseRatio;        // MSE of the yardstick's frame of this age / MSE
+  Interval ratioToAverage;  // MSE of the average of the yardstick's frames / MSE
+};
+
+// What ages are taken against: runs, and the reference's noise in their MSE. No runs: unknown.
+struct AgeYardstick {
+  const std::vector<RunResult>* runs = nullptr;
+  ReferenceNoise noise;
+};
+
+// Runs are compared in pairs: those of one number took turns. `own`: the method's own runs.
+std::vector<AgeSummary> agesOf(const AgeYardstick& own, const AgeYardstick& yardstick,
+                               const AgeYardstick& average);
+
+}  // namespace restlab

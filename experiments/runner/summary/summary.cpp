@@ -1,0 +1,489 @@
+#include "experiments/runner/summary/summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/image/halves_noise.h"
+#include "core/image/metrics.h"
+#include "experiments/report/text.h"
+#include "experiments/runner/summary/figures.h"
+#include "experiments/runner/reference/reference_error.h"
+
+namespace restlab {
+
+namespace {
+
+std::vector<double> perRun(const MethodResult& result, double (*value)(const RunResult&)) {
+  std::vector<double> values;
+  for (const RunResult& run : result.runs) values.push_back(value(run));
+  return values;
+}
+
+double runMse(const RunResult& run) { return run.measured.mse; }
+double runRelmseTrimmed(const RunResult& run) { return run.measured.relmseTrimmed; }
+double runMseWithoutLights(const RunResult& run) { return run.measured.mseWithoutLights; }
+
+// Median over the frames of a run of time / time of `other` in the same interleaved round.
+double runTimeRatio(const RunResult& run, const RunResult& other) {
+  if (run.timesMs.empty()) return kUnknown;
+  std::vector<double> ratios;
+  for (size_t i = 0; i < run.timesMs.size(); ++i)
+    ratios.push_back(run.timesMs[i] / other.timesMs.at(i));
+  return median(ratios);
+}
+
+void summariseTimes(const MethodResult& result, size_t pixels, MethodSummary& row) {
+  std::vector<double> times;
+  for (const RunResult& run : result.runs) {
+    times.insert(times.end(), run.timesMs.begin(), run.timesMs.end());
+    for (size_t i = 0; i < run.health.health.counts.size(); ++i) {
+      row.health.health.counts[i] += run.health.health.counts[i];
+    }
+    row.health.raysPath += run.health.raysPath;
+    row.health.raysShadow += run.health.raysShadow;
+  }
+  if (!times.empty()) {
+    row.timeMsMedian = median(times);
+    row.timeMsP95 = percentile(times, 0.95);
+  }
+  if (row.method->images) return;
+  row.timedFrames = size_t(row.suite->timedFrames) * result.runs.size();
+  const double samples = double(row.timedFrames) * double(pixels);
+  row.raysPathPerPixel = double(row.health.raysPath) / samples;
+  row.raysShadowPerPixel = double(row.health.raysShadow) / samples;
+  row.passes = result.runs.front().passes;
+  for (size_t pass = 0; pass < row.passes.size(); ++pass) {
+    std::vector<double> medians;
+    for (const RunResult& run : result.runs) medians.push_back(run.passes.at(pass).timeMs);
+    row.passes[pass].timeMs = median(medians);
+  }
+  // The median frame is no sum of medians: they are its shares, so that bars end where it does.
+  double sum = 0.0;
+  for (const PassTiming& pass : row.passes) sum += pass.timeMs;
+  if (sum > 0.0 && row.timeMsMedian > 0.0) {
+    for (PassTiming& pass : row.passes) pass.timeMs *= row.timeMsMedian / sum;
+  }
+}
+
+// Of the pixels without lights, by what the runs recorded.
+ReferenceNoise noiseInside(const std::vector<RunResult>& runs, bool isUnbiased) {
+  HalvesNoise halves;
+  halves.varianceOfProduct = runs.front().measured.insideVarianceCommon;
+  ReferenceNoise noise;
+  noise.common = halves.varianceOfProduct;
+  noise.commonAtLeast = halves.varianceOfProductAtLeast();
+  double atMost = 0.0;
+  for (const RunResult& run : runs)
+    atMost += run.measured.insideVarianceAtMost / double(runs.size());
+  noise.shared = isUnbiased ? noise.common : std::max(atMost, noise.common);
+  return noise;
+}
+
+void summariseErrors(const MethodResult& result, const Reference& reference, MethodSummary& row) {
+  row.noise = noiseOf(reference, result.measured);
+  row.noiseWithoutLights = noiseInside(result.runs, row.bias == BiasClass::unbiased);
+  row.mse = widened(meanInterval(perRun(result, runMse)), row.noise.shared);
+  row.mseWithoutLights =
+      widened(meanInterval(perRun(result, runMseWithoutLights)), row.noiseWithoutLights.shared);
+  row.relmse =
+      meanInterval(perRun(result, [](const RunResult& run) { return run.measured.relmse; }));
+  row.relmseTrimmed = meanInterval(perRun(result, runRelmseTrimmed));
+  row.energyRatio =
+      meanInterval(perRun(result, [](const RunResult& run) { return run.measured.energyRatio; }));
+  row.worstShare = meanInterval(perRun(result, [](const RunResult& run) {
+                     return run.measured.worstShare;
+                   })).value;
+  row.nonfinite = row.health.health.counts[rl::RL_HEALTH_NONFINITE];
+  for (const RunResult& run : result.runs) {
+    row.nonfinite +=
+        run.measured.nonfinite + run.warmupHealth.health.counts[rl::RL_HEALTH_NONFINITE];
+  }
+  if (reference.half0 && reference.half1) {
+    row.biasSquared = result.measured.squaredBias(*reference.half0, *reference.half1);
+    if (row.mse.value > 0.0) {
+      row.biasShare = {row.biasSquared.value / row.mse.value, row.biasSquared.lo / row.mse.value,
+                       row.biasSquared.hi / row.mse.value};
+    }
+  }
+  row.variance = result.measured.variance();
+}
+
+// Images of another program are independent of all runs, and their frames took no turns with any.
+void compareImages(const MethodResult& path, const MethodSummary& pathRow,
+                   const MethodResult& result, MethodSummary& row) {
+  const auto ratioOf = [&](double (*value)(const RunResult&), const SharedNoise& shared) {
+    return ratioInterval(perRun(path, value), perRun(result, value), shared);
+  };
+  row.mseRatio = ratioOf(runMse, sharedNoise(pathRow.noise, row.noise));
+  row.mseRatioWithoutLights =
+      ratioOf(runMseWithoutLights, sharedNoise(pathRow.noiseWithoutLights, row.noiseWithoutLights));
+  row.relmseTrimmedRatio = ratioOf(runRelmseTrimmed, {});
+  if (std::isnan(row.timeMsMedian) || std::isnan(pathRow.timeMsMedian)) return;
+  row.timeRatio.value = row.timeRatioOfMedians = row.timeMsMedian / pathRow.timeMsMedian;
+  row.efficiencyRatio.value = row.mseRatio.value / row.timeRatio.value;
+}
+
+void compareWithYardstick(const MethodResult& path, const MethodSummary& pathRow,
+                          const MethodResult& result, MethodSummary& row) {
+  if (row.method->images) return compareImages(path, pathRow, result, row);
+  // An interrupted block may have one run more of the first methods.
+  const size_t paired = std::min(path.runs.size(), result.runs.size());
+  std::vector<double> pathMse, mse, timeRatios, work, pathInside, inside, pathTrimmed, trimmed;
+  for (size_t r = 0; r < paired; ++r) {
+    pathMse.push_back(runMse(path.runs[r]));
+    mse.push_back(runMse(result.runs[r]));
+    timeRatios.push_back(runTimeRatio(result.runs[r], path.runs[r]));
+    work.push_back(mse.back() * timeRatios.back());
+    pathInside.push_back(runMseWithoutLights(path.runs[r]));
+    inside.push_back(runMseWithoutLights(result.runs[r]));
+    pathTrimmed.push_back(runRelmseTrimmed(path.runs[r]));
+    trimmed.push_back(runRelmseTrimmed(result.runs[r]));
+  }
+  // As those of general kernels and the scene's own are.
+  const bool isSame = pathMse == mse;
+  const SharedNoise shared = sharedNoise(pathRow.noise, row.noise, isSame);
+  row.mseRatio = pairedRatioInterval(pathMse, mse, shared);
+  row.mseRatio.value = pathRow.mse.value / row.mse.value;
+  row.mseRatioWithoutLights = pairedRatioInterval(
+      pathInside, inside, sharedNoise(pathRow.noiseWithoutLights, row.noiseWithoutLights, isSame));
+  row.mseRatioWithoutLights.value = pathRow.mseWithoutLights.value / row.mseWithoutLights.value;
+  row.relmseTrimmedRatio = pairedRatioInterval(pathTrimmed, trimmed);
+  row.relmseTrimmedRatio.value = pathRow.relmseTrimmed.value / row.relmseTrimmed.value;
+  row.timeRatio = geometricMeanInterval(timeRatios);
+  row.timeRatioOfMedians = row.timeMsMedian / pathRow.timeMsMedian;
+  const double time = row.timeRatio.value;
+  row.efficiencyRatio = pairedRatioInterval(
+      pathMse, work,
+      {shared.numerator, time * time * shared.denominator, time * shared.covariance});
+  // Fieller's is of the arithmetic mean of the time ratios, the value of their geometric mean.
+  const double value = row.mseRatio.value / time;
+  const double shift = value / row.efficiencyRatio.value;
+  row.efficiencyRatio = {value, shift * row.efficiencyRatio.lo, shift * row.efficiencyRatio.hi};
+}
+
+// The time of a method against that of the same method on another backend.
+Interval timeAgainst(const MethodResult& result, const MethodResult& first) {
+  std::vector<double> ratios;
+  for (size_t r = 0; r < std::min(result.runs.size(), first.runs.size()); ++r)
+    ratios.push_back(runTimeRatio(result.runs[r], first.runs[r]));
+  return geometricMeanInterval(ratios);
+}
+
+AccumulatedNoise accumulatedNoise(const MethodSummary& row) {
+  return {row.noise.common, row.bias == BiasClass::unbiased};
+}
+
+// Nothing where a run has none.
+std::optional<TemporalSummary> temporalOf(const std::vector<RunResult>& runs) {
+  for (const RunResult& run : runs) {
+    if (!run.temporal) return std::nullopt;
+  }
+  const auto over = [&](auto value) {
+    std::vector<double> values;
+    for (const RunResult& run : runs) values.push_back(value(*run.temporal));
+    return meanInterval(values);
+  };
+  TemporalSummary all;
+  all.variance = over([](const TemporalFigures& figures) { return figures.variance; });
+  all.difference = over([](const TemporalFigures& figures) { return figures.difference; });
+  all.errorDifferenceSquared =
+      over([](const TemporalFigures& figures) { return figures.errorDifferenceSquared; });
+  all.referenceDifference = runs.front().temporal->referenceDifference;
+  all.referenceDifferenceNoise = runs.front().temporal->referenceDifferenceNoise;
+  for (size_t lag = 0; lag < all.autocorrelation.size(); ++lag) {
+    all.autocorrelation[lag] =
+        over([lag](const TemporalFigures& figures) { return figures.autocorrelation[lag]; });
+  }
+  return all;
+}
+
+// Of the references, and so of every row.
+void noteTemporal(MethodSummary& row) {
+  if (!row.temporal) return;
+  const double share = row.temporal->referenceDifferenceNoise / row.temporal->referenceDifference;
+  if (!(share > kReferenceDifferenceNoiseMax)) return;
+  row.flags.push_back(
+      fmt::format("of the difference of the references, up to {:.0f} % is their noise: more spp",
+                  100.0 * share));
+}
+
+// One value a run; nothing where a run lacks it.
+std::vector<std::pair<std::string, Interval>> figuresOf(const Suite& suite,
+                                                        const MethodResult& result,
+                                                        const ReferenceNoise& noise) {
+  std::vector<std::pair<std::string, Interval>> figures;
+  for (const FigureInfo& figure : figureInfos(suite)) {
+    std::vector<double> values;
+    for (const RunResult& run : result.runs) {
+      for (const auto& [name, measured] : run.figures) {
+        if (name == figure.name) values.push_back(measured.value);
+      }
+    }
+    const bool isKnown = values.size() == result.runs.size();
+    Interval over = isKnown ? meanInterval(values) : Interval{kUnknown, kUnknown, kUnknown};
+    // Of a mask the pixels are not kept.
+    if (figure.metric == "mse" && figure.mask < 0) over = widened(over, noise.shared);
+    figures.emplace_back(figure.name, over);
+  }
+  return figures;
+}
+
+// Standard error of the reference's energy relative to it; 0 where it does not say.
+double energyNoise(const Reference& reference) {
+  if (!reference.variance) return 0.0;
+  double variance = 0.0, energy = 0.0;
+  for (size_t p = 0; p < reference.mean.pixels.size(); ++p) {
+    for (int c = 0; c < 3; ++c) {
+      variance += reference.variance->pixels[p][c];
+      energy += reference.mean.pixels[p][c];
+    }
+  }
+  return energy > 0.0 ? std::sqrt(variance) / energy : 0.0;
+}
+
+// What the runs say of a bound: nothing is beyond it, or inside, for its estimate alone.
+enum class Verdict { inside, outside, undecided };
+
+Verdict energyVerdict(const Interval& energy) {
+  if (energy.lo > kEnergyRatioMax || energy.hi < kEnergyRatioMin) return Verdict::outside;
+  const bool isInside = energy.lo >= kEnergyRatioMin && energy.hi <= kEnergyRatioMax;
+  return isInside ? Verdict::inside : Verdict::undecided;
+}
+
+Verdict biasVerdict(const Interval& share) {
+  if (share.lo > kBiasShareMax) return Verdict::outside;
+  return share.hi <= kBiasShareMax ? Verdict::inside : Verdict::undecided;
+}
+
+std::string energyText(const Interval& energy) {
+  if (std::isnan(energy.lo)) return fmt::format("{:.4g} [unknown]", energy.value);
+  return fmt::format("{:.4g} [{:.4g}, {:.4g}]", energy.value, energy.lo, energy.hi);
+}
+
+std::string shareText(const Interval& share) {
+  if (std::isnan(share.lo)) return fmt::format("{:.2g} % [unknown]", 100.0 * share.value);
+  return fmt::format("{:.2g} % [{:.2g}, {:.2g}]", 100.0 * share.value, 100.0 * share.lo,
+                     100.0 * share.hi);
+}
+
+// What an unbiased method shows of a mistake in it, or in what it was told.
+void judgeUnbiased(MethodSummary& row) {
+  const Interval& energy = row.energyRatio;
+  const double noise = 2.0 * energyNoise(row.block->reference);
+  const double allowed = kDoubtHalfWidths * std::hypot((energy.hi - energy.lo) / 2.0, noise);
+  if (std::abs(energy.value - 1.0) > allowed) {
+    const bool isOutside = energyVerdict(energy) == Verdict::outside;
+    row.counts = row.counts && !isOutside;
+    row.flags.push_back(fmt::format("{}declared unbiased, but its energy ratio {} leaves out 1",
+                                    isOutside ? "does not count: " : "", energyText(energy)));
+  }
+  const Interval& share = row.biasShare;
+  if (share.value > kDoubtHalfWidths * (share.value - share.lo)) {
+    const bool isLarge = biasVerdict(share) == Verdict::outside;
+    row.counts = row.counts && !isLarge;
+    row.flags.push_back(fmt::format("{}declared unbiased, but its squared bias is {} of its MSE",
+                                    isLarge ? "does not count: " : "", shareText(share)));
+  }
+}
+
+// Bounds of a biased method. A row is left out for what its runs show, not for what they leave
+// open.
+void judgeBiased(MethodSummary& row) {
+  switch (energyVerdict(row.energyRatio)) {
+    case Verdict::outside:
+      row.counts = false;
+      row.flags.push_back(fmt::format("does not count: energy ratio {} is outside {:g}..{:g}",
+                                      energyText(row.energyRatio), kEnergyRatioMin,
+                                      kEnergyRatioMax));
+      break;
+    case Verdict::undecided:
+      row.flags.push_back(
+          fmt::format("the runs do not decide whether its energy ratio {} is inside {:g}..{:g}",
+                      energyText(row.energyRatio), kEnergyRatioMin, kEnergyRatioMax));
+      break;
+    case Verdict::inside:
+      break;
+  }
+  if (std::isnan(row.biasShare.value)) {
+    row.counts = false;
+    row.flags.push_back(
+        "does not count: its bias is unknown (needs two runs and a reference in "
+        "two halves)");
+    return;
+  }
+  switch (biasVerdict(row.biasShare)) {
+    case Verdict::outside:
+      row.counts = false;
+      row.flags.push_back(
+          fmt::format("does not count: squared bias is {} of its MSE, more than {:.0f} %",
+                      shareText(row.biasShare), 100.0 * kBiasShareMax));
+      break;
+    case Verdict::undecided:
+      row.flags.push_back(fmt::format(
+          "the runs do not decide whether its squared bias, {} of its MSE, is at most {:.0f} %",
+          shareText(row.biasShare), 100.0 * kBiasShareMax));
+      break;
+    case Verdict::inside:
+      break;
+  }
+}
+
+// What hangs on the reference's own noise. No reason for a row not to count.
+void flagNoise(MethodSummary& row) {
+  const auto near = [&](const std::string& what, double mse) {
+    row.flags.push_back(fmt::format(
+        "{} is {} times the variance of a half of the reference ({} spp): what is left of its "
+        "interval with more runs is the reference's noise",
+        what, shortNumber(mse / row.noise.varianceOfHalf), row.block->reference.spp));
+  };
+  if (row.mse.value <= 0.0) {
+    row.flags.push_back("its MSE is below the noise of the reference");
+  } else if (isNearNoise(row.mse.value, row.noise)) {
+    near("its MSE", row.mse.value);
+  }
+  if (row.convergence) {
+    for (const ConvergencePoint& point : row.convergence->points) {
+      if (!isNearNoise(point.mse.value, row.noise)) continue;
+      const std::string what = fmt::format("its MSE of {} accumulated frames", point.frames);
+      if (point.mse.value > 0.0) {
+        near(what, point.mse.value);
+      } else {
+        row.flags.push_back(what + " is below the noise of the reference");
+      }
+      break;
+    }
+  }
+  const std::string relmse = relmseFlag(row.block->reference, row.result->measured);
+  if (!relmse.empty()) row.flags.push_back(relmse);
+}
+
+void noteConvergence(MethodSummary& row) {
+  if (!row.convergence || !row.convergence->isNoLine) return;
+  row.flags.push_back(
+      fmt::format("its accumulated errors do not lie on a line: up to {}x off it, more than the "
+                  "spread of the runs",
+                  shortNumber(std::pow(10.0, row.convergence->significantMisfit))));
+}
+
+void noteReading(const CurveReading& reading, const char* what, const char* gain,
+                 MethodSummary& row) {
+  if (!reading.why.empty()) row.flags.push_back(fmt::format("nothing {}: {}", what, reading.why));
+  if (!reading.isOffTheLines) return;
+  row.flags.push_back(fmt::format(
+      "{} {}x{} {} between the measured points, not {}x as off the lines", what,
+      shortNumber(reading.measured.value), intervalText(reading.measured.lo, reading.measured.hi),
+      gain, shortNumber(reading.ratio.value)));
+}
+
+void noteSpeedUp(MethodSummary& row) {
+  if (!row.speedUp || row.isYardstick) return;
+  noteReading(row.speedUp->equalTime, "at equal time", "lower", row);
+  noteReading(row.speedUp->equalError, "to equal error", "faster", row);
+}
+
+void judge(MethodSummary& row) {
+  if (row.nonfinite > 0) {
+    row.counts = false;
+    row.flags.push_back(fmt::format("{} non-finite values", row.nonfinite));
+  }
+  if (row.worstShare > kWorstShareMax) {
+    row.flags.push_back(
+        fmt::format("{:.0f} % of its MSE is in the worst 0.1 % of the pixels: its "
+                    "interval says little",
+                    100.0 * row.worstShare));
+  }
+  flagNoise(row);
+  if (row.bias == BiasClass::unbiased) {
+    judgeUnbiased(row);
+  } else {
+    judgeBiased(row);
+  }
+}
+
+// Against the average of the yardstick's frames, and all of both over the age of the history.
+void compareAges(const Suite& suite, const BlockResult& block, size_t m,
+                 const std::vector<size_t>& rowOf, std::vector<MethodSummary>& rows) {
+  MethodSummary& row = rows[rowOf[m]];
+  const auto runsOf = [&](size_t method) {
+    const size_t at = rowOf[method];
+    return at < rows.size() ? AgeYardstick{&block.methods[method].runs, rows[at].noise}
+                            : AgeYardstick{};
+  };
+  const AgeYardstick own = runsOf(m), average = runsOf(suite.average(m));
+  row.isAverage = m == suite.average(m);
+  if (average.runs && !row.isAverage && !row.method->images) {
+    const size_t paired = std::min(own.runs->size(), average.runs->size());
+    std::vector<double> mse, others;
+    for (size_t r = 0; r < paired; ++r) {
+      mse.push_back(runMse((*own.runs)[r]));
+      others.push_back(runMse((*average.runs)[r]));
+    }
+    row.ratioToAverage = pairedRatioInterval(others, mse, sharedNoise(average.noise, own.noise));
+  }
+  if (!own.runs->front().aged.empty()) row.ages = agesOf(own, runsOf(suite.yardstick(m)), average);
+}
+
+}  // namespace
+
+std::vector<MethodSummary> summarise(const Suite& suite, const BlockResult& block) {
+  std::vector<MethodSummary> rows;
+  const size_t pixels = size_t(block.width) * block.height;
+  std::vector<size_t> rowOf(suite.methods.size() + 1, suite.methods.size());
+  for (size_t m = 0; m < block.methods.size(); ++m) {
+    const MethodResult& result = block.methods[m];
+    if (result.runs.empty()) continue;
+    MethodSummary row;
+    row.suite = &suite;
+    row.method = &suite.methods[m];
+    row.block = &block;
+    row.result = &result;
+    row.bias = row.method->bias(suite.hasMovingCamera());
+    row.runs = uint32_t(result.runs.size());
+    summariseTimes(result, pixels, row);
+    summariseErrors(result, block.reference, row);
+    row.convergence = convergenceOf(result.runs, accumulatedNoise(row));
+    noteConvergence(row);
+    row.temporal = temporalOf(result.runs);
+    noteTemporal(row);
+    row.figures = figuresOf(suite, result, row.noise);
+    if (row.method->images && row.runs != suite.runs) {
+      row.flags.push_back(row.runs == 1 ? "one image" : fmt::format("{} images", row.runs));
+    }
+    judge(row);
+    row.isYardstick = m == suite.yardstick(m);
+    rowOf[m] = rows.size();
+    rows.push_back(std::move(row));
+  }
+  for (size_t m = 0; m < block.methods.size(); ++m) {
+    if (rowOf[m] >= rows.size()) continue;
+    MethodSummary& row = rows[rowOf[m]];
+    if (const size_t path = rowOf[suite.yardstick(m)]; path < rows.size()) {
+      const MethodSummary yardstick = rows[path];
+      compareWithYardstick(*yardstick.result, yardstick, *row.result, row);
+      row.speedUp = speedUpOf(yardstick.result->runs, row.result->runs, accumulatedNoise(yardstick),
+                              accumulatedNoise(row));
+      noteSpeedUp(row);
+    }
+    compareAges(suite, block, m, rowOf, rows);
+    const size_t first = suite.onFirstBackend(m);
+    if (first != m && rowOf[first] < rows.size())
+      row.timeToFirstBackend = timeAgainst(*row.result, block.methods[first]);
+  }
+  return rows;
+}
+
+const char* biasName(BiasClass bias) {
+  switch (bias) {
+    case BiasClass::unbiased:
+      return "unbiased";
+    case BiasClass::consistent:
+      return "consistent";
+    case BiasClass::biased:
+      break;
+  }
+  return "biased";
+}
+
+}  // namespace restlab

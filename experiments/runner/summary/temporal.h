@@ -1,0 +1,36 @@
+// How the frames of a run hang together: flicker and the correlation of their errors.
+#pragma once
+
+#include <deque>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "experiments/runner/run/experiment.h"
+
+namespace restlab {
+
+// Of the measured frame and the one before it, and of their references, of a moving camera.
+TemporalFigures figuresOfPair(const Image& before, const Image& measured,
+                              const Reference& referenceBefore, const Reference& reference);
+
+// Takes frames of one size, one after the other, against one reference (a still camera).
+class TemporalSum {
+ public:
+  static constexpr size_t kLags = std::tuple_size_v<decltype(TemporalFigures::autocorrelation)>;
+
+  // `reference` must outlive this.
+  explicit TemporalSum(const Reference& reference) : reference_(reference) {}
+  void add(const Image& frame);
+  // At least one frame was added; NaN where two are needed and there is one.
+  TemporalFigures figures() const;
+
+ private:
+  const Reference& reference_;
+  std::deque<Image> last_;  // the newest first
+  std::vector<glm::dvec3> sum_, sumSquares_;
+  size_t frames_ = 0;
+  double differences_ = 0.0, squaredDifferences_ = 0.0;
+  std::array<double, kLags + 1> products_{};  // of errors k frames apart, mean over pixels
+};
+
+}  // namespace restlab
