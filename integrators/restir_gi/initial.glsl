@@ -138,7 +138,7 @@ RL_FN void giMergeStillView(uint slot, RL_INOUT(PathReservoir) r) {
 }
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
-  uint slot = cacheSlot(pixel);
+  uint slot = pixel.y * gFrame.width + pixel.x;
   uint film = cameraFilmBits(pixel);
   GiPath p = giNoPath(film);
   walkPath(p, pixel, film);
@@ -149,17 +149,13 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     p.ownLight = vec3(0.0f, 0.0f, 0.0f);
     r.state = giEmptyState();
   }
-  // How many frames the pixel's history holds, this one included, and the average of its own light.
   float age = 1.0f;
-  uint before;
-  if (gParams.temporalReuse != 0u && cacheDonorOverTime(slot, before)) {
-    vec4 own = recordVec4(RL_PAST_QUAD(gBuffers.ownBefore, before));
-    age = min(own.w, gParams.confidenceCap) + 1.0f;
-    if (gFrame.stillFrames != 0u) {
-      float weight = 1.0f / age;
-      p.ownLight = vec3(own.x, own.y, own.z) * (1.0f - weight) + p.ownLight * weight;
-      giMergeStillView(slot, r);
-    }
+  if (gParams.temporalReuse != 0u && gFrame.stillFrames != 0u) {
+    vec4 own = recordVec4(RL_PAST_QUAD(gBuffers.ownBefore, slot));
+    age = giNextAge(own.w);
+    float weight = 1.0f / age;
+    p.ownLight = vec3(own.x, own.y, own.z) * (1.0f - weight) + p.ownLight * weight;
+    giMergeStillView(slot, r);
   }
   giWriteNow(slot, r);
   RL_WRITE_QUAD(gBuffers.own, slot, recordQuad(p.ownLight, floatBitsToUint(age)));

@@ -221,7 +221,8 @@ const IntegratorInfo& restir_giIntegratorInfo() {
                 {"temporal", "restir_gi_temporal", true, true},
                 {"exchange", "restir_gi_exchange"},
                 {"spatial", "restir_gi_spatial"}};
-    for (PassInfo& pass : i.passes) pass.seesCache = true;
+    // The initial pass knows no cache: it is compiled once, and it is the longest.
+    for (PassInfo& pass : i.passes) pass.seesCache = pass.name != "initial";
     i.packParameters = pack;
     i.probe = probe;
     i.biasOfParameters = [](const std::string& mode, const ParameterMap& p) {

@@ -73,5 +73,7 @@ RL_FN Shifted giReadShifted(uint index) {
   return s;
 }
 
+// Of a history that goes on.
+RL_FN float giNextAge(float before) { return min(before, gParams.confidenceCap) + 1.0f; }
 // How many frames the history of a slot's pixel holds, this one included.
 RL_FN float giAge(uint slot) { return uintBitsToFloat(RL_PAST_QUAD(gBuffers.own, slot).w); }

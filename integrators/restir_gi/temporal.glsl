@@ -1,5 +1,6 @@
 // restir_gi, temporal pass, in frames whose view is new: merges the last frame's reservoir of the
-// pixel's surface into this frame's. (In a still view the initial pass does it, without a ray.)
+// pixel's surface into this frame's, whose history then goes on. (In a still view the initial pass
+// does it, without a ray.)
 #include "core/resampling/ris.glsl"
 #include "core/resampling/mis.glsl"
 #include "core/resampling/shift.glsl"
@@ -15,6 +16,9 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint slot = cacheSlot(pixel);
   uint before;
   if (gParams.temporalReuse == 0u || !cacheDonorOverTime(slot, before)) return;
+  uvec4 own = RL_PAST_QUAD(gBuffers.own, slot);
+  own.w = floatBitsToUint(giNextAge(recordVec4(RL_PAST_QUAD(gBuffers.ownBefore, before)).w));
+  RL_WRITE_QUAD(gBuffers.own, slot, own);
   uint flags = gParams.temporalFlags;
   PathReservoir here;
   here.path.suffix = pathNoSuffix();

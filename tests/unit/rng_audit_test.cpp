@@ -53,6 +53,7 @@ class AuditedRun {
       }
     }
     own_ = addresses_.size();
+    ownParams_ = params_.size();
     const std::vector<std::byte> ownParams = info_.packParameters(mode, resolved);
     params_.insert(params_.end(), ownParams.begin(), ownParams.end());
     for (const BufferInfo& b : info_.buffers) {
@@ -70,7 +71,7 @@ class AuditedRun {
     if (method.cache == nullptr) return;
     rl::CpuKernelCounters counters;
     rl::findCpuKernel("visible", rl::RL_FEATURE_ALL)
-        ->entry(arguments(), {0, 0, kWidth, kHeight}, counters);
+        ->entry(arguments(true), {0, 0, kWidth, kHeight}, counters);
     std::copy(storage_[0].begin(), storage_[0].end(), storage_[1].begin());
   }
 
@@ -78,7 +79,7 @@ class AuditedRun {
     rl::CpuKernelCounters counters;
     for (size_t i = 0; i < passes_.size(); ++i) {
       if (frame_.stillFrames != 0 && info_.passes[i].onlyOnNewViews) continue;
-      passes_[i](arguments(), {0, 0, kWidth, kHeight}, counters);
+      passes_[i](arguments(info_.passes[i].seesCache), {0, 0, kWidth, kHeight}, counters);
     }
     for (size_t i = 0; i < info_.buffers.size(); ++i) {
       const int other = info_.buffers[i].swapWith;
@@ -90,12 +91,13 @@ class AuditedRun {
   }
 
  private:
-  rl::CpuKernelArgs arguments() {
+  // A pass that sees no cache has none of its buffers and parameters.
+  rl::CpuKernelArgs arguments(bool seesCache) {
     rl::CpuKernelArgs args;
     args.scene = &scene_->data();
     args.frame = &frame_;
-    args.buffers = addresses_.data();
-    args.params = params_.data();
+    args.buffers = addresses_.data() + (seesCache ? 0 : own_);
+    args.params = params_.data() + (seesCache ? 0 : ownParams_);
     args.embreeScene = scene_->embreeScene();
     return args;
   }
@@ -106,7 +108,7 @@ class AuditedRun {
   std::vector<std::byte> params_;
   std::vector<std::vector<std::byte>> storage_;
   std::vector<void*> addresses_;
-  size_t own_ = 0;  // where the integrator's buffers begin
+  size_t own_ = 0, ownParams_ = 0;  // where the integrator's buffers and parameters begin
   rl::FrameData frame_{};
 };
 
