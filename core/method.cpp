@@ -61,6 +61,18 @@ Registry& registry() {
   return all;
 }
 
+template <class Info>
+const Info& findPart(const std::vector<const Info*>& all, const std::string& kind,
+                     const std::string& name) {
+  std::vector<std::string> names;
+  for (const Info* info : all) {
+    if (info->name == name) return *info;
+    names.push_back(info->name);
+  }
+  failUsage(fmt::format("unknown {} '{}'{} (see: restlab list {}s)", kind, name,
+                        didYouMean(name, names), kind));
+}
+
 }  // namespace
 
 bool registerMethods(std::vector<const IntegratorInfo*> integrators,
@@ -74,24 +86,23 @@ const std::vector<const IntegratorInfo*>& integratorRegistry() { return registry
 const std::vector<const CacheInfo*>& cacheRegistry() { return registry().caches; }
 const std::vector<const DenoiserInfo*>& denoiserRegistry() { return registry().denoisers; }
 
+const IntegratorInfo& findIntegrator(const std::string& name) {
+  return findPart(integratorRegistry(), "integrator", name);
+}
 const CacheInfo& findCache(const std::string& name) {
-  std::vector<std::string> names;
-  for (const CacheInfo* info : cacheRegistry()) {
-    if (info->name == name) return *info;
-    names.push_back(info->name);
-  }
-  failUsage("unknown cache '" + name + "'" + didYouMean(name, names) +
-            " (see: restlab list caches)");
+  return findPart(cacheRegistry(), "cache", name);
+}
+const DenoiserInfo& findDenoiser(const std::string& name) {
+  return findPart(denoiserRegistry(), "denoiser", name);
 }
 
-const DenoiserInfo& findDenoiser(const std::string& name) {
-  std::vector<std::string> names;
-  for (const DenoiserInfo* info : denoiserRegistry()) {
-    if (info->name == name) return *info;
-    names.push_back(info->name);
+BiasClass biasClassOf(const IntegratorInfo& info, const std::string& mode,
+                      const ParameterMap& parameters) {
+  if (info.biasOfParameters) return info.biasOfParameters(mode, parameters);
+  for (const ModeInfo& m : info.modes) {
+    if (m.name == mode) return m.bias;
   }
-  failUsage("unknown denoiser '" + name + "'" + didYouMean(name, names) +
-            " (see: restlab list denoisers)");
+  return BiasClass::biased;
 }
 
 Method findMethod(const std::string& integrator, const std::string& cache,
