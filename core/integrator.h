@@ -25,6 +25,8 @@ struct IntegratorInfo : PartInfo {
   bool usesCache = false;  // has reservoirs that live in a cache
   // Where parameters decide whether a mode keeps its promise; empty: the mode's own class.
   std::function<BiasClass(const std::string& mode, const ParameterMap&)> biasOfParameters;
+  // How many frames the radiance of a pixel averages, once its history is old; empty: one.
+  std::function<double(const ParameterMap&)> radianceFrames;
 };
 
 // All integrators of integrators.list, in its order.

@@ -138,6 +138,9 @@ void Session::Impl::open() {
   f.components = config.components;
   f.rouletteStart = config.russianRoulette ? rl::RL_ROULETTE_EARLIEST : rl::RL_INVALID;
   f.multiscatter = multiscatter ? 1u : 0u;
+  const auto& radianceFrames = m.method.integrator->radianceFrames;
+  f.radianceFrames =
+      radianceFrames ? float(radianceFrames(resolveParameters(m.method, config.parameters))) : 1.0f;
 }
 
 Session::~Session() = default;

@@ -35,11 +35,13 @@ RL_FN bool cameraProject(RL_IN(Camera) camera, RL_IN(vec3) posW, RL_IN(vec2) res
 }
 
 // The film sample of a pixel in this frame: a fraction of the pixel's width in the low half word,
-// of its height in the high one.
+// of its height in the high one. Each is uniform; those of one pixel follow each other in the R2
+// sequence (Roberts 2018: steps of 1/g and 1/g^2, g^3 = g + 1) from a random start, so that few
+// frames cover the pixel evenly: what lies at an edge is averaged by any method that averages.
 RL_FN uint cameraFilmBits(RL_IN(uvec2) pixel) {
-  Rng rng = rngInit(gFrame.seed ^ 0x5bd1e995u, pixel.y * gFrame.width + pixel.x, gFrame.frame);
-  uint x = rngBits(rng, RL_DIM_FILTER_X);
-  uint y = rngBits(rng, RL_DIM_FILTER_Y);
+  Rng rng = rngInit(gFrame.seed ^ 0x5bd1e995u, pixel.y * gFrame.width + pixel.x, 0u);
+  uint x = rngBits(rng, RL_DIM_FILTER_X) + gFrame.frame * 3242174889u;
+  uint y = rngBits(rng, RL_DIM_FILTER_Y) + gFrame.frame * 2447445414u;
   return (x >> 16u) | (y & 0xffff0000u);
 }
 

@@ -7,6 +7,16 @@
 //   RL_RAY_SHADOW  the return value is the transmittance: 0 blocked, 1 free, between through alpha
 RL_PROTO(float traceRay(RL_IN(Ray) ray, uint mode, uint alphaKey, RL_OUT(Hit) hit))
 
+// For compilers, which do not see that traversal sets it.
+RL_FN Hit traceNoHit() {
+  Hit hit;
+  hit.instance = RL_INVALID;
+  hit.primitive = RL_INVALID;
+  hit.bary = vec2(0.0f, 0.0f);
+  hit.t = 0.0f;
+  return hit;
+}
+
 // The decision of a path ray at a partly transparent surface: hash(sample, primitive) against
 // alpha.
 RL_FN bool traceAlphaAccepts(uint alphaKey, RL_IN(Hit) hit, float alpha) {

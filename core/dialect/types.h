@@ -263,8 +263,9 @@ struct FrameData {
                        // RL_INVALID: off
   uint multiscatter;   // 1: GGX lobes are compensated, and the scene has ggxAlbedo; 0: off
   uint stillFrames;  // frames just before this one with its camera; 0: it moved, or there were none
+  float radianceFrames;  // that the integrator's radiance of an old history is the average of
 };
-RL_STATIC_ASSERT_SIZE(FrameData, 168);
+RL_STATIC_ASSERT_SIZE(FrameData, 172);
 
 // Numerical health: counters that every kernel adds to; names in core/session.cpp.
 const uint RL_HEALTH_NONFINITE = 0u;          // non-finite sample values set to zero

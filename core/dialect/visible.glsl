@@ -50,8 +50,8 @@ RL_FN VisibleSurface visibleRead(RL_IN(QuadRef) quads, uint pixelIndex) {
   VisibleSurface v;
   v.posW = recordVec3(q0);
   v.isHit = q0.w;
-  v.nGeoW = visibleUnpackNormal(q1.x);
-  v.nShadeW = visibleUnpackNormal(q1.y);
+  v.nGeoW = q1.x;
+  v.nShadeW = q1.y;
   v.reflectance = visibleUnpackColor(q1.z);
   return v;
 }
@@ -59,18 +59,22 @@ RL_FN VisibleSurface visibleRead(RL_IN(QuadRef) quads, uint pixelIndex) {
 RL_FN void visibleWrite(RL_IN(QuadRef) quads, uint pixelIndex, RL_IN(VisibleSurface) v) {
   RL_WRITE_QUAD(quads, pixelIndex * RL_VISIBLE_QUADS, recordQuad(v.posW, v.isHit));
   RL_WRITE_QUAD(quads, pixelIndex * RL_VISIBLE_QUADS + 1u,
-                uvec4(visiblePackNormal(v.nGeoW), visiblePackNormal(v.nShadeW),
-                      visiblePackColor(v.reflectance), 0u));
+                uvec4(v.nGeoW, v.nShadeW, visiblePackColor(v.reflectance), 0u));
 }
 
-// Are two of them alike enough to share a history? Symmetric. distanceToCamera: in metres.
+// Are two of them alike enough to share a history? Symmetric. distanceToCamera: in metres. Most
+// pairs lie in one plane: what both have is unpacked once.
 RL_FN bool visibleMatch(RL_IN(VisibleSurface) a, RL_IN(VisibleSurface) b, float distanceToCamera,
                         float minNormalDot, float maxPlaneDistance) {
   if (a.isHit != b.isHit) return false;
   if (a.isHit == 0u) return true;
-  if (dot(a.nShadeW, b.nShadeW) < minNormalDot) return false;
+  if (a.nShadeW != b.nShadeW &&
+      dot(visibleUnpackNormal(a.nShadeW), visibleUnpackNormal(b.nShadeW)) < minNormalDot)
+    return false;
   vec3 d = b.posW - a.posW;
-  float planeDistance = max(abs(dot(d, a.nGeoW)), abs(dot(d, b.nGeoW)));
+  float planeDistance = abs(dot(d, visibleUnpackNormal(a.nGeoW)));
+  if (a.nGeoW != b.nGeoW)
+    planeDistance = max(planeDistance, abs(dot(d, visibleUnpackNormal(b.nGeoW))));
   return planeDistance <= maxPlaneDistance * distanceToCamera;
 }
 

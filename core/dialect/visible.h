@@ -12,8 +12,8 @@ RL_NAMESPACE_BEGIN
 struct VisibleSurface {
   vec3 posW;   // where nothing is hit: the direction of the view, unit
   uint isHit;  // 0: the background
-  vec3 nGeoW;  // unit, on the side of the camera
-  vec3 nShadeW;
+  uint nGeoW;  // visiblePackNormal(); unit, on the side of the camera
+  uint nShadeW;
   vec3 reflectance;  // bsdfReflectance(), 0 to 1
 };
 

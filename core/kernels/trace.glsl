@@ -4,11 +4,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint tile = (pixel.y / 8u) * (gFrame.width / 8u) + pixel.x / 8u;
   uint index = tile * 64u + (pixel.y % 8u) * 8u + pixel.x % 8u;
   if (index >= gParams.count) return;
-  Hit hit;
-  hit.instance = RL_INVALID;
-  hit.primitive = RL_INVALID;
-  hit.bary = vec2(0.0f, 0.0f);
-  hit.t = 0.0f;
+  Hit hit = traceNoHit();
   uvec4 q0 = RL_PAST_QUAD(gBuffers.queries, 3u * index);
   uvec4 q1 = RL_PAST_QUAD(gBuffers.queries, 3u * index + 1u);
   uvec4 q2 = RL_PAST_QUAD(gBuffers.queries, 3u * index + 2u);

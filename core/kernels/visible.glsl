@@ -5,21 +5,21 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   vec2 resolution = vec2(float(gFrame.width), float(gFrame.height));
   vec2 centre = vec2(float(pixel.x) + 0.5f, float(pixel.y) + 0.5f);
   Ray ray = cameraRay(gFrame.camera, centre, resolution);
-  Hit hit;
+  Hit hit = traceNoHit();
   // The same decision at partly transparent surfaces in every frame.
   traceRay(ray, RL_RAY_PATH, pixelIndex, hit);
   VisibleSurface v;
   v.posW = ray.dir;
   v.isHit = 0u;
-  v.nGeoW = -ray.dir;
-  v.nShadeW = -ray.dir;
+  v.nGeoW = visiblePackNormal(-ray.dir);
+  v.nShadeW = v.nGeoW;
   v.reflectance = vec3(0.0f, 0.0f, 0.0f);
   if (hit.instance != RL_INVALID) {
     Surface s = surfaceLoad(hit, ray.dir);
     v.posW = s.posW;
     v.isHit = 1u;
-    v.nGeoW = s.nGeoW;
-    v.nShadeW = s.nShadeW;
+    v.nGeoW = visiblePackNormal(s.nGeoW);
+    v.nShadeW = visiblePackNormal(s.nShadeW);
     v.reflectance = bsdfReflectance(s.bsdf);
   }
   visibleWrite(gBuffers.visible, pixelIndex, v);

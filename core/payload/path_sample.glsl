@@ -1,39 +1,37 @@
 // Paths in reservoirs: to and from buffers, and how another x1 sees them.
 
-#define RL_PACK_F(i, v, s) RL_WRITE_QUAD(quads, at + i, recordQuad(p.v, floatBitsToUint(p.s)));
-#define RL_PACK_U(i, v, s) RL_WRITE_QUAD(quads, at + i, recordQuad(p.v, p.s));
-#define RL_UNPACK_F(i, v, s)       \
+#define RL_PACK_VF(i, v, s) RL_WRITE_QUAD(quads, at + i, recordQuad(p.v, floatBitsToUint(p.s)));
+#define RL_PACK_VU(i, v, s) RL_WRITE_QUAD(quads, at + i, recordQuad(p.v, p.s));
+#define RL_UNPACK_VF(i, v, s)      \
   q = RL_PAST_QUAD(quads, at + i); \
   p.v = recordVec3(q);             \
   p.s = uintBitsToFloat(q.w);
-#define RL_UNPACK_U(i, v, s)       \
+#define RL_UNPACK_VU(i, v, s)      \
   q = RL_PAST_QUAD(quads, at + i); \
   p.v = recordVec3(q);             \
   p.s = q.w;
 
-RL_FN void pathSampleWrite(RL_IN(QuadRef) quads, uint at, RL_IN(PathSample) p){
-    RL_PATH_SAMPLE_FIELDS(RL_PACK_F, RL_PACK_U)} RL_FN void pathSampleRead(RL_IN(QuadRef) quads,
-                                                                           uint at,
-                                                                           RL_INOUT(PathSample) p) {
+RL_FN void pathSampleWrite(RL_IN(QuadRef) quads, uint at, RL_IN(PathSample) p) {
+  RL_PATH_SAMPLE_FIELDS(RL_PACK_VF, RL_PACK_VU);
+}
+RL_FN void pathSampleRead(RL_IN(QuadRef) quads, uint at, RL_INOUT(PathSample) p) {
   uvec4 q;
-  RL_PATH_SAMPLE_FIELDS(RL_UNPACK_F, RL_UNPACK_U)
+  RL_PATH_SAMPLE_FIELDS(RL_UNPACK_VF, RL_UNPACK_VU);
 }
 // Only where the scene has glossy lobes.
-RL_FN void pathSuffixWrite(RL_IN(QuadRef) quads, uint at, RL_IN(PathSample) p){
-    RL_PATH_SUFFIX_FIELDS(RL_PACK_F, RL_PACK_U)} RL_FN void pathSuffixRead(RL_IN(QuadRef) quads,
-                                                                           uint at,
-                                                                           RL_INOUT(PathSample) p) {
-  uvec4 q;
-  RL_PATH_SUFFIX_FIELDS(RL_UNPACK_F, RL_UNPACK_U)
+RL_FN void pathSuffixWrite(RL_IN(QuadRef) quads, uint at, RL_IN(PathSample) p) {
+  RL_PATH_SUFFIX_FIELDS(RL_PACK_VF, RL_PACK_VU);
 }
-RL_FN void reservoirStateWrite(RL_IN(QuadRef) quads, uint at, RL_IN(ReservoirState) p){
-    RL_PACK_F(0u, F, W)
-        RL_PACK_F(1u, residual,
-                  confidence)} RL_FN void reservoirStateRead(RL_IN(QuadRef) quads, uint at,
-                                                             RL_INOUT(ReservoirState) p) {
+RL_FN void pathSuffixRead(RL_IN(QuadRef) quads, uint at, RL_INOUT(PathSample) p) {
   uvec4 q;
-  RL_UNPACK_F(0u, F, W)
-  RL_UNPACK_F(1u, residual, confidence)
+  RL_PATH_SUFFIX_FIELDS(RL_UNPACK_VF, RL_UNPACK_VU);
+}
+RL_FN void reservoirStateWrite(RL_IN(QuadRef) quads, uint at, RL_IN(ReservoirState) p) {
+  RL_STATE_FIELDS(RL_PACK_VF, RL_PACK_VU);
+}
+RL_FN void reservoirStateRead(RL_IN(QuadRef) quads, uint at, RL_INOUT(ReservoirState) p) {
+  uvec4 q;
+  RL_STATE_FIELDS(RL_UNPACK_VF, RL_UNPACK_VU);
 }
 
 // The scalar by which paths compete, for the resampling algebra.

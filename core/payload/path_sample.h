@@ -46,17 +46,24 @@ struct PathReservoir {
   ReservoirState state;
 };
 
-// What lies in a buffer, quad by quad: three numbers and one more, a float (F) or a uint (U).
+// What lies in a buffer, quad by quad: three numbers and one more, a float (VF) or a uint (VU).
 // Packing and unpacking are made of these lists. (Of the suffix, six vectors and five numbers: one
 // stands twice.)
-#define RL_PATH_SAMPLE_FIELDS(F, U) \
-  F(0u, posW, posError) U(1u, normalW, kind) U(2u, radiance, film) F(3u, cone, geometry)
-#define RL_PATH_SUFFIX_FIELDS(F, U)             \
-  F(0u, suffix.nShadeW, suffix.pdfLight)        \
-  F(1u, suffix.wi, suffix.bsdf.alpha)           \
-  F(2u, suffix.emitted, suffix.bsdf.eta)        \
-  U(3u, suffix.bsdf.diffuse, suffix.bsdf.lobes) \
-  F(4u, suffix.bsdf.f0, suffix.bsdf.f90) F(5u, suffix.bsdf.transmission, suffix.bsdf.alpha)
+#define RL_PATH_SAMPLE_FIELDS(VF, VU) \
+  VF(0u, posW, posError)              \
+  VU(1u, normalW, kind)               \
+  VU(2u, radiance, film)              \
+  VF(3u, cone, geometry)
+#define RL_PATH_SUFFIX_FIELDS(VF, VU)            \
+  VF(0u, suffix.nShadeW, suffix.pdfLight)        \
+  VF(1u, suffix.wi, suffix.bsdf.alpha)           \
+  VF(2u, suffix.emitted, suffix.bsdf.eta)        \
+  VU(3u, suffix.bsdf.diffuse, suffix.bsdf.lobes) \
+  VF(4u, suffix.bsdf.f0, suffix.bsdf.f90)        \
+  VF(5u, suffix.bsdf.transmission, suffix.bsdf.alpha)
+#define RL_STATE_FIELDS(VF, VU) \
+  VF(0u, F, W)                  \
+  VF(1u, residual, confidence)
 const uint RL_PATH_SAMPLE_QUADS = 4u;
 const uint RL_PATH_SUFFIX_QUADS = 6u;
 const uint RL_STATE_QUADS = 2u;

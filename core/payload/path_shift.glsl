@@ -51,11 +51,7 @@ RL_FN void pathShiftStep(RL_INOUT(PathShift) s, RL_IN(PathSample) path, RL_IN(Hi
 // Traces what a shift asks for, by one call.
 RL_FN void pathShiftTrace(RL_INOUT(PathShift) s, RL_IN(PathSample) path) {
   while (s.asks != RL_SHIFT_DONE) {
-    Hit hit;
-    hit.instance = RL_INVALID;
-    hit.primitive = RL_INVALID;
-    hit.bary = vec2(0.0f, 0.0f);
-    hit.t = 0.0f;
+    Hit hit = traceNoHit();
     uint mode = s.asks == RL_SHIFT_ASKS_X1 ? RL_RAY_PATH : RL_RAY_SHADOW;
     float transmittance = traceRay(s.ray, mode, cameraAlphaKey(path.film), hit);
     pathShiftStep(s, path, hit, transmittance);

@@ -85,11 +85,7 @@ RL_FN void walkPath(RL_INOUT(RL_WALK_STATE) state, RL_IN(uvec2) pixel, uint film
   bool hasShadowRay = false;
   Ray shadowRay = walk.ray;
   for (walk.bounces = 0u;; walk.bounces = walk.bounces + 1u) {
-    Hit hit;
-    hit.instance = RL_INVALID;
-    hit.primitive = RL_INVALID;
-    hit.bary = vec2(0.0f, 0.0f);
-    hit.t = 0.0f;
+    Hit hit = traceNoHit();
     for (uint which = 0u; which < 2u; which = which + 1u) {
       bool isShadow = which == 0u;
       if (isShadow ? !hasShadowRay : walk.isAlive == 0u) continue;

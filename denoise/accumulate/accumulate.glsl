@@ -3,6 +3,9 @@
 //
 //   shown = history + (radiance - history) / n,   n = min(frames in the history, cap) + 1
 //
+// Reuse averages frames itself, up to h of them: while a history is younger than that, the radiance
+// is the average of all of it and is shown as it is; frames count from then on.
+//
 // While the camera stands, a pixel's history is its own: the average is unbiased, its weights
 // depend on nothing but the frame's number. When it moves, the history is that of the pixel (or
 // between the four pixels) that showed the same surface, where the centres of both pass the test
@@ -74,8 +77,9 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   }
   vec3 radiance = gBuffers.radiance.data[pixelIndex];
   if (rlIsFinite3(radiance)) {
-    history.frames = min(history.frames, gParams.cap) + 1.0f;
-    float weight = 1.0f / history.frames;
+    float held = max(gFrame.radianceFrames - 1.0f, 0.0f);
+    history.frames = min(history.frames, gParams.cap + held) + 1.0f;
+    float weight = 1.0f / max(history.frames - held, 1.0f);
     history.mean = history.mean * (1.0f - weight) + radiance * weight;
   } else {
     // It would stay in every later mean.

@@ -12,7 +12,7 @@ const uint RL_ACCUMULATE_BILINEAR = 1u;  // flag: the history is read between pi
 
 struct History {
   vec3 mean;
-  float frames;  // in the mean, at most the cap; between pixels no whole number
+  float frames;  // seen, no more than matter; between pixels no whole number
 };
 
 struct AccumulateBuffers {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "core/method_settings.h"
 #include "core/image/intervals.h"
 #include "core/image/metrics.h"
 #include "experiments/cli/bench_rays.h"
@@ -137,22 +138,21 @@ Json frameJson(const Session& session, const FrameRates& rates, const EmbreeRate
                        (embree.shadow > 0.0 ? rates.raysShadow / embree.shadow : 0.0);
   Json buffers = Json::object();
   for (const auto& [name, bytes] : session.bufferBytesPerPixel()) buffers[name] = bytes;
-  return {{"integrator", config.integrator},
-          {"mode", config.mode},
-          {"backend", config.backend},
-          {"time_ms_median", rates.timeMs},
-          {"time_ms_p95", rates.p95Ms},
-          {"cpu_seconds_per_frame", rates.cpuS},
-          {"pixels_per_second", pixels / seconds},
-          {"pixels_per_cpu_second", pixels / rates.cpuS},
-          {"path_rays_per_pixel", rates.raysPath / pixels},
-          {"shadow_rays_per_pixel", rates.raysShadow / pixels},
-          {"rays_per_second", rays / seconds},
-          {"embree_alone_share_of_time", alone / seconds},
-          {"passes", passesJson(session, rates, roofs)},
-          {"bytes_per_pixel", session.bytesPerPixel()},
-          {"mib_at_1920x1080", double(session.bytesPerPixel()) * 1920.0 * 1080.0 / (1 << 20)},
-          {"buffers", buffers}};
+  Json json = {{"time_ms_median", rates.timeMs},
+               {"time_ms_p95", rates.p95Ms},
+               {"cpu_seconds_per_frame", rates.cpuS},
+               {"pixels_per_second", pixels / seconds},
+               {"pixels_per_cpu_second", pixels / rates.cpuS},
+               {"path_rays_per_pixel", rates.raysPath / pixels},
+               {"shadow_rays_per_pixel", rates.raysShadow / pixels},
+               {"rays_per_second", rays / seconds},
+               {"embree_alone_share_of_time", alone / seconds},
+               {"passes", passesJson(session, rates, roofs)},
+               {"bytes_per_pixel", session.bytesPerPixel()},
+               {"mib_at_1920x1080", double(session.bytesPerPixel()) * 1920.0 * 1080.0 / (1 << 20)},
+               {"buffers", buffers}};
+  for (const auto& [key, value] : settingValues(config)) json[key] = value;
+  return json;
 }
 
 Json ratesJson(const BackendRates& rates, const std::string& backend, const std::string& device,

@@ -11,6 +11,7 @@
 #include "core/config.h"
 #include "core/error.h"
 #include "core/method.h"
+#include "core/method_settings.h"
 #include "experiments/runner/suite/backend_choice.h"
 #include "experiments/runner/run/files.h"
 
@@ -126,10 +127,10 @@ void addSceneOptions(CLI::App& verb, SceneOptions& options) {
 }
 
 void addMethodOptions(CLI::App& verb, MethodOptions& options) {
-  verb.add_option("--integrator", options.integrator, "restlab list integrators (default path)");
-  verb.add_option("--mode", options.mode, "of the integrator (default: its first)");
-  verb.add_option("--cache", options.cache, "where reservoirs live (default pixel)");
-  verb.add_option("--denoiser", options.denoiser, "restlab list denoisers (default none)");
+  for (const auto& [key, help, value] : methodSettings()) {
+    if (value == &SessionConfig::backend) continue;
+    verb.add_option(std::string("--") + key, options.choice.*value, help);
+  }
   addBackendOptions(verb, options.backend);
   verb.add_option("--set", options.parameters,
                   "KEY=VALUE: a parameter of the integrator or the denoiser")
@@ -149,23 +150,23 @@ void resolveResolution(SceneOptions& options) {
 
 SessionConfig makeConfig(const SceneOptions& scene, const MethodOptions& method) {
   SessionConfig config;
-  const IntegratorInfo& info = findIntegrator(method.integrator);
+  const IntegratorInfo& info = findIntegrator(method.choice.integrator);
   std::vector<std::string> modes;
   for (const ModeInfo& mode : info.modes) modes.push_back(mode.name);
   config.integrator = info.name;
-  config.mode = method.mode.empty() ? modes.front() : method.mode;
+  config.mode = method.choice.mode.empty() ? modes.front() : method.choice.mode;
   if (std::find(modes.begin(), modes.end(), config.mode) == modes.end()) {
-    failUsage(fmt::format("--mode {}: integrator {} knows {}{}", method.mode, info.name,
-                          fmt::join(modes, ", "), didYouMean(method.mode, modes)));
+    failUsage(fmt::format("--mode {}: integrator {} knows {}{}", method.choice.mode, info.name,
+                          fmt::join(modes, ", "), didYouMean(method.choice.mode, modes)));
   }
-  if (!method.cache.empty()) findCache(method.cache);
-  if (!method.cache.empty() && !info.usesCache) {
+  if (!method.choice.cache.empty()) findCache(method.choice.cache);
+  if (!method.choice.cache.empty() && !info.usesCache) {
     failUsage(fmt::format("--cache {}: integrator {} keeps no reservoirs: it has no use for one",
-                          method.cache, info.name));
+                          method.choice.cache, info.name));
   }
   applyBackend(method.backend, config);
-  config.cache = method.cache;
-  config.denoiser = findDenoiser(method.denoiser).name;
+  config.cache = method.choice.cache;
+  config.denoiser = findDenoiser(method.choice.denoiser).name;
   config.parameters = parseParameters(findMethod(config), method.parameters);
   config.russianRoulette = method.russianRoulette;
   config.specialise = !method.general;

@@ -31,10 +31,7 @@ struct BackendChoice {
 };
 
 struct MethodOptions {
-  std::string integrator = "path";
-  std::string mode;
-  std::string cache;  // "": the first, where the integrator has a use for one
-  std::string denoiser = "none";
+  SessionConfig choice;  // methodSettings() of it, but for the backend
   BackendChoice backend;
   std::vector<std::string> parameters;  // KEY=VALUE
   bool russianRoulette = false;

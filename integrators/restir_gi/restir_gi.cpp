@@ -224,6 +224,9 @@ const IntegratorInfo& restir_giIntegratorInfo() {
     // The initial pass knows no cache: it is compiled once, and it is the longest.
     for (PassInfo& pass : i.passes) pass.seesCache = pass.name != "initial";
     i.packParameters = pack;
+    i.radianceFrames = [](const ParameterMap& p) {
+      return get<bool>(p, "temporal") ? get<double>(p, "confidence_cap") + 1.0 : 1.0;
+    };
     i.probe = probe;
     i.biasOfParameters = [](const std::string& mode, const ParameterMap& p) {
       const bool isWrong = get<std::string>(p, "mis") == "confidence" ||

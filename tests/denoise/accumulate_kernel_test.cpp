@@ -17,10 +17,12 @@ constexpr uint32_t kSide = 3;
 // Frames of one history, in a still view.
 class Kernel {
  public:
-  Kernel() {
+  // radianceFrames: as of FrameData.
+  explicit Kernel(float radianceFrames = 1.0f, float cap = 20.0f) {
     frame_.width = frame_.height = kSide;
     frame_.stillFrames = 1;
-    params_.cap = 20.0f;
+    frame_.radianceFrames = radianceFrames;
+    params_.cap = cap;
   }
 
   // What is shown of a frame; health of all frames so far.
@@ -75,6 +77,19 @@ TEST(AccumulateKernel, BlackIsShownUntilSomethingFiniteComes) {
   for (const glm::vec3& pixel : kernel.show(broken)) EXPECT_EQ(pixel, glm::vec3(0.0f));
   const std::vector<glm::vec3> fine(kSide * kSide, glm::vec3(5.0f));
   for (const glm::vec3& pixel : kernel.show(fine)) EXPECT_EQ(pixel, glm::vec3(5.0f));
+}
+
+// Radiance that averages four frames itself is shown as it is for four; from then on the average of
+// what is shown, of three frames at most.
+TEST(AccumulateKernel, AHistoryOfTheRadianceIsNotAveragedAgainWhileItIsYoung) {
+  Kernel kernel(4.0f, 2.0f);
+  const auto show = [&](float value) {
+    return kernel.show(std::vector<glm::vec3>(kSide * kSide, glm::vec3(value))).front().x;
+  };
+  for (const float young : {8.0f, 4.0f, 2.0f, 6.0f}) EXPECT_EQ(show(young), young);
+  EXPECT_NEAR(show(12.0f), 9.0f, 1e-5f);
+  EXPECT_NEAR(show(0.0f), 6.0f, 1e-5f);
+  EXPECT_NEAR(show(0.0f), 4.0f, 1e-5f);
 }
 
 }  // namespace

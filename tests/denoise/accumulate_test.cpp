@@ -40,19 +40,24 @@ double largestRelative(const Image& image, const std::vector<glm::dvec3>& truth)
 }
 
 // Frame n weighs 1 / min(n, cap + 1), and what was there before the rest: computed here in double
-// precision from the frames themselves.
-class AnalyticWeights : public ::testing::TestWithParam<double> {};
+// precision from the frames themselves. Of restir_gi, whose radiance averages 21 frames, n counts
+// from frame 21 on.
+class AnalyticWeights : public ::testing::TestWithParam<std::tuple<const char*, double>> {};
 
 TEST_P(AnalyticWeights, AreThoseOfAStillView) {
-  const double cap = GetParam();
+  const auto& [integrator, cap] = GetParam();
+  const double held = std::string(integrator) == "restir_gi" ? 20.0 : 0.0;
   const auto scene = builtinScene("cornell-box");
-  Session plain(scene, configWith("none"));
-  Session average(scene, configWith("accumulate", {{"accumulate_cap", cap}}));
+  SessionConfig without = configWith("none");
+  SessionConfig with = configWith("accumulate", {{"accumulate_cap", cap}});
+  without.integrator = with.integrator = integrator;
+  Session plain(scene, without), average(scene, with);
   std::vector<glm::dvec3> expected(plain.radiance().pixels.size(), glm::dvec3(0.0));
   for (uint32_t frame = 0; frame < 30; ++frame) {
     plain.frame();
     average.frame();
-    const double weight = 1.0 / (std::min(double(frame), cap) + 1.0);
+    const double n = std::min(double(frame), cap + held) + 1.0 - held;
+    const double weight = 1.0 / std::max(n, 1.0);
     for (size_t p = 0; p < expected.size(); ++p)
       expected[p] += weight * (glm::dvec3(plain.radiance().pixels[p]) - expected[p]);
     ASSERT_LT(largestRelative(average.radiance(), expected), 1e-5) << "frame " << frame;
@@ -60,7 +65,9 @@ TEST_P(AnalyticWeights, AreThoseOfAStillView) {
   EXPECT_EQ(countDifferent(plain.radiance(), average.radiance()) == 0, cap == 0.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Caps, AnalyticWeights, ::testing::Values(0.0, 3.0, 20.0, 1e6));
+INSTANTIATE_TEST_SUITE_P(Caps, AnalyticWeights,
+                         ::testing::Combine(::testing::Values("path", "restir_gi"),
+                                            ::testing::Values(0.0, 3.0, 20.0, 1e6)));
 
 TEST(Accumulate, BeginsAnewAfterAResetAndACut) {
   const auto scene = builtinScene("door-ajar");

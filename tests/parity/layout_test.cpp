@@ -81,7 +81,7 @@ const std::map<std::string, Offsets>& expected() {
         FIELD(FrameData, height), FIELD(FrameData, frame), FIELD(FrameData, seed),
         FIELD(FrameData, pixelFilter), FIELD(FrameData, maxBounces), FIELD(FrameData, components),
         FIELD(FrameData, rouletteStart), FIELD(FrameData, multiscatter),
-        FIELD(FrameData, stillFrames)}},
+        FIELD(FrameData, stillFrames), FIELD(FrameData, radianceFrames)}},
       {"SceneData",
        {FIELD(SceneData, positions),
         FIELD(SceneData, normals),

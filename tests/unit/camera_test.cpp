@@ -135,5 +135,21 @@ TEST_F(FilmTest, SamplesAreFreshAndTheirBitsAreTheirPlace) {
   expectUniform(counts, "film samples of one frame over seeds");
 }
 
+// From wherever a history starts, few frames cover the pixel: every cell of 4 x 4 gets two to six
+// of 64 samples. (Of independent samples one cell of sixteen misses that in a tenth of all tries.)
+TEST_F(FilmTest, AFewFramesCoverThePixelEvenly) {
+  for (uint32_t x = 0; x < 32; ++x) {
+    std::vector<uint32_t> counts(16);
+    for (d.frame.frame = 5 * x; d.frame.frame < 5 * x + 64; ++d.frame.frame) {
+      const uint32_t bits = d->cameraFilmBits({x, 5});
+      ++counts[(bits >> 30) * 4 + ((bits & 0xffffu) >> 14)];
+    }
+    for (const uint32_t count : counts) {
+      EXPECT_GE(count, 2u) << "pixel " << x;
+      EXPECT_LE(count, 6u) << "pixel " << x;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace restlab::unit

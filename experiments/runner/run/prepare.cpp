@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/method.h"
+#include "core/method_settings.h"
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/run/files.h"
 #include "experiments/runner/run/log.h"
@@ -211,11 +212,6 @@ std::map<std::string, std::string> describe(const PreparedScene& prepared,
       {"scene_source", source.source.empty() ? "built-in" : source.source.string()},
       {"scene_hash", hexHash(prepared.contentHash)},
       {"environment", prepared.environmentName},
-      {"integrator", config.integrator},
-      {"mode", config.mode},
-      {"cache", findIntegrator(config.integrator).usesCache ? config.cache : "none"},
-      {"backend", config.backend},
-      {"denoiser", config.denoiser},
       {"width", std::to_string(config.width)},
       {"height", std::to_string(config.height)},
       {"max_bounces", std::to_string(config.maxBounces)},
@@ -227,6 +223,7 @@ std::map<std::string, std::string> describe(const PreparedScene& prepared,
       {"source_hash", buildInfo().sourceHash},
       {"reference_sources", buildInfo().referenceHash},
   };
+  for (const auto& [key, value] : settingValues(config)) words[key] = value;
   describeCamera(source.cameras.at(prepared.camera), words);
   words["camera"] = prepared.cameraName;
   words["camera_index"] = std::to_string(prepared.camera);

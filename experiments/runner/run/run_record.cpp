@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "core/method_settings.h"
 #include "core/image/intervals.h"
 #include "experiments/runner/run/build_info.h"
 
@@ -25,30 +26,27 @@ Json parametersJson(const SuiteMethod& method) {
 Json configurationJson(const Suite& suite, const BlockResult& block, size_t method,
                        const DeviceUse& use) {
   const SessionConfig& session = suite.methods[method].session;
-  return {{"suite", suite.name},
-          {"point", suite.point},
-          {"scene", block.scene},
-          {"camera", block.camera},
-          {"camera_path", suite.cameraPathName},
-          {"component", componentName(block.component)},
-          {"method", suite.methods[method].name},
-          {"integrator", session.integrator},
-          {"mode", session.mode},
-          {"cache", suite.methods[method].cacheName()},
-          {"backend", session.backend},
-          {"device", use.device},
-          {"ray_tracing", use.rayTracing},
-          {"denoiser", session.denoiser},
-          {"kernel", session.specialise ? "specialised" : "general"},
-          {"parameters", parametersJson(suite.methods[method])},
-          {"width", block.width},
-          {"height", block.height},
-          {"max_bounces", suite.maxBounces},
-          {"multiscatter", suite.multiscatter},
-          {"russian_roulette", suite.russianRoulette},
-          {"filter", filterName(suite.pixelFilter)},
-          {"warmup_frames", suite.warmupFrames},
-          {"timed_frames", suite.timedFrames}};
+  Json json = {{"suite", suite.name},
+               {"point", suite.point},
+               {"scene", block.scene},
+               {"camera", block.camera},
+               {"camera_path", suite.cameraPathName},
+               {"component", componentName(block.component)},
+               {"method", suite.methods[method].name},
+               {"device", use.device},
+               {"ray_tracing", use.rayTracing},
+               {"kernel", session.specialise ? "specialised" : "general"},
+               {"parameters", parametersJson(suite.methods[method])},
+               {"width", block.width},
+               {"height", block.height},
+               {"max_bounces", suite.maxBounces},
+               {"multiscatter", suite.multiscatter},
+               {"russian_roulette", suite.russianRoulette},
+               {"filter", filterName(suite.pixelFilter)},
+               {"warmup_frames", suite.warmupFrames},
+               {"timed_frames", suite.timedFrames}};
+  for (const auto& [key, value] : settingValues(session)) json[key] = value;
+  return json;
 }
 
 Json referenceJson(const BlockResult& block) {

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <set>
 
+#include "core/method_settings.h"
 #include "core/error.h"
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/run/experiment.h"
@@ -177,9 +178,10 @@ std::string methodsText(const std::vector<Suite>& points) {
       std::vector<std::string> given;
       for (const auto& [key, value] : method.session.parameters)
         given.push_back(fmt::format("{} = {}", key, parameterText(value)));
-      lines += fmt::format("| {} | {} | {} | {} | {} | {} |\n", method.name,
-                           method.session.integrator, method.session.mode, method.cacheName(),
-                           method.session.backend, fmt::join(given, ", "));
+      lines +=
+          fmt::format("| {} | {} | {} | {} | {} | {} |\n", method.name, method.session.integrator,
+                      method.session.mode, cacheName(method.session), method.session.backend,
+                      fmt::join(given, ", "));
     }
   }
   return lines;

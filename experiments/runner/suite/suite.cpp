@@ -122,10 +122,6 @@ void requireUniqueNames(const Suite& suite) {
 
 }  // namespace
 
-std::string SuiteMethod::cacheName() const {
-  return !images && findIntegrator(session.integrator).usesCache ? session.cache : "none";
-}
-
 ParameterMap SuiteMethod::parameters() const {
   if (images) return {};
   return resolveParameters(findMethod(session), session.parameters);

@@ -42,8 +42,6 @@ struct SuiteMethod {
   // Where the suite says so, for errors: file:line:column.
   std::string backendPlace, namePlace;
 
-  // As tables say it: "none" without reservoirs.
-  std::string cacheName() const;
   // All of the integrator's, defaults too.
   ParameterMap parameters() const;
   BiasClass bias(bool cameraMoves) const;

@@ -8,6 +8,7 @@
 #include "core/cache.h"
 #include "core/error.h"
 #include "core/method.h"
+#include "core/method_settings.h"
 #include "experiments/runner/suite/suite_settings.h"
 
 namespace restlab {
@@ -39,7 +40,7 @@ SuiteMethod readImageRow(const ConfigTable& table, const std::string& folder) {
   method.name = method.base = method.given = table.getString("name", "");
   method.namePlace = table.place("name");
   if (method.name.empty()) table.fail("name", "[[method]] with 'image' needs a 'name'");
-  for (const char* key : {"integrator", "mode", "cache", "backend", "denoiser"}) {
+  for (const auto& [key, help, value] : methodSettings()) {
     if (table.has(key))
       table.fail(
           key,

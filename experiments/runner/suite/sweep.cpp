@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/method.h"
+#include "core/method_settings.h"
 
 namespace restlab {
 
@@ -66,8 +67,12 @@ bool splitMethodKey(const std::string& key, std::string& method, std::string& le
 }
 
 const std::vector<std::string>& methodKeys() {
-  static const std::vector<std::string> keys = {"integrator", "mode",    "cache",
-                                                "denoiser",   "general", "backend"};
+  static const std::vector<std::string> keys = [] {
+    std::vector<std::string> all;
+    for (const MethodSetting& setting : methodSettings()) all.emplace_back(setting.key);
+    all.emplace_back("general");
+    return all;
+  }();
   return keys;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/method_settings.h"
 #include "experiments/runner/summary/report.h"
 
 namespace restlab {
@@ -30,30 +31,27 @@ struct Column {
 };
 
 std::vector<Column> contractColumns(const Suite& suite, const MethodSummary& row) {
-  const SessionConfig& session = row.method->session;
-  return {{"scene", row.block->scene},
-          {"camera", row.block->camera},
-          {"integrator", session.integrator},
-          {"mode", session.mode},
-          {"cache", row.method->cacheName()},
-          {"backend", session.backend},
-          {"denoiser", session.denoiser},
-          {"width", std::to_string(row.block->width)},
-          {"height", std::to_string(row.block->height)},
-          {"frames", std::to_string(suite.timedFrames)},
-          {"runs", std::to_string(row.runs)},
-          {"time_ms_median", number(row.timeMsMedian)},
-          {"time_ms_p95", number(row.timeMsP95)},
-          {"mse", number(row.mse.value)},
-          {"mse_ci_lo", number(row.mse.lo)},
-          {"mse_ci_hi", number(row.mse.hi)},
-          {"relmse_e1e-2", number(row.relmse.value)},
-          {"energy_ratio", number(row.energyRatio.value)},
-          {"nonfinite", std::to_string(row.nonfinite)},
-          {"mse_ratio", number(row.mseRatio.value)},
-          {"time_ratio", number(row.timeRatio.value)},
-          {"efficiency_ratio", number(row.efficiencyRatio.value)},
-          {"features_left_out", row.result->featuresLeftOut}};
+  std::vector<Column> columns = {{"scene", row.block->scene}, {"camera", row.block->camera}};
+  for (const auto& [key, value] : settingValues(row.method->session))
+    columns.push_back({key, value});
+  const std::vector<Column> figures = {{"width", std::to_string(row.block->width)},
+                                       {"height", std::to_string(row.block->height)},
+                                       {"frames", std::to_string(suite.timedFrames)},
+                                       {"runs", std::to_string(row.runs)},
+                                       {"time_ms_median", number(row.timeMsMedian)},
+                                       {"time_ms_p95", number(row.timeMsP95)},
+                                       {"mse", number(row.mse.value)},
+                                       {"mse_ci_lo", number(row.mse.lo)},
+                                       {"mse_ci_hi", number(row.mse.hi)},
+                                       {"relmse_e1e-2", number(row.relmse.value)},
+                                       {"energy_ratio", number(row.energyRatio.value)},
+                                       {"nonfinite", std::to_string(row.nonfinite)},
+                                       {"mse_ratio", number(row.mseRatio.value)},
+                                       {"time_ratio", number(row.timeRatio.value)},
+                                       {"efficiency_ratio", number(row.efficiencyRatio.value)},
+                                       {"features_left_out", row.result->featuresLeftOut}};
+  columns.insert(columns.end(), figures.begin(), figures.end());
+  return columns;
 }
 
 // "confidence_cap=20 temporal=true": all of them, defaults too.
