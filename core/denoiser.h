@@ -11,7 +11,9 @@
 namespace restlab {
 
 // Buffer 0 is the frame that is shown (12 bytes a pixel); without passes the radiance is shown as
-// it is. Inputs are "radiance" and what core/visible_surfaces.h offers.
+// it is. Inputs are "radiance" and what core/visible_surfaces.h offers: position, normals and
+// reflectance at the centres of pixels, in this view and in the last one. There are no layers of
+// the film samples themselves, no motion and no confidence yet.
 struct DenoiserInfo : PartInfo {
   // What it adds to the bias of the integrator, while the camera stands and when it moves.
   BiasClass biasOfStillView = BiasClass::unbiased;

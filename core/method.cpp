@@ -165,6 +165,20 @@ ParameterMap resolveParameters(const Method& method, const ParameterMap& given) 
   return resolved;
 }
 
+std::vector<std::string> parametersWithoutEffect(const Method& method, const ParameterMap& given) {
+  const ParameterMap resolved = resolveParameters(method, given);
+  std::vector<std::string> lines;
+  for (const PartInfo* part : method.parts()) {
+    if (!part->whyWithoutEffect) continue;
+    for (const ParameterInfo& parameter : part->parameters) {
+      if (!given.contains(parameter.name)) continue;
+      const std::string why = part->whyWithoutEffect(parameter.name, resolved);
+      if (!why.empty()) lines.push_back(fmt::format("{} has no effect: {}", parameter.name, why));
+    }
+  }
+  return lines;
+}
+
 size_t bufferBytes(const BufferInfo& buffer, const ParameterMap& parameters, size_t pixels) {
   const auto number = [&](const char* parameter) {
     return static_cast<size_t>(std::get<int64_t>(parameters.at(parameter)));

@@ -2,7 +2,6 @@
 // table.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,5 +42,9 @@ Method findMethod(const SessionConfig& config);
 
 // Defaults overlaid by `given`; throws Error (badUsage) on unknown names, types, ranges, choices.
 ParameterMap resolveParameters(const Method& method, const ParameterMap& given);
+
+// A line for each given parameter that changes nothing: "confidence_cap has no effect: temporal is
+// false". `given` is valid.
+std::vector<std::string> parametersWithoutEffect(const Method& method, const ParameterMap& given);
 
 }  // namespace restlab

@@ -73,6 +73,9 @@ struct PartInfo {
   // The passes run where this frame's view is not that of the last one; otherwise what they left
   // stands, and buffers that swap are both that of the last run.
   bool onlyOnNewViews = false;
+  // Why a parameter of the part changes nothing, the others being what they are; "" where it does.
+  // Empty: each does.
+  std::function<std::string(const std::string& parameter, const ParameterMap&)> whyWithoutEffect;
   // Packs validated parameters into the block that kernels read as gParams. `mode` is the
   // integrator's.
   std::function<std::vector<std::byte>(const std::string& mode, const ParameterMap&)>

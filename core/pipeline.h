@@ -61,6 +61,7 @@ class Pipeline {
     std::vector<size_t> bytes;      // of each own buffer; 0: not allocated
     std::vector<BufferId> buffers;  // the part's own
     bool runs = true;               // in the frame that was begun last
+    bool isChanged = false;         // its parameters, since then
   };
 
   size_t bytesOf(const BufferInfo& buffer, const ParameterMap& parameters) const;

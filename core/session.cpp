@@ -68,6 +68,10 @@ struct Session::Impl {
 
   // Backend, buffers and the first frame of a history, for the configuration.
   void open();
+  // For another one; where that throws, a new history of the one before.
+  void reopen(const SessionConfig& changed);
+  // What a frame says of the parameters.
+  void useParameters();
   void submitFrame();
   FrameStats collectFrame();
 };
@@ -102,31 +106,29 @@ void Session::Impl::open() {
     failUsage(fmt::format("resolution {}x{}: width and height must be at least 1", config.width,
                           config.height));
   }
-  Impl& m = *this;
-  m.needed = m.scene->features(config.multiscatter);
-  const bool multiscatter = (m.needed & rl::RL_FEATURE_MULTISCATTER) != 0;
-  if (multiscatter) m.scene->bindGgxAlbedo();
-  m.pipeline.reset();
-  m.backend.reset();
-  m.aovBuffers.clear();
-  m.backend = makeBackend(config.backend, m.scene,
-                          {config.threads, config.device, config.rayTracing, config.validate});
-  const uint32_t wanted = config.specialise ? m.needed : rl::RL_FEATURE_ALL;
-  m.pipeline.emplace(*m.backend, withVisibleSurfaces(m.method.parts()), m.method.cache,
-                     m.config.mode, m.config.parameters, wanted,
-                     size_t(config.width) * config.height);
-  m.backend->requireMemory(m.method.integrator->name, config.width, config.height,
-                           m.pipeline->bytesPerPixel(), sizeof(glm::vec3) + m.hostBytesPerPixel);
-  m.pipeline->allocate();
-  m.pipeline->prepare(m.startup);
-  m.radiance = Image(config.width, config.height);
-  m.isRadianceRead = true;
-  m.isFirstFrame = true;
-  const std::vector<SceneCamera>& cameras = m.scene->source().cameras;
-  rl::FrameData& f = m.frame;
-  f.camera = m.scene->camera(cameras[config.camera], config.width, config.height);
+  needed = scene->features(config.multiscatter);
+  const bool multiscatter = (needed & rl::RL_FEATURE_MULTISCATTER) != 0;
+  if (multiscatter) scene->bindGgxAlbedo();
+  pipeline.reset();
+  backend.reset();
+  aovBuffers.clear();
+  backend = makeBackend(config.backend, scene,
+                        {config.threads, config.device, config.rayTracing, config.validate});
+  const uint32_t wanted = config.specialise ? needed : rl::RL_FEATURE_ALL;
+  pipeline.emplace(*backend, withVisibleSurfaces(method.parts()), method.cache, config.mode,
+                   config.parameters, wanted, size_t(config.width) * config.height);
+  backend->requireMemory(method.integrator->name, config.width, config.height,
+                         pipeline->bytesPerPixel(), sizeof(glm::vec3) + hostBytesPerPixel);
+  pipeline->allocate();
+  pipeline->prepare(startup);
+  radiance = Image(config.width, config.height);
+  isRadianceRead = true;
+  isFirstFrame = true;
+  const std::vector<SceneCamera>& cameras = scene->source().cameras;
+  rl::FrameData& f = frame;
+  f.camera = scene->camera(cameras[config.camera], config.width, config.height);
   f.previousCamera = f.camera;
-  m.nextCamera = f.camera;
+  nextCamera = f.camera;
   f.width = config.width;
   f.height = config.height;
   f.frame = 0;
@@ -138,9 +140,26 @@ void Session::Impl::open() {
   f.components = config.components;
   f.rouletteStart = config.russianRoulette ? rl::RL_ROULETTE_EARLIEST : rl::RL_INVALID;
   f.multiscatter = multiscatter ? 1u : 0u;
-  const auto& radianceFrames = m.method.integrator->radianceFrames;
-  f.radianceFrames =
-      radianceFrames ? float(radianceFrames(resolveParameters(m.method, config.parameters))) : 1.0f;
+  useParameters();
+}
+
+void Session::Impl::useParameters() {
+  const auto& radianceFrames = method.integrator->radianceFrames;
+  frame.radianceFrames = radianceFrames ? float(radianceFrames(config.parameters)) : 1.0f;
+}
+
+void Session::Impl::reopen(const SessionConfig& changed) {
+  const SessionConfig before = config;
+  const rl::Camera camera = nextCamera;
+  config = changed;
+  try {
+    open();
+  } catch (const Error&) {
+    config = before;
+    open();
+    nextCamera = camera;
+    throw;
+  }
 }
 
 Session::~Session() = default;
@@ -204,27 +223,25 @@ void Session::reset(uint32_t seed, uint32_t firstFrame) {
 
 bool Session::setParameters(const ParameterMap& parameters) {
   Impl& m = *impl_;
-  ParameterMap all = m.config.parameters;
-  for (const auto& [name, value] : parameters) all[name] = value;
-  m.config.parameters = resolveParameters(m.method, all);
-  if (m.pipeline->setParameters(m.config.mode, m.config.parameters)) return false;
+  SessionConfig changed = m.config;
+  for (const auto& [name, value] : parameters) changed.parameters[name] = value;
+  changed.parameters = resolveParameters(m.method, changed.parameters);
+  if (m.pipeline->setParameters(changed.mode, changed.parameters)) {
+    m.config = changed;
+    m.useParameters();
+    return false;
+  }
   const rl::Camera camera = m.nextCamera;
-  m.open();
+  m.reopen(changed);
   m.nextCamera = camera;
   return true;
 }
 
 void Session::resize(uint32_t width, uint32_t height) {
-  const SessionConfig before = impl_->config;
-  impl_->config.width = width;
-  impl_->config.height = height;
-  try {
-    impl_->open();
-  } catch (const Error&) {
-    impl_->config = before;
-    impl_->open();
-    throw;
-  }
+  SessionConfig changed = impl_->config;
+  changed.width = width;
+  changed.height = height;
+  impl_->reopen(changed);
 }
 
 std::vector<ProbeValue> Session::probe(uint32_t x, uint32_t y) const {

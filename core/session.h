@@ -1,10 +1,9 @@
-// Session: scene + integrator + cache + backend -> frames. The one thing that the experiment
+// Session: scene + integrator + cache + denoiser + backend -> frames. The one thing that the experiment
 // runner, the renderer, the viewer and the tests all drive.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -37,7 +36,7 @@ struct SessionConfig {
   bool multiscatter = false;  // multiple-scattering compensation of rough reflection
   bool specialise = true;     // false: the general kernel
   int threads = 0;            // 0: all cores
-  ParameterMap parameters;    // integrator parameters, e.g. confidence_cap
+  ParameterMap parameters;    // of the method, e.g. confidence_cap
 };
 
 struct PassTiming {
@@ -79,11 +78,11 @@ class Session {
   // but at 0.
   void reset(uint32_t seed, uint32_t firstFrame = 0);
   // Changes parameters of the method, from the next frame on; what is not named keeps its value.
-  // True where the history starts anew, as buffers have another size. Throws Error (badUsage) as
-  // the constructor does, and changes nothing then.
+  // True where the history starts anew, as buffers have another size. Throws Error as the
+  // constructor does; parameters stay as they were then.
   bool setParameters(const ParameterMap& parameters);
   // Another size of the image, with the camera of the configuration; the history starts anew.
-  // Throws Error as the constructor does.
+  // Throws Error as the constructor does; the size stays as it was then.
   void resize(uint32_t width, uint32_t height);
   // What the method keeps of a pixel after the last frame: its reservoir and path, by name.
   std::vector<ProbeValue> probe(uint32_t x, uint32_t y) const;

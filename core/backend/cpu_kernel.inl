@@ -16,7 +16,7 @@
 #include RL_KERNEL_HEADER
 #endif
 
-// Functions that a kernel hands to the path loop or to a bridge have one signature: some ignore a
+// Functions that a kernel hands to the path loop or to the reuse loop have one signature: some ignore a
 // parameter.
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 

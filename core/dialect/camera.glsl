@@ -39,6 +39,7 @@ RL_FN bool cameraProject(RL_IN(Camera) camera, RL_IN(vec3) posW, RL_IN(vec2) res
 // sequence (Roberts 2018: steps of 1/g and 1/g^2, g^3 = g + 1) from a random start, so that few
 // frames cover the pixel evenly: what lies at an edge is averaged by any method that averages.
 RL_FN uint cameraFilmBits(RL_IN(uvec2) pixel) {
+  // The start does not depend on the frame, nor on the numbers that the path draws in frame 0.
   Rng rng = rngInit(gFrame.seed ^ 0x5bd1e995u, pixel.y * gFrame.width + pixel.x, 0u);
   uint x = rngBits(rng, RL_DIM_FILTER_X) + gFrame.frame * 3242174889u;
   uint y = rngBits(rng, RL_DIM_FILTER_Y) + gFrame.frame * 2447445414u;

@@ -35,11 +35,11 @@ const uint RL_DIM_ROULETTE = 9u;
 const uint RL_DIM_RIS_LIGHT = 10u;     // selection among light candidates
 const uint RL_DIM_RIS_DIRECT = 11u;    // light sample or BSDF sample
 const uint RL_DIM_RIS_SUFFIX = 12u;    // light or continuation at a glossy x2
-const uint RL_DIM_RIS_MERGE = 13u;     // + donor index (16 at most)
+const uint RL_DIM_RIS_MERGE = 13u;     // + donor index, below RL_MAX_DONORS
 const uint RL_DIM_RIS_INDIRECT = 32u;  // indirect light against what is selected of direct light
-const uint RL_DIM_ENVIRONMENT_ALIAS = 52u;
 const uint RL_DIM_DONOR_U = 50u;
 const uint RL_DIM_DONOR_V = 51u;
+const uint RL_DIM_ENVIRONMENT_ALIAS = 52u;
 const uint RL_DIMENSIONS = 64u;
 
 RL_NAMESPACE_END

@@ -272,7 +272,7 @@ const uint RL_HEALTH_NONFINITE = 0u;          // non-finite sample values set to
 const uint RL_HEALTH_REJECTED_JACOBIAN = 1u;  // shifts outside the declared Jacobian domain
 const uint RL_HEALTH_CAPPED_CONFIDENCE = 2u;
 const uint RL_HEALTH_DELTA_LOBES = 3u;        // roughness below the floor, rendered as a delta lobe
-const uint RL_HEALTH_UNREUSABLE_PIXELS = 4u;  // x1 cannot be reused; the pixel's own path is shaded
+const uint RL_HEALTH_UNREUSABLE_PIXELS = 4u;  // x1 cannot be reused: own light alone
 const uint RL_HEALTH_NEGATIVE = 5u;           // negative radiance left by control variates
 const uint RL_HEALTH_DROPPED_WEIGHTS =
     6u;  // resampling weights that are no finite, non-negative number

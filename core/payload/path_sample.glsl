@@ -1,16 +1,5 @@
 // Paths in reservoirs: to and from buffers, and how another x1 sees them.
 
-#define RL_PACK_VF(i, v, s) RL_WRITE_QUAD(quads, at + i, recordQuad(p.v, floatBitsToUint(p.s)));
-#define RL_PACK_VU(i, v, s) RL_WRITE_QUAD(quads, at + i, recordQuad(p.v, p.s));
-#define RL_UNPACK_VF(i, v, s)      \
-  q = RL_PAST_QUAD(quads, at + i); \
-  p.v = recordVec3(q);             \
-  p.s = uintBitsToFloat(q.w);
-#define RL_UNPACK_VU(i, v, s)      \
-  q = RL_PAST_QUAD(quads, at + i); \
-  p.v = recordVec3(q);             \
-  p.s = q.w;
-
 RL_FN void pathSampleWrite(RL_IN(QuadRef) quads, uint at, RL_IN(PathSample) p) {
   RL_PATH_SAMPLE_FIELDS(RL_PACK_VF, RL_PACK_VU);
 }
@@ -26,16 +15,9 @@ RL_FN void pathSuffixRead(RL_IN(QuadRef) quads, uint at, RL_INOUT(PathSample) p)
   uvec4 q;
   RL_PATH_SUFFIX_FIELDS(RL_UNPACK_VF, RL_UNPACK_VU);
 }
-RL_FN void reservoirStateWrite(RL_IN(QuadRef) quads, uint at, RL_IN(ReservoirState) p) {
-  RL_STATE_FIELDS(RL_PACK_VF, RL_PACK_VU);
-}
-RL_FN void reservoirStateRead(RL_IN(QuadRef) quads, uint at, RL_INOUT(ReservoirState) p) {
-  uvec4 q;
-  RL_STATE_FIELDS(RL_UNPACK_VF, RL_UNPACK_VU);
-}
 
 // The scalar by which paths compete, for the resampling algebra.
-RL_FN real bridgeTarget(RL_IN(real3) f) { return rlLuminance(f); }
+RL_FN real reuseTarget(RL_IN(real3) f) { return rlLuminance(f); }
 
 RL_FN PathSuffix pathNoSuffix() {
   PathSuffix s;
@@ -99,15 +81,17 @@ RL_FN real pathGeometry(RL_IN(PathSample) p, RL_IN(vec3) x1) {
   return shiftGeometryTerm(p.posW, p.normalW, x1);
 }
 
-// The segment from x1 to a vertex x2 or a light, as a shadow ray.
-RL_FN Ray pathSegment(RL_IN(PathSample) p, RL_IN(Surface) x1) {
+// The segment from x1 (position, geometric normal, error of the position) to a vertex x2 or a
+// light, as a shadow ray.
+RL_FN Ray pathSegment(RL_IN(PathSample) p, RL_IN(vec3) x1PosW, RL_IN(vec3) x1NGeoW,
+                      float x1PosError) {
   if (pathKind(p) == RL_PATH_DIRECT) {
     LightSample light = pathLight(p);
-    return lightShadowRay(light, lightConnect(light, x1.posW), x1.posW, x1.nGeoW, x1.posError);
+    return lightShadowRay(light, lightConnect(light, x1PosW), x1PosW, x1NGeoW, x1PosError);
   }
   Ray ray;
-  vec3 d = p.posW - x1.posW;
-  ray.origin = surfaceOffset(x1.posW, x1.nGeoW, x1.posError, d);
+  vec3 d = p.posW - x1PosW;
+  ray.origin = surfaceOffset(x1PosW, x1NGeoW, x1PosError, d);
   ray.tMin = 0.0f;
   ray.dir = surfaceOffset(p.posW, p.normalW, p.posError, -d) - ray.origin;
   ray.tMax = 1.0f;

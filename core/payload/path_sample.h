@@ -41,33 +41,35 @@ const uint RL_PATH_KIND_MASK = 0xffu;
 const uint RL_PATH_LIGHT_SHIFT = 8u;
 const uint RL_PATH_TWO_SIDED = 0x10000u;
 
+// In the kernels' gParams.path.
+struct PathParams {
+  uint lightCandidates;  // light samples at x1, of which one is kept
+  float minAlpha;        // GGX alpha below which x1 is not reused
+  float maxJacobian;     // shifts outside [1/x, x] are undefined, both ways (Lin et al. 2022)
+};
+
 struct PathReservoir {
   PathSample path;
   ReservoirState state;
 };
 
 // What lies in a buffer, quad by quad: three numbers and one more, a float (VF) or a uint (VU).
-// Packing and unpacking are made of these lists. (Of the suffix, six vectors and five numbers: one
-// stands twice.)
+// Packing and unpacking are made of these lists.
 #define RL_PATH_SAMPLE_FIELDS(VF, VU) \
   VF(0u, posW, posError)              \
   VU(1u, normalW, kind)               \
   VU(2u, radiance, film)              \
   VF(3u, cone, geometry)
+// Three vectors and two numbers: one stands twice.
 #define RL_PATH_SUFFIX_FIELDS(VF, VU)            \
   VF(0u, suffix.nShadeW, suffix.pdfLight)        \
-  VF(1u, suffix.wi, suffix.bsdf.alpha)           \
-  VF(2u, suffix.emitted, suffix.bsdf.eta)        \
-  VU(3u, suffix.bsdf.diffuse, suffix.bsdf.lobes) \
-  VF(4u, suffix.bsdf.f0, suffix.bsdf.f90)        \
-  VF(5u, suffix.bsdf.transmission, suffix.bsdf.alpha)
-#define RL_STATE_FIELDS(VF, VU) \
-  VF(0u, F, W)                  \
-  VF(1u, residual, confidence)
+  VF(1u, suffix.wi, RL_BSDF_SINGLE(suffix.bsdf)) \
+  VF(2u, suffix.emitted, suffix.pdfLight)        \
+  RL_BSDF_FIELDS(VF, VU, 3u, suffix.bsdf)
 const uint RL_PATH_SAMPLE_QUADS = 4u;
-const uint RL_PATH_SUFFIX_QUADS = 6u;
-const uint RL_STATE_QUADS = 2u;
-const uint RL_PATH_RESERVOIR_QUADS = 6u;  // sample and state; suffixes have a buffer of their own
+const uint RL_PATH_SUFFIX_QUADS = 3u + RL_BSDF_QUADS;
+// Sample and state; suffixes have a buffer of their own.
+const uint RL_PATH_RESERVOIR_QUADS = RL_PATH_SAMPLE_QUADS + RL_STATE_QUADS;
 
 RL_NAMESPACE_END
 

@@ -41,10 +41,10 @@ RL_FN void pathShiftStep(RL_INOUT(PathShift) s, RL_IN(PathSample) path, RL_IN(Hi
   }
   if (hit.instance == RL_INVALID) return;
   Surface x1 = surfaceLoad(hit, s.ray.dir);
-  if (!bsdfIsReusable(x1.bsdf, gParams.shift.minAlpha)) return;
-  s.shifted = pathReconnect(path, x1, gParams.shift.maxJacobian);
-  if (s.assumesVisible != 0u || !(bridgeTarget(s.shifted.F) > 0.0f)) return;
-  s.ray = pathSegment(path, x1);
+  if (!bsdfIsReusable(x1.bsdf, gParams.path.minAlpha)) return;
+  s.shifted = pathReconnect(path, x1, gParams.path.maxJacobian);
+  if (s.assumesVisible != 0u || !(reuseTarget(s.shifted.F) > 0.0f)) return;
+  s.ray = pathSegment(path, x1.posW, x1.nGeoW, x1.posError);
   s.asks = RL_SHIFT_ASKS_SEGMENT;
 }
 

@@ -21,12 +21,6 @@ struct PathShift {
   uint assumesVisible;  // 1: the segment is not traced
 };
 
-// In the kernels' gParams.shift.
-struct PathShiftParams {
-  float minAlpha;     // GGX alpha below which x1 is not reused
-  float maxJacobian;  // shifts outside [1/x, x] are undefined, both ways (Lin et al. 2022)
-};
-
 RL_NAMESPACE_END
 
 #endif

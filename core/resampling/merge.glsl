@@ -39,9 +39,9 @@ RL_FN Shifted mergeUnshifted(RL_IN(ReservoirState) r) {
 RL_FN void mergeWeighCanonical(RL_INOUT(MergeState) merge, RL_IN(ReservoirState) canonical,
                                real cDonor, RL_IN(Shifted) there, uint flags) {
   if ((flags & RL_REUSE_PAIRWISE) == 0u) return;
-  real pHatThere = bridgeTarget(there.F) * there.jacobian;
+  real pHatThere = reuseTarget(there.F) * there.jacobian;
   merge.mCanonical +=
-      misPairwiseCanonicalTerm(cDonor, merge.cCanonical, merge.cDonors, bridgeTarget(canonical.F),
+      misPairwiseCanonicalTerm(cDonor, merge.cCanonical, merge.cDonors, reuseTarget(canonical.F),
                                pHatThere, (flags & RL_REUSE_DEFENSIVE) != 0u);
 }
 
@@ -52,7 +52,7 @@ RL_FN void mergeCanonical(RL_INOUT(MergeState) merge, RL_IN(ReservoirState) cano
   if ((flags & RL_REUSE_CONTROL_VARIATE) != 0u) {
     merge.estimate += canonical.residual * (merge.cCanonical / merge.cTotal);
   }
-  merge.wSum = risCleanWeight(bridgeTarget(canonical.F) * contribution);
+  merge.wSum = risCleanWeight(reuseTarget(canonical.F) * contribution);
 }
 
 // A donor's sample, seen here, against what is selected so far. True when it wins: the caller then
@@ -61,11 +61,11 @@ RL_FN void mergeCanonical(RL_INOUT(MergeState) merge, RL_IN(ReservoirState) cano
 RL_FN bool mergeDonor(RL_INOUT(MergeState) merge, RL_INOUT(ReservoirState) selected,
                       RL_IN(ReservoirState) donor, RL_IN(Shifted) here,
                       RL_IN(real3) reflectanceRatio, uint flags, real u) {
-  real pHatHere = bridgeTarget(here.F);
+  real pHatHere = reuseTarget(here.F);
   real cDonor = donor.confidence;
   real mDonor = misConfidenceOnly(cDonor, merge.cTotal);
   if ((flags & RL_REUSE_PAIRWISE) != 0u) {
-    real pHatFrom = misDivide(bridgeTarget(donor.F), here.jacobian);
+    real pHatFrom = misDivide(reuseTarget(donor.F), here.jacobian);
     mDonor = misPairwiseDonor(cDonor, merge.cCanonical, merge.cDonors, pHatFrom, pHatHere,
                               (flags & RL_REUSE_DEFENSIVE) != 0u);
   }
@@ -82,7 +82,7 @@ RL_FN bool mergeDonor(RL_INOUT(MergeState) merge, RL_INOUT(ReservoirState) selec
 
 // Completes the state of the selected sample; merge.estimate is then what the pixel shows.
 RL_FN void mergeEnd(RL_INOUT(MergeState) merge, RL_INOUT(ReservoirState) selected, uint flags) {
-  selected.W = risContributionWeight(merge.wSum, bridgeTarget(selected.F));
+  selected.W = risContributionWeight(merge.wSum, reuseTarget(selected.F));
   if (!(selected.W > real(0.0f))) {
     selected.W = real(0.0f);
     selected.F = real3(real(0.0f));

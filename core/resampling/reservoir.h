@@ -15,6 +15,12 @@ struct ReservoirState {
   real confidence;
 };
 
+// Quad by quad, as core/resampling/reservoir.glsl packs them.
+#define RL_STATE_FIELDS(VF, VU) \
+  VF(0u, F, W)                  \
+  VF(1u, residual, confidence)
+const uint RL_STATE_QUADS = 2u;
+
 // A sample as another anchor sees it.
 struct Shifted {
   real3 F;        // integrand there, visibility included; zero where the shift is undefined

@@ -13,8 +13,7 @@
 //   walkEmits(state, walk, surface, hit, pdfLight) the ray met an emitter, s.emission towards it
 //   walkAbsorbs(state, walk, transmittance)        through a medium, up to the next vertex
 //   walkArrives(state, walk, surface)              a vertex that scatters, before anything is
-//   drawn;
-//       returns how many light samples are drawn there
+//       drawn; returns how many light samples are drawn there
 //   walkLights(state, walk, rng, surface, light, connection)  a light sample at the vertex, without
 //       its visibility; true: its shadow ray is to be traced (of several the last one)
 //   walkSees(state, walk, transmittance)           of that shadow ray. walk.bounces counts the

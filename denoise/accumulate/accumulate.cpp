@@ -31,7 +31,7 @@ const DenoiserInfo& accumulateDenoiserInfo() {
          0,
          {"nearest", "bilinear"},
          "how the history is read where the camera has moved",
-         "measured: docs/decisions.md"},
+         "the two were not compared yet"},
         {"accumulate_normal_threshold",
          0.9,
          -1.0,

@@ -88,6 +88,7 @@ Json errorPerCpuSecond(const PreparedScene& prepared, const SessionConfig& confi
   double cpuS = 0.0;
   std::vector<double> errors;
   for (uint32_t i = 0; i < options.frames; ++i) {
+    session.reset(session.config().seed + 1);  // frames of one history share their film samples
     const double before = processCpuSeconds();
     session.frame();
     cpuS += (processCpuSeconds() - before) / options.frames;
@@ -96,7 +97,7 @@ Json errorPerCpuSecond(const PreparedScene& prepared, const SessionConfig& confi
   }
   logDetail(
       fmt::format("error per CPU second: {:.1f} CPU seconds", processCpuSeconds() - cpuBefore));
-  const Interval mse = meanInterval(errors);  // frames of path are independent
+  const Interval mse = meanInterval(errors);
   return {{"pixels_without_lights", pixels},
           {"mse_per_frame", mse.value},
           {"mse_ci", {mse.lo, mse.hi}},

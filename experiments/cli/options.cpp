@@ -14,6 +14,7 @@
 #include "core/method_settings.h"
 #include "experiments/runner/suite/backend_choice.h"
 #include "experiments/runner/run/files.h"
+#include "experiments/runner/run/log.h"
 
 namespace restlab {
 
@@ -133,7 +134,7 @@ void addMethodOptions(CLI::App& verb, MethodOptions& options) {
   }
   addBackendOptions(verb, options.backend);
   verb.add_option("--set", options.parameters,
-                  "KEY=VALUE: a parameter of the integrator or the denoiser")
+                  "KEY=VALUE: a parameter of the integrator, the cache or the denoiser")
       ->take_all()
       ->allow_extra_args(false);
   verb.add_flag("--rr", options.russianRoulette, "Russian roulette (default off)");
@@ -168,6 +169,8 @@ SessionConfig makeConfig(const SceneOptions& scene, const MethodOptions& method)
   config.cache = method.choice.cache;
   config.denoiser = findDenoiser(method.choice.denoiser).name;
   config.parameters = parseParameters(findMethod(config), method.parameters);
+  for (const std::string& line : parametersWithoutEffect(findMethod(config), config.parameters))
+    logWarning("--set " + line);
   config.russianRoulette = method.russianRoulette;
   config.specialise = !method.general;
   config.width = scene.width;

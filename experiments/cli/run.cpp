@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <set>
 
 #include "core/backend/backend.h"
+#include "core/method.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/suite/dry_run.h"
@@ -78,6 +80,19 @@ void warnOfYardsticks(const Suite& suite) {
   }
 }
 
+void warnOfParameters(const std::vector<Suite>& points) {
+  std::set<std::string> said;
+  for (const Suite& suite : points) {
+    for (const SuiteMethod& method : suite.rendered()) {
+      const Method parts = findMethod(method.session);
+      for (const std::string& line : parametersWithoutEffect(parts, method.session.parameters)) {
+        if (said.insert(method.name + line).second)
+          logWarning(fmt::format("method '{}': {}", method.name, line));
+      }
+    }
+  }
+}
+
 void setJobs(uint32_t jobs, Suite& suite) {
   suite.jobs = jobs;
   if (jobs < 2) return;
@@ -107,6 +122,7 @@ void runVerb(const RunOptions& options, Outcome& outcome) {
     logWarning("runs = 1: no interval and no bias can be given; biased rows will not count");
   }
   warnOfYardsticks(suite);
+  warnOfParameters(points);
   SuiteRequest request;
   request.out = options.out.empty() ? std::filesystem::path("results") / safeFileName(suite.name)
                                     : std::filesystem::path(options.out);

@@ -33,7 +33,7 @@ std::vector<ParameterInfo> parameterInfos() {
        1,
        64,
        {},
-       "light samples per pixel and frame resampled into the light reservoir",
+       "light samples a pixel and frame, of which one is kept",
        "1: the same rays as the path tracer"},
       {"spatial_neighbours",
        int64_t{3},
@@ -41,35 +41,35 @@ std::vector<ParameterInfo> parameterInfos() {
        rl::RL_MAX_DONORS,
        {},
        "donors of the spatial pass while the history is young",
-       "each costs a shift, two rays a pixel; measured: docs/performance.md"},
+       "each costs a shift, two rays a pixel; measured: docs/decisions.md, Donors by age"},
       {"aged_neighbours",
        int64_t{1},
        0,
        rl::RL_MAX_DONORS,
        {},
-       "donors of the spatial pass afterwards; no more than spatial_neighbours",
-       "measured: docs/performance.md"},
+       "donors of the spatial pass afterwards, where spatial_neighbours is not less",
+       "measured: docs/decisions.md, Donors by age"},
       {"young_frames",
        8.0,
        0.0,
        1000.0,
        {},
        "frames up to which a history is young",
-       "measured: docs/performance.md"},
+       "about the age from which young histories gain no more (docs/performance.md); not swept"},
       {"donor_noise",
        0.5,
        0.0,
        1000.0,
        {},
        "how fast a donor's share falls with the age of the history: 1 / (1 + this x (age - 1))",
-       "core/resampling/reuse.glsl; measured: docs/performance.md"},
+       "core/resampling/donors.glsl; measured: docs/decisions.md, Donors by age"},
       {"temporal", true, 0, 0, {}, "temporal reuse", "Ouyang et al. 2021"},
       {"roughness_limit",
        0.2,
        0.0,
        1.0,
        {},
-       "perceptual roughness below which x1 shades its own path (counted)",
+       "perceptual roughness below which x1 is not reused: own light alone (counted)",
        "Lin et al. 2022, section 6.5: 0.2"},
       {"max_jacobian",
        100.0,
@@ -140,7 +140,7 @@ std::vector<std::byte> pack(const std::string& mode, const ParameterMap& p) {
   if (mode == "biased") {
     out.temporalFlags |= rl::RL_REUSE_ASSUME_VISIBLE | rl::RL_REUSE_ASSUME_VISIBLE_HERE;
   }
-  out.lightCandidates = static_cast<uint32_t>(get<int64_t>(p, "light_candidates"));
+  out.path.lightCandidates = static_cast<uint32_t>(get<int64_t>(p, "light_candidates"));
   out.spatialNeighbours = static_cast<uint32_t>(get<int64_t>(p, "spatial_neighbours"));
   out.agedNeighbours =
       std::min(static_cast<uint32_t>(get<int64_t>(p, "aged_neighbours")), out.spatialNeighbours);
@@ -154,10 +154,24 @@ std::vector<std::byte> pack(const std::string& mode, const ParameterMap& p) {
   out.temporalReuse = get<bool>(p, "temporal") ? 1u : 0u;
   out.confidenceCap = static_cast<float>(get<double>(p, "confidence_cap"));
   const auto roughness = static_cast<float>(get<double>(p, "roughness_limit"));
-  out.shift.minAlpha = roughness * roughness;
-  out.shift.maxJacobian = static_cast<float>(get<double>(p, "max_jacobian"));
+  out.path.minAlpha = roughness * roughness;
+  out.path.maxJacobian = static_cast<float>(get<double>(p, "max_jacobian"));
   out.maxReflectanceRatio = static_cast<float>(get<double>(p, "max_reflectance_ratio"));
   return bytesOf(out);
+}
+
+std::string whyWithoutEffect(const std::string& name, const ParameterMap& p) {
+  const bool isOverTime = name == "confidence_cap" || name == "donor_noise";
+  if (isOverTime && !get<bool>(p, "temporal")) return "temporal is false";
+  const bool isOverSpace =
+      name == "aged_neighbours" || name == "young_frames" || name == "donor_noise";
+  if (isOverSpace && get<int64_t>(p, "spatial_neighbours") == 0) return "spatial_neighbours is 0";
+  if (name == "aged_neighbours" &&
+      get<int64_t>(p, "aged_neighbours") > get<int64_t>(p, "spatial_neighbours"))
+    return "there are no more donors than spatial_neighbours says";
+  if (name == "max_reflectance_ratio" && get<std::string>(p, "shading") != "control_variate")
+    return "shading is not control_variate";
+  return "";
 }
 
 std::vector<ProbeValue> probe(const ReadEntry& read) {
@@ -193,7 +207,8 @@ const IntegratorInfo& restir_giIntegratorInfo() {
   static const IntegratorInfo info = [] {
     IntegratorInfo i;
     i.name = "restir_gi";
-    i.summary = "ReSTIR GI: light reservoirs for direct, path-sample reservoirs for indirect light";
+    i.summary =
+        "ReSTIR GI: one reservoir a pixel, of light samples and of paths that reconnect at x2";
     i.modes = {
         {"unbiased", BiasClass::unbiased,
          "targets include visibility at every anchor, MIS weights sum to one over those who can "
@@ -223,6 +238,7 @@ const IntegratorInfo& restir_giIntegratorInfo() {
                 {"spatial", "restir_gi_spatial"}};
     // The initial pass knows no cache: it is compiled once, and it is the longest.
     for (PassInfo& pass : i.passes) pass.seesCache = pass.name != "initial";
+    i.whyWithoutEffect = whyWithoutEffect;
     i.packParameters = pack;
     i.radianceFrames = [](const ParameterMap& p) {
       return get<bool>(p, "temporal") ? get<double>(p, "confidence_cap") + 1.0 : 1.0;

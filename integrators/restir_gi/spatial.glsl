@@ -3,6 +3,7 @@
 #include "core/resampling/ris.glsl"
 #include "core/resampling/mis.glsl"
 #include "core/resampling/shift.glsl"
+#include "core/resampling/reservoir.glsl"
 #include "core/payload/path_sample.glsl"
 #include "core/resampling/merge.glsl"
 #include "core/resampling/donors.glsl"
@@ -20,13 +21,13 @@ RL_FN Shifted reuseTheirs(RL_IN(GiOverSpace) s, uint k) {
   return giReadShifted(giExchangeIndex(giPartner(s.slot, k), k));
 }
 RL_FN bool reuseDonor(RL_IN(GiOverSpace) s, uint k, RL_OUT(ReservoirState) donor) {
-  donor = giEmptyState();
+  donor = reservoirEmpty();
   uint partner = giPartner(s.slot, k);
   if (partner == RL_INVALID) return false;
   giReadStateNow(partner, donor);
   donor.confidence *= s.share;
   // A donor that counts only where its sample is seen is chosen by its sample: that is wrong.
-  if (gParams.donorsBySample != 0u) return bridgeTarget(reuseTheirs(s, k).F) > 0.0f;
+  if (gParams.donorsBySample != 0u) return reuseTarget(reuseTheirs(s, k).F) > 0.0f;
   return true;
 }
 RL_FN real3 reuseRatio(RL_IN(GiOverSpace) s, uint k) {
@@ -58,7 +59,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     // A poisoned history would spread: it starts again from nothing here.
     RL_HEALTH(RL_HEALTH_NONFINITE);
     radiance = vec3(0.0f, 0.0f, 0.0f);
-    r.state = giEmptyState();
+    r.state = reservoirEmpty();
   }
   giWriteHistory(s.slot, r);
   if (min(radiance.x, min(radiance.y, radiance.z)) < 0.0f) RL_HEALTH(RL_HEALTH_NEGATIVE);

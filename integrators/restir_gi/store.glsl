@@ -2,15 +2,6 @@
 // of the last one. Reads are of what earlier passes left (RL_PAST_QUAD): no pass reads what it has
 // written itself.
 
-RL_FN ReservoirState giEmptyState() {
-  ReservoirState state;
-  state.F = vec3(0.0f, 0.0f, 0.0f);
-  state.W = 0.0f;
-  state.residual = vec3(0.0f, 0.0f, 0.0f);
-  state.confidence = 1.0f;
-  return state;
-}
-
 RL_FN void giReadPath(RL_IN(QuadRef) quads, RL_IN(QuadRef) suffixes, uint slot,
                       RL_INOUT(PathSample) path) {
   pathSampleRead(quads, slot * RL_PATH_RESERVOIR_QUADS, path);

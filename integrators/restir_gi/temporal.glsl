@@ -4,6 +4,7 @@
 #include "core/resampling/ris.glsl"
 #include "core/resampling/mis.glsl"
 #include "core/resampling/shift.glsl"
+#include "core/resampling/reservoir.glsl"
 #include "core/payload/path_sample.glsl"
 #include "core/payload/path_shift.glsl"
 #include "core/resampling/merge.glsl"

@@ -1,8 +1,6 @@
 // Host side of `template`: what the program, the tables and the tests know about it.
 #include "integrators/template/template.h"
 
-#include <cstring>
-
 #include "core/integrator.h"
 
 namespace restlab {
@@ -33,9 +31,7 @@ const IntegratorInfo& templateIntegratorInfo() {
     i.packParameters = [](const std::string&, const ParameterMap& parameters) {
       rl::TemplateParams out{};
       out.misExponent = static_cast<float>(std::get<double>(parameters.at("mis_exponent")));
-      std::vector<std::byte> bytes(sizeof(out));
-      std::memcpy(bytes.data(), &out, sizeof(out));
-      return bytes;
+      return bytesOf(out);
     };
     return i;
   }();

@@ -27,8 +27,10 @@ const std::vector<Setting> kShading = {
 };
 const std::vector<Setting> kReuse = {
     {"spatial_neighbours 0", {{"spatial_neighbours", int64_t{0}}}},
-    {"spatial_neighbours 3", {{"spatial_neighbours", int64_t{3}}}},
-    {"donor_noise 0", {{"donor_noise", 0.0}, {"aged_neighbours", int64_t{4}}}},
+    {"spatial_neighbours 4", {{"spatial_neighbours", int64_t{4}}}},
+    {"donor_noise 0",
+     {{"donor_noise", 0.0}, {"aged_neighbours", int64_t{4}}, {"spatial_neighbours", int64_t{4}}}},
+    {"mis defensive", {{"mis", std::string("defensive")}}},
     {"donor_noise 10", {{"donor_noise", 10.0}}},
     {"young_frames 0", {{"young_frames", 0.0}}},
     {"spatial_radius 64", {{"spatial_radius", 64.0}}},

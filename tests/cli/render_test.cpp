@@ -50,6 +50,26 @@ TEST_F(RenderTest, WritesLayersAndMetadata) {
   EXPECT_EQ(read("image.png").substr(1, 3), "PNG");
 }
 
+TEST_F(RenderTest, ParametersWithoutEffectAreSaid) {
+  const std::string render =
+      "render cornell-box -o image.exr --resolution 8x8 --integrator restir_gi ";
+  const auto expect = [&](const std::string& settings, const std::string& line) {
+    const ProgramResult result = run(render + settings);
+    ASSERT_EQ(result.code, 0) << result.err;
+    const bool isSaid = result.err.find("has no effect") != std::string::npos;
+    EXPECT_EQ(isSaid, !line.empty()) << result.err;
+    EXPECT_NE(result.err.find(line), std::string::npos) << result.err;
+  };
+  expect("--set temporal=false --set confidence_cap=5",
+         "warning: --set confidence_cap has no effect: temporal is false");
+  expect("--set spatial_neighbours=0 --set young_frames=3",
+         "young_frames has no effect: spatial_neighbours is 0");
+  expect("--set shading=winner --set max_reflectance_ratio=2",
+         "max_reflectance_ratio has no effect: shading is not control_variate");
+  expect("--set temporal=false --set spatial_neighbours=0", "");
+  expect("--set confidence_cap=5 --set aged_neighbours=2", "");
+}
+
 TEST_F(RenderTest, FirstHitLayersHoldTheSceneThatIsSeen) {
   // A triangle in the plane z = 0, far from the middle of its own bounds, that faces the camera at
   // (0.3, 0.3, 2) and fills the left half.

@@ -7,7 +7,7 @@
 namespace restlab::conformance {
 namespace {
 
-// Two full temporal steps and the change of a film point.
+// Young histories and one step beyond.
 constexpr uint32_t kFrames = 5;
 
 class Determinism : public ::testing::TestWithParam<Variant> {};

@@ -41,6 +41,40 @@ TEST(LiveSession, ParametersChangeWithoutANewHistory) {
   EXPECT_EQ(changed.probe(20, 12).front().value, "9");
 }
 
+// The cache looks at surfaces in frames of a new view alone, and once more where its parameters
+// change: with thresholds that match everything there are no outlines any more.
+TEST(LiveSession, ParametersOfTheCacheReachAStillView) {
+  const auto scene = bias::builtinScene("cornell-box");
+  const ParameterMap open = {{"normal_threshold", -1.0}, {"plane_threshold", 10.0}};
+  SessionConfig config = smallConfig();
+  Session changed(scene, config);
+  config.parameters = open;
+  Session fresh(scene, config);
+  shown(changed, 30);
+  shown(fresh, 30);
+  changed.setParameters(open);
+  for (uint32_t frame = 0; frame < 60; ++frame) changed.frame();
+  const auto passes = [](Session& session) {
+    double ran = 0.0;
+    for (const PassTiming& pass : session.frame().passes)
+      ran += pass.name == "exchange" ? double(pass.raysPath) : 0.0;
+    return ran;
+  };
+  // Old pixels at outlines take donors now, as in a session that had the thresholds from the start.
+  EXPECT_NEAR(passes(changed) / passes(fresh), 1.0, 0.05);
+}
+
+// Nothing is there to reuse over time in the first frame of a history.
+TEST(LiveSession, TheFirstFrameIsReuseOverSpaceAlone) {
+  const auto scene = bias::builtinScene("door-ajar");
+  SessionConfig config = smallConfig();
+  Session both(scene, config);
+  config.parameters["temporal"] = false;
+  Session space(scene, config);
+  EXPECT_EQ(countDifferent(shown(both, 1), shown(space, 1)), 0u);
+  EXPECT_GT(countDifferent(shown(both, 1), shown(space, 1)), 0u);
+}
+
 TEST(LiveSession, AnUnknownParameterChangesNothing) {
   const auto scene = bias::builtinScene("cornell-box");
   Session changed(scene, smallConfig()), kept(scene, smallConfig());

@@ -105,14 +105,14 @@ EXACT_TEST(RisUnderTheBalanceHeuristic) {
             for (uint s = 0; s < 2; ++s) density += draws[s] * world.candidate[1 + s][l];
             density /= double(world.measure[0][l]);
             const real3 F = world.f[0][l];
-            if (kernel.risAccept(wSum, kernel.bridgeTarget(F) / real(density), real(0.0f))) {
+            if (kernel.risAccept(wSum, kernel.reuseTarget(F) / real(density), real(0.0f))) {
               selected = F;
             }
             break;
           }
         }
       }
-      const real W = kernel.risContributionWeight(wSum, kernel.bridgeTarget(selected));
+      const real W = kernel.risContributionWeight(wSum, kernel.reuseTarget(selected));
       mean += decisions.probability() * dvec3(selected) * double(W);
     });
     expectTruth(mean, world.truth(0), "E[F W]", seed);
@@ -327,6 +327,57 @@ EXACT_TEST(ChainedMerges) {
   }
 }
 
+// A pixel's domain is its film times paths: labels are two film positions times two light points.
+// Through some positions a pixel shows what cannot be reused (a mirror, a lamp): its candidates
+// fail there, and no shift that keeps the film sample leads there or back.
+constexpr uint filmOf(uint label) { return label / 2; }
+
+struct FilmWorld {
+  World world;
+  bool usable[kAnchors][2];
+};
+
+FilmWorld filmWorld(uint seed) {
+  FilmWorld w{randomWorld(seed, false), {}};
+  std::mt19937 random(7000 + seed);
+  for (uint a = 0; a < kAnchors; ++a) {
+    w.usable[a][random() % 2] = true;
+    w.usable[a][0] |= random() % 2 == 0;
+    for (uint l = 0; l < kLabels; l += 2) {
+      // The film sample first, evenly, then the light.
+      const double pair = w.world.candidate[a][l] + w.world.candidate[a][l + 1];
+      const double first = w.world.candidate[a][l] / pair;
+      const bool usable = w.usable[a][filmOf(l)];
+      w.world.candidate[a][l] = usable ? 0.5 * first : 0.0;
+      w.world.candidate[a][l + 1] = usable ? 0.5 * (1.0 - first) : 0.0;
+      if (!usable) w.world.f[a][l] = w.world.f[a][l + 1] = real3(real(0.0f));
+    }
+  }
+  for (uint a = 0; a < kAnchors; ++a) {
+    for (uint b = 0; b < kAnchors; ++b) {
+      for (uint l = 0; l < kLabels; ++l)
+        w.world.defined[a][b][l] = w.usable[a][filmOf(l)] && w.usable[b][filmOf(l)];
+    }
+  }
+  return w;
+}
+
+// Over time at the pixel itself, then with a neighbour that shows something else at its edge.
+EXACT_TEST(FilmTimesPaths) {
+  for (uint seed = 0; seed < 100; ++seed) {
+    const World world = filmWorld(seed).world;
+    for (const uint flags : {kPairwise, kPairwise | RL_REUSE_CONTROL_VARIATE}) {
+      Source still{
+          0, real(3.0f),
+          mergeOutcomes(world, initialSource(world, 0, 1, real(1.0f)),
+                        {initialSource(world, 0, 1, real(2.0f))}, flags & ~RL_REUSE_PAIRWISE)};
+      expectUnbiased(world, still.outcomes, seed);
+      const Source neighbour = initialSource(world, 1, 2, real(2.0f));
+      expectUnbiased(world, mergeOutcomes(world, still, {neighbour}, flags), seed);
+    }
+  }
+}
+
 // Two neighbours that serve each other, twice: in the second round the donor holds, in part, the
 // canonical sample's own ancestors. Correlated inputs leave the mean unchanged.
 EXACT_TEST(SharedAncestors) {
@@ -476,6 +527,36 @@ EXACT_TEST(NegativeEmptyDonorsDropped) {
     ++worlds;
     seen += relativeError(meanOfEstimate(result.list()), world.truth(0)) > kBiasSeen ? 1 : 0;
   }
+  EXPECT_GE(seen, worlds * 8 / 10);
+}
+
+// A donor that counts only where its own film sample shows something alike here is chosen by its
+// sample.
+EXACT_TEST(NegativeDonorsTestedByTheirFilmSample) {
+  int seen = 0, worlds = 0;
+  for (uint seed = 0; seed < 60; ++seed) {
+    const FilmWorld film = filmWorld(seed);
+    const bool alike =
+        film.usable[0][0] == film.usable[1][0] && film.usable[0][1] == film.usable[1][1];
+    if (alike) continue;
+    const Source canonical = initialSource(film.world, 0, 1, real(1.0f));
+    const Source donor = initialSource(film.world, 1, 1, real(5.0f));
+    Outcomes result;
+    for (const Outcome& oc : canonical.outcomes) {
+      for (const Outcome& od : donor.outcomes) {
+        const bool counts =
+            od.reservoir.state.W > real(0.0f) && film.usable[0][filmOf(od.reservoir.label)];
+        mergeOnce(film.world, {0, oc.reservoir, canonical.confidence},
+                  {{1, od.reservoir, counts ? donor.confidence : real(0.0f)}}, kPairwise,
+                  [&](double p, const WorldReservoir& r, const dvec3& estimate) {
+                    result.add(oc.probability * od.probability * p, r, estimate);
+                  });
+      }
+    }
+    ++worlds;
+    seen += relativeError(meanOfEstimate(result.list()), film.world.truth(0)) > kBiasSeen ? 1 : 0;
+  }
+  EXPECT_GE(worlds, 20);
   EXPECT_GE(seen, worlds * 8 / 10);
 }
 

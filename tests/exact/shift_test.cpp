@@ -11,6 +11,10 @@ namespace {
 
 struct Shift {
 #include "core/resampling/shift.glsl"
+  // Of a reconnection at xk; it multiplies the resampling weight.
+  double jacobian(dvec3 xk, dvec3 normal, dvec3 source, dvec3 destination) {
+    return shiftGeometryTerm(xk, normal, destination) / shiftGeometryTerm(xk, normal, source);
+  }
 };
 
 dvec3 randomUnit(std::mt19937& random) {
@@ -46,10 +50,10 @@ TEST(ReconnectionJacobian, EqualsFiniteDifferences) {
     const dvec3 du = shifted(h * u) - shifted(-h * u);
     const dvec3 dv = shifted(h * v) - shifted(-h * v);
     const double numeric = length(cross(du, dv)) / (4.0 * h * h);
-    const double j = shift.shiftReconnectionJacobian(xk, normal, source, destination);
+    const double j = shift.jacobian(xk, normal, source, destination);
     ASSERT_NEAR(j / numeric, 1.0, 1e-4);
     // There and back again.
-    const double back = shift.shiftReconnectionJacobian(xk, normal, destination, source);
+    const double back = shift.jacobian(xk, normal, destination, source);
     ASSERT_NEAR(j * back, 1.0, 1e-12);
   }
 }
@@ -57,16 +61,15 @@ TEST(ReconnectionJacobian, EqualsFiniteDifferences) {
 TEST(ReconnectionJacobian, KnownValuesAndOrientation) {
   Shift shift;
   const dvec3 origin(0.0), up(0.0, 0.0, 1.0);
-  EXPECT_NEAR(shift.shiftReconnectionJacobian(origin, up, {0, 0, 1}, {0, 0, 1}), 1.0, 1e-15);
+  EXPECT_NEAR(shift.jacobian(origin, up, {0, 0, 1}, {0, 0, 1}), 1.0, 1e-15);
   // Twice as far along the normal: a quarter of the solid angle; it multiplies the weight.
-  EXPECT_NEAR(shift.shiftReconnectionJacobian(origin, up, {0, 0, 1}, {0, 0, 2}), 0.25, 1e-15);
-  EXPECT_NEAR(shift.shiftReconnectionJacobian(origin, up, {0, 0, 1}, {1, 0, 1}),
-              std::sqrt(0.5) / 2.0, 1e-15);
+  EXPECT_NEAR(shift.jacobian(origin, up, {0, 0, 1}, {0, 0, 2}), 0.25, 1e-15);
+  EXPECT_NEAR(shift.jacobian(origin, up, {0, 0, 1}, {1, 0, 1}), std::sqrt(0.5) / 2.0, 1e-15);
   // The length of the normal's sign does not matter, its side does not either.
-  EXPECT_NEAR(shift.shiftReconnectionJacobian(origin, -up, {0, 0, 1}, {0, 0, -2}), 0.25, 1e-15);
-  // Undefined shifts have none: in the plane of x_k, or onto x_k itself.
-  EXPECT_EQ(shift.shiftReconnectionJacobian(origin, up, {1, 0, 0}, {0, 0, 1}), 0.0);
-  EXPECT_EQ(shift.shiftReconnectionJacobian(origin, up, {0, 0, 1}, {0, 0, 0}), 0.0);
+  EXPECT_NEAR(shift.jacobian(origin, -up, {0, 0, 1}, {0, 0, -2}), 0.25, 1e-15);
+  // Nothing arrives in the plane of x_k, nor at x_k itself.
+  EXPECT_EQ(shift.shiftGeometryTerm(origin, up, {1, 0, 0}), 0.0);
+  EXPECT_EQ(shift.shiftGeometryTerm(origin, up, {0, 0, 0}), 0.0);
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ struct WorldMerge {
   std::vector<real3> ratios;
 };
 
-// The shipped files with the world as their bridge. Random numbers are not drawn but decided: the
+// The shipped files with functions that ask the world. Random numbers are not drawn but decided: the
 // shipped acceptance is called with a u on the wanted side of its threshold, and must agree.
 struct Kernel {
   const World* world = nullptr;
@@ -94,7 +94,7 @@ struct Kernel {
     return accepted;
   }
 
-  real bridgeTarget(const real3& f) { return rlLuminance(f); }
+  real reuseTarget(const real3& f) { return rlLuminance(f); }
   // The sample of a reservoir that lives at `from`, as `to` sees it, without visibility.
   Shifted shift(const WorldReservoir& r, const WorldAnchor& from, const WorldAnchor& to) const {
     Shifted s{real3(real(0.0f)), real(1.0f)};
@@ -103,7 +103,7 @@ struct Kernel {
     s.F = world->f[to.index][r.label];
     return s;
   }
-  real bridgeVisibility(const WorldReservoir& r, const WorldAnchor& at) {
+  real visibilityOf(const WorldReservoir& r, const WorldAnchor& at) {
     return world->visibility[at.index][r.label];
   }
 #define RL_REUSE_STATE WorldMerge
@@ -197,14 +197,14 @@ std::vector<Outcome> initialOutcomes(const World& world, uint anchor, uint count
         if (!drawn) continue;
         const real3 F = world.f[anchor][l] * world.visibility[anchor][l];
         const real W = real(double(world.measure[anchor][l]) / p);
-        if (kernel.risAccept(wSum, kernel.bridgeTarget(F) * W / real(float(count)), real(0.0f))) {
+        if (kernel.risAccept(wSum, kernel.reuseTarget(F) * W / real(float(count)), real(0.0f))) {
           selected.label = l;
           selected.state.F = F;
         }
         break;
       }
     }
-    selected.state.W = kernel.risContributionWeight(wSum, kernel.bridgeTarget(selected.state.F));
+    selected.state.W = kernel.risContributionWeight(wSum, kernel.reuseTarget(selected.state.F));
     outcomes.add(decisions.probability(), selected,
                  dvec3(selected.state.F) * double(selected.state.W));
   });
@@ -224,7 +224,7 @@ void mergeOnce(const World& world, const MergeInput& canonical,
   const auto shift = [&](const WorldReservoir& r, uint from, uint to, uint assumed) {
     if (from == to) return kernel.mergeUnshifted(r.state);
     Shifted s = kernel.shift(r, WorldAnchor{from}, WorldAnchor{to});
-    if ((flags & assumed) == 0u) s.F *= kernel.bridgeVisibility(r, WorldAnchor{to});
+    if ((flags & assumed) == 0u) s.F *= kernel.visibilityOf(r, WorldAnchor{to});
     return s;
   };
   for (const MergeInput& donor : donors) {

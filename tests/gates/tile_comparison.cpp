@@ -67,6 +67,7 @@ Parts renderParts(const std::shared_ptr<const CompiledScene>& scene, const Sessi
   result.mean = Image(config.width, config.height);
   for (uint32_t part = 0; part < parts; ++part) {
     Image image(config.width, config.height);
+    session.reset(config.seed + part);
     for (uint32_t i = 0; i < frames; ++i) {
       session.frame();
       for (size_t p = 0; p < image.pixels.size(); ++p) {

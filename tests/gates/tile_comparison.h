@@ -17,7 +17,7 @@ namespace restlab::gates {
 // divide width and height (std::invalid_argument).
 std::vector<glm::dvec3> tileMeans(const Image& image, uint32_t tilesPerSide);
 
-// Independent parts of one long run of `path`, each the mean of `frames` frames.
+// Independent parts of a run of `path`, each the mean of `frames` frames with a seed of its own.
 struct Parts {
   std::vector<Image> images;
   Image mean;

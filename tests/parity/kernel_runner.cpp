@@ -2,7 +2,6 @@
 
 #include <stdlib.h>
 
-#include <cstring>
 #include <stdexcept>
 
 #include "core/backend/glsl_compiler.h"

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
-#include <cstring>
 #include <map>
 #include <string>
 #include <vector>
@@ -117,13 +116,14 @@ const std::map<std::string, Offsets>& expected() {
         FIELD(RestirGiBuffers, shifted)}},
       {"RestirGiParams",
        {FIELD(RestirGiParams, temporalFlags), FIELD(RestirGiParams, spatialFlags),
-        FIELD(RestirGiParams, lightCandidates), FIELD(RestirGiParams, spatialNeighbours),
-        FIELD(RestirGiParams, agedNeighbours), FIELD(RestirGiParams, youngFrames),
-        FIELD(RestirGiParams, settledFrames), FIELD(RestirGiParams, settledFrames),
+        FIELD(RestirGiParams, spatialNeighbours), FIELD(RestirGiParams, agedNeighbours),
+        FIELD(RestirGiParams, youngFrames), FIELD(RestirGiParams, settledFrames),
         FIELD(RestirGiParams, donorNoise), FIELD(RestirGiParams, donorsBySample),
         FIELD(RestirGiParams, temporalReuse), FIELD(RestirGiParams, confidenceCap),
-        FIELD(RestirGiParams, maxReflectanceRatio), FIELD(RestirGiParams, shift)}},
-      {"PathShiftParams", {FIELD(PathShiftParams, minAlpha), FIELD(PathShiftParams, maxJacobian)}},
+        FIELD(RestirGiParams, maxReflectanceRatio), FIELD(RestirGiParams, path)}},
+      {"PathParams",
+       {FIELD(PathParams, lightCandidates), FIELD(PathParams, minAlpha),
+        FIELD(PathParams, maxJacobian)}},
       {"PixelCacheBuffers",
        {FIELD(PixelCacheBuffers, visible), FIELD(PixelCacheBuffers, visibleBefore),
         FIELD(PixelCacheBuffers, outlines)}},

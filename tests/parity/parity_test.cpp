@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 
 #include "core/backend/cpu_kernel.h"
 #include "core/backend/vulkan_scene.h"

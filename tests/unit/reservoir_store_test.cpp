@@ -25,6 +25,7 @@ struct StoreCtx {
 
 #include "core/dialect/order.glsl"
 #include "core/resampling/shift.glsl"
+#include "core/resampling/reservoir.glsl"
 #include "core/payload/path_sample.glsl"
 #include "integrators/restir_gi/store.glsl"
 };

@@ -17,7 +17,7 @@ std::vector<ParameterInfo> parameterInfos() {
        256.0,
        {},
        "pixels; donors come from a square tile that spreads them as a disk of this radius would",
-       "measured: docs/performance.md; Bitterli et al. 2020 use 30"},
+       "near donors differ least where histories are old; Bitterli et al. 2020 use 30"},
       {"normal_threshold",
        0.9,
        -1.0,

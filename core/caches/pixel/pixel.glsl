@@ -31,11 +31,11 @@ RL_FN bool cacheDonorOverTime(uint slot, RL_OUT(uint) donor) {
   return cacheSurfacesMatch(here, cacheSurfaceBefore(donor));
 }
 
-// Pairs for the exchange over space: the frame is cut into tiles of spatialTile pixels, randomly
-// placed, and in each tile a pixel's partner is its mirror image about a random point, modulo the
-// tile's side. So the partner of the partner is the pixel itself, and every offset within the tile
-// is equally likely. `pairing` numbers independent pairings. False where the partner is the pixel
-// itself or outside the image.
+// Pairs for the exchange over space: the frame is cut into square tiles (gCacheParams.tile),
+// randomly placed, and in each tile a pixel's partner is its mirror image about a random point,
+// modulo the tile's side. So the partner of the partner is the pixel itself, and every offset
+// within the tile is equally likely. `pairing` numbers independent pairings. False where the
+// partner is the pixel itself or outside the image.
 RL_FN bool cacheMirror(RL_IN(uvec2) pixel, uint pairing, RL_OUT(uvec2) partner) {
   uint side = gCacheParams.tile;
   uint shift = rngSharedBits(pairing, RL_DIM_DONOR_U);

@@ -6,7 +6,6 @@
 #include <xxhash.h>
 
 #include <array>
-#include <cstring>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>

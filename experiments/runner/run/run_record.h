@@ -16,7 +16,7 @@ constexpr int kResultsSchema = 3;
 nlohmann::ordered_json finiteJson(double value);
 double finiteNumber(const nlohmann::ordered_json& value);
 
-// One line for each checkpoint of a finished run, one for each number of accumulated frames, and
+// One line for each age of a finished run, one for each number of accumulated frames, and
 // the last one, of kind "run", with all else. `job`: the key of the job that made it.
 std::vector<nlohmann::ordered_json> runLines(const Suite& suite, const BlockResult& block,
                                              const MethodResult& method, const RunResult& run,

@@ -164,7 +164,7 @@ std::string duration(double seconds) {
 // What the tables' rows are going to be; of a sweep over settings each once.
 std::string methodsText(const std::vector<Suite>& points) {
   std::string lines =
-      "| method | integrator | mode | cache | backend | parameters that are given |\n"
+      "| method | integrator, mode | cache | backend | denoiser | parameters that are given |\n"
       "|---|---|---|---|---|---|\n";
   std::set<std::string> said;
   for (const Suite& suite : points) {
@@ -178,10 +178,11 @@ std::string methodsText(const std::vector<Suite>& points) {
       std::vector<std::string> given;
       for (const auto& [key, value] : method.session.parameters)
         given.push_back(fmt::format("{} = {}", key, parameterText(value)));
-      lines +=
-          fmt::format("| {} | {} | {} | {} | {} | {} |\n", method.name, method.session.integrator,
-                      method.session.mode, cacheName(method.session), method.session.backend,
-                      fmt::join(given, ", "));
+      const SessionConfig& session = method.session;
+      const std::string mode = session.mode.empty() ? "" : ", " + session.mode;
+      lines += fmt::format("| {} | {}{} | {} | {} | {} | {} |\n", method.name, session.integrator,
+                           mode, cacheName(session), session.backend, session.denoiser,
+                           fmt::join(given, ", "));
     }
   }
   return lines;

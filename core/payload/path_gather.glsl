@@ -1,12 +1,14 @@
-// restir_gi: what the initial pass keeps of a pixel's path. The path is the same as that of `path`.
-//   x1 cannot be reused (mirror, glass, roughness below the limit): the light is shaded as it is
-//   direct light    light samples and the BSDF sample of x1
-//   indirect light  x2 and what it sends to x1
-//   a delta lobe drawn at x2: that part of the integrand is shaded as it is (which part it is
-//   depends on x2 alone, so the split is the same for every pixel)
-#define RL_WALK_STATE GiPath
+// What is kept of a pixel's path while it is traced, for a reservoir of it. The path is that of
+// `path`. Its vertices: x1 in the pixel, x2, where other pixels reconnect, x3 beyond it.
+//
+// - Direct light at x1: its light samples, and the light that its BSDF sample met.
+// - Indirect light: x2 and what it sends to x1, by a light sample at x2 and by the path's suffix.
+// - Own light, which no other pixel could use. All light, where x1 cannot be reused (mirror, glass,
+//   roughness below the limit); what a delta lobe at x2 leads to. Which part of the integrand that
+//   is depends on x2 alone, so that the split is the same for every pixel.
+#define RL_WALK_STATE PathGather
 
-RL_FN LightSample giNoLight() {
+RL_FN LightSample pathNoLight() {
   LightSample s;
   s.point = vec3(0.0f, 0.0f, 0.0f);
   s.kind = RL_LIGHT_POINT;
@@ -21,16 +23,16 @@ RL_FN LightSample giNoLight() {
 
 // Density of the light samples of one pixel plus that of its BSDF sample (pdfSolidAngle towards the
 // light), in the measure of the light sample (area, solid angle of the environment, discrete).
-RL_FN float giDirectDensity(RL_IN(LightSample) light, RL_IN(LightConnection) c,
-                            float pdfSolidAngle) {
-  float density = float(gParams.lightCandidates) * light.pdf;
+RL_FN float pathDirectDensity(RL_IN(LightSample) light, RL_IN(LightConnection) c,
+                              float pdfSolidAngle) {
+  float density = float(gParams.path.lightCandidates) * light.pdf;
   if (!c.isDelta) density += pdfSolidAngle * c.geometry;
   return density;
 }
 
-RL_FN GiPath giNoPath(uint film) {
+RL_FN PathGather pathNothingGathered(uint film) {
   vec3 zero = vec3(0.0f, 0.0f, 0.0f);
-  GiPath p;
+  PathGather p;
   p.ownLight = zero;
   p.film = film;
   p.isReusable = 0u;
@@ -43,15 +45,15 @@ RL_FN GiPath giNoPath(uint film) {
   p.fX1 = zero;
   p.pdfX1 = 0.0f;
   p.passedX1 = 1.0f;
-  p.light = giNoLight();
+  p.light = pathNoLight();
   p.lightSum = 0.0f;
   p.lightF = zero;
-  p.found = giNoLight();
+  p.found = pathNoLight();
   p.foundF = zero;
   p.foundWeight = 0.0f;
   p.foundCoverage = 1.0f;
   p.hasX2 = 0u;
-  p.x2 = pathOfLight(giNoLight(), film);
+  p.x2 = pathOfLight(pathNoLight(), film);
   p.woX2 = vec3(0.0f, 0.0f, 1.0f);
   p.lightAtX2 = zero;
   p.lightDirX2 = zero;
@@ -67,7 +69,7 @@ RL_FN GiPath giNoPath(uint film) {
 }
 
 // Light that is carried neither by a light sample of x1 nor by x2's: beyond x3, or not reusable.
-RL_FN void giAddLight(RL_INOUT(GiPath) p, RL_IN(Walk) walk, RL_IN(vec3) contribution) {
+RL_FN void pathAddLight(RL_INOUT(PathGather) p, RL_IN(Walk) walk, RL_IN(vec3) contribution) {
   if (p.isSuffix != 0u) {
     p.rest += p.suffixThroughput * contribution;
   } else {
@@ -75,15 +77,25 @@ RL_FN void giAddLight(RL_INOUT(GiPath) p, RL_IN(Walk) walk, RL_IN(vec3) contribu
   }
 }
 
-RL_FN bool giIsAtX1(RL_IN(GiPath) p, RL_IN(Walk) walk) {
+// Where the walk is on a path that can be reused; at x3 on one whose suffix goes on beyond x2.
+RL_FN bool pathIsAtX1(RL_IN(PathGather) p, RL_IN(Walk) walk) {
   return p.isReusable != 0u && walk.bounces == 0u;
 }
-RL_FN bool giIsAtX2(RL_IN(GiPath) p, RL_IN(Walk) walk) {
+RL_FN bool pathIsAtX2(RL_IN(PathGather) p, RL_IN(Walk) walk) {
   return p.isReusable != 0u && walk.bounces == 1u;
 }
+RL_FN bool pathIsAtX3(RL_IN(PathGather) p, RL_IN(Walk) walk) {
+  return p.isSuffix != 0u && walk.bounces == 2u;
+}
+// It has left a vertex, whose shadow ray is back.
+RL_FN bool pathHasLeftX1(RL_IN(PathGather) p, RL_IN(Walk) walk) { return pathIsAtX2(p, walk); }
+RL_FN bool pathHasLeftX2(RL_IN(PathGather) p, RL_IN(Walk) walk) {
+  return p.hasX2 != 0u && walk.bounces == 2u;
+}
 
-RL_FN void walkEscapes(RL_INOUT(GiPath) p, RL_IN(Walk) walk, RL_IN(vec3) radiance, float pdfLight) {
-  if (giIsAtX2(p, walk)) {
+RL_FN void walkEscapes(RL_INOUT(PathGather) p, RL_IN(Walk) walk, RL_IN(vec3) radiance,
+                       float pdfLight) {
+  if (pathIsAtX2(p, walk)) {
     p.passedX1 = walk.passed;
     p.found.kind = RL_LIGHT_ENVIRONMENT;
     p.found.point = walk.ray.dir;
@@ -91,19 +103,19 @@ RL_FN void walkEscapes(RL_INOUT(GiPath) p, RL_IN(Walk) walk, RL_IN(vec3) radianc
     p.found.radiance = radiance;
     p.foundF = p.fX1 * radiance;
     p.foundWeight = rlLuminance(p.foundF) *
-                    rlSafeDivide(1.0f, float(gParams.lightCandidates) * pdfLight + p.pdfX1);
-  } else if (p.isSuffix != 0u && walk.bounces == 2u) {
+                    rlSafeDivide(1.0f, float(gParams.path.lightCandidates) * pdfLight + p.pdfX1);
+  } else if (pathIsAtX3(p, walk)) {
     p.emittedAtX3 = radiance;
     p.pdfLightAtX3 = pdfLight;
   } else {
-    giAddLight(p, walk,
-               radiance * (pdfLight > 0.0f ? lightMisWeight(walk.pdfBsdf, pdfLight) : 1.0f));
+    pathAddLight(p, walk,
+                 radiance * (pdfLight > 0.0f ? lightMisWeight(walk.pdfBsdf, pdfLight) : 1.0f));
   }
 }
 
-RL_FN void walkEmits(RL_INOUT(GiPath) p, RL_IN(Walk) walk, RL_IN(Surface) s, RL_IN(Hit) hit,
+RL_FN void walkEmits(RL_INOUT(PathGather) p, RL_IN(Walk) walk, RL_IN(Surface) s, RL_IN(Hit) hit,
                      float pdfLight) {
-  if (giIsAtX2(p, walk)) {
+  if (pathIsAtX2(p, walk)) {
     p.passedX1 = walk.passed;
     float cosLight = abs(dot(s.nGeoW, walk.ray.dir));
     float geometry = cosLight / (hit.t * hit.t);
@@ -124,40 +136,40 @@ RL_FN void walkEmits(RL_INOUT(GiPath) p, RL_IN(Walk) walk, RL_IN(Surface) s, RL_
     p.foundF = p.fX1 * s.emission * geometry;
     p.foundWeight =
         rlLuminance(p.foundF) *
-        rlSafeDivide(1.0f, (float(gParams.lightCandidates) * pdfLight + p.pdfX1) * geometry);
-  } else if (p.isSuffix != 0u && walk.bounces == 2u) {
+        rlSafeDivide(1.0f, (float(gParams.path.lightCandidates) * pdfLight + p.pdfX1) * geometry);
+  } else if (pathIsAtX3(p, walk)) {
     p.emittedAtX3 = s.emission * p.absorbed;
     p.pdfLightAtX3 = pdfLight;
   } else {
-    giAddLight(p, walk,
-               s.emission * (pdfLight > 0.0f ? lightMisWeight(walk.pdfBsdf, pdfLight) : 1.0f));
+    pathAddLight(p, walk,
+                 s.emission * (pdfLight > 0.0f ? lightMisWeight(walk.pdfBsdf, pdfLight) : 1.0f));
   }
 }
 
-RL_FN void walkAbsorbs(RL_INOUT(GiPath) p, RL_IN(Walk) walk, RL_IN(vec3) transmittance) {
+RL_FN void walkAbsorbs(RL_INOUT(PathGather) p, RL_IN(Walk) walk, RL_IN(vec3) transmittance) {
   p.absorbed = transmittance;
   p.suffixThroughput *= transmittance;
 }
 
-RL_FN uint walkArrives(RL_INOUT(GiPath) p, RL_IN(Walk) walk, RL_INOUT(Surface) s) {
-  if (walk.bounces == 0u) {
+RL_FN uint walkArrives(RL_INOUT(PathGather) p, RL_IN(Walk) walk, RL_INOUT(Surface) s) {
+  if (walk.bounces == 0u) {  // x1, reusable or not
     p.x1PosW = s.posW;
     p.x1NGeoW = s.nGeoW;
     p.x1PosError = s.posError;
-    p.isReusable = bsdfIsReusable(s.bsdf, gParams.shift.minAlpha) ? 1u : 0u;
+    p.isReusable = bsdfIsReusable(s.bsdf, gParams.path.minAlpha) ? 1u : 0u;
     if (p.isReusable == 0u) RL_HEALTH(RL_HEALTH_UNREUSABLE_PIXELS);
   }
-  if (walk.bounces == 1u) p.passedX1 = walk.passed;
-  return giIsAtX1(p, walk) ? gParams.lightCandidates : 1u;
+  if (pathIsAtX2(p, walk)) p.passedX1 = walk.passed;
+  return pathIsAtX1(p, walk) ? gParams.path.lightCandidates : 1u;
 }
 
-RL_FN bool walkLights(RL_INOUT(GiPath) p, RL_IN(Walk) walk, RL_IN(Rng) rng, RL_IN(Surface) s,
+RL_FN bool walkLights(RL_INOUT(PathGather) p, RL_IN(Walk) walk, RL_IN(Rng) rng, RL_IN(Surface) s,
                       RL_IN(LightSample) light, RL_IN(LightConnection) c) {
   float pdf;
   vec3 f = bsdfEvalAndPdf(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW, pdf);
-  if (giIsAtX1(p, walk)) {
+  if (pathIsAtX1(p, walk)) {
     vec3 integrand = f * c.emitted * c.geometry;
-    real w = rlLuminance(integrand) * rlSafeDivide(1.0f, giDirectDensity(light, c, pdf));
+    real w = rlLuminance(integrand) * rlSafeDivide(1.0f, pathDirectDensity(light, c, pdf));
     if (!risAccept(p.lightSum, w, rngDraw(rng, RL_DIM_RIS_LIGHT))) return false;
     p.light = light;
     p.lightF = integrand;
@@ -166,7 +178,7 @@ RL_FN bool walkLights(RL_INOUT(GiPath) p, RL_IN(Walk) walk, RL_IN(Rng) rng, RL_I
   if (rlIsBlack(f)) return false;
   vec3 arriving = c.emitted * (c.geometry / light.pdf);
   if (RL_HAS(RL_FEATURE_VOLUME)) arriving *= exp(-surfaceSigma(s, walk.sigma, c.dirW) * c.distance);
-  if (giIsAtX2(p, walk)) {
+  if (pathIsAtX2(p, walk)) {
     p.lightAtX2 = arriving;
     p.lightDirX2 = c.dirW;
     p.lightPdfX2 = c.isDelta ? 0.0f : c.pdfSolidAngle;
@@ -177,11 +189,11 @@ RL_FN bool walkLights(RL_INOUT(GiPath) p, RL_IN(Walk) walk, RL_IN(Rng) rng, RL_I
   return true;
 }
 
-RL_FN void walkSees(RL_INOUT(GiPath) p, RL_IN(Walk) walk, float transmittance) {
-  if (p.isReusable != 0u && walk.bounces == 1u) {
+RL_FN void walkSees(RL_INOUT(PathGather) p, RL_IN(Walk) walk, float transmittance) {
+  if (pathHasLeftX1(p, walk)) {
     p.lightF *= transmittance;
     p.lightSum *= transmittance;
-  } else if (p.hasX2 != 0u && walk.bounces == 2u) {
+  } else if (pathHasLeftX2(p, walk)) {
     p.lightAtX2 *= transmittance;
   } else if (p.isSuffix != 0u) {
     p.rest += p.unseen * transmittance;
@@ -190,12 +202,12 @@ RL_FN void walkSees(RL_INOUT(GiPath) p, RL_IN(Walk) walk, float transmittance) {
   }
 }
 
-RL_FN void walkScatters(RL_INOUT(GiPath) p, RL_IN(Walk) walk, RL_IN(Surface) s,
+RL_FN void walkScatters(RL_INOUT(PathGather) p, RL_IN(Walk) walk, RL_IN(Surface) s,
                         RL_IN(BsdfDraw) draw) {
-  if (giIsAtX1(p, walk)) {
+  if (pathIsAtX1(p, walk)) {
     p.fX1 = draw.weight * draw.pdfSolidAngle;
     p.pdfX1 = draw.pdfSolidAngle;
-  } else if (giIsAtX2(p, walk)) {
+  } else if (pathIsAtX2(p, walk)) {
     p.x2.posW = s.posW;
     p.x2.posError = s.posError;
     p.x2.normalW = s.nGeoW;
@@ -216,7 +228,7 @@ RL_FN void walkScatters(RL_INOUT(GiPath) p, RL_IN(Walk) walk, RL_IN(Surface) s,
   }
 }
 
-RL_FN void walkSurvives(RL_INOUT(GiPath) p, RL_IN(Walk) walk, float factor) {
+RL_FN void walkSurvives(RL_INOUT(PathGather) p, RL_IN(Walk) walk, float factor) {
   p.suffixThroughput *= factor;
 }
 

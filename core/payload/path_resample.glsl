@@ -1,0 +1,105 @@
+// What was gathered on a path (core/payload/path_gather.glsl), as one reservoir.
+
+// Path rays pass a partly transparent surface by chance, connections are dimmed by it. What the
+// ray from x1 has found, it has found with a probability of T, the transmittance up to there: its
+// integrand gets T, as every other pixel evaluates it, and its weight 1 / T. The coverage of a
+// light that is itself partly transparent is such a factor, too; that of x2 is the same for every
+// pixel and stays out.
+RL_FN float pathThroughAlpha(RL_IN(PathGather) p) {
+  if (!RL_HAS(RL_FEATURE_ALPHA)) return 1.0f;
+  if (p.isReusable == 0u || !(p.passedX1 < 1.0f)) return 1.0f;
+  if (p.hasX2 == 0u && !(p.foundWeight > 0.0f)) return 1.0f;
+  PathSample met = p.x2;
+  if (p.hasX2 == 0u) met = pathOfLight(p.found, p.film);
+  Ray segment = pathSegment(met, p.x1PosW, p.x1NGeoW, p.x1PosError);
+  Hit hit;
+  float t = traceRay(segment, RL_RAY_SHADOW, 0u, hit);
+  // 0: the two rays disagree by rounding; the path ray is believed, as it is among opaque
+  // surfaces.
+  return t > 0.0f ? t : 1.0f;
+}
+
+// Direct light: two techniques whose balance weights are inside the densities.
+RL_FN void pathAddDirect(RL_IN(PathGather) p, RL_IN(vec3) foundF, RL_IN(Rng) rng,
+                         RL_INOUT(real) wSum, RL_INOUT(vec3) estimate, RL_INOUT(PathReservoir) r) {
+  estimate += p.lightF * risContributionWeight(p.lightSum, rlLuminance(p.lightF)) +
+              foundF * risContributionWeight(p.foundWeight, rlLuminance(foundF));
+  // The first candidate is kept unless its weight is zero.
+  if (risAccept(wSum, p.lightSum, 0.0f)) {
+    r.path = pathOfLight(p.light, p.film);
+    r.state.F = p.lightF;
+  }
+  if (risAccept(wSum, p.foundWeight, rngDraw(rng, RL_DIM_RIS_DIRECT))) {
+    r.path = pathOfLight(p.found, p.film);
+    r.state.F = foundF;
+  }
+}
+
+// Indirect light: x2 and what it sends to x1; a glossy x2 has two kinds of paths, lit by a light
+// sample and continued.
+RL_FN void pathAddIndirect(RL_IN(PathGather) p, float throughAlpha, RL_IN(Rng) rng,
+                           RL_INOUT(real) wSum, RL_INOUT(vec3) estimate,
+                           RL_INOUT(PathReservoir) r) {
+  vec3 zero = vec3(0.0f, 0.0f, 0.0f);
+  vec3 fLight = zero;        // at x2, light sample
+  vec3 continuation = zero;  // at x2, over pdfX2
+  Bsdf b = p.x2.suffix.bsdf;
+  vec3 nShadeX2 = p.x2.suffix.nShadeW;
+  if (!rlIsBlack(p.lightAtX2)) {
+    float pdf;
+    vec3 f = bsdfEvalAndPdf(b, p.x2.normalW, nShadeX2, p.woX2, p.lightDirX2, pdf);
+    float weight = p.lightPdfX2 > 0.0f ? lightMisWeight(p.lightPdfX2, pdf) : 1.0f;
+    fLight = f * p.lightAtX2 * weight;
+  }
+  if (p.isSuffix != 0u) {
+    float weight = p.pdfLightAtX3 > 0.0f ? lightMisWeight(p.pdfX2, p.pdfLightAtX3) : 1.0f;
+    continuation = p.weightX2 * (p.rest + p.emittedAtX3 * weight);
+  }
+  // Of its resampling weight pHat W, W keeps what chance let the ray from x1 pass
+  // (pathThroughAlpha).
+  float inverseX1 = rlSafeDivide(1.0f, p.pdfX1);
+  estimate += p.fX1 * (fLight + continuation) * inverseX1;
+  bool isLambert = bsdfIsLambert(b);
+  for (uint i = 0u; i < 2u; i = i + 1u) {
+    bool isLight = i == 0u;
+    if (isLambert && !isLight) break;
+    vec3 sent = isLambert ? fLight + continuation : isLight ? fLight : continuation;
+    real w = rlLuminance(p.fX1 * sent) * inverseX1;
+    float u = rngDraw(rng, isLight ? RL_DIM_RIS_INDIRECT : RL_DIM_RIS_SUFFIX);
+    if (!risAccept(wSum, w, u)) continue;
+    r.path = p.x2;
+    r.state.F = p.fX1 * sent * throughAlpha;
+    r.path.radiance = sent;
+    if (isLambert) continue;
+    if (isLight) {
+      r.path.kind = RL_PATH_LIGHT;
+      r.path.radiance = p.lightAtX2;
+      r.path.suffix.wi = p.lightDirX2;
+      r.path.suffix.pdfLight = p.lightPdfX2;
+    } else {
+      r.path.kind = RL_PATH_CONTINUATION;
+      r.path.radiance = p.rest;
+      r.path.suffix.wi = p.dirX2;
+      r.path.suffix.emitted = p.emittedAtX3;
+      r.path.suffix.pdfLight = p.pdfLightAtX3;
+      r.state.F *= p.pdfX2;
+    }
+  }
+}
+
+RL_FN PathReservoir pathResample(RL_IN(PathGather) p, RL_IN(Rng) rng) {
+  PathReservoir r;
+  r.path = pathOfLight(pathNoLight(), p.film);
+  r.state = reservoirEmpty();
+  if (p.isReusable == 0u) return r;
+  float throughAlpha = pathThroughAlpha(p);
+  vec3 foundF = p.foundF;
+  if (RL_HAS(RL_FEATURE_ALPHA)) foundF *= throughAlpha * p.foundCoverage;  // its weight stays
+  real wSum = 0.0f;
+  vec3 estimate = vec3(0.0f, 0.0f, 0.0f);
+  if (walkWants(1u)) pathAddDirect(p, foundF, rng, wSum, estimate, r);
+  if (walkWants(2u) && p.hasX2 != 0u) pathAddIndirect(p, throughAlpha, rng, wSum, estimate, r);
+  r.state.W = risContributionWeight(wSum, rlLuminance(r.state.F));
+  r.state.residual = estimate - r.state.F * r.state.W;
+  return r;
+}

@@ -1,0 +1,105 @@
+// The shift of a path to the pixel that it came from, after it was packed and unpacked: it gives
+// the integrand that the initial pass stored, and the Jacobian 1.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/dialect/order.h"
+#include "core/scene/builtin_scenes.h"
+#include "integrators/restir_gi/restir_gi.h"
+#include "tests/unit/dialect_context.h"
+
+#pragma GCC diagnostic ignored "-Wunused-parameter"  // one signature for every payload
+namespace rl {
+
+struct ShiftCtx {
+  static constexpr uint kFeatures = RL_FEATURE_ALL;
+
+  const SceneData& gScene;
+  const FrameData& gFrame;
+  CpuKernelCounters& gCounters;
+  RTCScene embreeScene;
+  const RestirGiBuffers& gBuffers;
+  const RestirGiParams& gParams;
+
+#include "core/dialect/order.glsl"
+#include "core/backend/cpu_trace.inl"
+#include "integrators/restir_gi/initial.glsl"
+#include "core/payload/path_shift.glsl"
+};
+
+}  // namespace rl
+
+namespace restlab::unit {
+namespace {
+
+constexpr uint32_t kWidth = 48, kHeight = 32;
+
+class SelfShift : public ::testing::TestWithParam<const char*> {
+ protected:
+  SelfShift() : scene_(CompiledScene::build(makeBuiltinScene(GetParam()))), data_(scene_->data()) {
+    frame_.width = kWidth;
+    frame_.height = kHeight;
+    frame_.camera = scene_->camera(scene_->source().cameras.front(), kWidth, kHeight);
+    frame_.maxBounces = 6;
+    frame_.components = rl::RL_COMPONENT_ALL;
+    frame_.rouletteStart = rl::RL_INVALID;
+    frame_.seed = 5;
+    params_.path = {1, 0.04f, 100.0f};
+    quads_.resize(rl::RL_PATH_RESERVOIR_QUADS + rl::RL_PATH_SUFFIX_QUADS);
+    buffers_.reservoirs.data = quads_.data();
+    buffers_.suffixes.data = quads_.data() + rl::RL_PATH_RESERVOIR_QUADS;
+  }
+
+  std::shared_ptr<const CompiledScene> scene_;
+  rl::SceneData data_;
+  rl::FrameData frame_{};
+  rl::RestirGiBuffers buffers_{};
+  rl::RestirGiParams params_{};
+  rl::CpuKernelCounters counters_;
+  std::vector<glm::uvec4> quads_;
+};
+
+TEST_P(SelfShift, GivesWhatWasStored) {
+  rl::ShiftCtx c{data_,    frame_, counters_, static_cast<RTCScene>(scene_->embreeScene()),
+                 buffers_, params_};
+  size_t tested = 0, different = 0;
+  for (frame_.frame = 0; frame_.frame < 4; ++frame_.frame) {
+    for (uint32_t slot = 0; slot < kWidth * kHeight; ++slot) {
+      const rl::uvec2 pixel(slot % kWidth, slot / kWidth);
+      rl::PathGather path = c.pathNothingGathered(c.cameraFilmBits(pixel));
+      c.walkPath(path, pixel, path.film);
+      c.giWriteNow(0, c.pathResample(path, c.rngInit(frame_.seed, slot, frame_.frame)));
+      rl::PathReservoir r{};
+      c.giReadNow(0, r);
+      if (!(r.state.W > 0.0f)) continue;
+      rl::PathShift shift = c.pathShiftTo(r, pixel, false, false);
+      c.pathShiftTrace(shift, r.path);
+      const glm::vec3 stored = r.state.F, shifted = shift.shifted.F;
+      const float off = glm::length(shifted - stored) / glm::length(stored);
+      ++tested;
+      different += !(off < 2e-3f) || std::abs(shift.shifted.jacobian - 1.0f) > 1e-3f ? 1 : 0;
+    }
+  }
+  std::printf("  %s: %zu of %zu differ\n", GetParam(), different, tested);
+  EXPECT_GT(tested, 1000u);
+  // A path ray and a connection to where it ended may disagree by rounding at edges.
+  EXPECT_LE(different, tested / 500);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, SelfShift,
+                         ::testing::Values("cornell-box", "door-ajar", "glossy-gallery", "glass",
+                                           "courtyard", "many-lights"),
+                         [](const auto& info) {
+                           std::string name = info.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace restlab::unit
