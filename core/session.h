@@ -1,5 +1,5 @@
-// Session: scene + integrator + cache + denoiser + backend -> frames. The one thing that the experiment
-// runner, the renderer, the viewer and the tests all drive.
+// Session: scene + integrator + cache + denoiser + backend -> frames. The one thing that the
+// experiment runner, the renderer, the viewer and the tests all drive.
 #pragma once
 
 #include <array>

@@ -16,8 +16,8 @@
 #include RL_KERNEL_HEADER
 #endif
 
-// Functions that a kernel hands to the path loop or to the reuse loop have one signature: some ignore a
-// parameter.
+// Functions that a kernel hands to the path loop or to the reuse loop have one signature: some
+// ignore a parameter.
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 
 #ifndef RL_KERNEL_TRACE

@@ -255,11 +255,12 @@ TEST_F(ResumeTest, ADryRunIsTheMatrixAndSaysWhatItDoesNotKnow) {
           "--sweep max_bounces=1,2");
   ASSERT_EQ(methods.code, 0) << methods.err;
   const std::string row =
-      "| gi, confidence_cap=8.0 | restir_gi | unbiased | pixel | cpu | "
+      "| gi, confidence_cap=8.0 | restir_gi, unbiased | pixel | cpu | none | "
       "confidence_cap = 8 |\n";
   ASSERT_NE(methods.out.find(row), std::string::npos) << methods.out;
   EXPECT_EQ(methods.out.find(row), methods.out.rfind(row)) << "once, not for each point";
-  EXPECT_NE(methods.out.find("| path | path | unbiased | none | cpu |  |"), std::string::npos);
+  EXPECT_NE(methods.out.find("| path | path, unbiased | none | cpu | none |  |"),
+            std::string::npos);
   // How long a relmse takes is not known.
   EXPECT_NE(methods.out.find("; about "), std::string::npos) << methods.out;
   write("relmse.toml",

@@ -536,9 +536,9 @@ EXACT_TEST(NegativeDonorsTestedByTheirFilmSample) {
   int seen = 0, worlds = 0;
   for (uint seed = 0; seed < 60; ++seed) {
     const FilmWorld film = filmWorld(seed);
-    const bool alike =
-        film.usable[0][0] == film.usable[1][0] && film.usable[0][1] == film.usable[1][1];
-    if (alike) continue;
+    // Worlds in which the donor's sample may count here or not.
+    if (!film.usable[1][0] || !film.usable[1][1] || (film.usable[0][0] && film.usable[0][1]))
+      continue;
     const Source canonical = initialSource(film.world, 0, 1, real(1.0f));
     const Source donor = initialSource(film.world, 1, 1, real(5.0f));
     Outcomes result;
@@ -556,8 +556,8 @@ EXACT_TEST(NegativeDonorsTestedByTheirFilmSample) {
     ++worlds;
     seen += relativeError(meanOfEstimate(result.list()), film.world.truth(0)) > kBiasSeen ? 1 : 0;
   }
-  EXPECT_GE(worlds, 20);
-  EXPECT_GE(seen, worlds * 8 / 10);
+  EXPECT_GE(worlds, 8);
+  EXPECT_EQ(seen, worlds);
 }
 
 }  // namespace

@@ -69,8 +69,8 @@ struct WorldMerge {
   std::vector<real3> ratios;
 };
 
-// The shipped files with functions that ask the world. Random numbers are not drawn but decided: the
-// shipped acceptance is called with a u on the wanted side of its threshold, and must agree.
+// The shipped files with functions that ask the world. Random numbers are not drawn but decided:
+// the shipped acceptance is called with a u on the wanted side of its threshold, and must agree.
 struct Kernel {
   const World* world = nullptr;
   Decisions* decisions = nullptr;

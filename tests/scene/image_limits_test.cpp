@@ -1,7 +1,6 @@
 // Images whose headers lie: refused by the size of the file, before memory is taken for the pixels.
 #include <gtest/gtest.h>
 
-
 #include "core/scene/image_decode.h"
 #include "tests/scene/gltf_builder.h"
 
