@@ -52,7 +52,7 @@ const std::vector<Walk> kNightlyWalks = {
     {"walking", "cornell-box", {0.06, 0.01, -0.05}, 0.0},
     {"turning", "cornell-box", {0.0, 0.0, 0.0}, 1.5},
     {"past_the_lamp", "cornell-box", {0.05, 0.03, 0.0}, 0.0, true},
-    {"past_glass", "glass", {0.02, 0.01, 0.0}, 0.5},
+    {"past_glass", "glass", {0.02, 0.01, 0.0}, 0.5, false, 0.6},
     {"strolling_glossy", "glossy-gallery", {0.04, 0.0, -0.06}, 0.7},
     {"strolling_door", "door-ajar", {0.04, 0.0, -0.03}, -0.5},
     {"strolling_courtyard", "courtyard", {0.05, 0.0, -0.05}, 0.5},
@@ -71,8 +71,9 @@ TEST(MovingCameraGlossy, LeavesTheMean) {
   expectUnbiased(walk, endOf(walk), 256, 16, 5, 1);
 }
 
+// Its caustics are too skewed to test in half of the area.
 TEST(MovingCameraGlass, LeavesTheMean) {
-  const Walk walk{"past_glass", "glass", {0.02, 0.01, 0.0}, 0.5};
+  const Walk walk{"past_glass", "glass", {0.02, 0.01, 0.0}, 0.5, false, 0.6};
   expectUnbiased(walk, endOf(walk), 256, 16, 5, 1);
 }
 
