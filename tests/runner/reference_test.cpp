@@ -70,7 +70,7 @@ TEST_F(ReferenceRendering, ExtendedIsBitForBitThatOfOneGo) {
 
 TEST_F(ReferenceRendering, TargetOfErrorIsMetAtTheSameSample) {
   const PreparedScene scene = prepared();
-  const ReferenceTarget target = {.relmse = 0.01};
+  const ReferenceTarget target = {.relmse = 0.005};
   const Reference inOneGo = renderReference(scene, smallConfig(), target);
   ASSERT_GE(inOneGo.spp, 40u) << "checks of several calls are needed";
   EXPECT_LE(inOneGo.relmse, target.relmse);
