@@ -3,6 +3,7 @@
 // `const DenoiserInfo& <name>DenoiserInfo()`.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct DenoiserInfo : PartInfo {
   BiasClass biasOfStillView = BiasClass::unbiased;
   BiasClass biasOfMovingView = BiasClass::unbiased;
   std::string why;
+  // How many frames a shown pixel averages, once its history is old, where the integrator's
+  // radiance averages `radianceFrames`; empty: as many.
+  std::function<double(const ParameterMap&, double radianceFrames)> shownFrames;
 };
 
 // All denoisers of denoisers.list, in its order.

@@ -311,6 +311,12 @@ Image Session::aov(const std::string& name) const {
 
 uint32_t Session::featuresNeeded() const { return impl_->needed; }
 uint32_t Session::featuresUsed() const { return impl_->pipeline->featuresUsed(); }
+double Session::averagedFrames() const {
+  const auto& shownFrames = impl_->method.denoiser->shownFrames;
+  const double radianceFrames = impl_->frame.radianceFrames;
+  return shownFrames ? shownFrames(impl_->config.parameters, radianceFrames) : radianceFrames;
+}
+
 const SessionConfig& Session::config() const { return impl_->config; }
 const StartupReport& Session::startup() const { return impl_->startup; }
 std::string Session::rayTracing() const { return impl_->backend->rayTracing(); }

@@ -91,6 +91,9 @@ class Session {
 
   // Of the last frame; read from the device when it is first asked for.
   const Image& radiance() const;
+  // How many frames of a still view a shown pixel averages, once its history is old: 1 where every
+  // frame stands alone.
+  double averagedFrames() const;
   // Of the film samples of the last frame, traced once when the first is asked for; one of
   // aovNames(): radiance; at the first hit positionW, normalW (unit, shading, on the viewer's
   // side), albedo (diffuse + specular at normal incidence + transmission), depth (distance along

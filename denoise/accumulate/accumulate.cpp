@@ -52,6 +52,10 @@ const DenoiserInfo& accumulateDenoiserInfo() {
                  {"accumulate_history_before", 16, 0, 1}};
     i.passes = {{"accumulate", "accumulate", false}};
     i.hasHistory = true;
+    // Frames count from the first whole average on (see the kernel).
+    i.shownFrames = [](const ParameterMap& p, double radianceFrames) {
+      return radianceFrames + std::get<double>(p.at("accumulate_cap"));
+    };
     i.packParameters = [](const std::string&, const ParameterMap& p) {
       rl::AccumulateParams out{};
       out.cap = static_cast<float>(std::get<double>(p.at("accumulate_cap")));

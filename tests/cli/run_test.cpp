@@ -408,6 +408,29 @@ TEST_F(RunTest, AccumulationBeginsWithTheHistory) {
   EXPECT_EQ(warm, accumulated("--set warmup_frames=0 --set frames=6"));
 }
 
+// While a method averages its whole history itself, its last frame is what has accumulated.
+TEST_F(RunTest, AccumulatedAveragesAreNotAveragedTwice) {
+  write("suite.toml", std::string(kSuite) + "\ndenoiser = \"accumulate\"\naccumulate_cap = 3.0\n");
+  ASSERT_EQ(
+      run("run suite.toml --out out -q --set accumulate=true --set ages=[1,2,4,8] --methods gi "
+          "--set warmup_frames=0 --set frames=16")
+          .code,
+      0);
+  // Nine frames of the reservoirs, then four of the denoiser: the first twelve are one average.
+  std::map<uint64_t, double> aged, accumulated;
+  for (const auto& line : lines("out/results.jsonl")) {
+    if (line.at("run") != 0 || line.at("method") != "gi") continue;
+    if (line.at("kind") == "age") aged[line.at("age")] = line.at("mse");
+    if (line.at("kind") == "accumulated")
+      accumulated[line.at("frames_accumulated")] = line.at("mse");
+  }
+  const double last = accumulated.at(16);
+  accumulated.erase(16);
+  EXPECT_EQ(aged, accumulated);
+  EXPECT_EQ(aged.size(), 4u);
+  EXPECT_NE(last, aged.at(8));
+}
+
 }  // namespace
 
 }  // namespace restlab::cli_test

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "experiments/runner/run/files.h"
 
 namespace restlab {
@@ -38,6 +41,41 @@ TEST(ImageSum, SmallTermsAreNotLost) {
   sum.add(constant(1e7f));
   for (int i = 0; i < 1000; ++i) sum.add(constant(0.25f));
   EXPECT_NEAR(sum.mean().at(0, 0).x, (1e7 + 250.0) / 1001.0, 1e-2);
+}
+
+TEST(HistoryMean, OfFramesThatStandAloneIsTheirMean) {
+  HistoryMean history(1.0);
+  for (const float value : {1.0f, 2.0f, 6.0f}) history.add(constant(value));
+  EXPECT_EQ(history.frames(), 3u);
+  EXPECT_EQ(history.mean().at(0, 0), glm::vec3(3.0f, 6.0f, 0.0f));
+}
+
+// Frames are exponential averages of samples. Here each sample stands in a pixel of its own, so
+// that the pixels of the accumulated image are the weights of the samples.
+TEST(HistoryMean, WeighsSamplesOfAveragesAlike) {
+  constexpr uint32_t kAll = 96, kAveraged = 21;
+  HistoryMean history(kAveraged);
+  Image average(kAll, 1, glm::vec3(0.0f));
+  for (uint32_t n = 1; n <= kAll; ++n) {
+    const float weight = 1.0f / float(std::min(n, kAveraged));
+    for (uint32_t s = 0; s < kAll; ++s)
+      average.at(s, 0) = average.at(s, 0) * (1.0f - weight) + glm::vec3(s + 1 == n ? weight : 0.0f);
+    history.add(average);
+    if (n > kAveraged) continue;
+    EXPECT_NEAR(history.mean().at(0, 0).x, 1.0f / float(n), 1e-6);
+  }
+  const Image weights = history.mean();
+  const float alike = weights.at(0, 0).x;
+  const double frames = double(kAll - kAveraged + 1);
+  EXPECT_NEAR(alike, (1.0 - std::pow(1.0 - 1.0 / kAveraged, frames)) / frames, 1e-6);
+  double total = 0.0;
+  for (uint32_t s = 0; s < kAll; ++s) {
+    total += weights.at(s, 0).x;
+    EXPECT_LE(weights.at(s, 0).x, alike * 1.01f) << s;
+    if (s + 3 * kAveraged >= kAll) continue;
+    EXPECT_GE(weights.at(s, 0).x, alike * 0.94f) << s;
+  }
+  EXPECT_NEAR(total, 1.0, 1e-5);
 }
 
 TEST(Files, NamesAreSafe) {

@@ -152,8 +152,8 @@ struct BlockExecutor::Impl {
   struct Frames {
     std::vector<std::vector<PassTiming>> passes;
     std::vector<std::pair<uint32_t, Image>> kept;          // by frame
-    std::vector<std::pair<AccumulatedError, Image>> sums;  // means of the first frames
-    ImageSum sum;
+    std::vector<std::pair<AccumulatedError, Image>> sums;  // accumulated images
+    std::optional<HistoryMean> accumulated;
     double timeMs = 0.0;  // since the history began
     std::optional<TemporalSum> temporal;
   };
@@ -178,23 +178,24 @@ struct BlockExecutor::Impl {
     }
     if (frame == suite.warmupFrames || isBefore || age > 0)
       frames.kept.emplace_back(frame, sessions[m]->radiance());
-    if (suite.accumulate) accumulate(sessions[m]->radiance(), frame, frames);
+    if (suite.accumulate) accumulate(*sessions[m], frame, frames);
     if (isTimed && suite.temporal && !block.motion) {
       if (!frames.temporal) frames.temporal.emplace(block.reference);
       frames.temporal->add(sessions[m]->radiance());
     }
   }
 
-  // From the first frame of the history on: the time of the warm-up has its samples.
-  void accumulate(const Image& image, uint32_t frame, Frames& frames) const {
-    frames.sum.add(image);
+  // Of the whole history: the time of the warm-up has its samples.
+  void accumulate(const Session& session, uint32_t frame, Frames& frames) const {
+    if (!frames.accumulated) frames.accumulated.emplace(session.averagedFrames());
+    frames.accumulated->add(session.radiance());
     const uint32_t count = frame + 1;
     if (!isAccumulationPoint(count, suite.warmupFrames + suite.timedFrames)) return;
     AccumulatedError point;
     point.frames = count;
     point.timeMs = suite.timing ? frames.timeMs : std::numeric_limits<double>::quiet_NaN();
     point.error.frame = frame;
-    frames.sums.emplace_back(point, frames.sum.mean());
+    frames.sums.emplace_back(point, frames.accumulated->mean());
   }
 
   void measure(RunResult& result, Frames& frames, Image& measured) const {

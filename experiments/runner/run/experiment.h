@@ -33,7 +33,7 @@ struct FrameError {
   uint64_t nonfinite = 0;   // channel values in the image
 };
 
-// Error of the mean of the first frames of the history, those of the warm-up included.
+// Error of what the first frames of the history give (HistoryMean), those of the warm-up included.
 struct AccumulatedError {
   uint32_t frames = 0;
   double timeMs = 0.0;  // passes since the history began; NaN: not measured

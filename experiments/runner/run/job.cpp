@@ -134,7 +134,7 @@ JobIdentity jobIdentity(const Suite& suite, const PreparedScene& prepared, const
                     {"warmup_frames", suite.warmupFrames},
                     {"timed_frames", suite.timedFrames},
                     {"ages", suite.ages},
-                    {"accumulate", suite.accumulate ? Json("from the first frame") : Json(false)},
+                    {"accumulate", suite.accumulate ? Json("after the averages of methods") : Json(false)},
                     {"temporal", suite.temporal ? Json("with squares") : Json(false)},
                     {"timing", suite.timing},
                     {"figures", figuresWords(suite)},

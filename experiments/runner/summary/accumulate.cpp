@@ -59,6 +59,12 @@ Image ImageSum::varianceOfMean(const ImageSum& a, const ImageSum& b, const Image
   return image;
 }
 
+void HistoryMean::add(const Image& frame) {
+  ++frames_;
+  if (double(frames_) <= averagedFrames_) sum_ = ImageSum();
+  sum_.add(frame);
+}
+
 void HealthSum::add(const FrameStats& frame) {
   for (size_t i = 0; i < health.counts.size(); ++i) health.counts[i] += frame.health.counts[i];
   raysPath += frame.raysPath;

@@ -40,6 +40,25 @@ class ImageSum {
   std::vector<glm::dvec3> sum_;
 };
 
+// The accumulated image of a still view: what is best known of it after each frame. Frames of a
+// method may be averages of its history already, of all of it up to `averagedFrames`; a mean of
+// such frames from the first one on would count the first samples several times. So up to that age
+// the last frame is the accumulated image, and from there on the mean of the frames since: all
+// frames of the history but the last ones weigh the same in it.
+class HistoryMean {
+ public:
+  explicit HistoryMean(double averagedFrames) : averagedFrames_(averagedFrames) {}
+  // The next frame of the history.
+  void add(const Image& frame);
+  uint64_t frames() const { return frames_; }
+  Image mean() const { return sum_.mean(); }
+
+ private:
+  double averagedFrames_;
+  uint64_t frames_ = 0;
+  ImageSum sum_;
+};
+
 // Counters of several frames.
 struct HealthSum {
   Health health;
