@@ -165,18 +165,29 @@ ParameterMap resolveParameters(const Method& method, const ParameterMap& given) 
   return resolved;
 }
 
-std::vector<std::string> parametersWithoutEffect(const Method& method, const ParameterMap& given) {
+std::string findMode(const IntegratorInfo& info, const std::string& mode) {
+  std::vector<std::string> modes;
+  for (const ModeInfo& m : info.modes) modes.push_back(m.name);
+  if (mode.empty()) return modes.front();
+  if (std::find(modes.begin(), modes.end(), mode) != modes.end()) return mode;
+  failUsage(fmt::format("mode '{}': integrator {} knows {}{}", mode, info.name,
+                        fmt::join(modes, ", "), didYouMean(mode, modes)));
+}
+
+std::vector<SettingWithoutEffect> settingsWithoutEffect(const Method& method,
+                                                        const std::string& mode,
+                                                        const ParameterMap& given) {
   const ParameterMap resolved = resolveParameters(method, given);
-  std::vector<std::string> lines;
-  for (const PartInfo* part : method.parts()) {
-    if (!part->whyWithoutEffect) continue;
-    for (const ParameterInfo& parameter : part->parameters) {
-      if (!given.contains(parameter.name)) continue;
-      const std::string why = part->whyWithoutEffect(parameter.name, resolved);
-      if (!why.empty()) lines.push_back(fmt::format("{} has no effect: {}", parameter.name, why));
+  std::vector<SettingWithoutEffect> all;
+  const auto ask = [&](const std::string& name) {
+    for (const PartInfo* part : method.parts()) {
+      const std::string why = part->whyWithoutEffect ? part->whyWithoutEffect(name, resolved) : "";
+      if (!why.empty()) return all.push_back({name, why});
     }
-  }
-  return lines;
+  };
+  if (mode != findMode(*method.integrator, "")) ask("mode");
+  for (const auto& [name, value] : given) ask(name);
+  return all;
 }
 
 size_t bufferBytes(const BufferInfo& buffer, const ParameterMap& parameters, size_t pixels) {

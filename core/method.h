@@ -43,8 +43,17 @@ Method findMethod(const SessionConfig& config);
 // Defaults overlaid by `given`; throws Error (badUsage) on unknown names, types, ranges, choices.
 ParameterMap resolveParameters(const Method& method, const ParameterMap& given);
 
-// A line for each given parameter that changes nothing: "confidence_cap has no effect: temporal is
-// false". `given` is valid.
-std::vector<std::string> parametersWithoutEffect(const Method& method, const ParameterMap& given);
+// The mode of that name; "" is the first one. Throws Error (badUsage) with the nearest name.
+std::string findMode(const IntegratorInfo& info, const std::string& mode);
+
+// A setting that changes nothing, and why: "confidence_cap", "temporal is false".
+struct SettingWithoutEffect {
+  std::string name;
+  std::string why;
+};
+// Of the mode, where it is not the first one, and of the given parameters. Both are valid.
+std::vector<SettingWithoutEffect> settingsWithoutEffect(const Method& method,
+                                                        const std::string& mode,
+                                                        const ParameterMap& given);
 
 }  // namespace restlab

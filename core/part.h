@@ -57,7 +57,7 @@ struct ProbeValue {
   std::string value;
 };
 // The words of a pixel's entry in a buffer of the part, by its name; empty where it is not
-// allocated.
+// allocated, and where its entries are not pixels.
 using ReadEntry = std::function<std::vector<uint32_t>(const std::string& buffer)>;
 
 struct PartInfo {
@@ -73,9 +73,9 @@ struct PartInfo {
   // The passes run where this frame's view is not that of the last one; otherwise what they left
   // stands, and buffers that swap are both that of the last run.
   bool onlyOnNewViews = false;
-  // Why a parameter of the part changes nothing, the others being what they are; "" where it does.
-  // Empty: each does.
-  std::function<std::string(const std::string& parameter, const ParameterMap&)> whyWithoutEffect;
+  // Why a parameter (of this part or of another one) or the "mode" changes nothing, the parameters
+  // being what they are; "" where it does, or where another part knows. Empty: each does.
+  std::function<std::string(const std::string& name, const ParameterMap&)> whyWithoutEffect;
   // Packs validated parameters into the block that kernels read as gParams. `mode` is the
   // integrator's.
   std::function<std::vector<std::byte>(const std::string& mode, const ParameterMap&)>

@@ -71,7 +71,8 @@ std::vector<ProbeValue> Pipeline::probe(size_t pixel) {
       std::vector<uint32_t> words;
       for (size_t b = 0; b < stage.bytes.size(); ++b) {
         const BufferInfo& buffer = stage.info->buffers[b];
-        if (buffer.name != name || stage.bytes[b] == 0) continue;
+        if (buffer.name != name || stage.bytes[b] == 0 || buffer.entriesParameter != nullptr)
+          continue;
         const size_t perPixel = stage.bytes[b] / pixels_;
         std::vector<std::byte> all((pixel + 1) * perPixel);
         backend_.read(bound(stage, b), all.data(), all.size());

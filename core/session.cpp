@@ -84,13 +84,7 @@ Session::Session(std::shared_ptr<const CompiledScene> scene, const SessionConfig
   m.config = config;
   m.hostBytesPerPixel = hostBytesPerPixel;
   m.method = findMethod(config);
-  std::vector<std::string> modes;
-  for (const ModeInfo& mode : m.method.integrator->modes) modes.push_back(mode.name);
-  if (m.config.mode.empty()) m.config.mode = modes.front();
-  if (std::find(modes.begin(), modes.end(), m.config.mode) == modes.end()) {
-    failUsage(fmt::format("integrator {} has no mode '{}'{}; modes: {}", m.method.integrator->name,
-                          m.config.mode, didYouMean(m.config.mode, modes), fmt::join(modes, ", ")));
-  }
+  m.config.mode = findMode(*m.method.integrator, config.mode);
   if (m.method.cache != nullptr) m.config.cache = m.method.cache->name;
   const std::vector<SceneCamera>& cameras = m.scene->source().cameras;
   if (config.camera >= cameras.size()) {
@@ -112,6 +106,7 @@ void Session::Impl::open() {
   pipeline.reset();
   backend.reset();
   aovBuffers.clear();
+  isAovTraced = false;
   backend = makeBackend(config.backend, scene,
                         {config.threads, config.device, config.rayTracing, config.validate});
   const uint32_t wanted = config.specialise ? needed : rl::RL_FEATURE_ALL;
@@ -141,6 +136,7 @@ void Session::Impl::open() {
   f.rouletteStart = config.russianRoulette ? rl::RL_ROULETTE_EARLIEST : rl::RL_INVALID;
   f.multiscatter = multiscatter ? 1u : 0u;
   useParameters();
+  lastFrame = f;
 }
 
 void Session::Impl::useParameters() {
@@ -277,6 +273,7 @@ Image Session::aov(const std::string& name) const {
                           fmt::join(kAovNames, ", ")));
   }
   if (name == "radiance") return radiance();
+  if (m.isFirstFrame) failUsage(fmt::format("AOV {}: no frame was rendered yet", name));
   const size_t pixels = size_t(m.config.width) * m.config.height;
   if (m.aovBuffers.empty()) {
     for (size_t i = 1; i < kAovNames.size(); ++i)

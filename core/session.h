@@ -98,7 +98,8 @@ class Session {
   // aovNames(): radiance; at the first hit positionW, normalW (unit, shading, on the viewer's
   // side), albedo (diffuse + specular at normal incidence + transmission), depth (distance along
   // the ray, in every channel), object (1 + the index in Scene::instances, in every channel); zero
-  // where nothing is hit. Throws Error (badUsage) with the nearest name.
+  // where nothing is hit. Throws Error (badUsage) with the nearest name, and where the history has
+  // no frame yet.
   Image aov(const std::string& name) const;
   static const std::vector<std::string>& aovNames();
 

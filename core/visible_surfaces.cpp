@@ -14,8 +14,7 @@ const PartInfo& visibleSurfaces() {
     PartInfo i;
     i.name = "visible";
     i.summary = "what each pixel shows at its centre";
-    i.buffers = {{"visible", 16 * rl::RL_VISIBLE_QUADS, 0, 1},
-                 {"visible_before", 16 * rl::RL_VISIBLE_QUADS, 0, 0}};
+    i.buffers = {{"visible", 16, 0, 1}, {"visible_before", 16, 0, 0}};
     i.passes = {{"visible", "visible"}};
     i.hasHistory = true;
     i.onlyOnNewViews = true;

@@ -288,3 +288,10 @@ RL_FN vec3 bsdfReflectance(RL_IN(Bsdf) b) {
   if (RL_HAS(RL_FEATURE_GLOSSY)) reflectance += b.f0;
   return reflectance;
 }
+
+// And with what is transmitted.
+RL_FN vec3 bsdfAlbedo(RL_IN(Bsdf) b) {
+  vec3 albedo = bsdfReflectance(b);
+  if (RL_HAS(RL_FEATURE_GLOSSY)) albedo += b.transmission;
+  return albedo;
+}

@@ -34,14 +34,7 @@ struct Bsdf {
   float eta;          // index of refraction beyond the surface over that on the side of wo
 };
 
-// As payloads keep it, quad by quad from `first` on: three numbers and a float (VF) or a uint (VU).
-// One number finds no room: it stands beside a vector of the payload's own.
-#define RL_BSDF_FIELDS(VF, VU, first, b) \
-  VU(first, b.diffuse, b.lobes)          \
-  VF(first + 1u, b.f0, b.f90)            \
-  VF(first + 2u, b.transmission, b.alpha)
-#define RL_BSDF_SINGLE(b) b.eta
-const uint RL_BSDF_QUADS = 3u;
+const uint RL_BSDF_QUADS = 3u;  // of one in a buffer (core/dialect/bsdf/pack.glsl)
 
 struct BsdfDraw {
   vec3 wi;              // world, unit

@@ -12,12 +12,13 @@ RL_NAMESPACE_BEGIN
 struct VisibleSurface {
   vec3 posW;   // where nothing is hit: the direction of the view, unit
   uint isHit;  // 0: the background
-  uint nGeoW;  // visiblePackNormal(); unit, on the side of the camera
+  uint nGeoW;  // packNormal(); unit, on the side of the camera
   uint nShadeW;
   vec3 reflectance;  // bsdfReflectance(), 0 to 1
 };
 
-const uint RL_VISIBLE_QUADS = 2u;  // of one in a buffer
+// In a buffer it is one quad: the distance along the ray through the pixel's centre, two normals,
+// the reflectance.
 
 RL_NAMESPACE_END
 

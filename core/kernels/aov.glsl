@@ -18,7 +18,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   Surface s = surfaceLoad(hit, ray.dir);
   gBuffers.positionW.data[pixelIndex] = s.posW;
   gBuffers.normalW.data[pixelIndex] = s.nShadeW;
-  gBuffers.albedo.data[pixelIndex] = s.bsdf.diffuse + s.bsdf.f0 + s.bsdf.transmission;
+  gBuffers.albedo.data[pixelIndex] = bsdfAlbedo(s.bsdf);
   gBuffers.depth.data[pixelIndex] = vec3(hit.t, hit.t, hit.t);
   float object = float(hit.instance + 1u);
   gBuffers.object.data[pixelIndex] = vec3(object, object, object);

@@ -9,18 +9,16 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   // The same decision at partly transparent surfaces in every frame.
   traceRay(ray, RL_RAY_PATH, pixelIndex, hit);
   VisibleSurface v;
-  v.posW = ray.dir;
   v.isHit = 0u;
-  v.nGeoW = visiblePackNormal(-ray.dir);
+  v.nGeoW = packNormal(-ray.dir);
   v.nShadeW = v.nGeoW;
   v.reflectance = vec3(0.0f, 0.0f, 0.0f);
   if (hit.instance != RL_INVALID) {
     Surface s = surfaceLoad(hit, ray.dir);
-    v.posW = s.posW;
     v.isHit = 1u;
-    v.nGeoW = visiblePackNormal(s.nGeoW);
-    v.nShadeW = visiblePackNormal(s.nShadeW);
+    v.nGeoW = packNormal(s.nGeoW);
+    v.nShadeW = packNormal(s.nShadeW);
     v.reflectance = bsdfReflectance(s.bsdf);
   }
-  visibleWrite(gBuffers.visible, pixelIndex, v);
+  visibleWrite(gBuffers.visible, pixelIndex, v, hit.t);
 }

@@ -1,19 +1,70 @@
 // Paths in reservoirs: to and from buffers, and how another x1 sees them.
 
-RL_FN void pathSampleWrite(RL_IN(QuadRef) quads, uint at, RL_IN(PathSample) p) {
-  RL_PATH_SAMPLE_FIELDS(RL_PACK_VF, RL_PACK_VU);
+RL_FN bool pathIsSpot(uint kind) {
+  return (kind & RL_PATH_KIND_MASK) == RL_PATH_DIRECT &&
+         ((kind >> RL_PATH_LIGHT_SHIFT) & RL_PATH_LIGHT_MASK) == RL_LIGHT_SPOT;
 }
-RL_FN void pathSampleRead(RL_IN(QuadRef) quads, uint at, RL_INOUT(PathSample) p) {
-  uvec4 q;
-  RL_PATH_SAMPLE_FIELDS(RL_UNPACK_VF, RL_UNPACK_VU);
+
+// Exact are position, film sample, geometry and, to rounding, the normal. A spot light has no
+// extent: its cone lies where the geometry and the error of the position are.
+RL_FN void pathReservoirWrite(RL_IN(QuadRef) quads, uint at, RL_IN(PathReservoir) r) {
+  uvec2 normal = packUnit(r.path.normalW);
+  bool isSpot = pathIsSpot(r.path.kind);
+  RL_WRITE_QUAD(quads, at, recordQuad(r.path.posW, r.path.film));
+  RL_WRITE_QUAD(quads, at + 1u,
+                uvec4(normal.x, normal.y, floatBitsToUint(isSpot ? r.path.cone.x : r.path.geometry),
+                      isSpot ? packNearest24(r.path.cone.y, r.path.kind)
+                             : packAtLeast24(r.path.posError, r.path.kind)));
+  reservoirStateWrite(quads, at + RL_PATH_SAMPLE_QUADS, r.state, packPositive3(r.path.radiance));
 }
+
+// Of the path only its radiance, which the state has room for.
+RL_FN void pathStateWrite(RL_IN(QuadRef) quads, uint at, RL_IN(PathReservoir) r) {
+  reservoirStateWrite(quads, at + RL_PATH_SAMPLE_QUADS, r.state, packPositive3(r.path.radiance));
+}
+RL_FN ReservoirState pathStateRead(RL_IN(QuadRef) quads, uint at) {
+  uvec2 radiance;
+  return reservoirStateRead(quads, at + RL_PATH_SAMPLE_QUADS, radiance);
+}
+
+// Without the suffix, which stays as it is.
+RL_FN void pathReservoirRead(RL_IN(QuadRef) quads, uint at, RL_INOUT(PathReservoir) r) {
+  uvec4 q0 = RL_PAST_QUAD(quads, at);
+  uvec4 q1 = RL_PAST_QUAD(quads, at + 1u);
+  uvec2 radiance;
+  r.state = reservoirStateRead(quads, at + RL_PATH_SAMPLE_QUADS, radiance);
+  r.path.posW = recordVec3(q0);
+  r.path.film = q0.w;
+  r.path.normalW = unpackUnit(q1.x, q1.y);
+  r.path.radiance = unpackPositive3(radiance.x, radiance.y);
+  r.path.kind = q1.w & 0xffu;
+  r.path.posError = unpack24(q1.w);
+  r.path.geometry = uintBitsToFloat(q1.z);
+  r.path.cone = vec2(0.0f, 0.0f);
+  if (!pathIsSpot(r.path.kind)) return;
+  r.path.cone = vec2(r.path.geometry, r.path.posError);
+  r.path.geometry = 0.0f;
+  r.path.posError = 0.0f;
+}
+
 // Only where the scene has glossy lobes.
-RL_FN void pathSuffixWrite(RL_IN(QuadRef) quads, uint at, RL_IN(PathSample) p) {
-  RL_PATH_SUFFIX_FIELDS(RL_PACK_VF, RL_PACK_VU);
+RL_FN void pathSuffixWrite(RL_IN(QuadRef) quads, uint at, RL_IN(PathSuffix) s) {
+  uvec2 nShade = packUnit(s.nShadeW);
+  uvec2 wi = packUnit(s.wi);
+  uvec2 emitted = packPositive3(s.emitted);
+  RL_WRITE_QUAD(quads, at, uvec4(nShade.x, nShade.y, wi.x, wi.y));
+  bsdfWrite(quads, at + 1u, s.bsdf, uvec3(emitted.x, emitted.y, floatBitsToUint(s.pdfLight)));
 }
-RL_FN void pathSuffixRead(RL_IN(QuadRef) quads, uint at, RL_INOUT(PathSample) p) {
-  uvec4 q;
-  RL_PATH_SUFFIX_FIELDS(RL_UNPACK_VF, RL_UNPACK_VU);
+RL_FN PathSuffix pathSuffixRead(RL_IN(QuadRef) quads, uint at) {
+  uvec4 q = RL_PAST_QUAD(quads, at);
+  uvec3 rest;
+  PathSuffix s;
+  s.bsdf = bsdfRead(quads, at + 1u, rest);
+  s.nShadeW = unpackUnit(q.x, q.y);
+  s.wi = unpackUnit(q.z, q.w);
+  s.emitted = unpackPositive3(rest.x, rest.y);
+  s.pdfLight = uintBitsToFloat(rest.z);
+  return s;
 }
 
 // The scalar by which paths compete, for the resampling algebra.
@@ -40,7 +91,7 @@ RL_FN PathSample pathOfLight(RL_IN(LightSample) light, uint film) {
   if (light.isTwoSided != 0u) p.kind = p.kind | RL_PATH_TWO_SIDED;
   p.radiance = light.radiance;
   p.film = film;
-  p.cone = vec3(light.cone.x, light.cone.y, 0.0f);
+  p.cone = light.cone;
   p.geometry = 0.0f;
   p.suffix = pathNoSuffix();
   return p;
@@ -49,12 +100,12 @@ RL_FN PathSample pathOfLight(RL_IN(LightSample) light, uint film) {
 RL_FN LightSample pathLight(RL_IN(PathSample) p) {
   LightSample light;
   light.point = p.posW;
-  light.kind = (p.kind >> RL_PATH_LIGHT_SHIFT) & 0xffu;
+  light.kind = (p.kind >> RL_PATH_LIGHT_SHIFT) & RL_PATH_LIGHT_MASK;
   light.normal = p.normalW;
   light.pdf = 0.0f;
   light.radiance = p.radiance;
   light.posError = p.posError;
-  light.cone = vec2(p.cone.x, p.cone.y);
+  light.cone = p.cone;
   light.isTwoSided = p.kind & RL_PATH_TWO_SIDED;
   return light;
 }

@@ -29,17 +29,18 @@ struct PathSample {
   vec3 posW;       // of x2 or of the light; a unit direction where the light is one
   float posError;  // metres
   vec3 normalW;    // x2: geometric, unit, on the side of x1; light: as LightSample::normal
-  uint kind;       // RL_PATH_*, and of a light RL_LIGHT_* << 8 and RL_PATH_TWO_SIDED
+  uint kind;       // RL_PATH_*, and of a light RL_LIGHT_* << 2 and RL_PATH_TWO_SIDED; 8 bits
   vec3 radiance;  // x2: sent towards x1, or what it reflects (suffix); light: LightSample::radiance
   uint film;      // the film sample: cameraFilmBits()
-  vec3 cone;      // x, y: of a spot light, LightSample::cone
+  vec2 cone;      // x, y: of a spot light, LightSample::cone
   float geometry;  // x2: |cos| / d^2 towards x1 of the pixel that holds it; light: 0
   PathSuffix suffix;
 };
 
-const uint RL_PATH_KIND_MASK = 0xffu;
-const uint RL_PATH_LIGHT_SHIFT = 8u;
-const uint RL_PATH_TWO_SIDED = 0x10000u;
+const uint RL_PATH_KIND_MASK = 3u;
+const uint RL_PATH_LIGHT_SHIFT = 2u;
+const uint RL_PATH_LIGHT_MASK = 7u;
+const uint RL_PATH_TWO_SIDED = 0x20u;
 
 // In the kernels' gParams.path.
 struct PathParams {
@@ -53,23 +54,11 @@ struct PathReservoir {
   ReservoirState state;
 };
 
-// What lies in a buffer, quad by quad: three numbers and one more, a float (VF) or a uint (VU).
-// Packing and unpacking are made of these lists.
-#define RL_PATH_SAMPLE_FIELDS(VF, VU) \
-  VF(0u, posW, posError)              \
-  VU(1u, normalW, kind)               \
-  VU(2u, radiance, film)              \
-  VF(3u, cone, geometry)
-// Three vectors and two numbers: one stands twice.
-#define RL_PATH_SUFFIX_FIELDS(VF, VU)            \
-  VF(0u, suffix.nShadeW, suffix.pdfLight)        \
-  VF(1u, suffix.wi, RL_BSDF_SINGLE(suffix.bsdf)) \
-  VF(2u, suffix.emitted, suffix.pdfLight)        \
-  RL_BSDF_FIELDS(VF, VU, 3u, suffix.bsdf)
-const uint RL_PATH_SAMPLE_QUADS = 4u;
-const uint RL_PATH_SUFFIX_QUADS = 3u + RL_BSDF_QUADS;
-// Sample and state; suffixes have a buffer of their own.
+// Quads in a buffer: of the sample, whose radiance lies in the rest of the state's, and of both. Of
+// the suffix, in a buffer of its own.
+const uint RL_PATH_SAMPLE_QUADS = 2u;
 const uint RL_PATH_RESERVOIR_QUADS = RL_PATH_SAMPLE_QUADS + RL_STATE_QUADS;
+const uint RL_PATH_SUFFIX_QUADS = 1u + RL_BSDF_QUADS;
 
 RL_NAMESPACE_END
 

@@ -15,11 +15,7 @@ struct ReservoirState {
   real confidence;
 };
 
-// Quad by quad, as core/resampling/reservoir.glsl packs them.
-#define RL_STATE_FIELDS(VF, VU) \
-  VF(0u, F, W)                  \
-  VF(1u, residual, confidence)
-const uint RL_STATE_QUADS = 2u;
+const uint RL_STATE_QUADS = 2u;  // of one in a buffer (core/resampling/reservoir.glsl)
 
 // A sample as another anchor sees it.
 struct Shifted {

@@ -27,7 +27,7 @@ RL_FN void historyGather(RL_IN(VisibleSurface) here, RL_IN(ivec2) pixel, float w
       pixel.y >= int(gFrame.height))
     return;
   uint pixelIndex = uint(pixel.y) * gFrame.width + uint(pixel.x);
-  VisibleSurface there = visibleRead(gBuffers.visibleBefore, pixelIndex);
+  VisibleSurface there = visibleRead(gBuffers.visibleBefore, gFrame.previousCamera, pixelIndex);
   float distanceToCamera = distance(gFrame.camera.posW, here.posW);
   if (!visibleMatch(here, there, distanceToCamera, gParams.minNormalDot, gParams.maxPlaneDistance))
     return;
@@ -42,7 +42,7 @@ RL_FN History historyReprojected(uint pixelIndex) {
   History sum;
   sum.mean = vec3(0.0f, 0.0f, 0.0f);
   sum.frames = 0.0f;
-  VisibleSurface here = visibleRead(gBuffers.visible, pixelIndex);
+  VisibleSurface here = visibleRead(gBuffers.visible, gFrame.camera, pixelIndex);
   vec2 film;
   if (!visibleFilmBefore(here, film)) return sum;
   float weights = 0.0f;

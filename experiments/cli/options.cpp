@@ -151,26 +151,16 @@ void resolveResolution(SceneOptions& options) {
 
 SessionConfig makeConfig(const SceneOptions& scene, const MethodOptions& method) {
   SessionConfig config;
-  const IntegratorInfo& info = findIntegrator(method.choice.integrator);
-  std::vector<std::string> modes;
-  for (const ModeInfo& mode : info.modes) modes.push_back(mode.name);
-  config.integrator = info.name;
-  config.mode = method.choice.mode.empty() ? modes.front() : method.choice.mode;
-  if (std::find(modes.begin(), modes.end(), config.mode) == modes.end()) {
-    failUsage(fmt::format("--mode {}: integrator {} knows {}{}", method.choice.mode, info.name,
-                          fmt::join(modes, ", "), didYouMean(method.choice.mode, modes)));
-  }
-  if (!method.choice.cache.empty()) findCache(method.choice.cache);
-  if (!method.choice.cache.empty() && !info.usesCache) {
-    failUsage(fmt::format("--cache {}: integrator {} keeps no reservoirs: it has no use for one",
-                          method.choice.cache, info.name));
-  }
-  applyBackend(method.backend, config);
+  config.integrator = method.choice.integrator;
   config.cache = method.choice.cache;
-  config.denoiser = findDenoiser(method.choice.denoiser).name;
-  config.parameters = parseParameters(findMethod(config), method.parameters);
-  for (const std::string& line : parametersWithoutEffect(findMethod(config), config.parameters))
-    logWarning("--set " + line);
+  config.denoiser = method.choice.denoiser;
+  const Method parts = findMethod(config);
+  config.mode = findMode(*parts.integrator, method.choice.mode);
+  applyBackend(method.backend, config);
+  config.parameters = parseParameters(parts, method.parameters);
+  for (const auto& [name, why] : settingsWithoutEffect(parts, config.mode, config.parameters)) {
+    logWarning(fmt::format("{}{} has no effect: {}", name == "mode" ? "--" : "--set ", name, why));
+  }
   config.russianRoulette = method.russianRoulette;
   config.specialise = !method.general;
   config.width = scene.width;

@@ -85,9 +85,11 @@ void warnOfParameters(const std::vector<Suite>& points) {
   for (const Suite& suite : points) {
     for (const SuiteMethod& method : suite.rendered()) {
       const Method parts = findMethod(method.session);
-      for (const std::string& line : parametersWithoutEffect(parts, method.session.parameters)) {
-        if (said.insert(method.name + line).second)
-          logWarning(fmt::format("method '{}': {}", method.name, line));
+      for (const auto& [name, why] :
+           settingsWithoutEffect(parts, method.session.mode, method.session.parameters)) {
+        const std::string line =
+            fmt::format("method '{}': {} has no effect: {}", method.name, name, why);
+        if (said.insert(line).second) logWarning(line);
       }
     }
   }

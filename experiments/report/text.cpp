@@ -110,6 +110,12 @@ std::string intervalText(double lo, double hi, int digits) {
   return fmt::format(" [{}, {}]", shortNumber(lo, digits), shortNumber(hi, digits));
 }
 
+std::string timesText(double value, double lo, double hi, const char* above, const char* below) {
+  const bool isBelow = value > 0.0 && value < 1.0 && !(lo <= 0.0);
+  if (!isBelow) return fmt::format("{}x {}{}", shortNumber(value), above, intervalText(lo, hi));
+  return fmt::format("{}x {}{}", shortNumber(1.0 / value), below, intervalText(1.0 / hi, 1.0 / lo));
+}
+
 std::string groupedDigits(uint64_t value) {
   std::string digits = std::to_string(value);
   for (size_t at = digits.size(); at > 3;) digits.insert(at -= 3, ",");

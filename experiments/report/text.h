@@ -25,6 +25,10 @@ std::string shortNumber(double value, int digits = kDigits);
 // " [lo, hi]", " [unbounded]", or "" where an end is unknown.
 std::string intervalText(double lo, double hi, int digits = kDigits);
 
+// A ratio with its interval as words: "2.5x lower [2.3, 2.8]", and of one below 1 its inverse,
+// "4.0x higher [3.8, 4.2]". Not inverted where an end is not positive.
+std::string timesText(double value, double lo, double hi, const char* above, const char* below);
+
 // Digits of a mean energy over that of the reference, whose ideal is 1.
 constexpr int kEnergyDigits = 4;
 

@@ -18,10 +18,9 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     uint partner;
     bool exists = cachePartner(pixel, k, partner);
     if (exists) exists = k < max(giDonors(slot, partner), giDonors(partner, slot));
-    gBuffers.partners.data[index] = exists ? partner : RL_INVALID;
-    if (!exists) continue;
-    PathShift shift = pathShiftTo(r, cachePixel(partner), false, false);
+    PathShift shift = pathShiftNone();
+    if (exists) shift = pathShiftTo(r, cachePixel(partner), false, false);
     pathShiftTrace(shift, r.path);
-    giWriteShifted(index, shift.shifted);
+    shiftedWrite(gBuffers.exchange, index, shift.shifted, exists ? partner : RL_INVALID);
   }
 }

@@ -16,8 +16,7 @@
 // The merge over time of a still view: the shift is the identity, for every surface and path. Both
 // are samples of one pixel, with one target: weights by confidence are exact.
 RL_FN void giMergeStillView(uint slot, RL_INOUT(PathReservoir) r) {
-  ReservoirState donor;
-  giReadStateBefore(slot, donor);
+  ReservoirState donor = giReadStateBefore(slot);
   GiOverTime t;
   giBeginOverTime(t, donor, slot);
   t.ours = mergeUnshifted(r.state);
@@ -26,7 +25,8 @@ RL_FN void giMergeStillView(uint slot, RL_INOUT(PathReservoir) r) {
   uint winner;
   float jacobian;
   reuseMerge(t, 1u, gParams.temporalFlags & ~RL_REUSE_PAIRWISE, r.state, winner, jacobian);
-  if (winner != RL_INVALID) giReadPathBefore(slot, r.path);
+  reservoirGuard(r.state);
+  if (winner != RL_INVALID) giTakePathBefore(slot, r);
 }
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {

@@ -15,6 +15,18 @@
 
 #include "core/integrator.h"
 
+namespace rl {
+namespace {
+
+// The dialect's functions that unpack.
+struct Packing {
+#include "core/dialect/math.glsl"
+#include "core/dialect/pack.glsl"
+};
+
+}  // namespace
+}  // namespace rl
+
 namespace restlab {
 
 namespace {
@@ -160,45 +172,59 @@ std::vector<std::byte> pack(const std::string& mode, const ParameterMap& p) {
   return bytesOf(out);
 }
 
+bool isOneOf(const std::string& name, std::initializer_list<const char*> names) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 std::string whyWithoutEffect(const std::string& name, const ParameterMap& p) {
-  const bool isOverTime = name == "confidence_cap" || name == "donor_noise";
-  if (isOverTime && !get<bool>(p, "temporal")) return "temporal is false";
-  const bool isOverSpace =
-      name == "aged_neighbours" || name == "young_frames" || name == "donor_noise";
-  if (isOverSpace && get<int64_t>(p, "spatial_neighbours") == 0) return "spatial_neighbours is 0";
-  if (name == "aged_neighbours" &&
-      get<int64_t>(p, "aged_neighbours") > get<int64_t>(p, "spatial_neighbours"))
+  const bool isOverTime = get<bool>(p, "temporal");
+  const int64_t neighbours = get<int64_t>(p, "spatial_neighbours");
+  const double young = get<double>(p, "young_frames");
+  const double oldest = isOverTime ? get<double>(p, "confidence_cap") + 1.0 : 1.0;
+  if (isOneOf(name, {"confidence_cap", "donor_noise", "mode"}) && !isOverTime)
+    return "temporal is false";
+  if (neighbours == 0 &&
+      isOneOf(name, {"aged_neighbours", "young_frames", "donor_noise", "donors_by_sample"}))
+    return "spatial_neighbours is 0";
+  if (!isOverTime && neighbours == 0 &&
+      isOneOf(name, {"mis", "max_jacobian", "max_reflectance_ratio", "omit_jacobian", "shading"}))
+    return "temporal is false and spatial_neighbours is 0";
+  if (name == "aged_neighbours" && get<int64_t>(p, "aged_neighbours") > neighbours)
     return "there are no more donors than spatial_neighbours says";
+  if (name == "aged_neighbours" && young >= oldest)
+    return fmt::format("young_frames is {:g}, and no history is older than {:g}", young, oldest);
   if (name == "max_reflectance_ratio" && get<std::string>(p, "shading") != "control_variate")
     return "shading is not control_variate";
   return "";
 }
+
+std::string three(const glm::vec3& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }
 
 std::vector<ProbeValue> probe(const ReadEntry& read) {
   const std::vector<uint32_t> words = read("history"), own = read("own_light");
   const auto number = [](const std::vector<uint32_t>& from, size_t at) {
     return std::bit_cast<float>(from.at(at));
   };
-  const auto three = [&](const std::vector<uint32_t>& from, size_t quad) {
-    return fmt::format("{:.6g} {:.6g} {:.6g}", number(from, 4 * quad), number(from, 4 * quad + 1),
-                       number(from, 4 * quad + 2));
+  const auto vector = [&](const std::vector<uint32_t>& from) {
+    return glm::vec3(number(from, 0), number(from, 1), number(from, 2));
   };
-  // As RL_PATH_SAMPLE_FIELDS and reservoirStateWrite() lay them out.
-  constexpr size_t kState = rl::RL_PATH_SAMPLE_QUADS;
+  // As pathReservoirWrite() and, from kState on, reservoirStateWrite() lay them out.
+  rl::Packing packing;
+  constexpr size_t kState = 4 * rl::RL_PATH_SAMPLE_QUADS;
   static const std::array<const char*, 4> kinds = {
       "light at x1", "Lambert x2", "glossy x2, light sample", "glossy x2, continued"};
-  const uint32_t kind = words[7] & rl::RL_PATH_KIND_MASK, film = words[11];
+  const uint32_t kind = words.at(7) & rl::RL_PATH_KIND_MASK, film = words.at(3);
   return {{"age", fmt::format("{:.6g}", number(own, 3))},
-          {"own light", three(own, 0)},
-          {"confidence", fmt::format("{:.6g}", number(words, 4 * kState + 7))},
-          {"W", fmt::format("{:.6g}", number(words, 4 * kState + 3))},
-          {"F", three(words, kState)},
-          {"residual", three(words, kState + 1)},
-          {"kind", kind < kinds.size() ? kinds[kind] : "unknown"},
+          {"own light", three(vector(own))},
+          {"confidence", fmt::format("{:.6g}", number(words, kState + 3))},
+          {"W", fmt::format("{:.6g}", number(words, kState + 2))},
+          {"F", three(packing.unpackPositive3(words.at(kState), words.at(kState + 1)))},
+          {"residual", three(packing.unpackSigned3(words.at(kState + 4), words.at(kState + 5)))},
+          {"kind", kinds.at(kind)},
           {"film", fmt::format("{:.4f} {:.4f}", double(film & 0xffffu) / 65536.0,
                                double(film >> 16) / 65536.0)},
-          {"position or direction", three(words, 0)},
-          {"radiance", three(words, 2)}};
+          {"position or direction", three(vector(words))},
+          {"radiance", three(packing.unpackPositive3(words.at(kState + 6), words.at(kState + 7)))}};
 }
 
 }  // namespace
@@ -229,8 +255,7 @@ const IntegratorInfo& restir_giIntegratorInfo() {
         {"history", 16 * rl::RL_PATH_RESERVOIR_QUADS, 0, -1},
         {"path_suffixes", 16 * rl::RL_PATH_SUFFIX_QUADS, rl::RL_FEATURE_GLOSSY, -1},
         {"path_suffix_history", 16 * rl::RL_PATH_SUFFIX_QUADS, rl::RL_FEATURE_GLOSSY, -1},
-        {"partners", sizeof(uint32_t), 0, -1, "spatial_neighbours"},
-        {"shifted", 16, 0, -1, "spatial_neighbours"},
+        {"exchange", 16, 0, -1, "spatial_neighbours"},
     };
     i.passes = {{"initial", "restir_gi_initial"},
                 {"temporal", "restir_gi_temporal", true, true},

@@ -36,9 +36,9 @@ struct RestirGiBuffers {
   QuadRef history;     // of the last frame; replaced by the spatial pass
   QuadRef suffixes;
   QuadRef suffixesHistory;
-  // Between the exchange and the spatial pass, spatialNeighbours entries a pixel.
-  UintRef partners;  // slots; RL_INVALID: none
-  QuadRef shifted;   // one quad: the pixel's sample as the partner sees it
+  // Between the exchange and the spatial pass, spatialNeighbours entries a pixel: its sample as the
+  // partner sees it, and the partner's slot (RL_INVALID: none).
+  QuadRef exchange;
 };
 
 struct RestirGiParams {

@@ -13,18 +13,27 @@
 
 #define RL_REUSE_STATE GiOverSpace
 
-RL_FN uint giPartner(uint slot, uint k) { return gBuffers.partners.data[giExchangeIndex(slot, k)]; }
+RL_FN Shifted giExchanged(uint slot, uint k, RL_OUT(uint) partner) {
+  return shiftedRead(gBuffers.exchange, giExchangeIndex(slot, k), partner);
+}
+RL_FN uint giPartner(uint slot, uint k) {
+  uint partner;
+  giExchanged(slot, k, partner);
+  return partner;
+}
 RL_FN Shifted reuseOurs(RL_IN(GiOverSpace) s, uint k) {
-  return giReadShifted(giExchangeIndex(s.slot, k));
+  uint partner;
+  return giExchanged(s.slot, k, partner);
 }
 RL_FN Shifted reuseTheirs(RL_IN(GiOverSpace) s, uint k) {
-  return giReadShifted(giExchangeIndex(giPartner(s.slot, k), k));
+  uint slot;
+  return giExchanged(giPartner(s.slot, k), k, slot);
 }
 RL_FN bool reuseDonor(RL_IN(GiOverSpace) s, uint k, RL_OUT(ReservoirState) donor) {
   donor = reservoirEmpty();
   uint partner = giPartner(s.slot, k);
   if (partner == RL_INVALID) return false;
-  giReadStateNow(partner, donor);
+  donor = giReadStateNow(partner);
   donor.confidence *= s.share;
   // A donor that counts only where its sample is seen is chosen by its sample: that is wrong.
   if (gParams.donorsBySample != 0u) return reuseTarget(reuseTheirs(s, k).F) > 0.0f;
@@ -53,7 +62,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   float jacobian;
   vec3 radiance = recordVec3(RL_PAST_QUAD(gBuffers.own, s.slot));
   radiance += reuseMerge(s, giMostDonors(), gParams.spatialFlags, r.state, winner, jacobian);
-  if (winner != RL_INVALID) giReadPathNow(giPartner(s.slot, winner), r.path);
+  if (winner != RL_INVALID) giTakePathNow(giPartner(s.slot, winner), r);
   r.path.geometry *= jacobian;
   if (!rlIsFinite3(radiance)) {
     // A poisoned history would spread: it starts again from nothing here.

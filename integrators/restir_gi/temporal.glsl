@@ -46,8 +46,9 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint winner;
   float jacobian;
   reuseMerge(t, 1u, flags, here.state, winner, jacobian);
+  reservoirGuard(here.state);
   if (winner == RL_INVALID) {
-    giWriteStateNow(slot, here.state);
+    giWriteStateNow(slot, here);
   } else {
     here.path = donor.path;
     here.path.geometry *= jacobian;

@@ -94,7 +94,7 @@ const BadInput kBadInputs[] = {
      2,
      {"bised", "'biased'"}},
     {"ModePathLacks", "render good.gltf -o x.exr --mode biased", 2, {"biased", "path"}},
-    {"CacheWithoutUse", "render good.gltf -o x.exr --cache pixel", 2, {"--cache pixel", "path"}},
+    {"CacheWithoutUse", "render good.gltf -o x.exr --cache pixel", 2, {"cache pixel", "path"}},
     {"UnknownDenoiser", "render good.gltf -o x.exr --denoiser acumulate", 2, {"'accumulate'"}},
     {"DenoiserParameterOfNobody",
      "render good.gltf -o x.exr --set accumulate_cap=3.0",

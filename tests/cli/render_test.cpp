@@ -66,6 +66,16 @@ TEST_F(RenderTest, ParametersWithoutEffectAreSaid) {
          "young_frames has no effect: spatial_neighbours is 0");
   expect("--set shading=winner --set max_reflectance_ratio=2",
          "max_reflectance_ratio has no effect: shading is not control_variate");
+  expect("--set spatial_neighbours=0 --set spatial_radius=5",
+         "spatial_radius has no effect: spatial_neighbours is 0");
+  expect("--set temporal=false --set aged_neighbours=2",
+         "aged_neighbours has no effect: young_frames is 8, and no history is older than 1");
+  expect("--set temporal=false --set spatial_neighbours=0 --set plane_threshold=1",
+         "plane_threshold has no effect: temporal is false and spatial_neighbours is 0");
+  expect("--set temporal=false --set spatial_radius=5 --set plane_threshold=1", "");
+  expect("--set temporal=false --mode biased", "warning: --mode has no effect: temporal is false");
+  expect("--set temporal=false --set spatial_neighbours=0 --set max_jacobian=5",
+         "max_jacobian has no effect: temporal is false and spatial_neighbours is 0");
   expect("--set temporal=false --set spatial_neighbours=0", "");
   expect("--set confidence_cap=5 --set aged_neighbours=2", "");
 }

@@ -112,6 +112,22 @@ TEST(LiveSession, AResizedImageIsThatOfAFreshSession) {
   EXPECT_THROW(changed.resize(0, 36), Error);
 }
 
+// Layers are of a frame; those of another size, or of a history that is gone, are of none.
+TEST(LiveSession, LayersNeedAFrame) {
+  const auto scene = bias::builtinScene("cornell-box");
+  Session session(scene, smallConfig());
+  EXPECT_THROW(session.aov("depth"), Error);
+  session.frame();
+  EXPECT_EQ(session.aov("depth").width, 40u);
+  session.resize(16, 8);
+  EXPECT_THROW(session.aov("depth"), Error);
+  session.frame();
+  EXPECT_EQ(session.aov("depth").width, 16u);
+  EXPECT_GT(session.aov("depth").pixels[0].x, 0.0f);
+  session.reset(3);
+  EXPECT_THROW(session.aov("depth"), Error);
+}
+
 // Layers of a frame are of that frame, whichever was asked for first, and of the next one after it.
 TEST(LiveSession, LayersAreTracedOnceAFrame) {
   const auto scene = bias::builtinScene("cornell-box");

@@ -52,10 +52,26 @@ bias::Method methodOf(const Variant& variant, uint32_t frames, uint32_t skipped)
   return method;
 }
 
+void runFrames(Session& session, const CompiledScene& scene, uint32_t frames) {
+  constexpr uint32_t kStill = 9;
+  const SceneCamera start = scene.source().cameras.at(session.config().camera);
+  session.setCamera(start);
+  for (uint32_t frame = 0; frame < frames; ++frame) {
+    if (frame >= kStill) {
+      SceneCamera camera = start;
+      // To its right and ahead.
+      camera.cameraToWorld[3] += 0.02 * double(frame - kStill + 1) *
+                                 (start.cameraToWorld[0] - 0.5 * start.cameraToWorld[2]);
+      session.setCamera(camera);
+    }
+    session.frame();
+  }
+}
+
 Image render(const std::shared_ptr<const CompiledScene>& scene, const SessionConfig& config,
              uint32_t frames) {
   Session session(scene, config);
-  for (uint32_t i = 0; i < frames; ++i) session.frame();
+  runFrames(session, *scene, frames);
   return session.radiance();
 }
 

@@ -42,7 +42,10 @@ SessionConfig configOf(const Variant& variant, uint32_t width = 48, uint32_t hei
 // not compared.
 bias::Method methodOf(const Variant& variant, uint32_t frames, uint32_t skipped);
 
-// The last of `frames` frames.
+// Frames of a new history: the camera stands for nine of them, in which a history becomes old, and
+// walks from then on.
+void runFrames(Session& session, const CompiledScene& scene, uint32_t frames);
+// The last of them.
 Image render(const std::shared_ptr<const CompiledScene>& scene, const SessionConfig& config,
              uint32_t frames);
 

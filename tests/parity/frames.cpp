@@ -247,6 +247,15 @@ std::shared_ptr<const CompiledScene> sceneNamed(const std::string& name) {
   return scene;
 }
 
+SceneCamera cameraOf(const CompiledScene& scene, uint32_t frame) {
+  const SceneCamera& start = scene.source().cameras.front();
+  SceneCamera camera = start;
+  if (frame < 2) return camera;
+  camera.cameraToWorld[3] +=
+      0.02 * double(frame - 1) * (start.cameraToWorld[0] - 0.5 * start.cameraToWorld[2]);
+  return camera;
+}
+
 bool hasVulkan() {
   for (const VulkanDeviceInfo& info : vulkanDeviceInfos()) {
     if (info.whyNot.empty()) return true;

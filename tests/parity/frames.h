@@ -71,6 +71,9 @@ FrameDifference classify(const std::shared_ptr<const CompiledScene>& scene, Sess
 // The built-in scene, or "everything" (everything_scene.h), or one of gateNames(); compiled once a
 // process.
 std::shared_ptr<const CompiledScene> sceneNamed(const std::string& name);
+
+// The camera stands in the first two frames and walks from then on, to its right and ahead.
+SceneCamera cameraOf(const CompiledScene& scene, uint32_t frame);
 std::vector<std::string> sceneNames();
 // Scenes with other renderers' images, which are not part of the project: "gates/...".
 std::vector<std::string> gateNames();

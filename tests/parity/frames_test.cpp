@@ -1,5 +1,5 @@
 // Sessions on the Vulkan backend against sessions on the CPU backend: every integrator, mode and
-// cache on every built-in scene, with the same seeds.
+// cache on every built-in scene, with the same seeds. The camera walks from the third frame on.
 //
 // A pixel of the first frame differs where rounding made somebody decide otherwise: which triangle
 // a ray through an edge hits, which candidate a reservoir keeps. Every such pixel is put into a
@@ -68,6 +68,10 @@ FrameDifference compareFrames(const Combination& what, const std::string& sceneN
   FrameDifference first;
   later.resize(size.frames - 1);
   for (uint32_t f = 0; f < size.frames; ++f) {
+    const SceneCamera camera = cameraOf(*scene, f);
+    for (Session* session : {a.get(), b.get(), other.get()}) {
+      if (session) session->setCamera(camera);
+    }
     a->frame();
     b->frame();
     FrameDifference here =

@@ -57,6 +57,11 @@ TEST(Numbers, AreShort) {
   EXPECT_EQ(intervalText(1.0, 2.5), " [1, 2.50]");
   EXPECT_EQ(intervalText(-std::numeric_limits<double>::infinity(), 1.0), " [unbounded]");
   EXPECT_EQ(intervalText(std::numeric_limits<double>::quiet_NaN(), 1.0), "");
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(timesText(2.5, 2.0, 4.0, "lower", "higher"), "2.50x lower [2, 4]");
+  EXPECT_EQ(timesText(0.25, 0.2, 0.5, "lower", "higher"), "4x higher [2, 5]");
+  EXPECT_EQ(timesText(0.25, nan, nan, "lower", "higher"), "4x higher");
+  EXPECT_EQ(timesText(0.25, -1.0, 0.5, "lower", "higher"), "0.250x lower [-1, 0.500]");
   EXPECT_EQ(groupedDigits(0), "0");
   EXPECT_EQ(groupedDigits(999), "999");
   EXPECT_EQ(groupedDigits(1000), "1,000");

@@ -424,7 +424,7 @@ TEST_F(SummaryTest, AccumulatedErrorsSayWhatWasReadOffTheirLines) {
   accumulate(block_.methods[1], {4.0, 2.0, 2.0, 2.0}, 10.0);
   rows = summarise(suite_, block_);
   EXPECT_TRUE(hasFlag(rows[1], "do not lie on a line: up to 1.32x off"));
-  EXPECT_TRUE(hasFlag(rows[1], "at equal time 0.500x")) << "8 frames each: 1 over 2";
+  EXPECT_TRUE(hasFlag(rows[1], "at equal time 2.00x higher")) << "8 frames each: 2 over 1";
   // Not one error was measured of both.
   accumulate(block_.methods[1], {0.4, 0.2, 0.1, 0.05}, 10.0);
   rows = summarise(suite_, block_);

@@ -33,10 +33,11 @@ struct PairContext {
 #include "core/dialect/camera.glsl"
 #include "core/dialect/frame.glsl"
 #include "core/dialect/math.glsl"
+#include "core/dialect/pack.glsl"
 #include "core/dialect/rng.glsl"
 #include "core/dialect/warp.glsl"
 #include "core/dialect/visible.glsl"
-#define visibleRead(quads, slot) surfaces[slot]
+#define visibleRead(quads, camera, slot) surfaces[slot]
 #include "core/caches/pixel/pixel.glsl"
 #undef visibleRead
 };
@@ -56,7 +57,7 @@ PairContext makeContext(uint width, uint height, uint tile, bool stripes, uint u
     const bool isFar = stripes && (i % width / 5) % 2 == 1;
     const uint row = i / width;
     a.posW = vec3(float(i % width), float(row), isFar ? -40.0f : -10.0f);
-    a.nGeoW = a.nShadeW = c.visiblePackNormal(vec3(0.0f, 0.0f, 1.0f));
+    a.nGeoW = a.nShadeW = c.packNormal(vec3(0.0f, 0.0f, 1.0f));
     a.isHit = unusableEvery != 0 && i % unusableEvery == 0 ? 0u : 1u;
     c.surfaces.push_back(a);
   }

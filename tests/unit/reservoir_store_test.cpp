@@ -65,7 +65,7 @@ struct Store {
     give(buffers.history, rl::RL_PATH_RESERVOIR_QUADS);
     give(buffers.suffixes, rl::RL_PATH_SUFFIX_QUADS);
     give(buffers.suffixesHistory, rl::RL_PATH_SUFFIX_QUADS);
-    give(buffers.shifted, 1);
+    give(buffers.exchange, 1);
   }
   // Words that differ from what they were at first, outside of the slot.
   size_t touchedElsewhere() const {
@@ -87,33 +87,85 @@ struct Store {
   rl::StoreCtx<FEATURES> ctx;
 };
 
+// Numbers that lose nothing by packing: at most 12 bits of fraction, unit vectors.
+rl::PathReservoir reservoir(float first) {
+  const auto vector = [&first](float sign = 1.0f) {
+    first += 1.0f;
+    return glm::vec3(first, first + 0.25f, sign * (first + 0.5f));
+  };
+  rl::PathReservoir r{};
+  r.path.posW = vector(-1.0f);
+  r.path.posError = 0.25f + first / 1024.0f;
+  r.path.normalW = glm::normalize(vector(-1.0f));
+  r.path.kind = rl::RL_PATH_CONTINUATION;
+  r.path.radiance = vector();
+  r.path.film = 0x12345678u + uint32_t(first);
+  r.path.geometry = 0.1f * first;
+  r.path.suffix.nShadeW = glm::normalize(vector(-1.0f));
+  r.path.suffix.pdfLight = 0.7f * first;
+  r.path.suffix.wi = glm::normalize(vector());
+  r.path.suffix.emitted = vector();
+  r.path.suffix.bsdf = {vector(), rl::RL_LOBE_SPECULAR, vector(), 0.75f, vector(), 0.3f, 1.7f};
+  r.state.F = vector();
+  r.state.W = 0.3f * first;
+  r.state.residual = vector(-1.0f);
+  r.state.confidence = 1.7f + first;
+  return r;
+}
+
+constexpr float kUnit = 3e-7f;  // unit vectors come back to within rounding
+
+void expectState(const rl::ReservoirState& read, const rl::ReservoirState& written) {
+  EXPECT_TRUE(isSame(read, written));
+}
+void expectPath(const rl::PathSample& read, const rl::PathSample& written, bool isGlossy) {
+  EXPECT_EQ(read.posW, written.posW);
+  EXPECT_EQ(read.posError, written.posError);
+  EXPECT_LT(glm::distance(read.normalW, written.normalW), kUnit);
+  EXPECT_EQ(read.kind, written.kind);
+  EXPECT_EQ(read.radiance, written.radiance);
+  EXPECT_EQ(read.film, written.film);
+  EXPECT_EQ(read.geometry, written.geometry);
+  EXPECT_EQ(read.cone, written.cone);
+  const rl::PathSuffix &a = read.suffix, &b = written.suffix;
+  if (!isGlossy) {
+    EXPECT_TRUE(isSame(a, rl::PathSuffix{}));
+    return;
+  }
+  EXPECT_LT(glm::distance(a.nShadeW, b.nShadeW), kUnit);
+  EXPECT_LT(glm::distance(a.wi, b.wi), kUnit);
+  EXPECT_EQ(a.pdfLight, b.pdfLight);
+  EXPECT_EQ(a.emitted, b.emitted);
+  EXPECT_TRUE(isSame(a.bsdf, b.bsdf));
+}
+
 template <uint32_t FEATURES>
 void expectReservoirs() {
   Store<FEATURES> store;
   auto& c = store.ctx;
   const bool isGlossy = (FEATURES & rl::RL_FEATURE_GLOSSY) != 0;
-  const auto now = distinct<rl::PathReservoir>(0), before = distinct<rl::PathReservoir>(100);
+  const rl::PathReservoir now = reservoir(1.0f), before = reservoir(100.0f);
   c.giWriteNow(kSlot, now);
   c.giWriteHistory(kSlot, before);
-  const auto expect = [&](const rl::PathReservoir& read, const rl::PathReservoir& written) {
-    rl::PathReservoir kept = written;
-    if (!isGlossy) kept.path.suffix = rl::PathSuffix{};
-    EXPECT_TRUE(isSame(read, kept));
-  };
   rl::PathReservoir read{};
   c.giReadNow(kSlot, read);
-  expect(read, now);
+  expectState(read.state, now.state);
+  expectPath(read.path, now.path, isGlossy);
   c.giReadBefore(kSlot, read);
-  expect(read, before);
+  expectState(read.state, before.state);
+  expectPath(read.path, before.path, isGlossy);
   // The state alone leaves the path as it is.
   rl::PathReservoir changed = now;
-  changed.state = distinct<rl::ReservoirState>(300);
-  c.giWriteStateNow(kSlot, changed.state);
+  changed.state = reservoir(300.0f).state;
+  c.giWriteStateNow(kSlot, changed);
+  expectState(c.giReadStateNow(kSlot), changed.state);
+  expectState(c.giReadStateBefore(kSlot), before.state);
   c.giReadNow(kSlot, read);
-  expect(read, changed);
-  rl::ReservoirState state{};
-  c.giReadStateNow(kSlot, state);
-  EXPECT_TRUE(isSame(state, changed.state));
+  expectPath(read.path, now.path, isGlossy);
+  // The path alone leaves the state.
+  c.giTakePathBefore(kSlot, read);
+  expectState(read.state, changed.state);
+  expectPath(read.path, before.path, isGlossy);
   EXPECT_EQ(store.touchedElsewhere(), 0u);
 }
 
@@ -122,13 +174,27 @@ TEST(ReservoirStore, ReservoirsAreReadAsTheyWereWritten) {
   expectReservoirs<0>();
 }
 
+// The cone of a spot light lies where the geometry of other paths is.
+TEST(ReservoirStore, SpotLightsComeBack) {
+  Store<0> store;
+  rl::PathReservoir written = reservoir(1.0f), read{};
+  written.path.kind = rl::RL_PATH_DIRECT | (rl::RL_LIGHT_SPOT << rl::RL_PATH_LIGHT_SHIFT);
+  written.path.cone = {7.3f, -6.25f};
+  written.path.geometry = written.path.posError = 0.0f;
+  store.ctx.giWriteNow(kSlot, written);
+  store.ctx.giReadNow(kSlot, read);
+  expectPath(read.path, written.path, false);
+}
+
 TEST(ReservoirStore, ShiftedSamplesAreReadAsTheyWereWritten) {
   Store<rl::RL_FEATURE_ALL> store;
   store.params.spatialNeighbours = 1;
-  const auto written = distinct<rl::Shifted>(0);
+  const rl::Shifted written{{0.5f, 3.0f, 0.25f}, 0.3f};
   const uint32_t index = store.ctx.giExchangeIndex(kSlot, 0);
-  store.ctx.giWriteShifted(index, written);
-  EXPECT_TRUE(isSame(store.ctx.giReadShifted(index), written));
+  store.ctx.shiftedWrite(store.buffers.exchange, index, written, 77);
+  uint32_t partner = 0;
+  EXPECT_TRUE(isSame(store.ctx.shiftedRead(store.buffers.exchange, index, partner), written));
+  EXPECT_EQ(partner, 77u);
   EXPECT_EQ(store.touchedElsewhere(), 0u);
 }
 

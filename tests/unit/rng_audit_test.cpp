@@ -47,7 +47,7 @@ class AuditedRun {
       params_ = method.cache->packParameters(mode, resolved);
       // What pixels show at their centres, in this view and in the last, which are the same; no
       // outlines.
-      for (const size_t bytes : {16 * rl::RL_VISIBLE_QUADS, 16 * rl::RL_VISIBLE_QUADS, 4u}) {
+      for (const size_t bytes : {16u, 16u, 4u}) {
         storage_.emplace_back(bytes * kWidth * kHeight);
         addresses_.push_back(storage_.back().data());
       }

@@ -13,6 +13,7 @@ list(APPEND RL_UNIT_TESTS
   light_test.cpp
   math_test.cpp
   multiscatter_test.cpp
+  pack_test.cpp
   path_shift_test.cpp
   pixel_pairs_test.cpp
   ray_offset_test.cpp

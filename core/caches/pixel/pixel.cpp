@@ -35,6 +35,16 @@ std::vector<ParameterInfo> parameterInfos() {
   };
 }
 
+// Where the integrator says that it takes no donors over space, or none at all.
+std::string whyWithoutEffect(const std::string& name, const ParameterMap& p) {
+  const auto neighbours = p.find("spatial_neighbours"), temporal = p.find("temporal");
+  if (neighbours == p.end() || neighbours->second != ParameterValue(int64_t{0})) return "";
+  if (name == "spatial_radius") return "spatial_neighbours is 0";
+  const bool isThreshold = name == "normal_threshold" || name == "plane_threshold";
+  const bool isOff = temporal != p.end() && temporal->second == ParameterValue(false);
+  return isThreshold && isOff ? "temporal is false and spatial_neighbours is 0" : "";
+}
+
 std::vector<std::byte> pack(const std::string&, const ParameterMap& p) {
   const auto number = [&](const char* name) { return std::get<double>(p.at(name)); };
   rl::PixelCacheParams out{};
@@ -60,6 +70,7 @@ const CacheInfo& pixelCacheInfo() {
     i.buffers = {{"outlines", sizeof(uint32_t), 0, -1}};
     i.passes = {{"outlines", "pixel_outlines", false}};
     i.onlyOnNewViews = true;
+    i.whyWithoutEffect = whyWithoutEffect;
     i.packParameters = pack;
     return i;
   }();

@@ -4,9 +4,11 @@ RL_FN uint cacheSlot(RL_IN(uvec2) pixel) { return pixel.y * gFrame.width + pixel
 
 RL_FN uvec2 cachePixel(uint slot) { return uvec2(slot % gFrame.width, slot / gFrame.width); }
 
-RL_FN VisibleSurface cacheSurface(uint slot) { return visibleRead(gCache.visible, slot); }
+RL_FN VisibleSurface cacheSurface(uint slot) {
+  return visibleRead(gCache.visible, gFrame.camera, slot);
+}
 RL_FN VisibleSurface cacheSurfaceBefore(uint slot) {
-  return visibleRead(gCache.visibleBefore, slot);
+  return visibleRead(gCache.visibleBefore, gFrame.previousCamera, slot);
 }
 
 RL_FN bool cacheIsOutline(uint slot) { return gCache.outlines.data[slot] != 0u; }

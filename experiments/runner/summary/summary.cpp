@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/image/halves_noise.h"
 #include "core/image/metrics.h"
@@ -367,20 +368,22 @@ void noteConvergence(MethodSummary& row) {
                   shortNumber(std::pow(10.0, row.convergence->significantMisfit))));
 }
 
-void noteReading(const CurveReading& reading, const char* what, const char* gain,
+void noteReading(const CurveReading& reading, const char* what, const char* gain, const char* loss,
                  MethodSummary& row) {
   if (!reading.why.empty()) row.flags.push_back(fmt::format("nothing {}: {}", what, reading.why));
   if (!reading.isOffTheLines) return;
-  row.flags.push_back(fmt::format(
-      "{} {}x{} {} between the measured points, not {}x as off the lines", what,
-      shortNumber(reading.measured.value), intervalText(reading.measured.lo, reading.measured.hi),
-      gain, shortNumber(reading.ratio.value)));
+  const Interval& measured = reading.measured;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  row.flags.push_back(fmt::format("{} {} between the measured points, not {} as off the lines",
+                                  what,
+                                  timesText(measured.value, measured.lo, measured.hi, gain, loss),
+                                  timesText(reading.ratio.value, nan, nan, gain, loss)));
 }
 
 void noteSpeedUp(MethodSummary& row) {
   if (!row.speedUp || row.isYardstick) return;
-  noteReading(row.speedUp->equalTime, "at equal time", "lower", row);
-  noteReading(row.speedUp->equalError, "to equal error", "faster", row);
+  noteReading(row.speedUp->equalTime, "at equal time", "lower", "higher", row);
+  noteReading(row.speedUp->equalError, "to equal error", "faster", "slower", row);
 }
 
 void judge(MethodSummary& row) {

@@ -34,7 +34,7 @@ std::string longTime(double timeMs) {
 
 std::string ratioCell(const Interval& of, bool isYardstick) {
   if (isYardstick || std::isnan(of.value)) return "";
-  return fmt::format("{}x lower{}", shortNumber(of.value), endsOf(of));
+  return timesText(of.value, of.lo, of.hi, "lower", "higher");
 }
 
 std::string efficiencyCell(const MethodSummary& row) {
@@ -108,11 +108,11 @@ std::string fitCell(const Convergence& curve) {
                      shortNumber(std::pow(10.0, curve.misfit)));
 }
 
-std::string readingCell(const CurveReading& reading, const std::string& gain,
+std::string readingCell(const CurveReading& reading, const char* gain, const char* loss,
                         const std::string& at) {
-  if (std::isnan(reading.ratio.value)) return "";
-  return fmt::format("{}x {}{} {}", shortNumber(reading.ratio.value), gain, endsOf(reading.ratio),
-                     at);
+  const Interval& ratio = reading.ratio;
+  if (std::isnan(ratio.value)) return "";
+  return timesText(ratio.value, ratio.lo, ratio.hi, gain, loss) + " " + at;
 }
 
 // Slopes and speed-ups; "" where nothing was accumulated.
@@ -127,8 +127,9 @@ std::string accumulatedTable(const std::vector<MethodSummary>& rows) {
                         std::isnan(slope.value) ? "" : withEnds(slope), fitCell(*row.convergence));
     if (row.speedUp && !row.isYardstick) {
       const CurveReading &time = row.speedUp->equalTime, &error = row.speedUp->equalError;
-      text += fmt::format(" {} | {} |\n", readingCell(time, "lower", "at " + longTime(time.at)),
-                          readingCell(error, "faster", "to " + shortNumber(error.at)));
+      text += fmt::format(" {} | {} |\n",
+                          readingCell(time, "lower", "higher", "at " + longTime(time.at)),
+                          readingCell(error, "faster", "slower", "to " + shortNumber(error.at)));
     } else {
       text += " | |\n";
     }

@@ -1,0 +1,89 @@
+// Numbers in fewer bits, for buffers that hold something of every pixel.
+
+// Without its last bits, rounded to the nearest. Infinities and NaNs stay what they are.
+RL_FN uint packCut(float x, uint bits) {
+  return (floatBitsToUint(x) + (1u << (bits - 1u))) >> bits;
+}
+
+// Three numbers that are not negative in 21 bits each: 8 of exponent, 13 of fraction, off by at
+// most 6.1e-5 of the number.
+RL_FN uvec2 packPositive3(RL_IN(vec3) v) {
+  uint z = packCut(v.z, 10u) & 0x1fffffu;
+  return uvec2((packCut(v.x, 10u) & 0x1fffffu) | (z << 21u),
+               (packCut(v.y, 10u) & 0x1fffffu) | ((z >> 11u) << 21u));
+}
+RL_FN vec3 unpackPositive3(uint w0, uint w1) {
+  uint z = (w0 >> 21u) | ((w1 >> 21u) << 11u);
+  return vec3(uintBitsToFloat((w0 & 0x1fffffu) << 10u), uintBitsToFloat((w1 & 0x1fffffu) << 10u),
+              uintBitsToFloat(z << 10u));
+}
+
+// Three numbers in 21 bits each: sign, 8 bits of exponent, 12 of fraction, off by at most 1.2e-4.
+RL_FN uvec2 packSigned3(RL_IN(vec3) v) {
+  uint z = packCut(v.z, 11u);
+  return uvec2(packCut(v.x, 11u) | (z << 21u), packCut(v.y, 11u) | ((z >> 11u) << 21u));
+}
+RL_FN vec3 unpackSigned3(uint w0, uint w1) {
+  uint z = (w0 >> 21u) | ((w1 >> 21u) << 11u);
+  return vec3(uintBitsToFloat(w0 << 11u), uintBitsToFloat(w1 << 11u), uintBitsToFloat(z << 11u));
+}
+
+// A number of 24 bits (15 of fraction), not below `x`, which is not negative, and 8 bits of
+// something else.
+RL_FN uint packAtLeast24(float x, uint other) {
+  return ((floatBitsToUint(x) + 0xffu) & 0xffffff00u) | other;
+}
+// The nearest one.
+RL_FN uint packNearest24(float x, uint other) { return (packCut(x, 8u) << 8u) | other; }
+RL_FN float unpack24(uint packed) { return uintBitsToFloat(packed & 0xffffff00u); }
+
+// Unit vectors as two numbers of -1 to 1, on the octahedron (Cigolle et al., "A Survey of Efficient
+// Representations for Independent Unit Vectors", JCGT 2014). The zero vector becomes the z axis.
+RL_FN vec2 packOctahedron(RL_IN(vec3) n) {
+  float scale = rlSafeDivide(1.0f, abs(n.x) + abs(n.y) + abs(n.z));
+  float x = n.x * scale;
+  float y = n.y * scale;
+  if (!(n.z < 0.0f)) return vec2(x, y);
+  return vec2((1.0f - abs(y)) * (x < 0.0f ? -1.0f : 1.0f),
+              (1.0f - abs(x)) * (y < 0.0f ? -1.0f : 1.0f));
+}
+RL_FN vec3 unpackOctahedron(float x, float y) {
+  float z = 1.0f - abs(x) - abs(y);
+  if (!(z < 0.0f)) return normalize(vec3(x, y, z));
+  return normalize(vec3((1.0f - abs(y)) * (x < 0.0f ? -1.0f : 1.0f),
+                        (1.0f - abs(x)) * (y < 0.0f ? -1.0f : 1.0f), z));
+}
+
+// To within rounding.
+RL_FN uvec2 packUnit(RL_IN(vec3) n) {
+  vec2 p = packOctahedron(n);
+  return uvec2(floatBitsToUint(p.x), floatBitsToUint(p.y));
+}
+RL_FN vec3 unpackUnit(uint w0, uint w1) {
+  return unpackOctahedron(uintBitsToFloat(w0), uintBitsToFloat(w1));
+}
+
+// In two numbers of 16 bits: off by at most 1e-4.
+RL_FN uint packNormal(RL_IN(vec3) n) {
+  vec2 p = packOctahedron(n);
+  uint x = uint(clamp(p.x * 0.5f + 0.5f, 0.0f, 1.0f) * 65535.0f + 0.5f);
+  uint y = uint(clamp(p.y * 0.5f + 0.5f, 0.0f, 1.0f) * 65535.0f + 0.5f);
+  return x | (y << 16u);
+}
+RL_FN vec3 unpackNormal(uint packed) {
+  return unpackOctahedron(float(packed & 0xffffu) * (2.0f / 65535.0f) - 1.0f,
+                          float(packed >> 16u) * (2.0f / 65535.0f) - 1.0f);
+}
+
+// Three numbers of 0 to 1 in 10 bits each; the upper two bits are free.
+RL_FN uint packColor(RL_IN(vec3) c) {
+  uint r = uint(clamp(c.x, 0.0f, 1.0f) * 1023.0f + 0.5f);
+  uint g = uint(clamp(c.y, 0.0f, 1.0f) * 1023.0f + 0.5f);
+  uint b = uint(clamp(c.z, 0.0f, 1.0f) * 1023.0f + 0.5f);
+  return r | (g << 10u) | (b << 20u);
+}
+RL_FN vec3 unpackColor(uint packed) {
+  return vec3(float(packed & 0x3ffu), float((packed >> 10u) & 0x3ffu),
+              float((packed >> 20u) & 0x3ffu)) *
+         (1.0f / 1023.0f);
+}
