@@ -19,7 +19,8 @@ RL_FN_OUTLINE LightSample lightDraw(RL_IN(Rng) rng) {
   vec2 u;
   u.x = rngDraw(rng, RL_DIM_LIGHT_U);
   u.y = rngDraw(rng, RL_DIM_LIGHT_V);
-  Light light = recordLight(lightSelect(rng));
+  s.record = lightSelect(rng);
+  Light light = recordLight(s.record);
   s.kind = light.kind;
   s.point = light.p0;
   s.normal = vec3(0.0f, 0.0f, 0.0f);

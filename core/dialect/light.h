@@ -21,6 +21,7 @@ struct LightSample {
   float posError;  // metres, of a triangle's point
   vec2 cone;       // spot: scale and offset of the angular falloff
   uint isTwoSided;
+  uint record;  // its index in the light table; RL_INVALID where a ray found it
 };
 
 // A light sample as a receiver sees it.

@@ -18,6 +18,7 @@ RL_FN LightSample pathNoLight() {
   s.posError = 0.0f;
   s.cone = vec2(0.0f, 0.0f);
   s.isTwoSided = 0u;
+  s.record = RL_INVALID;
   return s;
 }
 

@@ -6,15 +6,14 @@ RL_FN bool pathIsSpot(uint kind) {
 }
 
 // Exact are position, film sample, geometry and, to rounding, the normal. A spot light has no
-// extent: its cone lies where the geometry and the error of the position are.
+// geometry: its place in the light table stands there.
 RL_FN void pathReservoirWrite(RL_IN(QuadRef) quads, uint at, RL_IN(PathReservoir) r) {
   uvec2 normal = packUnit(r.path.normalW);
-  bool isSpot = pathIsSpot(r.path.kind);
+  uint geometry = floatBitsToUint(r.path.geometry);
+  if (pathIsSpot(r.path.kind)) geometry = r.path.light;
   RL_WRITE_QUAD(quads, at, recordQuad(r.path.posW, r.path.film));
   RL_WRITE_QUAD(quads, at + 1u,
-                uvec4(normal.x, normal.y, floatBitsToUint(isSpot ? r.path.cone.x : r.path.geometry),
-                      isSpot ? packNearest24(r.path.cone.y, r.path.kind)
-                             : packAtLeast24(r.path.posError, r.path.kind)));
+                uvec4(normal.x, normal.y, geometry, packAtLeast24(r.path.posError, r.path.kind)));
   reservoirStateWrite(quads, at + RL_PATH_SAMPLE_QUADS, r.state, packPositive3(r.path.radiance));
 }
 
@@ -39,12 +38,9 @@ RL_FN void pathReservoirRead(RL_IN(QuadRef) quads, uint at, RL_INOUT(PathReservo
   r.path.radiance = unpackPositive3(radiance.x, radiance.y);
   r.path.kind = q1.w & 0xffu;
   r.path.posError = unpack24(q1.w);
-  r.path.geometry = uintBitsToFloat(q1.z);
-  r.path.cone = vec2(0.0f, 0.0f);
-  if (!pathIsSpot(r.path.kind)) return;
-  r.path.cone = vec2(r.path.geometry, r.path.posError);
-  r.path.geometry = 0.0f;
-  r.path.posError = 0.0f;
+  bool isSpot = pathIsSpot(r.path.kind);
+  r.path.light = isSpot ? q1.z : RL_INVALID;
+  r.path.geometry = isSpot ? 0.0f : uintBitsToFloat(q1.z);
 }
 
 // Only where the scene has glossy lobes.
@@ -91,7 +87,7 @@ RL_FN PathSample pathOfLight(RL_IN(LightSample) light, uint film) {
   if (light.isTwoSided != 0u) p.kind = p.kind | RL_PATH_TWO_SIDED;
   p.radiance = light.radiance;
   p.film = film;
-  p.cone = light.cone;
+  p.light = light.record;
   p.geometry = 0.0f;
   p.suffix = pathNoSuffix();
   return p;
@@ -105,8 +101,14 @@ RL_FN LightSample pathLight(RL_IN(PathSample) p) {
   light.pdf = 0.0f;
   light.radiance = p.radiance;
   light.posError = p.posError;
-  light.cone = p.cone;
+  light.cone = vec2(0.0f, 0.0f);
   light.isTwoSided = p.kind & RL_PATH_TWO_SIDED;
+  light.record = p.light;
+  if (RL_HAS(RL_FEATURE_PUNCTUAL_LIGHTS) && light.kind == RL_LIGHT_SPOT) {
+    Light spot = recordLight(p.light);
+    light.normal = spot.e1;
+    light.cone = vec2(spot.e2.x, spot.e2.y);
+  }
   return light;
 }
 

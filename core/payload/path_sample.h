@@ -32,7 +32,7 @@ struct PathSample {
   uint kind;       // RL_PATH_*, and of a light RL_LIGHT_* << 2 and RL_PATH_TWO_SIDED; 8 bits
   vec3 radiance;  // x2: sent towards x1, or what it reflects (suffix); light: LightSample::radiance
   uint film;      // the film sample: cameraFilmBits()
-  vec2 cone;      // x, y: of a spot light, LightSample::cone
+  uint light;     // of a spot light, LightSample::record, which has axis and cone
   float geometry;  // x2: |cos| / d^2 towards x1 of the pixel that holds it; light: 0
   PathSuffix suffix;
 };

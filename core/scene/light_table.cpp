@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -134,10 +133,7 @@ rl::Light punctual(const PunctualLight& source, const glm::dvec3& origin) {
     // KHR_lights_punctual: falloff = clamp(cos * scale + offset)^2.
     const float cosOuter = std::cos(source.outerConeAngle);
     const float scale = 1.0f / std::max(0.001f, std::cos(source.innerConeAngle) - cosOuter);
-    // Reservoirs have room for 24 bits of the offset (core/payload/path_sample.glsl): everyone sees
-    // the cone that they see.
-    const uint32_t offset = (std::bit_cast<uint32_t>(-cosOuter * scale) + 0x80u) & ~0xffu;
-    light.e2 = glm::vec3(scale, std::bit_cast<float>(offset), 0.0f);
+    light.e2 = glm::vec3(scale, -cosOuter * scale, 0.0f);
   }
   return light;
 }

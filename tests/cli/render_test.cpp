@@ -77,7 +77,7 @@ TEST_F(RenderTest, ParametersWithoutEffectAreSaid) {
   expect("--set temporal=false --set spatial_neighbours=0 --set max_jacobian=5",
          "max_jacobian has no effect: temporal is false and spatial_neighbours is 0");
   expect("--set temporal=false --set spatial_neighbours=0", "");
-  expect("--set confidence_cap=5 --set aged_neighbours=2", "");
+  expect("--set confidence_cap=15 --set aged_neighbours=2", "");
 }
 
 TEST_F(RenderTest, FirstHitLayersHoldTheSceneThatIsSeen) {

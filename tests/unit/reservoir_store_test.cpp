@@ -37,17 +37,6 @@ namespace {
 
 constexpr uint32_t kSlots = 4, kSlot = 2;
 
-// Every word is another one.
-template <class T>
-T distinct(uint32_t first) {
-  std::array<uint32_t, sizeof(T) / 4> words;
-  for (size_t i = 0; i < words.size(); ++i)
-    words[i] = std::bit_cast<uint32_t>(1.0f + float(first + i) / 4096.0f);
-  T value;
-  std::memcpy(&value, words.data(), sizeof value);
-  return value;
-}
-
 template <class T>
 bool isSame(const T& a, const T& b) {
   return std::memcmp(&a, &b, sizeof a) == 0;
@@ -101,6 +90,7 @@ rl::PathReservoir reservoir(float first) {
   r.path.radiance = vector();
   r.path.film = 0x12345678u + uint32_t(first);
   r.path.geometry = 0.1f * first;
+  r.path.light = rl::RL_INVALID;
   r.path.suffix.nShadeW = glm::normalize(vector(-1.0f));
   r.path.suffix.pdfLight = 0.7f * first;
   r.path.suffix.wi = glm::normalize(vector());
@@ -126,7 +116,7 @@ void expectPath(const rl::PathSample& read, const rl::PathSample& written, bool 
   EXPECT_EQ(read.radiance, written.radiance);
   EXPECT_EQ(read.film, written.film);
   EXPECT_EQ(read.geometry, written.geometry);
-  EXPECT_EQ(read.cone, written.cone);
+  EXPECT_EQ(read.light, written.light);
   const rl::PathSuffix &a = read.suffix, &b = written.suffix;
   if (!isGlossy) {
     EXPECT_TRUE(isSame(a, rl::PathSuffix{}));
@@ -174,12 +164,12 @@ TEST(ReservoirStore, ReservoirsAreReadAsTheyWereWritten) {
   expectReservoirs<0>();
 }
 
-// The cone of a spot light lies where the geometry of other paths is.
+// The place of a spot light in the table lies where the geometry of other paths is.
 TEST(ReservoirStore, SpotLightsComeBack) {
   Store<0> store;
   rl::PathReservoir written = reservoir(1.0f), read{};
   written.path.kind = rl::RL_PATH_DIRECT | (rl::RL_LIGHT_SPOT << rl::RL_PATH_LIGHT_SHIFT);
-  written.path.cone = {7.3f, -6.25f};
+  written.path.light = 4711;
   written.path.geometry = written.path.posError = 0.0f;
   store.ctx.giWriteNow(kSlot, written);
   store.ctx.giReadNow(kSlot, read);
@@ -201,12 +191,18 @@ TEST(ReservoirStore, ShiftedSamplesAreReadAsTheyWereWritten) {
 // A light in a reservoir is the light again.
 TEST(ReservoirStore, LightsComeBack) {
   Store<rl::RL_FEATURE_ALL> store;
-  auto light = distinct<rl::LightSample>(0);
+  std::vector<rl::Light> table(3);
+  table[2].e1 = {0.6f, 0.0f, 0.8f};
+  table[2].e2 = {7.3f, -6.2f, 0.0f};
+  store.scene.lights.data = table.data();
+  rl::LightSample light{};
   light.kind = rl::RL_LIGHT_SPOT;
-  light.isTwoSided = 0;
-  const rl::LightSample back = store.ctx.pathLight(store.ctx.pathOfLight(light, 7));
-  light.pdf = 0.0f;  // is not kept
-  EXPECT_TRUE(isSame(back, light));
+  light.point = {1.0f, 2.0f, 3.0f};
+  light.normal = table[2].e1;
+  light.radiance = {4.0f, 5.0f, 6.0f};
+  light.cone = {7.3f, -6.2f};
+  light.record = 2;
+  EXPECT_TRUE(isSame(store.ctx.pathLight(store.ctx.pathOfLight(light, 7)), light));
 }
 
 }  // namespace

@@ -126,29 +126,30 @@ JobIdentity jobIdentity(const Suite& suite, const PreparedScene& prepared, const
   for (uint32_t frame = 0; block.motion && frame < suite.warmupFrames + suite.timedFrames; ++frame)
     cameras.push_back(cameraWords(cameraAt(*block.motion, frame)));
   JobIdentity identity;
-  identity.words = {{"schema", kJobSchema},
-                    {"results_schema", kResultsSchema},
-                    {"point", suite.point},
-                    {"seed", suite.seed + run},
-                    {"run", run},
-                    {"warmup_frames", suite.warmupFrames},
-                    {"timed_frames", suite.timedFrames},
-                    {"ages", suite.ages},
-                    {"accumulate", suite.accumulate ? Json("after the averages of methods") : Json(false)},
-                    {"temporal", suite.temporal ? Json("with squares") : Json(false)},
-                    {"timing", suite.timing},
-                    {"figures", figuresWords(suite)},
-                    {"threads", suite.threads},
-                    {"camera_path", suite.cameraPathName},
-                    {"cameras", hashOfText(cameras.dump())},
-                    {"reference", referenceHash},
-                    {"measuring", build.measuringHash},
-                    {"compiler", build.compiler},
-                    {"flags", build.compilerFlags},
-                    {"build_type", build.buildType},
-                    {"cpu", cpuModel()},
-                    {"devices", std::move(uses)},
-                    {"methods", std::move(methods)}};
+  identity.words = {
+      {"schema", kJobSchema},
+      {"results_schema", kResultsSchema},
+      {"point", suite.point},
+      {"seed", suite.seed + run},
+      {"run", run},
+      {"warmup_frames", suite.warmupFrames},
+      {"timed_frames", suite.timedFrames},
+      {"ages", suite.ages},
+      {"accumulate", suite.accumulate ? Json("after the averages of methods") : Json(false)},
+      {"temporal", suite.temporal ? Json("with squares") : Json(false)},
+      {"timing", suite.timing},
+      {"figures", figuresWords(suite)},
+      {"threads", suite.threads},
+      {"camera_path", suite.cameraPathName},
+      {"cameras", hashOfText(cameras.dump())},
+      {"reference", referenceHash},
+      {"measuring", build.measuringHash},
+      {"compiler", build.compiler},
+      {"flags", build.compilerFlags},
+      {"build_type", build.buildType},
+      {"cpu", cpuModel()},
+      {"devices", std::move(uses)},
+      {"methods", std::move(methods)}};
   return identity;
 }
 
