@@ -4,17 +4,28 @@
 #include <ostream>
 #include <stdexcept>
 
+#include "core/cache.h"
+
 namespace restlab::conformance {
 
 std::string Variant::name() const {
-  return integrator + "_" + mode + (denoiser == "none" ? "" : "_" + denoiser);
+  const bool isUsual = cache.empty() || cache == cacheRegistry().front()->name;
+  return integrator + "_" + mode + (isUsual ? "" : "_" + cache) +
+         (denoiser == "none" ? "" : "_" + denoiser);
 }
 
 std::vector<Variant> allVariants() {
   std::vector<Variant> all;
   for (const IntegratorInfo* info : integratorRegistry()) {
-    for (const ModeInfo& mode : info->modes)
-      all.push_back({info->name, mode.name, mode.bias, "none"});
+    std::vector<std::string> caches = {""};
+    if (info->usesCache) {
+      caches.clear();
+      for (const CacheInfo* cache : cacheRegistry()) caches.push_back(cache->name);
+    }
+    for (const std::string& cache : caches) {
+      for (const ModeInfo& mode : info->modes)
+        all.push_back({info->name, mode.name, mode.bias, "none", cache});
+    }
   }
   for (const DenoiserInfo* info : denoiserRegistry()) {
     if (info->name == "none") continue;
@@ -37,6 +48,7 @@ SessionConfig configOf(const Variant& variant, uint32_t width, uint32_t height) 
   config.integrator = variant.integrator;
   config.mode = variant.mode;
   config.denoiser = variant.denoiser;
+  config.cache = variant.cache;
   config.width = width;
   config.height = height;
   config.threads = 1;

@@ -11,14 +11,16 @@
 
 namespace restlab::conformance {
 
-// One integrator in one of its modes, or `path` with a denoiser.
+// One integrator in one of its modes with one of the caches, or `path` with a denoiser.
 struct Variant {
   std::string integrator;
   std::string mode;
   BiasClass bias = BiasClass::unbiased;  // in a still view
   std::string denoiser = "none";
+  std::string cache;  // "" without reservoirs
 
-  std::string name() const;  // "restir_gi_unbiased", fit for a test's name
+  // "restir_gi_unbiased", fit for a test's name; with the cache where it is not the first one.
+  std::string name() const;
 };
 
 // All of them, in the registry's order.
