@@ -30,7 +30,7 @@ std::vector<Variant> allVariants() {
   for (const DenoiserInfo* info : denoiserRegistry()) {
     if (info->name == "none") continue;
     all.push_back(
-        {"path", findIntegrator("path").modes.front().name, info->biasOfStillView, info->name});
+        {"path", findIntegrator("path").modes.front().name, info->biasOfStillView, info->name, ""});
   }
   return all;
 }
