@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstring>
@@ -55,22 +56,31 @@ std::string readFile(const fs::path& file) {
 
 constexpr std::chrono::seconds kPatience{60};
 
+// Whether the program has got as far as to handle `signal`.
+bool handles(pid_t program, int signal) {
+  std::ifstream status(fmt::format("/proc/{}/status", program));
+  for (std::string line; std::getline(status, line);) {
+    if (line.rfind("SigCgt:", 0) != 0) continue;
+    return (std::stoull(line.substr(7), nullptr, 16) >> (signal - 1) & 1) != 0;
+  }
+  return false;
+}
+
 // Sends the signal that was asked for, unless the program ends before. Returns its status.
 int waitFor(pid_t child, const Circumstances& circumstances, rusage& usage) {
   const auto now = [] { return std::chrono::steady_clock::now(); };
   const auto start = now();
-  const std::chrono::duration<double> delay(circumstances.signalAfterS);
   int status = 0;
-  while (circumstances.signalAfterS > 0.0 || circumstances.signalWhen) {
+  while (circumstances.signalWhen) {
     if (wait4(child, &status, WNOHANG, &usage) != 0) return status;
-    const bool holds = circumstances.signalWhen && circumstances.signalWhen();
+    const bool isHeard = circumstances.signal == SIGKILL || handles(child, circumstances.signal);
+    if (isHeard && circumstances.signalWhen()) {
+      kill(child, circumstances.signal);
+      break;
+    }
     if (now() - start > kPatience) {
       ADD_FAILURE() << "the program runs, and what it was to be signalled at does not come";
       kill(child, SIGKILL);
-      break;
-    }
-    if (holds || (circumstances.signalAfterS > 0.0 && now() - start >= delay)) {
-      kill(child, circumstances.signal);
       break;
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
@@ -110,13 +120,6 @@ void ProgramTest::TearDown() {
 }
 
 ProgramResult ProgramTest::run(const std::vector<std::string>& arguments,
-                               double signalAfterS) const {
-  Circumstances circumstances;
-  circumstances.signalAfterS = signalAfterS;
-  return run(arguments, circumstances);
-}
-
-ProgramResult ProgramTest::run(const std::vector<std::string>& arguments,
                                const Circumstances& circumstances) const {
   static std::atomic<int> count{0};
   const fs::path out = folder_ / fmt::format(".stdout{}", ++count);
@@ -149,7 +152,12 @@ ProgramResult ProgramTest::start(const std::vector<std::string>& arguments, cons
   return result;
 }
 
-ProgramResult ProgramTest::run(const std::string& arguments) const { return run(words(arguments)); }
+ProgramResult ProgramTest::runUntil(const std::function<bool()>& when,
+                                    const std::string& arguments) const {
+  Circumstances interrupted;
+  interrupted.signalWhen = when;
+  return run(arguments, interrupted);
+}
 
 ProgramResult ProgramTest::runInto(const std::string& file, const std::string& arguments) const {
   return start(words(arguments), file, {});
@@ -161,6 +169,24 @@ void ProgramTest::write(const std::string& name, const std::string& text) const 
 }
 
 std::string ProgramTest::read(const std::string& name) const { return readFile(folder_ / name); }
+
+bool ProgramTest::isSaid(const std::string& words) const {
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    const std::string name = entry.path().filename().string();
+    if (name.rfind(".stderr", 0) == 0 && read(name).find(words) != std::string::npos) return true;
+  }
+  return false;
+}
+
+std::vector<fs::path> ProgramTest::entries(const std::string& name) const {
+  std::vector<fs::path> found;
+  std::error_code absent;
+  for (const auto& entry : fs::directory_iterator(path(name), absent)) {
+    if (entry.path().filename().string().front() != '.') found.push_back(entry.path());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
 
 void expectError(const ProgramResult& result, int code, const std::vector<std::string>& fragments) {
   EXPECT_EQ(result.code, code) << result.err;

@@ -24,10 +24,10 @@ struct ProgramResult {
 // What happens to the program while it runs.
 struct Circumstances {
   int signal = SIGINT;
-  double signalAfterS = 0.0;         // > 0: the signal comes after so many seconds
-  std::function<bool()> signalWhen;  // or as soon as this holds
-  uint64_t maxFileBytes = 0;         // > 0: no file may grow beyond (RLIMIT_FSIZE)
-  double maxCpuS = 0.0;              // > 0: more time ends the program by a signal (RLIMIT_CPU)
+  // As soon as this holds and the program handles the signal. None: no signal.
+  std::function<bool()> signalWhen;
+  uint64_t maxFileBytes = 0;  // > 0: no file may grow beyond (RLIMIT_FSIZE)
+  double maxCpuS = 0.0;       // > 0: more time ends the program by a signal (RLIMIT_CPU)
 };
 
 // A temporary folder that is the working directory, the cache and the place of outputs.
@@ -36,20 +36,24 @@ class ProgramTest : public ::testing::Test {
   void SetUp() override;
   void TearDown() override;
 
-  // Runs `restlab arguments...`; `signalAfterS` > 0 sends SIGINT after so many seconds. Several may
-  // run at once.
-  ProgramResult run(const std::vector<std::string>& arguments, double signalAfterS = 0.0) const;
+  // Runs `restlab arguments...`. Several may run at once.
   ProgramResult run(const std::vector<std::string>& arguments,
-                    const Circumstances& circumstances) const;
+                    const Circumstances& circumstances = {}) const;
   // The same with one string, split at blanks.
-  ProgramResult run(const std::string& arguments) const;
-  ProgramResult run(const std::string& arguments, const Circumstances& circumstances) const;
+  ProgramResult run(const std::string& arguments, const Circumstances& circumstances = {}) const;
+  // The same until `when` holds, which SIGINT follows.
+  ProgramResult runUntil(const std::function<bool()>& when, const std::string& arguments) const;
   // The same with stdout going to `file`, which is not read back.
   ProgramResult runInto(const std::string& file, const std::string& arguments) const;
 
   std::filesystem::path path(const std::string& name) const { return folder_ / name; }
   void write(const std::string& name, const std::string& text) const;
   std::string read(const std::string& name) const;
+  // On stderr by now, by any program of this test.
+  bool isSaid(const std::string& words) const;
+  // Files and folders in the folder `name`, hidden ones left out; none where there is no such
+  // folder.
+  std::vector<std::filesystem::path> entries(const std::string& name) const;
 
   std::filesystem::path folder_;
 

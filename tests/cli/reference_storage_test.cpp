@@ -99,10 +99,8 @@ TEST_F(ReferenceStorage, CacheThatCannotBeWrittenIsAWarning) {
   EXPECT_TRUE(has(result.err, "warning: the progress of the reference is not kept: "))
       << result.err;
   expectInOneGo("other.exr", std::string("--spp 8") + kScene);
-  Circumstances interrupted;
-  interrupted.signalAfterS = 1.0;
   const ProgramResult lost =
-      run(std::string("reference -o more.exr --spp 100000000") + kScene, interrupted);
+      runUntil([] { return true; }, std::string("reference -o more.exr --spp 100000000") + kScene);
   EXPECT_EQ(lost.code, 130);
   EXPECT_TRUE(has(lost.err, "its samples are not kept")) << lost.err;
   EXPECT_FALSE(fs::exists(path("more.exr")));

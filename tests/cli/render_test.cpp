@@ -224,8 +224,8 @@ TEST_F(RenderTest, EnvironmentIsRotatedAndScaled) {
 }
 
 TEST_F(RenderTest, InterruptedRenderWritesNothing) {
-  const ProgramResult result = run(
-      {"render", "door-ajar", "-o", "long.exr", "--resolution", "320x180", "--spp", "100000"}, 1.5);
+  const ProgramResult result = runUntil(
+      [] { return true; }, "render door-ajar -o long.exr --resolution 320x180 --spp 100000");
   EXPECT_EQ(result.code, 130) << result.err;
   EXPECT_EQ(result.errors().size(), 1u);
   EXPECT_FALSE(std::filesystem::exists(path("long.exr")));

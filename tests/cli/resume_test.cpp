@@ -3,6 +3,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -25,13 +27,7 @@ class ResumeTest : public ProgramTest {
     ProgramTest::SetUp();
     write("suite.toml", kSmallSuite);
   }
-  std::vector<fs::path> jobs() const {
-    std::vector<fs::path> found;
-    for (const auto& entry : fs::directory_iterator(path("out/jobs")))
-      found.push_back(entry.path());
-    std::sort(found.begin(), found.end());
-    return found;
-  }
+  std::vector<fs::path> jobs() const { return entries("out/jobs"); }
   size_t lines() const {
     const std::string text = read("out/results.jsonl");
     return size_t(std::count(text.begin(), text.end(), '\n'));
@@ -105,18 +101,15 @@ TEST_F(ResumeTest, WhatChangesTheNumbersMakesTheRunAnew) {
 TEST_F(ResumeTest, InterruptedAndKilledRunsGoOn) {
   ASSERT_EQ(run("run suite.toml --out whole").code, 0);
   const std::string whole = read("whole/summary.csv");
-  // Slow enough that a signal comes between the runs.
-  const std::vector<std::string> slow = {"run", "suite.toml", "--out", "out", "--set", "runs=2000"};
-  EXPECT_EQ(run(slow, 2.5).code, 130);
+  // So many that the signal comes before the last.
+  const std::string many = "run suite.toml --out out --set runs=100000";
+  EXPECT_EQ(runUntil([&] { return jobs().size() >= 4; }, many).code, 130);
+  const size_t interrupted = jobs().size();
   Circumstances killed;
   killed.signal = SIGKILL;
-  killed.signalAfterS = 2.5;
-  const size_t interrupted = jobs().size();
-  EXPECT_GE(interrupted, 1u);
-  EXPECT_EQ(run(slow, killed).code, 128 + SIGKILL);
-  EXPECT_GT(jobs().size(), interrupted) << "it went on";
+  killed.signalWhen = [&] { return jobs().size() >= interrupted + 4; };
+  EXPECT_EQ(run(many, killed).code, 128 + SIGKILL);
   for (const fs::path& job : jobs()) {
-    if (job.filename().string().front() == '.') continue;
     EXPECT_TRUE(fs::exists(job / "job.json")) << "whole or not at all";
   }
   const ProgramResult rest = run("run suite.toml --out out");
@@ -171,14 +164,22 @@ TEST_F(ResumeTest, ATornLineIsCutOffAndWrittenAgain) {
 
 TEST_F(ResumeTest, TwoProgramsInOneFolder) {
   ASSERT_EQ(run("run suite.toml --out out").code, 0);
+  const size_t before = jobs().size();
+  std::atomic<bool> isEnough{false};
   std::thread first([&] {
-    run({"run", "suite.toml", "--out", "out", "--set", "runs=100000"}, 4.0);
+    const std::string many = "run suite.toml --out out --set runs=100000";
+    EXPECT_EQ(runUntil([&] { return isEnough.load(); }, many).code, 130);
   });
-  std::this_thread::sleep_for(std::chrono::milliseconds(2000));
+  const auto started = std::chrono::steady_clock::now();
+  while (jobs().size() == before &&
+         std::chrono::steady_clock::now() - started < std::chrono::seconds(60)) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
   expectError(run("run suite.toml --out out -q"), 3, {"another restlab", "process"});
   expectError(run("report out -q"), 3, {"another restlab"});
   expectError(run("clean out -q"), 3, {"another restlab"});
   EXPECT_EQ(run("status out").code, 0) << "looking is free";
+  isEnough = true;
   first.join();
   EXPECT_EQ(run("run suite.toml --out out").code, 0) << "a program that ended holds no lock";
 }

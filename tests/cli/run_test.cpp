@@ -247,7 +247,8 @@ TEST_F(RunTest, EarlierResultsDoNotPassForNewOnes) {
   fs::remove_all(path("out/references"));
   // Interrupted in its reference, before it has a row.
   const ProgramResult result =
-      run({"run", "suite.toml", "--out", "out", "--set", "reference.spp=100000000"}, 1.5);
+      runUntil([&] { return isSaid("\"total\":100000000"); },
+               "run suite.toml --out out --json --set reference.spp=100000000");
   EXPECT_EQ(result.code, 130) << result.err;
   EXPECT_FALSE(fs::exists(path("out/summary.csv")));
   EXPECT_EQ(read("out/table.md").find("| gi |"), std::string::npos);
@@ -303,8 +304,8 @@ TEST_F(RunTest, OptionalSceneIsSkippedVisibly) {
 }
 
 TEST_F(RunTest, InterruptKeepsFinishedRuns) {
-  const ProgramResult result =
-      run({"run", "suite.toml", "--out", "out", "--set", "runs=100000"}, 3.0);
+  const ProgramResult result = runUntil([&] { return entries("out/jobs").size() >= 2; },
+                                        "run suite.toml --out out --set runs=100000");
   EXPECT_EQ(result.code, 130) << result.err;
   EXPECT_EQ(result.errors().size(), 1u) << result.err;
   const auto rows = parseCsv(read("out/summary.csv"));

@@ -51,14 +51,6 @@ class SideBySideTest : public ProgramTest {
     }
     return all;
   }
-  // On stderr by now, by any program of this test.
-  bool isSaid(const std::string& words) const {
-    for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
-      const std::string name = entry.path().filename().string();
-      if (name.rfind(".stderr", 0) == 0 && read(name).find(words) != std::string::npos) return true;
-    }
-    return false;
-  }
   std::vector<std::string> jobs(const std::string& folder) const {
     return Json::parse(read(folder + "/run.json"))["plan"][0]["jobs"];
   }
@@ -95,13 +87,7 @@ TEST_F(SideBySideTest, GiveTheSameNumbers) {
 
 TEST_F(SideBySideTest, TakeWhatIsThereAndGoOnAfterAnInterruption) {
   const std::string more = "run suite.toml -o out -j 2 --set runs=2000";
-  Circumstances circumstances;
-  circumstances.signalWhen = [&] {
-    std::error_code status;
-    return fs::exists(path("out/jobs"), status) &&
-           std::distance(fs::directory_iterator(path("out/jobs")), fs::directory_iterator()) > 6;
-  };
-  const ProgramResult cut = run(more, circumstances);
+  const ProgramResult cut = runUntil([&] { return entries("out/jobs").size() > 6; }, more);
   EXPECT_EQ(cut.code, 130) << cut.err;
   const ProgramResult rest = run("run suite.toml -o out -j 2");
   ASSERT_EQ(rest.code, 0) << rest.err;
@@ -161,10 +147,8 @@ TEST_F(SideBySideTest, EventsAreOneObjectALine) {
   EXPECT_EQ(said[0]["event"], "error");
   EXPECT_NE(said[0]["text"].get<std::string>().find("absent.toml"), std::string::npos);
 
-  Circumstances circumstances;
-  circumstances.signalWhen = [&] { return isSaid("\"total\":1000000000"); };
-  const ProgramResult cut =
-      run("run suite.toml -o cut --json --set reference.spp=1000000000", circumstances);
+  const ProgramResult cut = runUntil([&] { return isSaid("\"total\":1000000000"); },
+                                     "run suite.toml -o cut --json --set reference.spp=1000000000");
   EXPECT_EQ(cut.code, 130);
   bool isProgress = false;
   for (const Json& event : events(cut.err)) {
@@ -178,12 +162,10 @@ TEST_F(SideBySideTest, EventsAreOneObjectALine) {
 
 // Not when all of the table are made.
 TEST_F(SideBySideTest, EventsOfRunsComeWhenTheyEnd) {
-  Circumstances circumstances;
-  circumstances.signalWhen = [&] { return isSaid("\"suite_total\""); };
   const ProgramResult cut =
-      run("run suite.toml -o out --json -j 2 --set runs=2000 --set width=96 "
-          "--set height=64 --sweep max_bounces=2,3",
-          circumstances);
+      runUntil([&] { return isSaid("\"suite_total\""); },
+               "run suite.toml -o out --json -j 2 --set runs=2000 --set width=96 "
+               "--set height=64 --sweep max_bounces=2,3");
   EXPECT_EQ(cut.code, 130);
   size_t ended = 0;
   bool isProgress = false;
