@@ -61,6 +61,7 @@ struct Session::Impl {
   StartupReport startup;
   rl::Camera nextCamera{};
   bool isFirstFrame = true;  // of its history
+  bool hasNewParameters = false;
   size_t hostBytesPerPixel = 0;
   std::vector<BufferId> aovBuffers;
   bool isAovTraced = false;  // of the last frame
@@ -163,10 +164,11 @@ Session::~Session() = default;
 void Session::Impl::submitFrame() {
   frame.previousCamera = isFirstFrame ? nextCamera : frame.camera;
   frame.camera = nextCamera;
-  const bool isStill =
-      !isFirstFrame && std::memcmp(&frame.camera, &frame.previousCamera, sizeof(rl::Camera)) == 0;
+  const bool isStill = !isFirstFrame && !hasNewParameters &&
+                       std::memcmp(&frame.camera, &frame.previousCamera, sizeof(rl::Camera)) == 0;
   frame.stillFrames = isStill ? frame.stillFrames + 1 : 0;
   isFirstFrame = false;
+  hasNewParameters = false;
   backend->submit(pipeline->beginFrame(!isStill), frame);
   lastFrame = frame;
   isRadianceRead = false;
@@ -225,6 +227,7 @@ bool Session::setParameters(const ParameterMap& parameters) {
   if (m.pipeline->setParameters(changed.mode, changed.parameters)) {
     m.config = changed;
     m.useParameters();
+    m.hasNewParameters = true;
     return false;
   }
   const rl::Camera camera = m.nextCamera;

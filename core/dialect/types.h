@@ -259,10 +259,10 @@ struct FrameData {
   uint pixelFilter;
   uint maxBounces;  // scattering events
   uint components;
-  uint rouletteStart;  // first scattering event that may end a path by Russian roulette;
-                       // RL_INVALID: off
-  uint multiscatter;   // 1: GGX lobes are compensated, and the scene has ggxAlbedo; 0: off
-  uint stillFrames;  // frames just before this one with its camera; 0: it moved, or there were none
+  uint rouletteStart;    // first scattering event that may end a path by Russian roulette;
+                         // RL_INVALID: off
+  uint multiscatter;     // 1: GGX lobes are compensated, and the scene has ggxAlbedo; 0: off
+  uint stillFrames;      // frames just before this one with its camera and parameters
   float radianceFrames;  // that the integrator's radiance of an old history is the average of
 };
 RL_STATIC_ASSERT_SIZE(FrameData, 172);

@@ -9,7 +9,8 @@ RL_FN VisibleSurface visibleRead(RL_IN(QuadRef) quads, RL_IN(Camera) camera, uin
       vec2(float(pixelIndex % gFrame.width) + 0.5f, float(pixelIndex / gFrame.width) + 0.5f);
   Ray ray = cameraRay(camera, centre, resolution);
   VisibleSurface v;
-  v.isHit = q.w >> 30u;
+  v.isHit = (q.w >> 30u) & 1u;
+  v.emits = q.w >> 31u;
   v.posW = v.isHit != 0u ? ray.origin + ray.dir * uintBitsToFloat(q.x) : ray.dir;
   v.nGeoW = q.y;
   v.nShadeW = q.z;
@@ -22,7 +23,7 @@ RL_FN void visibleWrite(RL_IN(QuadRef) quads, uint pixelIndex, RL_IN(VisibleSurf
                         float distanceToCamera) {
   RL_WRITE_QUAD(quads, pixelIndex,
                 uvec4(floatBitsToUint(distanceToCamera), v.nGeoW, v.nShadeW,
-                      packColor(v.reflectance) | (v.isHit << 30u)));
+                      packColor(v.reflectance) | (v.isHit << 30u) | (v.emits << 31u)));
 }
 
 // Are two of them alike enough to share a history? Symmetric. distanceToCamera: in metres. Most

@@ -12,13 +12,14 @@ RL_NAMESPACE_BEGIN
 struct VisibleSurface {
   vec3 posW;   // where nothing is hit: the direction of the view, unit
   uint isHit;  // 0: the background
+  uint emits;  // 1: a surface that shines at the camera
   uint nGeoW;  // packNormal(); unit, on the side of the camera
   uint nShadeW;
   vec3 reflectance;  // bsdfReflectance(), 0 to 1
 };
 
 // In a buffer it is one quad: the distance along the ray through the pixel's centre, two normals,
-// the reflectance.
+// the reflectance, emits, isHit.
 
 RL_NAMESPACE_END
 

@@ -10,12 +10,14 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   traceRay(ray, RL_RAY_PATH, pixelIndex, hit);
   VisibleSurface v;
   v.isHit = 0u;
+  v.emits = 0u;
   v.nGeoW = packNormal(-ray.dir);
   v.nShadeW = v.nGeoW;
   v.reflectance = vec3(0.0f, 0.0f, 0.0f);
   if (hit.instance != RL_INVALID) {
     Surface s = surfaceLoad(hit, ray.dir);
     v.isHit = 1u;
+    v.emits = rlIsBlack(s.emission) ? 0u : 1u;
     v.nGeoW = packNormal(s.nGeoW);
     v.nShadeW = packNormal(s.nShadeW);
     v.reflectance = bsdfReflectance(s.bsdf);

@@ -3,6 +3,7 @@
 //
 // - Direct light at x1: its light samples, and the light that its BSDF sample met.
 // - Indirect light: x2 and what it sends to x1, by a light sample at x2 and by the path's suffix.
+// - Light in view: what the camera sees directly.
 // - Own light, which no other pixel could use. All light, where x1 cannot be reused (mirror, glass,
 //   roughness below the limit); what a delta lobe at x2 leads to. Which part of the integrand that
 //   is depends on x2 alone, so that the split is the same for every pixel.
@@ -35,6 +36,7 @@ RL_FN PathGather pathNothingGathered(uint film) {
   vec3 zero = vec3(0.0f, 0.0f, 0.0f);
   PathGather p;
   p.ownLight = zero;
+  p.inView = zero;
   p.film = film;
   p.isReusable = 0u;
   p.x1PosW = zero;
@@ -108,6 +110,8 @@ RL_FN void walkEscapes(RL_INOUT(PathGather) p, RL_IN(Walk) walk, RL_IN(vec3) rad
   } else if (pathIsAtX3(p, walk)) {
     p.emittedAtX3 = radiance;
     p.pdfLightAtX3 = pdfLight;
+  } else if (walk.bounces == 0u) {
+    p.inView = radiance;
   } else {
     pathAddLight(p, walk,
                  radiance * (pdfLight > 0.0f ? lightMisWeight(walk.pdfBsdf, pdfLight) : 1.0f));
@@ -141,6 +145,8 @@ RL_FN void walkEmits(RL_INOUT(PathGather) p, RL_IN(Walk) walk, RL_IN(Surface) s,
   } else if (pathIsAtX3(p, walk)) {
     p.emittedAtX3 = s.emission * p.absorbed;
     p.pdfLightAtX3 = pdfLight;
+  } else if (walk.bounces == 0u) {
+    p.inView = s.emission;
   } else {
     pathAddLight(p, walk,
                  s.emission * (pdfLight > 0.0f ? lightMisWeight(walk.pdfBsdf, pdfLight) : 1.0f));

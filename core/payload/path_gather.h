@@ -13,6 +13,7 @@ RL_NAMESPACE_BEGIN
 // What is kept of a pixel's path (core/payload/path_gather.glsl).
 struct PathGather {
   vec3 ownLight;  // that no other pixel could use: no reservoir has it
+  vec3 inView;    // emission and environment that the camera sees directly
   uint film;
   uint isReusable;  // x1: can other pixels use what it receives?
   vec3 x1PosW;

@@ -5,6 +5,11 @@ RL_FN bool pathIsSpot(uint kind) {
          ((kind >> RL_PATH_LIGHT_SHIFT) & RL_PATH_LIGHT_MASK) == RL_LIGHT_SPOT;
 }
 
+// Of the path only its radiance, which the state has room for.
+RL_FN void pathStateWrite(RL_IN(QuadRef) quads, uint at, RL_IN(PathReservoir) r) {
+  reservoirStateWrite(quads, at + RL_PATH_SAMPLE_QUADS, r.state, packPositive3(r.path.radiance));
+}
+
 // Exact are position, film sample, geometry and, to rounding, the normal. A spot light has no
 // geometry: its place in the light table stands there.
 RL_FN void pathReservoirWrite(RL_IN(QuadRef) quads, uint at, RL_IN(PathReservoir) r) {
@@ -14,13 +19,9 @@ RL_FN void pathReservoirWrite(RL_IN(QuadRef) quads, uint at, RL_IN(PathReservoir
   RL_WRITE_QUAD(quads, at, recordQuad(r.path.posW, r.path.film));
   RL_WRITE_QUAD(quads, at + 1u,
                 uvec4(normal.x, normal.y, geometry, packAtLeast24(r.path.posError, r.path.kind)));
-  reservoirStateWrite(quads, at + RL_PATH_SAMPLE_QUADS, r.state, packPositive3(r.path.radiance));
+  pathStateWrite(quads, at, r);
 }
 
-// Of the path only its radiance, which the state has room for.
-RL_FN void pathStateWrite(RL_IN(QuadRef) quads, uint at, RL_IN(PathReservoir) r) {
-  reservoirStateWrite(quads, at + RL_PATH_SAMPLE_QUADS, r.state, packPositive3(r.path.radiance));
-}
 RL_FN ReservoirState pathStateRead(RL_IN(QuadRef) quads, uint at) {
   uvec2 radiance;
   return reservoirStateRead(quads, at + RL_PATH_SAMPLE_QUADS, radiance);

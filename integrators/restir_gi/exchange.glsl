@@ -12,12 +12,12 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   PathReservoir r;
   r.path.suffix = pathNoSuffix();
   giReadNow(slot, r);
-  uint most = giMostDonors();
-  for (uint k = 0u; k < most; k = k + 1u) {
+  uint donors = giDonors();
+  for (uint k = 0u; k < donors; k = k + 1u) {
     uint index = giExchangeIndex(slot, k);
     uint partner;
     bool exists = cachePartner(pixel, k, partner);
-    if (exists) exists = k < max(giDonors(slot, partner), giDonors(partner, slot));
+    if (exists) exists = giMayServe(slot, partner);
     PathShift shift = pathShiftNone();
     if (exists) shift = pathShiftTo(r, cachePixel(partner), false, false);
     pathShiftTrace(shift, r.path);

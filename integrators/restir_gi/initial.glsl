@@ -12,6 +12,7 @@
 #include "core/resampling/donors.glsl"
 #include "integrators/restir_gi/store.glsl"
 #include "integrators/restir_gi/over_time.glsl"
+#include "integrators/restir_gi/age.glsl"
 
 // The merge over time of a still view: the shift is the identity, for every surface and path. Both
 // are samples of one pixel, with one target: weights by confidence are exact.
@@ -36,19 +37,20 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   walkPath(p, pixel, film);
   PathReservoir r = pathResample(p, rngInit(gFrame.seed, slot, gFrame.frame));
   vec3 estimate = r.state.F * r.state.W + r.state.residual;
-  if (!rlIsFinite3(p.ownLight) || !rlIsFinite3(estimate)) {
+  vec3 own = p.ownLight + p.inView;
+  uvec4 atEdge = RL_PAST_QUAD(gBuffers.own, slot);
+  if (gFrame.stillFrames == 0u && atEdge.w != 0u) own = p.ownLight + recordVec3(atEdge);
+  if (!rlIsFinite3(own) || !rlIsFinite3(estimate)) {
     RL_HEALTH(RL_HEALTH_NONFINITE);
-    p.ownLight = vec3(0.0f, 0.0f, 0.0f);
+    own = vec3(0.0f, 0.0f, 0.0f);
     r.state = reservoirEmpty();
   }
-  float age = 1.0f;
   if (gParams.temporalReuse != 0u && gFrame.stillFrames != 0u) {
-    vec4 own = recordVec4(RL_PAST_QUAD(gBuffers.ownBefore, slot));
-    age = giNextAge(own.w);
-    float weight = 1.0f / age;
-    p.ownLight = vec3(own.x, own.y, own.z) * (1.0f - weight) + p.ownLight * weight;
+    vec3 before = recordVec3(RL_PAST_QUAD(gBuffers.ownBefore, slot));
+    float weight = 1.0f / giAge();
+    own = before * (1.0f - weight) + own * weight;
     giMergeStillView(slot, r);
   }
   giWriteNow(slot, r);
-  RL_WRITE_QUAD(gBuffers.own, slot, recordQuad(p.ownLight, floatBitsToUint(age)));
+  RL_WRITE_QUAD(gBuffers.own, slot, recordQuad(own, 0u));
 }

@@ -15,7 +15,9 @@ RL_FN real reuseUniform(RL_IN(GiOverTime) t, uint k) { return t.u; }
 // With the donor's confidence capped. The uniform number of the merge.
 RL_FN void giBeginOverTime(RL_INOUT(GiOverTime) t, RL_IN(ReservoirState) donor, uint slot) {
   t.donor = donor;
-  t.donor.confidence = reuseCapped(donor.confidence, gParams.confidenceCap);
+  t.donor.confidence =
+      reuseCapped(donor.confidence,
+                  gFrame.stillFrames != 0u ? gParams.confidenceCap : gParams.movingConfidenceCap);
   Rng rng = rngInit(gFrame.seed, slot, gFrame.frame);
   rng.vertex = RL_VERTEX_TEMPORAL;
   t.u = rngDraw(rng, RL_DIM_RIS_MERGE);

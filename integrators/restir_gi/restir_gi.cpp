@@ -40,6 +40,14 @@ std::vector<ParameterInfo> parameterInfos() {
        {},
        "confidence that a donor from the last frame may carry, in frames",
        "Lin et al. 2022 and its implementations: 20"},
+      {"moving_confidence_cap",
+       8.0,
+       1.0,
+       1000.0,
+       {},
+       "the same in frames of a new view, where it is at most confidence_cap: a sample that is "
+       "rarely found from where the donor was gets up to that many times its weight",
+       "measured: docs/decisions.md, Histories that move"},
       {"light_candidates",
        int64_t{1},
        1,
@@ -66,7 +74,7 @@ std::vector<ParameterInfo> parameterInfos() {
        0.0,
        1000.0,
        {},
-       "frames up to which a history is young",
+       "frames of a still view up to which histories are young",
        "about the age from which young histories gain no more (docs/performance.md); not swept"},
       {"donor_noise",
        0.5,
@@ -75,6 +83,15 @@ std::vector<ParameterInfo> parameterInfos() {
        {},
        "how fast a donor's share falls with the age of the history: 1 / (1 + this x (age - 1))",
        "core/resampling/donors.glsl; measured: docs/decisions.md, Donors by age"},
+      {"light_edge_samples",
+       int64_t{8},
+       0,
+       64,
+       {},
+       "camera rays through pixels where a light in view ends, in frames of a new view; 0: none "
+       "but "
+       "the path's",
+       "core/transport/lights_in_view.glsl; measured: docs/decisions.md"},
       {"temporal", true, 0, 0, {}, "temporal reuse", "Ouyang et al. 2021"},
       {"roughness_limit",
        0.2,
@@ -84,12 +101,13 @@ std::vector<ParameterInfo> parameterInfos() {
        "perceptual roughness below which x1 is not reused: own light alone (counted)",
        "Lin et al. 2022, section 6.5: 0.2"},
       {"max_jacobian",
-       100.0,
+       10.0,
        1.0,
        1.0e6,
        {},
        "shifts whose Jacobian lies outside [1/x, x] are undefined, both ways",
-       "symmetric rejection keeps the estimator unbiased; Lin et al. 2022"},
+       "symmetric rejection keeps the estimator unbiased; Falcor and RTXDI: 10; measured: "
+       "docs/decisions.md, Histories that move"},
       {"max_reflectance_ratio",
        4.0,
        0.0,
@@ -157,14 +175,13 @@ std::vector<std::byte> pack(const std::string& mode, const ParameterMap& p) {
   out.agedNeighbours =
       std::min(static_cast<uint32_t>(get<int64_t>(p, "aged_neighbours")), out.spatialNeighbours);
   out.youngFrames = static_cast<float>(get<double>(p, "young_frames"));
-  // A history of n still frames before this one has the age min(n, cap) + 1.
-  const double young = get<double>(p, "young_frames");
-  const bool settles = get<bool>(p, "temporal") && get<double>(p, "confidence_cap") + 1.0 > young;
-  out.settledFrames = settles ? static_cast<uint32_t>(young) : rl::RL_INVALID;
+  out.lightEdgeSamples = static_cast<uint32_t>(get<int64_t>(p, "light_edge_samples"));
   out.donorNoise = static_cast<float>(get<double>(p, "donor_noise"));
   out.donorsBySample = get<bool>(p, "donors_by_sample") ? 1u : 0u;
   out.temporalReuse = get<bool>(p, "temporal") ? 1u : 0u;
   out.confidenceCap = static_cast<float>(get<double>(p, "confidence_cap"));
+  out.movingConfidenceCap =
+      std::min(out.confidenceCap, static_cast<float>(get<double>(p, "moving_confidence_cap")));
   const auto roughness = static_cast<float>(get<double>(p, "roughness_limit"));
   out.path.minAlpha = roughness * roughness;
   out.path.maxJacobian = static_cast<float>(get<double>(p, "max_jacobian"));
@@ -181,8 +198,12 @@ std::string whyWithoutEffect(const std::string& name, const ParameterMap& p) {
   const int64_t neighbours = get<int64_t>(p, "spatial_neighbours");
   const double young = get<double>(p, "young_frames");
   const double oldest = isOverTime ? get<double>(p, "confidence_cap") + 1.0 : 1.0;
-  if (isOneOf(name, {"confidence_cap", "donor_noise", "mode"}) && !isOverTime)
+  if (isOneOf(name, {"confidence_cap", "moving_confidence_cap", "donor_noise", "mode"}) &&
+      !isOverTime)
     return "temporal is false";
+  if (name == "moving_confidence_cap" &&
+      get<double>(p, name.c_str()) > get<double>(p, "confidence_cap"))
+    return "confidence_cap is smaller";
   if (neighbours == 0 &&
       isOneOf(name, {"aged_neighbours", "young_frames", "donor_noise", "donors_by_sample"}))
     return "spatial_neighbours is 0";
@@ -214,8 +235,7 @@ std::vector<ProbeValue> probe(const ReadEntry& read) {
   static const std::array<const char*, 4> kinds = {
       "light at x1", "Lambert x2", "glossy x2, light sample", "glossy x2, continued"};
   const uint32_t kind = words.at(7) & rl::RL_PATH_KIND_MASK, film = words.at(3);
-  return {{"age", fmt::format("{:.6g}", number(own, 3))},
-          {"own light", three(vector(own))},
+  return {{"own light", three(vector(own))},
           {"confidence", fmt::format("{:.6g}", number(words, kState + 3))},
           {"W", fmt::format("{:.6g}", number(words, kState + 2))},
           {"F", three(packing.unpackPositive3(words.at(kState), words.at(kState + 1)))},
@@ -247,6 +267,7 @@ const IntegratorInfo& restir_giIntegratorInfo() {
     i.parameters = parameterInfos();
     i.usesCache = true;
     i.hasHistory = true;
+    i.inputs = {"visible"};
     i.buffers = {
         {"radiance", 12, 0, -1},
         {"own_light", 16, 0, 2},
@@ -257,12 +278,13 @@ const IntegratorInfo& restir_giIntegratorInfo() {
         {"path_suffix_history", 16 * rl::RL_PATH_SUFFIX_QUADS, rl::RL_FEATURE_GLOSSY, -1},
         {"exchange", 16, 0, -1, "spatial_neighbours"},
     };
-    i.passes = {{"initial", "restir_gi_initial"},
+    i.passes = {{"lights_in_view", "restir_gi_lights_in_view", true, true},
+                {"initial", "restir_gi_initial"},
                 {"temporal", "restir_gi_temporal", true, true},
                 {"exchange", "restir_gi_exchange"},
                 {"spatial", "restir_gi_spatial"}};
-    // The initial pass knows no cache: it is compiled once, and it is the longest.
-    for (PassInfo& pass : i.passes) pass.seesCache = pass.name != "initial";
+    // Those before the temporal pass know no cache: they are compiled once.
+    for (size_t pass = 2; pass < i.passes.size(); ++pass) i.passes[pass].seesCache = true;
     i.whyWithoutEffect = whyWithoutEffect;
     i.packParameters = pack;
     i.radianceFrames = [](const ParameterMap& p) {

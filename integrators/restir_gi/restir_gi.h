@@ -28,8 +28,10 @@ struct GiOverSpace {
 };
 
 struct RestirGiBuffers {
+  QuadRef visible;  // core/dialect/visible.h
   Vec3Ref radiance;
-  // One quad: light that no other pixel could use, averaged over time; age of the history.
+  // One quad: light that no other pixel could use, averaged over time; not used. Between the passes
+  // lights_in_view and initial: light in view at the edges of lights; 1 there.
   QuadRef own;
   QuadRef ownBefore;
   QuadRef reservoirs;  // of this frame: initial, then temporal
@@ -46,12 +48,13 @@ struct RestirGiParams {
   uint spatialFlags;
   uint spatialNeighbours;  // of a young history; at least agedNeighbours
   uint agedNeighbours;
+  uint lightEdgeSamples;
   float youngFrames;    // up to this age a history is young
-  uint settledFrames;   // after so many still frames none is
   float donorNoise;     // reuseDonorShare()
   uint donorsBySample;  // 1: wrong by design, for the tests that must reject it
   uint temporalReuse;   // 0: off
   float confidenceCap;
+  float movingConfidenceCap;  // of frames of a new view
   float maxReflectanceRatio;  // per channel, of surfaces, for the carried per-channel estimates
   PathParams path;
 };

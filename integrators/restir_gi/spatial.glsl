@@ -52,7 +52,7 @@ RL_FN real reuseUniform(RL_IN(GiOverSpace) s, uint k) {
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   GiOverSpace s;
   s.slot = cacheSlot(pixel);
-  s.share = reuseDonorShare(giAge(s.slot), gParams.donorNoise);
+  s.share = reuseDonorShare(giAge(), gParams.donorNoise);
   s.rng = rngInit(gFrame.seed, s.slot, gFrame.frame);
   s.rng.vertex = RL_VERTEX_SPATIAL;
   PathReservoir r;
@@ -61,7 +61,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint winner;
   float jacobian;
   vec3 radiance = recordVec3(RL_PAST_QUAD(gBuffers.own, s.slot));
-  radiance += reuseMerge(s, giMostDonors(), gParams.spatialFlags, r.state, winner, jacobian);
+  radiance += reuseMerge(s, giDonors(), gParams.spatialFlags, r.state, winner, jacobian);
   if (winner != RL_INVALID) giTakePathNow(giPartner(s.slot, winner), r);
   r.path.geometry *= jacobian;
   if (!rlIsFinite3(radiance)) {

@@ -52,8 +52,3 @@ RL_FN void giTakePathBefore(uint slot, RL_INOUT(PathReservoir) r) {
 
 // A slot's sample as its k-th partner sees it, and that partner; RL_INVALID: there is none.
 RL_FN uint giExchangeIndex(uint slot, uint k) { return slot * gParams.spatialNeighbours + k; }
-
-// Of a history that goes on.
-RL_FN float giNextAge(float before) { return min(before, gParams.confidenceCap) + 1.0f; }
-// How many frames the history of a slot's pixel holds, this one included.
-RL_FN float giAge(uint slot) { return uintBitsToFloat(RL_PAST_QUAD(gBuffers.own, slot).w); }

@@ -17,9 +17,6 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint slot = cacheSlot(pixel);
   uint before;
   if (gParams.temporalReuse == 0u || !cacheDonorOverTime(slot, before)) return;
-  uvec4 own = RL_PAST_QUAD(gBuffers.own, slot);
-  own.w = floatBitsToUint(giNextAge(recordVec4(RL_PAST_QUAD(gBuffers.ownBefore, before)).w));
-  RL_WRITE_QUAD(gBuffers.own, slot, own);
   uint flags = gParams.temporalFlags;
   PathReservoir here;
   here.path.suffix = pathNoSuffix();

@@ -5,5 +5,6 @@ set(RL_CONFORMANCE_TESTS
   conformance/health_test.cpp
   conformance/light_transport_test.cpp
   conformance/live_session_test.cpp
+  conformance/moving_view_test.cpp
   conformance/variants.cpp
 )

@@ -56,6 +56,8 @@ class AuditedRun {
     ownParams_ = params_.size();
     const std::vector<std::byte> ownParams = info_.packParameters(mode, resolved);
     params_.insert(params_.end(), ownParams.begin(), ownParams.end());
+    EXPECT_LE(info_.inputs.size(), 1u) << "visible, the first of the cache's";
+    if (!info_.inputs.empty()) addresses_.push_back(addresses_.at(0));
     for (const BufferInfo& b : info_.buffers) {
       storage_.emplace_back(bufferBytes(b, resolved, kWidth * kHeight));
       addresses_.push_back(storage_.back().data());
@@ -81,9 +83,10 @@ class AuditedRun {
       if (frame_.stillFrames != 0 && info_.passes[i].onlyOnNewViews) continue;
       passes_[i](arguments(info_.passes[i].seesCache), {0, 0, kWidth, kHeight}, counters);
     }
+    const auto buffers = addresses_.begin() + std::ptrdiff_t(own_ + info_.inputs.size());
     for (size_t i = 0; i < info_.buffers.size(); ++i) {
       const int other = info_.buffers[i].swapWith;
-      if (other > int(i)) std::swap(addresses_[own_ + i], addresses_[own_ + size_t(other)]);
+      if (other > int(i)) std::swap(buffers[std::ptrdiff_t(i)], buffers[other]);
     }
     ++frame_.frame;
     // Every other frame runs what new views take.
@@ -156,8 +159,9 @@ TEST(RngAudit, Template) {
 
 TEST(RngAudit, RestirGi) {
   const std::vector<rl::CpuKernelEntry> passes = {
-      rl::kernel_restir_gi_initial_audited, rl::kernel_restir_gi_temporal_audited,
-      rl::kernel_restir_gi_exchange_audited, rl::kernel_restir_gi_spatial_audited};
+      rl::kernel_restir_gi_lights_in_view_audited, rl::kernel_restir_gi_initial_audited,
+      rl::kernel_restir_gi_temporal_audited, rl::kernel_restir_gi_exchange_audited,
+      rl::kernel_restir_gi_spatial_audited};
   // Every loop over draws runs more than once.
   const ParameterMap busy = {{"light_candidates", int64_t{5}},
                              {"spatial_neighbours", int64_t{rl::RL_MAX_DONORS}}};

@@ -22,6 +22,7 @@ list(APPEND RL_UNIT_TESTS
   rng_audit_path.cpp
   rng_audit_restir_exchange.cpp
   rng_audit_restir_initial.cpp
+  rng_audit_restir_lights_in_view.cpp
   rng_audit_restir_spatial.cpp
   rng_audit_restir_temporal.cpp
   rng_audit_template.cpp

@@ -1,0 +1,45 @@
+// Light that the camera sees directly, in pixels that show the edge of a light or of the
+// background. One film sample meets it or does not: the largest error of a frame with a lamp in
+// view. A camera ray is cheap beside a path, so such pixels take several.
+
+// Does the centre of a pixel show light? `visible`: core/dialect/visible.h.
+RL_FN bool lightsAtCentre(RL_IN(QuadRef) visible, uint x, uint y) {
+  VisibleSurface v = visibleRead(visible, gFrame.camera, y * gFrame.width + x);
+  return v.isHit != 0u ? v.emits != 0u : environmentExists();
+}
+
+// As far as the centres of the eight pixels around it tell. A light that no centre shows is missed:
+// it keeps the path's one sample.
+RL_FN bool lightsEndHere(RL_IN(QuadRef) visible, RL_IN(uvec2) pixel) {
+  bool isLight = lightsAtCentre(visible, pixel.x, pixel.y);
+  for (uint i = 0u; i < 9u; i = i + 1u) {
+    // Left of column 0 and above row 0 the number wraps to the largest there is: outside, too.
+    uint x = pixel.x + i % 3u - 1u;
+    uint y = pixel.y + i / 3u - 1u;
+    if (x >= gFrame.width || y >= gFrame.height) continue;
+    if (lightsAtCentre(visible, x, y) != isLight) return true;
+  }
+  return false;
+}
+
+// Radiance that the camera sees directly at a film sample.
+RL_FN vec3 lightsAtFilm(RL_IN(uvec2) pixel, uint film) {
+  Ray ray = cameraFilmRay(gFrame.camera, pixel, film);
+  Hit hit = traceNoHit();
+  traceRay(ray, RL_RAY_PATH, cameraAlphaKey(film), hit);
+  if (hit.instance != RL_INVALID) return surfaceLoad(hit, ray.dir).emission;
+  if (environmentExists()) return environmentRadiance(ray.dir);
+  return vec3(0.0f, 0.0f, 0.0f);
+}
+
+// Its mean over a pixel, from `samples` points of the R2 sequence with a start of their own.
+RL_FN vec3 lightsInView(RL_IN(uvec2) pixel, uint samples) {
+  Rng rng = rngInit(gFrame.seed, pixel.y * gFrame.width + pixel.x, gFrame.frame);
+  rng.vertex = RL_VERTEX_LIGHTS_IN_VIEW;
+  uvec2 start = cameraFilmStart(rng);
+  vec3 sum = vec3(0.0f, 0.0f, 0.0f);
+  for (uint i = 0u; i < samples; i = i + 1u) {
+    sum += lightsAtFilm(pixel, cameraFilmOfSequence(start, i));
+  }
+  return sum * (1.0f / float(samples));
+}

@@ -1,0 +1,109 @@
+// What restir_gi does otherwise in frames of a new view.
+#include <gtest/gtest.h>
+
+#include "core/session.h"
+#include "tests/bias/test_cameras.h"
+#include "tests/conformance/variants.h"
+
+namespace restlab::conformance {
+namespace {
+
+constexpr uint32_t kFrames = 20;
+
+SessionConfig smallConfig(const ParameterMap& parameters = {}) {
+  SessionConfig config;
+  config.integrator = "restir_gi";
+  config.width = 40;
+  config.height = 40;
+  config.threads = 1;
+  config.parameters = parameters;
+  return config;
+}
+
+FrameStats lastFrame(Session& session, bool isMoving) {
+  const SceneCamera end = makeBuiltinScene("cornell-box").cameras.at(0);
+  const auto cameras = bias::walkTo(end, kFrames, {0.03, 0.01, 0.0}, 0.0);
+  FrameStats stats;
+  for (const SceneCamera& camera : cameras) {
+    session.setCamera(isMoving ? camera : end);
+    stats = session.frame();
+  }
+  return stats;
+}
+
+uint64_t exchangeRays(const FrameStats& stats) {
+  for (const PassTiming& pass : stats.passes) {
+    if (pass.name == "exchange") return pass.raysPath;
+  }
+  return 0;
+}
+
+// Per pixel: the sum over seeds of a frame, and of its square.
+struct Sums {
+  std::vector<double> first, second;
+};
+Sums firstFrames(const ParameterMap& parameters, uint32_t seeds) {
+  Session session(bias::builtinScene("cornell-box"), smallConfig(parameters));
+  Sums sums;
+  for (uint32_t seed = 1; seed <= seeds; ++seed) {
+    session.reset(seed);
+    session.frame();
+    const Image& image = session.radiance();
+    sums.first.resize(image.pixels.size());
+    sums.second.resize(image.pixels.size());
+    for (size_t i = 0; i < image.pixels.size(); ++i) {
+      const double value = double(image.pixels[i].y);
+      sums.first[i] += value;
+      sums.second[i] += value * value;
+    }
+  }
+  return sums;
+}
+
+// The lamp's edge is most of the variance of a frame of the Cornell box: eight film samples there
+// leave little of it, and the mean of every pixel as it was.
+TEST(MovingView, TheEdgesOfLightsTakeSeveralFilmSamples) {
+  constexpr uint32_t kSeeds = 256;
+  const ParameterMap one = {{"temporal", false},
+                            {"spatial_neighbours", int64_t{0}},
+                            {"light_edge_samples", int64_t{0}}};
+  ParameterMap eight = one;
+  eight["light_edge_samples"] = int64_t{8};
+  const Sums plain = firstFrames(one, kSeeds), smooth = firstFrames(eight, kSeeds);
+  double variancePlain = 0.0, varianceSmooth = 0.0, worst = 0.0;
+  for (size_t i = 0; i < plain.first.size(); ++i) {
+    const auto varianceOf = [&](const Sums& s) {
+      return (s.second[i] - s.first[i] * s.first[i] / kSeeds) / (kSeeds - 1);
+    };
+    const double v0 = varianceOf(plain), v1 = varianceOf(smooth);
+    variancePlain += v0;
+    varianceSmooth += v1;
+    const double difference = (plain.first[i] - smooth.first[i]) / kSeeds;
+    worst = std::max(worst, std::abs(difference) / std::sqrt((v0 + v1) / kSeeds + 1.0e-12));
+  }
+  EXPECT_LT(varianceSmooth, 0.2 * variancePlain);
+  EXPECT_GT(varianceSmooth, 0.0);
+  EXPECT_LT(worst, 5.5) << "standard errors, of 1600 pixels";
+}
+
+TEST(MovingView, MovedHistoriesTakeTheDonorsOfYoungOnes) {
+  const auto scene = bias::builtinScene("cornell-box");
+  Session still(scene, smallConfig()), moving(scene, smallConfig());
+  const uint64_t old = exchangeRays(lastFrame(still, false));
+  EXPECT_GT(old, 0u);
+  EXPECT_GT(exchangeRays(lastFrame(moving, true)), 2 * old);
+}
+
+TEST(MovingView, HasACapOfItsOwn) {
+  const auto scene = bias::builtinScene("cornell-box");
+  for (const bool isMoving : {false, true}) {
+    Session small(scene, smallConfig({{"moving_confidence_cap", 2.0}}));
+    Session large(scene, smallConfig({{"moving_confidence_cap", 20.0}}));
+    lastFrame(small, isMoving);
+    lastFrame(large, isMoving);
+    EXPECT_EQ(countDifferent(small.radiance(), large.radiance()) > 0u, isMoving);
+  }
+}
+
+}  // namespace
+}  // namespace restlab::conformance
