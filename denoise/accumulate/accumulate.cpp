@@ -31,7 +31,7 @@ const DenoiserInfo& accumulateDenoiserInfo() {
          0,
          {"nearest", "bilinear"},
          "how the history is read where the camera has moved",
-         "measured: docs/decisions.md, An average after an average begins late"},
+         "measured: docs/decisions.md, The average reads between pixels"},
         {"accumulate_normal_threshold",
          0.9,
          -1.0,
