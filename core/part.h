@@ -22,6 +22,8 @@ struct ParameterInfo {
   std::vector<std::string> choices;       // strings only
   std::string help;
   std::string source;  // paper, equation, or the measurement behind the default
+  // A history under another value holds other light: a change begins a new one.
+  bool beginsHistory = false;
 };
 
 using ParameterMap = std::map<std::string, ParameterValue>;
@@ -45,7 +47,7 @@ struct PassInfo {
   std::string name;             // as in the time columns
   std::string kernel;           // as in CMake's rl_add_kernel
   bool hasFeatures = true;      // false: NO_FEATURES, it is the same for every scene
-  bool onlyOnNewViews = false;  // it has nothing to do where the view is that of the last frame
+  bool onlyOnNewViews = false;  // it has nothing to do in a still view
   bool seesCache = false;       // EVERY_CACHE: it is that of the method's cache
   // An integer parameter: the pass runs over so many entries (RL_ENTRY_ROW), not over pixels.
   const char* entriesParameter = nullptr;
@@ -70,8 +72,8 @@ struct PartInfo {
   std::vector<BufferInfo> buffers;
   std::vector<PassInfo> passes;
   bool hasHistory = false;  // a frame depends on those before it
-  // The passes run where this frame's view is not that of the last one; otherwise what they left
-  // stands, and buffers that swap are both that of the last run.
+  // The passes run where this frame's view or parameters are new; otherwise what they left stands,
+  // and buffers that swap are both that of the last run.
   bool onlyOnNewViews = false;
   // Why a parameter (of this part or of another one) or the "mode" changes nothing, the parameters
   // being what they are; "" where it does, or where another part knows. Empty: each does.

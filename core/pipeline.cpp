@@ -55,11 +55,7 @@ bool Pipeline::setParameters(const std::string& mode, const ParameterMap& parame
       if (bytesOf(stage.info->buffers[b], parameters) != stage.bytes[b]) return false;
     }
   }
-  for (Stage& stage : stages_) {
-    const std::vector<std::byte> before = stage.params;
-    pack(stage, mode, parameters);
-    stage.isChanged = stage.isChanged || stage.params != before;
-  }
+  for (Stage& stage : stages_) pack(stage, mode, parameters);
   return true;
 }
 
@@ -169,8 +165,7 @@ PassRun Pipeline::runOf(size_t stage, size_t pass) const {
 std::vector<PassRun> Pipeline::beginFrame(bool isNewView) {
   std::vector<bool> ran;
   for (Stage& stage : stages_) {
-    stage.runs = isNewView || stage.isChanged || !stage.info->onlyOnNewViews;
-    stage.isChanged = false;
+    stage.runs = isNewView || !stage.info->onlyOnNewViews;
     for (const PassInfo& pass : stage.info->passes)
       ran.push_back(stage.runs && (isNewView || !pass.onlyOnNewViews));
     // What the last run left becomes the history.

@@ -36,8 +36,8 @@ class Pipeline {
   // Zeroes every buffer.
   void clear();
 
-  // The passes of the next frame, after histories have traded places. `isNewView`: its camera is
-  // not that of the frame before it.
+  // The passes of the next frame, after histories have traded places. `isNewView`: its camera
+  // or its parameters are not those of the frame before it.
   std::vector<PassRun> beginFrame(bool isNewView);
   // Names and times of a frame's passes, of which results holds those that ran; in the order of
   // beginFrame(). A pass that had nothing to do has no time.
@@ -61,7 +61,6 @@ class Pipeline {
     std::vector<size_t> bytes;      // of each own buffer; 0: not allocated
     std::vector<BufferId> buffers;  // the part's own
     bool runs = true;               // in the frame that was begun last
-    bool isChanged = false;         // its parameters, since then
   };
 
   size_t bytesOf(const BufferInfo& buffer, const ParameterMap& parameters) const;

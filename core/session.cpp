@@ -224,7 +224,12 @@ bool Session::setParameters(const ParameterMap& parameters) {
   SessionConfig changed = m.config;
   for (const auto& [name, value] : parameters) changed.parameters[name] = value;
   changed.parameters = resolveParameters(m.method, changed.parameters);
-  if (m.pipeline->setParameters(changed.mode, changed.parameters)) {
+  if (changed.parameters == m.config.parameters) return false;
+  const std::vector<ParameterInfo> infos = m.method.parameters();
+  const bool beginsHistory = std::any_of(infos.begin(), infos.end(), [&](const ParameterInfo& p) {
+    return p.beginsHistory && changed.parameters.at(p.name) != m.config.parameters.at(p.name);
+  });
+  if (!beginsHistory && m.pipeline->setParameters(changed.mode, changed.parameters)) {
     m.config = changed;
     m.useParameters();
     m.hasNewParameters = true;

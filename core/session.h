@@ -78,8 +78,8 @@ class Session {
   // but at 0.
   void reset(uint32_t seed, uint32_t firstFrame = 0);
   // Changes parameters of the method, from the next frame on; what is not named keeps its value.
-  // The next frame counts as one of a new view: averages begin again, histories go on. True where
-  // the history starts anew, as buffers have another size. Throws Error as the
+  // The next frame then counts as one of a new view. True where the history starts anew, as buffers
+  // have another size or a parameter begins one (ParameterInfo::beginsHistory). Throws Error as the
   // constructor does; parameters stay as they were then.
   bool setParameters(const ParameterMap& parameters);
   // Another size of the image, with the camera of the configuration; the history starts anew.

@@ -34,25 +34,18 @@ RL_FN bool cameraProject(RL_IN(Camera) camera, RL_IN(vec3) posW, RL_IN(vec2) res
   return true;
 }
 
-// The index-th film sample of the R2 sequence (Roberts 2018: steps of 1/g and 1/g^2, g^3 = g + 1)
-// from a random start, of which few cover a pixel evenly: a fraction of the pixel's width in the
-// low half word, of its height in the high one.
-RL_FN uint cameraFilmOfSequence(RL_IN(uvec2) start, uint index) {
-  uint x = start.x + index * 3242174889u;
-  uint y = start.y + index * 2447445414u;
+// The film sample of a pixel in a frame: a fraction of the pixel's width in the low half word, of
+// its height in the high one. Each is uniform; those of one pixel follow each other in the R2
+// sequence (Roberts 2018: steps of 1/g and 1/g^2, g^3 = g + 1) from a random start, so that few
+// frames cover the pixel evenly: what lies at an edge is averaged by any method that averages.
+RL_FN uint cameraFilmBitsOfFrame(RL_IN(uvec2) pixel, uint frame) {
+  // The start does not depend on the frame, nor on the numbers that the path draws in frame 0.
+  uint pixelIndex = pixel.y * gFrame.width + pixel.x;
+  uint x = rngFilmStart(pixelIndex, RL_DIM_FILTER_X) + frame * 3242174889u;
+  uint y = rngFilmStart(pixelIndex, RL_DIM_FILTER_Y) + frame * 2447445414u;
   return (x >> 16u) | (y & 0xffff0000u);
 }
-RL_FN uvec2 cameraFilmStart(RL_IN(Rng) rng) {
-  return uvec2(rngBits(rng, RL_DIM_FILTER_X), rngBits(rng, RL_DIM_FILTER_Y));
-}
-
-// The film sample of a pixel in this frame. What lies at an edge is averaged by any method that
-// averages frames.
-RL_FN uint cameraFilmBits(RL_IN(uvec2) pixel) {
-  // The start does not depend on the frame, nor on the numbers that the path draws in frame 0.
-  Rng rng = rngInit(gFrame.seed ^ 0x5bd1e995u, pixel.y * gFrame.width + pixel.x, 0u);
-  return cameraFilmOfSequence(cameraFilmStart(rng), gFrame.frame);
-}
+RL_FN uint cameraFilmBits(RL_IN(uvec2) pixel) { return cameraFilmBitsOfFrame(pixel, gFrame.frame); }
 
 // Its film coordinates: anywhere in the pixel (box filter), or the centre.
 RL_FN vec2 cameraFilmPoint(RL_IN(uvec2) pixel, uint film) {

@@ -44,3 +44,9 @@ RL_FN uint rngSharedBits(uint group, uint dimension) {
   Rng rng = rngInit(gFrame.seed ^ 0x3c6ef372u, group, gFrame.frame);
   return rngHash(rngHash(dimension ^ rng.key.x) + rng.key.y);
 }
+
+// Where the film samples of a pixel begin: the same in every frame, and whoever asks.
+RL_FN uint rngFilmStart(uint pixel, uint dimension) {
+  Rng rng = rngInit(gFrame.seed ^ 0x5bd1e995u, pixel, 0u);
+  return rngHash(rngHash(dimension ^ rng.key.x) + rng.key.y);
+}

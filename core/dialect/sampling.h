@@ -21,7 +21,6 @@ const uint RL_VERTEX_PIXEL = 0u;
 const uint RL_VERTEX_TEMPORAL = 0x1000u;
 const uint RL_VERTEX_SPATIAL = 0x2000u;
 const uint RL_VERTEX_CANDIDATES = 0x4000u;  // + index of a light candidate
-const uint RL_VERTEX_LIGHTS_IN_VIEW = 0x8000u;
 
 const uint RL_DIM_FILTER_X = 0u;
 const uint RL_DIM_FILTER_Y = 1u;

@@ -9,10 +9,10 @@ RL_FN real reuseCapped(real confidence, real cap) {
 }
 
 // The share of its confidence with which a donor over space enters the merge of a pixel whose
-// history holds `age` frames. A history averages a pixel's own noise down, but not the difference
-// of two pixels at a donor's one sample: of a frame's variance that is `noise`, and a donor's
-// estimate, at best as good as the pixel's own, is worth 1 / (1 + noise (age - 1)) of it. Any share
-// that does not depend on the samples is unbiased.
+// history holds `age` frames of this view. A history averages a pixel's own noise down, but not the
+// difference of two pixels at a donor's one sample: of a frame's variance that is `noise`, and a
+// donor's estimate, at best as good as the pixel's own, is worth 1 / (1 + noise (age - 1)) of it.
+// Any share that does not depend on the samples is unbiased.
 RL_FN real reuseDonorShare(real age, real noise) {
   return real(1.0f) / (real(1.0f) + noise * (age - real(1.0f)));
 }

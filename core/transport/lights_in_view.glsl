@@ -32,14 +32,12 @@ RL_FN vec3 lightsAtFilm(RL_IN(uvec2) pixel, uint film) {
   return vec3(0.0f, 0.0f, 0.0f);
 }
 
-// Its mean over a pixel, from `samples` points of the R2 sequence with a start of their own.
+// Its mean over the pixel's film samples of this frame and the next ones: what a still view would
+// have averaged after so many frames.
 RL_FN vec3 lightsInView(RL_IN(uvec2) pixel, uint samples) {
-  Rng rng = rngInit(gFrame.seed, pixel.y * gFrame.width + pixel.x, gFrame.frame);
-  rng.vertex = RL_VERTEX_LIGHTS_IN_VIEW;
-  uvec2 start = cameraFilmStart(rng);
   vec3 sum = vec3(0.0f, 0.0f, 0.0f);
   for (uint i = 0u; i < samples; i = i + 1u) {
-    sum += lightsAtFilm(pixel, cameraFilmOfSequence(start, i));
+    sum += lightsAtFilm(pixel, cameraFilmBitsOfFrame(pixel, gFrame.frame + i));
   }
   return sum * (1.0f / float(samples));
 }

@@ -16,7 +16,7 @@ const DenoiserInfo& accumulateDenoiserInfo() {
     i.biasOfMovingView = BiasClass::biased;
     i.why =
         "still view: the weights depend on the frame's number alone; moving: radiance lags behind "
-        "where it changes with the view, and at edges";
+        "where it changes with the view, and at edges; reading between pixels blurs";
     i.parameters = {
         {"accumulate_cap",
          20.0,

@@ -88,7 +88,7 @@ Json errorPerCpuSecond(const PreparedScene& prepared, const SessionConfig& confi
   double cpuS = 0.0;
   std::vector<double> errors;
   for (uint32_t i = 0; i < options.frames; ++i) {
-    session.reset(session.config().seed + 1);  // frames of one history share their film samples
+    session.reset(session.config().seed + 1);  // frames of one history depend on each other
     const double before = processCpuSeconds();
     session.frame();
     cpuS += (processCpuSeconds() - before) / options.frames;

@@ -1,7 +1,7 @@
 // restir_gi: how many donors over space there are. Known without samples: any number is unbiased.
 #include "integrators/restir_gi/age.glsl"
 
-RL_FN bool giIsYoung() { return giAge() <= gParams.youngFrames; }
+RL_FN bool giIsYoung() { return gFrame.stillFrames < gParams.settledFrames; }
 
 RL_FN uint giDonors() { return giIsYoung() ? gParams.spatialNeighbours : gParams.agedNeighbours; }
 

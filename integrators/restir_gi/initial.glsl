@@ -38,19 +38,25 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   PathReservoir r = pathResample(p, rngInit(gFrame.seed, slot, gFrame.frame));
   vec3 estimate = r.state.F * r.state.W + r.state.residual;
   vec3 own = p.ownLight + p.inView;
-  uvec4 atEdge = RL_PAST_QUAD(gBuffers.own, slot);
-  if (gFrame.stillFrames == 0u && atEdge.w != 0u) own = p.ownLight + recordVec3(atEdge);
+  uint taken = 0u;
+  if (gFrame.stillFrames == 0u) {
+    uvec4 inView = RL_PAST_QUAD(gBuffers.own, slot);
+    taken = inView.w;
+    if (taken != 0u) own = p.ownLight + recordVec3(inView);
+  }
   if (!rlIsFinite3(own) || !rlIsFinite3(estimate)) {
     RL_HEALTH(RL_HEALTH_NONFINITE);
     own = vec3(0.0f, 0.0f, 0.0f);
     r.state = reservoirEmpty();
   }
   if (gParams.temporalReuse != 0u && gFrame.stillFrames != 0u) {
-    vec3 before = recordVec3(RL_PAST_QUAD(gBuffers.ownBefore, slot));
-    float weight = 1.0f / giAge();
-    own = before * (1.0f - weight) + own * weight;
+    uvec4 before = RL_PAST_QUAD(gBuffers.ownBefore, slot);
+    taken = before.w;
+    // The first frame had this frame's film sample already.
+    float weight = gFrame.stillFrames < taken ? 0.0f : 1.0f / giAge();
+    own = recordVec3(before) * (1.0f - weight) + own * weight;
     giMergeStillView(slot, r);
   }
   giWriteNow(slot, r);
-  RL_WRITE_QUAD(gBuffers.own, slot, recordQuad(own, 0u));
+  RL_WRITE_QUAD(gBuffers.own, slot, recordQuad(own, taken));
 }

@@ -38,7 +38,7 @@ std::vector<ParameterInfo> parameterInfos() {
        1.0,
        1000.0,
        {},
-       "confidence that a donor from the last frame may carry, in frames",
+       "confidence that a donor from the last frame may carry in a still view, in frames",
        "Lin et al. 2022 and its implementations: 20"},
       {"moving_confidence_cap",
        8.0,
@@ -60,7 +60,7 @@ std::vector<ParameterInfo> parameterInfos() {
        0,
        rl::RL_MAX_DONORS,
        {},
-       "donors of the spatial pass while the history is young",
+       "donors of the spatial pass while the view is new: it moves, or was still for young_frames",
        "each costs a shift, two rays a pixel; measured: docs/decisions.md, Donors by age"},
       {"aged_neighbours",
        int64_t{1},
@@ -99,7 +99,8 @@ std::vector<ParameterInfo> parameterInfos() {
        1.0,
        {},
        "perceptual roughness below which x1 is not reused: own light alone (counted)",
-       "Lin et al. 2022, section 6.5: 0.2"},
+       "Lin et al. 2022, section 6.5: 0.2",
+       true},
       {"max_jacobian",
        10.0,
        1.0,
@@ -174,7 +175,10 @@ std::vector<std::byte> pack(const std::string& mode, const ParameterMap& p) {
   out.spatialNeighbours = static_cast<uint32_t>(get<int64_t>(p, "spatial_neighbours"));
   out.agedNeighbours =
       std::min(static_cast<uint32_t>(get<int64_t>(p, "aged_neighbours")), out.spatialNeighbours);
-  out.youngFrames = static_cast<float>(get<double>(p, "young_frames"));
+  // A history of n still frames before this one has the age min(n, cap) + 1.
+  const double young = get<double>(p, "young_frames");
+  const double oldest = get<bool>(p, "temporal") ? get<double>(p, "confidence_cap") + 1.0 : 1.0;
+  out.settledFrames = oldest <= young ? rl::RL_INVALID : static_cast<uint32_t>(young);
   out.lightEdgeSamples = static_cast<uint32_t>(get<int64_t>(p, "light_edge_samples"));
   out.donorNoise = static_cast<float>(get<double>(p, "donor_noise"));
   out.donorsBySample = get<bool>(p, "donors_by_sample") ? 1u : 0u;

@@ -30,8 +30,9 @@ struct GiOverSpace {
 struct RestirGiBuffers {
   QuadRef visible;  // core/dialect/visible.h
   Vec3Ref radiance;
-  // One quad: light that no other pixel could use, averaged over time; not used. Between the passes
-  // lights_in_view and initial: light in view at the edges of lights; 1 there.
+  // One quad: light that no other pixel could use, averaged over time in a still view; of how many
+  // film samples lights_in_view took light in view when the view was new, 0 where it did not. It
+  // leaves that light here for the initial pass.
   QuadRef own;
   QuadRef ownBefore;
   QuadRef reservoirs;  // of this frame: initial, then temporal
@@ -46,10 +47,10 @@ struct RestirGiBuffers {
 struct RestirGiParams {
   uint temporalFlags;  // RL_REUSE_*
   uint spatialFlags;
-  uint spatialNeighbours;  // of a young history; at least agedNeighbours
+  uint spatialNeighbours;  // of young histories; at least agedNeighbours
   uint agedNeighbours;
+  uint settledFrames;  // after so many still frames none is young
   uint lightEdgeSamples;
-  float youngFrames;    // up to this age a history is young
   float donorNoise;     // reuseDonorShare()
   uint donorsBySample;  // 1: wrong by design, for the tests that must reject it
   uint temporalReuse;   // 0: off

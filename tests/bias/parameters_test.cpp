@@ -38,6 +38,7 @@ const std::vector<Setting> kReuse = {
     {"confidence_cap 50", {{"confidence_cap", 50.0}}},
     {"temporal off", {{"temporal", false}}},
     {"max_jacobian 2", {{"max_jacobian", 2.0}}},
+    {"max_jacobian 100", {{"max_jacobian", 100.0}}},
     {"similarity open", {{"normal_threshold", -1.0}, {"plane_threshold", 10.0}}},
 };
 const std::vector<Setting> kGlossy = {

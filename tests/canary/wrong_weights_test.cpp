@@ -56,6 +56,7 @@ void expectRejected(const Canary& canary, const Effort& effort) {
 ParameterMap farDonors() {
   return {{"spatial_neighbours", int64_t{2}},
           {"spatial_radius", 48.0},
+          {"max_jacobian", 100.0},
           {"normal_threshold", -1.0},
           {"plane_threshold", 10.0}};
 }

@@ -53,8 +53,8 @@ TEST(LiveSession, ParametersChangeWithoutANewHistory) {
   EXPECT_GT(numberOf(changed, "confidence"), numberOf(fresh, "confidence"));
 }
 
-// The cache looks at surfaces in frames of a new view alone, and once more where its parameters
-// change: with thresholds that match everything there are no outlines any more.
+// The cache looks at surfaces in frames of a new view alone, and new parameters begin one: with
+// thresholds that match everything there are no outlines any more.
 TEST(LiveSession, ParametersOfTheCacheReachAStillView) {
   const auto scene = bias::builtinScene("cornell-box");
   const ParameterMap open = {{"normal_threshold", -1.0}, {"plane_threshold", 10.0}};
@@ -89,6 +89,21 @@ TEST(LiveSession, TheFirstFrameIsReuseOverSpaceAlone) {
   Session space(scene, config);
   EXPECT_EQ(countDifferent(shown(both, 1), shown(space, 1)), 0u);
   EXPECT_GT(countDifferent(shown(both, 1), shown(space, 1)), 0u);
+}
+
+// The limit decides which light is in reservoirs: those of another limit would be wrong. Values
+// that are there already change nothing.
+TEST(LiveSession, AnotherSplitOfLightBeginsANewHistory) {
+  const auto scene = bias::builtinScene("glossy-gallery");
+  SessionConfig config = smallConfig();
+  Session changed(scene, config), kept(scene, config);
+  EXPECT_EQ(countDifferent(shown(changed, 3), shown(kept, 3)), 0u);
+  EXPECT_FALSE(changed.setParameters({{"roughness_limit", 0.2}}));
+  EXPECT_EQ(countDifferent(shown(changed, 2), shown(kept, 2)), 0u);
+  EXPECT_TRUE(changed.setParameters({{"roughness_limit", 0.05}}));
+  config.parameters["roughness_limit"] = 0.05;
+  Session fresh(scene, config);
+  EXPECT_EQ(countDifferent(shown(changed, 2), shown(fresh, 2)), 0u);
 }
 
 TEST(LiveSession, AnUnknownParameterChangesNothing) {

@@ -20,7 +20,9 @@ TEST_P(ReuseOverTime, IsTheExponentialAverage) {
   config.width = 48;
   config.height = 27;
   config.threads = 1;
-  config.parameters = {{"spatial_neighbours", int64_t{0}}, {"confidence_cap", 6.0}};
+  config.parameters = {{"spatial_neighbours", int64_t{0}},
+                       {"confidence_cap", 6.0},
+                       {"light_edge_samples", int64_t{0}}};
   Session reused(scene, config);
   config.parameters["temporal"] = false;
   Session fresh(scene, config);

@@ -117,7 +117,7 @@ const std::map<std::string, Offsets>& expected() {
       {"RestirGiParams",
        {FIELD(RestirGiParams, temporalFlags), FIELD(RestirGiParams, spatialFlags),
         FIELD(RestirGiParams, spatialNeighbours), FIELD(RestirGiParams, agedNeighbours),
-        FIELD(RestirGiParams, lightEdgeSamples), FIELD(RestirGiParams, youngFrames),
+        FIELD(RestirGiParams, settledFrames), FIELD(RestirGiParams, lightEdgeSamples),
         FIELD(RestirGiParams, donorNoise), FIELD(RestirGiParams, donorsBySample),
         FIELD(RestirGiParams, temporalReuse), FIELD(RestirGiParams, confidenceCap),
         FIELD(RestirGiParams, movingConfidenceCap), FIELD(RestirGiParams, maxReflectanceRatio),
