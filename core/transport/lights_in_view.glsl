@@ -1,11 +1,13 @@
-// Light that the camera sees directly, in pixels that show the edge of a light or of the
-// background. One film sample meets it or does not: the largest error of a frame with a lamp in
-// view. A camera ray is cheap beside a path, so such pixels take several.
+// Light that the camera sees directly, in pixels that show the edge of a lamp. One film sample meets
+// it or does not: the largest error of a frame with a lamp in view. A camera ray is cheap beside a
+// path, so such pixels take several.
+//
+// Edges of the sky keep the one: what stands before it is often as bright, and then it is best that
+// light in view and the rest are of the same film sample. In a white furnace that is exact.
 
-// Does the centre of a pixel show light? `visible`: core/dialect/visible.h.
+// Does the centre of a pixel show a lamp? `visible`: core/dialect/visible.h.
 RL_FN bool lightsAtCentre(RL_IN(QuadRef) visible, uint x, uint y) {
-  VisibleSurface v = visibleRead(visible, gFrame.camera, y * gFrame.width + x);
-  return v.isHit != 0u ? v.emits != 0u : environmentExists();
+  return visibleRead(visible, gFrame.camera, y * gFrame.width + x).emits != 0u;
 }
 
 // As far as the centres of the eight pixels around it tell. A light that no centre shows is missed:

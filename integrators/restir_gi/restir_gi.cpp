@@ -88,7 +88,7 @@ std::vector<ParameterInfo> parameterInfos() {
        0,
        64,
        {},
-       "camera rays through pixels where a light in view ends, in frames of a new view; 0: none "
+       "camera rays through pixels where a lamp in view ends, in frames of a new view; 0: none "
        "but "
        "the path's",
        "core/transport/lights_in_view.glsl; measured: docs/decisions.md"},
