@@ -1,6 +1,6 @@
-// Light that the camera sees directly, in pixels that show the edge of a lamp. One film sample meets
-// it or does not: the largest error of a frame with a lamp in view. A camera ray is cheap beside a
-// path, so such pixels take several.
+// Light that the camera sees directly, in pixels that show the edge of a lamp. One film sample
+// meets it or does not: the largest error of a frame with a lamp in view. A camera ray is cheap
+// beside a path, so such pixels take several.
 //
 // Edges of the sky keep the one: what stands before it is often as bright, and then it is best that
 // light in view and the rest are of the same film sample. In a white furnace that is exact.
