@@ -1,4 +1,4 @@
-// restir_gi, pass of new views: light seen directly at the edges of lights, from the film samples
+// restir_gi, pass of new views: light seen directly at the edges of lamps, from the film samples
 // of this frame and the next ones. If the view stays, those frames have nothing to add.
 #include "core/transport/lights_in_view.glsl"
 
