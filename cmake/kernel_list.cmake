@@ -1,4 +1,4 @@
-# generated/tests_kernel_list.h: every kernel of rl_add_kernel, as initialisers {name, file, header, cache}.
+# generated/tests_kernel_list.h: every kernel of rl_add_kernel, as initialisers {name, file, header}.
 get_property(_kernels GLOBAL PROPERTY RL_KERNEL_ROWS)
 set(_rows "")
 foreach(_kernel IN LISTS _kernels)

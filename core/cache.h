@@ -1,7 +1,7 @@
-// Where reservoirs live. A cache is a folder under core/caches/, a line in core/caches/caches.list,
-// and in the folder <name>.h, <name>.glsl (core/caches/README.md says what they answer), kernels of
-// its own passes, and one .cpp that defines `const CacheInfo& <name>CacheInfo()`. Integrators name
-// none: their kernels are compiled once for each (EVERY_CACHE in rl_add_kernel).
+// Where the past of a surface lies. A cache is a folder under core/caches/, a line in
+// core/caches/caches.list, and in the folder kernels of its passes and one .cpp that defines `const
+// CacheInfo& <name>CacheInfo()`. Integrators name none: they read the buffers that every cache has
+// (core/caches/README.md).
 #pragma once
 
 #include <string>
@@ -11,8 +11,7 @@
 
 namespace restlab {
 
-// Its passes run before the integrator's. Its buffers, inputs first, are the RL_CACHE_BUFFERS of
-// <name>.h, its parameters RL_CACHE_PARAMS: kernels read them as gCache and gCacheParams.
+// Its passes run before the integrator's.
 struct CacheInfo : PartInfo {};
 
 // All caches of caches.list, in its order; the first is the default.

@@ -191,11 +191,18 @@ std::vector<SettingWithoutEffect> settingsWithoutEffect(const Method& method,
 }
 
 size_t bufferBytes(const BufferInfo& buffer, const ParameterMap& parameters, size_t pixels) {
-  const auto number = [&](const char* parameter) {
-    return static_cast<size_t>(std::get<int64_t>(parameters.at(parameter)));
+  const auto number = [&](const char* name) {
+    const auto parameter = parameters.find(name);
+    return parameter == parameters.end()
+               ? 0
+               : static_cast<size_t>(std::get<int64_t>(parameter->second));
   };
   size_t entries = pixels;
   if (buffer.perParameter != nullptr) entries = pixels * number(buffer.perParameter);
+  if (buffer.onePerParameter != nullptr) {
+    const size_t group = number(buffer.onePerParameter);
+    entries = group == 0 ? 0 : (pixels + group - 1) / group;
+  }
   if (buffer.entriesParameter != nullptr) entries = number(buffer.entriesParameter);
   return entries * buffer.entryBytes;
 }

@@ -37,9 +37,10 @@ struct BufferInfo {
   uint32_t entryBytes = 0;
   uint32_t neededFeatures = 0;  // allocated only when the mask has one of these bits; 0: always
   int swapWith = -1;            // index of the buffer it trades places with from frame to frame
-  // Names of integer parameters, or null: so many entries a pixel; so many, however many pixels
-  // there are.
+  // Names of integer parameters, or null: so many entries a pixel; one for so many pixels; so many,
+  // however many pixels there are. Not allocated where the method has no such parameter.
   const char* perParameter = nullptr;
+  const char* onePerParameter = nullptr;
   const char* entriesParameter = nullptr;
 };
 
@@ -48,9 +49,10 @@ struct PassInfo {
   std::string kernel;           // as in CMake's rl_add_kernel
   bool hasFeatures = true;      // false: NO_FEATURES, it is the same for every scene
   bool onlyOnNewViews = false;  // it has nothing to do in a still view
-  bool seesCache = false;       // EVERY_CACHE: it is that of the method's cache
   // An integer parameter: the pass runs over so many entries (RL_ENTRY_ROW), not over pixels.
   const char* entriesParameter = nullptr;
+  // A parameter that not every cache has: the pass is there only with it.
+  const char* onlyWith = nullptr;
 };
 
 // What a part keeps of a pixel, for people.
@@ -68,6 +70,8 @@ struct PartInfo {
   std::vector<ParameterInfo> parameters;
   // Buffers of earlier parts by name, which the kernels' Buffers struct begins with.
   std::vector<std::string> inputs;
+  // Such buffers after them, null where no earlier part has one of that name.
+  std::vector<std::string> optionalInputs;
   // The part's own buffers: the rest of that struct, in order.
   std::vector<BufferInfo> buffers;
   std::vector<PassInfo> passes;

@@ -9,25 +9,35 @@
 
 namespace restlab {
 
-Pipeline::Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const PartInfo* cache,
-                   const std::string& mode, const ParameterMap& parameters, uint32_t wanted,
-                   size_t pixels)
+namespace {
+
+bool isOfPixels(const BufferInfo& buffer) {
+  return buffer.entriesParameter == nullptr && buffer.onePerParameter == nullptr;
+}
+
+}  // namespace
+
+Pipeline::Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const std::string& mode,
+                   const ParameterMap& parameters, uint32_t wanted, size_t pixels)
     : backend_(backend), pixels_(pixels) {
   for (const PartInfo* part : parts) {
-    if (part == cache) cache_ = stages_.size();
     Stage stage;
     stage.info = part;
     pack(stage, mode, parameters);
     for (const PassInfo& pass : part->passes) {
-      stage.kernels.push_back(pass.kernel);
-      if (pass.seesCache) stage.kernels.back() += "_" + cache->name;
-      stage.masks.push_back(backend.maskFor(stage.kernels.back(), wanted));
-      if (pass.hasFeatures) used_ |= stage.masks.back();
+      const bool isThere = pass.onlyWith == nullptr || parameters.contains(pass.onlyWith);
+      stage.isThere.push_back(isThere);
+      stage.masks.push_back(backend.maskFor(pass.kernel, wanted));
+      if (isThere && pass.hasFeatures) used_ |= stage.masks.back();
     }
     stages_.push_back(std::move(stage));
   }
   for (size_t s = 0; s < stages_.size(); ++s) {
-    for (const std::string& input : stages_[s].info->inputs) find(input, s);
+    for (const std::string& input : stages_[s].info->inputs) {
+      if (find(input, s)) continue;
+      failUsage(
+          fmt::format("{}: no part before it has a buffer '{}'", stages_[s].info->name, input));
+    }
     for (const BufferInfo& buffer : stages_[s].info->buffers)
       stages_[s].bytes.push_back(bytesOf(buffer, parameters));
   }
@@ -43,9 +53,11 @@ void Pipeline::pack(Stage& stage, const std::string& mode, const ParameterMap& p
   if (stage.info->packParameters) stage.params = stage.info->packParameters(mode, parameters);
   stage.entries.clear();
   for (const PassInfo& pass : stage.info->passes) {
-    const char* name = pass.entriesParameter;
-    stage.entries.push_back(
-        name == nullptr ? 0 : static_cast<uint32_t>(std::get<int64_t>(parameters.at(name))));
+    const auto entries =
+        parameters.find(pass.entriesParameter == nullptr ? "" : pass.entriesParameter);
+    stage.entries.push_back(entries == parameters.end()
+                                ? 0
+                                : static_cast<uint32_t>(std::get<int64_t>(entries->second)));
   }
 }
 
@@ -67,8 +79,7 @@ std::vector<ProbeValue> Pipeline::probe(size_t pixel) {
       std::vector<uint32_t> words;
       for (size_t b = 0; b < stage.bytes.size(); ++b) {
         const BufferInfo& buffer = stage.info->buffers[b];
-        if (buffer.name != name || stage.bytes[b] == 0 || buffer.entriesParameter != nullptr)
-          continue;
+        if (buffer.name != name || stage.bytes[b] == 0 || !isOfPixels(buffer)) continue;
         const size_t perPixel = stage.bytes[b] / pixels_;
         std::vector<std::byte> all((pixel + 1) * perPixel);
         backend_.read(bound(stage, b), all.data(), all.size());
@@ -82,15 +93,15 @@ std::vector<ProbeValue> Pipeline::probe(size_t pixel) {
   return values;
 }
 
-std::pair<size_t, size_t> Pipeline::find(const std::string& name, size_t before) const {
+std::optional<std::pair<size_t, size_t>> Pipeline::find(const std::string& name,
+                                                        size_t before) const {
   for (size_t s = 0; s < before; ++s) {
     const std::vector<BufferInfo>& buffers = stages_[s].info->buffers;
     for (size_t b = 0; b < buffers.size(); ++b) {
-      if (buffers[b].name == name) return {s, b};
+      if (buffers[b].name == name) return {{s, b}};
     }
   }
-  failUsage(
-      fmt::format("{}: no part before it has a buffer '{}'", stages_[before].info->name, name));
+  return std::nullopt;
 }
 
 std::vector<std::pair<std::string, size_t>> Pipeline::bufferBytesPerPixel() const {
@@ -108,6 +119,18 @@ size_t Pipeline::bytesPerPixel() const {
   return sum;
 }
 
+size_t Pipeline::bytesPerPixelOf(size_t pixels) const {
+  size_t perPixel = 0, shared = 0;
+  for (const Stage& stage : stages_) {
+    for (size_t b = 0; b < stage.bytes.size(); ++b) {
+      const bool isShared = stage.info->buffers[b].entriesParameter != nullptr;
+      (isShared ? shared : perPixel) +=
+          isShared ? stage.bytes[b] : (stage.bytes[b] + pixels_ - 1) / pixels_;
+    }
+  }
+  return perPixel + (shared + pixels - 1) / pixels;
+}
+
 void Pipeline::allocate() {
   for (Stage& stage : stages_) {
     for (const size_t bytes : stage.bytes)
@@ -118,7 +141,9 @@ void Pipeline::allocate() {
 void Pipeline::prepare(StartupReport& report) {
   for (size_t s = 0; s < stages_.size(); ++s) {
     const Stage& stage = stages_[s];
-    for (size_t p = 0; p < stage.masks.size(); ++p) backend_.prepare(runOf(s, p), report);
+    for (size_t p = 0; p < stage.masks.size(); ++p) {
+      if (stage.isThere[p]) backend_.prepare(runOf(s, p), report);
+    }
   }
 }
 
@@ -139,35 +164,32 @@ BufferId Pipeline::bound(const Stage& stage, size_t buffer) const {
 
 std::vector<BufferId> Pipeline::bindings(size_t stage) const {
   std::vector<BufferId> ids;
-  for (const std::string& input : stages_[stage].info->inputs) {
-    const auto [s, b] = find(input, stage);
-    ids.push_back(bound(stages_[s], b));
+  const PartInfo& info = *stages_[stage].info;
+  for (const std::vector<std::string>* names : {&info.inputs, &info.optionalInputs}) {
+    for (const std::string& input : *names) {
+      const auto at = find(input, stage);
+      ids.push_back(at ? bound(stages_[at->first], at->second) : kNoBuffer);
+    }
   }
   for (size_t b = 0; b < stages_[stage].buffers.size(); ++b)
     ids.push_back(bound(stages_[stage], b));
   return ids;
 }
 
-// What is the cache's comes first, as in a kernel's structs.
 PassRun Pipeline::runOf(size_t stage, size_t pass) const {
   const Stage& own = stages_[stage];
-  PassRun run{own.kernels[pass], own.masks[pass], {}, {}, own.entries[pass]};
-  if (own.info->passes[pass].seesCache) {
-    run.buffers = bindings(cache_);
-    run.params = stages_[cache_].params;
-  }
-  const std::vector<BufferId> buffers = bindings(stage);
-  run.buffers.insert(run.buffers.end(), buffers.begin(), buffers.end());
-  run.params.insert(run.params.end(), own.params.begin(), own.params.end());
-  return run;
+  return {own.info->passes[pass].kernel, own.masks[pass], bindings(stage), own.params,
+          own.entries[pass]};
 }
 
 std::vector<PassRun> Pipeline::beginFrame(bool isNewView) {
   std::vector<bool> ran;
   for (Stage& stage : stages_) {
     stage.runs = isNewView || !stage.info->onlyOnNewViews;
-    for (const PassInfo& pass : stage.info->passes)
-      ran.push_back(stage.runs && (isNewView || !pass.onlyOnNewViews));
+    for (size_t p = 0; p < stage.masks.size(); ++p) {
+      const bool isDue = isNewView || !stage.info->passes[p].onlyOnNewViews;
+      ran.push_back(stage.runs && isDue && stage.isThere[p]);
+    }
     // What the last run left becomes the history.
     for (size_t b = 0; stage.runs && b < stage.buffers.size(); ++b) {
       const int other = stage.info->buffers[b].swapWith;
@@ -192,10 +214,12 @@ std::vector<Pipeline::PassResult> Pipeline::collect(const FrameResult& result) {
   ran_.pop_front();
   size_t pass = 0, next = 0;
   for (const Stage& stage : stages_) {
-    for (const PassInfo& info : stage.info->passes) {
+    for (size_t p = 0; p < stage.masks.size(); ++p) {
+      const bool hasRun = ran[pass++];
+      if (!stage.isThere[p]) continue;
       PassResult& out = passes.emplace_back();
-      out.name = info.name;
-      if (!ran[pass++]) continue;
+      out.name = stage.info->passes[p].name;
+      if (!hasRun) continue;
       out.timeMs = result.timesMs[next];
       out.counters = result.counters[next];
       ++next;

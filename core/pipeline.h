@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,15 +16,16 @@ class Pipeline {
  public:
   // `wanted`: the features of the kernels. Throws Error (badUsage) where a part asks for a buffer
   // that no earlier part has. Nothing is allocated yet.
-  // Passes that see a cache see `cache`, one of the parts; null: none do.
-  Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const PartInfo* cache,
-           const std::string& mode, const ParameterMap& parameters, uint32_t wanted, size_t pixels);
+  Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const std::string& mode,
+           const ParameterMap& parameters, uint32_t wanted, size_t pixels);
 
   uint32_t featuresUsed() const { return used_; }
   // Of the buffers that the kernels in use can touch: one that they cannot is not allocated.
   // Rounded up.
   std::vector<std::pair<std::string, size_t>> bufferBytesPerPixel() const;
   size_t bytesPerPixel() const;
+  // Of an image of another size: what is no pixel's is shared by more or fewer of them.
+  size_t bytesPerPixelOf(size_t pixels) const;
 
   // Other parameters, of the same mode. False, and nothing is done, where buffers would have
   // another size.
@@ -55,9 +57,9 @@ class Pipeline {
   struct Stage {
     const PartInfo* info = nullptr;
     std::vector<std::byte> params;
-    std::vector<std::string> kernels;  // of each pass
-    std::vector<uint32_t> masks;
+    std::vector<uint32_t> masks;    // of each pass
     std::vector<uint32_t> entries;  // of each pass; 0: pixels
+    std::vector<bool> isThere;      // of each pass: the method's cache is one that it is for
     std::vector<size_t> bytes;      // of each own buffer; 0: not allocated
     std::vector<BufferId> buffers;  // the part's own
     bool runs = true;               // in the frame that was begun last
@@ -65,14 +67,13 @@ class Pipeline {
 
   size_t bytesOf(const BufferInfo& buffer, const ParameterMap& parameters) const;
   void pack(Stage& stage, const std::string& mode, const ParameterMap& parameters) const;
-  std::pair<size_t, size_t> find(const std::string& name, size_t before) const;
+  std::optional<std::pair<size_t, size_t>> find(const std::string& name, size_t before) const;
   BufferId bound(const Stage& stage, size_t buffer) const;
   std::vector<BufferId> bindings(size_t stage) const;
   PassRun runOf(size_t stage, size_t pass) const;
 
   Backend& backend_;
   std::vector<Stage> stages_;
-  size_t cache_ = 0;  // its stage
   size_t pixels_ = 0;
   uint32_t used_ = 0;
   std::deque<std::vector<bool>> ran_;  // by pass, of the frames under way

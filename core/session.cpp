@@ -44,7 +44,7 @@ std::string featureNames(uint32_t mask) {
 const std::array<const char*, rl::RL_HEALTH_COUNT>& Health::names() {
   static const std::array<const char*, rl::RL_HEALTH_COUNT> names = {
       "nonfinite",         "rejected_jacobian", "capped_confidence", "delta_lobes",
-      "unreusable_pixels", "negative",          "dropped_weights"};
+      "unreusable_pixels", "negative",          "dropped_weights",   "cache_full"};
   return names;
 }
 
@@ -111,8 +111,8 @@ void Session::Impl::open() {
   backend = makeBackend(config.backend, scene,
                         {config.threads, config.device, config.rayTracing, config.validate});
   const uint32_t wanted = config.specialise ? needed : rl::RL_FEATURE_ALL;
-  pipeline.emplace(*backend, withVisibleSurfaces(method.parts()), method.cache, config.mode,
-                   config.parameters, wanted, size_t(config.width) * config.height);
+  pipeline.emplace(*backend, withVisibleSurfaces(method.parts()), config.mode, config.parameters,
+                   wanted, size_t(config.width) * config.height);
   backend->requireMemory(method.integrator->name, config.width, config.height,
                          pipeline->bytesPerPixel(), sizeof(glm::vec3) + hostBytesPerPixel);
   pipeline->allocate();
@@ -332,5 +332,8 @@ std::vector<std::pair<std::string, size_t>> Session::bufferBytesPerPixel() const
 }
 
 size_t Session::bytesPerPixel() const { return impl_->pipeline->bytesPerPixel(); }
+size_t Session::bytesPerPixelOf(uint32_t width, uint32_t height) const {
+  return impl_->pipeline->bytesPerPixelOf(size_t(width) * height);
+}
 
 }  // namespace restlab

@@ -107,6 +107,7 @@ class Session {
   uint32_t featuresNeeded() const;
   uint32_t featuresUsed() const;  // of the smallest compiled superset
   size_t bytesPerPixel() const;   // of all buffers
+  size_t bytesPerPixelOf(uint32_t width, uint32_t height) const;  // of an image of another size
   const SessionConfig& config() const;
   const StartupReport& startup() const;  // what was compiled, and how long it took
   std::string rayTracing() const;        // the one in use

@@ -52,7 +52,7 @@ struct KernelReport {
 struct StartupReport {
   double timeMs = 0.0;  // of the kernels; 0 where they were compiled with the program
   std::vector<KernelReport> kernels;
-  bool readsTexels = false;          // the last kernel reads through texels, not by address
+  bool readsTexels = false;          // a kernel reads through texels, not by address
   std::vector<std::string> notices;  // one line each, for the user
 };
 

@@ -1,20 +1,13 @@
 // Body of a generated kernel translation unit: the dialect's functions as members of
 // Ctx<features>, Embree behind traceRay(), and the tile loop. The generated file defines
-// RL_KERNEL_NAME, RL_KERNEL_MASK_NAME, RL_KERNEL_MASK, RL_KERNEL_FILE, of a kernel with buffers of
-// its own RL_KERNEL_HEADER, of one that sees a cache RL_KERNEL_CACHE_HEADER and
-// RL_KERNEL_CACHE_FILE, and RL_KERNEL_TRACE, the file with the body of traceRay() (without it,
-// Embree's).
+// RL_KERNEL_NAME, RL_KERNEL_MASK_NAME, RL_KERNEL_MASK, RL_KERNEL_HEADER, RL_KERNEL_FILE and
+// RL_KERNEL_TRACE, the file with the body of traceRay() (without it, Embree's).
 #include <embree3/rtcore.h>
 
 #include "core/backend/alpha_filter.h"
 #include "core/backend/cpu_kernel.h"
 #include "core/dialect/order.h"
-#ifdef RL_KERNEL_CACHE_HEADER
-#include RL_KERNEL_CACHE_HEADER
-#endif
-#ifdef RL_KERNEL_HEADER
 #include RL_KERNEL_HEADER
-#endif
 
 // Functions that a kernel hands to the path loop or to the reuse loop have one signature: some
 // ignore a parameter.
@@ -31,25 +24,6 @@ namespace {
 #define RL_HEALTH(kind) (++gCounters.health[kind])
 #define RL_COUNT_RAY(mode) (++((mode) == RL_RAY_SHADOW ? gCounters.raysShadow : gCounters.raysPath))
 
-// What CpuKernelArgs::buffers and ::params lead to.
-struct KernelBuffers {
-#ifdef RL_KERNEL_CACHE_HEADER
-  RL_CACHE_BUFFERS cache;
-#endif
-#ifdef RL_KERNEL_HEADER
-  RL_KERNEL_BUFFERS own;
-#endif
-};
-struct KernelParams {
-#ifdef RL_KERNEL_CACHE_HEADER
-  RL_CACHE_PARAMS cache;
-#endif
-#ifdef RL_KERNEL_HEADER
-  RL_KERNEL_PARAMS own;
-#endif
-};
-static_assert(alignof(KernelParams) == 4, "parameters are packed one after the other");
-
 template <uint FEATURES>
 struct Ctx {
   static constexpr uint kFeatures = FEATURES;
@@ -58,35 +32,21 @@ struct Ctx {
   const FrameData& gFrame;
   CpuKernelCounters& gCounters;
   RTCScene embreeScene;
-#ifdef RL_KERNEL_CACHE_HEADER
-  const RL_CACHE_BUFFERS& gCache;
-  const RL_CACHE_PARAMS& gCacheParams;
-#endif
-#ifdef RL_KERNEL_HEADER
   const RL_KERNEL_BUFFERS& gBuffers;
   const RL_KERNEL_PARAMS& gParams;
-#endif
 
 #include "core/dialect/order.glsl"
 #include RL_KERNEL_TRACE
-#ifdef RL_KERNEL_CACHE_FILE
-#include RL_KERNEL_CACHE_FILE
-#endif
 #include RL_KERNEL_FILE
 };
 
 void runTile(const CpuKernelArgs& args, const CpuKernelTile& tile, CpuKernelCounters& counters) {
-  [[maybe_unused]] const auto& buffers = *static_cast<const KernelBuffers*>(args.buffers);
-  [[maybe_unused]] const auto& params = *static_cast<const KernelParams*>(args.params);
-  Ctx<RL_KERNEL_MASK> ctx{
-      *args.scene,   *args.frame,  counters, static_cast<RTCScene>(args.embreeScene),
-#ifdef RL_KERNEL_CACHE_HEADER
-      buffers.cache, params.cache,
-#endif
-#ifdef RL_KERNEL_HEADER
-      buffers.own,   params.own,
-#endif
-  };
+  Ctx<RL_KERNEL_MASK> ctx{*args.scene,
+                          *args.frame,
+                          counters,
+                          static_cast<RTCScene>(args.embreeScene),
+                          *static_cast<const RL_KERNEL_BUFFERS*>(args.buffers),
+                          *static_cast<const RL_KERNEL_PARAMS*>(args.params)};
   for (uint32_t y = tile.y0; y < tile.y1; ++y) {
     for (uint32_t x = tile.x0; x < tile.x1; ++x) ctx.kernelMain(uvec2(x, y));
   }

@@ -18,7 +18,7 @@ const std::vector<DialectSource>& dialectSources();
 
 // A kernel as rl_add_kernel names it.
 struct DialectKernel {
-  std::string name, file, header, cache;
+  std::string name, file, header;
 };
 const std::vector<DialectKernel>& dialectKernels();
 

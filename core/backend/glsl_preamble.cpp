@@ -14,23 +14,7 @@ constexpr const char* kText = R"(#version 460
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 {extensions}{reads}#include "core/dialect/order.h"
-{headers}
-struct RlKernelBuffers {{
-#ifdef RL_CACHE_BUFFERS
-  RL_CACHE_BUFFERS cache;
-#endif
-#ifdef RL_KERNEL_BUFFERS
-  RL_KERNEL_BUFFERS own;
-#endif
-}};
-struct RlKernelParams {{
-#ifdef RL_CACHE_PARAMS
-  RL_CACHE_PARAMS cache;
-#endif
-#ifdef RL_KERNEL_PARAMS
-  RL_KERNEL_PARAMS own;
-#endif
-}};
+#include "{header}"
 
 layout(local_size_x = {tile}, local_size_y = {tile}) in;
 layout(constant_id = 0) const uint kFeatures = RL_FEATURE_ALL;
@@ -43,10 +27,10 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer RlF
   FrameData v;
 }};
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer RlBuffersRef {{
-  RlKernelBuffers v;
+  RL_KERNEL_BUFFERS v;
 }};
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer RlParamsRef {{
-  RlKernelParams v;
+  RL_KERNEL_PARAMS v;
 }};
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer RlCountersRef {{
   uint raysPath;
@@ -73,17 +57,15 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer RlTriples {{
 #ifdef RL_TEXELS
 layout(set = 0, binding = 0, scalar) uniform RlScene {{ SceneData v; }} rlScene;
 layout(set = 0, binding = 1, scalar) uniform RlFrame {{ FrameData v; }} rlFrame;
-layout(set = 0, binding = 2, scalar) uniform RlBuffers {{ RlKernelBuffers v; }} rlBuffers;
-layout(set = 0, binding = 3, scalar) uniform RlParams {{ RlKernelParams v; }} rlParams;
+layout(set = 0, binding = 2, scalar) uniform RlBuffers {{ RL_KERNEL_BUFFERS v; }} rlBuffers;
+layout(set = 0, binding = 3, scalar) uniform RlParams {{ RL_KERNEL_PARAMS v; }} rlParams;
 layout(set = 0, binding = 4) uniform usamplerBuffer rlSceneQuads;
 layout(set = 0, binding = 5) uniform usamplerBuffer rlSceneWords;
 layout(set = 0, binding = 6) uniform usamplerBuffer rlStateQuads;
 #define gScene rlScene.v
 #define gFrame rlFrame.v
-#define gBuffers rlBuffers.v.own
-#define gParams rlParams.v.own
-#define gCache rlBuffers.v.cache
-#define gCacheParams rlParams.v.cache
+#define gBuffers rlBuffers.v
+#define gParams rlParams.v
 int rlSceneQuadAt(uint64_t ref, uint i) {{ return int(uint((ref - rlPush.sceneBase) >> 4) + i); }}
 int rlSceneWordAt(uint64_t ref, uint i) {{ return int(uint((ref - rlPush.sceneBase) >> 2) + i); }}
 int rlStateQuadAt(uint64_t ref, uint i) {{ return int(uint((ref - rlPush.stateBase) >> 4) + i); }}
@@ -115,10 +97,8 @@ void rlWriteQuad(uint64_t ref, uint i, uvec4 value) {{
 #else
 #define gScene rlPush.scene.v
 #define gFrame rlPush.frame.v
-#define gBuffers rlPush.buffers.v.own
-#define gParams rlPush.params.v.own
-#define gCache rlPush.buffers.v.cache
-#define gCacheParams rlPush.params.v.cache
+#define gBuffers rlPush.buffers.v
+#define gParams rlPush.params.v
 #define RL_WRITE_QUAD(ref, i, value) RlQuads(uint64_t(ref)).data[i] = (value)
 #define RL_SCENE_QUAD(ref, i) RL_QUAD(ref, i)
 #define RL_PAST_QUAD(ref, i) RL_QUAD(ref, i)
@@ -139,7 +119,7 @@ uint rlRaysShadow = 0u;
 
 #include "core/dialect/order.glsl"
 #include "{trace}"
-{files}
+#include "{file}"
 
 void main() {{
   uvec2 pixel = gl_GlobalInvocationID.xy;
@@ -156,14 +136,7 @@ void main() {{
 }  // namespace
 
 std::string glslKernelSource(const GlslKernel& kernel) {
-  std::string headers, files;
-  if (!kernel.cache.empty()) {
-    headers = fmt::format("#include \"core/caches/{0}/{0}.h\"\n", kernel.cache);
-    files = fmt::format("#include \"core/caches/{0}/{0}.glsl\"\n", kernel.cache);
-  }
-  if (!kernel.header.empty()) headers += fmt::format("#include \"{}\"\n", kernel.header);
-  files += fmt::format("#include \"{}\"\n", kernel.file);
-  return fmt::format(kText, fmt::arg("headers", headers), fmt::arg("files", files),
+  return fmt::format(kText, fmt::arg("header", kernel.header), fmt::arg("file", kernel.file),
                      fmt::arg("trace", kernel.traceFile), fmt::arg("tile", kGlslTile),
                      fmt::arg("extensions", kernel.extensions),
                      fmt::arg("reads", kernel.readsTexels ? "#define RL_TEXELS\n" : ""));

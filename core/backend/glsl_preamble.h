@@ -11,12 +11,11 @@ namespace restlab {
 
 // A kernel as rl_add_kernel names it; paths are relative to the repository.
 struct GlslKernel {
-  std::string header;           // Buffers and Params, RL_KERNEL_BUFFERS and RL_KERNEL_PARAMS; or ""
+  std::string header;           // Buffers and Params, RL_KERNEL_BUFFERS and RL_KERNEL_PARAMS
   std::string file;             // defines kernelMain()
   std::string traceFile;        // defines traceRay()
   std::string extensions = {};  // "#extension" lines that the trace file needs
   bool readsTexels = false;     // reads by texels and uniform blocks instead of addresses
-  std::string cache = {};       // the cache that it sees, a folder of core/caches; ""
 };
 
 // What defines traceRay().
@@ -53,7 +52,7 @@ enum GlslBinding : uint32_t {
 };
 
 // The push constants: device addresses of SceneData, FrameData, the kernel's Buffers and Params
-// structs (a cache's first), and GlslCounters.
+// structs, and GlslCounters.
 struct GlslPushConstants {
   uint64_t scene = 0;
   uint64_t frame = 0;

@@ -275,8 +275,9 @@ const uint RL_HEALTH_DELTA_LOBES = 3u;        // roughness below the floor, rend
 const uint RL_HEALTH_UNREUSABLE_PIXELS = 4u;  // x1 cannot be reused: own light alone
 const uint RL_HEALTH_NEGATIVE = 5u;           // negative radiance left by control variates
 const uint RL_HEALTH_DROPPED_WEIGHTS =
-    6u;  // resampling weights that are no finite, non-negative number
-const uint RL_HEALTH_COUNT = 7u;
+    6u;                                // resampling weights that are no finite, non-negative number
+const uint RL_HEALTH_CACHE_FULL = 7u;  // pixels whose cell found no place in the cache
+const uint RL_HEALTH_COUNT = 8u;
 
 RL_NAMESPACE_END
 

@@ -1,6 +1,10 @@
 // Surfaces that pixels show at their centres: packing, the test of two, and the way back to the
 // last frame.
 
+// Where a pixel's entry lies in buffers of pixels, and back.
+RL_FN uint slotOfPixel(RL_IN(uvec2) pixel) { return pixel.y * gFrame.width + pixel.x; }
+RL_FN uvec2 pixelOfSlot(uint slot) { return uvec2(slot % gFrame.width, slot / gFrame.width); }
+
 // Of the pixels of an image that this camera took.
 RL_FN VisibleSurface visibleRead(RL_IN(QuadRef) quads, RL_IN(Camera) camera, uint pixelIndex) {
   uvec4 q = RL_PAST_QUAD(quads, pixelIndex);
@@ -39,6 +43,14 @@ RL_FN bool visibleMatch(RL_IN(VisibleSurface) a, RL_IN(VisibleSurface) b, float 
   float planeDistance = abs(dot(d, unpackNormal(a.nGeoW)));
   if (a.nGeoW != b.nGeoW) planeDistance = max(planeDistance, abs(dot(d, unpackNormal(b.nGeoW))));
   return planeDistance <= maxPlaneDistance * distanceToCamera;
+}
+
+// Are two surfaces alike enough to exchange samples? Symmetric; the background is like nothing.
+RL_FN bool visibleAlike(RL_IN(VisibleSurface) a, RL_IN(VisibleSurface) b, RL_IN(SurfaceTest) test) {
+  if (a.isHit == 0u || b.isHit == 0u) return false;
+  vec3 camera = gFrame.camera.posW;
+  float distanceToCamera = max(distance(camera, a.posW), distance(camera, b.posW));
+  return visibleMatch(a, b, distanceToCamera, test.minNormalDot, test.maxPlaneDistance);
 }
 
 // Film coordinates at which the last frame's camera saw it; false where it was out of view.

@@ -18,6 +18,12 @@ struct VisibleSurface {
   vec3 reflectance;  // bsdfReflectance(), 0 to 1
 };
 
+// When two of them are alike enough to share samples.
+struct SurfaceTest {
+  float minNormalDot;
+  float maxPlaneDistance;  // over the distance to the camera
+};
+
 // In a buffer it is one quad: the distance along the ray through the pixel's centre, two normals,
 // the reflectance, emits, isHit.
 

@@ -30,6 +30,17 @@ RL_FN PathShift pathShiftTo(RL_IN(PathReservoir) r, RL_IN(uvec2) pixel, bool isB
   return s;
 }
 
+// To a surface point that is known. One ray.
+RL_FN PathShift pathShiftToSurface(RL_IN(PathReservoir) r, RL_IN(Surface) x1) {
+  PathShift s = pathShiftNone();
+  if (!(r.state.W > 0.0f)) return s;
+  s.shifted = pathReconnect(r.path, x1, gParams.path.maxJacobian);
+  if (!(reuseTarget(s.shifted.F) > 0.0f)) return s;
+  s.ray = pathSegment(r.path, x1.posW, x1.nGeoW, x1.posError);
+  s.asks = RL_SHIFT_ASKS_SEGMENT;
+  return s;
+}
+
 // The next step, with what the ray that was asked for has found.
 RL_FN void pathShiftStep(RL_INOUT(PathShift) s, RL_IN(PathSample) path, RL_IN(Hit) hit,
                          float transmittance) {

@@ -3,9 +3,9 @@
 
 // A donor's confidence after the cap, counted when the cap acts.
 RL_FN real reuseCapped(real confidence, real cap) {
-  if (!(confidence > cap)) return confidence;
-  RL_HEALTH(RL_HEALTH_CAPPED_CONFIDENCE);
-  return cap;
+  real capped = min(confidence, cap);
+  if (capped < confidence) RL_HEALTH(RL_HEALTH_CAPPED_CONFIDENCE);
+  return capped;
 }
 
 // The share of its confidence with which a donor over space enters the merge of a pixel whose

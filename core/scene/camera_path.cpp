@@ -179,8 +179,9 @@ SceneCamera cameraAt(const CameraMotion& motion, uint32_t frame) {
     case CameraPathKind::cut:
       return frame < path.cutFrame ? start : motion.afterCut;
     case CameraPathKind::back:
-      return frame < path.cutFrame ? turned(start, positionOf(start), kUpW, path.cutDegrees)
-                                   : start;
+      return frame >= path.leaveFrame && frame < path.cutFrame
+                 ? turned(start, positionOf(start), kUpW, path.cutDegrees)
+                 : start;
     case CameraPathKind::keyframes:
       return keyframed(motion, frame);
   }

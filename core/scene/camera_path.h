@@ -47,8 +47,9 @@ struct CameraPath {
   uint32_t cutFrame = 0;
   std::string cutCamera;
   double cutDegrees = 0.0;
-  // back: the camera stands turned about +Y by `cutDegrees` until `cutFrame`, from which on it is
-  // the scene's own: a cut whose reference is that of the still camera.
+  // back: from `leaveFrame` until `cutFrame` the camera stands turned about +Y by `cutDegrees`;
+  // before and after it is the scene's own: a cut whose reference is that of the still camera.
+  uint32_t leaveFrame = 0;
   // keyframes: in the order of their frames. At its frame the camera is exactly that of the
   // keyframe; before the first and after the last it stands still. In between positions and fields
   // of view (angles; an orthographic camera's extents) are linear in the frame. Between two

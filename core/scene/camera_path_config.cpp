@@ -102,6 +102,12 @@ CameraPath parseCameraPath(const ConfigTable& table) {
   if (path.kind == CameraPathKind::back) {
     path.cutFrame = getFrame(table, what);
     path.cutDegrees = table.getNumber("degrees", 180.0, -360.0, 360.0);
+    path.leaveFrame = uint32_t(table.getInteger("leave", 0, 0, kMaxFrame));
+    if (path.leaveFrame >= std::max(path.cutFrame, 1u)) {
+      table.fail("leave", fmt::format("'leave' is {}: the camera must leave before it comes back, "
+                                      "in frame {}",
+                                      path.leaveFrame, path.cutFrame));
+    }
   }
   if ((isOrbit || path.kind == CameraPathKind::cut) && table.has("target")) {
     path.targetW = getPoint(table, "target");

@@ -7,5 +7,6 @@ RL_FN uint giDonors() { return giIsYoung() ? gParams.spatialNeighbours : gParams
 
 // An old history is hurt by what differs from it in every sample, as two pixels at an outline do.
 RL_FN bool giMayServe(uint slot, uint other) {
-  return giIsYoung() || !(cacheIsOutline(slot) || cacheIsOutline(other));
+  if (giIsYoung()) return true;
+  return gBuffers.outlines.data[slot] == 0u && gBuffers.outlines.data[other] == 0u;
 }

@@ -4,11 +4,12 @@
 #include "core/resampling/reservoir.glsl"
 #include "core/payload/path_sample.glsl"
 #include "core/payload/path_shift.glsl"
+#include "core/resampling/partners.glsl"
 #include "integrators/restir_gi/store.glsl"
 #include "integrators/restir_gi/donors.glsl"
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
-  uint slot = cacheSlot(pixel);
+  uint slot = slotOfPixel(pixel);
   PathReservoir r;
   r.path.suffix = pathNoSuffix();
   giReadNow(slot, r);
@@ -16,10 +17,10 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   for (uint k = 0u; k < donors; k = k + 1u) {
     uint index = giExchangeIndex(slot, k);
     uint partner;
-    bool exists = cachePartner(pixel, k, partner);
+    bool exists = partnerFind(pixel, k, partner);
     if (exists) exists = giMayServe(slot, partner);
     PathShift shift = pathShiftNone();
-    if (exists) shift = pathShiftTo(r, cachePixel(partner), false, false);
+    if (exists) shift = pathShiftTo(r, pixelOfSlot(partner), false, false);
     pathShiftTrace(shift, r.path);
     shiftedWrite(gBuffers.exchange, index, shift.shifted, exists ? partner : RL_INVALID);
   }

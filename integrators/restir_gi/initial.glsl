@@ -10,6 +10,7 @@
 #include "core/resampling/mis.glsl"
 #include "core/resampling/merge.glsl"
 #include "core/resampling/donors.glsl"
+#include "core/caches/entries/entries.glsl"
 #include "integrators/restir_gi/store.glsl"
 #include "integrators/restir_gi/over_time.glsl"
 #include "integrators/restir_gi/age.glsl"
@@ -49,6 +50,8 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     own = vec3(0.0f, 0.0f, 0.0f);
     r.state = reservoirEmpty();
   }
+  if (gParams.entries.count != 0u && entryOfferer(entryGroup(slot)) == slot)
+    giWriteOffer(entryGroup(slot), r);
   if (gParams.temporalReuse != 0u && gFrame.stillFrames != 0u) {
     uvec4 before = RL_PAST_QUAD(gBuffers.ownBefore, slot);
     taken = before.w;

@@ -13,7 +13,9 @@
 #include <array>
 #include <bit>
 
+#include "core/caches/entries/settings.h"
 #include "core/integrator.h"
+#include "core/resampling/partner_settings.h"
 
 namespace rl {
 namespace {
@@ -32,7 +34,7 @@ namespace restlab {
 namespace {
 
 std::vector<ParameterInfo> parameterInfos() {
-  return {
+  std::vector<ParameterInfo> infos = {
       {"confidence_cap",
        20.0,
        1.0,
@@ -93,6 +95,13 @@ std::vector<ParameterInfo> parameterInfos() {
        "the path's",
        "core/transport/lights_in_view.glsl; measured: docs/decisions.md"},
       {"temporal", true, 0, 0, {}, "temporal reuse", "Ouyang et al. 2021"},
+      {"reproject",
+       true,
+       0,
+       0,
+       {},
+       "in frames of a new view, the pixel of the last frame that showed the surface is a donor",
+       "Ouyang et al. 2021; false leaves what a cache in world space does alone"},
       {"roughness_limit",
        0.2,
        0.0,
@@ -149,6 +158,8 @@ std::vector<ParameterInfo> parameterInfos() {
        "leaves the Jacobian out of the weights: wrong, for the bias tests only",
        "negative control"},
   };
+  for (ParameterInfo& info : partnerParameters()) infos.push_back(std::move(info));
+  return infos;
 }
 
 template <typename T>
@@ -183,6 +194,7 @@ std::vector<std::byte> pack(const std::string& mode, const ParameterMap& p) {
   out.donorNoise = static_cast<float>(get<double>(p, "donor_noise"));
   out.donorsBySample = get<bool>(p, "donors_by_sample") ? 1u : 0u;
   out.temporalReuse = get<bool>(p, "temporal") ? 1u : 0u;
+  out.reproject = get<bool>(p, "reproject") ? 1u : 0u;
   out.confidenceCap = static_cast<float>(get<double>(p, "confidence_cap"));
   out.movingConfidenceCap =
       std::min(out.confidenceCap, static_cast<float>(get<double>(p, "moving_confidence_cap")));
@@ -190,6 +202,8 @@ std::vector<std::byte> pack(const std::string& mode, const ParameterMap& p) {
   out.path.minAlpha = roughness * roughness;
   out.path.maxJacobian = static_cast<float>(get<double>(p, "max_jacobian"));
   out.maxReflectanceRatio = static_cast<float>(get<double>(p, "max_reflectance_ratio"));
+  out.partners = packPartners(p);
+  out.entries = packEntries(p);
   return bytesOf(out);
 }
 
@@ -202,17 +216,20 @@ std::string whyWithoutEffect(const std::string& name, const ParameterMap& p) {
   const int64_t neighbours = get<int64_t>(p, "spatial_neighbours");
   const double young = get<double>(p, "young_frames");
   const double oldest = isOverTime ? get<double>(p, "confidence_cap") + 1.0 : 1.0;
-  if (isOneOf(name, {"confidence_cap", "moving_confidence_cap", "donor_noise", "mode"}) &&
+  if (isOneOf(name,
+              {"confidence_cap", "moving_confidence_cap", "donor_noise", "mode", "reproject"}) &&
       !isOverTime)
     return "temporal is false";
+  if (name == "mode" && !get<bool>(p, "reproject")) return "reproject is false";
   if (name == "moving_confidence_cap" &&
       get<double>(p, name.c_str()) > get<double>(p, "confidence_cap"))
     return "confidence_cap is smaller";
-  if (neighbours == 0 &&
-      isOneOf(name, {"aged_neighbours", "young_frames", "donor_noise", "donors_by_sample"}))
+  if (neighbours == 0 && isOneOf(name, {"aged_neighbours", "young_frames", "donor_noise",
+                                        "donors_by_sample", "spatial_radius"}))
     return "spatial_neighbours is 0";
   if (!isOverTime && neighbours == 0 &&
-      isOneOf(name, {"mis", "max_jacobian", "max_reflectance_ratio", "omit_jacobian", "shading"}))
+      isOneOf(name, {"mis", "max_jacobian", "max_reflectance_ratio", "omit_jacobian", "shading",
+                     "normal_threshold", "plane_threshold"}))
     return "temporal is false and spatial_neighbours is 0";
   if (name == "aged_neighbours" && get<int64_t>(p, "aged_neighbours") > neighbours)
     return "there are no more donors than spatial_neighbours says";
@@ -271,7 +288,8 @@ const IntegratorInfo& restir_giIntegratorInfo() {
     i.parameters = parameterInfos();
     i.usesCache = true;
     i.hasHistory = true;
-    i.inputs = {"visible"};
+    i.inputs = {"visible", "visible_before"};
+    i.optionalInputs = {"proposals", "anchors", "feeders"};
     i.buffers = {
         {"radiance", 12, 0, -1},
         {"own_light", 16, 0, 2},
@@ -281,14 +299,28 @@ const IntegratorInfo& restir_giIntegratorInfo() {
         {"path_suffixes", 16 * rl::RL_PATH_SUFFIX_QUADS, rl::RL_FEATURE_GLOSSY, -1},
         {"path_suffix_history", 16 * rl::RL_PATH_SUFFIX_QUADS, rl::RL_FEATURE_GLOSSY, -1},
         {"exchange", 16, 0, -1, "spatial_neighbours"},
+        {"outlines", sizeof(uint32_t), 0, -1},
+        {"entry_reservoirs", 16 * rl::RL_PATH_RESERVOIR_QUADS, 0, -1},
+        {"entry_suffixes", 16 * rl::RL_PATH_SUFFIX_QUADS, rl::RL_FEATURE_GLOSSY, -1},
+        {"offers", 16 * rl::RL_PATH_RESERVOIR_QUADS, 0, -1},
+        {"offer_suffixes", 16 * rl::RL_PATH_SUFFIX_QUADS, rl::RL_FEATURE_GLOSSY, -1},
     };
+    for (BufferInfo& buffer : i.buffers) {
+      if (buffer.name.starts_with("entry_")) buffer.entriesParameter = kEntryCount;
+      if (buffer.name.starts_with("offer")) buffer.onePerParameter = "feed_every";
+    }
     i.passes = {{"lights_in_view", "restir_gi_lights_in_view", true, true},
                 {"initial", "restir_gi_initial"},
                 {"temporal", "restir_gi_temporal", true, true},
+                {"recall", "restir_gi_recall", true, true},
+                {"outlines", "restir_gi_outlines", false, true},
                 {"exchange", "restir_gi_exchange"},
-                {"spatial", "restir_gi_spatial"}};
-    // Those before the temporal pass know no cache: they are compiled once.
-    for (size_t pass = 2; pass < i.passes.size(); ++pass) i.passes[pass].seesCache = true;
+                {"spatial", "restir_gi_spatial"},
+                {"feed", "restir_gi_feed"}};
+    for (PassInfo& pass : i.passes) {
+      if (pass.name == "recall" || pass.name == "feed") pass.onlyWith = kEntryCount;
+      if (pass.name == "feed") pass.entriesParameter = kEntryCount;
+    }
     i.whyWithoutEffect = whyWithoutEffect;
     i.packParameters = pack;
     i.radianceFrames = [](const ParameterMap& p) {

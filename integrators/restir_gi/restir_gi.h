@@ -5,9 +5,11 @@
 #ifdef __cplusplus
 #include "core/dialect/order.h"
 #endif
+#include "core/caches/entries/entries.h"
 #include "core/payload/path_gather.h"
 #include "core/payload/path_sample.h"
 #include "core/payload/path_shift.h"
+#include "core/resampling/partners.h"
 
 RL_NAMESPACE_BEGIN
 
@@ -27,8 +29,23 @@ struct GiOverSpace {
   Rng rng;
 };
 
+// The merge of a pixel with its entries, and that of an entry with what pixels offer: of
+// RL_MAX_DONORS donors.
+struct GiWithEntries {
+  uint slot;   // of the pixel; the entry
+  uint id[4];  // entries; groups of pixels. RL_INVALID: none
+  Shifted ours[4];
+  Shifted theirs[4];
+  Rng rng;
+};
+
 struct RestirGiBuffers {
   QuadRef visible;  // core/dialect/visible.h
+  QuadRef visibleBefore;
+  // Of caches in world space (core/caches/README.md).
+  UintRef proposals;
+  QuadRef anchors;
+  UintRef feeders;
   Vec3Ref radiance;
   // One quad: light that no other pixel could use, averaged over time in a still view; of how many
   // film samples lights_in_view took light in view when the view was new, 0 where it did not. It
@@ -42,6 +59,13 @@ struct RestirGiBuffers {
   // Between the exchange and the spatial pass, spatialNeighbours entries a pixel: its sample as the
   // partner sees it, and the partner's slot (RL_INVALID: none).
   QuadRef exchange;
+  UintRef outlines;  // 1: a pixel beside it shows another surface
+  // Of caches in world space: reservoirs of entries, and what pixels found in this frame alone, one
+  // of each group (core/caches/entries/entries.glsl).
+  QuadRef entryReservoirs;
+  QuadRef entrySuffixes;
+  QuadRef offers;
+  QuadRef offerSuffixes;
 };
 
 struct RestirGiParams {
@@ -54,10 +78,13 @@ struct RestirGiParams {
   float donorNoise;     // reuseDonorShare()
   uint donorsBySample;  // 1: wrong by design, for the tests that must reject it
   uint temporalReuse;   // 0: off
+  uint reproject;       // 0: pixels do not follow surfaces
   float confidenceCap;
   float movingConfidenceCap;  // of frames of a new view
   float maxReflectanceRatio;  // per channel, of surfaces, for the carried per-channel estimates
   PathParams path;
+  PartnerParams partners;
+  EntryParams entries;
 };
 
 RL_NAMESPACE_END

@@ -7,6 +7,7 @@
 #include "core/payload/path_sample.glsl"
 #include "core/resampling/merge.glsl"
 #include "core/resampling/donors.glsl"
+#include "core/resampling/partners.glsl"
 #include "integrators/restir_gi/store.glsl"
 #include "integrators/restir_gi/ratio.glsl"
 #include "integrators/restir_gi/donors.glsl"
@@ -40,7 +41,7 @@ RL_FN bool reuseDonor(RL_IN(GiOverSpace) s, uint k, RL_OUT(ReservoirState) donor
   return true;
 }
 RL_FN real3 reuseRatio(RL_IN(GiOverSpace) s, uint k) {
-  return giRatio(cacheSurface(giPartner(s.slot, k)), s.slot);
+  return giRatio(partnerSurface(giPartner(s.slot, k)), s.slot);
 }
 RL_FN real reuseUniform(RL_IN(GiOverSpace) s, uint k) {
   Rng rng = s.rng;
@@ -51,7 +52,7 @@ RL_FN real reuseUniform(RL_IN(GiOverSpace) s, uint k) {
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   GiOverSpace s;
-  s.slot = cacheSlot(pixel);
+  s.slot = slotOfPixel(pixel);
   s.share = reuseDonorShare(giAge(), gParams.donorNoise);
   s.rng = rngInit(gFrame.seed, s.slot, gFrame.frame);
   s.rng.vertex = RL_VERTEX_SPATIAL;

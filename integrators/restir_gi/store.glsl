@@ -50,5 +50,35 @@ RL_FN void giTakePathBefore(uint slot, RL_INOUT(PathReservoir) r) {
   r.path = from.path;
 }
 
+// An entry's reservoir, and the offer of a group of pixels.
+RL_FN void giReadEntry(uint entry, RL_INOUT(PathReservoir) r) {
+  giRead(gBuffers.entryReservoirs, gBuffers.entrySuffixes, entry, r);
+}
+RL_FN ReservoirState giReadEntryState(uint entry) {
+  return pathStateRead(gBuffers.entryReservoirs, entry * RL_PATH_RESERVOIR_QUADS);
+}
+RL_FN void giTakeEntryPath(uint entry, RL_INOUT(PathReservoir) r) {
+  PathReservoir from = r;
+  giReadEntry(entry, from);
+  r.path = from.path;
+}
+RL_FN void giWriteEntry(uint entry, RL_IN(PathReservoir) r) {
+  giWrite(gBuffers.entryReservoirs, gBuffers.entrySuffixes, entry, r);
+}
+RL_FN void giReadOffer(uint group, RL_INOUT(PathReservoir) r) {
+  giRead(gBuffers.offers, gBuffers.offerSuffixes, group, r);
+}
+RL_FN ReservoirState giReadOfferState(uint group) {
+  return pathStateRead(gBuffers.offers, group * RL_PATH_RESERVOIR_QUADS);
+}
+RL_FN void giTakeOfferPath(uint group, RL_INOUT(PathReservoir) r) {
+  PathReservoir from = r;
+  giReadOffer(group, from);
+  r.path = from.path;
+}
+RL_FN void giWriteOffer(uint group, RL_IN(PathReservoir) r) {
+  giWrite(gBuffers.offers, gBuffers.offerSuffixes, group, r);
+}
+
 // A slot's sample as its k-th partner sees it, and that partner; RL_INVALID: there is none.
 RL_FN uint giExchangeIndex(uint slot, uint k) { return slot * gParams.spatialNeighbours + k; }

@@ -9,14 +9,16 @@
 #include "core/payload/path_shift.glsl"
 #include "core/resampling/merge.glsl"
 #include "core/resampling/donors.glsl"
+#include "core/resampling/reproject.glsl"
 #include "integrators/restir_gi/store.glsl"
 #include "integrators/restir_gi/over_time.glsl"
 #include "integrators/restir_gi/ratio.glsl"
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
-  uint slot = cacheSlot(pixel);
-  uint before;
-  if (gParams.temporalReuse == 0u || !cacheDonorOverTime(slot, before)) return;
+  uint slot = slotOfPixel(pixel);
+  if (gParams.temporalReuse == 0u || gParams.reproject == 0u) return;
+  uint before = reprojectedSlot(slot);
+  if (before == RL_INVALID) return;
   uint flags = gParams.temporalFlags;
   PathReservoir here;
   here.path.suffix = pathNoSuffix();
@@ -25,10 +27,10 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   giReadBefore(before, donor);
   GiOverTime t;
   giBeginOverTime(t, donor.state, slot);
-  t.ratio = giRatio(cacheSurfaceBefore(before), slot);
+  t.ratio = giRatio(visibleRead(gBuffers.visibleBefore, gFrame.previousCamera, before), slot);
   // The pixel's own sample as the last frame sees it, then the last frame's as the pixel sees it.
   PathShift shift =
-      pathShiftTo(here, cachePixel(before), true, (flags & RL_REUSE_ASSUME_VISIBLE) != 0u);
+      pathShiftTo(here, pixelOfSlot(before), true, (flags & RL_REUSE_ASSUME_VISIBLE) != 0u);
   PathSample path = here.path;
   t.ours = shift.shifted;
   for (uint i = 0u; i < 2u; i = i + 1u) {

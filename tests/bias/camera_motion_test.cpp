@@ -1,7 +1,9 @@
-// A moving camera: donors come from other pixels and were lit for another eye. The image of the
-// last camera may not depend on where the camera was before.
+// A moving camera: donors come from other pixels, or from entries in space, and were lit for
+// another eye. The image of the last camera may not depend on where the camera was before, whatever
+// cache remembers it.
 #include <gtest/gtest.h>
 
+#include "core/cache.h"
 #include "tests/bias/independent_runs.h"
 #include "tests/bias/test_cameras.h"
 
@@ -15,25 +17,42 @@ struct Walk {
   double turnDegrees;
   bool showsTheLamp = false;  // of the Cornell box: seen by the scene's own camera
   double untestable = 0.1;    // bound on the share of the area whose runs are too skewed to test
+  bool isBack = false;        // the first half of the frames stands where the last one does
 };
 
 void PrintTo(const Walk& w, std::ostream* out) { *out << w.name; }
 
+struct Setting {
+  const char* cache;
+  ParameterMap parameters = {};
+};
+std::vector<Setting> allCaches() {
+  std::vector<Setting> all;
+  for (const CacheInfo* info : cacheRegistry()) all.push_back({info->name.c_str()});
+  return all;
+}
+
 // Every frame of the history has a camera of its own, so only its last frame may be compared.
 void expectUnbiased(const Walk& walk, const SceneCamera& end, size_t runs, uint32_t truthFrames,
-                    uint32_t frames, int threads) {
+                    uint32_t frames, int threads,
+                    const std::vector<Setting>& settings = allCaches()) {
   const auto scene = builtinScene(walk.scene);
   Method truth = pathMethod(truthFrames);
   truth.cameras = {end};
   truth.config.threads = threads;
   const stats::Truth reference = stats::truthOf(independentRuns(scene, truth, 1, 128));
-  Method method = restirMethod(frames, frames - 1);
-  method.name = std::string(walk.name) + " camera, " + method.name;
-  method.cameras = walkTo(end, frames, walk.stepW, walk.turnDegrees);
-  method.config.threads = threads;
-  const stats::BiasReport report = testMethod(scene, method, reference, runs);
-  EXPECT_FALSE(report.failed()) << walk.name << ": " << report.text();
-  EXPECT_LE(report.untestableShare, walk.untestable) << walk.name << ": " << report.text();
+  for (const Setting& setting : settings) {
+    Method method = restirMethod(frames, frames - 1, setting.parameters);
+    method.config.cache = setting.cache;
+    method.name = std::string(walk.name) + " camera, " + method.name + ", " + setting.cache;
+    method.cameras = walkTo(end, frames, walk.stepW, walk.turnDegrees);
+    // There and back: it ends as it began, where it has been.
+    for (uint32_t i = 0; walk.isBack && i < frames / 2; ++i) method.cameras[i] = end;
+    method.config.threads = threads;
+    const stats::BiasReport report = testMethod(scene, method, reference, runs);
+    EXPECT_FALSE(report.failed()) << method.name << ": " << report.text();
+    EXPECT_LE(report.untestableShare, walk.untestable) << method.name << ": " << report.text();
+  }
 }
 
 SceneCamera endOf(const Walk& walk) {
@@ -75,6 +94,24 @@ TEST(MovingCameraGlossy, LeavesTheMean) {
 TEST(MovingCameraGlass, LeavesTheMean) {
   const Walk walk{"past_glass", "glass", {0.02, 0.01, 0.0}, 0.5, false, 0.6};
   expectUnbiased(walk, endOf(walk), 256, 16, 5, 1);
+}
+
+TEST(MovingCameraThereAndBack, LeavesTheMean) {
+  const Walk walk{"away", "cornell-box", {0.5, 0.2, -0.3}, 20.0, false, 0.1, true};
+  expectUnbiased(walk, endOf(walk), 256, 48, 8, 1);
+}
+
+// Cells and discs over edges and through walls, many donors, entries that forget at once.
+TEST(MovingCameraEntries, NoSettingMovesTheMean) {
+  const ParameterMap open = {{"normal_threshold", -1.0}, {"plane_threshold", 10.0},
+                             {"max_jacobian", 1.0e6},    {"entry_spread", 8.0},
+                             {"feed_every", int64_t{1}}, {"entry_proposals", int64_t{4}}};
+  const Walk walk{"walking", "cornell-box", {0.06, 0.01, -0.05}, 0.0};
+  expectUnbiased(walk, endOf(walk), 256, 48, 6, 1,
+                 {{"voxel", open},
+                  {"surflet", open},
+                  {"voxel", {{"voxel_pixels", 16.0}, {"entry_cap", 2.0}}},
+                  {"surflet", {{"surflet_pixels", 12.0}, {"entries", int64_t{1024}}}}});
 }
 
 class MovingCameraNightly : public ::testing::TestWithParam<Walk> {};

@@ -225,7 +225,7 @@ TEST_F(VulkanTest, RenderSaysWhatStartUpDid) {
   const ProgramResult first = run(render);
   ASSERT_EQ(first.code, 0) << first.err;
   EXPECT_EQ(count(first.err, "vulkan: 1 kernel ready in "), 1u) << first.err;
-  EXPECT_EQ(first.err.find("cache"), std::string::npos) << first.err;
+  EXPECT_EQ(first.err.find("from the cache"), std::string::npos) << first.err;
   EXPECT_EQ(first.err.find("driver"), std::string::npos) << "details are for -v: " << first.err;
   const std::map<std::string, std::string> metadata = readExr(path("x.exr")).metadata;
   EXPECT_EQ(metadata.at("backend"), "vulkan");

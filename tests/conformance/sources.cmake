@@ -1,6 +1,8 @@
 # What every registered integrator must pass in every mode.
 set(RL_CONFORMANCE_TESTS
   conformance/analytic_scenes_test.cpp
+  conformance/cache_entries_test.cpp
+  conformance/cache_run.cpp
   conformance/determinism_test.cpp
   conformance/health_test.cpp
   conformance/light_transport_test.cpp

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "core/cache.h"
+#include "tests/bias/few_entries.h"
 
 namespace restlab::conformance {
 
@@ -52,6 +53,7 @@ SessionConfig configOf(const Variant& variant, uint32_t width, uint32_t height) 
   config.width = width;
   config.height = height;
   config.threads = 1;
+  bias::useFewEntries(config);
   return config;
 }
 

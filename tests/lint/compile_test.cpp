@@ -34,9 +34,9 @@ CommandResult checkCpp(const std::string& compiler, const std::string& name,
                     " -std=c++20 -fsyntax-only -I. " RESTLAB_WARNINGS " '" + file.string() + "'");
 }
 
-// A line that names a file; none without one.
+// A line that names a file.
 std::string define(const char* word, const std::string& path) {
-  return path.empty() ? "" : std::string("\n#define ") + word + " \"" + path + "\"";
+  return std::string("\n#define ") + word + " \"" + path + "\"";
 }
 
 // `trace`: a file with traceRay(); "": the one that kernels have without being told.
@@ -44,10 +44,8 @@ std::string kernelUnit(const Kernel& kernel, const std::string& mask, const std:
   const std::string traceLine = trace.empty() ? "" : "#define RL_KERNEL_TRACE \"" + trace + "\"\n";
   return traceLine + "#define RL_KERNEL_NAME " + kernel.name +
          "\n#define RL_KERNEL_MASK_NAME lint\n#define RL_KERNEL_MASK " + mask +
-         define("RL_KERNEL_HEADER", kernel.header) +
-         define("RL_KERNEL_CACHE_HEADER", kernel.cacheFile("h")) +
-         define("RL_KERNEL_CACHE_FILE", kernel.cacheFile("glsl")) +
-         define("RL_KERNEL_FILE", kernel.file) + "\n#include \"core/backend/cpu_kernel.inl\"\n";
+         define("RL_KERNEL_HEADER", kernel.header) + define("RL_KERNEL_FILE", kernel.file) +
+         "\n#include \"core/backend/cpu_kernel.inl\"\n";
 }
 
 class Cpp : public testing::TestWithParam<std::string> {};
@@ -76,7 +74,7 @@ TEST_P(Cpp, EveryKernelCompiles) {
 }
 
 TEST_P(Cpp, ErrorsNameFileAndLine) {
-  const Kernel broken{"broken", "tests/lint/data/broken.glsl", kernels().front().header, ""};
+  const Kernel broken{"broken", "tests/lint/data/broken.glsl", kernels().front().header};
   const CommandResult result = checkCpp(GetParam(), "broken", kernelUnit(broken, "16383u", ""));
   EXPECT_NE(result.status, 0);
   EXPECT_NE(result.output.find("tests/lint/data/broken.glsl:3:"), std::string::npos)
@@ -90,8 +88,7 @@ INSTANTIATE_TEST_SUITE_P(, Cpp, testing::Values(RESTLAB_GXX, RESTLAB_CLANGXX),
                          });
 
 GlslResult compileKernel(const Kernel& kernel, const std::string& trace = traceFiles().front()) {
-  const std::string text =
-      glslKernelSource({kernel.header, kernel.file, trace, "", false, kernel.cache});
+  const std::string text = glslKernelSource({kernel.header, kernel.file, trace, "", false});
   return compileGlsl(text, "kernel", readBelow(RESTLAB_SOURCE_DIR));
 }
 
@@ -112,8 +109,8 @@ TEST(Glsl, EveryKernelCompiles) {
 TEST(Glsl, EveryKernelCompilesWithTexels) {
   for (const Kernel& kernel : kernels()) {
     for (const GlslTrace& trace : {kGlslTraceBvh, kGlslTraceQuery}) {
-      const std::string text = glslKernelSource(
-          {kernel.header, kernel.file, trace.file, trace.extensions, true, kernel.cache});
+      const std::string text =
+          glslKernelSource({kernel.header, kernel.file, trace.file, trace.extensions, true});
       const GlslResult result = compileGlsl(text, "kernel", readBelow(RESTLAB_SOURCE_DIR));
       EXPECT_FALSE(result.spirv.empty()) << kernel.name << ":\n" << result.log;
       EXPECT_EQ(result.log.find("WARNING"), std::string::npos) << kernel.name << ":\n"
@@ -124,8 +121,8 @@ TEST(Glsl, EveryKernelCompilesWithTexels) {
 
 TEST(Glsl, EveryKernelCompilesWithRayQueries) {
   for (const Kernel& kernel : kernels()) {
-    const std::string text = glslKernelSource({kernel.header, kernel.file, kGlslTraceQuery.file,
-                                               kGlslTraceQuery.extensions, false, kernel.cache});
+    const std::string text = glslKernelSource(
+        {kernel.header, kernel.file, kGlslTraceQuery.file, kGlslTraceQuery.extensions, false});
     const GlslResult result = compileGlsl(text, "kernel", readBelow(RESTLAB_SOURCE_DIR));
     EXPECT_FALSE(result.spirv.empty()) << kernel.name << ":\n" << result.log;
     EXPECT_EQ(result.log.find("WARNING"), std::string::npos) << kernel.name << ":\n" << result.log;
@@ -134,7 +131,7 @@ TEST(Glsl, EveryKernelCompilesWithRayQueries) {
 
 TEST(Glsl, ErrorsNameFileAndLine) {
   const GlslResult result =
-      compileKernel({"broken", "tests/lint/data/broken.glsl", kernels().front().header, ""});
+      compileKernel({"broken", "tests/lint/data/broken.glsl", kernels().front().header});
   EXPECT_TRUE(result.spirv.empty());
   EXPECT_NE(result.log.find("tests/lint/data/broken.glsl:3:"), std::string::npos) << result.log;
 }

@@ -55,10 +55,7 @@ const std::vector<std::string>& dialectFiles() {
     follow("core/dialect/order.glsl", seen);
     for (const std::string& trace : traceFiles()) follow(trace, seen);
     for (const Kernel& kernel : kernels()) {
-      for (const std::string& path :
-           {kernel.header, kernel.cacheFile("h"), kernel.cacheFile("glsl")}) {
-        if (!path.empty()) follow(path, seen);
-      }
+      follow(kernel.header, seen);
       follow(kernel.file, seen);
     }
     return std::vector<std::string>(seen.begin(), seen.end());

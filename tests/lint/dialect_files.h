@@ -9,12 +9,7 @@ namespace restlab::lint {
 
 // A kernel of rl_add_kernel; paths relative to the repository.
 struct Kernel {
-  std::string name, file, header, cache;
-
-  // A file of the cache that it sees; "" without one.
-  std::string cacheFile(const std::string& extension) const {
-    return cache.empty() ? "" : "core/caches/" + cache + "/" + cache + "." + extension;
-  }
+  std::string name, file, header;
 };
 const std::vector<Kernel>& kernels();
 

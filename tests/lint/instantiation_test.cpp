@@ -35,11 +35,12 @@ std::map<std::string, std::vector<Row>> rowsByKernel() {
   return result;
 }
 
-// Kernels that are added with NO_FEATURES: they work on buffers alone, so that no scene can have or
-// lack anything that they ask for.
+// Names of kernels that are added with NO_FEATURES, as patterns, as a loop may give a part of a
+// name: they work on buffers alone, so that no scene can have or lack anything that they ask for.
 std::set<std::string> kernelsWithoutFeatures() {
   namespace fs = std::filesystem;
-  static const std::regex added(R"(rl_add_kernel\((\w+)[^)]*\bNO_FEATURES\b)");
+  static const std::regex added(R"(rl_add_kernel\(([\w${}]+)[^)]*\bNO_FEATURES\b)");
+  static const std::regex variable(R"(\$\{\w+\})");
   std::set<std::string> names;
   for (const char* folder : {"core", "denoise", "integrators"}) {
     for (const fs::path& path :
@@ -48,7 +49,7 @@ std::set<std::string> kernelsWithoutFeatures() {
       std::ifstream file(path);
       const std::string text((std::istreambuf_iterator<char>(file)), {});
       for (std::sregex_iterator it(text.begin(), text.end(), added), end; it != end; ++it)
-        names.insert((*it)[1]);
+        names.insert(std::regex_replace((*it)[1].str(), variable, "[a-z]+"));
     }
   }
   return names;
@@ -110,7 +111,10 @@ TEST(Instantiation, AtMostNineMasksAKernel) {
       general += row.features == rl::RL_FEATURE_ALL;
     }
     EXPECT_LE(embree, 9u) << name;
-    const size_t least = buffersAlone.contains(name) ? 1 : 2;
+    const bool isOfBuffers = std::any_of(
+        buffersAlone.begin(), buffersAlone.end(),
+        [&](const std::string& pattern) { return std::regex_match(name, std::regex(pattern)); });
+    const size_t least = isOfBuffers ? 1 : 2;
     EXPECT_GE(embree, least) << name << " is not specialised";
     EXPECT_EQ(general, 1u) << name;
     EXPECT_EQ(bvh, 1u) << name;
@@ -130,7 +134,7 @@ TEST(Instantiation, SpecialisedCodeIsSmaller) {
       if (row.features == rl::RL_FEATURE_ALL) continue;
       // The spatial pass traces no ray and evaluates no BSDF: of all features it asks for glossy
       // lobes only, and a mask that has them leaves nothing else out.
-      const bool tracesNothing = name.find("_spatial_") != std::string::npos;
+      const bool tracesNothing = name.ends_with("_spatial");
       if (tracesNothing && (row.features & rl::RL_FEATURE_GLOSSY) != 0) {
         EXPECT_LE(bytes, general) << name << " " << row.mask;
       } else {

@@ -11,6 +11,7 @@
 #include "core/backend/vulkan_device.h"
 #include "core/cache.h"
 #include "core/method.h"
+#include "tests/bias/few_entries.h"
 #include "tests/parity/everything_scene.h"
 #include "tests/unit/bvh_context.h"
 #include "tests/unit/ray_cases.h"
@@ -128,6 +129,7 @@ SessionConfig configOf(const Combination& what, const Machine& where, uint32_t w
   config.width = width;
   config.height = height;
   config.seed = seed;
+  bias::useFewEntries(config);
   return config;
 }
 

@@ -14,9 +14,8 @@ namespace {
 // Sessions of the tests neither read nor fill the user's own cache.
 const int kCacheIsSet = setenv("XDG_CACHE_HOME", RESTLAB_PARITY_CACHE, 1);
 
-GlslKernel bruteForceKernel(const std::string& header, const std::string& file,
-                            const std::string& cache = "") {
-  return {header, file, "tests/parity/brute_force.glsl", "", false, cache};
+GlslKernel bruteForceKernel(const std::string& header, const std::string& file) {
+  return {header, file, "tests/parity/brute_force.glsl", "", false};
 }
 
 void dispatch(TestDevice& device, VkPipeline pipeline, const GlslPushConstants& push,
@@ -52,9 +51,8 @@ std::vector<TestDevice> testDevices() {
   return devices;
 }
 
-std::vector<uint32_t> compileKernel(const std::string& header, const std::string& file,
-                                    const std::string& cache) {
-  const std::string text = glslKernelSource(bruteForceKernel(header, file, cache));
+std::vector<uint32_t> compileKernel(const std::string& header, const std::string& file) {
+  const std::string text = glslKernelSource(bruteForceKernel(header, file));
   GlslResult result = compileGlsl(text, file, readBelow(RESTLAB_SOURCE_DIR));
   if (result.spirv.empty()) throw std::runtime_error(result.log);
   return result.spirv;

@@ -33,8 +33,7 @@ constexpr const char* kNoDevice =
 
 // SPIR-V of a kernel on the brute-force traversal. Throws std::runtime_error with the compiler's
 // words.
-std::vector<uint32_t> compileKernel(const std::string& header, const std::string& file,
-                                    const std::string& cache);
+std::vector<uint32_t> compileKernel(const std::string& header, const std::string& file);
 
 // Runs it, with the general mask, over frame.width x frame.height threads. `scene` is a device
 // address (0: none), `buffers` the bytes of the kernel's Buffers struct with device addresses.

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/dialect/order.h"
-#include "core/caches/pixel/pixel.h"
 #include "integrators/restir_gi/restir_gi.h"
 #include "tests/parity/kernel_runner.h"
 
@@ -109,35 +108,39 @@ const std::map<std::string, Offsets>& expected() {
         FIELD(SceneData, environmentRotation),
         FIELD(SceneData, instanceCount)}},
       {"RestirGiBuffers",
-       {FIELD(RestirGiBuffers, visible), FIELD(RestirGiBuffers, radiance),
+       {FIELD(RestirGiBuffers, visible), FIELD(RestirGiBuffers, visibleBefore),
+        FIELD(RestirGiBuffers, proposals), FIELD(RestirGiBuffers, anchors),
+        FIELD(RestirGiBuffers, feeders), FIELD(RestirGiBuffers, radiance),
         FIELD(RestirGiBuffers, own), FIELD(RestirGiBuffers, ownBefore),
         FIELD(RestirGiBuffers, reservoirs), FIELD(RestirGiBuffers, history),
         FIELD(RestirGiBuffers, suffixes), FIELD(RestirGiBuffers, suffixesHistory),
-        FIELD(RestirGiBuffers, exchange)}},
+        FIELD(RestirGiBuffers, exchange), FIELD(RestirGiBuffers, outlines),
+        FIELD(RestirGiBuffers, entryReservoirs), FIELD(RestirGiBuffers, entrySuffixes),
+        FIELD(RestirGiBuffers, offers), FIELD(RestirGiBuffers, offerSuffixes)}},
       {"RestirGiParams",
        {FIELD(RestirGiParams, temporalFlags), FIELD(RestirGiParams, spatialFlags),
         FIELD(RestirGiParams, spatialNeighbours), FIELD(RestirGiParams, agedNeighbours),
         FIELD(RestirGiParams, settledFrames), FIELD(RestirGiParams, lightEdgeSamples),
         FIELD(RestirGiParams, donorNoise), FIELD(RestirGiParams, donorsBySample),
-        FIELD(RestirGiParams, temporalReuse), FIELD(RestirGiParams, confidenceCap),
-        FIELD(RestirGiParams, movingConfidenceCap), FIELD(RestirGiParams, maxReflectanceRatio),
-        FIELD(RestirGiParams, path)}},
+        FIELD(RestirGiParams, temporalReuse), FIELD(RestirGiParams, reproject),
+        FIELD(RestirGiParams, confidenceCap), FIELD(RestirGiParams, movingConfidenceCap),
+        FIELD(RestirGiParams, maxReflectanceRatio), FIELD(RestirGiParams, path),
+        FIELD(RestirGiParams, partners), FIELD(RestirGiParams, entries)}},
       {"PathParams",
        {FIELD(PathParams, lightCandidates), FIELD(PathParams, minAlpha),
         FIELD(PathParams, maxJacobian)}},
-      {"PixelCacheBuffers",
-       {FIELD(PixelCacheBuffers, visible), FIELD(PixelCacheBuffers, visibleBefore),
-        FIELD(PixelCacheBuffers, outlines)}},
-      {"PixelCacheParams",
-       {FIELD(PixelCacheParams, tile), FIELD(PixelCacheParams, minNormalDot),
-        FIELD(PixelCacheParams, maxPlaneDistance)}},
+      {"PartnerParams", {FIELD(PartnerParams, tile), FIELD(PartnerParams, alike)}},
+      {"SurfaceTest", {FIELD(SurfaceTest, minNormalDot), FIELD(SurfaceTest, maxPlaneDistance)}},
+      {"EntryParams",
+       {FIELD(EntryParams, count), FIELD(EntryParams, proposals), FIELD(EntryParams, feedEvery),
+        FIELD(EntryParams, cap)}},
   };
   return table;
 }
 
 TEST(Layout, StructsLieAlikeInBothLanguages) {
-  const std::map<std::string, Offsets> found = offsetsOf(compileKernel(
-      "integrators/restir_gi/restir_gi.h", "integrators/restir_gi/initial.glsl", "pixel"));
+  const std::map<std::string, Offsets> found = offsetsOf(
+      compileKernel("integrators/restir_gi/restir_gi.h", "integrators/restir_gi/initial.glsl"));
   for (const auto& [name, offsets] : expected()) {
     SCOPED_TRACE(name);
     const auto it = found.find(name);

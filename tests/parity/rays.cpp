@@ -29,6 +29,7 @@ std::vector<rl::TraceResult> RayTracer::trace(const std::vector<rl::TraceQuery>&
   frame.width = 512;
   frame.height = static_cast<uint32_t>((queries.size() + 4095) / 4096 * 8);
   backend_->write(pass.buffers[0], queries.data(), queries.size() * sizeof queries[0]);
+  report_ = {};
   backend_->prepare(pass, report_);
   backend_->submit({pass}, frame);
   backend_->collect();

@@ -47,6 +47,11 @@ TEST(CameraPathConfig, Kinds) {
   EXPECT_EQ(jump.cutCamera, "");
   EXPECT_EQ(jump.cutDegrees, 30.0);
   EXPECT_EQ(*jump.targetW, glm::dvec3(0, 0, 1));
+
+  const CameraPath back = parseInline("kind = \"back\", frame = 24, leave = 16, degrees = 90");
+  EXPECT_EQ(back.leaveFrame, 16u);
+  EXPECT_EQ(back.cutFrame, 24u);
+  EXPECT_EQ(parseInline("kind = \"back\", frame = 24").leaveFrame, 0u);
 }
 
 TEST(CameraPathConfig, Keyframes) {

@@ -227,6 +227,13 @@ TEST(CameraPath, BackIsTurnedAwayAndThenTheScenesCamera) {
   EXPECT_EQ(firstStillFrame(path), 10u);
   EXPECT_EQ(firstStillFrame(pathOf(CameraPathKind::still)), 0u);
   EXPECT_FALSE(firstStillFrame(pathOf(CameraPathKind::orbit)).has_value());
+
+  path.leaveFrame = 4;
+  const CameraMotion thereAndBack = motionOf(path);
+  for (const uint32_t frame : {0u, 3u, 10u})
+    EXPECT_EQ(cameraAt(thereAndBack, frame).cameraToWorld, start);
+  for (const uint32_t frame : {4u, 9u})
+    EXPECT_EQ(cameraAt(thereAndBack, frame).cameraToWorld, cameraAt(motion, 9).cameraToWorld);
 }
 
 TEST(CameraAim, IsTheFirstSurface) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <vector>
 
 #include "core/dialect/order.h"
@@ -37,27 +38,20 @@ constexpr uint32_t kWidth = 28, kHeight = 20;
 class AuditedRun {
  public:
   AuditedRun(const std::string& sceneName, const std::string& integrator, const std::string& mode,
-             const ParameterMap& parameters, std::vector<rl::CpuKernelEntry> passes)
+             const ParameterMap& parameters, std::map<std::string, rl::CpuKernelEntry> audited)
       : scene_(CompiledScene::build(makeBuiltinScene(sceneName))),
         info_(findIntegrator(integrator)),
-        passes_(std::move(passes)) {
+        audited_(std::move(audited)) {
     const Method method = findMethod(integrator, "", "none");
     const ParameterMap resolved = resolveParameters(method, parameters);
-    if (method.cache != nullptr) {
-      params_ = method.cache->packParameters(mode, resolved);
-      // What pixels show at their centres, in this view and in the last, which are the same; no
-      // outlines.
-      for (const size_t bytes : {16u, 16u, 4u}) {
-        storage_.emplace_back(bytes * kWidth * kHeight);
-        addresses_.push_back(storage_.back().data());
-      }
+    params_ = info_.packParameters(mode, resolved);
+    // What pixels show at their centres, in this view and in the last, which are the same.
+    for (size_t i = 0; i < info_.inputs.size(); ++i) {
+      storage_.emplace_back(size_t{16} * kWidth * kHeight);
+      addresses_.push_back(storage_.back().data());
     }
+    addresses_.resize(addresses_.size() + info_.optionalInputs.size(), nullptr);
     own_ = addresses_.size();
-    ownParams_ = params_.size();
-    const std::vector<std::byte> ownParams = info_.packParameters(mode, resolved);
-    params_.insert(params_.end(), ownParams.begin(), ownParams.end());
-    EXPECT_LE(info_.inputs.size(), 1u) << "visible, the first of the cache's";
-    if (!info_.inputs.empty()) addresses_.push_back(addresses_.at(0));
     for (const BufferInfo& b : info_.buffers) {
       storage_.emplace_back(bufferBytes(b, resolved, kWidth * kHeight));
       addresses_.push_back(storage_.back().data());
@@ -73,17 +67,22 @@ class AuditedRun {
     if (method.cache == nullptr) return;
     rl::CpuKernelCounters counters;
     rl::findCpuKernel("visible", rl::RL_FEATURE_ALL)
-        ->entry(arguments(true), {0, 0, kWidth, kHeight}, counters);
+        ->entry(arguments(), {0, 0, kWidth, kHeight}, counters);
     std::copy(storage_[0].begin(), storage_[0].end(), storage_[1].begin());
   }
 
   void frame() {
     rl::CpuKernelCounters counters;
-    for (size_t i = 0; i < passes_.size(); ++i) {
-      if (frame_.stillFrames != 0 && info_.passes[i].onlyOnNewViews) continue;
-      passes_[i](arguments(info_.passes[i].seesCache), {0, 0, kWidth, kHeight}, counters);
+    for (const PassInfo& pass : info_.passes) {
+      if (pass.onlyWith != nullptr || (frame_.stillFrames != 0 && pass.onlyOnNewViews)) continue;
+      const auto audited = audited_.find(pass.name);
+      const rl::CpuKernelEntry entry =
+          audited != audited_.end()
+              ? audited->second
+              : rl::findCpuKernel(pass.kernel.c_str(), rl::RL_FEATURE_ALL)->entry;
+      entry(arguments(), {0, 0, kWidth, kHeight}, counters);
     }
-    const auto buffers = addresses_.begin() + std::ptrdiff_t(own_ + info_.inputs.size());
+    const auto buffers = addresses_.begin() + std::ptrdiff_t(own_);
     for (size_t i = 0; i < info_.buffers.size(); ++i) {
       const int other = info_.buffers[i].swapWith;
       if (other > int(i)) std::swap(buffers[std::ptrdiff_t(i)], buffers[other]);
@@ -94,24 +93,23 @@ class AuditedRun {
   }
 
  private:
-  // A pass that sees no cache has none of its buffers and parameters.
-  rl::CpuKernelArgs arguments(bool seesCache) {
+  rl::CpuKernelArgs arguments() {
     rl::CpuKernelArgs args;
     args.scene = &scene_->data();
     args.frame = &frame_;
-    args.buffers = addresses_.data() + (seesCache ? 0 : own_);
-    args.params = params_.data() + (seesCache ? 0 : ownParams_);
+    args.buffers = addresses_.data();
+    args.params = params_.data();
     args.embreeScene = scene_->embreeScene();
     return args;
   }
 
   std::shared_ptr<const CompiledScene> scene_;
   const IntegratorInfo& info_;
-  std::vector<rl::CpuKernelEntry> passes_;
+  std::map<std::string, rl::CpuKernelEntry> audited_;  // by the name of the pass
   std::vector<std::byte> params_;
   std::vector<std::vector<std::byte>> storage_;
   std::vector<void*> addresses_;
-  size_t own_ = 0, ownParams_ = 0;  // where the integrator's buffers and parameters begin
+  size_t own_ = 0;  // where the integrator's buffers begin
   rl::FrameData frame_{};
 };
 
@@ -145,23 +143,25 @@ TEST(RngAudit, TheRecordFindsARepeatedDraw) {
 
 TEST(RngAudit, Path) {
   for (const std::string& name : builtinSceneNames()) {
-    AuditedRun run(name, "path", "unbiased", {}, {rl::kernel_path_audited});
+    AuditedRun run(name, "path", "unbiased", {}, {{"path", rl::kernel_path_audited}});
     expectNoRepeats(run, size_t(kWidth) * kHeight, "path, " + name);
   }
 }
 
 TEST(RngAudit, Template) {
   for (const std::string& name : builtinSceneNames()) {
-    AuditedRun run(name, "template", "unbiased", {}, {rl::kernel_template_audited});
+    AuditedRun run(name, "template", "unbiased", {}, {{"template", rl::kernel_template_audited}});
     expectNoRepeats(run, size_t(kWidth) * kHeight, "template, " + name);
   }
 }
 
 TEST(RngAudit, RestirGi) {
-  const std::vector<rl::CpuKernelEntry> passes = {
-      rl::kernel_restir_gi_lights_in_view_audited, rl::kernel_restir_gi_initial_audited,
-      rl::kernel_restir_gi_temporal_audited, rl::kernel_restir_gi_exchange_audited,
-      rl::kernel_restir_gi_spatial_audited};
+  const std::map<std::string, rl::CpuKernelEntry> passes = {
+      {"lights_in_view", rl::kernel_restir_gi_lights_in_view_audited},
+      {"initial", rl::kernel_restir_gi_initial_audited},
+      {"temporal", rl::kernel_restir_gi_temporal_audited},
+      {"exchange", rl::kernel_restir_gi_exchange_audited},
+      {"spatial", rl::kernel_restir_gi_spatial_audited}};
   // Every loop over draws runs more than once.
   const ParameterMap busy = {{"light_candidates", int64_t{5}},
                              {"spatial_neighbours", int64_t{rl::RL_MAX_DONORS}}};

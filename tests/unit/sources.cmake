@@ -15,7 +15,7 @@ list(APPEND RL_UNIT_TESTS
   multiscatter_test.cpp
   pack_test.cpp
   path_shift_test.cpp
-  pixel_pairs_test.cpp
+  partners_test.cpp
   ray_offset_test.cpp
   records_test.cpp
   reservoir_store_test.cpp

@@ -54,10 +54,10 @@ void checkReference(const Suite& suite, const SuiteScene& scene, const PreparedS
   }
 }
 
-// Opens every method's device and makes its kernels ready. Returns the bytes per pixel of all
-// methods of a block together, which are there at once, as their frames take turns.
+// Opens every method's device and makes its kernels ready. Returns the bytes per pixel, at that
+// size, of all methods of a block together, which are there at once, as their frames take turns.
 size_t openMethods(const Suite& suite, const SuiteScene& scene, const PreparedScene& prepared,
-                   SuiteCheck& found) {
+                   uint32_t width, uint32_t height, SuiteCheck& found) {
   // A session of one pixel knows the bytes of every pixel.
   const SessionConfig picture = pictureOf(suite, 1, 1, suite.components.front());
   StartupLog startup;
@@ -65,7 +65,7 @@ size_t openMethods(const Suite& suite, const SuiteScene& scene, const PreparedSc
   for (const SuiteMethod& method : suite.rendered()) {
     const Session session =
         open(suite, method.backendPlace, prepared, methodConfig(suite, method, prepared, picture));
-    bytesPerPixel += session.bytesPerPixel() + hostBytesPerPixelOfMethod(suite);
+    bytesPerPixel += session.bytesPerPixelOf(width, height) + hostBytesPerPixelOfMethod(suite);
     found.startupMs[scene.name].push_back(session.startup().timeMs);
     startup.add(session);
     const DeviceUse use = deviceUseOf(session);
@@ -118,7 +118,7 @@ void checkScene(const Suite& suite, const SuiteScene& scene, const PreparedScene
     block.motion = motionOf(suite, prepared);
     prepareMasks(suite, prepared, block);
   }
-  const size_t bytesPerPixel = openMethods(suite, scene, prepared, found);
+  const size_t bytesPerPixel = openMethods(suite, scene, prepared, width, height, found);
   atPlace(scene.place, [&] {
     requireMemory(fmt::format("scene {}", scene.name), width, height,
                   std::max(bytesPerPixel * suite.jobs, kReferenceBytesPerPixel));

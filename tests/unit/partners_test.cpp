@@ -9,17 +9,21 @@
 #include <vector>
 
 #include "core/dialect/order.h"
+#include "core/resampling/partners.h"
 #include "core/resampling/reservoir.h"
-#include "core/caches/pixel/pixel.h"
 
 namespace rl {
 namespace {
 
-// The pixel cache over surfaces made by hand.
+// Partners over surfaces made by hand.
 struct PairContext {
   FrameData gFrame{};
-  PixelCacheBuffers gCache{};
-  PixelCacheParams gCacheParams{};
+  struct {
+    QuadRef visible;
+  } gBuffers{};
+  struct {
+    PartnerParams partners;
+  } gParams{};
   std::vector<VisibleSurface> surfaces;
 
 #define RL_HAS(features) false
@@ -38,7 +42,7 @@ struct PairContext {
 #include "core/dialect/warp.glsl"
 #include "core/dialect/visible.glsl"
 #define visibleRead(quads, camera, slot) surfaces[slot]
-#include "core/caches/pixel/pixel.glsl"
+#include "core/resampling/partners.glsl"
 #undef visibleRead
 };
 
@@ -49,9 +53,7 @@ PairContext makeContext(uint width, uint height, uint tile, bool stripes, uint u
   c.gFrame.width = width;
   c.gFrame.height = height;
   c.gFrame.seed = 11;
-  c.gCacheParams.tile = tile;
-  c.gCacheParams.minNormalDot = 0.9f;
-  c.gCacheParams.maxPlaneDistance = 0.05f;
+  c.gParams.partners = {tile, {0.9f, 0.05f}};
   for (uint i = 0; i < width * height; ++i) {
     VisibleSurface a{};
     const bool isFar = stripes && (i % width / 5) % 2 == 1;
@@ -67,12 +69,12 @@ PairContext makeContext(uint width, uint height, uint tile, bool stripes, uint u
 uint partnerOf(PairContext& c, uint slot, uint k) {
   const uvec2 pixel(slot % c.gFrame.width, slot / c.gFrame.width);
   uint partner = 0;
-  const bool found = c.cachePartner(pixel, k, partner);
+  const bool found = c.partnerFind(pixel, k, partner);
   EXPECT_EQ(found, partner != RL_INVALID);
   return partner;
 }
 
-TEST(PixelPairs, ThePartnerOfThePartnerIsThePixel) {
+TEST(Partners, ThePartnerOfThePartnerIsThePixel) {
   const uint sizes[][2] = {{64, 36}, {37, 23}, {1, 50}, {50, 1}, {3, 3}, {1, 1}};
   for (const auto& size : sizes) {
     for (const uint tile : {2u, 3u, 10u, 20u, 300u}) {
@@ -99,7 +101,7 @@ TEST(PixelPairs, ThePartnerOfThePartnerIsThePixel) {
 
 // On one large surface nearly every pixel has a partner; where surfaces alternate, two pairings
 // find more than one would (a half each: 1/2 + 1/2 * 1/4).
-TEST(PixelPairs, MostPixelsHaveOne) {
+TEST(Partners, MostPixelsHaveOne) {
   const auto share = [](bool stripes) {
     PairContext c = makeContext(200, 200, 10, stripes, 0);
     size_t found = 0;
@@ -113,7 +115,7 @@ TEST(PixelPairs, MostPixelsHaveOne) {
 
 // Over frames, a pixel meets every offset of the tile about equally often, and other pixels in
 // other pairings and frames.
-TEST(PixelPairs, EveryOffsetIsReached) {
+TEST(Partners, EveryOffsetIsReached) {
   constexpr uint kTile = 6, kFrames = 24200;
   PairContext c = makeContext(41, 41, kTile, false, 0);
   const uint slot = 20 * 41 + 20;
@@ -121,8 +123,8 @@ TEST(PixelPairs, EveryOffsetIsReached) {
   uint same = 0, none = 0;
   for (c.gFrame.frame = 0; c.gFrame.frame < kFrames; ++c.gFrame.frame) {
     uvec2 first, second;
-    const bool hasFirst = c.cacheMirror(uvec2(20, 20), 0, first);
-    const bool hasSecond = c.cacheMirror(uvec2(20, 20), 1, second);
+    const bool hasFirst = c.partnerMirror(uvec2(20, 20), 0, first);
+    const bool hasSecond = c.partnerMirror(uvec2(20, 20), 1, second);
     same += hasFirst && hasSecond && first == second;
     none += !hasFirst;
     if (hasFirst) ++offsets[{int(first.x) - 20, int(first.y) - 20}];

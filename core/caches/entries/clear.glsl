@@ -1,0 +1,10 @@
+// A pass over entries, in every frame: nobody wants a place yet, nobody feeds.
+#include "core/caches/entries/entries.glsl"
+
+RL_FN void kernelMain(RL_IN(uvec2) row) {
+  uint entry = row.y * RL_ENTRY_ROW + row.x;
+  if (entry >= gParams.entries.count) return;
+  gBuffers.claims.data[entry] = 0u;
+  for (uint i = 0u; i < RL_ENTRY_FEEDERS; i = i + 1u)
+    gBuffers.feeders.data[entry * RL_ENTRY_FEEDERS + i] = 0u;
+}

@@ -1,0 +1,15 @@
+// A pass of every frame: whose samples go into which entries.
+RL_FN void kernelMain(RL_IN(uvec2) pixel) {
+  uint slot = slotOfPixel(pixel);
+  uint group = entryGroup(slot);
+  if (entryOfferer(group) != slot) return;
+  uint entry = gBuffers.entries.data[slot];
+  if (entry >= RL_GRID_CLAIM) return;
+  Anchor anchor = anchorRead(gBuffers.anchors, entry);
+  if (anchor.surface.isHit != 0u &&
+      !visibleAlike(entryVisible(slot), anchor.surface, gParams.alike))
+    return;
+  uint ticket = entryTicket(group);
+  uint place = rngHash(ticket) % RL_ENTRY_FEEDERS;
+  RL_ATOMIC_MAX(gBuffers.feeders, entry * RL_ENTRY_FEEDERS + place, ticket);
+}

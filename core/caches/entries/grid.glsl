@@ -1,0 +1,73 @@
+// A hashed grid in space: cubes whose side is a power of two of metres, near a number of pixels
+// where they are seen. A cell's entry lies in one of gParams.grid.probes places from its hash on; a
+// key of 63 bits says whose it is, so that no cell is taken for another. A new cell takes the place
+// that was not seen for longest.
+
+RL_FN VisibleSurface entryVisible(uint slot) {
+  return visibleRead(gBuffers.visible, gFrame.camera, slot);
+}
+
+// Level of the largest cell that is no larger: the exponent of its side, with the bias of floats.
+RL_FN uint gridLevel(float side) { return (floatBitsToUint(side) >> 23u) & 0xffu; }
+RL_FN float gridSide(uint level) { return uintBitsToFloat(level << 23u); }
+
+// Width of a pixel where a surface is seen, in metres.
+RL_FN float gridPixel(RL_IN(VisibleSurface) s) {
+  bool isParallel = gFrame.camera.kind == RL_CAMERA_ORTHOGRAPHIC;
+  float away = isParallel ? 1.0f : distance(s.posW, gFrame.camera.posW);
+  return away * (2.0f * gFrame.camera.halfWidth / float(gFrame.width));
+}
+
+RL_FN uint gridOctant(RL_IN(vec3) normalW) {
+  float least = -RL_GRID_OFF_NORMAL;
+  return (normalW.x < least ? 1u : 0u) | (normalW.y < least ? 2u : 0u) |
+         (normalW.z < least ? 4u : 0u);
+}
+
+// `kind`: 3 bits that the cache chooses. Zero, which is nobody's key, where the position is beyond
+// 2^16 cells from the origin or no number. Without a branch: of numbers of the frame and of
+// parameters alone, one may not depend on many (docs/dialect.md).
+RL_FN uvec2 gridKey(RL_IN(vec3) posW, uint level, uint kind) {
+  float inverse = 1.0f / gridSide(level);
+  vec3 at = posW * inverse + vec3(RL_GRID_OFF, RL_GRID_OFF, RL_GRID_OFF);
+  vec3 cell = vec3(floor(at.x), floor(at.y), floor(at.z));
+  float most = max(abs(cell.x), max(abs(cell.y), abs(cell.z)));
+  bool isNear = rlIsFinite3(cell) && most < 65535.0f && level != 0u && level < 254u;
+  vec3 inside = isNear ? cell : vec3(0.0f, 0.0f, 0.0f);
+  uint x = uint(int(inside.x) + 65536);
+  uint y = uint(int(inside.y) + 65536);
+  uint z = uint(int(inside.z) + 65536);
+  uint low = RL_GRID_TAKEN | (kind << 28u) | (level << 20u) | (x << 3u) | (y & 7u);
+  return isNear ? uvec2(low, ((y >> 3u) << 17u) | z) : uvec2(0u, 0u);
+}
+
+RL_FN uint gridPlace(RL_IN(uvec2) key, uint probe) {
+  return (rngHash(rngHash(key.x) ^ key.y) + probe) % gParams.entries.count;
+}
+
+// The entry of a cell; RL_INVALID where it has none, and for the key zero. Places are filled in the
+// order of probes and never given back: behind one that is nobody's there is nothing.
+RL_FN uint gridFind(RL_IN(uvec2) key) {
+  for (uint i = 0u; i < gParams.grid.probes; i = i + 1u) {
+    uint entry = gridPlace(key, i);
+    uint first = gBuffers.keys.data[2u * entry];
+    if (first == 0u) return RL_INVALID;
+    if (first == key.x && gBuffers.keys.data[2u * entry + 1u] == key.y) return entry;
+  }
+  return RL_INVALID;
+}
+
+// The place that a new cell would take; RL_INVALID where all were seen in this frame.
+RL_FN uint gridVictim(RL_IN(uvec2) key) {
+  uint victim = RL_INVALID;
+  uint least = gFrame.frame + 1u;
+  for (uint i = 0u; i < gParams.grid.probes; i = i + 1u) {
+    uint entry = gridPlace(key, i);
+    uint seen = gBuffers.seen.data[entry];
+    if (seen < least) {
+      least = seen;
+      victim = entry;
+    }
+  }
+  return victim;
+}

@@ -1,0 +1,35 @@
+// A pass of new views: the entries that serve a pixel as donors. The first is that of its own
+// point, the others are those of points beside it on its tangent plane. Where there is none that
+// remembers anything, the next coarser and finer levels are asked: the camera may have come nearer.
+// The includer defines entryLevel(), entryNear() and entrySpread(), in metres.
+RL_FN void kernelMain(RL_IN(uvec2) pixel) {
+  uint slot = slotOfPixel(pixel);
+  VisibleSurface here = entryVisible(slot);
+  if (here.isHit != 0u && gBuffers.entries.data[slot] == RL_INVALID)
+    RL_HEALTH(RL_HEALTH_CACHE_FULL);
+  uint level = entryLevel(here);
+  uint first = slot * gParams.entries.proposals;
+  Rng rng = rngInit(gFrame.seed ^ 0x3c6ef372u, slot, gFrame.frame);
+  for (uint k = 0u; k < gParams.entries.proposals; k = k + 1u) {
+    uint entry = RL_INVALID;
+    if (here.isHit != 0u) {
+      vec3 posW = here.posW;
+      if (k > 0u) {
+        rng.vertex = RL_VERTEX_SPATIAL + k;
+        float u = rngDraw(rng, RL_DIM_DONOR_U);
+        float v = rngDraw(rng, RL_DIM_DONOR_V);
+        float radius = entrySpread(here) * sqrt(u);
+        vec2 turn = rlCosSin2Pi(v);
+        vec3 offset = vec3(radius * turn.x, radius * turn.y, 0.0f);
+        posW += frameToWorld(unpackNormal(here.nGeoW), offset);
+      }
+      entry = entryNear(here, posW, level);
+      if (entry == RL_INVALID) entry = entryNear(here, posW, level + 1u);
+      if (entry == RL_INVALID) entry = entryNear(here, posW, level - 1u);
+      for (uint i = 0u; i < k; i = i + 1u) {
+        if (gBuffers.proposals.data[first + i] == entry) entry = RL_INVALID;
+      }
+    }
+    gBuffers.proposals.data[first + k] = entry;
+  }
+}

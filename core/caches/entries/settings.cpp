@@ -1,0 +1,113 @@
+#include "core/caches/entries/settings.h"
+
+namespace restlab {
+
+namespace {
+
+std::vector<ParameterInfo> entryParameters() {
+  return {
+      {kEntryCount,
+       int64_t{65536},
+       1024,
+       1 << 24,
+       {},
+       "entries of the cache; a surface that finds no place is counted (cache_full)",
+       "not swept"},
+      {"entry_proposals",
+       int64_t{2},
+       1,
+       rl::RL_MAX_DONORS,
+       {},
+       "entries that a pixel takes as donors in frames of a new view",
+       "not swept"},
+      {"entry_probes",
+       int64_t{8},
+       1,
+       64,
+       {},
+       "places from its hash on where an entry may lie",
+       "bounded linear probing; not swept"},
+      {"entry_spread",
+       1.5,
+       0.0,
+       16.0,
+       {},
+       "how far beside a pixel's point its further donors lie, in sides of a cell or radii of a "
+       "disc",
+       "not swept"},
+      {"entry_cap",
+       20.0,
+       1.0,
+       1000.0,
+       {},
+       "confidence that an entry keeps, in samples",
+       "not swept"},
+      {"feed_every",
+       int64_t{4},
+       1,
+       256,
+       {},
+       "one of so many pixels side by side offers its sample to its entry each frame",
+       "not swept"}};
+}
+
+uint32_t count(const ParameterMap& parameters, const char* name) {
+  return static_cast<uint32_t>(std::get<int64_t>(parameters.at(name)));
+}
+float number(const ParameterMap& parameters, const char* name) {
+  return static_cast<float>(std::get<double>(parameters.at(name)));
+}
+
+}  // namespace
+
+BufferInfo entryBuffer(const std::string& name, uint32_t entryBytes) {
+  BufferInfo buffer{name, entryBytes, 0, -1};
+  buffer.entriesParameter = kEntryCount;
+  return buffer;
+}
+
+CacheInfo entryCache(const std::string& name, const std::string& summary) {
+  CacheInfo i;
+  i.name = name;
+  i.summary = summary;
+  i.parameters = entryParameters();
+  i.inputs = {"visible"};
+  i.buffers = {{"proposals", sizeof(uint32_t), 0, -1, "entry_proposals"},
+               entryBuffer("anchors", 16 * rl::RL_ANCHOR_QUADS),
+               entryBuffer("feeders", sizeof(uint32_t) * rl::RL_ENTRY_FEEDERS),
+               entryBuffer("entry_keys", 2 * sizeof(uint32_t)),
+               entryBuffer("entry_seen", sizeof(uint32_t)),
+               entryBuffer("entry_claims", sizeof(uint32_t)),
+               {"entry_of_pixel", sizeof(uint32_t), 0, -1}};
+  const auto pass = [&](const std::string& what, const std::string& again = "") {
+    return PassInfo{name + "_" + what + again, name + "_" + what, false, true};
+  };
+  PassInfo clear = pass("clear"), feeders = pass("feeders");
+  clear.onlyOnNewViews = feeders.onlyOnNewViews = false;
+  clear.entriesParameter = kEntryCount;
+  // Twice: who loses a claim to another has another place to go.
+  i.passes = {clear,
+              pass("find"),
+              pass("claim"),
+              pass("settle"),
+              pass("find", "_again"),
+              pass("claim", "_again"),
+              pass("settle", "_again"),
+              pass("find", "_last"),
+              pass("propose"),
+              feeders};
+  i.hasHistory = true;
+  return i;
+}
+
+rl::EntryParams packEntries(const ParameterMap& parameters) {
+  if (!parameters.contains(kEntryCount)) return {};
+  return {count(parameters, kEntryCount), count(parameters, "entry_proposals"),
+          count(parameters, "feed_every"), number(parameters, "entry_cap")};
+}
+
+rl::GridParams packGrid(const ParameterMap& parameters) {
+  return {count(parameters, "entry_probes"), number(parameters, "entry_spread")};
+}
+
+}  // namespace restlab

@@ -1,0 +1,62 @@
+// The surflet cache: discs on surfaces, each with an entry. A disc is as wide as some pixels are
+// where it was spawned; one is spawned where no disc covers what a pixel shows. The grid, whose
+// cells are about as wide as a disc's radius, finds them: a disc lies in the cell of its centre.
+#include "core/caches/entries/entries.glsl"
+#include "core/caches/entries/grid.glsl"
+
+RL_FN float discRadius(RL_IN(VisibleSurface) s) { return gParams.discPixels * gridPixel(s); }
+RL_FN uint entryLevel(RL_IN(VisibleSurface) s) { return gridLevel(discRadius(s)); }
+RL_FN float entrySpread(RL_IN(VisibleSurface) s) { return gParams.grid.spread * discRadius(s); }
+RL_FN uvec2 entryWanted(RL_IN(VisibleSurface) s) {
+  return gridKey(s.posW, entryLevel(s), gridOctant(unpackNormal(s.nGeoW)));
+}
+RL_FN void entryBegin(uint entry, RL_IN(VisibleSurface) s) {
+  Anchor disc;
+  disc.surface = s;
+  disc.posError = discRadius(s);
+  disc.begunBy = RL_INVALID;
+  anchorWrite(gBuffers.discs, entry, disc);
+}
+
+// How far away a disc's centre is. Each disc counts a little nearer or further than it is: pixels
+// lie in rows, and where many are as far from one disc as from another rounding would decide.
+RL_FN float discDistance(uint entry, RL_IN(Anchor) disc, RL_IN(vec3) posW) {
+  float own = float(rngHash(entry) >> 8u) * 5.9604644775390625e-8f;
+  return distance(disc.surface.posW, posW) * (0.95f + 0.1f * own);
+}
+
+// The disc whose centre is nearest to a point, of those that cover it and lie on a surface like
+// that which the pixel shows; discs in cells further away than the next are not found.
+RL_FN uint discCovering(RL_IN(VisibleSurface) here, RL_IN(vec3) posW, uint level) {
+  uint best = RL_INVALID;
+  float least = 0.0f;
+  vec3 normalW = unpackNormal(here.nGeoW);
+  float side = gridSide(level);
+  uint octant = gridOctant(normalW);
+  for (uint i = 0u; i < 9u; i = i + 1u) {
+    vec3 offset = vec3((float(i % 3u) - 1.0f) * side, (float(i / 3u) - 1.0f) * side, 0.0f);
+    uint entry = gridFind(gridKey(posW + frameToWorld(normalW, offset), level, octant));
+    if (entry == RL_INVALID || entry == best) continue;
+    Anchor disc = anchorRead(gBuffers.discs, entry);
+    float d = discDistance(entry, disc, posW);
+    if (disc.posError < d || (best != RL_INVALID && least <= d)) continue;
+    if (!visibleAlike(here, disc.surface, gParams.alike)) continue;
+    best = entry;
+    least = d;
+  }
+  return best;
+}
+
+// Where none covers it, that of its own cell will do: two in one cell there are not.
+RL_FN uint entryOwn(RL_IN(VisibleSurface) s) {
+  uint entry = discCovering(s, s.posW, entryLevel(s));
+  if (entry == RL_INVALID) entry = gridFind(entryWanted(s));
+  return entry;
+}
+RL_FN uint entryNear(RL_IN(VisibleSurface) here, RL_IN(vec3) posW, uint level) {
+  uint entry = discCovering(here, posW, level);
+  if (entry == RL_INVALID) return RL_INVALID;
+  if (!visibleAlike(here, anchorRead(gBuffers.anchors, entry).surface, gParams.alike))
+    return RL_INVALID;
+  return entry;
+}

@@ -1,0 +1,19 @@
+// Which pixels serve each other as donors over space.
+#ifndef RL_PARTNERS_H
+#define RL_PARTNERS_H
+
+#ifdef __cplusplus
+#include "core/dialect/order.h"
+#endif
+
+RL_NAMESPACE_BEGIN
+
+// In the kernels' gParams.partners.
+struct PartnerParams {
+  uint tile;  // pixels; side of the square within which pixels are paired
+  SurfaceTest alike;
+};
+
+RL_NAMESPACE_END
+
+#endif

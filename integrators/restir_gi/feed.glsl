@@ -1,0 +1,140 @@
+// restir_gi, feed pass of caches in world space: each entry that was seen merges samples of this
+// frame that pixels have offered. An offer is what the pixel found in this frame alone, at this
+// frame's film sample: the entry's own sample is seen from that very x1, so that the merge is right
+// for each film sample on its own. A new entry begins with an offer, at the x1 that it started
+// from: there, and for no other point, it is a sample.
+#include "core/resampling/ris.glsl"
+#include "core/resampling/mis.glsl"
+#include "core/resampling/shift.glsl"
+#include "core/resampling/reservoir.glsl"
+#include "core/payload/path_sample.glsl"
+#include "core/payload/path_shift.glsl"
+#include "core/resampling/merge.glsl"
+#include "core/resampling/donors.glsl"
+#include "core/caches/entries/entries.glsl"
+#include "core/caches/entries/surface.glsl"
+#include "integrators/restir_gi/store.glsl"
+
+#define RL_REUSE_STATE GiWithEntries
+
+RL_FN bool reuseDonor(RL_IN(GiWithEntries) s, uint k, RL_OUT(ReservoirState) donor) {
+  donor = reservoirEmpty();
+  if (s.id[k] == RL_INVALID) return false;
+  donor = giReadOfferState(s.id[k]);
+  return true;
+}
+RL_FN Shifted reuseOurs(RL_IN(GiWithEntries) s, uint k) { return s.ours[k]; }
+RL_FN Shifted reuseTheirs(RL_IN(GiWithEntries) s, uint k) { return s.theirs[k]; }
+RL_FN real3 reuseRatio(RL_IN(GiWithEntries) s, uint k) {
+  uint slot = entryOfferer(s.id[k]);
+  VisibleSurface donor = visibleRead(gBuffers.visible, gFrame.camera, slot);
+  return reuseReflectanceRatio(donor.reflectance,
+                               anchorRead(gBuffers.anchors, s.slot).surface.reflectance,
+                               gParams.maxReflectanceRatio);
+}
+RL_FN real reuseUniform(RL_IN(GiWithEntries) s, uint k) {
+  Rng rng = s.rng;
+  return rngDraw(rng, RL_DIM_RIS_MERGE + k);
+}
+
+#include "core/resampling/reuse.glsl"
+
+// Three rays an offer: the camera's to its x1, from there to the entry's sample, from the anchor to
+// the offer. Without an anchor the first offer that shows the pixel's surface gives it: `here` then
+// is that offer, and the entry begins.
+RL_FN bool giAskOffers(RL_INOUT(GiWithEntries) s, RL_INOUT(PathReservoir) here,
+                       RL_INOUT(Anchor) anchor) {
+  bool isNew = anchor.surface.isHit == 0u;
+  bool hasBegun = false;
+  PathReservoir offer = here;
+  Surface x1 = anchorSurface(anchorNone());
+  for (uint i = 0u; i < 3u * RL_ENTRY_FEEDERS; i = i + 1u) {
+    uint k = i / 3u;
+    uint leg = i - 3u * k;
+    uint group = s.id[k];
+    if (group == RL_INVALID || hasBegun) continue;
+    uint slot = entryOfferer(group);
+    PathShift shift = pathShiftNone();
+    if (leg == 0u) {
+      giReadOffer(group, offer);
+      shift.ray = cameraFilmRay(gFrame.camera, pixelOfSlot(slot), offer.path.film);
+      shift.asks = RL_SHIFT_ASKS_X1;
+    } else if (leg == 1u) {
+      if (!isNew) shift = pathShiftToSurface(here, x1);
+    } else if (anchor.surface.isHit != 0u) {
+      shift = pathShiftToSurface(offer, anchorSurface(anchor));
+    }
+    if (shift.asks != RL_SHIFT_DONE) {
+      Hit hit = traceNoHit();
+      uint mode = leg == 0u ? RL_RAY_PATH : RL_RAY_SHADOW;
+      float transmittance = traceRay(shift.ray, mode, cameraAlphaKey(offer.path.film), hit);
+      if (leg != 0u) {
+        shift.shifted.F *= transmittance;
+      } else {
+        bool hasX1 = false;
+        if (hit.instance != RL_INVALID) {
+          x1 = surfaceLoad(hit, shift.ray.dir);
+          hasX1 = bsdfIsReusable(x1.bsdf, gParams.path.minAlpha);
+        }
+        if (!hasX1) s.id[k] = isNew ? RL_INVALID : group;
+        if (!hasX1) x1 = anchorSurface(anchorNone());
+        if (hasX1 && isNew) {
+          VisibleSurface shown = visibleRead(gBuffers.visible, gFrame.camera, slot);
+          Anchor candidate = anchorOfSurface(x1, slot);
+          if (visibleAlike(shown, candidate.surface, gParams.partners.alike)) anchor = candidate;
+        }
+      }
+    }
+    if (leg == 1u) s.ours[k] = shift.shifted;
+    if (leg == 2u) s.theirs[k] = shift.shifted;
+    if (leg == 2u && isNew && anchor.surface.isHit != 0u) {
+      hasBegun = true;
+      here = offer;
+      here.state.F = shift.shifted.F;
+      here.state.residual = vec3(0.0f, 0.0f, 0.0f);
+      if (!(reuseTarget(here.state.F) > 0.0f)) here.state.W = 0.0f;
+      here.path.geometry *= shift.shifted.jacobian;
+    }
+  }
+  return hasBegun;
+}
+
+RL_FN void kernelMain(RL_IN(uvec2) row) {
+  uint entry = row.y * RL_ENTRY_ROW + row.x;
+  if (entry >= gParams.entries.count) return;
+  GiWithEntries s;
+  s.slot = entry;
+  bool isFed = false;
+  for (uint k = 0u; k < RL_ENTRY_FEEDERS; k = k + 1u) {
+    uint ticket = gBuffers.feeders.data[entry * RL_ENTRY_FEEDERS + k];
+    s.id[k] = ticket != 0u ? entryOfTicket(ticket) : RL_INVALID;
+    if (ticket != 0u) isFed = true;
+  }
+  if (!isFed) return;
+  Anchor anchor = anchorRead(gBuffers.anchors, entry);
+  PathReservoir here;
+  here.path.suffix = pathNoSuffix();
+  giReadEntry(entry, here);
+  here.state.confidence = reuseCapped(here.state.confidence, gParams.entries.cap);
+  bool isNew = anchor.surface.isHit == 0u;
+  if (isNew) here.state = reservoirEmpty();
+  bool hasBegun = giAskOffers(s, here, anchor);
+  if (isNew) {
+    if (!hasBegun) return;
+    anchorWrite(gBuffers.anchors, entry, anchor);
+    reservoirGuard(here.state);
+    giWriteEntry(entry, here);
+    return;
+  }
+  s.rng = rngInit(gFrame.seed, entry, gFrame.frame);
+  s.rng.vertex = RL_VERTEX_FEED;
+  uint winner;
+  float jacobian;
+  reuseMerge(s, RL_ENTRY_FEEDERS, gParams.spatialFlags, here.state, winner, jacobian);
+  reservoirGuard(here.state);
+  if (winner != RL_INVALID) {
+    giTakeOfferPath(s.id[winner], here);
+    here.path.geometry *= jacobian;
+  }
+  giWriteEntry(entry, here);
+}

@@ -1,0 +1,116 @@
+// restir_gi, recall pass of caches in world space, in frames of a new view: merges what entries
+// remember into the pixel's reservoir. An entry's sample is a path from its anchor alone; here it
+// gets a film sample, drawn for this one merge. So both have one domain, film times paths, and the
+// shift between them keeps the film sample. MIS weights depend on the anchor, and where the anchor
+// lies depends on the film samples of the pixel that began the entry: that pixel does not ask it.
+#include "core/resampling/ris.glsl"
+#include "core/resampling/mis.glsl"
+#include "core/resampling/shift.glsl"
+#include "core/resampling/reservoir.glsl"
+#include "core/payload/path_sample.glsl"
+#include "core/payload/path_shift.glsl"
+#include "core/resampling/merge.glsl"
+#include "core/resampling/donors.glsl"
+#include "core/caches/entries/entries.glsl"
+#include "core/caches/entries/surface.glsl"
+#include "integrators/restir_gi/store.glsl"
+#include "integrators/restir_gi/ratio.glsl"
+
+#define RL_REUSE_STATE GiWithEntries
+
+RL_FN bool reuseDonor(RL_IN(GiWithEntries) s, uint k, RL_OUT(ReservoirState) donor) {
+  donor = reservoirEmpty();
+  uint entry = s.id[k];
+  if (entry == RL_INVALID) return false;
+  donor = giReadEntryState(entry);
+  donor.confidence = reuseCapped(donor.confidence, gParams.movingConfidenceCap);
+  return true;
+}
+RL_FN Shifted reuseOurs(RL_IN(GiWithEntries) s, uint k) { return s.ours[k]; }
+RL_FN Shifted reuseTheirs(RL_IN(GiWithEntries) s, uint k) { return s.theirs[k]; }
+RL_FN real3 reuseRatio(RL_IN(GiWithEntries) s, uint k) {
+  return giRatio(anchorRead(gBuffers.anchors, s.id[k]).surface, s.slot);
+}
+RL_FN real reuseUniform(RL_IN(GiWithEntries) s, uint k) {
+  Rng rng = s.rng;
+  return rngDraw(rng, RL_DIM_RIS_MERGE + k);
+}
+
+#include "core/resampling/reuse.glsl"
+
+// One camera ray, then two segments an entry: the pixel's sample from the anchor, the entry's from
+// the x1 of the film sample.
+RL_FN void giAskEntries(RL_INOUT(GiWithEntries) s, RL_IN(PathReservoir) here, RL_IN(uvec2) pixel,
+                        uint film, uint count) {
+  Surface x1 = anchorSurface(anchorNone());
+  bool hasX1 = false;
+  PathReservoir other = here;
+  for (uint i = 0u; i < 1u + 2u * count; i = i + 1u) {
+    bool isCamera = i == 0u;
+    bool isOurs = (i & 1u) != 0u;
+    uint k = isCamera ? 0u : (i - 1u) / 2u;
+    uint entry = s.id[k];
+    PathShift shift = pathShiftNone();
+    if (isCamera) {
+      shift.ray = cameraFilmRay(gFrame.camera, pixel, film);
+      shift.asks = RL_SHIFT_ASKS_X1;
+    } else if (entry != RL_INVALID) {
+      if (isOurs) {
+        shift = pathShiftToSurface(here, anchorSurface(anchorRead(gBuffers.anchors, entry)));
+      } else if (hasX1) {
+        giReadEntry(entry, other);
+        shift = pathShiftToSurface(other, x1);
+      }
+    }
+    if (shift.asks != RL_SHIFT_DONE) {
+      Hit hit = traceNoHit();
+      uint mode = isCamera ? RL_RAY_PATH : RL_RAY_SHADOW;
+      float transmittance = traceRay(shift.ray, mode, cameraAlphaKey(film), hit);
+      if (!isCamera) {
+        shift.shifted.F *= transmittance;
+      } else if (hit.instance != RL_INVALID) {
+        x1 = surfaceLoad(hit, shift.ray.dir);
+        hasX1 = bsdfIsReusable(x1.bsdf, gParams.path.minAlpha);
+      }
+    }
+    if (isCamera) continue;
+    if (isOurs) {
+      s.ours[k] = shift.shifted;
+    } else {
+      s.theirs[k] = shift.shifted;
+    }
+  }
+}
+
+RL_FN void kernelMain(RL_IN(uvec2) pixel) {
+  GiWithEntries s;
+  s.slot = slotOfPixel(pixel);
+  uint count = gParams.entries.proposals;
+  bool isAsked = false;
+  for (uint k = 0u; k < count; k = k + 1u) {
+    s.id[k] = gBuffers.proposals.data[s.slot * count + k];
+    if (s.id[k] == RL_INVALID) continue;
+    if (anchorRead(gBuffers.anchors, s.id[k]).begunBy == s.slot) s.id[k] = RL_INVALID;
+    if (s.id[k] != RL_INVALID) isAsked = true;
+  }
+  if (gParams.temporalReuse == 0u || !isAsked) return;
+  PathReservoir here;
+  here.path.suffix = pathNoSuffix();
+  giReadNow(s.slot, here);
+  s.rng = rngInit(gFrame.seed, s.slot, gFrame.frame);
+  s.rng.vertex = RL_VERTEX_RECALL;
+  uint film = rngBits(s.rng, RL_DIM_FILTER_X);
+  giAskEntries(s, here, pixel, film, count);
+  uint winner;
+  float jacobian;
+  reuseMerge(s, count, gParams.temporalFlags, here.state, winner, jacobian);
+  reservoirGuard(here.state);
+  if (winner == RL_INVALID) {
+    giWriteStateNow(s.slot, here);
+  } else {
+    giTakeEntryPath(s.id[winner], here);
+    here.path.film = film;
+    here.path.geometry *= jacobian;
+    giWriteNow(s.slot, here);
+  }
+}

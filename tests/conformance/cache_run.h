@@ -1,0 +1,65 @@
+// The passes of a cache, run over surfaces made by hand, without an integrator.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/backend/cpu_kernel.h"
+#include "core/cache.h"
+#include "core/caches/entries/entries.h"
+
+namespace restlab::conformance {
+
+// What a pixel shows: its distance from the camera, which looks along -z; 0: nothing.
+struct Shown {
+  float distance = 10.0f;
+  glm::vec3 normalW = {0.0f, 0.0f, 1.0f};
+};
+
+class CacheRun {
+ public:
+  // An orthographic camera whose pixels are 0.25 metres wide, at the origin.
+  CacheRun(const std::string& cache, glm::uvec2 size, const ParameterMap& parameters);
+
+  // The view from now on, with the camera moved aside.
+  void look(const std::function<Shown(glm::uvec2)>& shown, float x = 0.0f);
+  // The passes of a frame, each over its pixels in an order of its own, by some threads; then what
+  // an integrator does for entries that have no anchor yet: the first pixel that feeds gives its
+  // own.
+  void frame(bool isNewView = true, uint32_t threads = 1, uint32_t order = 0);
+
+  uint32_t pixels() const { return size_.x * size_.y; }
+  const std::vector<uint32_t>& words(const std::string& buffer) const {
+    return buffers_.at(buffer);
+  }
+  // A buffer's entry `i`, of a pixel or of an entry, in words.
+  std::vector<uint32_t> entry(const std::string& buffer, uint32_t i, size_t words) const;
+  rl::EntryParams entries() const { return entries_; }
+  glm::vec3 posW(uint32_t slot) const;
+  glm::vec3 anchorPosW(uint32_t entry) const;
+  bool hasAnchor(uint32_t entry) const;
+  // Slots of the pixels that feed an entry in the frame that has just run.
+  std::vector<uint32_t> feedersOf(uint32_t entry) const;
+  uint64_t full() const { return counters_.health[rl::RL_HEALTH_CACHE_FULL]; }
+  const std::map<std::string, std::vector<uint32_t>>& buffers() const { return buffers_; }
+
+ private:
+  void pass(const PassInfo& info, uint32_t threads, uint32_t order);
+
+  const CacheInfo& info_;
+  glm::uvec2 size_;
+  std::vector<std::byte> params_;
+  rl::EntryParams entries_{};
+  rl::FrameData frame_{};
+  rl::FrameData lastFrame_{};
+  std::map<std::string, std::vector<uint32_t>> buffers_;
+  std::vector<void*> addresses_;
+  rl::CpuKernelCounters counters_{};
+};
+
+}  // namespace restlab::conformance
