@@ -138,6 +138,22 @@ bool Method::hasHistory() const {
   return std::any_of(all.begin(), all.end(), [](const PartInfo* part) { return part->hasHistory; });
 }
 
+std::vector<const LayerInfo*> Method::layers() const {
+  const ParameterMap known = resolveParameters(*this, {});
+  std::vector<const LayerInfo*> all;
+  for (const PartInfo* part : parts()) {
+    for (const LayerInfo& layer : part->layers)
+      if (layer.onlyWith == nullptr || known.contains(layer.onlyWith)) all.push_back(&layer);
+  }
+  return all;
+}
+
+std::vector<std::string> Method::aovNames() const {
+  std::vector<std::string> names = Session::aovNames();
+  for (const LayerInfo* layer : layers()) names.push_back(layer->name);
+  return names;
+}
+
 BiasClass Method::bias(const std::string& mode, const ParameterMap& resolved,
                        bool cameraMoves) const {
   return std::max(biasClassOf(*integrator, mode, resolved),

@@ -24,6 +24,10 @@ struct Method {
   std::vector<ParameterInfo> parameters() const;
   // A frame depends on those before it.
   bool hasHistory() const;
+  // Of all parts, those that are there with the method's parameters.
+  std::vector<const LayerInfo*> layers() const;
+  // What Session::aov() knows: the names of Session::aovNames(), then those of the layers.
+  std::vector<std::string> aovNames() const;
   // What may be said of a mode with these resolved parameters.
   BiasClass bias(const std::string& mode, const ParameterMap& resolved, bool cameraMoves) const;
 };

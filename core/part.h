@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -55,14 +56,30 @@ struct PassInfo {
   const char* onlyWith = nullptr;
 };
 
+// What a method has left in its buffers after a frame.
+struct Kept {
+  // All words of a buffer of any of its parts, by name; empty where it is not allocated.
+  std::function<std::span<const uint32_t>(const std::string& buffer)> words;
+  const ParameterMap& parameters;  // resolved
+};
+
 // What a part keeps of a pixel, for people.
 struct ProbeValue {
   std::string name;
   std::string value;
 };
-// The words of a pixel's entry in a buffer of the part, by its name; empty where it is not
-// allocated, and where its entries are not pixels.
-using ReadEntry = std::function<std::vector<uint32_t>(const std::string& buffer)>;
+
+// What a part keeps of every pixel, as a picture: a number for each.
+struct LayerInfo {
+  std::string name;     // unique among the parts of a method and Session::aovNames()
+  std::string summary;  // one line: what it shows; 0 where there is nothing
+  std::string unit;     // "" where it has none
+  bool isName = false;  // the numbers say which, not how much: to be seen in false colours
+  // A parameter that not every method has: the layer is there only with it.
+  const char* onlyWith = nullptr;
+  // The number of a pixel, while `Kept` lives.
+  std::function<std::function<float(size_t pixel)>(const Kept&)> values;
+};
 
 struct PartInfo {
   std::string name;
@@ -86,8 +103,9 @@ struct PartInfo {
   // integrator's.
   std::function<std::vector<std::byte>(const std::string& mode, const ParameterMap&)>
       packParameters;
-  // Empty: nothing to say. Called after a frame.
-  std::function<std::vector<ProbeValue>(const ReadEntry&)> probe;
+  std::vector<LayerInfo> layers;
+  // What there is to say of a pixel beside its layers; empty: nothing.
+  std::function<std::vector<ProbeValue>(const Kept&, size_t pixel)> probe;
 };
 
 // Of a buffer, with resolved parameters.

@@ -3,17 +3,32 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 
 #include "core/error.h"
+#include "core/memory.h"
 
 namespace restlab {
 
 namespace {
 
-bool isOfPixels(const BufferInfo& buffer) {
-  return buffer.entriesParameter == nullptr && buffer.onePerParameter == nullptr;
-}
+// Buffers are read once, when they are first asked for.
+class Copies {
+ public:
+  explicit Copies(std::function<std::vector<uint32_t>(const std::string&)> read)
+      : read_(std::move(read)) {}
+  Kept kept(const ParameterMap& parameters) {
+    return {[this](const std::string& name) -> std::span<const uint32_t> {
+              const auto [at, isNew] = words_.try_emplace(name);
+              if (isNew) at->second = read_(name);
+              return at->second;
+            },
+            parameters};
+  }
+
+ private:
+  std::function<std::vector<uint32_t>(const std::string&)> read_;
+  std::map<std::string, std::vector<uint32_t>> words_;
+};
 
 }  // namespace
 
@@ -71,26 +86,39 @@ bool Pipeline::setParameters(const std::string& mode, const ParameterMap& parame
   return true;
 }
 
-std::vector<ProbeValue> Pipeline::probe(size_t pixel) {
+std::vector<uint32_t> Pipeline::words(const std::string& buffer) {
+  const auto at = find(buffer, stages_.size());
+  const size_t bytes = at ? stages_[at->first].bytes[at->second] : 0;
+  MemoryGuard().take(fmt::format("a copy of buffer {}", buffer), bytes);
+  std::vector<uint32_t> all(bytes / sizeof(uint32_t));
+  if (bytes > 0) backend_.read(bound(stages_[at->first], at->second), all.data(), bytes);
+  return all;
+}
+
+std::vector<ProbeValue> Pipeline::probe(size_t pixel, const ParameterMap& parameters) {
+  Copies copies([this](const std::string& name) { return words(name); });
+  const Kept kept = copies.kept(parameters);
   std::vector<ProbeValue> values;
   for (const Stage& stage : stages_) {
+    for (const LayerInfo& info : stage.info->layers) {
+      if (info.onlyWith != nullptr && !parameters.contains(info.onlyWith)) continue;
+      const float value = info.values(kept)(pixel);
+      values.push_back(
+          {info.name, fmt::format("{:.6g}{}{}", value, info.unit.empty() ? "" : " ", info.unit)});
+    }
     if (!stage.info->probe) continue;
-    const ReadEntry read = [&](const std::string& name) {
-      std::vector<uint32_t> words;
-      for (size_t b = 0; b < stage.bytes.size(); ++b) {
-        const BufferInfo& buffer = stage.info->buffers[b];
-        if (buffer.name != name || stage.bytes[b] == 0 || !isOfPixels(buffer)) continue;
-        const size_t perPixel = stage.bytes[b] / pixels_;
-        std::vector<std::byte> all((pixel + 1) * perPixel);
-        backend_.read(bound(stage, b), all.data(), all.size());
-        words.resize(perPixel / sizeof(uint32_t));
-        std::memcpy(words.data(), all.data() + pixel * perPixel, words.size() * sizeof(uint32_t));
-      }
-      return words;
-    };
-    for (ProbeValue& value : stage.info->probe(read)) values.push_back(std::move(value));
+    for (ProbeValue& value : stage.info->probe(kept, pixel)) values.push_back(std::move(value));
   }
   return values;
+}
+
+std::vector<float> Pipeline::layer(const LayerInfo& info, const ParameterMap& parameters) {
+  Copies copies([this](const std::string& name) { return words(name); });
+  const Kept kept = copies.kept(parameters);
+  const auto value = info.values(kept);
+  std::vector<float> all(pixels_);
+  for (size_t pixel = 0; pixel < pixels_; ++pixel) all[pixel] = value(pixel);
+  return all;
 }
 
 std::optional<std::pair<size_t, size_t>> Pipeline::find(const std::string& name,

@@ -30,8 +30,10 @@ class Pipeline {
   // Other parameters, of the same mode. False, and nothing is done, where buffers would have
   // another size.
   bool setParameters(const std::string& mode, const ParameterMap& parameters);
-  // What the parts keep of a pixel.
-  std::vector<ProbeValue> probe(size_t pixel);
+  // What the parts keep of a pixel: their layers, and what else they have to say.
+  std::vector<ProbeValue> probe(size_t pixel, const ParameterMap& parameters);
+  // A layer of a part, of every pixel.
+  std::vector<float> layer(const LayerInfo& info, const ParameterMap& parameters);
 
   void allocate();
   void prepare(StartupReport& report);
@@ -69,6 +71,8 @@ class Pipeline {
   void pack(Stage& stage, const std::string& mode, const ParameterMap& parameters) const;
   std::optional<std::pair<size_t, size_t>> find(const std::string& name, size_t before) const;
   BufferId bound(const Stage& stage, size_t buffer) const;
+  // Reads a buffer by name; empty where it is not allocated.
+  std::vector<uint32_t> words(const std::string& buffer);
   std::vector<BufferId> bindings(size_t stage) const;
   PassRun runOf(size_t stage, size_t pass) const;
 

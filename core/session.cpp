@@ -249,12 +249,12 @@ void Session::resize(uint32_t width, uint32_t height) {
 }
 
 std::vector<ProbeValue> Session::probe(uint32_t x, uint32_t y) const {
-  const Impl& m = *impl_;
+  Impl& m = *impl_;
   if (x >= m.config.width || y >= m.config.height) {
     failUsage(
         fmt::format("probe {},{}: the image is {}x{}", x, y, m.config.width, m.config.height));
   }
-  return impl_->pipeline->probe(size_t(y) * m.config.width + x);
+  return m.pipeline->probe(size_t(y) * m.config.width + x, m.config.parameters);
 }
 
 void Session::setCamera(const SceneCamera& camera) {
@@ -276,12 +276,22 @@ const std::vector<std::string>& Session::aovNames() { return kAovNames; }
 Image Session::aov(const std::string& name) const {
   Impl& m = *impl_;
   const auto found = std::find(kAovNames.begin(), kAovNames.end(), name);
-  if (found == kAovNames.end()) {
-    failUsage(fmt::format("unknown AOV '{}'{}; AOVs: {}", name, didYouMean(name, kAovNames),
-                          fmt::join(kAovNames, ", ")));
+  const std::vector<const LayerInfo*> layers = m.method.layers();
+  const auto kept = std::find_if(layers.begin(), layers.end(),
+                                 [&](const LayerInfo* info) { return info->name == name; });
+  if (found == kAovNames.end() && kept == layers.end()) {
+    const std::vector<std::string> known = m.method.aovNames();
+    failUsage(fmt::format("unknown AOV '{}'{}; AOVs: {}", name, didYouMean(name, known),
+                          fmt::join(known, ", ")));
   }
   if (name == "radiance") return radiance();
   if (m.isFirstFrame) failUsage(fmt::format("AOV {}: no frame was rendered yet", name));
+  if (kept != layers.end()) {
+    Image image(m.config.width, m.config.height);
+    const std::vector<float> values = m.pipeline->layer(**kept, m.config.parameters);
+    for (size_t i = 0; i < values.size(); ++i) image.pixels[i] = glm::vec3(values[i]);
+    return image;
+  }
   const size_t pixels = size_t(m.config.width) * m.config.height;
   if (m.aovBuffers.empty()) {
     for (size_t i = 1; i < kAovNames.size(); ++i)

@@ -85,7 +85,8 @@ class Session {
   // Another size of the image, with the camera of the configuration; the history starts anew.
   // Throws Error as the constructor does; the size stays as it was then.
   void resize(uint32_t width, uint32_t height);
-  // What the method keeps of a pixel after the last frame: its reservoir and path, by name.
+  // What the method keeps of a pixel after the last frame, by name: its layers (Method::layers()),
+  // its reservoir and path.
   std::vector<ProbeValue> probe(uint32_t x, uint32_t y) const;
   // For a moving camera, from the next frame on; the previous one is kept for reprojection.
   void setCamera(const SceneCamera& camera);
@@ -99,10 +100,10 @@ class Session {
   // aovNames(): radiance; at the first hit positionW, normalW (unit, shading, on the viewer's
   // side), albedo (diffuse + specular at normal incidence + transmission), depth (distance along
   // the ray, in every channel), object (1 + the index in Scene::instances, in every channel); zero
-  // where nothing is hit. Throws Error (badUsage) with the nearest name, and where the history has
-  // no frame yet.
+  // where nothing is hit. Or a layer of the method (Method::layers()), its numbers in every
+  // channel. Throws Error (badUsage) with the nearest name, and where the history has no frame yet.
   Image aov(const std::string& name) const;
-  static const std::vector<std::string>& aovNames();
+  static const std::vector<std::string>& aovNames();  // of every method
 
   uint32_t featuresNeeded() const;
   uint32_t featuresUsed() const;  // of the smallest compiled superset

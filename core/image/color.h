@@ -21,6 +21,13 @@ Real encodeSrgb(Real linear) {
   return Real(1.055) * std::pow(linear, Real(1) / Real(2.4)) - Real(0.055);
 }
 
+// Its inverse.
+template <class Real>
+Real decodeSrgb(Real encoded) {
+  if (encoded <= Real(12.92 * 0.0031308)) return encoded / Real(12.92);
+  return std::pow((encoded + Real(0.055)) / Real(1.055), Real(2.4));
+}
+
 // NaN stays NaN: both comparisons are false.
 inline double clampUnit(double x) { return x < 0.0 ? 0.0 : x > 1.0 ? 1.0 : x; }
 

@@ -9,6 +9,7 @@ target_sources(rl_core PRIVATE
   image/half_products.cpp
   image/halves_noise.cpp
   image/intervals.cpp
+  image/layer_colors.cpp
   image/mask.cpp
   image/metrics.cpp
   image/pixel_metrics.cpp

@@ -47,6 +47,15 @@ Json parametersJson(const PartInfo& part) {
   return parameters;
 }
 
+Json layersJson(const PartInfo& part) {
+  Json layers = Json::array();
+  for (const LayerInfo& layer : part.layers) {
+    layers.push_back({{"name", layer.name}, {"unit", layer.unit}, {"help", layer.summary}});
+    if (layer.onlyWith != nullptr) layers.back()["only_with"] = layer.onlyWith;
+  }
+  return layers;
+}
+
 Json integrators() {
   Json all = Json::array();
   for (const IntegratorInfo* info : integratorRegistry()) {
@@ -58,7 +67,8 @@ Json integrators() {
                    {"summary", info->summary},
                    {"uses_cache", info->usesCache},
                    {"modes", modes},
-                   {"parameters", parametersJson(*info)}});
+                   {"parameters", parametersJson(*info)},
+                   {"layers", layersJson(*info)}});
   }
   return all;
 }
@@ -68,7 +78,8 @@ Json caches() {
   for (const CacheInfo* cache : cacheRegistry()) {
     all.push_back({{"name", cache->name},
                    {"summary", cache->summary},
-                   {"parameters", parametersJson(*cache)}});
+                   {"parameters", parametersJson(*cache)},
+                   {"layers", layersJson(*cache)}});
   }
   return all;
 }
@@ -138,7 +149,7 @@ Json scenes() {
   return all;
 }
 
-void printParameters(const Json& part) {
+void printDetails(const Json& part) {
   if (part.contains("why")) {
     fmt::print("  {} in a still view, {} in a moving one: {}\n",
                part["bias_still"].get<std::string>(), part["bias_moving"].get<std::string>(),
@@ -159,6 +170,12 @@ void printParameters(const Json& part) {
     fmt::print("  {} = {}{}\n      {}\n      source: {}\n", parameter["name"].get<std::string>(),
                parameter["default"].dump(), bounds, parameter["help"].get<std::string>(),
                parameter["source"].get<std::string>());
+  }
+  for (const Json& layer : part.value("layers", Json::array())) {
+    const std::string unit = layer["unit"], with = layer.value("only_with", "");
+    fmt::print("  layer {}{}: {}{}\n", layer["name"].get<std::string>(),
+               unit.empty() ? "" : " in " + unit, layer["help"].get<std::string>(),
+               with.empty() ? "" : fmt::format("; only of methods with the parameter {}", with));
   }
 }
 
@@ -191,7 +208,7 @@ void list(const ListOptions& options) {
       for (const Json& device : item["devices"])
         fmt::print("{:<{}}    {}\n", "", width, device.get<std::string>());
     }
-    if (item.contains("parameters")) printParameters(item);
+    if (item.contains("parameters")) printDetails(item);
   }
 }
 

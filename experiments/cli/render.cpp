@@ -8,6 +8,7 @@
 #include "core/image/metrics.h"
 #include "core/method.h"
 #include "core/scene/compiled_scene.h"
+#include "experiments/cli/layer_previews.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/summary/accumulate.h"
@@ -34,13 +35,16 @@ struct RenderOptions {
   uint64_t frames = 0, spp = 0;  // 0: not given
 };
 
-std::vector<std::string> checkedAovs(const std::string& list) {
+std::vector<std::string> checkedAovs(const std::string& list, const Method& method) {
   if (list.empty()) return {};
-  const std::vector<std::string> names = splitList(list, "--aov"), known = Session::aovNames();
-  for (const std::string& name : names) {
-    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    failUsage(fmt::format("--aov {}: unknown name (known: {}){}", name, fmt::join(known, ", "),
-                          didYouMean(name, known)));
+  const std::vector<std::string> known = method.aovNames();
+  std::vector<std::string> names;  // each once
+  for (const std::string& name : splitList(list, "--aov")) {
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      failUsage(fmt::format("--aov {}: unknown name (known: {}){}", name, fmt::join(known, ", "),
+                            didYouMean(name, known)));
+    }
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
   return names;
 }
@@ -101,7 +105,8 @@ Rendered renderFrames(Session& session, const RenderOptions& options, bool histo
 // Beside the buffers: the image, twice; the sums of its mean; AOVs as buffers and as layers.
 size_t hostBytesPerPixel(const RenderOptions& options, const std::vector<std::string>& aovs) {
   const size_t image = sizeof(glm::vec3), sum = sizeof(glm::dvec3);
-  const size_t aov = aovs.empty() ? 0 : Session::aovNames().size() + aovs.size();
+  // The last one: the preview of a layer.
+  const size_t aov = aovs.empty() ? 0 : Session::aovNames().size() + aovs.size() + 1;
   return 2 * image + (options.spp > 0 ? sum : 0) + aov * image;
 }
 
@@ -129,11 +134,15 @@ LayeredImage layers(const Session& session, const PreparedScene& prepared, const
 void render(RenderOptions options) {
   resolveResolution(options.scene);
   SessionConfig config = makeConfig(options.scene, options.method);
-  const std::vector<std::string> aovs = checkedAovs(options.aovs);
+  const std::vector<std::string> aovs = checkedAovs(options.aovs, findMethod(config));
   checkWritable(options.output);
   const bool png = !options.png.empty();
   std::vector<OutputFile> outputs = {{"--output", options.output, ".exr"}};
-  if (png) outputs.push_back({"--png", pngPath(options), ".png"});
+  if (png) {
+    outputs.push_back({"--png", pngPath(options), ".png"});
+    for (const std::string& name : aovs)
+      outputs.push_back({"--png", layerPreviewPath(pngPath(options), name), ".png"});
+  }
   checkOutputs(outputs, options.scene.request);
   if (png) checkWritable(pngPath(options));
 
@@ -155,6 +164,9 @@ void render(RenderOptions options) {
   further.print();
   writeExr(options.output, file);
   if (png) writePng(pngPath(options), rendered.image);
+  for (const std::string& name : png ? aovs : std::vector<std::string>())
+    writeLayerPreview(layerPreviewPath(pngPath(options), name), name, file.layers.at(name),
+                      findMethod(config));
 
   const size_t nonfinite = countNonfinite(rendered.image);
   const uint64_t dropped = rendered.health.health.counts[rl::RL_HEALTH_NONFINITE];
@@ -179,9 +191,11 @@ Action addRenderVerb(CLI::App& app) {
   verb->add_option("--spp", options->spp, "the mean of N samples per pixel")
       ->check(CLI::Range(uint64_t(1), kMaxCount))
       ->excludes(frames);
-  verb->add_option("--aov", options->aovs, "comma-separated layers: radiance, positionW, ...");
+  verb->add_option("--aov", options->aovs,
+                   "comma-separated layers: radiance, positionW, ..., and those of the method "
+                   "(list integrators, list caches)");
   verb->add_flag("--png{beside}", options->png,
-                 "an sRGB preview beside the EXR; --png=FILE: there");
+                 "an sRGB preview beside the EXR, and one of each layer; --png=FILE: there");
   return [options](Outcome&) { render(*options); };
 }
 

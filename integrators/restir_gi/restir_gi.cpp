@@ -12,7 +12,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <span>
 
+#include "core/caches/entries/layers.h"
 #include "core/caches/entries/settings.h"
 #include "core/integrator.h"
 #include "core/resampling/partner_settings.h"
@@ -242,30 +244,57 @@ std::string whyWithoutEffect(const std::string& name, const ParameterMap& p) {
 
 std::string three(const glm::vec3& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }
 
-std::vector<ProbeValue> probe(const ReadEntry& read) {
-  const std::vector<uint32_t> words = read("history"), own = read("own_light");
-  const auto number = [](const std::vector<uint32_t>& from, size_t at) {
-    return std::bit_cast<float>(from.at(at));
-  };
-  const auto vector = [&](const std::vector<uint32_t>& from) {
+// As pathReservoirWrite() and, from kState on, reservoirStateWrite() lay reservoirs out.
+constexpr size_t kReservoir = 4 * rl::RL_PATH_RESERVOIR_QUADS;
+constexpr size_t kState = 4 * rl::RL_PATH_SAMPLE_QUADS;
+constexpr size_t kConfidence = kState + 3;
+
+float number(std::span<const uint32_t> words, size_t at) { return std::bit_cast<float>(words[at]); }
+
+std::vector<ProbeValue> probe(const Kept& kept, size_t pixel) {
+  const auto words = kept.words("history").subspan(kReservoir * pixel, kReservoir);
+  const auto own = kept.words("own_light").subspan(4 * pixel, 4);
+  const auto vector = [](std::span<const uint32_t> from) {
     return glm::vec3(number(from, 0), number(from, 1), number(from, 2));
   };
-  // As pathReservoirWrite() and, from kState on, reservoirStateWrite() lay them out.
   rl::Packing packing;
-  constexpr size_t kState = 4 * rl::RL_PATH_SAMPLE_QUADS;
   static const std::array<const char*, 4> kinds = {
       "light at x1", "Lambert x2", "glossy x2, light sample", "glossy x2, continued"};
-  const uint32_t kind = words.at(7) & rl::RL_PATH_KIND_MASK, film = words.at(3);
+  const uint32_t kind = words[7] & rl::RL_PATH_KIND_MASK, film = words[3];
   return {{"own light", three(vector(own))},
-          {"confidence", fmt::format("{:.6g}", number(words, kState + 3))},
           {"W", fmt::format("{:.6g}", number(words, kState + 2))},
-          {"F", three(packing.unpackPositive3(words.at(kState), words.at(kState + 1)))},
-          {"residual", three(packing.unpackSigned3(words.at(kState + 4), words.at(kState + 5)))},
+          {"F", three(packing.unpackPositive3(words[kState], words[kState + 1]))},
+          {"residual", three(packing.unpackSigned3(words[kState + 4], words[kState + 5]))},
           {"kind", kinds.at(kind)},
           {"film", fmt::format("{:.4f} {:.4f}", double(film & 0xffffu) / 65536.0,
                                double(film >> 16) / 65536.0)},
           {"position or direction", three(vector(words))},
-          {"radiance", three(packing.unpackPositive3(words.at(kState + 6), words.at(kState + 7)))}};
+          {"radiance", three(packing.unpackPositive3(words[kState + 6], words[kState + 7]))}};
+}
+
+std::vector<LayerInfo> layers() {
+  LayerInfo confidence, ofEntry;
+  confidence.name = "confidence";
+  confidence.summary = "confidence of the pixel's reservoir";
+  confidence.unit = "samples";
+  confidence.values = [](const Kept& kept) {
+    return [words = kept.words("history")](size_t pixel) {
+      return number(words, kReservoir * pixel + kConfidence);
+    };
+  };
+  ofEntry.name = "entry_confidence";
+  ofEntry.summary = "confidence of the reservoir of the pixel's entry";
+  ofEntry.unit = "samples";
+  ofEntry.onlyWith = kEntryCount;
+  ofEntry.values = [](const Kept& kept) {
+    // A place that a new entry has taken may still hold the reservoir of the one before it.
+    const auto words = kept.words("entry_reservoirs"), anchors = kept.words("anchors");
+    return ofPixelsEntry(kept, [words, anchors](uint32_t entry) {
+      const bool hasAnchor = anchors[4 * rl::RL_ANCHOR_QUADS * size_t{entry} + 6] >> 30u != 0;
+      return hasAnchor ? number(words, kReservoir * entry + kConfidence) : 0.0f;
+    });
+  };
+  return {confidence, ofEntry};
 }
 
 }  // namespace
@@ -326,6 +355,7 @@ const IntegratorInfo& restir_giIntegratorInfo() {
     i.radianceFrames = [](const ParameterMap& p) {
       return get<bool>(p, "temporal") ? get<double>(p, "confidence_cap") + 1.0 : 1.0;
     };
+    i.layers = layers();
     i.probe = probe;
     i.biasOfParameters = [](const std::string& mode, const ParameterMap& p) {
       const bool isWrong = get<std::string>(p, "mis") == "confidence" ||

@@ -101,6 +101,21 @@ TEST(MovingCameraThereAndBack, LeavesTheMean) {
   expectUnbiased(walk, endOf(walk), 256, 48, 8, 1);
 }
 
+// Through the open side of the Cornell box: what the camera comes to changes the level of its cells
+// and the size of its discs once or twice, and entries of the level before serve until there are
+// new ones.
+Walk flyThrough() { return {"flying", "cornell-box", {0.0, -0.02, -0.8}, 0.0}; }
+SceneCamera endOfFlight() { return lookAt({-2.78, 2.7, -1.5}, {-2.78, 2.4, -5.5}, 55.0); }
+const std::vector<Setting> kFlyingEntries = {{"voxel", {{"entries", int64_t{4096}}}},
+                                             {"surflet", {{"entries", int64_t{4096}}}}};
+
+TEST(MovingCameraFlyThrough, LeavesTheMean) {
+  expectUnbiased(flyThrough(), endOfFlight(), 256, 48, 10, 1, kFlyingEntries);
+}
+TEST(MovingCameraFlyThrough, NightlyLeavesTheMean) {
+  expectUnbiased(flyThrough(), endOfFlight(), 2048, 384, 10, 0, kFlyingEntries);
+}
+
 // Cells and discs over edges and through walls, many donors, entries that forget at once.
 TEST(MovingCameraEntries, NoSettingMovesTheMean) {
   const ParameterMap open = {{"normal_threshold", -1.0}, {"plane_threshold", 10.0},

@@ -103,7 +103,12 @@ TEST_F(InfoTest, ListsNameWhatTheirVerbsTake) {
       EXPECT_NE(parameter["source"], "") << parameter["name"];
     }
   }
-  EXPECT_EQ(list("caches")[0]["name"], "pixel");
+  const auto caches = list("caches");
+  EXPECT_EQ(caches[0]["name"], "pixel");
+  EXPECT_TRUE(caches[0]["layers"].empty());
+  EXPECT_EQ(caches[1]["layers"][0]["name"], "entry");
+  EXPECT_NE(run("list caches").out.find("layer probes in places: "), std::string::npos);
+  EXPECT_NE(run("list integrators").out.find("layer confidence in samples: "), std::string::npos);
   const auto backends = list("backends");
   EXPECT_EQ(backends[0]["name"], "cpu");
   EXPECT_NE(backends[0]["summary"].get<std::string>().find("Embree 3."), std::string::npos);

@@ -116,6 +116,23 @@ TEST_F(RenderTest, FirstHitLayersHoldTheSceneThatIsSeen) {
   }
 }
 
+TEST_F(RenderTest, LayersOfTheMethodAndTheirPreviews) {
+  const ProgramResult result =
+      run("render cornell-box -o x.exr --png --resolution 32x32 --frames 4 --integrator restir_gi "
+          "--cache voxel --aov entry,confidence,depth");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const LayeredImage image = readExr(path("x.exr"));
+  float most = 0.0F;
+  for (const glm::vec3& c : image.layers.at("confidence").pixels) most = std::max(most, c.x);
+  EXPECT_GT(most, 3.5F);
+  EXPECT_GT(meanOf(image.layers.at("entry")), 1.0);
+  for (const char* name : {"x.png", "x.entry.png", "x.confidence.png", "x.depth.png"})
+    EXPECT_EQ(read(name).substr(1, 3), "PNG") << name;
+  EXPECT_NE(result.err.find("x.confidence.png: black is "), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find(" samples\n"), std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find("x.entry.png"), std::string::npos) << "names have no range";
+}
+
 TEST_F(RenderTest, PreviewGoesWhereItIsTold) {
   ASSERT_EQ(run("render -o a.exr --png=b.png --resolution 8x8 cornell-box").code, 0);
   EXPECT_TRUE(std::filesystem::exists(path("b.png")));

@@ -5,8 +5,10 @@ set(RL_CONFORMANCE_TESTS
   conformance/cache_run.cpp
   conformance/determinism_test.cpp
   conformance/health_test.cpp
+  conformance/layers_test.cpp
   conformance/light_transport_test.cpp
   conformance/live_session_test.cpp
+  conformance/long_run_test.cpp
   conformance/moving_view_test.cpp
   conformance/variants.cpp
 )

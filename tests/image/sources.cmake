@@ -5,6 +5,7 @@ set(RL_IMAGE_TESTS
   image/flip_test.cpp
   image/halves_noise_test.cpp
   image/intervals_test.cpp
+  image/layer_colors_test.cpp
   image/metric_mask_test.cpp
   image/metric_traps_test.cpp
   image/metrics_test.cpp

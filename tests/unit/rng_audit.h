@@ -21,6 +21,10 @@ extern const CpuKernelEntry kernel_restir_gi_initial_audited;
 extern const CpuKernelEntry kernel_restir_gi_temporal_audited;
 extern const CpuKernelEntry kernel_restir_gi_exchange_audited;
 extern const CpuKernelEntry kernel_restir_gi_spatial_audited;
+extern const CpuKernelEntry kernel_restir_gi_recall_audited;
+extern const CpuKernelEntry kernel_restir_gi_feed_audited;
+extern const CpuKernelEntry kernel_surflet_propose_audited;
+extern const CpuKernelEntry kernel_voxel_propose_audited;
 
 }  // namespace rl
 

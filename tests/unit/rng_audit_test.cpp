@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "core/dialect/order.h"
@@ -34,28 +35,22 @@ std::vector<Draw> takeRepeated() {
 
 constexpr uint32_t kWidth = 28, kHeight = 20;
 
-// Runs frames of an integrator's passes with their audited kernels, as the session does.
+struct Audited {
+  const char* integrator;
+  const char* mode;
+  std::map<std::string, rl::CpuKernelEntry> kernels;  // by the name of the pass
+  const char* cache = "";                             // "": the first one
+  ParameterMap parameters = {};
+};
+
+// Runs frames of the passes of a cache and an integrator with their audited kernels, as the session
+// does.
 class AuditedRun {
  public:
-  AuditedRun(const std::string& sceneName, const std::string& integrator, const std::string& mode,
-             const ParameterMap& parameters, std::map<std::string, rl::CpuKernelEntry> audited)
-      : scene_(CompiledScene::build(makeBuiltinScene(sceneName))),
-        info_(findIntegrator(integrator)),
-        audited_(std::move(audited)) {
-    const Method method = findMethod(integrator, "", "none");
-    const ParameterMap resolved = resolveParameters(method, parameters);
-    params_ = info_.packParameters(mode, resolved);
-    // What pixels show at their centres, in this view and in the last, which are the same.
-    for (size_t i = 0; i < info_.inputs.size(); ++i) {
-      storage_.emplace_back(size_t{16} * kWidth * kHeight);
-      addresses_.push_back(storage_.back().data());
-    }
-    addresses_.resize(addresses_.size() + info_.optionalInputs.size(), nullptr);
-    own_ = addresses_.size();
-    for (const BufferInfo& b : info_.buffers) {
-      storage_.emplace_back(bufferBytes(b, resolved, kWidth * kHeight));
-      addresses_.push_back(storage_.back().data());
-    }
+  AuditedRun(const std::string& sceneName, const Audited& audited)
+      : scene_(CompiledScene::build(makeBuiltinScene(sceneName))), kernels_(audited.kernels) {
+    const Method method = findMethod(audited.integrator, audited.cache, "none");
+    resolved_ = resolveParameters(method, audited.parameters);
     frame_.camera = scene_->camera(scene_->source().cameras[0], kWidth, kHeight);
     frame_.previousCamera = frame_.camera;
     frame_.width = kWidth;
@@ -64,28 +59,28 @@ class AuditedRun {
     frame_.maxBounces = 6;
     frame_.components = rl::RL_COMPONENT_ALL;
     frame_.rouletteStart = rl::RL_ROULETTE_EARLIEST;
+    // What pixels show at their centres, in this view and in the last, which are the same.
+    for (const char* name : {"visible", "visible_before"})
+      buffers_[name].resize(size_t{16} * kWidth * kHeight);
+    for (const PartInfo* part : {static_cast<const PartInfo*>(method.cache),
+                                 static_cast<const PartInfo*>(method.integrator)}) {
+      if (part != nullptr) add(*part, audited.mode);
+    }
     if (method.cache == nullptr) return;
-    rl::CpuKernelCounters counters;
-    rl::findCpuKernel("visible", rl::RL_FEATURE_ALL)
-        ->entry(arguments(), {0, 0, kWidth, kHeight}, counters);
-    std::copy(storage_[0].begin(), storage_[0].end(), storage_[1].begin());
+    const std::vector<void*> seen = {buffers_["visible"].data()};
+    const PartInfo none;
+    call(rl::findCpuKernel("visible", rl::RL_FEATURE_ALL)->entry, {&none, {}, seen, 0}, pixels());
+    buffers_["visible_before"] = buffers_["visible"];
   }
 
   void frame() {
-    rl::CpuKernelCounters counters;
-    for (const PassInfo& pass : info_.passes) {
-      if (pass.onlyWith != nullptr || (frame_.stillFrames != 0 && pass.onlyOnNewViews)) continue;
-      const auto audited = audited_.find(pass.name);
-      const rl::CpuKernelEntry entry =
-          audited != audited_.end()
-              ? audited->second
-              : rl::findCpuKernel(pass.kernel.c_str(), rl::RL_FEATURE_ALL)->entry;
-      entry(arguments(), {0, 0, kWidth, kHeight}, counters);
-    }
-    const auto buffers = addresses_.begin() + std::ptrdiff_t(own_);
-    for (size_t i = 0; i < info_.buffers.size(); ++i) {
-      const int other = info_.buffers[i].swapWith;
-      if (other > int(i)) std::swap(buffers[std::ptrdiff_t(i)], buffers[other]);
+    for (Part& part : parts_) {
+      for (const PassInfo& pass : part.info->passes) run(part, pass);
+      for (size_t i = 0; i < part.info->buffers.size(); ++i) {
+        const int other = part.info->buffers[i].swapWith;
+        if (other > int(i))
+          std::swap(part.addresses[part.own + i], part.addresses[part.own + size_t(other)]);
+      }
     }
     ++frame_.frame;
     // Every other frame runs what new views take.
@@ -93,39 +88,89 @@ class AuditedRun {
   }
 
  private:
-  rl::CpuKernelArgs arguments() {
+  struct Part {
+    const PartInfo* info = nullptr;
+    std::vector<std::byte> params;
+    std::vector<void*> addresses;
+    size_t own = 0;  // where its own buffers begin
+  };
+
+  static rl::CpuKernelTile pixels() { return {0, 0, kWidth, kHeight}; }
+
+  void add(const PartInfo& info, const std::string& mode) {
+    Part part;
+    part.info = &info;
+    part.params = info.packParameters(mode, resolved_);
+    for (const std::vector<std::string>* names : {&info.inputs, &info.optionalInputs}) {
+      for (const std::string& name : *names) {
+        const auto found = buffers_.find(name);
+        part.addresses.push_back(found == buffers_.end() ? nullptr : found->second.data());
+      }
+    }
+    part.own = part.addresses.size();
+    for (const BufferInfo& b : info.buffers) {
+      std::vector<std::byte>& bytes = buffers_[b.name];
+      bytes.resize(bufferBytes(b, resolved_, kWidth * kHeight));
+      part.addresses.push_back(bytes.data());
+    }
+    parts_.push_back(std::move(part));
+  }
+
+  void run(const Part& part, const PassInfo& pass) {
+    if (frame_.stillFrames != 0 && pass.onlyOnNewViews) return;
+    if (pass.onlyWith != nullptr && !resolved_.contains(pass.onlyWith)) return;
+    rl::CpuKernelTile tile = pixels();
+    if (pass.entriesParameter != nullptr) {
+      const auto entries = uint32_t(std::get<int64_t>(resolved_.at(pass.entriesParameter)));
+      tile = {0, 0, rl::RL_ENTRY_ROW, (entries + rl::RL_ENTRY_ROW - 1) / rl::RL_ENTRY_ROW};
+    }
+    const auto audited = kernels_.find(pass.name);
+    call(audited != kernels_.end()
+             ? audited->second
+             : rl::findCpuKernel(pass.kernel.c_str(), rl::RL_FEATURE_ALL)->entry,
+         part, tile);
+  }
+
+  void call(rl::CpuKernelEntry entry, const Part& part, const rl::CpuKernelTile& tile) {
     rl::CpuKernelArgs args;
     args.scene = &scene_->data();
     args.frame = &frame_;
-    args.buffers = addresses_.data();
-    args.params = params_.data();
+    args.buffers = part.addresses.data();
+    args.params = part.params.data();
     args.embreeScene = scene_->embreeScene();
-    return args;
+    rl::CpuKernelCounters counters;
+    entry(args, tile, counters);
   }
 
   std::shared_ptr<const CompiledScene> scene_;
-  const IntegratorInfo& info_;
-  std::map<std::string, rl::CpuKernelEntry> audited_;  // by the name of the pass
-  std::vector<std::byte> params_;
-  std::vector<std::vector<std::byte>> storage_;
-  std::vector<void*> addresses_;
-  size_t own_ = 0;  // where the integrator's buffers begin
+  std::map<std::string, rl::CpuKernelEntry> kernels_;
+  ParameterMap resolved_;
+  std::map<std::string, std::vector<std::byte>> buffers_;
+  std::vector<Part> parts_;
   rl::FrameData frame_{};
 };
 
-void expectNoRepeats(AuditedRun& run, size_t leastDraws, const std::string& what) {
+// The (vertex, dimension) that were drawn.
+using Kinds = std::set<std::pair<uint32_t, uint32_t>>;
+
+Kinds expectNoRepeats(AuditedRun run, const std::string& what) {
+  Kinds kinds;
   for (int frame = 0; frame < 4; ++frame) {
     recorded.clear();
     run.frame();
     const size_t draws = recorded.size();
-    EXPECT_GT(draws, leastDraws) << what << ", frame " << frame;
-    for (const Draw& d : recorded) ASSERT_LT(d[3], rl::RL_DIMENSIONS) << what;
+    EXPECT_GT(draws, size_t(kWidth) * kHeight) << what << ", frame " << frame;
+    for (const Draw& d : recorded) {
+      EXPECT_LT(d[3], rl::RL_DIMENSIONS) << what;
+      kinds.insert({d[2], d[3]});
+    }
     const std::vector<Draw> repeated = takeRepeated();
     EXPECT_TRUE(repeated.empty()) << what << ", frame " << frame << ": " << repeated.size()
                                   << " of " << draws
                                   << " draws repeat another, the first at vertex " << repeated[0][2]
                                   << ", dimension " << repeated[0][3];
   }
+  return kinds;
 }
 
 TEST(RngAudit, TheRecordFindsARepeatedDraw) {
@@ -141,37 +186,68 @@ TEST(RngAudit, TheRecordFindsARepeatedDraw) {
   EXPECT_EQ(takeRepeated().size(), 1u);
 }
 
+const std::map<std::string, rl::CpuKernelEntry> kRestirKernels = {
+    {"lights_in_view", rl::kernel_restir_gi_lights_in_view_audited},
+    {"initial", rl::kernel_restir_gi_initial_audited},
+    {"temporal", rl::kernel_restir_gi_temporal_audited},
+    {"exchange", rl::kernel_restir_gi_exchange_audited},
+    {"spatial", rl::kernel_restir_gi_spatial_audited},
+    {"recall", rl::kernel_restir_gi_recall_audited},
+    {"feed", rl::kernel_restir_gi_feed_audited},
+    {"surflet_propose", rl::kernel_surflet_propose_audited},
+    {"voxel_propose", rl::kernel_voxel_propose_audited}};
+
 TEST(RngAudit, Path) {
   for (const std::string& name : builtinSceneNames()) {
-    AuditedRun run(name, "path", "unbiased", {}, {{"path", rl::kernel_path_audited}});
-    expectNoRepeats(run, size_t(kWidth) * kHeight, "path, " + name);
+    expectNoRepeats({name, {"path", "unbiased", {{"path", rl::kernel_path_audited}}}},
+                    "path, " + name);
   }
 }
 
 TEST(RngAudit, Template) {
   for (const std::string& name : builtinSceneNames()) {
-    AuditedRun run(name, "template", "unbiased", {}, {{"template", rl::kernel_template_audited}});
-    expectNoRepeats(run, size_t(kWidth) * kHeight, "template, " + name);
+    expectNoRepeats({name, {"template", "unbiased", {{"template", rl::kernel_template_audited}}}},
+                    "template, " + name);
   }
 }
 
 TEST(RngAudit, RestirGi) {
-  const std::map<std::string, rl::CpuKernelEntry> passes = {
-      {"lights_in_view", rl::kernel_restir_gi_lights_in_view_audited},
-      {"initial", rl::kernel_restir_gi_initial_audited},
-      {"temporal", rl::kernel_restir_gi_temporal_audited},
-      {"exchange", rl::kernel_restir_gi_exchange_audited},
-      {"spatial", rl::kernel_restir_gi_spatial_audited}};
   // Every loop over draws runs more than once.
   const ParameterMap busy = {{"light_candidates", int64_t{5}},
                              {"spatial_neighbours", int64_t{rl::RL_MAX_DONORS}}};
   for (const std::string& name : builtinSceneNames()) {
     for (const std::string mode : {"unbiased", "biased"}) {
-      AuditedRun plain(name, "restir_gi", mode, {}, passes);
-      expectNoRepeats(plain, size_t(kWidth) * kHeight, "restir_gi " + mode + ", " + name);
-      AuditedRun loops(name, "restir_gi", mode, busy, passes);
-      expectNoRepeats(loops, size_t(kWidth) * kHeight,
-                      "restir_gi " + mode + ", long loops, " + name);
+      Audited audited{"restir_gi", mode.c_str(), kRestirKernels};
+      expectNoRepeats({name, audited}, "restir_gi " + mode + ", " + name);
+      audited.parameters = busy;
+      expectNoRepeats({name, audited}, "restir_gi " + mode + ", long loops, " + name);
+    }
+  }
+}
+
+// With as many donors and offers as there may be, the passes of entries draw beside those of
+// pixels.
+TEST(RngAudit, RestirGiWithEntries) {
+  const ParameterMap busy = {{"light_candidates", int64_t{2}},
+                             {"spatial_neighbours", int64_t{rl::RL_MAX_DONORS}},
+                             {"entries", int64_t{4096}},
+                             {"entry_proposals", int64_t{rl::RL_MAX_DONORS}},
+                             {"feed_every", int64_t{1}}};
+  for (const std::string& name : builtinSceneNames()) {
+    for (const char* cache : {"surflet", "voxel"}) {
+      const std::string what = std::string("restir_gi with ") + cache + ", " + name;
+      const Kinds kinds =
+          expectNoRepeats({name, {"restir_gi", "unbiased", kRestirKernels, cache, busy}}, what);
+      using namespace rl;
+      EXPECT_TRUE(kinds.contains({RL_VERTEX_RECALL, RL_DIM_FILTER_X})) << what;
+      for (uint32_t k = 0; k < RL_MAX_DONORS; ++k) {
+        EXPECT_TRUE(kinds.contains({RL_VERTEX_RECALL, RL_DIM_RIS_MERGE + k})) << what;
+        EXPECT_TRUE(kinds.contains({RL_VERTEX_FEED, RL_DIM_RIS_MERGE + k})) << what;
+      }
+      for (uint32_t k = 1; k < RL_MAX_DONORS; ++k) {
+        EXPECT_TRUE(kinds.contains({RL_VERTEX_SPATIAL + k, RL_DIM_DONOR_U})) << what;
+        EXPECT_TRUE(kinds.contains({RL_VERTEX_SPATIAL + k, RL_DIM_DONOR_V})) << what;
+      }
     }
   }
 }

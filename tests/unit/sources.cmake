@@ -21,12 +21,16 @@ list(APPEND RL_UNIT_TESTS
   reservoir_store_test.cpp
   rng_audit_path.cpp
   rng_audit_restir_exchange.cpp
+  rng_audit_restir_feed.cpp
   rng_audit_restir_initial.cpp
   rng_audit_restir_lights_in_view.cpp
+  rng_audit_restir_recall.cpp
   rng_audit_restir_spatial.cpp
   rng_audit_restir_temporal.cpp
+  rng_audit_surflet_propose.cpp
   rng_audit_template.cpp
   rng_audit_test.cpp
+  rng_audit_voxel_propose.cpp
   rng_test.cpp
   sphere_grid.cpp
   surface_test.cpp

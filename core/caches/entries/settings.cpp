@@ -1,5 +1,7 @@
 #include "core/caches/entries/settings.h"
 
+#include "core/caches/entries/layers.h"
+
 namespace restlab {
 
 namespace {
@@ -78,7 +80,7 @@ CacheInfo entryCache(const std::string& name, const std::string& summary) {
                entryBuffer("entry_keys", 2 * sizeof(uint32_t)),
                entryBuffer("entry_seen", sizeof(uint32_t)),
                entryBuffer("entry_claims", sizeof(uint32_t)),
-               {"entry_of_pixel", sizeof(uint32_t), 0, -1}};
+               {kEntryOfPixel, sizeof(uint32_t), 0, -1}};
   const auto pass = [&](const std::string& what, const std::string& again = "") {
     return PassInfo{name + "_" + what + again, name + "_" + what, false, true};
   };
@@ -97,6 +99,7 @@ CacheInfo entryCache(const std::string& name, const std::string& summary) {
               pass("propose"),
               feeders};
   i.hasHistory = true;
+  i.layers = entryLayers();
   return i;
 }
 

@@ -1,0 +1,33 @@
+#include "experiments/cli/layer_previews.h"
+
+#include <fmt/format.h>
+
+#include "core/image/layer_colors.h"
+#include "experiments/runner/run/log.h"
+
+namespace restlab {
+
+std::filesystem::path layerPreviewPath(const std::filesystem::path& preview,
+                                       const std::string& layer) {
+  std::filesystem::path file = preview;
+  return file.replace_extension(layer + preview.extension().string());
+}
+
+void writeLayerPreview(const std::filesystem::path& file, const std::string& layer,
+                       const Image& image, const Method& method) {
+  if (layer == "radiance" || layer == "albedo") return writePng(file, image);
+  bool isName = layer == "object";
+  std::string unit = layer == "depth" || layer == "positionW" ? "m" : "";
+  for (const LayerInfo* info : method.layers()) {
+    if (info->name != layer) continue;
+    isName = info->isName;
+    unit = info->unit;
+  }
+  if (isName) return writePng(file, falseColors(image));
+  const ValueRange range = valueRange(image);
+  writePng(file, scaledTo(image, range));
+  logInfo(fmt::format("{}: black is {:.6g}, white is {:.6g}{}{}", file.string(), range.least,
+                      range.greatest, unit.empty() ? "" : " ", unit));
+}
+
+}  // namespace restlab
