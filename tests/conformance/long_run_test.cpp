@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <fstream>
 #include <numbers>
+#include <numeric>
 
 #include "core/caches/entries/settings.h"
 #include "core/image/color.h"
@@ -21,6 +22,7 @@ namespace {
 
 // The camera goes round in so many frames. The first round fills the cache, and is not compared.
 constexpr uint32_t kRound = 40, kRounds = 50, kQuarter = 12;
+constexpr uint32_t kRuns = 4;
 
 SceneCamera cameraOf(uint32_t frame) {
   const double angle = 2.0 * std::numbers::pi * double(frame % kRound) / kRound;
@@ -56,47 +58,37 @@ Round runRound(Session& session) {
   return round;
 }
 
-// Of observations in their order: the change from the first to the last by the line of least
-// squares, or their mean; with its standard error.
+// A mean over runs of other seeds, which know nothing of each other: rounds of one run do.
 struct Estimate {
   double value = 0.0, error = 0.0, dof = 0.0;
-  double t() const { return value / error; }
-  bool isZero() const { return stats::studentTwoSided(t(), dof) > 0.05; }
+
+  explicit Estimate(const std::vector<double>& ofRuns) {
+    const stats::Sample s = stats::summarise(ofRuns);
+    value = s.mean;
+    error = std::sqrt(s.variance / s.n);
+    dof = s.n - 1.0;
+  }
+  bool isZero() const { return stats::studentTwoSided(value / error, dof) > 0.05; }
   double halfWidth() const { return error * stats::studentQuantile(0.975, dof); }
+  std::string percent() const {
+    return fmt::format("{:+.2f} % +- {:.2f}", 100.0 * value, 100.0 * halfWidth());
+  }
 };
 
-Estimate meanOf(const std::vector<double>& y) {
-  const stats::Sample s = stats::summarise(y);
-  return {s.mean, std::sqrt(s.variance / s.n), s.n - 1.0};
+double meanOf(const std::vector<double>& y) {
+  return std::accumulate(y.begin(), y.end(), 0.0) / double(y.size());
 }
 
-Estimate driftOf(const std::vector<double>& y) {
-  const double n = double(y.size()), middle = 0.5 * (n - 1.0), mean = meanOf(y).value;
-  double xx = 0.0, xy = 0.0, rest = 0.0;
+// From the first to the last, by the line of least squares.
+double driftOf(const std::vector<double>& y) {
+  const double middle = 0.5 * double(y.size() - 1), mean = meanOf(y);
+  double xx = 0.0, xy = 0.0;
   for (size_t i = 0; i < y.size(); ++i) {
     const double x = double(i) - middle;
     xx += x * x;
     xy += x * (y[i] - mean);
   }
-  const double slope = xy / xx;
-  for (size_t i = 0; i < y.size(); ++i) {
-    const double off = y[i] - mean - slope * (double(i) - middle);
-    rest += off * off;
-  }
-  return {slope * (n - 1.0), std::sqrt(rest / ((n - 2.0) * xx)) * (n - 1.0), n - 2.0};
-}
-
-// Luminance beside that of path's frames at the same cameras, as a share of it.
-struct Energy {
-  Estimate mean, drift;
-};
-Energy energyOf(const std::vector<Round>& rounds, const std::vector<Round>& truth) {
-  double all = 0.0;
-  for (const Round& t : truth) all += t.luminance / double(truth.size());
-  std::vector<double> differences;
-  for (size_t i = 0; i < rounds.size(); ++i)
-    differences.push_back((rounds[i].luminance - truth[i].luminance) / all);
-  return {meanOf(differences), driftOf(differences)};
+  return xy / xx * double(y.size() - 1);
 }
 
 double medianTime(std::vector<Round>::const_iterator first) {
@@ -108,12 +100,27 @@ double medianTime(std::vector<Round>::const_iterator first) {
 }
 
 std::vector<Round> runRounds(Session& session, uint32_t seed) {
-  session.reset(seed);
+  session.reset(seed + bias::seedOffset());
   runRound(session);
   std::vector<Round> rounds;
   for (uint32_t i = 1; i < kRounds; ++i) rounds.push_back(runRound(session));
   return rounds;
 }
+
+// Luminance beside that of path's frames at the same cameras, as a share of it: of each run, and
+// its drift from round to round.
+struct Energies {
+  std::vector<double> mean, drift;
+
+  void add(const std::vector<Round>& rounds, const std::vector<Round>& truth) {
+    std::vector<double> differences, all;
+    for (const Round& t : truth) all.push_back(t.luminance);
+    for (size_t i = 0; i < rounds.size(); ++i)
+      differences.push_back((rounds[i].luminance - truth[i].luminance) / meanOf(all));
+    mean.push_back(meanOf(differences));
+    drift.push_back(driftOf(differences));
+  }
+};
 
 class CacheLongRun : public testing::TestWithParam<std::pair<const char*, const char*>> {
  protected:
@@ -135,49 +142,54 @@ TEST_P(CacheLongRun, KeepsItsEnergyItsMemoryAndItsPace) {
   plain.width = config().width;
   plain.height = config().height;
   Session truth(scene, plain), session(scene, config());
+  uint64_t firstRays = 0, lastRays = 0, full = 0;
+  double timeRatio = 0.0;  // of the last run
+  const auto batch = [&](uint32_t firstSeed) {
+    Energies energies;
+    for (uint32_t seed = firstSeed; seed < firstSeed + kRuns; ++seed) {
+      const std::vector<Round> rounds = runRounds(session, seed);
+      energies.add(rounds, runRounds(truth, 1000 + seed));
+      const auto last = rounds.cend() - kQuarter;
+      for (uint32_t i = 0; i < kQuarter; ++i) {
+        firstRays += rounds[i].rays;
+        lastRays += last[i].rays;
+        full += last[i].full;
+        EXPECT_GT(rounds[i].full, 0u);
+        EXPECT_GT(last[i].full, 0u);
+      }
+      timeRatio = medianTime(last) / medianTime(rounds.cbegin());
+    }
+    return energies;
+  };
+  runRound(truth);
+  runRound(session);
   const auto buffers = session.bufferBytesPerPixel();
-  session.frame();
-  std::vector<Round> rounds, truthRounds = runRounds(truth, 1001 + bias::seedOffset());
   const size_t before = residentBytes();
-  rounds = runRounds(session, 1 + bias::seedOffset());
-  const size_t after = residentBytes();
+  const Energies energies = batch(1);
+  const double grown = double(residentBytes()) - double(before);
+  const Estimate mean(energies.mean), drift(energies.drift);
+  const double rays = double(lastRays) / double(firstRays);
+  std::printf(
+      "%s: energy %s, drift %s; last quarter over first: rays %.4f, time %.2f; without a place "
+      "%.1f pixels a frame; memory %+.2f MiB\n",
+      GetParam().first, mean.percent().c_str(), drift.percent().c_str(), rays, timeRatio,
+      double(full) / (kRuns * kQuarter * kRound), grown / double(1 << 20));
 
   EXPECT_EQ(session.bufferBytesPerPixel(), buffers);
-  EXPECT_LT(double(after) - double(before), double(4 << 20)) << "bytes that 2000 frames took";
-  const auto last = rounds.cend() - kQuarter;
-  uint64_t firstRays = 0, lastRays = 0;
-  for (uint32_t i = 0; i < kQuarter; ++i) {
-    firstRays += rounds[i].rays;
-    lastRays += last[i].rays;
-    EXPECT_GT(rounds[i].full, 0u);
-    EXPECT_GT(last[i].full, 0u);
-  }
-  EXPECT_NEAR(double(lastRays) / double(firstRays), 1.0, 0.01);
-
-  const Energy first = energyOf(rounds, truthRounds);
-  std::printf(
-      "%s: energy %+.2f %% +- %.2f, drift %+.2f %% +- %.2f, rays of the last quarter over the "
-      "first "
-      "%.4f, time %.2f, without a place %.1f pixels a frame, memory %+.2f MiB\n",
-      GetParam().first, 100.0 * first.mean.value, 100.0 * first.mean.halfWidth(),
-      100.0 * first.drift.value, 100.0 * first.drift.halfWidth(),
-      double(lastRays) / double(firstRays), medianTime(last) / medianTime(rounds.cbegin()),
-      double(rounds.back().full) / kRound, (double(after) - double(before)) / double(1 << 20));
+  EXPECT_LT(grown, double(4 << 20)) << "bytes that the frames took";
+  EXPECT_NEAR(rays, 1.0, 0.01);
   // What it could have seen.
-  EXPECT_LT(first.mean.halfWidth(), 0.01);
-  EXPECT_LT(first.drift.halfWidth(), 0.03);
-  if (first.mean.isZero() && first.drift.isZero()) return;
-  // One of twenty leaves the interval by chance: so does another seed, to the same side, where it
-  // is none.
-  truthRounds = runRounds(truth, 1002 + bias::seedOffset());
-  rounds = runRounds(session, 2 + bias::seedOffset());
-  const Energy second = energyOf(rounds, truthRounds);
+  EXPECT_LT(mean.halfWidth(), 0.02);
+  EXPECT_LT(drift.halfWidth(), 0.05);
+  if (mean.isZero() && drift.isZero()) return;
+  // One of twenty leaves its interval by chance, but hardly with other seeds on the same side.
+  const Energies again = batch(1 + kRuns);
   const auto expectZero = [](const Estimate& a, const Estimate& b, const char* what) {
     const bool isConfirmed = !a.isZero() && !b.isZero() && (a.value > 0.0) == (b.value > 0.0);
-    EXPECT_FALSE(isConfirmed) << what << ": t = " << a.t() << ", with another seed " << b.t();
+    EXPECT_FALSE(isConfirmed) << what << ' ' << a.percent() << ", with other seeds " << b.percent();
   };
-  expectZero(first.mean, second.mean, "energy");
-  expectZero(first.drift, second.drift, "drift");
+  expectZero(mean, Estimate(again.mean), "energy");
+  expectZero(drift, Estimate(again.drift), "drift");
 }
 
 INSTANTIATE_TEST_SUITE_P(, CacheLongRun,
