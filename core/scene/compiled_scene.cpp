@@ -307,7 +307,7 @@ void CompiledScene::Impl::bindAddresses() {
   data.srgbToLinear.data = srgb.data();
   data.lights.data = lights.lights.data();
   data.lightAlias.data = lights.alias.data();
-  data.lightCount = static_cast<uint32_t>(lights.lights.size());
+  data.lightCount = static_cast<uint32_t>(lights.alias.size());  // none is drawn where all are off
   data.environment.data = lights.environment.data();
   data.environmentAlias.data = lights.environmentAlias.data();
   data.environmentWidth = scene.environment ? scene.environment->width : 0;
@@ -326,7 +326,10 @@ std::shared_ptr<const CompiledScene> CompiledScene::build(Scene scene) {
   impl->scene = std::move(scene);
   impl->warnings = impl->scene.warnings;
   impl->flatten();
-  for (const SceneMaterial& m : impl->scene.materials) impl->materials.push_back(m.data);
+  for (const SceneMaterial& m : impl->scene.materials) {
+    impl->materials.push_back(m.data);
+    impl->materials.back().emission *= m.lightFactor;
+  }
   impl->buildTextures();
   impl->lights = buildLightTable(
       {impl->scene, impl->positions, impl->uvs, impl->triangles, impl->geometries, impl->origin},
@@ -409,6 +412,15 @@ size_t CompiledScene::instancedTriangleCount() const { return impl_->instancedTr
 size_t CompiledScene::emissiveTriangleCount() const { return impl_->lights.emissiveTriangles; }
 void* CompiledScene::embreeScene() const { return impl_->top; }
 glm::dvec3 CompiledScene::origin() const { return impl_->origin; }
+
+bool CompiledScene::differsInLightAlone(const CompiledScene& other) const {
+  const Impl &a = *impl_, &b = *other.impl_;
+  return a.features == b.features && a.origin == b.origin && a.positions == b.positions &&
+         a.triangles == b.triangles && a.instances.size() == b.instances.size() &&
+         a.lights.lights.size() == b.lights.lights.size() &&
+         a.data.environmentWidth == b.data.environmentWidth &&
+         a.data.environmentHeight == b.data.environmentHeight;
+}
 
 size_t CompiledScene::embreeBytes() const {
   return size_t(std::max<ptrdiff_t>(0, impl_->embreeBytes));

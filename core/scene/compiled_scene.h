@@ -47,6 +47,9 @@ class CompiledScene {
   size_t embreeBytes() const;  // of Embree's copy of the triangles and its hierarchies
   void* embreeScene() const;   // RTCScene
   glm::dvec3 origin() const;   // subtracted from world positions
+  // Are both of one scene, whose lights may shine by other factors (core/scene/light_factor.h)?
+  // What was rendered of one then has the same surfaces, lights and kernels in the other.
+  bool differsInLightAlone(const CompiledScene& other) const;
 
  private:
   struct Impl;

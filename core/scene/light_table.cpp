@@ -85,6 +85,7 @@ float magnitudeOf(const rl::Instance& inst, const glm::vec3& corner) {
 size_t addTriangles(const LightTableInput& in, const rl::Instance& inst, uint32_t instanceIndex,
                     LightTable& table, std::vector<double>& power) {
   const rl::Material& material = in.scene.materials[inst.material].data;
+  const float factor = in.scene.materials[inst.material].lightFactor;
   const rl::Geometry& g = in.geometries[inst.geometry];
   const bool twoSided = (material.flags & rl::RL_MATERIAL_DOUBLE_SIDED) != 0;
   const bool flipped = (inst.flags & rl::RL_INSTANCE_FLIPPED) != 0;
@@ -103,11 +104,11 @@ size_t addTriangles(const LightTableInput& in, const rl::Instance& inst, uint32_
     light.magnitude =
         magnitudeOf(inst, glm::max(glm::abs(p0), glm::max(glm::abs(p1), glm::abs(p2))));
     const double area = 0.5 * glm::length(glm::cross(glm::dvec3(light.e1), glm::dvec3(light.e2)));
-    double radiance = luminance(glm::dvec3(material.emission));
+    double radiance = double(factor) * luminance(glm::dvec3(material.emission));
     const uint32_t texture = material.textures[rl::RL_TEX_EMISSIVE];
     if (texture != rl::RL_INVALID)
       radiance *= textureFactor(in, g, in.scene.textureUses[texture], corners);
-    light.radiance = material.emission;
+    light.radiance = material.emission * factor;
     light.instance = instanceIndex;
     light.primitive = t;
     light.flags = twoSided ? rl::RL_MATERIAL_DOUBLE_SIDED : 0u;
@@ -127,7 +128,7 @@ rl::Light punctual(const PunctualLight& source, const glm::dvec3& origin) {
   light.kind = source.kind;
   light.p0 = glm::vec3(source.posW - origin);
   light.e1 = glm::vec3(glm::normalize(source.dirW));
-  light.radiance = source.intensity;
+  light.radiance = source.intensity * source.lightFactor;
   light.instance = rl::RL_INVALID;
   if (source.kind == rl::RL_LIGHT_SPOT) {
     // KHR_lights_punctual: falloff = clamp(cos * scale + offset)^2.
@@ -162,6 +163,7 @@ double addEnvironment(const EnvironmentMap& map, LightTable& table) {
     }
   }
   if (flux > 0.0) table.environmentAlias = buildAliasTable(weights);
+  for (glm::vec3& texel : table.environment) texel *= map.lightFactor;
   return flux;
 }
 
@@ -240,7 +242,7 @@ LightTable buildLightTable(const LightTableInput& in, std::vector<rl::Instance>&
       continue;
     }
     table.lights.push_back(punctual(source, in.origin));
-    power.push_back(watts);
+    power.push_back(watts * double(source.lightFactor));
   }
   if (in.scene.environment) {
     const double flux = addEnvironment(*in.scene.environment, table);
@@ -250,12 +252,14 @@ LightTable buildLightTable(const LightTableInput& in, std::vector<rl::Instance>&
       light.kind = rl::RL_LIGHT_ENVIRONMENT;
       light.instance = rl::RL_INVALID;
       table.lights.push_back(light);
-      power.push_back(flux * kPi * radius * radius);
+      power.push_back(flux * double(in.scene.environment->lightFactor) * kPi * radius * radius);
     } else {
       warnings.push_back(in.scene.name + ": the environment is black");
     }
   }
-  if (!table.lights.empty()) {
+  const bool isLit =
+      std::any_of(power.begin(), power.end(), [](double watts) { return watts > 0.0; });
+  if (isLit) {
     table.alias = buildAliasTable(power);
     for (size_t i = 0; i < table.lights.size(); ++i) table.lights[i].pmf = table.alias[i].pmf;
   }

@@ -10,8 +10,10 @@
 namespace restlab {
 
 struct LightTable {
+  // Those that are off (core/scene/light_factor.h) too, with probability 0: reservoirs know lights
+  // by their index.
   std::vector<rl::Light> lights;
-  std::vector<rl::AliasEntry> alias;
+  std::vector<rl::AliasEntry> alias;   // as long, or empty where none of them shines
   std::vector<glm::vec3> environment;  // scaled radiance
   std::vector<rl::AliasEntry> environmentAlias;
   uint32_t environmentLight = rl::RL_INVALID;

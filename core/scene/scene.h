@@ -52,7 +52,8 @@ struct TextureUse {
 
 struct SceneMaterial {
   std::string name;
-  rl::Material data{};  // data.textures[] index Scene::textureUses
+  rl::Material data{};       // data.textures[] index Scene::textureUses
+  float lightFactor = 1.0f;  // on data.emission (core/scene/light_factor.h)
 };
 
 struct SceneCamera {
@@ -71,6 +72,7 @@ struct PunctualLight {
   glm::dvec3 dirW{0.0, 0.0, -1.0};  // direction of travel (spot, directional)
   glm::vec3 intensity{1.0f};        // W/sr (point, spot), W/m^2 (directional)
   float innerConeAngle = 0.0f, outerConeAngle = 0.785398f;  // radians
+  float lightFactor = 1.0f;  // on the intensity (core/scene/light_factor.h)
 };
 
 // Latitude-longitude map, row 0 at +Y; u = 0.5 looks along -Z rotated by `rotation` about +Y.
@@ -80,6 +82,7 @@ struct EnvironmentMap {
   std::vector<glm::vec3> radiance;
   float rotation = 0.0f;  // radians
   float scale = 1.0f;
+  float lightFactor = 1.0f;  // on scale (core/scene/light_factor.h)
 };
 
 struct Scene {

@@ -25,6 +25,7 @@ target_sources(rl_core PRIVATE
   scene/hdr_decode.cpp
   scene/image_decode.cpp
   scene/jpeg_decode.cpp
+  scene/light_factor.cpp
   scene/load_scene.cpp
   scene/png_decode.cpp
   scene/scene_bounds.cpp

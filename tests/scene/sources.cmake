@@ -13,6 +13,7 @@ set(RL_SCENE_TESTS
   scene/gltf_uri_test.cpp
   scene/gltf_validator_test.cpp
   scene/image_limits_test.cpp
+  scene/light_factor_test.cpp
   scene/load_scene_test.cpp
   ${RL_BUILTIN_TESTS}
 )
