@@ -248,6 +248,20 @@ void Session::resize(uint32_t width, uint32_t height) {
   impl_->reopen(changed);
 }
 
+void Session::setScene(std::shared_ptr<const CompiledScene> scene) {
+  Impl& m = *impl_;
+  if (scene == m.scene) return;
+  if (!scene->differsInLightAlone(*m.scene)) {
+    failUsage(
+        fmt::format("scene {}: it differs from {} in more than its light: a new session could "
+                    "show it",
+                    scene->source().name, m.scene->source().name));
+  }
+  if (m.frame.multiscatter != 0) scene->bindGgxAlbedo();
+  m.backend->setScene(scene);
+  m.scene = std::move(scene);
+}
+
 std::vector<ProbeValue> Session::probe(uint32_t x, uint32_t y) const {
   Impl& m = *impl_;
   if (x >= m.config.width || y >= m.config.height) {

@@ -85,6 +85,10 @@ class Session {
   // Another size of the image, with the camera of the configuration; the history starts anew.
   // Throws Error as the constructor does; the size stays as it was then.
   void resize(uint32_t width, uint32_t height);
+  // The same scene with other light (core/scene/light_factor.h), from the next frame on. The
+  // history goes on and knows nothing of it: it holds the light that was. Throws badUsage where the
+  // scenes differ in more, and nothing changes then.
+  void setScene(std::shared_ptr<const CompiledScene> scene);
   // What the method keeps of a pixel after the last frame, by name: its layers (Method::layers()),
   // its reservoir and path.
   std::vector<ProbeValue> probe(uint32_t x, uint32_t y) const;

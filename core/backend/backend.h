@@ -96,6 +96,10 @@ class Backend {
   // Makes a pass ready to run, so that no frame has to wait for a compiler.
   virtual void prepare(const PassRun& pass, StartupReport& report) = 0;
 
+  // Another scene for the frames that come, which differs in its light alone
+  // (CompiledScene::differsInLightAlone); buffers stay. Those under way are waited for.
+  virtual void setScene(std::shared_ptr<const CompiledScene> scene) = 0;
+
   // Starts a frame: the passes one after another. At most framesInFlight() of them may be under
   // way; more are waited for.
   virtual void submit(const std::vector<PassRun>& passes, const rl::FrameData& frame) = 0;

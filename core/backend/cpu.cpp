@@ -61,7 +61,12 @@ class CpuBackend final : public Backend {
     if (rayTracing_ != "embree" && rayTracing_ != "bvh") {
       failUsage(fmt::format("--ray-tracing {}: the CPU backend knows embree and bvh", rayTracing_));
     }
-    if (rayTracing_ == "bvh") scene_->bindBvh();
+    bind();
+  }
+
+  void setScene(std::shared_ptr<const CompiledScene> scene) override {
+    scene_ = std::move(scene);
+    bind();
   }
 
   void requireMemory(const std::string& what, uint32_t width, uint32_t height, uint64_t bufferBytes,
@@ -122,6 +127,10 @@ class CpuBackend final : public Backend {
   std::string device() const override { return cpuBackendInfo().description; }
 
  private:
+  void bind() const {
+    if (rayTracing_ == "bvh") scene_->bindBvh();
+  }
+
   const rl::CpuKernelInfo& find(const std::string& kernel, uint32_t needed) const {
     const rl::CpuKernelInfo* info = rl::findCpuKernel(kernel.c_str(), needed, rayTracing_.c_str());
     if (info == nullptr) failUsage("no kernel '" + kernel + "' in this build");

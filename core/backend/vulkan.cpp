@@ -15,7 +15,7 @@
 #include "core/backend/backend.h"
 #include "core/backend/dialect_sources.h"
 #include "core/backend/vulkan_buffers.h"
-#include "core/backend/vulkan_kernels.h"
+#include "core/backend/vulkan_context.h"
 #include "core/backend/vulkan_scene.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -30,33 +30,6 @@ constexpr uint32_t kSlots = 2;  // frames in flight
 constexpr uint32_t kFirstBandPixels = 1u << 18;
 constexpr uint32_t kFirstBandPixelsOfCpu = 1u << 16;
 constexpr double kLongestBandMs = 500.0;  // watchdogs end dispatches of a few seconds
-
-// What sessions on one device share.
-struct Context {
-  std::shared_ptr<VulkanDevice> device;
-  std::shared_ptr<VulkanMemory> memory;
-  std::shared_ptr<VulkanKernels> kernels;
-
-  static std::shared_ptr<Context> of(const VulkanOptions& options) {
-    // The last one stays open: compiling its kernels again would cost the next session seconds.
-    static std::map<const VulkanDevice*, std::weak_ptr<Context>> known;
-    static std::shared_ptr<Context> last;
-    std::shared_ptr<VulkanDevice> device = VulkanDevice::open(options);
-    std::weak_ptr<Context>& entry = known[device.get()];
-    if (auto context = entry.lock()) {
-      last = context;
-      return context;
-    }
-    auto context = std::make_shared<Context>();
-    context->device = device;
-    context->memory = std::make_shared<VulkanMemory>(device);
-    context->kernels =
-        std::make_shared<VulkanKernels>(context->memory, device, KernelCache::defaultFolder());
-    entry = context;
-    last = context;
-    return context;
-  }
-};
 
 // The rows of workgroups that one dispatch of a pass covers.
 struct Band {
@@ -103,7 +76,7 @@ constexpr size_t kPassParams = 1024;
 class VulkanBackend final : public Backend {
  public:
   VulkanBackend(const std::shared_ptr<const CompiledScene>& scene, const BackendOptions& options)
-      : context_(Context::of({options.device, options.validate})),
+      : context_(VulkanContext::of({options.device, options.validate})),
         device_(*context_->device),
         memory_(*context_->memory),
         buffers_(context_->memory) {
@@ -116,14 +89,14 @@ class VulkanBackend final : public Backend {
       failUsage(
           fmt::format("--ray-tracing {}: the Vulkan backend knows bvh and query", rayTracing_));
     }
-    const bool queries = rayTracing_ == "query";
-    if (queries && !hasQuery) {
+    rays_ = rayTracing_ == "query" ? SceneRays::query : SceneRays::bvh;
+    if (rays_ == SceneRays::query && !hasQuery) {
       throw Error(ExitCode::deviceUnavailable,
                   fmt::format("--ray-tracing query: {} has no ray queries; --ray-tracing bvh works",
                               device_.name()));
     }
-    trace_ = queries ? kGlslTraceQuery : kGlslTraceBvh;
-    scene_ = VulkanScene::of(context_->memory, scene, queries ? SceneRays::query : SceneRays::bvh);
+    trace_ = rays_ == SceneRays::query ? kGlslTraceQuery : kGlslTraceBvh;
+    scene_ = VulkanScene::of(context_->memory, scene, rays_);
     for (Slot& slot : slots_) {
       slot.inputs = memory_.allocate(kInputBytes, MemoryKind::upload);
       slot.counters = memory_.allocate(kCounterBytes, MemoryKind::readback);
@@ -136,7 +109,7 @@ class VulkanBackend final : public Backend {
   ~VulkanBackend() override {
     vkDeviceWaitIdle(device_.handle());
     for (Slot& slot : slots_) {
-      for (auto& entry : slot.recordings) release(entry.second);
+      forget(slot);
       context_->kernels->release(slot.bound);
       if (slot.fence != VK_NULL_HANDLE) vkDestroyFence(device_.handle(), slot.fence, nullptr);
       memory_.free(slot.inputs);
@@ -173,6 +146,13 @@ class VulkanBackend final : public Backend {
     memory_.read(buffers_[buffer], to, bytes);
   }
 
+  void setScene(std::shared_ptr<const CompiledScene> scene) override {
+    while (!underWay_.empty()) finished_.push_back(finishOldest());
+    scene_ = VulkanScene::of(context_->memory, scene, rays_);
+    for (Slot& slot : slots_) forget(slot);  // recordings and texels lead to the scene before
+    if (buffers_.isPlaced()) bindTexels();
+  }
+
   uint32_t maskFor(const std::string& kernel, uint32_t needed) const override {
     find(kernel);
     return needed;  // compiled when it is wanted: exactly what is needed
@@ -197,11 +177,7 @@ class VulkanBackend final : public Backend {
       key.sizes.push_back({size.x, size.y});
     }
     writeInputs(slot, passes, frame);
-    if (slot.isStale) {
-      for (auto& entry : slot.recordings) release(entry.second);
-      slot.recordings.clear();
-      slot.isStale = false;
-    }
+    if (slot.isStale) forget(slot);
     auto found = slot.recordings.find(key);
     if (found == slot.recordings.end())
       found = slot.recordings.emplace(key, record(slot, key)).first;
@@ -256,8 +232,13 @@ class VulkanBackend final : public Backend {
     if (buffers_.isPlaced()) return;
     readsTexels_ = choosesTexels(buffers_.bytes());
     buffers_.place(readsTexels_);
+    bindTexels();
+  }
+
+  void bindTexels() {
     if (!readsTexels_) return;
     for (Slot& slot : slots_) {
+      context_->kernels->release(slot.bound);
       const auto part = [&](size_t begin, size_t bytes) {
         return VulkanMemory::part(slot.inputs, begin, bytes);
       };
@@ -411,6 +392,12 @@ class VulkanBackend final : public Backend {
     return std::max(1u, pixels / (groupsX * kGlslTile * kGlslTile));
   }
 
+  void forget(Slot& slot) {
+    for (auto& entry : slot.recordings) release(entry.second);
+    slot.recordings.clear();
+    slot.isStale = false;
+  }
+
   void release(Recording& recording) {
     for (VkCommandBuffer commands : recording.commands) device_.freeCommands(commands);
     if (recording.queries != VK_NULL_HANDLE)
@@ -472,11 +459,12 @@ class VulkanBackend final : public Backend {
     return true;
   }
 
-  std::shared_ptr<Context> context_;
+  std::shared_ptr<VulkanContext> context_;
   VulkanDevice& device_;
   VulkanMemory& memory_;
   std::shared_ptr<VulkanScene> scene_;
   std::string rayTracing_;
+  SceneRays rays_ = SceneRays::bvh;
   GlslTrace trace_{};
   VulkanBuffers buffers_;
   bool readsTexels_ = false;

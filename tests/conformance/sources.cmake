@@ -7,6 +7,7 @@ set(RL_CONFORMANCE_TESTS
   conformance/health_test.cpp
   conformance/layers_test.cpp
   conformance/light_transport_test.cpp
+  conformance/live_light_test.cpp
   conformance/live_session_test.cpp
   conformance/long_run_test.cpp
   conformance/moving_view_test.cpp

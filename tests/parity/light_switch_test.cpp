@@ -1,0 +1,72 @@
+// Lamps that are switched between the frames of a session on a Vulkan device: recorded commands
+// and texels that were bound lead to the scene before.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "core/scene/light_factor.h"
+#include "tests/parity/frames.h"
+#include "tests/parity/kernel_runner.h"
+#include "tests/parity/reads.h"
+
+namespace restlab::parity {
+namespace {
+
+constexpr uint32_t kSeed = 5;
+
+std::shared_ptr<const CompiledScene> gallery(const std::string& light, double factor) {
+  return CompiledScene::build(withLightFactor(makeBuiltinScene("glossy-gallery"), light, factor));
+}
+
+Session open(const std::shared_ptr<const CompiledScene>& scene, const char* integrator) {
+  Combination what;
+  what.integrator = integrator;
+  return Session(scene, configOf(what, kVulkanSpecialised, 48, 32, kSeed));
+}
+
+bool isSame(const Session& a, const Session& b) {
+  const auto &x = a.radiance().pixels, &y = b.radiance().pixels;
+  return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof x[0]) == 0;
+}
+
+class LightSwitch : public testing::TestWithParam<const char*> {};
+
+TEST_P(LightSwitch, PathRendersWhatAFreshSessionDoes) {
+  if (!hasVulkan()) GTEST_SKIP() << kNoDevice;
+  const Reads reads(GetParam());
+  const auto on = gallery("all", 1.0), off = gallery("light-large", 0.0);
+  Session live = open(on, "path"), fresh = open(off, "path");
+  live.frames(3);
+  live.setScene(off);
+  live.frame();
+  fresh.reset(kSeed, 3);
+  fresh.frame();
+  EXPECT_TRUE(isSame(live, fresh));
+  live.setScene(on);
+  live.frame();
+  fresh.frame();
+  EXPECT_FALSE(isSame(live, fresh)) << "it is on again";
+}
+
+TEST_P(LightSwitch, TheHistoryGoesOn) {
+  if (!hasVulkan()) GTEST_SKIP() << kNoDevice;
+  const Reads reads(GetParam());
+  const auto scene = gallery("all", 1.0);
+  Session live = open(scene, "restir_gi"), kept = open(scene, "restir_gi");
+  live.frames(5);
+  kept.frames(5);
+  live.setScene(gallery("all", 1.0));
+  live.frames(2);
+  kept.frames(2);
+  EXPECT_TRUE(isSame(live, kept));
+  live.setScene(gallery("light-large", 0.0));
+  live.frames(2);
+  kept.frames(2);
+  EXPECT_FALSE(isSame(live, kept));
+}
+
+INSTANTIATE_TEST_SUITE_P(Reading, LightSwitch, testing::Values("texels", "addresses"),
+                         [](const auto& info) { return std::string(info.param); });
+
+}  // namespace
+}  // namespace restlab::parity
