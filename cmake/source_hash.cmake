@@ -23,7 +23,7 @@ hash_of(SOURCE_HASH core/* integrators/* denoise/*)
 hash_of(REFERENCE_HASH core/* integrators/path/*)
 # What a run's numbers go through before they are in a job.
 set(measuring reference/block_masks reference/reference_error run/experiment run/image_rows run/light_mask
-    run/object_mask run/run_record summary/accumulate summary/figures summary/temporal)
+    run/object_mask run/run_record suite/light_events summary/accumulate summary/figures summary/temporal)
 list(TRANSFORM measuring REPLACE "(.+)" "experiments/runner/\\1.*")
 hash_of(MEASURING_HASH ${measuring})
 

@@ -23,7 +23,7 @@ float previewExposure(const Image& reference) {
 }
 
 std::string blockLabel(const Suite& suite, const BlockResult& block) {
-  const std::string path = suite.hasMovingCamera() ? "-" + suite.cameraPathName : "";
+  const std::string path = suite.cameraPathName == "still" ? "" : "-" + suite.cameraPathName;
   // Where paths are swept, the point names them.
   const bool isNamed = suite.point.find("camera_path=") != std::string::npos;
   const std::string point = suite.point.empty() ? "" : "-" + suite.point;

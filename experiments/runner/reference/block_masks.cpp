@@ -39,8 +39,9 @@ std::optional<SceneCamera> measuredCamera(const Suite& suite, const BlockResult&
   return cameraAt(*block.motion, suite.warmupFrames);
 }
 
-void prepareMasks(const Suite& suite, const PreparedScene& prepared, BlockResult& block) {
+void prepareMasks(const Suite& suite, const PreparedScene& scene, BlockResult& block) {
   if (!block.withoutLights.empty()) return;
+  const PreparedScene& prepared = sceneAt(block.lights, scene, suite.warmupFrames);
   SessionConfig picture = pictureOf(suite, block.width, block.height, block.component);
   picture.camera = prepared.camera;
   const std::optional<SceneCamera> camera = measuredCamera(suite, block);

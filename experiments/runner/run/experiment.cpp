@@ -239,9 +239,11 @@ struct BlockExecutor::Impl {
     }
     const uint32_t length = suite.warmupFrames + suite.timedFrames;
     for (uint32_t frame = 0; frame < length; ++frame) {
+      const PreparedScene& shown = sceneAt(block.lights, prepared, frame);
       std::optional<SceneCamera> camera;
       if (block.motion) camera = cameraAt(*block.motion, frame);
       for (size_t m = 0; m < count; ++m) {
+        sessions[m]->setScene(shown.scene);
         if (camera) sessions[m]->setCamera(*camera);
         const FrameStats stats = sessions[m]->frame();
         if (interruptRequested()) return std::nullopt;
@@ -252,7 +254,8 @@ struct BlockExecutor::Impl {
     for (size_t m = 0; m < count; ++m) {
       JobMethod& method = data.methods.emplace_back();
       measure(results[m], frames[m], method.measured);
-      method.metadata = imageMetadata(prepared, *sessions[m], results[m]);
+      method.metadata = imageMetadata(sceneAt(block.lights, prepared, suite.warmupFrames),
+                                      *sessions[m], results[m]);
       if (const auto camera = measuredCamera(suite, block)) {
         describeCamera(*camera, method.metadata);
         method.metadata["camera_index"] = "none";

@@ -98,7 +98,8 @@ struct BlockResult {
   uint32_t width = 0, height = 0;
   // The path of a moving camera; nothing where it is the scene's in every frame.
   std::optional<CameraMotion> motion;
-  Reference reference;                       // of the measured frame's camera
+  std::vector<LightPhase> lights;            // empty: they are as loaded in every frame
+  Reference reference;                       // of the measured frame's camera and light
   std::optional<Reference> referenceBefore;  // of the frame before it, where it is asked for
   std::string referenceFile;
   // Of each method's kernels, what was spent on this scene before the block; empty: nothing.

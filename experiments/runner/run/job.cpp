@@ -125,6 +125,9 @@ JobIdentity jobIdentity(const Suite& suite, const PreparedScene& prepared, const
   Json cameras = Json::array();
   for (uint32_t frame = 0; block.motion && frame < suite.warmupFrames + suite.timedFrames; ++frame)
     cameras.push_back(cameraWords(cameraAt(*block.motion, frame)));
+  Json events = Json::array();
+  for (const LightEvent& event : suite.events)
+    events.push_back({event.frame, event.light, event.factor});
   JobIdentity identity;
   identity.words = {
       {"schema", kJobSchema},
@@ -142,6 +145,7 @@ JobIdentity jobIdentity(const Suite& suite, const PreparedScene& prepared, const
       {"threads", suite.threads},
       {"camera_path", suite.cameraPathName},
       {"cameras", hashOfText(cameras.dump())},
+      {"events", std::move(events)},
       {"reference", referenceHash},
       {"measuring", build.measuringHash},
       {"compiler", build.compiler},

@@ -231,6 +231,7 @@ std::map<std::string, std::string> describe(const PreparedScene& prepared,
     words["environment_rotation"] = rotationText(source.environment->rotation);
     words["environment_scale"] = fmt::format("{:.9g}", source.environment->scale);
   }
+  if (!prepared.lights.empty()) words["lights"] = prepared.lights;
   const ParameterMap all = resolveParameters(findMethod(config), config.parameters);
   for (const auto& [key, value] : all) words["parameter." + key] = parameterText(value);
   return words;

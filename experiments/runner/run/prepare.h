@@ -28,8 +28,10 @@ struct PreparedScene {
   uint32_t camera = 0;
   std::string cameraName;
   std::string environmentName;  // "none", a file or "built-in"
-  uint64_t contentHash = 0;     // scene bytes, environment texels, rotation and scale
-  double loadTimeMs = 0.0;      // import and compilation
+  // Scene bytes, environment texels, rotation and scale, factors of lights.
+  uint64_t contentHash = 0;
+  std::string lights;       // the events that changed them, in words; "": they are as loaded
+  double loadTimeMs = 0.0;  // import and compilation
 };
 
 // Imports and compiles. Throws Error: badInput for files, badUsage for an unknown camera.

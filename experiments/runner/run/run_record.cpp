@@ -31,6 +31,7 @@ Json configurationJson(const Suite& suite, const BlockResult& block, size_t meth
                {"scene", block.scene},
                {"camera", block.camera},
                {"camera_path", suite.cameraPathName},
+               {"events", eventsText(suite.events, suite.warmupFrames)},
                {"component", componentName(block.component)},
                {"method", suite.methods[method].name},
                {"device", use.device},

@@ -180,6 +180,7 @@ class SuiteRun {
     sceneResolution(suite, scene, prepared, block.width, block.height);
     block.startupMs = checks_[point].startupMs[scene.name];
     block.motion = motionOf(suite, prepared);
+    block.lights = lightPhases(suite, prepared);
     if (!obtain(suite, scene, prepared, block)) return false;
     warnOfBlack(suite, block);
     nlohmann::ordered_json& plan = plan_.at(next_++);
@@ -355,11 +356,13 @@ class SuiteRun {
       ReferenceConfig config = referenceConfigOf(picture);
       const fs::path folder = request_.out / "references";
       if (block.motion) config.camera = cameraAt(*block.motion, suite.warmupFrames);
-      block.reference = obtainReference(prepared, config, suite.target, folder, label);
+      block.reference = obtainReference(sceneAt(block.lights, prepared, suite.warmupFrames), config,
+                                        suite.target, folder, label);
       if (block.motion && suite.temporal && suite.warmupFrames > 0) {
         config.camera = cameraAt(*block.motion, suite.warmupFrames - 1);
         block.referenceBefore =
-            obtainReference(prepared, config, suite.target, folder, label + "-before");
+            obtainReference(sceneAt(block.lights, prepared, suite.warmupFrames - 1), config,
+                            suite.target, folder, label + "-before");
       }
     } catch (const Error& error) {
       if (error.code() != ExitCode::interrupted) throw;

@@ -81,13 +81,16 @@ ReferencesThere referencesThere(const Suite& suite, const SuiteScene& scene,
   ReferenceConfig config = referenceConfigOf(picture);
   const std::string label = referenceLabel(suite, block);
   if (block.motion) config.camera = cameraAt(*block.motion, suite.warmupFrames);
-  const std::optional<Reference> measured = findReference(suite, prepared, config, out, label);
+  const std::optional<Reference> measured =
+      findReference(suite, sceneAt(block.lights, prepared, suite.warmupFrames), config, out, label);
   there.missing = measured ? 0 : 1;
   if (measured) there.text = fmt::format("{} spp", measured->spp);
   if (measured) there.hash = referenceHash(*measured);
   if (block.motion && suite.temporal && suite.warmupFrames > 0) {
     config.camera = cameraAt(*block.motion, suite.warmupFrames - 1);
-    const auto before = findReference(suite, prepared, config, out, label + "-before");
+    const auto before =
+        findReference(suite, sceneAt(block.lights, prepared, suite.warmupFrames - 1), config, out,
+                      label + "-before");
     there.missing += before ? 0 : 1;
     if (before) there.hash += referenceHash(*before);
   }
@@ -218,6 +221,7 @@ std::string planText(const std::vector<Suite>& points, const SuiteRequest& reque
         block.component = component;
         sceneResolution(suite, suite.scenes[s], prepared, block.width, block.height);
         block.motion = motionOf(suite, prepared);
+        block.lights = lightPhases(suite, prepared);
         const Cost cost = costOf(suite, suite.scenes[s], prepared, block, request, devices);
         lines += fmt::format(
             "| {} | {}x{} | {} | {} of {} | {} | {}{} | {:.0f} MiB |\n", blockLabel(suite, block),

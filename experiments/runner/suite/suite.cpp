@@ -127,9 +127,11 @@ ParameterMap SuiteMethod::parameters() const {
   return resolveParameters(findMethod(session), session.parameters);
 }
 
-BiasClass SuiteMethod::bias(bool cameraMoves) const {
+BiasClass SuiteMethod::bias(const Suite& suite) const {
   if (images) return images->bias;
-  return findMethod(session).bias(session.mode, parameters(), cameraMoves);
+  const Method method = findMethod(session);
+  if (suite.lightChanges() && method.hasHistory()) return BiasClass::biased;
+  return method.bias(session.mode, parameters(), suite.hasMovingCamera());
 }
 
 std::span<const SuiteMethod> Suite::rendered() const {
@@ -164,7 +166,8 @@ size_t Suite::firstPath(size_t method, const std::string& denoiser) const {
 }
 
 uint32_t Suite::frameOfAge(uint32_t age) const {
-  return firstStillFrame(cameraPath).value_or(0) + age - 1;
+  const uint32_t lit = events.empty() ? 0 : events.back().frame;
+  return std::max(firstStillFrame(cameraPath).value_or(0), lit) + age - 1;
 }
 
 size_t Suite::onFirstBackend(size_t method) const {
@@ -202,8 +205,8 @@ Suite readSuite(const ConfigTable& root, const std::filesystem::path& file, cons
   suite.file = file.string();
   suite.name = root.getString("name", file.stem().string());
   suite.question = root.getString("question", "");
-  for (const char* key :
-       {"scenes", "scene", "method", "settings", "reference", "sweep", "camera_path", "mask"})
+  for (const char* key : {"scenes", "scene", "method", "settings", "reference", "sweep",
+                          "camera_path", "event", "mask"})
     root.has(key);
   root.finish();
   const std::string folder = file.parent_path().string();
@@ -223,6 +226,7 @@ Suite readSuite(const ConfigTable& root, const std::filesystem::path& file, cons
     root.fail("", "the suite has no scenes: give scenes = [..] or [[scene]]");
   const ConfigTable settings = root.getTable("settings");
   readSettings(settings, suite);
+  readLightEvents(root, settings, suite);
   chooseCameraPath(root, settings, suite);
   readMasks(root, suite);
   readMethods(root, settings, sweep, folder, suite);

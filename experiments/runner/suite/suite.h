@@ -11,6 +11,7 @@
 #include "core/scene/camera_path.h"
 #include "experiments/runner/run/prepare.h"
 #include "experiments/runner/reference/reference.h"
+#include "experiments/runner/suite/light_events.h"
 
 namespace restlab {
 
@@ -33,6 +34,8 @@ struct ImageRow {
   std::string filesPlace;
 };
 
+struct Suite;
+
 struct SuiteMethod {
   std::string name;       // in tables and file names; unique
   std::string base;       // the same on every backend; the name where the suite has only one
@@ -44,7 +47,8 @@ struct SuiteMethod {
 
   // All of the integrator's, defaults too.
   ParameterMap parameters() const;
-  BiasClass bias(bool cameraMoves) const;
+  // Of the measured frame. A history of other light is biased, whatever is made of it.
+  BiasClass bias(const Suite& suite) const;
 };
 
 // Pixels of which further figures are taken; what is given is intersected.
@@ -73,7 +77,8 @@ struct Suite {
   uint32_t timedFrames = 8;    // per run, the measured one first
   uint32_t runs = 8;
   uint32_t seed = 1;  // of run 0; run r has seed + r
-  // Frames since the view stands still, the first one being 1, whose error is recorded too.
+  // Frames since the view stands still and lights stay as they are, the first one being 1, whose
+  // error is recorded too.
   std::vector<uint32_t> ages;
   bool accumulate = false;  // the error of the mean of the first 1, 2, 4, ... frames is recorded
   bool temporal = false;    // flicker and correlation of the timed frames are recorded
@@ -84,6 +89,7 @@ struct Suite {
   std::vector<SuiteMask> masks;
   CameraPath cameraPath;  // of every scene, from its camera
   std::string cameraPathName = "still", cameraPathPlace;
+  std::vector<LightEvent> events;  // of that path, by frame
   // Of all methods that do not say their own.
   std::vector<std::string> backends = {"cpu"};
   std::string device, rayTracing;  // for the backends that can have them
@@ -111,6 +117,8 @@ struct Suite {
   uint32_t frameOfAge(uint32_t age) const;
   // True where the camera is not the scene's in every frame.
   bool hasMovingCamera() const { return cameraPath.kind != CameraPathKind::still; }
+  // True where a lamp is switched after the first frame.
+  bool lightChanges() const { return !events.empty() && events.back().frame > 0; }
   // Completes `config`, whose backend is set, by what the settings say of that backend.
   void chooseDevice(SessionConfig& config) const;
 

@@ -96,6 +96,7 @@ PreparedScene loadScene(const SuiteScene& scene) {
 
 void checkScene(const Suite& suite, const SuiteScene& scene, const PreparedScene& prepared,
                 SuiteCheck& found) {
+  const std::vector<LightPhase> lights = lightPhases(suite, prepared);
   motionOf(suite, prepared);
   if (suite.hasMovingCamera() && !scene.reference.empty()) {
     failUsage(fmt::format("{}: a reference as a file is of a still camera, not of the path '{}'",
@@ -106,7 +107,8 @@ void checkScene(const Suite& suite, const SuiteScene& scene, const PreparedScene
   if (scene.reference.empty()) {
     atPlace(scene.place, [&] { requireExrSize("its reference", width, height, kReferenceLayers); });
   } else {
-    atPlace(scene.referencePlace, [&] { checkReference(suite, scene, prepared, width, height); });
+    const PreparedScene& measured = sceneAt(lights, prepared, suite.warmupFrames);
+    atPlace(scene.referencePlace, [&] { checkReference(suite, scene, measured, width, height); });
   }
   for (const uint32_t component : suite.components)
     checkImageRows(suite, scene.name, component, width, height);
@@ -116,6 +118,7 @@ void checkScene(const Suite& suite, const SuiteScene& scene, const PreparedScene
     block.width = width;
     block.height = height;
     block.motion = motionOf(suite, prepared);
+    block.lights = lights;
     prepareMasks(suite, prepared, block);
   }
   const size_t bytesPerPixel = openMethods(suite, scene, prepared, width, height, found);

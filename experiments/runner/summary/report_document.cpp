@@ -333,10 +333,11 @@ Json blockDocument(const Suite& suite, const std::vector<MethodSummary>& rows, f
                             suite.point.empty() ? "" : ", " + suite.point)},
       {"subtitle",
        fmt::format(
-           "camera {}{}, {}x{}, {} scattering events, Russian roulette {}, filter {}{}; {} "
+           "camera {}{}{}, {}x{}, {} scattering events, Russian roulette {}, filter {}{}; {} "
            "runs of {} warm-up and {} timed frames; reference {} spp, relMSE {:.2g}{}",
            block.camera,
            suite.hasMovingCamera() ? fmt::format(", path {}", suite.cameraPathName) : "",
+           suite.events.empty() ? "" : ", lights: " + eventsText(suite.events, suite.warmupFrames),
            block.width, block.height, suite.maxBounces, suite.russianRoulette ? "on" : "off",
            filterName(suite.pixelFilter),
            suite.multiscatter ? ", multiple scattering compensated" : "", rows.front().runs,

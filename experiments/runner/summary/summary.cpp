@@ -442,7 +442,7 @@ std::vector<MethodSummary> summarise(const Suite& suite, const BlockResult& bloc
     row.method = &suite.methods[m];
     row.block = &block;
     row.result = &result;
-    row.bias = row.method->bias(suite.hasMovingCamera());
+    row.bias = row.method->bias(suite);
     row.runs = uint32_t(result.runs.size());
     summariseTimes(result, pixels, row);
     summariseErrors(result, block.reference, row);
