@@ -66,7 +66,7 @@ TEST_P(LightSwitch, TheHistoryGoesOn) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Reading, LightSwitch, testing::Values("texels", "addresses"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& how) { return std::string(how.param); });
 
 }  // namespace
 }  // namespace restlab::parity
