@@ -23,6 +23,7 @@ struct ModeInfo {
 struct IntegratorInfo : PartInfo {
   std::vector<ModeInfo> modes;
   bool usesCache = false;  // has reservoirs that live in a cache
+  bool endsPaths = false;  // its paths may end in cells of radiance (core/radiance)
   // Where parameters decide whether a mode keeps its promise; empty: the mode's own class.
   std::function<BiasClass(const std::string& mode, const ParameterMap&)> biasOfParameters;
   // How many frames the radiance of a pixel averages, once its history is old; empty: one.

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/radiance/settings.h"
 #include "core/session.h"
 
 namespace restlab {
@@ -122,8 +123,12 @@ Method findMethod(const SessionConfig& config) {
 }
 
 std::vector<const PartInfo*> Method::parts() const {
-  if (cache == nullptr) return {integrator, denoiser};
-  return {cache, integrator, denoiser};
+  std::vector<const PartInfo*> all;
+  if (cache != nullptr) all.push_back(cache);
+  if (integrator->endsPaths) all.push_back(&radiancePartInfo());
+  all.push_back(integrator);
+  all.push_back(denoiser);
+  return all;
 }
 
 std::vector<ParameterInfo> Method::parameters() const {
@@ -133,9 +138,11 @@ std::vector<ParameterInfo> Method::parameters() const {
   return all;
 }
 
-bool Method::hasHistory() const {
+bool Method::hasHistory(const ParameterMap& resolved) const {
   const std::vector<const PartInfo*> all = parts();
-  return std::any_of(all.begin(), all.end(), [](const PartInfo* part) { return part->hasHistory; });
+  return std::any_of(all.begin(), all.end(), [&](const PartInfo* part) {
+    return part->hasHistory && isThere(part->onlyWith, resolved);
+  });
 }
 
 std::vector<const LayerInfo*> Method::layers() const {
@@ -143,7 +150,7 @@ std::vector<const LayerInfo*> Method::layers() const {
   std::vector<const LayerInfo*> all;
   for (const PartInfo* part : parts()) {
     for (const LayerInfo& layer : part->layers)
-      if (layer.onlyWith == nullptr || known.contains(layer.onlyWith)) all.push_back(&layer);
+      if (isThere(layer.onlyWith, known)) all.push_back(&layer);
   }
   return all;
 }
@@ -156,8 +163,12 @@ std::vector<std::string> Method::aovNames() const {
 
 BiasClass Method::bias(const std::string& mode, const ParameterMap& resolved,
                        bool cameraMoves) const {
-  return std::max(biasClassOf(*integrator, mode, resolved),
-                  cameraMoves ? denoiser->biasOfMovingView : denoiser->biasOfStillView);
+  BiasClass bias = std::max(biasClassOf(*integrator, mode, resolved),
+                            cameraMoves ? denoiser->biasOfMovingView : denoiser->biasOfStillView);
+  for (const PartInfo* part : parts()) {
+    if (isThere(part->onlyWith, resolved)) bias = std::max(bias, part->bias);
+  }
+  return bias;
 }
 
 ParameterMap resolveParameters(const Method& method, const ParameterMap& given) {
@@ -204,6 +215,13 @@ std::vector<SettingWithoutEffect> settingsWithoutEffect(const Method& method,
   if (mode != findMode(*method.integrator, "")) ask("mode");
   for (const auto& [name, value] : given) ask(name);
   return all;
+}
+
+bool isThere(const OnlyWith& only, const ParameterMap& resolved) {
+  if (only.parameter == nullptr) return true;
+  const auto found = resolved.find(only.parameter);
+  if (found == resolved.end()) return false;
+  return only.value == nullptr || std::get<std::string>(found->second) == only.value;
 }
 
 size_t bufferBytes(const BufferInfo& buffer, const ParameterMap& parameters, size_t pixels) {

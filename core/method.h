@@ -22,8 +22,8 @@ struct Method {
   std::vector<const PartInfo*> parts() const;
   // Of all parts, in that order.
   std::vector<ParameterInfo> parameters() const;
-  // A frame depends on those before it.
-  bool hasHistory() const;
+  // A frame depends on those before it, with these resolved parameters.
+  bool hasHistory(const ParameterMap& resolved) const;
   // Of all parts, those that are there with the method's parameters.
   std::vector<const LayerInfo*> layers() const;
   // What Session::aov() knows: the names of Session::aovNames(), then those of the layers.

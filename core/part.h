@@ -45,6 +45,14 @@ struct BufferInfo {
   const char* entriesParameter = nullptr;
 };
 
+// Of what not every method has: it is there where the method has the parameter, with this value if
+// one is named.
+struct OnlyWith {
+  const char* parameter = nullptr;  // null: always
+  const char* value = nullptr;      // of a parameter that is a string; null: any
+};
+bool isThere(const OnlyWith& only, const ParameterMap& resolved);
+
 struct PassInfo {
   std::string name;             // as in the time columns
   std::string kernel;           // as in CMake's rl_add_kernel
@@ -52,8 +60,9 @@ struct PassInfo {
   bool onlyOnNewViews = false;  // it has nothing to do in a still view
   // An integer parameter: the pass runs over so many entries (RL_ENTRY_ROW), not over pixels.
   const char* entriesParameter = nullptr;
-  // A parameter that not every cache has: the pass is there only with it.
-  const char* onlyWith = nullptr;
+  // Another one: over groups of so many pixels.
+  const char* onePerParameter = nullptr;
+  OnlyWith onlyWith = {};
 };
 
 // What a method has left in its buffers after a frame.
@@ -75,8 +84,7 @@ struct LayerInfo {
   std::string summary;  // one line: what it shows; 0 where there is nothing
   std::string unit;     // "" where it has none
   bool isName = false;  // the numbers say which, not how much: to be seen in false colours
-  // A parameter that not every method has: the layer is there only with it.
-  const char* onlyWith = nullptr;
+  OnlyWith onlyWith = {};
   // The number of a pixel, while `Kept` lives.
   std::function<std::function<float(size_t pixel)>(const Kept&)> values;
 };
@@ -92,7 +100,11 @@ struct PartInfo {
   // The part's own buffers: the rest of that struct, in order.
   std::vector<BufferInfo> buffers;
   std::vector<PassInfo> passes;
+  // Otherwise it has no buffers, and its passes do not run.
+  OnlyWith onlyWith = {};
   bool hasHistory = false;  // a frame depends on those before it
+  // What the whole method is at best with this part in it.
+  BiasClass bias = BiasClass::unbiased;
   // The passes run where this frame's view or parameters are new; otherwise what they left stands,
   // and buffers that swap are both that of the last run.
   bool onlyOnNewViews = false;

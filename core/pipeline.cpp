@@ -40,10 +40,10 @@ Pipeline::Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const s
     stage.info = part;
     pack(stage, mode, parameters);
     for (const PassInfo& pass : part->passes) {
-      const bool isThere = pass.onlyWith == nullptr || parameters.contains(pass.onlyWith);
-      stage.isThere.push_back(isThere);
+      stage.isThere.push_back(isThere(part->onlyWith, parameters) &&
+                              isThere(pass.onlyWith, parameters));
       stage.masks.push_back(backend.maskFor(pass.kernel, wanted));
-      if (isThere && pass.hasFeatures) used_ |= stage.masks.back();
+      if (stage.isThere.back() && pass.hasFeatures) used_ |= stage.masks.back();
     }
     stages_.push_back(std::move(stage));
   }
@@ -54,32 +54,37 @@ Pipeline::Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const s
           fmt::format("{}: no part before it has a buffer '{}'", stages_[s].info->name, input));
     }
     for (const BufferInfo& buffer : stages_[s].info->buffers)
-      stages_[s].bytes.push_back(bytesOf(buffer, parameters));
+      stages_[s].bytes.push_back(bytesOf(*stages_[s].info, buffer, parameters));
   }
 }
 
 // What the kernels in use can touch is there, so that a superset kernel never meets a null.
-size_t Pipeline::bytesOf(const BufferInfo& buffer, const ParameterMap& parameters) const {
+size_t Pipeline::bytesOf(const PartInfo& part, const BufferInfo& buffer,
+                         const ParameterMap& parameters) const {
   const bool isWanted = buffer.neededFeatures == 0 || (buffer.neededFeatures & used_) != 0;
-  return isWanted ? bufferBytes(buffer, parameters, pixels_) : 0;
+  return isWanted && isThere(part.onlyWith, parameters) ? bufferBytes(buffer, parameters, pixels_)
+                                                        : 0;
 }
 
 void Pipeline::pack(Stage& stage, const std::string& mode, const ParameterMap& parameters) const {
   if (stage.info->packParameters) stage.params = stage.info->packParameters(mode, parameters);
   stage.entries.clear();
   for (const PassInfo& pass : stage.info->passes) {
-    const auto entries =
-        parameters.find(pass.entriesParameter == nullptr ? "" : pass.entriesParameter);
-    stage.entries.push_back(entries == parameters.end()
-                                ? 0
-                                : static_cast<uint32_t>(std::get<int64_t>(entries->second)));
+    const auto number = [&](const char* name) {
+      const auto found = parameters.find(name == nullptr ? "" : name);
+      return found == parameters.end() ? 0 : static_cast<size_t>(std::get<int64_t>(found->second));
+    };
+    size_t entries = number(pass.entriesParameter);
+    const size_t group = number(pass.onePerParameter);
+    if (group != 0) entries = (pixels_ + group - 1) / group;
+    stage.entries.push_back(static_cast<uint32_t>(entries));
   }
 }
 
 bool Pipeline::setParameters(const std::string& mode, const ParameterMap& parameters) {
   for (const Stage& stage : stages_) {
     for (size_t b = 0; b < stage.bytes.size(); ++b) {
-      if (bytesOf(stage.info->buffers[b], parameters) != stage.bytes[b]) return false;
+      if (bytesOf(*stage.info, stage.info->buffers[b], parameters) != stage.bytes[b]) return false;
     }
   }
   for (Stage& stage : stages_) pack(stage, mode, parameters);
@@ -101,7 +106,7 @@ std::vector<ProbeValue> Pipeline::probe(size_t pixel, const ParameterMap& parame
   std::vector<ProbeValue> values;
   for (const Stage& stage : stages_) {
     for (const LayerInfo& info : stage.info->layers) {
-      if (info.onlyWith != nullptr && !parameters.contains(info.onlyWith)) continue;
+      if (!isThere(info.onlyWith, parameters)) continue;
       const float value = info.values(kept)(pixel);
       values.push_back(
           {info.name, fmt::format("{:.6g}{}{}", value, info.unit.empty() ? "" : " ", info.unit)});

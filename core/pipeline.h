@@ -61,13 +61,14 @@ class Pipeline {
     std::vector<std::byte> params;
     std::vector<uint32_t> masks;    // of each pass
     std::vector<uint32_t> entries;  // of each pass; 0: pixels
-    std::vector<bool> isThere;      // of each pass: the method's cache is one that it is for
+    std::vector<bool> isThere;      // of each pass: PassInfo::onlyWith, and that of the part
     std::vector<size_t> bytes;      // of each own buffer; 0: not allocated
     std::vector<BufferId> buffers;  // the part's own
     bool runs = true;               // in the frame that was begun last
   };
 
-  size_t bytesOf(const BufferInfo& buffer, const ParameterMap& parameters) const;
+  size_t bytesOf(const PartInfo& part, const BufferInfo& buffer,
+                 const ParameterMap& parameters) const;
   void pack(Stage& stage, const std::string& mode, const ParameterMap& parameters) const;
   std::optional<std::pair<size_t, size_t>> find(const std::string& name, size_t before) const;
   BufferId bound(const Stage& stage, size_t buffer) const;

@@ -43,8 +43,8 @@ std::string featureNames(uint32_t mask) {
 
 const std::array<const char*, rl::RL_HEALTH_COUNT>& Health::names() {
   static const std::array<const char*, rl::RL_HEALTH_COUNT> names = {
-      "nonfinite",         "rejected_jacobian", "capped_confidence", "delta_lobes",
-      "unreusable_pixels", "negative",          "dropped_weights",   "cache_full"};
+      "nonfinite", "rejected_jacobian", "capped_confidence", "delta_lobes",  "unreusable_pixels",
+      "negative",  "dropped_weights",   "cache_full",        "light_changed"};
   return names;
 }
 
@@ -208,7 +208,7 @@ std::vector<FrameStats> Session::frames(uint32_t count) {
 
 void Session::reset(uint32_t seed, uint32_t firstFrame) {
   Impl& m = *impl_;
-  if (firstFrame > 0 && m.method.hasHistory()) {
+  if (firstFrame > 0 && m.method.hasHistory(m.config.parameters)) {
     failUsage(fmt::format("integrator {} with denoiser {}: a history starts at frame 0, not at {}",
                           m.method.integrator->name, m.method.denoiser->name, firstFrame));
   }

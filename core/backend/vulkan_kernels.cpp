@@ -141,7 +141,8 @@ std::vector<uint32_t> VulkanKernels::spirvOf(const GlslKernel& kernel, const std
 VkPipeline VulkanKernels::pipeline(const GlslKernel& kernel, const std::string& name, uint32_t mask,
                                    const SourceReader& read, StartupReport& report) {
   const char* reads = kernel.readsTexels ? " texels" : "";
-  VkPipeline& known = pipelines_[{kernel.file + " " + kernel.traceFile + reads, mask}];
+  VkPipeline& known =
+      pipelines_[{kernel.header + " " + kernel.file + " " + kernel.traceFile + reads, mask}];
   if (known != VK_NULL_HANDLE) return known;
   const auto start = std::chrono::steady_clock::now();
   KernelReport done;

@@ -277,7 +277,9 @@ const uint RL_HEALTH_NEGATIVE = 5u;           // negative radiance left by contr
 const uint RL_HEALTH_DROPPED_WEIGHTS =
     6u;                                // resampling weights that are no finite, non-negative number
 const uint RL_HEALTH_CACHE_FULL = 7u;  // pixels whose cell found no place in the cache
-const uint RL_HEALTH_COUNT = 8u;
+const uint RL_HEALTH_LIGHT_CHANGED =
+    8u;  // cells of radiance that began anew: their light is another
+const uint RL_HEALTH_COUNT = 9u;
 
 RL_NAMESPACE_END
 

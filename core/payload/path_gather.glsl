@@ -68,7 +68,21 @@ RL_FN PathGather pathNothingGathered(uint film) {
   p.emittedAtX3 = zero;
   p.pdfLightAtX3 = 0.0f;
   p.rest = zero;
+  p.end.spread = 0.0f;
+  p.end.group = RL_INVALID;
   return p;
+}
+
+RL_FN void pathReachesX2(RL_INOUT(PathGather) p, RL_IN(Surface) s) {
+  p.x2.posW = s.posW;
+  p.x2.posError = s.posError;
+  p.x2.normalW = s.nGeoW;
+  p.x2.kind = RL_PATH_LAMBERT;
+  p.x2.geometry = pathGeometry(p.x2, p.x1PosW);
+  p.x2.suffix.nShadeW = s.nShadeW;
+  p.x2.suffix.bsdf = s.bsdf;
+  p.woX2 = s.wo;
+  p.hasX2 = 1u;
 }
 
 // Light that is carried neither by a light sample of x1 nor by x2's: beyond x3, or not reusable.
@@ -158,6 +172,23 @@ RL_FN void walkAbsorbs(RL_INOUT(PathGather) p, RL_IN(Walk) walk, RL_IN(vec3) tra
   p.suffixThroughput *= transmittance;
 }
 
+// The path ends in a cell, whose radiance the vertex under way sends back along it: at x2 as a
+// Lambert surface would, in every direction.
+RL_FN void pathEnds(RL_INOUT(PathGather) p, RL_IN(Walk) walk, RL_IN(Surface) s,
+                    RL_IN(vec3) radiance) {
+  if (!pathIsAtX2(p, walk)) {
+    pathAddLight(p, walk, radiance);
+    return;
+  }
+  pathReachesX2(p, s);
+  p.x2.suffix.bsdf = bsdfNone();
+  p.x2.suffix.bsdf.lobes = RL_LOBE_DIFFUSE;
+  p.isSuffix = 1u;
+  p.pdfX2 = 1.0f;
+  p.weightX2 = vec3(1.0f, 1.0f, 1.0f);
+  p.rest = radiance;
+}
+
 RL_FN uint walkArrives(RL_INOUT(PathGather) p, RL_IN(Walk) walk, RL_INOUT(Surface) s) {
   if (walk.bounces == 0u) {  // x1, reusable or not
     p.x1PosW = s.posW;
@@ -167,6 +198,13 @@ RL_FN uint walkArrives(RL_INOUT(PathGather) p, RL_IN(Walk) walk, RL_INOUT(Surfac
     if (p.isReusable == 0u) RL_HEALTH(RL_HEALTH_UNREUSABLE_PIXELS);
   }
   if (pathIsAtX2(p, walk)) p.passedX1 = walk.passed;
+  if (gParams.cells.count != 0u) {
+    vec3 radiance;
+    if (radianceEnds(p.end, walk, s, radiance)) {
+      pathEnds(p, walk, s, radiance);
+      return RL_WALK_ENDS;
+    }
+  }
   return pathIsAtX1(p, walk) ? gParams.path.lightCandidates : 1u;
 }
 
@@ -215,15 +253,7 @@ RL_FN void walkScatters(RL_INOUT(PathGather) p, RL_IN(Walk) walk, RL_IN(Surface)
     p.fX1 = draw.weight * draw.pdfSolidAngle;
     p.pdfX1 = draw.pdfSolidAngle;
   } else if (pathIsAtX2(p, walk)) {
-    p.x2.posW = s.posW;
-    p.x2.posError = s.posError;
-    p.x2.normalW = s.nGeoW;
-    p.x2.kind = RL_PATH_LAMBERT;
-    p.x2.geometry = pathGeometry(p.x2, p.x1PosW);
-    p.x2.suffix.nShadeW = s.nShadeW;
-    p.x2.suffix.bsdf = s.bsdf;
-    p.woX2 = s.wo;
-    p.hasX2 = 1u;
+    pathReachesX2(p, s);
     if (walk.isAlive != 0u && (draw.lobe & RL_LOBE_ANY_DELTA) == 0u) {
       p.isSuffix = 1u;
       p.pdfX2 = draw.pdfSolidAngle;

@@ -6,6 +6,7 @@
 #include "core/dialect/order.h"
 #endif
 #include "core/payload/path_sample.h"
+#include "core/radiance/radiance.h"
 #include "core/transport/walk.h"
 
 RL_NAMESPACE_BEGIN
@@ -49,6 +50,7 @@ struct PathGather {
   vec3 rest;      // light beyond x3
   vec3 absorbed;  // transmittance up to the vertex under way
   vec3 unseen;    // of the last light sample, without its visibility
+  RadianceEnd end;
 };
 
 RL_NAMESPACE_END

@@ -13,7 +13,7 @@
 //   walkEmits(state, walk, surface, hit, pdfLight) the ray met an emitter, s.emission towards it
 //   walkAbsorbs(state, walk, transmittance)        through a medium, up to the next vertex
 //   walkArrives(state, walk, surface)              a vertex that scatters, before anything is
-//       drawn; returns how many light samples are drawn there
+//       drawn; returns how many light samples are drawn there, or RL_WALK_ENDS
 //   walkLights(state, walk, rng, surface, light, connection)  a light sample at the vertex, without
 //       its visibility; true: its shadow ray is to be traced (of several the last one)
 //   walkSees(state, walk, transmittance)           of that shadow ray. walk.bounces counts the
@@ -55,7 +55,7 @@ RL_FN void walkScatter(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk, RL_IN
   walk.isAlive = draw.lobe != 0u && !rlIsBlack(draw.weight) ? 1u : 0u;
   walkScatters(state, walk, s, draw);
   walk.throughput *= draw.weight;
-  if (walk.isAlive != 0u && walk.bounces + 1u >= gFrame.rouletteStart) {
+  if (walk.isAlive != 0u && walk.bounces + 1u >= walk.rouletteStart) {
     float survival = min(rlMax3(walk.throughput), 0.95f);
     if (rngDraw(walk.rng, RL_DIM_ROULETTE) < survival) {
       walk.throughput *= 1.0f / survival;
@@ -70,20 +70,27 @@ RL_FN void walkScatter(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk, RL_IN
   walk.ray.dir = draw.wi;
 }
 
-// The path of a pixel in this frame, from its film sample (cameraFilmBits) to its end.
-RL_FN void walkPath(RL_INOUT(RL_WALK_STATE) state, RL_IN(uvec2) pixel, uint film) {
+// A path that begins with a ray, after `bounces` scattering events.
+RL_FN Walk walkBegin(RL_IN(Rng) rng, uint film, RL_IN(Ray) ray, uint bounces) {
   Walk walk;
-  walk.rng = rngInit(gFrame.seed, pixel.y * gFrame.width + pixel.x, gFrame.frame);
+  walk.rng = rng;
   walk.film = film;
-  walk.ray = cameraFilmRay(gFrame.camera, pixel, walk.film);
+  walk.ray = ray;
+  walk.bounces = bounces;
   walk.throughput = vec3(1.0f, 1.0f, 1.0f);
   walk.sigma = vec3(0.0f, 0.0f, 0.0f);
   walk.pdfBsdf = 0.0f;
+  walk.rouletteStart = gFrame.rouletteStart;
   walk.passed = 1.0f;
   walk.isAlive = 1u;
+  return walk;
+}
+
+// From there to its end.
+RL_FN void walkOn(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk) {
   bool hasShadowRay = false;
   Ray shadowRay = walk.ray;
-  for (walk.bounces = 0u;; walk.bounces = walk.bounces + 1u) {
+  for (;; walk.bounces = walk.bounces + 1u) {
     Hit hit = traceNoHit();
     for (uint which = 0u; which < 2u; which = which + 1u) {
       bool isShadow = which == 0u;
@@ -126,8 +133,16 @@ RL_FN void walkPath(RL_INOUT(RL_WALK_STATE) state, RL_IN(uvec2) pixel, uint film
     if (walk.bounces >= gFrame.maxBounces || bsdfIsBlack(s.bsdf)) break;
     walk.rng.vertex = walk.bounces + 1u;
     uint candidates = walkArrives(state, walk, s);
+    if (candidates == RL_WALK_ENDS) break;
     if (lightExists() && walkWants(walk.bounces + 1u))
       hasShadowRay = walkDrawLights(state, walk, s, candidates, shadowRay);
     walkScatter(state, walk, s);
   }
+}
+
+// The path of a pixel in this frame, from its film sample (cameraFilmBits) to its end.
+RL_FN void walkPath(RL_INOUT(RL_WALK_STATE) state, RL_IN(uvec2) pixel, uint film) {
+  Rng rng = rngInit(gFrame.seed, pixel.y * gFrame.width + pixel.x, gFrame.frame);
+  Walk walk = walkBegin(rng, film, cameraFilmRay(gFrame.camera, pixel, film), 0u);
+  walkOn(state, walk);
 }

@@ -17,9 +17,13 @@ struct Walk {
   vec3 sigma;       // m^-1, absorption of the medium that the ray travels in
   float
       pdfBsdf;  // solid-angle density of the ray; 0: camera or delta lobe, no light sample competes
+  uint rouletteStart;  // first scattering event that may end the path by Russian roulette
   float passed;  // of the ray, by traceRay(): below 1 it may have passed something transparent
   uint isAlive;  // 0: absorbed, or ended by Russian roulette
 };
+
+// What walkArrives() returns where the path has what it was looking for.
+const uint RL_WALK_ENDS = 0xffffffffu;
 
 RL_NAMESPACE_END
 

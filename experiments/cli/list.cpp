@@ -51,7 +51,7 @@ Json layersJson(const PartInfo& part) {
   Json layers = Json::array();
   for (const LayerInfo& layer : part.layers) {
     layers.push_back({{"name", layer.name}, {"unit", layer.unit}, {"help", layer.summary}});
-    if (layer.onlyWith != nullptr) layers.back()["only_with"] = layer.onlyWith;
+    if (layer.onlyWith.parameter != nullptr) layers.back()["only_with"] = layer.onlyWith.parameter;
   }
   return layers;
 }

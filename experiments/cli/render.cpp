@@ -157,7 +157,8 @@ void render(RenderOptions options) {
   logDetail(fmt::format("{}: {} triangles, loaded in {:.0f} ms; {} at {}x{}",
                         prepared.scene->source().name, prepared.scene->instancedTriangleCount(),
                         prepared.loadTimeMs, config.integrator, config.width, config.height));
-  const Rendered rendered = renderFrames(session, options, findMethod(config).hasHistory());
+  const Rendered rendered =
+      renderFrames(session, options, findMethod(config).hasHistory(session.config().parameters));
   const LayeredImage file = layers(session, prepared, rendered, aovs);
   StartupLog further;  // of the layers
   further.add(session, kernels, notices);

@@ -2,6 +2,7 @@
 #include "integrators/path/path.h"
 
 #include "core/integrator.h"
+#include "core/radiance/settings.h"
 
 namespace restlab {
 
@@ -15,10 +16,12 @@ const IntegratorInfo& pathIntegratorInfo() {
                 "every path up to max_bounces scattering events has positive density in one "
                 "technique, and the "
                 "power-heuristic weights sum to one"}};
+    i.endsPaths = true;
+    i.optionalInputs = radianceInputs();
     i.buffers = {{"radiance", sizeof(glm::vec3), 0, -1}};
     i.passes = {{"path", "path"}};
-    i.packParameters = [](const std::string&, const ParameterMap&) {
-      return std::vector<std::byte>(sizeof(rl::PathParams));
+    i.packParameters = [](const std::string&, const ParameterMap& p) {
+      return bytesOf(rl::PathKernelParams{packRadiance(p)});
     };
     return i;
   }();

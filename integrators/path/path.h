@@ -3,28 +3,30 @@
 #define RL_PATH_H
 
 #ifdef __cplusplus
-#include "core/dialect/types.h"
+#include "core/dialect/order.h"
 #endif
-#include "core/transport/walk.h"
+#include "core/radiance/radiance.h"
+#include "core/transport/light_sum.h"
 
 RL_NAMESPACE_BEGIN
 
 struct PathBuffers {
+  RadianceBuffers cells;
   Vec3Ref radiance;
 };
 
-struct PathParams {
-  uint padding;
+struct PathKernelParams {
+  RadianceParams cells;
 };
 
 struct PathState {
-  vec3 radiance;
-  vec3 unseen;  // of the last light sample, without its visibility
+  LightSum sum;
+  RadianceEnd end;
 };
 
 RL_NAMESPACE_END
 
 #define RL_KERNEL_BUFFERS PathBuffers
-#define RL_KERNEL_PARAMS PathParams
+#define RL_KERNEL_PARAMS PathKernelParams
 
 #endif

@@ -2,15 +2,16 @@
 // last frame's sample is one of the same pixel: it is merged here. What no other pixel could use
 // (mirrors, glass, lights in view) is averaged over time alone.
 #include "core/resampling/ris.glsl"
+#include "core/caches/entries/entries.glsl"
 #include "core/resampling/shift.glsl"
 #include "core/resampling/reservoir.glsl"
 #include "core/payload/path_sample.glsl"
+#include "core/radiance/ends.glsl"
 #include "core/payload/path_gather.glsl"
 #include "core/payload/path_resample.glsl"
 #include "core/resampling/mis.glsl"
 #include "core/resampling/merge.glsl"
 #include "core/resampling/donors.glsl"
-#include "core/caches/entries/entries.glsl"
 #include "integrators/restir_gi/store.glsl"
 #include "integrators/restir_gi/over_time.glsl"
 #include "integrators/restir_gi/age.glsl"
@@ -35,6 +36,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint slot = pixel.y * gFrame.width + pixel.x;
   uint film = cameraFilmBits(pixel);
   PathGather p = pathNothingGathered(film);
+  p.end = radianceBegin(slot);
   walkPath(p, pixel, film);
   PathReservoir r = pathResample(p, rngInit(gFrame.seed, slot, gFrame.frame));
   vec3 estimate = r.state.F * r.state.W + r.state.residual;

@@ -39,7 +39,8 @@ RL_FN real reuseUniform(RL_IN(GiWithEntries) s, uint k) {
 #include "core/resampling/reuse.glsl"
 
 // One camera ray, then two segments an entry: the pixel's sample from the anchor, the entry's from
-// the x1 of the film sample.
+// the x1 of the film sample. The biased mode takes the first as free, for the weights alone: light
+// that the pixel does not see stays out.
 RL_FN void giAskEntries(RL_INOUT(GiWithEntries) s, RL_IN(PathReservoir) here, RL_IN(uvec2) pixel,
                         uint film, uint count) {
   Surface x1 = anchorSurface(anchorNone());
@@ -62,7 +63,8 @@ RL_FN void giAskEntries(RL_INOUT(GiWithEntries) s, RL_IN(PathReservoir) here, RL
         shift = pathShiftToSurface(other, x1);
       }
     }
-    if (shift.asks != RL_SHIFT_DONE) {
+    bool isAssumed = isOurs && (gParams.temporalFlags & RL_REUSE_ASSUME_VISIBLE) != 0u;
+    if (shift.asks != RL_SHIFT_DONE && !isAssumed) {
       Hit hit = traceNoHit();
       uint mode = isCamera ? RL_RAY_PATH : RL_RAY_SHADOW;
       float transmittance = traceRay(shift.ray, mode, cameraAlphaKey(film), hit);

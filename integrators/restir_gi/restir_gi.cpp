@@ -17,6 +17,7 @@
 #include "core/caches/entries/layers.h"
 #include "core/caches/entries/settings.h"
 #include "core/integrator.h"
+#include "core/radiance/settings.h"
 #include "core/resampling/partner_settings.h"
 
 namespace rl {
@@ -206,6 +207,7 @@ std::vector<std::byte> pack(const std::string& mode, const ParameterMap& p) {
   out.maxReflectanceRatio = static_cast<float>(get<double>(p, "max_reflectance_ratio"));
   out.partners = packPartners(p);
   out.entries = packEntries(p);
+  out.cells = packRadiance(p);
   return bytesOf(out);
 }
 
@@ -285,7 +287,7 @@ std::vector<LayerInfo> layers() {
   ofEntry.name = "entry_confidence";
   ofEntry.summary = "confidence of the reservoir of the pixel's entry";
   ofEntry.unit = "samples";
-  ofEntry.onlyWith = kEntryCount;
+  ofEntry.onlyWith.parameter = kEntryCount;
   ofEntry.values = [](const Kept& kept) {
     // A place that a new entry has taken may still hold the reservoir of the one before it.
     const auto words = kept.words("entry_reservoirs"), anchors = kept.words("anchors");
@@ -312,13 +314,15 @@ const IntegratorInfo& restir_giIntegratorInfo() {
          "confidences depend on anchors alone, BSDF and MIS weight at x2 are re-evaluated"},
         {"biased", BiasClass::biased,
          "the last frame's sample is taken as visible here, and the pixel's own as visible from "
-         "there: fewer rays, a little energy moved at shadow edges"},
+         "there and from entries: fewer rays, a little energy moved at shadow edges"},
     };
     i.parameters = parameterInfos();
     i.usesCache = true;
     i.hasHistory = true;
     i.inputs = {"visible", "visible_before"};
+    i.endsPaths = true;
     i.optionalInputs = {"proposals", "anchors", "feeders"};
+    for (std::string& input : radianceInputs()) i.optionalInputs.push_back(std::move(input));
     i.buffers = {
         {"radiance", 12, 0, -1},
         {"own_light", 16, 0, 2},
@@ -347,7 +351,7 @@ const IntegratorInfo& restir_giIntegratorInfo() {
                 {"spatial", "restir_gi_spatial"},
                 {"feed", "restir_gi_feed"}};
     for (PassInfo& pass : i.passes) {
-      if (pass.name == "recall" || pass.name == "feed") pass.onlyWith = kEntryCount;
+      if (pass.name == "recall" || pass.name == "feed") pass.onlyWith.parameter = kEntryCount;
       if (pass.name == "feed") pass.entriesParameter = kEntryCount;
     }
     i.whyWithoutEffect = whyWithoutEffect;

@@ -46,6 +46,7 @@ struct RestirGiBuffers {
   UintRef proposals;
   QuadRef anchors;
   UintRef feeders;
+  RadianceBuffers cells;
   Vec3Ref radiance;
   // One quad: light that no other pixel could use, averaged over time in a still view; of how many
   // film samples lights_in_view took light in view when the view was new, 0 where it did not. It
@@ -85,6 +86,7 @@ struct RestirGiParams {
   PathParams path;
   PartnerParams partners;
   EntryParams entries;
+  RadianceParams cells;
 };
 
 RL_NAMESPACE_END

@@ -90,9 +90,10 @@ TEST(MovingCameraGlossy, LeavesTheMean) {
   expectUnbiased(walk, endOf(walk), 256, 16, 5, 1);
 }
 
-// Its caustics are too skewed to test in half of the area.
+// Its caustics are too skewed to test in half of the area, with voxels in three quarters: runs of
+// them that hold a caustic are rarer and brighter.
 TEST(MovingCameraGlass, LeavesTheMean) {
-  const Walk walk{"past_glass", "glass", {0.02, 0.01, 0.0}, 0.5, false, 0.6};
+  const Walk walk{"past_glass", "glass", {0.02, 0.01, 0.0}, 0.5, false, 0.75};
   expectUnbiased(walk, endOf(walk), 256, 16, 5, 1);
 }
 

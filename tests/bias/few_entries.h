@@ -10,7 +10,8 @@ namespace restlab::bias {
 // Entries for so few pixels: passes that go over all entries would take the most of the time.
 inline void useFewEntries(SessionConfig& config) {
   for (const ParameterInfo& p : findMethod(config).parameters())
-    if (p.name == kEntryCount) config.parameters[p.name] = int64_t{4096};
+    if (p.name == kEntryCount || p.name == "radiance_entries")
+      config.parameters[p.name] = int64_t{4096};
 }
 
 }  // namespace restlab::bias

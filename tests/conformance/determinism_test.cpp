@@ -44,7 +44,7 @@ TEST_P(Determinism, ResetStartsTheSameHistoryAgain) {
 TEST_P(Determinism, FramesGoOnFromANumber) {
   const auto scene = bias::builtinScene("glossy-gallery");
   Session session(scene, configOf(GetParam()));
-  if (findMethod(GetParam().integrator, "", GetParam().denoiser).hasHistory()) {
+  if (findMethod(session.config()).hasHistory(session.config().parameters)) {
     EXPECT_THROW(session.reset(7, 3), Error);
     EXPECT_NO_THROW(session.reset(7, 0));
     return;

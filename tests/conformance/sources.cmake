@@ -11,5 +11,7 @@ set(RL_CONFORMANCE_TESTS
   conformance/live_session_test.cpp
   conformance/long_run_test.cpp
   conformance/moving_view_test.cpp
+  conformance/radiance_test.cpp
+  conformance/thin_wall_test.cpp
   conformance/variants.cpp
 )

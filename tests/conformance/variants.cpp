@@ -12,7 +12,7 @@ namespace restlab::conformance {
 std::string Variant::name() const {
   const bool isUsual = cache.empty() || cache == cacheRegistry().front()->name;
   return integrator + "_" + mode + (isUsual ? "" : "_" + cache) +
-         (denoiser == "none" ? "" : "_" + denoiser);
+         (denoiser == "none" ? "" : "_" + denoiser) + (endsPaths ? "_secondary" : "");
 }
 
 std::vector<Variant> allVariants() {
@@ -27,6 +27,8 @@ std::vector<Variant> allVariants() {
       for (const ModeInfo& mode : info->modes)
         all.push_back({info->name, mode.name, mode.bias, "none", cache});
     }
+    if (info->endsPaths)
+      all.push_back({info->name, info->modes.front().name, BiasClass::biased, "none", "", true});
   }
   for (const DenoiserInfo* info : denoiserRegistry()) {
     if (info->name == "none") continue;
@@ -50,6 +52,7 @@ SessionConfig configOf(const Variant& variant, uint32_t width, uint32_t height) 
   config.mode = variant.mode;
   config.denoiser = variant.denoiser;
   config.cache = variant.cache;
+  if (variant.endsPaths) config.parameters["secondary"] = std::string("cache");
   config.width = width;
   config.height = height;
   config.threads = 1;

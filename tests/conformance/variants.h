@@ -11,15 +11,18 @@
 
 namespace restlab::conformance {
 
-// One integrator in one of its modes with one of the caches, or `path` with a denoiser.
+// One integrator in one of its modes with one of the caches, or with paths that end in cells of
+// radiance, or `path` with a denoiser.
 struct Variant {
   std::string integrator;
   std::string mode;
   BiasClass bias = BiasClass::unbiased;  // in a still view
   std::string denoiser = "none";
   std::string cache;  // "" without reservoirs
+  bool endsPaths = false;
 
-  // "restir_gi_unbiased", fit for a test's name; with the cache where it is not the first one.
+  // "restir_gi_unbiased", fit for a test's name; with the cache where it is not the first one, and
+  // "_secondary" where paths end.
   std::string name() const;
 };
 

@@ -49,7 +49,7 @@ std::set<std::string> kernelsWithoutFeatures() {
       std::ifstream file(path);
       const std::string text((std::istreambuf_iterator<char>(file)), {});
       for (std::sregex_iterator it(text.begin(), text.end(), added), end; it != end; ++it)
-        names.insert(std::regex_replace((*it)[1].str(), variable, "[a-z]+"));
+        names.insert(std::regex_replace((*it)[1].str(), variable, "[a-z_]+"));
     }
   }
   return names;

@@ -92,6 +92,7 @@ std::string Combination::name() const {
   if (!mode.empty()) text += "_" + mode;
   if (!cache.empty()) text += "_" + cache;
   if (denoiser != "none") text += "_" + denoiser;
+  if (endsPaths) text += "_secondary";
   return text;
 }
 
@@ -108,6 +109,8 @@ std::vector<Combination> combinations() {
     for (const ModeInfo& mode : info->modes) {
       for (const std::string& cache : caches) all.push_back({info->name, mode.name, cache, "none"});
     }
+    if (info->endsPaths)
+      all.push_back({info->name, info->modes.front().name, caches.front(), "none", true});
   }
   for (const DenoiserInfo* info : denoiserRegistry()) {
     if (info->name != "none")
@@ -123,6 +126,7 @@ SessionConfig configOf(const Combination& what, const Machine& where, uint32_t w
   config.mode = what.mode;
   config.denoiser = what.denoiser;
   if (!what.cache.empty()) config.cache = what.cache;
+  if (what.endsPaths) config.parameters["secondary"] = std::string("cache");
   config.backend = where.backend;
   config.rayTracing = where.rayTracing;
   config.specialise = where.specialise;

@@ -16,6 +16,7 @@ namespace restlab::parity {
 // `path` with a denoiser.
 struct Combination {
   std::string integrator, mode, cache, denoiser = "none";
+  bool endsPaths = false;  // in cells of radiance
   std::string name() const;
 };
 void PrintTo(const Combination& what, std::ostream* out);

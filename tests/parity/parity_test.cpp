@@ -153,9 +153,9 @@ TEST_P(PathParity, SameSeedSameImage) {
   frame.multiscatter = c.multiscatter;
   if (c.multiscatter != 0u) scene->bindGgxAlbedo();
   const size_t pixels = size_t{frame.width} * frame.height;
-  const rl::PathParams params{};
+  const rl::PathKernelParams params{};
   std::vector<rl::vec3> host(pixels), embree(pixels);
-  const rl::PathBuffers hostBuffers{{host.data()}}, embreeBuffers{{embree.data()}};
+  const rl::PathBuffers hostBuffers{{}, {host.data()}}, embreeBuffers{{}, {embree.data()}};
   runOnHost(rl::kernel_parity_path_general, scene->data(), frame, &hostBuffers, &params);
   runOnHost(rl::findCpuKernel("path", rl::RL_FEATURE_ALL)->entry, scene->data(), frame,
             &embreeBuffers, &params, scene->embreeScene());
@@ -179,9 +179,9 @@ TEST_P(PathParity, SameSeedSameImage) {
         device.memory->allocate(pixels * sizeof(rl::vec3), MemoryKind::device);
     const std::shared_ptr<VulkanScene> uploaded =
         VulkanScene::of(device.memory, scene, SceneRays::bvh);
-    const GlslCounters counters =
-        runOnDevice(device, "integrators/path/path.h", "integrators/path/path.glsl",
-                    uploaded->address(), frame, {radiance.address}, &params, sizeof params);
+    const GlslCounters counters = runOnDevice(
+        device, "integrators/path/path.h", "integrators/path/path.glsl", uploaded->address(), frame,
+        {0, 0, 0, 0, radiance.address}, &params, sizeof params);
     std::vector<rl::vec3> gpu(pixels);
     device.memory->read(radiance, gpu.data(), pixels * sizeof(rl::vec3));
     device.memory->free(radiance);

@@ -62,9 +62,8 @@ class AuditedRun {
     // What pixels show at their centres, in this view and in the last, which are the same.
     for (const char* name : {"visible", "visible_before"})
       buffers_[name].resize(size_t{16} * kWidth * kHeight);
-    for (const PartInfo* part : {static_cast<const PartInfo*>(method.cache),
-                                 static_cast<const PartInfo*>(method.integrator)}) {
-      if (part != nullptr) add(*part, audited.mode);
+    for (const PartInfo* part : method.parts()) {
+      if (part != method.denoiser && isThere(part->onlyWith, resolved_)) add(*part, audited.mode);
     }
     if (method.cache == nullptr) return;
     const std::vector<void*> seen = {buffers_["visible"].data()};
@@ -118,12 +117,14 @@ class AuditedRun {
 
   void run(const Part& part, const PassInfo& pass) {
     if (frame_.stillFrames != 0 && pass.onlyOnNewViews) return;
-    if (pass.onlyWith != nullptr && !resolved_.contains(pass.onlyWith)) return;
+    if (!isThere(pass.onlyWith, resolved_)) return;
     rl::CpuKernelTile tile = pixels();
     if (pass.entriesParameter != nullptr) {
       const auto entries = uint32_t(std::get<int64_t>(resolved_.at(pass.entriesParameter)));
       tile = {0, 0, rl::RL_ENTRY_ROW, (entries + rl::RL_ENTRY_ROW - 1) / rl::RL_ENTRY_ROW};
     }
+    // As if each pixel were a group of its own: passes leave out groups that are not there.
+    if (pass.onePerParameter != nullptr) tile = {0, 0, rl::RL_ENTRY_ROW, 1};
     const auto audited = kernels_.find(pass.name);
     call(audited != kernels_.end()
              ? audited->second
@@ -202,6 +203,17 @@ TEST(RngAudit, Path) {
     expectNoRepeats({name, {"path", "unbiased", {{"path", rl::kernel_path_audited}}}},
                     "path, " + name);
   }
+}
+
+// Every pixel asks for a ray, which is traced beside the pixel's own in the next frame.
+TEST(RngAudit, PathsThatEnd) {
+  const ParameterMap ending = {{"secondary", std::string("cache")},
+                               {"radiance_entries", int64_t{4096}},
+                               {"radiance_every", int64_t{1}}};
+  const std::map<std::string, rl::CpuKernelEntry> kernels = {
+      {"path", rl::kernel_path_audited}, {"radiance_trace", rl::kernel_radiance_trace_audited}};
+  for (const std::string& name : builtinSceneNames())
+    expectNoRepeats({name, {"path", "unbiased", kernels, "", ending}}, "path that ends, " + name);
 }
 
 TEST(RngAudit, Template) {

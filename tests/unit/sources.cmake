@@ -20,6 +20,7 @@ list(APPEND RL_UNIT_TESTS
   records_test.cpp
   reservoir_store_test.cpp
   rng_audit_path.cpp
+  rng_audit_radiance_trace.cpp
   rng_audit_restir_exchange.cpp
   rng_audit_restir_feed.cpp
   rng_audit_restir_initial.cpp

@@ -1,5 +1,4 @@
 // A pass over entries, in every frame: nobody wants a place yet, nobody feeds.
-#include "core/caches/entries/entries.glsl"
 
 RL_FN void kernelMain(RL_IN(uvec2) row) {
   uint entry = row.y * RL_ENTRY_ROW + row.x;

@@ -27,6 +27,7 @@ struct EntryParams {
   uint proposals;  // entries a pixel takes as donors; at most RL_MAX_DONORS
   uint feedEvery;  // one of so many pixels offers its sample
   float cap;       // of an entry's confidence, in samples
+  float spread;    // of further donors, in sides of a cell or radii of a disc
 };
 
 RL_NAMESPACE_END

@@ -9,7 +9,5 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   if (anchor.surface.isHit != 0u &&
       !visibleAlike(entryVisible(slot), anchor.surface, gParams.alike))
     return;
-  uint ticket = entryTicket(group);
-  uint place = rngHash(ticket) % RL_ENTRY_FEEDERS;
-  RL_ATOMIC_MAX(gBuffers.feeders, entry * RL_ENTRY_FEEDERS + place, ticket);
+  groupFeeds(gBuffers.feeders, entry, group);
 }

@@ -1,10 +1,7 @@
-// A pass of new views: the entry that a pixel's surface belongs to. The includer defines
-// entryNear().
-RL_FN void kernelMain(RL_IN(uvec2) pixel) {
-  uint slot = slotOfPixel(pixel);
-  VisibleSurface here = entryVisible(slot);
-  uint entry = RL_INVALID;
-  if (here.isHit != 0u) entry = entryOwn(here);
-  if (entry != RL_INVALID) RL_ATOMIC_MAX(gBuffers.seen, entry, gFrame.frame + 1u);
-  gBuffers.entries.data[slot] = entry;
+// A pass: to which entry does each asker belong?
+#include "core/caches/entries/look.glsl"
+
+RL_FN void kernelMain(RL_IN(uvec2) at) {
+  uint asker = entryAsker(at);
+  if (asker != RL_INVALID) entryLook(asker);
 }

@@ -1,20 +1,15 @@
 // A hashed grid in space: cubes whose side is a power of two of metres, near a number of pixels
-// where they are seen. A cell's entry lies in one of gParams.grid.probes places from its hash on; a
-// key of 63 bits says whose it is, so that no cell is taken for another. A new cell takes the place
-// that was not seen for longest.
-
-RL_FN VisibleSurface entryVisible(uint slot) {
-  return visibleRead(gBuffers.visible, gFrame.camera, slot);
-}
+// where they are seen. A cell's entry lies in one of some places from its hash on; a key of 63 bits
+// says whose it is, so that no cell is taken for another.
 
 // Level of the largest cell that is no larger: the exponent of its side, with the bias of floats.
 RL_FN uint gridLevel(float side) { return (floatBitsToUint(side) >> 23u) & 0xffu; }
 RL_FN float gridSide(uint level) { return uintBitsToFloat(level << 23u); }
 
-// Width of a pixel where a surface is seen, in metres.
-RL_FN float gridPixel(RL_IN(VisibleSurface) s) {
+// Width of a pixel where a point is seen, in metres.
+RL_FN float gridPixel(RL_IN(vec3) posW) {
   bool isParallel = gFrame.camera.kind == RL_CAMERA_ORTHOGRAPHIC;
-  float away = isParallel ? 1.0f : distance(s.posW, gFrame.camera.posW);
+  float away = isParallel ? 1.0f : distance(posW, gFrame.camera.posW);
   return away * (2.0f * gFrame.camera.halfWidth / float(gFrame.width));
 }
 
@@ -41,33 +36,23 @@ RL_FN uvec2 gridKey(RL_IN(vec3) posW, uint level, uint kind) {
   return isNear ? uvec2(low, ((y >> 3u) << 17u) | z) : uvec2(0u, 0u);
 }
 
-RL_FN uint gridPlace(RL_IN(uvec2) key, uint probe) {
-  return (rngHash(rngHash(key.x) ^ key.y) + probe) % gParams.entries.count;
+RL_FN void gridTake(RL_IN(UintRef) keys, uint entry, RL_IN(uvec2) key) {
+  keys.data[2u * entry] = key.x;
+  keys.data[2u * entry + 1u] = key.y;
+}
+
+RL_FN uint gridPlace(RL_IN(GridParams) grid, RL_IN(uvec2) key, uint probe) {
+  return (rngHash(rngHash(key.x) ^ key.y) + probe) % grid.places;
 }
 
 // The entry of a cell; RL_INVALID where it has none, and for the key zero. Places are filled in the
 // order of probes and never given back: behind one that is nobody's there is nothing.
-RL_FN uint gridFind(RL_IN(uvec2) key) {
-  for (uint i = 0u; i < gParams.grid.probes; i = i + 1u) {
-    uint entry = gridPlace(key, i);
-    uint first = gBuffers.keys.data[2u * entry];
+RL_FN uint gridFind(RL_IN(GridParams) grid, RL_IN(UintRef) keys, RL_IN(uvec2) key) {
+  for (uint i = 0u; i < grid.probes; i = i + 1u) {
+    uint entry = gridPlace(grid, key, i);
+    uint first = keys.data[2u * entry];
     if (first == 0u) return RL_INVALID;
-    if (first == key.x && gBuffers.keys.data[2u * entry + 1u] == key.y) return entry;
+    if (first == key.x && keys.data[2u * entry + 1u] == key.y) return entry;
   }
   return RL_INVALID;
-}
-
-// The place that a new cell would take; RL_INVALID where all were seen in this frame.
-RL_FN uint gridVictim(RL_IN(uvec2) key) {
-  uint victim = RL_INVALID;
-  uint least = gFrame.frame + 1u;
-  for (uint i = 0u; i < gParams.grid.probes; i = i + 1u) {
-    uint entry = gridPlace(key, i);
-    uint seen = gBuffers.seen.data[entry];
-    if (seen < least) {
-      least = seen;
-      victim = entry;
-    }
-  }
-  return victim;
 }

@@ -10,8 +10,8 @@ RL_NAMESPACE_BEGIN
 
 // In the kernels' gParams.grid.
 struct GridParams {
-  uint probes;   // places where an entry may lie
-  float spread;  // of further donors, in sides of a cell or radii of a disc
+  uint places;  // for entries
+  uint probes;  // of them where an entry may lie
 };
 
 const uint RL_GRID_TAKEN = 0x80000000u;  // in the first word of every key

@@ -1,7 +1,18 @@
-// A pass of new views: the entries that serve a pixel as donors. The first is that of its own
-// point, the others are those of points beside it on its tangent plane. Where there is none that
-// remembers anything, the next coarser and finer levels are asked: the camera may have come nearer.
-// The includer defines entryLevel(), entryNear() and entrySpread(), in metres.
+// A pass of new views: the entries that serve a pixel as donors. The first is the one that it
+// belongs to, the others are those of points beside it on its tangent plane. Where there is none
+// that remembers anything, the next coarser and finer levels are asked: the camera may have come
+// nearer. The includer defines entryLevel(), entryNear() and entrySpread(), in metres.
+
+// Does an entry remember anything that is like what the pixel shows?
+RL_FN bool entryServes(RL_IN(VisibleSurface) here, uint entry) {
+  return visibleAlike(here, anchorRead(gBuffers.anchors, entry).surface, gParams.alike);
+}
+// The entry that covers a point, where it serves.
+RL_FN uint entryServing(RL_IN(VisibleSurface) here, RL_IN(vec3) posW, uint level) {
+  uint entry = entryNear(here, posW, level);
+  return entry != RL_INVALID && entryServes(here, entry) ? entry : RL_INVALID;
+}
+
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint slot = slotOfPixel(pixel);
   VisibleSurface here = entryVisible(slot);
@@ -23,9 +34,14 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
         vec3 offset = vec3(radius * turn.x, radius * turn.y, 0.0f);
         posW += frameToWorld(unpackNormal(here.nGeoW), offset);
       }
-      entry = entryNear(here, posW, level);
-      if (entry == RL_INVALID) entry = entryNear(here, posW, level + 1u);
-      if (entry == RL_INVALID) entry = entryNear(here, posW, level - 1u);
+      if (k > 0u) {
+        entry = entryServing(here, posW, level);
+      } else {
+        entry = gBuffers.entries.data[slot];
+        if (entry >= RL_GRID_CLAIM || !entryServes(here, entry)) entry = RL_INVALID;
+      }
+      if (entry == RL_INVALID) entry = entryServing(here, posW, level + 1u);
+      if (entry == RL_INVALID) entry = entryServing(here, posW, level - 1u);
       for (uint i = 0u; i < k; i = i + 1u) {
         if (gBuffers.proposals.data[first + i] == entry) entry = RL_INVALID;
       }

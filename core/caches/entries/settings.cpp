@@ -92,10 +92,10 @@ CacheInfo entryCache(const std::string& name, const std::string& summary) {
               pass("find"),
               pass("claim"),
               pass("settle"),
-              pass("find", "_again"),
+              pass("find_again"),
               pass("claim", "_again"),
               pass("settle", "_again"),
-              pass("find", "_last"),
+              pass("find_again", "_last"),
               pass("propose"),
               feeders};
   i.hasHistory = true;
@@ -106,11 +106,12 @@ CacheInfo entryCache(const std::string& name, const std::string& summary) {
 rl::EntryParams packEntries(const ParameterMap& parameters) {
   if (!parameters.contains(kEntryCount)) return {};
   return {count(parameters, kEntryCount), count(parameters, "entry_proposals"),
-          count(parameters, "feed_every"), number(parameters, "entry_cap")};
+          count(parameters, "feed_every"), number(parameters, "entry_cap"),
+          number(parameters, "entry_spread")};
 }
 
 rl::GridParams packGrid(const ParameterMap& parameters) {
-  return {count(parameters, "entry_probes"), number(parameters, "entry_spread")};
+  return {count(parameters, kEntryCount), count(parameters, "entry_probes")};
 }
 
 }  // namespace restlab

@@ -3,19 +3,23 @@
 // cells are about as wide as a disc's radius, finds them: a disc lies in the cell of its centre.
 #include "core/caches/entries/entries.glsl"
 #include "core/caches/entries/grid.glsl"
+#include "core/caches/entries/victim.glsl"
+#include "core/caches/entries/of_pixels.glsl"
 
-RL_FN float discRadius(RL_IN(VisibleSurface) s) { return gParams.discPixels * gridPixel(s); }
+RL_FN float discRadius(RL_IN(VisibleSurface) s) { return gParams.discPixels * gridPixel(s.posW); }
 RL_FN uint entryLevel(RL_IN(VisibleSurface) s) { return gridLevel(discRadius(s)); }
-RL_FN float entrySpread(RL_IN(VisibleSurface) s) { return gParams.grid.spread * discRadius(s); }
+RL_FN float entrySpread(RL_IN(VisibleSurface) s) { return gParams.entries.spread * discRadius(s); }
 RL_FN uvec2 entryWanted(RL_IN(VisibleSurface) s) {
   return gridKey(s.posW, entryLevel(s), gridOctant(unpackNormal(s.nGeoW)));
 }
-RL_FN void entryBegin(uint entry, RL_IN(VisibleSurface) s) {
+RL_FN void entryBegin(uint entry, RL_IN(uvec2) key, RL_IN(VisibleSurface) s) {
+  gridTake(gBuffers.keys, entry, key);
   Anchor disc;
   disc.surface = s;
   disc.posError = discRadius(s);
   disc.begunBy = RL_INVALID;
   anchorWrite(gBuffers.discs, entry, disc);
+  anchorWrite(gBuffers.anchors, entry, anchorNone());
 }
 
 // How far away a disc's centre is. Each disc counts a little nearer or further than it is: pixels
@@ -35,7 +39,8 @@ RL_FN uint discCovering(RL_IN(VisibleSurface) here, RL_IN(vec3) posW, uint level
   uint octant = gridOctant(normalW);
   for (uint i = 0u; i < 9u; i = i + 1u) {
     vec3 offset = vec3((float(i % 3u) - 1.0f) * side, (float(i / 3u) - 1.0f) * side, 0.0f);
-    uint entry = gridFind(gridKey(posW + frameToWorld(normalW, offset), level, octant));
+    uint entry = gridFind(gParams.grid, gBuffers.keys,
+                          gridKey(posW + frameToWorld(normalW, offset), level, octant));
     if (entry == RL_INVALID || entry == best) continue;
     Anchor disc = anchorRead(gBuffers.discs, entry);
     float d = discDistance(entry, disc, posW);
@@ -50,13 +55,9 @@ RL_FN uint discCovering(RL_IN(VisibleSurface) here, RL_IN(vec3) posW, uint level
 // Where none covers it, that of its own cell will do: two in one cell there are not.
 RL_FN uint entryOwn(RL_IN(VisibleSurface) s) {
   uint entry = discCovering(s, s.posW, entryLevel(s));
-  if (entry == RL_INVALID) entry = gridFind(entryWanted(s));
+  if (entry == RL_INVALID) entry = gridFind(gParams.grid, gBuffers.keys, entryWanted(s));
   return entry;
 }
 RL_FN uint entryNear(RL_IN(VisibleSurface) here, RL_IN(vec3) posW, uint level) {
-  uint entry = discCovering(here, posW, level);
-  if (entry == RL_INVALID) return RL_INVALID;
-  if (!visibleAlike(here, anchorRead(gBuffers.anchors, entry).surface, gParams.alike))
-    return RL_INVALID;
-  return entry;
+  return discCovering(here, posW, level);
 }

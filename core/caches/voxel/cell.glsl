@@ -1,23 +1,26 @@
 // The voxel cache: a cell of the grid and an octant of normals share one entry.
 #include "core/caches/entries/entries.glsl"
 #include "core/caches/entries/grid.glsl"
+#include "core/caches/entries/victim.glsl"
+#include "core/caches/entries/of_pixels.glsl"
 
 RL_FN uint entryLevel(RL_IN(VisibleSurface) s) {
-  return gridLevel(gParams.cellPixels * gridPixel(s));
+  return gridLevel(gParams.cellPixels * gridPixel(s.posW));
 }
 RL_FN float entrySpread(RL_IN(VisibleSurface) s) {
-  return gParams.grid.spread * gridSide(entryLevel(s));
+  return gParams.entries.spread * gridSide(entryLevel(s));
 }
 RL_FN uvec2 entryWanted(RL_IN(VisibleSurface) s) {
   return gridKey(s.posW, entryLevel(s), gridOctant(unpackNormal(s.nGeoW)));
 }
-RL_FN uint entryOwn(RL_IN(VisibleSurface) s) { return gridFind(entryWanted(s)); }
-RL_FN void entryBegin(uint entry, RL_IN(VisibleSurface) s) {}
-// The entry of a cell, where its anchor is like what the pixel shows.
+RL_FN uint entryOwn(RL_IN(VisibleSurface) s) {
+  return gridFind(gParams.grid, gBuffers.keys, entryWanted(s));
+}
+RL_FN void entryBegin(uint entry, RL_IN(uvec2) key, RL_IN(VisibleSurface) s) {
+  gridTake(gBuffers.keys, entry, key);
+  anchorWrite(gBuffers.anchors, entry, anchorNone());
+}
 RL_FN uint entryNear(RL_IN(VisibleSurface) here, RL_IN(vec3) posW, uint level) {
-  uint entry = gridFind(gridKey(posW, level, gridOctant(unpackNormal(here.nGeoW))));
-  if (entry == RL_INVALID) return RL_INVALID;
-  if (!visibleAlike(here, anchorRead(gBuffers.anchors, entry).surface, gParams.alike))
-    return RL_INVALID;
-  return entry;
+  uvec2 key = gridKey(posW, level, gridOctant(unpackNormal(here.nGeoW)));
+  return gridFind(gParams.grid, gBuffers.keys, key);
 }

@@ -130,7 +130,7 @@ ParameterMap SuiteMethod::parameters() const {
 BiasClass SuiteMethod::bias(const Suite& suite) const {
   if (images) return images->bias;
   const Method method = findMethod(session);
-  if (suite.lightChanges() && method.hasHistory()) return BiasClass::biased;
+  if (suite.lightChanges() && method.hasHistory(parameters())) return BiasClass::biased;
   return method.bias(session.mode, parameters(), suite.hasMovingCamera());
 }
 

@@ -1,0 +1,7 @@
+// A pass: those who had no entry look again, as others have claimed places.
+#include "core/caches/entries/look.glsl"
+
+RL_FN void kernelMain(RL_IN(uvec2) at) {
+  uint asker = entryAsker(at);
+  if (asker != RL_INVALID && gBuffers.entries.data[asker] >= RL_GRID_CLAIM) entryLook(asker);
+}

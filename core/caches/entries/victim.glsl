@@ -1,0 +1,15 @@
+// The place that a new cell takes: that which was not seen for longest. RL_INVALID where all were
+// seen in this frame.
+RL_FN uint gridVictim(RL_IN(uvec2) key) {
+  uint victim = RL_INVALID;
+  uint least = gFrame.frame + 1u;
+  for (uint i = 0u; i < gParams.grid.probes; i = i + 1u) {
+    uint entry = gridPlace(gParams.grid, key, i);
+    uint seen = gBuffers.seen.data[entry];
+    if (seen < least) {
+      least = seen;
+      victim = entry;
+    }
+  }
+  return victim;
+}

@@ -1,0 +1,21 @@
+// A pass over groups: whose light goes into which cell.
+#include "core/radiance/cell.glsl"
+
+RL_FN void kernelMain(RL_IN(uvec2) row) {
+  uint group = entryAsker(row);
+  if (group == RL_INVALID) return;
+  VisibleSurface point = entryVisible(group);
+  if (point.isHit == 0u) return;
+  uint cell = gBuffers.entries.data[group];
+  if (cell >= RL_GRID_CLAIM) {
+    RL_HEALTH(RL_HEALTH_CACHE_FULL);
+    return;
+  }
+  uvec4 place = RL_PAST_QUAD(gBuffers.cells.places, cell);
+  vec3 nGeoW = unpackNormal(point.nGeoW);
+  if (!radianceFaces(place, nGeoW)) return;
+  uvec4 q1 = RL_PAST_QUAD(gBuffers.points, group * RL_RADIANCE_POINT_QUADS + 1u);
+  uint alphaKey = rngSharedBits(group, RL_DIM_DONOR_V);
+  if (radianceSees(place, point.posW, nGeoW, uintBitsToFloat(q1.w), alphaKey))
+    groupFeeds(gBuffers.feeders, cell, group);
+}

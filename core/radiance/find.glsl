@@ -1,0 +1,2 @@
+#include "core/radiance/cell.glsl"
+#include "core/caches/entries/find.glsl"

@@ -1,0 +1,34 @@
+// Where the cell of a point lies, and whether the point belongs to it.
+#include "core/caches/entries/grid.glsl"
+
+RL_FN float radianceSide(RL_IN(RadianceParams) cells, RL_IN(vec3) posW) {
+  return gridSide(gridLevel(cells.cellPixels * gridPixel(posW)));
+}
+
+RL_FN uvec2 radianceKey(RL_IN(RadianceParams) cells, RL_IN(vec3) posW, RL_IN(vec3) nGeoW) {
+  return gridKey(posW, gridLevel(cells.cellPixels * gridPixel(posW)), gridOctant(nGeoW));
+}
+
+// The place of a cell is a quarter of its side over the point that began it. Who belongs to the
+// cell sees that place: so none reaches through a wall, however thin.
+RL_FN vec3 radiancePlace(RL_IN(RadianceParams) cells, RL_IN(vec3) posW, RL_IN(vec3) nGeoW) {
+  return posW + nGeoW * (0.25f * radianceSide(cells, posW));
+}
+
+RL_FN bool radianceFaces(RL_IN(uvec4) place, RL_IN(vec3) nGeoW) {
+  return dot(unpackNormal(place.w), nGeoW) >= RL_RADIANCE_MIN_DOT;
+}
+
+// A ray from a point of a surface to the place, and what came through.
+RL_FN bool radianceSees(RL_IN(uvec4) place, RL_IN(vec3) posW, RL_IN(vec3) nGeoW, float posError,
+                        uint alphaKey) {
+  vec3 to = recordVec3(place);
+  Ray ray;
+  ray.origin = surfaceOffset(posW, nGeoW, posError, to - posW);
+  ray.dir = to - ray.origin;
+  ray.tMin = 0.0f;
+  ray.tMax = 1.0f;
+  if (!(dot(ray.dir, nGeoW) > 0.0f)) return false;
+  Hit hit;
+  return traceRay(ray, RL_RAY_SHADOW, alphaKey, hit) > 0.99f;
+}

@@ -1,0 +1,45 @@
+// A path from where a ray leads to, to its end: it ends in no cell, as one that did would miss what
+// its cell misses. The same ray, group and frame give the same path.
+#define RL_WALK_STATE RadianceTrace
+
+RL_FN uint walkArrives(RL_INOUT(RadianceTrace) state, RL_IN(Walk) walk, RL_INOUT(Surface) s) {
+  if (state.hasPoint != 0u) return 1u;
+  if (!bsdfIsReusable(s.bsdf, gParams.cells.minAlpha)) return RL_WALK_ENDS;
+  state.hasPoint = 1u;
+  state.sum.radiance = vec3(0.0f, 0.0f, 0.0f);  // what the point emits is not asked of cells
+  state.posW = s.posW;
+  state.nGeoW = s.nGeoW;
+  state.posError = s.posError;
+  state.reflectance = bsdfReflectance(s.bsdf);
+  return 1u;
+}
+
+#include "core/transport/light_sum.glsl"
+
+// `from`, `to`: as in RadianceBuffers::rays.
+RL_FN RadianceTrace radiancePathFrom(RL_IN(uvec4) from, RL_IN(uvec4) to, uint group, uint frame) {
+  RadianceTrace state;
+  state.sum = lightSumNone();
+  state.posW = vec3(0.0f, 0.0f, 0.0f);
+  state.nGeoW = vec3(0.0f, 0.0f, 1.0f);
+  state.reflectance = state.posW;
+  state.posError = -1.0f;
+  state.hasPoint = 0u;
+  if (from.w == 0u) return state;
+  Ray ray;
+  ray.origin = recordVec3(from);
+  ray.dir = recordVec3(to);
+  ray.tMin = 0.0f;
+  ray.tMax = 3.0e38f;
+  Walk walk = walkBegin(rngInit(gFrame.seed ^ 0x1b873593u, group, frame), 0u, ray, from.w);
+  walk.rouletteStart = min(walk.rouletteStart, RL_ROULETTE_EARLIEST);
+  walkOn(state, walk);
+  return state;
+}
+
+// What cells hold: the light that left the point over its reflectance.
+RL_FN vec3 radianceOfPath(RL_IN(RadianceTrace) state) {
+  return vec3(rlSafeDivide(state.sum.radiance.x, state.reflectance.x),
+              rlSafeDivide(state.sum.radiance.y, state.reflectance.y),
+              rlSafeDivide(state.sum.radiance.z, state.reflectance.z));
+}

@@ -1,0 +1,191 @@
+#include "core/radiance/settings.h"
+
+#include "core/radiance/cells.h"
+
+namespace restlab {
+
+namespace {
+
+constexpr const char* kEntries = "radiance_entries";
+constexpr const char* kEvery = "radiance_every";
+constexpr OnlyWith kIsCache = {"secondary", "cache"};
+
+std::vector<ParameterInfo> parameterInfos() {
+  return {
+      {"secondary",
+       std::string("trace"),
+       0,
+       0,
+       {"trace", "cache"},
+       "from the second vertex on a path is traced to its end, or ends in a cell of radiance where "
+       "one serves: biased",
+       "docs/decisions.md, Paths end in cells that see one place"},
+      {kEntries,
+       int64_t{65536},
+       1024,
+       1 << 24,
+       {},
+       "cells of radiance; a point that finds no place is counted (cache_full)",
+       "not swept"},
+      {"radiance_probes",
+       int64_t{8},
+       1,
+       64,
+       {},
+       "places from its hash on where a cell may lie",
+       "as entry_probes"},
+      {kEvery,
+       int64_t{16},
+       1,
+       1024,
+       {},
+       "one of so many pixels side by side has a path traced on from where it asks for a cell, "
+       "each "
+       "frame",
+       "Mueller et al. 2021 train with 3 to 5 % of the paths"},
+      {"radiance_pixels",
+       16.0,
+       0.25,
+       1024.0,
+       {},
+       "side of a cell in pixels, rounded down to a power of two of metres",
+       "docs/decisions.md, Paths end in cells that see one place"},
+      {"radiance_footprint",
+       1.0,
+       0.0,
+       1000.0,
+       {},
+       "spread of a path, in sides of the cell, from which on it may end there: no cell is seen "
+       "sharply",
+       "Mueller et al. 2021, section 3.4, compare it with that of the pixel"},
+      {"radiance_roughness",
+       0.4,
+       0.0,
+       1.0,
+       {},
+       "perceptual roughness below which a surface has no cells",
+       "not swept"},
+      {"radiance_least",
+       int64_t{4},
+       1,
+       1000,
+       {},
+       "samples of a cell before a path may end there",
+       "not swept"},
+      {"radiance_validate",
+       int64_t{8},
+       1,
+       1 << 20,
+       {},
+       "one of so many cells has a path that it keeps traced again each frame; where it finds "
+       "other "
+       "light the cell begins anew (counted: light_changed)",
+       "Ouyang et al. 2021 validate all of their samples every six frames"},
+      {"radiance_cap",
+       int64_t{1024},
+       8,
+       1 << 20,
+       {},
+       "samples that the mean of a cell is of at most: older ones fade",
+       "not swept"},
+  };
+}
+
+uint32_t count(const ParameterMap& parameters, const char* name) {
+  return static_cast<uint32_t>(std::get<int64_t>(parameters.at(name)));
+}
+float number(const ParameterMap& parameters, const char* name) {
+  return static_cast<float>(std::get<double>(parameters.at(name)));
+}
+
+BufferInfo ofCells(const char* name, size_t bytes) {
+  BufferInfo buffer{name, static_cast<uint32_t>(bytes)};
+  buffer.entriesParameter = kEntries;
+  return buffer;
+}
+BufferInfo ofGroups(const char* name, size_t bytes) {
+  BufferInfo buffer{name, static_cast<uint32_t>(bytes)};
+  buffer.onePerParameter = kEvery;
+  return buffer;
+}
+
+PassInfo pass(const std::string& what, const std::string& again = "") {
+  PassInfo info{"radiance_" + what + again, "radiance_" + what, false};
+  info.hasFeatures = what == "trace" || what == "feeders" || what == "validate";
+  const bool isOfCells = what == "clear" || what == "fill" || what == "validate";
+  (isOfCells ? info.entriesParameter : info.onePerParameter) = isOfCells ? kEntries : kEvery;
+  return info;
+}
+
+}  // namespace
+
+const PartInfo& radiancePartInfo() {
+  static const PartInfo info = [] {
+    PartInfo i;
+    i.name = "radiance";
+    i.summary = "cells in space with the radiance that leaves them, in which paths may end";
+    i.parameters = parameterInfos();
+    i.buffers = {ofCells("radiance_keys", 2 * sizeof(uint32_t)),
+                 ofCells("radiance_places", 16),
+                 ofCells("radiance_light", 16),
+                 ofGroups("radiance_rays", size_t{16} * rl::RL_RADIANCE_RAY_QUADS),
+                 ofGroups("radiance_points", size_t{16} * rl::RL_RADIANCE_POINT_QUADS),
+                 ofCells("radiance_kept", size_t{16} * rl::RL_RADIANCE_KEPT_QUADS),
+                 ofCells("radiance_seen", sizeof(uint32_t)),
+                 ofCells("radiance_claims", sizeof(uint32_t)),
+                 ofCells("radiance_feeders", sizeof(uint32_t) * rl::RL_ENTRY_FEEDERS),
+                 ofGroups("radiance_cell_of_group", sizeof(uint32_t))};
+    // Twice: who loses a claim to another has another place to go.
+    i.passes = {pass("clear"),
+                pass("validate"),
+                pass("trace"),
+                pass("find"),
+                pass("claim"),
+                pass("settle"),
+                pass("find_again"),
+                pass("claim", "_again"),
+                pass("settle", "_again"),
+                pass("find_again", "_last"),
+                pass("feeders"),
+                pass("fill")};
+    i.onlyWith = kIsCache;
+    i.hasHistory = true;
+    i.bias = BiasClass::biased;
+    i.whyWithoutEffect = [](const std::string& name, const ParameterMap& p) {
+      const bool isOwn = name.starts_with("radiance_");
+      return isOwn && !isThere(kIsCache, p) ? "secondary is trace" : "";
+    };
+    i.packParameters = [](const std::string&, const ParameterMap& p) {
+      rl::RadianceCellParams out{};
+      out.entries.count = count(p, kEntries);
+      out.entries.feedEvery = count(p, kEvery);
+      out.entries.cap = float(count(p, "radiance_cap"));
+      out.cells = packRadiance(p);
+      out.grid = out.cells.grid;
+      out.validateEvery = count(p, "radiance_validate");
+      return bytesOf(out);
+    };
+    return i;
+  }();
+  return info;
+}
+
+std::vector<std::string> radianceInputs() {
+  return {"radiance_keys", "radiance_places", "radiance_light", "radiance_rays"};
+}
+
+rl::RadianceParams packRadiance(const ParameterMap& p) {
+  rl::RadianceParams out{};
+  if (!isThere(kIsCache, p)) return out;
+  out.count = count(p, kEntries);
+  out.grid = {out.count, count(p, "radiance_probes")};
+  out.every = count(p, kEvery);
+  out.cellPixels = number(p, "radiance_pixels");
+  out.footprint = number(p, "radiance_footprint");
+  const float roughness = number(p, "radiance_roughness");
+  out.minAlpha = roughness * roughness;
+  out.leastCount = float(count(p, "radiance_least"));
+  return out;
+}
+
+}  // namespace restlab

@@ -1,0 +1,48 @@
+// The walk that adds up the light which its path meets: at each vertex one light sample and one
+// BSDF sample, combined by the power heuristic (Veach 1997, chapter 9). The includer defines
+// RL_WALK_STATE, a struct with a LightSum `sum`, and walkArrives() (core/transport/walk.glsl).
+
+RL_FN void walkEscapes(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, RL_IN(vec3) radiance,
+                       float pdfLight) {
+  float weight = pdfLight > 0.0f ? lightMisWeight(walk.pdfBsdf, pdfLight) : 1.0f;
+  state.sum.radiance += walk.throughput * radiance * weight;
+}
+
+RL_FN void walkEmits(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, RL_IN(Surface) s,
+                     RL_IN(Hit) hit, float pdfLight) {
+  float weight = pdfLight > 0.0f ? lightMisWeight(walk.pdfBsdf, pdfLight) : 1.0f;
+  state.sum.radiance += walk.throughput * s.emission * weight;
+}
+
+RL_FN void walkAbsorbs(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, RL_IN(vec3) transmittance) {
+}
+
+RL_FN bool walkLights(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, RL_IN(Rng) rng,
+                      RL_IN(Surface) s, RL_IN(LightSample) light, RL_IN(LightConnection) c) {
+  float pdf;
+  vec3 f = bsdfEvalAndPdf(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW, pdf);
+  if (rlIsBlack(f)) return false;
+  float weight = c.isDelta ? 1.0f : lightMisWeight(c.pdfSolidAngle, pdf);
+  state.sum.unseen = walk.throughput * f * c.emitted * (c.geometry * weight / light.pdf);
+  if (RL_HAS(RL_FEATURE_VOLUME))
+    state.sum.unseen *= exp(-surfaceSigma(s, walk.sigma, c.dirW) * c.distance);
+  return true;
+}
+
+RL_FN void walkSees(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, float transmittance) {
+  state.sum.radiance += state.sum.unseen * transmittance;
+}
+
+RL_FN void walkScatters(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, RL_IN(Surface) s,
+                        RL_IN(BsdfDraw) draw) {}
+
+RL_FN void walkSurvives(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, float factor) {}
+
+#include "core/transport/walk.glsl"
+
+RL_FN LightSum lightSumNone() {
+  LightSum s;
+  s.radiance = vec3(0.0f, 0.0f, 0.0f);
+  s.unseen = vec3(0.0f, 0.0f, 0.0f);
+  return s;
+}

@@ -1,0 +1,71 @@
+// A bright and a dark room with one floor and one ceiling, a wall of a millimetre between them:
+// what a cache learns in one of them it may not tell in the other.
+#include <gtest/gtest.h>
+
+#include "core/scene/builtin_builder.h"
+#include "core/scene/builtin_mesh.h"
+#include "core/scene/compiled_scene.h"
+#include "tests/bias/test_cameras.h"
+#include "tests/conformance/variants.h"
+
+namespace restlab::conformance {
+namespace {
+
+std::shared_ptr<const CompiledScene> twoRooms() {
+  builtin::SceneBuilder scene("two-rooms");
+  const uint32_t white = scene.addMaterial("white", builtin::lambert(glm::vec3(0.8f)));
+  const uint32_t lamp = scene.addMaterial("lamp", builtin::lamp(glm::vec3(20.0f)));
+  scene.add(builtin::insideOut(builtin::box("rooms", {-2.0, 0.0, -1.0}, {2.0, 2.0, 1.0})), white);
+  scene.add(builtin::box("wall", {-0.0005, -0.1, -1.1}, {0.0005, 2.1, 1.1}), white);
+  scene.add(builtin::quad("lamp", {0.2, 1.99, -0.5}, {0.6, 0.0, 0.0}, {0.0, 0.0, 1.0}), lamp);
+  scene.addCamera("front", {0.9, 1.0, 0.9}, {0.0, 0.0, -0.3}, 60.0);
+  return CompiledScene::build(scene.finish());
+}
+
+double meanOf(const Image& image) {
+  double sum = 0.0;
+  for (const glm::vec3& p : image.pixels) sum += double(p.x + p.y + p.z) / 3.0;
+  return sum / double(image.pixels.size());
+}
+
+class ThinWall : public ::testing::TestWithParam<Variant> {};
+
+TEST_P(ThinWall, TheDarkRoomStaysDark) {
+  const auto scene = twoRooms();
+  SessionConfig config = configOf(GetParam(), 64, 48);
+  // Cells and discs that reach through the wall.
+  const ParameterMap wide = {{"voxel_pixels", 32.0},      {"surflet_pixels", 24.0},
+                             {"entry_spread", 4.0},       {"radiance_pixels", 64.0},
+                             {"radiance_footprint", 0.1}, {"radiance_least", int64_t{1}}};
+  for (const ParameterInfo& p : findMethod(config).parameters()) {
+    if (wide.contains(p.name)) config.parameters[p.name] = wide.at(p.name);
+  }
+  Session session(scene, config);
+  double bright = 0.0, dark = 0.0;
+  for (int turn = 0; turn < 4; ++turn) {
+    for (const double side : {1.0, -1.0}) {
+      session.setCamera(bias::lookAt({0.9 * side, 1.0, 0.9}, {0.02 * side, 0.0, -0.3}, 60.0));
+      for (int i = 0; i < 12; ++i) {
+        session.frame();
+        (side > 0.0 ? bright : dark) += meanOf(session.radiance());
+      }
+    }
+  }
+  // The biased mode takes the last frame's sample as visible, also where the camera came through
+  // the wall: that is what it declares, and what its own pixels' histories do without any cache.
+  const bool assumesVisible = GetParam().mode == "biased";
+  EXPECT_GT(bright, 1.0);
+  EXPECT_LT(dark, (assumesVisible ? 1.0e-2 : 1.0e-4) * bright);
+}
+
+std::vector<Variant> variantsWithoutDenoiser() {
+  std::vector<Variant> all = allVariants();
+  std::erase_if(all, [](const Variant& v) { return v.denoiser != "none"; });
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, ThinWall, ::testing::ValuesIn(variantsWithoutDenoiser()),
+                         VariantName());
+
+}  // namespace
+}  // namespace restlab::conformance

@@ -1,0 +1,7 @@
+#pragma GCC diagnostic ignored "-Wunused-parameter"  // one signature for every payload
+#include "tests/unit/rng_audit.h"
+
+#define RL_KERNEL_NAME radiance_trace
+#define RL_KERNEL_HEADER "core/radiance/cells.h"
+#define RL_KERNEL_FILE "core/radiance/trace.glsl"
+#include "core/backend/cpu_kernel.inl"
