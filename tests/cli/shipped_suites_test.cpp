@@ -87,7 +87,11 @@ TEST_P(ShippedSuite, IsPlannedWhole) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedSuite, ::testing::ValuesIn(shippedSuites()),
-                         [](const auto& suite) { return suite.param; });
+                         [](const auto& suite) {
+                           std::string name = suite.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 // Every file below a folder, relative to it; keys of jobs and references as KEY.
 std::set<std::string> filesBelow(const fs::path& folder) {
