@@ -221,7 +221,9 @@ bool isThere(const OnlyWith& only, const ParameterMap& resolved) {
   if (only.parameter == nullptr) return true;
   const auto found = resolved.find(only.parameter);
   if (found == resolved.end()) return false;
-  return only.value == nullptr || std::get<std::string>(found->second) == only.value;
+  if (only.value != nullptr) return std::get<std::string>(found->second) == only.value;
+  const int64_t* number = std::get_if<int64_t>(&found->second);
+  return number == nullptr || *number != 0;
 }
 
 size_t bufferBytes(const BufferInfo& buffer, const ParameterMap& parameters, size_t pixels) {

@@ -32,6 +32,14 @@ using ParameterMap = std::map<std::string, ParameterValue>;
 // How far the mean over independent runs is from the truth.
 enum class BiasClass { unbiased, consistent, biased };
 
+// Of what not every method has: it is there where the method has the parameter, with this value if
+// one is named; otherwise, of a number, with another than 0.
+struct OnlyWith {
+  const char* parameter = nullptr;  // null: always
+  const char* value = nullptr;      // of a parameter that is a string
+};
+bool isThere(const OnlyWith& only, const ParameterMap& resolved);
+
 // A buffer of as many entries as there are pixels, or as a parameter says.
 struct BufferInfo {
   std::string name;  // unique among the parts of a method
@@ -44,14 +52,6 @@ struct BufferInfo {
   const char* onePerParameter = nullptr;
   const char* entriesParameter = nullptr;
 };
-
-// Of what not every method has: it is there where the method has the parameter, with this value if
-// one is named.
-struct OnlyWith {
-  const char* parameter = nullptr;  // null: always
-  const char* value = nullptr;      // of a parameter that is a string; null: any
-};
-bool isThere(const OnlyWith& only, const ParameterMap& resolved);
 
 struct PassInfo {
   std::string name;             // as in the time columns
@@ -122,6 +122,14 @@ struct PartInfo {
 
 // Of a buffer, with resolved parameters.
 size_t bufferBytes(const BufferInfo& buffer, const ParameterMap& parameters, size_t pixels);
+
+// For packParameters: an integer and a number of the resolved parameters, as kernels have them.
+inline uint32_t uintOf(const ParameterMap& parameters, const char* name) {
+  return static_cast<uint32_t>(std::get<int64_t>(parameters.at(name)));
+}
+inline float floatOf(const ParameterMap& parameters, const char* name) {
+  return static_cast<float>(std::get<double>(parameters.at(name)));
+}
 
 // For packParameters: the bytes of a Params struct.
 template <typename T>

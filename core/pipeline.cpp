@@ -34,7 +34,7 @@ class Copies {
 
 Pipeline::Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const std::string& mode,
                    const ParameterMap& parameters, uint32_t wanted, size_t pixels)
-    : backend_(backend), pixels_(pixels) {
+    : backend_(backend), pixels_(pixels), parameters_(parameters) {
   for (const PartInfo* part : parts) {
     Stage stage;
     stage.info = part;
@@ -87,6 +87,7 @@ bool Pipeline::setParameters(const std::string& mode, const ParameterMap& parame
       if (bytesOf(*stage.info, stage.info->buffers[b], parameters) != stage.bytes[b]) return false;
     }
   }
+  parameters_ = parameters;
   for (Stage& stage : stages_) pack(stage, mode, parameters);
   return true;
 }
@@ -153,15 +154,13 @@ size_t Pipeline::bytesPerPixel() const {
 }
 
 size_t Pipeline::bytesPerPixelOf(size_t pixels) const {
-  size_t perPixel = 0, shared = 0;
+  size_t sum = 0;
   for (const Stage& stage : stages_) {
     for (size_t b = 0; b < stage.bytes.size(); ++b) {
-      const bool isShared = stage.info->buffers[b].entriesParameter != nullptr;
-      (isShared ? shared : perPixel) +=
-          isShared ? stage.bytes[b] : (stage.bytes[b] + pixels_ - 1) / pixels_;
+      if (stage.bytes[b] > 0) sum += bufferBytes(stage.info->buffers[b], parameters_, pixels);
     }
   }
-  return perPixel + (shared + pixels - 1) / pixels;
+  return (sum + pixels - 1) / pixels;
 }
 
 void Pipeline::allocate() {

@@ -80,6 +80,7 @@ class Pipeline {
   Backend& backend_;
   std::vector<Stage> stages_;
   size_t pixels_ = 0;
+  ParameterMap parameters_;
   uint32_t used_ = 0;
   std::deque<std::vector<bool>> ran_;  // by pass, of the frames under way
 };

@@ -47,6 +47,8 @@ const uint RL_RADIANCE_POINT_QUADS = 2u;
 // The ray as in RadianceBuffers::rays, with the frame in its last word; what the path found over
 // the reflectance, and the group.
 const uint RL_RADIANCE_KEPT_QUADS = 3u;
+// Frames within which a cell was seen whose path is traced again.
+const uint RL_RADIANCE_RECENT = 64u;
 // Largest difference of two results of one path over their sum.
 const float RL_RADIANCE_SAME = 1.0e-3f;
 

@@ -5,12 +5,15 @@
 RL_FN uint walkArrives(RL_INOUT(RadianceTrace) state, RL_IN(Walk) walk, RL_INOUT(Surface) s) {
   if (state.hasPoint != 0u) return 1u;
   if (!bsdfIsReusable(s.bsdf, gParams.cells.minAlpha)) return RL_WALK_ENDS;
+  // Of a colour that a surface does not reflect, it tells nothing.
+  vec3 reflectance = bsdfReflectance(s.bsdf);
+  if (!(min(reflectance.x, min(reflectance.y, reflectance.z)) > 0.0f)) return RL_WALK_ENDS;
   state.hasPoint = 1u;
   state.sum.radiance = vec3(0.0f, 0.0f, 0.0f);  // what the point emits is not asked of cells
   state.posW = s.posW;
   state.nGeoW = s.nGeoW;
   state.posError = s.posError;
-  state.reflectance = bsdfReflectance(s.bsdf);
+  state.reflectance = reflectance;
   return 1u;
 }
 

@@ -49,7 +49,7 @@ std::vector<ParameterInfo> parameterInfos() {
        1024.0,
        {},
        "side of a cell in pixels, rounded down to a power of two of metres",
-       "docs/decisions.md, Paths end in cells that see one place"},
+       "not swept"},
       {"radiance_footprint",
        1.0,
        0.0,
@@ -64,7 +64,8 @@ std::vector<ParameterInfo> parameterInfos() {
        1.0,
        {},
        "perceptual roughness below which a surface has no cells",
-       "not swept"},
+       "not swept",
+       true},
       {"radiance_least",
        int64_t{4},
        1,
@@ -89,13 +90,6 @@ std::vector<ParameterInfo> parameterInfos() {
        "samples that the mean of a cell is of at most: older ones fade",
        "not swept"},
   };
-}
-
-uint32_t count(const ParameterMap& parameters, const char* name) {
-  return static_cast<uint32_t>(std::get<int64_t>(parameters.at(name)));
-}
-float number(const ParameterMap& parameters, const char* name) {
-  return static_cast<float>(std::get<double>(parameters.at(name)));
 }
 
 BufferInfo ofCells(const char* name, size_t bytes) {
@@ -153,16 +147,16 @@ const PartInfo& radiancePartInfo() {
     i.bias = BiasClass::biased;
     i.whyWithoutEffect = [](const std::string& name, const ParameterMap& p) {
       const bool isOwn = name.starts_with("radiance_");
-      return isOwn && !isThere(kIsCache, p) ? "secondary is trace" : "";
+      return isOwn && !endsPaths(p) ? "secondary is trace" : "";
     };
     i.packParameters = [](const std::string&, const ParameterMap& p) {
       rl::RadianceCellParams out{};
-      out.entries.count = count(p, kEntries);
-      out.entries.feedEvery = count(p, kEvery);
-      out.entries.cap = float(count(p, "radiance_cap"));
+      out.entries.count = uintOf(p, kEntries);
+      out.entries.feedEvery = uintOf(p, kEvery);
+      out.entries.cap = float(uintOf(p, "radiance_cap"));
       out.cells = packRadiance(p);
       out.grid = out.cells.grid;
-      out.validateEvery = count(p, "radiance_validate");
+      out.validateEvery = uintOf(p, "radiance_validate");
       return bytesOf(out);
     };
     return i;
@@ -170,21 +164,23 @@ const PartInfo& radiancePartInfo() {
   return info;
 }
 
+bool endsPaths(const ParameterMap& parameters) { return isThere(kIsCache, parameters); }
+
 std::vector<std::string> radianceInputs() {
   return {"radiance_keys", "radiance_places", "radiance_light", "radiance_rays"};
 }
 
 rl::RadianceParams packRadiance(const ParameterMap& p) {
   rl::RadianceParams out{};
-  if (!isThere(kIsCache, p)) return out;
-  out.count = count(p, kEntries);
-  out.grid = {out.count, count(p, "radiance_probes")};
-  out.every = count(p, kEvery);
-  out.cellPixels = number(p, "radiance_pixels");
-  out.footprint = number(p, "radiance_footprint");
-  const float roughness = number(p, "radiance_roughness");
+  if (!endsPaths(p)) return out;
+  out.count = uintOf(p, kEntries);
+  out.grid = {out.count, uintOf(p, "radiance_probes")};
+  out.every = uintOf(p, kEvery);
+  out.cellPixels = floatOf(p, "radiance_pixels");
+  out.footprint = floatOf(p, "radiance_footprint");
+  const float roughness = floatOf(p, "radiance_roughness");
   out.minAlpha = roughness * roughness;
-  out.leastCount = float(count(p, "radiance_least"));
+  out.leastCount = float(uintOf(p, "radiance_least"));
   return out;
 }
 

@@ -12,6 +12,8 @@ namespace restlab {
 // The part that keeps the cells: there where the parameter `secondary` is "cache". Its passes run
 // before the integrator's.
 const PartInfo& radiancePartInfo();
+// Do paths end in cells, with these resolved parameters?
+bool endsPaths(const ParameterMap& parameters);
 // The buffers that an integrator whose paths end in cells has among its optional inputs, in the
 // order of rl::RadianceBuffers.
 std::vector<std::string> radianceInputs();

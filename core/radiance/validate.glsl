@@ -7,6 +7,8 @@
 RL_FN void kernelMain(RL_IN(uvec2) row) {
   uint cell = row.y * RL_ENTRY_ROW + row.x;
   if (cell >= gParams.entries.count || !radianceIsDue(cell)) return;
+  // Cells that no point belongs to any more wait until one does.
+  if (gBuffers.seen.data[cell] + RL_RADIANCE_RECENT < gFrame.frame) return;
   uint at = cell * RL_RADIANCE_KEPT_QUADS;
   uvec4 from = RL_PAST_QUAD(gBuffers.kept, at);
   if (from.w == 0u) return;
@@ -18,6 +20,7 @@ RL_FN void kernelMain(RL_IN(uvec2) row) {
   float tolerance = RL_RADIANCE_SAME * (rlMax3(before) + rlMax3(now));
   if (!rlIsFinite3(now) || distance(before, now) <= tolerance) return;
   RL_HEALTH(RL_HEALTH_LIGHT_CHANGED);
-  RL_WRITE_QUAD(gBuffers.cells.light, cell, recordQuad(now, floatBitsToUint(1.0f)));
+  // With nothing: the kept path was chosen for its light, and no mean may begin with it.
+  RL_WRITE_QUAD(gBuffers.cells.light, cell, uvec4(0u, 0u, 0u, 0u));
   RL_WRITE_QUAD(gBuffers.kept, at + 2u, recordQuad(now, found.w));
 }

@@ -415,8 +415,19 @@ glm::dvec3 CompiledScene::origin() const { return impl_->origin; }
 
 bool CompiledScene::differsInLightAlone(const CompiledScene& other) const {
   const Impl &a = *impl_, &b = *other.impl_;
+  // A material that one of its meshes shines with may have become two.
+  const auto isSameInstance = [&](const rl::Instance& of, const rl::Instance& with) {
+    rl::Instance there = with;
+    there.material = of.material;
+    rl::Material here = a.materials[of.material], its = b.materials[with.material];
+    its.emission = here.emission;
+    return std::memcmp(&of, &there, sizeof of) == 0 && std::memcmp(&here, &its, sizeof here) == 0;
+  };
   return a.features == b.features && a.origin == b.origin && a.positions == b.positions &&
-         a.triangles == b.triangles && a.instances.size() == b.instances.size() &&
+         a.normals == b.normals && a.uvs == b.uvs && a.colors == b.colors &&
+         a.triangles == b.triangles && a.texels == b.texels &&
+         std::equal(a.instances.begin(), a.instances.end(), b.instances.begin(), b.instances.end(),
+                    isSameInstance) &&
          a.lights.lights.size() == b.lights.lights.size() &&
          a.data.environmentWidth == b.data.environmentWidth &&
          a.data.environmentHeight == b.data.environmentHeight;

@@ -150,7 +150,8 @@ Json frameJson(const Session& session, const FrameRates& rates, const EmbreeRate
                {"embree_alone_share_of_time", alone / seconds},
                {"passes", passesJson(session, rates, roofs)},
                {"bytes_per_pixel", session.bytesPerPixel()},
-               {"mib_at_1920x1080", double(session.bytesPerPixel()) * 1920.0 * 1080.0 / (1 << 20)},
+               {"mib_at_1920x1080",
+                double(session.bytesPerPixelOf(1920, 1080)) * 1920.0 * 1080.0 / (1 << 20)},
                {"buffers", buffers}};
   for (const auto& [key, value] : settingValues(config)) json[key] = value;
   return json;

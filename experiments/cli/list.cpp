@@ -9,6 +9,7 @@
 #include "core/backend/backend.h"
 #include "core/cache.h"
 #include "core/image/metrics.h"
+#include "core/radiance/settings.h"
 #include "core/denoiser.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/run/files.h"
@@ -63,11 +64,16 @@ Json integrators() {
     for (const ModeInfo& mode : info->modes) {
       modes.push_back({{"name", mode.name}, {"bias", biasName(mode.bias)}, {"why", mode.why}});
     }
+    Json parameters = parametersJson(*info);
+    if (info->endsPaths) {
+      for (Json& parameter : parametersJson(radiancePartInfo()))
+        parameters.push_back(std::move(parameter));
+    }
     all.push_back({{"name", info->name},
                    {"summary", info->summary},
                    {"uses_cache", info->usesCache},
                    {"modes", modes},
-                   {"parameters", parametersJson(*info)},
+                   {"parameters", parameters},
                    {"layers", layersJson(*info)}});
   }
   return all;

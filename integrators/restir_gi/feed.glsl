@@ -14,6 +14,7 @@
 #include "core/caches/entries/entries.glsl"
 #include "core/caches/entries/surface.glsl"
 #include "integrators/restir_gi/store.glsl"
+#include "integrators/restir_gi/change.glsl"
 
 #define RL_REUSE_STATE GiWithEntries
 
@@ -104,18 +105,21 @@ RL_FN void kernelMain(RL_IN(uvec2) row) {
   if (entry >= gParams.entries.count) return;
   GiWithEntries s;
   s.slot = entry;
-  bool isFed = false;
+  uint first = RL_INVALID;
   for (uint k = 0u; k < RL_ENTRY_FEEDERS; k = k + 1u) {
     uint ticket = gBuffers.feeders.data[entry * RL_ENTRY_FEEDERS + k];
     s.id[k] = ticket != 0u ? entryOfTicket(ticket) : RL_INVALID;
-    if (ticket != 0u) isFed = true;
+    if (ticket != 0u && first == RL_INVALID) first = k;
   }
-  if (!isFed) return;
+  if (first == RL_INVALID) return;
   Anchor anchor = anchorRead(gBuffers.anchors, entry);
   PathReservoir here;
   here.path.suffix = pathNoSuffix();
   giReadEntry(entry, here);
-  here.state.confidence = reuseCapped(here.state.confidence, gParams.entries.cap);
+  // As the first of those who feed it has noticed.
+  float kept = giKept(entryOfferer(s.id[first]));
+  here.state.confidence = reuseCapped(here.state.confidence, gParams.entries.cap) * kept;
+  if (!(kept > 0.0f)) anchor = anchorNone();
   bool isNew = anchor.surface.isHit == 0u;
   if (isNew) here.state = reservoirEmpty();
   bool hasBegun = giAskOffers(s, here, anchor);

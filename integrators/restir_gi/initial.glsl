@@ -15,13 +15,15 @@
 #include "integrators/restir_gi/store.glsl"
 #include "integrators/restir_gi/over_time.glsl"
 #include "integrators/restir_gi/age.glsl"
+#include "integrators/restir_gi/change.glsl"
 
 // The merge over time of a still view: the shift is the identity, for every surface and path. Both
 // are samples of one pixel, with one target: weights by confidence are exact.
-RL_FN void giMergeStillView(uint slot, RL_INOUT(PathReservoir) r) {
+RL_FN void giMergeStillView(uint slot, float kept, RL_INOUT(PathReservoir) r) {
   ReservoirState donor = giReadStateBefore(slot);
   GiOverTime t;
   giBeginOverTime(t, donor, slot);
+  t.donor.confidence *= kept;
   t.ours = mergeUnshifted(r.state);
   t.theirs = mergeUnshifted(donor);
   t.ratio = vec3(1.0f, 1.0f, 1.0f);
@@ -41,11 +43,12 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   PathReservoir r = pathResample(p, rngInit(gFrame.seed, slot, gFrame.frame));
   vec3 estimate = r.state.F * r.state.W + r.state.residual;
   vec3 own = p.ownLight + p.inView;
-  uint taken = 0u;
+  giRemember(slot, giLuminance(p, r));
+  GiOwnCount count = giOwnCount(0u);
   if (gFrame.stillFrames == 0u) {
     uvec4 inView = RL_PAST_QUAD(gBuffers.own, slot);
-    taken = inView.w;
-    if (taken != 0u) own = p.ownLight + recordVec3(inView);
+    count = giOwnCount(inView.w);
+    if (count.taken != 0u) own = p.ownLight + recordVec3(inView);
   }
   if (!rlIsFinite3(own) || !rlIsFinite3(estimate)) {
     RL_HEALTH(RL_HEALTH_NONFINITE);
@@ -55,13 +58,20 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   if (gParams.entries.count != 0u && entryOfferer(entryGroup(slot)) == slot)
     giWriteOffer(entryGroup(slot), r);
   if (gParams.temporalReuse != 0u && gFrame.stillFrames != 0u) {
+    float kept = giKept(slot);
     uvec4 before = RL_PAST_QUAD(gBuffers.ownBefore, slot);
-    taken = before.w;
+    count = giOwnCount(before.w);
+    if (kept < 1.0f) {
+      count.taken = 0u;
+      count.frames = uint(float(count.frames) * kept);
+    }
     // The first frame had this frame's film sample already.
-    float weight = gFrame.stillFrames < taken ? 0.0f : 1.0f / giAge();
+    float weight = 1.0f / (min(float(count.frames), gParams.confidenceCap) + 1.0f);
+    if (gFrame.stillFrames < count.taken) weight = 0.0f;
     own = recordVec3(before) * (1.0f - weight) + own * weight;
-    giMergeStillView(slot, r);
+    if (kept > 0.0f) giMergeStillView(slot, kept, r);
   }
   giWriteNow(slot, r);
-  RL_WRITE_QUAD(gBuffers.own, slot, recordQuad(own, taken));
+  count.frames = min(count.frames + 1u, 0xffffffu);
+  RL_WRITE_QUAD(gBuffers.own, slot, recordQuad(own, giOwnWord(count)));
 }

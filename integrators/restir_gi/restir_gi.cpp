@@ -36,6 +36,8 @@ namespace restlab {
 
 namespace {
 
+constexpr const char* kValidateEvery = "validate_every";
+
 std::vector<ParameterInfo> parameterInfos() {
   std::vector<ParameterInfo> infos = {
       {"confidence_cap",
@@ -105,6 +107,21 @@ std::vector<ParameterInfo> parameterInfos() {
        {},
        "in frames of a new view, the pixel of the last frame that showed the surface is a donor",
        "Ouyang et al. 2021; false leaves what a cache in world space does alone"},
+      {kValidateEvery,
+       int64_t{0},
+       0,
+       4096,
+       {},
+       "one of so many pixels traces its path of the last frame again each frame; where it finds "
+       "other light, histories around it forget; 0: none does",
+       "Schied et al. 2018 trace one of nine; measured: docs/caches.md"},
+      {"validate_response",
+       4.0,
+       0.0,
+       1000.0,
+       {},
+       "share of a history that is forgotten, over the share of the light around that has changed",
+       "not swept"},
       {"roughness_limit",
        0.2,
        0.0,
@@ -206,6 +223,10 @@ std::vector<std::byte> pack(const std::string& mode, const ParameterMap& p) {
   out.path.maxJacobian = static_cast<float>(get<double>(p, "max_jacobian"));
   out.maxReflectanceRatio = static_cast<float>(get<double>(p, "max_reflectance_ratio"));
   out.partners = packPartners(p);
+  // Cells of radiance change without any change of the light.
+  if (out.temporalReuse != 0u && !endsPaths(p))
+    out.change.every = static_cast<uint32_t>(get<int64_t>(p, "validate_every"));
+  out.change.response = static_cast<float>(get<double>(p, "validate_response"));
   out.entries = packEntries(p);
   out.cells = packRadiance(p);
   return bytesOf(out);
@@ -220,11 +241,15 @@ std::string whyWithoutEffect(const std::string& name, const ParameterMap& p) {
   const int64_t neighbours = get<int64_t>(p, "spatial_neighbours");
   const double young = get<double>(p, "young_frames");
   const double oldest = isOverTime ? get<double>(p, "confidence_cap") + 1.0 : 1.0;
-  if (isOneOf(name,
-              {"confidence_cap", "moving_confidence_cap", "donor_noise", "mode", "reproject"}) &&
+  if (isOneOf(name, {"confidence_cap", "moving_confidence_cap", "donor_noise", "mode", "reproject",
+                     "validate_every"}) &&
       !isOverTime)
     return "temporal is false";
-  if (name == "mode" && !get<bool>(p, "reproject")) return "reproject is false";
+  if (name == "mode" && !get<bool>(p, "reproject") && !p.contains(kEntryCount))
+    return "reproject is false";
+  if (name == "validate_every" && endsPaths(p)) return "secondary is cache";
+  if (name == "validate_response" && get<int64_t>(p, "validate_every") == 0)
+    return "validate_every is 0";
   if (name == "moving_confidence_cap" &&
       get<double>(p, name.c_str()) > get<double>(p, "confidence_cap"))
     return "confidence_cap is smaller";
@@ -337,12 +362,18 @@ const IntegratorInfo& restir_giIntegratorInfo() {
         {"entry_suffixes", 16 * rl::RL_PATH_SUFFIX_QUADS, rl::RL_FEATURE_GLOSSY, -1},
         {"offers", 16 * rl::RL_PATH_RESERVOIR_QUADS, 0, -1},
         {"offer_suffixes", 16 * rl::RL_PATH_SUFFIX_QUADS, rl::RL_FEATURE_GLOSSY, -1},
+        {"replay_found", sizeof(uint32_t), 0, -1},
+        {"replay_differences", 2 * sizeof(uint32_t), 0, -1},
+        {"replay_changes", sizeof(uint32_t), 0, -1},
     };
     for (BufferInfo& buffer : i.buffers) {
       if (buffer.name.starts_with("entry_")) buffer.entriesParameter = kEntryCount;
       if (buffer.name.starts_with("offer")) buffer.onePerParameter = "feed_every";
+      if (buffer.name.starts_with("replay_")) buffer.onePerParameter = kValidateEvery;
     }
-    i.passes = {{"lights_in_view", "restir_gi_lights_in_view", true, true},
+    i.passes = {{"replay", "restir_gi_replay"},
+                {"changes", "restir_gi_changes", false},
+                {"lights_in_view", "restir_gi_lights_in_view", true, true},
                 {"initial", "restir_gi_initial"},
                 {"temporal", "restir_gi_temporal", true, true},
                 {"recall", "restir_gi_recall", true, true},
@@ -353,6 +384,8 @@ const IntegratorInfo& restir_giIntegratorInfo() {
     for (PassInfo& pass : i.passes) {
       if (pass.name == "recall" || pass.name == "feed") pass.onlyWith.parameter = kEntryCount;
       if (pass.name == "feed") pass.entriesParameter = kEntryCount;
+      if (pass.name == "replay" || pass.name == "changes")
+        pass.onlyWith.parameter = pass.onePerParameter = kValidateEvery;
     }
     i.whyWithoutEffect = whyWithoutEffect;
     i.packParameters = pack;

@@ -39,6 +39,21 @@ struct GiWithEntries {
   Rng rng;
 };
 
+// What a pixel's own light is the average of.
+struct GiOwnCount {
+  uint taken;   // film samples of which lights_in_view took light in view when the view was new
+  uint frames;  // of this view, but for those whose light is forgotten
+};
+
+// How histories notice that the light of the scene has changed.
+struct GiChangeParams {
+  uint every;      // one of so many pixels traces its last path again; 0: none
+  float response;  // share of a history that is forgotten, over the share of light that has changed
+};
+// Largest difference of two results of one path over their sum.
+const float RL_GI_SAME = 1.0e-3f;
+const uint RL_GI_CHANGE_ROWS = 12u;  // of pixels, above and below, over which changes are averaged
+
 struct RestirGiBuffers {
   QuadRef visible;  // core/dialect/visible.h
   QuadRef visibleBefore;
@@ -48,9 +63,8 @@ struct RestirGiBuffers {
   UintRef feeders;
   RadianceBuffers cells;
   Vec3Ref radiance;
-  // One quad: light that no other pixel could use, averaged over time in a still view; of how many
-  // film samples lights_in_view took light in view when the view was new, 0 where it did not. It
-  // leaves that light here for the initial pass.
+  // One quad: light that no other pixel could use, averaged over time in a still view, and its
+  // GiOwnCount. lights_in_view leaves its light here for the initial pass.
   QuadRef own;
   QuadRef ownBefore;
   QuadRef reservoirs;  // of this frame: initial, then temporal
@@ -67,6 +81,12 @@ struct RestirGiBuffers {
   QuadRef entrySuffixes;
   QuadRef offers;
   QuadRef offerSuffixes;
+  // Of groups of change.every pixels (integrators/restir_gi/change.glsl): luminance of the path of
+  // the one whose turn it was; by how much it differed when it was traced again, and the greater of
+  // both; the share of the light around that has changed.
+  UintRef found;
+  UintRef differences;
+  UintRef changes;
 };
 
 struct RestirGiParams {
@@ -87,6 +107,7 @@ struct RestirGiParams {
   PartnerParams partners;
   EntryParams entries;
   RadianceParams cells;
+  GiChangeParams change;
 };
 
 RL_NAMESPACE_END

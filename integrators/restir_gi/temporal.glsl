@@ -12,6 +12,8 @@
 #include "core/resampling/reproject.glsl"
 #include "integrators/restir_gi/store.glsl"
 #include "integrators/restir_gi/over_time.glsl"
+#include "core/caches/entries/groups.glsl"
+#include "integrators/restir_gi/change.glsl"
 #include "integrators/restir_gi/ratio.glsl"
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
@@ -26,7 +28,10 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   giReadNow(slot, here);
   giReadBefore(before, donor);
   GiOverTime t;
+  float kept = giKept(slot);
+  if (!(kept > 0.0f)) return;
   giBeginOverTime(t, donor.state, slot);
+  t.donor.confidence *= kept;
   t.ratio = giRatio(visibleRead(gBuffers.visibleBefore, gFrame.previousCamera, before), slot);
   // The pixel's own sample as the last frame sees it, then the last frame's as the pixel sees it.
   PathShift shift =

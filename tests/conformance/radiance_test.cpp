@@ -27,7 +27,8 @@ SessionConfig boxConfig(const char* secondary) {
 struct Measured {
   glm::dvec3 mean{0.0};
   std::vector<glm::dvec3> pixels;
-  double rays = 0.0;  // of a frame
+  std::vector<double> variances;  // of a frame, all channels
+  double rays = 0.0;              // of a frame
 };
 
 Measured measure(Session& session, uint32_t frames) {
@@ -37,9 +38,14 @@ Measured measure(Session& session, uint32_t frames) {
     m.rays += double(stats.raysPath + stats.raysShadow) / frames;
     const Image& image = session.radiance();
     m.pixels.resize(image.pixels.size());
-    for (size_t p = 0; p < m.pixels.size(); ++p)
-      m.pixels[p] += glm::dvec3(image.pixels[p]) / double(frames);
+    m.variances.resize(image.pixels.size());
+    for (size_t p = 0; p < m.pixels.size(); ++p) {
+      const glm::dvec3 pixel(image.pixels[p]);
+      m.pixels[p] += pixel / double(frames);
+      m.variances[p] += glm::dot(pixel, pixel) / double(frames);
+    }
   }
+  for (size_t p = 0; p < m.pixels.size(); ++p) m.variances[p] -= glm::dot(m.pixels[p], m.pixels[p]);
   for (const glm::dvec3& p : m.pixels) m.mean += p / double(m.pixels.size());
   return m;
 }
@@ -52,6 +58,13 @@ TEST(Radiance, PathsThatEndKeepTheEnergyAndSaveRays) {
     ending.frames(kWarmUp);
     const Measured a = measure(whole, 192), b = measure(ending, 192);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(b.mean[c] / a.mean[c], 1.0, 0.06) << c;
+    // Each mean has 1/192 of the error of a frame: what their difference has beyond that is bias.
+    double difference = 0.0, error = 0.0;
+    for (size_t p = 0; p < a.pixels.size(); ++p) {
+      difference += glm::dot(b.pixels[p] - a.pixels[p], b.pixels[p] - a.pixels[p]);
+      error += a.variances[p];
+    }
+    EXPECT_LT(difference, 0.25 * error);
     EXPECT_LT(b.rays, 0.7 * a.rays);
   }
 }
@@ -98,7 +111,11 @@ TEST(Radiance, CellsForgetLightThatChanged) {
     SessionConfig config = boxConfig("cache");
     config.parameters["radiance_validate"] = validateEvery;
     Session session(bright, config);
+    const SceneCamera start = bright->source().cameras.front();
     for (int i = 0; i < 96; ++i) {
+      SceneCamera camera = start;
+      if (i >= 32 && i < 64) camera.cameraToWorld[3] += 0.01 * (i - 31) * start.cameraToWorld[0];
+      session.setCamera(camera);
       const FrameStats stats = session.frame();
       EXPECT_EQ(stats.health.counts[rl::RL_HEALTH_LIGHT_CHANGED], 0u) << "frame " << i;
     }
@@ -115,6 +132,23 @@ TEST(Radiance, CellsForgetLightThatChanged) {
   const double right = measure(truth, 192).mean.y;
   EXPECT_NEAR(energyAfter(4) / right, 1.0, 0.15);
   EXPECT_GT(energyAfter(1 << 20) / right, 1.3) << "the check sees what is remembered";
+}
+
+// One lamp of several, which many paths do not carry, goes off and on again.
+TEST(Radiance, OneLampOfSeveralIsNoticed) {
+  SessionConfig config = boxConfig("cache");
+  config.parameters["radiance_validate"] = int64_t{4};
+  const auto lit = bias::builtinScene("glossy-gallery");
+  const auto partly =
+      CompiledScene::build(withLightFactor(makeBuiltinScene("glossy-gallery"), "light-large", 0.0));
+  Session session(lit, config);
+  session.frames(96);
+  for (const auto& scene : {partly, lit}) {
+    session.setScene(scene);
+    session.frames(48);
+    Session truth(scene, boxConfig("trace"));
+    EXPECT_NEAR(measure(session, 96).mean.y / measure(truth, 192).mean.y, 1.0, 0.1);
+  }
 }
 
 TEST(Radiance, NothingIsKeptWherePathsAreTraced) {

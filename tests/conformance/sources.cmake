@@ -2,6 +2,7 @@
 set(RL_CONFORMANCE_TESTS
   conformance/analytic_scenes_test.cpp
   conformance/cache_entries_test.cpp
+  conformance/changing_light_test.cpp
   conformance/cache_run.cpp
   conformance/determinism_test.cpp
   conformance/health_test.cpp

@@ -190,6 +190,7 @@ TEST(RngAudit, TheRecordFindsARepeatedDraw) {
 const std::map<std::string, rl::CpuKernelEntry> kRestirKernels = {
     {"lights_in_view", rl::kernel_restir_gi_lights_in_view_audited},
     {"initial", rl::kernel_restir_gi_initial_audited},
+    {"replay", rl::kernel_restir_gi_replay_audited},
     {"temporal", rl::kernel_restir_gi_temporal_audited},
     {"exchange", rl::kernel_restir_gi_exchange_audited},
     {"spatial", rl::kernel_restir_gi_spatial_audited},
@@ -226,6 +227,7 @@ TEST(RngAudit, Template) {
 TEST(RngAudit, RestirGi) {
   // Every loop over draws runs more than once.
   const ParameterMap busy = {{"light_candidates", int64_t{5}},
+                             {"validate_every", int64_t{1}},
                              {"spatial_neighbours", int64_t{rl::RL_MAX_DONORS}}};
   for (const std::string& name : builtinSceneNames()) {
     for (const std::string mode : {"unbiased", "biased"}) {

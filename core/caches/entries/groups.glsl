@@ -3,10 +3,13 @@
 // offer, which do not depend on who comes first.
 
 RL_FN uint groupOfSlot(uint slot, uint every) { return slot / every; }
-// The slot of a group that offers in this frame; that of the last group may lie outside the image.
-RL_FN uint groupOfferer(uint group, uint every) {
-  return group * every + (rngHash(group) % every + gFrame.frame) % every;
+// The slot of a group whose turn a frame is. The last group may have fewer pixels.
+RL_FN uint groupTurn(uint group, uint every, uint frame) {
+  uint first = group * every;
+  uint size = min(every, gFrame.width * gFrame.height - first);
+  return first + (rngHash(group) % size + frame % size) % size;
 }
+RL_FN uint groupOfferer(uint group, uint every) { return groupTurn(group, every, gFrame.frame); }
 
 // A number of its own for each group or pixel, in an order that changes from frame to frame; 0 for
 // one of 2^32, which then waits a frame.

@@ -53,13 +53,6 @@ std::vector<ParameterInfo> entryParameters() {
        "not swept"}};
 }
 
-uint32_t count(const ParameterMap& parameters, const char* name) {
-  return static_cast<uint32_t>(std::get<int64_t>(parameters.at(name)));
-}
-float number(const ParameterMap& parameters, const char* name) {
-  return static_cast<float>(std::get<double>(parameters.at(name)));
-}
-
 }  // namespace
 
 BufferInfo entryBuffer(const std::string& name, uint32_t entryBytes) {
@@ -105,13 +98,13 @@ CacheInfo entryCache(const std::string& name, const std::string& summary) {
 
 rl::EntryParams packEntries(const ParameterMap& parameters) {
   if (!parameters.contains(kEntryCount)) return {};
-  return {count(parameters, kEntryCount), count(parameters, "entry_proposals"),
-          count(parameters, "feed_every"), number(parameters, "entry_cap"),
-          number(parameters, "entry_spread")};
+  return {uintOf(parameters, kEntryCount), uintOf(parameters, "entry_proposals"),
+          uintOf(parameters, "feed_every"), floatOf(parameters, "entry_cap"),
+          floatOf(parameters, "entry_spread")};
 }
 
 rl::GridParams packGrid(const ParameterMap& parameters) {
-  return {count(parameters, kEntryCount), count(parameters, "entry_probes")};
+  return {uintOf(parameters, kEntryCount), uintOf(parameters, "entry_probes")};
 }
 
 }  // namespace restlab

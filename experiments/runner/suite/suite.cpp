@@ -8,6 +8,7 @@
 #include "core/config.h"
 #include "core/error.h"
 #include "core/method.h"
+#include "core/radiance/settings.h"
 #include "experiments/runner/suite/backend_choice.h"
 #include "experiments/runner/run/files.h"
 #include "experiments/runner/suite/suite_methods.h"
@@ -160,7 +161,7 @@ size_t Suite::firstPath(size_t method, const std::string& denoiser) const {
   const auto first = std::find_if(all.begin(), all.end(), [&](const SuiteMethod& other) {
     const SessionConfig& session = other.session;
     return session.integrator == "path" && session.denoiser == denoiser &&
-           session.backend == backend;
+           session.backend == backend && !endsPaths(other.parameters());
   });
   return first == all.end() ? methods.size() : size_t(first - all.begin());
 }
