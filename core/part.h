@@ -33,7 +33,7 @@ using ParameterMap = std::map<std::string, ParameterValue>;
 enum class BiasClass { unbiased, consistent, biased };
 
 // Of what not every method has: it is there where the method has the parameter, with this value if
-// one is named; otherwise, of a number, with another than 0.
+// one is named; otherwise, of an integer, with another than 0.
 struct OnlyWith {
   const char* parameter = nullptr;  // null: always
   const char* value = nullptr;      // of a parameter that is a string
@@ -63,6 +63,7 @@ struct PassInfo {
   // Another one: over groups of so many pixels.
   const char* onePerParameter = nullptr;
   OnlyWith onlyWith = {};
+  bool isReplay = false;  // it does again what was done before, and its health was counted then
 };
 
 // What a method has left in its buffers after a frame.

@@ -254,6 +254,8 @@ std::vector<Pipeline::PassResult> Pipeline::collect(const FrameResult& result) {
       if (!hasRun) continue;
       out.timeMs = result.timesMs[next];
       out.counters = result.counters[next];
+      if (stage.info->passes[p].isReplay)
+        std::fill(std::begin(out.counters.health), std::end(out.counters.health), 0u);
       ++next;
     }
   }

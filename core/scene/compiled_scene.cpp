@@ -423,9 +423,15 @@ bool CompiledScene::differsInLightAlone(const CompiledScene& other) const {
     its.emission = here.emission;
     return std::memcmp(&of, &there, sizeof of) == 0 && std::memcmp(&here, &its, sizeof here) == 0;
   };
+  const auto isSame = [](const auto& of, const auto& with) {
+    return of.size() == with.size() &&
+           std::memcmp(of.data(), with.data(), of.size() * sizeof(of[0])) == 0;
+  };
   return a.features == b.features && a.origin == b.origin && a.positions == b.positions &&
-         a.normals == b.normals && a.uvs == b.uvs && a.colors == b.colors &&
-         a.triangles == b.triangles && a.texels == b.texels &&
+         isSame(a.normals, b.normals) && isSame(a.tangents, b.tangents) && isSame(a.uvs, b.uvs) &&
+         isSame(a.colors, b.colors) && isSame(a.geometries, b.geometries) &&
+         isSame(a.triangles, b.triangles) && isSame(a.textures, b.textures) &&
+         isSame(a.texels, b.texels) &&
          std::equal(a.instances.begin(), a.instances.end(), b.instances.begin(), b.instances.end(),
                     isSameInstance) &&
          a.lights.lights.size() == b.lights.lights.size() &&

@@ -119,12 +119,13 @@ RL_FN void kernelMain(RL_IN(uvec2) row) {
   // As the first of those who feed it has noticed.
   float kept = giKept(entryOfferer(s.id[first]));
   here.state.confidence = reuseCapped(here.state.confidence, gParams.entries.cap) * kept;
-  if (!(kept > 0.0f)) anchor = anchorNone();
+  bool isForgotten = !(kept > 0.0f);
+  if (isForgotten) anchor = anchorNone();
   bool isNew = anchor.surface.isHit == 0u;
   if (isNew) here.state = reservoirEmpty();
   bool hasBegun = giAskOffers(s, here, anchor);
   if (isNew) {
-    if (!hasBegun) return;
+    if (!hasBegun && !isForgotten) return;
     anchorWrite(gBuffers.anchors, entry, anchor);
     reservoirGuard(here.state);
     giWriteEntry(entry, here);

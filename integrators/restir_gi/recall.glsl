@@ -15,6 +15,7 @@
 #include "core/caches/entries/surface.glsl"
 #include "integrators/restir_gi/store.glsl"
 #include "integrators/restir_gi/ratio.glsl"
+#include "integrators/restir_gi/change.glsl"
 
 #define RL_REUSE_STATE GiWithEntries
 
@@ -23,7 +24,7 @@ RL_FN bool reuseDonor(RL_IN(GiWithEntries) s, uint k, RL_OUT(ReservoirState) don
   uint entry = s.id[k];
   if (entry == RL_INVALID) return false;
   donor = giReadEntryState(entry);
-  donor.confidence = reuseCapped(donor.confidence, gParams.movingConfidenceCap);
+  donor.confidence = reuseCapped(donor.confidence, gParams.movingConfidenceCap) * giKept(s.slot);
   return true;
 }
 RL_FN Shifted reuseOurs(RL_IN(GiWithEntries) s, uint k) { return s.ours[k]; }
@@ -95,7 +96,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     if (anchorRead(gBuffers.anchors, s.id[k]).begunBy == s.slot) s.id[k] = RL_INVALID;
     if (s.id[k] != RL_INVALID) isAsked = true;
   }
-  if (gParams.temporalReuse == 0u || !isAsked) return;
+  if (gParams.temporalReuse == 0u || !isAsked || !(giKept(s.slot) > 0.0f)) return;
   PathReservoir here;
   here.path.suffix = pathNoSuffix();
   giReadNow(s.slot, here);

@@ -18,7 +18,7 @@ RL_FN void kernelMain(RL_IN(uvec2) row) {
   float greater = 0.0f;
   uint last = gFrame.frame - 1u;
   uint slot = groupTurn(group, every, last);
-  if (gFrame.frame != 0u) {
+  if (gBuffers.found.data[2u * group + 1u] == giReplayTag(last)) {
     uvec2 pixel = pixelOfSlot(slot);
     uint film = cameraFilmBitsOfFrame(pixel, last);
     PathGather p = pathNothingGathered(film);
@@ -26,7 +26,7 @@ RL_FN void kernelMain(RL_IN(uvec2) row) {
     Walk walk = walkBegin(rng, film, cameraFilmRay(gFrame.previousCamera, pixel, film), 0u);
     walkOn(p, walk);
     float now = giLuminance(p, pathResample(p, rng));
-    float before = uintBitsToFloat(gBuffers.found.data[group]);
+    float before = uintBitsToFloat(gBuffers.found.data[2u * group]);
     if (rlIsFinite(now)) {
       greater = max(now, before);
       difference = abs(now - before);

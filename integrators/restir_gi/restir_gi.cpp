@@ -114,7 +114,7 @@ std::vector<ParameterInfo> parameterInfos() {
        {},
        "one of so many pixels traces its path of the last frame again each frame; where it finds "
        "other light, histories around it forget; 0: none does",
-       "Schied et al. 2018 trace one of nine; measured: docs/caches.md"},
+       "Schied et al. 2018 trace one of nine; 0: of no use where no light changes"},
       {"validate_response",
        4.0,
        0.0,
@@ -225,7 +225,7 @@ std::vector<std::byte> pack(const std::string& mode, const ParameterMap& p) {
   out.partners = packPartners(p);
   // Cells of radiance change without any change of the light.
   if (out.temporalReuse != 0u && !endsPaths(p))
-    out.change.every = static_cast<uint32_t>(get<int64_t>(p, "validate_every"));
+    out.change.every = static_cast<uint32_t>(get<int64_t>(p, kValidateEvery));
   out.change.response = static_cast<float>(get<double>(p, "validate_response"));
   out.entries = packEntries(p);
   out.cells = packRadiance(p);
@@ -242,13 +242,14 @@ std::string whyWithoutEffect(const std::string& name, const ParameterMap& p) {
   const double young = get<double>(p, "young_frames");
   const double oldest = isOverTime ? get<double>(p, "confidence_cap") + 1.0 : 1.0;
   if (isOneOf(name, {"confidence_cap", "moving_confidence_cap", "donor_noise", "mode", "reproject",
-                     "validate_every"}) &&
+                     kValidateEvery, "validate_response"}) &&
       !isOverTime)
     return "temporal is false";
   if (name == "mode" && !get<bool>(p, "reproject") && !p.contains(kEntryCount))
     return "reproject is false";
-  if (name == "validate_every" && endsPaths(p)) return "secondary is cache";
-  if (name == "validate_response" && get<int64_t>(p, "validate_every") == 0)
+  if (isOneOf(name, {kValidateEvery, "validate_response"}) && endsPaths(p))
+    return "secondary is cache";
+  if (name == "validate_response" && get<int64_t>(p, kValidateEvery) == 0)
     return "validate_every is 0";
   if (name == "moving_confidence_cap" &&
       get<double>(p, name.c_str()) > get<double>(p, "confidence_cap"))
@@ -336,7 +337,8 @@ const IntegratorInfo& restir_giIntegratorInfo() {
         {"unbiased", BiasClass::unbiased,
          "targets include visibility at every anchor, MIS weights sum to one over those who can "
          "produce a sample, "
-         "confidences depend on anchors alone, BSDF and MIS weight at x2 are re-evaluated"},
+         "confidences depend on anchors alone (near light that changed, with validate_every, on "
+         "the change), BSDF and MIS weight at x2 are re-evaluated"},
         {"biased", BiasClass::biased,
          "the last frame's sample is taken as visible here, and the pixel's own as visible from "
          "there and from entries: fewer rays, a little energy moved at shadow edges"},
@@ -362,7 +364,7 @@ const IntegratorInfo& restir_giIntegratorInfo() {
         {"entry_suffixes", 16 * rl::RL_PATH_SUFFIX_QUADS, rl::RL_FEATURE_GLOSSY, -1},
         {"offers", 16 * rl::RL_PATH_RESERVOIR_QUADS, 0, -1},
         {"offer_suffixes", 16 * rl::RL_PATH_SUFFIX_QUADS, rl::RL_FEATURE_GLOSSY, -1},
-        {"replay_found", sizeof(uint32_t), 0, -1},
+        {"replay_found", 2 * sizeof(uint32_t), 0, -1},
         {"replay_differences", 2 * sizeof(uint32_t), 0, -1},
         {"replay_changes", sizeof(uint32_t), 0, -1},
     };
@@ -386,6 +388,7 @@ const IntegratorInfo& restir_giIntegratorInfo() {
       if (pass.name == "feed") pass.entriesParameter = kEntryCount;
       if (pass.name == "replay" || pass.name == "changes")
         pass.onlyWith.parameter = pass.onePerParameter = kValidateEvery;
+      if (pass.name == "replay") pass.isReplay = true;
     }
     i.whyWithoutEffect = whyWithoutEffect;
     i.packParameters = pack;

@@ -82,8 +82,8 @@ struct RestirGiBuffers {
   QuadRef offers;
   QuadRef offerSuffixes;
   // Of groups of change.every pixels (integrators/restir_gi/change.glsl): luminance of the path of
-  // the one whose turn it was; by how much it differed when it was traced again, and the greater of
-  // both; the share of the light around that has changed.
+  // the one whose turn it was, and its giReplayTag(); by how much it differed when it was traced
+  // again, and the greater of both; the share of the light around that has changed.
   UintRef found;
   UintRef differences;
   UintRef changes;

@@ -28,7 +28,8 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   giReadNow(slot, here);
   giReadBefore(before, donor);
   GiOverTime t;
-  float kept = giKept(slot);
+  // As the pixel that found it has noticed.
+  float kept = giKept(before);
   if (!(kept > 0.0f)) return;
   giBeginOverTime(t, donor.state, slot);
   t.donor.confidence *= kept;

@@ -204,6 +204,7 @@ TEST_P(CacheLongRun, KeepsItsEnergyItsMemoryAndItsRays) {
 
   EXPECT_LT(grown, double(4 << 20)) << "bytes that the frames took";
   EXPECT_NEAR(rays, 1.0, 0.01);
+  EXPECT_NEAR(mean.value, 0.0, 0.05);
   // What it could have seen.
   EXPECT_LT(mean.halfWidth(), 0.02);
   EXPECT_LT(drift.halfWidth(), 0.05);

@@ -64,7 +64,7 @@ TEST(Radiance, PathsThatEndKeepTheEnergyAndSaveRays) {
       difference += glm::dot(b.pixels[p] - a.pixels[p], b.pixels[p] - a.pixels[p]);
       error += a.variances[p];
     }
-    EXPECT_LT(difference, 0.25 * error);
+    EXPECT_LT(difference, 0.05 * error);
     EXPECT_LT(b.rays, 0.7 * a.rays);
   }
 }
