@@ -179,7 +179,7 @@ class SuiteRun {
     block.component = component;
     sceneResolution(suite, scene, prepared, block.width, block.height);
     block.startupMs = checks_[point].startupMs[scene.name];
-    block.motion = motionOf(suite, prepared);
+    block.motion = motionOf(suite, scene, prepared);
     block.lights = lightPhases(suite, prepared);
     if (!obtain(suite, scene, prepared, block)) return false;
     warnOfBlack(suite, block);

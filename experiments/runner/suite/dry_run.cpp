@@ -220,7 +220,7 @@ std::string planText(const std::vector<Suite>& points, const SuiteRequest& reque
         block.camera = prepared.cameraName;
         block.component = component;
         sceneResolution(suite, suite.scenes[s], prepared, block.width, block.height);
-        block.motion = motionOf(suite, prepared);
+        block.motion = motionOf(suite, suite.scenes[s], prepared);
         block.lights = lightPhases(suite, prepared);
         const Cost cost = costOf(suite, suite.scenes[s], prepared, block, request, devices);
         lines += fmt::format(

@@ -41,6 +41,7 @@ SuiteScene readScene(const ConfigTable& table, const std::string& folder) {
   scene.referencePlace = table.place("reference");
   scene.width = uint32_t(table.getInteger("width", 0, 1, kMaxSide));
   scene.height = uint32_t(table.getInteger("height", 0, 1, kMaxSide));
+  scene.reverseTurns = table.getBool("reverse_turns", false);
   scene.optional = table.getBool("optional", false);
   table.finish();
   if (scene.request.scene.empty()) table.fail("scene", "[[scene]] needs a key 'scene'");

@@ -20,6 +20,7 @@ struct SuiteScene {
   std::string name;                // in tables and file names
   std::string reference;           // a file; "": rendered and cached
   uint32_t width = 0, height = 0;  // 0: as [settings] says
+  bool reverseTurns = false;       // camera paths by an angle turn the other way
   bool optional = false;           // skipped, with a line, where its files are absent
   // Where the suite says so, for errors: file:line:column.
   std::string place, cameraPlace, environmentPlace, referencePlace;

@@ -97,7 +97,7 @@ PreparedScene loadScene(const SuiteScene& scene) {
 void checkScene(const Suite& suite, const SuiteScene& scene, const PreparedScene& prepared,
                 SuiteCheck& found) {
   const std::vector<LightPhase> lights = lightPhases(suite, prepared);
-  motionOf(suite, prepared);
+  motionOf(suite, scene, prepared);
   if (suite.hasMovingCamera() && !scene.reference.empty()) {
     failUsage(fmt::format("{}: a reference as a file is of a still camera, not of the path '{}'",
                           scene.referencePlace, suite.cameraPathName));
@@ -117,7 +117,7 @@ void checkScene(const Suite& suite, const SuiteScene& scene, const PreparedScene
     block.scene = scene.name;
     block.width = width;
     block.height = height;
-    block.motion = motionOf(suite, prepared);
+    block.motion = motionOf(suite, scene, prepared);
     block.lights = lights;
     prepareMasks(suite, prepared, block);
   }
@@ -138,10 +138,15 @@ void sceneResolution(const Suite& suite, const SuiteScene& scene, const Prepared
   completeResolution(prepared, width, height);
 }
 
-std::optional<CameraMotion> motionOf(const Suite& suite, const PreparedScene& prepared) {
+std::optional<CameraMotion> motionOf(const Suite& suite, const SuiteScene& scene,
+                                     const PreparedScene& prepared) {
   if (!suite.hasMovingCamera()) return std::nullopt;
-  CameraMotion motion =
-      resolveCameraPath(suite.cameraPath, prepared.scene->source(), prepared.camera);
+  CameraPath path = suite.cameraPath;
+  if (scene.reverseTurns) {
+    path.degreesPerFrame = -path.degreesPerFrame;
+    path.cutDegrees = -path.cutDegrees;
+  }
+  CameraMotion motion = resolveCameraPath(path, prepared.scene->source(), prepared.camera);
   // Every frame: a path that leads through its target is found before the first one is rendered.
   for (uint32_t frame = 0; frame < suite.warmupFrames + suite.timedFrames; ++frame)
     cameraAt(motion, frame);

@@ -19,7 +19,8 @@ SessionConfig pictureOf(const Suite& suite, uint32_t width, uint32_t height, uin
 
 // The suite's camera path in the scene; nothing where the camera is the scene's in every frame.
 // Throws Error (badUsage) at the place of what is wrong.
-std::optional<CameraMotion> motionOf(const Suite& suite, const PreparedScene& prepared);
+std::optional<CameraMotion> motionOf(const Suite& suite, const SuiteScene& scene,
+                                     const PreparedScene& prepared);
 
 // What the check found out on its way.
 struct SuiteCheck {
