@@ -60,7 +60,7 @@ struct PassInfo {
   bool onlyOnNewViews = false;  // it has nothing to do in a still view
   // An integer parameter: the pass runs over so many entries (RL_ENTRY_ROW), not over pixels.
   const char* entriesParameter = nullptr;
-  // Another one: over groups of so many pixels.
+  // Another one: over groups of so many pixels, or of those entries.
   const char* onePerParameter = nullptr;
   OnlyWith onlyWith = {};
   bool isReplay = false;  // it does again what was done before, and its health was counted then

@@ -75,8 +75,8 @@ void Pipeline::pack(Stage& stage, const std::string& mode, const ParameterMap& p
       return found == parameters.end() ? 0 : static_cast<size_t>(std::get<int64_t>(found->second));
     };
     size_t entries = number(pass.entriesParameter);
-    const size_t group = number(pass.onePerParameter);
-    if (group != 0) entries = (pixels_ + group - 1) / group;
+    if (const size_t group = number(pass.onePerParameter); group != 0)
+      entries = ((entries != 0 ? entries : pixels_) + group - 1) / group;
     stage.entries.push_back(static_cast<uint32_t>(entries));
   }
 }

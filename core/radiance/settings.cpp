@@ -8,6 +8,8 @@ namespace {
 
 constexpr const char* kEntries = "radiance_entries";
 constexpr const char* kEvery = "radiance_every";
+constexpr const char* kValidate = "radiance_validate";
+constexpr const char* kSwept = "measured: docs/decisions.md, Paths end in cells that see one place";
 constexpr OnlyWith kIsCache = {"secondary", "cache"};
 
 std::vector<ParameterInfo> parameterInfos() {
@@ -26,7 +28,7 @@ std::vector<ParameterInfo> parameterInfos() {
        1 << 24,
        {},
        "cells of radiance; a point that finds no place is counted (cache_full)",
-       "not swept"},
+       kSwept},
       {"radiance_probes",
        int64_t{8},
        1,
@@ -49,7 +51,7 @@ std::vector<ParameterInfo> parameterInfos() {
        1024.0,
        {},
        "side of a cell in pixels, rounded down to a power of two of metres",
-       "not swept"},
+       kSwept},
       {"radiance_footprint",
        1.0,
        0.0,
@@ -64,7 +66,7 @@ std::vector<ParameterInfo> parameterInfos() {
        1.0,
        {},
        "perceptual roughness below which a surface has no cells",
-       "not swept",
+       kSwept,
        true},
       {"radiance_least",
        int64_t{4},
@@ -72,8 +74,8 @@ std::vector<ParameterInfo> parameterInfos() {
        1000,
        {},
        "samples of a cell before a path may end there",
-       "not swept"},
-      {"radiance_validate",
+       kSwept},
+      {kValidate,
        int64_t{8},
        1,
        1 << 20,
@@ -88,7 +90,7 @@ std::vector<ParameterInfo> parameterInfos() {
        1 << 20,
        {},
        "samples that the mean of a cell is of at most: older ones fade",
-       "not swept"},
+       kSwept},
   };
 }
 
@@ -108,6 +110,7 @@ PassInfo pass(const std::string& what, const std::string& again = "") {
   info.hasFeatures = what == "trace" || what == "feeders" || what == "validate";
   const bool isOfCells = what == "clear" || what == "fill" || what == "validate";
   (isOfCells ? info.entriesParameter : info.onePerParameter) = isOfCells ? kEntries : kEvery;
+  if (what == "validate") info.onePerParameter = kValidate;
   return info;
 }
 
@@ -156,7 +159,7 @@ const PartInfo& radiancePartInfo() {
       out.entries.cap = float(uintOf(p, "radiance_cap"));
       out.cells = packRadiance(p);
       out.grid = out.cells.grid;
-      out.validateEvery = uintOf(p, "radiance_validate");
+      out.validateEvery = uintOf(p, kValidate);
       return bytesOf(out);
     };
     return i;

@@ -1,4 +1,6 @@
-// One of gParams.validateEvery cells is looked at in a frame, all of them in turn.
-RL_FN bool radianceIsDue(uint cell) {
-  return (rngHash(cell) % gParams.validateEvery + gFrame.frame) % gParams.validateEvery == 0u;
+// One of each group of gParams.validateEvery cells is looked at in a frame, all of them in turn.
+RL_FN uint radianceDue(uint group) {
+  uint every = gParams.validateEvery;
+  return group * every + (rngHash(group) % every + gFrame.frame % every) % every;
 }
+RL_FN bool radianceIsDue(uint cell) { return radianceDue(cell / gParams.validateEvery) == cell; }

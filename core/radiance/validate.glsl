@@ -1,12 +1,13 @@
-// A pass over cells: does the path that a cell keeps still find what it found? The same random
-// numbers lead it along the same way, so what differs is the light of the scene, not noise. A cell
-// whose light is another begins anew (counted). Reservoirs are validated so by Ouyang et al. 2021.
+// A pass over groups of cells: does the path that the cell whose turn it is keeps still find what
+// it found? The same random numbers lead it along the same way, so what differs is the light of the
+// scene, not noise. A cell whose light is another begins anew (counted). Reservoirs are validated
+// so by Ouyang et al. 2021.
 #include "core/radiance/path_from.glsl"
 #include "core/radiance/turn.glsl"
 
 RL_FN void kernelMain(RL_IN(uvec2) row) {
-  uint cell = row.y * RL_ENTRY_ROW + row.x;
-  if (cell >= gParams.entries.count || !radianceIsDue(cell)) return;
+  uint cell = radianceDue(row.y * RL_ENTRY_ROW + row.x);
+  if (cell >= gParams.entries.count) return;
   // Cells that no point belongs to any more wait until one does.
   if (gBuffers.seen.data[cell] + RL_RADIANCE_RECENT < gFrame.frame) return;
   uint at = cell * RL_RADIANCE_KEPT_QUADS;
