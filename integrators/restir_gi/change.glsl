@@ -5,12 +5,28 @@
 // found, which is biased for as long as they are young (temporal gradients: Schied, Peters and
 // Dachsbacher, "Gradient Estimation for Real-Time Adaptive Temporal Filtering", 2018).
 
+RL_FN float giKeptOf(float change) { return max(1.0f - gParams.change.response * change, 0.0f); }
 // The share of a pixel's history that is kept in this frame.
 RL_FN float giKept(uint slot) {
   if (gParams.change.every == 0u) return 1.0f;
   uint group = groupOfSlot(slot, gParams.change.every);
-  float change = uintBitsToFloat(gBuffers.changes.data[group]);
-  return max(1.0f - gParams.change.response * change, 0.0f);
+  return giKeptOf(uintBitsToFloat(gBuffers.changes.data[group]));
+}
+// The share that an entry keeps which nobody feeds: what it lies beside is not in view, so it goes
+// by the mean over the image, of which it looks at some places.
+RL_FN float giKeptOutOfView(uint entry) {
+  uint every = gParams.change.every;
+  if (every == 0u) return 1.0f;
+  uint groups = (gFrame.width * gFrame.height + every - 1u) / every;
+  Rng rng = rngInit(gFrame.seed, entry, gFrame.frame);
+  rng.vertex = RL_VERTEX_FEED;
+  uint first = rngBits(rng, RL_DIM_DONOR_U) % groups;
+  float change = 0.0f;
+  for (uint i = 0u; i < RL_GI_CHANGE_PLACES; i = i + 1u) {
+    uint group = (first + i * (groups / RL_GI_CHANGE_PLACES)) % groups;
+    change += uintBitsToFloat(gBuffers.changes.data[group]);
+  }
+  return giKeptOf(change / float(RL_GI_CHANGE_PLACES));
 }
 
 // Of which frame and settings a path is: others would draw other samples.

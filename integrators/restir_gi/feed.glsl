@@ -2,7 +2,8 @@
 // frame that pixels have offered. An offer is what the pixel found in this frame alone, at this
 // frame's film sample: the entry's own sample is seen from that very x1, so that the merge is right
 // for each film sample on its own. A new entry begins with an offer, at the x1 that it started
-// from: there, and for no other point, it is a sample.
+// from: there, and for no other point, it is a sample. One that nobody feeds may forget
+// (change.glsl).
 #include "core/resampling/ris.glsl"
 #include "core/resampling/mis.glsl"
 #include "core/resampling/shift.glsl"
@@ -21,7 +22,7 @@
 RL_FN bool reuseDonor(RL_IN(GiWithEntries) s, uint k, RL_OUT(ReservoirState) donor) {
   donor = reservoirEmpty();
   if (s.id[k] == RL_INVALID) return false;
-  donor = giReadOfferState(s.id[k]);
+  donor = giReadOfferState(entryOfferer(s.id[k]));
   return true;
 }
 RL_FN Shifted reuseOurs(RL_IN(GiWithEntries) s, uint k) { return s.ours[k]; }
@@ -57,7 +58,7 @@ RL_FN bool giAskOffers(RL_INOUT(GiWithEntries) s, RL_INOUT(PathReservoir) here,
     uint slot = entryOfferer(group);
     PathShift shift = pathShiftNone();
     if (leg == 0u) {
-      giReadOffer(group, offer);
+      giReadOffer(slot, offer);
       shift.ray = cameraFilmRay(gFrame.camera, pixelOfSlot(slot), offer.path.film);
       shift.asks = RL_SHIFT_ASKS_X1;
     } else if (leg == 1u) {
@@ -100,6 +101,19 @@ RL_FN bool giAskOffers(RL_INOUT(GiWithEntries) s, RL_INOUT(PathReservoir) here,
   return hasBegun;
 }
 
+RL_FN void giForgetOutOfView(uint entry) {
+  float kept = giKeptOutOfView(entry);
+  if (kept == 1.0f) return;
+  Anchor anchor = anchorRead(gBuffers.anchors, entry);
+  if (anchor.surface.isHit == 0u) return;
+  PathReservoir here;
+  here.path.suffix = pathNoSuffix();
+  giReadEntry(entry, here);
+  here.state.confidence *= kept;
+  giWriteEntry(entry, here);
+  if (!(kept > 0.0f)) anchorWrite(gBuffers.anchors, entry, anchorNone());
+}
+
 RL_FN void kernelMain(RL_IN(uvec2) row) {
   uint entry = row.y * RL_ENTRY_ROW + row.x;
   if (entry >= gParams.entries.count) return;
@@ -111,7 +125,10 @@ RL_FN void kernelMain(RL_IN(uvec2) row) {
     s.id[k] = ticket != 0u ? entryOfTicket(ticket) : RL_INVALID;
     if (ticket != 0u && first == RL_INVALID) first = k;
   }
-  if (first == RL_INVALID) return;
+  if (first == RL_INVALID) {
+    giForgetOutOfView(entry);
+    return;
+  }
   Anchor anchor = anchorRead(gBuffers.anchors, entry);
   PathReservoir here;
   here.path.suffix = pathNoSuffix();
@@ -138,7 +155,7 @@ RL_FN void kernelMain(RL_IN(uvec2) row) {
   reuseMerge(s, RL_ENTRY_FEEDERS, gParams.spatialFlags, here.state, winner, jacobian);
   reservoirGuard(here.state);
   if (winner != RL_INVALID) {
-    giTakeOfferPath(s.id[winner], here);
+    giTakeOfferPath(entryOfferer(s.id[winner]), here);
     here.path.geometry *= jacobian;
   }
   giWriteEntry(entry, here);

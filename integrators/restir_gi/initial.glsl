@@ -55,8 +55,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     own = vec3(0.0f, 0.0f, 0.0f);
     r.state = reservoirEmpty();
   }
-  if (gParams.entries.count != 0u && entryOfferer(entryGroup(slot)) == slot)
-    giWriteOffer(entryGroup(slot), r);
+  PathReservoir offer = r;
   if (gParams.temporalReuse != 0u && gFrame.stillFrames != 0u) {
     float kept = giKept(slot);
     uvec4 before = RL_PAST_QUAD(gBuffers.ownBefore, slot);
@@ -72,6 +71,8 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     if (kept > 0.0f) giMergeStillView(slot, kept, r);
   }
   giWriteNow(slot, r);
+  bool isOffered = gParams.entries.count != 0u && entryOfferer(entryGroup(slot)) == slot;
+  if (isOffered && gFrame.stillFrames != 0u) giWriteHistory(slot, offer);
   count.frames = min(count.frames + 1u, 0xffffffu);
   RL_WRITE_QUAD(gBuffers.own, slot, recordQuad(own, giOwnWord(count)));
 }

@@ -93,7 +93,8 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   for (uint k = 0u; k < count; k = k + 1u) {
     s.id[k] = gBuffers.proposals.data[s.slot * count + k];
     if (s.id[k] == RL_INVALID) continue;
-    if (anchorRead(gBuffers.anchors, s.id[k]).begunBy == s.slot) s.id[k] = RL_INVALID;
+    Anchor anchor = anchorRead(gBuffers.anchors, s.id[k]);
+    if (anchor.surface.isHit == 0u || anchor.begunBy == s.slot) s.id[k] = RL_INVALID;
     if (s.id[k] != RL_INVALID) isAsked = true;
   }
   if (gParams.temporalReuse == 0u || !isAsked || !(giKept(s.slot) > 0.0f)) return;

@@ -301,13 +301,22 @@ std::vector<ProbeValue> probe(const Kept& kept, size_t pixel) {
 }
 
 std::vector<LayerInfo> layers() {
-  LayerInfo confidence, ofEntry;
+  LayerInfo confidence, age, ofEntry;
   confidence.name = "confidence";
   confidence.summary = "confidence of the pixel's reservoir";
   confidence.unit = "samples";
   confidence.values = [](const Kept& kept) {
     return [words = kept.words("history")](size_t pixel) {
       return number(words, kReservoir * pixel + kConfidence);
+    };
+  };
+  age.name = "age";
+  age.summary = "frames since the view was new or the light around the pixel was found changed";
+  age.unit = "frames";
+  age.values = [](const Kept& kept) {
+    // As giOwnWord() packs it.
+    return [words = kept.words("own_light")](size_t pixel) {
+      return float(words[4 * pixel + 3] >> 8u);
     };
   };
   ofEntry.name = "entry_confidence";
@@ -322,7 +331,7 @@ std::vector<LayerInfo> layers() {
       return hasAnchor ? number(words, kReservoir * entry + kConfidence) : 0.0f;
     });
   };
-  return {confidence, ofEntry};
+  return {confidence, age, ofEntry};
 }
 
 }  // namespace
@@ -362,27 +371,24 @@ const IntegratorInfo& restir_giIntegratorInfo() {
         {"outlines", sizeof(uint32_t), 0, -1},
         {"entry_reservoirs", 16 * rl::RL_PATH_RESERVOIR_QUADS, 0, -1},
         {"entry_suffixes", 16 * rl::RL_PATH_SUFFIX_QUADS, rl::RL_FEATURE_GLOSSY, -1},
-        {"offers", 16 * rl::RL_PATH_RESERVOIR_QUADS, 0, -1},
-        {"offer_suffixes", 16 * rl::RL_PATH_SUFFIX_QUADS, rl::RL_FEATURE_GLOSSY, -1},
         {"replay_found", 2 * sizeof(uint32_t), 0, -1},
         {"replay_differences", 2 * sizeof(uint32_t), 0, -1},
         {"replay_changes", sizeof(uint32_t), 0, -1},
     };
     for (BufferInfo& buffer : i.buffers) {
       if (buffer.name.starts_with("entry_")) buffer.entriesParameter = kEntryCount;
-      if (buffer.name.starts_with("offer")) buffer.onePerParameter = "feed_every";
       if (buffer.name.starts_with("replay_")) buffer.onePerParameter = kValidateEvery;
     }
     i.passes = {{"replay", "restir_gi_replay"},
                 {"changes", "restir_gi_changes", false},
                 {"lights_in_view", "restir_gi_lights_in_view", true, true},
                 {"initial", "restir_gi_initial"},
+                {"feed", "restir_gi_feed"},
                 {"temporal", "restir_gi_temporal", true, true},
                 {"recall", "restir_gi_recall", true, true},
                 {"outlines", "restir_gi_outlines", false, true},
                 {"exchange", "restir_gi_exchange"},
-                {"spatial", "restir_gi_spatial"},
-                {"feed", "restir_gi_feed"}};
+                {"spatial", "restir_gi_spatial"}};
     for (PassInfo& pass : i.passes) {
       if (pass.name == "recall" || pass.name == "feed") pass.onlyWith.parameter = kEntryCount;
       if (pass.name == "feed") pass.entriesParameter = kEntryCount;

@@ -53,6 +53,7 @@ struct GiChangeParams {
 // Largest difference of two results of one path over their sum.
 const float RL_GI_SAME = 1.0e-3f;
 const uint RL_GI_CHANGE_ROWS = 12u;  // of pixels, above and below, over which changes are averaged
+const uint RL_GI_CHANGE_PLACES = 16u;  // of the image, at which entries out of view look
 
 struct RestirGiBuffers {
   QuadRef visible;  // core/dialect/visible.h
@@ -68,19 +69,16 @@ struct RestirGiBuffers {
   QuadRef own;
   QuadRef ownBefore;
   QuadRef reservoirs;  // of this frame: initial, then temporal
-  QuadRef history;     // of the last frame; replaced by the spatial pass
+  QuadRef history;  // of the last frame, in still views then offers; replaced by the spatial pass
   QuadRef suffixes;
   QuadRef suffixesHistory;
   // Between the exchange and the spatial pass, spatialNeighbours entries a pixel: its sample as the
   // partner sees it, and the partner's slot (RL_INVALID: none).
   QuadRef exchange;
   UintRef outlines;  // 1: a pixel beside it shows another surface
-  // Of caches in world space: reservoirs of entries, and what pixels found in this frame alone, one
-  // of each group (core/caches/entries/entries.glsl).
+  // Of caches in world space: reservoirs of entries (core/caches/entries/entries.glsl).
   QuadRef entryReservoirs;
   QuadRef entrySuffixes;
-  QuadRef offers;
-  QuadRef offerSuffixes;
   // Of groups of change.every pixels (integrators/restir_gi/change.glsl): luminance of the path of
   // the one whose turn it was, and its giReplayTag(); by how much it differed when it was traced
   // again, and the greater of both; the share of the light around that has changed.

@@ -50,7 +50,7 @@ RL_FN void giTakePathBefore(uint slot, RL_INOUT(PathReservoir) r) {
   r.path = from.path;
 }
 
-// An entry's reservoir, and the offer of a group of pixels.
+// An entry's reservoir.
 RL_FN void giReadEntry(uint entry, RL_INOUT(PathReservoir) r) {
   giRead(gBuffers.entryReservoirs, gBuffers.entrySuffixes, entry, r);
 }
@@ -65,19 +65,25 @@ RL_FN void giTakeEntryPath(uint entry, RL_INOUT(PathReservoir) r) {
 RL_FN void giWriteEntry(uint entry, RL_IN(PathReservoir) r) {
   giWrite(gBuffers.entryReservoirs, gBuffers.entrySuffixes, entry, r);
 }
-RL_FN void giReadOffer(uint group, RL_INOUT(PathReservoir) r) {
-  giRead(gBuffers.offers, gBuffers.offerSuffixes, group, r);
+
+// What a pixel offers to its entry is what it found in this frame alone. Before the temporal pass
+// its reservoir is just that. In a still view the initial pass has merged the history already:
+// there the offer takes the history's place, which the spatial pass fills again.
+RL_FN void giReadOffer(uint slot, RL_INOUT(PathReservoir) r) {
+  if (gFrame.stillFrames == 0u) {
+    giReadNow(slot, r);
+  } else {
+    giReadBefore(slot, r);
+  }
 }
-RL_FN ReservoirState giReadOfferState(uint group) {
-  return pathStateRead(gBuffers.offers, group * RL_PATH_RESERVOIR_QUADS);
+RL_FN ReservoirState giReadOfferState(uint slot) {
+  if (gFrame.stillFrames == 0u) return giReadStateNow(slot);
+  return giReadStateBefore(slot);
 }
-RL_FN void giTakeOfferPath(uint group, RL_INOUT(PathReservoir) r) {
+RL_FN void giTakeOfferPath(uint slot, RL_INOUT(PathReservoir) r) {
   PathReservoir from = r;
-  giReadOffer(group, from);
+  giReadOffer(slot, from);
   r.path = from.path;
-}
-RL_FN void giWriteOffer(uint group, RL_IN(PathReservoir) r) {
-  giWrite(gBuffers.offers, gBuffers.offerSuffixes, group, r);
 }
 
 // A slot's sample as its k-th partner sees it, and that partner; RL_INVALID: there is none.

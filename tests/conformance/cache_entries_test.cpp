@@ -64,8 +64,8 @@ TEST_P(CacheEntries, WhatIsSeenIsFoundAgain) {
       if (entry == rl::RL_INVALID) continue;
       ASSERT_LT(entry, run.entries().count);
       EXPECT_TRUE(run.hasAnchor(entry));
-      // Eight pixels of 0.25 metres in either direction.
-      EXPECT_LT(glm::distance(run.posW(slot), run.anchorPosW(entry)), 3.0f) << slot;
+      // Discs have a radius of six pixels of 0.25 metres, and are looked for 1.5 radii around.
+      EXPECT_LT(glm::distance(run.posW(slot), run.anchorPosW(entry)), 2.5f * 1.5f) << slot;
     }
   }
 }

@@ -2,7 +2,6 @@
 // changes is forgotten.
 #include <gtest/gtest.h>
 
-#include "core/caches/entries/settings.h"
 #include "core/scene/compiled_scene.h"
 #include "core/scene/light_factor.h"
 #include "tests/conformance/variants.h"
@@ -75,8 +74,8 @@ TEST_P(ChangingLight, LightThatWasIsForgotten) {
   }
 }
 
-// Histories that follow surfaces forget. Entries do that are fed in the frame of the change: of the
-// others, pixels remember some light.
+// Histories that follow surfaces forget, and entries do, whether they are fed in the frame of the
+// change or not.
 TEST_P(ChangingLight, LightThatWasIsForgottenWhileTheCameraWalks) {
   const auto bright = bias::builtinScene("cornell-box"), dim = dimmed("cornell-box");
   const SceneCamera start = bright->source().cameras.front();
@@ -94,8 +93,7 @@ TEST_P(ChangingLight, LightThatWasIsForgottenWhileTheCameraWalks) {
   const double right = energyOfWalk(dim, 0);
   const double validated = energyOfWalk(bright, 16) / right,
                plain = energyOfWalk(bright, 0) / right;
-  const bool hasEntries = config(0).parameters.contains(kEntryCount);
-  EXPECT_NEAR(validated, 1.0, hasEntries ? 0.6 : 0.25);
+  EXPECT_NEAR(validated, 1.0, 0.25);
   EXPECT_GT(plain, validated + 0.2) << "the check sees what is remembered";
 }
 

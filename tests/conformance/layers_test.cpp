@@ -35,7 +35,7 @@ TEST_P(EntryLayers, AreWhatTheBuffersHold) {
   const ParameterMap given = {{kEntryCount, int64_t{1024}}};
   const Method method = findMethod("restir_gi", GetParam(), "none");
   const ParameterMap resolved = resolveParameters(method, given);
-  CacheRun run(GetParam(), {128, 96}, given);
+  CacheRun run(GetParam(), {256, 192}, given);
   run.look([](glm::uvec2) { return Shown{}; });
   for (int i = 0; i < 3; ++i) run.frame();
   const Kept kept{
@@ -133,6 +133,20 @@ TEST(Layers, ConfidenceGrowsToTheCap) {
   }
 }
 
+TEST(Layers, AgeCountsFramesOfAView) {
+  const auto scene = bias::builtinScene("cornell-box");
+  Session session(scene, smallConfig("pixel"));
+  SceneCamera camera = scene->source().cameras.front();
+  for (const int moved : {0, 4}) {
+    camera.cameraToWorld[3] += 0.01 * moved * camera.cameraToWorld[0];
+    session.setCamera(camera);
+    for (int frame = 1; frame <= 3; ++frame) {
+      session.frame();
+      for (const glm::vec3& age : session.aov("age").pixels) ASSERT_EQ(age.x, float(frame));
+    }
+  }
+}
+
 TEST(Layers, OnlyCachesOfEntriesHaveEntries) {
   Session session(bias::builtinScene("cornell-box"), smallConfig("pixel"));
   session.frame();
@@ -143,7 +157,7 @@ TEST(Layers, OnlyCachesOfEntriesHaveEntries) {
     EXPECT_EQ(error.code(), ExitCode::badUsage);
     EXPECT_STREQ(error.what(),
                  "unknown AOV 'entry'; AOVs: radiance, positionW, normalW, albedo, depth, object, "
-                 "confidence");
+                 "confidence, age");
   }
   EXPECT_EQ(findMethod("path", "", "none").aovNames(), Session::aovNames());
 }

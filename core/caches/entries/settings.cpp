@@ -6,6 +6,9 @@ namespace restlab {
 
 namespace {
 
+constexpr const char* kSwept =
+    "measured: docs/decisions.md, Entries have reservoirs at points of their own";
+
 std::vector<ParameterInfo> entryParameters() {
   return {
       {kEntryCount,
@@ -14,21 +17,21 @@ std::vector<ParameterInfo> entryParameters() {
        1 << 24,
        {},
        "entries of the cache; a surface that finds no place is counted (cache_full)",
-       "not swept"},
+       kSwept},
       {"entry_proposals",
        int64_t{2},
        1,
        rl::RL_MAX_DONORS,
        {},
        "entries that a pixel takes as donors in frames of a new view",
-       "not swept"},
+       kSwept},
       {"entry_probes",
        int64_t{8},
        1,
        64,
        {},
        "places from its hash on where an entry may lie",
-       "bounded linear probing; not swept"},
+       "bounded linear probing"},
       {"entry_spread",
        1.5,
        0.0,
@@ -36,21 +39,15 @@ std::vector<ParameterInfo> entryParameters() {
        {},
        "how far beside a pixel's point its further donors lie, in sides of a cell or radii of a "
        "disc",
-       "not swept"},
-      {"entry_cap",
-       20.0,
-       1.0,
-       1000.0,
-       {},
-       "confidence that an entry keeps, in samples",
-       "not swept"},
+       kSwept},
+      {"entry_cap", 20.0, 1.0, 1000.0, {}, "confidence that an entry keeps, in samples", kSwept},
       {"feed_every",
-       int64_t{4},
+       int64_t{2},
        1,
        256,
        {},
        "one of so many pixels side by side offers its sample to its entry each frame",
-       "not swept"}};
+       kSwept}};
 }
 
 }  // namespace

@@ -30,15 +30,15 @@ RL_FN float discDistance(uint entry, RL_IN(Anchor) disc, RL_IN(vec3) posW) {
 }
 
 // The disc whose centre is nearest to a point, of those that cover it and lie on a surface like
-// that which the pixel shows; discs in cells further away than the next are not found.
+// that which the pixel shows. Looked for in the four cells around the point on its tangent plane.
 RL_FN uint discCovering(RL_IN(VisibleSurface) here, RL_IN(vec3) posW, uint level) {
   uint best = RL_INVALID;
   float least = 0.0f;
   vec3 normalW = unpackNormal(here.nGeoW);
   float side = gridSide(level);
   uint octant = gridOctant(normalW);
-  for (uint i = 0u; i < 9u; i = i + 1u) {
-    vec3 offset = vec3((float(i % 3u) - 1.0f) * side, (float(i / 3u) - 1.0f) * side, 0.0f);
+  for (uint i = 0u; i < 4u; i = i + 1u) {
+    vec3 offset = vec3((float(i % 2u) - 0.5f) * side, (float(i / 2u) - 0.5f) * side, 0.0f);
     uint entry = gridFind(gParams.grid, gBuffers.keys,
                           gridKey(posW + frameToWorld(normalW, offset), level, octant));
     if (entry == RL_INVALID || entry == best) continue;

@@ -12,13 +12,14 @@ const CacheInfo& surfletCacheInfo() {
         entryCache("surflet", "discs on surfaces: each remembers at a surface point of its own");
     // Of each entry; after those that all such caches have.
     i.buffers.push_back(entryBuffer("discs", 16 * rl::RL_ANCHOR_QUADS));
-    i.parameters.push_back({"surflet_pixels",
-                            3.0,
-                            0.25,
-                            256.0,
-                            {},
-                            "radius of a disc in pixels, where it is spawned",
-                            "not swept"});
+    i.parameters.push_back(
+        {"surflet_pixels",
+         6.0,
+         0.25,
+         256.0,
+         {},
+         "radius of a disc in pixels, where it is spawned",
+         "measured: docs/decisions.md, Entries have reservoirs at points of their own"});
     i.packParameters = [](const std::string&, const ParameterMap& p) {
       rl::SurfletCacheParams out{};
       out.entries = packEntries(p);
