@@ -132,7 +132,7 @@ const BadInput kBadInputs[] = {
     {"LayerOfAnotherCache",
      "render good.gltf -o x.exr --integrator restir_gi --aov entry",
      2,
-     {"--aov entry", "known: radiance", "object, confidence)"}},
+     {"--aov entry", "known: radiance", "object, confidence, age)"}},
     {"UnknownLayer",
      "render good.gltf -o x.exr --integrator restir_gi --cache voxel --aov entry_confidense",
      2,
