@@ -61,7 +61,7 @@ std::vector<ParameterInfo> parameterInfos() {
        "sharply",
        "Mueller et al. 2021, section 3.4, compare it with that of the pixel"},
       {"radiance_roughness",
-       0.4,
+       0.2,
        0.0,
        1.0,
        {},

@@ -48,6 +48,7 @@ RL_FN bool giAskOffers(RL_INOUT(GiWithEntries) s, RL_INOUT(PathReservoir) here,
                        RL_INOUT(Anchor) anchor) {
   bool isNew = anchor.surface.isHit == 0u;
   bool hasBegun = false;
+  bool hasX1 = false;
   PathReservoir offer = here;
   Surface x1 = anchorSurface(anchorNone());
   for (uint i = 0u; i < 3u * RL_ENTRY_FEEDERS; i = i + 1u) {
@@ -62,7 +63,7 @@ RL_FN bool giAskOffers(RL_INOUT(GiWithEntries) s, RL_INOUT(PathReservoir) here,
       shift.ray = cameraFilmRay(gFrame.camera, pixelOfSlot(slot), offer.path.film);
       shift.asks = RL_SHIFT_ASKS_X1;
     } else if (leg == 1u) {
-      if (!isNew) shift = pathShiftToSurface(here, x1);
+      if (!isNew && hasX1) shift = pathShiftToSurface(here, x1);
     } else if (anchor.surface.isHit != 0u) {
       shift = pathShiftToSurface(offer, anchorSurface(anchor));
     }
@@ -73,13 +74,12 @@ RL_FN bool giAskOffers(RL_INOUT(GiWithEntries) s, RL_INOUT(PathReservoir) here,
       if (leg != 0u) {
         shift.shifted.F *= transmittance;
       } else {
-        bool hasX1 = false;
+        hasX1 = false;
         if (hit.instance != RL_INVALID) {
           x1 = surfaceLoad(hit, shift.ray.dir);
           hasX1 = bsdfIsReusable(x1.bsdf, gParams.path.minAlpha);
         }
         if (!hasX1) s.id[k] = isNew ? RL_INVALID : group;
-        if (!hasX1) x1 = anchorSurface(anchorNone());
         if (hasX1 && isNew) {
           VisibleSurface shown = visibleRead(gBuffers.visible, gFrame.camera, slot);
           Anchor candidate = anchorOfSurface(x1, slot);

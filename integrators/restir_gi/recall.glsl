@@ -40,8 +40,8 @@ RL_FN real reuseUniform(RL_IN(GiWithEntries) s, uint k) {
 #include "core/resampling/reuse.glsl"
 
 // One camera ray, then two segments an entry: the pixel's sample from the anchor, the entry's from
-// the x1 of the film sample. The biased mode takes the first as free, for the weights alone: light
-// that the pixel does not see stays out.
+// the x1 of the film sample. The biased mode traces them, too: taken as free, the first costs up to
+// a fifth of the energy where what anchors see differs from what the pixel sees.
 RL_FN void giAskEntries(RL_INOUT(GiWithEntries) s, RL_IN(PathReservoir) here, RL_IN(uvec2) pixel,
                         uint film, uint count) {
   Surface x1 = anchorSurface(anchorNone());
@@ -64,8 +64,7 @@ RL_FN void giAskEntries(RL_INOUT(GiWithEntries) s, RL_IN(PathReservoir) here, RL
         shift = pathShiftToSurface(other, x1);
       }
     }
-    bool isAssumed = isOurs && (gParams.temporalFlags & RL_REUSE_ASSUME_VISIBLE) != 0u;
-    if (shift.asks != RL_SHIFT_DONE && !isAssumed) {
+    if (shift.asks != RL_SHIFT_DONE) {
       Hit hit = traceNoHit();
       uint mode = isCamera ? RL_RAY_PATH : RL_RAY_SHADOW;
       float transmittance = traceRay(shift.ray, mode, cameraAlphaKey(film), hit);
@@ -107,7 +106,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   giAskEntries(s, here, pixel, film, count);
   uint winner;
   float jacobian;
-  reuseMerge(s, count, gParams.temporalFlags, here.state, winner, jacobian);
+  reuseMerge(s, count, gParams.spatialFlags, here.state, winner, jacobian);
   reservoirGuard(here.state);
   if (winner == RL_INVALID) {
     giWriteStateNow(s.slot, here);

@@ -245,8 +245,7 @@ std::string whyWithoutEffect(const std::string& name, const ParameterMap& p) {
                      kValidateEvery, "validate_response"}) &&
       !isOverTime)
     return "temporal is false";
-  if (name == "mode" && !get<bool>(p, "reproject") && !p.contains(kEntryCount))
-    return "reproject is false";
+  if (name == "mode" && !get<bool>(p, "reproject")) return "reproject is false";
   if (isOneOf(name, {kValidateEvery, "validate_response"}) && endsPaths(p))
     return "secondary is cache";
   if (name == "validate_response" && get<int64_t>(p, kValidateEvery) == 0)
@@ -300,6 +299,9 @@ std::vector<ProbeValue> probe(const Kept& kept, size_t pixel) {
           {"radiance", three(packing.unpackPositive3(words[kState + 6], words[kState + 7]))}};
 }
 
+static_assert(sizeof(rl::GiWithEntries::id) / sizeof(uint32_t) >= rl::RL_MAX_DONORS &&
+              sizeof(rl::GiWithEntries::id) / sizeof(uint32_t) >= rl::RL_ENTRY_FEEDERS);
+
 std::vector<LayerInfo> layers() {
   LayerInfo confidence, age, ofEntry;
   confidence.name = "confidence";
@@ -350,7 +352,7 @@ const IntegratorInfo& restir_giIntegratorInfo() {
          "the change), BSDF and MIS weight at x2 are re-evaluated"},
         {"biased", BiasClass::biased,
          "the last frame's sample is taken as visible here, and the pixel's own as visible from "
-         "there and from entries: fewer rays, a little energy moved at shadow edges"},
+         "there: fewer rays, a little energy moved at shadow edges"},
     };
     i.parameters = parameterInfos();
     i.usesCache = true;

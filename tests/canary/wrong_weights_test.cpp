@@ -3,6 +3,7 @@
 // tests/bias.
 #include <gtest/gtest.h>
 
+#include "tests/bias/few_entries.h"
 #include "tests/bias/independent_runs.h"
 #include "tests/bias/test_cameras.h"
 
@@ -12,9 +13,10 @@ namespace {
 struct Canary {
   const char* name;
   const char* scene;
-  std::vector<SceneCamera> cameras;  // none: the scene's own
+  std::vector<SceneCamera> cameras;  // none: the scene's own; of several the last frame is compared
   ParameterMap wrong;                // the error
   ParameterMap other;                // what makes it matter; with this alone the method is right
+  const char* cache = "";            // the default
 };
 
 void PrintTo(const Canary& c, std::ostream* out) { *out << c.name; }
@@ -30,23 +32,30 @@ constexpr Effort kNightly{256, 24, 16, 4, 0};
 // The wrong variant is rejected, and the same settings without the error are not.
 void expectRejected(const Canary& canary, const Effort& effort) {
   const auto scene = builtinScene(canary.scene);
+  const bool isWalk = canary.cameras.size() > 1;
+  const auto frames = isWalk ? uint32_t(canary.cameras.size()) : effort.frames;
   const auto adapted = [&](Method method) {
     method.cameras = canary.cameras;
     method.config.threads = effort.threads;
+    if (isWalk) method.skipped = frames - 1;
     return method;
   };
-  const stats::Truth reference = stats::truthOf(
-      independentRuns(scene, adapted(pathMethod(effort.truthFrames)), 1, effort.runs));
+  Method truth = pathMethod(effort.truthFrames);
+  truth.config.threads = effort.threads;
+  if (!canary.cameras.empty()) truth.cameras = {canary.cameras.back()};
+  const stats::Truth reference = stats::truthOf(independentRuns(scene, truth, 1, effort.runs));
 
   ParameterMap wrong = canary.other;
   wrong.insert(canary.wrong.begin(), canary.wrong.end());
-  Method method = adapted(restirMethod(effort.frames, effort.skipped, wrong));
+  Method method = adapted(restirMethod(frames, effort.skipped, wrong));
   method.name = canary.name;
+  method.config.cache = canary.cache;
   const stats::BiasReport rejected = testMethod(scene, method, reference, effort.runs);
   EXPECT_GT(rejected.confirmed, 0u) << canary.name << " was not rejected: " << rejected.text();
 
-  method = adapted(restirMethod(effort.frames, effort.skipped, canary.other));
+  method = adapted(restirMethod(frames, effort.skipped, canary.other));
   method.name = "the same without the error";
+  method.config.cache = canary.cache;
   const stats::BiasReport accepted = testMethod(scene, method, reference, effort.runs);
   EXPECT_FALSE(accepted.failed()) << accepted.text();
 }
@@ -96,6 +105,31 @@ Canary donorsBySample() {
           {{"donors_by_sample", true}},
           farDonors()};
 }
+
+// A walk in which entries alone are merged over time, far ones among them.
+Canary jacobianOf(const char* cache) {
+  return {"omit_jacobian, cornell-box, entries",
+          "cornell-box",
+          walkTo(cornellBelowTheLamp(), 6, {0.06, 0.01, -0.05}, 0.0),
+          {{"omit_jacobian", true}},
+          {{"reproject", false},
+           {"spatial_neighbours", int64_t{0}},
+           {"feed_every", int64_t{1}},
+           {"entry_proposals", int64_t{4}},
+           {"entry_spread", 8.0},
+           {kEntryCount, int64_t{4096}},
+           {"max_jacobian", 100.0},
+           {"normal_threshold", -1.0},
+           {"plane_threshold", 10.0}},
+          cache};
+}
+
+class CanaryOfEntries : public ::testing::TestWithParam<std::string> {};
+TEST_P(CanaryOfEntries, AnOmittedJacobianIsRejected) {
+  expectRejected(jacobianOf(GetParam().c_str()), kEveryDay);
+}
+INSTANTIATE_TEST_SUITE_P(Cache, CanaryOfEntries, ::testing::ValuesIn(cachesWithEntries()),
+                         [](const auto& test) { return test.param; });
 
 TEST(Canary, DonorsChosenByTheirSamplesAreRejected) { expectRejected(donorsBySample(), kEveryDay); }
 TEST(Canary, ConfidenceWeightsAreRejected) { expectRejected(confidenceInTheBox(), kEveryDay); }

@@ -74,6 +74,44 @@ TEST_P(ChangingLight, LightThatWasIsForgotten) {
   }
 }
 
+// One lamp goes off as another goes on: the energy hardly changes, but its place does.
+TEST_P(ChangingLight, ALampThatIsElsewhereIsForgotten) {
+  const auto only = [](const char* light) {
+    Scene scene = withLightFactor(makeBuiltinScene("glossy-gallery"), kAllLights, 0.0);
+    return CompiledScene::build(withLightFactor(std::move(scene), light, 1.0));
+  };
+  const auto left = only("light-left"), right = only("light-right");
+  const SessionConfig validated = config(16), plain = config(0);
+  SessionConfig path = bias::pathMethod(1).config;
+  path.width = plain.width;
+  path.height = plain.height;
+  const uint32_t frames = 256;
+  Session truth(right, path);
+  Image mean(path.width, path.height);
+  for (uint32_t i = 0; i < frames; ++i) {
+    truth.frame();
+    const Image& image = truth.radiance();
+    for (size_t p = 0; p < mean.pixels.size(); ++p)
+      mean.pixels[p] += image.pixels[p] / float(frames);
+  }
+  const auto errorOf = [&](const std::shared_ptr<const CompiledScene>& first,
+                           const SessionConfig& what) {
+    Session session(first, what);
+    session.frames(40);
+    session.setScene(right);
+    session.frames(8);
+    double sum = 0.0;
+    for (size_t p = 0; p < mean.pixels.size(); ++p) {
+      const glm::vec3 d = session.radiance().pixels[p] - mean.pixels[p];
+      sum += double(glm::dot(d, d)) / double(mean.pixels.size());
+    }
+    return sum;
+  };
+  const double forgets = errorOf(left, validated), remembers = errorOf(left, plain);
+  EXPECT_LT(forgets, 0.1 * remembers);
+  EXPECT_GT(remembers, 10.0 * errorOf(right, plain)) << "the check sees what is remembered";
+}
+
 // Histories that follow surfaces forget, and entries do, whether they are fed in the frame of the
 // change or not.
 TEST_P(ChangingLight, LightThatWasIsForgottenWhileTheCameraWalks) {

@@ -10,6 +10,7 @@
 #include "core/denoiser.h"
 #include "core/error.h"
 #include "core/image/layer_colors.h"
+#include "tests/bias/few_entries.h"
 #include "tests/conformance/cache_run.h"
 #include "tests/conformance/variants.h"
 
@@ -28,7 +29,7 @@ SessionConfig smallConfig(const std::string& cache, const ParameterMap& paramete
   return config;
 }
 
-class EntryLayers : public testing::TestWithParam<const char*> {};
+class EntryLayers : public testing::TestWithParam<std::string> {};
 
 // Over surfaces made by hand, whose buffers can be looked into: so many that places are rare.
 TEST_P(EntryLayers, AreWhatTheBuffersHold) {
@@ -118,8 +119,8 @@ TEST_P(EntryLayers, AProbeSaysTheSameNumbers) {
   EXPECT_GT(values["entry"], 0.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Cache, EntryLayers, testing::Values("surflet", "voxel"),
-                         [](const auto& test) { return std::string(test.param); });
+INSTANTIATE_TEST_SUITE_P(Cache, EntryLayers, testing::ValuesIn(bias::cachesWithEntries()),
+                         [](const auto& test) { return test.param; });
 
 // In a still view without donors over space a history gains one sample a frame, up to the cap and
 // the frame's own.

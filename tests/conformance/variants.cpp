@@ -27,8 +27,11 @@ std::vector<Variant> allVariants() {
       for (const ModeInfo& mode : info->modes)
         all.push_back({info->name, mode.name, mode.bias, "none", cache});
     }
-    if (info->endsPaths)
-      all.push_back({info->name, info->modes.front().name, BiasClass::biased, "none", "", true});
+    for (const std::string& cache : caches) {
+      if (info->endsPaths)
+        all.push_back(
+            {info->name, info->modes.front().name, BiasClass::biased, "none", cache, true});
+    }
   }
   for (const DenoiserInfo* info : denoiserRegistry()) {
     if (info->name == "none") continue;

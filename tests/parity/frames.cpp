@@ -110,7 +110,7 @@ std::vector<Combination> combinations() {
       for (const std::string& cache : caches) all.push_back({info->name, mode.name, cache, "none"});
     }
     if (info->endsPaths)
-      all.push_back({info->name, info->modes.front().name, caches.front(), "none", true});
+      all.push_back({info->name, info->modes.front().name, caches.back(), "none", true});
   }
   for (const DenoiserInfo* info : denoiserRegistry()) {
     if (info->name != "none")

@@ -65,6 +65,30 @@ TEST_P(LightSwitch, TheHistoryGoesOn) {
   EXPECT_FALSE(isSame(live, kept));
 }
 
+// A path that is traced again finds the same light, though another pipeline traces it.
+TEST_P(LightSwitch, AStillLightChangesNoBit) {
+  if (!hasVulkan()) GTEST_SKIP() << kNoDevice;
+  const Reads reads(GetParam());
+  for (const char* name : {"door-ajar", "glossy-gallery"}) {
+    const auto scene = sceneNamed(name);
+    const auto run = [&](int64_t every) {
+      Combination what;
+      what.integrator = "restir_gi";
+      what.cache = "voxel";
+      SessionConfig config = configOf(what, kVulkanSpecialised, 47, 32, kSeed);
+      config.parameters["validate_every"] = every;
+      auto session = std::make_unique<Session>(scene, config);
+      for (uint32_t frame = 0; frame < 8; ++frame) {
+        session->setCamera(cameraOf(*scene, frame < 4 ? 0 : frame - 2));
+        session->frame();
+      }
+      return session;
+    };
+    const auto plain = run(0), validated = run(4);
+    EXPECT_TRUE(isSame(*plain, *validated)) << name;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Reading, LightSwitch, testing::Values("texels", "addresses"),
                          [](const auto& how) { return std::string(how.param); });
 

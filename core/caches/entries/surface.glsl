@@ -23,7 +23,8 @@ RL_FN Anchor anchorOfSurface(RL_IN(Surface) s, uint slot) {
   a.surface.emits = 0u;
   a.surface.nGeoW = packNormal(s.nGeoW);
   a.surface.nShadeW = packNormal(s.nShadeW);
-  a.surface.reflectance = bsdfReflectance(s.bsdf);
+  // As it will be read: a target that changed with its rounding would be another one.
+  a.surface.reflectance = unpackColor(packColor(bsdfReflectance(s.bsdf)));
   a.posError = s.posError;
   a.begunBy = slot;
   return a;
