@@ -35,7 +35,7 @@ std::vector<ParameterInfo> parameterInfos() {
        64,
        {},
        "places from its hash on where a cell may lie",
-       "as entry_probes"},
+       kSwept},
       {kEvery,
        int64_t{16},
        1,
@@ -83,7 +83,8 @@ std::vector<ParameterInfo> parameterInfos() {
        "one of so many cells has a path that it keeps traced again each frame; where it finds "
        "other "
        "light the cell begins anew (counted: light_changed)",
-       "Ouyang et al. 2021 validate all of their samples every six frames"},
+       "Ouyang et al. 2021 validate all of their samples every six frames; measured: "
+       "docs/decisions.md, Paths end in cells that see one place"},
       {"radiance_cap",
        int64_t{1024},
        8,

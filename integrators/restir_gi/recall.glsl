@@ -3,6 +3,7 @@
 // gets a film sample, drawn for this one merge. So both have one domain, film times paths, and the
 // shift between them keeps the film sample. MIS weights depend on the anchor, and where the anchor
 // lies depends on the film samples of the pixel that began the entry: that pixel does not ask it.
+// (That film sample may travel to others by reuse. What is left is said in docs/decisions.md.)
 #include "core/resampling/ris.glsl"
 #include "core/resampling/mis.glsl"
 #include "core/resampling/shift.glsl"

@@ -121,7 +121,7 @@ std::vector<ParameterInfo> parameterInfos() {
        1000.0,
        {},
        "share of a history that is forgotten, over the share of the light around that has changed",
-       "not swept"},
+       "measured: docs/decisions.md, Light that changed is found by replay"},
       {"roughness_limit",
        0.2,
        0.0,

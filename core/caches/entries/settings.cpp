@@ -31,7 +31,7 @@ std::vector<ParameterInfo> entryParameters() {
        64,
        {},
        "places from its hash on where an entry may lie",
-       "bounded linear probing"},
+       kSwept},
       {"entry_spread",
        1.5,
        0.0,
