@@ -35,6 +35,17 @@ size_t proposed(const CacheRun& run) {
   return count;
 }
 
+// The same frames of two caches, of one by one thread in order, of the other by seven in others:
+// every buffer has the same words.
+void expectSameByOneAndByMany(CacheRun& one, CacheRun& many, uint32_t frames) {
+  for (uint32_t frame = 0; frame < frames; ++frame) {
+    one.frame(true, 1, 0);
+    many.frame(true, 7, 100 + frame);
+    for (const auto& [name, words] : one.buffers())
+      EXPECT_TRUE(words == many.words(name)) << name << ", frame " << frame;
+  }
+}
+
 size_t anchored(const CacheRun& run) {
   size_t count = 0;
   for (uint32_t entry = 0; entry < run.entries().count; ++entry) count += run.hasAnchor(entry);
@@ -72,7 +83,7 @@ TEST_P(CacheEntries, ProposalsOfAPixelDiffer) {
   }
 }
 
-// 10^6 pixels ask, by one thread in order, by seven in others.
+// 10^6 pixels ask.
 TEST_P(CacheEntries, TheOrderOfPixelsDoesNotMatter) {
   CacheRun one = make({1000, 1000}, 1 << 17), many = make({1000, 1000}, 1 << 17);
   const auto waves = [](glm::uvec2 p) {
@@ -81,12 +92,7 @@ TEST_P(CacheEntries, TheOrderOfPixelsDoesNotMatter) {
   };
   one.look(waves);
   many.look(waves);
-  for (uint32_t frame = 0; frame < 2; ++frame) {
-    one.frame(true, 1, 0);
-    many.frame(true, 7, 100 + frame);
-    for (const auto& [name, words] : one.buffers())
-      EXPECT_TRUE(words == many.words(name)) << name << ", frame " << frame;
-  }
+  expectSameByOneAndByMany(one, many, 2);
   EXPECT_GT(anchored(one), 1000u);
 }
 
@@ -183,12 +189,7 @@ TEST_P(CacheEntries, AllPixelsInAFewEntries) {
   CacheRun one(GetParam(), {48, 48}, wide), many(GetParam(), {48, 48}, wide);
   one.look(wall);
   many.look(wall);
-  for (uint32_t frame = 0; frame < 6; ++frame) {
-    one.frame(true, 1, 0);
-    many.frame(true, 7, 100 + frame);
-    for (const auto& [name, words] : one.buffers())
-      EXPECT_TRUE(words == many.words(name)) << name << ", frame " << frame;
-  }
+  expectSameByOneAndByMany(one, many, 6);
   EXPECT_GE(anchored(one), 1u);
   EXPECT_LE(anchored(one), 16u);
   EXPECT_GT(double(proposed(one)), 0.98 * one.pixels());
