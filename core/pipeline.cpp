@@ -147,11 +147,7 @@ std::vector<std::pair<std::string, size_t>> Pipeline::bufferBytesPerPixel() cons
   return sizes;
 }
 
-size_t Pipeline::bytesPerPixel() const {
-  size_t sum = 0;
-  for (const auto& [name, bytes] : bufferBytesPerPixel()) sum += bytes;
-  return sum;
-}
+size_t Pipeline::bytesPerPixel() const { return bytesPerPixelOf(pixels_); }
 
 size_t Pipeline::bytesPerPixelOf(size_t pixels) const {
   size_t sum = 0;

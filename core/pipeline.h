@@ -20,8 +20,8 @@ class Pipeline {
            const ParameterMap& parameters, uint32_t wanted, size_t pixels);
 
   uint32_t featuresUsed() const { return used_; }
-  // Of the buffers that the kernels in use can touch: one that they cannot is not allocated.
-  // Rounded up.
+  // Of the buffers that the kernels in use can touch: one that they cannot is not allocated. Each
+  // is rounded up, and so is their sum: it may be less than that of the rounded ones.
   std::vector<std::pair<std::string, size_t>> bufferBytesPerPixel() const;
   size_t bytesPerPixel() const;
   // Of an image of another size: what is no pixel's is shared by more or fewer of them.

@@ -424,8 +424,9 @@ bool CompiledScene::differsInLightAlone(const CompiledScene& other) const {
     return std::memcmp(&of, &there, sizeof of) == 0 && std::memcmp(&here, &its, sizeof here) == 0;
   };
   const auto isSame = [](const auto& of, const auto& with) {
+    // memcmp() takes no null, which an empty vector has.
     return of.size() == with.size() &&
-           std::memcmp(of.data(), with.data(), of.size() * sizeof(of[0])) == 0;
+           (of.empty() || std::memcmp(of.data(), with.data(), of.size() * sizeof(of[0])) == 0);
   };
   return a.features == b.features && a.origin == b.origin && a.positions == b.positions &&
          isSame(a.normals, b.normals) && isSame(a.tangents, b.tangents) && isSame(a.uvs, b.uvs) &&

@@ -168,7 +168,7 @@ void printDetails(const Json& part) {
   for (const Json& parameter : part["parameters"]) {
     std::string bounds;
     if (parameter.contains("range")) {
-      bounds = fmt::format(" in {:g}..{:g}", parameter["range"][0].get<double>(),
+      bounds = fmt::format(" in {:.9g}..{:.9g}", parameter["range"][0].get<double>(),
                            parameter["range"][1].get<double>());
     } else if (parameter.contains("choices")) {
       bounds = " of " + parameter["choices"].dump();

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/cache.h"
+#include "tests/bias/few_entries.h"
 #include "tests/bias/independent_runs.h"
 #include "tests/bias/test_cameras.h"
 
@@ -23,12 +24,12 @@ struct Walk {
 void PrintTo(const Walk& w, std::ostream* out) { *out << w.name; }
 
 struct Setting {
-  const char* cache;
+  std::string cache;
   ParameterMap parameters = {};
 };
 std::vector<Setting> allCaches() {
   std::vector<Setting> all;
-  for (const CacheInfo* info : cacheRegistry()) all.push_back({info->name.c_str()});
+  for (const CacheInfo* info : cacheRegistry()) all.push_back({info->name});
   return all;
 }
 
@@ -107,14 +108,18 @@ TEST(MovingCameraThereAndBack, LeavesTheMean) {
 // new ones.
 Walk flyThrough() { return {"flying", "cornell-box", {0.0, -0.02, -0.8}, 0.0}; }
 SceneCamera endOfFlight() { return lookAt({-2.78, 2.7, -1.5}, {-2.78, 2.4, -5.5}, 55.0); }
-const std::vector<Setting> kFlyingEntries = {{"voxel", {{"entries", int64_t{4096}}}},
-                                             {"surflet", {{"entries", int64_t{4096}}}}};
+std::vector<Setting> flyingEntries() {
+  std::vector<Setting> all;
+  for (const std::string& cache : cachesWithEntries())
+    all.push_back({cache, {{"entries", int64_t{4096}}}});
+  return all;
+}
 
 TEST(MovingCameraFlyThrough, LeavesTheMean) {
-  expectUnbiased(flyThrough(), endOfFlight(), 256, 48, 10, 1, kFlyingEntries);
+  expectUnbiased(flyThrough(), endOfFlight(), 256, 48, 10, 1, flyingEntries());
 }
 TEST(MovingCameraFlyThrough, NightlyLeavesTheMean) {
-  expectUnbiased(flyThrough(), endOfFlight(), 2048, 384, 10, 0, kFlyingEntries);
+  expectUnbiased(flyThrough(), endOfFlight(), 2048, 384, 10, 0, flyingEntries());
 }
 
 // Cells and discs over edges and through walls, many donors, entries that forget at once.
@@ -123,11 +128,13 @@ TEST(MovingCameraEntries, NoSettingMovesTheMean) {
                              {"max_jacobian", 1.0e6},    {"entry_spread", 8.0},
                              {"feed_every", int64_t{1}}, {"entry_proposals", int64_t{4}}};
   const Walk walk{"walking", "cornell-box", {0.06, 0.01, -0.05}, 0.0};
-  expectUnbiased(walk, endOf(walk), 256, 48, 6, 1,
-                 {{"voxel", open},
-                  {"surflet", open},
-                  {"voxel", {{"voxel_pixels", 16.0}, {"entry_cap", 2.0}}},
-                  {"surflet", {{"surflet_pixels", 12.0}, {"entries", int64_t{1024}}}}});
+  std::vector<Setting> settings;
+  for (const std::string& cache : cachesWithEntries()) {
+    settings.push_back({cache, open});
+    settings.push_back(
+        {cache, {{cache + "_pixels", 16.0}, {"entry_cap", 2.0}, {"entries", int64_t{1024}}}});
+  }
+  expectUnbiased(walk, endOf(walk), 256, 48, 6, 1, settings);
 }
 
 class MovingCameraNightly : public ::testing::TestWithParam<Walk> {};

@@ -13,6 +13,7 @@
 
 #include "core/caches/entries/settings.h"
 #include "core/image/color.h"
+#include "tests/bias/few_entries.h"
 #include "tests/bias/independent_runs.h"
 #include "tests/bias/test_cameras.h"
 #include "tests/stats/welch.h"
@@ -124,32 +125,34 @@ struct Energies {
 
 // A round wants many times the places there are, and in each frame some have none left.
 struct Crowded {
-  const char* name;
+  std::string name;
   const char* integrator;
-  const char* cache;
+  std::string cache;
   ParameterMap parameters;
   bool isBiased = false;
 };
 void PrintTo(const Crowded& what, std::ostream* out) { *out << what.name; }
 
-const std::vector<Crowded> kCrowded = {
-    {"voxel",
-     "restir_gi",
-     "voxel",
-     {{kEntryCount, int64_t{1024}}, {"entry_probes", int64_t{2}}, {"voxel_pixels", 0.5}}},
-    {"surflet",
-     "restir_gi",
-     "surflet",
-     {{kEntryCount, int64_t{1024}}, {"entry_probes", int64_t{2}}, {"surflet_pixels", 0.5}}},
-    {"radiance",
-     "path",
-     "",
-     {{"secondary", std::string("cache")},
-      {"radiance_entries", int64_t{1024}},
-      {"radiance_probes", int64_t{2}},
-      {"radiance_every", int64_t{1}},
-      {"radiance_pixels", 0.5}},
-     true}};
+std::vector<Crowded> crowded() {
+  std::vector<Crowded> all;
+  for (const std::string& cache : bias::cachesWithEntries()) {
+    all.push_back(
+        {cache,
+         "restir_gi",
+         cache,
+         {{kEntryCount, int64_t{1024}}, {"entry_probes", int64_t{2}}, {cache + "_pixels", 0.5}}});
+  }
+  all.push_back({"radiance",
+                 "path",
+                 "",
+                 {{"secondary", std::string("cache")},
+                  {"radiance_entries", int64_t{1024}},
+                  {"radiance_probes", int64_t{2}},
+                  {"radiance_every", int64_t{1}},
+                  {"radiance_pixels", 0.5}},
+                 true});
+  return all;
+}
 
 class CacheLongRun : public testing::TestWithParam<Crowded> {
  protected:
@@ -199,7 +202,7 @@ TEST_P(CacheLongRun, KeepsItsEnergyItsMemoryAndItsRays) {
   std::printf(
       "%s: energy %s, drift %s; last quarter over first: rays %.4f, time %.2f; without a place "
       "%.1f pixels a frame; memory %+.2f MiB\n",
-      GetParam().name, mean.percent().c_str(), drift.percent().c_str(), rays, timeRatio,
+      GetParam().name.c_str(), mean.percent().c_str(), drift.percent().c_str(), rays, timeRatio,
       double(full) / (kRuns * kQuarter * kRound), grown / double(1 << 20));
 
   EXPECT_LT(grown, double(4 << 20)) << "bytes that the frames took";
@@ -219,7 +222,7 @@ TEST_P(CacheLongRun, KeepsItsEnergyItsMemoryAndItsRays) {
   expectZero(drift, Estimate(again.drift), "drift");
 }
 
-INSTANTIATE_TEST_SUITE_P(, CacheLongRun, testing::ValuesIn(kCrowded),
+INSTANTIATE_TEST_SUITE_P(, CacheLongRun, testing::ValuesIn(crowded()),
                          [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace

@@ -35,9 +35,11 @@ TEST_P(ThinWall, TheDarkRoomStaysDark) {
   const auto scene = twoRooms();
   SessionConfig config = configOf(GetParam(), 64, 48);
   // Cells and discs that reach through the wall.
-  const ParameterMap wide = {{"voxel_pixels", 32.0},      {"surflet_pixels", 24.0},
-                             {"entry_spread", 4.0},       {"radiance_pixels", 64.0},
-                             {"radiance_footprint", 0.1}, {"radiance_least", int64_t{1}}};
+  const ParameterMap wide = {{config.cache + "_pixels", 24.0},
+                             {"entry_spread", 4.0},
+                             {"radiance_pixels", 64.0},
+                             {"radiance_footprint", 0.1},
+                             {"radiance_least", int64_t{1}}};
   for (const ParameterInfo& p : findMethod(config).parameters()) {
     if (wide.contains(p.name)) config.parameters[p.name] = wide.at(p.name);
   }

@@ -15,6 +15,7 @@
 #include "core/resampling/reservoir.h"
 #include "core/scene/compiled_scene.h"
 #include "core/scene/scene.h"
+#include "tests/bias/few_entries.h"
 
 namespace restlab::unit {
 namespace {
@@ -248,10 +249,11 @@ TEST(RngAudit, RestirGiWithEntries) {
                              {"entry_proposals", int64_t{rl::RL_MAX_DONORS}},
                              {"feed_every", int64_t{1}}};
   for (const std::string& name : builtinSceneNames()) {
-    for (const char* cache : {"surflet", "voxel"}) {
+    for (const std::string& cache : bias::cachesWithEntries()) {
+      ASSERT_TRUE(kRestirKernels.contains(cache + "_propose")) << "it draws, and is not audited";
       const std::string what = std::string("restir_gi with ") + cache + ", " + name;
-      const Kinds kinds =
-          expectNoRepeats({name, {"restir_gi", "unbiased", kRestirKernels, cache, busy}}, what);
+      const Kinds kinds = expectNoRepeats(
+          {name, {"restir_gi", "unbiased", kRestirKernels, cache.c_str(), busy}}, what);
       using namespace rl;
       EXPECT_TRUE(kinds.contains({RL_VERTEX_RECALL, RL_DIM_FILTER_X})) << what;
       for (uint32_t k = 0; k < RL_MAX_DONORS; ++k) {
