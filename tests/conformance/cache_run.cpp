@@ -85,7 +85,9 @@ void CacheRun::look(const std::function<Shown(glm::uvec2)>& shown, float x) {
 }
 
 void CacheRun::pass(const PassInfo& info, uint32_t threads, uint32_t order) {
+  const rl::SceneData nothing{};  // kernels of caches ask for no scene
   rl::CpuKernelArgs args;
+  args.scene = &nothing;
   args.frame = &frame_;
   args.buffers = addresses_.data();
   args.params = params_.data();
