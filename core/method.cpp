@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/changes/settings.h"
 #include "core/error.h"
 #include "core/radiance/settings.h"
 #include "core/session.h"
@@ -126,6 +127,7 @@ std::vector<const PartInfo*> Method::parts() const {
   std::vector<const PartInfo*> all;
   if (cache != nullptr) all.push_back(cache);
   if (integrator->endsPaths) all.push_back(&radiancePartInfo());
+  if (asksForChanges(*integrator) || asksForChanges(*denoiser)) all.push_back(&changesPartInfo());
   all.push_back(integrator);
   all.push_back(denoiser);
   return all;
@@ -133,8 +135,15 @@ std::vector<const PartInfo*> Method::parts() const {
 
 std::vector<ParameterInfo> Method::parameters() const {
   std::vector<ParameterInfo> all;
-  for (const PartInfo* part : parts())
+  const std::vector<const PartInfo*> of = parts();
+  for (const PartInfo* part : of)
     all.insert(all.end(), part->parameters.begin(), part->parameters.end());
+  for (const PartInfo* part : of) {
+    for (ParameterInfo& p : all) {
+      if (const auto other = part->defaults.find(p.name); other != part->defaults.end())
+        p.defaultValue = other->second;
+    }
+  }
   return all;
 }
 
@@ -174,11 +183,13 @@ BiasClass Method::bias(const std::string& mode, const ParameterMap& resolved,
 ParameterMap resolveParameters(const Method& method, const ParameterMap& given) {
   ParameterMap resolved;
   std::vector<std::string> names;
+  std::map<std::string, ParameterValue> defaults;
+  for (const ParameterInfo& p : method.parameters()) defaults[p.name] = p.defaultValue;
   for (const PartInfo* part : method.parts()) {
     for (const ParameterInfo& p : part->parameters) {
       const auto value = given.find(p.name);
       resolved[p.name] =
-          value == given.end() ? p.defaultValue : checked(part->name, p, value->second);
+          value == given.end() ? defaults.at(p.name) : checked(part->name, p, value->second);
       names.push_back(p.name);
     }
   }
@@ -223,7 +234,7 @@ bool isThere(const OnlyWith& only, const ParameterMap& resolved) {
   if (found == resolved.end()) return false;
   if (only.value != nullptr) return std::get<std::string>(found->second) == only.value;
   const int64_t* number = std::get_if<int64_t>(&found->second);
-  return number == nullptr || *number != 0;
+  return number == nullptr || *number >= only.least;
 }
 
 size_t bufferBytes(const BufferInfo& buffer, const ParameterMap& parameters, size_t pixels) {

@@ -33,10 +33,11 @@ using ParameterMap = std::map<std::string, ParameterValue>;
 enum class BiasClass { unbiased, consistent, biased };
 
 // Of what not every method has: it is there where the method has the parameter, with this value if
-// one is named; otherwise, of an integer, with another than 0.
+// one is named; otherwise, of an integer, with `least` or more.
 struct OnlyWith {
   const char* parameter = nullptr;  // null: always
   const char* value = nullptr;      // of a parameter that is a string
+  int64_t least = 1;
 };
 bool isThere(const OnlyWith& only, const ParameterMap& resolved);
 
@@ -63,6 +64,9 @@ struct PassInfo {
   // Another one: over groups of so many pixels, or of those entries.
   const char* onePerParameter = nullptr;
   OnlyWith onlyWith = {};
+  // Of several passes of one kernel: gParams there begins with this number, a uint. -1: with what
+  // packParameters() packed.
+  int step = -1;
   bool isReplay = false;  // it does again what was done before, and its health was counted then
 };
 
@@ -94,6 +98,8 @@ struct PartInfo {
   std::string name;
   std::string summary;  // one line
   std::vector<ParameterInfo> parameters;
+  // Of other parts' parameters, where this part is in the method.
+  std::map<std::string, ParameterValue> defaults;
   // Buffers of earlier parts by name, which the kernels' Buffers struct begins with.
   std::vector<std::string> inputs;
   // Such buffers after them, null where no earlier part has one of that name.

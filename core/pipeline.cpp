@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 
 #include "core/error.h"
 #include "core/memory.h"
@@ -206,8 +207,13 @@ std::vector<BufferId> Pipeline::bindings(size_t stage) const {
 
 PassRun Pipeline::runOf(size_t stage, size_t pass) const {
   const Stage& own = stages_[stage];
-  return {own.info->passes[pass].kernel, own.masks[pass], bindings(stage), own.params,
-          own.entries[pass]};
+  const PassInfo& info = own.info->passes[pass];
+  PassRun run = {info.kernel, own.masks[pass], bindings(stage), own.params, own.entries[pass]};
+  if (info.step >= 0) {
+    const auto step = static_cast<uint32_t>(info.step);
+    std::memcpy(run.params.data(), &step, sizeof step);
+  }
+  return run;
 }
 
 std::vector<PassRun> Pipeline::beginFrame(bool isNewView) {
@@ -256,6 +262,11 @@ std::vector<Pipeline::PassResult> Pipeline::collect(const FrameResult& result) {
     }
   }
   return passes;
+}
+
+BufferId Pipeline::buffer(const std::string& name) const {
+  const auto at = find(name, stages_.size());
+  return at ? bound(stages_[at->first], at->second) : kNoBuffer;
 }
 
 BufferId Pipeline::shown() const {

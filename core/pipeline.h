@@ -54,6 +54,8 @@ class Pipeline {
 
   // Of the frame that was submitted last.
   BufferId shown() const;
+  // A buffer by name, for who writes to it what no pass does; kNoBuffer where it is not allocated.
+  BufferId buffer(const std::string& name) const;
 
  private:
   struct Stage {

@@ -9,10 +9,11 @@
 #include "core/backend/backend.h"
 #include "core/dialect/features.h"
 #include "core/error.h"
+#include "core/frame_stats.h"
 #include "core/method.h"
 #include "core/pipeline.h"
 #include "core/scene/compiled_scene.h"
-#include "core/visible_surfaces.h"
+#include "core/view_parts.h"
 
 namespace restlab {
 
@@ -26,8 +27,8 @@ const std::array<const char*, rl::RL_FEATURE_BITS> kFeatureNames = {
 
 // Buffers of the AOV kernel, in the order of its Buffers struct.
 constexpr const char* kAovKernel = "aov";
-const std::vector<std::string> kAovNames = {"radiance", "positionW", "normalW",
-                                            "albedo",   "depth",     "object"};
+const std::vector<std::string> kAovNames = {"radiance", "positionW", "normalW", "albedo",
+                                            "depth",    "object",    "emission"};
 
 }  // namespace
 
@@ -43,9 +44,24 @@ std::string featureNames(uint32_t mask) {
 
 const std::array<const char*, rl::RL_HEALTH_COUNT>& Health::names() {
   static const std::array<const char*, rl::RL_HEALTH_COUNT> names = {
-      "nonfinite", "rejected_jacobian", "capped_confidence", "delta_lobes",  "unreusable_pixels",
-      "negative",  "dropped_weights",   "cache_full",        "light_changed"};
+      "nonfinite",         "rejected_jacobian", "capped_confidence", "delta_lobes",
+      "unreusable_pixels", "negative",          "dropped_weights",   "cache_full",
+      "light_changed",     "new_history",       "fireflies"};
   return names;
+}
+
+FrameStats statsOf(const std::vector<Pipeline::PassResult>& passes) {
+  FrameStats stats;
+  for (const Pipeline::PassResult& pass : passes) {
+    stats.passes.push_back(
+        {pass.name, pass.timeMs, pass.counters.raysPath, pass.counters.raysShadow});
+    stats.timeMs += pass.timeMs;
+    stats.raysPath += pass.counters.raysPath;
+    stats.raysShadow += pass.counters.raysShadow;
+    for (size_t k = 0; k < stats.health.counts.size(); ++k)
+      stats.health.counts[k] += pass.counters.health[k];
+  }
+  return stats;
 }
 
 struct Session::Impl {
@@ -111,8 +127,8 @@ void Session::Impl::open() {
   backend = makeBackend(config.backend, scene,
                         {config.threads, config.device, config.rayTracing, config.validate});
   const uint32_t wanted = config.specialise ? needed : rl::RL_FEATURE_ALL;
-  pipeline.emplace(*backend, withVisibleSurfaces(method.parts()), config.mode, config.parameters,
-                   wanted, size_t(config.width) * config.height);
+  pipeline.emplace(*backend, withViewParts(method.parts()), config.mode, config.parameters, wanted,
+                   size_t(config.width) * config.height);
   backend->requireMemory(method.integrator->name, config.width, config.height,
                          pipeline->bytesPerPixel(), sizeof(glm::vec3) + hostBytesPerPixel);
   pipeline->allocate();
@@ -176,19 +192,7 @@ void Session::Impl::submitFrame() {
   ++frame.frame;
 }
 
-FrameStats Session::Impl::collectFrame() {
-  FrameStats stats;
-  for (const Pipeline::PassResult& pass : pipeline->collect(backend->collect())) {
-    stats.passes.push_back(
-        {pass.name, pass.timeMs, pass.counters.raysPath, pass.counters.raysShadow});
-    stats.timeMs += pass.timeMs;
-    stats.raysPath += pass.counters.raysPath;
-    stats.raysShadow += pass.counters.raysShadow;
-    for (size_t k = 0; k < stats.health.counts.size(); ++k)
-      stats.health.counts[k] += pass.counters.health[k];
-  }
-  return stats;
-}
+FrameStats Session::Impl::collectFrame() { return statsOf(pipeline->collect(backend->collect())); }
 
 FrameStats Session::frame() {
   impl_->submitFrame();

@@ -103,9 +103,10 @@ class Session {
   // Of the film samples of the last frame, traced once when the first is asked for; one of
   // aovNames(): radiance; at the first hit positionW, normalW (unit, shading, on the viewer's
   // side), albedo (diffuse + specular at normal incidence + transmission), depth (distance along
-  // the ray, in every channel), object (1 + the index in Scene::instances, in every channel); zero
-  // where nothing is hit. Or a layer of the method (Method::layers()), its numbers in every
-  // channel. Throws Error (badUsage) with the nearest name, and where the history has no frame yet.
+  // the ray, in every channel), object (1 + the index in Scene::instances, in every channel),
+  // emission (radiance towards the camera); zero where nothing is hit, but for the environment's
+  // emission. Or a layer of the method (Method::layers()), its numbers in every channel. Throws
+  // Error (badUsage) with the nearest name, and where the history has no frame yet.
   Image aov(const std::string& name) const;
   static const std::vector<std::string>& aovNames();  // of every method
 

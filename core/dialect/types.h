@@ -278,8 +278,10 @@ const uint RL_HEALTH_DROPPED_WEIGHTS =
     6u;                                // resampling weights that are no finite, non-negative number
 const uint RL_HEALTH_CACHE_FULL = 7u;  // pixels whose cell found no place in the cache
 const uint RL_HEALTH_LIGHT_CHANGED =
-    8u;  // cells of radiance that began anew: their light is another
-const uint RL_HEALTH_COUNT = 9u;
+    8u;                                 // cells of radiance that began anew: their light is another
+const uint RL_HEALTH_NEW_HISTORY = 9u;  // pixels whose surface a denoiser had no history of
+const uint RL_HEALTH_FIREFLIES = 10u;   // pixels that a denoiser has darkened to their neighbours
+const uint RL_HEALTH_COUNT = 11u;
 
 RL_NAMESPACE_END
 

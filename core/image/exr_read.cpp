@@ -206,15 +206,32 @@ class HeaderGuard {
   bool windowSeen_ = false;
 };
 
-// The channels that make up one layer: three, or luminance alone.
+// The channels that make up one layer: three, or one alone.
 struct LayerChannels {
-  std::array<std::string, 3> rgb;
-  std::string luminance;
-  bool otherAxes = false;  // X or Z beside Y: a vector, not a luminance; RY, BY: chroma beside it
+  std::array<std::string, 3> three;
+  std::string alone;
 };
 
-std::map<std::string, LayerChannels> findLayers(const fs::path& file, const Imf::Header& header) {
-  std::map<std::string, LayerChannels> found;
+// Of a layer's channels, by the last part of their names.
+LayerChannels channelsOf(const std::map<std::string, std::string>& named, ExrLayers wanted) {
+  const auto has = [&](const char* last) { return named.contains(last); };
+  const auto three = [&](const char* a, const char* b, const char* c) -> LayerChannels {
+    return {{named.at(a), named.at(b), named.at(c)}, ""};
+  };
+  if (has("R") && has("G") && has("B")) return three("R", "G", "B");
+  const bool anyRgb = has("R") || has("G") || has("B");
+  const bool isVector = has("X") || has("Z");
+  // Y alone is a luminance; beside X or Z it is an axis, and RY and BY say chroma.
+  if (has("Y") && !anyRgb && !isVector && !has("RY") && !has("BY")) return {{}, named.at("Y")};
+  if (wanted == ExrLayers::colours) return {};
+  if (has("X") && has("Y") && has("Z")) return three("X", "Y", "Z");
+  if (named.size() == 1) return {{}, named.begin()->second};
+  return {};
+}
+
+std::map<std::string, LayerChannels> findLayers(const fs::path& file, const Imf::Header& header,
+                                                ExrLayers wanted) {
+  std::map<std::string, std::map<std::string, std::string>> named;
   std::string all;
   for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
     const std::string channel = it.name();
@@ -222,22 +239,18 @@ std::map<std::string, LayerChannels> findLayers(const fs::path& file, const Imf:
     const size_t dot = channel.rfind('.');
     const std::string layer = dot == std::string::npos ? "" : channel.substr(0, dot);
     const std::string last = dot == std::string::npos ? channel : channel.substr(dot + 1);
-    LayerChannels& channels = found[layer];
-    if (last == "R") channels.rgb[0] = channel;
-    if (last == "G") channels.rgb[1] = channel;
-    if (last == "B") channels.rgb[2] = channel;
-    if (last == "Y") channels.luminance = channel;
-    if (last == "X" || last == "Z" || last == "RY" || last == "BY") channels.otherAxes = true;
+    named[layer][last] = channel;
   }
-  for (auto it = found.begin(); it != found.end();) {
-    LayerChannels& channels = it->second;
-    const bool anyRgb = std::any_of(channels.rgb.begin(), channels.rgb.end(),
-                                    [](const std::string& c) { return !c.empty(); });
-    const bool allRgb = std::none_of(channels.rgb.begin(), channels.rgb.end(),
-                                     [](const std::string& c) { return c.empty(); });
-    if (anyRgb || channels.otherAxes) channels.luminance.clear();
-    it = allRgb || !channels.luminance.empty() ? std::next(it) : found.erase(it);
+  std::map<std::string, LayerChannels> found;
+  for (const auto& [layer, channels] : named) {
+    const LayerChannels of = channelsOf(channels, wanted);
+    if (!of.alone.empty() || !of.three[0].empty()) found[layer] = of;
   }
+  // Beside colours without a name, Z is the depth.
+  const auto depth = named[""].find("Z");
+  if (wanted == ExrLayers::all && found.contains("") && depth != named[""].end() &&
+      !found.contains("Z"))
+    found["Z"] = {{}, depth->second};
   if (found.empty()) {
     failExr(file,
             "has no layer with channels R, G, B or Y alone (channels: " + all.substr(0, 200) + ")");
@@ -285,7 +298,8 @@ void addSlice(const fs::path& file, Imf::FrameBuffer& frame, const Imf::Header& 
                                       sizeof(glm::vec3) * width));
 }
 
-LayeredImage readOpened(const fs::path& file, std::ifstream& stream, uint64_t fileBytes) {
+LayeredImage readOpened(const fs::path& file, std::ifstream& stream, uint64_t fileBytes,
+                        ExrLayers wanted) {
   HeaderGuard guard(file, stream, fileBytes);
   guard.check();
   FileStream exrStream(stream);
@@ -293,7 +307,7 @@ LayeredImage readOpened(const fs::path& file, std::ifstream& stream, uint64_t fi
   Imf::InputFile exr(exrStream);
   const Imf::Header& header = exr.header();
   const Imath::Box2i window = header.dataWindow();
-  const auto layers = findLayers(file, header);
+  const auto layers = findLayers(file, header, wanted);
   checkSizes(file, header, guard.pixelCount(), fileBytes, layers.size());
   if (!exr.isComplete()) failExr(file, "is incomplete (truncated or still being written)");
   MemoryGuard().take(
@@ -307,16 +321,16 @@ LayeredImage readOpened(const fs::path& file, std::ifstream& stream, uint64_t fi
     layer =
         Image(uint32_t(window.max.x - window.min.x + 1), uint32_t(window.max.y - window.min.y + 1));
     float* first = &layer.pixels[0].x;
-    if (!channels.luminance.empty()) {
-      addSlice(file, frame, header, channels.luminance, first);
+    if (!channels.alone.empty()) {
+      addSlice(file, frame, header, channels.alone, first);
     } else {
-      for (size_t c = 0; c < 3; ++c) addSlice(file, frame, header, channels.rgb[c], first + c);
+      for (size_t c = 0; c < 3; ++c) addSlice(file, frame, header, channels.three[c], first + c);
     }
   }
   exr.setFrameBuffer(frame);
   exr.readPixels(window.min.y, window.max.y);
   for (const auto& [name, channels] : layers) {
-    if (channels.luminance.empty()) continue;
+    if (channels.alone.empty()) continue;
     for (glm::vec3& pixel : result.layers[name].pixels) pixel = glm::vec3(pixel.x);
   }
   const std::string prefix = kExrMetadataPrefix;
@@ -332,7 +346,7 @@ LayeredImage readOpened(const fs::path& file, std::ifstream& stream, uint64_t fi
 
 }  // namespace
 
-LayeredImage readExr(const fs::path& file) {
+LayeredImage readExr(const fs::path& file, ExrLayers wanted) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   if (!fs::exists(status)) failExr(file, "no such file");
@@ -341,7 +355,7 @@ LayeredImage readExr(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (error || !stream) failExr(file, "cannot be opened for reading");
   try {
-    return readOpened(file, stream, fileBytes);
+    return readOpened(file, stream, fileBytes, wanted);
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {

@@ -33,9 +33,14 @@ struct LayeredImage {
 // carries the final name. Throws Error (badInput) naming the file.
 void writeExr(const std::filesystem::path& file, const LayeredImage& image);
 
-// Reads RGB layers (half or float; a luminance-only Y channel becomes grey). Sizes are checked
-// before allocation. Throws Error (badInput) naming the file and what is wrong.
-LayeredImage readExr(const std::filesystem::path& file);
+// Which layers are read.
+enum class ExrLayers {
+  colours,  // R, G, B, or Y alone, which becomes grey
+  all       // and vectors X, Y, Z, and single channels, which fill all three: "Z" is a depth
+};
+// Reads layers (half or float). Sizes are checked before allocation. Throws Error (badInput) naming
+// the file and what is wrong.
+LayeredImage readExr(const std::filesystem::path& file, ExrLayers wanted = ExrLayers::colours);
 
 // 8-bit sRGB preview, radiance x exposure, clipped (a preview only; no figure is computed from it).
 void writePng(const std::filesystem::path& file, const Image& image, float exposure = 1.0f);

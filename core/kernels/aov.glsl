@@ -13,6 +13,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     gBuffers.albedo.data[pixelIndex] = zero;
     gBuffers.depth.data[pixelIndex] = zero;
     gBuffers.object.data[pixelIndex] = zero;
+    gBuffers.emission.data[pixelIndex] = environmentExists() ? environmentRadiance(ray.dir) : zero;
     return;
   }
   Surface s = surfaceLoad(hit, ray.dir);
@@ -22,4 +23,5 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   gBuffers.depth.data[pixelIndex] = vec3(hit.t, hit.t, hit.t);
   float object = float(hit.instance + 1u);
   gBuffers.object.data[pixelIndex] = vec3(object, object, object);
+  gBuffers.emission.data[pixelIndex] = s.emission;
 }

@@ -12,8 +12,9 @@ struct AovBuffers {
   Vec3Ref positionW;
   Vec3Ref normalW;
   Vec3Ref albedo;
-  Vec3Ref depth;   // metres along the ray, the same in all three channels; 0 where nothing is hit
-  Vec3Ref object;  // 1 + the scene's number of the instance, as depth
+  Vec3Ref depth;     // metres along the ray, the same in all three channels; 0 where nothing is hit
+  Vec3Ref object;    // 1 + the scene's number of the instance, as depth
+  Vec3Ref emission;  // radiance that the camera sees directly, of lights and of the environment
 };
 
 struct AovParams {

@@ -1,6 +1,7 @@
 // Host side of `accumulate`.
 #include "denoise/accumulate/accumulate.h"
 
+#include "core/changes/settings.h"
 #include "core/denoiser.h"
 
 namespace restlab {
@@ -47,6 +48,7 @@ const DenoiserInfo& accumulateDenoiserInfo() {
          "largest distance from each other's plane over the distance to the camera",
          "as of the pixel cache"}};
     i.inputs = {"radiance", "visible", "visible_before"};
+    i.optionalInputs = {kChanges};
     i.buffers = {{"accumulated", sizeof(glm::vec3), 0, -1},
                  {"accumulate_history", 16, 0, 2},
                  {"accumulate_history_before", 16, 0, 1}};
@@ -64,6 +66,7 @@ const DenoiserInfo& accumulateDenoiserInfo() {
           static_cast<float>(std::get<double>(p.at("accumulate_plane_threshold")));
       if (std::get<std::string>(p.at("accumulate_filter")) == "bilinear")
         out.flags |= rl::RL_ACCUMULATE_BILINEAR;
+      out.changes = packChanges(p);
       return bytesOf(out);
     };
     return i;

@@ -12,6 +12,8 @@
 // of visibleMatch(); what fails begins anew. Radiance that changes with the direction of the view,
 // and pixels that show more than one surface, then lag behind: biased.
 
+#include "core/changes/read.glsl"
+
 RL_FN History historyOf(uint pixelIndex) {
   uvec4 q = RL_PAST_QUAD(gBuffers.historyBefore, pixelIndex);
   History h;
@@ -75,6 +77,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   } else if (gFrame.frame > 0u) {
     history = historyReprojected(pixelIndex);
   }
+  history.frames *= changeKept(gBuffers.changes, gParams.changes, pixelIndex);
   vec3 radiance = gBuffers.radiance.data[pixelIndex];
   if (rlIsFinite3(radiance)) {
     float held = max(gFrame.radianceFrames - 1.0f, 0.0f);

@@ -5,6 +5,7 @@
 #ifdef __cplusplus
 #include "core/dialect/types.h"
 #endif
+#include "core/changes/changes.h"
 
 RL_NAMESPACE_BEGIN
 
@@ -19,6 +20,7 @@ struct AccumulateBuffers {
   Vec3Ref radiance;  // of this frame
   QuadRef visible;   // core/dialect/visible.h
   QuadRef visibleBefore;
+  UintRef changes;      // core/changes
   Vec3Ref accumulated;  // what is shown
   QuadRef history;      // one quad: the mean, and how many frames are in it
   QuadRef historyBefore;
@@ -29,6 +31,7 @@ struct AccumulateParams {
   float minNormalDot;
   float maxPlaneDistance;  // over the distance to the camera
   uint flags;              // RL_ACCUMULATE_*
+  ChangeParams changes;
 };
 
 RL_NAMESPACE_END

@@ -118,8 +118,8 @@ int main(int argc, char** argv) {
                              {"report", addReportVerb(app)},   {"clean", addCleanVerb(app)},
                              {"render", addRenderVerb(app)},   {"reference", addReferenceVerb(app)},
                              {"compare", addCompareVerb(app)}, {"figure", addFigureVerb(app)},
-                             {"info", addInfoVerb(app)},       {"list", addListVerb(app)},
-                             {"bench", addBenchVerb(app)}};
+                             {"denoise", addDenoiseVerb(app)}, {"info", addInfoVerb(app)},
+                             {"list", addListVerb(app)},       {"bench", addBenchVerb(app)}};
   for (const Verb& verb : verbs) addVerbosity(*app.get_subcommand(verb.name));
   try {
     const int code = runVerb(app, verbs, std::vector<std::string>(argv, argv + argc));

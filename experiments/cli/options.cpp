@@ -18,10 +18,10 @@
 
 namespace restlab {
 
-namespace {
+namespace {}  // namespace
 
-ParameterMap parseParameters(const Method& method, const std::vector<std::string>& given) {
-  const std::vector<ParameterInfo> known = method.parameters();
+ParameterMap parseParameters(const std::vector<ParameterInfo>& known, const std::string& owner,
+                             const std::vector<std::string>& given) {
   std::vector<std::string> names;
   for (const ParameterInfo& parameter : known) names.push_back(parameter.name);
   ParameterMap parameters;
@@ -29,10 +29,8 @@ ParameterMap parseParameters(const Method& method, const std::vector<std::string
     const auto [key, value] = splitAssignment(assignment);
     const auto found = std::find(names.begin(), names.end(), key);
     if (found == names.end()) {
-      const bool isPlain = method.denoiser->parameters.empty();
-      failUsage(fmt::format(
-          "--set {}: integrator {}{} has no parameter '{}'{}", assignment, method.integrator->name,
-          isPlain ? "" : " with denoiser " + method.denoiser->name, key, didYouMean(key, names)));
+      failUsage(fmt::format("--set {}: {} has no parameter '{}'{}", assignment, owner, key,
+                            didYouMean(key, names)));
     }
     parameters[key] =
         parseParameter(known[size_t(found - names.begin())], value, "--set " + assignment);
@@ -40,7 +38,6 @@ ParameterMap parseParameters(const Method& method, const std::vector<std::string
   return parameters;
 }
 
-// What can be said without opening anything; whether a device is there the session says.
 void applyBackend(const BackendChoice& choice, SessionConfig& config) {
   const std::vector<std::string>& backends = backendNames();
   if (std::find(backends.begin(), backends.end(), choice.backend) == backends.end()) {
@@ -66,8 +63,6 @@ void applyBackend(const BackendChoice& choice, SessionConfig& config) {
   config.rayTracing = choice.rayTracing;
   config.validate = choice.validate;
 }
-
-}  // namespace
 
 CLI::Validator finiteRange(double lo, double hi) {
   const std::string range = fmt::format("in [{:g} - {:g}]", lo, hi);
@@ -157,7 +152,11 @@ SessionConfig makeConfig(const SceneOptions& scene, const MethodOptions& method)
   const Method parts = findMethod(config);
   config.mode = findMode(*parts.integrator, method.choice.mode);
   applyBackend(method.backend, config);
-  config.parameters = parseParameters(parts, method.parameters);
+  const bool isPlain = parts.denoiser->parameters.empty();
+  config.parameters = parseParameters(parts.parameters(),
+                                      "integrator " + parts.integrator->name +
+                                          (isPlain ? "" : " with denoiser " + parts.denoiser->name),
+                                      method.parameters);
   for (const auto& [name, why] : settingsWithoutEffect(parts, config.mode, config.parameters)) {
     logWarning(fmt::format("{}{} has no effect: {}", name == "mode" ? "--" : "--set ", name, why));
   }

@@ -51,6 +51,13 @@ void addOutput(CLI::App& verb, std::string& output);
 void addThreads(CLI::App& verb, int& threads);
 void addMultiscatter(CLI::App& verb, bool& multiscatter);
 
+// KEY=VALUE of `--set`; `owner` has the known ones, for errors. Throws badUsage.
+ParameterMap parseParameters(const std::vector<ParameterInfo>& known, const std::string& owner,
+                             const std::vector<std::string>& given);
+// What can be said without opening anything; whether a device is there the session says. Throws
+// badUsage.
+void applyBackend(const BackendChoice& choice, SessionConfig& config);
+
 // Width and height from --resolution, --width, --height; 0 where not given. Throws badUsage.
 void resolveResolution(SceneOptions& options);
 

@@ -27,6 +27,7 @@ Action addRenderVerb(CLI::App& app);
 Action addReferenceVerb(CLI::App& app);
 Action addCompareVerb(CLI::App& app);
 Action addFigureVerb(CLI::App& app);
+Action addDenoiseVerb(CLI::App& app);
 Action addInfoVerb(CLI::App& app);
 Action addListVerb(CLI::App& app);
 Action addBenchVerb(CLI::App& app);

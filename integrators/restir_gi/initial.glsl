@@ -43,7 +43,6 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   PathReservoir r = pathResample(p, rngInit(gFrame.seed, slot, gFrame.frame));
   vec3 estimate = r.state.F * r.state.W + r.state.residual;
   vec3 own = p.ownLight + p.inView;
-  giRemember(slot, giLuminance(p, r));
   GiOwnCount count = giOwnCount(0u);
   if (gFrame.stillFrames == 0u) {
     uvec4 inView = RL_PAST_QUAD(gBuffers.own, slot);

@@ -16,6 +16,7 @@
 
 #include "core/caches/entries/layers.h"
 #include "core/caches/entries/settings.h"
+#include "core/changes/settings.h"
 #include "core/integrator.h"
 #include "core/radiance/settings.h"
 #include "core/resampling/partner_settings.h"
@@ -35,8 +36,6 @@ struct Packing {
 namespace restlab {
 
 namespace {
-
-constexpr const char* kValidateEvery = "validate_every";
 
 std::vector<ParameterInfo> parameterInfos() {
   std::vector<ParameterInfo> infos = {
@@ -107,21 +106,6 @@ std::vector<ParameterInfo> parameterInfos() {
        {},
        "in frames of a new view, the pixel of the last frame that showed the surface is a donor",
        "Ouyang et al. 2021; false leaves what a cache in world space does alone"},
-      {kValidateEvery,
-       int64_t{0},
-       0,
-       4096,
-       {},
-       "one of so many pixels traces its path of the last frame again each frame; where it finds "
-       "other light, histories around it forget; 0: none does",
-       "Schied et al. 2018 trace one of nine; 0: of no use where no light changes"},
-      {"validate_response",
-       4.0,
-       0.0,
-       1000.0,
-       {},
-       "share of a history that is forgotten, over the share of the light around that has changed",
-       "measured: docs/decisions.md, Light that changed is found by replay"},
       {"roughness_limit",
        0.2,
        0.0,
@@ -223,10 +207,7 @@ std::vector<std::byte> pack(const std::string& mode, const ParameterMap& p) {
   out.path.maxJacobian = static_cast<float>(get<double>(p, "max_jacobian"));
   out.maxReflectanceRatio = static_cast<float>(get<double>(p, "max_reflectance_ratio"));
   out.partners = packPartners(p);
-  // Cells of radiance change without any change of the light.
-  if (out.temporalReuse != 0u && !endsPaths(p))
-    out.change.every = static_cast<uint32_t>(get<int64_t>(p, kValidateEvery));
-  out.change.response = static_cast<float>(get<double>(p, "validate_response"));
+  out.changes = packChanges(p);
   out.entries = packEntries(p);
   out.cells = packRadiance(p);
   return bytesOf(out);
@@ -246,10 +227,6 @@ std::string whyWithoutEffect(const std::string& name, const ParameterMap& p) {
       !isOverTime)
     return "temporal is false";
   if (name == "mode" && !get<bool>(p, "reproject")) return "reproject is false";
-  if (isOneOf(name, {kValidateEvery, "validate_response"}) && endsPaths(p))
-    return "secondary is cache";
-  if (name == "validate_response" && get<int64_t>(p, kValidateEvery) == 0)
-    return "validate_every is 0";
   if (name == "moving_confidence_cap" &&
       get<double>(p, name.c_str()) > get<double>(p, "confidence_cap"))
     return "confidence_cap is smaller";
@@ -279,7 +256,7 @@ constexpr size_t kConfidence = kState + 3;
 float number(std::span<const uint32_t> words, size_t at) { return std::bit_cast<float>(words[at]); }
 
 std::vector<ProbeValue> probe(const Kept& kept, size_t pixel) {
-  const auto words = kept.words("history").subspan(kReservoir * pixel, kReservoir);
+  const auto words = kept.words("reservoir_history").subspan(kReservoir * pixel, kReservoir);
   const auto own = kept.words("own_light").subspan(4 * pixel, 4);
   const auto vector = [](std::span<const uint32_t> from) {
     return glm::vec3(number(from, 0), number(from, 1), number(from, 2));
@@ -308,7 +285,7 @@ std::vector<LayerInfo> layers() {
   confidence.summary = "confidence of the pixel's reservoir";
   confidence.unit = "samples";
   confidence.values = [](const Kept& kept) {
-    return [words = kept.words("history")](size_t pixel) {
+    return [words = kept.words("reservoir_history")](size_t pixel) {
       return number(words, kReservoir * pixel + kConfidence);
     };
   };
@@ -361,29 +338,24 @@ const IntegratorInfo& restir_giIntegratorInfo() {
     i.endsPaths = true;
     i.optionalInputs = {"proposals", "anchors", "feeders"};
     for (std::string& input : radianceInputs()) i.optionalInputs.push_back(std::move(input));
+    i.optionalInputs.emplace_back(kChanges);
     i.buffers = {
         {"radiance", 12, 0, -1},
         {"own_light", 16, 0, 2},
         {"own_light_before", 16, 0, 1},
         {"reservoirs", 16 * rl::RL_PATH_RESERVOIR_QUADS, 0, -1},
-        {"history", 16 * rl::RL_PATH_RESERVOIR_QUADS, 0, -1},
+        {"reservoir_history", 16 * rl::RL_PATH_RESERVOIR_QUADS, 0, -1},
         {"path_suffixes", 16 * rl::RL_PATH_SUFFIX_QUADS, rl::RL_FEATURE_GLOSSY, -1},
         {"path_suffix_history", 16 * rl::RL_PATH_SUFFIX_QUADS, rl::RL_FEATURE_GLOSSY, -1},
         {"exchange", 16, 0, -1, "spatial_neighbours"},
         {"outlines", sizeof(uint32_t), 0, -1},
         {"entry_reservoirs", 16 * rl::RL_PATH_RESERVOIR_QUADS, 0, -1},
         {"entry_suffixes", 16 * rl::RL_PATH_SUFFIX_QUADS, rl::RL_FEATURE_GLOSSY, -1},
-        {"replay_found", 2 * sizeof(uint32_t), 0, -1},
-        {"replay_differences", 2 * sizeof(uint32_t), 0, -1},
-        {"replay_changes", sizeof(uint32_t), 0, -1},
     };
     for (BufferInfo& buffer : i.buffers) {
       if (buffer.name.starts_with("entry_")) buffer.entriesParameter = kEntryCount;
-      if (buffer.name.starts_with("replay_")) buffer.onePerParameter = kValidateEvery;
     }
-    i.passes = {{"replay", "restir_gi_replay"},
-                {"changes", "restir_gi_changes", false},
-                {"lights_in_view", "restir_gi_lights_in_view", true, true},
+    i.passes = {{"lights_in_view", "restir_gi_lights_in_view", true, true},
                 {"initial", "restir_gi_initial"},
                 {"feed", "restir_gi_feed"},
                 {"temporal", "restir_gi_temporal", true, true},
@@ -394,9 +366,6 @@ const IntegratorInfo& restir_giIntegratorInfo() {
     for (PassInfo& pass : i.passes) {
       if (pass.name == "recall" || pass.name == "feed") pass.onlyWith.parameter = kEntryCount;
       if (pass.name == "feed") pass.entriesParameter = kEntryCount;
-      if (pass.name == "replay" || pass.name == "changes")
-        pass.onlyWith.parameter = pass.onePerParameter = kValidateEvery;
-      if (pass.name == "replay") pass.isReplay = true;
     }
     i.whyWithoutEffect = whyWithoutEffect;
     i.packParameters = pack;

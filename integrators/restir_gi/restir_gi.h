@@ -6,6 +6,7 @@
 #include "core/dialect/order.h"
 #endif
 #include "core/caches/entries/entries.h"
+#include "core/changes/changes.h"
 #include "core/payload/path_gather.h"
 #include "core/payload/path_sample.h"
 #include "core/payload/path_shift.h"
@@ -45,16 +46,6 @@ struct GiOwnCount {
   uint frames;  // of this view, but for those whose light is forgotten
 };
 
-// How histories notice that the light of the scene has changed.
-struct GiChangeParams {
-  uint every;      // one of so many pixels traces its last path again; 0: none
-  float response;  // share of a history that is forgotten, over the share of light that has changed
-};
-// Largest difference of two results of one path over their sum.
-const float RL_GI_SAME = 1.0e-3f;
-const uint RL_GI_CHANGE_ROWS = 12u;  // of pixels, above and below, over which changes are averaged
-const uint RL_GI_CHANGE_PLACES = 16u;  // of the image, at which entries out of view look
-
 struct RestirGiBuffers {
   QuadRef visible;  // core/dialect/visible.h
   QuadRef visibleBefore;
@@ -63,6 +54,7 @@ struct RestirGiBuffers {
   QuadRef anchors;
   UintRef feeders;
   RadianceBuffers cells;
+  UintRef changes;  // core/changes
   Vec3Ref radiance;
   // One quad: light that no other pixel could use, averaged over time in a still view, and its
   // GiOwnCount. lights_in_view leaves its light here for the initial pass.
@@ -79,12 +71,6 @@ struct RestirGiBuffers {
   // Of caches in world space: reservoirs of entries (core/caches/entries/entries.glsl).
   QuadRef entryReservoirs;
   QuadRef entrySuffixes;
-  // Of groups of change.every pixels (integrators/restir_gi/change.glsl): luminance of the path of
-  // the one whose turn it was, and its giReplayTag(); by how much it differed when it was traced
-  // again, and the greater of both; the share of the light around that has changed.
-  UintRef found;
-  UintRef differences;
-  UintRef changes;
 };
 
 struct RestirGiParams {
@@ -105,7 +91,7 @@ struct RestirGiParams {
   PartnerParams partners;
   EntryParams entries;
   RadianceParams cells;
-  GiChangeParams change;
+  ChangeParams changes;
 };
 
 RL_NAMESPACE_END

@@ -88,7 +88,7 @@ TEST_F(RenderTest, FirstHitLayersHoldTheSceneThatIsSeen) {
                      R"(, "pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 0, 1],
                         "metallicFactor": 0})"));
   ASSERT_EQ(run("render triangle.gltf -o x.exr --resolution 16x16 --filter center "
-                "--aov radiance,positionW,normalW,albedo,depth,object")
+                "--aov radiance,positionW,normalW,albedo,depth,object,emission")
                 .code,
             0);
   const LayeredImage image = readExr(path("x.exr"));
@@ -100,7 +100,7 @@ TEST_F(RenderTest, FirstHitLayersHoldTheSceneThatIsSeen) {
       SCOPED_TRACE(std::to_string(x) + ", " + std::to_string(y));
       EXPECT_EQ(layer("radiance"), image.layers.at("").pixels[i]);
       if (x >= 8) {
-        for (const char* name : {"positionW", "normalW", "albedo", "depth", "object"})
+        for (const char* name : {"positionW", "normalW", "albedo", "depth", "object", "emission"})
           EXPECT_EQ(layer(name), zero) << name;
         continue;
       }

@@ -79,7 +79,16 @@ TEST_P(Analytic, FloorUnderATiltedRectangle) {
   for (const uint32_t events : {1u, 8u}) expectExact("quad-light", events);
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, Analytic, ::testing::ValuesIn(allVariants()), VariantName());
+// What a filter makes of a whole image tests/denoise/energy_test.cpp tells; of cells there is no
+// bound.
+std::vector<Variant> variantsWithoutFilters() {
+  std::vector<Variant> all = allVariants();
+  std::erase_if(all, [](const Variant& v) { return v.blurs(); });
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, Analytic, ::testing::ValuesIn(variantsWithoutFilters()),
+                         VariantName());
 
 }  // namespace
 }  // namespace restlab::conformance

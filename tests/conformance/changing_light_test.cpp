@@ -45,7 +45,8 @@ TEST_P(ChangingLight, AStillLightChangesNoBit) {
       c.width = 47;
       auto session = std::make_unique<Session>(scene, c);
       runFrames(*session, *scene, 16);
-      session->setParameters({{"light_candidates", int64_t{4}}});
+      if (session->config().parameters.contains("light_candidates"))
+        session->setParameters({{"light_candidates", int64_t{4}}});
       session->frames(3);
       return session;
     };

@@ -1,5 +1,6 @@
 #include "tests/conformance/variants.h"
 
+#include <algorithm>
 #include <bit>
 #include <ostream>
 #include <stdexcept>
@@ -13,6 +14,11 @@ std::string Variant::name() const {
   const bool isUsual = cache.empty() || cache == cacheRegistry().front()->name;
   return integrator + "_" + mode + (isUsual ? "" : "_" + cache) +
          (denoiser == "none" ? "" : "_" + denoiser) + (endsPaths ? "_secondary" : "");
+}
+
+bool Variant::blurs() const {
+  const std::vector<std::string>& inputs = findDenoiser(denoiser).inputs;
+  return std::find(inputs.begin(), inputs.end(), "guide") != inputs.end();
 }
 
 std::vector<Variant> allVariants() {

@@ -24,6 +24,8 @@ struct Variant {
   // "restir_gi_unbiased", fit for a test's name; with the cache where it is not the first one, and
   // "_secondary" where paths end.
   std::string name() const;
+  // The denoiser averages over neighbours.
+  bool blurs() const;
 };
 
 // All of them, in the registry's order.

@@ -27,7 +27,7 @@ class Kernel {
   // What is shown of a frame; health of all frames so far.
   const std::vector<glm::vec3>& show(const std::vector<glm::vec3>& radiance) {
     radiance_ = radiance;
-    void* buffers[] = {radiance_.data(), nullptr,     nullptr,
+    void* buffers[] = {radiance_.data(), nullptr,     nullptr,       nullptr,
                        shown_.data(),    now_.data(), before_.data()};
     rl::CpuKernelArgs args;
     args.scene = &scene_;

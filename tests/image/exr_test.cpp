@@ -69,6 +69,11 @@ TEST_F(ExrTest, ReadsHalfOffsetWindowsTilesAndLuminance) {
   const LayeredImage read = readExr(path("n.exr"));
   ASSERT_EQ(read.layers.size(), 1u);
   EXPECT_EQ(read.layers.at("").at(0, 0), glm::vec3(1, 2, 3));
+  // Who asks for them gets them.
+  const LayeredImage all = readExr(path("n.exr"), ExrLayers::all);
+  ASSERT_EQ(all.layers.size(), 3u);
+  EXPECT_EQ(all.layers.at("N").at(0, 0), glm::vec3(4, 5, 6));
+  EXPECT_EQ(all.layers.at("Z").at(0, 0), glm::vec3(7));
 }
 
 TEST_F(ExrTest, RowZeroIsTheTopWhateverTheWindow) {

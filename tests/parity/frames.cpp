@@ -98,6 +98,23 @@ std::string Combination::name() const {
 
 void PrintTo(const Combination& what, std::ostream* out) { *out << what.name(); }
 
+bool Combination::hasFilter() const {
+  const std::vector<std::string>& inputs = findDenoiser(denoiser).inputs;
+  return std::find(inputs.begin(), inputs.end(), "guide") != inputs.end();
+}
+
+std::vector<Combination> combinationsThatTrace() {
+  std::vector<Combination> all = combinations();
+  bool hasFilter = false;
+  std::erase_if(all, [&](const Combination& what) {
+    if (what.denoiser == "none") return false;
+    const bool isFirst = what.hasFilter() && !hasFilter;
+    hasFilter |= isFirst;
+    return !isFirst;
+  });
+  return all;
+}
+
 std::vector<Combination> combinations() {
   std::vector<Combination> all;
   for (const IntegratorInfo* info : integratorRegistry()) {

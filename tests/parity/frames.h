@@ -18,9 +18,12 @@ struct Combination {
   std::string integrator, mode, cache, denoiser = "none";
   bool endsPaths = false;  // in cells of radiance
   std::string name() const;
+  bool hasFilter() const;  // a denoiser that asks for guides
 };
 void PrintTo(const Combination& what, std::ostream* out);
 std::vector<Combination> combinations();
+// Those whose kernels differ in how they trace: of denoisers, which trace nothing, one with guides.
+std::vector<Combination> combinationsThatTrace();
 
 // Where a session runs.
 struct Machine {

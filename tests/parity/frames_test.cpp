@@ -46,8 +46,10 @@ double mostDifferent(size_t pixels, double share = kMaxShare) {
 }
 
 // How many pixels of a frame may differ for one of the first. Without reuse: one. With it, every
-// frame brings its own, and a pixel that differs takes its spatial partner along into the next.
+// frame brings its own, and a pixel that differs takes its spatial partner along into the next. A
+// filter takes the pixels beside it along, and its history keeps them.
 double spreadAt(const Combination& what, uint32_t frame) {
+  if (what.hasFilter()) return 9.0 * (double(frame) + 1.0);
   return what.cache.empty() ? 1.0 : double((2u << frame) - 1u);
 }
 
@@ -130,6 +132,9 @@ class Frames : public testing::TestWithParam<Combination> {
   }
 };
 
+// What has to do with rays and with features alone.
+class TracedFrames : public Frames {};
+
 // One scene of one combination, so that a night's work can be divided.
 class FramesNightly : public testing::TestWithParam<std::tuple<Combination, std::string>> {
  protected:
@@ -143,6 +148,7 @@ class FramesNightly : public testing::TestWithParam<std::tuple<Combination, std:
 };
 
 const auto kCombinations = testing::ValuesIn(combinations());
+const auto kTraced = testing::ValuesIn(combinationsThatTrace());
 std::string identifier(std::string name) {
   for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
   return name;
@@ -161,10 +167,10 @@ constexpr Size kLarge{704, 396, 4, 0};  // more than one dispatch a pass
 TEST_P(Frames, AsOnTheCpuWithTheSameHierarchy) {
   expectParity(GetParam(), sceneNames(), kVulkan, kCpuBvh, kSmall);
 }
-TEST_P(Frames, AsOnTheCpuWithEmbree) {
+TEST_P(TracedFrames, AsOnTheCpuWithEmbree) {
   expectParity(GetParam(), sceneNames(), kVulkan, kCpuEmbree, kSmall);
 }
-TEST_P(Frames, AsWithoutSpecialisation) {
+TEST_P(TracedFrames, AsWithoutSpecialisation) {
   expectParity(GetParam(), {"cornell-box", "glass"}, kVulkanSpecialised, kVulkan, kSmall);
 }
 
@@ -208,7 +214,7 @@ void expectSameMean(const Combination& what, const std::string& scene, const Siz
   EXPECT_EQ(report.nonfinite, 0u) << scene;
 }
 
-TEST_P(Frames, Frame32HasTheSameMean) {
+TEST_P(TracedFrames, Frame32HasTheSameMean) {
   if (GetParam().cache.empty()) GTEST_SKIP() << kNoHistory;
   expectSameMean(GetParam(), "cornell-box", {32, 18, 33, 1}, 32);
 }
@@ -218,7 +224,7 @@ TEST_P(FramesNightly, Frame32HasTheSameMean) {
 }
 
 // Validation layers have nothing to say of a frame; a message throws.
-TEST_P(Frames, ValidatedFrame) {
+TEST_P(TracedFrames, ValidatedFrame) {
   const auto scene = sceneNamed("everything");
   SessionConfig config = configOf(GetParam(), kVulkan, 32, 18, 3);
   config.validate = true;
@@ -322,8 +328,10 @@ TEST(FrameDifference, AnotherFirstHitIsNotExplainedWithoutAnEdge) {
 
 INSTANTIATE_TEST_SUITE_P(, Frames, kCombinations,
                          [](const auto& test) { return identifier(test.param.name()); });
+INSTANTIATE_TEST_SUITE_P(, TracedFrames, kTraced,
+                         [](const auto& test) { return identifier(test.param.name()); });
 INSTANTIATE_TEST_SUITE_P(, FramesNightly,
-                         testing::Combine(kCombinations, testing::ValuesIn(nightlyScenes())),
+                         testing::Combine(kTraced, testing::ValuesIn(nightlyScenes())),
                          [](const auto& test) {
                            return identifier(std::get<0>(test.param).name() + "_" +
                                              std::get<1>(test.param));

@@ -108,16 +108,15 @@ const std::map<std::string, Offsets>& expected() {
         FIELD(SceneData, environmentRotation),
         FIELD(SceneData, instanceCount)}},
       {"RestirGiBuffers",
-       {FIELD(RestirGiBuffers, visible),         FIELD(RestirGiBuffers, visibleBefore),
-        FIELD(RestirGiBuffers, proposals),       FIELD(RestirGiBuffers, anchors),
-        FIELD(RestirGiBuffers, feeders),         FIELD(RestirGiBuffers, cells),
-        FIELD(RestirGiBuffers, radiance),        FIELD(RestirGiBuffers, own),
-        FIELD(RestirGiBuffers, ownBefore),       FIELD(RestirGiBuffers, reservoirs),
-        FIELD(RestirGiBuffers, history),         FIELD(RestirGiBuffers, suffixes),
+       {FIELD(RestirGiBuffers, visible), FIELD(RestirGiBuffers, visibleBefore),
+        FIELD(RestirGiBuffers, proposals), FIELD(RestirGiBuffers, anchors),
+        FIELD(RestirGiBuffers, feeders), FIELD(RestirGiBuffers, cells),
+        FIELD(RestirGiBuffers, radiance), FIELD(RestirGiBuffers, own),
+        FIELD(RestirGiBuffers, ownBefore), FIELD(RestirGiBuffers, reservoirs),
+        FIELD(RestirGiBuffers, history), FIELD(RestirGiBuffers, suffixes),
         FIELD(RestirGiBuffers, suffixesHistory), FIELD(RestirGiBuffers, exchange),
-        FIELD(RestirGiBuffers, outlines),        FIELD(RestirGiBuffers, entryReservoirs),
-        FIELD(RestirGiBuffers, entrySuffixes),   FIELD(RestirGiBuffers, found),
-        FIELD(RestirGiBuffers, differences),     FIELD(RestirGiBuffers, changes)}},
+        FIELD(RestirGiBuffers, outlines), FIELD(RestirGiBuffers, entryReservoirs),
+        FIELD(RestirGiBuffers, entrySuffixes), FIELD(RestirGiBuffers, changes)}},
       {"RestirGiParams",
        {FIELD(RestirGiParams, temporalFlags), FIELD(RestirGiParams, spatialFlags),
         FIELD(RestirGiParams, spatialNeighbours), FIELD(RestirGiParams, agedNeighbours),
@@ -127,8 +126,11 @@ const std::map<std::string, Offsets>& expected() {
         FIELD(RestirGiParams, confidenceCap), FIELD(RestirGiParams, movingConfidenceCap),
         FIELD(RestirGiParams, maxReflectanceRatio), FIELD(RestirGiParams, path),
         FIELD(RestirGiParams, partners), FIELD(RestirGiParams, entries),
-        FIELD(RestirGiParams, cells), FIELD(RestirGiParams, change)}},
-      {"GiChangeParams", {FIELD(GiChangeParams, every), FIELD(GiChangeParams, response)}},
+        FIELD(RestirGiParams, cells), FIELD(RestirGiParams, changes)}},
+      {"ChangeParams", {FIELD(ChangeParams, every), FIELD(ChangeParams, response)}},
+      {"ChangeBuffers",
+       {FIELD(ChangeBuffers, found), FIELD(ChangeBuffers, differences),
+        FIELD(ChangeBuffers, changes)}},
       {"PathParams",
        {FIELD(PathParams, lightCandidates), FIELD(PathParams, minAlpha),
         FIELD(PathParams, maxJacobian)}},
@@ -150,8 +152,9 @@ const std::map<std::string, Offsets>& expected() {
 }
 
 TEST(Layout, StructsLieAlikeInBothLanguages) {
-  const std::map<std::string, Offsets> found = offsetsOf(
+  std::map<std::string, Offsets> found = offsetsOf(
       compileKernel("integrators/restir_gi/restir_gi.h", "integrators/restir_gi/initial.glsl"));
+  found.merge(offsetsOf(compileKernel("core/changes/passes.h", "core/changes/share.glsl")));
   for (const auto& [name, offsets] : expected()) {
     SCOPED_TRACE(name);
     const auto it = found.find(name);

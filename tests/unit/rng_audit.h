@@ -21,7 +21,7 @@ extern const CpuKernelEntry kernel_restir_gi_lights_in_view_audited;
 extern const CpuKernelEntry kernel_restir_gi_initial_audited;
 extern const CpuKernelEntry kernel_restir_gi_temporal_audited;
 extern const CpuKernelEntry kernel_restir_gi_exchange_audited;
-extern const CpuKernelEntry kernel_restir_gi_replay_audited;
+extern const CpuKernelEntry kernel_changes_trace_audited;
 extern const CpuKernelEntry kernel_restir_gi_spatial_audited;
 extern const CpuKernelEntry kernel_restir_gi_recall_audited;
 extern const CpuKernelEntry kernel_restir_gi_feed_audited;

@@ -191,7 +191,7 @@ TEST(RngAudit, TheRecordFindsARepeatedDraw) {
 const std::map<std::string, rl::CpuKernelEntry> kRestirKernels = {
     {"lights_in_view", rl::kernel_restir_gi_lights_in_view_audited},
     {"initial", rl::kernel_restir_gi_initial_audited},
-    {"replay", rl::kernel_restir_gi_replay_audited},
+    {"replay", rl::kernel_changes_trace_audited},
     {"temporal", rl::kernel_restir_gi_temporal_audited},
     {"exchange", rl::kernel_restir_gi_exchange_audited},
     {"spatial", rl::kernel_restir_gi_spatial_audited},

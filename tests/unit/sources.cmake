@@ -26,7 +26,7 @@ list(APPEND RL_UNIT_TESTS
   rng_audit_restir_initial.cpp
   rng_audit_restir_lights_in_view.cpp
   rng_audit_restir_recall.cpp
-  rng_audit_restir_replay.cpp
+  rng_audit_changes_trace.cpp
   rng_audit_restir_spatial.cpp
   rng_audit_restir_temporal.cpp
   rng_audit_surflet_propose.cpp

@@ -1,0 +1,25 @@
+// What a history keeps where light has changed. Beside a change histories are shortened by what few
+// paths found, which is biased for as long as they are young.
+
+RL_FN float changeKeeps(RL_IN(ChangeParams) params, float change) {
+  return max(1.0f - params.response * change, 0.0f);
+}
+// The share of a pixel's history that is kept in this frame.
+RL_FN float changeKept(RL_IN(UintRef) changes, RL_IN(ChangeParams) params, uint slot) {
+  if (params.every == 0u) return 1.0f;
+  return changeKeeps(params, uintBitsToFloat(changes.data[slot / params.every]));
+}
+// The share that is kept of what is out of view: it goes by the mean over the image, of which it
+// looks at some places.
+RL_FN float changeKeptOutOfView(RL_IN(UintRef) changes, RL_IN(ChangeParams) params,
+                                RL_IN(Rng) rng) {
+  if (params.every == 0u) return 1.0f;
+  uint groups = (gFrame.width * gFrame.height + params.every - 1u) / params.every;
+  uint first = rngBits(rng, RL_DIM_DONOR_U) % groups;
+  float change = 0.0f;
+  for (uint i = 0u; i < RL_CHANGE_PLACES; i = i + 1u) {
+    uint group = (first + i * (groups / RL_CHANGE_PLACES)) % groups;
+    change += uintBitsToFloat(changes.data[group]);
+  }
+  return changeKeeps(params, change / float(RL_CHANGE_PLACES));
+}

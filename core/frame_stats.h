@@ -1,0 +1,11 @@
+// What passes of a frame add up to.
+#pragma once
+
+#include "core/pipeline.h"
+#include "core/session.h"
+
+namespace restlab {
+
+FrameStats statsOf(const std::vector<Pipeline::PassResult>& passes);
+
+}  // namespace restlab

@@ -1,0 +1,17 @@
+// atrous, second pass: the light around each pixel.
+#include "core/kernels/guide_data.glsl"
+#include "denoise/common/filter.glsl"
+
+RL_FN bool aroundSees(uint slot, RL_OUT(float) luminance, RL_OUT(float) variance) {
+  Filtered f = filterRead(gBuffers.even, slot);
+  luminance = rlLuminance(f.light);
+  variance = -1.0f;
+  return f.reflectance > 0.0f;
+}
+
+#include "denoise/common/around.glsl"
+
+RL_FN void kernelMain(RL_IN(uvec2) pixel) {
+  Around a = aroundOf(pixel);
+  gBuffers.around.data[slotOfPixel(pixel)] = vec2(a.luminance, a.variance);
+}

@@ -1,0 +1,106 @@
+// Host side of `svgf`.
+#include "denoise/svgf/svgf.h"
+
+#include "core/changes/settings.h"
+#include "denoise/common/settings.h"
+#include "denoise/svgf/svgf_info.h"
+
+namespace restlab {
+
+const DenoiserInfo& svgfDenoiserInfo();
+
+namespace {
+
+std::vector<ParameterInfo> parametersOf(const SvgfDefaults& defaults) {
+  std::vector<ParameterInfo> all = {
+      iterationsParameter("svgf", 5, "Schied et al. 2017, section 4.4"),
+      {"svgf_cap",
+       20.0,
+       0.0,
+       1.0e6,
+       {},
+       "frames that a history may weigh; the weight of a new frame is 1 / (this + 1) at least",
+       "measured: docs/denoising.md (Schied et al. 2017: 4)"},
+      deviationsParameter("svgf", 1.0),
+      {"svgf_feedback",
+       false,
+       0,
+       0,
+       {},
+       "the history keeps the result of the first iteration, not the mean of frames",
+       "measured: docs/denoising.md (Schied et al. 2017, section 4.1: true)"},
+      {"svgf_variance",
+       defaults.variance,
+       0,
+       0,
+       {"moments", "differences", "space"},
+       "what the variance is estimated by: frames as if they shared no samples; differences of "
+       "frames, which knows that they do; neighbours",
+       "measured: docs/denoising.md"},
+      {"svgf_confidence",
+       defaults.confidence,
+       0,
+       0,
+       {},
+       "frames that the radiance averages itself, by the confidence of reservoirs, are not "
+       "averaged "
+       "again",
+       "measured: docs/denoising.md"}};
+  for (ParameterInfo& parameter : filterParameters()) all.push_back(std::move(parameter));
+  return all;
+}
+
+std::vector<std::byte> pack(const std::string&, const ParameterMap& p) {
+  rl::SvgfParams out{};
+  out.iterations = uintOf(p, "svgf_iterations");
+  out.cap = floatOf(p, "svgf_cap");
+  out.deviations = floatOf(p, "svgf_deviations");
+  out.edges = packFilterEdges(p);
+  if (std::get<bool>(p.at("svgf_feedback"))) out.flags |= rl::RL_SVGF_FEEDBACK;
+  // An integrator with reservoirs has a confidence and its cap.
+  const bool hasReservoirs = p.contains("confidence_cap");
+  if (hasReservoirs && std::get<bool>(p.at("svgf_confidence"))) out.flags |= rl::RL_SVGF_CONFIDENCE;
+  const std::string& variance = std::get<std::string>(p.at("svgf_variance"));
+  if (variance == "differences") out.flags |= rl::RL_SVGF_DIFFERENCES;
+  if (variance == "space") out.flags |= rl::RL_SVGF_SPACE;
+  out.changes = packChanges(p);
+  return bytesOf(out);
+}
+
+}  // namespace
+
+DenoiserInfo makeSvgf(const SvgfDefaults& defaults) {
+  DenoiserInfo i;
+  i.name = defaults.name;
+  i.summary = defaults.summary;
+  i.biasOfStillView = BiasClass::biased;
+  i.biasOfMovingView = BiasClass::biased;
+  i.why =
+      "light is averaged over neighbours on like surfaces, and over frames where it may have "
+      "changed";
+  i.parameters = parametersOf(defaults);
+  if (defaults.validateEvery != 0) i.defaults[kValidateEvery] = defaults.validateEvery;
+  i.inputs = {"radiance", "guide", "guide_before", "motion"};
+  i.optionalInputs = {"reservoir_history", kChanges};
+  const uint32_t historyBytes = 16 * rl::RL_SVGF_HISTORY_QUADS;
+  i.buffers = {{"svgf_shown", sizeof(glm::vec3), 0, -1},
+               {"svgf_even", 16, 0, -1},
+               {"svgf_odd", 16, 0, -1},
+               {"svgf_around", sizeof(glm::vec2), 0, -1},
+               {"svgf_history", historyBytes, 0, 5},
+               {"svgf_history_before", historyBytes, 0, 4}};
+  i.passes = {{"svgf_temporal", "svgf_temporal", false}, {"svgf_variance", "svgf_variance", false}};
+  for (PassInfo& pass : waveletPasses("svgf", "svgf_iterations")) i.passes.push_back(pass);
+  i.passes.push_back({"svgf_end", "svgf_end", false});
+  i.hasHistory = true;
+  i.packParameters = pack;
+  return i;
+}
+
+const DenoiserInfo& svgfDenoiserInfo() {
+  static const DenoiserInfo info = makeSvgf(
+      {"svgf", "frames averaged over time, then wavelets guided by their variance", "moments"});
+  return info;
+}
+
+}  // namespace restlab

@@ -1,0 +1,61 @@
+// Buffers and parameters of the kernels of `svgf` and its kin.
+#ifndef RL_SVGF_H
+#define RL_SVGF_H
+
+#ifdef __cplusplus
+#include "core/dialect/order.h"
+#endif
+#include "core/changes/changes.h"
+#include "core/payload/path_sample.h"
+#include "denoise/common/filter.h"
+
+RL_NAMESPACE_BEGIN
+
+// SvgfParams::flags
+const uint RL_SVGF_FEEDBACK = 1u;     // the first iteration's result is what the history keeps
+const uint RL_SVGF_CONFIDENCE = 2u;   // frames that the radiance averages itself are not averaged
+const uint RL_SVGF_DIFFERENCES = 4u;  // variance by differences of frames that share samples
+const uint RL_SVGF_SPACE = 8u;        // variance over neighbours alone
+
+// What a pixel remembers: two quads.
+struct SvgfHistory {
+  vec3 light;    // radiance over reflectance, mean over frames
+  float frames;  // in the mean, no more than matter; between pixels no whole number
+  float mean;    // of the luminance of single frames
+  float spread;  // their variance
+  float step;    // mean of the squared difference of one frame's luminance and the next one's
+  float last;    // the last frame's luminance
+};
+const uint RL_SVGF_HISTORY_QUADS = 2u;
+
+struct SvgfBuffers {
+  Vec3Ref radiance;
+  QuadRef guide;
+  QuadRef guideBefore;
+  QuadRef motion;
+  QuadRef reservoirs;  // of the last merge; null where the integrator has none
+  UintRef changes;     // core/changes
+  Vec3Ref shown;
+  QuadRef even;  // Filtered, a quad each: read by iterations 0, 2, ... and written by the others
+  QuadRef odd;
+  Vec2Ref around;
+  QuadRef history;
+  QuadRef historyBefore;
+};
+
+struct SvgfParams {
+  uint step;  // of the pass
+  uint iterations;
+  uint flags;
+  float cap;  // frames that a history may weigh
+  float deviations;
+  FilterEdges edges;
+  ChangeParams changes;
+};
+
+RL_NAMESPACE_END
+
+#define RL_KERNEL_BUFFERS SvgfBuffers
+#define RL_KERNEL_PARAMS SvgfParams
+
+#endif

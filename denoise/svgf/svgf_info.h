@@ -1,0 +1,17 @@
+// `svgf` and its kin: one filter under several names, with other defaults.
+#pragma once
+
+#include "core/denoiser.h"
+
+namespace restlab {
+
+struct SvgfDefaults {
+  std::string name;
+  std::string summary;
+  std::string variance;  // of the parameter
+  bool confidence = false;
+  int64_t validateEvery = 0;  // default of the part that finds light that has changed
+};
+DenoiserInfo makeSvgf(const SvgfDefaults& defaults);
+
+}  // namespace restlab

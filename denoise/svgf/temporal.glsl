@@ -1,0 +1,100 @@
+// svgf, first pass: the mean over the frames that showed the surface, and moments of its luminance
+// (Schied et al., "Spatiotemporal Variance-Guided Filtering", 2017, sections 4.1 and 4.2). Frames
+// count alike until there are `cap` of them; then the mean is exponential.
+#include "core/kernels/guide_data.glsl"
+#include "denoise/common/filter.glsl"
+#include "denoise/svgf/store.glsl"
+#include "core/changes/read.glsl"
+
+// How well a pixel of the last frame shows this surface: 0 to 1.
+RL_FN float svgfLikeness(RL_IN(Guide) here, RL_IN(FilterSurface) surface, RL_IN(vec4) there,
+                         float dx, float dy) {
+  if (here.isLight == 0u) return filterEdge(surface, there, dx, dy);
+  if (!guideIsLight(there)) return 0.0f;
+  if (here.disparity == 0.0f || there.w == 0.0f) return here.disparity == -there.w ? 1.0f : 0.0f;
+  return filterFall((-there.w / here.disparity - 1.0f) / gParams.edges.plane);
+}
+
+RL_FN void svgfGather(RL_IN(Guide) here, RL_IN(FilterSurface) surface, RL_IN(vec2) film, float x,
+                      float y, float weight, RL_INOUT(SvgfHistory) sum, RL_INOUT(float) weights) {
+  if (!(weight > 0.0f) || !(x >= 0.0f) || !(y >= 0.0f) || !(x < float(gFrame.width)) ||
+      !(y < float(gFrame.height)))
+    return;
+  uint slot = uint(y) * gFrame.width + uint(x);
+  vec4 there = guideSurface(gBuffers.guideBefore, slot);
+  weight *= svgfLikeness(here, surface, there, x + 0.5f - film.x, y + 0.5f - film.y);
+  if (!(weight > 0.0f)) return;
+  SvgfHistory h = svgfHistoryRead(gBuffers.historyBefore, slot);
+  sum.light += h.light * weight;
+  sum.frames += h.frames * weight;
+  sum.mean += h.mean * weight;
+  sum.spread += h.spread * weight;
+  sum.step += h.step * weight;
+  sum.last += h.last * weight;
+  weights += weight;
+}
+
+// The history of what the pixel shows, read between the four pixels that saw it; of no frames where
+// none of them did.
+RL_FN SvgfHistory svgfReprojected(RL_IN(uvec2) pixel, RL_IN(Guide) here) {
+  uint slot = slotOfPixel(pixel);
+  Motion motion = motionRead(gBuffers.motion, slot);
+  Guide then = here;
+  then.disparity = here.disparity + motion.disparity;
+  SvgfHistory sum = svgfNoHistory();
+  if (here.isLight == 0u && !(then.disparity > 0.0f)) return sum;
+  vec2 film = vec2(float(pixel.x) + 0.5f + motion.film.x, float(pixel.y) + 0.5f + motion.film.y);
+  float x = floor(film.x - 0.5f);
+  float y = floor(film.y - 0.5f);
+  float u = film.x - 0.5f - x;
+  float v = film.y - 0.5f - y;
+  FilterSurface surface = filterSurface(then, gParams.edges);
+  float weights = 0.0f;
+  svgfGather(then, surface, film, x, y, (1.0f - u) * (1.0f - v), sum, weights);
+  svgfGather(then, surface, film, x + 1.0f, y, u * (1.0f - v), sum, weights);
+  svgfGather(then, surface, film, x, y + 1.0f, (1.0f - u) * v, sum, weights);
+  svgfGather(then, surface, film, x + 1.0f, y + 1.0f, u * v, sum, weights);
+  // Of so little is known about the surface that it would be mostly noise.
+  if (!(weights > 0.01f)) return svgfNoHistory();
+  float scale = 1.0f / weights;
+  sum.light *= scale;
+  sum.frames *= scale;
+  sum.mean *= scale;
+  sum.spread *= scale;
+  sum.step *= scale;
+  sum.last *= scale;
+  return sum;
+}
+
+RL_FN void kernelMain(RL_IN(uvec2) pixel) {
+  uint slot = slotOfPixel(pixel);
+  Guide guide = guideRead(gBuffers.guide, slot);
+  Filtered now = filterBegin(gBuffers.radiance.data[slot], guide);
+  SvgfHistory h = svgfNoHistory();
+  if (gFrame.stillFrames != 0u) {
+    h = svgfHistoryRead(gBuffers.historyBefore, slot);
+    // The mean is that of radiance: reflectance, which is a mean over film samples, has gone on.
+    h.light *= guideRead(gBuffers.guideBefore, slot).reflectance / guide.reflectance;
+  } else if (gFrame.frame > 0u) {
+    h = svgfReprojected(pixel, guide);
+  }
+  h.frames *= changeKept(gBuffers.changes, gParams.changes, slot);
+  if (!(h.frames > 0.0f)) RL_HEALTH(RL_HEALTH_NEW_HISTORY);
+  if (now.reflectance > 0.0f) {
+    float luminance = rlLuminance(now.light);
+    float held = svgfHeld(slot);
+    float difference = luminance - h.last;
+    float before = h.frames;
+    h.frames = min(h.frames, gParams.cap + held - 1.0f) + 1.0f;
+    float weight = 1.0f / max(h.frames - held + 1.0f, 1.0f);
+    h.light += (now.light - h.light) * weight;
+    float momentWeight = 1.0f / h.frames;
+    // Not by a mean of squares: what is left of it less the mean's square are no digits.
+    float deviation = luminance - h.mean;
+    h.mean += deviation * momentWeight;
+    h.spread = (1.0f - momentWeight) * (h.spread + deviation * deviation * momentWeight);
+    if (before > 0.0f) h.step += (difference * difference - h.step) / max(h.frames - 1.0f, 1.0f);
+    h.last = luminance;
+  }
+  svgfHistoryWrite(gBuffers.history, slot, h);
+}

@@ -1,0 +1,95 @@
+// restlab denoise.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/image/image.h"
+#include "tests/cli/program.h"
+
+namespace restlab::cli_test {
+namespace {
+
+class DenoiseTest : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    ASSERT_EQ(run("render cornell-box -o noisy.exr --resolution 48x48 "
+                  "--aov normalW,albedo,depth,emission")
+                  .code,
+              0);
+    ASSERT_EQ(run("render cornell-box -o right.exr --resolution 48x48 --spp 256").code, 0);
+  }
+  // Below the lamp: what pixels at its edge show of it is the film sample's matter.
+  double errorOf(const std::string& name) const {
+    const Image image = readExr(path(name)).layers.at("");
+    const Image right = readExr(path("right.exr")).layers.at("");
+    double sum = 0.0, pixels = 0.0;
+    for (size_t p = 0; p < image.pixels.size(); ++p) {
+      if (p / right.width < right.height / 3) continue;
+      sum += std::pow(double(image.pixels[p].y) - right.pixels[p].y, 2.0);
+      pixels += 1.0;
+    }
+    return sum / pixels;
+  }
+  LayeredImage noisy() const { return readExr(path("noisy.exr")); }
+};
+
+TEST_F(DenoiseTest, LayersOfARenderedImageLowerItsError) {
+  for (const char* denoiser : {"atrous", "svgf"}) {
+    const ProgramResult result =
+        run(std::string("denoise noisy.exr -o clean.exr --denoiser ") + denoiser);
+    ASSERT_EQ(result.code, 0) << result.err;
+    EXPECT_NE(result.err.find("no layer for motion: nothing has moved"), std::string::npos);
+    EXPECT_LT(errorOf("clean.exr"), 0.3 * errorOf("noisy.exr")) << denoiser;
+    EXPECT_EQ(readExr(path("clean.exr")).metadata.at("denoiser"), denoiser);
+  }
+}
+
+TEST_F(DenoiseTest, LayersOfOthersHaveTheirNames) {
+  LayeredImage other = noisy();
+  for (const auto& [ours, theirs] : {std::pair{"normalW", "shading.n"}, {"depth", "far"}}) {
+    other.layers[theirs] = other.layers.at(ours);
+    other.layers.erase(ours);
+  }
+  writeExr(path("other.exr"), other);
+  expectError(run("denoise other.exr -o b.exr"), 3, {"other.exr", "normal", "--layers normal="});
+  expectError(run("denoise other.exr -o b.exr --layers normal=shading.n,depth=fat"), 3,
+              {"fat", "did you mean 'far'"});
+  expectError(run("denoise other.exr -o b.exr --layers norml=far"), 2, {"norml", "normal"});
+  ASSERT_EQ(run("denoise other.exr -o b.exr --layers normal=shading.n,depth=far").code, 0);
+  ASSERT_EQ(run("denoise noisy.exr -o a.exr").code, 0);
+  EXPECT_EQ(readExr(path("a.exr")).layers.at("").pixels,
+            readExr(path("b.exr")).layers.at("").pixels);
+}
+
+// The frames of a sequence are one history; without its wavelets that is all that svgf does.
+TEST_F(DenoiseTest, ASequenceIsDenoisedInOrder) {
+  for (int i = 8; i < 13; ++i) {
+    const std::string name = "frame-" + std::to_string(1000 + i).substr(1) + ".exr";
+    ASSERT_EQ(run("render cornell-box --resolution 48x48 --aov normalW,albedo,depth,emission "
+                  "--seed " +
+                  std::to_string(i) + " -o " + name)
+                  .code,
+              0);
+  }
+  ASSERT_EQ(run("denoise frame-###.exr -o clean-###.exr --set svgf_iterations=0").code, 0);
+  EXPECT_LT(errorOf("clean-012.exr"), 0.4 * errorOf("clean-008.exr"));
+  std::filesystem::remove(path("frame-010.exr"));
+  expectError(run("denoise frame-###.exr -o again-###.exr"), 3, {"frame-010.exr", "missing"});
+  EXPECT_FALSE(std::filesystem::exists(path("again-008.exr")));
+}
+
+TEST_F(DenoiseTest, WhatIsWrongIsSaid) {
+  expectError(run("denoise noisy.exr -o noisy.exr"), 2, {"is the input"});
+  expectError(run("denoise noisy.exr -o clean.png"), 2, {"clean.png", "*.exr"});
+  expectError(run("denoise noisy.exr -o clean-#.exr"), 2, {"#"});
+  expectError(run("denoise a-##.exr -o clean-##.exr"), 3, {"a-##.exr", "no such files"});
+  expectError(run("denoise absent.exr -o clean.exr"), 3, {"absent.exr", "no such file"});
+  expectError(run("denoise noisy.exr -o clean.exr --denoiser svgff"), 2, {"svgff", "svgf"});
+  expectError(run("denoise noisy.exr -o clean.exr --set svgf_kap=3"), 2, {"svgf_kap", "svgf_cap"});
+  expectError(run("denoise noisy.exr -o clean.exr --denoiser accumulate"), 2, {"visible"});
+  EXPECT_FALSE(std::filesystem::exists(path("clean.exr")));
+}
+
+}  // namespace
+}  // namespace restlab::cli_test
