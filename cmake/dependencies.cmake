@@ -17,3 +17,5 @@ find_path(SPNG_INCLUDE_DIR spng.h REQUIRED)
 find_library(SPNG_LIBRARY spng REQUIRED)
 find_path(TURBOJPEG_INCLUDE_DIR turbojpeg.h REQUIRED)
 find_library(TURBOJPEG_LIBRARY turbojpeg REQUIRED)
+# Not packaged in Debian 12: where it is installed there is the denoiser oidn. 2.3 brought its quality "fast".
+find_package(OpenImageDenoise 2.3 QUIET CONFIG)

@@ -48,6 +48,16 @@ function(rl_registry_rows names type declarations rows)
   set(${rows} "${listed}" PARENT_SCOPE)
 endfunction()
 
+# For the CMakeLists.txt of a denoiser whose library is not there: takes <name> out of the registry. The program
+# says <summary> and <why_not> instead.
+function(rl_denoiser_is_missing name summary why_not)
+  get_property(denoisers GLOBAL PROPERTY RL_DENOISERS)
+  list(REMOVE_ITEM denoisers ${name})
+  set_property(GLOBAL PROPERTY RL_DENOISERS ${denoisers})
+  set_property(GLOBAL APPEND_STRING PROPERTY RL_MISSING_DENOISERS
+               "{\"${name}\", \"${summary}\", \"${why_not}\"}, ")
+endfunction()
+
 # The target rl_methods: objects that tell core, when a program starts, which integrators, caches,
 # denoisers and kernels there are. Core names none of them; a program that links this target has them. Called
 # once, after the last rl_add_kernel.
@@ -55,6 +65,7 @@ function(rl_add_methods)
   get_property(integrators GLOBAL PROPERTY RL_INTEGRATORS)
   get_property(caches GLOBAL PROPERTY RL_CACHES)
   get_property(denoisers GLOBAL PROPERTY RL_DENOISERS)
+  get_property(missing_denoisers GLOBAL PROPERTY RL_MISSING_DENOISERS)
   rl_registry_rows("${integrators}" IntegratorInfo integrator_declarations integrator_rows)
   rl_registry_rows("${caches}" CacheInfo cache_declarations cache_rows)
   rl_registry_rows("${denoisers}" DenoiserInfo denoiser_declarations denoiser_rows)
@@ -67,7 +78,8 @@ namespace restlab {
 
 @integrator_declarations@@cache_declarations@@denoiser_declarations@
 namespace {
-const bool kRegistered = registerMethods({@integrator_rows@}, {@cache_rows@}, {@denoiser_rows@});
+const bool kRegistered = registerMethods({@integrator_rows@}, {@cache_rows@}, {@denoiser_rows@},
+                                         {@missing_denoisers@});
 }  // namespace
 
 }  // namespace restlab

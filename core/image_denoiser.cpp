@@ -11,6 +11,7 @@
 #include "core/dialect/order.h"
 #include "core/error.h"
 #include "core/frame_stats.h"
+#include "core/host_filter.h"
 #include "core/kernels/layers.h"
 #include "core/method.h"
 #include "core/pipeline.h"
@@ -61,6 +62,7 @@ struct ImageDenoiser::Impl {
   Method method;
   std::unique_ptr<Backend> backend;
   std::optional<Pipeline> pipeline;
+  HostFilter onHost;  // empty: the denoiser has kernels, or nothing to do
   rl::FrameData frame{};
   FrameStats stats;
 };
@@ -74,6 +76,8 @@ ImageDenoiser::ImageDenoiser(const SessionConfig& config) : impl_(std::make_uniq
   if (const auto every = m.config.parameters.find(kValidateEvery);
       every != m.config.parameters.end())
     every->second = int64_t{0};
+  if (auto resolve = m.config.parameters.find("svgf_resolve"); resolve != m.config.parameters.end())
+    resolve->second = 0.0;
   if (config.width == 0 || config.height == 0)
     failUsage(fmt::format("image of {}x{} pixels: width and height must be at least 1",
                           config.width, config.height));
@@ -81,11 +85,14 @@ ImageDenoiser::ImageDenoiser(const SessionConfig& config) : impl_(std::make_uniq
                           {config.threads, config.device, config.rayTracing, config.validate});
   m.pipeline.emplace(*m.backend, std::vector<const PartInfo*>{&layersPart(), m.method.denoiser}, "",
                      m.config.parameters, 0u, size_t(config.width) * config.height);
-  m.backend->requireMemory(m.method.denoiser->name, config.width, config.height,
-                           m.pipeline->bytesPerPixel(), sizeof(glm::vec3) * (kLayers.size() + 1));
+  const auto& onHost = m.method.denoiser->onHost;
+  m.backend->requireMemory(
+      m.method.denoiser->name, config.width, config.height, m.pipeline->bytesPerPixel(),
+      sizeof(glm::vec3) * (kLayers.size() + 1) + (onHost ? kHostFilterBytesPerPixel : 0));
   m.pipeline->allocate();
   StartupReport startup;
   m.pipeline->prepare(startup);
+  if (onHost) m.onHost = onHost(config.threads, m.config.parameters);
   m.frame.width = config.width;
   m.frame.height = config.height;
   m.frame.seed = config.seed;
@@ -131,6 +138,10 @@ Image ImageDenoiser::frame(const LayeredFrame& layers, float radianceFrames) {
   m.backend->submit(m.pipeline->beginFrame(true), m.frame);
   m.stats = statsOf(m.pipeline->collect(m.backend->collect()));
   ++m.frame.frame;
+  if (m.onHost) {
+    return filterOnHost(m.onHost, m.method.denoiser->name, *m.pipeline, m.config.width,
+                        m.config.height, m.stats);
+  }
   Image shown(m.config.width, m.config.height);
   m.backend->read(m.pipeline->shown(), shown.pixels.data(), pixels * sizeof(glm::vec3));
   return shown;

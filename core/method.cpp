@@ -56,6 +56,7 @@ struct Registry {
   std::vector<const IntegratorInfo*> integrators;
   std::vector<const CacheInfo*> caches;
   std::vector<const DenoiserInfo*> denoisers;
+  std::vector<MissingDenoiser> missingDenoisers;
 };
 
 Registry& registry() {
@@ -79,14 +80,17 @@ const Info& findPart(const std::vector<const Info*>& all, const std::string& kin
 
 bool registerMethods(std::vector<const IntegratorInfo*> integrators,
                      std::vector<const CacheInfo*> caches,
-                     std::vector<const DenoiserInfo*> denoisers) {
-  registry() = {std::move(integrators), std::move(caches), std::move(denoisers)};
+                     std::vector<const DenoiserInfo*> denoisers,
+                     std::vector<MissingDenoiser> missingDenoisers) {
+  registry() = {std::move(integrators), std::move(caches), std::move(denoisers),
+                std::move(missingDenoisers)};
   return true;
 }
 
 const std::vector<const IntegratorInfo*>& integratorRegistry() { return registry().integrators; }
 const std::vector<const CacheInfo*>& cacheRegistry() { return registry().caches; }
 const std::vector<const DenoiserInfo*>& denoiserRegistry() { return registry().denoisers; }
+const std::vector<MissingDenoiser>& missingDenoisers() { return registry().missingDenoisers; }
 
 const IntegratorInfo& findIntegrator(const std::string& name) {
   return findPart(integratorRegistry(), "integrator", name);
@@ -95,6 +99,10 @@ const CacheInfo& findCache(const std::string& name) {
   return findPart(cacheRegistry(), "cache", name);
 }
 const DenoiserInfo& findDenoiser(const std::string& name) {
+  for (const MissingDenoiser& missing : missingDenoisers()) {
+    if (missing.name == name)
+      failUsage(fmt::format("denoiser {} is not there: {}", name, missing.whyNot));
+  }
   return findPart(denoiserRegistry(), "denoiser", name);
 }
 

@@ -36,7 +36,8 @@ struct Method {
 // that is generated from their lists, when the program starts; always true.
 bool registerMethods(std::vector<const IntegratorInfo*> integrators,
                      std::vector<const CacheInfo*> caches,
-                     std::vector<const DenoiserInfo*> denoisers);
+                     std::vector<const DenoiserInfo*> denoisers,
+                     std::vector<MissingDenoiser> missingDenoisers);
 
 // Throws Error (badUsage) with the nearest name, and where an integrator has no use for a cache.
 // `cache`: "" is the first one, of an integrator that has use for it.

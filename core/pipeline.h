@@ -56,6 +56,8 @@ class Pipeline {
   BufferId shown() const;
   // A buffer by name, for who writes to it what no pass does; kNoBuffer where it is not allocated.
   BufferId buffer(const std::string& name) const;
+  // Reads a buffer by name; empty where it is not allocated.
+  std::vector<uint32_t> words(const std::string& buffer);
 
  private:
   struct Stage {
@@ -74,8 +76,6 @@ class Pipeline {
   void pack(Stage& stage, const std::string& mode, const ParameterMap& parameters) const;
   std::optional<std::pair<size_t, size_t>> find(const std::string& name, size_t before) const;
   BufferId bound(const Stage& stage, size_t buffer) const;
-  // Reads a buffer by name; empty where it is not allocated.
-  std::vector<uint32_t> words(const std::string& buffer);
   std::vector<BufferId> bindings(size_t stage) const;
   PassRun runOf(size_t stage, size_t pass) const;
 

@@ -10,6 +10,7 @@
 #include "core/dialect/features.h"
 #include "core/error.h"
 #include "core/frame_stats.h"
+#include "core/host_filter.h"
 #include "core/method.h"
 #include "core/pipeline.h"
 #include "core/scene/compiled_scene.h"
@@ -27,8 +28,8 @@ const std::array<const char*, rl::RL_FEATURE_BITS> kFeatureNames = {
 
 // Buffers of the AOV kernel, in the order of its Buffers struct.
 constexpr const char* kAovKernel = "aov";
-const std::vector<std::string> kAovNames = {"radiance", "positionW", "normalW", "albedo",
-                                            "depth",    "object",    "emission"};
+const std::vector<std::string> kAovNames = {"radiance", "positionW", "normalW",  "albedo",
+                                            "depth",    "object",    "emission", "motion"};
 
 }  // namespace
 
@@ -70,6 +71,7 @@ struct Session::Impl {
   Method method;
   std::unique_ptr<Backend> backend;
   std::optional<Pipeline> pipeline;
+  HostFilter onHost;  // of the denoiser; empty: it has kernels, or nothing to do
   rl::FrameData frame{};
   uint32_t needed = 0;
   Image radiance;
@@ -87,7 +89,7 @@ struct Session::Impl {
   void open();
   // For another one; where that throws, a new history of the one before.
   void reopen(const SessionConfig& changed);
-  // What a frame says of the parameters.
+  // What a frame says of the parameters, and a filter on the host for them.
   void useParameters();
   void submitFrame();
   FrameStats collectFrame();
@@ -129,8 +131,10 @@ void Session::Impl::open() {
   const uint32_t wanted = config.specialise ? needed : rl::RL_FEATURE_ALL;
   pipeline.emplace(*backend, withViewParts(method.parts()), config.mode, config.parameters, wanted,
                    size_t(config.width) * config.height);
+  const size_t filterBytes = method.denoiser->onHost ? kHostFilterBytesPerPixel : 0;
   backend->requireMemory(method.integrator->name, config.width, config.height,
-                         pipeline->bytesPerPixel(), sizeof(glm::vec3) + hostBytesPerPixel);
+                         pipeline->bytesPerPixel(),
+                         sizeof(glm::vec3) + hostBytesPerPixel + filterBytes);
   pipeline->allocate();
   pipeline->prepare(startup);
   radiance = Image(config.width, config.height);
@@ -159,6 +163,7 @@ void Session::Impl::open() {
 void Session::Impl::useParameters() {
   const auto& radianceFrames = method.integrator->radianceFrames;
   frame.radianceFrames = radianceFrames ? float(radianceFrames(config.parameters)) : 1.0f;
+  if (method.denoiser->onHost) onHost = method.denoiser->onHost(config.threads, config.parameters);
 }
 
 void Session::Impl::reopen(const SessionConfig& changed) {
@@ -192,7 +197,15 @@ void Session::Impl::submitFrame() {
   ++frame.frame;
 }
 
-FrameStats Session::Impl::collectFrame() { return statsOf(pipeline->collect(backend->collect())); }
+FrameStats Session::Impl::collectFrame() {
+  FrameStats stats = statsOf(pipeline->collect(backend->collect()));
+  if (onHost) {
+    radiance =
+        filterOnHost(onHost, method.denoiser->name, *pipeline, config.width, config.height, stats);
+    isRadianceRead = true;
+  }
+  return stats;
+}
 
 FrameStats Session::frame() {
   impl_->submitFrame();
@@ -201,7 +214,8 @@ FrameStats Session::frame() {
 
 std::vector<FrameStats> Session::frames(uint32_t count) {
   std::vector<FrameStats> all;
-  const uint32_t inFlight = impl_->backend->framesInFlight();
+  // A filter on the host reads the buffers before the next frame writes to them.
+  const uint32_t inFlight = impl_->onHost ? 1 : impl_->backend->framesInFlight();
   for (uint32_t i = 0; i < count; ++i) {
     if (i >= inFlight) all.push_back(impl_->collectFrame());
     impl_->submitFrame();

@@ -51,7 +51,7 @@ struct Health {
 };
 
 struct FrameStats {
-  double timeMs = 0.0;  // sum of the passes; no metrics, no I/O
+  double timeMs = 0.0;  // sum of the passes, a filter on the host among them; no metrics, no I/O
   std::vector<PassTiming> passes;
   uint64_t raysPath = 0, raysShadow = 0;
   Health health;  // of this frame
@@ -70,7 +70,8 @@ class Session {
 
   // Renders the next frame of the history.
   FrameStats frame();
-  // Renders the next frames, whose images nobody asks for: a device need not wait between them.
+  // Renders the next frames, whose images nobody asks for: a device need not wait between them, but
+  // for a denoiser that runs on the host.
   std::vector<FrameStats> frames(uint32_t count);
   // Drops the history and starts again with another seed (an independent run). The next frame has
   // the number `firstFrame`: a method without a history then renders what it would have rendered
@@ -104,9 +105,11 @@ class Session {
   // aovNames(): radiance; at the first hit positionW, normalW (unit, shading, on the viewer's
   // side), albedo (diffuse + specular at normal incidence + transmission), depth (distance along
   // the ray, in every channel), object (1 + the index in Scene::instances, in every channel),
-  // emission (radiance towards the camera); zero where nothing is hit, but for the environment's
-  // emission. Or a layer of the method (Method::layers()), its numbers in every channel. Throws
-  // Error (badUsage) with the nearest name, and where the history has no frame yet.
+  // emission (radiance towards the camera), motion (to where the last frame's film showed it, in
+  // pixels to the right and down, and its distance from that camera); zero where nothing is hit,
+  // but for the environment's emission and motion. Or a layer of the method (Method::layers()), its
+  // numbers in every channel. Throws Error (badUsage) with the nearest name, and where the history
+  // has no frame yet.
   Image aov(const std::string& name) const;
   static const std::vector<std::string>& aovNames();  // of every method
 

@@ -295,3 +295,13 @@ RL_FN vec3 bsdfAlbedo(RL_IN(Bsdf) b) {
   if (RL_HAS(RL_FEATURE_GLOSSY)) albedo += b.transmission;
   return albedo;
 }
+
+// By how much of its width a lobe turns when the view does, by an angle in radians, times the share
+// of the albedo that is not Lambert's: about the share of the light sent to the viewer that is
+// another then.
+RL_FN float bsdfTurn(RL_IN(Bsdf) b, float angle) {
+  if (!RL_HAS(RL_FEATURE_GLOSSY) && !RL_HAS(RL_FEATURE_TRANSMISSION)) return 0.0f;
+  float all = rlLuminance(bsdfAlbedo(b));
+  float glossy = max(all - rlLuminance(b.diffuse), 0.0f);
+  return rlSafeDivide(glossy, all) * angle / max(b.alpha, RL_ALPHA_FLOOR);
+}

@@ -31,18 +31,23 @@ RL_FN void visibleWrite(RL_IN(QuadRef) quads, uint pixelIndex, RL_IN(VisibleSurf
 }
 
 // Are two of them alike enough to share a history? Symmetric. distanceToCamera: in metres. Most
-// pairs lie in one plane: what both have is unpacked once.
-RL_FN bool visibleMatch(RL_IN(VisibleSurface) a, RL_IN(VisibleSurface) b, float distanceToCamera,
-                        float minNormalDot, float maxPlaneDistance) {
+// pairs lie in one plane: what both have is unpacked once. nGeoW: of `a`, unpacked, for who asks of
+// several `b`.
+RL_FN bool visibleMatchOf(RL_IN(VisibleSurface) a, RL_IN(vec3) nGeoW, RL_IN(VisibleSurface) b,
+                          float distanceToCamera, RL_IN(SurfaceTest) test) {
   if (a.isHit != b.isHit) return false;
   if (a.isHit == 0u) return true;
   if (a.nShadeW != b.nShadeW &&
-      dot(unpackNormal(a.nShadeW), unpackNormal(b.nShadeW)) < minNormalDot)
+      dot(unpackNormal(a.nShadeW), unpackNormal(b.nShadeW)) < test.minNormalDot)
     return false;
   vec3 d = b.posW - a.posW;
-  float planeDistance = abs(dot(d, unpackNormal(a.nGeoW)));
+  float planeDistance = abs(dot(d, nGeoW));
   if (a.nGeoW != b.nGeoW) planeDistance = max(planeDistance, abs(dot(d, unpackNormal(b.nGeoW))));
-  return planeDistance <= maxPlaneDistance * distanceToCamera;
+  return planeDistance <= test.maxPlaneDistance * distanceToCamera;
+}
+RL_FN bool visibleMatch(RL_IN(VisibleSurface) a, RL_IN(VisibleSurface) b, float distanceToCamera,
+                        RL_IN(SurfaceTest) test) {
+  return visibleMatchOf(a, unpackNormal(a.nGeoW), b, distanceToCamera, test);
 }
 
 // Are two surfaces alike enough to exchange samples? Symmetric; the background is like nothing.
@@ -50,7 +55,7 @@ RL_FN bool visibleAlike(RL_IN(VisibleSurface) a, RL_IN(VisibleSurface) b, RL_IN(
   if (a.isHit == 0u || b.isHit == 0u) return false;
   vec3 camera = gFrame.camera.posW;
   float distanceToCamera = max(distance(camera, a.posW), distance(camera, b.posW));
-  return visibleMatch(a, b, distanceToCamera, test.minNormalDot, test.maxPlaneDistance);
+  return visibleMatch(a, b, distanceToCamera, test);
 }
 
 // Film coordinates at which the last frame's camera saw it; false where it was out of view.

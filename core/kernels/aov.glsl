@@ -1,5 +1,18 @@
 // aov: first-hit attributes of the film samples that the frame used (same seed, same draws).
 
+// From the film sample to where the last frame's film showed what it shows, in pixels, and the
+// distance there; two images away where it was behind the camera. The background is as far as it
+// can be: only the direction counts.
+RL_FN vec3 aovMotion(RL_IN(uvec2) pixel, uint film, RL_IN(vec3) posW, bool isHit) {
+  vec2 resolution = vec2(float(gFrame.width), float(gFrame.height));
+  vec2 before;
+  vec2 motion = resolution * 2.0f;
+  if (cameraProject(gFrame.previousCamera, posW, resolution, before))
+    motion = before - cameraFilmPoint(pixel, film);
+  float distanceBefore = isHit ? distance(posW, gFrame.previousCamera.posW) : 0.0f;
+  return vec3(motion.x, motion.y, distanceBefore);
+}
+
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint pixelIndex = pixel.y * gFrame.width + pixel.x;
   uint film = cameraFilmBits(pixel);
@@ -13,6 +26,8 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     gBuffers.albedo.data[pixelIndex] = zero;
     gBuffers.depth.data[pixelIndex] = zero;
     gBuffers.object.data[pixelIndex] = zero;
+    gBuffers.motion.data[pixelIndex] =
+        aovMotion(pixel, film, ray.dir + gFrame.previousCamera.posW, false);
     gBuffers.emission.data[pixelIndex] = environmentExists() ? environmentRadiance(ray.dir) : zero;
     return;
   }
@@ -24,4 +39,5 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   float object = float(hit.instance + 1u);
   gBuffers.object.data[pixelIndex] = vec3(object, object, object);
   gBuffers.emission.data[pixelIndex] = s.emission;
+  gBuffers.motion.data[pixelIndex] = aovMotion(pixel, film, s.posW, true);
 }

@@ -22,6 +22,14 @@ RL_FN vec2 guideSlope(RL_IN(vec3) posW, RL_IN(vec3) nGeoW, float disparity) {
   return step * rlSafeDivide(1.0f, dot(nGeoW, posW - camera.posW));
 }
 
+// Radians between the directions from which both cameras see a point.
+RL_FN float guideTurn(RL_IN(vec3) posW) {
+  vec3 now = posW - gFrame.camera.posW;
+  vec3 before = posW - gFrame.previousCamera.posW;
+  return length(now * rlSafeDivide(1.0f, length(now)) -
+                before * rlSafeDivide(1.0f, length(before)));
+}
+
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint slot = slotOfPixel(pixel);
   uint film = cameraFilmBits(pixel);
@@ -36,6 +44,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   g.isLight = 1u;
   Motion motion;
   motion.disparity = 0.0f;
+  motion.turn = 0.0f;
   vec2 here = cameraFilmPoint(pixel, film);
   // The background is as far as it can be: only the direction counts.
   vec3 posW = ray.dir + gFrame.previousCamera.posW;
@@ -59,6 +68,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
                             vec3(1.0f, 1.0f, 1.0f));
     motion.disparity =
         guideDisparity(gFrame.previousCamera, posW) - guideDisparity(gFrame.camera, posW);
+    motion.turn = bsdfTurn(s.bsdf, guideTurn(posW));
   }
   vec2 before;
   vec2 resolution = vec2(float(gFrame.width), float(gFrame.height));

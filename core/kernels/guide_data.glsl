@@ -30,10 +30,11 @@ RL_FN Motion motionRead(RL_IN(QuadRef) motions, uint slot) {
   Motion m;
   m.film = vec2(q.x, q.y);
   m.disparity = q.z;
+  m.turn = q.w;
   return m;
 }
 RL_FN void motionWrite(RL_IN(QuadRef) motions, uint slot, RL_IN(Motion) m) {
   RL_WRITE_QUAD(motions, slot,
                 uvec4(floatBitsToUint(m.film.x), floatBitsToUint(m.film.y),
-                      floatBitsToUint(m.disparity), 0u));
+                      floatBitsToUint(m.disparity), floatBitsToUint(m.turn)));
 }

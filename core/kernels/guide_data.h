@@ -31,6 +31,7 @@ const float RL_GUIDE_FLOOR = 0.015625f;
 struct Motion {
   vec2 film;        // from here to where the last frame's film showed the surface, in pixels
   float disparity;  // the surface's there, by the last frame's camera, less that of now
+  float turn;       // by how much of its lobes' width the view has turned: bsdfTurn()
 };
 
 RL_NAMESPACE_END

@@ -64,5 +64,6 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   Motion m;
   m.film = vec2(motion.x, motion.y);
   m.disparity = motion.z > 0.0f ? 1.0f / motion.z - g.disparity : 0.0f;
+  m.turn = 0.0f;
   motionWrite(gBuffers.motions, slot, m);
 }

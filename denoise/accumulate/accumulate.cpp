@@ -61,8 +61,9 @@ const DenoiserInfo& accumulateDenoiserInfo() {
     i.packParameters = [](const std::string&, const ParameterMap& p) {
       rl::AccumulateParams out{};
       out.cap = static_cast<float>(std::get<double>(p.at("accumulate_cap")));
-      out.minNormalDot = static_cast<float>(std::get<double>(p.at("accumulate_normal_threshold")));
-      out.maxPlaneDistance =
+      out.alike.minNormalDot =
+          static_cast<float>(std::get<double>(p.at("accumulate_normal_threshold")));
+      out.alike.maxPlaneDistance =
           static_cast<float>(std::get<double>(p.at("accumulate_plane_threshold")));
       if (std::get<std::string>(p.at("accumulate_filter")) == "bilinear")
         out.flags |= rl::RL_ACCUMULATE_BILINEAR;

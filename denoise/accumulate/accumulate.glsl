@@ -13,70 +13,12 @@
 // and pixels that show more than one surface, then lag behind: biased.
 
 #include "core/changes/read.glsl"
-
-RL_FN History historyOf(uint pixelIndex) {
-  uvec4 q = RL_PAST_QUAD(gBuffers.historyBefore, pixelIndex);
-  History h;
-  h.mean = recordVec3(q);
-  h.frames = uintBitsToFloat(q.w);
-  return h;
-}
-
-// Adds the history of a pixel of the last frame, if it showed the surface.
-RL_FN void historyGather(RL_IN(VisibleSurface) here, RL_IN(ivec2) pixel, float weight,
-                         RL_INOUT(History) sum, RL_INOUT(float) weights) {
-  if (!(weight > 0.0f) || pixel.x < 0 || pixel.y < 0 || pixel.x >= int(gFrame.width) ||
-      pixel.y >= int(gFrame.height))
-    return;
-  uint pixelIndex = uint(pixel.y) * gFrame.width + uint(pixel.x);
-  VisibleSurface there = visibleRead(gBuffers.visibleBefore, gFrame.previousCamera, pixelIndex);
-  float distanceToCamera = distance(gFrame.camera.posW, here.posW);
-  if (!visibleMatch(here, there, distanceToCamera, gParams.minNormalDot, gParams.maxPlaneDistance))
-    return;
-  History h = historyOf(pixelIndex);
-  sum.mean += h.mean * weight;
-  sum.frames += h.frames * weight;
-  weights += weight;
-}
-
-// The last frame's history of what the pixel shows; of no frames where there is none.
-RL_FN History historyReprojected(uint pixelIndex) {
-  History sum;
-  sum.mean = vec3(0.0f, 0.0f, 0.0f);
-  sum.frames = 0.0f;
-  VisibleSurface here = visibleRead(gBuffers.visible, gFrame.camera, pixelIndex);
-  vec2 film;
-  if (!visibleFilmBefore(here, film)) return sum;
-  float weights = 0.0f;
-  if ((gParams.flags & RL_ACCUMULATE_BILINEAR) == 0u) {
-    historyGather(here, ivec2(int(film.x), int(film.y)), 1.0f, sum, weights);
-  } else {
-    float x = floor(film.x - 0.5f);
-    float y = floor(film.y - 0.5f);
-    float u = film.x - 0.5f - x;
-    float v = film.y - 0.5f - y;
-    ivec2 corner = ivec2(int(x), int(y));
-    historyGather(here, corner, (1.0f - u) * (1.0f - v), sum, weights);
-    historyGather(here, corner + ivec2(1, 0), u * (1.0f - v), sum, weights);
-    historyGather(here, corner + ivec2(0, 1), (1.0f - u) * v, sum, weights);
-    historyGather(here, corner + ivec2(1, 1), u * v, sum, weights);
-  }
-  if (!(weights > 0.0f)) return sum;
-  sum.mean *= 1.0f / weights;
-  sum.frames *= 1.0f / weights;
-  return sum;
-}
+#include "denoise/common/average.glsl"
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint pixelIndex = pixel.y * gFrame.width + pixel.x;
-  History history;
-  history.mean = vec3(0.0f, 0.0f, 0.0f);
-  history.frames = 0.0f;
-  if (gFrame.stillFrames != 0u) {
-    history = historyOf(pixelIndex);
-  } else if (gFrame.frame > 0u) {
-    history = historyReprojected(pixelIndex);
-  }
+  bool isBetween = (gParams.flags & RL_ACCUMULATE_BILINEAR) != 0u;
+  Average history = averageOfBefore(gBuffers.historyBefore, pixelIndex, gParams.alike, isBetween);
   history.frames *= changeKept(gBuffers.changes, gParams.changes, pixelIndex);
   vec3 radiance = gBuffers.radiance.data[pixelIndex];
   if (rlIsFinite3(radiance)) {
@@ -89,6 +31,5 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     RL_HEALTH(RL_HEALTH_NONFINITE);
   }
   gBuffers.accumulated.data[pixelIndex] = history.mean;
-  RL_WRITE_QUAD(gBuffers.history, pixelIndex,
-                recordQuad(history.mean, floatBitsToUint(history.frames)));
+  averageWrite(gBuffers.history, pixelIndex, history);
 }

@@ -6,15 +6,11 @@
 #include "core/dialect/types.h"
 #endif
 #include "core/changes/changes.h"
+#include "denoise/common/average.h"
 
 RL_NAMESPACE_BEGIN
 
 const uint RL_ACCUMULATE_BILINEAR = 1u;  // flag: the history is read between pixels
-
-struct History {
-  vec3 mean;
-  float frames;  // seen, no more than matter; between pixels no whole number
-};
 
 struct AccumulateBuffers {
   Vec3Ref radiance;  // of this frame
@@ -22,15 +18,14 @@ struct AccumulateBuffers {
   QuadRef visibleBefore;
   UintRef changes;      // core/changes
   Vec3Ref accumulated;  // what is shown
-  QuadRef history;      // one quad: the mean, and how many frames are in it
+  QuadRef history;      // Average
   QuadRef historyBefore;
 };
 
 struct AccumulateParams {
   float cap;  // frames
-  float minNormalDot;
-  float maxPlaneDistance;  // over the distance to the camera
-  uint flags;              // RL_ACCUMULATE_*
+  SurfaceTest alike;
+  uint flags;  // RL_ACCUMULATE_*
   ChangeParams changes;
 };
 

@@ -39,10 +39,23 @@ RL_FN void svgfHistoryWrite(RL_IN(QuadRef) quads, uint slot, RL_IN(SvgfHistory) 
                       floatBitsToUint(h.last)));
 }
 
-// Frames that the radiance of this frame averages itself, this one included.
-RL_FN float svgfHeld(uint slot) {
+// Of so many frames those that show what this view does: a gloss that has turned away is another
+// light.
+RL_FN float svgfInView(float frames, uint slot) {
+  float turn = motionRead(gBuffers.motion, slot).turn * gParams.turnResponse;
+  return frames / (1.0f + frames * turn);
+}
+
+// Over how many frames the radiance averages itself, this one included, of so many: of its
+// confidence a part is what the same pixel knew the frame before, no more than the cap of a donor
+// over time. The rest is new, or comes from other pixels; an average that renews a share of itself
+// is one over as many frames as that share goes into 1.
+RL_FN float svgfHeld(uint slot, float frames) {
   if (!svgfHas(RL_SVGF_CONFIDENCE)) return 1.0f;
+  float cap = gFrame.stillFrames != 0u ? gParams.donorCap : gParams.movingDonorCap;
+  if (cap < 0.0f) return clamp(gFrame.radianceFrames, 1.0f, max(frames, 1.0f));
   uint state = slot * RL_PATH_RESERVOIR_QUADS + RL_PATH_SAMPLE_QUADS;
   float confidence = uintBitsToFloat(RL_PAST_QUAD(gBuffers.reservoirs, state).w);
-  return clamp(confidence, 1.0f, max(gFrame.radianceFrames, 1.0f));
+  if (!(confidence > 1.0f)) return 1.0f;
+  return min(confidence / max(confidence - min(cap, confidence - 1.0f), 1.0f), max(frames, 1.0f));
 }

@@ -1,6 +1,8 @@
 // Host side of `svgf`.
 #include "denoise/svgf/svgf.h"
 
+#include <algorithm>
+
 #include "core/changes/settings.h"
 #include "denoise/common/settings.h"
 #include "denoise/svgf/svgf_info.h"
@@ -46,6 +48,24 @@ std::vector<ParameterInfo> parametersOf(const SvgfDefaults& defaults) {
        "averaged "
        "again",
        "measured: docs/denoising.md"}};
+  all.push_back(
+      {"svgf_turn",
+       0.25,
+       0.0,
+       1.0e6,
+       {},
+       "frames in which glossy light is forgotten while the view turns by the width of its "
+       "lobe: one over this; 0: it is taken to be the same from everywhere",
+       "measured: docs/denoising.md"});
+  all.push_back(
+      {"svgf_resolve",
+       4.0,
+       0.0,
+       1.0e6,
+       {},
+       "frames that what is shown may average, by what pixels show at their centres; 0: "
+       "no more than the filter does",
+       "measured: docs/denoising.md (temporal antialiasing: Schied et al. 2017, section 4)"});
   for (ParameterInfo& parameter : filterParameters()) all.push_back(std::move(parameter));
   return all;
 }
@@ -57,13 +77,21 @@ std::vector<std::byte> pack(const std::string&, const ParameterMap& p) {
   out.deviations = floatOf(p, "svgf_deviations");
   out.edges = packFilterEdges(p);
   if (std::get<bool>(p.at("svgf_feedback"))) out.flags |= rl::RL_SVGF_FEEDBACK;
-  // An integrator with reservoirs has a confidence and its cap.
-  const bool hasReservoirs = p.contains("confidence_cap");
-  if (hasReservoirs && std::get<bool>(p.at("svgf_confidence"))) out.flags |= rl::RL_SVGF_CONFIDENCE;
+  if (std::get<bool>(p.at("svgf_confidence"))) {
+    out.flags |= rl::RL_SVGF_CONFIDENCE;
+    // An integrator with reservoirs has caps of their confidence.
+    const bool hasReservoirs = p.contains("confidence_cap");
+    out.donorCap = hasReservoirs ? floatOf(p, "confidence_cap") : -1.0f;
+    out.movingDonorCap =
+        hasReservoirs ? std::min(out.donorCap, floatOf(p, "moving_confidence_cap")) : -1.0f;
+  }
   const std::string& variance = std::get<std::string>(p.at("svgf_variance"));
   if (variance == "differences") out.flags |= rl::RL_SVGF_DIFFERENCES;
   if (variance == "space") out.flags |= rl::RL_SVGF_SPACE;
   out.changes = packChanges(p);
+  out.turnResponse = floatOf(p, "svgf_turn");
+  out.resolveCap = floatOf(p, "svgf_resolve");
+  out.resolveTest = {0.9f, 0.05f};  // as of `accumulate` and the pixel cache
   return bytesOf(out);
 }
 
@@ -81,14 +109,16 @@ DenoiserInfo makeSvgf(const SvgfDefaults& defaults) {
   i.parameters = parametersOf(defaults);
   if (defaults.validateEvery != 0) i.defaults[kValidateEvery] = defaults.validateEvery;
   i.inputs = {"radiance", "guide", "guide_before", "motion"};
-  i.optionalInputs = {"reservoir_history", kChanges};
+  i.optionalInputs = {"reservoir_history", kChanges, "visible", "visible_before"};
   const uint32_t historyBytes = 16 * rl::RL_SVGF_HISTORY_QUADS;
   i.buffers = {{"svgf_shown", sizeof(glm::vec3), 0, -1},
                {"svgf_even", 16, 0, -1},
                {"svgf_odd", 16, 0, -1},
                {"svgf_around", sizeof(glm::vec2), 0, -1},
                {"svgf_history", historyBytes, 0, 5},
-               {"svgf_history_before", historyBytes, 0, 4}};
+               {"svgf_history_before", historyBytes, 0, 4},
+               {"svgf_resolved", 16, 0, 7},
+               {"svgf_resolved_before", 16, 0, 6}};
   i.passes = {{"svgf_temporal", "svgf_temporal", false}, {"svgf_variance", "svgf_variance", false}};
   for (PassInfo& pass : waveletPasses("svgf", "svgf_iterations")) i.passes.push_back(pass);
   i.passes.push_back({"svgf_end", "svgf_end", false});

@@ -7,6 +7,7 @@
 #endif
 #include "core/changes/changes.h"
 #include "core/payload/path_sample.h"
+#include "denoise/common/average.h"
 #include "denoise/common/filter.h"
 
 RL_NAMESPACE_BEGIN
@@ -35,12 +36,16 @@ struct SvgfBuffers {
   QuadRef motion;
   QuadRef reservoirs;  // of the last merge; null where the integrator has none
   UintRef changes;     // core/changes
+  QuadRef visible;     // null where resolveCap is 0
+  QuadRef visibleBefore;
   Vec3Ref shown;
   QuadRef even;  // Filtered, a quad each: read by iterations 0, 2, ... and written by the others
   QuadRef odd;
   Vec2Ref around;
   QuadRef history;
   QuadRef historyBefore;
+  QuadRef resolved;  // Average, of what was shown
+  QuadRef resolvedBefore;
 };
 
 struct SvgfParams {
@@ -51,6 +56,12 @@ struct SvgfParams {
   float deviations;
   FilterEdges edges;
   ChangeParams changes;
+  float donorCap;        // confidence of a donor over time in a still view; less than 0: there are
+                         // no reservoirs
+  float movingDonorCap;  // and when the view is new
+  float turnResponse;    // share of a history that is forgotten, over Motion::turn
+  float resolveCap;      // frames that a resolved history may weigh
+  SurfaceTest resolveTest;
 };
 
 RL_NAMESPACE_END

@@ -16,7 +16,9 @@ RL_FN float svgfLikeness(RL_IN(Guide) here, RL_IN(FilterSurface) surface, RL_IN(
 }
 
 RL_FN void svgfGather(RL_IN(Guide) here, RL_IN(FilterSurface) surface, RL_IN(vec2) film, float x,
-                      float y, float weight, RL_INOUT(SvgfHistory) sum, RL_INOUT(float) weights) {
+                      float y, float weight, RL_INOUT(SvgfHistory) sum, RL_INOUT(float) weights,
+                      RL_INOUT(float) nearest) {
+  float share = weight;
   if (!(weight > 0.0f) || !(x >= 0.0f) || !(y >= 0.0f) || !(x < float(gFrame.width)) ||
       !(y < float(gFrame.height)))
     return;
@@ -30,8 +32,12 @@ RL_FN void svgfGather(RL_IN(Guide) here, RL_IN(FilterSurface) surface, RL_IN(vec
   sum.mean += h.mean * weight;
   sum.spread += h.spread * weight;
   sum.step += h.step * weight;
-  sum.last += h.last * weight;
   weights += weight;
+  // A mean of several pixels would differ by their noise: that of one pixel went on.
+  if (share > nearest) {
+    nearest = share;
+    sum.last = h.last;
+  }
 }
 
 // The history of what the pixel shows, read between the four pixels that saw it; of no frames where
@@ -50,10 +56,11 @@ RL_FN SvgfHistory svgfReprojected(RL_IN(uvec2) pixel, RL_IN(Guide) here) {
   float v = film.y - 0.5f - y;
   FilterSurface surface = filterSurface(then, gParams.edges);
   float weights = 0.0f;
-  svgfGather(then, surface, film, x, y, (1.0f - u) * (1.0f - v), sum, weights);
-  svgfGather(then, surface, film, x + 1.0f, y, u * (1.0f - v), sum, weights);
-  svgfGather(then, surface, film, x, y + 1.0f, (1.0f - u) * v, sum, weights);
-  svgfGather(then, surface, film, x + 1.0f, y + 1.0f, u * v, sum, weights);
+  float nearest = 0.0f;
+  svgfGather(then, surface, film, x, y, (1.0f - u) * (1.0f - v), sum, weights, nearest);
+  svgfGather(then, surface, film, x + 1.0f, y, u * (1.0f - v), sum, weights, nearest);
+  svgfGather(then, surface, film, x, y + 1.0f, (1.0f - u) * v, sum, weights, nearest);
+  svgfGather(then, surface, film, x + 1.0f, y + 1.0f, u * v, sum, weights, nearest);
   // Of so little is known about the surface that it would be mostly noise.
   if (!(weights > 0.01f)) return svgfNoHistory();
   float scale = 1.0f / weights;
@@ -62,7 +69,6 @@ RL_FN SvgfHistory svgfReprojected(RL_IN(uvec2) pixel, RL_IN(Guide) here) {
   sum.mean *= scale;
   sum.spread *= scale;
   sum.step *= scale;
-  sum.last *= scale;
   return sum;
 }
 
@@ -77,12 +83,13 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     h.light *= guideRead(gBuffers.guideBefore, slot).reflectance / guide.reflectance;
   } else if (gFrame.frame > 0u) {
     h = svgfReprojected(pixel, guide);
+    h.frames = svgfInView(h.frames, slot);
   }
   h.frames *= changeKept(gBuffers.changes, gParams.changes, slot);
   if (!(h.frames > 0.0f)) RL_HEALTH(RL_HEALTH_NEW_HISTORY);
   if (now.reflectance > 0.0f) {
     float luminance = rlLuminance(now.light);
-    float held = svgfHeld(slot);
+    float held = svgfHeld(slot, h.frames + 1.0f);
     float difference = luminance - h.last;
     float before = h.frames;
     h.frames = min(h.frames, gParams.cap + held - 1.0f) + 1.0f;

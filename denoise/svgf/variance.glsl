@@ -22,7 +22,7 @@ RL_FN bool aroundSees(uint slot, RL_OUT(float) luminance, RL_OUT(float) variance
   if (!(h.frames > 0.0f)) return false;
   if (h.frames < RL_SVGF_YOUNG || svgfHas(RL_SVGF_SPACE)) return true;
   // Frames in the mean that know nothing of each other.
-  float held = svgfHeld(slot);
+  float held = svgfHeld(slot, h.frames);
   float frames = max(h.frames - held + 1.0f, 1.0f);
   if (svgfHas(RL_SVGF_DIFFERENCES)) {
     variance = 0.5f * h.step * held * min((2.0f * held - 1.0f) / frames, 1.0f);

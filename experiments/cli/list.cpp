@@ -107,10 +107,17 @@ Json denoisers() {
   for (const DenoiserInfo* denoiser : denoiserRegistry()) {
     all.push_back({{"name", denoiser->name},
                    {"summary", denoiser->summary},
+                   {"available", true},
                    {"bias_still", biasName(denoiser->biasOfStillView)},
                    {"bias_moving", biasName(denoiser->biasOfMovingView)},
                    {"why", denoiser->why},
                    {"parameters", parametersJson(*denoiser)}});
+  }
+  for (const MissingDenoiser& missing : missingDenoisers()) {
+    all.push_back({{"name", missing.name},
+                   {"summary", missing.summary},
+                   {"available", false},
+                   {"why_not", missing.whyNot}});
   }
   return all;
 }

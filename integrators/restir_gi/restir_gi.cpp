@@ -18,20 +18,9 @@
 #include "core/caches/entries/settings.h"
 #include "core/changes/settings.h"
 #include "core/integrator.h"
+#include "core/packing.h"
 #include "core/radiance/settings.h"
 #include "core/resampling/partner_settings.h"
-
-namespace rl {
-namespace {
-
-// The dialect's functions that unpack.
-struct Packing {
-#include "core/dialect/math.glsl"
-#include "core/dialect/pack.glsl"
-};
-
-}  // namespace
-}  // namespace rl
 
 namespace restlab {
 

@@ -88,7 +88,7 @@ TEST_F(RenderTest, FirstHitLayersHoldTheSceneThatIsSeen) {
                      R"(, "pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 0, 1],
                         "metallicFactor": 0})"));
   ASSERT_EQ(run("render triangle.gltf -o x.exr --resolution 16x16 --filter center "
-                "--aov radiance,positionW,normalW,albedo,depth,object,emission")
+                "--aov radiance,positionW,normalW,albedo,depth,object,emission,motion")
                 .code,
             0);
   const LayeredImage image = readExr(path("x.exr"));
@@ -102,6 +102,7 @@ TEST_F(RenderTest, FirstHitLayersHoldTheSceneThatIsSeen) {
       if (x >= 8) {
         for (const char* name : {"positionW", "normalW", "albedo", "depth", "object", "emission"})
           EXPECT_EQ(layer(name), zero) << name;
+        EXPECT_NEAR(glm::length(layer("motion")), 0.0F, 1e-4F);
         continue;
       }
       const glm::vec3 posW = layer("positionW");
@@ -110,6 +111,7 @@ TEST_F(RenderTest, FirstHitLayersHoldTheSceneThatIsSeen) {
       EXPECT_NEAR(layer("depth").x, glm::length(posW - eye), 1e-5F);
       EXPECT_NEAR(glm::length(layer("normalW") - glm::vec3(0, 0, 1)), 0.0F, 1e-5F);
       EXPECT_EQ(layer("object"), glm::vec3(1.0F));
+      EXPECT_NEAR(glm::length(layer("motion") - glm::vec3(0, 0, layer("depth").x)), 0.0F, 1e-4F);
       // The diffuse colour and 4 % of specular reflection at normal incidence.
       EXPECT_NEAR(glm::length(layer("albedo") - glm::vec3(0.54F, 0.29F, 0.04F)), 0.0F, 1e-5F);
     }

@@ -55,7 +55,8 @@ TEST_P(FilterEnergy, IsWithinOnePercent) {
 
 INSTANTIATE_TEST_SUITE_P(Builtin, FilterEnergy,
                          testing::Combine(testing::ValuesIn(builtinSceneNames()),
-                                          testing::Values("atrous", "svgf", "svgf_restir")),
+                                          testing::Values("atrous", "svgf", "asvgf",
+                                                          "svgf_restir")),
                          [](const auto& test) {
                            std::string name =
                                std::get<0>(test.param) + "_" + std::get<1>(test.param);

@@ -15,6 +15,7 @@ namespace restlab::denoise {
 inline std::vector<std::string> filters() {
   std::vector<std::string> names;
   for (const DenoiserInfo* info : denoiserRegistry()) {
+    if (info->onHost) continue;  // a network keeps none of their tolerances
     for (const std::string& input : info->inputs)
       if (input == "guide") names.push_back(info->name);
   }

@@ -75,6 +75,11 @@ std::vector<SuiteMethod> readMethod(const ConfigTable& table, const ConfigTable&
   method.session.specialise = !table.getBool("general", false);
   std::vector<std::string> denoisers;
   for (const DenoiserInfo* denoiser : denoiserRegistry()) denoisers.push_back(denoiser->name);
+  for (const MissingDenoiser& missing : missingDenoisers()) {
+    if (table.getString("denoiser", "") == missing.name)
+      table.fail("denoiser",
+                 fmt::format("denoiser {} is not there: {}", missing.name, missing.whyNot));
+  }
   method.session.denoiser = table.getChoice("denoiser", "none", denoisers);
   const std::string fallback =
       info.name + (modes.size() < 2 ? "" : " (" + method.session.mode + ")") +

@@ -1,0 +1,13 @@
+// The dialect's functions that pack and unpack (core/dialect/pack.glsl), for the host.
+#pragma once
+
+#include "core/dialect/order.h"
+
+namespace rl {
+
+struct Packing {
+#include "core/dialect/math.glsl"
+#include "core/dialect/pack.glsl"
+};
+
+}  // namespace rl

@@ -1,0 +1,80 @@
+// Averages of the last frame, and where they are found when the camera has moved: at the pixels
+// whose centres showed the surface that is at this one's centre. Centres know no film sample, so
+// that a pixel at an edge averages both of its sides, as the pixel filter does.
+//
+// The includer has gBuffers.visible and .visibleBefore.
+
+RL_FN Average averageOfNone() {
+  Average a;
+  a.mean = vec3(0.0f, 0.0f, 0.0f);
+  a.frames = 0.0f;
+  return a;
+}
+RL_FN Average averageRead(RL_IN(QuadRef) quads, uint slot) {
+  uvec4 q = RL_PAST_QUAD(quads, slot);
+  Average a;
+  a.mean = recordVec3(q);
+  a.frames = uintBitsToFloat(q.w);
+  return a;
+}
+RL_FN void averageWrite(RL_IN(QuadRef) quads, uint slot, RL_IN(Average) a) {
+  RL_WRITE_QUAD(quads, slot, recordQuad(a.mean, floatBitsToUint(a.frames)));
+}
+
+// Adds the average of a pixel of the last frame, if it showed the surface.
+RL_FN void averageGather(RL_IN(QuadRef) before, RL_IN(VisibleSurface) here, RL_IN(vec3) nGeoW,
+                         float distanceToCamera, RL_IN(SurfaceTest) test, RL_IN(ivec2) pixel,
+                         float weight, RL_INOUT(Average) sum, RL_INOUT(float) weights) {
+  if (!(weight > 0.0f) || pixel.x < 0 || pixel.y < 0 || pixel.x >= int(gFrame.width) ||
+      pixel.y >= int(gFrame.height))
+    return;
+  uint slot = uint(pixel.y) * gFrame.width + uint(pixel.x);
+  VisibleSurface there = visibleRead(gBuffers.visibleBefore, gFrame.previousCamera, slot);
+  if (!visibleMatchOf(here, nGeoW, there, distanceToCamera, test)) return;
+  Average a = averageRead(before, slot);
+  sum.mean += a.mean * weight;
+  sum.frames += a.frames * weight;
+  weights += weight;
+}
+
+// The last frame's average of what the pixel shows, read between the four pixels around it or of
+// the one that it falls on; of no frames where there is none.
+RL_FN Average averageReprojected(RL_IN(QuadRef) before, uint slot, RL_IN(SurfaceTest) test,
+                                 bool isBetween) {
+  Average sum = averageOfNone();
+  VisibleSurface here = visibleRead(gBuffers.visible, gFrame.camera, slot);
+  vec2 film;
+  if (!visibleFilmBefore(here, film)) return sum;
+  vec3 nGeoW = unpackNormal(here.nGeoW);
+  float distanceToCamera = distance(gFrame.camera.posW, here.posW);
+  float x = floor(film.x - 0.5f);
+  float y = floor(film.y - 0.5f);
+  float u = film.x - 0.5f - x;
+  float v = film.y - 0.5f - y;
+  ivec2 corner = ivec2(int(x), int(y));
+  if (!isBetween) {
+    corner = ivec2(int(film.x), int(film.y));
+    u = 0.0f;
+    v = 0.0f;
+  }
+  float weights = 0.0f;
+  for (uint i = 0u; i < 4u; i = i + 1u) {
+    int right = int(i & 1u);
+    int below = int(i >> 1u);
+    float weight = (right != 0 ? u : 1.0f - u) * (below != 0 ? v : 1.0f - v);
+    averageGather(before, here, nGeoW, distanceToCamera, test, corner + ivec2(right, below), weight,
+                  sum, weights);
+  }
+  if (!(weights > 0.0f)) return sum;
+  sum.mean *= 1.0f / weights;
+  sum.frames *= 1.0f / weights;
+  return sum;
+}
+
+// Of the pixel itself in a still view, and where the surface was when the view is new.
+RL_FN Average averageOfBefore(RL_IN(QuadRef) before, uint slot, RL_IN(SurfaceTest) test,
+                              bool isBetween) {
+  if (gFrame.stillFrames != 0u) return averageRead(before, slot);
+  if (gFrame.frame == 0u) return averageOfNone();
+  return averageReprojected(before, slot, test, isBetween);
+}

@@ -1,0 +1,105 @@
+// oidn: Intel Open Image Denoise, a network that was trained on path-traced images. It sees one
+// frame with its guides, and runs on the processor whatever the backend is. Built only where CMake
+// finds the library.
+#include <OpenImageDenoise/oidn.hpp>
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "core/denoiser.h"
+#include "core/error.h"
+#include "denoise/common/settings.h"
+
+namespace restlab {
+
+const DenoiserInfo& oidnDenoiserInfo();
+
+namespace {
+
+oidn::Quality qualityOf(const ParameterMap& parameters) {
+  const std::string& name = std::get<std::string>(parameters.at("oidn_quality"));
+  if (name == "fast") return oidn::Quality::Fast;
+  return name == "balanced" ? oidn::Quality::Balanced : oidn::Quality::High;
+}
+
+// The library's device and its filter, kept from frame to frame: both take long to make.
+class Network {
+ public:
+  Network(int threads, oidn::Quality quality) : device_(oidn::newDevice(oidn::DeviceType::CPU)) {
+    check();
+    if (threads > 0) device_.set("numThreads", threads);
+    device_.commit();
+    check();
+    filter_ = device_.newFilter("RT");
+    check();
+    filter_.set("hdr", true);
+    filter_.set("quality", quality);
+  }
+
+  Image run(const HostFrame& frame) {
+    Image shown(frame.radiance.width, frame.radiance.height);
+    set("color", frame.radiance);
+    set("albedo", frame.albedo);
+    set("normal", frame.normalW);
+    set("output", shown);
+    // The network is built for the first frame; for others of its size addresses alone change.
+    filter_.commit();
+    filter_.execute();
+    check();
+    return shown;
+  }
+
+ private:
+  // The library knows inputs and outputs by name, and takes all of them as memory to write to. Its
+  // CPU device sees ours.
+  void set(const char* name, const Image& image) {
+    filter_.setImage(name, const_cast<glm::vec3*>(image.pixels.data()), oidn::Format::Float3,
+                     image.width, image.height);
+  }
+
+  // Of a device that could not be made, too.
+  void check() {
+    const char* message = nullptr;
+    if (device_.getError(message) == oidn::Error::None) return;
+    throw Error(ExitCode::deviceUnavailable,
+                fmt::format("Open Image Denoise: {}", message != nullptr ? message : "no reason"));
+  }
+
+  oidn::DeviceRef device_;
+  oidn::FilterRef filter_;
+};
+
+}  // namespace
+
+const DenoiserInfo& oidnDenoiserInfo() {
+  static const DenoiserInfo info = [] {
+    DenoiserInfo i;
+    i.name = "oidn";
+    i.summary = "Intel Open Image Denoise: a network, over the frame alone";
+    i.biasOfStillView = BiasClass::biased;
+    i.biasOfMovingView = BiasClass::biased;
+    i.why = "a network averages neighbours";
+    i.parameters = {{"oidn_quality",
+                     std::string("high"),
+                     0,
+                     0,
+                     {"fast", "balanced", "high"},
+                     "the library's modes: fast and balanced are less exact than high",
+                     "the library's own default"},
+                    demodulateParameter()};
+    i.parameters.back().help =
+        "reflectances that the network is told: none, the diffuse one, or that and the specular "
+        "one at normal incidence";
+    i.parameters.back().source = "the library's manual: what it asks for of metals";
+    i.inputs = {"radiance", "guide"};
+    i.onHost = [](int threads, const ParameterMap& p) -> HostFilter {
+      const auto network = std::make_shared<Network>(threads, qualityOf(p));
+      return [network](const HostFrame& frame) { return network->run(frame); };
+    };
+    return i;
+  }();
+  return info;
+}
+
+}  // namespace restlab

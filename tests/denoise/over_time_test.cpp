@@ -1,0 +1,199 @@
+// What denoisers that remember do from frame to frame: errors fall while nothing changes, and what
+// was shown before a cut or a switch goes.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/image/metrics.h"
+#include "core/scene/camera_path.h"
+#include "core/scene/compiled_scene.h"
+#include "core/scene/light_factor.h"
+#include "tests/conformance/variants.h"
+#include "tests/denoise/layered_images.h"
+
+namespace restlab::denoise {
+namespace {
+
+constexpr glm::uvec2 kSize = {64, 36};
+
+Image add(const Image& a, const Image& b, double share) {
+  Image sum = a;
+  for (size_t p = 0; p < sum.pixels.size(); ++p)
+    sum.pixels[p] += (b.pixels[p] - sum.pixels[p]) * float(share);
+  return sum;
+}
+
+// The mean of so many frames of path tracing.
+Image meanOfFrames(const std::shared_ptr<const CompiledScene>& scene, uint32_t frames,
+                   uint32_t seed) {
+  SessionConfig config = filterConfig("none", kSize);
+  config.seed = seed;
+  Session session(scene, config);
+  Image mean(kSize.x, kSize.y);
+  for (uint32_t i = 0; i < frames; ++i) {
+    session.frame();
+    mean = add(mean, session.radiance(), 1.0 / (i + 1.0));
+  }
+  return mean;
+}
+
+struct Method {
+  const char* integrator;
+  const char* denoiser;
+  double floor;    // of the MSE in the end, over that of one frame of path tracing
+  int framesDark;  // until a switch is forgotten to a tenth of its step, at most
+};
+std::string nameOf(const testing::TestParamInfo<Method>& info) {
+  return std::string(info.param.integrator) + "_" + info.param.denoiser;
+}
+SessionConfig configOf(const Method& method) {
+  SessionConfig config = filterConfig(method.denoiser, kSize);
+  config.integrator = method.integrator;
+  return config;
+}
+
+class OverTime : public testing::TestWithParam<Method> {};
+
+// To a floor, which is what the filter blurs.
+TEST_P(OverTime, ErrorsFallInAStillView) {
+  const auto scene = bias::builtinScene("door-ajar");
+  const Image half0 = meanOfFrames(scene, 512, 7001), half1 = meanOfFrames(scene, 512, 7002);
+  constexpr uint32_t kRuns = 4;
+  std::map<uint32_t, double> errors;  // by frames in the history
+  double plain = 0.0;
+  Session session(scene, configOf(GetParam())), path(scene, filterConfig("none", kSize));
+  for (uint32_t run = 0; run < kRuns; ++run) {
+    session.reset(run + 1);
+    path.reset(run + 1);
+    path.frame();
+    plain += mseAgainstHalves(path.radiance(), half0, half1) / kRuns;
+    for (uint32_t frame = 1; frame <= 64; ++frame) {
+      session.frame();
+      if (frame == 1 || frame == 4 || frame == 16 || frame == 64)
+        errors[frame] += mseAgainstHalves(session.radiance(), half0, half1) / kRuns;
+    }
+  }
+  std::printf("MSE over a frame of path: %.4f %.4f %.4f %.4f at frames 1, 4, 16, 64\n",
+              errors[1] / plain, errors[4] / plain, errors[16] / plain, errors[64] / plain);
+  EXPECT_LT(errors[16], 0.8 * errors[1]);
+  EXPECT_LT(errors[64], 0.8 * errors[16]);
+  EXPECT_LT(errors[64], GetParam().floor * plain);
+}
+
+// How much of the picture before is in what is shown: 1 all of it, 0 nothing.
+double ghost(const Image& shown, const Image& before, const Image& now) {
+  double sum = 0.0, all = 0.0;
+  for (size_t p = 0; p < shown.pixels.size(); ++p) {
+    const glm::dvec3 step = glm::dvec3(before.pixels[p]) - glm::dvec3(now.pixels[p]);
+    sum += glm::dot(glm::dvec3(shown.pixels[p]) - glm::dvec3(now.pixels[p]), step);
+    all += glm::dot(step, step);
+  }
+  return sum / all;
+}
+
+TEST_P(OverTime, ALampThatIsSwitchedIsForgotten) {
+  const auto bright = bias::builtinScene("cornell-box");
+  const auto dim =
+      CompiledScene::build(withLightFactor(makeBuiltinScene("cornell-box"), kAllLights, 0.25));
+  const Image before = meanOfFrames(bright, 256, 7001), now = meanOfFrames(dim, 256, 7002);
+  Session session(bright, configOf(GetParam()));
+  constexpr int kRuns = 3, kMost = 80;
+  std::vector<double> ghosts(kMost);
+  for (int run = 0; run < kRuns; ++run) {
+    session.reset(uint32_t(run) + 1);
+    session.setScene(bright);
+    session.frames(32);
+    EXPECT_GT(ghost(session.radiance(), before, now), 0.9);
+    session.setScene(dim);
+    for (double& sum : ghosts) {
+      session.frame();
+      sum += ghost(session.radiance(), before, now) / kRuns;
+    }
+  }
+  int frames = 1;
+  while (frames < kMost && ghosts[size_t(frames) - 1] > 0.1) ++frames;
+  std::printf("a lamp that is switched: a tenth is left after %d frames\n", frames);
+  EXPECT_LE(frames, GetParam().framesDark);
+  EXPECT_LE(ghosts.back(), 0.1);
+}
+
+// All that is in view is new, and it is said: what was shown before changes no bit.
+TEST_P(OverTime, ACutIsForgottenAtOnce) {
+  const auto scene = bias::builtinScene("door-ajar");
+  Session session(scene, configOf(GetParam()));
+  FrameStats stats;
+  const auto after = [&](double degrees) {
+    CameraPath path;
+    path.kind = CameraPathKind::back;
+    path.leaveFrame = 0;
+    path.cutFrame = 12;
+    path.cutDegrees = degrees;
+    const CameraMotion motion = resolveCameraPath(path, scene->source(), 0);
+    session.reset(1);
+    for (uint32_t frame = 0; frame <= 12; ++frame) {
+      session.setCamera(cameraAt(motion, frame));
+      stats = session.frame();
+    }
+    return session.radiance();
+  };
+  const Image a = after(180.0), b = after(130.0);
+  EXPECT_EQ(conformance::countDifferent(a, b), 0u);
+  if (std::string(GetParam().denoiser) != "accumulate") {
+    EXPECT_EQ(stats.health.counts[rl::RL_HEALTH_NEW_HISTORY], kSize.x * kSize.y);
+  }
+}
+
+// Layers of a session's frames under a camera that moves, given to the denoiser of images, show
+// what the session does, but for edges: a layer knows less of a surface than its guide.
+TEST(Motion, IsALayerThatSequencesFollow) {
+  const auto scene = bias::builtinScene("door-ajar");
+  CameraPath path;
+  path.kind = CameraPathKind::orbit;
+  path.degreesPerFrame = -0.5;
+  const CameraMotion motion = resolveCameraPath(path, scene->source(), 0);
+  SessionConfig config = filterConfig("none", kSize);
+  Session session(scene, config);
+  config = filterConfig("svgf", kSize);
+  config.parameters["svgf_iterations"] = int64_t{0};
+  ImageDenoiser following(config), blind(config);
+  Image shown, without;
+  for (uint32_t frame = 0; frame < 24; ++frame) {
+    session.setCamera(cameraAt(motion, frame));
+    session.frame();
+    LayeredFrame layers;
+    layers.radiance = session.radiance();
+    layers.normalW = session.aov("normalW");
+    layers.depthMetres = session.aov("depth");
+    layers.albedo = session.aov("albedo");
+    layers.lights = session.aov("emission");
+    without = blind.frame(layers);
+    layers.motion = session.aov("motion");
+    shown = following.frame(layers);
+  }
+  SessionConfig still = filterConfig("none", kSize);
+  Session reference(scene, still);
+  reference.setCamera(cameraAt(motion, 23));
+  Image half0(kSize.x, kSize.y), half1 = half0;
+  for (uint32_t i = 0; i < 512; ++i) {
+    reference.frame();
+    Image& half = i < 256 ? half0 : half1;
+    half = add(half, reference.radiance(), 1.0 / (i % 256 + 1.0));
+  }
+  const double plain = mseAgainstHalves(session.radiance(), half0, half1);
+  const double followed = mseAgainstHalves(shown, half0, half1);
+  const double blurred = mseAgainstHalves(without, half0, half1);
+  std::printf("MSE over that of the frame: %.4f with motion, %.4f without\n", followed / plain,
+              blurred / plain);
+  EXPECT_LT(followed, 0.2 * plain);
+  EXPECT_LT(followed, 0.7 * blurred);
+}
+
+INSTANTIATE_TEST_SUITE_P(, OverTime,
+                         testing::Values(Method{"path", "accumulate", 0.035, 60},
+                                         Method{"path", "svgf", 0.009, 60},
+                                         Method{"path", "asvgf", 0.009, 5},
+                                         Method{"restir_gi", "svgf_restir", 0.009, 80}),
+                         nameOf);
+
+}  // namespace
+}  // namespace restlab::denoise
