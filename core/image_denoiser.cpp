@@ -76,8 +76,9 @@ ImageDenoiser::ImageDenoiser(const SessionConfig& config) : impl_(std::make_uniq
   if (const auto every = m.config.parameters.find(kValidateEvery);
       every != m.config.parameters.end())
     every->second = int64_t{0};
-  if (auto resolve = m.config.parameters.find("svgf_resolve"); resolve != m.config.parameters.end())
-    resolve->second = 0.0;
+  for (const ParameterInfo& parameter : m.method.denoiser->parameters) {
+    if (!parameter.needs.empty()) m.config.parameters[parameter.name] = 0.0;
+  }
   if (config.width == 0 || config.height == 0)
     failUsage(fmt::format("image of {}x{} pixels: width and height must be at least 1",
                           config.width, config.height));

@@ -25,6 +25,8 @@ struct ParameterInfo {
   std::string source;  // paper, equation, or the measurement behind the default
   // A history under another value holds other light: a change begins a new one.
   bool beginsHistory = false;
+  // The optional input that it is about: where that is missing, the number is 0. "": none.
+  std::string needs = {};
 };
 
 using ParameterMap = std::map<std::string, ParameterValue>;

@@ -9,6 +9,8 @@ RL_FN vec3 aovMotion(RL_IN(uvec2) pixel, uint film, RL_IN(vec3) posW, bool isHit
   vec2 motion = resolution * 2.0f;
   if (cameraProject(gFrame.previousCamera, posW, resolution, before))
     motion = before - cameraFilmPoint(pixel, film);
+  // An orthographic camera sees one direction in every pixel.
+  if (!isHit && gFrame.camera.kind == RL_CAMERA_ORTHOGRAPHIC) motion = vec2(0.0f, 0.0f);
   float distanceBefore = isHit ? distance(posW, gFrame.previousCamera.posW) : 0.0f;
   return vec3(motion.x, motion.y, distanceBefore);
 }

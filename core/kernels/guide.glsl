@@ -24,6 +24,8 @@ RL_FN vec2 guideSlope(RL_IN(vec3) posW, RL_IN(vec3) nGeoW, float disparity) {
 
 // Radians between the directions from which both cameras see a point.
 RL_FN float guideTurn(RL_IN(vec3) posW) {
+  if (gFrame.camera.kind == RL_CAMERA_ORTHOGRAPHIC)
+    return distance(gFrame.camera.forwardW, gFrame.previousCamera.forwardW);
   vec3 now = posW - gFrame.camera.posW;
   vec3 before = posW - gFrame.previousCamera.posW;
   return length(now * rlSafeDivide(1.0f, length(now)) -
@@ -74,6 +76,9 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   vec2 resolution = vec2(float(gFrame.width), float(gFrame.height));
   motion.film = resolution * 2.0f;
   if (cameraProject(gFrame.previousCamera, posW, resolution, before)) motion.film = before - here;
+  // An orthographic camera sees one direction in every pixel.
+  if (hit.instance == RL_INVALID && gFrame.camera.kind == RL_CAMERA_ORTHOGRAPHIC)
+    motion.film = vec2(0.0f, 0.0f);
   if (gFrame.stillFrames != 0u) {
     Guide held = guideRead(gBuffers.guideBefore, slot);
     float weight = 1.0f / (min(float(gFrame.stillFrames), RL_GUIDE_FRAMES) + 1.0f);

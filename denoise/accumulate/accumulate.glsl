@@ -20,6 +20,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   bool isBetween = (gParams.flags & RL_ACCUMULATE_BILINEAR) != 0u;
   Average history = averageOfBefore(gBuffers.historyBefore, pixelIndex, gParams.alike, isBetween);
   history.frames *= changeKept(gBuffers.changes, gParams.changes, pixelIndex);
+  if (!(history.frames > 0.0f)) RL_HEALTH(RL_HEALTH_NEW_HISTORY);
   vec3 radiance = gBuffers.radiance.data[pixelIndex];
   if (rlIsFinite3(radiance)) {
     float held = max(gFrame.radianceFrames - 1.0f, 0.0f);

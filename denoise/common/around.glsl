@@ -6,7 +6,7 @@
 // and has gParams.edges and gBuffers.guide.
 #include "denoise/common/spline.glsl"
 
-// Of nine pixels, so many apart: their noise is then not that of the pixels compared.
+// Of nine pixels, so many apart.
 #define RL_AROUND_APART 1u
 
 RL_FN Around aroundOf(RL_IN(uvec2) pixel) {

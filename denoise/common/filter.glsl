@@ -18,7 +18,8 @@ RL_FN Filtered filterBegin(RL_IN(vec3) radiance, RL_IN(Guide) guide) {
   Filtered f;
   f.light = radiance / guide.reflectance;
   f.reflectance = rlLuminance(guide.reflectance);
-  if (!rlIsFinite3(f.light)) {
+  // Nor is what has no finite variance.
+  if (!rlIsFinite3(f.light * f.light)) {
     RL_HEALTH(RL_HEALTH_NONFINITE);
     f.light = vec3(0.0f, 0.0f, 0.0f);
     f.reflectance = 0.0f;

@@ -18,7 +18,7 @@ ParameterInfo deviationsParameter(const std::string& name, double defaultValue);
 ParameterInfo iterationsParameter(const std::string& name, int64_t defaultValue,
                                   const std::string& source);
 std::vector<PassInfo> waveletPasses(const std::string& kernel, const char* parameter);
-// Iteration i reaches 2^(i + 1) pixels: this many cover 254 to each side.
+// Iteration i reaches 2^i pixels: this many cover 127 to each side.
 constexpr int kMostIterations = 7;
 
 }  // namespace restlab

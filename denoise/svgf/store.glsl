@@ -11,6 +11,7 @@ RL_FN SvgfHistory svgfNoHistory() {
   SvgfHistory h;
   h.light = vec3(0.0f, 0.0f, 0.0f);
   h.frames = 0.0f;
+  h.reflectance = vec3(0.0f, 0.0f, 0.0f);
   h.mean = 0.0f;
   h.spread = 0.0f;
   h.step = 0.0f;
@@ -20,7 +21,9 @@ RL_FN SvgfHistory svgfNoHistory() {
 RL_FN SvgfHistory svgfHistoryRead(RL_IN(QuadRef) quads, uint slot) {
   vec4 q0 = recordVec4(RL_PAST_QUAD(quads, slot * RL_SVGF_HISTORY_QUADS));
   vec4 q1 = recordVec4(RL_PAST_QUAD(quads, slot * RL_SVGF_HISTORY_QUADS + 1u));
+  vec4 q2 = recordVec4(RL_PAST_QUAD(quads, slot * RL_SVGF_HISTORY_QUADS + 2u));
   SvgfHistory h;
+  h.reflectance = vec3(q2.x, q2.y, q2.z);
   h.light = vec3(q0.x, q0.y, q0.z);
   h.frames = q0.w;
   h.mean = q1.x;
@@ -37,6 +40,7 @@ RL_FN void svgfHistoryWrite(RL_IN(QuadRef) quads, uint slot, RL_IN(SvgfHistory) 
   RL_WRITE_QUAD(quads, slot * RL_SVGF_HISTORY_QUADS + 1u,
                 uvec4(floatBitsToUint(h.mean), floatBitsToUint(h.spread), floatBitsToUint(h.step),
                       floatBitsToUint(h.last)));
+  RL_WRITE_QUAD(quads, slot * RL_SVGF_HISTORY_QUADS + 2u, recordQuad(h.reflectance, 0u));
 }
 
 // Of so many frames those that show what this view does: a gloss that has turned away is another

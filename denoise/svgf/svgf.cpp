@@ -30,7 +30,8 @@ std::vector<ParameterInfo> parametersOf(const SvgfDefaults& defaults) {
        0,
        {},
        "the history keeps the result of the first iteration, not the mean of frames",
-       "measured: docs/denoising.md (Schied et al. 2017, section 4.1: true)"},
+       "measured: docs/denoising.md (Schied et al. 2017, section 4.1: true)",
+       true},
       {"svgf_variance",
        defaults.variance,
        0,
@@ -48,26 +49,41 @@ std::vector<ParameterInfo> parametersOf(const SvgfDefaults& defaults) {
        "averaged "
        "again",
        "measured: docs/denoising.md"}};
-  all.push_back(
-      {"svgf_turn",
-       0.25,
-       0.0,
-       1.0e6,
-       {},
-       "frames in which glossy light is forgotten while the view turns by the width of its "
-       "lobe: one over this; 0: it is taken to be the same from everywhere",
-       "measured: docs/denoising.md"});
+  all.push_back({"svgf_turn",
+                 0.25,
+                 0.0,
+                 1.0e6,
+                 {},
+                 "share of a glossy history that is forgotten when the view turns by the width of "
+                 "its lobe; 0: none",
+                 "measured: docs/denoising.md"});
+  // Whoever sets it begins anew: an average that was not written for a while is a stale picture.
   all.push_back(
       {"svgf_resolve",
        4.0,
        0.0,
        1.0e6,
        {},
-       "frames that what is shown may average, by what pixels show at their centres; 0: "
-       "no more than the filter does",
-       "measured: docs/denoising.md (temporal antialiasing: Schied et al. 2017, section 4)"});
+       "frames of a moving view that what is shown may average, by what pixels show at "
+       "their centres; 0: it averages none",
+       "measured: docs/denoising.md (temporal antialiasing: Schied et al. 2017, section 4)",
+       true,
+       "visible"});
   for (ParameterInfo& parameter : filterParameters()) all.push_back(std::move(parameter));
   return all;
+}
+
+// Confidence that a reservoir may have from the pixel's own last frame: in a still view and when
+// the view is new; less than 0 where there are no reservoirs.
+struct DonorCaps {
+  float still = -1.0f, moving = -1.0f;
+};
+DonorCaps donorCaps(const ParameterMap& p) {
+  if (!p.contains("confidence_cap")) return {};
+  if (!std::get<bool>(p.at("temporal"))) return {0.0f, 0.0f};
+  const float still = floatOf(p, "confidence_cap");
+  const bool isFollowed = std::get<bool>(p.at("reproject"));
+  return {still, isFollowed ? std::min(still, floatOf(p, "moving_confidence_cap")) : 0.0f};
 }
 
 std::vector<std::byte> pack(const std::string&, const ParameterMap& p) {
@@ -79,11 +95,9 @@ std::vector<std::byte> pack(const std::string&, const ParameterMap& p) {
   if (std::get<bool>(p.at("svgf_feedback"))) out.flags |= rl::RL_SVGF_FEEDBACK;
   if (std::get<bool>(p.at("svgf_confidence"))) {
     out.flags |= rl::RL_SVGF_CONFIDENCE;
-    // An integrator with reservoirs has caps of their confidence.
-    const bool hasReservoirs = p.contains("confidence_cap");
-    out.donorCap = hasReservoirs ? floatOf(p, "confidence_cap") : -1.0f;
-    out.movingDonorCap =
-        hasReservoirs ? std::min(out.donorCap, floatOf(p, "moving_confidence_cap")) : -1.0f;
+    const DonorCaps caps = donorCaps(p);
+    out.donorCap = caps.still;
+    out.movingDonorCap = caps.moving;
   }
   const std::string& variance = std::get<std::string>(p.at("svgf_variance"));
   if (variance == "differences") out.flags |= rl::RL_SVGF_DIFFERENCES;
@@ -123,6 +137,9 @@ DenoiserInfo makeSvgf(const SvgfDefaults& defaults) {
   for (PassInfo& pass : waveletPasses("svgf", "svgf_iterations")) i.passes.push_back(pass);
   i.passes.push_back({"svgf_end", "svgf_end", false});
   i.hasHistory = true;
+  i.shownFrames = [](const ParameterMap& p, double radianceFrames) {
+    return radianceFrames + std::get<double>(p.at("svgf_cap"));
+  };
   i.packParameters = pack;
   return i;
 }

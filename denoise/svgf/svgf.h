@@ -18,16 +18,17 @@ const uint RL_SVGF_CONFIDENCE = 2u;   // frames that the radiance averages itsel
 const uint RL_SVGF_DIFFERENCES = 4u;  // variance by differences of frames that share samples
 const uint RL_SVGF_SPACE = 8u;        // variance over neighbours alone
 
-// What a pixel remembers: two quads.
+// What a pixel remembers: three quads.
 struct SvgfHistory {
-  vec3 light;    // radiance over reflectance, mean over frames
-  float frames;  // in the mean, no more than matter; between pixels no whole number
+  vec3 light;    // mean radiance over mean reflectance of the frames
+  float frames;  // in the means, no more than matter; between pixels no whole number
+  vec3 reflectance;
   float mean;    // of the luminance of single frames
   float spread;  // their variance
   float step;    // mean of the squared difference of one frame's luminance and the next one's
   float last;    // the last frame's luminance
 };
-const uint RL_SVGF_HISTORY_QUADS = 2u;
+const uint RL_SVGF_HISTORY_QUADS = 3u;
 
 struct SvgfBuffers {
   Vec3Ref radiance;

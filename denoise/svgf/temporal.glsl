@@ -29,6 +29,7 @@ RL_FN void svgfGather(RL_IN(Guide) here, RL_IN(FilterSurface) surface, RL_IN(vec
   SvgfHistory h = svgfHistoryRead(gBuffers.historyBefore, slot);
   sum.light += h.light * weight;
   sum.frames += h.frames * weight;
+  sum.reflectance += h.reflectance * weight;
   sum.mean += h.mean * weight;
   sum.spread += h.spread * weight;
   sum.step += h.step * weight;
@@ -66,6 +67,7 @@ RL_FN SvgfHistory svgfReprojected(RL_IN(uvec2) pixel, RL_IN(Guide) here) {
   float scale = 1.0f / weights;
   sum.light *= scale;
   sum.frames *= scale;
+  sum.reflectance *= scale;
   sum.mean *= scale;
   sum.spread *= scale;
   sum.step *= scale;
@@ -79,8 +81,9 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   SvgfHistory h = svgfNoHistory();
   if (gFrame.stillFrames != 0u) {
     h = svgfHistoryRead(gBuffers.historyBefore, slot);
-    // The mean is that of radiance: reflectance, which is a mean over film samples, has gone on.
-    h.light *= guideRead(gBuffers.guideBefore, slot).reflectance / guide.reflectance;
+    // The guide is the mean over the film samples of the view, and goes on without the history.
+    h.light *= h.reflectance / guide.reflectance;
+    h.reflectance = guide.reflectance;
   } else if (gFrame.frame > 0u) {
     h = svgfReprojected(pixel, guide);
     h.frames = svgfInView(h.frames, slot);
@@ -94,7 +97,10 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     float before = h.frames;
     h.frames = min(h.frames, gParams.cap + held - 1.0f) + 1.0f;
     float weight = 1.0f / max(h.frames - held + 1.0f, 1.0f);
-    h.light += (now.light - h.light) * weight;
+    // Where radiance averages film samples itself it is not that of this frame's reflectance: a
+    // mean of their quotients would make energy at every edge of a texture.
+    h.reflectance += (guide.reflectance - h.reflectance) * weight;
+    h.light += (now.light - h.light) * (guide.reflectance / h.reflectance * weight);
     float momentWeight = 1.0f / h.frames;
     // Not by a mean of squares: what is left of it less the mean's square are no digits.
     float deviation = luminance - h.mean;

@@ -38,7 +38,8 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint slot = slotOfPixel(pixel);
   Around a = aroundOf(pixel);
   SvgfHistory h = svgfHistoryRead(gBuffers.history, slot);
-  float unsure = 1.0f + RL_SVGF_UNSURE / max(h.frames, 1.0f);
+  float frames = max(h.frames - svgfHeld(slot, h.frames) + 1.0f, 1.0f);
+  float unsure = 1.0f + RL_SVGF_UNSURE / frames;
   gBuffers.around.data[slot] = vec2(a.luminance, a.variance * unsure);
   Filtered f;
   f.light = h.light;

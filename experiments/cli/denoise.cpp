@@ -80,6 +80,7 @@ std::optional<std::string> findLayer(const std::filesystem::path& file, const La
     return names;
   };
   if (const auto given = named.find(kind.name); given != named.end()) {
+    if (given->second.empty() && kind.without != nullptr) return std::nullopt;
     if (image.layers.contains(given->second)) return given->second;
     failInput(fmt::format("{}: has no layer '{}' for {} (layers: {}){}", file.string(),
                           given->second, kind.name, fmt::join(there(), ", "),
@@ -116,6 +117,11 @@ void denoise(const DenoiseOptions& options) {
   config.threads = options.threads;
   config.parameters = parseParameters(method.denoiser->parameters, "denoiser " + options.denoiser,
                                       options.parameters);
+  for (const ParameterInfo& parameter : method.denoiser->parameters) {
+    if (!parameter.needs.empty() && config.parameters.contains(parameter.name))
+      logWarning(fmt::format("{} has no effect: layers of an image do not have '{}'",
+                             parameter.name, parameter.needs));
+  }
   const std::vector<FrameFiles> files = frameFiles(options.input, options.output);
   std::unique_ptr<ImageDenoiser> denoiser;
   HealthSum health;

@@ -12,6 +12,7 @@
 #include "core/radiance/settings.h"
 #include "core/denoiser.h"
 #include "experiments/cli/verbs.h"
+#include "core/changes/settings.h"
 #include "experiments/runner/run/files.h"
 #include "experiments/runner/run/prepare.h"
 #include "experiments/runner/summary/summary.h"
@@ -45,6 +46,13 @@ Json parametersJson(const PartInfo& part) {
   Json parameters = Json::array();
   for (const ParameterInfo& parameter : part.parameters)
     parameters.push_back(parameterJson(parameter));
+  if (!asksForChanges(part)) return parameters;
+  // Those of a part that comes with it, with the defaults that it gives them.
+  for (ParameterInfo parameter : changesPartInfo().parameters) {
+    const auto changed = part.defaults.find(parameter.name);
+    if (changed != part.defaults.end()) parameter.defaultValue = changed->second;
+    parameters.push_back(parameterJson(parameter));
+  }
   return parameters;
 }
 

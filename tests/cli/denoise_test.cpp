@@ -62,6 +62,63 @@ TEST_F(DenoiseTest, LayersOfOthersHaveTheirNames) {
             readExr(path("b.exr")).layers.at("").pixels);
 }
 
+// Without albedo a texture is noise; what layers cannot serve is said.
+TEST_F(DenoiseTest, LayersAreLeftOut) {
+  ASSERT_EQ(run("denoise noisy.exr -o a.exr --set demodulate=none").code, 0);
+  ASSERT_EQ(run("denoise noisy.exr -o b.exr --layers albedo=").code, 0);
+  EXPECT_EQ(readExr(path("a.exr")).layers.at("").pixels,
+            readExr(path("b.exr")).layers.at("").pixels);
+  expectError(run("denoise noisy.exr -o c.exr --layers normal="), 3, {"noisy.exr", "normal"});
+  const ProgramResult result = run("denoise noisy.exr -o c.exr --set svgf_resolve=4");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_NE(result.err.find("svgf_resolve has no effect"), std::string::npos) << result.err;
+}
+
+// What has moved by three pixels is found by a layer of motion.
+TEST_F(DenoiseTest, ASequenceFollowsItsMotion) {
+  const auto shifted = [](const Image& image, uint32_t by) {
+    Image moved = image;
+    for (uint32_t y = 0; y < image.height; ++y) {
+      for (uint32_t x = 0; x < image.width; ++x)
+        moved.pixels[size_t(y) * image.width + x] =
+            image.pixels[size_t(y) * image.width + (x + by) % image.width];
+    }
+    return moved;
+  };
+  for (uint32_t i = 0; i < 6; ++i) {
+    const std::string name = "still-" + std::to_string(i) + ".exr";
+    ASSERT_EQ(run("render cornell-box --resolution 48x48 --aov normalW,albedo,depth,emission "
+                  "--seed " +
+                  std::to_string(i + 1) + " -o " + name)
+                  .code,
+              0);
+    LayeredImage image = readExr(path(name));
+    for (auto& [layer, pixels] : image.layers) pixels = shifted(pixels, 3 * i);
+    writeExr(path("blind-" + std::to_string(i) + ".exr"), image);
+    image.layers["motion"] = image.layers.at("");
+    for (glm::vec3& pixel : image.layers.at("motion").pixels) pixel = glm::vec3(3.0F, 0.0F, 0.0F);
+    writeExr(path("moving-" + std::to_string(i) + ".exr"), image);
+  }
+  for (const char* name : {"still", "blind", "moving"}) {
+    const std::string files = name;
+    ASSERT_EQ(run("denoise " + files + "-#.exr -o clean-" + files + "-#.exr").code, 0);
+  }
+  const Image right = shifted(readExr(path("clean-still-5.exr")).layers.at(""), 15);
+  const auto differs = [&](const char* name) {
+    const Image image = readExr(path(name)).layers.at("");
+    double sum = 0.0;
+    // Columns that were in view in all frames.
+    for (uint32_t y = 0; y < image.height; ++y) {
+      for (uint32_t x = 0; x + 16 < image.width; ++x) {
+        const size_t p = size_t(y) * image.width + x;
+        sum += std::abs(double(image.pixels[p].y) - right.pixels[p].y);
+      }
+    }
+    return sum;
+  };
+  EXPECT_LT(differs("clean-moving-5.exr"), 0.3 * differs("clean-blind-5.exr"));
+}
+
 // The frames of a sequence are one history; without its wavelets that is all that svgf does.
 TEST_F(DenoiseTest, ASequenceIsDenoisedInOrder) {
   for (int i = 8; i < 13; ++i) {

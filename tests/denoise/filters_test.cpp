@@ -117,10 +117,11 @@ TEST_P(Filters, WhatIsNotFiniteStaysAPixelsMatter) {
   frame.radiance = imageOf(size, [](glm::uvec2) { return glm::vec3(2.0f); });
   frame.radiance.pixels[5 * 40 + 7].y = bad[0];
   frame.radiance.pixels[11 * 40 + 30].z = bad[1];
+  frame.radiance.pixels[15 * 40 + 20].x = 1.0e30f;
   const Image shown = denoiser.frame(frame);
-  EXPECT_EQ(denoiser.stats().health.counts[rl::RL_HEALTH_NONFINITE], 2u);
+  EXPECT_EQ(denoiser.stats().health.counts[rl::RL_HEALTH_NONFINITE], 3u);
   for (size_t p = 0; p < shown.pixels.size(); ++p) {
-    const bool isBad = p == 5 * 40 + 7 || p == 11 * 40 + 30;
+    const bool isBad = p == 5 * 40 + 7 || p == 11 * 40 + 30 || p == 15 * 40 + 20;
     if (isBad) {
       EXPECT_TRUE(std::isfinite(shown.pixels[p].x + shown.pixels[p].y + shown.pixels[p].z));
     } else {

@@ -133,6 +133,9 @@ std::vector<Combination> combinations() {
     if (info->name != "none")
       all.push_back({"path", findIntegrator("path").modes.front().name, "", info->name});
   }
+  // The one that reads reservoirs.
+  all.push_back({"restir_gi", findIntegrator("restir_gi").modes.front().name,
+                 cacheRegistry().front()->name, "svgf_restir"});
   return all;
 }
 
