@@ -81,6 +81,8 @@ std::optional<std::string> findLayer(const std::filesystem::path& file, const La
   };
   if (const auto given = named.find(kind.name); given != named.end()) {
     if (given->second.empty() && kind.without != nullptr) return std::nullopt;
+    if (given->second.empty() && kind.into != &LayeredFrame::radiance)
+      failUsage(fmt::format("--layers {}=: it cannot be left out, name a layer", kind.name));
     if (image.layers.contains(given->second)) return given->second;
     failInput(fmt::format("{}: has no layer '{}' for {} (layers: {}){}", file.string(),
                           given->second, kind.name, fmt::join(there(), ", "),

@@ -91,13 +91,6 @@ TEST(MovingCameraGlossy, LeavesTheMean) {
   expectUnbiased(walk, endOf(walk), 256, 16, 5, 1);
 }
 
-// Its caustics are too skewed to test in half of the area, with voxels in three quarters: runs of
-// them that hold a caustic are rarer and brighter.
-TEST(MovingCameraGlass, LeavesTheMean) {
-  const Walk walk{"past_glass", "glass", {0.02, 0.01, 0.0}, 0.5, false, 0.75};
-  expectUnbiased(walk, endOf(walk), 256, 16, 5, 1);
-}
-
 TEST(MovingCameraThereAndBack, LeavesTheMean) {
   const Walk walk{"away", "cornell-box", {0.5, 0.2, -0.3}, 20.0, false, 0.1, true};
   expectUnbiased(walk, endOf(walk), 256, 48, 8, 1);
@@ -115,9 +108,6 @@ std::vector<Setting> flyingEntries() {
   return all;
 }
 
-TEST(MovingCameraFlyThrough, LeavesTheMean) {
-  expectUnbiased(flyThrough(), endOfFlight(), 256, 48, 10, 1, flyingEntries());
-}
 TEST(MovingCameraFlyThrough, NightlyLeavesTheMean) {
   expectUnbiased(flyThrough(), endOfFlight(), 2048, 384, 10, 0, flyingEntries());
 }

@@ -132,7 +132,7 @@ const BadInput kBadInputs[] = {
     {"LayerOfAnotherCache",
      "render good.gltf -o x.exr --integrator restir_gi --aov entry",
      2,
-     {"--aov entry", "known: radiance", "object, emission, confidence, age)"}},
+     {"--aov entry", "known: radiance", "object, emission, motion, confidence, age)"}},
     {"UnknownLayer",
      "render good.gltf -o x.exr --integrator restir_gi --cache voxel --aov entry_confidense",
      2,
