@@ -45,9 +45,7 @@ std::vector<ParameterInfo> parametersOf(const SvgfDefaults& defaults) {
        0,
        0,
        {},
-       "frames that the radiance averages itself, by the confidence of reservoirs, are not "
-       "averaged "
-       "again",
+       "frames that the radiance averages itself, as reservoirs tell, are not averaged again",
        "measured: docs/denoising.md"}};
   all.push_back({"svgf_turn",
                  0.25,

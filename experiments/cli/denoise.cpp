@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "core/changes/settings.h"
 #include "core/image_denoiser.h"
 #include "core/method.h"
 #include "experiments/cli/frame_files.h"
@@ -124,6 +125,9 @@ void denoise(const DenoiseOptions& options) {
       logWarning(fmt::format("{} has no effect: layers of an image do not have '{}'",
                              parameter.name, parameter.needs));
   }
+  if (method.denoiser->defaults.contains(kValidateEvery))
+    logWarning(options.denoiser +
+               ": no path of an image can be traced again, light that changes is not found");
   const std::vector<FrameFiles> files = frameFiles(options.input, options.output);
   std::unique_ptr<ImageDenoiser> denoiser;
   HealthSum health;

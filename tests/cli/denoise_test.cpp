@@ -72,6 +72,9 @@ TEST_F(DenoiseTest, LayersAreLeftOut) {
   const ProgramResult result = run("denoise noisy.exr -o c.exr --set svgf_resolve=4");
   EXPECT_EQ(result.code, 0);
   EXPECT_NE(result.err.find("svgf_resolve has no effect"), std::string::npos) << result.err;
+  const ProgramResult other = run("denoise noisy.exr -o c.exr --denoiser asvgf");
+  EXPECT_EQ(other.code, 0);
+  EXPECT_NE(other.err.find("light that changes is not found"), std::string::npos) << other.err;
 }
 
 // What has moved by three pixels is found by a layer of motion.
