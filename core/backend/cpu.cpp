@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "core/backend/backend.h"
+#include "core/backend/stop.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/scene/compiled_scene.h"
@@ -153,6 +154,7 @@ class CpuBackend final : public Backend {
     const uint32_t tilesX = (size.x + kTile - 1) / kTile, tilesY = (size.y + kTile - 1) / kTile;
     std::vector<rl::CpuKernelCounters> tileCounters(size_t(tilesX) * tilesY);
     auto runTile = [&](size_t i) {
+      if (framesStopped()) return;
       const FlushDenormals flush;
       const auto tx = static_cast<uint32_t>(i % tilesX), ty = static_cast<uint32_t>(i / tilesX);
       const rl::CpuKernelTile tile{tx * kTile, ty * kTile, std::min((tx + 1) * kTile, size.x),
@@ -165,6 +167,7 @@ class CpuBackend final : public Backend {
     const auto start = std::chrono::steady_clock::now();
     forEachTile(tileCounters.size(), runTile);
     const auto end = std::chrono::steady_clock::now();
+    if (framesStopped()) throw FrameStopped();
     for (const rl::CpuKernelCounters& c : tileCounters) {
       counters.raysPath += c.raysPath;
       counters.raysShadow += c.raysShadow;

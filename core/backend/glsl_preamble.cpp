@@ -33,6 +33,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer RlP
   RL_KERNEL_PARAMS v;
 }};
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer RlCountersRef {{
+  uint stop;
   uint raysPath;
   uint raysShadow;
   uint health[RL_HEALTH_COUNT];
@@ -123,7 +124,8 @@ uint rlRaysShadow = 0u;
 
 void main() {{
   uvec2 pixel = gl_GlobalInvocationID.xy;
-  if (pixel.x < rlPush.width && pixel.y < rlPush.height) kernelMain(pixel);
+  bool isInside = pixel.x < rlPush.width && pixel.y < rlPush.height;
+  if (isInside && rlPush.counters.stop == 0u) kernelMain(pixel);
   uint raysPath = subgroupAdd(rlRaysPath);
   uint raysShadow = subgroupAdd(rlRaysShadow);
   if (subgroupElect()) {{

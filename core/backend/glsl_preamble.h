@@ -30,8 +30,10 @@ constexpr GlslTrace kGlslTraceQuery = {"core/backend/trace_query.glsl",
 // Threads of a workgroup in x and y: a tile of the image.
 constexpr uint32_t kGlslTile = 8;
 
-// Counters that a kernel adds to; zero them before a dispatch. They wrap at 2^32.
+// Counters that a kernel adds to; zero them before a dispatch. They wrap at 2^32. What has not
+// begun when the host sets `stop` does nothing.
 struct GlslCounters {
+  uint32_t stop = 0;
   uint32_t raysPath = 0;
   uint32_t raysShadow = 0;
   std::array<uint32_t, rl::RL_HEALTH_COUNT> health{};

@@ -14,6 +14,7 @@
 
 #include "core/backend/backend.h"
 #include "core/backend/dialect_sources.h"
+#include "core/backend/stop.h"
 #include "core/backend/vulkan_buffers.h"
 #include "core/backend/vulkan_context.h"
 #include "core/backend/vulkan_scene.h"
@@ -408,8 +409,7 @@ class VulkanBackend final : public Backend {
     if (underWay_.empty()) throw std::logic_error("no frame is under way");
     Slot& slot = *underWay_.front();
     underWay_.pop_front();
-    device_.check(vkWaitForFences(device_.handle(), 1, &slot.fence, VK_TRUE, ~uint64_t{0}),
-                  "a frame");
+    waitFor(slot);
     const double wallMs =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - slot.started)
             .count();
@@ -446,6 +446,25 @@ class VulkanBackend final : public Backend {
       for (Slot& each : slots_) each.isStale = true;
     }
     return result;
+  }
+
+  void waitFor(const Slot& slot) {
+    constexpr uint64_t kNanoseconds = 50'000'000;
+    VkResult result = VK_TIMEOUT;
+    while (result == VK_TIMEOUT) {
+      result = vkWaitForFences(device_.handle(), 1, &slot.fence, VK_TRUE, kNanoseconds);
+      if (result == VK_TIMEOUT && framesStopped()) stopSlots();
+    }
+    device_.check(result, "a frame");
+    if (framesStopped()) throw FrameStopped();
+  }
+
+  void stopSlots() {
+    const uint32_t stop = 1;
+    for (Slot& slot : slots_) {
+      for (size_t i = 0; slot.running != nullptr && i < slot.running->bands.size(); ++i)
+        std::memcpy(slot.counters.mapped + i * sizeof(GlslCounters), &stop, sizeof stop);
+    }
   }
 
   // Halves what one dispatch of a pass covers where it took too long; true when it did.

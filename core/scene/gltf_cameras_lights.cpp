@@ -122,17 +122,20 @@ void addCameras(const tinygltf::Model& model, const std::vector<PlacedNode>& nod
 
 void addLights(const tinygltf::Model& model, const std::vector<PlacedNode>& nodes, Scene& scene,
                Report& report) {
+  const auto placeOf = [](size_t i) {
+    return fmt::format("extensions.KHR_lights_punctual.lights[{}]", i);
+  };
   std::vector<PunctualLight> lights;
-  for (size_t i = 0; i < model.lights.size(); ++i) {
-    lights.push_back(importLight(
-        model.lights[i], fmt::format("extensions.KHR_lights_punctual.lights[{}]", i), report));
-  }
+  for (size_t i = 0; i < model.lights.size(); ++i)
+    lights.push_back(importLight(model.lights[i], placeOf(i), report));
+  std::vector<bool> isCarried(lights.size(), false);
   for (const PlacedNode& placed : nodes) {
     const tinygltf::Node& node = model.nodes[placed.node];
     const auto extension = node.extensions.find("KHR_lights_punctual");
     if (extension == node.extensions.end()) continue;
     const size_t index = static_cast<size_t>(extension->second.Get("light").GetNumberAsInt());
     PunctualLight light = lights[index];
+    isCarried[index] = true;
     const std::string& name = model.lights[index].name;
     light.name = !name.empty()        ? name
                  : !node.name.empty() ? node.name
@@ -141,6 +144,8 @@ void addLights(const tinygltf::Model& model, const std::vector<PlacedNode>& node
     if (light.kind != rl::RL_LIGHT_POINT) light.dirW = forwardOf(placed, model, "light", report);
     scene.lights.push_back(std::move(light));
   }
+  for (size_t i = 0; i < lights.size(); ++i)
+    if (!isCarried[i]) report.warn("unused light", placeOf(i), "no node of the scene carries it");
 }
 
 }  // namespace restlab::gltf

@@ -66,7 +66,9 @@ std::string decodePng(const std::vector<uint8_t>& bytes, DecodedImage& image) {
   if (image.roundedFrom16Bit) values.resize(4 * image.texels.size());
   void* out = image.roundedFrom16Bit ? static_cast<void*>(values.data()) : image.texels.data();
   const size_t room = image.texels.size() * (image.roundedFrom16Bit ? 8 : 4);
-  const int error = spng_decode_image(context.get(), out, room, format, SPNG_DECODE_TRNS);
+  int error = spng_decode_image(context.get(), out, room, format, SPNG_DECODE_TRNS);
+  // To the end of the file: the sum of the last piece of the picture stands behind it.
+  if (error == 0 && spng_decode_chunks(context.get()) == SPNG_ECHUNK_CRC) error = SPNG_ECHUNK_CRC;
   if (error != 0) return messageOf(error);
   if (!image.roundedFrom16Bit) return "";
   // Nearest of 256 levels: v / 65535 * 255, rounded.

@@ -1,9 +1,12 @@
 // restlab bench: rays per second, paths per second, error per CPU second, bytes per pixel.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "core/denoiser.h"
+#include "core/integrator.h"
 #include "core/method_settings.h"
 #include "core/image/intervals.h"
 #include "core/image/metrics.h"
@@ -128,6 +131,38 @@ Json passesJson(const Session& session, const FrameRates& rates, const BackendRa
   return passes;
 }
 
+// The passes of a denoiser beside the time to read and write its inputs and buffers once; guides
+// are the passes that neither it nor the integrator has.
+Json denoiserJson(const Session& session, const FrameRates& rates, const BackendRates& roofs) {
+  const SessionConfig& config = session.config();
+  const DenoiserInfo& denoiser = findDenoiser(config.denoiser);
+  const auto isOf = [](const PartInfo& part, const std::string& pass) {
+    return std::any_of(part.passes.begin(), part.passes.end(),
+                       [&](const PassInfo& info) { return info.name == pass; });
+  };
+  double ofDenoiser = 0.0, ofIntegrator = 0.0, ofGuides = 0.0;
+  for (const PassTiming& pass : rates.passes) {
+    const bool isFilter = isOf(denoiser, pass.name) || pass.name == denoiser.name;
+    const bool isIntegrator = isOf(findIntegrator(config.integrator), pass.name);
+    (isFilter ? ofDenoiser : isIntegrator ? ofIntegrator : ofGuides) += pass.timeMs;
+  }
+  double bytes = 0.0;
+  for (const auto& [name, bytesPerPixel] : session.bufferBytesPerPixel()) {
+    const auto& inputs = denoiser.inputs;
+    const bool isInput = std::find(inputs.begin(), inputs.end(), name) != inputs.end();
+    const bool isOwn = std::any_of(denoiser.buffers.begin(), denoiser.buffers.end(),
+                                   [&](const BufferInfo& buffer) { return buffer.name == name; });
+    if (isInput || isOwn) bytes += double(bytesPerPixel) * config.width * config.height;
+  }
+  const double onceMs = 1e3 * bytes / roofs.bytesPerSecond;
+  return {{"time_ms", ofDenoiser},
+          {"guides_ms", ofGuides},
+          {"share_of_integrator", ofDenoiser / ofIntegrator},
+          {"share_with_guides", (ofDenoiser + ofGuides) / ofIntegrator},
+          {"buffers_once_ms", onceMs},
+          {"time_over_buffers_once", ofDenoiser / onceMs}};
+}
+
 Json frameJson(const Session& session, const FrameRates& rates, const EmbreeRates& embree,
                const BackendRates& roofs) {
   const SessionConfig& config = session.config();
@@ -154,7 +189,23 @@ Json frameJson(const Session& session, const FrameRates& rates, const EmbreeRate
                 double(session.bytesPerPixelOf(1920, 1080)) * 1920.0 * 1080.0 / (1 << 20)},
                {"buffers", buffers}};
   for (const auto& [key, value] : settingValues(config)) json[key] = value;
+  if (config.denoiser != "none") json["denoising"] = denoiserJson(session, rates, roofs);
   return json;
+}
+
+struct BenchedMethod {
+  std::string integrator, mode, denoiser;
+};
+
+// Each mode of each integrator as it is, and each denoiser after the first of them.
+std::vector<BenchedMethod> benchedMethods() {
+  std::vector<BenchedMethod> methods;
+  for (const IntegratorInfo* info : integratorRegistry())
+    for (const ModeInfo& mode : info->modes) methods.push_back({info->name, mode.name, "none"});
+  const BenchedMethod first = methods.front();
+  for (const DenoiserInfo* info : denoiserRegistry())
+    if (info->name != "none") methods.push_back({first.integrator, first.mode, info->name});
+  return methods;
 }
 
 Json ratesJson(const BackendRates& rates, const std::string& backend, const std::string& device,
@@ -211,6 +262,16 @@ void printText(const Json& json) {
           pass["rays_per_pixel"].get<double>(), pass["rays_alone_ms"].get<double>(),
           pass["buffers_once_ms"].get<double>(), pass["time_over_roof"].get<double>());
     }
+    if (frame.contains("denoising")) {
+      const Json& d = frame["denoising"];
+      fmt::print(
+          "  {:<27} {:>9.2f}   {:.0f} % of {}, with guides {:.0f} %; inputs and buffers once "
+          "{:.2f} ms: {:.1f} x\n",
+          frame["denoiser"].get<std::string>() + " in all", d["time_ms"].get<double>(),
+          100.0 * d["share_of_integrator"].get<double>(), frame["integrator"].get<std::string>(),
+          100.0 * d["share_with_guides"].get<double>(), d["buffers_once_ms"].get<double>(),
+          d["time_over_buffers_once"].get<double>());
+    }
     if (frame.contains("time_over_cpu")) {
       fmt::print("  {:<27} {:>9.2f} x the CPU's time\n", "", frame["time_over_cpu"].get<double>());
     }
@@ -256,25 +317,26 @@ void bench(BenchOptions options) {
                                    options.seconds));
   }
   Json frames = Json::array();
-  for (const IntegratorInfo* info : integratorRegistry()) {
-    for (const ModeInfo& mode : info->modes) {
-      logInfo(fmt::format("measuring {} {}", info->name, mode.name));
-      std::vector<std::unique_ptr<Session>> sessions;
-      for (SessionConfig c : configs) {
-        c.integrator = info->name;
-        c.mode = mode.name;
-        sessions.push_back(std::make_unique<Session>(prepared.scene, c));
-        logStartup(*sessions.back());
-        if (backends.size() < configs.size()) {
-          backends.push_back(ratesJson(roofs[backends.size()], c.backend, sessions.back()->device(),
-                                       sessions.back()->rayTracing()));
-        }
+  for (const BenchedMethod& method : benchedMethods()) {
+    logInfo(fmt::format("measuring {} {}{}{}", method.integrator, method.mode,
+                        method.denoiser == "none" ? "" : " + ",
+                        method.denoiser == "none" ? "" : method.denoiser));
+    std::vector<std::unique_ptr<Session>> sessions;
+    for (SessionConfig c : configs) {
+      c.integrator = method.integrator;
+      c.mode = method.mode;
+      c.denoiser = method.denoiser;
+      sessions.push_back(std::make_unique<Session>(prepared.scene, c));
+      logStartup(*sessions.back());
+      if (backends.size() < configs.size()) {
+        backends.push_back(ratesJson(roofs[backends.size()], c.backend, sessions.back()->device(),
+                                     sessions.back()->rayTracing()));
       }
-      const std::vector<FrameRates> rates = measureFrames(sessions, options.frames);
-      for (size_t i = 0; i < sessions.size(); ++i) {
-        frames.push_back(frameJson(*sessions[i], rates[i], embree, roofs[i]));
-        if (i > 0) frames.back()["time_over_cpu"] = rates[i].timeMs / rates[0].timeMs;
-      }
+    }
+    const std::vector<FrameRates> rates = measureFrames(sessions, options.frames);
+    for (size_t i = 0; i < sessions.size(); ++i) {
+      frames.push_back(frameJson(*sessions[i], rates[i], embree, roofs[i]));
+      if (i > 0) frames.back()["time_over_cpu"] = rates[i].timeMs / rates[0].timeMs;
     }
   }
   Json json = {
@@ -308,11 +370,11 @@ Action addBenchVerb(CLI::App& app) {
   verb->get_option("scene")->required(false);
   addBackendOptions(*verb, options->backend);
   verb->add_option("--frames", options->frames, "timed frames of each method (default 16)")
-      ->check(CLI::Range(1u, 100000u));
+      ->transform(wholeNumberFrom(1, 100000));
   verb->add_option("--seconds", options->seconds, "for each kind of ray alone (default 1)")
-      ->check(finiteRange(0.01, 600.0));
+      ->transform(numberFrom(0.01, 600.0, "seconds"));
   verb->add_option("--reference-spp", options->referenceSpp, "for the error (default 128)")
-      ->check(CLI::Range(uint64_t(2), uint64_t(1) << 20));
+      ->transform(wholeNumberFrom(2, uint64_t(1) << 20));
   verb->add_flag("--json", options->json, "JSON on stdout");
   return [options](Outcome&) { bench(*options); };
 }

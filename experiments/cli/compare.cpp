@@ -131,7 +131,7 @@ void addMetricOptions(CLI::App& verb, CompareOptions& options) {
                   "also the relative MSE as others compute it: pbrt, tev, jeri, siio, mean2");
   verb.add_option("--ppd", options.pixelsPerDegree,
                   "of FLIP: pixels per degree of the viewer's field (default 67.0206)")
-      ->check(finiteRange(kFlipMinPixelsPerDegree, kFlipMaxPixelsPerDegree));
+      ->transform(numberFrom(kFlipMinPixelsPerDegree, kFlipMaxPixelsPerDegree));
   verb.add_option("--flip-exposures", options.flipExposures,
                   "of flip_hdr: START,STOP,COUNT in stops (default: from the reference)");
 }

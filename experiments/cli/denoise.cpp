@@ -172,7 +172,7 @@ Action addDenoiseVerb(CLI::App& app) {
                    "emission, motion");
   verb->add_option("--radiance-frames", options->radianceFrames,
                    "frames that the radiance averages itself, as resampled frames do (default 1)")
-      ->check(finiteRange(1.0, 1e6));
+      ->transform(numberFrom(1.0, 1e6));
   verb->add_option("--set", options->parameters, "KEY=VALUE: a parameter of the denoiser")
       ->take_all()
       ->allow_extra_args(false);

@@ -256,9 +256,9 @@ Action addFigureVerb(CLI::App& app) {
   verb->add_option("--metric", options->metric, "restlab list metrics (default mse)");
   verb->add_option("--exposure", options->exposure,
                    "factor on radiance (default: that of run's previews, else 1)")
-      ->check(finiteRange(1e-12, 1e12));
+      ->transform(numberFrom(1e-12, 1e12));
   verb->add_option("--scale", options->scale, "output pixels a pixel of a crop")
-      ->check(CLI::Range(1u, kMaxScale));
+      ->transform(wholeNumberFrom(1, kMaxScale));
   verb->add_flag("--crop-errors", options->cropErrors, "the error of each crop as well");
   verb->add_flag("--any-reference", options->anyReference,
                  "compare with a reference of another scene or setting");

@@ -209,8 +209,10 @@ void list(const ListOptions& options) {
   if (kind == kinds.end()) {
     std::vector<std::string> names;
     for (const auto& entry : kinds) names.push_back(entry.first);
-    failUsage(fmt::format("list {}: unknown kind (known: {}){}", options.what,
-                          fmt::join(names, ", "), didYouMean(options.what, names)));
+    const std::string known = fmt::format("{}", fmt::join(names, ", "));
+    if (options.what.empty()) failUsage("list: say what: " + known);
+    failUsage(fmt::format("list {}: unknown kind (known: {}){}", options.what, known,
+                          didYouMean(options.what, names)));
   }
   const Json all = kind->second();
   if (options.json) {
@@ -238,7 +240,7 @@ void list(const ListOptions& options) {
 Action addListVerb(CLI::App& app) {
   auto options = std::make_shared<ListOptions>();
   CLI::App* verb = app.add_subcommand("list", kKinds);
-  verb->add_option("what", options->what, kKinds)->required();
+  verb->add_option("what", options->what, kKinds);
   verb->add_flag("--json", options->json, "JSON on stdout");
   return [options](Outcome&) { list(*options); };
 }

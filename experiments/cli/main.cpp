@@ -39,6 +39,7 @@ void checkOptionNames(const CLI::App& verb, const std::vector<std::string>& argu
   const std::vector<std::string> known = optionNames(verb);
   for (const std::string& argument : arguments) {
     if (argument == "--") return;
+    if (argument.empty()) failUsage(fmt::format("{}: an argument is empty", verb.get_name()));
     const bool isLong = argument.rfind("--", 0) == 0;
     const bool isShort = !isLong && argument.size() > 1 && argument[0] == '-' &&
                          std::isalpha(static_cast<unsigned char>(argument[1]));
@@ -89,6 +90,10 @@ int runVerb(CLI::App& app, std::vector<Verb>& verbs, const std::vector<std::stri
   } catch (const CLI::CallForHelp&) {
     std::fputs(app.get_subcommand(verb->name)->help().c_str(), stdout);
     return int(ExitCode::ok);
+  } catch (const CLI::ArgumentMismatch& error) {
+    const std::string text = error.what();
+    failUsage(fmt::format("{}: {} needs a value (see restlab {} --help)", verb->name,
+                          text.substr(0, text.find(':')), verb->name));
   } catch (const CLI::ParseError& error) {
     std::string line = error.what();
     line.erase(std::min(line.find('\n'), line.size()));

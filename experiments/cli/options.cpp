@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
+#include <cmath>
+#include <limits>
 #include <map>
 
 #include "core/backend/backend.h"
@@ -18,7 +21,21 @@
 
 namespace restlab {
 
-namespace {}  // namespace
+namespace {
+
+// The nearest name, else those that hold the word, else where all of them are.
+std::string parametersLike(const std::string& key, const std::vector<std::string>& names) {
+  if (names.empty()) return "; it has none";
+  const std::string near = didYouMean(key, names);
+  if (!near.empty()) return near;
+  std::vector<std::string> like;
+  for (const std::string& name : names)
+    if (name.find(key) != std::string::npos) like.push_back(name);
+  if (like.empty()) return "; restlab list integrators, caches and denoisers has all of them";
+  return fmt::format("; it has {}", fmt::join(like, ", "));
+}
+
+}  // namespace
 
 ParameterMap parseParameters(const std::vector<ParameterInfo>& known, const std::string& owner,
                              const std::vector<std::string>& given) {
@@ -30,7 +47,7 @@ ParameterMap parseParameters(const std::vector<ParameterInfo>& known, const std:
     const auto found = std::find(names.begin(), names.end(), key);
     if (found == names.end()) {
       failUsage(fmt::format("--set {}: {} has no parameter '{}'{}", assignment, owner, key,
-                            didYouMean(key, names)));
+                            parametersLike(key, names)));
     }
     parameters[key] =
         parseParameter(known[size_t(found - names.begin())], value, "--set " + assignment);
@@ -64,20 +81,68 @@ void applyBackend(const BackendChoice& choice, SessionConfig& config) {
   config.validate = choice.validate;
 }
 
-CLI::Validator finiteRange(double lo, double hi) {
-  const std::string range = fmt::format("in [{:g} - {:g}]", lo, hi);
+namespace {
+
+// All of `text` as a number, or NaN.
+double numberOf(const std::string& text) {
+  double value = 0.0;
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool isWhole = status == std::errc() && end == text.data() + text.size();
+  return isWhole ? value : std::numeric_limits<double>::quiet_NaN();
+}
+
+// What a number with that ending is multiplied by.
+using Endings = std::vector<std::pair<std::string, double>>;
+Endings endingsOf(const std::string& unit) {
+  if (unit == "seconds") return {{"s", 1.0}, {"m", 60.0}, {"h", 3600.0}};
+  if (unit == "degrees") return {{"deg", 1.0}};
+  return {};
+}
+
+}  // namespace
+
+CLI::Validator numberFrom(double lo, double hi, const std::string& unit) {
+  const std::string range = fmt::format("from {:g} to {:g}", lo, hi);
+  const std::string what = unit.empty() ? "number" : "number of " + unit;
+  CLI::Validator validator(
+      [=](std::string& text) {
+        double value = numberOf(text);
+        for (const auto& [ending, factor] : endingsOf(unit)) {
+          if (text.size() > ending.size() && text.ends_with(ending) && std::isnan(value))
+            value = factor * numberOf(text.substr(0, text.size() - ending.size()));
+        }
+        if (!(value >= lo && value <= hi))
+          return fmt::format("'{}' is no {} {}", text, what, range);
+        text = fmt::format("{}", value);
+        return std::string();
+      },
+      range);
+  return validator;
+}
+
+CLI::Validator wholeNumberFrom(uint64_t lo, uint64_t hi) {
+  const std::string range = fmt::format("from {} to {}", lo, hi);
   return CLI::Validator(
       [=](std::string& text) {
-        double value = 0.0;
-        const bool inside = CLI::detail::lexical_cast(text, value) && value >= lo && value <= hi;
-        return inside ? std::string() : fmt::format("Value {} not {}", text, range);
+        uint64_t whole = 0;
+        const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), whole);
+        if (status != std::errc() || end != text.data() + text.size()) {
+          // Beyond 2^53 not every whole number has a double of its own.
+          const double value = numberOf(text);
+          const bool isWhole = value >= 0.0 && value <= 0x1p53 && value == std::floor(value);
+          if (!isWhole) return fmt::format("'{}' is no whole number {}", text, range);
+          whole = uint64_t(value);
+        }
+        if (whole < lo || whole > hi) return fmt::format("'{}' is no whole number {}", text, range);
+        text = fmt::format("{}", whole);
+        return std::string();
       },
-      "FLOAT " + range);
+      range);
 }
 
 void addThreads(CLI::App& verb, int& threads) {
   verb.add_option("-t,--threads,--nthreads", threads, "threads; 0: all cores")
-      ->check(CLI::Range(0, 1024));
+      ->transform(wholeNumberFrom(0, 1024));
 }
 
 void addMultiscatter(CLI::App& verb, bool& multiscatter) {
@@ -104,18 +169,19 @@ void addSceneOptions(CLI::App& verb, SceneOptions& options) {
   verb.add_option("--resolution", options.resolution,
                   "WxH pixels (default: 512 wide, the camera's "
                   "aspect ratio)");
-  verb.add_option("--width", options.width, "pixels")->check(CLI::Range(1u, kMaxSide));
-  verb.add_option("--height", options.height, "pixels")->check(CLI::Range(1u, kMaxSide));
-  verb.add_option("--seed", options.seed, "random seed (default 1)");
+  verb.add_option("--width", options.width, "pixels")->transform(wholeNumberFrom(1, kMaxSide));
+  verb.add_option("--height", options.height, "pixels")->transform(wholeNumberFrom(1, kMaxSide));
+  verb.add_option("--seed", options.seed, "random seed (default 1)")
+      ->transform(wholeNumberFrom(0, ~uint32_t{0}));
   verb.add_option("--camera", request.camera, "name or index (default: the first)");
   verb.add_option("--max-bounces", options.maxBounces,
                   "scattering events; 0: emission only, 1: direct light (default 8)")
-      ->check(CLI::Range(0u, kMaxBounces));
+      ->transform(wholeNumberFrom(0, kMaxBounces));
   verb.add_option("--environment", request.environment, "latitude-longitude .hdr or .exr");
   verb.add_option("--environment-rotation", request.environmentRotation, "degrees about +Y")
-      ->check(finiteRange(-360.0, 360.0));
+      ->transform(numberFrom(-360.0, 360.0, "degrees"));
   verb.add_option("--environment-scale", request.environmentScale, "factor on its radiance")
-      ->check(finiteRange(0.0, 1e9));
+      ->transform(numberFrom(0.0, 1e9));
   verb.add_option("--component", options.component, "all, direct or indirect light");
   verb.add_option("--filter", options.filter, "pixel filter: box (one pixel) or center");
   addMultiscatter(verb, options.multiscatter);
@@ -196,7 +262,8 @@ void checkOutputs(const std::vector<OutputFile>& outputs, const SceneRequest& re
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (extension != output.extension) {
-      failUsage(fmt::format("{} {}: must be named *{}", output.option, name, output.extension));
+      failUsage(fmt::format("{} {}: must be named *{}{}", output.option, name, output.extension,
+                            output.hint));
     }
     const auto [other, isFree] = taken.emplace(resolved(output.file), output.option);
     if (!isFree) {

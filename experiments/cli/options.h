@@ -41,8 +41,10 @@ struct MethodOptions {
 // Bounds that the options state in --help.
 constexpr uint32_t kMaxBounces = 1024;
 
-// A number in lo..hi; CLI::Range lets NaN pass.
-CLI::Validator finiteRange(double lo, double hi);
+// A number in lo..hi, which may have a unit: of "seconds" s, m or h, of "degrees" deg.
+CLI::Validator numberFrom(double lo, double hi, const std::string& unit = "");
+// A whole number in lo..hi, also as 1e6.
+CLI::Validator wholeNumberFrom(uint64_t lo, uint64_t hi);
 
 void addSceneOptions(CLI::App& verb, SceneOptions& options);
 void addMethodOptions(CLI::App& verb, MethodOptions& options);
@@ -69,6 +71,7 @@ struct OutputFile {
   std::string option;  // as the user named it, for errors
   std::filesystem::path file;
   std::string extension;  // that it must have, in either case
+  std::string hint = {};  // for who has named it otherwise
 };
 
 // Throws badUsage where an output has another extension, or is another output, the scene or the

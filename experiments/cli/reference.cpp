@@ -109,16 +109,16 @@ Action addReferenceVerb(CLI::App& app) {
   verb->add_option("--integrator", options->integrator, "path, and nothing else");
   addBackendOptions(*verb, options->backend);
   verb->add_option("--spp", options->target.spp, "samples per pixel of both halves together")
-      ->check(CLI::Range(uint64_t(2), uint64_t(1) << 32));
+      ->transform(wholeNumberFrom(2, uint64_t(1) << 32));
   verb->add_option("--target-relmse", options->target.relmse,
                    "until the mean's estimated relmse_e1e-2 is at most this, and was since half of "
                    "the samples")
-      ->check(finiteRange(1e-12, 1e6));
+      ->transform(numberFrom(1e-12, 1e6));
   verb->add_option("--time-limit", options->target.timeLimitS, "seconds of rendering")
-      ->check(finiteRange(1e-3, 1e9));
+      ->transform(numberFrom(1e-3, 1e9, "seconds"));
   verb->add_option("--checkpoint", options->checkpointS,
                    "seconds between two writes of the progress (default 30)")
-      ->check(finiteRange(0.0, 1e9));
+      ->transform(numberFrom(0.0, 1e9, "seconds"));
   verb->add_flag("--anew", options->anew,
                  "from the first sample to exactly the target; no progress is read or kept");
   return [options](Outcome&) { makeReference(*options); };

@@ -96,7 +96,7 @@ Rendered renderFrames(Session& session, const RenderOptions& options, bool histo
     rendered.health.add(stats);
     rendered.timeMs += stats.timeMs;
   }
-  throwIfInterrupted("the image is not finished and was not written");
+  // A finished image is written, whatever has come since.
   rendered.image = mean ? sum.mean() : session.radiance();
   rendered.frame = total - 1;
   return rendered;
@@ -137,7 +137,8 @@ void render(RenderOptions options) {
   const std::vector<std::string> aovs = checkedAovs(options.aovs, findMethod(config));
   checkWritable(options.output);
   const bool png = !options.png.empty();
-  std::vector<OutputFile> outputs = {{"--output", options.output, ".exr"}};
+  std::vector<OutputFile> outputs = {
+      {"--output", options.output, ".exr", "; --png=FILE.png writes a picture beside it"}};
   if (png) {
     outputs.push_back({"--png", pngPath(options), ".png"});
     for (const std::string& name : aovs)
@@ -188,9 +189,9 @@ Action addRenderVerb(CLI::App& app) {
   addOutput(*verb, options->output);
   CLI::Option* frames =
       verb->add_option("--frames", options->frames, "what a viewer shows at frame N (default 1)")
-          ->check(CLI::Range(uint64_t(1), kMaxCount));
+          ->transform(wholeNumberFrom(1, kMaxCount));
   verb->add_option("--spp", options->spp, "the mean of N samples per pixel")
-      ->check(CLI::Range(uint64_t(1), kMaxCount))
+      ->transform(wholeNumberFrom(1, kMaxCount))
       ->excludes(frames);
   verb->add_option("--aov", options->aovs,
                    "comma-separated layers: radiance, positionW, ..., and those of the method "

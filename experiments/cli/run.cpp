@@ -3,13 +3,17 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <set>
 
 #include "core/backend/backend.h"
+#include "core/error.h"
 #include "core/method.h"
+#include "core/scene/scene.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
+#include "experiments/report/text.h"
 #include "experiments/runner/suite/dry_run.h"
 #include "experiments/runner/run/files.h"
 #include "experiments/runner/run/log.h"
@@ -56,10 +60,6 @@ void keepNamed(std::vector<Item>& items, const std::string& list, const std::str
       return std::find(wanted.begin(), wanted.end(), name) != wanted.end();
     });
   });
-}
-
-std::string counted(size_t count, const char* what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
 void warnOfYardsticks(const Suite& suite) {
@@ -109,7 +109,21 @@ void setJobs(uint32_t jobs, Suite& suite) {
     failUsage(fmt::format("-j {}: runs on vulkan are made one after the other", jobs));
 }
 
+// Who names a scene wants `render`.
+void refuseScene(const std::string& name) {
+  const std::vector<std::string>& scenes = builtinSceneNames();
+  const std::string extension = std::filesystem::path(name).extension().string();
+  const bool isBuiltin = std::find(scenes.begin(), scenes.end(), name) != scenes.end();
+  if (extension != ".gltf" && extension != ".glb" && (!isBuiltin || std::filesystem::exists(name)))
+    return;
+  failUsage(
+      fmt::format("run {0}: is a scene, and run takes a suite of scenes and methods (*.toml); "
+                  "restlab render {0} -o image.exr renders it",
+                  name));
+}
+
 void runVerb(const RunOptions& options, Outcome& outcome) {
+  refuseScene(options.suite);
   std::vector<Suite> points = loadSuites(options.suite, options.overrides, options.sweeps);
   for (Suite& suite : points) {
     keepNamed(suite.scenes, options.scenes, "--scenes");
@@ -170,7 +184,7 @@ Action addRunVerb(CLI::App& app) {
   addThreads(*verb, options->threads);
   verb->add_option("-j,--jobs", options->jobs,
                    "runs side by side, each with its share of the cores; needs timing = false")
-      ->check(CLI::Range(1, 1024));
+      ->transform(wholeNumberFrom(1, 1024));
   verb->add_flag_callback(
       "--json", [] { setEventLog(true); }, "on stderr, one JSON object a line and event");
   return [options](Outcome& outcome) { runVerb(*options, outcome); };

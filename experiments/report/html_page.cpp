@@ -39,6 +39,8 @@ std::string reportHead(const ReportModel& model) {
         fmt::format("<p class=\"made\">{}{}</p>\n", escapeMarkup(generated),
                     command.empty() ? "" : fmt::format(" <code>{}</code>", escapeMarkup(command)));
   }
+  for (const ReportModel& warning : reportList(model, "warnings"))
+    out += paragraph("warning", warning.get<std::string>());
   std::string notes;
   for (const ReportModel& note : reportList(model, "notes")) {
     notes += fmt::format("<li>{}</li>\n", escapeMarkup(note.get<std::string>()));

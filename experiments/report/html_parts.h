@@ -14,6 +14,8 @@ namespace restlab::html {
 std::string resultTable(const ReportModel& block);
 
 // What the kernels of each method left out; "" where nothing is said.
+// What each method was given.
+std::string settingsList(const ReportModel& block);
 std::string leftOutList(const ReportModel& block);
 
 // Counts of numerical health; a count above 0 in a column that is "bad" is marked.

@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "experiments/report/html_parts.h"
 #include "experiments/report/text.h"
@@ -21,21 +24,37 @@ bool isRanked(const ReportModel& row, const ReportModel* cell) {
   return cell && counts(row) && cell->value("ranked", true);
 }
 
-// The best finite value of a column among at least two rows that count; NaN where there is none.
+// The best finite value of a column among at least two rows that count; NaN where there is none, or
+// where its interval holds a part of another row's.
 double bestValue(const ReportModel& block, const ReportModel& column) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const std::string better = column.value("better", "none");
-  double best = std::numeric_limits<double>::quiet_NaN();
-  if (better == "none") return best;
-  size_t values = 0;
+  if (better == "none") return kNone;
+  struct Range {
+    double value, nearest, farthest;  // of the interval, seen from the better side
+  };
+  const double sign = better == "lower" ? 1.0 : -1.0;
+  std::vector<Range> ranges;
   for (const ReportModel& row : block["rows"]) {
     const ReportModel* cell = cellOf(row, column["key"].get<std::string>());
     if (!isRanked(row, cell)) continue;
     const double value = reportNumber((*cell)["value"]);
     if (!std::isfinite(value)) continue;
-    ++values;
-    if (std::isnan(best) || (better == "lower" ? value < best : value > best)) best = value;
+    const double lo = reportNumber(*cell, "lo", value), hi = reportNumber(*cell, "hi", value);
+    const double ends[] = {sign * (std::isnan(lo) ? value : lo),
+                           sign * (std::isnan(hi) ? value : hi)};
+    ranges.push_back({value, std::min(ends[0], ends[1]), std::max(ends[0], ends[1])});
   }
-  return values < 2 ? std::numeric_limits<double>::quiet_NaN() : best;
+  if (ranges.size() < 2) return kNone;
+  const auto isBetter = [&](const Range& a, const Range& b) {
+    return sign * a.value < sign * b.value;
+  };
+  std::sort(ranges.begin(), ranges.end(), isBetter);
+  for (size_t i = 1; i < ranges.size(); ++i) {
+    // The same value, as of a method that is there twice, is as good.
+    if (ranges[i].value != ranges[0].value && ranges[i].nearest <= ranges[0].farthest) return kNone;
+  }
+  return ranges[0].value;
 }
 
 // The value that a script sorts by: all digits, and nothing for NaN, which stays last.
@@ -64,15 +83,33 @@ std::string rowHead(const ReportModel& row) {
                      counts(row) ? "" : " <span class=\"badge\">does not count</span>");
 }
 
-// Below the table, where lines are long enough to be read.
+// Below the table, where lines are long enough to be read; what is said of several rows once.
 std::string flagList(const ReportModel& block) {
-  std::string list;
+  struct Said {
+    std::string flag;
+    bool counts;
+    std::string methods;
+  };
+  std::vector<Said> all;
   for (const ReportModel& row : block["rows"]) {
+    const std::string method =
+        fmt::format("<span class=\"method\">{}</span>", escapeMarkup(reportText(row, "method")));
     for (const ReportModel& flag : reportList(row, "flags")) {
-      list += fmt::format(
-          "<li{}><span class=\"method\">{}</span>: {}</li>", counts(row) ? "" : " class=\"no\"",
-          escapeMarkup(reportText(row, "method")), escapeMarkup(flag.get<std::string>()));
+      const std::string text = escapeMarkup(flag.get<std::string>());
+      const auto same = std::find_if(all.begin(), all.end(), [&](const Said& said) {
+        return said.flag == text && said.counts == counts(row);
+      });
+      if (same == all.end()) {
+        all.push_back({text, counts(row), method});
+      } else {
+        same->methods += ", " + method;
+      }
     }
+  }
+  std::string list;
+  for (const Said& said : all) {
+    list += fmt::format("<li{}>{}: {}</li>", said.counts ? "" : " class=\"no\"", said.methods,
+                        said.flag);
   }
   return list.empty() ? "" : fmt::format("<ul class=\"flags\">{}</ul>\n", list);
 }
@@ -102,33 +139,41 @@ std::string columnHelp(const ReportModel& block) {
       list);
 }
 
-}  // namespace
-
-std::string resultTable(const ReportModel& block) {
-  if (block["columns"].empty()) return "";
+// The table of the columns that are details, or of the others; "" where there are none.
+std::string tableOf(const ReportModel& block, bool isDetail) {
   std::string head =
       "<th scope=\"col\" aria-sort=\"none\"><button type=\"button\">method</button></th>";
-  std::vector<double> best;
+  std::vector<std::pair<const ReportModel*, double>> columns;  // and their best values
   for (const ReportModel& column : block["columns"]) {
+    if (column.value("detail", false) != isDetail) continue;
     head += columnHead(column);
-    best.push_back(bestValue(block, column));
+    columns.emplace_back(&column, bestValue(block, column));
   }
+  if (columns.empty()) return "";
   std::string body;
   for (const ReportModel& row : block["rows"]) {
     body += fmt::format("<tr{}>{}", counts(row) ? "" : " class=\"no\"", rowHead(row));
-    for (size_t i = 0; i < best.size(); ++i) {
-      const ReportModel& column = block["columns"][i];
-      const ReportModel* cell = cellOf(row, column["key"].get<std::string>());
-      body += cellHtml(cell, column.value("digits", kDigits),
-                       isRanked(row, cell) ? best[i] : std::nan(""));
+    for (const auto& [column, best] : columns) {
+      const ReportModel* cell = cellOf(row, (*column)["key"].get<std::string>());
+      body += cellHtml(cell, column->value("digits", kDigits),
+                       isRanked(row, cell) ? best : std::nan(""));
     }
     body += "</tr>\n";
   }
   return fmt::format(
-      "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"Results: {}\">\n"
-      "<table class=\"results\">\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody>\n</table></div>\n"
-      "{}{}",
-      escapeMarkup(reportText(block, "title")), head, body, flagList(block), columnHelp(block));
+      "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"{}: {}\">\n"
+      "<table "
+      "class=\"results\">\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody>\n</table></div>\n",
+      isDetail ? "Details" : "Results", escapeMarkup(reportText(block, "title")), head, body);
+}
+
+}  // namespace
+
+std::string resultTable(const ReportModel& block) {
+  if (block["columns"].empty()) return "";
+  const std::string details = tableOf(block, true);
+  return tableOf(block, false) + flagList(block) +
+         (details.empty() ? "" : "<h3>Details</h3>\n" + details) + columnHelp(block);
 }
 
 std::string healthTable(const ReportModel& block) {
@@ -163,6 +208,21 @@ std::string healthTable(const ReportModel& block) {
       "aria-label=\"Numerical health: {}\">\n<table class=\"health\">\n<thead><tr>{}</tr></thead>\n"
       "<tbody>\n{}</tbody>\n</table></div>\n",
       escapeMarkup(reportText(block, "title")), head, body);
+}
+
+std::string settingsList(const ReportModel& block) {
+  std::string rows;
+  for (const ReportModel& entry : reportList(block, "settings")) {
+    rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n",
+                        escapeMarkup(reportText(entry, "method")),
+                        escapeMarkup(reportText(entry, "text")));
+  }
+  if (rows.empty()) return "";
+  return fmt::format(
+      "<h3>Settings of the methods</h3>\n<p class=\"hint\">What is not named has its default "
+      "(restlab list integrators, caches, denoisers).</p>\n<div class=\"scroll\">"
+      "<table class=\"settings\"><tbody>\n{}</tbody></table></div>\n",
+      rows);
 }
 
 std::string leftOutList(const ReportModel& block) {

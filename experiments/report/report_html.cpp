@@ -54,8 +54,8 @@ void writeReport(const fs::path& folder, const ReportModel& model) {
   for (const ReportModel& block : model["blocks"]) {
     out << blockHead(block) << html::resultTable(block);
     html::writeImages(out, block, index++, folder, limit);
-    out << html::plotFigures(block) << html::leftOutList(block) << html::healthTable(block)
-        << "</section>\n";
+    out << html::plotFigures(block) << html::settingsList(block) << html::leftOutList(block)
+        << html::healthTable(block) << "</section>\n";
   }
   out << "</main>\n" << html::reportFoot(model, limit);
   out << "<script>\n(() => {\n'use strict';\n"

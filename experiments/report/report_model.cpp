@@ -98,7 +98,8 @@ void uniqueId(const Place& at, std::set<std::string>& seen) {
 std::set<std::string> columns(const Place& at) {
   std::set<std::string> keys;
   forEach(at, [&](const Place& column) {
-    requireObject(column, {"key", "title"}, {"unit", "better", "digits", "help"});
+    requireObject(column, {"key", "title"}, {"unit", "better", "detail", "digits", "help"});
+    member(column, "detail", flag);
     for (const char* name : {"key", "title", "unit", "help"}) member(column, name, text);
     member(column, "better", [](const Place& p) { oneOf(p, {"lower", "higher", "none"}); });
     member(column, "digits", [](const Place& p) {
@@ -190,6 +191,13 @@ void bars(const Place& at) {
   });
 }
 
+void settings(const Place& at) {
+  forEach(at, [](const Place& entry) {
+    requireObject(entry, {"method", "text"}, {});
+    for (const char* name : {"method", "text"}) member(entry, name, text);
+  });
+}
+
 void leftOut(const Place& at) {
   forEach(at, [](const Place& entry) {
     requireObject(entry, {"method", "features"}, {});
@@ -241,8 +249,9 @@ void images(const Place& at) {
 }
 
 void block(const Place& at, std::set<std::string>& ids) {
-  requireObject(at, {"id", "title", "columns", "rows"},
-                {"subtitle", "plots", "bars", "left_out", "health", "images", "exposure"});
+  requireObject(
+      at, {"id", "title", "columns", "rows"},
+      {"subtitle", "plots", "bars", "settings", "left_out", "health", "images", "exposure"});
   member(at, "id", [&](const Place& p) { uniqueId(p, ids); });
   member(at, "title", text);
   member(at, "subtitle", text);
@@ -250,6 +259,7 @@ void block(const Place& at, std::set<std::string>& ids) {
   forEach({at.json["rows"], at.path + ".rows"}, [&](const Place& p) { row(p, keys); });
   member(at, "plots", plots);
   member(at, "bars", bars);
+  member(at, "settings", settings);
   member(at, "left_out", leftOut);
   member(at, "health", health);
   member(at, "images", images);
@@ -265,12 +275,12 @@ void block(const Place& at, std::set<std::string>& ids) {
 void checkReportModel(const ReportModel& model) {
   const Place all{model, ""};
   requireObject(all, {"schema", "title", "blocks"},
-                {"question", "generated", "command", "notes", "provenance"});
+                {"question", "generated", "command", "warnings", "notes", "provenance"});
   if (model["schema"] != kReportSchema) {
     failAt("schema", fmt::format("must be {}", kReportSchema));
   }
   for (const char* name : {"title", "question", "generated", "command"}) member(all, name, text);
-  member(all, "notes", texts);
+  for (const char* name : {"warnings", "notes"}) member(all, name, texts);
   member(all, "provenance", [](const Place& list) {
     forEach(list, [](const Place& pair) {
       texts(pair);

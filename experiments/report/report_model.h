@@ -2,13 +2,14 @@
 //
 // { "schema": 1,
 //   "title": text, "question": text?, "generated": text? (UTC), "command": text?,
-//   "notes": [text...]?,
+//   "warnings": [text...]?, "notes": [text...]?,
 //   "provenance": [[key, value]...]?                   texts
 //   "blocks": [ {
 //     "id": text                                       [A-Za-z0-9._-]+, once in the document
 //     "title": text, "subtitle": text?,
 //     "columns": [ { "key": text, "title": text, "unit": text?, "help": text?,
 //                    "better": "lower" | "higher" | "none"?,
+//                    "detail": bool?               true: in a second table
 //                    "digits": integer? } ]            that count, 1 to 17; 3 by default
 //     "rows": [ { "method": text, "counts": bool?, "flags": [text...]?,
 //                 "cells": { KEY: { "value": number, "lo": number?, "hi": number?, "note": text?,
@@ -26,6 +27,7 @@
 //                                         "intercept": number }? } ] } ]?
 //     "bars": { "title": text, "unit": text?, "rows": [ { "name": text,
 //               "parts": [[name, number]...] } ] }?    numbers of at least 0
+//     "settings": [ { "method": text, "text": text } ]?
 //     "left_out": [ { "method": text, "features": [text...] } ]?
 //     "health": { "columns": [ text | { "name": text, "help": text?, "bad": bool? } ],
 //                 "rows": [ { "method": text, "counts": [integer...] } ] }?

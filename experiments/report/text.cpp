@@ -116,6 +116,10 @@ std::string timesText(double value, double lo, double hi, const char* above, con
   return fmt::format("{}x {}{}", shortNumber(1.0 / value), below, intervalText(1.0 / hi, 1.0 / lo));
 }
 
+std::string counted(uint64_t number, const char* what) {
+  return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s");
+}
+
 std::string groupedDigits(uint64_t value) {
   std::string digits = std::to_string(value);
   for (size_t at = digits.size(); at > 3;) digits.insert(at -= 3, ",");

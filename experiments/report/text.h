@@ -32,6 +32,9 @@ std::string timesText(double value, double lo, double hi, const char* above, con
 // Digits of a mean energy over that of the reference, whose ideal is 1.
 constexpr int kEnergyDigits = 4;
 
+// "1 run", "3 runs".
+std::string counted(uint64_t number, const char* what);
+
 // 1234567 as "1,234,567".
 std::string groupedDigits(uint64_t value);
 

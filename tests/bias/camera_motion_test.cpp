@@ -33,15 +33,26 @@ std::vector<Setting> allCaches() {
   return all;
 }
 
-// Every frame of the history has a camera of its own, so only its last frame may be compared.
-void expectUnbiased(const Walk& walk, const SceneCamera& end, size_t runs, uint32_t truthFrames,
-                    uint32_t frames, int threads,
-                    const std::vector<Setting>& settings = allCaches()) {
-  const auto scene = builtinScene(walk.scene);
-  Method truth = pathMethod(truthFrames);
+struct Effort {
+  size_t runs;
+  uint32_t truthFrames;  // of each of 128 runs of `path`
+  int threads;
+};
+constexpr Effort kEveryDay{256, 48, 1};
+constexpr Effort kNightly{2048, 384, 0};
+
+// Half of a test's time: walks that end at one camera are one test.
+stats::Truth truthAt(const std::string& scene, const SceneCamera& end, const Effort& effort) {
+  Method truth = pathMethod(effort.truthFrames);
   truth.cameras = {end};
-  truth.config.threads = threads;
-  const stats::Truth reference = stats::truthOf(independentRuns(scene, truth, 1, 128));
+  truth.config.threads = effort.threads;
+  return stats::truthOf(independentRuns(builtinScene(scene), truth, 1, 128));
+}
+
+// Every frame of the history has a camera of its own, so only its last frame may be compared.
+void expectUnbiased(const Walk& walk, const SceneCamera& end, const stats::Truth& truth,
+                    const Effort& effort, uint32_t frames,
+                    const std::vector<Setting>& settings = allCaches()) {
   for (const Setting& setting : settings) {
     Method method = restirMethod(frames, frames - 1, setting.parameters);
     method.config.cache = setting.cache;
@@ -49,8 +60,9 @@ void expectUnbiased(const Walk& walk, const SceneCamera& end, size_t runs, uint3
     method.cameras = walkTo(end, frames, walk.stepW, walk.turnDegrees);
     // There and back: it ends as it began, where it has been.
     for (uint32_t i = 0; walk.isBack && i < frames / 2; ++i) method.cameras[i] = end;
-    method.config.threads = threads;
-    const stats::BiasReport report = testMethod(scene, method, reference, runs);
+    method.config.threads = effort.threads;
+    const stats::BiasReport report =
+        testMethod(builtinScene(walk.scene), method, truth, effort.runs);
     EXPECT_FALSE(report.failed()) << method.name << ": " << report.text();
     EXPECT_LE(report.untestableShare, walk.untestable) << method.name << ": " << report.text();
   }
@@ -62,77 +74,73 @@ SceneCamera endOf(const Walk& walk) {
   return makeBuiltinScene(scene).cameras.at(0);
 }
 
-const std::vector<Walk> kWalks = {
-    {"walking", "cornell-box", {0.06, 0.01, -0.05}, 0.0},
-    {"turning", "cornell-box", {0.0, 0.0, 0.0}, 1.5},
-    // The outline of the lamp moves through the pixels.
-    {"past_the_lamp", "cornell-box", {0.05, 0.03, 0.0}, 0.0, true},
-};
-const std::vector<Walk> kNightlyWalks = {
-    {"walking", "cornell-box", {0.06, 0.01, -0.05}, 0.0},
-    {"turning", "cornell-box", {0.0, 0.0, 0.0}, 1.5},
-    {"past_the_lamp", "cornell-box", {0.05, 0.03, 0.0}, 0.0, true},
-    {"past_glass", "glass", {0.02, 0.01, 0.0}, 0.5, false, 0.6},
-    {"strolling_glossy", "glossy-gallery", {0.04, 0.0, -0.06}, 0.7},
-    {"strolling_door", "door-ajar", {0.04, 0.0, -0.03}, -0.5},
-    {"strolling_courtyard", "courtyard", {0.05, 0.0, -0.05}, 0.5},
-};
-
-std::string walkName(const ::testing::TestParamInfo<Walk>& info) { return info.param.name; }
-
-class MovingCamera : public ::testing::TestWithParam<Walk> {};
-TEST_P(MovingCamera, LeavesTheMean) {
-  expectUnbiased(GetParam(), endOf(GetParam()), 512, 48, 6, 1);
-}
-INSTANTIATE_TEST_SUITE_P(Builtin, MovingCamera, ::testing::ValuesIn(kWalks), walkName);
-
-TEST(MovingCameraGlossy, LeavesTheMean) {
-  const Walk walk{"strolling", "glossy-gallery", {0.04, 0.0, -0.06}, 0.7};
-  expectUnbiased(walk, endOf(walk), 256, 16, 5, 1);
-}
-
-TEST(MovingCameraThereAndBack, LeavesTheMean) {
-  const Walk walk{"away", "cornell-box", {0.5, 0.2, -0.3}, 20.0, false, 0.1, true};
-  expectUnbiased(walk, endOf(walk), 256, 48, 8, 1);
-}
-
-// Through the open side of the Cornell box: what the camera comes to changes the level of its cells
-// and the size of its discs once or twice, and entries of the level before serve until there are
-// new ones.
-Walk flyThrough() { return {"flying", "cornell-box", {0.0, -0.02, -0.8}, 0.0}; }
-SceneCamera endOfFlight() { return lookAt({-2.78, 2.7, -1.5}, {-2.78, 2.4, -5.5}, 55.0); }
-std::vector<Setting> flyingEntries() {
-  std::vector<Setting> all;
-  for (const std::string& cache : cachesWithEntries())
-    all.push_back({cache, {{"entries", int64_t{4096}}}});
-  return all;
-}
-
-TEST(MovingCameraFlyThrough, NightlyLeavesTheMean) {
-  expectUnbiased(flyThrough(), endOfFlight(), 2048, 384, 10, 0, flyingEntries());
-}
+const Walk kWalking{"walking", "cornell-box", {0.06, 0.01, -0.05}, 0.0};
+const Walk kTurning{"turning", "cornell-box", {0.0, 0.0, 0.0}, 1.5};
+// The outline of the lamp moves through the pixels.
+const Walk kPastTheLamp{"past_the_lamp", "cornell-box", {0.05, 0.03, 0.0}, 0.0, true};
+const Walk kAwayAndBack{"away", "cornell-box", {0.5, 0.2, -0.3}, 20.0, false, 0.1, true};
 
 // Cells and discs over edges and through walls, many donors, entries that forget at once.
-TEST(MovingCameraEntries, NoSettingMovesTheMean) {
+std::vector<Setting> openEntries() {
   const ParameterMap open = {{"normal_threshold", -1.0}, {"plane_threshold", 10.0},
                              {"max_jacobian", 1.0e6},    {"entry_spread", 8.0},
                              {"feed_every", int64_t{1}}, {"entry_proposals", int64_t{4}}};
-  const Walk walk{"walking", "cornell-box", {0.06, 0.01, -0.05}, 0.0};
   std::vector<Setting> settings;
   for (const std::string& cache : cachesWithEntries()) {
     settings.push_back({cache, open});
     settings.push_back(
         {cache, {{cache + "_pixels", 16.0}, {"entry_cap", 2.0}, {"entries", int64_t{1024}}}});
   }
-  expectUnbiased(walk, endOf(walk), 256, 48, 6, 1, settings);
+  return settings;
+}
+
+TEST(MovingCamera, BelowTheLampLeavesTheMean) {
+  const SceneCamera end = cornellBelowTheLamp();
+  const stats::Truth truth = truthAt("cornell-box", end, kEveryDay);
+  expectUnbiased(kWalking, end, truth, kEveryDay, 6);
+  expectUnbiased(kTurning, end, truth, kEveryDay, 6);
+  expectUnbiased(kAwayAndBack, end, truth, kEveryDay, 8);
+  expectUnbiased(kWalking, end, truth, kEveryDay, 6, openEntries());
+}
+
+TEST(MovingCamera, PastTheLampLeavesTheMean) {
+  const SceneCamera end = endOf(kPastTheLamp);
+  expectUnbiased(kPastTheLamp, end, truthAt("cornell-box", end, kEveryDay), kEveryDay, 6);
+}
+
+TEST(MovingCamera, AmongGlossLeavesTheMean) {
+  const Effort effort{256, 16, 1};
+  const Walk walk{"strolling", "glossy-gallery", {0.04, 0.0, -0.06}, 0.7};
+  const SceneCamera end = endOf(walk);
+  expectUnbiased(walk, end, truthAt(walk.scene, end, effort), effort, 5);
+}
+
+// Through the open side of the Cornell box: what the camera comes to changes the level of its cells
+// and the size of its discs once or twice, and entries of the level before serve until there are
+// new ones.
+TEST(MovingCamera, NightlyFlyThroughLeavesTheMean) {
+  const Walk walk{"flying", "cornell-box", {0.0, -0.02, -0.8}, 0.0};
+  const SceneCamera end = lookAt({-2.78, 2.7, -1.5}, {-2.78, 2.4, -5.5}, 55.0);
+  std::vector<Setting> settings;
+  for (const std::string& cache : cachesWithEntries())
+    settings.push_back({cache, {{"entries", int64_t{4096}}}});
+  expectUnbiased(walk, end, truthAt(walk.scene, end, kNightly), kNightly, 10, settings);
 }
 
 class MovingCameraNightly : public ::testing::TestWithParam<Walk> {};
 TEST_P(MovingCameraNightly, LeavesTheMean) {
-  expectUnbiased(GetParam(), endOf(GetParam()), 2048, 384, 16, 0);
+  const Walk& walk = GetParam();
+  const SceneCamera end = endOf(walk);
+  expectUnbiased(walk, end, truthAt(walk.scene, end, kNightly), kNightly, 16);
 }
-INSTANTIATE_TEST_SUITE_P(Builtin, MovingCameraNightly, ::testing::ValuesIn(kNightlyWalks),
-                         walkName);
+INSTANTIATE_TEST_SUITE_P(
+    Builtin, MovingCameraNightly,
+    ::testing::Values(kWalking, kTurning, kPastTheLamp,
+                      Walk{"past_glass", "glass", {0.02, 0.01, 0.0}, 0.5, false, 0.6},
+                      Walk{"strolling_glossy", "glossy-gallery", {0.04, 0.0, -0.06}, 0.7},
+                      Walk{"strolling_door", "door-ajar", {0.04, 0.0, -0.03}, -0.5},
+                      Walk{"strolling_courtyard", "courtyard", {0.05, 0.0, -0.05}, 0.5}),
+    [](const ::testing::TestParamInfo<Walk>& walk) { return std::string(walk.param.name); });
 
 }  // namespace
 }  // namespace restlab::bias

@@ -79,7 +79,24 @@ const BadInput kBadInputs[] = {
     {"ResolutionTwice", "render good.gltf -o x.exr --resolution 8x8 --width 8", 2, {"exclude"}},
     {"ZeroSpp", "render good.gltf -o x.exr --spp 0", 2, {"--spp"}},
     {"NegativeSpp", "render good.gltf -o x.exr --spp -4", 2, {"--spp"}},
-    {"WordSpp", "render good.gltf -o x.exr --spp many", 2, {"--spp"}},
+    {"WordSpp",
+     "render good.gltf -o x.exr --spp many",
+     2,
+     {"--spp", "'many' is no whole number from 1"}},
+    {"HalfASpp", "render good.gltf -o x.exr --spp 1.5", 2, {"--spp", "'1.5' is no whole number"}},
+    {"SppWithoutItsNumber", "render good.gltf -o x.exr --spp", 2, {"--spp needs a value"}},
+    {"AnotherUnit",
+     "reference good.gltf -o x.exr --time-limit 5deg",
+     2,
+     {"--time-limit", "'5deg' is no number of seconds"}},
+    {"SetOfAPartOfAName",
+     "render good.gltf -o x.exr --integrator restir_gi --set cap=20",
+     2,
+     {"has no parameter 'cap'", "confidence_cap"}},
+    {"PictureAsOutput", "render good.gltf -o x.png", 2, {"must be named *.exr", "--png=FILE"}},
+    {"SuiteThatIsAScene", "run door-ajar", 2, {"is a scene", "restlab render door-ajar"}},
+    {"SuiteThatIsAFileOfAScene", "run good.gltf", 2, {"is a scene", "restlab render good.gltf"}},
+    {"ListOfNothing", "list", 2, {"list: say what: integrators, caches"}},
     {"ZeroFrames", "render good.gltf -o x.exr --frames 0", 2, {"--frames"}},
     {"FramesAndSpp", "render good.gltf -o x.exr --frames 2 --spp 2", 2, {"--spp", "--frames"}},
     {"NegativeSeed", "render good.gltf -o x.exr --seed -1", 2, {"seed"}},
@@ -250,6 +267,21 @@ const BadInput kBadInputs[] = {
 std::string nameOf(const ::testing::TestParamInfo<BadInput>& info) { return info.param.name; }
 
 INSTANTIATE_TEST_SUITE_P(All, BadInputTest, ::testing::ValuesIn(kBadInputs), nameOf);
+
+using OptionsTest = ProgramTest;
+
+TEST_F(OptionsTest, NumbersAreReadAsPeopleWriteThem) {
+  const ProgramResult result = run(
+      "reference cornell-box -o r.exr --resolution 8x8 --spp 1e1 --time-limit 5m --checkpoint 1h");
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(readExr(path("r.exr")).metadata.at("spp"), "10");
+  expectError(run("render cornell-box -o x.exr --resolution 8x8 --environment-rotation 361deg"), 2,
+              {"'361deg' is no number of degrees from -360 to 360"});
+}
+
+TEST_F(OptionsTest, AnEmptyArgumentIsNone) {
+  expectError(run({"run", "x.toml", "--out", ""}), 2, {"run: an argument is empty"});
+}
 
 using OutputTest = ProgramTest;
 

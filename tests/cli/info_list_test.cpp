@@ -1,6 +1,10 @@
 // restlab info, list, bench and the top of the command line.
 #include <array>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
 
 #include "tests/cli/program.h"
 
@@ -151,6 +155,23 @@ TEST_F(InfoTest, BenchMeasuresEveryMethod) {
     EXPECT_GT(frame["rays_per_second"].get<double>(), 0.0);
     EXPECT_GE(frame["bytes_per_pixel"].get<int>(), 12);
   }
+  size_t denoised = 0;
+  for (const auto& frame : json["frames"]) {
+    if (!frame.contains("denoising")) continue;
+    ++denoised;
+    const std::string name = frame["denoiser"];
+    const auto& denoising = frame["denoising"];
+    double passesMs = 0.0;
+    for (const auto& pass : frame["passes"]) {
+      if (pass["name"] != "path") passesMs += pass["time_ms_median"].get<double>();
+    }
+    EXPECT_GT(denoising["time_ms"].get<double>(), 0.0) << name;
+    EXPECT_NEAR(denoising["time_ms"].get<double>() + denoising["guides_ms"].get<double>(), passesMs,
+                1e-9)
+        << name;
+    EXPECT_GT(denoising["buffers_once_ms"].get<double>(), 0.0) << name;
+  }
+  EXPECT_GE(denoised, 6u) << "accumulate, firefly, atrous, svgf, asvgf, svgf_restir";
   EXPECT_GT(json["path_error"]["mse_times_cpu_seconds"].get<double>(), 0.0);
   EXPECT_LT(json["path_error"]["pixels_without_lights"].get<int>(), 32 * 32);
 }
@@ -170,7 +191,27 @@ TEST_F(InfoTest, HelpAndVersion) {
   EXPECT_EQ(nothing.out, "");
   expectError(run("rendr cornell-box"), 2, {"'rendr'", "'render'"});
   expectError(run("list integratrs"), 2, {"integratrs", "'integrators'"});
-  expectError(run("list"), 2, {"what"});
+  expectError(run("list"), 2, {"say what"});
+}
+
+// It refuses a verb that the program does not have before it builds anything.
+TEST_F(InfoTest, TheLauncherKnowsTheVerbs) {
+  const auto verbsAfter = [](const std::string& text, const std::string& begin,
+                             const std::regex& one) {
+    std::set<std::string> verbs;
+    const size_t at = text.find(begin);
+    if (at == std::string::npos) return verbs;
+    const std::string rest = text.substr(at + begin.size());
+    for (std::sregex_iterator it(rest.begin(), rest.end(), one), end; it != end; ++it)
+      verbs.insert((*it)[1]);
+    return verbs;
+  };
+  std::ifstream file(std::filesystem::path(RESTLAB_SOURCE_DIR) / "lab");
+  std::string launcher((std::istreambuf_iterator<char>(file)), {});
+  launcher.erase(launcher.find("\nusage()"));
+  std::set<std::string> known = verbsAfter(launcher, "program_verbs='", std::regex("([a-z]+)[ ']"));
+  known.insert("run");
+  EXPECT_EQ(known, verbsAfter(run("--help").out, "Subcommands:", std::regex("\n  ([a-z]+) ")));
 }
 
 }  // namespace

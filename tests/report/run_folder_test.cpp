@@ -71,7 +71,7 @@ class RunFolder : public PageTest {
       values.emplace_back(std::stod(row.at(at(name))), row.at(at("method")));
     return values;
   }
-  Names methods() { return texts(".results tbody .method"); }
+  Names methods() { return texts(".block > .scroll:first-of-type tbody .method"); }
 };
 
 TEST_F(RunFolder, ShowsWhatWasMeasured) {
@@ -93,6 +93,8 @@ TEST_F(RunFolder, ShowsWhatWasMeasured) {
 }
 
 TEST_F(RunFolder, PixelsAreThoseOfTheFiles) {
+  browser_->press("s", "KeyS", false);
+  settle();
   const fs::path images = folder_.path() / "out/images";
   const auto read = [&](const std::string& name) {
     return readExr(images / ("cornell-box-all-" + name + ".exr")).layers.at("");

@@ -17,6 +17,8 @@ class ViewerTest : public PageTest {
     reference_ = readExr(folder_.path() / "images/reference.exr").layers.at("");
     path_ = readExr(folder_.path() / "images/path.exr").layers.at("");
     gi_ = readExr(folder_.path() / "images/gi.exr").layers.at("");
+    EXPECT_EQ(state("mode"), "wipe") << "beside the reference at first";
+    press("s", "KeyS");
   }
   void press(const std::string& key, const std::string& code, bool shift = false) {
     browser_->press(key, code, shift);

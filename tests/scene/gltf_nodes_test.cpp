@@ -214,6 +214,9 @@ TEST(GltfNodes, PunctualLights) {
   expectNear(scene.lights[2].dirW, {0, 0, -1});
   EXPECT_EQ(scene.lights[2].intensity, glm::vec3(3));
   EXPECT_TRUE(warns(scene, "lights[0].range: is not read"));
+  EXPECT_FALSE(warns(scene, "no node of the scene carries it"));
+  file.doc["extensions"]["KHR_lights_punctual"]["lights"].push_back({{"type", "point"}});
+  EXPECT_TRUE(warns(file.load(), "lights[3]: no node of the scene carries it"));
 }
 
 TEST(GltfNodes, FindCamera) {

@@ -47,6 +47,13 @@ TEST(ImageLimits, PngChunkThatClaimsTheRest) {
   EXPECT_EQ(problemOf(png.replace(33, 4, bigEndian(1u << 30))), "truncated");
 }
 
+TEST(ImageLimits, PngWhoseLastPieceHasAWrongSum) {
+  std::string png = test::tinyPng();
+  const size_t pieceBytes = uint8_t(png[36]);
+  png[41 + pieceBytes] = char(png[41 + pieceBytes] ^ 1);
+  EXPECT_NE(problemOf(png), "");
+}
+
 // Nothing forbids it.
 TEST(ImageLimits, PngThatBeginsWithAnEmptyChunkOfPixels) {
   std::string png = test::tinyPng();

@@ -9,7 +9,9 @@ class Viewer {
     const compare = Math.max(0, reference);
     const method = images.findIndex((_, i) => i !== compare);
     this.state = {
-      current: method < 0 ? 0 : method, compare, mode: 'single', error: 'none', stops: 0,
+      current: method < 0 ? 0 : method, compare,
+      // A noisy image alone says little.
+      mode: reference >= 0 && method >= 0 ? 'wipe' : 'single', error: 'none', stops: 0,
       tone: 'srgb', log: {}, wipe: 0.5, held: false
     };
     this.painter = new Painter(this.state, images, data.exposure);

@@ -1,7 +1,9 @@
 // The images of a block.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "experiments/runner/run/files.h"
 #include "experiments/runner/summary/report.h"
@@ -11,6 +13,7 @@ namespace restlab {
 
 float previewExposure(const Image& reference) {
   double sum = 0.0, lit = 0.0;
+  std::vector<float> brightest;
   for (const glm::vec3& pixel : reference.pixels) {
     const double luminance = 0.2126 * pixel.x + 0.7152 * pixel.y + 0.0722 * pixel.z;
     // The mean of logarithms: a lamp in view does not darken the picture. What is black, beside a
@@ -18,8 +21,14 @@ float previewExposure(const Image& reference) {
     if (luminance <= 0.0) continue;
     sum += std::log(std::max(luminance, 1e-4));
     lit += 1.0;
+    brightest.push_back(std::max({pixel.x, pixel.y, pixel.z}));
   }
-  return lit > 0.0 ? float(0.18 / std::exp(sum / lit)) : 1.0f;
+  if (brightest.empty()) return 1.0f;
+  const double exposure = 0.18 / std::exp(sum / lit);
+  // At most one lit pixel in a hundred is clipped, for no more than two stops.
+  const auto at = brightest.begin() + std::ptrdiff_t(0.99 * double(brightest.size() - 1));
+  std::nth_element(brightest.begin(), at, brightest.end());
+  return float(std::clamp(1.0 / double(*at), 0.25 * exposure, exposure));
 }
 
 std::string blockLabel(const Suite& suite, const BlockResult& block) {

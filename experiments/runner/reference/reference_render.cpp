@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "core/backend/stop.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "experiments/runner/suite/backend_choice.h"
@@ -125,7 +126,11 @@ void renderUntil(Halves& halves, ReferenceState& state, const ReferenceTarget& t
                       : "interrupted: the reference is not finished, was not written, and its "
                         "samples are not kept");
     }
-    halves.addSample();
+    try {
+      halves.addSample();
+    } catch (const FrameStopped&) {
+      continue;  // with what there was before this sample
+    }
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     state.timeS = earlierS + spent.count();
     if (RelmseChecks::isDue(state.spp()))

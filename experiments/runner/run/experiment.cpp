@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "core/backend/stop.h"
 #include "core/image/halves_noise.h"
 #include "core/image/intervals.h"
 #include "core/image/metrics.h"
@@ -225,8 +226,18 @@ struct BlockExecutor::Impl {
     if (frames.temporal) result.temporal = frames.temporal->figures();
   }
 
+  // Nothing where a signal has come.
   std::optional<JobData> execute(uint32_t run, const std::string& job,
                                  const std::string& startedUtc) {
+    try {
+      return executeWhole(run, job, startedUtc);
+    } catch (const FrameStopped&) {
+      return std::nullopt;
+    }
+  }
+
+  std::optional<JobData> executeWhole(uint32_t run, const std::string& job,
+                                      const std::string& startedUtc) {
     if (sessions.empty()) open();
     const size_t count = suite.rendered().size();
     std::vector<RunResult> results(count);

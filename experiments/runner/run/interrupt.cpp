@@ -1,20 +1,16 @@
 #include "experiments/runner/run/interrupt.h"
 
-#include <atomic>
 #include <csignal>
 #include <string>
 
+#include "core/backend/stop.h"
 #include "core/error.h"
 
 namespace restlab {
 
 namespace {
 
-// Read by the threads of `-j` while a handler on another one writes: no sig_atomic_t.
-std::atomic<bool> signalSeen = false;
-static_assert(std::atomic<bool>::is_always_lock_free, "as a signal handler needs");
-
-void onSignal(int) { signalSeen.store(true, std::memory_order_relaxed); }
+void onSignal(int) { stopFrames(); }
 
 }  // namespace
 
@@ -28,7 +24,7 @@ void installInterruptHandler() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-bool interruptRequested() { return signalSeen.load(std::memory_order_relaxed); }
+bool interruptRequested() { return framesStopped(); }
 
 void throwIfInterrupted(const char* what) {
   if (interruptRequested()) throw Error(ExitCode::interrupted, std::string("interrupted: ") + what);

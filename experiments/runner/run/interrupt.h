@@ -1,9 +1,10 @@
-// SIGINT and SIGTERM: the current frame is finished, finished results are kept, exit code 130.
+// SIGINT and SIGTERM: the current frame is stopped (core/backend/stop.h), finished results are
+// kept, exit code 130.
 #pragma once
 
 namespace restlab {
 
-// The first signal sets a flag; a second one ends the process at once.
+// The first signal stops frames; a second one ends the process at once.
 void installInterruptHandler();
 bool interruptRequested();
 // Throws Error (ExitCode::interrupted) when a signal has come.

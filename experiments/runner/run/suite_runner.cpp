@@ -396,6 +396,7 @@ class SuiteRun {
                {"argv", request_.argv},
                {"methods", methodNames()},
                {"started", started_},
+               {"load_at_start", loadAtStart_},
                {"written", utcNow()},
                {"build", buildJson()},
                {"machine", machineJson()},
@@ -410,6 +411,7 @@ class SuiteRun {
   const std::vector<Suite>& points_;
   const SuiteRequest& request_;
   std::string started_;
+  double loadAtStart_ = machineJson()["load_1min"].get<double>();
   Outputs outputs_;
   JobStore store_;
   std::optional<FolderLock> lock_;

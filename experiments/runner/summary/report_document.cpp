@@ -4,12 +4,15 @@
 
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "core/image/metrics.h"
+#include "core/method_settings.h"
 #include "experiments/report/text.h"
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/summary/figures.h"
 #include "experiments/runner/run/files.h"
+#include "experiments/runner/run/prepare.h"
 #include "experiments/runner/summary/report.h"
 #include "experiments/runner/run/run_record.h"
 
@@ -62,9 +65,10 @@ const std::vector<Column>& columns() {
        [](const MethodSummary& row) { return row.timeRatio; }},
       {"mse", "MSE", "", "lower", "of the frame after the warm-up, against the reference's halves",
        [](const MethodSummary& row) { return row.mse; }},
-      {"mse_ratio", "MSE, times lower", "", "higher", "MSE of the baseline / MSE",
+      {"mse_ratio", "baseline's MSE / MSE", "", "higher",
+       "above 1: a lower MSE than the baseline (path, unless the suite names another)",
        [](const MethodSummary& row) { return row.mseRatio; }},
-      {"average_ratio", "than its average", "", "higher",
+      {"average_ratio", "average's MSE / MSE", "", "higher",
        "MSE of the plain average of the baseline's frames (path + accumulate) / MSE",
        [](const MethodSummary& row) { return row.ratioToAverage; }},
       {"efficiency", "efficiency", "", "higher", "MSE ratio / time ratio",
@@ -87,11 +91,14 @@ const std::vector<Column>& columns() {
        [](const MethodSummary& row) { return row.relmseTrimmed; }},
       {"slope", "slope", "", "lower", "of log(MSE) over log(time) while frames accumulate",
        slopeOf},
-      {"equal_time", "lower at equal time", "", "higher", "off the fitted lines", equalTimeOf,
+      {"equal_time", "the same at equal time", "", "higher",
+       "baseline's MSE / MSE off the fitted lines, where both have taken the same time",
+       equalTimeOf,
        [](const MethodSummary& row) {
          return row.speedUp ? fmt::format("at {} ms", shortNumber(row.speedUp->equalTime.at)) : "";
        }},
-      {"equal_error", "faster to equal error", "", "higher", "off the fitted lines", equalErrorOf,
+      {"equal_error", "baseline's time / time to equal error", "", "higher",
+       "off the fitted lines; above 1: faster", equalErrorOf,
        [](const MethodSummary& row) {
          return row.speedUp ? "to " + shortNumber(row.speedUp->equalError.at) : "";
        }},
@@ -112,6 +119,13 @@ const std::vector<Column>& columns() {
          return only(row.method->images ? kUnknown : double(row.result->bytesPerPixel));
        }}};
   return all;
+}
+
+// The first table has what is asked first, and fits into a window.
+bool isDetail(const std::string& key) {
+  static const std::set<std::string> first = {"time_ms",   "time_ratio",    "mse",
+                                              "mse_ratio", "average_ratio", "energy"};
+  return first.count(key) == 0;
 }
 
 Json cellOf(const Interval& interval) {
@@ -156,6 +170,7 @@ void addTable(const std::vector<MethodSummary>& rows, Json& block) {
                      {"title", column.title},
                      {"unit", column.unit},
                      {"better", column.better},
+                     {"detail", isDetail(column.key)},
                      {"digits", column.key == std::string("energy") ? kEnergyDigits : kDigits},
                      {"help", column.help}});
     for (size_t i = 0; i < rows.size(); ++i) {
@@ -174,6 +189,7 @@ void addTable(const std::vector<MethodSummary>& rows, Json& block) {
                      {"title", figure.name},
                      {"unit", ""},
                      {"better", better},
+                     {"detail", true},
                      {"digits", digitsOf(figure)},
                      {"help", metric.formula}});
     for (size_t i = 0; i < rows.size(); ++i)
@@ -322,6 +338,21 @@ Json healthOf(const std::vector<MethodSummary>& rows) {
   return {{"columns", std::move(heads)}, {"rows", std::move(lines)}};
 }
 
+Json settingsOf(const std::vector<MethodSummary>& rows) {
+  Json settings = Json::array();
+  for (const MethodSummary& row : rows) {
+    if (row.method->images) continue;
+    const SessionConfig& config = row.method->session;
+    std::string text;
+    for (const auto& [key, value] : settingValues(config))
+      if (!value.empty()) text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", key, value);
+    for (const auto& [key, value] : config.parameters)
+      text += fmt::format(", {} = {}", key, parameterText(value));
+    settings.push_back({{"method", row.method->name}, {"text", std::move(text)}});
+  }
+  return settings;
+}
+
 }  // namespace
 
 Json blockDocument(const Suite& suite, const std::vector<MethodSummary>& rows, float exposure) {
@@ -334,14 +365,15 @@ Json blockDocument(const Suite& suite, const std::vector<MethodSummary>& rows, f
       {"subtitle",
        fmt::format(
            "camera {}{}{}, {}x{}, {} scattering events, Russian roulette {}, filter {}{}; {} "
-           "runs of {} warm-up and {} timed frames; reference {} spp, relMSE {:.2g}{}",
+           "of {} warm-up and {} timed frames; reference {} spp, relMSE {:.2g}{}",
            block.camera,
            suite.hasMovingCamera() ? fmt::format(", path {}", suite.cameraPathName) : "",
            suite.events.empty() ? "" : ", lights: " + eventsText(suite.events, suite.warmupFrames),
            block.width, block.height, suite.maxBounces, suite.russianRoulette ? "on" : "off",
            filterName(suite.pixelFilter),
-           suite.multiscatter ? ", multiple scattering compensated" : "", rows.front().runs,
-           suite.warmupFrames, suite.timedFrames, block.reference.spp, block.reference.relmse,
+           suite.multiscatter ? ", multiple scattering compensated" : "",
+           counted(rows.front().runs, "run"), suite.warmupFrames, suite.timedFrames,
+           block.reference.spp, block.reference.relmse,
            block.reference.half0 ? "" : ", without halves: its own noise is part of every MSE")}};
   addTable(rows, document);
   Json plots = Json::array();
@@ -380,11 +412,31 @@ Json blockDocument(const Suite& suite, const std::vector<MethodSummary>& rows, f
          {"file", fmt::format("images/{}-{}.exr", label, safeFileName(row.method->name))},
          {"role", "method"}});
   }
+  document["settings"] = settingsOf(rows);
   document["left_out"] = std::move(left);
   document["health"] = healthOf(rows);
   document["images"] = std::move(images);
   document["exposure"] = exposure;
   return document;
+}
+
+// What changes the worth of everything below.
+Json warningsOf(const Json& record) {
+  Json warnings = Json::array();
+  const std::string status = record.at("status").get<std::string>();
+  if (status != "finished") {
+    warnings.push_back(
+        fmt::format("Not finished ({}): what follows is of the runs that were.", status));
+  }
+  const double load = record.value("load_at_start", 0.0);
+  const Json& cores = record.at("machine").at("cores");
+  if (load > 0.5 * cores.get<double>()) {
+    warnings.push_back(fmt::format(
+        "The machine was busy when the suite began: a load of {:.1f} on {} cores. Times "
+        "may be too long.",
+        load, cores.dump()));
+  }
+  return warnings;
 }
 
 Json reportDocument(const Suite& suite, const Json& record, std::vector<Json> blocks,
@@ -410,6 +462,7 @@ Json reportDocument(const Suite& suite, const Json& record, std::vector<Json> bl
           {"question", suite.question},
           {"generated", record.at("written")},
           {"command", shellCommand(record.at("argv").get<std::vector<std::string>>())},
+          {"warnings", warningsOf(record)},
           {"notes", notes},
           {"provenance", std::move(provenance)},
           {"blocks", std::move(blocks)}};

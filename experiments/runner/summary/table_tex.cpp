@@ -201,10 +201,10 @@ std::string blockTex(const Suite& suite, const std::vector<MethodSummary>& rows)
         std::isnan(bias) ? "--" : fmt::format("${:+.1f}$\\,\\%", bias));
   }
   const std::string caption = fmt::format(
-      "{}: {}$\\times${}, {} runs of {} warm-up and {} timed frames, reference of {} spp (relMSE "
+      "{}: {}$\\times${}, {} of {} warm-up and {} timed frames, reference of {} spp (relMSE "
       "{}); 95\\,\\% intervals",
-      subjectOf(suite, block), block.width, block.height, rows.front().runs, suite.warmupFrames,
-      suite.timedFrames, block.reference.spp, number(block.reference.relmse));
+      subjectOf(suite, block), block.width, block.height, counted(rows.front().runs, "run"),
+      suite.warmupFrames, suite.timedFrames, block.reference.spp, number(block.reference.relmse));
   return tableOf(caption, {"ms", "time", "MSE", "lower", "energy", "bias$^2$"}, lines,
                  notesOf(rows)) +
          accumulatedTex(suite, rows) + figuresTex(suite, rows);
