@@ -1,0 +1,382 @@
+#include "experiments/view/server.h"
+
+#include <fmt/format.h>
+
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/strand.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <chrono>
+#include <deque>
+#include <map>
+#include <optional>
+#include <random>
+#include <thread>
+
+#include "core/error.h"
+
+namespace restlab {
+
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using Tcp = asio::ip::tcp;
+using ErrorCode = boost::system::error_code;
+using Request = http::request<http::empty_body>;
+using Response = http::response<http::string_body>;
+
+constexpr std::chrono::seconds kRequestTimeout{10};
+constexpr uint32_t kMostHeaderBytes = 8 << 10;
+
+// Nothing is fetched but from this server.
+constexpr const char* kPolicy =
+    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: "
+    "blob:; connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+// 128 random bits in hexadecimal digits.
+std::string newToken() {
+  std::random_device device;
+  std::string token;
+  for (int i = 0; i < 4; ++i) token += fmt::format("{:08x}", uint32_t(device()));
+  return token;
+}
+
+// Takes the same time wherever the difference lies.
+bool equalSecrets(const std::string& a, const std::string& b) {
+  if (a.size() != b.size()) return false;
+  unsigned difference = 0;
+  for (size_t i = 0; i < a.size(); ++i) difference |= unsigned(uint8_t(a[i]) ^ uint8_t(b[i]));
+  return difference == 0;
+}
+
+std::string textOf(beast::string_view text) { return std::string(text.data(), text.size()); }
+
+// "path?token=..." in its parts; a token that is not there is empty.
+struct Target {
+  std::string path, token;
+};
+Target targetOf(const Request& request) {
+  const std::string text = textOf(request.target());
+  const size_t question = std::min(text.find('?'), text.size());
+  Target target{text.substr(0, question), ""};
+  const std::string query = question < text.size() ? text.substr(question + 1) : "";
+  const std::string name = "token=";
+  if (query.rfind(name, 0) == 0) target.token = query.substr(name.size());
+  return target;
+}
+
+// Of "name:port" or "[address]:port" the part before the port.
+std::string hostName(const std::string& host) {
+  const size_t bracket = host.find(']');
+  const size_t colon = host.find(':', bracket == std::string::npos ? 0 : bracket);
+  return host.substr(0, colon);
+}
+
+std::string inUrl(const std::string& address) {
+  return address.find(':') == std::string::npos ? address : "[" + address + "]";
+}
+
+}  // namespace
+
+class ViewServer::Impl {
+ public:
+  Impl(const ViewServerOptions& options, ViewServerEvents events)
+      : options_(options), events_(std::move(events)), token_(newToken()), acceptor_(io_) {
+    listen();
+    accept();
+    thread_ = std::thread([this] { io_.run(); });
+  }
+
+  ~Impl();
+
+  uint16_t port() const { return port_; }
+  std::string url() const {
+    return fmt::format("http://{}:{}/?token={}", inUrl(options_.listen), port_, token_);
+  }
+
+  void post(std::function<void()> task) { asio::post(io_, std::move(task)); }
+
+  void send(ClientId id, std::string text);
+  void sendNewest(ClientId id, uint32_t slot, std::shared_ptr<const Bytes> bytes);
+
+ private:
+  class Client;
+  class Connection;
+
+  void listen() {
+    ErrorCode error;
+    const asio::ip::address address = asio::ip::make_address(options_.listen, error);
+    if (error) {
+      failUsage(
+          fmt::format("--listen {}: is no address; 127.0.0.1 is this machine alone, 0.0.0.0 "
+                      "every network",
+                      options_.listen));
+    }
+    const Tcp::endpoint endpoint(address, options_.port);
+    acceptor_.open(endpoint.protocol(), error);
+    if (!error) acceptor_.set_option(asio::socket_base::reuse_address(true), error);
+    if (!error) acceptor_.bind(endpoint, error);
+    if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
+    if (error == asio::error::address_in_use) {
+      failUsage(fmt::format("--port {}: is taken; another number, or 0 for any that is free",
+                            options_.port));
+    }
+    if (error) {
+      failUsage(fmt::format("{}:{}: cannot listen there: {}", inUrl(options_.listen), options_.port,
+                            error.message()));
+    }
+    port_ = acceptor_.local_endpoint().port();
+  }
+
+  void accept();
+
+  // What a request gets that is refused; nothing: it may have what it asks for.
+  std::optional<std::pair<http::status, std::string>> refusal(const Request& request) const {
+    const auto refuse = [](http::status status, const std::string& why) {
+      return std::make_optional(std::make_pair(status, why));
+    };
+    if (request.method() != http::verb::get)
+      return refuse(http::status::method_not_allowed, "only GET is served here");
+    const std::string host = textOf(request[http::field::host]);
+    if (!isOurName(hostName(host)))
+      return refuse(http::status::forbidden, "Host: this server has another name");
+    const std::string origin = textOf(request[http::field::origin]);
+    if (!origin.empty() && origin != "http://" + host)
+      return refuse(http::status::forbidden, "Origin: another page's requests are not served");
+    const Target target = targetOf(request);
+    if (target.path != "/" && target.path != "/socket")
+      return refuse(http::status::not_found, "there are / and /socket");
+    if (!equalSecrets(target.token, token_))
+      return refuse(http::status::forbidden,
+                    "the token of the printed address is missing or wrong");
+    const bool isSocket = target.path == "/socket";
+    if (isSocket != websocket::is_upgrade(request))
+      return refuse(http::status::bad_request, "/socket is a WebSocket, and / is none");
+    // Only a browser's page has an origin, and a page is what the socket is for.
+    if (isSocket && clients_.size() >= options_.mostClients) {
+      return refuse(http::status::service_unavailable,
+                    fmt::format("{} pages are open, which is the limit", clients_.size()));
+    }
+    return std::nullopt;
+  }
+
+  // Any name where the user chose to be reached from elsewhere.
+  bool isOurName(const std::string& name) const {
+    if (!asio::ip::make_address(options_.listen).is_loopback()) return !name.empty();
+    return name == "localhost" || name == "127.0.0.1" || name == "[::1]" ||
+           name == inUrl(options_.listen);
+  }
+
+  const ViewServerOptions options_;
+  const ViewServerEvents events_;
+  const std::string token_;
+  asio::io_context io_;
+  Tcp::acceptor acceptor_;
+  uint16_t port_ = 0;
+  bool isClosing_ = false;
+  ClientId nextId_ = 1;
+  std::map<ClientId, std::shared_ptr<Client>> clients_;
+  std::thread thread_;
+};
+
+// An open page.
+class ViewServer::Impl::Client : public std::enable_shared_from_this<Client> {
+ public:
+  Client(Impl& server, ClientId id, beast::tcp_stream stream)
+      : server_(server), id_(id), socket_(std::move(stream)) {}
+
+  void begin(const Request& request) {
+    beast::get_lowest_layer(socket_).expires_never();
+    socket_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
+    socket_.read_message_max(server_.options_.mostMessageBytes);
+    socket_.async_accept(request, [self = shared_from_this()](ErrorCode error) {
+      if (error) return self->end();
+      self->server_.events_.opened(self->id_);
+      self->read();
+    });
+  }
+
+  void add(std::shared_ptr<const std::string> text) {
+    if (waiting_.size() >= server_.options_.mostWaiting) return drop();
+    waiting_.push_back({std::move(text), nullptr, 0});
+    write();
+  }
+
+  void replace(uint32_t slot, std::shared_ptr<const Bytes> bytes) {
+    for (size_t i = isWriting_ ? 1 : 0; i < waiting_.size(); ++i) {
+      if (waiting_[i].bytes && waiting_[i].slot == slot) {
+        waiting_[i].bytes = std::move(bytes);
+        return;
+      }
+    }
+    waiting_.push_back({nullptr, std::move(bytes), slot});
+    write();
+  }
+
+  // Without a word to the other side.
+  void drop() {
+    ErrorCode ignored;
+    beast::get_lowest_layer(socket_).socket().close(ignored);
+  }
+
+ private:
+  struct Message {
+    std::shared_ptr<const std::string> text;
+    std::shared_ptr<const Bytes> bytes;  // of a slot, where there is no text
+    uint32_t slot;
+  };
+
+  void read() {
+    socket_.async_read(buffer_, [self = shared_from_this()](ErrorCode error, size_t) {
+      if (error) return self->end();
+      if (!self->socket_.got_text()) return self->refuse("texts only");
+      const std::string text = beast::buffers_to_string(self->buffer_.data());
+      self->buffer_.consume(self->buffer_.size());
+      self->server_.events_.said(self->id_, text);
+      self->read();
+    });
+  }
+
+  void refuse(const char* why) {
+    socket_.async_close({websocket::close_code::bad_payload, why},
+                        [self = shared_from_this()](ErrorCode) { self->end(); });
+  }
+
+  void write() {
+    if (isWriting_ || waiting_.empty()) return;
+    isWriting_ = true;
+    const Message message = waiting_.front();
+    socket_.text(message.text != nullptr);
+    const asio::const_buffer data =
+        message.text ? asio::buffer(*message.text)
+                     : asio::buffer(message.bytes->data(), message.bytes->size());
+    socket_.async_write(data, [self = shared_from_this(), message](ErrorCode error, size_t) {
+      self->isWriting_ = false;
+      if (error) return self->end();
+      self->waiting_.pop_front();
+      self->write();
+    });
+  }
+
+  // Reading and writing may both find out.
+  void end() {
+    if (server_.clients_.erase(id_) > 0) server_.events_.closed(id_);
+  }
+
+  Impl& server_;
+  const ClientId id_;
+  websocket::stream<beast::tcp_stream> socket_;
+  beast::flat_buffer buffer_;
+  std::deque<Message> waiting_;  // the first is being written while isWriting_
+  bool isWriting_ = false;
+};
+
+// One request: the page, a refusal, or the way to a Client.
+class ViewServer::Impl::Connection : public std::enable_shared_from_this<Connection> {
+ public:
+  Connection(Impl& server, Tcp::socket socket) : server_(server), stream_(std::move(socket)) {
+    parser_.header_limit(kMostHeaderBytes);
+    parser_.body_limit(0);
+  }
+
+  void begin() {
+    stream_.expires_after(kRequestTimeout);
+    http::async_read(stream_, buffer_, parser_,
+                     [self = shared_from_this()](ErrorCode error, size_t) { self->answer(error); });
+  }
+
+ private:
+  void answer(ErrorCode error) {
+    if (error == http::error::header_limit)
+      return reply(http::status::request_header_fields_too_large, "the request is too long");
+    if (error == http::error::body_limit)
+      return reply(http::status::payload_too_large, "requests have no body here");
+    if (error == http::error::end_of_stream || error == beast::error::timeout ||
+        error == asio::error::connection_reset || error == asio::error::eof)
+      return;
+    if (error) return reply(http::status::bad_request, "this is no request of HTTP");
+    const Request& request = parser_.get();
+    if (const auto refusal = server_.refusal(request))
+      return reply(refusal->first, refusal->second);
+    if (!websocket::is_upgrade(request)) return reply(http::status::ok, server_.options_.page);
+    const ClientId id = server_.nextId_++;
+    const auto client = std::make_shared<Client>(server_, id, std::move(stream_));
+    server_.clients_.emplace(id, client);
+    client->begin(request);
+  }
+
+  void reply(http::status status, const std::string& body) {
+    const bool isPage = status == http::status::ok;
+    response_.result(status);
+    response_.version(11);
+    response_.keep_alive(false);
+    response_.set(http::field::content_type, isPage ? "text/html; charset=utf-8" : "text/plain");
+    response_.set(http::field::cache_control, "no-store");
+    response_.set("Content-Security-Policy", kPolicy);
+    response_.set("X-Content-Type-Options", "nosniff");
+    response_.set("Referrer-Policy", "no-referrer");
+    response_.body() = isPage ? body : body + "\n";
+    response_.prepare_payload();
+    stream_.expires_after(kRequestTimeout);
+    http::async_write(stream_, response_, [self = shared_from_this()](ErrorCode, size_t) {
+      ErrorCode ignored;
+      self->stream_.socket().shutdown(Tcp::socket::shutdown_send, ignored);
+    });
+  }
+
+  Impl& server_;
+  beast::tcp_stream stream_;
+  beast::flat_buffer buffer_;
+  http::request_parser<http::empty_body> parser_;
+  Response response_;
+};
+
+ViewServer::Impl::~Impl() {
+  post([this] {
+    isClosing_ = true;
+    ErrorCode ignored;
+    acceptor_.close(ignored);
+    for (auto& [id, client] : clients_) client->drop();
+    clients_.clear();
+    io_.stop();
+  });
+  thread_.join();
+}
+
+void ViewServer::Impl::send(ClientId id, std::string text) {
+  post([this, id, text = std::make_shared<const std::string>(std::move(text))] {
+    if (const auto found = clients_.find(id); found != clients_.end()) found->second->add(text);
+  });
+}
+
+void ViewServer::Impl::sendNewest(ClientId id, uint32_t slot, std::shared_ptr<const Bytes> bytes) {
+  post([this, id, slot, bytes = std::move(bytes)] {
+    if (const auto found = clients_.find(id); found != clients_.end())
+      found->second->replace(slot, bytes);
+  });
+}
+
+void ViewServer::Impl::accept() {
+  acceptor_.async_accept([this](ErrorCode error, Tcp::socket socket) {
+    if (isClosing_) return;
+    if (!error) std::make_shared<Connection>(*this, std::move(socket))->begin();
+    accept();
+  });
+}
+
+ViewServer::ViewServer(const ViewServerOptions& options, ViewServerEvents events)
+    : impl_(std::make_unique<Impl>(options, std::move(events))) {}
+ViewServer::~ViewServer() = default;
+uint16_t ViewServer::port() const { return impl_->port(); }
+std::string ViewServer::url() const { return impl_->url(); }
+void ViewServer::send(ClientId client, std::string text) { impl_->send(client, std::move(text)); }
+void ViewServer::sendNewest(ClientId client, uint32_t slot, std::shared_ptr<const Bytes> bytes) {
+  impl_->sendNewest(client, slot, std::move(bytes));
+}
+
+}  // namespace restlab

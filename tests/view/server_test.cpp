@@ -1,0 +1,300 @@
+// The viewer's server from outside: who is let in, what clients get, and what ends them.
+#include "experiments/view/server.h"
+
+#include <gtest/gtest.h>
+
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/write.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <chrono>
+#include <condition_variable>
+#include <cstring>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+
+namespace restlab {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using Tcp = asio::ip::tcp;
+using ErrorCode = boost::system::error_code;
+
+constexpr std::chrono::seconds kPatience{20};
+constexpr const char* kUpgrade =
+    "Connection: upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
+    "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n";
+
+// A server and what it has heard.
+class ViewServerTest : public ::testing::Test {
+ protected:
+  void start(const ViewServerOptions& given = {}) {
+    ViewServerOptions options = given;
+    options.page = "<!doctype html><title>the page</title>";
+    ViewServerEvents events;
+    events.opened = [this](ClientId id) { note([&] { opened_.push_back(id); }); };
+    events.closed = [this](ClientId id) { note([&] { closed_.push_back(id); }); };
+    events.said = [this](ClientId, const std::string& text) {
+      note([&] { said_.push_back(text); });
+    };
+    server_ = std::make_unique<ViewServer>(options, events);
+    token_ = server_->url().substr(server_->url().find("token=") + 6);
+  }
+
+  template <class Change>
+  void note(const Change& change) {
+    {
+      const std::lock_guard lock(mutex_);
+      change();
+    }
+    heard_.notify_all();
+  }
+
+  template <class Holds>
+  bool waitFor(const Holds& holds) {
+    std::unique_lock lock(mutex_);
+    return heard_.wait_for(lock, kPatience, holds);
+  }
+
+  Tcp::socket connect() {
+    Tcp::socket socket(io_);
+    socket.connect({asio::ip::make_address("127.0.0.1"), server_->port()});
+    return socket;
+  }
+
+  // What comes back for bytes, until the server ends the connection.
+  std::string answerTo(const std::string& bytes) {
+    Tcp::socket socket = connect();
+    ErrorCode error;
+    asio::write(socket, asio::buffer(bytes), error);
+    std::string answer;
+    char part[4096];
+    while (!error) answer.append(part, socket.read_some(asio::buffer(part), error));
+    return answer;
+  }
+
+  // Its status and its body.
+  std::pair<int, std::string> get(const std::string& target, const std::string& headers = "") {
+    const std::string host =
+        headers.find("Host:") == std::string::npos ? "Host: localhost\r\n" : "";
+    const std::string answer =
+        answerTo("GET " + target + " HTTP/1.1\r\n" + host + headers + "\r\n");
+    if (answer.size() < 12) return {0, answer};
+    return {std::stoi(answer.substr(9)), answer.substr(answer.find("\r\n\r\n") + 4)};
+  }
+
+  using Socket = websocket::stream<Tcp::socket>;
+  std::unique_ptr<Socket> open(const std::string& target, const std::string& origin = "") {
+    auto socket = std::make_unique<Socket>(connect());
+    if (!origin.empty()) {
+      socket->set_option(
+          websocket::stream_base::decorator([origin](websocket::request_type& request) {
+            request.set(http::field::origin, origin);
+          }));
+    }
+    websocket::response_type response;
+    ErrorCode error;
+    socket->handshake(response, "localhost", target, error);
+    if (error) return nullptr;
+    return socket;
+  }
+  std::unique_ptr<Socket> open() { return open("/socket?token=" + token_); }
+
+  std::string read(Socket& socket) {
+    beast::flat_buffer buffer;
+    socket.read(buffer);
+    return beast::buffers_to_string(buffer.data());
+  }
+
+  asio::io_context io_;
+  std::string token_;
+  std::mutex mutex_;
+  std::condition_variable heard_;
+  std::vector<ClientId> opened_, closed_;
+  std::vector<std::string> said_;
+  std::unique_ptr<ViewServer> server_;  // the first to go: it calls back
+};
+
+TEST_F(ViewServerTest, GivesThePageToWhoKnowsTheToken) {
+  start();
+  EXPECT_EQ(server_->url().rfind("http://127.0.0.1:", 0), 0u) << server_->url();
+  EXPECT_EQ(token_.size(), 32u);
+  const std::string answer =
+      answerTo("GET /?token=" + token_ + " HTTP/1.1\r\nHost: 127.0.0.1:1234\r\n\r\n");
+  EXPECT_EQ(answer.rfind("HTTP/1.1 200 ", 0), 0u) << answer;
+  EXPECT_NE(answer.find("default-src 'none'"), std::string::npos) << answer;
+  EXPECT_NE(answer.find("<title>the page</title>"), std::string::npos) << answer;
+}
+
+TEST_F(ViewServerTest, RefusesInOneLineWithItsStatus) {
+  start();
+  struct Case {
+    const char* what;
+    std::string target, headers;
+    int status;
+    const char* says;
+  };
+  const std::string page = "/?token=" + token_, socket = "/socket?token=" + token_;
+  const std::string upgrade = kUpgrade;
+  std::string wrong = token_;
+  wrong.back() = wrong.back() == '0' ? '1' : '0';
+  const Case cases[] = {
+      {"no token", "/", "", 403, "token"},
+      {"a wrong token", "/?token=" + wrong, "", 403, "token"},
+      {"a part of the token", "/?token=" + token_.substr(1), "", 403, "token"},
+      {"a wrong token of a socket", "/socket?token=" + wrong, upgrade, 403, "token"},
+      {"another host's name", page, "Host: evil.example\r\n", 403, "Host"},
+      {"another page", page, "Origin: http://evil.example\r\n", 403, "Origin"},
+      {"a socket of another page", socket, upgrade + "Origin: http://evil.example\r\n", 403,
+       "Origin"},
+      {"a file", "/etc/passwd?token=" + token_, "", 404, "/socket"},
+      {"a path upwards", "/../../etc/passwd?token=" + token_, "", 404, "/socket"},
+      {"an escaped path upwards", "/%2e%2e/%2e%2e/etc/passwd?token=" + token_, "", 404, "/socket"},
+      {"a socket as a page", socket, "", 400, "WebSocket"},
+      {"a page as a socket", page, upgrade, 400, "WebSocket"},
+      {"long headers", page, "X: " + std::string(20000, 'x') + "\r\n", 431, "too long"},
+  };
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.what);
+    const auto [status, body] = get(c.target, c.headers);
+    EXPECT_EQ(status, c.status);
+    EXPECT_NE(body.find(c.says), std::string::npos) << body;
+    EXPECT_EQ(std::count(body.begin(), body.end(), '\n'), 1) << body;
+  }
+  const std::string posted =
+      answerTo("POST " + page + " HTTP/1.1\r\nHost: localhost\r\nContent-Length: 0\r\n\r\n");
+  EXPECT_EQ(posted.rfind("HTTP/1.1 405 ", 0), 0u) << posted;
+  const std::string garbage = answerTo(std::string("\0\1\2garbage\r\n\r\n", 15));
+  EXPECT_EQ(garbage.rfind("HTTP/1.1 400 ", 0), 0u) << garbage;
+  EXPECT_EQ(get(page).first, 200) << "it goes on serving";
+}
+
+TEST_F(ViewServerTest, TalksWithSeveralPages) {
+  start();
+  const auto first = open("/socket?token=" + token_, "http://localhost"), second = open();
+  ASSERT_TRUE(first && second);
+  first->write(asio::buffer(std::string("hello")));
+  ASSERT_TRUE(waitFor([&] { return opened_.size() == 2 && said_.size() == 1; }));
+  EXPECT_EQ(said_[0], "hello");
+  for (const ClientId id : opened_) server_->send(id, "to " + std::to_string(id));
+  EXPECT_EQ(read(*first), "to " + std::to_string(opened_[0]));
+  EXPECT_EQ(read(*second), "to " + std::to_string(opened_[1]));
+  first->close(websocket::close_code::normal);
+  ASSERT_TRUE(waitFor([&] { return closed_.size() == 1; }));
+  EXPECT_EQ(closed_[0], opened_[0]);
+  server_->send(opened_[0], "nobody hears it");
+  server_->send(opened_[1], "still there");
+  EXPECT_EQ(read(*second), "still there");
+}
+
+TEST_F(ViewServerTest, LimitsThePages) {
+  ViewServerOptions options;
+  options.mostClients = 2;
+  start(options);
+  const auto first = open(), second = open();
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(open(), nullptr);
+  EXPECT_EQ(get("/socket?token=" + token_, kUpgrade).first, 503);
+}
+
+TEST_F(ViewServerTest, EndsWhoSendsWhatIsNoText) {
+  start();
+  const std::string large(70000, 'x');
+  for (const bool isLarge : {false, true}) {
+    const auto socket = open();
+    ASSERT_TRUE(socket);
+    ErrorCode error;
+    socket->binary(!isLarge);
+    socket->write(isLarge ? asio::buffer(large) : asio::buffer(large.data(), 4), error);
+    beast::flat_buffer buffer;
+    socket->read(buffer, error);
+    // Of what is too long the server reads no more, which may end the connection first.
+    EXPECT_TRUE(error) << isLarge;
+    if (!isLarge) {
+      EXPECT_EQ(error, websocket::error::closed) << error.message();
+      EXPECT_EQ(socket->reason().code, websocket::close_code::bad_payload);
+    }
+  }
+  // Half a frame, then nothing.
+  {
+    const auto socket = open();
+    ASSERT_TRUE(socket);
+    asio::write(socket->next_layer(), asio::buffer("\x81\xfe\x10", 3));
+    socket->next_layer().close();
+  }
+  ASSERT_TRUE(waitFor([&] { return closed_.size() == 3; }));
+  EXPECT_TRUE(said_.empty());
+  EXPECT_EQ(get("/?token=" + token_).first, 200);
+}
+
+// Slots that were overtaken are left out; the last one comes.
+TEST_F(ViewServerTest, GivesASlowPageFewerFramesAndNotOlderOnes) {
+  start();
+  const auto socket = open();
+  ASSERT_TRUE(socket);
+  ASSERT_TRUE(waitFor([&] { return opened_.size() == 1; }));
+  constexpr uint32_t kFrames = 300;
+  for (uint32_t frame = 1; frame <= kFrames; ++frame) {
+    auto bytes = std::make_shared<Bytes>(1 << 20);
+    std::memcpy(bytes->data(), &frame, sizeof frame);
+    server_->sendNewest(opened_[0], frame % 2, bytes);
+  }
+  server_->send(opened_[0], "the end");
+  uint32_t last[2] = {0, 0}, count = 0;
+  for (;;) {
+    beast::flat_buffer buffer;
+    socket->read(buffer);
+    if (socket->got_text()) break;
+    uint32_t frame = 0;
+    std::memcpy(&frame, buffer.data().data(), sizeof frame);
+    EXPECT_GT(frame, last[frame % 2]);
+    last[frame % 2] = frame;
+    ++count;
+  }
+  EXPECT_EQ(last[0], kFrames);
+  EXPECT_EQ(last[1], kFrames - 1);
+  EXPECT_LT(count, kFrames / 2) << "what is sent to nobody who reads is not kept";
+}
+
+TEST_F(ViewServerTest, LetsGoWhoDoesNotRead) {
+  ViewServerOptions options;
+  options.mostWaiting = 16;
+  start(options);
+  const auto socket = open();
+  ASSERT_TRUE(socket);
+  ASSERT_TRUE(waitFor([&] { return opened_.size() == 1; }));
+  for (int i = 0; i < 100; ++i) server_->send(opened_[0], std::string(1 << 20, 'x'));
+  EXPECT_TRUE(waitFor([&] { return closed_.size() == 1; }));
+}
+
+TEST(ViewServerPorts, ThatAreTakenAreSaid) {
+  const ViewServerEvents nobody = {[](ClientId) {}, [](ClientId) {},
+                                   [](ClientId, const std::string&) {}};
+  const ViewServer server({}, nobody);
+  const auto errorOf = [&](const ViewServerOptions& options) {
+    try {
+      const ViewServer other(options, nobody);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::badUsage);
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  ViewServerOptions same, nowhere, words;
+  same.port = server.port();
+  nowhere.listen = "192.0.2.1";  // of documents, of no machine
+  words.listen = "everywhere";
+  EXPECT_NE(errorOf(same).find("is taken"), std::string::npos);
+  EXPECT_NE(errorOf(nowhere).find("192.0.2.1:0: cannot listen there"), std::string::npos);
+  EXPECT_NE(errorOf(words).find("--listen everywhere: is no address"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace restlab
