@@ -16,6 +16,7 @@ bool readGltf(const uint8_t* bytes, size_t count);     // .gltf or .glb, up to t
 bool readSuite(const uint8_t* bytes, size_t count);    // .toml
 bool readHdr(const uint8_t* bytes, size_t count);      // an environment, .hdr
 bool readExr(const uint8_t* bytes, size_t count);      // .exr
+bool readCommand(const uint8_t* bytes, size_t count);  // of a page to the viewer
 bool readTexture(const uint8_t* bytes, size_t count);  // PNG or JPEG
 
 }  // namespace restlab::fuzz

@@ -52,6 +52,18 @@ def jpeg(width, height, scan, progressive=False):
 PNG_RGBA = png(2, 1, 8, 6, b"\0" + bytes([255, 0, 0, 255, 0, 255, 0, 128]))
 
 
+def commands():
+    camera = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4, 5, 6, 1]
+    write("command", "read-set", json.dumps({"do": "set", "pane": 0, "key": "mode", "value": "biased"}))
+    write("command", "read-parameter", json.dumps({"do": "parameter", "pane": 1, "name": "x", "value": 0.5}))
+    write("command", "read-camera", json.dumps({"do": "camera", "to_world": camera, "yfov": 0.7}))
+    write("command", "read-resolution", json.dumps({"do": "resolution", "width": 640, "height": 360}))
+    write("command", "unknown", json.dumps({"do": "open", "file": "/etc/passwd"}))
+    write("command", "scaled-camera", json.dumps({"do": "camera", "to_world": [2] + camera[1:]}))
+    write("command", "deep", "[" * 2000)
+    write("command", "bytes", bytes(range(256)))
+
+
 def textures():
     write("texture", "read-rgba.png", PNG_RGBA)
     write("texture", "read-rgb-filters.png",
@@ -343,5 +355,5 @@ method = [{}, { name = "b", integrator = "restir_gi", mode = "unbiased" }]
     write("suite", "bytes.toml", bytes(range(256)))
 
 
-for make in (textures, environments, images, scenes, suites):
+for make in (textures, environments, images, scenes, suites, commands):
     make()

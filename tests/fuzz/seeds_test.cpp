@@ -44,7 +44,8 @@ TEST_P(Seeds, AreReadOrRefused) {
 INSTANTIATE_TEST_SUITE_P(All, Seeds,
                          ::testing::Values(Target{"gltf", readGltf}, Target{"suite", readSuite},
                                            Target{"hdr", readHdr}, Target{"exr", readExr},
-                                           Target{"texture", readTexture}),
+                                           Target{"texture", readTexture},
+                                           Target{"command", readCommand}),
                          [](const auto& target) { return std::string(target.param.name); });
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/scene/light_factor.h"
 #include "core/error.h"
 #include "core/method.h"
 #include "core/method_settings.h"
@@ -130,6 +131,19 @@ PreparedScene prepareScene(const SceneRequest& request, std::optional<Environmen
   prepared.scene = CompiledScene::build(std::move(scene));
   const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
   prepared.loadTimeMs = spent.count();
+  return prepared;
+}
+
+PreparedScene withLights(const PreparedScene& loaded,
+                         const std::shared_ptr<const CompiledScene>& scene,
+                         const std::string& words) {
+  PreparedScene prepared = loaded;
+  prepared.scene = scene;
+  const std::vector<float> factors = lightFactors(scene->source());
+  if (factors.empty()) return prepared;
+  prepared.contentHash =
+      XXH3_64bits_withSeed(factors.data(), factors.size() * sizeof(float), loaded.contentHash);
+  prepared.lights = words;
   return prepared;
 }
 

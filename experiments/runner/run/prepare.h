@@ -42,6 +42,12 @@ PreparedScene prepareScene(const SceneRequest& request);
 std::optional<EnvironmentMap> readEnvironment(const SceneRequest& request);
 PreparedScene prepareScene(const SceneRequest& request, std::optional<EnvironmentMap> environment);
 
+// The same scene, compiled with other factors of its lights (core/scene/light_factor.h); `words`
+// say which. `loaded` is as it was loaded.
+PreparedScene withLights(const PreparedScene& loaded,
+                         const std::shared_ptr<const CompiledScene>& scene,
+                         const std::string& words);
+
 // Another camera of the same scene; throws badUsage where there is none.
 void chooseCamera(PreparedScene& prepared, const std::string& nameOrIndex);
 

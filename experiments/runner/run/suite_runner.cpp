@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <chrono>
 #include <cstdio>
 #include <exception>
+#include <fstream>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -34,6 +37,29 @@ namespace restlab {
 namespace fs = std::filesystem;
 
 namespace {
+
+// The share of all cores' time that was not idle over a quarter of a second; 0 where the system
+// does not tell. The load would hold the build that has just ended.
+double busyShare() {
+  const auto times = [] {
+    std::ifstream stat("/proc/stat");
+    std::string word;
+    stat >> word;
+    std::array<double, 2> idleAndAll{};
+    for (int i = 0; i < 8; ++i) {  // user nice system idle iowait irq softirq steal
+      double ticks = 0.0;
+      stat >> ticks;
+      if (i == 3 || i == 4) idleAndAll[0] += ticks;
+      idleAndAll[1] += ticks;
+    }
+    return idleAndAll;
+  };
+  const auto before = times();
+  std::this_thread::sleep_for(std::chrono::milliseconds(250));
+  const auto after = times();
+  const double all = after[1] - before[1];
+  return all > 0.0 ? 1.0 - (after[0] - before[0]) / all : 0.0;
+}
 
 // summary.csv, table.md and the images belong to one run: what an earlier one left would pass for
 // this one's where this one ends early. results.jsonl says of every line which run it is of.
@@ -396,7 +422,7 @@ class SuiteRun {
                {"argv", request_.argv},
                {"methods", methodNames()},
                {"started", started_},
-               {"load_at_start", loadAtStart_},
+               {"busy_at_start", busyAtStart_},
                {"written", utcNow()},
                {"build", buildJson()},
                {"machine", machineJson()},
@@ -411,7 +437,7 @@ class SuiteRun {
   const std::vector<Suite>& points_;
   const SuiteRequest& request_;
   std::string started_;
-  double loadAtStart_ = machineJson()["load_1min"].get<double>();
+  double busyAtStart_ = busyShare();  // of the machine, by others
   Outputs outputs_;
   JobStore store_;
   std::optional<FolderLock> lock_;

@@ -1,8 +1,6 @@
 #include "experiments/runner/suite/light_events.h"
 
 #include <fmt/format.h>
-#include <xxhash.h>
-
 #include <algorithm>
 
 #include "core/error.h"
@@ -105,17 +103,14 @@ std::vector<LightPhase> lightPhases(const Suite& suite, const PreparedScene& pre
     const std::vector<float> factors = lightFactors(scene);
     const auto same = std::find_if(known.begin(), known.end(),
                                    [&](const auto& other) { return other.first == factors; });
-    if (!factors.empty()) {
-      phase.prepared.contentHash = XXH3_64bits_withSeed(
-          factors.data(), factors.size() * sizeof(float), prepared.contentHash);
-      phase.prepared.lights = eventsText(suite.events, event.frame);
-    }
+    std::shared_ptr<const CompiledScene> compiled;
     if (same != known.end()) {
-      phase.prepared.scene = phases[same->second].prepared.scene;
+      compiled = phases[same->second].prepared.scene;
     } else {
-      phase.prepared.scene = CompiledScene::build(scene);
+      compiled = CompiledScene::build(scene);
       known.emplace_back(factors, phases.size());
     }
+    phase.prepared = withLights(prepared, compiled, eventsText(suite.events, event.frame));
     phases.push_back(std::move(phase));
   }
   return phases;

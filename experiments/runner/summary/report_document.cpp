@@ -428,13 +428,11 @@ Json warningsOf(const Json& record) {
     warnings.push_back(
         fmt::format("Not finished ({}): what follows is of the runs that were.", status));
   }
-  const double load = record.value("load_at_start", 0.0);
-  const Json& cores = record.at("machine").at("cores");
-  if (load > 0.5 * cores.get<double>()) {
+  const double busy = record.value("busy_at_start", 0.0);
+  if (busy > 0.2) {
     warnings.push_back(fmt::format(
-        "The machine was busy when the suite began: a load of {:.1f} on {} cores. Times "
-        "may be too long.",
-        load, cores.dump()));
+        "Other programs took {:.0f} % of the machine when the suite began: times may be too long.",
+        100.0 * busy));
   }
   return warnings;
 }

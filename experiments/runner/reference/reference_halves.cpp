@@ -1,0 +1,104 @@
+#include "experiments/runner/reference/reference_halves.h"
+
+#include <xxhash.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "experiments/runner/suite/backend_choice.h"
+
+namespace restlab {
+
+namespace {
+
+// The seeds of the halves are far from those that methods are run with.
+uint32_t halfSeed(uint32_t seed, uint32_t half) {
+  const uint32_t words[3] = {seed, half, 0x72656665u};
+  return uint32_t(XXH3_64bits(words, sizeof(words)));
+}
+
+SessionConfig halfOf(const PreparedScene& prepared, const ReferenceConfig& config, uint32_t seed,
+                     uint32_t half) {
+  SessionConfig session = referenceSession(prepared, config);
+  session.seed = halfSeed(seed, half);
+  return session;
+}
+
+void startAfter(const ImageSum& half, Session& session) {
+  if (half.count() > 0) session.reset(session.config().seed, uint32_t(half.count()));
+}
+
+void addName(std::vector<std::string>& names, const std::string& name) {
+  if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+}
+
+}  // namespace
+
+SessionConfig referenceSession(const PreparedScene& prepared, const ReferenceConfig& config) {
+  SessionConfig session;
+  session.integrator = "path";
+  session.mode = findIntegrator("path").modes.front().name;
+  session.width = config.width;
+  session.height = config.height;
+  session.camera = prepared.camera;
+  session.maxBounces = config.maxBounces;
+  session.components = config.components;
+  session.pixelFilter = config.pixelFilter;
+  session.multiscatter = config.multiscatter;
+  session.russianRoulette = false;
+  session.threads = config.threads;
+  session.backend = config.backend;
+  session.device = config.device;
+  session.rayTracing = config.rayTracing;
+  session.validate = config.validate;
+  return session;
+}
+
+double estimateRelmse(const ImageSum& a, const ImageSum& b) {
+  // The difference of the halves has the variance s^2 (1/n0 + 1/n1), their mean s^2 / (n0 + n1).
+  const Image half0 = a.mean(), half1 = b.mean(), mean = ImageSum::meanOfBoth(a, b);
+  const double n0 = double(a.count()), n1 = double(b.count());
+  const double factor = n0 * n1 / ((n0 + n1) * (n0 + n1));
+  double sum = 0.0;
+  for (size_t i = 0; i < mean.pixels.size(); ++i) {
+    const glm::dvec3 d = glm::dvec3(half0.pixels[i]) - glm::dvec3(half1.pixels[i]);
+    const glm::dvec3 r(mean.pixels[i]);
+    const glm::dvec3 relative = factor * d * d / (r * r + 1e-2);
+    sum += relative.x + relative.y + relative.z;
+  }
+  return sum / (3.0 * double(mean.pixels.size()));
+}
+
+ReferenceHalves::ReferenceHalves(const PreparedScene& prepared, const ReferenceConfig& config,
+                                 ReferenceState& state, size_t hostBytesPerPixel)
+    : first_(prepared.scene, halfOf(prepared, config, state.id.seed, 0), hostBytesPerPixel),
+      second_(prepared.scene, halfOf(prepared, config, state.id.seed, 1)),
+      state_(state) {
+  logStartup(first_);
+  if (const SceneCamera* camera = cameraInsteadOf(prepared, config)) {
+    first_.setCamera(*camera);
+    second_.setCamera(*camera);
+  }
+  startAfter(state.half0, first_);
+  startAfter(state.half1, second_);
+  addName(state.devices, first_.device());
+  addName(state.rayTracing, first_.rayTracing());
+}
+
+void ReferenceHalves::addSample() {
+  const auto start = std::chrono::steady_clock::now();
+  const bool isFirst = state_.half0.count() == state_.half1.count();
+  Session& half = isFirst ? first_ : second_;
+  const FrameStats stats = half.frame();
+  const Image& frame = half.radiance();
+  // From here on nothing fails: a state that is kept holds whole samples.
+  (isFirst ? state_.half0 : state_.half1).add(frame);
+  state_.squares.addSquares(frame);
+  state_.health.add(stats);
+  if (RelmseChecks::isDue(state_.spp()))
+    state_.checks.add(estimateRelmse(state_.half0, state_.half1));
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+  state_.timeS += spent.count();
+}
+
+}  // namespace restlab

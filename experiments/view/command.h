@@ -1,0 +1,67 @@
+// What a page asks of the viewer: one JSON object a message, {"do": NAME, ...}.
+//
+//   set         pane, key, value     a setting of a method: integrator, mode, cache, denoiser,
+//   backend parameter   pane, name, value    one of the method's parameters; value null: its
+//   default camera      to_world, yfov?      16 numbers, column by column, rigid; metres, radians
+//   resolution  width, height        pixels
+//   light       name, factor         on the radiance of a light of the scene
+//   layer       pane, name           a layer of the method over its image; "": none
+//   probe       pane, x, y           what the pane keeps of a pixel
+//   pause       on                   panes stand; the reference goes on
+//   restart                          histories begin anew, with the next seed
+//
+// Panes are numbered from 0. What a method or a scene does not know, whoever runs the command says;
+// here numbers are finite and bounded, and texts short.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "core/part.h"
+
+namespace restlab {
+
+struct SetSetting {
+  uint32_t pane = 0;
+  std::string key, value;
+};
+struct SetParameter {
+  uint32_t pane = 0;
+  std::string name;
+  std::optional<ParameterValue> value;  // nothing: the default
+};
+struct MoveCamera {
+  std::array<double, 16> toWorld{};  // column by column
+  std::optional<double> yfov;
+};
+struct Resize {
+  uint32_t width = 0, height = 0;
+};
+struct SetLight {
+  std::string name;
+  double factor = 1.0;
+};
+struct ShowLayer {
+  uint32_t pane = 0;
+  std::string name;
+};
+struct Probe {
+  uint32_t pane = 0, x = 0, y = 0;
+};
+struct Pause {
+  bool on = true;
+};
+struct Restart {};
+
+using ViewCommand = std::variant<SetSetting, SetParameter, MoveCamera, Resize, SetLight, ShowLayer,
+                                 Probe, Pause, Restart>;
+
+constexpr uint32_t kMostPanes = 2;
+
+// Throws Error (badUsage) with one line: what is wrong and what would be right.
+ViewCommand parseViewCommand(const std::string& text);
+
+}  // namespace restlab

@@ -1,0 +1,46 @@
+// The reference of what a viewer shows. It converges while nothing else is to do, goes on from the
+// progress that other programs have kept of it, and is kept for them.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "experiments/runner/reference/reference_halves.h"
+#include "experiments/runner/reference/reference_progress.h"
+
+namespace restlab {
+
+class LiveReference {
+ public:
+  explicit LiveReference(const ReferenceStore& store) : store_(store) {}
+  // Keeps what there is.
+  ~LiveReference();
+  LiveReference(const LiveReference&) = delete;
+  LiveReference& operator=(const LiveReference&) = delete;
+
+  // From here on of this picture; nothing is rendered yet. `prepared` must live until the next.
+  void begin(const PreparedScene& prepared, const ReferenceConfig& config);
+  // The next sample of every pixel, for one half and then for the other.
+  void addSample();
+
+  uint64_t spp() const { return state_.spp(); }
+  // Both halves have a sample, as the rest needs.
+  bool isThere() const { return state_.half1.count() > 0; }
+  Image mean() const { return ImageSum::meanOfBoth(state_.half0, state_.half1); }
+  Image half0() const { return state_.half0.mean(); }
+  Image half1() const { return state_.half1.mean(); }
+  double relmse() const { return estimateRelmse(state_.half0, state_.half1); }
+
+ private:
+  void keep();
+
+  const ReferenceStore store_;
+  const PreparedScene* prepared_ = nullptr;
+  ReferenceConfig config_;
+  ReferenceState state_;
+  // Of the scene's own cameras: those of a camera that somebody moves are seen once.
+  std::optional<ReferenceProgress> progress_;
+  std::optional<ReferenceHalves> halves_;  // from the first sample on
+};
+
+}  // namespace restlab

@@ -1,0 +1,204 @@
+// Panes and reference of the viewer, without its page: turns, changes, numbers.
+#include "experiments/view/live_view.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.h"
+#include "core/image/metrics.h"
+#include "core/scene/compiled_scene.h"
+#include "tests/runner/temporary_folder.h"
+
+namespace restlab {
+namespace {
+
+class LiveViewTest : public TemporaryFolder {
+ protected:
+  static SessionConfig configOf(const std::string& integrator,
+                                const std::string& denoiser = "none") {
+    SessionConfig config;
+    config.integrator = integrator;
+    config.denoiser = denoiser;
+    config.width = 24;
+    config.height = 16;
+    config.maxBounces = 3;
+    config.threads = 1;
+    return config;
+  }
+  static PreparedScene box() {
+    SceneRequest request;
+    request.scene = "cornell-box";
+    return prepareScene(request);
+  }
+  LiveView open(const ReferenceStore& store = {}) {
+    return {box(), {configOf("restir_gi"), configOf("path", "accumulate")}, store};
+  }
+  static std::vector<glm::vec3> pixels(const Session& session) { return session.radiance().pixels; }
+  std::string errorOf(LiveView& view, const ViewCommand& command) {
+    const uint64_t before = view.epoch();
+    try {
+      view.apply(command);
+    } catch (const Error& error) {
+      EXPECT_EQ(view.epoch(), before) << "a command that fails changes nothing";
+      return error.what();
+    }
+    return "none";
+  }
+};
+
+TEST_F(LiveViewTest, PanesRenderWhatSessionsDo) {
+  LiveView view = open();
+  Session gi(box().scene, configOf("restir_gi")), path(box().scene, configOf("path", "accumulate"));
+  for (int frame = 0; frame < 3; ++frame) {
+    view.renderFrames();
+    gi.frame();
+    path.frame();
+  }
+  EXPECT_EQ(pixels(view.session(0)), pixels(gi));
+  EXPECT_EQ(pixels(view.session(1)), pixels(path));
+  EXPECT_GT(view.stats(0).raysPath, 0u);
+}
+
+TEST_F(LiveViewTest, NumbersAreThoseOfTheFramesSinceTheReferenceWasThere) {
+  LiveView view = open();
+  view.renderFrames();
+  EXPECT_EQ(view.error(0).frames(), 0u);
+  for (int sample = 0; sample < 8; ++sample) view.refineReference();
+  ASSERT_TRUE(view.reference().isThere());
+  EXPECT_EQ(view.reference().spp(), 8u);
+  EXPECT_GT(view.reference().relmse(), 0.0);
+  double sum = 0.0;
+  for (int frame = 0; frame < 4; ++frame) {
+    view.renderFrames();
+    sum += mseAgainstHalves(view.session(1).radiance(), view.reference().half0(),
+                            view.reference().half1());
+  }
+  EXPECT_EQ(view.error(1).frames(), 4u);
+  EXPECT_DOUBLE_EQ(view.error(1).mse().value, sum / 4.0);
+  EXPECT_TRUE(std::isnan(view.error(1).mse().lo)) << "four frames of a history say little";
+  EXPECT_NEAR(view.error(1).energyRatio().value, 1.0, 0.5);
+}
+
+TEST_F(LiveViewTest, EveryChangeBeginsTheNumbersAnew) {
+  LiveView view = open();
+  view.refineReference();
+  view.refineReference();
+  SceneCamera camera = view.camera();
+  MoveCamera move;
+  for (int i = 0; i < 16; ++i) move.toWorld[size_t(i)] = camera.cameraToWorld[i / 4][i % 4];
+  move.toWorld[12] += 0.1;
+  const std::pair<ViewCommand, bool> changes[] = {
+      // And whether the reference is of another picture.
+      {SetSetting{0, "mode", "biased"}, false},
+      {SetSetting{1, "denoiser", "svgf"}, false},
+      {SetSetting{0, "cache", "voxel"}, false},
+      {SetParameter{0, "confidence_cap", ParameterValue(int64_t{8})}, false},
+      {SetParameter{0, "confidence_cap", std::nullopt}, false},
+      {Restart{}, false},
+      {move, true},
+      {Resize{20, 12}, true},
+      {SetLight{"all", 0.5}, true},
+  };
+  for (const auto& [command, isAnotherPicture] : changes) {
+    SCOPED_TRACE(command.index());
+    while (!view.reference().isThere()) view.refineReference();
+    view.renderFrames();
+    EXPECT_GT(view.error(0).frames(), 0u);
+    const uint64_t before = view.epoch();
+    view.apply(command);
+    EXPECT_GT(view.epoch(), before);
+    EXPECT_EQ(view.error(0).frames(), 0u);
+    EXPECT_EQ(view.error(1).frames(), 0u);
+    EXPECT_EQ(view.reference().spp() == 0, isAnotherPicture);
+    view.renderFrames();
+  }
+  EXPECT_EQ(view.session(0).radiance().width, 20u);
+  EXPECT_EQ(view.session(0).config().mode, "biased");
+}
+
+TEST_F(LiveViewTest, AMovedCameraGoesOnWithItsHistory) {
+  LiveView view = open();
+  Session gi(box().scene, configOf("restir_gi"));
+  MoveCamera move;
+  SceneCamera camera = view.camera();
+  for (int frame = 0; frame < 4; ++frame) {
+    if (frame == 2) {
+      for (int i = 0; i < 16; ++i) move.toWorld[size_t(i)] = camera.cameraToWorld[i / 4][i % 4];
+      move.toWorld[13] += 0.2;
+      view.apply(move);
+      camera.cameraToWorld[3][1] += 0.2;
+      gi.setCamera(camera);
+    }
+    view.renderFrames();
+    gi.frame();
+  }
+  EXPECT_EQ(pixels(view.session(0)), pixels(gi));
+}
+
+TEST_F(LiveViewTest, WhatCannotBeDoneChangesNothing) {
+  LiveView view = open();
+  view.renderFrames();
+  EXPECT_NE(errorOf(view, SetSetting{0, "integrater", "path"}).find("did you mean 'integrator'?"),
+            std::string::npos);
+  EXPECT_NE(errorOf(view, SetSetting{0, "integrator", "pth"}).find("'path'"), std::string::npos);
+  EXPECT_NE(errorOf(view, SetSetting{1, "cache", "voxel"}).find("path"), std::string::npos);
+  EXPECT_NE(errorOf(view, SetParameter{0, "confidence_cup", int64_t{3}}).find("'confidence_cap'"),
+            std::string::npos);
+  EXPECT_NE(errorOf(view, SetParameter{0, "confidence_cap", -1.0}).find("confidence_cap"),
+            std::string::npos);
+  EXPECT_NE(errorOf(view, SetLight{"lampe", 2.0}).find("lampe"), std::string::npos);
+  EXPECT_NE(errorOf(view, ShowLayer{0, "agee"}).find("'age'"), std::string::npos);
+  view.renderFrames();
+  Session gi(box().scene, configOf("restir_gi"));
+  gi.frames(2);
+  EXPECT_EQ(pixels(view.session(0)), pixels(gi));
+}
+
+TEST_F(LiveViewTest, AnotherIntegratorKeepsWhatItHas) {
+  LiveView view = open();
+  view.apply(SetParameter{0, "confidence_cap", ParameterValue(int64_t{8})});
+  view.apply(SetSetting{0, "denoiser", "accumulate"});
+  view.apply(SetParameter{0, "accumulate_cap", ParameterValue(5.0)});
+  view.apply(SetSetting{0, "integrator", "path"});
+  EXPECT_EQ(view.session(0).config().parameters.at("accumulate_cap"), ParameterValue(5.0));
+  EXPECT_EQ(view.session(0).config().parameters.count("confidence_cap"), 0u);
+  view.renderFrames();
+}
+
+// Of the scene's own camera, the reference is that of the other programs.
+TEST_F(LiveViewTest, TheReferenceGoesOnFromWhatIsKept) {
+  ReferenceStore store;
+  store.folder = folder();
+  {
+    LiveView view = open(store);
+    for (int sample = 0; sample < 6; ++sample) view.refineReference();
+  }
+  LiveView view = open(store);
+  EXPECT_EQ(view.reference().spp(), 6u);
+  view.refineReference();
+  EXPECT_EQ(view.reference().spp(), 7u);
+  LiveView anew = open();
+  for (int sample = 0; sample < 7; ++sample) anew.refineReference();
+  EXPECT_EQ(view.reference().mean().pixels, anew.reference().mean().pixels);
+}
+
+TEST(RunningErrors, HaveIntervalsOfBatches) {
+  const Image zero(1, 1, glm::vec3(0.0f)), one(1, 1, glm::vec3(1.0f));
+  RunningError error;
+  for (size_t i = 0; i < RunningError::kLeastFrames; ++i)
+    error.add(Image(1, 1, glm::vec3(i % 2 == 0 ? 1.0f : 3.0f)), one, one);
+  EXPECT_DOUBLE_EQ(error.mse().value, 2.0);  // (0 + 4) / 2
+  EXPECT_DOUBLE_EQ(error.mse().lo, 2.0) << "batches of as many of each have no spread";
+  EXPECT_DOUBLE_EQ(error.energyRatio().value, 2.0);
+  for (size_t i = 0; i < RunningError::kLeastFrames; ++i) error.add(one, one, one);
+  EXPECT_DOUBLE_EQ(error.mse().value, 1.0);
+  EXPECT_LT(error.mse().lo, 1.0);
+  EXPECT_GT(error.mse().hi, 1.0);
+  error.restart();
+  EXPECT_EQ(error.frames(), 0u);
+  EXPECT_TRUE(std::isnan(error.mse().value));
+}
+
+}  // namespace
+}  // namespace restlab
