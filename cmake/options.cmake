@@ -32,6 +32,8 @@ string(REGEX MATCH "thread" RESTLAB_TSAN "${RESTLAB_SANITIZE}")
 if(RESTLAB_TSAN)
   # The distribution's TBB is not annotated: the CPU backend runs its tiles on std::jthread instead.
   target_compile_definitions(rl_options INTERFACE RESTLAB_JTHREAD_TILES=1)
+  # Nor does it know the fences between handlers of Boost.Asio, which our one thread does not need.
+  target_compile_definitions(rl_options INTERFACE BOOST_ASIO_DISABLE_FENCED_BLOCK=1)
 endif()
 
 find_program(CCACHE_PROGRAM ccache)
