@@ -17,6 +17,7 @@
 #include "core/backend/stop.h"
 #include "core/backend/vulkan_buffers.h"
 #include "core/backend/vulkan_context.h"
+#include "core/backend/vulkan_recording.h"
 #include "core/backend/vulkan_scene.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -31,29 +32,6 @@ constexpr uint32_t kSlots = 2;  // frames in flight
 constexpr uint32_t kFirstBandPixels = 1u << 18;
 constexpr uint32_t kFirstBandPixelsOfCpu = 1u << 16;
 constexpr double kLongestBandMs = 500.0;  // watchdogs end dispatches of a few seconds
-
-// The rows of workgroups that one dispatch of a pass covers.
-struct Band {
-  uint32_t pass = 0, firstRow = 0, rows = 0;
-};
-
-// A frame's commands, with timestamps around every band.
-struct Recording {
-  std::vector<VkCommandBuffer> commands;  // one a band
-  std::vector<Band> bands;
-  VkQueryPool queries = VK_NULL_HANDLE;
-};
-
-// Which recording serves a frame.
-struct RecordingKey {
-  std::vector<VkPipeline> pipelines;
-  std::vector<std::array<uint32_t, 2>> sizes;  // of the passes
-  auto operator<=>(const RecordingKey&) const = default;
-
-  uint32_t groups(size_t pass, int axis) const {
-    return (sizes[pass][size_t(axis)] + kGlslTile - 1) / kGlslTile;
-  }
-};
 
 // Memory that the host writes before a frame and reads after it.
 struct Slot {

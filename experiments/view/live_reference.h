@@ -2,7 +2,6 @@
 // progress that other programs have kept of it, and is kept for them.
 #pragma once
 
-#include <memory>
 #include <optional>
 
 #include "experiments/runner/reference/reference_halves.h"

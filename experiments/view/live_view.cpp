@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "core/image/metrics.h"
 #include "core/method.h"
 #include "core/method_settings.h"
 #include "core/scene/light_factor.h"

@@ -4,7 +4,6 @@
 
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
-#include <boost/asio/strand.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
@@ -157,7 +156,6 @@ class ViewServer::Impl {
     const bool isSocket = target.path == "/socket";
     if (isSocket != websocket::is_upgrade(request))
       return refuse(http::status::bad_request, "/socket is a WebSocket, and / is none");
-    // Only a browser's page has an origin, and a page is what the socket is for.
     if (isSocket && clients_.size() >= options_.mostClients) {
       return refuse(http::status::service_unavailable,
                     fmt::format("{} pages are open, which is the limit", clients_.size()));
