@@ -1,8 +1,13 @@
 // layers: guides from layers that came with an image.
 #include "core/kernels/guide_data.glsl"
 
+// 0 of the background: no depth, an infinite one, or none of a surface that has a normal.
 RL_FN float layersDisparity(uint slot) {
-  return rlSafeDivide(1.0f, max(gBuffers.depth.data[slot].x, 0.0f));
+  float depth = gBuffers.depth.data[slot].x;
+  vec3 nW = gBuffers.normalW.data[slot];
+  if (dot(nW, nW) == 0.0f) return 0.0f;
+  // What is no number stays none: machines differ in the maximum of it.
+  return depth < 0.0f ? 0.0f : rlSafeDivide(1.0f, depth);
 }
 
 // Pixels on each side that a slope is told by: a layer may be of any point within a pixel.

@@ -32,6 +32,8 @@ RL_FN void averageGather(RL_IN(QuadRef) before, RL_IN(VisibleSurface) here, RL_I
   VisibleSurface there = visibleRead(gBuffers.visibleBefore, gFrame.previousCamera, slot);
   if (!visibleMatchOf(here, nGeoW, there, distanceToCamera, test)) return;
   Average a = averageRead(before, slot);
+  // What has never been finite has no average, which is not a black one.
+  if (!(a.frames > 0.0f)) return;
   sum.mean += a.mean * weight;
   sum.frames += a.frames * weight;
   weights += weight;

@@ -62,6 +62,7 @@ RL_FN float filterLikeness(RL_IN(Around) here, RL_IN(Around) there, float square
   float allowed = squareDeviations * (here.variance + there.variance);
   // Rounding is no difference.
   allowed += 1.0e-10f * (here.luminance * here.luminance + there.luminance * there.luminance);
+  allowed = min(allowed, 1.0e38f);  // of infinities there is no share
   float share = rlSafeDivide(allowed, allowed + 0.5f * difference * difference);
   return allowed > 0.0f ? share * share : 1.0f;
 }

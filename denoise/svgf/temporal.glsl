@@ -27,6 +27,8 @@ RL_FN void svgfGather(RL_IN(Guide) here, RL_IN(FilterSurface) surface, RL_IN(vec
   weight *= svgfLikeness(here, surface, there, x + 0.5f - film.x, y + 0.5f - film.y);
   if (!(weight > 0.0f)) return;
   SvgfHistory h = svgfHistoryRead(gBuffers.historyBefore, slot);
+  // What has never been finite has no history, which is not a black one.
+  if (!(h.frames > 0.0f)) return;
   sum.light += h.light * weight;
   sum.frames += h.frames * weight;
   sum.reflectance += h.reflectance * weight;

@@ -5,6 +5,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include "core/changes/settings.h"
 #include "core/image_denoiser.h"
@@ -97,15 +98,16 @@ std::optional<std::string> findLayer(const std::filesystem::path& file, const La
                         file.string(), kind.name, fmt::join(there(), ", "), kind.name));
 }
 
+// `missing`: the kinds of which it was said that a frame has none.
 LayeredFrame readFrame(const std::filesystem::path& file, const LayeredImage& image,
-                       const DenoiseOptions& options, bool isFirst) {
+                       const DenoiseOptions& options, std::set<std::string>& missing) {
   const std::map<std::string, std::string> named = namedLayers(options.layers);
   LayeredFrame frame;
   for (const LayerKind& kind : layerKinds()) {
     const std::optional<std::string> name = findLayer(file, image, kind, named);
     if (name) {
       frame.*kind.into = image.layers.at(*name);
-    } else if (isFirst) {
+    } else if (missing.insert(kind.name).second) {
       logInfo(fmt::format("{}: no layer for {}: {}", file.string(), kind.name, kind.without));
     }
   }
@@ -132,15 +134,21 @@ void denoise(const DenoiseOptions& options) {
   std::unique_ptr<ImageDenoiser> denoiser;
   HealthSum health;
   double timeMs = 0.0;
+  std::set<std::string> missing;
   Progress progress("frame", files.size());
   for (size_t i = 0; i < files.size(); ++i) {
     throwIfInterrupted("the frames that are left were not written");
     LayeredImage image = readExr(files[i].input, ExrLayers::all);
-    const LayeredFrame frame = readFrame(files[i].input, image, options, i == 0);
+    const LayeredFrame frame = readFrame(files[i].input, image, options, missing);
     if (denoiser == nullptr) {
       config.width = frame.radiance.width;
       config.height = frame.radiance.height;
       denoiser = std::make_unique<ImageDenoiser>(config);
+    }
+    if (frame.radiance.width != config.width || frame.radiance.height != config.height) {
+      failInput(fmt::format("{}: is {}x{}, the frames before it are {}x{}", files[i].input.string(),
+                            frame.radiance.width, frame.radiance.height, config.width,
+                            config.height));
     }
     LayeredImage out;
     out.metadata = image.metadata;

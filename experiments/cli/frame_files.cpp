@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
-#include <map>
+#include <set>
 
 #include "core/error.h"
 
@@ -68,6 +68,22 @@ std::vector<uint64_t> numbersThere(const std::string& text, const Pattern& patte
   return numbers;
 }
 
+// Another frame's input would be read after it was written over; links and other spellings of a
+// folder lead there, too.
+void requireOthers(const std::vector<FrameFiles>& files) {
+  const auto resolved = [](const fs::path& file) {
+    std::error_code error;
+    const fs::path path = fs::weakly_canonical(fs::absolute(file), error);
+    return error ? fs::absolute(file).lexically_normal() : path;
+  };
+  std::set<fs::path> inputs;
+  for (const FrameFiles& frame : files) inputs.insert(resolved(frame.input));
+  for (const FrameFiles& frame : files) {
+    if (inputs.contains(resolved(frame.output)))
+      failUsage(fmt::format("-o {}: is an input", frame.output.string()));
+  }
+}
+
 }  // namespace
 
 std::vector<FrameFiles> frameFiles(const std::string& input, const std::string& output) {
@@ -77,17 +93,19 @@ std::vector<FrameFiles> frameFiles(const std::string& input, const std::string& 
                    [](unsigned char c) { return char(std::tolower(c)); });
     if (extension != ".exr") failUsage(fmt::format("{}: must be named *.exr", text));
   }
-  if (fs::path(input).lexically_normal() == fs::path(output).lexically_normal())
-    failUsage(fmt::format("-o {}: is the input", output));
   const Pattern from = patternOf(input), to = patternOf(output);
   if ((from.digits == 0) != (to.digits == 0))
     failUsage(fmt::format("-o {}: the input {} # for a sequence, so the output must{}", output,
                           from.digits == 0 ? "has no" : "has",
                           from.digits == 0 ? " have none" : ""));
-  if (from.digits == 0) return {{input, output}};
   std::vector<FrameFiles> files;
-  for (const uint64_t number : numbersThere(input, from))
-    files.push_back({fileOf(from, number), fileOf(to, number)});
+  if (from.digits == 0) {
+    files.push_back({input, output});
+  } else {
+    for (const uint64_t number : numbersThere(input, from))
+      files.push_back({fileOf(from, number), fileOf(to, number)});
+  }
+  requireOthers(files);
   return files;
 }
 

@@ -139,8 +139,28 @@ TEST_F(DenoiseTest, ASequenceIsDenoisedInOrder) {
   EXPECT_FALSE(std::filesystem::exists(path("again-008.exr")));
 }
 
+// An output of another pattern may be the input of a later frame.
+TEST_F(DenoiseTest, NoInputIsWrittenOver) {
+  for (const char* name : {"a-9.exr", "a-10.exr"})
+    std::filesystem::copy_file(path("noisy.exr"), path(name));
+  expectError(run("denoise a-#.exr -o a-##.exr"), 2, {"a-10.exr", "is an input"});
+  EXPECT_FALSE(std::filesystem::exists(path("a-09.exr")));
+}
+
+TEST_F(DenoiseTest, FramesOfASequenceAreAlike) {
+  ASSERT_EQ(run("render cornell-box --resolution 16x16 --aov normalW,depth -o b-2.exr").code, 0);
+  ASSERT_EQ(run("render cornell-box --resolution 16x16 --aov normalW,depth,albedo -o b-1.exr").code,
+            0);
+  const ProgramResult finished = run("denoise b-#.exr -o c-#.exr");
+  EXPECT_EQ(finished.code, 0);
+  EXPECT_NE(finished.err.find("b-2.exr: no layer for albedo"), std::string::npos) << finished.err;
+  ASSERT_EQ(run("render cornell-box --resolution 16x8 --aov normalW,depth -o b-2.exr").code, 0);
+  expectError(run("denoise b-#.exr -o c-#.exr"), 3, {"b-2.exr", "16x8", "16x16"});
+}
+
 TEST_F(DenoiseTest, WhatIsWrongIsSaid) {
-  expectError(run("denoise noisy.exr -o noisy.exr"), 2, {"is the input"});
+  expectError(run("denoise noisy.exr -o noisy.exr"), 2, {"is an input"});
+  expectError(run("denoise " + path("noisy.exr").string() + " -o ./noisy.exr"), 2, {"is an input"});
   expectError(run("denoise noisy.exr -o clean.png"), 2, {"clean.png", "*.exr"});
   expectError(run("denoise noisy.exr -o clean-#.exr"), 2, {"#"});
   expectError(run("denoise a-##.exr -o clean-##.exr"), 3, {"a-##.exr", "no such files"});

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/image/metrics.h"
+#include "core/method.h"
 #include "tests/denoise/layered_images.h"
 
 namespace restlab::denoise {
@@ -128,6 +130,52 @@ TEST_P(Filters, WhatIsNotFiniteStaysAPixelsMatter) {
       EXPECT_NEAR(shown.pixels[p].y, 2.0f, 2e-5f) << p;
     }
   }
+}
+
+// Neighbours do not take a pixel without a history for a black one when the image moves.
+TEST_P(Filters, WhatIsNotFiniteLeavesNoBlackHistory) {
+  const glm::uvec2 size = {40, 20};
+  ImageDenoiser denoiser(config(size));
+  LayeredFrame frame;
+  frame.radiance = imageOf(size, [](glm::uvec2) { return glm::vec3(2.0f); });
+  frame.radiance.pixels[5 * 40 + 7].y = std::nanf("");
+  denoiser.frame(frame);
+  frame.radiance.pixels[5 * 40 + 7].y = 2.0f;
+  frame.motion = imageOf(size, [](glm::uvec2) { return glm::vec3(0.5f, 0.0f, 0.0f); });
+  for (int i = 0; i < 2; ++i) {
+    for (const glm::vec3& pixel : denoiser.frame(frame).pixels) EXPECT_NEAR(pixel.y, 2.0f, 2e-5f);
+  }
+}
+
+// Bounds of what is alike may be larger than any number.
+TEST_P(Filters, WideDeviationsOfLargeNumbersStayFinite) {
+  const glm::uvec2 size = {24, 12};
+  SessionConfig wide = config(size);
+  for (const ParameterInfo& parameter : findMethod(wide).parameters()) {
+    if (parameter.name.ends_with("_deviations"))
+      wide.parameters[parameter.name] = parameter.maxValue;
+  }
+  ImageDenoiser denoiser(wide);
+  LayeredFrame frame;
+  frame.radiance = imageOf(size, [](glm::uvec2) { return glm::vec3(1.0f); });
+  frame.radiance.pixels[6 * 24 + 12] = glm::vec3(1.0e19f);
+  EXPECT_EQ(countNonfinite(denoiser.frame(frame)), 0u);
+}
+
+// Other renderers say a large depth where nothing is, and no normal.
+TEST_P(Filters, WhatHasNoNormalIsTheBackground) {
+  const glm::uvec2 size = {32, 16};
+  ImageDenoiser denoiser(config(size));
+  LayeredFrame frame;
+  frame.radiance =
+      imageOf(size, [](glm::uvec2 p) { return glm::vec3(p.x == 8u && p.y == 8u ? 100.0f : 1.0f); });
+  frame.normalW =
+      imageOf(size, [](glm::uvec2 p) { return glm::vec3(p.x < 16u ? 0.0f : 1.0f, 0, 0); });
+  frame.depthMetres =
+      imageOf(size, [](glm::uvec2 p) { return glm::vec3(p.x < 16u ? 1e10f : 2.0f); });
+  EXPECT_EQ(denoiser.frame(frame).pixels[8 * 32 + 8], glm::vec3(100.0f));
+  denoiser.frame(frame);
+  EXPECT_EQ(denoiser.stats().health.counts[rl::RL_HEALTH_NEW_HISTORY], 0u);
 }
 
 TEST_P(Filters, LightsAndTheirNeighboursAreKeptApart) {
