@@ -1,7 +1,7 @@
 // layers: guides from layers that came with an image.
 #include "core/kernels/guide_data.glsl"
 
-// 0 of the background: no depth, an infinite one, or none of a surface that has a normal.
+// 0 of the background, which has no depth, an infinite one, or no normal.
 RL_FN float layersDisparity(uint slot) {
   float depth = gBuffers.depth.data[slot].x;
   vec3 nW = gBuffers.normalW.data[slot];

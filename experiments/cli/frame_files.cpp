@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "experiments/runner/run/files.h"
 
 namespace restlab {
 
@@ -68,18 +69,12 @@ std::vector<uint64_t> numbersThere(const std::string& text, const Pattern& patte
   return numbers;
 }
 
-// Another frame's input would be read after it was written over; links and other spellings of a
-// folder lead there, too.
+// A later frame's input would be read after it was written over.
 void requireOthers(const std::vector<FrameFiles>& files) {
-  const auto resolved = [](const fs::path& file) {
-    std::error_code error;
-    const fs::path path = fs::weakly_canonical(fs::absolute(file), error);
-    return error ? fs::absolute(file).lexically_normal() : path;
-  };
   std::set<fs::path> inputs;
-  for (const FrameFiles& frame : files) inputs.insert(resolved(frame.input));
+  for (const FrameFiles& frame : files) inputs.insert(resolvedPath(frame.input));
   for (const FrameFiles& frame : files) {
-    if (inputs.contains(resolved(frame.output)))
+    if (inputs.contains(resolvedPath(frame.output)))
       failUsage(fmt::format("-o {}: is an input", frame.output.string()));
   }
 }

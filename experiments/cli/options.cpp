@@ -246,15 +246,10 @@ void completeConfig(const PreparedScene& prepared, SessionConfig& config) {
 
 void checkOutputs(const std::vector<OutputFile>& outputs, const SceneRequest& request) {
   std::map<std::filesystem::path, std::string> taken;  // by what it is
-  const auto resolved = [](const std::filesystem::path& file) {
-    std::error_code status;
-    const std::filesystem::path real = std::filesystem::weakly_canonical(file, status);
-    return status ? file : real;
-  };
   for (const auto& [what, name] :
        {std::pair("scene", request.scene), std::pair("environment", request.environment)}) {
     const std::filesystem::path found = findAsset(name);
-    if (!found.empty()) taken.emplace(resolved(found), what);
+    if (!found.empty()) taken.emplace(resolvedPath(found), what);
   }
   for (const OutputFile& output : outputs) {
     const std::string name = output.file.string();
@@ -265,7 +260,7 @@ void checkOutputs(const std::vector<OutputFile>& outputs, const SceneRequest& re
       failUsage(fmt::format("{} {}: must be named *{}{}", output.option, name, output.extension,
                             output.hint));
     }
-    const auto [other, isFree] = taken.emplace(resolved(output.file), output.option);
+    const auto [other, isFree] = taken.emplace(resolvedPath(output.file), output.option);
     if (!isFree) {
       failUsage(fmt::format("{} {}: is the same file as the {}; give it another name",
                             output.option, name, other->second));

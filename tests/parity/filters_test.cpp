@@ -17,7 +17,8 @@ using denoise::noiseAt;
 
 class Filters : public testing::TestWithParam<std::string> {};
 
-// A wall, a floor, the background and a lamp, all noise, under a camera that moves.
+// A wall, a floor, the background and a lamp, all noise, under a camera that moves; and guides that
+// are no numbers.
 LayeredFrame frameOf(glm::uvec2 size, uint32_t frame) {
   LayeredFrame layers;
   const auto isBackground = [](glm::uvec2 p) { return p.y < 6u; };
@@ -34,6 +35,8 @@ LayeredFrame frameOf(glm::uvec2 size, uint32_t frame) {
     if (isBackground(p)) return glm::vec3(0.0f);
     return glm::vec3(isFloor(p) ? 120.0f / float(p.y) : 4.0f);
   });
+  layers.depthMetres.pixels[20 * size.x + 50] = glm::vec3(std::nanf(""));
+  layers.normalW.pixels[22 * size.x + 60] = glm::vec3(std::nanf(""));
   layers.albedo = imageOf(size, [](glm::uvec2 p) {
     return glm::vec3(0.5f + 0.4f * std::sin(float(p.x)), 0.3f, 0.001f);
   });
@@ -60,6 +63,7 @@ TEST_P(Filters, ShowTheSame) {
               << way << ", frame " << i << ", pixel " << p << ", channel " << c;
         }
       }
+      EXPECT_EQ(cpu.stats().health.counts[rl::RL_HEALTH_NONFINITE], 2u);
       EXPECT_EQ(cpu.stats().health.counts, vulkan.stats().health.counts) << "frame " << i;
     }
   }

@@ -59,6 +59,12 @@ fs::path findAsset(const std::string& name) {
   return {};
 }
 
+std::filesystem::path resolvedPath(const std::filesystem::path& name) {
+  std::error_code status;
+  const std::filesystem::path real = std::filesystem::weakly_canonical(name, status);
+  return status ? name : real;
+}
+
 std::string safeFileName(const std::string& name) {
   std::string safe;
   for (const char c : name) {

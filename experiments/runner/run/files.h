@@ -16,6 +16,10 @@ std::filesystem::path findAsset(const std::string& name);
 // The folder of scenes of others: RESTLAB_SCENES, else ../shared/scenes; empty when absent.
 std::filesystem::path sceneFolder();
 
+// The file that a name leads to, through links and other spellings of its folder, whether it is
+// there or not yet.
+std::filesystem::path resolvedPath(const std::filesystem::path& name);
+
 // A name that is safe as part of a file name: letters, digits, '.', '_', '-'.
 std::string safeFileName(const std::string& name);
 
