@@ -148,6 +148,8 @@ Image ImageDenoiser::frame(const LayeredFrame& layers, float radianceFrames) {
   return shown;
 }
 
+const ParameterMap& ImageDenoiser::parameters() const { return impl_->config.parameters; }
+
 const FrameStats& ImageDenoiser::stats() const { return impl_->stats; }
 
 void ImageDenoiser::reset() {

@@ -37,6 +37,8 @@ class ImageDenoiser {
   Image frame(const LayeredFrame& layers, float radianceFrames = 1.0f);
   // Of the last frame.
   const FrameStats& stats() const;
+  // All of the denoiser's, with the defaults of those that were not given.
+  const ParameterMap& parameters() const;
   // Begins a new sequence.
   void reset();
 

@@ -12,6 +12,7 @@
 #include <new>
 
 #include "core/error.h"
+#include "core/image/exr_contents.h"
 #include "core/image/exr_limits.h"
 #include "core/image/image.h"
 #include "core/memory.h"
@@ -206,7 +207,7 @@ class HeaderGuard {
   bool windowSeen_ = false;
 };
 
-// The channels that make up one layer: three, or one alone.
+// The channels that make up one layer: three, or two (a third "" is 0), or one alone.
 struct LayerChannels {
   std::array<std::string, 3> three;
   std::string alone;
@@ -225,6 +226,8 @@ LayerChannels channelsOf(const std::map<std::string, std::string>& named, ExrLay
   if (has("Y") && !anyRgb && !isVector && !has("RY") && !has("BY")) return {{}, named.at("Y")};
   if (wanted == ExrLayers::colours) return {};
   if (has("X") && has("Y") && has("Z")) return three("X", "Y", "Z");
+  // A vector on the film, as of motion.
+  if (has("X") && has("Y") && named.size() == 2) return {{named.at("X"), named.at("Y"), ""}, ""};
   if (named.size() == 1) return {{}, named.begin()->second};
   return {};
 }
@@ -324,7 +327,9 @@ LayeredImage readOpened(const fs::path& file, std::ifstream& stream, uint64_t fi
     if (!channels.alone.empty()) {
       addSlice(file, frame, header, channels.alone, first);
     } else {
-      for (size_t c = 0; c < 3; ++c) addSlice(file, frame, header, channels.three[c], first + c);
+      for (size_t c = 0; c < 3; ++c) {
+        if (!channels.three[c].empty()) addSlice(file, frame, header, channels.three[c], first + c);
+      }
     }
   }
   exr.setFrameBuffer(frame);
@@ -344,9 +349,9 @@ LayeredImage readOpened(const fs::path& file, std::ifstream& stream, uint64_t fi
   return result;
 }
 
-}  // namespace
-
-LayeredImage readExr(const fs::path& file, ExrLayers wanted) {
+// `read` takes the file and its size once it is open. What goes wrong names the file.
+template <class Read>
+auto withOpened(const fs::path& file, const Read& read) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   if (!fs::exists(status)) failExr(file, "no such file");
@@ -355,7 +360,7 @@ LayeredImage readExr(const fs::path& file, ExrLayers wanted) {
   std::ifstream stream(file, std::ios::binary);
   if (error || !stream) failExr(file, "cannot be opened for reading");
   try {
-    return readOpened(file, stream, fileBytes, wanted);
+    return read(stream, fileBytes);
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {
@@ -363,6 +368,30 @@ LayeredImage readExr(const fs::path& file, ExrLayers wanted) {
   } catch (const std::exception& reason) {
     failExr(file, "cannot be read: " + exrReason(reason.what()));
   }
+}
+
+}  // namespace
+
+LayeredImage readExr(const fs::path& file, ExrLayers wanted) {
+  return withOpened(file, [&](std::ifstream& stream, uint64_t fileBytes) {
+    return readOpened(file, stream, fileBytes, wanted);
+  });
+}
+
+ExrContents readExrContents(const fs::path& file, ExrLayers wanted) {
+  return withOpened(file, [&](std::ifstream& stream, uint64_t fileBytes) {
+    HeaderGuard(file, stream, fileBytes).check();
+    FileStream exrStream(stream);
+    exrStream.seekg(0);
+    const Imf::InputFile exr(exrStream);
+    const Imath::Box2i window = exr.header().dataWindow();
+    ExrContents contents;
+    contents.width = uint32_t(window.max.x - window.min.x + 1);
+    contents.height = uint32_t(window.max.y - window.min.y + 1);
+    for (const auto& layer : findLayers(file, exr.header(), wanted))
+      contents.layers.push_back(layer.first);
+    return contents;
+  });
 }
 
 }  // namespace restlab

@@ -1,7 +1,7 @@
 // aov: first-hit attributes of the film samples that the frame used (same seed, same draws).
 
-// From the film sample to where the last frame's film showed what it shows, in pixels, and the
-// distance there; two images away where it was behind the camera. The background is as far as it
+// From the film sample to where the last frame's film showed what it shows, in pixels, and its
+// depth there; two images away where it was behind the camera. The background is as far as it
 // can be: only the direction counts.
 RL_FN vec3 aovMotion(RL_IN(uvec2) pixel, uint film, RL_IN(vec3) posW, bool isHit) {
   vec2 resolution = vec2(float(gFrame.width), float(gFrame.height));
@@ -11,8 +11,12 @@ RL_FN vec3 aovMotion(RL_IN(uvec2) pixel, uint film, RL_IN(vec3) posW, bool isHit
     motion = before - cameraFilmPoint(pixel, film);
   // An orthographic camera sees one direction in every pixel.
   if (!isHit && gFrame.camera.kind == RL_CAMERA_ORTHOGRAPHIC) motion = vec2(0.0f, 0.0f);
-  float distanceBefore = isHit ? distance(posW, gFrame.previousCamera.posW) : 0.0f;
-  return vec3(motion.x, motion.y, distanceBefore);
+  vec3 fromCamera = posW - gFrame.previousCamera.posW;
+  // Along the ray, as the layer depth: those of an orthographic camera are parallel.
+  float depthBefore = gFrame.camera.kind == RL_CAMERA_ORTHOGRAPHIC
+                          ? dot(fromCamera, gFrame.previousCamera.forwardW)
+                          : length(fromCamera);
+  return vec3(motion.x, motion.y, isHit ? depthBefore : 0.0f);
 }
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {

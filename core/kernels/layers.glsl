@@ -10,38 +10,106 @@ RL_FN float layersDisparity(uint slot) {
   return depth < 0.0f ? 0.0f : rlSafeDivide(1.0f, depth);
 }
 
-// Pixels on each side that a slope is told by: a layer may be of any point within a pixel.
-#define RL_LAYERS_REACH 3u
+// Pixels on each side that a slope is told by. A layer may be of any point within a pixel, so that
+// the disparities of a plane that is seen at a grazing angle are noisy: a filter that looks 16
+// pixels far needs the slope to a few percent.
+#define RL_LAYERS_REACH 8u
+#define RL_LAYERS_NEAR 3u
 
-// The disparity so many pixels to a side, where all between have the same normal; 0 elsewhere.
-RL_FN float layersAlong(uvec2 pixel, ivec2 side, RL_IN(vec3) nW, RL_OUT(float) apart) {
-  float disparity = 0.0f;
-  apart = 0.0f;
+// Sums over pixels of one row or column: x in pixels from the pixel in question, y the disparity
+// less its own.
+struct LineSums {
+  float n;
+  float x;
+  float y;
+  float xx;
+  float xy;
+  float yy;
+};
+RL_FN LineSums lineNone() {
+  LineSums s;
+  s.n = 0.0f;
+  s.x = 0.0f;
+  s.y = 0.0f;
+  s.xx = 0.0f;
+  s.xy = 0.0f;
+  s.yy = 0.0f;
+  return s;
+}
+RL_FN LineSums lineBoth(RL_IN(LineSums) a, RL_IN(LineSums) b) {
+  LineSums s;
+  s.n = a.n + b.n;
+  s.x = a.x + b.x;
+  s.y = a.y + b.y;
+  s.xx = a.xx + b.xx;
+  s.xy = a.xy + b.xy;
+  s.yy = a.yy + b.yy;
+  return s;
+}
+
+// The pixels to a side, the first few of them and all, as long as they have the same normal.
+struct LineSide {
+  LineSums near;
+  LineSums all;
+};
+RL_FN LineSide lineAlong(uvec2 pixel, ivec2 side, float direction, RL_IN(vec3) nW, float here) {
+  LineSide line;
+  line.all = lineNone();
+  line.near = line.all;
   for (uint i = 1u; i <= RL_LAYERS_REACH; i = i + 1u) {
     ivec2 at = ivec2(int(pixel.x), int(pixel.y)) + side * int(i);
     if (at.x < 0 || at.y < 0 || at.x >= int(gFrame.width) || at.y >= int(gFrame.height)) break;
     uint slot = uint(at.y) * gFrame.width + uint(at.x);
     float there = layersDisparity(slot);
     if (!(there > 0.0f) || !(dot(nW, gBuffers.normalW.data[slot]) > 0.95f)) break;
-    disparity = there;
-    apart = float(i);
+    float x = float(i) * direction;
+    float y = there - here;
+    line.all.n += 1.0f;
+    line.all.x += x;
+    line.all.y += y;
+    line.all.xx += x * x;
+    line.all.xy += x * y;
+    line.all.yy += y * y;
+    if (i <= RL_LAYERS_NEAR) line.near = line.all;
   }
-  return disparity;
+  return line;
 }
 
-// Change of the disparity from one pixel to the next, towards the side that differs less: the other
-// one may lie beyond an edge.
+struct LineFit {
+  float slope;
+  float squareError;  // of the slope
+};
+// The better one of `best` and the line through the pixel (x = y = 0) and those of `s`, by least
+// squares. Pixels beyond an edge make the residual and so the error large.
+RL_FN LineFit lineBetter(RL_IN(LineFit) best, RL_IN(LineSums) s, float here) {
+  float n = s.n + 1.0f;
+  if (!(s.n > 0.0f)) return best;
+  float spread = s.xx - s.x * s.x / n;
+  LineFit fit;
+  fit.slope = (s.xy - s.x * s.y / n) / spread;
+  float residual = s.yy - s.y * s.y / n - fit.slope * (s.xy - s.x * s.y / n);
+  // What rounding alone leaves says nothing: the longer line is the better one then.
+  residual = max(residual, 1.0e-11f * here * here);
+  // Too few pixels lie on a line by chance.
+  fit.squareError = n < 4.0f ? 1.0e30f : residual / ((n - 2.0f) * spread);
+  if (!(fit.squareError < best.squareError)) return best;
+  return fit;
+}
+
+// Change of the disparity from one pixel to the next one along `side`.
 RL_FN float layersSlope(uvec2 pixel, ivec2 side, RL_IN(vec3) nW, float here) {
-  float apartBefore;
-  float apartAfter;
-  float before = layersAlong(pixel, -side, nW, apartBefore);
-  float after = layersAlong(pixel, side, nW, apartAfter);
-  float backward = rlSafeDivide(here - before, apartBefore);
-  float forward = rlSafeDivide(after - here, apartAfter);
-  if (apartBefore > 0.0f && apartAfter > 0.0f) {
-    return abs(backward) < abs(forward) ? backward : forward;
-  }
-  return apartBefore > 0.0f ? backward : forward;
+  LineSide before = lineAlong(pixel, -side, -1.0f, nW, here);
+  LineSide after = lineAlong(pixel, side, 1.0f, nW, here);
+  LineFit best;
+  best.slope = 0.0f;
+  best.squareError = 2.0e30f;
+  best = lineBetter(best, lineBoth(before.all, after.all), here);
+  best = lineBetter(best, before.all, here);
+  best = lineBetter(best, after.all, here);
+  best = lineBetter(best, lineBoth(before.near, after.near), here);
+  best = lineBetter(best, before.near, here);
+  best = lineBetter(best, after.near, here);
+  return best.slope;
 }
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {

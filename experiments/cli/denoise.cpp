@@ -2,17 +2,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
 
 #include "core/changes/settings.h"
+#include "core/image/exr_contents.h"
 #include "core/image_denoiser.h"
 #include "core/method.h"
 #include "experiments/cli/frame_files.h"
+#include "experiments/cli/frame_layers.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
+#include "experiments/runner/run/build_info.h"
 #include "experiments/runner/run/interrupt.h"
 #include "experiments/runner/run/log.h"
 #include "experiments/runner/summary/accumulate.h"
@@ -23,145 +27,138 @@ namespace {
 
 struct DenoiseOptions {
   std::string input, output, denoiser = "svgf", layers;
+  bool png = false;
   std::vector<std::string> parameters;
   BackendChoice backend;
   int threads = 0;
-  double radianceFrames = 1.0;
+  std::optional<double> radianceFrames;
 };
 
-// What a layer is for, and the names that it usually has: ours first.
-struct LayerKind {
-  const char* name;
-  std::vector<std::string> usual;
-  Image LayeredFrame::*into;
-  const char* without;  // what is taken for it where it is missing
-};
+// Denoisers that ask over how many frames the radiance averages itself have this parameter.
+constexpr const char* kAsksRadianceFrames = "svgf_confidence";
 
-const std::vector<LayerKind>& layerKinds() {
-  static const std::vector<LayerKind> kinds = {
-      {"radiance",
-       {"", "radiance", "Combined", "beauty", "color"},
-       &LayeredFrame::radiance,
-       nullptr},
-      {"normal", {"normalW", "normal", "Normal", "N"}, &LayeredFrame::normalW, nullptr},
-      {"depth", {"depth", "Depth", "Z"}, &LayeredFrame::depthMetres, nullptr},
-      {"albedo",
-       {"albedo", "Albedo", "Denoising Albedo"},
-       &LayeredFrame::albedo,
-       "it is not divided by"},
-      {"emission", {"emission", "Emit", "emit"}, &LayeredFrame::lights, "no light is in view"},
-      {"motion", {"motion", "velocity"}, &LayeredFrame::motion, "nothing has moved"}};
-  return kinds;
+bool asksRadianceFrames(const DenoiserInfo& denoiser, const ParameterMap& given) {
+  if (const auto found = given.find(kAsksRadianceFrames); found != given.end())
+    return std::get<bool>(found->second);
+  for (const ParameterInfo& parameter : denoiser.parameters) {
+    if (parameter.name == kAsksRadianceFrames) return std::get<bool>(parameter.defaultValue);
+  }
+  return false;
 }
 
-// "normal=N,depth=Z" by kind; "" in the place of a name: without that layer.
-std::map<std::string, std::string> namedLayers(const std::string& list) {
-  std::map<std::string, std::string> named;
-  if (list.empty()) return named;
-  std::vector<std::string> kinds;
-  for (const LayerKind& kind : layerKinds()) kinds.emplace_back(kind.name);
-  for (const std::string& item : splitList(list, "--layers")) {
-    const size_t equals = item.find('=');
-    const std::string kind = item.substr(0, equals);
-    if (equals == std::string::npos || std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
-      failUsage(fmt::format("--layers {}: must be KIND=NAME, KIND one of {}{}", item,
-                            fmt::join(kinds, ", "), didYouMean(kind, kinds)));
-    }
-    named[kind] = item.substr(equals + 1);
-  }
-  return named;
+// Throws Error (badUsage) where a denoiser asks for more than layers give.
+void requireLayersAlone(const DenoiserInfo& denoiser) {
+  const bool needsScene =
+      std::any_of(denoiser.inputs.begin(), denoiser.inputs.end(),
+                  [](const std::string& input) { return input.rfind("visible", 0) == 0; });
+  if (!needsScene) return;
+  failUsage(
+      fmt::format("--denoiser {}: asks the scene what each pixel shows, which an image does "
+                  "not hold; render --denoiser {} has it, svgf does without",
+                  denoiser.name, denoiser.name));
 }
 
-// The name of a kind's layer in a file; nothing where there is none and none is needed.
-std::optional<std::string> findLayer(const std::filesystem::path& file, const LayeredImage& image,
-                                     const LayerKind& kind,
-                                     const std::map<std::string, std::string>& named) {
-  const auto there = [&] {
-    std::vector<std::string> names;
-    for (const auto& [name, layer] : image.layers) names.push_back(name.empty() ? "(none)" : name);
-    return names;
-  };
-  if (const auto given = named.find(kind.name); given != named.end()) {
-    if (given->second.empty() && kind.without != nullptr) return std::nullopt;
-    if (given->second.empty() && kind.into != &LayeredFrame::radiance)
-      failUsage(fmt::format("--layers {}=: it cannot be left out, name a layer", kind.name));
-    if (image.layers.contains(given->second)) return given->second;
-    failInput(fmt::format("{}: has no layer '{}' for {} (layers: {}){}", file.string(),
-                          given->second, kind.name, fmt::join(there(), ", "),
-                          didYouMean(given->second, there())));
-  }
-  for (const std::string& name : kind.usual) {
-    if (image.layers.contains(name)) return name;
-  }
-  if (kind.without != nullptr) return std::nullopt;
-  failInput(fmt::format("{}: has no layer for {} (layers: {}); name it with --layers {}=NAME",
-                        file.string(), kind.name, fmt::join(there(), ", "), kind.name));
-}
-
-// `missing`: the kinds of which it was said that a frame has none.
-LayeredFrame readFrame(const std::filesystem::path& file, const LayeredImage& image,
-                       const DenoiseOptions& options, std::set<std::string>& missing) {
-  const std::map<std::string, std::string> named = namedLayers(options.layers);
-  LayeredFrame frame;
-  for (const LayerKind& kind : layerKinds()) {
-    const std::optional<std::string> name = findLayer(file, image, kind, named);
-    if (name) {
-      frame.*kind.into = image.layers.at(*name);
-    } else if (missing.insert(kind.name).second) {
-      logInfo(fmt::format("{}: no layer for {}: {}", file.string(), kind.name, kind.without));
-    }
-  }
-  return frame;
-}
-
-void denoise(const DenoiseOptions& options) {
+SessionConfig configOf(const DenoiseOptions& options) {
   SessionConfig config;
   config.denoiser = options.denoiser;
-  const Method method = findMethod(config);
+  const DenoiserInfo& denoiser = *findMethod(config).denoiser;
+  requireLayersAlone(denoiser);
   applyBackend(options.backend, config);
   config.threads = options.threads;
-  config.parameters = parseParameters(method.denoiser->parameters, "denoiser " + options.denoiser,
-                                      options.parameters);
-  for (const ParameterInfo& parameter : method.denoiser->parameters) {
+  // Parameters of the search for changed light belong to `render`, and so are unknown here.
+  config.parameters = parseParameters(
+      denoiser.parameters, "denoiser " + options.denoiser + " on an image", options.parameters);
+  for (const ParameterInfo& parameter : denoiser.parameters) {
     if (!parameter.needs.empty() && config.parameters.contains(parameter.name))
       logWarning(fmt::format("{} has no effect: layers of an image do not have '{}'",
                              parameter.name, parameter.needs));
   }
-  if (method.denoiser->defaults.contains(kValidateEvery))
+  if (denoiser.defaults.contains(kValidateEvery))
     logWarning(options.denoiser +
                ": no path of an image can be traced again, light that changes is not found");
+  const bool asks = asksRadianceFrames(denoiser, config.parameters);
+  if (options.radianceFrames && !asks)
+    logWarning(
+        fmt::format("--radiance-frames has no effect: {} does not ask for it, svgf_restir "
+                    "does",
+                    denoiser.name));
+  if (!options.radianceFrames && asks)
+    logWarning(
+        "without --radiance-frames frames are taken to share no samples, as those of path "
+        "do; docs/manual.md has values for restir_gi");
+  return config;
+}
+
+// Looks at all files before one is written. Returns the names of their layers, and their size in
+// `config`.
+std::vector<LayerNames> checkFrames(const std::vector<FrameFiles>& files, const FrameLayers& layers,
+                                    SessionConfig& config) {
+  std::vector<LayerNames> names;
+  std::set<std::string> said;
+  for (const FrameFiles& frame : files) {
+    const ExrContents contents = readExrContents(frame.input, ExrLayers::all);
+    names.push_back(layers.find(frame.input, contents.layers));
+    for (const auto& [kind, without] : FrameLayers::missing(names.back())) {
+      if (said.insert(kind).second)
+        logInfo(fmt::format("{}: no layer for {}: {}", frame.input.string(), kind, without));
+    }
+    if (names.size() == 1) {
+      config.width = contents.width;
+      config.height = contents.height;
+    }
+    if (contents.width != config.width || contents.height != config.height) {
+      failInput(fmt::format("{}: is {}x{}, the frames before it are {}x{}", frame.input.string(),
+                            contents.width, contents.height, config.width, config.height));
+    }
+  }
+  return names;
+}
+
+// Those of the input, and what was done to it.
+std::map<std::string, std::string> metadataOf(const std::map<std::string, std::string>& input,
+                                              const std::filesystem::path& file,
+                                              const SessionConfig& config,
+                                              const ImageDenoiser& denoiser) {
+  std::map<std::string, std::string> words = provenanceWords();
+  words["input"] = file.string();
+  words["denoiser"] = config.denoiser;
+  HealthSum health;
+  health.add(denoiser.stats());
+  words["denoiser_health"] = health.text();
+  words["denoiser_time_s"] = fmt::format("{:.6g}", denoiser.stats().timeMs / 1000.0);
+  for (const auto& [name, value] : denoiser.parameters())
+    words["parameter." + name] = parameterText(value);
+  words.insert(input.begin(), input.end());
+  return words;
+}
+
+void denoise(const DenoiseOptions& options) {
+  SessionConfig config = configOf(options);
+  const FrameLayers layers(options.layers);
   const std::vector<FrameFiles> files = frameFiles(options.input, options.output);
-  std::unique_ptr<ImageDenoiser> denoiser;
+  const std::vector<LayerNames> names = checkFrames(files, layers, config);
+  ImageDenoiser denoiser(config);
   HealthSum health;
   double timeMs = 0.0;
-  std::set<std::string> missing;
   Progress progress("frame", files.size());
   for (size_t i = 0; i < files.size(); ++i) {
     throwIfInterrupted("the frames that are left were not written");
-    LayeredImage image = readExr(files[i].input, ExrLayers::all);
-    const LayeredFrame frame = readFrame(files[i].input, image, options, missing);
-    if (denoiser == nullptr) {
-      config.width = frame.radiance.width;
-      config.height = frame.radiance.height;
-      denoiser = std::make_unique<ImageDenoiser>(config);
-    }
-    if (frame.radiance.width != config.width || frame.radiance.height != config.height) {
-      failInput(fmt::format("{}: is {}x{}, the frames before it are {}x{}", files[i].input.string(),
-                            frame.radiance.width, frame.radiance.height, config.width,
-                            config.height));
-    }
+    const LayeredImage image = readExr(files[i].input, ExrLayers::all);
     LayeredImage out;
-    out.metadata = image.metadata;
-    out.layers[""] = denoiser->frame(frame, float(options.radianceFrames));
-    out.metadata["denoiser"] = options.denoiser;
-    health.add(denoiser->stats());
-    timeMs += denoiser->stats().timeMs;
+    out.layers[""] = denoiser.frame(FrameLayers::frame(image, names[i]),
+                                    float(options.radianceFrames.value_or(1.0)));
+    out.metadata = metadataOf(image.metadata, files[i].input, config, denoiser);
+    health.add(denoiser.stats());
+    timeMs += denoiser.stats().timeMs;
     writeExr(files[i].output, out);
+    if (options.png)
+      writePng(std::filesystem::path(files[i].output).replace_extension(".png"), out.layers[""]);
     progress.update(i + 1);
   }
   progress.finish();
-  logInfo(fmt::format("{}: {} frames, {:.1f} ms per frame, health: {}", options.output,
-                      files.size(), timeMs / double(files.size()), health.text()));
+  logInfo(fmt::format("{}: {} frame{}, {:.1f} ms per frame, health: {}", options.output,
+                      files.size(), files.size() == 1 ? "" : "s", timeMs / double(files.size()),
+                      health.text()));
 }
 
 }  // namespace
@@ -179,11 +176,13 @@ Action addDenoiseVerb(CLI::App& app) {
                    "KIND=NAME,...: names of layers; kinds are radiance, normal, depth, albedo, "
                    "emission, motion");
   verb->add_option("--radiance-frames", options->radianceFrames,
-                   "frames that the radiance averages itself, as resampled frames do (default 1)")
+                   "frames that the radiance averages itself, as resampled frames do (default 1); "
+                   "for svgf_restir")
       ->transform(numberFrom(1.0, 1e6));
   verb->add_option("--set", options->parameters, "KEY=VALUE: a parameter of the denoiser")
       ->take_all()
       ->allow_extra_args(false);
+  verb->add_flag("--png", options->png, "an sRGB preview beside each EXR");
   addBackendOptions(*verb, options->backend);
   addThreads(*verb, options->threads);
   return [options](Outcome&) { denoise(*options); };

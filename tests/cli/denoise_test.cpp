@@ -158,6 +158,57 @@ TEST_F(DenoiseTest, FramesOfASequenceAreAlike) {
   expectError(run("denoise b-#.exr -o c-#.exr"), 3, {"b-2.exr", "16x8", "16x16"});
 }
 
+// Others call layers by the view that they are of.
+TEST_F(DenoiseTest, LayersAreFoundAfterAPrefix) {
+  LayeredImage other;
+  for (const auto& [name, layer] : noisy().layers)
+    other.layers["View." + (name.empty() ? "Combined" : name)] = layer;
+  writeExr(path("other.exr"), other);
+  ASSERT_EQ(run("denoise other.exr -o b.exr").code, 0);
+  ASSERT_EQ(run("denoise noisy.exr -o a.exr").code, 0);
+  EXPECT_EQ(readExr(path("a.exr")).layers.at("").pixels,
+            readExr(path("b.exr")).layers.at("").pixels);
+  other.layers["Second.normalW"] = other.layers.at("View.normalW");
+  writeExr(path("other.exr"), other);
+  expectError(run("denoise other.exr -o b.exr"), 3,
+              {"more than one layer for normal", "Second.normalW", "View.normalW"});
+}
+
+// Nothing is written where a later frame lacks a layer.
+TEST_F(DenoiseTest, AllFramesAreLookedAtFirst) {
+  std::filesystem::copy_file(path("noisy.exr"), path("d-1.exr"));
+  LayeredImage later = noisy();
+  later.layers.erase("depth");
+  writeExr(path("d-2.exr"), later);
+  expectError(run("denoise d-#.exr -o e-#.exr"), 3, {"d-2.exr", "no layer for depth"});
+  EXPECT_FALSE(std::filesystem::exists(path("e-1.exr")));
+}
+
+TEST_F(DenoiseTest, TheFileSaysWhatWasDone) {
+  ASSERT_EQ(run("denoise noisy.exr -o a.exr --png --set svgf_cap=7").code, 0);
+  const auto before = noisy().metadata, after = readExr(path("a.exr")).metadata;
+  EXPECT_EQ(after.at("input"), "noisy.exr");
+  EXPECT_EQ(after.at("parameter.svgf_cap"), "7");
+  EXPECT_EQ(after.at("scene"), before.at("scene"));
+  EXPECT_NE(after.at("command").find("denoise"), std::string::npos) << after.at("command");
+  EXPECT_NE(before.at("command").find("render"), std::string::npos);
+  EXPECT_TRUE(after.contains("denoiser_health") && after.contains("denoiser_time_s"));
+  EXPECT_TRUE(std::filesystem::exists(path("a.png")));
+}
+
+// svgf_restir alone asks over how many frames the radiance averages itself.
+TEST_F(DenoiseTest, RadianceFramesAreNotIgnoredInSilence) {
+  const auto says = [&](const std::string& arguments, const char* text) {
+    const ProgramResult result = run("denoise noisy.exr -o a.exr " + arguments);
+    EXPECT_EQ(result.code, 0) << result.err;
+    return result.err.find(text) != std::string::npos;
+  };
+  EXPECT_TRUE(says("--radiance-frames 4", "--radiance-frames has no effect"));
+  EXPECT_FALSE(says("", "radiance-frames"));
+  EXPECT_TRUE(says("--denoiser svgf_restir", "without --radiance-frames"));
+  EXPECT_FALSE(says("--denoiser svgf_restir --radiance-frames 4", "radiance-frames"));
+}
+
 TEST_F(DenoiseTest, WhatIsWrongIsSaid) {
   expectError(run("denoise noisy.exr -o noisy.exr"), 2, {"is an input"});
   expectError(run("denoise " + path("noisy.exr").string() + " -o ./noisy.exr"), 2, {"is an input"});
@@ -167,7 +218,11 @@ TEST_F(DenoiseTest, WhatIsWrongIsSaid) {
   expectError(run("denoise absent.exr -o clean.exr"), 3, {"absent.exr", "no such file"});
   expectError(run("denoise noisy.exr -o clean.exr --denoiser svgff"), 2, {"svgff", "svgf"});
   expectError(run("denoise noisy.exr -o clean.exr --set svgf_kap=3"), 2, {"svgf_kap", "svgf_cap"});
-  expectError(run("denoise noisy.exr -o clean.exr --denoiser accumulate"), 2, {"visible"});
+  expectError(run("denoise noisy.exr -o clean.exr --denoiser accumulate"), 2,
+              {"accumulate", "asks the scene", "svgf"});
+  expectError(run("denoise noisy.exr -o clean.exr --denoiser asvgf --set validate_every=4"), 2,
+              {"validate_every", "image"});
+  expectError(run("denoise noisy.exr -o clean.exr --layers depth"), 2, {"depth=NAME"});
   EXPECT_FALSE(std::filesystem::exists(path("clean.exr")));
 }
 

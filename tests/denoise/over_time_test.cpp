@@ -243,6 +243,20 @@ TEST(Motion, IsALayerThatSequencesFollow) {
   EXPECT_LT(followed, 0.7 * blurred);
 }
 
+// In a still view the depth of before is that of now, for parallel rays, too.
+TEST(Motion, HasTheDepthOfOrthographicCameras) {
+  const auto scene = bias::builtinScene("cornell-box");
+  SceneCamera camera = scene->source().cameras.at(0);
+  camera.kind = rl::RL_CAMERA_ORTHOGRAPHIC;
+  camera.xmag = camera.ymag = 0.4;
+  Session session(scene, filterConfig("none", kSize));
+  session.setCamera(camera);
+  for (int i = 0; i < 2; ++i) session.frame();
+  const Image depth = session.aov("depth"), motion = session.aov("motion");
+  for (size_t p = 0; p < depth.pixels.size(); ++p)
+    EXPECT_NEAR(motion.pixels[p].z, depth.pixels[p].x, 1e-4f * depth.pixels[p].x) << p;
+}
+
 INSTANTIATE_TEST_SUITE_P(, OverTime,
                          testing::Values(Method{"path", "accumulate", 0.035, 60},
                                          Method{"path", "svgf", 0.009, 60},

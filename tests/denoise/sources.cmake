@@ -8,5 +8,6 @@ set(RL_DENOISE_TESTS
   oidn_test.cpp
   accumulate_test.cpp
   reuse_over_time_test.cpp
+  slopes_test.cpp
   conformance/variants.cpp
 )

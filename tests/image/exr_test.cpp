@@ -1,6 +1,7 @@
 // OpenEXR files: round trips, files of other programs, the references of the real scenes.
 #include <cstring>
 
+#include "core/image/exr_contents.h"
 #include "core/image/metrics.h"
 #include "tests/image/exr_fixture.h"
 
@@ -64,16 +65,31 @@ TEST_F(ExrTest, ReadsHalfOffsetWindowsTilesAndLuminance) {
   EXPECT_EQ(readExr(path("y.exr")).layers.at("").at(4, 3), glm::vec3(0.375f));
   // A position beside the colour is no luminance; depth is no colour.
   writeForeign(path("n.exr"), box(0, 0, 4, 3), box(0, 0, 4, 3),
-               {{"R", 1}, {"G", 2}, {"B", 3}, {"N.X", 4}, {"N.Y", 5}, {"N.Z", 6}, {"Z", 7}},
+               {{"R", 1},
+                {"G", 2},
+                {"B", 3},
+                {"N.X", 4},
+                {"N.Y", 5},
+                {"N.Z", 6},
+                {"Z", 7},
+                {"motion.X", 8},
+                {"motion.Y", 9}},
                Imf::FLOAT);
   const LayeredImage read = readExr(path("n.exr"));
   ASSERT_EQ(read.layers.size(), 1u);
   EXPECT_EQ(read.layers.at("").at(0, 0), glm::vec3(1, 2, 3));
   // Who asks for them gets them.
   const LayeredImage all = readExr(path("n.exr"), ExrLayers::all);
-  ASSERT_EQ(all.layers.size(), 3u);
+  ASSERT_EQ(all.layers.size(), 4u);
   EXPECT_EQ(all.layers.at("N").at(0, 0), glm::vec3(4, 5, 6));
   EXPECT_EQ(all.layers.at("Z").at(0, 0), glm::vec3(7));
+  EXPECT_EQ(all.layers.at("motion").at(4, 3), glm::vec3(8, 9, 0)) << "a vector on the film";
+  // The header alone says the same.
+  const ExrContents contents = readExrContents(path("n.exr"), ExrLayers::all);
+  EXPECT_EQ(contents.layers, (std::vector<std::string>{"", "N", "Z", "motion"}));
+  EXPECT_EQ(contents.width, 5u);
+  EXPECT_EQ(contents.height, 4u);
+  EXPECT_EQ(readExrContents(path("n.exr")).layers, std::vector<std::string>{""});
 }
 
 TEST_F(ExrTest, RowZeroIsTheTopWhateverTheWindow) {

@@ -1,0 +1,84 @@
+// Filters on layers of an image that tells depths and normals, and no planes: how a depth changes
+// over a surface is found from its neighbours (core/kernels/layers.glsl).
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/denoise/layered_images.h"
+
+namespace restlab::denoise {
+namespace {
+
+class Slopes : public testing::TestWithParam<std::string> {};
+
+// A floor that recedes: its disparity falls evenly over the film. Depths are of any point within a
+// pixel, as those of a renderer that filters its film.
+LayeredFrame floorFrame(glm::uvec2 size, float perPixel, uint32_t frame) {
+  LayeredFrame f;
+  f.radiance = imageOf(size, [&](glm::uvec2 p) { return glm::vec3(2.0f * noiseAt(p, frame)); });
+  f.normalW = imageOf(size, [](glm::uvec2) { return glm::vec3(0.0f, 1.0f, 0.0f); });
+  f.depthMetres = imageOf(size, [&](glm::uvec2 p) {
+    const float y = float(p.y) + noiseAt(p, frame + 77u);
+    return glm::vec3(1.0f / (0.05f + perPixel * y));
+  });
+  return f;
+}
+
+double varianceOf(const Image& image) {
+  double sum = 0.0, squares = 0.0;
+  for (const glm::vec3& p : image.pixels) {
+    sum += p.x;
+    squares += double(p.x) * p.x;
+  }
+  const double n = double(image.pixels.size());
+  return squares / n - sum / n * (sum / n);
+}
+
+TEST_P(Slopes, GrazingSurfacesAreFilteredAsOthersAre) {
+  const glm::uvec2 size = {96, 96};
+  const auto variance = [&](float perPixel) {
+    ImageDenoiser denoiser(filterConfig(GetParam(), size));
+    Image shown;
+    for (uint32_t i = 0; i < 3; ++i) shown = denoiser.frame(floorFrame(size, perPixel, i));
+    return varianceOf(shown);
+  };
+  const double frontal = variance(0.0f);
+  for (const float perPixel : {0.001f, 0.005f, 0.02f})
+    EXPECT_LT(variance(perPixel), 2.5 * frontal) << perPixel << " per metre and pixel";
+}
+
+// A bright strip in front of a dark wall that is parallel to it. Both are so noisy that their light
+// does not tell them apart.
+TEST_P(Slopes, ThinStripsKeepTheirLight) {
+  const glm::uvec2 size = {64, 96};
+  for (const uint32_t width : {1u, 2u, 3u, 4u, 5u, 8u, 12u}) {
+    for (const float behind : {1.05f, 1.1f, 1.3f}) {
+      ImageDenoiser denoiser(filterConfig(GetParam(), size));
+      const auto isStrip = [&](glm::uvec2 p) { return p.x >= 30u && p.x < 30u + width; };
+      const auto stripMean = [&](const Image& image) {
+        double sum = 0.0;
+        for (uint32_t y = 0; y < size.y; ++y) {
+          for (uint32_t x = 0; x < size.x; ++x)
+            sum += isStrip({x, y}) ? image.pixels[size_t(y) * size.x + x].x : 0.0;
+        }
+        return sum / (double(width) * size.y);
+      };
+      LayeredFrame frame;
+      frame.normalW = imageOf(size, [](glm::uvec2) { return glm::vec3(0.0f, 0.0f, 1.0f); });
+      frame.depthMetres =
+          imageOf(size, [&](glm::uvec2 p) { return glm::vec3(isStrip(p) ? 2.0f : 2.0f * behind); });
+      frame.radiance = imageOf(size, [&](glm::uvec2 p) {
+        return glm::vec3(isStrip(p) && noiseAt(p, 1) < 0.1f ? 20.0f : 0.0f);
+      });
+      const double before = stripMean(frame.radiance);
+      EXPECT_GT(stripMean(denoiser.frame(frame)), 0.95 * before)
+          << width << " wide, wall at " << behind;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, Slopes, testing::Values("atrous", "svgf", "svgf_restir"),
+                         [](const auto& test) { return test.param; });
+
+}  // namespace
+}  // namespace restlab::denoise
