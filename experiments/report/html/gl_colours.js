@@ -1,5 +1,5 @@
 // Colours of images and errors by WebGL2: the same pictures as by tables, made by the graphics
-// processor. A byte of sRGB differs by at most one; a colour of a map is at most the next one, where
+// processor. A byte of sRGB differs by at most one. A colour of a map is at most the next one, where
 // 32-bit arithmetic rounds to the other side.
 
 const GL_KINDS = ['srgb', 'luminance', 'signed', 'absolute', 'squared', 'relative'];
@@ -56,14 +56,12 @@ void main() {
     return;
   }
   vec3 r = texelFetch(reference, at, 0).rgb, d = a - r, size = abs(d);
-  if (kind == 2) pixel = mapped((d.r + d.g + d.b) / 3.0);
-  if (kind == 3) pixel = mapped((size.r + size.g + size.b) / 3.0);
-  // No overflow before the mean does.
+  // Thirds first: no sum overflows where the mean does not.
+  vec3 third = vec3(1.0 / 3.0);
+  if (kind == 2) pixel = mapped(dot(d, third));
+  if (kind == 3) pixel = mapped(dot(size, third));
   if (kind == 4) pixel = mapped(dot(d / 3.0, d));
-  if (kind == 5) {
-    vec3 part = size / (abs(r) + 0.01);
-    pixel = mapped((part.r + part.g + part.b) / 3.0);
-  }
+  if (kind == 5) pixel = mapped(dot(size / (abs(r) + 0.01), third));
 }`;
 
 // Images held on the graphics processor.

@@ -83,8 +83,8 @@ function drawPointer(context, camera, view, pixel) {
   }
 }
 
-// Rings around pixels, [{x, y, kind: 'donor' | 'probe'}]: light between dark edges, so that they are
-// seen on everything. The probe's is larger and thicker, and is drawn last.
+// Rings around pixels, [{x, y, kind: 'donor' | 'probe'}]: light between dark edges, so that they
+// are seen on everything. The probe's is larger and thicker, and is drawn last.
 function drawMarks(context, camera, view, marks) {
   const rings = {donor: {radius: 5, thick: 1.5}, probe: {radius: 9, thick: 3}};
   for (const kind of ['donor', 'probe']) {

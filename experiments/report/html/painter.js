@@ -14,8 +14,8 @@ class Painter {
   // Factor on radiance.
   get factor() { return this.exposure * Math.pow(2, this.state.stops); }
 
-  // 'webgl2', '2d' or 'auto': WebGL2 where a graphics processor does it. Returns what is used: there
-  // may be no WebGL2.
+  // 'webgl2', '2d' or 'auto': WebGL2 where a graphics processor does it. Returns what is used, as
+  // there may be no WebGL2.
   use(kind) {
     this.gl = kind === '2d' ? null : glColours(kind === 'auto');
     if (this.gl) this.gl.canvas.addEventListener('webglcontextlost', () => this.onLost());
@@ -40,7 +40,8 @@ class Painter {
   // One scale for all images, so that they can be compared; brighter exposure, narrower range.
   errorScale() {
     const {error, compare, stops} = this.state;
-    const range = this.range.get(`${error} ${compare}`, this.images.map(versionOf).join(' '), () => {
+    const versions = this.images.map(versionOf).join(' ');
+    const range = this.range.get(`${error} ${compare}`, versions, () => {
       const planes = this.images.map((_, i) => i === compare ? null : this.plane(error, i));
       return commonSize(planes.filter(plane => plane).map(plane => plane.values));
     });
