@@ -46,14 +46,22 @@ double nowS() {
   for (int fd = 5; fd < 64; ++fd) close(fd);
   setenv("HOME", folder.c_str(), 1);
   std::vector<std::string> words = {
-      program, "--headless", "--remote-debugging-pipe",
+      program,
+      "--headless",
+      "--remote-debugging-pipe",
       "--user-data-dir=" + (folder / "profile").string(),
       "--window-size=" + std::to_string(width) + "," + std::to_string(height),
-      "--force-device-scale-factor=1", "--disable-gpu",
-      // WebGL2 without a graphics processor, for the tests that ask for it.
-      "--enable-unsafe-swiftshader", "--disable-dev-shm-usage", "--disable-background-networking",
-      "--disable-component-update", "--disable-sync", "--no-first-run",
-      "--no-default-browser-check", "--mute-audio"};
+      "--force-device-scale-factor=1",
+      "--disable-gpu",
+      "--disable-dev-shm-usage",
+      "--disable-background-networking",
+      "--disable-component-update",
+      "--disable-sync",
+      "--no-first-run",
+      "--no-default-browser-check",
+      "--mute-audio"};
+  // WebGL2 without a graphics processor, for the tests that ask for it.
+  words.push_back("--enable-unsafe-swiftshader");
   // Chromium's own sandbox does not start for the superuser.
   if (geteuid() == 0) words.push_back("--no-sandbox");
   std::vector<char*> argv;

@@ -122,7 +122,7 @@ TEST_F(PainterTest, RangeOfErrorsIsSteady) {
   const auto ranges = [&](const std::string& factors) {
     return page(
                "state({error: 'absolute', compare: 0, stops: 0});"
-               "window.firsts ??= images.map(image => image.data);"
+               "window.firsts = window.firsts || images.map(image => image.data);"
                "return [" +
                factors + R"(].map(factor => {
       for (const i of [1, 2]) {
