@@ -113,10 +113,11 @@ class GlColours {
       Object.assign(this.canvas, {width, height});
     }
     gl.viewport(0, 0, width, height);
-    this.bind(0, this.imageTexture(image));
-    if (reference) this.bind(1, this.imageTexture(reference));
+    // All of them first: to make one binds it.
+    const textures = [this.imageTexture(image), reference ? this.imageTexture(reference) : null,
+                      scale ? this.mapTexture(scale.map) : null];
+    textures.forEach((texture, unit) => this.bind(unit, texture));
     if (scale) {
-      this.bind(2, this.mapTexture(scale.map));
       const f = scale.log ? Math.log2 : value => value;
       gl.uniform1i(this.place('isLog'), scale.log ? 1 : 0);
       gl.uniform1f(this.place('lo'), f(scale.lo));
