@@ -5,6 +5,7 @@ set(RL_REPORT_TESTS
   report/html_test.cpp
   report/model_test.cpp
   report/page.cpp
+  report/painter_test.cpp
   report/pixels_test.cpp
   report/plot_test.cpp
   report/run_folder_test.cpp

@@ -1,6 +1,10 @@
-// Colours: sRGB of linear Rec. 709, and the maps of errors and false colour.
+// Colours: the maps of errors and false colour, and the scales of values in them.
 
-// A map of 256 colours, linear in sRGB between equally spaced anchors.
+// R, G, B as a pixel of a canvas, whose bytes are R, G, B, A: one 32-bit word where the least
+// significant byte stands first, as in every browser.
+function colourWord(r, g, b) { return (0xff000000 | b << 16 | g << 8 | r) >>> 0; }
+
+// A map of 256 colours, linear in sRGB between equally spaced anchors; `words` of them as pixels.
 function colourMap(anchors) {
   const rgb = anchors.map(hex => [1, 3, 5].map(at => parseInt(hex.slice(at, at + 2), 16)));
   const table = new Uint8Array(3 * 256);
@@ -11,6 +15,8 @@ function colourMap(anchors) {
       table[3 * i + c] = Math.round(rgb[k][c] + (at - k) * (rgb[k + 1][c] - rgb[k][c]));
     }
   }
+  table.words = Uint32Array.from(
+      {length: 256}, (_, i) => colourWord(...table.subarray(3 * i, 3 * i + 3)));
   return table;
 }
 
@@ -26,6 +32,7 @@ const MAPS = {
 
 // What is no number has a colour that no map has.
 const NAN_COLOUR = [255, 0, 255], INF_COLOUR = [0, 255, 0];
+const NAN_WORD = colourWord(...NAN_COLOUR), INF_WORD = colourWord(...INF_COLOUR);
 
 function cssOf(table, index) {
   return `rgb(${table[3 * index]},${table[3 * index + 1]},${table[3 * index + 2]})`;
@@ -50,31 +57,6 @@ function makeScale(lo, hi, log, map) {
       return at <= 0 ? 0 : at >= 255 ? 255 : Math.round(at);
     }
   };
-}
-
-// Linear radiance times exposure from which sRGB rounds to level i of 255 (IEC 61966-2-1).
-const SRGB_LEVELS = (() => {
-  const levels = new Float64Array(257);
-  for (let i = 1; i < 256; ++i) {
-    const encoded = (i - 0.5) / 255;
-    levels[i] = encoded <= 0.04045 ? encoded / 12.92 : Math.pow((encoded + 0.055) / 1.055, 2.4);
-  }
-  levels[256] = Infinity;
-  return levels;
-})();
-
-// The level of 255 of a value: a table by the value's upper 16 bits below the sign, then exactly.
-function srgbEncoder(exposure) {
-  const levels = SRGB_LEVELS.map(level => level / exposure);
-  const table = new Uint8Array(65536);
-  const word = new Uint32Array(1), value = new Float32Array(word.buffer);
-  let level = 0;
-  for (let i = 0; i < 0xff00; ++i) {
-    word[0] = i << 15;
-    while (value[0] >= levels[level + 1]) ++level;
-    table[i] = level;
-  }
-  return {levels, table};
 }
 
 function luminance(r, g, b) { return 0.2126 * r + 0.7152 * g + 0.0722 * b; }

@@ -1,88 +1,67 @@
-// Coloured pictures of images and errors at the images' own size; a view enlarges them.
+// Coloured pictures of images and errors at the images' own size; a view enlarges them. Each is a
+// canvas; one that is no longer wanted is written over.
 
-// `bytes` of the canvas keeps R, G, B, A of each pixel.
-function canvasOf(width, height, fill) {
+// One for all canvases of a size: a canvas takes a copy.
+let sharedPicture = null;
+
+function canvasOf(width, height, held) {
+  if (held && held.width === width && held.height === height) return held;
   const canvas = document.createElement('canvas');
   canvas.width = width;
   canvas.height = height;
-  const context = canvas.getContext('2d');
-  const picture = context.createImageData(width, height);
-  fill(picture.data);
-  context.putImageData(picture, 0, 0);
-  canvas.bytes = picture.data;
   return canvas;
 }
 
-function setPixel(bytes, i, r, g, b) {
-  bytes[4 * i] = r;
-  bytes[4 * i + 1] = g;
-  bytes[4 * i + 2] = b;
-  bytes[4 * i + 3] = 255;
+// `fill` writes one word a pixel.
+function paintedCanvas(width, height, held, fill) {
+  const canvas = canvasOf(width, height, held), context = canvas.getContext('2d');
+  if (!sharedPicture || sharedPicture.width !== width || sharedPicture.height !== height) {
+    sharedPicture = context.createImageData(width, height);
+  }
+  fill(new Uint32Array(sharedPicture.data.buffer));
+  context.putImageData(sharedPicture, 0, 0);
+  return canvas;
 }
 
-function setMapped(bytes, i, value, scale) {
-  if (Number.isNaN(value)) {
-    setPixel(bytes, i, ...NAN_COLOUR);
-  } else if (!Number.isFinite(value)) {
-    setPixel(bytes, i, ...INF_COLOUR);
-  } else {
-    const at = 3 * scale.index(value), map = scale.map;
-    setPixel(bytes, i, map[at], map[at + 1], map[at + 2]);
-  }
+// The pixel of R, G, B of which one is no finite number.
+function nonfiniteColour(data, i) {
+  return data.subarray(3 * i, 3 * i + 3).some(Number.isNaN) ? NAN_WORD : INF_WORD;
+}
+
+function markNonfinite(image, out) {
+  for (const i of image.nonfinite) out[i] = nonfiniteColour(image.data, i);
 }
 
 // Radiance times exposure as sRGB, clipped.
-function srgbLayer(image, exposure) {
-  const {levels, table} = srgbEncoder(exposure);
-  const data = image.data, words = new Uint32Array(data.buffer);
-  const encode = i => {
-    const word = words[i];
-    if (word >>> 31) return 0;
-    let level = table[word >>> 15];
-    while (data[i] >= levels[level + 1]) ++level;
-    return level;
-  };
-  return canvasOf(image.width, image.height, bytes => {
-    for (let i = 0; i < data.length / 3; ++i) {
-      setPixel(bytes, i, encode(3 * i), encode(3 * i + 1), encode(3 * i + 2));
-    }
-    markNonfinite(bytes, image);
+function srgbLayer(image, encoder, held) {
+  return paintedCanvas(image.width, image.height, held, out => {
+    encoder.fill(image.data, out);
+    markNonfinite(image, out);
   });
 }
 
-function markNonfinite(bytes, image) {
-  for (const i of image.nonfinite) {
-    const pixel = image.data.subarray(3 * i, 3 * i + 3);
-    setPixel(bytes, i, ...(pixel.some(Number.isNaN) ? NAN_COLOUR : INF_COLOUR));
+// Luminance by a logarithmic scale.
+function falseColourLayer(image, scale, held) {
+  return paintedCanvas(image.width, image.height, held, out => {
+    fillLuminance(image.data, scale, out);
+    markNonfinite(image, out);
+  });
+}
+
+// Values by a scale, one a pixel.
+function scaledLayer(image, values, scale, held) {
+  return paintedCanvas(image.width, image.height, held, out => fillScaled(values, scale, out));
+}
+
+// One value a pixel of an overlay of that, or of R, G, B; null where it is not as large as its
+// image.
+function overlayValues(image) {
+  const {data} = image.overlay, count = image.width * image.height;
+  if (!data || data.length === count) return data;
+  if (data.length !== 3 * count) return null;
+  const values = new Float32Array(count);
+  for (let k = 0; k < count; ++k) {
+    values[k] = luminance(data[3 * k], data[3 * k + 1], data[3 * k + 2]);
   }
-}
-
-// Luminance by a scale.
-function falseColourLayer(image, scale) {
-  const data = image.data;
-  return canvasOf(image.width, image.height, bytes => {
-    for (let i = 0; i < data.length / 3; ++i) {
-      setMapped(bytes, i, luminance(data[3 * i], data[3 * i + 1], data[3 * i + 2]), scale);
-    }
-    markNonfinite(bytes, image);
-  });
-}
-
-function errorLayer(image, plane, scale) {
-  return canvasOf(image.width, image.height, bytes => {
-    for (let i = 0; i < plane.values.length; ++i) setMapped(bytes, i, plane.values[i], scale);
-  });
-}
-
-// The last layer of each slot; made anew when its key has changed.
-class LayerCache {
-  constructor() { this.slots = new Map(); }
-
-  get(slot, key, make) {
-    const held = this.slots.get(slot);
-    if (held && held.key === key) return held.layer;
-    const layer = make();
-    this.slots.set(slot, {key, layer});
-    return layer;
-  }
+  return values;
 }

@@ -82,3 +82,28 @@ function drawPointer(context, camera, view, pixel) {
     context.strokeRect(left, top, size, size);
   }
 }
+
+// Rings around pixels, [{x, y, kind: 'donor' | 'probe'}]: light between dark edges, so that they
+// are seen on everything. The probe's is larger and thicker, and is drawn last.
+function drawMarks(context, camera, view, marks) {
+  const rings = {donor: {radius: 5, thick: 1.5}, probe: {radius: 9, thick: 3}};
+  for (const kind of ['donor', 'probe']) {
+    const {radius, thick} = rings[kind];
+    const size = Math.max(radius, radius / 9 * camera.scale);
+    for (const mark of marks) {
+      if (mark.kind !== kind) continue;
+      const [x, y] = camera.toView(view, mark.x + 0.5, mark.y + 0.5);
+      if (x < view.x - size || x > view.x + view.width + size || y < view.y - size ||
+          y > view.y + view.height + size) {
+        continue;
+      }
+      context.beginPath();
+      context.arc(x, y, size, 0, 2 * Math.PI);
+      for (const [colour, width] of [['#000', thick + 2], ['#fff', thick]]) {
+        context.strokeStyle = colour;
+        context.lineWidth = width;
+        context.stroke();
+      }
+    }
+  }
+}

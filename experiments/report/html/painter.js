@@ -1,35 +1,51 @@
-// Which picture and which numbers a view shows: images by exposure, errors by a common range.
+// Which picture and which numbers a view shows: images by exposure, errors by a common range. All
+// is kept until an image has a new version; to move, enlarge or wipe colours nothing anew.
 class Painter {
   constructor(state, images, exposure) {
     Object.assign(this, {state, images, exposure});
-    this.cache = new LayerCache();
-    this.planes = new Map();
-    this.ranges = new Map();
+    this.cache = new SlotCache();
+    this.planes = new SlotCache();
+    this.range = new SteadyRange();
+    this.overlays = new Map();
+    // Called when pictures must be drawn again for a reason of the painter's own.
+    this.onLost = () => {};
   }
 
   // Factor on radiance.
   get factor() { return this.exposure * Math.pow(2, this.state.stops); }
 
-  // Error of image i against the one that is compared with; made once.
+  // 'webgl2', '2d' or 'auto': WebGL2 where a graphics processor does it. Returns what is used, as
+  // there may be no WebGL2.
+  use(kind) {
+    this.gl = kind === '2d' ? null : glColours(kind === 'auto');
+    if (this.gl) this.gl.canvas.addEventListener('webglcontextlost', () => this.onLost());
+    return this.kind;
+  }
+
+  get kind() {
+    if (this.gl === undefined) this.use('auto');
+    return this.gl && !this.gl.isLost ? 'webgl2' : '2d';
+  }
+
+  // Error of image i against the one that is compared with; null while one of them has no data, or
+  // while their sizes differ.
   plane(kind, i) {
-    const key = `${kind} ${i} ${this.state.compare}`;
-    if (!this.planes.has(key)) {
-      const other = this.images[this.state.compare].data;
-      this.planes.set(key, errorPlane(kind, this.images[i].data, other));
-    }
-    return this.planes.get(key);
+    const image = this.images[i], other = this.images[this.state.compare];
+    if (!image.data || !other.data || image.data.length !== other.data.length) return null;
+    const key = `${this.state.compare} ${versionOf(image)} ${versionOf(other)}`;
+    return this.planes.get(`${kind} ${i}`, key, held => errorPlane(
+                               kind, image.data, other.data, held && held.values));
   }
 
   // One scale for all images, so that they can be compared; brighter exposure, narrower range.
   errorScale() {
     const {error, compare, stops} = this.state;
-    const key = `${error} ${compare}`;
-    if (!this.ranges.has(key)) {
-      const others = this.images.map((_, i) => i).filter(i => i !== compare);
-      this.ranges.set(key, commonRange(others.map(i => this.plane(error, i))));
-    }
-    const range = this.ranges.get(key) * Math.pow(2, -stops);
-    return errorScale(error, range, this.isLog());
+    const versions = this.images.map(versionOf).join(' ');
+    const range = this.range.get(`${error} ${compare}`, versions, () => {
+      const planes = this.images.map((_, i) => i === compare ? null : this.plane(error, i));
+      return commonSize(planes.filter(plane => plane).map(plane => plane.values));
+    });
+    return errorScale(error, range * Math.pow(2, -stops), this.isLog());
   }
 
   isLog() {
@@ -43,27 +59,109 @@ class Painter {
                      MAPS.spectrum);
   }
 
-  layer(view) {
-    const image = this.images[view.image], {state} = this;
-    if (view.isError) {
-      const scale = this.errorScale();
-      const key = `${state.error} ${state.compare} ${scale.hi} ${scale.log}`;
-      return this.cache.get(`error ${view.image}`, key,
-                            () => errorLayer(image, this.plane(state.error, view.image), scale));
+  get encoder() {
+    if (this.encoderFactor !== this.factor) {
+      this.encoderFactor = this.factor;
+      this.srgbEncoder = new SrgbEncoder(this.factor);
     }
-    return this.cache.get(`image ${view.image}`, `${state.tone} ${this.factor}`, () => {
-      if (state.tone === 'false') return falseColourLayer(image, this.luminanceScale());
-      return srgbLayer(image, this.factor);
+    return this.srgbEncoder;
+  }
+
+  // A canvas as large as the image, or null while there is nothing to show.
+  layer(view) {
+    const image = this.images[view.image];
+    if (!image.data) return null;
+    if (view.isError) return this.errorLayer(view.image);
+    const key = `${this.kind} ${versionOf(image)} ${this.state.tone} ${this.factor}`;
+    return this.cache.get(`image ${view.image}`, key, held => {
+      if (this.state.tone === 'false') {
+        const scale = this.luminanceScale();
+        return this.glLayer({kind: 'luminance', image, scale}, held) ||
+            falseColourLayer(image, scale, held);
+      }
+      return this.glLayer({kind: 'srgb', image, factor: this.factor}, held) ||
+          srgbLayer(image, this.encoder, held);
     });
   }
 
-  texts(view, i) {
-    if (view.isError) return [shortNumber(this.plane(this.state.error, view.image).values[i])];
-    return Array.from(this.images[view.image].data.subarray(3 * i, 3 * i + 3), shortNumber);
+  errorLayer(i) {
+    const {error, compare} = this.state, image = this.images[i], reference = this.images[compare];
+    const plane = this.plane(error, i);
+    if (!plane) return null;
+    const scale = this.errorScale();
+    const key = `${this.kind} ${error} ${compare} ${versionOf(image)} ${versionOf(reference)} ${
+        scale.hi} ${scale.log}`;
+    return this.cache.get(
+        `error ${i}`, key, held => this.glLayer({kind: error, image, reference, scale}, held) ||
+            scaledLayer(image, plane.values, scale, held));
   }
 
+  glLayer(job, held) { return this.kind === 'webgl2' ? this.gl.layer(job, held) : null; }
+
+  // What lies over image i: {values, scale}, or null. A scale of its own, about zero where there
+  // are values below zero, and as steady as that of errors.
+  overlay(i) {
+    const image = this.images[i], {overlay} = image;
+    if (!overlay || !overlay.data) return null;
+    const version = versionOf(overlay);
+    const size = `${image.width} ${image.height}`;
+    const values = this.planes.get(`overlay ${i}`, `${overlay.name} ${version} ${size}`,
+                                   () => overlayValues(image));
+    if (!values) return null;
+    let held = this.overlays.get(i);
+    if (!held || held.name !== overlay.name) {
+      held = {name: overlay.name, isSigned: false, range: new SteadyRange()};
+      this.overlays.set(i, held);
+    }
+    if (held.version !== version) {
+      held.version = version;
+      held.isSigned = held.isSigned || values.some(value => value < 0);
+    }
+    const range = held.range.get(overlay.name, version, () => commonSize([values]));
+    const scale = held.isSigned ? makeScale(-range, range, false, MAPS.diverging)
+                                : makeScale(0, range, false, MAPS.rising);
+    return {values, scale};
+  }
+
+  overlayScale(i) {
+    const overlay = this.overlay(i);
+    return overlay && overlay.scale;
+  }
+
+  // A canvas as large as the image, or null; to be drawn over the image's layer.
+  overlayLayer(view) {
+    const overlay = this.overlay(view.image);
+    if (!overlay) return null;
+    const image = this.images[view.image], {values, scale} = overlay;
+    const key = `${image.overlay.name} ${versionOf(image.overlay)} ${scale.lo} ${scale.hi}`;
+    return this.cache.get(`overlay ${view.image}`, key,
+                          held => scaledLayer(image, values, scale, held));
+  }
+
+  texts(view, i) {
+    const {data} = this.images[view.image];
+    if (!data) return [];
+    if (!view.isError) return Array.from(data.subarray(3 * i, 3 * i + 3), shortNumber);
+    const plane = this.plane(this.state.error, view.image);
+    return plane ? [shortNumber(plane.values[i])] : [];
+  }
+
+  // Whether the picture of a pixel is light: computed, as to read it back would stop the browser.
   isLight(view, i) {
-    const [r, g, b] = this.layer(view).bytes.subarray(4 * i, 4 * i + 3);
-    return 0.3 * r + 0.59 * g + 0.11 * b > 140;
+    const word = this.pixelColour(view, i);
+    return 0.3 * (word & 255) + 0.59 * (word >> 8 & 255) + 0.11 * (word >> 16 & 255) > 140;
+  }
+
+  pixelColour(view, i) {
+    const {data} = this.images[view.image];
+    if (!data) return 0;
+    if (view.isError) {
+      const plane = this.plane(this.state.error, view.image);
+      return plane ? scaledColour(plane.values[i], this.errorScale()) : 0;
+    }
+    const rgb = data.subarray(3 * i, 3 * i + 3);
+    if (!rgb.every(Number.isFinite)) return nonfiniteColour(data, i);
+    if (this.state.tone === 'false') return scaledColour(luminance(...rgb), this.luminanceScale());
+    return this.encoder.colour(bitsOf(rgb), 0);
   }
 }
