@@ -22,20 +22,20 @@ function makeHelp(commands, pointerHelp = POINTER_HELP) {
     if (!groups.has(command.group)) groups.set(command.group, []);
     groups.get(command.group).push(command);
   }
-  const body = (title, rows) => make(
-      'tbody', {}, make('tr', {}, make('th', {colspan: 2, scope: 'rowgroup', class: 'group-title'},
-                                       title)),
-      ...rows.map(([keys, what]) => make('tr', {}, make('th', {scope: 'row'}, keys),
-                                         make('td', {}, what))));
-  const bodies = Array.from(groups, ([title, list]) => [title, helpRows(list)])
-                     .filter(([, rows]) => rows.length).map(pair => body(...pair));
+  const table = (title, rows) => make(
+      'table', {}, make('caption', {}, title),
+      make('tbody', {}, ...rows.map(([keys, what]) => make(
+          'tr', {}, make('th', {scope: 'row'}, keys), make('td', {}, what)))));
+  const tables = Array.from(groups, ([title, list]) => [title, helpRows(list)])
+                     .filter(([, rows]) => rows.length).map(pair => table(...pair));
   const close = make('button', {type: 'button'}, 'Close');
   const dialog = make('dialog', {class: 'help', 'aria-label': 'Keys of the image viewer'},
-                      make('h2', {}, 'Keys of the image viewer'),
-                      make('table', {}, ...bodies, body('Pointer', pointerHelp)),
+                      make('div', {class: 'help-head'}, make('h2', {}, 'Keys of the image viewer'),
+                           close),
                       make('p', {}, 'Keys go to the viewer that has the focus, else to the one ' +
                                     'that fills most of the window.'),
-                      close);
+                      make('div', {class: 'help-tables'}, ...tables,
+                           table('Pointer', pointerHelp)));
   close.addEventListener('click', () => dialog.close());
   closeBeside(dialog);
   document.body.append(dialog);

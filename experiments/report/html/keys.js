@@ -26,7 +26,10 @@ function keyTarget(viewers, focused) {
   return shown.sort((a, b) => shownHeight(b.root) - shownHeight(a.root))[0];
 }
 
-const isField = element => Boolean(element.closest('input, textarea, select'));
+// Whether keys are text there.
+function isField(element) {
+  return Boolean(element.closest('input:not([type=range], [type=checkbox]), textarea, select'));
+}
 
 // Arrows scroll a table that is wider than its place.
 function scrollsTable(event) {
@@ -53,8 +56,9 @@ function addKeys(viewers, commands) {
     command.release(viewer);
   };
   document.addEventListener('keydown', event => {
-    // A dialog has its own keys.
-    if (document.querySelector('dialog[open]') || scrollsTable(event)) return;
+    // A dialog has its own keys, and what took a key has it.
+    if (event.defaultPrevented || document.querySelector('dialog[open]')) return;
+    if (scrollsTable(event)) return;
     const found = commandOfKey(event, viewers, commands);
     if (!found) return;
     event.preventDefault();
