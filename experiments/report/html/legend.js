@@ -36,14 +36,20 @@ function isScaleThere(state, images) {
   return images.some((image, i) => i !== state.compare && areComparable(image, reference));
 }
 
-// Layers over images: those of one name have one scale, which the painter knows.
+// The end of the scale of what lies over image i.
+function overlayEnd(painter, image, i) {
+  const scale = image.overlay && painter.overlayScale ? painter.overlayScale(i) : null;
+  return scale ? scale.hi : 0;
+}
+
+// What lies over images; the painter knows the scale of each.
 function overlayLegend(painter, images) {
-  const shown = images.filter(image => image.overlay);
-  return shown.map(image => {
-    const {name, unit} = image.overlay;
-    const scale = painter.overlayScale ? painter.overlayScale(image) : null;
+  const shown = images.map((_, i) => i).filter(i => images[i].overlay);
+  return shown.map(i => {
+    const {name, unit} = images[i].overlay;
+    const scale = painter.overlayScale ? painter.overlayScale(i) : null;
     const title = make('p', {class: 'legend-title'}, make('b', {}, name),
-                       `${unit ? ` in ${unit}` : ''}, over ${image.name}`);
+                       `${unit ? ` in ${unit}` : ''}, over ${images[i].name}`);
     return scale ? make('div', {}, title, legendBar(scale)) : title;
   });
 }
@@ -57,7 +63,7 @@ function showLegend(element, state, painter, images) {
     state.error, state.compare, state.tone, painter.factor, scale && scale.lo, scale && scale.hi,
     scale && scale.log, images.some(image => image.nonfinite.length),
     ...images.map(image => `${image.name} ${image.overlay ? image.overlay.name : ''}`),
-    ...images.map(image => image.overlay ? image.overlay.version : 0)
+    ...images.map((image, i) => overlayEnd(painter, image, i))
   ].join('|');
   if (element.dataset.key === key) return;
   element.dataset.key = key;

@@ -136,7 +136,8 @@ class Stage {
       context.imageSmoothingQuality = 'high';
       context.drawImage(canvas, x0 * sx, y0 * sy, (x1 - x0) * sx, (y1 - y0) * sy, ...place);
     };
-    draw(painter.layer(view), image.width, image.height);
+    const layer = painter.layer(view);
+    if (layer) draw(layer, image.width, image.height);
     const overlay = image.overlay && painter.overlayLayer && painter.overlayLayer(view);
     if (overlay) {
       context.globalAlpha = this.state.opacity;

@@ -17,6 +17,7 @@ class Viewer {
       tone: 'srgb', log: {}, wipe: 0.5, held: false, opacity: 0.7
     };
     this.painter = new Painter(this.state, images, data.exposure);
+    this.painter.onLost = () => this.redraw();
     this.camera = new Camera(images[0].width, images[0].height);
     this.build();
     new ResizeObserver(() => this.redraw()).observe(this.frame);

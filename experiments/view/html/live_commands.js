@@ -12,6 +12,12 @@ const FLY_KEYS = [
   ['turn-down', ['ArrowDown', 'Shift+ArrowDown'], 'look down']
 ];
 
+// Lines of the help, by the first command of each.
+const FLY_ROWS = {
+  forward: ['w, s, a, d, e, q', 'fly forward, back, left, right, up, down; with Shift faster'],
+  'turn-left': ['\u2190 \u2192 \u2191 \u2193', 'look around']
+};
+
 function makeLiveCommands(page) {
   const send = command => () => page.session.send(command);
   const isOn = () => page.camera.isOn;
@@ -19,7 +25,7 @@ function makeLiveCommands(page) {
   return [
     ...FLY_KEYS.map(([way, keys, title]) => ({
                       id: `fly-${way}`, keys, group: fly, title, when: isOn,
-                      row: [keyText(keys[0]), `${title}; with Shift faster`],
+                      row: FLY_ROWS[way] || null,
                       run: () => page.camera.hold(way), release: () => page.camera.release(way)})),
     {id: 'faster', keys: ['+', '='], group: fly, title: 'higher speed of the camera', when: isOn,
      run: () => page.camera.changeSpeed(1)},

@@ -18,7 +18,7 @@ class LivePage {
     this.session = new Session(`${scheme}://${location.host}/socket${location.search}`, {
       hello: hello => this.greet(hello), state: state => this.show(state),
       numbers: numbers => this.showNumbers(numbers), probe: answer => this.probe?.answer(answer),
-      error: ({text, command}) => this.messages.error(command ? `${text} (${command})` : text),
+      error: message => this.refused(message),
       said: ({text}) => this.messages.notice(text),
       saved: ({name, toml}) => downloadText(name, toml),
       image: head => this.showImage(head), link: state => this.header.showLink(state)
@@ -51,6 +51,14 @@ class LivePage {
     if (isFirst) this.begin(state);
   }
 
+  // Controls show again what is.
+  refused({text, command}) {
+    this.messages.error(command ? `${text} (${command})` : text);
+    if (!this.viewer) return;
+    this.methods.show(this.state, this.hello);
+    this.scene.show(this.state);
+  }
+
   build(state) {
     this.commands = [...makeLiveCommands(this), ...VIEWER_COMMANDS];
     const {width, height} = state, count = state.panes.length;
@@ -63,7 +71,7 @@ class LivePage {
                   room: () => this.viewer.frame.clientHeight, pointer: this.camera,
                   idle: () => this.idleText()};
     this.viewer = this.root.viewer = new Viewer(this.root, data, images);
-    this.viewer.frame.append(this.badge);
+    this.viewer.frame.append(this.badge, this.messages.element);
     this.bookmarks = new Bookmarks(this, this.hello.scene.name);
     this.recorder = new PathRecorder(this);
     this.methods = new MethodPanel(this, count);

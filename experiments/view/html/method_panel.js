@@ -30,11 +30,12 @@ function settingChoices(key, pane, hello) {
 class PanePanel {
   constructor(index, page) {
     Object.assign(this, {index, page, controls: new Map(), key: ''});
-    this.settings = make('div', {class: 'settings'});
-    this.layer = make('div', {class: 'settings'});
+    this.settings = make('div', {class: 'setting-group'});
+    this.layer = make('div', {class: 'setting-group'});
     this.parameters = make('div', {class: 'parameters'});
-    this.element = make('section', {'aria-label': `Pane ${PANE_NAMES[index]}`}, this.settings,
-                        this.layer, this.parameters);
+    this.element = make('section', {'aria-label': `Pane ${PANE_NAMES[index]}`},
+                        make('div', {class: 'settings'}, this.settings, this.layer),
+                        this.parameters);
   }
 
   send(command) { this.page.session.send({...command, pane: this.index}); }

@@ -54,13 +54,13 @@ class NumbersPanel {
       const better = key === 'mse' || key === 'relmse' ? clearlyLower(...values) : -1;
       this.cells.get(key).forEach((cell, i) => {
         if (i >= values.length) return;
-        this.showCell(cell, values[i]);
+        this.showCell(cell, values[i], key === 'energy' ? 4 : 3);
         cell.cell.classList.toggle('best', i === better);
       });
     }
     panes.forEach((pane, i) => this.showHealth(this.health[i], pane.health || {}));
     const {reference: r, transport: t} = numbers;
-    setText(this.reference, r && r.spp ? `reference: ${r.spp} spp, its own relMSE ${
+    setText(this.reference, r && r.spp ? `reference: ${r.spp} spp, own relMSE ${
         quantity(r.relmse)}, ${milliseconds(r.ms_per_sample)} a sample` : 'reference: not yet there');
     const busy = typeof numbers.busy === 'number' ? `; load ${quantity(numbers.busy, 2)} a thread` : '';
     setText(this.transport, (t ? `images: ${t.width}\u00d7${t.height}, ${t.bits} bits, ${
@@ -70,14 +70,14 @@ class NumbersPanel {
         ? 'the machine does other things, too: times are longer than on a quiet one' : '';
   }
 
-  showCell({value, interval}, given) {
+  showCell({value, interval}, given, digits) {
     if (given === null || given === undefined) {
       setText(value, NOTHING);
-      setText(interval, '');
+      setText(interval, interval.textContent ? '\u00a0' : '');  // the place stays
     } else if (typeof given === 'object') {
-      setText(value, quantity(given.value));
+      setText(value, quantity(given.value, digits));
       const isKnown = Number.isFinite(given.lo) && Number.isFinite(given.hi);
-      setText(interval, isKnown ? `${quantity(given.lo)} \u2026 ${quantity(given.hi)}`
+      setText(interval, isKnown ? `${quantity(given.lo, digits)} \u2026 ${quantity(given.hi, digits)}`
                                 : 'no interval yet');
     } else {
       setText(value, given);

@@ -78,5 +78,12 @@ function makeSelect(choices, send, attributes = {}) {
   });
   const element = make('select', attributes, ...options);
   element.addEventListener('change', () => send(element.value));
-  return {element, show: value => { element.value = value; }, isBusy: false};
+  const show = value => {
+    element.value = value;
+    if (element.value === String(value)) return;
+    // What is set is shown, on the list or not.
+    element.append(make('option', {value}, String(value)));
+    element.value = value;
+  };
+  return {element, show, isBusy: false};
 }

@@ -29,7 +29,8 @@ class PathRecorder {
     this.play = makeButton('play', commandTitle('play', page.commands), () => this.playBack());
     this.rate = make('input', {type: 'number', min: 1, max: 240, value: 30,
                                'aria-label': 'frames of the path a second'});
-    this.name = make('input', {type: 'text', value: 'recorded', 'aria-label': 'name of the path'});
+    this.name = make('input', {type: 'text', value: 'recorded', size: 9,
+                                  'aria-label': 'name of the path'});
     this.text = make('textarea', {rows: 4, readonly: '', spellcheck: 'false',
                                   'aria-label': 'the path as part of a suite'});
     const save = makeButton('save TOML', 'save the path as part of a suite',
@@ -37,10 +38,10 @@ class PathRecorder {
     const copy = copyButton(() => this.toml(), 'copy the path as part of a suite',
                             text => page.messages.notice(text));
     for (const input of [this.rate, this.name]) input.addEventListener('input', () => this.show());
-    this.written = make('div', {}, this.text, make('div', {class: 'line'}, save, copy));
+    this.written = make('div', {}, this.text, make('div', {class: 'line packed'}, save, copy));
     this.state = make('p', {class: 'hint', role: 'status'});
     this.element = make('fieldset', {}, make('legend', {}, 'path of the camera'),
-                        make('div', {class: 'line'}, this.record, this.play, this.name, this.rate,
+                        make('div', {class: 'line packed'}, this.record, this.play, this.name, this.rate,
                              'frames/s'), this.state, this.written);
     this.show();
   }

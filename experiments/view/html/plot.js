@@ -64,14 +64,14 @@ class LogPlot {
     for (const value of logTicks(x0, x1)) {
       parts.push(svg('line', {x1: atX(value), x2: atX(value), y1: top, y2: height - bottom,
                               class: 'grid'}),
-                 svg('text', {x: atX(value), y: height - bottom + 12, class: 'tick',
-                              'text-anchor': 'middle'}, quantity(value)));
+                 svg('text', {x: atX(value), y: height - bottom + 14, class: 'tick',
+                              'text-anchor': 'middle'}, shortNumber(value)));
     }
     for (const value of logTicks(y0, y1)) {
       parts.push(svg('line', {x1: left, x2: width - right, y1: atY(value), y2: atY(value),
                               class: 'grid'}),
                  svg('text', {x: left - 4, y: atY(value) + 3.5, class: 'tick',
-                              'text-anchor': 'end'}, quantity(value)));
+                              'text-anchor': 'end'}, shortNumber(value)));
     }
     parts.push(svg('text', {x: left + spanX / 2, y: height - 4, class: 'axis',
                             'text-anchor': 'middle'}, this.xTitle),
