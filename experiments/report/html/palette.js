@@ -79,8 +79,9 @@ class Palette {
                 PageUp: Math.max(0, this.at - 8)}[event.key];
     if (event.key === 'Enter') {
       this.run(this.at);
-    } else if (event.key.toLowerCase() === 'k' && (event.ctrlKey || event.metaKey)) {
-      this.dialog.close();
+    } else if (event.key === 'Escape' ||
+               (event.key.toLowerCase() === 'k' && (event.ctrlKey || event.metaKey))) {
+      this.dialog.close();  // at once, where a search field would only forget its text
     } else if (to === undefined || !n) {
       return;
     } else {

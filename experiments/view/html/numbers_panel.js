@@ -61,7 +61,7 @@ class NumbersPanel {
     panes.forEach((pane, i) => this.showHealth(this.health[i], pane.health || {}));
     const {reference: r, transport: t} = numbers;
     setText(this.reference, r && r.spp ? `reference: ${r.spp} spp, own relMSE ${
-        quantity(r.relmse)}, ${milliseconds(r.ms_per_sample)} a sample` : 'reference: not yet there');
+        quantity(r.relmse)}, ${milliseconds(r.ms_per_sample)}/spp` : 'reference: not yet there');
     const busy = typeof numbers.busy === 'number' ? `; load ${quantity(numbers.busy, 2)} a thread` : '';
     setText(this.transport, (t ? `images: ${t.width}\u00d7${t.height}, ${t.bits} bits, ${
         quantity(t.mb_per_second)} MB/s` : '') + busy);
