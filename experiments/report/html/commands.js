@@ -76,8 +76,8 @@ const VIEWER_COMMANDS = [
    run: () => document.dispatchEvent(new CustomEvent('help'))}
 ];
 
-const KEY_TEXTS = {ArrowLeft: '\u2190', ArrowRight: '\u2192', ArrowUp: '\u2191', ArrowDown: '\u2193',
-                   '-': '\u2212'};
+const KEY_TEXTS = {ArrowLeft: '\u2190', ArrowRight: '\u2192', ArrowUp: '\u2191',
+                   ArrowDown: '\u2193', '-': '\u2212'};
 
 // A key as people read it: 'Ctrl+Shift+z' is Ctrl + Shift + Z.
 function keyText(name) {

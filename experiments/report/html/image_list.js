@@ -5,7 +5,8 @@ class ImageList {
   constructor(images, whole, camera, actions) {
     Object.assign(this, {images, whole, camera});
     const head = make('tr', {}, make('th', {scope: 'col'}, 'key'),
-                      make('th', {scope: 'col'}, 'image'), make('th', {scope: 'col'}, 'compare with'),
+                      make('th', {scope: 'col'}, 'image'),
+                      make('th', {scope: 'col'}, 'compare with'),
                       this.meanTitle = make('th', {scope: 'col', class: 'num'}),
                       make('th', {scope: 'col', class: 'num'}, 'R'),
                       make('th', {scope: 'col', class: 'num'}, 'G'),
@@ -30,7 +31,8 @@ class ImageList {
     const values = ['mean', 'r', 'g', 'b', 'here'].map(
         part => make('td', {class: 'num', 'data-part': part}));
     const element = make('tr', {}, make('td', {}, i < 9 ? make('kbd', {}, String(i + 1)) : ''),
-                         make('th', {scope: 'row'}, name, note), make('td', {}, compare), ...values);
+                         make('th', {scope: 'row'}, name, note), make('td', {}, compare),
+                         ...values);
     return {element, name, compare, note, values};
   }
 

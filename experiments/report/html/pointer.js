@@ -11,9 +11,9 @@ document.addEventListener('wheel', event => {
 // A press that moves no farther than so many CSS pixels is a click.
 const CLICK_RADIUS = 4;
 
-// `viewer.data.pointer`, where there is one, may take a drag or the wheel: drag(event, hit) says what
-// does it, {move(dx, dy)}, or null; wheel(event) whether it did; click(hit) ends a press that did
-// not move.
+// `viewer.data.pointer`, where there is one, may take a drag or the wheel: drag(event, hit) says
+// what does it, {move(dx, dy)}, or null; wheel(event) whether it did; click(hit) ends a press that
+// did not move.
 function addPointer(viewer) {
   const {canvas, divider, frame} = viewer, own = viewer.data.pointer;
   const position = event => {

@@ -10,6 +10,7 @@ class LivePage {
     this.badge = make('p', {class: 'camera-badge', role: 'status', hidden: ''});
     this.left = make('main', {class: 'live-left'}, this.root);
     this.side = make('aside', {class: 'live-side', 'aria-label': 'Panels'});
+    startTheme();
     document.body.className = 'live';
     document.body.append(this.header.element, this.left, this.side, this.messages.element);
     this.root.append(make('p', {class: 'status'}, 'Waiting for the program \u2026'));
@@ -42,6 +43,10 @@ class LivePage {
       this.viewer.setImage(i, {name: `${PANE_NAMES[i]}: ${methodName(pane, this.hello)}`});
       if (!pane.layer && this.viewer.images[i].overlay) this.viewer.setImage(i, {overlay: null});
     });
+    const {camera} = this.viewer;
+    if (!isFirst && (camera.width !== state.width || camera.height !== state.height)) {
+      this.probe.clear();  // its pixel is another one now
+    }
     this.viewer.setSize(state.width, state.height);
     this.camera.show(state.camera);
     this.methods.show(state, this.hello);
@@ -53,7 +58,7 @@ class LivePage {
 
   // Controls show again what is.
   refused({text, command}) {
-    this.messages.error(command ? `${text} (${command})` : text);
+    this.messages.error(text, command);
     if (!this.viewer) return;
     this.methods.show(this.state, this.hello);
     this.scene.show(this.state);
@@ -66,7 +71,8 @@ class LivePage {
                                     version: 0, overlay: null, marks: null});
     const images = [...state.panes.map((_, i) => image(PANE_NAMES[i], 'method')),
                     image('reference', 'reference')];
-    this.camera = new CameraControl(this, this.hello.scene.bounds);
+    const {bounds} = this.hello.scene;
+    this.camera = new CameraControl(this, bounds || {lo: [-1, -1, -1], hi: [1, 1, 1]});
     const data = {x: 0, y: 0, whole: true, exposure: this.hello.exposure || 1,
                   room: () => this.viewer.frame.clientHeight, pointer: this.camera,
                   idle: () => this.idleText()};
@@ -147,7 +153,8 @@ class LivePage {
     const frames = this.last ? this.last.panes.map((pane, i) => `${PANE_NAMES[i]} frame ${
         pane.frame}`).join(', ') : 'no frame yet';
     const paused = this.state && this.state.paused ? 'paused; ' : '';
-    return `${paused}${frames}.  Click a pixel to probe it.  c: camera mode, ?: keys, Ctrl + K: search`;
+    return `${paused}${frames}.  Click a pixel to probe it.  c: camera mode, ?: keys, ` +
+        'Ctrl + K: search';
   }
 
   moveCamera({to_world, yfov}) {

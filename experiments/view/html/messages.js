@@ -8,17 +8,18 @@ class Messages {
                                 'aria-label': 'Messages'});
   }
 
-  add(text, isError) {
+  // `more` is said where the pointer rests on it.
+  add(text, isError, more) {
     const last = this.element.lastElementChild;
     if (last && last.firstChild.textContent === text) last.remove();
     const close = makeButton('\u00d7', 'dismiss', () => message.remove());
-    const message = make('p', {class: isError ? 'message error' : 'message'},
+    const message = make('p', {class: isError ? 'message error' : 'message', title: more},
                          make('span', {}, text), close);
     this.element.append(message);
     while (this.element.children.length > MOST_MESSAGES) this.element.firstElementChild.remove();
     if (!isError) setTimeout(() => message.remove(), NOTICE_MS);
   }
 
-  error(text) { this.add(text, true); }
+  error(text, more) { this.add(text, true, more); }
   notice(text) { this.add(text, false); }
 }

@@ -20,7 +20,8 @@ function settingChoices(key, pane, hello) {
     title: one.available === false ? one.why_not : why || one.summary
   });
   if (key === 'mode') {
-    return integrator ? integrator.modes.map(mode => option(mode, `${mode.bias}: ${mode.why}`)) : [];
+    const modes = integrator ? integrator.modes : [];
+    return modes.map(mode => option(mode, `${mode.bias}: ${mode.why}`));
   }
   const list = hello[`${key}s`] || [];
   if (key === 'cache' && integrator && !integrator.uses_cache) return null;
@@ -77,7 +78,8 @@ class PanePanel {
                    title: one.help}));
       this.layerSelect = makeSelect([{value: '', text: 'none'}, ...choices],
                                     name => this.send({do: 'layer', name}),
-                                    {'data-setting': 'layer', disabled: choices.length ? null : ''});
+                                    {'data-setting': 'layer',
+                                     disabled: choices.length ? null : ''});
       this.layer.replaceChildren(make('label', {}, make('span', {}, 'layer over it'),
                                       this.layerSelect.element));
     }

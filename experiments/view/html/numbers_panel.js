@@ -2,8 +2,8 @@
 
 // [key, title, help, text(pane), {lo, hi} or nothing]
 const NUMBER_ROWS = [
-  ['mse', 'MSE', 'mean squared error of single frames against the reference: mean over the window ' +
-                 'of frames, 95 % interval', pane => pane.mse],
+  ['mse', 'MSE', 'mean squared error of single frames against the reference: mean over the ' +
+                 'window of frames, 95 % interval', pane => pane.mse],
   ['relmse', 'relMSE', 'the same, relative to the reference squared', pane => pane.relmse],
   ['energy', 'energy', 'mean of the frames over mean of the reference; 1 is right',
    pane => pane.energy],
@@ -62,7 +62,8 @@ class NumbersPanel {
     const {reference: r, transport: t} = numbers;
     setText(this.reference, r && r.spp ? `reference: ${r.spp} spp, own relMSE ${
         quantity(r.relmse)}, ${milliseconds(r.ms_per_sample)}/spp` : 'reference: not yet there');
-    const busy = typeof numbers.busy === 'number' ? `; load ${quantity(numbers.busy, 2)} a thread` : '';
+    const isLoadKnown = typeof numbers.busy === 'number';
+    const busy = isLoadKnown ? `; load ${quantity(numbers.busy, 2)} a thread` : '';
     setText(this.transport, (t ? `images: ${t.width}\u00d7${t.height}, ${t.bits} bits, ${
         quantity(t.mb_per_second)} MB/s` : '') + busy);
     this.transport.classList.toggle('warn', numbers.busy > 1.2);
@@ -77,8 +78,8 @@ class NumbersPanel {
     } else if (typeof given === 'object') {
       setText(value, quantity(given.value, digits));
       const isKnown = Number.isFinite(given.lo) && Number.isFinite(given.hi);
-      setText(interval, isKnown ? `${quantity(given.lo, digits)} \u2026 ${quantity(given.hi, digits)}`
-                                : 'no interval yet');
+      const ends = [given.lo, given.hi].map(end => quantity(end, digits));
+      setText(interval, isKnown ? ends.join(' \u2026 ') : 'no interval yet');
     } else {
       setText(value, given);
     }

@@ -18,9 +18,13 @@ class ParameterControl {
   // `send(value)`; null is the default.
   constructor(info, send) {
     this.id = `parameter-${++controlCount}`;
-    this.send = send;
+    // Whatever the answer is, it is shown.
+    this.send = value => {
+      this.shown = null;
+      send(value);
+    };
     this.input = this.makeInput(info);
-    this.reset = makeButton('\u21ba', `${info.name}: back to the default`, () => send(null));
+    this.reset = makeButton('\u21ba', `${info.name}: back to the default`, () => this.send(null));
     this.reset.className = 'reset';
     const more = makeButton('i', `about ${info.name}`, () => {
       this.about.hidden = !this.about.hidden;
@@ -63,6 +67,9 @@ class ParameterControl {
   }
 
   show(info) {
+    const key = `${info.value} ${info.is_set}`;
+    if (key === this.shown) return;
+    this.shown = this.input.isBusy ? null : key;
     this.reset.disabled = !info.is_set;
     this.element.classList.toggle('set', Boolean(info.is_set));
     if (!this.input.isBusy) this.input.show(info.value);
@@ -72,8 +79,8 @@ class ParameterControl {
 // A select of texts, or of [value, text] pairs; those that are not available are disabled.
 function makeSelect(choices, send, attributes = {}) {
   const options = choices.map(choice => {
-    const {value, text, disabled, title} = typeof choice === 'object' ? choice
-                                                                      : {value: choice, text: choice};
+    const isText = typeof choice !== 'object';
+    const {value, text, disabled, title} = isText ? {value: choice, text: choice} : choice;
     return make('option', {value, title, disabled: disabled ? '' : null}, text);
   });
   const element = make('select', attributes, ...options);

@@ -37,12 +37,14 @@ class PathRecorder {
                             () => downloadText(`${this.name.value || 'path'}.toml`, this.toml()));
     const copy = copyButton(() => this.toml(), 'copy the path as part of a suite',
                             text => page.messages.notice(text));
-    for (const input of [this.rate, this.name]) input.addEventListener('input', () => this.show());
+    for (const input of [this.rate, this.name]) {
+      input.addEventListener('input', () => this.show());
+    }
     this.written = make('div', {}, this.text, make('div', {class: 'line packed'}, save, copy));
     this.state = make('p', {class: 'hint', role: 'status'});
     this.element = make('fieldset', {}, make('legend', {}, 'path of the camera'),
-                        make('div', {class: 'line packed'}, this.record, this.play, this.name, this.rate,
-                             'frames/s'), this.state, this.written);
+                        make('div', {class: 'line packed'}, this.record, this.play, this.name,
+                             this.rate, 'frames/s'), this.state, this.written);
     this.show();
   }
 

@@ -32,8 +32,10 @@ class PlotsPanel {
     const points = curves.map(curve => curve.points);
     this.byAge.show(points, before);
     this.byTime.show(points, before);
-    setText(this.mark, this.count > 1 ? `Begun anew ${this.count - 1} times by a change; the pale ` +
-        'curves are those before the last one.' : 'A change of a setting begins the curves anew.');
+    const times = this.count - 1;
+    setText(this.mark, times > 0
+        ? `Begun anew by a change (${times} so far); the pale curves are those before it.`
+        : 'A change of a setting begins the curves anew.');
     this.passes.show(this.numbers.panes);
   }
 }

@@ -49,8 +49,9 @@ class ProbePanel {
   }
 
   answer(message) {
+    // One that nobody waits for any more.
+    if (!this.pixel || message.x !== this.pixel.x || message.y !== this.pixel.y) return;
     this.answers[message.pane] = message;
-    this.pixel = {x: message.x, y: message.y};
     const donors = (message.donors || []).map(([x, y]) => ({x, y, kind: 'donor'}));
     this.page.viewer.setImage(message.pane, {
       marks: [...donors, {x: message.x, y: message.y, kind: 'probe'}]

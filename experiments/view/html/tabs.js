@@ -31,7 +31,8 @@ class Tabs {
 
   key(event) {
     const ids = [...this.tabs.keys()], at = ids.indexOf(this.current), n = ids.length;
-    const to = {ArrowLeft: (at + n - 1) % n, ArrowRight: (at + 1) % n, Home: 0, End: n - 1}[event.key];
+    const to = {ArrowLeft: (at + n - 1) % n, ArrowRight: (at + 1) % n, Home: 0,
+                End: n - 1}[event.key];
     if (to === undefined) return;
     this.show(ids[to]);
     this.tabs.get(ids[to]).tab.focus();

@@ -20,4 +20,24 @@ function isDarkNow() {
   return theme ? theme === 'dark' : matchMedia('(prefers-color-scheme: dark)').matches;
 }
 
-const toggleTheme = () => setTheme(isDarkNow() ? 'light' : 'dark');
+const THEME_KEY = 'restlab theme';
+
+function toggleTheme() {
+  const theme = isDarkNow() ? 'light' : 'dark';
+  setTheme(theme);
+  try {
+    localStorage.setItem(THEME_KEY, theme);
+  } catch {
+    // No storage: it lasts as long as the page.
+  }
+}
+
+// As it was chosen the last time.
+function startTheme() {
+  try {
+    const theme = localStorage.getItem(THEME_KEY);
+    if (theme === 'light' || theme === 'dark') setTheme(theme);
+  } catch {
+    // The system's.
+  }
+}
