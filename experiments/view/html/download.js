@@ -31,6 +31,8 @@ function saveScreenshot(viewer, name) {
   const {canvas} = viewer, ratio = canvas.width / viewer.stage.width;
   const picture = make('canvas', {width: canvas.width, height: canvas.height});
   const context = picture.getContext('2d');
+  context.fillStyle = getComputedStyle(viewer.frame).backgroundColor;
+  context.fillRect(0, 0, picture.width, picture.height);
   context.drawImage(canvas, 0, 0);
   context.scale(ratio, ratio);
   context.font = '13px system-ui, sans-serif';

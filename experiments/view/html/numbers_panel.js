@@ -63,12 +63,13 @@ class NumbersPanel {
     setText(this.reference, r && r.spp ? `reference: ${r.spp} spp, own relMSE ${
         quantity(r.relmse)}, ${milliseconds(r.ms_per_sample)}/spp` : 'reference: not yet there');
     const isLoadKnown = typeof numbers.busy === 'number';
-    const busy = isLoadKnown ? `; load ${quantity(numbers.busy, 2)} a thread` : '';
+    const busy = isLoadKnown ? `; load ${quantity(numbers.busy, 2)}` : '';
     setText(this.transport, (t ? `images: ${t.width}\u00d7${t.height}, ${t.bits} bits, ${
         quantity(t.mb_per_second)} MB/s` : '') + busy);
     this.transport.classList.toggle('warn', numbers.busy > 1.2);
-    this.transport.title = numbers.busy > 1.2
-        ? 'the machine does other things, too: times are longer than on a quiet one' : '';
+    this.transport.title = 'what comes to this page; load average of the machine a thread' +
+        (numbers.busy > 1.2 ? ': it does other things, too, and times are longer than on a quiet one'
+                            : '');
   }
 
   showCell({value, interval}, given, digits) {
