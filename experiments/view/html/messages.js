@@ -11,7 +11,7 @@ class Messages {
   // `more` is said where the pointer rests on it.
   add(text, isError, more) {
     const last = this.element.lastElementChild;
-    if (last && last.firstChild.textContent === text) last.remove();
+    if (last && last.firstChild.textContent === text) return;
     const close = makeButton('\u00d7', 'dismiss', () => message.remove());
     const message = make('p', {class: isError ? 'message error' : 'message', title: more},
                          make('span', {}, text), close);

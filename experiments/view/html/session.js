@@ -71,8 +71,7 @@ class Session {
       slot.next = command;
       return;
     }
-    this.waiting.set(key, {since: performance.now(), next: null});
-    this.send(command);
+    if (this.send(command)) this.waiting.set(key, {since: performance.now(), next: null});
   }
 
   answered() {

@@ -1,18 +1,19 @@
 // Light or dark, as the system says or as the reader chooses.
 
-// The rules of the other scheme stand in media queries of the style sheet: they are switched.
+// The rules of the dark scheme: those of a media query, which is switched.
+let darkRules = null;
+
+function findDarkRules() {
+  return Array.from(document.styleSheets, sheet => Array.from(sheet.cssRules)).flat().filter(
+      rule => rule instanceof CSSMediaRule &&
+          rule.media.mediaText.includes('prefers-color-scheme'));
+}
+
 function setTheme(theme) {
-  const isDark = theme === 'dark';
+  darkRules = darkRules || findDarkRules();
   document.documentElement.style.colorScheme = theme;
   document.documentElement.dataset.theme = theme;
-  for (const sheet of document.styleSheets) {
-    for (const rule of sheet.cssRules) {
-      if (!(rule instanceof CSSMediaRule)) continue;
-      if (!rule.isScheme && !rule.media.mediaText.includes('prefers-color-scheme')) continue;
-      rule.isScheme = true;
-      rule.media.mediaText = isDark ? 'all' : 'not all';
-    }
-  }
+  for (const rule of darkRules) rule.media.mediaText = theme === 'dark' ? 'all' : 'not all';
 }
 
 function isDarkNow() {
