@@ -4,7 +4,8 @@
 // {id, keys, title, group, run(viewer), ...}: `keys` as keyName() says them. Optional:
 // when(viewer): whether there is something to do; release(viewer): it lasts while the key is held;
 // isFocused: only while the viewer itself has the focus; isAnywhere: it needs no viewer;
-// inFields: also while text is typed; row: [keys, text] of the help, of several commands one line.
+// inFields: also while text is typed; isOnce: a key that is held does it once; row: [keys, text] of
+// the help, of several commands one line.
 
 function imageCommands() {
   const commands = [];

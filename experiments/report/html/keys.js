@@ -63,6 +63,7 @@ function addKeys(viewers, commands) {
     if (!found) return;
     event.preventDefault();
     const {command, viewer} = found;
+    if (event.repeat && command.isOnce) return;
     if (!command.release) {
       command.run(viewer);
     } else if (!held.has(event.code)) {

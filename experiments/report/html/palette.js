@@ -75,8 +75,9 @@ class Palette {
 
   key(event) {
     const n = this.found.length;
-    const to = {ArrowDown: this.at + 1, ArrowUp: this.at - 1,
-                PageDown: Math.min(n - 1, this.at + 8), PageUp: Math.max(0, this.at - 8)}[event.key];
+    const steps = {ArrowDown: this.at + 1, ArrowUp: this.at - 1,
+                   PageDown: Math.min(n - 1, this.at + 8), PageUp: Math.max(0, this.at - 8)};
+    const to = steps[event.key];
     if (event.key === 'Enter') {
       this.run(this.at);
     } else if (event.key === 'Escape' ||

@@ -32,6 +32,7 @@ class CameraControl {
 
   setOrbit(isOrbit) {
     this.isOrbit = isOrbit;
+    this.held.clear();
     this.page.showCameraMode();
   }
 
@@ -61,6 +62,7 @@ class CameraControl {
   hold(way) {
     this.held.add(way);
     if (this.isFlying) return;
+    this.orbitCentre = this.targetOf(this.pose);
     this.isFlying = true;
     this.last = performance.now();
     requestAnimationFrame(time => this.fly(time));
@@ -76,15 +78,19 @@ class CameraControl {
     const seconds = Math.min(0.1, Math.max(0, (time - this.last) / 1000));
     this.last = time;
     const of = (plusWay, minusWay) => this.held.has(plusWay) - this.held.has(minusWay);
+    const turn = TURN_KEYS_SPEED * seconds * of('turn-left', 'turn-right');
+    const tilt = TURN_KEYS_SPEED * seconds * of('turn-up', 'turn-down');
+    requestAnimationFrame(next => this.fly(next));
+    if (this.isOrbit && !this.isOn) {
+      this.moveTo(orbited(this.pose, this.orbitCentre, turn, tilt));
+      return;
+    }
     const step = this.speed * seconds * (this.isFast ? FAST : 1);
     const {right, forward} = axesOf(this.pose);
     let position = plus(this.pose.position, forward, step * of('forward', 'back'));
     position = plus(position, right, step * of('right', 'left'));
     position = plus(position, [0, 1, 0], step * of('up', 'down'));
-    const turn = TURN_KEYS_SPEED * seconds;
-    this.moveTo({position, yaw: this.pose.yaw + turn * of('turn-left', 'turn-right'),
-                 pitch: clampPitch(this.pose.pitch + turn * of('turn-up', 'turn-down'))});
-    requestAnimationFrame(next => this.fly(next));
+    this.moveTo({position, yaw: this.pose.yaw + turn, pitch: clampPitch(this.pose.pitch + tilt)});
   }
 
   // For pointer.js.
@@ -134,6 +140,7 @@ class CameraControl {
       return `camera mode: W A S D Q E fly, drag or arrows look, wheel: ${
           quantity(this.speed, 2)} m/s, Shift is faster; c or Escape leaves it`;
     }
-    return this.isOrbit ? 'orbit: drag turns about the point ahead; o or Escape leaves it' : '';
+    if (!this.isOrbit) return '';
+    return 'orbit: drag or arrows turn about the point ahead; o or Escape leaves it';
   }
 }

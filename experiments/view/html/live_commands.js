@@ -15,16 +15,22 @@ const FLY_KEYS = [
 // Lines of the help, by the first command of each.
 const FLY_ROWS = {
   forward: ['w, s, a, d, e, q', 'fly forward, back, left, right, up, down; with Shift faster'],
-  'turn-left': ['\u2190 \u2192 \u2191 \u2193', 'look around']
+  'turn-left': ['\u2190 \u2192 \u2191 \u2193', 'look around; where dragging orbits (o), orbit']
 };
+
+// What a key goes on doing while it is held; the rest it does once.
+const REPEATED = ['faster', 'slower', 'undo', 'redo'];
 
 function makeLiveCommands(page) {
   const send = command => () => page.session.send(command);
   const isOn = () => page.camera.isOn;
+  // Where the camera turns with the arrows.
+  const isTurning = () => isOn() || page.camera.isOrbit;
   const session = 'Session', camera = 'Camera', fly = 'Camera mode (c)';
-  return [
+  const commands = [
     ...FLY_KEYS.map(([way, keys, title]) => ({
-                      id: `fly-${way}`, keys, group: fly, title, when: isOn,
+                      id: `fly-${way}`, keys, group: fly, title,
+                      when: way.startsWith('turn') ? isTurning : isOn,
                       row: FLY_ROWS[way] || null,
                       run: () => page.camera.hold(way), release: () => page.camera.release(way)})),
     {id: 'faster', keys: ['+', '='], group: fly, title: 'higher speed of the camera', when: isOn,
@@ -81,6 +87,8 @@ function makeLiveCommands(page) {
      when: viewer => isOn() || page.camera.isOrbit || document.activeElement === viewer.root,
      run: viewer => page.leave(viewer)}
   ];
+  return commands.map(
+      one => REPEATED.includes(one.id) || one.release ? one : {...one, isOnce: true});
 }
 
 const LIVE_POINTER_HELP = [

@@ -38,6 +38,8 @@ class LivePage {
   show(state) {
     if (!this.hello) return;
     const isFirst = !this.viewer;
+    if (!isFirst && state.panes.length + 1 !== this.viewer.images.length) location.reload();
+    this.root.dataset.epoch = state.epoch;
     if (isFirst) this.build(state);
     state.panes.forEach((pane, i) => {
       this.viewer.setImage(i, {name: `${PANE_NAMES[i]}: ${methodName(pane, this.hello)}`});
@@ -107,6 +109,7 @@ class LivePage {
     const {settings} = this.hello;
     if (this.kept) {
       applyView(this.kept.view, this.viewer);
+      this.methods.opacity.value = this.viewer.state.opacity;
       for (const command of commandsTowards(this.kept, state, settings)) this.session.send(command);
     }
     setInterval(() => {
@@ -160,6 +163,7 @@ class LivePage {
   moveCamera({to_world, yfov}) {
     this.camera.matrix = to_world;
     this.camera.pose = poseOf(to_world);
+    this.recorder.note(this.camera.pose, yfov, this.camera.targetOf(this.camera.pose));
     this.session.sendNewest('camera', yfov ? {do: 'camera', to_world, yfov}
                                            : {do: 'camera', to_world});
   }

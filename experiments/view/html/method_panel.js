@@ -137,8 +137,21 @@ class MethodPanel {
     this.count = make('p', {class: 'hint', role: 'status'});
     this.search.addEventListener('input', () => this.filter());
     this.element = make('div', {}, make('div', {class: 'row'}, this.choice.element, ...copies),
-                        this.search, this.count, ...this.panes.map(pane => pane.element));
+                        this.makeOpacity(), this.search, this.count,
+                        ...this.panes.map(pane => pane.element));
     this.open(0);
+  }
+
+  // Of the layers of all panes, while there is one.
+  makeOpacity() {
+    const {viewer} = this.page;
+    this.opacity = make('input', {type: 'range', min: 0, max: 1, step: 0.01,
+                                  'data-setting': 'opacity'});
+    this.opacity.addEventListener('input',
+                                  () => viewer.set({opacity: Number(this.opacity.value)}));
+    this.opacityLine = make('label', {class: 'line', hidden: ''},
+                            make('span', {}, 'opacity of layers'), this.opacity);
+    return this.opacityLine;
   }
 
   open(index) {
@@ -154,6 +167,8 @@ class MethodPanel {
   }
 
   show(state, hello) {
+    this.opacityLine.hidden = !state.panes.some(pane => pane.layer);
+    this.opacity.value = this.page.viewer.state.opacity;
     state.panes.forEach((pane, i) => { if (this.panes[i]) this.panes[i].show(pane, hello); });
   }
 }

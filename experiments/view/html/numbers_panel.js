@@ -66,10 +66,10 @@ class NumbersPanel {
     const busy = isLoadKnown ? `; load ${quantity(numbers.busy, 2)}` : '';
     setText(this.transport, (t ? `images: ${t.width}\u00d7${t.height}, ${t.bits} bits, ${
         quantity(t.mb_per_second)} MB/s` : '') + busy);
-    this.transport.classList.toggle('warn', numbers.busy > 1.2);
+    const isBusy = numbers.busy > 1.2;
+    this.transport.classList.toggle('warn', isBusy);
     this.transport.title = 'what comes to this page; load average of the machine a thread' +
-        (numbers.busy > 1.2 ? ': it does other things, too, and times are longer than on a quiet one'
-                            : '');
+        (isBusy ? ': it does other things, too, and times are longer than on a quiet one' : '');
   }
 
   showCell({value, interval}, given, digits) {

@@ -1,4 +1,4 @@
-// What is looked at: camera, size, light, and how layers lie over it.
+// What is looked at: camera, size, light.
 
 const SIZES = ['320x180', '640x360', '960x540', '1280x720', '1920x1080'];
 // Factors of a light that its slider reaches; 0 is off.
@@ -9,8 +9,8 @@ class ScenePanel {
     Object.assign(this, {page, hello});
     this.lights = new Map();
     this.element = make('div', {}, this.makeCamera(), page.bookmarks.element,
-                        page.recorder.element, this.makeSize(), this.makeOpacity(),
-                        this.makeLights(), this.makeAbout());
+                        page.recorder.element, this.makeSize(), this.makeLights(),
+                        this.makeAbout());
   }
 
   section(title, ...children) {
@@ -57,17 +57,6 @@ class ScenePanel {
     return this.section('resolution, pixels', form);
   }
 
-  makeOpacity() {
-    this.opacity = make('input', {type: 'range', min: 0, max: 1, step: 0.01,
-                                  'aria-label': 'opacity of layers', 'data-setting': 'opacity'});
-    this.opacity.addEventListener('input', () => {
-      this.page.viewer.set({opacity: Number(this.opacity.value)});
-      this.page.stateChanged();
-    });
-    return this.section('layers over images', make('label', {class: 'line'},
-                                                   make('span', {}, 'opacity'), this.opacity));
-  }
-
   makeLights() {
     const rows = this.hello.scene.lights.map(({name, kind}) => {
       const input = new NumberInput({name: `factor of ${name}`, lo: LIGHT_RANGE[0],
@@ -101,7 +90,6 @@ class ScenePanel {
     if (!this.fov.isBusy && state.camera.yfov) {
       this.fov.show(Number((state.camera.yfov * 180 / Math.PI).toPrecision(4)));
     }
-    this.opacity.value = this.page.viewer.state.opacity;
     for (const {name, factor} of state.lights) {
       const light = this.lights.get(name);
       if (!light) continue;
