@@ -1,5 +1,5 @@
 // Which part of the images all views of a viewer show: the image position at the middle of a view,
-// and CSS pixels per image pixel.
+// and CSS pixels per image pixel. Images of another size are stretched to this one.
 class Camera {
   constructor(width, height) {
     this.width = width;
@@ -11,6 +11,24 @@ class Camera {
     this.fitted = true;
     this.x = this.width / 2;
     this.y = this.height / 2;
+  }
+
+  // Images of another size: the same part of them.
+  resize(width, height) {
+    if (!this.fitted) {
+      this.x *= width / this.width;
+      this.y *= height / this.height;
+      this.scale *= this.width / width;
+    }
+    Object.assign(this, {width, height});
+    if (this.fitted) this.fit();
+  }
+
+  // The index of a pixel in an image that may have another size.
+  indexIn(image, pixel) {
+    const x = Math.floor((pixel.x + 0.5) * image.width / this.width);
+    const y = Math.floor((pixel.y + 0.5) * image.height / this.height);
+    return y * image.width + x;
   }
 
   // Called for each drawing, as views change their size.

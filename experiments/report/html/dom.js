@@ -31,3 +31,13 @@ function makeButton(text, help, action) {
   button.addEventListener('click', action);
   return button;
 }
+
+// A click beside a dialog's box closes it.
+function closeBeside(dialog) {
+  dialog.addEventListener('click', event => { if (event.target === dialog) dialog.close(); });
+}
+
+// Without touching the page where nothing has changed.
+function setText(element, text) {
+  if (element.textContent !== text) element.textContent = text;
+}

@@ -2,10 +2,11 @@
 // pixel under the pointer.
 class ImageList {
   // `whole`: the images are no crops.
-  constructor(images, whole, actions) {
-    Object.assign(this, {images, whole});
+  constructor(images, whole, camera, actions) {
+    Object.assign(this, {images, whole, camera});
     const head = make('tr', {}, make('th', {scope: 'col'}, 'key'),
-                      make('th', {scope: 'col'}, 'image'), make('th', {scope: 'col'}, 'compare with'),
+                      make('th', {scope: 'col'}, 'image'),
+                      make('th', {scope: 'col'}, 'compare with'),
                       this.meanTitle = make('th', {scope: 'col', class: 'num'}),
                       make('th', {scope: 'col', class: 'num'}, 'R'),
                       make('th', {scope: 'col', class: 'num'}, 'G'),
@@ -26,38 +27,39 @@ class ImageList {
                                     'aria-label': `compare with ${image.name}`,
                                     title: `errors against this image (Shift+${i + 1})`});
     compare.addEventListener('click', () => actions.compare(i));
-    const note = image.nonfinite.length
-        ? make('span', {class: 'bad'}, ` ${image.nonfinite.length} non-finite`) : '';
+    const note = make('span', {class: 'bad'});
     const values = ['mean', 'r', 'g', 'b', 'here'].map(
         part => make('td', {class: 'num', 'data-part': part}));
     const element = make('tr', {}, make('td', {}, i < 9 ? make('kbd', {}, String(i + 1)) : ''),
-                         make('th', {scope: 'row'}, name, note), make('td', {}, compare), ...values);
-    return {element, name, compare, values};
+                         make('th', {scope: 'row'}, name, note), make('td', {}, compare),
+                         ...values);
+    return {element, name, compare, note, values};
   }
 
   // `pixel`: {x, y} or null.
   show(state, painter, pixel) {
     const kind = state.error;
     const metric = kind === 'none' ? '' : ERRORS[kind].metric;
-    this.meanTitle.textContent = metric && !this.whole ? `${metric}, crop` : metric;
+    setText(this.meanTitle, metric && !this.whole ? `${metric}, crop` : metric);
     this.meanTitle.title = metric && `mean over the pixels here, against ${
         this.images[state.compare].name}`;
-    this.hereTitle.textContent = kind === 'none' ? '' : 'error here';
+    setText(this.hereTitle, kind === 'none' ? '' : 'error here');
     this.rows.forEach((row, i) => {
       const image = this.images[i];
       row.element.classList.toggle('current', i === state.current);
       row.name.setAttribute('aria-pressed', i === state.current);
       row.compare.setAttribute('aria-pressed', i === state.compare);
-      const hasError = kind !== 'none' && i !== state.compare;
-      const at = pixel ? pixel.y * image.width + pixel.x : -1;
+      setText(row.name, image.name);
+      setText(row.note, image.nonfinite.length ? ` ${image.nonfinite.length} non-finite` : '');
+      const plane = kind !== 'none' && i !== state.compare &&
+          areComparable(image, this.images[state.compare]) ? painter.plane(kind, i) : null;
+      const at = pixel && image.data ? this.camera.indexIn(image, pixel) : -1;
       const texts = [
-        hasError ? shortNumber(painter.plane(kind, i).mean) : '',
-        ...[0, 1, 2].map(c => pixel ? exactFloat(image.data[3 * at + c]) : ''),
-        hasError && pixel ? shortNumber(painter.plane(kind, i).values[at]) : ''
+        plane ? shortNumber(plane.mean) : '',
+        ...[0, 1, 2].map(c => at < 0 ? '' : exactFloat(image.data[3 * at + c])),
+        plane && at >= 0 ? shortNumber(plane.values[at]) : ''
       ];
-      row.values.forEach((cell, k) => {
-        if (cell.textContent !== texts[k]) cell.textContent = texts[k];
-      });
+      row.values.forEach((cell, k) => setText(cell, texts[k]));
     });
   }
 }

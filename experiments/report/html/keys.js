@@ -1,32 +1,15 @@
-// Keys of the viewers.
+// Keys of the viewers, by the table of commands.
 
-// What a key does to a viewer; undefined for a key that is none of theirs.
-function keyAction(event) {
+// The name of what is pressed, as commands have it: a character, with Shift in it, or the key's
+// name; digits by their place, since Shift makes other characters of them.
+function keyName(event) {
   const digit = /^(?:Digit|Numpad)([1-9])$/.exec(event.code);
-  if (digit) {
-    const i = Number(digit[1]) - 1;
-    const change = event.shiftKey ? {compare: i} : {current: i};
-    return viewer => { if (i < viewer.images.length) viewer.set(change); };
-  }
-  switch (event.key) {
-    case 'ArrowLeft': return viewer => viewer.step(-1);
-    case 'ArrowRight': return viewer => viewer.step(1);
-    case 's': return viewer => viewer.set({mode: 'single'});
-    case 'w': return viewer => viewer.set({mode: 'wipe'});
-    case 'b': return viewer => viewer.set({mode: 'side'});
-    case 'n': return viewer => viewer.stepError(1);
-    case 'N': return viewer => viewer.stepError(-1);
-    case 'l': return viewer => viewer.toggleLog();
-    case 'e': return viewer => viewer.expose(0.5);
-    case 'E': return viewer => viewer.expose(-0.5);
-    case 'r': return viewer => viewer.set({stops: 0});
-    case 't': return viewer => viewer.toggleTone();
-    case 'f': return viewer => viewer.fit();
-    case '0': return viewer => viewer.actualSize();
-    case '+': case '=': return viewer => viewer.zoom(1.5);
-    case '-': return viewer => viewer.zoom(1 / 1.5);
-    default: return undefined;
-  }
+  const control = event.ctrlKey || event.metaKey;
+  const key = digit ? digit[1] : event.key === ' ' ? 'Space' : event.key;
+  let name = control && key.length === 1 ? key.toLowerCase() : key;
+  if (event.shiftKey && (digit || control || key.length > 1)) name = `Shift+${name}`;
+  if (event.altKey) name = `Alt+${name}`;
+  return control ? `Ctrl+${name}` : name;
 }
 
 // Height of the part of an element that the window shows.
@@ -43,37 +26,51 @@ function keyTarget(viewers, focused) {
   return shown.sort((a, b) => shownHeight(b.root) - shownHeight(a.root))[0];
 }
 
-function addKeys(viewers, help) {
-  const held = holding => {
-    for (const viewer of viewers) {
-      if (viewer.state.held && !holding) viewer.set({held: false});
-    }
+// Whether keys are text there.
+function isField(element) {
+  return Boolean(element.closest('input:not([type=range], [type=checkbox]), textarea, select'));
+}
+
+// Arrows scroll a table that is wider than its place.
+function scrollsTable(event) {
+  const table = event.key.startsWith('Arrow') && event.target.closest('.scroll');
+  return table && table.scrollWidth > table.clientWidth;
+}
+
+// The command of a key and its viewer, or null.
+function commandOfKey(event, viewers, commands) {
+  const name = keyName(event);
+  const viewer = keyTarget(viewers, event.target);
+  const command = commands.find(
+      one => one.keys.includes(name) && (one.inFields || !isField(event.target)) &&
+          (one.isAnywhere || viewer) &&
+          (!one.isFocused || viewer.root === event.target) && (!one.when || one.when(viewer)));
+  return command ? {command, viewer} : null;
+}
+
+function addKeys(viewers, commands) {
+  const held = new Map();  // by the key's place on the keyboard
+  const release = code => {
+    const {command, viewer} = held.get(code);
+    held.delete(code);
+    command.release(viewer);
   };
   document.addEventListener('keydown', event => {
-    if (event.ctrlKey || event.metaKey || event.altKey || help.open) return;
-    if (event.target.closest('input, textarea, select')) return;
-    if (event.key === '?') {
-      help.showModal();
-      event.preventDefault();
-      return;
-    }
-    if (event.key === ' ') {
-      const viewer = viewers.find(one => one.root === event.target);
-      if (!viewer) return;
-      if (!viewer.state.held) viewer.set({held: true});
-      event.preventDefault();
-      return;
-    }
-    // Arrows scroll a table that is wider than its place.
-    const table = event.key.startsWith('Arrow') && event.target.closest('.scroll');
-    if (table && table.scrollWidth > table.clientWidth) return;
-    const action = keyAction(event);
-    const viewer = action && keyTarget(viewers, event.target);
-    if (!viewer) return;
-    action(viewer);
+    // A dialog has its own keys, and what took a key has it.
+    if (event.defaultPrevented || document.querySelector('dialog[open]')) return;
+    if (scrollsTable(event)) return;
+    const found = commandOfKey(event, viewers, commands);
+    if (!found) return;
     event.preventDefault();
+    const {command, viewer} = found;
+    if (event.repeat && command.isOnce) return;
+    if (!command.release) {
+      command.run(viewer);
+    } else if (!held.has(event.code)) {
+      held.set(event.code, found);
+      command.run(viewer);
+    }
   });
-  document.addEventListener('keyup', event => { if (event.key === ' ') held(false); });
-  window.addEventListener('blur', () => held(false));
-  document.addEventListener('help', () => help.showModal());
+  document.addEventListener('keyup', event => { if (held.has(event.code)) release(event.code); });
+  window.addEventListener('blur', () => { for (const code of [...held.keys()]) release(code); });
 }

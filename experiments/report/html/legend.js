@@ -30,28 +30,65 @@ function swatch(colour, text) {
   return make('span', {class: 'key'}, box, text);
 }
 
-// `painter` as the stage has it, `names` of the images.
-function showLegend(element, state, painter, names) {
-  const parts = [];
-  if (state.error !== 'none') {
+// Whether there is an image that has an error.
+function isScaleThere(state, images) {
+  const reference = images[state.compare];
+  return images.some((image, i) => i !== state.compare && areComparable(image, reference));
+}
+
+// The end of the scale of what lies over image i.
+function overlayEnd(painter, image, i) {
+  const scale = image.overlay && painter.overlayScale ? painter.overlayScale(i) : null;
+  return scale ? scale.hi : 0;
+}
+
+// What lies over images; the painter knows the scale of each.
+function overlayLegend(painter, images) {
+  const shown = images.map((_, i) => i).filter(i => images[i].overlay);
+  return shown.map(i => {
+    const {name, unit} = images[i].overlay;
+    const scale = painter.overlayScale ? painter.overlayScale(i) : null;
+    const title = make('p', {class: 'legend-title'}, make('b', {}, name),
+                       `${unit ? ` in ${unit}` : ''}, over ${images[i].name}`);
+    return scale ? make('div', {}, title, legendBar(scale)) : title;
+  });
+}
+
+// `painter` as the stage has it. Nothing is made anew while it would be the same.
+function showLegend(element, state, painter, images) {
+  const isError = state.error !== 'none' && isScaleThere(state, images);
+  const scale = isError ? painter.errorScale() :
+      state.error === 'none' && state.tone === 'false' ? painter.luminanceScale() : null;
+  const key = [
+    state.error, state.compare, state.tone, painter.factor, scale && scale.lo, scale && scale.hi,
+    scale && scale.log, images.some(image => image.nonfinite.length),
+    ...images.map(image => `${image.name} ${image.overlay ? image.overlay.name : ''}`),
+    ...images.map((image, i) => overlayEnd(painter, image, i))
+  ].join('|');
+  if (element.dataset.key === key) return;
+  element.dataset.key = key;
+  const parts = [], names = images.map(image => image.name);
+  if (isError) {
     const info = ERRORS[state.error];
-    const scale = painter.errorScale();
     parts.push(make('p', {class: 'legend-title'}, make('b', {}, info.title),
                     `: ${info.formula}, d = image \u2212 r, r = ${names[state.compare]}` +
                         (info.signed ? '; blue: darker than r, orange: brighter' : '') +
                         (scale.log ? '; logarithmic' : '')));
     parts.push(legendBar(scale));
+  } else if (state.error !== 'none') {
+    parts.push(make('p', {class: 'legend-title'}, 'No error yet: an image is on its way.'));
   } else if (state.tone === 'false') {
     parts.push(make('p', {class: 'legend-title'}, make('b', {}, 'luminance'),
                     ': 0.2126 R + 0.7152 G + 0.0722 B of linear radiance; logarithmic'));
-    parts.push(legendBar(painter.luminanceScale()));
+    parts.push(legendBar(scale));
   } else {
     parts.push(make('p', {class: 'legend-title'}, make('b', {}, 'radiance'),
                     ` \u00d7 ${shortNumber(painter.factor)} as sRGB, clipped to 0 and 1`));
   }
-  if (painter.images.some(image => image.nonfinite.length)) {
+  if (images.some(image => image.nonfinite.length)) {
     parts.push(make('p', {class: 'legend-title'}, swatch(NAN_COLOUR, 'NaN'), ' ',
                     swatch(INF_COLOUR, 'infinite'), ' in a box of their own'));
   }
+  parts.push(...overlayLegend(painter, images));
   element.replaceChildren(...parts);
 }

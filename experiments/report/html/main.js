@@ -17,7 +17,7 @@ async function openViewer(root) {
       throw error;
     }
     images.push({name, role, width: data.width, height: data.height, data: values,
-                 nonfinite: nonfinitePixels(values)});
+                 nonfinite: nonfinitePixels(values), version: 1});
   }
   const viewer = new Viewer(root, data, images);
   root.viewer = viewer;
@@ -41,5 +41,7 @@ if (roots.length) {
     }
   }, {rootMargin: '600px'});
   for (const root of roots.slice(1)) near.observe(root);
-  addKeys(viewers, makeHelp());
+  addKeys(viewers, VIEWER_COMMANDS);
+  makeHelp(VIEWER_COMMANDS);
+  new Palette(VIEWER_COMMANDS, focused => keyTarget(viewers, focused));
 }

@@ -8,15 +8,25 @@ document.addEventListener('wheel', event => {
   if (!event.defaultPrevented) lastPageScroll = event.timeStamp;
 }, {passive: true});
 
+// A press that moves no farther than so many CSS pixels is a click.
+const CLICK_RADIUS = 4;
+
+// `viewer.data.pointer`, where there is one, may take a drag or the wheel: drag(event, hit) says
+// what does it, {move(dx, dy)}, or null; wheel(event) whether it did; click(hit) ends a press that
+// did not move.
 function addPointer(viewer) {
-  const {canvas, divider, frame} = viewer;
+  const {canvas, divider, frame} = viewer, own = viewer.data.pointer;
   const position = event => {
     const box = canvas.getBoundingClientRect();
     return [event.clientX - box.left, event.clientY - box.top];
   };
-  let last = null;
+  let last = null, first = null, drag = null;
 
   canvas.addEventListener('wheel', event => {
+    if (own && own.wheel(event)) {
+      event.preventDefault();
+      return;
+    }
     if (event.ctrlKey || event.timeStamp - lastPageScroll < WHEEL_PAUSE) return;
     const unit = event.deltaMode === 1 ? 20 : event.deltaMode === 2 ? 400 : 1;
     const moved = viewer.zoom(Math.exp(-event.deltaY * unit * 0.002), ...position(event));
@@ -28,18 +38,26 @@ function addPointer(viewer) {
     if (event.button !== 0) return;
     viewer.root.focus({preventScroll: true});
     canvas.setPointerCapture(event.pointerId);
-    last = [event.clientX, event.clientY];
+    first = last = [event.clientX, event.clientY];
+    drag = own ? own.drag(event, viewer.stage.hit(...position(event))) : null;
   });
   canvas.addEventListener('pointermove', event => {
+    if (first && Math.hypot(event.clientX - first[0], event.clientY - first[1]) > CLICK_RADIUS) {
+      first = null;
+    }
     if (last) {
-      viewer.camera.pan(event.clientX - last[0], event.clientY - last[1]);
+      const by = [event.clientX - last[0], event.clientY - last[1]];
+      if (drag) drag.move(...by); else if (!first || !own) viewer.camera.pan(...by);
       last = [event.clientX, event.clientY];
     }
     viewer.pointer = position(event);
     viewer.redraw();
   });
-  const end = () => { last = null; };
-  canvas.addEventListener('pointerup', end);
+  const end = () => { first = last = drag = null; };
+  canvas.addEventListener('pointerup', event => {
+    if (first && own) own.click(viewer.stage.hit(...position(event)));
+    end();
+  });
   canvas.addEventListener('pointercancel', end);
   canvas.addEventListener('pointerleave', () => {
     viewer.pointer = null;

@@ -16,17 +16,26 @@ function bestColumns(n, width, mostHeight, aspect) {
   return best;
 }
 
+// Whether an image can be compared with another one pixel by pixel.
+function areComparable(a, b) {
+  return Boolean(a.data && b.data) && a.width === b.width && a.height === b.height;
+}
+
 // {height, views: [{x, y, width, height, image, isError, clip: [left, right] or absent}]} in CSS
-// pixels. Of two views in one place the divider shows the left part of the first.
-function layOut(state, images, width) {
-  const aspect = images[0].width / images[0].height;
-  const mostHeight = Math.max(240, 0.78 * window.innerHeight);
-  const isError = i => state.error !== 'none' && i !== state.compare;
-  if (state.mode === 'side') {
-    const columns = bestColumns(images.length, width, mostHeight * (width < 600 ? 2 : 1), aspect);
+// pixels. Of two views in one place the divider shows the left part of the first. `room`:
+// {width, mostHeight, isFilled}; `aspect` of the images, width over height.
+function layOut(state, images, aspect, room) {
+  const {width, mostHeight} = room;
+  const isError = i => state.error !== 'none' && i !== state.compare &&
+      areComparable(images[i], images[state.compare]);
+  if (state.mode === 'side' && !state.held) {
+    // All of them in the window, but on a narrow one.
+    const sideHeight = mostHeight * (width < 600 && !room.isFilled ? 2 : 1);
+    const columns = bestColumns(images.length, width, sideHeight, aspect);
     const rows = Math.ceil(images.length / columns);
     const cellWidth = (width - VIEW_GAP * (columns - 1)) / columns;
-    const cellHeight = Math.min(cellWidth / aspect, (2 * mostHeight - VIEW_GAP * (rows - 1)) / rows);
+    const mostCell = (sideHeight - VIEW_GAP * (rows - 1)) / rows;
+    const cellHeight = room.isFilled ? mostCell : Math.min(cellWidth / aspect, mostCell);
     const views = images.map((image, i) => ({
                                x: (i % columns) * (cellWidth + VIEW_GAP),
                                y: Math.floor(i / columns) * (cellHeight + VIEW_GAP),
@@ -34,7 +43,7 @@ function layOut(state, images, width) {
                              }));
     return {height: rows * cellHeight + VIEW_GAP * (rows - 1), views};
   }
-  const height = Math.min(width / aspect, mostHeight);
+  const height = room.isFilled ? mostHeight : Math.min(width / aspect, mostHeight);
   const whole = {x: 0, y: 0, width, height};
   const shown = state.held ? state.compare : state.current;
   if (state.mode === 'wipe') {
@@ -47,17 +56,30 @@ function layOut(state, images, width) {
   return {height, views: [{...whole, image: shown, isError: isError(shown)}]};
 }
 
+// Of an image that has not come yet.
+function drawWaiting(context, view, x, y, width, height) {
+  context.fillStyle = '#55585e';
+  context.fillRect(x, y, width, height);
+  context.fillStyle = '#fff';
+  context.font = '14px system-ui, sans-serif';
+  context.textAlign = 'center';
+  context.textBaseline = 'middle';
+  context.fillText('waiting for the first frame', view.x + view.width / 2,
+                   view.y + view.height / 2);
+}
+
 class Stage {
   // `painter` gives the picture of a view and the texts of its pixels.
   constructor(canvas, camera, images, painter) {
     Object.assign(this, {canvas, camera, images, painter, views: []});
   }
 
-  // Places the views for a stage of `width` CSS pixels.
-  arrange(state, width) {
-    const layout = layOut(state, this.images, width);
-    Object.assign(this, {views: layout.views, width, height: layout.height});
-    this.camera.adapt(this.views[0].width, this.views[0].height);
+  // Places the views in a stage of so many CSS pixels; `room` as layOut() has it.
+  arrange(state, room) {
+    const {camera} = this;
+    const layout = layOut(state, this.images, camera.width / camera.height, room);
+    Object.assign(this, {state, views: layout.views, width: room.width, height: layout.height});
+    camera.adapt(this.views[0].width, this.views[0].height);
   }
 
   // `pixel` is marked in all views but `overView`, which the pointer is over; null: nowhere.
@@ -85,23 +107,48 @@ class Stage {
     const [left, right] = view.clip || [view.x, view.x + view.width];
     context.rect(left, view.y, right - left, view.height);
     context.clip();
-    const shown = shownPixels(camera, view, image.width, image.height);
-    const [x0, y0, x1, y1] = shown;
-    if (x1 > x0 && y1 > y0) {
-      const [dx, dy] = camera.toView(view, x0, y0);
-      context.imageSmoothingEnabled = camera.scale * (window.devicePixelRatio || 1) < 1;
-      context.imageSmoothingQuality = 'high';
-      context.drawImage(this.painter.layer(view), x0, y0, x1 - x0, y1 - y0, dx, dy,
-                        (x1 - x0) * camera.scale, (y1 - y0) * camera.scale);
-      if (camera.scale >= GRID_FROM) drawGrid(context, camera, view, shown);
-      if (camera.scale >= VALUES_FROM) {
-        drawValues(context, camera, view, shown, image.width, i => this.painter.texts(view, i),
-                   i => this.painter.isLight(view, i));
-      }
+    const shown = shownPixels(camera, view, camera.width, camera.height);
+    if (shown[2] > shown[0] && shown[3] > shown[1]) this.drawPicture(context, view, shown);
+    if (image.data && this.hasCameraSize(image)) drawNonfinite(context, camera, view, image);
+    if (image.marks && typeof drawMarks === 'function') {
+      drawMarks(context, camera, view, image.marks);
     }
-    drawNonfinite(context, camera, view, image);
     if (pixel) drawPointer(context, camera, view, pixel);
     context.restore();
+  }
+
+  hasCameraSize(image) {
+    return image.width === this.camera.width && image.height === this.camera.height;
+  }
+
+  // The image pixels `shown` of a view, what lies over them, and their grid and numbers.
+  drawPicture(context, view, shown) {
+    const {camera, painter} = this, image = this.images[view.image];
+    const [x0, y0, x1, y1] = shown, [dx, dy] = camera.toView(view, x0, y0);
+    const place = [dx, dy, (x1 - x0) * camera.scale, (y1 - y0) * camera.scale];
+    if (!image.data) {
+      drawWaiting(context, view, ...place);
+      return;
+    }
+    const draw = (canvas, width, height) => {
+      const sx = width / camera.width, sy = height / camera.height;
+      context.imageSmoothingEnabled = camera.scale * (window.devicePixelRatio || 1) < sx;
+      context.imageSmoothingQuality = 'high';
+      context.drawImage(canvas, x0 * sx, y0 * sy, (x1 - x0) * sx, (y1 - y0) * sy, ...place);
+    };
+    const layer = painter.layer(view);
+    if (layer) draw(layer, image.width, image.height);
+    const overlay = image.overlay && painter.overlayLayer && painter.overlayLayer(view);
+    if (overlay) {
+      context.globalAlpha = this.state.opacity;
+      draw(overlay, overlay.width, overlay.height);
+      context.globalAlpha = 1;
+    }
+    if (camera.scale >= GRID_FROM) drawGrid(context, camera, view, shown);
+    if (camera.scale >= VALUES_FROM && this.hasCameraSize(image)) {
+      drawValues(context, camera, view, shown, image.width, i => painter.texts(view, i),
+                 i => painter.isLight(view, i));
+    }
   }
 
   // The view and the pixel at a position in CSS pixels of the canvas, or null.
@@ -111,8 +158,8 @@ class Stage {
       const [left, right] = view.clip || [view.x, view.x + view.width];
       if (x < left || x >= right || y < view.y || y >= view.y + view.height) continue;
       const [px, py] = this.camera.toImage(view, x, y).map(Math.floor);
-      const image = this.images[view.image];
-      const inside = px >= 0 && py >= 0 && px < image.width && py < image.height;
+      const {width, height} = this.camera;
+      const inside = px >= 0 && py >= 0 && px < width && py < height;
       return {view: k, pixel: inside ? {x: px, y: py} : null};
     }
     return null;

@@ -1,6 +1,8 @@
 // A viewer: the state of one block's images, its controls and its drawing.
 class Viewer {
-  // `data` as in the file; `images`: {name, role, width, height, data, nonfinite}.
+  // `data` as in the file; `images`: {name, role, width, height, data, nonfinite, version}. Of a
+  // live page `data` may have more: `room()`: CSS pixels for the stage, which it fills; `pointer`
+  // (pointer.js); `idle()`: the status line while the pointer is nowhere.
   constructor(root, data, images) {
     // `pointer`: its position in the stage in CSS pixels, or null; `pixel` and `overView`: what is
     // there.
@@ -12,9 +14,10 @@ class Viewer {
       current: method < 0 ? 0 : method, compare,
       // A noisy image alone says little.
       mode: reference >= 0 && method >= 0 ? 'wipe' : 'single', error: 'none', stops: 0,
-      tone: 'srgb', log: {}, wipe: 0.5, held: false
+      tone: 'srgb', log: {}, wipe: 0.5, held: false, opacity: 0.7
     };
     this.painter = new Painter(this.state, images, data.exposure);
+    this.painter.onLost = () => this.redraw();
     this.camera = new Camera(images[0].width, images[0].height);
     this.build();
     new ResizeObserver(() => this.redraw()).observe(this.frame);
@@ -31,7 +34,7 @@ class Viewer {
     this.status = make('p', {class: 'status'});
     this.now = make('p', {class: 'visually-hidden', 'aria-live': 'polite'});
     this.legend = make('div', {class: 'legend'});
-    this.list = new ImageList(this.images, this.data.whole, {
+    this.list = new ImageList(this.images, this.data.whole, this.camera, {
       choose: i => this.set({current: i}), compare: i => this.set({compare: i})
     });
     this.toolbar = new Toolbar(this);
@@ -49,11 +52,31 @@ class Viewer {
       this.root.dataset[key] = state[key];
     }
     this.toolbar.show(state, this.painter);
-    showLegend(this.legend, state, this.painter, this.images.map(image => image.name));
+    showLegend(this.legend, state, this.painter, this.images);
     const text = this.describe();
     this.canvas.setAttribute('aria-label', text);
     if (this.now.textContent !== text) this.now.textContent = text;
     this.redraw();
+  }
+
+  // Shows other pixels, or another name, of an image; `change` has what is new.
+  setImage(i, change) {
+    const image = this.images[i];
+    Object.assign(image, change);
+    if ('data' in change) ++image.version;
+    this.redraw();
+  }
+
+  // The size that all images are shown in.
+  setSize(width, height) {
+    if (width === this.camera.width && height === this.camera.height) return;
+    this.camera.resize(width, height);
+    this.redraw();
+  }
+
+  setExposure(exposure) {
+    this.painter.exposure = exposure;
+    this.set({});
   }
 
   describe() {
@@ -83,7 +106,7 @@ class Viewer {
   draw() {
     const width = this.frame.clientWidth;
     if (!width) return;
-    this.stage.arrange(this.state, width);
+    this.stage.arrange(this.state, this.room(width));
     const hit = this.pointer && this.stage.hit(...this.pointer);
     this.pixel = hit ? hit.pixel : null;
     this.overView = hit ? hit.view : 0;
@@ -92,11 +115,17 @@ class Viewer {
     this.placeTags();
     this.showStatus();
     this.list.show(this.state, this.painter, this.pixel);
+    showLegend(this.legend, this.state, this.painter, this.images);
     this.toolbar.showZoom(this.camera);
     // A finger moves the page until there is something to move in the view.
     this.canvas.style.touchAction = this.camera.fitted ? 'pan-y' : 'none';
     this.root.dataset.scale = this.camera.scale;
     this.root.dataset.drawn = Number(this.root.dataset.drawn || 0) + 1;
+  }
+
+  room(width) {
+    if (this.data.room) return {width, mostHeight: this.data.room(), isFilled: true};
+    return {width, mostHeight: Math.max(240, 0.78 * window.innerHeight), isFilled: false};
   }
 
   placeDivider(width) {
@@ -106,46 +135,54 @@ class Viewer {
   }
 
   placeTags() {
-    const tags = this.stage.views.map(view => {
-      const tag = make('span', {}, this.label(view));
-      const current = this.state.mode === 'side' && view.image === this.state.current;
-      tag.className = current ? 'tag current' : 'tag';
-      // Out of the way of what the pointer is at.
-      if (this.pointer && Math.abs(this.pointer[1] - view.y) < 48) tag.classList.add('faint');
-      const [left, right] = view.clip || [view.x, view.x + view.width];
-      const atRight = view.clip && left > 0;
-      tag.style.top = `${view.y}px`;
-      tag.style.maxWidth = `${Math.max(0, right - left)}px`;
-      if (atRight) {
-        tag.style.right = `${this.frame.clientWidth - right}px`;
-      } else {
-        tag.style.left = `${left}px`;
-      }
-      return tag;
-    });
-    this.tags.replaceChildren(...tags);
+    const tags = this.stage.views.map(view => this.tag(view));
+    const key = JSON.stringify(tags);
+    if (this.tagKey === key) return;
+    this.tagKey = key;
+    this.tags.replaceChildren(...tags.map(({text, ...attributes}) => {
+      return make('span', attributes, text);
+    }));
+  }
+
+  tag(view) {
+    const current = this.state.mode === 'side' && view.image === this.state.current;
+    // Out of the way of what the pointer is at.
+    const isNear = this.pointer && Math.abs(this.pointer[1] - view.y) < 48;
+    const [left, right] = view.clip || [view.x, view.x + view.width];
+    const side = view.clip && left > 0 ? `right:${this.frame.clientWidth - right}px`
+                                       : `left:${left}px`;
+    return {
+      text: this.label(view), class: `tag${current ? ' current' : ''}${isNear ? ' faint' : ''}`,
+      style: `top:${view.y}px;max-width:${Math.max(0, right - left)}px;${side}`
+    };
   }
 
   // Coordinates are those of the whole image, of which the file may hold a part.
   showStatus() {
-    const {pixel, state} = this;
+    const {pixel, state, images} = this;
     if (!pixel) {
-      this.status.textContent = 'Point at a pixel to read it. ? shows the keys.';
+      setText(this.status, this.data.idle ? this.data.idle()
+                                          : 'Point at a pixel to read it. ? shows the keys.');
       return;
     }
     const view = this.stage.views[this.overView] || this.stage.views[0];
-    const at = 3 * (pixel.y * this.images[0].width + pixel.x);
-    const values = i => Array.from(this.images[i].data.subarray(at, at + 3), exactFloat).join(' ');
-    let text = `x ${pixel.x + this.data.x}  y ${pixel.y + this.data.y}   ` +
-        `${this.images[view.image].name}: ${values(view.image)}`;
+    const values = image => {
+      if (!image.data) return `   ${image.name}: nothing yet`;
+      const at = 3 * this.camera.indexIn(image, pixel);
+      const numbers = Array.from(image.data.subarray(at, at + 3), exactFloat).join(' ');
+      return `   ${image.name}: ${numbers}`;
+    };
+    const image = images[view.image];
+    let text = `x ${pixel.x + this.data.x}  y ${pixel.y + this.data.y}${values(image)}`;
     if (view.image !== state.compare) {
-      text += `   ${this.images[state.compare].name}: ${values(state.compare)}`;
-      if (state.error !== 'none') {
+      text += values(images[state.compare]);
+      if (view.isError) {
         const plane = this.painter.plane(state.error, view.image);
-        text += `   ${ERRORS[state.error].title}: ${shortNumber(plane.values[at / 3])}`;
+        const value = plane.values[this.camera.indexIn(image, pixel)];
+        text += `   ${ERRORS[state.error].title}: ${shortNumber(value)}`;
       }
     }
-    this.status.textContent = text;
+    setText(this.status, text);
   }
 
   step(by) {

@@ -1,0 +1,99 @@
+// What can be done to a viewer: one table from which keys, toolbar titles, help and palette are
+// made.
+//
+// {id, keys, title, group, run(viewer), ...}: `keys` as keyName() says them. Optional:
+// when(viewer): whether there is something to do; release(viewer): it lasts while the key is held;
+// isFocused: only while the viewer itself has the focus; isAnywhere: it needs no viewer;
+// inFields: also while text is typed; isOnce: a key that is held does it once; row: [keys, text] of
+// the help, of several commands one line.
+
+function imageCommands() {
+  const commands = [];
+  for (let i = 0; i < 9; ++i) {
+    const isThere = viewer => i < viewer.images.length;
+    const row = i ? null : ['1 \u2013 9', 'show that image'];
+    commands.push({id: `image-${i + 1}`, keys: [`${i + 1}`], group: 'Images', row,
+                   title: `show image ${i + 1}`, when: isThere,
+                   run: viewer => viewer.set({current: i})});
+  }
+  for (let i = 0; i < 9; ++i) {
+    const isThere = viewer => i < viewer.images.length;
+    const row = i ? null : ['Shift + 1 \u2013 9',
+                            'compare with that image (errors, the left side of the divider)'];
+    commands.push({id: `compare-${i + 1}`, keys: [`Shift+${i + 1}`], group: 'Images', row,
+                   title: `compare with image ${i + 1}`, when: isThere,
+                   run: viewer => viewer.set({compare: i})});
+  }
+  return commands;
+}
+
+const isErrorView = viewer => viewer.state.error !== 'none';
+
+const VIEWER_COMMANDS = [
+  ...imageCommands(),
+  {id: 'previous', keys: ['ArrowLeft'], group: 'Images', title: 'previous image',
+   run: viewer => viewer.step(-1)},
+  {id: 'next', keys: ['ArrowRight'], group: 'Images', title: 'next image',
+   run: viewer => viewer.step(1)},
+  {id: 'hold-compare', keys: ['Space'], group: 'Images', isFocused: true,
+   title: 'while held, what is compared with; the viewer must have the focus',
+   run: viewer => viewer.set({held: true}), release: viewer => viewer.set({held: false})},
+
+  {id: 'single', keys: ['s'], group: 'View', title: 'single image',
+   run: viewer => viewer.set({mode: 'single'})},
+  {id: 'wipe', keys: ['w'], group: 'View', title: 'wipe: two images and a divider to drag',
+   run: viewer => viewer.set({mode: 'wipe'})},
+  {id: 'side', keys: ['b'], group: 'View', title: 'side by side: all images at the same place',
+   run: viewer => viewer.set({mode: 'side'})},
+  {id: 'fit', keys: ['f'], group: 'View', title: 'fit into the window',
+   run: viewer => viewer.fit()},
+  {id: 'actual', keys: ['0'], group: 'View', title: 'one screen pixel a pixel',
+   run: viewer => viewer.actualSize()},
+  {id: 'zoom-in', keys: ['+', '='], group: 'View', title: 'zoom in',
+   run: viewer => viewer.zoom(1.5)},
+  {id: 'zoom-out', keys: ['-'], group: 'View', title: 'zoom out',
+   run: viewer => viewer.zoom(1 / 1.5)},
+
+  {id: 'next-error', keys: ['n'], group: 'Errors and colours',
+   title: 'next error view: none, signed, absolute, squared, relative',
+   run: viewer => viewer.stepError(1)},
+  {id: 'previous-error', keys: ['N'], group: 'Errors and colours', title: 'previous error view',
+   run: viewer => viewer.stepError(-1)},
+  {id: 'log', keys: ['l'], group: 'Errors and colours', title: 'linear or logarithmic error scale',
+   when: viewer => isErrorView(viewer) && !ERRORS[viewer.state.error].signed,
+   run: viewer => viewer.toggleLog()},
+  {id: 'brighter', keys: ['e'], group: 'Errors and colours',
+   title: 'exposure up half a stop; of errors: their range', run: viewer => viewer.expose(0.5)},
+  {id: 'darker', keys: ['E'], group: 'Errors and colours', title: 'exposure down half a stop',
+   run: viewer => viewer.expose(-0.5)},
+  {id: 'exposure-reset', keys: ['r'], group: 'Errors and colours', title: 'exposure as at first',
+   run: viewer => viewer.set({stops: 0})},
+  {id: 'tone', keys: ['t'], group: 'Errors and colours', title: 'sRGB or false colour',
+   run: viewer => viewer.toggleTone()},
+
+  {id: 'palette', keys: ['Ctrl+k'], group: 'Help', title: 'search all commands', isAnywhere: true,
+   inFields: true, run: () => document.dispatchEvent(new CustomEvent('palette'))},
+  {id: 'help', keys: ['?'], group: 'Help', title: 'keys; Escape closes them', isAnywhere: true,
+   run: () => document.dispatchEvent(new CustomEvent('help'))}
+];
+
+const KEY_TEXTS = {ArrowLeft: '\u2190', ArrowRight: '\u2192', ArrowUp: '\u2191',
+                   ArrowDown: '\u2193', '-': '\u2212'};
+
+// A key as people read it: 'Ctrl+Shift+z' is Ctrl + Shift + Z.
+function keyText(name) {
+  const parts = name === '+' ? [name] : name.split('+');
+  const last = parts.pop();
+  const isOfModifier = parts.length && last.length === 1;
+  return [...parts, KEY_TEXTS[last] || (isOfModifier ? last.toUpperCase() : last)].join(' + ');
+}
+
+function keysText(command) {
+  return command.keys.map(keyText).join(', ') + (command.release ? ' (held)' : '');
+}
+
+// The text of a button that does the same; its keys are in it.
+function commandTitle(id, commands = VIEWER_COMMANDS) {
+  const command = commands.find(one => one.id === id);
+  return command.keys.length ? `${command.title} (${keysText(command)})` : command.title;
+}

@@ -1,0 +1,92 @@
+// The whole state of the page in its address, after the #: what is opened again shows the same.
+
+const VIEW_FIELDS = ['mode', 'current', 'compare', 'error', 'stops', 'tone', 'log', 'wipe',
+                     'opacity'];
+const FRAGMENT_INTERVAL_MS = 700;
+
+function stateForAddress(state, viewer, settings) {
+  const panes = state.panes.map(pane => {
+    const kept = {layer: pane.layer || ''};
+    for (const key of settings) kept[key] = pane[key];
+    const changed = pane.parameters.filter(info => info.is_set);
+    kept.parameters = Object.fromEntries(changed.map(({name, value}) => [name, value]));
+    return kept;
+  });
+  const view = Object.fromEntries(VIEW_FIELDS.map(key => [key, viewer.state[key]]));
+  const {fitted, x, y, scale} = viewer.camera;
+  if (!fitted) view.zoom = [x, y, scale].map(value => Number(value.toPrecision(6)));
+  const lights = state.lights.filter(({factor}) => factor !== 1);
+  return {panes, camera: state.camera, width: state.width, height: state.height,
+          lights: Object.fromEntries(lights.map(({name, factor}) => [name, factor])),
+          paused: state.paused, view};
+}
+
+const fragmentOf = kept => `#${encodeURIComponent(JSON.stringify(kept))}`;
+
+// Null where there is none, or one that is none of ours.
+function readFragment(hash) {
+  if (hash.length < 2) return null;
+  try {
+    const kept = JSON.parse(decodeURIComponent(hash.slice(1)));
+    return kept && typeof kept === 'object' && Array.isArray(kept.panes) ? kept : null;
+  } catch {
+    return null;
+  }
+}
+
+// The commands that lead from `state` to what was kept.
+function commandsTowards(kept, state, settings) {
+  const commands = [];
+  const differs = (a, b) => JSON.stringify(a) !== JSON.stringify(b);
+  kept.panes.slice(0, state.panes.length).forEach((want, pane) => {
+    const is = state.panes[pane];
+    let isOther = false;
+    for (const key of settings) {
+      if (!(key in want) || (!isOther && want[key] === is[key])) continue;
+      commands.push({do: 'set', pane, key, value: want[key]});
+      isOther = isOther || key === 'integrator';  // its mode is another one, too
+    }
+    const wanted = want.parameters || {};
+    for (const info of is.parameters) {
+      if (info.is_set && !(info.name in wanted)) {
+        commands.push({do: 'parameter', pane, name: info.name, value: null});
+      }
+    }
+    for (const [name, value] of Object.entries(wanted)) {
+      const info = is.parameters.find(one => one.name === name);
+      if (info && info.is_set && !isOther && !differs(info.value, value)) continue;
+      commands.push({do: 'parameter', pane, name, value});
+    }
+    if ((want.layer || '') !== (is.layer || '')) {
+      commands.push({do: 'layer', pane, name: want.layer || ''});
+    }
+  });
+  if (kept.width > 0 && (kept.width !== state.width || kept.height !== state.height)) {
+    commands.push({do: 'resolution', width: kept.width, height: kept.height});
+  }
+  for (const {name, factor} of state.lights) {
+    const wanted = (kept.lights || {})[name] ?? 1;
+    if (wanted !== factor) commands.push({do: 'light', name, factor: wanted});
+  }
+  if (kept.camera && differs(kept.camera, state.camera)) {
+    commands.push({do: 'camera', ...kept.camera});
+  }
+  if (typeof kept.paused === 'boolean' && kept.paused !== state.paused) {
+    commands.push({do: 'pause', on: kept.paused});
+  }
+  return commands;
+}
+
+function applyView(view, viewer) {
+  const known = VIEW_FIELDS.filter(key => view && key in view &&
+                                   typeof view[key] === typeof viewer.state[key]);
+  const change = Object.fromEntries(known.map(key => [key, view[key]]));
+  for (const key of ['current', 'compare']) if (!viewer.images[change[key]]) delete change[key];
+  if (!ERROR_ORDER.includes(change.error)) delete change.error;
+  viewer.set(change);
+  if (view && Array.isArray(view.zoom) && view.zoom.every(Number.isFinite)) {
+    const [x, y, scale] = view.zoom;
+    Object.assign(viewer.camera, {fitted: false, x, y, scale});
+    viewer.redraw();
+  }
+}

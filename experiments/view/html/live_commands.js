@@ -1,0 +1,99 @@
+// What can be done to a live session, besides what can be done to any viewer. They come first: in
+// camera mode their keys are the camera's.
+
+// [way, keys, title] of the camera's keys in camera mode.
+const FLY_KEYS = [
+  ['forward', ['w', 'W'], 'fly forward'], ['back', ['s', 'S'], 'fly back'],
+  ['left', ['a', 'A'], 'fly left'], ['right', ['d', 'D'], 'fly right'],
+  ['up', ['e', 'E'], 'fly up'], ['down', ['q', 'Q'], 'fly down'],
+  ['turn-left', ['ArrowLeft', 'Shift+ArrowLeft'], 'look left'],
+  ['turn-right', ['ArrowRight', 'Shift+ArrowRight'], 'look right'],
+  ['turn-up', ['ArrowUp', 'Shift+ArrowUp'], 'look up'],
+  ['turn-down', ['ArrowDown', 'Shift+ArrowDown'], 'look down']
+];
+
+// Lines of the help, by the first command of each.
+const FLY_ROWS = {
+  forward: ['w, s, a, d, e, q', 'fly forward, back, left, right, up, down; with Shift faster'],
+  'turn-left': ['\u2190 \u2192 \u2191 \u2193', 'look around; where dragging orbits (o), orbit']
+};
+
+// What a key goes on doing while it is held; the rest it does once.
+const REPEATED = ['faster', 'slower', 'undo', 'redo'];
+
+function makeLiveCommands(page) {
+  const send = command => () => page.session.send(command);
+  const isOn = () => page.camera.isOn;
+  // Where the camera turns with the arrows.
+  const isTurning = () => isOn() || page.camera.isOrbit;
+  const session = 'Session', camera = 'Camera', fly = 'Camera mode (c)';
+  const commands = [
+    ...FLY_KEYS.map(([way, keys, title]) => ({
+                      id: `fly-${way}`, keys, group: fly, title,
+                      when: way.startsWith('turn') ? isTurning : isOn,
+                      row: FLY_ROWS[way] || null,
+                      run: () => page.camera.hold(way), release: () => page.camera.release(way)})),
+    {id: 'faster', keys: ['+', '='], group: fly, title: 'higher speed of the camera', when: isOn,
+     run: () => page.camera.changeSpeed(1)},
+    {id: 'slower', keys: ['-'], group: fly, title: 'lower speed of the camera', when: isOn,
+     run: () => page.camera.changeSpeed(-1)},
+
+    {id: 'camera-mode', keys: ['c'], group: camera, title: 'camera mode on or off',
+     run: () => page.camera.setMode(!isOn())},
+    {id: 'orbit', keys: ['o'], group: camera, title: 'dragging orbits, or not',
+     run: () => page.camera.setOrbit(!page.camera.isOrbit)},
+    {id: 'bookmark', keys: ['k'], group: camera, title: 'keep this view as a bookmark',
+     run: () => page.bookmarks.add()},
+    {id: 'camera-home', keys: ['h'], group: camera, title: 'back to the first camera of the scene',
+     run: () => page.moveCamera(page.hello.scene.cameras[0]),
+     when: () => page.hello.scene.cameras.length > 0},
+    {id: 'record', keys: ['v'], group: camera, title: 'record the camera\'s path, or stop',
+     run: () => page.recorder.toggle()},
+    {id: 'play', keys: ['V'], group: camera, title: 'play the recorded path',
+     when: () => page.recorder.keyframes.length > 1, run: () => page.recorder.playBack()},
+
+    {id: 'pause', keys: ['p'], group: session, title: 'pause or go on',
+     run: () => page.session.send({do: 'pause', on: !page.state.paused})},
+    {id: 'restart', keys: ['R'], group: session, title: 'histories begin anew, with the next seed',
+     run: send({do: 'restart'})},
+    {id: 'undo', keys: ['z', 'Ctrl+z'], group: session, title: 'undo the last change',
+     when: () => page.state.can_undo, run: send({do: 'undo'})},
+    {id: 'redo', keys: ['Z', 'Ctrl+Shift+z', 'Ctrl+y'], group: session, title: 'redo',
+     when: () => page.state.can_redo, run: send({do: 'redo'})},
+    {id: 'copy-ab', keys: [], group: session, title: 'copy the method of A to B',
+     when: () => page.state.panes.length > 1, run: send({do: 'copy', from: 0, to: 1})},
+    {id: 'copy-ba', keys: [], group: session, title: 'copy the method of B to A',
+     when: () => page.state.panes.length > 1, run: send({do: 'copy', from: 1, to: 0})},
+    {id: 'probe', keys: ['g'], group: session,
+     title: 'probe the pixel under the pointer, or in the middle', run: () => page.probeHere()},
+    {id: 'clear-probe', keys: ['G'], group: session, title: 'take the probe\'s marks away',
+     run: () => page.probe.clear()},
+    {id: 'save', keys: ['Ctrl+s'], group: session, title: 'save the session as TOML',
+     run: send({do: 'save'})},
+    {id: 'screenshot', keys: ['x'], group: session, title: 'save what is shown as a PNG',
+     run: viewer => saveScreenshot(viewer, `${page.hello.scene.name}.png`)},
+    {id: 'theme', keys: ['y'], group: session, title: 'light or dark', run: toggleTheme},
+    {id: 'find-parameter', keys: ['/'], group: session, title: 'search the parameters',
+     run: () => page.searchParameters()},
+    ...['methods', 'scene', 'plots', 'probe'].map((id, i) => ({
+         id: `tab-${id}`, keys: [`Alt+${i + 1}`], group: session, title: `panel: ${id}`,
+         row: i ? null : ['Alt + 1 \u2013 4', 'panels: methods, scene, plots, probe'],
+         run: () => page.openTab(id)})),
+
+    {id: 'hold-tab', keys: ['Tab'], group: 'Images', isFocused: true,
+     title: 'the same as Space; Escape, then Tab leaves the picture',
+     run: viewer => viewer.set({held: true}), release: viewer => viewer.set({held: false})},
+    {id: 'leave', keys: ['Escape'], group: 'Images', title: 'leave camera mode, or the picture',
+     when: viewer => isOn() || page.camera.isOrbit || document.activeElement === viewer.root,
+     run: viewer => page.leave(viewer)}
+  ];
+  return commands.map(
+      one => REPEATED.includes(one.id) || one.release ? one : {...one, isOnce: true});
+}
+
+const LIVE_POINTER_HELP = [
+  ['wheel', 'zoom about the pointer; in camera mode the speed'],
+  ['drag', 'move the picture; in camera mode look around'],
+  ['Alt + drag', 'orbit about the point under the pointer'],
+  ['click', 'probe the pixel in all panes']
+];

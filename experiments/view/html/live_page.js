@@ -1,0 +1,207 @@
+// The page of a live session: a viewer of two panes and the reference, and panels beside it.
+
+const REFERENCE_SLOT = 2, LAYER_SLOTS = 16;
+
+class LivePage {
+  constructor() {
+    this.messages = new Messages();
+    this.header = new Header(this);
+    this.root = make('div', {class: 'viewer', role: 'group', 'aria-label': 'Images'});
+    this.badge = make('p', {class: 'camera-badge', role: 'status', hidden: ''});
+    this.left = make('main', {class: 'live-left'}, this.root);
+    this.side = make('aside', {class: 'live-side', 'aria-label': 'Panels'});
+    startTheme();
+    document.body.className = 'live';
+    document.body.append(this.header.element, this.left, this.side, this.messages.element);
+    this.root.append(make('p', {class: 'status'}, 'Waiting for the program \u2026'));
+    this.kept = readFragment(location.hash);
+    const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
+    this.session = new Session(`${scheme}://${location.host}/socket${location.search}`, {
+      hello: hello => this.greet(hello), state: state => this.show(state),
+      numbers: numbers => this.showNumbers(numbers), probe: answer => this.probe?.answer(answer),
+      error: message => this.refused(message),
+      said: ({text}) => this.messages.notice(text),
+      saved: ({name, toml}) => downloadText(name, toml),
+      image: head => this.showImage(head), link: state => this.header.showLink(state)
+    });
+  }
+
+  get state() { return this.session.state; }
+
+  // Of another scene than before nothing here is true any more.
+  greet(hello) {
+    if (this.hello && this.hello.scene.name !== hello.scene.name) location.reload();
+    this.hello = hello;
+    if (this.viewer && hello.exposure > 0) this.viewer.setExposure(hello.exposure);
+  }
+
+  show(state) {
+    if (!this.hello) return;
+    const isFirst = !this.viewer;
+    if (!isFirst && state.panes.length + 1 !== this.viewer.images.length) location.reload();
+    this.root.dataset.epoch = state.epoch;
+    if (isFirst) this.build(state);
+    state.panes.forEach((pane, i) => {
+      this.viewer.setImage(i, {name: `${PANE_NAMES[i]}: ${methodName(pane, this.hello)}`});
+      if (!pane.layer && this.viewer.images[i].overlay) this.viewer.setImage(i, {overlay: null});
+    });
+    const {camera} = this.viewer;
+    if (!isFirst && (camera.width !== state.width || camera.height !== state.height)) {
+      this.probe.clear();  // its pixel is another one now
+    }
+    this.viewer.setSize(state.width, state.height);
+    this.camera.show(state.camera);
+    this.methods.show(state, this.hello);
+    this.scene.show(state);
+    this.header.show(state);
+    this.viewer.set({});
+    if (isFirst) this.begin(state);
+  }
+
+  // Controls show again what is.
+  refused({text, command}) {
+    this.messages.error(text, command);
+    if (!this.viewer) return;
+    this.methods.show(this.state, this.hello);
+    this.scene.show(this.state);
+  }
+
+  build(state) {
+    this.commands = [...makeLiveCommands(this), ...VIEWER_COMMANDS];
+    const {width, height} = state, count = state.panes.length;
+    const image = (name, role) => ({name, role, width, height, data: null, nonfinite: [],
+                                    version: 0, overlay: null, marks: null});
+    const images = [...state.panes.map((_, i) => image(PANE_NAMES[i], 'method')),
+                    image('reference', 'reference')];
+    const {bounds} = this.hello.scene;
+    this.camera = new CameraControl(this, bounds || {lo: [-1, -1, -1], hi: [1, 1, 1]});
+    const data = {x: 0, y: 0, whole: true, exposure: this.hello.exposure || 1,
+                  room: () => this.viewer.frame.clientHeight, pointer: this.camera,
+                  idle: () => this.idleText()};
+    this.viewer = this.root.viewer = new Viewer(this.root, data, images);
+    this.viewer.frame.append(this.badge, this.messages.element);
+    this.bookmarks = new Bookmarks(this, this.hello.scene.name);
+    this.recorder = new PathRecorder(this);
+    this.methods = new MethodPanel(this, count);
+    this.scene = new ScenePanel(this, this.hello);
+    this.numbers = new NumbersPanel(count);
+    this.plots = new PlotsPanel(count);
+    this.probe = new ProbePanel(this, count);
+    this.tabs = new Tabs('Panels', [
+      ['methods', 'Methods', this.methods.element], ['scene', 'Scene', this.scene.element],
+      ['plots', 'Plots', this.plots.element], ['probe', 'Probe', this.probe.element]
+    ]);
+    this.tabs.tabs.get('plots').tab.addEventListener('click', () => this.plots.show());
+    this.side.append(this.numbers.element, this.tabs.element);
+    this.header.fill();
+    addKeys([this.viewer], this.commands);
+    makeHelp(this.commands, LIVE_POINTER_HELP);
+    this.palette = new Palette(this.commands, () => this.viewer);
+    for (const name of ['keydown', 'keyup']) {
+      document.addEventListener(name, event => { this.camera.isFast = event.shiftKey; }, true);
+    }
+    this.viewer.set({mode: 'side'});
+    this.showCameraMode();
+  }
+
+  // Goes to what the address says, then keeps it there.
+  begin(state) {
+    const {settings} = this.hello;
+    if (this.kept) {
+      applyView(this.kept.view, this.viewer);
+      this.methods.opacity.value = this.viewer.state.opacity;
+      for (const command of commandsTowards(this.kept, state, settings)) this.session.send(command);
+    }
+    setInterval(() => {
+      const text = fragmentOf(stateForAddress(this.state, this.viewer, settings));
+      if (text !== location.hash) history.replaceState(null, '', text);
+    }, FRAGMENT_INTERVAL_MS);
+  }
+
+  showImage(head) {
+    if (!this.viewer) return;
+    const {images} = this.viewer, {width, height} = head;
+    if (head.slot >= LAYER_SLOTS) {
+      this.showLayer(head.slot - LAYER_SLOTS, head);
+      return;
+    }
+    const i = head.slot === REFERENCE_SLOT ? images.length - 1 : head.slot;
+    if (!images[i]) return;
+    const data = readPixels(head, images[i].data);
+    this.viewer.setImage(i, {data, nonfinite: nonfinitePixels(data), width, height});
+    this.root.dataset.received = Number(this.root.dataset.received || 0) + 1;
+  }
+
+  showLayer(i, head) {
+    const image = this.viewer.images[i], pane = this.state.panes[i];
+    if (!image || !pane || !pane.layer) return;
+    const before = image.overlay || {version: 0};
+    const data = readPixels(head, before.data);
+    const info = pane.layers.find(layer => layer.name === pane.layer) || {};
+    this.viewer.setImage(i, {overlay: {
+      data, version: before.version + 1, unit: info.unit || '', name: pane.layer,
+      width: head.width, height: head.height, nonfinite: nonfinitePixels(data)
+    }});
+  }
+
+  showNumbers(numbers) {
+    if (!this.viewer) return;
+    this.last = numbers;
+    this.numbers.show(numbers);
+    this.plots.add(numbers);
+    if (!this.viewer.pixel) this.viewer.showStatus();
+  }
+
+  idleText() {
+    const frames = this.last ? this.last.panes.map((pane, i) => `${PANE_NAMES[i]} frame ${
+        pane.frame}`).join(', ') : 'no frame yet';
+    const paused = this.state && this.state.paused ? 'paused; ' : '';
+    return `${paused}${frames}.  Click a pixel to probe it.  c: camera mode, ?: keys, ` +
+        'Ctrl + K: search';
+  }
+
+  moveCamera({to_world, yfov}) {
+    this.camera.matrix = to_world;
+    this.camera.pose = poseOf(to_world);
+    this.recorder.note(this.camera.pose, yfov, this.camera.targetOf(this.camera.pose));
+    this.session.sendNewest('camera', yfov ? {do: 'camera', to_world, yfov}
+                                           : {do: 'camera', to_world});
+  }
+
+  showCameraMode() {
+    setText(this.badge, this.camera.describe());
+    this.badge.hidden = !this.badge.textContent;
+    this.root.dataset.camera = this.camera.isOn ? 'fly' : this.camera.isOrbit ? 'orbit' : 'none';
+    this.header.showCamera(this.camera);
+  }
+
+  leave(viewer) {
+    if (this.camera.isOn || this.camera.isOrbit) {
+      this.camera.setMode(false);
+      this.camera.setOrbit(false);
+    } else {
+      viewer.root.blur();
+    }
+  }
+
+  probeAt(pixel) {
+    this.probe.ask(pixel);
+    this.openTab('probe');
+  }
+
+  probeHere() {
+    const {width, height} = this.state;
+    const middle = {x: Math.floor(width / 2), y: Math.floor(height / 2)};
+    this.probeAt(this.viewer.pixel || this.probe.pixel || middle);
+  }
+
+  openTab(id) {
+    this.tabs.show(id);
+    if (id === 'plots') this.plots.show();
+  }
+
+  searchParameters() {
+    this.openTab('methods');
+    this.methods.search.focus();
+  }
+}

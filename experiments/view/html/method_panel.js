@@ -1,0 +1,174 @@
+// The methods of the panes: settings, parameters, the layer over the image. All is made from what
+// the program says; no method and no parameter is known here.
+
+const PANE_NAMES = ['A', 'B'];
+
+// What a pane shows, in a few words.
+function methodName(pane, hello) {
+  const info = hello.integrators.find(one => one.name === pane.integrator);
+  const isFirstMode = !info || !info.modes.length || info.modes[0].name === pane.mode;
+  return pane.integrator + (isFirstMode ? '' : ` ${pane.mode}`) +
+      (pane.cache && pane.cache !== 'none' && info && info.uses_cache ? `, ${pane.cache}` : '') +
+      (pane.denoiser && pane.denoiser !== 'none' ? ` + ${pane.denoiser}` : '');
+}
+
+// The choices of a setting of a pane; null where there is nothing to choose.
+function settingChoices(key, pane, hello) {
+  const integrator = hello.integrators.find(one => one.name === pane.integrator);
+  const option = (one, why) => ({
+    value: one.name, text: one.name, disabled: one.available === false,
+    title: one.available === false ? one.why_not : why || one.summary
+  });
+  if (key === 'mode') {
+    const modes = integrator ? integrator.modes : [];
+    return modes.map(mode => option(mode, `${mode.bias}: ${mode.why}`));
+  }
+  const list = hello[`${key}s`] || [];
+  if (key === 'cache' && integrator && !integrator.uses_cache) return null;
+  return list.map(one => option(one));
+}
+
+class PanePanel {
+  constructor(index, page) {
+    Object.assign(this, {index, page, controls: new Map(), key: ''});
+    this.settings = make('div', {class: 'setting-group'});
+    this.layer = make('div', {class: 'setting-group'});
+    this.parameters = make('div', {class: 'parameters'});
+    this.element = make('section', {'aria-label': `Pane ${PANE_NAMES[index]}`},
+                        make('div', {class: 'settings'}, this.settings, this.layer),
+                        this.parameters);
+  }
+
+  send(command) { this.page.session.send({...command, pane: this.index}); }
+
+  show(pane, hello) {
+    this.showSettings(pane, hello);
+    this.showLayer(pane);
+    const key = pane.parameters.map(controlKey).join();
+    if (key !== this.key) this.build(pane);
+    this.key = key;
+    for (const info of pane.parameters) this.controls.get(info.name).show(info);
+  }
+
+  showSettings(pane, hello) {
+    const choices = hello.settings.map(key => [key, settingChoices(key, pane, hello)]);
+    const key = JSON.stringify(choices);
+    if (key !== this.settings.dataset.key) {
+      this.settings.dataset.key = key;
+      this.selects = new Map();
+      this.settings.replaceChildren(...choices.map(([name, list]) => {
+        const select = makeSelect(list || [{value: 'none', text: 'not used'}],
+                                  value => this.send({do: 'set', key: name, value}),
+                                  {'data-setting': name, disabled: list ? null : ''});
+        this.selects.set(name, list ? select : null);
+        return make('label', {}, make('span', {}, name), select.element);
+      }));
+    }
+    for (const [name, select] of this.selects) if (select) select.show(pane[name]);
+    const mode = settingChoices('mode', pane, hello).find(one => one.value === pane.mode);
+    this.settings.title = mode ? mode.title : '';
+  }
+
+  showLayer(pane) {
+    const key = JSON.stringify(pane.layers || []);
+    if (key !== this.layer.dataset.key) {
+      this.layer.dataset.key = key;
+      const choices = (pane.layers || []).map(
+          one => ({value: one.name, text: one.unit ? `${one.name} (${one.unit})` : one.name,
+                   title: one.help}));
+      this.layerSelect = makeSelect([{value: '', text: 'none'}, ...choices],
+                                    name => this.send({do: 'layer', name}),
+                                    {'data-setting': 'layer',
+                                     disabled: choices.length ? null : ''});
+      this.layer.replaceChildren(make('label', {}, make('span', {}, 'layer over it'),
+                                      this.layerSelect.element));
+    }
+    this.layerSelect.show(pane.layer || '');
+  }
+
+  build(pane) {
+    this.controls = new Map();
+    const parts = new Map();
+    for (const info of pane.parameters) {
+      const key = `parameter ${this.index} ${info.name}`;
+      const control = new ParameterControl(info, value => this.page.session.sendNewest(
+          key, {do: 'parameter', pane: this.index, name: info.name, value}));
+      this.controls.set(info.name, control);
+      const part = info.part || '';
+      if (!parts.has(part)) parts.set(part, []);
+      parts.get(part).push(control.element);
+    }
+    this.parameters.replaceChildren(...Array.from(parts, ([part, elements]) => make(
+        'fieldset', {}, make('legend', {}, part || 'parameters'), ...elements)));
+    this.filter(this.words || []);
+  }
+
+  // Shows the parameters that have all words; their number.
+  filter(words) {
+    this.words = words;
+    let count = 0;
+    for (const {element, words: text} of this.controls.values()) {
+      element.hidden = !words.every(word => text.includes(word));
+      if (!element.hidden) ++count;
+    }
+    for (const part of this.parameters.children) {
+      part.hidden = !part.querySelector('.parameter:not([hidden])');
+    }
+    return count;
+  }
+}
+
+class MethodPanel {
+  constructor(page, count) {
+    this.page = page;
+    this.panes = Array.from({length: count}, (_, i) => new PanePanel(i, page));
+    this.choice = makeChoice('Pane', this.panes.map((_, i) => [
+      String(i), `Pane ${PANE_NAMES[i]}`, `settings of pane ${PANE_NAMES[i]}`
+    ]), i => this.open(Number(i)));
+    const copy = (from, to) => makeButton(
+        `${PANE_NAMES[from]} \u2192 ${PANE_NAMES[to]}`,
+        `copy the method of ${PANE_NAMES[from]} to ${PANE_NAMES[to]}`,
+        () => page.session.send({do: 'copy', from, to}));
+    const copies = count < 2 ? [] : [
+      make('div', {class: 'group', role: 'group', 'aria-label': 'Copy'}, copy(0, 1), copy(1, 0))
+    ];
+    this.search = make('input', {type: 'search', placeholder: 'search parameters',
+                                 'aria-label': 'Search parameters of all panes'});
+    this.count = make('p', {class: 'hint', role: 'status'});
+    this.search.addEventListener('input', () => this.filter());
+    this.element = make('div', {}, make('div', {class: 'row'}, this.choice.element, ...copies),
+                        this.makeOpacity(), this.search, this.count,
+                        ...this.panes.map(pane => pane.element));
+    this.open(0);
+  }
+
+  // Of the layers of all panes, while there is one.
+  makeOpacity() {
+    const {viewer} = this.page;
+    this.opacity = make('input', {type: 'range', min: 0, max: 1, step: 0.01,
+                                  'data-setting': 'opacity'});
+    this.opacity.addEventListener('input',
+                                  () => viewer.set({opacity: Number(this.opacity.value)}));
+    this.opacityLine = make('label', {class: 'line', hidden: ''},
+                            make('span', {}, 'opacity of layers'), this.opacity);
+    return this.opacityLine;
+  }
+
+  open(index) {
+    this.choice.show(String(index));
+    this.panes.forEach((pane, i) => { pane.element.hidden = i !== index; });
+  }
+
+  filter() {
+    const words = this.search.value.toLowerCase().split(/\s+/).filter(Boolean);
+    const counts = this.panes.map(pane => pane.filter(words));
+    this.count.textContent = words.length
+        ? counts.map((n, i) => `${PANE_NAMES[i]}: ${n} found`).join(', ') : '';
+  }
+
+  show(state, hello) {
+    this.opacityLine.hidden = !state.panes.some(pane => pane.layer);
+    this.opacity.value = this.page.viewer.state.opacity;
+    state.panes.forEach((pane, i) => { if (this.panes[i]) this.panes[i].show(pane, hello); });
+  }
+}

@@ -1,0 +1,130 @@
+// The numbers of both panes side by side, as they run; and what they are measured against.
+
+// [key, title, help, text(pane), {lo, hi} or nothing]
+const NUMBER_ROWS = [
+  ['mse', 'MSE', 'mean squared error of single frames against the reference: mean over the ' +
+                 'window of frames, 95 % interval', pane => pane.mse],
+  ['relmse', 'relMSE', 'the same, relative to the reference squared', pane => pane.relmse],
+  ['energy', 'energy', 'mean of the frames over mean of the reference; 1 is right',
+   pane => pane.energy],
+  ['frames', 'frames', 'age of the history; frames in the window of the numbers above',
+   pane => `${quantity(pane.frame)} / ${quantity(pane.frames_measured)}`],
+  ['ms', 'time', 'milliseconds of the last frame', pane => milliseconds(pane.ms)],
+  ['rays', 'rays', 'rays of the last frame', pane => withPrefix(pane.rays, '')],
+  ['bytes', 'memory', 'bytes that the method keeps', pane => bytesText(pane.bytes)]
+];
+
+// What of A and B is lower with intervals that do not meet: its index, or -1.
+function clearlyLower(a, b) {
+  if (!a || !b || ![a.lo, a.hi, b.lo, b.hi].every(Number.isFinite)) return -1;
+  return a.hi < b.lo ? 0 : b.hi < a.lo ? 1 : -1;
+}
+
+class NumbersPanel {
+  constructor(count) {
+    this.cells = new Map();
+    const heads = Array.from({length: count}, (_, i) => make(
+        'th', {scope: 'col', class: 'num'}, make('span', {class: `dot d${i}`}), PANE_NAMES[i]));
+    const rows = NUMBER_ROWS.map(([key, title, help]) => {
+      const cells = heads.map(() => {
+        const value = make('span', {class: 'value'}), interval = make('span', {class: 'ci'});
+        return {cell: make('td', {class: 'num', 'data-number': key}, value, interval), value,
+                interval};
+      });
+      this.cells.set(key, cells);
+      return make('tr', {}, make('th', {scope: 'row', title: help}, title),
+                  ...cells.map(one => one.cell));
+    });
+    this.health = heads.map(() => make('td', {class: 'num', 'data-number': 'health'}));
+    rows.push(make('tr', {}, make('th', {scope: 'row', title: 'counts of what should not happen'},
+                                  'health'), ...this.health));
+    this.reference = make('p', {class: 'line-text', 'data-number': 'reference'});
+    this.transport = make('p', {class: 'line-text', 'data-number': 'transport'});
+    this.element = make('section', {class: 'numbers-box', 'aria-label': 'Numbers'},
+                        make('table', {class: 'numbers-table'},
+                             make('thead', {}, make('tr', {}, make('td', {}), ...heads)),
+                             make('tbody', {}, ...rows)),
+                        this.reference, this.transport);
+  }
+
+  show(numbers) {
+    const panes = numbers.panes;
+    for (const [key, , , of] of NUMBER_ROWS) {
+      const values = panes.map(of);
+      const better = key === 'mse' || key === 'relmse' ? clearlyLower(...values) : -1;
+      this.cells.get(key).forEach((cell, i) => {
+        if (i >= values.length) return;
+        this.showCell(cell, values[i], key === 'energy' ? 4 : 3);
+        cell.cell.classList.toggle('best', i === better);
+      });
+    }
+    panes.forEach((pane, i) => this.showHealth(this.health[i], pane.health || {}));
+    const {reference: r, transport: t} = numbers;
+    setText(this.reference, r && r.spp ? `reference: ${r.spp} spp, own relMSE ${
+        quantity(r.relmse)}, ${milliseconds(r.ms_per_sample)}/spp` : 'reference: not yet there');
+    const isLoadKnown = typeof numbers.busy === 'number';
+    const busy = isLoadKnown ? `; load ${quantity(numbers.busy, 2)}` : '';
+    setText(this.transport, (t ? `images: ${t.width}\u00d7${t.height}, ${t.bits} bits, ${
+        quantity(t.mb_per_second)} MB/s` : '') + busy);
+    const isBusy = numbers.busy > 1.2;
+    this.transport.classList.toggle('warn', isBusy);
+    this.transport.title = 'what comes to this page; load average of the machine a thread' +
+        (isBusy ? ': it does other things, too, and times are longer than on a quiet one' : '');
+  }
+
+  showCell({value, interval}, given, digits) {
+    if (given === null || given === undefined) {
+      setText(value, NOTHING);
+      setText(interval, interval.textContent ? '\u00a0' : '');  // the place stays
+    } else if (typeof given === 'object') {
+      setText(value, quantity(given.value, digits));
+      const isKnown = Number.isFinite(given.lo) && Number.isFinite(given.hi);
+      const ends = [given.lo, given.hi].map(end => quantity(end, digits));
+      setText(interval, isKnown ? ends.join(' \u2026 ') : 'no interval yet');
+    } else {
+      setText(value, given);
+    }
+  }
+
+  showHealth(cell, health) {
+    const bad = Object.entries(health).filter(([, count]) => count);
+    setText(cell, bad.length ? bad.map(([name, count]) => `${name} ${quantity(count)}`).join(', ')
+                             : 'clean');
+    cell.classList.toggle('warn', bad.length > 0);
+  }
+}
+
+// Milliseconds of each pass as bars of one scale.
+class PassBars {
+  constructor() {
+    this.element = make('div', {class: 'passes'});
+    this.key = '';
+  }
+
+  show(panes) {
+    const key = panes.map(pane => (pane.passes || []).map(pass => pass.name).join()).join('|');
+    if (key !== this.key) this.build(panes, key);
+    const most = Math.max(1e-9, ...panes.flatMap(pane => (pane.passes || []).map(one => one.ms)));
+    panes.forEach((pane, p) => (pane.passes || []).forEach(({ms}, k) => {
+      const {bar, text} = this.bars[p][k];
+      bar.style.width = `${100 * ms / most}%`;
+      setText(text, quantity(ms));
+    }));
+  }
+
+  build(panes, key) {
+    this.key = key;
+    this.bars = panes.map(() => []);
+    this.element.replaceChildren(...panes.map((pane, p) => {
+      const rows = (pane.passes || []).map(({name}) => {
+        const bar = make('div', {class: `pass-bar b${p}`}), text = make('td', {class: 'num'});
+        this.bars[p].push({bar, text});
+        return make('tr', {}, make('th', {scope: 'row'}, name),
+                    make('td', {class: 'pass-cell'}, bar), text);
+      });
+      return make('table', {class: 'pass-table'},
+                  make('caption', {}, `${PANE_NAMES[p]}: milliseconds a pass`),
+                  make('tbody', {}, ...rows));
+    }));
+  }
+}

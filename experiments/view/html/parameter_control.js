@@ -1,0 +1,96 @@
+// A control made from what the program says of a parameter: kind, range, choices, default, help.
+
+let controlCount = 0;
+
+// What decides which control it is; another value alone does not.
+function controlKey(info) {
+  return JSON.stringify([info.name, info.range, info.choices, info.help, info.default,
+                         info.part]);
+}
+
+function isWholeNumber(info) {
+  if (info.type) return info.type === 'integer';
+  if ('isReal' in info) return !info.isReal;
+  return [info.default, info.value, ...(info.range || [])].every(Number.isInteger);
+}
+
+class ParameterControl {
+  // `send(value)`; null is the default.
+  constructor(info, send) {
+    this.id = `parameter-${++controlCount}`;
+    // Whatever the answer is, it is shown.
+    this.send = value => {
+      this.shown = null;
+      send(value);
+    };
+    this.input = this.makeInput(info);
+    this.reset = makeButton('\u21ba', `${info.name}: back to the default`, () => this.send(null));
+    this.reset.className = 'reset';
+    const more = makeButton('i', `about ${info.name}`, () => {
+      this.about.hidden = !this.about.hidden;
+      more.setAttribute('aria-expanded', !this.about.hidden);
+    });
+    more.className = 'more';
+    more.setAttribute('aria-expanded', 'false');
+    this.about = make('p', {class: 'about', hidden: ''}, this.aboutText(info));
+    this.element = make('div', {class: 'parameter', 'data-parameter': info.name},
+                        make('label', {for: this.id, title: info.help || ''}, info.name), more,
+                        this.reset, this.input.element, this.about);
+    this.words = [info.name, info.help, info.part, info.source].join(' ').toLowerCase();
+    this.show(info);
+  }
+
+  aboutText(info) {
+    const unit = info.unit ? ` ${info.unit}` : '';
+    const range = info.range ? `From ${info.range[0]} to ${info.range[1]}${unit}. ` : '';
+    return `${info.help || ''}. ${range}Default: ${info.default}${unit}.` +
+        (info.source ? ` Source: ${info.source}.` : '');
+  }
+
+  makeInput(info) {
+    const {send, id} = this;
+    if (typeof info.default === 'boolean') {
+      const box = make('input', {type: 'checkbox', id});
+      box.addEventListener('change', () => send(box.checked));
+      return {element: box, show: value => { box.checked = value; }, isBusy: false};
+    }
+    if (info.choices && info.choices.length) return makeSelect(info.choices, send, {id});
+    if (info.range) {
+      return new NumberInput({name: info.name, lo: info.range[0], hi: info.range[1],
+                              isWhole: isWholeNumber(info), id}, send);
+    }
+    const isNumber = typeof info.default === 'number';
+    const field = make('input', {type: isNumber ? 'number' : 'text', step: 'any', id});
+    field.addEventListener('change', () => send(isNumber ? Number(field.value) : field.value));
+    return {element: field, show: value => { field.value = value; },
+            get isBusy() { return document.activeElement === field; }};
+  }
+
+  show(info) {
+    const key = `${info.value} ${info.is_set}`;
+    if (key === this.shown) return;
+    this.shown = this.input.isBusy ? null : key;
+    this.reset.disabled = !info.is_set;
+    this.element.classList.toggle('set', Boolean(info.is_set));
+    if (!this.input.isBusy) this.input.show(info.value);
+  }
+}
+
+// A select of texts, or of [value, text] pairs; those that are not available are disabled.
+function makeSelect(choices, send, attributes = {}) {
+  const options = choices.map(choice => {
+    const isText = typeof choice !== 'object';
+    const {value, text, disabled, title} = isText ? {value: choice, text: choice} : choice;
+    return make('option', {value, title, disabled: disabled ? '' : null}, text);
+  });
+  const element = make('select', attributes, ...options);
+  element.addEventListener('change', () => send(element.value));
+  const show = value => {
+    element.value = value;
+    if (element.value === String(value)) return;
+    // What is set is shown, on the list or not.
+    element.append(make('option', {value}, String(value)));
+    element.value = value;
+  };
+  return {element, show, isBusy: false};
+}

@@ -1,0 +1,41 @@
+// Errors over age and time, and the passes' times. Drawn a few times a second at most, and only
+// while somebody sees them.
+
+const PLOT_INTERVAL_MS = 300;
+
+class PlotsPanel {
+  constructor(count) {
+    this.series = new ErrorSeries(count);
+    this.passes = new PassBars();
+    this.byAge = new LogPlot('MSE of each frame against the age of the history', 'age',
+                             'age of the history, frames', 'MSE of the frame');
+    this.byTime = new LogPlot('MSE of each frame against render time', 'seconds',
+                              'render time since the change, s', 'MSE of the frame');
+    this.mark = make('p', {class: 'hint', 'data-number': 'epoch'});
+    this.element = make('div', {class: 'plots'}, this.byAge.element, this.byTime.element, this.mark,
+                        this.passes.element);
+    this.drawn = -Infinity;
+  }
+
+  add(numbers) {
+    const began = this.series.epoch !== numbers.epoch;
+    this.series.add(numbers);
+    if (began) this.count = (this.count || 0) + 1;
+    this.numbers = numbers;
+    if (began || performance.now() - this.drawn > PLOT_INTERVAL_MS) this.show();
+  }
+
+  show() {
+    if (!this.numbers || !this.element.offsetParent) return;
+    this.drawn = performance.now();
+    const {curves, before} = this.series;
+    const points = curves.map(curve => curve.points);
+    this.byAge.show(points, before);
+    this.byTime.show(points, before);
+    const times = this.count - 1;
+    setText(this.mark, times > 0
+        ? `Begun anew by a change (${times} so far); the pale curves are those before it.`
+        : 'A change of a setting begins the curves anew.');
+    this.passes.show(this.numbers.panes);
+  }
+}

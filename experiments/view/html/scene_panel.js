@@ -1,0 +1,100 @@
+// What is looked at: camera, size, light.
+
+const SIZES = ['320x180', '640x360', '960x540', '1280x720', '1920x1080'];
+// Factors of a light that its slider reaches; 0 is off.
+const LIGHT_RANGE = [0, 1000];
+
+class ScenePanel {
+  constructor(page, hello) {
+    Object.assign(this, {page, hello});
+    this.lights = new Map();
+    this.element = make('div', {}, this.makeCamera(), page.bookmarks.element,
+                        page.recorder.element, this.makeSize(), this.makeLights(),
+                        this.makeAbout());
+  }
+
+  section(title, ...children) {
+    return make('fieldset', {}, make('legend', {}, title), ...children);
+  }
+
+  makeCamera() {
+    const {cameras} = this.hello.scene, {page} = this;
+    const select = makeSelect(
+        [{value: '', text: 'choose \u2026'},
+         ...cameras.map((camera, i) => ({value: i, text: camera.name || `camera ${i}`}))],
+        i => {
+          if (i !== '') page.moveCamera(cameras[i]);
+          select.element.value = '';
+        }, {'data-setting': 'camera'});
+    this.fov = new NumberInput({name: 'vertical field of view in degrees', lo: 5, hi: 150,
+                                isWhole: false},
+                               degrees => page.moveCamera({...page.camera.now(),
+                                                           yfov: degrees * Math.PI / 180}));
+    return this.section('camera',
+                        make('label', {class: 'line'}, make('span', {}, 'of the scene'),
+                             select.element),
+                        make('div', {class: 'line'}, make('span', {}, 'field of view, degrees'),
+                             this.fov.element));
+  }
+
+  makeSize() {
+    const number = name => make('input', {type: 'number', min: 1, max: 16384, step: 1,
+                                          'aria-label': `${name} in pixels`});
+    this.width = number('width');
+    this.height = number('height');
+    const send = (width, height) => this.page.session.send({do: 'resolution', width, height});
+    const apply = make('button', {type: 'submit'}, 'apply');
+    const form = make('form', {class: 'line'}, this.width, '\u00d7', this.height, apply);
+    form.addEventListener('submit', event => {
+      event.preventDefault();
+      send(Number(this.width.value), Number(this.height.value));
+    });
+    const preset = makeSelect([{value: '', text: 'sizes \u2026'}, ...SIZES], size => {
+      if (size) send(...size.split('x').map(Number));
+      preset.element.value = '';
+    }, {'aria-label': 'common sizes'});
+    form.append(preset.element);
+    return this.section('resolution, pixels', form);
+  }
+
+  makeLights() {
+    const rows = this.hello.scene.lights.map(({name, kind}) => {
+      const input = new NumberInput({name: `factor of ${name}`, lo: LIGHT_RANGE[0],
+                                     hi: LIGHT_RANGE[1], isWhole: false},
+                                    factor => this.page.session.sendNewest(
+                                        `light ${name}`, {do: 'light', name, factor}));
+      const reset = makeButton('\u21ba', `${name}: back to 1`,
+                               () => this.page.session.send({do: 'light', name, factor: 1}));
+      reset.className = 'reset';
+      this.lights.set(name, {input, reset});
+      return make('div', {class: 'parameter', 'data-light': name},
+                  make('span', {class: 'label', title: kind || ''}, name), reset, input.element);
+    });
+    return this.section('light, factor on what it shines', ...rows);
+  }
+
+  makeAbout() {
+    const {scene, version, threads} = this.hello;
+    const lines = [...(scene.feature_lines || []),
+                   `${version ? `version ${version}, ` : ''}${threads} threads`];
+    return make('details', {}, make('summary', {}, 'about this scene'),
+                ...lines.map(line => make('p', {class: 'hint'}, line)));
+  }
+
+  show(state) {
+    const focused = document.activeElement;
+    if (focused !== this.width && focused !== this.height) {
+      this.width.value = state.width;
+      this.height.value = state.height;
+    }
+    if (!this.fov.isBusy && state.camera.yfov) {
+      this.fov.show(Number((state.camera.yfov * 180 / Math.PI).toPrecision(4)));
+    }
+    for (const {name, factor} of state.lights) {
+      const light = this.lights.get(name);
+      if (!light) continue;
+      if (!light.input.isBusy) light.input.show(factor);
+      light.reset.disabled = factor === 1;
+    }
+  }
+}

@@ -1,0 +1,66 @@
+// Where the values of a range lie on a slider of so many steps.
+
+const SLIDER_STEPS = 1000;
+
+// Ranges over several powers of ten are logarithmic; one that begins with 0 is so from a
+// thousandth of its end, or from 1 where it is of whole numbers.
+function sliderScale(lo, hi, isWhole) {
+  const tidy = value => {
+    const rounded = isWhole ? Math.round(value) : Number(value.toPrecision(3));
+    return Math.min(hi, Math.max(lo, rounded));
+  };
+  const isWide = lo >= 0 && hi / Math.max(lo, isWhole ? 1 : hi / 1e4) > 300;
+  if (!isWide) {
+    return {to: value => (value - lo) / (hi - lo) * SLIDER_STEPS,
+            from: at => tidy(lo + at / SLIDER_STEPS * (hi - lo))};
+  }
+  const least = lo > 0 ? lo : isWhole ? 0.5 : Math.min(1e-3, hi * 1e-3);
+  const span = Math.log(hi / least);
+  return {
+    to: value => value <= least ? 0 : Math.log(value / least) / span * SLIDER_STEPS,
+    from: at => at <= 0 ? lo : tidy(least * Math.exp(at / SLIDER_STEPS * span))
+  };
+}
+
+// A slider and a number that are one value. `send(value)` for each move of it.
+class NumberInput {
+  constructor({name, lo, hi, isWhole, id}, send) {
+    this.scale = sliderScale(lo, hi, isWhole);
+    this.slider = make('input', {type: 'range', min: 0, max: SLIDER_STEPS, step: 'any',
+                                 'aria-label': `${name}, slider`, tabindex: 0});
+    this.number = make('input', {type: 'number', id, min: lo, max: hi,
+                                 step: isWhole ? 1 : 'any', 'aria-label': name});
+    this.element = make('span', {class: 'number-input'}, this.slider, this.number);
+    this.slider.addEventListener('input', () => {
+      const value = this.scale.from(Number(this.slider.value));
+      this.number.value = value;
+      send(value);
+    });
+    // Steps of a hundredth by keys; whole numbers one by one.
+    this.slider.addEventListener('keydown', event => {
+      const sign = {ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1}[event.key];
+      if (!sign) return;
+      event.preventDefault();
+      const was = Number(this.number.value);
+      const far = this.scale.from(Number(this.slider.value) + sign * SLIDER_STEPS / 100);
+      const value = isWhole && Math.abs(far - was) < 1 ? was + sign : far;
+      this.show(Math.min(hi, Math.max(lo, value)));
+      send(Number(this.number.value));
+    });
+    this.number.addEventListener('change', () => {
+      if (this.number.value === '') return;
+      const value = Number(this.number.value);
+      this.slider.value = this.scale.to(value);
+      send(value);
+    });
+  }
+
+  show(value) {
+    this.number.value = value;
+    this.slider.value = this.scale.to(value);
+  }
+
+  get isBusy() {
+    return document.activeElement === this.number || this.slider.matches(':active');
+  }
+}

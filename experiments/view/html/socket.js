@@ -1,0 +1,50 @@
+// The connection to the program. Where it breaks off it is made again; after some failures in a row
+// the program has ended.
+
+const MOST_FAILURES = 5;
+
+class Socket {
+  // `on`: {text(string), bytes(ArrayBuffer), link(state)}; the states are connecting, connected,
+  // reconnecting and ended.
+  constructor(url, on) {
+    Object.assign(this, {url, on, failures: 0});
+    this.open();
+  }
+
+  open() {
+    this.on.link(this.wasOpen ? 'reconnecting' : 'connecting');
+    const socket = this.socket = new WebSocket(this.url);
+    socket.binaryType = 'arraybuffer';
+    socket.addEventListener('open', () => {
+      this.failures = 0;
+      this.wasOpen = true;
+      this.on.link('connected');
+    });
+    socket.addEventListener('message', ({data}) => {
+      if (typeof data === 'string') this.on.text(data); else this.on.bytes(data);
+    });
+    socket.addEventListener('close', () => this.closed());
+  }
+
+  closed() {
+    if (++this.failures > MOST_FAILURES) {
+      this.on.link('ended');
+      return;
+    }
+    this.on.link('reconnecting');
+    setTimeout(() => this.open(), Math.min(4000, 250 * 2 ** this.failures));
+  }
+
+  // After the program has ended.
+  again() {
+    this.failures = 0;
+    this.open();
+  }
+
+  // False where nobody hears it.
+  send(text) {
+    if (this.socket.readyState !== WebSocket.OPEN) return false;
+    this.socket.send(text);
+    return true;
+  }
+}

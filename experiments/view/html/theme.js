@@ -1,0 +1,44 @@
+// Light or dark, as the system says or as the reader chooses.
+
+// The rules of the dark scheme: those of a media query, which is switched.
+let darkRules = null;
+
+function findDarkRules() {
+  return Array.from(document.styleSheets, sheet => Array.from(sheet.cssRules)).flat().filter(
+      rule => rule instanceof CSSMediaRule &&
+          rule.media.mediaText.includes('prefers-color-scheme'));
+}
+
+function setTheme(theme) {
+  darkRules = darkRules || findDarkRules();
+  document.documentElement.style.colorScheme = theme;
+  document.documentElement.dataset.theme = theme;
+  for (const rule of darkRules) rule.media.mediaText = theme === 'dark' ? 'all' : 'not all';
+}
+
+function isDarkNow() {
+  const {theme} = document.documentElement.dataset;
+  return theme ? theme === 'dark' : matchMedia('(prefers-color-scheme: dark)').matches;
+}
+
+const THEME_KEY = 'restlab theme';
+
+function toggleTheme() {
+  const theme = isDarkNow() ? 'light' : 'dark';
+  setTheme(theme);
+  try {
+    localStorage.setItem(THEME_KEY, theme);
+  } catch {
+    // No storage: it lasts as long as the page.
+  }
+}
+
+// As it was chosen the last time.
+function startTheme() {
+  try {
+    const theme = localStorage.getItem(THEME_KEY);
+    if (theme === 'light' || theme === 'dark') setTheme(theme);
+  } catch {
+    // The system's.
+  }
+}
