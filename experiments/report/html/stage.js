@@ -110,7 +110,7 @@ class Stage {
     const shown = shownPixels(camera, view, camera.width, camera.height);
     if (shown[2] > shown[0] && shown[3] > shown[1]) this.drawPicture(context, view, shown);
     if (image.data && this.hasCameraSize(image)) drawNonfinite(context, camera, view, image);
-    if (image.marks && typeof drawMarks === 'function') {
+    if (image.marks) {
       drawMarks(context, camera, view, image.marks);
     }
     if (pixel) drawPointer(context, camera, view, pixel);
@@ -138,7 +138,7 @@ class Stage {
     };
     const layer = painter.layer(view);
     if (layer) draw(layer, image.width, image.height);
-    const overlay = image.overlay && painter.overlayLayer && painter.overlayLayer(view);
+    const overlay = image.overlay && painter.overlayLayer(view);
     if (overlay) {
       context.globalAlpha = this.state.opacity;
       draw(overlay, overlay.width, overlay.height);
