@@ -131,6 +131,7 @@ void checkSparse(const tinygltf::Model& model, const tinygltf::Accessor& accesso
 void checkAccessor(const tinygltf::Model& model, size_t index, size_t& elementsWithoutData,
                    Report& report) {
   const tinygltf::Accessor& accessor = model.accessors[index];
+  if (accessor.count == 0) return;  // nothing that is drawn: gltf_rules.h
   const std::string place = fmt::format("accessors[{}]", index);
   const ElementSize element = elementSize(accessor);
   if (accessor.normalized && (accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT ||

@@ -6,6 +6,8 @@
 #include <bit>
 #include <cstring>
 #include <fstream>
+#include <memory>
+#include <set>
 
 namespace restlab::gltf {
 namespace fs = std::filesystem;
@@ -48,6 +50,34 @@ void checkDepth(std::string_view text, const Report& report) {
   }
 }
 
+// Says which keys stand twice in an object; of such the parser keeps the last one.
+class DuplicateKeys {
+ public:
+  explicit DuplicateKeys(Report& report) : report_(&report) {}
+
+  bool operator()(int, nlohmann::json::parse_event_t event, nlohmann::json& parsed) {
+    using Event = nlohmann::json::parse_event_t;
+    if (event == Event::object_start) {
+      open_->emplace_back();
+    } else if (event == Event::object_end) {
+      open_->pop_back();
+    } else if (event == Event::key) {
+      const auto& key = parsed.get_ref<const std::string&>();
+      if (!open_->back().insert(key).second)
+        report_->warn("duplicate keys", key.substr(0, kLongestKey),
+                      "stands twice in one object; the last one counts");
+    }
+    return true;
+  }
+
+ private:
+  static constexpr size_t kLongestKey = 100;
+  Report* report_;
+  // The keys of the objects that are open; shared, as the parser copies this.
+  std::shared_ptr<std::vector<std::set<std::string>>> open_ =
+      std::make_shared<std::vector<std::set<std::string>>>();
+};
+
 nlohmann::json parseJson(std::string_view text, Report& report) {
   if (text.size() > kMaxJsonBytes) {
     report.fail("", fmt::format("JSON of {} bytes is too large; at most {} are read", text.size(),
@@ -63,7 +93,7 @@ nlohmann::json parseJson(std::string_view text, Report& report) {
   report.takeMemory("", fmt::format("JSON of {} bytes", text.size()), text.size() * 8);
   nlohmann::json json;
   try {
-    json = nlohmann::json::parse(text);
+    json = nlohmann::json::parse(text, DuplicateKeys(report));
   } catch (const nlohmann::json::exception& error) {
     // "[json.exception.parse_error.101] parse error at line 3, column 5: ..." without the label.
     std::string what = error.what();

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 #include "core/scene/gltf_json.h"
 
 namespace restlab::gltf {
@@ -46,6 +48,38 @@ void checkAccessorOffsets(const json& document, Report& report) {
     if (accessors[i].contains("byteOffset") && !accessors[i].contains("bufferView")) {
       report.fail(fmt::format("accessors[{}].byteOffset", i), "given without a bufferView");
     }
+  }
+}
+
+// Accessors that meshes and instances are made of.
+std::set<uint64_t> drawnAccessors(const json& document) {
+  std::set<uint64_t> drawn;
+  const auto addAll = [&](const json& attributes) {
+    for (const json& accessor : attributes) drawn.insert(accessor.get<uint64_t>());
+  };
+  for (const json& mesh : arrayOf(document, "meshes")) {
+    for (const json& primitive : mesh.at("primitives")) {
+      addAll(primitive.at("attributes"));
+      if (primitive.contains("indices")) drawn.insert(primitive.at("indices").get<uint64_t>());
+    }
+  }
+  const json::json_pointer instances("/extensions/EXT_mesh_gpu_instancing/attributes");
+  for (const json& node : arrayOf(document, "nodes")) {
+    if (node.contains(instances)) addAll(node.at(instances));
+  }
+  return drawn;
+}
+
+// Exporters leave empty accessors behind, of animations mostly.
+void checkEmptyAccessors(const json& document, Report& report) {
+  const json& accessors = arrayOf(document, "accessors");
+  std::set<uint64_t> drawn;
+  for (size_t i = 0; i < accessors.size(); ++i) {
+    if (accessors[i].at("count").get<uint64_t>() != 0) continue;
+    if (drawn.empty()) drawn = drawnAccessors(document);
+    const std::string place = fmt::format("accessors[{}].count", i);
+    if (drawn.contains(i)) report.fail(place, "0; at least 1 expected");
+    report.warn("empty accessor", place, "is 0; nothing imported reads it");
   }
 }
 
@@ -144,6 +178,7 @@ bool isNonEmptyArray(const json& document, const char* key) {
 void checkRules(const json& document, Report& report) {
   checkBufferViews(document, report);
   checkAccessorOffsets(document, report);
+  checkEmptyAccessors(document, report);
   checkIndexAccessors(document, report);
   checkImages(document, report);
   checkNodes(document, report);

@@ -88,7 +88,7 @@ struct Tables {
   Schema accessor{
       {text("name"), reference("bufferView", "bufferViews"), size("byteOffset"),
        required(choice("componentType", {5120, 5121, 5122, 5123, 5125, 5126})),
-       boolean("normalized"), required(size("count", 1)),
+       boolean("normalized"), required(size("count")),
        required(word("type", {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"})),
        numbers("max", 0), numbers("min", 0), object("sparse", sparse)}};
 

@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 #include <spng.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
+#include <string_view>
 
 #include "core/scene/image_formats.h"
 
@@ -18,7 +20,30 @@ std::string messageOf(int error) {
   return fmt::format("cannot be decoded ({})", spng_strerror(error));
 }
 
-// Reads the header.
+// The file without the chunks that no pixel depends on: texts, times, profiles. The library stops
+// at 1000 of them, whatever it is told (0.7.3). From a chunk that is not whole on, all is kept.
+std::vector<uint8_t> pixelsAlone(const std::vector<uint8_t>& bytes) {
+  constexpr size_t kSignatureBytes = 8, kChunkBytes = 12;
+  std::vector<uint8_t> kept(
+      bytes.begin(), bytes.begin() + std::ptrdiff_t(std::min(bytes.size(), kSignatureBytes)));
+  size_t at = kept.size();
+  while (bytes.size() - at >= kChunkBytes) {
+    const uint64_t length = uint64_t(bytes[at]) << 24 | uint64_t(bytes[at + 1]) << 16 |
+                            uint64_t(bytes[at + 2]) << 8 | bytes[at + 3];
+    if (length > bytes.size() - at - kChunkBytes) break;
+    const std::string_view type(reinterpret_cast<const char*>(&bytes[at + 4]), 4);
+    const auto begin = bytes.begin() + std::ptrdiff_t(at);
+    at += kChunkBytes + length;
+    // Critical chunks have an upper case name.
+    const bool isCritical = (type[0] & 0x20) == 0;
+    if (isCritical || type == "tRNS")
+      kept.insert(kept.end(), begin, bytes.begin() + std::ptrdiff_t(at));
+  }
+  kept.insert(kept.end(), bytes.begin() + std::ptrdiff_t(at), bytes.end());
+  return kept;
+}
+
+// Reads the header. `bytes` must outlive what is returned.
 Context open(const std::vector<uint8_t>& bytes, spng_ihdr& header, std::string& problem) {
   Context context(spng_ctx_new(0), &spng_ctx_free);
   if (!context) throw std::bad_alloc();
@@ -58,7 +83,8 @@ std::string checkPngHeader(const std::vector<uint8_t>& bytes, ImageSize& size) {
 std::string decodePng(const std::vector<uint8_t>& bytes, DecodedImage& image) {
   spng_ihdr header = {};
   std::string problem;
-  const Context context = open(bytes, header, problem);
+  const std::vector<uint8_t> kept = pixelsAlone(bytes);
+  const Context context = open(kept, header, problem);
   if (!problem.empty()) return problem;
   image.roundedFrom16Bit = header.bit_depth == 16;
   const spng_format format = image.roundedFrom16Bit ? SPNG_FMT_RGBA16 : SPNG_FMT_RGBA8;

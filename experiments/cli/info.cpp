@@ -174,7 +174,7 @@ void printText(const PreparedScene& prepared, const Json& json) {
              prepared.loadTimeMs);
   fmt::print("features     needed    {}\n", json["features_needed"].get<std::string>());
   for (const Json& integrator : json["integrators"]) {
-    fmt::print("{:<12} used      {}\n", integrator["name"].get<std::string>(),
+    fmt::print("{:<12} compiled  {}\n", integrator["name"].get<std::string>(),
                integrator["features_used"].get<std::string>());
     fmt::print("{:<12} left out  {}\n", "", integrator["features_left_out"].get<std::string>());
     std::string buffers;

@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <limits>
 
 #include "core/error.h"
@@ -180,6 +182,10 @@ TEST(GltfErrors, BuffersViewsAccessors) {
             }).find("reach beyond buffers[0]"),
             std::string::npos);
   EXPECT_NE(triangleFile([](json& d) {
+              d["accessors"][0]["count"] = 0;
+            }).find("accessors[0].count: 0; at least 1 expected"),
+            std::string::npos);
+  EXPECT_NE(triangleFile([](json& d) {
               d["accessors"][0]["count"] = 4;
             }).find("accessors[0]: 4 elements of 12 bytes"),
             std::string::npos);
@@ -217,6 +223,33 @@ TEST(GltfErrors, BuffersViewsAccessors) {
                   {"values", {{"bufferView", 0}}}};
             }).find("accessors[0].sparse.count: 4 elements are replaced, but the accessor has 3"),
             std::string::npos);
+}
+
+// Exporters leave empty accessors behind.
+TEST(GltfErrors, AccessorsWithoutElements) {
+  GltfBuilder file;
+  file.node({{"mesh", file.triangle()}});
+  file.doc["accessors"].push_back({{"componentType", 5126}, {"count", 0}, {"type", "SCALAR"}});
+  const Scene scene = file.load();
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_NE(scene.warnings[0].find("accessors[1].count: is 0"), std::string::npos)
+      << scene.warnings[0];
+}
+
+TEST(GltfErrors, KeysThatStandTwice) {
+  GltfBuilder file;
+  file.node({{"mesh", file.triangle()}, {"name", "one"}});
+  const std::filesystem::path written = file.write();
+  std::ifstream in(written);
+  std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  const size_t at = text.find("\"name\":\"one\"");
+  ASSERT_NE(at, std::string::npos) << text;
+  text.insert(at, "\"name\":\"two\",");
+  std::ofstream(written) << text;
+  const Scene scene = loadGltf(written);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_NE(scene.warnings[0].find("name: stands twice in one object"), std::string::npos)
+      << scene.warnings[0];
 }
 
 TEST(GltfErrors, IndicesOutOfRange) {

@@ -61,6 +61,16 @@ TEST(ImageLimits, PngThatBeginsWithAnEmptyChunkOfPixels) {
   EXPECT_EQ(problemOf(png), "");
 }
 
+// More than a thousand texts, at which the library stops by itself.
+TEST(ImageLimits, PngOfManyChunks) {
+  std::string png = test::tinyPng();
+  const std::string text("\0\0\0\x03tEXta\0b\xdc\x49\xa2\x3b", 15);
+  std::string texts;
+  for (int i = 0; i < 3000; ++i) texts += text;
+  png.insert(33, texts);
+  EXPECT_EQ(problemOf(png), "");
+}
+
 // Chunks of a JPEG of one grey component: 'd' the baseline frame or its progressive relative.
 std::string jpeg(uint32_t width, uint32_t height, size_t scans, bool progressive = false) {
   const auto segment = [](uint8_t marker, const std::string& data) {
