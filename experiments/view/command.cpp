@@ -59,7 +59,7 @@ class Members {
     return value.get<uint32_t>();
   }
 
-  uint32_t pane() { return whole("pane", 0, kMostPanes - 1); }
+  uint32_t pane(const char* key = "pane") { return whole(key, 0, kMostPanes - 1); }
 
   std::array<double, 16> numbers16(const char* key) {
     const Json& value = at(key);
@@ -149,8 +149,13 @@ ViewCommand commandOf(Members& members) {
   }
   if (name == "pause") return Pause{members.flag("on")};
   if (name == "restart") return Restart{};
+  if (name == "copy") return CopyMethod{members.pane("from"), members.pane("to")};
+  if (name == "undo") return Undo{};
+  if (name == "redo") return Redo{};
+  if (name == "save") return SaveSession{};
   const std::vector<std::string> names = {"set",   "parameter", "camera", "resolution", "light",
-                                          "layer", "probe",     "pause",  "restart"};
+                                          "layer", "probe",     "pause",  "restart",    "copy",
+                                          "undo",  "redo",      "save"};
   failUsage(fmt::format("command: '{}' is unknown (known: {}){}", name, fmt::join(names, ", "),
                         didYouMean(name, names)));
 }

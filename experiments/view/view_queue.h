@@ -1,0 +1,39 @@
+// What pages have said, on its way from the server's thread to the one that renders.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "experiments/view/server.h"
+
+namespace restlab {
+
+struct PageEvent {
+  enum class Kind { opened, closed, said } kind = Kind::said;
+  ClientId client = 0;
+  std::string text;
+};
+
+class PageEvents {
+ public:
+  // Texts beyond are not kept: no page types so fast. Pages that come and go always are.
+  static constexpr size_t kMostTexts = 4096;
+
+  // Never waits for long. False where a text was not kept.
+  bool add(PageEvent event);
+  // All there are; where there is none, after so long a time at the latest.
+  std::vector<PageEvent> take(std::chrono::milliseconds patience);
+  // Ends waits.
+  void wake();
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable there_;
+  std::vector<PageEvent> events_;
+  bool isWoken_ = false;
+};
+
+}  // namespace restlab
