@@ -30,9 +30,22 @@ Json intervalJson(const Interval& interval) {
   return {{"value", interval.value}, {"lo", orNull(interval.lo)}, {"hi", orNull(interval.hi)}};
 }
 
+// Rigid, as commands are; a node that scales or shears has no part in the view.
 Json matrixJson(const SceneCamera& camera) {
+  glm::dmat4 m = camera.cameraToWorld;
+  const glm::dmat3 axes(m);
+  const glm::dmat3 deviation = glm::transpose(axes) * axes - glm::dmat3(1.0);
+  double largest = 0.0;
+  for (int i = 0; i < 9; ++i) largest = std::max(largest, std::abs(deviation[i / 3][i % 3]));
+  if (largest > 1e-6) {
+    const glm::dvec3 back = glm::normalize(axes[2]);
+    const glm::dvec3 right = glm::normalize(axes[0] - glm::dot(axes[0], back) * back);
+    m[0] = glm::dvec4(right, 0.0);
+    m[1] = glm::dvec4(glm::cross(back, right), 0.0);
+    m[2] = glm::dvec4(back, 0.0);
+  }
   Json numbers = Json::array();
-  for (int i = 0; i < 16; ++i) numbers.push_back(camera.cameraToWorld[i / 4][i % 4]);
+  for (int i = 0; i < 16; ++i) numbers.push_back(m[i / 4][i % 4]);
   return numbers;
 }
 
@@ -256,7 +269,9 @@ std::string probeText(const ViewFacts& facts, const LiveView& view, const Probe&
 }
 
 std::string errorText(const std::string& line, const std::string& command) {
-  return textOf({{"say", "error"}, {"text", line}, {"command", command}});
+  return textOf({{"say", "error"},
+                 {"text", line},
+                 {"command", command.empty() ? Json(nullptr) : Json(command)}});
 }
 
 std::string saidText(const std::string& line) { return textOf({{"say", "said"}, {"text", line}}); }

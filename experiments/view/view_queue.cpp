@@ -4,14 +4,16 @@
 
 namespace restlab {
 
-bool PageEvents::add(PageEvent event) {
+void PageEvents::add(PageEvent event) {
   {
     const std::lock_guard lock(mutex_);
-    if (event.kind == PageEvent::Kind::said && events_.size() >= kMostTexts) return false;
+    if (event.kind == PageEvent::Kind::said && events_.size() >= kMostTexts) {
+      isLost_ = true;
+      return;
+    }
     events_.push_back(std::move(event));
   }
   there_.notify_one();
-  return true;
 }
 
 std::vector<PageEvent> PageEvents::take(std::chrono::milliseconds patience) {
@@ -20,6 +22,11 @@ std::vector<PageEvent> PageEvents::take(std::chrono::milliseconds patience) {
     there_.wait_for(lock, patience, [this] { return !events_.empty() || isWoken_; });
   isWoken_ = false;
   return std::exchange(events_, {});
+}
+
+bool PageEvents::takeLost() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(isLost_, false);
 }
 
 void PageEvents::wake() {

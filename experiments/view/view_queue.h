@@ -19,13 +19,15 @@ struct PageEvent {
 
 class PageEvents {
  public:
-  // Texts beyond are not kept: no page types so fast. Pages that come and go always are.
+  // Texts beyond are lost: no page types so fast. Pages that come and go never are.
   static constexpr size_t kMostTexts = 4096;
 
-  // Never waits for long. False where a text was not kept.
-  bool add(PageEvent event);
+  // Never waits for long.
+  void add(PageEvent event);
   // All there are; where there is none, after so long a time at the latest.
   std::vector<PageEvent> take(std::chrono::milliseconds patience);
+  // Whether texts were lost since the last call.
+  bool takeLost();
   // Ends waits.
   void wake();
 
@@ -33,7 +35,7 @@ class PageEvents {
   std::mutex mutex_;
   std::condition_variable there_;
   std::vector<PageEvent> events_;
-  bool isWoken_ = false;
+  bool isWoken_ = false, isLost_ = false;
 };
 
 }  // namespace restlab

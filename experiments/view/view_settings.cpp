@@ -121,10 +121,7 @@ struct Change {
 
   void operator()(const SetLight& command) {
     requireLight(scene, command.name);
-    // `all` is of every light, also of those that were set before.
-    if (command.name == kAllLights) settings.lights.clear();
-    std::erase_if(settings.lights, [&](const auto& l) { return l.first == command.name; });
-    settings.lights.emplace_back(command.name, command.factor);
+    setLight(settings.lights, command.name, command.factor);
     text = fmt::format("{} x{:g}", command.name, command.factor);
   }
 
@@ -171,6 +168,12 @@ struct Target {
 }  // namespace
 
 std::string targetOf(const ViewCommand& command) { return std::visit(Target{}, command); }
+
+void setLight(LightFactors& lights, const std::string& name, double factor) {
+  if (name == kAllLights) lights.clear();
+  std::erase_if(lights, [&](const auto& light) { return light.first == name; });
+  lights.emplace_back(name, factor);
+}
 
 ViewChange changedBy(const ViewCommand& command, const ViewSettings& settings, const Scene& scene) {
   ViewChange result{settings, targetOf(command), ""};

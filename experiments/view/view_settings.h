@@ -48,6 +48,9 @@ bool isSame(const ViewSettings& a, const ViewSettings& b);
 // The same picture, whatever methods make it.
 bool isSamePicture(const ViewSettings& a, const ViewSettings& b);
 
+// The last factor of a light counts; `all` is of every light.
+void setLight(LightFactors& lights, const std::string& name, double factor);
+
 // "" for what may not be left out where more of the same follows. Of Probe and so on, too.
 std::string targetOf(const ViewCommand& command);
 
