@@ -136,12 +136,12 @@ ViewCommand commandOf(Members& members) {
   if (name == "camera") {
     MoveCamera move{members.numbers16("to_world"), std::nullopt};
     expectRigid(members, move.toWorld);
-    if (members.has("yfov")) move.yfov = members.number("yfov", 1e-4, 3.14);
+    if (members.has("yfov")) move.yfov = members.number("yfov", 2e-4, 3.12);
     return move;
   }
   if (name == "resolution")
     return Resize{members.whole("width", 1, kMaxSide), members.whole("height", 1, kMaxSide)};
-  if (name == "light") return SetLight{members.text("name"), members.number("factor", 0.0, 1e9)};
+  if (name == "light") return SetLight{members.text("name"), members.number("factor", 0.0, 1e6)};
   if (name == "layer") return ShowLayer{members.pane(), members.text("name")};
   if (name == "probe") {
     return Probe{members.pane(), members.whole("x", 0, kMaxSide - 1),
