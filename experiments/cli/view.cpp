@@ -29,9 +29,9 @@ namespace restlab {
 namespace {
 
 constexpr const char* kDefaultScene = "door-ajar";
-// Of an image whose size nobody says: 320x180, in the camera's aspect ratio. Two cores then render
-// both panes several times a second.
-constexpr double kPixels = 320.0 * 180.0;
+// Of an image whose size nobody says, or as many pixels in the camera's aspect ratio. Two cores
+// then render both panes several times a second.
+constexpr uint32_t kWidth = 320, kHeight = 180;
 
 struct ViewOptions {
   SceneOptions scene;
@@ -60,8 +60,12 @@ void requireNoOptions(const CLI::App& verb, const std::string& file) {
 void chooseSize(const PreparedScene& prepared, SessionConfig& config) {
   if (config.width == 0 && config.height == 0) {
     const double aspect = prepared.scene->source().cameras.at(prepared.camera).aspect;
-    config.width = uint32_t(std::round(std::sqrt(kPixels * (aspect > 0.0 ? aspect : 1.0))));
-    config.width = std::max(config.width, 1u);
+    config.width = kWidth;
+    if (aspect > 0.0) {
+      config.width = std::max(1u, uint32_t(std::round(std::sqrt(aspect * kWidth * kHeight))));
+    } else {
+      config.height = kHeight;  // screens are wide
+    }
   }
   completeConfig(prepared, config);
 }
@@ -153,7 +157,7 @@ Action addViewVerb(CLI::App& app) {
       "a glTF file, a built-in scene (default door-ajar), or a suite *.toml: its first two "
       "methods");
   verb->get_option("--resolution")
-      ->description("WxH pixels (default: 57600 in all, the camera's aspect ratio)");
+      ->description("WxH pixels (default: 320x180, or as many in the camera's aspect ratio)");
   options->first.choice.integrator = "restir_gi";
   addMethodOptions(*verb, options->first);
   verb->get_option("--integrator")
