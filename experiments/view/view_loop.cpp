@@ -153,7 +153,8 @@ void ViewLoop::save(ClientId page) {
   if (!saveFolder_.empty()) {
     try {
       name = writeSession(saveFolder_, toml);
-      sender_.tell(page, saidText(fmt::format("{}: written", (saveFolder_ / name).string())));
+      const std::string file = (saveFolder_ / name).lexically_normal().string();
+      sender_.tell(page, saidText(fmt::format("{}: written", file)));
     } catch (const Error& error) {
       sender_.tell(page, saidText(fmt::format("{}; the page has the session", error.what())));
     }
@@ -174,7 +175,9 @@ void ViewLoop::renderRound() {
 
 bool ViewLoop::refine() {
   const LiveReference& reference = view_.reference();
-  if (secondsSince(pictureChanged_) < kStillS || reference.spp() >= kMostReferenceSpp) return false;
+  // Rounds may be longer than that: who drags has said more meanwhile.
+  if (secondsSince(pictureChanged_) < kStillS || events_.areWaiting()) return false;
+  if (reference.spp() >= kMostReferenceSpp) return false;
   if (!isPaused_ && referenceCreditS_ < reference.sampleMs() / 1000.0) return false;
   const Clock::time_point start = Clock::now();
   view_.refineReference();
@@ -183,7 +186,9 @@ bool ViewLoop::refine() {
   return true;
 }
 
-bool ViewLoop::isStill() const { return isPaused_ || secondsSince(changed_) >= kStillS; }
+bool ViewLoop::isStill() const {
+  return isPaused_ || (secondsSince(changed_) >= kStillS && !events_.areWaiting());
+}
 
 void ViewLoop::showPanes() {
   for (uint32_t i = 0; i < view_.panes(); ++i) {

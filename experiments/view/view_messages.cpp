@@ -1,8 +1,10 @@
 #include "experiments/view/view_messages.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "core/error.h"
 #include "core/method.h"
@@ -139,6 +141,22 @@ Json layersJson(const SessionConfig& config) {
   return all;
 }
 
+// "0.5 1 2 m" of the unit m is three numbers; what is no numbers stays a text.
+Json probedValue(std::string text, const std::string& unit) {
+  if (!unit.empty() && text.ends_with(" " + unit)) text.resize(text.size() - unit.size() - 1);
+  std::istringstream words(text);
+  Json numbers = Json::array();
+  for (std::string word; words >> word;) {
+    double number = 0.0;
+    const char* end = word.data() + word.size();
+    const auto read = std::from_chars(word.data(), end, number);
+    if (read.ec != std::errc() || read.ptr != end) return text;
+    numbers.push_back(orNull(number));
+  }
+  if (numbers.empty()) return text;
+  return numbers.size() == 1 ? numbers.front() : numbers;
+}
+
 double factorOf(const LightFactors& lights, const std::string& name) {
   double factor = 1.0;
   for (const auto& [light, its] : lights)
@@ -252,9 +270,10 @@ std::string probeText(const ViewFacts& facts, const LiveView& view, const Probe&
       return info->name == value.name;
     });
     const bool isLayer = layer != layers.end();
+    const std::string unit = isLayer ? (*layer)->unit : "";
     values.push_back({{"name", value.name},
-                      {"value", value.value},
-                      {"unit", isLayer ? (*layer)->unit : ""},
+                      {"value", probedValue(value.value, unit)},
+                      {"unit", unit},
                       {"help", isLayer ? (*layer)->summary : ""}});
   }
   return textOf({{"say", "probe"},

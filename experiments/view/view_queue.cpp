@@ -24,6 +24,11 @@ std::vector<PageEvent> PageEvents::take(std::chrono::milliseconds patience) {
   return std::exchange(events_, {});
 }
 
+bool PageEvents::areWaiting() const {
+  const std::lock_guard lock(mutex_);
+  return !events_.empty();
+}
+
 bool PageEvents::takeLost() {
   const std::lock_guard lock(mutex_);
   return std::exchange(isLost_, false);

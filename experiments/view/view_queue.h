@@ -26,13 +26,14 @@ class PageEvents {
   void add(PageEvent event);
   // All there are; where there is none, after so long a time at the latest.
   std::vector<PageEvent> take(std::chrono::milliseconds patience);
+  bool areWaiting() const;
   // Whether texts were lost since the last call.
   bool takeLost();
   // Ends waits.
   void wake();
 
  private:
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable there_;
   std::vector<PageEvent> events_;
   bool isWoken_ = false, isLost_ = false;

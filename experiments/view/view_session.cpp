@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <variant>
 
 #include "core/error.h"
+#include "core/integrator.h"
 #include "core/scene/light_factor.h"
 #include "experiments/runner/run/experiment.h"
 #include "experiments/runner/run/files.h"
@@ -93,15 +95,39 @@ std::string sceneToml(const ViewFacts& facts) {
   return text;
 }
 
+std::string nameOf(const SessionConfig& config) {
+  const bool hasModes = findIntegrator(config.integrator).modes.size() > 1;
+  return config.integrator + (hasModes ? " (" + config.mode + ")" : "") +
+         (config.denoiser == "none" ? "" : " + " + config.denoiser);
+}
+
+// Of the panes' methods, each another one.
+std::vector<std::string> namesOf(const ViewSettings& settings) {
+  std::vector<std::string> names;
+  for (const PaneSettings& pane : settings.panes) {
+    const std::string name = nameOf(pane.config);
+    const bool isTaken = std::find(names.begin(), names.end(), name) != names.end();
+    names.push_back(isTaken ? name + " B" : name);
+  }
+  return names;
+}
+
+// Ratios are against what the last pane shows, by its name in tables of several backends, too.
+std::string baselineOf(const ViewSettings& settings) {
+  const SessionConfig &first = settings.panes.front().config, &last = settings.panes.back().config;
+  const std::string name = namesOf(settings).back();
+  return first.backend == last.backend ? name : fmt::format("{} @{}", name, last.backend);
+}
+
 std::string settingsToml(const LiveView& view) {
   const ViewSettings& settings = view.settings();
   const SessionConfig& first = settings.panes.front().config;
   std::string text = fmt::format(
       "\n[settings]\nwidth = {}\nheight = {}\nmax_bounces = {}\nseed = {}\ncomponents = [{}]\n"
-      "filter = {}\nmultiscatter = {}\nrussian_roulette = {}\n",
+      "filter = {}\nmultiscatter = {}\nrussian_roulette = {}\nbaseline = {}\n",
       first.width, first.height, first.maxBounces, first.seed & 0x7fffffffu,
       quoted(componentName(first.components)), quoted(filterName(first.pixelFilter)),
-      first.multiscatter, first.russianRoulette);
+      first.multiscatter, first.russianRoulette, quoted(baselineOf(settings)));
   if (first.threads > 0) text += fmt::format("threads = {}\n", first.threads);
   for (const PaneSettings& pane : settings.panes) {
     const SessionConfig& config = pane.config;
@@ -154,11 +180,6 @@ std::string methodToml(const PaneSettings& pane, const std::string& name) {
   for (const auto& [key, value] : config.parameters)
     text += fmt::format("{} = {}\n", key, valueText(value));
   return text;
-}
-
-std::string nameOf(const SessionConfig& config) {
-  return config.integrator + (config.mode.empty() ? "" : " (" + config.mode + ")") +
-         (config.denoiser == "none" ? "" : " + " + config.denoiser);
 }
 
 // Upright cameras have their right in the horizon.
@@ -217,13 +238,8 @@ std::string sessionToml(const ViewFacts& facts, const LiveView& view) {
     text += fmt::format("\n[[event]]\nframe = 0\nlight = {}\nfactor = {}\n", quoted(name),
                         numberText(factor));
   }
-  std::string before;
-  for (const PaneSettings& pane : settings.panes) {
-    std::string name = nameOf(pane.config);
-    if (name == before) name += " B";
-    text += methodToml(pane, name);
-    before = name;
-  }
+  const std::vector<std::string> names = namesOf(settings);
+  for (size_t i = 0; i < names.size(); ++i) text += methodToml(settings.panes[i], names[i]);
   return text;
 }
 

@@ -3,9 +3,9 @@
 
 #include <random>
 
-#include "core/integrator.h"
 #include "experiments/runner/registries/registries.h"
 #include "experiments/view/view_session.h"
+#include "experiments/view/view_session_file.h"
 #include "tests/view/loop_fixture.h"
 
 namespace restlab::view_test {
@@ -156,7 +156,12 @@ TEST_F(ViewLoopTest, ProbesAPixel) {
   page.say({{"do", "probe"}, {"pane", 0}, {"x", 3}, {"y", 4}});
   const Json probe = page.waitFor("probe");
   EXPECT_EQ(probe["x"], 3);
-  EXPECT_FALSE(probe["values"].empty());
+  ASSERT_FALSE(probe["values"].empty());
+  for (const Json& value : probe["values"]) {
+    if (value["name"] != "confidence") continue;
+    EXPECT_EQ(value["unit"], "samples");
+    EXPECT_GE(value["value"].get<double>(), 1.0);
+  }
   const std::string command = probe["command"];
   EXPECT_EQ(command.rfind("restlab render cornell-box ", 0), 0u) << command;
   EXPECT_NE(command.find("--pixel 3,4 --seed 1 --frame " + probe["frame"].dump()),
@@ -213,6 +218,20 @@ TEST_F(ViewLoopTest, SavesWhatItShows) {
   // And once more, to the letter.
   const LiveView again(start.prepared, start.settings, {});
   EXPECT_EQ(sessionToml({start.request, 1}, again), saved["toml"].get<std::string>());
+}
+
+TEST_F(ViewLoopTest, SavesTwoOfTheSame) {
+  ViewSettings settings =
+      settingsOf(prepareScene(facts_.request), {configOf("restir_gi"), configOf("restir_gi")});
+  const auto reopened = [&] {
+    const LiveView view(prepareScene(facts_.request), settings, {});
+    const std::string name = writeSession(folder(), sessionToml(facts_, view));
+    return startOfSuite(folder() / name).settings;
+  };
+  EXPECT_TRUE(isSame(reopened(), settings));
+  const LiveView view(prepareScene(facts_.request), settings, {});
+  const std::string text = sessionToml(facts_, view);
+  EXPECT_NE(text.find("baseline = \"restir_gi (unbiased) B\""), std::string::npos) << text;
 }
 
 Json randomCommand(std::mt19937& random) {
