@@ -6,16 +6,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "core/backend/backend.h"
-#include "core/cache.h"
-#include "core/image/metrics.h"
-#include "core/radiance/settings.h"
-#include "core/denoiser.h"
+#include "core/error.h"
+#include "core/scene/scene.h"
 #include "experiments/cli/verbs.h"
-#include "core/changes/settings.h"
+#include "experiments/runner/registries/registries.h"
 #include "experiments/runner/run/files.h"
-#include "experiments/runner/run/prepare.h"
-#include "experiments/runner/summary/summary.h"
 
 namespace restlab {
 
@@ -29,117 +24,6 @@ struct ListOptions {
   std::string what;
   bool json = false;
 };
-
-Json parameterJson(const ParameterInfo& parameter) {
-  Json json = {{"name", parameter.name}};
-  std::visit([&](const auto& value) { json["default"] = value; }, parameter.defaultValue);
-  if (parameter.defaultValue.index() == 1 || parameter.defaultValue.index() == 2) {
-    json["range"] = {parameter.minValue, parameter.maxValue};
-  }
-  if (!parameter.choices.empty()) json["choices"] = parameter.choices;
-  json["help"] = parameter.help;
-  json["source"] = parameter.source;
-  return json;
-}
-
-Json parametersJson(const PartInfo& part) {
-  Json parameters = Json::array();
-  for (const ParameterInfo& parameter : part.parameters)
-    parameters.push_back(parameterJson(parameter));
-  if (!asksForChanges(part)) return parameters;
-  // Those of a part that comes with it, with the defaults that it gives them.
-  for (ParameterInfo parameter : changesPartInfo().parameters) {
-    const auto changed = part.defaults.find(parameter.name);
-    if (changed != part.defaults.end()) parameter.defaultValue = changed->second;
-    parameters.push_back(parameterJson(parameter));
-  }
-  return parameters;
-}
-
-Json layersJson(const PartInfo& part) {
-  Json layers = Json::array();
-  for (const LayerInfo& layer : part.layers) {
-    layers.push_back({{"name", layer.name}, {"unit", layer.unit}, {"help", layer.summary}});
-    if (layer.onlyWith.parameter != nullptr) layers.back()["only_with"] = layer.onlyWith.parameter;
-  }
-  return layers;
-}
-
-Json integrators() {
-  Json all = Json::array();
-  for (const IntegratorInfo* info : integratorRegistry()) {
-    Json modes = Json::array();
-    for (const ModeInfo& mode : info->modes) {
-      modes.push_back({{"name", mode.name}, {"bias", biasName(mode.bias)}, {"why", mode.why}});
-    }
-    Json parameters = parametersJson(*info);
-    if (info->endsPaths) {
-      for (Json& parameter : parametersJson(radiancePartInfo()))
-        parameters.push_back(std::move(parameter));
-    }
-    all.push_back({{"name", info->name},
-                   {"summary", info->summary},
-                   {"uses_cache", info->usesCache},
-                   {"modes", modes},
-                   {"parameters", parameters},
-                   {"layers", layersJson(*info)}});
-  }
-  return all;
-}
-
-Json caches() {
-  Json all = Json::array();
-  for (const CacheInfo* cache : cacheRegistry()) {
-    all.push_back({{"name", cache->name},
-                   {"summary", cache->summary},
-                   {"parameters", parametersJson(*cache)},
-                   {"layers", layersJson(*cache)}});
-  }
-  return all;
-}
-
-Json backends() {
-  Json all = Json::array();
-  for (const BackendInfo& backend : backendRegistry()) {
-    Json json = {
-        {"name", backend.name}, {"summary", backend.description}, {"available", backend.available}};
-    json["devices"] = backend.devices;
-    if (!backend.available) json["why_not"] = backend.whyNot;
-    all.push_back(json);
-  }
-  return all;
-}
-
-Json denoisers() {
-  Json all = Json::array();
-  for (const DenoiserInfo* denoiser : denoiserRegistry()) {
-    all.push_back({{"name", denoiser->name},
-                   {"summary", denoiser->summary},
-                   {"available", true},
-                   {"bias_still", biasName(denoiser->biasOfStillView)},
-                   {"bias_moving", biasName(denoiser->biasOfMovingView)},
-                   {"why", denoiser->why},
-                   {"parameters", parametersJson(*denoiser)}});
-  }
-  for (const MissingDenoiser& missing : missingDenoisers()) {
-    all.push_back({{"name", missing.name},
-                   {"summary", missing.summary},
-                   {"available", false},
-                   {"why_not", missing.whyNot}});
-  }
-  return all;
-}
-
-Json metrics() {
-  Json all = Json::array();
-  for (const MetricInfo& metric : metricRegistry()) {
-    all.push_back({{"name", metric.name},
-                   {"summary", metric.formula},
-                   {"higher_is_better", metric.higherIsBetter},
-                   {"needs_runs", metric.needsRuns}});
-  }
-  return all;
-}
 
 // glTF files under the folder of scenes of others, by their path inside it.
 std::vector<std::string> scenesOfOthers() {
@@ -202,8 +86,8 @@ void printDetails(const Json& part) {
 
 void list(const ListOptions& options) {
   const std::vector<std::pair<std::string, Json (*)()>> kinds = {
-      {"integrators", integrators}, {"caches", caches},   {"backends", backends},
-      {"denoisers", denoisers},     {"metrics", metrics}, {"scenes", scenes}};
+      {"integrators", integratorsJson}, {"caches", cachesJson},   {"backends", backendsJson},
+      {"denoisers", denoisersJson},     {"metrics", metricsJson}, {"scenes", scenes}};
   const auto kind = std::find_if(kinds.begin(), kinds.end(),
                                  [&](const auto& entry) { return entry.first == options.what; });
   if (kind == kinds.end()) {

@@ -124,7 +124,8 @@ int main(int argc, char** argv) {
                              {"render", addRenderVerb(app)},   {"reference", addReferenceVerb(app)},
                              {"compare", addCompareVerb(app)}, {"figure", addFigureVerb(app)},
                              {"denoise", addDenoiseVerb(app)}, {"info", addInfoVerb(app)},
-                             {"list", addListVerb(app)},       {"bench", addBenchVerb(app)}};
+                             {"list", addListVerb(app)},       {"bench", addBenchVerb(app)},
+                             {"view", addViewVerb(app)}};
   for (const Verb& verb : verbs) addVerbosity(*app.get_subcommand(verb.name));
   try {
     const int code = runVerb(app, verbs, std::vector<std::string>(argv, argv + argc));

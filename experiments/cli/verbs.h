@@ -31,5 +31,6 @@ Action addDenoiseVerb(CLI::App& app);
 Action addInfoVerb(CLI::App& app);
 Action addListVerb(CLI::App& app);
 Action addBenchVerb(CLI::App& app);
+Action addViewVerb(CLI::App& app);
 
 }  // namespace restlab

@@ -59,7 +59,7 @@ class Members {
     return value.get<uint32_t>();
   }
 
-  uint32_t pane() { return whole("pane", 0, kMostPanes - 1); }
+  uint32_t pane(const char* key = "pane") { return whole(key, 0, kMostPanes - 1); }
 
   std::array<double, 16> numbers16(const char* key) {
     const Json& value = at(key);
@@ -136,12 +136,12 @@ ViewCommand commandOf(Members& members) {
   if (name == "camera") {
     MoveCamera move{members.numbers16("to_world"), std::nullopt};
     expectRigid(members, move.toWorld);
-    if (members.has("yfov")) move.yfov = members.number("yfov", 1e-4, 3.14);
+    if (members.has("yfov")) move.yfov = members.number("yfov", 2e-4, 3.12);
     return move;
   }
   if (name == "resolution")
     return Resize{members.whole("width", 1, kMaxSide), members.whole("height", 1, kMaxSide)};
-  if (name == "light") return SetLight{members.text("name"), members.number("factor", 0.0, 1e9)};
+  if (name == "light") return SetLight{members.text("name"), members.number("factor", 0.0, 1e6)};
   if (name == "layer") return ShowLayer{members.pane(), members.text("name")};
   if (name == "probe") {
     return Probe{members.pane(), members.whole("x", 0, kMaxSide - 1),
@@ -149,8 +149,13 @@ ViewCommand commandOf(Members& members) {
   }
   if (name == "pause") return Pause{members.flag("on")};
   if (name == "restart") return Restart{};
+  if (name == "copy") return CopyMethod{members.pane("from"), members.pane("to")};
+  if (name == "undo") return Undo{};
+  if (name == "redo") return Redo{};
+  if (name == "save") return SaveSession{};
   const std::vector<std::string> names = {"set",   "parameter", "camera", "resolution", "light",
-                                          "layer", "probe",     "pause",  "restart"};
+                                          "layer", "probe",     "pause",  "restart",    "copy",
+                                          "undo",  "redo",      "save"};
   failUsage(fmt::format("command: '{}' is unknown (known: {}){}", name, fmt::join(names, ", "),
                         didYouMean(name, names)));
 }

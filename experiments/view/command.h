@@ -1,14 +1,17 @@
 // What a page asks of the viewer: one JSON object a message, {"do": NAME, ...}.
 //
-//   set         pane, key, value     a setting of a method: integrator, mode, cache, denoiser,
-//   backend parameter   pane, name, value    one of the method's parameters; value null: its
-//   default camera      to_world, yfov?      16 numbers, column by column, rigid; metres, radians
+//   set         pane, key, value     a setting: integrator, mode, cache, denoiser, backend
+//   parameter   pane, name, value    one of the method's parameters; value null: its default
+//   camera      to_world, yfov?      16 numbers, column by column, rigid; metres, radians
 //   resolution  width, height        pixels
 //   light       name, factor         on the radiance of a light of the scene
 //   layer       pane, name           a layer of the method over its image; "": none
 //   probe       pane, x, y           what the pane keeps of a pixel
 //   pause       on                   panes stand; the reference goes on
 //   restart                          histories begin anew, with the next seed
+//   copy        from, to             the pane `to` gets the method of the pane `from`
+//   undo, redo                       the last step of what is set, back and forth
+//   save                             what is set, as a suite
 //
 // Panes are numbered from 0. What a method or a scene does not know, whoever runs the command says;
 // here numbers are finite and bounded, and texts short.
@@ -55,9 +58,15 @@ struct Pause {
   bool on = true;
 };
 struct Restart {};
+struct CopyMethod {
+  uint32_t from = 0, to = 0;  // panes
+};
+struct Undo {};
+struct Redo {};
+struct SaveSession {};
 
 using ViewCommand = std::variant<SetSetting, SetParameter, MoveCamera, Resize, SetLight, ShowLayer,
-                                 Probe, Pause, Restart>;
+                                 Probe, Pause, Restart, CopyMethod, Undo, Redo, SaveSession>;
 
 constexpr uint32_t kMostPanes = 2;
 

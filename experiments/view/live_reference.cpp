@@ -1,5 +1,6 @@
 #include "experiments/view/live_reference.h"
 
+#include <chrono>
 #include <utility>
 
 namespace restlab {
@@ -12,6 +13,8 @@ void LiveReference::begin(const PreparedScene& prepared, const ReferenceConfig& 
   prepared_ = &prepared;
   config_ = config;
   state_ = {};
+  pictures_ = {};
+  sampleMs_ = 0.0;
   progress_.reset();
   if (cameraInsteadOf(prepared, config) != nullptr) return;
   state_.id = {referenceKey(prepared, config), config.seed, config.backend};
@@ -24,8 +27,18 @@ void LiveReference::addSample() {
     state_.id.seed = config_.seed;
     halves_.emplace(*prepared_, config_, state_);
   }
+  const auto start = std::chrono::steady_clock::now();
   halves_->addSample();
+  sampleMs_ =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   if (progress_) progress_->update(state_);
+}
+
+const LiveReference::Pictures& LiveReference::pictures() const {
+  if (pictures_.spp == spp()) return pictures_;
+  pictures_ = {spp(), ImageSum::meanOfBoth(state_.half0, state_.half1), state_.half0.mean(),
+               state_.half1.mean(), estimateRelmse(state_.half0, state_.half1)};
+  return pictures_;
 }
 
 void LiveReference::keep() {

@@ -25,12 +25,21 @@ class LiveReference {
   uint64_t spp() const { return state_.spp(); }
   // Both halves have a sample, as the rest needs.
   bool isThere() const { return state_.half1.count() > 0; }
-  Image mean() const { return ImageSum::meanOfBoth(state_.half0, state_.half1); }
-  Image half0() const { return state_.half0.mean(); }
-  Image half1() const { return state_.half1.mean(); }
-  double relmse() const { return estimateRelmse(state_.half0, state_.half1); }
+  // Made once after each sample.
+  const Image& mean() const { return pictures().mean; }
+  const Image& half0() const { return pictures().half0; }
+  const Image& half1() const { return pictures().half1; }
+  double relmse() const { return pictures().relmse; }
+  // Of the last sample; 0 before there was one of this picture.
+  double sampleMs() const { return sampleMs_; }
 
  private:
+  struct Pictures {
+    uint64_t spp = 0;
+    Image mean, half0, half1;
+    double relmse = 0.0;
+  };
+  const Pictures& pictures() const;
   void keep();
 
   const ReferenceStore store_;
@@ -40,6 +49,8 @@ class LiveReference {
   // Of the scene's own cameras: those of a camera that somebody moves are seen once.
   std::optional<ReferenceProgress> progress_;
   std::optional<ReferenceHalves> halves_;  // from the first sample on
+  mutable Pictures pictures_;
+  double sampleMs_ = 0.0;
 };
 
 }  // namespace restlab

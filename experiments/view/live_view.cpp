@@ -2,189 +2,174 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <utility>
 
 #include "core/error.h"
 #include "core/method.h"
-#include "core/method_settings.h"
 #include "core/scene/light_factor.h"
 
 namespace restlab {
 
-namespace {
-
-// Those of another method's parameters that this one has.
-ParameterMap parametersFor(const SessionConfig& config) {
-  ParameterMap kept;
-  for (const ParameterInfo& info : findMethod(config).parameters()) {
-    const auto found = config.parameters.find(info.name);
-    if (found != config.parameters.end()) kept.insert(*found);
-  }
-  return kept;
+ViewSettings settingsOf(const PreparedScene& prepared, const std::vector<SessionConfig>& panes) {
+  ViewSettings settings;
+  for (const SessionConfig& config : panes) settings.panes.push_back({withNames(config), ""});
+  settings.camera = prepared.scene->source().cameras.at(prepared.camera);
+  return settings;
 }
-
-// A whole number is a number, too.
-ParameterValue valueFor(const ParameterInfo& info, const ParameterValue& value) {
-  const int64_t* whole = std::get_if<int64_t>(&value);
-  if (whole && std::holds_alternative<double>(info.defaultValue)) return double(*whole);
-  return value;
-}
-
-}  // namespace
 
 LiveView::LiveView(const PreparedScene& prepared, const std::vector<SessionConfig>& panes,
                    const ReferenceStore& store)
-    : loaded_(prepared),
-      prepared_(prepared),
-      camera_(prepared.scene->source().cameras.at(prepared.camera)),
-      reference_(store) {
-  for (const SessionConfig& config : panes) {
-    Pane& pane = panes_.emplace_back();
-    pane.config = config;
-    pane.session = sessionOf(config);
-  }
+    : LiveView(prepared, settingsOf(prepared, panes), store) {}
+
+LiveView::LiveView(const PreparedScene& prepared, ViewSettings settings,
+                   const ReferenceStore& store)
+    : loaded_(prepared), prepared_(prepared), settings_(std::move(settings)), reference_(store) {
+  if (!settings_.lights.empty()) prepared_ = litBy(settings_.lights);
+  for (const PaneSettings& pane : settings_.panes)
+    panes_.emplace_back().session = sessionOf(pane.config, prepared_, settings_.camera);
   beginEpoch(true);
 }
 
 void LiveView::apply(const ViewCommand& command) {
-  std::visit([this](const auto& one) { change(one); }, command);
+  if (std::holds_alternative<Pause>(command) || std::holds_alternative<Probe>(command) ||
+      std::holds_alternative<SaveSession>(command))
+    return;
+  if (std::holds_alternative<Restart>(command)) return restart();
+  const ViewSettings before = settings_;
+  if (std::holds_alternative<Undo>(command)) {
+    if (!history_.canUndo()) failUsage("undo: nothing was changed");
+    become(history_.undone());
+    return history_.undo(before);
+  }
+  if (std::holds_alternative<Redo>(command)) {
+    if (!history_.canRedo()) failUsage("redo: nothing was undone");
+    become(history_.redone());
+    return history_.redo(before);
+  }
+  ViewChange change = changedBy(command, settings_, loaded_.scene->source());
+  if (isSame(change.settings, settings_)) return;
+  become(std::move(change.settings));
+  history_.add(before, change.target, change.text);
 }
 
 void LiveView::renderFrames() {
-  for (Pane& pane : panes_) pane.stats = pane.session->frame();
+  for (Pane& pane : panes_) {
+    pane.stats = pane.session->frame();
+    ++pane.frames;
+  }
+  ++age_;
   if (!reference_.isThere()) return;
-  const Image half0 = reference_.half0(), half1 = reference_.half1();
-  for (Pane& pane : panes_) pane.error.add(pane.session->radiance(), half0, half1);
+  for (Pane& pane : panes_) {
+    pane.error.add(pane.session->radiance(), reference_.mean(), reference_.half0(),
+                   reference_.half1());
+  }
 }
 
-LiveView::Pane& LiveView::paneOf(uint32_t index) {
-  if (index >= panes_.size()) failUsage(fmt::format("pane {}: there are {}", index, panes_.size()));
-  return panes_[index];
-}
-
-std::unique_ptr<Session> LiveView::sessionOf(const SessionConfig& config) const {
-  auto session = std::make_unique<Session>(prepared_.scene, config);
-  session->setCamera(camera_);
+std::unique_ptr<Session> LiveView::sessionOf(const SessionConfig& config,
+                                             const PreparedScene& shown,
+                                             const SceneCamera& camera) const {
+  auto session = std::make_unique<Session>(shown.scene, config);
+  session->setCamera(camera);
   return session;
 }
 
-void LiveView::beginEpoch(bool isAnotherPicture) {
-  ++epoch_;
-  for (Pane& pane : panes_) pane.error.restart();
-  if (!isAnotherPicture) return;
-  ReferenceConfig config = referenceConfigOf(panes_.front().session->config());
-  config.camera = camera_;
-  reference_.begin(prepared_, config);
-}
-
-void LiveView::change(const SetSetting& command) {
-  Pane& pane = paneOf(command.pane);
-  SessionConfig config = pane.config;
-  const std::vector<MethodSetting>& settings = methodSettings();
-  const auto setting = std::find_if(settings.begin(), settings.end(),
-                                    [&](const MethodSetting& s) { return s.key == command.key; });
-  if (setting == settings.end()) {
-    std::vector<std::string> keys;
-    for (const MethodSetting& s : settings) keys.emplace_back(s.key);
-    failUsage(fmt::format("'{}': is no setting of a method (known: {}){}", command.key,
-                          fmt::join(keys, ", "), didYouMean(command.key, keys)));
-  }
-  config.*(setting->value) = command.value;
-  // Modes and caches are the integrator's.
-  if (setting->value == &SessionConfig::integrator) config.mode = config.cache = "";
-  config.parameters = parametersFor(config);
-  pane.session = sessionOf(config);
-  pane.config = config;
-  pane.layer.clear();
-  beginEpoch(false);
-}
-
-void LiveView::change(const SetParameter& command) {
-  Pane& pane = paneOf(command.pane);
-  const std::vector<ParameterInfo> known = findMethod(pane.config).parameters();
-  const auto info = std::find_if(known.begin(), known.end(),
-                                 [&](const ParameterInfo& p) { return p.name == command.name; });
-  if (info == known.end()) {
-    std::vector<std::string> names;
-    for (const ParameterInfo& p : known) names.push_back(p.name);
-    failUsage(fmt::format("pane {}: has no parameter '{}'{}", command.pane, command.name,
-                          didYouMean(command.name, names)));
-  }
-  if (command.value) {
-    const ParameterValue value = valueFor(*info, *command.value);
-    pane.session->setParameters({{command.name, value}});
-    pane.config.parameters[command.name] = value;
-  } else {
-    // Defaults of a part may be another part's: a new session knows.
-    SessionConfig config = pane.config;
-    config.parameters.erase(command.name);
-    pane.session = sessionOf(config);
-    pane.config = config;
-  }
-  beginEpoch(false);
-}
-
-void LiveView::change(const MoveCamera& command) {
-  SceneCamera camera = camera_;
-  for (int column = 0; column < 4; ++column) {
-    for (int row = 0; row < 4; ++row)
-      camera.cameraToWorld[column][row] = command.toWorld[size_t(4 * column + row)];
-  }
-  if (command.yfov) camera.yfov = *command.yfov;
-  camera_ = camera;
-  for (Pane& pane : panes_) pane.session->setCamera(camera_);
-  beginEpoch(true);
-}
-
-void LiveView::change(const Resize& command) {
-  const uint32_t width = panes_.front().config.width, height = panes_.front().config.height;
-  const auto resize = [this](uint32_t w, uint32_t h) {
-    for (Pane& pane : panes_) {
-      pane.session->resize(w, h);
-      pane.session->setCamera(camera_);
-      pane.config.width = w;
-      pane.config.height = h;
-    }
-  };
-  try {
-    resize(command.width, command.height);
-  } catch (const Error&) {
-    resize(width, height);  // where there was memory before
-    throw;
-  }
-  beginEpoch(true);
-}
-
-void LiveView::change(const SetLight& command) {
+PreparedScene LiveView::litBy(const LightFactors& lights) const {
+  if (lights.empty()) return loaded_;
   Scene scene = loaded_.scene->source();
-  requireLight(scene, command.name);
-  auto lights = lights_;
-  std::erase_if(lights, [&](const auto& light) { return light.first == command.name; });
-  lights.emplace_back(command.name, command.factor);
   std::string words;
   for (const auto& [name, factor] : lights) {
     scene = withLightFactor(std::move(scene), name, factor);
     words += fmt::format("{}{} x{}", words.empty() ? "" : ", ", name, factor);
   }
-  const PreparedScene shown = withLights(loaded_, CompiledScene::build(std::move(scene)), words);
-  for (Pane& pane : panes_) pane.session->setScene(shown.scene);
-  lights_ = std::move(lights);
-  prepared_ = shown;
-  beginEpoch(true);
+  return withLights(loaded_, CompiledScene::build(std::move(scene)), words);
 }
 
-void LiveView::change(const ShowLayer& command) {
-  Pane& pane = paneOf(command.pane);
-  const std::vector<std::string> names = findMethod(pane.config).aovNames();
-  if (!command.name.empty() && std::find(names.begin(), names.end(), command.name) == names.end()) {
-    failUsage(fmt::format("layer '{}': is unknown (known: {}){}", command.name,
-                          fmt::join(names, ", "), didYouMean(command.name, names)));
+void LiveView::beginEpoch(bool isAnotherPicture) {
+  ++epoch_;
+  age_ = 0;
+  for (Pane& pane : panes_) pane.error.restart();
+  if (!isAnotherPicture) return;
+  ++picture_;
+  ReferenceConfig config = referenceConfigOf(panes_.front().session->config());
+  config.camera = settings_.camera;
+  reference_.begin(prepared_, config);
+}
+
+bool LiveView::setParameters(Pane& pane, const SessionConfig& config) {
+  const ParameterMap wanted = resolveParameters(findMethod(config), config.parameters);
+  if (!pane.session->setParameters(wanted)) return false;
+  pane.frames = 0;
+  return true;
+}
+
+void LiveView::resize(const std::vector<Pane*>& panes, const SessionConfig& before,
+                      const SessionConfig& after) {
+  const auto resizeAll = [&](const SessionConfig& size) {
+    for (Pane* pane : panes) {
+      pane->frames = 0;
+      pane->session->resize(size.width, size.height);
+      pane->session->setCamera(settings_.camera);
+    }
+  };
+  try {
+    resizeAll(after);
+  } catch (const Error&) {
+    resizeAll(before);  // where there was memory before
+    throw;
   }
-  pane.layer = command.name;
 }
 
-void LiveView::change(const Restart&) {
-  for (Pane& pane : panes_) pane.session->reset(++pane.config.seed);
+// What may throw comes first: a session of another method, then what the others can say no to.
+void LiveView::become(ViewSettings next) {
+  // Runs go on with the seeds that they have: a step back is no run of before.
+  for (size_t i = 0; i < panes_.size(); ++i)
+    next.panes[i].config.seed = settings_.panes[i].config.seed;
+  const bool isAnotherPicture = !isSamePicture(settings_, next);
+  const PreparedScene shown = settings_.lights == next.lights ? prepared_ : litBy(next.lights);
+  std::vector<std::unique_ptr<Session>> made(panes_.size());
+  std::vector<Pane*> kept;
+  bool isChanged = isAnotherPicture;
+  for (size_t i = 0; i < panes_.size(); ++i) {
+    const SessionConfig &before = settings_.panes[i].config, &after = next.panes[i].config;
+    if (isSameMethod(before, after)) {
+      kept.push_back(&panes_[i]);
+    } else {
+      made[i] = sessionOf(after, shown, next.camera);
+    }
+  }
+  for (Pane* pane : kept) pane->session->setScene(shown.scene);
+  const SessionConfig &sizeBefore = settings_.panes.front().config,
+                      &sizeAfter = next.panes.front().config;
+  if (!isSameSize(sizeBefore, sizeAfter)) resize(kept, sizeBefore, sizeAfter);
+  for (size_t i = 0; i < panes_.size(); ++i) {
+    const ParameterMap &before = settings_.panes[i].config.parameters,
+                       &after = next.panes[i].config.parameters;
+    isChanged = isChanged || made[i] || before != after;
+    if (!made[i] && before != after) setParameters(panes_[i], next.panes[i].config);
+  }
+  for (Pane* pane : kept) pane->session->setCamera(next.camera);
+  for (size_t i = 0; i < panes_.size(); ++i) {
+    Pane& pane = panes_[i];
+    if (made[i]) {
+      pane.session = std::move(made[i]);
+      pane.frames = 0;
+    }
+    const bool isNew = pane.frames == 0;
+    const bool isTouched =
+        isAnotherPicture || settings_.panes[i].config.parameters != next.panes[i].config.parameters;
+    pane.isPlain = isNew || (pane.isPlain && !isTouched);
+  }
+  settings_ = std::move(next);
+  prepared_ = shown;
+  if (isChanged) beginEpoch(isAnotherPicture);
+}
+
+void LiveView::restart() {
+  for (size_t i = 0; i < panes_.size(); ++i) {
+    panes_[i].session->reset(++settings_.panes[i].config.seed);
+    panes_[i].frames = 0;
+    panes_[i].isPlain = true;
+  }
   beginEpoch(false);
 }
 

@@ -6,20 +6,22 @@
 #include <string>
 #include <vector>
 
-#include "experiments/view/command.h"
 #include "experiments/view/live_reference.h"
 #include "experiments/view/running_error.h"
+#include "experiments/view/view_history.h"
 
 namespace restlab {
 
 class LiveView {
  public:
-  // One configuration a pane, of one size; what they say of the picture is that of the first.
+  // Of one size; what panes say of the picture is that of the first.
+  LiveView(const PreparedScene& prepared, ViewSettings settings, const ReferenceStore& store);
+  // The scene's camera and light.
   LiveView(const PreparedScene& prepared, const std::vector<SessionConfig>& panes,
            const ReferenceStore& store);
 
-  // Does what a page asks. Throws Error in one line; everything is then as it was. Pause and Probe
-  // change no picture and are the caller's.
+  // Does what a page asks. Throws Error in one line; what is set is then as it was. Pause, Probe
+  // and SaveSession change no picture and are the caller's.
   void apply(const ViewCommand& command);
 
   // The next frame of each pane, one after the other.
@@ -29,46 +31,59 @@ class LiveView {
 
   // Another number: another picture or method, whose numbers are not those of before.
   uint64_t epoch() const { return epoch_; }
+  // Rises where the reference begins anew.
+  uint64_t picture() const { return picture_; }
+  // Frames of each pane since the epoch began.
+  uint64_t age() const { return age_; }
   size_t panes() const { return panes_.size(); }
+  const ViewSettings& settings() const { return settings_; }
+  const ViewHistory& history() const { return history_; }
+  const PreparedScene& loaded() const { return loaded_; }
   const Session& session(size_t pane) const { return *panes_.at(pane).session; }
   const FrameStats& stats(size_t pane) const { return panes_.at(pane).stats; }
-  const std::string& layer(size_t pane) const { return panes_.at(pane).layer; }
+  // Since its history began.
+  uint64_t frames(size_t pane) const { return panes_.at(pane).frames; }
+  // A history in which nothing was changed: that of a session which began with what is set.
+  bool hasPlainHistory(size_t pane) const { return panes_.at(pane).isPlain; }
+  const std::string& layer(size_t pane) const { return settings_.panes.at(pane).layer; }
   // Of the frames since the epoch began for which there was a reference.
   const RunningError& error(size_t pane) const { return panes_.at(pane).error; }
   const LiveReference& reference() const { return reference_; }
-  const SceneCamera& camera() const { return camera_; }
+  const SceneCamera& camera() const { return settings_.camera; }
 
  private:
   struct Pane {
-    SessionConfig config;
     std::unique_ptr<Session> session;
     FrameStats stats;
     RunningError error;
-    std::string layer;
+    uint64_t frames = 0;
+    bool isPlain = true;
   };
 
-  Pane& paneOf(uint32_t index);
-  std::unique_ptr<Session> sessionOf(const SessionConfig& config) const;
+  std::unique_ptr<Session> sessionOf(const SessionConfig& config, const PreparedScene& shown,
+                                     const SceneCamera& camera) const;
+  PreparedScene litBy(const LightFactors& lights) const;
   // Numbers begin anew; of another picture the reference does, too.
   void beginEpoch(bool isAnotherPicture);
 
-  void change(const SetSetting& command);
-  void change(const SetParameter& command);
-  void change(const MoveCamera& command);
-  void change(const Resize& command);
-  void change(const SetLight& command);
-  void change(const ShowLayer& command);
-  void change(const Restart& command);
-  void change(const Probe&) {}
-  void change(const Pause&) {}
+  // Renders what is set there from the next frame on; where that throws, what was set before.
+  void become(ViewSettings next);
+  bool setParameters(Pane& pane, const SessionConfig& config);
+  void resize(const std::vector<Pane*>& panes, const SessionConfig& before,
+              const SessionConfig& after);
+  void restart();
 
-  const PreparedScene loaded_;                          // with the light that was loaded
-  PreparedScene prepared_;                              // with that which is shown
-  std::vector<std::pair<std::string, double>> lights_;  // factors, in the order of their setting
-  SceneCamera camera_;
+  const PreparedScene loaded_;  // with the light that was loaded
+  PreparedScene prepared_;      // with that which is shown
+  ViewSettings settings_;
+  ViewHistory history_;
   std::vector<Pane> panes_;
   LiveReference reference_;
-  uint64_t epoch_ = 0;
+  uint64_t epoch_ = 0, picture_ = 0, age_ = 0;
 };
+
+// The panes' settings with the names that are there where none was given, the scene's camera and
+// its light.
+ViewSettings settingsOf(const PreparedScene& prepared, const std::vector<SessionConfig>& panes);
 
 }  // namespace restlab

@@ -43,15 +43,19 @@ double meanOf(const Image& image) {
 
 void RunningError::restart() {
   mse_.clear();
+  relmse_.clear();
   energy_.clear();
 }
 
-void RunningError::add(const Image& frame, const Image& half0, const Image& half1) {
+void RunningError::add(const Image& frame, const Image& mean, const Image& half0,
+                       const Image& half1) {
   mse_.push_back(mseAgainstHalves(frame, half0, half1));
-  energy_.push_back(meanOf(frame) / (0.5 * (meanOf(half0) + meanOf(half1))));
+  relmse_.push_back(relmseAgainstHalves(frame, mean, half0, half1).relmse);
+  energy_.push_back(meanOf(frame) / meanOf(mean));
 }
 
 Interval RunningError::mse() const { return intervalOf(mse_); }
+Interval RunningError::relmse() const { return intervalOf(relmse_); }
 Interval RunningError::energyRatio() const { return intervalOf(energy_); }
 
 }  // namespace restlab

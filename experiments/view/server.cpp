@@ -7,6 +7,7 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
+#include <atomic>
 #include <chrono>
 #include <deque>
 #include <map>
@@ -100,8 +101,13 @@ class ViewServer::Impl {
 
   void post(std::function<void()> task) { asio::post(io_, std::move(task)); }
 
-  void send(ClientId id, std::string text);
-  void sendNewest(ClientId id, uint32_t slot, std::shared_ptr<const Bytes> bytes);
+  struct Message {
+    std::shared_ptr<const std::string> text;
+    std::shared_ptr<const Bytes> bytes;  // where there is no text
+    std::optional<uint32_t> slot;        // of which the newest counts
+  };
+  void send(ClientId id, Message message);
+  uint64_t bytesWritten() const { return bytesWritten_.load(std::memory_order_relaxed); }
 
  private:
   class Client;
@@ -177,6 +183,7 @@ class ViewServer::Impl {
   Tcp::acceptor acceptor_;
   uint16_t port_ = 0;
   bool isClosing_ = false;
+  std::atomic<uint64_t> bytesWritten_{0};
   ClientId nextId_ = 1;
   std::map<ClientId, std::shared_ptr<Client>> clients_;
   std::thread thread_;
@@ -199,20 +206,14 @@ class ViewServer::Impl::Client : public std::enable_shared_from_this<Client> {
     });
   }
 
-  void add(std::shared_ptr<const std::string> text) {
-    if (waiting_.size() >= server_.options_.mostWaiting) return drop();
-    waiting_.push_back({std::move(text), nullptr, 0});
-    write();
-  }
-
-  void replace(uint32_t slot, std::shared_ptr<const Bytes> bytes) {
-    for (size_t i = isWriting_ ? 1 : 0; i < waiting_.size(); ++i) {
-      if (waiting_[i].bytes && waiting_[i].slot == slot) {
-        waiting_[i].bytes = std::move(bytes);
-        return;
-      }
+  void add(Message message) {
+    for (size_t i = isWriting_ ? 1 : 0; message.slot && i < waiting_.size(); ++i) {
+      if (waiting_[i].slot != message.slot) continue;
+      waiting_[i] = std::move(message);
+      return;
     }
-    waiting_.push_back({nullptr, std::move(bytes), slot});
+    if (waiting_.size() >= server_.options_.mostWaiting) return drop();
+    waiting_.push_back(std::move(message));
     write();
   }
 
@@ -223,12 +224,6 @@ class ViewServer::Impl::Client : public std::enable_shared_from_this<Client> {
   }
 
  private:
-  struct Message {
-    std::shared_ptr<const std::string> text;
-    std::shared_ptr<const Bytes> bytes;  // of a slot, where there is no text
-    uint32_t slot;
-  };
-
   void read() {
     socket_.async_read(buffer_, [self = shared_from_this()](ErrorCode error, size_t) {
       if (error) return self->end();
@@ -253,8 +248,9 @@ class ViewServer::Impl::Client : public std::enable_shared_from_this<Client> {
     const asio::const_buffer data =
         message.text ? asio::buffer(*message.text)
                      : asio::buffer(message.bytes->data(), message.bytes->size());
-    socket_.async_write(data, [self = shared_from_this(), message](ErrorCode error, size_t) {
+    socket_.async_write(data, [self = shared_from_this(), message](ErrorCode error, size_t count) {
       self->isWriting_ = false;
+      self->server_.bytesWritten_.fetch_add(count, std::memory_order_relaxed);
       if (error) return self->end();
       self->waiting_.pop_front();
       self->write();
@@ -346,16 +342,9 @@ ViewServer::Impl::~Impl() {
   thread_.join();
 }
 
-void ViewServer::Impl::send(ClientId id, std::string text) {
-  post([this, id, text = std::make_shared<const std::string>(std::move(text))] {
-    if (const auto found = clients_.find(id); found != clients_.end()) found->second->add(text);
-  });
-}
-
-void ViewServer::Impl::sendNewest(ClientId id, uint32_t slot, std::shared_ptr<const Bytes> bytes) {
-  post([this, id, slot, bytes = std::move(bytes)] {
-    if (const auto found = clients_.find(id); found != clients_.end())
-      found->second->replace(slot, bytes);
+void ViewServer::Impl::send(ClientId id, Message message) {
+  post([this, id, message = std::move(message)] {
+    if (const auto found = clients_.find(id); found != clients_.end()) found->second->add(message);
   });
 }
 
@@ -372,9 +361,15 @@ ViewServer::ViewServer(const ViewServerOptions& options, ViewServerEvents events
 ViewServer::~ViewServer() = default;
 uint16_t ViewServer::port() const { return impl_->port(); }
 std::string ViewServer::url() const { return impl_->url(); }
-void ViewServer::send(ClientId client, std::string text) { impl_->send(client, std::move(text)); }
+uint64_t ViewServer::bytesWritten() const { return impl_->bytesWritten(); }
+void ViewServer::send(ClientId client, std::string text) {
+  impl_->send(client, {std::make_shared<const std::string>(std::move(text)), nullptr, {}});
+}
 void ViewServer::sendNewest(ClientId client, uint32_t slot, std::shared_ptr<const Bytes> bytes) {
-  impl_->sendNewest(client, slot, std::move(bytes));
+  impl_->send(client, {nullptr, std::move(bytes), slot});
+}
+void ViewServer::sendNewest(ClientId client, uint32_t slot, std::string text) {
+  impl_->send(client, {std::make_shared<const std::string>(std::move(text)), nullptr, slot});
 }
 
 }  // namespace restlab

@@ -53,6 +53,10 @@ class ViewServer {
   void send(ClientId client, std::string text);
   // What waits of the same slot is replaced: a slow client gets fewer of them, not older ones.
   void sendNewest(ClientId client, uint32_t slot, std::shared_ptr<const Bytes> bytes);
+  void sendNewest(ClientId client, uint32_t slot, std::string text);
+
+  // To all clients since the server began.
+  uint64_t bytesWritten() const;
 
  private:
   class Impl;

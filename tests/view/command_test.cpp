@@ -39,6 +39,12 @@ TEST(ViewCommands, AreReadWithTheirValues) {
   EXPECT_EQ(read<Probe>(R"({"do":"probe","pane":0,"x":3,"y":4})").y, 4u);
   EXPECT_FALSE(read<Pause>(R"({"do":"pause","on":false})").on);
   read<Restart>(R"({"do":"restart"})");
+  const auto copy = read<CopyMethod>(R"({"do":"copy","from":1,"to":0})");
+  EXPECT_EQ(copy.from, 1u);
+  EXPECT_EQ(copy.to, 0u);
+  read<Undo>(R"({"do":"undo"})");
+  read<Redo>(R"({"do":"redo"})");
+  read<SaveSession>(R"({"do":"save"})");
 }
 
 TEST(ViewCommands, ThatAreWrongAreSaidInOneLine) {
@@ -65,6 +71,9 @@ TEST(ViewCommands, ThatAreWrongAreSaidInOneLine) {
       {R"({"do":"camera","to_world":[1,0,0,0, 0,1,0,0, 0,0,1,0, 1e10,0,0,1]})", "'to_world'[12]"},
       {R"({"do":"resolution","width":0,"height":4})",
        "'width' must be a whole number from 1 to 16384"},
+      {R"({"do":"copy","from":0})", "copy: 'to' is missing"},
+      {R"({"do":"copy","from":0,"to":2})", "'to' must be a whole number from 0 to 1"},
+      {R"({"do":"undo","steps":2})", "undo: 'steps' is unknown"},
       {R"({"do":"light","name":"a","factor":-1})", "'factor' must be a number from 0"},
       {R"({"do":"layer","pane":0,"name":")" + std::string(300, 'x') + "\"}", "at most 256 bytes"},
   };

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/image/metrics.h"
 #include "core/scene/compiled_scene.h"
+#include "experiments/runner/run/experiment.h"
 #include "tests/runner/temporary_folder.h"
 
 namespace restlab {
@@ -78,6 +79,32 @@ TEST_F(LiveViewTest, NumbersAreThoseOfTheFramesSinceTheReferenceWasThere) {
   EXPECT_DOUBLE_EQ(view.error(1).mse().value, sum / 4.0);
   EXPECT_TRUE(std::isnan(view.error(1).mse().lo)) << "four frames of a history say little";
   EXPECT_NEAR(view.error(1).energyRatio().value, 1.0, 0.5);
+}
+
+// Of the same seed and the same reference, to the last bit.
+TEST_F(LiveViewTest, NumbersOfAFrameAreThoseOfASuite) {
+  LiveView view = open();
+  for (int sample = 0; sample < 6; ++sample) view.refineReference();
+  Reference reference;
+  reference.mean = view.reference().mean();
+  reference.half0 = view.reference().half0();
+  reference.half1 = view.reference().half1();
+  Session gi(box().scene, configOf("restir_gi"));
+  double mse = 0.0, relmse = 0.0, energy = 0.0;
+  constexpr uint32_t kFrames = 5;
+  for (uint32_t frame = 0; frame < kFrames; ++frame) {
+    view.renderFrames();
+    gi.frame();
+    const FrameError error = measureFrame(gi.radiance(), reference, frame, {});
+    EXPECT_EQ(view.error(0).lastMse(), error.mse);
+    mse += error.mse;
+    relmse += error.relmse;
+    energy += error.energyRatio;
+  }
+  EXPECT_EQ(view.frames(0), kFrames);
+  EXPECT_DOUBLE_EQ(view.error(0).mse().value, mse / kFrames);
+  EXPECT_DOUBLE_EQ(view.error(0).relmse().value, relmse / kFrames);
+  EXPECT_NEAR(view.error(0).energyRatio().value, energy / kFrames, 1e-9);
 }
 
 TEST_F(LiveViewTest, EveryChangeBeginsTheNumbersAnew) {
@@ -187,11 +214,11 @@ TEST(RunningErrors, HaveIntervalsOfBatches) {
   const Image zero(1, 1, glm::vec3(0.0f)), one(1, 1, glm::vec3(1.0f));
   RunningError error;
   for (size_t i = 0; i < RunningError::kLeastFrames; ++i)
-    error.add(Image(1, 1, glm::vec3(i % 2 == 0 ? 1.0f : 3.0f)), one, one);
+    error.add(Image(1, 1, glm::vec3(i % 2 == 0 ? 1.0f : 3.0f)), one, one, one);
   EXPECT_DOUBLE_EQ(error.mse().value, 2.0);  // (0 + 4) / 2
   EXPECT_DOUBLE_EQ(error.mse().lo, 2.0) << "batches of as many of each have no spread";
   EXPECT_DOUBLE_EQ(error.energyRatio().value, 2.0);
-  for (size_t i = 0; i < RunningError::kLeastFrames; ++i) error.add(one, one, one);
+  for (size_t i = 0; i < RunningError::kLeastFrames; ++i) error.add(one, one, one, one);
   EXPECT_DOUBLE_EQ(error.mse().value, 1.0);
   EXPECT_LT(error.mse().lo, 1.0);
   EXPECT_GT(error.mse().hi, 1.0);

@@ -1,0 +1,174 @@
+// restlab view: two methods beside each other and their reference, on a page that this program
+// serves.
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <thread>
+
+#include "core/method_settings.h"
+#include "core/scene/compiled_scene.h"
+#include "experiments/cli/options.h"
+#include "experiments/cli/verbs.h"
+#include "experiments/runner/reference/reference_progress.h"
+#include "experiments/runner/run/interrupt.h"
+#include "experiments/runner/run/log.h"
+#include "experiments/runner/suite/backend_choice.h"
+#include "experiments/view/view_loop.h"
+#include "experiments/view/view_page.h"
+#include "experiments/view/view_session.h"
+
+extern char** environ;
+
+namespace restlab {
+
+namespace {
+
+constexpr const char* kDefaultScene = "door-ajar";
+// Of an image whose size nobody says, or as many pixels in the camera's aspect ratio. Two cores
+// then render both panes several times a second.
+constexpr uint32_t kWidth = 320, kHeight = 180;
+
+struct ViewOptions {
+  SceneOptions scene;
+  MethodOptions first, second;
+  std::string secondBackend;  // "": as the first
+  ViewServerOptions server;
+  bool open = false;
+};
+
+bool isSuite(const std::string& name) { return std::filesystem::path(name).extension() == ".toml"; }
+
+// A suite says all of what these say.
+void requireNoOptions(const CLI::App& verb, const std::string& file) {
+  for (const CLI::Option* option : verb.get_options()) {
+    const std::string name = option->get_name();
+    const bool isOfServer = name == "--port" || name == "--listen" || name == "--open" ||
+                            name == "scene" || name == "--quiet" || name == "--verbose" ||
+                            name == "-q" || name == "-v";
+    if (option->count() > 0 && !isOfServer) {
+      failUsage(fmt::format("view {}: {} is not for a suite, which says it; change the file", file,
+                            name));
+    }
+  }
+}
+
+void chooseSize(const PreparedScene& prepared, SessionConfig& config) {
+  if (config.width == 0 && config.height == 0) {
+    const double aspect = prepared.scene->source().cameras.at(prepared.camera).aspect;
+    config.width = kWidth;
+    if (aspect > 0.0) {
+      config.width = std::max(1u, uint32_t(std::round(std::sqrt(aspect * kWidth * kHeight))));
+    } else {
+      config.height = kHeight;  // screens are wide
+    }
+  }
+  completeConfig(prepared, config);
+}
+
+ViewStart startOf(ViewOptions& options) {
+  resolveResolution(options.scene);
+  MethodOptions& second = options.second;
+  second.russianRoulette = options.first.russianRoulette;
+  second.general = options.first.general;
+  second.backend = options.first.backend;
+  if (!options.secondBackend.empty() && options.secondBackend != second.backend.backend) {
+    second.backend = {};
+    second.backend.backend = options.secondBackend;
+  }
+  std::vector<SessionConfig> panes = {makeConfig(options.scene, options.first),
+                                      makeConfig(options.scene, second)};
+  ViewStart start;
+  start.request = options.scene.request;
+  start.prepared = prepareScene(start.request);
+  for (SessionConfig& config : panes) chooseSize(start.prepared, config);
+  start.settings = settingsOf(start.prepared, panes);
+  return start;
+}
+
+// Whoever has no browser here opens the address elsewhere.
+void openInBrowser(const std::string& url) {
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
+  std::string program = "xdg-open", address = url;
+  char* const words[] = {program.data(), address.data(), nullptr};
+  pid_t child = 0;
+  const int error = posix_spawnp(&child, words[0], &actions, nullptr, words, environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) {
+    logWarning(fmt::format("--open: xdg-open cannot be run ({}); open the address yourself",
+                           std::strerror(error)));
+  }
+}
+
+void view(const CLI::App& verb, ViewOptions options) {
+  if (options.scene.request.scene.empty()) options.scene.request.scene = kDefaultScene;
+  const std::string name = options.scene.request.scene;
+  if (isSuite(name)) requireNoOptions(verb, name);
+  const ViewStart start = isSuite(name) ? startOfSuite(name) : startOf(options);
+  printWarnings(start.prepared);
+  ReferenceStore store;
+  store.folder = referenceCacheFolder();
+  LiveView live(start.prepared, start.settings, store);
+  for (size_t i = 0; i < live.panes(); ++i) logStartup(live.session(i));
+  const int threads = start.settings.panes.front().config.threads;
+  options.server.page = viewPage();
+  ViewLoop loop(live,
+                {start.request, threads > 0 ? threads : int(std::thread::hardware_concurrency())},
+                options.server, ".");
+  fmt::print("{}\n", loop.url());
+  std::fflush(stdout);
+  logInfo("open the address in a browser; Ctrl-C ends the viewer");
+  if (options.open) openInBrowser(loop.url());
+  loop.run();
+}
+
+void addSecondMethod(CLI::App& verb, ViewOptions& options) {
+  MethodOptions& second = options.second;
+  second.choice.integrator = "path";
+  second.choice.denoiser = "accumulate";
+  for (const auto& [key, help, value] : methodSettings()) {
+    const bool isBackend = value == &SessionConfig::backend;
+    const std::string preset = second.choice.*value;
+    const std::string fallback = isBackend ? "as --backend" : preset.empty() ? "the first" : preset;
+    verb.add_option(std::string("--b-") + key,
+                    isBackend ? options.secondBackend : second.choice.*value,
+                    fmt::format("of pane B (default {})", fallback));
+  }
+  verb.add_option("--b-set", second.parameters, "KEY=VALUE: a parameter of pane B")
+      ->take_all()
+      ->allow_extra_args(false);
+}
+
+}  // namespace
+
+Action addViewVerb(CLI::App& app) {
+  auto options = std::make_shared<ViewOptions>();
+  CLI::App* verb = app.add_subcommand(
+      "view", "compare two methods and their reference live, on a page in a browser");
+  addSceneOptions(*verb, options->scene);
+  verb->get_option("scene")->required(false)->description(
+      "a glTF file, a built-in scene (default door-ajar), or a suite *.toml: its first two "
+      "methods");
+  verb->get_option("--resolution")
+      ->description("WxH pixels (default: 320x180, or as many in the camera's aspect ratio)");
+  options->first.choice.integrator = "restir_gi";
+  addMethodOptions(*verb, options->first);
+  verb->get_option("--integrator")
+      ->description("of pane A, as the next ones: restlab list integrators (default restir_gi)");
+  addSecondMethod(*verb, *options);
+  verb->add_option("--port", options->server.port, "of the page (default: any that is free)")
+      ->transform(wholeNumberFrom(0, 65535));
+  verb->add_option("--listen", options->server.listen,
+                   "address of this machine (default 127.0.0.1: nobody else reaches the page)");
+  verb->add_flag("--open", options->open, "open the page in a browser");
+  return [verb, options](Outcome&) { view(*verb, *options); };
+}
+
+}  // namespace restlab

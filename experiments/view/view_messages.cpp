@@ -1,0 +1,302 @@
+#include "experiments/view/view_messages.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/error.h"
+#include "core/method.h"
+#include "core/method_settings.h"
+#include "core/scene/light_factor.h"
+#include "experiments/runner/registries/registries.h"
+#include "experiments/runner/run/build_info.h"
+#include "experiments/runner/summary/report_document.h"
+
+namespace restlab {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Names of scenes and devices may hold any bytes.
+std::string textOf(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Json orNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json intervalJson(const Interval& interval) {
+  if (!std::isfinite(interval.value)) return nullptr;
+  return {{"value", interval.value}, {"lo", orNull(interval.lo)}, {"hi", orNull(interval.hi)}};
+}
+
+// Rigid, as commands are; a node that scales or shears has no part in the view.
+Json matrixJson(const SceneCamera& camera) {
+  glm::dmat4 m = camera.cameraToWorld;
+  const glm::dmat3 axes(m);
+  const glm::dmat3 deviation = glm::transpose(axes) * axes - glm::dmat3(1.0);
+  double largest = 0.0;
+  for (int i = 0; i < 9; ++i) largest = std::max(largest, std::abs(deviation[i / 3][i % 3]));
+  if (largest > 1e-6) {
+    const glm::dvec3 back = glm::normalize(axes[2]);
+    const glm::dvec3 right = glm::normalize(axes[0] - glm::dot(axes[0], back) * back);
+    m[0] = glm::dvec4(right, 0.0);
+    m[1] = glm::dvec4(glm::cross(back, right), 0.0);
+    m[2] = glm::dvec4(back, 0.0);
+  }
+  Json numbers = Json::array();
+  for (int i = 0; i < 16; ++i) numbers.push_back(m[i / 4][i % 4]);
+  return numbers;
+}
+
+Json pointJson(const glm::dvec3& p) { return {p.x, p.y, p.z}; }
+
+std::string kindOfLight(const Scene& scene, const std::string& name) {
+  if (name == "environment") return name;
+  for (const PunctualLight& light : scene.lights) {
+    if (light.name != name) continue;
+    return light.kind == rl::RL_LIGHT_POINT  ? "point"
+           : light.kind == rl::RL_LIGHT_SPOT ? "spot"
+                                             : "directional";
+  }
+  for (const MeshInstance& instance : scene.instances)
+    if (instance.name == name) return "mesh";
+  return "material";
+}
+
+// Those that a factor may be given for.
+std::vector<std::string> namesOfLights(const Scene& scene) {
+  std::vector<std::string> names = lightNames(scene);
+  if (names.size() > 1) names.insert(names.begin(), kAllLights);
+  return names;
+}
+
+Json sceneJson(const LiveView& view) {
+  const Scene& scene = view.loaded().scene->source();
+  Json cameras = Json::array(), lights = Json::array();
+  for (const SceneCamera& camera : scene.cameras) {
+    cameras.push_back(
+        {{"name", camera.name}, {"to_world", matrixJson(camera)}, {"yfov", camera.yfov}});
+  }
+  for (const std::string& name : namesOfLights(scene)) {
+    const std::string kind = name == kAllLights ? kAllLights : kindOfLight(scene, name);
+    lights.push_back({{"name", name}, {"kind", kind}});
+  }
+  const auto [lo, hi] = worldBounds(scene);
+  const std::vector<std::string>& builtin = builtinSceneNames();
+  const bool isBuiltin = std::find(builtin.begin(), builtin.end(), scene.name) != builtin.end();
+  const Session& session = view.session(0);
+  return {
+      {"name", scene.name},
+      {"title", isBuiltin && scene.source.empty() ? builtinSceneSummary(scene.name) : scene.name},
+      {"cameras", cameras},
+      {"lights", lights},
+      {"bounds", {{"lo", pointJson(lo)}, {"hi", pointJson(hi)}}},
+      {"feature_lines",
+       {std::to_string(view.loaded().scene->instancedTriangleCount()) + " triangles",
+        "needs " + featureNames(session.featuresNeeded()),
+        "environment " + view.loaded().environmentName}}};
+}
+
+// Of the first frame; 1 before there is one.
+double exposureOf(const LiveView& view) {
+  if (view.reference().isThere()) return previewExposure(view.reference().mean());
+  return view.frames(0) > 0 ? previewExposure(view.session(0).radiance()) : 1.0;
+}
+
+Json parametersJson(const SessionConfig& config) {
+  const Method method = findMethod(config);
+  const ParameterMap resolved = resolveParameters(method, config.parameters);
+  const std::vector<ParameterInfo> infos = method.parameters();
+  Json all = Json::array();
+  size_t next = 0;  // parameters() has those of each part, in their order
+  for (const PartInfo* part : method.parts()) {
+    for (size_t i = 0; i < part->parameters.size(); ++i) {
+      const ParameterInfo& info = infos.at(next++);
+      Json json = parameterJson(info);
+      json["part"] = part->name;
+      json["value"] = parameterValueJson(resolved.at(info.name));
+      json["is_set"] = config.parameters.count(info.name) > 0;
+      all.push_back(std::move(json));
+    }
+  }
+  return all;
+}
+
+// What every method can show; the manual says more of each.
+Json layersJson(const SessionConfig& config) {
+  Json all = {{{"name", "depth"}, {"unit", "m"}, {"help", "distance along the ray"}},
+              {{"name", "positionW"}, {"unit", "m"}, {"help", "first hit"}},
+              {{"name", "normalW"}, {"unit", ""}, {"help", "shading normal of the first hit"}},
+              {{"name", "albedo"}, {"unit", ""}, {"help", "reflectance of the first hit"}},
+              {{"name", "object"}, {"unit", ""}, {"help", "number of the mesh"}, {"is_name", true}},
+              {{"name", "emission"}, {"unit", ""}, {"help", "light seen directly"}},
+              {{"name", "motion"}, {"unit", "pixels"}, {"help", "to where it was a frame ago"}}};
+  for (const LayerInfo* layer : findMethod(config).layers()) {
+    all.push_back({{"name", layer->name}, {"unit", layer->unit}, {"help", layer->summary}});
+    if (layer->isName) all.back()["is_name"] = true;
+  }
+  return all;
+}
+
+// "0.5 1 2 m" of the unit m is three numbers; what is no numbers stays a text.
+Json probedValue(std::string text, const std::string& unit) {
+  if (!unit.empty() && text.ends_with(" " + unit)) text.resize(text.size() - unit.size() - 1);
+  std::istringstream words(text);
+  Json numbers = Json::array();
+  for (std::string word; words >> word;) {
+    double number = 0.0;
+    const char* end = word.data() + word.size();
+    const auto read = std::from_chars(word.data(), end, number);
+    if (read.ec != std::errc() || read.ptr != end) return text;
+    numbers.push_back(orNull(number));
+  }
+  if (numbers.empty()) return text;
+  return numbers.size() == 1 ? numbers.front() : numbers;
+}
+
+double factorOf(const LightFactors& lights, const std::string& name) {
+  double factor = 1.0;
+  for (const auto& [light, its] : lights)
+    if (light == name || light == kAllLights) factor = its;
+  return factor;
+}
+
+Json paneNumbers(const LiveView& view, size_t i) {
+  const FrameStats& stats = view.stats(i);
+  const RunningError& error = view.error(i);
+  const SessionConfig& config = view.settings().panes[i].config;
+  Json passes = Json::array(), health = Json::object();
+  for (const PassTiming& pass : stats.passes)
+    passes.push_back({{"name", pass.name}, {"ms", pass.timeMs}});
+  for (size_t k = 0; k < stats.health.counts.size(); ++k)
+    health[Health::names()[k]] = stats.health.counts[k];
+  return {{"frame", view.frames(i)},
+          {"frames_measured", error.frames()},
+          {"mse", intervalJson(error.mse())},
+          {"relmse", intervalJson(error.relmse())},
+          {"energy", intervalJson(error.energyRatio())},
+          {"last_mse", error.frames() > 0 ? orNull(error.lastMse()) : Json(nullptr)},
+          {"ms", stats.timeMs},
+          {"passes", passes},
+          {"rays", stats.raysPath + stats.raysShadow},
+          {"bytes", view.session(i).bytesPerPixel() * config.width * config.height},
+          {"health", health}};
+}
+
+}  // namespace
+
+std::string helloText(const ViewFacts& facts, const LiveView& view) {
+  Json settings = Json::array();
+  for (const MethodSetting& setting : methodSettings()) settings.push_back(setting.key);
+  return textOf({{"say", "hello"},
+                 {"scene", sceneJson(view)},
+                 {"integrators", integratorsJson()},
+                 {"caches", cachesJson()},
+                 {"backends", backendsJson()},
+                 {"denoisers", denoisersJson()},
+                 {"metrics", metricsJson()},
+                 {"settings", settings},
+                 {"threads", facts.threads},
+                 {"version", buildInfo().version},
+                 {"exposure", exposureOf(view)}});
+}
+
+std::string stateText(const LiveView& view, bool isPaused) {
+  const ViewSettings& settings = view.settings();
+  Json panes = Json::array(), lights = Json::array();
+  for (const PaneSettings& pane : settings.panes) {
+    Json json = Json::object();
+    for (const MethodSetting& setting : methodSettings())
+      json[setting.key] = pane.config.*(setting.value);
+    json["layer"] = pane.layer;
+    json["layers"] = layersJson(pane.config);
+    json["seed"] = pane.config.seed;
+    json["parameters"] = parametersJson(pane.config);
+    panes.push_back(std::move(json));
+  }
+  for (const std::string& name : namesOfLights(view.loaded().scene->source()))
+    lights.push_back({{"name", name}, {"factor", factorOf(settings.lights, name)}});
+  const SessionConfig& size = settings.panes.front().config;
+  const ViewHistory& history = view.history();
+  return textOf(
+      {{"say", "state"},
+       {"epoch", view.epoch()},
+       {"panes", panes},
+       {"camera", {{"to_world", matrixJson(settings.camera)}, {"yfov", settings.camera.yfov}}},
+       {"width", size.width},
+       {"height", size.height},
+       {"lights", lights},
+       {"paused", isPaused},
+       {"can_undo", history.canUndo()},
+       {"can_redo", history.canRedo()},
+       {"undo_text", history.undoText()},
+       {"redo_text", history.redoText()}});
+}
+
+std::string numbersText(const LiveView& view, const Transport& transport, double load) {
+  Json panes = Json::array();
+  for (size_t i = 0; i < view.panes(); ++i) panes.push_back(paneNumbers(view, i));
+  const LiveReference& reference = view.reference();
+  const SessionConfig& size = view.settings().panes.front().config;
+  const double sampleMs = reference.sampleMs();
+  return textOf({{"say", "numbers"},
+                 {"epoch", view.epoch()},
+                 {"age", view.age()},
+                 {"panes", panes},
+                 {"reference",
+                  {{"spp", reference.spp()},
+                   {"relmse", reference.isThere() ? orNull(reference.relmse()) : Json(nullptr)},
+                   {"ms_per_sample", sampleMs > 0.0 ? Json(sampleMs) : Json(nullptr)}}},
+                 {"transport",
+                  {{"width", size.width},
+                   {"height", size.height},
+                   {"bits", transport.format == PixelFormat::halves ? 16 : 32},
+                   {"mb_per_second", transport.megabytesPerSecond}}},
+                 {"busy", orNull(load)}});
+}
+
+std::string probeText(const ViewFacts& facts, const LiveView& view, const Probe& probe) {
+  if (probe.pane >= view.panes())
+    failUsage("probe: there are " + std::to_string(view.panes()) + " panes");
+  if (view.frames(probe.pane) == 0) failUsage("probe: no frame was rendered yet");
+  const SessionConfig& config = view.settings().panes[probe.pane].config;
+  const std::vector<const LayerInfo*> layers = findMethod(config).layers();
+  Json values = Json::array();
+  for (const ProbeValue& value : view.session(probe.pane).probe(probe.x, probe.y)) {
+    const auto layer = std::find_if(layers.begin(), layers.end(), [&](const LayerInfo* info) {
+      return info->name == value.name;
+    });
+    const bool isLayer = layer != layers.end();
+    const std::string unit = isLayer ? (*layer)->unit : "";
+    values.push_back({{"name", value.name},
+                      {"value", probedValue(value.value, unit)},
+                      {"unit", unit},
+                      {"help", isLayer ? (*layer)->summary : ""}});
+  }
+  return textOf({{"say", "probe"},
+                 {"pane", probe.pane},
+                 {"x", probe.x},
+                 {"y", probe.y},
+                 {"frame", view.frames(probe.pane)},
+                 {"seed", config.seed},
+                 {"values", values},
+                 {"donors", Json::array()},
+                 {"command", probeCommand(facts, view, probe)}});
+}
+
+std::string errorText(const std::string& line, const std::string& command) {
+  return textOf({{"say", "error"},
+                 {"text", line},
+                 {"command", command.empty() ? Json(nullptr) : Json(command)}});
+}
+
+std::string saidText(const std::string& line) { return textOf({{"say", "said"}, {"text", line}}); }
+
+std::string savedText(const std::string& name, const std::string& toml) {
+  return textOf({{"say", "saved"}, {"name", name}, {"toml", toml}});
+}
+
+}  // namespace restlab

@@ -1,0 +1,45 @@
+#include "experiments/view/view_queue.h"
+
+#include <utility>
+
+namespace restlab {
+
+void PageEvents::add(PageEvent event) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (event.kind == PageEvent::Kind::said && events_.size() >= kMostTexts) {
+      isLost_ = true;
+      return;
+    }
+    events_.push_back(std::move(event));
+  }
+  there_.notify_one();
+}
+
+std::vector<PageEvent> PageEvents::take(std::chrono::milliseconds patience) {
+  std::unique_lock lock(mutex_);
+  if (patience.count() > 0)
+    there_.wait_for(lock, patience, [this] { return !events_.empty() || isWoken_; });
+  isWoken_ = false;
+  return std::exchange(events_, {});
+}
+
+bool PageEvents::areWaiting() const {
+  const std::lock_guard lock(mutex_);
+  return !events_.empty();
+}
+
+bool PageEvents::takeLost() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(isLost_, false);
+}
+
+void PageEvents::wake() {
+  {
+    const std::lock_guard lock(mutex_);
+    isWoken_ = true;
+  }
+  there_.notify_one();
+}
+
+}  // namespace restlab

@@ -1,0 +1,42 @@
+// What pages have said, on its way from the server's thread to the one that renders.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "experiments/view/server.h"
+
+namespace restlab {
+
+struct PageEvent {
+  enum class Kind { opened, closed, said } kind = Kind::said;
+  ClientId client = 0;
+  std::string text;
+};
+
+class PageEvents {
+ public:
+  // Texts beyond are lost: no page types so fast. Pages that come and go never are.
+  static constexpr size_t kMostTexts = 4096;
+
+  // Never waits for long.
+  void add(PageEvent event);
+  // All there are; where there is none, after so long a time at the latest.
+  std::vector<PageEvent> take(std::chrono::milliseconds patience);
+  bool areWaiting() const;
+  // Whether texts were lost since the last call.
+  bool takeLost();
+  // Ends waits.
+  void wake();
+
+ private:
+  mutable std::mutex mutex_;
+  std::condition_variable there_;
+  std::vector<PageEvent> events_;
+  bool isWoken_ = false, isLost_ = false;
+};
+
+}  // namespace restlab

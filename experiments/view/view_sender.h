@@ -1,0 +1,57 @@
+// From the viewer to its pages: texts and images, of which the newest count.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+
+#include "experiments/view/view_messages.h"
+#include "experiments/view/view_queue.h"
+
+namespace restlab {
+
+// Slots of images; those of panes are 0 and 1, those of the layers over them 16 more.
+constexpr uint32_t kReferenceSlot = 2, kFirstLayerSlot = 16;
+
+class ViewSender {
+ public:
+  // Floats of so many bytes go out even while something moves.
+  static constexpr size_t kSmallBytes = 512 << 10;
+
+  ViewSender(const ViewServerOptions& options, PageEvents& events);
+
+  std::string url() const { return server_.url(); }
+  bool hasPages() const { return !pages_.empty(); }
+  void opened(ClientId page) { pages_.insert(page); }
+  void closed(ClientId page) { pages_.erase(page); }
+
+  // In their order. A page that takes none for long is let go.
+  void tell(ClientId page, const std::string& text) { server_.send(page, text); }
+  void tellAll(const std::string& text);
+  // Of each kind the newest.
+  void tellState(const std::string& text) { tellNewest(kStateSlot, text); }
+  void tellNumbers(const std::string& text) { tellNewest(kNumbersSlot, text); }
+  // `isExact`: as floats, whatever it takes. To all pages.
+  void show(ImageHeader header, const Image& image, bool isExact);
+
+  // The slot's last image went out in halves.
+  bool isRounded(uint32_t slot) const;
+  // Of the panes' last image, and bytes on their way over the last second.
+  Transport transport();
+
+ private:
+  static constexpr uint32_t kStateSlot = 1000, kNumbersSlot = 1001;
+  void tellNewest(uint32_t slot, const std::string& text);
+
+  std::set<ClientId> pages_;
+  std::map<uint32_t, PixelFormat> formats_;  // by slot
+  std::chrono::steady_clock::time_point measured_ = std::chrono::steady_clock::now();
+  uint64_t measuredBytes_ = 0;
+  double megabytesPerSecond_ = 0.0;
+  ViewServer server_;  // the first to go: it calls back
+};
+
+}  // namespace restlab

@@ -1,0 +1,246 @@
+#include "experiments/view/view_session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <variant>
+
+#include "core/error.h"
+#include "core/integrator.h"
+#include "core/scene/light_factor.h"
+#include "experiments/runner/run/experiment.h"
+#include "experiments/runner/run/files.h"
+#include "experiments/runner/suite/suite.h"
+#include "experiments/runner/suite/suite_check.h"
+
+namespace restlab {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    if (uint8_t(c) < 0x20 || c == 0x7f) {
+      out += fmt::format("\\u{:04x}", uint8_t(c));
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
+// A number of TOML that reads back as it was, and never as a whole number.
+std::string numberText(double value) {
+  const std::string text = fmt::format("{}", value);
+  return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+}
+
+std::string valueText(const ParameterValue& value) {
+  if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+  if (const auto* whole = std::get_if<int64_t>(&value)) return std::to_string(*whole);
+  if (const auto* number = std::get_if<double>(&value)) return numberText(*number);
+  return quoted(std::get<std::string>(value));
+}
+
+std::string pointText(const glm::dvec3& p) {
+  return fmt::format("[{}, {}, {}]", numberText(p.x), numberText(p.y), numberText(p.z));
+}
+
+// Names that work from any folder: the session may be opened from another one.
+std::string fromAnywhere(const std::string& name, const std::string& suiteFolder) {
+  std::error_code status;
+  if (!suiteFolder.empty() && fs::exists(fs::path(suiteFolder) / name, status))
+    return fs::absolute(fs::path(suiteFolder) / name, status).string();
+  const fs::path found = findAsset(name);
+  return found.empty() ? name : fs::absolute(found, status).string();
+}
+
+glm::dvec3 forwardOf(const SceneCamera& camera) {
+  return glm::normalize(-glm::dvec3(camera.cameraToWorld[2]));
+}
+
+std::optional<size_t> sceneCameraOf(const LiveView& view) {
+  const std::vector<SceneCamera>& cameras = view.loaded().scene->source().cameras;
+  for (size_t i = 0; i < cameras.size(); ++i)
+    if (isSameCamera(cameras[i], view.camera())) return i;
+  return std::nullopt;
+}
+
+bool isOwnCamera(const LiveView& view) {
+  const PreparedScene& loaded = view.loaded();
+  return isSameCamera(loaded.scene->source().cameras.at(loaded.camera), view.camera());
+}
+
+std::string sceneToml(const ViewFacts& facts) {
+  const SceneRequest& request = facts.request;
+  const std::vector<std::string>& builtin = builtinSceneNames();
+  const bool isBuiltin = std::find(builtin.begin(), builtin.end(), request.scene) != builtin.end();
+  std::string text = fmt::format(
+      "[[scene]]\nscene = {}\n",
+      quoted(isBuiltin ? request.scene : fromAnywhere(request.scene, request.suiteFolder)));
+  if (!request.camera.empty()) text += fmt::format("camera = {}\n", quoted(request.camera));
+  if (!request.environment.empty()) {
+    text += fmt::format("environment = {}\n",
+                        quoted(fromAnywhere(request.environment, request.suiteFolder)));
+  }
+  if (request.environmentRotation)
+    text += fmt::format("environment_rotation = {}\n", numberText(*request.environmentRotation));
+  if (request.environmentScale)
+    text += fmt::format("environment_scale = {}\n", numberText(*request.environmentScale));
+  return text;
+}
+
+std::string nameOf(const SessionConfig& config) {
+  const bool hasModes = findIntegrator(config.integrator).modes.size() > 1;
+  return config.integrator + (hasModes ? " (" + config.mode + ")" : "") +
+         (config.denoiser == "none" ? "" : " + " + config.denoiser);
+}
+
+// Of the panes' methods, each another one.
+std::vector<std::string> namesOf(const ViewSettings& settings) {
+  std::vector<std::string> names;
+  for (const PaneSettings& pane : settings.panes) {
+    const std::string name = nameOf(pane.config);
+    const bool isTaken = std::find(names.begin(), names.end(), name) != names.end();
+    names.push_back(isTaken ? name + " B" : name);
+  }
+  return names;
+}
+
+// Ratios are against what the last pane shows, by its name in tables of several backends, too.
+std::string baselineOf(const ViewSettings& settings) {
+  const SessionConfig &first = settings.panes.front().config, &last = settings.panes.back().config;
+  const std::string name = namesOf(settings).back();
+  return first.backend == last.backend ? name : fmt::format("{} @{}", name, last.backend);
+}
+
+std::string settingsToml(const LiveView& view) {
+  const ViewSettings& settings = view.settings();
+  const SessionConfig& first = settings.panes.front().config;
+  std::string text = fmt::format(
+      "\n[settings]\nwidth = {}\nheight = {}\nmax_bounces = {}\nseed = {}\ncomponents = [{}]\n"
+      "filter = {}\nmultiscatter = {}\nrussian_roulette = {}\nbaseline = {}\n",
+      first.width, first.height, first.maxBounces, first.seed & 0x7fffffffu,
+      quoted(componentName(first.components)), quoted(filterName(first.pixelFilter)),
+      first.multiscatter, first.russianRoulette, quoted(baselineOf(settings)));
+  if (first.threads > 0) text += fmt::format("threads = {}\n", first.threads);
+  for (const PaneSettings& pane : settings.panes) {
+    const SessionConfig& config = pane.config;
+    if (!config.device.empty()) text += fmt::format("device = {}\n", quoted(config.device));
+    if (config.validate) text += "validate = true\n";
+    if (!config.device.empty() || config.validate) break;
+  }
+  for (const PaneSettings& pane : settings.panes) {
+    if (pane.config.rayTracing.empty()) continue;
+    text += fmt::format("ray_tracing = {}\n", quoted(pane.config.rayTracing));
+    break;
+  }
+  if (!isOwnCamera(view)) text += "camera_path = \"view\"\n";
+  return text;
+}
+
+std::string cameraToml(const LiveView& view) {
+  if (isOwnCamera(view)) return "";
+  std::string text =
+      "\n[[camera_path]]\nname = \"view\"\nkind = \"keyframes\"\n\n[[camera_path.keyframe]]\n"
+      "frame = 0\n";
+  if (const std::optional<size_t> index = sceneCameraOf(view))
+    return text + fmt::format("camera = {}\n", quoted(std::to_string(*index)));
+  const SceneCamera& camera = view.camera();
+  const glm::dvec3 position(camera.cameraToWorld[3]), forward = forwardOf(camera);
+  if (glm::length(glm::cross(forward, glm::dvec3(0.0, 1.0, 0.0))) < 1e-4) {
+    failUsage(
+        "save: the camera looks straight up or down, which no keyframe of a suite does; tilt it a "
+        "little");
+  }
+  text += fmt::format("position = {}\ntarget = {}\n", pointText(position),
+                      pointText(position + forward));
+  if (camera.kind == rl::RL_CAMERA_PERSPECTIVE) {
+    text += fmt::format("yfov_degrees = {}\n",
+                        numberText(camera.yfov * 180.0 / 3.14159265358979323846));
+  }
+  return text;
+}
+
+std::string methodToml(const PaneSettings& pane, const std::string& name) {
+  const SessionConfig& config = pane.config;
+  std::string text = fmt::format("\n[[method]]\nname = {}\nintegrator = {}\n", quoted(name),
+                                 quoted(config.integrator));
+  for (const auto& [key, value] : {std::pair("mode", config.mode), {"cache", config.cache}}) {
+    if (!value.empty()) text += fmt::format("{} = {}\n", key, quoted(value));
+  }
+  text +=
+      fmt::format("denoiser = {}\nbackend = {}\n", quoted(config.denoiser), quoted(config.backend));
+  if (!config.specialise) text += "general = true\n";
+  for (const auto& [key, value] : config.parameters)
+    text += fmt::format("{} = {}\n", key, valueText(value));
+  return text;
+}
+
+// Upright cameras have their right in the horizon.
+bool isRolled(const SceneCamera& camera) {
+  return std::abs(glm::normalize(glm::dvec3(camera.cameraToWorld[0])).y) > 1e-6;
+}
+
+ViewSettings settingsOfSuite(const Suite& suite, const SuiteScene& scene,
+                             const PreparedScene& prepared) {
+  uint32_t width = 0, height = 0;
+  sceneResolution(suite, scene, prepared, width, height);
+  const SessionConfig picture = pictureOf(suite, width, height, suite.components.front());
+  std::vector<SessionConfig> panes;
+  for (const SuiteMethod& method : suite.rendered()) {
+    if (panes.size() < kMostPanes) panes.push_back(methodConfig(suite, method, prepared, picture));
+  }
+  if (panes.empty()) failUsage(suite.file + ": has no method that is rendered");
+  if (panes.size() < kMostPanes) {
+    SuiteMethod average;
+    average.session.denoiser = "accumulate";
+    average.session.backend = panes.front().backend;
+    panes.push_back(methodConfig(suite, average, prepared, picture));
+  }
+  ViewSettings settings = settingsOf(prepared, panes);
+  if (const auto motion = motionOf(suite, scene, prepared))
+    settings.camera = cameraAt(*motion, suite.warmupFrames);
+  for (const LightEvent& event : suite.events) {
+    if (event.frame > suite.warmupFrames) continue;
+    atPlace(event.place, [&] { requireLight(prepared.scene->source(), event.light); });
+    setLight(settings.lights, event.light, event.factor);
+  }
+  return settings;
+}
+
+}  // namespace
+
+ViewStart startOfSuite(const fs::path& file) {
+  const Suite suite = loadSuites(file, {}, {}).front();
+  const SuiteScene& scene = suite.scenes.front();
+  ViewStart start;
+  start.request = scene.request;
+  start.prepared = atPlace(scene.place, [&] { return prepareScene(scene.request); });
+  start.settings = settingsOfSuite(suite, scene, start.prepared);
+  return start;
+}
+
+bool losesRoll(const LiveView& view) { return !sceneCameraOf(view) && isRolled(view.camera()); }
+
+std::string sessionToml(const ViewFacts& facts, const LiveView& view) {
+  const ViewSettings& settings = view.settings();
+  std::string text =
+      "# A session of `restlab view`: `restlab view FILE` opens it, `restlab run FILE` measures "
+      "it.\nname = \"session\"\n\n";
+  text += sceneToml(facts) + settingsToml(view) + "\n[reference]\nspp = 256\n" + cameraToml(view);
+  for (const auto& [name, factor] : settings.lights) {
+    text += fmt::format("\n[[event]]\nframe = 0\nlight = {}\nfactor = {}\n", quoted(name),
+                        numberText(factor));
+  }
+  const std::vector<std::string> names = namesOf(settings);
+  for (size_t i = 0; i < names.size(); ++i) text += methodToml(settings.panes[i], names[i]);
+  return text;
+}
+
+}  // namespace restlab

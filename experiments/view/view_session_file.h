@@ -1,0 +1,13 @@
+// Where sessions go.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace restlab {
+
+// Writes to session.toml in the folder, or session-2.toml and so on: no file is written over.
+// Returns its name. Throws Error (badInput) where none can be written.
+std::string writeSession(const std::filesystem::path& folder, const std::string& toml);
+
+}  // namespace restlab

@@ -1,0 +1,225 @@
+#include "experiments/view/view_settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <tuple>
+
+#include "core/error.h"
+#include "core/method.h"
+#include "core/method_settings.h"
+#include "core/scene/light_factor.h"
+#include "experiments/runner/run/prepare.h"
+
+namespace restlab {
+
+namespace {
+
+// Those of another method's parameters that this one has.
+ParameterMap parametersFor(const SessionConfig& config) {
+  ParameterMap kept;
+  for (const ParameterInfo& info : findMethod(config).parameters()) {
+    const auto found = config.parameters.find(info.name);
+    if (found != config.parameters.end()) kept.insert(*found);
+  }
+  return kept;
+}
+
+// A whole number is a number, too.
+ParameterValue valueFor(const ParameterInfo& info, const ParameterValue& value) {
+  const int64_t* whole = std::get_if<int64_t>(&value);
+  if (whole && std::holds_alternative<double>(info.defaultValue)) return double(*whole);
+  return value;
+}
+
+bool hasLayer(const SessionConfig& config, const std::string& name) {
+  const std::vector<std::string> names = findMethod(config).aovNames();
+  return name.empty() || std::find(names.begin(), names.end(), name) != names.end();
+}
+
+char letterOf(uint32_t pane) { return char('A' + int(pane)); }
+
+// Changes settings in place, and says what in words.
+struct Change {
+  ViewSettings& settings;
+  const Scene& scene;
+  std::string text = {};
+
+  PaneSettings& paneOf(uint32_t index) {
+    if (index >= settings.panes.size())
+      failUsage(fmt::format("pane {}: there are {}", index, settings.panes.size()));
+    return settings.panes[index];
+  }
+
+  // What the new method does not have goes.
+  void setMethod(PaneSettings& pane, SessionConfig config) {
+    config.parameters = parametersFor(config);
+    pane.config = withNames(std::move(config));
+    if (!hasLayer(pane.config, pane.layer)) pane.layer.clear();
+  }
+
+  void operator()(const SetSetting& command) {
+    PaneSettings& pane = paneOf(command.pane);
+    SessionConfig config = pane.config;
+    const std::vector<MethodSetting>& all = methodSettings();
+    const auto setting = std::find_if(all.begin(), all.end(),
+                                      [&](const MethodSetting& s) { return s.key == command.key; });
+    if (setting == all.end()) {
+      std::vector<std::string> keys;
+      for (const MethodSetting& s : all) keys.emplace_back(s.key);
+      failUsage(fmt::format("'{}': is no setting of a method (known: {}){}", command.key,
+                            fmt::join(keys, ", "), didYouMean(command.key, keys)));
+    }
+    config.*(setting->value) = command.value;
+    // Modes and caches are the integrator's.
+    if (setting->value == &SessionConfig::integrator) config.mode = config.cache = "";
+    setMethod(pane, std::move(config));
+    text = fmt::format("{}: {} {}", letterOf(command.pane), command.key, command.value);
+  }
+
+  void operator()(const SetParameter& command) {
+    PaneSettings& pane = paneOf(command.pane);
+    const Method method = findMethod(pane.config);
+    const std::vector<ParameterInfo> known = method.parameters();
+    const auto info = std::find_if(known.begin(), known.end(),
+                                   [&](const ParameterInfo& p) { return p.name == command.name; });
+    if (info == known.end()) {
+      std::vector<std::string> names;
+      for (const ParameterInfo& p : known) names.push_back(p.name);
+      failUsage(fmt::format("pane {}: has no parameter '{}'{}", command.pane, command.name,
+                            didYouMean(command.name, names)));
+    }
+    ParameterMap& parameters = pane.config.parameters;
+    if (command.value) {
+      parameters[command.name] = valueFor(*info, *command.value);
+    } else {
+      parameters.erase(command.name);
+    }
+    const ParameterValue value = resolveParameters(method, parameters).at(command.name);
+    text = fmt::format("{}: {} = {}", letterOf(command.pane), command.name, parameterText(value));
+  }
+
+  void operator()(const MoveCamera& command) {
+    SceneCamera& camera = settings.camera;
+    for (int column = 0; column < 4; ++column) {
+      for (int row = 0; row < 4; ++row)
+        camera.cameraToWorld[column][row] = command.toWorld[size_t(4 * column + row)];
+    }
+    if (command.yfov) camera.yfov = *command.yfov;
+    text = "camera";
+  }
+
+  void operator()(const Resize& command) {
+    for (PaneSettings& pane : settings.panes) {
+      pane.config.width = command.width;
+      pane.config.height = command.height;
+    }
+    text = fmt::format("{}x{}", command.width, command.height);
+  }
+
+  void operator()(const SetLight& command) {
+    requireLight(scene, command.name);
+    setLight(settings.lights, command.name, command.factor);
+    text = fmt::format("{} x{:g}", command.name, command.factor);
+  }
+
+  void operator()(const ShowLayer& command) {
+    PaneSettings& pane = paneOf(command.pane);
+    if (!hasLayer(pane.config, command.name)) {
+      const std::vector<std::string> names = findMethod(pane.config).aovNames();
+      failUsage(fmt::format("layer '{}': is unknown (known: {}){}", command.name,
+                            fmt::join(names, ", "), didYouMean(command.name, names)));
+    }
+    pane.layer = command.name;
+    text = fmt::format("{}: layer {}", letterOf(command.pane),
+                       command.name.empty() ? "none" : command.name);
+  }
+
+  void operator()(const CopyMethod& command) {
+    const SessionConfig from = paneOf(command.from).config;
+    PaneSettings& pane = paneOf(command.to);
+    SessionConfig config = from;
+    config.seed = pane.config.seed;
+    setMethod(pane, std::move(config));
+    text = fmt::format("{}: as {}", letterOf(command.to), letterOf(command.from));
+  }
+
+  template <class Other>
+  void operator()(const Other&) {
+    throw std::logic_error("the command sets nothing");
+  }
+};
+
+struct Target {
+  std::string operator()(const SetParameter& c) {
+    return fmt::format("parameter {} {}", c.pane, c.name);
+  }
+  std::string operator()(const MoveCamera&) { return "camera"; }
+  std::string operator()(const Resize&) { return "resolution"; }
+  std::string operator()(const SetLight& c) { return "light " + c.name; }
+  template <class Other>
+  std::string operator()(const Other&) {
+    return "";
+  }
+};
+
+}  // namespace
+
+std::string targetOf(const ViewCommand& command) { return std::visit(Target{}, command); }
+
+void setLight(LightFactors& lights, const std::string& name, double factor) {
+  if (name == kAllLights) lights.clear();
+  std::erase_if(lights, [&](const auto& light) { return light.first == name; });
+  lights.emplace_back(name, factor);
+}
+
+ViewChange changedBy(const ViewCommand& command, const ViewSettings& settings, const Scene& scene) {
+  ViewChange result{settings, targetOf(command), ""};
+  Change change{result.settings, scene};
+  std::visit(change, command);
+  result.text = change.text;
+  return result;
+}
+
+SessionConfig withNames(SessionConfig config) {
+  const Method method = findMethod(config);
+  config.mode = findMode(*method.integrator, config.mode);
+  if (method.cache != nullptr) config.cache = method.cache->name;
+  return config;
+}
+
+bool isSameMethod(const SessionConfig& a, const SessionConfig& b) {
+  const auto of = [](const SessionConfig& c) {
+    return std::tie(c.integrator, c.mode, c.cache, c.backend, c.device, c.rayTracing, c.validate,
+                    c.denoiser, c.camera, c.maxBounces, c.components, c.pixelFilter,
+                    c.russianRoulette, c.multiscatter, c.specialise, c.threads);
+  };
+  return of(a) == of(b);
+}
+
+bool isSameSize(const SessionConfig& a, const SessionConfig& b) {
+  return a.width == b.width && a.height == b.height;
+}
+
+bool isSameCamera(const SceneCamera& a, const SceneCamera& b) {
+  return a.kind == b.kind && a.cameraToWorld == b.cameraToWorld && a.yfov == b.yfov &&
+         a.xmag == b.xmag && a.ymag == b.ymag;
+}
+
+bool isSamePicture(const ViewSettings& a, const ViewSettings& b) {
+  return a.lights == b.lights && isSameCamera(a.camera, b.camera) &&
+         isSameSize(a.panes.front().config, b.panes.front().config);
+}
+
+bool isSame(const ViewSettings& a, const ViewSettings& b) {
+  const auto isSamePane = [](const PaneSettings& x, const PaneSettings& y) {
+    return isSameMethod(x.config, y.config) && x.config.parameters == y.config.parameters &&
+           x.layer == y.layer;
+  };
+  return isSamePicture(a, b) &&
+         std::equal(a.panes.begin(), a.panes.end(), b.panes.begin(), b.panes.end(), isSamePane);
+}
+
+}  // namespace restlab

@@ -1,0 +1,75 @@
+// A viewer at work on another thread, of two small panes.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "core/error.h"
+#include "experiments/view/view_loop.h"
+#include "tests/runner/temporary_folder.h"
+#include "tests/view/page.h"
+
+namespace restlab::view_test {
+
+class ViewLoopTest : public TemporaryFolder {
+ protected:
+  static SessionConfig configOf(const std::string& integrator,
+                                const std::string& denoiser = "none") {
+    SessionConfig config;
+    config.integrator = integrator;
+    config.denoiser = denoiser;
+    config.width = 24;
+    config.height = 16;
+    config.maxBounces = 3;
+    config.threads = 1;
+    return config;
+  }
+
+  void SetUp() override {
+    TemporaryFolder::SetUp();
+    facts_.request.scene = "cornell-box";
+  }
+
+  void start() {
+    start(settingsOf(prepareScene(facts_.request),
+                     {configOf("restir_gi"), configOf("path", "accumulate")}));
+  }
+  void start(const ViewSettings& settings) {
+    view_.emplace(prepareScene(facts_.request), settings, ReferenceStore{});
+    ViewServerOptions options;
+    options.page = "the page";
+    loop_ = std::make_unique<ViewLoop>(*view_, facts_, options, folder());
+    thread_ = std::thread([this] {
+      try {
+        loop_->run();
+      } catch (const std::exception& error) {
+        ADD_FAILURE() << "the loop has ended: " << error.what();
+      }
+    });
+  }
+
+  // The view is the test's again.
+  void stop() {
+    if (!thread_.joinable()) return;
+    loop_->stop();
+    thread_.join();
+  }
+
+  void TearDown() override {
+    stop();
+    loop_.reset();
+    view_.reset();
+    TemporaryFolder::TearDown();
+  }
+
+  std::string url() const { return loop_->url(); }
+
+  ViewFacts facts_;
+  std::optional<LiveView> view_;
+  std::unique_ptr<ViewLoop> loop_;
+  std::thread thread_;
+};
+
+}  // namespace restlab::view_test

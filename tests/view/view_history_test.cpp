@@ -1,0 +1,119 @@
+// Steps back and forth: what belongs to one, and that each leads to what was there.
+#include "experiments/view/view_history.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "experiments/view/live_view.h"
+
+namespace restlab {
+namespace {
+
+class ViewStepsTest : public ::testing::Test {
+ protected:
+  static SessionConfig configOf(const std::string& integrator, const std::string& denoiser) {
+    SessionConfig config;
+    config.integrator = integrator;
+    config.denoiser = denoiser;
+    config.width = 12;
+    config.height = 8;
+    config.maxBounces = 2;
+    config.threads = 1;
+    return config;
+  }
+  static PreparedScene box() {
+    SceneRequest request;
+    request.scene = "cornell-box";
+    return prepareScene(request);
+  }
+  static MoveCamera cameraAt(const LiveView& view, double x) {
+    MoveCamera move;
+    for (int i = 0; i < 16; ++i)
+      move.toWorld[size_t(i)] =
+          view.loaded().scene->source().cameras[0].cameraToWorld[i / 4][i % 4];
+    move.toWorld[12] += x;
+    return move;
+  }
+
+  LiveView view_{box(), {configOf("restir_gi", "none"), configOf("path", "accumulate")}, {}};
+};
+
+TEST_F(ViewStepsTest, EachLeadsBackAndForth) {
+  const ViewCommand commands[] = {
+      SetSetting{0, "mode", "biased"},
+      SetParameter{0, "confidence_cap", ParameterValue(int64_t{8})},
+      SetParameter{1, "accumulate_cap", ParameterValue(5.0)},
+      SetLight{"all", 0.5},
+      cameraAt(view_, 0.25),
+      Resize{16, 10},
+      ShowLayer{0, "age"},
+      SetSetting{1, "denoiser", "svgf"},
+      CopyMethod{1, 0},
+      SetParameter{1, "accumulate_cap", std::nullopt},
+  };
+  std::vector<ViewSettings> passed = {view_.settings()};
+  for (const ViewCommand& command : commands) {
+    try {
+      view_.apply(command);
+    } catch (const Error&) {
+      continue;  // svgf has no accumulate_cap
+    }
+    view_.renderFrames();
+    passed.push_back(view_.settings());
+    EXPECT_FALSE(isSame(passed.back(), *(passed.end() - 2))) << command.index();
+  }
+  for (size_t i = passed.size() - 1; i > 0; --i) {
+    const uint64_t epoch = view_.epoch();
+    view_.apply(Undo{});
+    EXPECT_TRUE(isSame(view_.settings(), passed[i - 1])) << i;
+    EXPECT_EQ(view_.epoch() > epoch,
+              passed[i].panes[0].layer == passed[i - 1].panes[0].layer ||
+                  !isSamePicture(passed[i], passed[i - 1]) ||
+                  passed[i].panes[0].config.integrator != passed[i - 1].panes[0].config.integrator);
+    view_.renderFrames();
+  }
+  EXPECT_THROW(view_.apply(Undo{}), Error);
+  for (size_t i = 1; i < passed.size(); ++i) {
+    view_.apply(Redo{});
+    EXPECT_TRUE(isSame(view_.settings(), passed[i])) << i;
+  }
+  EXPECT_THROW(view_.apply(Redo{}), Error);
+  // What is rendered is what is set, not what is written in a list.
+  view_.apply(Restart{});
+  view_.renderFrames();
+  for (size_t i = 0; i < view_.panes(); ++i) {
+    const LiveView other(box(), view_.settings(), {});
+    EXPECT_EQ(other.session(i).config().parameters, view_.session(i).config().parameters);
+    EXPECT_EQ(other.session(i).config().denoiser, view_.session(i).config().denoiser);
+    EXPECT_EQ(view_.session(i).radiance().width, 16u);
+  }
+}
+
+TEST_F(ViewStepsTest, ADragIsOne) {
+  for (int i = 1; i <= 5; ++i) view_.apply(cameraAt(view_, 0.1 * i));
+  for (int64_t cap : {3, 4, 5}) view_.apply(SetParameter{0, "confidence_cap", ParameterValue(cap)});
+  EXPECT_EQ(view_.history().undoText(), "A: confidence_cap = 5");
+  view_.apply(Undo{});
+  EXPECT_EQ(view_.history().undoText(), "camera");
+  EXPECT_EQ(view_.history().redoText(), "A: confidence_cap = 5");
+  view_.apply(Undo{});
+  EXPECT_FALSE(view_.history().canUndo());
+  EXPECT_TRUE(isSameCamera(view_.camera(), view_.loaded().scene->source().cameras[0]));
+  // A change after a step back is a step of its own, and the steps forth are gone.
+  view_.apply(Redo{});
+  view_.apply(cameraAt(view_, 0.7));
+  EXPECT_FALSE(view_.history().canRedo());
+  view_.apply(Undo{});
+  EXPECT_NEAR(view_.camera().cameraToWorld[3][0],
+              view_.loaded().scene->source().cameras[0].cameraToWorld[3][0] + 0.5, 1e-12);
+}
+
+TEST_F(ViewStepsTest, WhatChangesNothingIsNone) {
+  view_.apply(cameraAt(view_, 0.0));
+  view_.apply(SetSetting{0, "mode", view_.settings().panes[0].config.mode});
+  EXPECT_FALSE(view_.history().canUndo());
+  EXPECT_EQ(view_.epoch(), 1u);
+}
+
+}  // namespace
+}  // namespace restlab
