@@ -84,7 +84,7 @@ class LivePage {
     this.recorder = new PathRecorder(this);
     this.methods = new MethodPanel(this, count);
     this.scene = new ScenePanel(this, this.hello);
-    this.numbers = new NumbersPanel(count);
+    this.numbers = new NumbersPanel(count, this.hello.faults || []);
     this.plots = new PlotsPanel(count);
     this.probe = new ProbePanel(this, count);
     this.tabs = new Tabs('Panels', [
