@@ -12,7 +12,7 @@
 #include "core/scene/light_factor.h"
 #include "experiments/runner/registries/registries.h"
 #include "experiments/runner/run/build_info.h"
-#include "experiments/runner/summary/report_document.h"
+#include "experiments/view/view_exposure.h"
 
 namespace restlab {
 
@@ -98,12 +98,6 @@ Json sceneJson(const LiveView& view) {
        {std::to_string(view.loaded().scene->instancedTriangleCount()) + " triangles",
         "needs " + featureNames(session.featuresNeeded()),
         "environment " + view.loaded().environmentName}}};
-}
-
-// Of the first frame; 1 before there is one.
-double exposureOf(const LiveView& view) {
-  if (view.reference().isThere()) return previewExposure(view.reference().mean());
-  return view.frames(0) > 0 ? previewExposure(view.session(0).radiance()) : 1.0;
 }
 
 Json parametersJson(const SessionConfig& config) {
