@@ -1,10 +1,10 @@
 // All commands in a list that is searched as one types.
 
 // Whether the words of a question stand in a text, in any order; a match at a word's start counts
-// more. 0: no.
+// more, and so do words in the text's own order: all of "A to B" stand in "B to A", too. 0: no.
 function matchScore(text, words) {
-  let score = 1;
   const lower = text.toLowerCase();
+  let score = lower.includes(words.join(' ')) ? 2 : 1;
   for (const word of words) {
     const at = lower.indexOf(word);
     if (at < 0) return 0;

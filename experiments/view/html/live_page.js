@@ -104,12 +104,17 @@ class LivePage {
     this.showCameraMode();
   }
 
-  // Goes to what the address says, then keeps it there.
+  // Goes to what the address says, then keeps it there. A page that is loaded again finds the
+  // program as it is: the address may lag behind the last change.
   begin(state) {
     const {settings} = this.hello;
+    const [navigation] = performance.getEntriesByType('navigation');
+    const isReload = navigation && navigation.type === 'reload';
     if (this.kept) {
       applyView(this.kept.view, this.viewer);
       this.methods.opacity.value = this.viewer.state.opacity;
+    }
+    if (this.kept && !isReload) {
       for (const command of commandsTowards(this.kept, state, settings)) this.session.send(command);
     }
     setInterval(() => {
