@@ -1,0 +1,114 @@
+// The live page as it is opened: alone, twice at once, again, and what it saves.
+#include <fstream>
+
+#include "experiments/view/view_session.h"
+#include "tests/view/live_page.h"
+
+namespace restlab::view_test {
+namespace {
+
+using PageOpenTest = LivePageTest;
+
+TEST_F(PageOpenTest, ShowsBothPanesAndTheReference) {
+  open();
+  EXPECT_EQ(page("return viewer.images.map(image => image.name);"),
+            (Json{"A: restir_gi, pixel", "B: path + accumulate", "reference"}));
+  EXPECT_EQ(page("await frame(); await frame(); return Array.from("
+                 "document.querySelectorAll('.tag'), tag => tag.textContent);"),
+            (Json{"1  A: restir_gi, pixel", "2  B: path + accumulate", "3  reference"}));
+  EXPECT_EQ(text(".link"), "connected");
+  EXPECT_EQ(page("return [page.state.width, page.state.height];"), (Json{64, 36}));
+  // Frames go on coming.
+  page(
+      "const first = seen[0]?.frame ?? 0; await until(() => seen[0] && seen[0].frame > first + "
+      "3);");
+  EXPECT_EQ(page("return document.querySelectorAll('.message.error').length;"), 0);
+}
+
+constexpr const char* kState = "const {say, ...rest} = page.state; return rest;";
+
+TEST_F(PageOpenTest, TwoPagesShowTheSame) {
+  open();
+  const auto other = folder() / "other";
+  std::filesystem::create_directory(other);
+  Browser second(other, 1000, 700);
+  open(second);
+  page(
+      "send({do: 'parameter', pane: 0, name: 'confidence_cap', value: 9});"
+      "await until(() => page.state.can_undo);");
+  page(second, "await until(() => page.state.can_undo);");
+  EXPECT_EQ(page(kState), page(second, kState));
+  page(second, "send({do: 'undo'}); await until(() => page.state.can_redo);");
+  page("await until(() => page.state.can_redo);");
+  EXPECT_EQ(page(kState), page(second, kState));
+  for (Browser* browser : {browser_.get(), &second}) {
+    page(*browser, R"(const first = {...window.seen};
+      await until(() => [0, 1].every(i => seen[i] && seen[i].frame > (first[i]?.frame ?? 0) + 2));
+      await until(() => seen[2]);)");
+  }
+  expectNothingWrong(second);
+}
+
+TEST_F(PageOpenTest, ReloadComesBackToTheSame) {
+  open();
+  page(R"(
+    send({do: 'parameter', pane: 0, name: 'confidence_cap', value: 9});
+    send({do: 'resolution', width: 48, height: 32});
+    await until(() => page.state.width === 48);
+    viewer.set({mode: 'wipe', error: 'squared', stops: 1.5, wipe: 0.25, current: 1});
+    await until(() => location.hash.includes('squared') && location.hash.includes('48'));)");
+  const Json before = page(kState);
+  browser_->evaluate("void (window.isOld = true, location.reload())");
+  waitUntilShown(*browser_);
+  EXPECT_EQ(page(kState), before) << "nothing was asked for, as all of it is so";
+  EXPECT_EQ(page("const {mode, error, stops, wipe, current} = viewer.state;"
+                 "return [mode, error, stops, wipe, current];"),
+            (Json{"wipe", "squared", 1.5, 0.25, 1}));
+  page("await until(() => seen[0] && seen[1] && viewer.images[0].width === 48);");
+}
+
+TEST_F(PageOpenTest, ReloadTakesNothingBack) {
+  open();
+  page(R"(await until(() => location.hash.length > 1);
+    send({do: 'parameter', pane: 0, name: 'confidence_cap', value: 9});
+    send({do: 'pause', on: true});
+    await until(() => page.state.paused && page.state.can_undo);
+    window.isOld = true;
+    setTimeout(() => location.reload(), 0);)");
+  waitUntilShown(*browser_);
+  // What it might ask for is done by then.
+  page("send({do: 'save'}); await until(() => document.querySelector('.message'));");
+  EXPECT_EQ(page("return page.state.paused;"), true);
+  EXPECT_EQ(page("return page.state.panes[0].parameters.find("
+                 "one => one.name === 'confidence_cap').value;"),
+            9);
+}
+
+TEST_F(PageOpenTest, SavesASessionThatASuiteParserTakes) {
+  open();
+  page(R"(send({do: 'parameter', pane: 0, name: 'confidence_cap', value: 9});
+    await until(() => page.state.can_undo);
+    window.files = [];
+    const {click} = HTMLAnchorElement.prototype;
+    HTMLAnchorElement.prototype.click = function() {
+      files.push(this.download);
+      click.call(this);
+    };
+    const made = URL.createObjectURL;
+    URL.createObjectURL = blob => {
+      window.saved = blob.text();
+      return made.call(URL, blob);
+    };)");
+  press("Ctrl+s");
+  const std::string toml = page("await until(() => window.saved); return await saved;");
+  EXPECT_EQ(page("return files[0];"), "session.toml");
+  const auto file = folder() / "of-the-page.toml";
+  std::ofstream(file) << toml;
+  const ViewStart start = startOfSuite(file);
+  EXPECT_EQ(start.request.scene, "cornell-box");
+  stop();
+  EXPECT_TRUE(isSame(start.settings, view_->settings())) << toml;
+}
+
+}  // namespace
+}  // namespace restlab::view_test
