@@ -24,7 +24,7 @@ double meanOf(const Image& image) {
 // that their noise is.
 TEST_P(FilterEnergy, IsWithinOnePercent) {
   const auto& [name, denoiser] = GetParam();
-  constexpr uint32_t kFrames = 12, kRuns = 8;
+  constexpr uint32_t kFrames = 12, kRuns = 4;
   const auto scene = bias::builtinScene(name);
   SessionConfig config = filterConfig("none", {64, 36});
   Session plain(scene, config);
