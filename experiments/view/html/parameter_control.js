@@ -21,6 +21,7 @@ class ParameterControl {
     // Whatever the answer is, it is shown.
     this.send = value => {
       this.shown = null;
+      this.isAsked = true;
       send(value);
     };
     this.input = this.makeInput(info);
@@ -37,6 +38,10 @@ class ParameterControl {
                         make('label', {for: this.id, title: info.help || ''}, info.name), more,
                         this.reset, this.input.element, this.about);
     this.words = [info.name, info.help, info.part, info.source].join(' ').toLowerCase();
+    // What was not shown while somebody was at it: a refusal, say.
+    this.element.addEventListener('focusout', () => {
+      if (!this.isAsked && this.shown === null) this.show(this.info);
+    });
     this.show(info);
   }
 
@@ -67,6 +72,8 @@ class ParameterControl {
   }
 
   show(info) {
+    this.info = info;
+    this.isAsked = false;
     const key = `${info.value} ${info.is_set}`;
     if (key === this.shown) return;
     this.shown = this.input.isBusy ? null : key;
