@@ -1,0 +1,181 @@
+// What is changed, probed and measured on the live page is what the program does.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/image/metrics.h"
+#include "tests/view/live_page.h"
+
+namespace restlab::view_test {
+namespace {
+
+class PageSessionTest : public LivePageTest {
+ protected:
+  void SetUp() override {
+    LivePageTest::SetUp();
+    if (browser_) open();
+  }
+  std::string number(const std::string& name, int pane) {
+    return page(fmt::format("return document.querySelectorAll('[data-number={}]')[{}].textContent;",
+                            name, pane));
+  }
+  // Of pane A, by the program's state.
+  Json cap() {
+    return page(
+        "const {value, is_set} = page.state.panes[0].parameters.find("
+        "one => one.name === 'confidence_cap'); return [value, is_set];");
+  }
+  Json epoch() { return page("return page.state.epoch;"); }
+  void waitForEpochAfter(const Json& epoch) {
+    page("await until(() => page.state.epoch > " + epoch.dump() + ");");
+  }
+  // Types into the field of a parameter of pane A.
+  void type(const std::string& number) {
+    const std::string selector = "[data-parameter=confidence_cap] input[type=number]";
+    click(selector);
+    page("document.querySelector('" + selector + "').select();");
+    for (const char c : number) press(std::string(1, c));
+    browser_->press("Enter", "Enter");
+  }
+};
+
+TEST_F(PageSessionTest, ParametersChangeTheProgram) {
+  page("await until(() => page.last.panes[0].frames_measured > 4);");
+  pause();
+  const Json before = cap(), first = epoch();
+  EXPECT_EQ(before[1], false);
+  EXPECT_NE(number("frames", 0).find(" / "), std::string::npos);
+  type("7");
+  waitForEpochAfter(first);
+  EXPECT_EQ(cap(), (Json{7, true}));
+  // Of the new setting nothing was measured yet, while panes stand.
+  page("await until(() => page.last.epoch === page.state.epoch);");
+  for (int pane : {0, 1}) {
+    const std::string frames = number("frames", pane);
+    EXPECT_EQ(frames.substr(frames.find('/')), "/ 0") << pane;
+    EXPECT_EQ(number("mse", pane).substr(0, 3), "\u2013") << "a dash";
+  }
+  page(R"(send({do: 'pause', on: false});
+    await until(() => page.last.panes[0].frames_measured > 2);
+    if (page.last.panes[0].frames_measured > page.last.age) throw new Error('old frames count');)");
+
+  const Json second = epoch();
+  page("viewer.root.focus();");
+  press("z");
+  waitForEpochAfter(second);
+  EXPECT_EQ(cap(), before) << "undone";
+  const Json third = epoch();
+  press("Z");
+  waitForEpochAfter(third);
+  EXPECT_EQ(cap(), (Json{7, true})) << "redone";
+  const Json fourth = epoch();
+  click("[data-parameter=confidence_cap] .reset");
+  waitForEpochAfter(fourth);
+  EXPECT_EQ(cap(), before) << "back to the default";
+  EXPECT_EQ(page("return document.querySelector('[data-parameter=confidence_cap] "
+                 "input[type=number]').value;"),
+            before[0].dump());
+  EXPECT_EQ(page("return document.querySelector('[data-parameter=confidence_cap] "
+                 ".reset').disabled;"),
+            true);
+  stop();
+  EXPECT_TRUE(view_->settings().panes[0].config.parameters.empty());
+}
+
+TEST_F(PageSessionTest, RefusalsAreSaidAndTheFieldShowsWhatIs) {
+  const Json before = cap();
+  page("viewer.root.focus();");
+  type("0");
+  page("await until(() => document.querySelector('.message.error'));");
+  EXPECT_NE(text(".message.error").find("between"), std::string::npos) << text(".message.error");
+  EXPECT_EQ(cap(), before);
+  page("document.activeElement.blur();");
+  EXPECT_EQ(page("return document.querySelector('[data-parameter=confidence_cap] "
+                 "input[type=number]').value;"),
+            before[0].dump());
+}
+
+TEST_F(PageSessionTest, ClickProbesThePixel) {
+  press("s");
+  press("1");
+  page("await until(() => page.last.panes[0].frame > 2);");
+  pause();
+  constexpr uint32_t kX = 20, kY = 30;
+  const auto [x, y] = positionOf(kX, kY);
+  browser_->click(x, y);
+  page("await until(() => page.probe.answers[0] && page.probe.answers[1]);");
+  EXPECT_EQ(page("return [page.tabs.current, page.probe.pixel];"),
+            (Json{"probe", {{"x", kX}, {"y", kY}}}));
+  // By name, the texts of A and B.
+  const Json rows = page(
+      "return Array.from(document.querySelectorAll('.probe-table tbody tr'), row "
+      "=> [row.firstChild.firstChild.data, ...Array.from(row.querySelectorAll("
+      "'td'), cell => cell.textContent)]);");
+  const Json commands = page(
+      "return Array.from(document.querySelectorAll('.probe .command code'), "
+      "one => one.textContent);");
+  EXPECT_GT(page("return viewer.images[0].marks.length;"), 0);
+  stop();
+  int compared = 0;
+  for (const int pane : {0, 1}) {
+    for (const ProbeValue& value : view_->session(size_t(pane)).probe(kX, kY)) {
+      const auto row = std::find_if(rows.begin(), rows.end(),
+                                    [&](const Json& one) { return one[0] == value.name; });
+      ASSERT_NE(row, rows.end()) << value.name;
+      std::istringstream is(value.value), shown((*row)[size_t(1 + pane)].get<std::string>());
+      for (std::string word, other; is >> word >> std::ws && shown >> other;) {
+        char* end = nullptr;
+        const double number = std::strtod(word.c_str(), &end);
+        if (*end != '\0') {
+          EXPECT_EQ(other, word) << value.name;
+          continue;
+        }
+        EXPECT_NEAR(std::stod(other), number, 6e-5 * std::abs(number)) << value.name;
+        ++compared;
+      }
+    }
+  }
+  EXPECT_GT(compared, 5);
+  ASSERT_EQ(commands.size(), 2u);
+  const std::string end =
+      fmt::format("--pixel {},{} --seed 1 --frame {}", kX, kY, view_->frames(0));
+  EXPECT_NE(commands[0].get<std::string>().find(end), std::string::npos) << commands[0];
+}
+
+// Frames made again, against the halves of the reference as it is in the end. As it goes on while
+// frames are measured, and with it every error a little, they agree within two percent.
+TEST_F(PageSessionTest, RunningErrorIsThatOfTheFrames) {
+  pause();
+  page(R"(await until(() => page.last.reference.spp >= 192);
+    const {epoch} = page.state;
+    send({do: 'restart'});
+    send({do: 'pause', on: false});
+    await until(() => page.state.epoch > epoch && page.last.epoch === page.state.epoch &&
+                      page.last.panes[0].frame >= 12);)");
+  pause();
+  const std::string words[] = {number("mse", 0), number("mse", 1)};
+  const std::string frames = number("frames", 0);
+  const Json last = page("return page.last.panes.map(pane => [pane.mse.value, pane.last_mse]);");
+  stop();
+  for (size_t i : {0u, 1u}) {
+    const uint64_t count = view_->frames(i);
+    ASSERT_EQ(view_->error(i).frames(), count);
+    EXPECT_EQ(frames, fmt::format("{} / {}", count, count));
+    EXPECT_EQ(last[i][0], view_->error(i).mse().value);
+    EXPECT_NEAR(std::strtod(words[i].c_str(), nullptr), last[i][0], 0.006 * double(last[i][0]))
+        << words[i];
+    Session again(view_->loaded().scene, view_->settings().panes[i].config);
+    double sum = 0.0, mse = 0.0;
+    for (uint64_t frame = 0; frame < count; ++frame) {
+      again.frame();
+      mse = mseAgainstHalves(again.radiance(), view_->reference().half0(),
+                             view_->reference().half1());
+      sum += mse;
+    }
+    EXPECT_NEAR(double(last[i][0]) / (sum / double(count)), 1.0, 0.02) << "pane " << i;
+    EXPECT_NEAR(double(last[i][1]) / mse, 1.0, 0.05) << "pane " << i;
+  }
+}
+
+}  // namespace
+}  // namespace restlab::view_test
