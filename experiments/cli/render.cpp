@@ -1,6 +1,7 @@
-// restlab render: one image of one integrator.
+// restlab render: one image of one integrator, or what it keeps of a pixel.
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <memory>
 #include <optional>
 
@@ -10,6 +11,7 @@
 #include "core/scene/compiled_scene.h"
 #include "experiments/cli/layer_previews.h"
 #include "experiments/cli/options.h"
+#include "experiments/cli/render_pixel.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/summary/accumulate.h"
 #include "experiments/runner/suite/backend_choice.h"
@@ -33,6 +35,8 @@ struct RenderOptions {
   MethodOptions method;
   std::string output, png, aovs;
   uint64_t frames = 0, spp = 0;  // 0: not given
+  std::string pixel;             // "": none
+  bool json = false;
 };
 
 std::vector<std::string> checkedAovs(const std::string& list, const Method& method) {
@@ -131,10 +135,15 @@ LayeredImage layers(const Session& session, const PreparedScene& prepared, const
   return file;
 }
 
-void render(RenderOptions options) {
-  resolveResolution(options.scene);
-  SessionConfig config = makeConfig(options.scene, options.method);
-  const std::vector<std::string> aovs = checkedAovs(options.aovs, findMethod(config));
+// The files that are asked for, looked at before anything is loaded.
+void checkFiles(const RenderOptions& options, const std::vector<std::string>& aovs) {
+  if (options.output.empty()) {
+    if (options.pixel.empty())
+      failUsage("render: --output is required, or --pixel X,Y (see restlab render --help)");
+    if (!aovs.empty()) failUsage("--aov: layers go into the file of --output, which is missing");
+    if (!options.png.empty()) failUsage("--png: goes with --output, which is missing");
+    return;
+  }
   checkWritable(options.output);
   const bool png = !options.png.empty();
   std::vector<OutputFile> outputs = {
@@ -146,11 +155,32 @@ void render(RenderOptions options) {
   }
   checkOutputs(outputs, options.scene.request);
   if (png) checkWritable(pngPath(options));
+}
+
+void writeFiles(const RenderOptions& options, const LayeredImage& file,
+                const std::vector<std::string>& aovs, const Method& method) {
+  writeExr(options.output, file);
+  if (options.png.empty()) return;
+  writePng(pngPath(options), file.layers.at(""));
+  for (const std::string& name : aovs)
+    writeLayerPreview(layerPreviewPath(pngPath(options), name), name, file.layers.at(name), method);
+}
+
+void render(RenderOptions options) {
+  resolveResolution(options.scene);
+  SessionConfig config = makeConfig(options.scene, options.method);
+  const std::vector<std::string> aovs = checkedAovs(options.aovs, findMethod(config));
+  std::optional<PixelPlace> pixel;
+  if (!options.pixel.empty()) pixel = parsePixel(options.pixel);
+  checkFiles(options, aovs);
+  const bool isWritten = !options.output.empty();
 
   const PreparedScene prepared = prepareScene(options.scene.request);
   printWarnings(prepared);
   completeConfig(prepared, config);
-  requireExrSize(options.output, config.width, config.height, 1 + uint32_t(aovs.size()));
+  if (pixel) requireInside(*pixel, config);
+  if (isWritten)
+    requireExrSize(options.output, config.width, config.height, 1 + uint32_t(aovs.size()));
   Session session(prepared.scene, config, hostBytesPerPixel(options, aovs));
   logStartup(session);
   const size_t kernels = session.startup().kernels.size();
@@ -160,20 +190,23 @@ void render(RenderOptions options) {
                         prepared.loadTimeMs, config.integrator, config.width, config.height));
   const Rendered rendered =
       renderFrames(session, options, findMethod(config).hasHistory(session.config().parameters));
-  const LayeredImage file = layers(session, prepared, rendered, aovs);
+  std::optional<LayeredImage> file;
+  if (isWritten) file = layers(session, prepared, rendered, aovs);
   StartupLog further;  // of the layers
   further.add(session, kernels, notices);
   further.print();
-  writeExr(options.output, file);
-  if (png) writePng(pngPath(options), rendered.image);
-  for (const std::string& name : png ? aovs : std::vector<std::string>())
-    writeLayerPreview(layerPreviewPath(pngPath(options), name), name, file.layers.at(name),
-                      findMethod(config));
+  if (file) writeFiles(options, *file, aovs, findMethod(config));
+  if (pixel) {
+    const std::string text =
+        options.json ? pixelJson(session, *pixel, rendered.frame + 1) : pixelText(session, *pixel);
+    fmt::print("{}", text);
+  }
 
   const size_t nonfinite = countNonfinite(rendered.image);
   const uint64_t dropped = rendered.health.health.counts[rl::RL_HEALTH_NONFINITE];
   if (nonfinite) logWarning(fmt::format("the image holds {} non-finite values", nonfinite));
   if (dropped) logWarning(fmt::format("{} non-finite sample values were set to zero", dropped));
+  if (!isWritten) return;
   logInfo(fmt::format("{}: {}x{}, {:.1f} ms per frame, health: {}", options.output, config.width,
                       config.height, rendered.timeMs / double(rendered.spp),
                       rendered.health.text()));
@@ -183,16 +216,24 @@ void render(RenderOptions options) {
 
 Action addRenderVerb(CLI::App& app) {
   auto options = std::make_shared<RenderOptions>();
-  CLI::App* verb = app.add_subcommand("render", "render one image");
+  CLI::App* verb = app.add_subcommand("render", "render one image, or what is kept of a pixel");
   addSceneOptions(*verb, options->scene);
   addMethodOptions(*verb, options->method);
   addOutput(*verb, options->output);
-  CLI::Option* frames =
-      verb->add_option("--frames", options->frames, "what a viewer shows at frame N (default 1)")
-          ->transform(wholeNumberFrom(1, kMaxCount));
+  verb->get_option("--output")
+      ->required(false)
+      ->description("EXR file to write; needed unless --pixel is given");
+  CLI::Option* frames = verb->add_option("--frames,--frame", options->frames,
+                                         "what a viewer shows at frame N (default 1)")
+                            ->transform(wholeNumberFrom(1, kMaxCount));
+  CLI::Option* pixel =
+      verb->add_option("--pixel", options->pixel,
+                       "X,Y: print what the method keeps of that pixel of the last frame");
+  verb->add_flag("--json", options->json, "as a JSON object")->needs(pixel);
   verb->add_option("--spp", options->spp, "the mean of N samples per pixel")
       ->transform(wholeNumberFrom(1, kMaxCount))
-      ->excludes(frames);
+      ->excludes(frames)
+      ->excludes(pixel);
   verb->add_option("--aov", options->aovs,
                    "comma-separated layers: radiance, positionW, ..., and those of the method "
                    "(list integrators, list caches)");

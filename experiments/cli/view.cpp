@@ -8,8 +8,10 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <set>
 #include <thread>
 
+#include "core/image/atomic_file.h"
 #include "core/method_settings.h"
 #include "core/scene/compiled_scene.h"
 #include "experiments/cli/options.h"
@@ -18,6 +20,7 @@
 #include "experiments/runner/run/interrupt.h"
 #include "experiments/runner/run/log.h"
 #include "experiments/runner/suite/backend_choice.h"
+#include "experiments/view/capture.h"
 #include "experiments/view/view_loop.h"
 #include "experiments/view/view_page.h"
 #include "experiments/view/view_session.h"
@@ -33,12 +36,16 @@ constexpr const char* kDefaultScene = "door-ajar";
 // then render both panes several times a second.
 constexpr uint32_t kWidth = 320, kHeight = 180;
 
+constexpr uint64_t kMostFrames = 1u << 30;
+
 struct ViewOptions {
   SceneOptions scene;
   MethodOptions first, second;
   std::string secondBackend;  // "": as the first
   ViewServerOptions server;
   bool open = false;
+  std::string capture;  // "": a page instead
+  CaptureOptions captured;
 };
 
 bool isSuite(const std::string& name) { return std::filesystem::path(name).extension() == ".toml"; }
@@ -47,10 +54,10 @@ bool isSuite(const std::string& name) { return std::filesystem::path(name).exten
 void requireNoOptions(const CLI::App& verb, const std::string& file) {
   for (const CLI::Option* option : verb.get_options()) {
     const std::string name = option->get_name();
-    const bool isOfServer = name == "--port" || name == "--listen" || name == "--open" ||
-                            name == "scene" || name == "--quiet" || name == "--verbose" ||
-                            name == "-q" || name == "-v";
-    if (option->count() > 0 && !isOfServer) {
+    static const std::set<std::string> ofAny = {
+        "scene",           "--port",  "--listen",  "--open", "--capture", "--frames",
+        "--reference-spp", "--quiet", "--verbose", "-q",     "-v"};
+    if (option->count() > 0 && ofAny.count(name) == 0) {
       failUsage(fmt::format("view {}: {} is not for a suite, which says it; change the file", file,
                             name));
     }
@@ -107,12 +114,30 @@ void openInBrowser(const std::string& url) {
   }
 }
 
+void writeCapture(const ViewStart& start, const ViewOptions& options) {
+  requireCaptureSize(start.settings);
+  // Nothing but the picture is written: the reference is not kept.
+  LiveView live(start.prepared, start.settings, {});
+  for (size_t i = 0; i < live.panes(); ++i) logStartup(live.session(i));
+  const Figure figure = capture(live, options.captured);
+  for (const std::string& name : figure.cutLabels)
+    logWarning(fmt::format("'{}' does not fit above its picture and is cut", name));
+  writeTextFile(options.capture, figurePng(figure));
+  logInfo(fmt::format("{}: {:.0f}x{:.0f} pixels, frame {}", options.capture, figure.width,
+                      figure.height, options.captured.frames));
+}
+
 void view(const CLI::App& verb, ViewOptions options) {
   if (options.scene.request.scene.empty()) options.scene.request.scene = kDefaultScene;
   const std::string name = options.scene.request.scene;
   if (isSuite(name)) requireNoOptions(verb, name);
+  if (!options.capture.empty()) {
+    checkOutputs({{"--capture", options.capture, ".png"}}, options.scene.request);
+    checkWritable(options.capture);
+  }
   const ViewStart start = isSuite(name) ? startOfSuite(name) : startOf(options);
   printWarnings(start.prepared);
+  if (!options.capture.empty()) return writeCapture(start, options);
   ReferenceStore store;
   store.folder = referenceCacheFolder();
   LiveView live(start.prepared, start.settings, store);
@@ -146,6 +171,21 @@ void addSecondMethod(CLI::App& verb, ViewOptions& options) {
       ->allow_extra_args(false);
 }
 
+void addCapture(CLI::App& verb, ViewOptions& options) {
+  CLI::Option* capture =
+      verb.add_option("--capture", options.capture,
+                      "PNG of A, B and the reference side by side, instead of a page");
+  for (const char* ofPage : {"--port", "--listen", "--open"})
+    capture->excludes(verb.get_option(ofPage));
+  verb.add_option("--frames", options.captured.frames, "of each pane, for --capture (default 1)")
+      ->transform(wholeNumberFrom(1, kMostFrames))
+      ->needs(capture);
+  verb.add_option("--reference-spp", options.captured.referenceSpp,
+                  "samples per pixel of the reference, for --capture (default 64)")
+      ->transform(wholeNumberFrom(2, ViewLoop::kMostReferenceSpp))
+      ->needs(capture);
+}
+
 }  // namespace
 
 Action addViewVerb(CLI::App& app) {
@@ -168,6 +208,7 @@ Action addViewVerb(CLI::App& app) {
   verb->add_option("--listen", options->server.listen,
                    "address of this machine (default 127.0.0.1: nobody else reaches the page)");
   verb->add_flag("--open", options->open, "open the page in a browser");
+  addCapture(*verb, *options);
   return [verb, options](Outcome&) { view(*verb, *options); };
 }
 

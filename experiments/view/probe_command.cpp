@@ -3,7 +3,7 @@
 
 #include "core/method_settings.h"
 #include "experiments/runner/run/build_info.h"
-#include "experiments/view/view_messages.h"
+#include "experiments/view/view_session.h"
 
 namespace restlab {
 
@@ -12,7 +12,7 @@ namespace {
 using Words = std::vector<std::string>;
 
 void addScene(const ViewFacts& facts, const LiveView& view, Words& words) {
-  const SceneRequest& request = facts.request;
+  const SceneRequest request = fromAnywhere(facts.request);
   words.push_back(request.scene);
   const auto add = [&](const char* option, const std::string& value) {
     words.insert(words.end(), {option, value});
@@ -32,6 +32,12 @@ void addScene(const ViewFacts& facts, const LiveView& view, Words& words) {
   if (config.multiscatter) words.emplace_back("--multiscatter");
 }
 
+// To the last bit, unlike parameterText().
+std::string valueText(const ParameterValue& value) {
+  const double* number = std::get_if<double>(&value);
+  return number ? fmt::format("{}", *number) : parameterText(value);
+}
+
 void addMethod(const SessionConfig& config, Words& words) {
   const auto add = [&](const std::string& option, const std::string& value) {
     if (!value.empty()) words.insert(words.end(), {option, value});
@@ -43,7 +49,7 @@ void addMethod(const SessionConfig& config, Words& words) {
   if (config.russianRoulette) words.emplace_back("--rr");
   if (!config.specialise) words.emplace_back("--general");
   for (const auto& [name, value] : config.parameters)
-    add("--set", fmt::format("{}={}", name, parameterText(value)));
+    add("--set", fmt::format("{}={}", name, valueText(value)));
 }
 
 }  // namespace
@@ -56,7 +62,8 @@ std::string probeCommand(const ViewFacts& facts, const LiveView& view, const Pro
       !view.hasPlainHistory(probe.pane))
     return "";
   const SessionConfig& config = settings.panes.at(probe.pane).config;
-  Words words = {"restlab", "render"};
+  // As this program was called, so that it is found again.
+  Words words = {arguments().empty() ? "restlab" : arguments().front(), "render"};
   addScene(facts, view, words);
   addMethod(config, words);
   for (const std::string& word : {std::string("--pixel"), fmt::format("{},{}", probe.x, probe.y),

@@ -1,10 +1,8 @@
 #include "experiments/view/view_messages.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "core/error.h"
 #include "core/method.h"
@@ -12,6 +10,8 @@
 #include "core/scene/light_factor.h"
 #include "experiments/runner/registries/registries.h"
 #include "experiments/runner/run/build_info.h"
+#include "experiments/runner/summary/accumulate.h"
+#include "experiments/view/probe_values.h"
 #include "experiments/view/view_exposure.h"
 
 namespace restlab {
@@ -135,22 +135,6 @@ Json layersJson(const SessionConfig& config) {
   return all;
 }
 
-// "0.5 1 2 m" of the unit m is three numbers; what is no numbers stays a text.
-Json probedValue(std::string text, const std::string& unit) {
-  if (!unit.empty() && text.ends_with(" " + unit)) text.resize(text.size() - unit.size() - 1);
-  std::istringstream words(text);
-  Json numbers = Json::array();
-  for (std::string word; words >> word;) {
-    double number = 0.0;
-    const char* end = word.data() + word.size();
-    const auto read = std::from_chars(word.data(), end, number);
-    if (read.ec != std::errc() || read.ptr != end) return text;
-    numbers.push_back(orNull(number));
-  }
-  if (numbers.empty()) return text;
-  return numbers.size() == 1 ? numbers.front() : numbers;
-}
-
 double factorOf(const LightFactors& lights, const std::string& name) {
   double factor = 1.0;
   for (const auto& [light, its] : lights)
@@ -185,6 +169,9 @@ Json paneNumbers(const LiveView& view, size_t i) {
 std::string helloText(const ViewFacts& facts, const LiveView& view) {
   Json settings = Json::array();
   for (const MethodSetting& setting : methodSettings()) settings.push_back(setting.key);
+  Json faults = Json::array();  // counts that must stay 0
+  for (size_t i = 0; i < rl::RL_HEALTH_COUNT; ++i)
+    if (isFault(i)) faults.push_back(Health::names()[i]);
   return textOf({{"say", "hello"},
                  {"scene", sceneJson(view)},
                  {"integrators", integratorsJson()},
@@ -193,6 +180,7 @@ std::string helloText(const ViewFacts& facts, const LiveView& view) {
                  {"denoisers", denoisersJson()},
                  {"metrics", metricsJson()},
                  {"settings", settings},
+                 {"faults", faults},
                  {"threads", facts.threads},
                  {"version", buildInfo().version},
                  {"exposure", exposureOf(view)}});
@@ -257,26 +245,13 @@ std::string probeText(const ViewFacts& facts, const LiveView& view, const Probe&
     failUsage("probe: there are " + std::to_string(view.panes()) + " panes");
   if (view.frames(probe.pane) == 0) failUsage("probe: no frame was rendered yet");
   const SessionConfig& config = view.settings().panes[probe.pane].config;
-  const std::vector<const LayerInfo*> layers = findMethod(config).layers();
-  Json values = Json::array();
-  for (const ProbeValue& value : view.session(probe.pane).probe(probe.x, probe.y)) {
-    const auto layer = std::find_if(layers.begin(), layers.end(), [&](const LayerInfo* info) {
-      return info->name == value.name;
-    });
-    const bool isLayer = layer != layers.end();
-    const std::string unit = isLayer ? (*layer)->unit : "";
-    values.push_back({{"name", value.name},
-                      {"value", probedValue(value.value, unit)},
-                      {"unit", unit},
-                      {"help", isLayer ? (*layer)->summary : ""}});
-  }
   return textOf({{"say", "probe"},
                  {"pane", probe.pane},
                  {"x", probe.x},
                  {"y", probe.y},
                  {"frame", view.frames(probe.pane)},
                  {"seed", config.seed},
-                 {"values", values},
+                 {"values", probedValuesJson(view.session(probe.pane), probe.x, probe.y)},
                  {"donors", Json::array()},
                  {"command", probeCommand(facts, view, probe)}});
 }

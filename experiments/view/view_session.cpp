@@ -51,8 +51,7 @@ std::string pointText(const glm::dvec3& p) {
   return fmt::format("[{}, {}, {}]", numberText(p.x), numberText(p.y), numberText(p.z));
 }
 
-// Names that work from any folder: the session may be opened from another one.
-std::string fromAnywhere(const std::string& name, const std::string& suiteFolder) {
+std::string fileFromAnywhere(const std::string& name, const std::string& suiteFolder) {
   std::error_code status;
   if (!suiteFolder.empty() && fs::exists(fs::path(suiteFolder) / name, status))
     return fs::absolute(fs::path(suiteFolder) / name, status).string();
@@ -77,17 +76,11 @@ bool isOwnCamera(const LiveView& view) {
 }
 
 std::string sceneToml(const ViewFacts& facts) {
-  const SceneRequest& request = facts.request;
-  const std::vector<std::string>& builtin = builtinSceneNames();
-  const bool isBuiltin = std::find(builtin.begin(), builtin.end(), request.scene) != builtin.end();
-  std::string text = fmt::format(
-      "[[scene]]\nscene = {}\n",
-      quoted(isBuiltin ? request.scene : fromAnywhere(request.scene, request.suiteFolder)));
+  const SceneRequest request = fromAnywhere(facts.request);
+  std::string text = fmt::format("[[scene]]\nscene = {}\n", quoted(request.scene));
   if (!request.camera.empty()) text += fmt::format("camera = {}\n", quoted(request.camera));
-  if (!request.environment.empty()) {
-    text += fmt::format("environment = {}\n",
-                        quoted(fromAnywhere(request.environment, request.suiteFolder)));
-  }
+  if (!request.environment.empty())
+    text += fmt::format("environment = {}\n", quoted(request.environment));
   if (request.environmentRotation)
     text += fmt::format("environment_rotation = {}\n", numberText(*request.environmentRotation));
   if (request.environmentScale)
@@ -101,21 +94,10 @@ std::string nameOf(const SessionConfig& config) {
          (config.denoiser == "none" ? "" : " + " + config.denoiser);
 }
 
-// Of the panes' methods, each another one.
-std::vector<std::string> namesOf(const ViewSettings& settings) {
-  std::vector<std::string> names;
-  for (const PaneSettings& pane : settings.panes) {
-    const std::string name = nameOf(pane.config);
-    const bool isTaken = std::find(names.begin(), names.end(), name) != names.end();
-    names.push_back(isTaken ? name + " B" : name);
-  }
-  return names;
-}
-
 // Ratios are against what the last pane shows, by its name in tables of several backends, too.
 std::string baselineOf(const ViewSettings& settings) {
   const SessionConfig &first = settings.panes.front().config, &last = settings.panes.back().config;
-  const std::string name = namesOf(settings).back();
+  const std::string name = methodNames(settings).back();
   return first.backend == last.backend ? name : fmt::format("{} @{}", name, last.backend);
 }
 
@@ -226,6 +208,26 @@ ViewStart startOfSuite(const fs::path& file) {
   return start;
 }
 
+std::vector<std::string> methodNames(const ViewSettings& settings) {
+  std::vector<std::string> names;
+  for (const PaneSettings& pane : settings.panes) {
+    const std::string name = nameOf(pane.config);
+    const bool isTaken = std::find(names.begin(), names.end(), name) != names.end();
+    names.push_back(isTaken ? name + " B" : name);
+  }
+  return names;
+}
+
+SceneRequest fromAnywhere(SceneRequest request) {
+  const std::vector<std::string>& builtin = builtinSceneNames();
+  const bool isBuiltin = std::find(builtin.begin(), builtin.end(), request.scene) != builtin.end();
+  if (!isBuiltin) request.scene = fileFromAnywhere(request.scene, request.suiteFolder);
+  if (!request.environment.empty())
+    request.environment = fileFromAnywhere(request.environment, request.suiteFolder);
+  request.suiteFolder.clear();
+  return request;
+}
+
 bool losesRoll(const LiveView& view) { return !sceneCameraOf(view) && isRolled(view.camera()); }
 
 std::string sessionToml(const ViewFacts& facts, const LiveView& view) {
@@ -238,7 +240,7 @@ std::string sessionToml(const ViewFacts& facts, const LiveView& view) {
     text += fmt::format("\n[[event]]\nframe = 0\nlight = {}\nfactor = {}\n", quoted(name),
                         numberText(factor));
   }
-  const std::vector<std::string> names = namesOf(settings);
+  const std::vector<std::string> names = methodNames(settings);
   for (size_t i = 0; i < names.size(); ++i) text += methodToml(settings.panes[i], names[i]);
   return text;
 }

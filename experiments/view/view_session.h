@@ -24,6 +24,12 @@ ViewStart startOfSuite(const std::filesystem::path& file);
 // set: a camera that looks straight up or down.
 std::string sessionToml(const ViewFacts& facts, const LiveView& view);
 
+// Of the panes' methods, each another one: "restir_gi (biased)", "path + accumulate".
+std::vector<std::string> methodNames(const ViewSettings& settings);
+
+// The scene and the environment by names that work from any folder.
+SceneRequest fromAnywhere(SceneRequest request);
+
 // The camera is not upright, as those of keyframes are: it is saved without its roll.
 bool losesRoll(const LiveView& view);
 

@@ -1,5 +1,7 @@
 // restlab render: what is in the file, and that it is the same for any thread count.
 #include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "core/image/image.h"
 #include "tests/cli/program.h"
@@ -240,6 +242,44 @@ TEST_F(RenderTest, EnvironmentIsRotatedAndScaled) {
   const Image& pixels = image.layers.at("");
   EXPECT_NEAR(pixels.at(0, 0).x, 1.0f, 1e-5f) << "a corner sees the sky, 0.5 times 2";
   EXPECT_EQ(image.metadata.at("environment_rotation"), "-90");
+}
+
+TEST_F(RenderTest, PrintsWhatIsKeptOfAPixel) {
+  const std::string render =
+      "render cornell-box --resolution 24x16 --integrator restir_gi --seed 3 ";
+  const ProgramResult text = run(render + "--pixel 5,15 --frame 4");
+  ASSERT_EQ(text.code, 0) << text.err;
+  EXPECT_EQ(text.out.rfind("shaded radiance ", 0), 0u) << text.out;
+  EXPECT_NE(text.out.find("\nconfidence "), std::string::npos) << text.out;
+  // Of the same frame as that of the file.
+  const ProgramResult both = run(render + "--pixel 5,15 --frames 4 --json -o image.exr");
+  ASSERT_EQ(both.code, 0) << both.err;
+  const auto json = nlohmann::json::parse(both.out);
+  EXPECT_EQ(json["frame"], 4);
+  EXPECT_EQ(json["seed"], 3);
+  const glm::vec3 shown = readExr(path("image.exr")).layers.at("").at(5, 15);
+  for (int c = 0; c < 3; ++c)
+    EXPECT_NEAR(json["values"][0]["value"][size_t(c)], shown[c], 1e-5F * shown[c]);
+  std::istringstream lines(text.out);
+  std::string line;
+  for (const auto& value : json["values"]) {
+    ASSERT_TRUE(std::getline(lines, line));
+    EXPECT_EQ(line.rfind(value["name"].get<std::string>() + " ", 0), 0u) << line;
+  }
+  EXPECT_FALSE(std::getline(lines, line)) << line;
+}
+
+TEST_F(RenderTest, PixelsThatCannotBePrinted) {
+  const std::string render = "render cornell-box --resolution 24x16 ";
+  expectError(run(render + "--pixel 24,3"), 2, {"--pixel 24,3", "24x16", "23,15"});
+  expectError(run(render + "--pixel 3,16"), 2, {"--pixel 3,16", "24x16"});
+  for (const char* pixel : {"3", "3,", ",3", "3,4,5", "3.5,4", "-1,4", "3;4", "99999999999,0"})
+    expectError(run(render + "--pixel=" + pixel), 2, {pixel, "X,Y"});
+  expectError(run(render + "--pixel 3,4 --spp 8"), 2, {"--pixel", "--spp"});
+  expectError(run(render + "--json -o a.exr"), 2, {"--json", "--pixel"});
+  expectError(run(render + "--pixel 3,4 --aov depth"), 2, {"--aov", "--output"});
+  expectError(run(render + "--pixel 3,4 --png"), 2, {"--png", "--output"});
+  expectError(run(render), 2, {"--output is required", "--pixel"});
 }
 
 TEST_F(RenderTest, InterruptedRenderWritesNothing) {

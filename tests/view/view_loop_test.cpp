@@ -4,6 +4,7 @@
 #include <random>
 
 #include "experiments/runner/registries/registries.h"
+#include "experiments/view/probe_values.h"
 #include "experiments/view/view_exposure.h"
 #include "experiments/view/view_session.h"
 #include "experiments/view/view_session_file.h"
@@ -30,6 +31,7 @@ TEST_F(ViewLoopTest, SaysHelloThenWhatIsSet) {
   EXPECT_EQ(hello["denoisers"], Json(denoisersJson()));
   EXPECT_EQ(hello["settings"], Json({"integrator", "mode", "cache", "backend", "denoiser"}));
   EXPECT_GT(hello["exposure"].get<double>(), 0.0);
+  EXPECT_EQ(hello["faults"], Json({"nonfinite", "dropped_weights"}));
   const Json state = page.next();
   EXPECT_EQ(state["say"], "state");
   EXPECT_EQ(state["panes"][0]["integrator"], "restir_gi");
@@ -173,6 +175,14 @@ TEST_F(ViewLoopTest, ProbesAPixel) {
     EXPECT_EQ(value["unit"], "samples");
     EXPECT_GE(value["value"].get<double>(), 1.0);
   }
+  // Those of a session that renders as many frames, as `render --pixel` does.
+  Session again(prepareScene(facts_.request).scene, configOf("restir_gi"));
+  for (int frame = 0; frame < probe["frame"]; ++frame) again.frame();
+  EXPECT_EQ(probe["values"], Json(probedValuesJson(again, 3, 4)));
+  EXPECT_EQ(probe["values"][0]["name"], "shaded radiance");
+  const glm::vec3& shown = again.radiance().at(3, 4);
+  for (int c = 0; c < 3; ++c)
+    EXPECT_NEAR(probe["values"][0]["value"][size_t(c)], shown[c], 1e-5 * shown[c]);
   const std::string command = probe["command"];
   EXPECT_EQ(command.rfind("restlab render cornell-box ", 0), 0u) << command;
   EXPECT_NE(command.find("--pixel 3,4 --seed 1 --frame " + probe["frame"].dump()),

@@ -1,8 +1,13 @@
 // `restlab view` as a user runs it.
+#include <cstdlib>
 #include <fstream>
 #include <optional>
+#include <set>
 
+#include "experiments/view/capture.h"
 #include "experiments/view/server.h"
+#include "experiments/view/view_exposure.h"
+#include "experiments/view/view_session.h"
 #include "tests/cli/program.h"
 #include "tests/view/page.h"
 
@@ -19,7 +24,7 @@ class ViewProgramTest : public cli_test::ProgramTest {
   std::string printedUrl() const {
     for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
       const std::string name = entry.path().filename().string();
-      if (name.rfind(".stdout", 0) != 0) continue;
+      if (name.rfind(".stdout", 0) != 0 || before_.count(name) > 0) continue;
       const std::string text = read(name);
       if (text.find('\n') != std::string::npos) return text.substr(0, text.find('\n'));
     }
@@ -27,8 +32,10 @@ class ViewProgramTest : public cli_test::ProgramTest {
   }
 
   // Ended by the signal once a page is open and `when` holds of it.
-  ProgramResult view(int signal, const std::string& arguments,
+  ProgramResult view(int signal, std::vector<std::string> arguments,
                      const std::function<bool(Page&)>& when) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder_))
+      before_.insert(entry.path().filename().string());
     std::unique_ptr<Page> page;
     Circumstances circumstances;
     circumstances.signal = signal;
@@ -40,7 +47,8 @@ class ViewProgramTest : public cli_test::ProgramTest {
       signalled_ = Clock::now();
       return true;
     };
-    const ProgramResult result = run("view " + arguments, circumstances);
+    arguments.insert(arguments.begin(), "view");
+    const ProgramResult result = run(arguments, circumstances);
     ended_ = Clock::now();
     return result;
   }
@@ -48,6 +56,7 @@ class ViewProgramTest : public cli_test::ProgramTest {
   double secondsToEnd() const { return std::chrono::duration<double>(ended_ - signalled_).count(); }
 
   Clock::time_point signalled_, ended_;
+  std::set<std::string> before_;  // files that earlier programs have left
 };
 
 void expectEnded(const ProgramResult& result) {
@@ -62,7 +71,7 @@ TEST_F(ViewProgramTest, EndsInTheMiddleOfAFrame) {
   // The first round would take half an hour.
   std::optional<Clock::time_point> begun;
   const ProgramResult result =
-      view(SIGTERM, "furnace --resolution 2048x2048 --max-bounces 1024", [&](Page&) {
+      view(SIGTERM, {"furnace", "--resolution", "2048x2048", "--max-bounces", "1024"}, [&](Page&) {
         if (!begun) begun = Clock::now();
         return Clock::now() - *begun > std::chrono::milliseconds(1500);
       });
@@ -71,7 +80,7 @@ TEST_F(ViewProgramTest, EndsInTheMiddleOfAFrame) {
 }
 
 TEST_F(ViewProgramTest, ShowsTheDefaultsAndKeepsTheReference) {
-  const ProgramResult result = view(SIGINT, "", [](Page& page) {
+  const ProgramResult result = view(SIGINT, {}, [](Page& page) {
     const Json hello = page.waitFor("hello");
     EXPECT_EQ(hello["scene"]["name"], "door-ajar");
     const Json state = page.waitFor("state");
@@ -88,11 +97,96 @@ TEST_F(ViewProgramTest, ShowsTheDefaultsAndKeepsTheReference) {
   EXPECT_FALSE(entries("cache/restlab/references").empty());
 }
 
+// The command of a probe, as a shell runs it, prints what the page was told; of a suite's scene
+// with blanks in its name and of changed parameters, too.
+TEST_F(ViewProgramTest, ProbeIsThatOfItsCommand) {
+  write("a scene/a triangle.gltf", cli_test::triangleGltf({0, 0, 0, 1, 0, 0, 0, 1, 0}));
+  write("a scene/suite.toml",
+        "[[scene]]\nscene = \"a triangle.gltf\"\n[settings]\nwidth = 20\nheight = 12\nseed = 4\n"
+        "max_bounces = 3\n[[method]]\nintegrator = \"restir_gi\"\ncache = \"voxel\"\n"
+        "[[method]]\nintegrator = \"path\"\ndenoiser = \"accumulate\"\n");
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"cornell-box", "--resolution", "20x12", "--seed", "7"},
+        {path("a scene/suite.toml").string()}}) {
+    std::vector<Json> probes;
+    view(SIGINT, arguments, [&](Page& page) {
+      page.say(
+          {{"do", "parameter"}, {"pane", 0}, {"name", "roughness_limit"}, {"value", 0.1 + 0.2}});
+      page.say({{"do", "restart"}});
+      const Json state = page.waitFor("state", [](const Json& s) { return s["can_undo"]; });
+      page.waitFor("numbers", [](const Json& n) { return n["panes"][0]["frame"] >= 3; });
+      page.say({{"do", "pause"}, {"on", true}});
+      page.waitFor("state", [](const Json& s) { return s["paused"]; });
+      for (const int pane : {0, 1}) {
+        page.say({{"do", "probe"}, {"pane", pane}, {"x", 6}, {"y", 7}});
+        probes.push_back(page.waitFor("probe"));
+      }
+      return true;
+    });
+    ASSERT_EQ(probes.size(), 2u);
+    for (const Json& probe : probes) {
+      const std::string command = probe["command"];
+      SCOPED_TRACE(command);
+      const std::string line =
+          "cd / && " + command + " --json >'" + path("pixel.json").string() + "'";
+      ASSERT_EQ(std::system(line.c_str()), 0);
+      const Json printed = Json::parse(read("pixel.json"));
+      for (const char* key : {"x", "y", "frame", "seed", "values"})
+        EXPECT_EQ(printed[key], probe[key]) << key;
+    }
+  }
+}
+
 TEST_F(ViewProgramTest, EndsWhileNobodyLooks) {
   Circumstances circumstances;
   circumstances.maxCpuS = 20.0;
   circumstances.signalWhen = [&] { return !printedUrl().empty(); };
   expectEnded(run("view cornell-box", circumstances));
+}
+
+TEST_F(ViewProgramTest, CapturesWhatAPageWouldShow) {
+  write("suite.toml",
+        "scenes = [\"cornell-box\"]\n[settings]\nwidth = 100\nheight = 60\nmax_bounces = 3\n"
+        "[[method]]\nintegrator = \"restir_gi\"\n"
+        "[[method]]\nintegrator = \"path\"\ndenoiser = \"accumulate\"\n");
+  const ProgramResult result = run("view suite.toml --capture a.png --frames 3 --reference-spp 8");
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(result.out, "") << "there is no page";
+  EXPECT_EQ(entries(".").size(), 2u) << "the suite and the picture, and no cache";
+  const ViewStart start = startOfSuite(path("suite.toml"));
+  LiveView view(start.prepared, start.settings, {});
+  const Figure figure = capture(view, {3, 8});
+  EXPECT_TRUE(read("a.png") == figurePng(figure));
+  // Each picture as large as it was rendered, and as bright as the page begins.
+  EXPECT_EQ(view.frames(0), 3u);
+  EXPECT_EQ(view.reference().spp(), 8u);
+  const std::vector<const Image*> images = {&view.session(0).radiance(),
+                                            &view.session(1).radiance(), &view.reference().mean()};
+  ASSERT_EQ(figure.pictures.size(), 3u);
+  for (size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(figure.pictures[i].picture.bytes,
+              pictureOf(*images[i], {0, 0, 100, 60}, float(exposureOf(view)), 1).bytes);
+    EXPECT_EQ(figure.texts[i].x, figure.pictures[i].x + 50.0);
+    if (i == 0) continue;
+    EXPECT_GE(figure.pictures[i].x, figure.pictures[i - 1].x + 100.0);
+  }
+  EXPECT_EQ(figure.texts[0].text.rfind("A: restir_gi", 0), 0u) << figure.texts[0].text;
+  EXPECT_EQ(figure.texts[1].text.rfind("B: path", 0), 0u) << figure.texts[1].text;
+  EXPECT_EQ(figure.texts[2].text, "reference, 8 spp");
+}
+
+TEST_F(ViewProgramTest, InterruptedCaptureLeavesNothing) {
+  for (const char* what : {"--frames 100000000", "--reference-spp 1000000"}) {
+    const auto begun = Clock::now();
+    const ProgramResult result =
+        runUntil([&] { return Clock::now() - begun > std::chrono::seconds(1); },
+                 std::string("view door-ajar --resolution 64x36 --capture a.png ") + what);
+    EXPECT_EQ(result.code, 130) << result.err;
+    ASSERT_EQ(result.errors().size(), 1u) << result.err;
+    EXPECT_NE(result.errors()[0].find("nothing was written"), std::string::npos) << result.err;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_))
+      EXPECT_EQ(entry.path().filename().string().rfind(".std", 0), 0u) << entry.path();
+  }
 }
 
 TEST_F(ViewProgramTest, SaysWhatIsWrongInOneLine) {
@@ -109,6 +203,13 @@ TEST_F(ViewProgramTest, SaysWhatIsWrongInOneLine) {
       {"view suite.toml", {"suite.toml:3", "'path'"}},
       {"view suite.toml --seed 3", {"--seed", "suite"}},
       {"view cornell-box --port 70000", {"70000"}},
+      {"view cornell-box --capture a.exr", {"--capture a.exr", "*.png"}},
+      {"view suite.toml --capture a.exr", {"--capture a.exr", "*.png"}},
+      {"view cornell-box --capture a.png --port 80", {"--capture", "--port"}},
+      {"view cornell-box --frames 3", {"--frames", "--capture"}},
+      {"view cornell-box --capture a.png --reference-spp 1", {"from 2"}},
+      {"view cornell-box --capture a.png --resolution 16384x16384",
+       {"49152x16384", "--resolution"}},
   };
   for (const auto& [arguments, says] : cases) {
     SCOPED_TRACE(arguments);

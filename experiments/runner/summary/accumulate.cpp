@@ -65,6 +65,10 @@ void HistoryMean::add(const Image& frame) {
   sum_.add(frame);
 }
 
+bool isFault(size_t count) {
+  return count == rl::RL_HEALTH_NONFINITE || count == rl::RL_HEALTH_DROPPED_WEIGHTS;
+}
+
 void HealthSum::add(const FrameStats& frame) {
   for (size_t i = 0; i < health.counts.size(); ++i) health.counts[i] += frame.health.counts[i];
   raysPath += frame.raysPath;

@@ -59,6 +59,10 @@ class HistoryMean {
   ImageSum sum_;
 };
 
+// Whether the health count of that number must not happen: a value or a weight was lost. The others
+// say what a method does.
+bool isFault(size_t count);
+
 // Counters of several frames.
 struct HealthSum {
   Health health;

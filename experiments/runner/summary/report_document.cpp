@@ -323,8 +323,7 @@ Json healthOf(const std::vector<MethodSummary>& rows) {
   for (size_t i = 0; i < rl::RL_HEALTH_COUNT; ++i) {
     const char* name = Health::names()[i];
     if (!name || !*name) continue;
-    const bool isFault = i == rl::RL_HEALTH_NONFINITE || std::string(name) == "dropped_weights";
-    heads.push_back({{"name", name}, {"bad", isFault}});
+    heads.push_back({{"name", name}, {"bad", isFault(i)}});
   }
   for (const MethodSummary& row : rows) {
     if (row.method->images) continue;

@@ -1,0 +1,103 @@
+#include "experiments/view/capture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/backend/stop.h"
+#include "core/error.h"
+#include "experiments/report/svg_style.h"
+#include "experiments/runner/run/interrupt.h"
+#include "experiments/runner/run/log.h"
+#include "experiments/view/view_exposure.h"
+#include "experiments/view/view_session.h"
+
+namespace restlab {
+
+namespace {
+
+constexpr double kMargin = 8.0, kGap = 6.0;
+constexpr double kLargestText = 16.0, kSmallestText = 10.0;
+constexpr uint64_t kMaxPixels = uint64_t(1) << 26;  // as of `figure`
+constexpr const char* kInterrupted = "nothing was written";
+
+struct Column {
+  std::string name;
+  const Image* image = nullptr;
+};
+
+void renderAll(LiveView& view, const CaptureOptions& options) {
+  const LiveReference& reference = view.reference();
+  Progress progress("frame or sample", options.frames + options.referenceSpp);
+  try {
+    for (uint64_t frame = 0; frame < options.frames; ++frame) {
+      throwIfInterrupted(kInterrupted);
+      view.renderFrames();
+      progress.update(frame + 1);
+    }
+    while (reference.spp() < options.referenceSpp || !reference.isThere()) {
+      throwIfInterrupted(kInterrupted);
+      view.refineReference();
+      progress.update(options.frames + reference.spp());
+    }
+  } catch (const FrameStopped&) {
+    throwIfInterrupted(kInterrupted);
+    throw;
+  }
+}
+
+// The largest size at which every name fits above its picture.
+double textSize(const std::vector<Column>& columns, double width) {
+  double size = kLargestText;
+  for (const Column& column : columns)
+    size = std::min(size, width / std::max(1.0, svg::textWidth(column.name, 1.0)));
+  return std::max(kSmallestText, std::floor(size));
+}
+
+Figure layOut(const std::vector<Column>& columns, float exposure) {
+  const Image& first = *columns.front().image;
+  const double width = first.width, height = first.height;
+  const double size = textSize(columns, width);
+  const double top = kMargin + std::ceil(1.35 * size);
+  Figure figure;
+  double x = kMargin;
+  for (const Column& column : columns) {
+    const std::string name = svg::fitText(column.name, width, size);
+    if (name.size() < column.name.size()) figure.cutLabels.push_back(column.name);
+    figure.texts.push_back({x + width / 2.0, kMargin + size, "middle", name, size, false});
+    figure.pictures.push_back(
+        {x, top, width, height,
+         pictureOf(*column.image, {0, 0, first.width, first.height}, exposure, 1)});
+    x += width + kGap;
+  }
+  figure.width = x - kGap + kMargin;
+  figure.height = top + height + kMargin;
+  return figure;
+}
+
+}  // namespace
+
+void requireCaptureSize(const ViewSettings& settings) {
+  const SessionConfig& config = settings.panes.front().config;
+  const uint64_t width = config.width * (settings.panes.size() + 1);
+  if (width * config.height <= kMaxPixels) return;
+  failUsage(fmt::format(
+      "--capture: the picture would have {}x{} pixels, and at most {} fit; choose a smaller "
+      "--resolution",
+      width, config.height, kMaxPixels));
+}
+
+Figure capture(LiveView& view, const CaptureOptions& options) {
+  renderAll(view, options);
+  const std::vector<std::string> names = methodNames(view.settings());
+  std::vector<Column> columns;
+  for (size_t i = 0; i < view.panes(); ++i)
+    columns.push_back(
+        {fmt::format("{}: {}", char('A' + int(i)), names[i]), &view.session(i).radiance()});
+  columns.push_back(
+      {fmt::format("reference, {} spp", view.reference().spp()), &view.reference().mean()});
+  return layOut(columns, float(exposureOf(view)));
+}
+
+}  // namespace restlab

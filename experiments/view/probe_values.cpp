@@ -1,0 +1,66 @@
+#include "experiments/view/probe_values.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+#include "core/method.h"
+
+namespace restlab {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Not "radiance", which is what a reservoir keeps.
+constexpr const char* kShown = "shaded radiance";
+constexpr const char* kShownHelp = "what the frame shows: R, G, B";
+
+// "0.5 1 2 m" of the unit m is three numbers; what is no numbers stays a text.
+Json valueJson(std::string text, const std::string& unit) {
+  if (!unit.empty() && text.ends_with(" " + unit)) text.resize(text.size() - unit.size() - 1);
+  std::istringstream words(text);
+  Json numbers = Json::array();
+  for (std::string word; words >> word;) {
+    double number = 0.0;
+    const char* end = word.data() + word.size();
+    const auto read = std::from_chars(word.data(), end, number);
+    if (read.ec != std::errc() || read.ptr != end) return text;
+    numbers.push_back(std::isfinite(number) ? Json(number) : Json(nullptr));
+  }
+  if (numbers.empty()) return text;
+  return numbers.size() == 1 ? numbers.front() : numbers;
+}
+
+}  // namespace
+
+std::vector<ProbeValue> probedValues(const Session& session, uint32_t x, uint32_t y) {
+  std::vector<ProbeValue> values = session.probe(x, y);
+  const glm::vec3& shown = session.radiance().at(x, y);
+  values.insert(values.begin(),
+                {kShown, fmt::format("{:.6g} {:.6g} {:.6g}", shown.x, shown.y, shown.z)});
+  return values;
+}
+
+Json probedValuesJson(const Session& session, uint32_t x, uint32_t y) {
+  const Method method = findMethod(session.config());
+  Json all = Json::array();
+  for (const ProbeValue& value : probedValues(session, x, y)) {
+    std::string unit, help = value.name == kShown ? kShownHelp : "";
+    for (const LayerInfo* layer : method.layers()) {
+      if (layer->name != value.name) continue;
+      unit = layer->unit;
+      help = layer->summary;
+    }
+    all.push_back({{"name", value.name},
+                   {"value", valueJson(value.value, unit)},
+                   {"unit", unit},
+                   {"help", help}});
+  }
+  return all;
+}
+
+}  // namespace restlab
