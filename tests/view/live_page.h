@@ -32,7 +32,7 @@ class LivePageTest : public ViewLoopTest {
   // Serves the small panes, and opens them.
   void open();
   // The same of a page that is on its way; one that sets window.isOld is not meant.
-  void waitUntilShown(Browser& browser);
+  void waitUntilShown(Browser& browser, const std::vector<int>& images = {0, 1, 2});
 
   // The value of the body of an async function of the page, which has
   //   page, viewer        as the page has them

@@ -108,15 +108,15 @@ void LivePageTest::open() {
   open(*browser_);
 }
 
-void LivePageTest::waitUntilShown(Browser& browser) {
+void LivePageTest::waitUntilShown(Browser& browser, const std::vector<int>& images) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   for (;;) {
     try {
-      browser.waitFor(
-          "Boolean(!window.isOld && document.body && document.body.page && "
-          "document.body.page.viewer && "
-          "document.body.page.viewer.images.every(image => image.data))",
-          20.0);
+      browser.waitFor(fmt::format("Boolean(!window.isOld && document.body && document.body.page && "
+                                  "document.body.page.viewer && "
+                                  "{}.every(i => document.body.page.viewer.images[i].data))",
+                                  Json(images).dump()),
+                      20.0);
       browser.evaluate(kWatch);
       return;
     } catch (const std::runtime_error&) {
