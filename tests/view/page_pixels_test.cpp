@@ -196,7 +196,8 @@ TEST_F(PagePixelsTest, ZoomedPixelsHoldTheirNumbers) {
       const box = viewer.canvas.getBoundingClientRect(), found = new Set();
       const copy = new OffscreenCanvas(9, 9).getContext('2d');
       copy.drawImage(viewer.canvas, {} - box.x - 4, {} - box.y - 4, 9, 9, 0, 0, 9, 9);
-      for (const word of new Uint32Array(copy.getImageData(0, 0, 9, 9).data.buffer)) found.add(word);
+      const {{buffer}} = copy.getImageData(0, 0, 9, 9).data;
+      for (const word of new Uint32Array(buffer)) found.add(word);
       return found.size;)",
                             std::floor(x), std::floor(y)))
         .get<int>();

@@ -103,7 +103,9 @@ constexpr const char* kRandom = R"JS(
 TEST_F(PageStressTest, LivesThroughRandomCommands) {
   open();
   std::string script = kRandom;
-  script.replace(script.find("SEED"), 4, "18");
+  // Others by --gtest_shuffle --gtest_random_seed=N.
+  const int seed = 18 + testing::UnitTest::GetInstance()->random_seed();
+  script.replace(script.find("SEED"), 4, std::to_string(seed));
   page(script);
   page(R"(
     send({do: 'resolution', width: 64, height: 36});

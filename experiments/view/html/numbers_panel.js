@@ -38,8 +38,9 @@ class NumbersPanel {
                   ...cells.map(one => one.cell));
     });
     this.health = heads.map(() => make('td', {class: 'health', 'data-number': 'health'}));
-    rows.push(make('tr', {}, make('th', {scope: 'row', title: 'what was counted in the last frame; red: what must not happen'},
-                                  'health'), ...this.health));
+    const healthHelp = 'what was counted in the last frame; red: what must not happen';
+    rows.push(make('tr', {}, make('th', {scope: 'row', title: healthHelp}, 'health'),
+                   ...this.health));
     this.reference = make('p', {class: 'line-text', 'data-number': 'reference'});
     this.transport = make('p', {class: 'line-text', 'data-number': 'transport'});
     this.element = make('section', {class: 'numbers-box', 'aria-label': 'Numbers'},
