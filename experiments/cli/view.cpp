@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <set>
 #include <thread>
 
@@ -46,6 +47,7 @@ struct ViewOptions {
   bool open = false;
   std::string capture;  // "": a page instead
   CaptureOptions captured;
+  std::string tev;  // "": no other viewer
 };
 
 bool isSuite(const std::string& name) { return std::filesystem::path(name).extension() == ".toml"; }
@@ -55,8 +57,8 @@ void requireNoOptions(const CLI::App& verb, const std::string& file) {
   for (const CLI::Option* option : verb.get_options()) {
     const std::string name = option->get_name();
     static const std::set<std::string> ofAny = {
-        "scene",           "--port",  "--listen",  "--open", "--capture", "--frames",
-        "--reference-spp", "--quiet", "--verbose", "-q",     "-v"};
+        "scene",           "--port", "--listen", "--open",    "--capture", "--frames",
+        "--reference-spp", "--tev",  "--quiet",  "--verbose", "-q",        "-v"};
     if (option->count() > 0 && ofAny.count(name) == 0) {
       failUsage(fmt::format("view {}: {} is not for a suite, which says it; change the file", file,
                             name));
@@ -131,6 +133,8 @@ void view(const CLI::App& verb, ViewOptions options) {
   if (options.scene.request.scene.empty()) options.scene.request.scene = kDefaultScene;
   const std::string name = options.scene.request.scene;
   if (isSuite(name)) requireNoOptions(verb, name);
+  std::optional<TevAddress> tev;
+  if (!options.tev.empty()) tev = parseTevAddress(options.tev);
   if (!options.capture.empty()) {
     checkOutputs({{"--capture", options.capture, ".png"}}, options.scene.request);
     checkWritable(options.capture);
@@ -146,7 +150,7 @@ void view(const CLI::App& verb, ViewOptions options) {
   options.server.page = viewPage();
   ViewLoop loop(live,
                 {start.request, threads > 0 ? threads : int(std::thread::hardware_concurrency())},
-                options.server, ".");
+                options.server, ".", tev);
   fmt::print("{}\n", loop.url());
   std::fflush(stdout);
   logInfo("open the address in a browser; Ctrl-C ends the viewer");
@@ -175,7 +179,7 @@ void addCapture(CLI::App& verb, ViewOptions& options) {
   CLI::Option* capture =
       verb.add_option("--capture", options.capture,
                       "PNG of A, B and the reference side by side, instead of a page");
-  for (const char* ofPage : {"--port", "--listen", "--open"})
+  for (const char* ofPage : {"--port", "--listen", "--open", "--tev"})
     capture->excludes(verb.get_option(ofPage));
   verb.add_option("--frames", options.captured.frames, "of each pane, for --capture (default 1)")
       ->transform(wholeNumberFrom(1, kMostFrames))
@@ -208,6 +212,8 @@ Action addViewVerb(CLI::App& app) {
   verb->add_option("--listen", options->server.listen,
                    "address of this machine (default 127.0.0.1: nobody else reaches the page)");
   verb->add_flag("--open", options->open, "open the page in a browser");
+  verb->add_option("--tev", options->tev,
+                   "HOST[:PORT] of a running tev, which gets the images, too (port 14158)");
   addCapture(*verb, *options);
   return [verb, options](Outcome&) { view(*verb, *options); };
 }

@@ -46,13 +46,15 @@ struct Said {
 }  // namespace
 
 ViewLoop::ViewLoop(LiveView& view, ViewFacts facts, const ViewServerOptions& options,
-                   std::filesystem::path saveFolder)
+                   std::filesystem::path saveFolder, const std::optional<TevAddress>& tev)
     : view_(view),
       facts_(std::move(facts)),
       saveFolder_(std::move(saveFolder)),
       sender_(options, events_),
       changed_(Clock::now()),
-      pictureChanged_(changed_) {}
+      pictureChanged_(changed_) {
+  if (tev) tev_.emplace(*tev);
+}
 
 void ViewLoop::run() {
   milliseconds patience{0};
@@ -61,10 +63,11 @@ void ViewLoop::run() {
       throwIfInterrupted("the viewer ends");
       take(events_.take(patience));
       patience = kIdle;
-      if (!sender_.hasPages()) continue;
+      if (!sender_.hasPages() && !(tev_ && tev_->connection() > 0)) continue;
       if (!isPaused_) renderRound();
       const bool isRefined = refine();
       showWhatIsExact();
+      showTev();
       patience = isPaused_ && !isRefined ? kShort : milliseconds{0};
     }
   } catch (const FrameStopped&) {
@@ -225,6 +228,26 @@ void ViewLoop::showReference(bool isUrgent) {
 void ViewLoop::showWhatIsExact() {
   if (isPaused_ && (sender_.isRounded(0) || sender_.isRounded(1))) showPanes();
   showReference(isStill() && sender_.isRounded(kReferenceSlot));
+}
+
+// What tev has not seen, where it is time for another image.
+void ViewLoop::showTev() {
+  if (!tev_) return;
+  const uint64_t connection = tev_->connection();
+  const auto show = [&](uint32_t slot, const std::string& name, uint64_t count,
+                        const auto& imageOf) {
+    const std::array now{connection, view_.epoch(), count};
+    if (count == 0 || shownTev_[slot] == now || !tev_->takes(name)) return;
+    tev_->show(name, imageOf());
+    shownTev_[slot] = now;
+  };
+  for (uint32_t i = 0; i < view_.panes(); ++i) {
+    show(i, fmt::format("restlab {}", char('A' + int(i))), view_.frames(i),
+         [&]() -> const Image& { return view_.session(i).radiance(); });
+  }
+  const LiveReference& reference = view_.reference();
+  show(kReferenceSlot, "restlab reference", reference.isThere() ? reference.spp() : 0,
+       [&]() -> const Image& { return reference.mean(); });
 }
 
 void ViewLoop::tellNumbers() {

@@ -1,4 +1,5 @@
-// The viewer at work: does what pages ask, renders while a page is open, and shows what comes out.
+// The viewer at work: does what pages ask, renders while a page is open or tev listens, and shows
+// what comes out.
 // All of it happens on the thread that calls run(); the server's thread only queues.
 //
 // What pages ask for is done between rounds, a round being one frame of each pane: both show the
@@ -10,13 +11,17 @@
 // while panes are paused.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "experiments/view/tev_sender.h"
 #include "experiments/view/view_sender.h"
 
 namespace restlab {
@@ -28,8 +33,9 @@ class ViewLoop {
   static constexpr uint64_t kMostReferenceSpp = uint64_t(1) << 20;
 
   // Serves from here on. `saveFolder`: where sessions are written; empty: pages alone get them.
+  // `tev`: who gets the images, too.
   ViewLoop(LiveView& view, ViewFacts facts, const ViewServerOptions& options,
-           std::filesystem::path saveFolder);
+           std::filesystem::path saveFolder, const std::optional<TevAddress>& tev = {});
 
   std::string url() const { return sender_.url(); }
   // Until stop(). Throws Error (interrupted) where a signal has come, and what a frame throws.
@@ -53,6 +59,7 @@ class ViewLoop {
   void showPanes();
   void showReference(bool isUrgent);
   void showWhatIsExact();
+  void showTev();
   void tellNumbers();
   bool isStill() const;
 
@@ -67,6 +74,9 @@ class ViewLoop {
   double referenceCreditS_ = 0.0;
   Clock::time_point referenceShown_;
   std::pair<uint64_t, uint64_t> shownReference_{0, 0};  // its epoch and samples
+  std::optional<TevSender> tev_;
+  // Of each slot what tev has: connection, epoch and frames or samples.
+  std::map<uint32_t, std::array<uint64_t, 3>> shownTev_;
 };
 
 }  // namespace restlab

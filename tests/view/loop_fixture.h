@@ -40,7 +40,7 @@ class ViewLoopTest : public TemporaryFolder {
     view_.emplace(prepareScene(facts_.request), settings, ReferenceStore{});
     ViewServerOptions options;
     options.page = "the page";
-    loop_ = std::make_unique<ViewLoop>(*view_, facts_, options, folder());
+    loop_ = std::make_unique<ViewLoop>(*view_, facts_, options, folder(), tev_);
     thread_ = std::thread([this] {
       try {
         loop_->run();
@@ -67,6 +67,7 @@ class ViewLoopTest : public TemporaryFolder {
   std::string url() const { return loop_->url(); }
 
   ViewFacts facts_;
+  std::optional<TevAddress> tev_;  // of the loop
   std::optional<LiveView> view_;
   std::unique_ptr<ViewLoop> loop_;
   std::thread thread_;

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <optional>
 #include <set>
+#include <sstream>
 
 #include "experiments/view/capture.h"
 #include "experiments/view/server.h"
@@ -10,6 +11,7 @@
 #include "experiments/view/view_session.h"
 #include "tests/cli/program.h"
 #include "tests/view/page.h"
+#include "tests/view/tev_server.h"
 
 namespace restlab::view_test {
 namespace {
@@ -144,6 +146,40 @@ TEST_F(ViewProgramTest, EndsWhileNobodyLooks) {
   expectEnded(run("view cornell-box", circumstances));
 }
 
+// One that is not there, that comes, goes and comes again. Each is said once, and the viewer goes
+// on.
+TEST_F(ViewProgramTest, GoesOnWithoutTev) {
+  const auto tev = std::make_unique<TevServer>(false);
+  const std::string address = "127.0.0.1:" + std::to_string(tev->port());
+  const ProgramResult result =
+      view(SIGINT, {"cornell-box", "--resolution", "16x16", "--tev", address}, [&](Page& page) {
+        const auto isOlder = [&](int frames) {
+          page.say({{"do", "restart"}});
+          page.waitFor("numbers", [&](const Json& n) { return n["panes"][0]["frame"] > frames; });
+        };
+        isOlder(3);
+        EXPECT_TRUE(isSaid("--tev " + address + ": Connection refused"));
+        tev->listen();
+        tev->accept();
+        EXPECT_EQ(tev->next()->operation, 4);
+        isOlder(3);
+        tev->hangUp();
+        tev->accept();
+        EXPECT_EQ(tev->next()->operation, 4) << "it is another one, which has no image yet";
+        isOlder(3);
+        return true;
+      });
+  EXPECT_EQ(result.code, 130) << result.err;
+  EXPECT_LT(secondsToEnd(), 2.0);
+  std::istringstream lines(result.err);
+  std::vector<std::string> warnings;
+  for (std::string line; std::getline(lines, line);)
+    if (line.find("warning") != std::string::npos) warnings.push_back(line);
+  ASSERT_EQ(warnings.size(), 2u) << result.err;
+  EXPECT_NE(warnings[0].find("Connection refused; the viewer goes on"), std::string::npos);
+  EXPECT_NE(warnings[1].find("the connection was lost; the viewer goes on"), std::string::npos);
+}
+
 TEST_F(ViewProgramTest, CapturesWhatAPageWouldShow) {
   write("suite.toml",
         "scenes = [\"cornell-box\"]\n[settings]\nwidth = 100\nheight = 60\nmax_bounces = 3\n"
@@ -206,6 +242,9 @@ TEST_F(ViewProgramTest, SaysWhatIsWrongInOneLine) {
       {"view cornell-box --capture a.exr", {"--capture a.exr", "*.png"}},
       {"view suite.toml --capture a.exr", {"--capture a.exr", "*.png"}},
       {"view cornell-box --capture a.png --port 80", {"--capture", "--port"}},
+      {"view cornell-box --tev :80", {"--tev :80", "HOST:PORT"}},
+      {"view cornell-box --tev here:99999", {"--tev here:99999", "65535"}},
+      {"view cornell-box --tev here --capture a.png", {"--capture", "--tev"}},
       {"view cornell-box --frames 3", {"--frames", "--capture"}},
       {"view cornell-box --capture a.png --reference-spp 1", {"from 2"}},
       {"view cornell-box --capture a.png --resolution 16384x16384",
