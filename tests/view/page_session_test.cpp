@@ -143,10 +143,10 @@ TEST_F(PageSessionTest, ClickProbesThePixel) {
 }
 
 // Frames made again, against the halves of the reference as it is in the end. As it goes on while
-// frames are measured, and with it every error a little, they agree within two percent.
+// frames are measured, and with it every error a little, they agree within five percent.
 TEST_F(PageSessionTest, RunningErrorIsThatOfTheFrames) {
   pause();
-  page(R"(await until(() => page.last.reference.spp >= 192);
+  page(R"(await until(() => page.last.reference.spp >= 768);
     const {epoch} = page.state;
     send({do: 'restart'});
     send({do: 'pause', on: false});
@@ -172,8 +172,8 @@ TEST_F(PageSessionTest, RunningErrorIsThatOfTheFrames) {
                              view_->reference().half1());
       sum += mse;
     }
-    EXPECT_NEAR(double(last[i][0]) / (sum / double(count)), 1.0, 0.02) << "pane " << i;
-    EXPECT_NEAR(double(last[i][1]) / mse, 1.0, 0.05) << "pane " << i;
+    EXPECT_NEAR(double(last[i][0]) / (sum / double(count)), 1.0, 0.05) << "pane " << i;
+    EXPECT_NEAR(double(last[i][1]) / mse, 1.0, 0.1) << "pane " << i;
   }
 }
 
