@@ -53,16 +53,26 @@ void LiveView::apply(const ViewCommand& command) {
 }
 
 void LiveView::renderFrames() {
-  for (Pane& pane : panes_) {
-    pane.stats = pane.session->frame();
-    ++pane.frames;
-  }
+  for (Pane& pane : panes_) renderFrame(pane);
   ++age_;
-  if (!reference_.isThere()) return;
+}
+
+bool LiveView::renderFirstFrames() {
+  bool isAny = false;
   for (Pane& pane : panes_) {
-    pane.error.add(pane.session->radiance(), reference_.mean(), reference_.half0(),
-                   reference_.half1());
+    if (pane.frames > 0) continue;
+    renderFrame(pane);
+    isAny = true;
   }
+  return isAny;
+}
+
+void LiveView::renderFrame(Pane& pane) {
+  pane.stats = pane.session->frame();
+  ++pane.frames;
+  if (!reference_.isThere()) return;
+  pane.error.add(pane.session->radiance(), reference_.mean(), reference_.half0(),
+                 reference_.half1());
 }
 
 std::unique_ptr<Session> LiveView::sessionOf(const SessionConfig& config,

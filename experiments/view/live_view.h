@@ -26,6 +26,8 @@ class LiveView {
 
   // The next frame of each pane, one after the other.
   void renderFrames();
+  // That of panes which have none, as after a change of the method. Returns whether there were any.
+  bool renderFirstFrames();
   // One more sample of the reference.
   void refineReference() { reference_.addSample(); }
 
@@ -60,6 +62,7 @@ class LiveView {
     bool isPlain = true;
   };
 
+  void renderFrame(Pane& pane);
   std::unique_ptr<Session> sessionOf(const SessionConfig& config, const PreparedScene& shown,
                                      const SceneCamera& camera) const;
   PreparedScene litBy(const LightFactors& lights) const;

@@ -65,6 +65,10 @@ void ViewLoop::run() {
       patience = kIdle;
       if (!sender_.hasPages() && !(tev_ && tev_->connection() > 0)) continue;
       if (!isPaused_) renderRound();
+      if (isPaused_ && view_.renderFirstFrames()) {
+        showPanes();
+        tellNumbers();
+      }
       const bool isRefined = refine();
       showWhatIsExact();
       showTev();

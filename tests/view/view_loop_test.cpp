@@ -1,6 +1,9 @@
 // The viewer as pages see it: what they are told, what they may ask for, and what cannot stop it.
 #include "experiments/view/view_loop.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <random>
 
 #include "experiments/runner/registries/registries.h"
@@ -117,6 +120,23 @@ TEST_F(ViewLoopTest, PausedPanesStandAndTheReferenceGoesOn) {
   page.waitFor("numbers", [&](const Json& n) { return n["age"] > later["age"]; });
 }
 
+// A pane whose method was changed shows it; the other one stands.
+TEST_F(ViewLoopTest, PausedPanesShowAChangeOfTheirMethod) {
+  start();
+  Page page(url());
+  page.say({{"do", "pause"}, {"on", true}});
+  page.waitFor("state", [](const Json& state) { return state["paused"]; });
+  page.say({{"do", "set"}, {"pane", 1}, {"key", "denoiser"}, {"value", "none"}});
+  const Json state = page.waitFor("state", [](const Json& s) { return s["can_undo"]; });
+  page.waitForImage([&](const ShownImage& image) {
+    return image.header.slot == 1 && image.header.epoch == state["epoch"];
+  });
+  const Json numbers =
+      page.waitFor("numbers", [&](const Json& n) { return n["epoch"] == state["epoch"]; });
+  EXPECT_EQ(numbers["panes"][1]["frame"], 1);
+  EXPECT_EQ(numbers["age"], 0) << "no round was rendered";
+}
+
 TEST_F(ViewLoopTest, TellsEveryPageOfAChange) {
   start();
   Page first(url()), second(url());
@@ -161,14 +181,22 @@ TEST_F(ViewLoopTest, RefusesInOneLineAndChangesNothing) {
 }
 
 TEST_F(ViewLoopTest, ProbesAPixel) {
+  // The lamp's brightest pixel: no other has its light.
+  Session once(prepareScene(facts_.request).scene, configOf("restir_gi"));
+  once.frame();
+  const std::vector<glm::vec3>& pixels = once.radiance().pixels;
+  const auto brightest = std::max_element(pixels.begin(), pixels.end(),
+                                          [](const auto& a, const auto& b) { return a.x < b.x; });
+  const auto index = uint32_t(brightest - pixels.begin());
+  const uint32_t x = index % 24, y = index / 24;
   start();
   Page page(url());
   page.waitFor("numbers", [](const Json& n) { return n["age"] >= 2; });
   page.say({{"do", "pause"}, {"on", true}});
   page.waitFor("state", [](const Json& state) { return state["paused"]; });
-  page.say({{"do", "probe"}, {"pane", 0}, {"x", 3}, {"y", 4}});
+  page.say({{"do", "probe"}, {"pane", 0}, {"x", x}, {"y", y}});
   const Json probe = page.waitFor("probe");
-  EXPECT_EQ(probe["x"], 3);
+  EXPECT_EQ(probe["x"], x);
   ASSERT_FALSE(probe["values"].empty());
   for (const Json& value : probe["values"]) {
     if (value["name"] != "confidence") continue;
@@ -178,20 +206,22 @@ TEST_F(ViewLoopTest, ProbesAPixel) {
   // Those of a session that renders as many frames, as `render --pixel` does.
   Session again(prepareScene(facts_.request).scene, configOf("restir_gi"));
   for (int frame = 0; frame < probe["frame"]; ++frame) again.frame();
-  EXPECT_EQ(probe["values"], Json(probedValuesJson(again, 3, 4)));
+  EXPECT_EQ(probe["values"], Json(probedValuesJson(again, x, y)));
   EXPECT_EQ(probe["values"][0]["name"], "shaded radiance");
-  const glm::vec3& shown = again.radiance().at(3, 4);
+  const glm::vec3& shown = again.radiance().at(x, y);
+  ASSERT_GT(shown.x, 0.0f);
   for (int c = 0; c < 3; ++c)
     EXPECT_NEAR(probe["values"][0]["value"][size_t(c)], shown[c], 1e-5 * shown[c]);
   const std::string command = probe["command"];
   EXPECT_EQ(command.rfind("restlab render cornell-box ", 0), 0u) << command;
-  EXPECT_NE(command.find("--pixel 3,4 --seed 1 --frame " + probe["frame"].dump()),
-            std::string::npos)
+  EXPECT_NE(
+      command.find(fmt::format("--pixel {},{} --seed 1 --frame {}", x, y, probe["frame"].dump())),
+      std::string::npos)
       << command;
   // No command line has a camera that somebody moved.
   Json camera = page.waitFor("numbers");
   page.say({{"do", "camera"}, {"to_world", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.1, 1, 3, 1}}});
-  page.say({{"do", "probe"}, {"pane", 0}, {"x", 3}, {"y", 4}});
+  page.say({{"do", "probe"}, {"pane", 0}, {"x", x}, {"y", y}});
   EXPECT_EQ(page.waitFor("probe")["command"], "");
 }
 
