@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 #include <sstream>
+#include <thread>
 
 #include "experiments/view/capture.h"
 #include "experiments/view/server.h"
@@ -114,9 +115,10 @@ TEST_F(ViewProgramTest, ProbeIsThatOfItsCommand) {
     view(SIGINT, arguments, [&](Page& page) {
       page.say(
           {{"do", "parameter"}, {"pane", 0}, {"name", "roughness_limit"}, {"value", 0.1 + 0.2}});
+      page.say({{"do", "parameter"}, {"pane", 0}, {"name", "confidence_cap"}, {"value", 2}});
       page.say({{"do", "restart"}});
       const Json state = page.waitFor("state", [](const Json& s) { return s["can_undo"]; });
-      page.waitFor("numbers", [](const Json& n) { return n["panes"][0]["frame"] >= 3; });
+      page.waitFor("numbers", [](const Json& n) { return n["panes"][0]["frame"] >= 8; });
       page.say({{"do", "pause"}, {"on", true}});
       page.waitFor("state", [](const Json& s) { return s["paused"]; });
       for (const int pane : {0, 1}) {
@@ -157,6 +159,7 @@ TEST_F(ViewProgramTest, GoesOnWithoutTev) {
           page.say({{"do", "restart"}});
           page.waitFor("numbers", [&](const Json& n) { return n["panes"][0]["frame"] > frames; });
         };
+        std::this_thread::sleep_for(std::chrono::milliseconds(2500));  // it has tried twice
         isOlder(3);
         EXPECT_TRUE(isSaid("--tev " + address + ": Connection refused"));
         tev->listen();
