@@ -65,8 +65,9 @@ class ProbePanel {
     for (const {values} of there) {
       for (const value of values) if (!names.has(value.name)) names.set(value.name, value);
     }
+    const donors = ({donors: list}) => list && list.length ? `, ${list.length} donors` : '';
     this.hint.textContent = there.map(one => `${PANE_NAMES[one.pane]}: frame ${one.frame}, seed ${
-        one.seed}, ${(one.donors || []).length} donors`).join('; ');
+        one.seed}${donors(one)}`).join('; ');
     const heads = there.map(one => make('th', {scope: 'col', class: 'num'}, PANE_NAMES[one.pane]));
     const rows = Array.from(names, ([name, info]) => make(
         'tr', {}, make('th', {scope: 'row', title: info.help || ''}, name,
