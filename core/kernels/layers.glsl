@@ -16,42 +16,27 @@ RL_FN float layersDisparity(uint slot) {
 #define RL_LAYERS_REACH 8u
 #define RL_LAYERS_NEAR 3u
 
-// Sums over pixels of one row or column: x in pixels from the pixel in question, y the disparity
-// less its own.
-struct LineSums {
-  float n;
-  float x;
-  float y;
-  float xx;
-  float xy;
-  float yy;
-};
 RL_FN LineSums lineNone() {
   LineSums s;
   s.n = 0.0f;
-  s.x = 0.0f;
-  s.y = 0.0f;
-  s.xx = 0.0f;
-  s.xy = 0.0f;
-  s.yy = 0.0f;
+  s.sumX = 0.0f;
+  s.sumY = 0.0f;
+  s.sumXX = 0.0f;
+  s.sumXY = 0.0f;
+  s.sumYY = 0.0f;
   return s;
 }
 RL_FN LineSums lineBoth(RL_IN(LineSums) a, RL_IN(LineSums) b) {
   LineSums s;
   s.n = a.n + b.n;
-  s.x = a.x + b.x;
-  s.y = a.y + b.y;
-  s.xx = a.xx + b.xx;
-  s.xy = a.xy + b.xy;
-  s.yy = a.yy + b.yy;
+  s.sumX = a.sumX + b.sumX;
+  s.sumY = a.sumY + b.sumY;
+  s.sumXX = a.sumXX + b.sumXX;
+  s.sumXY = a.sumXY + b.sumXY;
+  s.sumYY = a.sumYY + b.sumYY;
   return s;
 }
 
-// The pixels to a side, the first few of them and all, as long as they have the same normal.
-struct LineSide {
-  LineSums near;
-  LineSums all;
-};
 RL_FN LineSide lineAlong(uvec2 pixel, ivec2 side, float direction, RL_IN(vec3) nW, float here) {
   LineSide line;
   line.all = lineNone();
@@ -65,29 +50,25 @@ RL_FN LineSide lineAlong(uvec2 pixel, ivec2 side, float direction, RL_IN(vec3) n
     float x = float(i) * direction;
     float y = there - here;
     line.all.n += 1.0f;
-    line.all.x += x;
-    line.all.y += y;
-    line.all.xx += x * x;
-    line.all.xy += x * y;
-    line.all.yy += y * y;
+    line.all.sumX += x;
+    line.all.sumY += y;
+    line.all.sumXX += x * x;
+    line.all.sumXY += x * y;
+    line.all.sumYY += y * y;
     if (i <= RL_LAYERS_NEAR) line.near = line.all;
   }
   return line;
 }
 
-struct LineFit {
-  float slope;
-  float squareError;  // of the slope
-};
 // The better one of `best` and the line through the pixel (x = y = 0) and those of `s`, by least
 // squares. Pixels beyond an edge make the residual and so the error large.
 RL_FN LineFit lineBetter(RL_IN(LineFit) best, RL_IN(LineSums) s, float here) {
   float n = s.n + 1.0f;
   if (!(s.n > 0.0f)) return best;
-  float spread = s.xx - s.x * s.x / n;
+  float spread = s.sumXX - s.sumX * s.sumX / n;
   LineFit fit;
-  fit.slope = (s.xy - s.x * s.y / n) / spread;
-  float residual = s.yy - s.y * s.y / n - fit.slope * (s.xy - s.x * s.y / n);
+  fit.slope = (s.sumXY - s.sumX * s.sumY / n) / spread;
+  float residual = s.sumYY - s.sumY * s.sumY / n - fit.slope * (s.sumXY - s.sumX * s.sumY / n);
   // What rounding alone leaves says nothing: the longer line is the better one then.
   residual = max(residual, 1.0e-11f * here * here);
   // Too few pixels lie on a line by chance.

@@ -25,6 +25,28 @@ struct LayersParams {
   uint demodulates;  // 0: nothing is divided by
 };
 
+// Sums over pixels of one row or column: x in pixels from the pixel in question, y the disparity
+// less its own.
+struct LineSums {
+  float n;
+  float sumX;
+  float sumY;
+  float sumXX;
+  float sumXY;
+  float sumYY;
+};
+
+// Those of the pixels to one side as long as they have the same normal: the first few, and all.
+struct LineSide {
+  LineSums near;
+  LineSums all;
+};
+
+struct LineFit {
+  float slope;
+  float squareError;  // of the slope
+};
+
 RL_NAMESPACE_END
 
 #define RL_KERNEL_BUFFERS LayersBuffers
