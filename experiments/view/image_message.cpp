@@ -2,7 +2,9 @@
 
 #include <half.h>
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 
 namespace restlab {
@@ -31,7 +33,9 @@ Bytes imageMessage(ImageHeader header, const Image& image) {
   }
   for (const glm::vec3& pixel : image.pixels) {
     for (int c = 0; c < 3; ++c) {
-      const half value(pixel[c]);
+      // An infinity is the mark of a fault: what is finite stays so.
+      const float most = HALF_MAX;
+      const half value(std::isfinite(pixel[c]) ? std::clamp(pixel[c], -most, most) : pixel[c]);
       write(&value, sizeof value);
     }
   }

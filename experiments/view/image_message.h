@@ -23,8 +23,8 @@ struct ImageHeader {
 };
 constexpr size_t kImageHeaderBytes = 32;
 
-// `header` says the format; the size is the image's. Halves are rounded to the nearest, what is too
-// large for them is infinite.
+// `header` says the format; the size is the image's. Halves are rounded to the nearest; what
+// is finite and too large for them becomes the largest of them.
 Bytes imageMessage(ImageHeader header, const Image& image);
 
 }  // namespace restlab

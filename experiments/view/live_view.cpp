@@ -70,9 +70,10 @@ bool LiveView::renderFirstFrames() {
 void LiveView::renderFrame(Pane& pane) {
   pane.stats = pane.session->frame();
   ++pane.frames;
+  pane.epoch = epoch_;
   if (!reference_.isThere()) return;
   pane.error.add(pane.session->radiance(), reference_.mean(), reference_.half0(),
-                 reference_.half1());
+                 reference_.half1(), reference_.spp());
 }
 
 std::unique_ptr<Session> LiveView::sessionOf(const SessionConfig& config,
@@ -123,8 +124,16 @@ void LiveView::resize(const std::vector<Pane*>& panes, const SessionConfig& befo
   };
   try {
     resizeAll(after);
-  } catch (const Error&) {
-    resizeAll(before);  // where there was memory before
+  } catch (...) {
+    // Where there was memory before. If there is none now, no session is whole: that is the end.
+    try {
+      resizeAll(before);
+    } catch (const std::exception& error) {
+      throw std::runtime_error(
+          fmt::format("the size of before has no room any more: {}", error.what()));
+    }
+    for (Pane* pane : panes) pane->isPlain = true;
+    beginEpoch(false);
     throw;
   }
 }

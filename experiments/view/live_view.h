@@ -45,6 +45,8 @@ class LiveView {
   const FrameStats& stats(size_t pane) const { return panes_.at(pane).stats; }
   // Since its history began.
   uint64_t frames(size_t pane) const { return panes_.at(pane).frames; }
+  // That in which the pane's last frame was rendered: a pane that is paused shows what was.
+  uint64_t epochOf(size_t pane) const { return panes_.at(pane).epoch; }
   // A history in which nothing was changed: that of a session which began with what is set.
   bool hasPlainHistory(size_t pane) const { return panes_.at(pane).isPlain; }
   const std::string& layer(size_t pane) const { return settings_.panes.at(pane).layer; }
@@ -59,6 +61,7 @@ class LiveView {
     FrameStats stats;
     RunningError error;
     uint64_t frames = 0;
+    uint64_t epoch = 0;  // of the last frame
     bool isPlain = true;
   };
 

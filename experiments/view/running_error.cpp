@@ -45,10 +45,16 @@ void RunningError::restart() {
   mse_.clear();
   relmse_.clear();
   energy_.clear();
+  relativeSpp_ = 0;
 }
 
 void RunningError::add(const Image& frame, const Image& mean, const Image& half0,
-                       const Image& half1) {
+                       const Image& half1, uint64_t referenceSpp) {
+  if (referenceSpp >= 2 * relativeSpp_) {
+    relmse_.clear();
+    energy_.clear();
+    relativeSpp_ = referenceSpp;
+  }
   mse_.push_back(mseAgainstHalves(frame, half0, half1));
   relmse_.push_back(relmseAgainstHalves(frame, mean, half0, half1).relmse);
   energy_.push_back(meanOf(frame) / meanOf(mean));

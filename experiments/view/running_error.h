@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "core/image/image.h"
@@ -13,13 +14,17 @@ class RunningError {
  public:
   // Forgets every frame: numbers of two settings never mix.
   void restart();
-  // A frame, and the reference as it is by then: its mean and independent halves.
-  void add(const Image& frame, const Image& mean, const Image& half0, const Image& half1);
+  // A frame, and the reference as it is by then: its mean, independent halves, and the samples of
+  // a pixel that are in them. relMSE and energy divide by the mean: those of a reference that was
+  // still noisy are another number. They begin anew whenever the samples have doubled.
+  void add(const Image& frame, const Image& mean, const Image& half0, const Image& half1,
+           uint64_t referenceSpp);
 
   size_t frames() const { return mse_.size(); }
   double lastMse() const { return mse_.back(); }  // there is a frame
-  // Means over the window. Frames that share a history are correlated: intervals are those of
-  // kBatches batches of frames side by side, and unknown before there are kLeastFrames.
+  // Means over the window. Intervals are those of kBatches batches of frames side by side, and
+  // unknown before there are kLeastFrames. Histories that are longer than a batch make them too
+  // narrow, and a method that still converges makes them wide.
   Interval mse() const;
   Interval relmse() const;       // relmse_e1e-2 against the halves
   Interval energyRatio() const;  // mean(frame) / mean(reference)
@@ -28,6 +33,7 @@ class RunningError {
 
  private:
   std::vector<double> mse_, relmse_, energy_;
+  uint64_t relativeSpp_ = 0;  // of the reference when relmse_ and energy_ began
 };
 
 }  // namespace restlab

@@ -184,10 +184,18 @@ bool ViewLoop::refine() {
   const LiveReference& reference = view_.reference();
   // Rounds may be longer than that: who drags has said more meanwhile.
   if (secondsSince(pictureChanged_) < kStillS || events_.areWaiting()) return false;
-  if (reference.spp() >= kMostReferenceSpp) return false;
+  if (reference.spp() >= kMostReferenceSpp || view_.picture() == withoutReference_) return false;
   if (!isPaused_ && referenceCreditS_ < reference.sampleMs() / 1000.0) return false;
   const Clock::time_point start = Clock::now();
-  view_.refineReference();
+  try {
+    view_.refineReference();
+  } catch (const FrameStopped&) {
+    throw;
+  } catch (const std::exception& error) {  // two more sessions may find no memory
+    withoutReference_ = view_.picture();
+    sender_.tellAll(errorText(fmt::format("no reference of this picture: {}", error.what()), ""));
+    return false;
+  }
   if (!isPaused_) referenceCreditS_ = std::max(0.0, referenceCreditS_ - secondsSince(start));
   showReference(false);
   return true;
@@ -203,7 +211,7 @@ void ViewLoop::showPanes() {
     ImageHeader header;
     header.slot = i;
     header.frame = uint32_t(view_.frames(i));
-    header.epoch = view_.epoch();
+    header.epoch = view_.epochOf(i);
     sender_.show(header, view_.session(i).radiance(), isStill());
     if (view_.layer(i).empty()) continue;
     header.slot = kFirstLayerSlot + i;

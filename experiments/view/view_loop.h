@@ -70,6 +70,7 @@ class ViewLoop {
   ViewSender sender_;
   std::atomic<bool> isStopped_{false};
   bool isPaused_ = false;
+  uint64_t withoutReference_ = 0;  // the picture that has no memory for one
   Clock::time_point changed_, pictureChanged_;
   double referenceCreditS_ = 0.0;
   Clock::time_point referenceShown_;

@@ -38,9 +38,9 @@ TEST(ImageMessages, RoundToHalves) {
   const Bytes bytes = imageMessage({0, PixelFormat::halves}, twoPixels());
   ASSERT_EQ(bytes.size(), kImageHeaderBytes + 12);
   EXPECT_EQ(at<uint32_t>(bytes, 8), 1u);
-  // 0.1 is 1.6 x 2^-4: 0x2e66 is nearest. 1e6 is above the largest half; 3e-8 is nearest 2^-25 of
-  // none, 2^-24 of 1.
-  const uint16_t expected[] = {0x2e66, 0x8000, 0, 0x7c00, 0x7c00, 0x0001};
+  // 0.1 is 1.6 x 2^-4: 0x2e66 is nearest. 1e6 is above the largest half, which stands for it; 3e-8
+  // is nearest 2^-25 of none, 2^-24 of 1.
+  const uint16_t expected[] = {0x2e66, 0x8000, 0, 0x7bff, 0x7c00, 0x0001};
   for (size_t i = 0; i < 6; ++i) {
     const uint16_t word = at<uint16_t>(bytes, kImageHeaderBytes + 2 * i);
     if (i == 2) {

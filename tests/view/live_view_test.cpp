@@ -214,11 +214,11 @@ TEST(RunningErrors, HaveIntervalsOfBatches) {
   const Image zero(1, 1, glm::vec3(0.0f)), one(1, 1, glm::vec3(1.0f));
   RunningError error;
   for (size_t i = 0; i < RunningError::kLeastFrames; ++i)
-    error.add(Image(1, 1, glm::vec3(i % 2 == 0 ? 1.0f : 3.0f)), one, one, one);
+    error.add(Image(1, 1, glm::vec3(i % 2 == 0 ? 1.0f : 3.0f)), one, one, one, 8);
   EXPECT_DOUBLE_EQ(error.mse().value, 2.0);  // (0 + 4) / 2
   EXPECT_DOUBLE_EQ(error.mse().lo, 2.0) << "batches of as many of each have no spread";
   EXPECT_DOUBLE_EQ(error.energyRatio().value, 2.0);
-  for (size_t i = 0; i < RunningError::kLeastFrames; ++i) error.add(one, one, one, one);
+  for (size_t i = 0; i < RunningError::kLeastFrames; ++i) error.add(one, one, one, one, 8);
   EXPECT_DOUBLE_EQ(error.mse().value, 1.0);
   EXPECT_LT(error.mse().lo, 1.0);
   EXPECT_GT(error.mse().hi, 1.0);

@@ -27,6 +27,8 @@ function imageCommands() {
   return commands;
 }
 
+const PAN_STEP = 60;  // CSS pixels
+
 const isErrorView = viewer => viewer.state.error !== 'none';
 
 const VIEWER_COMMANDS = [
@@ -49,6 +51,11 @@ const VIEWER_COMMANDS = [
    run: viewer => viewer.fit()},
   {id: 'actual', keys: ['0'], group: 'View', title: 'one screen pixel a pixel',
    run: viewer => viewer.actualSize()},
+  ...[['left', 1, 0], ['right', -1, 0], ['up', 0, 1], ['down', 0, -1]].map(([way, dx, dy]) => ({
+        id: `pan-${way}`, keys: [`Ctrl+Arrow${way[0].toUpperCase()}${way.slice(1)}`],
+        group: 'View', title: `look further ${way} in the picture`,
+        row: way === 'left' ? ['Ctrl + arrows', 'move the picture'] : null,
+        run: viewer => viewer.pan(PAN_STEP * dx, PAN_STEP * dy)})),
   {id: 'zoom-in', keys: ['+', '='], group: 'View', title: 'zoom in',
    run: viewer => viewer.zoom(1.5)},
   {id: 'zoom-out', keys: ['-'], group: 'View', title: 'zoom out',

@@ -31,6 +31,11 @@ function isField(element) {
   return Boolean(element.closest('input:not([type=range], [type=checkbox]), textarea, select'));
 }
 
+// What a slider does by itself.
+function movesSlider(event) {
+  return /^(Arrow|Home|End|Page)/.test(event.key) && event.target.closest('input[type=range]');
+}
+
 // Arrows scroll a table that is wider than its place.
 function scrollsTable(event) {
   const table = event.key.startsWith('Arrow') && event.target.closest('.scroll');
@@ -58,7 +63,7 @@ function addKeys(viewers, commands) {
   document.addEventListener('keydown', event => {
     // A dialog has its own keys, and what took a key has it.
     if (event.defaultPrevented || document.querySelector('dialog[open]')) return;
-    if (scrollsTable(event)) return;
+    if (scrollsTable(event) || movesSlider(event)) return;
     const found = commandOfKey(event, viewers, commands);
     if (!found) return;
     event.preventDefault();

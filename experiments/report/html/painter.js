@@ -27,11 +27,10 @@ class Painter {
     return this.gl && !this.gl.isLost ? 'webgl2' : '2d';
   }
 
-  // Error of image i against the one that is compared with; null while one of them has no data, or
-  // while their sizes differ.
+  // Error of image i against the one that is compared with; null while they cannot be compared.
   plane(kind, i) {
     const image = this.images[i], other = this.images[this.state.compare];
-    if (!image.data || !other.data || image.data.length !== other.data.length) return null;
+    if (!areComparable(image, other)) return null;
     const key = `${this.state.compare} ${versionOf(image)} ${versionOf(other)}`;
     return this.planes.get(`${kind} ${i}`, key, held => errorPlane(
                                kind, image.data, other.data, held && held.values));

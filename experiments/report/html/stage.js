@@ -16,9 +16,11 @@ function bestColumns(n, width, mostHeight, aspect) {
   return best;
 }
 
-// Whether an image can be compared with another one pixel by pixel.
+// Whether an image can be compared with another one pixel by pixel. Those of a live page have an
+// epoch: another one is of another picture or method.
 function areComparable(a, b) {
-  return Boolean(a.data && b.data) && a.width === b.width && a.height === b.height;
+  return Boolean(a.data && b.data) && a.width === b.width && a.height === b.height &&
+      a.epoch === b.epoch;
 }
 
 // {height, views: [{x, y, width, height, image, isError, clip: [left, right] or absent}]} in CSS

@@ -90,7 +90,11 @@ class Viewer {
 
   label(view) {
     const error = view.isError ? ` \u2013 ${ERRORS[this.state.error].title}` : '';
-    return `${view.image < 9 ? `${view.image + 1}  ` : ''}${this.images[view.image].name}${error}`;
+    const image = this.images[view.image];
+    // Of a live page: what shows the state before a change.
+    const isOld = image.data && image.epoch !== undefined && image.epoch !== this.data.epoch;
+    return `${view.image < 9 ? `${view.image + 1}  ` : ''}${image.name}${error}${
+        isOld ? ' \u2013 before the change' : ''}`;
   }
 
   // At the next frame, however often it is asked for.
@@ -204,6 +208,12 @@ class Viewer {
   }
 
   toggleTone() { this.set({tone: this.state.tone === 'srgb' ? 'false' : 'srgb'}); }
+
+  // By CSS pixels.
+  pan(dx, dy) {
+    this.camera.pan(dx, dy);
+    this.redraw();
+  }
 
   fit() {
     this.camera.fit();

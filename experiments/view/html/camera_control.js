@@ -102,7 +102,11 @@ class CameraControl {
     const scale = (this.yfov || 0.8) / (this.page.state.height * this.page.viewer.camera.scale);
     const target = isOrbit ? this.orbitTarget(hit, event.altKey && hit && hit.pixel) : null;
     this.dragging = true;
-    document.addEventListener('pointerup', () => { this.dragging = false; }, {once: true});
+    const end = () => {
+      this.dragging = false;
+      for (const name of ['pointerup', 'pointercancel']) document.removeEventListener(name, end);
+    };
+    for (const name of ['pointerup', 'pointercancel']) document.addEventListener(name, end);
     if (isOrbit) {
       return {move: (dx, dy) => this.moveTo(orbited(this.pose, target, -0.008 * dx, -0.008 * dy))};
     }

@@ -23,12 +23,15 @@ function stateForAddress(state, viewer, settings) {
 
 const fragmentOf = kept => `#${encodeURIComponent(JSON.stringify(kept))}`;
 
+const isObject = value => value !== null && typeof value === 'object';
+const isKept = kept => isObject(kept) && Array.isArray(kept.panes) && kept.panes.every(isObject);
+
 // Null where there is none, or one that is none of ours.
 function readFragment(hash) {
   if (hash.length < 2) return null;
   try {
     const kept = JSON.parse(decodeURIComponent(hash.slice(1)));
-    return kept && typeof kept === 'object' && Array.isArray(kept.panes) ? kept : null;
+    return isKept(kept) ? kept : null;
   } catch {
     return null;
   }

@@ -41,6 +41,7 @@ class LivePage {
     if (!isFirst && state.panes.length + 1 !== this.viewer.images.length) location.reload();
     this.root.dataset.epoch = state.epoch;
     if (isFirst) this.build(state);
+    this.viewer.data.epoch = state.epoch;
     state.panes.forEach((pane, i) => {
       this.viewer.setImage(i, {name: `${PANE_NAMES[i]}: ${methodName(pane, this.hello)}`});
       if (!pane.layer && this.viewer.images[i].overlay) this.viewer.setImage(i, {overlay: null});
@@ -117,6 +118,13 @@ class LivePage {
     if (this.kept && !isReload) {
       for (const command of commandsTowards(this.kept, state, settings)) this.session.send(command);
     }
+    // Who pastes another address goes there, too.
+    window.addEventListener('hashchange', () => {
+      const kept = readFragment(location.hash);
+      if (!kept) return;
+      applyView(kept.view, this.viewer);
+      for (const command of commandsTowards(kept, this.state, settings)) this.session.send(command);
+    });
     setInterval(() => {
       const text = fragmentOf(stateForAddress(this.state, this.viewer, settings));
       if (text !== location.hash) history.replaceState(null, '', text);
@@ -133,7 +141,8 @@ class LivePage {
     const i = head.slot === REFERENCE_SLOT ? images.length - 1 : head.slot;
     if (!images[i]) return;
     const data = readPixels(head, images[i].data);
-    this.viewer.setImage(i, {data, nonfinite: nonfinitePixels(data), width, height});
+    this.viewer.setImage(i, {data, nonfinite: nonfinitePixels(data), width, height,
+                             epoch: head.epoch});
     this.root.dataset.received = Number(this.root.dataset.received || 0) + 1;
   }
 

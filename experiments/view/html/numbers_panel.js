@@ -3,7 +3,7 @@
 // [key, title, help, text(pane), {lo, hi} or nothing]
 const NUMBER_ROWS = [
   ['mse', 'MSE', 'mean squared error of single frames against the reference: mean over the ' +
-                 'window of frames, 95 % interval', pane => pane.mse],
+                 'window of frames; the interval is of eight batches of them', pane => pane.mse],
   ['relmse', 'relMSE', 'the same, relative to the reference squared', pane => pane.relmse],
   ['energy', 'energy', 'mean of the frames over mean of the reference; 1 is right',
    pane => pane.energy],
@@ -13,12 +13,6 @@ const NUMBER_ROWS = [
   ['rays', 'rays', 'rays of the last frame', pane => withPrefix(pane.rays, '')],
   ['bytes', 'memory', 'bytes that the method keeps', pane => bytesText(pane.bytes)]
 ];
-
-// What of A and B is lower with intervals that do not meet: its index, or -1.
-function clearlyLower(a, b) {
-  if (!a || !b || ![a.lo, a.hi, b.lo, b.hi].every(Number.isFinite)) return -1;
-  return a.hi < b.lo ? 0 : b.hi < a.lo ? 1 : -1;
-}
 
 class NumbersPanel {
   // `faults`: names of the health counts that must be 0; the others say what a method does.
@@ -54,11 +48,9 @@ class NumbersPanel {
     const panes = numbers.panes;
     for (const [key, , , of] of NUMBER_ROWS) {
       const values = panes.map(of);
-      const better = key === 'mse' || key === 'relmse' ? clearlyLower(...values) : -1;
       this.cells.get(key).forEach((cell, i) => {
         if (i >= values.length) return;
         this.showCell(cell, values[i], key === 'energy' ? 4 : 3);
-        cell.cell.classList.toggle('best', i === better);
       });
     }
     panes.forEach((pane, i) => this.showHealth(this.health[i], pane.health || {}));
@@ -72,7 +64,7 @@ class NumbersPanel {
     // The viewer itself keeps every thread busy.
     const isBusy = numbers.busy > 2;
     this.transport.classList.toggle('warn', isBusy);
-    this.transport.title = 'what comes to this page; load average of the machine over its threads' +
+    this.transport.title = 'what goes to all pages; load average of the machine over its threads' +
         (isBusy ? ': it does other things, too, and times are longer than on a quiet one' : '');
   }
 

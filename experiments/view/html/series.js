@@ -13,11 +13,11 @@ class ErrorSeries {
   }
 
   reset() {
-    this.curves = Array.from({length: this.count}, () => ({points: [], seconds: 0, frames: 0}));
+    this.curves = Array.from({length: this.count}, () => ({points: [], seconds: 0, rounds: 0, frames: 0}));
   }
 
-  // Of a message of numbers. `seconds` is the time that the pane rendered, as frames times the last
-  // frame's time.
+  // Of a message of numbers. `seconds` is the time that the pane rendered since the change, as
+  // rounds times the last frame's time.
   add(numbers) {
     if (numbers.epoch !== this.epoch) {
       if (this.epoch !== null) this.before = this.curves.map(curve => curve.points);
@@ -27,7 +27,8 @@ class ErrorSeries {
     numbers.panes.forEach((pane, i) => {
       const curve = this.curves[i];
       if (!curve || !(pane.frame > curve.frames)) return;
-      curve.seconds += (pane.frame - curve.frames) * (pane.ms || 0) / 1000;
+      curve.seconds += Math.max(0, numbers.age - curve.rounds) * (pane.ms || 0) / 1000;
+      curve.rounds = numbers.age;
       curve.frames = pane.frame;
       if (!(pane.last_mse > 0)) return;
       const point = {age: pane.frame, seconds: curve.seconds, mse: pane.last_mse};
