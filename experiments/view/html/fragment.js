@@ -13,6 +13,7 @@ function stateForAddress(state, viewer, settings) {
     return kept;
   });
   const view = Object.fromEntries(VIEW_FIELDS.map(key => [key, viewer.state[key]]));
+  view.exposure = viewer.painter.exposure;
   const {fitted, x, y, scale} = viewer.camera;
   if (!fitted) view.zoom = [x, y, scale].map(value => Number(value.toPrecision(6)));
   const lights = state.lights.filter(({factor}) => factor !== 1);
@@ -87,6 +88,8 @@ function applyView(view, viewer) {
   for (const key of ['current', 'compare']) if (!viewer.images[change[key]]) delete change[key];
   if (!ERROR_ORDER.includes(change.error)) delete change.error;
   viewer.set(change);
+  // The program's own says how bright the picture was when this page was opened.
+  if (view && view.exposure > 0 && Number.isFinite(view.exposure)) viewer.setExposure(view.exposure);
   if (view && Array.isArray(view.zoom) && view.zoom.every(Number.isFinite)) {
     const [x, y, scale] = view.zoom;
     Object.assign(viewer.camera, {fitted: false, x, y, scale});

@@ -2,7 +2,7 @@
 
 const LINK_TEXTS = {
   connecting: 'connecting \u2026', connected: 'connected', reconnecting: 'reconnecting \u2026',
-  ended: 'the program has ended'
+  ended: 'the program does not answer: start it again and open its new address'
 };
 
 class Header {

@@ -32,7 +32,6 @@ class LivePage {
   greet(hello) {
     if (this.hello && this.hello.scene.name !== hello.scene.name) location.reload();
     this.hello = hello;
-    if (this.viewer && hello.exposure > 0) this.viewer.setExposure(hello.exposure);
   }
 
   show(state) {

@@ -7,7 +7,7 @@ const NUMBER_ROWS = [
   ['relmse', 'relMSE', 'the same, relative to the reference squared', pane => pane.relmse],
   ['energy', 'energy', 'mean of the frames over mean of the reference; 1 is right',
    pane => pane.energy],
-  ['frames', 'frames', 'age of the history; frames in the window of the numbers above',
+  ['frames', 'frame / of', 'frames of the history; frames in the window of the numbers above',
    pane => `${quantity(pane.frame)} / ${quantity(pane.frames_measured)}`],
   ['ms', 'time', 'milliseconds of the last frame', pane => milliseconds(pane.ms)],
   ['rays', 'rays', 'rays of the last frame', pane => withPrefix(pane.rays, '')],
@@ -58,14 +58,14 @@ class NumbersPanel {
     setText(this.reference, r && r.spp ? `reference: ${r.spp} spp, own relMSE ${
         quantity(r.relmse)}, ${milliseconds(r.ms_per_sample)}/spp` : 'reference: not yet there');
     const isLoadKnown = typeof numbers.busy === 'number';
-    const busy = isLoadKnown ? `; load ${quantity(numbers.busy, 2)}` : '';
+    const isBusy = numbers.busy > 2;
+    const busy = isLoadKnown ? `; load ${quantity(numbers.busy, 2)}${
+        isBusy ? ', times are longer than on a quiet machine' : ''}` : '';
     setText(this.transport, (t ? `images: ${t.width}\u00d7${t.height}, ${t.bits} bits, ${
         quantity(t.mb_per_second)} MB/s` : '') + busy);
     // The viewer itself keeps every thread busy.
-    const isBusy = numbers.busy > 2;
     this.transport.classList.toggle('warn', isBusy);
-    this.transport.title = 'what goes to all pages; load average of the machine over its threads' +
-        (isBusy ? ': it does other things, too, and times are longer than on a quiet one' : '');
+    this.transport.title = 'what goes to all pages; load average of the machine over its threads';
   }
 
   showCell({value, interval}, given, digits) {

@@ -7,8 +7,8 @@ class PlotsPanel {
   constructor(count) {
     this.series = new ErrorSeries(count);
     this.passes = new PassBars();
-    this.byAge = new LogPlot('MSE of each frame against the age of the history', 'age',
-                             'age of the history, frames', 'MSE of the frame');
+    this.byAge = new LogPlot('MSE of each frame against frames since the change', 'age',
+                             'frames since the change', 'MSE of the frame');
     this.byTime = new LogPlot('MSE of each frame against render time', 'seconds',
                               'render time since the change, s', 'MSE of the frame');
     this.mark = make('p', {class: 'hint', 'data-number': 'epoch'});

@@ -31,7 +31,7 @@ class ErrorSeries {
       curve.rounds = numbers.age;
       curve.frames = pane.frame;
       if (!(pane.last_mse > 0)) return;
-      const point = {age: pane.frame, seconds: curve.seconds, mse: pane.last_mse};
+      const point = {age: Math.max(1, numbers.age), seconds: curve.seconds, mse: pane.last_mse};
       const {points} = curve, last = points[points.length - 1];
       const one = points[points.length - 2];
       // The newest point is always there; the one before it only where it is far enough.
