@@ -19,8 +19,8 @@ function bestColumns(n, width, mostHeight, aspect) {
 // Whether an image can be compared with another one pixel by pixel. Those of a live page have an
 // epoch: another one is of another picture or method.
 function areComparable(a, b) {
-  return Boolean(a.data && b.data) && a.width === b.width && a.height === b.height &&
-      a.epoch === b.epoch;
+  return Boolean(a.data && b.data) && a.data.length === b.data.length && a.width === b.width &&
+      a.height === b.height && a.epoch === b.epoch;
 }
 
 // {height, views: [{x, y, width, height, image, isError, clip: [left, right] or absent}]} in CSS
