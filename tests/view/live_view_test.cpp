@@ -10,30 +10,17 @@
 #include "core/scene/compiled_scene.h"
 #include "experiments/runner/run/experiment.h"
 #include "tests/runner/temporary_folder.h"
+#include "tests/view/small_panes.h"
 
 namespace restlab {
 namespace {
 
 class LiveViewTest : public TemporaryFolder {
  protected:
-  static SessionConfig configOf(const std::string& integrator,
-                                const std::string& denoiser = "none") {
-    SessionConfig config;
-    config.integrator = integrator;
-    config.denoiser = denoiser;
-    config.width = 24;
-    config.height = 16;
-    config.maxBounces = 3;
-    config.threads = 1;
-    return config;
-  }
-  static PreparedScene box() {
-    SceneRequest request;
-    request.scene = "cornell-box";
-    return prepareScene(request);
-  }
   LiveView open(const ReferenceStore& store = {}) {
-    return {box(), {configOf("restir_gi"), configOf("path", "accumulate")}, store};
+    return {view_test::cornellBox(),
+            {view_test::smallPane("restir_gi"), view_test::smallPane("path", "accumulate")},
+            store};
   }
   static std::vector<glm::vec3> pixels(const Session& session) { return session.radiance().pixels; }
   std::string errorOf(LiveView& view, const ViewCommand& command) {
@@ -50,7 +37,8 @@ class LiveViewTest : public TemporaryFolder {
 
 TEST_F(LiveViewTest, PanesRenderWhatSessionsDo) {
   LiveView view = open();
-  Session gi(box().scene, configOf("restir_gi")), path(box().scene, configOf("path", "accumulate"));
+  Session gi(view_test::cornellBox().scene, view_test::smallPane("restir_gi")),
+      path(view_test::cornellBox().scene, view_test::smallPane("path", "accumulate"));
   for (int frame = 0; frame < 3; ++frame) {
     view.renderFrames();
     gi.frame();
@@ -89,7 +77,7 @@ TEST_F(LiveViewTest, NumbersOfAFrameAreThoseOfASuite) {
   reference.mean = view.reference().mean();
   reference.half0 = view.reference().half0();
   reference.half1 = view.reference().half1();
-  Session gi(box().scene, configOf("restir_gi"));
+  Session gi(view_test::cornellBox().scene, view_test::smallPane("restir_gi"));
   double mse = 0.0, relmse = 0.0, energy = 0.0;
   constexpr uint32_t kFrames = 5;
   for (uint32_t frame = 0; frame < kFrames; ++frame) {
@@ -146,7 +134,7 @@ TEST_F(LiveViewTest, EveryChangeBeginsTheNumbersAnew) {
 
 TEST_F(LiveViewTest, AMovedCameraGoesOnWithItsHistory) {
   LiveView view = open();
-  Session gi(box().scene, configOf("restir_gi"));
+  Session gi(view_test::cornellBox().scene, view_test::smallPane("restir_gi"));
   MoveCamera move;
   SceneCamera camera = view.camera();
   for (int frame = 0; frame < 4; ++frame) {
@@ -177,7 +165,7 @@ TEST_F(LiveViewTest, WhatCannotBeDoneChangesNothing) {
   EXPECT_NE(errorOf(view, SetLight{"lampe", 2.0}).find("lampe"), std::string::npos);
   EXPECT_NE(errorOf(view, ShowLayer{0, "agee"}).find("'age'"), std::string::npos);
   view.renderFrames();
-  Session gi(box().scene, configOf("restir_gi"));
+  Session gi(view_test::cornellBox().scene, view_test::smallPane("restir_gi"));
   gi.frames(2);
   EXPECT_EQ(pixels(view.session(0)), pixels(gi));
 }

@@ -10,23 +10,12 @@
 #include "experiments/view/view_loop.h"
 #include "tests/runner/temporary_folder.h"
 #include "tests/view/page.h"
+#include "tests/view/small_panes.h"
 
 namespace restlab::view_test {
 
 class ViewLoopTest : public TemporaryFolder {
  protected:
-  static SessionConfig configOf(const std::string& integrator,
-                                const std::string& denoiser = "none") {
-    SessionConfig config;
-    config.integrator = integrator;
-    config.denoiser = denoiser;
-    config.width = 24;
-    config.height = 16;
-    config.maxBounces = 3;
-    config.threads = 1;
-    return config;
-  }
-
   void SetUp() override {
     TemporaryFolder::SetUp();
     facts_.request.scene = "cornell-box";
@@ -34,7 +23,7 @@ class ViewLoopTest : public TemporaryFolder {
 
   void start() {
     start(settingsOf(prepareScene(facts_.request),
-                     {configOf("restir_gi"), configOf("path", "accumulate")}));
+                     {smallPane("restir_gi"), smallPane("path", "accumulate")}));
   }
   void start(const ViewSettings& settings) {
     view_.emplace(prepareScene(facts_.request), settings, ReferenceStore{});

@@ -76,7 +76,7 @@ void LivePageTest::expectNothingWrong(const Browser& browser) const {
 }
 
 std::vector<SessionConfig> LivePageTest::smallPanes() {
-  std::vector<SessionConfig> panes = {configOf("restir_gi"), configOf("path", "accumulate")};
+  std::vector<SessionConfig> panes = {smallPane("restir_gi"), smallPane("path", "accumulate")};
   for (SessionConfig& pane : panes) {
     pane.width = 64;
     pane.height = 36;

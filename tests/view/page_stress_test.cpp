@@ -16,7 +16,7 @@ TEST_F(PageStressTest, KeysAreAnsweredWhileAFrameRenders) {
   constexpr double kMostMs = 250.0;
   constexpr int kKeys = 20;
   facts_.request.scene = "furnace";
-  std::vector<SessionConfig> panes = {configOf("restir_gi"), configOf("path")};
+  std::vector<SessionConfig> panes = {smallPane("restir_gi"), smallPane("path")};
   for (SessionConfig& pane : panes) {
     pane.width = 640;
     pane.height = 360;

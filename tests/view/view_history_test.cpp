@@ -5,27 +5,13 @@
 
 #include "core/error.h"
 #include "experiments/view/live_view.h"
+#include "tests/view/small_panes.h"
 
 namespace restlab {
 namespace {
 
 class ViewStepsTest : public ::testing::Test {
  protected:
-  static SessionConfig configOf(const std::string& integrator, const std::string& denoiser) {
-    SessionConfig config;
-    config.integrator = integrator;
-    config.denoiser = denoiser;
-    config.width = 12;
-    config.height = 8;
-    config.maxBounces = 2;
-    config.threads = 1;
-    return config;
-  }
-  static PreparedScene box() {
-    SceneRequest request;
-    request.scene = "cornell-box";
-    return prepareScene(request);
-  }
   static MoveCamera cameraAt(const LiveView& view, double x) {
     MoveCamera move;
     for (int i = 0; i < 16; ++i)
@@ -35,7 +21,10 @@ class ViewStepsTest : public ::testing::Test {
     return move;
   }
 
-  LiveView view_{box(), {configOf("restir_gi", "none"), configOf("path", "accumulate")}, {}};
+  LiveView view_{
+      view_test::cornellBox(),
+      {view_test::smallPane("restir_gi", "none"), view_test::smallPane("path", "accumulate")},
+      {}};
 };
 
 TEST_F(ViewStepsTest, EachLeadsBackAndForth) {
@@ -82,7 +71,7 @@ TEST_F(ViewStepsTest, EachLeadsBackAndForth) {
   view_.apply(Restart{});
   view_.renderFrames();
   for (size_t i = 0; i < view_.panes(); ++i) {
-    const LiveView other(box(), view_.settings(), {});
+    const LiveView other(view_test::cornellBox(), view_.settings(), {});
     EXPECT_EQ(other.session(i).config().parameters, view_.session(i).config().parameters);
     EXPECT_EQ(other.session(i).config().denoiser, view_.session(i).config().denoiser);
     EXPECT_EQ(view_.session(i).radiance().width, 16u);

@@ -68,7 +68,7 @@ TEST_F(ViewLoopTest, ShowsWhatSessionsRender) {
     });
   }
   const PreparedScene box = prepareScene(facts_.request);
-  Session gi(box.scene, configOf("restir_gi")), path(box.scene, configOf("path", "accumulate"));
+  Session gi(box.scene, smallPane("restir_gi")), path(box.scene, smallPane("path", "accumulate"));
   for (uint32_t slot : {0u, 1u}) {
     const ShownImage& image = page.images().at(slot);
     Session& session = slot == 0 ? gi : path;
@@ -182,7 +182,7 @@ TEST_F(ViewLoopTest, RefusesInOneLineAndChangesNothing) {
 
 TEST_F(ViewLoopTest, ProbesAPixel) {
   // The lamp's brightest pixel: no other has its light.
-  Session once(prepareScene(facts_.request).scene, configOf("restir_gi"));
+  Session once(prepareScene(facts_.request).scene, smallPane("restir_gi"));
   once.frame();
   const std::vector<glm::vec3>& pixels = once.radiance().pixels;
   const auto brightest = std::max_element(pixels.begin(), pixels.end(),
@@ -204,7 +204,7 @@ TEST_F(ViewLoopTest, ProbesAPixel) {
     EXPECT_GE(value["value"].get<double>(), 1.0);
   }
   // Those of a session that renders as many frames, as `render --pixel` does.
-  Session again(prepareScene(facts_.request).scene, configOf("restir_gi"));
+  Session again(prepareScene(facts_.request).scene, smallPane("restir_gi"));
   for (int frame = 0; frame < probe["frame"]; ++frame) again.frame();
   EXPECT_EQ(probe["values"], Json(probedValuesJson(again, x, y)));
   EXPECT_EQ(probe["values"][0]["name"], "shaded radiance");
@@ -288,7 +288,7 @@ TEST_F(ViewLoopTest, SavesWhatItShows) {
 
 TEST_F(ViewLoopTest, SavesTwoOfTheSame) {
   ViewSettings settings =
-      settingsOf(prepareScene(facts_.request), {configOf("restir_gi"), configOf("restir_gi")});
+      settingsOf(prepareScene(facts_.request), {smallPane("restir_gi"), smallPane("restir_gi")});
   const auto reopened = [&] {
     const LiveView view(prepareScene(facts_.request), settings, {});
     const std::string name = writeSession(folder(), sessionToml(facts_, view));
