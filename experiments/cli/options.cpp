@@ -38,7 +38,7 @@ std::string parametersLike(const std::string& key, const std::vector<std::string
 }  // namespace
 
 ParameterMap parseParameters(const std::vector<ParameterInfo>& known, const std::string& owner,
-                             const std::vector<std::string>& given) {
+                             const std::vector<std::string>& given, const std::string& option) {
   std::vector<std::string> names;
   for (const ParameterInfo& parameter : known) names.push_back(parameter.name);
   ParameterMap parameters;
@@ -46,11 +46,11 @@ ParameterMap parseParameters(const std::vector<ParameterInfo>& known, const std:
     const auto [key, value] = splitAssignment(assignment);
     const auto found = std::find(names.begin(), names.end(), key);
     if (found == names.end()) {
-      failUsage(fmt::format("--set {}: {} has no parameter '{}'{}", assignment, owner, key,
+      failUsage(fmt::format("{} {}: {} has no parameter '{}'{}", option, assignment, owner, key,
                             parametersLike(key, names)));
     }
     parameters[key] =
-        parseParameter(known[size_t(found - names.begin())], value, "--set " + assignment);
+        parseParameter(known[size_t(found - names.begin())], value, option + " " + assignment);
   }
   return parameters;
 }
@@ -222,9 +222,10 @@ SessionConfig makeConfig(const SceneOptions& scene, const MethodOptions& method)
   config.parameters = parseParameters(parts.parameters(),
                                       "integrator " + parts.integrator->name +
                                           (isPlain ? "" : " with denoiser " + parts.denoiser->name),
-                                      method.parameters);
+                                      method.parameters, method.prefix + "set");
   for (const auto& [name, why] : settingsWithoutEffect(parts, config.mode, config.parameters)) {
-    logWarning(fmt::format("{}{} has no effect: {}", name == "mode" ? "--" : "--set ", name, why));
+    logWarning(fmt::format("{}{}{} has no effect: {}", method.prefix, name == "mode" ? "" : "set ",
+                           name, why));
   }
   config.russianRoulette = method.russianRoulette;
   config.specialise = !method.general;

@@ -34,6 +34,7 @@ struct MethodOptions {
   SessionConfig choice;  // methodSettings() of it, but for the backend
   BackendChoice backend;
   std::vector<std::string> parameters;  // KEY=VALUE
+  std::string prefix = "--";            // of its options, for errors
   bool russianRoulette = false;
   bool general = false;
 };
@@ -53,9 +54,10 @@ void addOutput(CLI::App& verb, std::string& output);
 void addThreads(CLI::App& verb, int& threads);
 void addMultiscatter(CLI::App& verb, bool& multiscatter);
 
-// KEY=VALUE of `--set`; `owner` has the known ones, for errors. Throws badUsage.
+// KEY=VALUE of `option`; `owner` has the known ones, for errors. Throws badUsage.
 ParameterMap parseParameters(const std::vector<ParameterInfo>& known, const std::string& owner,
-                             const std::vector<std::string>& given);
+                             const std::vector<std::string>& given,
+                             const std::string& option = "--set");
 // What can be said without opening anything; whether a device is there the session says. Throws
 // badUsage.
 void applyBackend(const BackendChoice& choice, SessionConfig& config);

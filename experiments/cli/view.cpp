@@ -12,6 +12,7 @@
 #include <set>
 #include <thread>
 
+#include "core/error.h"
 #include "core/image/atomic_file.h"
 #include "core/method_settings.h"
 #include "core/scene/compiled_scene.h"
@@ -22,6 +23,7 @@
 #include "experiments/runner/run/log.h"
 #include "experiments/runner/suite/backend_choice.h"
 #include "experiments/view/capture.h"
+#include "experiments/view/redirect_file.h"
 #include "experiments/view/view_loop.h"
 #include "experiments/view/view_page.h"
 #include "experiments/view/view_session.h"
@@ -100,13 +102,13 @@ ViewStart startOf(ViewOptions& options) {
 }
 
 // Whoever has no browser here opens the address elsewhere.
-void openInBrowser(const std::string& url) {
+void openInBrowser(const std::string& file) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
-  std::string program = "xdg-open", address = url;
-  char* const words[] = {program.data(), address.data(), nullptr};
+  std::string program = "xdg-open", argument = file;
+  char* const words[] = {program.data(), argument.data(), nullptr};
   pid_t child = 0;
   const int error = posix_spawnp(&child, words[0], &actions, nullptr, words, environ);
   posix_spawn_file_actions_destroy(&actions);
@@ -129,7 +131,7 @@ void writeCapture(const ViewStart& start, const ViewOptions& options) {
                       figure.height, options.captured.frames));
 }
 
-void view(const CLI::App& verb, ViewOptions options) {
+ExitCode view(const CLI::App& verb, ViewOptions options) {
   if (options.scene.request.scene.empty()) options.scene.request.scene = kDefaultScene;
   const std::string name = options.scene.request.scene;
   if (isSuite(name)) requireNoOptions(verb, name);
@@ -141,7 +143,10 @@ void view(const CLI::App& verb, ViewOptions options) {
   }
   const ViewStart start = isSuite(name) ? startOfSuite(name) : startOf(options);
   printWarnings(start.prepared);
-  if (!options.capture.empty()) return writeCapture(start, options);
+  if (!options.capture.empty()) {
+    writeCapture(start, options);
+    return ExitCode::ok;
+  }
   ReferenceStore store;
   store.folder = referenceCacheFolder();
   LiveView live(start.prepared, start.settings, store);
@@ -154,12 +159,21 @@ void view(const CLI::App& verb, ViewOptions options) {
   fmt::print("{}\n", loop.url());
   std::fflush(stdout);
   logInfo("open the address in a browser; Ctrl-C ends the viewer");
-  if (options.open) openInBrowser(loop.url());
-  loop.run();
+  std::optional<RedirectFile> redirect;  // until the end: browsers may be slow to start
+  if (options.open) openInBrowser(redirect.emplace(loop.url()).path().string());
+  try {
+    loop.run();
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::interrupted) throw;
+    logInfo(error.what());  // how everyone ends the viewer
+    return ExitCode::interrupted;
+  }
+  return ExitCode::ok;
 }
 
 void addSecondMethod(CLI::App& verb, ViewOptions& options) {
   MethodOptions& second = options.second;
+  second.prefix = "--b-";
   second.choice.integrator = "path";
   second.choice.denoiser = "accumulate";
   for (const auto& [key, help, value] : methodSettings()) {
@@ -215,7 +229,7 @@ Action addViewVerb(CLI::App& app) {
   verb->add_option("--tev", options->tev,
                    "HOST[:PORT] of a running tev, which gets the images, too (port 14158)");
   addCapture(*verb, *options);
-  return [verb, options](Outcome&) { view(*verb, *options); };
+  return [verb, options](Outcome& outcome) { outcome.code = view(*verb, *options); };
 }
 
 }  // namespace restlab

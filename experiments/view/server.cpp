@@ -4,10 +4,12 @@
 
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <deque>
 #include <map>
@@ -31,6 +33,7 @@ using Request = http::request<http::empty_body>;
 using Response = http::response<http::string_body>;
 
 constexpr std::chrono::seconds kRequestTimeout{10};
+constexpr std::chrono::milliseconds kAcceptPause{100};
 constexpr uint32_t kMostHeaderBytes = 8 << 10;
 
 // Nothing is fetched but from this server.
@@ -86,7 +89,11 @@ std::string inUrl(const std::string& address) {
 class ViewServer::Impl {
  public:
   Impl(const ViewServerOptions& options, ViewServerEvents events)
-      : options_(options), events_(std::move(events)), token_(newToken()), acceptor_(io_) {
+      : options_(options),
+        events_(std::move(events)),
+        token_(newToken()),
+        acceptor_(io_),
+        acceptAgain_(io_) {
     listen();
     accept();
     thread_ = std::thread([this] { io_.run(); });
@@ -130,6 +137,18 @@ class ViewServer::Impl {
     if (error == asio::error::address_in_use) {
       failUsage(fmt::format("--port {}: is taken; another number, or 0 for any that is free",
                             options_.port));
+    }
+    if (error == asio::error::address_family_not_supported || error.value() == EADDRNOTAVAIL) {
+      failUsage(fmt::format(
+          "--listen {}: is no address of this machine; 127.0.0.1 is this machine alone, 0.0.0.0 "
+          "every network",
+          options_.listen));
+    }
+    if (error == asio::error::access_denied) {
+      failUsage(
+          fmt::format("--port {}: is for the administrator alone; a number from 1024, or 0 for any "
+                      "that is free",
+                      options_.port));
     }
     if (error) {
       failUsage(fmt::format("{}:{}: cannot listen there: {}", inUrl(options_.listen), options_.port,
@@ -181,6 +200,7 @@ class ViewServer::Impl {
   const std::string token_;
   asio::io_context io_;
   Tcp::acceptor acceptor_;
+  asio::steady_timer acceptAgain_;
   uint16_t port_ = 0;
   bool isClosing_ = false;
   std::atomic<uint64_t> bytesWritten_{0};
@@ -335,6 +355,7 @@ ViewServer::Impl::~Impl() {
     isClosing_ = true;
     ErrorCode ignored;
     acceptor_.close(ignored);
+    acceptAgain_.cancel();
     for (auto& [id, client] : clients_) client->drop();
     clients_.clear();
     io_.stop();
@@ -351,8 +372,16 @@ void ViewServer::Impl::send(ClientId id, Message message) {
 void ViewServer::Impl::accept() {
   acceptor_.async_accept([this](ErrorCode error, Tcp::socket socket) {
     if (isClosing_) return;
-    if (!error) std::make_shared<Connection>(*this, std::move(socket))->begin();
-    accept();
+    if (!error) {
+      std::make_shared<Connection>(*this, std::move(socket))->begin();
+      return accept();
+    }
+    // No descriptor is free, say: whoever waits goes on waiting, and would be asked for again at
+    // once.
+    acceptAgain_.expires_after(kAcceptPause);
+    acceptAgain_.async_wait([this](ErrorCode) {
+      if (!isClosing_) accept();
+    });
   });
 }
 
