@@ -31,6 +31,7 @@ Action addDenoiseVerb(CLI::App& app);
 Action addInfoVerb(CLI::App& app);
 Action addListVerb(CLI::App& app);
 Action addBenchVerb(CLI::App& app);
+Action addBiasVerb(CLI::App& app);
 Action addViewVerb(CLI::App& app);
 
 }  // namespace restlab

@@ -1,6 +1,9 @@
 // Caches of entries, in sessions of a few pixels.
 #pragma once
 
+#include <algorithm>
+#include <bit>
+
 #include "core/cache.h"
 #include "core/caches/entries/settings.h"
 #include "core/method.h"
@@ -18,11 +21,14 @@ inline std::vector<std::string> cachesWithEntries() {
   return names;
 }
 
-// Entries for so few pixels: passes that go over all entries would take the most of the time.
+// About two entries a pixel, for the image's size as it is now: passes that go over all entries
+// would take the most of the time.
 inline void useFewEntries(SessionConfig& config) {
+  const uint64_t pixels = uint64_t(config.width) * config.height;
+  const uint64_t entries = std::clamp<uint64_t>(std::bit_floor(2 * pixels), 1024, 65536);
   for (const ParameterInfo& p : findMethod(config).parameters())
     if (p.name == kEntryCount || p.name == "radiance_entries")
-      config.parameters[p.name] = int64_t{4096};
+      config.parameters[p.name] = int64_t(entries);
 }
 
 }  // namespace restlab::bias

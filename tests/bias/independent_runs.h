@@ -14,7 +14,7 @@
 
 #include "core/scene/compiled_scene.h"
 #include "core/session.h"
-#include "tests/stats/replicates.h"
+#include "experiments/statistics/bias_test.h"
 
 namespace restlab::bias {
 

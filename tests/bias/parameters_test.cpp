@@ -52,7 +52,7 @@ struct Effort {
   int threads;
 };
 // A history longer than a confidence cap of 5.
-constexpr Effort kEveryDay{48, 27, 128, 32, 10, 2, 1};
+constexpr Effort kEveryDay{48, 27, 96, 32, 8, 2, 1};
 constexpr Effort kNightly{64, 36, 512, 128, 64, 8, 0};
 
 void expectInvariant(const std::string& sceneName, const std::vector<SceneCamera>& cameras,

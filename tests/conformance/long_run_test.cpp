@@ -16,7 +16,7 @@
 #include "tests/bias/few_entries.h"
 #include "tests/bias/independent_runs.h"
 #include "tests/bias/test_cameras.h"
-#include "tests/stats/welch.h"
+#include "experiments/statistics/welch.h"
 
 namespace restlab::conformance {
 namespace {

@@ -72,7 +72,7 @@ SessionConfig configOf(const Variant& variant, uint32_t width, uint32_t height) 
 bias::Method methodOf(const Variant& variant, uint32_t frames, uint32_t skipped) {
   bias::Method method;
   method.name = variant.name();
-  method.config = configOf(variant);
+  method.config = configOf(variant, 32, 18);
   method.frames = frames;
   method.skipped = skipped;
   return method;

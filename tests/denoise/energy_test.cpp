@@ -6,7 +6,7 @@
 #include "core/scene/scene.h"
 #include "tests/conformance/variants.h"
 #include "tests/denoise/layered_images.h"
-#include "tests/stats/welch.h"
+#include "experiments/statistics/welch.h"
 
 namespace restlab::denoise {
 namespace {

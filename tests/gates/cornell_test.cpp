@@ -6,8 +6,8 @@
 #include "tests/bias/independent_runs.h"
 #include "tests/gates/gate_files.h"
 #include "tests/gates/tile_comparison.h"
-#include "tests/stats/holm.h"
-#include "tests/stats/welch.h"
+#include "experiments/statistics/holm.h"
+#include "experiments/statistics/welch.h"
 
 namespace restlab::gates {
 namespace {

@@ -3,7 +3,7 @@
 #include "core/image/metrics.h"
 #include "tests/bias/independent_runs.h"
 #include "tests/gates/gate_files.h"
-#include "tests/stats/tost.h"
+#include "experiments/statistics/tost.h"
 
 namespace restlab::gates {
 namespace {

@@ -1,15 +1,9 @@
-# The statistics library of all bias tests, and its own tests.
+# Tests of experiments/statistics, and what tests alone ask of statistics.
 set(RL_STATS_SOURCES
   stats/chi2.cpp
-  stats/holm.cpp
   stats/ks.cpp
-  stats/power.cpp
-  stats/replicates.cpp
-  stats/run_set.cpp
-  stats/tost.cpp
-  stats/welch.cpp
 )
 set(RL_STATS_TESTS
-  stats/replicates_test.cpp
+  stats/bias_test.cpp
   stats/stats_test.cpp
 )

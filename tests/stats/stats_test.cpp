@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "tests/stats/chi2.h"
-#include "tests/stats/holm.h"
+#include "experiments/statistics/holm.h"
 #include "tests/stats/ks.h"
-#include "tests/stats/power.h"
-#include "tests/stats/tost.h"
-#include "tests/stats/welch.h"
+#include "experiments/statistics/power.h"
+#include "experiments/statistics/tost.h"
+#include "experiments/statistics/welch.h"
 
 namespace restlab::stats {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/stats/run_set.h"
+#include "experiments/statistics/run_set.h"
 
 #include <cmath>
 #include <limits>

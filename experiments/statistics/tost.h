@@ -2,7 +2,7 @@
 // rejects the hypothesis that the means differ by a margin or more.
 #pragma once
 
-#include "tests/stats/welch.h"
+#include "experiments/statistics/welch.h"
 
 namespace restlab::stats {
 

@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/stats/run_set.h"
+#include "experiments/statistics/run_set.h"
 
 namespace restlab::stats {
 

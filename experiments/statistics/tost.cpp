@@ -1,4 +1,4 @@
-#include "tests/stats/tost.h"
+#include "experiments/statistics/tost.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "tests/stats/holm.h"
+#include "experiments/statistics/holm.h"
 
 #include <algorithm>
 #include <numeric>

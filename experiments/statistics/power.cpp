@@ -1,11 +1,11 @@
-#include "tests/stats/power.h"
+#include "experiments/statistics/power.h"
 
 #include <boost/math/distributions/non_central_t.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <stdexcept>
 
-#include "tests/stats/welch.h"
+#include "experiments/statistics/welch.h"
 
 namespace restlab::stats {
 namespace {

@@ -1,6 +1,6 @@
 // The bias test tested: on a made-up renderer whose truth is known, with skewed and correlated
 // noise like that of path reuse. It must leave a correct estimator alone and find a wrong one.
-#include "tests/stats/replicates.h"
+#include "experiments/statistics/bias_test.h"
 
 #include <gtest/gtest.h>
 

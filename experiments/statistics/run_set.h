@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/image/image.h"
-#include "tests/stats/welch.h"
+#include "experiments/statistics/welch.h"
 
 namespace restlab::stats {
 

@@ -1,4 +1,4 @@
-#include "tests/stats/welch.h"
+#include "experiments/statistics/welch.h"
 
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>

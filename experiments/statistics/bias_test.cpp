@@ -1,4 +1,4 @@
-#include "tests/stats/replicates.h"
+#include "experiments/statistics/bias_test.h"
 
 #include <fmt/format.h>
 
@@ -10,8 +10,8 @@
 #include <stdexcept>
 
 #include "core/image/intervals.h"
-#include "tests/stats/holm.h"
-#include "tests/stats/power.h"
+#include "experiments/statistics/holm.h"
+#include "experiments/statistics/power.h"
 
 namespace restlab::stats {
 namespace {

@@ -1,0 +1,270 @@
+#include "experiments/certificate/certificate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "core/error.h"
+#include "experiments/statistics/power.h"
+#include "experiments/statistics/tost.h"
+
+namespace restlab::certificate {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+// A mean is nearly normal, and has a t interval, up to this |skewness| / sqrt(runs).
+constexpr double kMaxSkewness = stats::BiasOptions().maxSkewness;
+// Of 128 runs without any skew 1 % miss that by chance; of fewer, more.
+constexpr double kFewestForCells = 128.0;
+
+double normalQuantile(double p) { return quantile(boost::math::normal(), p); }
+
+stats::CellArea wholeImage(const stats::BlockGrid& grid) { return {0, 0, grid.side}; }
+
+// Deviations of the interval's end and of the power, together. An unbiased method may miss the
+// margin on either side, so that each gets half of what the power leaves.
+double deviations(const Rules& rules) {
+  return normalQuantile(0.5 + 0.5 * rules.confidence) + normalQuantile(0.5 + 0.5 * rules.power);
+}
+
+// Runs of this variance whose mean lies `shift` deviations from what is to be excluded, with the
+// reference's error; NaN where that alone is too large.
+double runsFor(double variance, double referenceVariance, double distance, double count) {
+  const double allowed = distance * distance / (count * count) - referenceVariance;
+  return allowed > 0.0 ? variance / allowed : kNan;
+}
+
+double referenceVarianceOf(const stats::Sample& truth) {
+  return truth.n > 0.0 ? truth.variance / truth.n : 0.0;
+}
+
+ImageBias biasOf(const Evidence& evidence, const stats::Truth& truth, stats::Quantity quantity,
+                 const Rules& rules) {
+  const stats::CellArea whole = wholeImage(evidence.runs().grid());
+  const std::vector<double> means = evidence.runs().cellMeans(whole, quantity);
+  const stats::Sample sample = stats::summarise(means), reference = truth.cell(whole, quantity);
+  ImageBias b;
+  b.quantity = quantity;
+  b.mean = sample.mean;
+  b.reference = reference.mean;
+  const double skewness = stats::skewness(means);
+  b.events = rareEvents(skewness, means.size());
+  b.isNormal = std::abs(skewness) / std::sqrt(double(means.size())) <= kMaxSkewness;
+  const double scale = std::abs(reference.mean);
+  if (scale == 0.0 || !std::isfinite(sample.mean)) {
+    // Black is equal to black, and to nothing else.
+    const bool isBlack = sample.mean == 0.0 && sample.variance == 0.0;
+    b.bias = isBlack ? Interval{0.0, 0.0, 0.0} : Interval{kNan, kNan, kNan};
+    b.isEquivalent = isBlack;
+    b.detectable = isBlack ? 0.0 : kNan;
+    return b;
+  }
+  const stats::TostResult tost =
+      stats::tostTest(sample, reference, rules.margin * scale, 0.5 * (1.0 - rules.confidence));
+  b.bias = {(sample.mean - reference.mean) / scale, tost.lo / scale, tost.hi / scale};
+  b.isEquivalent = b.isNormal && b.bias.lo > -rules.margin && b.bias.hi < rules.margin;
+  const stats::WelchResult welch = stats::welchTest(sample, reference);
+  b.detectable = welch.standardError > 0.0
+                     ? stats::smallestDetectableShift(welch.standardError, welch.dof,
+                                                      1.0 - rules.confidence, rules.power) /
+                           scale
+                     : 0.0;
+  return b;
+}
+
+// How many runs in all would decide about one quantity.
+double runsToDecide(const Evidence& evidence, const stats::Truth& truth, const ImageBias& b,
+                    const Rules& rules) {
+  const stats::CellArea whole = wholeImage(evidence.runs().grid());
+  const std::vector<double> means = evidence.runs().cellMeans(whole, b.quantity);
+  const stats::Sample sample = stats::summarise(means);
+  const double scale = std::abs(b.reference), found = std::abs(b.bias.value);
+  if (scale == 0.0 || !std::isfinite(found)) return kNan;
+  const double variance = sample.variance / (scale * scale);
+  const double own = referenceVarianceOf(truth.cell(whole, b.quantity)) / (scale * scale);
+  const double level = normalQuantile(1.0 - 0.5 * rules.familyError / double(quantities().size()));
+  const double count = level + normalQuantile(rules.power);
+  const double decided = found < rules.margin
+                             ? runsFor(variance, own, rules.margin - found, deviations(rules))
+                             : runsFor(variance, own, found, count);
+  // And enough for a nearly normal mean.
+  const double skewness = stats::skewness(means) / kMaxSkewness;
+  return std::max(decided, skewness * skewness);
+}
+
+// The interval of a cell's relative bias lies within the margin: too small to be held against it.
+bool isWithin(const stats::CellVerdict& v, const Rules& rules) {
+  const double scale = std::abs(v.reference);
+  if (scale == 0.0 || !std::isfinite(v.welch.dof)) return false;
+  const double half =
+      stats::studentQuantile(0.5 + 0.5 * rules.confidence, v.welch.dof) * v.welch.standardError;
+  return std::abs(v.welch.difference) + half < rules.margin * scale;
+}
+
+// The confirmed rejection that is largest, relative to its reference; null without one that counts.
+const stats::CellVerdict* worstConfirmed(const stats::BiasReport& report, const Rules& rules) {
+  const stats::CellVerdict* worst = nullptr;
+  const auto size = [](const stats::CellVerdict& v) {
+    return std::abs(v.welch.difference) / std::max(std::abs(v.reference), 1e-300);
+  };
+  for (const stats::CellVerdict& v : report.cells) {
+    if (!v.confirmed || isWithin(v, rules)) continue;
+    if (worst == nullptr || size(v) > size(*worst)) worst = &v;
+  }
+  return worst;
+}
+
+std::string place(const stats::CellVerdict& v) {
+  if (v.wholeImage) return "the whole image";
+  return fmt::format("the cell of blocks x {} y {} size {}", v.area.x, v.area.y, v.area.size);
+}
+
+void decide(Certificate& c, const Evidence& evidence, const stats::Truth& truth,
+            const Rules& rules) {
+  const auto isEquivalent = [](const ImageBias& b) { return b.isEquivalent; };
+  if (c.cells.nonfinite > 0) {
+    c.verdict = Verdict::biased;
+    c.reason = fmt::format("{} values of its images or of the reference are not finite",
+                           c.cells.nonfinite);
+    return;
+  }
+  if (const stats::CellVerdict* worst = worstConfirmed(c.cells, rules)) {
+    c.verdict = Verdict::biased;
+    const ImageBias& b = c.image.front();
+    c.reason = fmt::format(
+        "luminance of the image by {:+.2f} % [{:+.2f}, {:+.2f}]; most in {}, {} by {:+.2f} %; "
+        "fresh "
+        "runs say so, too",
+        100.0 * b.bias.value, 100.0 * b.bias.lo, 100.0 * b.bias.hi, place(*worst),
+        stats::quantityName(worst->quantity), 100.0 * worst->welch.difference / worst->reference);
+    return;
+  }
+  if (std::all_of(c.image.begin(), c.image.end(), isEquivalent)) {
+    const bool anyLight = std::any_of(c.image.begin(), c.image.end(),
+                                      [](const ImageBias& b) { return b.reference != 0.0; });
+    c.verdict = anyLight ? Verdict::equivalent : Verdict::notDecided;
+    c.reason = anyLight ? fmt::format("all intervals of the image's bias lie within +-{:g} %",
+                                      100.0 * rules.margin)
+                        : "the image is black, which says nothing";
+    return;
+  }
+  c.verdict = Verdict::notDecided;
+  double runs = 0.0;
+  std::vector<std::string> open;
+  bool isSkewed = false;
+  for (const ImageBias& b : c.image) {
+    if (b.isEquivalent) continue;
+    open.push_back(stats::quantityName(b.quantity));
+    isSkewed = isSkewed || !b.isNormal;
+    const double needed = runsToDecide(evidence, truth, b, rules);
+    runs = std::isnan(needed) || std::isnan(runs) ? kNan : std::max(runs, needed);
+  }
+  c.reason = fmt::format(
+      "{} in {}{}",
+      isSkewed ? "the mean of the image is too skewed for an interval"
+               : fmt::format("the interval is not within +-{:g} %, and no test rejects",
+                             100.0 * rules.margin),
+      fmt::join(open, ", "),
+      std::isnan(runs) ? "; the reference's own error is too large for any number of runs" : "");
+  if (std::isnan(runs)) return;
+  const double more = std::ceil(runs) - double(evidence.count());
+  c.moreRuns = uint64_t(std::max(1.0, more));
+}
+
+}  // namespace
+
+const char* verdictName(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::equivalent:
+      return "equivalent";
+    case Verdict::biased:
+      return "biased";
+    case Verdict::notDecided:
+      return "not decided";
+  }
+  return "";
+}
+
+const std::vector<stats::Quantity>& quantities() {
+  static const std::vector<stats::Quantity> all = {stats::Quantity::luminance, stats::Quantity::red,
+                                                   stats::Quantity::green, stats::Quantity::blue};
+  return all;
+}
+
+double rareEvents(double skewness, size_t runs) {
+  return skewness == 0.0 ? std::numeric_limits<double>::infinity()
+                         : double(runs) / (skewness * skewness);
+}
+
+void Evidence::add(const Image& run) {
+  pixels_.add(run);
+  runs_.add(run);
+  sum_.add(run);
+}
+
+stats::Truth truthOf(const Reference& reference, const stats::BlockGrid& grid) {
+  using stats::ReferenceCells;
+  if (reference.half0)
+    return stats::truthOf(ReferenceCells::fromHalves(grid, *reference.half0, *reference.half1));
+  if (reference.variance)
+    return stats::truthOf(ReferenceCells::fromVariance(grid, reference.mean, *reference.variance));
+  return stats::truthOf(ReferenceCells::exact(grid, reference.mean));
+}
+
+Certificate judge(const Evidence& evidence, const stats::RunSet& firstBatch,
+                  const std::function<stats::RunSet()>& freshBatch, const Reference& reference,
+                  const Rules& rules) {
+  if (std::min(evidence.count(), firstBatch.runs()) < kFewestRuns)
+    throw std::invalid_argument("certificate: too few runs");
+  const stats::Truth truth = truthOf(reference, evidence.runs().grid());
+  Certificate c;
+  for (const stats::Quantity quantity : quantities())
+    c.image.push_back(biasOf(evidence, truth, quantity, rules));
+  stats::BiasOptions options;
+  options.familyError = rules.familyError;
+  options.power = rules.power;
+  options.quantities = quantities();
+  c.cells = stats::testBias(firstBatch, truth, options, freshBatch);
+  c.fewestEvents = std::numeric_limits<double>::infinity();
+  for (const stats::CellVerdict& v : c.cells.cells)
+    c.fewestEvents = std::min(c.fewestEvents, rareEvents(v.skewness, firstBatch.runs()));
+  const bool hasHalves = reference.half0.has_value();
+  const Image& half0 = hasHalves ? *reference.half0 : reference.mean;
+  const Image& half1 = hasHalves ? *reference.half1 : reference.mean;
+  c.squaredBias = evidence.pixels().squaredBias(half0, half1);
+  c.variance = evidence.pixels().variance();
+  decide(c, evidence, truth, rules);
+  return c;
+}
+
+double runsForEquivalence(const Evidence& pilot, const stats::Truth& truth, const Rules& rules) {
+  const stats::CellArea whole = wholeImage(pilot.runs().grid());
+  double runs = kFewestForCells;
+  for (const stats::Quantity quantity : quantities()) {
+    const stats::Sample sample = stats::summarise(pilot.runs().cellMeans(whole, quantity));
+    const stats::Sample reference = truth.cell(whole, quantity);
+    const double scale = reference.mean * reference.mean;
+    if (scale == 0.0) continue;
+    const double needed = runsFor(sample.variance / scale, referenceVarianceOf(reference) / scale,
+                                  rules.margin, deviations(rules));
+    runs = std::isnan(needed) || std::isnan(runs) ? kNan : std::max(runs, needed);
+  }
+  return runs;
+}
+
+double relativeError(const stats::Truth& truth) {
+  double largest = 0.0;
+  for (const stats::Quantity quantity : quantities()) {
+    const stats::Sample s = truth.cell(wholeImage(truth.grid), quantity);
+    if (s.mean != 0.0)
+      largest = std::max(largest, std::sqrt(referenceVarianceOf(s)) / std::abs(s.mean));
+  }
+  return largest;
+}
+
+}  // namespace restlab::certificate

@@ -1,0 +1,221 @@
+#include "experiments/certificate/certify.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/error.h"
+#include "core/image/metrics.h"
+#include "core/method.h"
+#include "experiments/runner/run/build_info.h"
+#include "experiments/runner/run/files.h"
+#include "experiments/runner/run/log.h"
+
+namespace restlab::certificate {
+namespace {
+
+using Batch = RunFolder::Batch;
+
+// Runs from which the number of runs follows.
+constexpr uint64_t kPilotRuns = 64;
+// The reference's standard error, of the margin: its share of the squared width of an interval that
+// just fits is a seventh, and half of that would take twice the samples.
+constexpr double kReferenceShare = 0.2;
+constexpr uint64_t kFirstReferenceSpp = 2048, kMostReferenceSpp = uint64_t(1) << 22;
+
+// A mean of so many events is known to a seventh only.
+constexpr double kFewEvents = 50.0;
+
+std::string methodName(const SessionConfig& config) {
+  std::string name = config.integrator;
+  if (!config.mode.empty()) name += " " + config.mode;
+  if (!config.cache.empty()) name += ", " + config.cache;
+  if (config.denoiser != "none") name += ", " + config.denoiser;
+  for (const auto& [key, value] : config.parameters)
+    name += fmt::format(", {} {}", key, parameterText(value));
+  return name;
+}
+
+Reference convergedReference(const Question& question, const std::string& label,
+                             const Options& options) {
+  const ReferenceConfig config = referenceConfigOf(question.config);
+  const double wanted = kReferenceShare * options.rules.margin;
+  ReferenceTarget target;
+  const stats::BlockGrid grid(question.config.width, question.config.height);
+  for (target.spp = kFirstReferenceSpp;; target.spp *= 2) {
+    Reference reference =
+        obtainReference(question.prepared, config, target, options.out / "references", label);
+    const double error = relativeError(truthOf(reference, grid));
+    if (error <= wanted) return reference;
+    if (target.spp >= kMostReferenceSpp) {
+      logWarning(
+          fmt::format("the reference's own error is {:.2g} % after {} spp; the interval is "
+                      "wider for it",
+                      100.0 * error, reference.spp));
+      return reference;
+    }
+  }
+}
+
+Evidence evidenceOf(const RunFolder& folder, const Question& question, Batch batch,
+                    uint64_t count) {
+  Evidence evidence(question.config.width, question.config.height);
+  folder.forEach(batch, count, [&](const Image& image) { evidence.add(image); });
+  return evidence;
+}
+
+// How many runs a certificate takes, from a first few.
+uint64_t plannedRuns(RunFolder& folder, const Question& question, const stats::Truth& truth,
+                     const Options& options) {
+  const uint64_t pilot = std::min(kPilotRuns, options.maxRuns);
+  folder.make(Batch::first, pilot);
+  const double needed =
+      runsForEquivalence(evidenceOf(folder, question, Batch::first, pilot), truth, options.rules);
+  if (std::isnan(needed)) return options.maxRuns;
+  const uint64_t wanted = uint64_t(std::ceil(std::min(needed, 1e9) / 32.0)) * 32;
+  if (wanted > options.maxRuns) {
+    logInfo(
+        fmt::format("{} runs would decide, {} are allowed (--max-runs)", wanted, options.maxRuns));
+  }
+  return std::clamp(wanted, kFewestRuns, options.maxRuns);
+}
+
+void addNotes(const Evidence& evidence, Certified& c) {
+  const Certificate& certificate = c.certificate;
+  if (certificate.cells.untestableShare > 0.0) {
+    c.notes.push_back(fmt::format(
+        "{:.1f} % of the image is too skewed for a t-test even in merged cells: nothing is said of "
+        "its cells",
+        100.0 * certificate.cells.untestableShare));
+  }
+  if (certificate.fewestEvents < kFewEvents) {
+    c.notes.push_back(fmt::format(
+        "heavy tails: the noise of the worst cell is like that of {:.1f} rare events in all {} "
+        "runs; a run more may change its mean",
+        certificate.fewestEvents, evidence.count()));
+  }
+  if (!c.reference.half0 && !c.reference.variance)
+    c.notes.push_back("the reference says nothing of its own error and is taken as exact");
+}
+
+// Words of the command that makes one of these runs again.
+std::string replayOf(const Question& question, uint32_t seed) {
+  const SessionConfig& c = question.config;
+  std::vector<std::string> words = {"restlab", "render", question.prepared.scene->source().name,
+                                    "--integrator", c.integrator};
+  const auto add = [&](const std::string& key, const std::string& value) {
+    if (value.empty()) return;
+    words.push_back(key);
+    words.push_back(value);
+  };
+  add("--mode", c.mode);
+  add("--cache", c.cache);
+  if (c.denoiser != "none") add("--denoiser", c.denoiser);
+  for (const auto& [key, value] : c.parameters) add("--set", key + "=" + parameterText(value));
+  add("--resolution", fmt::format("{}x{}", c.width, c.height));
+  add("--max-bounces", std::to_string(c.maxBounces));
+  add("--seed", std::to_string(seed));
+  add("--frame", std::to_string(question.warmup + question.frames));
+  return shellCommand(words) + " --pixel X,Y";
+}
+
+}  // namespace
+
+Certified certify(const Question& question, const Options& options) {
+  Certified c;
+  c.name = question.prepared.scene->source().name + ", " + methodName(question.config);
+  c.label = safeFileName(c.name);
+  makeWritableDirectory(options.out / "references");
+  c.reference =
+      convergedReference(question, safeFileName(question.prepared.scene->source().name), options);
+  const stats::BlockGrid grid(question.config.width, question.config.height);
+  const stats::Truth truth = truthOf(c.reference, grid);
+  c.referenceError = relativeError(truth);
+  RunFolder folder(question, options.out / "runs", options.jobs);
+  const uint64_t runs =
+      options.runs > 0 ? options.runs : plannedRuns(folder, question, truth, options);
+  folder.make(Batch::first, runs);
+  const Evidence evidence = evidenceOf(folder, question, Batch::first, runs);
+  c.health = folder.health();
+  const auto freshBatch = [&] {
+    logInfo("the first batch rejects; a fresh one has to say so, too");
+    folder.make(Batch::fresh, runs);
+    const stats::RunSet fresh = evidenceOf(folder, question, Batch::fresh, runs).runs();
+    c.health = folder.health();
+    return fresh;
+  };
+  c.certificate = judge(evidence, evidence.runs(), freshBatch, c.reference, options.rules);
+  c.mean = evidence.mean();
+  c.made = folder.made();
+  c.timeS = folder.timeS();
+  c.how = fmt::format(
+      "{} runs at {}x{}, each the mean of {} of a history with a seed of its own. The reference "
+      "has {} spp.",
+      runs, question.config.width, question.config.height,
+      question.frames == 1
+          ? fmt::format("frame {}", question.warmup + 1)
+          : fmt::format("frames {} to {}", question.warmup + 1, question.warmup + question.frames),
+      c.reference.spp);
+  c.replay = replayOf(question, folder.seedOf(Batch::first, 0));
+  addNotes(evidence, c);
+  return c;
+}
+
+Certified certifyImages(const std::vector<std::string>& files, const std::string& reference,
+                        const Options& options) {
+  if (files.size() < 2 * kFewestRuns) {
+    failInput(
+        fmt::format("--images: {} of them; a certificate takes at least {}, each from an "
+                    "independent run",
+                    files.size(), 2 * kFewestRuns));
+  }
+  Certified c;
+  c.reference = readReference(reference);
+  requireUsable(reference, c.reference);
+  const Image& mean = c.reference.mean;
+  Evidence evidence(mean.width, mean.height), first = evidence, fresh = evidence;
+  std::map<uint64_t, std::string> pixels;
+  std::map<std::string, std::string> seeds;
+  for (size_t i = 0; i < files.size(); ++i) {
+    LayeredImage file = readExr(files[i]);
+    const auto layer = file.layers.find("");
+    if (layer == file.layers.end()) failInput(fmt::format("{}: has no R, G, B channels", files[i]));
+    const Image& image = layer->second;
+    if (image.width != mean.width || image.height != mean.height) {
+      failInput(fmt::format("{}: is {}x{}, the reference {} is {}x{}", files[i], image.width,
+                            image.height, reference, mean.width, mean.height));
+    }
+    const uint64_t hash = XXH3_64bits(image.pixels.data(), image.pixels.size() * sizeof(glm::vec3));
+    const auto [other, isNew] = pixels.emplace(hash, files[i]);
+    if (!isNew) {
+      failInput(fmt::format("{}: has the pixels of {}; a certificate takes independent runs",
+                            files[i], other->second));
+    }
+    if (const auto seed = file.metadata.find("seed"); seed != file.metadata.end()) {
+      const auto [same, isOther] = seeds.emplace(seed->second, files[i]);
+      if (!isOther) {
+        failInput(fmt::format("{}: has the seed {} of {}; a certificate takes independent runs",
+                              files[i], seed->second, same->second));
+      }
+    }
+    evidence.add(image);
+    (i % 2 == 0 ? first : fresh).add(image);
+  }
+  const stats::BlockGrid grid(mean.width, mean.height);
+  c.name = fmt::format("images against {}", std::filesystem::path(reference).filename().string());
+  c.label = "images";
+  c.referenceError = relativeError(truthOf(c.reference, grid));
+  // Cells are judged by both halves of the images, the mean by all of them.
+  c.certificate = judge(
+      evidence, first.runs(), [&] { return fresh.runs(); }, c.reference, options.rules);
+  c.mean = evidence.mean();
+  c.how = fmt::format("{} images at {}x{}; each second one is of the fresh batch.", files.size(),
+                      mean.width, mean.height);
+  addNotes(evidence, c);
+  return c;
+}
+
+}  // namespace restlab::certificate

@@ -1,0 +1,49 @@
+// Makes certificates: of a method, whose reference and runs it renders, or of images of any
+// program.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/certificate/certificate.h"
+#include "experiments/certificate/run_folder.h"
+
+namespace restlab::certificate {
+
+struct Options {
+  Rules rules;
+  uint64_t runs = 0;        // 0: as many as a first few say
+  uint64_t maxRuns = 4096;  // that these may ask for
+  uint32_t jobs = 0;        // runs side by side; 0: one a core
+  std::filesystem::path out;
+};
+
+// A certificate with what a reader must know of it.
+struct Certified {
+  std::string name;   // "door-ajar, restir_gi unbiased, pixel"
+  std::string label;  // the same as part of a file name
+  std::string how;    // what a run is and where the reference comes from, a sentence each
+  Certificate certificate;
+  Reference reference;
+  Image mean;                      // of the runs
+  HealthSum health;                // of all their frames; nothing of images of other programs
+  std::vector<std::string> notes;  // what qualifies the verdict
+  std::string replay;              // the command that prints a pixel of the first run, without it
+  double referenceError = 0.0;     // relative standard error of its mean, the largest quantity
+  uint64_t made = 0;               // runs that were not there
+  double timeS = 0.0;              // of these
+};
+
+// Renders what is missing below options.out: the reference until its error is a fifth of the
+// margin, a first few runs, as many as these ask for, and a fresh batch where the first one
+// rejects. Throws Error.
+Certified certify(const Question& question, const Options& options);
+
+// Images that are independent runs of one method against the reference in a file. Each second one
+// is of the fresh batch. Throws Error (badInput) naming a file that cannot be used: one of another
+// size, one with the seed or the pixels of another one; or that there are too few.
+Certified certifyImages(const std::vector<std::string>& files, const std::string& reference,
+                        const Options& options);
+
+}  // namespace restlab::certificate

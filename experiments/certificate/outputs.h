@@ -1,0 +1,26 @@
+// What a certificate leaves: lines for people, JSON, maps and a page.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "experiments/certificate/certify.h"
+
+namespace restlab::certificate {
+
+std::string textOf(const Certified& certified);
+// One line: "equivalent  door-ajar, restir_gi unbiased: +0.04 % [-0.15, +0.22]".
+std::string lineOf(const Certified& certified);
+nlohmann::ordered_json jsonOf(const Certified& certified);
+// A row a certificate, for documents.
+std::string markdownOf(const std::vector<Certified>& all);
+
+// DIR/certificates.json and .md, DIR/maps/LABEL-bias.exr (signed difference of the runs' mean to
+// the reference, with the layers "mean", "reference" and "p_value", which holds that of the cell)
+// and PNGs of both maps, DIR/report.html. Throws Error (badInput) where a file cannot be written.
+void writeOutputs(const std::filesystem::path& folder, const std::vector<Certified>& all,
+                  const std::string& command);
+
+}  // namespace restlab::certificate

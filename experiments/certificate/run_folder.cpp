@@ -1,0 +1,152 @@
+#include "experiments/certificate/run_folder.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "core/error.h"
+#include "experiments/runner/run/build_info.h"
+#include "experiments/runner/run/files.h"
+#include "experiments/runner/run/interrupt.h"
+#include "experiments/runner/run/log.h"
+
+namespace restlab::certificate {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Seeds of the batches do not meet: at most as many runs as this.
+constexpr uint32_t kFirstBatch = 10'000'000, kFreshBatch = 20'000'000;
+constexpr const char* kHealth = "health";
+
+uint32_t cores() { return std::max(1u, std::thread::hardware_concurrency()); }
+
+// Everything that the pixels of the runs depend on, but for the number of a run.
+std::map<std::string, std::string> wordsOf(const Question& question) {
+  std::map<std::string, std::string> words = describe(question.prepared, question.config);
+  words["kind"] = "image";
+  words["warmup_frames"] = std::to_string(question.warmup);
+  words["spp"] = std::to_string(question.frames);
+  words["first_seed"] = std::to_string(question.config.seed);
+  words["source_hash"] = buildInfo().sourceHash;
+  return words;
+}
+
+std::string keyOf(const std::map<std::string, std::string>& words) {
+  std::string text;
+  for (const auto& [key, value] : words) text += fmt::format("{}={}\n", key, value);
+  return hexHash(XXH3_64bits(text.data(), text.size()));
+}
+
+// Counts as HealthSum::text() writes them.
+void addHealth(const std::string& text, HealthSum& sum) {
+  for (size_t i = 0; i < sum.health.counts.size(); ++i) {
+    const char* name = Health::names()[i];
+    if (name == nullptr || *name == '\0') continue;
+    const std::string start = std::string(name) + "=";
+    size_t at = text.find(start);
+    while (at != std::string::npos && at > 0 && text[at - 1] != ' ') at = text.find(start, at + 1);
+    if (at != std::string::npos)
+      sum.health.counts[i] += std::strtoull(text.c_str() + at + start.size(), nullptr, 10);
+  }
+}
+
+}  // namespace
+
+RunFolder::RunFolder(const Question& question, const fs::path& folder, uint32_t jobs)
+    : question_(question), words_(wordsOf(question)), jobs_(jobs == 0 ? cores() : jobs) {
+  if (question.config.backend != "cpu") jobs_ = 1;
+  folder_ = folder / keyOf(words_);
+  makeWritableDirectory(folder_);
+}
+
+fs::path RunFolder::file(Batch batch, uint64_t run) const {
+  return folder_ / fmt::format("{}-{:05}.exr", batch == Batch::first ? "run" : "fresh", run);
+}
+
+uint32_t RunFolder::seedOf(Batch batch, uint64_t run) const {
+  return question_.config.seed + (batch == Batch::first ? kFirstBatch : kFreshBatch) +
+         uint32_t(run);
+}
+
+void RunFolder::render(Session& session, Batch batch, uint64_t run) {
+  session.reset(seedOf(batch, run));
+  HealthSum health;
+  ImageSum sum;
+  for (uint32_t frame = 0; frame < question_.warmup + question_.frames; ++frame) {
+    throwIfInterrupted("finished runs are kept: the same command goes on from them");
+    health.add(session.frame());
+    if (frame >= question_.warmup) sum.add(session.radiance());
+  }
+  LayeredImage file;
+  file.layers[""] = sum.mean();
+  file.metadata = words_;
+  file.metadata["seed"] = std::to_string(seedOf(batch, run));
+  file.metadata[kHealth] = health.text();
+  writeExr(this->file(batch, run), file);
+}
+
+void RunFolder::make(Batch batch, uint64_t count) {
+  std::vector<uint64_t> missing;
+  std::error_code status;
+  for (uint64_t run = 0; run < count; ++run)
+    if (!fs::exists(file(batch, run), status)) missing.push_back(run);
+  if (missing.empty()) return;
+  const auto begin = std::chrono::steady_clock::now();
+  const auto workers = uint32_t(std::min<uint64_t>(jobs_, missing.size()));
+  SessionConfig config = question_.config;
+  if (config.threads == 0) config.threads = int(std::max(1u, cores() / workers));
+  Progress progress(batch == Batch::first ? "run" : "fresh run", count, count - missing.size());
+  std::atomic<size_t> next{0};
+  std::mutex mutex;  // of what follows
+  uint64_t done = count - missing.size();
+  std::exception_ptr failure;
+  const auto work = [&] {
+    try {
+      Session session(question_.prepared.scene, config);
+      for (size_t i = next++; i < missing.size(); i = next++) {
+        render(session, batch, missing[i]);
+        const std::lock_guard lock(mutex);
+        progress.update(++done);
+      }
+    } catch (...) {
+      next = missing.size();
+      const std::lock_guard lock(mutex);
+      if (!failure) failure = std::current_exception();
+    }
+  };
+  {
+    std::vector<std::jthread> threads;
+    for (uint32_t i = 1; i < workers; ++i) threads.emplace_back(work);
+    work();
+  }
+  if (failure) std::rethrow_exception(failure);
+  progress.finish();
+  made_ += missing.size();
+  timeS_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+void RunFolder::forEach(Batch batch, uint64_t count,
+                        const std::function<void(const Image&)>& take) const {
+  if (batch == Batch::first) health_ = HealthSum();
+  for (uint64_t run = 0; run < count; ++run) {
+    const fs::path name = file(batch, run);
+    LayeredImage image = readExr(name);
+    if (image.metadata["seed"] != std::to_string(seedOf(batch, run))) {
+      failInput(fmt::format("{}: is of seed '{}', not {}; delete it, and it is rendered again",
+                            name.string(), image.metadata["seed"], seedOf(batch, run)));
+    }
+    addHealth(image.metadata[kHealth], health_);
+    take(image.layers.at(""));
+  }
+}
+
+}  // namespace restlab::certificate

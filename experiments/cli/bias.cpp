@@ -1,0 +1,225 @@
+// restlab bias: is a method biased? A verdict with an interval, from independent runs.
+#include <fmt/format.h>
+#include <glob.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "core/method.h"
+#include "experiments/certificate/certify.h"
+#include "experiments/certificate/outputs.h"
+#include "experiments/cli/options.h"
+#include "experiments/cli/verbs.h"
+#include "experiments/runner/run/build_info.h"
+#include "experiments/runner/run/experiment.h"
+#include "experiments/runner/run/files.h"
+#include "experiments/runner/run/folder_lock.h"
+#include "experiments/runner/run/log.h"
+#include "experiments/runner/suite/suite_check.h"
+
+namespace restlab {
+
+namespace {
+
+using certificate::Certified;
+using certificate::Question;
+
+// Small images decide sooner: what counts is the number of runs, and each has every pixel.
+constexpr uint32_t kDefaultWidth = 96;
+constexpr uint32_t kDefaultWarmup = 8, kDefaultFrames = 16;
+
+struct BiasOptions {
+  SceneOptions scene;
+  MethodOptions method;
+  std::string images, reference, out;
+  uint64_t runs = 0, maxRuns = certificate::Options().maxRuns;
+  uint32_t jobs = 0, warmup = kDefaultWarmup, frames = kDefaultFrames;
+  bool warmupGiven = false, framesGiven = false, json = false;
+  double marginPercent = 100.0 * certificate::Rules().margin;
+};
+
+std::vector<std::string> filesLike(const std::string& pattern) {
+  glob_t found{};
+  std::vector<std::string> files;
+  if (glob(pattern.c_str(), 0, nullptr, &found) == 0)
+    files.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);
+  globfree(&found);
+  if (files.empty()) failInput(fmt::format("--images {}: no file is called that", pattern));
+  return files;
+}
+
+bool isSuite(const std::string& name) { return std::filesystem::path(name).extension() == ".toml"; }
+
+certificate::Options certificateOptions(const BiasOptions& options, const std::string& name) {
+  certificate::Options result;
+  result.rules.margin = options.marginPercent / 100.0;
+  result.runs = options.runs;
+  result.maxRuns = options.maxRuns;
+  result.jobs = options.jobs;
+  result.out = options.out.empty()
+                   ? std::filesystem::path("results") / ("bias-" + safeFileName(name))
+                   : std::filesystem::path(options.out);
+  return result;
+}
+
+Certified certifyScene(const BiasOptions& options, const certificate::Options& how,
+                       const SessionConfig& given) {
+  Question question;
+  question.prepared = prepareScene(options.scene.request);
+  printWarnings(question.prepared);
+  question.config = given;
+  if (question.config.width == 0 && question.config.height == 0)
+    question.config.width = kDefaultWidth;
+  completeConfig(question.prepared, question.config);
+  const Method method = findMethod(question.config);
+  const bool hasHistory = method.hasHistory(question.config.parameters);
+  question.warmup = hasHistory || options.warmupGiven ? options.warmup : 0;
+  question.frames = options.frames;
+  return certificate::certify(question, how);
+}
+
+// Every method of the suite on every scene, still.
+std::vector<Certified> certifySuite(const BiasOptions& options, const certificate::Options& how) {
+  const Suite suite = loadSuite(options.scene.request.scene, options.method.parameters);
+  if (suite.hasMovingCamera() || !suite.events.empty()) {
+    failUsage(fmt::format("{}: moves its camera or its lights; certificates are of still views",
+                          suite.file));
+  }
+  std::vector<Certified> all;
+  for (const SuiteScene& scene : suite.scenes) {
+    std::string missing;
+    if (scene.optional && assetsMissing(scene.request, missing)) {
+      logInfo(fmt::format("skipped {}: {} is not here", scene.name, missing));
+      continue;
+    }
+    Question question;
+    question.prepared = prepareScene(scene.request);
+    printWarnings(question.prepared);
+    uint32_t width = 0, height = 0;
+    sceneResolution(suite, scene, question.prepared, width, height);
+    for (const uint32_t component : suite.components) {
+      const SessionConfig picture = pictureOf(suite, width, height, component);
+      for (const SuiteMethod& method : suite.rendered()) {
+        question.config = methodConfig(suite, method, question.prepared, picture);
+        question.config.threads = suite.threads;
+        question.config.seed = suite.seed;
+        const bool hasHistory = findMethod(question.config).hasHistory(question.config.parameters);
+        question.warmup = options.warmupGiven ? options.warmup
+                          : hasHistory        ? suite.warmupFrames
+                                              : 0;
+        question.frames = options.framesGiven ? options.frames : suite.timedFrames;
+        all.push_back(certificate::certify(question, how));
+        logInfo(certificate::lineOf(all.back()));
+      }
+    }
+  }
+  if (all.empty()) failInput(fmt::format("{}: none of its scenes is here", suite.file));
+  return all;
+}
+
+// What goes with a scene goes with nothing else.
+void checkOptions(const CLI::App& verb, const BiasOptions& options) {
+  const bool hasImages = !options.images.empty();
+  const std::string& scene = options.scene.request.scene;
+  if (hasImages != !options.reference.empty()) {
+    failUsage(hasImages ? "--images: needs --ref REF.exr, the truth they are compared with"
+                        : "--ref: goes with --images; of a scene the reference is rendered");
+  }
+  if (hasImages == !scene.empty()) {
+    failUsage(hasImages ? "bias: takes a scene or a suite, or --images with --ref, not both"
+                        : "bias: needs a scene or a suite, or --images with --ref");
+  }
+  if (options.runs > 0 && hasImages)
+    failUsage("--runs: of --images there are as many as the files");
+  if (!isSuite(scene)) return;
+  for (const CLI::Option* option : verb.get_options()) {
+    const std::string name = option->get_name();
+    static const std::vector<std::string> usable = {
+        "--help", "--quiet", "--verbose", "scene",    "--set",    "--runs",  "--max-runs",
+        "--jobs", "--out",   "--json",    "--margin", "--warmup", "--frames"};
+    if (option->count() == 0 || std::find(usable.begin(), usable.end(), name) != usable.end())
+      continue;
+    failUsage(fmt::format("{}: the suite {} says that; --set KEY=VALUE changes it", name, scene));
+  }
+}
+
+void bias(BiasOptions options, const CLI::App& verb, Outcome& outcome) {
+  checkOptions(verb, options);
+  options.warmupGiven = verb.get_option("--warmup")->count() > 0;
+  options.framesGiven = verb.get_option("--frames")->count() > 0;
+  const std::string& scene = options.scene.request.scene;
+  const bool isOfSuite = isSuite(scene);
+  std::string name = "images";
+  if (!scene.empty()) name = std::filesystem::path(scene).stem().string();
+  const certificate::Options how = certificateOptions(options, name);
+  SessionConfig config;
+  if (options.images.empty() && !isOfSuite) {
+    resolveResolution(options.scene);
+    config = makeConfig(options.scene, options.method);
+  }
+  makeWritableDirectory(how.out);
+  const FolderLock lock(how.out);
+  std::vector<Certified> all;
+  if (!options.images.empty()) {
+    all.push_back(certificate::certifyImages(filesLike(options.images), options.reference, how));
+  } else if (isOfSuite) {
+    all = certifySuite(options, how);
+  } else {
+    all.push_back(certifyScene(options, how, config));
+  }
+  certificate::writeOutputs(how.out, all, shellCommand(outcome.argv));
+  bool isEquivalent = true;
+  nlohmann::ordered_json documents = nlohmann::ordered_json::array();
+  for (const Certified& certified : all) {
+    isEquivalent =
+        isEquivalent && certified.certificate.verdict == certificate::Verdict::equivalent;
+    if (options.json)
+      documents.push_back(certificate::jsonOf(certified));
+    else if (all.size() == 1)
+      fmt::print("{}", certificate::textOf(certified));
+    else
+      fmt::print("{}\n", certificate::lineOf(certified));
+  }
+  if (options.json) fmt::print("{}\n", (all.size() == 1 ? documents[0] : documents).dump(2));
+  logInfo(fmt::format("{}: report.html, certificates.json and maps", how.out.string()));
+  if (!isEquivalent) outcome.code = ExitCode::comparisonFailed;
+}
+
+}  // namespace
+
+Action addBiasVerb(CLI::App& app) {
+  auto options = std::make_shared<BiasOptions>();
+  CLI::App* verb =
+      app.add_subcommand("bias", "is a method biased? a verdict from independent runs");
+  addSceneOptions(*verb, options->scene);
+  verb->get_option("scene")->required(false)->description(
+      "a glTF file, a built-in scene, or a suite, whose methods are all certified");
+  verb->get_option("--resolution")
+      ->description("WxH pixels (default: 96 wide, the camera's aspect ratio)");
+  addMethodOptions(*verb, options->method);
+  verb->add_option("--runs", options->runs,
+                   "independent runs (default: as many as the first 64 ask for)")
+      ->transform(wholeNumberFrom(certificate::kFewestRuns, 1'000'000));
+  verb->add_option("--max-runs", options->maxRuns, "that these may ask for (default 4096)")
+      ->transform(wholeNumberFrom(certificate::kFewestRuns, 1'000'000));
+  verb->add_option("--margin", options->marginPercent,
+                   "percent of the image's mean, within which a bias does not count (default 0.5)")
+      ->transform(numberFrom(1e-4, 50.0));
+  verb->add_option("--warmup", options->warmup,
+                   "frames of a history before those that count (default 8; 0 of a method without "
+                   "a history)")
+      ->transform(wholeNumberFrom(0, 1u << 20));
+  verb->add_option("--frames", options->frames, "frames whose mean is a run (default 16)")
+      ->transform(wholeNumberFrom(1, 1u << 20));
+  verb->add_option("-j,--jobs", options->jobs, "runs side by side (default: one a core)")
+      ->transform(wholeNumberFrom(1, 1024));
+  verb->add_option("--images", options->images,
+                   "pattern of EXR files, quoted: independent runs of any program");
+  verb->add_option("--ref", options->reference, "EXR file that --images are compared with");
+  verb->add_option("-o,--out", options->out, "folder of the results (default results/bias-NAME)");
+  verb->add_flag("--json", options->json, "as JSON");
+  return [options, verb](Outcome& outcome) { bias(*options, *verb, outcome); };
+}
+
+}  // namespace restlab

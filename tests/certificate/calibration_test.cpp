@@ -1,0 +1,107 @@
+// Certificates of a correct estimator, again and again: how often is the verdict false, and are
+// p-values what they claim to be?
+#include <gtest/gtest.h>
+
+#include <boost/math/distributions/binomial.hpp>
+#include <cstdio>
+
+#include "core/scene/compiled_scene.h"
+#include "tests/bias/independent_runs.h"
+#include "tests/certificate/made_up_runs.h"
+#include "tests/stats/ks.h"
+
+namespace restlab::certificate {
+namespace {
+
+constexpr int kEveryDay = 20, kNightly = 200;
+
+struct Tally {
+  int equivalent = 0, biased = 0, notDecided = 0;
+  std::vector<double> pValues;  // of luminance of the whole image
+
+  void add(const Certificate& c) {
+    equivalent += c.verdict == Verdict::equivalent;
+    biased += c.verdict == Verdict::biased;
+    notDecided += c.verdict == Verdict::notDecided;
+    for (const stats::CellVerdict& v : c.cells.cells) {
+      if (v.wholeImage && v.quantity == stats::Quantity::luminance && v.testable)
+        pValues.push_back(v.welch.pValue);
+    }
+  }
+  // Prints the share of false verdicts with its interval; what stays is within what chance allows.
+  void expectCalibrated(const char* name) const {
+    using boost::math::binomial;
+    const int n = equivalent + biased + notDecided;
+    std::printf(
+        "%s: %d certificates: %d equivalent, %d not decided, %d biased (95 %% of such "
+        "shares: at most %.2f %%); p-values uniform: p %.3f\n",
+        name, n, equivalent, notDecided, biased,
+        100.0 * binomial::find_upper_bound_on_p(n, biased, 0.05),
+        stats::ksUniformTest(pValues).pValue);
+    // The family's error is 1e-3 before fresh runs are asked: two of 200 are a chance of 1 in 60,
+    // after them of less than one in a million.
+    EXPECT_LE(biased, 1);
+    EXPECT_GT(stats::ksUniformTest(pValues).pValue, 1e-3);
+  }
+};
+
+void certifyMadeUp(int certificates) {
+  const Image truth = gradient(8);
+  const Noise noise{0.15, 1.0, 1.0};
+  Tally tally;
+  for (int i = 0; i < certificates; ++i) {
+    const Reference reference = makeReference(truth, 0.005, 50'000 + uint64_t(i));
+    const Evidence pilot = makeEvidence(truth, noise, 1'000'000 + uint64_t(i), 64);
+    const double planned =
+        runsForEquivalence(pilot, truthOf(reference, pilot.runs().grid()), Rules());
+    ASSERT_GE(planned, 128.0);
+    ASSERT_LT(planned, 2000.0);
+    tally.add(judgeMadeUp(
+        makeEvidence(truth, noise, 1'000'000 + uint64_t(i), uint64_t(std::ceil(planned))), noise,
+        truth, reference));
+  }
+  tally.expectCalibrated("made-up runs");
+  EXPECT_GE(tally.equivalent, certificates * 8 / 10);
+}
+
+TEST(Calibration, OfMadeUpRuns) { certifyMadeUp(kEveryDay); }
+TEST(Calibration, NightlyOfMadeUpRuns) { certifyMadeUp(kNightly); }
+
+// `path` on a small scene, against runs of itself in two halves.
+TEST(Calibration, NightlyOfPath) {
+  const auto scene = bias::builtinScene("cornell-box");
+  SessionConfig config;
+  config.width = config.height = 16;
+  config.threads = 1;
+  Session session(scene, config);
+  const auto mean = [&](uint32_t seed, uint32_t frames) {
+    session.reset(seed);
+    ImageSum sum;
+    for (uint32_t i = 0; i < frames; ++i) {
+      session.frame();
+      sum.add(session.radiance());
+    }
+    return sum.mean();
+  };
+  Tally tally;
+  for (uint32_t i = 0; i < uint32_t(kNightly); ++i) {
+    Reference reference;
+    reference.half0 = mean(1'000'000 + i, 4096);
+    reference.half1 = mean(2'000'000 + i, 4096);
+    reference.mean = *reference.half0;
+    for (size_t p = 0; p < reference.mean.pixels.size(); ++p)
+      reference.mean.pixels[p] = 0.5f * (reference.half0->pixels[p] + reference.half1->pixels[p]);
+    const auto batch = [&](uint32_t first) {
+      Evidence evidence(config.width, config.height);
+      for (uint32_t run = 0; run < 128; ++run) evidence.add(mean(first + i * 128 + run, 8));
+      return evidence;
+    };
+    const Evidence first = batch(10'000'000);
+    tally.add(judge(
+        first, first.runs(), [&] { return batch(20'000'000).runs(); }, reference, Rules()));
+  }
+  tally.expectCalibrated("path");
+}
+
+}  // namespace
+}  // namespace restlab::certificate

@@ -1,0 +1,156 @@
+// restlab bias: verdicts, what is left in the folder, going on, and what is refused.
+#include <nlohmann/json.hpp>
+
+#include "core/image/image.h"
+#include "tests/cli/program.h"
+
+namespace restlab::cli_test {
+namespace {
+
+using Json = nlohmann::json;
+
+class BiasTest : public ProgramTest {
+ protected:
+  // One bounce of a lamp on a floor, known in closed form, with little noise.
+  const std::string small_ = "bias quad-light --resolution 16x16 --max-bounces 1 -o out";
+};
+
+TEST_F(BiasTest, PathIsEquivalentAndGoesOnWhereItWas) {
+  const ProgramResult first = run(small_ + " --runs 40 --frames 32");
+  ASSERT_EQ(first.code, 0) << first.err << first.out;
+  EXPECT_EQ(first.out.rfind("quad-light, path: equivalent", 0), 0u) << first.out;
+  EXPECT_NE(first.out.find("luminance  bias "), std::string::npos) << first.out;
+  for (const char* file : {"out/report.html", "out/certificates.json", "out/certificates.md"})
+    EXPECT_TRUE(std::filesystem::exists(path(file))) << file;
+  EXPECT_EQ(entries("out/runs").size(), 1u);
+  const std::string folder = "out/runs/" + entries("out/runs").at(0).filename().string();
+  EXPECT_EQ(entries(folder).size(), 40u);
+  const auto untouched = std::filesystem::last_write_time(entries(folder).at(0));
+
+  const ProgramResult more = run(small_ + " --runs 48 --frames 32 --json");
+  ASSERT_EQ(more.code, 0) << more.err;
+  EXPECT_EQ(entries(folder).size(), 48u);
+  EXPECT_EQ(std::filesystem::last_write_time(entries(folder).at(0)), untouched);
+  const Json document = Json::parse(more.out);
+  EXPECT_EQ(document.at("verdict"), "equivalent");
+  EXPECT_EQ(document.at("runs"), 48);
+  EXPECT_EQ(document.at("image").size(), 4u);
+  EXPECT_EQ(document.at("nonfinite"), 0);
+
+  // The signed difference is that of what stands beside it.
+  const std::string name = "out/maps/" + document.at("name").get<std::string>();
+  const LayeredImage map = readExr(path("out/maps/quad-light__path-bias.exr"));
+  const Image &difference = map.layers.at(""), &mean = map.layers.at("mean"),
+              &reference = map.layers.at("reference"), &p = map.layers.at("p_value");
+  for (size_t i = 0; i < difference.pixels.size(); ++i) {
+    EXPECT_EQ(difference.pixels[i], mean.pixels[i] - reference.pixels[i]) << name;
+    EXPECT_LE(p.pixels[i].x, 1.0f);
+  }
+}
+
+// Runs made side by side, and in two goes, are those of one after the other.
+TEST_F(BiasTest, RunsDoNotDependOnHowTheyAreMade) {
+  ASSERT_EQ(run(small_ + " --runs 32 -j 1 --json -q").code, 0);
+  const Json one = Json::parse(read("out/certificates.json")).at("certificates").at(0);
+  std::filesystem::remove_all(path("out/runs"));
+  ASSERT_EQ(run(small_ + " --runs 32 -j 4 --json -q").code, 0);
+  EXPECT_EQ(Json::parse(read("out/certificates.json")).at("certificates").at(0), one);
+}
+
+TEST_F(BiasTest, AWrongWeightIsBiasedWithItsSize) {
+  const std::string box = "bias cornell-box --integrator restir_gi --resolution 24x24 -o out ";
+  const ProgramResult wrong =
+      run(box + "--set mis=confidence --runs 128 --warmup 4 --frames 4 --json");
+  ASSERT_EQ(wrong.code, 1) << wrong.err << wrong.out;
+  const Json document = Json::parse(wrong.out);
+  EXPECT_EQ(document.at("verdict"), "biased") << document.at("reason");
+  EXPECT_GT(document.at("confirmed").get<int>(), 0);
+  EXPECT_LT(document.at("image").at(0).at("relative_bias").at("hi").get<double>(), 0.0);
+  EXPECT_GT(document.at("squared_bias").at("lo").get<double>(), 0.0);
+  const std::string replay = document.at("replay");
+  EXPECT_NE(replay.find("--set mis=confidence"), std::string::npos) << replay;
+  // It names a command that works.
+  const size_t begin = replay.find("render");
+  std::string command = replay.substr(begin);
+  command.replace(command.find("X,Y"), 3, "3,4");
+  const ProgramResult pixel = run(command);
+  EXPECT_EQ(pixel.code, 0) << pixel.err;
+  EXPECT_NE(pixel.out.find("confidence"), std::string::npos) << pixel.out;
+}
+
+TEST_F(BiasTest, AnInterruptKeepsFinishedRuns) {
+  const std::string command =
+      "bias cornell-box --integrator restir_gi --resolution 48x48 --runs 2000 -o out -q";
+  const ProgramResult stopped = runUntil(
+      [&] { return entries("out/runs").size() == 1 && entries(entries("out/runs")[0]).size() > 2; },
+      command);
+  EXPECT_EQ(stopped.code, 130) << stopped.err;
+  expectError(stopped, 130, {"finished runs are kept"});
+  EXPECT_FALSE(std::filesystem::exists(path("out/report.html")));
+  EXPECT_GT(entries(entries("out/runs")[0]).size(), 2u);
+}
+
+TEST_F(BiasTest, ASuiteIsCertifiedMethodByMethod) {
+  write("two.toml", R"(name = "two"
+scenes = ["quad-light"]
+[settings]
+width = 16
+height = 16
+max_bounces = 1
+warmup_frames = 2
+timed_frames = 32
+runs = 2
+[reference]
+spp = 64
+[[method]]
+name = "plain"
+integrator = "path"
+[[method]]
+name = "reuse"
+integrator = "restir_gi"
+)");
+  const ProgramResult result = run("bias two.toml --runs 48 -o out");
+  EXPECT_EQ(result.code, 0) << result.err << result.out;
+  EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 2) << result.out;
+  EXPECT_NE(result.out.find("quad-light, path: "), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("restir_gi unbiased"), std::string::npos) << result.out;
+  expectError(run("bias two.toml --resolution 8x8 -o out"), 2, {"--resolution", "two.toml"});
+}
+
+// Images of other programs: those of the runs themselves.
+TEST_F(BiasTest, ImagesAreCertifiedAlike) {
+  ASSERT_EQ(run(small_ + " --runs 64 --frames 32 -q").code, 0);
+  const std::string runs = entries("out/runs").at(0).string();
+  std::string reference;
+  for (const auto& file : entries("out/references")) reference = file.string();
+  const std::vector<std::string> command = {
+      "bias", "--images", runs + "/run-*.exr", "--ref", reference, "-o", "theirs"};
+  const ProgramResult result = run(command);
+  EXPECT_EQ(result.code, 0) << result.err << result.out;
+  EXPECT_NE(result.out.find("equivalent"), std::string::npos) << result.out;
+
+  // The same pixels twice, and the same seed.
+  std::filesystem::copy(runs + "/run-00003.exr", runs + "/run-00003-again.exr");
+  expectError(run(command), 3, {"run-00003-again.exr", "run-00003.exr", "independent"});
+  LayeredImage image = readExr(runs + "/run-00004.exr");
+  std::filesystem::remove(runs + "/run-00003-again.exr");
+  image.layers[""].pixels[0].x += 1.0f;
+  writeExr(runs + "/run-00004-again.exr", image);
+  expectError(run(command), 3, {"run-00004-again.exr", "seed", "run-00004.exr"});
+  std::filesystem::remove(runs + "/run-00004-again.exr");
+  writeExr(runs + "/run-99999.exr", {{{"", Image(8, 8)}}, {}});
+  expectError(run(command), 3, {"run-99999.exr", "8x8", "16x16"});
+}
+
+TEST_F(BiasTest, WhatIsMissingIsSaid) {
+  expectError(run("bias"), 2, {"needs a scene or a suite", "--images"});
+  expectError(run("bias --images x*.exr"), 2, {"--images", "--ref"});
+  expectError(run("bias quad-light --ref r.exr"), 2, {"--ref", "--images"});
+  expectError(run("bias --images x*.exr --ref r.exr"), 3, {"x*.exr", "no file"});
+  expectError(run("bias quad-light --runs 1"), 2, {"--runs", "32"});
+  expectError(run("bias quad-light --margin 0"), 2, {"--margin"});
+  expectError(run("bias no-such-scene"), 3, {"no-such-scene"});
+}
+
+}  // namespace
+}  // namespace restlab::cli_test
