@@ -11,7 +11,7 @@
 #include "core/changes/settings.h"
 #include "core/scene/compiled_scene.h"
 #include "integrators/restir_gi/kept_params.h"
-#include "integrators/restir_gi/pixel_own.h"
+#include "integrators/restir_gi/restir_gi.h"
 
 // Functions that a kernel hands to the reuse loop have one signature: some ignore a parameter.
 #pragma GCC diagnostic ignored "-Wunused-parameter"
@@ -26,8 +26,8 @@ namespace {
 
 using Donors = std::vector<restlab::Donor>;
 
-// Of a share that is told by a difference: reservoirs are packed to less.
-constexpr double kRounding = 1e-3;
+// Of what is told by a difference: of shares, as reservoirs are packed; of sums of confidences.
+constexpr double kRoundingOfShares = 1e-3, kRoundingOfConfidence = 1e-4;
 
 // As in core/backend/cpu_kernel.inl: the spatial pass, with the shifts that the exchange pass made.
 namespace over_space {
@@ -133,7 +133,9 @@ struct Ctx {
     PathGather p = pathNothingGathered(film);
     p.end = radianceBegin(slotOfPixel(pixel));
     walkPath(p, pixel, film);
-    return pathResample(p, rngInit(gFrame.seed, slotOfPixel(pixel), gFrame.frame));
+    PathReservoir r = pathResample(p, rngInit(gFrame.seed, slotOfPixel(pixel), gFrame.frame));
+    reservoirGuard(r.state);
+    return r;
   }
 
   // The resampling weight of what the pixel found, against a donor of the pixel `before`.
@@ -164,7 +166,7 @@ struct Ctx {
     donor.id = before;
     // The pixel's sample of this frame has the confidence 1; without one more, nothing was merged.
     donor.confidence = confidence - 1.0f;
-    if (before == RL_INVALID || !(donor.confidence > 1e-6)) return {};
+    if (before == RL_INVALID || !(donor.confidence > kRoundingOfConfidence)) return {};
     PathReservoir merged;
     merged.path.suffix = pathNoSuffix();
     giReadNow(slot, merged);
@@ -180,7 +182,8 @@ struct Ctx {
     }
     // Both samples are of one pixel in a still view: the shift is the identity. Otherwise a share
     // tells, if it is more than what packing hides.
-    donor.shift = isStill || donor.share.value_or(0.0) > 1e-3 ? "accepted" : "not kept";
+    donor.shift =
+        isStill || donor.share.value_or(0.0) > kRoundingOfShares ? "accepted" : "not kept";
     if (isStill) donor.misWeight = donor.confidence / confidence;
     return {donor};
   }
