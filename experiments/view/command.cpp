@@ -148,14 +148,15 @@ ViewCommand commandOf(Members& members) {
                  members.whole("y", 0, kMaxSide - 1)};
   }
   if (name == "pause") return Pause{members.flag("on")};
+  if (name == "look") return Look{members.flag("on")};
   if (name == "restart") return Restart{};
   if (name == "copy") return CopyMethod{members.pane("from"), members.pane("to")};
   if (name == "undo") return Undo{};
   if (name == "redo") return Redo{};
   if (name == "save") return SaveSession{};
   const std::vector<std::string> names = {"set",   "parameter", "camera", "resolution", "light",
-                                          "layer", "probe",     "pause",  "restart",    "copy",
-                                          "undo",  "redo",      "save"};
+                                          "layer", "probe",     "pause",  "look",       "restart",
+                                          "copy",  "undo",      "redo",   "save"};
   failUsage(fmt::format("command: '{}' is unknown (known: {}){}", name, fmt::join(names, ", "),
                         didYouMean(name, names)));
 }

@@ -8,6 +8,8 @@
 //   layer       pane, name           a layer of the method over its image; "": none
 //   probe       pane, x, y           what the pane keeps of a pixel
 //   pause       on                   panes stand; the reference goes on
+//   look        on                   whether somebody sees the page; one that nobody does gets no
+//                                    images, and keeps nothing at work
 //   restart                          histories begin anew, with the next seed
 //   copy        from, to             the pane `to` gets the method of the pane `from`
 //   undo, redo                       the last step of what is set, back and forth
@@ -57,6 +59,9 @@ struct Probe {
 struct Pause {
   bool on = true;
 };
+struct Look {
+  bool on = true;
+};
 struct Restart {};
 struct CopyMethod {
   uint32_t from = 0, to = 0;  // panes
@@ -66,7 +71,7 @@ struct Redo {};
 struct SaveSession {};
 
 using ViewCommand = std::variant<SetSetting, SetParameter, MoveCamera, Resize, SetLight, ShowLayer,
-                                 Probe, Pause, Restart, CopyMethod, Undo, Redo, SaveSession>;
+                                 Probe, Pause, Look, Restart, CopyMethod, Undo, Redo, SaveSession>;
 
 constexpr uint32_t kMostPanes = 2;
 

@@ -10,6 +10,15 @@
 
 namespace restlab {
 
+namespace {
+
+bool hasHistory(const SessionConfig& config) {
+  const Method method = findMethod(config);
+  return method.hasHistory(resolveParameters(method, config.parameters));
+}
+
+}  // namespace
+
 ViewSettings settingsOf(const PreparedScene& prepared, const std::vector<SessionConfig>& panes) {
   ViewSettings settings;
   for (const SessionConfig& config : panes) settings.panes.push_back({withNames(config), ""});
@@ -31,8 +40,8 @@ LiveView::LiveView(const PreparedScene& prepared, ViewSettings settings,
 }
 
 void LiveView::apply(const ViewCommand& command) {
-  if (std::holds_alternative<Pause>(command) || std::holds_alternative<Probe>(command) ||
-      std::holds_alternative<SaveSession>(command))
+  if (std::holds_alternative<Pause>(command) || std::holds_alternative<Look>(command) ||
+      std::holds_alternative<Probe>(command) || std::holds_alternative<SaveSession>(command))
     return;
   if (std::holds_alternative<Restart>(command)) return restart();
   const ViewSettings before = settings_;
@@ -50,6 +59,7 @@ void LiveView::apply(const ViewCommand& command) {
   if (isSame(change.settings, settings_)) return;
   become(std::move(change.settings));
   history_.add(before, change.target, change.text);
+  if (const auto* copy = std::get_if<CopyMethod>(&command)) giveOwnSeed(copy->to);
 }
 
 void LiveView::renderFrames() {
@@ -88,7 +98,7 @@ PreparedScene LiveView::litBy(const LightFactors& lights) const {
   if (lights.empty()) return loaded_;
   Scene scene = loaded_.scene->source();
   std::string words;
-  for (const auto& [name, factor] : lights) {
+  for (const auto& [name, factor] : absoluteLights(lights)) {
     scene = withLightFactor(std::move(scene), name, factor);
     words += fmt::format("{}{} x{}", words.empty() ? "" : ", ", name, factor);
   }
@@ -103,6 +113,8 @@ void LiveView::beginEpoch(bool isAnotherPicture) {
   ++picture_;
   ReferenceConfig config = referenceConfigOf(panes_.front().session->config());
   config.camera = settings_.camera;
+  if (!referenceSeed_) referenceSeed_ = config.seed;
+  config.seed = *referenceSeed_;
   reference_.begin(prepared_, config);
 }
 
@@ -132,7 +144,10 @@ void LiveView::resize(const std::vector<Pane*>& panes, const SessionConfig& befo
       throw std::runtime_error(
           fmt::format("the size of before has no room any more: {}", error.what()));
     }
-    for (Pane* pane : panes) pane->isPlain = true;
+    for (Pane* pane : panes) {
+      pane->isPlain = true;
+      pane->hasOldLight = false;
+    }
     beginEpoch(false);
     throw;
   }
@@ -177,10 +192,27 @@ void LiveView::become(ViewSettings next) {
     const bool isTouched =
         isAnotherPicture || settings_.panes[i].config.parameters != next.panes[i].config.parameters;
     pane.isPlain = isNew || (pane.isPlain && !isTouched);
+    pane.hasOldLight = !isNew && hasHistory(next.panes[i].config) &&
+                       (pane.hasOldLight || settings_.lights != next.lights);
   }
   settings_ = std::move(next);
   prepared_ = shown;
   if (isChanged) beginEpoch(isAnotherPicture);
+}
+
+void LiveView::giveOwnSeed(size_t pane) {
+  uint32_t& seed = settings_.panes[pane].config.seed;
+  const auto isTaken = [&] {
+    for (size_t i = 0; i < panes_.size(); ++i)
+      if (i != pane && settings_.panes[i].config.seed == seed) return true;
+    return false;
+  };
+  if (!isTaken()) return;
+  while (isTaken()) ++seed;
+  panes_[pane].session->reset(seed);
+  panes_[pane].frames = 0;
+  panes_[pane].isPlain = true;
+  panes_[pane].hasOldLight = false;
 }
 
 void LiveView::restart() {
@@ -188,6 +220,7 @@ void LiveView::restart() {
     panes_[i].session->reset(++settings_.panes[i].config.seed);
     panes_[i].frames = 0;
     panes_[i].isPlain = true;
+    panes_[i].hasOldLight = false;
   }
   beginEpoch(false);
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,8 @@ class LiveView {
   LiveView(const PreparedScene& prepared, const std::vector<SessionConfig>& panes,
            const ReferenceStore& store);
 
-  // Does what a page asks. Throws Error in one line; what is set is then as it was. Pause, Probe
-  // and SaveSession change no picture and are the caller's.
+  // Does what a page asks. Throws Error in one line; what is set is then as it was. Pause, Look,
+  // Probe and SaveSession change no picture and are the caller's.
   void apply(const ViewCommand& command);
 
   // The next frame of each pane, one after the other.
@@ -50,6 +51,10 @@ class LiveView {
   // A history in which nothing was changed: that of a session which began with what is set.
   bool hasPlainHistory(size_t pane) const { return panes_.at(pane).isPlain; }
   const std::string& layer(size_t pane) const { return settings_.panes.at(pane).layer; }
+  // Its history began with other light than there is now, and knows nothing of the change.
+  bool hasOldLight(size_t pane) const {
+    return panes_.at(pane).frames > 0 && panes_.at(pane).hasOldLight;
+  }
   // Of the frames since the epoch began for which there was a reference.
   const RunningError& error(size_t pane) const { return panes_.at(pane).error; }
   const LiveReference& reference() const { return reference_; }
@@ -62,7 +67,7 @@ class LiveView {
     RunningError error;
     uint64_t frames = 0;
     uint64_t epoch = 0;  // of the last frame
-    bool isPlain = true;
+    bool isPlain = true, hasOldLight = false;
   };
 
   void renderFrame(Pane& pane);
@@ -78,6 +83,8 @@ class LiveView {
   void resize(const std::vector<Pane*>& panes, const SessionConfig& before,
               const SessionConfig& after);
   void restart();
+  // A seed that no other pane has: a copy with the same one would show the same noise.
+  void giveOwnSeed(size_t pane);
 
   const PreparedScene loaded_;  // with the light that was loaded
   PreparedScene prepared_;      // with that which is shown
@@ -85,6 +92,9 @@ class LiveView {
   ViewHistory history_;
   std::vector<Pane> panes_;
   LiveReference reference_;
+  // Of all references: one that is kept is found again after the panes began anew, with other
+  // seeds.
+  std::optional<uint32_t> referenceSeed_;
   uint64_t epoch_ = 0, picture_ = 0, age_ = 0;
 };
 

@@ -9,23 +9,33 @@ namespace restlab {
 
 namespace {
 
-double meanOf(const std::vector<double>& numbers, size_t first, size_t last) {
-  const auto begin = numbers.begin() + std::ptrdiff_t(first);
-  const auto end = numbers.begin() + std::ptrdiff_t(last);
-  return std::accumulate(begin, end, 0.0) / double(last - first);
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+double meanOf(const Image& image) {
+  const glm::dvec3 means = channelMeans(image);
+  return (means.x + means.y + means.z) / 3.0;
 }
 
-Interval intervalOf(const std::vector<double>& numbers) {
-  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  if (numbers.empty()) return {kUnknown, kUnknown, kUnknown};
-  const size_t count = numbers.size();
-  const double mean = meanOf(numbers, 0, count);
-  if (count < RunningError::kLeastFrames) return {mean, kUnknown, kUnknown};
+}  // namespace
+
+void RunningError::Window::add(double number) {
+  numbers_.push_back(number);
+  sums_.push_back(sums_.back() + number);
+}
+
+void RunningError::Window::clear() {
+  numbers_.clear();
+  sums_.assign(1, 0.0);
+}
+
+Interval RunningError::Window::mean() const {
+  const size_t count = size();
+  if (count == 0) return {kUnknown, kUnknown, kUnknown};
+  const double mean = meanOf(0, count);
+  if (count < kLeastFrames) return {mean, kUnknown, kUnknown};
   std::vector<double> batches;
-  for (size_t b = 0; b < RunningError::kBatches; ++b) {
-    batches.push_back(meanOf(numbers, b * count / RunningError::kBatches,
-                             (b + 1) * count / RunningError::kBatches));
-  }
+  for (size_t b = 0; b < kBatches; ++b)
+    batches.push_back(meanOf(b * count / kBatches, (b + 1) * count / kBatches));
   Interval interval = meanInterval(batches);
   // Batches may differ by a frame.
   interval.lo += mean - interval.value;
@@ -34,12 +44,12 @@ Interval intervalOf(const std::vector<double>& numbers) {
   return interval;
 }
 
-double meanOf(const Image& image) {
-  const glm::dvec3 means = channelMeans(image);
-  return (means.x + means.y + means.z) / 3.0;
+// Not by sums: a frame that was not finite is gone when it is no longer among them.
+double RunningError::Window::meanOfNewest() const {
+  if (size() < kNewest) return kUnknown;
+  return std::accumulate(numbers_.end() - std::ptrdiff_t(kNewest), numbers_.end(), 0.0) /
+         double(kNewest);
 }
-
-}  // namespace
 
 void RunningError::restart() {
   mse_.clear();
@@ -55,13 +65,13 @@ void RunningError::add(const Image& frame, const Image& mean, const Image& half0
     energy_.clear();
     relativeSpp_ = referenceSpp;
   }
-  mse_.push_back(mseAgainstHalves(frame, half0, half1));
-  relmse_.push_back(relmseAgainstHalves(frame, mean, half0, half1).relmse);
-  energy_.push_back(meanOf(frame) / meanOf(mean));
+  mse_.add(mseAgainstHalves(frame, half0, half1));
+  relmse_.add(relmseAgainstHalves(frame, mean, half0, half1).relmse);
+  energy_.add(meanOf(frame) / meanOf(mean));
 }
 
-Interval RunningError::mse() const { return intervalOf(mse_); }
-Interval RunningError::relmse() const { return intervalOf(relmse_); }
-Interval RunningError::energyRatio() const { return intervalOf(energy_); }
+Interval RunningError::mse() const { return mse_.mean(); }
+Interval RunningError::relmse() const { return relmse_.mean(); }
+Interval RunningError::energyRatio() const { return energy_.mean(); }
 
 }  // namespace restlab

@@ -21,18 +21,39 @@ class RunningError {
            uint64_t referenceSpp);
 
   size_t frames() const { return mse_.size(); }
-  double lastMse() const { return mse_.back(); }  // there is a frame
-  // Means over the window. Intervals are those of kBatches batches of frames side by side, and
-  // unknown before there are kLeastFrames. Histories that are longer than a batch make them too
-  // narrow, and a method that still converges makes them wide.
+  double lastMse() const { return mse_.last(); }  // there is a frame
+  // Means over the window; each costs the same however long it is. Intervals are those of kBatches
+  // batches of frames side by side, and unknown before there are kLeastFrames. Histories that are
+  // longer than a batch make them too narrow, and a method that still converges makes them wide.
   Interval mse() const;
   Interval relmse() const;       // relmse_e1e-2 against the halves
   Interval energyRatio() const;  // mean(frame) / mean(reference)
+  // Means of the newest kNewest frames, which a method that has converged by then no longer warms
+  // up in; NaN before there are so many.
+  double newestMse() const { return mse_.meanOfNewest(); }
+  double newestRelmse() const { return relmse_.meanOfNewest(); }
 
-  static constexpr size_t kBatches = 8, kLeastFrames = 64;
+  static constexpr size_t kBatches = 8, kLeastFrames = 64, kNewest = 32;
 
  private:
-  std::vector<double> mse_, relmse_, energy_;
+  // Numbers, and their sums from the first on.
+  class Window {
+   public:
+    void add(double number);
+    void clear();
+    size_t size() const { return numbers_.size(); }
+    double last() const { return numbers_.back(); }
+    Interval mean() const;
+    double meanOfNewest() const;
+
+   private:
+    double meanOf(size_t first, size_t last) const {
+      return (sums_[last] - sums_[first]) / double(last - first);
+    }
+
+    std::vector<double> numbers_, sums_{0.0};
+  };
+  Window mse_, relmse_, energy_;
   uint64_t relativeSpp_ = 0;  // of the reference when relmse_ and energy_ began
 };
 

@@ -5,9 +5,10 @@
 namespace restlab {
 
 void ViewHistory::add(const ViewSettings& before, const std::string& target,
-                      const std::string& text) {
+                      const std::string& text, Clock::time_point now) {
   future_.clear();
-  if (isOpen_ && !target.empty() && !past_.empty() && past_.back().target == target) {
+  const bool isInTime = now - std::exchange(changed_, now) <= kPause;
+  if (isInTime && isOpen_ && !target.empty() && !past_.empty() && past_.back().target == target) {
     past_.back().text = text;
     return;
   }

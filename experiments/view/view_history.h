@@ -1,6 +1,7 @@
 // Steps back and forth through what was set in a viewer.
 #pragma once
 
+#include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,10 +12,15 @@ namespace restlab {
 
 class ViewHistory {
  public:
+  using Clock = std::chrono::steady_clock;
   static constexpr size_t kMostSteps = 200;  // older ones are forgotten
+  // A drag goes on for so long after its last change: rounds of frames may take as long.
+  static constexpr std::chrono::seconds kPause{2};
 
-  // `before` was set before the change. Changes of one target in a row are one step: a drag is.
-  void add(const ViewSettings& before, const std::string& target, const std::string& text);
+  // `before` was set before the change. Changes of one target in a row, with no longer pauses, are
+  // one step: a drag is.
+  void add(const ViewSettings& before, const std::string& target, const std::string& text,
+           Clock::time_point now = Clock::now());
 
   bool canUndo() const { return !past_.empty(); }
   bool canRedo() const { return !future_.empty(); }
@@ -37,6 +43,7 @@ class ViewHistory {
 
   std::vector<Step> past_, future_;
   bool isOpen_ = false;  // the last step may grow
+  Clock::time_point changed_;
 };
 
 }  // namespace restlab

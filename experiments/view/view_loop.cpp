@@ -11,6 +11,7 @@
 
 #include "core/backend/stop.h"
 #include "core/error.h"
+#include "core/method.h"
 #include "experiments/runner/run/interrupt.h"
 #include "experiments/view/view_session.h"
 #include "experiments/view/view_session_file.h"
@@ -34,6 +35,14 @@ double loadOfMachine() {
   double average = 0.0;
   const double threads = std::max(1u, std::thread::hardware_concurrency());
   return getloadavg(&average, 1) == 1 ? average / threads : std::nan("");
+}
+
+bool isNameLayer(const PaneSettings& pane) {
+  const std::vector<const LayerInfo*> layers = findMethod(pane.config).layers();
+  return pane.layer == "object" ||
+         std::any_of(layers.begin(), layers.end(), [&](const LayerInfo* layer) {
+           return layer->isName && layer->name == pane.layer;
+         });
 }
 
 // What has come of one page, read.
@@ -121,12 +130,15 @@ void ViewLoop::welcome(ClientId page) {
   sender_.opened(page);
   sender_.tell(page, helloText(facts_, view_));
   sender_.tell(page, stateText(view_, isPaused_));
-  showPanes();
-  showReference(true);
-  tellNumbers();
+  showAll();
 }
 
 bool ViewLoop::obey(ClientId page, const ViewCommand& command) {
+  if (const auto* look = std::get_if<Look>(&command)) {
+    sender_.setSeen(page, look->on);
+    if (look->on) showAll();
+    return false;
+  }
   if (const auto* probe = std::get_if<Probe>(&command)) {
     sender_.tell(page, probeText(facts_, view_, *probe));
     return false;
@@ -201,6 +213,12 @@ bool ViewLoop::refine() {
   return true;
 }
 
+void ViewLoop::showAll() {
+  showPanes();
+  showReference(true);
+  tellNumbers();
+}
+
 bool ViewLoop::isStill() const {
   return isPaused_ || (secondsSince(changed_) >= kStillS && !events_.areWaiting());
 }
@@ -215,7 +233,9 @@ void ViewLoop::showPanes() {
     sender_.show(header, view_.session(i).radiance(), isStill());
     if (view_.layer(i).empty()) continue;
     header.slot = kFirstLayerSlot + i;
-    sender_.show(header, view_.session(i).aov(view_.layer(i)), isStill());
+    // Names are to the last bit: a rounded one is another.
+    sender_.show(header, view_.session(i).aov(view_.layer(i)),
+                 isStill() || isNameLayer(view_.settings().panes[i]));
   }
 }
 

@@ -56,6 +56,8 @@ class ViewLoop {
   void renderRound();
   // True where a sample was due.
   bool refine();
+  // What a page that somebody sees from now on has missed.
+  void showAll();
   void showPanes();
   void showReference(bool isUrgent);
   void showWhatIsExact();

@@ -121,13 +121,23 @@ Json parametersJson(const SessionConfig& config) {
 
 // What every method can show; the manual says more of each.
 Json layersJson(const SessionConfig& config) {
-  Json all = {{{"name", "depth"}, {"unit", "m"}, {"help", "distance along the ray"}},
-              {{"name", "positionW"}, {"unit", "m"}, {"help", "first hit"}},
-              {{"name", "normalW"}, {"unit", ""}, {"help", "shading normal of the first hit"}},
-              {{"name", "albedo"}, {"unit", ""}, {"help", "reflectance of the first hit"}},
-              {{"name", "object"}, {"unit", ""}, {"help", "number of the mesh"}, {"is_name", true}},
-              {{"name", "emission"}, {"unit", ""}, {"help", "light seen directly"}},
-              {{"name", "motion"}, {"unit", "pixels"}, {"help", "to where it was a frame ago"}}};
+  Json all = {
+      {{"name", "depth"}, {"unit", "m"}, {"help", "distance along the ray"}},
+      {{"name", "positionW"}, {"unit", "m"}, {"help", "first hit"}, {"kind", "vector"}},
+      {{"name", "normalW"},
+       {"unit", ""},
+       {"help", "shading normal of the first hit"},
+       {"kind", "vector"}},
+      {{"name", "albedo"},
+       {"unit", ""},
+       {"help", "reflectance of the first hit"},
+       {"kind", "colour"}},
+      {{"name", "object"}, {"unit", ""}, {"help", "number of the mesh"}, {"is_name", true}},
+      {{"name", "emission"}, {"unit", ""}, {"help", "light seen directly"}, {"kind", "radiance"}},
+      {{"name", "motion"},
+       {"unit", "pixels"},
+       {"help", "to where it was a frame ago, right and down"},
+       {"kind", "vector2"}}};
   for (const LayerInfo* layer : findMethod(config).layers()) {
     all.push_back({{"name", layer->name}, {"unit", layer->unit}, {"help", layer->summary}});
     if (layer->isName) all.back()["is_name"] = true;
@@ -138,7 +148,7 @@ Json layersJson(const SessionConfig& config) {
 double factorOf(const LightFactors& lights, const std::string& name) {
   double factor = 1.0;
   for (const auto& [light, its] : lights)
-    if (light == name || light == kAllLights) factor = its;
+    if (light == name) factor = its;
   return factor;
 }
 
@@ -156,6 +166,9 @@ Json paneNumbers(const LiveView& view, size_t i) {
           {"mse", intervalJson(error.mse())},
           {"relmse", intervalJson(error.relmse())},
           {"energy", intervalJson(error.energyRatio())},
+          {"mse_newest", orNull(error.newestMse())},
+          {"relmse_newest", orNull(error.newestRelmse())},
+          {"old_light", view.hasOldLight(i)},
           {"last_mse", error.frames() > 0 ? orNull(error.lastMse()) : Json(nullptr)},
           {"ms", stats.timeMs},
           {"passes", passes},
@@ -227,6 +240,7 @@ std::string numbersText(const LiveView& view, const Transport& transport, double
   return textOf({{"say", "numbers"},
                  {"epoch", view.epoch()},
                  {"age", view.age()},
+                 {"newest_frames", RunningError::kNewest},
                  {"panes", panes},
                  {"reference",
                   {{"spp", reference.spp()},
@@ -250,6 +264,7 @@ std::string probeText(const ViewFacts& facts, const LiveView& view, const Probe&
                  {"x", probe.x},
                  {"y", probe.y},
                  {"frame", view.frames(probe.pane)},
+                 {"epoch", view.epochOf(probe.pane)},
                  {"seed", config.seed},
                  {"values", probedValuesJson(view.session(probe.pane), probe.x, probe.y)},
                  {"donors", probedDonorsJson(view.session(probe.pane), probe.x, probe.y)},

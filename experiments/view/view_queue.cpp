@@ -7,10 +7,12 @@ namespace restlab {
 void PageEvents::add(PageEvent event) {
   {
     const std::lock_guard lock(mutex_);
-    if (event.kind == PageEvent::Kind::said && events_.size() >= kMostTexts) {
+    const bool isFull = events_.size() >= kMostTexts || bytes_ + event.text.size() > kMostBytes;
+    if (event.kind == PageEvent::Kind::said && isFull) {
       isLost_ = true;
       return;
     }
+    bytes_ += event.text.size();
     events_.push_back(std::move(event));
   }
   there_.notify_one();
@@ -21,6 +23,7 @@ std::vector<PageEvent> PageEvents::take(std::chrono::milliseconds patience) {
   if (patience.count() > 0)
     there_.wait_for(lock, patience, [this] { return !events_.empty() || isWoken_; });
   isWoken_ = false;
+  bytes_ = 0;
   return std::exchange(events_, {});
 }
 

@@ -20,7 +20,7 @@ struct PageEvent {
 class PageEvents {
  public:
   // Texts beyond are lost: no page types so fast. Pages that come and go never are.
-  static constexpr size_t kMostTexts = 4096;
+  static constexpr size_t kMostTexts = 4096, kMostBytes = 4 << 20;
 
   // Never waits for long.
   void add(PageEvent event);
@@ -36,6 +36,7 @@ class PageEvents {
   mutable std::mutex mutex_;
   std::condition_variable there_;
   std::vector<PageEvent> events_;
+  size_t bytes_ = 0;  // of their texts
   bool isWoken_ = false, isLost_ = false;
 };
 

@@ -24,17 +24,27 @@ void ViewSender::tellAll(const std::string& text) {
   for (const ClientId page : pages_) server_.send(page, text);
 }
 
-void ViewSender::tellNewest(uint32_t slot, const std::string& text) {
-  for (const ClientId page : pages_) server_.sendNewest(page, slot, text);
+void ViewSender::tellNewest(uint32_t slot, const std::string& text, bool isForUnseen) {
+  for (const ClientId page : pages_)
+    if (isForUnseen || unseen_.count(page) == 0) server_.sendNewest(page, slot, text);
+}
+
+void ViewSender::setSeen(ClientId page, bool isSeen) {
+  if (isSeen) {
+    unseen_.erase(page);
+  } else if (pages_.count(page) > 0) {
+    unseen_.insert(page);
+  }
 }
 
 void ViewSender::show(ImageHeader header, const Image& image, bool isExact) {
-  if (pages_.empty()) return;
+  if (!hasPages()) return;
   const bool isSmall = image.pixels.size() * sizeof(glm::vec3) <= kSmallBytes;
   header.format = isExact || isSmall ? PixelFormat::floats : PixelFormat::halves;
   formats_[header.slot] = header.format;
   const auto bytes = std::make_shared<const Bytes>(imageMessage(header, image));
-  for (const ClientId page : pages_) server_.sendNewest(page, header.slot, bytes);
+  for (const ClientId page : pages_)
+    if (unseen_.count(page) == 0) server_.sendNewest(page, header.slot, bytes);
 }
 
 bool ViewSender::isRounded(uint32_t slot) const {

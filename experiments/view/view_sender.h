@@ -24,17 +24,23 @@ class ViewSender {
   ViewSender(const ViewServerOptions& options, PageEvents& events);
 
   std::string url() const { return server_.url(); }
-  bool hasPages() const { return !pages_.empty(); }
+  // Pages that somebody sees.
+  bool hasPages() const { return pages_.size() > unseen_.size(); }
   void opened(ClientId page) { pages_.insert(page); }
-  void closed(ClientId page) { pages_.erase(page); }
+  void closed(ClientId page) {
+    pages_.erase(page);
+    unseen_.erase(page);
+  }
+  // In the background of a browser a page gets no numbers and no images.
+  void setSeen(ClientId page, bool isSeen);
 
   // In their order. A page that takes none for long is let go.
   void tell(ClientId page, const std::string& text) { server_.send(page, text); }
   void tellAll(const std::string& text);
   // Of each kind the newest.
-  void tellState(const std::string& text) { tellNewest(kStateSlot, text); }
-  void tellNumbers(const std::string& text) { tellNewest(kNumbersSlot, text); }
-  // `isExact`: as floats, whatever it takes. To all pages.
+  void tellState(const std::string& text) { tellNewest(kStateSlot, text, true); }
+  void tellNumbers(const std::string& text) { tellNewest(kNumbersSlot, text, false); }
+  // `isExact`: as floats, whatever it takes. To all pages that somebody sees.
   void show(ImageHeader header, const Image& image, bool isExact);
 
   // The slot's last image went out in halves.
@@ -44,9 +50,9 @@ class ViewSender {
 
  private:
   static constexpr uint32_t kStateSlot = 1000, kNumbersSlot = 1001;
-  void tellNewest(uint32_t slot, const std::string& text);
+  void tellNewest(uint32_t slot, const std::string& text, bool isForUnseen);
 
-  std::set<ClientId> pages_;
+  std::set<ClientId> pages_, unseen_;
   std::map<uint32_t, PixelFormat> formats_;  // by slot
   std::chrono::steady_clock::time_point measured_ = std::chrono::steady_clock::now();
   uint64_t measuredBytes_ = 0;

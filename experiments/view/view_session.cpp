@@ -188,11 +188,13 @@ ViewSettings settingsOfSuite(const Suite& suite, const SuiteScene& scene,
   ViewSettings settings = settingsOf(prepared, panes);
   if (const auto motion = motionOf(suite, scene, prepared))
     settings.camera = cameraAt(*motion, suite.warmupFrames);
+  LightFactors events;
   for (const LightEvent& event : suite.events) {
     if (event.frame > suite.warmupFrames) continue;
     atPlace(event.place, [&] { requireLight(prepared.scene->source(), event.light); });
-    setLight(settings.lights, event.light, event.factor);
+    events.emplace_back(event.light, event.factor);
   }
+  settings.lights = ownLights(events, prepared.scene->source());
   return settings;
 }
 
@@ -236,7 +238,7 @@ std::string sessionToml(const ViewFacts& facts, const LiveView& view) {
       "# A session of `restlab view`: `restlab view FILE` opens it, `restlab run FILE` measures "
       "it.\nname = \"session\"\n\n";
   text += sceneToml(facts) + settingsToml(view) + "\n[reference]\nspp = 256\n" + cameraToml(view);
-  for (const auto& [name, factor] : settings.lights) {
+  for (const auto& [name, factor] : absoluteLights(settings.lights)) {
     text += fmt::format("\n[[event]]\nframe = 0\nlight = {}\nfactor = {}\n", quoted(name),
                         numberText(factor));
   }

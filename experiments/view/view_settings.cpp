@@ -170,9 +170,48 @@ struct Target {
 std::string targetOf(const ViewCommand& command) { return std::visit(Target{}, command); }
 
 void setLight(LightFactors& lights, const std::string& name, double factor) {
-  if (name == kAllLights) lights.clear();
   std::erase_if(lights, [&](const auto& light) { return light.first == name; });
-  lights.emplace_back(name, factor);
+  // A mesh and its material may both have one, of which the last counts, 1 as well.
+  const bool isAlone = name == kAllLights ||
+                       std::all_of(lights.begin(), lights.end(),
+                                   [](const auto& light) { return light.first == kAllLights; });
+  if (factor != 1.0 || !isAlone) lights.emplace_back(name, factor);
+}
+
+LightFactors absoluteLights(const LightFactors& lights) {
+  const auto all = std::find_if(lights.begin(), lights.end(),
+                                [](const auto& light) { return light.first == kAllLights; });
+  if (all == lights.end()) return lights;
+  LightFactors absolute = {*all};
+  for (const auto& [name, factor] : lights)
+    if (name != kAllLights) absolute.emplace_back(name, factor * all->second);
+  return absolute;
+}
+
+LightFactors ownLights(const LightFactors& absolute, const Scene& scene) {
+  double all = 1.0;
+  LightFactors own;
+  for (const auto& [name, factor] : absolute) {
+    if (name == kAllLights) {
+      all = factor;
+      own.clear();
+    } else {
+      setLight(own, name, factor);
+    }
+  }
+  // Of nothing no factor makes something: then each light is off by itself.
+  const bool isOff = all == 0.0 && std::any_of(own.begin(), own.end(), [](const auto& light) {
+                       return light.second != 0.0;
+                     });
+  LightFactors lights;
+  if (isOff) {
+    for (const std::string& name : lightNames(scene)) setLight(lights, name, 0.0);
+  } else {
+    setLight(lights, kAllLights, all);
+  }
+  if (all == 0.0 && !isOff) return lights;
+  for (const auto& [name, factor] : own) setLight(lights, name, isOff ? factor : factor / all);
+  return lights;
 }
 
 ViewChange changedBy(const ViewCommand& command, const ViewSettings& settings, const Scene& scene) {

@@ -16,7 +16,8 @@ struct PaneSettings {
   std::string layer;     // over its image; "": none
 };
 
-using LightFactors = std::vector<std::pair<std::string, double>>;  // in the order of their setting
+// In the order of their setting. That of `all` is a factor on those of every light.
+using LightFactors = std::vector<std::pair<std::string, double>>;
 
 struct ViewSettings {
   std::vector<PaneSettings> panes;  // of one size
@@ -48,8 +49,13 @@ bool isSame(const ViewSettings& a, const ViewSettings& b);
 // The same picture, whatever methods make it.
 bool isSamePicture(const ViewSettings& a, const ViewSettings& b);
 
-// The last factor of a light counts; `all` is of every light.
+// The last factor of a light counts; a 1 that changes nothing is left out.
 void setLight(LightFactors& lights, const std::string& name, double factor);
+// As the events of suites have them, one after the other: the last factor of a light counts, and
+// `all` is one for every light.
+LightFactors absoluteLights(const LightFactors& lights);
+// The other way round, of lights that set what absoluteLights() would.
+LightFactors ownLights(const LightFactors& absolute, const Scene& scene);
 
 // "" for what may not be left out where more of the same follows. Of Probe and so on, too.
 std::string targetOf(const ViewCommand& command);

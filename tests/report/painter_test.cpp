@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/image/layer_colors.h"
 #include "core/image/metrics.h"
 #include "tests/report/page.h"
 
@@ -202,6 +203,61 @@ TEST_F(PainterTest, OverlayHasItsOwnColours) {
   const Json difference = {-10,        10,         kSampleWidth, kSampleHeight,
                            "127 39 4", "8 48 107", "255 0 255"};
   EXPECT_EQ(seen, (Json{nullptr, nullptr, age, age, difference, nullptr, nullptr}));
+}
+
+// Names by the colours of `render --aov --png`, so that neighbours in number are not alike.
+TEST_F(PainterTest, LayersOfNamesHaveAColourEach) {
+  const std::vector<float> names = {0.0f, 1.0f, 2.0f, 70001.0f, 1.0f, 16777215.0f};
+  Image given(uint32_t(names.size()), 1);
+  for (size_t i = 0; i < names.size(); ++i) given.pixels[i] = glm::vec3(names[i]);
+  const Image colours = falseColors(given);
+  const Json seen = page(R"(
+    const count = images[1].width * images[1].height, view = {image: 1, isError: false};
+    const names = )" + Json(names).dump() +
+                         R"(;
+    const data = Float32Array.from({length: 3 * count}, (_, i) => names[Math.floor(i / 3)] || 0);
+    data.fill(NaN, 3 * 6, 3 * 7);
+    images[1].overlay = {data, version: 1, unit: '', name: 'object', kind: 'name'};
+    const layer = painter.overlayLayer(view);
+    const found = [Array.from(bytes(layer).slice(0, 28)), painter.overlayScale(1),
+                   painter.overlayText(1)];
+    images[1].overlay = null;
+    return found;)");
+  for (size_t i = 0; i < names.size(); ++i) {
+    for (int c = 0; c < 3; ++c)
+      EXPECT_EQ(seen[0][4 * i + size_t(c)], srgb(colours.pixels[i][c])) << names[i];
+  }
+  EXPECT_EQ(seen[0][24], 255) << "no number is no name";
+  EXPECT_EQ(seen[0][25], 0);
+  EXPECT_EQ(seen[1], nullptr) << "names have no scale";
+  EXPECT_EQ(seen[2], ": one colour a number");
+}
+
+// x, y and z by themselves: no sum of them says which way a normal points.
+TEST_F(PainterTest, LayersOfVectorsShowTheirComponents) {
+  const Json seen = page(R"(
+    const count = images[1].width * images[1].height, view = {image: 1, isError: false};
+    const found = [];
+    for (const kind of ['vector', 'vector2', 'colour', 'radiance']) {
+      const data = new Float32Array(3 * count);
+      data.set([1, 0, 0, -1, 0, 0, 0, 1, 0, 0, 0, -1, 0.5, 0.5, NaN]);
+      for (let i = 15; i < data.length; ++i) data[i] = i % 2 ? 1 : -1;  // the range of most
+      images[1].overlay = {data, version: 1, unit: '', name: kind, kind};
+      const layer = bytes(painter.overlayLayer(view));
+      found.push([0, 1, 2, 3, 4].map(i => layer.slice(4 * i, 4 * i + 3).join(' ')));
+      found.push(painter.overlayText(1));
+    }
+    images[1].overlay = null;
+    return found;)");
+  EXPECT_EQ(seen[0], (Json{"255 128 128", "0 128 128", "128 255 128", "128 128 0", "255 0 255"}));
+  EXPECT_EQ(seen[1], ": x, y, z as red, green, blue from -1 to 1; grey is 0");
+  EXPECT_EQ(seen[2],
+            (Json{"255 128 128", "0 128 128", "128 255 128", "128 128 128", "191 191 128"}))
+      << "the third number is no component";
+  EXPECT_EQ(seen[4][0], "255 0 0");
+  EXPECT_EQ(seen[4][1], "0 0 0");
+  EXPECT_EQ(seen[5], " as sRGB");
+  EXPECT_EQ(seen[6][2], "0 " + std::to_string(srgb(float(page("return painter.factor;")))) + " 0");
 }
 
 // Pictures by tables and by WebGL2: [most that a byte differs by, bytes where it is more than 1,

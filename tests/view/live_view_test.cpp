@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "core/error.h"
 #include "core/image/metrics.h"
@@ -196,6 +198,72 @@ TEST_F(LiveViewTest, TheReferenceGoesOnFromWhatIsKept) {
   LiveView anew = open();
   for (int sample = 0; sample < 7; ++sample) anew.refineReference();
   EXPECT_EQ(view.reference().mean().pixels, anew.reference().mean().pixels);
+}
+
+// The panes' runs begin anew, the reference does not.
+TEST_F(LiveViewTest, TheReferenceHasItsSeedAfterARestart) {
+  ReferenceStore store;
+  store.folder = folder();
+  LiveView view = open(store);
+  for (int sample = 0; sample < 6; ++sample) view.refineReference();
+  view.apply(Restart{});
+  view.apply(Resize{20, 12});
+  view.apply(Resize{24, 16});
+  EXPECT_EQ(view.reference().spp(), 6u) << "it is the one that was kept";
+}
+
+TEST_F(LiveViewTest, ACopyIsARunOfItsOwn) {
+  LiveView view = open();
+  view.apply(CopyMethod{0, 1});
+  EXPECT_EQ(view.settings().panes[1].config.integrator, "restir_gi");
+  view.renderFrames();
+  EXPECT_NE(view.settings().panes[0].config.seed, view.settings().panes[1].config.seed);
+  EXPECT_NE(pixels(view.session(0)), pixels(view.session(1)));
+  SessionConfig other = view_test::smallPane("restir_gi");
+  other.seed = view.settings().panes[1].config.seed;
+  Session again(view_test::cornellBox().scene, other);
+  again.frame();
+  EXPECT_EQ(pixels(view.session(1)), pixels(again)) << "the seed that it says";
+  view.apply(Restart{});
+  view.renderFrames();
+  EXPECT_NE(pixels(view.session(0)), pixels(view.session(1)));
+}
+
+TEST(RunningErrors, HaveAMeanOfTheNewestFrames) {
+  const Image one(1, 1, glm::vec3(1.0f));
+  RunningError error;
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  error.add(Image(1, 1, glm::vec3(nan)), one, one, one, 8);
+  for (size_t i = 0; i < 10; ++i) error.add(Image(1, 1, glm::vec3(11.0f)), one, one, one, 8);
+  EXPECT_TRUE(std::isnan(error.newestMse())) << "there are fewer";
+  for (size_t i = 0; i < RunningError::kNewest; ++i)
+    error.add(Image(1, 1, glm::vec3(3.0f)), one, one, one, 8);
+  EXPECT_DOUBLE_EQ(error.newestMse(), 4.0) << "without those before, whatever they were";
+  EXPECT_GT(error.newestRelmse(), 0.0);
+  EXPECT_TRUE(std::isnan(error.mse().value));
+  error.restart();
+  EXPECT_TRUE(std::isnan(error.newestMse()));
+}
+
+// They are asked for after each round, for hours.
+TEST(RunningErrors, CostTheSameHoweverLongTheWindowIs) {
+  const Image one(1, 1, glm::vec3(1.0f));
+  RunningError error;
+  const auto secondsOf = [&](size_t frames) {
+    while (error.frames() < frames) error.add(one, one, one, one, 8);
+    double best = 1.0;
+    for (int trial = 0; trial < 5; ++trial) {
+      const auto begun = std::chrono::steady_clock::now();
+      double sum = 0.0;
+      for (int i = 0; i < 20; ++i) sum += error.mse().value + error.newestMse();
+      EXPECT_EQ(sum, 0.0);
+      best = std::min(
+          best, std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count());
+    }
+    return best;
+  };
+  const double few = secondsOf(1000);
+  EXPECT_LT(secondsOf(300000), 20.0 * few);
 }
 
 TEST(RunningErrors, HaveIntervalsOfBatches) {

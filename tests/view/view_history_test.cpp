@@ -1,6 +1,7 @@
 // Steps back and forth: what belongs to one, and that each leads to what was there.
 #include "experiments/view/view_history.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
@@ -95,6 +96,21 @@ TEST_F(ViewStepsTest, ADragIsOne) {
   view_.apply(Undo{});
   EXPECT_NEAR(view_.camera().cameraToWorld[3][0],
               view_.loaded().scene->source().cameras[0].cameraToWorld[3][0] + 0.5, 1e-12);
+}
+
+// Who sets a value, looks at it for a while and sets another one wants to go back to the first.
+TEST_F(ViewStepsTest, APauseEndsADrag) {
+  ViewHistory history;
+  const auto begun = ViewHistory::Clock::now();
+  for (const int tenths : {0, 5, 15, 35, 56}) {
+    history.add(view_.settings(), "camera", fmt::format("{}", tenths),
+                begun + std::chrono::milliseconds(100) * tenths);
+  }
+  EXPECT_EQ(history.undoText(), "56");
+  history.undo(view_.settings());
+  ASSERT_EQ(history.undoText(), "35") << "no pause between them was longer than two seconds";
+  history.undo(view_.settings());
+  EXPECT_FALSE(history.canUndo());
 }
 
 TEST_F(ViewStepsTest, WhatChangesNothingIsNone) {

@@ -49,7 +49,8 @@ function overlayLegend(painter, images) {
     const {name, unit} = images[i].overlay;
     const scale = painter.overlayScale ? painter.overlayScale(i) : null;
     const title = make('p', {class: 'legend-title'}, make('b', {}, name),
-                       `${unit ? ` in ${unit}` : ''}, over ${images[i].name}`);
+                       `${unit ? ` in ${unit}` : ''}, over ${images[i].name}${
+                           painter.overlayText ? painter.overlayText(i) : ''}`);
     return scale ? make('div', {}, title, legendBar(scale)) : title;
   });
 }
@@ -63,7 +64,8 @@ function showLegend(element, state, painter, images) {
     state.error, state.compare, state.tone, painter.factor, scale && scale.lo, scale && scale.hi,
     scale && scale.log, images.some(image => image.nonfinite.length),
     ...images.map(image => `${image.name} ${image.overlay ? image.overlay.name : ''}`),
-    ...images.map((image, i) => overlayEnd(painter, image, i))
+    ...images.map((image, i) => overlayEnd(painter, image, i)),
+    ...images.map((image, i) => image.overlay && painter.overlayText ? painter.overlayText(i) : '')
   ].join('|');
   if (element.dataset.key === key) return;
   element.dataset.key = key;

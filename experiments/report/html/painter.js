@@ -97,21 +97,33 @@ class Painter {
 
   glLayer(job, held) { return this.kind === 'webgl2' ? this.gl.layer(job, held) : null; }
 
-  // What lies over image i: {values, scale}, or null. A scale of its own, about zero where there
-  // are values below zero, and as steady as that of errors.
+  // What lies over image i: {kind, values, range, scale}, or null (overlay_colours.js). Numbers have
+  // a scale of their own, about zero where there are values below zero, and as steady as that of
+  // errors; so is the range of vectors.
   overlay(i) {
     const image = this.images[i], {overlay} = image;
     if (!overlay || !overlay.data) return null;
-    const version = versionOf(overlay);
+    const version = versionOf(overlay), isWhole = overlay.data.length ===
+        3 * image.width * image.height;
+    const kind = isWhole && overlay.kind || 'number';
+    if (kind === 'name' || kind === 'colour' || kind === 'radiance') {
+      return {kind, values: overlay.data, range: 1, scale: null};
+    }
     const size = `${image.width} ${image.height}`;
-    const values = this.planes.get(`overlay ${i}`, `${overlay.name} ${version} ${size}`,
-                                   () => overlayValues(image));
-    if (!values) return null;
     let held = this.overlays.get(i);
     if (!held || held.name !== overlay.name) {
       held = {name: overlay.name, isSigned: false, range: new SteadyRange()};
       this.overlays.set(i, held);
     }
+    if (kind !== 'number') {
+      const components = kind === 'vector2' ? 2 : 3;
+      const steady = held.range.get(overlay.name, version, () => commonSize(
+                                        [vectorValues(overlay.data, components)]));
+      return {kind, components, values: overlay.data, range: steady, scale: null};
+    }
+    const values = this.planes.get(`overlay ${i}`, `${overlay.name} ${version} ${size}`,
+                                   () => overlayValues(image));
+    if (!values) return null;
     if (held.version !== version) {
       held.version = version;
       held.isSigned = held.isSigned || values.some(value => value < 0);
@@ -119,7 +131,14 @@ class Painter {
     const range = held.range.get(overlay.name, version, () => commonSize([values]));
     const scale = held.isSigned ? makeScale(-range, range, false, MAPS.diverging)
                                 : makeScale(0, range, false, MAPS.rising);
-    return {values, scale};
+    return {kind, values, range, scale};
+  }
+
+  // What the colours say, where no scale does.
+  overlayText(i) {
+    const found = this.overlay(i);
+    return found && found.kind in OVERLAY_TEXTS
+        ? OVERLAY_TEXTS[found.kind](this.images[i].overlay, found.range, this.factor) : '';
   }
 
   overlayScale(i) {
@@ -131,10 +150,18 @@ class Painter {
   overlayLayer(view) {
     const overlay = this.overlay(view.image);
     if (!overlay) return null;
-    const image = this.images[view.image], {values, scale} = overlay;
-    const key = `${image.overlay.name} ${versionOf(image.overlay)} ${scale.lo} ${scale.hi}`;
-    return this.cache.get(`overlay ${view.image}`, key,
-                          held => scaledLayer(image, values, scale, held));
+    const image = this.images[view.image], {kind, values, range, scale, components} = overlay;
+    const factor = kind === 'radiance' ? this.factor : 1;
+    const key = `${image.overlay.name} ${versionOf(image.overlay)} ${kind} ${factor} ${range} ${
+        scale && scale.lo}`;
+    return this.cache.get(`overlay ${view.image}`, key, held => {
+      if (scale) return scaledLayer(image, values, scale, held);
+      return paintedCanvas(image.width, image.height, held, out => {
+        if (kind === 'name') fillNames(values, out);
+        else if (components) fillVectors(values, components, range, out);
+        else (kind === 'radiance' ? this.encoder : new SrgbEncoder(1)).fill(values, out);
+      });
+    });
   }
 
   texts(view, i) {

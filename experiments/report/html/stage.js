@@ -38,11 +38,14 @@ function layOut(state, images, aspect, room) {
     const cellWidth = (width - VIEW_GAP * (columns - 1)) / columns;
     const mostCell = (sideHeight - VIEW_GAP * (rows - 1)) / rows;
     const cellHeight = room.isFilled ? mostCell : Math.min(cellWidth / aspect, mostCell);
-    const views = images.map((image, i) => ({
-                               x: (i % columns) * (cellWidth + VIEW_GAP),
-                               y: Math.floor(i / columns) * (cellHeight + VIEW_GAP),
-                               width: cellWidth, height: cellHeight, image: i, isError: isError(i)
-                             }));
+    const views = images.map((image, i) => {
+      const row = Math.floor(i / columns), isLast = row === rows - 1;
+      // A last row with fewer of them leaves nothing empty where the stage has its size.
+      const n = room.isFilled && isLast ? images.length - columns * row : columns;
+      const cell = (width - VIEW_GAP * (n - 1)) / n;
+      return {x: (i - columns * row) * (cell + VIEW_GAP), y: row * (cellHeight + VIEW_GAP),
+              width: cell, height: cellHeight, image: i, isError: isError(i)};
+    });
     return {height: rows * cellHeight + VIEW_GAP * (rows - 1), views};
   }
   const height = room.isFilled ? mostHeight : Math.min(width / aspect, mostHeight);

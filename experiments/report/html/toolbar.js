@@ -21,7 +21,9 @@ class Toolbar {
     this.scale = make('output', {title: 'screen pixels a pixel'});
     const button = (text, id) => {
       const {run} = VIEWER_COMMANDS.find(command => command.id === id);
-      return makeButton(text, commandTitle(id), () => run(viewer));
+      const made = makeButton(text, commandTitle(id), () => run(viewer));
+      made.dataset.command = id;
+      return made;
     };
     const exposure = make('div', {class: 'group', role: 'group', 'aria-label': 'Exposure'},
                           button('\u2212', 'darker'), this.stops, button('+', 'brighter'),

@@ -46,7 +46,8 @@ class CameraControl {
   }
 
   // Upright, from a position towards a target.
-  lookFrom(position, target) {
+  lookFrom(position, target, yfov = this.yfov) {
+    this.yfov = yfov;
     const [x, y, z] = plus(target, position, -1);
     this.moveTo({position, yaw: Math.atan2(-x, -z),
                  pitch: clampPitch(Math.atan2(y, Math.hypot(x, z)))});

@@ -42,7 +42,7 @@ class Header {
         group('Files', button('save', 'save session'), button('screenshot', 'PNG')),
         group('Page', button('theme', 'light/dark')));
     const {scene} = this.page.hello;
-    this.title.textContent = scene.title || scene.name;
+    this.title.textContent = this.title.title = scene.title || scene.name;
     document.title = `${scene.title || scene.name} \u2013 restlab view`;
   }
 

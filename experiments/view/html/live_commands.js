@@ -49,7 +49,7 @@ function makeLiveCommands(page) {
      when: () => page.hello.scene.cameras.length > 0},
     {id: 'record', keys: ['v'], group: camera, title: 'record the camera\'s path, or stop',
      run: () => page.recorder.toggle()},
-    {id: 'play', keys: ['V'], group: camera, title: 'play the recorded path',
+    {id: 'play', keys: ['V'], group: camera, title: 'play the recorded path, or stop',
      when: () => page.recorder.keyframes.length > 1, run: () => page.recorder.playBack()},
 
     {id: 'pause', keys: ['p'], group: session, title: 'pause or go on',

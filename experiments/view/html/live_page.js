@@ -15,6 +15,7 @@ class LivePage {
     document.body.append(this.header.element, this.left, this.side, this.messages.element);
     this.root.append(make('p', {class: 'status'}, 'Waiting for the program \u2026'));
     this.kept = readFragment(location.hash);
+    document.addEventListener('visibilitychange', () => this.look());
     const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
     this.session = new Session(`${scheme}://${location.host}/socket${location.search}`, {
       hello: hello => this.greet(hello), state: state => this.show(state),
@@ -28,8 +29,12 @@ class LivePage {
 
   get state() { return this.session.state; }
 
+  // One that nobody sees keeps nothing at work.
+  look() { this.session.socket.send(JSON.stringify({do: 'look', on: !document.hidden})); }
+
   // Of another scene than before nothing here is true any more.
   greet(hello) {
+    if (document.hidden) this.look();
     if (this.hello && this.hello.scene.name !== hello.scene.name) location.reload();
     this.hello = hello;
   }
@@ -45,6 +50,7 @@ class LivePage {
       this.viewer.setImage(i, {name: `${PANE_NAMES[i]}: ${methodName(pane, this.hello)}`});
       if (!pane.layer && this.viewer.images[i].overlay) this.viewer.setImage(i, {overlay: null});
     });
+    this.numbers.showNames(this.viewer.images.map(image => image.name));
     const {camera} = this.viewer;
     if (!isFirst && (camera.width !== state.width || camera.height !== state.height)) {
       this.probe.clear();  // its pixel is another one now
@@ -54,6 +60,7 @@ class LivePage {
     this.methods.show(state, this.hello);
     this.scene.show(state);
     this.header.show(state);
+    this.probe.showAge();
     this.viewer.set({});
     if (isFirst) this.begin(state);
   }
@@ -79,7 +86,7 @@ class LivePage {
                   room: () => this.viewer.frame.clientHeight, pointer: this.camera,
                   idle: () => this.idleText()};
     this.viewer = this.root.viewer = new Viewer(this.root, data, images);
-    this.viewer.frame.append(this.badge, this.messages.element);
+    this.viewer.frame.append(this.badge);
     this.bookmarks = new Bookmarks(this, this.hello.scene.name);
     this.recorder = new PathRecorder(this);
     this.methods = new MethodPanel(this, count);
@@ -92,7 +99,7 @@ class LivePage {
       ['plots', 'Plots', this.plots.element], ['probe', 'Probe', this.probe.element]
     ]);
     this.tabs.tabs.get('plots').tab.addEventListener('click', () => this.plots.show());
-    this.side.append(this.numbers.element, this.tabs.element);
+    this.side.append(this.numbers.element, this.tabs.element, this.messages.element);
     this.header.fill();
     addKeys([this.viewer], this.commands);
     makeHelp(this.commands, LIVE_POINTER_HELP);
@@ -153,6 +160,7 @@ class LivePage {
     const info = pane.layers.find(layer => layer.name === pane.layer) || {};
     this.viewer.setImage(i, {overlay: {
       data, version: before.version + 1, unit: info.unit || '', name: pane.layer,
+      kind: info.is_name ? 'name' : info.kind,
       width: head.width, height: head.height, nonfinite: nonfinitePixels(data)
     }});
   }
@@ -162,6 +170,7 @@ class LivePage {
     this.last = numbers;
     this.numbers.show(numbers);
     this.plots.add(numbers);
+    this.probe.follow(numbers);
     if (!this.viewer.pixel) this.viewer.showStatus();
   }
 

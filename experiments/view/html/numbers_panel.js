@@ -4,7 +4,11 @@
 const NUMBER_ROWS = [
   ['mse', 'MSE', 'mean squared error of single frames against the reference: mean over the ' +
                  'window of frames; the interval is of eight batches of them', pane => pane.mse],
+  ['mse_newest', 'newest', 'the same of the newest frames alone, in which a method does not warm ' +
+                           'up any more', pane => quantity(pane.mse_newest)],
   ['relmse', 'relMSE', 'the same, relative to the reference squared', pane => pane.relmse],
+  ['relmse_newest', 'newest', 'the same of the newest frames alone',
+   pane => quantity(pane.relmse_newest)],
   ['energy', 'energy', 'mean of the frames over mean of the reference; 1 is right',
    pane => pane.energy],
   ['frames', 'frame / of', 'frames of the history; frames in the window of the numbers above',
@@ -19,8 +23,10 @@ class NumbersPanel {
   constructor(count, faults) {
     this.faults = new Set(faults);
     this.cells = new Map();
-    const heads = Array.from({length: count}, (_, i) => make(
-        'th', {scope: 'col', class: 'num'}, make('span', {class: `dot d${i}`}), PANE_NAMES[i]));
+    this.titles = new Map();
+    this.names = Array.from({length: count}, (_, i) => make('span', {}, PANE_NAMES[i]));
+    const heads = this.names.map((name, i) => make(
+        'th', {scope: 'col', class: 'num'}, make('span', {class: `dot d${i}`}), name));
     const rows = NUMBER_ROWS.map(([key, title, help]) => {
       const cells = heads.map(() => {
         const value = make('span', {class: 'value'}), interval = make('span', {class: 'ci'});
@@ -28,21 +34,26 @@ class NumbersPanel {
                 interval};
       });
       this.cells.set(key, cells);
-      return make('tr', {}, make('th', {scope: 'row', title: help}, title),
-                  ...cells.map(one => one.cell));
+      const head = make('th', {scope: 'row', title: help, 'data-number-of': title}, title);
+      this.titles.set(key, head);
+      return make('tr', {}, head, ...cells.map(one => one.cell));
     });
     this.health = heads.map(() => make('td', {class: 'health', 'data-number': 'health'}));
     const healthHelp = 'what was counted in the last frame; red: what must not happen';
     rows.push(make('tr', {}, make('th', {scope: 'row', title: healthHelp}, 'health'),
                    ...this.health));
+    this.histories = make('p', {class: 'line-text', 'data-number': 'histories', hidden: ''});
     this.reference = make('p', {class: 'line-text', 'data-number': 'reference'});
     this.transport = make('p', {class: 'line-text', 'data-number': 'transport'});
     this.element = make('section', {class: 'numbers-box', 'aria-label': 'Numbers'},
                         make('table', {class: 'numbers-table'},
                              make('thead', {}, make('tr', {}, make('td', {}), ...heads)),
                              make('tbody', {}, ...rows)),
-                        this.reference, this.transport);
+                        this.histories, this.reference, this.transport);
   }
+
+  // Of the panes, as their pictures have them.
+  showNames(names) { this.names.forEach((name, i) => setText(name, names[i])); }
 
   show(numbers) {
     const panes = numbers.panes;
@@ -53,6 +64,13 @@ class NumbersPanel {
         this.showCell(cell, values[i], key === 'energy' ? 4 : 3);
       });
     }
+    for (const key of ['mse_newest', 'relmse_newest']) {
+      setText(this.titles.get(key), `newest ${numbers.newest_frames}`);
+    }
+    const old = PANE_NAMES.filter((_, i) => panes[i] && panes[i].old_light);
+    this.histories.hidden = !old.length;
+    setText(this.histories, `${old.join(' and ')}: the history began before the light was changed; ` +
+                                'R begins it anew');
     panes.forEach((pane, i) => this.showHealth(this.health[i], pane.health || {}));
     const {reference: r, transport: t} = numbers;
     setText(this.reference, r && r.spp ? `reference: ${r.spp} spp, own relMSE ${

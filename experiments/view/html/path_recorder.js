@@ -24,7 +24,7 @@ function cameraPathToml(name, keyframes, framesPerSecond) {
 
 class PathRecorder {
   constructor(page) {
-    Object.assign(this, {page, keyframes: [], isRecording: false});
+    Object.assign(this, {page, keyframes: [], isRecording: false, playing: null});
     this.record = makeButton('record', commandTitle('record', page.commands), () => this.toggle());
     this.play = makeButton('play', commandTitle('play', page.commands), () => this.playBack());
     this.rate = make('input', {type: 'number', min: 1, max: 240, value: 30,
@@ -55,6 +55,7 @@ class PathRecorder {
 
   toggle() {
     this.isRecording = !this.isRecording;
+    this.playing = null;
     if (this.isRecording) {
       this.keyframes = [];
       this.began = performance.now();
@@ -82,23 +83,32 @@ class PathRecorder {
     }
   }
 
+  // To its end, until it is asked for again, or until a hand takes the camera.
   playBack() {
     if (this.keyframes.length < 2 || this.isRecording) return;
-    const began = performance.now(), {keyframes, page} = this;
+    const began = performance.now(), {keyframes, page} = this, last = keyframes.length - 1;
+    const isPlayed = this.playing !== null, run = this.playing = isPlayed ? null : {};
+    this.show();
     const step = () => {
+      if (this.playing !== run) return;
       const at = (performance.now() - began) / 1000;
       const next = keyframes.findIndex(key => key.seconds >= at);
-      if (next < 0) {
-        this.show();
-        return;
-      }
-      const b = keyframes[next], a = keyframes[Math.max(0, next - 1)];
+      const b = keyframes[next < 0 ? last : next], a = keyframes[next < 0 ? last : Math.max(0, next - 1)];
       const share = b === a ? 0 : (at - a.seconds) / (b.seconds - a.seconds);
       const between = (from, to) => plus(from, plus(to, from, -1), share);
-      page.camera.lookFrom(between(a.position, b.position), between(a.target, b.target));
-      requestAnimationFrame(step);
+      const isTaken = page.camera.isMoving;
+      if (!isTaken) {
+        page.camera.lookFrom(between(a.position, b.position), between(a.target, b.target),
+                             a.yfov && b.yfov ? a.yfov + share * (b.yfov - a.yfov) : undefined);
+      }
+      if (next >= 0 && !isTaken) {
+        requestAnimationFrame(step);
+        return;
+      }
+      this.playing = null;
+      this.show();
     };
-    requestAnimationFrame(step);
+    if (run) requestAnimationFrame(step);
   }
 
   show() {
@@ -106,6 +116,7 @@ class PathRecorder {
     this.record.setAttribute('aria-pressed', this.isRecording);
     this.record.textContent = this.isRecording ? 'stop' : 'record';
     this.play.disabled = n < 2 || this.isRecording;
+    setText(this.play, this.playing ? 'stop' : 'play');
     this.written.hidden = n < 2 || this.isRecording;
     setText(this.state, this.isRecording ? `recording: ${n} keyframes` : n > 1
         ? `${n} keyframes in ${quantity(this.keyframes[n - 1].seconds)} s`

@@ -56,10 +56,13 @@ class LogPlot {
     }
     const {left, right, top, bottom, width, height} = PLOT;
     const [x0, x1] = logEnds(all.map(point => Math.max(1e-4, point[this.x])));
-    const [y0, y1] = logEnds(all.map(point => point.mse));
+    // An estimate against a noisy reference may fall to 0 and below, which a logarithm has no place
+    // for: it lies on the axis, and has a mark.
+    const above = all.map(point => point.mse).filter(mse => mse > 0);
+    const [y0, y1] = above.length ? logEnds(above) : [1e-6, 1e-5];
     const spanX = width - left - right, spanY = height - top - bottom;
     const atX = v => left + Math.log(Math.max(v, x0) / x0) / Math.log(x1 / x0) * spanX;
-    const atY = v => top + (1 - Math.log(v / y0) / Math.log(y1 / y0)) * spanY;
+    const atY = v => top + (1 - Math.log(Math.max(v, y0) / y0) / Math.log(y1 / y0)) * spanY;
     const parts = [];
     for (const value of logTicks(x0, x1)) {
       parts.push(svg('line', {x1: atX(value), x2: atX(value), y1: top, y2: height - bottom,
@@ -82,8 +85,17 @@ class LogPlot {
     before.forEach((points, i) => {
       if (points.length) parts.push(svg('path', {d: path(points), class: `curve k${i} shadow`}));
     });
+    if (above.length < all.length) {
+      parts.push(svg('text', {x: width - right, y: top + 8, class: 'tick', 'text-anchor': 'end'},
+                     '\u25bd on the axis: not above 0'));
+    }
     curves.forEach((points, i) => {
       if (!points.length) return;
+      for (const point of points) {
+        if (point.mse > 0) continue;
+        const x = atX(point[this.x]), y = height - bottom;
+        parts.push(svg('path', {d: `M${x} ${y}l-3 -5h6z`, class: `below k${i}`}));
+      }
       const last = points[points.length - 1];
       parts.push(svg('path', {d: path(points), class: `curve k${i}`}),
                  svg('circle', {cx: atX(last[this.x]), cy: atY(last.mse), r: 2.6, class: `f${i}`}),

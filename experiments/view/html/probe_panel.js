@@ -88,6 +88,15 @@ class ProbePanel {
     }
   }
 
+  // After a change: again as soon as the panes have rendered it, once.
+  follow({epoch, age, panes}) {
+    if (!this.pixel || epoch !== this.page.state.epoch || this.followed === epoch || !age) return;
+    const {x, y} = this.pixel;
+    const old = this.answers.filter(one => one && one.epoch !== epoch && panes[one.pane].frame > 0);
+    if (old.length) this.followed = epoch;
+    for (const {pane} of old) this.page.session.send({do: 'probe', pane, x, y});
+  }
+
   clear() {
     this.pixel = null;
     this.answers = [];
@@ -108,6 +117,15 @@ class ProbePanel {
     this.show();
   }
 
+  // Whether the values are of what is set now.
+  showAge() {
+    if (!this.answers.some(Boolean)) return;
+    const {epoch} = this.page.state;
+    setText(this.hint, this.texts.map(([one, text]) => one.epoch === epoch
+        ? text : `${text}, before the change`).join('; '));
+    this.results.classList.toggle('old', this.texts.some(([one]) => one.epoch !== epoch));
+  }
+
   show() {
     const there = this.answers.filter(Boolean);
     const names = new Map();
@@ -118,8 +136,9 @@ class ProbePanel {
       const {length} = donorsOf(message);
       return length ? `, ${length} donor${length > 1 ? 's' : ''}` : '';
     };
-    this.hint.textContent = there.map(one => `${PANE_NAMES[one.pane]}: frame ${one.frame}, seed ${
-        one.seed}${donors(one)}`).join('; ');
+    this.texts = there.map(one => [one, `${PANE_NAMES[one.pane]}: frame ${one.frame}, seed ${
+        one.seed}${donors(one)}`]);
+    this.showAge();
     const heads = there.map(one => make('th', {scope: 'col', class: 'num'}, PANE_NAMES[one.pane]));
     const rows = Array.from(names, ([name, info]) => make(
         'tr', {}, make('th', {scope: 'row', title: info.help || ''}, name,

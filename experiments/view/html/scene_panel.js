@@ -30,6 +30,7 @@ class ScenePanel {
                                 isWhole: false},
                                degrees => page.moveCamera({...page.camera.now(),
                                                            yfov: degrees * Math.PI / 180}));
+    this.showWhenLeft(this.fov, 'camera');
     return this.section('camera',
                         make('label', {class: 'line'}, make('span', {}, 'of the scene'),
                              select.element),
@@ -67,8 +68,9 @@ class ScenePanel {
                                () => this.page.session.send({do: 'light', name, factor: 1}));
       reset.className = 'reset';
       this.lights.set(name, {input, reset});
+      this.showWhenLeft(input, `light ${name}`);
       return make('div', {class: 'parameter', 'data-light': name},
-                  make('span', {class: 'label', title: kind || ''}, name), reset, input.element);
+                  make('span', {class: 'label', title: kind === 'all' ? 'a factor on those of every light' : kind || ''}, name), reset, input.element);
     });
     return this.section('light, factor on what it shines', ...rows);
   }
@@ -79,6 +81,14 @@ class ScenePanel {
                    `${version ? `version ${version}, ` : ''}${threads} threads`];
     return make('details', {}, make('summary', {}, 'about this scene'),
                 ...lines.map(line => make('p', {class: 'hint'}, line)));
+  }
+
+  // What was typed and refused goes with the focus, unless the program has not answered yet.
+  showWhenLeft(input, key) {
+    input.element.addEventListener('focusout', () => {
+      const {session, state} = this.page;
+      if (!session.waiting.has(key)) this.show(state);
+    });
   }
 
   show(state) {

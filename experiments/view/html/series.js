@@ -30,7 +30,7 @@ class ErrorSeries {
       curve.seconds += Math.max(0, numbers.age - curve.rounds) * (pane.ms || 0) / 1000;
       curve.rounds = numbers.age;
       curve.frames = pane.frame;
-      if (!(pane.last_mse > 0)) return;
+      if (typeof pane.last_mse !== 'number') return;
       const point = {age: Math.max(1, numbers.age), seconds: curve.seconds, mse: pane.last_mse};
       const {points} = curve, last = points[points.length - 1];
       const one = points[points.length - 2];

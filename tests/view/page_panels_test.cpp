@@ -1,0 +1,159 @@
+// What the panels of the live page say while something changes, is refused or goes on by itself.
+#include "tests/view/live_page.h"
+
+namespace restlab::view_test {
+namespace {
+
+class PagePanelsTest : public LivePageTest {
+ protected:
+  void SetUp() override {
+    LivePageTest::SetUp();
+    if (browser_) open();
+  }
+};
+
+// Typed and refused: with the focus goes what was never so.
+TEST_F(PagePanelsTest, ARefusedLightDoesNotStayInItsField) {
+  const std::string field = "document.querySelector('[data-light] input[type=number]')";
+  press("Alt+2");
+  page(field + ".scrollIntoView(); " + field + ".focus(); " + field + ".select();");
+  for (const char* key : {"-", "1"}) press(key);
+  browser_->press("Enter", "Enter");
+  page("await until(() => document.querySelector('.message.error'));");
+  page("document.activeElement.blur();");
+  EXPECT_EQ(page("return " + field + ".value;"), "1");
+  // One that is on its way is not taken back.
+  page(field + ".focus(); " + field + ".select();");
+  press("3");
+  browser_->press("Tab", "Tab");
+  EXPECT_EQ(page("return " + field + ".value;"), "3");
+  page("await until(() => page.state.lights[0].factor === 3);");
+  EXPECT_EQ(page("return " + field + ".value;"), "3");
+}
+
+TEST_F(PagePanelsTest, MessagesCoverNoPicture) {
+  const Json before = page(
+      "const {x, y, width, height} = viewer.canvas.getBoundingClientRect();"
+      "return [x, y, width, height];");
+  page(
+      "for (let i = 0; i < 9; ++i) send({do: 'dance ' + i});"
+      "await until(() => document.querySelectorAll('.message.error').length > 5);");
+  EXPECT_EQ(page("const {x, y, width, height} = viewer.canvas.getBoundingClientRect();"
+                 "return [x, y, width, height];"),
+            before);
+  EXPECT_EQ(page(R"(const canvas = viewer.canvas.getBoundingClientRect();
+    return Array.from(document.querySelectorAll('.message'), one => {
+      const box = one.getBoundingClientRect();
+      return box.left < canvas.right && box.right > canvas.left && box.top < canvas.bottom &&
+             box.bottom > canvas.top;
+    }).filter(Boolean).length;)"),
+            0);
+}
+
+TEST_F(PagePanelsTest, HeadsOfTheNumbersNameTheMethods) {
+  const std::string heads =
+      "return Array.from(document.querySelectorAll('.numbers-table thead th'), th => "
+      "th.textContent);";
+  EXPECT_EQ(page(heads), (Json{"A: restir_gi, pixel", "B: path + accumulate"}));
+  page(
+      "send({do: 'set', pane: 1, key: 'denoiser', value: 'none'});"
+      "await until(() => page.state.can_undo);");
+  EXPECT_EQ(page(heads), (Json{"A: restir_gi, pixel", "B: path"}));
+}
+
+// Values of before are said to be so, and asked for again as soon as there are others.
+TEST_F(PagePanelsTest, AProbeFollowsAChange) {
+  press("s");
+  press("1");
+  page(
+      "await until(() => page.last.panes[0].frame > 2); page.probeAt({x: 20, y: 30});"
+      "await until(() => page.probe.answers[0] && page.probe.answers[1]);");
+  pause();
+  const std::string hint = "return document.querySelector('.probe .hint').textContent;";
+  EXPECT_EQ(page(hint).get<std::string>().find("before the change"), std::string::npos);
+  const Json first = page("return page.probe.answers.map(one => [one.frame, one.epoch]);");
+  page(
+      "page.camera.lookFrom([0.2, 1, 2.5], [0, 1, 0]);"
+      "await until(() => page.state.epoch > " +
+      first[0][1].dump() + ");");
+  EXPECT_NE(page(hint).get<std::string>().find("before the change"), std::string::npos)
+      << page(hint);
+  EXPECT_EQ(page("return page.probe.answers.map(one => [one.frame, one.epoch]);"), first)
+      << "panes stand";
+  page(
+      "send({do: 'pause', on: false});"
+      "await until(() => page.probe.answers.every(one => one.epoch === page.state.epoch));");
+  EXPECT_EQ(page(hint).get<std::string>().find("before the change"), std::string::npos)
+      << page(hint);
+  EXPECT_EQ(page("return document.querySelectorAll('.message.error').length;"), 0);
+}
+
+// Estimates against a noisy reference may be below 0: to leave them out would lift the curve.
+TEST_F(PagePanelsTest, ErrorsThatAreNotAboveZeroAreInThePlot) {
+  pause();
+  press("Alt+3");
+  page(R"(const panes = mse => [0, 1].map(() => ({frame: 0, ms: 1, last_mse: mse, passes: []}));
+    page.showNumbers = () => {};  // those of the program
+    window.numbers = (epoch, list) => list.forEach((mse, i) => page.plots.add({
+      epoch, age: 10 * (i + 1), panes: panes(mse).map(pane => ({...pane, frame: i + 1}))}));
+    numbers(1e9, [1e-2, -1e-3, 0, 1e-3]);
+    page.plots.show();)");
+  EXPECT_EQ(page("return page.plots.series.curves[0].points.map(point => point.mse);"),
+            (Json{1e-2, -1e-3, 0, 1e-3}));
+  EXPECT_EQ(page("const {picture} = page.plots.byAge; return [picture.querySelectorAll('.below')"
+                 ".length, picture.textContent.includes('not above 0'),"
+                 "picture.innerHTML.includes('NaN')];"),
+            (Json{4, true, false}));
+  page("numbers(1e9 + 1, [-1, 0]); page.plots.show();");
+  EXPECT_EQ(page("return page.plots.byAge.picture.innerHTML.includes('NaN');"), false);
+}
+
+TEST_F(PagePanelsTest, ARecordedPathIsPlayedOnceWithItsFieldOfView) {
+  page(R"(const target = [0, 1, 0];
+    page.recorder.keyframes = [{seconds: 0, position: [0, 1, 3], target, yfov: 0.5},
+                               {seconds: 0.6, position: [0.3, 1, 3], target, yfov: 1}];
+    window.looks = [];
+    const {lookFrom} = page.camera;
+    page.camera.lookFrom = (...given) => {
+      looks.push([performance.now(), ...given]);
+      lookFrom.apply(page.camera, given);
+    };
+    page.recorder.playBack();
+    await until(() => looks.length > 3);
+    page.recorder.playBack();)");
+  const Json stopped = page(
+      "const before = looks.length;"
+      "await new Promise(done => setTimeout(done, 200));"
+      "return [before, looks.length, page.recorder.play.textContent];");
+  EXPECT_EQ(stopped[0], stopped[1]) << "asked for again it stops";
+  EXPECT_EQ(stopped[2], "play");
+  // Stopped and begun in one frame of the browser, it goes once, to its end.
+  page(R"(looks.length = 0;
+    for (let i = 0; i < 3; ++i) page.recorder.playBack();
+    await until(() => looks.length > 3 && !page.recorder.playing);
+    await until(() => Math.abs(page.state.camera.yfov - 1) < 1e-9);)");
+  EXPECT_EQ(page("let back = 0; for (let i = 1; i < looks.length; ++i)"
+                 "if (looks[i][1][0] <= looks[i - 1][1][0]) ++back; return back;"),
+            0);
+  EXPECT_EQ(page("return looks[looks.length - 1].slice(1);"), (Json{{0.3, 1, 3}, {0, 1, 0}, 1}));
+  EXPECT_NEAR(page("return page.state.camera.to_world[12];").get<double>(), 0.3, 1e-9);
+}
+
+// What was on its way when it did so still comes.
+TEST_F(PagePanelsTest, InTheBackgroundItLooksAway) {
+  page(R"(await until(() => page.last.age > 2);
+    Object.defineProperty(document, 'hidden', {value: true, configurable: true});
+    document.dispatchEvent(new Event('visibilitychange'));
+    let since = performance.now();
+    await until(() => {
+      if (page.last.age !== window.age) since = performance.now();
+      window.age = page.last.age;
+      return performance.now() - since > 600;
+    });
+    delete document.hidden;
+    document.dispatchEvent(new Event('visibilitychange'));
+    await until(() => page.last.age > window.age + 2);)");
+}
+
+}  // namespace
+}  // namespace restlab::view_test
