@@ -199,6 +199,37 @@ void Pipeline::clear() {
   }
 }
 
+std::vector<std::pair<BufferId, BufferId>> Pipeline::keptBuffers() const {
+  std::vector<std::pair<BufferId, BufferId>> pairs;
+  for (const Stage& stage : kept_) {
+    for (const BufferId buffer : stage.buffers) {
+      if (buffer != kNoBuffer) pairs.emplace_back(buffer, copies_[pairs.size()]);
+    }
+  }
+  return pairs;
+}
+
+void Pipeline::keep() {
+  if (kept_.empty()) {
+    std::vector<BufferId> copies;
+    for (const Stage& stage : stages_) {
+      for (const size_t bytes : stage.bytes)
+        if (bytes > 0) copies.push_back(backend_.allocate(bytes));
+    }
+    copies_ = std::move(copies);
+  }
+  kept_ = stages_;
+  backend_.copy(keptBuffers());
+}
+
+void Pipeline::restore() {
+  stages_ = kept_;
+  ran_.clear();
+  std::vector<std::pair<BufferId, BufferId>> pairs = keptBuffers();
+  for (auto& [buffer, copy] : pairs) std::swap(buffer, copy);
+  (void)pairs;
+}
+
 // Where the stage did not run, a buffer and the one that it swaps with are both the last run's.
 BufferId Pipeline::bound(const Stage& stage, size_t buffer) const {
   const int other = stage.info->buffers[buffer].swapWith;

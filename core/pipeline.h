@@ -47,6 +47,12 @@ class Pipeline {
   void prepare(StartupReport& report);
   // Zeroes every buffer.
   void clear();
+  // Copies every buffer. The first call allocates as much again as allocate() did, and throws as
+  // Backend::allocate() does.
+  void keep();
+  bool hasCopies() const { return !kept_.empty(); }
+  // As all was at keep(): frames that were begun since then never were.
+  void restore();
 
   // The passes of the next frame, after histories have traded places. `isNewView`: its camera
   // or its parameters are not those of the frame before it.
@@ -86,6 +92,8 @@ class Pipeline {
   std::optional<std::pair<size_t, size_t>> find(const std::string& name, size_t before) const;
   BufferId bound(const Stage& stage, size_t buffer) const;
   std::vector<BufferId> bindings(size_t stage) const;
+  // Each buffer of kept_ and its copy.
+  std::vector<std::pair<BufferId, BufferId>> keptBuffers() const;
   PassRun runOf(size_t stage, size_t pass) const;
 
   Backend& backend_;
@@ -94,6 +102,8 @@ class Pipeline {
   ParameterMap parameters_;
   uint32_t used_ = 0;
   std::deque<std::vector<bool>> ran_;  // by pass, of the frames under way
+  std::vector<Stage> kept_;            // at keep(); their buffers' contents are in copies_
+  std::vector<BufferId> copies_;       // of all buffers of all stages, in the order of kept_
 };
 
 }  // namespace restlab

@@ -31,6 +31,20 @@ constexpr const char* kAovKernel = "aov";
 const std::vector<std::string> kAovNames = {"radiance", "positionW", "normalW",  "albedo",
                                             "depth",    "object",    "emission", "motion"};
 
+// While it lives.
+class Stops {
+ public:
+  Stops(Backend& backend, const std::function<bool()>& isWanted) : backend_(backend) {
+    backend_.stopWhere(isWanted);
+  }
+  ~Stops() { backend_.stopWhere({}); }
+  Stops(const Stops&) = delete;
+  Stops& operator=(const Stops&) = delete;
+
+ private:
+  Backend& backend_;
+};
+
 }  // namespace
 
 std::string featureNames(uint32_t mask) {
@@ -86,6 +100,14 @@ struct Session::Impl {
   rl::FrameData lastFrame{};
   std::shared_ptr<const CompiledScene> lastScene;  // of the last frame
 
+  // What a frame changes beside buffers.
+  struct BeforeFrame {
+    rl::FrameData frame{}, lastFrame{};
+    bool isFirstFrame = true, hasNewParameters = false, isRadianceRead = true;
+    Image filtered;  // on the host
+  };
+  std::optional<BeforeFrame> beforeFrame;  // the last frame, which may be taken back
+
   // Backend, buffers and the first frame of a history, for the configuration.
   void open();
   // For another one; where that throws, a new history of the one before.
@@ -94,6 +116,9 @@ struct Session::Impl {
   void useParameters();
   void submitFrame();
   FrameStats collectFrame();
+  // Whether there is memory for it.
+  bool keep();
+  void restore();
   ShownFrame shown() const { return {config.parameters, lastFrame, *lastScene}; }
   size_t pixelAt(uint32_t x, uint32_t y) const;
 };
@@ -125,6 +150,7 @@ void Session::Impl::open() {
   needed = scene->features(config.multiscatter);
   const bool multiscatter = (needed & rl::RL_FEATURE_MULTISCATTER) != 0;
   if (multiscatter) scene->bindGgxAlbedo();
+  beforeFrame.reset();
   pipeline.reset();
   backend.reset();
   aovBuffers.clear();
@@ -213,11 +239,60 @@ FrameStats Session::Impl::collectFrame() {
 }
 
 FrameStats Session::frame() {
+  impl_->beforeFrame.reset();
   impl_->submitFrame();
   return impl_->collectFrame();
 }
 
+bool Session::Impl::keep() {
+  beforeFrame.reset();
+  try {
+    if (!pipeline->hasCopies()) {
+      backend->requireMemory(method.integrator->name, config.width, config.height,
+                             pipeline->bytesPerPixel(), onHost ? sizeof(glm::vec3) : 0);
+    }
+    pipeline->keep();
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::deviceUnavailable) throw;
+    return false;
+  }
+  beforeFrame = {frame, lastFrame, isFirstFrame, hasNewParameters, isRadianceRead, {}};
+  if (onHost) beforeFrame->filtered = radiance;
+  return true;
+}
+
+void Session::Impl::restore() {
+  pipeline->restore();
+  frame = beforeFrame->frame;
+  lastFrame = beforeFrame->lastFrame;
+  isFirstFrame = beforeFrame->isFirstFrame;
+  hasNewParameters = beforeFrame->hasNewParameters;
+  isAovTraced = false;
+  if (onHost) radiance = std::move(beforeFrame->filtered);
+  // Where it was read since, it is that of the frame that goes.
+  isRadianceRead = beforeFrame->isRadianceRead && (onHost || !isRadianceRead);
+  beforeFrame.reset();
+}
+
+std::optional<FrameStats> Session::frameUnless(const std::function<bool()>& isStopped) {
+  Impl& m = *impl_;
+  if (!m.keep()) return frame();
+  try {
+    const Stops stops(*m.backend, isStopped);
+    m.submitFrame();
+    return m.collectFrame();
+  } catch (const FrameStopped&) {
+    if (framesStopped()) throw;
+  }
+  m.restore();
+  return std::nullopt;
+}
+
+void Session::takeBack() { impl_->restore(); }
+bool Session::canTakeBack() const { return impl_->beforeFrame.has_value(); }
+
 std::vector<FrameStats> Session::frames(uint32_t count) {
+  impl_->beforeFrame.reset();
   std::vector<FrameStats> all;
   // A filter on the host reads the buffers before the next frame writes to them.
   const uint32_t inFlight = impl_->onHost ? 1 : impl_->backend->framesInFlight();
@@ -235,6 +310,7 @@ void Session::reset(uint32_t seed, uint32_t firstFrame) {
     failUsage(fmt::format("integrator {} with denoiser {}: a history starts at frame 0, not at {}",
                           m.method.integrator->name, m.method.denoiser->name, firstFrame));
   }
+  m.beforeFrame.reset();
   m.config.seed = seed;
   m.frame.seed = seed;
   m.frame.frame = firstFrame;
@@ -253,6 +329,7 @@ bool Session::setParameters(const ParameterMap& parameters) {
     return p.beginsHistory && changed.parameters.at(p.name) != m.config.parameters.at(p.name);
   });
   if (!beginsHistory && m.pipeline->setParameters(changed.mode, changed.parameters)) {
+    m.beforeFrame.reset();
     m.config = changed;
     m.useParameters();
     m.hasNewParameters = true;

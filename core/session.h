@@ -4,7 +4,9 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -73,6 +75,15 @@ class Session {
   // Renders the next frames, whose images nobody asks for: a device need not wait between them, but
   // for a denoiser that runs on the host.
   std::vector<FrameStats> frames(uint32_t count);
+  // The next frame, unless `isStopped` holds before it ends: nothing then, and the session is as if
+  // it had not begun. Several threads ask, often. Before the frame every buffer is copied, which
+  // takes their memory once more; where there is not so much, the frame is not stopped. A filter on
+  // the host is not, either. A signal ends it as it does frame().
+  std::optional<FrameStats> frameUnless(const std::function<bool()>& isStopped);
+  // Goes back to before the last frame; frameUnless() has rendered it, nothing was called since but
+  // what is const, and canTakeBack() says that there was memory.
+  void takeBack();
+  bool canTakeBack() const;
   // Drops the history and starts again with another seed (an independent run). The next frame has
   // the number `firstFrame`: a method without a history then renders what it would have rendered
   // after that many frames. Throws badUsage where a method with a history is to start anywhere

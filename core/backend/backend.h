@@ -4,11 +4,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/backend/cpu_kernel.h"
+#include "core/backend/stop.h"
 #include "core/dialect/types.h"
 
 namespace restlab {
@@ -89,6 +92,8 @@ class Backend {
   virtual void clear(BufferId buffer) = 0;
   virtual void write(BufferId buffer, const void* from, size_t bytes) = 0;
   virtual void read(BufferId buffer, void* to, size_t bytes) = 0;
+  // From each first buffer to its second one, of the same size.
+  virtual void copy(const std::vector<std::pair<BufferId, BufferId>>& buffers) = 0;
 
   // The mask of the specialisation that serves `needed`; throws Error (badUsage) for unknown
   // kernels.
@@ -106,9 +111,18 @@ class Backend {
   // Waits for the oldest frame under way.
   virtual FrameResult collect() = 0;
   virtual uint32_t framesInFlight() const = 0;
+  // Ends frames under way in their middle, as a signal does, while it holds: submit() or collect()
+  // then throws FrameStopped. Asked by several threads, often. Empty: signals alone.
+  void stopWhere(std::function<bool()> isWanted) { isStopWanted_ = std::move(isWanted); }
 
   virtual std::string rayTracing() const = 0;  // the one in use
   virtual std::string device() const = 0;      // what it runs on, for reports
+
+ protected:
+  bool isStopped() const { return framesStopped() || (isStopWanted_ && isStopWanted_()); }
+
+ private:
+  std::function<bool()> isStopWanted_;
 };
 
 std::unique_ptr<Backend> makeCpuBackend(std::shared_ptr<const CompiledScene> scene,

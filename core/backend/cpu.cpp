@@ -4,20 +4,18 @@
 #include <pmmintrin.h>
 #include <xmmintrin.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstring>
 #include <deque>
 #include <thread>
 
 #include "core/backend/backend.h"
-#include "core/backend/stop.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/scene/compiled_scene.h"
 
-#ifdef RESTLAB_JTHREAD_TILES
-#include <atomic>
-#else
+#ifndef RESTLAB_JTHREAD_TILES
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #include <tbb/version.h>
@@ -103,6 +101,11 @@ class CpuBackend final : public Backend {
     std::memcpy(to, buffers_[buffer].data(), bytes);
   }
 
+  void copy(const std::vector<std::pair<BufferId, BufferId>>& buffers) override {
+    for (const auto& [from, to] : buffers)
+      std::memcpy(buffers_[to].data(), buffers_[from].data(), buffers_[from].size());
+  }
+
   uint32_t maskFor(const std::string& kernel, uint32_t needed) const override {
     return find(kernel, needed).mask;
   }
@@ -153,8 +156,12 @@ class CpuBackend final : public Backend {
     const glm::uvec2 size = pass.size(frame);
     const uint32_t tilesX = (size.x + kTile - 1) / kTile, tilesY = (size.y + kTile - 1) / kTile;
     std::vector<rl::CpuKernelCounters> tileCounters(size_t(tilesX) * tilesY);
+    std::atomic<bool> isLeftOut = false;  // a tile was
     auto runTile = [&](size_t i) {
-      if (framesStopped()) return;
+      if (isStopped()) {
+        isLeftOut = true;
+        return;
+      }
       const FlushDenormals flush;
       const auto tx = static_cast<uint32_t>(i % tilesX), ty = static_cast<uint32_t>(i / tilesX);
       const rl::CpuKernelTile tile{tx * kTile, ty * kTile, std::min((tx + 1) * kTile, size.x),
@@ -167,7 +174,7 @@ class CpuBackend final : public Backend {
     const auto start = std::chrono::steady_clock::now();
     forEachTile(tileCounters.size(), runTile);
     const auto end = std::chrono::steady_clock::now();
-    if (framesStopped()) throw FrameStopped();
+    if (isLeftOut) throw FrameStopped();
     for (const rl::CpuKernelCounters& c : tileCounters) {
       counters.raysPath += c.raysPath;
       counters.raysShadow += c.raysShadow;

@@ -1,5 +1,5 @@
 // Ends frames of every session of this process in their middle: SIGINT must not wait for a frame
-// that takes minutes.
+// that takes minutes. One session's frames are ended by Backend::stopWhere().
 #pragma once
 
 #include "core/error.h"

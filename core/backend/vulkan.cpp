@@ -124,6 +124,12 @@ class VulkanBackend final : public Backend {
     placeBuffers();
     memory_.read(buffers_[buffer], to, bytes);
   }
+  void copy(const std::vector<std::pair<BufferId, BufferId>>& buffers) override {
+    placeBuffers();
+    std::vector<std::pair<GpuBuffer, GpuBuffer>> pairs;
+    for (const auto& [from, to] : buffers) pairs.emplace_back(buffers_[from], buffers_[to]);
+    memory_.copy(pairs);
+  }
 
   void setScene(std::shared_ptr<const CompiledScene> scene) override {
     while (!underWay_.empty()) finished_.push_back(finishOldest());
@@ -429,12 +435,15 @@ class VulkanBackend final : public Backend {
   void waitFor(const Slot& slot) {
     constexpr uint64_t kNanoseconds = 50'000'000;
     VkResult result = VK_TIMEOUT;
+    bool isCut = false;
     while (result == VK_TIMEOUT) {
       result = vkWaitForFences(device_.handle(), 1, &slot.fence, VK_TRUE, kNanoseconds);
-      if (result == VK_TIMEOUT && framesStopped()) stopSlots();
+      if (result != VK_TIMEOUT || !isStopped()) continue;
+      stopSlots();
+      isCut = true;
     }
     device_.check(result, "a frame");
-    if (framesStopped()) throw FrameStopped();
+    if (isCut || framesStopped()) throw FrameStopped();
   }
 
   void stopSlots() {

@@ -230,4 +230,15 @@ void VulkanMemory::clear(const GpuBuffer& buffer) {
       "clearing a buffer");
 }
 
+void VulkanMemory::copy(const std::vector<std::pair<GpuBuffer, GpuBuffer>>& buffers) {
+  device_->runNow(
+      [&](VkCommandBuffer commands) {
+        for (const auto& [from, to] : buffers) {
+          const VkBufferCopy region{from.offset, to.offset, from.bytes};
+          vkCmdCopyBuffer(commands, from.buffer, to.buffer, 1, &region);
+        }
+      },
+      "copying buffers");
+}
+
 }  // namespace restlab

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/backend/vulkan_device.h"
@@ -43,6 +44,8 @@ class VulkanMemory {
   void write(const GpuBuffer& to, const void* data, size_t bytes, size_t offset = 0);
   void read(const GpuBuffer& from, void* data, size_t bytes);
   void clear(const GpuBuffer& buffer);
+  // From each first buffer to its second one, of the same size.
+  void copy(const std::vector<std::pair<GpuBuffer, GpuBuffer>>& buffers);
 
   VulkanDevice& device() const { return *device_; }
   uint64_t bytesAllocated() const { return bytesAllocated_; }  // in blocks

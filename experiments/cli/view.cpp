@@ -43,6 +43,8 @@ constexpr uint64_t kMostFrames = 1u << 30;
 
 struct ViewOptions {
   SceneOptions scene;
+  std::vector<std::string> images;  // beside the scene's methods, or after the first image
+  std::string reference, table;     // of images alone
   MethodOptions first, second;
   std::string secondBackend;  // "": as the first
   ViewServerOptions server;
@@ -53,18 +55,22 @@ struct ViewOptions {
 };
 
 bool isSuite(const std::string& name) { return std::filesystem::path(name).extension() == ".toml"; }
+bool isImage(const std::string& name) { return std::filesystem::path(name).extension() == ".exr"; }
+bool isResults(const std::string& name) {
+  std::error_code status;
+  return std::filesystem::is_directory(name, status);
+}
 
-// A suite says all of what these say.
-void requireNoOptions(const CLI::App& verb, const std::string& file) {
+// Options but those of any view and `more` were not given.
+void requireNoOptions(const CLI::App& verb, const std::string& file,
+                      const std::set<std::string>& more, const std::string& why) {
   for (const CLI::Option* option : verb.get_options()) {
     const std::string name = option->get_name();
     static const std::set<std::string> ofAny = {
         "scene",           "--port", "--listen", "--open",    "--capture", "--frames",
         "--reference-spp", "--tev",  "--quiet",  "--verbose", "-q",        "-v"};
-    if (option->count() > 0 && ofAny.count(name) == 0) {
-      failUsage(fmt::format("view {}: {} is not for a suite, which says it; change the file", file,
-                            name));
-    }
+    if (option->count() > 0 && ofAny.count(name) + more.count(name) == 0)
+      failUsage(fmt::format("view {}: {} is not for {}", file, name, why));
   }
 }
 
@@ -81,7 +87,19 @@ void chooseSize(const PreparedScene& prepared, SessionConfig& config) {
   completeConfig(prepared, config);
 }
 
-ViewStart startOf(ViewOptions& options) {
+// Methods beside images, the first of which pane B shows.
+void addImages(const ViewOptions& options, ViewStart& start, std::vector<SessionConfig>& panes) {
+  if (options.images.empty()) return;
+  start.images = readViewImages({options.images.begin(), options.images.end()}, {}, false);
+  const Image& first = start.images.list.front().image;
+  for (SessionConfig& config : panes) {
+    if (config.width != 0 || config.height != 0) continue;
+    config.width = first.width;
+    config.height = first.height;
+  }
+}
+
+ViewStart startOfMethods(ViewOptions& options) {
   resolveResolution(options.scene);
   MethodOptions& second = options.second;
   second.russianRoulette = options.first.russianRoulette;
@@ -95,10 +113,54 @@ ViewStart startOf(ViewOptions& options) {
                                       makeConfig(options.scene, second)};
   ViewStart start;
   start.request = options.scene.request;
+  addImages(options, start, panes);
   start.prepared = prepareScene(start.request);
   for (SessionConfig& config : panes) chooseSize(start.prepared, config);
   start.settings = settingsOf(start.prepared, panes);
+  requireSizeOf(start.images, start.settings, true);
+  if (!start.images.list.empty())
+    start.settings.panes.back().source = start.images.list.front().name;
   return start;
+}
+
+ViewStart startOf(const CLI::App& verb, ViewOptions& options) {
+  const std::string& name = options.scene.request.scene;
+  ViewStart start;
+  if (isSuite(name)) {
+    requireNoOptions(verb, name, {}, "a suite, which says it; change the file");
+    return startOfSuite(name);
+  }
+  if (isResults(name)) {
+    requireNoOptions(verb, name, {"--table"}, "a folder of results, which is not rendered");
+    start.images = readResultsImages(name, options.table);
+    const std::vector<std::string> tables = tablesOfResults(name);
+    if (options.table.empty() && tables.size() > 1) {
+      logInfo(fmt::format("{}: shows {}; --table chooses another one: {}", name, tables.front(),
+                          fmt::join(tables, ", ")));
+    }
+  } else if (isImage(name)) {
+    requireNoOptions(verb, name, {"images", "--ref"}, "images of files, which are not rendered");
+    std::vector<std::filesystem::path> files = {name};
+    files.insert(files.end(), options.images.begin(), options.images.end());
+    start.images = readViewImages(files, options.reference);
+  } else {
+    if (!options.reference.empty())
+      failUsage("--ref: is for images alone; methods make their own reference");
+    if (!options.table.empty()) failUsage("--table: is for a folder of results");
+    return startOfMethods(options);
+  }
+  start.settings = settingsOf(start.images);
+  return start;
+}
+
+LiveView viewOf(const ViewStart& start, const ReferenceStore& store) {
+  if (!start.prepared.scene) return {start.images, start.settings};
+  return {start.prepared, start.settings, store, start.images};
+}
+
+void logSessions(const LiveView& live) {
+  if (!live.hasScene()) return;
+  for (size_t i = 0; i < live.panes(); ++i) logStartup(live.session(i));
 }
 
 // Whoever has no browser here opens the address elsewhere.
@@ -121,8 +183,8 @@ void openInBrowser(const std::string& file) {
 void writeCapture(const ViewStart& start, const ViewOptions& options) {
   requireCaptureSize(start.settings);
   // Nothing but the picture is written: the reference is not kept.
-  LiveView live(start.prepared, start.settings, {});
-  for (size_t i = 0; i < live.panes(); ++i) logStartup(live.session(i));
+  LiveView live = viewOf(start, {});
+  logSessions(live);
   const Figure figure = capture(live, options.captured);
   for (const std::string& name : figure.cutLabels)
     logWarning(fmt::format("'{}' does not fit above its picture and is cut", name));
@@ -133,24 +195,22 @@ void writeCapture(const ViewStart& start, const ViewOptions& options) {
 
 ExitCode view(const CLI::App& verb, ViewOptions options) {
   if (options.scene.request.scene.empty()) options.scene.request.scene = kDefaultScene;
-  const std::string name = options.scene.request.scene;
-  if (isSuite(name)) requireNoOptions(verb, name);
   std::optional<TevAddress> tev;
   if (!options.tev.empty()) tev = parseTevAddress(options.tev);
   if (!options.capture.empty()) {
     checkOutputs({{"--capture", options.capture, ".png"}}, options.scene.request);
     checkWritable(options.capture);
   }
-  const ViewStart start = isSuite(name) ? startOfSuite(name) : startOf(options);
-  printWarnings(start.prepared);
+  const ViewStart start = startOf(verb, options);
+  if (start.prepared.scene) printWarnings(start.prepared);
   if (!options.capture.empty()) {
     writeCapture(start, options);
     return ExitCode::ok;
   }
   ReferenceStore store;
   store.folder = referenceCacheFolder();
-  LiveView live(start.prepared, start.settings, store);
-  for (size_t i = 0; i < live.panes(); ++i) logStartup(live.session(i));
+  LiveView live = viewOf(start, store);
+  logSessions(live);
   const int threads = start.settings.panes.front().config.threads;
   options.server.page = viewPage();
   ViewLoop loop(live,
@@ -212,8 +272,13 @@ Action addViewVerb(CLI::App& app) {
       "view", "compare two methods and their reference live, on a page in a browser");
   addSceneOptions(*verb, options->scene);
   verb->get_option("scene")->required(false)->description(
-      "a glTF file, a built-in scene (default door-ajar), or a suite *.toml: its first two "
-      "methods");
+      "a glTF file, a built-in scene (default door-ajar), a suite *.toml: its first two methods, "
+      "a folder of `run`: its images, or an image *.exr");
+  verb->add_option("images", options->images,
+                   "*.exr: more images to compare, or one beside the methods of a scene");
+  verb->add_option("-r,--ref", options->reference, "of images: the reference, an EXR");
+  verb->add_option("--table", options->table,
+                   "of a folder of results: the scene and component (default: the first)");
   verb->get_option("--resolution")
       ->description("WxH pixels (default: 320x180, or as many in the camera's aspect ratio)");
   options->first.choice.integrator = "restir_gi";

@@ -36,7 +36,7 @@ void renderAll(LiveView& view, const CaptureOptions& options) {
       view.renderFrames();
       progress.update(frame + 1);
     }
-    while (reference.spp() < options.referenceSpp || !reference.isThere()) {
+    while (view.hasScene() && (reference.spp() < options.referenceSpp || !reference.isThere())) {
       throwIfInterrupted(kInterrupted);
       view.refineReference();
       progress.update(options.frames + reference.spp());
@@ -90,13 +90,13 @@ void requireCaptureSize(const ViewSettings& settings) {
 
 Figure capture(LiveView& view, const CaptureOptions& options) {
   renderAll(view, options);
-  const std::vector<std::string> names = methodNames(view.settings());
+  const std::vector<std::string> names = paneNames(view);
   std::vector<Column> columns;
   for (size_t i = 0; i < view.panes(); ++i)
+    columns.push_back({fmt::format("{}: {}", char('A' + int(i)), names[i]), view.picture(i)});
+  if (view.reference().isThere())
     columns.push_back(
-        {fmt::format("{}: {}", char('A' + int(i)), names[i]), &view.session(i).radiance()});
-  columns.push_back(
-      {fmt::format("reference, {} spp", view.reference().spp()), &view.reference().mean()});
+        {fmt::format("reference, {} spp", view.reference().spp()), &view.reference().mean()});
   return layOut(columns, float(exposureOf(view)));
 }
 

@@ -153,15 +153,29 @@ ViewCommand commandOf(Members& members) {
   if (name == "copy") return CopyMethod{members.pane("from"), members.pane("to")};
   if (name == "undo") return Undo{};
   if (name == "redo") return Redo{};
-  if (name == "save") return SaveSession{};
-  const std::vector<std::string> names = {"set",   "parameter", "camera", "resolution", "light",
-                                          "layer", "probe",     "pause",  "look",       "restart",
-                                          "copy",  "undo",      "redo",   "save"};
+  if (name == "save") return SaveSession{members.has("name") ? members.text("name") : ""};
+  if (name == "measure") return Measure{members.has("name") ? members.text("name") : ""};
+  if (name == "cancel") return CancelMeasure{};
+  if (name == "picture") return SavePicture{members.whole("image", 0, kMostPanes)};
+  const std::vector<std::string> names = {"set",    "parameter", "camera", "resolution", "light",
+                                          "layer",  "probe",     "pause",  "look",       "restart",
+                                          "copy",   "undo",      "redo",   "save",       "measure",
+                                          "cancel", "picture"};
   failUsage(fmt::format("command: '{}' is unknown (known: {}){}", name, fmt::join(names, ", "),
                         didYouMean(name, names)));
 }
 
+template <class... Commands>
+bool isOneOf(const ViewCommand& command) {
+  return (std::holds_alternative<Commands>(command) || ...);
+}
+
 }  // namespace
+
+bool changesFrames(const ViewCommand& command) {
+  return isOneOf<SetSetting, SetParameter, MoveCamera, Resize, SetLight, Restart, CopyMethod, Undo,
+                 Redo>(command);
+}
 
 ViewCommand parseViewCommand(const std::string& text) {
   const Json json = Json::parse(text, nullptr, false);

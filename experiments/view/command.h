@@ -13,10 +13,14 @@
 //   restart                          histories begin anew, with the next seed
 //   copy        from, to             the pane `to` gets the method of the pane `from`
 //   undo, redo                       the last step of what is set, back and forth
-//   save                             what is set, as a suite
+//   save        name?                what is set, as a suite
+//   measure     name?                the same, and `restlab run` on it
+//   cancel                           ends what is measured
+//   picture     image                what is shown there as it was rendered, an EXR
 //
-// Panes are numbered from 0. What a method or a scene does not know, whoever runs the command says;
-// here numbers are finite and bounded, and texts short.
+// Panes are numbered from 0; the image after those of panes is the reference. What a method or a
+// scene does not know, whoever runs the command says; here numbers are finite and bounded, and
+// texts short.
 #pragma once
 
 #include <array>
@@ -68,14 +72,26 @@ struct CopyMethod {
 };
 struct Undo {};
 struct Redo {};
-struct SaveSession {};
+struct SaveSession {
+  std::string name;  // of the suite; "": of the scene and the time
+};
+struct Measure {
+  std::string name;
+};
+struct CancelMeasure {};
+struct SavePicture {
+  uint32_t image = 0;
+};
 
 using ViewCommand = std::variant<SetSetting, SetParameter, MoveCamera, Resize, SetLight, ShowLayer,
-                                 Probe, Pause, Look, Restart, CopyMethod, Undo, Redo, SaveSession>;
+                                 Probe, Pause, Look, Restart, CopyMethod, Undo, Redo, SaveSession,
+                                 Measure, CancelMeasure, SavePicture>;
 
 constexpr uint32_t kMostPanes = 2;
 
 // Throws Error (badUsage) with one line: what is wrong and what would be right.
 ViewCommand parseViewCommand(const std::string& text);
+// It changes what frames show or how they are made: the one under way is of no use any more.
+bool changesFrames(const ViewCommand& command);
 
 }  // namespace restlab

@@ -1,5 +1,6 @@
 #include "experiments/view/live_reference.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -22,16 +23,24 @@ void LiveReference::begin(const PreparedScene& prepared, const ReferenceConfig& 
   if (std::optional<ReferenceState> kept = progress_->load()) state_ = std::move(*kept);
 }
 
-void LiveReference::addSample() {
+bool LiveReference::addSample(const std::function<bool()>& isStopped) {
   if (!halves_) {
     state_.id.seed = config_.seed;
     halves_.emplace(*prepared_, config_, state_);
   }
   const auto start = std::chrono::steady_clock::now();
-  halves_->addSample();
+  if (!halves_->addSample(isStopped)) return false;
   sampleMs_ =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   if (progress_) progress_->update(state_);
+  return true;
+}
+
+void LiveReference::show(const Reference& reference) {
+  pictures_ = {std::max<uint64_t>(1, reference.spp), reference.mean,
+               reference.half0.value_or(reference.mean), reference.half1.value_or(reference.mean),
+               reference.relmse};
+  isGiven_ = true;
 }
 
 const LiveReference::Pictures& LiveReference::pictures() const {

@@ -2,6 +2,7 @@
 // progress that other programs have kept of it, and is kept for them.
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "experiments/runner/reference/reference_halves.h"
@@ -20,11 +21,19 @@ class LiveReference {
   // From here on of this picture; nothing is rendered yet. `prepared` must live until the next.
   void begin(const PreparedScene& prepared, const ReferenceConfig& config);
   // The next sample of every pixel, for one half and then for the other.
-  void addSample();
+  // Where `isStopped` holds before it ends there is none, and the same one is next: false then.
+  bool addSample(const std::function<bool()>& isStopped = {});
+  // One that was read, instead: nothing is rendered. Without halves its own noise is in every
+  // error.
+  void show(const Reference& reference);
+  // Where others find it; nothing where it is none of the scene's own cameras.
+  void keep();
+  // With the metadata of a file. It is there, and was not given.
+  Reference whole() const { return referenceOf(*prepared_, config_, state_); }
 
-  uint64_t spp() const { return state_.spp(); }
+  uint64_t spp() const { return isGiven_ ? pictures_.spp : state_.spp(); }
   // Both halves have a sample, as the rest needs.
-  bool isThere() const { return state_.half1.count() > 0; }
+  bool isThere() const { return isGiven_ || state_.half1.count() > 0; }
   // Made once after each sample.
   const Image& mean() const { return pictures().mean; }
   const Image& half0() const { return pictures().half0; }
@@ -40,7 +49,6 @@ class LiveReference {
     double relmse = 0.0;
   };
   const Pictures& pictures() const;
-  void keep();
 
   const ReferenceStore store_;
   const PreparedScene* prepared_ = nullptr;
@@ -50,6 +58,7 @@ class LiveReference {
   std::optional<ReferenceProgress> progress_;
   std::optional<ReferenceHalves> halves_;  // from the first sample on
   mutable Pictures pictures_;
+  bool isGiven_ = false;
   double sampleMs_ = 0.0;
 };
 

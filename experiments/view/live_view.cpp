@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "core/error.h"
@@ -17,6 +19,10 @@ bool hasHistory(const SessionConfig& config) {
   return method.hasHistory(resolveParameters(method, config.parameters));
 }
 
+std::optional<FrameStats> nextFrame(Session& session, const LiveView::StopCheck& isStopped) {
+  return isStopped ? session.frameUnless(isStopped) : std::optional(session.frame());
+}
+
 }  // namespace
 
 ViewSettings settingsOf(const PreparedScene& prepared, const std::vector<SessionConfig>& panes) {
@@ -26,22 +32,53 @@ ViewSettings settingsOf(const PreparedScene& prepared, const std::vector<Session
   return settings;
 }
 
+ViewSettings settingsOf(const ViewImages& images) {
+  ViewSettings settings;
+  const FileImage& first = images.list.front();
+  for (uint32_t i = 0; i < kMostPanes; ++i) {
+    PaneSettings& pane = settings.panes.emplace_back();
+    pane.config.width = first.image.width;
+    pane.config.height = first.image.height;
+    const bool isReference = i >= images.list.size() && images.reference;
+    pane.source = isReference ? kReferenceSource
+                              : images.list[std::min<size_t>(i, images.list.size() - 1)].name;
+  }
+  return settings;
+}
+
 LiveView::LiveView(const PreparedScene& prepared, const std::vector<SessionConfig>& panes,
                    const ReferenceStore& store)
     : LiveView(prepared, settingsOf(prepared, panes), store) {}
 
 LiveView::LiveView(const PreparedScene& prepared, ViewSettings settings,
-                   const ReferenceStore& store)
-    : loaded_(prepared), prepared_(prepared), settings_(std::move(settings)), reference_(store) {
+                   const ReferenceStore& store, ViewImages images)
+    : loaded_(prepared),
+      prepared_(prepared),
+      images_(std::move(images)),
+      settings_(std::move(settings)),
+      first_(settings_),
+      reference_(store) {
   if (!settings_.lights.empty()) prepared_ = litBy(settings_.lights);
   for (const PaneSettings& pane : settings_.panes)
     panes_.emplace_back().session = sessionOf(pane.config, prepared_, settings_.camera);
   beginEpoch(true);
 }
 
+LiveView::LiveView(ViewImages images, ViewSettings settings)
+    : images_(std::move(images)),
+      settings_(std::move(settings)),
+      first_(settings_),
+      panes_(settings_.panes.size()),
+      reference_(ReferenceStore{}) {
+  if (images_.reference) reference_.show(*images_.reference);
+  beginEpoch(true);
+}
+
 void LiveView::apply(const ViewCommand& command) {
   if (std::holds_alternative<Pause>(command) || std::holds_alternative<Look>(command) ||
-      std::holds_alternative<Probe>(command) || std::holds_alternative<SaveSession>(command))
+      std::holds_alternative<Probe>(command) || std::holds_alternative<SaveSession>(command) ||
+      std::holds_alternative<Measure>(command) || std::holds_alternative<CancelMeasure>(command) ||
+      std::holds_alternative<SavePicture>(command))
     return;
   if (std::holds_alternative<Restart>(command)) return restart();
   const ViewSettings before = settings_;
@@ -55,35 +92,103 @@ void LiveView::apply(const ViewCommand& command) {
     become(history_.redone());
     return history_.redo(before);
   }
-  ViewChange change = changedBy(command, settings_, loaded_.scene->source());
+  ViewChange change =
+      changedBy(command, settings_, {hasScene() ? &loaded_.scene->source() : nullptr, sources()});
   if (isSame(change.settings, settings_)) return;
   become(std::move(change.settings));
   history_.add(before, change.target, change.text);
   if (const auto* copy = std::get_if<CopyMethod>(&command)) giveOwnSeed(copy->to);
 }
 
-void LiveView::renderFrames() {
-  for (Pane& pane : panes_) renderFrame(pane);
+bool LiveView::renderFrames(const StopCheck& isStopped) {
+  if (!rendersAny()) return true;
+  std::vector<std::pair<Pane*, FrameStats>> whole;
+  bool mayStop = true;
+  for (size_t i = 0; i < panes_.size(); ++i) {
+    if (!renders(i)) continue;
+    Pane& pane = panes_[i];
+    const auto stats = nextFrame(*pane.session, mayStop ? isStopped : StopCheck());
+    if (!stats) {
+      // Panes keep step: those that have rendered go back.
+      for (const auto& [before, ignored] : whole) before->session->takeBack();
+      return false;
+    }
+    mayStop = mayStop && pane.session->canTakeBack();
+    whole.emplace_back(&pane, *stats);
+  }
+  for (const auto& [pane, stats] : whole) addFrame(*pane, stats);
   ++age_;
+  return true;
 }
 
-bool LiveView::renderFirstFrames() {
+bool LiveView::renderFirstFrames(const StopCheck& isStopped) {
   bool isAny = false;
-  for (Pane& pane : panes_) {
-    if (pane.frames > 0) continue;
-    renderFrame(pane);
+  for (size_t i = 0; i < panes_.size(); ++i) {
+    if (panes_[i].frames > 0 || !renders(i)) continue;
+    const auto stats = nextFrame(*panes_[i].session, isStopped);
+    if (!stats) break;
+    addFrame(panes_[i], *stats);
     isAny = true;
   }
   return isAny;
 }
 
-void LiveView::renderFrame(Pane& pane) {
-  pane.stats = pane.session->frame();
+void LiveView::addFrame(Pane& pane, const FrameStats& stats) {
+  pane.stats = stats;
   ++pane.frames;
   pane.epoch = epoch_;
   if (!reference_.isThere()) return;
   pane.error.add(pane.session->radiance(), reference_.mean(), reference_.half0(),
                  reference_.half1(), reference_.spp());
+}
+
+bool LiveView::refineReference(const StopCheck& isStopped) {
+  if (!reference_.addSample(isStopped)) return false;
+  measureImages();
+  return true;
+}
+
+std::vector<std::string> LiveView::sources() const {
+  std::vector<std::string> sources;
+  if (hasScene()) sources.emplace_back(kMethodSource);
+  if (hasScene() || images_.reference) sources.emplace_back(kReferenceSource);
+  for (const FileImage& one : images_.list) sources.push_back(one.name);
+  return sources;
+}
+
+bool LiveView::rendersAny() const {
+  return std::any_of(settings_.panes.begin(), settings_.panes.end(),
+                     [](const PaneSettings& pane) { return pane.source == kMethodSource; });
+}
+
+const FileImage* LiveView::imageOf(size_t pane) const {
+  return images_.find(settings_.panes.at(pane).source);
+}
+
+const Image* LiveView::picture(size_t pane) const {
+  if (renders(pane)) return frames(pane) > 0 ? &session(pane).radiance() : nullptr;
+  if (const FileImage* image = imageOf(pane)) return &image->image;
+  return reference_.isThere() ? &reference_.mean() : nullptr;
+}
+
+uint64_t LiveView::pictureCount(size_t pane) const {
+  if (renders(pane)) return frames(pane);
+  return imageOf(pane) != nullptr ? 1 : reference_.spp();
+}
+
+uint64_t LiveView::epochOf(size_t pane) const {
+  if (renders(pane)) return panes_.at(pane).epoch;
+  return imageOf(pane) == nullptr || isSamePicture(settings_, first_) ? epoch_ : 0;
+}
+
+void LiveView::measureImages() {
+  for (size_t i = 0; i < panes_.size(); ++i) {
+    const FileImage* image = imageOf(i);
+    if (image == nullptr || epochOf(i) != epoch_ || !reference_.isThere()) continue;
+    panes_[i].error.restart();
+    panes_[i].error.add(image->image, reference_.mean(), reference_.half0(), reference_.half1(),
+                        reference_.spp());
+  }
 }
 
 std::unique_ptr<Session> LiveView::sessionOf(const SessionConfig& config,
@@ -109,13 +214,17 @@ void LiveView::beginEpoch(bool isAnotherPicture) {
   ++epoch_;
   age_ = 0;
   for (Pane& pane : panes_) pane.error.restart();
-  if (!isAnotherPicture) return;
-  ++picture_;
-  ReferenceConfig config = referenceConfigOf(panes_.front().session->config());
-  config.camera = settings_.camera;
-  if (!referenceSeed_) referenceSeed_ = config.seed;
-  config.seed = *referenceSeed_;
-  reference_.begin(prepared_, config);
+  if (isAnotherPicture) {
+    ++picture_;
+    if (hasScene()) {
+      ReferenceConfig config = referenceConfigOf(panes_.front().session->config());
+      config.camera = settings_.camera;
+      if (!referenceSeed_) referenceSeed_ = config.seed;
+      config.seed = *referenceSeed_;
+      reference_.begin(prepared_, config);
+    }
+  }
+  measureImages();
 }
 
 bool LiveView::setParameters(Pane& pane, const SessionConfig& config) {
@@ -155,6 +264,10 @@ void LiveView::resize(const std::vector<Pane*>& panes, const SessionConfig& befo
 
 // What may throw comes first: a session of another method, then what the others can say no to.
 void LiveView::become(ViewSettings next) {
+  if (!hasScene()) {
+    settings_ = std::move(next);
+    return beginEpoch(false);
+  }
   // Runs go on with the seeds that they have: a step back is no run of before.
   for (size_t i = 0; i < panes_.size(); ++i)
     next.panes[i].config.seed = settings_.panes[i].config.seed;
@@ -188,6 +301,11 @@ void LiveView::become(ViewSettings next) {
       pane.session = std::move(made[i]);
       pane.frames = 0;
     }
+    if (settings_.panes[i].source != next.panes[i].source) {
+      pane.session->reset(next.panes[i].config.seed);
+      pane.frames = 0;
+      isChanged = true;
+    }
     const bool isNew = pane.frames == 0;
     const bool isTouched =
         isAnotherPicture || settings_.panes[i].config.parameters != next.panes[i].config.parameters;
@@ -201,6 +319,7 @@ void LiveView::become(ViewSettings next) {
 }
 
 void LiveView::giveOwnSeed(size_t pane) {
+  if (!hasScene()) return;
   uint32_t& seed = settings_.panes[pane].config.seed;
   const auto isTaken = [&] {
     for (size_t i = 0; i < panes_.size(); ++i)
@@ -216,6 +335,7 @@ void LiveView::giveOwnSeed(size_t pane) {
 }
 
 void LiveView::restart() {
+  if (!rendersAny()) failUsage("restart: no pane shows a method");
   for (size_t i = 0; i < panes_.size(); ++i) {
     panes_[i].session->reset(++settings_.panes[i].config.seed);
     panes_[i].frames = 0;

@@ -33,6 +33,7 @@ using Request = http::request<http::empty_body>;
 using Response = http::response<http::string_body>;
 
 constexpr std::chrono::seconds kRequestTimeout{10};
+constexpr std::chrono::seconds kPageTimeout{120};  // reports hold images
 constexpr std::chrono::milliseconds kAcceptPause{100};
 constexpr uint32_t kMostHeaderBytes = 8 << 10;
 
@@ -114,6 +115,11 @@ class ViewServer::Impl {
     std::optional<uint32_t> slot;        // of which the newest counts
   };
   void send(ClientId id, Message message);
+  void setReport(std::string html) {
+    post([this, report = std::make_shared<const std::string>(std::move(html))] {
+      report_ = report;
+    });
+  }
   uint64_t bytesWritten() const { return bytesWritten_.load(std::memory_order_relaxed); }
 
  private:
@@ -173,14 +179,16 @@ class ViewServer::Impl {
     if (!origin.empty() && origin != "http://" + host)
       return refuse(http::status::forbidden, "Origin: another page's requests are not served");
     const Target target = targetOf(request);
-    if (target.path != "/" && target.path != "/socket")
-      return refuse(http::status::not_found, "there are / and /socket");
+    if (target.path != "/" && target.path != "/socket" && target.path != "/report")
+      return refuse(http::status::not_found, "there are /, /socket and /report");
     if (!equalSecrets(target.token, token_))
       return refuse(http::status::forbidden,
                     "the token of the printed address is missing or wrong");
     const bool isSocket = target.path == "/socket";
     if (isSocket != websocket::is_upgrade(request))
       return refuse(http::status::bad_request, "/socket is a WebSocket, and / is none");
+    if (target.path == "/report" && !report_)
+      return refuse(http::status::not_found, "nothing was measured yet");
     if (isSocket && clients_.size() >= options_.mostClients) {
       return refuse(http::status::service_unavailable,
                     fmt::format("{} pages are open, which is the limit", clients_.size()));
@@ -206,6 +214,7 @@ class ViewServer::Impl {
   std::atomic<uint64_t> bytesWritten_{0};
   ClientId nextId_ = 1;
   std::map<ClientId, std::shared_ptr<Client>> clients_;
+  std::shared_ptr<const std::string> report_;
   std::thread thread_;
 };
 
@@ -317,7 +326,10 @@ class ViewServer::Impl::Connection : public std::enable_shared_from_this<Connect
     const Request& request = parser_.get();
     if (const auto refusal = server_.refusal(request))
       return reply(refusal->first, refusal->second);
-    if (!websocket::is_upgrade(request)) return reply(http::status::ok, server_.options_.page);
+    if (!websocket::is_upgrade(request)) {
+      const bool isReport = targetOf(request).path == "/report";
+      return reply(http::status::ok, isReport ? *server_.report_ : server_.options_.page);
+    }
     const ClientId id = server_.nextId_++;
     const auto client = std::make_shared<Client>(server_, id, std::move(stream_));
     server_.clients_.emplace(id, client);
@@ -336,7 +348,7 @@ class ViewServer::Impl::Connection : public std::enable_shared_from_this<Connect
     response_.set("Referrer-Policy", "no-referrer");
     response_.body() = isPage ? body : body + "\n";
     response_.prepare_payload();
-    stream_.expires_after(kRequestTimeout);
+    stream_.expires_after(isPage ? kPageTimeout : kRequestTimeout);
     http::async_write(stream_, response_, [self = shared_from_this()](ErrorCode, size_t) {
       ErrorCode ignored;
       self->stream_.socket().shutdown(Tcp::socket::shutdown_send, ignored);
@@ -390,6 +402,7 @@ ViewServer::ViewServer(const ViewServerOptions& options, ViewServerEvents events
 ViewServer::~ViewServer() = default;
 uint16_t ViewServer::port() const { return impl_->port(); }
 std::string ViewServer::url() const { return impl_->url(); }
+void ViewServer::setReport(std::string html) { impl_->setReport(std::move(html)); }
 uint64_t ViewServer::bytesWritten() const { return impl_->bytesWritten(); }
 void ViewServer::send(ClientId client, std::string text) {
   impl_->send(client, {std::make_shared<const std::string>(std::move(text)), nullptr, {}});

@@ -2,8 +2,8 @@
 //
 // It listens on loopback unless it is told otherwise. Whoever asks must know the token of the
 // address that was printed, name this machine in Host and, from a page, come from this page's
-// origin: another site that a browser has open reaches nothing. There are two targets, "/" and
-// "/socket"; nothing is read from the disk.
+// origin: another site that a browser has open reaches nothing. There are three targets, "/",
+// "/socket" and "/report"; nothing is read from the disk.
 #pragma once
 
 #include <cstddef>
@@ -54,6 +54,9 @@ class ViewServer {
   // What waits of the same slot is replaced: a slow client gets fewer of them, not older ones.
   void sendNewest(ClientId client, uint32_t slot, std::shared_ptr<const Bytes> bytes);
   void sendNewest(ClientId client, uint32_t slot, std::string text);
+
+  // What "/report" is from here on, an HTML page; before, it is not there.
+  void setReport(std::string html);
 
   // To all clients since the server began.
   uint64_t bytesWritten() const;

@@ -28,8 +28,8 @@ Image blockMeans(const Image& image, uint32_t side) {
 double exposureOf(const LiveView& view) {
   if (view.reference().isThere())
     return previewExposure(blockMeans(view.reference().mean(), kBlockSide));
-  if (view.frames(0) == 0) return 1.0;
-  return previewExposure(blockMeans(view.session(0).radiance(), kBlockSide));
+  const Image* first = view.picture(0);
+  return first != nullptr ? previewExposure(blockMeans(*first, kBlockSide)) : 1.0;
 }
 
 }  // namespace restlab

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <new>
 #include <optional>
 #include <thread>
@@ -12,7 +14,9 @@
 #include "core/backend/stop.h"
 #include "core/error.h"
 #include "core/method.h"
+#include "experiments/runner/run/files.h"
 #include "experiments/runner/run/interrupt.h"
+#include "experiments/view/picture_file.h"
 #include "experiments/view/view_session.h"
 #include "experiments/view/view_session_file.h"
 
@@ -71,17 +75,18 @@ void ViewLoop::run() {
     while (!isStopped_) {
       throwIfInterrupted("the viewer ends");
       take(events_.take(patience));
+      followMeasurement();
       patience = kIdle;
       if (!sender_.hasPages() && !(tev_ && tev_->connection() > 0)) continue;
-      if (!isPaused_) renderRound();
-      if (isPaused_ && view_.renderFirstFrames()) {
+      if (!isStanding()) renderRound();
+      if (isPaused_ && !measurement_.isRunning() && view_.renderFirstFrames(stopCheck())) {
         showPanes();
         tellNumbers();
       }
       const bool isRefined = refine();
       showWhatIsExact();
       showTev();
-      patience = isPaused_ && !isRefined ? kShort : milliseconds{0};
+      patience = isStanding() && !isRefined ? kShort : milliseconds{0};
     }
   } catch (const FrameStopped&) {
     throwIfInterrupted("the viewer ends");
@@ -121,16 +126,20 @@ void ViewLoop::take(const std::vector<PageEvent>& events) {
   }
   if (events_.takeLost())
     sender_.tellAll(errorText("commands come faster than they can be done: some were lost", ""));
-  if (isOther) sender_.tellState(stateText(view_, isPaused_));
+  if (!isOther) return;
+  sender_.tellState(stateText(view_, isPaused_));
+  if (isStanding()) tellNumbers();
 }
 
 void ViewLoop::welcome(ClientId page) {
   // The first frame says how bright the page is to show it.
-  if (view_.frames(0) == 0 && !isPaused_) view_.renderFrames();
+  if (view_.frames(0) == 0 && !isStanding()) view_.renderFrames();
   sender_.opened(page);
   sender_.tell(page, helloText(facts_, view_));
   sender_.tell(page, stateText(view_, isPaused_));
   showAll();
+  if (measurement_.state() != Measurement::State::none)
+    sender_.tell(page, measureText(measurement_));
 }
 
 bool ViewLoop::obey(ClientId page, const ViewCommand& command) {
@@ -143,10 +152,25 @@ bool ViewLoop::obey(ClientId page, const ViewCommand& command) {
     sender_.tell(page, probeText(facts_, view_, *probe));
     return false;
   }
-  if (std::holds_alternative<SaveSession>(command)) {
-    save(page);
+  if (const auto* session = std::get_if<SaveSession>(&command)) {
+    save(page, session->name);
     return false;
   }
+  if (const auto* picture = std::get_if<SavePicture>(&command)) {
+    sender_.tell(page,
+                 fileText(pictureName(view_, picture->image), pictureBytes(view_, picture->image)));
+    return false;
+  }
+  if (const auto* wanted = std::get_if<Measure>(&command)) {
+    measure(wanted->name);
+    return false;
+  }
+  if (std::holds_alternative<CancelMeasure>(command)) {
+    measurement_.cancel();
+    return false;
+  }
+  if (measurement_.isRunning())
+    failUsage("a measurement is under way, and nothing renders beside it; cancel it first");
   change(command);
   return true;
 }
@@ -166,12 +190,38 @@ void ViewLoop::change(const ViewCommand& command) {
   if (isPaused_) showPanes();  // another layer, say
 }
 
-void ViewLoop::save(ClientId page) {
-  const std::string toml = sessionToml(facts_, view_);
-  std::string name = "session.toml";
+void ViewLoop::measure(const std::string& name) {
+  if (measurement_.isRunning()) failUsage("measure: one is under way; cancel it first");
+  if (!view_.hasScene()) failUsage("measure: images of files are shown, and nothing is rendered");
+  if (saveFolder_.empty()) failUsage("measure: there is no folder for its results");
+  const std::string suite = sessionName(view_, name);
+  const std::string file = writeSession(saveFolder_, sessionToml(facts_, view_, suite), suite);
+  // What there is of the reference need not be rendered again.
+  view_.keepReference();
+  const std::filesystem::path program =
+      facts_.program.empty() ? std::filesystem::read_symlink("/proc/self/exe") : facts_.program;
+  // As the file, which is of no earlier run.
+  const std::string out = "results/" + std::filesystem::path(file).stem().string();
+  measurement_.begin(program, saveFolder_, file, out);
+  sender_.tellAll(measureText(measurement_));
+}
+
+void ViewLoop::followMeasurement() {
+  if (!measurement_.poll()) return;
+  if (measurement_.state() == Measurement::State::finished) {
+    std::ifstream file(measurement_.report(), std::ios::binary);
+    sender_.setReport({std::istreambuf_iterator<char>(file), {}});
+  }
+  sender_.tellAll(measureText(measurement_));
+}
+
+void ViewLoop::save(ClientId page, const std::string& given) {
+  const std::string toml = sessionToml(facts_, view_, sessionName(view_, given));
+  const std::string stem = given.empty() ? "session" : safeFileName(given);
+  std::string name = stem + ".toml";
   if (!saveFolder_.empty()) {
     try {
-      name = writeSession(saveFolder_, toml);
+      name = writeSession(saveFolder_, toml, stem);
       const std::string file = (saveFolder_ / name).lexically_normal().string();
       sender_.tell(page, saidText(fmt::format("{}: written", file)));
     } catch (const Error& error) {
@@ -183,9 +233,22 @@ void ViewLoop::save(ClientId page) {
     sender_.tell(page, saidText("the camera of the session is upright: no keyframe has a roll"));
 }
 
+LiveView::StopCheck ViewLoop::stopCheck(double patienceS) const {
+  return [this, patienceS, start = Clock::now()] {
+    return isStopped_ || (events_.areChangesWaiting() && secondsSince(start) >= patienceS);
+  };
+}
+
 void ViewLoop::renderRound() {
   const Clock::time_point start = Clock::now();
-  view_.renderFrames();
+  bool isNew = false;  // nobody knows how long it takes
+  for (size_t i = 0; i < view_.panes(); ++i)
+    isNew = isNew || (view_.renders(i) && view_.frames(i) == 0);
+  const bool isShort = !isNew && roundS_ < kLongRoundS;
+  wasDropped_ = !view_.renderFrames(isShort ? LiveView::StopCheck()
+                                            : stopCheck(wasDropped_ ? kPatienceS : 0.0));
+  if (wasDropped_) return;
+  roundS_ = secondsSince(start);
   showPanes();
   tellNumbers();
   // What is saved up is spent at once where samples take longer than rounds, and is bounded.
@@ -194,13 +257,14 @@ void ViewLoop::renderRound() {
 
 bool ViewLoop::refine() {
   const LiveReference& reference = view_.reference();
+  if (!view_.hasScene() || measurement_.isRunning()) return false;
   // Rounds may be longer than that: who drags has said more meanwhile.
   if (secondsSince(pictureChanged_) < kStillS || events_.areWaiting()) return false;
   if (reference.spp() >= kMostReferenceSpp || view_.picture() == withoutReference_) return false;
-  if (!isPaused_ && referenceCreditS_ < reference.sampleMs() / 1000.0) return false;
+  if (!isStanding() && referenceCreditS_ < reference.sampleMs() / 1000.0) return false;
   const Clock::time_point start = Clock::now();
   try {
-    view_.refineReference();
+    if (!view_.refineReference(stopCheck())) return false;
   } catch (const FrameStopped&) {
     throw;
   } catch (const std::exception& error) {  // two more sessions may find no memory
@@ -208,24 +272,25 @@ bool ViewLoop::refine() {
     sender_.tellAll(errorText(fmt::format("no reference of this picture: {}", error.what()), ""));
     return false;
   }
-  if (!isPaused_) referenceCreditS_ = std::max(0.0, referenceCreditS_ - secondsSince(start));
+  if (!isStanding()) referenceCreditS_ = std::max(0.0, referenceCreditS_ - secondsSince(start));
   showReference(false);
   return true;
 }
 
 void ViewLoop::showAll() {
   showPanes();
+  showStanding(true);
   showReference(true);
   tellNumbers();
 }
 
 bool ViewLoop::isStill() const {
-  return isPaused_ || (secondsSince(changed_) >= kStillS && !events_.areWaiting());
+  return isStanding() || (secondsSince(changed_) >= kStillS && !events_.areWaiting());
 }
 
 void ViewLoop::showPanes() {
   for (uint32_t i = 0; i < view_.panes(); ++i) {
-    if (view_.frames(i) == 0) continue;
+    if (view_.frames(i) == 0 || !view_.renders(i)) continue;
     ImageHeader header;
     header.slot = i;
     header.frame = uint32_t(view_.frames(i));
@@ -236,6 +301,24 @@ void ViewLoop::showPanes() {
     // Names are to the last bit: a rounded one is another.
     sender_.show(header, view_.session(i).aov(view_.layer(i)),
                  isStill() || isNameLayer(view_.settings().panes[i]));
+  }
+}
+
+void ViewLoop::showStanding(bool isUrgent) {
+  for (uint32_t i = 0; i < view_.panes(); ++i) {
+    const Image* picture = view_.renders(i) ? nullptr : view_.picture(i);
+    if (picture == nullptr) continue;
+    ImageHeader header;
+    header.slot = i;
+    header.frame = uint32_t(view_.pictureCount(i));
+    header.epoch = view_.epochOf(i);
+    Standing& shown = shownStanding_[i];
+    const bool isNew = shown.epoch != view_.epoch();
+    const bool isOther = shown.count != header.frame || (isStill() && sender_.isRounded(i));
+    const bool isDue = isOther && Clock::now() - shown.time >= kReferenceInterval;
+    if (!isUrgent && !isNew && !isDue) continue;
+    sender_.show(header, *picture, isStill());
+    shown = {view_.epoch(), header.frame, Clock::now()};
   }
 }
 
@@ -252,13 +335,14 @@ void ViewLoop::showReference(bool isUrgent) {
   sender_.show(header, reference.mean(), isStill());
   shownReference_ = now;
   referenceShown_ = Clock::now();
-  if (isPaused_) tellNumbers();
+  if (isStanding()) tellNumbers();
 }
 
 // Panes that stand are shown to the last bit; the reference again after each change, as pages go by
 // epochs.
 void ViewLoop::showWhatIsExact() {
   if (isPaused_ && (sender_.isRounded(0) || sender_.isRounded(1))) showPanes();
+  showStanding(false);
   showReference(isStill() && sender_.isRounded(kReferenceSlot));
 }
 
@@ -274,8 +358,9 @@ void ViewLoop::showTev() {
     shownTev_[slot] = now;
   };
   for (uint32_t i = 0; i < view_.panes(); ++i) {
-    show(i, fmt::format("restlab {}", char('A' + int(i))), view_.frames(i),
-         [&]() -> const Image& { return view_.session(i).radiance(); });
+    show(i, fmt::format("restlab {}", char('A' + int(i))),
+         view_.picture(i) != nullptr ? view_.pictureCount(i) : 0,
+         [&]() -> const Image& { return *view_.picture(i); });
   }
   const LiveReference& reference = view_.reference();
   show(kReferenceSlot, "restlab reference", reference.isThere() ? reference.spp() : 0,

@@ -3,8 +3,9 @@
 // All of it happens on the thread that calls run(); the server's thread only queues.
 //
 // What pages ask for is done between rounds, a round being one frame of each pane: both show the
-// same camera. A command waits for a round at most, which is not ended in its middle: a history
-// that lost half a frame would be none.
+// same camera. A command that changes frames does not wait for a round that takes long: it is
+// dropped as a whole, and no history, number or time knows of it. The one after it has kPatienceS
+// before that: who drags sees frames. Samples of the reference are dropped in the same way.
 //
 // The reference gets samples between rounds, never inside of a timed frame, once the picture has
 // stayed the same for kStillS, and then at most one second for every two of rounds; all of the time
@@ -30,6 +31,9 @@ class ViewLoop {
  public:
   static constexpr double kStillS = 0.5;
   static constexpr double kReferenceShare = 0.5;  // of the time of rounds
+  // A round that takes less is waited for.
+  static constexpr double kLongRoundS = 0.1;
+  static constexpr double kPatienceS = 4.0;
   static constexpr uint64_t kMostReferenceSpp = uint64_t(1) << 20;
 
   // Serves from here on. `saveFolder`: where sessions are written; empty: pages alone get them.
@@ -51,14 +55,23 @@ class ViewLoop {
   // True where the state is another.
   bool obey(ClientId page, const ViewCommand& command);
   void change(const ViewCommand& command);
-  void save(ClientId page);
+  void save(ClientId page, const std::string& name);
 
+  // Says whether what renders is to end. For a while commands do not end it.
+  LiveView::StopCheck stopCheck(double patienceS = 0.0) const;
   void renderRound();
   // True where a sample was due.
   bool refine();
   // What a page that somebody sees from now on has missed.
   void showAll();
   void showPanes();
+  // Of panes that show no method: what pages have not seen.
+  void showStanding(bool isUrgent);
+  // No frame is due.
+  bool isStanding() const { return isPaused_ || !view_.rendersAny() || measurement_.isRunning(); }
+  // `restlab run` of what is set. Nothing renders meanwhile: times are those of a quiet machine.
+  void measure(const std::string& name);
+  void followMeasurement();
   void showReference(bool isUrgent);
   void showWhatIsExact();
   void showTev();
@@ -72,11 +85,19 @@ class ViewLoop {
   ViewSender sender_;
   std::atomic<bool> isStopped_{false};
   bool isPaused_ = false;
+  Measurement measurement_;
   uint64_t withoutReference_ = 0;  // the picture that has no memory for one
   Clock::time_point changed_, pictureChanged_;
   double referenceCreditS_ = 0.0;
+  double roundS_ = 0.0;      // of the last one
+  bool wasDropped_ = false;  // the last one
   Clock::time_point referenceShown_;
   std::pair<uint64_t, uint64_t> shownReference_{0, 0};  // its epoch and samples
+  struct Standing {
+    uint64_t epoch = 0, count = 0;
+    Clock::time_point time;
+  };
+  std::map<uint32_t, Standing> shownStanding_;  // by pane
   std::optional<TevSender> tev_;
   // Of each slot what tev has: connection, epoch and frames or samples.
   std::map<uint32_t, std::array<uint64_t, 3>> shownTev_;

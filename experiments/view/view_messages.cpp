@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "core/method.h"
 #include "core/method_settings.h"
 #include "core/scene/light_factor.h"
+#include "experiments/report/pixels.h"
 #include "experiments/runner/registries/registries.h"
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/summary/accumulate.h"
@@ -74,6 +76,11 @@ std::vector<std::string> namesOfLights(const Scene& scene) {
 }
 
 Json sceneJson(const LiveView& view) {
+  if (!view.hasScene()) {
+    const std::string& title = view.images().title;
+    return {
+        {"name", title}, {"title", title}, {"cameras", Json::array()}, {"lights", Json::array()}};
+  }
   const Scene& scene = view.loaded().scene->source();
   Json cameras = Json::array(), lights = Json::array();
   for (const SceneCamera& camera : scene.cameras) {
@@ -153,8 +160,21 @@ double factorOf(const LightFactors& lights, const std::string& name) {
 }
 
 Json paneNumbers(const LiveView& view, size_t i) {
-  const FrameStats& stats = view.stats(i);
   const RunningError& error = view.error(i);
+  if (!view.renders(i)) {
+    return {{"frame", 0},
+            {"frames_measured", error.frames()},
+            {"mse", intervalJson(error.mse())},
+            {"relmse", intervalJson(error.relmse())},
+            {"energy", intervalJson(error.energyRatio())},
+            {"last_mse", nullptr},
+            {"ms", nullptr},
+            {"passes", Json::array()},
+            {"rays", nullptr},
+            {"bytes", nullptr},
+            {"health", Json::object()}};
+  }
+  const FrameStats& stats = view.stats(i);
   const SessionConfig& config = view.settings().panes[i].config;
   Json passes = Json::array(), health = Json::object();
   for (const PassTiming& pass : stats.passes)
@@ -181,12 +201,16 @@ Json paneNumbers(const LiveView& view, size_t i) {
 
 std::string helloText(const ViewFacts& facts, const LiveView& view) {
   Json settings = Json::array();
-  for (const MethodSetting& setting : methodSettings()) settings.push_back(setting.key);
+  for (const MethodSetting& setting : methodSettings())
+    if (view.hasScene()) settings.push_back(setting.key);
   Json faults = Json::array();  // counts that must stay 0
   for (size_t i = 0; i < rl::RL_HEALTH_COUNT; ++i)
     if (isFault(i)) faults.push_back(Health::names()[i]);
   return textOf({{"say", "hello"},
                  {"scene", sceneJson(view)},
+                 {"has_scene", view.hasScene()},
+                 {"has_reference", view.hasScene() || view.images().reference.has_value()},
+                 {"sources", view.sources()},
                  {"integrators", integratorsJson()},
                  {"caches", cachesJson()},
                  {"backends", backendsJson()},
@@ -206,14 +230,17 @@ std::string stateText(const LiveView& view, bool isPaused) {
     Json json = Json::object();
     for (const MethodSetting& setting : methodSettings())
       json[setting.key] = pane.config.*(setting.value);
+    json["source"] = pane.source;
     json["layer"] = pane.layer;
-    json["layers"] = layersJson(pane.config);
+    json["layers"] = view.hasScene() ? layersJson(pane.config) : Json::array();
     json["seed"] = pane.config.seed;
-    json["parameters"] = parametersJson(pane.config);
+    json["parameters"] = view.hasScene() ? parametersJson(pane.config) : Json::array();
     panes.push_back(std::move(json));
   }
-  for (const std::string& name : namesOfLights(view.loaded().scene->source()))
-    lights.push_back({{"name", name}, {"factor", factorOf(settings.lights, name)}});
+  if (view.hasScene()) {
+    for (const std::string& name : namesOfLights(view.loaded().scene->source()))
+      lights.push_back({{"name", name}, {"factor", factorOf(settings.lights, name)}});
+  }
   const SessionConfig& size = settings.panes.front().config;
   const ViewHistory& history = view.history();
   return textOf(
@@ -237,15 +264,18 @@ std::string numbersText(const LiveView& view, const Transport& transport, double
   const LiveReference& reference = view.reference();
   const SessionConfig& size = view.settings().panes.front().config;
   const double sampleMs = reference.sampleMs();
+  Json referenceJson = nullptr;  // there can be none
+  if (view.hasScene() || reference.isThere()) {
+    referenceJson = {{"spp", reference.spp()},
+                     {"relmse", reference.isThere() ? orNull(reference.relmse()) : Json(nullptr)},
+                     {"ms_per_sample", sampleMs > 0.0 ? Json(sampleMs) : Json(nullptr)}};
+  }
   return textOf({{"say", "numbers"},
                  {"epoch", view.epoch()},
                  {"age", view.age()},
                  {"newest_frames", RunningError::kNewest},
                  {"panes", panes},
-                 {"reference",
-                  {{"spp", reference.spp()},
-                   {"relmse", reference.isThere() ? orNull(reference.relmse()) : Json(nullptr)},
-                   {"ms_per_sample", sampleMs > 0.0 ? Json(sampleMs) : Json(nullptr)}}},
+                 {"reference", referenceJson},
                  {"transport",
                   {{"width", size.width},
                    {"height", size.height},
@@ -257,6 +287,8 @@ std::string numbersText(const LiveView& view, const Transport& transport, double
 std::string probeText(const ViewFacts& facts, const LiveView& view, const Probe& probe) {
   if (probe.pane >= view.panes())
     failUsage("probe: there are " + std::to_string(view.panes()) + " panes");
+  if (!view.renders(probe.pane))
+    failUsage("probe: the pane shows no method, which alone keeps something of a pixel");
   if (view.frames(probe.pane) == 0) failUsage("probe: no frame was rendered yet");
   const SessionConfig& config = view.settings().panes[probe.pane].config;
   return textOf({{"say", "probe"},
@@ -281,6 +313,25 @@ std::string saidText(const std::string& line) { return textOf({{"say", "said"}, 
 
 std::string savedText(const std::string& name, const std::string& toml) {
   return textOf({{"say", "saved"}, {"name", name}, {"toml", toml}});
+}
+
+std::string measureText(const Measurement& measurement) {
+  static const std::map<Measurement::State, const char*> names = {
+      {Measurement::State::none, "none"},
+      {Measurement::State::running, "running"},
+      {Measurement::State::finished, "finished"},
+      {Measurement::State::failed, "failed"},
+      {Measurement::State::cancelled, "cancelled"}};
+  return textOf({{"say", "measure"},
+                 {"state", names.at(measurement.state())},
+                 {"text", measurement.text()},
+                 {"done", measurement.done()},
+                 {"suite", measurement.suite()},
+                 {"folder", measurement.out()}});
+}
+
+std::string fileText(const std::string& name, const std::string& bytes) {
+  return textOf({{"say", "file"}, {"name", name}, {"base64", encodeBase64(bytes)}});
 }
 
 }  // namespace restlab

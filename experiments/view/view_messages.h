@@ -7,6 +7,8 @@
 //   error    why a command was refused
 //   said     a notice
 //   saved    what is set, as a suite
+//   measure  how far the run of a saved session is: running, finished, failed or cancelled
+//   file     a file for the reader, in base64
 //
 // A number that is not known is null, and never a word or a zero.
 #pragma once
@@ -16,6 +18,7 @@
 
 #include "experiments/view/image_message.h"
 #include "experiments/view/live_view.h"
+#include "experiments/view/measurement.h"
 
 namespace restlab {
 
@@ -23,6 +26,7 @@ namespace restlab {
 struct ViewFacts {
   SceneRequest request;
   int threads = 1;
+  std::filesystem::path program = {};  // that `run`s sessions; empty: this one
 };
 
 // Of the images that go to pages.
@@ -41,6 +45,8 @@ std::string probeText(const ViewFacts& facts, const LiveView& view, const Probe&
 std::string errorText(const std::string& line, const std::string& command);
 std::string saidText(const std::string& line);
 std::string savedText(const std::string& name, const std::string& toml);
+std::string measureText(const Measurement& measurement);
+std::string fileText(const std::string& name, const std::string& bytes);
 
 // `restlab render ...` that makes the pixel again; "" where no command does: the camera is none of
 // the scene's, or the light or a parameter was changed while the history went on.

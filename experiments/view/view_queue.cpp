@@ -2,9 +2,25 @@
 
 #include <utility>
 
+#include "core/error.h"
+#include "experiments/view/command.h"
+
 namespace restlab {
 
+namespace {
+
+bool isChangeOfFrames(const std::string& text) {
+  try {
+    return changesFrames(parseViewCommand(text));
+  } catch (const Error&) {
+    return false;  // whoever takes it says why
+  }
+}
+
+}  // namespace
+
 void PageEvents::add(PageEvent event) {
+  const bool isChange = event.kind == PageEvent::Kind::said && isChangeOfFrames(event.text);
   {
     const std::lock_guard lock(mutex_);
     const bool isFull = events_.size() >= kMostTexts || bytes_ + event.text.size() > kMostBytes;
@@ -14,6 +30,7 @@ void PageEvents::add(PageEvent event) {
     }
     bytes_ += event.text.size();
     events_.push_back(std::move(event));
+    if (isChange) areChanges_ = true;
   }
   there_.notify_one();
 }
@@ -24,6 +41,7 @@ std::vector<PageEvent> PageEvents::take(std::chrono::milliseconds patience) {
     there_.wait_for(lock, patience, [this] { return !events_.empty() || isWoken_; });
   isWoken_ = false;
   bytes_ = 0;
+  areChanges_ = false;
   return std::exchange(events_, {});
 }
 

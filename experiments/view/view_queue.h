@@ -1,6 +1,7 @@
 // What pages have said, on its way from the server's thread to the one that renders.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
@@ -27,6 +28,8 @@ class PageEvents {
   // All there are; where there is none, after so long a time at the latest.
   std::vector<PageEvent> take(std::chrono::milliseconds patience);
   bool areWaiting() const;
+  // Commands that change frames are. Asked for often.
+  bool areChangesWaiting() const { return areChanges_.load(std::memory_order_relaxed); }
   // Whether texts were lost since the last call.
   bool takeLost();
   // Ends waits.
@@ -38,6 +41,7 @@ class PageEvents {
   std::vector<PageEvent> events_;
   size_t bytes_ = 0;  // of their texts
   bool isWoken_ = false, isLost_ = false;
+  std::atomic<bool> areChanges_ = false;
 };
 
 }  // namespace restlab

@@ -43,6 +43,8 @@ class ViewSender {
   // `isExact`: as floats, whatever it takes. To all pages that somebody sees.
   void show(ImageHeader header, const Image& image, bool isExact);
 
+  void setReport(std::string html) { server_.setReport(std::move(html)); }
+
   // The slot's last image went out in halves.
   bool isRounded(uint32_t slot) const;
   // Of the panes' last image, and bytes on their way over the last second.

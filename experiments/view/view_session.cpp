@@ -7,9 +7,11 @@
 #include <optional>
 #include <variant>
 
+#include "core/config.h"
 #include "core/error.h"
 #include "core/integrator.h"
 #include "core/scene/light_factor.h"
+#include "experiments/runner/run/build_info.h"
 #include "experiments/runner/run/experiment.h"
 #include "experiments/runner/run/files.h"
 #include "experiments/runner/suite/suite.h"
@@ -198,16 +200,99 @@ ViewSettings settingsOfSuite(const Suite& suite, const SuiteScene& scene,
   return settings;
 }
 
+constexpr const char* kSourceKeys[kMostPanes] = {"a", "b"};
+constexpr const char* kMethodWord = "method";
+
+// "method", "reference" or the file of an image.
+std::string sourceOf(const ConfigTable& table, const char* key, const ViewImages& images) {
+  const std::string given = table.getString(key, kMethodWord);
+  if (given == kMethodWord) return kMethodSource;
+  if (given == kReferenceSource) return kReferenceSource;
+  for (const FileImage& one : images.list)
+    if (one.file.string() == given) return one.name;
+  table.fail(key, fmt::format("'{}' must be \"method\", \"reference\" or one of 'images'", given));
+}
+
+void readView(const ConfigTable& table, ViewStart& start) {
+  const std::vector<std::string> files = table.getStrings("images");
+  const std::string reference = table.getString("reference", "");
+  const bool hasScene = start.prepared.scene != nullptr;
+  if (hasScene && !reference.empty())
+    table.fail("reference", "is for images without a scene; methods make their own reference");
+  if (!files.empty()) {
+    start.images = readViewImages({files.begin(), files.end()}, reference, !hasScene);
+    requireSizeOf(start.images, start.settings, hasScene);
+  } else if (!hasScene) {
+    table.fail("images", "a session without a scene needs 'images'");
+  }
+  if (!hasScene) start.settings = settingsOf(start.images);
+  for (size_t i = 0; i < kMostPanes; ++i) {
+    if (!table.has(kSourceKeys[i])) continue;
+    const std::string source = sourceOf(table, kSourceKeys[i], start.images);
+    if (!hasScene && source == kMethodSource)
+      table.fail(kSourceKeys[i], "without a scene there is no method to show");
+    if (!hasScene && source == kReferenceSource && !start.images.reference)
+      table.fail(kSourceKeys[i], "there is no 'reference'");
+    start.settings.panes[i].source = source;
+  }
+  table.finish();
+}
+
+std::string viewToml(const LiveView& view) {
+  const ViewImages& images = view.images();
+  const auto isMethod = [](const PaneSettings& pane) { return pane.source == kMethodSource; };
+  const std::vector<PaneSettings>& panes = view.settings().panes;
+  if (images.list.empty() && std::all_of(panes.begin(), panes.end(), isMethod)) return "";
+  std::string text = "\n[view]\n";
+  const auto absolute = [](const fs::path& file) { return quoted(fs::absolute(file).string()); };
+  std::vector<std::string> files;
+  for (const FileImage& one : images.list) files.push_back(absolute(one.file));
+  if (!files.empty()) text += fmt::format("images = [{}]\n", fmt::join(files, ", "));
+  if (images.reference) text += fmt::format("reference = {}\n", absolute(images.referenceFile));
+  for (size_t i = 0; i < panes.size(); ++i) {
+    const FileImage* image = images.find(panes[i].source);
+    text += fmt::format("{} = {}\n", kSourceKeys[i],
+                        image                ? absolute(image->file)
+                        : isMethod(panes[i]) ? quoted(kMethodWord)
+                                             : quoted(kReferenceSource));
+  }
+  return text;
+}
+
 }  // namespace
 
+void requireSizeOf(const ViewImages& images, const ViewSettings& settings, bool hasScene) {
+  if (!hasScene || images.list.empty()) return;
+  const FileImage& first = images.list.front();
+  const SessionConfig& size = settings.panes.front().config;
+  if (first.image.width == size.width && first.image.height == size.height) return;
+  failInput(fmt::format(
+      "{}: is {}x{}, and the methods render {}x{}; images of one size can be "
+      "compared",
+      first.file.string(), first.image.width, first.image.height, size.width, size.height));
+}
+
 ViewStart startOfSuite(const fs::path& file) {
-  const Suite suite = loadSuites(file, {}, {}).front();
-  const SuiteScene& scene = suite.scenes.front();
+  const ConfigTable root = ConfigTable::parseFile(file);
   ViewStart start;
-  start.request = scene.request;
-  start.prepared = atPlace(scene.place, [&] { return prepareScene(scene.request); });
-  start.settings = settingsOfSuite(suite, scene, start.prepared);
+  if (!root.has("view") || root.has("scene") || root.has("scenes")) {
+    const Suite suite = loadSuites(file, {}, {}).front();
+    const SuiteScene& scene = suite.scenes.front();
+    start.request = scene.request;
+    start.prepared = atPlace(scene.place, [&] { return prepareScene(scene.request); });
+    start.settings = settingsOfSuite(suite, scene, start.prepared);
+  }
+  if (root.has("view")) readView(root.getTable("view"), start);
   return start;
+}
+
+std::vector<std::string> paneNames(const LiveView& view) {
+  std::vector<std::string> names;
+  if (view.hasScene()) names = methodNames(view.settings());
+  names.resize(view.panes());
+  for (size_t i = 0; i < view.panes(); ++i)
+    if (!view.renders(i)) names[i] = view.settings().panes[i].source;
+  return names;
 }
 
 std::vector<std::string> methodNames(const ViewSettings& settings) {
@@ -230,21 +315,38 @@ SceneRequest fromAnywhere(SceneRequest request) {
   return request;
 }
 
-bool losesRoll(const LiveView& view) { return !sceneCameraOf(view) && isRolled(view.camera()); }
+bool losesRoll(const LiveView& view) {
+  return view.hasScene() && !sceneCameraOf(view) && isRolled(view.camera());
+}
 
-std::string sessionToml(const ViewFacts& facts, const LiveView& view) {
+std::string sessionName(const LiveView& view, const std::string& given) {
+  if (!given.empty()) return safeFileName(given);
+  std::string time = utcNow();  // 2024-05-01T12:00:00Z
+  std::erase_if(time, [](char c) { return c == '-' || c == ':' || c == 'Z'; });
+  std::replace(time.begin(), time.end(), 'T', '-');
+  const std::string scene = view.hasScene() ? view.loaded().scene->source().name : "images";
+  return fmt::format("{}-{}", safeFileName(scene), time);
+}
+
+std::string sessionToml(const ViewFacts& facts, const LiveView& view, const std::string& name) {
   const ViewSettings& settings = view.settings();
+  if (!view.hasScene())
+    return "# Images of `restlab view`: `restlab view FILE` opens them.\n" + viewToml(view);
   std::string text =
       "# A session of `restlab view`: `restlab view FILE` opens it, `restlab run FILE` measures "
-      "it.\nname = \"session\"\n\n";
-  text += sceneToml(facts) + settingsToml(view) + "\n[reference]\nspp = 256\n" + cameraToml(view);
-  for (const auto& [name, factor] : absoluteLights(settings.lights)) {
-    text += fmt::format("\n[[event]]\nframe = 0\nlight = {}\nfactor = {}\n", quoted(name),
+      "it.\n";
+  text += fmt::format("name = {}\n\n", quoted(name));
+  text += sceneToml(facts) + settingsToml(view) +
+          fmt::format("\n[reference]\nspp = {}\n",
+                      std::max(kLeastReferenceSpp, view.reference().spp())) +
+          cameraToml(view);
+  for (const auto& [light, factor] : absoluteLights(settings.lights)) {
+    text += fmt::format("\n[[event]]\nframe = 0\nlight = {}\nfactor = {}\n", quoted(light),
                         numberText(factor));
   }
   const std::vector<std::string> names = methodNames(settings);
   for (size_t i = 0; i < names.size(); ++i) text += methodToml(settings.panes[i], names[i]);
-  return text;
+  return text + viewToml(view);
 }
 
 }  // namespace restlab

@@ -8,24 +8,37 @@
 
 namespace restlab {
 
-// A scene and what is set in it.
+// A scene and what is set in it; without a scene images alone.
 struct ViewStart {
   SceneRequest request;
   PreparedScene prepared;
   ViewSettings settings;
+  ViewImages images;
 };
 
 // Of a suite: the first scene, the first two methods that are rendered, the camera and the light of
-// the measured frame. With one method the other pane has the average of path's frames. Throws Error
-// with the place of what is wrong.
+// the measured frame. With one method the other pane has the average of path's frames. What panes
+// show in the place of methods is in a table [view]; a file that holds no more shows images alone.
+// Throws Error with the place of what is wrong.
 ViewStart startOfSuite(const std::filesystem::path& file);
 
 // Layers are not in it: no suite has any. Throws Error (badUsage) where a suite cannot say what is
-// set: a camera that looks straight up or down.
-std::string sessionToml(const ViewFacts& facts, const LiveView& view);
+// set: a camera that looks straight up or down. `name`: of the suite, and of its folder of results.
+// Its reference gets the samples that the view's has, and kLeastReferenceSpp at least.
+std::string sessionToml(const ViewFacts& facts, const LiveView& view, const std::string& name);
+constexpr uint64_t kLeastReferenceSpp = 256;
+
+// The name that was given, as part of file names; "": of the scene and of now.
+std::string sessionName(const LiveView& view, const std::string& given);
 
 // Of the panes' methods, each another one: "restir_gi (biased)", "path + accumulate".
 std::vector<std::string> methodNames(const ViewSettings& settings);
+
+// What panes show: the name of a method, "reference", or that of an image.
+std::vector<std::string> paneNames(const LiveView& view);
+
+// Throws Error (badInput) where methods are of another size than images beside them.
+void requireSizeOf(const ViewImages& images, const ViewSettings& settings, bool hasScene);
 
 // The scene and the environment by names that work from any folder.
 SceneRequest fromAnywhere(SceneRequest request);

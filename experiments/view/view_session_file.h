@@ -6,8 +6,9 @@
 
 namespace restlab {
 
-// Writes to session.toml in the folder, or session-2.toml and so on: no file is written over.
+// Writes to STEM.toml in the folder, or STEM-2.toml and so on: no file is written over.
 // Returns its name. Throws Error (badInput) where none can be written.
-std::string writeSession(const std::filesystem::path& folder, const std::string& toml);
+std::string writeSession(const std::filesystem::path& folder, const std::string& toml,
+                         const std::string& stem);
 
 }  // namespace restlab

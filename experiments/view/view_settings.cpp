@@ -44,7 +44,7 @@ char letterOf(uint32_t pane) { return char('A' + int(pane)); }
 // Changes settings in place, and says what in words.
 struct Change {
   ViewSettings& settings;
-  const Scene& scene;
+  const ViewChoices& choices;
   std::string text = {};
 
   PaneSettings& paneOf(uint32_t index) {
@@ -60,7 +60,18 @@ struct Change {
     if (!hasLayer(pane.config, pane.layer)) pane.layer.clear();
   }
 
+  void setSource(uint32_t index, const std::string& source) {
+    const std::vector<std::string>& known = choices.sources;
+    if (std::find(known.begin(), known.end(), source) == known.end()) {
+      failUsage(fmt::format("pane {}: '{}' is nothing that it can show (known: '{}'){}", index,
+                            source, fmt::join(known, "', '"), didYouMean(source, known)));
+    }
+    paneOf(index).source = source;
+    text = fmt::format("{}: {}", letterOf(index), source.empty() ? "method" : source);
+  }
+
   void operator()(const SetSetting& command) {
+    if (command.key == "source") return setSource(command.pane, command.value);
     PaneSettings& pane = paneOf(command.pane);
     SessionConfig config = pane.config;
     const std::vector<MethodSetting>& all = methodSettings();
@@ -120,7 +131,7 @@ struct Change {
   }
 
   void operator()(const SetLight& command) {
-    requireLight(scene, command.name);
+    requireLight(*choices.scene, command.name);
     setLight(settings.lights, command.name, command.factor);
     text = fmt::format("{} x{:g}", command.name, command.factor);
   }
@@ -138,11 +149,12 @@ struct Change {
   }
 
   void operator()(const CopyMethod& command) {
-    const SessionConfig from = paneOf(command.from).config;
+    const PaneSettings from = paneOf(command.from);
     PaneSettings& pane = paneOf(command.to);
-    SessionConfig config = from;
+    pane.source = from.source;
+    SessionConfig config = from.config;
     config.seed = pane.config.seed;
-    setMethod(pane, std::move(config));
+    if (choices.scene != nullptr) setMethod(pane, std::move(config));
     text = fmt::format("{}: as {}", letterOf(command.to), letterOf(command.from));
   }
 
@@ -214,9 +226,22 @@ LightFactors ownLights(const LightFactors& absolute, const Scene& scene) {
   return lights;
 }
 
-ViewChange changedBy(const ViewCommand& command, const ViewSettings& settings, const Scene& scene) {
+namespace {
+
+// Of images alone there is no method, light or camera to change.
+bool isOfImages(const ViewCommand& command) {
+  const auto* set = std::get_if<SetSetting>(&command);
+  return (set != nullptr && set->key == "source") || std::holds_alternative<CopyMethod>(command);
+}
+
+}  // namespace
+
+ViewChange changedBy(const ViewCommand& command, const ViewSettings& settings,
+                     const ViewChoices& choices) {
+  if (choices.scene == nullptr && !isOfImages(command))
+    failUsage("images of files are shown, and nothing is rendered: there is nothing to change");
   ViewChange result{settings, targetOf(command), ""};
-  Change change{result.settings, scene};
+  Change change{result.settings, choices};
   std::visit(change, command);
   result.text = change.text;
   return result;
@@ -255,7 +280,7 @@ bool isSamePicture(const ViewSettings& a, const ViewSettings& b) {
 bool isSame(const ViewSettings& a, const ViewSettings& b) {
   const auto isSamePane = [](const PaneSettings& x, const PaneSettings& y) {
     return isSameMethod(x.config, y.config) && x.config.parameters == y.config.parameters &&
-           x.layer == y.layer;
+           x.layer == y.layer && x.source == y.source;
   };
   return isSamePicture(a, b) &&
          std::equal(a.panes.begin(), a.panes.end(), b.panes.begin(), b.panes.end(), isSamePane);

@@ -14,6 +14,8 @@ namespace restlab {
 struct PaneSettings {
   SessionConfig config;  // mode and cache by their names; parameters that were given, and no others
   std::string layer;     // over its image; "": none
+  // What it shows: kMethodSource, kReferenceSource or the name of an image (view_images.h).
+  std::string source = {};
 };
 
 // In the order of their setting. That of `all` is a factor on those of every light.
@@ -32,10 +34,17 @@ struct ViewChange {
   std::string text;       // for people, short
 };
 
+// What commands may name.
+struct ViewChoices {
+  const Scene* scene = nullptr;      // as it was loaded; null: images alone are shown
+  std::vector<std::string> sources;  // of panes
+};
+
 // Of commands that set something: all but Probe, Pause, Restart, Undo, Redo and SaveSession. Throws
 // Error (badUsage) in one line where the command names what is not there; what a session finds out
-// is not looked at. `scene` is as it was loaded.
-ViewChange changedBy(const ViewCommand& command, const ViewSettings& settings, const Scene& scene);
+// is not looked at.
+ViewChange changedBy(const ViewCommand& command, const ViewSettings& settings,
+                     const ViewChoices& choices);
 
 // With the names that are there where none was given. Throws Error (badUsage) as findMethod() does.
 SessionConfig withNames(SessionConfig config);

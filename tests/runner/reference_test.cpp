@@ -6,8 +6,10 @@
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <memory>
 
 #include "core/error.h"
+#include "experiments/runner/reference/reference_halves.h"
 #include "experiments/runner/run/build_info.h"
 #include "tests/runner/temporary_folder.h"
 
@@ -201,6 +203,24 @@ TEST(ReferenceCamera, IsTheOneThatIsGiven) {
   EXPECT_EQ(given.metadata.at("camera_yfov"), wanted.metadata.at("camera_yfov"));
   EXPECT_EQ(given.metadata.at("camera"), "step");
   EXPECT_EQ(given.metadata.at("camera_index"), "none");
+}
+
+// A sample that was stopped is the next one again.
+TEST(ReferenceSamples, AreWholeOrNotThere) {
+  const PreparedScene scene = prepared();
+  ReferenceState whole, stopped;
+  ReferenceHalves halves(scene, smallConfig(), whole), other(scene, smallConfig(), stopped);
+  for (uint64_t sample = 0; sample < 6; ++sample) {
+    EXPECT_FALSE(other.addSample(
+        [looks = std::make_shared<uint64_t>(0), sample] { return ++*looks > sample % 2; }));
+    EXPECT_EQ(stopped.spp(), sample);
+    EXPECT_TRUE(halves.addSample());
+    EXPECT_TRUE(other.addSample([] { return false; }));
+  }
+  EXPECT_EQ(stopped.half0.mean().pixels, whole.half0.mean().pixels);
+  EXPECT_EQ(stopped.half1.mean().pixels, whole.half1.mean().pixels);
+  EXPECT_EQ(stopped.squares.mean().pixels, whole.squares.mean().pixels);
+  EXPECT_EQ(stopped.health.text(), whole.health.text());
 }
 
 TEST(ReferenceCamera, AnotherOneIsAnotherConfiguration) {

@@ -44,7 +44,11 @@ TEST(ViewCommands, AreReadWithTheirValues) {
   EXPECT_EQ(copy.to, 0u);
   read<Undo>(R"({"do":"undo"})");
   read<Redo>(R"({"do":"redo"})");
-  read<SaveSession>(R"({"do":"save"})");
+  EXPECT_EQ(read<SaveSession>(R"({"do":"save"})").name, "");
+  EXPECT_EQ(read<SaveSession>(R"({"do":"save","name":"mine"})").name, "mine");
+  EXPECT_EQ(read<Measure>(R"({"do":"measure","name":"mine"})").name, "mine");
+  read<CancelMeasure>(R"({"do":"cancel"})");
+  EXPECT_EQ(read<SavePicture>(R"({"do":"picture","image":2})").image, 2u);
 }
 
 TEST(ViewCommands, ThatAreWrongAreSaidInOneLine) {

@@ -27,6 +27,8 @@ class LivePageTest : public ViewLoopTest {
   // restir_gi beside path + accumulate, 64x36.
   static std::vector<SessionConfig> smallPanes();
   void serve(const std::vector<SessionConfig>& panes);
+  // The view that is there.
+  void serveView();
   // Opens the address and waits until all three images are there.
   void open(Browser& browser);
   // Serves the small panes, and opens them.

@@ -1,6 +1,8 @@
 // A viewer at work on another thread, of two small panes.
 #pragma once
 
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -54,6 +56,14 @@ class ViewLoopTest : public TemporaryFolder {
   }
 
   std::string url() const { return loop_->url(); }
+
+  // What is called in the place of `restlab run SUITE -o FOLDER --json`: these lines of a shell.
+  std::filesystem::path program(const std::string& lines) const {
+    const std::filesystem::path file = folder() / "program";
+    std::ofstream(file) << "#!/bin/sh\n" << lines << "\n";
+    std::filesystem::permissions(file, std::filesystem::perms::owner_all);
+    return file;
+  }
 
   ViewFacts facts_;
   std::optional<TevAddress> tev_;  // of the loop

@@ -54,7 +54,20 @@ const first = {
     page.probe.ask({x: 3, y: 4});
     await until(() => viewer.images[0].marks && viewer.images[1].marks);
   },
-  'camera-home': () => page.camera.lookFrom([0.2, 1, 2.5], [0, 1, 0])
+  'camera-home': () => page.camera.lookFrom([0.2, 1, 2.5], [0, 1, 0]),
+  picture: () => rendered(),
+  'show-0-': async () => {
+    send({do: 'set', pane: 0, key: 'source', value: 'reference'});
+    await until(() => page.state.panes[0].source);
+  },
+  'show-1-': async () => {
+    send({do: 'set', pane: 1, key: 'source', value: 'reference'});
+    await until(() => page.state.panes[1].source);
+  },
+  'cancel-measure': async () => {
+    send({do: 'measure'});
+    await until(() => page.measurement.isRunning);
+  }
 };
 const copied = async () => {
   for (const [pane, value] of [[0, 'restir_gi'], [1, 'path']]) {
@@ -66,6 +79,15 @@ first['copy-ab'] = first['copy-ba'] = copied;
 
 const reset = async () => {
   if (dialog()) dialog().close();
+  if (page.measurement.isRunning) {
+    send({do: 'cancel'});
+    await until(() => !page.measurement.isRunning);
+  }
+  for (const [pane, {source}] of page.state.panes.entries()) {
+    if (!source) continue;
+    send({do: 'set', pane, key: 'source', value: ''});
+    await until(() => !page.state.panes[pane].source);
+  }
   page.camera.held.clear();
   page.camera.setMode(false);
   page.camera.setOrbit(false);
@@ -93,6 +115,8 @@ const snapshot = () => ({
   methods: page.state.panes.map(pane => pane.integrator), tab: page.tabs.current,
   theme: document.documentElement.dataset.theme, dialog: dialog() ? dialog().className : '',
   bookmarks: page.bookmarks.list.length, isRecording: page.recorder.isRecording,
+  sources: page.state.panes.map(pane => pane.source).join(),
+  measures: page.measurement.isRunning,
   marks: viewer.images.filter(image => image.marks).length, files: tools.files.join(),
   hasFocus: document.activeElement === root, isSearching:
       document.activeElement === page.methods.search && !page.methods.search.value
@@ -121,6 +145,13 @@ const effects = {
   'copy-ab': (b, a) => a.methods.join() === 'restir_gi,restir_gi',
   'copy-ba': (b, a) => a.methods.join() === 'path,path',
   probe: (b, a) => a.marks === 2 && a.tab === 'probe', 'clear-probe': (b, a) => a.marks === 0,
+  'show-0-reference': (b, a) => a.sources === 'reference,',
+  'show-1-reference': (b, a) => a.sources === ',reference',
+  'show-0-': (b, a) => a.sources === ',', 'show-1-': (b, a) => a.sources === ',',
+  measure: (b, a) => a.measures && a.tab === 'plots',
+  'cancel-measure': (b, a) => b.measures && !a.measures,
+  picture: (b, a) => a.files.endsWith('.exr'),
+  crop: (b, a) => document.querySelector('.messages').textContent.includes('--crop '),
   save: (b, a) => a.files.endsWith('.toml'), screenshot: (b, a) => a.files.endsWith('.png'),
   theme: (b, a) => a.theme !== b.theme, 'find-parameter': (b, a) => a.isSearching,
   leave: (b, a) => b.camera === 'none' ? !a.hasFocus : a.camera === 'none'
@@ -175,6 +206,7 @@ class PageCommandsTest : public LivePageTest {
  protected:
   // [id, keys, title, whether it lasts while a key is held]...
   Json start() {
+    facts_.program = program("sleep 100");
     open();
     page(kTools);
     return page(

@@ -86,6 +86,10 @@ std::vector<SessionConfig> LivePageTest::smallPanes() {
 
 void LivePageTest::serve(const std::vector<SessionConfig>& panes) {
   view_.emplace(prepareScene(facts_.request), panes, ReferenceStore{});
+  serveView();
+}
+
+void LivePageTest::serveView() {
   ViewServerOptions options;
   options.page = viewPage();
   loop_ = std::make_unique<ViewLoop>(*view_, facts_, options, folder());

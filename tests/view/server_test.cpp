@@ -138,6 +138,22 @@ TEST_F(ViewServerTest, GivesThePageToWhoKnowsTheToken) {
   EXPECT_NE(answer.find("<title>the page</title>"), std::string::npos) << answer;
 }
 
+TEST_F(ViewServerTest, GivesTheReportToWhoKnowsTheToken) {
+  start();
+  const std::string target = "/report?token=" + token_;
+  EXPECT_EQ(get(target), (std::pair<int, std::string>{404, "nothing was measured yet\n"}));
+  server_->setReport("<!doctype html>a report");
+  EXPECT_EQ(get(target), (std::pair<int, std::string>{200, "<!doctype html>a report"}));
+  EXPECT_NE(
+      answerTo("GET " + target + " HTTP/1.1\r\nHost: localhost\r\n\r\n").find("default-src 'none'"),
+      std::string::npos);
+  EXPECT_EQ(get("/report").first, 403);
+  EXPECT_EQ(get("/report?token=" + std::string(32, '0')).first, 403);
+  EXPECT_EQ(get(target, "Origin: http://elsewhere\r\n").first, 403);
+  EXPECT_EQ(get(target, kUpgrade).first, 400);
+  EXPECT_EQ(get("/report/../report.html?token=" + token_).first, 404);
+}
+
 TEST_F(ViewServerTest, RefusesInOneLineWithItsStatus) {
   start();
   struct Case {

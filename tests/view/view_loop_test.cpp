@@ -7,6 +7,7 @@
 #include <random>
 
 #include "experiments/runner/registries/registries.h"
+#include "experiments/runner/suite/suite.h"
 #include "experiments/view/probe_values.h"
 #include "experiments/view/view_exposure.h"
 #include "experiments/view/view_session.h"
@@ -268,6 +269,8 @@ TEST_F(ViewLoopTest, SavesWhatItShows) {
   page.say({{"do", "parameter"}, {"pane", 1}, {"name", "accumulate_cap"}, {"value", 5}});
   page.say({{"do", "light"}, {"name", "all"}, {"factor", 0.5}});
   page.say({{"do", "resolution"}, {"width", 20}, {"height", 12}});
+  page.say({{"do", "save"}, {"name", "mine"}});
+  EXPECT_EQ(page.waitFor("saved")["name"], "mine.toml");
   page.say({{"do", "save"}});
   const Json saved = page.waitFor("saved");
   EXPECT_EQ(saved["name"], "session.toml");
@@ -285,7 +288,10 @@ TEST_F(ViewLoopTest, SavesWhatItShows) {
   EXPECT_TRUE(isSame(before, start.settings)) << saved["toml"].get<std::string>();
   // And once more, to the letter.
   const LiveView again(start.prepared, start.settings, {});
-  EXPECT_EQ(sessionToml({start.request, 1}, again), saved["toml"].get<std::string>());
+  const std::string name = loadSuite(folder() / "session.toml", {}).name;
+  EXPECT_EQ(name.rfind("cornell-box-20", 0), 0u) << "of the scene and the time: " << name;
+  EXPECT_EQ(sessionToml({start.request, 1, ""}, again, name), saved["toml"].get<std::string>());
+  EXPECT_EQ(loadSuite(folder() / "mine.toml", {}).name, "mine");
 }
 
 TEST_F(ViewLoopTest, SavesTwoOfTheSame) {
@@ -293,12 +299,12 @@ TEST_F(ViewLoopTest, SavesTwoOfTheSame) {
       settingsOf(prepareScene(facts_.request), {smallPane("restir_gi"), smallPane("restir_gi")});
   const auto reopened = [&] {
     const LiveView view(prepareScene(facts_.request), settings, {});
-    const std::string name = writeSession(folder(), sessionToml(facts_, view));
+    const std::string name = writeSession(folder(), sessionToml(facts_, view, "two"), "session");
     return startOfSuite(folder() / name).settings;
   };
   EXPECT_TRUE(isSame(reopened(), settings));
   const LiveView view(prepareScene(facts_.request), settings, {});
-  const std::string text = sessionToml(facts_, view);
+  const std::string text = sessionToml(facts_, view, "two");
   EXPECT_NE(text.find("baseline = \"restir_gi (unbiased) B\""), std::string::npos) << text;
 }
 

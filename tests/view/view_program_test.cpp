@@ -252,6 +252,62 @@ TEST_F(ViewProgramTest, InterruptedCaptureLeavesNothing) {
   }
 }
 
+// Files, a folder of results, a session of images: nothing renders.
+TEST_F(ViewProgramTest, ShowsImagesOfFiles) {
+  write("suite.toml",
+        "name = \"s\"\nscenes = [\"cornell-box\"]\n[settings]\nwidth = 16\nheight = 12\n"
+        "max_bounces = 2\nruns = 2\nwarmup_frames = 1\nframes = 1\n[reference]\nspp = 4\n"
+        "[[method]]\nintegrator = \"path\"\n[[method]]\nintegrator = \"restir_gi\"\n");
+  const ProgramResult made = run("run suite.toml");
+  ASSERT_EQ(made.code, 0) << made.err;
+  const std::string images = "results/s/images/";
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(path(images)))
+    if (entry.path().extension() == ".exr") files.push_back(entry.path().string());
+  ASSERT_EQ(files.size(), 3u);
+  std::sort(files.begin(), files.end());
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{path("results/s").string()},
+        files,
+        {path("session.toml").string()}}) {
+    SCOPED_TRACE(arguments.front());
+    const ProgramResult result = view(SIGINT, arguments, [&](Page& page) {
+      const Json hello = page.waitFor("hello");
+      EXPECT_EQ(hello["has_scene"], false);
+      EXPECT_EQ(hello["has_reference"], true);
+      const Json numbers = page.waitFor("numbers");
+      EXPECT_GT(numbers["panes"][0]["mse"]["value"], 0.0);
+      EXPECT_EQ(numbers["reference"]["spp"], 4);
+      EXPECT_EQ(page.images().size(), 3u);
+      if (!std::filesystem::exists(path("session.toml"))) {
+        page.say({{"do", "save"}});
+        page.waitFor("saved");
+      }
+      return true;
+    });
+    expectEnded(result);
+  }
+  const ProgramResult captured = run("view results/s --capture a.png");
+  EXPECT_EQ(captured.code, 0) << captured.err;
+  EXPECT_TRUE(std::filesystem::exists(path("a.png")));
+}
+
+// The button runs this program.
+TEST_F(ViewProgramTest, MeasuresItsSession) {
+  const ProgramResult result =
+      view(SIGINT, {"cornell-box", "--resolution", "12x8", "--max-bounces", "2"}, [&](Page& page) {
+        page.waitFor("numbers", [](const Json& n) { return n["reference"]["spp"] >= 2; });
+        page.say({{"do", "measure"}, {"name", "box"}});
+        const Json end =
+            page.waitFor("measure", [](const Json& m) { return m["state"] != "running"; });
+        EXPECT_EQ(end["state"], "finished") << end;
+        return true;
+      });
+  expectEnded(result);
+  EXPECT_NE(read("results/box/report.html").find("<html"), std::string::npos);
+  EXPECT_NE(read("results/box/table.md").find("restir_gi (unbiased)"), std::string::npos);
+}
+
 TEST_F(ViewProgramTest, SaysWhatIsWrongInOneLine) {
   const ViewServer taken({},
                          {[](ClientId) {}, [](ClientId) {}, [](ClientId, const std::string&) {}});
@@ -286,6 +342,24 @@ TEST_F(ViewProgramTest, SaysWhatIsWrongInOneLine) {
     cli_test::expectError(run(arguments), 2, says);
   }
   cli_test::expectError(run("view nowhere.gltf"), 3, {"nowhere.gltf"});
+  for (const auto& [name, width] : {std::pair("a.exr", 8u), {"b.exr", 9u}})
+    writeExr(path(name), {{{"", Image(width, 8, glm::vec3(1.0f))}}, {}});
+  std::filesystem::create_directory(path("empty"));
+  const std::pair<std::string, std::vector<std::string>> images[] = {
+      {"view a.exr b.exr", {"b.exr: is 9x8", "a.exr is 8x8"}},
+      {"view a.exr none.exr", {"none.exr"}},
+      {"view a.exr --ref b.exr", {"b.exr: is 9x8"}},
+      {"view empty", {"empty: has no images of `restlab run`"}},
+      {"view cornell-box a.exr --resolution 16x16", {"a.exr: is 8x8", "16x16"}},
+  };
+  for (const auto& [arguments, says] : images) {
+    SCOPED_TRACE(arguments);
+    cli_test::expectError(run(arguments), 3, says);
+  }
+  cli_test::expectError(run("view a.exr --integrator path"), 2, {"--integrator", "images"});
+  cli_test::expectError(run("view empty --ref a.exr"), 2, {"--ref", "folder of results"});
+  cli_test::expectError(run("view cornell-box --ref a.exr"), 2, {"--ref"});
+  cli_test::expectError(run("view suite.toml a.exr"), 2, {"images", "suite"});
 }
 
 }  // namespace

@@ -82,6 +82,11 @@ Reference renderReference(const PreparedScene& prepared, const ReferenceConfig& 
                           const ReferenceTarget& target, const ReferenceStore& store = {},
                           const std::string& unused = "");
 
+struct ReferenceState;
+// What a state holds so far, with its metadata. Both halves have a sample.
+Reference referenceOf(const PreparedScene& prepared, const ReferenceConfig& config,
+                      const ReferenceState& state);
+
 // EXR with layers "" (mean), "variance", "half0", "half1" and the metadata.
 void writeReference(const std::filesystem::path& file, const Reference& reference);
 Reference readReference(const std::filesystem::path& file);

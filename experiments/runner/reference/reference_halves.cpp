@@ -85,20 +85,23 @@ ReferenceHalves::ReferenceHalves(const PreparedScene& prepared, const ReferenceC
   addName(state.rayTracing, first_.rayTracing());
 }
 
-void ReferenceHalves::addSample() {
+bool ReferenceHalves::addSample(const std::function<bool()>& isStopped) {
   const auto start = std::chrono::steady_clock::now();
   const bool isFirst = state_.half0.count() == state_.half1.count();
   Session& half = isFirst ? first_ : second_;
-  const FrameStats stats = half.frame();
+  const std::optional<FrameStats> stats =
+      isStopped ? half.frameUnless(isStopped) : std::optional(half.frame());
+  if (!stats) return false;
   const Image& frame = half.radiance();
   // From here on nothing fails: a state that is kept holds whole samples.
   (isFirst ? state_.half0 : state_.half1).add(frame);
   state_.squares.addSquares(frame);
-  state_.health.add(stats);
+  state_.health.add(*stats);
   if (RelmseChecks::isDue(state_.spp()))
     state_.checks.add(estimateRelmse(state_.half0, state_.half1));
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
   state_.timeS += spent.count();
+  return true;
 }
 
 }  // namespace restlab

@@ -1,6 +1,8 @@
 // Renders the samples of a reference, one after the other, to its two independent halves.
 #pragma once
 
+#include <functional>
+
 #include "core/session.h"
 #include "experiments/runner/reference/reference.h"
 #include "experiments/runner/reference/reference_state.h"
@@ -22,8 +24,9 @@ class ReferenceHalves {
                   ReferenceState& state, size_t hostBytesPerPixel = 0);
 
   // The next sample of every pixel, of the half whose turn it is, with its time and the checks that
-  // are due. What ends it early leaves the state as it was.
-  void addSample();
+  // are due. What ends it early leaves the state as it was. Where `isStopped` holds before it ends
+  // (Session::frameUnless) there is none, and the same one is next: false then.
+  bool addSample(const std::function<bool()>& isStopped = {});
 
  private:
   Session first_, second_;

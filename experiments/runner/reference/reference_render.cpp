@@ -45,6 +45,8 @@ std::string joined(const std::vector<std::string>& names) {
   return fmt::format("{}", fmt::join(names, " + "));
 }
 
+}  // namespace
+
 Reference referenceOf(const PreparedScene& prepared, const ReferenceConfig& config,
                       const ReferenceState& state) {
   Reference reference;
@@ -73,8 +75,6 @@ Reference referenceOf(const PreparedScene& prepared, const ReferenceConfig& conf
   reference.metadata["health"] = state.health.text();
   return reference;
 }
-
-}  // namespace
 
 Reference renderReference(const PreparedScene& prepared, const ReferenceConfig& config,
                           const ReferenceTarget& target, const ReferenceStore& store,

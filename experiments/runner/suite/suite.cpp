@@ -207,8 +207,9 @@ Suite readSuite(const ConfigTable& root, const std::filesystem::path& file, cons
   suite.file = file.string();
   suite.name = root.getString("name", file.stem().string());
   suite.question = root.getString("question", "");
-  for (const char* key : {"scenes", "scene", "method", "settings", "reference", "sweep",
-                          "camera_path", "event", "mask"})
+  for (const char* key :
+       {"scenes", "scene", "method", "settings", "reference", "sweep", "camera_path", "event",
+        "mask", "view"})  // view: what the viewer shows beside methods
     root.has(key);
   root.finish();
   const std::string folder = file.parent_path().string();

@@ -6,7 +6,7 @@ const FRAGMENT_INTERVAL_MS = 700;
 
 function stateForAddress(state, viewer, settings) {
   const panes = state.panes.map(pane => {
-    const kept = {layer: pane.layer || ''};
+    const kept = {layer: pane.layer || '', source: pane.source};
     for (const key of settings) kept[key] = pane[key];
     const changed = pane.parameters.filter(info => info.is_set);
     kept.parameters = Object.fromEntries(changed.map(({name, value}) => [name, value]));
@@ -60,6 +60,9 @@ function commandsTowards(kept, state, settings) {
       const info = is.parameters.find(one => one.name === name);
       if (info && info.is_set && !isOther && !differs(info.value, value)) continue;
       commands.push({do: 'parameter', pane, name, value});
+    }
+    if (typeof want.source === 'string' && want.source !== is.source) {
+      commands.push({do: 'set', pane, key: 'source', value: want.source});
     }
     if ((want.layer || '') !== (is.layer || '')) {
       commands.push({do: 'layer', pane, name: want.layer || ''});

@@ -26,6 +26,8 @@ class Header {
       const element = makeButton(text, commandTitle(id, this.page.commands),
                                  () => command.run(this.page.viewer));
       element.dataset.command = id;
+      element.disabled = Boolean(command.when) && !this.page.hello.has_scene &&
+          !command.when(this.page.viewer);
       return element;
     };
     const group = (label, ...buttons) => make('div', {class: 'group', role: 'group',
@@ -39,7 +41,8 @@ class Header {
         group('Changes', this.undo, this.redo),
         group('Frames', this.pause, button('restart', 'restart')),
         group('Camera', this.cameraMode, this.orbit),
-        group('Files', button('save', 'save session'), button('screenshot', 'PNG')),
+        group('Files', button('save', 'save session'), button('measure', 'measure'),
+              button('screenshot', 'PNG'), button('picture', 'EXR')),
         group('Page', button('theme', 'light/dark')));
     const {scene} = this.page.hello;
     this.title.textContent = this.title.title = scene.title || scene.name;

@@ -21,6 +21,9 @@ const FLY_ROWS = {
 // What a key goes on doing while it is held; the rest it does once.
 const REPEATED = ['faster', 'slower', 'undo', 'redo'];
 
+// Of images alone there is nothing for these to do.
+const NEEDS_METHOD = ['restart', 'pause', 'probe', 'find-parameter', 'measure'];
+
 function makeLiveCommands(page) {
   const send = command => () => page.session.send(command);
   const isOn = () => page.camera.isOn;
@@ -64,6 +67,10 @@ function makeLiveCommands(page) {
      when: () => page.state.panes.length > 1, run: send({do: 'copy', from: 0, to: 1})},
     {id: 'copy-ba', keys: [], group: session, title: 'copy the method of B to A',
      when: () => page.state.panes.length > 1, run: send({do: 'copy', from: 1, to: 0})},
+    ...page.state.panes.flatMap((_, pane) => page.hello.sources.map(value => ({
+         id: `show-${pane}-${value}`, keys: [], group: session,
+         title: `${PANE_NAMES[pane]} shows ${sourceText(value)}`,
+         run: send({do: 'set', pane, key: 'source', value})}))),
     {id: 'probe', keys: ['g'], group: session,
      title: 'probe the pixel under the pointer, or in the middle', run: () => page.probeHere()},
     {id: 'clear-probe', keys: ['G'], group: session, title: 'take the probe\'s marks away',
@@ -72,6 +79,14 @@ function makeLiveCommands(page) {
      run: send({do: 'save'})},
     {id: 'screenshot', keys: ['x'], group: session, title: 'save what is shown as a PNG',
      run: viewer => saveScreenshot(viewer, `${page.hello.scene.name}.png`)},
+    {id: 'picture', keys: ['X'], group: session,
+     title: 'save the chosen image as it was rendered, an EXR', run: () => page.savePicture()},
+    {id: 'crop', keys: ['m'], group: session,
+     title: 'what is shown as a crop for restlab figure', run: () => giveCrop(page)},
+    {id: 'measure', keys: ['M'], group: session, title: 'measure the session by restlab run',
+     when: () => !page.measurement.isRunning, run: () => page.measure()},
+    {id: 'cancel-measure', keys: [], group: session, title: 'end what is measured',
+     when: () => page.measurement.isRunning, run: send({do: 'cancel'})},
     {id: 'theme', keys: ['y'], group: session, title: 'light or dark', run: toggleTheme},
     {id: 'find-parameter', keys: ['/'], group: session, title: 'search the parameters',
      run: () => page.searchParameters()},
@@ -87,6 +102,11 @@ function makeLiveCommands(page) {
      when: viewer => isOn() || page.camera.isOrbit || document.activeElement === viewer.root,
      run: viewer => page.leave(viewer)}
   ];
+  for (const one of commands) {
+    if (!NEEDS_METHOD.includes(one.id) && one.group !== camera) continue;
+    const {when} = one;
+    one.when = viewer => page.hello.has_scene && (!when || when(viewer));
+  }
   return commands.map(
       one => REPEATED.includes(one.id) || one.release ? one : {...one, isOnce: true});
 }

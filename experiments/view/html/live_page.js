@@ -23,6 +23,8 @@ class LivePage {
       error: message => this.refused(message),
       said: ({text}) => this.messages.notice(text),
       saved: ({name, toml}) => downloadText(name, toml),
+      measure: message => this.measurement?.show(message),
+      file: ({name, base64}) => downloadBlob(name, new Blob([bytesOfBase64(base64)])),
       image: head => this.showImage(head), link: state => this.header.showLink(state)
     });
   }
@@ -42,13 +44,14 @@ class LivePage {
   show(state) {
     if (!this.hello) return;
     const isFirst = !this.viewer;
-    if (!isFirst && state.panes.length + 1 !== this.viewer.images.length) location.reload();
+    const count = state.panes.length + (this.hello.has_reference ? 1 : 0);
+    if (!isFirst && count !== this.viewer.images.length) location.reload();
     this.root.dataset.epoch = state.epoch;
     if (isFirst) this.build(state);
     this.viewer.data.epoch = state.epoch;
     state.panes.forEach((pane, i) => {
-      this.viewer.setImage(i, {name: `${PANE_NAMES[i]}: ${methodName(pane, this.hello)}`});
-      if (!pane.layer && this.viewer.images[i].overlay) this.viewer.setImage(i, {overlay: null});
+      this.viewer.setImage(i, {name: `${PANE_NAMES[i]}: ${paneName(pane, this.hello)}`});
+      if ((!pane.layer || pane.source) && this.viewer.images[i].overlay) this.viewer.setImage(i, {overlay: null});
     });
     this.numbers.showNames(this.viewer.images.map(image => image.name));
     const {camera} = this.viewer;
@@ -78,8 +81,8 @@ class LivePage {
     const {width, height} = state, count = state.panes.length;
     const image = (name, role) => ({name, role, width, height, data: null, nonfinite: [],
                                     version: 0, overlay: null, marks: null});
-    const images = [...state.panes.map((_, i) => image(PANE_NAMES[i], 'method')),
-                    image('reference', 'reference')];
+    const images = state.panes.map((_, i) => image(PANE_NAMES[i], 'method'));
+    if (this.hello.has_reference) images.push(image('reference', 'reference'));
     const {bounds} = this.hello.scene;
     this.camera = new CameraControl(this, bounds || {lo: [-1, -1, -1], hi: [1, 1, 1]});
     const data = {x: 0, y: 0, whole: true, exposure: this.hello.exposure || 1,
@@ -93,10 +96,11 @@ class LivePage {
     this.scene = new ScenePanel(this, this.hello);
     this.numbers = new NumbersPanel(count, this.hello.faults || []);
     this.plots = new PlotsPanel(count);
+    this.measurement = new MeasurePanel(this);
     this.probe = new ProbePanel(this, count);
     this.tabs = new Tabs('Panels', [
       ['methods', 'Methods', this.methods.element], ['scene', 'Scene', this.scene.element],
-      ['plots', 'Plots', this.plots.element], ['probe', 'Probe', this.probe.element]
+      ['plots', 'Plots', make('div', {}, this.measurement.element, this.plots.element)], ['probe', 'Probe', this.probe.element]
     ]);
     this.tabs.tabs.get('plots').tab.addEventListener('click', () => this.plots.show());
     this.side.append(this.numbers.element, this.tabs.element, this.messages.element);
@@ -175,8 +179,9 @@ class LivePage {
   }
 
   idleText() {
-    const frames = this.last ? this.last.panes.map((pane, i) => `${PANE_NAMES[i]} frame ${
-        pane.frame}`).join(', ') : 'no frame yet';
+    if (!this.hello.has_scene) return 'Images of files.  ?: keys, Ctrl + K: search';
+    const frames = this.last ? this.last.panes.map((pane, i) => `${PANE_NAMES[i]} ${
+        this.state.panes[i].source || `frame ${pane.frame}`}`).join(', ') : 'no frame yet';
     const paused = this.state && this.state.paused ? 'paused; ' : '';
     return `${paused}${frames}.  Click a pixel to probe it.  c: camera mode, ?: keys, ` +
         'Ctrl + K: search';
@@ -220,6 +225,18 @@ class LivePage {
   openTab(id) {
     this.tabs.show(id);
     if (id === 'plots') this.plots.show();
+  }
+
+  measure() {
+    this.openTab('plots');
+    this.measurement.ask();
+  }
+
+  // Of the image that is chosen.
+  savePicture() {
+    const {current, images} = {...this.viewer.state, images: this.viewer.images};
+    const isReference = images[current].role === 'reference';
+    this.session.send({do: 'picture', image: isReference ? REFERENCE_SLOT : current});
   }
 
   searchParameters() {

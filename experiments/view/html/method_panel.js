@@ -12,6 +12,11 @@ function methodName(pane, hello) {
       (pane.denoiser && pane.denoiser !== 'none' ? ` + ${pane.denoiser}` : '');
 }
 
+const sourceText = source => source || 'a method';
+
+// What a pane shows: a method, the reference or an image.
+function paneName(pane, hello) { return pane.source || methodName(pane, hello); }
+
 // The choices of a setting of a pane; null where there is nothing to choose.
 function settingChoices(key, pane, hello) {
   const integrator = hello.integrators.find(one => one.name === pane.integrator);
@@ -31,17 +36,30 @@ function settingChoices(key, pane, hello) {
 class PanePanel {
   constructor(index, page) {
     Object.assign(this, {index, page, controls: new Map(), key: ''});
+    const {sources} = page.hello;
+    this.source = makeSelect(sources.map(value => ({value, text: sourceText(value)})),
+                             value => this.send({do: 'set', key: 'source', value}),
+                             {'data-setting': 'source'});
+    this.noMethod = make('p', {class: 'hint'}, 'Nothing renders here: there is nothing to change.');
     this.settings = make('div', {class: 'setting-group'});
     this.layer = make('div', {class: 'setting-group'});
     this.parameters = make('div', {class: 'parameters'});
     this.element = make('section', {'aria-label': `Pane ${PANE_NAMES[index]}`},
-                        make('div', {class: 'settings'}, this.settings, this.layer),
-                        this.parameters);
+                        make('label', {class: 'line'}, make('span', {}, 'shows'),
+                             this.source.element),
+                        this.noMethod,
+                        this.all = make('div', {},
+                                        make('div', {class: 'settings'}, this.settings, this.layer),
+                                        this.parameters));
   }
 
   send(command) { this.page.session.send({...command, pane: this.index}); }
 
   show(pane, hello) {
+    this.source.show(pane.source);
+    this.all.hidden = Boolean(pane.source);
+    this.noMethod.hidden = !pane.source;
+    if (!hello.has_scene) return;
     this.showSettings(pane, hello);
     this.showLayer(pane);
     const key = pane.parameters.map(controlKey).join();
@@ -167,7 +185,8 @@ class MethodPanel {
   }
 
   show(state, hello) {
-    this.opacityLine.hidden = !state.panes.some(pane => pane.layer);
+    this.opacityLine.hidden = !state.panes.some(pane => pane.layer && !pane.source);
+    this.search.hidden = state.panes.every(pane => pane.source);
     this.opacity.value = this.page.viewer.state.opacity;
     state.panes.forEach((pane, i) => { if (this.panes[i]) this.panes[i].show(pane, hello); });
   }

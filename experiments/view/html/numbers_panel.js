@@ -1,5 +1,9 @@
 // The numbers of both panes side by side, as they run; and what they are measured against.
 
+// Of the reference and of images of files nothing is timed or counted.
+const showsMethod = pane => pane.ms !== null;
+const OF_FRAMES = ['mse_newest', 'relmse_newest', 'frames', 'ms', 'rays', 'bytes'];
+
 // [key, title, help, text(pane), {lo, hi} or nothing]
 const NUMBER_ROWS = [
   ['mse', 'MSE', 'mean squared error of single frames against the reference: mean over the ' +
@@ -12,7 +16,8 @@ const NUMBER_ROWS = [
   ['energy', 'energy', 'mean of the frames over mean of the reference; 1 is right',
    pane => pane.energy],
   ['frames', 'frame / of', 'frames of the history; frames in the window of the numbers above',
-   pane => `${quantity(pane.frame)} / ${quantity(pane.frames_measured)}`],
+   pane => showsMethod(pane) ? `${quantity(pane.frame)} / ${quantity(pane.frames_measured)}`
+                             : NOTHING],
   ['ms', 'time', 'milliseconds of the last frame', pane => milliseconds(pane.ms)],
   ['rays', 'rays', 'rays of the last frame', pane => withPrefix(pane.rays, '')],
   ['bytes', 'memory', 'bytes that the method keeps', pane => bytesText(pane.bytes)]
@@ -36,12 +41,13 @@ class NumbersPanel {
       this.cells.set(key, cells);
       const head = make('th', {scope: 'row', title: help, 'data-number-of': title}, title);
       this.titles.set(key, head);
-      return make('tr', {}, head, ...cells.map(one => one.cell));
+      return make('tr', {'data-row': key}, head, ...cells.map(one => one.cell));
     });
     this.health = heads.map(() => make('td', {class: 'health', 'data-number': 'health'}));
     const healthHelp = 'what was counted in the last frame; red: what must not happen';
-    rows.push(make('tr', {}, make('th', {scope: 'row', title: healthHelp}, 'health'),
-                   ...this.health));
+    rows.push(make('tr', {'data-row': 'health'},
+                   make('th', {scope: 'row', title: healthHelp}, 'health'), ...this.health));
+    this.rows = rows;
     this.histories = make('p', {class: 'line-text', 'data-number': 'histories', hidden: ''});
     this.reference = make('p', {class: 'line-text', 'data-number': 'reference'});
     this.transport = make('p', {class: 'line-text', 'data-number': 'transport'});
@@ -56,12 +62,15 @@ class NumbersPanel {
   showNames(names) { this.names.forEach((name, i) => setText(name, names[i])); }
 
   show(numbers) {
-    const panes = numbers.panes;
+    const panes = numbers.panes, isNothing = !panes.some(showsMethod);
+    for (const row of this.rows) {
+      row.hidden = isNothing && [...OF_FRAMES, 'health'].includes(row.dataset.row);
+    }
     for (const [key, , , of] of NUMBER_ROWS) {
       const values = panes.map(of);
       this.cells.get(key).forEach((cell, i) => {
         if (i >= values.length) return;
-        this.showCell(cell, values[i], key === 'energy' ? 4 : 3);
+        this.showCell(cell, values[i], key === 'energy' ? 4 : 3, showsMethod(panes[i]));
       });
     }
     for (const key of ['mse_newest', 'relmse_newest']) {
@@ -71,12 +80,13 @@ class NumbersPanel {
     this.histories.hidden = !old.length;
     setText(this.histories, `${old.join(' and ')}: the history began before the light was changed; ` +
                                 'R begins it anew');
-    panes.forEach((pane, i) => this.showHealth(this.health[i], pane.health || {}));
+    panes.forEach((pane, i) => this.showHealth(this.health[i], pane));
     const {reference: r, transport: t} = numbers;
-    setText(this.reference, r && r.spp ? `reference: ${r.spp} spp, own relMSE ${
-        quantity(r.relmse)}, ${milliseconds(r.ms_per_sample)}/spp` : 'reference: not yet there');
-    const isLoadKnown = typeof numbers.busy === 'number';
-    const isBusy = numbers.busy > 2;
+    const perSample = r && r.ms_per_sample !== null ? `, ${milliseconds(r.ms_per_sample)}/spp` : '';
+    setText(this.reference, !r ? 'no reference' : !r.spp ? 'reference: not yet there'
+        : `reference: ${r.spp} spp, own relMSE ${quantity(r.relmse)}${perSample}`);
+    const isLoadKnown = typeof numbers.busy === 'number' && !isNothing;
+    const isBusy = isLoadKnown && numbers.busy > 2;
     const busy = isLoadKnown ? `; load ${quantity(numbers.busy, 2)}${
         isBusy ? ', times are longer than on a quiet machine' : ''}` : '';
     setText(this.transport, (t ? `images: ${t.width}\u00d7${t.height}, ${t.bits} bits, ${
@@ -86,7 +96,7 @@ class NumbersPanel {
     this.transport.title = 'what goes to all pages; load average of the machine over its threads';
   }
 
-  showCell({value, interval}, given, digits) {
+  showCell({value, interval}, given, digits, hasFrames) {
     if (given === null || given === undefined) {
       setText(value, NOTHING);
       setText(interval, interval.textContent ? '\u00a0' : '');  // the place stays
@@ -94,16 +104,16 @@ class NumbersPanel {
       setText(value, quantity(given.value, digits));
       const isKnown = Number.isFinite(given.lo) && Number.isFinite(given.hi);
       const ends = [given.lo, given.hi].map(end => quantity(end, digits));
-      setText(interval, isKnown ? ends.join(' \u2026 ') : 'no interval yet');
+      setText(interval, isKnown ? ends.join(' \u2026 ') : hasFrames ? 'no interval yet' : '');
     } else {
       setText(value, given);
     }
   }
 
-  showHealth(cell, health) {
-    const counted = Object.entries(health).filter(([, count]) => count);
+  showHealth(cell, pane) {
+    const counted = Object.entries(pane.health || {}).filter(([, count]) => count);
     const lines = counted.map(([name, count]) => `${name.replaceAll('_', ' ')} ${quantity(count)}`);
-    setText(cell, lines.join(', ') || 'nothing counted');
+    setText(cell, lines.join(', ') || (showsMethod(pane) ? 'nothing counted' : NOTHING));
     cell.classList.toggle('warn', counted.some(([name]) => this.faults.has(name)));
   }
 }

@@ -28,12 +28,14 @@ class PlotsPanel {
   show() {
     if (!this.numbers || !this.element.offsetParent) return;
     this.drawn = performance.now();
+    const isNothing = !this.numbers.panes.some(showsMethod);
+    this.byAge.element.hidden = this.byTime.element.hidden = this.passes.element.hidden = isNothing;
     const {curves, before} = this.series;
     const points = curves.map(curve => curve.points);
     this.byAge.show(points, before);
     this.byTime.show(points, before);
     const times = this.count - 1;
-    setText(this.mark, times > 0
+    setText(this.mark, isNothing ? 'Nothing renders: there are no frames to plot.' : times > 0
         ? `Begun anew by a change (${times} so far); the pale curves are those before it.`
         : 'A change of a setting begins the curves anew.');
     this.passes.show(this.numbers.panes);

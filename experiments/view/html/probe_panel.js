@@ -68,8 +68,8 @@ class ProbePanel {
       event.preventDefault();
       this.ask({x: Number(this.x.value), y: Number(this.y.value)});
     });
-    this.hint = make('p', {class: 'hint'},
-                     'Click a pixel of the picture, or point at one and press g.');
+    this.hint = make('p', {class: 'hint'});
+    this.invite();
     this.results = make('div', {class: 'scroll'});
     this.donors = make('div', {class: 'scroll'});
     this.commands = make('div', {});
@@ -83,9 +83,16 @@ class ProbePanel {
     this.x.value = x;
     this.y.value = y;
     this.answers = [];
-    for (let pane = 0; pane < this.count; ++pane) {
-      this.page.session.send({do: 'probe', pane, x, y});
-    }
+    this.page.state.panes.forEach(({source}, pane) => {
+      if (!source) this.page.session.send({do: 'probe', pane, x, y});
+    });
+  }
+
+  // While nothing was probed.
+  invite() {
+    setText(this.hint, this.page.state.panes.every(({source}) => source)
+        ? 'Only methods keep something of a pixel, and no pane shows one.'
+        : 'Click a pixel of the picture, or point at one and press g.');
   }
 
   // After a change: again as soon as the panes have rendered it, once.
@@ -100,7 +107,7 @@ class ProbePanel {
   clear() {
     this.pixel = null;
     this.answers = [];
-    this.hint.textContent = 'Click a pixel of the picture, or point at one and press g.';
+    this.invite();
     this.results.replaceChildren();
     this.donors.replaceChildren();
     this.commands.replaceChildren();
@@ -119,7 +126,7 @@ class ProbePanel {
 
   // Whether the values are of what is set now.
   showAge() {
-    if (!this.answers.some(Boolean)) return;
+    if (!this.answers.some(Boolean)) return this.invite();
     const {epoch} = this.page.state;
     setText(this.hint, this.texts.map(([one, text]) => one.epoch === epoch
         ? text : `${text}, before the change`).join('; '));

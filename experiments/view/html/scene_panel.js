@@ -8,6 +8,11 @@ class ScenePanel {
   constructor(page, hello) {
     Object.assign(this, {page, hello});
     this.lights = new Map();
+    if (!hello.has_scene) {
+      this.element = make('p', {class: 'hint'}, 'Images of files are shown: there is no camera, ' +
+                          'size or light to change.');
+      return;
+    }
     this.element = make('div', {}, this.makeCamera(), page.bookmarks.element,
                         page.recorder.element, this.makeSize(), this.makeLights(),
                         this.makeAbout());
@@ -92,6 +97,7 @@ class ScenePanel {
   }
 
   show(state) {
+    if (!this.hello.has_scene) return;
     const focused = document.activeElement;
     if (focused !== this.width && focused !== this.height) {
       this.width.value = state.width;

@@ -1,0 +1,138 @@
+#include "experiments/view/view_images.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.h"
+
+namespace restlab {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kReferenceEnd = "-reference";
+
+bool saysItIsReference(const fs::path& file, const LayeredImage& read) {
+  const auto kind = read.metadata.find("kind");
+  return file.extension() == ".exr" && kind != read.metadata.end() && kind->second == "reference";
+}
+
+const Image& coloursOf(const fs::path& file, const LayeredImage& read) {
+  const auto layer = read.layers.find("");
+  if (layer == read.layers.end())
+    failInput(fmt::format("{}: has no R, G, B channels outside named layers", file.string()));
+  return layer->second;
+}
+
+// As short as tells them apart.
+std::string freeName(const ViewImages& images, const fs::path& file) {
+  const auto isFree = [&](const std::string& name) {
+    return !name.empty() && name != kReferenceSource && images.find(name) == nullptr;
+  };
+  for (const std::string& name : {file.stem().string(), file.string()})
+    if (isFree(name)) return name;
+  for (int i = 2;; ++i) {
+    const std::string name = fmt::format("{} {}", file.stem().string(), i);
+    if (isFree(name)) return name;
+  }
+}
+
+void requireOneSize(const ViewImages& images) {
+  const FileImage& first = images.list.front();
+  const auto require = [&](const fs::path& file, const Image& image) {
+    if (image.width == first.image.width && image.height == first.image.height) return;
+    failInput(fmt::format("{}: is {}x{}, and {} is {}x{}; images of one size can be compared",
+                          file.string(), image.width, image.height, first.file.string(),
+                          first.image.width, first.image.height));
+  };
+  for (const FileImage& one : images.list) require(one.file, one.image);
+  if (images.reference) require(images.referenceFile, images.reference->mean);
+}
+
+void takeReference(const fs::path& file, ViewImages& images) {
+  images.reference = readReference(file);
+  images.referenceFile = file;
+}
+
+}  // namespace
+
+const FileImage* ViewImages::find(const std::string& name) const {
+  const auto found = std::find_if(list.begin(), list.end(),
+                                  [&](const FileImage& one) { return one.name == name; });
+  return found == list.end() ? nullptr : &*found;
+}
+
+ViewImages readViewImages(const std::vector<fs::path>& files, const fs::path& reference,
+                          bool looksForReference) {
+  if (files.empty()) failUsage("no image is named");
+  ViewImages images;
+  images.title = files.front().filename().string();
+  if (files.size() > 1) images.title += fmt::format(" and {} more", files.size() - 1);
+  if (!reference.empty()) takeReference(reference, images);
+  for (const fs::path& file : files) {
+    LayeredImage read = readExr(file);
+    coloursOf(file, read);
+    const bool isOnly = files.size() == 1;
+    if (looksForReference && !images.reference && !isOnly && saysItIsReference(file, read)) {
+      takeReference(file, images);
+      continue;
+    }
+    images.list.push_back({freeName(images, file), file, std::move(read.layers.at(""))});
+  }
+  requireOneSize(images);
+  return images;
+}
+
+std::vector<std::string> tablesOfResults(const fs::path& folder) {
+  std::vector<std::string> tables;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder / "images", error)) {
+    const std::string stem = entry.path().stem().string();
+    if (entry.path().extension() == ".exr" && stem.ends_with(kReferenceEnd))
+      tables.push_back(stem.substr(0, stem.size() - std::string(kReferenceEnd).size()));
+  }
+  std::sort(tables.begin(), tables.end());
+  return tables;
+}
+
+ViewImages readResultsImages(const fs::path& folder, const std::string& table) {
+  const std::vector<std::string> tables = tablesOfResults(folder);
+  if (tables.empty()) {
+    failInput(fmt::format("{}: has no images of `restlab run` (images/*-reference.exr)",
+                          folder.string()));
+  }
+  const std::string label = table.empty() ? tables.front() : table;
+  if (std::find(tables.begin(), tables.end(), label) == tables.end()) {
+    failUsage(fmt::format("--table {}: {} has no such table (it has: {}){}", label, folder.string(),
+                          fmt::join(tables, ", "), didYouMean(label, tables)));
+  }
+  // The front of another table's name may be this one's.
+  const auto tableOf = [&](const std::string& stem) {
+    std::string longest;
+    for (const std::string& one : tables)
+      if (stem.starts_with(one + "-") && one.size() > longest.size()) longest = one;
+    return longest;
+  };
+  const fs::path reference = folder / "images" / (label + kReferenceEnd + ".exr");
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder / "images")) {
+    const fs::path& file = entry.path();
+    if (file.extension() == ".exr" && tableOf(file.stem().string()) == label && file != reference)
+      files.push_back(file);
+  }
+  if (files.empty()) {
+    failInput(fmt::format("{}: has no image of a method beside its reference", reference.string()));
+  }
+  std::sort(files.begin(), files.end());
+  ViewImages images = readViewImages(files, reference);
+  images.title = fmt::format("{}: {}", folder.filename().string(), label);
+  for (FileImage& one : images.list) {
+    const std::string name = one.file.stem().string().substr(label.size() + 1);
+    if (images.find(name) == nullptr && name != kReferenceSource) one.name = name;
+  }
+  return images;
+}
+
+}  // namespace restlab
