@@ -6,12 +6,19 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
+namespace rl {
+struct FrameData;  // core/dialect/types.h
+}
+
 namespace restlab {
+
+class CompiledScene;  // core/scene/compiled_scene.h
 
 using ParameterValue = std::variant<bool, int64_t, double, std::string>;
 
@@ -77,12 +84,28 @@ struct Kept {
   // All words of a buffer of any of its parts, by name; empty where it is not allocated.
   std::function<std::span<const uint32_t>(const std::string& buffer)> words;
   const ParameterMap& parameters;  // resolved
+  // Of that frame; of a session alone.
+  const rl::FrameData* frame = nullptr;
+  const CompiledScene* scene = nullptr;
+  std::span<const std::byte> params = {};  // as the kernels of the part had them
 };
 
 // What a part keeps of a pixel, for people.
 struct ProbeValue {
   std::string name;
   std::string value;
+};
+
+// Whose sample the reservoir of a pixel was offered in the last frame, and what came of it.
+struct Donor {
+  std::string reuse;        // "own": the pixel's, as it entered the merge; "space", "time", "entry"
+  size_t id = 0;            // number of the donor's pixel; place of the entry
+  std::string shift;        // "accepted", or the test that the shift to the pixel failed
+  double confidence = 0.0;  // with which it entered
+  // Where they are known, of a shift that was accepted: the resampling MIS weight, and the share
+  // of the sum of resampling weights, which is the chance of being selected.
+  std::optional<double> misWeight, share, jacobian;
+  bool isSelected = false;  // in the merge that it entered
 };
 
 // What a part keeps of every pixel, as a picture: a number for each.
@@ -127,6 +150,9 @@ struct PartInfo {
   std::vector<LayerInfo> layers;
   // What there is to say of a pixel beside its layers; empty: nothing.
   std::function<std::vector<ProbeValue>(const Kept&, size_t pixel)> probe;
+  // Computed again from what the frame has left, so that frames nobody asks about cost nothing.
+  // Empty: the part merges no samples.
+  std::function<std::vector<Donor>(const Kept&, size_t pixel)> donors;
 };
 
 // Of a buffer, with resolved parameters.

@@ -17,13 +17,13 @@ class Copies {
  public:
   explicit Copies(std::function<std::vector<uint32_t>(const std::string&)> read)
       : read_(std::move(read)) {}
-  Kept kept(const ParameterMap& parameters) {
+  Kept kept(const ShownFrame& shown, std::span<const std::byte> params) {
     return {[this](const std::string& name) -> std::span<const uint32_t> {
               const auto [at, isNew] = words_.try_emplace(name);
               if (isNew) at->second = read_(name);
               return at->second;
             },
-            parameters};
+            shown.parameters, &shown.frame, &shown.scene, params};
   }
 
  private:
@@ -102,13 +102,13 @@ std::vector<uint32_t> Pipeline::words(const std::string& buffer) {
   return all;
 }
 
-std::vector<ProbeValue> Pipeline::probe(size_t pixel, const ParameterMap& parameters) {
+std::vector<ProbeValue> Pipeline::probe(size_t pixel, const ShownFrame& shown) {
   Copies copies([this](const std::string& name) { return words(name); });
-  const Kept kept = copies.kept(parameters);
   std::vector<ProbeValue> values;
   for (const Stage& stage : stages_) {
+    const Kept kept = copies.kept(shown, stage.shownParams);
     for (const LayerInfo& info : stage.info->layers) {
-      if (!isThere(info.onlyWith, parameters)) continue;
+      if (!isThere(info.onlyWith, shown.parameters)) continue;
       const float value = info.values(kept)(pixel);
       values.push_back(
           {info.name, fmt::format("{:.6g}{}{}", value, info.unit.empty() ? "" : " ", info.unit)});
@@ -119,12 +119,27 @@ std::vector<ProbeValue> Pipeline::probe(size_t pixel, const ParameterMap& parame
   return values;
 }
 
-std::vector<float> Pipeline::layer(const LayerInfo& info, const ParameterMap& parameters) {
+std::vector<Donor> Pipeline::donors(size_t pixel, const ShownFrame& shown) {
   Copies copies([this](const std::string& name) { return words(name); });
-  const Kept kept = copies.kept(parameters);
-  const auto value = info.values(kept);
+  std::vector<Donor> all;
+  for (const Stage& stage : stages_) {
+    if (!stage.info->donors) continue;
+    const Kept kept = copies.kept(shown, stage.shownParams);
+    for (Donor& donor : stage.info->donors(kept, pixel)) all.push_back(std::move(donor));
+  }
+  return all;
+}
+
+std::vector<float> Pipeline::layer(const LayerInfo& info, const ShownFrame& shown) {
+  Copies copies([this](const std::string& name) { return words(name); });
   std::vector<float> all(pixels_);
-  for (size_t pixel = 0; pixel < pixels_; ++pixel) all[pixel] = value(pixel);
+  for (const Stage& stage : stages_) {
+    const std::vector<LayerInfo>& own = stage.info->layers;
+    if (std::none_of(own.begin(), own.end(), [&](const LayerInfo& one) { return &one == &info; }))
+      continue;
+    const auto value = info.values(copies.kept(shown, stage.shownParams));
+    for (size_t pixel = 0; pixel < pixels_; ++pixel) all[pixel] = value(pixel);
+  }
   return all;
 }
 
@@ -220,6 +235,7 @@ std::vector<PassRun> Pipeline::beginFrame(bool isNewView) {
   std::vector<bool> ran;
   for (Stage& stage : stages_) {
     stage.runs = isNewView || !stage.info->onlyOnNewViews;
+    stage.shownParams = stage.params;
     for (size_t p = 0; p < stage.masks.size(); ++p) {
       const bool isDue = isNewView || !stage.info->passes[p].onlyOnNewViews;
       ran.push_back(stage.runs && isDue && stage.isThere[p]);

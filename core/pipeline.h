@@ -12,6 +12,13 @@
 
 namespace restlab {
 
+// The frame that was submitted last.
+struct ShownFrame {
+  const ParameterMap& parameters;
+  const rl::FrameData& frame;
+  const CompiledScene& scene;
+};
+
 class Pipeline {
  public:
   // `wanted`: the features of the kernels. Throws Error (badUsage) where a part asks for a buffer
@@ -31,9 +38,10 @@ class Pipeline {
   // another size.
   bool setParameters(const std::string& mode, const ParameterMap& parameters);
   // What the parts keep of a pixel: their layers, and what else they have to say.
-  std::vector<ProbeValue> probe(size_t pixel, const ParameterMap& parameters);
+  std::vector<ProbeValue> probe(size_t pixel, const ShownFrame& shown);
+  std::vector<Donor> donors(size_t pixel, const ShownFrame& shown);
   // A layer of a part, of every pixel.
-  std::vector<float> layer(const LayerInfo& info, const ParameterMap& parameters);
+  std::vector<float> layer(const LayerInfo& info, const ShownFrame& shown);
 
   void allocate();
   void prepare(StartupReport& report);
@@ -63,12 +71,13 @@ class Pipeline {
   struct Stage {
     const PartInfo* info = nullptr;
     std::vector<std::byte> params;
-    std::vector<uint32_t> masks;    // of each pass
-    std::vector<uint32_t> entries;  // of each pass; 0: pixels
-    std::vector<bool> isThere;      // of each pass: PassInfo::onlyWith, and that of the part
-    std::vector<size_t> bytes;      // of each own buffer; 0: not allocated
-    std::vector<BufferId> buffers;  // the part's own
-    bool runs = true;               // in the frame that was begun last
+    std::vector<std::byte> shownParams;  // of the frame that was begun last
+    std::vector<uint32_t> masks;         // of each pass
+    std::vector<uint32_t> entries;       // of each pass; 0: pixels
+    std::vector<bool> isThere;           // of each pass: PassInfo::onlyWith, and that of the part
+    std::vector<size_t> bytes;           // of each own buffer; 0: not allocated
+    std::vector<BufferId> buffers;       // the part's own
+    bool runs = true;                    // in the frame that was begun last
   };
 
   size_t bytesOf(const PartInfo& part, const BufferInfo& buffer,

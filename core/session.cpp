@@ -84,6 +84,7 @@ struct Session::Impl {
   std::vector<BufferId> aovBuffers;
   bool isAovTraced = false;  // of the last frame
   rl::FrameData lastFrame{};
+  std::shared_ptr<const CompiledScene> lastScene;  // of the last frame
 
   // Backend, buffers and the first frame of a history, for the configuration.
   void open();
@@ -93,6 +94,8 @@ struct Session::Impl {
   void useParameters();
   void submitFrame();
   FrameStats collectFrame();
+  ShownFrame shown() const { return {config.parameters, lastFrame, *lastScene}; }
+  size_t pixelAt(uint32_t x, uint32_t y) const;
 };
 
 Session::Session(std::shared_ptr<const CompiledScene> scene, const SessionConfig& config,
@@ -158,6 +161,7 @@ void Session::Impl::open() {
   f.multiscatter = multiscatter ? 1u : 0u;
   useParameters();
   lastFrame = f;
+  lastScene = scene;
 }
 
 void Session::Impl::useParameters() {
@@ -192,6 +196,7 @@ void Session::Impl::submitFrame() {
   hasNewParameters = false;
   backend->submit(pipeline->beginFrame(!isStill), frame);
   lastFrame = frame;
+  lastScene = scene;
   isRadianceRead = false;
   isAovTraced = false;
   ++frame.frame;
@@ -280,13 +285,21 @@ void Session::setScene(std::shared_ptr<const CompiledScene> scene) {
   m.scene = std::move(scene);
 }
 
+size_t Session::Impl::pixelAt(uint32_t x, uint32_t y) const {
+  if (x >= config.width || y >= config.height)
+    failUsage(fmt::format("probe {},{}: the image is {}x{}", x, y, config.width, config.height));
+  return size_t(y) * config.width + x;
+}
+
 std::vector<ProbeValue> Session::probe(uint32_t x, uint32_t y) const {
   Impl& m = *impl_;
-  if (x >= m.config.width || y >= m.config.height) {
-    failUsage(
-        fmt::format("probe {},{}: the image is {}x{}", x, y, m.config.width, m.config.height));
-  }
-  return m.pipeline->probe(size_t(y) * m.config.width + x, m.config.parameters);
+  return m.pipeline->probe(m.pixelAt(x, y), m.shown());
+}
+
+std::vector<Donor> Session::donors(uint32_t x, uint32_t y) const {
+  Impl& m = *impl_;
+  const size_t pixel = m.pixelAt(x, y);
+  return m.isFirstFrame ? std::vector<Donor>{} : m.pipeline->donors(pixel, m.shown());
 }
 
 void Session::setCamera(const SceneCamera& camera) {
@@ -320,7 +333,7 @@ Image Session::aov(const std::string& name) const {
   if (m.isFirstFrame) failUsage(fmt::format("AOV {}: no frame was rendered yet", name));
   if (kept != layers.end()) {
     Image image(m.config.width, m.config.height);
-    const std::vector<float> values = m.pipeline->layer(**kept, m.config.parameters);
+    const std::vector<float> values = m.pipeline->layer(**kept, m.shown());
     for (size_t i = 0; i < values.size(); ++i) image.pixels[i] = glm::vec3(values[i]);
     return image;
   }

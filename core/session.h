@@ -93,6 +93,9 @@ class Session {
   // What the method keeps of a pixel after the last frame, by name: its layers (Method::layers()),
   // its reservoir and path.
   std::vector<ProbeValue> probe(uint32_t x, uint32_t y) const;
+  // Where its reservoir took candidates from in the last frame. Throws Error (badUsage) where there
+  // is no such pixel; empty before the first frame.
+  std::vector<Donor> donors(uint32_t x, uint32_t y) const;
   // For a moving camera, from the next frame on; the previous one is kept for reprojection.
   void setCamera(const SceneCamera& camera);
 

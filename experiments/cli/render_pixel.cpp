@@ -32,7 +32,7 @@ std::string pixelText(const Session& session, const PixelPlace& pixel) {
   std::string text;
   for (const ProbeValue& value : probedValues(session, pixel.x, pixel.y))
     text += fmt::format("{} {}\n", value.name, value.value);
-  return text;
+  return text + probedDonorsText(session, pixel.x, pixel.y);
 }
 
 std::string pixelJson(const Session& session, const PixelPlace& pixel, uint64_t frame) {
@@ -40,7 +40,8 @@ std::string pixelJson(const Session& session, const PixelPlace& pixel, uint64_t 
                                        {"y", pixel.y},
                                        {"frame", frame},
                                        {"seed", session.config().seed},
-                                       {"values", probedValuesJson(session, pixel.x, pixel.y)}};
+                                       {"values", probedValuesJson(session, pixel.x, pixel.y)},
+                                       {"donors", probedDonorsJson(session, pixel.x, pixel.y)}};
   return json.dump(2) + "\n";
 }
 

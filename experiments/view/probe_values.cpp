@@ -63,4 +63,48 @@ Json probedValuesJson(const Session& session, uint32_t x, uint32_t y) {
   return all;
 }
 
+std::string probedDonorsText(const Session& session, uint32_t x, uint32_t y) {
+  std::string text;
+  for (const Donor& donor : session.donors(x, y)) {
+    const size_t width = session.config().width;
+    text += donor.reuse == "entry"
+                ? fmt::format("donor entry {}", donor.id)
+                : fmt::format("donor {} {},{}", donor.reuse, donor.id % width, donor.id / width);
+    text += fmt::format(": {}, confidence {:.6g}", donor.shift, donor.confidence);
+    const auto add = [&](const char* name, const std::optional<double>& number) {
+      if (number) text += fmt::format(", {} {:.6g}", name, *number);
+    };
+    add("MIS weight", donor.misWeight);
+    add("share", donor.share);
+    add("Jacobian", donor.jacobian);
+    text += donor.isSelected ? ", selected\n" : "\n";
+  }
+  return text;
+}
+
+Json probedDonorsJson(const Session& session, uint32_t x, uint32_t y) {
+  const auto orNull = [](const std::optional<double>& number) {
+    return number && std::isfinite(*number) ? Json(*number) : Json(nullptr);
+  };
+  Json all = Json::array();
+  for (const Donor& donor : session.donors(x, y)) {
+    const size_t width = session.config().width;
+    Json one = {{"reuse", donor.reuse}};
+    if (donor.reuse == "entry") {
+      one["entry"] = donor.id;
+    } else {
+      one["x"] = donor.id % width;
+      one["y"] = donor.id / width;
+    }
+    one["shift"] = donor.shift;
+    one["confidence"] = donor.confidence;
+    one["mis_weight"] = orNull(donor.misWeight);
+    one["share"] = orNull(donor.share);
+    one["jacobian"] = orNull(donor.jacobian);
+    one["selected"] = donor.isSelected;
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
 }  // namespace restlab

@@ -252,7 +252,7 @@ std::string probeText(const ViewFacts& facts, const LiveView& view, const Probe&
                  {"frame", view.frames(probe.pane)},
                  {"seed", config.seed},
                  {"values", probedValuesJson(view.session(probe.pane), probe.x, probe.y)},
-                 {"donors", Json::array()},
+                 {"donors", probedDonorsJson(view.session(probe.pane), probe.x, probe.y)},
                  {"command", probeCommand(facts, view, probe)}});
 }
 

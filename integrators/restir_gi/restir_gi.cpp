@@ -21,6 +21,8 @@
 #include "core/packing.h"
 #include "core/radiance/settings.h"
 #include "core/resampling/partner_settings.h"
+#include "integrators/restir_gi/donor_layers.h"
+#include "integrators/restir_gi/pixel_donors.h"
 
 namespace restlab {
 
@@ -299,7 +301,9 @@ std::vector<LayerInfo> layers() {
       return hasAnchor ? number(words, kReservoir * entry + kConfidence) : 0.0f;
     });
   };
-  return {confidence, age, ofEntry};
+  std::vector<LayerInfo> all = {confidence, age, ofEntry};
+  for (LayerInfo& layer : giDonorLayers()) all.push_back(std::move(layer));
+  return all;
 }
 
 }  // namespace
@@ -363,6 +367,7 @@ const IntegratorInfo& restir_giIntegratorInfo() {
     };
     i.layers = layers();
     i.probe = probe;
+    i.donors = giDonorsOf;
     i.biasOfParameters = [](const std::string& mode, const ParameterMap& p) {
       const bool isWrong = get<std::string>(p, "mis") == "confidence" ||
                            get<bool>(p, "omit_jacobian") || get<bool>(p, "donors_by_sample");

@@ -1,4 +1,6 @@
 // restlab render: what is in the file, and that it is the same for any thread count.
+#include <fmt/format.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -265,6 +267,19 @@ TEST_F(RenderTest, PrintsWhatIsKeptOfAPixel) {
   for (const auto& value : json["values"]) {
     ASSERT_TRUE(std::getline(lines, line));
     EXPECT_EQ(line.rfind(value["name"].get<std::string>() + " ", 0), 0u) << line;
+  }
+  // Its own sample, donors over space, and the pixel itself over time.
+  ASSERT_GE(json["donors"].size(), 2u);
+  EXPECT_EQ(json["donors"].front()["reuse"], "own");
+  EXPECT_EQ(json["donors"].back()["reuse"], "time");
+  for (const auto& donor : json["donors"]) {
+    ASSERT_TRUE(std::getline(lines, line));
+    const std::string begin =
+        fmt::format("donor {} {},{}: {}, confidence ", donor["reuse"].get<std::string>(),
+                    donor["x"].dump(), donor["y"].dump(), donor["shift"].get<std::string>());
+    EXPECT_EQ(line.rfind(begin, 0), 0u) << line << " for " << begin;
+    EXPECT_EQ(line.ends_with(", selected"), donor["selected"].get<bool>()) << line;
+    EXPECT_EQ(line.find(", share ") != std::string::npos, donor["share"].is_number()) << line;
   }
   EXPECT_FALSE(std::getline(lines, line)) << line;
 }

@@ -5,6 +5,7 @@ set(RL_CONFORMANCE_TESTS
   conformance/changing_light_test.cpp
   conformance/cache_run.cpp
   conformance/determinism_test.cpp
+  conformance/donors_test.cpp
   conformance/health_test.cpp
   conformance/layers_test.cpp
   conformance/light_transport_test.cpp

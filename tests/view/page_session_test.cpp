@@ -142,6 +142,76 @@ TEST_F(PageSessionTest, ClickProbesThePixel) {
   EXPECT_NE(commands[0].get<std::string>().find(end), std::string::npos) << commands[0];
 }
 
+// A line leads from the probe to each donor, where the picture is enlarged and moved, too; the
+// table says of each what the program says.
+TEST_F(PageSessionTest, DonorsAreDrawnAndListed) {
+  press("s");
+  press("1");
+  page("await until(() => page.last.panes[0].frame > 2);");
+  pause();
+  const Json seen = page(R"(
+    const answer = async (x, y) => {
+      page.probe.ask({x, y});
+      await until(() => page.probe.answers[0] && page.probe.answers[1]);
+      return page.probe.answers[0];
+    };
+    let message = null, donor = null;
+    for (let x = 10; x < 50 && !donor; ++x) {
+      message = await answer(x, 20);
+      donor = message.donors.find(one => one.reuse === 'space' && one.shift === 'accepted');
+    }
+    const {stage, camera} = viewer;
+    const lineAt = () => {
+      viewer.draw();
+      const view = stage.views[0], ratio = window.devicePixelRatio || 1;
+      const [x0, y0] = camera.toView(view, message.x + 0.5, message.y + 0.5);
+      const [x1, y1] = camera.toView(view, donor.x + 0.5, donor.y + 0.5);
+      const copy = new OffscreenCanvas(stage.canvas.width, stage.canvas.height).getContext('2d');
+      copy.drawImage(stage.canvas, 0, 0);
+      // Between the rings of both.
+      const at = [0.7 * x0 + 0.3 * x1, 0.7 * y0 + 0.3 * y1].map(v => Math.floor(v * ratio));
+      return Array.from(copy.getImageData(at[0], at[1], 1, 1).data.slice(0, 2));
+    };
+    viewer.zoom(6);
+    viewer.pan((camera.x - message.x) * camera.scale, (camera.y - message.y) * camera.scale);
+    const zoomed = lineAt();
+    viewer.pan(31, 22);
+    const panned = lineAt();
+    const marks = viewer.images[0].marks.map(({x, y, kind}) => [x, y, kind]);
+    const rows = Array.from(document.querySelectorAll('.donors tbody tr'),
+                            row => Array.from(row.children, cell => cell.textContent));
+    page.probe.clear();
+    return {message, donor, zoomed, panned, marks, rows, cleared: lineAt(),
+            left: document.querySelectorAll('.donors').length};)");
+  ASSERT_FALSE(seen["donor"].is_null());
+  // Light in red and green, whether white or yellow; it is thinner than two pixels.
+  for (const char* when : {"zoomed", "panned"}) {
+    EXPECT_GE(seen[when][0], 200) << when << seen[when];
+    EXPECT_GE(seen[when][1], 160) << when << seen[when];
+  }
+  EXPECT_NE(seen["cleared"], seen["panned"]);
+  EXPECT_EQ(seen["left"], 0);
+  const Json& donors = seen["message"]["donors"];
+  ASSERT_EQ(seen["rows"].size(), donors.size());
+  size_t marked = 1;
+  for (size_t i = 0; i < donors.size(); ++i) {
+    const Json& donor = donors[i];
+    const bool isElsewhere =
+        donor["x"] != seen["message"]["x"] || donor["y"] != seen["message"]["y"];
+    const Json mark = {donor["x"], donor["y"], "donor"};
+    const auto& marks = seen["marks"];
+    EXPECT_EQ(std::count(marks.begin(), marks.end(), mark) > 0, isElsewhere) << donor;
+    marked += isElsewhere;
+    std::string from = fmt::format("{} {},{}", donor["reuse"].get<std::string>(), donor["x"].dump(),
+                                   donor["y"].dump());
+    if (donor["selected"]) from += " \u2713";
+    EXPECT_EQ(seen["rows"][i][0], from);
+    EXPECT_EQ(seen["rows"][i][1], donor["shift"]);
+    EXPECT_EQ(seen["rows"][i][4] == "\u2013", donor["share"].is_null());
+  }
+  EXPECT_EQ(seen["marks"].size(), marked);
+}
+
 // Frames made again, against the halves of the reference as it is in the end. As it goes on while
 // frames are measured, and with it every error a little, they agree within five percent.
 TEST_F(PageSessionTest, RunningErrorIsThatOfTheFrames) {

@@ -207,6 +207,8 @@ TEST_F(ViewLoopTest, ProbesAPixel) {
   Session again(prepareScene(facts_.request).scene, smallPane("restir_gi"));
   for (int frame = 0; frame < probe["frame"]; ++frame) again.frame();
   EXPECT_EQ(probe["values"], Json(probedValuesJson(again, x, y)));
+  EXPECT_EQ(probe["donors"], Json(probedDonorsJson(again, x, y)));
+  EXPECT_EQ(probe["donors"][0]["reuse"], "own");
   EXPECT_EQ(probe["values"][0]["name"], "shaded radiance");
   const glm::vec3& shown = again.radiance().at(x, y);
   ASSERT_GT(shown.x, 0.0f);

@@ -159,7 +159,7 @@ TEST_F(ViewProgramTest, ProbeIsThatOfItsCommand) {
           "cd / && " + command + " --json >'" + path("pixel.json").string() + "'";
       ASSERT_EQ(std::system(line.c_str()), 0);
       const Json printed = Json::parse(read("pixel.json"));
-      for (const char* key : {"x", "y", "frame", "seed", "values"})
+      for (const char* key : {"x", "y", "frame", "seed", "values", "donors"})
         EXPECT_EQ(printed[key], probe[key]) << key;
     }
   }

@@ -83,27 +83,44 @@ function drawPointer(context, camera, view, pixel) {
   }
 }
 
-// Rings around pixels, [{x, y, kind: 'donor' | 'probe'}]: light between dark edges, so that they
-// are seen on everything. The probe's is larger and thicker, and is drawn last.
+// Light between dark edges, so that it is seen on everything.
+function strokeOnAll(context, thick, colour) {
+  for (const [edge, width] of [['#000', thick + 2], [colour, thick]]) {
+    context.strokeStyle = edge;
+    context.lineWidth = width;
+    context.stroke();
+  }
+}
+
+// Rings around pixels, [{x, y, kind: 'donor' | 'probe', state}], and lines from the probe to its
+// donors: dashed where the shift was rejected, yellow to the one that was selected. The probe's
+// ring is larger and thicker, and is drawn last.
 function drawMarks(context, camera, view, marks) {
   const rings = {donor: {radius: 5, thick: 1.5}, probe: {radius: 9, thick: 3}};
+  const place = mark => camera.toView(view, mark.x + 0.5, mark.y + 0.5);
+  const probe = marks.find(mark => mark.kind === 'probe');
   for (const kind of ['donor', 'probe']) {
     const {radius, thick} = rings[kind];
     const size = Math.max(radius, radius / 9 * camera.scale);
     for (const mark of marks) {
       if (mark.kind !== kind) continue;
-      const [x, y] = camera.toView(view, mark.x + 0.5, mark.y + 0.5);
-      if (x < view.x - size || x > view.x + view.width + size || y < view.y - size ||
-          y > view.y + view.height + size) {
-        continue;
+      const [x, y] = place(mark);
+      const colour = mark.state === 'selected' ? '#fd0' : '#fff';
+      context.setLineDash(mark.state === 'rejected' ? [4, 4] : []);
+      if (kind === 'donor' && probe) {
+        context.beginPath();
+        context.moveTo(...place(probe));
+        context.lineTo(x, y);
+        strokeOnAll(context, thick, colour);
       }
-      context.beginPath();
-      context.arc(x, y, size, 0, 2 * Math.PI);
-      for (const [colour, width] of [['#000', thick + 2], ['#fff', thick]]) {
-        context.strokeStyle = colour;
-        context.lineWidth = width;
-        context.stroke();
+      const isOutside = x < view.x - size || x > view.x + view.width + size ||
+          y < view.y - size || y > view.y + view.height + size;
+      if (!isOutside) {
+        context.beginPath();
+        context.arc(x, y, size, 0, 2 * Math.PI);
+        strokeOnAll(context, thick, colour);
       }
+      context.setLineDash([]);
     }
   }
 }

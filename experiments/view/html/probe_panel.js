@@ -8,6 +8,53 @@ function probeText(value) {
   return typeof value === 'number' ? quantity(value, 5) : String(value ?? NOTHING);
 }
 
+// What the program says of a donor's shift, beside "accepted".
+const SHIFT_HELP = {
+  accepted: 'the pixel sees the donor\'s sample',
+  empty: 'the donor has no sample',
+  background: 'the sample\'s film sample shows no surface in this pixel',
+  smooth: 'x1 is smoother than roughness_limit',
+  jacobian: 'the Jacobian lies outside of what max_jacobian allows',
+  dark: 'the surface or the light sends nothing that way',
+  occluded: 'something lies between x1 and the vertex or the light',
+  'not kept': 'the frame has written over the donor\'s sample'
+};
+const REUSE_HELP = {
+  own: 'the pixel\'s own sample, after the merge over time',
+  space: 'a pixel of this frame', time: 'the last frame', entry: 'an entry of the cache'
+};
+
+const isRejected = ({shift}) => !['accepted', 'empty', 'not kept'].includes(shift);
+const donorsOf = message => (message.donors || []).filter(({reuse}) => reuse !== 'own');
+
+function donorMarks(message) {
+  const {x, y} = message;
+  return donorsOf(message).filter(one => one.x !== undefined && (one.x !== x || one.y !== y))
+      .map(one => ({x: one.x, y: one.y, kind: 'donor',
+                    state: one.selected ? 'selected' : isRejected(one) ? 'rejected' : 'accepted'}));
+}
+
+function donorTable(message) {
+  const heads = [['from', 'pixel of the donor, or its entry'],
+                 ['shift', 'accepted, or the test that it failed'],
+                 ['confidence', 'with which the donor entered, in samples'],
+                 ['MIS', 'resampling MIS weight'],
+                 ['share', 'of the sum of resampling weights: the chance of being selected'],
+                 ['J', 'Jacobian of the shift']];
+  const rows = message.donors.map(one => make(
+      'tr', {class: one.selected ? 'selected' : ''},
+      make('th', {scope: 'row', title: REUSE_HELP[one.reuse]},
+           `${one.reuse} ${one.entry ?? `${one.x},${one.y}`}${one.selected ? ' \u2713' : ''}`),
+      make('td', {title: SHIFT_HELP[one.shift] || ''}, one.shift),
+      ...[one.confidence, one.mis_weight, one.share, one.jacobian].map(
+          number => make('td', {class: 'num'}, number === null ? NOTHING : quantity(number, 3)))));
+  return make('table', {class: 'probe-table donors'},
+              make('caption', {}, `${PANE_NAMES[message.pane]}: donors, \u2713 selected`),
+              make('thead', {}, make('tr', {}, ...heads.map(([name, title]) => make(
+                  'th', {scope: 'col', title}, name)))),
+              make('tbody', {}, ...rows));
+}
+
 class ProbePanel {
   constructor(page, count) {
     Object.assign(this, {page, count, pixel: null, answers: []});
@@ -24,8 +71,10 @@ class ProbePanel {
     this.hint = make('p', {class: 'hint'},
                      'Click a pixel of the picture, or point at one and press g.');
     this.results = make('div', {class: 'scroll'});
+    this.donors = make('div', {class: 'scroll'});
     this.commands = make('div', {});
-    this.element = make('div', {class: 'probe'}, form, this.hint, this.results, this.commands);
+    this.element = make('div', {class: 'probe'}, form, this.hint, this.results, this.donors,
+                        this.commands);
   }
 
   // Of all panes, so that they compare.
@@ -44,6 +93,7 @@ class ProbePanel {
     this.answers = [];
     this.hint.textContent = 'Click a pixel of the picture, or point at one and press g.';
     this.results.replaceChildren();
+    this.donors.replaceChildren();
     this.commands.replaceChildren();
     for (let i = 0; i < this.count; ++i) this.page.viewer.setImage(i, {marks: null});
   }
@@ -52,9 +102,8 @@ class ProbePanel {
     // One that nobody waits for any more.
     if (!this.pixel || message.x !== this.pixel.x || message.y !== this.pixel.y) return;
     this.answers[message.pane] = message;
-    const donors = (message.donors || []).map(([x, y]) => ({x, y, kind: 'donor'}));
     this.page.viewer.setImage(message.pane, {
-      marks: [...donors, {x: message.x, y: message.y, kind: 'probe'}]
+      marks: [...donorMarks(message), {x: message.x, y: message.y, kind: 'probe'}]
     });
     this.show();
   }
@@ -65,7 +114,10 @@ class ProbePanel {
     for (const {values} of there) {
       for (const value of values) if (!names.has(value.name)) names.set(value.name, value);
     }
-    const donors = ({donors: list}) => list && list.length ? `, ${list.length} donors` : '';
+    const donors = message => {
+      const {length} = donorsOf(message);
+      return length ? `, ${length} donor${length > 1 ? 's' : ''}` : '';
+    };
     this.hint.textContent = there.map(one => `${PANE_NAMES[one.pane]}: frame ${one.frame}, seed ${
         one.seed}${donors(one)}`).join('; ');
     const heads = there.map(one => make('th', {scope: 'col', class: 'num'}, PANE_NAMES[one.pane]));
@@ -79,6 +131,8 @@ class ProbePanel {
     this.results.replaceChildren(make(
         'table', {class: 'probe-table'},
         make('thead', {}, make('tr', {}, make('td', {}), ...heads)), make('tbody', {}, ...rows)));
+    this.donors.replaceChildren(
+        ...there.filter(one => one.donors && one.donors.length).map(donorTable));
     this.commands.replaceChildren(...there.filter(one => one.command).map(one => make(
         'p', {class: 'command'}, `${PANE_NAMES[one.pane]} `, make('code', {}, one.command),
         copyButton(() => one.command, 'copy the command that prints the same',

@@ -1,0 +1,18 @@
+// Parameters of a frame as the kernels of restir_gi had them.
+#pragma once
+
+#include <cstring>
+
+#include "core/part.h"
+#include "integrators/restir_gi/restir_gi.h"
+
+namespace restlab {
+
+// All zero where no session has rendered it.
+inline rl::RestirGiParams giParamsOf(const Kept& kept) {
+  rl::RestirGiParams params{};
+  if (kept.params.size() == sizeof params) std::memcpy(&params, kept.params.data(), sizeof params);
+  return params;
+}
+
+}  // namespace restlab

@@ -1,0 +1,327 @@
+#include "integrators/restir_gi/pixel_donors.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/backend/alpha_filter.h"
+#include "core/backend/cpu_kernel.h"
+#include "core/caches/entries/settings.h"
+#include "core/changes/settings.h"
+#include "core/scene/compiled_scene.h"
+#include "integrators/restir_gi/kept_params.h"
+#include "integrators/restir_gi/pixel_own.h"
+
+// Functions that a kernel hands to the reuse loop have one signature: some ignore a parameter.
+#pragma GCC diagnostic ignored "-Wunused-parameter"
+
+#define RL_HAS(features) ((kFeatures & (features)) != 0u)
+#define RL_HEALTH(kind) (++gCounters.health[kind])
+#define RL_COUNT_RAY(mode) (++((mode) == RL_RAY_SHADOW ? gCounters.raysShadow : gCounters.raysPath))
+
+namespace rl {
+
+namespace {
+
+using Donors = std::vector<restlab::Donor>;
+
+// Of a share that is told by a difference: reservoirs are packed to less.
+constexpr double kRounding = 1e-3;
+
+// As in core/backend/cpu_kernel.inl: the spatial pass, with the shifts that the exchange pass made.
+namespace over_space {
+template <uint FEATURES>
+struct Ctx {
+  static constexpr uint kFeatures = FEATURES;
+
+  const SceneData& gScene;
+  const FrameData& gFrame;
+  CpuKernelCounters& gCounters;
+  RTCScene embreeScene;
+  const RestirGiBuffers& gBuffers;
+  const RestirGiParams& gParams;
+
+#include "core/dialect/order.glsl"
+#include "core/backend/cpu_trace.inl"
+#include "integrators/restir_gi/spatial.glsl"
+#include "core/payload/path_shift.glsl"
+#include "integrators/restir_gi/pixel_donors.inl"
+
+  PathReservoir reservoirOf(uint slot) {
+    PathReservoir r;
+    r.path.suffix = pathNoSuffix();
+    giReadNow(slot, r);
+    return r;
+  }
+
+  // The merge of core/resampling/reuse.glsl, step by step.
+  Donors overSpace(uvec2 pixel) {
+    const uint flags = gParams.spatialFlags;
+    GiOverSpace s;
+    s.slot = slotOfPixel(pixel);
+    s.share = reuseDonorShare(giAge(), gParams.donorNoise);
+    s.rng = rngInit(gFrame.seed, s.slot, gFrame.frame);
+    s.rng.vertex = RL_VERTEX_SPATIAL;
+    const ReservoirState own = reservoirOf(s.slot).state;
+    const uint count = giDonors();
+    ReservoirState donor = own, selected = own;
+    real cDonors = 0.0f;
+    for (uint k = 0; k < count; ++k) {
+      if (reuseDonor(s, k, donor)) cDonors += donor.confidence;
+    }
+    MergeState merge = mergeBegin(own, cDonors, flags);
+    for (uint k = 0; k < count; ++k) {
+      if (reuseDonor(s, k, donor))
+        mergeWeighCanonical(merge, own, donor.confidence, reuseOurs(s, k), flags);
+    }
+    mergeCanonical(merge, own, flags);
+    Donors all(1);
+    all[0].reuse = "own";
+    all[0].id = s.slot;
+    all[0].shift = own.W > 0.0f ? "accepted" : "empty";
+    all[0].confidence = own.confidence;
+    if (own.W > 0.0f) {
+      all[0].misWeight = merge.mCanonical;
+      all[0].share = merge.wSum;
+    }
+    size_t winner = 0;
+    for (uint k = 0; k < count; ++k) {
+      if (!reuseDonor(s, k, donor)) continue;
+      const Shifted here = reuseTheirs(s, k);
+      const uint partner = giPartner(s.slot, k);
+      all.push_back(asDonor("space", partner, donor, here, merge, flags));
+      if (!all.back().jacobian) {
+        const PathReservoir r = reservoirOf(partner);
+        all.back().shift = failedTest(r, pixel, r.path.film);
+      }
+      if (mergeDonor(merge, selected, donor, here, reuseRatio(s, k), flags, reuseUniform(s, k)))
+        winner = all.size() - 1;
+    }
+    for (restlab::Donor& one : all) {
+      if (one.share) one.share = misDivide(real(*one.share), merge.wSum);
+    }
+    all[winner].isSelected = merge.wSum > 0.0f;
+    return all;
+  }
+};
+}  // namespace over_space
+
+#undef RL_REUSE_STATE
+
+// The initial pass, which knows what the pixel found in this frame alone, and the merge over time.
+namespace over_time {
+template <uint FEATURES>
+struct Ctx {
+  static constexpr uint kFeatures = FEATURES;
+
+  const SceneData& gScene;
+  const FrameData& gFrame;
+  CpuKernelCounters& gCounters;
+  RTCScene embreeScene;
+  const RestirGiBuffers& gBuffers;
+  const RestirGiParams& gParams;
+
+#include "core/dialect/order.glsl"
+#include "core/backend/cpu_trace.inl"
+#include "integrators/restir_gi/initial.glsl"
+#include "core/payload/path_shift.glsl"
+#include "core/resampling/reproject.glsl"
+
+  PathReservoir found(uvec2 pixel) {
+    const uint film = cameraFilmBits(pixel);
+    PathGather p = pathNothingGathered(film);
+    p.end = radianceBegin(slotOfPixel(pixel));
+    walkPath(p, pixel, film);
+    return pathResample(p, rngInit(gFrame.seed, slotOfPixel(pixel), gFrame.frame));
+  }
+
+  // The resampling weight of what the pixel found, against a donor of the pixel `before`.
+  real ownWeight(const PathReservoir& own, uint before, real cDonor) {
+    const bool isStill = gFrame.stillFrames != 0u;
+    const uint flags = isStill ? gParams.temporalFlags & ~RL_REUSE_PAIRWISE : gParams.temporalFlags;
+    MergeState merge = mergeBegin(own.state, cDonor, flags);
+    if (!isStill) {
+      const bool assumesVisible = (flags & RL_REUSE_ASSUME_VISIBLE) != 0u;
+      PathShift shift = pathShiftTo(own, pixelOfSlot(before), true, assumesVisible);
+      pathShiftTrace(shift, own.path);
+      mergeWeighCanonical(merge, own.state, cDonor, shift.shifted, flags);
+    }
+    mergeCanonical(merge, own.state, flags);
+    return merge.wSum;
+  }
+
+  // `confidence`: of the pixel's reservoir before entries were merged. `isLast`: none were.
+  Donors donors(uvec2 pixel, real confidence, bool isLast) {
+    const uint slot = slotOfPixel(pixel);
+    if (gParams.temporalReuse == 0u || gFrame.frame == 0u) return {};
+    const bool isStill = gFrame.stillFrames != 0u;
+    const uint before = isStill                   ? slot
+                        : gParams.reproject != 0u ? reprojectedSlot(slot)
+                                                  : RL_INVALID;
+    restlab::Donor donor;
+    donor.reuse = "time";
+    donor.id = before;
+    // The pixel's sample of this frame has the confidence 1; without one more, nothing was merged.
+    donor.confidence = confidence - 1.0f;
+    if (before == RL_INVALID || !(donor.confidence > 1e-6)) return {};
+    PathReservoir merged;
+    merged.path.suffix = pathNoSuffix();
+    giReadNow(slot, merged);
+    const real wSum = merged.state.W * reuseTarget(merged.state.F);
+    const uint film = cameraFilmBits(pixel);
+    // Samples keep the film sample that they were found with, each pixel and frame has another one.
+    donor.isSelected = isLast && wSum > 0.0f && merged.path.film != film;
+    // What is left of the donor: all of the weights that is not the pixel's own. Cells in which
+    // paths end are not what they were.
+    if (isLast && wSum > 0.0f && gParams.cells.count == 0u) {
+      const real own = ownWeight(found(pixel), before, real(donor.confidence));
+      donor.share = clamp(1.0f - own / wSum, 0.0f, 1.0f);
+    }
+    // Both samples are of one pixel in a still view: the shift is the identity. Otherwise a share
+    // tells, if it is more than what packing hides.
+    donor.shift = isStill || donor.share.value_or(0.0) > 1e-3 ? "accepted" : "not kept";
+    if (isStill) donor.misWeight = donor.confidence / confidence;
+    return {donor};
+  }
+};
+}  // namespace over_time
+
+#undef RL_REUSE_STATE
+
+// The recall pass.
+namespace of_entries {
+template <uint FEATURES>
+struct Ctx {
+  static constexpr uint kFeatures = FEATURES;
+
+  const SceneData& gScene;
+  const FrameData& gFrame;
+  CpuKernelCounters& gCounters;
+  RTCScene embreeScene;
+  const RestirGiBuffers& gBuffers;
+  const RestirGiParams& gParams;
+
+#include "core/dialect/order.glsl"
+#include "core/backend/cpu_trace.inl"
+#include "integrators/restir_gi/recall.glsl"
+#include "integrators/restir_gi/pixel_donors.inl"
+
+  Donors ofEntries(uvec2 pixel) {
+    const uint flags = gParams.spatialFlags, count = gParams.entries.proposals;
+    GiWithEntries s;
+    s.slot = slotOfPixel(pixel);
+    if (gFrame.stillFrames != 0u || gParams.temporalReuse == 0u || !(giKept(s.slot) > 0.0f))
+      return {};
+    bool isAsked = false;
+    for (uint k = 0; k < count; ++k) {
+      s.id[k] = gBuffers.proposals.data[s.slot * count + k];
+      if (s.id[k] == RL_INVALID) continue;
+      const Anchor anchor = anchorRead(gBuffers.anchors, s.id[k]);
+      if (anchor.surface.isHit == 0u || anchor.begunBy == s.slot) s.id[k] = RL_INVALID;
+      isAsked = isAsked || s.id[k] != RL_INVALID;
+    }
+    if (!isAsked) return {};
+    PathReservoir now;
+    now.path.suffix = pathNoSuffix();
+    giReadNow(s.slot, now);
+    s.rng = rngInit(gFrame.seed, s.slot, gFrame.frame);
+    s.rng.vertex = RL_VERTEX_RECALL;
+    const uint film = rngBits(s.rng, RL_DIM_FILTER_X);
+    giAskEntries(s, now, pixel, film, count);
+    ReservoirState donor = now.state;
+    real cDonors = 0.0f;
+    for (uint k = 0; k < count; ++k) {
+      if (reuseDonor(s, k, donor)) cDonors += donor.confidence;
+    }
+    ReservoirState canonical = now.state;
+    canonical.confidence -= cDonors;
+    const MergeState merge = mergeBegin(canonical, cDonors, flags);
+    const real wSum = now.state.W * reuseTarget(now.state.F);
+    const bool isSelected = wSum > 0.0f && now.path.film == film;
+    Donors all;
+    real nearest = 0.0f;
+    size_t winner = 0;
+    for (uint k = 0; k < count; ++k) {
+      if (!reuseDonor(s, k, donor)) continue;
+      all.push_back(asDonor("entry", s.id[k], donor, s.theirs[k], merge, flags));
+      restlab::Donor& one = all.back();
+      if (one.share) one.share = misDivide(real(*one.share), wSum);
+      if (!one.jacobian) {
+        PathReservoir r = now;
+        giReadEntry(s.id[k], r);
+        one.shift = failedTest(r, pixel, film);
+      }
+      // Of several the one whose integrand the pixel has, but for rounding.
+      const real off = length(s.theirs[k].F - now.state.F);
+      if (all.size() == 1 || off < nearest) {
+        nearest = off;
+        winner = all.size() - 1;
+      }
+    }
+    if (isSelected && !all.empty()) all[winner].isSelected = true;
+    return all;
+  }
+};
+}  // namespace of_entries
+
+template <uint FEATURES>
+Donors donorsOf(const restlab::Kept& kept, const RestirGiBuffers& buffers,
+                const RestirGiParams& params, uvec2 pixel) {
+  CpuKernelCounters counters;
+  const SceneData& scene = kept.scene->data();
+  const auto rays = static_cast<RTCScene>(kept.scene->embreeScene());
+  over_space::Ctx<FEATURES> space{scene, *kept.frame, counters, rays, buffers, params};
+  over_time::Ctx<FEATURES> time{scene, *kept.frame, counters, rays, buffers, params};
+  of_entries::Ctx<FEATURES> entries{scene, *kept.frame, counters, rays, buffers, params};
+  Donors all = space.overSpace(pixel), ofEntries;
+  if (params.entries.count != 0u) ofEntries = entries.ofEntries(pixel);
+  double confidence = all.front().confidence;
+  for (const restlab::Donor& one : ofEntries) confidence -= one.confidence;
+  for (const restlab::Donor& one : time.donors(pixel, float(confidence), ofEntries.empty()))
+    all.push_back(one);
+  all.insert(all.end(), ofEntries.begin(), ofEntries.end());
+  return all;
+}
+
+}  // namespace
+
+}  // namespace rl
+
+namespace restlab {
+
+namespace {
+
+// Kernels read these alone, so that what they read may be a copy that nobody writes to.
+template <typename Ref>
+void bind(const Kept& kept, const std::string& name, Ref& ref) {
+  const std::span<const uint32_t> words = kept.words(name);
+  ref.data = words.empty()
+                 ? nullptr
+                 : reinterpret_cast<decltype(ref.data)>(const_cast<uint32_t*>(words.data()));
+}
+
+}  // namespace
+
+std::vector<Donor> giDonorsOf(const Kept& kept, size_t pixel) {
+  if (kept.frame == nullptr || kept.scene == nullptr) return {};
+  rl::RestirGiBuffers buffers{};
+  bind(kept, "visible", buffers.visible);
+  bind(kept, "visible_before", buffers.visibleBefore);
+  bind(kept, "proposals", buffers.proposals);
+  bind(kept, "anchors", buffers.anchors);
+  bind(kept, kChanges, buffers.changes);
+  bind(kept, "reservoirs", buffers.reservoirs);
+  bind(kept, "path_suffixes", buffers.suffixes);
+  bind(kept, "exchange", buffers.exchange);
+  bind(kept, "entry_reservoirs", buffers.entryReservoirs);
+  bind(kept, "entry_suffixes", buffers.entrySuffixes);
+  const rl::uvec2 at(pixel % kept.frame->width, pixel / kept.frame->width);
+  // Suffixes are not there in scenes without glossy surfaces.
+  constexpr uint32_t kAll = rl::RL_FEATURE_ALL;
+  return buffers.suffixes.data != nullptr
+             ? rl::donorsOf<kAll>(kept, buffers, giParamsOf(kept), at)
+             : rl::donorsOf<kAll & ~rl::RL_FEATURE_GLOSSY>(kept, buffers, giParamsOf(kept), at);
+}
+
+}  // namespace restlab

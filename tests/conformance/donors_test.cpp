@@ -1,0 +1,321 @@
+// Donors of a pixel: what Session::donors() computes again is what the frame did.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "core/error.h"
+#include "tests/conformance/variants.h"
+
+namespace restlab::conformance {
+namespace {
+
+constexpr uint32_t kWidth = 40, kHeight = 24;
+
+SessionConfig smallConfig(const ParameterMap& parameters = {}, const std::string& cache = "pixel") {
+  SessionConfig config;
+  config.integrator = "restir_gi";
+  config.cache = cache;
+  config.width = kWidth;
+  config.height = kHeight;
+  config.threads = 1;
+  config.parameters = parameters;
+  return config;
+}
+
+const ParameterMap kAlone = {{"spatial_neighbours", int64_t{0}}};
+
+// What tells the sample of a pixel from all others: its film sample and its vertex. "": none.
+std::string sampleOf(const Session& session, size_t pixel) {
+  std::map<std::string, std::string> values;
+  for (const ProbeValue& v : session.probe(uint32_t(pixel % kWidth), uint32_t(pixel / kWidth)))
+    values[v.name] = v.value;
+  return values["W"] == "0" ? "" : values["film"] + " " + values["position or direction"];
+}
+std::vector<std::string> samplesOf(const Session& session) {
+  std::vector<std::string> samples(size_t{kWidth} * kHeight);
+  for (size_t i = 0; i < samples.size(); ++i) samples[i] = sampleOf(session, i);
+  return samples;
+}
+std::vector<Donor> donorsOf(const Session& session, size_t pixel) {
+  return session.donors(uint32_t(pixel % kWidth), uint32_t(pixel / kWidth));
+}
+SceneCamera walked(const CompiledScene& scene, double metres) {
+  SceneCamera camera = scene.source().cameras.front();
+  for (int i = 0; i < 3; ++i) camera.cameraToWorld[3][i] += metres * camera.cameraToWorld[0][i];
+  return camera;
+}
+
+class DonorScenes : public testing::TestWithParam<const char*> {};
+
+// The sample that a pixel has after the frame is the one that the selected donor had in a session
+// without reuse over space; confidences add up.
+TEST_P(DonorScenes, TheSelectedDonorGaveTheSample) {
+  const auto scene = bias::builtinScene(GetParam());
+  Session alone(scene, smallConfig(kAlone)), session(scene, smallConfig());
+  alone.frame();
+  session.frame();
+  const std::vector<std::string> before = samplesOf(alone), after = samplesOf(session);
+  const Image confidence = session.aov("confidence");
+  size_t own = 0, taken = 0, accepted = 0;
+  for (size_t i = 0; i < after.size(); ++i) {
+    const std::vector<Donor> donors = donorsOf(session, i);
+    ASSERT_FALSE(donors.empty());
+    EXPECT_EQ(donors[0].reuse, "own");
+    EXPECT_EQ(donors[0].id, i);
+    double sum = 0.0, shares = 0.0;
+    int selected = 0;
+    for (const Donor& donor : donors) {
+      EXPECT_TRUE(donor.reuse == "own" || donor.reuse == "space") << donor.reuse;
+      sum += donor.confidence;
+      shares += donor.share.value_or(0.0);
+      accepted += donor.shift == "accepted" && donor.reuse == "space";
+      EXPECT_EQ(donor.shift == "accepted", donor.share.has_value());
+      if (!donor.isSelected) continue;
+      ++selected;
+      EXPECT_EQ(after[i], before[donor.id]) << i;
+      EXPECT_GT(*donor.share, 0.0);
+      ++(donor.reuse == "own" ? own : taken);
+    }
+    EXPECT_NEAR(sum, double(confidence.pixels[i].x), 1e-5 * sum) << i;
+    EXPECT_EQ(selected, after[i].empty() ? 0 : 1) << i;
+    if (selected != 0) {
+      EXPECT_NEAR(shares, 1.0, 1e-5) << i;
+    }
+  }
+  EXPECT_GT(own, 50u);
+  EXPECT_GT(taken, 50u);
+  EXPECT_GT(accepted, taken);
+}
+
+// Histories that are old have other numbers of donors, with a share of their confidence.
+TEST_P(DonorScenes, ConfidencesAddUpInOldHistories) {
+  const auto scene = bias::builtinScene(GetParam());
+  Session session(scene, smallConfig({{"young_frames", 3.0}, {"aged_neighbours", int64_t{1}}}));
+  for (int frame = 0; frame < 8; ++frame) session.frame();
+  const Image confidence = session.aov("confidence");
+  for (size_t i = 0; i < confidence.pixels.size(); ++i) {
+    double sum = 0.0, own = 0.0;
+    size_t space = 0;
+    for (const Donor& donor : donorsOf(session, i)) {
+      if (donor.reuse != "time") sum += donor.confidence;
+      if (donor.reuse == "own") own = donor.confidence;
+      space += donor.reuse == "space";
+      if (donor.reuse != "time") continue;
+      EXPECT_EQ(donor.id, i);
+      EXPECT_NEAR(donor.confidence, own - 1.0, 1e-5);
+      EXPECT_NEAR(*donor.misWeight, donor.confidence / own, 1e-5);
+    }
+    EXPECT_LE(space, 1u);
+    EXPECT_NEAR(sum, double(confidence.pixels[i].x), 1e-5 * sum) << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scene, DonorScenes,
+                         testing::Values("door-ajar", "glossy-gallery", "courtyard"),
+                         [](const auto& test) {
+                           std::string name = test.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+// Without reuse over space a pixel's sample after the frame is the one that was left over time, or
+// its own; where the camera has moved the donor is another pixel.
+TEST(Donors, OverTimeAreThePixelsThatShowedTheSurface) {
+  const auto scene = bias::builtinScene("cornell-box");
+  for (const double moved : {0.0, 0.2}) {
+    Session session(scene, smallConfig(kAlone));
+    for (int frame = 0; frame < 3; ++frame) session.frame();
+    const std::vector<std::string> before = samplesOf(session);
+    session.setCamera(walked(*scene, moved));
+    session.frame();
+    const std::vector<std::string> after = samplesOf(session);
+    size_t found = 0, selected = 0, elsewhere = 0;
+    double expected = 0.0, variance = 0.0;
+    for (size_t i = 0; i < after.size(); ++i) {
+      for (const Donor& donor : donorsOf(session, i)) {
+        if (donor.reuse != "time") continue;
+        ++found;
+        elsewhere += donor.id != i;
+        selected += donor.isSelected;
+        EXPECT_EQ(donor.isSelected, !after[i].empty() && after[i] == before[donor.id]) << i;
+        EXPECT_NEAR(donor.confidence, 3.0, 1e-5);
+        const double share = donor.share.value_or(0.0);
+        expected += share;
+        variance += share * (1.0 - share);
+        if (share > 0.999) {
+          EXPECT_TRUE(donor.isSelected) << i;
+        }
+        if (share < 1e-4) {
+          EXPECT_FALSE(donor.isSelected) << i;
+        }
+      }
+    }
+    EXPECT_GT(found, after.size() / 2);
+    EXPECT_GT(selected, found / 4);
+    // Shares are the chances of being selected.
+    EXPECT_LT(std::abs(double(selected) - expected), 4.0 * std::sqrt(variance));
+    EXPECT_GT(variance, 20.0);
+    if (moved == 0.0) {
+      EXPECT_EQ(elsewhere, 0u);
+    }
+    if (moved != 0.0) {
+      EXPECT_GT(elsewhere, found / 4);
+    }
+  }
+}
+
+TEST(Donors, OfEntriesAreInTheCache) {
+  const auto scene = bias::builtinScene("door-ajar");
+  Session session(scene, smallConfig(kAlone, "voxel"));
+  for (int frame = 0; frame < 4; ++frame) session.frame();
+  session.setCamera(walked(*scene, 0.2));
+  session.frame();
+  const Image confidence = session.aov("confidence");
+  size_t found = 0, selected = 0;
+  for (size_t i = 0; i < confidence.pixels.size(); ++i) {
+    double sum = 1.0;
+    for (const Donor& donor : donorsOf(session, i)) {
+      if (donor.reuse == "own") continue;
+      sum += donor.confidence;
+      if (donor.reuse != "entry") continue;
+      ++found;
+      selected += donor.isSelected;
+      EXPECT_GE(donor.confidence, 0.0);
+      EXPECT_LE(donor.share.value_or(0.0), 1.0 + 1e-3) << i;
+      if (donor.isSelected) {
+        EXPECT_GT(donor.share.value_or(0.0), 0.0) << i;
+      }
+    }
+    EXPECT_NEAR(sum, double(confidence.pixels[i].x), 1e-4 * sum) << i;
+  }
+  EXPECT_GT(found, confidence.pixels.size() / 4);
+  EXPECT_GT(selected, 20u);
+}
+
+std::map<std::string, size_t> shiftsOf(const char* scene, const ParameterMap& parameters) {
+  Session session(bias::builtinScene(scene), smallConfig(parameters));
+  session.frame();
+  std::map<std::string, size_t> counts;
+  for (size_t i = 0; i < size_t{kWidth} * kHeight; ++i) {
+    for (const Donor& donor : donorsOf(session, i)) counts[donor.shift] += donor.reuse == "space";
+  }
+  return counts;
+}
+
+// Each test of a shift by the parameter, or the scene, that makes it fail.
+TEST(Donors, SayWhichTestFailed) {
+  const ParameterMap far = {{"normal_threshold", -1.0}, {"plane_threshold", 10.0}};
+  const auto with = [&](const char* name, double value) {
+    ParameterMap parameters = far;
+    parameters[name] = value;
+    return parameters;
+  };
+  auto door = shiftsOf("door-ajar", far);
+  EXPECT_GT(door["occluded"], 20u);
+  EXPECT_GT(door["empty"], 20u);
+  EXPECT_GT(door["dark"], 0u);
+  EXPECT_EQ(door["smooth"] + door["background"], 0u);
+  EXPECT_GT(shiftsOf("door-ajar", with("max_jacobian", 1.01))["jacobian"], 2 * door["jacobian"]);
+  // Some vertices are seen edge-on, whatever the bound.
+  EXPECT_LT(shiftsOf("door-ajar", with("max_jacobian", 1.0e6))["jacobian"], door["jacobian"]);
+  EXPECT_GT(shiftsOf("courtyard", far)["background"], 0u);
+  // Mirrors are smooth, whatever the limit.
+  EXPECT_GT(shiftsOf("glossy-gallery", with("roughness_limit", 0.3))["smooth"],
+            2 * shiftsOf("glossy-gallery", with("roughness_limit", 0.0))["smooth"]);
+}
+
+TEST(Donors, AskingChangesNoBit) {
+  const auto scene = bias::builtinScene("glossy-gallery");
+  Session asked(scene, smallConfig()), other(scene, smallConfig());
+  EXPECT_TRUE(asked.donors(3, 4).empty());
+  for (int frame = 0; frame < 4; ++frame) {
+    asked.frame();
+    other.frame();
+    EXPECT_FALSE(asked.donors(3, 4).empty());
+    asked.aov("rejected_shifts");
+    EXPECT_EQ(countDifferent(asked.radiance(), other.radiance()), 0u);
+  }
+  EXPECT_THROW(asked.donors(kWidth, 0), Error);
+  SessionConfig path = smallConfig();
+  path.integrator = "path";
+  path.cache = "";
+  Session without(scene, path);
+  without.frame();
+  EXPECT_TRUE(without.donors(0, 0).empty());
+}
+
+// Parameters of the next frame are not those of the one that is shown.
+TEST(Donors, AreThoseOfTheFrameThatIsShown) {
+  Session session(bias::builtinScene("door-ajar"), smallConfig({{"young_frames", 100.0}}));
+  for (int frame = 0; frame < 3; ++frame) session.frame();
+  const auto count = [&] {
+    size_t sum = 0;
+    for (size_t i = 0; i < size_t{kWidth} * kHeight; ++i) sum += donorsOf(session, i).size();
+    return sum;
+  };
+  const size_t before = count();
+  const Image layer = session.aov("rejected_shifts");
+  EXPECT_FALSE(session.setParameters({{"young_frames", 0.0}, {"aged_neighbours", int64_t{0}}}));
+  EXPECT_EQ(count(), before);
+  EXPECT_EQ(countDifferent(session.aov("rejected_shifts"), layer), 0u);
+}
+
+TEST(DonorLayers, AreWhatTheDonorsSay) {
+  const auto scene = bias::builtinScene("door-ajar");
+  Session session(scene, smallConfig());
+  for (int frame = 0; frame < 2; ++frame) session.frame();
+  const Image rejected = session.aov("rejected_shifts"), partner = session.aov("partner");
+  std::map<float, std::vector<size_t>> pairs;
+  size_t some = 0;
+  for (size_t i = 0; i < rejected.pixels.size(); ++i) {
+    double shifts = 0.0, failed = 0.0;
+    std::set<size_t> others;
+    for (const Donor& donor : donorsOf(session, i)) {
+      if (donor.reuse != "space") continue;
+      others.insert(donor.id);
+      shifts += donor.shift != "empty";
+      failed += donor.shift != "empty" && donor.shift != "accepted";
+    }
+    EXPECT_NEAR(double(rejected.pixels[i].x), shifts > 0.0 ? failed / shifts : 0.0, 1e-6) << i;
+    some += failed > 0.0;
+    const float pair = partner.pixels[i].x;
+    EXPECT_EQ(partner.pixels[i], glm::vec3(pair));
+    if (pair == 0.0f) continue;
+    pairs[pair].push_back(i);
+    const auto lower = size_t(pair) - 1;
+    EXPECT_TRUE(lower == i || others.contains(lower)) << i;
+  }
+  EXPECT_GT(some, 50u);
+  EXPECT_GT(pairs.size(), 100u);
+  for (const auto& [name, pixels] : pairs) EXPECT_EQ(pixels.size(), 2u) << name;
+}
+
+TEST(DonorLayers, HaveTheSameBitsForAnyNumberOfThreads) {
+  const auto scene = bias::builtinScene("glossy-gallery");
+  SessionConfig config = smallConfig();
+  Session one(scene, config);
+  config.threads = 5;
+  Session many(scene, config);
+  for (int frame = 0; frame < 3; ++frame) {
+    one.frame();
+    many.frame();
+  }
+  for (const char* layer : {"rejected_shifts", "partner"})
+    EXPECT_EQ(countDifferent(one.aov(layer), many.aov(layer)), 0u) << layer;
+}
+
+TEST(DonorLayers, AreZeroWithoutReuseOverSpace) {
+  Session session(bias::builtinScene("cornell-box"),
+                  smallConfig({{"aged_neighbours", int64_t{0}}, {"young_frames", 0.0}}));
+  for (int frame = 0; frame < 3; ++frame) session.frame();
+  for (const char* layer : {"rejected_shifts", "partner"}) {
+    for (const glm::vec3& value : session.aov(layer).pixels) ASSERT_EQ(value, glm::vec3(0.0f));
+  }
+}
+
+}  // namespace
+}  // namespace restlab::conformance
