@@ -227,7 +227,7 @@ void Pipeline::restore() {
   ran_.clear();
   std::vector<std::pair<BufferId, BufferId>> pairs = keptBuffers();
   for (auto& [buffer, copy] : pairs) std::swap(buffer, copy);
-  (void)pairs;
+  backend_.copy(pairs);
 }
 
 // Where the stage did not run, a buffer and the one that it swaps with are both the last run's.

@@ -31,7 +31,7 @@ constexpr double kFewEvents = 50.0;
 
 std::string methodName(const SessionConfig& config) {
   std::string name = config.integrator;
-  if (!config.mode.empty()) name += " " + config.mode;
+  if (findIntegrator(config.integrator).modes.size() > 1) name += " " + config.mode;
   if (!config.cache.empty()) name += ", " + config.cache;
   if (config.denoiser != "none") name += ", " + config.denoiser;
   for (const auto& [key, value] : config.parameters)

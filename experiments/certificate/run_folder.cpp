@@ -12,6 +12,7 @@
 #include <optional>
 #include <thread>
 
+#include "core/backend/stop.h"
 #include "core/error.h"
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/run/files.h"
@@ -26,6 +27,7 @@ namespace fs = std::filesystem;
 // Seeds of the batches do not meet: at most as many runs as this.
 constexpr uint32_t kFirstBatch = 10'000'000, kFreshBatch = 20'000'000;
 constexpr const char* kHealth = "health";
+constexpr const char* kKept = "finished runs are kept; the same command goes on from them";
 
 uint32_t cores() { return std::max(1u, std::thread::hardware_concurrency()); }
 
@@ -82,7 +84,7 @@ void RunFolder::render(Session& session, Batch batch, uint64_t run) {
   HealthSum health;
   ImageSum sum;
   for (uint32_t frame = 0; frame < question_.warmup + question_.frames; ++frame) {
-    throwIfInterrupted("finished runs are kept: the same command goes on from them");
+    throwIfInterrupted(kKept);
     health.add(session.frame());
     if (frame >= question_.warmup) sum.add(session.radiance());
   }
@@ -117,6 +119,11 @@ void RunFolder::make(Batch batch, uint64_t count) {
         const std::lock_guard lock(mutex);
         progress.update(++done);
       }
+    } catch (const FrameStopped&) {
+      next = missing.size();
+      const std::lock_guard lock(mutex);
+      failure = std::make_exception_ptr(
+          Error(ExitCode::interrupted, fmt::format("interrupted: {}", kKept)));
     } catch (...) {
       next = missing.size();
       const std::lock_guard lock(mutex);

@@ -122,6 +122,7 @@ Json jsonOf(const Certified& certified) {
     if (name != nullptr && *name != '\0') health[name] = certified.health.health.counts[i];
   }
   return {{"name", certified.name},
+          {"label", certified.label},
           {"verdict", verdictName(c.verdict)},
           {"reason", c.reason},
           {"how", certified.how},

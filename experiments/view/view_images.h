@@ -33,8 +33,9 @@ constexpr const char* kMethodSource = "";
 constexpr const char* kReferenceSource = "reference";
 
 // A file that says of itself that it is a reference becomes that, where `reference` names none,
-// another image is there and it is looked for: methods have a reference of their own. Throws Error (badInput) where a file cannot be read or is of another size
-// than the first one; (badUsage) where there is none.
+// another image is there and it is looked for: methods have a reference of their own. Throws Error
+// (badInput) where a file cannot be read or is of another size than the first one; (badUsage) where
+// there is none.
 ViewImages readViewImages(const std::vector<std::filesystem::path>& files,
                           const std::filesystem::path& reference = {},
                           bool looksForReference = true);

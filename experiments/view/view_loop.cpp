@@ -13,6 +13,7 @@
 
 #include "core/backend/stop.h"
 #include "core/error.h"
+#include "core/image/atomic_file.h"
 #include "core/method.h"
 #include "experiments/runner/run/files.h"
 #include "experiments/runner/run/interrupt.h"
@@ -194,15 +195,14 @@ void ViewLoop::measure(const std::string& name) {
   if (measurement_.isRunning()) failUsage("measure: one is under way; cancel it first");
   if (!view_.hasScene()) failUsage("measure: images of files are shown, and nothing is rendered");
   if (saveFolder_.empty()) failUsage("measure: there is no folder for its results");
-  const std::string suite = sessionName(view_, name);
-  const std::string file = writeSession(saveFolder_, sessionToml(facts_, view_, suite), suite);
+  const std::string suite =
+      freeSessionName(saveFolder_, name.empty() ? sessionName(view_) : safeFileName(name));
+  writeTextFile(saveFolder_ / (suite + ".toml"), sessionToml(facts_, view_, suite));
   // What there is of the reference need not be rendered again.
   view_.keepReference();
   const std::filesystem::path program =
       facts_.program.empty() ? std::filesystem::read_symlink("/proc/self/exe") : facts_.program;
-  // As the file, which is of no earlier run.
-  const std::string out = "results/" + std::filesystem::path(file).stem().string();
-  measurement_.begin(program, saveFolder_, file, out);
+  measurement_.begin(program, saveFolder_, suite + ".toml", resultsOfSession(suite).string());
   sender_.tellAll(measureText(measurement_));
 }
 
@@ -216,13 +216,14 @@ void ViewLoop::followMeasurement() {
 }
 
 void ViewLoop::save(ClientId page, const std::string& given) {
-  const std::string toml = sessionToml(facts_, view_, sessionName(view_, given));
-  const std::string stem = given.empty() ? "session" : safeFileName(given);
-  std::string name = stem + ".toml";
+  std::string stem = given.empty() ? "session" : safeFileName(given);
+  if (!saveFolder_.empty()) stem = freeSessionName(saveFolder_, stem);
+  const std::string toml = sessionToml(facts_, view_, given.empty() ? sessionName(view_) : stem);
+  const std::string name = stem + ".toml";
   if (!saveFolder_.empty()) {
     try {
-      name = writeSession(saveFolder_, toml, stem);
       const std::string file = (saveFolder_ / name).lexically_normal().string();
+      writeTextFile(file, toml);
       sender_.tell(page, saidText(fmt::format("{}: written", file)));
     } catch (const Error& error) {
       sender_.tell(page, saidText(fmt::format("{}; the page has the session", error.what())));

@@ -319,8 +319,7 @@ bool losesRoll(const LiveView& view) {
   return view.hasScene() && !sceneCameraOf(view) && isRolled(view.camera());
 }
 
-std::string sessionName(const LiveView& view, const std::string& given) {
-  if (!given.empty()) return safeFileName(given);
+std::string sessionName(const LiveView& view) {
   std::string time = utcNow();  // 2024-05-01T12:00:00Z
   std::erase_if(time, [](char c) { return c == '-' || c == ':' || c == 'Z'; });
   std::replace(time.begin(), time.end(), 'T', '-');

@@ -28,8 +28,8 @@ ViewStart startOfSuite(const std::filesystem::path& file);
 std::string sessionToml(const ViewFacts& facts, const LiveView& view, const std::string& name);
 constexpr uint64_t kLeastReferenceSpp = 256;
 
-// The name that was given, as part of file names; "": of the scene and of now.
-std::string sessionName(const LiveView& view, const std::string& given);
+// Of the scene and of now, as part of file names.
+std::string sessionName(const LiveView& view);
 
 // Of the panes' methods, each another one: "restir_gi (biased)", "path + accumulate".
 std::vector<std::string> methodNames(const ViewSettings& settings);

@@ -2,23 +2,21 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "core/image/atomic_file.h"
-
 namespace restlab {
 
-std::string writeSession(const std::filesystem::path& folder, const std::string& toml,
-                         const std::string& stem) {
-  constexpr int kMostSessions = 1000;
-  std::string name = stem + ".toml";
+namespace fs = std::filesystem;
+
+std::string freeSessionName(const fs::path& folder, const std::string& stem) {
   std::error_code status;
-  for (int i = 2; std::filesystem::exists(folder / name, status); ++i) {
-    if (i > kMostSessions)
-      failInput(fmt::format("{}: holds {} sessions", folder.string(), kMostSessions));
-    name = fmt::format("{}-{}.toml", stem, i);
-  }
-  writeTextFile(folder / name, toml);
+  const auto isTaken = [&](const std::string& name) {
+    return fs::exists(folder / (name + ".toml"), status) ||
+           fs::exists(folder / resultsOfSession(name), status);
+  };
+  std::string name = stem;
+  for (int i = 2; isTaken(name); ++i) name = fmt::format("{}-{}", stem, i);
   return name;
 }
+
+fs::path resultsOfSession(const std::string& name) { return fs::path("results") / name; }
 
 }  // namespace restlab

@@ -69,6 +69,19 @@ TEST_F(MeasureTest, RunsTheSessionAndShowsItsReport) {
   // A second one replaces nothing.
   page.say({{"do", "measure"}, {"name", "my suite"}});
   page.waitFor("measure", [](const Json& m) { return m["folder"] == "results/my-suite-2"; });
+  EXPECT_EQ(loadSuite(folder() / "my-suite-2.toml", {}).name, "my-suite-2");
+}
+
+// `run` without -o puts results where the suite's name says.
+TEST_F(MeasureTest, NamesOfSuitesAreThoseOfTheirFiles) {
+  fs::create_directories(folder() / "results" / "old");
+  start();
+  Page page(url());
+  for (const char* name : {"a", "a-2", "old-2"}) {
+    page.say({{"do", "save"}, {"name", *name == 'o' ? "old" : "a"}});
+    EXPECT_EQ(page.waitFor("saved")["name"], std::string(name) + ".toml");
+    EXPECT_EQ(loadSuite(folder() / (std::string(name) + ".toml"), {}).name, name);
+  }
 }
 
 TEST_F(MeasureTest, IsCancelled) {

@@ -76,6 +76,8 @@ class Page {
     return false;
   }
 
+  // Received so far.
+  uint64_t bytes() const { return bytes_; }
   void close() { boost::beast::get_lowest_layer(socket_).close(); }
 
  private:
@@ -87,6 +89,7 @@ class Page {
     socket_.async_read(buffer_, [&](boost::system::error_code error, size_t) { result = error; });
     io_.restart();
     io_.run_for(kPatience);
+    bytes_ += buffer_.size();
     if (!io_.stopped()) {
       close();
       io_.run();
@@ -110,6 +113,7 @@ class Page {
   boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
   boost::beast::flat_buffer buffer_;
   std::map<uint32_t, ShownImage> images_;
+  uint64_t bytes_ = 0;
 };
 
 }  // namespace restlab::view_test

@@ -159,6 +159,11 @@ TEST_F(ViewImagesTest, SessionsKeepTheChoice) {
   const ViewStart start = startOfSuite(folder() / "methods.toml");
   ASSERT_NE(start.prepared.scene, nullptr);
   EXPECT_TRUE(isSame(start.settings, view.settings())) << sessionToml(facts_, view, "a-name");
+  // A reference of a file is not for methods: where files stand beside them it is an image.
+  small();
+  const ViewImages beside = readViewImages({folder() / "a.exr", folder() / "r.exr"}, {}, false);
+  EXPECT_EQ(beside.list.size(), 2u);
+  EXPECT_FALSE(beside.reference.has_value());
   std::ofstream(folder() / "wrong.toml")
       << "[view]\nimages = [\"" << (folder() / "c.exr").string() << "\"]\na = \"d.exr\"\n";
   const std::string line =

@@ -299,8 +299,8 @@ TEST_F(ViewLoopTest, SavesTwoOfTheSame) {
       settingsOf(prepareScene(facts_.request), {smallPane("restir_gi"), smallPane("restir_gi")});
   const auto reopened = [&] {
     const LiveView view(prepareScene(facts_.request), settings, {});
-    const std::string name = writeSession(folder(), sessionToml(facts_, view, "two"), "session");
-    return startOfSuite(folder() / name).settings;
+    std::ofstream(folder() / "two.toml") << sessionToml(facts_, view, "two");
+    return startOfSuite(folder() / "two.toml").settings;
   };
   EXPECT_TRUE(isSame(reopened(), settings));
   const LiveView view(prepareScene(facts_.request), settings, {});

@@ -1,0 +1,140 @@
+// Times of docs/performance.md, "The viewer": how fluent the page is while nobody renders, and what
+// it costs to be watched. They are printed, and say nothing on a busy machine; what is asserted
+// holds on any.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+#include "core/image/intervals.h"
+#include "tests/view/live_page.h"
+
+namespace restlab::view_test {
+namespace {
+
+double percentileOf(std::vector<double> values, double fraction) {
+  return percentile(values, fraction);
+}
+
+using PageSpeedTest = LivePageTest;
+
+// What the events of a pointer call, once a frame of the browser, for three seconds each.
+TEST_F(PageSpeedTest, NightlyPanZoomAndWipe) {
+  facts_.request.scene = "door-ajar";
+  std::vector<SessionConfig> panes = {smallPane("restir_gi"), smallPane("path")};
+  for (SessionConfig& pane : panes) {
+    pane.width = 1280;
+    pane.height = 720;
+    pane.threads = 2;
+  }
+  serve(panes);
+  browser_->evaluate("void (location.href = " + Json(url()).dump() + ")");
+  waitUntilShown(*browser_);
+  pause();
+  const Json read = page(R"(
+    const {canvas} = viewer, result = {width: canvas.width, height: canvas.height};
+    const motions = {
+      pan: i => { viewer.camera.pan(i % 40 < 20 ? 7 : -7, i % 20 < 10 ? 3 : -3); viewer.redraw(); },
+      zoom: i => viewer.zoom(i % 40 < 20 ? 1.05 : 1 / 1.05, 300, 200),
+      wipe: i => viewer.set({wipe: 0.5 + 0.4 * Math.sin(i / 9)})
+    };
+    viewer.set({mode: 'wipe', current: 0, compare: 2});
+    for (const [name, move] of Object.entries(motions)) {
+      if (name === 'pan') viewer.zoom(3, 300, 200);
+      await frame();
+      const before = Number(viewer.root.dataset.drawn), begin = performance.now();
+      const gaps = [];
+      for (let i = 0, last = begin; performance.now() < begin + 3000; ++i) {
+        move(i);
+        await frame();
+        const now = performance.now();
+        gaps.push(now - last);
+        last = now;
+      }
+      const drawn = Number(viewer.root.dataset.drawn) - before;
+      result[name] = {perSecond: 1000 * drawn / (performance.now() - begin), gaps};
+    }
+    return result;)");
+  std::printf("canvas %dx%d:", read["width"].get<int>(), read["height"].get<int>());
+  for (const char* name : {"pan", "zoom", "wipe"}) {
+    const double perSecond = read[name]["perSecond"];
+    std::printf(" %s %.1f a second (95 %% of the gaps below %.0f ms);", name, perSecond,
+                percentileOf(read[name]["gaps"].get<std::vector<double>>(), 0.95));
+    EXPECT_GT(perSecond, 0.5) << name << ": nothing is drawn";
+  }
+  std::printf("\n");
+
+  page(R"(
+    viewer.set({mode: 'single', current: 0});
+    window.delays = [];
+    document.addEventListener('keydown', async event => {
+      const {stops} = viewer.root.dataset;
+      do { await frame(); } while (viewer.root.dataset.stops === stops);
+      await frame();
+      delays.push(performance.now() - event.timeStamp);
+    }, true);)");
+  for (int i = 0; i < 40; ++i) {
+    press(i % 2 == 0 ? "e" : "E");
+    page("await until(() => delays.length > " + std::to_string(i) + ");");
+  }
+  const auto delays = page("return delays;").get<std::vector<double>>();
+  std::printf("from key to changed picture: median %.0f ms, 95th percentile %.0f ms\n",
+              percentileOf(delays, 0.5), percentileOf(delays, 0.95));
+}
+
+// The passes of each frame, of a view that nobody sees and of one that a page receives, in turn.
+TEST_F(PageSpeedTest, NightlyBeingWatched) {
+  constexpr int kRounds = 6, kWarmUp = 10, kFrames = 40;
+  facts_.request.scene = "door-ajar";
+  const PreparedScene prepared = prepareScene(facts_.request);
+  std::vector<SessionConfig> panes = {smallPane("restir_gi"), smallPane("path", "accumulate")};
+  for (SessionConfig& pane : panes) {
+    pane.width = 320;
+    pane.height = 180;
+    pane.maxBounces = 8;
+    pane.threads = 2;
+  }
+  std::vector<double> ratios[2];
+  double bytes = 0.0, seconds = 0.0;
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<double> alone[2], watched[2];
+    LiveView view(prepared, panes, ReferenceStore{});
+    for (int frame = 0; frame < kWarmUp + kFrames; ++frame) {
+      view.renderFrames();
+      for (size_t pane = 0; frame >= kWarmUp && pane < 2; ++pane)
+        alone[pane].push_back(view.stats(pane).timeMs);
+    }
+    start(settingsOf(prepared, panes));
+    {
+      Page page(url());
+      page.waitFor("numbers", [&](const Json& said) {
+        return said["panes"][1]["frame"].get<int>() >= kWarmUp;
+      });
+      const uint64_t before = page.bytes();
+      const auto begin = std::chrono::steady_clock::now();
+      while (watched[0].size() < size_t(kFrames)) {
+        const Json said = page.waitFor("numbers");
+        for (size_t pane = 0; pane < 2; ++pane)
+          watched[pane].push_back(said["panes"][pane]["ms"].get<double>());
+      }
+      seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      bytes += double(page.bytes() - before);
+    }
+    stop();
+    loop_.reset();
+    view_.reset();
+    for (size_t pane = 0; pane < 2; ++pane)
+      ratios[pane].push_back(median(watched[pane]) / median(alone[pane]));
+  }
+  for (size_t pane = 0; pane < 2; ++pane) {
+    const Interval ratio = geometricMeanInterval(ratios[pane]);
+    std::printf("%s: frame time of a watched view over one alone %.3f [%.3f, %.3f], %d rounds\n",
+                pane == 0 ? "restir_gi" : "path + accumulate", ratio.value, ratio.lo, ratio.hi,
+                kRounds);
+    EXPECT_GT(ratio.value, 0.0);
+  }
+  std::printf("stream: %.2f MB/s\n", bytes / seconds / 1e6);
+  EXPECT_GT(bytes, 0.0);
+}
+
+}  // namespace
+}  // namespace restlab::view_test
