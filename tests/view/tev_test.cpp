@@ -105,11 +105,12 @@ TEST_F(TevTest, DelaysNothingWhereItDoesNotRead) {
     longest = std::max(longest, Clock::now() - last);
     last = Clock::now();
   }
-  EXPECT_LT(longest, std::chrono::seconds(2));
+  // It never reads: whoever waited for it would wait for good.
+  EXPECT_LT(longest, std::chrono::seconds(20));
   const auto stopping = Clock::now();
   stop();
   loop_.reset();
-  EXPECT_LT(Clock::now() - stopping, std::chrono::seconds(2))
+  EXPECT_LT(Clock::now() - stopping, std::chrono::seconds(20))
       << "it ends in the middle of a message";
 }
 
