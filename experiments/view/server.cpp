@@ -14,10 +14,10 @@
 #include <deque>
 #include <map>
 #include <optional>
-#include <random>
 #include <thread>
 
 #include "core/error.h"
+#include "experiments/view/server_address.h"
 
 namespace restlab {
 
@@ -42,48 +42,9 @@ constexpr const char* kPolicy =
     "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: "
     "blob:; connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-// 128 random bits in hexadecimal digits.
-std::string newToken() {
-  std::random_device device;
-  std::string token;
-  for (int i = 0; i < 4; ++i) token += fmt::format("{:08x}", uint32_t(device()));
-  return token;
-}
-
-// Takes the same time wherever the difference lies.
-bool equalSecrets(const std::string& a, const std::string& b) {
-  if (a.size() != b.size()) return false;
-  unsigned difference = 0;
-  for (size_t i = 0; i < a.size(); ++i) difference |= unsigned(uint8_t(a[i]) ^ uint8_t(b[i]));
-  return difference == 0;
-}
-
 std::string textOf(beast::string_view text) { return std::string(text.data(), text.size()); }
 
-// "path?token=..." in its parts; a token that is not there is empty.
-struct Target {
-  std::string path, token;
-};
-Target targetOf(const Request& request) {
-  const std::string text = textOf(request.target());
-  const size_t question = std::min(text.find('?'), text.size());
-  Target target{text.substr(0, question), ""};
-  const std::string query = question < text.size() ? text.substr(question + 1) : "";
-  const std::string name = "token=";
-  if (query.rfind(name, 0) == 0) target.token = query.substr(name.size());
-  return target;
-}
-
-// Of "name:port" or "[address]:port" the part before the port.
-std::string hostName(const std::string& host) {
-  const size_t bracket = host.find(']');
-  const size_t colon = host.find(':', bracket == std::string::npos ? 0 : bracket);
-  return host.substr(0, colon);
-}
-
-std::string inUrl(const std::string& address) {
-  return address.find(':') == std::string::npos ? address : "[" + address + "]";
-}
+ServerTarget targetOf(const Request& request) { return parseTarget(textOf(request.target())); }
 
 }  // namespace
 
@@ -178,7 +139,7 @@ class ViewServer::Impl {
     const std::string origin = textOf(request[http::field::origin]);
     if (!origin.empty() && origin != "http://" + host)
       return refuse(http::status::forbidden, "Origin: another page's requests are not served");
-    const Target target = targetOf(request);
+    const ServerTarget target = targetOf(request);
     if (target.path != "/" && target.path != "/socket" && target.path != "/report")
       return refuse(http::status::not_found, "there are /, /socket and /report");
     if (!equalSecrets(target.token, token_))
@@ -186,7 +147,7 @@ class ViewServer::Impl {
                     "the token of the printed address is missing or wrong");
     const bool isSocket = target.path == "/socket";
     if (isSocket != websocket::is_upgrade(request))
-      return refuse(http::status::bad_request, "/socket is a WebSocket, and / is none");
+      return refuse(http::status::bad_request, "/socket is a WebSocket, and nothing else is");
     if (target.path == "/report" && !report_)
       return refuse(http::status::not_found, "nothing was measured yet");
     if (isSocket && clients_.size() >= options_.mostClients) {

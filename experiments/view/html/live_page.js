@@ -51,7 +51,8 @@ class LivePage {
     this.viewer.data.epoch = state.epoch;
     state.panes.forEach((pane, i) => {
       this.viewer.setImage(i, {name: `${PANE_NAMES[i]}: ${paneName(pane, this.hello)}`});
-      if ((!pane.layer || pane.source) && this.viewer.images[i].overlay) this.viewer.setImage(i, {overlay: null});
+      const hasLayer = pane.layer && !pane.source;
+      if (!hasLayer && this.viewer.images[i].overlay) this.viewer.setImage(i, {overlay: null});
     });
     this.numbers.showNames(this.viewer.images.map(image => image.name));
     const {camera} = this.viewer;
@@ -100,7 +101,8 @@ class LivePage {
     this.probe = new ProbePanel(this, count);
     this.tabs = new Tabs('Panels', [
       ['methods', 'Methods', this.methods.element], ['scene', 'Scene', this.scene.element],
-      ['plots', 'Plots', make('div', {}, this.measurement.element, this.plots.element)], ['probe', 'Probe', this.probe.element]
+      ['plots', 'Plots', make('div', {}, this.measurement.element, this.plots.element)],
+      ['probe', 'Probe', this.probe.element]
     ]);
     this.tabs.tabs.get('plots').tab.addEventListener('click', () => this.plots.show());
     this.side.append(this.numbers.element, this.tabs.element, this.messages.element);
@@ -234,8 +236,8 @@ class LivePage {
 
   // Of the image that is chosen.
   savePicture() {
-    const {current, images} = {...this.viewer.state, images: this.viewer.images};
-    const isReference = images[current].role === 'reference';
+    const {current} = this.viewer.state;
+    const isReference = this.viewer.images[current].role === 'reference';
     this.session.send({do: 'picture', image: isReference ? REFERENCE_SLOT : current});
   }
 

@@ -44,20 +44,19 @@ class PanePanel {
     this.settings = make('div', {class: 'setting-group'});
     this.layer = make('div', {class: 'setting-group'});
     this.parameters = make('div', {class: 'parameters'});
+    this.ofMethod = make('div', {}, make('div', {class: 'settings'}, this.settings, this.layer),
+                         this.parameters);
     this.element = make('section', {'aria-label': `Pane ${PANE_NAMES[index]}`},
                         make('label', {class: 'line'}, make('span', {}, 'shows'),
                              this.source.element),
-                        this.noMethod,
-                        this.all = make('div', {},
-                                        make('div', {class: 'settings'}, this.settings, this.layer),
-                                        this.parameters));
+                        this.noMethod, this.ofMethod);
   }
 
   send(command) { this.page.session.send({...command, pane: this.index}); }
 
   show(pane, hello) {
     this.source.show(pane.source);
-    this.all.hidden = Boolean(pane.source);
+    this.ofMethod.hidden = Boolean(pane.source);
     this.noMethod.hidden = !pane.source;
     if (!hello.has_scene) return;
     this.showSettings(pane, hello);
