@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "core/error.h"
+#include "experiments/report/text.h"
 
 namespace restlab {
 
@@ -24,29 +25,6 @@ fs::path folderOfUser() {
   return fs::temp_directory_path();
 }
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
-
 }  // namespace
 
 RedirectFile::RedirectFile(const std::string& url) {
@@ -59,7 +37,7 @@ RedirectFile::RedirectFile(const std::string& url) {
   const std::string page = fmt::format(
       "<!doctype html>\n<meta charset=\"utf-8\">\n<meta http-equiv=\"refresh\" "
       "content=\"0;url={0}\">\n<title>restlab view</title>\n<a href=\"{0}\">restlab view</a>\n",
-      escaped(url));
+      escapeMarkup(url));
   const bool isWritten = write(file, page.data(), page.size()) == ssize_t(page.size());
   if (close(file) != 0 || !isWritten) {
     std::error_code ignored;

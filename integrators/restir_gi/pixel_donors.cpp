@@ -33,27 +33,10 @@ constexpr double kRoundingOfShares = 1e-3, kRoundingOfConfidence = 1e-4;
 namespace over_space {
 template <uint FEATURES>
 struct Ctx {
-  static constexpr uint kFeatures = FEATURES;
-
-  const SceneData& gScene;
-  const FrameData& gFrame;
-  CpuKernelCounters& gCounters;
-  RTCScene embreeScene;
-  const RestirGiBuffers& gBuffers;
-  const RestirGiParams& gParams;
-
-#include "core/dialect/order.glsl"
-#include "core/backend/cpu_trace.inl"
+#include "integrators/restir_gi/pixel_context.inl"
 #include "integrators/restir_gi/spatial.glsl"
 #include "core/payload/path_shift.glsl"
 #include "integrators/restir_gi/pixel_donors.inl"
-
-  PathReservoir reservoirOf(uint slot) {
-    PathReservoir r;
-    r.path.suffix = pathNoSuffix();
-    giReadNow(slot, r);
-    return r;
-  }
 
   // The merge of core/resampling/reuse.glsl, step by step.
   Donors overSpace(uvec2 pixel) {
@@ -66,11 +49,7 @@ struct Ctx {
     const ReservoirState own = reservoirOf(s.slot).state;
     const uint count = giDonors();
     ReservoirState donor = own, selected = own;
-    real cDonors = 0.0f;
-    for (uint k = 0; k < count; ++k) {
-      if (reuseDonor(s, k, donor)) cDonors += donor.confidence;
-    }
-    MergeState merge = mergeBegin(own, cDonors, flags);
+    MergeState merge = mergeBegin(own, confidenceOf(s, count), flags);
     for (uint k = 0; k < count; ++k) {
       if (reuseDonor(s, k, donor))
         mergeWeighCanonical(merge, own, donor.confidence, reuseOurs(s, k), flags);
@@ -113,17 +92,7 @@ struct Ctx {
 namespace over_time {
 template <uint FEATURES>
 struct Ctx {
-  static constexpr uint kFeatures = FEATURES;
-
-  const SceneData& gScene;
-  const FrameData& gFrame;
-  CpuKernelCounters& gCounters;
-  RTCScene embreeScene;
-  const RestirGiBuffers& gBuffers;
-  const RestirGiParams& gParams;
-
-#include "core/dialect/order.glsl"
-#include "core/backend/cpu_trace.inl"
+#include "integrators/restir_gi/pixel_context.inl"
 #include "integrators/restir_gi/initial.glsl"
 #include "core/payload/path_shift.glsl"
 #include "core/resampling/reproject.glsl"
@@ -167,9 +136,7 @@ struct Ctx {
     // The pixel's sample of this frame has the confidence 1; without one more, nothing was merged.
     donor.confidence = confidence - 1.0f;
     if (before == RL_INVALID || !(donor.confidence > kRoundingOfConfidence)) return {};
-    PathReservoir merged;
-    merged.path.suffix = pathNoSuffix();
-    giReadNow(slot, merged);
+    const PathReservoir merged = reservoirOf(slot);
     const real wSum = merged.state.W * reuseTarget(merged.state.F);
     const uint film = cameraFilmBits(pixel);
     // Samples keep the film sample that they were found with, each pixel and frame has another one.
@@ -196,17 +163,7 @@ struct Ctx {
 namespace of_entries {
 template <uint FEATURES>
 struct Ctx {
-  static constexpr uint kFeatures = FEATURES;
-
-  const SceneData& gScene;
-  const FrameData& gFrame;
-  CpuKernelCounters& gCounters;
-  RTCScene embreeScene;
-  const RestirGiBuffers& gBuffers;
-  const RestirGiParams& gParams;
-
-#include "core/dialect/order.glsl"
-#include "core/backend/cpu_trace.inl"
+#include "integrators/restir_gi/pixel_context.inl"
 #include "integrators/restir_gi/recall.glsl"
 #include "integrators/restir_gi/pixel_donors.inl"
 
@@ -225,19 +182,13 @@ struct Ctx {
       isAsked = isAsked || s.id[k] != RL_INVALID;
     }
     if (!isAsked) return {};
-    PathReservoir now;
-    now.path.suffix = pathNoSuffix();
-    giReadNow(s.slot, now);
+    const PathReservoir now = reservoirOf(s.slot);
     s.rng = rngInit(gFrame.seed, s.slot, gFrame.frame);
     s.rng.vertex = RL_VERTEX_RECALL;
     const uint film = rngBits(s.rng, RL_DIM_FILTER_X);
     giAskEntries(s, now, pixel, film, count);
-    ReservoirState donor = now.state;
-    real cDonors = 0.0f;
-    for (uint k = 0; k < count; ++k) {
-      if (reuseDonor(s, k, donor)) cDonors += donor.confidence;
-    }
-    ReservoirState canonical = now.state;
+    ReservoirState donor = now.state, canonical = now.state;
+    const real cDonors = confidenceOf(s, count);
     canonical.confidence -= cDonors;
     const MergeState merge = mergeBegin(canonical, cDonors, flags);
     const real wSum = now.state.W * reuseTarget(now.state.F);

@@ -1,6 +1,16 @@
 // What a merge makes of one candidate. Inside a kernel context, after core/resampling/merge.glsl
 // and core/payload/path_shift.glsl.
 
+// Of all donors, after caps.
+real confidenceOf(const RL_REUSE_STATE& s, uint count) {
+  ReservoirState donor = reservoirEmpty();
+  real sum = 0.0f;
+  for (uint k = 0; k < count; ++k) {
+    if (reuseDonor(s, k, donor)) sum += donor.confidence;
+  }
+  return sum;
+}
+
 // The first test that the shift of a sample to the pixel fails, in the order of pathShiftStep(),
 // with x1 seen through `film`.
 const char* failedTest(const PathReservoir& r, const uvec2& pixel, uint film) {

@@ -48,6 +48,9 @@ class LivePageTest : public ViewLoopTest {
 
   // Real events, apart from keys with Ctrl or Alt.
   void press(const std::string& name);
+  // From now on window.delays gets, of each key that changes the exposure, the milliseconds from
+  // the browser's event to the second frame of the page that has it.
+  void watchExposureKeys();
   void keyDown(const std::string& name);
   void keyUp(const std::string& name);
   void click(const std::string& selector);

@@ -173,6 +173,17 @@ void LivePageTest::keyUp(const std::string& name) {
   browser_->keyUp(key.key, key.code, key.shift);
 }
 
+void LivePageTest::watchExposureKeys() {
+  page(R"(
+    window.delays = [];
+    document.addEventListener('keydown', async event => {
+      const {stops} = viewer.root.dataset;
+      do { await frame(); } while (viewer.root.dataset.stops === stops);
+      await frame();
+      delays.push(performance.now() - event.timeStamp);
+    }, true);)");
+}
+
 void LivePageTest::press(const std::string& name) {
   keyDown(name);
   keyUp(name);

@@ -63,15 +63,8 @@ TEST_F(PageSpeedTest, NightlyPanZoomAndWipe) {
   }
   std::printf("\n");
 
-  page(R"(
-    viewer.set({mode: 'single', current: 0});
-    window.delays = [];
-    document.addEventListener('keydown', async event => {
-      const {stops} = viewer.root.dataset;
-      do { await frame(); } while (viewer.root.dataset.stops === stops);
-      await frame();
-      delays.push(performance.now() - event.timeStamp);
-    }, true);)");
+  page("viewer.set({mode: 'single', current: 0});");
+  watchExposureKeys();
   for (int i = 0; i < 40; ++i) {
     press(i % 2 == 0 ? "e" : "E");
     page("await until(() => delays.length > " + std::to_string(i) + ");");
