@@ -338,12 +338,8 @@ TEST_F(VulkanTest, ALostDeviceIsOneLineAndFinishedRunsStay) {
     expectError(run(suite), 4, lost);
     EXPECT_FALSE(fs::exists(path("out/summary.csv"))) << "no run was finished";
   }
-  ASSERT_EQ(run(suite).code, 0);
-  EXPECT_EQ(parseCsv(read("out/summary.csv"))[0].at("runs"), "3");
-  // Not exactly as many in every run: frames that take long are submitted in more parts.
-  const std::string last = std::to_string(std::stol(read("count")) * 85 / 100);
-  const Variable limit("RESTLAB_TEST_SUBMISSIONS", last.c_str());
-  fs::remove_all(path("out"));  // or its runs would be taken as they are
+  // By what is finished, not by a number of submissions: frames that take long have more.
+  const Variable finished("RESTLAB_TEST_RESULTS", path("out/results.jsonl").c_str());
   const ProgramResult result = run(suite);
   EXPECT_EQ(result.code, 4) << result.err;
   ASSERT_EQ(result.errors().size(), 1u) << result.err;

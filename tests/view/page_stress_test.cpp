@@ -100,9 +100,18 @@ TEST_F(PageStressTest, LivesThroughRandomCommands) {
   script.replace(script.find("SEED"), 4, std::to_string(seed));
   page(script);
   page(R"(
-    send({do: 'resolution', width: 64, height: 36});
-    send({do: 'pause', on: false});
-    await until(() => page.state.width === 64 && page.state.height === 36 && !page.state.paused);
+    // Nothing renders while one of the keys has begun a measurement, and nothing can be set.
+    let asked = -Infinity;
+    await until(() => {
+      const {width, height, paused} = page.state, {isRunning} = page.measurement;
+      if (width === 64 && height === 36 && !paused && !isRunning) return true;
+      if (performance.now() < asked + 200) return false;
+      asked = performance.now();
+      if (isRunning) send({do: 'cancel'});
+      send({do: 'resolution', width: 64, height: 36});
+      send({do: 'pause', on: false});
+      return false;
+    });
     const before = Number(viewer.root.dataset.received), {epoch} = page.state;
     await until(() => viewer.root.dataset.received > before + 3 &&
                       [0, 1].every(i => viewer.images[i].width === 64));
