@@ -76,8 +76,9 @@ std::string kernelUnit(const Kernel& kernel, const std::string& mask, const std:
 }
 
 class Cpp : public testing::TestWithParam<std::string> {};
+class CppHeaders : public Cpp {};
 
-TEST_P(Cpp, EveryHeaderCompilesAlone) {
+TEST_P(CppHeaders, EveryOneCompilesAlone) {
   // Twice the same header: an include guard that is missing or misspelt shows.
   for (const std::string& header : dialectHeaders()) {
     const std::string include = "#include \"" + header + "\"\n";
@@ -92,6 +93,8 @@ TEST_P(Cpp, EveryKernelCompiles) {
   const std::string before = precompiledHeader(GetParam());
   for (const Kernel& kernel : kernels()) {
     for (const char* mask : {"0u", "16383u"}) {
+      // The build has compiled those, with every warning.
+      if (GetParam() == RESTLAB_GXX && std::string(mask) != "0u") continue;
       for (const std::string& trace : traces) {
         const std::string name = kernel.name + "_" + mask + "_" + trace;
         const CommandResult result =
@@ -110,11 +113,13 @@ TEST_P(Cpp, ErrorsNameFileAndLine) {
       << result.output;
 }
 
-INSTANTIATE_TEST_SUITE_P(, Cpp, testing::Values(RESTLAB_GXX, RESTLAB_CLANGXX),
-                         [](const auto& test) {
-                           const bool isClang = test.param.find("clang") != std::string::npos;
-                           return isClang ? "clang" : "gcc";
-                         });
+const char* compilerName(const testing::TestParamInfo<std::string>& test) {
+  return test.param.find("clang") != std::string::npos ? "clang" : "gcc";
+}
+INSTANTIATE_TEST_SUITE_P(, Cpp, testing::Values(RESTLAB_GXX, RESTLAB_CLANGXX), compilerName);
+// Headers that lack an include lack it for both compilers.
+INSTANTIATE_TEST_SUITE_P(, CppHeaders, testing::Values(RESTLAB_CLANGXX), compilerName);
+INSTANTIATE_TEST_SUITE_P(Nightly, CppHeaders, testing::Values(RESTLAB_GXX), compilerName);
 
 GlslResult compileKernel(const Kernel& kernel, const std::string& trace = traceFiles().front()) {
   const std::string text = glslKernelSource({kernel.header, kernel.file, trace, "", false});

@@ -14,7 +14,7 @@
 namespace restlab::unit {
 namespace {
 
-constexpr uint64_t kSamples = 1'000'000;
+constexpr uint64_t kSamples = 500'000;
 
 // The base under a layer is scaled by the Fresnel term of a smooth one, which a rough layer of
 // ior 1.5 exceeds by up to 0.0018 around 50 degrees (a perfectly white base; the loss at other
