@@ -31,6 +31,8 @@ struct Effort {
   int threads;
 };
 constexpr Effort kEveryDay{128, 1024, 1};
+constexpr Effort kObvious{64, 256, 1};  // of a mistake by half of the image
+constexpr Effort kSmall{192, 1024, 1};  // of one by a few percent of some cells
 constexpr Effort kNightly{256, 8192, 0};
 
 // What is rendered, and the light of the frames that count.
@@ -180,18 +182,20 @@ Setting dimmed() {
 const ParameterMap kConfidence = {{"mis", std::string("confidence")}};
 
 // What is tried in a still view with far donors.
-const std::vector<std::string> kOfWeights = {
-    "empty_inputs_dropped", "failed_shifts_dropped",       "jacobian_inverted",
-    "jacobian_left_out",    "light_density_of_the_source", "random_dimension_reused"};
+const std::vector<std::string> kOfWeights = {"empty_inputs_dropped", "failed_shifts_dropped",
+                                             "jacobian_left_out", "light_density_of_the_source",
+                                             "random_dimension_reused"};
 
 void tryWeights(const Effort& effort) {
   const Trial trial(belowTheLamp(farDonors()), effort);
   trial.expectRight();
   for (const std::string& name : kOfWeights) trial.expectCanary(name);
 }
-void tryConfidence(const Effort& effort) {
+// With the donors of the defaults. Of far ones an inverted Jacobian makes noise too skewed to test.
+void tryNear(const Effort& effort) {
   const Trial trial(belowTheLamp({}), effort);
   trial.expectRight();
+  trial.expectCanary("jacobian_inverted");
   trial.expectRejected("mis = confidence", trial.certify(kConfidence));
 }
 void tryFilm(const Effort& effort) {
@@ -216,13 +220,13 @@ void tryChangingLight(const Effort& effort) {
 }
 
 TEST(Canary, WrongWeightsAreRejected) { tryWeights(kEveryDay); }
-TEST(Canary, ConfidenceWeightsAreRejected) { tryConfidence(kEveryDay); }
+TEST(Canary, WrongWeightsOfNearDonorsAreRejected) { tryNear(kEveryDay); }
 TEST(Canary, ConfidenceByTheFilmSampleIsRejected) { tryFilm(kEveryDay); }
 TEST(Canary, MissingVisibilityIsRejected) { tryWalking(kEveryDay); }
-TEST(Canary, AStaleTargetIsRejected) { tryChangingLight(kEveryDay); }
+TEST(Canary, AStaleTargetIsRejected) { tryChangingLight(kObvious); }
 
 TEST(Canary, NightlyWrongWeightsAreRejected) { tryWeights(kNightly); }
-TEST(Canary, NightlyConfidenceWeightsAreRejected) { tryConfidence(kNightly); }
+TEST(Canary, NightlyWrongWeightsOfNearDonorsAreRejected) { tryNear(kNightly); }
 TEST(Canary, NightlyConfidenceByTheFilmSampleIsRejected) { tryFilm(kNightly); }
 TEST(Canary, NightlyMissingVisibilityIsRejected) { tryWalking(kNightly); }
 TEST(Canary, NightlyAStaleTargetIsRejected) { tryChangingLight(kNightly); }
@@ -234,7 +238,7 @@ TEST(Canary, NightlyBehindTheDoor) {
 }
 
 class CanaryOfEntries : public ::testing::TestWithParam<std::string> {};
-TEST_P(CanaryOfEntries, AnOmittedJacobianIsRejected) { tryEntries(kEveryDay, GetParam()); }
+TEST_P(CanaryOfEntries, AnOmittedJacobianIsRejected) { tryEntries(kSmall, GetParam()); }
 INSTANTIATE_TEST_SUITE_P(Cache, CanaryOfEntries, ::testing::ValuesIn(bias::cachesWithEntries()),
                          [](const auto& test) { return test.param; });
 
@@ -266,8 +270,8 @@ TEST(Canary, HistoriesWithoutACapAreSeenInTheVarianceOfALongMean) {
 // A patch that no test applies would be no canary.
 TEST(Canary, EveryOneIsTried) {
   std::set<std::string> tried(kOfWeights.begin(), kOfWeights.end());
-  tried.insert(
-      {"confidence_by_film_sample", "visibility_missing_in_mis", "stale_target", "no_cap"});
+  tried.insert({"jacobian_inverted", "confidence_by_film_sample", "visibility_missing_in_mis",
+                "stale_target", "no_cap"});
   const std::vector<std::string> all = canaryNames();
   EXPECT_EQ(std::set<std::string>(all.begin(), all.end()), tried);
   EXPECT_THROW(WrongKernels("no such canary"), std::invalid_argument);
