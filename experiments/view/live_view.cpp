@@ -58,6 +58,7 @@ LiveView::LiveView(const PreparedScene& prepared, ViewSettings settings,
       settings_(std::move(settings)),
       first_(settings_),
       reference_(store) {
+  firstSeed_ = settings_.panes.front().config.seed;
   if (!settings_.lights.empty()) prepared_ = litBy(settings_.lights);
   for (const PaneSettings& pane : settings_.panes)
     panes_.emplace_back().session = sessionOf(pane.config, prepared_, settings_.camera);
@@ -219,8 +220,7 @@ void LiveView::beginEpoch(bool isAnotherPicture) {
     if (hasScene()) {
       ReferenceConfig config = referenceConfigOf(panes_.front().session->config());
       config.camera = settings_.camera;
-      if (!referenceSeed_) referenceSeed_ = config.seed;
-      config.seed = *referenceSeed_;
+      config.seed = firstSeed_;
       reference_.begin(prepared_, config);
     }
   }

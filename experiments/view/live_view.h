@@ -53,6 +53,8 @@ class LiveView {
   size_t panes() const { return panes_.size(); }
   const ViewSettings& settings() const { return settings_; }
   const ViewHistory& history() const { return history_; }
+  // Of the first session, and of all references: whatever began anew since.
+  uint32_t firstSeed() const { return firstSeed_; }
   // False: images alone are shown, and there is no scene, session or method.
   bool hasScene() const { return loaded_.scene != nullptr; }
   const PreparedScene& loaded() const { return loaded_; }
@@ -126,9 +128,8 @@ class LiveView {
   ViewHistory history_;
   std::vector<Pane> panes_;
   LiveReference reference_;
-  // Of all references: one that is kept is found again after the panes began anew, with other
-  // seeds.
-  std::optional<uint32_t> referenceSeed_;
+  // One that is kept is found again after the panes began anew, with other seeds.
+  uint32_t firstSeed_ = 1;
   uint64_t epoch_ = 0, picture_ = 0, age_ = 0;
 };
 

@@ -145,7 +145,7 @@ void Measurement::end(int status) {
     done_ = 1.0;
     text_ = "finished";
   } else if (isCancelled_) {
-    text_ = fmt::format("cancelled; restlab run {} -o {} goes on", suite_, out_);
+    text_ = fmt::format("./lab run {} -o {} goes on", suite_, out_);
   } else if (!error_.empty()) {
     text_ = error_;
   } else {

@@ -109,7 +109,7 @@ std::string settingsToml(const LiveView& view) {
   std::string text = fmt::format(
       "\n[settings]\nwidth = {}\nheight = {}\nmax_bounces = {}\nseed = {}\ncomponents = [{}]\n"
       "filter = {}\nmultiscatter = {}\nrussian_roulette = {}\nbaseline = {}\n",
-      first.width, first.height, first.maxBounces, first.seed & 0x7fffffffu,
+      first.width, first.height, first.maxBounces, view.firstSeed() & 0x7fffffffu,
       quoted(componentName(first.components)), quoted(filterName(first.pixelFilter)),
       first.multiscatter, first.russianRoulette, quoted(baselineOf(settings)));
   if (first.threads > 0) text += fmt::format("threads = {}\n", first.threads);

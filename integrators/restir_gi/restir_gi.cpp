@@ -240,15 +240,23 @@ std::vector<ProbeValue> probe(const Kept& kept, size_t pixel) {
   static const std::array<const char*, 4> kinds = {
       "light at x1", "Lambert x2", "glossy x2, light sample", "glossy x2, continued"};
   const uint32_t kind = words[7] & rl::RL_PATH_KIND_MASK, film = words[3];
-  return {{"own light", three(vector(own))},
-          {"W", fmt::format("{:.6g}", number(words, kState + 2))},
-          {"F", three(packing.unpackPositive3(words[kState], words[kState + 1]))},
-          {"residual", three(packing.unpackSigned3(words[kState + 4], words[kState + 5]))},
-          {"kind", kinds.at(kind)},
-          {"film", fmt::format("{:.4f} {:.4f}", double(film & 0xffffu) / 65536.0,
-                               double(film >> 16) / 65536.0)},
-          {"position or direction", three(vector(words))},
-          {"radiance", three(packing.unpackPositive3(words[kState + 6], words[kState + 7]))}};
+  const float weight = number(words, kState + 2);
+  std::vector<ProbeValue> values = {
+      {"own light", three(vector(own))},
+      {"W", fmt::format("{:.6g}", weight)},
+      {"F", three(packing.unpackPositive3(words[kState], words[kState + 1]))},
+      {"residual", three(packing.unpackSigned3(words[kState + 4], words[kState + 5]))}};
+  if (!(weight > 0.0f)) {
+    values.push_back({"kind", "none: the reservoir is empty"});
+    return values;
+  }
+  values.push_back({"kind", kinds.at(kind)});
+  values.push_back({"film", fmt::format("{:.4f} {:.4f}", double(film & 0xffffu) / 65536.0,
+                                        double(film >> 16) / 65536.0)});
+  values.push_back({"position or direction", three(vector(words))});
+  values.push_back(
+      {"radiance", three(packing.unpackPositive3(words[kState + 6], words[kState + 7]))});
+  return values;
 }
 
 static_assert(sizeof(rl::GiWithEntries::id) / sizeof(uint32_t) >= rl::RL_MAX_DONORS &&

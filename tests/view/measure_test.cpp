@@ -84,6 +84,22 @@ TEST_F(MeasureTest, NamesOfSuitesAreThoseOfTheirFiles) {
   }
 }
 
+// The reference that was kept is of the first seed, and is the suite's only if its seed is, too.
+TEST_F(MeasureTest, SuitesHaveTheFirstSeedWhateverBeganAnew) {
+  start();
+  Page page(url());
+  const auto savedSeed = [&](const char* name) {
+    page.say({{"do", "save"}, {"name", name}});
+    page.waitFor("saved");
+    return loadSuite(folder() / (std::string(name) + ".toml"), {}).seed;
+  };
+  const uint32_t first = savedSeed("before");
+  page.say({{"do", "restart"}});
+  page.say({{"do", "restart"}});
+  page.waitFor("state", [&](const Json& s) { return s["panes"][0]["seed"] > first; });
+  EXPECT_EQ(savedSeed("after"), first);
+}
+
 TEST_F(MeasureTest, IsCancelled) {
   facts_.program = program("echo $$ > child\nexec sleep 100");
   start();

@@ -123,6 +123,7 @@ TEST_F(PagePixelsTest, WipeIsTheReferenceLeftAndThePaneRight) {
       "const b = viewer.divider.getBoundingClientRect();"
       "return [b.x + b.width / 2, b.width];");
   browser_->drag(box[0], y0, double(box[0]) + x1 - x0, y0);
+  EXPECT_TRUE(page("return document.activeElement === viewer.root;").get<bool>());
   press("2");
   readBack();
   EXPECT_NEAR(divider_, 16.0, 0.3);

@@ -76,7 +76,11 @@ function addPointer(viewer) {
   });
   divider.addEventListener('pointermove', event => { if (dragging) wipeTo(event); });
   for (const name of ['pointerup', 'pointercancel']) {
-    divider.addEventListener(name, () => { dragging = false; });
+    divider.addEventListener(name, () => {
+      dragging = false;
+      // Keys are the viewer's again; who comes by Tab moves it by arrows.
+      viewer.root.focus({preventScroll: true});
+    });
   }
   divider.addEventListener('keydown', event => {
     const step = {ArrowLeft: -0.02, ArrowRight: 0.02, Home: -1, End: 1}[event.key];

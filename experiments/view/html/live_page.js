@@ -232,6 +232,7 @@ class LivePage {
   measure() {
     this.openTab('plots');
     this.measurement.ask();
+    this.measurement.element.scrollIntoView({block: 'nearest'});
   }
 
   // Of the image that is chosen.
