@@ -69,8 +69,7 @@ RL_FN bool mergeDonor(RL_INOUT(MergeState) merge, RL_INOUT(ReservoirState) selec
     mDonor = misPairwiseDonor(cDonor, merge.cCanonical, merge.cDonors, pHatFrom, pHatHere,
                               (flags & RL_REUSE_DEFENSIVE) != 0u);
   }
-  real weightJ = (flags & RL_REUSE_OMIT_JACOBIAN) != 0u ? real(1.0f) : here.jacobian;
-  real contribution = mDonor * donor.W * weightJ;
+  real contribution = mDonor * donor.W * here.jacobian;
   merge.estimate += here.F * contribution;
   if ((flags & RL_REUSE_CONTROL_VARIATE) != 0u) {
     merge.estimate += donor.residual * reflectanceRatio * (cDonor / merge.cTotal);

@@ -36,15 +36,14 @@ struct MergeState {
 const uint RL_MAX_DONORS = 4u;  // of one merge
 
 // How a merge is done; declared by the integrator's mode.
-const uint RL_REUSE_PAIRWISE = 1u;       // pairwise MIS; otherwise weights by confidence only
-const uint RL_REUSE_OMIT_JACOBIAN = 2u;  // deliberately wrong: for the tests that must reject it
-const uint RL_REUSE_ASSUME_VISIBLE =
-    4u;  // biased: shifted samples are taken as visible in the MIS weights
-const uint RL_REUSE_CONTROL_VARIATE = 8u;  // carry per-channel estimates through the merges
-const uint RL_REUSE_WINNER_ONLY = 16u;     // shade the selected sample alone
-const uint RL_REUSE_ASSUME_VISIBLE_HERE =
-    32u;                              // biased: a donor's sample is taken as visible here too
-const uint RL_REUSE_DEFENSIVE = 64u;  // with PAIRWISE: its defensive form
+const uint RL_REUSE_PAIRWISE = 1u;  // pairwise MIS; otherwise weights by confidence only
+// Biased: shifted samples are taken as visible in the MIS weights.
+const uint RL_REUSE_ASSUME_VISIBLE = 2u;
+const uint RL_REUSE_CONTROL_VARIATE = 4u;  // carry per-channel estimates through the merges
+const uint RL_REUSE_WINNER_ONLY = 8u;      // shade the selected sample alone
+// Biased: a donor's sample is taken as visible here too.
+const uint RL_REUSE_ASSUME_VISIBLE_HERE = 16u;
+const uint RL_REUSE_DEFENSIVE = 32u;  // with PAIRWISE: its defensive form
 
 RL_NAMESPACE_END
 

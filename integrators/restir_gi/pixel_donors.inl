@@ -39,9 +39,8 @@ restlab::Donor asDonor(const char* reuse, size_t id, const ReservoirState& donor
   ReservoirState alone = reservoirEmpty();
   merge.wSum = 0.0f;
   mergeDonor(merge, alone, donor, here, real3(0.0f), flags, 0.0f);
-  const bool isOmitted = (flags & RL_REUSE_OMIT_JACOBIAN) != 0u;
   out.jacobian = here.jacobian;
   out.share = merge.wSum;
-  out.misWeight = merge.wSum / (reuseTarget(here.F) * donor.W * (isOmitted ? 1.0f : here.jacobian));
+  out.misWeight = merge.wSum / (reuseTarget(here.F) * donor.W * here.jacobian);
   return out;
 }

@@ -138,20 +138,6 @@ std::vector<ParameterInfo> parameterInfos() {
        "resampling MIS weights; `defensive` favours the pixel's own sample, `confidence` is 1/M, "
        "biased and darker",
        "Lin et al. 2022, section 5.4; Wyman et al. 2023, algorithm 7; Bitterli et al. 2020"},
-      {"donors_by_sample",
-       false,
-       0,
-       0,
-       {},
-       "counts donors over space only where their sample is seen: wrong, for the bias tests only",
-       "negative control"},
-      {"omit_jacobian",
-       false,
-       0,
-       0,
-       {},
-       "leaves the Jacobian out of the weights: wrong, for the bias tests only",
-       "negative control"},
   };
   for (ParameterInfo& info : partnerParameters()) infos.push_back(std::move(info));
   return infos;
@@ -167,7 +153,6 @@ std::vector<std::byte> pack(const std::string& mode, const ParameterMap& p) {
   const std::string& mis = get<std::string>(p, "mis");
   if (mis != "confidence") flags |= rl::RL_REUSE_PAIRWISE;
   if (mis == "defensive") flags |= rl::RL_REUSE_DEFENSIVE;
-  if (get<bool>(p, "omit_jacobian")) flags |= rl::RL_REUSE_OMIT_JACOBIAN;
   const std::string& shading = get<std::string>(p, "shading");
   if (shading == "control_variate") flags |= rl::RL_REUSE_CONTROL_VARIATE;
   if (shading == "winner") flags |= rl::RL_REUSE_WINNER_ONLY;
@@ -187,7 +172,6 @@ std::vector<std::byte> pack(const std::string& mode, const ParameterMap& p) {
   out.settledFrames = oldest <= young ? rl::RL_INVALID : static_cast<uint32_t>(young);
   out.lightEdgeSamples = static_cast<uint32_t>(get<int64_t>(p, "light_edge_samples"));
   out.donorNoise = static_cast<float>(get<double>(p, "donor_noise"));
-  out.donorsBySample = get<bool>(p, "donors_by_sample") ? 1u : 0u;
   out.temporalReuse = get<bool>(p, "temporal") ? 1u : 0u;
   out.reproject = get<bool>(p, "reproject") ? 1u : 0u;
   out.confidenceCap = static_cast<float>(get<double>(p, "confidence_cap"));
@@ -221,12 +205,12 @@ std::string whyWithoutEffect(const std::string& name, const ParameterMap& p) {
   if (name == "moving_confidence_cap" &&
       get<double>(p, name.c_str()) > get<double>(p, "confidence_cap"))
     return "confidence_cap is smaller";
-  if (neighbours == 0 && isOneOf(name, {"aged_neighbours", "young_frames", "donor_noise",
-                                        "donors_by_sample", "spatial_radius"}))
+  if (neighbours == 0 &&
+      isOneOf(name, {"aged_neighbours", "young_frames", "donor_noise", "spatial_radius"}))
     return "spatial_neighbours is 0";
   if (!isOverTime && neighbours == 0 &&
-      isOneOf(name, {"mis", "max_jacobian", "max_reflectance_ratio", "omit_jacobian", "shading",
-                     "normal_threshold", "plane_threshold"}))
+      isOneOf(name, {"mis", "max_jacobian", "max_reflectance_ratio", "shading", "normal_threshold",
+                     "plane_threshold"}))
     return "temporal is false and spatial_neighbours is 0";
   if (name == "aged_neighbours" && get<int64_t>(p, "aged_neighbours") > neighbours)
     return "there are no more donors than spatial_neighbours says";
@@ -369,8 +353,7 @@ const IntegratorInfo& restir_giIntegratorInfo() {
     i.probe = probe;
     i.donors = giDonorsOf;
     i.biasOfParameters = [](const std::string& mode, const ParameterMap& p) {
-      const bool isWrong = get<std::string>(p, "mis") == "confidence" ||
-                           get<bool>(p, "omit_jacobian") || get<bool>(p, "donors_by_sample");
+      const bool isWrong = get<std::string>(p, "mis") == "confidence";
       return mode == "biased" || isWrong ? BiasClass::biased : BiasClass::unbiased;
     };
     return i;

@@ -80,10 +80,9 @@ struct RestirGiParams {
   uint agedNeighbours;
   uint settledFrames;  // after so many still frames none is young
   uint lightEdgeSamples;
-  float donorNoise;     // reuseDonorShare()
-  uint donorsBySample;  // 1: wrong by design, for the tests that must reject it
-  uint temporalReuse;   // 0: off
-  uint reproject;       // 0: pixels do not follow surfaces
+  float donorNoise;    // reuseDonorShare()
+  uint temporalReuse;  // 0: off
+  uint reproject;      // 0: pixels do not follow surfaces
   float confidenceCap;
   float movingConfidenceCap;  // of frames of a new view
   float maxReflectanceRatio;  // per channel, of surfaces, for the carried per-channel estimates

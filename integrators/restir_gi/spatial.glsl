@@ -36,8 +36,6 @@ RL_FN bool reuseDonor(RL_IN(GiOverSpace) s, uint k, RL_OUT(ReservoirState) donor
   if (partner == RL_INVALID) return false;
   donor = giReadStateNow(partner);
   donor.confidence *= s.share;
-  // A donor that counts only where its sample is seen is chosen by its sample: that is wrong.
-  if (gParams.donorsBySample != 0u) return reuseTarget(reuseTheirs(s, k).F) > 0.0f;
   return true;
 }
 RL_FN real3 reuseRatio(RL_IN(GiOverSpace) s, uint k) {

@@ -467,19 +467,21 @@ EXACT_TEST(NegativeConfidenceWeightsWithPartialShifts) {
 }
 
 EXACT_TEST(NegativeOmittedJacobian) {
-  const auto none = [](World&) {};
-  const Mistake pairwise = mistakeOf(kPairwise | RL_REUSE_OMIT_JACOBIAN, none, false);
+  const auto omit = [](World& world) { world.omitsJacobian = true; };
+  const Mistake pairwise = mistakeOf(kPairwise, omit, false);
   EXPECT_EQ(pairwise.seen, pairwise.worlds);
-  const Mistake confidence = mistakeOf(RL_REUSE_OMIT_JACOBIAN, none, false);
+  const Mistake confidence = mistakeOf(0u, omit, false);
   EXPECT_EQ(confidence.seen, confidence.worlds);
+  const auto none = [](World&) {};
   EXPECT_EQ(mistakeOf(kPairwise, none, false).seen, 0);
   // Where all measures agree there is nothing to omit.
   const auto equal = [](World& world) {
+    world.omitsJacobian = true;
     for (uint a = 0; a < kAnchors; ++a) {
       for (uint l = 0; l < kLabels; ++l) world.measure[a][l] = world.measure[0][l];
     }
   };
-  EXPECT_EQ(mistakeOf(kPairwise | RL_REUSE_OMIT_JACOBIAN, equal, false).seen, 0);
+  EXPECT_EQ(mistakeOf(kPairwise, equal, false).seen, 0);
 }
 
 EXACT_TEST(NegativeAssumedVisibility) {

@@ -44,6 +44,7 @@ struct World {
   double candidate[kAnchors][kLabels];  // probability of drawing the label, sums to 1 or less:
                                         // the rest fails
   real3 ratio[kAnchors][kAnchors];      // of reflectances: any numbers at all
+  bool omitsJacobian = false;           // a deliberate mistake: donors weigh without it
 
   dvec3 truth(uint anchor) const {
     dvec3 sum(0.0);
@@ -110,6 +111,7 @@ struct Kernel {
   bool reuseDonor(const WorldMerge& m, uint k, ReservoirState& donor) const {
     donor = m.donors[k].reservoir.state;
     donor.confidence = m.donors[k].confidence;
+    if (world->omitsJacobian) donor.W /= m.theirs[k].jacobian;
     return m.donors[k].exists;
   }
   Shifted reuseOurs(const WorldMerge& m, uint k) const { return m.ours[k]; }
