@@ -33,6 +33,7 @@ void addHistory(Session& session, const Method& method, Image& shown) {
     if (!method.cameras.empty()) {
       session.setCamera(method.cameras[std::min<size_t>(frame, method.cameras.size() - 1)]);
     }
+    if (method.before) method.before(session, frame);
     session.frame();
     if (frame < method.skipped) continue;
     const Image& radiance = session.radiance();
@@ -85,12 +86,14 @@ stats::RunSet independentRuns(const std::shared_ptr<const CompiledScene>& scene,
   return independentSums(scene, {method}, firstSeed, runs);
 }
 
-stats::RunSet independentSums(const std::shared_ptr<const CompiledScene>& scene,
-                              const std::vector<Method>& methods, uint32_t firstSeed, size_t runs) {
+namespace {
+
+void forEachSum(const std::shared_ptr<const CompiledScene>& scene,
+                const std::vector<Method>& methods, uint32_t firstSeed, size_t runs,
+                const std::function<void(const Image&)>& take) {
   const SessionConfig& config = methods.at(0).config;
   std::vector<std::unique_ptr<Session>> sessions;
   for (const Method& m : methods) sessions.push_back(std::make_unique<Session>(scene, m.config));
-  stats::RunSet set(stats::BlockGrid(config.width, config.height));
   const uint32_t first = firstSeed + seedOffset();
   for (size_t run = 0; run < runs; ++run) {
     Image shown(config.width, config.height);
@@ -99,8 +102,22 @@ stats::RunSet independentSums(const std::shared_ptr<const CompiledScene>& scene,
       sessions[i]->reset(first + uint32_t(run) + uint32_t(i) * kPart);
       addHistory(*sessions[i], methods[i], shown);
     }
-    set.add(shown);
+    take(shown);
   }
+}
+
+}  // namespace
+
+void forEachRun(const std::shared_ptr<const CompiledScene>& scene, const Method& method,
+                uint32_t firstSeed, size_t runs, const std::function<void(const Image&)>& take) {
+  forEachSum(scene, {method}, firstSeed, runs, take);
+}
+
+stats::RunSet independentSums(const std::shared_ptr<const CompiledScene>& scene,
+                              const std::vector<Method>& methods, uint32_t firstSeed, size_t runs) {
+  const SessionConfig& config = methods.at(0).config;
+  stats::RunSet set(stats::BlockGrid(config.width, config.height));
+  forEachSum(scene, methods, firstSeed, runs, [&](const Image& image) { set.add(image); });
   return set;
 }
 

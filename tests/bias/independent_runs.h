@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,6 +27,8 @@ struct Method {
   uint32_t skipped = 0;  // less than `frames`
   // Of frame 0, 1, ...; the last one stays. Empty: the scene's own.
   std::vector<SceneCamera> cameras;
+  // Called before each frame, after the camera is set; it may change the light.
+  std::function<void(Session&, uint32_t frame)> before;
 };
 
 // Small enough for hundreds of runs; the aspect ratio of the lecture's table.
@@ -47,6 +50,10 @@ uint32_t seedOffset();
 // Seeds firstSeed, firstSeed + 1, ..., all moved by seedOffset().
 stats::RunSet independentRuns(const std::shared_ptr<const CompiledScene>& scene,
                               const Method& method, uint32_t firstSeed, size_t runs);
+
+// The images of those runs, one after the other.
+void forEachRun(const std::shared_ptr<const CompiledScene>& scene, const Method& method,
+                uint32_t firstSeed, size_t runs, const std::function<void(const Image&)>& take);
 
 // Observations that are sums of one run of each method, all of them independent: the images of
 // methods that compute parts of one whole.

@@ -1,0 +1,277 @@
+// Deliberately wrong estimators that the certificate must call biased. A test that has never
+// rejected anything proves nothing. Each is tried where its mistake matters; the same settings
+// without it must not be called biased.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <set>
+
+#include "core/scene/light_factor.h"
+#include "experiments/certificate/certificate.h"
+#include "experiments/statistics/power.h"
+#include "tests/bias/few_entries.h"
+#include "tests/bias/independent_runs.h"
+#include "tests/bias/test_cameras.h"
+#include "tests/canary/wrong_kernels.h"
+
+namespace restlab::canary {
+namespace {
+
+using bias::Method;
+using certificate::Certificate;
+using certificate::Evidence;
+using certificate::Verdict;
+
+constexpr uint32_t kFirstBatch = 10'000'000, kFreshBatch = 20'000'000, kTruth = 30'000'000;
+constexpr double kPower = 0.9;
+
+struct Effort {
+  size_t runs;
+  uint32_t truthFrames;  // of each half
+  int threads;
+};
+constexpr Effort kEveryDay{128, 1024, 1};
+constexpr Effort kNightly{256, 8192, 0};
+
+// What is rendered, and the light of the frames that count.
+struct Setting {
+  std::shared_ptr<const CompiledScene> scene, lightAtLast;
+  Method method;
+};
+
+Image meanOf(const Setting& setting, uint32_t seed, const Effort& effort) {
+  Method path = bias::pathMethod(effort.truthFrames);
+  path.config.threads = effort.threads;
+  path.config.width = setting.method.config.width;
+  path.config.height = setting.method.config.height;
+  if (!setting.method.cameras.empty()) path.cameras = {setting.method.cameras.back()};
+  Image mean;
+  bias::forEachRun(setting.lightAtLast, path, seed, 1, [&](const Image& image) { mean = image; });
+  return mean;
+}
+
+// That a first batch and a fresh one both reject the cell that is clearest, if its bias is what was
+// measured.
+double powerOf(const Certificate& c) {
+  const certificate::Rules rules;
+  double family = 0.0, power = 0.0;
+  for (const stats::CellVerdict& v : c.cells.cells) family += v.testable;
+  for (const stats::CellVerdict& v : c.cells.cells) {
+    if (!v.confirmed || !(v.welch.standardError > 0.0)) continue;
+    const double once = stats::testPower(std::abs(v.welch.difference), v.welch.standardError,
+                                         v.welch.dof, rules.familyError / family);
+    power = std::max(power, once * once);
+  }
+  return power;
+}
+
+// A setting with its truth.
+class Trial {
+ public:
+  Trial(Setting setting, const Effort& effort) : setting_(std::move(setting)), effort_(effort) {
+    setting_.method.config.threads = effort.threads;
+    reference_.half0 = meanOf(setting_, kTruth, effort);
+    reference_.half1 = meanOf(setting_, kTruth + 1, effort);
+    reference_.mean = *reference_.half0;
+    for (size_t p = 0; p < reference_.mean.pixels.size(); ++p)
+      reference_.mean.pixels[p] =
+          0.5f * (reference_.half0->pixels[p] + reference_.half1->pixels[p]);
+  }
+
+  // With the kernels that are there.
+  Certificate certify(const ParameterMap& more = {}) const {
+    const Evidence first = batch(kFirstBatch, more);
+    return certificate::judge(first, first.runs(), [&] { return batch(kFreshBatch, more).runs(); },
+                              reference_, {});
+  }
+
+  void expectRejected(const std::string& name, const Certificate& c) const {
+    const double power = powerOf(c);
+    std::printf("canary %s: %s, %s; power %.3f\n", name.c_str(),
+                certificate::verdictName(c.verdict), c.reason.c_str(), power);
+    std::fflush(stdout);
+    EXPECT_EQ(c.verdict, Verdict::biased) << name;
+    EXPECT_GE(power, kPower) << name;
+  }
+  void expectCanary(const std::string& name) const {
+    const WrongKernels wrong(name);
+    expectRejected(name, certify());
+  }
+  void expectRight(const ParameterMap& more = {}) const {
+    const Certificate c = certify(more);
+    std::printf("without a mistake: %s, %s\n", certificate::verdictName(c.verdict),
+                c.reason.c_str());
+    EXPECT_NE(c.verdict, Verdict::biased) << c.reason;
+  }
+
+ private:
+  Evidence batch(uint32_t firstSeed, const ParameterMap& more) const {
+    Method method = setting_.method;
+    for (const auto& [name, value] : more) method.config.parameters[name] = value;
+    Evidence evidence(method.config.width, method.config.height);
+    bias::forEachRun(setting_.scene, method, firstSeed, effort_.runs,
+                     [&](const Image& run) { evidence.add(run); });
+    return evidence;
+  }
+
+  Setting setting_;
+  Effort effort_;
+  Reference reference_;
+};
+
+// Donors from far away, whatever they look like: the more they differ, the more their weights
+// matter.
+ParameterMap farDonors() {
+  return {{"spatial_neighbours", int64_t{2}},
+          {"spatial_radius", 48.0},
+          {"max_jacobian", 100.0},
+          {"normal_threshold", -1.0},
+          {"plane_threshold", 10.0}};
+}
+
+Setting still(const char* scene, const ParameterMap& parameters) {
+  Setting s;
+  s.scene = s.lightAtLast = bias::builtinScene(scene);
+  s.method = bias::restirMethod(8, 2, parameters);
+  return s;
+}
+Setting belowTheLamp(const ParameterMap& parameters) {
+  Setting s = still("cornell-box", parameters);
+  s.method.cameras = {bias::cornellBelowTheLamp()};
+  return s;
+}
+// A walk whose last frame counts.
+Setting walking(const ParameterMap& parameters) {
+  Setting s = still("cornell-box", parameters);
+  s.method = bias::restirMethod(6, 5, parameters);
+  s.method.cameras = bias::walkTo(bias::cornellBelowTheLamp(), 6, {0.06, 0.01, -0.05}, 0.0);
+  return s;
+}
+// A walk in which entries alone are merged over time, far ones among them.
+Setting walkingWithEntries(const std::string& cache) {
+  Setting s = walking({{"reproject", false},
+                       {"spatial_neighbours", int64_t{0}},
+                       {"feed_every", int64_t{1}},
+                       {"entry_proposals", int64_t{4}},
+                       {"entry_spread", 8.0},
+                       {kEntryCount, int64_t{4096}},
+                       {"max_jacobian", 100.0},
+                       {"normal_threshold", -1.0},
+                       {"plane_threshold", 10.0}});
+  s.method.config.cache = cache;
+  return s;
+}
+// The lamp is dimmed before the last frame but one; the last one counts. Where light has changed
+// at all, all is forgotten.
+Setting dimmed() {
+  constexpr uint32_t kFrames = 10;
+  Setting s = still("cornell-box", {{"validate_every", int64_t{1}}, {"validate_response", 1000.0}});
+  s.lightAtLast =
+      CompiledScene::build(withLightFactor(makeBuiltinScene("cornell-box"), kAllLights, 0.5));
+  s.method.frames = kFrames;
+  s.method.skipped = kFrames - 1;
+  s.method.before = [bright = s.scene, dim = s.lightAtLast](Session& session, uint32_t frame) {
+    if (frame == 0) session.setScene(bright);
+    if (frame == kFrames - 2) session.setScene(dim);
+  };
+  return s;
+}
+
+const ParameterMap kConfidence = {{"mis", std::string("confidence")}};
+
+// What is tried in a still view with far donors.
+const std::vector<std::string> kOfWeights = {
+    "empty_inputs_dropped", "failed_shifts_dropped",       "jacobian_inverted",
+    "jacobian_left_out",    "light_density_of_the_source", "random_dimension_reused"};
+
+void tryWeights(const Effort& effort) {
+  const Trial trial(belowTheLamp(farDonors()), effort);
+  trial.expectRight();
+  for (const std::string& name : kOfWeights) trial.expectCanary(name);
+}
+void tryConfidence(const Effort& effort) {
+  const Trial trial(belowTheLamp({}), effort);
+  trial.expectRight();
+  trial.expectRejected("mis = confidence", trial.certify(kConfidence));
+}
+void tryFilm(const Effort& effort) {
+  const Trial trial(still("cornell-box", {}), effort);
+  trial.expectRight();
+  trial.expectCanary("confidence_by_film_sample");
+}
+void tryWalking(const Effort& effort) {
+  const Trial trial(walking({}), effort);
+  trial.expectRight();
+  trial.expectCanary("visibility_missing_in_mis");
+}
+void tryEntries(const Effort& effort, const std::string& cache) {
+  const Trial trial(walkingWithEntries(cache), effort);
+  trial.expectRight();
+  trial.expectCanary("jacobian_left_out");
+}
+void tryChangingLight(const Effort& effort) {
+  const Trial trial(dimmed(), effort);
+  trial.expectRight();
+  trial.expectCanary("stale_target");
+}
+
+TEST(Canary, WrongWeightsAreRejected) { tryWeights(kEveryDay); }
+TEST(Canary, ConfidenceWeightsAreRejected) { tryConfidence(kEveryDay); }
+TEST(Canary, ConfidenceByTheFilmSampleIsRejected) { tryFilm(kEveryDay); }
+TEST(Canary, MissingVisibilityIsRejected) { tryWalking(kEveryDay); }
+TEST(Canary, AStaleTargetIsRejected) { tryChangingLight(kEveryDay); }
+
+TEST(Canary, NightlyWrongWeightsAreRejected) { tryWeights(kNightly); }
+TEST(Canary, NightlyConfidenceWeightsAreRejected) { tryConfidence(kNightly); }
+TEST(Canary, NightlyConfidenceByTheFilmSampleIsRejected) { tryFilm(kNightly); }
+TEST(Canary, NightlyMissingVisibilityIsRejected) { tryWalking(kNightly); }
+TEST(Canary, NightlyAStaleTargetIsRejected) { tryChangingLight(kNightly); }
+TEST(Canary, NightlyBehindTheDoor) {
+  const Trial trial(still("door-ajar", farDonors()), kNightly);
+  trial.expectRight();
+  trial.expectCanary("jacobian_left_out");
+  trial.expectRejected("mis = confidence", trial.certify(kConfidence));
+}
+
+class CanaryOfEntries : public ::testing::TestWithParam<std::string> {};
+TEST_P(CanaryOfEntries, AnOmittedJacobianIsRejected) { tryEntries(kEveryDay, GetParam()); }
+INSTANTIATE_TEST_SUITE_P(Cache, CanaryOfEntries, ::testing::ValuesIn(bias::cachesWithEntries()),
+                         [](const auto& test) { return test.param; });
+
+// Not the mean is wrong without a cap, but what a mean of many frames is worth: a mean of running
+// means has twice the variance of a mean.
+TEST(Canary, HistoriesWithoutACapAreSeenInTheVarianceOfALongMean) {
+  constexpr uint32_t kFrames = 256;
+  constexpr size_t kRuns = 24;
+  Setting setting = still("cornell-box", {});
+  setting.method = bias::restirMethod(kFrames, 0);
+  setting.method.config.width = 32;
+  setting.method.config.height = 18;
+  const auto variance = [&] {
+    BiasRuns runs;
+    bias::forEachRun(setting.scene, setting.method, kFirstBatch, kRuns,
+                     [&](const Image& run) { runs.add(run); });
+    return runs.variance();
+  };
+  const Interval right = variance();
+  const WrongKernels kernels("no_cap");
+  const Interval wrong = variance();
+  std::printf(
+      "canary no_cap: variance of a mean of %u frames %.3g [%.3g, %.3g], with the cap %.3g "
+      "[%.3g, %.3g]\n",
+      kFrames, wrong.value, wrong.lo, wrong.hi, right.value, right.lo, right.hi);
+  EXPECT_GT(wrong.lo, 1.2 * right.hi);
+}
+
+// A patch that no test applies would be no canary.
+TEST(Canary, EveryOneIsTried) {
+  std::set<std::string> tried(kOfWeights.begin(), kOfWeights.end());
+  tried.insert(
+      {"confidence_by_film_sample", "visibility_missing_in_mis", "stale_target", "no_cap"});
+  const std::vector<std::string> all = canaryNames();
+  EXPECT_EQ(std::set<std::string>(all.begin(), all.end()), tried);
+  EXPECT_THROW(WrongKernels("no such canary"), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace restlab::canary
