@@ -111,10 +111,9 @@ void setJobs(uint32_t jobs, Suite& suite) {
 
 // Who names a scene wants `render`.
 void refuseScene(const std::string& name) {
-  const std::vector<std::string>& scenes = builtinSceneNames();
   const std::string extension = std::filesystem::path(name).extension().string();
-  const bool isBuiltin = std::find(scenes.begin(), scenes.end(), name) != scenes.end();
-  if (extension != ".gltf" && extension != ".glb" && (!isBuiltin || std::filesystem::exists(name)))
+  if (extension != ".gltf" && extension != ".glb" &&
+      (!isBuiltinScene(name) || std::filesystem::exists(name)))
     return;
   failUsage(
       fmt::format("run {0}: is a scene, and run takes a suite of scenes and methods (*.toml); "
