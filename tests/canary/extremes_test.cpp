@@ -85,7 +85,10 @@ TEST_F(Extremes, AnAbsoluteEpsilonIsFound) {
   expectFound("absolute_epsilon", {{"less light", "1"}});
 }
 TEST_F(Extremes, AClampAt1e3IsFound) { expectFound("clamp_at_1e3", {{"more light", "1"}}); }
-TEST_F(Extremes, AFixedRayOffsetIsFound) { expectFound("fixed_ray_offset", {{"smaller", "1"}}); }
+// Beyond the walls of a small room, and below the spacing of floats in a large one.
+TEST_F(Extremes, AFixedRayOffsetIsFound) {
+  expectFound("fixed_ray_offset", {{"smaller", "2^-8"}, {"larger", "2^8"}});
+}
 
 }  // namespace
 }  // namespace restlab::canary

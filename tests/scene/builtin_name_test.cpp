@@ -143,7 +143,8 @@ TEST(BuiltinRelations, MovesVerticesAndEyeAlike) {
 }
 
 std::string coarseWarning(const std::string& name) {
-  for (const std::string& warning : CompiledScene::build(makeBuiltinScene(name))->warnings()) {
+  const auto compiled = CompiledScene::build(makeBuiltinScene(name));
+  for (const std::string& warning : compiled->warnings()) {
     if (warning.find("float32 rounds them") != std::string::npos) return warning;
   }
   return "";
