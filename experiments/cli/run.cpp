@@ -31,7 +31,11 @@ struct RunOptions {
   bool force = false, dryRun = false;
 };
 
-std::vector<std::string> namesOf(const SuiteScene& scene) { return {scene.name}; }
+// Of a sweep also the name that its scenes have in common.
+std::vector<std::string> namesOf(const SuiteScene& scene) {
+  if (scene.sweepName.empty()) return {scene.name};
+  return {scene.name, scene.sweepName};
+}
 std::vector<std::string> namesOf(const SuiteMethod& method) {
   return {method.name, method.base, method.given};
 }

@@ -69,7 +69,9 @@ TEST_F(SceneSweepRun, HoldsAgainstTheExactImage) {
     EXPECT_EQ(row.at("max_bounces"), "16");
     EXPECT_NEAR(std::stod(row.at("energy_ratio")), 1.0, 0.1) << row.at("method");
   }
-  // What was made is found again, and shown again.
+  // What was made is found again, and shown again; a sweep by its name.
+  EXPECT_NE(runSuite(kFurnaces, " --dry-run --scenes albedo").out.find("12 jobs, 12 there"),
+            std::string::npos);
   EXPECT_NE(runSuite(kFurnaces, " --dry-run").out.find("12 jobs, 12 there"), std::string::npos);
   std::filesystem::remove(path("out/table.md"));
   ASSERT_EQ(run("report out").code, 0);

@@ -102,7 +102,7 @@ class SceneSweepTest : public TemporaryFolder {
 
 TEST_F(SceneSweepTest, ScenesOfATableAreOneSweep) {
   ASSERT_EQ(suite_.scenes.size(), 4u);
-  EXPECT_EQ(suite_.scenes[1].name, "light, furnace?albedo=0.75");
+  EXPECT_EQ(suite_.scenes[1].name, "light: furnace?albedo=0.75");
   EXPECT_EQ(suite_.scenes[1].sweep, suite_.scenes[2].sweep);
   EXPECT_NE(suite_.scenes[1].sweep, 0u);
   EXPECT_EQ(suite_.scenes[3].sweep, 0u);
@@ -130,7 +130,7 @@ TEST_F(SceneSweepTest, SaysTheLastValueThatHolds) {
   outputs.write(own, true);
   std::ifstream in(folder() / "table.md");
   const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  EXPECT_LT(text.find("last that holds"), text.find("## light, furnace?albedo=0.5, all light"));
+  EXPECT_LT(text.find("last that holds"), text.find("## light: furnace?albedo=0.5, all light"));
 }
 
 // A later value that holds does not make up for it.
@@ -144,7 +144,7 @@ TEST_F(SceneSweepTest, EndsAtTheFirstThatDoesNot) {
   EXPECT_NE(table.find("7 not finite: no"), std::string::npos) << table;
   EXPECT_NE(table.find("| last that holds | 0.9 | 0.5 |"), std::string::npos) << table;
   EXPECT_EQ(outputs.nonfinite(),
-            "7 values are not finite, in 1 row, the first of which is gi in light, "
+            "7 values are not finite, in 1 row, the first of which is gi in light: "
             "furnace?albedo=0.75");
 }
 

@@ -81,7 +81,7 @@ std::vector<SuiteScene> readScenes(const ConfigTable& table, const std::string& 
     }
     scene.sweep = sweep;
     scene.sweepName = common.name;
-    scene.name = (common.name.empty() ? "" : common.name + ", ") + shownName(name);
+    scene.name = (common.name.empty() ? "" : common.name + ": ") + shownName(name);
   }
   if (names.size() > 1) {
     atPlace(table.place("scene"), [&] { return sweptParameter(names); });
