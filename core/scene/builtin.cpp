@@ -1,7 +1,11 @@
 // The registry of the built-in scenes: one line a scene.
+#include <algorithm>
 #include <array>
 
 #include "core/error.h"
+#include "core/scene/builtin_builder.h"
+#include "core/scene/builtin_name.h"
+#include "core/scene/builtin_relations.h"
 #include "core/scene/builtin_scenes.h"
 #include "core/scene/scene.h"
 
@@ -10,34 +14,70 @@ namespace {
 
 struct Entry {
   const char* name;
-  Scene (*make)();
+  Scene (*make)(const BuiltinName&);
   const char* summary;
 };
 
-constexpr std::array<Entry, 9> kScenes{{
-    {"cornell-box", builtin::makeCornellBox,
+// A scene without parameters of its own.
+template <Scene (*make)()>
+Scene fixed(const BuiltinName&) {
+  return make();
+}
+
+const std::array<Entry, 9> kScenes{{
+    {"cornell-box", fixed<builtin::makeCornellBox>,
      "the Cornell box in metres, Lambert, one ceiling light"},
-    {"door-ajar", builtin::makeDoorAjar,
+    {"door-ajar", fixed<builtin::makeDoorAjar>,
      "a dark room lit through a door ajar by a lamp next door: hard indirect light"},
-    {"many-lights", builtin::makeManyLights,
+    {"many-lights", fixed<builtin::makeManyLights>,
      "a hall under 5,000 lamps (10,000 emissive triangles) over 3 decades of power"},
-    {"glossy-gallery", builtin::makeGlossyGallery,
+    {"glossy-gallery", fixed<builtin::makeGlossyGallery>,
      "metals and plastics of roughness 0.05 to 0.8 under five area lights"},
-    {"glass", builtin::makeGlass,
+    {"glass", fixed<builtin::makeGlass>,
      "smooth, frosted and tinted glass before a mirror, one area light"},
-    {"courtyard", builtin::makeCourtyard,
+    {"courtyard", fixed<builtin::makeCourtyard>,
      "an arcade around a sunlit court under a clear sky: sun and environment"},
-    {"furnace", builtin::makeFurnace,
+    {"furnace",
+     [](const BuiltinName& name) { return builtin::makeFurnace(name.value("albedo").value()); },
      "closed, albedo 1/2, emitting 1/2: radiance 1 - 2^-(n+1) after n scattering events"},
-    {"sphere-furnace", builtin::makeSphereFurnace,
+    {"sphere-furnace",
+     [](const BuiltinName& name) { return builtin::makeSphereFurnace(name.value("roughness")); },
      "a white Lambert solid in a uniform environment: radiance 1 everywhere"},
-    {"quad-light", builtin::makeQuadLight,
+    {"quad-light",
+     [](const BuiltinName& name) { return builtin::makeQuadLight(name.value("edge").value()); },
      "a floor under one tilted rectangle: Lambert's polygon formula is its truth"},
 }};
 
+struct OwnParameter {
+  const char* scene;
+  SceneParameter parameter;
+};
+
+const std::vector<OwnParameter>& ownParameters() {
+  static const std::vector<OwnParameter> all = {
+      {"furnace", {"albedo", 0.5, 0.0, 1.0, "reflectance of every surface"}},
+      {"sphere-furnace",
+       {"roughness", std::nullopt, 0.0, 1.0,
+        "metal that reflects everything, of this roughness; Lambert where it is not given"}},
+      {"quad-light", {"edge", 1.0, 1e-4, 1e3, "factor on the light's edges, at constant power"}}};
+  return all;
+}
+
+// What every scene has.
+const std::vector<SceneParameter>& relations() {
+  static const std::vector<SceneParameter> all = {
+      {kScaleParameter, 1.0, 1e-9, 1e9, "factor on all lengths, lights with them: the same image"},
+      {kRadianceParameter, 1.0, 1e-20, 1e20, "factor on all light, and so on the image"},
+      {kMoveParameter, 0.0, -1e7, 1e7,
+       "vertices, cameras and lights moved along every axis, by so many times the scene's size"},
+      {"fov", std::nullopt, 0.01, 179.0, "vertical field of view of every camera, degrees"}};
+  return all;
+}
+
+// Of a name with parameters: the scene's own.
 const Entry* find(const std::string& name) {
   for (const Entry& entry : kScenes) {
-    if (name == entry.name) return &entry;
+    if (name.substr(0, name.find('?')) == entry.name) return &entry;
   }
   return nullptr;
 }
@@ -45,14 +85,38 @@ const Entry* find(const std::string& name) {
 const Entry& findOrFail(const std::string& name) {
   const Entry* entry = find(name);
   if (entry == nullptr) {
-    failInput("no built-in scene is named '" + name + "'" + didYouMean(name, builtinSceneNames()));
+    const std::string base = name.substr(0, name.find('?'));
+    failInput("no built-in scene is named '" + base + "'" + didYouMean(base, builtinSceneNames()));
   }
   return *entry;
 }
 
 }  // namespace
 
-Scene makeBuiltinScene(const std::string& name) { return findOrFail(name).make(); }
+Scene makeBuiltinScene(const std::string& name) {
+  const BuiltinName parsed = parseBuiltinName(name);
+  Scene scene = findOrFail(name).make(parsed);
+  if (parsed.given.empty()) return scene;
+  builtin::scaleScene(scene, parsed.value(kScaleParameter).value());
+  builtin::multiplyRadiance(scene, parsed.value(kRadianceParameter).value());
+  builtin::moveScene(scene, parsed.value(kMoveParameter).value());
+  if (const auto degrees = parsed.value("fov")) builtin::setFieldOfView(scene, *degrees);
+  scene.contentHash = builtin::hashOf(scene);  // under the base's name: of the contents alone
+  scene.name = name;
+  return scene;
+}
+
+bool isBuiltinScene(const std::string& name) { return find(name) != nullptr; }
+
+std::vector<SceneParameter> builtinSceneParameters(const std::string& name) {
+  const std::string base = findOrFail(name).name;
+  std::vector<SceneParameter> all;
+  for (const OwnParameter& own : ownParameters()) {
+    if (own.scene == base) all.push_back(own.parameter);
+  }
+  all.insert(all.end(), relations().begin(), relations().end());
+  return all;
+}
 
 const std::vector<std::string>& builtinSceneNames() {
   static const std::vector<std::string> names = [] {

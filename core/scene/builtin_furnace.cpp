@@ -5,13 +5,14 @@
 
 namespace restlab::builtin {
 
-// A closed room and a block in it; every surface has albedo a = 1/2 and emits L = 1/2. Every ray
+// A closed room and a block in it; every surface has albedo a and emits L = 1/2. Every ray
 // that leaves a surface meets another one like it, so the radiance after n scattering events is
-//   L (1 + a + ... + a^n) = L (1 - a^(n+1)) / (1 - a) = 1 - 2^-(n+1)
-// at every pixel, and 1 without a limit. The block makes light samples need their shadow rays.
-Scene makeFurnace() {
+//   L (1 + a + ... + a^n) = L (1 - a^(n+1)) / (1 - a)
+// at every pixel; for a = 1/2 that is 1 - 2^-(n+1), and 1 without a limit. The block makes light
+// samples need their shadow rays.
+Scene makeFurnace(double albedo) {
   SceneBuilder scene("furnace");
-  rl::Material glowing = lambert(glm::vec3(0.5f));
+  rl::Material glowing = lambert(glm::vec3(static_cast<float>(albedo)));
   glowing.emission = glm::vec3(0.5f);
   glowing.flags = 0u;  // one side is enough: the walls look inwards, the block outwards
   const uint32_t wall = scene.addMaterial("glowing", glowing);
@@ -26,9 +27,13 @@ Scene makeFurnace() {
 // A convex solid of albedo 1 in an environment of radiance 1. Whatever it scatters left the
 // environment one event before: radiance is 1 at every pixel from one scattering event on, and the
 // solid is invisible. Flat faces: an interpolated normal would lose light below the face's horizon.
-Scene makeSphereFurnace() {
+// Metal that reflects everything is as white, where the light that meets several of its microfacets
+// is kept (--multiscatter).
+Scene makeSphereFurnace(std::optional<double> roughness) {
   SceneBuilder scene("sphere-furnace");
-  const uint32_t white = scene.addMaterial("white", lambert(glm::vec3(1.0f)));
+  const rl::Material material =
+      roughness ? metal(glm::vec3(1.0f), static_cast<float>(*roughness)) : lambert(glm::vec3(1.0f));
+  const uint32_t white = scene.addMaterial("white", material);
   scene.add(sphere("solid", {0.0, 0.0, 0.0}, 1.0, 4, false), white);
   EnvironmentMap uniform;
   uniform.source = "uniform radiance 1";

@@ -10,6 +10,8 @@ target_sources(rl_core PRIVATE
   scene/builtin_glass.cpp
   scene/builtin_many_lights.cpp
   scene/builtin_mesh.cpp
+  scene/builtin_name.cpp
+  scene/builtin_relations.cpp
   scene/builtin_quad_light.cpp
   scene/builtin_shell.cpp
   scene/builtin_sky.cpp

@@ -104,9 +104,7 @@ std::string namesakeBelow(const fs::path& folder, const fs::path& name) {
 Scene loadScene(const std::string& nameOrPath) {
   if (nameOrPath.empty()) failInput("scene: the name is empty; a built-in or a path expected");
   const std::vector<std::string>& builtins = builtinSceneNames();
-  if (std::find(builtins.begin(), builtins.end(), nameOrPath) != builtins.end()) {
-    return makeBuiltinScene(nameOrPath);
-  }
+  if (isBuiltinScene(nameOrPath)) return makeBuiltinScene(nameOrPath);
   const fs::path path(nameOrPath);
   std::vector<fs::path> folders = {""};
   if (path.is_relative()) {
@@ -126,10 +124,10 @@ Scene loadScene(const std::string& nameOrPath) {
     if (namesake.empty() && !folder.empty()) namesake = namesakeBelow(folder, path);
   }
   std::sort(near.begin() + static_cast<ptrdiff_t>(builtins.size()), near.end());
-  failInput(fmt::format("scene '{}': neither a built-in scene nor a file (tried {}){}", nameOrPath,
-                        tried,
-                        namesake.empty() ? didYouMean(nameOrPath, near)
-                                         : fmt::format("; did you mean '{}'?", namesake)));
+  failInput(
+      fmt::format("scene '{}': neither a built-in scene nor a file (tried {}){}", nameOrPath, tried,
+                  namesake.empty() ? didYouMean(nameOrPath.substr(0, nameOrPath.find('?')), near)
+                                   : fmt::format("; did you mean '{}'?", namesake)));
 }
 
 uint32_t findCamera(const Scene& scene, const std::string& nameOrIndex) {

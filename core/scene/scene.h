@@ -105,11 +105,24 @@ struct Scene {
 // Imports a glTF 2.0 file (.gltf or .glb). Throws Error (badInput) with one line.
 Scene loadGltf(const std::filesystem::path& file);
 
-// Makes a built-in scene; the name is one of builtinSceneNames().
+// A number in the name of a built-in scene, "furnace?albedo=0.9" (core/scene/builtin_name.h).
+struct SceneParameter {
+  std::string name;
+  std::optional<double> fallback;  // nothing: `summary` says what holds where it is not given
+  double lo = 0.0, hi = 0.0;       // inclusive
+  std::string summary;
+};
+
+// Makes a built-in scene; the name is one of builtinSceneNames(), with parameters behind a '?' or
+// without. Equal contents have one content hash, whatever the name. Throws Error (badInput).
 Scene makeBuiltinScene(const std::string& name);
 const std::vector<std::string>& builtinSceneNames();
+// Is this the name of a built-in scene, whatever stands behind a '?' in it?
+bool isBuiltinScene(const std::string& name);
 // One line for `restlab list scenes`.
 std::string builtinSceneSummary(const std::string& name);
+// Its own parameters, then those of every built-in scene.
+std::vector<SceneParameter> builtinSceneParameters(const std::string& name);
 
 // A built-in's name, or a path: tried as given, then under RESTLAB_SCENES, then under
 // ../shared/scenes; a directory or a stem finds the one glTF inside. Throws Error (badInput).

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "core/method.h"
+#include "core/scene/scene.h"
 #include "experiments/certificate/certify.h"
 #include "experiments/certificate/outputs.h"
 #include "experiments/cli/options.h"
@@ -81,13 +82,14 @@ Certified certifyScene(const BiasOptions& options, const certificate::Options& h
 
 // Every method of the suite on every scene, still.
 std::vector<Certified> certifySuite(const BiasOptions& options, const certificate::Options& how) {
-  const Suite suite = loadSuite(options.scene.request.scene, options.method.parameters);
-  if (suite.hasMovingCamera() || !suite.events.empty()) {
+  const Suite whole = loadSuite(options.scene.request.scene, options.method.parameters);
+  if (whole.hasMovingCamera() || !whole.events.empty()) {
     failUsage(fmt::format("{}: moves its camera or its lights; certificates are of still views",
-                          suite.file));
+                          whole.file));
   }
   std::vector<Certified> all;
-  for (const SuiteScene& scene : suite.scenes) {
+  for (const SuiteScene& scene : whole.scenes) {
+    const Suite suite = ofScene(whole, scene);
     std::string missing;
     if (scene.optional && assetsMissing(scene.request, missing)) {
       logInfo(fmt::format("skipped {}: {} is not here", scene.name, missing));
@@ -114,7 +116,7 @@ std::vector<Certified> certifySuite(const BiasOptions& options, const certificat
       }
     }
   }
-  if (all.empty()) failInput(fmt::format("{}: none of its scenes is here", suite.file));
+  if (all.empty()) failInput(fmt::format("{}: none of its scenes is here", whole.file));
   return all;
 }
 
@@ -151,7 +153,11 @@ void bias(BiasOptions options, const CLI::App& verb, Outcome& outcome) {
   const std::string& scene = options.scene.request.scene;
   const bool isOfSuite = isSuite(scene);
   std::string name = "images";
-  if (!scene.empty()) name = std::filesystem::path(scene).stem().string();
+  if (isBuiltinScene(scene)) {
+    name = safeFileName(scene);
+  } else if (!scene.empty()) {
+    name = std::filesystem::path(scene).stem().string();
+  }
   const certificate::Options how = certificateOptions(options, name);
   SessionConfig config;
   if (options.images.empty() && !isOfSuite) {

@@ -46,12 +46,39 @@ std::vector<std::string> scenesOfOthers() {
 Json scenes() {
   Json all = Json::array();
   for (const std::string& name : builtinSceneNames()) {
-    all.push_back({{"name", name}, {"summary", builtinSceneSummary(name)}, {"kind", "built-in"}});
+    Json parameters = Json::array();
+    for (const SceneParameter& parameter : builtinSceneParameters(name)) {
+      parameters.push_back({{"name", parameter.name},
+                            {"default", parameter.fallback ? Json(*parameter.fallback) : Json()},
+                            {"range", {parameter.lo, parameter.hi}},
+                            {"help", parameter.summary}});
+    }
+    all.push_back({{"name", name},
+                   {"summary", builtinSceneSummary(name)},
+                   {"kind", "built-in"},
+                   {"parameters", std::move(parameters)}});
   }
   for (const std::string& name : scenesOfOthers()) {
     all.push_back({{"name", name}, {"summary", "file"}, {"kind", "file"}});
   }
   return all;
+}
+
+// What a name may have behind a '?': those of one scene below it, those of all at the end.
+void printSceneParameters(const Json& all, const Json& parameters, const char* indent) {
+  for (const Json& parameter : parameters) {
+    const bool isOfAll = std::all_of(all.begin(), all.end(), [&](const Json& scene) {
+      if (!scene.contains("parameters")) return true;
+      const Json& its = scene["parameters"];
+      return std::find(its.begin(), its.end(), parameter) != its.end();
+    });
+    if (isOfAll != (*indent == '\0')) continue;
+    const std::string value =
+        parameter["default"].is_null() ? "" : "=" + parameter["default"].dump();
+    fmt::print("{}?{}{} in {:g}..{:g}: {}\n", indent, parameter["name"].get<std::string>(), value,
+               parameter["range"][0].get<double>(), parameter["range"][1].get<double>(),
+               parameter["help"].get<std::string>());
+  }
 }
 
 void printDetails(const Json& part) {
@@ -115,7 +142,16 @@ void list(const ListOptions& options) {
       for (const Json& device : item["devices"])
         fmt::print("{:<{}}    {}\n", "", width, device.get<std::string>());
     }
-    if (item.contains("parameters")) printDetails(item);
+    if (!item.contains("parameters")) continue;
+    if (options.what == "scenes") {
+      printSceneParameters(all, item["parameters"], "  ");
+    } else {
+      printDetails(item);
+    }
+  }
+  if (options.what == "scenes") {
+    fmt::print("of every built-in scene, as in 'furnace?albedo=0.9&scale=2^10':\n");
+    printSceneParameters(all, all.front()["parameters"], "");
   }
 }
 

@@ -31,7 +31,11 @@ struct RunOptions {
   bool force = false, dryRun = false;
 };
 
-std::vector<std::string> namesOf(const SuiteScene& scene) { return {scene.name}; }
+// Of a sweep also the name that its scenes have in common.
+std::vector<std::string> namesOf(const SuiteScene& scene) {
+  if (scene.sweepName.empty()) return {scene.name};
+  return {scene.name, scene.sweepName};
+}
 std::vector<std::string> namesOf(const SuiteMethod& method) {
   return {method.name, method.base, method.given};
 }
@@ -111,10 +115,9 @@ void setJobs(uint32_t jobs, Suite& suite) {
 
 // Who names a scene wants `render`.
 void refuseScene(const std::string& name) {
-  const std::vector<std::string>& scenes = builtinSceneNames();
   const std::string extension = std::filesystem::path(name).extension().string();
-  const bool isBuiltin = std::find(scenes.begin(), scenes.end(), name) != scenes.end();
-  if (extension != ".gltf" && extension != ".glb" && (!isBuiltin || std::filesystem::exists(name)))
+  if (extension != ".gltf" && extension != ".glb" &&
+      (!isBuiltinScene(name) || std::filesystem::exists(name)))
     return;
   failUsage(
       fmt::format("run {0}: is a scene, and run takes a suite of scenes and methods (*.toml); "

@@ -92,8 +92,7 @@ Json sceneJson(const LiveView& view) {
     lights.push_back({{"name", name}, {"kind", kind}});
   }
   const auto [lo, hi] = worldBounds(scene);
-  const std::vector<std::string>& builtin = builtinSceneNames();
-  const bool isBuiltin = std::find(builtin.begin(), builtin.end(), scene.name) != builtin.end();
+  const bool isBuiltin = isBuiltinScene(scene.name);
   const Session& session = view.session(0);
   return {
       {"name", scene.name},

@@ -276,8 +276,9 @@ ViewStart startOfSuite(const fs::path& file) {
   const ConfigTable root = ConfigTable::parseFile(file);
   ViewStart start;
   if (!root.has("view") || root.has("scene") || root.has("scenes")) {
-    const Suite suite = loadSuites(file, {}, {}).front();
-    const SuiteScene& scene = suite.scenes.front();
+    const Suite whole = loadSuites(file, {}, {}).front();
+    const SuiteScene& scene = whole.scenes.front();
+    const Suite suite = ofScene(whole, scene);
     start.request = scene.request;
     start.prepared = atPlace(scene.place, [&] { return prepareScene(scene.request); });
     start.settings = settingsOfSuite(suite, scene, start.prepared);
@@ -306,9 +307,8 @@ std::vector<std::string> methodNames(const ViewSettings& settings) {
 }
 
 SceneRequest fromAnywhere(SceneRequest request) {
-  const std::vector<std::string>& builtin = builtinSceneNames();
-  const bool isBuiltin = std::find(builtin.begin(), builtin.end(), request.scene) != builtin.end();
-  if (!isBuiltin) request.scene = fileFromAnywhere(request.scene, request.suiteFolder);
+  if (!isBuiltinScene(request.scene))
+    request.scene = fileFromAnywhere(request.scene, request.suiteFolder);
   if (!request.environment.empty())
     request.environment = fileFromAnywhere(request.environment, request.suiteFolder);
   request.suiteFolder.clear();

@@ -7,7 +7,7 @@
 #include <glm/gtc/constants.hpp>
 #include <random>
 
-#include "tests/analytic/polygon_irradiance.h"
+#include "experiments/truths/polygon_irradiance.h"
 
 namespace restlab::analytic {
 namespace {

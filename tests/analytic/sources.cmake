@@ -1,10 +1,7 @@
-# Solutions that tests compare with, exact or measured once, and their own tests.
+# Solutions that tests compare with and that are no library of experiments/truths, and the tests of both.
 set(RL_ANALYTIC_SOURCES
   analytic/bent_normals.cpp
   analytic/cornell_tiles.cpp
-  analytic/furnace.cpp
-  analytic/polygon_irradiance.cpp
-  analytic/truths.cpp
 )
 set(RL_ANALYTIC_TESTS
   analytic/bent_normals_test.cpp

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
-#include "tests/analytic/furnace.h"
-#include "tests/analytic/polygon_irradiance.h"
-#include "tests/analytic/truths.h"
+#include "experiments/truths/furnace.h"
+#include "experiments/truths/polygon_irradiance.h"
+#include "experiments/truths/truths.h"
 
 namespace restlab::analytic {
 namespace {
+
+constexpr ExactView kSmall{.width = 2, .height = 2, .scatteringEvents = 1};
 
 TEST(Furnace, SumsOfTheGeometricSeries) {
   EXPECT_EQ(furnaceRadiance(0.5, 0.5, 0), 0.5);
@@ -23,7 +25,8 @@ TEST(Furnace, SumsOfTheGeometricSeries) {
 TEST(Truths, FurnaceIsConstantAndMatchesItsSummary) {
   const Scene scene = makeBuiltinScene("furnace");
   for (const uint32_t events : {0u, 1u, 3u, 8u}) {
-    const std::vector<glm::dvec3> image = exactImage(scene, 5, 3, events);
+    const std::vector<glm::dvec3> image =
+        exactImage(scene, {.width = 5, .height = 3, .scatteringEvents = events});
     ASSERT_EQ(image.size(), 15u);
     for (const glm::dvec3& p : image) EXPECT_DOUBLE_EQ(p.x, 1.0 - std::exp2(-double(events) - 1.0));
   }
@@ -31,15 +34,80 @@ TEST(Truths, FurnaceIsConstantAndMatchesItsSummary) {
 
 TEST(Truths, SphereFurnaceIsWhite) {
   const Scene scene = makeBuiltinScene("sphere-furnace");
-  for (const glm::dvec3& p : exactImage(scene, 4, 4, 1)) EXPECT_EQ(p, glm::dvec3(1.0));
-  EXPECT_THROW(exactImage(scene, 4, 4, 0), std::invalid_argument);
+  for (const glm::dvec3& p : exactImage(scene, {.width = 4, .height = 4, .scatteringEvents = 1}))
+    EXPECT_EQ(p, glm::dvec3(1.0));
+  EXPECT_THROW(exactImage(scene, {.width = 4, .height = 4}), std::invalid_argument);
 }
 
 TEST(Truths, OnlyTheNamedScenesHaveAnExactImage) {
   for (const std::string& name : exactSceneNames()) {
-    EXPECT_NO_THROW(exactImage(makeBuiltinScene(name), 2, 2, 1)) << name;
+    EXPECT_NO_THROW(exactImage(makeBuiltinScene(name), kSmall)) << name;
   }
-  EXPECT_THROW(exactImage(makeBuiltinScene("cornell-box"), 2, 2, 1), std::invalid_argument);
+  EXPECT_THROW(exactImage(makeBuiltinScene("cornell-box"), kSmall), std::invalid_argument);
+}
+
+// Of every albedo: the sum against the recursion of radiance and against the closed form.
+TEST(Truths, FurnacesOfEveryAlbedo) {
+  for (const char* albedo : {"0", "0.5", "0.9", "0.99", "0.999", "0.9999", "1"}) {
+    const Scene scene = makeBuiltinScene(std::string("furnace?albedo=") + albedo);
+    const double a = double(float(std::stod(albedo)));
+    for (const uint32_t events : {0u, 8u, 64u, 512u}) {
+      double radiance = 0.5;
+      for (uint32_t n = 0; n < events; ++n) radiance = 0.5 + a * radiance;
+      const double closed =
+          a == 1.0 ? 0.5 * (events + 1.0) : 0.5 * (1.0 - std::pow(a, events + 1.0)) / (1.0 - a);
+      EXPECT_NEAR(closed / radiance, 1.0, 1e-9);
+      const std::vector<glm::dvec3> image =
+          exactImage(scene, {.width = 2, .height = 1, .scatteringEvents = events});
+      EXPECT_NEAR(image[1].y / radiance, 1.0, 1e-9) << albedo << " " << events;
+    }
+  }
+}
+
+TEST(Truths, SphereFurnaceOfMetalNeedsItsCompensation) {
+  const Scene scene = makeBuiltinScene("sphere-furnace?roughness=0.5");
+  ExactView view = kSmall;
+  EXPECT_THROW(exactImage(scene, view), std::invalid_argument);
+  view.multiscatter = true;
+  EXPECT_EQ(exactImage(scene, view)[0], glm::dvec3(1.0));
+  // A mirror loses nothing.
+  EXPECT_EQ(exactImage(makeBuiltinScene("sphere-furnace?roughness=0"), kSmall)[0], glm::dvec3(1.0));
+}
+
+// The limits of its edge: a point, by the inverse square, and a plane without an end, which fills
+// (1 + cos) / 2 of what the floor sees, weighted by the cosine.
+TEST(Truths, QuadLightBetweenAPointAndAPlane) {
+  const glm::dvec3 posW(0.4, 0.0, 0.6);
+  const double pi = glm::pi<double>();
+  for (const char* edge : {"1e-4", "1e-3", "1e-2"}) {
+    const Scene scene = makeBuiltinScene(std::string("quad-light?edge=") + edge);
+    const glm::dvec3 center(0.3, 2.0, -0.2), d = center - posW;
+    const auto& p = scene.geometries.at(1).positions;
+    const glm::dvec3 normal = glm::normalize(
+        glm::cross(glm::dvec3(p[1]) - glm::dvec3(p[0]), glm::dvec3(p[3]) - glm::dvec3(p[0])));
+    const double d2 = glm::dot(d, d), factor = d.y * -glm::dot(d, normal) / (d2 * d2);
+    // 1.5 m^2 of radiance 10 at edge 1; the power stays the same.
+    const double expected = 0.5 / pi * 10.0 * 1.5 * factor;
+    // Corners are floats: those of the smallest light are off by 1e-7 / 1e-4 of its edge.
+    EXPECT_NEAR(quadLightRadiance(scene, posW).x / expected, 1.0, 3e-3) << edge;
+  }
+  const Scene wide = makeBuiltinScene("quad-light?edge=1e3");
+  const double tilt = std::cos(glm::radians(12.0));
+  EXPECT_NEAR(quadLightRadiance(wide, posW).x / (0.5 * 10.0 * 1e-6 * (1.0 + tilt) / 2.0), 1.0,
+              1e-3);
+}
+
+TEST(Truths, QuadLightNeedsAViewOfTheFloorAlone) {
+  const auto why = [](const std::string& name, uint32_t camera) {
+    return whyNotExact(makeBuiltinScene(name),
+                       {.camera = camera, .width = 16, .height = 9, .scatteringEvents = 1});
+  };
+  EXPECT_EQ(why("quad-light", 0), "");
+  EXPECT_EQ(why("quad-light?edge=1e-4", 0), "");
+  EXPECT_EQ(why("quad-light?edge=3", 0), "from a camera that sees the light");
+  for (const char* edge : {"1e-4", "0.1", "1", "3", "10", "100", "1e3"})
+    EXPECT_EQ(why(std::string("quad-light?edge=") + edge, 1), "") << edge;
+  EXPECT_EQ(why("quad-light?fov=120", 1), "from a camera that sees more than the floor");
 }
 
 // The same integral by brute force over the light's surface, without the polygon formula.
@@ -73,8 +141,10 @@ TEST(Truths, QuadLightAgainstQuadrature) {
 TEST(Truths, QuadLightImageConverges) {
   const Scene scene = makeBuiltinScene("quad-light");
   // Four pixels of twice the resolution average to one: the quadrature of both must agree.
-  const std::vector<glm::dvec3> coarse = exactImage(scene, 16, 9, 1);
-  const std::vector<glm::dvec3> fine = exactImage(scene, 32, 18, 1);
+  const std::vector<glm::dvec3> coarse =
+      exactImage(scene, {.width = 16, .height = 9, .scatteringEvents = 1});
+  const std::vector<glm::dvec3> fine =
+      exactImage(scene, {.width = 32, .height = 18, .scatteringEvents = 1});
   double brightest = 0.0;
   for (const glm::dvec3& p : coarse) brightest = std::max(brightest, p.y);
   EXPECT_GT(brightest, 0.1);
@@ -85,7 +155,8 @@ TEST(Truths, QuadLightImageConverges) {
       EXPECT_NEAR(coarse[y * 16 + x].y, mean, 1e-6 * brightest) << x << " " << y;
     }
   }
-  for (const glm::dvec3& p : exactImage(scene, 3, 2, 0)) EXPECT_EQ(p, glm::dvec3(0.0));
+  for (const glm::dvec3& p : exactImage(scene, {.width = 3, .height = 2}))
+    EXPECT_EQ(p, glm::dvec3(0.0));
 }
 
 }  // namespace

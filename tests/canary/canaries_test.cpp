@@ -272,6 +272,8 @@ TEST(Canary, EveryOneIsTried) {
   std::set<std::string> tried(kOfWeights.begin(), kOfWeights.end());
   tried.insert({"jacobian_inverted", "confidence_by_film_sample", "visibility_missing_in_mis",
                 "stale_target", "no_cap"});
+  // By extremes_test.cpp.
+  tried.insert({"absolute_epsilon", "clamp_at_1e3", "fixed_ray_offset"});
   const std::vector<std::string> all = canaryNames();
   EXPECT_EQ(std::set<std::string>(all.begin(), all.end()), tried);
   EXPECT_THROW(WrongKernels("no such canary"), std::invalid_argument);

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/image/metrics.h"
-#include "tests/analytic/truths.h"
+#include "experiments/truths/truths.h"
 #include "tests/conformance/variants.h"
 
 namespace restlab::conformance {
@@ -10,8 +10,8 @@ namespace {
 
 Image exact(const Scene& scene, uint32_t width, uint32_t height, uint32_t scatteringEvents) {
   Image image(width, height);
-  const std::vector<glm::dvec3> truth =
-      analytic::exactImage(scene, width, height, scatteringEvents);
+  const std::vector<glm::dvec3> truth = analytic::exactImage(
+      scene, {.width = width, .height = height, .scatteringEvents = scatteringEvents});
   for (size_t p = 0; p < truth.size(); ++p) image.pixels[p] = glm::vec3(truth[p]);
   return image;
 }

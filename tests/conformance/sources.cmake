@@ -14,6 +14,7 @@ set(RL_CONFORMANCE_TESTS
   conformance/long_run_test.cpp
   conformance/moving_view_test.cpp
   conformance/radiance_test.cpp
+  conformance/scaling_test.cpp
   conformance/stopped_frame_test.cpp
   conformance/thin_wall_test.cpp
   conformance/variants.cpp

@@ -155,21 +155,26 @@ TEST(SphereFurnace, IsConvexWhiteAndEvenlyLit) {
   for (const glm::vec3& texel : scene.environment->radiance) EXPECT_EQ(texel, glm::vec3(1.0f));
 }
 
+// Of both cameras; the second one also below lights of every size.
 TEST(QuadLight, FloorFillsThePictureInFrontOfTheLight) {
-  const Scene scene = makeBuiltinScene("quad-light");
-  const std::vector<WorldTriangle> all = test::worldTriangles(scene);
-  const std::vector<WorldTriangle> light = test::worldTriangles(scene, "light");
-  ASSERT_EQ(light.size(), 2u);
-  const glm::dvec3 eye(scene.cameras[0].cameraToWorld[3]);
-  for (const double aspect : {1.0, 16.0 / 9.0}) {
-    for (int i = 0; i <= 32; ++i) {
-      for (int j = 0; j <= 32; ++j) {
-        const glm::dvec3 dir = test::cameraDirection(scene.cameras[0], i / 32.0, j / 32.0, aspect);
-        const auto hit = test::nearestHit(all, eye, dir);
-        ASSERT_TRUE(hit.has_value()) << i << " " << j;
-        EXPECT_EQ(scene.instances[hit->triangle->instance].name, "floor") << i << " " << j;
-        const glm::dvec3 posW = eye + hit->t * dir;
-        EXPECT_GT(glm::dot(light[0].areaNormal(), posW - light[0].p0), 0.0) << "behind the light";
+  for (const auto& [name, camera] :
+       {std::pair("quad-light", 0), {"quad-light", 1}, {"quad-light?edge=1e3", 1}}) {
+    const Scene scene = makeBuiltinScene(name);
+    const SceneCamera& view = scene.cameras.at(size_t(camera));
+    const std::vector<WorldTriangle> all = test::worldTriangles(scene);
+    const std::vector<WorldTriangle> light = test::worldTriangles(scene, "light");
+    ASSERT_EQ(light.size(), 2u);
+    const glm::dvec3 eye(view.cameraToWorld[3]);
+    for (const double aspect : {1.0, 16.0 / 9.0}) {
+      for (int i = 0; i <= 32; ++i) {
+        for (int j = 0; j <= 32; ++j) {
+          const glm::dvec3 dir = test::cameraDirection(view, i / 32.0, j / 32.0, aspect);
+          const auto hit = test::nearestHit(all, eye, dir);
+          ASSERT_TRUE(hit.has_value()) << i << " " << j;
+          EXPECT_EQ(scene.instances[hit->triangle->instance].name, "floor") << i << " " << j;
+          const glm::dvec3 posW = eye + hit->t * dir;
+          EXPECT_GT(glm::dot(light[0].areaNormal(), posW - light[0].p0), 0.0) << "behind the light";
+        }
       }
     }
   }

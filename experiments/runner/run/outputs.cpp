@@ -6,16 +6,28 @@
 
 #include "core/image/atomic_file.h"
 #include "experiments/report/report_html.h"
+#include "experiments/report/text.h"
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/summary/report.h"
 #include "experiments/runner/summary/report_document.h"
 
 namespace restlab {
 
+namespace {
+
+double meanOf(const Image& image) {
+  glm::dvec3 sum(0.0);
+  for (const glm::vec3& pixel : image.pixels) sum += glm::dvec3(pixel);
+  return (sum.x + sum.y + sum.z) / (3.0 * double(image.pixels.size()));
+}
+
+}  // namespace
+
 std::string Outputs::add(const Suite& suite, BlockResult result) {
   const float exposure = previewExposure(result.reference.mean);
   writeBlockImages(out_ / "images", suite, result, exposure);
-  Block& block = blocks_.emplace_back(Block{&suite, std::move(result), {}});
+  Block& block = blocks_.emplace_back(Block{&suite, std::move(result), {}, 0.0});
+  block.referenceMean = meanOf(block.result.reference.mean);
   block.rows = summarise(suite, block.result);
   for (MethodResult& method : block.result.methods) {
     // Only the numbers are needed from here on.
@@ -31,9 +43,41 @@ std::string Outputs::add(const Suite& suite, BlockResult result) {
   return blockTable(suite, block.rows);
 }
 
+std::vector<SceneSweep> Outputs::sweeps() const {
+  std::vector<SweptBlock> blocks;
+  for (const Block& block : blocks_)
+    blocks.push_back({block.suite, &block.rows, block.referenceMean});
+  return sceneSweeps(blocks);
+}
+
+std::string Outputs::sweepTables() const {
+  std::string text;
+  for (const SceneSweep& sweep : sweeps()) text += sweepTable(sweep);
+  return text;
+}
+
+std::string Outputs::nonfinite() const {
+  uint64_t values = 0;
+  size_t rows = 0;
+  std::string first;
+  for (const Block& block : blocks_) {
+    for (const MethodSummary& row : block.rows) {
+      if (row.nonfinite == 0) continue;
+      if (rows++ == 0) first = fmt::format("{} in {}", row.method->name, block.result.scene);
+      values += row.nonfinite;
+    }
+  }
+  if (rows == 0) return "";
+  return fmt::format("{} are not finite, in {}, the first of which is {}", counted(values, "value"),
+                     counted(rows, "row"), first);
+}
+
 void Outputs::writePages(const Suite& suite, const nlohmann::ordered_json& record) const {
   if (documents_.empty()) return;
-  const nlohmann::ordered_json document = reportDocument(suite, record, documents_, notes_);
+  std::vector<nlohmann::ordered_json> documents;
+  for (const SceneSweep& sweep : sweeps()) documents.push_back(sweepDocument(sweep));
+  documents.insert(documents.end(), documents_.begin(), documents_.end());
+  const nlohmann::ordered_json document = reportDocument(suite, record, documents, notes_);
   writePlots(out_, document);
   writeReport(out_, document);
 }
@@ -53,6 +97,7 @@ void Outputs::write(const Suite& suite, bool finished) const {
   if (!suite.question.empty()) text += suite.question + "\n\n";
   if (!finished) text += "Not finished: the rows below are of what was.\n\n";
   for (const std::string& line : notes_) text += line + "\n\n";
+  text += sweepTables();
   for (const Block& block : blocks_) text += blockTable(*block.suite, block.rows);
   const bool usesVulkan = std::any_of(devices_.begin(), devices_.end(),
                                       [](const DeviceUse& use) { return use.backend == "vulkan"; });

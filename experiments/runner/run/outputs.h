@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "experiments/runner/suite/suite_check.h"
+#include "experiments/runner/summary/scene_sweep.h"
 #include "experiments/runner/summary/summary.h"
 
 namespace restlab {
@@ -25,6 +26,10 @@ class Outputs {
   void use(const std::vector<DeviceUse>& devices) { devices_ = devices; }
   // summary.csv, table.md and table.tex. `suite`: any point, for name and question.
   void write(const Suite& suite, bool finished) const;
+  // The tables of sweeps of scenes; "" where there is none.
+  std::string sweepTables() const;
+  // Where values are not finite, in a line; "" where all are.
+  std::string nonfinite() const;
   // report.html and plots/*.svg; `record`: run.json. Nothing where there is no block.
   void writePages(const Suite& suite, const nlohmann::ordered_json& record) const;
 
@@ -33,7 +38,10 @@ class Outputs {
     const Suite* suite;
     BlockResult result;
     std::vector<MethodSummary> rows;  // point into `result`
+    double referenceMean;             // over pixels and channels
   };
+  std::vector<SceneSweep> sweeps() const;
+
   std::filesystem::path out_;
   std::deque<Block> blocks_;                       // addresses must stay
   std::vector<nlohmann::ordered_json> documents_;  // of the blocks

@@ -22,13 +22,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool isBuiltin(const std::string& name) {
-  for (const std::string& builtin : builtinSceneNames()) {
-    if (builtin == name) return true;
-  }
-  return false;
-}
-
 // A relative name is tried beside the suite too; "" when it is nowhere.
 std::string locate(const std::string& name, const std::string& suiteFolder) {
   const fs::path found = findAsset(name);
@@ -74,7 +67,7 @@ void setCamera(PreparedScene& prepared, const Scene& scene, const std::string& n
 
 bool assetsMissing(const SceneRequest& request, std::string& missing) {
   missing.clear();
-  if (!isBuiltin(request.scene) && locate(request.scene, request.suiteFolder).empty()) {
+  if (!isBuiltinScene(request.scene) && locate(request.scene, request.suiteFolder).empty()) {
     missing = request.scene;
   } else if (!request.environment.empty() &&
              locate(request.environment, request.suiteFolder).empty()) {
@@ -103,7 +96,7 @@ PreparedScene prepareScene(const SceneRequest& request, std::optional<Environmen
   const auto start = std::chrono::steady_clock::now();
   PreparedScene prepared;
   std::string name = request.scene;
-  if (!isBuiltin(name) && !request.suiteFolder.empty()) {
+  if (!isBuiltinScene(name) && !request.suiteFolder.empty()) {
     const std::string found = locate(name, request.suiteFolder);
     if (!found.empty()) name = found;
   }

@@ -62,11 +62,17 @@ ResultsFolder openResults(const fs::path& folder) {
     std::erase_if(suite.methods, [&](const SuiteMethod& method) {
       return std::find(methods.begin(), methods.end(), method.name) == methods.end();
     });
+    for (const SuiteScene& scene : suite.scenes) {
+      if (scene.maxBounces || scene.russianRoulette || scene.multiscatter)
+        results.ofScenes.emplace(std::pair(suite.point, scene.name), ofScene(suite, scene));
+    }
   }
   return results;
 }
 
 const Suite& suiteOf(const ResultsFolder& results, const PlannedBlock& block) {
+  const auto own = results.ofScenes.find({block.point, block.scene});
+  if (own != results.ofScenes.end()) return own->second;
   for (const Suite& suite : results.points) {
     if (suite.point == block.point) return suite;
   }

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiments/runner/summary/summary.h"
@@ -22,6 +24,8 @@ struct ResultsFolder {
   std::filesystem::path folder;
   nlohmann::ordered_json record;  // run.json
   std::vector<Suite> points;      // of suite.toml
+  // By point and scene: as it is for a scene that has settings of its own.
+  std::map<std::pair<std::string, std::string>, Suite> ofScenes;
   std::vector<PlannedBlock> plan;
 };
 
@@ -29,7 +33,7 @@ struct ResultsFolder {
 // one that `run` left.
 ResultsFolder openResults(const std::filesystem::path& folder);
 
-// The suite of a block's point; throws Error (badInput) where suite.toml has none.
+// The suite of a block's point and scene; throws Error (badInput) where suite.toml has none.
 const Suite& suiteOf(const ResultsFolder& results, const PlannedBlock& block);
 
 // The block with every job of the plan that is there. A job that is missing or damaged is one line

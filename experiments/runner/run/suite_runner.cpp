@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdio>
+#include <deque>
 #include <exception>
 #include <fstream>
 #include <mutex>
@@ -119,6 +120,7 @@ class SuiteRun {
     try {
       const bool finished = executeAll();
       outputs_.write(points_.front(), finished);
+      if (finished) std::fputs(outputs_.sweepTables().c_str(), stdout);
       writeRecord(finished ? "finished" : "interrupted");
       outputs_.writePages(points_.front(), record_);
       logEvent({{"event", finished ? "finished" : "interrupted"},
@@ -127,11 +129,15 @@ class SuiteRun {
                 {"were_there", reused_}});
       if (reused_ > 0)
         logInfo(fmt::format("{} of {} runs were there already", reused_, reused_ + made_));
-      return finished;
+      if (!finished) return false;
     } catch (const Error& error) {
       writeRecord(fmt::format("failed: {}", error.what()));
       throw;
     }
+    const std::string nonfinite = outputs_.nonfinite();
+    if (points_.front().failOnNonfinite && !nonfinite.empty())
+      throw Error(ExitCode::comparisonFailed, nonfinite);
+    return true;
   }
 
  private:
@@ -198,7 +204,8 @@ class SuiteRun {
 
   bool executeBlock(size_t point, const SuiteScene& scene, const PreparedScene& prepared,
                     uint32_t component) {
-    const Suite& suite = points_[point];
+    // Its rows point to it until the end.
+    const Suite& suite = ofScenes_.emplace_back(ofScene(points_[point], scene));
     BlockResult block;
     block.scene = scene.name;
     block.camera = prepared.cameraName;
@@ -381,6 +388,12 @@ class SuiteRun {
       const SessionConfig picture = pictureOf(suite, block.width, block.height, block.component);
       ReferenceConfig config = referenceConfigOf(picture);
       const fs::path folder = request_.out / "references";
+      if (scene.truth != Truth::rendered) {
+        block.reference = obtainTruth(suite, scene, config, folder);
+        block.referenceFile = "references/" + label + ".exr";
+        writeReference(request_.out / block.referenceFile, block.reference);
+        return true;
+      }
       if (block.motion) config.camera = cameraAt(*block.motion, suite.warmupFrames);
       block.reference = obtainReference(sceneAt(block.lights, prepared, suite.warmupFrames), config,
                                         suite.target, folder, label);
@@ -397,6 +410,15 @@ class SuiteRun {
     }
     block.referenceFile = "references/" + label + ".exr";
     return true;
+  }
+
+  static Reference obtainTruth(const Suite& suite, const SuiteScene& scene,
+                               const ReferenceConfig& config, const fs::path& folder) {
+    const PreparedScene plain = plainOf(suite, scene, config);
+    if (scene.truth == Truth::exact) return exactReference(scene.request, plain, config);
+    return multiplied(obtainReference(plain, config, suite.target, folder,
+                                      plainLabel(scene.request, plain, config)),
+                      radianceFactor(scene.request.scene));
   }
 
   // --methods may have taken some of the suite's.
@@ -448,7 +470,8 @@ class SuiteRun {
   std::vector<nlohmann::ordered_json> plan_;
   nlohmann::ordered_json record_;  // run.json
   Pace pace_;
-  size_t next_ = 0;  // block of the plan
+  std::deque<Suite> ofScenes_;  // addresses must stay
+  size_t next_ = 0;             // block of the plan
   size_t made_ = 0, reused_ = 0;
 };
 

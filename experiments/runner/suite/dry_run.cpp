@@ -79,6 +79,20 @@ ReferencesThere referencesThere(const Suite& suite, const SuiteScene& scene,
     return there;
   }
   ReferenceConfig config = referenceConfigOf(picture);
+  if (scene.truth != Truth::rendered) {
+    const PreparedScene plain = plainOf(suite, scene, config);
+    std::optional<Reference> truth;
+    if (scene.truth == Truth::exact) {
+      truth = exactReference(scene.request, plain, config);
+    } else if (auto rendered = findReference(suite, plain, config, out,
+                                             plainLabel(scene.request, plain, config))) {
+      truth = multiplied(std::move(*rendered), radianceFactor(scene.request.scene));
+    }
+    there.missing = truth ? 0 : 1;
+    there.hash = truth ? referenceHash(*truth) : "";
+    there.text = truth ? originOf(*truth) : "to be made";
+    return there;
+  }
   const std::string label = referenceLabel(suite, block);
   if (block.motion) config.camera = cameraAt(*block.motion, suite.warmupFrames);
   const std::optional<Reference> measured =
@@ -213,7 +227,8 @@ std::string planText(const std::vector<Suite>& points, const SuiteRequest& reque
     }
     const PreparedScene prepared =
         checks.front().only ? *checks.front().only : prepareScene(named.request);
-    for (const Suite& suite : points) {
+    for (const Suite& point : points) {
+      const Suite suite = ofScene(point, point.scenes[s]);
       for (const uint32_t component : suite.components) {
         BlockResult block;
         block.scene = named.name;

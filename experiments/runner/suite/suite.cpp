@@ -14,16 +14,21 @@
 #include "experiments/runner/suite/suite_methods.h"
 #include "experiments/runner/suite/suite_overrides.h"
 #include "experiments/runner/suite/suite_settings.h"
+#include "experiments/runner/suite/scene_parameter.h"
 #include "experiments/runner/suite/sweep.h"
 
 namespace restlab {
 
 namespace {
 
+// A file's name without its folder and ending; a built-in's with all of its parameters.
+std::string shownName(const std::string& scene) {
+  return isBuiltinScene(scene) ? scene : std::filesystem::path(scene).stem().string();
+}
+
 SuiteScene readScene(const ConfigTable& table, const std::string& folder) {
   SuiteScene scene;
   scene.request.suiteFolder = folder;
-  scene.request.scene = table.getString("scene", "");
   scene.request.camera = table.getString("camera", "");
   scene.request.environment = table.getString("environment", "");
   if (table.has("environment_rotation")) {
@@ -32,20 +37,56 @@ SuiteScene readScene(const ConfigTable& table, const std::string& folder) {
   if (table.has("environment_scale")) {
     scene.request.environmentScale = table.getNumber("environment_scale", 1.0, 0.0, 1e9);
   }
-  const std::filesystem::path path(scene.request.scene);
-  scene.name = table.getString("name", path.stem().string());
+  scene.name = table.getString("name", "");
   scene.reference = table.getString("reference", "");
+  const std::vector<std::string> truths = {"rendered", "exact", "same"};
+  const std::string truth = table.getChoice("truth", truths.front(), truths);
+  scene.truth = truth == "exact" ? Truth::exact : truth == "same" ? Truth::same : Truth::rendered;
+  if (scene.truth != Truth::rendered && !scene.reference.empty())
+    table.fail("truth", "'truth' and 'reference' exclude each other");
+  if (table.has("max_bounces"))
+    scene.maxBounces = uint32_t(table.getInteger("max_bounces", 0, 0, kMaxBouncesOfSuites));
+  if (table.has("russian_roulette"))
+    scene.russianRoulette = table.getBool("russian_roulette", false);
+  if (table.has("multiscatter")) scene.multiscatter = table.getBool("multiscatter", false);
   scene.place = table.place("scene");
   scene.cameraPlace = table.place("camera");
   scene.environmentPlace = table.place("environment");
   scene.referencePlace = table.place("reference");
+  scene.truthPlace = table.place("truth");
   scene.width = uint32_t(table.getInteger("width", 0, 1, kMaxSide));
   scene.height = uint32_t(table.getInteger("height", 0, 1, kMaxSide));
   scene.reverseTurns = table.getBool("reverse_turns", false);
   scene.optional = table.getBool("optional", false);
-  table.finish();
-  if (scene.request.scene.empty()) table.fail("scene", "[[scene]] needs a key 'scene'");
   return scene;
+}
+
+// The scenes of a [[scene]], which are a sweep where there are several: of one built-in, and
+// different in one parameter.
+std::vector<SuiteScene> readScenes(const ConfigTable& table, const std::string& folder,
+                                   size_t sweep) {
+  const SuiteScene common = readScene(table, folder);
+  const std::vector<std::string> names = table.getStrings("scene");
+  table.finish();
+  if (names.empty() || names.front().empty()) {
+    table.fail("scene", "[[scene]] needs a key 'scene'");
+  }
+  std::vector<SuiteScene> scenes;
+  for (const std::string& name : names) {
+    SuiteScene& scene = scenes.emplace_back(common);
+    scene.request.scene = name;
+    if (names.size() == 1) {
+      if (scene.name.empty()) scene.name = shownName(name);
+      continue;
+    }
+    scene.sweep = sweep;
+    scene.sweepName = common.name;
+    scene.name = (common.name.empty() ? "" : common.name + ": ") + shownName(name);
+  }
+  if (names.size() > 1) {
+    atPlace(table.place("scene"), [&] { return sweptParameter(names); });
+  }
+  return scenes;
 }
 
 // In a table of several backends every name says which one it is of.
@@ -136,6 +177,14 @@ BiasClass SuiteMethod::bias(const Suite& suite) const {
   return method.bias(session.mode, parameters(), suite.hasMovingCamera());
 }
 
+Suite ofScene(const Suite& suite, const SuiteScene& scene) {
+  Suite own = suite;
+  own.maxBounces = scene.maxBounces.value_or(own.maxBounces);
+  own.russianRoulette = scene.russianRoulette.value_or(own.russianRoulette);
+  own.multiscatter = scene.multiscatter.value_or(own.multiscatter);
+  return own;
+}
+
 std::span<const SuiteMethod> Suite::rendered() const {
   const auto end = std::find_if(methods.begin(), methods.end(), [](const SuiteMethod& method) {
     return method.images.has_value();
@@ -217,13 +266,15 @@ Suite readSuite(const ConfigTable& root, const std::filesystem::path& file, cons
     SuiteScene scene;
     scene.request.scene = name;
     scene.request.suiteFolder = folder;
-    scene.name = std::filesystem::path(name).stem().string();
+    scene.name = shownName(name);
     scene.place = root.place("scenes");
     scene.cameraPlace = scene.environmentPlace = scene.referencePlace = scene.place;
     suite.scenes.push_back(scene);
   }
+  size_t sweeps = 0;
   for (const ConfigTable& table : root.getTables("scene")) {
-    suite.scenes.push_back(readScene(table, folder));
+    for (SuiteScene& scene : readScenes(table, folder, ++sweeps))
+      suite.scenes.push_back(std::move(scene));
   }
   if (suite.scenes.empty())
     root.fail("", "the suite has no scenes: give scenes = [..] or [[scene]]");

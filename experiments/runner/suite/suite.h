@@ -11,6 +11,7 @@
 #include "core/scene/camera_path.h"
 #include "experiments/runner/run/prepare.h"
 #include "experiments/runner/reference/reference.h"
+#include "experiments/runner/reference/truth.h"
 #include "experiments/runner/suite/light_events.h"
 
 namespace restlab {
@@ -22,8 +23,15 @@ struct SuiteScene {
   uint32_t width = 0, height = 0;  // 0: as [settings] says
   bool reverseTurns = false;       // camera paths by an angle turn the other way
   bool optional = false;           // skipped, with a line, where its files are absent
+  Truth truth = Truth::rendered;
+  // Instead of the suite's.
+  std::optional<uint32_t> maxBounces;
+  std::optional<bool> russianRoulette, multiscatter;
+  // What scenes of one [[scene]] have in common, which are a sweep; 0: it has this one alone.
+  size_t sweep = 0;
+  std::string sweepName;  // in tables
   // Where the suite says so, for errors: file:line:column.
-  std::string place, cameraPlace, environmentPlace, referencePlace;
+  std::string place, cameraPlace, environmentPlace, referencePlace, truthPlace;
 };
 
 // What another program rendered, as a row of the tables.
@@ -87,6 +95,8 @@ struct Suite {
   uint32_t jobs = 1;        // runs side by side
   std::string baseline;     // name of the method that ratios are against; "": the first `path`
   std::vector<std::string> metrics;  // further ones, of the measured frame
+  double holdsWithin = 0.01;         // of 1: what an energy ratio may be off in a sweep of scenes
+  bool failOnNonfinite = false;      // a value that is not finite ends the run with an error
   std::vector<SuiteMask> masks;
   CameraPath cameraPath;  // of every scene, from its camera
   std::string cameraPathName = "still", cameraPathPlace;
@@ -126,6 +136,9 @@ struct Suite {
  private:
   size_t firstPath(size_t method, const std::string& denoiser) const;
 };
+
+// The suite as it is for one of its scenes, whose own settings win.
+Suite ofScene(const Suite& suite, const SuiteScene& scene);
 
 // Reads a suite with `--set KEY=VALUE` overrides: a key of [settings], of [reference] as
 // reference.KEY, of every method that knows it as method.KEY, of one as method.NAME.KEY, of [sweep]

@@ -104,6 +104,10 @@ void checkScene(const Suite& suite, const SuiteScene& scene, const PreparedScene
   }
   uint32_t width = 0, height = 0;
   atPlace(scene.place, [&] { sceneResolution(suite, scene, prepared, width, height); });
+  if (scene.truth != Truth::rendered) {
+    for (const uint32_t component : suite.components)
+      plainOf(suite, scene, referenceConfigOf(pictureOf(suite, width, height, component)));
+  }
   if (scene.reference.empty()) {
     atPlace(scene.place, [&] { requireExrSize("its reference", width, height, kReferenceLayers); });
   } else {
@@ -136,6 +140,18 @@ void sceneResolution(const Suite& suite, const SuiteScene& scene, const Prepared
   width = own ? scene.width : suite.width;
   height = own ? scene.height : suite.height;
   completeResolution(prepared, width, height);
+}
+
+PreparedScene plainOf(const Suite& suite, const SuiteScene& scene, const ReferenceConfig& config) {
+  if (suite.hasMovingCamera() || !suite.events.empty()) {
+    failUsage(fmt::format("{}: 'truth' is of a still camera and of lights as they are",
+                          scene.truthPlace));
+  }
+  const PreparedScene plain =
+      atPlace(scene.place, [&] { return prepareScene(withoutRelations(scene.request)); });
+  const std::string why = whyNoTruth(scene.truth, scene.request, plain, config);
+  if (!why.empty()) failUsage(fmt::format("{}: {}", scene.truthPlace, why));
+  return plain;
 }
 
 std::optional<CameraMotion> motionOf(const Suite& suite, const SuiteScene& scene,
@@ -185,7 +201,8 @@ std::vector<SuiteCheck> checkSuites(const std::vector<Suite>& points) {
     const PreparedScene prepared = loadScene(scenes[s]);
     for (size_t p = 0; p < points.size(); ++p) {
       throwIfInterrupted("nothing was rendered");
-      checkScene(points[p], points[p].scenes[s], prepared, found[p]);
+      const SuiteScene& scene = points[p].scenes[s];
+      checkScene(ofScene(points[p], scene), scene, prepared, found[p]);
     }
     if (scenes.size() == 1) found.front().only = prepared;
   }

@@ -96,7 +96,8 @@ void readSettings(const ConfigTable& table, Suite& suite) {
     parseResolution(table.getString("resolution", ""), table.place("resolution") + ": 'resolution'",
                     suite.width, suite.height);
   }
-  suite.maxBounces = uint32_t(table.getInteger("max_bounces", suite.maxBounces, 0, 1024));
+  suite.maxBounces =
+      uint32_t(table.getInteger("max_bounces", suite.maxBounces, 0, kMaxBouncesOfSuites));
   suite.multiscatter = table.getBool("multiscatter", suite.multiscatter);
   suite.russianRoulette = table.getBool("russian_roulette", suite.russianRoulette);
   suite.warmupFrames =
@@ -118,6 +119,8 @@ void readSettings(const ConfigTable& table, Suite& suite) {
   suite.accumulate = table.getBool("accumulate", suite.accumulate);
   suite.temporal = table.getBool("temporal", suite.temporal);
   suite.timing = table.getBool("timing", suite.timing);
+  suite.holdsWithin = table.getNumber("holds_within", suite.holdsWithin, 0.0, 1.0);
+  suite.failOnNonfinite = table.getBool("fail_on_nonfinite", suite.failOnNonfinite);
   suite.baseline = table.getString("baseline", suite.baseline);
   for (const std::string& given : table.getStrings("metrics", {}))
     addMetric(table, given, suite.metrics);

@@ -7,6 +7,9 @@
 
 namespace restlab {
 
+// Of `max_bounces`.
+constexpr int64_t kMaxBouncesOfSuites = 1024;
+
 // One name or several; "cpu" and so on, each once.
 std::vector<std::string> readBackends(const ConfigTable& table,
                                       const std::vector<std::string>& fallback);

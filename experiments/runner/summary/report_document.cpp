@@ -364,7 +364,7 @@ Json blockDocument(const Suite& suite, const std::vector<MethodSummary>& rows, f
       {"subtitle",
        fmt::format(
            "camera {}{}{}, {}x{}, {} scattering events, Russian roulette {}, filter {}{}; {} "
-           "of {} warm-up and {} timed frames; reference {} spp, relMSE {:.2g}{}",
+           "of {} warm-up and {} timed frames; reference {}{}",
            block.camera,
            suite.hasMovingCamera() ? fmt::format(", path {}", suite.cameraPathName) : "",
            suite.events.empty() ? "" : ", lights: " + eventsText(suite.events, suite.warmupFrames),
@@ -372,7 +372,7 @@ Json blockDocument(const Suite& suite, const std::vector<MethodSummary>& rows, f
            filterName(suite.pixelFilter),
            suite.multiscatter ? ", multiple scattering compensated" : "",
            counted(rows.front().runs, "run"), suite.warmupFrames, suite.timedFrames,
-           block.reference.spp, block.reference.relmse,
+           originOf(block.reference),
            block.reference.half0 ? "" : ", without halves: its own noise is part of every MSE")}};
   addTable(rows, document);
   Json plots = Json::array();
@@ -392,8 +392,7 @@ Json blockDocument(const Suite& suite, const std::vector<MethodSummary>& rows, f
   if (rows.front().temporal && isStill) plots.push_back(correlations(rows));
   // A figure that leaves the report must still say what it was measured against.
   for (Json& plot : plots) {
-    plot["x"]["note"] = fmt::format("reference: {} spp, relMSE {}", block.reference.spp,
-                                    shortNumber(block.reference.relmse));
+    plot["x"]["note"] = "reference: " + originOf(block.reference);
   }
   document["plots"] = std::move(plots);
   if (suite.timing) document["bars"] = barsOf(rows);

@@ -280,15 +280,15 @@ std::string blockTable(const Suite& suite, const std::vector<MethodSummary>& row
       "## {}, {} light{}\n\n{}Camera {}{}{}, {}x{}, {} scattering events, Russian roulette {}, "
       "filter "
       "{}{}; "
-      "{} of {} warm-up and {} timed frames; reference {} spp (relMSE {:.2g}).\n\n",
+      "{} of {} warm-up and {} timed frames; reference {}.\n\n",
       block.scene, componentName(block.component), suite.point.empty() ? "" : ", " + suite.point,
       onBackend(suite), block.camera,
       suite.hasMovingCamera() ? fmt::format(" on the path '{}'", suite.cameraPathName) : "",
       suite.events.empty() ? "" : ", lights: " + eventsText(suite.events, suite.warmupFrames),
       block.width, block.height, suite.maxBounces, suite.russianRoulette ? "on" : "off",
       filterName(suite.pixelFilter), suite.multiscatter ? ", multiple scattering compensated" : "",
-      counted(rows.front().runs, "run"), suite.warmupFrames, suite.timedFrames, block.reference.spp,
-      block.reference.relmse);
+      counted(rows.front().runs, "run"), suite.warmupFrames, suite.timedFrames,
+      originOf(block.reference));
   text += errorTable(rows);
   std::string notes;
   if (!suite.baseline.empty()) notes += fmt::format("- ratios are against {}\n", suite.baseline);

@@ -1,4 +1,4 @@
-#include "tests/analytic/furnace.h"
+#include "experiments/truths/furnace.h"
 
 namespace restlab::analytic {
 

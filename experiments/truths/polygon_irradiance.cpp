@@ -1,4 +1,4 @@
-#include "tests/analytic/polygon_irradiance.h"
+#include "experiments/truths/polygon_irradiance.h"
 
 #include <cmath>
 

@@ -1,0 +1,106 @@
+#include "experiments/runner/reference/truth.h"
+
+#include <fmt/format.h>
+
+#include "core/scene/builtin_name.h"
+#include "experiments/runner/reference/reference_halves.h"
+#include "experiments/runner/run/build_info.h"
+#include "experiments/runner/run/files.h"
+#include "experiments/truths/truths.h"
+
+namespace restlab {
+
+namespace {
+
+// Of the metadata: absent where a reference was rendered of the scene itself.
+constexpr const char* kTruth = "truth";
+
+analytic::ExactView viewOf(const PreparedScene& plain, const ReferenceConfig& config) {
+  return {.camera = plain.camera,
+          .width = config.width,
+          .height = config.height,
+          .scatteringEvents = config.maxBounces,
+          .multiscatter = config.multiscatter};
+}
+
+void multiply(Image& image, double factor) {
+  for (glm::vec3& pixel : image.pixels) pixel = glm::vec3(glm::dvec3(pixel) * factor);
+}
+
+}  // namespace
+
+SceneRequest withoutRelations(SceneRequest request) {
+  if (isBuiltinScene(request.scene)) request.scene = withoutRelations(request.scene);
+  return request;
+}
+
+double radianceFactor(const std::string& scene) {
+  if (!isBuiltinScene(scene)) return 1.0;
+  return parseBuiltinName(scene).value(kRadianceParameter).value();
+}
+
+std::string whyNoTruth(Truth truth, const SceneRequest& request, const PreparedScene& plain,
+                       const ReferenceConfig& config) {
+  if (truth == Truth::rendered) return "";
+  const char* word = truth == Truth::exact ? "exact" : "same";
+  const std::string name = fmt::format("'truth' is \"{}\", but", word);
+  if (!isBuiltinScene(request.scene))
+    return fmt::format("{} {} is no built-in scene", name, request.scene);
+  if (truth == Truth::same) return "";
+  if (!request.environment.empty() || request.environmentRotation || request.environmentScale)
+    return fmt::format("{} the environment is not the scene's own", name);
+  if (config.components != rl::RL_COMPONENT_ALL)
+    return fmt::format("{} exact images are of the component all", name);
+  if (config.pixelFilter != rl::RL_FILTER_BOX)
+    return fmt::format("{} exact images are of the filter box", name);
+  const std::string why = analytic::whyNotExact(plain.scene->source(), viewOf(plain, config));
+  return why.empty() ? ""
+                     : fmt::format("{} {} has no exact image {}", name,
+                                   withoutRelations(request.scene), why);
+}
+
+Reference exactReference(const SceneRequest& request, const PreparedScene& plain,
+                         const ReferenceConfig& config) {
+  const std::vector<glm::dvec3> exact =
+      analytic::exactImage(plain.scene->source(), viewOf(plain, config));
+  const double factor = radianceFactor(request.scene);
+  Reference reference;
+  reference.mean = Image(config.width, config.height);
+  for (size_t i = 0; i < exact.size(); ++i) reference.mean.pixels[i] = glm::vec3(exact[i] * factor);
+  reference.half0 = reference.half1 = reference.mean;
+  reference.metadata = describe(plain, referenceSession(plain, config));
+  reference.metadata.merge(provenanceWords());
+  reference.metadata["kind"] = "reference";
+  reference.metadata["spp"] = "0";
+  reference.metadata["relmse_estimate"] = reference.metadata["relmse_since_half"] = "0";
+  reference.metadata["render_time_s"] = "0";
+  reference.metadata[kTruth] = "in closed form";
+  return reference;
+}
+
+Reference multiplied(Reference reference, double factor) {
+  for (Image* image : {&reference.mean, &*reference.half0, &*reference.half1})
+    multiply(*image, factor);
+  if (reference.variance) multiply(*reference.variance, factor * factor);
+  reference.metadata[kTruth] =
+      fmt::format("of {}, times {:.9g}", reference.metadata["scene"], factor);
+  return reference;
+}
+
+std::string plainLabel(const SceneRequest& request, const PreparedScene& plain,
+                       const ReferenceConfig& config) {
+  return safeFileName(fmt::format("{}-{}-{}-{}x{}-{}{}{}", withoutRelations(request.scene),
+                                  componentName(config.components), plain.cameraName, config.width,
+                                  config.height, config.maxBounces,
+                                  config.multiscatter ? "-multiscatter" : "", kPlainReference));
+}
+
+std::string originOf(const Reference& reference) {
+  const auto truth = reference.metadata.find(kTruth);
+  const std::string samples =
+      fmt::format("{} spp (relMSE {:.2g})", reference.spp, reference.relmse);
+  if (truth == reference.metadata.end()) return samples;
+  return reference.spp == 0 ? truth->second : fmt::format("{}, {}", truth->second, samples);
+}
+
+}  // namespace restlab

@@ -1,0 +1,94 @@
+// Numbers that hold in scenes of a usual size and brightness alone must be found by sweeps as those
+// of experiments/suites/stress.toml: each mistake by the sweep that is there for it. Truths are
+// exact: nothing wrong is rendered for them.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <regex>
+
+#include "experiments/runner/run/suite_runner.h"
+#include "tests/canary/wrong_kernels.h"
+#include "tests/runner/temporary_folder.h"
+
+namespace restlab::canary {
+namespace {
+
+constexpr const char* kSweeps = R"(name = "extremes"
+[settings]
+width = 24
+height = 18
+max_bounces = 4
+warmup_frames = 0
+frames = 1
+runs = 16
+timing = false
+threads = 1
+[[method]]
+name = "path"
+[[scene]]
+name = "more light"
+scene = ["furnace?radiance=1", "furnace?radiance=2^20", "furnace?radiance=2^60"]
+truth = "exact"
+[[scene]]
+name = "less light"
+scene = ["furnace?radiance=1", "furnace?radiance=2^-30", "furnace?radiance=2^-60"]
+truth = "exact"
+[[scene]]
+name = "larger"
+scene = ["furnace?scale=1", "furnace?scale=2^8", "furnace?scale=2^17"]
+truth = "exact"
+[[scene]]
+name = "smaller"
+scene = ["furnace?scale=1", "furnace?scale=2^-8", "furnace?scale=2^-13"]
+truth = "exact"
+)";
+
+class Extremes : public TemporaryFolder {
+ protected:
+  void SetUp() override {
+    TemporaryFolder::SetUp();
+    std::ofstream(folder() / "suite.toml") << kSweeps;
+  }
+  // The last value that still holds, by the name of the sweep.
+  std::map<std::string, std::string> lasts() const {
+    SuiteRequest request;
+    request.out = folder() / "out";
+    request.argv = {"extremes"};
+    request.force = true;
+    EXPECT_TRUE(runSuite(loadSuites(folder() / "suite.toml", {}, {}), request));
+    std::ifstream in(request.out / "table.md");
+    const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+    const std::regex table("## ([a-z ]+), [a-z]+ of [^#]*\\| last that holds \\| ([^ ]+) \\|");
+    std::map<std::string, std::string> found;
+    for (std::sregex_iterator it(text.begin(), text.end(), table), end; it != end; ++it)
+      found[(*it)[1]] = (*it)[2];
+    return found;
+  }
+  // Which one does not hold to its end, and where it stops.
+  void expectFound(const std::string& canary, std::map<std::string, std::string> expected) const {
+    const WrongKernels wrong(canary);
+    const auto found = lasts();
+    for (const auto& [sweep, last] : found)
+      std::printf("canary %s: %s holds up to %s\n", canary.c_str(), sweep.c_str(), last.c_str());
+    expected.merge(std::map(kAll));
+    EXPECT_EQ(found, expected) << canary;
+  }
+  const std::map<std::string, std::string> kAll = {
+      {"more light", "2^60"}, {"less light", "2^-60"}, {"larger", "2^17"}, {"smaller", "2^-13"}};
+};
+
+TEST_F(Extremes, WithoutAMistakeAllHold) { EXPECT_EQ(lasts(), kAll); }
+TEST_F(Extremes, AnAbsoluteEpsilonIsFound) {
+  expectFound("absolute_epsilon", {{"less light", "1"}});
+}
+TEST_F(Extremes, AClampAt1e3IsFound) { expectFound("clamp_at_1e3", {{"more light", "1"}}); }
+// Beyond the walls of a small room, and below the spacing of floats in a large one.
+TEST_F(Extremes, AFixedRayOffsetIsFound) {
+  expectFound("fixed_ray_offset", {{"smaller", "2^-8"}, {"larger", "2^8"}});
+}
+
+}  // namespace
+}  // namespace restlab::canary

@@ -1,0 +1,72 @@
+// No number of the renderer has a unit: an image of twice the light is twice the image, and one of
+// a scene of another size is the same. By powers of two that holds to the last bit, whatever a
+// method draws or keeps. A constant that is compared with a radiance or a length breaks it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/scene/scene.h"
+#include "tests/conformance/variants.h"
+
+namespace restlab::conformance {
+namespace {
+
+constexpr uint32_t kFrames = 6;
+
+class Scaling : public ::testing::TestWithParam<Variant> {
+ protected:
+  // Channel values that are not those of the plain scene times 2^`power`.
+  size_t differences(const std::string& scene, const std::string& relation, int power) const {
+    const SessionConfig config = configOf(GetParam(), 32, 18);
+    Image expected = imageOf(scene, config);
+    for (glm::vec3& pixel : expected.pixels) pixel *= std::exp2(float(power));
+    return countDifferent(imageOf(scene + "?" + relation, config), expected);
+  }
+
+  bool isFilter() const {
+    return GetParam().denoiser != "none" && GetParam().denoiser != "accumulate";
+  }
+
+  // The camera stands still: runFrames() walks by metres.
+  static Image imageOf(const std::string& scene, const SessionConfig& config) {
+    Session session(CompiledScene::build(makeBuiltinScene(scene)), config);
+    for (uint32_t frame = 0; frame < kFrames; ++frame) session.frame();
+    return session.radiance();
+  }
+};
+
+constexpr const char* kScenes[] = {"cornell-box", "glossy-gallery", "courtyard"};
+
+TEST_P(Scaling, RadianceTimesAPowerOfTwo) {
+  // Filters compare squares of radiance, which leave float's range earlier (docs/denoising.md).
+  const int most = isFilter() ? 40 : 60;
+  for (const char* scene : kScenes) {
+    for (const int power : {-most, most})
+      EXPECT_EQ(differences(scene, "radiance=2^" + std::to_string(power), power), 0u)
+          << scene << " 2^" << power;
+  }
+}
+
+// Beyond, a filter weighs otherwise, but makes nothing that is not finite.
+TEST_P(Scaling, BeyondTheirRangeFiltersStayFinite) {
+  if (!isFilter()) GTEST_SKIP() << "no filter";
+  for (const char* relation : {"radiance=2^60", "radiance=2^-60"}) {
+    const Image image =
+        imageOf(std::string("cornell-box?") + relation, configOf(GetParam(), 32, 18));
+    for (const glm::vec3& p : image.pixels)
+      ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) << relation;
+  }
+}
+
+TEST_P(Scaling, ASceneOfAnotherSize) {
+  for (const char* scene : kScenes) {
+    for (const int power : {-13, 17})
+      EXPECT_EQ(differences(scene, "scale=2^" + std::to_string(power), 0), 0u)
+          << scene << " 2^" << power;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, Scaling, ::testing::ValuesIn(allVariants()), VariantName());
+
+}  // namespace
+}  // namespace restlab::conformance

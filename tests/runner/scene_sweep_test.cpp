@@ -1,0 +1,183 @@
+// Sweeps of a scene's parameter: which scenes are one, and up to where a method holds.
+#include "experiments/runner/summary/scene_sweep.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "core/error.h"
+#include "experiments/report/report_model.h"
+#include "experiments/runner/run/outputs.h"
+#include "tests/runner/temporary_folder.h"
+
+namespace restlab {
+
+namespace {
+
+std::string errorOf(const std::vector<std::string>& names) {
+  try {
+    sweptParameter(names);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(SweptParameter, IsTheOneThatDiffers) {
+  const SweptParameter swept =
+      sweptParameter({"furnace?scale=2&albedo=0.5", "furnace?albedo=9e-1&scale=2"});
+  EXPECT_EQ(swept.name, "albedo");
+  EXPECT_EQ(swept.scene, "furnace?scale=2");
+  EXPECT_EQ(swept.values, (std::vector<double>{0.5, 0.9}));
+  EXPECT_EQ(swept.texts, (std::vector<std::string>{"0.5", "9e-1"}));
+  EXPECT_EQ(sweptParameter({"furnace", "furnace?albedo=0.9"}).texts.front(), "0.5")
+      << "the default is a value";
+}
+
+TEST(SweptParameter, OthersAreErrors) {
+  const auto expectError = [](const std::vector<std::string>& names, const std::string& words) {
+    EXPECT_NE(errorOf(names).find(words), std::string::npos) << errorOf(names);
+  };
+  expectError({"furnace?albedo=0.5", "quad-light?edge=1"}, "is not of furnace");
+  expectError({"furnace?albedo=0.5", "a.gltf"}, "'a.gltf' is none");
+  expectError({"furnace?albedo=0.4&scale=2", "furnace?albedo=0.9"}, "'albedo' and 'scale'");
+  expectError({"furnace", "furnace?albedo=0.5"}, "all the same");
+  expectError({"furnace?scale=2", "furnace?scale=4", "furnace?scale=2^1"}, "a value twice");
+  expectError({"furnace", "furnace?fov=90"}, "does not say it");
+}
+
+TEST(Holds, WhereTheIntervalTouches) {
+  const double nan = kUnknown;
+  EXPECT_TRUE(holds({1.0, 0.99, 1.01}, 0, 0.0));
+  EXPECT_TRUE(holds({0.97, 0.95, 0.991}, 0, 0.01));
+  EXPECT_FALSE(holds({0.97, 0.95, 0.985}, 0, 0.01));
+  EXPECT_TRUE(holds({1.03, 1.009, 1.05}, 0, 0.01));
+  EXPECT_FALSE(holds({1.03, 1.02, 1.05}, 0, 0.01));
+  EXPECT_FALSE(holds({1.0, 0.99, 1.01}, 1, 0.01)) << "a value that is not finite";
+  EXPECT_FALSE(holds({nan, nan, nan}, 0, 1.0));
+  EXPECT_TRUE(holds({1.005, nan, nan}, 0, 0.01)) << "one run";
+  EXPECT_FALSE(holds({1.02, nan, nan}, 0, 0.01));
+}
+
+// A suite of three scenes and two methods; the second one loses energy at the last value, and has a
+// value that is not finite at the second.
+class SceneSweepTest : public TemporaryFolder {
+ protected:
+  void SetUp() override {
+    TemporaryFolder::SetUp();
+    const std::filesystem::path file = folder() / "suite.toml";
+    std::ofstream(file) << "[[scene]]\nname = \"light\"\ntruth = \"exact\"\nmax_bounces = 3\n"
+                           "scene = [\"furnace?albedo=0.5\", \"furnace?albedo=0.75\", "
+                           "\"furnace?albedo=0.9\"]\n"
+                           "[[scene]]\nscene = \"cornell-box\"\n"
+                           "[[method]]\nname = \"path\"\n"
+                           "[[method]]\nname = \"gi\"\nintegrator = \"restir_gi\"\n";
+    suite_ = loadSuite(file, {});
+  }
+  // What a run of two methods leaves of the scene.
+  BlockResult block(size_t scene, double energyOfGi, uint64_t nonfinite) const {
+    BlockResult block;
+    block.scene = suite_.scenes.at(scene).name;
+    block.width = block.height = 2;
+    block.reference.mean = Image(2, 2, glm::vec3(2.0f));
+    block.reference.half0 = block.reference.half1 = block.reference.mean;
+    block.methods.resize(2);
+    for (size_t m = 0; m < 2; ++m) {
+      for (uint32_t r = 0; r < 4; ++r) {
+        RunResult run;
+        run.method = m;
+        run.run = r;
+        run.measured.mse = 0.25;
+        run.measured.energyRatio = (m == 0 ? 1.0 : energyOfGi) + (r % 2 == 0 ? 1e-3 : -1e-3);
+        run.measured.nonfinite = m == 1 && r == 0 ? nonfinite : 0;
+        block.methods[m].runs.push_back(run);
+        block.methods[m].measured.add(Image(2, 2, glm::vec3(2.0f)));
+      }
+      block.methods[m].shown = Image(2, 2, glm::vec3(2.0f));
+    }
+    return block;
+  }
+  Suite suite_;
+};
+
+TEST_F(SceneSweepTest, ScenesOfATableAreOneSweep) {
+  ASSERT_EQ(suite_.scenes.size(), 4u);
+  EXPECT_EQ(suite_.scenes[1].name, "light: furnace?albedo=0.75");
+  EXPECT_EQ(suite_.scenes[1].sweep, suite_.scenes[2].sweep);
+  EXPECT_NE(suite_.scenes[1].sweep, 0u);
+  EXPECT_EQ(suite_.scenes[3].sweep, 0u);
+  EXPECT_EQ(suite_.scenes[0].truth, Truth::exact);
+  EXPECT_EQ(ofScene(suite_, suite_.scenes[0]).maxBounces, 3u);
+  EXPECT_EQ(ofScene(suite_, suite_.scenes[3]).maxBounces, suite_.maxBounces);
+}
+
+TEST_F(SceneSweepTest, SaysTheLastValueThatHolds) {
+  const Suite own = ofScene(suite_, suite_.scenes[0]);
+  Outputs outputs(folder());
+  outputs.add(own, block(0, 1.0, 0));
+  outputs.add(own, block(1, 1.005, 0));
+  outputs.add(own, block(2, 0.9, 0));
+  const std::string table = outputs.sweepTables();
+  EXPECT_NE(table.find("## light, albedo of furnace, all light, 3 scattering events"),
+            std::string::npos)
+      << table;
+  EXPECT_NE(table.find("| albedo | path | gi |"), std::string::npos) << table;
+  EXPECT_NE(table.find("| 0.9 | 1 [0.9982, 1.002] | 0.9000 [0.8982, 0.9018]: no |"),
+            std::string::npos)
+      << table;
+  EXPECT_NE(table.find("| last that holds | 0.9 | 0.75 |"), std::string::npos) << table;
+  EXPECT_EQ(outputs.nonfinite(), "");
+  outputs.write(own, true);
+  std::ifstream in(folder() / "table.md");
+  const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  EXPECT_LT(text.find("last that holds"), text.find("## light: furnace?albedo=0.5, all light"));
+}
+
+// A later value that holds does not make up for it.
+TEST_F(SceneSweepTest, EndsAtTheFirstThatDoesNot) {
+  const Suite own = ofScene(suite_, suite_.scenes[0]);
+  Outputs outputs(folder());
+  outputs.add(own, block(0, 1.0, 0));
+  outputs.add(own, block(1, 1.0, 7));
+  outputs.add(own, block(2, 1.0, 0));
+  const std::string table = outputs.sweepTables();
+  EXPECT_NE(table.find("7 not finite: no"), std::string::npos) << table;
+  EXPECT_NE(table.find("| last that holds | 0.9 | 0.5 |"), std::string::npos) << table;
+  EXPECT_EQ(outputs.nonfinite(),
+            "7 values are not finite, in 1 row, the first of which is gi in light: "
+            "furnace?albedo=0.75");
+}
+
+TEST_F(SceneSweepTest, WhatIsNotThereYetIsLeftOut) {
+  Outputs outputs(folder());
+  EXPECT_EQ(outputs.sweepTables(), "");
+  const Suite own = ofScene(suite_, suite_.scenes[0]);
+  outputs.add(own, block(0, 0.5, 0));
+  const std::string table = outputs.sweepTables();
+  EXPECT_EQ(table.find("0.75"), std::string::npos) << table;
+  EXPECT_NE(table.find("| last that holds | 0.5 | none |"), std::string::npos) << table;
+}
+
+TEST_F(SceneSweepTest, TheReportHasItsPlot) {
+  const Suite own = ofScene(suite_, suite_.scenes[0]);
+  std::vector<BlockResult> results;
+  for (size_t i = 0; i < 3; ++i) results.push_back(block(i, 1.0, 0));
+  std::vector<std::vector<MethodSummary>> rows;
+  for (const BlockResult& result : results) rows.push_back(summarise(own, result));
+  std::vector<SweptBlock> blocks;
+  for (const auto& row : rows) blocks.push_back({&own, &row, 2.0});
+  const std::vector<SceneSweep> sweeps = sceneSweeps(blocks);
+  ASSERT_EQ(sweeps.size(), 1u);
+  const nlohmann::ordered_json document = sweepDocument(sweeps[0]);
+  checkReportModel({{"schema", kReportSchema}, {"title", "x"}, {"blocks", {document}}});
+  const auto& plot = document["plots"][0];
+  EXPECT_TRUE(plot["x"]["log"].get<bool>());
+  EXPECT_EQ(plot["series"][1]["name"], "gi");
+  EXPECT_EQ(plot["series"][1]["points"][2][0], 0.9);
+  EXPECT_NEAR(plot["series"][1]["points"][2][1].get<double>(), 0.25, 1e-12)
+      << "the root of an MSE of 0.25 over a mean of 2";
+}
+
+}  // namespace
+
+}  // namespace restlab
