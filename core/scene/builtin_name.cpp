@@ -43,13 +43,20 @@ std::vector<std::string> split(const std::string& text, char at) {
 }  // namespace
 
 std::optional<double> BuiltinName::value(const std::string& parameter) const {
-  for (const auto& [name, number] : given) {
-    if (name == parameter) return number;
+  for (const Given& one : given) {
+    if (one.name == parameter) return one.value;
   }
   for (const SceneParameter& known : builtinSceneParameters(base)) {
     if (known.name == parameter) return known.fallback;
   }
   return std::nullopt;
+}
+
+std::string BuiltinName::text(const std::string& parameter) const {
+  for (const Given& one : given) {
+    if (one.name == parameter) return one.text;
+  }
+  return "";
 }
 
 BuiltinName parseBuiltinName(const std::string& name) {
@@ -71,7 +78,7 @@ BuiltinName parseBuiltinName(const std::string& name) {
                             parsed.base, key, fmt::join(names, ", "), didYouMean(key, names)));
     }
     if (std::any_of(parsed.given.begin(), parsed.given.end(),
-                    [&](const auto& other) { return other.first == key; }))
+                    [&](const auto& other) { return other.name == key; }))
       failInput(fmt::format("scene '{}': '{}' is given twice", name, key));
     const std::string text = equals == std::string::npos ? "" : part.substr(equals + 1);
     const std::optional<double> value = numberOf(text);
@@ -83,7 +90,7 @@ BuiltinName parseBuiltinName(const std::string& name) {
       failInput(fmt::format("scene '{}': {} is {}, but must be in {:g}..{:g}", name, key, text,
                             found->lo, found->hi));
     }
-    parsed.given.emplace_back(key, *value);
+    parsed.given.push_back({key, text, *value});
   }
   return parsed;
 }

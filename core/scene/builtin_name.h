@@ -1,9 +1,8 @@
 // Names of built-in scenes with parameters: "furnace?albedo=0.99&scale=2^10".
 #pragma once
 
-#include <map>
+#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/scene/scene.h"
@@ -11,11 +10,17 @@
 namespace restlab {
 
 struct BuiltinName {
-  std::string base;                                   // "furnace"
-  std::vector<std::pair<std::string, double>> given;  // in the order of the name
+  struct Given {
+    std::string name, text;  // "scale", "2^10"
+    double value;
+  };
+  std::string base;          // "furnace"
+  std::vector<Given> given;  // in the order of the name
 
   // A parameter's value; nothing where it is not given and has no default.
   std::optional<double> value(const std::string& parameter) const;
+  // As it is written; "" where it is not.
+  std::string text(const std::string& parameter) const;
 };
 
 // Throws Error (badInput) with one line: no such scene, unknown or repeated parameters, values that

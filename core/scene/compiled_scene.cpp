@@ -12,6 +12,7 @@
 
 #include "core/backend/alpha_filter.h"
 #include "core/error.h"
+#include "core/scene/coarse_vertices.h"
 #include "core/scene/ggx_albedo.h"
 #include "core/scene/light_table.h"
 
@@ -82,7 +83,6 @@ struct CompiledScene::Impl {
   }
 
   void flatten();
-  void warnOfCoarseVertices(double sceneSize);
   void addGeometry(const MeshGeometry& mesh, const glm::dmat4* bake);
   void buildTextures();
   void buildEmbree();
@@ -136,41 +136,13 @@ void CompiledScene::Impl::addGeometry(const MeshGeometry& mesh, const glm::dmat4
   geometries.push_back(g);
 }
 
-// The scene is recentred in double, but what a file has rounded before is lost.
-void CompiledScene::Impl::warnOfCoarseVertices(double sceneSize) {
-  std::vector<float> farthest;  // coordinate of a vertex, by geometry
-  for (const MeshGeometry& mesh : scene.geometries) {
-    float& most = farthest.emplace_back(0.0f);
-    for (const glm::vec3& p : mesh.positions)
-      most = std::max({most, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  }
-  double coarsest = 0.0;
-  std::string where;
-  for (const MeshInstance& m : scene.instances) {
-    const float most = farthest[m.geometry];
-    const double spacing =
-        double(std::nextafter(most, std::numeric_limits<float>::infinity())) - double(most);
-    const glm::dmat3 linear(m.objectToWorld);
-    const double larger =
-        std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
-    if (!(spacing * larger > coarsest)) continue;
-    coarsest = spacing * larger;
-    where = m.name;
-  }
-  if (!(coarsest > kCoarsestVertices * sceneSize)) return;
-  warnings.push_back(fmt::format(
-      "{}: {}: vertices are so far from their origin that float32 rounds them to {:.2g} m, {:.2g} "
-      "of the scene's size; give the distance to the node instead",
-      scene.name, where, coarsest, coarsest / sceneSize));
-}
-
 void CompiledScene::Impl::flatten() {
   std::vector<uint32_t> uses(scene.geometries.size(), 0);
   for (const MeshInstance& m : scene.instances) ++uses[m.geometry];
   const auto bounds = worldBounds(scene);
   if (bounds[0].x <= bounds[1].x) origin = 0.5 * (bounds[0] + bounds[1]);
-  const glm::dvec3 extent = bounds[1] - bounds[0];
-  warnOfCoarseVertices(std::max({extent.x, extent.y, extent.z}));
+  if (std::string warning = coarseVertices(scene); !warning.empty())
+    warnings.push_back(std::move(warning));
 
   std::vector<uint32_t> sharedGeometry(scene.geometries.size(), rl::RL_INVALID);
   for (const MeshInstance& m : scene.instances) {

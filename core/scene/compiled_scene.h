@@ -13,15 +13,11 @@
 
 namespace restlab {
 
-// Share of the scene's size: vertices whose neighbours in float are further away, as they were
-// written far from their origin, are a warning. docs/manual.md has what was measured on both sides.
-constexpr double kCoarsestVertices = 1e-4;
-
 class CompiledScene {
  public:
   // Recentres in double precision, bakes meshes used once into world space, builds the light table
   // (selection by power) and the environment's alias table. Adds warnings (zero-area lights, no
-  // light, vertices that are further apart in float than kCoarsestVertices).
+  // light, vertices that float32 rounds: core/scene/coarse_vertices.h).
   static std::shared_ptr<const CompiledScene> build(Scene scene);
   ~CompiledScene();
 

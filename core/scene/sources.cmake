@@ -28,6 +28,7 @@ target_sources(rl_core PRIVATE
   scene/light_factor.cpp
   scene/load_scene.cpp
   scene/png_decode.cpp
+  scene/coarse_vertices.cpp
   scene/scene_bounds.cpp
   scene/tinygltf.cpp
 )

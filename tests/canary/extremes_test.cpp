@@ -1,6 +1,7 @@
 // Numbers that hold in scenes of a usual size and brightness alone must be found by sweeps as those
 // of experiments/suites/stress.toml: each mistake by the sweep that is there for it. Truths are
 // exact: nothing wrong is rendered for them.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -16,7 +17,7 @@
 namespace restlab::canary {
 namespace {
 
-constexpr const char* kSweeps = R"(name = "extremes"
+constexpr const char* kSettings = R"(name = "extremes"
 [settings]
 width = 24
 height = 18
@@ -28,29 +29,26 @@ timing = false
 threads = 1
 [[method]]
 name = "path"
-[[scene]]
-name = "more light"
-scene = ["furnace?radiance=1", "furnace?radiance=2^20", "furnace?radiance=2^60"]
-truth = "exact"
-[[scene]]
-name = "less light"
-scene = ["furnace?radiance=1", "furnace?radiance=2^-30", "furnace?radiance=2^-60"]
-truth = "exact"
-[[scene]]
-name = "larger"
-scene = ["furnace?scale=1", "furnace?scale=2^8", "furnace?scale=2^17"]
-truth = "exact"
-[[scene]]
-name = "smaller"
-scene = ["furnace?scale=1", "furnace?scale=2^-8", "furnace?scale=2^-13"]
-truth = "exact"
 )";
+
+std::string sweep(const std::string& name, const std::string& parameter,
+                  const std::vector<std::string>& values) {
+  std::vector<std::string> scenes;
+  for (const std::string& value : values)
+    scenes.push_back(fmt::format("\"furnace?{}={}\"", parameter, value));
+  return fmt::format("[[scene]]\nname = \"{}\"\nscene = [{}]\ntruth = \"exact\"\n", name,
+                     fmt::join(scenes, ", "));
+}
 
 class Extremes : public TemporaryFolder {
  protected:
   void SetUp() override {
     TemporaryFolder::SetUp();
-    std::ofstream(folder() / "suite.toml") << kSweeps;
+    std::ofstream(folder() / "suite.toml")
+        << kSettings << sweep("more light", "radiance", {"1", "2^20", "2^60"})
+        << sweep("less light", "radiance", {"1", "2^-30", "2^-60"})
+        << sweep("larger", "scale", {"1", "2^8", "2^17"})
+        << sweep("smaller", "scale", {"1", "2^-8", "2^-13"});
   }
   // The last value that still holds, by the name of the sweep.
   std::map<std::string, std::string> lasts() const {

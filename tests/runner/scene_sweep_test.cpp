@@ -97,6 +97,15 @@ class SceneSweepTest : public TemporaryFolder {
     }
     return block;
   }
+  // A block of each scene of the sweep.
+  struct OfGi {
+    double energy;
+    uint64_t nonfinite;
+  };
+  void add(Outputs& outputs, const Suite& own, const std::vector<OfGi>& values) const {
+    for (size_t scene = 0; scene < values.size(); ++scene)
+      outputs.add(own, block(scene, values[scene].energy, values[scene].nonfinite));
+  }
   Suite suite_;
 };
 
@@ -114,9 +123,7 @@ TEST_F(SceneSweepTest, ScenesOfATableAreOneSweep) {
 TEST_F(SceneSweepTest, SaysTheLastValueThatHolds) {
   const Suite own = ofScene(suite_, suite_.scenes[0]);
   Outputs outputs(folder());
-  outputs.add(own, block(0, 1.0, 0));
-  outputs.add(own, block(1, 1.005, 0));
-  outputs.add(own, block(2, 0.9, 0));
+  add(outputs, own, {{1.0, 0}, {1.005, 0}, {0.9, 0}});
   const std::string table = outputs.sweepTables();
   EXPECT_NE(table.find("## light, albedo of furnace, all light, 3 scattering events"),
             std::string::npos)
@@ -137,9 +144,7 @@ TEST_F(SceneSweepTest, SaysTheLastValueThatHolds) {
 TEST_F(SceneSweepTest, EndsAtTheFirstThatDoesNot) {
   const Suite own = ofScene(suite_, suite_.scenes[0]);
   Outputs outputs(folder());
-  outputs.add(own, block(0, 1.0, 0));
-  outputs.add(own, block(1, 1.0, 7));
-  outputs.add(own, block(2, 1.0, 0));
+  add(outputs, own, {{1.0, 0}, {1.0, 7}, {1.0, 0}});
   const std::string table = outputs.sweepTables();
   EXPECT_NE(table.find("7 not finite: no"), std::string::npos) << table;
   EXPECT_NE(table.find("| last that holds | 0.9 | 0.5 |"), std::string::npos) << table;

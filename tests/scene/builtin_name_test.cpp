@@ -1,5 +1,6 @@
 // Built-in scenes with parameters in their names: what is read of them, and what they change.
 #include "core/scene/builtin_name.h"
+#include "core/scene/coarse_vertices.h"
 
 #include <gtest/gtest.h>
 
@@ -159,6 +160,13 @@ TEST(CoarseVertices, AreAWarningBeyondTheLimitAlone) {
   const std::string warning = coarseWarning("furnace?move=1e4");
   EXPECT_NE(warning.find("furnace?move=1e4: "), std::string::npos) << warning;
   EXPECT_NE(warning.find("0.0039 m, 0.00078 of the scene's size"), std::string::npos) << warning;
+}
+
+TEST(CoarseVertices, ASceneWithoutAnyHasNoWarning) {
+  Scene scene = makeBuiltinScene("furnace");
+  scene.instances.clear();
+  EXPECT_EQ(coarseVertices(scene), "");
+  EXPECT_EQ(coarseVertices(Scene()), "");
 }
 
 // A node's transform loses nothing: scenes are recentred in double.

@@ -10,20 +10,6 @@
 
 namespace restlab {
 
-namespace {
-
-// The text behind "name=" in "base?a=1&b=2"; "" where it is not there.
-std::string textOf(const std::string& name, const std::string& parameter) {
-  for (size_t at = name.find('?'); at != std::string::npos; at = name.find('&', at + 1)) {
-    const std::string rest = name.substr(at + 1);
-    if (rest.rfind(parameter + "=", 0) == 0)
-      return rest.substr(parameter.size() + 1, rest.find('&') - parameter.size() - 1);
-  }
-  return "";
-}
-
-}  // namespace
-
 SweptParameter sweptParameter(const std::vector<std::string>& names) {
   std::vector<BuiltinName> parsed;
   for (const std::string& name : names) {
@@ -43,7 +29,7 @@ SweptParameter sweptParameter(const std::vector<std::string>& names) {
       return name.value(parameter.name) == parsed.front().value(parameter.name);
     });
     if (isSame) {
-      const std::string text = textOf(names.front(), parameter.name);
+      const std::string text = parsed.front().text(parameter.name);
       if (!text.empty())
         common += fmt::format("{}{}={}", common.empty() ? "?" : "&", parameter.name, text);
       continue;
@@ -67,7 +53,7 @@ SweptParameter sweptParameter(const std::vector<std::string>& names) {
     }
     if (!seen.insert(*value).second)
       failUsage(fmt::format("the sweep of '{}' has a value twice: '{}'", swept.name, names[i]));
-    const std::string text = textOf(names[i], swept.name);
+    const std::string text = parsed[i].text(swept.name);
     swept.values.push_back(*value);
     swept.texts.push_back(text.empty() ? fmt::format("{:g}", *value) : text);
   }

@@ -1,0 +1,41 @@
+#include "core/scene/coarse_vertices.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace restlab {
+
+std::string coarseVertices(const Scene& scene) {
+  std::vector<float> farthest;  // coordinate of a vertex, by geometry
+  for (const MeshGeometry& mesh : scene.geometries) {
+    float& most = farthest.emplace_back(0.0f);
+    for (const glm::vec3& p : mesh.positions)
+      most = std::max({most, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  }
+  double coarsest = 0.0;
+  std::string where;
+  for (const MeshInstance& m : scene.instances) {
+    const float most = farthest[m.geometry];
+    const double spacing =
+        double(std::nextafter(most, std::numeric_limits<float>::infinity())) - double(most);
+    const glm::dmat3 linear(m.objectToWorld);
+    const double larger =
+        std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
+    if (!(spacing * larger > coarsest)) continue;
+    coarsest = spacing * larger;
+    where = m.name;
+  }
+  const auto bounds = worldBounds(scene);
+  const glm::dvec3 extent = bounds[1] - bounds[0];
+  const double size = std::max({extent.x, extent.y, extent.z});
+  if (!(coarsest > kCoarsestVertices * size)) return "";
+  return fmt::format(
+      "{}: {}: vertices are so far from their origin that float32 rounds them to {:.2g} m, {:.2g} "
+      "of the scene's size; give the distance to the node instead",
+      scene.name, where, coarsest, coarsest / size);
+}
+
+}  // namespace restlab
