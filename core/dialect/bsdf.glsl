@@ -32,9 +32,10 @@ RL_FN vec2 bsdfLobeProbabilities(RL_IN(Bsdf) b, float cosO) {
     transmitted = rlLuminance(b.transmission) * through;
   }
   // No lobe that exists is starved, not even where Fresnel at wo leaves it nothing: microfacets
-  // turned towards wo still let light through. (Delta transmission knows no such facets.)
+  // turned towards wo still let light through. (Delta lobes know no such facets: of smooth glass
+  // each has exactly its share, and no noise.)
   float least = 0.1f * (specular + diffuse + transmitted);
-  if (hasSpecular) specular = max(specular, least);
+  if ((b.lobes & RL_LOBE_SPECULAR) != 0u) specular = max(specular, least);
   if (hasDiffuse) diffuse = max(diffuse, least);
   if ((b.lobes & RL_LOBE_TRANSMISSION) != 0u) transmitted = max(transmitted, least);
   float total = specular + diffuse + transmitted;

@@ -1,6 +1,7 @@
 // The registry of the built-in scenes: one line a scene.
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/error.h"
 #include "core/scene/builtin_builder.h"
@@ -24,7 +25,11 @@ Scene fixed(const BuiltinName&) {
   return make();
 }
 
-const std::array<Entry, 9> kScenes{{
+uint32_t wholeNumber(const BuiltinName& name, const char* parameter) {
+  return uint32_t(std::lround(name.value(parameter).value()));
+}
+
+const std::array<Entry, 10> kScenes{{
     {"cornell-box", fixed<builtin::makeCornellBox>,
      "the Cornell box in metres, Lambert, one ceiling light"},
     {"door-ajar", fixed<builtin::makeDoorAjar>,
@@ -38,13 +43,34 @@ const std::array<Entry, 9> kScenes{{
     {"courtyard", fixed<builtin::makeCourtyard>,
      "an arcade around a sunlit court under a clear sky: sun and environment"},
     {"furnace",
-     [](const BuiltinName& name) { return builtin::makeFurnace(name.value("albedo").value()); },
+     [](const BuiltinName& name) {
+       return builtin::makeFurnace({.albedo = name.value("albedo").value(),
+                                    .height = name.value("height").value(),
+                                    .gap = name.value("gap").value(),
+                                    .wall = name.value("wall")});
+     },
      "closed, albedo 1/2, emitting 1/2: radiance 1 - 2^-(n+1) after n scattering events"},
     {"sphere-furnace",
      [](const BuiltinName& name) { return builtin::makeSphereFurnace(name.value("roughness")); },
      "a white Lambert solid in a uniform environment: radiance 1 everywhere"},
+    {"floor",
+     [](const BuiltinName& name) {
+       return builtin::makeFloor({.viewDegrees = name.value("view").value(),
+                                  .slopeDegrees = name.value("slope").value(),
+                                  .triangles = std::round(name.value("triangles").value()),
+                                  .needle = name.value("needle").value(),
+                                  .copies = wholeNumber(name, "copies"),
+                                  .sun = name.value("sun").value(),
+                                  .spots = wholeNumber(name, "spots"),
+                                  .ior = name.value("ior")});
+     },
+     "a white floor under a uniform sky: radiance 1 everywhere"},
     {"quad-light",
-     [](const BuiltinName& name) { return builtin::makeQuadLight(name.value("edge").value()); },
+     [](const BuiltinName& name) {
+       return builtin::makeQuadLight({.edge = name.value("edge").value(),
+                                      .triangles = name.value("triangles").value(),
+                                      .ratio = name.value("ratio").value()});
+     },
      "a floor under one tilted rectangle: Lambert's polygon formula is its truth"},
 }};
 
@@ -56,10 +82,28 @@ struct OwnParameter {
 const std::vector<OwnParameter>& ownParameters() {
   static const std::vector<OwnParameter> all = {
       {"furnace", {"albedo", 0.5, 0.0, 1.0, "reflectance of every surface"}},
+      {"furnace", {"height", 1.0, 1e-5, 1.0, "factor on all heights: a room as flat as a gap"}},
+      {"furnace", {"gap", 0.8, 0.0, 1.9, "between the block and the floor, m"}},
+      {"furnace",
+       {"wall", std::nullopt, 1e-6, 1.0,
+        "thickness of the wall to a room that is 10^6 times as bright, m; none without it"}},
       {"sphere-furnace",
        {"roughness", std::nullopt, 0.0, 1.0,
         "metal that reflects everything, of this roughness; Lambert where it is not given"}},
-      {"quad-light", {"edge", 1.0, 1e-4, 1e3, "factor on the light's edges, at constant power"}}};
+      {"floor", {"view", 45.0, 0.0, 89.99, "angle between the view and the normal, degrees"}},
+      {"floor",
+       {"ior", std::nullopt, 1.0001, 3.0,
+        "a slab of smooth glass of this index instead; goes with 'view' alone"}},
+      {"floor", {"slope", 0.0, 0.0, 89.0, "of its normal map, to the side, degrees"}},
+      {"floor", {"triangles", 2.0, 0.0, 5e6, "of the floor, about so many; 0: the sky alone"}},
+      {"floor", {"needle", 1.0, 1.0, 1e6, "length of its triangles over their width"}},
+      {"floor", {"copies", 1.0, 1.0, 8.0, "of the floor, all in one plane"}},
+      {"floor", {"sun", 1.0, 1.0, 1e9, "radiance of one pixel of the sky over the others"}},
+      {"floor", {"spots", 0.0, 0.0, 1e5, "spot lights, instead of the sky"}},
+      {"quad-light", {"edge", 1.0, 1e-4, 1e3, "factor on the light's edges, at constant power"}},
+      {"quad-light", {"triangles", 2.0, 2.0, 1e6, "of the light, about so many"}},
+      {"quad-light",
+       {"ratio", 1.0, 1.0, 1e10, "radiance of one of them over the others, at constant power"}}};
   return all;
 }
 

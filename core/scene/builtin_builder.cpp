@@ -48,6 +48,19 @@ void hashGeometry(Hasher& hash, const MeshGeometry& g) {
   hash.array(g.triangles);
 }
 
+void hashTextures(Hasher& hash, const Scene& scene) {
+  for (const TextureImage& image : scene.images) {
+    hash.value(image.width);
+    hash.value(image.height);
+    hash.array(image.texels);
+  }
+  for (const TextureUse& use : scene.textureUses) {
+    for (const uint32_t v : {use.image, use.uvSet, use.wrapU, use.wrapV}) hash.value(v);
+    for (const bool v : {use.nearest, use.srgb}) hash.value(v);
+    for (const glm::vec3& row : {use.uvRow0, use.uvRow1}) hash.value(row);
+  }
+}
+
 void hashEnvironment(Hasher& hash, const EnvironmentMap& map) {
   hash.value(map.width);
   hash.value(map.height);
@@ -151,6 +164,7 @@ uint64_t hashOf(const Scene& scene) {
     hash.text(m.name);
     hash.value(m.data);  // 112 bytes without padding (asserted in types.h)
   }
+  hashTextures(hash, scene);
   for (const SceneCamera& c : scene.cameras) {
     hash.text(c.name);
     hash.value(c.kind);

@@ -1,26 +1,44 @@
 // Furnaces: scenes whose radiance is known exactly, at every pixel and for every path length.
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "core/scene/builtin_builder.h"
 #include "core/scene/builtin_mesh.h"
 #include "core/scene/builtin_scenes.h"
 
 namespace restlab::builtin {
 
+namespace {
+
+constexpr glm::dvec3 kRoomLow(-2.0, 0.0, -3.0), kRoomHigh(2.0, 3.0, 2.0);
+
+// A room around the first one, `wall` away from it, whose light must not come through.
+void addRoomBeyond(SceneBuilder& scene, rl::Material glowing, double wall) {
+  glowing.emission *= 1e6f;
+  const uint32_t bright = scene.addMaterial("glowing, beyond", glowing);
+  const glm::dvec3 low = kRoomLow - wall, high = kRoomHigh + wall;
+  scene.add(box("outer face of the wall", low, high), bright);
+  scene.add(insideOut(box("room beyond", low - 1.0, high + 1.0)), bright);
+}
+
+}  // namespace
+
 // A closed room and a block in it; every surface has albedo a and emits L = 1/2. Every ray
 // that leaves a surface meets another one like it, so the radiance after n scattering events is
 //   L (1 + a + ... + a^n) = L (1 - a^(n+1)) / (1 - a)
 // at every pixel; for a = 1/2 that is 1 - 2^-(n+1), and 1 without a limit. The block makes light
 // samples need their shadow rays.
-Scene makeFurnace(double albedo) {
+Scene makeFurnace(const FurnaceShape& shape) {
   SceneBuilder scene("furnace");
-  rl::Material glowing = lambert(glm::vec3(static_cast<float>(albedo)));
+  rl::Material glowing = lambert(glm::vec3(static_cast<float>(shape.albedo)));
   glowing.emission = glm::vec3(0.5f);
   glowing.flags = 0u;  // one side is enough: the walls look inwards, the block outwards
   const uint32_t wall = scene.addMaterial("glowing", glowing);
-  scene.add(insideOut(box("room", {-2.0, 0.0, -3.0}, {2.0, 3.0, 2.0})), wall);
-  scene.add(transformed(box("block", {-0.6, 0.8, -1.6}, {0.6, 1.8, -0.6}),
-                        turnAbout({0.0, 0.0, -1.1}, 30.0)),
-            wall);
-  scene.addCamera("inside", {0.3, 1.6, 1.7}, {0.0, 1.3, -1.1}, 60.0);
+  const glm::dmat4 flat = glm::scale(glm::dmat4(1.0), {1.0, shape.height, 1.0});
+  scene.add(transformed(insideOut(box("room", kRoomLow, kRoomHigh)), flat), wall);
+  const MeshGeometry block = box("block", {-0.6, shape.gap, -1.6}, {0.6, shape.gap + 1.0, -0.6});
+  scene.add(transformed(block, flat * turnAbout({0.0, 0.0, -1.1}, 30.0)), wall);
+  if (shape.wall) addRoomBeyond(scene, glowing, *shape.wall);
+  scene.addCamera("inside", {0.3, 1.6 * shape.height, 1.7}, {0.0, 1.3 * shape.height, -1.1}, 60.0);
   return scene.finish();
 }
 

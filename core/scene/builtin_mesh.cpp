@@ -62,6 +62,28 @@ MeshGeometry quad(const std::string& name, const glm::dvec3& corner, const glm::
   return quads(name, {corner, corner + u, corner + u + v, corner + v});
 }
 
+MeshGeometry grid(const std::string& name, const glm::dvec3& corner, const glm::dvec3& u,
+                  const glm::dvec3& v, uint32_t columns, uint32_t rows) {
+  MeshGeometry mesh;
+  mesh.name = name;
+  mesh.positions.reserve(size_t(columns + 1) * (rows + 1));
+  mesh.triangles.reserve(size_t(columns) * rows * 2);
+  for (uint32_t j = 0; j <= rows; ++j) {
+    for (uint32_t i = 0; i <= columns; ++i) {
+      mesh.positions.push_back(
+          glm::vec3(corner + u * (double(i) / columns) + v * (double(j) / rows)));
+    }
+  }
+  for (uint32_t j = 0; j < rows; ++j) {
+    for (uint32_t i = 0; i < columns; ++i) {
+      const uint32_t a = j * (columns + 1) + i, b = a + 1, d = a + columns + 1, c = d + 1;
+      mesh.triangles.push_back({a, b, c});
+      mesh.triangles.push_back({a, c, d});
+    }
+  }
+  return mesh;
+}
+
 MeshGeometry box(const std::string& name, const glm::dvec3& low, const glm::dvec3& high) {
   if (!(low.x < high.x && low.y < high.y && low.z < high.z))
     throw std::logic_error("box: low is not below high");

@@ -18,6 +18,10 @@ MeshGeometry quads(const std::string& name, const std::vector<glm::dvec3>& corne
 MeshGeometry quad(const std::string& name, const glm::dvec3& corner, const glm::dvec3& u,
                   const glm::dvec3& v);
 
+// The same in columns x rows cells along u and v, two triangles each, which share their vertices.
+MeshGeometry grid(const std::string& name, const glm::dvec3& corner, const glm::dvec3& u,
+                  const glm::dvec3& v, uint32_t columns, uint32_t rows);
+
 // Axis-aligned box, flat, closed, 12 triangles. Throws std::logic_error unless low < high.
 MeshGeometry box(const std::string& name, const glm::dvec3& low, const glm::dvec3& high);
 

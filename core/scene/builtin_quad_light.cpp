@@ -3,6 +3,8 @@
 // from one scattering event on. The camera sees floor only, all of it in front of the rectangle's
 // plane. A rectangle that grows would come between the floor and the first camera; the second one,
 // "low", is in front of its plane and sees the floor below any rectangle.
+#include <algorithm>
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/scene/builtin_builder.h"
@@ -11,18 +13,44 @@
 
 namespace restlab::builtin {
 
-Scene makeQuadLight(double edge) {
+namespace {
+
+// Takes the triangle in the middle out of the mesh, as one of its own.
+MeshGeometry takeOne(MeshGeometry& mesh, const std::string& name) {
+  const size_t middle = mesh.triangles.size() / 2;
+  MeshGeometry one;
+  one.name = name;
+  const glm::uvec3 corners = mesh.triangles[middle];
+  for (int c = 0; c < 3; ++c) one.positions.push_back(mesh.positions[corners[c]]);
+  one.triangles = {{0, 1, 2}};
+  mesh.triangles.erase(mesh.triangles.begin() + std::ptrdiff_t(middle));
+  return one;
+}
+
+}  // namespace
+
+Scene makeQuadLight(const QuadLightShape& shape) {
   SceneBuilder scene("quad-light");
   const uint32_t floor = scene.addMaterial("floor", lambert({0.5f, 0.6f, 0.7f}));
-  const uint32_t light =
-      scene.addMaterial("light", lamp(glm::vec3(glm::dvec3(10.0, 8.0, 6.0) / (edge * edge))));
+  const uint32_t side = uint32_t(std::max(1.0, std::round(std::sqrt(0.5 * shape.triangles))));
+  const double count = 2.0 * side * side;
+  const glm::dvec3 mean = glm::dvec3(10.0, 8.0, 6.0) / (shape.edge * shape.edge);
+  const glm::dvec3 others = mean * count / (count - 1.0 + shape.ratio);
+  const uint32_t light = scene.addMaterial("light", lamp(glm::vec3(others)));
   scene.add(quad("floor", {-8.0, 0.0, 8.0}, {16.0, 0.0, 0.0}, {0.0, 0.0, -16.0}), floor);
   glm::dmat4 pose = glm::translate(glm::dmat4(1.0), glm::dvec3(0.3, 2.0, -0.2));
   pose = glm::rotate(pose, glm::radians(25.0), glm::dvec3(0.0, 1.0, 0.0));
   pose = glm::rotate(pose, glm::radians(12.0), glm::dvec3(1.0, 0.0, 0.0));
   // Its normal is -y before the tilt.
-  const glm::dvec3 u(1.5 * edge, 0.0, 0.0), v(0.0, 0.0, edge);
-  scene.add(transformed(quad("light", -0.5 * (u + v), u, v), pose), light);
+  const glm::dvec3 u(1.5 * shape.edge, 0.0, 0.0), v(0.0, 0.0, shape.edge);
+  MeshGeometry lamps = side == 1 ? quad("light", -0.5 * (u + v), u, v)
+                                 : grid("light", -0.5 * (u + v), u, v, side, side);
+  lamps = transformed(lamps, pose);
+  if (shape.ratio != 1.0) {
+    const uint32_t bright = scene.addMaterial("brightest", lamp(glm::vec3(others * shape.ratio)));
+    scene.add(takeOne(lamps, "brightest"), bright);
+  }
+  scene.add(lamps, light);
   scene.addCamera("floor", {0.0, 2.6, 4.6}, {0.0, 0.0, 0.2}, 36.0);
   scene.addCamera("low", {0.0, 0.9, 2.0}, {0.0, 0.0, 0.6}, 36.0);
   return scene.finish();

@@ -5,6 +5,7 @@ target_sources(rl_core PRIVATE
   scene/builtin_cornell.cpp
   scene/builtin_courtyard.cpp
   scene/builtin_door.cpp
+  scene/builtin_floor.cpp
   scene/builtin_furnace.cpp
   scene/builtin_gallery.cpp
   scene/builtin_glass.cpp

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -139,14 +140,16 @@ rl::Light punctual(const PunctualLight& source, const glm::dvec3& origin) {
   return light;
 }
 
-// Alias weights of the environment: solid angle of the row times the mean luminance of the 3 x 3
-// neighbourhood, so that bilinear radiance is never positive where the density is zero.
+// Alias weights of the environment: solid angle of the row times the texel's mean of the bilinear
+// luminance, which is 6/8 of its own and 1/8 of each neighbour's, along both axes. It is positive
+// wherever the radiance is.
 double addEnvironment(const EnvironmentMap& map, LightTable& table) {
   const int w = int(map.width), h = int(map.height);
   table.environment.resize(size_t(w) * h);
   for (size_t i = 0; i < table.environment.size(); ++i)
     table.environment[i] = map.radiance[i] * map.scale;
   std::vector<double> weights(table.environment.size());
+  constexpr std::array<double, 3> kShare{0.125, 0.75, 0.125};
   double flux = 0.0;
   for (int y = 0; y < h; ++y) {
     const double solidAngle = 2.0 * kPi / w * (std::cos(kPi * y / h) - std::cos(kPi * (y + 1) / h));
@@ -155,10 +158,11 @@ double addEnvironment(const EnvironmentMap& map, LightTable& table) {
       for (int dy = -1; dy <= 1; ++dy) {
         for (int dx = -1; dx <= 1; ++dx) {
           const int yy = std::clamp(y + dy, 0, h - 1), xx = (x + dx + w) % w;
-          sum += luminance(glm::dvec3(table.environment[size_t(yy) * w + xx]));
+          sum += kShare[size_t(dy + 1)] * kShare[size_t(dx + 1)] *
+                 luminance(glm::dvec3(table.environment[size_t(yy) * w + xx]));
         }
       }
-      weights[size_t(y) * w + x] = solidAngle * sum / 9.0;
+      weights[size_t(y) * w + x] = solidAngle * sum;
       flux += weights[size_t(y) * w + x];
     }
   }

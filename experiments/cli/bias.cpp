@@ -83,13 +83,13 @@ Certified certifyScene(const BiasOptions& options, const certificate::Options& h
 // Every method of the suite on every scene, still.
 std::vector<Certified> certifySuite(const BiasOptions& options, const certificate::Options& how) {
   const Suite whole = loadSuite(options.scene.request.scene, options.method.parameters);
-  if (whole.hasMovingCamera() || !whole.events.empty()) {
-    failUsage(fmt::format("{}: moves its camera or its lights; certificates are of still views",
-                          whole.file));
-  }
   std::vector<Certified> all;
   for (const SuiteScene& scene : whole.scenes) {
     const Suite suite = ofScene(whole, scene);
+    if (suite.hasMovingCamera() || !suite.events.empty()) {
+      failUsage(fmt::format("{}: moves its camera or its lights; certificates are of still views",
+                            whole.file));
+    }
     std::string missing;
     if (scene.optional && assetsMissing(scene.request, missing)) {
       logInfo(fmt::format("skipped {}: {} is not here", scene.name, missing));

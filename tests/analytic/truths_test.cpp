@@ -4,8 +4,10 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "experiments/truths/floor.h"
 #include "experiments/truths/furnace.h"
 #include "experiments/truths/polygon_irradiance.h"
+#include "experiments/truths/quad_light.h"
 #include "experiments/truths/truths.h"
 
 namespace restlab::analytic {
@@ -44,6 +46,152 @@ TEST(Truths, OnlyTheNamedScenesHaveAnExactImage) {
     EXPECT_NO_THROW(exactImage(makeBuiltinScene(name), kSmall)) << name;
   }
   EXPECT_THROW(exactImage(makeBuiltinScene("cornell-box"), kSmall), std::invalid_argument);
+}
+
+// Wherever the camera stands in the room, and not beyond its walls.
+TEST(Truths, FurnaceNeedsACameraInside) {
+  const Scene scene = makeBuiltinScene("furnace?wall=0.1");
+  ExactView view = kSmall;
+  view.moved = scene.cameras.front();
+  view.moved->cameraToWorld[3] = glm::dvec4(-1.9, 0.1, -2.9, 1.0);
+  EXPECT_EQ(whyNotExact(scene, view), "");
+  view.moved->cameraToWorld[3].x = -2.05;
+  EXPECT_EQ(whyNotExact(scene, view), "from a camera outside the room");
+}
+
+// A lamp that was dimmed is dimmed in the image.
+TEST(Truths, FollowTheLights) {
+  for (const std::string& name : exactSceneNames()) {
+    Scene scene = makeBuiltinScene(name);
+    const double before = exactImage(scene, kSmall)[0].y;
+    for (SceneMaterial& material : scene.materials) material.lightFactor = 0.25f;
+    if (scene.environment) scene.environment->lightFactor = 0.25f;
+    EXPECT_DOUBLE_EQ(exactImage(scene, kSmall)[0].y, 0.25 * before) << name;
+  }
+}
+
+TEST(Truths, FloorIsWhiteHoweverItIsCut) {
+  for (const char* name : {"floor", "floor?triangles=0", "floor?triangles=1", "floor?triangles=50",
+                           "floor?needle=100", "floor?copies=3", "floor?view=89.99"}) {
+    const Scene scene = makeBuiltinScene(name);
+    EXPECT_EQ(exactImage(scene, kSmall)[3], glm::dvec3(1.0)) << name;
+    EXPECT_EQ(whyNotExact(scene, {.width = 2, .height = 2}), "at 0 scattering events");
+  }
+}
+
+// By brute force over the hemisphere: directions about the leaning normal, less those below the
+// floor.
+TEST(Truths, LeaningFloorAgainstQuadrature) {
+  for (const double degrees : {10.0, 45.0, 80.0}) {
+    const glm::dvec3 lean(std::sin(glm::radians(degrees)), std::cos(glm::radians(degrees)), 0.0);
+    double sum = 0.0;
+    constexpr int n = 1000;
+    for (int i = 0; i < n; ++i) {
+      for (int j = 0; j < n; ++j) {
+        const double y = (i + 0.5) / n, phi = glm::two_pi<double>() * (j + 0.5) / n;
+        const double r = std::sqrt(1.0 - y * y);
+        sum += std::max(glm::dot(lean, {r * std::cos(phi), y, r * std::sin(phi)}), 0.0);
+      }
+    }
+    const double returned = 2.0 * sum / (double(n) * n);  // 2 pi of the hemisphere over pi
+    EXPECT_NEAR(leaningRadiance(lean.y), returned, 1e-5) << degrees;
+    const Scene scene = makeBuiltinScene("floor?slope=" + std::to_string(degrees));
+    // The map leans a little forwards, too.
+    EXPECT_NEAR(exactImage(scene, kSmall)[0].x, returned, 2e-5) << degrees;
+  }
+}
+
+// Bilinear between the middles of pixels, as docs/dialect.md has it, summed over a fine grid.
+TEST(Truths, SunlitFloorAgainstQuadrature) {
+  constexpr uint32_t width = 32, height = 16, row = 3;
+  constexpr double sun = 1000.0;
+  const double h = glm::pi<double>() / height;
+  double sum = 0.0;
+  constexpr int n = 4000;
+  for (int i = 0; i < n; ++i) {
+    const double theta = (i + 0.5) / n * 0.5 * glm::pi<double>();
+    const double weight = std::max(0.0, 1.0 - std::abs(theta / h - (row + 0.5)));
+    // Along a row the weights of a pixel add up to one pixel.
+    const double ring =
+        glm::two_pi<double>() * 1.0 + weight * (sun - 1.0) * glm::two_pi<double>() / width;
+    sum += ring * std::cos(theta) * std::sin(theta) * 0.5 * glm::pi<double>() / n;
+  }
+  EXPECT_NEAR(sunlitRadiance(sun, (row + 0.5) * h, width, height) * glm::pi<double>() / sum, 1.0,
+              1e-5);
+  EXPECT_EQ(exactImage(makeBuiltinScene("floor?sun=1"), kSmall)[0], glm::dvec3(1.0));
+  const double sunny = exactImage(makeBuiltinScene("floor?sun=1e6"), kSmall)[0].x;
+  EXPECT_GT(sunny, 2.0) << "1e6 times 4e-5 sr";
+  EXPECT_NEAR((exactImage(makeBuiltinScene("floor?sun=1e9"), kSmall)[0].x - 1.0) / (sunny - 1.0),
+              1e3, 0.1);
+}
+
+// One spot by hand; many of them as a disc that shines.
+TEST(Truths, SpotsAgainstADiscOfThem) {
+  const Scene one = makeBuiltinScene("floor?spots=1");
+  ASSERT_EQ(one.lights.size(), 1u);
+  const glm::dvec3 lamp = one.lights[0].posW;
+  const double below = double(one.lights[0].intensity.x) / (glm::pi<double>() * lamp.y * lamp.y);
+  EXPECT_NEAR(spotlitRadiance(one.lights, {lamp.x, 0.0, lamp.z}).x, below, 1e-6);
+  const Scene many = makeBuiltinScene("floor?spots=1e5");
+  ASSERT_EQ(many.lights.size(), 100000u);
+  double intensity = 0.0, sum = 0.0;
+  for (const PunctualLight& spot : many.lights) intensity += double(spot.intensity.x);
+  const glm::dvec3 posW(0.3, 0.0, -0.4);
+  constexpr int n = 1000;
+  const double cosOuter = std::cos(glm::radians(70.0));
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      const double r = 4.0 * std::sqrt((i + 0.5) / n), phi = glm::two_pi<double>() * (j + 0.5) / n;
+      const glm::dvec3 d = glm::dvec3(r * std::cos(phi), 2.0, r * std::sin(phi)) - posW;
+      const double cosine = d.y / glm::length(d);
+      const double cone = std::max(0.0, (cosine - cosOuter) / (1.0 - cosOuter));
+      sum += cone * cone * cosine / glm::dot(d, d);
+    }
+  }
+  const double expected = intensity * sum / (double(n) * n) / glm::pi<double>();
+  EXPECT_NEAR(spotlitRadiance(many.lights, posW).x / expected, 1.0, 1e-3);
+}
+
+TEST(Truths, FloorOfOtherLightNeedsAViewOfItAlone) {
+  const auto why = [](const std::string& name) {
+    return whyNotExact(makeBuiltinScene(name), {.width = 16, .height = 9, .scatteringEvents = 1});
+  };
+  for (const char* name : {"floor?sun=1e6", "floor?spots=100", "floor?slope=30"})
+    EXPECT_EQ(why(name), "") << name;
+  for (const char* name : {"floor?sun=1e6&view=80", "floor?spots=100&fov=120"})
+    EXPECT_EQ(why(name), "from a camera that sees more than the floor") << name;
+  EXPECT_EQ(why("floor?slope=30&sun=10"), "of a slope under anything but a uniform sky");
+  EXPECT_EQ(why("floor?sun=10&triangles=0"), "of a sky with a sun or spots, without the floor");
+  EXPECT_EQ(why("floor?sun=10&triangles=1"), "of one triangle under anything but a uniform sky");
+}
+
+TEST(Truths, GlassNeedsManyEvents) {
+  const Scene scene = makeBuiltinScene("floor?ior=1.5");
+  ExactView view = kSmall;
+  EXPECT_EQ(whyNotExact(scene, view), "of glass at fewer than 64 scattering events");
+  view.scatteringEvents = 64;
+  EXPECT_EQ(exactImage(scene, view)[0], glm::dvec3(1.0));
+}
+
+// Cut into triangles the rectangle gives what it gave; of one of them, what a small light gives.
+TEST(Truths, QuadLightOfManyTriangles) {
+  const glm::dvec3 posW(0.4, 0.0, 0.6);
+  const double whole = quadLightRadiance(makeBuiltinScene("quad-light"), posW).x;
+  for (const char* name : {"quad-light?triangles=50", "quad-light?triangles=1e5"})
+    EXPECT_NEAR(quadLightRadiance(makeBuiltinScene(name), posW).x / whole, 1.0, 1e-5) << name;
+  const Scene scene = makeBuiltinScene("quad-light?triangles=1e5&ratio=1e10");
+  const MeshGeometry* one = nullptr;
+  for (const MeshGeometry& g : scene.geometries) {
+    if (g.name == "brightest") one = &g;
+  }
+  ASSERT_NE(one, nullptr);
+  ASSERT_EQ(one->triangles.size(), 1u);
+  const glm::dvec3 a(one->positions[0]), b(one->positions[1]), c(one->positions[2]);
+  const glm::dvec3 area = 0.5 * glm::cross(b - a, c - a), d = (a + b + c) / 3.0 - posW;
+  const double d2 = glm::dot(d, d), power = 10.0 * 1.5;  // radiance times area
+  const double expected =
+      0.5 / glm::pi<double>() * power * d.y * -glm::dot(d, glm::normalize(area)) / (d2 * d2);
+  EXPECT_NEAR(quadLightRadiance(scene, posW).x / expected, 1.0, 1e-4);
 }
 
 // Of every albedo: the sum against the recursion of radiance and against the closed form.

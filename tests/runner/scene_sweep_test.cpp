@@ -59,6 +59,15 @@ TEST(Holds, WhereTheIntervalTouches) {
   EXPECT_FALSE(holds({1.02, nan, nan}, 0, 0.01));
 }
 
+TEST(IsFarOff, BeyondTheToleranceAndThreeHalfWidths) {
+  EXPECT_FALSE(isFarOff({1.0, 1.0, 1.0}, 0.01));
+  EXPECT_FALSE(isFarOff({0.97, 0.96, 0.98}, 0.01)) << "does not hold, and may be chance";
+  EXPECT_FALSE(isFarOff({0.961, 0.951, 0.971}, 0.01));
+  EXPECT_TRUE(isFarOff({0.959, 0.949, 0.969}, 0.01));
+  EXPECT_TRUE(isFarOff({1.041, 1.031, 1.051}, 0.01));
+  EXPECT_FALSE(isFarOff({0.5, kUnknown, kUnknown}, 0.01)) << "one run";
+}
+
 // A suite of three scenes and two methods; the second one loses energy at the last value, and has a
 // value that is not finite at the second.
 class SceneSweepTest : public TemporaryFolder {
@@ -138,6 +147,17 @@ TEST_F(SceneSweepTest, SaysTheLastValueThatHolds) {
   std::ifstream in(folder() / "table.md");
   const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
   EXPECT_LT(text.find("last that holds"), text.find("## light: furnace?albedo=0.5, all light"));
+}
+
+TEST_F(SceneSweepTest, NamesTheFirstWrongEnergy) {
+  const Suite own = ofScene(suite_, suite_.scenes[0]);
+  Outputs outputs(folder());
+  add(outputs, own, {{1.0, 0}, {1.012, 0}});
+  EXPECT_EQ(outputs.wrongEnergies(), "") << "1.2 % within an interval of 0.2 % and 1 %";
+  add(outputs, own, {{1.0, 0}, {1.0, 0}, {0.9, 0}});
+  EXPECT_EQ(outputs.wrongEnergies(),
+            "the energy of 1 row is not that of the reference; the first is gi in light: "
+            "furnace?albedo=0.9, with 0.9000 [0.8982, 0.9018]");
 }
 
 // A later value that holds does not make up for it.

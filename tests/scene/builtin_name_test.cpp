@@ -39,9 +39,10 @@ TEST(BuiltinName, MistakesAreOneLine) {
     const std::string error = errorOf(name);
     EXPECT_NE(error.find(words), std::string::npos) << name << ": " << error;
   };
-  expectError("furnace?albdo=0.5",
-              "furnace has no parameter 'albdo' (it has: albedo, scale, radiance, move, fov); did "
-              "you mean 'albedo'?");
+  expectError(
+      "furnace?albdo=0.5",
+      "furnace has no parameter 'albdo' (it has: albedo, height, gap, wall, scale, radiance, "
+      "move, fov); did you mean 'albedo'?");
   expectError("cornell-box?albedo=0.5", "cornell-box has no parameter 'albedo'");
   expectError("furnace?albedo=1.5", "albedo is 1.5, but must be in 0..1");
   expectError("furnace?albedo=nan", "albedo is 'nan', not a number");
@@ -52,6 +53,36 @@ TEST(BuiltinName, MistakesAreOneLine) {
   expectError("furnace?scale=2&scale=2", "'scale' is given twice");
   expectError("furnase?albedo=0.5",
               "no built-in scene is named 'furnase'; did you mean 'furnace'?");
+}
+
+TEST(BuiltinName, FloorsAreCutAsTheySay) {
+  const auto triangles = [](const std::string& name) {
+    size_t count = 0;
+    const Scene scene = makeBuiltinScene(name);
+    for (const MeshInstance& instance : scene.instances)
+      count += scene.geometries[instance.geometry].triangles.size();
+    return count;
+  };
+  EXPECT_EQ(triangles("floor"), 2u);
+  EXPECT_EQ(triangles("floor?triangles=0"), 0u);
+  EXPECT_EQ(triangles("floor?triangles=1"), 1u);
+  EXPECT_EQ(triangles("floor?triangles=1000"), 2u * 22u * 22u);
+  EXPECT_EQ(triangles("floor?copies=3"), 6u);
+  EXPECT_EQ(triangles("floor?needle=100"), 200u);
+  EXPECT_EQ(triangles("quad-light?triangles=1e4"), 2u + 2u * 71u * 71u);
+  EXPECT_EQ(triangles("quad-light?triangles=1e4&ratio=10"), 2u + 2u * 71u * 71u);
+  const MeshGeometry& needles = makeBuiltinScene("floor?needle=100").geometries[0];
+  const glm::uvec3 t = needles.triangles[0];
+  const float length = glm::length(needles.positions[t.y] - needles.positions[t.x]);
+  const float width = glm::length(needles.positions[t.z] - needles.positions[t.y]);
+  EXPECT_NEAR(length / width, 100.0f, 1e-2f);
+  try {
+    makeBuiltinScene("floor?ior=1.5&copies=2");
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::badInput);
+    EXPECT_NE(std::string(error.what()).find("goes with 'view' alone"), std::string::npos);
+  }
 }
 
 TEST(BuiltinName, WithoutRelationsKeepsTheRest) {

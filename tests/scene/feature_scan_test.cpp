@@ -68,6 +68,7 @@ TEST(FeatureScan, BuiltinScenes) {
                         rl::RL_FEATURE_INSTANCES | rl::RL_FEATURE_SMOOTH_NORMALS},
       {"furnace", rl::RL_FEATURE_AREA_LIGHTS},
       {"sphere-furnace", rl::RL_FEATURE_ENVIRONMENT},
+      {"floor", rl::RL_FEATURE_ENVIRONMENT},
       {"quad-light", rl::RL_FEATURE_AREA_LIGHTS},
   };
   for (const std::string& name : builtinSceneNames()) {

@@ -17,6 +17,7 @@ constexpr const char* kTruth = "truth";
 
 analytic::ExactView viewOf(const PreparedScene& plain, const ReferenceConfig& config) {
   return {.camera = plain.camera,
+          .moved = config.camera,
           .width = config.width,
           .height = config.height,
           .scatteringEvents = config.maxBounces,
@@ -37,6 +38,12 @@ SceneRequest withoutRelations(SceneRequest request) {
 double radianceFactor(const std::string& scene) {
   if (!isBuiltinScene(scene)) return 1.0;
   return parseBuiltinName(scene).value(kRadianceParameter).value();
+}
+
+bool isElsewhere(const std::string& scene) {
+  if (!isBuiltinScene(scene)) return false;
+  const BuiltinName name = parseBuiltinName(scene);
+  return name.value(kScaleParameter) != 1.0 || name.value(kMoveParameter) != 0.0;
 }
 
 std::string whyNoTruth(Truth truth, const SceneRequest& request, const PreparedScene& plain,

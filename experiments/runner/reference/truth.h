@@ -19,6 +19,9 @@ SceneRequest withoutRelations(SceneRequest request);
 // What `radiance` in a scene's name multiplies its image by; 1 where the name has none.
 double radianceFactor(const std::string& scene);
 
+// Has it a `scale` or a `move`? Lengths of a camera path are then not those of the plain scene.
+bool isElsewhere(const std::string& scene);
+
 // Why `truth` cannot be had of this view, in words; "": it can. `plain`: prepared of
 // withoutRelations().
 std::string whyNoTruth(Truth truth, const SceneRequest& request, const PreparedScene& plain,

@@ -72,6 +72,23 @@ std::string Outputs::nonfinite() const {
                      counted(rows, "row"), first);
 }
 
+std::string Outputs::wrongEnergies() const {
+  size_t rows = 0;
+  std::string first;
+  for (const Block& block : blocks_) {
+    for (const MethodSummary& row : block.rows) {
+      if (!isFarOff(row.energyRatio, row.suite->holdsWithin)) continue;
+      if (rows++ > 0) continue;
+      first = fmt::format("{} in {}, with {}{}", row.method->name, block.result.scene,
+                          shortNumber(row.energyRatio.value, kEnergyDigits),
+                          intervalText(row.energyRatio.lo, row.energyRatio.hi, kEnergyDigits));
+    }
+  }
+  if (rows == 0) return "";
+  return fmt::format("the energy of {} is not that of the reference; the first is {}",
+                     counted(rows, "row"), first);
+}
+
 void Outputs::writePages(const Suite& suite, const nlohmann::ordered_json& record) const {
   if (documents_.empty()) return;
   std::vector<nlohmann::ordered_json> documents;

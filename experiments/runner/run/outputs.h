@@ -30,6 +30,8 @@ class Outputs {
   std::string sweepTables() const;
   // Where values are not finite, in a line; "" where all are.
   std::string nonfinite() const;
+  // Which rows have an energy that is far off (isFarOff()); "": none.
+  std::string wrongEnergies() const;
   // report.html and plots/*.svg; `record`: run.json. Nothing where there is no block.
   void writePages(const Suite& suite, const nlohmann::ordered_json& record) const;
 

@@ -63,7 +63,7 @@ ResultsFolder openResults(const fs::path& folder) {
       return std::find(methods.begin(), methods.end(), method.name) == methods.end();
     });
     for (const SuiteScene& scene : suite.scenes) {
-      if (scene.maxBounces || scene.russianRoulette || scene.multiscatter)
+      if (scene.hasOwnSettings())
         results.ofScenes.emplace(std::pair(suite.point, scene.name), ofScene(suite, scene));
     }
   }

@@ -134,9 +134,12 @@ class SuiteRun {
       writeRecord(fmt::format("failed: {}", error.what()));
       throw;
     }
-    const std::string nonfinite = outputs_.nonfinite();
-    if (points_.front().failOnNonfinite && !nonfinite.empty())
-      throw Error(ExitCode::comparisonFailed, nonfinite);
+    const Suite& suite = points_.front();
+    const std::string nonfinite = suite.failOnNonfinite ? outputs_.nonfinite() : "",
+                      energies = suite.failOnEnergy ? outputs_.wrongEnergies() : "";
+    const char* join = nonfinite.empty() || energies.empty() ? "" : "; ";
+    if (!nonfinite.empty() || !energies.empty())
+      throw Error(ExitCode::comparisonFailed, nonfinite + join + energies);
     return true;
   }
 
@@ -172,7 +175,7 @@ class SuiteRun {
           block.scene = scene.name;
           block.component = component;
           plan_.push_back(planOf(suite, block));
-          pace_.plan(suite.runs);
+          pace_.plan(ofScene(suite, scene).runs);
         }
       }
     }
@@ -389,7 +392,7 @@ class SuiteRun {
       ReferenceConfig config = referenceConfigOf(picture);
       const fs::path folder = request_.out / "references";
       if (scene.truth != Truth::rendered) {
-        block.reference = obtainTruth(suite, scene, config, folder);
+        block.reference = obtainTruth(suite, scene, prepared, config, folder);
         block.referenceFile = "references/" + label + ".exr";
         writeReference(request_.out / block.referenceFile, block.reference);
         return true;
@@ -413,8 +416,9 @@ class SuiteRun {
   }
 
   static Reference obtainTruth(const Suite& suite, const SuiteScene& scene,
-                               const ReferenceConfig& config, const fs::path& folder) {
-    const PreparedScene plain = plainOf(suite, scene, config);
+                               const PreparedScene& prepared, ReferenceConfig config,
+                               const fs::path& folder) {
+    const PreparedScene plain = plainOf(suite, scene, prepared, config);
     if (scene.truth == Truth::exact) return exactReference(scene.request, plain, config);
     return multiplied(obtainReference(plain, config, suite.target, folder,
                                       plainLabel(scene.request, plain, config)),

@@ -80,7 +80,7 @@ ReferencesThere referencesThere(const Suite& suite, const SuiteScene& scene,
   }
   ReferenceConfig config = referenceConfigOf(picture);
   if (scene.truth != Truth::rendered) {
-    const PreparedScene plain = plainOf(suite, scene, config);
+    const PreparedScene plain = plainOf(suite, scene, prepared, config);
     std::optional<Reference> truth;
     if (scene.truth == Truth::exact) {
       truth = exactReference(scene.request, plain, config);

@@ -13,52 +13,39 @@ namespace {
 
 constexpr double kMaxFactor = 1e6;
 
-std::vector<std::string> pathNames(const ConfigTable& root) {
-  std::vector<std::string> names = {"still"};
-  for (const ConfigTable& path : root.getTables("camera_path"))
-    names.push_back(path.getString("name", ""));
-  return names;
-}
-
 struct FileEvent {
   LightEvent event;
   std::string path;  // "": every one
 };
 
-FileEvent readEvent(const ConfigTable& table, const std::vector<std::string>& paths,
-                    const Suite& suite) {
+FileEvent readEvent(const ConfigTable& table, const std::vector<SuitePath>& paths) {
   for (const char* key : {"frame", "light", "factor"}) {
     if (!table.has(key)) table.fail("", fmt::format("[[event]] needs '{}'", key));
   }
   FileEvent read;
-  // Beyond any run: the limit of this one is said below, with its reason.
+  // Beyond any run: the limit of a run is said later, with its reason.
   read.event.frame = uint32_t(table.getInteger("frame", 0, 0, int64_t(1) << 31));
   read.event.light = table.getString("light", "");
   read.event.place = table.place("light");
+  read.event.framePlace = table.place("frame");
   read.event.factor = table.getNumber("factor", 1.0, 0.0, kMaxFactor);
   read.path = table.getString("camera_path", "");
   table.finish();
-  if (table.has("camera_path") && std::find(paths.begin(), paths.end(), read.path) == paths.end()) {
+  std::vector<std::string> names;
+  for (const SuitePath& path : paths) names.push_back(path.name);
+  if (table.has("camera_path") && std::find(names.begin(), names.end(), read.path) == names.end()) {
     table.fail("camera_path", fmt::format("no [[camera_path]] is named '{}'{}", read.path,
-                                          didYouMean(read.path, paths)));
-  }
-  const bool isHere = read.path.empty() || read.path == suite.cameraPathName;
-  if (isHere && read.event.frame > suite.warmupFrames) {
-    table.fail("frame",
-               fmt::format("'frame' is {}: the frames from {} ('warmup_frames') on are "
-                           "measured, by one light; a lamp is switched at {} at the latest",
-                           read.event.frame, suite.warmupFrames, suite.warmupFrames));
+                                          didYouMean(read.path, names)));
   }
   return read;
 }
 
 }  // namespace
 
-void readLightEvents(const ConfigTable& root, const ConfigTable& settings, Suite& suite) {
-  const std::vector<std::string> paths = pathNames(root);
+void readLightEvents(const ConfigTable& root, std::vector<SuitePath>& paths) {
   std::vector<FileEvent> all;
   for (const ConfigTable& table : root.getTables("event")) {
-    const FileEvent read = readEvent(table, paths, suite);
+    const FileEvent read = readEvent(table, paths);
     for (const FileEvent& other : all) {
       const bool isSamePath = other.path.empty() || read.path.empty() || other.path == read.path;
       if (isSamePath && other.event.frame == read.event.frame &&
@@ -68,10 +55,24 @@ void readLightEvents(const ConfigTable& root, const ConfigTable& settings, Suite
       }
     }
     all.push_back(read);
-    if (read.path.empty() || read.path == suite.cameraPathName) suite.events.push_back(read.event);
+    for (SuitePath& path : paths) {
+      if (read.path.empty() || read.path == path.name) path.events.push_back(read.event);
+    }
   }
-  std::stable_sort(suite.events.begin(), suite.events.end(),
-                   [](const LightEvent& a, const LightEvent& b) { return a.frame < b.frame; });
+  for (SuitePath& path : paths) {
+    std::stable_sort(path.events.begin(), path.events.end(),
+                     [](const LightEvent& a, const LightEvent& b) { return a.frame < b.frame; });
+  }
+}
+
+void checkLightEvents(const ConfigTable& settings, const Suite& suite) {
+  for (const LightEvent& event : suite.events) {
+    if (event.frame <= suite.warmupFrames) continue;
+    failUsage(
+        fmt::format("{}: 'frame' is {}: the frames from {} ('warmup_frames') on are "
+                    "measured, by one light; a lamp is switched at {} at the latest",
+                    event.framePlace, event.frame, suite.warmupFrames, suite.warmupFrames));
+  }
   if (suite.accumulate && suite.lightChanges()) {
     settings.fail("accumulate", "'accumulate' is of light that stays: " +
                                     eventsText(suite.events, suite.warmupFrames));

@@ -11,17 +11,21 @@
 namespace restlab {
 
 struct Suite;
+struct SuitePath;
 
 struct LightEvent {
-  uint32_t frame = 0;   // of the history, from 0: the first one that it holds in
-  std::string light;    // as withLightFactor() knows it
-  double factor = 1.0;  // of the light that was loaded; until another event of the light
-  std::string place;    // of the name in the suite, for errors
+  uint32_t frame = 0;             // of the history, from 0: the first one that it holds in
+  std::string light;              // as withLightFactor() knows it
+  double factor = 1.0;            // of the light that was loaded; until another event of the light
+  std::string place, framePlace;  // of the name and of the frame in the suite, for errors
 };
 
-// Sets the suite's events: those of its camera path, by frame and then in the order of the file.
-// Throws Error (badUsage) with the place of what is wrong.
-void readLightEvents(const ConfigTable& root, const ConfigTable& settings, Suite& suite);
+// Gives every path its events, by frame and then in the order of the file. Throws Error (badUsage)
+// with the place of what is wrong.
+void readLightEvents(const ConfigTable& root, std::vector<SuitePath>& paths);
+// Do the events of the suite's path come before what it measures, and go with its settings? Else
+// throws likewise.
+void checkLightEvents(const ConfigTable& settings, const Suite& suite);
 
 // "panel x0 from frame 8, lamp x0.5 from frame 16": those that came until a frame; "" without one.
 std::string eventsText(const std::vector<LightEvent>& events, uint32_t frame);

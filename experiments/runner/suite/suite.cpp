@@ -49,11 +49,16 @@ SuiteScene readScene(const ConfigTable& table, const std::string& folder) {
   if (table.has("russian_roulette"))
     scene.russianRoulette = table.getBool("russian_roulette", false);
   if (table.has("multiscatter")) scene.multiscatter = table.getBool("multiscatter", false);
+  if (table.has("warmup_frames"))
+    scene.warmupFrames = uint32_t(table.getInteger("warmup_frames", 0, 0, kMaxCount));
+  if (table.has("runs")) scene.runs = uint32_t(table.getInteger("runs", 1, 1, kMaxCount));
+  if (table.has("camera_path")) scene.cameraPath = table.getString("camera_path", "");
   scene.place = table.place("scene");
   scene.cameraPlace = table.place("camera");
   scene.environmentPlace = table.place("environment");
   scene.referencePlace = table.place("reference");
   scene.truthPlace = table.place("truth");
+  scene.cameraPathPlace = table.place("camera_path");
   scene.width = uint32_t(table.getInteger("width", 0, 1, kMaxSide));
   scene.height = uint32_t(table.getInteger("height", 0, 1, kMaxSide));
   scene.reverseTurns = table.getBool("reverse_turns", false);
@@ -182,6 +187,9 @@ Suite ofScene(const Suite& suite, const SuiteScene& scene) {
   own.maxBounces = scene.maxBounces.value_or(own.maxBounces);
   own.russianRoulette = scene.russianRoulette.value_or(own.russianRoulette);
   own.multiscatter = scene.multiscatter.value_or(own.multiscatter);
+  own.warmupFrames = scene.warmupFrames.value_or(own.warmupFrames);
+  own.runs = scene.runs.value_or(own.runs);
+  if (scene.cameraPath) takePath(own, *scene.cameraPath, scene.cameraPathPlace);
   return own;
 }
 
@@ -280,8 +288,12 @@ Suite readSuite(const ConfigTable& root, const std::filesystem::path& file, cons
     root.fail("", "the suite has no scenes: give scenes = [..] or [[scene]]");
   const ConfigTable settings = root.getTable("settings");
   readSettings(settings, suite);
-  readLightEvents(root, settings, suite);
-  chooseCameraPath(root, settings, suite);
+  readPaths(root, suite);
+  takePath(suite, suite.cameraPathName, suite.cameraPathPlace);
+  checkPath(settings, suite);
+  for (const SuiteScene& scene : suite.scenes) {
+    if (scene.hasOwnSettings()) checkPath(settings, ofScene(suite, scene));
+  }
   readMasks(root, suite);
   readMethods(root, settings, sweep, folder, suite);
   readReference(root.getTable("reference"), suite);
@@ -290,6 +302,13 @@ Suite readSuite(const ConfigTable& root, const std::filesystem::path& file, cons
   requireUniqueNames(suite);
   requireBaseline(settings, suite);
   return suite;
+}
+
+// Of any of its scenes.
+uint32_t mostRuns(const Suite& suite) {
+  uint32_t runs = suite.runs;
+  for (const SuiteScene& scene : suite.scenes) runs = std::max(runs, scene.runs.value_or(0));
+  return runs;
 }
 
 // Run r has the seed `seed` + r: seeds of a sweep that are nearer than there are runs would make
@@ -301,11 +320,11 @@ void requireOwnSeeds(const std::vector<SweepAxis>& axes, const std::vector<Suite
     for (const Suite& other : points) {
       const uint32_t apart =
           other.seed < last.seed ? last.seed - other.seed : other.seed - last.seed;
-      if (apart == 0 || apart >= std::min(last.runs, other.runs)) continue;
+      if (apart == 0 || apart >= std::min(mostRuns(last), mostRuns(other))) continue;
       failUsage(
           fmt::format("{}: seeds {} and {} have runs in common, as run r has the seed "
                       "'seed' + r; leave at least {} between them",
-                      axis.place, other.seed, last.seed, last.runs));
+                      axis.place, other.seed, last.seed, mostRuns(last)));
     }
   }
 }

@@ -25,13 +25,25 @@ struct SuiteScene {
   bool optional = false;           // skipped, with a line, where its files are absent
   Truth truth = Truth::rendered;
   // Instead of the suite's.
-  std::optional<uint32_t> maxBounces;
+  std::optional<uint32_t> maxBounces, warmupFrames, runs;
   std::optional<bool> russianRoulette, multiscatter;
+  std::optional<std::string> cameraPath;  // its name
   // What scenes of one [[scene]] have in common, which are a sweep; 0: it has this one alone.
   size_t sweep = 0;
   std::string sweepName;  // in tables
   // Where the suite says so, for errors: file:line:column.
-  std::string place, cameraPlace, environmentPlace, referencePlace, truthPlace;
+  std::string place, cameraPlace, environmentPlace, referencePlace, truthPlace, cameraPathPlace;
+
+  bool hasOwnSettings() const {
+    return maxBounces || warmupFrames || runs || russianRoulette || multiscatter || cameraPath;
+  }
+};
+
+// A [[camera_path]], or "still", and what happens to lights on it, by frame.
+struct SuitePath {
+  std::string name;
+  CameraPath camera;
+  std::vector<LightEvent> events;
 };
 
 // What another program rendered, as a row of the tables.
@@ -97,8 +109,10 @@ struct Suite {
   std::vector<std::string> metrics;  // further ones, of the measured frame
   double holdsWithin = 0.01;         // of 1: what an energy ratio may be off in a sweep of scenes
   bool failOnNonfinite = false;      // a value that is not finite ends the run with an error
+  bool failOnEnergy = false;         // likewise an energy that is far off (summary/scene_sweep.h)
   std::vector<SuiteMask> masks;
-  CameraPath cameraPath;  // of every scene, from its camera
+  std::vector<SuitePath> paths;  // all of them; "still" is the first
+  CameraPath cameraPath;         // of every scene, from its camera
   std::string cameraPathName = "still", cameraPathPlace;
   std::vector<LightEvent> events;  // of that path, by frame
   // Of all methods that do not say their own.

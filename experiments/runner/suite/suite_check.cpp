@@ -105,8 +105,10 @@ void checkScene(const Suite& suite, const SuiteScene& scene, const PreparedScene
   uint32_t width = 0, height = 0;
   atPlace(scene.place, [&] { sceneResolution(suite, scene, prepared, width, height); });
   if (scene.truth != Truth::rendered) {
-    for (const uint32_t component : suite.components)
-      plainOf(suite, scene, referenceConfigOf(pictureOf(suite, width, height, component)));
+    for (const uint32_t component : suite.components) {
+      ReferenceConfig config = referenceConfigOf(pictureOf(suite, width, height, component));
+      plainOf(suite, scene, prepared, config);
+    }
   }
   if (scene.reference.empty()) {
     atPlace(scene.place, [&] { requireExrSize("its reference", width, height, kReferenceLayers); });
@@ -142,13 +144,26 @@ void sceneResolution(const Suite& suite, const SuiteScene& scene, const Prepared
   completeResolution(prepared, width, height);
 }
 
-PreparedScene plainOf(const Suite& suite, const SuiteScene& scene, const ReferenceConfig& config) {
-  if (suite.hasMovingCamera() || !suite.events.empty()) {
-    failUsage(fmt::format("{}: 'truth' is of a still camera and of lights as they are",
-                          scene.truthPlace));
+PreparedScene plainOf(const Suite& suite, const SuiteScene& scene, const PreparedScene& prepared,
+                      ReferenceConfig& config) {
+  const SceneRequest request = withoutRelations(scene.request);
+  PreparedScene plain = request.scene == scene.request.scene
+                            ? prepared
+                            : atPlace(scene.place, [&] { return prepareScene(request); });
+  if (suite.hasMovingCamera()) {
+    if (isElsewhere(scene.request.scene)) {
+      failUsage(
+          fmt::format("{}: 'truth' of a camera that moves is of a scene without 'scale' and "
+                      "'move': paths are in its metres",
+                      scene.truthPlace));
+    }
+    if (suite.temporal) {
+      failUsage(fmt::format("{}: 'truth' is of one frame, but 'temporal' needs a second reference",
+                            scene.truthPlace));
+    }
+    config.camera = cameraAt(*motionOf(suite, scene, plain), suite.warmupFrames);
   }
-  const PreparedScene plain =
-      atPlace(scene.place, [&] { return prepareScene(withoutRelations(scene.request)); });
+  plain = sceneAt(lightPhases(suite, plain), plain, suite.warmupFrames);
   const std::string why = whyNoTruth(scene.truth, scene.request, plain, config);
   if (!why.empty()) failUsage(fmt::format("{}: {}", scene.truthPlace, why));
   return plain;

@@ -14,9 +14,12 @@ namespace restlab {
 void sceneResolution(const Suite& suite, const SuiteScene& scene, const PreparedScene& prepared,
                      uint32_t& width, uint32_t& height);
 
-// What the truth of a scene is known of: the scene without its relations, with its camera. Throws
-// Error (badUsage) at the place where the suite asks for a truth that this view does not have.
-PreparedScene plainOf(const Suite& suite, const SuiteScene& scene, const ReferenceConfig& config);
+// What the truth of a scene is known of: the scene without its relations, with its camera and in
+// the light of the measured frame. `prepared`: the scene itself. Gives `config` the camera of that
+// frame where it moves. Throws Error (badUsage) at the place where the suite asks for a truth that
+// this view does not have.
+PreparedScene plainOf(const Suite& suite, const SuiteScene& scene, const PreparedScene& prepared,
+                      ReferenceConfig& config);
 
 // What every method of a block, and its reference, must agree in; on the reference's backend.
 SessionConfig pictureOf(const Suite& suite, uint32_t width, uint32_t height, uint32_t component);

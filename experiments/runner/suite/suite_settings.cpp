@@ -13,8 +13,6 @@ namespace restlab {
 
 namespace {
 
-constexpr int64_t kMaxCount = 1000000;
-
 void addMetric(const ConfigTable& settings, const std::string& given,
                std::vector<std::string>& metrics) {
   const std::vector<std::string> known = metricNames();
@@ -121,6 +119,7 @@ void readSettings(const ConfigTable& table, Suite& suite) {
   suite.timing = table.getBool("timing", suite.timing);
   suite.holdsWithin = table.getNumber("holds_within", suite.holdsWithin, 0.0, 1.0);
   suite.failOnNonfinite = table.getBool("fail_on_nonfinite", suite.failOnNonfinite);
+  suite.failOnEnergy = table.getBool("fail_on_energy", suite.failOnEnergy);
   suite.baseline = table.getString("baseline", suite.baseline);
   for (const std::string& given : table.getStrings("metrics", {}))
     addMetric(table, given, suite.metrics);
@@ -145,25 +144,36 @@ void readSettings(const ConfigTable& table, Suite& suite) {
   table.finish();
 }
 
-void chooseCameraPath(const ConfigTable& root, const ConfigTable& settings, Suite& suite) {
-  std::vector<std::string> names = {"still"};
-  bool isFound = suite.cameraPathName == "still";
+void readPaths(const ConfigTable& root, Suite& suite) {
+  suite.paths = {{"still", {}, {}}};
   for (const ConfigTable& table : root.getTables("camera_path")) {
     const std::string name = table.getString("name", "");
     if (name.empty()) table.fail("name", "[[camera_path]] needs a 'name'");
-    if (std::find(names.begin(), names.end(), name) != names.end())
-      table.fail("name", fmt::format("two camera paths are named '{}'", name));
-    names.push_back(name);
-    const CameraPath path = parseCameraPath(table);
-    if (name != suite.cameraPathName) continue;
-    suite.cameraPath = path;
-    isFound = true;
+    const bool isThere = std::any_of(suite.paths.begin(), suite.paths.end(),
+                                     [&](const SuitePath& path) { return path.name == name; });
+    if (isThere) table.fail("name", fmt::format("two camera paths are named '{}'", name));
+    suite.paths.push_back({name, parseCameraPath(table), {}});
   }
-  if (!isFound) {
-    settings.fail("camera_path",
-                  fmt::format("no [[camera_path]] is named '{}'{}", suite.cameraPathName,
-                              didYouMean(suite.cameraPathName, names)));
+  readLightEvents(root, suite.paths);
+}
+
+void takePath(Suite& suite, const std::string& name, const std::string& place) {
+  std::vector<std::string> names;
+  for (const SuitePath& path : suite.paths) {
+    names.push_back(path.name);
+    if (path.name != name) continue;
+    suite.cameraPathName = name;
+    suite.cameraPathPlace = place;
+    suite.cameraPath = path.camera;
+    suite.events = path.events;
+    return;
   }
+  failUsage(
+      fmt::format("{}: no [[camera_path]] is named '{}'{}", place, name, didYouMean(name, names)));
+}
+
+void checkPath(const ConfigTable& settings, const Suite& suite) {
+  checkLightEvents(settings, suite);
   const uint32_t length = suite.warmupFrames + suite.timedFrames;
   // There is one reference, of the measured frame's camera.
   const std::optional<uint32_t> still = firstStillFrame(suite.cameraPath);

@@ -9,6 +9,8 @@ namespace restlab {
 
 // Of `max_bounces`.
 constexpr int64_t kMaxBouncesOfSuites = 1024;
+// Of frames and runs.
+constexpr int64_t kMaxCount = 1000000;
 
 // One name or several; "cpu" and so on, each once.
 std::vector<std::string> readBackends(const ConfigTable& table,
@@ -16,8 +18,12 @@ std::vector<std::string> readBackends(const ConfigTable& table,
 void readSettings(const ConfigTable& table, Suite& suite);
 // The keys that [settings] has: those that readSettings() asks for.
 const std::vector<std::string>& settingsKeys();
-// The [[camera_path]] that the settings name; "still" needs none.
-void chooseCameraPath(const ConfigTable& root, const ConfigTable& settings, Suite& suite);
+// Every [[camera_path]] and what is switched on it; "still" needs none.
+void readPaths(const ConfigTable& root, Suite& suite);
+// Makes one of them the suite's; `place`: where it is named, for errors.
+void takePath(Suite& suite, const std::string& name, const std::string& place);
+// Does it go with what the suite measures?
+void checkPath(const ConfigTable& settings, const Suite& suite);
 // Of the scenes, which are read.
 void readMasks(const ConfigTable& root, Suite& suite);
 void readReference(const ConfigTable& table, Suite& suite);

@@ -111,6 +111,11 @@ Json errorPlot(const SceneSweep& sweep) {
 
 }  // namespace
 
+bool isFarOff(const Interval& energy, double within) {
+  const double halfWidth = 0.5 * (energy.hi - energy.lo);
+  return std::abs(energy.value - 1.0) - within > 3.0 * halfWidth;  // false for NaN
+}
+
 bool holds(const Interval& energy, uint64_t nonfinite, double within) {
   if (nonfinite > 0 || std::isnan(energy.value)) return false;
   const double lo = std::isnan(energy.lo) ? energy.value : energy.lo;
