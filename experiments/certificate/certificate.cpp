@@ -19,8 +19,6 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // A mean is nearly normal, and has a t interval, up to this |skewness| / sqrt(runs).
 constexpr double kMaxSkewness = stats::BiasOptions().maxSkewness;
-// Of 128 runs without any skew 1 % miss that by chance; of fewer, more.
-constexpr double kFewestForCells = 128.0;
 
 double normalQuantile(double p) { return quantile(boost::math::normal(), p); }
 
@@ -97,13 +95,22 @@ double runsToDecide(const Evidence& evidence, const stats::Truth& truth, const I
   return std::max(decided, skewness * skewness);
 }
 
+// Half of the interval of a cell's bias.
+double halfInterval(const stats::CellVerdict& v, const Rules& rules) {
+  return stats::studentQuantile(0.5 + 0.5 * rules.confidence, v.welch.dof) * v.welch.standardError;
+}
+
 // The interval of a cell's relative bias lies within the margin: too small to be held against it.
 bool isWithin(const stats::CellVerdict& v, const Rules& rules) {
   const double scale = std::abs(v.reference);
   if (scale == 0.0 || !std::isfinite(v.welch.dof)) return false;
-  const double half =
-      stats::studentQuantile(0.5 + 0.5 * rules.confidence, v.welch.dof) * v.welch.standardError;
-  return std::abs(v.welch.difference) + half < rules.margin * scale;
+  return std::abs(v.welch.difference) + halfInterval(v, rules) < rules.margin * scale;
+}
+
+// The interval lies beyond it.
+bool isBeyond(const stats::CellVerdict& v, const Rules& rules) {
+  const double half = std::isfinite(v.welch.dof) ? halfInterval(v, rules) : 0.0;
+  return std::abs(v.welch.difference) - half > rules.margin * std::abs(v.reference);
 }
 
 // The confirmed rejection that is largest, relative to its reference; null without one that counts.
@@ -117,6 +124,14 @@ const stats::CellVerdict* worstConfirmed(const stats::BiasReport& report, const 
     if (worst == nullptr || size(v) > size(*worst)) worst = &v;
   }
   return worst;
+}
+
+stats::BiasOptions testsOf(const Rules& rules) {
+  stats::BiasOptions options;
+  options.familyError = rules.familyError;
+  options.power = rules.power;
+  options.quantities = quantities();
+  return options;
 }
 
 std::string place(const stats::CellVerdict& v) {
@@ -135,6 +150,7 @@ void decide(Certificate& c, const Evidence& evidence, const stats::Truth& truth,
   }
   if (const stats::CellVerdict* worst = worstConfirmed(c.cells, rules)) {
     c.verdict = Verdict::biased;
+    c.worst = *worst;
     const ImageBias& b = c.image.front();
     c.reason = fmt::format(
         "luminance of the image by {:+.2f} % [{:+.2f}, {:+.2f}]; most in {}, {} by {:+.2f} %; "
@@ -225,11 +241,7 @@ Certificate judge(const Evidence& evidence, const stats::RunSet& firstBatch,
   Certificate c;
   for (const stats::Quantity quantity : quantities())
     c.image.push_back(biasOf(evidence, truth, quantity, rules));
-  stats::BiasOptions options;
-  options.familyError = rules.familyError;
-  options.power = rules.power;
-  options.quantities = quantities();
-  c.cells = stats::testBias(firstBatch, truth, options, freshBatch);
+  c.cells = stats::testBias(firstBatch, truth, testsOf(rules), freshBatch);
   c.fewestEvents = std::numeric_limits<double>::infinity();
   for (const stats::CellVerdict& v : c.cells.cells)
     c.fewestEvents = std::min(c.fewestEvents, rareEvents(v.skewness, firstBatch.runs()));
@@ -242,9 +254,18 @@ Certificate judge(const Evidence& evidence, const stats::RunSet& firstBatch,
   return c;
 }
 
+bool rejects(const stats::RunSet& runs, const stats::Truth& truth, const Rules& rules) {
+  // What these runs reject they reject again: each rejection is kept.
+  const stats::BiasReport report =
+      stats::testBias(runs, truth, testsOf(rules), [&] { return runs; });
+  return std::any_of(report.cells.begin(), report.cells.end(), [&](const stats::CellVerdict& v) {
+    return v.confirmed && isBeyond(v, rules);
+  });
+}
+
 double runsForEquivalence(const Evidence& pilot, const stats::Truth& truth, const Rules& rules) {
   const stats::CellArea whole = wholeImage(pilot.runs().grid());
-  double runs = kFewestForCells;
+  double runs = double(kRunsForCells);
   for (const stats::Quantity quantity : quantities()) {
     const stats::Sample sample = stats::summarise(pilot.runs().cellMeans(whole, quantity));
     const stats::Sample reference = truth.cell(whole, quantity);

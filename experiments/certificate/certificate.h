@@ -23,6 +23,10 @@ namespace restlab::certificate {
 // itself estimated.
 constexpr uint64_t kFewestRuns = 32;
 
+// Of so many runs without any skew 1 % of the cells miss by chance what makes them testable; of
+// fewer, more.
+constexpr uint64_t kRunsForCells = 128;
+
 struct Rules {
   double margin = 0.005;      // of the relative bias of the whole image, both ways
   double confidence = 0.95;   // of its interval
@@ -68,6 +72,8 @@ struct Certificate {
   std::string reason;            // a sentence
   std::vector<ImageBias> image;  // luminance first
   stats::BiasReport cells;
+  // Of the rejections that count, the one that is largest, relative to its reference.
+  std::optional<stats::CellVerdict> worst;
   Interval squaredBias, variance;  // their sum is the MSE of a run against the truth
   // More runs that would decide, if bias and spread are what they seem; nothing where it is decided
   // or where no number of runs decides.
@@ -90,8 +96,12 @@ Certificate judge(const Evidence& evidence, const stats::RunSet& firstBatch,
                   const std::function<stats::RunSet()>& freshBatch, const Reference& reference,
                   const Rules& rules);
 
+// Whether these runs alone reject a cell or the image, and its interval lies beyond the margin.
+// That is no verdict, which takes a fresh batch, but more runs will hardly make it equivalent.
+bool rejects(const stats::RunSet& runs, const stats::Truth& truth, const Rules& rules);
+
 // Runs after which the whole image would be equivalent with the power asked for, if the bias is 0
-// and the spread is that of `pilot`; at least 128, for the cells. NaN where the reference's own
+// and the spread is that of `pilot`; at least kRunsForCells. NaN where the reference's own
 // error alone is too large.
 double runsForEquivalence(const Evidence& pilot, const stats::Truth& truth, const Rules& rules);
 

@@ -29,14 +29,32 @@ constexpr uint64_t kFirstReferenceSpp = 2048, kMostReferenceSpp = uint64_t(1) <<
 // A mean of so many events is known to a seventh only.
 constexpr double kFewEvents = 50.0;
 
-std::string methodName(const SessionConfig& config) {
+std::string integratorName(const SessionConfig& config) {
   std::string name = config.integrator;
   if (findIntegrator(config.integrator).modes.size() > 1) name += " " + config.mode;
   if (!config.cache.empty()) name += ", " + config.cache;
-  if (config.denoiser != "none") name += ", " + config.denoiser;
+  return name;
+}
+
+std::string parametersName(const SessionConfig& config) {
+  std::string name;
   for (const auto& [key, value] : config.parameters)
     name += fmt::format(", {} {}", key, parameterText(value));
   return name;
+}
+
+void nameIt(const Question& question, Certified& c) {
+  const SessionConfig& config = question.config;
+  const std::string integrator = integratorName(config), parameters = parametersName(config);
+  c.scene = question.name.empty() ? question.prepared.scene->source().name : question.name;
+  c.method = integrator + parameters;
+  c.denoiser = config.denoiser;
+  c.name = c.scene + ", " + integrator + (config.denoiser == "none" ? "" : ", " + config.denoiser) +
+           parameters;
+  c.label = safeFileName(c.name);
+  const Method method = findMethod(config);
+  c.declared =
+      method.bias(config.mode, resolveParameters(method, config.parameters), /*cameraMoves=*/false);
 }
 
 Reference convergedReference(const Question& question, const std::string& label,
@@ -72,8 +90,10 @@ uint64_t plannedRuns(RunFolder& folder, const Question& question, const stats::T
                      const Options& options) {
   const uint64_t pilot = std::min(kPilotRuns, options.maxRuns);
   folder.make(Batch::first, pilot);
-  const double needed =
-      runsForEquivalence(evidenceOf(folder, question, Batch::first, pilot), truth, options.rules);
+  const Evidence evidence = evidenceOf(folder, question, Batch::first, pilot);
+  if (options.fewOfBiased && rejects(evidence.runs(), truth, options.rules))
+    return std::min(kRunsForCells, options.maxRuns);
+  const double needed = runsForEquivalence(evidence, truth, options.rules);
   if (std::isnan(needed)) return options.maxRuns;
   const uint64_t wanted = uint64_t(std::ceil(std::min(needed, 1e9) / 32.0)) * 32;
   if (wanted > options.maxRuns) {
@@ -126,11 +146,9 @@ std::string replayOf(const Question& question, uint32_t seed) {
 
 Certified certify(const Question& question, const Options& options) {
   Certified c;
-  c.name = question.prepared.scene->source().name + ", " + methodName(question.config);
-  c.label = safeFileName(c.name);
+  nameIt(question, c);
   makeWritableDirectory(options.out / "references");
-  c.reference =
-      convergedReference(question, safeFileName(question.prepared.scene->source().name), options);
+  c.reference = convergedReference(question, safeFileName(c.scene), options);
   const stats::BlockGrid grid(question.config.width, question.config.height);
   const stats::Truth truth = truthOf(c.reference, grid);
   c.referenceError = relativeError(truth);

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/part.h"
 #include "experiments/certificate/certificate.h"
 #include "experiments/certificate/run_folder.h"
 
@@ -15,7 +17,10 @@ struct Options {
   Rules rules;
   uint64_t runs = 0;        // 0: as many as a first few say
   uint64_t maxRuns = 4096;  // that these may ask for
-  uint32_t jobs = 0;        // runs side by side; 0: one a core
+  // What the first few reject takes no more runs than cells need: who asks for the verdicts of many
+  // methods need not know each bias as well.
+  bool fewOfBiased = false;
+  uint32_t jobs = 0;  // runs side by side; 0: one a core
   std::filesystem::path out;
 };
 
@@ -23,7 +28,10 @@ struct Options {
 struct Certified {
   std::string name;   // "door-ajar, restir_gi unbiased, pixel"
   std::string label;  // the same as part of a file name
-  std::string how;    // what a run is and where the reference comes from, a sentence each
+  // The same in its parts; all empty of images of other programs.
+  std::string scene, method, denoiser;
+  std::optional<BiasClass> declared;  // what the method says of itself while the view stands still
+  std::string how;  // what a run is and where the reference comes from, a sentence each
   Certificate certificate;
   Reference reference;
   Image mean;                      // of the runs

@@ -122,6 +122,7 @@ Json blockOf(size_t index, const Certified& certified) {
                    100.0 * c.cells.untestableShare,
                    c.moreRuns ? fmt::format(" About {} more runs would decide.", *c.moreRuns) : "",
                    replay)},
+      {"row_title", "quantity"},
       {"columns",
        {{{"key", "bias"},
          {"title", "bias"},
@@ -148,8 +149,12 @@ Json blockOf(size_t index, const Certified& certified) {
 
 }  // namespace
 
+void writeTable(const fs::path& folder, const std::string& table) {
+  writeTextFile(folder / "certificates.md", table);
+}
+
 void writeOutputs(const fs::path& folder, const std::vector<Certified>& all,
-                  const std::string& command) {
+                  const std::string& table, const std::string& command) {
   makeWritableDirectory(folder / "maps");
   Json certificates = Json::array(), blocks = Json::array(), notes = Json::array();
   for (const Certified& certified : all) {
@@ -161,7 +166,7 @@ void writeOutputs(const fs::path& folder, const std::vector<Certified>& all,
   writeTextFile(
       folder / "certificates.json",
       Json({{"schema", 1}, {"command", command}, {"certificates", certificates}}).dump(2) + "\n");
-  writeTextFile(folder / "certificates.md", markdownOf(all));
+  writeTable(folder, table);
   Json provenance = Json::array();
   for (const auto& [key, value] : provenanceWords()) provenance.push_back({key, value});
   writeReport(folder, {{"schema", kReportSchema},

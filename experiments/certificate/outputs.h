@@ -17,10 +17,19 @@ nlohmann::ordered_json jsonOf(const Certified& certified);
 // A row a certificate, for documents.
 std::string markdownOf(const std::vector<Certified>& all);
 
+// Of a suite: how many of each declared class have which verdict, what is declared unbiased and was
+// found biased, and tables of all verdicts, a row a method and up to three scenes beside each
+// other. "" of none.
+std::string suiteMarkdownOf(const std::vector<Certified>& all, const Rules& rules,
+                            const std::string& command);
+
 // DIR/certificates.json and .md, DIR/maps/LABEL-bias.exr (signed difference of the runs' mean to
 // the reference, with the layers "mean", "reference" and "p_value", which holds that of the cell)
-// and PNGs of both maps, DIR/report.html. Throws Error (badInput) where a file cannot be written.
+// and PNGs of both maps, DIR/report.html. `table` is the text of certificates.md. Throws Error
+// (badInput) where a file cannot be written.
 void writeOutputs(const std::filesystem::path& folder, const std::vector<Certified>& all,
-                  const std::string& command);
+                  const std::string& table, const std::string& command);
+// DIR/certificates.md alone.
+void writeTable(const std::filesystem::path& folder, const std::string& table);
 
 }  // namespace restlab::certificate

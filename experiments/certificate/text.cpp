@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "experiments/certificate/outputs.h"
+#include "experiments/runner/summary/summary.h"
 
 namespace restlab::certificate {
 namespace {
@@ -123,6 +124,10 @@ Json jsonOf(const Certified& certified) {
   }
   return {{"name", certified.name},
           {"label", certified.label},
+          {"scene", certified.scene},
+          {"method", certified.method},
+          {"denoiser", certified.denoiser},
+          {"declared", certified.declared ? Json(biasName(*certified.declared)) : Json(nullptr)},
           {"verdict", verdictName(c.verdict)},
           {"reason", c.reason},
           {"how", certified.how},

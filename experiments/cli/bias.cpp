@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <functional>
 #include <memory>
 
 #include "core/method.h"
@@ -80,8 +81,10 @@ Certified certifyScene(const BiasOptions& options, const certificate::Options& h
   return certificate::certify(question, how);
 }
 
-// Every method of the suite on every scene, still.
-std::vector<Certified> certifySuite(const BiasOptions& options, const certificate::Options& how) {
+// Every method of the suite on every scene, still. `sceneIsDone` sees all that there are so far.
+std::vector<Certified> certifySuite(
+    const BiasOptions& options, const certificate::Options& how,
+    const std::function<void(const std::vector<Certified>&)>& sceneIsDone) {
   const Suite whole = loadSuite(options.scene.request.scene, options.method.parameters);
   std::vector<Certified> all;
   for (const SuiteScene& scene : whole.scenes) {
@@ -102,6 +105,8 @@ std::vector<Certified> certifySuite(const BiasOptions& options, const certificat
     sceneResolution(suite, scene, question.prepared, width, height);
     for (const uint32_t component : suite.components) {
       const SessionConfig picture = pictureOf(suite, width, height, component);
+      question.name = scene.name;
+      if (suite.components.size() > 1) question.name += ", " + componentName(component);
       for (const SuiteMethod& method : suite.rendered()) {
         question.config = methodConfig(suite, method, question.prepared, picture);
         question.config.threads = suite.threads;
@@ -114,6 +119,7 @@ std::vector<Certified> certifySuite(const BiasOptions& options, const certificat
         all.push_back(certificate::certify(question, how));
         logInfo(certificate::lineOf(all.back()));
       }
+      sceneIsDone(all);
     }
   }
   if (all.empty()) failInput(fmt::format("{}: none of its scenes is here", whole.file));
@@ -158,7 +164,8 @@ void bias(BiasOptions options, const CLI::App& verb, Outcome& outcome) {
   } else if (!scene.empty()) {
     name = std::filesystem::path(scene).stem().string();
   }
-  const certificate::Options how = certificateOptions(options, name);
+  certificate::Options how = certificateOptions(options, name);
+  how.fewOfBiased = isOfSuite;
   SessionConfig config;
   if (options.images.empty() && !isOfSuite) {
     resolveResolution(options.scene);
@@ -166,15 +173,23 @@ void bias(BiasOptions options, const CLI::App& verb, Outcome& outcome) {
   }
   makeWritableDirectory(how.out);
   const FolderLock lock(how.out);
+  const std::string command = shellCommand(outcome.argv);
+  const auto tableOf = [&](const std::vector<Certified>& certificates) {
+    return isOfSuite ? certificate::suiteMarkdownOf(certificates, how.rules, command)
+                     : certificate::markdownOf(certificates);
+  };
   std::vector<Certified> all;
   if (!options.images.empty()) {
     all.push_back(certificate::certifyImages(filesLike(options.images), options.reference, how));
   } else if (isOfSuite) {
-    all = certifySuite(options, how);
+    // What takes hours is read before it is over.
+    all = certifySuite(options, how, [&](const std::vector<Certified>& some) {
+      certificate::writeTable(how.out, tableOf(some));
+    });
   } else {
     all.push_back(certifyScene(options, how, config));
   }
-  certificate::writeOutputs(how.out, all, shellCommand(outcome.argv));
+  certificate::writeOutputs(how.out, all, tableOf(all), command);
   bool isEquivalent = true;
   nlohmann::ordered_json documents = nlohmann::ordered_json::array();
   for (const Certified& certified : all) {
@@ -188,7 +203,8 @@ void bias(BiasOptions options, const CLI::App& verb, Outcome& outcome) {
       fmt::print("{}\n", certificate::lineOf(certified));
   }
   if (options.json) fmt::print("{}\n", (all.size() == 1 ? documents[0] : documents).dump(2));
-  logInfo(fmt::format("{}: report.html, certificates.json and maps", how.out.string()));
+  logInfo(fmt::format("{}: report.html, certificates.json, certificates.md and maps",
+                      how.out.string()));
   if (!isEquivalent) outcome.code = ExitCode::comparisonFailed;
 }
 

@@ -141,8 +141,10 @@ std::string columnHelp(const ReportModel& block) {
 
 // The table of the columns that are details, or of the others; "" where there are none.
 std::string tableOf(const ReportModel& block, bool isDetail) {
+  const std::string rows = reportText(block, "row_title");
   std::string head =
-      "<th scope=\"col\" aria-sort=\"none\"><button type=\"button\">method</button></th>";
+      fmt::format("<th scope=\"col\" aria-sort=\"none\"><button type=\"button\">{}</button></th>",
+                  rows.empty() ? "method" : escapeMarkup(rows));
   std::vector<std::pair<const ReportModel*, double>> columns;  // and their best values
   for (const ReportModel& column : block["columns"]) {
     if (column.value("detail", false) != isDetail) continue;

@@ -249,12 +249,13 @@ void images(const Place& at) {
 }
 
 void block(const Place& at, std::set<std::string>& ids) {
-  requireObject(
-      at, {"id", "title", "columns", "rows"},
-      {"subtitle", "plots", "bars", "settings", "left_out", "health", "images", "exposure"});
+  requireObject(at, {"id", "title", "columns", "rows"},
+                {"subtitle", "row_title", "plots", "bars", "settings", "left_out", "health",
+                 "images", "exposure"});
   member(at, "id", [&](const Place& p) { uniqueId(p, ids); });
   member(at, "title", text);
   member(at, "subtitle", text);
+  member(at, "row_title", text);
   const std::set<std::string> keys = columns({at.json["columns"], at.path + ".columns"});
   forEach({at.json["rows"], at.path + ".rows"}, [&](const Place& p) { row(p, keys); });
   member(at, "plots", plots);

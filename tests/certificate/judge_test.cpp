@@ -57,6 +57,23 @@ TEST(Judge, ABiasWithinTheMarginDoesNotCount) {
   EXPECT_EQ(judged(noise, 128, strict, 0.001).verdict, Verdict::biased);
 }
 
+// What a suite stops at is what would be found biased, and nothing else.
+TEST(Judge, FewRunsRejectWhatCounts) {
+  const Image truth = gradient(kSide);
+  const auto isRejected = [&](const Noise& noise, double margin) {
+    Rules rules;
+    rules.margin = margin;
+    const Reference reference = makeReference(truth, 0.001, 2);
+    const Evidence evidence = makeEvidence(truth, noise, 1, 64);
+    return rejects(evidence.runs(), truthOf(reference, evidence.runs().grid()), rules);
+  };
+  EXPECT_TRUE(isRejected({0.3, 1.0, 0.97}, 0.005));
+  EXPECT_FALSE(isRejected({}, 0.005));
+  // A certain bias that is smaller than the margin.
+  EXPECT_TRUE(isRejected({0.02, 1.002, 1.0}, 0.001));
+  EXPECT_FALSE(isRejected({0.02, 1.002, 1.0}, 0.005));
+}
+
 TEST(Judge, WhatIsNotDecidedSaysHowManyRunsWouldDo) {
   const Noise noise{1.0, 1.0, 1.0};
   const Certificate first = judged(noise, 64);

@@ -2,5 +2,6 @@
 set(RL_CERTIFICATE_TESTS
   certificate/calibration_test.cpp
   certificate/judge_test.cpp
+  certificate/suite_table_test.cpp
 )
 set(RL_CERTIFICATE_LIBRARIES rl_certificate)

@@ -116,7 +116,100 @@ integrator = "restir_gi"
   EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 2) << result.out;
   EXPECT_NE(result.out.find("quad-light, path: "), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("restir_gi unbiased"), std::string::npos) << result.out;
+  const std::string table = read("out/certificates.md");
+  EXPECT_NE(table.find("| unbiased | 2 | 0 | 0 |"), std::string::npos) << table;
+  for (const char* row :
+       {"| method | denoiser | declared | quad-light |", "| path | none | unbiased | equivalent ",
+        "| restir_gi unbiased, pixel | none | unbiased | equivalent "})
+    EXPECT_NE(table.find(row), std::string::npos) << row << "\n" << table;
+  const Json first = Json::parse(read("out/certificates.json")).at("certificates").at(0);
+  EXPECT_EQ(first.at("scene"), "quad-light");
+  EXPECT_EQ(first.at("declared"), "unbiased");
+  // The page lists quantities, not methods.
+  EXPECT_NE(read("out/report.html").find(">quantity<"), std::string::npos);
   expectError(run("bias two.toml --resolution 8x8 -o out"), 2, {"--resolution", "two.toml"});
+}
+
+// What is stopped leaves the table of the scenes that are finished; the same command goes on.
+TEST_F(BiasTest, AStoppedSuiteLeavesATableOfItsFinishedScenes) {
+  write("two.toml", R"(name = "two"
+[settings]
+width = 16
+height = 16
+max_bounces = 1
+frames = 4
+[reference]
+spp = 64
+[[scene]]
+scene = "quad-light"
+[[scene]]
+scene = "cornell-box"
+width = 48
+height = 48
+[[method]]
+integrator = "path"
+)");
+  const std::string command = "bias two.toml --runs 32 --margin 20 -q -o out";
+  const ProgramResult stopped =
+      runUntil([&] { return std::filesystem::exists(path("out/certificates.md")); }, command);
+  EXPECT_EQ(stopped.code, 130) << stopped.err;
+  EXPECT_NE(read("out/certificates.md").find("| method | denoiser | declared | quad-light |\n"),
+            std::string::npos)
+      << read("out/certificates.md");
+  EXPECT_FALSE(std::filesystem::exists(path("out/report.html")));
+  EXPECT_EQ(run(command).code, 0);
+  EXPECT_NE(read("out/certificates.md")
+                .find("| method | denoiser | declared | quad-light | cornell-box |\n"),
+            std::string::npos)
+      << read("out/certificates.md");
+}
+
+// What is wrong beyond doubt takes no more runs than cells need; the same runs of a method that is
+// right would be too few.
+TEST_F(BiasTest, ASuiteSpendsNoRunsOnWhatIsClearlyBiased) {
+  write("two.toml", R"(name = "two"
+scenes = ["door-ajar"]
+[settings]
+width = 16
+height = 9
+warmup_frames = 4
+frames = 4
+threads = 1
+[[method]]
+integrator = "path"
+[[method]]
+integrator = "restir_gi"
+mis = "confidence"
+)");
+  const ProgramResult result = run("bias two.toml --margin 6 --max-runs 256 --json -q -o out");
+  EXPECT_EQ(result.code, 1) << result.err << result.out;
+  const Json document = Json::parse(result.out);
+  EXPECT_GT(document.at(0).at("runs"), 128) << document.at(0).at("reason");
+  EXPECT_EQ(document.at(1).at("verdict"), "biased") << document.at(1).at("reason");
+  EXPECT_EQ(document.at(1).at("runs"), 128);
+}
+
+// Of experiments/suites/certificates.toml, with fewer runs than its document has.
+TEST_F(BiasTest, NightlyNothingThatIsDeclaredUnbiasedIsFoundBiased) {
+  const ProgramResult result =
+      run("bias " RESTLAB_SOURCE_DIR
+          "/experiments/suites/certificates.toml --runs 64 --margin 2 --json -q -o out");
+  EXPECT_LE(result.code, 1) << result.err;
+  const Json all = Json::parse(result.out);
+  // path, template and restir_gi with two modes and three caches; seven denoisers; six scenes.
+  EXPECT_EQ(all.size(), (1u + 1u + 2u * 3u) * 7u * 6u);
+  size_t unbiased = 0, found = 0;
+  for (const Json& c : all) {
+    const bool isBiased = c.at("verdict") == "biased";
+    found += isBiased;
+    if (c.at("declared") != "unbiased") continue;
+    ++unbiased;
+    EXPECT_FALSE(isBiased) << c.at("name") << ": " << c.at("reason");
+  }
+  EXPECT_EQ(unbiased, (1u + 1u + 3u) * 2u * 6u) << "without a denoiser and with accumulate";
+  EXPECT_GT(found, 0u) << "filters blur: what finds none of them finds nothing";
+  EXPECT_NE(read("out/certificates.md").find("None that is declared unbiased was found biased."),
+            std::string::npos);
 }
 
 // Images of other programs: those of the runs themselves.

@@ -91,7 +91,7 @@ TEST_F(HtmlTest, TextIsHarmless) {
   for (const char* key : {"title", "question", "generated", "command"}) model[key] = hostile;
   model["notes"][0] = model["provenance"][0][0] = model["provenance"][0][1] = hostile;
   ReportModel& block = model["blocks"][0];
-  for (const char* key : {"title", "subtitle"}) block[key] = hostile;
+  for (const char* key : {"title", "subtitle", "row_title"}) block[key] = hostile;
   for (const char* key : {"title", "unit", "help"}) block["columns"][1][key] = hostile;
   block["rows"][1]["method"] = block["rows"][1]["flags"][0] = hostile;
   block["rows"][1]["cells"]["mse"]["note"] = hostile;
@@ -106,6 +106,16 @@ TEST_F(HtmlTest, TextIsHarmless) {
   // Every script that begins ends once: nothing in the data ended one.
   EXPECT_EQ(occurrences(html, "<script"), occurrences(html, "</script>"));
   EXPECT_EQ(occurrences(html, "<script"), occurrences(report(model_), "<script"));
+}
+
+TEST_F(HtmlTest, TheFirstColumnSaysWhatRowsAre) {
+  const auto head = [&](const ReportModel& model) {
+    return between(report(model), "<table class=\"results\">", "</button>");
+  };
+  EXPECT_NE(head(model_).find(">method"), std::string::npos) << head(model_);
+  ReportModel other = model_;
+  other["blocks"][0]["row_title"] = "quantity";
+  EXPECT_NE(head(other).find(">quantity"), std::string::npos) << head(other);
 }
 
 TEST_F(HtmlTest, BestOfThoseThatCount) {

@@ -1,0 +1,144 @@
+// The certificates of a suite as a document: who is as declared, and a table of all of them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "experiments/certificate/outputs.h"
+#include "experiments/runner/run/build_info.h"
+#include "experiments/runner/summary/summary.h"
+
+namespace restlab::certificate {
+namespace {
+
+// With method, denoiser and class six columns: as wide as a page is.
+constexpr size_t kScenesBeside = 3;
+
+constexpr Verdict kVerdicts[] = {Verdict::equivalent, Verdict::notDecided, Verdict::biased};
+constexpr BiasClass kClasses[] = {BiasClass::unbiased, BiasClass::consistent, BiasClass::biased};
+
+// Nothing else contradicts what a method says of itself: a consistent one may be biased after any
+// number of frames, and a biased one may be right.
+bool isContradiction(const Certified& c) {
+  return c.declared == BiasClass::unbiased && c.certificate.verdict == Verdict::biased;
+}
+
+std::string cellOf(const Certified& certified) {
+  const Certificate& c = certified.certificate;
+  const Interval& bias = c.image.front().bias;
+  std::string text = fmt::format("{} {:+.2f} [{:+.2f}, {:+.2f}]", verdictName(c.verdict),
+                                 100.0 * bias.value, 100.0 * bias.lo, 100.0 * bias.hi);
+  if (c.worst && !c.worst->wholeImage) {
+    text +=
+        fmt::format(", in a cell {:+.2g}", 100.0 * c.worst->welch.difference / c.worst->reference);
+  }
+  if (c.cells.nonfinite > 0) text += fmt::format(", {} values not finite", c.cells.nonfinite);
+  if (c.moreRuns) text += fmt::format(", {} more runs", *c.moreRuns);
+  return isContradiction(certified) ? fmt::format("**{}**", text) : text;
+}
+
+std::string range(uint64_t least, uint64_t most) {
+  return least == most ? std::to_string(least) : fmt::format("{} to {}", least, most);
+}
+
+// Values in their order, each once.
+template <class Value>
+std::vector<Value> distinct(const std::vector<Certified>& all, Value (*of)(const Certified&)) {
+  std::vector<Value> values;
+  for (const Certified& c : all) {
+    const Value value = of(c);
+    if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
+  }
+  return values;
+}
+
+using Row = std::pair<std::string, std::string>;  // method and denoiser
+
+std::string countsOf(const std::vector<Certified>& all) {
+  std::string text = "| declared | equivalent | not decided | biased |\n|---|---|---|---|\n";
+  for (const BiasClass declared : kClasses) {
+    size_t counts[std::size(kVerdicts)] = {};
+    for (const Certified& c : all) {
+      for (size_t i = 0; i < std::size(kVerdicts); ++i)
+        counts[i] += c.declared == declared && c.certificate.verdict == kVerdicts[i];
+    }
+    if (counts[0] + counts[1] + counts[2] == 0) continue;
+    text +=
+        fmt::format("| {} | {} | {} | {} |\n", biasName(declared), counts[0], counts[1], counts[2]);
+  }
+  return text;
+}
+
+std::string contradictionsOf(const std::vector<Certified>& all) {
+  std::string text;
+  for (const Certified& c : all) {
+    if (isContradiction(c)) text += fmt::format("- **{}**: {}\n", c.name, c.certificate.reason);
+  }
+  return text.empty() ? "None that is declared unbiased was found biased.\n"
+                      : "Declared unbiased and found biased:\n\n" + text;
+}
+
+std::string tableOf(const std::vector<Certified>& all, const std::vector<std::string>& scenes) {
+  std::string text = "| method | denoiser | declared |", line = "|---|---|---|";
+  for (const std::string& scene : scenes) {
+    text += fmt::format(" {} |", scene);
+    line += "---|";
+  }
+  text += "\n" + line + "\n";
+  const std::vector<Row> rows =
+      distinct<Row>(all, [](const Certified& c) { return Row(c.method, c.denoiser); });
+  for (const Row& row : rows) {
+    std::string cells;
+    const char* declared = nullptr;
+    for (const std::string& scene : scenes) {
+      const auto found = std::find_if(all.begin(), all.end(), [&](const Certified& c) {
+        return c.scene == scene && Row(c.method, c.denoiser) == row;
+      });
+      cells += fmt::format(" {} |", found == all.end() ? "" : cellOf(*found));
+      if (found != all.end()) declared = found->declared ? biasName(*found->declared) : "";
+    }
+    // A method that none of these scenes has.
+    if (declared == nullptr) continue;
+    text += fmt::format("| {} | {} | {} |{}\n", row.first, row.second, declared, cells);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string suiteMarkdownOf(const std::vector<Certified>& all, const Rules& rules,
+                            const std::string& command) {
+  if (all.empty()) return "";
+  uint64_t fewestRuns = UINT64_MAX, mostRuns = 0, leastSpp = UINT64_MAX, mostSpp = 0;
+  std::set<std::pair<uint32_t, uint32_t>> sizes;
+  for (const Certified& c : all) {
+    fewestRuns = std::min<uint64_t>(fewestRuns, c.certificate.cells.runs);
+    mostRuns = std::max<uint64_t>(mostRuns, c.certificate.cells.runs);
+    leastSpp = std::min(leastSpp, c.reference.spp);
+    mostSpp = std::max(mostSpp, c.reference.spp);
+    sizes.emplace(c.mean.width, c.mean.height);
+  }
+  std::vector<std::string> pixels;
+  for (const auto& [width, height] : sizes) pixels.push_back(fmt::format("{}x{}", width, height));
+  std::string text = fmt::format(
+      "`{}`, {}. Images of {} pixels, {} runs a certificate, references of {} spp, a margin of "
+      "+-{:g} %.\n\n",
+      command, utcNow().substr(0, 10), fmt::join(pixels, ", "), range(fewestRuns, mostRuns),
+      range(leastSpp, mostSpp), 100.0 * rules.margin);
+  text += countsOf(all) + "\n" + contradictionsOf(all) + "\n";
+  text +=
+      "A cell has the verdict, and the bias of the image's luminance in percent with its 95 % "
+      "interval. Where it says biased, the clearest single cell of the image follows. Where it "
+      "says not decided, the number of further runs that would decide.\n";
+  const std::vector<std::string> scenes =
+      distinct<std::string>(all, [](const Certified& c) { return c.scene; });
+  for (size_t i = 0; i < scenes.size(); i += kScenesBeside) {
+    const size_t end = std::min(i + kScenesBeside, scenes.size());
+    text += "\n" + tableOf(all, {scenes.begin() + ptrdiff_t(i), scenes.begin() + ptrdiff_t(end)});
+  }
+  return text;
+}
+
+}  // namespace restlab::certificate
