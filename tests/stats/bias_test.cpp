@@ -109,6 +109,20 @@ TEST(RunSet, CellMeansAreExact) {
   EXPECT_THROW(set.add(Image(13, 8)), std::invalid_argument);
 }
 
+TEST(RunSet, QuantitiesOfAPixel) {
+  // The luminance of Rec. 709 / sRGB (ITU-R BT.709, four digits there).
+  EXPECT_NEAR(quantityOf({1.0f, 0.0f, 0.0f}, Quantity::luminance), 0.2126, 5e-5);
+  EXPECT_NEAR(quantityOf({0.0f, 1.0f, 0.0f}, Quantity::luminance), 0.7152, 5e-5);
+  EXPECT_NEAR(quantityOf({0.0f, 0.0f, 1.0f}, Quantity::luminance), 0.0722, 5e-5);
+  EXPECT_NEAR(quantityOf(glm::vec3(1.0f), Quantity::luminance), 1.0, 1e-12);
+  const glm::vec3 pixel(0.25f, 2.0f, -1.0f);
+  EXPECT_EQ(quantityOf(pixel, Quantity::red), 0.25);
+  EXPECT_EQ(quantityOf(pixel, Quantity::green), 2.0);
+  EXPECT_EQ(quantityOf(pixel, Quantity::blue), -1.0);
+  const char* names[] = {"luminance", "red", "green", "blue"};
+  for (uint32_t q = 0; q < kQuantities; ++q) EXPECT_STREQ(quantityName(Quantity(q)), names[q]);
+}
+
 TEST(RunSet, Skewness) {
   EXPECT_EQ(skewness({1.0, 1.0, 1.0}), 0.0);
   EXPECT_NEAR(skewness({1.0, 2.0, 3.0}), 0.0, 1e-15);
@@ -131,6 +145,41 @@ TEST(ReferenceCells, VarianceOfHalvesIsMeasured) {
   EXPECT_EQ(
       ReferenceCells::exact(BlockGrid(64, 64), truth).cell({1, 1, 2}, Quantity::blue).variance,
       0.0);
+}
+
+// Two pixels, by hand.
+TEST(ReferenceCells, KnownValues) {
+  const auto pair = [](float a, float b) {
+    Image image(2, 1);
+    image.at(0, 0) = glm::vec3(a);
+    image.at(1, 0) = glm::vec3(b);
+    return image;
+  };
+  const BlockGrid grid(2, 1);
+  const CellArea whole{0, 0, 1};
+  // Variances of the pixels' means (a - b)^2 / 4: 1 and 1/16; of the mean of both a quarter of
+  // their sum, with 3 (sum v)^2 / sum v^2 degrees of freedom.
+  const Sample halves = ReferenceCells::fromHalves(grid, pair(1.0f, 2.0f), pair(3.0f, 2.5f))
+                            .cell(whole, Quantity::red);
+  EXPECT_NEAR(halves.mean, 2.125, 1e-15);
+  EXPECT_NEAR(halves.variance / halves.n, (1.0 + 0.0625) / 4.0, 1e-12);
+  EXPECT_NEAR(halves.n - 1.0, 3.0 * 1.0625 * 1.0625 / (1.0 + 0.0625 * 0.0625), 1e-12);
+  // A variance that is given is known without error. Channels are taken as fully correlated.
+  Image variance(2, 1);
+  variance.at(0, 0) = {0.04f, 0.01f, 0.09f};
+  variance.at(1, 0) = {0.16f, 0.0f, 0.0f};
+  const ReferenceCells given = ReferenceCells::fromVariance(grid, pair(1.0f, 2.0f), variance);
+  const Sample red = given.cell(whole, Quantity::red);
+  EXPECT_NEAR(red.mean, 1.5, 1e-15);
+  EXPECT_NEAR(red.variance / red.n, (0.04 + 0.16) / 4.0, 1e-8);
+  EXPECT_GT(red.n, 1e9);
+  const Sample luminance = given.cell(whole, Quantity::luminance);
+  const double deviations[] = {0.2126 * 0.2 + 0.7152 * 0.1 + 0.0722 * 0.3, 0.2126 * 0.4};
+  EXPECT_NEAR(luminance.variance / luminance.n,
+              (deviations[0] * deviations[0] + deviations[1] * deviations[1]) / 4.0, 1e-6);
+  const Sample exact = ReferenceCells::exact(grid, pair(1.0f, 2.0f)).cell(whole, Quantity::blue);
+  EXPECT_EQ(exact.mean, 1.5);
+  EXPECT_EQ(exact.variance, 0.0);
 }
 
 // A correct estimator, 100 seeds. Measured: the first batch rejects in 0 of 100 (0.1 expected), and
