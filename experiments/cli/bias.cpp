@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "core/method.h"
 #include "core/scene/scene.h"
@@ -12,6 +13,7 @@
 #include "experiments/certificate/outputs.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
+#include "experiments/runner/reference/truth.h"
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/run/experiment.h"
 #include "experiments/runner/run/files.h"
@@ -67,7 +69,8 @@ certificate::Options certificateOptions(const BiasOptions& options, const std::s
 Certified certifyScene(const BiasOptions& options, const certificate::Options& how,
                        const SessionConfig& given) {
   Question question;
-  question.prepared = prepareScene(options.scene.request);
+  question.request = options.scene.request;
+  question.prepared = prepareScene(question.request);
   printWarnings(question.prepared);
   question.config = given;
   if (question.config.width == 0 && question.config.height == 0)
@@ -80,6 +83,45 @@ Certified certifyScene(const BiasOptions& options, const certificate::Options& h
   return certificate::certify(question, how);
 }
 
+// What a certificate cannot be held against is said before the first run.
+void checkTruths(const Suite& whole) {
+  for (const SuiteScene& scene : whole.scenes) {
+    if (!scene.reference.empty()) {
+      failUsage(fmt::format(
+          "{}: a certificate renders its reference, until its error is small enough; leave "
+          "'reference' out, or compare images with it (--images, --ref)",
+          scene.referencePlace));
+    }
+    if (scene.truth == Truth::rendered) continue;
+    const Suite suite = ofScene(whole, scene);
+    const PreparedScene prepared = prepareScene(scene.request);
+    uint32_t width = 0, height = 0;
+    sceneResolution(suite, scene, prepared, width, height);
+    for (const uint32_t component : suite.components)
+      plainOf(suite, scene, referenceConfigOf(pictureOf(suite, width, height, component)));
+  }
+}
+
+// Nothing where it is to be rendered.
+std::optional<Reference> knownTruth(const Suite& suite, const SuiteScene& scene,
+                                    const SessionConfig& picture) {
+  if (scene.truth != Truth::exact) return std::nullopt;
+  const ReferenceConfig config = referenceConfigOf(picture);
+  return exactReference(scene.request, plainOf(suite, scene, config), config);
+}
+
+// Files are named by it. Two certificates may differ in what their names do not say: the camera,
+// the environment, the backend.
+void giveOwnLabel(std::vector<Certified>& all) {
+  std::string& label = all.back().label;
+  const std::string name = label;
+  const auto isTaken = [&] {
+    return std::any_of(all.begin(), all.end() - 1,
+                       [&](const Certified& other) { return other.label == label; });
+  };
+  for (int number = 2; isTaken(); ++number) label = fmt::format("{}-{}", name, number);
+}
+
 // Every method of the suite on every scene, still.
 std::vector<Certified> certifySuite(const BiasOptions& options, const certificate::Options& how) {
   const Suite whole = loadSuite(options.scene.request.scene, options.method.parameters);
@@ -87,6 +129,7 @@ std::vector<Certified> certifySuite(const BiasOptions& options, const certificat
     failUsage(fmt::format("{}: moves its camera or its lights; certificates are of still views",
                           whole.file));
   }
+  checkTruths(whole);
   std::vector<Certified> all;
   for (const SuiteScene& scene : whole.scenes) {
     const Suite suite = ofScene(whole, scene);
@@ -96,12 +139,14 @@ std::vector<Certified> certifySuite(const BiasOptions& options, const certificat
       continue;
     }
     Question question;
-    question.prepared = prepareScene(scene.request);
+    question.request = scene.request;
+    question.prepared = prepareScene(question.request);
     printWarnings(question.prepared);
     uint32_t width = 0, height = 0;
     sceneResolution(suite, scene, question.prepared, width, height);
     for (const uint32_t component : suite.components) {
       const SessionConfig picture = pictureOf(suite, width, height, component);
+      question.exact = knownTruth(suite, scene, picture);
       for (const SuiteMethod& method : suite.rendered()) {
         question.config = methodConfig(suite, method, question.prepared, picture);
         question.config.threads = suite.threads;
@@ -112,6 +157,7 @@ std::vector<Certified> certifySuite(const BiasOptions& options, const certificat
                                               : 0;
         question.frames = options.framesGiven ? options.frames : suite.timedFrames;
         all.push_back(certificate::certify(question, how));
+        giveOwnLabel(all);
         logInfo(certificate::lineOf(all.back()));
       }
     }
