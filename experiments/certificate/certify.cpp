@@ -13,6 +13,7 @@
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/run/files.h"
 #include "experiments/runner/run/log.h"
+#include "experiments/runner/run/render_command.h"
 
 namespace restlab::certificate {
 namespace {
@@ -40,6 +41,8 @@ std::string parametersName(const SessionConfig& config) {
   std::string name;
   for (const auto& [key, value] : config.parameters)
     name += fmt::format(", {} {}", key, parameterText(value));
+  if (config.components != rl::RL_COMPONENT_ALL)
+    name += fmt::format(", {} light", componentName(config.components));
   return name;
 }
 
@@ -103,7 +106,7 @@ uint64_t plannedRuns(RunFolder& folder, const Question& question, const stats::T
   return std::clamp(wanted, kFewestRuns, options.maxRuns);
 }
 
-void addNotes(const Evidence& evidence, Certified& c) {
+void addNotes(Certified& c) {
   const Certificate& certificate = c.certificate;
   if (certificate.cells.untestableShare > 0.0) {
     c.notes.push_back(fmt::format(
@@ -113,32 +116,21 @@ void addNotes(const Evidence& evidence, Certified& c) {
   }
   if (certificate.fewestEvents < kFewEvents) {
     c.notes.push_back(fmt::format(
-        "heavy tails: the noise of the worst cell is like that of {:.1f} rare events in all {} "
+        "heavy tails: the noise of the worst cell is like that of {:.1f} rare events in {} "
         "runs; a run more may change its mean",
-        certificate.fewestEvents, evidence.count()));
+        certificate.fewestEvents, certificate.cells.runs));
   }
   if (!c.reference.half0 && !c.reference.variance)
     c.notes.push_back("the reference says nothing of its own error and is taken as exact");
 }
 
-// Words of the command that makes one of these runs again.
+// The command that makes the last frame of one of these runs again.
 std::string replayOf(const Question& question, uint32_t seed) {
-  const SessionConfig& c = question.config;
-  std::vector<std::string> words = {"restlab", "render", question.prepared.scene->source().name,
-                                    "--integrator", c.integrator};
-  const auto add = [&](const std::string& key, const std::string& value) {
-    if (value.empty()) return;
-    words.push_back(key);
-    words.push_back(value);
-  };
-  add("--mode", c.mode);
-  add("--cache", c.cache);
-  if (c.denoiser != "none") add("--denoiser", c.denoiser);
-  for (const auto& [key, value] : c.parameters) add("--set", key + "=" + parameterText(value));
-  add("--resolution", fmt::format("{}x{}", c.width, c.height));
-  add("--max-bounces", std::to_string(c.maxBounces));
-  add("--seed", std::to_string(seed));
-  add("--frame", std::to_string(question.warmup + question.frames));
+  std::vector<std::string> words = renderWords(question.request, question.config, question.config);
+  for (const std::string& word :
+       {std::string("--seed"), std::to_string(seed), std::string("--frame"),
+        std::to_string(question.warmup + question.frames)})
+    words.push_back(word);
   return shellCommand(words) + " --pixel X,Y";
 }
 
@@ -148,7 +140,8 @@ Certified certify(const Question& question, const Options& options) {
   Certified c;
   nameIt(question, c);
   makeWritableDirectory(options.out / "references");
-  c.reference = convergedReference(question, safeFileName(c.scene), options);
+  c.reference = question.exact ? *question.exact
+                               : convergedReference(question, safeFileName(c.scene), options);
   const stats::BlockGrid grid(question.config.width, question.config.height);
   const stats::Truth truth = truthOf(c.reference, grid);
   c.referenceError = relativeError(truth);
@@ -171,14 +164,14 @@ Certified certify(const Question& question, const Options& options) {
   c.timeS = folder.timeS();
   c.how = fmt::format(
       "{} runs at {}x{}, each the mean of {} of a history with a seed of its own. The reference "
-      "has {} spp.",
+      "{}.",
       runs, question.config.width, question.config.height,
       question.frames == 1
           ? fmt::format("frame {}", question.warmup + 1)
           : fmt::format("frames {} to {}", question.warmup + 1, question.warmup + question.frames),
-      c.reference.spp);
+      question.exact ? "is in closed form" : fmt::format("has {} spp", c.reference.spp));
   c.replay = replayOf(question, folder.seedOf(Batch::first, 0));
-  addNotes(evidence, c);
+  addNotes(c);
   return c;
 }
 
@@ -232,7 +225,7 @@ Certified certifyImages(const std::vector<std::string>& files, const std::string
   c.mean = evidence.mean();
   c.how = fmt::format("{} images at {}x{}; each second one is of the fresh batch.", files.size(),
                       mean.width, mean.height);
-  addNotes(evidence, c);
+  addNotes(c);
   return c;
 }
 

@@ -4,8 +4,10 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
+#include "experiments/runner/reference/reference.h"
 #include "experiments/runner/run/prepare.h"
 #include "experiments/runner/summary/accumulate.h"
 
@@ -16,10 +18,12 @@ namespace restlab::certificate {
 // as good an observation as one of them, and a quieter one; consecutive frames are correlated and
 // are no observations of their own (docs/laboratory.md).
 struct Question {
+  SceneRequest request;  // of `prepared`
   PreparedScene prepared;
   SessionConfig config;  // complete; its seed is the first one
   uint32_t warmup = 0, frames = 1;
   std::string name;  // of the scene, in tables and file names; "": as it calls itself
+  std::optional<Reference> exact;  // where the image is known without rendering
 };
 
 class RunFolder {

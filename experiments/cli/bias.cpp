@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "core/method.h"
 #include "core/scene/scene.h"
@@ -13,6 +14,7 @@
 #include "experiments/certificate/outputs.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
+#include "experiments/runner/reference/truth.h"
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/run/experiment.h"
 #include "experiments/runner/run/files.h"
@@ -68,7 +70,8 @@ certificate::Options certificateOptions(const BiasOptions& options, const std::s
 Certified certifyScene(const BiasOptions& options, const certificate::Options& how,
                        const SessionConfig& given) {
   Question question;
-  question.prepared = prepareScene(options.scene.request);
+  question.request = options.scene.request;
+  question.prepared = prepareScene(question.request);
   printWarnings(question.prepared);
   question.config = given;
   if (question.config.width == 0 && question.config.height == 0)
@@ -81,32 +84,76 @@ Certified certifyScene(const BiasOptions& options, const certificate::Options& h
   return certificate::certify(question, how);
 }
 
-// Every method of the suite on every scene, still. `sceneIsDone` sees all that there are so far.
-std::vector<Certified> certifySuite(
-    const BiasOptions& options, const certificate::Options& how,
-    const std::function<void(const std::vector<Certified>&)>& sceneIsDone) {
-  const Suite whole = loadSuite(options.scene.request.scene, options.method.parameters);
-  std::vector<Certified> all;
+// What a certificate cannot be held against is said before the first run.
+void checkTruths(const Suite& whole) {
   for (const SuiteScene& scene : whole.scenes) {
     const Suite suite = ofScene(whole, scene);
     if (suite.hasMovingCamera() || !suite.events.empty()) {
       failUsage(fmt::format("{}: moves its camera or its lights; certificates are of still views",
                             whole.file));
     }
+    if (!scene.reference.empty()) {
+      failUsage(fmt::format(
+          "{}: a certificate renders its reference, until its error is small enough; leave "
+          "'reference' out, or compare images with it (--images, --ref)",
+          scene.referencePlace));
+    }
+    if (scene.truth == Truth::rendered) continue;
+    const PreparedScene prepared = prepareScene(scene.request);
+    uint32_t width = 0, height = 0;
+    sceneResolution(suite, scene, prepared, width, height);
+    for (const uint32_t component : suite.components) {
+      ReferenceConfig config = referenceConfigOf(pictureOf(suite, width, height, component));
+      plainOf(suite, scene, prepared, config);
+    }
+  }
+}
+
+// Nothing where it is to be rendered.
+std::optional<Reference> knownTruth(const Suite& suite, const SuiteScene& scene,
+                                    const PreparedScene& prepared, const SessionConfig& picture) {
+  if (scene.truth != Truth::exact) return std::nullopt;
+  ReferenceConfig config = referenceConfigOf(picture);
+  const PreparedScene plain = plainOf(suite, scene, prepared, config);
+  return exactReference(scene.request, plain, config);
+}
+
+// Files are named by it. Two certificates may differ in what their names do not say: the camera,
+// the environment, the backend.
+void giveOwnLabel(std::vector<Certified>& all) {
+  std::string& label = all.back().label;
+  const std::string name = label;
+  const auto isTaken = [&] {
+    return std::any_of(all.begin(), all.end() - 1,
+                       [&](const Certified& other) { return other.label == label; });
+  };
+  for (int number = 2; isTaken(); ++number) label = fmt::format("{}-{}", name, number);
+}
+
+// Every method of the suite on every scene, still. `sceneIsDone` sees all that there are so far.
+std::vector<Certified> certifySuite(
+    const BiasOptions& options, const certificate::Options& how,
+    const std::function<void(const std::vector<Certified>&)>& sceneIsDone) {
+  const Suite whole = loadSuite(options.scene.request.scene, options.method.parameters);
+  checkTruths(whole);
+  std::vector<Certified> all;
+  for (const SuiteScene& scene : whole.scenes) {
+    const Suite suite = ofScene(whole, scene);
     std::string missing;
     if (scene.optional && assetsMissing(scene.request, missing)) {
       logInfo(fmt::format("skipped {}: {} is not here", scene.name, missing));
       continue;
     }
     Question question;
-    question.prepared = prepareScene(scene.request);
+    question.request = scene.request;
+    question.prepared = prepareScene(question.request);
     printWarnings(question.prepared);
     uint32_t width = 0, height = 0;
     sceneResolution(suite, scene, question.prepared, width, height);
     for (const uint32_t component : suite.components) {
       const SessionConfig picture = pictureOf(suite, width, height, component);
       question.name = scene.name;
-      if (suite.components.size() > 1) question.name += ", " + componentName(component);
+      question.exact = knownTruth(suite, scene, question.prepared, picture);
       for (const SuiteMethod& method : suite.rendered()) {
         question.config = methodConfig(suite, method, question.prepared, picture);
         question.config.threads = suite.threads;
@@ -117,6 +164,7 @@ std::vector<Certified> certifySuite(
                                               : 0;
         question.frames = options.framesGiven ? options.frames : suite.timedFrames;
         all.push_back(certificate::certify(question, how));
+        giveOwnLabel(all);
         logInfo(certificate::lineOf(all.back()));
       }
       sceneIsDone(all);

@@ -14,6 +14,7 @@
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/run/experiment.h"
 #include "experiments/runner/run/files.h"
+#include "experiments/runner/run/render_command.h"
 #include "experiments/runner/suite/suite.h"
 #include "experiments/runner/suite/suite_check.h"
 
@@ -51,14 +52,6 @@ std::string valueText(const ParameterValue& value) {
 
 std::string pointText(const glm::dvec3& p) {
   return fmt::format("[{}, {}, {}]", numberText(p.x), numberText(p.y), numberText(p.z));
-}
-
-std::string fileFromAnywhere(const std::string& name, const std::string& suiteFolder) {
-  std::error_code status;
-  if (!suiteFolder.empty() && fs::exists(fs::path(suiteFolder) / name, status))
-    return fs::absolute(fs::path(suiteFolder) / name, status).string();
-  const fs::path found = findAsset(name);
-  return found.empty() ? name : fs::absolute(found, status).string();
 }
 
 glm::dvec3 forwardOf(const SceneCamera& camera) {
@@ -304,15 +297,6 @@ std::vector<std::string> methodNames(const ViewSettings& settings) {
     names.push_back(isTaken ? name + " B" : name);
   }
   return names;
-}
-
-SceneRequest fromAnywhere(SceneRequest request) {
-  if (!isBuiltinScene(request.scene))
-    request.scene = fileFromAnywhere(request.scene, request.suiteFolder);
-  if (!request.environment.empty())
-    request.environment = fileFromAnywhere(request.environment, request.suiteFolder);
-  request.suiteFolder.clear();
-  return request;
 }
 
 bool losesRoll(const LiveView& view) {

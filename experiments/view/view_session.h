@@ -40,9 +40,6 @@ std::vector<std::string> paneNames(const LiveView& view);
 // Throws Error (badInput) where methods are of another size than images beside them.
 void requireSizeOf(const ViewImages& images, const ViewSettings& settings, bool hasScene);
 
-// The scene and the environment by names that work from any folder.
-SceneRequest fromAnywhere(SceneRequest request);
-
 // The camera is not upright, as those of keyframes are: it is saved without its roll.
 bool losesRoll(const LiveView& view);
 

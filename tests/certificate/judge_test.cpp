@@ -3,6 +3,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "experiments/statistics/holm.h"
 #include "tests/certificate/made_up_runs.h"
 
 namespace restlab::certificate {
@@ -151,6 +152,161 @@ TEST(Judge, SharesOfTheErrorAreThoseOfBiasAndNoise) {
   truthSquared /= double(truth.pixels.size());
   EXPECT_NEAR(c.squaredBias.value / (0.01 * truthSquared), 1.0, 0.01);
   EXPECT_NEAR(c.variance.value / (0.0121 * truthSquared), 1.0, 0.03);
+}
+
+// Holm's correction is over all cells of all quantities: of the tests that 0.1 % each would reject,
+// some stay.
+TEST(Judge, AllTestsAreOneFamily) {
+  const Certificate c = judged({0.3, 1.0, 0.985}, 128);
+  std::vector<double> pValues;
+  for (const stats::CellVerdict& v : c.cells.cells)
+    if (v.testable) pValues.push_back(v.welch.pValue);
+  EXPECT_GT(pValues.size(), 200u);
+  const std::vector<double> adjusted = stats::holmAdjusted(pValues);
+  size_t next = 0, alone = 0;
+  for (const stats::CellVerdict& v : c.cells.cells) {
+    if (!v.testable) continue;
+    EXPECT_EQ(v.adjustedP, adjusted[next]);
+    EXPECT_EQ(v.side != 0, adjusted[next] <= Rules().familyError);
+    alone += pValues[next++] <= Rules().familyError ? 1 : 0;
+  }
+  EXPECT_GT(c.cells.rejected, 0u);
+  EXPECT_GT(alone, c.cells.rejected);
+}
+
+TEST(Judge, AnImageHasAtMost64Cells) {
+  // Blocks of eight or nine pixels a side.
+  constexpr uint32_t kOdd = 67;
+  const Image truth = gradient(kOdd);
+  const Certificate c =
+      judgeMadeUp(makeEvidence(truth, {}, 1, 64), {}, truth, makeReference(truth, 0.005, 2));
+  const stats::BlockGrid grid(kOdd, kOdd);
+  for (const stats::Quantity quantity : quantities()) {
+    size_t cells = 0;
+    uint64_t pixels = 0;
+    for (const stats::CellVerdict& v : c.cells.cells) {
+      if (v.quantity != quantity || v.wholeImage) continue;
+      ++cells;
+      pixels += stats::pixelCount(grid, v.area);
+    }
+    EXPECT_LE(cells, 64u);
+    EXPECT_GT(cells, 16u);
+    EXPECT_EQ(pixels, uint64_t(kOdd) * kOdd);
+  }
+}
+
+// A factor with a deviation of 10 is skewed in any cell, one of 0.3 in none; between them cells are
+// merged until they are not.
+TEST(Judge, WhatIsTestedIsNearlyNormal) {
+  size_t merged = 0;
+  for (const double sigma : {0.3, 2.0, 10.0}) {
+    constexpr uint64_t kRuns = 128;
+    const Certificate c = judged({sigma, 1.0, 1.0}, kRuns);
+    size_t tested = 0;
+    for (const stats::CellVerdict& v : c.cells.cells) {
+      const double scaled = std::abs(v.skewness) / std::sqrt(double(kRuns));
+      EXPECT_EQ(v.testable, scaled <= 0.05) << sigma << ": " << scaled;
+      tested += v.testable ? 1 : 0;
+      merged += v.testable && !v.wholeImage && v.area.size > 1 ? 1 : 0;
+    }
+    if (sigma < 1.0) {
+      EXPECT_GT(tested, 200u);
+    } else if (sigma > 5.0) {
+      EXPECT_EQ(tested, 0u);
+      EXPECT_EQ(c.cells.untestableShare, 1.0);
+    }
+  }
+  EXPECT_GT(merged, 0u);
+}
+
+// What a first batch rejects a fresh one must reject, on the same side.
+TEST(Judge, AFreshBatchHasToSayTheSame) {
+  const Image truth = gradient(kSide);
+  const Reference reference = makeReference(truth, 0.005, 2);
+  const Evidence dark = makeEvidence(truth, {0.3, 1.0, 0.9}, 1, 128);
+  for (const double quarter : {1.0, 1.1, 0.9}) {
+    int calls = 0;
+    const Certificate c = judge(
+        dark, dark.runs(),
+        [&] {
+          ++calls;
+          return makeEvidence(truth, {0.3, 1.0, quarter}, 3, 128).runs();
+        },
+        reference, Rules());
+    EXPECT_EQ(calls, 1);
+    EXPECT_GT(c.cells.rejected, 0u);
+    EXPECT_EQ(c.cells.confirmed > 0, quarter < 1.0) << quarter;
+    EXPECT_EQ(c.verdict == Verdict::biased, quarter < 1.0) << quarter << ": " << c.reason;
+  }
+  // It is not made where nothing is rejected.
+  const Evidence right = makeEvidence(truth, {}, 1, 128);
+  const auto none = [&]() -> stats::RunSet {
+    ADD_FAILURE() << "no fresh batch was wanted";
+    return right.runs();
+  };
+  EXPECT_EQ(judge(right, right.runs(), none, reference, Rules()).verdict, Verdict::equivalent);
+}
+
+// A block that is bright in 4 of 128 runs: n q (1 - q) / (1 - 2 q)^2 with q = 4 / 128.
+TEST(Judge, TheWorstCellSaysHowManyEventsItHas) {
+  const Image truth = gradient(kSide);
+  std::mt19937_64 random(3);
+  Evidence evidence(kSide, kSide);
+  for (int run = 0; run < 128; ++run) {
+    Image image = makeRun(truth, {0.01, 1.0, 1.0}, random);
+    if (run % 32 == 7) image.at(20, 9) *= 1000.0f;
+    evidence.add(image);
+  }
+  const Certificate c = judgeMadeUp(evidence, {}, truth, makeReference(truth, 0.005, 2));
+  const double q = 4.0 / 128.0;
+  EXPECT_NEAR(c.fewestEvents, 128.0 * q * (1.0 - q) / ((1.0 - 2.0 * q) * (1.0 - 2.0 * q)), 0.01);
+}
+
+// Half of the runs a tenth above the truth, half a tenth below it.
+Evidence evenly(const Image& truth, int runs) {
+  Evidence evidence(truth.width, truth.height);
+  for (int run = 0; run < runs; ++run) {
+    Image image = truth;
+    for (glm::vec3& p : image.pixels) p *= run % 2 == 0 ? 0.9f : 1.1f;
+    evidence.add(image);
+  }
+  return evidence;
+}
+
+// An interval of 95 % that lies within the margin nine times out of ten: a mean with an error of
+// margin / (1.960 + 1.645).
+TEST(RunsForEquivalence, KnownValues) {
+  Reference reference;
+  reference.mean = gradient(kSide);
+  const Evidence pilot = evenly(reference.mean, 64);
+  const stats::BlockGrid& grid = pilot.runs().grid();
+  const double variance = 0.01 * 64.0 / 63.0, deviations = 1.959963985 + 1.644853627;
+  const auto runs = [&](double margin) {
+    Rules rules;
+    rules.margin = margin;
+    return runsForEquivalence(pilot, truthOf(reference, grid), rules);
+  };
+  const double wanted = variance * deviations * deviations;
+  EXPECT_NEAR(runs(0.005) / (wanted / (0.005 * 0.005)), 1.0, 1e-5);
+  EXPECT_NEAR(runs(0.02) / (wanted / (0.02 * 0.02)), 1.0, 1e-5);
+  EXPECT_EQ(runs(0.2), 128.0);  // for its cells
+  // A reference with an error of its own takes more, and one with too large a one any number.
+  EXPECT_EQ(relativeError(truthOf(reference, grid)), 0.0);
+  reference.half0 = reference.half1 = reference.mean;
+  for (glm::vec3& p : reference.half0->pixels) p *= 1.032f;
+  for (glm::vec3& p : reference.half1->pixels) p *= 0.968f;
+  // Of red, whose pixels differ most: deviations of 3.2 % of each pixel.
+  double squares = 0.0, sum = 0.0;
+  for (const glm::vec3& p : reference.mean.pixels) {
+    squares += 0.032 * 0.032 * double(p.x) * double(p.x);
+    sum += double(p.x);
+  }
+  const double error = relativeError(truthOf(reference, grid));
+  EXPECT_NEAR(error / (std::sqrt(squares) / sum), 1.0, 1e-4);
+  const double allowed = 0.005 * 0.005 / (deviations * deviations) - error * error;
+  ASSERT_GT(allowed, 0.0);
+  EXPECT_NEAR(runs(0.005) / (variance / allowed), 1.0, 1e-3);
+  EXPECT_TRUE(std::isnan(runs(0.002)));
 }
 
 TEST(Judge, FewRunsAreNoEvidence) {

@@ -1,5 +1,8 @@
 // restlab bias: verdicts, what is left in the folder, going on, and what is refused.
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "core/image/image.h"
 #include "tests/cli/program.h"
@@ -78,6 +81,60 @@ TEST_F(BiasTest, AWrongWeightIsBiasedWithItsSize) {
   const ProgramResult pixel = run(command);
   EXPECT_EQ(pixel.code, 0) << pixel.err;
   EXPECT_NE(pixel.out.find("confidence"), std::string::npos) << pixel.out;
+}
+
+// Of a run of one frame: the command renders that frame, pixel by pixel, whatever of scene, light,
+// film and method was set.
+TEST_F(BiasTest, TheReplayIsTheFrameOfTheRun) {
+  Image sky(4, 2);
+  for (size_t i = 0; i < sky.pixels.size(); ++i) sky.pixels[i] = glm::vec3(float(i), 2.0f, 1.0f);
+  writeExr(path("sky.exr"), {{{"", sky}}, {}});
+  for (const std::string& settings :
+       {std::string("cornell-box --integrator restir_gi --set mis=defensive --component indirect "
+                    "--max-bounces 3 --filter center --rr --seed 7"),
+        std::string("quad-light --camera low --environment sky.exr --environment-rotation 30 "
+                    "--environment-scale 0.5 --integrator path --multiscatter --general")}) {
+    const ProgramResult result =
+        run("bias " + settings +
+            " --resolution 12x8 --runs 32 --warmup 2 --frames 1 --margin 50 -o out --json -q");
+    ASSERT_LE(result.code, 1) << result.err;
+    std::string command = Json::parse(result.out).at("replay");
+    command = command.substr(command.find("render"));
+    command.replace(command.find("X,Y"), 3, "3,4");
+    const ProgramResult replayed = run(command + " -o frame.exr --json -q");
+    ASSERT_EQ(replayed.code, 0) << command << "\n" << replayed.err;
+    const std::string folder = entries("out/runs").at(0).string();
+    const Image frame = readExr(path("frame.exr")).layers.at("");
+    EXPECT_EQ(frame.pixels, readExr(folder + "/run-00000.exr").layers.at("").pixels) << command;
+    EXPECT_NE(frame.pixels, readExr(folder + "/run-00001.exr").layers.at("").pixels);
+    const Json pixel = Json::parse(replayed.out);
+    EXPECT_EQ(pixel.at("frame"), 3);
+    std::filesystem::remove_all(path("out"));
+  }
+}
+
+// One run of 64 is bright in a pixel: its cell says that its noise is that of one event.
+TEST_F(BiasTest, RareEventsArePrinted) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> uniform(0.9f, 1.1f);
+  std::filesystem::create_directory(path("runs"));
+  for (int i = 0; i < 64; ++i) {
+    Image image(8, 8);
+    for (glm::vec3& p : image.pixels) p = glm::vec3(uniform(random));
+    if (i == 10) image.at(5, 2) = glm::vec3(1e5f);
+    writeExr(path(fmt::format("runs/{:02}.exr", i)), {{{"", image}}, {}});
+  }
+  writeExr(path("truth.exr"), {{{"", Image(8, 8, glm::vec3(1.0f))}}, {}});
+  const ProgramResult result = run("bias --images runs/*.exr --ref truth.exr -o out");
+  EXPECT_EQ(result.code, 1) << result.err;
+  EXPECT_NE(result.out.find("heavy tails: the noise of the worst cell is like that of 1.1 rare "
+                            "events in 32 runs"),
+            std::string::npos)
+      << result.out;
+  EXPECT_NE(result.out.find("taken as exact"), std::string::npos) << result.out;
+  const Json document = Json::parse(read("out/certificates.json")).at("certificates").at(0);
+  // n q (1 - q) / (1 - 2 q)^2 with q = 1 / 32.
+  EXPECT_NEAR(document.at("fewest_rare_events").get<double>(), 1.102, 0.001);
 }
 
 TEST_F(BiasTest, AnInterruptKeepsFinishedRuns) {
@@ -212,6 +269,51 @@ TEST_F(BiasTest, NightlyNothingThatIsDeclaredUnbiasedIsFoundBiased) {
             std::string::npos);
 }
 
+// Of a furnace whose image is known; each certificate has maps of its own.
+TEST_F(BiasTest, ASuiteIsHeldAgainstItsTruths) {
+  const std::string settings = R"(name = "truths"
+[settings]
+width = 8
+height = 8
+warmup_frames = 1
+frames = 4
+runs = 2
+[reference]
+spp = 64
+[[method]]
+name = "plain"
+integrator = "path"
+)";
+  write("exact.toml", settings +
+                          "[[scene]]\nname = \"f\"\nscene = [\"furnace?albedo=0.5\", "
+                          "\"furnace?albedo=0.75\"]\ntruth = \"exact\"\n");
+  const ProgramResult result = run("bias exact.toml --runs 128 --margin 2 -o out -q");
+  EXPECT_EQ(result.code, 0) << result.err << result.out;
+  const Json all = Json::parse(read("out/certificates.json")).at("certificates");
+  ASSERT_EQ(all.size(), 2u);
+  for (const Json& one : all)
+    EXPECT_NE(one.at("how").get<std::string>().find("in closed form"), std::string::npos);
+  EXPECT_EQ(entries("out/references").size(), 0u);
+
+  // Names that say the same.
+  write("cameras.toml", settings +
+                            "[[scene]]\nname = \"a\"\nscene = \"quad-light\"\nmax_bounces = 1\n"
+                            "[[scene]]\nname = \"b\"\nscene = \"quad-light\"\nmax_bounces = 1\n"
+                            "camera = \"low\"\n");
+  EXPECT_LE(run("bias cameras.toml --runs 32 --margin 50 -o two -q").code, 1);
+  EXPECT_EQ(entries("two/maps").size(), 2u * 6u);
+
+  // Truths that a sweep does not have, before the first run.
+  write("none.toml", settings +
+                         "[[scene]]\nscene = [\"cornell-box?fov=30\", "
+                         "\"cornell-box?fov=40\"]\ntruth = \"exact\"\n");
+  expectError(run("bias none.toml --runs 32 -o none"), 2,
+              {"none.toml:15:9", "cornell-box?fov=30 has no exact image", "furnace"});
+  EXPECT_EQ(entries("none").size(), 0u);
+  write("file.toml", settings + "[[scene]]\nscene = \"furnace\"\nreference = \"a.exr\"\n");
+  expectError(run("bias file.toml --runs 32 -o none"), 2, {"file.toml:15:13", "--ref"});
+}
+
 // Images of other programs: those of the runs themselves.
 TEST_F(BiasTest, ImagesAreCertifiedAlike) {
   ASSERT_EQ(run(small_ + " --runs 64 --frames 32 -q").code, 0);
@@ -235,6 +337,19 @@ TEST_F(BiasTest, ImagesAreCertifiedAlike) {
   std::filesystem::remove(runs + "/run-00004-again.exr");
   writeExr(runs + "/run-99999.exr", {{{"", Image(8, 8)}}, {}});
   expectError(run(command), 3, {"run-99999.exr", "8x8", "16x16"});
+  // One run alone, and a reference that is not there or of another size.
+  expectError(run({"bias", "--images", runs + "/run-00007.exr", "--ref", reference}), 3,
+              {"--images: 1 of them", "at least 64"});
+  std::filesystem::remove(runs + "/run-99999.exr");
+  expectError(run({"bias", "--images", runs + "/run-*.exr", "--ref", "no.exr"}), 3, {"no.exr"});
+  writeExr(path("small.exr"), {{{"", Image(4, 4, glm::vec3(1.0f))}}, {}});
+  expectError(run({"bias", "--images", runs + "/run-*.exr", "--ref", "small.exr"}), 3,
+              {"run-00000.exr", "16x16", "small.exr", "4x4"});
+  // A run in the folder of a certificate that is a copy of another one.
+  std::filesystem::copy(runs + "/run-00005.exr", runs + "/run-00006.exr",
+                        std::filesystem::copy_options::overwrite_existing);
+  expectError(run(small_ + " --runs 64 --frames 32 -q"), 3,
+              {"run-00006.exr", "10000006", "not", "delete it"});
 }
 
 TEST_F(BiasTest, WhatIsMissingIsSaid) {

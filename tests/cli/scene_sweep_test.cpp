@@ -99,6 +99,9 @@ TEST_F(SceneSweepRun, RelationsChangeNothing) {
 TEST_F(SceneSweepRun, TruthsThatAreNotThereAreRefused) {
   refused("[[scene]]\nscene = \"cornell-box\"\ntruth = \"exact\"\n", 2,
           {"suite.toml:18:9", "cornell-box has no exact image", "furnace"});
+  refused(
+      "[[scene]]\nscene = [\"cornell-box?fov=30\", \"cornell-box?fov=40\"]\ntruth = \"exact\"\n", 2,
+      {"suite.toml:18:9", "cornell-box?fov=30 has no exact image", "furnace"});
   refused("[[scene]]\nscene = \"quad-light\"\ntruth = \"exact\"\nreference = \"a.exr\"\n", 2,
           {"suite.toml:18:9", "exclude each other"});
   refused("[[scene]]\nscene = \"sphere-furnace\"\ntruth = \"exact\"\nmax_bounces = 0\n", 2,

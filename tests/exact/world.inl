@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 #include <random>
 #include <vector>
@@ -59,8 +60,9 @@ struct World {
 struct MergeInput {
   uint anchor = 0;
   WorldReservoir reservoir;
-  real confidence = real(1.0f);  // after the cap
-  bool exists = true;            // of a donor
+  real confidence = real(1.0f);
+  bool exists = true;                                // of a donor
+  real cap = std::numeric_limits<real>::infinity();  // of a donor's confidence
 };
 
 // What the shipped loop asks for.
@@ -108,9 +110,9 @@ struct Kernel {
     return world->visibility[at.index][r.label];
   }
 #define RL_REUSE_STATE WorldMerge
-  bool reuseDonor(const WorldMerge& m, uint k, ReservoirState& donor) const {
+  bool reuseDonor(const WorldMerge& m, uint k, ReservoirState& donor) {
     donor = m.donors[k].reservoir.state;
-    donor.confidence = m.donors[k].confidence;
+    donor.confidence = reuseCapped(m.donors[k].confidence, m.donors[k].cap);
     if (world->omitsJacobian) donor.W /= m.theirs[k].jacobian;
     return m.donors[k].exists;
   }
@@ -258,13 +260,14 @@ struct Source {
 };
 
 std::vector<Outcome> mergeOutcomes(const World& world, const Source& canonical,
-                                   const std::vector<Source>& donors, uint flags) {
+                                   const std::vector<Source>& donors, uint flags,
+                                   real cap = std::numeric_limits<real>::infinity()) {
   Outcomes result;
   std::vector<MergeInput> inputs(donors.size());
   std::function<void(size_t, double)> choose = [&](size_t k, double probability) {
     if (k < donors.size()) {
       for (const Outcome& o : donors[k].outcomes) {
-        inputs[k] = {donors[k].anchor, o.reservoir, donors[k].confidence};
+        inputs[k] = {donors[k].anchor, o.reservoir, donors[k].confidence, true, cap};
         choose(k + 1, probability * o.probability);
       }
       return;

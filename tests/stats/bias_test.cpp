@@ -78,44 +78,6 @@ RunSet noSecondBatch() {
   return RunSet(BlockGrid(1, 1));
 }
 
-TEST(RunSet, CellMeansAreExact) {
-  // 13 x 9 pixels: blocks of unequal size.
-  Image image(13, 9);
-  std::mt19937 random(1);
-  for (glm::vec3& pixel : image.pixels) {
-    pixel = glm::vec3(float(random() % 64), float(random() % 64), float(random() % 64));
-  }
-  RunSet set(BlockGrid(13, 9));
-  set.add(image);
-  EXPECT_EQ(set.grid().side, 8u);
-  double sum = 0.0, area = 0.0;
-  for (uint32_t y = 0; y < 8; ++y) {
-    for (uint32_t x = 0; x < 8; ++x) {
-      const CellArea cell{x, y, 1};
-      const double pixels = double(pixelCount(set.grid(), cell));
-      EXPECT_GE(pixels, 1.0);
-      sum += set.cellMeans(cell, Quantity::green)[0] * pixels;
-      area += pixels;
-    }
-  }
-  EXPECT_EQ(area, 117.0);
-  double wanted = 0.0;
-  for (const glm::vec3& pixel : image.pixels) wanted += pixel.y;
-  EXPECT_NEAR(sum, wanted, 1e-9);
-  EXPECT_NEAR(set.cellMeans({0, 0, 8}, Quantity::green)[0], wanted / 117.0, 1e-12);
-  EXPECT_EQ(BlockGrid(5, 100).side, 4u);
-  EXPECT_EQ(BlockGrid(1, 1).side, 1u);
-  EXPECT_THROW(BlockGrid(0, 4), std::invalid_argument);
-  EXPECT_THROW(set.add(Image(13, 8)), std::invalid_argument);
-}
-
-TEST(RunSet, Skewness) {
-  EXPECT_EQ(skewness({1.0, 1.0, 1.0}), 0.0);
-  EXPECT_NEAR(skewness({1.0, 2.0, 3.0}), 0.0, 1e-15);
-  // Of (0, 0, 3): m2 = 2, m3 = 2.
-  EXPECT_NEAR(skewness({0.0, 0.0, 3.0}), 2.0 / std::pow(2.0, 1.5), 1e-15);
-}
-
 TEST(ReferenceCells, VarianceOfHalvesIsMeasured) {
   // Halves of standard deviation 0.03 x value: the mean's is that / sqrt 2.
   Image truth(64, 64, glm::vec3(2.0f));

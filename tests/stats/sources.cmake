@@ -5,5 +5,6 @@ set(RL_STATS_SOURCES
 )
 set(RL_STATS_TESTS
   stats/bias_test.cpp
+  stats/run_set_test.cpp
   stats/stats_test.cpp
 )

@@ -79,6 +79,41 @@ TEST(Chi2, PoolsSmallCellsAndRefusesNonsense) {
                std::invalid_argument);
 }
 
+TEST(Summarise, KnownValues) {
+  const Sample s = summarise(std::vector<double>{2, 4, 4, 4, 5, 5, 7, 9});
+  EXPECT_EQ(s.n, 8.0);
+  EXPECT_EQ(s.mean, 5.0);
+  EXPECT_NEAR(s.variance, 32.0 / 7.0, 1e-15);
+}
+
+// Quantiles from the tables of textbooks, tails of one and two degrees of freedom in closed form.
+TEST(Student, TablesAndClosedForms) {
+  const struct {
+    double dof, at95, at975, at9995;
+  } table[] = {{1.0, 6.314, 12.706, 636.619},   {2.0, 2.920, 4.303, 31.599},
+               {5.0, 2.015, 2.571, 6.869},      {10.0, 1.812, 2.228, 4.587},
+               {30.0, 1.697, 2.042, 3.646},     {120.0, 1.658, 1.980, 3.373},
+               {kInfinity, 1.645, 1.960, 3.291}};
+  for (const auto& row : table) {
+    EXPECT_NEAR(studentQuantile(0.95, row.dof), row.at95, 5.1e-4) << row.dof;
+    EXPECT_NEAR(studentQuantile(0.975, row.dof), row.at975, 5.1e-4) << row.dof;
+    EXPECT_NEAR(studentQuantile(0.9995, row.dof), row.at9995, 5.1e-4) << row.dof;
+    EXPECT_NEAR(studentQuantile(0.025, row.dof), -row.at975, 5.1e-4) << row.dof;
+    EXPECT_NEAR(studentUpper(studentQuantile(0.9, row.dof), row.dof), 0.1, 1e-12) << row.dof;
+  }
+  for (const double t : {-3.0, -0.5, 0.0, 0.7, 2.0, 40.0}) {
+    const double one = 0.5 - std::atan(t) / std::acos(-1.0);
+    const double two = 0.5 * (1.0 - t / std::sqrt(t * t + 2.0));
+    EXPECT_NEAR(studentUpper(t, 1.0), one, 1e-14) << t;
+    EXPECT_NEAR(studentUpper(t, 2.0), two, 1e-14) << t;
+    EXPECT_NEAR(studentTwoSided(t, 2.0), 2.0 * std::min(two, 1.0 - two), 1e-14) << t;
+    EXPECT_NEAR(studentUpper(t, kInfinity), 0.5 * std::erfc(t / std::sqrt(2.0)), 1e-15) << t;
+  }
+  EXPECT_EQ(studentUpper(kInfinity, 3.0), 0.0);
+  EXPECT_EQ(studentUpper(-kInfinity, 3.0), 1.0);
+  EXPECT_TRUE(std::isnan(studentUpper(std::nan(""), 3.0)));
+}
+
 TEST(Welch, KnownValues) {
   const WelchResult r = welchTest(summarise(kA), summarise(kB));
   EXPECT_NEAR(r.t, 0.3875592806077372, 1e-9);
@@ -114,6 +149,26 @@ TEST(Tost, KnownValues) {
   EXPECT_EQ(tostTest({3, 1.0, 0.0}, {1, 1.3, 0.0}, 0.2).pValue, 1.0);
   EXPECT_TRUE(std::isnan(tostTest({3, std::nan(""), 1.0}, {1, 1.3, 0.0}, 0.2).pValue));
   EXPECT_THROW(tostTest(summarise(kA), summarise(kB), 0.0), std::invalid_argument);
+}
+
+// Two degrees of freedom, in closed form: three observations of variance 3 have a standard error of
+// 1, and Student's t of p is (2 p - 1) sqrt(1 / (2 p (1 - p))).
+TEST(Tost, ClosedFormAtOtherLevels) {
+  const auto upper = [](double t) { return 0.5 * (1.0 - t / std::sqrt(t * t + 2.0)); };
+  for (const double difference : {-0.5, 0.0, 1.5}) {
+    for (const double alpha : {0.025, 0.1}) {
+      const TostResult r = tostTest({3.0, 2.0 + difference, 3.0}, {1.0, 2.0, 0.0}, 2.0, alpha);
+      EXPECT_NEAR(r.dof, 2.0, 1e-14);
+      EXPECT_NEAR(r.pLower, upper(difference + 2.0), 1e-14);
+      EXPECT_NEAR(r.pUpper, upper(2.0 - difference), 1e-14);
+      const double half = (1.0 - 2.0 * alpha) / std::sqrt(2.0 * alpha * (1.0 - alpha));
+      EXPECT_NEAR(r.lo, difference - half, 1e-12);
+      EXPECT_NEAR(r.hi, difference + half, 1e-12);
+    }
+  }
+  for (const double alpha : {0.0, 0.5}) {
+    EXPECT_THROW(tostTest({3.0, 2.0, 3.0}, {1.0, 2.0, 0.0}, 2.0, alpha), std::invalid_argument);
+  }
 }
 
 TEST(Tost, IntervalInsideMarginsExactlyWhenEquivalent) {
@@ -199,8 +254,22 @@ TEST(Power, KnownValues) {
   EXPECT_NEAR(smallestDetectableShift(2.0, 62.5, 1e-3 / 64.0, 0.9), 2.0 * 6.055145623054252, 1e-8);
   EXPECT_NEAR(smallestDetectableShift(1.0, kInfinity, 1e-3, 0.9), 4.572078297036526, 1e-6);
   EXPECT_NEAR(testPower(0.0, 1.0, 12.0, 0.01), 0.01, 1e-9);
+  // Cohen's table: two groups of 64, half a deviation apart, at 5 %.
+  EXPECT_NEAR(testPower(0.5, std::sqrt(2.0 / 64.0), 126.0, 0.05), 0.80, 0.005);
+  EXPECT_NEAR(testPower(-0.5, std::sqrt(2.0 / 64.0), 126.0, 0.05), 0.80, 0.005);
+  // Of a known deviation: the normal distribution's two tails.
+  const auto normalUpper = [](double z) { return 0.5 * std::erfc(z / std::sqrt(2.0)); };
+  const double z = 1.959963984540054;
+  EXPECT_NEAR(testPower(1.0, 0.5, kInfinity, 0.05), normalUpper(z - 2.0) + normalUpper(z + 2.0),
+              1e-12);
+  EXPECT_EQ(requiredObservations(2.0, 0.5, 0.05, 0.9), 169.0);  // (2 (1.960 + 1.282) / 0.5)^2
   EXPECT_THROW(smallestDetectableBias(0.0, 1.0, 1e-3, 0.9), std::invalid_argument);
   EXPECT_THROW(requiredObservations(1.0, 1.0, 0.95, 0.9), std::invalid_argument);
+  EXPECT_THROW(requiredObservations(1.0, 0.0, 0.05, 0.9), std::invalid_argument);
+  EXPECT_THROW(smallestDetectableShift(0.0, 5.0, 0.05, 0.9), std::invalid_argument);
+  EXPECT_THROW(smallestDetectableShift(1.0, 5.0, 0.05, 1.0), std::invalid_argument);
+  EXPECT_THROW(testPower(1.0, 1.0, 0.0, 0.05), std::invalid_argument);
+  EXPECT_THROW(testPower(1.0, 1.0, 5.0, 0.0), std::invalid_argument);
 }
 
 // Under the null every test's p-values are uniform: 400 experiments each, by Kolmogorov-Smirnov.

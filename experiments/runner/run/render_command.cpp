@@ -1,0 +1,92 @@
+#include "experiments/runner/run/render_command.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "core/method_settings.h"
+#include "core/scene/scene.h"
+#include "experiments/runner/run/build_info.h"
+#include "experiments/runner/run/files.h"
+
+namespace restlab {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+using Words = std::vector<std::string>;
+
+// Looked for in the order in which prepareScene() does.
+std::string fileFromAnywhere(const std::string& name, const std::string& suiteFolder) {
+  std::error_code status;
+  const fs::path found = findAsset(name);
+  if (!found.empty()) return fs::absolute(found, status).string();
+  if (!suiteFolder.empty() && fs::exists(fs::path(suiteFolder) / name, status))
+    return fs::absolute(fs::path(suiteFolder) / name, status).string();
+  return name;
+}
+
+void add(Words& words, const std::string& option, const std::string& value) {
+  if (!value.empty()) words.insert(words.end(), {option, value});
+}
+
+void addScene(const SceneRequest& request, Words& words) {
+  words.push_back(request.scene);
+  add(words, "--camera", request.camera);
+  add(words, "--environment", request.environment);
+  if (request.environmentRotation)
+    add(words, "--environment-rotation", fmt::format("{}", *request.environmentRotation));
+  if (request.environmentScale)
+    add(words, "--environment-scale", fmt::format("{}", *request.environmentScale));
+}
+
+void addPicture(const SessionConfig& config, Words& words) {
+  add(words, "--resolution", fmt::format("{}x{}", config.width, config.height));
+  add(words, "--max-bounces", std::to_string(config.maxBounces));
+  if (config.components != rl::RL_COMPONENT_ALL)
+    add(words, "--component", componentName(config.components));
+  if (config.pixelFilter != rl::RL_FILTER_BOX)
+    add(words, "--filter", filterName(config.pixelFilter));
+  if (config.multiscatter) words.emplace_back("--multiscatter");
+}
+
+// To the last bit, unlike parameterText().
+std::string valueText(const ParameterValue& value) {
+  const double* number = std::get_if<double>(&value);
+  return number ? fmt::format("{}", *number) : parameterText(value);
+}
+
+void addMethod(const SessionConfig& config, Words& words) {
+  for (const MethodSetting& setting : methodSettings())
+    add(words, std::string("--") + setting.key, config.*(setting.value));
+  add(words, "--device", config.device);
+  add(words, "--ray-tracing", config.rayTracing);
+  if (config.russianRoulette) words.emplace_back("--rr");
+  if (!config.specialise) words.emplace_back("--general");
+  for (const auto& [name, value] : config.parameters)
+    add(words, "--set", fmt::format("{}={}", name, valueText(value)));
+}
+
+}  // namespace
+
+SceneRequest fromAnywhere(SceneRequest request) {
+  if (!isBuiltinScene(request.scene))
+    request.scene = fileFromAnywhere(request.scene, request.suiteFolder);
+  if (!request.environment.empty())
+    request.environment = fileFromAnywhere(request.environment, request.suiteFolder);
+  request.suiteFolder.clear();
+  return request;
+}
+
+std::vector<std::string> renderWords(const SceneRequest& request, const SessionConfig& picture,
+                                     const SessionConfig& method) {
+  // So that the program is found again.
+  Words words = {arguments().empty() ? "restlab" : arguments().front(), "render"};
+  addScene(fromAnywhere(request), words);
+  addPicture(picture, words);
+  addMethod(method, words);
+  return words;
+}
+
+}  // namespace restlab
