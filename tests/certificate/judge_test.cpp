@@ -247,7 +247,8 @@ TEST(Judge, AFreshBatchHasToSayTheSame) {
   EXPECT_EQ(judge(right, right.runs(), none, reference, Rules()).verdict, Verdict::equivalent);
 }
 
-// A block that is bright in 4 of 128 runs: n q (1 - q) / (1 - 2 q)^2 with q = 4 / 128.
+// A block that is bright in 4 of 128 runs: n q (1 - q) / (1 - 2 q)^2 with q = 4 / 128. Another one
+// is in a third of them, and so is the whole image.
 TEST(Judge, TheWorstCellSaysHowManyEventsItHas) {
   const Image truth = gradient(kSide);
   std::mt19937_64 random(3);
@@ -255,6 +256,7 @@ TEST(Judge, TheWorstCellSaysHowManyEventsItHas) {
   for (int run = 0; run < 128; ++run) {
     Image image = makeRun(truth, {0.01, 1.0, 1.0}, random);
     if (run % 32 == 7) image.at(20, 9) *= 1000.0f;
+    if (run % 3 == 1) image.at(3, 25) *= 1000.0f;
     evidence.add(image);
   }
   const Certificate c = judgeMadeUp(evidence, {}, truth, makeReference(truth, 0.005, 2));

@@ -91,7 +91,7 @@ TEST_F(BiasTest, TheReplayIsTheFrameOfTheRun) {
   writeExr(path("sky.exr"), {{{"", sky}}, {}});
   for (const std::string& settings :
        {std::string("cornell-box --integrator restir_gi --set mis=defensive --component indirect "
-                    "--max-bounces 3 --filter center --rr --seed 7"),
+                    "--max-bounces 12 --filter center --rr --seed 7"),
         std::string("quad-light --camera low --environment sky.exr --environment-rotation 30 "
                     "--environment-scale 0.5 --integrator path --multiscatter --general")}) {
     const ProgramResult result =
