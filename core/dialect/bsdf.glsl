@@ -31,9 +31,9 @@ RL_FN vec2 bsdfLobeProbabilities(RL_IN(Bsdf) b, float cosO) {
   if (RL_HAS(RL_FEATURE_TRANSMISSION) && (b.lobes & RL_LOBE_ANY_TRANSMISSION) != 0u) {
     transmitted = rlLuminance(b.transmission) * through;
   }
-  // No lobe that exists is starved, not even where Fresnel at wo leaves it nothing: microfacets
-  // turned towards wo still let light through. (Delta lobes know no such facets: of smooth glass
-  // each has exactly its share, and no noise.)
+  // No rough lobe that exists is starved, not even where Fresnel at wo leaves it nothing:
+  // microfacets turned towards wo still let light through. Delta lobes know no such facets, and
+  // have exactly their share: clear smooth glass before an even light has no noise.
   float least = 0.1f * (specular + diffuse + transmitted);
   if ((b.lobes & RL_LOBE_SPECULAR) != 0u) specular = max(specular, least);
   if (hasDiffuse) diffuse = max(diffuse, least);

@@ -112,6 +112,10 @@ Scene makeFloor(const FloorShape& shape) {
                      shape.copies != plain.copies;
   if (shape.ior && (isCut || shape.slopeDegrees != 0.0 || shape.sun != 1.0 || shape.spots != 0))
     failInput("scene 'floor': 'ior' makes it a slab of glass, and goes with 'view' alone");
+  if (shape.needle != plain.needle && shape.triangles != plain.triangles)
+    failInput("scene 'floor': 'needle' and 'triangles' both say how many there are; give one");
+  if (shape.spots != 0 && shape.sun != 1.0)
+    failInput("scene 'floor': 'spots' stand instead of the sky, and 'sun' is in it; give one");
   SceneBuilder builder("floor");
   if (shape.ior)
     addSlab(builder, *shape.ior);

@@ -1,6 +1,7 @@
 // Furnaces: scenes whose radiance is known exactly, at every pixel and for every path length.
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "core/error.h"
 #include "core/scene/builtin_builder.h"
 #include "core/scene/builtin_mesh.h"
 #include "core/scene/builtin_scenes.h"
@@ -28,6 +29,8 @@ void addRoomBeyond(SceneBuilder& scene, rl::Material glowing, double wall) {
 // at every pixel; for a = 1/2 that is 1 - 2^-(n+1), and 1 without a limit. The block makes light
 // samples need their shadow rays.
 Scene makeFurnace(const FurnaceShape& shape) {
+  if (shape.wall && shape.height != 1.0)
+    failInput("scene 'furnace': 'wall' is of a room of full height; leave 'height' out");
   SceneBuilder scene("furnace");
   rl::Material glowing = lambert(glm::vec3(static_cast<float>(shape.albedo)));
   glowing.emission = glm::vec3(0.5f);

@@ -106,6 +106,22 @@ uint64_t plannedRuns(RunFolder& folder, const Question& question, const stats::T
   return std::clamp(wanted, kFewestRuns, options.maxRuns);
 }
 
+void judgeRuns(RunFolder& folder, const Question& question, uint64_t runs, const Options& options,
+               Certified& c) {
+  folder.make(Batch::first, runs);
+  const Evidence evidence = evidenceOf(folder, question, Batch::first, runs);
+  c.health = folder.health();
+  const auto freshBatch = [&] {
+    logInfo("the first batch rejects; a fresh one has to say so, too");
+    folder.make(Batch::fresh, runs);
+    const stats::RunSet fresh = evidenceOf(folder, question, Batch::fresh, runs).runs();
+    c.health = folder.health();
+    return fresh;
+  };
+  c.certificate = judge(evidence, evidence.runs(), freshBatch, c.reference, options.rules);
+  c.mean = evidence.mean();
+}
+
 void addNotes(Certified& c) {
   const Certificate& certificate = c.certificate;
   if (certificate.cells.untestableShare > 0.0) {
@@ -146,20 +162,15 @@ Certified certify(const Question& question, const Options& options) {
   const stats::Truth truth = truthOf(c.reference, grid);
   c.referenceError = relativeError(truth);
   RunFolder folder(question, options.out / "runs", options.jobs);
-  const uint64_t runs =
-      options.runs > 0 ? options.runs : plannedRuns(folder, question, truth, options);
-  folder.make(Batch::first, runs);
-  const Evidence evidence = evidenceOf(folder, question, Batch::first, runs);
-  c.health = folder.health();
-  const auto freshBatch = [&] {
-    logInfo("the first batch rejects; a fresh one has to say so, too");
-    folder.make(Batch::fresh, runs);
-    const stats::RunSet fresh = evidenceOf(folder, question, Batch::fresh, runs).runs();
-    c.health = folder.health();
-    return fresh;
-  };
-  c.certificate = judge(evidence, evidence.runs(), freshBatch, c.reference, options.rules);
-  c.mean = evidence.mean();
+  uint64_t runs = options.runs > 0 ? options.runs : plannedRuns(folder, question, truth, options);
+  judgeRuns(folder, question, runs, options, c);
+  // What the first runs rejected, and more of them did not, takes all its runs.
+  if (options.fewOfBiased && options.runs == 0 && c.certificate.verdict == Verdict::notDecided) {
+    Options all = options;
+    all.fewOfBiased = false;
+    const uint64_t planned = plannedRuns(folder, question, truth, all);
+    if (planned > runs) judgeRuns(folder, question, runs = planned, options, c);
+  }
   c.made = folder.made();
   c.timeS = folder.timeS();
   c.how = fmt::format(

@@ -89,8 +89,9 @@ void checkTruths(const Suite& whole) {
   for (const SuiteScene& scene : whole.scenes) {
     const Suite suite = ofScene(whole, scene);
     if (suite.hasMovingCamera() || !suite.events.empty()) {
-      failUsage(fmt::format("{}: moves its camera or its lights; certificates are of still views",
-                            whole.file));
+      failUsage(fmt::format(
+          "{}: scene {} moves its camera or its lights; certificates are of still views",
+          whole.file, scene.name));
     }
     if (!scene.reference.empty()) {
       failUsage(fmt::format(
@@ -98,7 +99,9 @@ void checkTruths(const Suite& whole) {
           "'reference' out, or compare images with it (--images, --ref)",
           scene.referencePlace));
     }
+    std::string missing;
     if (scene.truth == Truth::rendered) continue;
+    if (scene.optional && assetsMissing(scene.request, missing)) continue;
     const PreparedScene prepared = prepareScene(scene.request);
     uint32_t width = 0, height = 0;
     sceneResolution(suite, scene, prepared, width, height);

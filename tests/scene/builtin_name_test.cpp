@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/scene/builtin_builder.h"
 #include "core/scene/builtin_relations.h"
 #include "core/scene/compiled_scene.h"
 
@@ -76,13 +77,31 @@ TEST(BuiltinName, FloorsAreCutAsTheySay) {
   const float length = glm::length(needles.positions[t.y] - needles.positions[t.x]);
   const float width = glm::length(needles.positions[t.z] - needles.positions[t.y]);
   EXPECT_NEAR(length / width, 100.0f, 1e-2f);
-  try {
-    makeBuiltinScene("floor?ior=1.5&copies=2");
-    FAIL() << "no error";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::badInput);
-    EXPECT_NE(std::string(error.what()).find("goes with 'view' alone"), std::string::npos);
-  }
+}
+
+TEST(BuiltinName, WhatDoesNotGoTogetherIsRefused) {
+  const auto expectError = [](const std::string& name, const std::string& words) {
+    try {
+      makeBuiltinScene(name);
+      ADD_FAILURE() << name;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::badInput);
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    }
+  };
+  expectError("floor?ior=1.5&copies=2", "goes with 'view' alone");
+  expectError("floor?needle=10&triangles=8", "both say how many");
+  expectError("floor?spots=10&sun=8", "instead of the sky");
+  expectError("furnace?wall=0.1&height=0.5", "leave 'height' out");
+}
+
+TEST(BuiltinName, TexturesAreInTheHash) {
+  EXPECT_NE(makeBuiltinScene("floor?slope=10").contentHash,
+            makeBuiltinScene("floor?slope=20").contentHash);
+  Scene scene = makeBuiltinScene("floor?slope=10");
+  const uint64_t before = builtin::hashOf(scene);
+  scene.images.at(0).texels.at(0) ^= 1u;
+  EXPECT_NE(builtin::hashOf(scene), before);
 }
 
 TEST(BuiltinName, WithoutRelationsKeepsTheRest) {
