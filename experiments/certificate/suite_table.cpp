@@ -35,6 +35,9 @@ std::string cellOf(const Certified& certified) {
         fmt::format(", in a cell {:+.2g}", 100.0 * c.worst->welch.difference / c.worst->reference);
   }
   if (c.cells.nonfinite > 0) text += fmt::format(", {} values not finite", c.cells.nonfinite);
+  // What was too skewed to be tested, and may hold any bias.
+  if (c.cells.untestableShare >= 0.005)
+    text += fmt::format(", {:.0f} % untested", 100.0 * c.cells.untestableShare);
   if (c.moreRuns) text += fmt::format(", {} more runs", *c.moreRuns);
   return isContradiction(certified) ? fmt::format("**{}**", text) : text;
 }
@@ -129,9 +132,11 @@ std::string suiteMarkdownOf(const std::vector<Certified>& all, const Rules& rule
       range(leastSpp, mostSpp), 100.0 * rules.margin);
   text += countsOf(all) + "\n" + contradictionsOf(all) + "\n";
   text +=
-      "A cell has the verdict, and the bias of the image's luminance in percent with its 95 % "
-      "interval. Where it says biased, the clearest single cell of the image follows. Where it "
-      "says not decided, the number of further runs that would decide.\n";
+      "What stands in the tables: the verdict, and the bias of the image's luminance in percent "
+      "with its 95 % interval. Behind biased, the bias of the cell of the image that is farthest "
+      "off. Then the share of the image whose cells are too skewed for a test, if there is one. "
+      "Behind not decided, how many more runs would decide; nothing where the error of the "
+      "reference is too large for that.\n";
   const std::vector<std::string> scenes =
       distinct<std::string>(all, [](const Certified& c) { return c.scene; });
   for (size_t i = 0; i < scenes.size(); i += kScenesBeside) {

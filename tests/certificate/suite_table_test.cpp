@@ -114,6 +114,16 @@ TEST(SuiteTable, WhatIsNotDecidedSaysHowManyRunsWould) {
   EXPECT_NE(open[0].find(" more runs |"), std::string::npos) << open[0];
 }
 
+// An image of which most could not be tested is not as sure as another one.
+TEST(SuiteTable, WhatWasNotTestedIsSaid) {
+  std::vector<Certified> all = {plantedSuite().front()};
+  all[0].certificate.cells.untestableShare = 0.0;
+  EXPECT_EQ(suiteMarkdownOf(all, Rules(), "x").find("untested"), std::string::npos);
+  all[0].certificate.cells.untestableShare = 0.74;
+  const std::string text = suiteMarkdownOf(all, Rules(), "x");
+  EXPECT_NE(text.find(", 74 % untested |"), std::string::npos) << text;
+}
+
 TEST(SuiteTable, NothingOfNothing) { EXPECT_EQ(suiteMarkdownOf({}, Rules(), "x"), ""); }
 
 }  // namespace

@@ -238,7 +238,7 @@ integrator = "path"
 integrator = "restir_gi"
 mis = "confidence"
 )");
-  const ProgramResult result = run("bias two.toml --margin 6 --max-runs 256 --json -q -o out");
+  const ProgramResult result = run("bias two.toml --margin 4 --max-runs 192 --json -q -o out");
   EXPECT_EQ(result.code, 1) << result.err << result.out;
   const Json document = Json::parse(result.out);
   EXPECT_GT(document.at(0).at("runs"), 128) << document.at(0).at("reason");
