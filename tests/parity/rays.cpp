@@ -40,8 +40,7 @@ std::vector<rl::TraceResult> RayTracer::trace(const std::vector<rl::TraceQuery>&
 std::vector<rl::TraceQuery> randomQueries(const std::shared_ptr<const CompiledScene>& scene,
                                           size_t count, uint64_t seed) {
   unit::Inputs inputs(seed);
-  const auto bounds = worldBounds(scene->source());
-  const glm::vec3 low(bounds[0] - scene->origin()), high(bounds[1] - scene->origin());
+  const auto [low, high] = unit::startBounds(*scene);
   std::vector<rl::TraceQuery> queries(count);
   for (rl::TraceQuery& q : queries) {
     const float x = inputs.uniform(), y = inputs.uniform(), z = inputs.uniform();

@@ -40,8 +40,7 @@ void compareRay(BothTracers& both, const rl::Ray& ray, uint32_t key, RayAgreemen
 RayAgreement compareScene(const std::shared_ptr<const CompiledScene>& scene, uint64_t rays) {
   BothTracers both(scene);
   Inputs inputs(7);
-  const auto bounds = worldBounds(scene->source());
-  const glm::vec3 low(bounds[0] - scene->origin()), high(bounds[1] - scene->origin());
+  const auto [low, high] = startBounds(*scene);
   RayAgreement c;
   while (c.rays < rays) {
     rl::Ray ray = rayFrom(

@@ -106,11 +106,12 @@ TEST(LightSelection, KindsCompeteByPower) {
   for (int y = 0; y < 4; ++y) {
     const double row = kPi / 4.0 * (std::cos(kPi * y / 4.0) - std::cos(kPi * (y + 1) / 4.0));
     for (int x = 0; x < 8; ++x) {
-      // The density is widened to the neighbours of a texel, as bilinear radiance is.
+      // A texel's mean of the bilinear radiance.
+      constexpr double kShare[3] = {0.125, 0.75, 0.125};
       for (int dy = -1; dy <= 1; ++dy) {
         for (int dx = -1; dx <= 1; ++dx) {
-          flux +=
-              row / 9.0 * map.radiance[size_t(std::clamp(y + dy, 0, 3) * 8 + (x + dx + 8) % 8)].x;
+          flux += row * kShare[dy + 1] * kShare[dx + 1] *
+                  map.radiance[size_t(std::clamp(y + dy, 0, 3) * 8 + (x + dx + 8) % 8)].x;
         }
       }
     }

@@ -51,6 +51,18 @@ std::string RayAgreement::text() const {
       rays, hits, same, ties, edges, grazing, starts, unexplained, first);
 }
 
+std::array<glm::vec3, 2> startBounds(const CompiledScene& scene) {
+  std::array<glm::dvec3, 2> bounds = worldBounds(scene.source());
+  const glm::dvec3 size = bounds[1] - bounds[0];
+  const double longest = std::max({size.x, size.y, size.z});
+  for (int axis = 0; axis < 3; ++axis) {
+    if (size[axis] > 0.0) continue;
+    bounds[0][axis] -= 0.5 * longest;
+    bounds[1][axis] += 0.5 * longest;
+  }
+  return {glm::vec3(bounds[0] - scene.origin()), glm::vec3(bounds[1] - scene.origin())};
+}
+
 ClosedBall::ClosedBall(const glm::dvec3& at) : mesh_(builtin::sphere("ball", at, 1.0, 5, true)) {
   builtin::SceneBuilder builder("closed");
   const uint32_t id = builder.addMaterial("grey", builtin::lambert(glm::vec3(0.5f)));

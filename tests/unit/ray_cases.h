@@ -1,6 +1,7 @@
 // Scenes and rays that tell two tracers apart, and what explains a difference between them.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,6 +29,10 @@ struct RayAgreement {
   double explainedShare() const { return double(ties + edges + grazing + starts) / double(rays); }
   std::string text() const;
 };
+
+// Where rays start: the scene's bounds, about its origin. A flat scene has bounds as high as they
+// are long: what starts in its plane starts on its surface.
+std::array<glm::vec3, 2> startBounds(const CompiledScene& scene);
 
 // A closed ball about `at`, the scene centred there.
 struct ClosedBall {
