@@ -22,7 +22,7 @@ struct Question {
   PreparedScene prepared;
   SessionConfig config;  // complete; its seed is the first one
   uint32_t warmup = 0, frames = 1;
-  std::string name;  // of the scene, in tables and file names; "": as it calls itself
+  std::string name;                // of the scene, in tables and file names; "": as it calls itself
   std::optional<Reference> exact;  // where the image is known without rendering
 };
 
