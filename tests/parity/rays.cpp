@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "tests/unit/random_inputs.h"
+#include "tests/unit/ray_cases.h"
 
 namespace restlab::parity {
 
