@@ -137,7 +137,7 @@ void runVerb(const RunOptions& options, Outcome& outcome) {
     setJobs(options.jobs, suite);
   }
   const Suite& suite = points.front();
-  if (suite.runs < 2) {
+  if (suite.fewestRuns() < 2) {
     logWarning("runs = 1: no interval and no bias can be given; biased rows will not count");
   }
   warnOfYardsticks(suite);
@@ -147,11 +147,13 @@ void runVerb(const RunOptions& options, Outcome& outcome) {
                                     : std::filesystem::path(options.out);
   request.argv = outcome.argv;
   request.force = options.force;
+  const std::string runs = suite.fewestRuns() == suite.mostRuns()
+                               ? counted(suite.mostRuns(), "run")
+                               : fmt::format("{} to {} runs", suite.fewestRuns(), suite.mostRuns());
   logInfo(fmt::format("{}: {}{}, {}, {}; results in {}", suite.name,
                       points.size() > 1 ? counted(points.size(), "point") + ", " : "",
                       counted(suite.scenes.size(), "scene"),
-                      counted(suite.methods.size(), "method"), counted(suite.runs, "run"),
-                      request.out.string()));
+                      counted(suite.methods.size(), "method"), runs, request.out.string()));
   if (options.dryRun) {
     std::fputs(planText(points, request).c_str(), stdout);
     return;

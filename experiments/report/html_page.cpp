@@ -14,6 +14,26 @@ std::string paragraph(const char* cssClass, const std::string& text) {
   return text.empty() ? "" : fmt::format("<p class=\"{}\">{}</p>\n", cssClass, escapeMarkup(text));
 }
 
+// Links to the blocks that are part of the one with this id; "": of none.
+std::string linksTo(const ReportModel& blocks, const std::string& whole) {
+  std::string links;
+  for (const ReportModel& block : blocks) {
+    if (reportText(block, "part_of") != whole) continue;
+    const std::string id = reportText(block, "id"), parts = linksTo(blocks, id);
+    links += fmt::format("<li><a href=\"#b-{}\">{}</a>{}</li>\n", escapeMarkup(id),
+                         escapeMarkup(reportText(block, "title")),
+                         parts.empty() ? ""
+                                       : fmt::format(" <details><summary>its parts</summary>\n"
+                                                     "<ul>\n{}</ul></details>",
+                                                     parts));
+  }
+  return links;
+}
+
+std::string contents(const ReportModel& blocks) {
+  return fmt::format("<nav aria-label=\"Contents\"><ul>\n{}</ul></nav>\n", linksTo(blocks, ""));
+}
+
 }  // namespace
 
 std::string plotFigures(const ReportModel& block) {
@@ -46,15 +66,7 @@ std::string reportHead(const ReportModel& model) {
     notes += fmt::format("<li>{}</li>\n", escapeMarkup(note.get<std::string>()));
   }
   if (!notes.empty()) out += fmt::format("<ul class=\"notes\">\n{}</ul>\n", notes);
-  if (model["blocks"].size() > 1) {
-    std::string links;
-    for (const ReportModel& block : model["blocks"]) {
-      links +=
-          fmt::format("<li><a href=\"#b-{}\">{}</a></li>\n", escapeMarkup(reportText(block, "id")),
-                      escapeMarkup(reportText(block, "title")));
-    }
-    out += fmt::format("<nav aria-label=\"Contents\"><ul>\n{}</ul></nav>\n", links);
-  }
+  if (model["blocks"].size() > 1) out += contents(model["blocks"]);
   return out + "</header>\n";
 }
 

@@ -250,8 +250,12 @@ void images(const Place& at) {
 
 void block(const Place& at, std::set<std::string>& ids) {
   requireObject(at, {"id", "title", "columns", "rows"},
-                {"subtitle", "row_title", "plots", "bars", "settings", "left_out", "health",
-                 "images", "exposure"});
+                {"subtitle", "part_of", "row_title", "plots", "bars", "settings", "left_out",
+                 "health", "images", "exposure"});
+  member(at, "part_of", [&](const Place& p) {
+    text(p);
+    if (!ids.count(p.json.get<std::string>())) failAt(p.path, "must be the id of an earlier block");
+  });
   member(at, "id", [&](const Place& p) { uniqueId(p, ids); });
   member(at, "title", text);
   member(at, "subtitle", text);

@@ -56,10 +56,10 @@ bool seesOnly(const glm::dvec3& low, const glm::dvec3& high, const SceneCamera& 
   return camera.cameraToWorld[3].y > 0.0;
 }
 
-std::vector<glm::dvec3> filmOf(const SceneCamera& camera, const ExactView& view, bool coarse,
+std::vector<glm::dvec3> filmOf(const SceneCamera& camera, const ExactView& view, FilmPoints points,
                                const std::function<glm::dvec3(const glm::dvec3& posW)>& radiance) {
   const std::span<const Node> nodes =
-      coarse ? std::span<const Node>(kTwo) : std::span<const Node>(kEight);
+      points == FilmPoints::few ? std::span<const Node>(kTwo) : std::span<const Node>(kEight);
   std::vector<glm::dvec3> image(size_t(view.width) * view.height, glm::dvec3(0.0));
   for (uint32_t y = 0; y < view.height; ++y) {
     for (uint32_t x = 0; x < view.width; ++x) {

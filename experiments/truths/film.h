@@ -25,9 +25,11 @@ glm::dvec3 floorPoint(const SceneCamera& camera, const glm::dvec3& dir);
 bool seesOnly(const glm::dvec3& low, const glm::dvec3& high, const SceneCamera& camera,
               const ExactView& view);
 
-// Mean over every pixel of a radiance of the plane's points, by Gauss-Legendre quadrature of 8 x 8
-// or, `coarse`, 2 x 2 points; row 0 on top.
-std::vector<glm::dvec3> filmOf(const SceneCamera& camera, const ExactView& view, bool coarse,
+// Points of a pixel in Gauss-Legendre quadrature: 8 x 8; 2 x 2 where a point takes long.
+enum class FilmPoints { many, few };
+
+// Mean over every pixel of a radiance of the plane's points; row 0 on top.
+std::vector<glm::dvec3> filmOf(const SceneCamera& camera, const ExactView& view, FilmPoints points,
                                const std::function<glm::dvec3(const glm::dvec3& posW)>& radiance);
 
 // Throws std::invalid_argument where there is none of that name.

@@ -1,5 +1,7 @@
 #include "experiments/truths/floor.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
@@ -62,7 +64,7 @@ std::string whyNotFloor(const Scene& scene, const ExactView& view) {
   if (view.scatteringEvents == 0) return "at 0 scattering events";
   const bool isGlass = scene.materials.at(0).data.transmission > 0.0f;
   if (isGlass && view.scatteringEvents < kEventsOfGlass)
-    return "of glass at fewer than 64 scattering events";
+    return fmt::format("of glass at fewer than {} scattering events", kEventsOfGlass);
   const bool isPlain =
       scene.environment && sunOf(*scene.environment).radiance == 1.0 && !leans(scene);
   if (isPlain) return "";
@@ -79,7 +81,8 @@ std::string whyNotFloor(const Scene& scene, const ExactView& view) {
 
 std::vector<glm::dvec3> floorImage(const Scene& scene, const ExactView& view) {
   if (!scene.environment) {
-    return filmOf(cameraOf(scene, view), view, scene.lights.size() > 1000,
+    return filmOf(cameraOf(scene, view), view,
+                  scene.lights.size() > 1000 ? FilmPoints::few : FilmPoints::many,
                   [&](const glm::dvec3& posW) { return spotlitRadiance(scene.lights, posW); });
   }
   const EnvironmentMap& sky = *scene.environment;

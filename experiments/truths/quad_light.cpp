@@ -112,7 +112,7 @@ std::vector<glm::dvec3> quadLightImage(const Scene& scene, const ExactView& view
     return std::vector<glm::dvec3>(size_t(view.width) * view.height, glm::dvec3(0.0));
   const std::vector<Emitter> emitters = emittersOf(scene);
   const glm::dvec3 albedo = albedoOf(scene);
-  return filmOf(cameraOf(scene, view), view, false,
+  return filmOf(cameraOf(scene, view), view, FilmPoints::many,
                 [&](const glm::dvec3& posW) { return radianceOf(emitters, albedo, posW); });
 }
 

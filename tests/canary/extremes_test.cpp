@@ -59,7 +59,7 @@ class Extremes : public TemporaryFolder {
     EXPECT_TRUE(runSuite(loadSuites(folder() / "suite.toml", {}, {}), request));
     std::ifstream in(request.out / "table.md");
     const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-    const std::regex table("## ([a-z ]+), [a-z]+ of [^#]*\\| last that holds \\| ([^ ]+) \\|");
+    const std::regex table("## ([a-z ]+), [a-z]+ of [^#]*\\| path \\| ([^ ]+) \\|");
     std::map<std::string, std::string> found;
     for (std::sregex_iterator it(text.begin(), text.end(), table), end; it != end; ++it)
       found[(*it)[1]] = (*it)[2];

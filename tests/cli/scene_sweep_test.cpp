@@ -43,8 +43,10 @@ TEST_F(SceneSweepRun, HoldsAgainstTheExactImage) {
   EXPECT_NE(table.find("## albedo, albedo of furnace, all light, 16 scattering events"),
             std::string::npos)
       << table;
-  EXPECT_NE(table.find("| last that holds | 0.99 | 0.99 |"), std::string::npos) << table;
-  EXPECT_NE(result.out.find("| last that holds |"), std::string::npos) << result.out;
+  EXPECT_NE(table.find("| path | 0.99 | "), std::string::npos) << table;
+  EXPECT_NE(table.find("| gi | 0.99 | "), std::string::npos) << table;
+  EXPECT_NE(result.out.find("| method | last that holds | energy | error |"), std::string::npos)
+      << result.out;
   EXPECT_NE(table.find("reference in closed form"), std::string::npos) << table;
   EXPECT_NE(table.find("16 scattering events, Russian roulette off"), std::string::npos) << table;
   EXPECT_TRUE(std::filesystem::exists(path("out/plots/sweep-1-albedo-all-error.svg")));
@@ -132,6 +134,79 @@ TEST_F(SceneSweepRun, ValuesThatAreNotFiniteFailWhereTheSuiteSaysSo) {
       << result.err;
   EXPECT_TRUE(std::filesystem::exists(path("out/report.html")));
   EXPECT_NE(read("out/run.json").find("\"status\": \"finished\""), std::string::npos);
+}
+
+TEST_F(SceneSweepRun, AnEnergyThatIsFarOffFailsWhereTheSuiteSaysSo) {
+  for (size_t run = 0; run < 3; ++run) {
+    LayeredImage theirs;
+    theirs.layers[""] = Image(24, 16, glm::vec3(0.75f + 1e-3f * float(run)));
+    writeExr(path("theirs-" + std::to_string(run) + ".exr"), theirs);
+  }
+  const std::string scene =
+      "[[scene]]\nscene = \"furnace\"\ntruth = \"exact\"\n"
+      "[[method]]\nname = \"theirs\"\n"
+      "image = [\"theirs-0.exr\", \"theirs-1.exr\", \"theirs-2.exr\"]\n";
+  EXPECT_EQ(runSuite(scene).code, 0) << "by default the row says it";
+  const ProgramResult result = runSuite(scene, " --set fail_on_energy=true");
+  EXPECT_EQ(result.code, 1);
+  ASSERT_EQ(result.errors().size(), 1u) << result.err;
+  EXPECT_NE(result.errors()[0].find("the energy of 1 row is not that of the reference; the first "
+                                    "is theirs in furnace, with 0.80"),
+            std::string::npos)
+      << result.err;
+  EXPECT_TRUE(std::filesystem::exists(path("out/report.html")));
+}
+
+constexpr const char* kTurning =
+    "camera_path = \"turning\"\n"
+    "[[camera_path]]\nname = \"turning\"\nkind = \"pan\"\ndegrees_per_frame = 2.0\n";
+
+// The truth is of the camera of the measured frame, and of the light times its factor.
+TEST_F(SceneSweepRun, TruthsOfAMovingCamera) {
+  const std::string scene =
+      "[[scene]]\nscene = [\"cornell-box?radiance=1\", \"cornell-box?radiance=2^10\"]\n"
+      "truth = \"same\"\n";
+  ASSERT_EQ(runSuite(scene).code, 0);
+  const auto still = readExr(path("out/images/sweep-cornell-box-radiance-1-all-reference.exr"));
+  const ProgramResult result = runSuite(scene + kTurning);
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto turned = readExr(path("out/images/sweep-cornell-box-radiance-1-all-reference.exr"));
+  EXPECT_NE(still.layers.at("").pixels, turned.layers.at("").pixels);
+  const auto rows = parseCsv(read("out/summary.csv"));
+  ASSERT_EQ(rows.size(), 4u);
+  for (size_t m = 0; m < 2; ++m) {
+    EXPECT_EQ(rows[2 + m].at("energy_ratio"), rows[m].at("energy_ratio"));
+    EXPECT_NEAR(std::stod(rows[m].at("energy_ratio")), 1.0, 0.3) << rows[m].at("method");
+  }
+  // Both views keep their truths.
+  size_t plain = 0;
+  for (const auto& file : std::filesystem::directory_iterator(path("out/references")))
+    plain += file.path().filename().string().find("-plain.exr") != std::string::npos;
+  EXPECT_EQ(plain, 2u);
+}
+
+TEST_F(SceneSweepRun, WhatATruthOfAMovingCameraIsNotOf) {
+  expectError(
+      runSuite("[[scene]]\nscene = \"furnace\"\ntruth = \"exact\"\n" + std::string(kTurning),
+               " --set temporal=true"),
+      2, {"suite.toml:18:9", "is of one frame, but 'temporal' needs a second reference"});
+  expectError(runSuite("[[scene]]\nscene = \"furnace?scale=4\"\ntruth = \"exact\"\n" +
+                       std::string(kTurning)),
+              2, {"suite.toml:18:9", "without 'scale' and 'move'"});
+}
+
+// Runs of a scene that says how many it has are not those of the suite.
+TEST_F(SceneSweepRun, FurtherRunsAreTakenWhereTheyAreSaid) {
+  const std::string scene = "[[scene]]\nscene = \"furnace\"\ntruth = \"exact\"\nruns = ";
+  const ProgramResult first = runSuite(scene + "4\n");
+  ASSERT_EQ(first.code, 0) << first.err;
+  EXPECT_NE(first.err.find("1 scene, 2 methods, 4 runs;"), std::string::npos) << first.err;
+  const ProgramResult second = runSuite(scene + "2\n");
+  EXPECT_NE(second.err.find("furnace-all: not taken, though there: 2 of further runs; runs = 4 in "
+                            "its [[scene]] takes them"),
+            std::string::npos)
+      << second.err;
+  EXPECT_NE(runSuite(scene + "1\n").err.find("runs = 1: no interval"), std::string::npos);
 }
 
 TEST_F(SceneSweepRun, NamesWithParametersWorkEverywhere) {

@@ -118,6 +118,23 @@ TEST_F(HtmlTest, TheFirstColumnSaysWhatRowsAre) {
   EXPECT_NE(head(other).find(">quantity"), std::string::npos) << head(other);
 }
 
+// The list of contents stays short: parts stand under what they are parts of.
+TEST_F(HtmlTest, PartsAreListedUnderTheirWhole) {
+  const auto contents = [&](const ReportModel& model) {
+    return between(report(model), "<nav aria-label=\"Contents\">", "</nav>");
+  };
+  EXPECT_EQ(contents(model_).find("<details>"), std::string::npos);
+  ReportModel parts = model_;
+  parts["blocks"][1]["part_of"] = "first";
+  const std::string list = contents(parts);
+  EXPECT_EQ(occurrences(list, "href=\"#b-second\""), 1u) << list;
+  const size_t open = list.find("<details>"), close = list.find("</details>");
+  ASSERT_NE(close, std::string::npos) << list;
+  EXPECT_LT(list.find("href=\"#b-first\""), open);
+  EXPECT_LT(open, list.find("href=\"#b-second\""));
+  EXPECT_LT(list.find("href=\"#b-second\""), close);
+}
+
 TEST_F(HtmlTest, BestOfThoseThatCount) {
   const std::string html = report(model_);
   // Of the times 70, 8 (does not count), 86, 100, and of MSE and its ratio.

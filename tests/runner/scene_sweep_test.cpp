@@ -137,11 +137,16 @@ TEST_F(SceneSweepTest, SaysTheLastValueThatHolds) {
   EXPECT_NE(table.find("## light, albedo of furnace, all light, 3 scattering events"),
             std::string::npos)
       << table;
-  EXPECT_NE(table.find("| albedo | path | gi |"), std::string::npos) << table;
-  EXPECT_NE(table.find("| 0.9 | 1 [0.9982, 1.002] | 0.9000 [0.8982, 0.9018]: no |"),
+  EXPECT_NE(table.find("Values of albedo: 0.5, 0.75, 0.9. "), std::string::npos) << table;
+  EXPECT_NE(table.find("| method | last that holds | energy | error | bias^2 / MSE, % | faults |"),
             std::string::npos)
       << table;
-  EXPECT_NE(table.find("| last that holds | 0.9 | 0.75 |"), std::string::npos) << table;
+  EXPECT_NE(table.find("| path | 0.9 | 1 [0.9982, 1.002] at 0.5 | 0.250"), std::string::npos)
+      << table;
+  EXPECT_NE(table.find("| gi | 0.75 | 0.9000 [0.8982, 0.9018] at 0.9 | 0.250"), std::string::npos)
+      << table;
+  EXPECT_NE(table.find("- gi does not hold at 0.9: 0.9000 [0.8982, 0.9018]"), std::string::npos)
+      << table;
   EXPECT_EQ(outputs.nonfinite(), "");
   outputs.write(own, true);
   std::ifstream in(folder() / "table.md");
@@ -160,14 +165,56 @@ TEST_F(SceneSweepTest, NamesTheFirstWrongEnergy) {
             "furnace?albedo=0.9, with 0.9000 [0.8982, 0.9018]");
 }
 
+// Each figure is of the value where it is worst.
+TEST_F(SceneSweepTest, FiguresAreOfTheWorstValue) {
+  const Suite own = ofScene(suite_, suite_.scenes[0]);
+  std::vector<BlockResult> results;
+  for (size_t i = 0; i < 3; ++i) results.push_back(block(i, 1.0, 0));
+  std::vector<std::vector<MethodSummary>> rows;
+  for (const BlockResult& result : results) rows.push_back(summarise(own, result));
+  MethodSummary& worst = rows[1][1];
+  worst.mse = {4.0, 3.24, 4.84};
+  worst.biasShare = {0.02, 0.01, 0.03};
+  rows[2][1].biasShare = {0.05, -0.2, 0.3};  // larger, by its noise alone
+  worst.timeMsMedian = 8.0;
+  rows[0][1].timeMsMedian = 3.0;
+  worst.health.health.counts[rl::RL_HEALTH_NONFINITE] = 5;
+  rows[2][1].health.health.counts[rl::RL_HEALTH_NONFINITE] = 2;
+  std::vector<SweptBlock> blocks;
+  for (const auto& row : rows) blocks.push_back({&own, &row, 2.0});
+  const SceneSweep sweep = sceneSweeps(blocks).at(0);
+  const std::string table = sweepTable(sweep);
+  EXPECT_NE(table.find("| 1 [0.9000, 1.100] at 0.75 | 2.00 [1.00, 3.00] at 0.75 | 8 at 0.75 | 7 |"),
+            std::string::npos)
+      << table;
+  const nlohmann::ordered_json row = sweepDocument(sweep)["rows"][1];
+  EXPECT_EQ(row["cells"]["error"]["note"], "at 0.75");
+  EXPECT_EQ(row["cells"]["time"]["value"], 8.0);
+  EXPECT_EQ(row["cells"]["faults"]["value"], 7);
+  EXPECT_EQ(sweepDocument(sweep)["plots"].size(), 3u);
+}
+
+// The report lists scenes under their sweep, and says nothing of load where nothing is timed.
+TEST_F(SceneSweepTest, ScenesArePartsOfTheSweep) {
+  const Suite own = ofScene(suite_, suite_.scenes[0]);
+  Outputs outputs(folder());
+  add(outputs, own, {{1.0, 0}, {1.0, 0}, {1.0, 0}});
+  outputs.add(suite_, block(3, 1.0, 0));
+  const std::vector<nlohmann::ordered_json> documents = outputs.documents();
+  ASSERT_EQ(documents.size(), 5u);
+  for (size_t i = 1; i < 4; ++i) EXPECT_EQ(documents[i].value("part_of", ""), documents[0]["id"]);
+  EXPECT_FALSE(documents[4].contains("part_of"));
+  checkReportModel({{"schema", kReportSchema}, {"title", "x"}, {"blocks", documents}});
+}
+
 // A later value that holds does not make up for it.
 TEST_F(SceneSweepTest, EndsAtTheFirstThatDoesNot) {
   const Suite own = ofScene(suite_, suite_.scenes[0]);
   Outputs outputs(folder());
   add(outputs, own, {{1.0, 0}, {1.0, 7}, {1.0, 0}});
   const std::string table = outputs.sweepTables();
-  EXPECT_NE(table.find("7 not finite: no"), std::string::npos) << table;
-  EXPECT_NE(table.find("| last that holds | 0.9 | 0.5 |"), std::string::npos) << table;
+  EXPECT_NE(table.find("- gi does not hold at 0.75: 7 not finite"), std::string::npos) << table;
+  EXPECT_NE(table.find("| gi | 0.5 |"), std::string::npos) << table;
   EXPECT_EQ(outputs.nonfinite(),
             "7 values are not finite, in 1 row, the first of which is gi in light: "
             "furnace?albedo=0.75");
@@ -180,7 +227,7 @@ TEST_F(SceneSweepTest, WhatIsNotThereYetIsLeftOut) {
   outputs.add(own, block(0, 0.5, 0));
   const std::string table = outputs.sweepTables();
   EXPECT_EQ(table.find("0.75"), std::string::npos) << table;
-  EXPECT_NE(table.find("| last that holds | 0.5 | none |"), std::string::npos) << table;
+  EXPECT_NE(table.find("| gi | none |"), std::string::npos) << table;
 }
 
 TEST_F(SceneSweepTest, TheReportHasItsPlot) {
@@ -195,7 +242,9 @@ TEST_F(SceneSweepTest, TheReportHasItsPlot) {
   ASSERT_EQ(sweeps.size(), 1u);
   const nlohmann::ordered_json document = sweepDocument(sweeps[0]);
   checkReportModel({{"schema", kReportSchema}, {"title", "x"}, {"blocks", {document}}});
-  const auto& plot = document["plots"][0];
+  ASSERT_EQ(document["plots"].size(), 2u) << "no times, no plot of them";
+  EXPECT_EQ(document["plots"][0]["id"], "energy");
+  const auto& plot = document["plots"][1];
   EXPECT_TRUE(plot["x"]["log"].get<bool>());
   EXPECT_EQ(plot["series"][1]["name"], "gi");
   EXPECT_EQ(plot["series"][1]["points"][2][0], 0.9);

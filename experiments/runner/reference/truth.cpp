@@ -94,11 +94,11 @@ Reference multiplied(Reference reference, double factor) {
   return reference;
 }
 
-std::string plainLabel(const SceneRequest& request, const PreparedScene& plain,
-                       const ReferenceConfig& config) {
-  return safeFileName(fmt::format("{}-{}-{}-{}x{}-{}{}{}", withoutRelations(request.scene),
-                                  componentName(config.components), plain.cameraName, config.width,
-                                  config.height, config.maxBounces,
+std::string plainLabel(const SceneRequest& request, const std::string& path,
+                       const PreparedScene& plain, const ReferenceConfig& config) {
+  return safeFileName(fmt::format("{}-{}-{}-{}-{}x{}-{}{}{}", withoutRelations(request.scene),
+                                  componentName(config.components), plain.cameraName, path,
+                                  config.width, config.height, config.maxBounces,
                                   config.multiscatter ? "-multiscatter" : "", kPlainReference));
 }
 

@@ -33,10 +33,11 @@ Reference exactReference(const SceneRequest& request, const PreparedScene& plain
 // `reference` times `factor`, with its noise.
 Reference multiplied(Reference reference, double factor);
 
-// The name, in a folder of results, of the file that is rendered for Truth::same.
+// The name, in a folder of results, of the file that is rendered for Truth::same, with the camera
+// on the path of that name.
 constexpr const char* kPlainReference = "-plain";
-std::string plainLabel(const SceneRequest& request, const PreparedScene& plain,
-                       const ReferenceConfig& config);
+std::string plainLabel(const SceneRequest& request, const std::string& path,
+                       const PreparedScene& plain, const ReferenceConfig& config);
 
 // "in closed form", "of the scene without ..., 256 spp", "256 spp": where a reference comes from,
 // for tables.

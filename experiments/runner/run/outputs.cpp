@@ -89,12 +89,20 @@ std::string Outputs::wrongEnergies() const {
                      counted(rows, "row"), first);
 }
 
+std::vector<nlohmann::ordered_json> Outputs::documents() const {
+  std::vector<nlohmann::ordered_json> documents, blocks = documents_;
+  for (const SceneSweep& sweep : sweeps()) {
+    documents.push_back(sweepDocument(sweep));
+    for (const std::optional<size_t>& block : sweep.blocks)
+      if (block) blocks[*block]["part_of"] = sweep.id;
+  }
+  documents.insert(documents.end(), blocks.begin(), blocks.end());
+  return documents;
+}
+
 void Outputs::writePages(const Suite& suite, const nlohmann::ordered_json& record) const {
   if (documents_.empty()) return;
-  std::vector<nlohmann::ordered_json> documents;
-  for (const SceneSweep& sweep : sweeps()) documents.push_back(sweepDocument(sweep));
-  documents.insert(documents.end(), documents_.begin(), documents_.end());
-  const nlohmann::ordered_json document = reportDocument(suite, record, documents, notes_);
+  const nlohmann::ordered_json document = reportDocument(suite, record, documents(), notes_);
   writePlots(out_, document);
   writeReport(out_, document);
 }

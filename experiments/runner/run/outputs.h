@@ -32,6 +32,8 @@ class Outputs {
   std::string nonfinite() const;
   // Which rows have an energy that is far off (isFarOff()); "": none.
   std::string wrongEnergies() const;
+  // The blocks of the report: sweeps first, then scenes, as parts of their sweep.
+  std::vector<nlohmann::ordered_json> documents() const;
   // report.html and plots/*.svg; `record`: run.json. Nothing where there is no block.
   void writePages(const Suite& suite, const nlohmann::ordered_json& record) const;
 

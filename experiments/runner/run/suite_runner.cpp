@@ -293,8 +293,13 @@ class SuiteRun {
     uint32_t runs = suite.runs;
     while (store_.record(identityOf(suite, prepared, block, runs, reference).key())) ++runs;
     if (runs == suite.runs) return;
-    logInfo(fmt::format("{}: not taken, though there: {} of further runs; --set runs={} takes them",
-                        blockLabel(suite, block), runs - suite.runs, runs));
+    const bool isOwn = std::any_of(
+        suite.scenes.begin(), suite.scenes.end(),
+        [&](const SuiteScene& scene) { return scene.name == block.scene && scene.runs; });
+    const std::string how = isOwn ? fmt::format("runs = {} in its [[scene]]", runs)
+                                  : fmt::format("--set runs={}", runs);
+    logInfo(fmt::format("{}: not taken, though there: {} of further runs; {} takes them",
+                        blockLabel(suite, block), runs - suite.runs, how));
   }
 
   static void logRun(const Suite& suite, const BlockResult& block, uint32_t run,
@@ -420,9 +425,10 @@ class SuiteRun {
                                const fs::path& folder) {
     const PreparedScene plain = plainOf(suite, scene, prepared, config);
     if (scene.truth == Truth::exact) return exactReference(scene.request, plain, config);
-    return multiplied(obtainReference(plain, config, suite.target, folder,
-                                      plainLabel(scene.request, plain, config)),
-                      radianceFactor(scene.request.scene));
+    return multiplied(
+        obtainReference(plain, config, suite.target, folder,
+                        plainLabel(scene.request, suite.cameraPathName, plain, config)),
+        radianceFactor(scene.request.scene));
   }
 
   // --methods may have taken some of the suite's.

@@ -84,8 +84,9 @@ ReferencesThere referencesThere(const Suite& suite, const SuiteScene& scene,
     std::optional<Reference> truth;
     if (scene.truth == Truth::exact) {
       truth = exactReference(scene.request, plain, config);
-    } else if (auto rendered = findReference(suite, plain, config, out,
-                                             plainLabel(scene.request, plain, config))) {
+    } else if (auto rendered =
+                   findReference(suite, plain, config, out,
+                                 plainLabel(scene.request, suite.cameraPathName, plain, config))) {
       truth = multiplied(std::move(*rendered), radianceFactor(scene.request.scene));
     }
     there.missing = truth ? 0 : 1;

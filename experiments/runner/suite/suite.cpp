@@ -182,6 +182,18 @@ BiasClass SuiteMethod::bias(const Suite& suite) const {
   return method.bias(session.mode, parameters(), suite.hasMovingCamera());
 }
 
+uint32_t Suite::mostRuns() const {
+  uint32_t most = 0;
+  for (const SuiteScene& scene : scenes) most = std::max(most, scene.runs.value_or(runs));
+  return most;
+}
+
+uint32_t Suite::fewestRuns() const {
+  uint32_t fewest = mostRuns();
+  for (const SuiteScene& scene : scenes) fewest = std::min(fewest, scene.runs.value_or(runs));
+  return fewest;
+}
+
 Suite ofScene(const Suite& suite, const SuiteScene& scene) {
   Suite own = suite;
   own.maxBounces = scene.maxBounces.value_or(own.maxBounces);
@@ -290,10 +302,7 @@ Suite readSuite(const ConfigTable& root, const std::filesystem::path& file, cons
   readSettings(settings, suite);
   readPaths(root, suite);
   takePath(suite, suite.cameraPathName, suite.cameraPathPlace);
-  checkPath(settings, suite);
-  for (const SuiteScene& scene : suite.scenes) {
-    if (scene.hasOwnSettings()) checkPath(settings, ofScene(suite, scene));
-  }
+  for (const SuiteScene& scene : suite.scenes) checkPath(settings, ofScene(suite, scene));
   readMasks(root, suite);
   readMethods(root, settings, sweep, folder, suite);
   readReference(root.getTable("reference"), suite);
@@ -302,13 +311,6 @@ Suite readSuite(const ConfigTable& root, const std::filesystem::path& file, cons
   requireUniqueNames(suite);
   requireBaseline(settings, suite);
   return suite;
-}
-
-// Of any of its scenes.
-uint32_t mostRuns(const Suite& suite) {
-  uint32_t runs = suite.runs;
-  for (const SuiteScene& scene : suite.scenes) runs = std::max(runs, scene.runs.value_or(0));
-  return runs;
 }
 
 // Run r has the seed `seed` + r: seeds of a sweep that are nearer than there are runs would make
@@ -320,11 +322,11 @@ void requireOwnSeeds(const std::vector<SweepAxis>& axes, const std::vector<Suite
     for (const Suite& other : points) {
       const uint32_t apart =
           other.seed < last.seed ? last.seed - other.seed : other.seed - last.seed;
-      if (apart == 0 || apart >= std::min(mostRuns(last), mostRuns(other))) continue;
+      if (apart == 0 || apart >= std::min(last.mostRuns(), other.mostRuns())) continue;
       failUsage(
           fmt::format("{}: seeds {} and {} have runs in common, as run r has the seed "
                       "'seed' + r; leave at least {} between them",
-                      axis.place, other.seed, last.seed, mostRuns(last)));
+                      axis.place, other.seed, last.seed, last.mostRuns()));
     }
   }
 }

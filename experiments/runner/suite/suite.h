@@ -125,6 +125,9 @@ struct Suite {
   int threads = 0;
   ReferenceTarget target;
 
+  // Of any of its scenes.
+  uint32_t mostRuns() const;
+  uint32_t fewestRuns() const;
   // The methods that are no rows of images.
   std::span<const SuiteMethod> rendered() const;
   // Index of a method's yardstick: the baseline, else the first `path` method on the same backend,

@@ -28,7 +28,6 @@ struct Column {
   std::string (*note)(const MethodSummary&) = nullptr;
 };
 
-Interval percent(const Interval& of) { return {100.0 * of.value, 100.0 * of.lo, 100.0 * of.hi}; }
 Interval only(double value) { return {value, kUnknown, kUnknown}; }
 const Interval kNone{kUnknown, kUnknown, kUnknown};
 
@@ -419,7 +418,7 @@ Json blockDocument(const Suite& suite, const std::vector<MethodSummary>& rows, f
 }
 
 // What changes the worth of everything below.
-Json warningsOf(const Json& record) {
+Json warningsOf(const Suite& suite, const Json& record) {
   Json warnings = Json::array();
   const std::string status = record.at("status").get<std::string>();
   if (status != "finished") {
@@ -427,7 +426,7 @@ Json warningsOf(const Json& record) {
         fmt::format("Not finished ({}): what follows is of the runs that were.", status));
   }
   const double busy = record.value("busy_at_start", 0.0);
-  if (busy > 0.2) {
+  if (suite.timing && busy > 0.2) {
     warnings.push_back(fmt::format(
         "Other programs took {:.0f} % of the machine when the suite began: times may be too long.",
         100.0 * busy));
@@ -458,7 +457,7 @@ Json reportDocument(const Suite& suite, const Json& record, std::vector<Json> bl
           {"question", suite.question},
           {"generated", record.at("written")},
           {"command", shellCommand(record.at("argv").get<std::vector<std::string>>())},
-          {"warnings", warningsOf(record)},
+          {"warnings", warningsOf(suite, record)},
           {"notes", notes},
           {"provenance", std::move(provenance)},
           {"blocks", std::move(blocks)}};

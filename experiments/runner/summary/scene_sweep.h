@@ -15,7 +15,10 @@ namespace restlab {
 struct SweptCell {
   Interval energy{kUnknown, kUnknown, kUnknown};
   Interval error{kUnknown, kUnknown, kUnknown};  // root of the MSE over the mean of the reference
+  Interval biasShare{kUnknown, kUnknown, kUnknown};  // bias^2 / MSE
+  double timeMs = kUnknown;                          // of a frame, median
   uint64_t nonfinite = 0;
+  uint64_t faults = 0;  // all counts of health that are faults (isFault)
   bool holds = false;
 };
 
@@ -25,8 +28,8 @@ struct SceneSweep {
   SweptParameter parameter;
   std::vector<std::string> methods;
   std::vector<std::vector<SweptCell>> cells;  // by method, then by value
-  // The values that are there, by their places; a run that was interrupted lacks some.
-  std::vector<bool> isThere;
+  // The block of each value; a run that was interrupted lacks some.
+  std::vector<std::optional<size_t>> blocks;
 
   // The place of the last value, from the first on, up to which the method holds at all; nothing
   // where it does not hold at the first one.
@@ -51,10 +54,10 @@ struct SweptBlock {
 // The sweeps among the blocks: scenes of one [[scene]], by component and point.
 std::vector<SceneSweep> sceneSweeps(const std::vector<SweptBlock>& blocks);
 
-// In markdown: a line a value, a column a method; last what still holds.
+// In markdown: a line a method, with what it is like where it is worst.
 std::string sweepTable(const SceneSweep& sweep);
-// As a block of the report (experiments/report/report_model.h): a row a method, a column a value,
-// and the plot of errors.
+// The same as a block of the report (experiments/report/report_model.h), with the energy of every
+// value as details, and plots over the values.
 nlohmann::ordered_json sweepDocument(const SceneSweep& sweep);
 
 }  // namespace restlab

@@ -95,6 +95,10 @@ struct MethodSummary {
 // One summary a method that has at least one finished run.
 std::vector<MethodSummary> summarise(const Suite& suite, const BlockResult& block);
 
+inline Interval percent(const Interval& of) {
+  return {100.0 * of.value, 100.0 * of.lo, 100.0 * of.hi};
+}
+
 const char* biasName(BiasClass bias);
 
 }  // namespace restlab

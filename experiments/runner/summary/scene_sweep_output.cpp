@@ -1,0 +1,258 @@
+// What is shown of a sweep: its table and its block of the report.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/report/text.h"
+#include "experiments/runner/run/run_record.h"
+#include "experiments/runner/summary/scene_sweep.h"
+
+namespace restlab {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// The cell of a method that is farthest by `distance`; none where no cell has a distance.
+struct Worst {
+  size_t value = 0;
+  const SweptCell* cell = nullptr;
+};
+
+Worst worstOf(const SceneSweep& sweep, size_t method, double (*distance)(const SweptCell&)) {
+  Worst worst;
+  double farthest = 0.0;
+  for (size_t i = 0; i < sweep.blocks.size(); ++i) {
+    if (!sweep.blocks[i]) continue;
+    const SweptCell& cell = sweep.cells[method][i];
+    const double own = distance(cell);
+    if (std::isnan(own) || (worst.cell && own <= farthest)) continue;
+    farthest = own;
+    worst = {i, &cell};
+  }
+  return worst;
+}
+
+// A figure of a row; `digits` of its numbers; its plot over the values, which has one where it has
+// a title of the y axis.
+struct SweepColumn {
+  const char *key, *title, *help;
+  int digits;
+  const char* yTitle;
+  bool isLogY;
+  Interval (*value)(const SweptCell&);
+  double (*distance)(const SweptCell&);  // the largest is shown; NaN: not this one
+};
+
+// A column a figure, each where it is worst.
+const std::vector<SweepColumn>& sweepColumns() {
+  static const std::vector<SweepColumn> all = {
+      {"energy", "energy", "mean of the images over that of the truth, where it is farthest from 1",
+       kEnergyDigits, "energy / that of the truth", false,
+       [](const SweptCell& cell) { return cell.energy; },
+       [](const SweptCell& cell) { return std::abs(cell.energy.value - 1.0); }},
+      {"error", "error", "root of the MSE over the mean of the truth, where it is largest", kDigits,
+       "root of the MSE / mean of the truth", true,
+       [](const SweptCell& cell) { return cell.error; },
+       [](const SweptCell& cell) { return cell.error.value; }},
+      {"bias_share", "bias^2 / MSE, %",
+       "share of the squared bias in the MSE, where the lower end of its interval is highest; "
+       "negative by noise alone",
+       kDigits, nullptr, false, [](const SweptCell& cell) { return percent(cell.biasShare); },
+       [](const SweptCell& cell) {
+         return std::isnan(cell.biasShare.lo) ? cell.biasShare.value : cell.biasShare.lo;
+       }},
+      {"time", "time, ms", "median of a frame, where it is longest", kDigits, "time per frame, ms",
+       true,
+       [](const SweptCell& cell) {
+         return Interval{cell.timeMs, kUnknown, kUnknown};
+       },
+       [](const SweptCell& cell) { return cell.timeMs; }},
+  };
+  return all;
+}
+
+// Nobody knows the time of a suite whose runs are made side by side.
+bool isKnown(const SceneSweep& sweep, const SweepColumn& column) {
+  for (size_t m = 0; m < sweep.methods.size(); ++m)
+    if (worstOf(sweep, m, column.distance).cell) return true;
+  return false;
+}
+
+uint64_t faultsOf(const SceneSweep& sweep, size_t method) {
+  uint64_t faults = 0;
+  for (const SweptCell& cell : sweep.cells[method]) faults += cell.faults;
+  return faults;
+}
+
+std::string withEnds(const Interval& of, int digits) {
+  return shortNumber(of.value, digits) + intervalText(of.lo, of.hi, digits);
+}
+
+std::string worstText(const SceneSweep& sweep, size_t method, const SweepColumn& column) {
+  const Worst worst = worstOf(sweep, method, column.distance);
+  if (!worst.cell) return "unknown";
+  return fmt::format("{} at {}", withEnds(column.value(*worst.cell), column.digits),
+                     sweep.parameter.texts[worst.value]);
+}
+
+std::string lastText(const SceneSweep& sweep, size_t method) {
+  const std::optional<size_t> last = sweep.lastThatHolds(method);
+  return last ? sweep.parameter.texts[*last] : "none";
+}
+
+std::string explanation(const SceneSweep& sweep) {
+  std::string values;
+  for (size_t i = 0; i < sweep.blocks.size(); ++i) {
+    if (sweep.blocks[i])
+      values += fmt::format("{}{}", values.empty() ? "" : ", ", sweep.parameter.texts[i]);
+  }
+  return fmt::format(
+      "Values of {}: {}. A value holds where every value of the images is finite and the 95 % "
+      "interval of the energy ratio touches 1 within {:g} (`holds_within`). The last that holds is "
+      "counted from the first on. Every figure is of the value where it is worst.",
+      sweep.parameter.name, values, sweep.suite->holdsWithin);
+}
+
+// Why a value does not hold.
+std::string reasonOf(const SweptCell& cell) {
+  if (cell.nonfinite > 0) return fmt::format("{} not finite", cell.nonfinite);
+  return withEnds(cell.energy, kEnergyDigits);
+}
+
+// Of all methods over the values, in their order on the axis.
+Json plotOf(const SceneSweep& sweep, const SweepColumn& column) {
+  const std::vector<double>& values = sweep.parameter.values;
+  std::vector<size_t> order(values.size());
+  for (size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return values[a] < values[b]; });
+  Json series = Json::array();
+  for (size_t m = 0; m < sweep.methods.size(); ++m) {
+    Json points = Json::array();
+    for (const size_t i : order) {
+      if (!sweep.blocks[i]) continue;
+      const Interval of = column.value(sweep.cells[m][i]);
+      points.push_back({values[i], finiteJson(of.value), finiteJson(of.lo), finiteJson(of.hi)});
+    }
+    series.push_back({{"name", sweep.methods[m]}, {"points", std::move(points)}});
+  }
+  const bool isLog =
+      std::all_of(values.begin(), values.end(), [](double value) { return value > 0.0; });
+  return {{"id", column.key},
+          {"title",
+           fmt::format("{} over {}, {}", column.key, sweep.parameter.name, sweep.parameter.scene)},
+          {"x", {{"title", sweep.parameter.name}, {"log", isLog}}},
+          {"y", {{"title", column.yTitle}, {"log", column.isLogY}}},
+          {"series", std::move(series)}};
+}
+
+Json plotsOf(const SceneSweep& sweep) {
+  Json plots = Json::array();
+  for (const SweepColumn& column : sweepColumns())
+    if (column.yTitle && isKnown(sweep, column)) plots.push_back(plotOf(sweep, column));
+  return plots;
+}
+
+Json columnJson(const std::string& key, const std::string& title, const std::string& help,
+                int digits, bool isDetail) {
+  return {{"key", key},         {"title", title},   {"unit", ""},  {"better", "none"},
+          {"detail", isDetail}, {"digits", digits}, {"help", help}};
+}
+
+Json cellJson(const Interval& of) {
+  return {{"value", finiteJson(of.value)}, {"lo", finiteJson(of.lo)}, {"hi", finiteJson(of.hi)}};
+}
+
+// The columns of `sweepDocument`, in the order in which they are shown.
+Json columnsOf(const SceneSweep& sweep) {
+  Json columns = Json::array();
+  columns.push_back(columnJson("last", "last " + sweep.parameter.name + " that holds",
+                               "counted from the first value on; none: not even that",
+                               kEnergyDigits, false));
+  for (const SweepColumn& column : sweepColumns()) {
+    if (isKnown(sweep, column))
+      columns.push_back(columnJson(column.key, column.title, column.help, column.digits, false));
+  }
+  columns.push_back(columnJson("faults", "faults",
+                               "counts of health that are faults, of all values", kDigits, false));
+  for (size_t i = 0; i < sweep.blocks.size(); ++i) {
+    if (!sweep.blocks[i]) continue;
+    const std::string& text = sweep.parameter.texts[i];
+    columns.push_back(columnJson(fmt::format("value{}", i), text,
+                                 fmt::format("energy ratio at {} = {}", sweep.parameter.name, text),
+                                 kEnergyDigits, true));
+  }
+  return columns;
+}
+
+Json rowOf(const SceneSweep& sweep, size_t method) {
+  Json cells = Json::object(), flags = Json::array();
+  const std::optional<size_t> last = sweep.lastThatHolds(method);
+  if (last) {
+    cells["last"] = {{"value", sweep.parameter.values[*last]}};
+  } else {
+    flags.push_back("holds at none of the values");
+  }
+  for (const SweepColumn& column : sweepColumns()) {
+    const Worst worst = worstOf(sweep, method, column.distance);
+    if (!worst.cell) continue;
+    cells[column.key] = cellJson(column.value(*worst.cell));
+    cells[column.key]["note"] = "at " + sweep.parameter.texts[worst.value];
+  }
+  cells["faults"] = {{"value", faultsOf(sweep, method)}};
+  for (size_t i = 0; i < sweep.blocks.size(); ++i) {
+    if (!sweep.blocks[i]) continue;
+    const SweptCell& cell = sweep.cells[method][i];
+    cells[fmt::format("value{}", i)] = cellJson(cell.energy);
+    if (cell.holds) continue;
+    flags.push_back(fmt::format("does not hold at {} = {}: {}", sweep.parameter.name,
+                                sweep.parameter.texts[i], reasonOf(cell)));
+  }
+  return {{"method", sweep.methods[method]},
+          {"counts", true},
+          {"flags", std::move(flags)},
+          {"cells", std::move(cells)}};
+}
+
+}  // namespace
+
+std::string sweepTable(const SceneSweep& sweep) {
+  std::string text =
+      fmt::format("## {}\n\n{}\n\n| method | last that holds |", sweep.title, explanation(sweep));
+  std::string rule = "|---|---|";
+  for (const SweepColumn& column : sweepColumns()) {
+    if (!isKnown(sweep, column)) continue;
+    text += fmt::format(" {} |", column.title);
+    rule += "---|";
+  }
+  text += " faults |\n" + rule + "---|\n";
+  for (size_t m = 0; m < sweep.methods.size(); ++m) {
+    text += fmt::format("| {} | {} |", sweep.methods[m], lastText(sweep, m));
+    for (const SweepColumn& column : sweepColumns())
+      if (isKnown(sweep, column)) text += fmt::format(" {} |", worstText(sweep, m, column));
+    text += fmt::format(" {} |\n", faultsOf(sweep, m));
+  }
+  text += "\n";
+  for (size_t m = 0; m < sweep.methods.size(); ++m) {
+    for (size_t i = 0; i < sweep.blocks.size(); ++i) {
+      if (!sweep.blocks[i] || sweep.cells[m][i].holds) continue;
+      text += fmt::format("- {} does not hold at {}: {}\n", sweep.methods[m],
+                          sweep.parameter.texts[i], reasonOf(sweep.cells[m][i]));
+    }
+  }
+  return text + "\n";
+}
+
+Json sweepDocument(const SceneSweep& sweep) {
+  Json rows = Json::array();
+  for (size_t m = 0; m < sweep.methods.size(); ++m) rows.push_back(rowOf(sweep, m));
+  return {{"id", sweep.id},
+          {"title", sweep.title},
+          {"subtitle", explanation(sweep)},
+          {"columns", columnsOf(sweep)},
+          {"rows", std::move(rows)},
+          {"plots", plotsOf(sweep)}};
+}
+
+}  // namespace restlab
