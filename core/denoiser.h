@@ -24,6 +24,8 @@ struct DenoiserInfo : PartInfo {
   // How many frames a shown pixel averages, once its history is old, where the integrator's
   // radiance averages `radianceFrames`; empty: as many.
   std::function<double(const ParameterMap&, double radianceFrames)> shownFrames;
+  // Its image scales with the radiance in a smaller range (core/radiance_range.h).
+  bool comparesSquares = false;
   // Of a denoiser that has no passes and no buffers: what runs on the host instead, with so many
   // threads (0: all cores) and resolved parameters. Its inputs are "radiance" and "guide", and it
   // has no history.

@@ -19,6 +19,7 @@ const DenoiserInfo& atrousDenoiserInfo() {
     i.parameters = {iterationsParameter("atrous", 5, "Dammertz et al. 2010, section 3"),
                     deviationsParameter("atrous", 3.0)};
     for (ParameterInfo& parameter : filterParameters()) i.parameters.push_back(parameter);
+    i.comparesSquares = true;
     i.inputs = {"radiance", "guide"};
     i.buffers = {{"atrous_shown", sizeof(glm::vec3), 0, -1},
                  {"atrous_even", 16, 0, -1},

@@ -120,6 +120,7 @@ DenoiserInfo makeSvgf(const SvgfDefaults& defaults) {
       "changed";
   i.parameters = parametersOf(defaults);
   if (defaults.validateEvery != 0) i.defaults[kValidateEvery] = defaults.validateEvery;
+  i.comparesSquares = true;
   i.inputs = {"radiance", "guide", "guide_before", "motion"};
   i.optionalInputs = {"reservoir_history", kChanges, "visible", "visible_before"};
   const uint32_t historyBytes = 16 * rl::RL_SVGF_HISTORY_QUADS;

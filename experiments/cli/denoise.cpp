@@ -7,11 +7,13 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "core/changes/settings.h"
 #include "core/image/exr_contents.h"
 #include "core/image_denoiser.h"
 #include "core/method.h"
+#include "core/radiance_range.h"
 #include "experiments/cli/frame_files.h"
 #include "experiments/cli/frame_layers.h"
 #include "experiments/cli/options.h"
@@ -140,6 +142,7 @@ void denoise(const DenoiseOptions& options) {
   ImageDenoiser denoiser(config);
   HealthSum health;
   double timeMs = 0.0;
+  bool isOutsideSaid = false;
   Progress progress("frame", files.size());
   for (size_t i = 0; i < files.size(); ++i) {
     throwIfInterrupted("the frames that are left were not written");
@@ -147,6 +150,8 @@ void denoise(const DenoiseOptions& options) {
     LayeredImage out;
     out.layers[""] = denoiser.frame(FrameLayers::frame(image, names[i]),
                                     float(options.radianceFrames.value_or(1.0)));
+    const std::string outside = whyOutsideRange(*findMethod(config).denoiser, out.layers[""]);
+    if (!outside.empty() && !std::exchange(isOutsideSaid, true)) logWarning(outside);
     out.metadata = metadataOf(image.metadata, files[i].input, config, denoiser);
     health.add(denoiser.stats());
     timeMs += denoiser.stats().timeMs;

@@ -8,6 +8,7 @@
 #include "core/image/exr_limits.h"
 #include "core/image/metrics.h"
 #include "core/method.h"
+#include "core/radiance_range.h"
 #include "core/scene/compiled_scene.h"
 #include "experiments/cli/layer_previews.h"
 #include "experiments/cli/options.h"
@@ -202,6 +203,8 @@ void render(RenderOptions options) {
     fmt::print("{}", text);
   }
 
+  const std::string outside = whyOutsideRange(*findMethod(config).denoiser, rendered.image);
+  if (!outside.empty()) logWarning(outside);
   const size_t nonfinite = countNonfinite(rendered.image);
   const uint64_t dropped = rendered.health.health.counts[rl::RL_HEALTH_NONFINITE];
   if (nonfinite) logWarning(fmt::format("the image holds {} non-finite values", nonfinite));

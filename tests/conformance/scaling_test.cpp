@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "core/radiance_range.h"
 #include "core/scene/scene.h"
 #include "tests/conformance/variants.h"
 
@@ -23,9 +24,7 @@ class Scaling : public ::testing::TestWithParam<Variant> {
     return countDifferent(imageOf(scene + "?" + relation, config), expected);
   }
 
-  bool isFilter() const {
-    return GetParam().denoiser != "none" && GetParam().denoiser != "accumulate";
-  }
+  static const DenoiserInfo& denoiser() { return findDenoiser(GetParam().denoiser); }
 
   // The camera stands still: runFrames() walks by metres.
   static Image imageOf(const std::string& scene, const SessionConfig& config) {
@@ -38,8 +37,8 @@ class Scaling : public ::testing::TestWithParam<Variant> {
 constexpr const char* kScenes[] = {"cornell-box", "glossy-gallery", "courtyard"};
 
 TEST_P(Scaling, RadianceTimesAPowerOfTwo) {
-  // Filters compare squares of radiance, which leave float's range earlier (docs/denoising.md).
-  const int most = isFilter() ? 40 : 60;
+  // Squares of radiance leave float's range earlier (docs/denoising.md).
+  const int most = denoiser().comparesSquares ? 40 : 60;
   for (const char* scene : kScenes) {
     for (const int power : {-most, most})
       EXPECT_EQ(differences(scene, "radiance=2^" + std::to_string(power), power), 0u)
@@ -47,14 +46,30 @@ TEST_P(Scaling, RadianceTimesAPowerOfTwo) {
   }
 }
 
-// Beyond, a filter weighs otherwise, but makes nothing that is not finite.
+// Beyond, a filter weighs otherwise, but makes nothing that is not finite; a line says so there and
+// there alone.
 TEST_P(Scaling, BeyondTheirRangeFiltersStayFinite) {
-  if (!isFilter()) GTEST_SKIP() << "no filter";
+  if (!denoiser().comparesSquares) GTEST_SKIP() << "no squares";
   for (const char* relation : {"radiance=2^60", "radiance=2^-60"}) {
     const Image image =
         imageOf(std::string("cornell-box?") + relation, configOf(GetParam(), 32, 18));
     for (const glm::vec3& p : image.pixels)
       ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) << relation;
+    EXPECT_NE(whyOutsideRange(denoiser(), image), "") << relation;
+  }
+}
+
+TEST(RadianceRange, IsSaidOfFiltersBeyondIt) {
+  const DenoiserInfo &svgf = findDenoiser("svgf"), &none = findDenoiser("none");
+  const auto lineOf = [&](const DenoiserInfo& info, float radiance) {
+    Image image(2, 2, glm::vec3(radiance));
+    image.pixels[0] = glm::vec3(0.0f);
+    return whyOutsideRange(info, image);
+  };
+  for (const float inside : {0.0f, 0x1p-40f, 1.0f, 0x1p40f}) EXPECT_EQ(lineOf(svgf, inside), "");
+  for (const float beyond : {0x1p-41f, 0x1p41f}) {
+    EXPECT_NE(lineOf(svgf, beyond).find("svgf: the mean radiance is"), std::string::npos);
+    EXPECT_EQ(lineOf(none, beyond), "");
   }
 }
 

@@ -18,6 +18,12 @@ TEST(PreviewExposure, MakesTheMeanOfWhatIsLitMidGrey) {
   EXPECT_NEAR(previewExposure(image), 0.09 / std::pow(1e6, 1.0 / 8.0), 1e-4)
       << "a lamp hardly darkens it";
   EXPECT_EQ(previewExposure(Image(4, 4)), 1.0f);
+  const float usual = previewExposure(image);
+  for (const float factor : {0x1p-60f, 0x1p60f}) {
+    Image scaled = image;
+    for (glm::vec3& pixel : scaled.pixels) pixel *= factor;
+    EXPECT_NEAR(previewExposure(scaled) * factor / usual, 1.0f, 1e-5f) << "no absolute constant";
+  }
 }
 
 }  // namespace

@@ -12,23 +12,29 @@
 namespace restlab {
 
 float previewExposure(const Image& reference) {
-  double sum = 0.0, lit = 0.0;
+  std::vector<double> luminances;
   std::vector<float> brightest;
   for (const glm::vec3& pixel : reference.pixels) {
     const double luminance = 0.2126 * pixel.x + 0.7152 * pixel.y + 0.0722 * pixel.z;
-    // The mean of logarithms: a lamp in view does not darken the picture. What is black, beside a
-    // room that is open to nothing, say, does not brighten it.
-    if (luminance <= 0.0) continue;
-    sum += std::log(std::max(luminance, 1e-4));
-    lit += 1.0;
+    // What is black, beside a room that is open to nothing, say, does not brighten it.
+    if (!(luminance > 0.0) || std::isinf(luminance)) continue;
+    luminances.push_back(luminance);
     brightest.push_back(std::max({pixel.x, pixel.y, pixel.z}));
   }
   if (brightest.empty()) return 1.0f;
-  const double exposure = 0.18 / std::exp(sum / lit);
+  const auto percentileOf = [](auto& values, double share) {
+    const auto at = values.begin() + std::ptrdiff_t(share * double(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return double(*at);
+  };
+  // The mean of logarithms: a lamp in view does not darken the picture. What is nearly black counts
+  // as a ten-thousandth of the median.
+  const double least = 1e-4 * percentileOf(luminances, 0.5);
+  double sum = 0.0;
+  for (const double luminance : luminances) sum += std::log(std::max(luminance, least));
+  const double exposure = 0.18 / std::exp(sum / double(luminances.size()));
   // At most one lit pixel in a hundred is clipped, for no more than two stops.
-  const auto at = brightest.begin() + std::ptrdiff_t(0.99 * double(brightest.size() - 1));
-  std::nth_element(brightest.begin(), at, brightest.end());
-  return float(std::clamp(1.0 / double(*at), 0.25 * exposure, exposure));
+  return float(std::clamp(1.0 / percentileOf(brightest, 0.99), 0.25 * exposure, exposure));
 }
 
 std::string blockLabel(const Suite& suite, const BlockResult& block) {

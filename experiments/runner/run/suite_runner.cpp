@@ -18,6 +18,8 @@
 
 #include "core/error.h"
 #include "core/image/atomic_file.h"
+#include "core/method.h"
+#include "core/radiance_range.h"
 #include "experiments/runner/reference/block_masks.h"
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/run/clean.h"
@@ -219,6 +221,7 @@ class SuiteRun {
     block.lights = lightPhases(suite, prepared);
     if (!obtain(suite, scene, prepared, block)) return false;
     warnOfBlack(suite, block);
+    warnOfRange(suite, block);
     nlohmann::ordered_json& plan = plan_.at(next_++);
     plan = planOf(suite, block);
     bool finished = false;
@@ -248,6 +251,18 @@ class SuiteRun {
         fmt::format("{}: its reference is black; its rows say nothing", blockLabel(suite, block));
     logWarning(line);
     outputs_.note("Warning: " + line);
+  }
+
+  // A filter at the end of float32.
+  void warnOfRange(const Suite& suite, const BlockResult& block) {
+    std::set<std::string> said;
+    for (const SuiteMethod& method : suite.rendered()) {
+      const std::string why =
+          whyOutsideRange(*findMethod(method.session).denoiser, block.reference.mean);
+      if (why.empty() || !said.insert(why).second) continue;
+      logWarning(fmt::format("{}: {}", blockLabel(suite, block), why));
+      outputs_.note(fmt::format("Warning: {}: {}", blockLabel(suite, block), why));
+    }
   }
 
   bool executeRuns(const Suite& suite, const PreparedScene& prepared, BlockResult& block,
