@@ -16,6 +16,7 @@ const DenoiserInfo& fireflyDenoiserInfo() {
     i.biasOfStillView = BiasClass::biased;
     i.biasOfMovingView = BiasClass::biased;
     i.why = "a clamp takes energy away; it is counted as fireflies";
+    i.comparesSquares = true;
     i.parameters = {
         {"firefly_radius",
          int64_t{1},
