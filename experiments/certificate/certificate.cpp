@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "core/error.h"
+#include "experiments/report/text.h"
 #include "experiments/statistics/power.h"
 #include "experiments/statistics/tost.h"
 
@@ -75,9 +76,10 @@ ImageBias biasOf(const Evidence& evidence, const stats::Truth& truth, stats::Qua
   return b;
 }
 
-// How many runs in all would decide about one quantity.
+// How many runs in all would decide about one quantity; `batches`: how many batches of the size
+// that rejects a cell the evidence holds.
 double runsToDecide(const Evidence& evidence, const stats::Truth& truth, const ImageBias& b,
-                    const Rules& rules) {
+                    double batches, const Rules& rules) {
   const stats::CellArea whole = wholeImage(evidence.runs().grid());
   const std::vector<double> means = evidence.runs().cellMeans(whole, b.quantity);
   const stats::Sample sample = stats::summarise(means);
@@ -89,7 +91,7 @@ double runsToDecide(const Evidence& evidence, const stats::Truth& truth, const I
   const double count = level + normalQuantile(rules.power);
   const double decided = found < rules.margin
                              ? runsFor(variance, own, rules.margin - found, deviations(rules))
-                             : runsFor(variance, own, found, count);
+                             : batches * runsFor(variance, own, found, count);
   // And enough for a nearly normal mean.
   const double skewness = stats::skewness(means) / kMaxSkewness;
   return std::max(decided, skewness * skewness);
@@ -139,7 +141,12 @@ std::string place(const stats::CellVerdict& v) {
   return fmt::format("the cell of blocks x {} y {} size {}", v.area.x, v.area.y, v.area.size);
 }
 
-void decide(Certificate& c, const Evidence& evidence, const stats::Truth& truth,
+// Would no number of runs tell even a bias of 0 from the margin?
+bool isReferenceTooCoarse(const stats::Truth& truth, const Rules& rules) {
+  return relativeError(truth) >= rules.margin / deviations(rules);
+}
+
+void decide(Certificate& c, const Evidence& evidence, double batches, const stats::Truth& truth,
             const Rules& rules) {
   const auto isEquivalent = [](const ImageBias& b) { return b.isEquivalent; };
   if (c.cells.nonfinite > 0) {
@@ -153,11 +160,10 @@ void decide(Certificate& c, const Evidence& evidence, const stats::Truth& truth,
     c.worst = *worst;
     const ImageBias& b = c.image.front();
     c.reason = fmt::format(
-        "luminance of the image by {:+.2f} % [{:+.2f}, {:+.2f}]; most in {}, {} by {:+.2f} %; "
-        "fresh "
-        "runs say so, too",
+        "luminance of the image by {:+.2f} % [{:+.2f}, {:+.2f}]; most in {}, {} by {}; fresh runs "
+        "say so, too",
         100.0 * b.bias.value, 100.0 * b.bias.lo, 100.0 * b.bias.hi, place(*worst),
-        stats::quantityName(worst->quantity), 100.0 * worst->welch.difference / worst->reference);
+        stats::quantityName(worst->quantity), relativeText(*worst, 2));
     return;
   }
   if (std::all_of(c.image.begin(), c.image.end(), isEquivalent)) {
@@ -177,19 +183,25 @@ void decide(Certificate& c, const Evidence& evidence, const stats::Truth& truth,
     if (b.isEquivalent) continue;
     open.push_back(stats::quantityName(b.quantity));
     isSkewed = isSkewed || !b.isNormal;
-    const double needed = runsToDecide(evidence, truth, b, rules);
+    const double needed = runsToDecide(evidence, truth, b, batches, rules);
     runs = std::isnan(needed) || std::isnan(runs) ? kNan : std::max(runs, needed);
   }
+  const bool isUnconfirmed = c.cells.rejected > c.cells.confirmed;
   c.reason = fmt::format(
       "{} in {}{}",
       isSkewed ? "the mean of the image is too skewed for an interval"
-               : fmt::format("the interval is not within +-{:g} %, and no test rejects",
-                             100.0 * rules.margin),
+               : fmt::format("the interval is not within +-{:g} %, and {}", 100.0 * rules.margin,
+                             isUnconfirmed ? "fresh runs did not confirm what a first batch rejects"
+                                           : "no test rejects"),
       fmt::join(open, ", "),
-      std::isnan(runs) ? "; the reference's own error is too large for any number of runs" : "");
+      !std::isnan(runs) ? ""
+      : isReferenceTooCoarse(truth, rules)
+          ? "; the reference's own error is too large for any number of runs"
+          : "; the bias is too near the margin for a reference with this error");
   if (std::isnan(runs)) return;
-  const double more = std::ceil(runs) - double(evidence.count());
-  c.moreRuns = uint64_t(std::max(1.0, more));
+  // What should have been decided by these runs, and was not, takes as many again.
+  const double there = double(evidence.count()), more = std::ceil(runs) - there;
+  c.moreRuns = uint64_t(more > 0.0 ? more : there);
 }
 
 }  // namespace
@@ -250,8 +262,26 @@ Certificate judge(const Evidence& evidence, const stats::RunSet& firstBatch,
   const Image& half1 = hasHalves ? *reference.half1 : reference.mean;
   c.squaredBias = evidence.pixels().squaredBias(half0, half1);
   c.variance = evidence.pixels().variance();
-  decide(c, evidence, truth, rules);
+  decide(c, evidence, double(evidence.count()) / double(firstBatch.runs()), truth, rules);
   return c;
+}
+
+void countNonfiniteSamples(Certificate& c, uint64_t samples) {
+  c.nonfiniteSamples = samples;
+  if (samples == 0) return;
+  const std::string also =
+      c.verdict == Verdict::biased ? "; " + c.reason : ", and were set to zero";
+  c.verdict = Verdict::biased;
+  c.moreRuns.reset();
+  c.reason =
+      fmt::format("{} of its runs were not finite{}", counted(samples, "sample value"), also);
+}
+
+std::string relativeText(const stats::CellVerdict& cell, int digits) {
+  if (cell.reference == 0.0)
+    return fmt::format("{:+.3g} where the reference is black", cell.welch.difference);
+  return fmt::format("{:+.{}f} %", 100.0 * cell.welch.difference / std::abs(cell.reference),
+                     digits);
 }
 
 bool rejects(const stats::RunSet& runs, const stats::Truth& truth, const Rules& rules) {

@@ -78,8 +78,13 @@ struct Certificate {
   // More runs that would decide, if bias and spread are what they seem; nothing where it is decided
   // or where no number of runs decides.
   std::optional<uint64_t> moreRuns;
-  double fewestEvents = 0.0;  // rareEvents of the cell in which it is least
+  double fewestEvents = 0.0;      // rareEvents of the cell in which it is least
+  uint64_t nonfiniteSamples = 0;  // sample values that a kernel has set to zero, in all runs
 };
+
+// A method that makes values which are not finite is wrong, whatever its mean: they are set to zero
+// before an image is there, so that the image cannot tell. 0 changes nothing.
+void countNonfiniteSamples(Certificate& certificate, uint64_t samples);
 
 // A rare event of probability q gives a run the skewness 1 / sqrt(q), so that noise of this
 // skewness is like that of this many events in all runs. Where it is below some hundreds, a run
@@ -104,6 +109,9 @@ bool rejects(const stats::RunSet& runs, const stats::Truth& truth, const Rules& 
 // and the spread is that of `pilot`; at least kRunsForCells. NaN where the reference's own
 // error alone is too large.
 double runsForEquivalence(const Evidence& pilot, const stats::Truth& truth, const Rules& rules);
+
+// A bias relative to a cell's reference, in percent: "+1.2 %"; as it is where that is black.
+std::string relativeText(const stats::CellVerdict& cell, int digits);
 
 // Of the quantities that are judged, the largest relative standard error of the reference's mean.
 double relativeError(const stats::Truth& truth);

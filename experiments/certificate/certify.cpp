@@ -10,6 +10,8 @@
 #include "core/error.h"
 #include "core/image/metrics.h"
 #include "core/method.h"
+#include "core/radiance_range.h"
+#include "experiments/report/text.h"
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/run/files.h"
 #include "experiments/runner/run/log.h"
@@ -22,8 +24,9 @@ using Batch = RunFolder::Batch;
 
 // Runs from which the number of runs follows.
 constexpr uint64_t kPilotRuns = 64;
-// The reference's standard error, of the margin: its share of the squared width of an interval that
-// just fits is a seventh, and half of that would take twice the samples.
+// The reference's standard error, of the margin: it takes half of what the planned interval may
+// have in squares, so that runs are twice as many as with an exact one. Half of that error would
+// take four times the samples.
 constexpr double kReferenceShare = 0.2;
 constexpr uint64_t kFirstReferenceSpp = 2048, kMostReferenceSpp = uint64_t(1) << 22;
 
@@ -39,6 +42,8 @@ std::string integratorName(const SessionConfig& config) {
 
 std::string parametersName(const SessionConfig& config) {
   std::string name;
+  if (config.backend != "cpu") name += ", on " + config.backend;
+  if (!config.specialise) name += ", general kernels";
   for (const auto& [key, value] : config.parameters)
     name += fmt::format(", {} {}", key, parameterText(value));
   if (config.components != rl::RL_COMPONENT_ALL)
@@ -46,15 +51,23 @@ std::string parametersName(const SessionConfig& config) {
   return name;
 }
 
+std::string sceneName(const Question& question) {
+  return question.name.empty() ? question.prepared.scene->source().name : question.name;
+}
+
+std::string nameOf(const Question& question) {
+  const SessionConfig& config = question.config;
+  return sceneName(question) + ", " + integratorName(config) +
+         (config.denoiser == "none" ? "" : ", " + config.denoiser) + parametersName(config);
+}
+
 void nameIt(const Question& question, Certified& c) {
   const SessionConfig& config = question.config;
-  const std::string integrator = integratorName(config), parameters = parametersName(config);
-  c.scene = question.name.empty() ? question.prepared.scene->source().name : question.name;
-  c.method = integrator + parameters;
+  c.scene = sceneName(question);
+  c.method = integratorName(config) + parametersName(config);
   c.denoiser = config.denoiser;
-  c.name = c.scene + ", " + integrator + (config.denoiser == "none" ? "" : ", " + config.denoiser) +
-           parameters;
-  c.label = safeFileName(c.name);
+  c.name = nameOf(question);
+  c.label = labelOf(question);
   const Method method = findMethod(config);
   c.declared =
       method.bias(config.mode, resolveParameters(method, config.parameters), /*cameraMoves=*/false);
@@ -97,7 +110,10 @@ uint64_t plannedRuns(RunFolder& folder, const Question& question, const stats::T
   if (options.fewOfBiased && rejects(evidence.runs(), truth, options.rules))
     return std::min(kRunsForCells, options.maxRuns);
   const double needed = runsForEquivalence(evidence, truth, options.rules);
-  if (std::isnan(needed)) return options.maxRuns;
+  if (std::isnan(needed)) {
+    logWarning("no number of runs makes up for the reference's own error; cells are judged alone");
+    return std::min(kRunsForCells, options.maxRuns);
+  }
   const uint64_t wanted = uint64_t(std::ceil(std::min(needed, 1e9) / 32.0)) * 32;
   if (wanted > options.maxRuns) {
     logInfo(
@@ -119,11 +135,14 @@ void judgeRuns(RunFolder& folder, const Question& question, uint64_t runs, const
     return fresh;
   };
   c.certificate = judge(evidence, evidence.runs(), freshBatch, c.reference, options.rules);
+  countNonfiniteSamples(c.certificate, c.health.health.counts[rl::RL_HEALTH_NONFINITE]);
   c.mean = evidence.mean();
 }
 
-void addNotes(Certified& c) {
+void addNotes(Certified& c, const DenoiserInfo* denoiser) {
   const Certificate& certificate = c.certificate;
+  const std::string outside = denoiser ? whyOutsideRange(*denoiser, c.reference.mean) : "";
+  if (!outside.empty()) c.notes.push_back(outside);
   if (certificate.cells.untestableShare > 0.0) {
     c.notes.push_back(fmt::format(
         "{:.1f} % of the image is too skewed for a t-test even in merged cells: nothing is said of "
@@ -150,7 +169,30 @@ std::string replayOf(const Question& question, uint32_t seed) {
   return shellCommand(words) + " --pixel X,Y";
 }
 
+uint64_t pixelHash(const Image& image) {
+  return XXH3_64bits(image.pixels.data(), image.pixels.size() * sizeof(glm::vec3));
+}
+
+// Metadata that say what was rendered, and how; runs of one method have them in common.
+bool saysHow(const std::string& key) {
+  static const std::vector<std::string> all = {"integrator", "mode", "cache", "denoiser", "kernel"};
+  return key.rfind("parameter.", 0) == 0 || std::find(all.begin(), all.end(), key) != all.end();
+}
+
+// Throws Error (badInput) where the images say that they are not of one method.
+void requireOneMethod(const std::string& file, const std::map<std::string, std::string>& words,
+                      const std::string& first, const std::map<std::string, std::string>& ofFirst) {
+  for (const auto& [key, value] : words) {
+    const auto other = ofFirst.find(key);
+    if (!saysHow(key) || other == ofFirst.end() || other->second == value) continue;
+    failInput(fmt::format("{}: {} is '{}', but '{}' in {}; a certificate is of one method", file,
+                          key, value, other->second, first));
+  }
+}
+
 }  // namespace
+
+std::string labelOf(const Question& question) { return safeFileName(nameOf(question)); }
 
 Certified certify(const Question& question, const Options& options) {
   Certified c;
@@ -171,8 +213,6 @@ Certified certify(const Question& question, const Options& options) {
     const uint64_t planned = plannedRuns(folder, question, truth, all);
     if (planned > runs) judgeRuns(folder, question, runs = planned, options, c);
   }
-  c.made = folder.made();
-  c.timeS = folder.timeS();
   c.how = fmt::format(
       "{} runs at {}x{}, each the mean of {} of a history with a seed of its own. The reference "
       "{}.",
@@ -182,7 +222,7 @@ Certified certify(const Question& question, const Options& options) {
           : fmt::format("frames {} to {}", question.warmup + 1, question.warmup + question.frames),
       question.exact ? "is in closed form" : fmt::format("has {} spp", c.reference.spp));
   c.replay = replayOf(question, folder.seedOf(Batch::first, 0));
-  addNotes(c);
+  addNotes(c, findMethod(question.config).denoiser);
   return c;
 }
 
@@ -190,16 +230,17 @@ Certified certifyImages(const std::vector<std::string>& files, const std::string
                         const Options& options) {
   if (files.size() < 2 * kFewestRuns) {
     failInput(
-        fmt::format("--images: {} of them; a certificate takes at least {}, each from an "
-                    "independent run",
-                    files.size(), 2 * kFewestRuns));
+        fmt::format("--images: {}, the first of which is {}; a certificate takes at least {}, "
+                    "each from an independent run",
+                    counted(files.size(), "file"), files.at(0), 2 * kFewestRuns));
   }
   Certified c;
   c.reference = readReference(reference);
   requireUsable(reference, c.reference);
   const Image& mean = c.reference.mean;
   Evidence evidence(mean.width, mean.height), first = evidence, fresh = evidence;
-  std::map<uint64_t, std::string> pixels;
+  std::map<uint64_t, std::string> pixels = {{pixelHash(mean), "the reference " + reference}};
+  std::map<std::string, std::string> wordsOfFirst;
   std::map<std::string, std::string> seeds;
   for (size_t i = 0; i < files.size(); ++i) {
     LayeredImage file = readExr(files[i]);
@@ -210,12 +251,17 @@ Certified certifyImages(const std::vector<std::string>& files, const std::string
       failInput(fmt::format("{}: is {}x{}, the reference {} is {}x{}", files[i], image.width,
                             image.height, reference, mean.width, mean.height));
     }
-    const uint64_t hash = XXH3_64bits(image.pixels.data(), image.pixels.size() * sizeof(glm::vec3));
-    const auto [other, isNew] = pixels.emplace(hash, files[i]);
+    const auto [other, isNew] = pixels.emplace(pixelHash(image), files[i]);
     if (!isNew) {
       failInput(fmt::format("{}: has the pixels of {}; a certificate takes independent runs",
                             files[i], other->second));
     }
+    if (i == 0 || c.reference.metadata.contains("scene_hash")) {  // else it is said once
+      requireSameConfiguration(fmt::format("{}, for {}", reference, files[i]), c.reference.metadata,
+                               file.metadata);
+    }
+    if (i == 0) wordsOfFirst = file.metadata;
+    requireOneMethod(files[i], file.metadata, files[0], wordsOfFirst);
     if (const auto seed = file.metadata.find("seed"); seed != file.metadata.end()) {
       const auto [same, isOther] = seeds.emplace(seed->second, files[i]);
       if (!isOther) {
@@ -236,7 +282,7 @@ Certified certifyImages(const std::vector<std::string>& files, const std::string
   c.mean = evidence.mean();
   c.how = fmt::format("{} images at {}x{}; each second one is of the fresh batch.", files.size(),
                       mean.width, mean.height);
-  addNotes(c);
+  addNotes(c, nullptr);
   return c;
 }
 

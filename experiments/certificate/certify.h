@@ -39,9 +39,10 @@ struct Certified {
   std::vector<std::string> notes;  // what qualifies the verdict
   std::string replay;              // the command that prints a pixel of the first run, without it
   double referenceError = 0.0;     // relative standard error of its mean, the largest quantity
-  uint64_t made = 0;               // runs that were not there
-  double timeS = 0.0;              // of these
 };
+
+// Scene, method and its parameters as part of a file name.
+std::string labelOf(const Question& question);
 
 // Renders what is missing below options.out: the reference until its error is a fifth of the
 // margin, a first few runs, as many as these ask for, and a fresh batch where the first one
@@ -50,7 +51,8 @@ Certified certify(const Question& question, const Options& options);
 
 // Images that are independent runs of one method against the reference in a file. Each second one
 // is of the fresh batch. Throws Error (badInput) naming a file that cannot be used: one of another
-// size, one with the seed or the pixels of another one; or that there are too few.
+// size, of another scene or camera, one with the method of another one or its seed or pixels; or
+// that there are too few.
 Certified certifyImages(const std::vector<std::string>& files, const std::string& reference,
                         const Options& options);
 

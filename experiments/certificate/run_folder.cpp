@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cstdlib>
 #include <exception>
 #include <mutex>
@@ -102,7 +101,6 @@ void RunFolder::make(Batch batch, uint64_t count) {
   for (uint64_t run = 0; run < count; ++run)
     if (!fs::exists(file(batch, run), status)) missing.push_back(run);
   if (missing.empty()) return;
-  const auto begin = std::chrono::steady_clock::now();
   const auto workers = uint32_t(std::min<uint64_t>(jobs_, missing.size()));
   SessionConfig config = question_.config;
   if (config.threads == 0) config.threads = int(std::max(1u, cores() / workers));
@@ -137,8 +135,6 @@ void RunFolder::make(Batch batch, uint64_t count) {
   }
   if (failure) std::rethrow_exception(failure);
   progress.finish();
-  made_ += missing.size();
-  timeS_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
 void RunFolder::forEach(Batch batch, uint64_t count,
@@ -152,7 +148,12 @@ void RunFolder::forEach(Batch batch, uint64_t count,
                             name.string(), image.metadata["seed"], seedOf(batch, run)));
     }
     addHealth(image.metadata[kHealth], health_);
-    take(image.layers.at(""));
+    const auto layer = image.layers.find("");
+    if (layer == image.layers.end()) {
+      failInput(fmt::format("{}: has no R, G, B channels; delete it, and it is rendered again",
+                            name.string()));
+    }
+    take(layer->second);
   }
 }
 

@@ -40,9 +40,6 @@ class RunFolder {
   void forEach(Batch batch, uint64_t count, const std::function<void(const Image&)>& take) const;
   // Of the frames of those runs, warm-up included.
   const HealthSum& health() const { return health_; }
-  // How many were rendered by this object, and the seconds that took.
-  uint64_t made() const { return made_; }
-  double timeS() const { return timeS_; }
 
   std::filesystem::path file(Batch batch, uint64_t run) const;
   uint32_t seedOf(Batch batch, uint64_t run) const;
@@ -54,8 +51,6 @@ class RunFolder {
   std::filesystem::path folder_;  // with the key
   std::map<std::string, std::string> words_;
   uint32_t jobs_;
-  uint64_t made_ = 0;
-  double timeS_ = 0.0;
   mutable HealthSum health_;
 };
 

@@ -31,10 +31,13 @@ std::string cellOf(const Certified& certified) {
   std::string text = fmt::format("{} {:+.2f} [{:+.2f}, {:+.2f}]", verdictName(c.verdict),
                                  100.0 * bias.value, 100.0 * bias.lo, 100.0 * bias.hi);
   if (c.worst && !c.worst->wholeImage) {
-    text +=
-        fmt::format(", in a cell {:+.2g}", 100.0 * c.worst->welch.difference / c.worst->reference);
+    const double scale = std::abs(c.worst->reference);
+    text += scale == 0.0
+                ? std::string(", light in a black cell")
+                : fmt::format(", in a cell {:+.2g}", 100.0 * c.worst->welch.difference / scale);
   }
-  if (c.cells.nonfinite > 0) text += fmt::format(", {} values not finite", c.cells.nonfinite);
+  const uint64_t nonfinite = c.cells.nonfinite + c.nonfiniteSamples;
+  if (nonfinite > 0) text += fmt::format(", {} values not finite", nonfinite);
   // What was too skewed to be tested, and may hold any bias.
   if (c.cells.untestableShare >= 0.005)
     text += fmt::format(", {:.0f} % untested", 100.0 * c.cells.untestableShare);
@@ -119,17 +122,20 @@ std::string suiteMarkdownOf(const std::vector<Certified>& all, const Rules& rule
   for (const Certified& c : all) {
     fewestRuns = std::min<uint64_t>(fewestRuns, c.certificate.cells.runs);
     mostRuns = std::max<uint64_t>(mostRuns, c.certificate.cells.runs);
-    leastSpp = std::min(leastSpp, c.reference.spp);
-    mostSpp = std::max(mostSpp, c.reference.spp);
+    if (c.reference.spp > 0) {  // 0: in closed form
+      leastSpp = std::min(leastSpp, c.reference.spp);
+      mostSpp = std::max(mostSpp, c.reference.spp);
+    }
     sizes.emplace(c.mean.width, c.mean.height);
   }
   std::vector<std::string> pixels;
   for (const auto& [width, height] : sizes) pixels.push_back(fmt::format("{}x{}", width, height));
   std::string text = fmt::format(
-      "`{}`, {}. Images of {} pixels, {} runs a certificate, references of {} spp, a margin of "
+      "`{}`, {}. Images of {} pixels, {} runs a certificate, references {}, a margin of "
       "+-{:g} %.\n\n",
       command, utcNow().substr(0, 10), fmt::join(pixels, ", "), range(fewestRuns, mostRuns),
-      range(leastSpp, mostSpp), 100.0 * rules.margin);
+      mostSpp == 0 ? "in closed form" : fmt::format("of {} spp", range(leastSpp, mostSpp)),
+      100.0 * rules.margin);
   text += countsOf(all) + "\n" + contradictionsOf(all) + "\n";
   text +=
       "What stands in the tables: the verdict, and the bias of the image's luminance in percent "

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "experiments/certificate/outputs.h"
+#include "experiments/report/text.h"
 #include "experiments/runner/summary/summary.h"
 
 namespace restlab::certificate {
@@ -31,9 +32,9 @@ std::vector<const stats::CellVerdict*> worstCells(const stats::BiasReport& repor
 }
 
 std::string cellText(const stats::CellVerdict& v) {
-  std::string text = fmt::format("blocks x {} y {} size {}, {}: {:+.2f} %, t {:+.2f}, p {:.2g}",
-                                 v.area.x, v.area.y, v.area.size, stats::quantityName(v.quantity),
-                                 100.0 * v.welch.difference / v.reference, v.welch.t, v.adjustedP);
+  std::string text = fmt::format("blocks x {} y {} size {}, {}: {}, t {:+.2f}, p {:.2g}", v.area.x,
+                                 v.area.y, v.area.size, stats::quantityName(v.quantity),
+                                 relativeText(v, 2), v.welch.t, v.adjustedP);
   if (v.side != 0) text += v.confirmed ? ", confirmed" : ", not confirmed by fresh runs";
   return text;
 }
@@ -64,6 +65,29 @@ Json cellJson(const stats::CellVerdict& v) {
 
 double mse(const Certificate& c) { return c.squaredBias.value + c.variance.value; }
 
+// "+1.2 %" of the MSE of a run; "no error" of an image that is exact.
+std::string shareOfBias(const Certificate& c) {
+  const double whole = mse(c);
+  return whole == 0.0 ? "no error" : fmt::format("{:+.2f} %", 100.0 * c.squaredBias.value / whole);
+}
+
+std::string errorText(const Certificate& c) {
+  const double whole = mse(c);
+  if (whole == 0.0) return "MSE of a run 0: no error at all";
+  return fmt::format("MSE of a run {:.4g}: bias^2 {} of it [{:+.2f}, {:+.2f}], variance {:.2f} %",
+                     whole, shareOfBias(c), 100.0 * c.squaredBias.lo / whole,
+                     100.0 * c.squaredBias.hi / whole, 100.0 * c.variance.value / whole);
+}
+
+// `--images` has no more runs to ask for.
+std::string moreRunsText(const Certified& certified) {
+  const Certificate& c = certified.certificate;
+  if (!c.moreRuns) return "";
+  const std::string more = counted(*c.moreRuns, "more run");
+  if (certified.replay.empty()) return fmt::format("  about {} would decide\n", more);
+  return fmt::format("  about {} would decide: --runs {}\n", more, c.cells.runs + *c.moreRuns);
+}
+
 }  // namespace
 
 std::string lineOf(const Certified& certified) {
@@ -80,11 +104,7 @@ std::string textOf(const Certified& certified) {
     text += fmt::format("  {:<10} bias {}, smallest that is found {:.3f} %\n",
                         stats::quantityName(b.quantity), percents(b.bias), 100.0 * b.detectable);
   }
-  const double whole = mse(c);
-  text += fmt::format(
-      "  MSE of a run {:.4g}: bias^2 {:+.2f} % of it [{:+.2f}, {:+.2f}], variance {:.2f} %\n",
-      whole, 100.0 * c.squaredBias.value / whole, 100.0 * c.squaredBias.lo / whole,
-      100.0 * c.squaredBias.hi / whole, 100.0 * c.variance.value / whole);
+  text += fmt::format("  {}\n", errorText(c));
   const auto tested =
       std::count_if(c.cells.cells.begin(), c.cells.cells.end(),
                     [](const stats::CellVerdict& v) { return v.testable || v.equal; });
@@ -95,9 +115,10 @@ std::string textOf(const Certified& certified) {
       100.0 * c.cells.detectableBias);
   for (const stats::CellVerdict* v : worstCells(c.cells))
     text += fmt::format("    {}\n", cellText(*v));
-  if (c.moreRuns) text += fmt::format("  about {} more runs would decide\n", *c.moreRuns);
+  text += moreRunsText(certified);
   for (const std::string& note : certified.notes) text += fmt::format("  {}\n", note);
-  text += fmt::format("  not finite: {} values", c.cells.nonfinite);
+  text += fmt::format("  not finite: {} of the images, {} of samples",
+                      counted(c.cells.nonfinite, "value"), c.nonfiniteSamples);
   const std::string health = certified.replay.empty() ? "" : certified.health.text();
   text += health.empty() ? "\n" : fmt::format("; health: {}\n", health);
   if (!certified.replay.empty()) text += fmt::format("  a pixel of run 0: {}\n", certified.replay);
@@ -142,6 +163,7 @@ Json jsonOf(const Certified& certified) {
           {"fewest_rare_events", number(c.fewestEvents)},
           {"reference_error", certified.referenceError},
           {"nonfinite", c.cells.nonfinite},
+          {"nonfinite_samples", c.nonfiniteSamples},
           {"health", health},
           {"more_runs", c.moreRuns ? Json(*c.moreRuns) : Json(nullptr)},
           {"notes", certified.notes},
@@ -155,10 +177,9 @@ std::string markdownOf(const std::vector<Certified>& all) {
       "|---|---|---|---|---|---|\n";
   for (const Certified& certified : all) {
     const Certificate& c = certified.certificate;
-    text += fmt::format("| {} | {} | {} | {:+.2f} % | {:.1f} % | {} |\n", certified.name,
-                        verdictName(c.verdict), percents(c.image.front().bias),
-                        100.0 * c.squaredBias.value / mse(c), 100.0 * c.cells.untestableShare,
-                        c.cells.runs);
+    text += fmt::format("| {} | {} | {} | {} | {:.1f} % | {} |\n", certified.name,
+                        verdictName(c.verdict), percents(c.image.front().bias), shareOfBias(c),
+                        100.0 * c.cells.untestableShare, c.cells.runs);
   }
   return text;
 }

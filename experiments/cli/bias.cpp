@@ -55,20 +55,21 @@ std::vector<std::string> filesLike(const std::string& pattern) {
 
 bool isSuite(const std::string& name) { return std::filesystem::path(name).extension() == ".toml"; }
 
+// `name`: of the folder of results, where none is given.
 certificate::Options certificateOptions(const BiasOptions& options, const std::string& name) {
   certificate::Options result;
   result.rules.margin = options.marginPercent / 100.0;
   result.runs = options.runs;
   result.maxRuns = options.maxRuns;
   result.jobs = options.jobs;
-  result.out = options.out.empty()
-                   ? std::filesystem::path("results") / ("bias-" + safeFileName(name))
-                   : std::filesystem::path(options.out);
+  result.out = options.out.empty() ? std::filesystem::path("results") / ("bias-" + name)
+                                   : std::filesystem::path(options.out);
   return result;
 }
 
-Certified certifyScene(const BiasOptions& options, const certificate::Options& how,
-                       const SessionConfig& given) {
+Question questionOf(BiasOptions options) {
+  resolveResolution(options.scene);
+  const SessionConfig given = makeConfig(options.scene, options.method);
   Question question;
   question.request = options.scene.request;
   question.prepared = prepareScene(question.request);
@@ -81,7 +82,7 @@ Certified certifyScene(const BiasOptions& options, const certificate::Options& h
   const bool hasHistory = method.hasHistory(question.config.parameters);
   question.warmup = hasHistory || options.warmupGiven ? options.warmup : 0;
   question.frames = options.frames;
-  return certificate::certify(question, how);
+  return question;
 }
 
 // What a certificate cannot be held against is said before the first run.
@@ -133,12 +134,23 @@ void giveOwnLabel(std::vector<Certified>& all) {
   for (int number = 2; isTaken(); ++number) label = fmt::format("{}-{}", name, number);
 }
 
+// Rows of images are there already, and may be of one history.
+void sayWhatIsLeftOut(const Suite& suite) {
+  for (const SuiteMethod& method : suite.methods) {
+    if (method.images) {
+      logInfo(
+          fmt::format("{}: '{}' is a row of images and gets no certificate; --images and --ref "
+                      "certify those of independent runs",
+                      suite.file, method.name));
+    }
+  }
+}
+
 // Every method of the suite on every scene, still. `sceneIsDone` sees all that there are so far.
 std::vector<Certified> certifySuite(
-    const BiasOptions& options, const certificate::Options& how,
+    const Suite& whole, const BiasOptions& options, const certificate::Options& how,
     const std::function<void(const std::vector<Certified>&)>& sceneIsDone) {
-  const Suite whole = loadSuite(options.scene.request.scene, options.method.parameters);
-  checkTruths(whole);
+  sayWhatIsLeftOut(whole);
   std::vector<Certified> all;
   for (const SuiteScene& scene : whole.scenes) {
     const Suite suite = ofScene(whole, scene);
@@ -177,6 +189,17 @@ std::vector<Certified> certifySuite(
   return all;
 }
 
+// The options that are used, but for those of a scene, are among these; otherwise `why` is said.
+void requireAmong(const std::vector<std::string>& usable, const CLI::App& verb,
+                  const std::string& why) {
+  for (const CLI::Option* option : verb.get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() == 0 || std::find(usable.begin(), usable.end(), name) != usable.end())
+      continue;
+    failUsage(fmt::format("{}: {}", name, why));
+  }
+}
+
 // What goes with a scene goes with nothing else.
 void checkOptions(const CLI::App& verb, const BiasOptions& options) {
   const bool hasImages = !options.images.empty();
@@ -189,18 +212,17 @@ void checkOptions(const CLI::App& verb, const BiasOptions& options) {
     failUsage(hasImages ? "bias: takes a scene or a suite, or --images with --ref, not both"
                         : "bias: needs a scene or a suite, or --images with --ref");
   }
-  if (options.runs > 0 && hasImages)
-    failUsage("--runs: of --images there are as many as the files");
-  if (!isSuite(scene)) return;
-  for (const CLI::Option* option : verb.get_options()) {
-    const std::string name = option->get_name();
-    static const std::vector<std::string> usable = {
-        "--help", "--quiet", "--verbose", "scene",    "--set",    "--runs",  "--max-runs",
-        "--jobs", "--out",   "--json",    "--margin", "--warmup", "--frames"};
-    if (option->count() == 0 || std::find(usable.begin(), usable.end(), name) != usable.end())
-      continue;
-    failUsage(fmt::format("{}: the suite {} says that; --set KEY=VALUE changes it", name, scene));
+  if (hasImages) {
+    requireAmong(
+        {"--help", "--quiet", "--verbose", "--images", "--ref", "--out", "--json", "--margin"},
+        verb, "nothing is rendered for --images; they are what they are, and as many as the files");
+  } else if (isSuite(scene)) {
+    requireAmong({"--help", "--quiet", "--verbose", "scene", "--set", "--runs", "--max-runs",
+                  "--jobs", "--out", "--json", "--margin", "--warmup", "--frames"},
+                 verb, fmt::format("the suite {} says that; --set KEY=VALUE changes it", scene));
   }
+  if (options.runs > 0 && verb.get_option("--max-runs")->count() > 0)
+    failUsage("--max-runs: --runs says how many there are; give one of the two");
 }
 
 void bias(BiasOptions options, const CLI::App& verb, Outcome& outcome) {
@@ -208,39 +230,39 @@ void bias(BiasOptions options, const CLI::App& verb, Outcome& outcome) {
   options.warmupGiven = verb.get_option("--warmup")->count() > 0;
   options.framesGiven = verb.get_option("--frames")->count() > 0;
   const std::string& scene = options.scene.request.scene;
-  const bool isOfSuite = isSuite(scene);
-  std::string name = "images";
-  if (isBuiltinScene(scene)) {
-    name = safeFileName(scene);
-  } else if (!scene.empty()) {
-    name = std::filesystem::path(scene).stem().string();
-  }
-  certificate::Options how = certificateOptions(options, name);
-  how.fewOfBiased = isOfSuite;
-  SessionConfig config;
-  if (options.images.empty() && !isOfSuite) {
-    resolveResolution(options.scene);
-    config = makeConfig(options.scene, options.method);
-  }
-  makeWritableDirectory(how.out);
-  const FolderLock lock(how.out);
   const std::string command = shellCommand(outcome.argv);
-  const auto tableOf = [&](const std::vector<Certified>& certificates) {
-    return isOfSuite ? certificate::suiteMarkdownOf(certificates, how.rules, command)
-                     : certificate::markdownOf(certificates);
-  };
+  certificate::Options how;
+  std::string table;
   std::vector<Certified> all;
+  std::optional<FolderLock> lock;
+  // Nothing is left of what cannot be certified.
+  const auto openFolder = [&](const std::string& name) {
+    how = certificateOptions(options, name);
+    makeWritableDirectory(how.out);
+    lock.emplace(how.out);
+  };
   if (!options.images.empty()) {
+    how = certificateOptions(options, "images");
     all.push_back(certificate::certifyImages(filesLike(options.images), options.reference, how));
-  } else if (isOfSuite) {
+    openFolder("images");
+    table = certificate::markdownOf(all);
+  } else if (isSuite(scene)) {
+    const Suite suite = loadSuite(scene, options.method.parameters);
+    checkTruths(suite);
+    openFolder(safeFileName(std::filesystem::path(scene).stem().string()));
+    how.fewOfBiased = true;
     // What takes hours is read before it is over.
-    all = certifySuite(options, how, [&](const std::vector<Certified>& some) {
-      certificate::writeTable(how.out, tableOf(some));
+    all = certifySuite(suite, options, how, [&](const std::vector<Certified>& some) {
+      table = certificate::suiteMarkdownOf(some, how.rules, command);
+      certificate::writeTable(how.out, table);
     });
   } else {
-    all.push_back(certifyScene(options, how, config));
+    const Question question = questionOf(options);
+    openFolder(certificate::labelOf(question));
+    all.push_back(certificate::certify(question, how));
+    table = certificate::markdownOf(all);
   }
-  certificate::writeOutputs(how.out, all, tableOf(all), command);
+  certificate::writeOutputs(how.out, all, table, command);
   bool isEquivalent = true;
   nlohmann::ordered_json documents = nlohmann::ordered_json::array();
   for (const Certified& certified : all) {
@@ -290,7 +312,9 @@ Action addBiasVerb(CLI::App& app) {
   verb->add_option("--images", options->images,
                    "pattern of EXR files, quoted: independent runs of any program");
   verb->add_option("--ref", options->reference, "EXR file that --images are compared with");
-  verb->add_option("-o,--out", options->out, "folder of the results (default results/bias-NAME)");
+  verb->add_option(
+      "-o,--out", options->out,
+      "folder of the results (default results/bias-SCENE-METHOD, bias-SUITE, bias-images)");
   verb->add_flag("--json", options->json, "as JSON");
   return [options, verb](Outcome& outcome) { bias(*options, *verb, outcome); };
 }

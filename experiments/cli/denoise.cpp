@@ -151,7 +151,8 @@ void denoise(const DenoiseOptions& options) {
     out.layers[""] = denoiser.frame(FrameLayers::frame(image, names[i]),
                                     float(options.radianceFrames.value_or(1.0)));
     const std::string outside = whyOutsideRange(*findMethod(config).denoiser, out.layers[""]);
-    if (!outside.empty() && !std::exchange(isOutsideSaid, true)) logWarning(outside);
+    if (!outside.empty() && !std::exchange(isOutsideSaid, true))
+      logWarning(fmt::format("{}: {}", files[i].input.string(), outside));
     out.metadata = metadataOf(image.metadata, files[i].input, config, denoiser);
     health.add(denoiser.stats());
     timeMs += denoiser.stats().timeMs;

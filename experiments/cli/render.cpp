@@ -204,7 +204,7 @@ void render(RenderOptions options) {
   }
 
   const std::string outside = whyOutsideRange(*findMethod(config).denoiser, rendered.image);
-  if (!outside.empty()) logWarning(outside);
+  if (!outside.empty()) logWarning(fmt::format("{}: {}", options.scene.request.scene, outside));
   const size_t nonfinite = countNonfinite(rendered.image);
   const uint64_t dropped = rendered.health.health.counts[rl::RL_HEALTH_NONFINITE];
   if (nonfinite) logWarning(fmt::format("the image holds {} non-finite values", nonfinite));

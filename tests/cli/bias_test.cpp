@@ -23,6 +23,9 @@ TEST_F(BiasTest, PathIsEquivalentAndGoesOnWhereItWas) {
   ASSERT_EQ(first.code, 0) << first.err << first.out;
   EXPECT_EQ(first.out.rfind("quad-light, path: equivalent", 0), 0u) << first.out;
   EXPECT_NE(first.out.find("luminance  bias "), std::string::npos) << first.out;
+  for (const char* part : {"smallest that is found ", "MSE of a run ", "bias^2 ",
+                           "cells: ", "not finite: 0 values of the images, 0 of samples; health: "})
+    EXPECT_NE(first.out.find(part), std::string::npos) << part << "\n" << first.out;
   for (const char* file : {"out/report.html", "out/certificates.json", "out/certificates.md"})
     EXPECT_TRUE(std::filesystem::exists(path(file))) << file;
   EXPECT_EQ(entries("out/runs").size(), 1u);
@@ -48,8 +51,17 @@ TEST_F(BiasTest, PathIsEquivalentAndGoesOnWhereItWas) {
               &reference = map.layers.at("reference"), &p = map.layers.at("p_value");
   for (size_t i = 0; i < difference.pixels.size(); ++i) {
     EXPECT_EQ(difference.pixels[i], mean.pixels[i] - reference.pixels[i]) << name;
-    EXPECT_LE(p.pixels[i].x, 1.0f);
   }
+  // Each pixel has the p-value of its cell's luminance.
+  size_t cells = 0;
+  for (const Json& cell : document.at("cells")) {
+    if (cell.at("quantity") != "luminance" || cell.at("whole_image") || !cell.at("tested"))
+      continue;
+    ++cells;
+    const uint32_t x = 2 * cell.at("x").get<uint32_t>(), y = 2 * cell.at("y").get<uint32_t>();
+    EXPECT_EQ(p.at(x, y).x, float(cell.at("p_value").get<double>())) << x << " " << y;
+  }
+  EXPECT_EQ(cells, 64u) << "of 2x2 pixels";
 }
 
 // Runs made side by side, and in two goes, are those of one after the other.
@@ -339,7 +351,7 @@ TEST_F(BiasTest, ImagesAreCertifiedAlike) {
   expectError(run(command), 3, {"run-99999.exr", "8x8", "16x16"});
   // One run alone, and a reference that is not there or of another size.
   expectError(run({"bias", "--images", runs + "/run-00007.exr", "--ref", reference}), 3,
-              {"--images: 1 of them", "at least 64"});
+              {"--images: 1 file, the first of which is", "run-00007.exr", "at least 64"});
   std::filesystem::remove(runs + "/run-99999.exr");
   expectError(run({"bias", "--images", runs + "/run-*.exr", "--ref", "no.exr"}), 3, {"no.exr"});
   writeExr(path("small.exr"), {{{"", Image(4, 4, glm::vec3(1.0f))}}, {}});
@@ -352,6 +364,89 @@ TEST_F(BiasTest, ImagesAreCertifiedAlike) {
               {"run-00006.exr", "10000006", "not", "delete it"});
 }
 
+// Images that are not runs of one method of what the reference shows.
+TEST_F(BiasTest, ImagesThatDoNotBelongTogetherAreRefused) {
+  const auto images = [&](const std::string& folder, const char* key,
+                          const std::function<std::string(int)>& value) {
+    std::filesystem::create_directory(path(folder));
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> uniform(0.9f, 1.1f);
+    for (int i = 0; i < 64; ++i) {
+      LayeredImage image;
+      image.layers[""] = Image(8, 8, glm::vec3(uniform(random)));
+      image.metadata[key] = value(i);
+      writeExr(path(fmt::format("{}/{:02}.exr", folder, i)), image);
+    }
+  };
+  const auto certify = [&](const std::string& pattern, const std::string& reference) {
+    return run({"bias", "--images", pattern, "--ref", reference, "-o", "out"});
+  };
+  writeExr(path("truth.exr"), {{{"", Image(8, 8, glm::vec3(1.0f))}}, {}});
+  images("mixed", "integrator", [](int i) { return i == 40 ? "path" : "restir_gi"; });
+  expectError(certify("mixed/*.exr", "truth.exr"), 3,
+              {"mixed/40.exr", "integrator is 'path'", "'restir_gi' in mixed/00.exr"});
+  images("other", "max_bounces", [](int) { return "3"; });
+  LayeredImage ours;
+  ours.layers[""] = Image(8, 8, glm::vec3(1.0f));
+  ours.metadata = {{"kind", "reference"}, {"scene_hash", "1"}, {"max_bounces", "8"}};
+  writeExr(path("ours.exr"), ours);
+  expectError(certify("other/*.exr", "ours.exr"), 3,
+              {"ours.exr, for other/00.exr", "max_bounces is 8, not 3"});
+  std::filesystem::copy(path("truth.exr"), path("other/99.exr"));
+  expectError(certify("other/*.exr", "truth.exr"), 3,
+              {"other/99.exr", "the pixels of the reference truth.exr"});
+  std::filesystem::remove(path("other/99.exr"));
+  EXPECT_FALSE(std::filesystem::exists(path("out"))) << "nothing is left of what is refused";
+  // What others call so may be of a sample: it is not used.
+  LayeredImage theirs;
+  theirs.layers[""] = Image(8, 8, glm::vec3(1.0f));
+  theirs.layers["variance"] = Image(8, 8, glm::vec3(-1.0f));
+  writeExr(path("theirs.exr"), theirs);
+  const ProgramResult result = certify("other/*.exr", "theirs.exr");
+  EXPECT_NE(result.out.find("taken as exact"), std::string::npos) << result.out << result.err;
+  for (const char* option : {"--integrator path", "--max-bounces 3", "--frames 4", "-j 2",
+                             "--runs 64", "--max-runs 64", "--set mis=pairwise"})
+    expectError(run(std::string("bias --images other/*.exr --ref truth.exr ") + option), 2,
+                {"nothing is rendered for --images"});
+}
+
+// Of what cannot be certified no folder is left; two methods have two.
+TEST_F(BiasTest, EachMethodHasAFolder) {
+  expectError(run("bias no-such-scene"), 3, {"no-such-scene"});
+  write("broken.toml", "name = \"broken\"\nscenes = [\"no-such-scene\"]\n");
+  EXPECT_NE(run("bias broken.toml").code, 0);
+  EXPECT_FALSE(std::filesystem::exists(path("results")));
+  const std::string command =
+      "bias quad-light --resolution 8x8 --max-bounces 1 --runs 32 --frames 2 --margin 50 -q";
+  EXPECT_LE(run(command).code, 1);
+  EXPECT_LE(run(command + " --integrator restir_gi --set mis=confidence").code, 1);
+  EXPECT_TRUE(std::filesystem::exists(path("results/bias-quad-light-path/report.html")));
+  EXPECT_EQ(entries("results").size(), 2u);
+}
+
+TEST_F(BiasTest, RowsOfImagesAreSaidToBeLeftOut) {
+  writeExr(path("theirs.exr"), {{{"", Image(8, 8, glm::vec3(1.0f))}}, {}});
+  write("rows.toml", R"(name = "rows"
+scenes = ["quad-light"]
+[settings]
+width = 8
+height = 8
+max_bounces = 1
+frames = 2
+[reference]
+spp = 64
+[[method]]
+integrator = "path"
+[[method]]
+name = "theirs"
+image = ["theirs.exr"]
+)");
+  const ProgramResult result = run("bias rows.toml --runs 32 --margin 50 -o out");
+  EXPECT_NE(result.err.find("'theirs' is a row of images and gets no certificate"),
+            std::string::npos)
+      << result.err;
+}
+
 TEST_F(BiasTest, WhatIsMissingIsSaid) {
   expectError(run("bias"), 2, {"needs a scene or a suite", "--images"});
   expectError(run("bias --images x*.exr"), 2, {"--images", "--ref"});
@@ -359,6 +454,7 @@ TEST_F(BiasTest, WhatIsMissingIsSaid) {
   expectError(run("bias --images x*.exr --ref r.exr"), 3, {"x*.exr", "no file"});
   expectError(run("bias quad-light --runs 1"), 2, {"--runs", "32"});
   expectError(run("bias quad-light --margin 0"), 2, {"--margin"});
+  expectError(run("bias quad-light --runs 64 --max-runs 64"), 2, {"--max-runs", "one of the two"});
   expectError(run("bias no-such-scene"), 3, {"no-such-scene"});
 }
 

@@ -167,10 +167,10 @@ TEST_F(SceneSweepRun, TruthsOfAMovingCamera) {
       "[[scene]]\nscene = [\"cornell-box?radiance=1\", \"cornell-box?radiance=2^10\"]\n"
       "truth = \"same\"\n";
   ASSERT_EQ(runSuite(scene).code, 0);
-  const auto still = readExr(path("out/images/sweep-cornell-box-radiance-1-all-reference.exr"));
+  const auto still = readExr(path("out/images/cornell-box-radiance-1-all-reference.exr"));
   const ProgramResult result = runSuite(scene + kTurning);
   ASSERT_EQ(result.code, 0) << result.err;
-  const auto turned = readExr(path("out/images/sweep-cornell-box-radiance-1-all-reference.exr"));
+  const auto turned = readExr(path("out/images/cornell-box-radiance-1-all-turning-reference.exr"));
   EXPECT_NE(still.layers.at("").pixels, turned.layers.at("").pixels);
   const auto rows = parseCsv(read("out/summary.csv"));
   ASSERT_EQ(rows.size(), 4u);

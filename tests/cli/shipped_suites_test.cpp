@@ -45,6 +45,32 @@ class ShippedSuite : public ProgramTest, public ::testing::WithParamInterface<st
   fs::path file() const { return kSuites / (GetParam() + ".toml"); }
 };
 
+// Every integrator, mode and cache, and of certificates every denoiser: what is new joins them.
+TEST_F(ProgramTest, LaboratorySuitesHaveEveryMethod) {
+  using Json = nlohmann::json;
+  const auto namesOf = [&](const char* what) {
+    std::set<std::string> names;
+    for (const Json& one : Json::parse(run(std::string("list ") + what + " --json").out)) {
+      if (one.value("available", true)) names.insert(one.at("name"));
+    }
+    EXPECT_FALSE(names.empty()) << what;
+    return names;
+  };
+  for (const char* suite : {"stress", "stress-quick", "certificates"}) {
+    const std::string text = textOf(kSuites / (std::string(suite) + ".toml"));
+    for (const std::string& integrator : namesOf("integrators"))
+      EXPECT_NE(text.find("integrator = \"" + integrator + "\""), std::string::npos)
+          << suite << ": " << integrator;
+    std::vector<std::string> lists = {"caches"};
+    if (suite == std::string("certificates")) lists.push_back("denoisers");
+    for (const std::string& list : lists) {
+      for (const std::string& name : namesOf(list.c_str()))
+        EXPECT_NE(text.find("\"" + name + "\""), std::string::npos) << suite << ": " << name;
+    }
+    EXPECT_NE(text.find("mode = [\"unbiased\", \"biased\"]"), std::string::npos) << suite;
+  }
+}
+
 TEST_P(ShippedSuite, SaysItsQuestionAndItsTime) {
   const std::string text = textOf(file());
   EXPECT_TRUE(std::regex_search(text, std::regex("\nquestion = \"[^\"]{20,}\\?\"\n"))) << text;

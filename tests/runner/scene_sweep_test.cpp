@@ -48,15 +48,23 @@ TEST(SweptParameter, OthersAreErrors) {
 
 TEST(Holds, WhereTheIntervalTouches) {
   const double nan = kUnknown;
-  EXPECT_TRUE(holds({1.0, 0.99, 1.01}, 0, 0.0));
-  EXPECT_TRUE(holds({0.97, 0.95, 0.991}, 0, 0.01));
-  EXPECT_FALSE(holds({0.97, 0.95, 0.985}, 0, 0.01));
-  EXPECT_TRUE(holds({1.03, 1.009, 1.05}, 0, 0.01));
-  EXPECT_FALSE(holds({1.03, 1.02, 1.05}, 0, 0.01));
-  EXPECT_FALSE(holds({1.0, 0.99, 1.01}, 1, 0.01)) << "a value that is not finite";
-  EXPECT_FALSE(holds({nan, nan, nan}, 0, 1.0));
-  EXPECT_TRUE(holds({1.005, nan, nan}, 0, 0.01)) << "one run";
-  EXPECT_FALSE(holds({1.02, nan, nan}, 0, 0.01));
+  EXPECT_EQ(holds({1.0, 0.99, 1.01}, 0, 0.01), Holding::yes);
+  EXPECT_EQ(holds({0.97, 0.95, 0.991}, 0, 0.01), Holding::yes);
+  EXPECT_EQ(holds({0.97, 0.95, 0.985}, 0, 0.01), Holding::no);
+  EXPECT_EQ(holds({1.03, 1.009, 1.05}, 0, 0.01), Holding::yes);
+  EXPECT_EQ(holds({1.03, 1.02, 1.05}, 0, 0.01), Holding::no);
+  EXPECT_EQ(holds({1.0, 0.99, 1.01}, 1, 0.01), Holding::no) << "a value that is not finite";
+  EXPECT_EQ(holds({nan, nan, nan}, 0, 1.0), Holding::no);
+  EXPECT_EQ(holds({1.005, nan, nan}, 0, 0.01), Holding::yes) << "one run";
+  EXPECT_EQ(holds({1.02, nan, nan}, 0, 0.01), Holding::no);
+}
+
+// Noise is no merit.
+TEST(Holds, IsNotDecidedByAWideInterval) {
+  EXPECT_EQ(holds({1.0, 0.951, 1.049}, 0, 0.01), Holding::yes);
+  EXPECT_EQ(holds({1.0, 0.949, 1.051}, 0, 0.01), Holding::notDecided);
+  EXPECT_EQ(holds({0.6, 0.1, 1.1}, 0, 0.01), Holding::notDecided);
+  EXPECT_EQ(holds({0.6, 0.3, 0.9}, 0, 0.01), Holding::no);
 }
 
 TEST(IsFarOff, BeyondTheToleranceAndThreeHalfWidths) {
@@ -145,7 +153,8 @@ TEST_F(SceneSweepTest, SaysTheLastValueThatHolds) {
       << table;
   EXPECT_NE(table.find("| gi | 0.75 | 0.9000 [0.8982, 0.9018] at 0.9 | 0.250"), std::string::npos)
       << table;
-  EXPECT_NE(table.find("- gi does not hold at 0.9: 0.9000 [0.8982, 0.9018]"), std::string::npos)
+  EXPECT_NE(table.find("- gi does not hold at albedo = 0.9: 0.9000 [0.8982, 0.9018]"),
+            std::string::npos)
       << table;
   EXPECT_EQ(outputs.nonfinite(), "");
   outputs.write(own, true);
@@ -184,7 +193,7 @@ TEST_F(SceneSweepTest, FiguresAreOfTheWorstValue) {
   for (const auto& row : rows) blocks.push_back({&own, &row, 2.0});
   const SceneSweep sweep = sceneSweeps(blocks).at(0);
   const std::string table = sweepTable(sweep);
-  EXPECT_NE(table.find("| 1 [0.9000, 1.100] at 0.75 | 2.00 [1.00, 3.00] at 0.75 | 8 at 0.75 | 7 |"),
+  EXPECT_NE(table.find("| 1 [0.900, 1.10] at 0.75 | 2 [1, 3] at 0.75 | 8 at 0.75 | 7 |"),
             std::string::npos)
       << table;
   const nlohmann::ordered_json row = sweepDocument(sweep)["rows"][1];
@@ -192,6 +201,25 @@ TEST_F(SceneSweepTest, FiguresAreOfTheWorstValue) {
   EXPECT_EQ(row["cells"]["time"]["value"], 8.0);
   EXPECT_EQ(row["cells"]["faults"]["value"], 7);
   EXPECT_EQ(sweepDocument(sweep)["plots"].size(), 3u);
+}
+
+// What is too noisy to be told is no last that holds, and does not end the count.
+TEST_F(SceneSweepTest, AWideIntervalIsNotDecided) {
+  const Suite own = ofScene(suite_, suite_.scenes[0]);
+  std::vector<BlockResult> results;
+  for (size_t i = 0; i < 3; ++i) results.push_back(block(i, 1.0, 0));
+  std::vector<std::vector<MethodSummary>> rows;
+  for (const BlockResult& result : results) rows.push_back(summarise(own, result));
+  rows[1][0].energyRatio = rows[2][1].energyRatio = {0.9, 0.7, 1.1};
+  std::vector<SweptBlock> blocks;
+  for (const auto& row : rows) blocks.push_back({&own, &row, 2.0});
+  const SceneSweep sweep = sceneSweeps(blocks).at(0);
+  EXPECT_EQ(sweep.lastThatHolds(0), 2u);
+  EXPECT_EQ(sweep.lastThatHolds(1), 1u);
+  const std::string table = sweepTable(sweep);
+  EXPECT_NE(table.find("- path is not decided at albedo = 0.75: 0.9000 [0.7000, 1.100]"),
+            std::string::npos)
+      << table;
 }
 
 // The report lists scenes under their sweep, and says nothing of load where nothing is timed.
@@ -213,7 +241,8 @@ TEST_F(SceneSweepTest, EndsAtTheFirstThatDoesNot) {
   Outputs outputs(folder());
   add(outputs, own, {{1.0, 0}, {1.0, 7}, {1.0, 0}});
   const std::string table = outputs.sweepTables();
-  EXPECT_NE(table.find("- gi does not hold at 0.75: 7 not finite"), std::string::npos) << table;
+  EXPECT_NE(table.find("- gi does not hold at albedo = 0.75: 7 not finite"), std::string::npos)
+      << table;
   EXPECT_NE(table.find("| gi | 0.5 |"), std::string::npos) << table;
   EXPECT_EQ(outputs.nonfinite(),
             "7 values are not finite, in 1 row, the first of which is gi in light: "

@@ -88,7 +88,8 @@ void requireUsable(const std::string& file, const Reference& reference) {
                     file, word("integrator"), word("spp")));
   }
   for (const Image* image : {&reference.mean, reference.half0 ? &*reference.half0 : nullptr,
-                             reference.half1 ? &*reference.half1 : nullptr}) {
+                             reference.half1 ? &*reference.half1 : nullptr,
+                             reference.variance ? &*reference.variance : nullptr}) {
     if (!image) continue;
     const size_t count = countNonfinite(*image);
     if (count == 0) continue;
@@ -100,8 +101,11 @@ void requireUsable(const std::string& file, const Reference& reference) {
     failInput(
         fmt::format("{}: {} values of its {} are not finite, the first at pixel ({}, {}); "
                     "a reference must be finite",
-                    file, count, image == &reference.mean ? "image" : "halves", at % image->width,
-                    at / image->width));
+                    file, count,
+                    image == &reference.mean                              ? "image"
+                    : reference.variance && image == &*reference.variance ? "variance"
+                                                                          : "halves",
+                    at % image->width, at / image->width));
   }
 }
 

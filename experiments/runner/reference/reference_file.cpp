@@ -41,6 +41,8 @@ Reference readReference(const std::filesystem::path& file) {
   }
   Reference reference;
   reference.mean = std::move(main->second);
+  // What other programs call so is of samples or of the mean: nobody knows.
+  if (image.metadata["kind"] != "reference") image.layers.erase("variance");
   for (const char* name : {"half0", "half1", "variance"}) {
     const auto layer = image.layers.find(name);
     if (layer == image.layers.end()) continue;

@@ -21,13 +21,13 @@ SweptCell cellOf(const MethodSummary& row, double referenceMean) {
   SweptCell cell;
   cell.energy = row.energyRatio;
   cell.nonfinite = row.nonfinite;
-  cell.holds = holds(cell.energy, cell.nonfinite, row.suite->holdsWithin);
+  cell.holding = holds(cell.energy, cell.nonfinite, row.suite->holdsWithin);
   cell.biasShare = row.biasShare;
   cell.timeMs = row.timeMsMedian;
   for (size_t i = 0; i < rl::RL_HEALTH_COUNT; ++i)
     if (isFault(i)) cell.faults += row.health.health.counts[i];
   // A mean error that its noise has made negative is none.
-  if (row.mse.value > 0.0 && referenceMean > 0.0) {
+  if (row.mse.value >= 0.0 && referenceMean > 0.0) {
     cell.error = {rootOf(row.mse.value, referenceMean), rootOf(row.mse.lo, referenceMean),
                   rootOf(row.mse.hi, referenceMean)};
   }
@@ -74,19 +74,20 @@ bool isFarOff(const Interval& energy, double within) {
   return std::abs(energy.value - 1.0) - within > 3.0 * halfWidth;  // false for NaN
 }
 
-bool holds(const Interval& energy, uint64_t nonfinite, double within) {
-  if (nonfinite > 0 || std::isnan(energy.value)) return false;
+Holding holds(const Interval& energy, uint64_t nonfinite, double within) {
+  if (nonfinite > 0 || std::isnan(energy.value)) return Holding::no;
   const double lo = std::isnan(energy.lo) ? energy.value : energy.lo;
   const double hi = std::isnan(energy.hi) ? energy.value : energy.hi;
-  return lo <= 1.0 + within && hi >= 1.0 - within;
+  if (lo > 1.0 + within || hi < 1.0 - within) return Holding::no;
+  return hi - lo > 2.0 * kWidestTolerances * within ? Holding::notDecided : Holding::yes;
 }
 
 std::optional<size_t> SceneSweep::lastThatHolds(size_t method) const {
   std::optional<size_t> last;
   for (size_t i = 0; i < parameter.values.size(); ++i) {
     if (!blocks[i]) continue;
-    if (!cells[method][i].holds) break;
-    last = i;
+    if (cells[method][i].holding == Holding::no) break;
+    if (cells[method][i].holding == Holding::yes) last = i;
   }
   return last;
 }

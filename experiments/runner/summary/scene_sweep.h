@@ -11,7 +11,10 @@
 
 namespace restlab {
 
-// A method at one value.
+// Nothing is said of an energy whose interval is so wide that most errors would lie in it.
+enum class Holding { yes, no, notDecided };
+
+// A method at one value; as it is where the method has no row there.
 struct SweptCell {
   Interval energy{kUnknown, kUnknown, kUnknown};
   Interval error{kUnknown, kUnknown, kUnknown};  // root of the MSE over the mean of the reference
@@ -19,7 +22,7 @@ struct SweptCell {
   double timeMs = kUnknown;                          // of a frame, median
   uint64_t nonfinite = 0;
   uint64_t faults = 0;  // all counts of health that are faults (isFault)
-  bool holds = false;
+  Holding holding = Holding::notDecided;
 };
 
 struct SceneSweep {
@@ -31,15 +34,17 @@ struct SceneSweep {
   // The block of each value; a run that was interrupted lacks some.
   std::vector<std::optional<size_t>> blocks;
 
-  // The place of the last value, from the first on, up to which the method holds at all; nothing
-  // where it does not hold at the first one.
+  // The place of the last value at which the method holds, of those before the first at which it
+  // does not; nothing where there is none.
   std::optional<size_t> lastThatHolds(size_t method) const;
 };
 
 // A value holds where nothing is without a finite value and the interval of the energy ratio
-// touches 1 within the tolerance. An energy that is not known does not hold; without an interval
+// touches 1 within the tolerance; it is not decided where half of that interval is more than
+// kWidestTolerances tolerances. An energy that is not known does not hold; without an interval
 // (one run) its value counts.
-bool holds(const Interval& energy, uint64_t nonfinite, double within);
+constexpr double kWidestTolerances = 5.0;
+Holding holds(const Interval& energy, uint64_t nonfinite, double within);
 
 // Is it off 1 by more than the tolerance and three half-widths of its interval? Of a correct method
 // one in 10^5 is, with 16 runs. An energy without an interval never is.
@@ -54,7 +59,7 @@ struct SweptBlock {
 // The sweeps among the blocks: scenes of one [[scene]], by component and point.
 std::vector<SceneSweep> sceneSweeps(const std::vector<SweptBlock>& blocks);
 
-// In markdown: a line a method, with what it is like where it is worst.
+// In markdown: a row a method, with what it is like where it is worst.
 std::string sweepTable(const SceneSweep& sweep);
 // The same as a block of the report (experiments/report/report_model.h), with the energy of every
 // value as details, and plots over the values.

@@ -110,15 +110,24 @@ std::string explanation(const SceneSweep& sweep) {
   }
   return fmt::format(
       "Values of {}: {}. A value holds where every value of the images is finite and the 95 % "
-      "interval of the energy ratio touches 1 within {:g} (`holds_within`). The last that holds is "
-      "counted from the first on. Every figure is of the value where it is worst.",
-      sweep.parameter.name, values, sweep.suite->holdsWithin);
+      "interval of the energy ratio touches 1 within {:g} (`holds_within`); it is not decided "
+      "where "
+      "half of the interval is more than {:g}. The last that holds is counted from the first on. "
+      "Every figure is of the value where it is worst.",
+      sweep.parameter.name, values, sweep.suite->holdsWithin,
+      kWidestTolerances * sweep.suite->holdsWithin);
 }
 
-// Why a value does not hold.
-std::string reasonOf(const SweptCell& cell) {
-  if (cell.nonfinite > 0) return fmt::format("{} not finite", cell.nonfinite);
-  return withEnds(cell.energy, kEnergyDigits);
+// What is said of a value at which a method does not hold, or may not; "" where it does.
+std::string doubtOf(const SceneSweep& sweep, size_t method, size_t value) {
+  const SweptCell& cell = sweep.cells[method][value];
+  if (!sweep.blocks[value] || cell.holding == Holding::yes) return "";
+  const std::string why = cell.nonfinite > 0 ? fmt::format("{} not finite", cell.nonfinite)
+                          : std::isnan(cell.energy.value) ? std::string("its energy is not known")
+                                                          : withEnds(cell.energy, kEnergyDigits);
+  return fmt::format("{} at {} = {}: {}",
+                     cell.holding == Holding::no ? "does not hold" : "is not decided",
+                     sweep.parameter.name, sweep.parameter.texts[value], why);
 }
 
 // Of all methods over the values, in their order on the axis.
@@ -205,9 +214,8 @@ Json rowOf(const SceneSweep& sweep, size_t method) {
     if (!sweep.blocks[i]) continue;
     const SweptCell& cell = sweep.cells[method][i];
     cells[fmt::format("value{}", i)] = cellJson(cell.energy);
-    if (cell.holds) continue;
-    flags.push_back(fmt::format("does not hold at {} = {}: {}", sweep.parameter.name,
-                                sweep.parameter.texts[i], reasonOf(cell)));
+    const std::string doubt = doubtOf(sweep, method, i);
+    if (!doubt.empty()) flags.push_back(doubt);
   }
   return {{"method", sweep.methods[method]},
           {"counts", true},
@@ -236,9 +244,8 @@ std::string sweepTable(const SceneSweep& sweep) {
   text += "\n";
   for (size_t m = 0; m < sweep.methods.size(); ++m) {
     for (size_t i = 0; i < sweep.blocks.size(); ++i) {
-      if (!sweep.blocks[i] || sweep.cells[m][i].holds) continue;
-      text += fmt::format("- {} does not hold at {}: {}\n", sweep.methods[m],
-                          sweep.parameter.texts[i], reasonOf(sweep.cells[m][i]));
+      const std::string doubt = doubtOf(sweep, m, i);
+      if (!doubt.empty()) text += fmt::format("- {} {}\n", sweep.methods[m], doubt);
     }
   }
   return text + "\n";
