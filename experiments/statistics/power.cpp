@@ -1,7 +1,6 @@
 #include "experiments/statistics/power.h"
 
 #include <boost/math/distributions/non_central_t.hpp>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <stdexcept>
 
@@ -16,28 +15,7 @@ void check(double alpha, double power) {
   }
 }
 
-double normalQuantile(double p) { return boost::math::quantile(boost::math::normal(), p); }
-
-double sumOfQuantiles(double alpha, double power) {
-  return -normalQuantile(0.5 * alpha) + normalQuantile(power);
-}
-
 }  // namespace
-
-double smallestDetectableBias(double sigma, double n, double alpha, double power) {
-  check(alpha, power);
-  if (!(sigma > 0.0 && n > 0.0)) throw std::invalid_argument("power: sigma and n must be positive");
-  return sumOfQuantiles(alpha, power) * sigma / std::sqrt(n);
-}
-
-double requiredObservations(double sigma, double bias, double alpha, double power) {
-  check(alpha, power);
-  if (!(sigma > 0.0 && bias > 0.0)) {
-    throw std::invalid_argument("power: sigma and bias must be positive");
-  }
-  const double root = sumOfQuantiles(alpha, power) * sigma / bias;
-  return std::ceil(root * root);
-}
 
 double testPower(double shift, double standardError, double dof, double alpha) {
   check(alpha, 0.5 * (1.0 + alpha));

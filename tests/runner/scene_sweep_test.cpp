@@ -146,7 +146,7 @@ TEST_F(SceneSweepTest, SaysTheLastValueThatHolds) {
             std::string::npos)
       << table;
   EXPECT_NE(table.find("Values of albedo: 0.5, 0.75, 0.9. "), std::string::npos) << table;
-  EXPECT_NE(table.find("| method | last that holds | energy | error | bias^2 / MSE, % | faults |"),
+  EXPECT_NE(table.find("| method | last that holds | energy | error | bias^2 / MSE, % |\n"),
             std::string::npos)
       << table;
   EXPECT_NE(table.find("| path | 0.9 | 1 [0.9982, 1.002] at 0.5 | 0.250"), std::string::npos)
@@ -193,14 +193,38 @@ TEST_F(SceneSweepTest, FiguresAreOfTheWorstValue) {
   for (const auto& row : rows) blocks.push_back({&own, &row, 2.0});
   const SceneSweep sweep = sceneSweeps(blocks).at(0);
   const std::string table = sweepTable(sweep);
-  EXPECT_NE(table.find("| 1 [0.900, 1.10] at 0.75 | 2 [1, 3] at 0.75 | 8 at 0.75 | 7 |"),
+  EXPECT_NE(table.find("| 1 [0.900, 1.10] at 0.75 | 2 [1, 3] at 0.75 | 8 at 0.75 |\n"),
             std::string::npos)
       << table;
+  EXPECT_NE(table.find("- gi: 7 faults of health\n"), std::string::npos) << table;
+  EXPECT_EQ(table.find("- path: "), std::string::npos) << table;
   const nlohmann::ordered_json row = sweepDocument(sweep)["rows"][1];
   EXPECT_EQ(row["cells"]["error"]["note"], "at 0.75");
   EXPECT_EQ(row["cells"]["time"]["value"], 8.0);
   EXPECT_EQ(row["cells"]["faults"]["value"], 7);
   EXPECT_EQ(sweepDocument(sweep)["plots"].size(), 3u);
+}
+
+// 0 has a place on a logarithmic axis.
+TEST_F(SceneSweepTest, ZeroStandsLeftOfAll) {
+  SceneSweep sweep;
+  sweep.suite = &suite_;
+  sweep.methods = {"path"};
+  const auto plotOver = [&](const std::vector<double>& values) {
+    sweep.parameter = {"gap", "furnace", values, std::vector<std::string>(values.size(), "x")};
+    SweptCell cell;
+    cell.energy = cell.error = {1.0, 1.0, 1.0};
+    sweep.cells = {std::vector<SweptCell>(values.size(), cell)};
+    sweep.blocks.assign(values.size(), 0);
+    return sweepDocument(sweep)["plots"][0];
+  };
+  const auto far = plotOver({0.8, 1e-5, 0.0});
+  EXPECT_TRUE(far["x"]["log"].get<bool>());
+  EXPECT_EQ(far["x"]["note"], "0 is drawn at 1e-06");
+  EXPECT_DOUBLE_EQ(far["series"][0]["points"][0][0].get<double>(), 1e-6);
+  const auto near = plotOver({0.0, 45.0, 89.0});
+  EXPECT_FALSE(near["x"]["log"].get<bool>());
+  EXPECT_EQ(near["series"][0]["points"][0][0], 0.0);
 }
 
 // What is too noisy to be told is no last that holds, and does not end the count.

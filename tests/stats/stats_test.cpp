@@ -244,10 +244,6 @@ TEST(Ks, FindsWhatIsNotUniform) {
 }
 
 TEST(Power, KnownValues) {
-  EXPECT_NEAR(smallestDetectableBias(1.0, 1.0, 1e-3, 0.9), 3.2905267314919255 + 1.2815515655446004,
-              1e-12);
-  EXPECT_NEAR(smallestDetectableBias(2.0, 400.0, 1e-3, 0.9), 0.4572078297036526, 1e-12);
-  EXPECT_EQ(requiredObservations(1.0, 1.0, 1e-3, 0.9), 21.0);
   // Noncentralities by root finding on scipy.stats.nct.
   EXPECT_NEAR(smallestDetectableShift(1.0, 31.0, 1e-3, 0.9), 5.015796135242354, 1e-8);
   EXPECT_NEAR(smallestDetectableShift(1.0, 7.0, 0.05, 0.8), 3.2697598397590584, 1e-8);
@@ -262,10 +258,6 @@ TEST(Power, KnownValues) {
   const double z = 1.959963984540054;
   EXPECT_NEAR(testPower(1.0, 0.5, kInfinity, 0.05), normalUpper(z - 2.0) + normalUpper(z + 2.0),
               1e-12);
-  EXPECT_EQ(requiredObservations(2.0, 0.5, 0.05, 0.9), 169.0);  // (2 (1.960 + 1.282) / 0.5)^2
-  EXPECT_THROW(smallestDetectableBias(0.0, 1.0, 1e-3, 0.9), std::invalid_argument);
-  EXPECT_THROW(requiredObservations(1.0, 1.0, 0.95, 0.9), std::invalid_argument);
-  EXPECT_THROW(requiredObservations(1.0, 0.0, 0.05, 0.9), std::invalid_argument);
   EXPECT_THROW(smallestDetectableShift(0.0, 5.0, 0.05, 0.9), std::invalid_argument);
   EXPECT_THROW(smallestDetectableShift(1.0, 5.0, 0.05, 1.0), std::invalid_argument);
   EXPECT_THROW(testPower(1.0, 1.0, 0.0, 0.05), std::invalid_argument);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "experiments/report/text.h"
 #include "experiments/runner/run/run_record.h"
@@ -130,28 +131,51 @@ std::string doubtOf(const SceneSweep& sweep, size_t method, size_t value) {
                      sweep.parameter.name, sweep.parameter.texts[value], why);
 }
 
+// Where values stand on the axis of a plot. 0 has a place on a logarithmic one, too: left of all.
+struct Axis {
+  bool isLog = false;
+  double zeroAt = 0.0;
+  std::string note;
+};
+
+Axis axisOf(const std::vector<double>& values) {
+  constexpr double kFarApart = 1000.0;
+  const double least = *std::min_element(values.begin(), values.end());
+  if (least > 0.0) return {true, 0.0, ""};
+  double leastAbove = std::numeric_limits<double>::infinity(), most = 0.0;
+  for (const double value : values) {
+    if (value > 0.0) leastAbove = std::min(leastAbove, value);
+    most = std::max(most, value);
+  }
+  if (least < 0.0 || most < kFarApart * leastAbove) return {};
+  const double zeroAt = leastAbove / 10.0;
+  return {true, zeroAt, fmt::format("0 is drawn at {:g}", zeroAt)};
+}
+
 // Of all methods over the values, in their order on the axis.
 Json plotOf(const SceneSweep& sweep, const SweepColumn& column) {
   const std::vector<double>& values = sweep.parameter.values;
   std::vector<size_t> order(values.size());
   for (size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return values[a] < values[b]; });
+  const Axis axis = axisOf(values);
   Json series = Json::array();
   for (size_t m = 0; m < sweep.methods.size(); ++m) {
     Json points = Json::array();
     for (const size_t i : order) {
       if (!sweep.blocks[i]) continue;
       const Interval of = column.value(sweep.cells[m][i]);
-      points.push_back({values[i], finiteJson(of.value), finiteJson(of.lo), finiteJson(of.hi)});
+      points.push_back({values[i] == 0.0 ? axis.zeroAt : values[i], finiteJson(of.value),
+                        finiteJson(of.lo), finiteJson(of.hi)});
     }
     series.push_back({{"name", sweep.methods[m]}, {"points", std::move(points)}});
   }
-  const bool isLog =
-      std::all_of(values.begin(), values.end(), [](double value) { return value > 0.0; });
+  Json x = {{"title", sweep.parameter.name}, {"log", axis.isLog}};
+  if (!axis.note.empty()) x["note"] = axis.note;
   return {{"id", column.key},
           {"title",
            fmt::format("{} over {}, {}", column.key, sweep.parameter.name, sweep.parameter.scene)},
-          {"x", {{"title", sweep.parameter.name}, {"log", isLog}}},
+          {"x", std::move(x)},
           {"y", {{"title", column.yTitle}, {"log", column.isLogY}}},
           {"series", std::move(series)}};
 }
@@ -184,7 +208,7 @@ Json columnsOf(const SceneSweep& sweep) {
       columns.push_back(columnJson(column.key, column.title, column.help, column.digits, false));
   }
   columns.push_back(columnJson("faults", "faults",
-                               "counts of health that are faults, of all values", kDigits, false));
+                               "counts of health that are faults, of all values", kDigits, true));
   for (size_t i = 0; i < sweep.blocks.size(); ++i) {
     if (!sweep.blocks[i]) continue;
     const std::string& text = sweep.parameter.texts[i];
@@ -234,15 +258,17 @@ std::string sweepTable(const SceneSweep& sweep) {
     text += fmt::format(" {} |", column.title);
     rule += "---|";
   }
-  text += " faults |\n" + rule + "---|\n";
+  text += "\n" + rule + "\n";
   for (size_t m = 0; m < sweep.methods.size(); ++m) {
     text += fmt::format("| {} | {} |", sweep.methods[m], lastText(sweep, m));
     for (const SweepColumn& column : sweepColumns())
       if (isKnown(sweep, column)) text += fmt::format(" {} |", worstText(sweep, m, column));
-    text += fmt::format(" {} |\n", faultsOf(sweep, m));
+    text += "\n";
   }
   text += "\n";
   for (size_t m = 0; m < sweep.methods.size(); ++m) {
+    if (const uint64_t faults = faultsOf(sweep, m))
+      text += fmt::format("- {}: {} of health\n", sweep.methods[m], counted(faults, "fault"));
     for (size_t i = 0; i < sweep.blocks.size(); ++i) {
       const std::string doubt = doubtOf(sweep, m, i);
       if (!doubt.empty()) text += fmt::format("- {} {}\n", sweep.methods[m], doubt);
