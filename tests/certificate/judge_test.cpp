@@ -175,8 +175,8 @@ TEST(Judge, BatchesOfHalfTheRunsAskForTwiceAsMany) {
 }
 
 TEST(Judge, ABiasNearTheMarginIsNotTheReferencesFault) {
-  // 0.4 % of 0.5 %: told apart by a better reference alone, though this one would do for no bias.
-  const Certificate c = judged({0.02, 1.004, 1.0}, 128, {}, 0.05);
+  // Near 0.5 %: told apart by a better reference alone, though this one would do for no bias.
+  const Certificate c = judged({0.02, 1.002, 1.0}, 128, {}, 0.05);
   ASSERT_EQ(c.verdict, Verdict::notDecided) << c.reason;
   EXPECT_FALSE(c.moreRuns);
   EXPECT_NE(c.reason.find("too near the margin"), std::string::npos) << c.reason;

@@ -50,11 +50,7 @@ std::vector<SceneSweep> Outputs::sweeps() const {
   return sceneSweeps(blocks);
 }
 
-std::string Outputs::sweepTables() const {
-  std::string text;
-  for (const SceneSweep& sweep : sweeps()) text += sweepTable(sweep);
-  return text;
-}
+std::string Outputs::sweepTables() const { return restlab::sweepTables(sweeps()); }
 
 std::string Outputs::nonfinite() const {
   uint64_t values = 0;

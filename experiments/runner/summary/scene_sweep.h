@@ -61,6 +61,8 @@ std::vector<SceneSweep> sceneSweeps(const std::vector<SweptBlock>& blocks);
 
 // In markdown: a row a method, with what it is like where it is worst.
 std::string sweepTable(const SceneSweep& sweep);
+// All of them, and what they have in common before the first; "" of none.
+std::string sweepTables(const std::vector<SceneSweep>& sweeps);
 // The same as a block of the report (experiments/report/report_model.h), with the energy of every
 // value as details, and plots over the values.
 nlohmann::ordered_json sweepDocument(const SceneSweep& sweep);

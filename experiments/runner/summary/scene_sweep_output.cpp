@@ -103,20 +103,21 @@ std::string lastText(const SceneSweep& sweep, size_t method) {
   return last ? sweep.parameter.texts[*last] : "none";
 }
 
-std::string explanation(const SceneSweep& sweep) {
+std::string valuesText(const SceneSweep& sweep) {
   std::string values;
   for (size_t i = 0; i < sweep.blocks.size(); ++i) {
     if (sweep.blocks[i])
       values += fmt::format("{}{}", values.empty() ? "" : ", ", sweep.parameter.texts[i]);
   }
+  return fmt::format("Values of {}: {}.", sweep.parameter.name, values);
+}
+
+std::string whatHolds(const Suite& suite) {
   return fmt::format(
-      "Values of {}: {}. A value holds where every value of the images is finite and the 95 % "
-      "interval of the energy ratio touches 1 within {:g} (`holds_within`); it is not decided "
-      "where "
-      "half of the interval is more than {:g}. The last that holds is counted from the first on. "
-      "Every figure is of the value where it is worst.",
-      sweep.parameter.name, values, sweep.suite->holdsWithin,
-      kWidestTolerances * sweep.suite->holdsWithin);
+      "A value holds where every value of the images is finite and the 95 % interval of the energy "
+      "ratio touches 1 within {:g} (`holds_within`); it is not decided where half of the interval "
+      "is more than {:g}. The last that holds is counted from the first on.",
+      suite.holdsWithin, kWidestTolerances * suite.holdsWithin);
 }
 
 // What is said of a value at which a method does not hold, or may not; "" where it does.
@@ -201,8 +202,7 @@ Json cellJson(const Interval& of) {
 Json columnsOf(const SceneSweep& sweep) {
   Json columns = Json::array();
   columns.push_back(columnJson("last", "last " + sweep.parameter.name + " that holds",
-                               "counted from the first value on; none: not even that",
-                               kEnergyDigits, false));
+                               whatHolds(*sweep.suite), kEnergyDigits, false));
   for (const SweepColumn& column : sweepColumns()) {
     if (isKnown(sweep, column))
       columns.push_back(columnJson(column.key, column.title, column.help, column.digits, false));
@@ -249,9 +249,18 @@ Json rowOf(const SceneSweep& sweep, size_t method) {
 
 }  // namespace
 
+std::string sweepTables(const std::vector<SceneSweep>& sweeps) {
+  if (sweeps.empty()) return "";
+  std::string text =
+      fmt::format("In tables of sweeps every figure is of the value where it is worst. {}\n\n",
+                  whatHolds(*sweeps.front().suite));
+  for (const SceneSweep& sweep : sweeps) text += sweepTable(sweep);
+  return text;
+}
+
 std::string sweepTable(const SceneSweep& sweep) {
   std::string text =
-      fmt::format("## {}\n\n{}\n\n| method | last that holds |", sweep.title, explanation(sweep));
+      fmt::format("## {}\n\n{}\n\n| method | last that holds |", sweep.title, valuesText(sweep));
   std::string rule = "|---|---|";
   for (const SweepColumn& column : sweepColumns()) {
     if (!isKnown(sweep, column)) continue;
@@ -282,7 +291,7 @@ Json sweepDocument(const SceneSweep& sweep) {
   for (size_t m = 0; m < sweep.methods.size(); ++m) rows.push_back(rowOf(sweep, m));
   return {{"id", sweep.id},
           {"title", sweep.title},
-          {"subtitle", explanation(sweep)},
+          {"subtitle", valuesText(sweep) + " Every figure is of the value where it is worst."},
           {"columns", columnsOf(sweep)},
           {"rows", std::move(rows)},
           {"plots", plotsOf(sweep)}};
