@@ -145,7 +145,7 @@ TEST_F(SceneSweepTest, SaysTheLastValueThatHolds) {
   EXPECT_NE(table.find("## light, albedo of furnace, all light, 3 scattering events"),
             std::string::npos)
       << table;
-  EXPECT_NE(table.find("Values of albedo: 0.5, 0.75, 0.9. "), std::string::npos) << table;
+  EXPECT_NE(table.find("Values of albedo: 0.5, 0.75, 0.9.\n"), std::string::npos) << table;
   EXPECT_NE(table.find("| method | last that holds | energy | error | bias^2 / MSE, % |\n"),
             std::string::npos)
       << table;
