@@ -1,0 +1,114 @@
+// Thousands of frames of one history: the energy of the last ones is that of the first. Nothing
+// adds up over frames, in reservoirs, entries of a cache or the age of a view.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "core/cache.h"
+#include "experiments/statistics/welch.h"
+#include "tests/bias/independent_runs.h"
+#include "tests/bias/test_cameras.h"
+
+namespace restlab::bias {
+namespace {
+
+struct History {
+  std::string cache, mode;
+  bool isTurning;
+};
+
+std::vector<History> histories() {
+  std::vector<History> all;
+  for (const CacheInfo* cache : cacheRegistry())
+    for (const char* mode : {"unbiased", "biased"})
+      for (const bool isTurning : {false, true}) all.push_back({cache->name, mode, isTurning});
+  return all;
+}
+
+std::string nameOf(const History& h) {
+  return h.cache + "_" + h.mode + (h.isTurning ? "_turning" : "_still");
+}
+
+// Change of the energy over a decade of frames, relative: the slope of a line through the means of
+// the frames 1 to 9, 10 to 99, ..., by least squares.
+double slopeOf(const std::vector<double>& energies) {
+  std::vector<double> means;
+  for (size_t begin = 1; begin <= energies.size(); begin *= 10) {
+    const size_t end = std::min(10 * begin, energies.size() + 1);
+    if (2 * (end - begin) < begin) break;  // the end of a decade that is not there
+    double sum = 0.0;
+    for (size_t frame = begin; frame < end; ++frame) sum += energies[frame - 1];
+    means.push_back(sum / double(end - begin));
+  }
+  const double middle = 0.5 * double(means.size() - 1);
+  double up = 0.0, down = 0.0, level = 0.0;
+  for (size_t i = 0; i < means.size(); ++i) {
+    const double x = double(i) - middle;
+    up += x * means[i];
+    down += x * x;
+    level += means[i] / double(means.size());
+  }
+  return up / down / level;
+}
+
+// Energies of the frames of a history in the furnace, whose image is the same from everywhere.
+std::vector<double> energiesOf(Session& session, const History& history, uint32_t seed,
+                               uint32_t frames) {
+  const SceneCamera camera = makeBuiltinScene("furnace").cameras.at(0);
+  const std::vector<SceneCamera> cameras = walkTo(camera, frames, glm::dvec3(0.0), 0.7);
+  session.reset(seed);
+  std::vector<double> energies;
+  for (uint32_t frame = 0; frame < frames; ++frame) {
+    session.setCamera(history.isTurning ? cameras[frame] : camera);
+    session.frame();
+    double sum = 0.0;
+    for (const glm::vec3& pixel : session.radiance().pixels) sum += double(pixel.y);
+    energies.push_back(sum);
+  }
+  return energies;
+}
+
+// Of so many seeds. The interval of the slope is at 99.99 %, as a dozen are asked.
+void expectNoSlope(const History& history, uint32_t frames, uint32_t runs) {
+  SessionConfig config = restirMethod(1, 0).config;
+  config.width = 16;
+  config.height = 9;
+  config.cache = history.cache;
+  config.mode = history.mode;
+  Session session(builtinScene("furnace"), config);
+  std::vector<double> slopes;
+  for (uint32_t run = 0; run < runs; ++run)
+    slopes.push_back(
+        slopeOf(energiesOf(session, history, 10'000'000 + seedOffset() + run, frames)));
+  const stats::Sample sample = stats::summarise(slopes);
+  const double error = std::sqrt(sample.variance / sample.n);
+  const double half = stats::studentQuantile(1.0 - 0.5e-4, sample.n - 1.0) * error;
+  std::printf("%s, %u frames: slope %+.3f %% a decade, +-%.3f at 99.99 %%\n",
+              nameOf(history).c_str(), frames, 100.0 * sample.mean, 100.0 * half);
+  EXPECT_LE(std::abs(sample.mean), half) << nameOf(history);
+  EXPECT_LT(half, 0.01) << nameOf(history) << ": says nothing";
+}
+
+TEST(Slope, OfMadeUpEnergies) {
+  std::vector<double> energies;
+  for (int frame = 1; frame <= 999; ++frame) energies.push_back(5.0);
+  EXPECT_DOUBLE_EQ(slopeOf(energies), 0.0);
+  for (int frame = 1; frame <= 999; ++frame)
+    energies[size_t(frame) - 1] = frame < 10 ? 99.0 : frame < 100 ? 100.0 : 101.0;
+  EXPECT_NEAR(slopeOf(energies), 0.01, 1e-12);
+}
+
+class LongHistory : public ::testing::TestWithParam<History> {};
+TEST_P(LongHistory, KeepsItsEnergy) { expectNoSlope(GetParam(), 999, 16); }
+INSTANTIATE_TEST_SUITE_P(Every, LongHistory, ::testing::ValuesIn(histories()),
+                         [](const auto& test) { return nameOf(test.param); });
+
+class LongHistoryNightly : public ::testing::TestWithParam<History> {};
+TEST_P(LongHistoryNightly, KeepsItsEnergy) { expectNoSlope(GetParam(), 9999, 16); }
+INSTANTIATE_TEST_SUITE_P(Every, LongHistoryNightly, ::testing::ValuesIn(histories()),
+                         [](const auto& test) { return nameOf(test.param); });
+
+}  // namespace
+}  // namespace restlab::bias
