@@ -95,6 +95,8 @@ std::string tableOf(const std::vector<Certified>& all, const std::vector<std::st
   text += "\n" + line + "\n";
   const std::vector<Row> rows =
       distinct<Row>(all, [](const Certified& c) { return Row(c.method, c.denoiser); });
+  // Behind the methods of a line, in the order of the first of each.
+  std::vector<std::pair<std::string, std::string>> lines;
   for (const Row& row : rows) {
     std::string cells;
     const char* declared = nullptr;
@@ -107,8 +109,16 @@ std::string tableOf(const std::vector<Certified>& all, const std::vector<std::st
     }
     // A method that none of these scenes has.
     if (declared == nullptr) continue;
-    text += fmt::format("| {} | {} | {} |{}\n", row.first, row.second, declared, cells);
+    const std::string rest = fmt::format(" | {} | {} |{}\n", row.second, declared, cells);
+    const auto same = std::find_if(lines.begin(), lines.end(),
+                                   [&](const auto& other) { return other.second == rest; });
+    if (same == lines.end()) {
+      lines.emplace_back(row.first, rest);
+    } else {
+      same->first += "; " + row.first;
+    }
   }
+  for (const auto& [methods, rest] : lines) text += "| " + methods + rest;
   return text;
 }
 
@@ -142,7 +152,7 @@ std::string suiteMarkdownOf(const std::vector<Certified>& all, const Rules& rule
       "with its 95 % interval. Behind biased, the bias of the cell of the image that is farthest "
       "off. Then the share of the image whose cells are too skewed for a test, if there is one. "
       "Behind not decided, how many more runs would decide; nothing where the error of the "
-      "reference is too large for that.\n";
+      "reference is too large for that. Methods that agree in all digits share a line.\n";
   const std::vector<std::string> scenes =
       distinct<std::string>(all, [](const Certified& c) { return c.scene; });
   for (size_t i = 0; i < scenes.size(); i += kScenesBeside) {

@@ -108,6 +108,21 @@ TEST(SuiteTable, ARowAMethodAndThreeScenesATable) {
     EXPECT_LE(std::count(line.begin(), line.end(), '|'), 7) << "more than six columns: " << line;
 }
 
+// In a still view caches and modes show one image: that is one line, unless they declare unlike.
+TEST(SuiteTable, WhatAgreesSharesALine) {
+  std::vector<Certified> all;
+  for (const char* method : {"reuse, pixel", "other", "reuse, voxel"})
+    all.push_back(planted("one", method, "none", BiasClass::unbiased,
+                          method == std::string("other") ? kNoisy : kRight));
+  all.push_back(planted("one", "reuse, biased", "none", BiasClass::biased, kRight));
+  const std::string text = suiteMarkdownOf(all, Rules(), "x");
+  EXPECT_NE(text.find("| reuse, pixel; reuse, voxel | none | unbiased | equivalent "),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("| reuse, biased | none | biased | equivalent "), std::string::npos) << text;
+  EXPECT_NE(text.find("| other | none | unbiased | not decided "), std::string::npos) << text;
+}
+
 TEST(SuiteTable, WhatIsNotDecidedSaysHowManyRunsWould) {
   const std::vector<std::string> open = linesWith("| path | none | unbiased | not decided ");
   ASSERT_EQ(open.size(), 1u) << document();
