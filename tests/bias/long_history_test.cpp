@@ -101,7 +101,7 @@ TEST(Slope, OfMadeUpEnergies) {
 }
 
 class LongHistory : public ::testing::TestWithParam<History> {};
-TEST_P(LongHistory, KeepsItsEnergy) { expectNoSlope(GetParam(), 999, 16); }
+TEST_P(LongHistory, KeepsItsEnergy) { expectNoSlope(GetParam(), 999, 8); }
 INSTANTIATE_TEST_SUITE_P(Every, LongHistory, ::testing::ValuesIn(histories()),
                          [](const auto& test) { return nameOf(test.param); });
 
