@@ -15,6 +15,7 @@ set(RL_CONFORMANCE_TESTS
   conformance/moving_view_test.cpp
   conformance/radiance_test.cpp
   conformance/scaling_test.cpp
+  conformance/still_view_test.cpp
   conformance/stopped_frame_test.cpp
   conformance/thin_wall_test.cpp
   conformance/variants.cpp
