@@ -83,8 +83,11 @@ double runsToDecide(const Evidence& evidence, const stats::Truth& truth, const I
   const stats::CellArea whole = wholeImage(evidence.runs().grid());
   const std::vector<double> means = evidence.runs().cellMeans(whole, b.quantity);
   const stats::Sample sample = stats::summarise(means);
-  const double scale = std::abs(b.reference), found = std::abs(b.bias.value);
-  if (scale == 0.0 || !std::isfinite(found)) return kNan;
+  const double scale = std::abs(b.reference);
+  if (scale == 0.0 || !std::isfinite(b.bias.value)) return kNan;
+  // A bias that may be none is taken for none: its value is noise.
+  const bool mayBeNone = b.bias.lo <= 0.0 && b.bias.hi >= 0.0;
+  const double found = mayBeNone ? 0.0 : std::abs(b.bias.value);
   const double variance = sample.variance / (scale * scale);
   const double own = referenceVarianceOf(truth.cell(whole, b.quantity)) / (scale * scale);
   const double level = normalQuantile(1.0 - 0.5 * rules.familyError / double(quantities().size()));
@@ -136,11 +139,6 @@ stats::BiasOptions testsOf(const Rules& rules) {
   return options;
 }
 
-std::string place(const stats::CellVerdict& v) {
-  if (v.wholeImage) return "the whole image";
-  return fmt::format("the cell of blocks x {} y {} size {}", v.area.x, v.area.y, v.area.size);
-}
-
 // Would no number of runs tell even a bias of 0 from the margin?
 bool isReferenceTooCoarse(const stats::Truth& truth, const Rules& rules) {
   return relativeError(truth) >= rules.margin / deviations(rules);
@@ -162,8 +160,9 @@ void decide(Certificate& c, const Evidence& evidence, double batches, const stat
     c.reason = fmt::format(
         "luminance of the image by {:+.2f} % [{:+.2f}, {:+.2f}]; most in {}, {} by {}; fresh runs "
         "say so, too",
-        100.0 * b.bias.value, 100.0 * b.bias.lo, 100.0 * b.bias.hi, place(*worst),
-        stats::quantityName(worst->quantity), relativeText(*worst, 2));
+        100.0 * b.bias.value, 100.0 * b.bias.lo, 100.0 * b.bias.hi,
+        placeOf(*worst, evidence.runs().grid()), stats::quantityName(worst->quantity),
+        relativeText(*worst, 2));
     return;
   }
   if (std::all_of(c.image.begin(), c.image.end(), isEquivalent)) {
@@ -251,6 +250,7 @@ Certificate judge(const Evidence& evidence, const stats::RunSet& firstBatch,
     throw std::invalid_argument("certificate: too few runs");
   const stats::Truth truth = truthOf(reference, evidence.runs().grid());
   Certificate c;
+  c.runs = evidence.count();
   for (const stats::Quantity quantity : quantities())
     c.image.push_back(biasOf(evidence, truth, quantity, rules));
   c.cells = stats::testBias(firstBatch, truth, testsOf(rules), freshBatch);
@@ -275,6 +275,12 @@ void countNonfiniteSamples(Certificate& c, uint64_t samples) {
   c.moreRuns.reset();
   c.reason =
       fmt::format("{} of its runs were not finite{}", counted(samples, "sample value"), also);
+}
+
+std::string placeOf(const stats::CellVerdict& cell, const stats::BlockGrid& grid) {
+  if (cell.wholeImage || cell.area.size == grid.side) return "the whole image";
+  return fmt::format("the cell of blocks x {} y {} size {}", cell.area.x, cell.area.y,
+                     cell.area.size);
 }
 
 std::string relativeText(const stats::CellVerdict& cell, int digits) {

@@ -74,9 +74,10 @@ struct Certificate {
   stats::BiasReport cells;
   // Of the rejections that count, the one that is largest, relative to its reference.
   std::optional<stats::CellVerdict> worst;
+  uint64_t runs = 0;               // by which the image is judged
   Interval squaredBias, variance;  // their sum is the MSE of a run against the truth
-  // More runs that would decide, if bias and spread are what they seem; nothing where it is decided
-  // or where no number of runs decides.
+  // More runs that would decide, if the spread is what it seems, and the bias, or 0 where the
+  // interval holds that; nothing where it is decided or where no number of runs decides.
   std::optional<uint64_t> moreRuns;
   double fewestEvents = 0.0;      // rareEvents of the cell in which it is least
   uint64_t nonfiniteSamples = 0;  // sample values that a kernel has set to zero, in all runs
@@ -109,6 +110,9 @@ bool rejects(const stats::RunSet& runs, const stats::Truth& truth, const Rules& 
 // and the spread is that of `pilot`; at least kRunsForCells. NaN where the reference's own
 // error alone is too large.
 double runsForEquivalence(const Evidence& pilot, const stats::Truth& truth, const Rules& rules);
+
+// "the cell of blocks x 6 y 5 size 1", "the whole image".
+std::string placeOf(const stats::CellVerdict& cell, const stats::BlockGrid& grid);
 
 // A bias relative to a cell's reference, in percent: "+1.2 %"; as it is where that is black.
 std::string relativeText(const stats::CellVerdict& cell, int digits);

@@ -149,6 +149,16 @@ void addNotes(Certified& c, const DenoiserInfo* denoiser) {
         "its cells",
         100.0 * certificate.cells.untestableShare));
   }
+  const stats::BlockGrid grid(c.mean.width, c.mean.height);
+  const bool isOneCell =
+      grid.side > 1 && std::none_of(certificate.cells.cells.begin(), certificate.cells.cells.end(),
+                                    [&](const stats::CellVerdict& v) {
+                                      return v.area.size < grid.side && (v.testable || v.equal);
+                                    });
+  if (isOneCell)
+    c.notes.push_back(
+        "no cell smaller than the image could be tested: biases of both signs may cancel in it; "
+        "more runs would tell");
   if (certificate.fewestEvents < kFewEvents) {
     c.notes.push_back(fmt::format(
         "heavy tails: the noise of the worst cell is like that of {:.1f} rare events in {} "
@@ -173,20 +183,18 @@ uint64_t pixelHash(const Image& image) {
   return XXH3_64bits(image.pixels.data(), image.pixels.size() * sizeof(glm::vec3));
 }
 
-// Metadata that say what was rendered, and how; runs of one method have them in common.
-bool saysHow(const std::string& key) {
-  static const std::vector<std::string> all = {"integrator", "mode", "cache", "denoiser", "kernel"};
-  return key.rfind("parameter.", 0) == 0 || std::find(all.begin(), all.end(), key) != all.end();
-}
-
 // Throws Error (badInput) where the images say that they are not of one method.
 void requireOneMethod(const std::string& file, const std::map<std::string, std::string>& words,
                       const std::string& first, const std::map<std::string, std::string>& ofFirst) {
-  for (const auto& [key, value] : words) {
-    const auto other = ofFirst.find(key);
-    if (!saysHow(key) || other == ofFirst.end() || other->second == value) continue;
+  std::vector<std::string> keys = {"integrator", "mode",   "cache",         "denoiser",
+                                   "spp",        "frames", "warmup_frames", "kernel"};
+  for (const auto& [key, value] : words)
+    if (key.rfind("parameter.", 0) == 0) keys.push_back(key);
+  for (const std::string& key : keys) {
+    const auto own = words.find(key), other = ofFirst.find(key);
+    if (own == words.end() || other == ofFirst.end() || own->second == other->second) continue;
     failInput(fmt::format("{}: {} is '{}', but '{}' in {}; a certificate is of one method", file,
-                          key, value, other->second, first));
+                          key, own->second, other->second, first));
   }
 }
 
@@ -280,8 +288,11 @@ Certified certifyImages(const std::vector<std::string>& files, const std::string
   c.certificate = judge(
       evidence, first.runs(), [&] { return fresh.runs(); }, c.reference, options.rules);
   c.mean = evidence.mean();
-  c.how = fmt::format("{} images at {}x{}; each second one is of the fresh batch.", files.size(),
-                      mean.width, mean.height);
+  c.how = fmt::format(
+      "{} images at {}x{}: the bias of the image is of all of them, cells are tested by each "
+      "second "
+      "one and confirmed by the others.",
+      files.size(), mean.width, mean.height);
   addNotes(c, nullptr);
   return c;
 }

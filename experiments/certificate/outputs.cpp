@@ -47,8 +47,9 @@ Image signedColours(const Image& difference, const Image& reference) {
   const double full = std::max(0.1 * sum / double(reference.pixels.size()), 1e-30);
   Image picture(difference.width, difference.height);
   for (size_t i = 0; i < picture.pixels.size(); ++i) {
-    const auto d =
-        float(stats::quantityOf(difference.pixels[i], stats::Quantity::luminance) / full);
+    const auto d = std::clamp(
+        float(stats::quantityOf(difference.pixels[i], stats::Quantity::luminance) / full), -1.0f,
+        1.0f);
     picture.pixels[i] = d > 0.0f ? glm::vec3(d, 0.15f * d, 0.0f) : glm::vec3(0.0f, -0.3f * d, -d);
   }
   return picture;
@@ -88,6 +89,7 @@ void writeMaps(const fs::path& folder, const Certified& certified) {
   writeOne("mean", certified.mean);
   writeOne("reference", reference);
   writeOne("p", pColours(file.layers["p_value"]));
+  writeOne("signed", signedColours(file.layers[""], reference));
 }
 
 Json intervalCell(const Interval& i) {
@@ -111,15 +113,13 @@ Json blockOf(size_t index, const Certified& certified) {
                      {{"bias", intervalCell(b.bias)},
                       {"detectable", intervalCell({b.detectable, std::nan(""), std::nan("")})}}}});
   }
+  rows[0]["flags"] = detailsOf(certified);
   const std::string replay = certified.replay.empty() ? "" : " A pixel: " + certified.replay;
   return {
       {"id", fmt::format("certificate-{}", index)},
       {"title", fmt::format("{}: {}", certified.name, verdictName(c.verdict))},
       {"subtitle",
-       fmt::format("{}. {} Cells: {} rejected, {} confirmed, untestable area {:.1f} "
-                   "%.{}{}",
-                   c.reason, certified.how, c.cells.rejected, c.cells.confirmed,
-                   100.0 * c.cells.untestableShare,
+       fmt::format("{}. {}{}{}", c.reason, certified.how,
                    c.moreRuns ? fmt::format(" About {} more runs would decide.", *c.moreRuns) : "",
                    replay)},
       {"row_title", "quantity"},
@@ -139,6 +139,9 @@ Json blockOf(size_t index, const Certified& certified) {
        {{{"name", "mean of the runs"},
          {"file", "maps/" + certified.label + "-mean.exr"},
          {"role", "method"}},
+        {{"name", "bias (red brighter, blue darker, full at a tenth of the mean)"},
+         {"file", "maps/" + certified.label + "-signed.exr"},
+         {"role", "method"}},
         {{"name", "p of the cells (black 1, yellow 1e-4)"},
          {"file", "maps/" + certified.label + "-p.exr"},
          {"role", "method"}},
@@ -155,6 +158,8 @@ void writeTable(const fs::path& folder, const std::string& table) {
 
 void writeOutputs(const fs::path& folder, const std::vector<Certified>& all,
                   const std::string& table, const std::string& command) {
+  std::error_code status;
+  fs::remove_all(folder / "maps", status);
   makeWritableDirectory(folder / "maps");
   Json certificates = Json::array(), blocks = Json::array(), notes = Json::array();
   for (const Certified& certified : all) {

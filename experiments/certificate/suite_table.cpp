@@ -130,8 +130,8 @@ std::string suiteMarkdownOf(const std::vector<Certified>& all, const Rules& rule
   uint64_t fewestRuns = UINT64_MAX, mostRuns = 0, leastSpp = UINT64_MAX, mostSpp = 0;
   std::set<std::pair<uint32_t, uint32_t>> sizes;
   for (const Certified& c : all) {
-    fewestRuns = std::min<uint64_t>(fewestRuns, c.certificate.cells.runs);
-    mostRuns = std::max<uint64_t>(mostRuns, c.certificate.cells.runs);
+    fewestRuns = std::min<uint64_t>(fewestRuns, c.certificate.runs);
+    mostRuns = std::max<uint64_t>(mostRuns, c.certificate.runs);
     if (c.reference.spp > 0) {  // 0: in closed form
       leastSpp = std::min(leastSpp, c.reference.spp);
       mostSpp = std::max(mostSpp, c.reference.spp);

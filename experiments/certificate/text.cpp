@@ -19,24 +19,70 @@ std::string percents(const Interval& i) {
   return fmt::format("{:+.3f} % [{:+.3f}, {:+.3f}]", 100.0 * i.value, 100.0 * i.lo, 100.0 * i.hi);
 }
 
-// Those farthest from the reference in deviations, whether significant or not.
-std::vector<const stats::CellVerdict*> worstCells(const stats::BiasReport& report) {
-  std::vector<const stats::CellVerdict*> cells;
-  for (const stats::CellVerdict& v : report.cells)
-    if (v.testable && !v.wholeImage) cells.push_back(&v);
-  std::sort(cells.begin(), cells.end(), [](const auto* a, const auto* b) {
-    return std::abs(a->welch.t) > std::abs(b->welch.t);
-  });
-  if (cells.size() > kWorstCells) cells.resize(kWorstCells);
-  return cells;
+stats::BlockGrid gridOf(const Certified& certified) {
+  return stats::BlockGrid(certified.mean.width, certified.mean.height);
 }
 
-std::string cellText(const stats::CellVerdict& v) {
-  std::string text = fmt::format("blocks x {} y {} size {}, {}: {}, t {:+.2f}, p {:.2g}", v.area.x,
-                                 v.area.y, v.area.size, stats::quantityName(v.quantity),
-                                 relativeText(v, 2), v.welch.t, v.adjustedP);
+bool isSame(const stats::CellArea& a, const stats::CellArea& b) {
+  return a.x == b.x && a.y == b.y && a.size == b.size;
+}
+
+// What is said of an area: by the quantity that lies farthest from the reference, in deviations.
+std::vector<const stats::CellVerdict*> areasOf(const stats::BiasReport& report) {
+  std::vector<const stats::CellVerdict*> areas;
+  const auto distance = [](const stats::CellVerdict& v) {
+    return v.testable ? std::abs(v.welch.t) : 0.0;
+  };
+  for (const stats::CellVerdict& v : report.cells) {
+    if (v.wholeImage || !(v.testable || v.equal)) continue;
+    const auto same =
+        std::find_if(areas.begin(), areas.end(),
+                     [&](const stats::CellVerdict* other) { return isSame(other->area, v.area); });
+    if (same == areas.end()) {
+      areas.push_back(&v);
+    } else if (distance(v) > distance(**same)) {
+      *same = &v;
+    }
+  }
+  std::sort(areas.begin(), areas.end(),
+            [&](const auto* a, const auto* b) { return distance(*a) > distance(*b); });
+  return areas;
+}
+
+std::string cellText(const stats::CellVerdict& v, const stats::BlockGrid& grid) {
+  std::string text =
+      fmt::format("{}, {}: {}, t {:+.2f}, p {:.2g} after Holm", placeOf(v, grid),
+                  stats::quantityName(v.quantity), relativeText(v, 2), v.welch.t, v.adjustedP);
   if (v.side != 0) text += v.confirmed ? ", confirmed" : ", not confirmed by fresh runs";
   return text;
+}
+
+// Of the tests of luminance and channels of an area.
+template <class Condition>
+bool anyOf(const stats::BiasReport& report, const stats::CellArea& area, Condition condition) {
+  return std::any_of(report.cells.begin(), report.cells.end(), [&](const stats::CellVerdict& v) {
+    return !v.wholeImage && isSame(v.area, area) && condition(v);
+  });
+}
+
+std::string cellsText(const Certified& certified) {
+  const stats::BiasReport& report = certified.certificate.cells;
+  const double side = double(gridOf(certified).side);
+  double largest = 0.0;
+  size_t cells = 0, rejected = 0, confirmed = 0;
+  for (const stats::CellVerdict* cell : areasOf(report)) {
+    const stats::CellArea& area = cell->area;
+    ++cells;
+    largest = std::max(largest, double(area.size) * double(area.size) / (side * side));
+    rejected += anyOf(report, area, [](const stats::CellVerdict& v) { return v.side != 0; });
+    confirmed += anyOf(report, area, [](const stats::CellVerdict& v) { return v.confirmed; });
+  }
+  const bool isSmall = confirmed > 0 && certified.certificate.verdict == Verdict::equivalent;
+  return fmt::format(
+      "cells: {}, the largest {:.1f} % of the image; {} rejected, {} of them confirmed by fresh "
+      "runs{}; untestable area {:.1f} %; smallest bias that is found {:.2f} % of a cell (median)",
+      cells, 100.0 * largest, rejected, confirmed, isSmall ? ", each smaller than the margin" : "",
+      100.0 * report.untestableShare, 100.0 * report.detectableBias);
 }
 
 // JSON has no NaN.
@@ -79,21 +125,40 @@ std::string errorText(const Certificate& c) {
                      100.0 * c.squaredBias.hi / whole, 100.0 * c.variance.value / whole);
 }
 
+std::string healthText(const Certified& certified) {
+  const Certificate& c = certified.certificate;
+  const std::string text = fmt::format("not finite: {} of the images, {} of samples",
+                                       counted(c.cells.nonfinite, "value"), c.nonfiniteSamples);
+  return certified.replay.empty() ? text
+                                  : fmt::format("{}; health: {}", text, certified.health.text());
+}
+
 // `--images` has no more runs to ask for.
 std::string moreRunsText(const Certified& certified) {
   const Certificate& c = certified.certificate;
   if (!c.moreRuns) return "";
   const std::string more = counted(*c.moreRuns, "more run");
-  if (certified.replay.empty()) return fmt::format("  about {} would decide\n", more);
-  return fmt::format("  about {} would decide: --runs {}\n", more, c.cells.runs + *c.moreRuns);
+  if (certified.replay.empty())
+    return fmt::format("  about {} would decide\n", counted(*c.moreRuns, "more image"));
+  return fmt::format("  about {} would decide: --runs {}\n", more, c.runs + *c.moreRuns);
 }
 
 }  // namespace
 
+std::vector<std::string> detailsOf(const Certified& certified) {
+  std::vector<std::string> details = {errorText(certified.certificate), cellsText(certified)};
+  const auto areas = areasOf(certified.certificate.cells);
+  for (size_t i = 0; i < std::min(areas.size(), kWorstCells); ++i)
+    details.push_back(cellText(*areas[i], gridOf(certified)));
+  details.push_back(healthText(certified));
+  return details;
+}
+
 std::string lineOf(const Certified& certified) {
   const Certificate& c = certified.certificate;
-  return fmt::format("{:<12} {}: luminance {}", verdictName(c.verdict), certified.name,
-                     percents(c.image.front().bias));
+  return fmt::format("{:<12} {}: luminance {}{}", verdictName(c.verdict), certified.name,
+                     percents(c.image.front().bias),
+                     c.verdict == Verdict::notDecided ? "; " + c.reason : "");
 }
 
 std::string textOf(const Certified& certified) {
@@ -105,22 +170,13 @@ std::string textOf(const Certified& certified) {
                         stats::quantityName(b.quantity), percents(b.bias), 100.0 * b.detectable);
   }
   text += fmt::format("  {}\n", errorText(c));
-  const auto tested =
-      std::count_if(c.cells.cells.begin(), c.cells.cells.end(),
-                    [](const stats::CellVerdict& v) { return v.testable || v.equal; });
-  text += fmt::format(
-      "  cells: {} tests, {} rejected, {} confirmed; untestable area {:.1f} %; smallest bias that "
-      "is found {:.2f} % of a cell (median)\n",
-      tested, c.cells.rejected, c.cells.confirmed, 100.0 * c.cells.untestableShare,
-      100.0 * c.cells.detectableBias);
-  for (const stats::CellVerdict* v : worstCells(c.cells))
-    text += fmt::format("    {}\n", cellText(*v));
+  text += fmt::format("  {}\n", cellsText(certified));
+  const auto areas = areasOf(c.cells);
+  for (size_t i = 0; i < std::min(areas.size(), kWorstCells); ++i)
+    text += fmt::format("    {}\n", cellText(*areas[i], gridOf(certified)));
   text += moreRunsText(certified);
   for (const std::string& note : certified.notes) text += fmt::format("  {}\n", note);
-  text += fmt::format("  not finite: {} of the images, {} of samples",
-                      counted(c.cells.nonfinite, "value"), c.nonfiniteSamples);
-  const std::string health = certified.replay.empty() ? "" : certified.health.text();
-  text += health.empty() ? "\n" : fmt::format("; health: {}\n", health);
+  text += fmt::format("  {}\n", healthText(certified));
   if (!certified.replay.empty()) text += fmt::format("  a pixel of run 0: {}\n", certified.replay);
   return text;
 }
@@ -152,7 +208,7 @@ Json jsonOf(const Certified& certified) {
           {"verdict", verdictName(c.verdict)},
           {"reason", c.reason},
           {"how", certified.how},
-          {"runs", c.cells.runs},
+          {"runs", c.runs},
           {"image", image},
           {"squared_bias", intervalJson(c.squaredBias)},
           {"variance", intervalJson(c.variance)},
@@ -179,7 +235,7 @@ std::string markdownOf(const std::vector<Certified>& all) {
     const Certificate& c = certified.certificate;
     text += fmt::format("| {} | {} | {} | {} | {:.1f} % | {} |\n", certified.name,
                         verdictName(c.verdict), percents(c.image.front().bias), shareOfBias(c),
-                        100.0 * c.cells.untestableShare, c.cells.runs);
+                        100.0 * c.cells.untestableShare, c.runs);
   }
   return text;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <fstream>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -209,13 +210,15 @@ void checkOptions(const CLI::App& verb, const BiasOptions& options) {
                         : "--ref: goes with --images; of a scene the reference is rendered");
   }
   if (hasImages == !scene.empty()) {
-    failUsage(hasImages ? "bias: takes a scene or a suite, or --images with --ref, not both"
+    failUsage(hasImages ? "bias: takes a scene or a suite, or --images with --ref, not both; a "
+                          "pattern is quoted: --images 'run-*.exr'"
                         : "bias: needs a scene or a suite, or --images with --ref");
   }
   if (hasImages) {
     requireAmong(
         {"--help", "--quiet", "--verbose", "--images", "--ref", "--out", "--json", "--margin"},
-        verb, "nothing is rendered for --images; they are what they are, and as many as the files");
+        verb,
+        "nothing is rendered for --images, which go with --ref, --margin, --out and --json alone");
   } else if (isSuite(scene)) {
     requireAmong({"--help", "--quiet", "--verbose", "scene", "--set", "--runs", "--max-runs",
                   "--jobs", "--out", "--json", "--margin", "--warmup", "--frames"},
@@ -223,6 +226,13 @@ void checkOptions(const CLI::App& verb, const BiasOptions& options) {
   }
   if (options.runs > 0 && verb.get_option("--max-runs")->count() > 0)
     failUsage("--max-runs: --runs says how many there are; give one of the two");
+}
+
+// That of the certificates in a folder; "" where there are none.
+std::string commandOf(const std::filesystem::path& folder) {
+  std::ifstream in(folder / "certificates.json");
+  const auto document = nlohmann::json::parse(in, nullptr, /*allow_exceptions=*/false);
+  return document.is_object() ? document.value("command", "") : "";
 }
 
 void bias(BiasOptions options, const CLI::App& verb, Outcome& outcome) {
@@ -235,11 +245,15 @@ void bias(BiasOptions options, const CLI::App& verb, Outcome& outcome) {
   std::string table;
   std::vector<Certified> all;
   std::optional<FolderLock> lock;
-  // Nothing is left of what cannot be certified.
+  // Nothing is left of what cannot be certified, and what is replaced is named.
   const auto openFolder = [&](const std::string& name) {
     how = certificateOptions(options, name);
     makeWritableDirectory(how.out);
     lock.emplace(how.out);
+    const std::string before = commandOf(how.out);
+    if (!before.empty() && before != command)
+      logInfo(fmt::format("{}: page, tables and maps will replace those of {}", how.out.string(),
+                          before));
   };
   if (!options.images.empty()) {
     how = certificateOptions(options, "images");
@@ -294,7 +308,8 @@ Action addBiasVerb(CLI::App& app) {
       ->description("WxH pixels (default: 96 wide, the camera's aspect ratio)");
   addMethodOptions(*verb, options->method);
   verb->add_option("--runs", options->runs,
-                   "independent runs (default: as many as the first 64 ask for)")
+                   "independent runs of the first batch; a rejection takes as many fresh ones "
+                   "(default: as many as the first 64 ask for)")
       ->transform(wholeNumberFrom(certificate::kFewestRuns, 1'000'000));
   verb->add_option("--max-runs", options->maxRuns, "that these may ask for (default 4096)")
       ->transform(wholeNumberFrom(certificate::kFewestRuns, 1'000'000));

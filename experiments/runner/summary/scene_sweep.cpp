@@ -76,10 +76,10 @@ bool isFarOff(const Interval& energy, double within) {
 
 Holding holds(const Interval& energy, uint64_t nonfinite, double within) {
   if (nonfinite > 0 || std::isnan(energy.value)) return Holding::no;
-  const double lo = std::isnan(energy.lo) ? energy.value : energy.lo;
-  const double hi = std::isnan(energy.hi) ? energy.value : energy.hi;
-  if (lo > 1.0 + within || hi < 1.0 - within) return Holding::no;
-  return hi - lo > 2.0 * kWidestTolerances * within ? Holding::notDecided : Holding::yes;
+  if (energy.lo > 1.0 + within || energy.hi < 1.0 - within) return Holding::no;
+  // False of an interval that is not known.
+  const bool isNarrow = energy.hi - energy.lo <= 2.0 * kWidestTolerances * within;
+  return isNarrow ? Holding::yes : Holding::notDecided;
 }
 
 std::optional<size_t> SceneSweep::lastThatHolds(size_t method) const {

@@ -41,8 +41,8 @@ struct SceneSweep {
 
 // A value holds where nothing is without a finite value and the interval of the energy ratio
 // touches 1 within the tolerance; it is not decided where half of that interval is more than
-// kWidestTolerances tolerances. An energy that is not known does not hold; without an interval
-// (one run) its value counts.
+// kWidestTolerances tolerances, and without an interval (one run). An energy that is not known does
+// not hold.
 constexpr double kWidestTolerances = 5.0;
 Holding holds(const Interval& energy, uint64_t nonfinite, double within);
 
