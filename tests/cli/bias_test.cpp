@@ -313,7 +313,7 @@ integrator = "path"
                             "[[scene]]\nname = \"b\"\nscene = \"quad-light\"\nmax_bounces = 1\n"
                             "camera = \"low\"\n");
   EXPECT_LE(run("bias cameras.toml --runs 32 --margin 50 -o two -q").code, 1);
-  EXPECT_EQ(entries("two/maps").size(), 2u * 6u);
+  EXPECT_EQ(entries("two/maps").size(), 2u * 7u);
 
   // Truths that a sweep does not have, before the first run.
   write("none.toml", settings +

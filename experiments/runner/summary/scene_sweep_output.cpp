@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "experiments/report/text.h"
 #include "experiments/runner/run/run_record.h"
@@ -124,10 +125,11 @@ std::string whatHolds(const Suite& suite) {
 std::string doubtOf(const SceneSweep& sweep, size_t method, size_t value) {
   const SweptCell& cell = sweep.cells[method][value];
   if (!sweep.blocks[value] || cell.holding == Holding::yes) return "";
-  const std::string why = cell.nonfinite > 0 ? fmt::format("{} not finite", cell.nonfinite)
-                          : std::isnan(cell.energy.value) ? std::string("its energy is not known")
-                                                          : withEnds(cell.energy, kEnergyDigits);
-  return fmt::format("{} at {} = {}: {}",
+  const std::string why =
+      cell.nonfinite > 0 ? fmt::format("not known: {} not finite", counted(cell.nonfinite, "value"))
+      : std::isnan(cell.energy.value) ? std::string("not known")
+                                      : withEnds(cell.energy, kEnergyDigits);
+  return fmt::format("{} at {} = {}, energy {}",
                      cell.holding == Holding::no ? "does not hold" : "is not decided",
                      sweep.parameter.name, sweep.parameter.texts[value], why);
 }
@@ -275,14 +277,26 @@ std::string sweepTable(const SceneSweep& sweep) {
     text += "\n";
   }
   text += "\n";
+  // What is said of several methods once.
+  std::vector<std::pair<std::string, std::string>> said;
+  const auto say = [&](const std::string& what, const std::string& method) {
+    const auto same = std::find_if(said.begin(), said.end(),
+                                   [&](const auto& other) { return other.first == what; });
+    if (same == said.end()) {
+      said.emplace_back(what, method);
+    } else {
+      same->second += "; " + method;
+    }
+  };
   for (size_t m = 0; m < sweep.methods.size(); ++m) {
     if (const uint64_t faults = faultsOf(sweep, m))
-      text += fmt::format("- {}: {} of health\n", sweep.methods[m], counted(faults, "fault"));
+      say(counted(faults, "fault") + " of health", sweep.methods[m]);
     for (size_t i = 0; i < sweep.blocks.size(); ++i) {
       const std::string doubt = doubtOf(sweep, m, i);
-      if (!doubt.empty()) text += fmt::format("- {} {}\n", sweep.methods[m], doubt);
+      if (!doubt.empty()) say(doubt, sweep.methods[m]);
     }
   }
+  for (const auto& [what, methods] : said) text += fmt::format("- {}: {}\n", what, methods);
   return text + "\n";
 }
 
