@@ -39,7 +39,7 @@ Image pValues(const Certified& certified) {
   return map;
 }
 
-// Brighter is red, darker is blue; full where it is a tenth of the image's mean.
+// Brighter is orange, darker is blue; full where it is a tenth of the image's mean.
 Image signedColours(const Image& difference, const Image& reference) {
   double sum = 0.0;
   for (const glm::vec3& p : reference.pixels)
@@ -139,7 +139,7 @@ Json blockOf(size_t index, const Certified& certified) {
        {{{"name", "mean of the runs"},
          {"file", "maps/" + certified.label + "-mean.exr"},
          {"role", "method"}},
-        {{"name", "bias (red brighter, blue darker, full at a tenth of the mean)"},
+        {{"name", "bias (orange brighter, blue darker, full at a tenth of the mean)"},
          {"file", "maps/" + certified.label + "-signed.exr"},
          {"role", "method"}},
         {{"name", "p of the cells (black 1, yellow 1e-4)"},
