@@ -113,7 +113,6 @@ Json blockOf(size_t index, const Certified& certified) {
                      {{"bias", intervalCell(b.bias)},
                       {"detectable", intervalCell({b.detectable, std::nan(""), std::nan("")})}}}});
   }
-  rows[0]["flags"] = detailsOf(certified);
   const std::string replay = certified.replay.empty() ? "" : " A pixel: " + certified.replay;
   return {
       {"id", fmt::format("certificate-{}", index)},
@@ -122,6 +121,7 @@ Json blockOf(size_t index, const Certified& certified) {
        fmt::format("{}. {}{}{}", c.reason, certified.how,
                    c.moreRuns ? fmt::format(" About {} more runs would decide.", *c.moreRuns) : "",
                    replay)},
+      {"notes", detailsOf(certified)},
       {"row_title", "quantity"},
       {"columns",
        {{{"key", "bias"},

@@ -26,11 +26,14 @@ constexpr const char* kPolicy =
 
 std::string blockHead(const ReportModel& block) {
   const std::string subtitle = reportText(block, "subtitle");
+  std::string notes;
+  for (const ReportModel& note : reportList(block, "notes"))
+    notes += fmt::format("<li>{}</li>\n", escapeMarkup(note.get<std::string>()));
   return fmt::format(
-      "<section class=\"block\" id=\"b-{}\">\n<h2>{}</h2>\n{}",
+      "<section class=\"block\" id=\"b-{}\">\n<h2>{}</h2>\n{}{}",
       escapeMarkup(reportText(block, "id")), escapeMarkup(reportText(block, "title")),
-      subtitle.empty() ? ""
-                       : fmt::format("<p class=\"subtitle\">{}</p>\n", escapeMarkup(subtitle)));
+      subtitle.empty() ? "" : fmt::format("<p class=\"subtitle\">{}</p>\n", escapeMarkup(subtitle)),
+      notes.empty() ? "" : fmt::format("<ul class=\"flags\">\n{}</ul>\n", notes));
 }
 
 }  // namespace

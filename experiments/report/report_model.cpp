@@ -250,7 +250,7 @@ void images(const Place& at) {
 
 void block(const Place& at, std::set<std::string>& ids) {
   requireObject(at, {"id", "title", "columns", "rows"},
-                {"subtitle", "part_of", "row_title", "plots", "bars", "settings", "left_out",
+                {"subtitle", "notes", "part_of", "row_title", "plots", "bars", "settings", "left_out",
                  "health", "images", "exposure"});
   member(at, "part_of", [&](const Place& p) {
     text(p);
@@ -259,6 +259,7 @@ void block(const Place& at, std::set<std::string>& ids) {
   member(at, "id", [&](const Place& p) { uniqueId(p, ids); });
   member(at, "title", text);
   member(at, "subtitle", text);
+  member(at, "notes", texts);
   member(at, "row_title", text);
   const std::set<std::string> keys = columns({at.json["columns"], at.path + ".columns"});
   forEach({at.json["rows"], at.path + ".rows"}, [&](const Place& p) { row(p, keys); });

@@ -7,6 +7,7 @@
 //   "blocks": [ {
 //     "id": text                                       [A-Za-z0-9._-]+, once in the document
 //     "title": text, "subtitle": text?,
+//     "notes": [text...]?                              what is said of all of its rows
 //     "part_of": text?                                 id of an earlier block, which lists this one
 //     "row_title": text?                               of the first column; "method" by default
 //     "columns": [ { "key": text, "title": text, "unit": text?, "help": text?,

@@ -28,6 +28,9 @@ TEST_F(BiasTest, PathIsEquivalentAndGoesOnWhereItWas) {
     EXPECT_NE(first.out.find(part), std::string::npos) << part << "\n" << first.out;
   for (const char* file : {"out/report.html", "out/certificates.json", "out/certificates.md"})
     EXPECT_TRUE(std::filesystem::exists(path(file))) << file;
+  const std::string page = read("out/report.html");
+  for (const char* part : {"<li>MSE of a run ", "<li>cells: ", "<li>not finite: 0 values"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
   EXPECT_EQ(entries("out/runs").size(), 1u);
   const std::string folder = "out/runs/" + entries("out/runs").at(0).filename().string();
   EXPECT_EQ(entries(folder).size(), 40u);

@@ -92,6 +92,7 @@ TEST_F(HtmlTest, TextIsHarmless) {
   model["notes"][0] = model["provenance"][0][0] = model["provenance"][0][1] = hostile;
   ReportModel& block = model["blocks"][0];
   for (const char* key : {"title", "subtitle", "row_title"}) block[key] = hostile;
+  block["notes"] = {hostile};
   for (const char* key : {"title", "unit", "help"}) block["columns"][1][key] = hostile;
   block["rows"][1]["method"] = block["rows"][1]["flags"][0] = hostile;
   block["rows"][1]["cells"]["mse"]["note"] = hostile;
@@ -133,6 +134,16 @@ TEST_F(HtmlTest, PartsAreListedUnderTheirWhole) {
   EXPECT_LT(list.find("href=\"#b-first\""), open);
   EXPECT_LT(open, list.find("href=\"#b-second\""));
   EXPECT_LT(list.find("href=\"#b-second\""), close);
+}
+
+TEST_F(HtmlTest, NotesStandAboveTheTable) {
+  ReportModel model = model_;
+  model["blocks"][0]["notes"] = {"said of all rows"};
+  const std::string html = report(model);
+  const size_t note = html.find("<li>said of all rows</li>");
+  ASSERT_NE(note, std::string::npos);
+  EXPECT_LT(html.find("id=\"b-first\""), note);
+  EXPECT_LT(note, html.find("<table class=\"results\">"));
 }
 
 TEST_F(HtmlTest, BestOfThoseThatCount) {

@@ -61,6 +61,7 @@ const Wrong kWrong[] = {
     {"Note", "/notes/0", "false", "notes[0]: must be a text"},
     {"Provenance", "/provenance/1", "[\"a\"]", "provenance[1]: must be [key, value]"},
     {"IdTwice", "/blocks/1/id", "\"first\"", "blocks[1].id: 'first' is there twice"},
+    {"BlockNote", "/blocks/0/notes", "[1]", "blocks[0].notes[0]: must be a text"},
     {"PartOfItself", "/blocks/0/part_of", "\"first\"",
      "blocks[0].part_of: must be the id of an earlier block"},
     {"PartOfALaterOne", "/blocks/0/part_of", "\"second\"",
