@@ -21,9 +21,9 @@ std::string whyOutsideRange(const DenoiserInfo& denoiser, const Image& radiance)
   const double mean = sum / lit;
   if (mean >= kLeastFiltered && mean <= kMostFiltered) return "";
   return fmt::format(
-      "{}: the mean radiance is {:.3g}, and squares of radiance beyond 2^-40 to 2^40 leave the "
-      "range "
-      "of float32: the filter weighs otherwise there; scale the light",
+      "{}: the mean luminance of what is lit is {:.3g}, and squares of radiance beyond 2^-40 to "
+      "2^40 "
+      "leave float32's range: the filter weighs otherwise there; scale the light",
       denoiser.name, mean);
 }
 

@@ -149,8 +149,8 @@ void decide(Certificate& c, const Evidence& evidence, double batches, const stat
   const auto isEquivalent = [](const ImageBias& b) { return b.isEquivalent; };
   if (c.cells.nonfinite > 0) {
     c.verdict = Verdict::biased;
-    c.reason = fmt::format("{} values of its images or of the reference are not finite",
-                           c.cells.nonfinite);
+    c.reason = fmt::format("{} of its images or of the reference not finite",
+                           counted(c.cells.nonfinite, "value"));
     return;
   }
   if (const stats::CellVerdict* worst = worstConfirmed(c.cells, rules)) {
@@ -200,7 +200,7 @@ void decide(Certificate& c, const Evidence& evidence, double batches, const stat
   if (std::isnan(runs)) return;
   // What should have been decided by these runs, and was not, takes as many again.
   const double there = double(evidence.count()), more = std::ceil(runs) - there;
-  c.moreRuns = uint64_t(more > 0.0 ? more : there);
+  c.moreRuns = uint64_t(std::min(more > 0.0 ? more : there, 1e15));
 }
 
 }  // namespace

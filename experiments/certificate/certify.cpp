@@ -200,7 +200,12 @@ void requireOneMethod(const std::string& file, const std::map<std::string, std::
 
 }  // namespace
 
-std::string labelOf(const Question& question) { return safeFileName(nameOf(question)); }
+std::string labelOf(const Question& question) {
+  constexpr size_t kLongest = 120;  // names of files end at 255 bytes
+  const std::string name = safeFileName(nameOf(question));
+  if (name.size() <= kLongest) return name;
+  return name.substr(0, kLongest) + "-" + hexHash(XXH3_64bits(name.data(), name.size()));
+}
 
 Certified certify(const Question& question, const Options& options) {
   Certified c;

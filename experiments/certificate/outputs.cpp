@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 
 #include "core/image/atomic_file.h"
 #include "experiments/report/report_html.h"
@@ -15,6 +16,10 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+
+// What stands behind the label in the names of its maps.
+constexpr const char* kMaps[] = {"-bias.exr",      "-bias.png", "-p.png",     "-mean.exr",
+                                 "-reference.exr", "-p.exr",    "-signed.exr"};
 
 Image differenceOf(const Image& a, const Image& b) {
   Image result = a;
@@ -92,6 +97,20 @@ void writeMaps(const fs::path& folder, const Certified& certified) {
   writeOne("signed", signedColours(file.layers[""], reference));
 }
 
+// Those of the certificates that were here before, and nothing else.
+void removeMaps(const fs::path& folder) {
+  std::ifstream in(folder / "certificates.json");
+  const Json document = Json::parse(in, nullptr, /*allow_exceptions=*/false);
+  if (!document.is_object() || !document.contains("certificates")) return;
+  for (const Json& one : document["certificates"]) {
+    if (!one.is_object() || !one.contains("label") || !one["label"].is_string()) continue;
+    const std::string label = one["label"].get<std::string>();
+    if (label != safeFileName(label)) continue;
+    std::error_code status;  // what stays is replaced or stands beside
+    for (const char* what : kMaps) fs::remove(folder / "maps" / (label + what), status);
+  }
+}
+
 Json intervalCell(const Interval& i) {
   const auto number = [](double v) -> Json {
     if (std::isnan(v)) return "nan";
@@ -158,8 +177,7 @@ void writeTable(const fs::path& folder, const std::string& table) {
 
 void writeOutputs(const fs::path& folder, const std::vector<Certified>& all,
                   const std::string& table, const std::string& command) {
-  std::error_code status;
-  fs::remove_all(folder / "maps", status);
+  removeMaps(folder);
   makeWritableDirectory(folder / "maps");
   Json certificates = Json::array(), blocks = Json::array(), notes = Json::array();
   for (const Certified& certified : all) {

@@ -27,8 +27,8 @@ std::string suiteMarkdownOf(const std::vector<Certified>& all, const Rules& rule
 
 // DIR/certificates.json and .md, DIR/maps/LABEL-bias.exr (signed difference of the runs' mean to
 // the reference, with the layers "mean", "reference" and "p_value", which holds that of the cell)
-// and PNGs of both maps, DIR/report.html. Maps that were there are gone. `table` is the text of
-// certificates.md. Throws Error (badInput) where a file cannot be written.
+// and PNGs of both maps, DIR/report.html. Maps of earlier certificates are gone. `table` is the
+// text of certificates.md. Throws Error (badInput) where a file cannot be written.
 void writeOutputs(const std::filesystem::path& folder, const std::vector<Certified>& all,
                   const std::string& table, const std::string& command);
 // DIR/certificates.md alone.

@@ -135,12 +135,14 @@ std::string healthText(const Certified& certified) {
 
 // `--images` has no more runs to ask for.
 std::string moreRunsText(const Certified& certified) {
+  constexpr uint64_t kMostRuns = 1'000'000;  // that --runs takes
   const Certificate& c = certified.certificate;
   if (!c.moreRuns) return "";
-  const std::string more = counted(*c.moreRuns, "more run");
   if (certified.replay.empty())
     return fmt::format("  about {} would decide\n", counted(*c.moreRuns, "more image"));
-  return fmt::format("  about {} would decide: --runs {}\n", more, c.runs + *c.moreRuns);
+  const uint64_t all = c.runs + *c.moreRuns;
+  if (all > kMostRuns) return "  more than a million runs would decide\n";
+  return fmt::format("  about {} would decide: --runs {}\n", counted(*c.moreRuns, "more run"), all);
 }
 
 }  // namespace

@@ -232,7 +232,9 @@ void checkOptions(const CLI::App& verb, const BiasOptions& options) {
 std::string commandOf(const std::filesystem::path& folder) {
   std::ifstream in(folder / "certificates.json");
   const auto document = nlohmann::json::parse(in, nullptr, /*allow_exceptions=*/false);
-  return document.is_object() ? document.value("command", "") : "";
+  const bool hasOne =
+      document.is_object() && document.contains("command") && document["command"].is_string();
+  return hasOne ? document["command"].get<std::string>() : "";
 }
 
 void bias(BiasOptions options, const CLI::App& verb, Outcome& outcome) {

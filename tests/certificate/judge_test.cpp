@@ -124,7 +124,7 @@ TEST(Judge, WhatIsNotFiniteIsBiased) {
   evidence.add(broken);
   const Certificate c = judgeMadeUp(evidence, {}, truth, makeReference(truth, 0.005, 2));
   EXPECT_EQ(c.verdict, Verdict::biased);
-  EXPECT_NE(c.reason.find("1 values"), std::string::npos) << c.reason;
+  EXPECT_NE(c.reason.find("1 value of its images"), std::string::npos) << c.reason;
 }
 
 // Kernels set such values to zero, so that images do not have them.

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
-#include <random>
 
 #include "core/image/image.h"
 #include "tests/cli/program.h"
@@ -126,30 +125,6 @@ TEST_F(BiasTest, TheReplayIsTheFrameOfTheRun) {
     EXPECT_EQ(pixel.at("frame"), 3);
     std::filesystem::remove_all(path("out"));
   }
-}
-
-// One run of 64 is bright in a pixel: its cell says that its noise is that of one event.
-TEST_F(BiasTest, RareEventsArePrinted) {
-  std::mt19937 random(1);
-  std::uniform_real_distribution<float> uniform(0.9f, 1.1f);
-  std::filesystem::create_directory(path("runs"));
-  for (int i = 0; i < 64; ++i) {
-    Image image(8, 8);
-    for (glm::vec3& p : image.pixels) p = glm::vec3(uniform(random));
-    if (i == 10) image.at(5, 2) = glm::vec3(1e5f);
-    writeExr(path(fmt::format("runs/{:02}.exr", i)), {{{"", image}}, {}});
-  }
-  writeExr(path("truth.exr"), {{{"", Image(8, 8, glm::vec3(1.0f))}}, {}});
-  const ProgramResult result = run("bias --images runs/*.exr --ref truth.exr -o out");
-  EXPECT_EQ(result.code, 1) << result.err;
-  EXPECT_NE(result.out.find("heavy tails: the noise of the worst cell is like that of 1.1 rare "
-                            "events in 32 runs"),
-            std::string::npos)
-      << result.out;
-  EXPECT_NE(result.out.find("taken as exact"), std::string::npos) << result.out;
-  const Json document = Json::parse(read("out/certificates.json")).at("certificates").at(0);
-  // n q (1 - q) / (1 - 2 q)^2 with q = 1 / 32.
-  EXPECT_NEAR(document.at("fewest_rare_events").get<double>(), 1.102, 0.001);
 }
 
 TEST_F(BiasTest, AnInterruptKeepsFinishedRuns) {
@@ -329,90 +304,6 @@ integrator = "path"
   expectError(run("bias file.toml --runs 32 -o none"), 2, {"file.toml:15:13", "--ref"});
 }
 
-// Images of other programs: those of the runs themselves.
-TEST_F(BiasTest, ImagesAreCertifiedAlike) {
-  ASSERT_EQ(run(small_ + " --runs 64 --frames 32 -q").code, 0);
-  const std::string runs = entries("out/runs").at(0).string();
-  std::string reference;
-  for (const auto& file : entries("out/references")) reference = file.string();
-  const std::vector<std::string> command = {
-      "bias", "--images", runs + "/run-*.exr", "--ref", reference, "-o", "theirs"};
-  const ProgramResult result = run(command);
-  EXPECT_EQ(result.code, 0) << result.err << result.out;
-  EXPECT_NE(result.out.find("equivalent"), std::string::npos) << result.out;
-
-  // The same pixels twice, and the same seed.
-  std::filesystem::copy(runs + "/run-00003.exr", runs + "/run-00003-again.exr");
-  expectError(run(command), 3, {"run-00003-again.exr", "run-00003.exr", "independent"});
-  LayeredImage image = readExr(runs + "/run-00004.exr");
-  std::filesystem::remove(runs + "/run-00003-again.exr");
-  image.layers[""].pixels[0].x += 1.0f;
-  writeExr(runs + "/run-00004-again.exr", image);
-  expectError(run(command), 3, {"run-00004-again.exr", "seed", "run-00004.exr"});
-  std::filesystem::remove(runs + "/run-00004-again.exr");
-  writeExr(runs + "/run-99999.exr", {{{"", Image(8, 8)}}, {}});
-  expectError(run(command), 3, {"run-99999.exr", "8x8", "16x16"});
-  // One run alone, and a reference that is not there or of another size.
-  expectError(run({"bias", "--images", runs + "/run-00007.exr", "--ref", reference}), 3,
-              {"--images: 1 file, the first of which is", "run-00007.exr", "at least 64"});
-  std::filesystem::remove(runs + "/run-99999.exr");
-  expectError(run({"bias", "--images", runs + "/run-*.exr", "--ref", "no.exr"}), 3, {"no.exr"});
-  writeExr(path("small.exr"), {{{"", Image(4, 4, glm::vec3(1.0f))}}, {}});
-  expectError(run({"bias", "--images", runs + "/run-*.exr", "--ref", "small.exr"}), 3,
-              {"run-00000.exr", "16x16", "small.exr", "4x4"});
-  // A run in the folder of a certificate that is a copy of another one.
-  std::filesystem::copy(runs + "/run-00005.exr", runs + "/run-00006.exr",
-                        std::filesystem::copy_options::overwrite_existing);
-  expectError(run(small_ + " --runs 64 --frames 32 -q"), 3,
-              {"run-00006.exr", "10000006", "not", "delete it"});
-}
-
-// Images that are not runs of one method of what the reference shows.
-TEST_F(BiasTest, ImagesThatDoNotBelongTogetherAreRefused) {
-  const auto images = [&](const std::string& folder, const char* key,
-                          const std::function<std::string(int)>& value) {
-    std::filesystem::create_directory(path(folder));
-    std::mt19937 random(1);
-    std::uniform_real_distribution<float> uniform(0.9f, 1.1f);
-    for (int i = 0; i < 64; ++i) {
-      LayeredImage image;
-      image.layers[""] = Image(8, 8, glm::vec3(uniform(random)));
-      image.metadata[key] = value(i);
-      writeExr(path(fmt::format("{}/{:02}.exr", folder, i)), image);
-    }
-  };
-  const auto certify = [&](const std::string& pattern, const std::string& reference) {
-    return run({"bias", "--images", pattern, "--ref", reference, "-o", "out"});
-  };
-  writeExr(path("truth.exr"), {{{"", Image(8, 8, glm::vec3(1.0f))}}, {}});
-  images("mixed", "integrator", [](int i) { return i == 40 ? "path" : "restir_gi"; });
-  expectError(certify("mixed/*.exr", "truth.exr"), 3,
-              {"mixed/40.exr", "integrator is 'path'", "'restir_gi' in mixed/00.exr"});
-  images("other", "max_bounces", [](int) { return "3"; });
-  LayeredImage ours;
-  ours.layers[""] = Image(8, 8, glm::vec3(1.0f));
-  ours.metadata = {{"kind", "reference"}, {"scene_hash", "1"}, {"max_bounces", "8"}};
-  writeExr(path("ours.exr"), ours);
-  expectError(certify("other/*.exr", "ours.exr"), 3,
-              {"ours.exr, for other/00.exr", "max_bounces is 8, not 3"});
-  std::filesystem::copy(path("truth.exr"), path("other/99.exr"));
-  expectError(certify("other/*.exr", "truth.exr"), 3,
-              {"other/99.exr", "the pixels of the reference truth.exr"});
-  std::filesystem::remove(path("other/99.exr"));
-  EXPECT_FALSE(std::filesystem::exists(path("out"))) << "nothing is left of what is refused";
-  // What others call so may be of a sample: it is not used.
-  LayeredImage theirs;
-  theirs.layers[""] = Image(8, 8, glm::vec3(1.0f));
-  theirs.layers["variance"] = Image(8, 8, glm::vec3(-1.0f));
-  writeExr(path("theirs.exr"), theirs);
-  const ProgramResult result = certify("other/*.exr", "theirs.exr");
-  EXPECT_NE(result.out.find("taken as exact"), std::string::npos) << result.out << result.err;
-  for (const char* option : {"--integrator path", "--max-bounces 3", "--frames 4", "-j 2",
-                             "--runs 64", "--max-runs 64", "--set mis=pairwise"})
-    expectError(run(std::string("bias --images other/*.exr --ref truth.exr ") + option), 2,
-                {"nothing is rendered for --images"});
-}
-
 // Of what cannot be certified no folder is left; two methods have two.
 TEST_F(BiasTest, EachMethodHasAFolder) {
   expectError(run("bias no-such-scene"), 3, {"no-such-scene"});
@@ -425,6 +316,37 @@ TEST_F(BiasTest, EachMethodHasAFolder) {
   EXPECT_LE(run(command + " --integrator restir_gi --set mis=confidence").code, 1);
   EXPECT_TRUE(std::filesystem::exists(path("results/bias-quad-light-path/report.html")));
   EXPECT_EQ(entries("results").size(), 2u);
+}
+
+// A folder of results may hold other files; maps of another certificate go with its page.
+TEST_F(BiasTest, WhatIsReplacedIsNamedAndNothingElseGoes) {
+  std::filesystem::create_directories(path("out/maps"));
+  write("out/maps/terrain.txt", "mine");
+  ASSERT_LE(run(small_ + " --runs 32 --frames 2 --margin 50").code, 1);
+  EXPECT_TRUE(std::filesystem::exists(path("out/maps/quad-light-path-bias.png")));
+  const ProgramResult other =
+      run(small_ + " --integrator restir_gi --runs 32 --frames 2 --margin 50");
+  ASSERT_LE(other.code, 1) << other.err;
+  EXPECT_NE(other.err.find("out: page, tables and maps will replace those of "), std::string::npos)
+      << other.err;
+  EXPECT_EQ(read("out/maps/terrain.txt"), "mine");
+  EXPECT_FALSE(std::filesystem::exists(path("out/maps/quad-light-path-bias.png")));
+  EXPECT_EQ(entries("out/maps").size(), 1u + 7u);
+  // Another program's file of that name is no certificate.
+  write("out/certificates.json", "{\"command\": 3, \"certificates\": [{\"label\": \"../x\"}]}");
+  EXPECT_LE(run(small_ + " --runs 32 --frames 2 --margin 50").code, 1);
+}
+
+// Names of files have an end.
+TEST_F(BiasTest, ManySettingsMakeAShortName) {
+  const ProgramResult result = run(
+      "bias quad-light --resolution 8x8 --max-bounces 1 --runs 32 --frames 2 --margin 50 -q "
+      "--integrator restir_gi --set mis=defensive --set confidence_cap=17 --set max_jacobian=11 "
+      "--set normal_threshold=0.25 --set plane_threshold=0.125 --set spatial_radius=12.5 "
+      "--set spatial_neighbours=2 --set moving_confidence_cap=9 --set aged_neighbours=1");
+  EXPECT_LE(result.code, 1) << result.err;
+  ASSERT_EQ(entries("results").size(), 1u);
+  EXPECT_LT(entries("results").at(0).filename().string().size(), 160u);
 }
 
 TEST_F(BiasTest, RowsOfImagesAreSaidToBeLeftOut) {

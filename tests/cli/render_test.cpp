@@ -26,6 +26,23 @@ double meanOf(const Image& image) {
   return sum / (3.0 * double(image.pixels.size()));
 }
 
+// Where float32 ends for a filter.
+TEST_F(RenderTest, SaysWhereAFilterLeavesItsRange) {
+  const auto errOf = [&](const std::string& scene, const std::string& denoiser) {
+    const ProgramResult result = run("render " + scene +
+                                     " -o a.exr --resolution 8x8 --frames 1 "
+                                     "--denoiser " +
+                                     denoiser);
+    EXPECT_EQ(result.code, 0) << result.err;
+    return result.err;
+  };
+  EXPECT_NE(errOf("furnace?radiance=2^60", "svgf")
+                .find("furnace?radiance=2^60: svgf: the mean luminance of what is lit is"),
+            std::string::npos);
+  EXPECT_EQ(errOf("furnace?radiance=2^60", "none").find("float32"), std::string::npos);
+  EXPECT_EQ(errOf("furnace?radiance=2^30", "svgf").find("float32"), std::string::npos);
+}
+
 TEST_F(RenderTest, WritesLayersAndMetadata) {
   const ProgramResult result =
       run("render cornell-box -o image.exr --resolution 40x30 --spp 2 --seed 7 --max-bounces 3 "

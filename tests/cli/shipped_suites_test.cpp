@@ -64,7 +64,9 @@ TEST_F(ProgramTest, LaboratorySuitesHaveEveryMethod) {
     std::vector<std::string> lists = {"caches"};
     if (suite == std::string("certificates")) lists.push_back("denoisers");
     for (const std::string& list : lists) {
-      for (const std::string& name : namesOf(list.c_str()))
+      std::set<std::string> names = namesOf(list.c_str());
+      names.erase("oidn");  // which is not on every machine
+      for (const std::string& name : names)
         EXPECT_NE(text.find("\"" + name + "\""), std::string::npos) << suite << ": " << name;
     }
     EXPECT_NE(text.find("mode = [\"unbiased\", \"biased\"]"), std::string::npos) << suite;

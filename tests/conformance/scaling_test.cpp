@@ -37,8 +37,9 @@ class Scaling : public ::testing::TestWithParam<Variant> {
 constexpr const char* kScenes[] = {"cornell-box", "glossy-gallery", "courtyard"};
 
 TEST_P(Scaling, RadianceTimesAPowerOfTwo) {
-  // Squares of radiance leave float's range earlier (docs/denoising.md).
-  const int most = denoiser().comparesSquares ? 40 : 60;
+  // Squares of radiance leave float's range earlier (docs/denoising.md). Of a filter of another
+  // library nobody says where it ends.
+  const int most = denoiser().comparesSquares || denoiser().onHost ? 40 : 60;
   for (const char* scene : kScenes) {
     for (const int power : {-most, most})
       EXPECT_EQ(differences(scene, "radiance=2^" + std::to_string(power), power), 0u)
@@ -68,7 +69,8 @@ TEST(RadianceRange, IsSaidOfFiltersBeyondIt) {
   };
   for (const float inside : {0.0f, 0x1p-40f, 1.0f, 0x1p40f}) EXPECT_EQ(lineOf(svgf, inside), "");
   for (const float beyond : {0x1p-41f, 0x1p41f}) {
-    EXPECT_NE(lineOf(svgf, beyond).find("svgf: the mean radiance is"), std::string::npos);
+    EXPECT_NE(lineOf(svgf, beyond).find("svgf: the mean luminance of what is lit is"),
+              std::string::npos);
     EXPECT_EQ(lineOf(none, beyond), "");
   }
 }

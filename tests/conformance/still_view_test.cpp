@@ -4,6 +4,8 @@
 
 #include <optional>
 
+#include "core/scene/scene.h"
+#include "tests/bias/test_cameras.h"
 #include "tests/conformance/variants.h"
 
 namespace restlab::conformance {
@@ -29,6 +31,23 @@ TEST(StillView, ModesAndCachesShowOneImage) {
       ++compared;
     }
     EXPECT_GE(compared, 6u);
+  }
+}
+
+// Otherwise the test above would say nothing: modes and caches do something once the camera moves.
+TEST(StillView, InAMovingOneTheyDiffer) {
+  const SceneCamera end = makeBuiltinScene("cornell-box").cameras.at(0);
+  const std::vector<SceneCamera> cameras = bias::walkTo(end, 12, {0.06, 0.01, -0.05}, 1.5);
+  std::vector<Image> images;
+  for (const Variant& variant : allVariants()) {
+    if (variant.cache.empty() || variant.endsPaths) continue;
+    Session session(bias::builtinScene("cornell-box"), configOf(variant, 32, 18));
+    for (const SceneCamera& camera : cameras) {
+      session.setCamera(camera);
+      session.frame();
+    }
+    for (const Image& other : images) EXPECT_GT(countDifferent(session.radiance(), other), 0u);
+    images.push_back(session.radiance());
   }
 }
 

@@ -78,8 +78,9 @@ Holding holds(const Interval& energy, uint64_t nonfinite, double within) {
   if (nonfinite > 0 || std::isnan(energy.value)) return Holding::no;
   if (energy.lo > 1.0 + within || energy.hi < 1.0 - within) return Holding::no;
   // False of an interval that is not known.
-  const bool isNarrow = energy.hi - energy.lo <= 2.0 * kWidestTolerances * within;
-  return isNarrow ? Holding::yes : Holding::notDecided;
+  const double widest = kWidestTolerances * within;
+  const bool isNear = energy.lo >= 1.0 - widest && energy.hi <= 1.0 + widest;
+  return isNear ? Holding::yes : Holding::notDecided;
 }
 
 std::optional<size_t> SceneSweep::lastThatHolds(size_t method) const {

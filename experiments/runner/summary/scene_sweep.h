@@ -40,9 +40,9 @@ struct SceneSweep {
 };
 
 // A value holds where nothing is without a finite value and the interval of the energy ratio
-// touches 1 within the tolerance; it is not decided where half of that interval is more than
-// kWidestTolerances tolerances, and without an interval (one run). An energy that is not known does
-// not hold.
+// touches 1 within the tolerance and lies within kWidestTolerances tolerances of 1; it is not
+// decided where it only touches, and without an interval (one run). An energy that is not known
+// does not hold.
 constexpr double kWidestTolerances = 5.0;
 Holding holds(const Interval& energy, uint64_t nonfinite, double within);
 

@@ -99,9 +99,16 @@ std::string worstText(const SceneSweep& sweep, size_t method, const SweepColumn&
                      sweep.parameter.texts[worst.value]);
 }
 
+// Where the method has no last value that holds.
+std::string noLastText(const SceneSweep& sweep, size_t method) {
+  for (size_t i = 0; i < sweep.blocks.size(); ++i)
+    if (sweep.blocks[i] && sweep.cells[method][i].holding == Holding::no) return "none";
+  return "not decided";
+}
+
 std::string lastText(const SceneSweep& sweep, size_t method) {
   const std::optional<size_t> last = sweep.lastThatHolds(method);
-  return last ? sweep.parameter.texts[*last] : "none";
+  return last ? sweep.parameter.texts[*last] : noLastText(sweep, method);
 }
 
 std::string valuesText(const SceneSweep& sweep) {
@@ -116,8 +123,8 @@ std::string valuesText(const SceneSweep& sweep) {
 std::string whatHolds(const Suite& suite) {
   return fmt::format(
       "A value holds where every value of the images is finite and the 95 % interval of the energy "
-      "ratio touches 1 within {:g} (`holds_within`); it is not decided where half of the interval "
-      "is more than {:g}. The last that holds is counted from the first on.",
+      "ratio touches 1 within {:g} (`holds_within`) and lies within {:g} of it; where it only "
+      "touches, it is not decided. The last that holds is counted from the first on.",
       suite.holdsWithin, kWidestTolerances * suite.holdsWithin);
 }
 
@@ -227,7 +234,8 @@ Json rowOf(const SceneSweep& sweep, size_t method) {
   if (last) {
     cells["last"] = {{"value", sweep.parameter.values[*last]}};
   } else {
-    flags.push_back("holds at none of the values");
+    flags.push_back(
+        fmt::format("last {} that holds: {}", sweep.parameter.name, noLastText(sweep, method)));
   }
   for (const SweepColumn& column : sweepColumns()) {
     const Worst worst = worstOf(sweep, method, column.distance);
