@@ -250,8 +250,8 @@ void images(const Place& at) {
 
 void block(const Place& at, std::set<std::string>& ids) {
   requireObject(at, {"id", "title", "columns", "rows"},
-                {"subtitle", "notes", "part_of", "row_title", "plots", "bars", "settings", "left_out",
-                 "health", "images", "exposure"});
+                {"subtitle", "notes", "part_of", "row_title", "plots", "bars", "settings",
+                 "left_out", "health", "images", "exposure"});
   member(at, "part_of", [&](const Place& p) {
     text(p);
     if (!ids.count(p.json.get<std::string>())) failAt(p.path, "must be the id of an earlier block");
