@@ -124,6 +124,22 @@ class SceneSweepTest : public TemporaryFolder {
       outputs.add(own, block(scene, values[scene].energy, values[scene].nonfinite));
   }
   Suite suite_;
+
+  // The rows of all scenes of the sweep, where both methods are right; a test spoils some.
+  struct Right {
+    explicit Right(const SceneSweepTest& test) : own(ofScene(test.suite_, test.suite_.scenes[0])) {
+      for (size_t i = 0; i < 3; ++i) results.push_back(test.block(i, 1.0, 0));
+      for (const BlockResult& result : results) rows.push_back(summarise(own, result));
+    }
+    std::vector<SweptBlock> blocks() const {
+      std::vector<SweptBlock> all;
+      for (const auto& row : rows) all.push_back({&own, &row, 2.0});
+      return all;
+    }
+    Suite own;
+    std::vector<BlockResult> results;
+    std::vector<std::vector<MethodSummary>> rows;
+  };
 };
 
 TEST_F(SceneSweepTest, ScenesOfATableAreOneSweep) {
@@ -176,11 +192,8 @@ TEST_F(SceneSweepTest, NamesTheFirstWrongEnergy) {
 
 // Each figure is of the value where it is worst.
 TEST_F(SceneSweepTest, FiguresAreOfTheWorstValue) {
-  const Suite own = ofScene(suite_, suite_.scenes[0]);
-  std::vector<BlockResult> results;
-  for (size_t i = 0; i < 3; ++i) results.push_back(block(i, 1.0, 0));
-  std::vector<std::vector<MethodSummary>> rows;
-  for (const BlockResult& result : results) rows.push_back(summarise(own, result));
+  Right right(*this);
+  std::vector<std::vector<MethodSummary>>& rows = right.rows;
   MethodSummary& worst = rows[1][1];
   worst.mse = {4.0, 3.24, 4.84};
   worst.biasShare = {0.02, 0.01, 0.03};
@@ -189,8 +202,7 @@ TEST_F(SceneSweepTest, FiguresAreOfTheWorstValue) {
   rows[0][1].timeMsMedian = 3.0;
   worst.health.health.counts[rl::RL_HEALTH_NONFINITE] = 5;
   rows[2][1].health.health.counts[rl::RL_HEALTH_NONFINITE] = 2;
-  std::vector<SweptBlock> blocks;
-  for (const auto& row : rows) blocks.push_back({&own, &row, 2.0});
+  const std::vector<SweptBlock> blocks = right.blocks();
   const SceneSweep sweep = sceneSweeps(blocks).at(0);
   const std::string table = sweepTable(sweep);
   EXPECT_NE(table.find("| 1 [0.900, 1.10] at 0.75 | 2 [1, 3] at 0.75 | 8 at 0.75 |\n"),
@@ -229,14 +241,10 @@ TEST_F(SceneSweepTest, ZeroStandsLeftOfAll) {
 
 // What is too noisy to be told is no last that holds, and does not end the count.
 TEST_F(SceneSweepTest, AWideIntervalIsNotDecided) {
-  const Suite own = ofScene(suite_, suite_.scenes[0]);
-  std::vector<BlockResult> results;
-  for (size_t i = 0; i < 3; ++i) results.push_back(block(i, 1.0, 0));
-  std::vector<std::vector<MethodSummary>> rows;
-  for (const BlockResult& result : results) rows.push_back(summarise(own, result));
+  Right right(*this);
+  std::vector<std::vector<MethodSummary>>& rows = right.rows;
   rows[1][0].energyRatio = rows[2][1].energyRatio = {0.9, 0.7, 1.1};
-  std::vector<SweptBlock> blocks;
-  for (const auto& row : rows) blocks.push_back({&own, &row, 2.0});
+  const std::vector<SweptBlock> blocks = right.blocks();
   const SceneSweep sweep = sceneSweeps(blocks).at(0);
   EXPECT_EQ(sweep.lastThatHolds(0), 2u);
   // Noise everywhere is no failure at the first value.
@@ -290,13 +298,8 @@ TEST_F(SceneSweepTest, WhatIsNotThereYetIsLeftOut) {
 }
 
 TEST_F(SceneSweepTest, TheReportHasItsPlot) {
-  const Suite own = ofScene(suite_, suite_.scenes[0]);
-  std::vector<BlockResult> results;
-  for (size_t i = 0; i < 3; ++i) results.push_back(block(i, 1.0, 0));
-  std::vector<std::vector<MethodSummary>> rows;
-  for (const BlockResult& result : results) rows.push_back(summarise(own, result));
-  std::vector<SweptBlock> blocks;
-  for (const auto& row : rows) blocks.push_back({&own, &row, 2.0});
+  const Right right(*this);
+  const std::vector<SweptBlock> blocks = right.blocks();
   const std::vector<SceneSweep> sweeps = sceneSweeps(blocks);
   ASSERT_EQ(sweeps.size(), 1u);
   const nlohmann::ordered_json document = sweepDocument(sweeps[0]);

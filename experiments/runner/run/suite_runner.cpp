@@ -18,9 +18,8 @@
 
 #include "core/error.h"
 #include "core/image/atomic_file.h"
-#include "core/method.h"
-#include "core/radiance_range.h"
 #include "experiments/runner/reference/block_masks.h"
+#include "experiments/runner/run/block_warnings.h"
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/run/clean.h"
 #include "experiments/runner/run/files.h"
@@ -220,8 +219,10 @@ class SuiteRun {
     block.motion = motionOf(suite, scene, prepared);
     block.lights = lightPhases(suite, prepared);
     if (!obtain(suite, scene, prepared, block)) return false;
-    warnOfBlack(suite, block);
-    warnOfRange(suite, block);
+    for (const std::string& line : warningsOf(suite, block)) {
+      logWarning(line);
+      outputs_.note("Warning: " + line);
+    }
     nlohmann::ordered_json& plan = plan_.at(next_++);
     plan = planOf(suite, block);
     bool finished = false;
@@ -239,30 +240,6 @@ class SuiteRun {
     outputs_.write(points_.front(), false);
     if (failure) std::rethrow_exception(failure);
     return finished;
-  }
-
-  // A camera that has left the room, say: nothing can be said of an image without light.
-  void warnOfBlack(const Suite& suite, const BlockResult& block) {
-    const std::vector<glm::vec3>& pixels = block.reference.mean.pixels;
-    const bool isBlack = std::all_of(pixels.begin(), pixels.end(),
-                                     [](const glm::vec3& p) { return p == glm::vec3(0.0f); });
-    if (!isBlack) return;
-    const std::string line =
-        fmt::format("{}: its reference is black; its rows say nothing", blockLabel(suite, block));
-    logWarning(line);
-    outputs_.note("Warning: " + line);
-  }
-
-  // A filter at the end of float32.
-  void warnOfRange(const Suite& suite, const BlockResult& block) {
-    std::set<std::string> said;
-    for (const SuiteMethod& method : suite.rendered()) {
-      const std::string why =
-          whyOutsideRange(*findMethod(method.session).denoiser, block.reference.mean);
-      if (why.empty() || !said.insert(why).second) continue;
-      logWarning(fmt::format("{}: {}", blockLabel(suite, block), why));
-      outputs_.note(fmt::format("Warning: {}: {}", blockLabel(suite, block), why));
-    }
   }
 
   bool executeRuns(const Suite& suite, const PreparedScene& prepared, BlockResult& block,

@@ -1,0 +1,31 @@
+#include "experiments/runner/run/block_warnings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/method.h"
+#include "core/radiance_range.h"
+#include "experiments/runner/summary/report.h"
+
+namespace restlab {
+
+std::vector<std::string> warningsOf(const Suite& suite, const BlockResult& block) {
+  const Image& reference = block.reference.mean;
+  std::vector<std::string> lines;
+  const auto say = [&](const std::string& what) {
+    const std::string line = fmt::format("{}: {}", blockLabel(suite, block), what);
+    if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
+  };
+  // A camera that has left the room, say: nothing can be said of an image without light.
+  if (std::all_of(reference.pixels.begin(), reference.pixels.end(),
+                  [](const glm::vec3& p) { return p == glm::vec3(0.0f); }))
+    say("its reference is black; its rows say nothing");
+  for (const SuiteMethod& method : suite.rendered()) {
+    const std::string why = whyOutsideRange(*findMethod(method.session).denoiser, reference);
+    if (!why.empty()) say(why);
+  }
+  return lines;
+}
+
+}  // namespace restlab

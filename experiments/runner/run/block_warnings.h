@@ -1,0 +1,14 @@
+// What a reader must know of a scene before its rows.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/runner/run/experiment.h"
+
+namespace restlab {
+
+// A line each, with the block's label: a black reference, filters at the end of float32.
+std::vector<std::string> warningsOf(const Suite& suite, const BlockResult& block);
+
+}  // namespace restlab
