@@ -218,6 +218,12 @@ void Session::Impl::submitFrame() {
   const bool isStill = !isFirstFrame && !hasNewParameters &&
                        std::memcmp(&frame.camera, &frame.previousCamera, sizeof(rl::Camera)) == 0;
   frame.stillFrames = isStill ? frame.stillFrames + 1 : 0;
+  if (!isStill) frame.cameraMedia = scene->bodiesAt(frame.camera.posW);
+  const bool absorbsBefore = (frame.cameraAbsorbs & rl::RL_CAMERA_ABSORBS_NOW) != 0;
+  const bool absorbs = scene->absorbs(frame.cameraMedia.x);
+  frame.cameraAbsorbs =
+      (absorbs ? rl::RL_CAMERA_ABSORBS_NOW : 0u) |
+      ((frame.frame > 0 ? absorbsBefore : absorbs) ? rl::RL_CAMERA_ABSORBS_BEFORE : 0u);
   isFirstFrame = false;
   hasNewParameters = false;
   backend->submit(pipeline->beginFrame(!isStill), frame);

@@ -4,8 +4,9 @@
 struct TraceContext {
   AlphaTraceContext alpha;
   Ctx* self;
-  uint alphaKey;
-  float transmittance;
+  uint key;
+  AlphaPassed passed;
+  Hit body;  // RL_RAY_BODIES: what was found last
 };
 
 // Shared meshes are Embree instances; meshes used once lie in the top scene under their own number.
@@ -22,9 +23,9 @@ static void alphaFilterPath(const RTCFilterFunctionNArguments* args) {
   hit.bary = vec2(embreeHit->u, embreeHit->v);
   hit.t = 0.0f;
   float alpha = context->self->surfaceAlpha(hit);
-  if (context->self->traceAlphaAccepts(context->alphaKey, hit, alpha)) return;
+  if (context->self->traceAlphaAccepts(context->key, hit, alpha)) return;
   args->valid[0] = 0;
-  context->transmittance *= 1.0f - alpha;
+  context->self->traceAlphaPass(context->passed, hit, alpha);
 }
 
 static void alphaFilterShadow(const RTCFilterFunctionNArguments* args) {
@@ -35,18 +36,37 @@ static void alphaFilterShadow(const RTCFilterFunctionNArguments* args) {
   hit.primitive = embreeHit->primID;
   hit.bary = vec2(embreeHit->u, embreeHit->v);
   hit.t = 0.0f;
-  context->transmittance *= 1.0f - context->self->surfaceAlpha(hit);
-  if (context->transmittance > 0.0f) args->valid[0] = 0;
+  if (RL_HAS(RL_FEATURE_VOLUME) && context->self->mediaPasses(context->key, hit)) {
+    args->valid[0] = 0;
+    return;
+  }
+  context->self->traceAlphaPass(context->passed, hit, context->self->surfaceAlpha(hit));
+  if (context->passed.transmittance > 0.0f) args->valid[0] = 0;
 }
 
-RL_FN float traceRay(const Ray& ray, uint mode, uint alphaKey, Hit& hit) {
+static void bodyFilter(const RTCFilterFunctionNArguments* args) {
+  auto* context = reinterpret_cast<TraceContext*>(args->context);
+  const auto* embreeHit = reinterpret_cast<const RTCHit*>(args->hit);
+  const uint instance = instanceOf(embreeHit->geomID, embreeHit->instID[0]);
+  args->valid[0] = 0;
+  const uint rank = context->self->recordInstance(instance).flags >> RL_INSTANCE_RANK_SHIFT;
+  if (rank == 0u || instance == context->key) return;
+  context->body.instance = instance;
+  context->body.primitive = embreeHit->primID;
+}
+
+RL_FN float traceRay(const Ray& ray, uint mode, uint key, Hit& hit) {
   TraceContext context;
   rtcInitIntersectContext(&context.alpha.embree);
-  if (RL_HAS(RL_FEATURE_ALPHA)) {
+  if (RL_HAS(RL_FEATURE_ALPHA | RL_FEATURE_VOLUME)) {
     context.self = this;
-    context.alphaKey = alphaKey;
-    context.transmittance = 1.0f;
+    context.key = key;
+    context.passed = traceAlphaNone();
     context.alpha.filter = mode == RL_RAY_PATH ? alphaFilterPath : alphaFilterShadow;
+    if (RL_HAS(RL_FEATURE_VOLUME) && mode == RL_RAY_BODIES) {
+      context.body = traceNoHit();
+      context.alpha.filter = bodyFilter;
+    }
   }
   RL_COUNT_RAY(mode);
   if (mode == RL_RAY_SHADOW) {
@@ -65,7 +85,7 @@ RL_FN float traceRay(const Ray& ray, uint mode, uint alphaKey, Hit& hit) {
     r.flags = 0u;
     rtcOccluded1(embreeScene, &context.alpha.embree, &r);
     if (r.tfar < 0.0f) return 0.0f;
-    if (RL_HAS(RL_FEATURE_ALPHA)) return context.transmittance;
+    if (RL_HAS(RL_FEATURE_ALPHA)) return context.passed.transmittance;
     return 1.0f;
   }
   RTCRayHit r;
@@ -84,9 +104,13 @@ RL_FN float traceRay(const Ray& ray, uint mode, uint alphaKey, Hit& hit) {
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(embreeScene, &context.alpha.embree, &r);
+  if (RL_HAS(RL_FEATURE_VOLUME) && mode == RL_RAY_BODIES) {
+    hit = context.body;
+    return 1.0f;
+  }
   hit.instance = RL_INVALID;
   float passed = 1.0f;
-  if (RL_HAS(RL_FEATURE_ALPHA)) passed = context.transmittance;
+  if (RL_HAS(RL_FEATURE_ALPHA)) passed = context.passed.transmittance;
   if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return passed;
   hit.instance = instanceOf(r.hit.geomID, r.hit.instID[0]);
   hit.primitive = r.hit.primID;

@@ -1,7 +1,7 @@
 // traceRay() by ray queries (GL_EXT_ray_query), of devices that have them: GLSL alone, not the
 // dialect. Instances that are opaque say so in the acceleration structure (core/backend/
 // vulkan_acceleration.h): the loop below only sees those that may be transparent in part.
-float traceRay(in Ray ray, uint mode, uint alphaKey, out Hit hit) {
+float traceRay(in Ray ray, uint mode, uint key, out Hit hit) {
   RL_COUNT_RAY(mode);
   hit.instance = RL_INVALID;
   hit.primitive = RL_INVALID;
@@ -9,35 +9,48 @@ float traceRay(in Ray ray, uint mode, uint alphaKey, out Hit hit) {
   hit.t = 0.0f;
   // An empty or undefined interval contains nothing; a query's must neither be.
   if (!(ray.tMin <= ray.tMax)) return 1.0f;
-  float transmittance = 1.0f;
+  AlphaPassed passed = traceAlphaNone();
   uint flags = mode == RL_RAY_SHADOW ? gl_RayFlagsTerminateOnFirstHitEXT : gl_RayFlagsNoneEXT;
-  if (!RL_HAS(RL_FEATURE_ALPHA)) flags |= gl_RayFlagsOpaqueEXT;
+  bool asksBodies = RL_HAS(RL_FEATURE_VOLUME) && gScene.bodiesMeet != 0u && mode != RL_RAY_PATH;
+  if (asksBodies) {
+    flags |= gl_RayFlagsNoOpaqueEXT;
+  } else if (!RL_HAS(RL_FEATURE_ALPHA)) {
+    flags |= gl_RayFlagsOpaqueEXT;
+  }
   rayQueryEXT query;
   rayQueryInitializeEXT(query, accelerationStructureEXT(gScene.accelerationStructure), flags, 0xffu,
                         ray.origin, ray.tMin, ray.dir, ray.tMax);
   while (rayQueryProceedEXT(query)) {
-    if (RL_HAS(RL_FEATURE_ALPHA)) {
+    if (RL_HAS(RL_FEATURE_ALPHA | RL_FEATURE_VOLUME)) {
       Hit cand;
       cand.instance = uint(rayQueryGetIntersectionInstanceCustomIndexEXT(query, false));
       cand.primitive = uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, false));
       cand.bary = rayQueryGetIntersectionBarycentricsEXT(query, false);
       cand.t = rayQueryGetIntersectionTEXT(query, false);
-      float alpha = surfaceAlpha(cand);
+      if (asksBodies && mode == RL_RAY_BODIES) {
+        uint rank = recordInstance(cand.instance).flags >> RL_INSTANCE_RANK_SHIFT;
+        if (rank != 0u && cand.instance != key) hit = cand;
+        continue;
+      }
+      if (asksBodies && mediaPasses(key, cand)) continue;
+      float alpha = 1.0f;
+      if (RL_HAS(RL_FEATURE_ALPHA)) alpha = surfaceAlpha(cand);
       bool accepts = alpha >= 1.0f;
-      if (!accepts && mode == RL_RAY_PATH) accepts = traceAlphaAccepts(alphaKey, cand, alpha);
+      if (!accepts && mode == RL_RAY_PATH) accepts = traceAlphaAccepts(key, cand, alpha);
       if (accepts) {
         rayQueryConfirmIntersectionEXT(query);
       } else {
-        transmittance *= 1.0f - alpha;
+        traceAlphaPass(passed, cand, alpha);
       }
     }
   }
   if (rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT)
-    return transmittance;
+    return passed.transmittance;
   if (mode == RL_RAY_SHADOW) return 0.0f;
+  if (mode == RL_RAY_BODIES) return passed.transmittance;
   hit.instance = uint(rayQueryGetIntersectionInstanceCustomIndexEXT(query, true));
   hit.primitive = uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, true));
   hit.bary = rayQueryGetIntersectionBarycentricsEXT(query, true);
   hit.t = rayQueryGetIntersectionTEXT(query, true);
-  return transmittance;
+  return passed.transmittance;
 }

@@ -1,14 +1,20 @@
-// Lights: one table of emissive triangles, punctual lights and the environment, selected by power.
+// Lights: one table of emissive triangles, punctual lights and the environment, selected by power
+// within each kind (core/scene/light_table.h).
 //   lightDraw      draws a point of a light
 //   lightConnect   what a receiver gets from it
 //   lightPdf...    the density with which lightDraw would have drawn what a ray has found
 
-RL_FN uint lightSelect(RL_IN(Rng) rng) {
-  // 32 bits: 24 would favour some of 10^5 lights by a percent.
-  uint i = rlMulHigh(rngBits(rng, RL_DIM_LIGHT_SELECT), gScene.lightCount);
-  float uAlias = rngDraw(rng, RL_DIM_LIGHT_ALIAS);
+// The light that 32 bits for the column and 32 for the threshold stand for.
+RL_FN uint lightAt(uint columnBits, uint aliasBits) {
+  uint i = rlMulHigh(columnBits, gScene.lightCount);
   AliasEntry entry = recordAlias(RL_SCENE_UVEC3(gScene.lightAlias, i));
-  return uAlias < entry.keep ? i : entry.other;
+  return aliasBits < entry.keep ? i : entry.other;
+}
+
+RL_FN uint lightSelect(RL_IN(Rng) rng) {
+  uint columnBits = rngBits(rng, RL_DIM_LIGHT_SELECT);
+  uint aliasBits = rngBits(rng, RL_DIM_LIGHT_ALIAS);
+  return lightAt(columnBits, aliasBits);
 }
 
 RL_FN bool lightExists() { return gScene.lightCount != 0u; }
@@ -16,9 +22,9 @@ RL_FN bool lightExists() { return gScene.lightCount != 0u; }
 // Only where lightExists().
 RL_FN_OUTLINE LightSample lightDraw(RL_IN(Rng) rng) {
   LightSample s;
-  vec2 u;
-  u.x = rngDraw(rng, RL_DIM_LIGHT_U);
-  u.y = rngDraw(rng, RL_DIM_LIGHT_V);
+  uint uBits = rngBits(rng, RL_DIM_LIGHT_U);
+  uint vBits = rngBits(rng, RL_DIM_LIGHT_V);
+  vec2 u = vec2(rngUnit(uBits), rngUnit(vBits));
   s.record = lightSelect(rng);
   Light light = recordLight(s.record);
   s.kind = light.kind;
@@ -52,8 +58,8 @@ RL_FN_OUTLINE LightSample lightDraw(RL_IN(Rng) rng) {
   if (RL_HAS(RL_FEATURE_PUNCTUAL_LIGHTS) && light.kind == RL_LIGHT_DIRECTIONAL) s.point = -light.e1;
   if (RL_HAS(RL_FEATURE_ENVIRONMENT) && light.kind == RL_LIGHT_ENVIRONMENT) {
     float pdfSolidAngle = 0.0f;
-    float uAlias = rngDraw(rng, RL_DIM_ENVIRONMENT_ALIAS);
-    s.point = environmentDraw(u, uAlias, pdfSolidAngle);
+    uint aliasBits = rngBits(rng, RL_DIM_ENVIRONMENT_ALIAS);
+    s.point = environmentDraw(uvec2(uBits, vBits), aliasBits, pdfSolidAngle);
     s.pdf = light.pmf * pdfSolidAngle;
     s.radiance = environmentRadiance(s.point);
   }

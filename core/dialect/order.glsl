@@ -22,3 +22,4 @@
 #include "core/dialect/light/texture.glsl"
 #include "core/dialect/light.glsl"
 #include "core/dialect/trace.glsl"
+#include "core/dialect/media.glsl"

@@ -121,7 +121,7 @@ RL_FN Light recordLight(uint index) {
 
 RL_FN AliasEntry recordAlias(RL_IN(uvec3) words) {
   AliasEntry entry;
-  entry.keep = uintBitsToFloat(words.x);
+  entry.keep = words.x;
   entry.other = words.y;
   entry.pmf = uintBitsToFloat(words.z);
   return entry;

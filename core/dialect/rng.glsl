@@ -33,10 +33,11 @@ RL_FN uint rngBits(RL_IN(Rng) rng, uint dimension) {
   return rngHash(rngHash(counter ^ rng.key.x) + rng.key.y);
 }
 
-// Uniform in [0, 1): 24 bits, so that 1 is never reached.
-RL_FN float rngDraw(RL_IN(Rng) rng, uint dimension) {
-  return float(rngBits(rng, dimension) >> 8u) * 5.9604644775390625e-8f;
-}
+// Bits as a number in [0, 1): 24 of them, so that 1 is never reached. What happens with a smaller
+// probability than 2^-24 is compared as bits.
+RL_FN float rngUnit(uint bits) { return float(bits >> 8u) * 5.9604644775390625e-8f; }
+
+RL_FN float rngDraw(RL_IN(Rng) rng, uint dimension) { return rngUnit(rngBits(rng, dimension)); }
 
 // 32 bits that many pixels share on purpose, such as where a frame's tiles lie: the same number is
 // meant each time, so that asking again is no repetition.

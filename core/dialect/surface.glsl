@@ -147,7 +147,9 @@ RL_FN vec2 surfaceInnerBary(RL_IN(TriangleW) t, float area2, float posError, RL_
   return inner * (1.0f / (max(b0, least) + inner.x + inner.y));
 }
 
-RL_FN Surface surfaceLoad(RL_IN(Hit) hit, RL_IN(vec3) rayDir) {
+// contrast: index of refraction inside over that outside, where the outside is not air; 0: the
+// material's own.
+RL_FN Surface surfaceLoadBetween(RL_IN(Hit) hit, RL_IN(vec3) rayDir, float contrast) {
   Surface s;
   Instance inst = recordInstance(hit.instance);
   Geometry geometry = recordGeometry(inst.geometry);
@@ -230,7 +232,6 @@ RL_FN Surface surfaceLoad(RL_IN(Hit) hit, RL_IN(vec3) rayDir) {
   s.emission = emits ? emission : vec3(0.0f, 0.0f, 0.0f);
   if ((material.flags & RL_MATERIAL_UNLIT) != 0u) s.emission = baseColor;
   s.sigmaAbsorption = vec3(0.0f, 0.0f, 0.0f);
-  if (RL_HAS(RL_FEATURE_VOLUME) && isFront) s.sigmaAbsorption = material.sigmaAbsorption;
 
   Bsdf b;
   b.diffuse = baseColor;
@@ -242,7 +243,9 @@ RL_FN Surface surfaceLoad(RL_IN(Hit) hit, RL_IN(vec3) rayDir) {
   b.eta = 1.0f;
   bool scatters = (material.flags & (RL_MATERIAL_UNLIT | RL_MATERIAL_BLACK)) == 0u;
   if (RL_HAS(RL_FEATURE_GLOSSY)) {
-    float r = (material.ior - 1.0f) / (material.ior + 1.0f);
+    float ior = material.ior;
+    if (RL_HAS(RL_FEATURE_VOLUME) && contrast > 0.0f) ior = contrast;
+    float r = (ior - 1.0f) / (ior + 1.0f);
     vec3 dielectricF0 = min(specularColor * (r * r), vec3(1.0f, 1.0f, 1.0f)) * specular;
     b.f0 = dielectricF0 + (baseColor - dielectricF0) * metallic;
     b.f90 = specular + (1.0f - specular) * metallic;
@@ -253,21 +256,25 @@ RL_FN Surface surfaceLoad(RL_IN(Hit) hit, RL_IN(vec3) rayDir) {
       b.lobes = isDelta ? RL_LOBE_SPECULAR_DELTA : RL_LOBE_SPECULAR;
     }
     // An index of 0 stands for full reflection: there is no direction to refract to.
-    bool canTransmit = transmission > 0.0f && metallic < 1.0f && material.ior > 0.0f;
+    bool canTransmit = transmission > 0.0f && metallic < 1.0f && ior > 0.0f;
     if (RL_HAS(RL_FEATURE_TRANSMISSION) && scatters && canTransmit) {
       b.transmission = baseColor * ((1.0f - metallic) * transmission);
-      b.lobes |= isDelta ? RL_LOBE_TRANSMISSION_DELTA : RL_LOBE_TRANSMISSION;
       bool isThin = (material.flags & RL_MATERIAL_THIN) != 0u;
-      if (isThin) b.lobes |= RL_LOBE_THIN;
-      b.eta = isFront || isThin ? material.ior : 1.0f / material.ior;
-      // No contrast of indices: nothing is reflected or bent.
-      if (material.ior == 1.0f) b.lobes |= RL_LOBE_THIN;
+      // No contrast of indices: nothing is reflected, bent or blurred, however rough the surface.
+      bool isClear = ior == 1.0f;
+      b.lobes |= isDelta || isClear ? RL_LOBE_TRANSMISSION_DELTA : RL_LOBE_TRANSMISSION;
+      if (isThin || isClear) b.lobes |= RL_LOBE_THIN;
+      b.eta = isFront || isThin ? ior : 1.0f / ior;
     }
     if (isDelta && (b.lobes & RL_LOBE_ANY_DELTA) != 0u) RL_HEALTH(RL_HEALTH_DELTA_LOBES);
   }
   if (scatters && !rlIsBlack(b.diffuse)) b.lobes |= RL_LOBE_DIFFUSE;
   s.bsdf = b;
   return s;
+}
+
+RL_FN Surface surfaceLoad(RL_IN(Hit) hit, RL_IN(vec3) rayDir) {
+  return surfaceLoadBetween(hit, rayDir, 0.0f);
 }
 
 // Absorption (m^-1) along a ray that leaves a surface towards dirW: that of the medium through

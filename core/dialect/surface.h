@@ -16,9 +16,17 @@ struct Surface {
   vec3 nShadeW;    // unit, dot(nShadeW, nGeoW) > 0
   vec3 wo;         // unit, towards where the ray came from
   vec3 emission;   // radiance towards wo
-  vec3 sigmaAbsorption;  // m^-1 beyond the surface, for rays that cross it
+  vec3 sigmaAbsorption;  // m^-1 beyond the surface, for rays that cross it; set by the walk
   uint light;            // index in the light table, RL_INVALID where it does not emit
   Bsdf bsdf;
+};
+
+// What a ray meets at the surface of a body (core/dialect/media.glsl).
+struct MediaCrossing {
+  uvec4 behind;     // bodies that hold what lies beyond
+  float contrast;   // index of refraction inside over outside; 0: as the material says
+  uint isSurface;   // 0: the medium goes on, and so does the ray
+  uint isTouching;  // 1: two surfaces lie here, within twice the position's error
 };
 
 // A triangle in world space: a corner and the edges to the other two.

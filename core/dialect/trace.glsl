@@ -1,11 +1,15 @@
 // Ray traversal has one signature; each backend supplies the body (Embree on the CPU; a traversal
 // of our own or ray queries on the GPU).
-//   RL_RAY_PATH    hit.instance is RL_INVALID when nothing was hit; alpha is decided by `alphaKey`:
+//   RL_RAY_PATH    hit.instance is RL_INVALID when nothing was hit; alpha is decided by `key`:
 //                  the decision does not depend on the order in which surfaces are visited.
 //                  The return value is 1 when no partly transparent surface was passed, less when
 //                  one may have been (those beyond the hit count too, if traversal has met them)
-//   RL_RAY_SHADOW  the return value is the transmittance: 0 blocked, 1 free, between through alpha
-RL_PROTO(float traceRay(RL_IN(Ray) ray, uint mode, uint alphaKey, RL_OUT(Hit) hit))
+//   RL_RAY_SHADOW  the return value is the transmittance: 0 blocked, 1 free, between through alpha.
+//                  `key` is the rank of the body that the ray is in (0: none): bodies below it have
+//                  no surface there (core/dialect/media.glsl)
+//   RL_RAY_BODIES  hit is a surface of a body other than instance `key`, the last that was found;
+//                  only where gScene.bodiesMeet
+RL_PROTO(float traceRay(RL_IN(Ray) ray, uint mode, uint key, RL_OUT(Hit) hit))
 
 // For compilers, which do not see that traversal sets it.
 RL_FN Hit traceNoHit() {
@@ -17,9 +21,63 @@ RL_FN Hit traceNoHit() {
   return hit;
 }
 
-// The decision of a path ray at a partly transparent surface: hash(sample, primitive) against
-// alpha.
+// Bits of a corner's place, the same for every triangle and vertex that has it.
+RL_FN uint traceCornerBits(RL_IN(Geometry) geometry, uint corner) {
+  vec3 p = RL_SCENE_VEC3(gScene.positions, geometry.firstVertex + corner);
+  return rngHash(rngHash(rngHash(floatBitsToUint(p.x)) + floatBitsToUint(p.y)) +
+                 floatBitsToUint(p.z));
+}
+
+// Which part of its instance a hit is on, as far as alpha is concerned: the triangle, or, on an
+// edge or a corner, that edge or corner. Triangles that share it are hit there at once, and are
+// one surface. isShared: 1 where there may be several.
+RL_FN uint traceAlphaPart(RL_IN(Hit) hit, RL_OUT(uint) isShared) {
+  float b0 = 1.0f - hit.bary.x - hit.bary.y;
+  bool on0 = !(b0 > RL_EDGE_BARY);
+  bool on1 = !(hit.bary.x > RL_EDGE_BARY);
+  bool on2 = !(hit.bary.y > RL_EDGE_BARY);
+  isShared = on0 || on1 || on2 ? 1u : 0u;
+  if (isShared == 0u) return hit.primitive;
+  Geometry geometry = recordGeometry(recordInstance(hit.instance).geometry);
+  uvec3 corners = RL_SCENE_UVEC3(gScene.triangles, geometry.firstTriangle + hit.primitive);
+  uint bits = 0u;
+  if (!on0) bits += traceCornerBits(geometry, corners.x);
+  if (!on1) bits += traceCornerBits(geometry, corners.y);
+  if (!on2) bits += traceCornerBits(geometry, corners.z);
+  return bits;
+}
+
+RL_FN uint traceAlphaBits(RL_IN(Hit) hit, uint part, uint alphaKey) {
+  return rngHash(rngHash(part ^ alphaKey) + hit.instance * 0x9e3779b9u);
+}
+
+// The decision of a path ray at a partly transparent surface: hash(sample, part of the surface)
+// against alpha.
 RL_FN bool traceAlphaAccepts(uint alphaKey, RL_IN(Hit) hit, float alpha) {
-  uint bits = rngHash(rngHash(hit.primitive ^ alphaKey) + hit.instance * 0x9e3779b9u);
-  return float(bits >> 8u) * 5.9604644775390625e-8f < alpha;
+  uint isShared;
+  uint part = traceAlphaPart(hit, isShared);
+  return rngUnit(traceAlphaBits(hit, part, alphaKey)) < alpha;
+}
+
+RL_FN AlphaPassed traceAlphaNone() {
+  AlphaPassed passed;
+  passed.transmittance = 1.0f;
+  for (uint i = 0u; i < RL_ALPHA_EDGES; i = i + 1u) passed.edges[i] = 0u;
+  passed.count = 0u;
+  return passed;
+}
+
+// A surface that the ray has passed, once: not again by the next triangle at the same edge.
+RL_FN void traceAlphaPass(RL_INOUT(AlphaPassed) passed, RL_IN(Hit) hit, float alpha) {
+  uint isShared;
+  uint part = traceAlphaPart(hit, isShared);
+  if (isShared != 0u) {
+    uint bits = max(traceAlphaBits(hit, part, 0u), 1u);
+    for (uint i = 0u; i < RL_ALPHA_EDGES; i = i + 1u) {
+      if (passed.edges[i] == bits) return;
+    }
+    passed.edges[passed.count % RL_ALPHA_EDGES] = bits;
+    passed.count = passed.count + 1u;
+  }
+  passed.transmittance *= 1.0f - alpha;
 }

@@ -139,13 +139,13 @@ RL_FN bool bvhTriangle(RL_IN(BvhRay) r, RL_IN(BvhWords) record, float tMin, floa
   return true;
 }
 
-RL_FN float traceRay(RL_IN(Ray) ray, uint mode, uint alphaKey, RL_OUT(Hit) hit) {
+RL_FN float traceRay(RL_IN(Ray) ray, uint mode, uint key, RL_OUT(Hit) hit) {
   RL_COUNT_RAY(mode);
   hit.instance = RL_INVALID;
   hit.primitive = RL_INVALID;
   hit.bary = vec2(0.0f, 0.0f);
   hit.t = 0.0f;
-  float transmittance = 1.0f;
+  AlphaPassed passed = traceAlphaNone();
   float nearest = ray.tMax;
   BvhRay world = bvhRay(ray.origin, ray.dir);
   BvhRay r = world;
@@ -205,9 +205,19 @@ RL_FN float traceRay(RL_IN(Ray) ray, uint mode, uint alphaKey, RL_OUT(Hit) hit) 
           if (asks) alpha = surfaceAlpha(cand);
         }
         bool accepts = true;
+        if (RL_HAS(RL_FEATURE_VOLUME) && gScene.bodiesMeet != 0u && mode != RL_RAY_PATH) {
+          uint rank = recordInstance(cand.instance).flags >> RL_INSTANCE_RANK_SHIFT;
+          if (mode == RL_RAY_BODIES) {
+            if (rank != 0u && cand.instance != key) hit = cand;
+            accepts = false;
+          } else if (mediaPasses(key, cand)) {
+            accepts = false;
+          }
+          if (!accepts) alpha = 1.0f;
+        }
         if (RL_HAS(RL_FEATURE_ALPHA) && alpha < 1.0f) {
-          accepts = mode == RL_RAY_PATH && traceAlphaAccepts(alphaKey, cand, alpha);
-          if (!accepts) transmittance *= 1.0f - alpha;
+          accepts = mode == RL_RAY_PATH && traceAlphaAccepts(key, cand, alpha);
+          if (!accepts) traceAlphaPass(passed, cand, alpha);
         }
         if (accepts) {
           hit = cand;
@@ -234,7 +244,7 @@ RL_FN float traceRay(RL_IN(Ray) ray, uint mode, uint alphaKey, RL_OUT(Hit) hit) 
         instance = RL_INVALID;
         r = world;
       }
-      if (height == 0u) return transmittance;
+      if (height == 0u) return passed.transmittance;
       height = height - 1u;
       // What lies behind the nearest hit is passed over: the next round takes the next entry.
       current = stack.entry[height] <= nearest ? stack.child[height] : RL_INVALID;

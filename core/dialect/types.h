@@ -19,6 +19,7 @@ const uint RL_MAX_UV_SETS = 4u;
 const uint RL_RAY_PATH =
     0u;  // closest hit; alpha decided by a hash of the sample and the primitive
 const uint RL_RAY_SHADOW = 1u;  // any hit; alpha multiplies the transmittance
+const uint RL_RAY_BODIES = 2u;  // the surface of a body in the interval, whichever is found
 
 struct Ray {
   vec3 origin;
@@ -32,6 +33,17 @@ struct Hit {
   uint primitive;
   vec2 bary;  // weights of the second and third corner
   float t;
+};
+
+// Barycentric weight up to which a hit counts as on the edge: some units of rounding.
+const float RL_EDGE_BARY = 1.0e-6f;
+
+// What a ray has passed of partly transparent surfaces.
+const uint RL_ALPHA_EDGES = 4u;
+struct AlphaPassed {
+  float transmittance;
+  uint count;     // edges and corners among them
+  uint edges[4];  // the last of these, by hash; 0: none
 };
 
 // One glTF mesh primitive: triangles [firstTriangle, +triangleCount) index vertices from
@@ -49,9 +61,10 @@ struct Geometry {
 };
 RL_STATIC_ASSERT_SIZE(Geometry, 48);
 
-const uint RL_INSTANCE_IDENTITY = 1u;  // vertices are stored in world space
-const uint RL_INSTANCE_FLIPPED = 2u;   // the transform mirrors: winding is reversed
-const uint RL_INSTANCE_ALPHA = 4u;     // some part may be transparent: rays ask the material
+const uint RL_INSTANCE_IDENTITY = 1u;    // vertices are stored in world space
+const uint RL_INSTANCE_FLIPPED = 2u;     // the transform mirrors: winding is reversed
+const uint RL_INSTANCE_ALPHA = 4u;       // some part may be transparent: rays ask the material
+const uint RL_INSTANCE_RANK_SHIFT = 8u;  // above: rank of the body (core/scene/bodies.h), 0: none
 
 struct Instance {
   vec4 objectToWorldRow0;  // rows of the affine 3x4 matrix
@@ -153,11 +166,11 @@ struct Light {
 };
 RL_STATIC_ASSERT_SIZE(Light, 80);
 
-// Vose alias method: column i keeps i with probability `keep`, otherwise gives `other`.
+// Vose alias method: column i keeps i if 32 random bits are below `keep`, otherwise gives `other`.
 struct AliasEntry {
-  float keep;
+  uint keep;
   uint other;
-  float pmf;
+  float pmf;  // probability that i is drawn, by whichever column
 };
 RL_STATIC_ASSERT_SIZE(AliasEntry, 12);
 
@@ -222,6 +235,7 @@ struct SceneData {
   AliasRef lightAlias;
   Vec3Ref environment;        // radiance per texel, already scaled, row 0 on top
   AliasRef environmentAlias;  // pmf per texel
+  Vec4Ref bodies;             // by rank: absorption (m^-1) and index of refraction; [0] unused
   Vec2Ref ggxAlbedo;          // core/scene/ggx_albedo.h; null unless a session compensates
   // The project's own hierarchy: null unless a session traces it. The world's root is record 0.
   QuadRef bvh;                  // RL_BVH_RECORD_QUADS a record
@@ -233,6 +247,7 @@ struct SceneData {
   uint environmentLight;      // its index in the light table, or RL_INVALID
   float environmentRotation;  // radians about +Y
   uint instanceCount;
+  uint bodiesMeet;  // 1: some bodies touch or overlap
 };
 
 const uint RL_COMPONENT_DIRECT =
@@ -245,6 +260,11 @@ const uint RL_COMPONENT_ALL = 3u;
 // serve.
 const uint RL_ROULETTE_EARLIEST = 3u;
 
+// The camera, or the last frame's, is in a body that absorbs. What x1 receives and sends to it is
+// then no longer what a shift takes it for: reservoirs hold no paths of such views.
+const uint RL_CAMERA_ABSORBS_NOW = 1u;
+const uint RL_CAMERA_ABSORBS_BEFORE = 2u;
+
 const uint RL_FILTER_BOX = 0u;
 const uint RL_FILTER_CENTER = 1u;
 
@@ -252,6 +272,7 @@ const uint RL_FILTER_CENTER = 1u;
 struct FrameData {
   Camera camera;
   Camera previousCamera;
+  uvec4 cameraMedia;  // ranks of the bodies that the camera is in, the greatest first; 0: none
   uint width;
   uint height;
   uint frame;  // counts from 0 since the history was reset
@@ -264,8 +285,9 @@ struct FrameData {
   uint multiscatter;     // 1: GGX lobes are compensated, and the scene has ggxAlbedo; 0: off
   uint stillFrames;      // frames just before this one with its camera and parameters
   float radianceFrames;  // that the integrator's radiance of an old history is the average of
+  uint cameraAbsorbs;    // RL_CAMERA_ABSORBS_*
 };
-RL_STATIC_ASSERT_SIZE(FrameData, 172);
+RL_STATIC_ASSERT_SIZE(FrameData, 192);
 
 // Numerical health: counters that every kernel adds to; names in core/session.cpp.
 const uint RL_HEALTH_NONFINITE = 0u;          // non-finite sample values set to zero

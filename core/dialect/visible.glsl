@@ -58,6 +58,12 @@ RL_FN bool visibleAlike(RL_IN(VisibleSurface) a, RL_IN(VisibleSurface) b, RL_IN(
   return visibleMatch(a, b, distanceToCamera, test);
 }
 
+// Is a film position, in pixels, within the image? Every reprojection asks this function.
+RL_FN bool filmIsInView(RL_IN(vec2) film) {
+  return film.x >= 0.0f && film.y >= 0.0f && film.x < float(gFrame.width) &&
+         film.y < float(gFrame.height);
+}
+
 // Film coordinates at which the last frame's camera saw it; false where it was out of view.
 RL_FN bool visibleFilmBefore(RL_IN(VisibleSurface) v, RL_OUT(vec2) film) {
   vec2 resolution = vec2(float(gFrame.width), float(gFrame.height));
@@ -65,5 +71,5 @@ RL_FN bool visibleFilmBefore(RL_IN(VisibleSurface) v, RL_OUT(vec2) film) {
   // The background is as far as it can be: only the direction counts.
   if (v.isHit == 0u) posW += gFrame.previousCamera.posW;
   if (!cameraProject(gFrame.previousCamera, posW, resolution, film)) return false;
-  return film.x >= 0.0f && film.y >= 0.0f && film.x < resolution.x && film.y < resolution.y;
+  return filmIsInView(film);
 }

@@ -125,7 +125,7 @@ RL_FN void walkEscapes(RL_INOUT(PathGather) p, RL_IN(Walk) walk, RL_IN(vec3) rad
     p.emittedAtX3 = radiance;
     p.pdfLightAtX3 = pdfLight;
   } else if (walk.bounces == 0u) {
-    p.inView = radiance;
+    p.inView = walk.throughput * radiance;
   } else {
     pathAddLight(p, walk,
                  radiance * (pdfLight > 0.0f ? lightMisWeight(walk.pdfBsdf, pdfLight) : 1.0f));
@@ -160,7 +160,7 @@ RL_FN void walkEmits(RL_INOUT(PathGather) p, RL_IN(Walk) walk, RL_IN(Surface) s,
     p.emittedAtX3 = s.emission * p.absorbed;
     p.pdfLightAtX3 = pdfLight;
   } else if (walk.bounces == 0u) {
-    p.inView = s.emission;
+    p.inView = walk.throughput * s.emission;
   } else {
     pathAddLight(p, walk,
                  s.emission * (pdfLight > 0.0f ? lightMisWeight(walk.pdfBsdf, pdfLight) : 1.0f));
@@ -194,7 +194,9 @@ RL_FN uint walkArrives(RL_INOUT(PathGather) p, RL_IN(Walk) walk, RL_INOUT(Surfac
     p.x1PosW = s.posW;
     p.x1NGeoW = s.nGeoW;
     p.x1PosError = s.posError;
-    p.isReusable = bsdfIsReusable(s.bsdf, gParams.path.minAlpha) ? 1u : 0u;
+    bool isReusable = bsdfIsReusable(s.bsdf, gParams.path.minAlpha) &&
+                      (gFrame.cameraAbsorbs & RL_CAMERA_ABSORBS_NOW) == 0u;
+    p.isReusable = isReusable ? 1u : 0u;
     if (p.isReusable == 0u) RL_HEALTH(RL_HEALTH_UNREUSABLE_PIXELS);
   }
   if (pathIsAtX2(p, walk)) p.passedX1 = walk.passed;

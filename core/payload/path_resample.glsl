@@ -13,7 +13,7 @@ RL_FN float pathThroughAlpha(RL_IN(PathGather) p) {
   if (p.hasX2 == 0u) met = pathOfLight(p.found, p.film);
   Ray segment = pathSegment(met, p.x1PosW, p.x1NGeoW, p.x1PosError);
   Hit hit;
-  float t = traceRay(segment, RL_RAY_SHADOW, 0u, hit);
+  float t = traceRay(segment, RL_RAY_SHADOW, gFrame.cameraMedia.x, hit);
   // 0: the two rays disagree by rounding; the path ray is believed, as it is among opaque
   // surfaces.
   return t > 0.0f ? t : 1.0f;

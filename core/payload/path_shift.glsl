@@ -14,12 +14,26 @@ RL_FN PathShift pathShiftNone() {
   return s;
 }
 
+// What traceRay() asks for: the film sample, or the body that the segment lies in, which is the
+// camera's: x1 lets no light through.
+RL_FN uint pathShiftKey(uint mode, uint film) {
+  return mode == RL_RAY_PATH ? cameraAlphaKey(film) : gFrame.cameraMedia.x;
+}
+
+// Can paths be exchanged at an x1 of this frame?
+RL_FN bool pathIsReusable(RL_IN(Bsdf) bsdf) {
+  return bsdfIsReusable(bsdf, gParams.path.minAlpha) &&
+         (gFrame.cameraAbsorbs & RL_CAMERA_ABSORBS_NOW) == 0u;
+}
+
 // Of a reservoir's sample to a pixel of this frame's camera or of the last one's. An empty
 // reservoir has none.
 RL_FN PathShift pathShiftTo(RL_IN(PathReservoir) r, RL_IN(uvec2) pixel, bool isBefore,
                             bool assumeVisible) {
   PathShift s = pathShiftNone();
   if (!(r.state.W > 0.0f)) return s;
+  if ((gFrame.cameraAbsorbs & (isBefore ? RL_CAMERA_ABSORBS_BEFORE : RL_CAMERA_ABSORBS_NOW)) != 0u)
+    return s;
   if (isBefore) {
     s.ray = cameraFilmRay(gFrame.previousCamera, pixel, r.path.film);
   } else {
@@ -64,7 +78,8 @@ RL_FN void pathShiftTrace(RL_INOUT(PathShift) s, RL_IN(PathSample) path) {
   while (s.asks != RL_SHIFT_DONE) {
     Hit hit = traceNoHit();
     uint mode = s.asks == RL_SHIFT_ASKS_X1 ? RL_RAY_PATH : RL_RAY_SHADOW;
-    float transmittance = traceRay(s.ray, mode, cameraAlphaKey(path.film), hit);
+    uint key = pathShiftKey(mode, path.film);
+    float transmittance = traceRay(s.ray, mode, key, hit);
     pathShiftStep(s, path, hit, transmittance);
   }
 }

@@ -45,8 +45,7 @@ RL_FN bool radianceEnds(RL_INOUT(RadianceEnd) end, RL_IN(Walk) walk, RL_IN(Surfa
   if (uintBitsToFloat(light.w) < gParams.cells.leastCount) return false;
   uvec4 place = RL_PAST_QUAD(gBuffers.cells.places, cell);
   if (!radianceFaces(place, s.nGeoW)) return false;
-  uint alphaKey = walk.rng.key.y + walk.bounces * 0x632be59bu;
-  if (!radianceSees(place, s.posW, s.nGeoW, s.posError, alphaKey)) return false;
+  if (!radianceSees(place, s.posW, s.nGeoW, s.posError)) return false;
   radiance = recordVec3(light) * bsdfReflectance(s.bsdf);
   return true;
 }

@@ -15,7 +15,6 @@ RL_FN void kernelMain(RL_IN(uvec2) row) {
   vec3 nGeoW = unpackNormal(point.nGeoW);
   if (!radianceFaces(place, nGeoW)) return;
   uvec4 q1 = RL_PAST_QUAD(gBuffers.points, group * RL_RADIANCE_POINT_QUADS + 1u);
-  uint alphaKey = rngSharedBits(group, RL_DIM_DONOR_V);
-  if (radianceSees(place, point.posW, nGeoW, uintBitsToFloat(q1.w), alphaKey))
+  if (radianceSees(place, point.posW, nGeoW, uintBitsToFloat(q1.w)))
     groupFeeds(gBuffers.feeders, cell, group);
 }

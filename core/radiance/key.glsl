@@ -20,8 +20,7 @@ RL_FN bool radianceFaces(RL_IN(uvec4) place, RL_IN(vec3) nGeoW) {
 }
 
 // A ray from a point of a surface to the place, and what came through.
-RL_FN bool radianceSees(RL_IN(uvec4) place, RL_IN(vec3) posW, RL_IN(vec3) nGeoW, float posError,
-                        uint alphaKey) {
+RL_FN bool radianceSees(RL_IN(uvec4) place, RL_IN(vec3) posW, RL_IN(vec3) nGeoW, float posError) {
   vec3 to = recordVec3(place);
   Ray ray;
   ray.origin = surfaceOffset(posW, nGeoW, posError, to - posW);
@@ -30,5 +29,5 @@ RL_FN bool radianceSees(RL_IN(uvec4) place, RL_IN(vec3) posW, RL_IN(vec3) nGeoW,
   ray.tMax = 1.0f;
   if (!(dot(ray.dir, nGeoW) > 0.0f)) return false;
   Hit hit;
-  return traceRay(ray, RL_RAY_SHADOW, alphaKey, hit) > 0.99f;
+  return traceRay(ray, RL_RAY_SHADOW, 0u, hit) > 0.99f;
 }

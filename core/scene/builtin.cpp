@@ -29,7 +29,7 @@ uint32_t wholeNumber(const BuiltinName& name, const char* parameter) {
   return uint32_t(std::lround(name.value(parameter).value()));
 }
 
-const std::array<Entry, 10> kScenes{{
+const std::array<Entry, 11> kScenes{{
     {"cornell-box", fixed<builtin::makeCornellBox>,
      "the Cornell box in metres, Lambert, one ceiling light"},
     {"door-ajar", fixed<builtin::makeDoorAjar>,
@@ -69,9 +69,17 @@ const std::array<Entry, 10> kScenes{{
      [](const BuiltinName& name) {
        return builtin::makeQuadLight({.edge = name.value("edge").value(),
                                       .triangles = name.value("triangles").value(),
-                                      .ratio = name.value("ratio").value()});
+                                      .ratio = name.value("ratio").value(),
+                                      .ground = name.value("ground"),
+                                      .stray = name.value("stray")});
      },
      "a floor under one tilted rectangle: Lambert's polygon formula is its truth"},
+    {"media",
+     [](const BuiltinName& name) {
+       return builtin::makeMedia({.overlap = name.value("overlap").value(),
+                                  .priority = int(std::lround(name.value("priority").value()))});
+     },
+     "a camera in a body that absorbs, before two that overlap: Beer and Lambert's law"},
 }};
 
 struct OwnParameter {
@@ -103,7 +111,15 @@ const std::vector<OwnParameter>& ownParameters() {
       {"quad-light", {"edge", 1.0, 1e-4, 1e3, "factor on the light's edges, at constant power"}},
       {"quad-light", {"triangles", 2.0, 2.0, 1e6, "of the light, about so many"}},
       {"quad-light",
-       {"ratio", 1.0, 1.0, 1e10, "radiance of one of them over the others, at constant power"}}};
+       {"ratio", 1.0, 1.0, 1e10, "radiance of one of them over the others, at constant power"}},
+      {"quad-light",
+       {"ground", std::nullopt, 10.0, 1e7,
+        "half the side of a black ground below, with a sun under it, m; none without it"}},
+      {"quad-light",
+       {"stray", std::nullopt, 10.0, 1e9,
+        "distance of a black square along every axis, m; none without it"}},
+      {"media", {"overlap", 0.001, 1e-6, 0.9, "of the two bodies, m"}},
+      {"media", {"priority", 0.0, -9.0, 9.0, "of the farther one, a whole number"}}};
   return all;
 }
 

@@ -2,7 +2,9 @@
 // stands there, so the floor's radiance is albedo / pi times Lambert's polygon formula, exactly,
 // from one scattering event on. The camera sees floor only, all of it in front of the rectangle's
 // plane. A rectangle that grows would come between the floor and the first camera; the second one,
-// "low", is in front of its plane and sees the floor below any rectangle.
+// "low", is in front of its plane and sees the floor below any rectangle. A ground and a stray
+// triangle are black and light nothing: they are there for who weighs lights or coordinates by the
+// size of the scene.
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
@@ -51,6 +53,22 @@ Scene makeQuadLight(const QuadLightShape& shape) {
     scene.add(takeOne(lamps, "brightest"), bright);
   }
   scene.add(lamps, light);
+  const auto black = [&] { return scene.addMaterial("black", lambert(glm::vec3(0.0f))); };
+  if (shape.ground) {
+    const double half = *shape.ground;
+    scene.add(quad("ground", {-half, -1.0, half}, {2.0 * half, 0.0, 0.0}, {0.0, 0.0, -2.0 * half}),
+              black());
+    PunctualLight sun;
+    sun.name = "sun below";
+    sun.kind = rl::RL_LIGHT_DIRECTIONAL;
+    sun.dirW = {0.0, 1.0, 0.0};
+    sun.intensity = glm::vec3(100.0f);
+    scene.addLight(sun);
+  }
+  if (shape.stray) {
+    const double d = *shape.stray;
+    scene.add(quad("stray", {d, d, d}, {0.0, 0.01 * d, 0.0}, {0.0, 0.0, 0.01 * d}), black());
+  }
   scene.addCamera("floor", {0.0, 2.6, 4.6}, {0.0, 0.0, 0.2}, 36.0);
   scene.addCamera("low", {0.0, 0.9, 2.0}, {0.0, 0.0, 0.6}, 36.0);
   return scene.finish();

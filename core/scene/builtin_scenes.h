@@ -37,7 +37,16 @@ struct QuadLightShape {
   double edge = 1.0;       // factor on the light's edges, at constant power
   double triangles = 2.0;  // of the light, about so many
   double ratio = 1.0;      // radiance of one of them over that of the others, at constant power
+  // Half the side of a black ground under the floor, which a sun below it lights, m.
+  std::optional<double> ground = std::nullopt;
+  std::optional<double> stray = std::nullopt;  // distance of a small black triangle, m
 };
 Scene makeQuadLight(const QuadLightShape& shape);
+
+struct MediaShape {
+  double overlap = 0.001;  // of two bodies, m
+  int priority = 0;        // of the farther one; the nearer has 0, and is the smaller one
+};
+Scene makeMedia(const MediaShape& shape);
 
 }  // namespace restlab::builtin

@@ -10,6 +10,7 @@ target_sources(rl_core PRIVATE
   scene/builtin_gallery.cpp
   scene/builtin_glass.cpp
   scene/builtin_many_lights.cpp
+  scene/builtin_media.cpp
   scene/builtin_mesh.cpp
   scene/builtin_name.cpp
   scene/builtin_relations.cpp

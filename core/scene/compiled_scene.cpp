@@ -12,6 +12,8 @@
 
 #include "core/backend/alpha_filter.h"
 #include "core/error.h"
+#include "core/scene/black_textures.h"
+#include "core/scene/bodies.h"
 #include "core/scene/coarse_vertices.h"
 #include "core/scene/ggx_albedo.h"
 #include "core/scene/light_table.h"
@@ -66,6 +68,7 @@ struct CompiledScene::Impl {
   std::vector<uint32_t> texels;
   std::vector<float> srgb;
   LightTable lights;
+  Bodies bodies;
   rl::SceneData data{};
   size_t instancedTriangles = 0;
   // Kept by Embree itself; it allocates from several threads.
@@ -176,6 +179,7 @@ void CompiledScene::Impl::flatten() {
     const uint32_t alphaFlags = rl::RL_MATERIAL_ALPHA_MASK | rl::RL_MATERIAL_ALPHA_BLEND;
     if ((scene.materials[m.material].data.flags & alphaFlags) != 0)
       inst.flags |= rl::RL_INSTANCE_ALPHA;
+    inst.flags |= bodies.rank[instances.size()] << rl::RL_INSTANCE_RANK_SHIFT;
     instancedTriangles += mesh.triangles.size();
     instances.push_back(inst);
   }
@@ -222,7 +226,12 @@ void CompiledScene::Impl::buildEmbree() {
     return true;
   };
   rtcSetDeviceMemoryMonitorFunction(device, count, &embreeBytes);
+  // Kernels ask about hits where something may be transparent in part, and where bodies meet.
   const bool alpha = (features & rl::RL_FEATURE_ALPHA) != 0;
+  const auto asks = [&](const rl::Instance& inst) {
+    return (alpha && (inst.flags & rl::RL_INSTANCE_ALPHA) != 0) ||
+           (bodies.meet && inst.flags >> rl::RL_INSTANCE_RANK_SHIFT != 0);
+  };
   // ROBUST: watertight along shared edges. High quality splits triangles, which would report a hit
   // twice to the alpha filter of shadow rays.
   const RTCBuildQuality quality = alpha ? RTC_BUILD_QUALITY_MEDIUM : RTC_BUILD_QUALITY_HIGH;
@@ -232,7 +241,7 @@ void CompiledScene::Impl::buildEmbree() {
     rtcSetSceneBuildQuality(s, quality);
     return s;
   };
-  auto newTriangles = [&](const rl::Geometry& g, size_t vertexCount, bool isTransparent) {
+  auto newTriangles = [&](const rl::Geometry& g, size_t vertexCount, bool isAsked) {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     // Copied into Embree's own buffers: it asks for padding behind the last vertex.
     auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(
@@ -244,7 +253,7 @@ void CompiledScene::Impl::buildEmbree() {
       failInput(fmt::format("{}: out of memory for the ray-tracing structure", scene.name));
     std::copy_n(&positions[g.firstVertex].x, 3 * vertexCount, v);
     std::copy_n(&triangles[g.firstTriangle].x, 3 * size_t(g.triangleCount), t);
-    if (isTransparent) {
+    if (isAsked) {
       rtcSetGeometryIntersectFilterFunction(geometry, rl::alphaFilterTrampoline);
       rtcSetGeometryOccludedFilterFunction(geometry, rl::alphaFilterTrampoline);
     }
@@ -262,15 +271,14 @@ void CompiledScene::Impl::buildEmbree() {
     const uint32_t g = inst.geometry;
     if (geometries[g].triangleCount == 0) continue;
     if ((inst.flags & rl::RL_INSTANCE_IDENTITY) != 0) {
-      const bool isTransparent = alpha && (inst.flags & rl::RL_INSTANCE_ALPHA) != 0;
-      RTCGeometry geometry = newTriangles(geometries[g], vertexCount(g), isTransparent);
+      RTCGeometry geometry = newTriangles(geometries[g], vertexCount(g), asks(inst));
       rtcAttachGeometryByID(top, geometry, i);
       rtcReleaseGeometry(geometry);
       continue;
     }
     if (meshScenes[g] == nullptr) {
       // Its instances may have different materials: the filter asks each one's.
-      RTCGeometry geometry = newTriangles(geometries[g], vertexCount(g), alpha);
+      RTCGeometry geometry = newTriangles(geometries[g], vertexCount(g), alpha || bodies.meet);
       meshScenes[g] = newScene();
       rtcAttachGeometryByID(meshScenes[g], geometry, 0);
       rtcReleaseGeometry(geometry);
@@ -317,6 +325,8 @@ void CompiledScene::Impl::bindAddresses() {
   data.environmentHeight = scene.environment ? scene.environment->height : 0;
   data.environmentLight = lights.environmentLight;
   data.environmentRotation = scene.environment ? scene.environment->rotation : 0.0f;
+  data.bodies.data = bodies.media.data();
+  data.bodiesMeet = bodies.meet ? 1u : 0u;
   data.instanceCount = static_cast<uint32_t>(instances.size());
 }
 
@@ -325,9 +335,11 @@ CompiledScene::~CompiledScene() = default;
 
 std::shared_ptr<const CompiledScene> CompiledScene::build(Scene scene) {
   auto impl = std::make_unique<Impl>();
+  foldBlackTextures(scene);
   impl->features = scanFeatures(scene);
   impl->scene = std::move(scene);
   impl->warnings = impl->scene.warnings;
+  impl->bodies = findBodies(impl->scene);
   impl->flatten();
   for (const SceneMaterial& m : impl->scene.materials) {
     impl->materials.push_back(m.data);
@@ -403,6 +415,7 @@ rl::SceneData CompiledScene::placedAt(const Place& place, bool withBvh) const {
   move(placed.lightAlias, m.lights.alias.size());
   move(placed.environment, m.lights.environment.size());
   move(placed.environmentAlias, m.lights.environmentAlias.size());
+  move(placed.bodies, m.bodies.media.size());
   move(placed.ggxAlbedo, m.data.ggxAlbedo.data != nullptr ? ggxAlbedoTable().size() : 0);
   move(placed.bvh, withBvh ? m.bvh.records.size() * rl::RL_BVH_RECORD_QUADS : 0);
   move(placed.bvhRoots, withBvh ? m.bvh.roots.size() : 0);
@@ -443,6 +456,15 @@ bool CompiledScene::differsInLightAlone(const CompiledScene& other) const {
          a.data.environmentHeight == b.data.environmentHeight;
 }
 
+glm::uvec4 CompiledScene::bodiesAt(const glm::vec3& posW) const {
+  const Impl& m = *impl_;
+  return restlab::bodiesAt(m.scene, m.bodies, glm::dvec3(posW) + m.origin);
+}
+
+bool CompiledScene::absorbs(uint32_t rank) const {
+  return rank != 0 && glm::vec3(impl_->bodies.media.at(rank)) != glm::vec3(0.0f);
+}
+
 size_t CompiledScene::embreeBytes() const {
   return size_t(std::max<ptrdiff_t>(0, impl_->embreeBytes));
 }
@@ -453,7 +475,7 @@ size_t CompiledScene::bytes() const {
   return of(i.positions) + of(i.normals) + of(i.tangents) + of(i.colors) + of(i.uvs) +
          of(i.triangles) + of(i.geometries) + of(i.instances) + of(i.materials) + of(i.textures) +
          of(i.texels) + of(i.srgb) + of(i.lights.lights) + of(i.lights.alias) +
-         of(i.lights.environment) + of(i.lights.environmentAlias);
+         of(i.lights.environment) + of(i.lights.environmentAlias) + of(i.bodies.media);
 }
 
 rl::Camera CompiledScene::camera(const SceneCamera& camera, uint32_t width, uint32_t height) const {

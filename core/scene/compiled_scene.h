@@ -40,6 +40,9 @@ class CompiledScene {
   rl::SceneData placedAt(const Place& place, bool withBvh) const;
   const std::vector<std::string>& warnings() const;  // import's and compilation's
   rl::Camera camera(const SceneCamera& camera, uint32_t width, uint32_t height) const;
+  // Ranks of the bodies that hold a point (relative to origin()), the greatest first; 0: no more.
+  glm::uvec4 bodiesAt(const glm::vec3& posW) const;
+  bool absorbs(uint32_t rank) const;      // does the body of that rank? 0: air, which does not
   size_t triangleCount() const;           // unique
   size_t instancedTriangleCount() const;  // as seen by rays
   size_t emissiveTriangleCount() const;

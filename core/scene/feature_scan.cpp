@@ -1,5 +1,6 @@
 // What a scene needs of the kernels (features.h), exact in one direction and tight in the other: a
-// feature that can change a pixel is never missed, one that cannot is left out as far as factors,
+// feature that can change a pixel is never missed (of a scene whose black textures are folded:
+// black_textures.h), one that cannot is left out as far as factors,
 // texels and vertices tell. Only what an instance with triangles uses counts. The conditions mirror
 // surfaceLoad() in core/dialect/surface.glsl. RL_FEATURE_MULTISCATTER is a session's option, not a
 // scene's need, and is never set here; hasRoughReflection() says whether the option changes
@@ -8,6 +9,7 @@
 #include <cmath>
 
 #include "core/dialect/bsdf.h"
+#include "core/scene/bodies.h"
 #include "core/scene/compiled_scene.h"
 #include "core/scene/texture_range.h"
 
@@ -163,6 +165,9 @@ uint32_t scanFeatures(const Scene& scene) {
       if (hasSmoothNormals(mesh)) features |= rl::RL_FEATURE_SMOOTH_NORMALS;
     }
   }
+  // Between bodies that meet, light is refracted by the ratio of their indices.
+  const bool transmits = (features & rl::RL_FEATURE_TRANSMISSION) != 0;
+  if (transmits && findBodies(scene).meet) features |= rl::RL_FEATURE_VOLUME;
   return features;
 }
 

@@ -14,6 +14,7 @@ constexpr double kSmallestTransmittance = 1e-4;
 // Of a material that transmits: nothing transparent bends light more, and beyond it the half
 // vectors of rough refraction lose their digits.
 constexpr double kLargestIor = 4.0;
+constexpr int kLargestPriority = 1'000'000;
 
 // Numbers of an extension's object; absent ones have the value that the caller gives.
 class Properties {
@@ -66,6 +67,7 @@ class MaterialImporter {
     importEmission();
     importSpecular();
     importTransmission();
+    importPriority(result);
     if (material_.doubleSided) data_->flags |= rl::RL_MATERIAL_DOUBLE_SIDED;
     if (has("KHR_materials_unlit")) data_->flags |= rl::RL_MATERIAL_UNLIT;
     return result;
@@ -100,6 +102,19 @@ class MaterialImporter {
     setTexture(rl::RL_TEX_METALLIC_ROUGHNESS, pbr.metallicRoughnessTexture, false,
                "pbrMetallicRoughness.metallicRoughnessTexture");
     setTexture(rl::RL_TEX_NORMAL, material_.normalTexture, false, "normalTexture");
+  }
+
+  // A property of this project's own: which of several bodies fills a place (core/scene/bodies.h).
+  void importPriority(SceneMaterial& result) {
+    if (!material_.extras.IsObject() || !material_.extras.Has("priority")) return;
+    const tinygltf::Value& value = material_.extras.Get("priority");
+    if (value.IsInt() && std::abs(value.GetNumberAsInt()) <= kLargestPriority) {
+      result.priority = value.GetNumberAsInt();
+    } else {
+      report_.warn("out of range", place_ + ".extras.priority",
+                   fmt::format("must be a whole number from -{0} to {0}; it is taken as 0",
+                               kLargestPriority));
+    }
   }
 
   void importAlpha() {

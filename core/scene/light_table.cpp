@@ -8,6 +8,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/scene/alias_table.h"
+
 namespace restlab {
 
 namespace {
@@ -82,9 +84,37 @@ float magnitudeOf(const rl::Instance& inst, const glm::vec3& corner) {
                    glm::dot(glm::abs(inst.objectToWorldRow2), h)});
 }
 
+// Weights of the lights, by kinds that have no common unit: a lamp has power (W), the sun and the
+// sky have power per area that faces them. Between kinds nothing is known but the number of them.
+enum Kind : size_t { kLamps, kSuns, kSky, kKinds };
+
+struct Weights {
+  std::vector<double> values;  // one a light: W, W/m^2, W/m^2
+  std::vector<Kind> kinds;
+
+  void add(Kind kind, double value) {
+    values.push_back(value);
+    kinds.push_back(kind);
+  }
+};
+
+// Weights that give each kind that shines the same share, whatever its unit: docs/decisions.md,
+// "The choice of a light". Empty where nothing shines.
+std::vector<double> withFairShares(const Weights& weights) {
+  std::array<double, kKinds> total{};
+  for (size_t i = 0; i < weights.values.size(); ++i) total[weights.kinds[i]] += weights.values[i];
+  if (std::accumulate(total.begin(), total.end(), 0.0) <= 0.0) return {};
+  std::vector<double> fair(weights.values.size(), 0.0);
+  for (size_t i = 0; i < fair.size(); ++i) {
+    const double ofKind = total[weights.kinds[i]];
+    if (ofKind > 0.0) fair[i] = weights.values[i] / ofKind;
+  }
+  return fair;
+}
+
 // Appends the triangles of an emitting instance with their power (W, up to a common factor).
 size_t addTriangles(const LightTableInput& in, const rl::Instance& inst, uint32_t instanceIndex,
-                    LightTable& table, std::vector<double>& power) {
+                    LightTable& table, Weights& weights) {
   const rl::Material& material = in.scene.materials[inst.material].data;
   const float factor = in.scene.materials[inst.material].lightFactor;
   const rl::Geometry& g = in.geometries[inst.geometry];
@@ -118,7 +148,7 @@ size_t addTriangles(const LightTableInput& in, const rl::Instance& inst, uint32_
     light.areaInverse = usable ? static_cast<float>(1.0 / area) : 0.0f;
     if (flipped) light.flags |= rl::RL_LIGHT_FLIPPED;
     table.lights.push_back(light);
-    power.push_back(usable ? kPi * area * radiance * (twoSided ? 2.0 : 1.0) : 0.0);
+    weights.add(kLamps, usable ? kPi * area * radiance * (twoSided ? 2.0 : 1.0) : 0.0);
     if (usable) ++table.emissiveTriangles;
   }
   return zeroArea;
@@ -166,58 +196,24 @@ double addEnvironment(const EnvironmentMap& map, LightTable& table) {
       flux += weights[size_t(y) * w + x];
     }
   }
-  if (flux > 0.0) table.environmentAlias = buildAliasTable(weights);
+  if (flux > 0.0) table.environmentAlias = buildAliasTable(weights, size_t(w));
   for (glm::vec3& texel : table.environment) texel *= map.lightFactor;
   return flux;
 }
 
 }  // namespace
 
-std::vector<rl::AliasEntry> buildAliasTable(const std::vector<double>& weights) {
-  const size_t n = weights.size();
-  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
-  std::vector<rl::AliasEntry> table(n);
-  std::vector<double> scaled(n);
-  std::vector<uint32_t> small, large;
-  for (size_t i = 0; i < n; ++i) {
-    table[i].pmf = static_cast<float>(weights[i] / total);
-    scaled[i] = weights[i] / total * double(n);
-    (scaled[i] < 1.0 ? small : large).push_back(static_cast<uint32_t>(i));
-  }
-  while (!small.empty() && !large.empty()) {
-    const uint32_t s = small.back(), l = large.back();
-    small.pop_back();
-    table[s].keep = static_cast<float>(scaled[s]);
-    table[s].other = l;
-    scaled[l] -= 1.0 - scaled[s];
-    if (scaled[l] < 1.0) {
-      large.pop_back();
-      small.push_back(l);
-    }
-  }
-  // What is left is 1 up to rounding - except an entry of weight 0, which must never be kept.
-  const auto heaviest =
-      static_cast<uint32_t>(std::max_element(weights.begin(), weights.end()) - weights.begin());
-  for (const std::vector<uint32_t>& rest : {small, large}) {
-    for (uint32_t i : rest) {
-      table[i].keep = weights[i] > 0.0 ? 1.0f : 0.0f;
-      table[i].other = weights[i] > 0.0 ? i : heaviest;
-    }
-  }
-  return table;
-}
-
 LightTable buildLightTable(const LightTableInput& in, std::vector<rl::Instance>& instances,
                            std::vector<std::string>& warnings) {
   LightTable table;
-  std::vector<double> power;
+  Weights weights;
   for (uint32_t i = 0; i < instances.size(); ++i) {
     const SceneMaterial& material = in.scene.materials[instances[i].material];
     const bool unlit = (material.data.flags & rl::RL_MATERIAL_UNLIT) != 0;
     if (unlit || !(luminance(glm::dvec3(material.data.emission)) > 0.0)) continue;
     const auto first = static_cast<uint32_t>(table.lights.size());
     const size_t before = table.emissiveTriangles;
-    const size_t zeroArea = addTriangles(in, instances[i], i, table, power);
+    const size_t zeroArea = addTriangles(in, instances[i], i, table, weights);
     if (zeroArea > 0) {
       warnings.push_back(fmt::format(
           "{}: {}: {} of {} emissive triangles have no area and give no light", in.scene.name,
@@ -225,28 +221,27 @@ LightTable buildLightTable(const LightTableInput& in, std::vector<rl::Instance>&
     }
     if (table.emissiveTriangles == before) {
       table.lights.resize(first);
-      power.resize(first);
+      weights.values.resize(first);
+      weights.kinds.resize(first);
     } else {
       instances[i].firstLight = first;
     }
   }
-  const auto bounds = worldBounds(in.scene);
-  const double radius =
-      bounds[0].x <= bounds[1].x ? std::max(0.5 * glm::length(bounds[1] - bounds[0]), 1e-6) : 1.0;
   for (const PunctualLight& source : in.scene.lights) {
     const double intensity = luminance(glm::dvec3(source.intensity));
-    double watts = 4.0 * kPi * intensity;
+    double power = 4.0 * kPi * intensity;
     if (source.kind == rl::RL_LIGHT_SPOT)
       // 1 - cos, without its cancellation
-      watts = 4.0 * kPi * std::pow(std::sin(0.5 * double(source.outerConeAngle)), 2.0) * intensity;
-    if (source.kind == rl::RL_LIGHT_DIRECTIONAL) watts = kPi * radius * radius * intensity;
-    if (!(watts > 0.0)) {
+      power = 4.0 * kPi * std::pow(std::sin(0.5 * double(source.outerConeAngle)), 2.0) * intensity;
+    const bool isSun = source.kind == rl::RL_LIGHT_DIRECTIONAL;
+    if (isSun) power = intensity;  // W/m^2
+    if (!(power > 0.0)) {
       warnings.push_back(
           fmt::format("{}: light '{}' has no intensity", in.scene.name, source.name));
       continue;
     }
     table.lights.push_back(punctual(source, in.origin));
-    power.push_back(watts * double(source.lightFactor));
+    weights.add(isSun ? kSuns : kLamps, power * double(source.lightFactor));
   }
   if (in.scene.environment) {
     const double flux = addEnvironment(*in.scene.environment, table);
@@ -256,15 +251,14 @@ LightTable buildLightTable(const LightTableInput& in, std::vector<rl::Instance>&
       light.kind = rl::RL_LIGHT_ENVIRONMENT;
       light.instance = rl::RL_INVALID;
       table.lights.push_back(light);
-      power.push_back(flux * double(in.scene.environment->lightFactor) * kPi * radius * radius);
+      weights.add(kSky, flux * double(in.scene.environment->lightFactor));
     } else {
       warnings.push_back(in.scene.name + ": the environment is black");
     }
   }
-  const bool isLit =
-      std::any_of(power.begin(), power.end(), [](double watts) { return watts > 0.0; });
-  if (isLit) {
-    table.alias = buildAliasTable(power);
+  const std::vector<double> shares = withFairShares(weights);
+  if (!shares.empty()) {
+    table.alias = buildAliasTable(shares, shares.size());
     for (size_t i = 0; i < table.lights.size(); ++i) table.lights[i].pmf = table.alias[i].pmf;
   }
   return table;

@@ -1,4 +1,5 @@
-// The light table: every emitter with its probability of being selected, proportional to its power.
+// The light table: every emitter with its probability of being selected. Lamps, suns and the sky
+// share it evenly, as far as there are any; within each kind it is proportional to power.
 #pragma once
 
 #include <string>
@@ -33,8 +34,5 @@ struct LightTableInput {
 // Sets firstLight of emitting instances; adds a warning for emitters of zero area.
 LightTable buildLightTable(const LightTableInput& in, std::vector<rl::Instance>& instances,
                            std::vector<std::string>& warnings);
-
-// Vose's alias method over non-negative weights (not all zero).
-std::vector<rl::AliasEntry> buildAliasTable(const std::vector<double>& weights);
 
 }  // namespace restlab

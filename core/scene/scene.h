@@ -54,6 +54,7 @@ struct SceneMaterial {
   std::string name;
   rl::Material data{};       // data.textures[] index Scene::textureUses
   float lightFactor = 1.0f;  // on data.emission (core/scene/light_factor.h)
+  int priority = 0;          // of bodies that overlap, the greater one fills the place
 };
 
 struct SceneCamera {

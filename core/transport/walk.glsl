@@ -45,8 +45,9 @@ RL_FN bool walkDrawLights(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, RL_IN
   return hasShadowRay;
 }
 
-// Draws where the path goes on, and moves the walk there.
-RL_FN void walkScatter(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk, RL_IN(Surface) s) {
+// Draws where the path goes on, and moves the walk there. behind: bodies beyond the surface.
+RL_FN void walkScatter(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk, RL_IN(Surface) s,
+                       RL_IN(uvec4) behind) {
   float uLobe = rngDraw(walk.rng, RL_DIM_BSDF_LOBE);
   vec2 u;
   u.x = rngDraw(walk.rng, RL_DIM_BSDF_U);
@@ -65,7 +66,10 @@ RL_FN void walkScatter(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk, RL_IN
     }
   }
   walk.pdfBsdf = (draw.lobe & RL_LOBE_ANY_DELTA) != 0u ? 0.0f : draw.pdfSolidAngle;
-  if (RL_HAS(RL_FEATURE_VOLUME)) walk.sigma = surfaceSigma(s, walk.sigma, draw.wi);
+  if (RL_HAS(RL_FEATURE_VOLUME)) {
+    walk.sigma = surfaceSigma(s, walk.sigma, draw.wi);
+    if (dot(s.nGeoW, draw.wi) < 0.0f) walk.media = behind;
+  }
   walk.ray.origin = surfaceOffset(s.posW, s.nGeoW, s.posError, draw.wi);
   walk.ray.dir = draw.wi;
 }
@@ -78,7 +82,9 @@ RL_FN Walk walkBegin(RL_IN(Rng) rng, uint film, RL_IN(Ray) ray, uint bounces) {
   walk.ray = ray;
   walk.bounces = bounces;
   walk.throughput = vec3(1.0f, 1.0f, 1.0f);
+  walk.media = mediaNone();
   walk.sigma = vec3(0.0f, 0.0f, 0.0f);
+  walk.passedT = 0.0f;
   walk.pdfBsdf = 0.0f;
   walk.rouletteStart = gFrame.rouletteStart;
   walk.passed = 1.0f;
@@ -90,7 +96,8 @@ RL_FN Walk walkBegin(RL_IN(Rng) rng, uint film, RL_IN(Ray) ray, uint bounces) {
 RL_FN void walkOn(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk) {
   bool hasShadowRay = false;
   Ray shadowRay = walk.ray;
-  for (;; walk.bounces = walk.bounces + 1u) {
+  uint shadowRank = 0u;  // of the body that the shadow ray travels in
+  for (;;) {
     Hit hit = traceNoHit();
     for (uint which = 0u; which < 2u; which = which + 1u) {
       bool isShadow = which == 0u;
@@ -100,6 +107,7 @@ RL_FN void walkOn(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk) {
       uint mode = isShadow ? RL_RAY_SHADOW : RL_RAY_PATH;
       uint alphaKey = walk.rng.key.x + walk.bounces * 0x632be59bu;
       if (walk.bounces == 0u) alphaKey = cameraAlphaKey(walk.film);
+      if (RL_HAS(RL_FEATURE_VOLUME) && isShadow) alphaKey = shadowRank;
       float passed = traceRay(traced, mode, alphaKey, hit);
       if (isShadow) {
         walkSees(state, walk, passed);
@@ -118,8 +126,25 @@ RL_FN void walkOn(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk) {
       }
       break;
     }
-    Surface s = surfaceLoad(hit, walk.ray.dir);
+    MediaCrossing crossing;
+    crossing.behind = walk.media;
+    crossing.contrast = 0.0f;
+    crossing.isSurface = 1u;
+    crossing.isTouching = 0u;
+    if (RL_HAS(RL_FEATURE_VOLUME)) crossing = mediaCross(walk.media, walk.ray, hit);
+    Surface s = surfaceLoadBetween(hit, walk.ray.dir, crossing.contrast);
     if (RL_HAS(RL_FEATURE_VOLUME)) {
+      s.sigmaAbsorption = vec3(mediaOfRank(crossing.behind.x));
+      if (crossing.isTouching != 0u) s.posError *= 3.0f;
+      // Only a ray that ends here has gone its way.
+      if (crossing.isSurface == 0u) {
+        walk.media = crossing.behind;
+        walk.passedT += hit.t;
+        walk.ray.origin = surfaceOffset(s.posW, s.nGeoW, s.posError, walk.ray.dir);
+        continue;
+      }
+      hit.t += walk.passedT;
+      walk.passedT = 0.0f;
       vec3 transmittance = exp(-walk.sigma * hit.t);
       walk.throughput *= transmittance;
       walkAbsorbs(state, walk, transmittance);
@@ -136,7 +161,12 @@ RL_FN void walkOn(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk) {
     if (candidates == RL_WALK_ENDS) break;
     if (lightExists() && walkWants(walk.bounces + 1u))
       hasShadowRay = walkDrawLights(state, walk, s, candidates, shadowRay);
-    walkScatter(state, walk, s);
+    if (RL_HAS(RL_FEATURE_VOLUME)) {
+      shadowRank = walk.media.x;
+      if (dot(s.nGeoW, shadowRay.dir) < 0.0f) shadowRank = crossing.behind.x;
+    }
+    walkScatter(state, walk, s, crossing.behind);
+    walk.bounces = walk.bounces + 1u;
   }
 }
 
@@ -144,5 +174,9 @@ RL_FN void walkOn(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk) {
 RL_FN void walkPath(RL_INOUT(RL_WALK_STATE) state, RL_IN(uvec2) pixel, uint film) {
   Rng rng = rngInit(gFrame.seed, pixel.y * gFrame.width + pixel.x, gFrame.frame);
   Walk walk = walkBegin(rng, film, cameraFilmRay(gFrame.camera, pixel, film), 0u);
+  if (RL_HAS(RL_FEATURE_VOLUME)) {
+    walk.media = gFrame.cameraMedia;
+    walk.sigma = vec3(mediaOfRank(walk.media.x));
+  }
   walkOn(state, walk);
 }

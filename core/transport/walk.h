@@ -14,7 +14,9 @@ struct Walk {
   Ray ray;          // the next ray of the path
   uint bounces;     // scattering events before that ray
   vec3 throughput;  // of the path up to the ray's origin: f |cos| / pdf of every event
+  uvec4 media;      // bodies that the ray travels in (core/dialect/media.glsl)
   vec3 sigma;       // m^-1, absorption of the medium that the ray travels in
+  float passedT;    // metres that the ray came before its origin, through surfaces that are none
   float
       pdfBsdf;  // solid-angle density of the ray; 0: camera or delta lobe, no light sample competes
   uint rouletteStart;  // first scattering event that may end the path by Russian roulette

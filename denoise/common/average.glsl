@@ -3,6 +3,7 @@
 // that a pixel at an edge averages both of its sides, as the pixel filter does.
 //
 // The includer has gBuffers.visible and .visibleBefore.
+#include "denoise/common/between.glsl"
 
 RL_FN Average averageOfNone() {
   Average a;
@@ -70,6 +71,7 @@ RL_FN Average averageReprojected(RL_IN(QuadRef) before, uint slot, RL_IN(Surface
   if (!(weights > 0.0f)) return sum;
   sum.mean *= 1.0f / weights;
   sum.frames *= 1.0f / weights;
+  if (isBetween) sum.frames *= betweenShareInView(film);
   return sum;
 }
 

@@ -2,6 +2,7 @@
 // (Schied et al., "Spatiotemporal Variance-Guided Filtering", 2017, sections 4.1 and 4.2). Frames
 // count alike until there are `cap` of them; then the mean is exponential.
 #include "core/kernels/guide_data.glsl"
+#include "denoise/common/between.glsl"
 #include "denoise/common/filter.glsl"
 #include "denoise/svgf/store.glsl"
 #include "core/changes/read.glsl"
@@ -53,6 +54,8 @@ RL_FN SvgfHistory svgfReprojected(RL_IN(uvec2) pixel, RL_IN(Guide) here) {
   SvgfHistory sum = svgfNoHistory();
   if (here.isLight == 0u && !(then.disparity > 0.0f)) return sum;
   vec2 film = vec2(float(pixel.x) + 0.5f + motion.film.x, float(pixel.y) + 0.5f + motion.film.y);
+  float inView = betweenShareInView(film);
+  if (!(inView > 0.0f)) return sum;
   float x = floor(film.x - 0.5f);
   float y = floor(film.y - 0.5f);
   float u = film.x - 0.5f - x;
@@ -68,7 +71,7 @@ RL_FN SvgfHistory svgfReprojected(RL_IN(uvec2) pixel, RL_IN(Guide) here) {
   if (!(weights > 0.01f)) return svgfNoHistory();
   float scale = 1.0f / weights;
   sum.light *= scale;
-  sum.frames *= scale;
+  sum.frames *= scale * inView;
   sum.reflectance *= scale;
   sum.mean *= scale;
   sum.spread *= scale;

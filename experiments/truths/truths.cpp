@@ -8,6 +8,7 @@
 #include "experiments/truths/film.h"
 #include "experiments/truths/floor.h"
 #include "experiments/truths/furnace.h"
+#include "experiments/truths/media.h"
 #include "experiments/truths/quad_light.h"
 
 namespace restlab::analytic {
@@ -61,9 +62,10 @@ struct Truth {
   Pixels (*image)(const Scene&, const ExactView&);
 };
 
-constexpr std::array<Truth, 4> kTruths{{{"furnace", whyNotFurnace, furnaceImage},
+constexpr std::array<Truth, 5> kTruths{{{"furnace", whyNotFurnace, furnaceImage},
                                         {"sphere-furnace", whyNotSphereFurnace, sphereFurnaceImage},
                                         {"floor", whyNotFloor, floorImage},
+                                        {"media", whyNotMedia, mediaImage},
                                         {"quad-light", whyNotQuadLight, quadLightImage}}};
 
 const Truth* truthOf(const Scene& scene) {

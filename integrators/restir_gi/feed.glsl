@@ -70,14 +70,15 @@ RL_FN bool giAskOffers(RL_INOUT(GiWithEntries) s, RL_INOUT(PathReservoir) here,
     if (shift.asks != RL_SHIFT_DONE) {
       Hit hit = traceNoHit();
       uint mode = leg == 0u ? RL_RAY_PATH : RL_RAY_SHADOW;
-      float transmittance = traceRay(shift.ray, mode, cameraAlphaKey(offer.path.film), hit);
+      uint key = pathShiftKey(mode, offer.path.film);
+      float transmittance = traceRay(shift.ray, mode, key, hit);
       if (leg != 0u) {
         shift.shifted.F *= transmittance;
       } else {
         hasX1 = false;
         if (hit.instance != RL_INVALID) {
           x1 = surfaceLoad(hit, shift.ray.dir);
-          hasX1 = bsdfIsReusable(x1.bsdf, gParams.path.minAlpha);
+          hasX1 = pathIsReusable(x1.bsdf);
         }
         if (!hasX1) s.id[k] = isNew ? RL_INVALID : group;
         if (hasX1 && isNew) {

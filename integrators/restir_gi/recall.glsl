@@ -68,12 +68,13 @@ RL_FN void giAskEntries(RL_INOUT(GiWithEntries) s, RL_IN(PathReservoir) here, RL
     if (shift.asks != RL_SHIFT_DONE) {
       Hit hit = traceNoHit();
       uint mode = isCamera ? RL_RAY_PATH : RL_RAY_SHADOW;
-      float transmittance = traceRay(shift.ray, mode, cameraAlphaKey(film), hit);
+      uint key = pathShiftKey(mode, film);
+      float transmittance = traceRay(shift.ray, mode, key, hit);
       if (!isCamera) {
         shift.shifted.F *= transmittance;
       } else if (hit.instance != RL_INVALID) {
         x1 = surfaceLoad(hit, shift.ray.dir);
-        hasX1 = bsdfIsReusable(x1.bsdf, gParams.path.minAlpha);
+        hasX1 = pathIsReusable(x1.bsdf);
       }
     }
     if (isCamera) continue;

@@ -6,6 +6,7 @@ set(RL_ANALYTIC_SOURCES
 set(RL_ANALYTIC_TESTS
   analytic/bent_normals_test.cpp
   analytic/cornell_tiles_test.cpp
+  analytic/media_test.cpp
   analytic/polygon_irradiance_test.cpp
   analytic/sampling_noise_test.cpp
   analytic/truths_test.cpp

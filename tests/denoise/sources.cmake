@@ -7,6 +7,7 @@ set(RL_DENOISE_TESTS
   host_filter_test.cpp
   oidn_test.cpp
   accumulate_test.cpp
+  border_test.cpp
   reuse_over_time_test.cpp
   slopes_test.cpp
   conformance/variants.cpp

@@ -70,6 +70,8 @@ TEST(FeatureScan, BuiltinScenes) {
       {"sphere-furnace", rl::RL_FEATURE_ENVIRONMENT},
       {"floor", rl::RL_FEATURE_ENVIRONMENT},
       {"quad-light", rl::RL_FEATURE_AREA_LIGHTS},
+      {"media", rl::RL_FEATURE_ENVIRONMENT | rl::RL_FEATURE_GLOSSY | rl::RL_FEATURE_TRANSMISSION |
+                    rl::RL_FEATURE_VOLUME},
   };
   for (const std::string& name : builtinSceneNames()) {
     ASSERT_EQ(expected.count(name), 1u) << name;

@@ -6,6 +6,7 @@
 
 #include "core/scene/builtin_builder.h"
 #include "core/scene/builtin_mesh.h"
+#include "tests/unit/bvh_context.h"
 #include "tests/unit/dialect_context.h"
 #include "tests/unit/goodness.h"
 #include "tests/unit/random_inputs.h"
@@ -79,6 +80,67 @@ TEST(Alpha, DecisionBelongsToKeyAndPrimitive) {
     EXPECT_EQ(a.instance, b.instance);
     EXPECT_EQ(a.primitive, b.primitive);
   }
+}
+
+// A square of two triangles and a fan of six, both half transparent: rays through the shared edge
+// and through the shared corner meet one surface, whichever machine traces them.
+template <typename Trace>
+void expectOneSurfaceAtEdges(const char* what, const Trace& trace) {
+  struct Place {
+    const char* name;
+    glm::dvec2 at;
+  };
+  for (const Place& place : {Place{"inside", {0.3, 0.1}}, Place{"edge", {0.25, 0.25}},
+                             Place{"corner", {10.0, 0.0}}, Place{"edge of the fan", {10.5, 0.0}}}) {
+    EXPECT_FLOAT_EQ(trace(place.at, rl::RL_RAY_SHADOW, 0u), 0.5f) << what << ", " << place.name;
+    int stopped = 0;
+    constexpr int n = 20'000;
+    for (uint32_t key = 0; key < n; ++key)
+      stopped += trace(place.at, rl::RL_RAY_PATH, key * 0x632be59bu) > 0.0f ? 1 : 0;
+    EXPECT_NEAR(stopped / double(n), 0.5, 0.02) << what << ", " << place.name;
+  }
+}
+
+TEST(Alpha, IsAskedOnceWhereTrianglesMeet) {
+  builtin::SceneBuilder builder("shared");
+  const uint32_t half = builder.addMaterial("veil", veil(0.5f));
+  builder.add(builtin::quad("square", {-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), half);
+  MeshGeometry fan;
+  fan.name = "fan";
+  fan.positions = {{10, 0, 0}};
+  for (int i = 0; i < 6; ++i) {
+    // The corners of a hexagon, of which two lie on the x axis.
+    const double angle = i * 3.14159265358979323846 / 3.0;
+    fan.positions.emplace_back(10.0 + std::cos(angle), i % 3 == 0 ? 0.0 : std::sin(angle), 0.0);
+    // Each triangle has corners of its own: what is shared is the place.
+    fan.positions.emplace_back(10, 0, 0);
+  }
+  for (uint32_t i = 0; i < 6; ++i)
+    fan.triangles.push_back({2u * i + 2u, 2u * i + 1u, 2u * ((i + 1u) % 6u) + 1u});
+  builder.add(fan, half);
+  Dialect<> d(CompiledScene::build(builder.finish()));
+  d.compiledScene->bindBvh();
+  const rl::SceneData withBvh = d.compiledScene->data();
+  rl::BvhCtx bvh{withBvh, d.frame, d.counters};
+  const auto rayAt = [&](const glm::dvec2& at) {
+    rl::Ray ray;
+    ray.origin = glm::vec3(glm::dvec3(at, 1.0) - d.compiledScene->origin());
+    ray.dir = glm::vec3(0, 0, -1);
+    ray.tMin = 0.0f;
+    ray.tMax = 2.0f;
+    return ray;
+  };
+  // Transmittance of shadow rays; 1 of path rays that stop, 0 of the others.
+  const auto with = [&](auto& context) {
+    return [&](const glm::dvec2& at, uint32_t mode, uint32_t key) {
+      rl::Hit hit;
+      const float passed = context.traceRay(rayAt(at), mode, key, hit);
+      if (mode == rl::RL_RAY_SHADOW) return passed;
+      return hit.instance != rl::RL_INVALID ? 1.0f : 0.0f;
+    };
+  };
+  expectOneSurfaceAtEdges("Embree", with(d.ctx));
+  expectOneSurfaceAtEdges("own hierarchy", with(bvh));
 }
 
 // Irradiance from an emitter whose coverage varies over it, by light sampling and by rays.

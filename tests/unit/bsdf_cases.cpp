@@ -78,7 +78,7 @@ std::vector<BsdfCase> continuousBsdfs() {
   add("thin glass, alpha 0.5", thin(glass(std::sqrt(0.5f), glm::vec3(0.0f))));
   add("metallic 0.5, transmission 0.5", transmissive(0.5f, 0.5f, 0.5f));
   add("metallic 0.5, transmission 0.5, from inside", transmissive(0.5f, 0.5f, 0.5f), false);
-  add("transmission 0.5, ior 1", withIor(transmissive(0.4f, 0.5f, 0.0f), 1.0f));
+  add("transmission 0.5, ior nearly 1", withIor(transmissive(0.4f, 0.5f, 0.0f), 1.01f));
   add("transmission 0.5, specular 0", withSpecular(transmissive(0.4f, 0.5f, 0.0f), 0.0f));
   add("transmission 0.5, ior 0", withIor(transmissive(0.4f, 0.5f, 0.0f), 0.0f));
   add("transmission 0.5, ior 4", withIor(transmissive(0.4f, 0.5f, 0.0f), 4.0f));
@@ -99,6 +99,7 @@ std::vector<BsdfCase> deltaBsdfs() {
   add("smooth thin glass", thin(glass(0.0f, glm::vec3(0.0f))));
   add("smooth, metallic 0.5, transmission 0.5", transmissive(0.0f, 0.5f, 0.5f));
   add("smooth, metallic 0.5, transmission 0.5, inside", transmissive(0.0f, 0.5f, 0.5f), false);
+  add("rough, transmission 0.5, ior 1", withIor(transmissive(0.4f, 0.5f, 0.0f), 1.0f));
   add("smooth, transmission 0.5, ior 1", withIor(transmissive(0.0f, 0.5f, 0.0f), 1.0f));
   add("smooth, transmission 0.5, ior 0", withIor(transmissive(0.0f, 0.5f, 0.0f), 0.0f));
   add("smooth, transmission 0.5, ior 4, inside", withIor(transmissive(0.0f, 0.5f, 0.0f), 4.0f),

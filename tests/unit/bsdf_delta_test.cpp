@@ -64,6 +64,29 @@ TEST(BsdfDelta, FrequencyIsTheDeclaredProbability) {
   }
 }
 
+// An index of 1 is no surface: nothing is bent, blurred or lost, thin or solid, from either side.
+TEST(BsdfDelta, AnIndexOfOneIsNotThere) {
+  for (const float roughness : {0.0f, 0.5f, 1.0f}) {
+    for (const uint32_t flags : {0u, rl::RL_MATERIAL_THIN}) {
+      rl::Material m = builtin::glass(roughness, glm::vec3(0.0f));
+      m.ior = 1.0f;
+      m.flags |= flags;
+      for (const bool front : {true, false}) {
+        const rl::Bsdf bsdf = bsdfOf(m, front);
+        for (double angle : kAngles) {
+          const glm::vec3 wo = directionAt(angle);
+          const auto lobes = drawLobes(bsdf, wo, 1000);
+          ASSERT_EQ(lobes.size(), 1u) << roughness;
+          const LobeSum& lobe = lobes.begin()->second;
+          EXPECT_EQ(lobes.begin()->first, rl::RL_LOBE_TRANSMISSION_DELTA);
+          EXPECT_LT(glm::distance(lobe.wi, -wo), 1e-6f);
+          EXPECT_NEAR(lobe.weight.x, m.baseColor.x, 1e-6);
+        }
+      }
+    }
+  }
+}
+
 TEST(BsdfDelta, MirrorReflectsAllOfItsFresnelTerm) {
   const glm::vec3 f0(0.9f, 0.6f, 0.2f);
   const rl::Bsdf bsdf = bsdfOf(builtin::metal(f0, 0.0f), true);

@@ -170,8 +170,8 @@ TEST(Environment, DrawsFollowTheDensity) {
     uint64_t different = 0;
     for (uint64_t i = 0; i < n; ++i) {
       float pdf = 0.0f;
-      const glm::vec2 u = inputs.square();
-      const glm::vec3 direction = d->environmentDraw(u, inputs.uniform(), pdf);
+      const uint32_t x = inputs.bits(), y = inputs.bits();
+      const glm::vec3 direction = d->environmentDraw({x, y}, inputs.bits(), pdf);
       ASSERT_NEAR(glm::dot(direction, direction), 1.0f, 2e-6f);
       if (std::abs(d->environmentPdf(direction) / pdf - 1.0f) > 1e-2f) ++different;
       const glm::vec2 uv = d->environmentUv(direction);
@@ -182,6 +182,35 @@ TEST(Environment, DrawsFollowTheDensity) {
     // Rounding may carry a draw over the border of its texel, no more.
     EXPECT_LT(different, n / 50'000) << c.name;
   }
+}
+
+// Columns and thresholds are drawn with 32 bits: radiance over 12 decades in 8192 columns is drawn
+// with the probability that the density says. Draws at every column's middle find its threshold.
+TEST(Environment, DrawsWhatIsRareAsOftenAsTheDensitySays) {
+  EnvironmentMap map;
+  map.width = 8192;
+  map.height = 2;
+  for (uint32_t i = 0; i < map.width * map.height; ++i)
+    map.radiance.emplace_back(std::pow(10.0f, -12.0f * float(i % 13u) / 12.0f));
+  Dialect<> d(sceneWith(map));
+  std::vector<double> drawn(map.width * map.height);
+  for (uint32_t i = 0; i < drawn.size(); ++i) {
+    const rl::AliasEntry& entry = d.scene.environmentAlias.data[i];
+    drawn[i] += entry.keep / 4294967296.0 / double(drawn.size());
+    drawn[entry.other] += (1.0 - entry.keep / 4294967296.0) / double(drawn.size());
+    const auto middle = [&](uint32_t cell, uint32_t cells) {
+      return uint32_t((uint64_t(2u * cell + 1u) << 31u) / cells);
+    };
+    const glm::uvec2 bits(middle(i % map.width, map.width), middle(i / map.width, map.height));
+    for (const uint32_t aliasBits : {entry.keep - 1u, entry.keep}) {
+      float pdf = 0.0f;
+      const glm::vec2 uv = d->environmentUv(d->environmentDraw(bits, aliasBits, pdf));
+      const uint32_t texel = uint32_t(uv.y * 2.0f) * map.width + uint32_t(uv.x * 8192.0f);
+      ASSERT_EQ(texel, aliasBits < entry.keep ? i : entry.other) << i;
+    }
+  }
+  for (uint32_t i = 0; i < drawn.size(); ++i)
+    ASSERT_NEAR(d.scene.environmentAlias.data[i].pmf / drawn[i], 1.0, 1e-6) << i;
 }
 
 // The integral of the density over the sphere, by a lattice that knows nothing of texels.
@@ -208,8 +237,8 @@ TEST(Environment, EstimatesTheWholeSky) {
     constexpr int n = 200'000;
     for (int i = 0; i < n; ++i) {
       float pdf = 0.0f;
-      const glm::vec2 u = inputs.square();
-      const glm::vec3 direction = d->environmentDraw(u, inputs.uniform(), pdf);
+      const uint32_t x = inputs.bits(), y = inputs.bits();
+      const glm::vec3 direction = d->environmentDraw({x, y}, inputs.bits(), pdf);
       const glm::dvec3 estimate = glm::dvec3(d->environmentRadiance(direction)) / double(pdf);
       sum += estimate / double(n);
       squares += estimate * estimate / double(n);

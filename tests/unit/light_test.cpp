@@ -1,5 +1,5 @@
-// The light table and its sampling: selection by power, points on triangles, densities as light
-// sampling and as a ray see them, punctual lights, MIS weights.
+// The light table and its sampling: selection by kind and power, points on triangles, densities as
+// light sampling and as a ray see them, punctual lights, MIS weights.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -74,60 +74,89 @@ TEST(LightSelection, TenThousandLightsByPower) {
   expectFits(counts, power, n, "light selection");
 }
 
-// A sun, a lamp and a bulb: everything is weighed by its power in watts.
-TEST(LightSelection, KindsCompeteByPower) {
-  builtin::SceneBuilder builder("kinds");
-  builder.add(triangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0}),
-              builder.addMaterial("lamp", builtin::lamp(glm::vec3(3.0f))));
-  PunctualLight point;
-  point.intensity = glm::vec3(5.0f);
-  builder.addLight(point);
-  PunctualLight spot;
-  spot.kind = rl::RL_LIGHT_SPOT;
-  spot.intensity = glm::vec3(7.0f);
-  spot.outerConeAngle = 0.5f;
-  builder.addLight(spot);
-  PunctualLight sun;
-  sun.kind = rl::RL_LIGHT_DIRECTIONAL;
-  sun.intensity = glm::vec3(2.0f);
-  builder.addLight(sun);
-  // One texel of an otherwise dim sky carries nearly all of its power.
-  EnvironmentMap map;
-  map.width = 8;
-  map.height = 4;
-  map.radiance.assign(32, glm::vec3(0.01f));
-  map.radiance[9] = glm::vec3(400.0f);
-  builder.setEnvironment(map);
-  Dialect<> d(CompiledScene::build(builder.finish()));
-  ASSERT_EQ(d.scene.lightCount, 5u);
-  ASSERT_EQ(d.scene.environmentLight, 4u);
-  const double disk = kPi * 2.0;  // the bounding sphere's cross-section: radius sqrt(2)
-  double flux = 0.0;
-  for (int y = 0; y < 4; ++y) {
-    const double row = kPi / 4.0 * (std::cos(kPi * y / 4.0) - std::cos(kPi * (y + 1) / 4.0));
-    for (int x = 0; x < 8; ++x) {
-      // A texel's mean of the bilinear radiance.
-      constexpr double kShare[3] = {0.125, 0.75, 0.125};
-      for (int dy = -1; dy <= 1; ++dy) {
-        for (int dx = -1; dx <= 1; ++dx) {
-          flux += row * kShare[dy + 1] * kShare[dx + 1] *
-                  map.radiance[size_t(std::clamp(y + dy, 0, 3) * 8 + (x + dx + 8) % 8)].x;
-        }
-      }
+// Lamps share by power, and so do suns; the lamps, the suns and the sky each get a third, however
+// large the scene is.
+TEST(LightSelection, KindsShareEvenlyWhateverTheSize) {
+  for (const float ground : {1.0f, 1e7f}) {
+    builtin::SceneBuilder builder("kinds");
+    builder.add(triangle({-ground, -1, -ground}, {-ground, -1, ground}, {ground, -1, 0}),
+                builder.addMaterial("ground", builtin::lambert(glm::vec3(0.5f))));
+    builder.add(triangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0}),
+                builder.addMaterial("lamp", builtin::lamp(glm::vec3(3.0f))));
+    PunctualLight point;
+    point.intensity = glm::vec3(5.0f);
+    builder.addLight(point);
+    PunctualLight spot;
+    spot.kind = rl::RL_LIGHT_SPOT;
+    spot.intensity = glm::vec3(7.0f);
+    spot.outerConeAngle = 0.5f;
+    builder.addLight(spot);
+    PunctualLight sun;
+    sun.kind = rl::RL_LIGHT_DIRECTIONAL;
+    for (const float irradiance : {2.0f, 6e-4f}) {
+      sun.intensity = glm::vec3(irradiance);
+      builder.addLight(sun);
     }
+    EnvironmentMap map;
+    map.width = 8;
+    map.height = 4;
+    map.radiance.assign(32, glm::vec3(0.01f));
+    map.radiance[9] = glm::vec3(400.0f);
+    builder.setEnvironment(map);
+    Dialect<> d(CompiledScene::build(builder.finish()));
+    ASSERT_EQ(d.scene.lightCount, 6u);
+    ASSERT_EQ(d.scene.environmentLight, 5u);
+    const double watts[3] = {kPi * 2.0 * 3.0, 4.0 * kPi * 5.0,
+                             2.0 * kPi * (1.0 - std::cos(0.5)) * 7.0};
+    std::vector<double> expected;
+    for (const double w : watts) expected.push_back(w / (watts[0] + watts[1] + watts[2]) / 3.0);
+    for (const double w : {2.0, 6e-4}) expected.push_back(w / 2.0006 / 3.0);
+    expected.push_back(1.0 / 3.0);
+    for (uint32_t i = 0; i < 6; ++i)
+      EXPECT_NEAR(d.scene.lights.data[i].pmf / expected[i], 1.0, 1e-5) << i;
+    std::vector<uint64_t> counts(6);
+    for (uint32_t i = 0; i < 1'000'000; ++i) ++counts[d->lightSelect(rngOf(d, i))];
+    expectFits(counts, expected, 1'000'000, "kinds of lights");
   }
-  const double watts[5] = {kPi * 2.0 * 3.0, 4.0 * kPi * 5.0,
-                           2.0 * kPi * (1.0 - std::cos(0.5)) * 7.0, disk * 2.0, disk * flux};
-  const double total = std::accumulate(watts, watts + 5, 0.0);
-  std::vector<double> expected;
-  for (uint32_t i = 0; i < 5; ++i) {
-    expected.push_back(watts[i] / total);
-    EXPECT_NEAR(d.scene.lights.data[i].pmf, expected[i], 1e-5) << i;
+}
+
+// Powers over 12 decades: each lamp is drawn as often as its pmf says, found by the threshold of
+// each column. 24 random bits would draw what is rarer than 2^-24 too often.
+TEST(LightSelection, WhatIsRareIsDrawnAsOftenAsItsPmfSays) {
+  builtin::SceneBuilder builder("rare");
+  constexpr uint32_t n = 13;
+  for (uint32_t i = 0; i < n; ++i) {
+    PunctualLight point;
+    point.intensity = glm::vec3(std::pow(10.0f, -float(i)));
+    builder.addLight(point);
   }
-  EXPECT_GT(expected[4], 0.5);
-  std::vector<uint64_t> counts(5);
-  for (uint32_t i = 0; i < 1'000'000; ++i) ++counts[d->lightSelect(rngOf(d, i))];
-  expectFits(counts, expected, 1'000'000, "kinds of lights");
+  builder.add(triangle({-1, 0, -1}, {1, 0, -1}, {0, 0, 1}),
+              builder.addMaterial("floor", builtin::lambert(glm::vec3(0.5f))));
+  Dialect<> d(CompiledScene::build(builder.finish()));
+  ASSERT_EQ(d.scene.lightCount, n);
+  std::vector<double> drawn(n);
+  for (uint32_t column = 0; column < n; ++column) {
+    const uint64_t first = ((uint64_t(column) << 32u) + n - 1u) / n,
+                   end = ((uint64_t(column + 1u) << 32u) + n - 1u) / n;
+    const auto at = [&](uint64_t aliasBits) {
+      return d->lightAt(uint32_t(first + (end - first) / 2u), uint32_t(aliasBits));
+    };
+    // The first aliasBits that give another light than 0 does; 2^32 where none does.
+    uint64_t low = 0, high = uint64_t(1) << 32u;
+    while (low + 1u < high) {
+      const uint64_t middle = (low + high) / 2u;
+      (at(middle) == at(0) ? low : high) = middle;
+    }
+    const double share = double(end - first) / 0x1p32;
+    drawn[at(0)] += share * double(high) / 0x1p32;
+    drawn[at(0xffffffffu)] += share * (1.0 - double(high) / 0x1p32);
+  }
+  for (uint32_t i = 0; i < n; ++i) {
+    EXPECT_NEAR(drawn[i] / d.scene.lights.data[i].pmf, 1.0, 1e-6) << i;
+    EXPECT_NEAR(d.scene.lights.data[i].pmf / std::pow(10.0, -double(i)) / (0.9), 1.0,
+                i < 8 ? 0.02 : 100.0)
+        << i;
+  }
 }
 
 struct OneLamp {

@@ -9,6 +9,7 @@ list(APPEND RL_UNIT_TESTS
   camera_test.cpp
   config_test.cpp
   environment_test.cpp
+  feature_mask_test.cpp
   ggx_reference.cpp
   light_test.cpp
   math_test.cpp

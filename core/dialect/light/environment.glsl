@@ -62,18 +62,16 @@ RL_FN_OUTLINE float environmentPdf(RL_IN(vec3) dirW) {
   return environmentPdfOfTexel(y * w + x, sqrt(dirW.x * dirW.x + dirW.z * dirW.z));
 }
 
-// u picks row and column of the alias table and, by what is left, the place inside the texel;
-// uAlias decides between the column's own texel and its alias.
-RL_FN_OUTLINE vec3 environmentDraw(RL_IN(vec2) u, float uAlias, RL_OUT(float) pdfSolidAngle) {
+// bits pick column and row of the alias table and, by what is left of them, the place inside the
+// texel; aliasBits decide between the column's own texel and its alias.
+RL_FN_OUTLINE vec3 environmentDraw(RL_IN(uvec2) bits, uint aliasBits, RL_OUT(float) pdfSolidAngle) {
   uint w = gScene.environmentWidth;
   uint h = gScene.environmentHeight;
-  uint row = min(uint(u.y * float(h)), h - 1u);
-  uint column = min(uint(u.x * float(w)), w - 1u);
-  float restX = clamp(u.x * float(w) - float(column), 0.0f, 0.99999994f);
-  float restY = clamp(u.y * float(h) - float(row), 0.0f, 0.99999994f);
-  uint i = row * w + column;
+  uint i = rlMulHigh(bits.y, h) * w + rlMulHigh(bits.x, w);
+  float restX = rngUnit(bits.x * w);
+  float restY = rngUnit(bits.y * h);
   AliasEntry entry = recordAlias(RL_SCENE_UVEC3(gScene.environmentAlias, i));
-  if (!(uAlias < entry.keep)) i = entry.other;
+  if (!(aliasBits < entry.keep)) i = entry.other;
   uint y = i / w;
   uint x = i - y * w;
   float phi = ((float(x) + restX) / float(w) - 0.5f) * (2.0f * RL_PI);

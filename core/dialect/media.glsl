@@ -1,0 +1,104 @@
+// Media: the bodies that a point lies in, the greatest rank first. A body is an instance whose
+// material lets light into it (core/scene/bodies.h ranks them; no two ranks are equal). Where
+// bodies overlap, the first one fills the place, and only where that changes is there a surface
+// (Schmidt and Budge, "Simple Nested Dielectrics in Ray Traced Images", 2002).
+//
+// A list holds four; of more, those of the least rank are forgotten. Thin sheets and opaque
+// surfaces change nothing.
+
+RL_FN uvec4 mediaNone() { return uvec4(0u, 0u, 0u, 0u); }
+
+// Absorption (m^-1) and index of refraction of what a rank stands for; 0: air.
+RL_FN vec4 mediaOfRank(uint rank) {
+  if (rank == 0u) return vec4(0.0f, 0.0f, 0.0f, 1.0f);
+  return recordVec4(RL_SCENE_QUAD(gScene.bodies, rank));
+}
+
+RL_FN bool mediaContains(RL_IN(uvec4) media, uint rank) {
+  return media.x == rank || media.y == rank || media.z == rank || media.w == rank;
+}
+
+RL_FN uvec4 mediaEnter(RL_IN(uvec4) media, uint rank) {
+  if (rank >= media.x) return uvec4(rank, media.x, media.y, media.z);
+  if (rank >= media.y) return uvec4(media.x, rank, media.y, media.z);
+  if (rank >= media.z) return uvec4(media.x, media.y, rank, media.z);
+  return uvec4(media.x, media.y, media.z, max(media.w, rank));
+}
+
+// One entry of that rank is taken out, if there is one.
+RL_FN uvec4 mediaLeave(RL_IN(uvec4) media, uint rank) {
+  if (media.x == rank) return uvec4(media.y, media.z, media.w, 0u);
+  if (media.y == rank) return uvec4(media.x, media.z, media.w, 0u);
+  if (media.z == rank) return uvec4(media.x, media.y, media.w, 0u);
+  if (media.w == rank) return uvec4(media.x, media.y, media.z, 0u);
+  return media;
+}
+
+// Where a ray meets a triangle: x: cosine to its outside, above 0 from there; y: error bound of the
+// position, metres.
+RL_FN vec2 mediaFacing(RL_IN(Hit) hit, RL_IN(vec3) dirW) {
+  Instance inst = recordInstance(hit.instance);
+  Geometry geometry = recordGeometry(inst.geometry);
+  uvec3 corners = RL_SCENE_UVEC3(gScene.triangles, geometry.firstTriangle + hit.primitive);
+  TriangleW t = surfaceTriangle(inst, geometry, corners);
+  vec3 area = cross(t.e1, t.e2);
+  float cosine = -dot(area, dirW) * rlSafeDivide(1.0f, sqrt(dot(area, area)));
+  if ((inst.flags & RL_INSTANCE_FLIPPED) != 0u) cosine = -cosine;
+  return vec2(cosine, RL_HIT_ERROR * t.magnitude);
+}
+
+// The list behind a body's surface.
+RL_FN uvec4 mediaBehind(RL_IN(uvec4) media, uint rank, bool isFront) {
+  if (isFront) return mediaEnter(media, rank);
+  return mediaLeave(media, rank);
+}
+
+// The surface of another body at the same place, where two touch: it is met together with this one,
+// so that there is no air between them. facing: of the hit.
+RL_FN Hit mediaTouching(RL_IN(Ray) ray, RL_IN(Hit) hit, RL_IN(vec2) facing) {
+  float reach = 2.0f * facing.y / max(abs(facing.x), 1.0f / 64.0f);
+  Ray probe = ray;
+  probe.tMin = max(hit.t - reach, 0.0f);
+  probe.tMax = hit.t + reach;
+  Hit other = traceNoHit();
+  traceRay(probe, RL_RAY_BODIES, hit.instance, other);
+  return other;
+}
+
+// What a path ray meets, before the surface is loaded.
+RL_FN MediaCrossing mediaCross(RL_IN(uvec4) media, RL_IN(Ray) ray, RL_IN(Hit) hit) {
+  MediaCrossing c;
+  c.behind = media;
+  c.contrast = 0.0f;
+  c.isSurface = 1u;
+  c.isTouching = 0u;
+  uint rank = recordInstance(hit.instance).flags >> RL_INSTANCE_RANK_SHIFT;
+  if (rank == 0u) return c;
+  vec2 facing = mediaFacing(hit, ray.dir);
+  bool isFront = facing.x > 0.0f;
+  c.behind = mediaBehind(media, rank, isFront);
+  if (gScene.bodiesMeet != 0u) {
+    Hit other = mediaTouching(ray, hit, facing);
+    if (other.instance != RL_INVALID) {
+      uint otherRank = recordInstance(other.instance).flags >> RL_INSTANCE_RANK_SHIFT;
+      c.behind = mediaBehind(c.behind, otherRank, mediaFacing(other, ray.dir).x > 0.0f);
+      c.isTouching = 1u;
+    }
+  }
+  // A body that is left was there, though nobody saw the path enter it: an open mesh.
+  uint here = media.x;
+  if (!isFront && !mediaContains(media, rank)) here = max(here, rank);
+  vec4 mediumHere = mediaOfRank(here);
+  vec4 mediumBehind = mediaOfRank(c.behind.x);
+  c.isSurface = here != c.behind.x && mediumHere != mediumBehind ? 1u : 0u;
+  c.contrast = isFront ? mediumBehind.w / mediumHere.w : mediumHere.w / mediumBehind.w;
+  return c;
+}
+
+// Does a shadow ray in the body of rank `rank` pass this hit? Below its rank bodies have no surface
+// there, and it ends where the body does.
+RL_FN bool mediaPasses(uint rank, RL_IN(Hit) hit) {
+  if (rank == 0u) return false;
+  uint other = recordInstance(hit.instance).flags >> RL_INSTANCE_RANK_SHIFT;
+  return other != 0u && other < rank;
+}

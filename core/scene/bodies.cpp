@@ -1,0 +1,142 @@
+#include "core/scene/bodies.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace restlab {
+namespace {
+
+struct Box {
+  glm::dvec3 low{std::numeric_limits<double>::infinity()};
+  glm::dvec3 high{-std::numeric_limits<double>::infinity()};
+
+  bool meets(const Box& other) const {
+    return glm::all(glm::lessThanEqual(low, other.high)) &&
+           glm::all(glm::lessThanEqual(other.low, high));
+  }
+  bool holds(const glm::dvec3& p) const {
+    return glm::all(glm::lessThanEqual(low, p)) && glm::all(glm::lessThanEqual(p, high));
+  }
+  double volume() const {
+    const glm::dvec3 size = high - low;
+    return size.x * size.y * size.z;
+  }
+};
+
+glm::dvec3 toWorld(const MeshInstance& instance, const glm::vec3& p) {
+  return glm::dvec3(instance.objectToWorld * glm::dvec4(glm::dvec3(p), 1.0));
+}
+
+// Wider by what float32 may move a corner: bodies that touch exactly do so after rounding too.
+Box boxOf(const MeshGeometry& mesh, const MeshInstance& instance) {
+  Box box;
+  for (const glm::vec3& p : mesh.positions) {
+    const glm::dvec3 w = toWorld(instance, p);
+    box.low = glm::min(box.low, w);
+    box.high = glm::max(box.high, w);
+  }
+  const glm::dvec3 far = glm::max(glm::abs(box.low), glm::abs(box.high));
+  const double margin = 1e-5 * std::max({far.x, far.y, far.z});
+  box.low -= margin;
+  box.high += margin;
+  return box;
+}
+
+bool anyMeet(std::vector<Box> boxes) {
+  std::sort(boxes.begin(), boxes.end(),
+            [](const Box& a, const Box& b) { return a.low.x < b.low.x; });
+  for (size_t i = 0; i < boxes.size(); ++i) {
+    for (size_t j = i + 1; j < boxes.size() && boxes[j].low.x <= boxes[i].high.x; ++j) {
+      if (boxes[i].meets(boxes[j])) return true;
+    }
+  }
+  return false;
+}
+
+// Surfaces that a ray leaves by less those that it enters by; above 0 inside.
+int leavesOf(const MeshGeometry& mesh, const MeshInstance& instance, const glm::dvec3& posW,
+             const glm::dvec3& dirW) {
+  const bool isMirrored = glm::determinant(glm::dmat3(instance.objectToWorld)) < 0.0;
+  int leaves = 0;
+  for (const glm::uvec3& t : mesh.triangles) {
+    // By signs of volumes: an edge that two triangles share has one value for both.
+    const glm::dvec3 a = toWorld(instance, mesh.positions[t.x]) - posW,
+                     b = toWorld(instance, mesh.positions[t.y]) - posW,
+                     c = toWorld(instance, mesh.positions[t.z]) - posW;
+    const double u = glm::dot(dirW, glm::cross(b, c)), v = glm::dot(dirW, glm::cross(c, a)),
+                 w = glm::dot(dirW, glm::cross(a, b));
+    const bool isAlong = (u > 0.0 && v > 0.0 && w > 0.0) || (u < 0.0 && v < 0.0 && w < 0.0);
+    const double sum = u + v + w;
+    if (!isAlong || !(glm::dot(a, glm::cross(b, c)) / sum > 0.0)) continue;
+    const bool isLeft = (sum > 0.0) != isMirrored;
+    leaves += isLeft ? 1 : -1;
+  }
+  return leaves;
+}
+
+bool isInside(const MeshGeometry& mesh, const MeshInstance& instance, const glm::dvec3& posW) {
+  // Directions that no modeller aligns anything with.
+  constexpr std::array<glm::dvec3, 3> kDirs{glm::dvec3{0.5773, 0.2113, 0.7887},
+                                            glm::dvec3{-0.3141, 0.8347, -0.4523},
+                                            glm::dvec3{0.1193, -0.6871, 0.7167}};
+  int votes = 0;
+  for (const glm::dvec3& dir : kDirs) votes += leavesOf(mesh, instance, posW, dir) > 0 ? 1 : 0;
+  return votes >= 2;
+}
+
+}  // namespace
+
+bool isBody(const rl::Material& m) {
+  constexpr uint32_t kNone = rl::RL_MATERIAL_UNLIT | rl::RL_MATERIAL_BLACK | rl::RL_MATERIAL_THIN;
+  return (m.flags & kNone) == 0 && m.transmission > 0.0f && m.metallic < 1.0f && m.ior > 0.0f;
+}
+
+Bodies findBodies(const Scene& scene) {
+  struct Body {
+    uint32_t instance;
+    int priority;
+    double volume;
+  };
+  Bodies bodies;
+  bodies.rank.assign(scene.instances.size(), 0u);
+  std::vector<Body> order;
+  std::vector<Box> boxes;
+  for (uint32_t i = 0; i < scene.instances.size(); ++i) {
+    const MeshInstance& instance = scene.instances[i];
+    const MeshGeometry& mesh = scene.geometries[instance.geometry];
+    const SceneMaterial& material = scene.materials[instance.material];
+    if (mesh.triangles.empty() || !isBody(material.data)) continue;
+    boxes.push_back(boxOf(mesh, instance));
+    order.push_back({i, material.priority, boxes.back().volume()});
+  }
+  if (order.empty()) return bodies;
+  bodies.meet = anyMeet(std::move(boxes));
+  std::stable_sort(order.begin(), order.end(), [](const Body& a, const Body& b) {
+    if (a.priority != b.priority) return a.priority < b.priority;
+    return a.volume > b.volume;
+  });
+  bodies.media.emplace_back(0.0f, 0.0f, 0.0f, 1.0f);
+  for (const Body& body : order) {
+    bodies.rank[body.instance] = static_cast<uint32_t>(bodies.media.size());
+    const rl::Material& m = scene.materials[scene.instances[body.instance].material].data;
+    bodies.media.emplace_back(m.sigmaAbsorption, m.ior);
+  }
+  return bodies;
+}
+
+glm::uvec4 bodiesAt(const Scene& scene, const Bodies& bodies, const glm::dvec3& posW) {
+  std::vector<uint32_t> ranks;
+  for (size_t i = 0; i < bodies.rank.size(); ++i) {
+    if (bodies.rank[i] == 0u) continue;
+    const MeshInstance& instance = scene.instances[i];
+    const MeshGeometry& mesh = scene.geometries[instance.geometry];
+    if (boxOf(mesh, instance).holds(posW) && isInside(mesh, instance, posW))
+      ranks.push_back(bodies.rank[i]);
+  }
+  std::sort(ranks.rbegin(), ranks.rend());
+  ranks.resize(4, 0u);
+  return {ranks[0], ranks[1], ranks[2], ranks[3]};
+}
+
+}  // namespace restlab

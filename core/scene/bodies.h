@@ -1,0 +1,34 @@
+// Bodies that light travels through, and which of them fills a place that several claim.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "core/scene/scene.h"
+
+namespace restlab {
+
+struct Bodies {
+  // Of each instance; 0: no body. Else 1 to the number of bodies, each once: where bodies overlap,
+  // the greatest rank fills the place. By SceneMaterial::priority, then the smaller box, so that a
+  // body inside another one wins.
+  std::vector<uint32_t> rank;
+  // By rank: absorption (m^-1) and index of refraction; [0] is air. Empty where there is no body.
+  std::vector<glm::vec4> media;
+  // Two of them touch or overlap, as far as their boxes tell.
+  bool meet = false;
+};
+
+// Does light enter what the material bounds? Not behind a thin sheet, nor through metal.
+bool isBody(const rl::Material& material);
+
+Bodies findBodies(const Scene& scene);
+
+// Ranks of the bodies that hold a point (world, metres), the greatest first; 0: no more. At most
+// four. By the number of surfaces along three rays, of which the majority counts; takes time by the
+// triangles of all bodies whose box holds the point.
+glm::uvec4 bodiesAt(const Scene& scene, const Bodies& bodies, const glm::dvec3& posW);
+
+}  // namespace restlab

@@ -1,0 +1,197 @@
+// Bodies that absorb and refract: around the camera, inside each other, overlapping, touching. A
+// white sky behind them, or a lamp among them; each truth is a product of Beer and Lambert's.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/scene/builtin_builder.h"
+#include "core/scene/builtin_mesh.h"
+#include "core/scene/compiled_scene.h"
+#include "core/session.h"
+
+namespace restlab {
+namespace {
+
+using builtin::SceneBuilder;
+
+const glm::vec3 kRed(0.2f, 1.0f, 2.0f), kBlue(1.5f, 0.7f, 0.1f);
+
+// Absorbs, and bends light by its index.
+rl::Material body(const glm::vec3& sigma, float ior = 1.0f, float roughness = 0.0f) {
+  rl::Material m = builtin::glass(roughness, sigma);
+  m.ior = ior;
+  return m;
+}
+
+// A box around the z axis, wide enough that all rays of the camera meet its ends alone.
+MeshGeometry box(double nearZ, double farZ, double halfWidth = 5.0) {
+  return builtin::box("box", {-halfWidth, -halfWidth, farZ}, {halfWidth, halfWidth, nearZ});
+}
+
+void addWhiteSky(SceneBuilder& builder) {
+  EnvironmentMap sky;
+  sky.width = 2;
+  sky.height = 1;
+  sky.radiance.assign(2, glm::vec3(1.0f));
+  builder.setEnvironment(sky);
+}
+
+// Looks along -Z from z = 0, through parallel rays.
+Scene finish(SceneBuilder& builder) {
+  Scene scene = builder.finish();
+  SceneCamera camera;
+  camera.kind = rl::RL_CAMERA_ORTHOGRAPHIC;
+  camera.xmag = camera.ymag = 0.1;
+  camera.cameraToWorld = glm::dmat4(1.0);
+  scene.cameras = {camera};
+  return scene;
+}
+
+struct Machine {
+  const char* integrator;
+  const char* rayTracing;
+};
+constexpr Machine kMachines[] = {{"path", "embree"}, {"path", "bvh"}, {"restir_gi", "embree"}};
+
+// The mean of every pixel over `frames`; each pixel has it where there is no noise.
+void expectImage(const Scene& scene, const glm::dvec3& expected, const std::string& what,
+                 uint32_t frames = 1, double tolerance = 2e-5, uint32_t maxBounces = 16) {
+  const auto compiled = CompiledScene::build(scene);
+  for (const Machine& machine : kMachines) {
+    SessionConfig config;
+    config.integrator = machine.integrator;
+    config.rayTracing = machine.rayTracing;
+    config.width = config.height = 4;
+    config.maxBounces = maxBounces;
+    Session session(compiled, config);
+    glm::dvec3 mean(0.0);
+    for (uint32_t i = 0; i < frames; ++i) {
+      session.frame();
+      for (const glm::vec3& pixel : session.radiance().pixels)
+        mean += glm::dvec3(pixel) / (16.0 * frames);
+    }
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(mean[c], expected[c], tolerance * expected[c])
+          << what << ", " << machine.integrator << ", " << machine.rayTracing << ", channel " << c;
+    }
+  }
+}
+
+glm::dvec3 through(const glm::vec3& sigma, double metres) {
+  return glm::exp(-glm::dvec3(sigma) * metres);
+}
+
+TEST(Media, TheCameraIsInside) {
+  SceneBuilder one("camera in a body");
+  one.add(box(1.0, -1.5), one.addMaterial("red", body(kRed)));
+  addWhiteSky(one);
+  expectImage(finish(one), through(kRed, 1.5), "one body");
+
+  SceneBuilder two("camera in two bodies");
+  two.add(box(3.0, -2.0, 6.0), two.addMaterial("red", body(kRed)));
+  two.add(box(1.0, -0.5), two.addMaterial("blue", body(kBlue)));
+  addWhiteSky(two);
+  expectImage(finish(two), through(kBlue, 0.5) * through(kRed, 1.5), "a body in a body");
+
+  SceneBuilder dense("camera in glass");
+  dense.add(box(1.0, -1.5), dense.addMaterial("red", body(kRed, 1.5f)));
+  addWhiteSky(dense);
+  const double reflected = std::pow(0.5 / 2.5, 2.0);
+  expectImage(finish(dense), (1.0 - reflected) * through(kRed, 1.5), "out of glass", 4000, 0.01, 1);
+}
+
+TEST(Media, BodiesOverlapTouchAndLieInEachOther) {
+  struct Case {
+    const char* name;
+    double ends[4];  // of the red body and of the blue one, along -Z
+    double red, blue;
+  };
+  // Of bodies that overlap, the smaller one fills the place.
+  for (const Case& c : {Case{"overlapping by 1 mm", {1.0, 2.0, 1.999, 2.5}, 0.999, 0.501},
+                        Case{"the other way round", {1.501, 2.5, 1.0, 1.502}, 0.998, 0.502},
+                        Case{"touching", {1.0, 2.0, 2.0, 2.5}, 1.0, 0.5},
+                        Case{"touching, the other way round", {1.5, 2.5, 1.0, 1.5}, 1.0, 0.5},
+                        Case{"inside", {1.0, 3.0, 1.5, 1.75}, 1.75, 0.25},
+                        Case{"apart", {1.0, 2.0, 2.5, 3.0}, 1.0, 0.5}}) {
+    SceneBuilder builder(c.name);
+    builder.add(box(-c.ends[0], -c.ends[1]), builder.addMaterial("red", body(kRed)));
+    builder.add(box(-c.ends[2], -c.ends[3]), builder.addMaterial("blue", body(kBlue)));
+    addWhiteSky(builder);
+    expectImage(finish(builder), through(kRed, c.red) * through(kBlue, c.blue), c.name);
+  }
+}
+
+TEST(Media, APriorityDecidesWhoFillsThePlace) {
+  SceneBuilder builder("priority");
+  const uint32_t red = builder.addMaterial("red", body(kRed)),
+                 blue = builder.addMaterial("blue", body(kBlue));
+  builder.add(box(-1.0, -3.0), red);
+  builder.add(box(-2.0, -3.5), blue);
+  addWhiteSky(builder);
+  Scene scene = finish(builder);
+  expectImage(scene, through(kRed, 1.0) * through(kBlue, 1.5), "the smaller one");
+  scene.materials[red].priority = 1;
+  expectImage(scene, through(kRed, 2.0) * through(kBlue, 0.5), "the one of greater priority");
+}
+
+// Copies of one mesh of one material: one medium, of which the length counts once.
+TEST(Media, CopiesOfABodyAreOneMedium) {
+  SceneBuilder builder("copies");
+  const uint32_t mesh = builder.addGeometry(box(-1.0, -2.0)),
+                 red = builder.addMaterial("red", body(kRed, 1.5f));
+  builder.place("first", mesh, red, glm::dmat4(1.0));
+  glm::dmat4 shifted(1.0);
+  shifted[3].z = -0.25;
+  builder.place("second", mesh, red, shifted);
+  addWhiteSky(builder);
+  const double through2 = std::pow(1.0 - std::pow(0.5 / 2.5, 2.0), 2.0);
+  expectImage(finish(builder), through2 * through(kRed, 1.25), "overlap", 4000, 0.01, 2);
+}
+
+TEST(Media, ThinSheetsLeaveTheMediumAlone) {
+  SceneBuilder builder("sheet");
+  builder.add(box(-1.0, -2.0), builder.addMaterial("red", body(kRed)));
+  rl::Material sheet = body(kBlue);
+  sheet.flags |= rl::RL_MATERIAL_THIN;
+  builder.add(box(-1.25, -1.5), builder.addMaterial("sheet", sheet));
+  addWhiteSky(builder);
+  expectImage(finish(builder), through(kRed, 1.0), "thin sheets in a body");
+}
+
+// Perpendicular, without the light that is reflected back and forth.
+TEST(Media, TouchingBodiesRefractByTheRatio) {
+  for (const bool isSwapped : {false, true}) {
+    SceneBuilder builder("touching");
+    const double order[2] = {isSwapped ? -2.0 : -1.0, isSwapped ? -1.0 : -2.0};
+    builder.add(box(order[0], order[0] - 1.0), builder.addMaterial("glass", body(kRed, 1.6f)));
+    builder.add(box(order[1], order[1] - 1.0), builder.addMaterial("water", body(kBlue, 1.33f)));
+    addWhiteSky(builder);
+    const auto passes = [](double a, double b) { return 1.0 - std::pow((a - b) / (a + b), 2.0); };
+    const double surfaces = passes(1.0, 1.6) * passes(1.6, 1.33) * passes(1.33, 1.0);
+    expectImage(finish(builder), surfaces * through(kRed, 1.0) * through(kBlue, 1.0),
+                isSwapped ? "water before glass" : "glass before water", 4000, 0.01, 3);
+  }
+}
+
+// A lamp and a wall in one body, with a body of less priority between them that changes nothing:
+// shadow rays pass what is no surface.
+TEST(Media, ShadowRaysPassBodiesOfLessPriority) {
+  SceneBuilder builder("shadow");
+  const uint32_t red = builder.addMaterial("red", body(kRed, 1.5f));
+  builder.add(box(2.0, -4.0, 6.0), red);
+  builder.add(box(-1.0, -1.5), builder.addMaterial("blue", body(kBlue, 1.2f)));
+  builder.add(builtin::quad("wall", {-1, -1, -3}, {2, 0, 0}, {0, 2, 0}),
+              builder.addMaterial("wall", builtin::lambert(glm::vec3(0.5f))));
+  PunctualLight lamp;
+  lamp.posW = {0.0, 0.0, 0.5};
+  lamp.intensity = glm::vec3(10.0f);
+  builder.addLight(lamp);
+  Scene scene = finish(builder);
+  scene.cameras[0].xmag = scene.cameras[0].ymag = 1e-4;
+  scene.materials[red].priority = 1;
+  const double lit = 10.0 / (3.5 * 3.5) * 0.5 / 3.14159265358979;
+  expectImage(scene, lit * through(kRed, 3.5 + 3.0), "lamp and wall in one body", 1, 1e-4, 1);
+}
+
+}  // namespace
+}  // namespace restlab

@@ -1,0 +1,79 @@
+// Content that comes into view by less than a pixel a frame: the border's history is not its.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/scene/builtin_builder.h"
+#include "core/scene/builtin_mesh.h"
+#include "core/scene/compiled_scene.h"
+#include "tests/denoise/layered_images.h"
+
+namespace restlab::denoise {
+namespace {
+
+constexpr glm::uvec2 kSize = {32, 8};
+
+// A floor under one lamp beside the image, whose light falls to a small part across it. Without
+// noise: one light, one scattering event.
+std::shared_ptr<const CompiledScene> darkeningFloor() {
+  builtin::SceneBuilder builder("darkening floor");
+  builder.add(builtin::quad("floor", {-40, 0, -40}, {0, 0, 80}, {80, 0, 0}),
+              builder.addMaterial("floor", builtin::lambert(glm::vec3(0.5f))));
+  PunctualLight lamp;
+  lamp.posW = {-4.0, 2.0, 0.0};
+  lamp.intensity = glm::vec3(20.0f);
+  builder.addLight(lamp);
+  return CompiledScene::build(builder.finish());
+}
+
+// From above; the image is 4 m wide, around x.
+SceneCamera above(double x) {
+  SceneCamera camera;
+  camera.kind = rl::RL_CAMERA_ORTHOGRAPHIC;
+  camera.xmag = 2.0;
+  camera.ymag = 0.5;
+  camera.cameraToWorld = glm::dmat4(1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, x, 5, 0, 1);
+  return camera;
+}
+
+double lightOfLastColumns(const Image& image) {
+  double sum = 0.0;
+  for (uint32_t y = 0; y < kSize.y; ++y) {
+    for (uint32_t x = kSize.x - 4; x < kSize.x; ++x)
+      sum += double(image.pixels[size_t(y) * kSize.x + x].y);
+  }
+  return sum;
+}
+
+class Border : public testing::TestWithParam<const char*> {};
+
+TEST_P(Border, ShowsWhatComesIntoView) {
+  const auto scene = darkeningFloor();
+  const double pixel = 4.0 / kSize.x;
+  for (const double speed : {0.2, 0.45, 0.7}) {
+    SessionConfig config = filterConfig(GetParam(), kSize);
+    config.maxBounces = 1;
+    Session session(scene, config);
+    double x = 0.0;
+    for (int frame = 0; frame < 60; ++frame, x += speed * pixel) {
+      session.setCamera(above(x));
+      session.frame();
+    }
+    Session plain(scene, [&] {
+      SessionConfig none = filterConfig("none", kSize);
+      none.maxBounces = 1;
+      return none;
+    }());
+    plain.setCamera(above(x - speed * pixel));
+    plain.frame();
+    EXPECT_NEAR(lightOfLastColumns(session.radiance()) / lightOfLastColumns(plain.radiance()), 1.0,
+                0.05)
+        << speed << " pixels a frame";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Denoisers, Border, testing::Values("accumulate", "svgf", "asvgf"),
+                         [](const auto& info) { return std::string(info.param); });
+
+}  // namespace
+}  // namespace restlab::denoise
