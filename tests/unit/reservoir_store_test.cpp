@@ -28,6 +28,8 @@ struct StoreCtx {
 #include "core/resampling/reservoir.glsl"
 #include "core/payload/path_sample.glsl"
 #include "integrators/restir_gi/store.glsl"
+  // No ray is traced.
+  float traceRay(const Ray&, uint, uint, Hit&) { return 0.0f; }
 };
 
 }  // namespace rl
