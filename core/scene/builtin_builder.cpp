@@ -163,6 +163,7 @@ uint64_t hashOf(const Scene& scene) {
   for (const SceneMaterial& m : scene.materials) {
     hash.text(m.name);
     hash.value(m.data);  // 112 bytes without padding (asserted in types.h)
+    if (m.priority != 0) hash.value(m.priority);
   }
   hashTextures(hash, scene);
   for (const SceneCamera& c : scene.cameras) {

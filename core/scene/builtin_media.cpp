@@ -41,6 +41,7 @@ Scene makeMedia(const MediaShape& shape) {
   camera.kind = rl::RL_CAMERA_ORTHOGRAPHIC;
   camera.xmag = camera.ymag = 1.0;
   scene.cameras = {camera};
+  scene.contentHash = hashOf(scene);
   return scene;
 }
 
