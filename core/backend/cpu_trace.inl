@@ -41,7 +41,7 @@ static void alphaFilterShadow(const RTCFilterFunctionNArguments* args) {
 
 RL_FN float traceRay(const Ray& ray, uint mode, uint alphaKey, Hit& hit) {
   TraceContext context;
-  rtcInitIntersectContext(&context.alpha.embree);
+  embreeInitContext(context.alpha.embree);
   if (RL_HAS(RL_FEATURE_ALPHA)) {
     context.self = this;
     context.alphaKey = alphaKey;
@@ -63,7 +63,7 @@ RL_FN float traceRay(const Ray& ray, uint mode, uint alphaKey, Hit& hit) {
     r.mask = 0xffffffffu;
     r.id = 0u;
     r.flags = 0u;
-    rtcOccluded1(embreeScene, &context.alpha.embree, &r);
+    embreeOccluded(embreeScene, context.alpha.embree, r);
     if (r.tfar < 0.0f) return 0.0f;
     if (RL_HAS(RL_FEATURE_ALPHA)) return context.transmittance;
     return 1.0f;
@@ -83,7 +83,7 @@ RL_FN float traceRay(const Ray& ray, uint mode, uint alphaKey, Hit& hit) {
   r.ray.flags = 0u;
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(embreeScene, &context.alpha.embree, &r);
+  embreeIntersect(embreeScene, context.alpha.embree, r);
   hit.instance = RL_INVALID;
   float passed = 1.0f;
   if (RL_HAS(RL_FEATURE_ALPHA)) passed = context.transmittance;

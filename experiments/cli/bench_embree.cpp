@@ -1,6 +1,5 @@
 #include "experiments/cli/bench_embree.h"
 
-#include <embree3/rtcore.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -11,6 +10,7 @@
 #include <random>
 
 #include "core/backend/alpha_filter.h"
+#include "core/backend/embree.h"
 #include "core/image/intervals.h"
 
 namespace restlab {
@@ -49,7 +49,7 @@ void acceptHit(const RTCFilterFunctionNArguments*) {}
 
 rl::AlphaTraceContext opaqueContext() {
   rl::AlphaTraceContext context;
-  rtcInitIntersectContext(&context.embree);
+  rl::embreeInitContext(context.embree);
   context.filter = acceptHit;
   return context;
 }
@@ -60,7 +60,7 @@ RTCRayHit traceClosest(RTCScene scene, const RayBatch& rays, size_t i) {
   query.ray = makeRay(rays, i);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(scene, &context.embree, &query);
+  rl::embreeIntersect(scene, context.embree, query);
   return query;
 }
 
@@ -200,7 +200,7 @@ EmbreeRates measureEmbree(const PreparedScene& prepared, const RaySets& rays, in
   rates.shadow = rate(rays.shadow.size(), threads, seconds, [&](size_t i) {
     rl::AlphaTraceContext context = opaqueContext();
     RTCRay ray = makeRay(rays.shadow, i);
-    rtcOccluded1(scene, &context.embree, &ray);
+    rl::embreeOccluded(scene, context.embree, ray);
   });
   return rates;
 }

@@ -20,7 +20,7 @@ struct RaySets {
 // Of the camera of the scene; hits are found by Embree.
 RaySets makeRays(const PreparedScene& prepared, uint32_t width, uint32_t height);
 
-// Only rtcIntersect1 and rtcOccluded1 are timed, on `threads` threads
+// Only queries of core/backend/embree.h are timed, on `threads` threads
 // (0: all). Each kind is repeated for at least `seconds`; the median repetition counts.
 EmbreeRates measureEmbree(const PreparedScene& prepared, const RaySets& rays, int threads,
                           double seconds);
