@@ -1,8 +1,9 @@
 // Embree 3 and 4 alike: no other file names a version of Embree.
-// They differ in how a query is told its context: version 3 takes the context, version 4 arguments that point to it.
+// They differ in how a query is told its context: version 3 takes the context itself, version 4
+// takes arguments that point to it.
 #pragma once
 
-#if RESTLAB_EMBREE_MAJOR == 4 // cmake/dependencies.cmake says which was found
+#if RESTLAB_EMBREE_MAJOR == 4  // cmake/dependencies.cmake says which was found
 #include <embree4/rtcore.h>
 #elif RESTLAB_EMBREE_MAJOR == 3
 #include <embree3/rtcore.h>

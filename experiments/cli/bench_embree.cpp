@@ -1,5 +1,6 @@
 #include "experiments/cli/bench_embree.h"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -152,6 +153,18 @@ RayBatch lightRays(const std::vector<HitPoint>& points, const rl::SceneData& sce
   return rays;
 }
 
+std::string versionOf(RTCScene scene) {
+  RTCDevice device = rtcGetSceneDevice(scene);  // one more owner
+  const auto part = [&](RTCDeviceProperty property) {
+    return rtcGetDeviceProperty(device, property);
+  };
+  const std::string version =
+      fmt::format("{}.{}.{}", part(RTC_DEVICE_PROPERTY_VERSION_MAJOR),
+                  part(RTC_DEVICE_PROPERTY_VERSION_MINOR), part(RTC_DEVICE_PROPERTY_VERSION_PATCH));
+  rtcReleaseDevice(device);
+  return version;
+}
+
 // Rays per second of the median repetition.
 template <class Trace>
 double rate(size_t count, int threads, double seconds, const Trace& trace) {
@@ -193,6 +206,7 @@ EmbreeRates measureEmbree(const PreparedScene& prepared, const RaySets& rays, in
                           double seconds) {
   const auto scene = static_cast<RTCScene>(prepared.scene->embreeScene());
   EmbreeRates rates;
+  rates.version = versionOf(scene);
   rates.primary = rate(rays.primary.size(), threads, seconds,
                        [&](size_t i) { traceClosest(scene, rays.primary, i); });
   rates.incoherent = rate(rays.incoherent.size(), threads, seconds,

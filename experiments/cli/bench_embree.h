@@ -1,6 +1,7 @@
 // Rays per second through Embree alone: the roof that a frame's rays per second are held against.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "experiments/runner/run/prepare.h"
@@ -8,6 +9,7 @@
 namespace restlab {
 
 struct EmbreeRates {
+  std::string version;                                   // "4.3.3", of the library that ran
   double primary = 0.0, shadow = 0.0, incoherent = 0.0;  // rays per second
 };
 
