@@ -4,7 +4,7 @@ set(RESTLAB_SANITIZE "" CACHE STRING "Comma-separated -fsanitize= list")
 option(RESTLAB_FUZZ "Build the libFuzzer targets of tests/fuzz, with clang, instead of the other tests" OFF)
 if(RESTLAB_FUZZ AND NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
   message(FATAL_ERROR "RESTLAB_FUZZ takes libFuzzer, which only clang has: CMAKE_CXX_COMPILER is "
-                      "${CMAKE_CXX_COMPILER}; the preset 'fuzz' says clang++-16")
+                      "${CMAKE_CXX_COMPILER}; the preset 'fuzz' finds a clang++")
 endif()
 
 add_library(rl_options INTERFACE)
