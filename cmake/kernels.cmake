@@ -79,7 +79,7 @@ target_link_libraries(rl_kernels PUBLIC rl_options embree glm::glm)
 # As core/backend/cpu_kernel.inl says; for clang++, which tests/lint compiles kernels with.
 target_compile_options(rl_kernels PRIVATE -Wno-unused-parameter)
 # What core/backend/cpu_kernel.inl includes: a third of a kernel's compile time.
-target_precompile_headers(rl_kernels PRIVATE <embree3/rtcore.h> core/backend/alpha_filter.h
+target_precompile_headers(rl_kernels PRIVATE core/backend/embree.h core/backend/alpha_filter.h
                           core/backend/cpu_kernel.h core/dialect/order.h)
 # For ccache.
 target_compile_options(rl_kernels PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)

@@ -1,13 +1,14 @@
 #include "core/libraries.h"
 
 #include <OpenEXR/OpenEXRConfig.h>
-#include <embree3/rtcore.h>
 #include <fmt/format.h>
 #include <glslang/build_info.h>
 #include <tbb/version.h>
 #include <vulkan/vulkan_core.h>
 
 #include <glm/glm.hpp>
+
+#include "core/backend/embree.h"
 
 namespace restlab {
 

@@ -1,13 +1,13 @@
 // How Embree's filter of a partly transparent mesh reaches the kernel that traces the ray.
 #pragma once
 
-#include <embree3/rtcore.h>
+#include "core/backend/embree.h"
 
 namespace rl {
 
 // The intersection context of a kernel: Embree's own, then the kernel's filter.
 struct AlphaTraceContext {
-  RTCIntersectContext embree;
+  EmbreeContext embree;
   RTCFilterFunctionN filter;
 };
 

@@ -1,5 +1,4 @@
 // The CPU backend: Embree traces, TBB runs the tiles.
-#include <embree3/rtcore.h>
 #include <fmt/format.h>
 #include <pmmintrin.h>
 #include <xmmintrin.h>
@@ -11,6 +10,7 @@
 #include <thread>
 
 #include "core/backend/backend.h"
+#include "core/backend/embree.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/scene/compiled_scene.h"
@@ -279,6 +279,6 @@ const CpuKernelInfo* findCpuKernel(const char* name, uint32_t needed, const char
 // does not see. What is looked for is in our own code, which runs on std::jthread here.
 extern "C" const char* __tsan_default_suppressions();
 extern "C" const char* __tsan_default_suppressions() {
-  return "called_from_lib:libembree3.so\nrace:libembree3.so\nrace:libtbb.so\n";
+  return "called_from_lib:libembree\nrace:libembree\nrace:libtbb.so\n";
 }
 #endif

@@ -2,7 +2,7 @@
 // Ctx<features>, Embree behind traceRay(), and the tile loop. The generated file defines
 // RL_KERNEL_NAME, RL_KERNEL_MASK_NAME, RL_KERNEL_MASK, RL_KERNEL_HEADER, RL_KERNEL_FILE and
 // RL_KERNEL_TRACE, the file with the body of traceRay() (without it, Embree's).
-#include <embree3/rtcore.h>
+#include "core/backend/embree.h"
 
 #include "core/backend/alpha_filter.h"
 #include "core/backend/cpu_kernel.h"

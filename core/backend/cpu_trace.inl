@@ -57,7 +57,7 @@ static void bodyFilter(const RTCFilterFunctionNArguments* args) {
 
 RL_FN float traceRay(const Ray& ray, uint mode, uint key, Hit& hit) {
   TraceContext context;
-  rtcInitIntersectContext(&context.alpha.embree);
+  embreeInitContext(context.alpha.embree);
   if (RL_HAS(RL_FEATURE_ALPHA | RL_FEATURE_VOLUME)) {
     context.self = this;
     context.key = key;
@@ -83,7 +83,7 @@ RL_FN float traceRay(const Ray& ray, uint mode, uint key, Hit& hit) {
     r.mask = 0xffffffffu;
     r.id = 0u;
     r.flags = 0u;
-    rtcOccluded1(embreeScene, &context.alpha.embree, &r);
+    embreeOccluded(embreeScene, context.alpha.embree, r);
     if (r.tfar < 0.0f) return 0.0f;
     if (RL_HAS(RL_FEATURE_ALPHA)) return context.passed.transmittance;
     return 1.0f;
@@ -103,7 +103,7 @@ RL_FN float traceRay(const Ray& ray, uint mode, uint key, Hit& hit) {
   r.ray.flags = 0u;
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(embreeScene, &context.alpha.embree, &r);
+  embreeIntersect(embreeScene, context.alpha.embree, r);
   if (RL_HAS(RL_FEATURE_VOLUME) && mode == RL_RAY_BODIES) {
     hit = context.body;
     return 1.0f;

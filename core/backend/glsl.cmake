@@ -1,6 +1,4 @@
 # rl_glsl: kernels as GLSL and their compilation.
-find_package(glslang 12 REQUIRED CONFIG)
-
 add_library(rl_glsl STATIC
   ${CMAKE_CURRENT_LIST_DIR}/glsl_compiler.cpp
   ${CMAKE_CURRENT_LIST_DIR}/glsl_preamble.cpp

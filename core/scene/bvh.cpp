@@ -1,6 +1,5 @@
 #include "core/scene/bvh.h"
 
-#include <embree3/rtcore.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "core/backend/embree.h"
 #include "core/dialect/order.h"
 #include "core/error.h"
 

@@ -1,6 +1,5 @@
 #include "core/scene/compiled_scene.h"
 
-#include <embree3/rtcore.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include <mutex>
 
 #include "core/backend/alpha_filter.h"
+#include "core/backend/embree.h"
 #include "core/error.h"
 #include "core/scene/black_textures.h"
 #include "core/scene/bodies.h"

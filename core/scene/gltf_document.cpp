@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/scene/content_hash.h"
+#include "core/scene/gltf_files.h"
 #include "core/scene/gltf_json.h"
 #include "core/scene/gltf_uri.h"
 
@@ -105,6 +106,17 @@ bool servedExists(const std::string& name, void* user) {
 
 std::string servedPath(const std::string& name, void*) { return name; }
 
+bool servedSize(size_t* bytes, std::string* error, const std::string& name, void* user) {
+  const auto& files = static_cast<Served*>(user)->files;
+  const auto it = files.find(name);
+  if (it == files.end()) {
+    if (error) *error += name + " is not a resource of this document";
+    return false;
+  }
+  *bytes = it->second.size();
+  return true;
+}
+
 bool servedRead(std::vector<unsigned char>* out, std::string* error, const std::string& name,
                 void* user) {
   auto& files = static_cast<Served*>(user)->files;
@@ -169,7 +181,8 @@ Document loadDocument(Container container, const fs::path& directory, Report& re
   root = json();
 
   tinygltf::TinyGLTF loader;
-  loader.SetFsCallbacks({servedExists, servedPath, servedRead, nullptr, &served});
+  if (!serveFiles(loader, {servedExists, servedPath, servedRead, servedSize, &served}))
+    report.fail("", "cannot be read: tinygltf takes no files from memory");
   loader.SetImageLoader(keepEncoded, &document.images);
   std::string error, warning;
   if (!loader.LoadASCIIFromString(&document.model, &error, &warning, text.c_str(),

@@ -224,7 +224,8 @@ void printText(const Json& json) {
   fmt::print("{}, {}x{}, {} scattering events; {}\n\n", json["scene"].get<std::string>(),
              json["width"].get<uint32_t>(), json["height"].get<uint32_t>(),
              json["max_bounces"].get<uint32_t>(), json["machine"]["cpu"].get<std::string>());
-  fmt::print("Embree alone     million rays per second\n");
+  fmt::print("Embree {} alone   million rays per second\n",
+             json["embree_version"].get<std::string>());
   for (const char* kind : {"primary", "shadow", "incoherent"}) {
     fmt::print("  {:<14} {:8.2f}\n", kind, embree[kind].get<double>() / 1e6);
   }
@@ -347,6 +348,7 @@ void bench(BenchOptions options) {
       {"multiscatter", config.multiscatter},
       {"machine", machineJson()},
       {"build", buildJson()},
+      {"embree_version", embree.version},
       {"embree_rays_per_second",
        {{"primary", embree.primary}, {"shadow", embree.shadow}, {"incoherent", embree.incoherent}}},
       {"backends", backends},

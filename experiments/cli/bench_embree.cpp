@@ -1,6 +1,6 @@
 #include "experiments/cli/bench_embree.h"
 
-#include <embree3/rtcore.h>
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -11,6 +11,7 @@
 #include <random>
 
 #include "core/backend/alpha_filter.h"
+#include "core/backend/embree.h"
 #include "core/image/intervals.h"
 
 namespace restlab {
@@ -49,7 +50,7 @@ void acceptHit(const RTCFilterFunctionNArguments*) {}
 
 rl::AlphaTraceContext opaqueContext() {
   rl::AlphaTraceContext context;
-  rtcInitIntersectContext(&context.embree);
+  rl::embreeInitContext(context.embree);
   context.filter = acceptHit;
   return context;
 }
@@ -60,7 +61,7 @@ RTCRayHit traceClosest(RTCScene scene, const RayBatch& rays, size_t i) {
   query.ray = makeRay(rays, i);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(scene, &context.embree, &query);
+  rl::embreeIntersect(scene, context.embree, query);
   return query;
 }
 
@@ -152,6 +153,18 @@ RayBatch lightRays(const std::vector<HitPoint>& points, const rl::SceneData& sce
   return rays;
 }
 
+std::string versionOf(RTCScene scene) {
+  RTCDevice device = rtcGetSceneDevice(scene);  // one more owner
+  const auto part = [&](RTCDeviceProperty property) {
+    return rtcGetDeviceProperty(device, property);
+  };
+  const std::string version =
+      fmt::format("{}.{}.{}", part(RTC_DEVICE_PROPERTY_VERSION_MAJOR),
+                  part(RTC_DEVICE_PROPERTY_VERSION_MINOR), part(RTC_DEVICE_PROPERTY_VERSION_PATCH));
+  rtcReleaseDevice(device);
+  return version;
+}
+
 // Rays per second of the median repetition.
 template <class Trace>
 double rate(size_t count, int threads, double seconds, const Trace& trace) {
@@ -193,6 +206,7 @@ EmbreeRates measureEmbree(const PreparedScene& prepared, const RaySets& rays, in
                           double seconds) {
   const auto scene = static_cast<RTCScene>(prepared.scene->embreeScene());
   EmbreeRates rates;
+  rates.version = versionOf(scene);
   rates.primary = rate(rays.primary.size(), threads, seconds,
                        [&](size_t i) { traceClosest(scene, rays.primary, i); });
   rates.incoherent = rate(rays.incoherent.size(), threads, seconds,
@@ -200,7 +214,7 @@ EmbreeRates measureEmbree(const PreparedScene& prepared, const RaySets& rays, in
   rates.shadow = rate(rays.shadow.size(), threads, seconds, [&](size_t i) {
     rl::AlphaTraceContext context = opaqueContext();
     RTCRay ray = makeRay(rays.shadow, i);
-    rtcOccluded1(scene, &context.embree, &ray);
+    rl::embreeOccluded(scene, context.embree, ray);
   });
   return rates;
 }

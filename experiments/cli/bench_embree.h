@@ -1,6 +1,7 @@
 // Rays per second through Embree alone: the roof that a frame's rays per second are held against.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "experiments/runner/run/prepare.h"
@@ -8,6 +9,7 @@
 namespace restlab {
 
 struct EmbreeRates {
+  std::string version;                                   // "4.3.3", of the library that ran
   double primary = 0.0, shadow = 0.0, incoherent = 0.0;  // rays per second
 };
 
@@ -20,7 +22,7 @@ struct RaySets {
 // Of the camera of the scene; hits are found by Embree.
 RaySets makeRays(const PreparedScene& prepared, uint32_t width, uint32_t height);
 
-// Only rtcIntersect1 and rtcOccluded1 are timed, on `threads` threads
+// Only queries of core/backend/embree.h are timed, on `threads` threads
 // (0: all). Each kind is repeated for at least `seconds`; the median repetition counts.
 EmbreeRates measureEmbree(const PreparedScene& prepared, const RaySets& rays, int threads,
                           double seconds);

@@ -1,12 +1,11 @@
 #include "integrators/restir_gi/pixel_donors.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <utility>
 
 #include "core/backend/alpha_filter.h"
 #include "core/backend/cpu_kernel.h"
+#include "core/backend/embree.h"
 #include "core/caches/entries/settings.h"
 #include "core/changes/settings.h"
 #include "core/scene/compiled_scene.h"

@@ -50,7 +50,7 @@ CommandResult checkCpp(const std::string& compiler, const std::string& name,
 // takes three quarters of a kernel's time.
 std::string precompiledHeader(const std::string& compiler) {
   const std::string header = writeUnit(compiler, "kernels", ".h",
-                                       "#include <embree3/rtcore.h>\n"
+                                       "#include \"core/backend/embree.h\"\n"
                                        "#include \"core/backend/alpha_filter.h\"\n"
                                        "#include \"core/backend/cpu_kernel.h\"\n"
                                        "#include \"core/dialect/order.h\"\n")

@@ -1,6 +1,6 @@
 #!/bin/sh
-# A Vulkan device with ray queries on any machine: lavapipe of Mesa 25, from Debian's backports,
-# unpacked into FOLDER beside the system's and never installed.
+# A Vulkan device with ray queries on any machine: lavapipe of Mesa 25. Where the system has it, it is
+# that one; on Debian 12 it comes from the backports and is unpacked into FOLDER, never installed.
 #   tests/parity/mesa_backport.sh FOLDER COMMAND...    runs the command on it
 #   eval "$(tests/parity/mesa_backport.sh FOLDER)"     the same for all that follows
 # Needs no root; what FOLDER has is not fetched again. Exit code 77 where it cannot be had, with one
@@ -27,6 +27,13 @@ esac
 libraries=$folder/root/usr/lib/$triplet
 driver=$libraries/libvulkan_lvp.so
 manifest=$folder/lavapipe.json
+
+# The system's own driver will do: its manifest, or nothing.
+installed=$(dpkg-query -W -f='${db:Status-Status} ${Version}' mesa-vulkan-drivers 2>/dev/null)
+if [ "${installed%% *}" = installed ] && dpkg --compare-versions "${installed#* }" ge 25; then
+  libraries=
+  for manifest in /usr/share/vulkan/icd.d/lvp_icd*.json; do :; done
+fi
 
 fetch() {
   [ -e "$keys" ] || skip "no keys of Debian's archive in $keys"
@@ -69,11 +76,12 @@ if [ ! -e "$manifest" ]; then
 fi
 if [ $# -gt 0 ]; then
   VK_ICD_FILENAMES=$manifest
-  LD_LIBRARY_PATH=$libraries${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
-  export VK_ICD_FILENAMES LD_LIBRARY_PATH
+  [ -z "$libraries" ] || LD_LIBRARY_PATH=$libraries${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
+  export VK_ICD_FILENAMES
+  [ -z "$libraries" ] || export LD_LIBRARY_PATH
   unset VK_DRIVER_FILES # would be preferred
   exec "$@"
 fi
 echo "unset VK_DRIVER_FILES"
 echo "export VK_ICD_FILENAMES='$manifest'"
-echo "export LD_LIBRARY_PATH='$libraries'\${LD_LIBRARY_PATH:+:\$LD_LIBRARY_PATH}"
+[ -z "$libraries" ] || echo "export LD_LIBRARY_PATH='$libraries'\${LD_LIBRARY_PATH:+:\$LD_LIBRARY_PATH}"

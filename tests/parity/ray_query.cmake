@@ -1,5 +1,5 @@
-# Ray queries: tested on the machine's own device where it has them, and everywhere on a driver that is
-# fetched for it. Without the network that test skips, visibly.
+# Ray queries: tested on the machine's own device where it has them, and everywhere on lavapipe of Mesa 25, which is
+# fetched for it on Debian 12. Without the network that test skips there, visibly.
 target_sources(rl_tests_parity PRIVATE ${CMAKE_CURRENT_LIST_DIR}/ray_query_test.cpp)
 target_compile_definitions(rl_tests_parity PRIVATE
   RESTLAB_RAY_QUERY_CACHE="${CMAKE_CURRENT_BINARY_DIR}/ray_query_cache")

@@ -2,12 +2,11 @@
 // scene's own Embree structure behind traceRay().
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <memory>
 
 #include "core/backend/alpha_filter.h"
 #include "core/backend/cpu_kernel.h"
+#include "core/backend/embree.h"
 #include "core/dialect/order.h"
 #include "core/scene/compiled_scene.h"
 #include "core/scene/ggx_albedo.h"
