@@ -1,4 +1,5 @@
 // restlab run: ratios against a method that the suite names, and methods chosen by their names.
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 

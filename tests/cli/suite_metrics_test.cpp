@@ -1,4 +1,5 @@
 // restlab run: the further metrics and masks of a suite.
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/program.h"
