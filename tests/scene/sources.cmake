@@ -10,6 +10,7 @@ set(RL_SCENE_TESTS
   scene/gltf_material_test.cpp
   scene/gltf_nodes_test.cpp
   scene/gltf_limits_test.cpp
+  scene/gltf_lenient_test.cpp
   scene/gltf_uri_test.cpp
   scene/gltf_validator_test.cpp
   scene/image_limits_test.cpp
