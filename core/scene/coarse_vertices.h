@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/scene/scene.h"
+#include "core/scene/scene_origin.h"
 
 namespace restlab {
 
@@ -13,7 +13,10 @@ constexpr double kCoarsestVertices = 1e-4;
 
 // A line that names the scene and the mesh whose vertices are rounded most, where that is more than
 // kCoarsestVertices; "" elsewhere and of scenes without vertices. A compiled scene is recentred in
-// double precision, but what a file has rounded before is lost.
+// double precision, but what a file has rounded before is lost. Where the origin follows the
+// camera, what the camera sees takes the place of the scene, and objects out of its reach do not
+// count.
+std::string coarseVertices(const Scene& scene, const SceneOrigin& origin);
 std::string coarseVertices(const Scene& scene);
 
 }  // namespace restlab

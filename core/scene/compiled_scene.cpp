@@ -17,6 +17,8 @@
 #include "core/scene/coarse_vertices.h"
 #include "core/scene/ggx_albedo.h"
 #include "core/scene/light_table.h"
+#include "core/scene/plate.h"
+#include "core/scene/split_triangles.h"
 
 namespace restlab {
 
@@ -86,14 +88,17 @@ struct CompiledScene::Impl {
   }
 
   void flatten();
-  void addGeometry(const MeshGeometry& mesh, const glm::dmat4* bake);
+  void addGeometry(const MeshGeometry& mesh, const glm::dmat4* bake,
+                   const std::vector<glm::dvec3>* positionsW);
   void buildTextures();
   void buildEmbree();
   void bindAddresses();
 };
 
-// Copies a mesh to the pools; with `bake` its vertices go to world space, winding kept outward.
-void CompiledScene::Impl::addGeometry(const MeshGeometry& mesh, const glm::dmat4* bake) {
+// Copies a mesh to the pools; with `bake` its vertices go to world space, winding kept outward: to
+// where `positionsW` says, if that is given.
+void CompiledScene::Impl::addGeometry(const MeshGeometry& mesh, const glm::dmat4* bake,
+                                      const std::vector<glm::dvec3>* positionsW) {
   rl::Geometry g{};
   g.firstTriangle = static_cast<uint32_t>(triangles.size());
   g.triangleCount = static_cast<uint32_t>(mesh.triangles.size());
@@ -106,7 +111,8 @@ void CompiledScene::Impl::addGeometry(const MeshGeometry& mesh, const glm::dmat4
   append(triangles, mesh.triangles);
   if (bake != nullptr) {
     for (size_t i = g.firstVertex; i < positions.size(); ++i) {
-      positions[i] = transformPoint(*bake, positions[i]);
+      positions[i] = positionsW != nullptr ? glm::vec3((*positionsW)[i - g.firstVertex] - origin)
+                                           : transformPoint(*bake, positions[i]);
     }
     const glm::dmat3 linear(*bake);
     // Not normalised one by one: kernels do that after interpolation, so that a baked mesh shades
@@ -142,30 +148,35 @@ void CompiledScene::Impl::addGeometry(const MeshGeometry& mesh, const glm::dmat4
 void CompiledScene::Impl::flatten() {
   std::vector<uint32_t> uses(scene.geometries.size(), 0);
   for (const MeshInstance& m : scene.instances) ++uses[m.geometry];
-  const auto bounds = worldBounds(scene);
-  if (bounds[0].x <= bounds[1].x) origin = 0.5 * (bounds[0] + bounds[1]);
-  if (std::string warning = coarseVertices(scene); !warning.empty())
+  const SceneOrigin sceneOrigin = originOf(scene, scene.mainCamera);
+  origin = sceneOrigin.originW;
+  if (std::string warning = coarseVertices(scene, sceneOrigin); !warning.empty())
+    warnings.push_back(std::move(warning));
+  for (std::string& warning : farFromOrigin(scene, sceneOrigin))
     warnings.push_back(std::move(warning));
 
   std::vector<uint32_t> sharedGeometry(scene.geometries.size(), rl::RL_INVALID);
   for (const MeshInstance& m : scene.instances) {
+    const std::optional<SplitMesh> split =
+        splitHugeTriangles(scene.geometries[m.geometry], m.objectToWorld, sceneOrigin);
+    const MeshGeometry& mesh = split ? split->mesh : scene.geometries[m.geometry];
     glm::dmat4 toWorld = m.objectToWorld;
     toWorld[3] -= glm::dvec4(origin, 0.0);
-    const MeshGeometry& mesh = scene.geometries[m.geometry];
+    toWorld = withThickness(toWorld, mesh);
     rl::Instance inst{};
     inst.material = m.material;
     inst.firstLight = rl::RL_INVALID;
-    const bool shared = uses[m.geometry] > 1;
+    const bool shared = uses[m.geometry] > 1 && !split;
     if (shared) {
       if (sharedGeometry[m.geometry] == rl::RL_INVALID) {
         sharedGeometry[m.geometry] = static_cast<uint32_t>(geometries.size());
-        addGeometry(mesh, nullptr);
+        addGeometry(mesh, nullptr, nullptr);
       }
       inst.geometry = sharedGeometry[m.geometry];
       if (glm::determinant(glm::dmat3(toWorld)) < 0.0) inst.flags |= rl::RL_INSTANCE_FLIPPED;
     } else {
       inst.geometry = static_cast<uint32_t>(geometries.size());
-      addGeometry(mesh, &toWorld);
+      addGeometry(mesh, &toWorld, split ? &split->positionsW : nullptr);
       toWorld = glm::dmat4(1.0);
       inst.flags |= rl::RL_INSTANCE_IDENTITY;
     }
@@ -476,29 +487,6 @@ size_t CompiledScene::bytes() const {
          of(i.triangles) + of(i.geometries) + of(i.instances) + of(i.materials) + of(i.textures) +
          of(i.texels) + of(i.srgb) + of(i.lights.lights) + of(i.lights.alias) +
          of(i.lights.environment) + of(i.lights.environmentAlias) + of(i.bodies.media);
-}
-
-rl::Camera CompiledScene::camera(const SceneCamera& camera, uint32_t width, uint32_t height) const {
-  const glm::dmat4& m = camera.cameraToWorld;
-  const glm::dvec3 right = glm::normalize(glm::dvec3(m[0]));
-  const glm::dvec3 back = glm::normalize(glm::dvec3(m[2]));
-  const glm::dvec3 up = glm::normalize(glm::cross(back, right));
-  rl::Camera c{};
-  c.posW = glm::vec3(glm::dvec3(m[3]) - impl_->origin);
-  c.kind = camera.kind;
-  c.rightW = glm::vec3(glm::normalize(glm::cross(up, back)));
-  c.upW = glm::vec3(up);
-  c.forwardW = glm::vec3(-back);
-  const double aspect = double(width) / double(height);
-  if (camera.kind == rl::RL_CAMERA_ORTHOGRAPHIC) {
-    c.halfHeight = static_cast<float>(camera.ymag);
-    c.halfWidth = static_cast<float>(camera.ymag * aspect);
-  } else {
-    const double t = std::tan(0.5 * camera.yfov);
-    c.halfHeight = static_cast<float>(t);
-    c.halfWidth = static_cast<float>(t * aspect);
-  }
-  return c;
 }
 
 }  // namespace restlab

@@ -49,16 +49,25 @@ SceneCamera importCamera(const tinygltf::Model& model, int index, Report& report
   return camera;
 }
 
-// Direction of the node's -Z axis in the world.
-glm::dvec3 forwardOf(const PlacedNode& placed, const tinygltf::Model& model, const char* what,
-                     Report& report) {
-  const glm::dvec3 forward = -glm::dvec3(placed.toWorld[2]);
-  const double length = glm::length(forward);
-  if (!(length > 1e-30)) {
-    report.fail(placeOfNode(model, placed.node),
-                fmt::format("its transform leaves the {} without a direction", what));
-  }
-  return forward / length;
+void warnOfScale(const PlacedNode& placed, const tinygltf::Model& model, const std::string& what,
+                 Report& report) {
+  if (placed.isOwnScalePositive) return;
+  report.warn(
+      "scale of " + what, placeOfNode(model, placed.node),
+      fmt::format("carries a {}, and its scale, or that of a node above it, is 0 or mirrors; "
+                  "the {} is drawn without its node's own scale, and with 1 for any other "
+                  "scale of 0",
+                  what, what));
+}
+
+// The camera's right-handed axes, and whether the image is turned left to right: what stands below
+// a mirrored node looks to its camera as it would without the mirror.
+void placeCamera(SceneCamera& camera, const PlacedNode& placed) {
+  glm::dmat3 axes = carriedAxes(placed);
+  camera.isMirrored = glm::determinant(axes) < 0.0;
+  if (camera.isMirrored) axes[0] = -axes[0];
+  for (int axis = 0; axis < 3; ++axis) camera.cameraToWorld[axis] = glm::dvec4(axes[axis], 0.0);
+  camera.cameraToWorld[3] = placed.toWorld[3];
 }
 
 PunctualLight importLight(const tinygltf::Light& source, const std::string& place, Report& report) {
@@ -103,16 +112,12 @@ void addCameras(const tinygltf::Model& model, const std::vector<PlacedNode>& nod
     const tinygltf::Node& node = model.nodes[placed.node];
     if (node.camera < 0) continue;
     SceneCamera camera = importCamera(model, node.camera, report);
-    if (!(regularity(placed.toWorld) > kSmallestRegularity)) {
-      report.fail(
-          placeOfNode(model, placed.node),
-          fmt::format("carries cameras[{}], but its transform is not invertible", node.camera));
-    }
+    warnOfScale(placed, model, "camera", report);
     const std::string& cameraName = model.cameras[static_cast<size_t>(node.camera)].name;
     camera.name = !cameraName.empty()  ? cameraName
                   : !node.name.empty() ? node.name
                                        : fmt::format("camera{}", scene.cameras.size());
-    camera.cameraToWorld = placed.toWorld;
+    placeCamera(camera, placed);
     scene.cameras.push_back(std::move(camera));
   }
   for (size_t i = 0; i < model.cameras.size(); ++i) {
@@ -141,7 +146,11 @@ void addLights(const tinygltf::Model& model, const std::vector<PlacedNode>& node
                  : !node.name.empty() ? node.name
                                       : fmt::format("light{}", scene.lights.size());
     light.posW = glm::dvec3(placed.toWorld[3]);
-    if (light.kind != rl::RL_LIGHT_POINT) light.dirW = forwardOf(placed, model, "light", report);
+    if (light.kind != rl::RL_LIGHT_POINT) {
+      warnOfScale(placed, model, "light", report);
+      const glm::dvec3 forward = -carriedAxes(placed)[2];
+      light.dirW = forward / glm::length(forward);
+    }
     scene.lights.push_back(std::move(light));
   }
   for (size_t i = 0; i < lights.size(); ++i)

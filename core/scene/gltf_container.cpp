@@ -19,6 +19,7 @@ constexpr uint32_t kMagic = 0x46546c67;      // "glTF"
 constexpr uint32_t kChunkJson = 0x4e4f534a;  // "JSON"
 constexpr uint32_t kChunkBin = 0x004e4942;   // "BIN\0"
 constexpr size_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
+constexpr size_t kAlignment = 4;  // of chunks
 // tinygltf takes a 32-bit length, and a document nested deeper than any glTF needs is an attack on
 // recursive readers.
 constexpr uint64_t kMaxJsonBytes = 0x7fffffff;
@@ -109,6 +110,28 @@ nlohmann::json parseJson(std::string_view text, Report& report) {
   return json;
 }
 
+// Zeros and blanks pad chunks.
+bool isPadding(const std::vector<uint8_t>& bytes, size_t from) {
+  return std::all_of(bytes.begin() + static_cast<ptrdiff_t>(from), bytes.end(),
+                     [](uint8_t byte) { return byte == 0 || byte == ' '; });
+}
+
+// Does a chunk of a known type begin here, whole?
+bool isChunk(const std::vector<uint8_t>& bytes, size_t offset) {
+  if (offset > bytes.size() || bytes.size() - offset < kChunkHeaderBytes) return false;
+  const uint32_t size = readU32(bytes, offset), type = readU32(bytes, offset + 4);
+  return (type == kChunkJson || type == kChunkBin) &&
+         size <= bytes.size() - offset - kChunkHeaderBytes;
+}
+
+// Where the chunk behind one that ends at `end` begins. Of a chunk that is no multiple of 4 long
+// some writers leave the padding out, and some leave it out of the length.
+size_t nextChunk(const std::vector<uint8_t>& bytes, size_t end) {
+  const size_t aligned = (end + kAlignment - 1) / kAlignment * kAlignment;
+  if (end == aligned || isChunk(bytes, end)) return end;
+  return isChunk(bytes, aligned) ? aligned : end;
+}
+
 Container readGlb(std::vector<uint8_t> bytes, Report& report) {
   if (bytes.size() < kHeaderBytes) {
     report.fail(
@@ -116,25 +139,27 @@ Container readGlb(std::vector<uint8_t> bytes, Report& report) {
   }
   const uint32_t version = readU32(bytes, 4), length = readU32(bytes, 8);
   if (version != 2) report.fail("", fmt::format("GLB version {}; 2 expected", version));
-  if (length > bytes.size()) {
+  const bool lacksPadding = length > bytes.size() && length - bytes.size() < kAlignment;
+  if (length > bytes.size() && !lacksPadding) {
     report.fail("", fmt::format("truncated: the GLB header declares {} bytes, the file has {}",
                                 length, bytes.size()));
   }
   if (length <= kHeaderBytes) report.fail("", "the GLB holds no chunk; a JSON chunk expected");
-  if (length < bytes.size()) {
-    report.warn("GLB length", "",
-                fmt::format("the GLB header declares {} bytes, the file has {}; the "
-                            "rest is skipped",
-                            length, bytes.size()));
-    bytes.resize(length);
-  }
-
   Container container;
   bool haveJson = false;
   std::vector<uint8_t> hashed(bytes.begin(), bytes.begin() + kHeaderBytes);
-  for (size_t offset = kHeaderBytes, chunk = 0; offset < bytes.size(); ++chunk) {
+  size_t offset = kHeaderBytes;
+  for (size_t chunk = 0; offset < std::min<size_t>(length, bytes.size()); ++chunk) {
     const std::string place = fmt::format("GLB chunk {}", chunk);
     if (bytes.size() - offset < kChunkHeaderBytes) {
+      if (haveJson && isPadding(bytes, offset)) {
+        report.warn(
+            "GLB padding", "",
+            fmt::format("{} bytes behind the last GLB chunk belong to none; they are skipped",
+                        bytes.size() - offset));
+        offset = bytes.size();
+        break;
+      }
       report.fail(place, fmt::format("truncated: {} bytes left, a chunk header has {}",
                                      bytes.size() - offset, kChunkHeaderBytes));
     }
@@ -144,8 +169,9 @@ Container readGlb(std::vector<uint8_t> bytes, Report& report) {
       report.fail(place, fmt::format("truncated: declares {} bytes, {} are left", size,
                                      bytes.size() - offset));
     }
-    if (size % 4 != 0) {
-      report.fail(place, fmt::format("has {} bytes; a multiple of 4 expected", size));
+    if (size % kAlignment != 0) {
+      report.warn("GLB padding", place,
+                  fmt::format("has {} bytes; a multiple of {} expected", size, kAlignment));
     }
     if (chunk == 0 && type != kChunkJson) {
       report.fail(place, fmt::format("is of type 0x{:08x}; the first chunk must be JSON", type));
@@ -166,7 +192,14 @@ Container readGlb(std::vector<uint8_t> bytes, Report& report) {
     } else {
       report.warn("GLB chunk", place, fmt::format("of unknown type 0x{:08x} is skipped", type));
     }
-    offset += size;
+    offset = nextChunk(bytes, offset + size);
+  }
+  if (offset != length || length != bytes.size()) {
+    report.warn(
+        "GLB length", "",
+        fmt::format("the GLB header declares {} bytes, the file has {}, {} of them in chunks; "
+                    "nothing else is read",
+                    length, bytes.size(), std::min(offset, bytes.size())));
   }
   container.fileBytes = std::move(hashed);
   return container;

@@ -31,7 +31,8 @@ void collectExtensions(const json& value, std::set<std::string>& names) {
 
 std::vector<std::string> textsOf(const json& document, const char* key) {
   const auto it = document.find(key);
-  return it == document.end() ? std::vector<std::string>() : it->get<std::vector<std::string>>();
+  return it == document.end() || it->is_null() ? std::vector<std::string>()
+                                               : it->get<std::vector<std::string>>();
 }
 
 // What to do about a required extension that is not read.
@@ -85,7 +86,7 @@ void checkVersion(const json& document, Report& report) {
 void checkExtensions(const json& document, Report& report) {
   for (const char* key : {"extensionsUsed", "extensionsRequired"}) {
     const auto it = document.find(key);
-    if (it == document.end()) continue;
+    if (it == document.end() || it->is_null()) continue;
     if (!it->is_array()) {
       report.fail(key, fmt::format("is {}; an array of strings expected", typeName(*it)));
     }

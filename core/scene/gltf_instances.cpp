@@ -5,6 +5,7 @@
 
 #include "core/scene/gltf_accessor.h"
 #include "core/scene/gltf_objects.h"
+#include "core/scene/linear_map.h"
 
 namespace restlab::gltf {
 namespace {
@@ -12,6 +13,25 @@ namespace {
 constexpr const char* kInstancing = "EXT_mesh_gpu_instancing";
 // Shared accessors let a small file ask for any number of instances.
 constexpr size_t kMaxInstances = size_t(1) << 24;
+
+bool isMirrored(const glm::dmat3& regular) { return glm::determinant(regular) < 0.0; }
+
+// What a mesh is drawn by. A transform that flattens keeps a trace of thickness, on the side that a
+// very small scale in place of 0 would give; CompiledScene makes it as thick as numbers can tell.
+// Nothing where less than a plane is left.
+std::optional<glm::dmat4> drawable(const glm::dmat4& toWorld, bool mirrored) {
+  const glm::dmat3 linear(toWorld);
+  if (regularity(linear) > kSmallestRegularity) return toWorld;
+  const Flatness flatness = flatnessOf(linear);
+  if (!(flatness.inPlane > 0.0)) return std::nullopt;
+  constexpr double kTrace = 0.1 * kSmallestRegularity;
+  glm::dmat3 thick = withStretch(linear, flatness, kTrace * flatness.inPlane);
+  if ((glm::determinant(thick) < 0.0) != mirrored)
+    thick = withStretch(linear, flatness, -kTrace * flatness.inPlane);
+  glm::dmat4 drawn(thick);
+  drawn[3] = toWorld[3];
+  return drawn;
+}
 
 // Transforms of EXT_mesh_gpu_instancing, relative to the node.
 class InstanceTransforms {
@@ -37,7 +57,8 @@ class InstanceTransforms {
 
   size_t count() const { return count_.value_or(0); }
 
-  glm::dmat4 transform(size_t i) const {
+  // With `isRegular`, scales of 0 are read as 1.
+  glm::dmat4 transform(size_t i, bool isRegular) const {
     glm::dvec4 rotation(0, 0, 0, 1);
     if (rotation_) {
       rotation = read(*rotation_, i);
@@ -53,8 +74,9 @@ class InstanceTransforms {
                                  i, length));
       }
     }
+    const glm::dvec3 scale = scale_ ? glm::dvec3(read(*scale_, i)) : glm::dvec3(1.0);
     return composeTransform(translation_ ? glm::dvec3(read(*translation_, i)) : glm::dvec3(0.0),
-                            rotation, scale_ ? glm::dvec3(read(*scale_, i)) : glm::dvec3(1.0));
+                            rotation, isRegular ? regularScale(scale) : scale);
   }
 
  private:
@@ -90,6 +112,12 @@ class InstanceTransforms {
     }
   }
 
+  static glm::dvec3 regularScale(glm::dvec3 scale) {
+    for (int axis = 0; axis < 3; ++axis)
+      if (!(std::abs(scale[axis]) > kSmallestScale)) scale[axis] = 1.0;
+    return scale;
+  }
+
   static glm::dvec4 read(const AccessorReader& reader, size_t i) {
     glm::dvec4 value(0.0);
     for (int c = 0; c < reader.components(); ++c) value[c] = reader.number(i, c);
@@ -118,7 +146,8 @@ class InstanceAdder {
                                                   : fmt::format("nodes[{}]", placed.node);
     const auto instancing = node.extensions.find(kInstancing);
     if (instancing == node.extensions.end()) {
-      addParts(parts, name, placed.toWorld, placeOfNode(model_, placed.node));
+      addParts(parts, name, placed.toWorld, isMirrored(placed.regular),
+               placeOfNode(model_, placed.node));
       return;
     }
     const std::string place = fmt::format("nodes[{}].extensions.{}", placed.node, kInstancing);
@@ -129,27 +158,35 @@ class InstanceAdder {
     report_.takeMemory(place, fmt::format("{} instances", transforms.count()),
                        transforms.count() * parts.size() * sizeof(MeshInstance));
     for (size_t i = 0; i < transforms.count(); ++i) {
-      addParts(parts, fmt::format("{}[{}]", name, i), placed.toWorld * transforms.transform(i),
+      const glm::dmat4 own = transforms.transform(i, false);
+      const glm::dmat3 regular = placed.regular * glm::dmat3(transforms.transform(i, true));
+      addParts(parts, fmt::format("{}[{}]", name, i), placed.toWorld * own, isMirrored(regular),
                place);
     }
   }
 
  private:
   void addParts(const std::vector<MeshImporter::Part>& parts, const std::string& name,
-                const glm::dmat4& toWorld, const std::string& place) {
+                const glm::dmat4& toWorld, bool mirrored, const std::string& place) {
     if (parts.empty()) return;
-    const double regular = regularity(toWorld);
-    if (!(regular > kSmallestRegularity)) {
-      report_.warn(
-          "degenerate transform", place,
-          fmt::format("its transform to the world is not invertible; '{}' is not drawn", name));
+    const std::optional<glm::dmat4> drawn = drawable(toWorld, mirrored);
+    if (!drawn) {
+      report_.warn("degenerate transform", place,
+                   fmt::format("its transform to the world leaves a line or a point of '{}', which "
+                               "has no area; it is not drawn",
+                               name));
       return;
+    }
+    if (*drawn != toWorld) {
+      report_.warn(
+          "plate", place,
+          fmt::format("its transform to the world flattens '{}'; it is drawn as a plate", name));
     }
     if (scene_.instances.size() + parts.size() > kMaxInstances) {
       report_.fail(place, fmt::format("more than {} mesh instances in the scene", kMaxInstances));
     }
     for (const MeshImporter::Part& part : parts) {
-      scene_.instances.push_back({name, part.geometry, part.material, toWorld});
+      scene_.instances.push_back({name, part.geometry, part.material, *drawn});
     }
   }
 

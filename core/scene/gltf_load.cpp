@@ -42,7 +42,14 @@ Scene import(const std::filesystem::path& file, gltf::Report& report) {
   meshes.checkUnusedMeshes();
   gltf::surveyAccessors(document.model, report);
   if (scene.instances.empty()) report.warn("empty scene", "", "the scene holds no triangle");
-  if (scene.cameras.empty()) scene.cameras.push_back(framingCamera(scene));
+  if (scene.cameras.empty()) {
+    scene.cameras.push_back(framingCamera(scene));
+    if (boundsWithoutStrays(scene) != worldBounds(scene)) {
+      report.warn("framing", "cameras",
+                  "the file has none; the camera that is made for it leaves out what lies far off "
+                  "the rest");
+    }
+  }
   return scene;
 }
 

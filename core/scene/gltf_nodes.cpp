@@ -8,6 +8,8 @@
 #include <glm/gtc/quaternion.hpp>
 #include <numeric>
 
+#include "core/scene/linear_map.h"
+
 namespace restlab::gltf {
 namespace {
 
@@ -81,7 +83,20 @@ glm::dvec3 vec3Of(const std::vector<double>& v, glm::dvec3 otherwise) {
   return v.size() == 3 ? glm::dvec3(v[0], v[1], v[2]) : otherwise;
 }
 
-glm::dmat4 localTransform(const tinygltf::Model& model, size_t index, Report& report) {
+struct LocalTransform {
+  glm::dmat4 matrix;
+  glm::dmat3 regular, rotation;  // as in PlacedNode
+  bool isScalePositive;
+};
+
+LocalTransform partsOf(const glm::dmat4& matrix) {
+  const glm::dmat3 linear(matrix);
+  const bool isRegular = regularity(linear) > kSmallestRegularity;
+  return {matrix, isRegular ? linear : nearestRotation(linear), nearestRotation(linear),
+          isRegular && glm::determinant(linear) > 0.0};
+}
+
+LocalTransform localTransform(const tinygltf::Model& model, size_t index, Report& report) {
   const tinygltf::Node& node = model.nodes[index];
   if (node.matrix.size() == 16) {
     glm::dmat4 matrix;
@@ -98,7 +113,7 @@ glm::dmat4 localTransform(const tinygltf::Model& model, size_t index, Report& re
                               lastRow.x, lastRow.y, lastRow.z, lastRow.w));
     }
     for (int column = 0; column < 4; ++column) matrix[column].w = column == 3 ? 1.0 : 0.0;
-    return matrix;
+    return partsOf(matrix);
   }
   glm::dvec4 rotation(0, 0, 0, 1);
   if (node.rotation.size() == 4) {
@@ -112,8 +127,23 @@ glm::dmat4 localTransform(const tinygltf::Model& model, size_t index, Report& re
                   fmt::format("the quaternion has length {:g}; it is normalised", length));
     }
   }
-  return composeTransform(vec3Of(node.translation, glm::dvec3(0.0)), rotation,
-                          vec3Of(node.scale, glm::dvec3(1.0)));
+  const glm::dvec3 scale = vec3Of(node.scale, glm::dvec3(1.0));
+  glm::dvec3 regularScale = scale;
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(std::abs(scale[axis]) > kSmallestScale)) regularScale[axis] = 1.0;
+  const glm::dvec3 nowhere(0.0);
+  return {composeTransform(vec3Of(node.translation, nowhere), rotation, scale),
+          glm::dmat3(composeTransform(nowhere, rotation, regularScale)),
+          glm::dmat3(composeTransform(nowhere, rotation, glm::dvec3(1.0))),
+          std::min({scale.x, scale.y, scale.z}) > kSmallestScale};
+}
+
+// Products of long chains stay in range.
+glm::dmat3 inRange(const glm::dmat3& linear) {
+  constexpr double kLargest = 1e60;
+  double most = 0.0;
+  for (int axis = 0; axis < 3; ++axis) most = std::max(most, glm::length(linear[axis]));
+  return most > kLargest || most < 1.0 / kLargest ? linear / most : linear;
 }
 
 }  // namespace
@@ -124,15 +154,10 @@ std::string placeOfNode(const tinygltf::Model& model, size_t node) {
                       : fmt::format("nodes[{}] ('{}')", node, name);
 }
 
-double regularity(const glm::dmat4& transform) {
-  const glm::dmat3 linear(transform);
-  glm::dmat3 unit;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double length = glm::length(linear[axis]);
-    if (!(length > 1e-30)) return 0.0;
-    unit[axis] = linear[axis] / length;
-  }
-  return std::abs(glm::determinant(unit));
+glm::dmat3 carriedAxes(const PlacedNode& placed) {
+  if (placed.isOwnScalePositive) return glm::dmat3(placed.toWorld);
+  return regularity(placed.unscaled) > kSmallestRegularity ? placed.unscaled
+                                                           : nearestRotation(placed.unscaled);
 }
 
 glm::dmat4 composeTransform(const glm::dvec3& translation, const glm::dvec4& rotation,
@@ -152,7 +177,12 @@ std::vector<PlacedNode> placeNodes(const tinygltf::Model& model, Report& report)
   while (!stack.empty()) {
     PlacedNode current = stack.back();
     stack.pop_back();
-    current.toWorld = current.toWorld * localTransform(model, current.node, report);
+    const LocalTransform local = localTransform(model, current.node, report);
+    current.toWorld = current.toWorld * local.matrix;
+    current.unscaled = inRange(current.regular * local.rotation);
+    current.regular = inRange(current.regular * local.regular);
+    current.isOwnScalePositive =
+        local.isScalePositive && regularity(glm::dmat3(current.toWorld)) > kSmallestRegularity;
     for (int column = 0; column < 4; ++column) {
       for (int row = 0; row < 4; ++row) {
         if (!(std::abs(current.toWorld[column][row]) <= FLT_MAX)) {
@@ -163,7 +193,7 @@ std::vector<PlacedNode> placeNodes(const tinygltf::Model& model, Report& report)
     }
     const std::vector<int>& children = model.nodes[current.node].children;
     for (auto it = children.rbegin(); it != children.rend(); ++it) {
-      stack.push_back({static_cast<size_t>(*it), current.toWorld});
+      stack.push_back({static_cast<size_t>(*it), current.toWorld, current.regular});
     }
     placed.push_back(current);
   }

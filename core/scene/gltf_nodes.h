@@ -13,7 +13,17 @@ namespace restlab::gltf {
 struct PlacedNode {
   size_t node;
   glm::dmat4 toWorld;  // finite
+  // The linear part with every scale of 0 read as 1, up to a positive factor: invertible. Its
+  // determinant says whether the node is mirrored.
+  glm::dmat3 regular{1.0};
+  // The same with the node's own scale read as 1 altogether: what carries a camera or a light.
+  glm::dmat3 unscaled{1.0};
+  bool isOwnScalePositive = true;  // and no scale above it is 0
 };
+
+// The linear part that a camera or a light of the node has: scales count for nothing but mirrors
+// and shears of the nodes above. Invertible.
+glm::dmat3 carriedAxes(const PlacedNode& placed);
 
 // Nodes of the default scene (or the first; or all, when there is none) in depth-first order. Fails
 // on loops, nodes with two parents and transforms that are not finite or not affine.
@@ -21,11 +31,6 @@ std::vector<PlacedNode> placeNodes(const tinygltf::Model& model, Report& report)
 
 // "nodes[3] ('lamp')" for error lines.
 std::string placeOfNode(const tinygltf::Model& model, size_t node);
-
-// How far a transform is from losing a dimension: |determinant| over the product of the lengths of
-// the axes, 0 when an axis has no length. 1 for any rotation with any scale.
-double regularity(const glm::dmat4& transform);
-inline constexpr double kSmallestRegularity = 1e-9;
 
 // Translation x rotation (quaternion x, y, z, w of any length but 0) x scale.
 glm::dmat4 composeTransform(const glm::dvec3& translation, const glm::dvec4& rotation,

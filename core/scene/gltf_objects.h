@@ -8,12 +8,13 @@
 
 namespace restlab::gltf {
 
-// Adds the instances of the nodes' meshes to the scene. Instances whose transform loses a dimension
-// are left out with a warning: they have no area, or no inverse for rays.
+// Adds the instances of the nodes' meshes to the scene. One whose transform flattens it is a plate;
+// one of which less than a plane is left has no area and is left out. A warning says either.
 void addMeshInstances(const tinygltf::Model& model, const std::vector<PlacedNode>& nodes,
                       MeshImporter& meshes, Scene& scene, Report& report);
 
-// Adds one camera for every node that carries one. Names: the camera's, else the node's.
+// Adds one camera for every node that carries one. Names: the camera's, else the node's. Scales of
+// nodes count for nothing but mirrors of the nodes above (docs/gltf.md).
 void addCameras(const tinygltf::Model& model, const std::vector<PlacedNode>& nodes, Scene& scene,
                 Report& report);
 

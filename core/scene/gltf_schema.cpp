@@ -12,6 +12,11 @@ Field required(Field field) {
   return field;
 }
 
+Field dispensable(Field field) {
+  field.isDispensable = true;
+  return field;
+}
+
 Field integer(const char* name, double low = 0, double high = kMaxInt) {
   return {.name = name, .kind = Kind::integer, .low = low, .high = high};
 }
@@ -46,6 +51,9 @@ Field text(const char* name) { return {.name = name, .kind = Kind::text}; }
 Field texts(const char* name) { return {.name = name, .kind = Kind::texts}; }
 Field ignored(const char* name) { return {.name = name, .kind = Kind::ignored}; }
 
+// What only messages show.
+Field label(const char* name) { return dispensable(text(name)); }
+
 Field word(const char* name, std::vector<const char*> words) {
   return {.name = name, .kind = Kind::text, .words = std::move(words)};
 }
@@ -76,30 +84,30 @@ constexpr OutOfRange kClamps = OutOfRange::clamps;
 
 struct Tables {
   // Data.
-  Schema buffer{{text("name"), text("uri"), required(size("byteLength", 1))}};
-  Schema bufferView{{text("name"), required(reference("buffer", "buffers")), size("byteOffset"),
+  Schema buffer{{label("name"), text("uri"), required(size("byteLength", 1))}};
+  Schema bufferView{{label("name"), required(reference("buffer", "buffers")), size("byteOffset"),
                      required(size("byteLength", 1)), integer("byteStride", 4, 252),
-                     choice("target", {34962, 34963})}};
+                     dispensable(choice("target", {34962, 34963}))}};
   Schema sparseIndices{{required(reference("bufferView", "bufferViews")), integer("byteOffset"),
                         required(choice("componentType", {5121, 5123, 5125}))}};
   Schema sparseValues{{required(reference("bufferView", "bufferViews")), integer("byteOffset")}};
   Schema sparse{{required(integer("count", 1)), required(object("indices", sparseIndices)),
                  required(object("values", sparseValues))}};
   Schema accessor{
-      {text("name"), reference("bufferView", "bufferViews"), size("byteOffset"),
+      {label("name"), reference("bufferView", "bufferViews"), size("byteOffset"),
        required(choice("componentType", {5120, 5121, 5122, 5123, 5125, 5126})),
        boolean("normalized"), required(size("count")),
        required(word("type", {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"})),
-       numbers("max", 0), numbers("min", 0), object("sparse", sparse)}};
+       dispensable(numbers("max", 0)), dispensable(numbers("min", 0)), object("sparse", sparse)}};
 
   // Textures. A texture's source and sampler are checked where a material uses them: files with
   // dangling ones that nothing uses are common.
   Schema image{
-      {text("name"), text("uri"), text("mimeType"), reference("bufferView", "bufferViews")}};
-  Schema sampler{{text("name"), choice("magFilter", {9728, 9729}),
-                  choice("minFilter", {9728, 9729, 9984, 9985, 9986, 9987}),
+      {label("name"), text("uri"), text("mimeType"), reference("bufferView", "bufferViews")}};
+  Schema sampler{{label("name"), choice("magFilter", {9728, 9729}),
+                  dispensable(choice("minFilter", {9728, 9729, 9984, 9985, 9986, 9987})),
                   choice("wrapS", {33071, 33648, 10497}), choice("wrapT", {33071, 33648, 10497})}};
-  Schema texture{{text("name"), integer("sampler"), integer("source")}};
+  Schema texture{{label("name"), integer("sampler"), integer("source")}};
   Schema textureTransform{
       {numbers("offset", 2), number("rotation"), numbers("scale", 2), integer("texCoord")}};
   Schema textureInfo{{required(reference("index", "textures")), integer("texCoord")},
@@ -107,9 +115,9 @@ struct Tables {
   Schema normalTextureInfo{
       {required(reference("index", "textures")), integer("texCoord"), number("scale")},
       {{"KHR_texture_transform", &textureTransform}}};
-  Schema occlusionTextureInfo{
-      {required(reference("index", "textures")), integer("texCoord"), ignored("strength")},
-      {{"KHR_texture_transform", &textureTransform}}};
+  Schema occlusionTextureInfo{{required(reference("index", "textures")),
+                               dispensable(integer("texCoord")), ignored("strength")},
+                              {{"KHR_texture_transform", &textureTransform}}};
 
   // Materials.
   Schema metallicRoughness{
@@ -128,7 +136,7 @@ struct Tables {
                  numbers("attenuationColor", 3, 0, 1, kClamps)}};
   Schema unlit{};
   Schema material{
-      {text("name"), object("pbrMetallicRoughness", metallicRoughness),
+      {label("name"), object("pbrMetallicRoughness", metallicRoughness),
        object("normalTexture", normalTextureInfo), object("occlusionTexture", occlusionTextureInfo),
        object("emissiveTexture", textureInfo), numbers("emissiveFactor", 3, 0, kMax, kClamps),
        word("alphaMode", {"OPAQUE", "MASK", "BLEND"}), number("alphaCutoff", 0, kMax, kClamps),
@@ -146,35 +154,37 @@ struct Tables {
                     reference("indices", "accessors"), reference("material", "materials"),
                     choice("mode", {0, 1, 2, 3, 4, 5, 6}), ignored("targets")},
                    {{"KHR_materials_variants", &variants}}};
-  Schema mesh{{text("name"), required(objects("primitives", primitive)), ignored("weights")}};
+  Schema mesh{{label("name"), required(objects("primitives", primitive)), ignored("weights")}};
 
   // Cameras and lights.
-  Schema perspective{{positive("aspectRatio"), required(positive("yfov")), positive("zfar"),
-                      required(positive("znear"))}};
+  // A path tracer has no clipping planes, and an image may have any shape.
+  Schema perspective{{dispensable(positive("aspectRatio")), required(positive("yfov")),
+                      dispensable(positive("zfar")), dispensable(required(positive("znear")))}};
   Schema orthographic{{required(number("xmag")), required(number("ymag")),
-                       required(positive("zfar")), required(number("znear", 0))}};
-  Schema camera{{text("name"), object("perspective", perspective),
+                       dispensable(required(positive("zfar"))),
+                       dispensable(required(number("znear", 0)))}};
+  Schema camera{{label("name"), object("perspective", perspective),
                  object("orthographic", orthographic),
                  required(word("type", {"perspective", "orthographic"}))}};
   Schema spot{
       {number("innerConeAngle", 0), number("outerConeAngle", 0, 1.5707963267948966, kClamps)}};
-  Schema light{{text("name"), numbers("color", 3, 0, kMax, kClamps),
+  Schema light{{label("name"), numbers("color", 3, 0, kMax, kClamps),
                 number("intensity", 0, kMax, kClamps),
-                required(word("type", {"directional", "point", "spot"})), positive("range"),
-                object("spot", spot)}};
+                required(word("type", {"directional", "point", "spot"})),
+                dispensable(positive("range")), object("spot", spot)}};
   Schema lights{{required(objects("lights", light))}};
 
   // Hierarchy.
   Schema lightReference{{required(reference("light", kLights))}};
   Schema gpuInstancing{{required(referenceMap("attributes", "accessors"))}};
   Schema node{
-      {text("name"), reference("camera", "cameras"), references("children", "nodes"),
+      {label("name"), reference("camera", "cameras"), references("children", "nodes"),
        reference("skin", "skins"), numbers("matrix", 16), reference("mesh", "meshes"),
        numbers("rotation", 4), numbers("scale", 3), numbers("translation", 3), ignored("weights")},
       {{"KHR_lights_punctual", &lightReference}, {"EXT_mesh_gpu_instancing", &gpuInstancing}}};
-  Schema scene{{text("name"), references("nodes", "nodes")}};
+  Schema scene{{label("name"), references("nodes", "nodes")}};
   Schema asset{
-      {text("copyright"), text("generator"), required(text("version")), text("minVersion")}};
+      {label("copyright"), label("generator"), required(text("version")), text("minVersion")}};
 
   Schema document{
       {required(object("asset", asset)), texts("extensionsUsed"), texts("extensionsRequired"),

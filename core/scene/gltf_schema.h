@@ -45,6 +45,8 @@ struct Field {
   const Schema* schema = nullptr;
   std::vector<int> integers = {};       // allowed values (empty: all in range)
   std::vector<const char*> words = {};  // allowed strings (empty: all)
+  // Nothing that is drawn depends on it: a value of no use is a warning and is left out.
+  bool isDispensable = false;
 };
 
 struct Schema {

@@ -19,23 +19,32 @@ int hexDigit(char c) {
   return -1;
 }
 
-std::optional<std::string> percentDecode(std::string_view text) {
+struct PercentText {
   std::string decoded;
-  decoded.reserve(text.size());
+  bool hasEscape = false;
+  bool hasRaw = false;  // percent signs that begin no escape: they stand for themselves
+};
+
+PercentText percentDecode(std::string_view text) {
+  PercentText result;
+  result.decoded.reserve(text.size());
   for (size_t i = 0; i < text.size(); ++i) {
-    if (text[i] != '%') {
-      decoded.push_back(text[i]);
+    const bool isPercent = text[i] == '%', hasRoom = isPercent && i + 2 < text.size();
+    const int high = hasRoom ? hexDigit(text[i + 1]) : -1,
+              low = hasRoom ? hexDigit(text[i + 2]) : -1;
+    if (high < 0 || low < 0) {
+      result.hasRaw |= isPercent;
+      result.decoded.push_back(text[i]);
       continue;
     }
-    if (i + 2 >= text.size()) return std::nullopt;
-    const int high = hexDigit(text[i + 1]), low = hexDigit(text[i + 2]);
-    if (high < 0 || low < 0) return std::nullopt;
-    decoded.push_back(static_cast<char>(high * 16 + low));
+    result.hasEscape = true;
+    result.decoded.push_back(static_cast<char>(high * 16 + low));
     i += 2;
   }
-  return decoded;
+  return result;
 }
 
+// Text of RFC 4648, padded or not.
 std::optional<std::vector<uint8_t>> base64Decode(std::string_view text) {
   static const std::array<int8_t, 256> kValues = [] {
     std::array<int8_t, 256> values{};
@@ -77,6 +86,8 @@ bool hasScheme(std::string_view uri) {
   });
 }
 
+bool isSpace(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\f' || c == '\r'; }
+
 std::vector<std::string> namesIn(const fs::path& directory) {
   std::vector<std::string> names;
   std::error_code error;
@@ -101,6 +112,40 @@ std::string missingText(const fs::path& file, const std::string& uri) {
                      didYouMean(file.filename().string(), namesIn(file.parent_path())));
 }
 
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && isSpace(text.front())) text.remove_prefix(1);
+  while (!text.empty() && isSpace(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::string lowerCase(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return lower;
+}
+
+// Browsers take escapes and blanks in base64, too; what they stand for leaves no choice.
+std::vector<uint8_t> decodeBase64(std::string_view text, const std::string& place, Report& report) {
+  const bool isPlain = std::none_of(text.begin(), text.end(), [](char c) {
+    return c == '%' || c == '-' || c == '_' || isSpace(c);
+  });
+  std::string repaired;
+  if (!isPlain) {
+    repaired = percentDecode(text).decoded;
+    std::erase_if(repaired, isSpace);
+    std::replace(repaired.begin(), repaired.end(), '-', '+');
+    std::replace(repaired.begin(), repaired.end(), '_', '/');
+  }
+  std::optional<std::vector<uint8_t>> bytes = base64Decode(isPlain ? text : repaired);
+  if (!bytes) report.fail(place, "data URI holds invalid base64");
+  if (!isPlain) {
+    report.warn("base64 text", place,
+                "data URI holds escapes, blanks or the letters '-' and '_' in its base64; they are "
+                "read as what they stand for");
+  }
+  return std::move(*bytes);
+}
+
 bool isRegularFile(const fs::path& file) {
   std::error_code error;
   return fs::is_regular_file(file, error);
@@ -116,7 +161,7 @@ bool isDataUri(std::string_view uri) {
          });
 }
 
-DataUri decodeDataUri(std::string_view uri, const std::string& place, const Report& report) {
+DataUri decodeDataUri(std::string_view uri, const std::string& place, Report& report) {
   const size_t comma = uri.find(',');
   if (comma == std::string_view::npos) {
     report.fail(place, "data URI without a comma; data:<media type>;base64,<data> expected");
@@ -125,21 +170,27 @@ DataUri decodeDataUri(std::string_view uri, const std::string& place, const Repo
   if (header.find(";;") != std::string_view::npos) {
     report.fail(place, "data URI has an empty parameter (';;')");
   }
-  constexpr std::string_view kBase64 = ";base64";
-  const bool isBase64 =
-      header.size() >= kBase64.size() && header.substr(header.size() - kBase64.size()) == kBase64;
   DataUri data;
-  data.mediaType = std::string(header.substr(0, header.find(';')));
+  data.mediaType = std::string(trimmed(header.substr(0, header.find(';'))));
+  const size_t lastParameter = header.rfind(';');
+  const std::string_view encoding =
+      lastParameter == std::string_view::npos ? "" : header.substr(lastParameter + 1);
   const std::string_view text = uri.substr(comma + 1);
-  if (isBase64) {
-    std::optional<std::vector<uint8_t>> bytes = base64Decode(text);
-    if (!bytes) report.fail(place, "data URI holds invalid base64");
-    data.bytes = std::move(*bytes);
-  } else {
-    const std::optional<std::string> bytes = percentDecode(text);
-    if (!bytes) report.fail(place, "data URI holds a bad percent escape; %XX expected");
-    data.bytes.assign(bytes->begin(), bytes->end());
+  if (lowerCase(trimmed(encoding)) == "base64") {
+    if (encoding != "base64") {
+      report.warn("base64 label", place,
+                  fmt::format("data URI says ';{}'; it is read as ';base64'", encoding));
+    }
+    data.bytes = decodeBase64(text, place, report);
+    return data;
   }
+  const PercentText bytes = percentDecode(text);
+  if (bytes.hasRaw) {
+    report.warn(
+        "data URI percent", place,
+        "data URI holds a percent sign that begins no escape (%XX); it is read as one byte");
+  }
+  data.bytes.assign(bytes.decoded.begin(), bytes.decoded.end());
   return data;
 }
 
@@ -155,25 +206,35 @@ fs::path resolveUri(const std::string& uri, const fs::path& directory, const std
                                    "directory and data URIs are read",
                                    uri));
   }
-  const std::optional<std::string> name = percentDecode(uri);
-  if (!name) report.fail(place, fmt::format("'{}' holds a bad percent escape; %XX expected", uri));
-  if (name->find('\0') != std::string::npos) {
+  const PercentText text = percentDecode(uri);
+  const std::string& name = text.decoded;
+  if (name.find('\0') != std::string::npos) {
     report.fail(place, "file name holds a zero character");
   }
-  const fs::path relative = pathFromUtf8(*name).lexically_normal();
+  const fs::path relative = pathFromUtf8(name).lexically_normal();
   if (relative.is_absolute() || relative.begin() == relative.end() || *relative.begin() == "..") {
     report.fail(
         place, fmt::format("'{}' leaves the scene's directory; only files below it are read", uri));
   }
+  const auto warnUnescaped = [&] {
+    report.warn("unescaped URI", place,
+                fmt::format("'{}' holds a percent sign that is not escaped (%25); it is read as it "
+                            "stands",
+                            uri));
+  };
   const fs::path file = directory / relative;
-  if (isRegularFile(file)) return file;
-  // Exporters that do not escape: the name holds a literal percent sign. The same rules apply.
+  if (isRegularFile(file)) {
+    if (text.hasRaw) warnUnescaped();
+    return file;
+  }
+  // Exporters that do not escape: what looks like an escape is part of the name. The same rules
+  // apply.
   const fs::path verbatim = pathFromUtf8(uri).lexically_normal();
-  if (*name != uri && *verbatim.begin() != ".." && isRegularFile(directory / verbatim)) {
-    report.warn("unescaped URI", place, fmt::format("'{}' is not percent-escaped", uri));
+  if (name != uri && *verbatim.begin() != ".." && isRegularFile(directory / verbatim)) {
+    warnUnescaped();
     return directory / verbatim;
   }
-  report.fail(place, missingText(file, *name));
+  report.fail(place, missingText(file, name));
 }
 
 }  // namespace restlab::gltf

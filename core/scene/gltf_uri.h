@@ -19,11 +19,13 @@ struct DataUri {
 
 bool isDataUri(std::string_view uri);
 
-// Decodes a data URI, base64 or percent-escaped. Fails at `place` when it is malformed.
-DataUri decodeDataUri(std::string_view uri, const std::string& place, const Report& report);
+// Decodes a data URI, base64 or percent-escaped. Fails at `place` when it is malformed; warns where
+// it breaks a rule and can be read all the same.
+DataUri decodeDataUri(std::string_view uri, const std::string& place, Report& report);
 
 // The regular file that a relative URI names, below `directory`. Fails at `place` on schemes,
-// absolute paths, paths leaving the directory, bad escapes and missing files.
+// absolute paths, paths leaving the directory and missing files; warns where a percent sign of the
+// name is not escaped.
 std::filesystem::path resolveUri(const std::string& uri, const std::filesystem::path& directory,
                                  const std::string& place, Report& report);
 

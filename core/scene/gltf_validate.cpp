@@ -54,7 +54,15 @@ class Walker {
   void walkDocument() { walkObject(document_, documentSchema()); }
 
  private:
-  [[noreturn]] void fail(const std::string& text) const { report_.fail(place_.str(), text); }
+  // What is wrong with a dispensable field.
+  struct Useless {
+    std::string place, text;
+  };
+
+  [[noreturn]] void fail(const std::string& text) const {
+    if (isDispensable_) throw Useless{place_.str(), text};
+    report_.fail(place_.str(), text);
+  }
 
   [[noreturn]] void failType(const json& value, const std::string& expected) const {
     fail(fmt::format("is {}; {} expected", typeName(value), expected));
@@ -62,16 +70,9 @@ class Walker {
 
   void walkObject(json& value, const Schema& schema) {
     if (!value.is_object()) failType(value, "an object");
-    for (const Field& field : schema.fields) {
-      const auto it = value.find(field.name);
-      if (it == value.end()) {
-        if (field.required) fail(fmt::format("'{}' is missing", field.name));
-        continue;
-      }
-      place_.push(field.name);
-      walkField(*it, field);
-      place_.pop();
-    }
+    for (const Field& field : schema.fields) walkMember(value, field);
+    if (const auto it = value.find("extensions"); it != value.end() && it->is_null())
+      leaveOutNull(value, "extensions");
     for (auto& [key, item] : value.items()) {
       if (key == "extensions") {
         place_.push(key);
@@ -81,6 +82,48 @@ class Walker {
         warnUnknown(key, schema);
       }
     }
+  }
+
+  void walkMember(json& object, const Field& field) {
+    const auto it = object.find(field.name);
+    if (it == object.end()) {
+      if (!field.required) return;
+      const std::string missing = fmt::format("'{}' is missing", field.name);
+      if (!field.isDispensable) fail(missing);
+      leaveOut(object, field, place_.str(), missing);
+      return;
+    }
+    if (it->is_null() && !field.required) {
+      leaveOutNull(object, field.name);
+      return;
+    }
+    const Place here = place_;
+    place_.push(field.name);
+    isDispensable_ = field.isDispensable;
+    try {
+      walkField(*it, field);
+    } catch (const Useless& useless) {
+      place_ = here;
+      isDispensable_ = false;
+      leaveOut(object, field, useless.place, useless.text);
+      return;
+    }
+    isDispensable_ = false;
+    place_.pop();
+  }
+
+  void leaveOutNull(json& object, const char* key) {
+    place_.push(key);
+    report_.warn(fmt::format("null {}", key), place_.str(), "is null; it is read as if it were not there");
+    place_.pop();
+    object.erase(key);
+  }
+
+  void leaveOut(json& object, const Field& field, const std::string& place,
+                const std::string& text) {
+    report_.warn(fmt::format("useless {}", field.name), place, text + "; nothing that is drawn depends on it");
+    object.erase(field.name);
+    if (field.required) object[field.name] = 0.0;  // tinygltf asks for it
   }
 
   void warnUnknown(const std::string& key, const Schema& schema) {
@@ -278,6 +321,7 @@ class Walker {
   json& document_;
   Report& report_;
   Place place_;
+  bool isDispensable_ = false;  // the field that the walk is in
 };
 
 }  // namespace

@@ -60,7 +60,8 @@ struct SceneMaterial {
 struct SceneCamera {
   std::string name;
   uint32_t kind = rl::RL_CAMERA_PERSPECTIVE;
-  glm::dmat4 cameraToWorld{1.0};  // looks along -Z, +Y up; scale is ignored
+  glm::dmat4 cameraToWorld{1.0};  // looks along -Z, +Y up; right-handed; scale is ignored
+  bool isMirrored = false;        // the image shows left what lies to the right
   double yfov = 0.8;              // radians (perspective)
   double xmag = 1.0, ymag = 1.0;  // half extents in metres (orthographic)
   double aspect = 0.0;            // width / height, 0: free
@@ -95,7 +96,8 @@ struct Scene {
   std::vector<TextureUse> textureUses;
   std::vector<TextureImage> images;
   std::vector<SceneCamera>
-      cameras;  // never empty after loading: one is made when the file has none
+      cameras;              // never empty after loading: one is made when the file has none
+  uint32_t mainCamera = 0;  // whose view numbers must hold best (core/scene/scene_origin.h)
   std::vector<PunctualLight> lights;
   std::optional<EnvironmentMap> environment;
   std::vector<std::string> warnings;  // one line each, printed by the program
@@ -140,5 +142,7 @@ uint32_t findCamera(const Scene& scene, const std::string& nameOrIndex);
 
 // World bounding box of all instances (min, max).
 std::array<glm::dvec3, 2> worldBounds(const Scene& scene);
+// The same without what lies a hundred times farther out than anything else: strays, a huge ground.
+std::array<glm::dvec3, 2> boundsWithoutStrays(const Scene& scene);
 
 }  // namespace restlab

@@ -1,4 +1,5 @@
 // worldBounds() and framingCamera().
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
@@ -9,6 +10,8 @@ namespace restlab {
 namespace {
 
 using Box = std::array<glm::dvec3, 2>;
+
+constexpr size_t kMostSamples = size_t(1) << 20;  // of vertices
 
 Box emptyBox() {
   return {glm::dvec3(std::numeric_limits<double>::infinity()),
@@ -52,8 +55,61 @@ std::array<glm::dvec3, 2> worldBounds(const Scene& scene) {
   return bounds;
 }
 
+Box boundsWithoutStrays(const Scene& scene) {
+  constexpr double kGap = 100.0;
+  const Box all = worldBounds(scene);
+  size_t count = 0;
+  for (const MeshInstance& instance : scene.instances)
+    count += scene.geometries[instance.geometry].positions.size();
+  const size_t step = count / kMostSamples + 1;
+  std::vector<glm::dvec3> points;
+  size_t next = 0;  // of the mesh's vertices
+  for (const MeshInstance& instance : scene.instances) {
+    const std::vector<glm::vec3>& positions = scene.geometries[instance.geometry].positions;
+    for (; next < positions.size(); next += step)
+      points.emplace_back(instance.objectToWorld * glm::dvec4(positions[next], 1.0));
+    next -= positions.size();
+  }
+  if (points.empty()) return all;
+  // The middle of the vertices, not of the bounds: a stray moves it by one place.
+  glm::dvec3 middle;
+  std::vector<double> numbers(points.size());
+  const auto half = numbers.begin() + ptrdiff_t(numbers.size() / 2);
+  for (int axis = 0; axis < 3; ++axis) {
+    std::transform(points.begin(), points.end(), numbers.begin(),
+                   [&](const glm::dvec3& p) { return p[axis]; });
+    std::nth_element(numbers.begin(), half, numbers.end());
+    middle[axis] = *half;
+  }
+  std::transform(points.begin(), points.end(), numbers.begin(),
+                 [&](const glm::dvec3& p) { return glm::length(p - middle); });
+  std::sort(numbers.begin(), numbers.end());
+  const auto gap = std::adjacent_find(half, numbers.end(), [](double nearer, double farther) {
+    return nearer > 0.0 && farther > kGap * nearer;
+  });
+  if (gap == numbers.end()) return all;
+  // Inside of the gap, where those that were not asked lie, too. What a triangle joins stays
+  // together: a rod is no stray of its own end.
+  const double farthest = std::sqrt(kGap) * *gap;
+  Box bounds = emptyBox();
+  for (const MeshInstance& instance : scene.instances) {
+    const MeshGeometry& mesh = scene.geometries[instance.geometry];
+    for (const glm::uvec3& triangle : mesh.triangles) {
+      std::array<glm::dvec3, 3> corners;
+      for (int k = 0; k < 3; ++k)
+        corners[size_t(k)] =
+            glm::dvec3(instance.objectToWorld * glm::dvec4(mesh.positions[triangle[k]], 1.0));
+      if (std::any_of(corners.begin(), corners.end(),
+                      [&](const glm::dvec3& p) { return glm::length(p - middle) <= farthest; }))
+        for (const glm::dvec3& p : corners) extend(bounds, p);
+    }
+  }
+  if (bounds[0].x > bounds[1].x) return all;
+  return bounds;
+}
+
 SceneCamera framingCamera(const Scene& scene) {
-  const Box bounds = worldBounds(scene);
+  const Box bounds = boundsWithoutStrays(scene);
   const glm::dvec3 center = 0.5 * (bounds[0] + bounds[1]);
   const double radius = 0.5 * glm::length(bounds[1] - bounds[0]);
   SceneCamera camera;

@@ -26,10 +26,15 @@ target_sources(rl_core PRIVATE
   scene/image_decode.cpp
   scene/jpeg_decode.cpp
   scene/light_factor.cpp
+  scene/linear_map.cpp
+  scene/plate.cpp
   scene/load_scene.cpp
   scene/png_decode.cpp
   scene/coarse_vertices.cpp
   scene/scene_bounds.cpp
+  scene/scene_origin.cpp
+  scene/sight.cpp
+  scene/split_triangles.cpp
   scene/tinygltf.cpp
 )
 # tinygltf is compiled into tinygltf.cpp (with its own file and image access left out), xxHash and stb

@@ -57,6 +57,7 @@ Json camerasJson(const Scene& scene) {
     json["position_m"] = triple(glm::dvec3(camera.cameraToWorld[3]));
     json["forward"] = triple(-back);
     json["up"] = triple(up);
+    if (camera.isMirrored) json["mirrored"] = true;
     cameras.push_back(json);
   }
   return cameras;
@@ -146,14 +147,15 @@ void printText(const PreparedScene& prepared, const Json& json) {
       const auto p = camera[key].get<std::array<double, 3>>();
       return fmt::format("({:.5g}, {:.5g}, {:.5g})", p[0], p[1], p[2]);
     };
-    fmt::print("camera       {} '{}' {}, at {} m, looks along {}, up {}{}\n",
+    fmt::print("camera       {} '{}' {}, at {} m, looks along {}, up {}{}{}\n",
                camera["index"].get<size_t>(), oneLine(camera["name"].get<std::string>()),
                camera["kind"].get<std::string>(), point("position_m"), point("forward"),
                point("up"),
                camera.contains("yfov_radians")
                    ? fmt::format(", {:.4g} degrees high",
                                  glm::degrees(camera["yfov_radians"].get<double>()))
-                   : "");
+                   : "",
+               camera.contains("mirrored") ? ", mirrored left to right" : "");
   }
   for (const PunctualLight& light : scene.lights) {
     fmt::print("light        '{}' {} ({:g}, {:g}, {:g})\n", oneLine(light.name),

@@ -91,7 +91,7 @@ Json sceneJson(const LiveView& view) {
     const std::string kind = name == kAllLights ? kAllLights : kindOfLight(scene, name);
     lights.push_back({{"name", name}, {"kind", kind}});
   }
-  const auto [lo, hi] = worldBounds(scene);
+  const auto [lo, hi] = boundsWithoutStrays(scene);
   const bool isBuiltin = isBuiltinScene(scene.name);
   const Session& session = view.session(0);
   return {
@@ -242,19 +242,21 @@ std::string stateText(const LiveView& view, bool isPaused) {
   }
   const SessionConfig& size = settings.panes.front().config;
   const ViewHistory& history = view.history();
-  return textOf(
-      {{"say", "state"},
-       {"epoch", view.epoch()},
-       {"panes", panes},
-       {"camera", {{"to_world", matrixJson(settings.camera)}, {"yfov", settings.camera.yfov}}},
-       {"width", size.width},
-       {"height", size.height},
-       {"lights", lights},
-       {"paused", isPaused},
-       {"can_undo", history.canUndo()},
-       {"can_redo", history.canRedo()},
-       {"undo_text", history.undoText()},
-       {"redo_text", history.redoText()}});
+  return textOf({{"say", "state"},
+                 {"epoch", view.epoch()},
+                 {"panes", panes},
+                 {"camera",
+                  {{"to_world", matrixJson(settings.camera)},
+                   {"yfov", settings.camera.yfov},
+                   {"mirrored", settings.camera.isMirrored}}},
+                 {"width", size.width},
+                 {"height", size.height},
+                 {"lights", lights},
+                 {"paused", isPaused},
+                 {"can_undo", history.canUndo()},
+                 {"can_redo", history.canRedo()},
+                 {"undo_text", history.undoText()},
+                 {"redo_text", history.redoText()}});
 }
 
 std::string numbersText(const LiveView& view, const Transport& transport, double load) {

@@ -41,6 +41,19 @@ bool hasLayer(const SessionConfig& config, const std::string& name) {
 
 char letterOf(uint32_t pane) { return char('A' + int(pane)); }
 
+// Both stand in one place and look along one axis, with the same side up.
+bool isSamePlace(const glm::dmat4& a, const glm::dmat4& b) {
+  constexpr double kClose = 1e-9;
+  const glm::dvec3 apart(a[3] - b[3]);
+  if (glm::length(apart) > kClose * (1.0 + glm::length(glm::dvec3(a[3])))) return false;
+  for (const int axis : {1, 2}) {
+    const glm::dvec3 was = glm::normalize(glm::dvec3(a[axis]));
+    const double least = axis == 2 ? 1.0 - kClose : 0.5;  // sheared axes are no right ones
+    if (glm::dot(was, glm::normalize(glm::dvec3(b[axis]))) < least) return false;
+  }
+  return true;
+}
+
 // Changes settings in place, and says what in words.
 struct Change {
   ViewSettings& settings;
@@ -119,6 +132,10 @@ struct Change {
         camera.cameraToWorld[column][row] = command.toWorld[size_t(4 * column + row)];
     }
     if (command.yfov) camera.yfov = *command.yfov;
+    // The page knows no mirrors: it names a camera of the scene by its place alone.
+    for (const SceneCamera& known : choices.scene->cameras)
+      if (isSamePlace(known.cameraToWorld, camera.cameraToWorld))
+        camera.isMirrored = known.isMirrored;
     text = "camera";
   }
 
@@ -268,8 +285,8 @@ bool isSameSize(const SessionConfig& a, const SessionConfig& b) {
 }
 
 bool isSameCamera(const SceneCamera& a, const SceneCamera& b) {
-  return a.kind == b.kind && a.cameraToWorld == b.cameraToWorld && a.yfov == b.yfov &&
-         a.xmag == b.xmag && a.ymag == b.ymag;
+  return a.kind == b.kind && a.cameraToWorld == b.cameraToWorld && a.isMirrored == b.isMirrored &&
+         a.yfov == b.yfov && a.xmag == b.xmag && a.ymag == b.ymag;
 }
 
 bool isSamePicture(const ViewSettings& a, const ViewSettings& b) {

@@ -10,10 +10,13 @@ set(RL_SCENE_TESTS
   scene/gltf_material_test.cpp
   scene/gltf_nodes_test.cpp
   scene/gltf_limits_test.cpp
+  scene/gltf_lenient_test.cpp
+  scene/gltf_scale_test.cpp
   scene/gltf_uri_test.cpp
   scene/gltf_validator_test.cpp
   scene/image_limits_test.cpp
   scene/light_factor_test.cpp
   scene/load_scene_test.cpp
+  scene/scene_origin_test.cpp
   ${RL_BUILTIN_TESTS}
 )

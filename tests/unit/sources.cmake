@@ -17,6 +17,7 @@ list(APPEND RL_UNIT_TESTS
   pack_test.cpp
   path_shift_test.cpp
   partners_test.cpp
+  plate_test.cpp
   ray_offset_test.cpp
   records_test.cpp
   reservoir_store_test.cpp

@@ -18,6 +18,7 @@ namespace {
 // All numbers of a camera that its image depends on, exactly. A zero has one sign here.
 std::string exactly(const SceneCamera& camera) {
   std::string text = camera.kind == rl::RL_CAMERA_ORTHOGRAPHIC ? "orthographic" : "perspective";
+  if (camera.isMirrored) text += " mirrored";
   for (int column = 0; column < 4; ++column) {
     for (int row = 0; row < 4; ++row) {
       text += fmt::format(" {:a}", camera.cameraToWorld[column][row] + 0.0);

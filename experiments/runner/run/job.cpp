@@ -50,6 +50,7 @@ std::string cameraWords(const SceneCamera& camera) {
     for (int row = 0; row < 4; ++row)
       words += fmt::format(" {:a}", camera.cameraToWorld[column][row]);
   }
+  if (camera.isMirrored) words += " mirrored";
   return words;
 }
 

@@ -8,10 +8,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/scene/light_factor.h"
 #include "core/error.h"
 #include "core/method.h"
 #include "core/method_settings.h"
+#include "core/scene/light_factor.h"
+#include "core/scene/scene_origin.h"
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/run/files.h"
 #include "experiments/runner/run/log.h"
@@ -121,6 +122,7 @@ PreparedScene prepareScene(const SceneRequest& request, std::optional<Environmen
   }
   // Before the scene is compiled, which can take long.
   setCamera(prepared, scene, request.camera);
+  scene.mainCamera = prepared.camera;
   prepared.scene = CompiledScene::build(std::move(scene));
   const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
   prepared.loadTimeMs = spent.count();
@@ -141,7 +143,15 @@ PreparedScene withLights(const PreparedScene& loaded,
 }
 
 void chooseCamera(PreparedScene& prepared, const std::string& nameOrIndex) {
-  setCamera(prepared, prepared.scene->source(), nameOrIndex);
+  const Scene& scene = prepared.scene->source();
+  setCamera(prepared, scene, nameOrIndex);
+  if (prepared.camera == scene.mainCamera) return;
+  const SceneOrigin before = originOf(scene, scene.mainCamera),
+                    after = originOf(scene, prepared.camera);
+  if (before.viewSize == 0.0 && after.viewSize == 0.0) return;
+  Scene other = scene;
+  other.mainCamera = prepared.camera;
+  prepared.scene = CompiledScene::build(std::move(other));
 }
 
 void printWarnings(const PreparedScene& prepared) {
@@ -255,6 +265,7 @@ void describeCamera(const SceneCamera& camera, std::map<std::string, std::string
   words["camera"] = camera.name;
   words["camera_index"] = "none";
   words["camera_to_world"] = matrix;
+  if (camera.isMirrored) words["camera_mirrored"] = "true";
   words["camera_yfov"] = fmt::format("{:.9g}", camera.yfov);
 }
 

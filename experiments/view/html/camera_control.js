@@ -5,7 +5,7 @@ const WHEEL_STEP = 1.2, FAST = 4, TURN_KEYS_SPEED = 1.2;  // radians a second
 class CameraControl {
   constructor(page, bounds) {
     Object.assign(this, {page, isOn: false, isOrbit: false, held: new Set(), pose: null,
-                         dragging: false});
+                         dragging: false, side: 1});
     const {lo, hi} = bounds;
     this.centre = lo.map((value, i) => (value + hi[i]) / 2);
     this.size = Math.max(1e-3, distance(lo, hi));
@@ -13,8 +13,9 @@ class CameraControl {
   }
 
   // What the program says; while a hand moves the camera, the hand knows better.
-  show({to_world, yfov}) {
+  show({to_world, yfov, mirrored}) {
     this.yfov = yfov;
+    this.side = mirrored ? -1 : 1;  // the picture's right in the camera's
     this.matrix = to_world;
     if (!this.isMoving && !this.isWaiting) this.pose = poseOf(to_world);
   }
@@ -79,7 +80,7 @@ class CameraControl {
     const seconds = Math.min(0.1, Math.max(0, (time - this.last) / 1000));
     this.last = time;
     const of = (plusWay, minusWay) => this.held.has(plusWay) - this.held.has(minusWay);
-    const turn = TURN_KEYS_SPEED * seconds * of('turn-left', 'turn-right');
+    const turn = TURN_KEYS_SPEED * seconds * this.side * of('turn-left', 'turn-right');
     const tilt = TURN_KEYS_SPEED * seconds * of('turn-up', 'turn-down');
     requestAnimationFrame(next => this.fly(next));
     if (this.isOrbit && !this.isOn) {
@@ -89,7 +90,7 @@ class CameraControl {
     const step = this.speed * seconds * (this.isFast ? FAST : 1);
     const {right, forward} = axesOf(this.pose);
     let position = plus(this.pose.position, forward, step * of('forward', 'back'));
-    position = plus(position, right, step * of('right', 'left'));
+    position = plus(position, right, step * this.side * of('right', 'left'));
     position = plus(position, [0, 1, 0], step * of('up', 'down'));
     this.moveTo({position, yaw: this.pose.yaw + turn, pitch: clampPitch(this.pose.pitch + tilt)});
   }
@@ -101,6 +102,7 @@ class CameraControl {
     if (!this.pose) return null;
     // Radians of the picture's middle for a CSS pixel.
     const scale = (this.yfov || 0.8) / (this.page.state.height * this.page.viewer.camera.scale);
+    const sideways = scale * this.side, round = 0.008 * this.side;
     const target = isOrbit ? this.orbitTarget(hit, event.altKey && hit && hit.pixel) : null;
     this.dragging = true;
     const end = () => {
@@ -109,9 +111,9 @@ class CameraControl {
     };
     for (const name of ['pointerup', 'pointercancel']) document.addEventListener(name, end);
     if (isOrbit) {
-      return {move: (dx, dy) => this.moveTo(orbited(this.pose, target, -0.008 * dx, -0.008 * dy))};
+      return {move: (dx, dy) => this.moveTo(orbited(this.pose, target, -round * dx, -0.008 * dy))};
     }
-    return {move: (dx, dy) => this.moveTo({...this.pose, yaw: this.pose.yaw - scale * dx,
+    return {move: (dx, dy) => this.moveTo({...this.pose, yaw: this.pose.yaw - sideways * dx,
                                            pitch: clampPitch(this.pose.pitch - scale * dy)})};
   }
 
@@ -119,7 +121,8 @@ class CameraControl {
   orbitTarget(hit, isUnderPointer) {
     if (!isUnderPointer) return this.targetOf(this.pose);
     const {width, height} = this.page.state;
-    const x = 2 * (hit.pixel.x + 0.5) / width - 1, y = 1 - 2 * (hit.pixel.y + 0.5) / height;
+    const x = this.side * (2 * (hit.pixel.x + 0.5) / width - 1);
+    const y = 1 - 2 * (hit.pixel.y + 0.5) / height;
     const way = rayThrough(this.pose, this.yfov || 0.8, width / height, x, y);
     return plus(this.pose.position, way, this.reach(this.pose));
   }
