@@ -107,6 +107,12 @@ class LiveView {
   void measureImages();
   std::unique_ptr<Session> sessionOf(const SessionConfig& config, const PreparedScene& shown,
                                      const SceneCamera& camera) const;
+  // Of a pane with that configuration, in the host's memory.
+  size_t bytesPerPixelOf(size_t pane, const SessionConfig& config) const;
+  // By the panes, in the host's memory.
+  uint64_t heldBytes() const;
+  // Throws Error (deviceUnavailable) where there is no memory for all of what is to be shown.
+  void requireMemory(const ViewSettings& next) const;
   PreparedScene litBy(const LightFactors& lights) const;
   // Numbers begin anew; of another picture the reference does, too.
   void beginEpoch(bool isAnotherPicture);
