@@ -10,7 +10,7 @@ namespace restlab {
 // "no such file", "cannot be read: Permission denied", and so on. "" where it opens for reading.
 std::string unreadableReason(const std::filesystem::path& file);
 
-// Of a status that could not be had: something may be there, and the system does not say what.
+// The status could not be had: something may be there, and the system does not say what.
 bool isHidden(const std::error_code& status);
 
 }  // namespace restlab

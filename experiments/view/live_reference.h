@@ -31,7 +31,7 @@ class LiveReference {
   // With the metadata of a file. It is there, and was not given.
   Reference whole() const { return referenceOf(*prepared_, config_, state_); }
 
-  // Of the host's memory, for what was rendered.
+  // Bytes that the rendered samples hold in the host's memory.
   uint64_t heldBytes() const {
     const bool isRendered = halves_.has_value() || state_.spp() > 0;
     return isRendered ? uint64_t(config_.width) * config_.height * kStateBytesPerPixel : 0;

@@ -107,9 +107,9 @@ class LiveView {
   void measureImages();
   std::unique_ptr<Session> sessionOf(const SessionConfig& config, const PreparedScene& shown,
                                      const SceneCamera& camera) const;
-  // Of a pane with that configuration, in the host's memory.
+  // Bytes in the host's memory, of a pane with that configuration.
   size_t bytesPerPixelOf(size_t pane, const SessionConfig& config) const;
-  // By the panes, in the host's memory.
+  // Bytes that the panes hold in the host's memory.
   uint64_t heldBytes() const;
   // Throws Error (deviceUnavailable) where there is no memory for all of what is to be shown.
   void requireMemory(const ViewSettings& next) const;

@@ -86,7 +86,7 @@ class ViewServer::Impl {
     std::shared_ptr<const std::string> text;
     std::shared_ptr<const Bytes> bytes;  // where there is no text
     std::optional<uint32_t> slot;        // of which the newest counts
-    // Of what is never replaced.
+    // Bytes that are never replaced.
     size_t keptBytes() const { return text && !slot ? text->size() : 0; }
   };
   void send(ClientId id, Message message);
@@ -131,7 +131,7 @@ class ViewServer::Impl {
     port_ = acceptor_.local_endpoint().port();
   }
 
-  // That of an address, or of a name that this machine has.
+  // The address given, or that of a name which this machine has.
   asio::ip::address addressToListenOn() {
     ErrorCode error;
     const asio::ip::address given = asio::ip::make_address(options_.listen, error);
@@ -157,7 +157,7 @@ class ViewServer::Impl {
     };
     if (request.method() != http::verb::get)
       return refuse(http::status::method_not_allowed, "only GET is served here");
-    // Of two, who passes a request on may go by the other one.
+    // Two are refused: a proxy may go by the other one.
     for (const http::field field : {http::field::host, http::field::origin}) {
       if (request.count(field) > 1)
         return refuse(http::status::bad_request,

@@ -57,7 +57,7 @@ class ViewServer {
   void sendNewest(ClientId client, uint32_t slot, std::shared_ptr<const Bytes> bytes);
   void sendNewest(ClientId client, uint32_t slot, std::string text);
 
-  // Of texts that the client has not taken; 0 of one that is gone.
+  // Bytes of texts that the client has not taken; 0 of one that is gone.
   size_t bytesUnread(ClientId client) const;
 
   // What "/report" is from here on, an HTML page; before, it is not there.

@@ -9,9 +9,9 @@ namespace restlab {
 // there is neither.
 double exposureOf(const LiveView& view);
 
-// Near what previewExposure() says of the picture without noise. Of few samples most pixels are
-// black and the others far too bright: the average is of means over blocks of 8x8 pixels. What is
-// clipped goes by single pixels and 2x2, as a block at a lamp's edge is as bright as the lamp.
+// Estimates what previewExposure() says of the picture without noise. Of few samples most pixels
+// are black and the others far too bright: the average is of means over blocks of 8x8 pixels. What
+// is clipped goes by single pixels and 2x2, as a block at a lamp's edge is as bright as the lamp.
 float exposureOfNoise(const Image& image);
 
 // Means over blocks of so many pixels a side; those at the right and below may be smaller.

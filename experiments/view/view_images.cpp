@@ -52,7 +52,7 @@ void requireOneSize(const ViewImages& images) {
   if (images.reference) require(images.referenceFile, images.reference->mean);
 }
 
-// As `compare` has it.
+// The check that `compare` makes.
 void requireOneScene(const ViewImages& images) {
   const std::string reference = images.referenceFile.string();
   for (const FileImage& one : images.list)

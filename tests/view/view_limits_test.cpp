@@ -1,4 +1,4 @@
-// What a viewer gives pages at most: pictures on their way, files, memory.
+// Limits of a viewer: pictures on their way, files, memory.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What goes to stdout goes through here: names that a suite or a scene gave command no terminal.
+// Prints to stdout, all of it: names that a suite or a scene gave command no terminal.
 // A write that fails is seen at the program's end (stdout's error mark).
 #pragma once
 
