@@ -17,6 +17,7 @@ rl_need_library(nlohmann_json nlohmann-json3-dev CONFIG)
 rl_need_library(fmt libfmt-dev CONFIG)
 rl_need_library(Boost libboost-dev CONFIG) # header-only Boost.Math distributions
 rl_need_library(ZLIB zlib1g-dev)
+rl_need_library(OpenSSL libssl-dev COMPONENTS Crypto)
 # The package files of glslang end the configuring where these two are missing.
 rl_need_program(GLSLANG_VALIDATOR glslang-tools glslangValidator)
 rl_need_program(SPIRV_VAL spirv-tools spirv-val)

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/file_reason.h"
 
 namespace restlab {
 
@@ -107,7 +108,7 @@ std::string readTomlText(const fs::path& file) {
   if (fs::exists(file, status) && !fs::is_regular_file(file, status))
     failUsage(fmt::format("{}: is not a regular file", file.string()));  // a device may never end
   std::ifstream in(file, std::ios::binary);
-  if (!in) failUsage(fmt::format("{}: cannot be read (no such file?)", file.string()));
+  if (!in) failUsage(fmt::format("{}: {}", file.string(), unreadableReason(file)));
   std::string text(kMaxFileBytes + 1, '\0');
   in.read(text.data(), std::streamsize(text.size()));
   text.resize(size_t(in.gcount()));

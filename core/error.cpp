@@ -4,6 +4,8 @@
 #include <cctype>
 #include <numeric>
 
+#include "core/control_characters.h"
+
 namespace restlab {
 namespace {
 
@@ -31,12 +33,7 @@ size_t editDistance(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-std::string oneLine(std::string text) {
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  }
-  return text;
-}
+std::string oneLine(std::string text) { return withoutControls(text, false); }
 
 std::string nearestName(const std::string& name, const std::vector<std::string>& candidates) {
   // Up to a third of the letters may differ: "cornel" finds "cornell-box" only as a prefix.

@@ -37,11 +37,13 @@ constexpr double kLongestBandMs = 500.0;  // watchdogs end dispatches of a few s
 struct Slot {
   GpuBuffer inputs;    // frame data, then for each pass the addresses of its buffers and parameters
   GpuBuffer counters;  // GlslCounters for each band
-  VkFence fence = VK_NULL_HANDLE;
-  VulkanKernels::Bound bound;  // where kernels read by texels
+  std::array<VkFence, 2> fences{};  // of parts of the commands, by turns
+  VulkanKernels::Bound bound;       // where kernels read by texels
   std::map<RecordingKey, Recording> recordings;
   const Recording* running = nullptr;
-  bool isStale = false;  // the recordings have bands that are too long
+  bool isStale = false;                  // the recordings have bands that are too long
+  size_t given = 0;                      // of its commands, to the device
+  size_t partsGiven = 0, partsDone = 0;  // each with a fence
   RecordingKey runningKey;
   std::chrono::steady_clock::time_point started;
 };
@@ -81,7 +83,8 @@ class VulkanBackend final : public Backend {
       slot.counters = memory_.allocate(kCounterBytes, MemoryKind::readback);
       VkFenceCreateInfo fence{};
       fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
-      device_.check(vkCreateFence(device_.handle(), &fence, nullptr, &slot.fence), "vkCreateFence");
+      for (VkFence& each : slot.fences)
+        device_.check(vkCreateFence(device_.handle(), &fence, nullptr, &each), "vkCreateFence");
     }
   }
 
@@ -90,7 +93,8 @@ class VulkanBackend final : public Backend {
     for (Slot& slot : slots_) {
       forget(slot);
       context_->kernels->release(slot.bound);
-      if (slot.fence != VK_NULL_HANDLE) vkDestroyFence(device_.handle(), slot.fence, nullptr);
+      for (const VkFence fence : slot.fences)
+        if (fence != VK_NULL_HANDLE) vkDestroyFence(device_.handle(), fence, nullptr);
       memory_.free(slot.inputs);
       memory_.free(slot.counters);
     }
@@ -151,7 +155,7 @@ class VulkanBackend final : public Backend {
 
   void submit(const std::vector<PassRun>& passes, const rl::FrameData& frame) override {
     placeBuffers();
-    if (underWay_.size() == kSlots) finished_.push_back(finishOldest());
+    if (underWay_.size() == framesInFlight()) finished_.push_back(finishOldest());
     Slot& slot = slots_[next_];
     next_ = (next_ + 1) % kSlots;
     RecordingKey key;
@@ -169,13 +173,9 @@ class VulkanBackend final : public Backend {
     slot.running = &found->second;
     slot.runningKey = key;
     std::memset(slot.counters.mapped, 0, kCounterBytes);
-    device_.check(vkResetFences(device_.handle(), 1, &slot.fence), "vkResetFences");
+    slot.given = slot.partsGiven = slot.partsDone = 0;
     slot.started = std::chrono::steady_clock::now();
-    const std::vector<VkCommandBuffer>& commands = slot.running->commands;
-    for (size_t i = 0; i < commands.size(); ++i) {
-      const bool isLast = i + 1 == commands.size();
-      device_.submit(commands[i], isLast ? slot.fence : VK_NULL_HANDLE, "a frame");
-    }
+    for (size_t part = 0; part < slot.fences.size(); ++part) giveNext(slot);
     underWay_.push_back(&slot);
   }
 
@@ -186,7 +186,7 @@ class VulkanBackend final : public Backend {
     return result;
   }
 
-  uint32_t framesInFlight() const override { return kSlots; }
+  uint32_t framesInFlight() const override { return givesBands() ? 1 : kSlots; }
   std::string rayTracing() const override { return rayTracing_; }
   std::string device() const override {
     return fmt::format("{}, {}", device_.name(), device_.info().driver);
@@ -432,18 +432,46 @@ class VulkanBackend final : public Backend {
     return result;
   }
 
-  void waitFor(const Slot& slot) {
+  // A driver in software runs a workgroup that has nothing to do in a good part of the time of one
+  // that has. It gets one band after the other, and no more of them once a frame is stopped.
+  bool givesBands() const { return device_.info().kind == "cpu"; }
+
+  // The next band, or all of them, with a fence behind it.
+  void giveNext(Slot& slot) {
+    const std::vector<VkCommandBuffer>& commands = slot.running->commands;
+    if (slot.given == commands.size()) return;
+    const VkFence fence = slot.fences[slot.partsGiven++ % slot.fences.size()];
+    device_.check(vkResetFences(device_.handle(), 1, &fence), "vkResetFences");
+    const size_t end = givesBands() ? slot.given + 1 : commands.size();
+    for (; slot.given < end; ++slot.given) {
+      const bool isLast = slot.given + 1 == end;
+      device_.submit(commands[slot.given], isLast ? fence : VK_NULL_HANDLE, "a frame");
+    }
+  }
+
+  void waitFor(Slot& slot) {
+    bool isCut = false;
+    while (slot.partsDone < slot.partsGiven) {
+      isCut = waitForPart(slot.fences[slot.partsDone++ % slot.fences.size()]) || isCut;
+      isCut = isCut || (slot.given < slot.running->commands.size() && isStopped());
+      if (!isCut) giveNext(slot);
+    }
+    if (isCut || framesStopped()) throw FrameStopped();
+  }
+
+  // True where it was told to stop before its end.
+  bool waitForPart(VkFence fence) {
     constexpr uint64_t kNanoseconds = 50'000'000;
     VkResult result = VK_TIMEOUT;
     bool isCut = false;
     while (result == VK_TIMEOUT) {
-      result = vkWaitForFences(device_.handle(), 1, &slot.fence, VK_TRUE, kNanoseconds);
+      result = vkWaitForFences(device_.handle(), 1, &fence, VK_TRUE, kNanoseconds);
       if (result != VK_TIMEOUT || !isStopped()) continue;
       stopSlots();
       isCut = true;
     }
     device_.check(result, "a frame");
-    if (isCut || framesStopped()) throw FrameStopped();
+    return isCut;
   }
 
   void stopSlots() {

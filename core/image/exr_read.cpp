@@ -12,6 +12,7 @@
 #include <new>
 
 #include "core/error.h"
+#include "core/file_reason.h"
 #include "core/image/exr_contents.h"
 #include "core/image/exr_limits.h"
 #include "core/image/image.h"
@@ -354,11 +355,12 @@ template <class Read>
 auto withOpened(const fs::path& file, const Read& read) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
-  if (!fs::exists(status)) failExr(file, "no such file");
+  if (!fs::exists(status)) failExr(file, unreadableReason(file));
   if (!fs::is_regular_file(status)) failExr(file, "is not a regular file");
   const uint64_t fileBytes = fs::file_size(file, error);
   std::ifstream stream(file, std::ios::binary);
-  if (error || !stream) failExr(file, "cannot be opened for reading");
+  if (error) failExr(file, "cannot be read: " + error.message());
+  if (!stream) failExr(file, unreadableReason(file));
   try {
     return read(stream, fileBytes);
   } catch (const Error&) {

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "core/file_reason.h"
 #include "core/image/image.h"
 #include "core/memory.h"
 #include "core/scene/image_decode.h"
@@ -24,8 +25,9 @@ void readHdrMap(const fs::path& file, EnvironmentMap& map) {
   const uint64_t size = fs::file_size(file, error);
   // Uncompressed 16384 x 16384 RGBE and a header; nothing larger can be read.
   constexpr uint64_t kMaxBytes = uint64_t(kMaxImageSize) * kMaxImageSize * 4 + 65536;
+  if (const std::string reason = unreadableReason(file); !reason.empty()) fail(file, reason);
   if (error || size > kMaxBytes)
-    fail(file, "cannot be read, or is too large for an environment map");
+    fail(file, fmt::format("{} bytes are too many for an environment map", size));
   std::vector<uint8_t> bytes(size);
   std::ifstream stream(file, std::ios::binary);
   stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
@@ -63,7 +65,7 @@ void readExrMap(const fs::path& file, EnvironmentMap& map) {
 
 EnvironmentMap loadEnvironment(const fs::path& file) {
   std::error_code error;
-  if (!fs::exists(file, error)) fail(file, "no such file");
+  if (!fs::exists(file, error)) fail(file, unreadableReason(file));
   if (!fs::is_regular_file(file, error)) fail(file, "is not a regular file");
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),

@@ -9,6 +9,8 @@
 #include <memory>
 #include <set>
 
+#include "core/file_reason.h"
+
 namespace restlab::gltf {
 namespace fs = std::filesystem;
 namespace {
@@ -217,7 +219,7 @@ std::vector<uint8_t> readFile(const fs::path& file, const std::string& place, Re
   };
   if (error) report.fail(place, named(fmt::format("cannot be read: {}", error.message())));
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) report.fail(place, named("cannot be opened for reading"));
+  if (!stream) report.fail(place, named(unreadableReason(file)));
   report.takeMemory(place, fmt::format("file '{}'", file.filename().string()),
                     std::min(size, bytes));
   std::vector<uint8_t> content(std::min(size, bytes));
@@ -232,7 +234,7 @@ std::vector<uint8_t> readFile(const fs::path& file, const std::string& place, Re
 
 Container readContainer(const fs::path& file, Report& report) {
   std::error_code error;
-  if (!fs::exists(file, error)) report.fail("", "no such file");
+  if (!fs::exists(file, error)) report.fail("", unreadableReason(file));
   if (!fs::is_regular_file(file, error)) report.fail("", "is not a regular file");
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),

@@ -7,6 +7,7 @@
 #include <cctype>
 
 #include "core/error.h"
+#include "core/file_reason.h"
 
 namespace restlab::gltf {
 namespace fs = std::filesystem;
@@ -105,6 +106,7 @@ std::string missingText(const fs::path& file, const std::string& uri) {
   const fs::file_status status = fs::status(file, error);
   if (fs::is_directory(status)) return fmt::format("file '{}' is a directory", uri);
   if (fs::exists(status)) return fmt::format("file '{}' is not a regular file", uri);
+  if (isHidden(error)) return fmt::format("file '{}' {}", uri, unreadableReason(file));
   if (uri.find('\\') != std::string::npos) {
     return fmt::format("file '{}' does not exist; URIs separate folders by '/'", uri);
   }

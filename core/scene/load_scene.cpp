@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "core/error.h"
+#include "core/file_reason.h"
 #include "core/scene/scene.h"
 
 namespace restlab {
@@ -47,7 +48,11 @@ fs::path resolve(const fs::path& candidate) {
   if (fs::is_directory(candidate, error)) {
     const std::vector<fs::path> scenes = scenesIn(candidate);
     if (scenes.size() == 1) return scenes[0];
-    if (scenes.empty()) failInput(candidate.string() + ": no .gltf or .glb in this directory");
+    if (scenes.empty()) {
+      const std::string reason = unreadableReason(candidate);
+      failInput(fmt::format("{}: {}", candidate.string(),
+                            reason.empty() ? "no .gltf or .glb in this directory" : reason));
+    }
     std::string names;
     for (const fs::path& scene : scenes) {
       names += (names.empty() ? "" : ", ") + scene.lexically_relative(candidate).string();
@@ -56,6 +61,8 @@ fs::path resolve(const fs::path& candidate) {
                           scenes.size(), names));
   }
   if (fs::exists(candidate, error)) return candidate;
+  if (isHidden(error))
+    failInput(fmt::format("{}: {}", candidate.string(), unreadableReason(candidate)));
   for (const char* extension : {".gltf", ".glb"}) {
     fs::path file = candidate;
     file += extension;

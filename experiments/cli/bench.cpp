@@ -13,6 +13,7 @@
 #include "experiments/cli/bench_rays.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
+#include "experiments/runner/run/print.h"
 #include "experiments/runner/suite/backend_choice.h"
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/run/interrupt.h"
@@ -221,30 +222,28 @@ Json ratesJson(const BackendRates& rates, const std::string& backend, const std:
 
 void printText(const Json& json) {
   const Json& embree = json["embree_rays_per_second"];
-  fmt::print("{}, {}x{}, {} scattering events; {}\n\n", json["scene"].get<std::string>(),
-             json["width"].get<uint32_t>(), json["height"].get<uint32_t>(),
-             json["max_bounces"].get<uint32_t>(), json["machine"]["cpu"].get<std::string>());
-  fmt::print("Embree {} alone   million rays per second\n",
-             json["embree_version"].get<std::string>());
+  print("{}, {}x{}, {} scattering events; {}\n\n", json["scene"].get<std::string>(),
+        json["width"].get<uint32_t>(), json["height"].get<uint32_t>(),
+        json["max_bounces"].get<uint32_t>(), json["machine"]["cpu"].get<std::string>());
+  print("Embree {} alone   million rays per second\n", json["embree_version"].get<std::string>());
   for (const char* kind : {"primary", "shadow", "incoherent"}) {
-    fmt::print("  {:<14} {:8.2f}\n", kind, embree[kind].get<double>() / 1e6);
+    print("  {:<14} {:8.2f}\n", kind, embree[kind].get<double>() / 1e6);
   }
-  fmt::print("\n{:<8} {:<8} {:>8} {:>8} {:>10}   million rays per second; GB/s of a copy\n",
-             "kernels", "rays by", "primary", "shadow", "incoherent");
+  print("\n{:<8} {:<8} {:>8} {:>8} {:>10}   million rays per second; GB/s of a copy\n", "kernels",
+        "rays by", "primary", "shadow", "incoherent");
   for (const Json& rates : json["backends"]) {
-    fmt::print("{:<8} {:<8} {:>8.2f} {:>8.2f} {:>10.2f}   {:.1f} GB/s   {}\n",
-               rates["backend"].get<std::string>(), rates["ray_tracing"].get<std::string>(),
-               rates["primary_rays_per_second"].get<double>() / 1e6,
-               rates["shadow_rays_per_second"].get<double>() / 1e6,
-               rates["incoherent_rays_per_second"].get<double>() / 1e6,
-               rates["copied_bytes_per_second"].get<double>() / 1e9,
-               rates["device"].get<std::string>());
+    print("{:<8} {:<8} {:>8.2f} {:>8.2f} {:>10.2f}   {:.1f} GB/s   {}\n",
+          rates["backend"].get<std::string>(), rates["ray_tracing"].get<std::string>(),
+          rates["primary_rays_per_second"].get<double>() / 1e6,
+          rates["shadow_rays_per_second"].get<double>() / 1e6,
+          rates["incoherent_rays_per_second"].get<double>() / 1e6,
+          rates["copied_bytes_per_second"].get<double>() / 1e9, rates["device"].get<std::string>());
   }
-  fmt::print("\n{:<10} {:<9} {:<8} {:>9} {:>9} {:>8} {:>11} {:>8} {:>9} {:>9} {:>8}\n",
-             "integrator", "mode", "backend", "ms/frame", "p95", "Mpix/s", "Mpix/CPU-s", "rays/px",
-             "Mrays/s", "Embree %", "bytes/px");
+  print("\n{:<10} {:<9} {:<8} {:>9} {:>9} {:>8} {:>11} {:>8} {:>9} {:>9} {:>8}\n", "integrator",
+        "mode", "backend", "ms/frame", "p95", "Mpix/s", "Mpix/CPU-s", "rays/px", "Mrays/s",
+        "Embree %", "bytes/px");
   for (const Json& frame : json["frames"]) {
-    fmt::print(
+    print(
         "{:<10} {:<9} {:<8} {:>9.2f} {:>9.2f} {:>8.2f} {:>11.2f} {:>8.2f} {:>9.2f} {:>9.0f} "
         "{:>8}\n",
         frame["integrator"].get<std::string>(), frame["mode"].get<std::string>(),
@@ -256,7 +255,7 @@ void printText(const Json& json) {
         100.0 * frame["embree_alone_share_of_time"].get<double>(),
         frame["bytes_per_pixel"].get<size_t>());
     for (const Json& pass : frame["passes"]) {
-      fmt::print(
+      print(
           "  {:<27} {:>9.2f}   {:.2f} rays/px; rays alone {:.2f} ms, buffers once {:.2f} "
           "ms: {:.1f} x the longer\n",
           pass["name"].get<std::string>(), pass["time_ms_median"].get<double>(),
@@ -265,7 +264,7 @@ void printText(const Json& json) {
     }
     if (frame.contains("denoising")) {
       const Json& d = frame["denoising"];
-      fmt::print(
+      print(
           "  {:<27} {:>9.2f}   {:.0f} % of {}, with guides {:.0f} %; inputs and buffers once "
           "{:.2f} ms: {:.1f} x\n",
           frame["denoiser"].get<std::string>() + " in all", d["time_ms"].get<double>(),
@@ -274,16 +273,16 @@ void printText(const Json& json) {
           d["time_over_buffers_once"].get<double>());
     }
     if (frame.contains("time_over_cpu")) {
-      fmt::print("  {:<27} {:>9.2f} x the CPU's time\n", "", frame["time_over_cpu"].get<double>());
+      print("  {:<27} {:>9.2f} x the CPU's time\n", "", frame["time_over_cpu"].get<double>());
     }
   }
   const Json& error = json["path_error"];
   if (!error.is_null()) {
-    fmt::print("\npath, pixels that show no light: MSE {:.4g} per frame x {:.4g} CPU s = {:.4g}\n",
-               error["mse_per_frame"].get<double>(), error["cpu_seconds_per_frame"].get<double>(),
-               error["mse_times_cpu_seconds"].get<double>());
+    print("\npath, pixels that show no light: MSE {:.4g} per frame x {:.4g} CPU s = {:.4g}\n",
+          error["mse_per_frame"].get<double>(), error["cpu_seconds_per_frame"].get<double>(),
+          error["mse_times_cpu_seconds"].get<double>());
   }
-  fmt::print("peak resident memory {:.0f} MiB\n", json["peak_resident_mib"].get<double>());
+  print("peak resident memory {:.0f} MiB\n", json["peak_resident_mib"].get<double>());
 }
 
 void bench(BenchOptions options) {
@@ -356,7 +355,7 @@ void bench(BenchOptions options) {
       {"path_error", errorPerCpuSecond(prepared, configs.front(), options)}};
   json["peak_resident_mib"] = peakResidentMiB();
   if (options.json) {
-    fmt::print("{}\n", json.dump(2));
+    printJsonText(json.dump(2));
   } else {
     printText(json);
   }

@@ -1,6 +1,5 @@
 // restlab bias: is a method biased? A verdict with an interval, from independent runs.
 #include <fmt/format.h>
-#include <glob.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -13,6 +12,7 @@
 #include "core/scene/scene.h"
 #include "experiments/certificate/certify.h"
 #include "experiments/certificate/outputs.h"
+#include "experiments/cli/file_pattern.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/reference/truth.h"
@@ -21,6 +21,7 @@
 #include "experiments/runner/run/files.h"
 #include "experiments/runner/run/folder_lock.h"
 #include "experiments/runner/run/log.h"
+#include "experiments/runner/run/print.h"
 #include "experiments/runner/suite/suite_check.h"
 
 namespace restlab {
@@ -44,12 +45,8 @@ struct BiasOptions {
   double marginPercent = 100.0 * certificate::Rules().margin;
 };
 
-std::vector<std::string> filesLike(const std::string& pattern) {
-  glob_t found{};
-  std::vector<std::string> files;
-  if (glob(pattern.c_str(), 0, nullptr, &found) == 0)
-    files.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);
-  globfree(&found);
+std::vector<std::string> imagesLike(const std::string& pattern) {
+  std::vector<std::string> files = filesLike(pattern);
   if (files.empty()) failInput(fmt::format("--images {}: no file is called that", pattern));
   return files;
 }
@@ -259,7 +256,7 @@ void bias(BiasOptions options, const CLI::App& verb, Outcome& outcome) {
   };
   if (!options.images.empty()) {
     how = certificateOptions(options, "images");
-    all.push_back(certificate::certifyImages(filesLike(options.images), options.reference, how));
+    all.push_back(certificate::certifyImages(imagesLike(options.images), options.reference, how));
     openFolder("images");
     table = certificate::markdownOf(all);
   } else if (isSuite(scene)) {
@@ -287,11 +284,11 @@ void bias(BiasOptions options, const CLI::App& verb, Outcome& outcome) {
     if (options.json)
       documents.push_back(certificate::jsonOf(certified));
     else if (all.size() == 1)
-      fmt::print("{}", certificate::textOf(certified));
+      print("{}", certificate::textOf(certified));
     else
-      fmt::print("{}\n", certificate::lineOf(certified));
+      print("{}\n", certificate::lineOf(certified));
   }
-  if (options.json) fmt::print("{}\n", (all.size() == 1 ? documents[0] : documents).dump(2));
+  if (options.json) printJsonText((all.size() == 1 ? documents[0] : documents).dump(2));
   logInfo(fmt::format("{}: report.html, certificates.json, certificates.md and maps",
                       how.out.string()));
   if (!isEquivalent) outcome.code = ExitCode::comparisonFailed;

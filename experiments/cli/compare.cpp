@@ -11,12 +11,13 @@
 #include <memory>
 
 #include "core/image/pixel_metrics.h"
-#include "experiments/cli/against_reference.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/compare/compare_folders.h"
+#include "experiments/runner/reference/beside_reference.h"
 #include "experiments/runner/run/log.h"
 #include "experiments/runner/reference/reference_error.h"
+#include "experiments/runner/run/print.h"
 
 namespace restlab {
 
@@ -196,9 +197,9 @@ void compareResults(const CLI::App& verb, const CompareOptions& options, Outcome
   refuseImageOptions(verb);
   const FolderComparison comparison = compareFolders(options.images[0], options.images[1]);
   if (options.json) {
-    fmt::print("{}\n", comparisonJson(comparison).dump(2));
+    printJsonText(comparisonJson(comparison).dump(2));
   } else {
-    std::fputs(comparisonTable(comparison).c_str(), stdout);
+    printText(comparisonTable(comparison));
   }
   if (!options.failIfWorse) return;
   for (const ComparedRow& row : comparison.rows) {

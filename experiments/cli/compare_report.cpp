@@ -8,6 +8,7 @@
 
 #include "experiments/cli/compare.h"
 #include "experiments/runner/run/log.h"
+#include "experiments/runner/run/print.h"
 
 namespace restlab {
 
@@ -47,21 +48,20 @@ void printTable(const Comparison& comparison) {
   const std::vector<std::string>& metrics = comparison.metrics;
   size_t width = std::strlen("image");
   for (const ComparedImage& one : comparison.images) width = std::max(width, one.file.size());
-  fmt::print("{:<{}}", "image", width);
-  for (const std::string& metric : metrics) fmt::print("  {:>14}", metric);
-  fmt::print("\n");
+  print("{:<{}}", "image", width);
+  for (const std::string& metric : metrics) print("  {:>14}", metric);
+  print("\n");
   for (const ComparedImage& one : comparison.images) {
-    fmt::print("{:<{}}", one.file, width);
+    print("{:<{}}", one.file, width);
     for (size_t i = 0; i < metrics.size(); ++i) {
-      fmt::print("  {:>{}.6g}", one.values[i].value, std::max<size_t>(14, metrics[i].size()));
+      print("  {:>{}.6g}", one.values[i].value, std::max<size_t>(14, metrics[i].size()));
     }
-    fmt::print("\n");
+    print("\n");
     for (size_t i = 0; i < metrics.size(); ++i) logDetailOf(one.file, metrics[i], one.values[i]);
   }
   if (comparison.runs) {
-    fmt::print("bias_rms of the {} images as independent runs: {:.6g} ({})\n",
-               comparison.runs->count, comparison.runs->biasRms.value,
-               comparison.runs->biasRms.detail);
+    print("bias_rms of the {} images as independent runs: {:.6g} ({})\n", comparison.runs->count,
+          comparison.runs->biasRms.value, comparison.runs->biasRms.detail);
   }
   if (!comparison.mask.text.empty()) logInfo("mask: " + maskText(comparison));
   const Reference& reference = comparison.reference;
@@ -102,7 +102,7 @@ void printJson(const Comparison& comparison, const CompareOptions& options) {
                     {"squared_bias_ci_hi", finite(runs.squaredBias.hi)},
                     {"details", {{"bias_rms", runs.biasRms.detail}}}};
   }
-  fmt::print("{}\n", json.dump(2));
+  printJsonText(json.dump(2));
 }
 
 }  // namespace restlab

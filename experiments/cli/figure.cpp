@@ -10,9 +10,9 @@
 #include <memory>
 
 #include "core/image/atomic_file.h"
-#include "experiments/cli/against_reference.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
+#include "experiments/runner/reference/beside_reference.h"
 #include "experiments/runner/run/log.h"
 #include "experiments/runner/reference/reference_error.h"
 

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
+#include "experiments/runner/run/print.h"
 
 namespace restlab {
 
@@ -135,56 +136,55 @@ Json sceneJson(const PreparedScene& prepared, bool multiscatter) {
 void printText(const PreparedScene& prepared, const Json& json) {
   const Scene& scene = prepared.scene->source();
   const auto bounds = worldBounds(scene);
-  fmt::print("scene        {} ({})\n", scene.name, json["source"].get<std::string>());
-  fmt::print("triangles    {} stored, {} as seen by rays, {} emissive\n",
-             prepared.scene->triangleCount(), prepared.scene->instancedTriangleCount(),
-             prepared.scene->emissiveTriangleCount());
-  fmt::print("objects      {} meshes, {} instances, {} materials, {} textures\n",
-             scene.geometries.size(), scene.instances.size(), scene.materials.size(),
-             scene.images.size());
+  print("scene        {} ({})\n", scene.name, json["source"].get<std::string>());
+  print("triangles    {} stored, {} as seen by rays, {} emissive\n",
+        prepared.scene->triangleCount(), prepared.scene->instancedTriangleCount(),
+        prepared.scene->emissiveTriangleCount());
+  print("objects      {} meshes, {} instances, {} materials, {} textures\n",
+        scene.geometries.size(), scene.instances.size(), scene.materials.size(),
+        scene.images.size());
   for (const Json& camera : json["cameras"]) {
     const auto point = [&](const char* key) {
       const auto p = camera[key].get<std::array<double, 3>>();
       return fmt::format("({:.5g}, {:.5g}, {:.5g})", p[0], p[1], p[2]);
     };
-    fmt::print("camera       {} '{}' {}, at {} m, looks along {}, up {}{}{}\n",
-               camera["index"].get<size_t>(), oneLine(camera["name"].get<std::string>()),
-               camera["kind"].get<std::string>(), point("position_m"), point("forward"),
-               point("up"),
-               camera.contains("yfov_radians")
-                   ? fmt::format(", {:.4g} degrees high",
-                                 glm::degrees(camera["yfov_radians"].get<double>()))
-                   : "",
-               camera.contains("mirrored") ? ", mirrored left to right" : "");
+    print("camera       {} '{}' {}, at {} m, looks along {}, up {}{}{}\n",
+          camera["index"].get<size_t>(), oneLine(camera["name"].get<std::string>()),
+          camera["kind"].get<std::string>(), point("position_m"), point("forward"), point("up"),
+          camera.contains("yfov_radians")
+              ? fmt::format(", {:.4g} degrees high",
+                            glm::degrees(camera["yfov_radians"].get<double>()))
+              : "",
+          camera.contains("mirrored") ? ", mirrored left to right" : "");
   }
   for (const PunctualLight& light : scene.lights) {
-    fmt::print("light        '{}' {} ({:g}, {:g}, {:g})\n", oneLine(light.name),
-               lightKind(light.kind), light.intensity.x, light.intensity.y, light.intensity.z);
+    print("light        '{}' {} ({:g}, {:g}, {:g})\n", oneLine(light.name), lightKind(light.kind),
+          light.intensity.x, light.intensity.y, light.intensity.z);
   }
   if (scene.environment) {
-    fmt::print("environment  {} {}x{}, rotation {:g} rad, scale {:g}\n", prepared.environmentName,
-               scene.environment->width, scene.environment->height, scene.environment->rotation,
-               scene.environment->scale);
+    print("environment  {} {}x{}, rotation {:g} rad, scale {:g}\n", prepared.environmentName,
+          scene.environment->width, scene.environment->height, scene.environment->rotation,
+          scene.environment->scale);
   } else {
-    fmt::print("environment  none\n");
+    print("environment  none\n");
   }
-  fmt::print("bounds       ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}) m\n", bounds[0].x, bounds[0].y,
-             bounds[0].z, bounds[1].x, bounds[1].y, bounds[1].z);
+  print("bounds       ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}) m\n", bounds[0].x, bounds[0].y,
+        bounds[0].z, bounds[1].x, bounds[1].y, bounds[1].z);
   constexpr double kMiB = 1024.0 * 1024.0;
-  fmt::print("memory       {:.1f} MiB of buffers, {:.1f} MiB of Embree, loaded in {:.0f} ms\n",
-             double(prepared.scene->bytes()) / kMiB, double(prepared.scene->embreeBytes()) / kMiB,
-             prepared.loadTimeMs);
-  fmt::print("features     needed    {}\n", json["features_needed"].get<std::string>());
+  print("memory       {:.1f} MiB of buffers, {:.1f} MiB of Embree, loaded in {:.0f} ms\n",
+        double(prepared.scene->bytes()) / kMiB, double(prepared.scene->embreeBytes()) / kMiB,
+        prepared.loadTimeMs);
+  print("features     needed    {}\n", json["features_needed"].get<std::string>());
   for (const Json& integrator : json["integrators"]) {
-    fmt::print("{:<12} compiled  {}\n", integrator["name"].get<std::string>(),
-               integrator["features_used"].get<std::string>());
-    fmt::print("{:<12} left out  {}\n", "", integrator["features_left_out"].get<std::string>());
+    print("{:<12} compiled  {}\n", integrator["name"].get<std::string>(),
+          integrator["features_used"].get<std::string>());
+    print("{:<12} left out  {}\n", "", integrator["features_left_out"].get<std::string>());
     std::string buffers;
     for (const auto& [name, bytes] : integrator["buffers"].items()) {
       buffers += fmt::format("{}{} {}", buffers.empty() ? "" : ", ", name, bytes.get<size_t>());
     }
-    fmt::print("{:<12} bytes per pixel {} ({})\n", "", integrator["bytes_per_pixel"].get<size_t>(),
-               buffers);
+    print("{:<12} bytes per pixel {} ({})\n", "", integrator["bytes_per_pixel"].get<size_t>(),
+          buffers);
   }
 }
 
@@ -193,7 +193,7 @@ void info(const InfoOptions& options) {
   printWarnings(prepared);
   const Json json = sceneJson(prepared, options.multiscatter);
   if (options.json) {
-    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+    printJsonText(json.dump(2, ' ', false, Json::error_handler_t::replace));
   } else {
     printText(prepared, json);
   }

@@ -11,6 +11,7 @@
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/registries/registries.h"
 #include "experiments/runner/run/files.h"
+#include "experiments/runner/run/print.h"
 
 namespace restlab {
 
@@ -75,21 +76,20 @@ void printSceneParameters(const Json& all, const Json& parameters, const char* i
     if (isOfAll != (*indent == '\0')) continue;
     const std::string value =
         parameter["default"].is_null() ? "" : "=" + parameter["default"].dump();
-    fmt::print("{}?{}{} in {:g}..{:g}: {}\n", indent, parameter["name"].get<std::string>(), value,
-               parameter["range"][0].get<double>(), parameter["range"][1].get<double>(),
-               parameter["help"].get<std::string>());
+    print("{}?{}{} in {:g}..{:g}: {}\n", indent, parameter["name"].get<std::string>(), value,
+          parameter["range"][0].get<double>(), parameter["range"][1].get<double>(),
+          parameter["help"].get<std::string>());
   }
 }
 
 void printDetails(const Json& part) {
   if (part.contains("why")) {
-    fmt::print("  {} in a still view, {} in a moving one: {}\n",
-               part["bias_still"].get<std::string>(), part["bias_moving"].get<std::string>(),
-               part["why"].get<std::string>());
+    print("  {} in a still view, {} in a moving one: {}\n", part["bias_still"].get<std::string>(),
+          part["bias_moving"].get<std::string>(), part["why"].get<std::string>());
   }
   for (const Json& mode : part.value("modes", Json::array())) {
-    fmt::print("  mode {:<12} {}: {}\n", mode["name"].get<std::string>(),
-               mode["bias"].get<std::string>(), mode["why"].get<std::string>());
+    print("  mode {:<12} {}: {}\n", mode["name"].get<std::string>(),
+          mode["bias"].get<std::string>(), mode["why"].get<std::string>());
   }
   for (const Json& parameter : part["parameters"]) {
     std::string bounds;
@@ -99,15 +99,15 @@ void printDetails(const Json& part) {
     } else if (parameter.contains("choices")) {
       bounds = " of " + parameter["choices"].dump();
     }
-    fmt::print("  {} = {}{}\n      {}\n      source: {}\n", parameter["name"].get<std::string>(),
-               parameter["default"].dump(), bounds, parameter["help"].get<std::string>(),
-               parameter["source"].get<std::string>());
+    print("  {} = {}{}\n      {}\n      source: {}\n", parameter["name"].get<std::string>(),
+          parameter["default"].dump(), bounds, parameter["help"].get<std::string>(),
+          parameter["source"].get<std::string>());
   }
   for (const Json& layer : part.value("layers", Json::array())) {
     const std::string unit = layer["unit"], with = layer.value("only_with", "");
-    fmt::print("  layer {}{}: {}{}\n", layer["name"].get<std::string>(),
-               unit.empty() ? "" : " in " + unit, layer["help"].get<std::string>(),
-               with.empty() ? "" : fmt::format("; only of methods with the parameter {}", with));
+    print("  layer {}{}: {}{}\n", layer["name"].get<std::string>(),
+          unit.empty() ? "" : " in " + unit, layer["help"].get<std::string>(),
+          with.empty() ? "" : fmt::format("; only of methods with the parameter {}", with));
   }
 }
 
@@ -127,20 +127,18 @@ void list(const ListOptions& options) {
   }
   const Json all = kind->second();
   if (options.json) {
-    fmt::print("{}\n", all.dump(2, ' ', false, Json::error_handler_t::replace));
+    printJsonText(all.dump(2, ' ', false, Json::error_handler_t::replace));
     return;
   }
   size_t width = 0;
   for (const Json& item : all) width = std::max(width, item["name"].get<std::string>().size());
   for (const Json& item : all) {
-    fmt::print("{:<{}}  {}", item["name"].get<std::string>(), width,
-               item["summary"].get<std::string>());
-    if (item.contains("why_not"))
-      fmt::print(" (not available: {})", item["why_not"].get<std::string>());
-    fmt::print("\n");
+    print("{:<{}}  {}", item["name"].get<std::string>(), width, item["summary"].get<std::string>());
+    if (item.contains("why_not")) print(" (not available: {})", item["why_not"].get<std::string>());
+    print("\n");
     if (item.contains("devices")) {
       for (const Json& device : item["devices"])
-        fmt::print("{:<{}}    {}\n", "", width, device.get<std::string>());
+        print("{:<{}}    {}\n", "", width, device.get<std::string>());
     }
     if (!item.contains("parameters")) continue;
     if (options.what == "scenes") {
@@ -150,7 +148,7 @@ void list(const ListOptions& options) {
     }
   }
   if (options.what == "scenes") {
-    fmt::print("of every built-in scene, as in 'furnace?albedo=0.9&scale=2^10':\n");
+    print("of every built-in scene, as in 'furnace?albedo=0.9&scale=2^10':\n");
     printSceneParameters(all, all.front()["parameters"], "");
   }
 }

@@ -10,6 +10,7 @@
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/run/interrupt.h"
 #include "experiments/runner/run/log.h"
+#include "experiments/runner/run/print.h"
 
 namespace {
 
@@ -68,27 +69,32 @@ int runVerb(CLI::App& app, std::vector<Verb>& verbs, const std::vector<std::stri
     std::fputs(app.help().c_str(), stderr);
     return int(ExitCode::badUsage);
   }
+  const auto find = [&](const std::string& name) {
+    const auto found = std::find_if(verbs.begin(), verbs.end(),
+                                    [&](const Verb& candidate) { return candidate.name == name; });
+    if (found == verbs.end()) {
+      failUsage(fmt::format("unknown verb '{}' (known: {}){}", name, fmt::join(names, ", "),
+                            didYouMean(name, names)));
+    }
+    return found;
+  };
   if (argv[1] == "-h" || argv[1] == "--help" || argv[1] == "help") {
-    std::fputs(app.help().c_str(), stdout);
+    if (argv.size() > 3) failUsage("help: takes one verb, as in: restlab help run");
+    printText(argv.size() == 2 ? app.help() : app.get_subcommand(find(argv[2])->name)->help());
     return int(ExitCode::ok);
   }
   if (argv[1] == "--version") {
-    fmt::print("restlab {} ({}{}, {})\n", buildInfo().version, buildInfo().gitCommit,
-               buildInfo().gitDirty ? " modified" : "", librariesText());
+    print("restlab {} ({}{}, {})\n", buildInfo().version, buildInfo().gitCommit,
+          buildInfo().gitDirty ? " modified" : "", librariesText());
     return int(ExitCode::ok);
   }
-  const auto verb = std::find_if(verbs.begin(), verbs.end(),
-                                 [&](const Verb& candidate) { return candidate.name == argv[1]; });
-  if (verb == verbs.end()) {
-    failUsage(fmt::format("unknown verb '{}' (known: {}){}", argv[1], fmt::join(names, ", "),
-                          didYouMean(argv[1], names)));
-  }
+  const auto verb = find(argv[1]);
   checkOptionNames(*app.get_subcommand(verb->name), {argv.begin() + 2, argv.end()});
   try {
     std::vector<std::string> reversed(argv.rbegin(), argv.rend() - 1);
     app.parse(reversed);
   } catch (const CLI::CallForHelp&) {
-    std::fputs(app.get_subcommand(verb->name)->help().c_str(), stdout);
+    printText(app.get_subcommand(verb->name)->help());
     return int(ExitCode::ok);
   } catch (const CLI::ArgumentMismatch& error) {
     const std::string text = error.what();

@@ -14,6 +14,7 @@
 #include "experiments/cli/options.h"
 #include "experiments/cli/render_pixel.h"
 #include "experiments/cli/verbs.h"
+#include "experiments/runner/run/print.h"
 #include "experiments/runner/summary/accumulate.h"
 #include "experiments/runner/suite/backend_choice.h"
 #include "experiments/runner/run/interrupt.h"
@@ -200,7 +201,7 @@ void render(RenderOptions options) {
   if (pixel) {
     const std::string text =
         options.json ? pixelJson(session, *pixel, rendered.frame + 1) : pixelText(session, *pixel);
-    fmt::print("{}", text);
+    print("{}", text);
   }
 
   const std::string outside = whyOutsideRange(*findMethod(config).denoiser, rendered.image);

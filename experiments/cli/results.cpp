@@ -9,6 +9,7 @@
 #include "experiments/runner/run/clean.h"
 #include "experiments/runner/run/job.h"
 #include "experiments/runner/run/log.h"
+#include "experiments/runner/run/print.h"
 #include "experiments/runner/run/results_folder.h"
 
 namespace restlab {
@@ -42,24 +43,23 @@ void showStatus(const FolderOptions& options) {
                       {"runs_there", countThere(block, there)}});
   }
   if (options.json) {
-    fmt::print("{}\n", Json({{"folder", options.folder},
-                             {"suite", results.record.at("suite")},
-                             {"status", results.record.at("status")},
-                             {"started", results.record.at("started")},
-                             {"written", results.record.at("written")},
-                             {"blocks", blocks}})
-                           .dump(2));
+    printJsonText(Json({{"folder", options.folder},
+                        {"suite", results.record.at("suite")},
+                        {"status", results.record.at("status")},
+                        {"started", results.record.at("started")},
+                        {"written", results.record.at("written")},
+                        {"blocks", blocks}})
+                      .dump(2));
     return;
   }
-  fmt::print("{}: {}, {} (written {})\n", options.folder,
-             results.record.at("suite").get<std::string>(),
-             results.record.at("status").get<std::string>(),
-             results.record.at("written").get<std::string>());
+  print("{}: {}, {} (written {})\n", options.folder, results.record.at("suite").get<std::string>(),
+        results.record.at("status").get<std::string>(),
+        results.record.at("written").get<std::string>());
   for (const Json& block : blocks) {
     const std::string point = block["point"].get<std::string>();
-    fmt::print("  {} ({}){}: {} of {} runs\n", block["scene"].get<std::string>(),
-               block["component"].get<std::string>(), point.empty() ? "" : ", " + point,
-               block["runs_there"].dump(), block["runs_wanted"].dump());
+    print("  {} ({}){}: {} of {} runs\n", block["scene"].get<std::string>(),
+          block["component"].get<std::string>(), point.empty() ? "" : ", " + point,
+          block["runs_there"].dump(), block["runs_wanted"].dump());
   }
 }
 
@@ -101,7 +101,7 @@ Action addReportVerb(CLI::App& app) {
   auto options = std::make_shared<FolderOptions>();
   addFolderVerb(app, "report", "makes tables, plots and report again from finished runs", options);
   return [options](Outcome&) {
-    std::fputs(remakeOutputs(options->folder).c_str(), stdout);
+    printText(remakeOutputs(options->folder));
     logInfo(fmt::format("{}: written", options->folder));
   };
 }

@@ -14,6 +14,7 @@
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/report/text.h"
+#include "experiments/runner/run/print.h"
 #include "experiments/runner/suite/dry_run.h"
 #include "experiments/runner/run/files.h"
 #include "experiments/runner/run/log.h"
@@ -155,7 +156,7 @@ void runVerb(const RunOptions& options, Outcome& outcome) {
                       counted(suite.scenes.size(), "scene"),
                       counted(suite.methods.size(), "method"), runs, request.out.string()));
   if (options.dryRun) {
-    std::fputs(planText(points, request).c_str(), stdout);
+    printText(planText(points, request));
     return;
   }
   if (!runSuite(points, request)) {

@@ -21,6 +21,7 @@
 #include "experiments/runner/reference/reference_progress.h"
 #include "experiments/runner/run/interrupt.h"
 #include "experiments/runner/run/log.h"
+#include "experiments/runner/run/print.h"
 #include "experiments/runner/suite/backend_choice.h"
 #include "experiments/view/capture.h"
 #include "experiments/view/redirect_file.h"
@@ -45,6 +46,7 @@ struct ViewOptions {
   SceneOptions scene;
   std::vector<std::string> images;  // beside the scene's methods, or after the first image
   std::string reference, table;     // of images alone
+  bool anyReference = false;        // also of images of another scene
   MethodOptions first, second;
   std::string secondBackend;  // "": as the first
   ViewServerOptions server;
@@ -67,8 +69,10 @@ void requireNoOptions(const CLI::App& verb, const std::string& file,
   for (const CLI::Option* option : verb.get_options()) {
     const std::string name = option->get_name();
     static const std::set<std::string> ofAny = {
-        "scene",           "--port", "--listen", "--open",    "--capture", "--frames",
-        "--reference-spp", "--tev",  "--quiet",  "--verbose", "-q",        "-v"};
+        "scene",     "--port",   "--listen",        "--open",
+        "--capture", "--frames", "--any-reference", "--reference-spp",
+        "--tev",     "--quiet",  "--verbose",       "-q",
+        "-v"};
     if (option->count() > 0 && ofAny.count(name) + more.count(name) == 0)
       failUsage(fmt::format("view {}: {} is not for {}", file, name, why));
   }
@@ -118,6 +122,7 @@ ViewStart startOfMethods(ViewOptions& options) {
   for (SessionConfig& config : panes) chooseSize(start.prepared, config);
   start.settings = settingsOf(start.prepared, panes);
   requireSizeOf(start.images, start.settings, true);
+  if (!options.anyReference) requireImagesOf(start);
   if (!start.images.list.empty())
     start.settings.panes.back().source = start.images.list.front().name;
   return start;
@@ -128,11 +133,11 @@ ViewStart startOf(const CLI::App& verb, ViewOptions& options) {
   ViewStart start;
   if (isSuite(name)) {
     requireNoOptions(verb, name, {}, "a suite, which says it; change the file");
-    return startOfSuite(name);
+    return startOfSuite(name, options.anyReference);
   }
   if (isResults(name)) {
     requireNoOptions(verb, name, {"--table"}, "a folder of results, which is not rendered");
-    start.images = readResultsImages(name, options.table);
+    start.images = readResultsImages(name, options.table, options.anyReference);
     const std::vector<std::string> tables = tablesOfResults(name);
     if (options.table.empty() && tables.size() > 1) {
       logInfo(fmt::format("{}: shows {}; --table chooses another one: {}", name, tables.front(),
@@ -142,7 +147,7 @@ ViewStart startOf(const CLI::App& verb, ViewOptions& options) {
     requireNoOptions(verb, name, {"images", "--ref"}, "images of files, which are not rendered");
     std::vector<std::filesystem::path> files = {name};
     files.insert(files.end(), options.images.begin(), options.images.end());
-    start.images = readViewImages(files, options.reference);
+    start.images = readViewImages(files, options.reference, true, options.anyReference);
   } else {
     if (!options.reference.empty())
       failUsage("--ref: is for images alone; methods make their own reference");
@@ -216,7 +221,7 @@ ExitCode view(const CLI::App& verb, ViewOptions options) {
   ViewLoop loop(live,
                 {start.request, threads > 0 ? threads : int(std::thread::hardware_concurrency())},
                 options.server, ".", tev);
-  fmt::print("{}\n", loop.url());
+  print("{}\n", loop.url());
   std::fflush(stdout);
   logInfo("open the address in a browser; Ctrl-C ends the viewer");
   std::optional<RedirectFile> redirect;  // until the end: browsers may be slow to start
@@ -277,6 +282,8 @@ Action addViewVerb(CLI::App& app) {
   verb->add_option("images", options->images,
                    "*.exr: more images to compare, or one beside the methods of a scene");
   verb->add_option("-r,--ref", options->reference, "of images: the reference, an EXR");
+  verb->add_flag("--any-reference", options->anyReference,
+                 "also images that say they are of another scene or setting");
   verb->add_option("--table", options->table,
                    "of a folder of results: the scene and component (default: the first)");
   verb->get_option("--resolution")
@@ -289,7 +296,8 @@ Action addViewVerb(CLI::App& app) {
   verb->add_option("--port", options->server.port, "of the page (default: any that is free)")
       ->transform(wholeNumberFrom(0, 65535));
   verb->add_option("--listen", options->server.listen,
-                   "address of this machine (default 127.0.0.1: nobody else reaches the page)");
+                   "address or name of this machine (default 127.0.0.1: nobody else reaches the "
+                   "page; 0.0.0.0: every network)");
   verb->add_flag("--open", options->open, "open the page in a browser");
   verb->add_option("--tev", options->tev,
                    "HOST[:PORT] of a running tev, which gets the images, too (port 14158)");

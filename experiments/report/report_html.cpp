@@ -9,6 +9,7 @@
 #include "experiments/report/assets.h"
 #include "experiments/report/html_parts.h"
 #include "experiments/report/pixels.h"
+#include "experiments/report/script_policy.h"
 #include "experiments/report/svg_bars.h"
 #include "experiments/report/svg_plot.h"
 #include "experiments/report/text.h"
@@ -18,11 +19,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Nothing may be fetched, whatever the page holds.
-constexpr const char* kPolicy =
-    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: "
-    "blob:; "
-    "base-uri 'none'; form-action 'none'";
+// What stands between the page's tags <script>.
+std::string pageScript() {
+  return fmt::format("\n(() => {{\n'use strict';\n{}}})();\n", reportScript());
+}
+
+// Nothing may be fetched and nothing else may run, whatever the page holds.
+std::string policy() {
+  return fmt::format(
+      "default-src 'none'; script-src {}; style-src 'unsafe-inline'; img-src data: blob:; base-uri "
+      "'none'; form-action 'none'",
+      scriptHash(pageScript()));
+}
 
 std::string blockHead(const ReportModel& block) {
   const std::string subtitle = reportText(block, "subtitle");
@@ -51,7 +59,7 @@ void writeReport(const fs::path& folder, const ReportModel& model) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n"
       "<meta name=\"color-scheme\" content=\"light dark\">\n<title>{}</title>\n<style>\n",
-      kPolicy, escapeMarkup(reportText(model, "title")));
+      policy(), escapeMarkup(reportText(model, "title")));
   out << reportStyle() << "</style>\n</head>\n<body>\n" << html::reportHead(model) << "<main>\n";
   size_t index = 0;
   for (const ReportModel& block : model["blocks"]) {
@@ -61,8 +69,7 @@ void writeReport(const fs::path& folder, const ReportModel& model) {
         << html::healthTable(block) << "</section>\n";
   }
   out << "</main>\n" << html::reportFoot(model, limit);
-  out << "<script>\n(() => {\n'use strict';\n"
-      << reportScript() << "})();\n</script>\n</body>\n</html>\n";
+  out << "<script>" << pageScript() << "</script>\n</body>\n</html>\n";
   file.commit();
 }
 

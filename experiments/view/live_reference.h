@@ -31,6 +31,11 @@ class LiveReference {
   // With the metadata of a file. It is there, and was not given.
   Reference whole() const { return referenceOf(*prepared_, config_, state_); }
 
+  // Bytes that the rendered samples hold in the host's memory.
+  uint64_t heldBytes() const {
+    const bool isRendered = halves_.has_value() || state_.spp() > 0;
+    return isRendered ? uint64_t(config_.width) * config_.height * kStateBytesPerPixel : 0;
+  }
   uint64_t spp() const { return isGiven_ ? pictures_.spp : state_.spp(); }
   // Both halves have a sample, as the rest needs.
   bool isThere() const { return isGiven_ || state_.half1.count() > 0; }

@@ -7,8 +7,10 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/memory.h"
 #include "core/method.h"
 #include "core/scene/light_factor.h"
+#include "experiments/view/view_memory.h"
 
 namespace restlab {
 
@@ -17,6 +19,17 @@ namespace {
 bool hasHistory(const SessionConfig& config) {
   const Method method = findMethod(config);
   return method.hasHistory(resolveParameters(method, config.parameters));
+}
+
+// A size, a method or a parameter is another one.
+bool needsOtherMemory(const ViewSettings& a, const ViewSettings& b) {
+  for (size_t i = 0; i < a.panes.size(); ++i) {
+    const SessionConfig &before = a.panes[i].config, &after = b.panes[i].config;
+    if (!isSameSize(before, after) || !isSameMethod(before, after) ||
+        before.parameters != after.parameters)
+      return true;
+  }
+  return false;
 }
 
 std::optional<FrameStats> nextFrame(Session& session, const LiveView::StopCheck& isStopped) {
@@ -60,6 +73,7 @@ LiveView::LiveView(const PreparedScene& prepared, ViewSettings settings,
       reference_(store) {
   firstSeed_ = settings_.panes.front().config.seed;
   if (!settings_.lights.empty()) prepared_ = litBy(settings_.lights);
+  requireMemory(settings_);
   for (const PaneSettings& pane : settings_.panes)
     panes_.emplace_back().session = sessionOf(pane.config, prepared_, settings_.camera);
   beginEpoch(true);
@@ -200,6 +214,38 @@ std::unique_ptr<Session> LiveView::sessionOf(const SessionConfig& config,
   return session;
 }
 
+size_t LiveView::bytesPerPixelOf(size_t pane, const SessionConfig& config) const {
+  const bool isThere = pane < panes_.size() && isSameMethod(settings_.panes[pane].config, config) &&
+                       settings_.panes[pane].config.parameters == config.parameters;
+  return isThere ? hostBytesPerPixel(session(pane), config.width, config.height)
+                 : hostBytesPerPixelOf(loaded_, config);
+}
+
+uint64_t LiveView::heldBytes() const {
+  uint64_t bytes = 0;
+  for (const Pane& pane : panes_) {
+    const SessionConfig& config = pane.session->config();
+    const uint64_t pixels = uint64_t(config.width) * config.height;
+    // Where it cannot take a frame back it may have copies all the same, which are not counted.
+    bytes += pixels * hostBytesPerPixel(*pane.session, config.width, config.height) *
+             (pane.session->canTakeBack() ? 2 : 1);
+  }
+  return bytes;
+}
+
+void LiveView::requireMemory(const ViewSettings& next) const {
+  const SessionConfig& size = next.panes.front().config;
+  const std::optional<uint64_t> available = availableMemory();
+  if (fitsSurely(size.width, size.height, available)) return;
+  std::vector<size_t> bytes;
+  for (size_t i = 0; i < next.panes.size(); ++i)
+    bytes.push_back(bytesPerPixelOf(i, next.panes[i].config));
+  const SessionConfig half = referenceSession(loaded_, referenceConfigOf(size));
+  requireViewMemory(size.width, size.height,
+                    viewBytesPerPixel(bytes, hostBytesPerPixelOf(loaded_, half)),
+                    heldBytes() + reference_.heldBytes(), available);
+}
+
 PreparedScene LiveView::litBy(const LightFactors& lights) const {
   if (lights.empty()) return loaded_;
   Scene scene = loaded_.scene->source();
@@ -276,6 +322,7 @@ void LiveView::become(ViewSettings next) {
   std::vector<std::unique_ptr<Session>> made(panes_.size());
   std::vector<Pane*> kept;
   bool isChanged = isAnotherPicture;
+  if (needsOtherMemory(settings_, next)) requireMemory(next);
   for (size_t i = 0; i < panes_.size(); ++i) {
     const SessionConfig &before = settings_.panes[i].config, &after = next.panes[i].config;
     if (isSameMethod(before, after)) {

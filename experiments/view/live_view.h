@@ -107,6 +107,12 @@ class LiveView {
   void measureImages();
   std::unique_ptr<Session> sessionOf(const SessionConfig& config, const PreparedScene& shown,
                                      const SceneCamera& camera) const;
+  // Bytes in the host's memory, of a pane with that configuration.
+  size_t bytesPerPixelOf(size_t pane, const SessionConfig& config) const;
+  // Bytes that the panes hold in the host's memory.
+  uint64_t heldBytes() const;
+  // Throws Error (deviceUnavailable) where there is no memory for all of what is to be shown.
+  void requireMemory(const ViewSettings& next) const;
   PreparedScene litBy(const LightFactors& lights) const;
   // Numbers begin anew; of another picture the reference does, too.
   void beginEpoch(bool isAnotherPicture);

@@ -2,7 +2,8 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
+#include <linux/close_range.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -11,6 +12,7 @@
 #include <csignal>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "core/error.h"
 
@@ -24,22 +26,39 @@ using Json = nlohmann::json;
 
 constexpr size_t kMostLine = 1 << 20;
 
-// What a process begins with.
-class Spawn {
- public:
-  Spawn() {
-    posix_spawn_file_actions_init(&actions);
-    posix_spawnattr_init(&attributes);
+// Between fork() and exec(): calls that are safe there, and no others. What fails is written to
+// `failure`.
+[[noreturn]] void becomeProgram(char* const* arguments, const char* folder, int output, int failure,
+                                pid_t viewer) {
+  // However the viewer ends, the run does: it keeps what is finished.
+  const bool isTied = prctl(PR_SET_PDEATHSIG, SIGINT) == 0 && getppid() == viewer;
+  // A group of its own: whoever ends the viewer by Ctrl-C ends the run once, through the viewer.
+  const bool isReady = isTied && setpgid(0, 0) == 0 && chdir(folder) == 0;
+  const int in = open("/dev/null", O_RDONLY), out = open("/dev/null", O_WRONLY);
+  if (isReady && dup2(in, 0) == 0 && dup2(out, 1) == 1 && dup2(output, 2) == 2) {
+    // The server's connections are none of its business.
+    if (close_range(3, ~0u, CLOSE_RANGE_CLOEXEC) == 0) execve(arguments[0], arguments, environ);
   }
-  ~Spawn() {
-    posix_spawn_file_actions_destroy(&actions);
-    posix_spawnattr_destroy(&attributes);
-  }
-  Spawn(const Spawn&) = delete;
-  Spawn& operator=(const Spawn&) = delete;
+  const int error = errno;
+  if (write(failure, &error, sizeof error) != sizeof error) _exit(126);
+  _exit(127);
+}
 
-  posix_spawn_file_actions_t actions;
-  posix_spawnattr_t attributes;
+// Two ends; none where there was an error.
+struct Pipe {
+  Pipe() {
+    if (pipe2(ends, O_CLOEXEC) != 0)
+      failInput(fmt::format("measure: no pipe: {}", std::strerror(errno)));
+  }
+  ~Pipe() {
+    for (const int end : ends)
+      if (end >= 0) close(end);
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+  void closeWriting() { close(std::exchange(ends[1], -1)); }
+
+  int ends[2] = {-1, -1};
 };
 
 }  // namespace
@@ -55,29 +74,24 @@ Measurement::~Measurement() {
 
 void Measurement::begin(const std::filesystem::path& program, const std::filesystem::path& folder,
                         const std::string& suite, const std::string& out) {
-  int ends[2] = {-1, -1};
-  if (pipe2(ends, O_CLOEXEC) != 0)
-    failInput(fmt::format("measure: no pipe: {}", std::strerror(errno)));
-  Spawn spawn;
-  posix_spawn_file_actions_addopen(&spawn.actions, 0, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&spawn.actions, 1, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_adddup2(&spawn.actions, ends[1], 2);
-  // The server's connections are none of its business.
-  posix_spawn_file_actions_addclosefrom_np(&spawn.actions, 3);
-  posix_spawn_file_actions_addchdir_np(&spawn.actions, folder.c_str());
-  // A group of its own: whoever ends the viewer by Ctrl-C ends the run once, through the viewer.
-  posix_spawnattr_setflags(&spawn.attributes, POSIX_SPAWN_SETPGROUP);
   std::string words[] = {program.string(), "run", suite, "-o", out, "--json"};
   char* arguments[std::size(words) + 1] = {};
   for (size_t i = 0; i < std::size(words); ++i) arguments[i] = words[i].data();
-  const int error =
-      posix_spawn(&child_, arguments[0], &spawn.actions, &spawn.attributes, arguments, environ);
-  close(ends[1]);
-  if (error != 0) {
-    close(ends[0]);
-    failInput(fmt::format("measure: {}: {}", program.string(), std::strerror(error)));
+  Pipe output, failure;
+  const pid_t viewer = getpid();
+  child_ = fork();
+  if (child_ == 0)
+    becomeProgram(arguments, folder.c_str(), output.ends[1], failure.ends[1], viewer);
+  int error = child_ < 0 ? errno : 0;
+  output.closeWriting();
+  failure.closeWriting();
+  // Nothing comes where the program has begun.
+  if (child_ > 0 && ::read(failure.ends[0], &error, sizeof error) == sizeof error) {
+    int status = 0;
+    waitpid(child_, &status, 0);
   }
-  pipe_ = ends[0];
+  if (error != 0) failInput(fmt::format("measure: {}: {}", program.string(), std::strerror(error)));
+  pipe_ = std::exchange(output.ends[0], -1);
   fcntl(pipe_, F_SETFL, O_NONBLOCK);
   state_ = State::running;
   isCancelled_ = false;

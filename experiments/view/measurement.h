@@ -1,4 +1,5 @@
-// `restlab run` of a saved session, as a process of its own.
+// `restlab run` of a saved session, as a process of its own. It ends with the thread that has begun
+// it, by whatever ends that.
 #pragma once
 
 #include <sys/types.h>

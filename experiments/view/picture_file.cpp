@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "core/error.h"
+#include "core/file_reason.h"
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/run/files.h"
 #include "experiments/runner/summary/accumulate.h"
@@ -44,7 +45,7 @@ class TemporaryFile {
 
 std::string bytesOf(const fs::path& file) {
   std::ifstream is(file, std::ios::binary);
-  if (!is) failInput(fmt::format("{}: cannot be read", file.string()));
+  if (!is) failInput(fmt::format("{}: {}", file.string(), unreadableReason(file)));
   return {std::istreambuf_iterator<char>(is), {}};
 }
 

@@ -17,7 +17,9 @@
 #include <thread>
 
 #include "core/error.h"
+#include "experiments/report/script_policy.h"
 #include "experiments/view/server_address.h"
+#include "experiments/view/unread.h"
 
 namespace restlab {
 
@@ -37,10 +39,19 @@ constexpr std::chrono::seconds kPageTimeout{120};  // reports hold images
 constexpr std::chrono::milliseconds kAcceptPause{100};
 constexpr uint32_t kMostHeaderBytes = 8 << 10;
 
-// Nothing is fetched but from this server.
-constexpr const char* kPolicy =
-    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: "
-    "blob:; connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+// Nothing is fetched but from this server, and nothing runs but the page's own scripts.
+std::string policyOf(const std::string& page) {
+  return fmt::format(
+      "default-src 'none'; script-src {}; style-src 'unsafe-inline'; img-src data: blob:; "
+      "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
+      scriptHashes(page));
+}
+
+// A page that the server gives, with its policy.
+struct Page {
+  explicit Page(std::string text) : html(std::move(text)), policy(policyOf(html)) {}
+  const std::string html, policy;
+};
 
 std::string textOf(beast::string_view text) { return std::string(text.data(), text.size()); }
 
@@ -53,6 +64,7 @@ class ViewServer::Impl {
   Impl(const ViewServerOptions& options, ViewServerEvents events)
       : options_(options),
         events_(std::move(events)),
+        page_(std::make_shared<const Page>(options.page)),
         token_(newToken()),
         acceptor_(io_),
         acceptAgain_(io_) {
@@ -65,7 +77,7 @@ class ViewServer::Impl {
 
   uint16_t port() const { return port_; }
   std::string url() const {
-    return fmt::format("http://{}:{}/?token={}", inUrl(options_.listen), port_, token_);
+    return fmt::format("http://{}:{}/?token={}", inUrl(openedAs(options_.listen)), port_, token_);
   }
 
   void post(std::function<void()> task) { asio::post(io_, std::move(task)); }
@@ -74,13 +86,14 @@ class ViewServer::Impl {
     std::shared_ptr<const std::string> text;
     std::shared_ptr<const Bytes> bytes;  // where there is no text
     std::optional<uint32_t> slot;        // of which the newest counts
+    // Bytes that are never replaced.
+    size_t keptBytes() const { return text && !slot ? text->size() : 0; }
   };
   void send(ClientId id, Message message);
   void setReport(std::string html) {
-    post([this, report = std::make_shared<const std::string>(std::move(html))] {
-      report_ = report;
-    });
+    post([this, report = std::make_shared<const Page>(std::move(html))] { report_ = report; });
   }
+  size_t bytesUnread(ClientId id) const { return unread_.of(id); }
   uint64_t bytesWritten() const { return bytesWritten_.load(std::memory_order_relaxed); }
 
  private:
@@ -89,14 +102,8 @@ class ViewServer::Impl {
 
   void listen() {
     ErrorCode error;
-    const asio::ip::address address = asio::ip::make_address(options_.listen, error);
-    if (error) {
-      failUsage(
-          fmt::format("--listen {}: is no address; 127.0.0.1 is this machine alone, 0.0.0.0 "
-                      "every network",
-                      options_.listen));
-    }
-    const Tcp::endpoint endpoint(address, options_.port);
+    address_ = addressToListenOn();
+    const Tcp::endpoint endpoint(address_, options_.port);
     acceptor_.open(endpoint.protocol(), error);
     if (!error) acceptor_.set_option(asio::socket_base::reuse_address(true), error);
     if (!error) acceptor_.bind(endpoint, error);
@@ -124,6 +131,23 @@ class ViewServer::Impl {
     port_ = acceptor_.local_endpoint().port();
   }
 
+  // The address given, or that of a name which this machine has.
+  asio::ip::address addressToListenOn() {
+    ErrorCode error;
+    const asio::ip::address given = asio::ip::make_address(options_.listen, error);
+    if (!error) return given;
+    const auto found = Tcp::resolver(io_).resolve(options_.listen, "", error);
+    if (error || found.empty()) {
+      failUsage(
+          fmt::format("--listen {}: is no address and no name of one; 127.0.0.1 is this machine "
+                      "alone, 0.0.0.0 every network",
+                      options_.listen));
+    }
+    for (const auto& entry : found)
+      if (entry.endpoint().address().is_v4()) return entry.endpoint().address();
+    return found.begin()->endpoint().address();
+  }
+
   void accept();
 
   // What a request gets that is refused; nothing: it may have what it asks for.
@@ -133,6 +157,14 @@ class ViewServer::Impl {
     };
     if (request.method() != http::verb::get)
       return refuse(http::status::method_not_allowed, "only GET is served here");
+    // Two are refused: a proxy may go by the other one.
+    for (const http::field field : {http::field::host, http::field::origin}) {
+      if (request.count(field) > 1)
+        return refuse(http::status::bad_request,
+                      fmt::format("{}: is there more than once", textOf(http::to_string(field))));
+    }
+    if (request.count(http::field::host) == 0)
+      return refuse(http::status::bad_request, "Host: is missing");
     const std::string host = textOf(request[http::field::host]);
     if (!isOurName(hostName(host)))
       return refuse(http::status::forbidden, "Host: this server has another name");
@@ -159,15 +191,17 @@ class ViewServer::Impl {
 
   // Any name where the user chose to be reached from elsewhere.
   bool isOurName(const std::string& name) const {
-    if (!asio::ip::make_address(options_.listen).is_loopback()) return !name.empty();
+    if (!address_.is_loopback()) return !name.empty();
     return name == "localhost" || name == "127.0.0.1" || name == "[::1]" ||
            name == inUrl(options_.listen);
   }
 
   const ViewServerOptions options_;
   const ViewServerEvents events_;
+  const std::shared_ptr<const Page> page_;
   const std::string token_;
   asio::io_context io_;
+  asio::ip::address address_;
   Tcp::acceptor acceptor_;
   asio::steady_timer acceptAgain_;
   uint16_t port_ = 0;
@@ -175,7 +209,8 @@ class ViewServer::Impl {
   std::atomic<uint64_t> bytesWritten_{0};
   ClientId nextId_ = 1;
   std::map<ClientId, std::shared_ptr<Client>> clients_;
-  std::shared_ptr<const std::string> report_;
+  std::shared_ptr<const Page> report_;
+  Unread unread_;
   std::thread thread_;
 };
 
@@ -202,7 +237,10 @@ class ViewServer::Impl::Client : public std::enable_shared_from_this<Client> {
       waiting_[i] = std::move(message);
       return;
     }
-    if (waiting_.size() >= server_.options_.mostWaiting) return drop();
+    if (waiting_.size() >= server_.options_.mostWaiting ||
+        waitingBytes_ > server_.options_.mostWaitingBytes)
+      return drop();
+    waitingBytes_ += message.keptBytes();
     waiting_.push_back(std::move(message));
     write();
   }
@@ -234,12 +272,14 @@ class ViewServer::Impl::Client : public std::enable_shared_from_this<Client> {
     if (isWriting_ || waiting_.empty()) return;
     isWriting_ = true;
     const Message message = waiting_.front();
+    waitingBytes_ -= message.keptBytes();
     socket_.text(message.text != nullptr);
     const asio::const_buffer data =
         message.text ? asio::buffer(*message.text)
                      : asio::buffer(message.bytes->data(), message.bytes->size());
     socket_.async_write(data, [self = shared_from_this(), message](ErrorCode error, size_t count) {
       self->isWriting_ = false;
+      self->server_.unread_.take(self->id_, message.keptBytes());
       self->server_.bytesWritten_.fetch_add(count, std::memory_order_relaxed);
       if (error) return self->end();
       self->waiting_.pop_front();
@@ -249,6 +289,7 @@ class ViewServer::Impl::Client : public std::enable_shared_from_this<Client> {
 
   // Reading and writing may both find out.
   void end() {
+    server_.unread_.forget(id_);
     if (server_.clients_.erase(id_) > 0) server_.events_.closed(id_);
   }
 
@@ -257,6 +298,7 @@ class ViewServer::Impl::Client : public std::enable_shared_from_this<Client> {
   websocket::stream<beast::tcp_stream> socket_;
   beast::flat_buffer buffer_;
   std::deque<Message> waiting_;  // the first is being written while isWriting_
+  size_t waitingBytes_ = 0;      // of the others' texts
   bool isWriting_ = false;
 };
 
@@ -289,7 +331,7 @@ class ViewServer::Impl::Connection : public std::enable_shared_from_this<Connect
       return reply(refusal->first, refusal->second);
     if (!websocket::is_upgrade(request)) {
       const bool isReport = targetOf(request).path == "/report";
-      return reply(http::status::ok, isReport ? *server_.report_ : server_.options_.page);
+      return reply(http::status::ok, "", isReport ? server_.report_ : server_.page_);
     }
     const ClientId id = server_.nextId_++;
     const auto client = std::make_shared<Client>(server_, id, std::move(stream_));
@@ -297,17 +339,19 @@ class ViewServer::Impl::Connection : public std::enable_shared_from_this<Connect
     client->begin(request);
   }
 
-  void reply(http::status status, const std::string& body) {
-    const bool isPage = status == http::status::ok;
+  // A page, or a line that says why there is none.
+  void reply(http::status status, const std::string& line,
+             const std::shared_ptr<const Page>& page = nullptr) {
+    const bool isPage = page != nullptr;
     response_.result(status);
     response_.version(11);
     response_.keep_alive(false);
     response_.set(http::field::content_type, isPage ? "text/html; charset=utf-8" : "text/plain");
     response_.set(http::field::cache_control, "no-store");
-    response_.set("Content-Security-Policy", kPolicy);
+    response_.set("Content-Security-Policy", isPage ? page->policy : policyOf(""));
     response_.set("X-Content-Type-Options", "nosniff");
     response_.set("Referrer-Policy", "no-referrer");
-    response_.body() = isPage ? body : body + "\n";
+    response_.body() = isPage ? page->html : line + "\n";
     response_.prepare_payload();
     stream_.expires_after(isPage ? kPageTimeout : kRequestTimeout);
     http::async_write(stream_, response_, [self = shared_from_this()](ErrorCode, size_t) {
@@ -337,8 +381,12 @@ ViewServer::Impl::~Impl() {
 }
 
 void ViewServer::Impl::send(ClientId id, Message message) {
+  unread_.add(id, message.keptBytes());
   post([this, id, message = std::move(message)] {
-    if (const auto found = clients_.find(id); found != clients_.end()) found->second->add(message);
+    if (const auto found = clients_.find(id); found != clients_.end())
+      found->second->add(message);
+    else
+      unread_.forget(id);
   });
 }
 
@@ -364,6 +412,7 @@ ViewServer::~ViewServer() = default;
 uint16_t ViewServer::port() const { return impl_->port(); }
 std::string ViewServer::url() const { return impl_->url(); }
 void ViewServer::setReport(std::string html) { impl_->setReport(std::move(html)); }
+size_t ViewServer::bytesUnread(ClientId client) const { return impl_->bytesUnread(client); }
 uint64_t ViewServer::bytesWritten() const { return impl_->bytesWritten(); }
 void ViewServer::send(ClientId client, std::string text) {
   impl_->send(client, {std::make_shared<const std::string>(std::move(text)), nullptr, {}});

@@ -16,13 +16,15 @@
 namespace restlab {
 
 struct ViewServerOptions {
-  std::string listen = "127.0.0.1";  // an address of this machine
+  std::string listen = "127.0.0.1";  // an address of this machine, or its name
   uint16_t port = 0;                 // 0: any that is free
   std::string page;                  // HTML
   size_t mostClients = 8;
   size_t mostMessageBytes = 64 << 10;  // of a client
   // Texts and layers that a client has not taken. One that falls behind so far is let go.
   size_t mostWaiting = 256;
+  // The same of texts beside the one that is under way, which may have any size.
+  size_t mostWaitingBytes = 64 << 20;
 };
 
 using ClientId = uint64_t;
@@ -54,6 +56,9 @@ class ViewServer {
   // What waits of the same slot is replaced: a slow client gets fewer of them, not older ones.
   void sendNewest(ClientId client, uint32_t slot, std::shared_ptr<const Bytes> bytes);
   void sendNewest(ClientId client, uint32_t slot, std::string text);
+
+  // Bytes of texts that the client has not taken; 0 of one that is gone.
+  size_t bytesUnread(ClientId client) const;
 
   // What "/report" is from here on, an HTML page; before, it is not there.
   void setReport(std::string html);

@@ -3,10 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/udp.hpp>
 #include <cstdint>
 #include <random>
 
 namespace restlab {
+
+namespace asio = boost::asio;
+using ErrorCode = boost::system::error_code;
 
 std::string newToken() {
   std::random_device device;
@@ -39,6 +44,24 @@ std::string hostName(const std::string& host) {
 
 std::string inUrl(const std::string& address) {
   return address.find(':') == std::string::npos ? address : "[" + address + "]";
+}
+
+std::string openedAs(const std::string& listen) {
+  ErrorCode error;
+  const asio::ip::address address = asio::ip::make_address(listen, error);
+  if (error || !address.is_unspecified()) return listen;
+  // The sender of a packet that is never sent, to an address of documents.
+  const bool isV6 = address.is_v6();
+  const auto elsewhere = asio::ip::make_address(isV6 ? "2001:db8::1" : "192.0.2.1");
+  asio::io_context io;
+  asio::ip::udp::socket socket(io);
+  socket.open(isV6 ? asio::ip::udp::v6() : asio::ip::udp::v4(), error);
+  if (!error) socket.connect({elsewhere, 9}, error);
+  if (!error) {
+    const asio::ip::address own = socket.local_endpoint(error).address();
+    if (!error && !own.is_unspecified()) return own.to_string();
+  }
+  return isV6 ? "::1" : "127.0.0.1";
 }
 
 }  // namespace restlab

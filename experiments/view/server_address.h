@@ -23,4 +23,8 @@ std::string hostName(const std::string& host);
 // An address of a machine as it stands in a URL.
 std::string inUrl(const std::string& address);
 
+// The address by which a browser opens a server that listens on `listen`: of "every network" that
+// by which this machine is reached from elsewhere, or the loopback where there is no network.
+std::string openedAs(const std::string& listen);
+
 }  // namespace restlab

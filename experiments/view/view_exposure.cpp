@@ -1,5 +1,9 @@
 #include "experiments/view/view_exposure.h"
 
+#include <algorithm>
+#include <utility>
+#include <vector>
+
 #include "experiments/runner/summary/report_document.h"
 
 namespace restlab {
@@ -7,6 +11,24 @@ namespace restlab {
 namespace {
 
 constexpr uint32_t kBlockSide = 8;
+constexpr uint64_t kFewSamples = 32;
+
+// The largest channel of each mean over so many pixels a side that lies in a block with light. A
+// black one there is what few samples left so.
+std::vector<float> brightestOf(const Image& image, uint32_t side, const Image& blocks) {
+  const Image small = blockMeans(image, side);
+  std::vector<float> brightest;
+  for (uint32_t y = 0; y < small.height; ++y) {
+    for (uint32_t x = 0; x < small.width; ++x) {
+      const size_t block = size_t(y * side / kBlockSide) * blocks.width + x * side / kBlockSide;
+      if (previewLuminance(blocks.pixels[block]) == 0.0) continue;
+      const glm::vec3& mean = small.pixels[size_t(y) * small.width + x];
+      const bool isLit = previewLuminance(mean) > 0.0;
+      brightest.push_back(isLit ? std::max({mean.x, mean.y, mean.z}) : 0.0f);
+    }
+  }
+  return brightest;
+}
 
 }  // namespace
 
@@ -25,11 +47,25 @@ Image blockMeans(const Image& image, uint32_t side) {
   return means;
 }
 
+float exposureOfNoise(const Image& image) {
+  const Image means = blockMeans(image, kBlockSide);
+  std::vector<double> luminances;
+  for (const glm::vec3& mean : means.pixels)
+    if (const double luminance = previewLuminance(mean); luminance > 0.0)
+      luminances.push_back(luminance);
+  // Noise makes bright pixels brighter, and means make lamps larger: the darker of both is nearer.
+  return std::max(previewExposure(luminances, brightestOf(image, 1, means)),
+                  previewExposure(luminances, brightestOf(image, 2, means)));
+}
+
 double exposureOf(const LiveView& view) {
-  if (view.reference().isThere())
-    return previewExposure(blockMeans(view.reference().mean(), kBlockSide));
+  const LiveReference& reference = view.reference();
+  if (reference.isThere()) {
+    const Image& mean = reference.mean();
+    return reference.spp() >= kFewSamples ? previewExposure(mean) : exposureOfNoise(mean);
+  }
   const Image* first = view.picture(0);
-  return first != nullptr ? previewExposure(blockMeans(*first, kBlockSide)) : 1.0;
+  return first != nullptr ? exposureOfNoise(*first) : 1.0;
 }
 
 }  // namespace restlab

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "experiments/runner/reference/beside_reference.h"
 
 namespace restlab {
 
@@ -51,6 +52,13 @@ void requireOneSize(const ViewImages& images) {
   if (images.reference) require(images.referenceFile, images.reference->mean);
 }
 
+// The check that `compare` makes.
+void requireOneScene(const ViewImages& images) {
+  const std::string reference = images.referenceFile.string();
+  for (const FileImage& one : images.list)
+    requireOfReference(one.file.string(), one.metadata, reference, images.reference->metadata);
+}
+
 void takeReference(const fs::path& file, ViewImages& images) {
   images.reference = readReference(file);
   images.referenceFile = file;
@@ -65,7 +73,7 @@ const FileImage* ViewImages::find(const std::string& name) const {
 }
 
 ViewImages readViewImages(const std::vector<fs::path>& files, const fs::path& reference,
-                          bool looksForReference) {
+                          bool looksForReference, bool anyReference) {
   if (files.empty()) failUsage("no image is named");
   ViewImages images;
   images.title = files.front().filename().string();
@@ -79,9 +87,12 @@ ViewImages readViewImages(const std::vector<fs::path>& files, const fs::path& re
       takeReference(file, images);
       continue;
     }
-    images.list.push_back({freeName(images, file), file, std::move(read.layers.at(""))});
+    images.list.push_back(
+        {freeName(images, file), file, std::move(read.layers.at("")), std::move(read.metadata)});
   }
   requireOneSize(images);
+  if (images.reference) warnOfNoReference(images.referenceFile.string(), *images.reference);
+  if (images.reference && !anyReference) requireOneScene(images);
   return images;
 }
 
@@ -97,7 +108,7 @@ std::vector<std::string> tablesOfResults(const fs::path& folder) {
   return tables;
 }
 
-ViewImages readResultsImages(const fs::path& folder, const std::string& table) {
+ViewImages readResultsImages(const fs::path& folder, const std::string& table, bool anyReference) {
   const std::vector<std::string> tables = tablesOfResults(folder);
   if (tables.empty()) {
     failInput(fmt::format("{}: has no images of `restlab run` (images/*-reference.exr)",
@@ -126,7 +137,7 @@ ViewImages readResultsImages(const fs::path& folder, const std::string& table) {
     failInput(fmt::format("{}: has no image of a method beside its reference", reference.string()));
   }
   std::sort(files.begin(), files.end());
-  ViewImages images = readViewImages(files, reference);
+  ViewImages images = readViewImages(files, reference, true, anyReference);
   images.title = fmt::format("{}: {}", folder.filename().string(), label);
   for (FileImage& one : images.list) {
     const std::string name = one.file.stem().string().substr(label.size() + 1);

@@ -158,6 +158,11 @@ bool ViewLoop::obey(ClientId page, const ViewCommand& command) {
     return false;
   }
   if (const auto* picture = std::get_if<SavePicture>(&command)) {
+    if (const size_t bytes = sender_.bytesUnread(page); bytes > kMostUnreadBytes) {
+      failUsage(fmt::format(
+          "picture: the page has not taken {} MiB that it asked for; ask again when it has",
+          bytes >> 20));
+    }
     sender_.tell(page,
                  fileText(pictureName(view_, picture->image), pictureBytes(view_, picture->image)));
     return false;
@@ -195,9 +200,11 @@ void ViewLoop::measure(const std::string& name) {
   if (measurement_.isRunning()) failUsage("measure: one is under way; cancel it first");
   if (!view_.hasScene()) failUsage("measure: images of files are shown, and nothing is rendered");
   if (saveFolder_.empty()) failUsage("measure: there is no folder for its results");
+  if (filesWritten_ >= kMostSessions) failUsage(fmt::format("measure: {}", tooManySessions()));
   const std::string suite =
       freeSessionName(saveFolder_, name.empty() ? sessionName(view_) : safeFileName(name));
   writeTextFile(saveFolder_ / (suite + ".toml"), sessionToml(facts_, view_, suite));
+  ++filesWritten_;
   // What there is of the reference need not be rendered again.
   view_.keepReference();
   const std::filesystem::path program =
@@ -215,15 +222,24 @@ void ViewLoop::followMeasurement() {
   sender_.tellAll(measureText(measurement_));
 }
 
+std::string ViewLoop::tooManySessions() const {
+  return fmt::format("this viewer has written {} sessions, which is the most; start another one",
+                     filesWritten_);
+}
+
 void ViewLoop::save(ClientId page, const std::string& given) {
   std::string stem = given.empty() ? "session" : safeFileName(given);
-  if (!saveFolder_.empty()) stem = freeSessionName(saveFolder_, stem);
+  const bool isWritten = !saveFolder_.empty() && filesWritten_ < kMostSessions;
+  if (isWritten) stem = freeSessionName(saveFolder_, stem);
   const std::string toml = sessionToml(facts_, view_, given.empty() ? sessionName(view_) : stem);
   const std::string name = stem + ".toml";
-  if (!saveFolder_.empty()) {
+  if (!saveFolder_.empty() && !isWritten)
+    sender_.tell(page, saidText(tooManySessions() + "; the page has the session"));
+  if (isWritten) {
     try {
       const std::string file = (saveFolder_ / name).lexically_normal().string();
       writeTextFile(file, toml);
+      ++filesWritten_;
       sender_.tell(page, saidText(fmt::format("{}: written", file)));
     } catch (const Error& error) {
       sender_.tell(page, saidText(fmt::format("{}; the page has the session", error.what())));

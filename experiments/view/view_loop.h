@@ -35,6 +35,10 @@ class ViewLoop {
   static constexpr double kLongRoundS = 0.1;
   static constexpr double kPatienceS = 4.0;
   static constexpr uint64_t kMostReferenceSpp = uint64_t(1) << 20;
+  // A page that has more to take gets no further picture.
+  static constexpr size_t kMostUnreadBytes = 32 << 20;
+  // Whoever knows the address can ask for files; so many are written.
+  static constexpr uint32_t kMostSessions = 256;
 
   // Serves from here on. `saveFolder`: where sessions are written; empty: pages alone get them.
   // `tev`: who gets the images, too.
@@ -56,6 +60,7 @@ class ViewLoop {
   bool obey(ClientId page, const ViewCommand& command);
   void change(const ViewCommand& command);
   void save(ClientId page, const std::string& name);
+  std::string tooManySessions() const;
 
   // Says whether what renders is to end. For a while commands do not end it.
   LiveView::StopCheck stopCheck(double patienceS = 0.0) const;
@@ -85,6 +90,7 @@ class ViewLoop {
   ViewSender sender_;
   std::atomic<bool> isStopped_{false};
   bool isPaused_ = false;
+  uint32_t filesWritten_ = 0;  // sessions
   Measurement measurement_;
   uint64_t withoutReference_ = 0;  // the picture that has no memory for one
   Clock::time_point changed_, pictureChanged_;

@@ -43,6 +43,7 @@ class ViewSender {
   // `isExact`: as floats, whatever it takes. To all pages that somebody sees.
   void show(ImageHeader header, const Image& image, bool isExact);
 
+  size_t bytesUnread(ClientId page) const { return server_.bytesUnread(page); }
   void setReport(std::string html) { server_.setReport(std::move(html)); }
 
   // The slot's last image went out in halves.

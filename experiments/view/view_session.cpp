@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/integrator.h"
 #include "core/scene/light_factor.h"
+#include "experiments/runner/reference/beside_reference.h"
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/run/experiment.h"
 #include "experiments/runner/run/files.h"
@@ -206,15 +207,16 @@ std::string sourceOf(const ConfigTable& table, const char* key, const ViewImages
   table.fail(key, fmt::format("'{}' must be \"method\", \"reference\" or one of 'images'", given));
 }
 
-void readView(const ConfigTable& table, ViewStart& start) {
+void readView(const ConfigTable& table, bool anyReference, ViewStart& start) {
   const std::vector<std::string> files = table.getStrings("images");
   const std::string reference = table.getString("reference", "");
   const bool hasScene = start.prepared.scene != nullptr;
   if (hasScene && !reference.empty())
     table.fail("reference", "is for images without a scene; methods make their own reference");
   if (!files.empty()) {
-    start.images = readViewImages({files.begin(), files.end()}, reference, !hasScene);
+    start.images = readViewImages({files.begin(), files.end()}, reference, !hasScene, anyReference);
     requireSizeOf(start.images, start.settings, hasScene);
+    if (!anyReference) requireImagesOf(start);
   } else if (!hasScene) {
     table.fail("images", "a session without a scene needs 'images'");
   }
@@ -265,7 +267,21 @@ void requireSizeOf(const ViewImages& images, const ViewSettings& settings, bool 
       first.file.string(), first.image.width, first.image.height, size.width, size.height));
 }
 
-ViewStart startOfSuite(const fs::path& file) {
+void requireImagesOf(const ViewStart& start) {
+  if (!start.prepared.scene) return;
+  std::map<std::string, std::string> words =
+      describe(start.prepared, start.settings.panes.front().config);
+  describeCamera(start.settings.camera, words);
+  // What images of another version show is compared by whoever looks at them.
+  for (const char* item : {"camera_index", "reference_sources"}) words.erase(item);
+  if (!start.settings.lights.empty()) return;  // no file says which lights were changed by hand
+  for (const FileImage& one : start.images.list) {
+    requireOfReference(one.file.string(), one.metadata,
+                       "scene " + start.prepared.scene->source().name, words);
+  }
+}
+
+ViewStart startOfSuite(const fs::path& file, bool anyReference) {
   const ConfigTable root = ConfigTable::parseFile(file);
   ViewStart start;
   if (!root.has("view") || root.has("scene") || root.has("scenes")) {
@@ -276,7 +292,7 @@ ViewStart startOfSuite(const fs::path& file) {
     start.prepared = atPlace(scene.place, [&] { return prepareScene(scene.request); });
     start.settings = settingsOfSuite(suite, scene, start.prepared);
   }
-  if (root.has("view")) readView(root.getTable("view"), start);
+  if (root.has("view")) readView(root.getTable("view"), anyReference, start);
   return start;
 }
 

@@ -19,8 +19,8 @@ struct ViewStart {
 // Of a suite: the first scene, the first two methods that are rendered, the camera and the light of
 // the measured frame. With one method the other pane has the average of path's frames. What panes
 // show in the place of methods is in a table [view]; a file that holds no more shows images alone.
-// Throws Error with the place of what is wrong.
-ViewStart startOfSuite(const std::filesystem::path& file);
+// Throws Error with the place of what is wrong; of images as readViewImages() does.
+ViewStart startOfSuite(const std::filesystem::path& file, bool anyReference = false);
 
 // Layers are not in it: no suite has any. Throws Error (badUsage) where a suite cannot say what is
 // set: a camera that looks straight up or down. `name`: of the suite, and of its folder of results.
@@ -39,6 +39,8 @@ std::vector<std::string> paneNames(const LiveView& view);
 
 // Throws Error (badInput) where methods are of another size than images beside them.
 void requireSizeOf(const ViewImages& images, const ViewSettings& settings, bool hasScene);
+// The same where images say that they are of another scene or setting than the methods.
+void requireImagesOf(const ViewStart& start);
 
 // The camera is not upright, as those of keyframes are: it is saved without its roll.
 bool losesRoll(const LiveView& view);

@@ -177,6 +177,26 @@ TEST_F(ImageRowTest, WrongRowsAreToldBeforeAnythingIsRendered) {
          {"suite.toml:20:1", "spatial_radius"});
 }
 
+// `compare` refuses it, too: its errors would be against another picture.
+TEST_F(ImageRowTest, IsOfTheSuitesScene) {
+  for (const auto& [scene, more, what] :
+       {std::tuple("door-ajar", "", "scene_hash"), {"cornell-box", " --filter center", "filter"}}) {
+    SCOPED_TRACE(what);
+    ASSERT_EQ(run(std::string("render ") + scene +
+                  " --resolution 24x16 --max-bounces 3 -o theirs.exr" + more)
+                  .code,
+              0);
+    const std::string row = "[[method]]\nname = \"theirs\"\nimage = [\"theirs.exr\"]\n";
+    writeSuite(row);
+    expectError(run("run suite.toml -o out"), 3,
+                {"suite.toml:19:9: scene cornell-box: the reference is of another configuration: ",
+                 what, "theirs.exr", "says nothing of them"});
+    const Image image = readExr(path("theirs.exr")).layers.at("");
+    writeImage("theirs.exr", image);
+    EXPECT_EQ(run("run suite.toml -o out --set runs=1").code, 0);
+  }
+}
+
 }  // namespace
 
 }  // namespace restlab::cli_test

@@ -1,6 +1,9 @@
 // A saved session that `restlab run` measures, and the picture as a file.
 #include <gtest/gtest.h>
 
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <csignal>
 
 #include "experiments/runner/suite/suite.h"
@@ -129,6 +132,28 @@ TEST_F(MeasureTest, EndsWithTheViewer) {
   stop();
   loop_.reset();
   EXPECT_NE(kill(pid_t(std::stoi(textOf("child"))), 0), 0) << "its run goes on";
+}
+
+TEST_F(MeasureTest, EndsWithAViewerThatIsKilled) {
+  const fs::path run = program("echo $$ > child.new\nmv child.new child\nexec sleep 100");
+  const pid_t viewer = fork();
+  if (viewer == 0) {
+    Measurement measurement;
+    measurement.begin(run, folder(), "suite.toml", "out");
+    for (;;) pause();
+  }
+  while (!fs::exists(folder() / "child")) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  kill(viewer, SIGKILL);
+  waitpid(viewer, nullptr, 0);
+  const auto isRunning = [&] {
+    std::ifstream stat("/proc/" + std::to_string(std::stoi(textOf("child"))) + "/stat");
+    std::string number, name, state;
+    return (stat >> number >> name >> state) && state != "Z";
+  };
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+  while (isRunning() && std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  EXPECT_FALSE(isRunning());
 }
 
 TEST_F(MeasureTest, SaysWhyItFailed) {

@@ -135,7 +135,24 @@ TEST_F(ViewServerTest, GivesThePageToWhoKnowsTheToken) {
       answerTo("GET /?token=" + token_ + " HTTP/1.1\r\nHost: 127.0.0.1:1234\r\n\r\n");
   EXPECT_EQ(answer.rfind("HTTP/1.1 200 ", 0), 0u) << answer;
   EXPECT_NE(answer.find("default-src 'none'"), std::string::npos) << answer;
+  EXPECT_NE(answer.find("script-src 'none'"), std::string::npos) << "it has none: " << answer;
   EXPECT_NE(answer.find("<title>the page</title>"), std::string::npos) << answer;
+}
+
+// The hash of "alert(1)" as `openssl dgst -sha256 -binary | base64` has it. What has a type is
+// data.
+TEST_F(ViewServerTest, LetsRunTheScriptsOfThePageAlone) {
+  start();
+  server_->setReport(
+      "<!doctype html><script type=\"application/json\">{}</script><script>alert(1)</script>");
+  for (const auto& [target, allowed] :
+       {std::pair(std::string("/report"),
+                  std::string("'sha256-bhHHL3z2vDgxUt0W3dWQOrprscmda2Y5pLsLg4GF+pI='")),
+        {"/", "'none'"}}) {
+    const std::string answer =
+        answerTo("GET " + target + "?token=" + token_ + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    EXPECT_NE(answer.find("script-src " + allowed + "; style-src"), std::string::npos) << answer;
+  }
 }
 
 TEST_F(ViewServerTest, GivesTheReportToWhoKnowsTheToken) {
@@ -172,6 +189,12 @@ TEST_F(ViewServerTest, RefusesInOneLineWithItsStatus) {
       {"a part of the token", "/?token=" + token_.substr(1), "", 403, "token"},
       {"a wrong token of a socket", "/socket?token=" + wrong, upgrade, 403, "token"},
       {"another host's name", page, "Host: evil.example\r\n", 403, "Host"},
+      {"two names of hosts", page, "Host: localhost\r\nHost: evil.example\r\n", 400, "Host"},
+      {"the same one twice", page, "Host: localhost\r\nhost: localhost\r\n", 400, "Host"},
+      {"two hosts of a socket", socket, upgrade + "Host: localhost\r\nHost: localhost\r\n", 400,
+       "Host"},
+      {"two origins", page, "Origin: http://localhost\r\nOrigin: http://evil.example\r\n", 400,
+       "Origin"},
       {"another page", page, "Origin: http://evil.example\r\n", 403, "Origin"},
       {"a socket of another page", socket, upgrade + "Origin: http://evil.example\r\n", 403,
        "Origin"},
@@ -192,6 +215,8 @@ TEST_F(ViewServerTest, RefusesInOneLineWithItsStatus) {
   const std::string posted =
       answerTo("POST " + page + " HTTP/1.1\r\nHost: localhost\r\nContent-Length: 0\r\n\r\n");
   EXPECT_EQ(posted.rfind("HTTP/1.1 405 ", 0), 0u) << posted;
+  const std::string nameless = answerTo("GET " + page + " HTTP/1.1\r\n\r\n");
+  EXPECT_EQ(nameless.rfind("HTTP/1.1 400 ", 0), 0u) << nameless;
   const std::string garbage = answerTo(std::string("\0\1\2garbage\r\n\r\n", 15));
   EXPECT_EQ(garbage.rfind("HTTP/1.1 400 ", 0), 0u) << garbage;
   EXPECT_EQ(get(page).first, 200) << "it goes on serving";
@@ -295,6 +320,32 @@ TEST_F(ViewServerTest, LetsGoWhoDoesNotRead) {
   EXPECT_TRUE(waitFor([&] { return closed_.size() == 1; }));
 }
 
+// Few texts, and large ones; one alone may have any size.
+TEST_F(ViewServerTest, BoundsWhatWaitsByBytes) {
+  ViewServerOptions options;
+  options.mostWaitingBytes = 8 << 20;
+  start(options);
+  const auto first = open();
+  ASSERT_TRUE(first);
+  ASSERT_TRUE(waitFor([&] { return opened_.size() == 1; }));
+  server_->send(opened_[0], std::string(32 << 20, 'x'));
+  server_->send(opened_[0], "small");
+  first->read_message_max(0);
+  EXPECT_EQ(read(*first).size(), size_t(32) << 20);
+  EXPECT_EQ(read(*first), "small");
+  const auto unreadInTheEnd = [&] {
+    const auto end = std::chrono::steady_clock::now() + kPatience;
+    while (server_->bytesUnread(opened_[0]) > 0 && std::chrono::steady_clock::now() < end)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return server_->bytesUnread(opened_[0]);
+  };
+  EXPECT_EQ(unreadInTheEnd(), 0u) << "all was taken";
+  // Of these one is on its way, and more than two wait.
+  for (int i = 0; i < 20; ++i) server_->send(opened_[0], std::string(4 << 20, 'x'));
+  EXPECT_TRUE(waitFor([&] { return closed_.size() == 1; }));
+  EXPECT_EQ(unreadInTheEnd(), 0u) << "it is gone";
+}
+
 // A page that nobody can let in waits, and the server with it.
 TEST_F(ViewServerTest, WaitsForADescriptor) {
   start();
@@ -335,6 +386,32 @@ TEST(ViewServerPorts, ThatAreTakenAreSaid) {
   EXPECT_NE(errorOf(nowhere).find("--listen 192.0.2.1: is no address of this machine"),
             std::string::npos);
   EXPECT_NE(errorOf(words).find("--listen everywhere: is no address"), std::string::npos);
+}
+
+TEST(ViewServerAddresses, ArePrintedSoThatTheyOpen) {
+  const ViewServerEvents nobody = {[](ClientId) {}, [](ClientId) {},
+                                   [](ClientId, const std::string&) {}};
+  for (const char* listen : {"localhost", "127.0.0.1", "0.0.0.0"}) {
+    SCOPED_TRACE(listen);
+    ViewServerOptions options;
+    options.listen = listen;
+    const ViewServer server(options, nobody);
+    const std::string url = server.url();
+    const std::string host = url.substr(7, url.rfind(':') - 7);
+    EXPECT_EQ(url.find("0.0.0.0"), std::string::npos) << url;
+    EXPECT_EQ(host == "localhost", std::string(listen) == "localhost") << url;
+    asio::io_context io;
+    Tcp::socket socket(io);
+    socket.connect(
+        {host == "localhost" ? asio::ip::make_address("127.0.0.1") : asio::ip::make_address(host),
+         server.port()});
+    const std::string target = url.substr(url.find('/', 7));
+    asio::write(socket, asio::buffer("GET " + target + " HTTP/1.1\r\nHost: " + host + ":" +
+                                     std::to_string(server.port()) + "\r\n\r\n"));
+    std::string answer(12, ' ');
+    asio::read(socket, asio::buffer(answer));
+    EXPECT_EQ(answer, "HTTP/1.1 200");
+  }
 }
 
 }  // namespace

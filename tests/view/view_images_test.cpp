@@ -120,6 +120,54 @@ TEST_F(ViewImagesTest, AreOfOneSizeAndThere) {
 }
 
 // The label of one table begins with that of another one.
+// As `compare` has it: what both files say of their scene and settings must agree.
+TEST_F(ViewImagesTest, AreOfTheSceneOfTheirReference) {
+  const auto writeOf = [&](const char* name, const char* kind, const char* scene,
+                           const char* bounces) {
+    const fs::path file = folder() / name;
+    writeExr(file, {{{"", imageOf(24, 16, 0.5f)}},
+                    {{"kind", kind}, {"scene_hash", scene}, {"max_bounces", bounces}}});
+    return file;
+  };
+  const fs::path a = writeOf("a.exr", "image", "one", "4"),
+                 b = writeOf("b.exr", "image", "two", "4"),
+                 c = writeOf("c.exr", "image", "one", "5"),
+                 r = writeOf("r.exr", "reference", "one", "4");
+  EXPECT_NO_THROW(readViewImages({a}, r));
+  EXPECT_NO_THROW(readViewImages({write("else.exr", imageOf(24, 16, 0.5f))}, r)) << "says nothing";
+  for (const auto& [files, reference] : {std::pair(std::vector<fs::path>{a, b}, r), {{r, b}, {}}}) {
+    const std::string line = lineOf([&] { readViewImages(files, reference); }, ExitCode::badInput);
+    EXPECT_NE(line.find("r.exr: the reference is of another configuration: scene_hash is one, not "
+                        "two as in "),
+              std::string::npos)
+        << line;
+    EXPECT_NE(line.find("b.exr (--any-reference"), std::string::npos) << line;
+    EXPECT_NO_THROW(readViewImages(files, reference, true, true));
+  }
+  EXPECT_NE(lineOf([&] { readViewImages({c}, r); }, ExitCode::badInput).find("max_bounces"),
+            std::string::npos);
+}
+
+// Methods beside them make a reference of their own scene.
+TEST_F(ViewImagesTest, BesideMethodsAreOfTheirScene) {
+  ViewStart start;
+  start.prepared = cornellBox();
+  start.settings = settingsOf(start.prepared, {smallPane("path"), smallPane("path")});
+  std::map<std::string, std::string> words =
+      describe(start.prepared, start.settings.panes.front().config);
+  FileImage one{"a", "a.exr", imageOf(24, 16, 0.5f), words};
+  start.images.list = {one};
+  EXPECT_NO_THROW(requireImagesOf(start));
+  start.images.list[0].metadata["scene_hash"] = "another";
+  EXPECT_NE(lineOf([&] { requireImagesOf(start); }, ExitCode::badInput)
+                .find("scene cornell-box: the reference is of another configuration: scene_hash"),
+            std::string::npos);
+  start.images.list = {one};
+  start.settings.camera.yfov *= 1.5;
+  EXPECT_NE(lineOf([&] { requireImagesOf(start); }, ExitCode::badInput).find("camera_yfov"),
+            std::string::npos);
+}
+
 TEST_F(ViewImagesTest, OfResultsAreThoseOfOneTable) {
   const Image image = imageOf(8, 6, 1.0f);
   for (const char* name : {"box-all-reference", "box-all-path", "box-all-gi-2",

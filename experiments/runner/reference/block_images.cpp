@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "experiments/runner/run/files.h"
@@ -11,17 +12,26 @@
 
 namespace restlab {
 
+double previewLuminance(const glm::vec3& pixel) {
+  const double luminance = 0.2126 * pixel.x + 0.7152 * pixel.y + 0.0722 * pixel.z;
+  return luminance > 0.0 && !std::isinf(luminance) ? luminance : 0.0;
+}
+
 float previewExposure(const Image& reference) {
   std::vector<double> luminances;
   std::vector<float> brightest;
   for (const glm::vec3& pixel : reference.pixels) {
-    const double luminance = 0.2126 * pixel.x + 0.7152 * pixel.y + 0.0722 * pixel.z;
+    const double luminance = previewLuminance(pixel);
     // What is black, beside a room that is open to nothing, say, does not brighten it.
-    if (!(luminance > 0.0) || std::isinf(luminance)) continue;
+    if (luminance == 0.0) continue;
     luminances.push_back(luminance);
     brightest.push_back(std::max({pixel.x, pixel.y, pixel.z}));
   }
-  if (brightest.empty()) return 1.0f;
+  return previewExposure(std::move(luminances), std::move(brightest));
+}
+
+float previewExposure(std::vector<double> luminances, std::vector<float> brightest) {
+  if (brightest.empty() || luminances.empty()) return 1.0f;
   const auto percentileOf = [](auto& values, double share) {
     const auto at = values.begin() + std::ptrdiff_t(share * double(values.size() - 1));
     std::nth_element(values.begin(), at, values.end());

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/file_reason.h"
 #include "core/image/atomic_file.h"
 #include "experiments/runner/run/prepare.h"
 
@@ -108,7 +109,7 @@ ReferenceState fromHeader(const fs::path& file, const nlohmann::json& header) {
 
 ReferenceState readState(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
-  if (!in) failInput(fmt::format("{}: cannot be read", file.string()));
+  if (!in) failInput(fmt::format("{}: {}", file.string(), unreadableReason(file)));
   const nlohmann::json header = readHeader(file, in);
   ReferenceState state = fromHeader(file, header);
   const auto width = header.at("width").get<uint32_t>();

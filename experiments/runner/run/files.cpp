@@ -1,12 +1,16 @@
 #include "experiments/runner/run/files.h"
 
 #include <fmt/format.h>
+#include <locale.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <cwchar>
+#include <cwctype>
 #include <fstream>
 #include <vector>
 
@@ -15,6 +19,32 @@
 namespace restlab {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+// Letters of every script, whatever the user's locale is.
+locale_t anyScript() {
+  static const locale_t locale = newlocale(LC_CTYPE_MASK, "C.UTF-8", locale_t(nullptr));
+  return locale;
+}
+
+// The bytes of the letter, digit, accent, '.' or '_' that begins at `at`; 0: it is something else.
+size_t letterBytes(const std::string& name, size_t at) {
+  const char c = name[at];
+  if (uint8_t(c) < 0x80) return std::isalnum(uint8_t(c)) || c == '.' || c == '_' ? 1 : 0;
+  if (anyScript() == locale_t(nullptr)) return 0;
+  const locale_t before = uselocale(anyScript());
+  std::mbstate_t state{};
+  wchar_t letter = 0;
+  const size_t bytes = std::mbrtowc(&letter, name.data() + at, name.size() - at, &state);
+  const bool isWhole = bytes <= name.size() - at;  // else it is no UTF-8
+  const bool isLetter = isWhole && (std::iswalnum(std::wint_t(letter)) ||
+                                    std::iswctype(std::wint_t(letter), std::wctype("combining")));
+  uselocale(before);
+  return isLetter ? bytes : 0;
+}
+
+}  // namespace
 
 void makeWritableDirectory(const fs::path& directory) {
   std::error_code status;
@@ -67,13 +97,14 @@ std::filesystem::path resolvedPath(const std::filesystem::path& name) {
 
 std::string safeFileName(const std::string& name) {
   std::string safe;
-  for (const char c : name) {
-    const bool plain = std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '_';
-    if (plain) {
-      safe += c;
+  for (size_t at = 0; at < name.size();) {
+    const size_t bytes = letterBytes(name, at);
+    if (bytes > 0) {
+      safe.append(name, at, bytes);
     } else if (!safe.empty() && safe.back() != '-') {
       safe += '-';
     }
+    at += std::max<size_t>(1, bytes);
   }
   while (!safe.empty() && safe.back() == '-') safe.pop_back();
   return safe.empty() || safe[0] == '.' ? fmt::format("unnamed{}", safe) : safe;

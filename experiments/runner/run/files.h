@@ -20,7 +20,8 @@ std::filesystem::path sceneFolder();
 // there or not yet.
 std::filesystem::path resolvedPath(const std::filesystem::path& name);
 
-// A name that is safe as part of a file name: letters, digits, '.', '_', '-'.
+// A name that is safe as part of a file name: letters and digits of any script (UTF-8), '.', '_',
+// '-'.
 std::string safeFileName(const std::string& name);
 
 }  // namespace restlab

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "experiments/runner/reference/beside_reference.h"
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/summary/figures.h"
 #include "experiments/runner/run/files.h"
@@ -65,13 +66,21 @@ void requirePlaceholder(const ImageRow& row, const char* placeholder, const char
 }  // namespace
 
 void checkImageRows(const Suite& suite, const std::string& scene, uint32_t component,
-                    uint32_t width, uint32_t height) {
+                    uint32_t width, uint32_t height,
+                    const std::map<std::string, std::string>& configuration) {
   for (const SuiteMethod& method : suite.methods) {
     if (!method.images) continue;
     requirePlaceholder(*method.images, kScene, "scenes", suite.scenes.size());
     requirePlaceholder(*method.images, kComponent, "components", suite.components.size());
-    for (uint32_t run = 0; run < method.images->files.size(); ++run)
-      read(*method.images, fileOf(*method.images, run, scene, component), width, height);
+    for (uint32_t run = 0; run < method.images->files.size(); ++run) {
+      const ImageRow& row = *method.images;
+      const fs::path file = fileOf(row, run, scene, component);
+      const LayeredImage image = read(row, file, width, height);
+      atPlace(row.filesPlace, [&] {
+        requireOfReference(file.string(), image.metadata, "scene " + scene, configuration,
+                           "an image that says nothing of them is taken on trust");
+      });
+    }
   }
 }
 

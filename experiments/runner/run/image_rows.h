@@ -1,6 +1,7 @@
 // Rows of images: what other programs rendered, measured like the runs of our own methods.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -8,10 +9,13 @@
 
 namespace restlab {
 
-// Reads every image of the block's rows. Throws Error that starts with the place in the suite: a
-// file that is absent, is no EXR or has another size, one file for several scenes or components.
+// Reads every image of the block's rows. `configuration`: what the suite's own images would say of
+// their scene and settings. Throws Error that starts with the place in the suite: a file that is
+// absent, is no EXR, has another size or says that it is of another scene or setting, one file for
+// several scenes or components.
 void checkImageRows(const Suite& suite, const std::string& scene, uint32_t component,
-                    uint32_t width, uint32_t height);
+                    uint32_t width, uint32_t height,
+                    const std::map<std::string, std::string>& configuration);
 
 // All files of the rows.
 std::vector<std::filesystem::path> imageFiles(const Suite& suite);

@@ -1,5 +1,5 @@
-// SIGINT and SIGTERM: the current frame is stopped (core/backend/stop.h), finished results are
-// kept, exit code 130.
+// SIGINT, SIGTERM and SIGHUP: the current frame is stopped (core/backend/stop.h), finished results
+// are kept, exit code 130.
 #pragma once
 
 namespace restlab {

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "core/control_characters.h"
 #include "core/error.h"
 #include "experiments/runner/run/build_info.h"
 
@@ -40,7 +41,7 @@ void logEvent(const nlohmann::ordered_json& event) {
   line.update(event);
   // Names of files may hold anything.
   const auto anyBytes = nlohmann::ordered_json::error_handler_t::replace;
-  std::fputs((line.dump(-1, ' ', false, anyBytes) + "\n").c_str(), stderr);
+  std::fputs((jsonWithoutControls(line.dump(-1, ' ', false, anyBytes)) + "\n").c_str(), stderr);
   std::fflush(stderr);
 }
 
@@ -109,7 +110,7 @@ void Progress::print(uint64_t done, const std::string& note, const WholeProgress
     text += fmt::format("; suite {}/{} ({:.0f} s left)", whole.done, whole.total, whole.leftS);
   if (!note.empty()) text += " " + note;
   if (terminal_) {
-    std::fputs(fmt::format("\r{:<78}", text).c_str(), stderr);
+    std::fputs(fmt::format("\r{:<78}", oneLine(text)).c_str(), stderr);
     std::fflush(stderr);
     open_ = true;
   } else {

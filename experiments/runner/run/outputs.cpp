@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/control_characters.h"
 #include "core/image/atomic_file.h"
 #include "experiments/report/report_html.h"
 #include "experiments/report/text.h"
@@ -129,7 +130,7 @@ void Outputs::write(const Suite& suite, bool finished) const {
       buildInfo().buildType, usesVulkan ? " (vulkan: by the device's timestamps)" : "");
   for (const DeviceUse& use : devices_)
     text += fmt::format("\n{}: {}; rays by {}.\n", use.backend, use.device, use.rayTracing);
-  writeTextFile(out_ / "table.md", text);
+  writeTextFile(out_ / "table.md", withoutControls(text, true));
 }
 
 }  // namespace restlab

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "core/file_reason.h"
 #include "core/method.h"
 #include "core/method_settings.h"
 #include "core/scene/light_factor.h"
@@ -81,6 +82,9 @@ std::optional<EnvironmentMap> readEnvironment(const SceneRequest& request) {
   if (request.environment.empty()) return std::nullopt;
   const std::string found = locate(request.environment, request.suiteFolder);
   if (found.empty()) {
+    std::error_code status;
+    if (!fs::exists(request.environment, status) && isHidden(status))
+      failInput(fmt::format("{}: {}", request.environment, unreadableReason(request.environment)));
     failInput(
         fmt::format("{}: environment not found (looked here, in RESTLAB_SCENES and in "
                     "../shared/scenes)",

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "core/file_reason.h"
 #include "experiments/runner/run/folder_lock.h"
 #include "experiments/runner/run/job.h"
 #include "experiments/runner/run/log.h"
@@ -42,8 +43,11 @@ ResultsFolder openResults(const fs::path& folder) {
   const fs::path file = folder / "run.json";
   std::ifstream in(file, std::ios::binary);
   if (!in) {
-    failInput(fmt::format("{}: cannot be read; {} is no folder that `restlab run` left",
-                          file.string(), folder.string()));
+    std::error_code status;
+    const bool isAbsent = !fs::exists(file, status) && !isHidden(status);
+    failInput(fmt::format(
+        "{}: {}{}", file.string(), unreadableReason(file),
+        isAbsent ? fmt::format("; {} is no folder that `restlab run` left", folder.string()) : ""));
   }
   std::vector<std::string> methods;
   try {

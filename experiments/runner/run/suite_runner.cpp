@@ -29,6 +29,7 @@
 #include "experiments/runner/run/log.h"
 #include "experiments/runner/run/outputs.h"
 #include "experiments/runner/run/pace.h"
+#include "experiments/runner/run/print.h"
 #include "experiments/runner/summary/report.h"
 #include "experiments/runner/run/results_log.h"
 #include "experiments/runner/run/run_record.h"
@@ -121,7 +122,7 @@ class SuiteRun {
     try {
       const bool finished = executeAll();
       outputs_.write(points_.front(), finished);
-      if (finished) std::fputs(outputs_.sweepTables().c_str(), stdout);
+      if (finished) printText(outputs_.sweepTables());
       writeRecord(finished ? "finished" : "interrupted");
       outputs_.writePages(points_.front(), record_);
       logEvent({{"event", finished ? "finished" : "interrupted"},
@@ -234,7 +235,7 @@ class SuiteRun {
       failure = std::current_exception();
     }
     if (!block.methods.empty()) {
-      std::fputs(outputs_.add(suite, std::move(block)).c_str(), stdout);
+      printText(outputs_.add(suite, std::move(block)));
       std::fflush(stdout);
     }
     outputs_.write(points_.front(), false);

@@ -116,8 +116,16 @@ void checkScene(const Suite& suite, const SuiteScene& scene, const PreparedScene
     const PreparedScene& measured = sceneAt(lights, prepared, suite.warmupFrames);
     atPlace(scene.referencePlace, [&] { checkReference(suite, scene, measured, width, height); });
   }
-  for (const uint32_t component : suite.components)
-    checkImageRows(suite, scene.name, component, width, height);
+  for (const uint32_t component : suite.components) {
+    std::map<std::string, std::string> words = describe(
+        sceneAt(lights, prepared, suite.warmupFrames), pictureOf(suite, width, height, component));
+    words.erase("reference_sources");  // an image of another version is a row like any other
+    if (const auto motion = motionOf(suite, scene, prepared)) {
+      describeCamera(cameraAt(*motion, suite.warmupFrames), words);
+      words.erase("camera_index");  // its numbers say it
+    }
+    checkImageRows(suite, scene.name, component, width, height, words);
+  }
   if (!suite.masks.empty()) {
     BlockResult block;
     block.scene = scene.name;

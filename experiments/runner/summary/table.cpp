@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
 #include "experiments/report/text.h"
 #include "experiments/runner/summary/figures.h"
 #include "experiments/runner/summary/report.h"
@@ -122,7 +123,7 @@ std::string accumulatedTable(const std::vector<MethodSummary>& rows) {
     if (!row.convergence || row.convergence->points.empty()) continue;
     const ConvergencePoint& last = row.convergence->points.back();
     const Interval& slope = row.convergence->slope;
-    text += fmt::format("| {} | {} | {} | {} | {} | {} |", row.method->name, last.frames,
+    text += fmt::format("| {} | {} | {} | {} | {} | {} |", oneLine(row.method->name), last.frames,
                         longTime(last.timeMs), withEnds(last.mse),
                         std::isnan(slope.value) ? "" : withEnds(slope), fitCell(*row.convergence));
     if (row.speedUp && !row.isYardstick) {
@@ -157,7 +158,7 @@ std::string figuresTable(const std::vector<MethodSummary>& rows) {
   }
   if (heads.empty()) return "";
   for (const MethodSummary& row : rows) {
-    lines += fmt::format("| {} |", row.method->name);
+    lines += fmt::format("| {} |", oneLine(row.method->name));
     for (size_t i = 0; i < row.figures.size(); ++i) {
       const Interval& figure = row.figures[i].second;
       if (isKnown[i]) {
@@ -177,8 +178,8 @@ std::string temporalTable(const std::vector<MethodSummary>& rows) {
   for (const MethodSummary& row : rows) {
     if (!row.temporal) continue;
     const TemporalSummary& t = *row.temporal;
-    text += fmt::format("| {} |", row.method->name) + cellOf(t.variance) + cellOf(t.difference) +
-            cellOf(t.errorDifferenceSquared);
+    text += fmt::format("| {} |", oneLine(row.method->name)) + cellOf(t.variance) +
+            cellOf(t.difference) + cellOf(t.errorDifferenceSquared);
     for (const size_t lag : {1, 2, 4, 8}) text += cellOf(t.autocorrelation[lag - 1]);
     text += "\n";
     if (row.suite->hasMovingCamera())
@@ -196,7 +197,7 @@ std::string temporalTable(const std::vector<MethodSummary>& rows) {
 }
 
 std::string markedName(const MethodSummary& row) {
-  return row.method->name + (row.counts ? "" : " (*)");
+  return oneLine(row.method->name) + (row.counts ? "" : " (*)");
 }
 
 // What each row costs and what it leaves.
@@ -299,7 +300,8 @@ std::string blockTable(const Suite& suite, const std::vector<MethodSummary>& row
   }
   for (const MethodSummary& row : rows) {
     for (const std::string& flag : row.flags) {
-      notes += fmt::format("- {}{}: {}\n", row.method->name, row.counts ? "" : " (*)", flag);
+      notes +=
+          fmt::format("- {}{}: {}\n", oneLine(row.method->name), row.counts ? "" : " (*)", flag);
     }
   }
   text += detailsTable(rows);

@@ -1,4 +1,4 @@
-#include "experiments/cli/against_reference.h"
+#include "experiments/runner/reference/beside_reference.h"
 
 #include <fmt/format.h>
 
@@ -6,6 +6,18 @@
 #include "experiments/runner/run/log.h"
 
 namespace restlab {
+
+void requireOfReference(const std::string& file, const std::map<std::string, std::string>& image,
+                        const std::string& referenceFile,
+                        const std::map<std::string, std::string>& reference,
+                        const std::string& otherwise) {
+  if (!reference.contains("scene_hash") || !image.contains("scene_hash")) return;
+  try {
+    requireSameConfiguration(referenceFile, reference, image);
+  } catch (const Error& error) {
+    throw Error(error.code(), fmt::format("{} as in {} ({})", error.what(), file, otherwise));
+  }
+}
 
 LayeredImage readBeside(const std::string& file, const std::string& referenceFile,
                         const Reference& reference, bool anyReference) {
@@ -20,16 +32,7 @@ LayeredImage readBeside(const std::string& file, const std::string& referenceFil
                           image.height, referenceFile, reference.mean.width,
                           reference.mean.height));
   }
-  const bool bothDescribed =
-      reference.metadata.count("scene_hash") && read.metadata.count("scene_hash");
-  if (bothDescribed && !anyReference) {
-    try {
-      requireSameConfiguration(referenceFile, reference.metadata, read.metadata);
-    } catch (const Error& error) {
-      throw Error(error.code(), fmt::format("{} as in {} (--any-reference compares all the same)",
-                                            error.what(), file));
-    }
-  }
+  if (!anyReference) requireOfReference(file, read.metadata, referenceFile, reference.metadata);
   return read;
 }
 

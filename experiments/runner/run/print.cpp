@@ -1,0 +1,15 @@
+#include "experiments/runner/run/print.h"
+
+#include <cstdio>
+
+#include "core/control_characters.h"
+
+namespace restlab {
+
+void printText(const std::string& text) { std::fputs(withoutControls(text, true).c_str(), stdout); }
+
+void printJsonText(const std::string& dump) {
+  std::fputs((jsonWithoutControls(dump) + "\n").c_str(), stdout);
+}
+
+}  // namespace restlab

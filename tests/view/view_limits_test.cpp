@@ -1,0 +1,114 @@
+// Limits of a viewer: pictures on their way, files, memory.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/memory.h"
+#include "experiments/view/view_memory.h"
+#include "experiments/view/view_session_file.h"
+#include "tests/view/loop_fixture.h"
+
+namespace restlab::view_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ViewLimitsTest : public ViewLoopTest {};
+
+// A page that asks and does not read gets no more than a number of bytes; one that reads gets all.
+TEST_F(ViewLimitsTest, PicturesOnTheirWayAreBoundedByBytes) {
+  std::vector<SessionConfig> panes = {smallPane("path"), smallPane("path")};
+  for (SessionConfig& pane : panes) {
+    pane.width = pane.height = 512;
+    pane.maxBounces = 1;  // noise, which cannot be packed
+  }
+  start(settingsOf(prepareScene(facts_.request), panes));
+  Page page(url());
+  page.say({{"do", "pause"}, {"on", true}});
+  page.waitFor("state", [](const Json& state) { return state["paused"]; });
+  page.say({{"do", "picture"}, {"image", 0}});
+  const size_t bytes = page.waitFor("file")["base64"].get<std::string>().size();
+  const size_t asked = 3 * ViewLoop::kMostUnreadBytes / bytes;
+  ASSERT_LT(asked, 200u) << "a queue of so many texts is bounded by their number";
+  for (size_t i = 0; i < asked; ++i) page.say({{"do", "picture"}, {"image", 0}});
+  size_t files = 0, refused = 0;
+  for (Json text = page.next(); !text.is_null(); text = page.next()) {
+    files += text["say"] == "file";
+    if (text["say"] == "error") {
+      ++refused;
+      EXPECT_NE(text["text"].get<std::string>().find("has not taken"), std::string::npos) << text;
+    }
+    if (files + refused == asked) break;
+  }
+  EXPECT_GT(refused, 0u);
+  EXPECT_LT(files, asked);
+  page.say({{"do", "picture"}, {"image", 0}});
+  page.waitFor("file");
+}
+
+TEST_F(ViewLimitsTest, SavedSessionsAreCounted) {
+  start();
+  Page page(url());
+  page.say({{"do", "pause"}, {"on", true}});
+  const auto count = [&] {
+    return std::distance(fs::directory_iterator(folder()), fs::directory_iterator());
+  };
+  for (uint32_t i = 0; i < ViewLoop::kMostSessions; ++i) {
+    page.say({{"do", "save"}, {"name", fmt::format("n{}", i)}});
+    page.waitFor("saved");
+  }
+  EXPECT_EQ(count(), ViewLoop::kMostSessions);
+  page.say({{"do", "save"}, {"name", "one more"}});
+  const Json said = page.waitFor("said", [](const Json& s) {
+    return s["text"].get<std::string>().find("most") != std::string::npos;
+  });
+  EXPECT_NE(said["text"].get<std::string>().find("256 sessions"), std::string::npos) << said;
+  EXPECT_EQ(page.waitFor("saved")["name"], "one-more.toml") << "the page has it all the same";
+  page.say({{"do", "measure"}});
+  EXPECT_NE(page.waitFor("error")["text"].get<std::string>().find("256 sessions"),
+            std::string::npos);
+  EXPECT_EQ(count(), ViewLoop::kMostSessions);
+}
+
+TEST_F(ViewLimitsTest, FilesAreNamedInAnyScript) {
+  start();
+  Page page(url());
+  page.say({{"do", "save"}, {"name", "K\u00fcche 2"}});
+  EXPECT_EQ(page.waitFor("saved")["name"], "K\u00fcche-2.toml");
+  EXPECT_TRUE(fs::exists(folder() / "K\u00fcche-2.toml"));
+}
+
+// One by one the parts would fit.
+TEST_F(ViewLimitsTest, MemoryIsThatOfAllTogether) {
+  const std::vector<size_t> panes = {200, 100};
+  const uint64_t all = viewBytesPerPixel(panes, 12);
+  EXPECT_GT(all, 2u * 300 + 4 * 12);
+  EXPECT_NO_THROW(requireViewMemory(1000, 1000, all, 0, all * 1000 * 1000));
+  EXPECT_NO_THROW(requireViewMemory(1000, 1000, all, all, all * (1000 * 1000 - 1)));
+  EXPECT_THROW(requireViewMemory(1000, 1000, all, 0, all * 1000 * 1000 - 1), Error);
+  EXPECT_NO_THROW(requireViewMemory(1u << 31, 1u << 31, all, 0, std::nullopt));
+
+  const uint64_t available = availableMemory().value_or(0);
+  if (available == 0) GTEST_SKIP() << "the system does not say how much memory there is";
+  LiveView view(cornellBox(), {smallPane("restir_gi"), smallPane("path")}, {});
+  const uint64_t largest =
+      std::max(view.session(0).bytesPerPixel(), view.session(1).bytesPerPixel());
+  const auto side = uint32_t(std::sqrt(0.7 * double(available) / double(largest)));
+  if (side > kMaxSide) GTEST_SKIP() << "this machine has memory for any image";
+  const uint64_t epoch = view.epoch();
+  try {
+    view.apply(Resize{side, side});
+    FAIL() << "each pane fits, and all together do not";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::deviceUnavailable);
+    EXPECT_NE(std::string(error.what()).find("both panes, their copies and the reference"),
+              std::string::npos)
+        << error.what();
+  }
+  EXPECT_EQ(view.epoch(), epoch);
+  EXPECT_TRUE(view.renderFrames()) << "it shows what it did";
+}
+
+}  // namespace
+}  // namespace restlab::view_test
