@@ -9,8 +9,8 @@
 namespace restlab {
 
 // An EXR with R, G, B outside named layers. Throws Error (badInput) where it cannot be read, has
-// none, has another size than the reference, or, unless `anyReference`, says that it is of another
-// scene or setting.
+// none, has another window than the reference, or, unless `anyReference`, says that it is of
+// another scene or setting.
 LayeredImage readBeside(const std::string& file, const std::string& referenceFile,
                         const Reference& reference, bool anyReference);
 
