@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "core/image/image.h"
+#include "core/image/window.h"
 
 namespace restlab {
 
 struct ExrContents {
-  uint32_t width = 0, height = 0;
+  PixelWindow window;
   std::vector<std::string> layers;  // those that readExr() would give, sorted
 };
 

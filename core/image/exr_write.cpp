@@ -4,6 +4,7 @@
 #include <ImfIO.h>
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
+#include <ImathBox.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -83,7 +84,12 @@ void writeExr(const std::filesystem::path& file, const LayeredImage& image) {
 
   AtomicFile output(file);
   try {
-    Imf::Header header(width, height);
+    const glm::ivec2 origin = image.frame.origin;
+    const Imath::Box2i data({origin.x, origin.y}, {origin.x + width - 1, origin.y + height - 1});
+    const glm::ivec4 shown =
+        image.frame.display.value_or(glm::ivec4(data.min.x, data.min.y, data.max.x, data.max.y));
+    Imf::Header header(Imath::Box2i({shown.x, shown.y}, {shown.z, shown.w}), data,
+                       image.frame.pixelAspectRatio);
     header.compression() = Imf::ZIP_COMPRESSION;
     for (const auto& [key, value] : image.metadata) {
       header.insert(kExrMetadataPrefix + key, Imf::StringAttribute(value));
@@ -94,10 +100,8 @@ void writeExr(const std::filesystem::path& file, const LayeredImage& image) {
         const std::string channel =
             (name.empty() ? std::string() : name + ".") + std::string(1, "RGB"[c]);
         header.channels().insert(channel, Imf::Channel(Imf::FLOAT));
-        // OpenEXR's slices are not const, but an OutputFile only reads them.
-        char* base = const_cast<char*>(reinterpret_cast<const char*>(&layer.pixels[0][c]));
-        frame.insert(channel, Imf::Slice(Imf::FLOAT, base, sizeof(glm::vec3),
-                                         sizeof(glm::vec3) * layer.width));
+        frame.insert(channel, Imf::Slice::Make(Imf::FLOAT, &layer.pixels[0][c], data,
+                                               sizeof(glm::vec3), sizeof(glm::vec3) * layer.width));
       }
     }
     FileStream stream(output.stream());

@@ -5,7 +5,10 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace restlab {
@@ -14,6 +17,7 @@ namespace restlab {
 struct Image {
   uint32_t width = 0, height = 0;
   std::vector<glm::vec3> pixels;
+  glm::ivec2 origin{0, 0};  // of the first pixel, in the pixel space of the file it was read from
 
   Image() = default;
   Image(uint32_t w, uint32_t h, glm::vec3 value = glm::vec3(0.0f))
@@ -22,28 +26,57 @@ struct Image {
   const glm::vec3& at(uint32_t x, uint32_t y) const { return pixels[size_t(y) * width + x]; }
 };
 
+enum class EnvironmentKind { none, latLong, cube, unknown };
+
+// What an EXR says of its picture beside the pixels.
+struct ExrFrame {
+  glm::ivec2 origin{0, 0};  // of the first pixel: where the data window begins
+  // First and last pixel of the display window; nothing: those of the data window.
+  std::optional<glm::ivec4> display{};
+  float pixelAspectRatio = 1.0f;  // width / height of a pixel
+  EnvironmentKind environment = EnvironmentKind::none;
+};
+
 // Layers of one EXR. The layer "" holds channels R, G, B; a layer "x" holds x.R, x.G, x.B.
 // Metadata are string attributes ("restlab:key").
 struct LayeredImage {
   std::map<std::string, Image> layers;
   std::map<std::string, std::string> metadata;
+  ExrFrame frame{};
+  std::vector<std::string> notes{};  // lines on what was done to the colours as they were read
 };
 
 // Writes 32-bit float ZIP EXR through a temporary file and a rename: a partly written file never
-// carries the final name. Throws Error (badInput) naming the file.
+// carries the final name. Its windows and pixels are those of `frame`, its colours Rec. 709. Throws
+// Error (badInput) naming the file.
 void writeExr(const std::filesystem::path& file, const LayeredImage& image);
 
-// Which layers are read.
+// Which layers there are for a reader.
 enum class ExrLayers {
   colours,  // R, G, B, or Y alone, which becomes grey
   all       // and vectors X, Y, Z, and single channels, which fill all three: "Z" is a depth
 };
-// Reads layers (half or float). Sizes are checked before allocation. Throws Error (badInput) naming
-// the file and what is wrong.
-LayeredImage readExr(const std::filesystem::path& file, ExrLayers wanted = ExrLayers::colours);
 
-// 8-bit sRGB preview, radiance x exposure, clipped (a preview only; no figure is computed from it).
-void writePng(const std::filesystem::path& file, const Image& image, float exposure = 1.0f);
+// Which of them are read. No other channel of the file is opened, whatever it holds.
+struct ExrSelection {
+  ExrLayers kind = ExrLayers::colours;
+  std::optional<std::set<std::string>> names{};  // nothing: all of them
+  std::set<std::string> data{};                  // R, G, B that are no colours, as of a normal
+
+  ExrSelection(ExrLayers wanted = ExrLayers::colours) : kind(wanted) {}
+  ExrSelection(ExrLayers wanted, std::set<std::string> layers)
+      : kind(wanted), names(std::move(layers)) {}
+};
+
+// Reads layers (half or float), colours of other `chromaticities` converted to Rec. 709. A layer
+// that is wanted by name and not there is left out. Sizes are checked before allocation. Throws
+// Error (badInput) naming the file and what is wrong.
+LayeredImage readExr(const std::filesystem::path& file, const ExrSelection& wanted = {});
+
+// 8-bit sRGB preview, radiance x exposure, clipped (a preview only; no figure is computed from it),
+// with the metadata of the EXR beside it as texts (core/image/png.h).
+void writePng(const std::filesystem::path& file, const Image& image, float exposure = 1.0f,
+              const std::map<std::string, std::string>& metadata = {});
 
 // Fails (badInput) unless `file` can be created: called before rendering starts.
 void checkWritable(const std::filesystem::path& file);

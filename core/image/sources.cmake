@@ -1,6 +1,9 @@
 target_sources(rl_core PRIVATE
   image/atomic_file.cpp
   image/bias_runs.cpp
+  image/chromaticities.cpp
+  image/exr_header.cpp
+  image/exr_layers.cpp
   image/exr_read.cpp
   image/exr_write.cpp
   image/flip.cpp

@@ -1,4 +1,4 @@
-// loadEnvironment(): latitude-longitude maps from .hdr and .exr files.
+// loadEnvironment(): latitude-longitude maps and cubes from .hdr and .exr files.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include "core/file_reason.h"
 #include "core/image/image.h"
 #include "core/memory.h"
+#include "core/scene/cube_map.h"
 #include "core/scene/image_decode.h"
 #include "core/scene/scene.h"
 
@@ -20,7 +21,8 @@ namespace {
   failInput(fmt::format("{}: {}", file.string(), text));
 }
 
-void readHdrMap(const fs::path& file, EnvironmentMap& map) {
+// Returns whether the colours were converted from others.
+bool readHdrMap(const fs::path& file, EnvironmentMap& map) {
   std::error_code error;
   const uint64_t size = fs::file_size(file, error);
   // Uncompressed 16384 x 16384 RGBE and a header; nothing larger can be read.
@@ -34,10 +36,8 @@ void readHdrMap(const fs::path& file, EnvironmentMap& map) {
   if (!stream || static_cast<uint64_t>(stream.gcount()) != size) fail(file, "cannot be read");
   ImageSize pixels;
   if (checkHdrHeader(bytes, pixels).empty()) {
-    // As the decoder's floats, and as the map's.
-    constexpr uint64_t kBytesPerPixel = 2 * sizeof(glm::vec3);
     MemoryGuard().take(fmt::format("{}: {}x{} pixels", file.string(), pixels.width, pixels.height),
-                       kBytesPerPixel * pixels.width * pixels.height);
+                       sizeof(glm::vec3) * pixels.width * pixels.height);
   }
   DecodedHdr decoded;
   if (const std::string problem = decodeHdr(bytes, decoded); !problem.empty()) {
@@ -46,19 +46,76 @@ void readHdrMap(const fs::path& file, EnvironmentMap& map) {
   map.width = decoded.width;
   map.height = decoded.height;
   map.radiance = std::move(decoded.pixels);
+  for (const std::string& note : decoded.notes)
+    map.warnings.push_back(fmt::format("{}: {}", file.string(), note));
+  return decoded.isConverted;
 }
 
-void readExrMap(const fs::path& file, EnvironmentMap& map) {
-  LayeredImage image = readExr(file);
-  const auto layer = image.layers.find("");
-  if (layer == image.layers.end()) fail(file, "has no channels R, G, B (or Y)");
-  map.width = layer->second.width;
-  map.height = layer->second.height;
-  if (map.width > kMaxImageSize || map.height > kMaxImageSize) {
-    fail(file, fmt::format("{}x{} pixels; at most {} a side are read", map.width, map.height,
+// A part of a sky, or one with a rim, would be bent over the whole sphere.
+void requireWhole(const fs::path& file, const ExrFrame& frame, const Image& image) {
+  const glm::ivec4 data(frame.origin, frame.origin.x + int(image.width) - 1,
+                        frame.origin.y + int(image.height) - 1);
+  if (!frame.display || *frame.display == data) return;
+  const glm::ivec4& display = *frame.display;
+  fail(file,
+       fmt::format("its data window ({}, {}) - ({}, {}) is not its display window ({}, {}) - "
+                   "({}, {}); a whole environment expected",
+                   data.x, data.y, data.z, data.w, display.x, display.y, display.z, display.w));
+}
+
+// Returns whether the colours were converted from others.
+bool readExrMap(const fs::path& file, EnvironmentMap& map) {
+  LayeredImage read = readExr(file, {ExrLayers::colours, {""}});
+  const auto layer = read.layers.find("");
+  if (layer == read.layers.end()) fail(file, "has no channels R, G, B (or Y)");
+  Image& image = layer->second;
+  if (image.width > kMaxImageSize || image.height > kMaxImageSize) {
+    fail(file, fmt::format("{}x{} pixels; at most {} a side are read", image.width, image.height,
                            kMaxImageSize));
   }
-  map.radiance = std::move(layer->second.pixels);
+  requireWhole(file, read.frame, image);
+  if (read.frame.environment == EnvironmentKind::unknown)
+    fail(file, "attribute 'envmap' is neither latitude-longitude (0) nor cube (1)");
+  if (read.frame.environment == EnvironmentKind::cube) {
+    if (image.height != 6 * image.width) {
+      fail(file,
+           fmt::format("attribute 'envmap' says cube, of {}x{} pixels; six square faces below "
+                       "each other expected",
+                       image.width, image.height));
+    }
+    MemoryGuard().take(fmt::format("{}: the cube as latitude-longitude", file.string()),
+                       8 * sizeof(glm::vec3) * image.width * image.width);
+    image = latLongOfCube(image);
+    map.warnings.push_back(
+        fmt::format("{}: the cube's faces of {}x{} pixels are drawn as latitude-longitude of {}x{}",
+                    file.string(), image.width / 4, image.width / 4, image.width, image.height));
+  }
+  map.width = image.width;
+  map.height = image.height;
+  map.radiance = std::move(image.pixels);
+  map.warnings.insert(map.warnings.end(), read.notes.begin(), read.notes.end());
+  return !read.notes.empty();
+}
+
+// Colours that Rec. 709 does not reach have channels below 0 after their conversion, which no light
+// can have. Rounding makes some, too, and is not counted.
+void cutAtZero(const fs::path& file, EnvironmentMap& map) {
+  size_t count = 0;
+  for (glm::vec3& texel : map.radiance) {
+    const float largest = std::max({texel.x, texel.y, texel.z});
+    if (!std::isfinite(largest) || largest <= 0.0f) continue;
+    bool isOutside = false;
+    for (int c = 0; c < 3; ++c) {
+      if (!(texel[c] < 0.0f)) continue;
+      isOutside = isOutside || texel[c] < -1e-5f * largest;
+      texel[c] = 0.0f;
+    }
+    count += isOutside ? 1 : 0;
+  }
+  if (count == 0) return;
+  map.warnings.push_back(fmt::format(
+      "{}: {} of {} pixels have colours outside of Rec. 709; their channels below 0 are set to 0",
+      file.string(), count, map.radiance.size()));
 }
 
 }  // namespace
@@ -72,13 +129,15 @@ EnvironmentMap loadEnvironment(const fs::path& file) {
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   EnvironmentMap map;
   map.source = file.string();
+  bool isConverted = false;
   if (extension == ".hdr") {
-    readHdrMap(file, map);
+    isConverted = readHdrMap(file, map);
   } else if (extension == ".exr") {
-    readExrMap(file, map);
+    isConverted = readExrMap(file, map);
   } else {
     fail(file, "not an environment map; .hdr or .exr expected");
   }
+  if (isConverted) cutAtZero(file, map);
   for (size_t i = 0; i < map.radiance.size(); ++i) {
     const glm::vec3& texel = map.radiance[i];
     for (int c = 0; c < 3; ++c) {

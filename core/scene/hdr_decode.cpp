@@ -1,140 +1,158 @@
-// Radiance HDR by stb_image.
+// Radiance HDR: rows of pixels with a common exponent, run-length coded in either of two ways.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <cstring>
-#include <memory>
+#include <array>
+#include <cmath>
 
+#include "core/scene/hdr_header.h"
 #include "core/scene/image_formats.h"
-
-namespace {
-
-// What the decoder may allocate at once.
-struct DecoderLimit {
-  size_t bytes = 0;
-  bool wasExceeded = false;
-};
-thread_local DecoderLimit tLimit;
-
-void* reallocateLimited(void* old, size_t bytes) {
-  if (bytes > tLimit.bytes) {
-    tLimit.wasExceeded = true;
-    return nullptr;
-  }
-  return std::realloc(old, bytes);
-}
-
-}  // namespace
-
-#define STBI_MALLOC(bytes) reallocateLimited(nullptr, bytes)
-#define STBI_REALLOC(old, bytes) reallocateLimited(old, bytes)
-#define STBI_FREE(old) std::free(old)
-#define STB_IMAGE_STATIC
-#define STB_IMAGE_IMPLEMENTATION
-#define STBI_ONLY_HDR
-#define STBI_NO_STDIO
-#define STBI_MAX_DIMENSIONS 16384
-#include <stb/stb_image.h>
 
 namespace restlab {
 namespace {
 
-static_assert(STBI_MAX_DIMENSIONS == kMaxImageSize);
+using Rgbe = std::array<uint8_t, 4>;
 
-// A file in memory that knows whether the decoder asked for more than there is: the decoder itself
-// goes on with zeros.
-struct Source {
-  const std::vector<uint8_t>& bytes;
-  size_t position = 0;
-  bool readBeyondEnd = false;
-  bool endsInOnes = false;  // ones instead of zeros: a run of zero pixels never fills a row
+// Rows may be flat, or have runs of one of the two kinds. Returns the fewest bytes of a row.
+uint64_t fewestBytes(uint64_t length) {
+  const uint64_t flat = 4 * length;
+  // A pixel, and marks that repeat it 255, 255 * 256, ... times.
+  const uint64_t old = length <= 1 ? 4 : length <= 256 ? 8 : 12;
+  return std::min(flat, old);
+}
+
+class RowReader {
+ public:
+  RowReader(const std::vector<uint8_t>& bytes, size_t at) : bytes_(bytes), at_(at) {}
+
+  // Returns "" or what is wrong.
+  std::string read(std::vector<Rgbe>& row) {
+    // A row of runs begins with two twos and its length, which no pixel does that a program writes.
+    const size_t length = row.size();
+    const bool hasRuns = length >= 8 && length < 32768 && bytes_.size() - at_ >= 4 &&
+                         bytes_[at_] == 2 && bytes_[at_ + 1] == 2 && bytes_[at_ + 2] < 128;
+    if (!hasRuns) return readFlat(row);
+    const size_t said = size_t(bytes_[at_ + 2]) << 8 | bytes_[at_ + 3];
+    if (said != length)
+      return fmt::format("says it has {} pixels, the image has {} a row", said, length);
+    at_ += 4;
+    return readRuns(row);
+  }
+
+ private:
+  // Pixels, among them marks (1, 1, 1, n): the last pixel n times more. Marks that follow each
+  // other are digits to the base of 256, the lowest first.
+  std::string readFlat(std::vector<Rgbe>& row) {
+    uint32_t shift = 0;
+    for (size_t x = 0; x < row.size();) {
+      if (bytes_.size() - at_ < 4) return kTruncated;
+      Rgbe pixel;
+      std::copy_n(bytes_.begin() + std::ptrdiff_t(at_), 4, pixel.begin());
+      at_ += 4;
+      if (pixel[0] != 1 || pixel[1] != 1 || pixel[2] != 1) {
+        row[x++] = pixel;
+        shift = 0;
+        continue;
+      }
+      if (x == 0) return "begins with a run, and has no pixel to repeat";
+      const uint64_t count = shift < 32 ? uint64_t(pixel[3]) << shift : row.size();
+      if (count > row.size() - x) return tooLong(count, x, row.size());
+      std::fill_n(row.begin() + std::ptrdiff_t(x), count, row[x - 1]);
+      x += count;
+      shift += 8;
+    }
+    return "";
+  }
+
+  // Each component by itself: a byte above 128 and one to repeat, or a count and so many bytes.
+  std::string readRuns(std::vector<Rgbe>& row) {
+    for (size_t c = 0; c < 4; ++c) {
+      for (size_t x = 0; x < row.size();) {
+        if (at_ >= bytes_.size()) return kTruncated;
+        const uint8_t code = bytes_[at_++];
+        const bool isRun = code > 128;
+        const size_t count = isRun ? code & 127u : code;
+        if (count == 0) return "has a run of no pixels";
+        if (count > row.size() - x) return tooLong(count, x, row.size());
+        if (bytes_.size() - at_ < (isRun ? 1 : count)) return kTruncated;
+        for (size_t i = 0; i < count; ++i) row[x + i][c] = bytes_[at_ + (isRun ? 0 : i)];
+        at_ += isRun ? 1 : count;
+        x += count;
+      }
+    }
+    return "";
+  }
+
+  static std::string tooLong(uint64_t count, size_t x, size_t length) {
+    return fmt::format("has a run of {} pixels from pixel {} on, and {} pixels in all", count, x,
+                       length);
+  }
+
+  static constexpr const char* kTruncated = "truncated";
+
+  const std::vector<uint8_t>& bytes_;
+  size_t at_;
 };
 
-int readSource(void* user, char* data, int size) {
-  Source& source = *static_cast<Source*>(user);
-  const size_t count = std::min(static_cast<size_t>(size), source.bytes.size() - source.position);
-  std::memcpy(data, source.bytes.data() + source.position, count);
-  source.position += count;
-  if (count > 0) return static_cast<int>(count);
-  source.readBeyondEnd = true;
-  if (!source.endsInOnes) return 0;
-  std::memset(data, 1, static_cast<size_t>(size));
-  return size;
+// Mantissas are 0 to 255 of 256, the exponent is of 2 and has 128 added.
+glm::dvec3 valueOf(const Rgbe& pixel) {
+  if (pixel[3] == 0) return glm::dvec3(0.0);
+  return glm::dvec3(pixel[0], pixel[1], pixel[2]) * std::ldexp(1.0, int(pixel[3]) - (128 + 8));
 }
 
-void skipSource(void* user, int count) {
-  Source& source = *static_cast<Source*>(user);
-  const int64_t target = static_cast<int64_t>(source.position) + count;
-  if (target > static_cast<int64_t>(source.bytes.size())) source.readBeyondEnd = true;
-  source.position = static_cast<size_t>(
-      std::clamp<int64_t>(target, 0, static_cast<int64_t>(source.bytes.size())));
+// From the file's values to radiance.
+glm::dmat3 matrixOf(const HdrHeader& header) {
+  const glm::dmat3 exposed(1.0 / header.exposure.x, 0, 0, 0, 1.0 / header.exposure.y, 0, 0, 0,
+                           1.0 / header.exposure.z);
+  if (header.isXyz) return toRec709(kCieXyz) * exposed;
+  if (header.colours && !isRec709(*header.colours)) return toRec709(*header.colours) * exposed;
+  return exposed;
 }
 
-int endOfSource(void* user) {
-  const Source& source = *static_cast<Source*>(user);
-  return source.position >= source.bytes.size();
-}
-
-constexpr stbi_io_callbacks kCallbacks = {readSource, skipSource, endOfSource};
-
-struct StbiFree {
-  void operator()(void* pixels) const { stbi_image_free(pixels); }
-};
-
-constexpr size_t kHeaderLimit = size_t(1) << 22;  // enough for what precedes the pixels
-
-void limitDecoder(const Source& source, const ImageSize& size) {
-  // Four channels of 16 bits, twice as the buffer grows by doubling.
-  tLimit = {kHeaderLimit + size_t(16) * size.width * size.height + 2 * source.bytes.size(), false};
-}
-
-std::string decoderMessage(const Source& source) {
-  if (source.readBeyondEnd) return "truncated";
-  if (tLimit.wasExceeded) return "damaged: holds more data than its pixels can be";
-  const char* reason = stbi_failure_reason();
-  return fmt::format("cannot be decoded ({})", reason ? reason : "unknown reason");
-}
-
-// Rows are flat, or four runs after four bytes, a run of at most 127 pixels
-// being two bytes.
-uint64_t fewestBytes(const ImageSize& size) {
-  const uint64_t width = size.width, flat = 4 * width, runs = 4 + 4 * 2 * ((width + 126) / 127);
-  return size.height * (width < 8 ? flat : std::min(flat, runs));
+std::vector<std::string> notesOf(const HdrHeader& header) {
+  std::vector<std::string> notes = header.notes;
+  if (header.isXyz) {
+    notes.push_back(
+        "X, Y, Z are converted to Rec. 709 as they are; Radiance's own programs mean cd/m^2, which "
+        "are W/(sr m^2) with --environment-scale 0.0055866");
+  } else if (header.colours && !isRec709(*header.colours)) {
+    notes.push_back("colours are converted to Rec. 709 from " + textOf(*header.colours));
+  }
+  return notes;
 }
 
 }  // namespace
 
 std::string checkHdrHeader(const std::vector<uint8_t>& bytes, ImageSize& size) {
-  if (sniffImageType(bytes) != "image/vnd.radiance") return "not a Radiance HDR image";
-  Source source{bytes};
-  limitDecoder(source, ImageSize());
-  int width = 0, height = 0, channels = 0;
-  if (!stbi_info_from_callbacks(&kCallbacks, &source, &width, &height, &channels)) {
-    return decoderMessage(source);
-  }
-  if (std::string problem =
-          checkPixelCount(uint64_t(std::max(width, 0)), uint64_t(std::max(height, 0)));
-      !problem.empty())
-    return problem;
-  size = {static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
-  return checkFileSize(bytes.size(), fewestBytes(size), size);
+  HdrHeader header;
+  if (std::string problem = readHdrHeader(bytes, header); !problem.empty()) return problem;
+  size = {header.width(), header.height()};
+  return checkFileSize(bytes.size(), header.rows * fewestBytes(header.rowLength), size);
 }
 
 std::string decodeHdr(const std::vector<uint8_t>& bytes, DecodedHdr& image) {
   ImageSize size;
   if (std::string problem = checkHdrHeader(bytes, size); !problem.empty()) return problem;
-  Source source{bytes};
-  source.endsInOnes = true;
-  limitDecoder(source, size);
-  int width = 0, height = 0, channels = 0;
-  std::unique_ptr<float, StbiFree> pixels(
-      stbi_loadf_from_callbacks(&kCallbacks, &source, &width, &height, &channels, 3));
-  if (!pixels || source.readBeyondEnd) return decoderMessage(source);
-  image.width = static_cast<uint32_t>(width);
-  image.height = static_cast<uint32_t>(height);
-  image.pixels.resize(size_t(image.width) * image.height);
-  std::memcpy(image.pixels.data(), pixels.get(), image.pixels.size() * sizeof(glm::vec3));
+  HdrHeader header;
+  readHdrHeader(bytes, header);
+  const glm::dmat3 matrix = matrixOf(header);
+  image.width = size.width;
+  image.height = size.height;
+  image.pixels.resize(size_t(size.width) * size.height);
+  image.isConverted = header.isXyz || header.colours.has_value();
+  image.notes = notesOf(header);
+  RowReader reader(bytes, header.pixels);
+  std::vector<Rgbe> row(header.rowLength);
+  for (uint32_t j = 0; j < header.rows; ++j) {
+    if (const std::string problem = reader.read(row); !problem.empty())
+      return problem == "truncated" ? problem : fmt::format("row {} {}", j, problem);
+    for (uint32_t i = 0; i < header.rowLength; ++i) {
+      uint32_t x = header.rowsAreColumns ? j : i, y = header.rowsAreColumns ? i : j;
+      if (header.isFromRight) x = image.width - 1 - x;
+      if (header.isFromBottom) y = image.height - 1 - y;
+      image.pixels[size_t(y) * image.width + x] = glm::vec3(matrix * valueOf(row[i]));
+    }
+  }
   return "";
 }
 

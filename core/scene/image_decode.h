@@ -17,9 +17,13 @@ struct DecodedImage {
   bool roundedFrom16Bit = false;
 };
 
+// Radiance: exposures and colour corrections of the header are divided out, and colours are linear
+// Rec. 709.
 struct DecodedHdr {
   uint32_t width = 0, height = 0;
-  std::vector<glm::vec3> pixels;  // row 0 on top
+  std::vector<glm::vec3> pixels;   // row 0 on top
+  bool isConverted = false;        // from other colours: values below 0 are colours out of reach
+  std::vector<std::string> notes;  // what must be said of the file
 };
 
 // "image/png", "image/jpeg", "image/vnd.radiance", or "" for anything else.

@@ -84,7 +84,8 @@ struct EnvironmentMap {
   std::vector<glm::vec3> radiance;
   float rotation = 0.0f;  // radians
   float scale = 1.0f;
-  float lightFactor = 1.0f;  // on scale (core/scene/light_factor.h)
+  float lightFactor = 1.0f;             // on scale (core/scene/light_factor.h)
+  std::vector<std::string> warnings{};  // of its file, one line each
 };
 
 struct Scene {
@@ -131,7 +132,8 @@ std::vector<SceneParameter> builtinSceneParameters(const std::string& name);
 // ../shared/scenes; a directory or a stem finds the one glTF inside. Throws Error (badInput).
 Scene loadScene(const std::string& nameOrPath);
 
-// Reads a latitude-longitude .hdr or .exr. Negative and non-finite texels are an error.
+// Reads a latitude-longitude .hdr or .exr, or a cube that an .exr says it is. Negative and
+// non-finite texels are an error.
 EnvironmentMap loadEnvironment(const std::filesystem::path& file);
 
 // A camera looking at the whole scene, for files that have none.

@@ -3,6 +3,7 @@ target_sources(rl_core PRIVATE
   scene/camera_path.cpp
   scene/camera_path_config.cpp
   scene/content_hash.cpp
+  scene/cube_map.cpp
   scene/environment.cpp
   scene/gltf_accessor.cpp
   scene/gltf_attributes.cpp
@@ -23,6 +24,7 @@ target_sources(rl_core PRIVATE
   scene/gltf_uri.cpp
   scene/gltf_validate.cpp
   scene/hdr_decode.cpp
+  scene/hdr_header.cpp
   scene/image_decode.cpp
   scene/jpeg_decode.cpp
   scene/light_factor.cpp
@@ -37,8 +39,8 @@ target_sources(rl_core PRIVATE
   scene/split_triangles.cpp
   scene/tinygltf.cpp
 )
-# tinygltf is compiled into tinygltf.cpp (with its own file and image access left out), xxHash and stb
-# are headers.
+# tinygltf is compiled into tinygltf.cpp (with its own file and image access left out), xxHash is a
+# header.
 target_link_libraries(rl_core PUBLIC nlohmann_json::nlohmann_json)
 target_include_directories(rl_core SYSTEM PRIVATE ${SPNG_INCLUDE_DIR} ${TURBOJPEG_INCLUDE_DIR})
 target_link_libraries(rl_core PRIVATE ${SPNG_LIBRARY} ${TURBOJPEG_LIBRARY})

@@ -14,6 +14,7 @@
 #include "experiments/report/text.h"
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/run/files.h"
+#include "experiments/runner/run/image_file.h"
 #include "experiments/runner/run/log.h"
 #include "experiments/runner/run/render_command.h"
 
@@ -256,14 +257,10 @@ Certified certifyImages(const std::vector<std::string>& files, const std::string
   std::map<std::string, std::string> wordsOfFirst;
   std::map<std::string, std::string> seeds;
   for (size_t i = 0; i < files.size(); ++i) {
-    LayeredImage file = readExr(files[i]);
-    const auto layer = file.layers.find("");
-    if (layer == file.layers.end()) failInput(fmt::format("{}: has no R, G, B channels", files[i]));
-    const Image& image = layer->second;
-    if (image.width != mean.width || image.height != mean.height) {
-      failInput(fmt::format("{}: is {}x{}, the reference {} is {}x{}", files[i], image.width,
-                            image.height, reference, mean.width, mean.height));
-    }
+    const LayeredImage file = readColours(files[i]);
+    const Image& image = file.layers.at("");
+    requireSameWindow(files[i] + ":", windowOf(image), "the reference " + reference,
+                      windowOf(mean));
     const auto [other, isNew] = pixels.emplace(pixelHash(image), files[i]);
     if (!isNew) {
       failInput(fmt::format("{}: has the pixels of {}; a certificate takes independent runs",

@@ -81,14 +81,18 @@ void writeMaps(const fs::path& folder, const Certified& certified) {
   file.metadata = provenanceWords();
   file.metadata["kind"] = "bias";
   file.metadata["method"] = certified.name;
+  file.frame.origin = reference.origin;
   writeExr(folder / (certified.label + "-bias.exr"), file);
-  writePng(folder / (certified.label + "-bias.png"), signedColours(file.layers[""], reference));
-  writePng(folder / (certified.label + "-p.png"), pColours(file.layers["p_value"]));
+  writePng(folder / (certified.label + "-bias.png"), signedColours(file.layers[""], reference),
+           1.0f, file.metadata);
+  writePng(folder / (certified.label + "-p.png"), pColours(file.layers["p_value"]), 1.0f,
+           file.metadata);
   // What the page shows beside each other, each an image of its own.
   const auto writeOne = [&](const char* what, const Image& image) {
     LayeredImage one;
     one.layers[""] = image;
     one.metadata = file.metadata;
+    one.frame = file.frame;
     writeExr(folder / fmt::format("{}-{}.exr", certified.label, what), one);
   };
   writeOne("mean", certified.mean);

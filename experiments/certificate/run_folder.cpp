@@ -142,7 +142,7 @@ void RunFolder::forEach(Batch batch, uint64_t count,
   if (batch == Batch::first) health_ = HealthSum();
   for (uint64_t run = 0; run < count; ++run) {
     const fs::path name = file(batch, run);
-    LayeredImage image = readExr(name);
+    LayeredImage image = readExr(name, {ExrLayers::colours, {""}});
     if (image.metadata["seed"] != std::to_string(seedOf(batch, run))) {
       failInput(fmt::format("{}: is of seed '{}', not {}; delete it, and it is rendered again",
                             name.string(), image.metadata["seed"], seedOf(batch, run)));

@@ -101,6 +101,10 @@ void compare(const CompareOptions& options, Outcome& outcome) {
 
   comparison.reference = readReference(options.reference);
   const Reference& reference = comparison.reference;
+  comparison.referenceFile = options.reference;
+  comparison.referenceNonfinite = countNonfinite(reference.mean);
+  for (const std::optional<Image>* half : {&reference.half0, &reference.half1})
+    if (*half) comparison.referenceNonfinite += countNonfinite(**half);
   warnOfNoReference(options.reference, reference);
   comparison.mask = chooseMask(options, reference);
   metricOptions.mask = comparison.mask.mask;

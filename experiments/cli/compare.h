@@ -72,7 +72,9 @@ class ComparedMethod {
 };
 
 struct Comparison {
+  std::string referenceFile;
   Reference reference;
+  size_t referenceNonfinite = 0;     // in all pixels of its mean and its halves
   std::vector<std::string> metrics;  // of one image each
   MaskChoice mask;
   std::vector<ComparedImage> images;
@@ -82,7 +84,8 @@ struct Comparison {
 void printTable(const Comparison& comparison);
 void printJson(const Comparison& comparison, const CompareOptions& options);
 
-// Logs an error for each image that holds non-finite values and for each bound that does not hold.
+// Logs an error for a reference and for each image that hold non-finite values, and for each bound
+// that does not hold.
 ExitCode judge(const Comparison& comparison, const std::vector<Expectation>& expectations);
 
 }  // namespace restlab

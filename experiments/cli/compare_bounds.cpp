@@ -59,6 +59,11 @@ Expectation parseMaximum(const std::string& text) {
 ExitCode judge(const Comparison& comparison, const std::vector<Expectation>& expectations) {
   ExitCode code = ExitCode::ok;
   const auto worse = [&code](ExitCode other) { code = std::max(code, other); };
+  if (comparison.referenceNonfinite) {
+    logError(fmt::format("{}: the reference holds {} non-finite values", comparison.referenceFile,
+                         comparison.referenceNonfinite));
+    worse(ExitCode::comparisonFailed);
+  }
   for (const ComparedImage& image : comparison.images) {
     if (image.nonfinite) {
       logError(fmt::format("{}: holds {} non-finite values", image.file, image.nonfinite));

@@ -6,6 +6,7 @@
 
 #include "experiments/cli/compare.h"
 #include "experiments/cli/options.h"
+#include "experiments/runner/run/image_file.h"
 #include "experiments/runner/run/image_scene.h"
 #include "experiments/runner/run/light_mask.h"
 #include "experiments/runner/run/object_mask.h"
@@ -31,16 +32,9 @@ PixelRectangle parseRectangle(const std::string& text) {
 }
 
 PixelMask readMask(const std::string& file, const Image& reference) {
-  const LayeredImage read = readExr(file);
-  const auto layer = read.layers.find("");
-  if (layer == read.layers.end()) {
-    failInput(fmt::format("{}: has no R, G, B channels outside named layers", file));
-  }
-  const Image& image = layer->second;
-  if (image.width != reference.width || image.height != reference.height) {
-    failInput(fmt::format("{}: the mask is {}x{}, the reference {}x{}", file, image.width,
-                          image.height, reference.width, reference.height));
-  }
+  const LayeredImage read = readColours(file);
+  const Image& image = read.layers.at("");
+  requireSameWindow(file + ": the mask", windowOf(image), "the reference", windowOf(reference));
   return maskOfImage(image);
 }
 

@@ -76,7 +76,8 @@ void printJson(const Comparison& comparison, const CompareOptions& options) {
   Json json = {{"reference", options.reference},
                {"reference_spp", reference.spp},
                {"reference_relmse", finite(reference.relmse)},
-               {"reference_has_halves", reference.half0.has_value()}};
+               {"reference_has_halves", reference.half0.has_value()},
+               {"reference_nonfinite", comparison.referenceNonfinite}};
   if (!comparison.mask.text.empty()) {
     json["mask"] = {{"pixels", countSelected(comparison.mask.mask, reference.mean.pixels.size())},
                     {"selects", comparison.mask.text}};

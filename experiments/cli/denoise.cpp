@@ -19,6 +19,7 @@
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/run/build_info.h"
+#include "experiments/runner/run/image_file.h"
 #include "experiments/runner/run/interrupt.h"
 #include "experiments/runner/run/log.h"
 #include "experiments/runner/summary/accumulate.h"
@@ -92,11 +93,12 @@ SessionConfig configOf(const DenoiseOptions& options) {
 }
 
 // Looks at all files before one is written. Returns the names of their layers, and their size in
-// `config`.
+// `config`. All have one window.
 std::vector<LayerNames> checkFrames(const std::vector<FrameFiles>& files, const FrameLayers& layers,
                                     SessionConfig& config) {
   std::vector<LayerNames> names;
   std::set<std::string> said;
+  PixelWindow first;
   for (const FrameFiles& frame : files) {
     const ExrContents contents = readExrContents(frame.input, ExrLayers::all);
     names.push_back(layers.find(frame.input, contents.layers));
@@ -104,15 +106,15 @@ std::vector<LayerNames> checkFrames(const std::vector<FrameFiles>& files, const 
       if (said.insert(kind).second)
         logInfo(fmt::format("{}: no layer for {}: {}", frame.input.string(), kind, without));
     }
-    if (names.size() == 1) {
-      config.width = contents.width;
-      config.height = contents.height;
-    }
-    if (contents.width != config.width || contents.height != config.height) {
-      failInput(fmt::format("{}: is {}x{}, the frames before it are {}x{}", frame.input.string(),
-                            contents.width, contents.height, config.width, config.height));
+    if (names.size() == 1) first = contents.window;
+    if (contents.window != first) {
+      failInput(fmt::format("{}: is {}, the frames before it are {}", frame.input.string(),
+                            windowText(contents.window, first),
+                            windowText(first, contents.window)));
     }
   }
+  config.width = first.width;
+  config.height = first.height;
   return names;
 }
 
@@ -146,8 +148,10 @@ void denoise(const DenoiseOptions& options) {
   Progress progress("frame", files.size());
   for (size_t i = 0; i < files.size(); ++i) {
     throwIfInterrupted("the frames that are left were not written");
-    const LayeredImage image = readExr(files[i].input, ExrLayers::all);
+    const LayeredImage image = readExr(files[i].input, FrameLayers::selection(names[i]));
+    sayNotes(files[i].input, image);
     LayeredImage out;
+    out.frame = image.frame;
     out.layers[""] = denoiser.frame(FrameLayers::frame(image, names[i]),
                                     float(options.radianceFrames.value_or(1.0)));
     const std::string outside = whyOutsideRange(*findMethod(config).denoiser, out.layers[""]);
@@ -158,7 +162,8 @@ void denoise(const DenoiseOptions& options) {
     timeMs += denoiser.stats().timeMs;
     writeExr(files[i].output, out);
     if (options.png)
-      writePng(std::filesystem::path(files[i].output).replace_extension(".png"), out.layers[""]);
+      writePng(std::filesystem::path(files[i].output).replace_extension(".png"), out.layers[""],
+               1.0f, out.metadata);
     progress.update(i + 1);
   }
   progress.finish();

@@ -13,6 +13,7 @@
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/reference/beside_reference.h"
+#include "experiments/runner/run/build_info.h"
 #include "experiments/runner/run/log.h"
 #include "experiments/runner/reference/reference_error.h"
 
@@ -168,6 +169,31 @@ void checkFigureSize(const FigureSpec& spec) {
   }
 }
 
+// The words of a figure's PNG: its own, the reference's, and what of an image's differs from those.
+std::map<std::string, std::string> wordsOf(
+    const FigureOptions& options, const FigureSpec& spec, const Reference& reference,
+    const std::vector<std::map<std::string, std::string>>& images) {
+  std::map<std::string, std::string> words = provenanceWords();
+  const std::map<std::string, std::string> provenance = words;
+  words["kind"] = "figure";
+  words["reference"] = options.reference;
+  words["images"] = fmt::format("{}", fmt::join(options.images, ", "));
+  words["crops"] = fmt::format("{}", fmt::join(options.crops, " "));
+  words["metric"] = spec.metric;
+  words["exposure"] = fmt::format("{:.6g}", spec.exposure);
+  for (const auto& [key, value] : reference.metadata)
+    if (!provenance.contains(key)) words["reference." + key] = value;
+  for (size_t i = 0; i < images.size(); ++i) {
+    for (const auto& [key, value] : images[i]) {
+      const auto same = reference.metadata.find(key);
+      const bool differs = same == reference.metadata.end() || same->second != value;
+      if (differs && !provenance.contains(key))
+        words[fmt::format("image{}.{}", i + 1, key)] = value;
+    }
+  }
+  return words;
+}
+
 void makeFigure(const FigureOptions& options) {
   const std::filesystem::path output = options.output;
   const bool isSvg = output.extension() == ".svg", isPng = output.extension() == ".png";
@@ -193,11 +219,13 @@ void makeFigure(const FigureOptions& options) {
   }
   std::vector<Image> images;
   images.reserve(options.images.size());  // columns point into it
+  std::vector<std::map<std::string, std::string>> words;
   std::vector<double> errors;
   for (size_t i = 0; i < options.images.size(); ++i) {
-    const Image& image = images.emplace_back(
-        readBeside(options.images[i], options.reference, reference, options.anyReference)
-            .layers.at(""));
+    LayeredImage read =
+        readBeside(options.images[i], options.reference, reference, options.anyReference);
+    words.push_back(std::move(read.metadata));
+    const Image& image = images.emplace_back(std::move(read.layers.at("")));
     if (const size_t nonfinite = countNonfinite(image)) {
       logWarning(fmt::format("{}: holds {} non-finite values", options.images[i], nonfinite));
     }
@@ -232,7 +260,8 @@ void makeFigure(const FigureOptions& options) {
     logWarning(
         fmt::format("'{}' does not fit above its column and is cut (--labels, --scale)", label));
   }
-  writeTextFile(output, isSvg ? figureSvg(figure) : figurePng(figure));
+  writeTextFile(output, isSvg ? figureSvg(figure)
+                              : figurePng(figure, wordsOf(options, spec, reference, words)));
   logInfo(fmt::format("{}: {:.0f}x{:.0f} pixels, {} crops of {} images, exposure {:.4g}",
                       options.output, figure.width, figure.height, spec.crops.size(),
                       spec.columns.size(), spec.exposure));

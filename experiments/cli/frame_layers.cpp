@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
 #include "core/error.h"
 #include "experiments/cli/options.h"
@@ -119,6 +120,15 @@ LayerNames FrameLayers::find(const std::filesystem::path& file, const Names& lay
     }
   }
   return names;
+}
+
+ExrSelection FrameLayers::selection(const LayerNames& names) {
+  ExrSelection wanted(ExrLayers::all, std::set<std::string>{});
+  for (const auto& [kind, name] : names) {
+    wanted.names->insert(name);
+    if (kind == "normal" || kind == "depth" || kind == "motion") wanted.data.insert(name);
+  }
+  return wanted;
 }
 
 LayeredFrame FrameLayers::frame(const LayeredImage& image, const LayerNames& names) {

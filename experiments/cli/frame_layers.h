@@ -26,7 +26,8 @@ class FrameLayers {
   // could be meant.
   LayerNames find(const std::filesystem::path& file, const std::vector<std::string>& layers) const;
 
-  // Of a file of which find() told the names.
+  // What to read of a file of which find() told the names, and what is then its frame.
+  static ExrSelection selection(const LayerNames& names);
   static LayeredFrame frame(const LayeredImage& image, const LayerNames& names);
 
   // What is taken for the layers that are not in `names`: "albedo: it is not divided by", by kind.

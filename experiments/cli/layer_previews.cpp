@@ -14,8 +14,11 @@ std::filesystem::path layerPreviewPath(const std::filesystem::path& preview,
 }
 
 void writeLayerPreview(const std::filesystem::path& file, const std::string& layer,
-                       const Image& image, const Method& method) {
-  if (layer == "radiance" || layer == "albedo") return writePng(file, image);
+                       const LayeredImage& whole, const Method& method) {
+  const Image& image = whole.layers.at(layer);
+  std::map<std::string, std::string> words = whole.metadata;
+  words["layer"] = layer;
+  if (layer == "radiance" || layer == "albedo") return writePng(file, image, 1.0f, words);
   bool isName = layer == "object";
   std::string unit = layer == "depth" || layer == "positionW" ? "m" : "";
   for (const LayerInfo* info : method.layers()) {
@@ -23,9 +26,11 @@ void writeLayerPreview(const std::filesystem::path& file, const std::string& lay
     isName = info->isName;
     unit = info->unit;
   }
-  if (isName) return writePng(file, falseColors(image));
+  if (isName) return writePng(file, falseColors(image), 1.0f, words);
   const ValueRange range = valueRange(image);
-  writePng(file, scaledTo(image, range));
+  words["black"] = fmt::format("{:.6g}", range.least);
+  words["white"] = fmt::format("{:.6g}", range.greatest);
+  writePng(file, scaledTo(image, range), 1.0f, words);
   logInfo(fmt::format("{}: black is {:.6g}, white is {:.6g}{}{}", file.string(), range.least,
                       range.greatest, unit.empty() ? "" : " ", unit));
 }

@@ -14,8 +14,9 @@ std::filesystem::path layerPreviewPath(const std::filesystem::path& preview,
                                        const std::string& layer);
 
 // Radiance and albedo as they are; what numbers name in false colours; other numbers from black to
-// white, with a line that says from which value to which. `layer` is one of method.aovNames().
+// white, with a line that says from which value to which. `layer` is one of method.aovNames() and
+// of `image`, whose metadata the preview has, too.
 void writeLayerPreview(const std::filesystem::path& file, const std::string& layer,
-                       const Image& image, const Method& method);
+                       const LayeredImage& image, const Method& method);
 
 }  // namespace restlab

@@ -163,9 +163,9 @@ void writeFiles(const RenderOptions& options, const LayeredImage& file,
                 const std::vector<std::string>& aovs, const Method& method) {
   writeExr(options.output, file);
   if (options.png.empty()) return;
-  writePng(pngPath(options), file.layers.at(""));
+  writePng(pngPath(options), file.layers.at(""), 1.0f, file.metadata);
   for (const std::string& name : aovs)
-    writeLayerPreview(layerPreviewPath(pngPath(options), name), name, file.layers.at(name), method);
+    writeLayerPreview(layerPreviewPath(pngPath(options), name), name, file, method);
 }
 
 void render(RenderOptions options) {

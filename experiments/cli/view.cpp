@@ -193,7 +193,7 @@ void writeCapture(const ViewStart& start, const ViewOptions& options) {
   const Figure figure = capture(live, options.captured);
   for (const std::string& name : figure.cutLabels)
     logWarning(fmt::format("'{}' does not fit above its picture and is cut", name));
-  writeTextFile(options.capture, figurePng(figure));
+  writeTextFile(options.capture, figurePng(figure, captureWords(live)));
   logInfo(fmt::format("{}: {:.0f}x{:.0f} pixels, frame {}", options.capture, figure.width,
                       figure.height, options.captured.frames));
 }

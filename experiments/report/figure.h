@@ -60,6 +60,7 @@ Figure layOutFigure(const FigureSpec& spec);
 std::string figureSvg(const Figure& figure);
 
 // A PNG with a bitmap font of ASCII; other characters become '?'.
-std::string figurePng(const Figure& figure);
+std::string figurePng(const Figure& figure,
+                      const std::map<std::string, std::string>& metadata = {});
 
 }  // namespace restlab

@@ -96,12 +96,12 @@ class Painter {
 
 }  // namespace
 
-std::string figurePng(const Figure& figure) {
+std::string figurePng(const Figure& figure, const std::map<std::string, std::string>& metadata) {
   Painter painter(figure.width, figure.height);
   for (const FigurePicture& picture : figure.pictures) painter.draw(picture);
   for (const FigureFrame& frame : figure.frames) painter.draw(frame);
   for (const FigureText& text : figure.texts) painter.draw(text);
-  return encodePng(painter.picture());
+  return encodePng(painter.picture(), metadata);
 }
 
 }  // namespace restlab

@@ -13,7 +13,7 @@ namespace restlab::html {
 namespace {
 
 Image readImage(const std::filesystem::path& file) {
-  LayeredImage read = readExr(file);
+  LayeredImage read = readExr(file, {ExrLayers::colours, {""}});
   const auto layer = read.layers.find("");
   if (layer == read.layers.end()) {
     failInput(fmt::format("{}: has no R, G, B channels outside named layers", file.string()));

@@ -1,26 +1,12 @@
 #include "experiments/report/picture.h"
 
-#include <zlib.h>
-
 #include <algorithm>
-#include <new>
 
+#include "core/image/png.h"
 #include "core/image/srgb.h"
 
 namespace restlab {
 namespace {
-
-void appendBigEndian(std::string& out, uint32_t value) {
-  for (int shift = 24; shift >= 0; shift -= 8) out += char(value >> shift & 0xff);
-}
-
-void appendChunk(std::string& out, const std::string& type, const std::string& data) {
-  appendBigEndian(out, uint32_t(data.size()));
-  const std::string body = type + data;
-  out += body;
-  appendBigEndian(
-      out, uint32_t(crc32(0, reinterpret_cast<const Bytef*>(body.data()), uInt(body.size()))));
-}
 
 // The part of [a, a + 1) x scale that each source pixel fills: begin, end and the weights' ends.
 struct Span {
@@ -83,37 +69,8 @@ Image resized(const Image& image, uint32_t width, uint32_t height) {
   return out;
 }
 
-std::string encodePng(const Picture& picture) {
-  std::string header;
-  appendBigEndian(header, picture.width);
-  appendBigEndian(header, picture.height);
-  header += std::string("\x08\x02\x00\x00\x00", 5);  // 8 bits, R G B, deflate, no interlacing
-
-  // Filter 2: each row as its difference from the one above, which an enlarged row repeats.
-  const size_t stride = size_t(picture.width) * 3;
-  std::string rows;
-  rows.reserve((stride + 1) * picture.height);
-  for (size_t y = 0; y < picture.height; ++y) {
-    rows += '\x02';
-    for (size_t i = 0; i < stride; ++i) {
-      const uint8_t above = y ? picture.bytes[(y - 1) * stride + i] : 0;
-      rows += char(uint8_t(picture.bytes[y * stride + i] - above));
-    }
-  }
-  uLongf size = compressBound(uLong(rows.size()));
-  std::string packed(size, '\0');
-  if (compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
-                reinterpret_cast<const Bytef*>(rows.data()), uLong(rows.size()),
-                Z_BEST_COMPRESSION) != Z_OK) {
-    throw std::bad_alloc();  // the only failure with a buffer of this size
-  }
-  packed.resize(size);
-  std::string out = "\x89PNG\r\n\x1a\n";
-  appendChunk(out, "IHDR", header);
-  appendChunk(out, "sRGB", std::string(1, '\0'));
-  appendChunk(out, "IDAT", packed);
-  appendChunk(out, "IEND", "");
-  return out;
+std::string encodePng(const Picture& picture, const std::map<std::string, std::string>& metadata) {
+  return encodePng("a picture", picture.width, picture.height, picture.bytes.data(), metadata);
 }
 
 }  // namespace restlab

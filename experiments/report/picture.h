@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,8 @@ Picture pictureOf(const Image& image, const Crop& crop, float exposure, uint32_t
 // its brightness.
 Image resized(const Image& image, uint32_t width, uint32_t height);
 
-// A PNG file (ISO 15948), 8 bits a channel, sRGB. The same bytes for the same picture.
-std::string encodePng(const Picture& picture);
+// A PNG file (core/image/png.h) with these texts.
+std::string encodePng(const Picture& picture,
+                      const std::map<std::string, std::string>& metadata = {});
 
 }  // namespace restlab

@@ -8,6 +8,8 @@
 #include "core/backend/stop.h"
 #include "core/error.h"
 #include "experiments/report/svg_style.h"
+#include "experiments/runner/run/build_info.h"
+#include "experiments/runner/run/experiment.h"
 #include "experiments/runner/run/interrupt.h"
 #include "experiments/runner/run/log.h"
 #include "experiments/view/view_exposure.h"
@@ -98,6 +100,33 @@ Figure capture(LiveView& view, const CaptureOptions& options) {
     columns.push_back(
         {fmt::format("reference, {} spp", view.reference().spp()), &view.reference().mean()});
   return layOut(columns, float(exposureOf(view)));
+}
+
+std::map<std::string, std::string> captureWords(const LiveView& view) {
+  std::map<std::string, std::string> words = provenanceWords();
+  std::vector<std::map<std::string, std::string>> panes(view.panes());
+  for (size_t i = 0; i < panes.size(); ++i) {
+    if (view.renders(i)) {
+      panes[i] = describe(view.shown(), view.session(i).config());
+      panes[i]["seed"] = std::to_string(view.session(i).config().seed);
+      panes[i]["frame"] = std::to_string(view.frames(i) - 1);
+    } else {
+      panes[i]["source"] = view.settings().panes[i].source;
+    }
+  }
+  for (size_t i = 0; i < panes.size(); ++i) {
+    for (const auto& [key, value] : panes[i]) {
+      const bool isCommon = std::all_of(panes.begin(), panes.end(), [&](const auto& other) {
+        const auto found = other.find(key);
+        return found != other.end() && found->second == value;
+      });
+      words[isCommon ? key : fmt::format("{}.{}", char('A' + int(i)), key)] = value;
+    }
+  }
+  words["kind"] = "capture";
+  words["exposure"] = fmt::format("{:.6g}", exposureOf(view));
+  if (view.reference().isThere()) words["reference_spp"] = std::to_string(view.reference().spp());
+  return words;
 }
 
 }  // namespace restlab

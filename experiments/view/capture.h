@@ -18,4 +18,7 @@ void requireCaptureSize(const ViewSettings& settings);
 // scene at first. Throws Error (interrupted) where a signal has come.
 Figure capture(LiveView& view, const CaptureOptions& options);
 
+// The metadata of its PNG: settings that both panes have, those of one as "A.mode", "B.mode".
+std::map<std::string, std::string> captureWords(const LiveView& view);
+
 }  // namespace restlab

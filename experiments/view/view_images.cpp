@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "experiments/runner/reference/beside_reference.h"
+#include "experiments/runner/run/image_file.h"
 
 namespace restlab {
 
@@ -18,13 +19,6 @@ constexpr const char* kReferenceEnd = "-reference";
 bool saysItIsReference(const fs::path& file, const LayeredImage& read) {
   const auto kind = read.metadata.find("kind");
   return file.extension() == ".exr" && kind != read.metadata.end() && kind->second == "reference";
-}
-
-const Image& coloursOf(const fs::path& file, const LayeredImage& read) {
-  const auto layer = read.layers.find("");
-  if (layer == read.layers.end())
-    failInput(fmt::format("{}: has no R, G, B channels outside named layers", file.string()));
-  return layer->second;
 }
 
 // As short as tells them apart.
@@ -43,10 +37,12 @@ std::string freeName(const ViewImages& images, const fs::path& file) {
 void requireOneSize(const ViewImages& images) {
   const FileImage& first = images.list.front();
   const auto require = [&](const fs::path& file, const Image& image) {
-    if (image.width == first.image.width && image.height == first.image.height) return;
-    failInput(fmt::format("{}: is {}x{}, and {} is {}x{}; images of one size can be compared",
-                          file.string(), image.width, image.height, first.file.string(),
-                          first.image.width, first.image.height));
+    const PixelWindow window = windowOf(image), firstWindow = windowOf(first.image);
+    if (window == firstWindow) return;
+    failInput(fmt::format("{}: is {}, and {} is {}; images of one {} can be compared",
+                          file.string(), windowText(window, firstWindow), first.file.string(),
+                          windowText(firstWindow, window),
+                          window.origin == firstWindow.origin ? "size" : "window"));
   };
   for (const FileImage& one : images.list) require(one.file, one.image);
   if (images.reference) require(images.referenceFile, images.reference->mean);
@@ -80,8 +76,7 @@ ViewImages readViewImages(const std::vector<fs::path>& files, const fs::path& re
   if (files.size() > 1) images.title += fmt::format(" and {} more", files.size() - 1);
   if (!reference.empty()) takeReference(reference, images);
   for (const fs::path& file : files) {
-    LayeredImage read = readExr(file);
-    coloursOf(file, read);
+    LayeredImage read = readColours(file);
     const bool isOnly = files.size() == 1;
     if (looksForReference && !images.reference && !isOnly && saysItIsReference(file, read)) {
       takeReference(file, images);

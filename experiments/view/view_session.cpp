@@ -7,6 +7,7 @@
 #include <optional>
 #include <variant>
 
+#include "core/image/window.h"
 #include "core/config.h"
 #include "core/error.h"
 #include "core/integrator.h"
@@ -260,11 +261,12 @@ void requireSizeOf(const ViewImages& images, const ViewSettings& settings, bool 
   if (!hasScene || images.list.empty()) return;
   const FileImage& first = images.list.front();
   const SessionConfig& size = settings.panes.front().config;
-  if (first.image.width == size.width && first.image.height == size.height) return;
-  failInput(fmt::format(
-      "{}: is {}x{}, and the methods render {}x{}; images of one size can be "
-      "compared",
-      first.file.string(), first.image.width, first.image.height, size.width, size.height));
+  const PixelWindow window = windowOf(first.image), rendered{{0, 0}, size.width, size.height};
+  if (window == rendered) return;
+  failInput(fmt::format("{}: is {}, and the methods render {}; images of one {} can be compared",
+                        first.file.string(), windowText(window, rendered),
+                        windowText(rendered, window),
+                        window.origin == rendered.origin ? "size" : "window"));
 }
 
 void requireImagesOf(const ViewStart& start) {

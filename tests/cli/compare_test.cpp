@@ -158,6 +158,41 @@ TEST_F(CompareTest, NonfiniteImageFails) {
   EXPECT_EQ(nlohmann::json::parse(masked.out)["images"][0]["metrics"]["mse"], 0.0);
 }
 
+TEST_F(CompareTest, NonfiniteReferenceFails) {
+  writeConstant("a.exr", 0.5f);
+  for (const char* layer : {"", "half1"}) {
+    writeReferenceWithHalves();
+    LayeredImage reference = readExr(path("ref.exr"));
+    reference.layers.at(layer).at(3, 2).y = std::numeric_limits<float>::quiet_NaN();
+    writeExr(path("ref.exr"), reference);
+    const ProgramResult result = run("compare --ref ref.exr a.exr --json");
+    EXPECT_EQ(result.code, 1) << layer;
+    EXPECT_NE(result.err.find("ref.exr: the reference holds 1 non-finite values"),
+              std::string::npos)
+        << result.err;
+    EXPECT_EQ(nlohmann::json::parse(result.out)["reference_nonfinite"], 1);
+  }
+}
+
+// The same pixels in another place are other pixels.
+TEST_F(CompareTest, AnotherWindowIsExitCode3) {
+  writeConstant("ref.exr", 0.5f);
+  writeConstant("a.exr", 0.5f);
+  LayeredImage shifted = readExr(path("a.exr"));
+  shifted.frame.origin = {1, 0};
+  writeExr(path("shifted.exr"), shifted);
+  expectError(run("compare --ref ref.exr shifted.exr"), 3,
+              {"shifted.exr: is 8x8 from pixel (1, 0) on", "ref.exr is 8x8 from pixel (0, 0) on"});
+  expectError(run("compare --ref ref.exr a.exr --mask shifted.exr"), 3,
+              {"shifted.exr: the mask is 8x8 from pixel (1, 0) on"});
+  EXPECT_EQ(run("compare --ref shifted.exr shifted.exr").code, 0);
+  shifted.frame.pixelAspectRatio = 2.0f;
+  writeExr(path("wide.exr"), shifted);
+  const ProgramResult wide = run("compare --ref shifted.exr wide.exr");
+  EXPECT_EQ(wide.code, 0);
+  EXPECT_NE(wide.err.find("wide.exr: its pixelAspectRatio is 2"), std::string::npos) << wide.err;
+}
+
 TEST_F(CompareTest, OtherSizeIsExitCode3) {
   writeConstant("ref.exr", 0.5f);
   writeConstant("small.exr", 0.5f, 4);

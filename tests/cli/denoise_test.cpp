@@ -1,7 +1,14 @@
 // restlab denoise.
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <ImfOutputFile.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <list>
+#include <vector>
 
 #include "core/image/image.h"
 #include "tests/cli/program.h"
@@ -33,6 +40,32 @@ class DenoiseTest : public ProgramTest {
   }
   LayeredImage noisy() const { return readExr(path("noisy.exr")); }
 };
+
+// A channel of integers beside what the file has, as other programs write them.
+void addIntegers(const std::filesystem::path& file, const char* channel) {
+  std::list<std::vector<uint32_t>> words;
+  Imf::FrameBuffer frame;
+  Imf::Header header;
+  {
+    Imf::InputFile input(file.c_str());
+    header = input.header();
+    const Imath::Box2i data = header.dataWindow();
+    const size_t width = size_t(data.max.x - data.min.x + 1);
+    const auto add = [&](const char* name, Imf::PixelType type) {
+      words.emplace_back(width * size_t(data.max.y - data.min.y + 1), 7u);
+      frame.insert(name, Imf::Slice::Make(type, words.back().data(), data, 4, 4 * width));
+    };
+    for (auto it = header.channels().begin(); it != header.channels().end(); ++it)
+      add(it.name(), Imf::FLOAT);
+    input.setFrameBuffer(frame);
+    input.readPixels(data.min.y, data.max.y);
+    add(channel, Imf::UINT);
+  }
+  header.channels().insert(channel, Imf::Channel(Imf::UINT));
+  Imf::OutputFile output(file.c_str(), header);
+  output.setFrameBuffer(frame);
+  output.writePixels(header.dataWindow().max.y - header.dataWindow().min.y + 1);
+}
 
 TEST_F(DenoiseTest, LayersOfARenderedImageLowerItsError) {
   for (const char* denoiser : {"atrous", "svgf"}) {
@@ -137,6 +170,29 @@ TEST_F(DenoiseTest, ASequenceIsDenoisedInOrder) {
   std::filesystem::remove(path("frame-010.exr"));
   expectError(run("denoise frame-###.exr -o again-###.exr"), 3, {"frame-010.exr", "missing"});
   EXPECT_FALSE(std::filesystem::exists(path("again-008.exr")));
+}
+
+// A part of a larger picture stays where it is; channels that hold integers are of no interest.
+TEST_F(DenoiseTest, WindowsAreKeptAndOtherChannelsLeftAlone) {
+  LayeredImage image = noisy();
+  image.frame.origin = {5, 3};
+  image.frame.display = {0, 0, 99, 79};
+  image.frame.pixelAspectRatio = 1.5f;
+  writeExr(path("part.exr"), image);
+  addIntegers(path("part.exr"), "object_id");
+  const ProgramResult result = run("denoise part.exr -o clean.exr");
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.err.find("its pixelAspectRatio is 1.5"), std::string::npos) << result.err;
+  const LayeredImage clean = readExr(path("clean.exr"));
+  EXPECT_EQ(clean.frame.origin, glm::ivec2(5, 3));
+  EXPECT_EQ(clean.frame.display, glm::ivec4(0, 0, 99, 79));
+  EXPECT_EQ(clean.frame.pixelAspectRatio, 1.5f);
+  ASSERT_EQ(run("denoise noisy.exr -o whole.exr").code, 0);
+  EXPECT_EQ(clean.layers.at("").pixels, readExr(path("whole.exr")).layers.at("").pixels);
+  // Frames of a sequence are one view.
+  writeExr(path("p-1.exr"), noisy());
+  writeExr(path("p-2.exr"), image);
+  expectError(run("denoise p-#.exr -o q-#.exr"), 3, {"p-2.exr: is 48x48 from pixel (5, 3) on"});
 }
 
 // An output of another pattern may be the input of a later frame.

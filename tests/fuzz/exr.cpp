@@ -1,4 +1,5 @@
 #include "core/image/image.h"
+#include "core/scene/scene.h"
 #include "tests/fuzz/entries.h"
 #include "tests/fuzz/input_file.h"
 
@@ -6,7 +7,10 @@ namespace restlab::fuzz {
 
 bool readExr(const uint8_t* bytes, size_t count) {
   const std::filesystem::path file = inputFile("image.exr", bytes, count);
-  return isRead(file, ExitCode::badInput, [&] { restlab::readExr(file); });
+  const bool read = isRead(file, ExitCode::badInput, [&] { restlab::readExr(file); });
+  // A cube is made another map.
+  if (read) isRead(file, ExitCode::badInput, [&] { loadEnvironment(file); });
+  return read;
 }
 
 }  // namespace restlab::fuzz

@@ -109,6 +109,21 @@ def environments():
     write("hdr", "negative.hdr", hdr(-8, 2, b"\0" * 64))
     write("hdr", "no-format.hdr", b"#?RADIANCE\n\n-Y 1 +X 1\n\0\0\0\0")
     write("hdr", "no-size.hdr", b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n")
+    pixel, marks = bytes([128, 64, 0, 129]), b"\1\1\1\x2b\1\1\1\1"
+    write("hdr", "read-old-runs.hdr", hdr(300, 1, pixel + marks))
+    write("hdr", "old-overrun.hdr", hdr(299, 1, pixel + marks))
+    write("hdr", "old-endless.hdr", hdr(300, 1, pixel + b"\1\1\1\0" * 8 + b"\1\1\1\1"))
+    write("hdr", "old-first.hdr", hdr(300, 1, marks + pixel))
+    form = b"FORMAT=32-bit_rle_rgbe\n\n"
+    write("hdr", "read-columns.hdr", b"#?RADIANCE\n" + form + b"+X 2 +Y 3\n" + pixel * 6)
+    write("hdr", "read-exposed.hdr", b"#?RADIANCE\nEXPOSURE=2\nCOLORCORR=1 2 .5\nEXPOSURE= 3\n"
+          + form + b"-Y 1 +X 1\n" + pixel)
+    write("hdr", "read-primaries.hdr", b"#?RADIANCE\nPRIMARIES=.708 .292 .17 .797 .131 .046 .3127 .329\n"
+          + form + b"-Y 1 -X 1\n" + pixel)
+    write("hdr", "read-xyze.hdr", b"#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n" + pixel)
+    write("hdr", "exposed-by-zero.hdr", b"#?RADIANCE\nEXPOSURE=0\n" + form + b"-Y 1 +X 1\n" + pixel)
+    write("hdr", "primaries-in-a-line.hdr", b"#?RADIANCE\nPRIMARIES=.1 .1 .2 .2 .3 .3 .3 .3\n"
+          + form + b"-Y 1 +X 1\n" + pixel)
 
 
 # ---- EXR ------------------------------------------------------------------------------------------
@@ -178,6 +193,12 @@ def images():
     write("exr", "read-zip.exr", exr(window=(0, 0, 7, 1), compression=3,
                                      chunks=[struct.pack("<ii", 0, len(block)) + block]))
     write("exr", "read-text.exr", exr(extra=attribute(b"restlab:scene", b"string", b"room")))
+    colours = lambda *xy: attribute(b"chromaticities", b"chromaticities", struct.pack("<8f", *xy))
+    write("exr", "read-xyz.exr", exr(extra=colours(1, 0, 0, 1, 0, 0, 1 / 3, 1 / 3)))
+    write("exr", "colours-in-a-line.exr", exr(extra=colours(.1, .1, .2, .2, .3, .3, .3, .3)))
+    write("exr", "no-colours.exr", exr(extra=colours(*[float("nan")] * 8)))
+    write("exr", "read-cube.exr", exr(window=(0, 0, 0, 5), extra=attribute(b"envmap", b"envmap", b"\1")))
+    write("exr", "read-no-cube.exr", exr(window=(0, 0, 1, 5), extra=attribute(b"envmap", b"envmap", b"\1")))
     write("exr", "integers.exr", exr(kind=0))
     write("exr", "one-channel.exr", exr(names=(b"R",)))
     write("exr", "lying.exr", exr(window=(0, 0, 16383, 16383), chunks=[b"\0" * 32]))

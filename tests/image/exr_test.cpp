@@ -87,8 +87,8 @@ TEST_F(ExrTest, ReadsHalfOffsetWindowsTilesAndLuminance) {
   // The header alone says the same.
   const ExrContents contents = readExrContents(path("n.exr"), ExrLayers::all);
   EXPECT_EQ(contents.layers, (std::vector<std::string>{"", "N", "Z", "motion"}));
-  EXPECT_EQ(contents.width, 5u);
-  EXPECT_EQ(contents.height, 4u);
+  EXPECT_EQ(contents.window.width, 5u);
+  EXPECT_EQ(contents.window.height, 4u);
   EXPECT_EQ(readExrContents(path("n.exr")).layers, std::vector<std::string>{""});
 }
 

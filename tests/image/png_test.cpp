@@ -4,7 +4,11 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
+#include <map>
+#include <string>
 
 #include "core/image/image.h"
 
@@ -48,6 +52,54 @@ TEST(Png, SrgbKnownValues) {
     }
   }
   stbi_image_free(bytes);
+  std::filesystem::remove_all(folder);
+}
+
+// Texts of a PNG by their keyword: tEXt, and iTXt without compression.
+std::map<std::string, std::string> textsOf(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  std::map<std::string, std::string> texts;
+  for (size_t at = 8; at + 12 <= bytes.size();) {
+    size_t length = 0;
+    for (size_t i = 0; i < 4; ++i) length = length << 8 | uint8_t(bytes[at + i]);
+    const std::string type = bytes.substr(at + 4, 4), data = bytes.substr(at + 8, length);
+    const size_t end = data.find('\0');
+    if (type == "tEXt") texts[data.substr(0, end)] = data.substr(end + 1);
+    // A flag, a method, and two more texts that end with a zero and are empty.
+    if (type == "iTXt") texts[data.substr(0, end)] = "iTXt " + data.substr(end + 5);
+    at += 12 + length;
+  }
+  return texts;
+}
+
+TEST(Png, HasTheMetadataOfItsImage) {
+  std::string folder = (std::filesystem::temp_directory_path() / "restlab-png-XXXXXX").string();
+  ASSERT_NE(::mkdtemp(folder.data()), nullptr);
+  const std::string file = folder + "/a.png";
+  const std::string longKey(90, 'k');
+  writePng(file, Image(3, 2, glm::vec3(0.5f)), 1.0f,
+           {{"version", "1.2"},
+            {"scene", "cornell-box"},
+            {"empty", ""},
+            {"health", "a\nb"},
+            {"camera",
+             "K\xc3\xbc"
+             "che"},
+            {longKey, "v"}});
+  const auto texts = textsOf(file);
+  EXPECT_EQ(texts, (std::map<std::string, std::string>{{"Software", "restlab 1.2"},
+                                                       {"restlab:version", "1.2"},
+                                                       {"restlab:scene", "cornell-box"},
+                                                       {"restlab:empty", " "},
+                                                       {"restlab:health", "a\nb"},
+                                                       {"restlab:camera",
+                                                        "iTXt K\xc3\xbc"
+                                                        "che"},
+                                                       {"restlab:more", longKey + "=v"}}));
+  int width = 0, height = 0, channels = 0;
+  EXPECT_TRUE(stbi_info(file.c_str(), &width, &height, &channels)) << "texts are no pixels";
+  EXPECT_EQ(width, 3);
   std::filesystem::remove_all(folder);
 }
 

@@ -1,6 +1,7 @@
 set(RL_IMAGE_TESTS
   image/bias_runs_test.cpp
   image/exr_damage_test.cpp
+  image/exr_frame_test.cpp
   image/exr_test.cpp
   image/flip_test.cpp
   image/halves_noise_test.cpp

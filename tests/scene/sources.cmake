@@ -3,6 +3,7 @@ set(RL_SCENE_TESTS
   scene/camera_keyframes_test.cpp
   scene/camera_path_config_test.cpp
   scene/camera_path_test.cpp
+  scene/environment_files_test.cpp
   scene/gltf_builder.cpp
   scene/gltf_corpus_test.cpp
   scene/gltf_errors_test.cpp
@@ -14,6 +15,7 @@ set(RL_SCENE_TESTS
   scene/gltf_scale_test.cpp
   scene/gltf_uri_test.cpp
   scene/gltf_validator_test.cpp
+  scene/hdr_test.cpp
   scene/image_limits_test.cpp
   scene/light_factor_test.cpp
   scene/load_scene_test.cpp

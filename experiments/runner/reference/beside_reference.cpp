@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "experiments/runner/run/image_file.h"
 #include "experiments/runner/run/log.h"
 
 namespace restlab {
@@ -21,17 +22,9 @@ void requireOfReference(const std::string& file, const std::map<std::string, std
 
 LayeredImage readBeside(const std::string& file, const std::string& referenceFile,
                         const Reference& reference, bool anyReference) {
-  LayeredImage read = readExr(file);
-  const auto layer = read.layers.find("");
-  if (layer == read.layers.end()) {
-    failInput(fmt::format("{}: has no R, G, B channels outside named layers", file));
-  }
-  const Image& image = layer->second;
-  if (image.width != reference.mean.width || image.height != reference.mean.height) {
-    failInput(fmt::format("{}: is {}x{}, the reference {} is {}x{}", file, image.width,
-                          image.height, referenceFile, reference.mean.width,
-                          reference.mean.height));
-  }
+  LayeredImage read = readColours(file);
+  requireSameWindow(file + ":", windowOf(read.layers.at("")), "the reference " + referenceFile,
+                    windowOf(reference.mean));
   if (!anyReference) requireOfReference(file, read.metadata, referenceFile, reference.metadata);
   return read;
 }

@@ -73,7 +73,7 @@ void writeBlockImages(const std::filesystem::path& folder, const Suite& suite,
     file.metadata["preview_exposure"] = fmt::format("{:.6g}", exposure);
     const std::string stem = label + "-" + safeFileName(name);
     writeExr(folder / (stem + ".exr"), file);
-    writePng(folder / (stem + ".png"), image, exposure);
+    writePng(folder / (stem + ".png"), image, exposure, file.metadata);
   };
   write("reference", block.reference.mean, block.reference.metadata);
   for (size_t m = 0; m < block.methods.size(); ++m) {

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "experiments/runner/reference/reference.h"
+#include "experiments/runner/run/image_file.h"
 
 namespace restlab {
 
@@ -34,13 +35,9 @@ double metadataNumber(const std::map<std::string, std::string>& metadata, const 
 }  // namespace
 
 Reference readReference(const std::filesystem::path& file) {
-  LayeredImage image = readExr(file);
-  const auto main = image.layers.find("");
-  if (main == image.layers.end()) {
-    failInput(fmt::format("{}: has no R, G, B channels outside named layers", file.string()));
-  }
+  LayeredImage image = readColours(file, {"half0", "half1", "variance"});
   Reference reference;
-  reference.mean = std::move(main->second);
+  reference.mean = std::move(image.layers.at(""));
   // What other programs call so is of samples or of the mean: nobody knows.
   if (image.metadata["kind"] != "reference") image.layers.erase("variance");
   for (const char* name : {"half0", "half1", "variance"}) {

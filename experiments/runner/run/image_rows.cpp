@@ -9,6 +9,7 @@
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/summary/figures.h"
 #include "experiments/runner/run/files.h"
+#include "experiments/runner/run/image_file.h"
 #include "experiments/runner/run/run_record.h"
 
 namespace restlab {
@@ -39,13 +40,11 @@ fs::path fileOf(const ImageRow& row, uint32_t run, const std::string& scene, uin
 
 LayeredImage read(const ImageRow& row, const fs::path& file, uint32_t width, uint32_t height) {
   try {
-    LayeredImage image = readExr(file);
-    const auto main = image.layers.find("");
-    if (main == image.layers.end())
-      failInput(fmt::format("{}: has no R, G, B channels outside named layers", file.string()));
-    if (main->second.width != width || main->second.height != height) {
-      failInput(fmt::format("{}: is {}x{}, the suite's images are {}x{}", file.string(),
-                            main->second.width, main->second.height, width, height));
+    LayeredImage image = readColours(file);
+    const PixelWindow window = windowOf(image.layers.at("")), wanted{{0, 0}, width, height};
+    if (window != wanted) {
+      failInput(fmt::format("{}: is {}, the suite's images are {}", file.string(),
+                            windowText(window, wanted), windowText(wanted, window)));
     }
     return image;
   } catch (const Error& error) {

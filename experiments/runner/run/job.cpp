@@ -74,7 +74,7 @@ JobData read(const fs::path& folder, const std::string& key) {
     const fs::path file = folder / method.at("image").get<std::string>();
     if (hashOfFile(file) != method.at("image_hash").get<std::string>())
       failInput(fmt::format("{} is damaged", file.filename().string()));
-    LayeredImage image = readExr(file);
+    LayeredImage image = readExr(file, {ExrLayers::colours, {""}});
     JobMethod& read = job.methods.emplace_back();
     for (const Json& line : method.at("lines")) read.lines.push_back(line);
     read.measured = std::move(image.layers.at(""));

@@ -110,6 +110,8 @@ PreparedScene prepareScene(const SceneRequest& request, std::optional<Environmen
   if (prepared.environmentName.empty()) prepared.environmentName = "built-in";
   if (environment) {
     scene.environment = std::move(environment);
+    const std::vector<std::string>& said = scene.environment->warnings;
+    scene.warnings.insert(scene.warnings.end(), said.begin(), said.end());
     prepared.environmentName = request.environment;
   }
   if (!scene.environment && (request.environmentRotation || request.environmentScale)) {

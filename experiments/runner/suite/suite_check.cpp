@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/image/exr_limits.h"
+#include "core/image/window.h"
 #include "core/memory.h"
 #include "experiments/runner/reference/block_masks.h"
 #include "experiments/runner/run/experiment.h"
@@ -43,9 +44,10 @@ void checkReference(const Suite& suite, const SuiteScene& scene, const PreparedS
   const std::string& file = scene.reference;
   const fs::path found = findAsset(file);
   const Reference reference = readReference(found.empty() ? fs::path(file) : found);
-  if (reference.mean.width != width || reference.mean.height != height) {
-    failInput(fmt::format("{}: the reference is {}x{}, the suite renders {}x{}", file,
-                          reference.mean.width, reference.mean.height, width, height));
+  const PixelWindow window = windowOf(reference.mean), wanted{{0, 0}, width, height};
+  if (window != wanted) {
+    failInput(fmt::format("{}: the reference is {}, the suite renders {}", file,
+                          windowText(window, wanted), windowText(wanted, window)));
   }
   requireUsable(file, reference);
   for (const uint32_t component : suite.components) {

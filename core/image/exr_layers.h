@@ -1,0 +1,26 @@
+// The layers of an EXR, by the names of its channels.
+#pragma once
+
+#include <ImfHeader.h>
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "core/image/image.h"
+
+namespace restlab {
+
+// The channels that make up one layer: three, or two (a third "" is 0), or one alone.
+struct LayerChannels {
+  std::array<std::string, 3> three;
+  std::string alone;
+  bool isColour = false;  // three are R, G, B
+};
+
+// By the layer's name. Throws Error (badInput) where there is none.
+std::map<std::string, LayerChannels> findExrLayers(const std::filesystem::path& file,
+                                                   const Imf::Header& header, ExrLayers wanted);
+
+}  // namespace restlab
