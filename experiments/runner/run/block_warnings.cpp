@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "core/method.h"
 #include "core/radiance_range.h"
+#include "experiments/runner/reference/light_draws.h"
 #include "experiments/runner/summary/report.h"
 
 namespace restlab {
