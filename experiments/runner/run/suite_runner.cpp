@@ -219,7 +219,7 @@ class SuiteRun {
     block.motion = motionOf(suite, scene, prepared);
     block.lights = lightPhases(suite, prepared);
     if (!obtain(suite, scene, prepared, block)) return false;
-    for (const std::string& line : warningsOf(suite, block)) {
+    for (const std::string& line : warningsOf(suite, prepared, block)) {
       logWarning(line);
       outputs_.note("Warning: " + line);
     }
