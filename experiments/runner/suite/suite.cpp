@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "core/config.h"
 #include "core/error.h"
@@ -14,8 +15,8 @@
 #include "experiments/runner/suite/suite_methods.h"
 #include "experiments/runner/suite/suite_overrides.h"
 #include "experiments/runner/suite/suite_settings.h"
-#include "experiments/runner/suite/scene_parameter.h"
 #include "experiments/runner/suite/suite_yardstick.h"
+#include "experiments/runner/suite/scene_parameter.h"
 #include "experiments/runner/suite/sweep.h"
 
 namespace restlab {
@@ -253,7 +254,9 @@ Suite readSuite(const ConfigTable& root, const std::filesystem::path& file, cons
   if (suite.scenes.empty())
     root.fail("", "the suite has no scenes: give scenes = [..] or [[scene]]");
   const ConfigTable settings = root.getTable("settings");
-  readSettings(settings, suite);
+  std::set<std::string> swept;
+  for (const SweepAxis& axis : sweep.settings) swept.insert(axis.leaf);
+  readSettings(settings, suite, swept);
   readPaths(root, suite);
   takePath(suite, suite.cameraPathName, suite.cameraPathPlace);
   for (const SuiteScene& scene : suite.scenes) checkPath(settings, ofScene(suite, scene));
