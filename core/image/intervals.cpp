@@ -117,6 +117,8 @@ Interval pairedRatioInterval(std::span<const double> numerator, std::span<const 
   const Moments a = momentsOf(numerator);
   const Moments b = momentsOf(denominator);
   const double ratio = a.mean / b.mean;
+  if (std::equal(numerator.begin(), numerator.end(), denominator.begin()) && ratio == 1.0)
+    return {1.0, 1.0, 1.0};
   if (numerator.size() < 2 || std::isnan(ratio)) return {ratio, kNan, kNan};
   double covariance = 0.0;
   for (size_t i = 0; i < numerator.size(); ++i) {
@@ -125,6 +127,11 @@ Interval pairedRatioInterval(std::span<const double> numerator, std::span<const 
   covariance /= (a.n - 1.0) * a.n;
   return fieller(a.mean, b.mean, a.varianceOfMean, b.varianceOfMean, covariance,
                  tQuantile(a.n - 1.0, confidence), shared, confidence);
+}
+
+Interval ratioOfPositives(const Interval& ratio) {
+  const auto end = [](double of) { return std::isfinite(of) ? std::max(of, 0.0) : of; };
+  return {ratio.value, end(ratio.lo), end(ratio.hi)};
 }
 
 Interval geometricMeanInterval(std::span<const double> runs, double confidence) {

@@ -38,9 +38,14 @@ Interval ratioInterval(std::span<const double> numerator, std::span<const double
                        const SharedNoise& shared = {}, double confidence = 0.95);
 
 // The same where numerator[i] and denominator[i] were measured together (interleaved frame times):
-// their covariance narrows the interval. Throws std::invalid_argument on different sizes.
+// their covariance narrows the interval. Where they are the same numbers, and not 0, the ratio is
+// 1, and so are both ends. Throws std::invalid_argument on different sizes.
 Interval pairedRatioInterval(std::span<const double> numerator, std::span<const double> denominator,
                              const SharedNoise& shared = {}, double confidence = 0.95);
+
+// The interval of a ratio of numbers that cannot be negative, errors above all: an end that noise
+// puts below 0 is 0. -inf stays, as it says that there is no bound.
+Interval ratioOfPositives(const Interval& ratio);
 
 // For positive numbers with a ratio scale, times above all: the geometric mean exp(mean(log)),
 // whose interval is Student's t of the logarithms and so never reaches 0, and never holds a

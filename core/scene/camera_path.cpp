@@ -13,7 +13,6 @@ namespace restlab {
 
 namespace {
 
-const glm::dvec3 kUpW(0.0, 1.0, 0.0);
 // The sine of the angle between view and vertical below which no upright camera is defined.
 constexpr double kVertical = 1e-6;
 
@@ -56,16 +55,16 @@ SceneCamera walked(const SceneCamera& camera, double metres) {
 
 // An upright camera like `like`. `place` starts the error.
 SceneCamera lookingAt(const SceneCamera& like, const glm::dvec3& positionW,
-                      const glm::dvec3& targetW, const std::string& place) {
+                      const glm::dvec3& targetW, const glm::dvec3& upW, const std::string& place) {
   const glm::dvec3 view = positionW - targetW;
   const double distance = glm::length(view);
   if (!(distance > 0.0)) failUsage(fmt::format("{}: the camera stands in its target", place));
-  const glm::dvec3 back = view / distance, side = glm::cross(kUpW, back);
+  const glm::dvec3 back = view / distance, side = glm::cross(upW, back);
   if (!(glm::length(side) > kVertical)) {
     failUsage(
         fmt::format("{}: the camera looks straight {} at its target, where upright means nothing; "
                     "move it aside, or give a camera",
-                    place, back.y > 0.0 ? "down" : "up"));
+                    place, glm::dot(back, upW) > 0.0 ? "down" : "up"));
   }
   const glm::dvec3 right = glm::normalize(side);
   SceneCamera camera = like;
@@ -81,9 +80,11 @@ SceneCamera named(const Scene& scene, const std::string& name, const std::string
   }
 }
 
-SceneCamera keyCamera(const CameraKeyframe& key, const Scene& scene, const SceneCamera& start) {
-  SceneCamera camera = key.camera.empty() ? lookingAt(start, key.positionW, key.targetW, key.place)
-                                          : named(scene, key.camera, key.place);
+SceneCamera keyCamera(const CameraKeyframe& key, const Scene& scene, const SceneCamera& start,
+                      const glm::dvec3& upW) {
+  SceneCamera camera = key.camera.empty()
+                           ? lookingAt(start, key.positionW, key.targetW, upW, key.place)
+                           : named(scene, key.camera, key.place);
   if (key.yfov && camera.kind == rl::RL_CAMERA_ORTHOGRAPHIC) {
     failUsage(fmt::format("{}: an orthographic camera has no field of view", key.place));
   }
@@ -103,7 +104,7 @@ void resolveKeyframes(CameraMotion& motion, const Scene& scene) {
       failUsage(fmt::format("{}: the keyframe of frame {} comes after that of frame {}", key.place,
                             key.frame, path.keyframes[i - 1].frame));
     }
-    motion.keyCameras.push_back(keyCamera(key, scene, motion.start));
+    motion.keyCameras.push_back(keyCamera(key, scene, motion.start, motion.upW));
     if (motion.keyCameras[i].kind != motion.keyCameras[0].kind) {
       failUsage(fmt::format("{}: one path has perspective and orthographic cameras", key.place));
     }
@@ -121,7 +122,7 @@ SceneCamera between(const CameraMotion& motion, size_t first, double t, uint32_t
   camera.ymag = glm::mix(a.ymag, b.ymag, t);
   const glm::dvec3 positionW = glm::mix(positionOf(a), positionOf(b), t);
   if (keyA.camera.empty() && keyB.camera.empty()) {
-    return lookingAt(camera, positionW, glm::mix(keyA.targetW, keyB.targetW, t),
+    return lookingAt(camera, positionW, glm::mix(keyA.targetW, keyB.targetW, t), motion.upW,
                      fmt::format("{}: at frame {}, before this keyframe", keyB.place, frame));
   }
   const glm::dquat turn =
@@ -142,20 +143,45 @@ SceneCamera keyframed(const CameraMotion& motion, uint32_t frame) {
   return between(motion, first, t, frame);
 }
 
+glm::dvec3 axisOf(CameraAxis about, const SceneCamera& camera) {
+  switch (about) {
+    case CameraAxis::scene:
+      return sceneUp(camera);
+    case CameraAxis::camera:
+      return basisOf(camera)[1];
+    case CameraAxis::x:
+      return {1.0, 0.0, 0.0};
+    case CameraAxis::y:
+      return {0.0, 1.0, 0.0};
+    case CameraAxis::z:
+      return {0.0, 0.0, 1.0};
+  }
+  return {0.0, 1.0, 0.0};
+}
+
 }  // namespace
+
+glm::dvec3 sceneUp(const SceneCamera& camera) {
+  constexpr double kCosFarOff = 0.5, kCosNear = 0.70710678118654752;  // 60 and 45 degrees
+  const glm::dvec3 up = basisOf(camera)[1];
+  if (up.y >= kCosFarOff) return {0.0, 1.0, 0.0};
+  return up.z > kCosNear ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(0.0, 1.0, 0.0);
+}
 
 CameraMotion resolveCameraPath(const CameraPath& path, const Scene& scene, uint32_t camera) {
   CameraMotion motion;
   motion.path = path;
   motion.start = scene.cameras.at(camera);
   if (motion.path.place.empty()) motion.path.place = "camera path";
+  motion.upW = axisOf(path.about, motion.start);
   const bool cutsByAngle = path.kind == CameraPathKind::cut && path.cutCamera.empty();
   if (path.kind == CameraPathKind::orbit || cutsByAngle) {
     motion.targetW = path.targetW ? *path.targetW : pointLookedAt(scene, motion.start);
   }
   if (path.kind == CameraPathKind::cut) {
-    motion.afterCut = cutsByAngle ? turned(motion.start, motion.targetW, kUpW, path.cutDegrees)
-                                  : named(scene, path.cutCamera, motion.path.place);
+    motion.afterCut = cutsByAngle
+                          ? turned(motion.start, motion.targetW, motion.upW, path.cutDegrees)
+                          : named(scene, path.cutCamera, motion.path.place);
     motion.afterCut.name = motion.start.name;
     motion.afterCut.aspect = motion.start.aspect;
   }
@@ -170,17 +196,16 @@ SceneCamera cameraAt(const CameraMotion& motion, uint32_t frame) {
     case CameraPathKind::still:
       return start;
     case CameraPathKind::orbit:
-      return turned(start, motion.targetW, kUpW, path.degreesPerFrame * frame);
+      return turned(start, motion.targetW, motion.upW, path.degreesPerFrame * frame);
     case CameraPathKind::dolly:
       return walked(start, path.metresPerFrame * frame);
     case CameraPathKind::pan:
-      return turned(start, positionOf(start), path.aboutCameraUp ? basisOf(start)[1] : kUpW,
-                    path.degreesPerFrame * frame);
+      return turned(start, positionOf(start), motion.upW, path.degreesPerFrame * frame);
     case CameraPathKind::cut:
       return frame < path.cutFrame ? start : motion.afterCut;
     case CameraPathKind::back:
       return frame >= path.leaveFrame && frame < path.cutFrame
-                 ? turned(start, positionOf(start), kUpW, path.cutDegrees)
+                 ? turned(start, positionOf(start), motion.upW, path.cutDegrees)
                  : start;
     case CameraPathKind::keyframes:
       return keyframed(motion, frame);

@@ -13,10 +13,14 @@ namespace restlab {
 
 class ConfigTable;  // core/config.h
 
-// What each does is said at the member of CameraPath that it needs. +Y is up, angles are
-// right-handed about their axis: seen from above, a camera that orbits or turns about +Y by a
-// positive angle does so anticlockwise.
+// What each does is said at the member of CameraPath that it needs. Angles are right-handed about
+// their axis: seen from above, a camera that orbits or turns about the scene's up by a positive
+// angle does so anticlockwise.
 enum class CameraPathKind { still, orbit, dolly, pan, cut, back, keyframes };
+
+// What a path turns about, and what is upright on it: the scene's up (sceneUp), the up of the
+// camera with which the path starts, or an axis of the world.
+enum class CameraAxis { scene, camera, x, y, z };
 
 // Where the camera is at one frame.
 struct CameraKeyframe {
@@ -40,14 +44,14 @@ struct CameraPath {
   double metresPerFrame = 0.0;
   // orbit, cut by an angle: absent is the point that the camera looks at (pointLookedAt).
   std::optional<glm::dvec3> targetW;
-  // pan: about the camera's own up; else about +Y.
-  bool aboutCameraUp = false;
+  // All kinds that turn.
+  CameraAxis about = CameraAxis::scene;
   // cut: from `cutFrame` on another camera stands still: one of the scene, by name or index, or,
   // where `cutCamera` is empty, the same one after an orbit by `cutDegrees`.
   uint32_t cutFrame = 0;
   std::string cutCamera;
   double cutDegrees = 0.0;
-  // back: from `leaveFrame` until `cutFrame` the camera stands turned about +Y by `cutDegrees`;
+  // back: from `leaveFrame` until `cutFrame` the camera stands turned by `cutDegrees`;
   // before and after it is the scene's own: a cut whose reference is that of the still camera.
   uint32_t leaveFrame = 0;
   // keyframes: in the order of their frames. At its frame the camera is exactly that of the
@@ -63,6 +67,7 @@ struct CameraPath {
 struct CameraMotion {
   CameraPath path;
   SceneCamera start, afterCut;
+  glm::dvec3 upW{0.0, 1.0, 0.0};        // unit; of path.about
   glm::dvec3 targetW{0.0};              // of an orbit
   std::vector<SceneCamera> keyCameras;  // of path.keyframes
 };
@@ -77,6 +82,20 @@ CameraMotion resolveCameraPath(const CameraPath& path, const Scene& scene, uint3
 // multiple of 360 degrees, is that camera to the last bit. Throws Error (badUsage) where keyframes
 // lead the camera through its target, or straight above or below it.
 SceneCamera cameraAt(const CameraMotion& motion, uint32_t frame);
+
+// The axis of the world that is up by this camera, unit: +Y, as glTF has it, unless the camera's up
+// lies more than 60 degrees off it and within 45 degrees of +Z. A scene whose files have another
+// up than glTF shows it in nothing but its cameras.
+glm::dvec3 sceneUp(const SceneCamera& camera);
+
+// What is wrong with the views of frames 0 .. `frames` - 1, in lines, each kind once with its first
+// frame: the camera walks through a surface; stands inside a body; stands nearer to a surface than
+// its near distance; ends before a surface that fills its view. `scene` has the surfaces, in the
+// metres of the path.
+std::vector<std::string> cameraPathWarnings(const Scene& scene, const CameraMotion& motion,
+                                            uint32_t frames);
+// The same of a camera that stands still.
+std::vector<std::string> cameraWarnings(const Scene& scene, const SceneCamera& camera);
 
 // The first surface on the axis of the view, whatever its material and whichever side it shows.
 // Where there is none: the point of the axis nearest to the middle of the scene's bounds, or, where

@@ -18,6 +18,8 @@ constexpr double kMaxMetres = 1e9;
 const std::vector<std::string> kKinds = {"still", "orbit", "dolly",    "pan",
                                          "cut",   "back",  "keyframes"};
 
+const std::vector<std::string> kAxes = {"scene", "camera", "world", "x", "y", "z"};
+
 double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
 void require(const ConfigTable& table, const std::string& what, const std::string& key) {
@@ -95,8 +97,20 @@ CameraPath parseCameraPath(const ConfigTable& table) {
     require(table, what, "metres_per_frame");
     path.metresPerFrame = table.getNumber("metres_per_frame", 0.0, -kMaxMetres, kMaxMetres);
   }
-  if (path.kind == CameraPathKind::pan) {
-    path.aboutCameraUp = table.getChoice("about", "world", {"world", "camera"}) == "camera";
+  const bool walks = path.kind == CameraPathKind::still || path.kind == CameraPathKind::dolly;
+  const bool isCutToCamera = path.kind == CameraPathKind::cut && table.has("camera");
+  if (table.has("about") && (walks || isCutToCamera)) {
+    table.fail("about", isCutToCamera ? "a cut to another camera turns about nothing"
+                                      : what + " turns about nothing");
+  }
+  if (!walks) {
+    // "world" is glTF's up, and older than the other names.
+    const std::string about = table.getChoice("about", "scene", kAxes);
+    path.about = about == "scene"    ? CameraAxis::scene
+                 : about == "camera" ? CameraAxis::camera
+                 : about == "x"      ? CameraAxis::x
+                 : about == "z"      ? CameraAxis::z
+                                     : CameraAxis::y;
   }
   if (path.kind == CameraPathKind::cut) readCut(table, path);
   if (path.kind == CameraPathKind::back) {

@@ -41,6 +41,7 @@ SceneCamera importCamera(const tinygltf::Model& model, int index, Report& report
     znear = source.orthographic.znear;
     zfar = source.orthographic.zfar;
   }
+  camera.znear = std::max(znear, 0.0);
   // A path tracer has no clipping planes; that these make no sense is worth a line all the same.
   if (zfar != 0.0 && zfar <= znear) {
     report.warn("clipping planes", place,

@@ -65,6 +65,7 @@ struct SceneCamera {
   double yfov = 0.8;              // radians (perspective)
   double xmag = 1.0, ymag = 1.0;  // half extents in metres (orthographic)
   double aspect = 0.0;            // width / height, 0: free
+  double znear = 0.0;  // metres, as a file says it; nothing is clipped (camera_path.h warns by it)
 };
 
 struct PunctualLight {

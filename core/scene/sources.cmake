@@ -1,6 +1,7 @@
 target_sources(rl_core PRIVATE
   scene/camera_aim.cpp
   scene/camera_path.cpp
+  scene/camera_path_check.cpp
   scene/camera_path_config.cpp
   scene/content_hash.cpp
   scene/cube_map.cpp

@@ -1,10 +1,13 @@
 #include "experiments/certificate/certify.h"
 
+#include "experiments/certificate/reference_search.h"
+
 #include <fmt/format.h>
 #include <xxhash.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "core/error.h"
@@ -25,12 +28,6 @@ using Batch = RunFolder::Batch;
 
 // Runs from which the number of runs follows.
 constexpr uint64_t kPilotRuns = 64;
-// The reference's standard error, of the margin: it takes half of what the planned interval may
-// have in squares, so that runs are twice as many as with an exact one. Half of that error would
-// take four times the samples.
-constexpr double kReferenceShare = 0.2;
-constexpr uint64_t kFirstReferenceSpp = 2048, kMostReferenceSpp = uint64_t(1) << 22;
-
 // A mean of so many events is known to a seventh only.
 constexpr double kFewEvents = 50.0;
 
@@ -74,27 +71,6 @@ void nameIt(const Question& question, Certified& c) {
       method.bias(config.mode, resolveParameters(method, config.parameters), /*cameraMoves=*/false);
 }
 
-Reference convergedReference(const Question& question, const std::string& label,
-                             const Options& options) {
-  const ReferenceConfig config = referenceConfigOf(question.config);
-  const double wanted = kReferenceShare * options.rules.margin;
-  ReferenceTarget target;
-  const stats::BlockGrid grid(question.config.width, question.config.height);
-  for (target.spp = kFirstReferenceSpp;; target.spp *= 2) {
-    Reference reference =
-        obtainReference(question.prepared, config, target, options.out / "references", label);
-    const double error = relativeError(truthOf(reference, grid));
-    if (error <= wanted) return reference;
-    if (target.spp >= kMostReferenceSpp) {
-      logWarning(
-          fmt::format("the reference's own error is {:.2g} % after {} spp; the interval is "
-                      "wider for it",
-                      100.0 * error, reference.spp));
-      return reference;
-    }
-  }
-}
-
 Evidence evidenceOf(const RunFolder& folder, const Question& question, Batch batch,
                     uint64_t count) {
   Evidence evidence(question.config.width, question.config.height);
@@ -102,11 +78,16 @@ Evidence evidenceOf(const RunFolder& folder, const Question& question, Batch bat
   return evidence;
 }
 
-// How many runs a certificate takes, from a first few.
+// How many runs a certificate takes, from a first few; `runS`: seconds that each of these took,
+// where they were made here.
 uint64_t plannedRuns(RunFolder& folder, const Question& question, const stats::Truth& truth,
-                     const Options& options) {
+                     const Options& options, double& runS) {
   const uint64_t pilot = std::min(kPilotRuns, options.maxRuns);
+  const auto start = std::chrono::steady_clock::now();
+  const bool areThere = std::filesystem::exists(folder.file(Batch::first, pilot - 1));
   folder.make(Batch::first, pilot);
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+  if (!areThere) runS = spent.count() / double(pilot);
   const Evidence evidence = evidenceOf(folder, question, Batch::first, pilot);
   if (options.fewOfBiased && rejects(evidence.runs(), truth, options.rules))
     return std::min(kRunsForCells, options.maxRuns);
@@ -118,9 +99,23 @@ uint64_t plannedRuns(RunFolder& folder, const Question& question, const stats::T
   const uint64_t wanted = uint64_t(std::ceil(std::min(needed, 1e9) / 32.0)) * 32;
   if (wanted > options.maxRuns) {
     logInfo(
-        fmt::format("{} runs would decide, {} are allowed (--max-runs)", wanted, options.maxRuns));
+        fmt::format("by the first {}, an unbiased method takes {} runs; {} are allowed "
+                    "(--max-runs)",
+                    counted(pilot, "run"), wanted, options.maxRuns));
   }
   return std::clamp(wanted, kFewestRuns, options.maxRuns);
+}
+
+// As many as the time allows: a fresh batch may take as many again. Fewer than wanted is a line.
+uint64_t withinTime(uint64_t runs, double runS, const Options& options) {
+  if (!options.limit.isSet() || runS <= 0.0) return runs;
+  const uint64_t allowed = std::max(uint64_t(0.5 * options.limit.leftS() / runS), kFewestRuns);
+  if (allowed >= runs) return runs;
+  logWarning(
+      fmt::format("{} runs instead of {}: --time-limit leaves {:.0f} s, half of them for a "
+                  "fresh batch",
+                  allowed, runs, options.limit.leftS()));
+  return allowed;
 }
 
 void judgeRuns(RunFolder& folder, const Question& question, uint64_t runs, const Options& options,
@@ -146,9 +141,11 @@ void addNotes(Certified& c, const DenoiserInfo* denoiser) {
   if (!outside.empty()) c.notes.push_back(outside);
   if (certificate.cells.untestableShare > 0.0) {
     c.notes.push_back(fmt::format(
-        "{:.1f} % of the image is too skewed for a t-test even in merged cells: nothing is said of "
-        "its cells",
-        100.0 * certificate.cells.untestableShare));
+        "{:.1f} % of the image lies in cells that are too skewed for a t-test, merged ones too: "
+        "nothing is said of a cell there{}",
+        100.0 * certificate.cells.untestableShare,
+        !std::isnan(certificate.cells.detectableBiasWhole) ? "; the image as a whole is tested"
+                                                           : ""));
   }
   const stats::BlockGrid grid(c.mean.width, c.mean.height);
   const bool isOneCell =
@@ -201,6 +198,12 @@ void requireOneMethod(const std::string& file, const std::map<std::string, std::
 
 }  // namespace
 
+double TimeLimit::leftS() const {
+  if (!isSet()) return std::numeric_limits<double>::infinity();
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+  return std::max(seconds - spent.count(), 0.0);
+}
+
 std::string labelOf(const Question& question) {
   constexpr size_t kLongest = 120;  // names of files end at 255 bytes
   const std::string name = safeFileName(nameOf(question));
@@ -218,13 +221,17 @@ Certified certify(const Question& question, const Options& options) {
   const stats::Truth truth = truthOf(c.reference, grid);
   c.referenceError = relativeError(truth);
   RunFolder folder(question, options.out / "runs", options.jobs);
-  uint64_t runs = options.runs > 0 ? options.runs : plannedRuns(folder, question, truth, options);
+  double runS = 0.0;
+  uint64_t runs =
+      options.runs > 0 ? options.runs : plannedRuns(folder, question, truth, options, runS);
+  runs = withinTime(runs, runS, options);
   judgeRuns(folder, question, runs, options, c);
   // What the first runs rejected, and more of them did not, takes all its runs.
   if (options.fewOfBiased && options.runs == 0 && c.certificate.verdict == Verdict::notDecided) {
     Options all = options;
     all.fewOfBiased = false;
-    const uint64_t planned = plannedRuns(folder, question, truth, all);
+    const uint64_t planned =
+        withinTime(plannedRuns(folder, question, truth, all, runS), runS, options);
     if (planned > runs) judgeRuns(folder, question, runs = planned, options, c);
   }
   c.how = fmt::format(

@@ -2,6 +2,7 @@
 // program.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -13,10 +14,21 @@
 
 namespace restlab::certificate {
 
+// Of the whole command, from when this is made; 0: none.
+struct TimeLimit {
+  double seconds = 0.0;
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  bool isSet() const { return seconds > 0.0; }
+  // Not below 0. Infinity without a limit.
+  double leftS() const;
+};
+
 struct Options {
   Rules rules;
   uint64_t runs = 0;        // 0: as many as a first few say
   uint64_t maxRuns = 4096;  // that these may ask for
+  uint64_t maxReferenceSpp = uint64_t(1) << 22;
+  TimeLimit limit;
   // What the first few reject takes no more runs than cells need: who asks for the verdicts of many
   // methods need not know each bias as well.
   bool fewOfBiased = false;

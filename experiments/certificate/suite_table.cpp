@@ -28,8 +28,10 @@ bool isContradiction(const Certified& c) {
 std::string cellOf(const Certified& certified) {
   const Certificate& c = certified.certificate;
   const Interval& bias = c.image.front().bias;
-  std::string text = fmt::format("{} {:+.2f} [{:+.2f}, {:+.2f}]", verdictName(c.verdict),
-                                 100.0 * bias.value, 100.0 * bias.lo, 100.0 * bias.hi);
+  std::string text = fmt::format("{} {:+.2f}", verdictName(c.verdict), 100.0 * bias.value);
+  text += c.image.front().isNormal
+              ? fmt::format(" [{:+.2f}, {:+.2f}]", 100.0 * bias.lo, 100.0 * bias.hi)
+              : std::string(", too skewed for an interval");
   if (c.worst && !c.worst->wholeImage) {
     const double scale = std::abs(c.worst->reference);
     text += scale == 0.0
@@ -40,7 +42,7 @@ std::string cellOf(const Certified& certified) {
   if (nonfinite > 0) text += fmt::format(", {} values not finite", nonfinite);
   // What was too skewed to be tested, and may hold any bias.
   if (c.cells.untestableShare >= 0.005)
-    text += fmt::format(", {:.0f} % untested", 100.0 * c.cells.untestableShare);
+    text += fmt::format(", {:.0f} % in untested cells", 100.0 * c.cells.untestableShare);
   if (c.moreRuns) text += fmt::format(", {} more runs", *c.moreRuns);
   return isContradiction(certified) ? fmt::format("**{}**", text) : text;
 }

@@ -15,7 +15,10 @@ using Json = nlohmann::ordered_json;
 
 constexpr size_t kWorstCells = 3;
 
-std::string percents(const Interval& i) {
+// A mean that is too skewed for an interval is shown without one.
+std::string percents(const ImageBias& b) {
+  const Interval& i = b.bias;
+  if (!b.isNormal) return fmt::format("{:+.3f} %, too skewed for an interval", 100.0 * i.value);
   return fmt::format("{:+.3f} % [{:+.3f}, {:+.3f}]", 100.0 * i.value, 100.0 * i.lo, 100.0 * i.hi);
 }
 
@@ -80,9 +83,14 @@ std::string cellsText(const Certified& certified) {
   const bool isSmall = confirmed > 0 && certified.certificate.verdict == Verdict::equivalent;
   return fmt::format(
       "cells: {}, the largest {:.1f} % of the image; {} rejected, {} of them confirmed by fresh "
-      "runs{}; untestable area {:.1f} %; smallest bias that is found {:.2f} % of a cell (median)",
+      "runs{}; {:.1f} % of the image in cells that cannot be tested{}; smallest bias that is found "
+      "{:.2f} % of a cell (median)",
       cells, 100.0 * largest, rejected, confirmed, isSmall ? ", each smaller than the margin" : "",
-      100.0 * report.untestableShare, 100.0 * report.detectableBias);
+      100.0 * report.untestableShare,
+      report.untestableShare > 0.0 && !std::isnan(report.detectableBiasWhole)
+          ? ", the image as a whole can"
+          : "",
+      100.0 * report.detectableBias);
 }
 
 // JSON has no NaN.
@@ -139,10 +147,12 @@ std::string moreRunsText(const Certified& certified) {
   const Certificate& c = certified.certificate;
   if (!c.moreRuns) return "";
   if (certified.replay.empty())
-    return fmt::format("  about {} would decide\n", counted(*c.moreRuns, "more image"));
+    return fmt::format("  by the spread of these, about {} would decide\n",
+                       counted(*c.moreRuns, "more image"));
   const uint64_t all = c.runs + *c.moreRuns;
   if (all > kMostRuns) return "  more than a million runs would decide\n";
-  return fmt::format("  about {} would decide: --runs {}\n", counted(*c.moreRuns, "more run"), all);
+  return fmt::format("  by the spread of these {}, about {} would decide: --runs {}\n",
+                     counted(c.runs, "run"), counted(*c.moreRuns, "more run"), all);
 }
 
 }  // namespace
@@ -159,7 +169,7 @@ std::vector<std::string> detailsOf(const Certified& certified) {
 std::string lineOf(const Certified& certified) {
   const Certificate& c = certified.certificate;
   return fmt::format("{:<12} {}: luminance {}{}", verdictName(c.verdict), certified.name,
-                     percents(c.image.front().bias),
+                     percents(c.image.front()),
                      c.verdict == Verdict::notDecided ? "; " + c.reason : "");
 }
 
@@ -169,7 +179,7 @@ std::string textOf(const Certified& certified) {
   text += fmt::format("  {}\n", certified.how);
   for (const ImageBias& b : c.image) {
     text += fmt::format("  {:<10} bias {}, smallest that is found {:.3f} %\n",
-                        stats::quantityName(b.quantity), percents(b.bias), 100.0 * b.detectable);
+                        stats::quantityName(b.quantity), percents(b), 100.0 * b.detectable);
   }
   text += fmt::format("  {}\n", errorText(c));
   text += fmt::format("  {}\n", cellsText(certified));
@@ -191,6 +201,7 @@ Json jsonOf(const Certified& certified) {
                      {"mean", number(b.mean)},
                      {"reference", number(b.reference)},
                      {"relative_bias", intervalJson(b.bias)},
+                     {"interval_holds", b.isNormal},
                      {"detectable", number(b.detectable)},
                      {"rare_events", number(b.events)},
                      {"equivalent", b.isEquivalent}});
@@ -231,12 +242,12 @@ Json jsonOf(const Certified& certified) {
 
 std::string markdownOf(const std::vector<Certified>& all) {
   std::string text =
-      "| method | verdict | bias of luminance | bias^2 of the MSE | untestable | runs |\n"
+      "| method | verdict | bias of luminance | bias^2 of the MSE | in untestable cells | runs |\n"
       "|---|---|---|---|---|---|\n";
   for (const Certified& certified : all) {
     const Certificate& c = certified.certificate;
     text += fmt::format("| {} | {} | {} | {} | {:.1f} % | {} |\n", certified.name,
-                        verdictName(c.verdict), percents(c.image.front().bias), shareOfBias(c),
+                        verdictName(c.verdict), percents(c.image.front()), shareOfBias(c),
                         100.0 * c.cells.untestableShare, c.runs);
   }
   return text;

@@ -13,6 +13,7 @@
 #include "experiments/certificate/certify.h"
 #include "experiments/certificate/outputs.h"
 #include "experiments/cli/file_pattern.h"
+#include "experiments/certificate/reference_search.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/reference/truth.h"
@@ -40,6 +41,9 @@ struct BiasOptions {
   MethodOptions method;
   std::string images, reference, out;
   uint64_t runs = 0, maxRuns = certificate::Options().maxRuns;
+  uint64_t maxReferenceSpp = certificate::Options().maxReferenceSpp;
+  certificate::TimeLimit limit;
+  bool isDryRun = false;
   uint32_t jobs = 0, warmup = kDefaultWarmup, frames = kDefaultFrames;
   bool warmupGiven = false, framesGiven = false, json = false;
   double marginPercent = 100.0 * certificate::Rules().margin;
@@ -59,6 +63,8 @@ certificate::Options certificateOptions(const BiasOptions& options, const std::s
   result.rules.margin = options.marginPercent / 100.0;
   result.runs = options.runs;
   result.maxRuns = options.maxRuns;
+  result.maxReferenceSpp = options.maxReferenceSpp;
+  result.limit = options.limit;
   result.jobs = options.jobs;
   result.out = options.out.empty() ? std::filesystem::path("results") / ("bias-" + name)
                                    : std::filesystem::path(options.out);
@@ -144,12 +150,13 @@ void sayWhatIsLeftOut(const Suite& suite) {
   }
 }
 
-// Every method of the suite on every scene, still. `sceneIsDone` sees all that there are so far.
-std::vector<Certified> certifySuite(
-    const Suite& whole, const BiasOptions& options, const certificate::Options& how,
-    const std::function<void(const std::vector<Certified>&)>& sceneIsDone) {
+// Every method of the suite on every scene, still. `sceneIsDone` follows the methods of a scene and
+// component.
+void forEachQuestion(const Suite& whole, const BiasOptions& options,
+                     const std::function<void(const Question&)>& take,
+                     const std::function<void()>& sceneIsDone) {
   sayWhatIsLeftOut(whole);
-  std::vector<Certified> all;
+  bool isAny = false;
   for (const SuiteScene& scene : whole.scenes) {
     const Suite suite = ofScene(whole, scene);
     std::string missing;
@@ -176,15 +183,40 @@ std::vector<Certified> certifySuite(
                           : hasHistory        ? suite.warmupFrames
                                               : 0;
         question.frames = options.framesGiven ? options.frames : suite.timedFrames;
-        all.push_back(certificate::certify(question, how));
-        giveOwnLabel(all);
-        logInfo(certificate::lineOf(all.back()));
+        take(question);
+        isAny = true;
       }
-      sceneIsDone(all);
+      sceneIsDone();
     }
   }
-  if (all.empty()) failInput(fmt::format("{}: none of its scenes is here", whole.file));
+  if (!isAny) failInput(fmt::format("{}: none of its scenes is here", whole.file));
+}
+
+// `sceneIsDone` sees all certificates that there are so far.
+std::vector<Certified> certifySuite(
+    const Suite& whole, const BiasOptions& options, const certificate::Options& how,
+    const std::function<void(const std::vector<Certified>&)>& sceneIsDone) {
+  std::vector<Certified> all;
+  const auto take = [&](const Question& question) {
+    all.push_back(certificate::certify(question, how));
+    giveOwnLabel(all);
+    logInfo(certificate::lineOf(all.back()));
+  };
+  forEachQuestion(whole, options, take, [&] { sceneIsDone(all); });
   return all;
+}
+
+// What each certificate would take; nothing is written.
+void dryRun(const BiasOptions& options) {
+  const certificate::Options how = certificateOptions(options, "");
+  const auto print = [&](const Question& question) {
+    print("{}", certificate::planOf(question, how));
+  };
+  const std::string& scene = options.scene.request.scene;
+  if (!isSuite(scene)) return print(questionOf(options));
+  const Suite suite = loadSuite(scene, options.method.parameters);
+  checkTruths(suite);
+  forEachQuestion(suite, options, print, [] {});
 }
 
 // The options that are used, but for those of a scene, are among these; otherwise `why` is said.
@@ -218,7 +250,8 @@ void checkOptions(const CLI::App& verb, const BiasOptions& options) {
         "nothing is rendered for --images, which go with --ref, --margin, --out and --json alone");
   } else if (isSuite(scene)) {
     requireAmong({"--help", "--quiet", "--verbose", "scene", "--set", "--runs", "--max-runs",
-                  "--jobs", "--out", "--json", "--margin", "--warmup", "--frames"},
+                  "--jobs", "--out", "--json", "--margin", "--warmup", "--frames", "--dry-run",
+                  "--time-limit", "--max-reference-spp"},
                  verb, fmt::format("the suite {} says that; --set KEY=VALUE changes it", scene));
   }
   if (options.runs > 0 && verb.get_option("--max-runs")->count() > 0)
@@ -239,6 +272,7 @@ void bias(BiasOptions options, const CLI::App& verb, Outcome& outcome) {
   options.warmupGiven = verb.get_option("--warmup")->count() > 0;
   options.framesGiven = verb.get_option("--frames")->count() > 0;
   const std::string& scene = options.scene.request.scene;
+  if (options.isDryRun) return dryRun(options);
   const std::string command = shellCommand(outcome.argv);
   certificate::Options how;
   std::string table;
@@ -312,6 +346,16 @@ Action addBiasVerb(CLI::App& app) {
       ->transform(wholeNumberFrom(certificate::kFewestRuns, 1'000'000));
   verb->add_option("--max-runs", options->maxRuns, "that these may ask for (default 4096)")
       ->transform(wholeNumberFrom(certificate::kFewestRuns, 1'000'000));
+  verb->add_option("--max-reference-spp", options->maxReferenceSpp,
+                   "samples per pixel that the reference may take (default 4194304); a coarser one "
+                   "makes the interval wider")
+      ->transform(wholeNumberFrom(2, uint64_t(1) << 32));
+  verb->add_option("--time-limit", options->limit.seconds,
+                   "seconds: at most half of them for the reference, as many runs as fit into the "
+                   "rest")
+      ->transform(numberFrom(1.0, 1e9, "seconds"));
+  verb->add_flag("--dry-run", options->isDryRun,
+                 "say what the reference and the runs will take, and stop");
   verb->add_option("--margin", options->marginPercent,
                    "percent of the image's mean, within which a bias does not count (default 0.5)")
       ->transform(numberFrom(1e-4, 50.0));

@@ -4,8 +4,10 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "core/error.h"
+#include "core/scene/camera_path.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/run/print.h"
@@ -35,11 +37,14 @@ const char* lightKind(uint32_t kind) {
   }
 }
 
-Json camerasJson(const Scene& scene) {
+// All of them, or the one that was asked for.
+Json camerasJson(const Scene& scene, std::optional<size_t> only) {
   Json cameras = Json::array();
-  for (const SceneCamera& camera : scene.cameras) {
+  for (size_t index = 0; index < scene.cameras.size(); ++index) {
+    if (only && *only != index) continue;
+    const SceneCamera& camera = scene.cameras[index];
     const bool perspective = camera.kind == rl::RL_CAMERA_PERSPECTIVE;
-    Json json = {{"index", cameras.size()},
+    Json json = {{"index", index},
                  {"name", camera.name},
                  {"kind", perspective ? "perspective" : "orthographic"}};
     if (perspective) {
@@ -59,6 +64,8 @@ Json camerasJson(const Scene& scene) {
     json["forward"] = triple(-back);
     json["up"] = triple(up);
     if (camera.isMirrored) json["mirrored"] = true;
+    if (camera.znear > 0.0) json["near_m"] = camera.znear;
+    json["warnings"] = cameraWarnings(scene, camera);
     cameras.push_back(json);
   }
   return cameras;
@@ -86,7 +93,10 @@ Json integratorsJson(const PreparedScene& prepared, bool multiscatter) {
   return all;
 }
 
-Json sceneJson(const PreparedScene& prepared, bool multiscatter) {
+Json sceneJson(const PreparedScene& prepared, const InfoOptions& options) {
+  const bool multiscatter = options.multiscatter;
+  std::optional<size_t> only;
+  if (!options.request.camera.empty()) only = prepared.camera;
   const CompiledScene& compiled = *prepared.scene;
   const Scene& scene = compiled.source();
   const auto bounds = worldBounds(scene);
@@ -100,7 +110,7 @@ Json sceneJson(const PreparedScene& prepared, bool multiscatter) {
                {"instances", scene.instances.size()},
                {"materials", scene.materials.size()},
                {"textures", scene.images.size()},
-               {"cameras", camerasJson(scene)}};
+               {"cameras", camerasJson(scene, only)}};
   Json lights = Json::array();
   for (const PunctualLight& light : scene.lights) {
     lights.push_back({{"name", light.name},
@@ -156,6 +166,8 @@ void printText(const PreparedScene& prepared, const Json& json) {
                             glm::degrees(camera["yfov_radians"].get<double>()))
               : "",
           camera.contains("mirrored") ? ", mirrored left to right" : "");
+    for (const Json& warning : camera["warnings"])
+      print("{:<12} {}\n", "", warning.get<std::string>());
   }
   for (const PunctualLight& light : scene.lights) {
     print("light        '{}' {} ({:g}, {:g}, {:g})\n", oneLine(light.name), lightKind(light.kind),
@@ -191,7 +203,7 @@ void printText(const PreparedScene& prepared, const Json& json) {
 void info(const InfoOptions& options) {
   const PreparedScene prepared = prepareScene(options.request);
   printWarnings(prepared);
-  const Json json = sceneJson(prepared, options.multiscatter);
+  const Json json = sceneJson(prepared, options);
   if (options.json) {
     printJsonText(json.dump(2, ' ', false, Json::error_handler_t::replace));
   } else {
@@ -205,6 +217,8 @@ Action addInfoVerb(CLI::App& app) {
   auto options = std::make_shared<InfoOptions>();
   CLI::App* verb = app.add_subcommand("info", "what a scene holds and needs");
   verb->add_option("scene", options->request.scene, "a glTF file or a built-in scene")->required();
+  verb->add_option("--camera", options->request.camera,
+                   "name or index of the camera to show (default: all of them)");
   verb->add_option("--environment", options->request.environment,
                    "latitude-longitude .hdr or .exr");
   addMultiscatter(*verb, options->multiscatter);

@@ -94,6 +94,14 @@ void makeReference(ReferenceOptions options) {
         isBelow ? ", but has not been so since half of the samples" : "",
         options.target.spp > 0 && reference.spp >= options.target.spp ? "--spp" : "--time-limit"));
   }
+  if (const std::string why = whyNotConverged(reference); !why.empty()) {
+    if (options.target.relmse > 0.0) {
+      logWarning(fmt::format("{}: is not converged, whatever its halves agree on: {}",
+                             options.output, why));
+    } else {
+      logInfo(fmt::format("{}: {}", options.output, why));
+    }
+  }
   logInfo(fmt::format("{}: {} spp in {:.1f} s, relmse {:.3g} (estimated from the halves)",
                       options.output, reference.spp, reference.timeS, reference.relmse));
 }

@@ -10,9 +10,10 @@
 namespace restlab {
 
 // A report holds whole images of at most kReportImagePixels, or of its share of kReportTotalPixels
-// where that is less; of larger ones it holds a crop of that size.
+// where that is less; of larger ones it holds a crop of that size. A pixel takes about 10 bytes of
+// the file, so that a report stays below some 30 MB however many images a sweep has.
 constexpr size_t kReportImagePixels = size_t(1) << 20;
-constexpr size_t kReportTotalPixels = size_t(12) << 20;
+constexpr size_t kReportTotalPixels = size_t(3) << 20;
 
 // Pixels that each of `images` images may hold, at least 1.
 size_t reportPixelLimit(size_t images);

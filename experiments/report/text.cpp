@@ -111,9 +111,13 @@ std::string intervalText(double lo, double hi, int digits) {
 }
 
 std::string timesText(double value, double lo, double hi, const char* above, const char* below) {
-  const bool isBelow = value > 0.0 && value < 1.0 && !(lo <= 0.0);
-  if (!isBelow) return fmt::format("{}x {}{}", shortNumber(value), above, intervalText(lo, hi));
-  return fmt::format("{}x {}{}", shortNumber(1.0 / value), below, intervalText(1.0 / hi, 1.0 / lo));
+  if (!(value > 0.0)) return "not known";  // an error below the noise of its reference
+  if (value >= 1.0) return fmt::format("{}x {}{}", shortNumber(value), above, intervalText(lo, hi));
+  const std::string inverse = fmt::format("{}x {}", shortNumber(1.0 / value), below);
+  const bool isUnbounded = std::isinf(lo) || std::isinf(hi);
+  if (std::isnan(lo) || std::isnan(hi) || isUnbounded || lo > 0.0)
+    return inverse + (isUnbounded ? intervalText(lo, hi) : intervalText(1.0 / hi, 1.0 / lo));
+  return inverse + fmt::format(" [{}, unbounded]", shortNumber(1.0 / hi));
 }
 
 std::string counted(uint64_t number, const char* what) {

@@ -56,9 +56,13 @@ TEST_F(BaselineTest, CountsTheRunsThatAreThereAnew) {
       run({"run", "suite.toml", "-o", "out", "--set", "baseline=gi, spatial_radius=4.0"});
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_NE(result.err.find("3 of 3 runs were there"), std::string::npos) << result.err;
-  EXPECT_NE(result.out.find("- ratios are against gi, spatial_radius=4.0"), std::string::npos);
+  EXPECT_NE(result.out.find("| than gi, spatial_radius=4.0 |"), std::string::npos) << result.out;
+  EXPECT_EQ(result.out.find("than path"), std::string::npos) << result.out;
+  EXPECT_NE(read("out/table.tex").find("against gi, spatial\\_radius=4.0"), std::string::npos);
+  EXPECT_NE(read("out/report.html").find("MSE of gi, spatial_radius=4.0 / MSE"), std::string::npos);
   const auto all = rows();
   ASSERT_EQ(all.size(), 3u);
+  for (const auto& row : all) EXPECT_EQ(row.at("baseline"), "gi, spatial_radius=4.0");
   EXPECT_EQ(std::stod(all[1].at("mse_ratio_without_lights")), 1.0);
   EXPECT_EQ(std::stod(all[1].at("time_ratio")), 1.0);
   // Paired by seed.
@@ -82,6 +86,14 @@ TEST_F(BaselineTest, MustBeThere) {
   expectError(run("run suite.toml -o out -q --set baseline=path --methods gi"), 2,
               {"--methods", "'path'", "baseline"});
   EXPECT_FALSE(fs::exists(path("out")));
+}
+
+// A number may be written in another way, and a backend left out.
+TEST_F(BaselineTest, IsFollowedWhereItsNameIsWrittenOtherwise) {
+  ASSERT_EQ(
+      run({"run", "suite.toml", "-o", "out", "-q", "--set", "baseline=gi, spatial_radius=8"}).code,
+      0);
+  EXPECT_EQ(rows().at(0).at("baseline"), "gi, spatial_radius=8.0");
 }
 
 TEST_F(BaselineTest, MethodsAreChosenByAnyOfTheirNames) {

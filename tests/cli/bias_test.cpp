@@ -372,6 +372,34 @@ image = ["theirs.exr"]
       << result.err;
 }
 
+// A reference that never has the error that is wanted ends at the bound, and says what was wanted.
+TEST_F(BiasTest, TheReferenceHasABound) {
+  const std::string box = "bias cornell-box --resolution 16x16 --frames 2 --margin 1 -o out ";
+  const ProgramResult bounded = run(box + "--runs 32 --max-reference-spp 64");
+  EXPECT_LE(bounded.code, 1) << bounded.err;
+  for (const char* part : {"reference: its error is ",
+                           " after 64 spp; wanted is 0.20 %, a fifth of "
+                           "the margin: about ",
+                           "stopped by --max-reference-spp"})
+    EXPECT_NE(bounded.err.find(part), std::string::npos) << part << "\n" << bounded.err;
+  const ProgramResult limited =
+      run("bias cornell-box --resolution 16x16 --frames 2 --margin 0.01 -o out --time-limit 1 "
+          "--max-runs 100000");
+  EXPECT_LE(limited.code, 1) << limited.err;
+  EXPECT_NE(limited.err.find("--time-limit"), std::string::npos) << limited.err;
+}
+
+TEST_F(BiasTest, ADryRunSaysWhatItTakesAndWritesNothing) {
+  const ProgramResult plan = run("bias cornell-box --resolution 16x16 --dry-run");
+  EXPECT_EQ(plan.code, 0) << plan.err;
+  for (const char* part : {"cornell-box-path\n",
+                           "  reference: an error of 0.10 % of the mean is "
+                           "wanted, a fifth of the margin: about ",
+                           "  runs: 64 first ones, ", "at most 4096 (--max-runs)"})
+    EXPECT_NE(plan.out.find(part), std::string::npos) << part << "\n" << plan.out;
+  EXPECT_FALSE(std::filesystem::exists(path("results")));
+}
+
 TEST_F(BiasTest, WhatIsMissingIsSaid) {
   expectError(run("bias"), 2, {"needs a scene or a suite", "--images"});
   expectError(run("bias --images x*.exr"), 2, {"--images", "--ref"});

@@ -14,6 +14,16 @@ namespace {
 
 using InfoTest = ProgramTest;
 
+TEST_F(InfoTest, InfoShowsOneCamera) {
+  const auto all = nlohmann::json::parse(run("info quad-light --json").out).at("cameras");
+  ASSERT_GT(all.size(), 1u);
+  const auto one = nlohmann::json::parse(run("info quad-light --camera low --json").out);
+  ASSERT_EQ(one.at("cameras").size(), 1u);
+  EXPECT_EQ(one.at("cameras")[0].at("name"), "low");
+  EXPECT_EQ(one.at("cameras")[0].at("index"), 1);
+  expectError(run("info quad-light --camera nowhere"), 2, {"nowhere"});
+}
+
 TEST_F(InfoTest, SceneInNumbers) {
   const ProgramResult result = run("info cornell-box --json");
   ASSERT_EQ(result.code, 0) << result.err;

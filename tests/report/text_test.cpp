@@ -61,7 +61,10 @@ TEST(Numbers, AreShort) {
   EXPECT_EQ(timesText(2.5, 2.0, 4.0, "lower", "higher"), "2.50x lower [2, 4]");
   EXPECT_EQ(timesText(0.25, 0.2, 0.5, "lower", "higher"), "4x higher [2, 5]");
   EXPECT_EQ(timesText(0.25, nan, nan, "lower", "higher"), "4x higher");
-  EXPECT_EQ(timesText(0.25, -1.0, 0.5, "lower", "higher"), "0.250x lower [-1, 0.500]");
+  EXPECT_EQ(timesText(0.25, 0.0, 0.5, "lower", "higher"), "4x higher [2, unbounded]");
+  const double inf = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(timesText(0.0026, -inf, inf, "lower", "higher"), "385x higher [unbounded]");
+  EXPECT_EQ(timesText(-0.25, nan, nan, "lower", "higher"), "not known");
   EXPECT_EQ(groupedDigits(0), "0");
   EXPECT_EQ(groupedDigits(999), "999");
   EXPECT_EQ(groupedDigits(1000), "1,000");

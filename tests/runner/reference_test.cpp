@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "core/error.h"
+#include "experiments/runner/reference/light_draws.h"
 #include "experiments/runner/reference/reference_halves.h"
 #include "experiments/runner/run/build_info.h"
 #include "tests/runner/temporary_folder.h"
@@ -104,6 +105,64 @@ TEST_F(ReferenceRendering, OneEstimateBelowTheTargetIsNotEnough) {
   EXPECT_FALSE(meetsTarget(before, {.relmse = relmse}));
   before.relmseSinceHalf = NAN;
   EXPECT_FALSE(meetsTarget(before, {.relmse = relmse})) << "of an earlier version";
+}
+
+// The lamp of the room with `weak`, a point light that is drawn with about this probability.
+PreparedScene withWeakLight(double probability) {
+  Scene scene = prepared().scene->source();
+  PunctualLight light;
+  light.name = "weak";
+  light.kind = rl::RL_LIGHT_POINT;
+  light.posW = glm::dvec3(0.0, 0.5, 0.0);
+  light.intensity = glm::vec3(1.0f);
+  scene.lights.push_back(light);
+  // Shares go by power: what one watt per steradian gets tells how many are needed.
+  double unit = 1.0;
+  for (int i = 0; i < 2; ++i) {
+    scene.lights.back().intensity = glm::vec3(float(unit));
+    const auto lights = drawnLights(*CompiledScene::build(scene));
+    const double p = lights.back().probability;
+    unit *= probability * (1.0 - p) / (p * (1.0 - probability));
+  }
+  PreparedScene own = prepared();
+  scene.lights.back().intensity = glm::vec3(float(unit));
+  own.scene = CompiledScene::build(scene);
+  return own;
+}
+
+// Halves that both miss a light agree. What is expected to be drawn too seldom is named, and the
+// reference is not called converged.
+TEST_F(ReferenceRendering, ALightThatIsHardlyDrawnIsNotConverged) {
+  const PreparedScene scene = withWeakLight(1e-6);
+  const std::vector<DrawnLight> lights = drawnLights(*scene.scene);
+  ASSERT_EQ(lights.size(), 2u);
+  EXPECT_EQ(lights[1].name, "weak");
+  EXPECT_NEAR(lights[0].probability + lights[1].probability, 1.0, 1e-6);
+  const Reference reference = renderReference(scene, smallConfig(), {.relmse = 0.02});
+  EXPECT_LE(reference.relmseSinceHalf, 0.02) << "it stops: a million samples are out of reach";
+  const std::string why = whyNotConverged(reference);
+  EXPECT_EQ(why.rfind("1 of 2 lights drawn too seldom to know its share", 0), 0u) << why;
+  EXPECT_NE(why.find("'weak' 0.0"), std::string::npos) << why;
+  const auto file = folder() / "weak.exr";
+  writeReference(file, reference);
+  EXPECT_EQ(whyNotConverged(readReference(file)), why);
+  EXPECT_TRUE(meetsTarget(readReference(file), {.relmse = 0.02}));
+  // Of the room alone nothing is said.
+  EXPECT_EQ(whyNotConverged(renderReference(prepared(), smallConfig(), {.relmse = 0.02})), "");
+}
+
+// Where a few more samples are enough, they are made.
+TEST_F(ReferenceRendering, ATargetWaitsForLightsThatAreSoonDrawnOften) {
+  const double relmse = 0.02;
+  const Reference before = renderReference(prepared(), smallConfig(), {.relmse = relmse});
+  const double rays = 1000.0 / std::stod(before.metadata.at("light_draws_need_spp"));
+  // Needs twice the samples.
+  const double probability = 1000.0 / (rays * 2.0 * double(before.spp));
+  const Reference reference =
+      renderReference(withWeakLight(probability), smallConfig(), {.relmse = relmse});
+  EXPECT_EQ(whyNotConverged(reference), "");
+  EXPECT_GE(std::stod(reference.metadata.at("fewest_light_draws")), kFewestLightDraws);
+  EXPECT_GT(double(reference.spp), 1.5 * double(before.spp));
 }
 
 TEST_F(ReferenceRendering, FilesHoldWhatTargetsAsk) {

@@ -103,6 +103,22 @@ TEST_F(SweepTest, MethodKeysMakeMethods) {
   EXPECT_EQ(load(kBase, {"sweep.max_bounces=[1,2]"}).size(), 2u);
 }
 
+// A size that a command or a sweep gives replaces that of the file, whichever keys say it.
+TEST_F(SweepTest, ASizeReplacesThatOfTheFile) {
+  const Suite set = load(kBase, {"resolution=16x9"}).at(0);
+  EXPECT_EQ(std::pair(set.width, set.height), std::pair(16u, 9u));
+  const std::vector<Suite> swept = load(kBase, {}, {"resolution=8x4,16x8"});
+  ASSERT_EQ(swept.size(), 2u);
+  EXPECT_EQ(std::pair(swept[1].width, swept[1].height), std::pair(16u, 8u));
+  std::string text = kBase;
+  text.replace(text.find("width = 8"), 9, "resolution = \"8x6\"");
+  const Suite side = load(text, {"width=12"}).at(0);
+  EXPECT_EQ(std::pair(side.width, side.height), std::pair(12u, 0u)) << "the camera's shape";
+  EXPECT_NE(errorOf(std::string(kBase).replace(text.find("resolution"), 9,
+                                               "width = 8\nresolution = \"8x6\"")),
+            "");
+}
+
 TEST_F(SweepTest, ErrorsNameThePlace) {
   const std::string base = kBase;
   EXPECT_EQ(errorOf(base + "[sweep]\nmax_bounce = [1]\n"),
@@ -121,7 +137,8 @@ TEST_F(SweepTest, ErrorsNameThePlace) {
   EXPECT_EQ(errorOf(base, {}, {"seed=1..3"}),
             "--sweep seed: seeds 1 and 2 have runs in common, as run r has the seed 'seed' + r; "
             "leave at least 2 between them");
-  EXPECT_NE(errorOf(base, {}, {"resolution=8x8"}).find("exclude each other"), std::string::npos);
+  EXPECT_NE(errorOf(base, {"resolution=8x8", "width=4"}).find("exclude each other"),
+            std::string::npos);
   EXPECT_NE(errorOf(base, {}, {"runs=1,,2"}).find("empty value"), std::string::npos);
 }
 

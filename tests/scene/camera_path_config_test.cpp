@@ -35,9 +35,12 @@ TEST(CameraPathConfig, Kinds) {
   const CameraPath pan = parseInline("kind = \"pan\", degrees_per_frame = 2");
   EXPECT_EQ(pan.kind, CameraPathKind::pan);
   EXPECT_EQ(pan.degreesPerFrame, 2.0);
-  EXPECT_FALSE(pan.aboutCameraUp);
-  EXPECT_TRUE(
-      parseInline("kind = \"pan\", degrees_per_frame = 2, about = \"camera\"").aboutCameraUp);
+  EXPECT_EQ(pan.about, CameraAxis::scene);
+  EXPECT_EQ(parseInline("kind = \"pan\", degrees_per_frame = 2, about = \"camera\"").about,
+            CameraAxis::camera);
+  EXPECT_EQ(parseInline("kind = \"orbit\", degrees_per_frame = 2, about = \"world\"").about,
+            CameraAxis::y);
+  EXPECT_EQ(parseInline("kind = \"back\", frame = 24, about = \"z\"").about, CameraAxis::z);
 
   const CameraPath cut = parseInline("kind = \"cut\", frame = 12, camera = \"back\"");
   EXPECT_EQ(cut.kind, CameraPathKind::cut);

@@ -155,7 +155,7 @@ TEST(CameraPath, PanTurnsOnTheSpot) {
   for (const SceneCamera& start : kCameras) {
     CameraPath path = pathOf(CameraPathKind::pan, 1.3);
     for (const bool aboutCameraUp : {false, true}) {
-      path.aboutCameraUp = aboutCameraUp;
+      path.about = aboutCameraUp ? CameraAxis::camera : CameraAxis::y;
       const CameraMotion motion = motionOf(path, start);
       const glm::dvec3 axis = aboutCameraUp ? up(start) : glm::dvec3(0, 1, 0);
       for (uint32_t frame = 1; frame < 400; frame += 9) {
@@ -172,10 +172,41 @@ TEST(CameraPath, PanTurnsOnTheSpot) {
   EXPECT_LT(glm::distance(forward(left), {-1, 0, 0}), kTiny);
 }
 
+// A scene whose up is +Z shows it in its cameras alone: turns are about that, and no roll.
+TEST(CameraPath, TurnsAboutTheUpOfTheScene) {
+  const SceneCamera start = cameraAtPoint({4, -3, 1.5}, {0, 0, 1}, {0, 0, 1});
+  EXPECT_EQ(sceneUp(start), glm::dvec3(0, 0, 1));
+  for (const SceneCamera& camera : kCameras) EXPECT_EQ(sceneUp(camera), glm::dvec3(0, 1, 0));
+  CameraPath back = pathOf(CameraPathKind::back);
+  back.cutFrame = 8;
+  back.cutDegrees = 130.0;
+  CameraPath orbit = pathOf(CameraPathKind::orbit, 7.0);
+  orbit.targetW = glm::dvec3(0, 0, 1);
+  for (const CameraPath& path : {orbit, pathOf(CameraPathKind::pan, 7.0), back}) {
+    const SceneCamera camera = cameraAt(motionOf(path, start), 5);
+    EXPECT_NE(forward(camera), forward(start));
+    EXPECT_NEAR(forward(camera).z, forward(start).z, kTiny) << "the horizon stays level";
+    EXPECT_NEAR(up(camera).z, up(start).z, kTiny);
+    EXPECT_NEAR(position(camera).z, position(start).z, kTiny);
+    CameraPath aboutY = path;
+    aboutY.about = CameraAxis::y;
+    const SceneCamera other = cameraAt(motionOf(aboutY, start), 5);
+    EXPECT_NEAR(up(other).y, up(start).y, kTiny);
+    EXPECT_GT(std::abs(forward(other).z - forward(start).z), 0.01);
+  }
+  CameraPath keys = pathOf(CameraPathKind::keyframes);
+  keys.keyframes.resize(2);
+  keys.keyframes[0].positionW = {4, -3, 1.5};
+  keys.keyframes[1].positionW = {-4, -3, 1.5};
+  keys.keyframes[1].frame = 10;
+  const SceneCamera between = cameraAt(motionOf(keys, start), 4);
+  EXPECT_GT(up(between).z, 0.9) << "upright";
+}
+
 TEST(CameraPath, TurnsAreEven) {
   // The angle between one frame and the next, of a camera that turns about its own up.
   CameraPath path = pathOf(CameraPathKind::pan, 0.5);
-  path.aboutCameraUp = true;
+  path.about = CameraAxis::camera;
   const CameraMotion motion = motionOf(path, kCameras[2]);
   for (uint32_t frame = 0; frame < 1500; frame += 11) {
     const glm::dvec3 a = forward(cameraAt(motion, frame)), b = forward(cameraAt(motion, frame + 1));

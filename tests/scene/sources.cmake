@@ -1,6 +1,7 @@
 include(${CMAKE_CURRENT_LIST_DIR}/builtin_sources.cmake)
 set(RL_SCENE_TESTS
   scene/camera_keyframes_test.cpp
+  scene/camera_path_check_test.cpp
   scene/camera_path_config_test.cpp
   scene/camera_path_test.cpp
   scene/environment_files_test.cpp

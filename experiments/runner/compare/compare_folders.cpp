@@ -11,11 +11,15 @@
 #include "core/error.h"
 #include "experiments/runner/run/job.h"
 #include "experiments/runner/reference/reference_noise.h"
+#include "experiments/runner/summary/disturbed.h"
 #include "experiments/runner/summary/report.h"
 
 namespace restlab {
 
 namespace {
+
+// Below this many runs the spread of times is itself a guess.
+constexpr uint32_t kFewestTimedRuns = 4;
 
 struct Table {
   const Suite* suite = nullptr;
@@ -87,7 +91,8 @@ bool haveTimes(const std::vector<RunResult>& runs) {
                       [](const RunResult& run) { return run.timesMs.empty(); });
 }
 
-// One number a run: its median time, over that of `path` frame by frame where there is one.
+// One number a run: its median time, over that of `path`, the baseline, frame by frame where there
+// is one.
 std::vector<double> timesOf(const std::vector<RunResult>& runs,
                             const std::vector<RunResult>* path) {
   std::vector<double> all;
@@ -108,6 +113,11 @@ const std::vector<RunResult>* yardstickRuns(const Table& table, const MethodSumm
   return runs.size() >= row.result->runs.size() ? &runs : nullptr;
 }
 
+std::string yardstickName(const Table& table, const MethodSummary& row) {
+  const size_t index = table.suite->yardstick(size_t(row.method - table.suite->methods.data()));
+  return index < table.suite->methods.size() ? table.suite->methods[index].name : "";
+}
+
 ComparedRow compareRows(const std::string& label, const Table& a, const MethodSummary& before,
                         const Table& b, const MethodSummary& after) {
   ComparedRow row;
@@ -124,8 +134,8 @@ ComparedRow compareRows(const std::string& label, const Table& a, const MethodSu
   const bool areSame = mses.before == mses.after;
   SharedNoise shared = sharedNoise(after.noise, before.noise, areSame);
   if (a.reference != b.reference) shared.covariance = 0.0;
-  row.mseRatio = pairs ? pairedRatioInterval(mses.after, mses.before, shared)
-                       : ratioInterval(mses.after, mses.before, shared);
+  row.mseRatio = ratioOfPositives(pairs ? pairedRatioInterval(mses.after, mses.before, shared)
+                                        : ratioInterval(mses.after, mses.before, shared));
   if ((pairs || !haveSeeds) && areSame)
     row.mseRatio = {1.0, 1.0, 1.0};  // however few runs there are
   if (haveSeeds && !pairs) {
@@ -138,15 +148,49 @@ ComparedRow compareRows(const std::string& label, const Table& a, const MethodSu
   if (!haveTimes(runsA) || !haveTimes(runsB)) return row;
   const std::vector<RunResult>* pathA = yardstickRuns(a, before);
   const std::vector<RunResult>* pathB = yardstickRuns(b, after);
-  row.timesOverPath = pathA != nullptr && pathB != nullptr;
-  const auto timesA = timesOf(runsA, row.timesOverPath ? pathA : nullptr);
-  const auto timesB = timesOf(runsB, row.timesOverPath ? pathB : nullptr);
+  const bool isSamePath =
+      pathA != nullptr && pathB != nullptr && yardstickName(a, before) == yardstickName(b, after);
+  if (isSamePath) row.timesOver = yardstickName(a, before);
+  const auto timesA = timesOf(runsA, isSamePath ? pathA : nullptr);
+  const auto timesB = timesOf(runsB, isSamePath ? pathB : nullptr);
   row.timeRatio = geometricRatioInterval(timesB, timesA);
   row.time = verdictOf(row.timeRatio);
   return row;
 }
 
-// Whatever else ran on the machine is in the times, also in those over `path`.
+// Times of rows of images were measured by another program: nothing here speaks against them.
+std::string whyTimesAreNotJudged(const ComparedRow& row, const MethodSummary& before,
+                                 const MethodSummary& after, const FolderComparison& comparison) {
+  if (row.time == Verdict::notKnown || before.method->images || after.method->images) return "";
+  if (!comparison.loads.empty()) return comparison.loads;
+  const uint32_t runs = std::min(before.runs, after.runs);
+  if (runs < kFewestTimedRuns)
+    return fmt::format("of fewer than {} runs an interval of times says little", kFewestTimedRuns);
+  const double disturbed = std::max(disturbance(before), disturbance(after));
+  if (disturbed > kDisturbed) {
+    return fmt::format(
+        "one frame in twenty took {:.1f} times as long as the same one of other "
+        "runs: the machine was disturbed",
+        1.0 + disturbed);
+  }
+  if (comparison.isOneProgram && row.unlike.empty())
+    return "the program and its settings are the same: times of two hours differ by the machine "
+           "alone";
+  return "";
+}
+
+// Said once for all rows of a table that have the same reason.
+void noteTimes(const std::string& label, const std::map<std::string, std::vector<std::string>>& why,
+               size_t rows, FolderComparison& comparison) {
+  for (const auto& [reason, methods] : why) {
+    const bool areAll = methods.size() == rows;
+    comparison.notes.push_back(
+        fmt::format("{}{}: times are not judged: {}", label,
+                    areAll ? "" : fmt::format(", {}", fmt::join(methods, "; ")), reason));
+  }
+}
+
+// Whatever else ran on the machine is in the times, also in those over the baseline.
 void noteLoads(const ResultsFolder& first, const ResultsFolder& second,
                FolderComparison& comparison) {
   const double before = first.record.at("machine").at("load_1min").get<double>();
@@ -154,16 +198,18 @@ void noteLoads(const ResultsFolder& first, const ResultsFolder& second,
   if (before < 0.0 || after < 0.0) return;  // not known
   const double cores = second.record.at("machine").at("cores").get<double>();
   if (std::abs(after - before) < 0.5 && std::max(before, after) < cores + 0.5) return;
-  comparison.notes.push_back(
-      fmt::format("the machine's load was {:.1f} and {:.1f} on {:.0f} cores: what ran beside is in "
-                  "the times; measure again on a quiet one",
-                  before, after, cores));
+  comparison.loads = fmt::format(
+      "the machine's load was {:.1f} and {:.1f} on {:.0f} cores: what ran beside is in "
+      "the times, which are not judged; measure again on a quiet one",
+      before, after, cores);
+  comparison.notes.push_back(comparison.loads);
 }
 
 // Whoever made the folders, and whether they are whole.
 void noteOrigins(FolderComparison& comparison) {
   const std::vector<std::string> differences =
       originDifferences(comparison.before, comparison.after);
+  comparison.isOneProgram = differences.empty();
   if (!differences.empty())
     comparison.notes.push_back(fmt::format("made differently: {}", fmt::join(differences, ", ")));
   for (const FolderOrigin* origin : {&comparison.before, &comparison.after}) {
@@ -187,12 +233,24 @@ void noteDifferences(const std::string& where, const std::vector<Difference>& di
   }
 }
 
+// Times over two baselines are no times over one.
+void noteBaselines(const std::string& label, const Table& a, const Table& b,
+                   FolderComparison& comparison) {
+  const std::string before = a.suite->yardstickName(), after = b.suite->yardstickName();
+  if (before == after) return;
+  comparison.notes.push_back(
+      fmt::format("{}: the baseline is '{}' before and '{}' after: times are not over it; run the "
+                  "suite again with --set baseline=NAME for both",
+                  label, before.empty() ? "none" : before, after.empty() ? "none" : after));
+}
+
 // What differs in all rows of a table is said once.
 void compareTables(const std::string& label, const Table& a, const Table& b,
                    FolderComparison& comparison) {
   std::vector<std::pair<std::string, std::vector<Difference>>> differences;
   std::map<std::string, size_t> counts;
   std::map<std::string, std::vector<std::string>> ratios;  // the methods, by which runs they are of
+  std::map<std::string, std::vector<std::string>> notJudged;  // the methods, by why
   for (const MethodSummary& row : a.rows) {
     const std::string& name = row.method->name;
     const MethodSummary* same = find(b, name);
@@ -205,7 +263,13 @@ void compareTables(const std::string& label, const Table& a, const Table& b,
       ++counts[difference.text];
       if (difference.isSetting) compared.unlike.push_back(difference.text);
     }
+    compared.whyNoTime = whyTimesAreNotJudged(compared, row, *same, comparison);
+    if (compared.whyNoTime.empty()) continue;
+    compared.time = Verdict::notJudged;
+    if (compared.whyNoTime != comparison.loads) notJudged[compared.whyNoTime].push_back(name);
   }
+  noteTimes(label, notJudged, differences.size(), comparison);
+  noteBaselines(label, a, b, comparison);
   for (const auto& [runs, methods] : ratios) {
     const bool areAll = methods.size() == differences.size();
     comparison.notes.push_back(

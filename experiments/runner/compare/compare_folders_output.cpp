@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <set>
 
 #include "experiments/runner/compare/compare_folders.h"
 #include "experiments/runner/run/run_record.h"
@@ -44,6 +45,8 @@ const char* name(Verdict verdict) {
       return "worse";
     case Verdict::notToldApart:
       return "not told apart";
+    case Verdict::notJudged:
+      return "not judged";
     case Verdict::notKnown:
       break;
   }
@@ -63,16 +66,19 @@ std::string comparisonTable(const FolderComparison& comparison) {
       "|\n"
       "|---|---|---|---|---|---|---|---|\n",
       originText(comparison.before), originText(comparison.after));
-  bool overPath = false;
+  std::set<std::string> over;
   for (const ComparedRow& row : comparison.rows) {
-    overPath = overPath || row.timesOverPath;
+    if (!row.timesOver.empty()) over.insert(row.timesOver);
     lines += fmt::format("| {} | {} | {} | {} | {} | {} | {}{} | {} |\n", row.table, row.method,
                          text(row.before), text(row.after), text(row.mseRatio),
                          row.verdictText(row.error), text(row.timeRatio),
-                         row.timesOverPath ? " (*)" : "", row.verdictText(row.time));
+                         row.timesOver.empty() ? "" : " (*)", row.verdictText(row.time));
   }
   lines += "\n- ratios below 1 are better\n";
-  if (overPath) lines += "- (*) of the times over those of `path` in the same folder\n";
+  if (!over.empty()) {
+    lines += fmt::format("- (*) of the times over those of `{}` in the same folder\n",
+                         fmt::join(over, "` or `"));
+  }
   for (const std::string& note : comparison.notes) lines += "- " + note + "\n";
   return lines;
 }
@@ -88,7 +94,8 @@ Json comparisonJson(const FolderComparison& comparison) {
                     {"mse_ratio_is", row.runsOfRatio},
                     {"error", row.verdictText(row.error)},
                     {"time_after_over_before", json(row.timeRatio)},
-                    {"times_over_path", row.timesOverPath},
+                    {"times_over", row.timesOver},
+                    {"time_not_judged", row.whyNoTime},
                     {"time", row.verdictText(row.time)},
                     {"unlike", row.unlike},
                     {"is_worse", row.isWorse()}});

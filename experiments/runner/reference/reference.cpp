@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "core/error.h"
 #include "core/image/metrics.h"
@@ -31,10 +32,16 @@ std::string exactly(const SceneCamera& camera) {
 }  // namespace
 
 bool targetReached(const ReferenceTarget& target, uint64_t spp, double relmseSinceHalf,
-                   double timeS) {
+                   double timeS, double sppForLights) {
   if (target.spp && spp >= target.spp) return true;
   if (target.timeLimitS > 0.0 && timeS >= target.timeLimitS && spp >= 2) return true;
-  return target.relmse > 0.0 && relmseSinceHalf <= target.relmse;
+  if (!(target.relmse > 0.0 && relmseSinceHalf <= target.relmse)) return false;
+  return double(spp) >= sppForLights || sppForLights > kMostForLights * double(spp);
+}
+
+std::string whyNotConverged(const Reference& reference) {
+  const auto rare = reference.metadata.find("rare_lights");
+  return rare == reference.metadata.end() ? "" : rare->second;
 }
 
 const SceneCamera* cameraInsteadOf(const PreparedScene& prepared, const ReferenceConfig& config) {
@@ -73,7 +80,11 @@ std::string referenceKey(const PreparedScene& prepared, const ReferenceConfig& c
 }
 
 bool meetsTarget(const Reference& reference, const ReferenceTarget& target) {
-  return targetReached(target, reference.spp, reference.relmseSinceHalf, reference.timeS);
+  const auto need = reference.metadata.find("light_draws_need_spp");
+  const double sppForLights =
+      need == reference.metadata.end() ? 0.0 : std::strtod(need->second.c_str(), nullptr);
+  return targetReached(target, reference.spp, reference.relmseSinceHalf, reference.timeS,
+                       sppForLights);
 }
 
 void requireUsable(const std::string& file, const Reference& reference) {

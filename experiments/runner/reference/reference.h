@@ -45,9 +45,15 @@ struct ReferenceTarget {
   double timeLimitS = 0.0;  // seconds of rendering
 };
 
-// `relmseSinceHalf` as RelmseChecks has it; NaN where it is not known.
+// An error that is small enough waits for lights that were drawn too seldom, but for no more than
+// so many times the samples that it took itself: what needs more stops, and is not called
+// converged.
+constexpr double kMostForLights = 4.0;
+
+// `relmseSinceHalf` as RelmseChecks has it; NaN where it is not known. `sppForLights`: samples per
+// pixel with which every light is drawn often enough (light_draws.h); 0 where that is not known.
 bool targetReached(const ReferenceTarget& target, uint64_t spp, double relmseSinceHalf,
-                   double timeS);
+                   double timeS, double sppForLights);
 
 struct Reference {
   Image mean;
@@ -59,6 +65,11 @@ struct Reference {
   double relmseSinceHalf = 0.0;  // the largest of its checks; NaN where unknown
   double timeS = 0.0;            // rendering only
 };
+
+// Why its error may lack the share of some lights, which both halves may have missed: the lights
+// and how often they were drawn (light_draws.h); "" where each was drawn often enough, or nobody
+// knows.
+std::string whyNotConverged(const Reference& reference);
 
 // Layers of the file that writeReference makes: the mean, its variance, two halves.
 constexpr uint32_t kReferenceLayers = 4;

@@ -8,6 +8,7 @@
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/run/interrupt.h"
 #include "experiments/runner/run/log.h"
+#include "experiments/runner/reference/light_draws.h"
 #include "experiments/runner/reference/reference.h"
 #include "experiments/runner/reference/reference_halves.h"
 
@@ -15,10 +16,19 @@ namespace restlab {
 
 namespace {
 
+// Whether the state is what was asked for. An error that is small enough counts where every light
+// was drawn often enough to be in it, or where that is out of reach.
+bool isEnough(const ReferenceState& state, const ReferenceTarget& target,
+              const std::vector<DrawnLight>& lights) {
+  const double spp = double(state.spp());
+  const RareLights rare = rareLights(lights, double(state.health.raysPath), spp);
+  return targetReached(target, state.spp(), state.checks.sinceHalf(), state.timeS, rare.sppNeeded);
+}
+
 void renderUntil(ReferenceHalves& halves, ReferenceState& state, const ReferenceTarget& target,
-                 ReferenceProgress& kept) {
+                 ReferenceProgress& kept, const std::vector<DrawnLight>& lights) {
   Progress progress("reference", target.spp, state.spp());
-  while (!targetReached(target, state.spp(), state.checks.sinceHalf(), state.timeS)) {
+  while (!isEnough(state, target, lights)) {
     if (interruptRequested()) {
       progress.finish();
       throw Error(ExitCode::interrupted,
@@ -39,6 +49,24 @@ void renderUntil(ReferenceHalves& halves, ReferenceState& state, const Reference
     progress.update(state.spp(), checks.empty() ? "" : fmt::format("relmse {:.3g}", checks.back()));
   }
   progress.finish();
+}
+
+// Those whose light depends on being drawn: without a scattering event none is.
+std::vector<DrawnLight> sampledLights(const PreparedScene& prepared,
+                                      const ReferenceConfig& config) {
+  return config.maxBounces == 0 ? std::vector<DrawnLight>() : drawnLights(*prepared.scene);
+}
+
+void describeLights(const PreparedScene& prepared, const ReferenceConfig& config,
+                    const ReferenceState& state, std::map<std::string, std::string>& metadata) {
+  const std::vector<DrawnLight> lights = sampledLights(prepared, config);
+  if (lights.empty()) return;
+  const double rays = double(state.health.raysPath);
+  const RareLights rare = rareLights(lights, rays, double(state.spp()));
+  metadata["fewest_light_draws"] = fmt::format("{:.6g}", rare.fewestDraws);
+  metadata["light_draws_need_spp"] = fmt::format("{:.6g}", rare.sppNeeded);
+  const std::string text = rareLightsText(rare, lights.size(), rays);
+  if (!text.empty()) metadata["rare_lights"] = text;
 }
 
 std::string joined(const std::vector<std::string>& names) {
@@ -73,6 +101,7 @@ Reference referenceOf(const PreparedScene& prepared, const ReferenceConfig& conf
   reference.metadata["relmse_since_half"] = fmt::format("{:.17g}", reference.relmseSinceHalf);
   reference.metadata["render_time_s"] = fmt::format("{:.6g}", state.timeS);
   reference.metadata["health"] = state.health.text();
+  describeLights(prepared, config, state, reference.metadata);
   return reference;
 }
 
@@ -91,19 +120,20 @@ Reference renderReference(const PreparedScene& prepared, const ReferenceConfig& 
   state.id = id;
   if (found) state = std::move(*found);
 
-  const bool isEnough = targetReached(target, state.spp(), state.checks.sinceHalf(), state.timeS);
+  const std::vector<DrawnLight> lights = sampledLights(prepared, config);
+  const bool isThere = isEnough(state, target, lights);
   if (found) {
     logInfo(fmt::format("{}: {} {} spp of {}", unused.empty() ? "reference" : unused,
-                        isEnough ? "made of the" : "continues after the", state.spp(),
+                        isThere ? "made of the" : "continues after the", state.spp(),
                         kept.file().string()));
   } else if (!unused.empty()) {
     logInfo(unused + "; rendered anew");
   }
-  if (!isEnough) {
+  if (!isThere) {
     const size_t there = 2 * sizeof(glm::vec3) + (state.spp() > 0 ? kStateBytesPerPixel : 0);
     ReferenceHalves halves(prepared, config, state, kReferenceBytesPerPixel - there);
     try {
-      renderUntil(halves, state, target, kept);
+      renderUntil(halves, state, target, kept, lights);
     } catch (...) {
       kept.save(state);  // a lost device, say: what came before it is kept
       throw;

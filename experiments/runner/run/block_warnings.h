@@ -8,7 +8,9 @@
 
 namespace restlab {
 
-// A line each, with the block's label: a black reference, filters at the end of float32.
-std::vector<std::string> warningsOf(const Suite& suite, const BlockResult& block);
+// A line each, with the block's label: a black reference, one that may lack lights, a camera that
+// walks through walls, filters at the end of float32.
+std::vector<std::string> warningsOf(const Suite& suite, const PreparedScene& prepared,
+                                    const BlockResult& block);
 
 }  // namespace restlab

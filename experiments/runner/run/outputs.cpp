@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/control_characters.h"
 #include "core/image/atomic_file.h"
 #include "experiments/report/report_html.h"
 #include "experiments/report/text.h"
 #include "experiments/runner/run/build_info.h"
+#include "experiments/runner/summary/disturbed.h"
 #include "experiments/runner/summary/report.h"
 #include "experiments/runner/summary/report_document.h"
 
@@ -119,6 +121,12 @@ void Outputs::write(const Suite& suite, bool finished) const {
   if (!suite.question.empty()) text += suite.question + "\n\n";
   if (!finished) text += "Not finished: the rows below are of what was.\n\n";
   for (const std::string& line : notes_) text += line + "\n\n";
+  const bool hasRatios = std::any_of(blocks_.begin(), blocks_.end(), [](const Block& block) {
+    return std::any_of(block.rows.begin(), block.rows.end(), [](const MethodSummary& row) {
+      return !row.isYardstick && !std::isnan(row.timeRatio.value);
+    });
+  });
+  if (hasRatios) text += timesExplained() + "\n\n";
   text += sweepTables();
   for (const Block& block : blocks_) text += blockTable(*block.suite, block.rows);
   const bool usesVulkan = std::any_of(devices_.begin(), devices_.end(),

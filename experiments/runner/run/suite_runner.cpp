@@ -32,6 +32,7 @@
 #include "experiments/runner/run/print.h"
 #include "experiments/runner/summary/report.h"
 #include "experiments/runner/run/results_log.h"
+#include "experiments/runner/run/run_cost.h"
 #include "experiments/runner/run/run_record.h"
 #include "experiments/runner/suite/suite_check.h"
 
@@ -177,7 +178,8 @@ class SuiteRun {
           block.scene = scene.name;
           block.component = component;
           plan_.push_back(planOf(suite, block));
-          pace_.plan(ofScene(suite, scene).runs);
+          const Suite own = ofScene(suite, scene);
+          pace_.plan(own.runs, costOfRun(own, scene));
         }
       }
     }
@@ -220,7 +222,7 @@ class SuiteRun {
     block.motion = motionOf(suite, scene, prepared);
     block.lights = lightPhases(suite, prepared);
     if (!obtain(suite, scene, prepared, block)) return false;
-    for (const std::string& line : warningsOf(suite, block)) {
+    for (const std::string& line : warningsOf(suite, prepared, block)) {
       logWarning(line);
       outputs_.note("Warning: " + line);
     }
@@ -229,7 +231,7 @@ class SuiteRun {
     bool finished = false;
     std::exception_ptr failure;  // a lost device, say: what was finished before it is kept
     try {
-      finished = executeRuns(suite, prepared, block, plan);
+      finished = executeRuns(suite, scene, prepared, block, plan);
     } catch (const Error&) {
       if (block.methods.empty()) throw;
       failure = std::current_exception();
@@ -243,14 +245,16 @@ class SuiteRun {
     return finished;
   }
 
-  bool executeRuns(const Suite& suite, const PreparedScene& prepared, BlockResult& block,
-                   nlohmann::ordered_json& plan) {
+  bool executeRuns(const Suite& suite, const SuiteScene& scene, const PreparedScene& prepared,
+                   BlockResult& block, nlohmann::ordered_json& plan) {
     std::string reference = referenceHash(block.reference);
     if (block.referenceBefore) reference += referenceHash(*block.referenceBefore);
     BlockExecutor executor(suite, prepared, block);
     measureImageRows(suite, prepared, block, reference, plan);
     Progress progress(blockLabel(suite, block), suite.runs);
-    const std::set<std::string> made = makeSideBySide(suite, prepared, block, reference, progress);
+    const double cost = costOfRun(suite, scene);
+    const std::set<std::string> made =
+        makeSideBySide(suite, prepared, block, reference, progress, cost);
     for (uint32_t run = 0; run < suite.runs; ++run) {
       const JobIdentity identity = identityOf(suite, prepared, block, run, reference);
       const std::string key = identity.key();
@@ -262,9 +266,9 @@ class SuiteRun {
         job = executor.execute(run, key, started_);
         if (!job) return false;
         store_.save(identity, *job);
-        pace_.made(watch.lap());
+        pace_.made(watch.lap(), cost);
       } else if (isThere && suite.jobs < 2) {
-        pace_.found();
+        pace_.found(cost);
       }
       ++(isThere ? reused_ : made_);
       log_->add(key, *job, !isThere);
@@ -314,7 +318,7 @@ class SuiteRun {
   // store.
   std::set<std::string> makeSideBySide(const Suite& suite, const PreparedScene& prepared,
                                        BlockResult& block, const std::string& reference,
-                                       Progress& progress) {
+                                       Progress& progress, double cost) {
     std::set<std::string> made;
     if (suite.jobs < 2) return made;
     prepareMasks(suite, prepared, block);  // not by each of them
@@ -324,7 +328,7 @@ class SuiteRun {
       if (request_.force || !store_.load(key)) {
         missing.push_back(run);
       } else {
-        pace_.found();
+        pace_.found(cost);
       }
     }
     std::mutex mutex;  // guards made, failure, progress, pace_ and watch
@@ -341,7 +345,7 @@ class SuiteRun {
           store_.save(identity, *job);
           const std::lock_guard lock(mutex);
           made.insert(identity.key());
-          pace_.made(watch.lap());
+          pace_.made(watch.lap(), cost);
           logRun(suite, block, missing[i], identity.key(), false);
           progress.update(suite.runs - missing.size() + made.size(), "", pace_.progress());
         }

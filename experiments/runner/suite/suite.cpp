@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "core/config.h"
 #include "core/error.h"
@@ -14,6 +15,7 @@
 #include "experiments/runner/suite/suite_methods.h"
 #include "experiments/runner/suite/suite_overrides.h"
 #include "experiments/runner/suite/suite_settings.h"
+#include "experiments/runner/suite/suite_yardstick.h"
 #include "experiments/runner/suite/scene_parameter.h"
 #include "experiments/runner/suite/sweep.h"
 
@@ -140,18 +142,6 @@ void requireUniqueName(std::map<std::string, std::string>& seen, const std::stri
                   place, what, other->second, name, other->first));
 }
 
-void requireBaseline(const ConfigTable& settings, const Suite& suite) {
-  std::vector<std::string> names;
-  for (const SuiteMethod& method : suite.rendered()) names.push_back(method.name);
-  if (suite.baseline.empty() ||
-      std::find(names.begin(), names.end(), suite.baseline) != names.end())
-    return;
-  settings.fail(
-      "baseline",
-      fmt::format("no method that is rendered is named '{}' (there are: '{}'){}", suite.baseline,
-                  fmt::join(names, "', '"), didYouMean(suite.baseline, names)));
-}
-
 void requireUniqueNames(const Suite& suite) {
   std::map<std::string, std::string> methods, scenes;
   for (const SuiteMethod& method : suite.methods) {
@@ -212,44 +202,9 @@ std::span<const SuiteMethod> Suite::rendered() const {
   return {methods.data(), size_t(end - methods.begin())};
 }
 
-size_t Suite::yardstick(size_t method) const {
-  const std::span<const SuiteMethod> all = rendered();
-  if (!baseline.empty()) {
-    const auto named = std::find_if(
-        all.begin(), all.end(), [&](const SuiteMethod& other) { return other.name == baseline; });
-    return named == all.end() ? methods.size() : size_t(named - all.begin());
-  }
-  return firstPath(method, "none");
-}
-
-size_t Suite::average(size_t method) const { return firstPath(method, "accumulate"); }
-
-size_t Suite::firstPath(size_t method, const std::string& denoiser) const {
-  const std::span<const SuiteMethod> all = rendered();
-  const std::string& backend =
-      (methods[method].images ? all.front() : methods[method]).session.backend;
-  const auto first = std::find_if(all.begin(), all.end(), [&](const SuiteMethod& other) {
-    const SessionConfig& session = other.session;
-    return session.integrator == "path" && session.denoiser == denoiser &&
-           session.backend == backend && !endsPaths(other.parameters());
-  });
-  return first == all.end() ? methods.size() : size_t(first - all.begin());
-}
-
 uint32_t Suite::frameOfAge(uint32_t age) const {
   const uint32_t lit = events.empty() ? 0 : events.back().frame;
   return std::max(firstStillFrame(cameraPath).value_or(0), lit) + age - 1;
-}
-
-size_t Suite::onFirstBackend(size_t method) const {
-  const SuiteMethod& own = methods[method];
-  if (own.images) return method;
-  const auto first = std::find_if(methods.begin(), methods.end(), [&](const SuiteMethod& other) {
-    const SessionConfig &a = own.session, &b = other.session;
-    return own.base == other.base && a.integrator == b.integrator && a.mode == b.mode &&
-           a.cache == b.cache && a.specialise == b.specialise && a.parameters == b.parameters;
-  });
-  return size_t(first - methods.begin());
 }
 
 std::vector<std::string> Suite::methodBackends() const {
@@ -299,7 +254,9 @@ Suite readSuite(const ConfigTable& root, const std::filesystem::path& file, cons
   if (suite.scenes.empty())
     root.fail("", "the suite has no scenes: give scenes = [..] or [[scene]]");
   const ConfigTable settings = root.getTable("settings");
-  readSettings(settings, suite);
+  std::set<std::string> swept;
+  for (const SweepAxis& axis : sweep.settings) swept.insert(axis.leaf);
+  readSettings(settings, suite, swept);
   readPaths(root, suite);
   takePath(suite, suite.cameraPathName, suite.cameraPathPlace);
   for (const SuiteScene& scene : suite.scenes) checkPath(settings, ofScene(suite, scene));
@@ -309,7 +266,7 @@ Suite readSuite(const ConfigTable& root, const std::filesystem::path& file, cons
   requireSomeUse(settings, suite);
   nameByBackend(suite);
   requireUniqueNames(suite);
-  requireBaseline(settings, suite);
+  followBaseline(settings, suite);
   return suite;
 }
 

@@ -131,11 +131,17 @@ struct Suite {
   // The methods that are no rows of images.
   std::span<const SuiteMethod> rendered() const;
   // Index of a method's yardstick: the baseline, else the first `path` method on the same backend,
-  // for a row of images on the first one; methods.size() where there is none.
+  // for a row of images on the first one; methods.size() where there is none. A baseline that is
+  // named without its backend is the one on the method's backend.
   size_t yardstick(size_t method) const;
+  // The yardstick of all methods in words, for headings: "gi, spatial_radius=8.0", or "path on the
+  // same backend" where each backend has its own; "" where there is none.
+  std::string yardstickName() const;
   // Index of the plain average of that yardstick's frames: the first `path` with the denoiser
   // `accumulate` on the same backend; methods.size() where there is none.
   size_t average(size_t method) const;
+  // That average in words, as yardstickName().
+  std::string averageName() const;
   // Index of the first method that differs in nothing but the backend; itself where it is the
   // first.
   size_t onFirstBackend(size_t method) const;
@@ -152,6 +158,7 @@ struct Suite {
 
  private:
   size_t firstPath(size_t method, const std::string& denoiser) const;
+  std::string nameOfAll(size_t (Suite::*of)(size_t) const) const;
 };
 
 // The suite as it is for one of its scenes, whose own settings win.

@@ -84,16 +84,34 @@ void readMasks(const ConfigTable& root, Suite& suite) {
   }
 }
 
-void readSettings(const ConfigTable& table, Suite& suite) {
-  suite.width = uint32_t(table.getInteger("width", 0, 1, kMaxSide));
-  suite.height = uint32_t(table.getInteger("height", 0, 1, kMaxSide));
-  if (table.has("resolution")) {
-    if (suite.width || suite.height) {
-      table.fail("resolution", "'resolution' and 'width' or 'height' exclude each other");
-    }
+namespace {
+
+// A size of the command or of a sweep replaces that of the file, in whichever way that says it.
+void readSize(const ConfigTable& table, const std::set<std::string>& swept, Suite& suite) {
+  const auto isLater = [&](const std::string& key) {
+    return table.has(key) && (swept.count(key) > 0 || table.place(key).rfind("--", 0) == 0);
+  };
+  const bool laterSides = isLater("width") || isLater("height");
+  const bool laterResolution = isLater("resolution");
+  const bool bothOfOne = laterSides == laterResolution;
+  const uint32_t width = uint32_t(table.getInteger("width", 0, 1, kMaxSide));
+  const uint32_t height = uint32_t(table.getInteger("height", 0, 1, kMaxSide));
+  const bool hasSides = width || height;
+  if (table.has("resolution") && hasSides && bothOfOne)
+    table.fail("resolution", "'resolution' and 'width' or 'height' exclude each other");
+  if (table.has("resolution") && !(hasSides && laterSides)) {
     parseResolution(table.getString("resolution", ""), table.place("resolution") + ": 'resolution'",
                     suite.width, suite.height);
+    return;
   }
+  suite.width = width;
+  suite.height = height;
+}
+
+}  // namespace
+
+void readSettings(const ConfigTable& table, Suite& suite, const std::set<std::string>& swept) {
+  readSize(table, swept, suite);
   suite.maxBounces =
       uint32_t(table.getInteger("max_bounces", suite.maxBounces, 0, kMaxBouncesOfSuites));
   suite.multiscatter = table.getBool("multiscatter", suite.multiscatter);

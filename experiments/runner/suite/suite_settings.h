@@ -2,6 +2,8 @@
 // All throw Error (badUsage) with the place.
 #pragma once
 
+#include <set>
+
 #include "core/config.h"
 #include "experiments/runner/suite/suite.h"
 
@@ -15,7 +17,8 @@ constexpr int64_t kMaxCount = 1000000;
 // One name or several; "cpu" and so on, each once.
 std::vector<std::string> readBackends(const ConfigTable& table,
                                       const std::vector<std::string>& fallback);
-void readSettings(const ConfigTable& table, Suite& suite);
+// `swept`: keys whose values are those of a sweep.
+void readSettings(const ConfigTable& table, Suite& suite, const std::set<std::string>& swept = {});
 // The keys that [settings] has: those that readSettings() asks for.
 const std::vector<std::string>& settingsKeys();
 // Every [[camera_path]] and what is switched on it; "still" needs none.

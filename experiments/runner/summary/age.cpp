@@ -26,7 +26,8 @@ Interval ratioOf(const AgeYardstick& own, const AgeYardstick& other, size_t poin
   const size_t paired = std::min(own.runs->size(), other.runs->size());
   const std::vector<double> mse = perRun(*own.runs, point, paired, mseOf);
   const std::vector<double> others = perRun(*other.runs, point, paired, mseOf);
-  return pairedRatioInterval(others, mse, sharedNoise(other.noise, own.noise, mse == others));
+  return ratioOfPositives(
+      pairedRatioInterval(others, mse, sharedNoise(other.noise, own.noise, mse == others)));
 }
 
 }  // namespace

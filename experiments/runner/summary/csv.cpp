@@ -62,6 +62,13 @@ std::string parametersText(const SuiteMethod& method) {
   return text;
 }
 
+// The method that the row's ratios are against; "" where there is none.
+std::string nameAt(const Suite& suite, size_t (Suite::*of)(size_t) const,
+                   const MethodSummary& row) {
+  const size_t found = (suite.*of)(size_t(row.method - suite.methods.data()));
+  return found < suite.methods.size() ? suite.methods[found].name : "";
+}
+
 std::vector<Column> furtherColumns(const Suite& suite, const MethodSummary& row) {
   std::string flags, passes;
   for (const std::string& flag : row.flags) {
@@ -135,6 +142,8 @@ std::vector<Column> furtherColumns(const Suite& suite, const MethodSummary& row)
       {"time_ratio_to_first_backend_ci_hi", number(row.timeToFirstBackend.hi)},
       {"point", suite.point},
       {"parameters", parametersText(*row.method)},
+      {"baseline", nameAt(suite, &Suite::yardstick, row)},
+      {"average", nameAt(suite, &Suite::average, row)},
   };
   const Interval none{kUnknown, kUnknown, kUnknown};
   const auto add = [&](const std::string& name, const Interval& interval) {

@@ -22,6 +22,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// In titles and helps {0} is the baseline's name and {1} that of its average.
 struct Column {
   const char *key, *title, *unit, *better, *help;
   Interval (*value)(const MethodSummary&);
@@ -59,16 +60,14 @@ const std::vector<Column>& columns() {
       {"time_ms", "time per frame", "ms", "lower", "median over timed frames: passes, nothing else",
        [](const MethodSummary& row) { return only(row.timeMsMedian); }},
       {"time_ratio", "time ratio", "", "lower",
-       "geometric mean over runs of the median over frames of time / time of the baseline's frame "
-       "beside it (path, unless the suite names another)",
+       "geometric mean over runs of the median over frames of time / time of the frame of {0} "
+       "beside it; the ratio of two medians may differ where the machine was disturbed",
        [](const MethodSummary& row) { return row.timeRatio; }},
       {"mse", "MSE", "", "lower", "of the frame after the warm-up, against the reference's halves",
        [](const MethodSummary& row) { return row.mse; }},
-      {"mse_ratio", "baseline's MSE / MSE", "", "higher",
-       "above 1: a lower MSE than the baseline (path, unless the suite names another)",
+      {"mse_ratio", "MSE of {0} / MSE", "", "higher", "above 1: a lower MSE than {0}",
        [](const MethodSummary& row) { return row.mseRatio; }},
-      {"average_ratio", "average's MSE / MSE", "", "higher",
-       "MSE of the plain average of the baseline's frames (path + accumulate) / MSE",
+      {"average_ratio", "MSE of {1} / MSE", "", "higher", "above 1: a lower MSE than {1}",
        [](const MethodSummary& row) { return row.ratioToAverage; }},
       {"efficiency", "efficiency", "", "higher", "MSE ratio / time ratio",
        [](const MethodSummary& row) { return row.efficiencyRatio; }},
@@ -91,12 +90,11 @@ const std::vector<Column>& columns() {
       {"slope", "slope", "", "lower", "of log(MSE) over log(time) while frames accumulate",
        slopeOf},
       {"equal_time", "the same at equal time", "", "higher",
-       "baseline's MSE / MSE off the fitted lines, where both have taken the same time",
-       equalTimeOf,
+       "MSE of {0} / MSE off the fitted lines, where both have taken the same time", equalTimeOf,
        [](const MethodSummary& row) {
          return row.speedUp ? fmt::format("at {} ms", shortNumber(row.speedUp->equalTime.at)) : "";
        }},
-      {"equal_error", "baseline's time / time to equal error", "", "higher",
+      {"equal_error", "time of {0} / time to equal error", "", "higher",
        "off the fitted lines; above 1: faster", equalErrorOf,
        [](const MethodSummary& row) {
          return row.speedUp ? "to " + shortNumber(row.speedUp->equalError.at) : "";
@@ -154,6 +152,11 @@ Json cellOf(const Column& column, const MethodSummary& row, const Interval& valu
 }
 
 void addTable(const std::vector<MethodSummary>& rows, Json& block) {
+  const Suite& suite = *rows.front().suite;
+  const std::string yardstick = suite.yardstickName(), average = suite.averageName();
+  const auto named = [&](const char* text) {
+    return fmt::format(fmt::runtime(text), yardstick, average);
+  };
   Json heads = Json::array(), lines = Json::array();
   for (const MethodSummary& row : rows) {
     lines.push_back({{"method", row.method->name},
@@ -166,12 +169,12 @@ void addTable(const std::vector<MethodSummary>& rows, Json& block) {
     for (const MethodSummary& row : rows) isKnown = isKnown || !std::isnan(column.value(row).value);
     if (!isKnown) continue;
     heads.push_back({{"key", column.key},
-                     {"title", column.title},
+                     {"title", named(column.title)},
                      {"unit", column.unit},
                      {"better", column.better},
                      {"detail", isDetail(column.key)},
                      {"digits", column.key == std::string("energy") ? kEnergyDigits : kDigits},
-                     {"help", column.help}});
+                     {"help", named(column.help)}});
     for (size_t i = 0; i < rows.size(); ++i) {
       // NaN says that an image held one; what is only unknown is an empty cell.
       const Interval value = column.value(rows[i]);
@@ -247,7 +250,7 @@ Json singleFrames(const std::vector<MethodSummary>& rows) {
 
 // A figure of single frames over the age of the history. `ratio`: of nothing where it is unknown.
 Json agePlot(const std::vector<MethodSummary>& rows, const char* id, const std::string& title,
-             const char* yTitle, Interval (*value)(const AgeSummary&)) {
+             const std::string& yTitle, Interval (*value)(const AgeSummary&)) {
   Json series = Json::array();
   for (const MethodSummary& row : rows) {
     Json points = Json::array();
@@ -270,11 +273,15 @@ void addAgePlots(const std::vector<MethodSummary>& rows, Json& plots) {
   if (rows.front().ages.empty()) return;
   plots.push_back(agePlot(rows, "age", "MSE of a single frame over the age of the history", "MSE",
                           [](const AgeSummary& age) { return age.mse; }));
-  plots.push_back(agePlot(rows, "age-path", "times lower than path traced, by age",
-                          "MSE of path / MSE", [](const AgeSummary& age) { return age.mseRatio; }));
-  Json average =
-      agePlot(rows, "age-average", "times lower than the average of its frames, by age",
-              "MSE of the average / MSE", [](const AgeSummary& age) { return age.ratioToAverage; });
+  const Suite& suite = *rows.front().suite;
+  const std::string yardstick = suite.yardstickName(), averaged = suite.averageName();
+  Json ratio = agePlot(rows, "age-path", fmt::format("times lower than {}, by age", yardstick),
+                       fmt::format("MSE of {} / MSE", yardstick),
+                       [](const AgeSummary& age) { return age.mseRatio; });
+  if (!ratio["series"].empty()) plots.push_back(std::move(ratio));
+  Json average = agePlot(rows, "age-average", fmt::format("times lower than {}, by age", averaged),
+                         fmt::format("MSE of {} / MSE", averaged),
+                         [](const AgeSummary& age) { return age.ratioToAverage; });
   if (!average["series"].empty()) plots.push_back(std::move(average));
 }
 

@@ -115,7 +115,7 @@ void summariseErrors(const MethodResult& result, const Reference& reference, Met
 void compareImages(const MethodResult& path, const MethodSummary& pathRow,
                    const MethodResult& result, MethodSummary& row) {
   const auto ratioOf = [&](double (*value)(const RunResult&), const SharedNoise& shared) {
-    return ratioInterval(perRun(path, value), perRun(result, value), shared);
+    return ratioOfPositives(ratioInterval(perRun(path, value), perRun(result, value), shared));
   };
   row.mseRatio = ratioOf(runMse, sharedNoise(pathRow.noise, row.noise));
   row.mseRatioWithoutLights =
@@ -124,6 +124,16 @@ void compareImages(const MethodResult& path, const MethodSummary& pathRow,
   if (std::isnan(row.timeMsMedian) || std::isnan(pathRow.timeMsMedian)) return;
   row.timeRatio.value = row.timeRatioOfMedians = row.timeMsMedian / pathRow.timeMsMedian;
   row.efficiencyRatio.value = row.mseRatio.value / row.timeRatio.value;
+}
+
+// `value`: of all runs, those without a partner too.
+Interval pairedErrorRatio(const std::vector<double>& numerators,
+                          const std::vector<double>& denominators, double value,
+                          const SharedNoise& shared = {}) {
+  const Interval paired = ratioOfPositives(pairedRatioInterval(numerators, denominators, shared));
+  // The same numbers leave no room, whatever their spread.
+  if (numerators == denominators && paired.value == 1.0) return paired;
+  return {value, paired.lo, paired.hi};
 }
 
 void compareWithYardstick(const MethodResult& path, const MethodSummary& pathRow,
@@ -145,23 +155,27 @@ void compareWithYardstick(const MethodResult& path, const MethodSummary& pathRow
   // As those of general kernels and the scene's own are.
   const bool isSame = pathMse == mse;
   const SharedNoise shared = sharedNoise(pathRow.noise, row.noise, isSame);
-  row.mseRatio = pairedRatioInterval(pathMse, mse, shared);
-  row.mseRatio.value = pathRow.mse.value / row.mse.value;
-  row.mseRatioWithoutLights = pairedRatioInterval(
-      pathInside, inside, sharedNoise(pathRow.noiseWithoutLights, row.noiseWithoutLights, isSame));
-  row.mseRatioWithoutLights.value = pathRow.mseWithoutLights.value / row.mseWithoutLights.value;
-  row.relmseTrimmedRatio = pairedRatioInterval(pathTrimmed, trimmed);
-  row.relmseTrimmedRatio.value = pathRow.relmseTrimmed.value / row.relmseTrimmed.value;
+  row.mseRatio = pairedErrorRatio(pathMse, mse, pathRow.mse.value / row.mse.value, shared);
+  row.mseRatioWithoutLights = pairedErrorRatio(
+      pathInside, inside, pathRow.mseWithoutLights.value / row.mseWithoutLights.value,
+      sharedNoise(pathRow.noiseWithoutLights, row.noiseWithoutLights, isSame));
+  row.relmseTrimmedRatio =
+      pairedErrorRatio(pathTrimmed, trimmed, pathRow.relmseTrimmed.value / row.relmseTrimmed.value);
   row.timeRatio = geometricMeanInterval(timeRatios);
   row.timeRatioOfMedians = row.timeMsMedian / pathRow.timeMsMedian;
   const double time = row.timeRatio.value;
+  if (isSame) {  // the time alone tells them apart
+    row.efficiencyRatio = {1.0 / time, 1.0 / row.timeRatio.hi, 1.0 / row.timeRatio.lo};
+    return;
+  }
   row.efficiencyRatio = pairedRatioInterval(
       pathMse, work,
       {shared.numerator, time * time * shared.denominator, time * shared.covariance});
   // Fieller's is of the arithmetic mean of the time ratios, the value of their geometric mean.
   const double value = row.mseRatio.value / time;
   const double shift = value / row.efficiencyRatio.value;
-  row.efficiencyRatio = {value, shift * row.efficiencyRatio.lo, shift * row.efficiencyRatio.hi};
+  row.efficiencyRatio =
+      ratioOfPositives({value, shift * row.efficiencyRatio.lo, shift * row.efficiencyRatio.hi});
 }
 
 // The time of a method against that of the same method on another backend.
@@ -264,9 +278,9 @@ std::string energyText(const Interval& energy) {
 }
 
 std::string shareText(const Interval& share) {
-  if (std::isnan(share.lo)) return fmt::format("{:.2g} % [unknown]", 100.0 * share.value);
-  return fmt::format("{:.2g} % [{:.2g}, {:.2g}]", 100.0 * share.value, 100.0 * share.lo,
-                     100.0 * share.hi);
+  const auto digits = [](double of) { return shortNumber(100.0 * of, 2); };
+  if (std::isnan(share.lo)) return fmt::format("{} % [unknown]", digits(share.value));
+  return fmt::format("{} % [{}, {}]", digits(share.value), digits(share.lo), digits(share.hi));
 }
 
 // What an unbiased method shows of a mistake in it, or in what it was told.
@@ -423,7 +437,8 @@ void compareAges(const Suite& suite, const BlockResult& block, size_t m,
       mse.push_back(runMse((*own.runs)[r]));
       others.push_back(runMse((*average.runs)[r]));
     }
-    row.ratioToAverage = pairedRatioInterval(others, mse, sharedNoise(average.noise, own.noise));
+    row.ratioToAverage =
+        ratioOfPositives(pairedRatioInterval(others, mse, sharedNoise(average.noise, own.noise)));
   }
   if (!own.runs->front().aged.empty()) row.ages = agesOf(own, runsOf(suite.yardstick(m)), average);
 }

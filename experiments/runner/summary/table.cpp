@@ -7,7 +7,10 @@
 #include "core/error.h"
 #include "experiments/report/text.h"
 #include "experiments/runner/summary/figures.h"
+#include "experiments/runner/summary/disturbed.h"
+#include "experiments/runner/summary/markdown_table.h"
 #include "experiments/runner/summary/report.h"
+#include "experiments/runner/summary/row_notes.h"
 
 namespace restlab {
 
@@ -56,6 +59,11 @@ std::string trimmedCell(const MethodSummary& row) {
                      ratio.empty() ? "" : fmt::format(" ({})", ratio));
 }
 
+// A column of an error or time that is against `name`; "" where there is none.
+std::string againstHead(const std::string& what, const std::string& name) {
+  return name.empty() ? what : fmt::format("{} {}", what, name);
+}
+
 // Heading of the column that compares backends; "" where no row has another one to compare with.
 std::string backendColumn(const Suite& suite, const std::vector<MethodSummary>& rows) {
   std::string first;
@@ -70,10 +78,9 @@ std::string backendColumn(const Suite& suite, const std::vector<MethodSummary>& 
 }
 
 std::string backendCell(const MethodSummary& row, const std::string& column) {
-  if (column.empty()) return "";
   const Interval& ratio = row.timeToFirstBackend;
-  if (std::isnan(ratio.value)) return " |";
-  return fmt::format(" {}x{} |", shortNumber(ratio.value), endsOf(ratio));
+  if (column.empty() || std::isnan(ratio.value)) return "";
+  return fmt::format("{}x{}", shortNumber(ratio.value), endsOf(ratio));
 }
 
 std::string raysCell(const MethodSummary& row) {
@@ -117,83 +124,84 @@ std::string readingCell(const CurveReading& reading, const char* gain, const cha
 }
 
 // Slopes and speed-ups; "" where nothing was accumulated.
-std::string accumulatedTable(const std::vector<MethodSummary>& rows) {
-  std::string text;
+std::string accumulatedTable(const std::vector<MethodSummary>& rows, const std::string& against) {
+  MarkdownTable table(
+      {"method", "frames", "time", "MSE", "slope", "line", "at equal time", "to equal error"});
   for (const MethodSummary& row : rows) {
     if (!row.convergence || row.convergence->points.empty()) continue;
     const ConvergencePoint& last = row.convergence->points.back();
     const Interval& slope = row.convergence->slope;
-    text += fmt::format("| {} | {} | {} | {} | {} | {} |", oneLine(row.method->name), last.frames,
-                        longTime(last.timeMs), withEnds(last.mse),
-                        std::isnan(slope.value) ? "" : withEnds(slope), fitCell(*row.convergence));
+    std::string atEqualTime, toEqualError;
     if (row.speedUp && !row.isYardstick) {
       const CurveReading &time = row.speedUp->equalTime, &error = row.speedUp->equalError;
-      text += fmt::format(" {} | {} |\n",
-                          readingCell(time, "lower", "higher", "at " + longTime(time.at)),
-                          readingCell(error, "faster", "slower", "to " + shortNumber(error.at)));
-    } else {
-      text += " | |\n";
+      atEqualTime = readingCell(time, "lower", "higher", "at " + longTime(time.at));
+      toEqualError = readingCell(error, "faster", "slower", "to " + shortNumber(error.at));
     }
+    table.add({row.method->name, std::to_string(last.frames), longTime(last.timeMs),
+               withEnds(last.mse), std::isnan(slope.value) ? "" : withEnds(slope),
+               fitCell(*row.convergence), atEqualTime, toEqualError});
   }
-  if (text.empty()) return "";
+  if (table.isEmpty()) return "";
   return "\nFrames accumulated, time from the beginning of the history; slopes and ratios are of "
-         "lines fitted to log(MSE) over log(time):\n\n"
-         "| method | frames | time | MSE | slope | line | at equal time | to equal error |\n"
-         "|---|---|---|---|---|---|---|---|\n" +
-         text;
+         "lines fitted to log(MSE) over log(time)" +
+         againstHead(against.empty() ? "" : "; against", against) + ":\n\n" + table.text();
 }
 
 std::string figuresTable(const std::vector<MethodSummary>& rows) {
   const auto& named = rows.front().figures;
   const std::vector<FigureInfo> infos = figureInfos(*rows.front().suite);
-  std::string heads, rule, lines;
-  std::vector<bool> isKnown;
+  std::vector<size_t> known;
+  std::vector<std::string> heads = {"method"};
   for (size_t i = 0; i < named.size(); ++i) {
-    isKnown.push_back(std::any_of(rows.begin(), rows.end(), [&](const MethodSummary& row) {
+    const bool isKnown = std::any_of(rows.begin(), rows.end(), [&](const MethodSummary& row) {
       return !std::isnan(row.figures[i].second.value);
-    }));
-    if (!isKnown[i]) continue;
-    heads += fmt::format(" {} |", named[i].first);
-    rule += "---|";
+    });
+    if (!isKnown) continue;
+    known.push_back(i);
+    heads.push_back(named[i].first);
   }
-  if (heads.empty()) return "";
+  if (known.empty()) return "";
+  MarkdownTable table(heads);
   for (const MethodSummary& row : rows) {
-    lines += fmt::format("| {} |", oneLine(row.method->name));
-    for (size_t i = 0; i < row.figures.size(); ++i) {
-      const Interval& figure = row.figures[i].second;
-      if (isKnown[i]) {
-        lines += fmt::format(" {} |", withEnds(figure, digitsOf(infos[i])));
-      }
-    }
-    lines += "\n";
+    std::vector<std::string> cells = {row.method->name};
+    for (const size_t i : known)
+      cells.push_back(withEnds(row.figures[i].second, digitsOf(infos[i])));
+    table.add(std::move(cells));
   }
-  return fmt::format("\nOf the measured frame:\n\n| method |{}\n|---|{}\n{}", heads, rule, lines);
+  return "\nOf the measured frame:\n\n" + table.text();
 }
 
 std::string temporalTable(const std::vector<MethodSummary>& rows) {
-  std::string text, moved;
+  std::string moved;
   const auto cellOf = [](const Interval& of) {
-    return std::isnan(of.value) ? std::string(" |") : " " + withEnds(of) + " |";
+    return std::isnan(of.value) ? std::string() : withEnds(of);
   };
+  MarkdownTable table({"method", "variance", "difference", "change of errors", "1", "2", "4", "8"});
   for (const MethodSummary& row : rows) {
     if (!row.temporal) continue;
     const TemporalSummary& t = *row.temporal;
-    text += fmt::format("| {} |", oneLine(row.method->name)) + cellOf(t.variance) +
-            cellOf(t.difference) + cellOf(t.errorDifferenceSquared);
-    for (const size_t lag : {1, 2, 4, 8}) text += cellOf(t.autocorrelation[lag - 1]);
-    text += "\n";
+    std::vector<std::string> cells = {row.method->name, cellOf(t.variance), cellOf(t.difference),
+                                      cellOf(t.errorDifferenceSquared)};
+    for (const size_t lag : {1, 2, 4, 8}) cells.push_back(cellOf(t.autocorrelation[lag - 1]));
+    table.add(std::move(cells));
     if (row.suite->hasMovingCamera())
       moved = "; the two references differ by " + shortNumber(t.referenceDifference);
   }
-  if (text.empty()) return "";
+  if (table.isEmpty()) return "";
   return "\nOver the timed frames of a run: variance of a pixel, mean absolute difference of frames"
          ", mean squared change of errors, correlation of errors by the number of frames between "
          "them" +
-         moved +
-         ":\n\n"
-         "| method | variance | difference | change of errors | 1 | 2 | 4 | 8 |\n"
-         "|---|---|---|---|---|---|---|---|\n" +
-         text;
+         moved + ":\n\n" + table.text();
+}
+
+// Of what rows are against; "" where there is no such method.
+struct Names {
+  std::string yardstick, average;
+};
+
+// "(times that of path)" where a row has such a ratio.
+std::string timesOf(const Names& names) {
+  return names.yardstick.empty() ? "" : fmt::format("(x times that of {})", names.yardstick);
 }
 
 std::string markedName(const MethodSummary& row) {
@@ -201,48 +209,38 @@ std::string markedName(const MethodSummary& row) {
 }
 
 // What each row costs and what it leaves.
-std::string errorTable(const std::vector<MethodSummary>& rows) {
-  const bool hasAverage = std::any_of(rows.begin(), rows.end(), [](const MethodSummary& row) {
-    return !std::isnan(row.ratioToAverage.value);
-  });
-  std::string text = fmt::format(
-      "| method | time per frame | MSE | than the path tracer |{} energy |\n"
-      "|---|---|---|---|{}---|\n",
-      hasAverage ? " than its average |" : "", hasAverage ? "---|" : "");
+std::string errorTable(const std::vector<MethodSummary>& rows, const Names& names) {
+  MarkdownTable table({"method", againstHead("time per frame", timesOf(names)), "MSE",
+                       againstHead("than", names.yardstick), againstHead("than", names.average),
+                       "energy"});
   for (const MethodSummary& row : rows) {
-    text += fmt::format("| {} | {} | {} | {} |", markedName(row), timeCell(row), withEnds(row.mse),
-                        ratioCell(row.mseRatio, row.isYardstick));
-    if (hasAverage) text += fmt::format(" {} |", ratioCell(row.ratioToAverage, row.isAverage));
-    text += fmt::format(" {} |\n", withEnds(row.energyRatio, kEnergyDigits));
+    table.add({markedName(row), timeCell(row), withEnds(row.mse),
+               ratioCell(row.mseRatio, row.isYardstick),
+               ratioCell(row.ratioToAverage, row.isAverage),
+               withEnds(row.energyRatio, kEnergyDigits)});
   }
-  return text;
+  return table.text();
 }
 
 // What makes up the error, and what it took.
 std::string detailsTable(const std::vector<MethodSummary>& rows) {
   const std::string backends = backendColumn(*rows.front().suite, rows);
-  std::string text = fmt::format(
-      "\n| method | efficiency | bias^2/MSE | variance | worst 0.1 % | rays/px |{}\n"
-      "|---|---|---|---|---|---|{}\n",
-      backends.empty() ? "" : fmt::format(" {} |", backends), backends.empty() ? "" : "---|");
+  MarkdownTable table({"method", "efficiency", "bias^2/MSE", "variance", "worst 0.1 %", "rays/px",
+                       backends.empty() ? "time" : backends});
   for (const MethodSummary& row : rows) {
-    text += fmt::format("| {} | {} | {} | {} | {:.0f} % | {} |{}\n", markedName(row),
-                        efficiencyCell(row), biasCell(row),
-                        std::isnan(row.variance.value) ? "unknown" : withEnds(row.variance),
-                        100.0 * row.worstShare, raysCell(row), backendCell(row, backends));
+    table.add({markedName(row), efficiencyCell(row), biasCell(row),
+               std::isnan(row.variance.value) ? "unknown" : withEnds(row.variance),
+               fmt::format("{:.0f} %", 100.0 * row.worstShare), raysCell(row),
+               backendCell(row, backends)});
   }
-  text +=
-      "\n| method | MSE without lights in view | relMSE without the worst 0.1 % |\n"
-      "|---|---|---|\n";
-  for (const MethodSummary& row : rows) {
-    text += fmt::format("| {} | {} | {} |\n", markedName(row), withoutLightsCell(row),
-                        trimmedCell(row));
-  }
-  return text;
+  MarkdownTable further({"method", "MSE without lights in view", "relMSE without the worst 0.1 %"});
+  for (const MethodSummary& row : rows)
+    further.add({markedName(row), withoutLightsCell(row), trimmedCell(row)});
+  return "\n" + table.text() + "\n" + further.text();
 }
 
 // One line an age, one column a method; "" where nothing is known.
-std::string agesTable(const std::vector<MethodSummary>& rows, const char* against,
+std::string agesTable(const std::vector<MethodSummary>& rows, const std::string& against,
                       Interval (*ratio)(const AgeSummary&)) {
   std::vector<const MethodSummary*> known;
   for (const MethodSummary& row : rows) {
@@ -253,23 +251,22 @@ std::string agesTable(const std::vector<MethodSummary>& rows, const char* agains
     if (!isItself) known.push_back(&row);
   }
   if (known.empty()) return "";
-  std::string text = fmt::format(
-      "\nMSE of {} over MSE, by the number of frames since the view stands still; above 1: lower "
-      "error:\n\n| frame |",
-      against);
-  std::string rule = "|---|";
-  for (const MethodSummary* row : known) {
-    text += fmt::format(" {} |", markedName(*row));
-    rule += "---|";
-  }
-  text += "\n" + rule + "\n";
+  std::vector<std::string> heads = {"frame"};
+  for (const MethodSummary* row : known) heads.push_back(markedName(*row));
+  MarkdownTable table(heads);
   for (size_t i = 0; i < known.front()->ages.size(); ++i) {
-    text += fmt::format("| {} |", known.front()->ages[i].age);
-    for (const MethodSummary* row : known)
-      text += fmt::format(" {} |", withEnds(ratio(row->ages[i])));
-    text += "\n";
+    std::vector<std::string> cells = {std::to_string(known.front()->ages[i].age)};
+    for (const MethodSummary* row : known) {
+      const Interval of = ratio(row->ages[i]);
+      cells.push_back(std::isnan(of.value) ? "" : withEnds(of));
+    }
+    table.add(std::move(cells));
   }
-  return text;
+  return fmt::format(
+             "\nMSE of {} over MSE, by the number of frames since the view stands still; above 1: "
+             "lower error:\n\n",
+             against) +
+         table.text();
 }
 
 }  // namespace
@@ -290,26 +287,21 @@ std::string blockTable(const Suite& suite, const std::vector<MethodSummary>& row
       filterName(suite.pixelFilter), suite.multiscatter ? ", multiple scattering compensated" : "",
       counted(rows.front().runs, "run"), suite.warmupFrames, suite.timedFrames,
       originOf(block.reference));
-  text += errorTable(rows);
+  const Names names = {suite.yardstickName(), suite.averageName()};
+  text += errorTable(rows, names);
   std::string notes;
-  if (!suite.baseline.empty()) notes += fmt::format("- ratios are against {}\n", suite.baseline);
   if (rows.front().runs < kFewRuns) {
     notes += fmt::format(
         "- {}: intervals of fewer than {} say little\n",
         rows.front().runs == 1 ? "one run" : fmt::format("{} runs", rows.front().runs), kFewRuns);
   }
-  for (const MethodSummary& row : rows) {
-    for (const std::string& flag : row.flags) {
-      notes +=
-          fmt::format("- {}{}: {}\n", oneLine(row.method->name), row.counts ? "" : " (*)", flag);
-    }
-  }
+  notes += disturbedNote(rows);
+  notes += rowNotes(rows);
   text += detailsTable(rows);
-  text += agesTable(rows, "path", [](const AgeSummary& age) { return age.mseRatio; });
-  text += agesTable(rows, "the average of its frames",
-                    [](const AgeSummary& age) { return age.ratioToAverage; });
+  text += agesTable(rows, names.yardstick, [](const AgeSummary& age) { return age.mseRatio; });
+  text += agesTable(rows, names.average, [](const AgeSummary& age) { return age.ratioToAverage; });
   text += figuresTable(rows);
-  text += accumulatedTable(rows);
+  text += accumulatedTable(rows, names.yardstick);
   text += temporalTable(rows);
   if (!block.reference.half0) {
     notes += "- the reference has no halves: its own noise is part of every MSE\n";

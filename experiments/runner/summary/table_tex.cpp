@@ -154,10 +154,12 @@ std::string accumulatedTex(const Suite& suite, const std::vector<MethodSummary>&
                          read(row.speedUp->equalError, "to", ""));
   }
   if (lines.empty()) return "";
-  return tableOf(subjectOf(suite, *rows.front().block) +
-                     ": frames accumulated; slope of log(MSE) over log(time), MSE times lower at "
-                     "equal time, times faster to equal MSE",
-                 {"frames", "slope", "lower", "faster"}, lines, "");
+  return tableOf(
+      subjectOf(suite, *rows.front().block) +
+          ": frames accumulated; slope of log(MSE) over log(time), MSE times lower at "
+          "equal time, times faster to equal MSE" +
+          (suite.yardstickName().empty() ? "" : ", against " + escaped(suite.yardstickName())),
+      {"frames", "slope", "lower", "faster"}, lines, "");
 }
 
 // Why rows do not count stands below the table; what else table.md says of rows is for the author.
@@ -200,11 +202,13 @@ std::string blockTex(const Suite& suite, const std::vector<MethodSummary>& rows)
         cell(row.energyRatio, false, "", kEnergyDigits),
         std::isnan(bias) ? "--" : fmt::format("${:+.1f}$\\,\\%", bias));
   }
+  const std::string against = suite.yardstickName();
   const std::string caption = fmt::format(
       "{}: {}$\\times${}, {} of {} warm-up and {} timed frames, reference of {} spp (relMSE "
-      "{}); 95\\,\\% intervals",
+      "{}); {}95\\,\\% intervals",
       subjectOf(suite, block), block.width, block.height, counted(rows.front().runs, "run"),
-      suite.warmupFrames, suite.timedFrames, block.reference.spp, number(block.reference.relmse));
+      suite.warmupFrames, suite.timedFrames, block.reference.spp, number(block.reference.relmse),
+      against.empty() ? "" : fmt::format("time and lower against {}; ", escaped(against)));
   return tableOf(caption, {"ms", "time", "MSE", "lower", "energy", "bias$^2$"}, lines,
                  notesOf(rows)) +
          accumulatedTex(suite, rows) + figuresTex(suite, rows);

@@ -1,0 +1,141 @@
+#include "experiments/certificate/reference_search.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "core/session.h"
+#include "experiments/report/text.h"
+#include "experiments/runner/run/interrupt.h"
+#include "experiments/runner/run/log.h"
+
+namespace restlab::certificate {
+namespace {
+
+// The reference's standard error, of the margin: it takes half of what the planned interval may
+// have in squares, so that runs are twice as many as with an exact one. Half of that error would
+// take four times the samples.
+constexpr double kReferenceShare = 0.2;
+constexpr uint64_t kFirstReferenceSpp = 2048;
+// A plan guesses by this many samples, and by so many frames.
+constexpr uint64_t kPlanSpp = 64;
+constexpr uint32_t kPlanFrames = 4;
+constexpr double kShareOfReference = 0.5;  // of the time limit
+
+std::string duration(double seconds) {
+  if (seconds < 120.0) return fmt::format("{} s", shortNumber(seconds, 2));
+  return seconds < 7200.0 ? fmt::format("{:.0f} min", seconds / 60.0)
+                          : fmt::format("{:.1f} h", seconds / 3600.0);
+}
+
+std::string percent(double share) { return shortNumber(100.0 * share, 2) + " %"; }
+
+// What there is and what is wanted, in words.
+std::string searchText(double error, uint64_t spp, double timeS, const Options& options) {
+  const double wanted = wantedReferenceError(options);
+  const double all = sppForError(error, double(spp), wanted);
+  const double left = std::max(all - double(spp), 0.0) * timeS / double(spp);
+  return fmt::format(
+      "its error is {} after {} spp; wanted is {}, a fifth of the margin: about {} spp, {} "
+      "more",  //
+      percent(error), groupedDigits(spp), percent(wanted),
+      groupedDigits(uint64_t(std::min(all, 1e18))), duration(left));
+}
+
+void warnOfCoarse(const Reference& reference, double error, const Options& options,
+                  const std::string& boundBy) {
+  const double wanted = wantedReferenceError(options);
+  logWarning(
+      fmt::format("the reference's own error is {} after {} spp, more than {}: stopped by "
+                  "{}; the interval is wider for it",
+                  percent(error), groupedDigits(reference.spp), percent(wanted), boundBy));
+}
+
+double secondsOfRun(const Question& question) {
+  Session session(question.prepared.scene, question.config);
+  double seconds = 0.0;
+  for (uint32_t i = 0; i < kPlanFrames; ++i) {
+    throwIfInterrupted("nothing was written");
+    const auto start = std::chrono::steady_clock::now();
+    session.frame();
+    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+  return seconds * double(question.warmup + question.frames);
+}
+
+std::string referencePlan(const Question& question, const Options& options) {
+  if (question.exact) return "in closed form";
+  const Reference guess =
+      renderReference(question.prepared, referenceConfigOf(question.config), {.spp = kPlanSpp});
+  const stats::BlockGrid grid(question.config.width, question.config.height);
+  const double error = relativeError(truthOf(guess, grid));
+  const double spp = std::max(sppForError(error, double(guess.spp), wantedReferenceError(options)),
+                              double(std::min(kFirstReferenceSpp, options.maxReferenceSpp)));
+  const bool isBounded = spp > double(options.maxReferenceSpp);
+  const double taken = std::min(spp, double(options.maxReferenceSpp));
+  return fmt::format(
+      "an error of {} of the mean is wanted, a fifth of the margin: about {} spp{}, {}",
+      percent(wantedReferenceError(options)), groupedDigits(uint64_t(std::min(spp, 1e18))),
+      isBounded ? fmt::format(", of which --max-reference-spp allows {}",
+                              groupedDigits(options.maxReferenceSpp))
+                : "",
+      duration(taken * guess.timeS / double(guess.spp)));
+}
+
+}  // namespace
+
+double wantedReferenceError(const Options& options) {
+  return kReferenceShare * options.rules.margin;
+}
+
+double sppForError(double error, double spp, double wanted) {
+  return spp * (error / wanted) * (error / wanted);
+}
+
+Reference convergedReference(const Question& question, const std::string& label,
+                             const Options& options) {
+  const ReferenceConfig config = referenceConfigOf(question.config);
+  const double wanted = wantedReferenceError(options);
+  ReferenceTarget target;
+  const stats::BlockGrid grid(question.config.width, question.config.height);
+  target.timeLimitS = kShareOfReference * options.limit.seconds;
+  target.spp = std::min(kFirstReferenceSpp, options.maxReferenceSpp);
+  for (;; target.spp = std::min(2 * target.spp, options.maxReferenceSpp)) {
+    Reference reference =
+        obtainReference(question.prepared, config, target, options.out / "references", label);
+    const double error = relativeError(truthOf(reference, grid));
+    if (const std::string why = whyNotConverged(reference); !why.empty() && error <= wanted)
+      logWarning("the reference may lack light that no run can then be held against: " + why);
+    if (error <= wanted) return reference;
+    logInfo("reference: " + searchText(error, reference.spp, reference.timeS, options));
+    if (target.spp >= options.maxReferenceSpp) {
+      warnOfCoarse(reference, error, options, "--max-reference-spp");
+      return reference;
+    }
+    // The next step takes as long as all before it.
+    const double nextS = reference.timeS * double(target.spp) / double(reference.spp);
+    if (options.limit.isSet() && nextS > kShareOfReference * options.limit.leftS()) {
+      warnOfCoarse(reference, error, options, "--time-limit");
+      return reference;
+    }
+    target.timeLimitS = 0.0;  // what was rendered in earlier calls is in it
+  }
+}
+
+std::string planOf(const Question& question, const Options& options) {
+  const double runS = secondsOfRun(question);
+  const std::string runs =
+      options.runs > 0
+          ? fmt::format("{}: {}; as many fresh ones where the first batch rejects",
+                        counted(options.runs, "run"), duration(runS * double(options.runs)))
+          : fmt::format(
+                "64 first ones, {}; these say how many are wanted, at most {} "
+                "(--max-runs), {}; as many fresh ones where the first batch rejects",
+                duration(64.0 * runS), options.maxRuns, duration(runS * double(options.maxRuns)));
+  return fmt::format("{}\n  reference: {}\n  runs: {}\n", labelOf(question),
+                     referencePlan(question, options), runs);
+}
+
+}  // namespace restlab::certificate

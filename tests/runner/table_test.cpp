@@ -1,0 +1,89 @@
+// Tables of rows with known numbers: what headings, columns and notes say.
+#include <gtest/gtest.h>
+
+#include "experiments/runner/summary/report.h"
+#include "experiments/runner/summary/report_document.h"
+#include "tests/runner/summary_fixture.h"
+
+namespace restlab {
+
+namespace {
+
+using TableTest = SummaryTest;
+
+// Whatever ratios are against, every table and file names it.
+TEST_F(TableTest, TheBaselineIsNamed) {
+  suite_.baseline = "gi";
+  const auto rows = summarise(suite_, block_);
+  const std::string table = blockTable(suite_, rows);
+  EXPECT_NE(table.find("| time per frame (x times that of gi) | MSE | than gi | energy |"),
+            std::string::npos)
+      << table;
+  EXPECT_NE(blockTex(suite_, rows).find("time and lower against gi; "), std::string::npos);
+  EXPECT_NE(summaryCsv(suite_, rows).find("baseline"), std::string::npos);
+  const std::string document = blockDocument(suite_, rows, 1.0f).dump();
+  EXPECT_NE(document.find("MSE of gi / MSE"), std::string::npos) << document;
+  EXPECT_EQ(document.find("MSE of path"), std::string::npos) << document;
+}
+
+// Without times and with nothing to compare with there is nothing to say.
+TEST_F(TableTest, EmptyColumnsAreLeftOut) {
+  for (MethodResult& method : block_.methods)
+    for (RunResult& run : method.runs) run.timesMs.clear();
+  suite_.methods[0].session = suite_.methods[1].session;
+  const std::string table = blockTable(suite_, summarise(suite_, block_));
+  EXPECT_NE(table.find("| method | MSE | energy |\n|---|---|---|\n"), std::string::npos) << table;
+  EXPECT_EQ(table.find("efficiency"), std::string::npos) << table;
+  EXPECT_EQ(table.find("|  |"), std::string::npos) << table;
+}
+
+// Three rows that are told the same thing are told it in one line.
+TEST_F(TableTest, NotesOfManyRowsAreOneLine) {
+  for (int i = 0; i < 3; ++i) {
+    suite_.methods.push_back(suite_.methods[1]);
+    suite_.methods.back().name = "gi " + std::string(1, char('a' + i));
+    block_.methods.push_back(block_.methods[1]);
+    for (RunResult& run : block_.methods.back().runs)
+      run.measured.energyRatio = 0.9 + 0.001 * double(i);
+  }
+  for (RunResult& run : block_.methods[1].runs) run.measured.energyRatio = 0.93;
+  const std::string table = blockTable(suite_, summarise(suite_, block_));
+  EXPECT_NE(table.find("- gi (*): does not count: energy ratio 0.93 [0.93, 0.93] is outside "
+                       "0.95..1.05; likewise, by numbers of their own (flags in summary.csv): "
+                       "gi a (*); gi b (*); gi c (*)\n"),
+            std::string::npos)
+      << table;
+  const size_t first = table.find("does not count: energy");
+  EXPECT_EQ(table.find("does not count: energy", first + 1), std::string::npos) << table;
+}
+
+// The same frame of other runs tells what the machine did; a method whose frames differ is none of
+// its doing.
+TEST_F(TableTest, ADisturbedMachineIsSaid) {
+  const auto timed = [&](double slowest) {
+    for (size_t m = 0; m < 2; ++m) {
+      for (size_t r = 0; r < 3; ++r)
+        block_.methods[m].runs[r].timesMs = {10.0, 30.0 * (m == 1 && r == 2 ? slowest : 1.0)};
+    }
+    return blockTable(suite_, summarise(suite_, block_));
+  };
+  EXPECT_EQ(timed(1.1).find("disturbed"), std::string::npos);
+  const std::string table = timed(1.8);
+  EXPECT_NE(table.find("- the machine was disturbed: one frame in twenty took up to 1.80 times as "
+                       "long as the same frame of other runs, in gi;"),
+            std::string::npos)
+      << table;
+}
+
+TEST_F(TableTest, TableSaysWhatDoesNotCount) {
+  for (RunResult& run : block_.methods[1].runs) run.measured.energyRatio = 0.9;
+  const std::string table = blockTable(suite_, summarise(suite_, block_));
+  EXPECT_NE(table.find("| gi (*) |"), std::string::npos) << table;
+  EXPECT_NE(table.find("energy ratio 0.9 [0.9, 0.9] is outside 0.95..1.05"), std::string::npos)
+      << table;
+  EXPECT_NE(table.find("10x lower [5.68, 17.6]"), std::string::npos) << table;
+}
+
+}  // namespace
+
+}  // namespace restlab
