@@ -114,14 +114,16 @@ class Walker {
 
   void leaveOutNull(json& object, const char* key) {
     place_.push(key);
-    report_.warn(fmt::format("null {}", key), place_.str(), "is null; it is read as if it were not there");
+    report_.warn(fmt::format("null {}", key), place_.str(),
+                 "is null; it is read as if it were not there");
     place_.pop();
     object.erase(key);
   }
 
   void leaveOut(json& object, const Field& field, const std::string& place,
                 const std::string& text) {
-    report_.warn(fmt::format("useless {}", field.name), place, text + "; nothing that is drawn depends on it");
+    report_.warn(fmt::format("useless {}", field.name), place,
+                 text + "; nothing that is drawn depends on it");
     object.erase(field.name);
     if (field.required) object[field.name] = 0.0;  // tinygltf asks for it
   }
