@@ -47,6 +47,10 @@ macro(rl_need_library name package)
   if(NOT _rl_found)
     set(_rl_found "${${name}_VERSION_STRING}") # FindZLIB before CMake 3.26
   endif()
+  if(NOT _rl_found)
+    string(TOUPPER ${name} _rl_upper)
+    set(_rl_found "${${_rl_upper}_VERSION}") # FindOpenSSL
+  endif()
   if(NOT ${name}_FOUND)
     rl_library_lacks(${name} ${package} "" "" "${_rl_BELOW}")
   elseif((_rl_needed AND _rl_found VERSION_LESS _rl_needed)
