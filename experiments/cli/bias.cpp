@@ -210,7 +210,7 @@ std::vector<Certified> certifySuite(
 void dryRun(const BiasOptions& options) {
   const certificate::Options how = certificateOptions(options, "");
   const auto print = [&](const Question& question) {
-    print("{}", certificate::planOf(question, how));
+    restlab::print("{}", certificate::planOf(question, how));
   };
   const std::string& scene = options.scene.request.scene;
   if (!isSuite(scene)) return print(questionOf(options));
