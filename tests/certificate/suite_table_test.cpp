@@ -136,7 +136,7 @@ TEST(SuiteTable, WhatWasNotTestedIsSaid) {
   EXPECT_EQ(suiteMarkdownOf(all, Rules(), "x").find("untested"), std::string::npos);
   all[0].certificate.cells.untestableShare = 0.74;
   const std::string text = suiteMarkdownOf(all, Rules(), "x");
-  EXPECT_NE(text.find(", 74 % untested |"), std::string::npos) << text;
+  EXPECT_NE(text.find(", 74 % in untested cells |"), std::string::npos) << text;
 }
 
 TEST(SuiteTable, NothingOfNothing) { EXPECT_EQ(suiteMarkdownOf({}, Rules(), "x"), ""); }

@@ -54,7 +54,8 @@ TEST(Intervals, TooFewRunsHaveNoWidth) {
   EXPECT_TRUE(std::isnan(meanInterval(one).lo));
   EXPECT_TRUE(std::isnan(ratioInterval(one, kB).hi));
   EXPECT_TRUE(std::isnan(ratioInterval(kA, one).hi));
-  EXPECT_TRUE(std::isnan(pairedRatioInterval(one, one).lo));
+  EXPECT_TRUE(std::isnan(pairedRatioInterval(one, std::vector<double>{3.0}).lo));
+  EXPECT_EQ(pairedRatioInterval(one, one).lo, 1.0);  // the same numbers need no other runs
   EXPECT_THROW(meanInterval({}), std::invalid_argument);
   EXPECT_THROW(ratioInterval(kA, {}), std::invalid_argument);
   EXPECT_THROW(pairedRatioInterval(kA, kB), std::invalid_argument);

@@ -63,7 +63,7 @@ TEST(Truth, WhatItIsNotKnownOfIsSaid) {
   };
   expectWhy(why(Truth::exact, requestOf("cornell-box"), smallConfig()),
             "cornell-box has no exact image (scenes that have one: furnace, sphere-furnace, "
-            "floor, quad-light)");
+            "floor, media, quad-light)");
   EXPECT_EQ(why(Truth::same, requestOf("cornell-box?scale=2"), smallConfig()), "");
   expectWhy(why(Truth::exact, requestOf("sphere-furnace"), smallConfig(0)),
             "at 0 scattering events");

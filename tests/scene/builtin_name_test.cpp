@@ -72,7 +72,8 @@ TEST(BuiltinName, FloorsAreCutAsTheySay) {
   EXPECT_EQ(triangles("floor?needle=100"), 200u);
   EXPECT_EQ(triangles("quad-light?triangles=1e4"), 2u + 2u * 71u * 71u);
   EXPECT_EQ(triangles("quad-light?triangles=1e4&ratio=10"), 2u + 2u * 71u * 71u);
-  const MeshGeometry& needles = makeBuiltinScene("floor?needle=100").geometries[0];
+  const Scene floor = makeBuiltinScene("floor?needle=100");
+  const MeshGeometry& needles = floor.geometries[0];
   const glm::uvec3 t = needles.triangles[0];
   const float length = glm::length(needles.positions[t.y] - needles.positions[t.x]);
   const float width = glm::length(needles.positions[t.z] - needles.positions[t.y]);
