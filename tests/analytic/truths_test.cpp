@@ -14,6 +14,7 @@ namespace restlab::analytic {
 namespace {
 
 constexpr ExactView kSmall{.width = 2, .height = 2, .scatteringEvents = 1};
+constexpr ExactView kDeep{.width = 2, .height = 2, .scatteringEvents = 8};
 
 TEST(Furnace, SumsOfTheGeometricSeries) {
   EXPECT_EQ(furnaceRadiance(0.5, 0.5, 0), 0.5);
@@ -43,7 +44,7 @@ TEST(Truths, SphereFurnaceIsWhite) {
 
 TEST(Truths, OnlyTheNamedScenesHaveAnExactImage) {
   for (const std::string& name : exactSceneNames()) {
-    EXPECT_NO_THROW(exactImage(makeBuiltinScene(name), kSmall)) << name;
+    EXPECT_NO_THROW(exactImage(makeBuiltinScene(name), kDeep)) << name;
   }
   EXPECT_THROW(exactImage(makeBuiltinScene("cornell-box"), kSmall), std::invalid_argument);
 }
@@ -63,10 +64,10 @@ TEST(Truths, FurnaceNeedsACameraInside) {
 TEST(Truths, FollowTheLights) {
   for (const std::string& name : exactSceneNames()) {
     Scene scene = makeBuiltinScene(name);
-    const double before = exactImage(scene, kSmall)[0].y;
+    const double before = exactImage(scene, kDeep)[0].y;
     for (SceneMaterial& material : scene.materials) material.lightFactor = 0.25f;
     if (scene.environment) scene.environment->lightFactor = 0.25f;
-    EXPECT_DOUBLE_EQ(exactImage(scene, kSmall)[0].y, 0.25 * before) << name;
+    EXPECT_DOUBLE_EQ(exactImage(scene, kDeep)[0].y, 0.25 * before) << name;
   }
 }
 

@@ -75,7 +75,8 @@ bias = "unbiased"
     EXPECT_EQ(json["kind"], "image");
   }
   ASSERT_EQ(theirMse.size(), 3u);
-  const Interval ratio = ratioInterval(pathMse, theirMse, {noise, noise, 0.6 * noise});
+  const Interval ratio =
+      ratioOfPositives(ratioInterval(pathMse, theirMse, {noise, noise, 0.6 * noise}));
   EXPECT_NEAR(number(theirs, "mse_ratio_without_lights_ci_lo"), ratio.lo,
               1e-6 * std::abs(ratio.lo));
   EXPECT_NEAR(number(theirs, "mse_ratio_without_lights_ci_hi"), ratio.hi,

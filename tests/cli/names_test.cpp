@@ -33,7 +33,7 @@ TEST_F(NamesTest, CommandNoTerminal) {
   write("suite.toml", suite);
   const ProgramResult result = run("run suite.toml -o out --set runs=1");
   ASSERT_EQ(result.code, 0) << result.err;
-  EXPECT_NE(result.out.find("| g [31mi  m | x |"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("| g [31mi  m \\| x |"), std::string::npos) << result.out;
   for (const std::string& text : {result.out, result.err, read("out/table.md")}) expectPlain(text);
   for (const char* arguments :
        {"report out", "status out", "status out --json", "run suite.toml --dry-run"}) {

@@ -16,37 +16,6 @@ namespace fs = std::filesystem;
 
 class ViewLimitsTest : public ViewLoopTest {};
 
-// A page that asks and does not read gets no more than a number of bytes; one that reads gets all.
-TEST_F(ViewLimitsTest, PicturesOnTheirWayAreBoundedByBytes) {
-  std::vector<SessionConfig> panes = {smallPane("path"), smallPane("path")};
-  for (SessionConfig& pane : panes) {
-    pane.width = pane.height = 512;
-    pane.maxBounces = 1;  // noise, which cannot be packed
-  }
-  start(settingsOf(prepareScene(facts_.request), panes));
-  Page page(url());
-  page.say({{"do", "pause"}, {"on", true}});
-  page.waitFor("state", [](const Json& state) { return state["paused"]; });
-  page.say({{"do", "picture"}, {"image", 0}});
-  const size_t bytes = page.waitFor("file")["base64"].get<std::string>().size();
-  const size_t asked = 3 * ViewLoop::kMostUnreadBytes / bytes;
-  ASSERT_LT(asked, 200u) << "a queue of so many texts is bounded by their number";
-  for (size_t i = 0; i < asked; ++i) page.say({{"do", "picture"}, {"image", 0}});
-  size_t files = 0, refused = 0;
-  for (Json text = page.next(); !text.is_null(); text = page.next()) {
-    files += text["say"] == "file";
-    if (text["say"] == "error") {
-      ++refused;
-      EXPECT_NE(text["text"].get<std::string>().find("has not taken"), std::string::npos) << text;
-    }
-    if (files + refused == asked) break;
-  }
-  EXPECT_GT(refused, 0u);
-  EXPECT_LT(files, asked);
-  page.say({{"do", "picture"}, {"image", 0}});
-  page.waitFor("file");
-}
-
 TEST_F(ViewLimitsTest, SavedSessionsAreCounted) {
   start();
   Page page(url());

@@ -233,8 +233,9 @@ TEST_F(ViewProgramTest, CapturesWhatAPageWouldShow) {
   LiveView view(start.prepared, start.settings, {});
   const Figure figure = capture(view, {3, 8});
   EXPECT_TRUE(pictureOnly(read("a.png")) == figurePng(figure));
-  for (const char* word : {"Software", "restlab:scene", "A.integrator", "B.denoiser", "A.frame",
-                           "restlab:width", "restlab:max_bounces", "restlab:reference_spp"})
+  for (const char* word :
+       {"Software", "restlab:scene", "A.integrator", "B.denoiser", "restlab:frame", "restlab:width",
+        "restlab:max_bounces", "restlab:reference_spp"})
     EXPECT_NE(read("a.png").find(word), std::string::npos) << word;
   // Each picture as large as it was rendered, and as bright as the page begins.
   EXPECT_EQ(view.frames(0), 3u);
