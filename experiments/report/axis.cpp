@@ -105,14 +105,16 @@ Axis fitAxis(bool log, const std::vector<double>& inner, const std::vector<doubl
     axis.lo = std::min(axis.lo, std::max(value, least));
     axis.hi = std::max(axis.hi, std::min(value, most));
   }
-  // Room around the outermost marks; more where all values are one.
+  // Room around the outermost marks; more where all values are one, but for rounding: no tick would
+  // tell them apart.
+  const bool differ = axis.hi - axis.lo > 1e-9 * std::max(std::abs(axis.lo), std::abs(axis.hi));
   if (log) {
-    const double room = axis.hi > axis.lo ? std::pow(axis.hi / axis.lo, 0.05) : 2.0;
+    const double room = differ ? std::pow(axis.hi / axis.lo, 0.05) : 2.0;
     axis.lo /= room;
     axis.hi *= room;
   } else {
     const double room =
-        axis.hi > axis.lo ? 0.05 * (axis.hi - axis.lo) : std::max(0.5 * std::abs(axis.hi), 1e-3);
+        differ ? 0.05 * (axis.hi - axis.lo) : std::max(0.5 * std::abs(axis.hi), 1e-3);
     axis.lo = axis.lo >= 0.0 ? std::max(0.0, axis.lo - room) : axis.lo - room;
     axis.hi += room;
   }

@@ -153,6 +153,17 @@ TEST(Plot, NothingToShow) {
   EXPECT_EQ(findAll(one, "path", "whisker").size(), 1u) << "a single point has whiskers";
 }
 
+// Errors of an image without noise differ by rounding alone.
+TEST(Plot, ValuesThatDifferByRoundingHaveTicks) {
+  for (const bool log : {false, true}) {
+    const double value = 1.43e-5;
+    const Axis axis = fitAxis(log, {value, std::nextafter(value, 1.0)}, {});
+    const size_t ticks = axisTicks(axis).size();
+    EXPECT_GE(ticks, 2u) << log;
+    EXPECT_LT(ticks, 40u) << log;
+  }
+}
+
 TEST(Plot, TicksStandAtTheirValues) {
   const PlotSpec plot = logPlot();
   const XmlElement svg = parseXml(plotSvg(plot));
