@@ -19,8 +19,8 @@ void requireOfReference(const std::string& file, const std::map<std::string, std
                         const std::string& otherwise = kAnyReference);
 
 // An EXR with R, G, B outside named layers. Throws Error (badInput) where it cannot be read, has
-// none, has another window than the reference, or, unless `anyReference`, says that it is of another
-// scene or setting.
+// none, has another window than the reference, or, unless `anyReference`, says that it is of
+// another scene or setting.
 LayeredImage readBeside(const std::string& file, const std::string& referenceFile,
                         const Reference& reference, bool anyReference);
 
