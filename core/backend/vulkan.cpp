@@ -17,6 +17,7 @@
 #include "core/backend/stop.h"
 #include "core/backend/vulkan_buffers.h"
 #include "core/backend/vulkan_context.h"
+#include "core/backend/vulkan_parts.h"
 #include "core/backend/vulkan_recording.h"
 #include "core/backend/vulkan_scene.h"
 #include "core/error.h"
@@ -37,13 +38,11 @@ constexpr double kLongestBandMs = 500.0;  // watchdogs end dispatches of a few s
 struct Slot {
   GpuBuffer inputs;    // frame data, then for each pass the addresses of its buffers and parameters
   GpuBuffer counters;  // GlslCounters for each band
-  std::array<VkFence, 2> fences{};  // of parts of the commands, by turns
-  VulkanKernels::Bound bound;       // where kernels read by texels
+  VulkanParts parts;   // of the running commands
+  VulkanKernels::Bound bound;  // where kernels read by texels
   std::map<RecordingKey, Recording> recordings;
   const Recording* running = nullptr;
-  bool isStale = false;                  // the recordings have bands that are too long
-  size_t given = 0;                      // of its commands, to the device
-  size_t partsGiven = 0, partsDone = 0;  // each with a fence
+  bool isStale = false;  // the recordings have bands that are too long
   RecordingKey runningKey;
   std::chrono::steady_clock::time_point started;
 };
@@ -81,10 +80,7 @@ class VulkanBackend final : public Backend {
     for (Slot& slot : slots_) {
       slot.inputs = memory_.allocate(kInputBytes, MemoryKind::upload);
       slot.counters = memory_.allocate(kCounterBytes, MemoryKind::readback);
-      VkFenceCreateInfo fence{};
-      fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
-      for (VkFence& each : slot.fences)
-        device_.check(vkCreateFence(device_.handle(), &fence, nullptr, &each), "vkCreateFence");
+      slot.parts.create(device_);
     }
   }
 
@@ -93,8 +89,7 @@ class VulkanBackend final : public Backend {
     for (Slot& slot : slots_) {
       forget(slot);
       context_->kernels->release(slot.bound);
-      for (const VkFence fence : slot.fences)
-        if (fence != VK_NULL_HANDLE) vkDestroyFence(device_.handle(), fence, nullptr);
+      slot.parts.destroy(device_);
       memory_.free(slot.inputs);
       memory_.free(slot.counters);
     }
@@ -173,9 +168,8 @@ class VulkanBackend final : public Backend {
     slot.running = &found->second;
     slot.runningKey = key;
     std::memset(slot.counters.mapped, 0, kCounterBytes);
-    slot.given = slot.partsGiven = slot.partsDone = 0;
     slot.started = std::chrono::steady_clock::now();
-    for (size_t part = 0; part < slot.fences.size(); ++part) giveNext(slot);
+    slot.parts.begin(device_, slot.running->commands);
     underWay_.push_back(&slot);
   }
 
@@ -186,7 +180,7 @@ class VulkanBackend final : public Backend {
     return result;
   }
 
-  uint32_t framesInFlight() const override { return givesBands() ? 1 : kSlots; }
+  uint32_t framesInFlight() const override { return VulkanParts::givesBands(device_) ? 1 : kSlots; }
   std::string rayTracing() const override { return rayTracing_; }
   std::string device() const override {
     return fmt::format("{}, {}", device_.name(), device_.info().driver);
@@ -432,46 +426,10 @@ class VulkanBackend final : public Backend {
     return result;
   }
 
-  // A driver in software runs a workgroup that has nothing to do in a good part of the time of one
-  // that has. It gets one band after the other, and no more of them once a frame is stopped.
-  bool givesBands() const { return device_.info().kind == "cpu"; }
-
-  // The next band, or all of them, with a fence behind it.
-  void giveNext(Slot& slot) {
-    const std::vector<VkCommandBuffer>& commands = slot.running->commands;
-    if (slot.given == commands.size()) return;
-    const VkFence fence = slot.fences[slot.partsGiven++ % slot.fences.size()];
-    device_.check(vkResetFences(device_.handle(), 1, &fence), "vkResetFences");
-    const size_t end = givesBands() ? slot.given + 1 : commands.size();
-    for (; slot.given < end; ++slot.given) {
-      const bool isLast = slot.given + 1 == end;
-      device_.submit(commands[slot.given], isLast ? fence : VK_NULL_HANDLE, "a frame");
-    }
-  }
-
   void waitFor(Slot& slot) {
-    bool isCut = false;
-    while (slot.partsDone < slot.partsGiven) {
-      isCut = waitForPart(slot.fences[slot.partsDone++ % slot.fences.size()]) || isCut;
-      isCut = isCut || (slot.given < slot.running->commands.size() && isStopped());
-      if (!isCut) giveNext(slot);
-    }
+    const bool isCut = slot.parts.wait(
+        device_, [this] { return isStopped(); }, [this] { stopSlots(); });
     if (isCut || framesStopped()) throw FrameStopped();
-  }
-
-  // True where it was told to stop before its end.
-  bool waitForPart(VkFence fence) {
-    constexpr uint64_t kNanoseconds = 50'000'000;
-    VkResult result = VK_TIMEOUT;
-    bool isCut = false;
-    while (result == VK_TIMEOUT) {
-      result = vkWaitForFences(device_.handle(), 1, &fence, VK_TRUE, kNanoseconds);
-      if (result != VK_TIMEOUT || !isStopped()) continue;
-      stopSlots();
-      isCut = true;
-    }
-    device_.check(result, "a frame");
-    return isCut;
   }
 
   void stopSlots() {

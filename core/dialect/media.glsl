@@ -34,8 +34,8 @@ RL_FN uvec4 mediaLeave(RL_IN(uvec4) media, uint rank) {
   return media;
 }
 
-// Where a ray meets a triangle: x: cosine to its outside, above 0 from there; y: error bound of the
-// position, metres.
+// Returns of a hit: x: cosine between the ray back and the triangle's outside, above 0 from
+// outside; y: error bound of the position, metres.
 RL_FN vec2 mediaFacing(RL_IN(Hit) hit, RL_IN(vec3) dirW) {
   Instance inst = recordInstance(hit.instance);
   Geometry geometry = recordGeometry(inst.geometry);
@@ -65,7 +65,7 @@ RL_FN Hit mediaTouching(RL_IN(Ray) ray, RL_IN(Hit) hit, RL_IN(vec2) facing) {
   return other;
 }
 
-// What a path ray meets, before the surface is loaded.
+// Finds the media on both sides of a path ray's hit, before the surface is loaded.
 RL_FN MediaCrossing mediaCross(RL_IN(uvec4) media, RL_IN(Ray) ray, RL_IN(Hit) hit) {
   MediaCrossing c;
   c.behind = media;

@@ -21,7 +21,7 @@ struct Surface {
   Bsdf bsdf;
 };
 
-// What a ray meets at the surface of a body (core/dialect/media.glsl).
+// The interface between two media at a hit (core/dialect/media.glsl).
 struct MediaCrossing {
   uvec4 behind;     // bodies that hold what lies beyond
   float contrast;   // index of refraction inside over outside; 0: as the material says

@@ -38,7 +38,7 @@ struct Hit {
 // Barycentric weight up to which a hit counts as on the edge: some units of rounding.
 const float RL_EDGE_BARY = 1.0e-6f;
 
-// What a ray has passed of partly transparent surfaces.
+// Partly transparent surfaces that a ray has passed.
 const uint RL_ALPHA_EDGES = 4u;
 struct AlphaPassed {
   float transmittance;

@@ -20,7 +20,7 @@ inline constexpr Chromaticities kRec709 = {
 inline constexpr Chromaticities kCieXyz = {
     {1.0, 0.0}, {0.0, 1.0}, {0.0, 0.0}, {1.0 / 3.0, 1.0 / 3.0}};
 
-// To within 1e-4, as files round them.
+// Tells whether they are those of Rec. 709 to within 1e-4, as files round them.
 bool isRec709(const Chromaticities& colours);
 
 // "red (0.64, 0.33), green (0.3, 0.6), blue (0.15, 0.06), white (0.3127, 0.329)"

@@ -1,4 +1,4 @@
-// What precedes the pixels of an EXR, before OpenEXR allocates anything from its numbers.
+// The header of an EXR file, read before OpenEXR allocates anything from its numbers.
 #pragma once
 
 #include <cstdint>

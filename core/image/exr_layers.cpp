@@ -10,7 +10,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Of a layer's channels, by the last part of their names.
+// Finds the channels of a layer by the last part of their names.
 LayerChannels channelsOf(const std::map<std::string, std::string>& named, ExrLayers wanted) {
   const auto has = [&](const char* last) { return named.contains(last); };
   const auto three = [&](const char* a, const char* b, const char* c) -> LayerChannels {

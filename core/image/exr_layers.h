@@ -19,7 +19,7 @@ struct LayerChannels {
   bool isColour = false;  // three are R, G, B
 };
 
-// By the layer's name. Throws Error (badInput) where there is none.
+// Finds the wanted layers, by name. Throws Error (badInput) where there is none.
 std::map<std::string, LayerChannels> findExrLayers(const std::filesystem::path& file,
                                                    const Imf::Header& header, ExrLayers wanted);
 

@@ -28,7 +28,7 @@ struct Image {
 
 enum class EnvironmentKind { none, latLong, cube, unknown };
 
-// What an EXR says of its picture beside the pixels.
+// Window and colours that an EXR states beside its pixels.
 struct ExrFrame {
   glm::ivec2 origin{0, 0};  // of the first pixel: where the data window begins
   // First and last pixel of the display window; nothing: those of the data window.

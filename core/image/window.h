@@ -1,4 +1,4 @@
-// Where the pixels of an image lie.
+// The window of an image: the place of its pixels.
 #pragma once
 
 #include <fmt/format.h>

@@ -14,8 +14,8 @@ RL_FN PathShift pathShiftNone() {
   return s;
 }
 
-// What traceRay() asks for: the film sample, or the body that the segment lies in, which is the
-// camera's: x1 lets no light through.
+// The key of traceRay(): the film sample's for a path ray; for a segment the body that it lies in,
+// which is the camera's, as x1 lets no light through.
 RL_FN uint pathShiftKey(uint mode, uint film) {
   return mode == RL_RAY_PATH ? cameraAlphaKey(film) : gFrame.cameraMedia.x;
 }

@@ -43,7 +43,8 @@ std::vector<rl::AliasEntry> buildAliasTable(const std::vector<double>& weights, 
       small.push_back(l);
     }
   }
-  // What is left is 1 up to rounding - except an entry of weight 0, which must never be kept.
+  // The remaining entries have probability 1 up to rounding - except one of weight 0, which must
+  // never be kept.
   const auto heaviest =
       static_cast<uint32_t>(std::max_element(weights.begin(), weights.end()) - weights.begin());
   for (const std::vector<uint32_t>& rest : {small, large}) {

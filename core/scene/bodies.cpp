@@ -60,7 +60,7 @@ int leavesOf(const MeshGeometry& mesh, const MeshInstance& instance, const glm::
   const bool isMirrored = glm::determinant(glm::dmat3(instance.objectToWorld)) < 0.0;
   int leaves = 0;
   for (const glm::uvec3& t : mesh.triangles) {
-    // By signs of volumes: an edge that two triangles share has one value for both.
+    // Signs of volumes decide: an edge that two triangles share has one value for both.
     const glm::dvec3 a = toWorld(instance, mesh.positions[t.x]) - posW,
                      b = toWorld(instance, mesh.positions[t.y]) - posW,
                      c = toWorld(instance, mesh.positions[t.z]) - posW;

@@ -11,11 +11,11 @@
 namespace restlab {
 
 struct Bodies {
-  // Of each instance; 0: no body. Else 1 to the number of bodies, each once: where bodies overlap,
-  // the greatest rank fills the place. By SceneMaterial::priority, then the smaller box, so that a
-  // body inside another one wins.
+  // Rank of each instance; 0: no body. Else 1 to the number of bodies, each once: where bodies
+  // overlap, the greatest rank fills the place. Sorted by SceneMaterial::priority, then by the size
+  // of the box, the smallest last, so that a body inside another one wins.
   std::vector<uint32_t> rank;
-  // By rank: absorption (m^-1) and index of refraction; [0] is air. Empty where there is no body.
+  // Absorption (m^-1) and index of refraction by rank; [0] is air. Empty where there is no body.
   std::vector<glm::vec4> media;
   // Two of them touch or overlap, as far as their boxes tell.
   bool meet = false;

@@ -13,13 +13,13 @@ namespace restlab {
 
 class ConfigTable;  // core/config.h
 
-// What each does is said at the member of CameraPath that it needs. Angles are right-handed about
-// their axis: seen from above, a camera that orbits or turns about the scene's up by a positive
-// angle does so anticlockwise.
+// Kinds of paths; the member of CameraPath that each needs describes it. Angles are right-handed
+// about their axis: seen from above, a camera that orbits or turns about the scene's up by a
+// positive angle does so anticlockwise.
 enum class CameraPathKind { still, orbit, dolly, pan, cut, back, keyframes };
 
-// What a path turns about, and what is upright on it: the scene's up (sceneUp), the up of the
-// camera with which the path starts, or an axis of the world.
+// The axis that a path turns about and that is upright on it: the scene's up (sceneUp), the up of
+// the camera with which the path starts, or an axis of the world.
 enum class CameraAxis { scene, camera, x, y, z };
 
 // Where the camera is at one frame.
@@ -88,7 +88,7 @@ SceneCamera cameraAt(const CameraMotion& motion, uint32_t frame);
 // up than glTF shows it in nothing but its cameras.
 glm::dvec3 sceneUp(const SceneCamera& camera);
 
-// What is wrong with the views of frames 0 .. `frames` - 1, in lines, each kind once with its first
+// Lists faults of the views of frames 0 .. `frames` - 1, in lines, each kind once with its first
 // frame: the camera walks through a surface; stands inside a body; stands nearer to a surface than
 // its near distance; ends before a surface that fills its view. `scene` has the surfaces, in the
 // metres of the path.

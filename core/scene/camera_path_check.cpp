@@ -25,7 +25,7 @@ constexpr int kViewSide = 5;
 struct Ray {
   glm::dvec3 originW, dirW;
   double length = kNone;  // in lengths of dirW
-  // What it meets first: where, of which instance, from behind, and the unit normal.
+  // The first hit: where, of which instance, from behind, and the unit normal.
   double t = kNone;
   size_t instance = 0;
   bool isBehind = false;
@@ -102,7 +102,7 @@ void addView(const SceneCamera& camera, std::vector<Ray>& rays) {
   }
 }
 
-// To all sides, off the axes, along which a scene's edges lie.
+// Adds rays to all sides, off the axes, along which a scene's edges lie.
 void addSides(const SceneCamera& camera, std::vector<Ray>& rays) {
   for (const double x : {-1.0, 0.07, 1.0}) {
     for (const double y : {-0.83, 0.91}) {

@@ -42,7 +42,7 @@ class Cube {
   Imath::Box2i window_;
 };
 
-// Of a place in the map, 0 to 1 from its left and upper edge.
+// The direction of a place in the map; u, v from 0 to 1 from its left and upper edge.
 Imath::V3f directionAt(double u, double v) {
   const double longitude = -2.0 * std::numbers::pi * (u - 0.5);
   const double latitude = -std::numbers::pi * (v - 0.5);

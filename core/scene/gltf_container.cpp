@@ -126,8 +126,8 @@ bool isChunk(const std::vector<uint8_t>& bytes, size_t offset) {
          size <= bytes.size() - offset - kChunkHeaderBytes;
 }
 
-// Where the chunk behind one that ends at `end` begins. Of a chunk that is no multiple of 4 long
-// some writers leave the padding out, and some leave it out of the length.
+// Finds the start of the chunk behind one that ends at `end`. Some writers leave out the padding of
+// a chunk that is no multiple of 4 long, and some leave it out of the length.
 size_t nextChunk(const std::vector<uint8_t>& bytes, size_t end) {
   const size_t aligned = (end + kAlignment - 1) / kAlignment * kAlignment;
   if (end == aligned || isChunk(bytes, end)) return end;

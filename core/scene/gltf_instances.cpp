@@ -16,9 +16,9 @@ constexpr size_t kMaxInstances = size_t(1) << 24;
 
 bool isMirrored(const glm::dmat3& regular) { return glm::determinant(regular) < 0.0; }
 
-// What a mesh is drawn by. A transform that flattens keeps a trace of thickness, on the side that a
-// very small scale in place of 0 would give; CompiledScene makes it as thick as numbers can tell.
-// Nothing where less than a plane is left.
+// The transform that a mesh is drawn by; nothing where less than a plane is left. One that flattens
+// keeps a trace of thickness, on the side that a very small scale in place of 0 would give;
+// CompiledScene makes it as thick as numbers can tell.
 std::optional<glm::dmat4> drawable(const glm::dmat4& toWorld, bool mirrored) {
   const glm::dmat3 linear(toWorld);
   if (regularity(linear) > kSmallestRegularity) return toWorld;

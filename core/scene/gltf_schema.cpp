@@ -51,7 +51,7 @@ Field text(const char* name) { return {.name = name, .kind = Kind::text}; }
 Field texts(const char* name) { return {.name = name, .kind = Kind::texts}; }
 Field ignored(const char* name) { return {.name = name, .kind = Kind::ignored}; }
 
-// What only messages show.
+// A text that only messages show.
 Field label(const char* name) { return dispensable(text(name)); }
 
 Field word(const char* name, std::vector<const char*> words) {

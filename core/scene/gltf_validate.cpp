@@ -54,7 +54,7 @@ class Walker {
   void walkDocument() { walkObject(document_, documentSchema()); }
 
  private:
-  // What is wrong with a dispensable field.
+  // A fault of a dispensable field.
   struct Useless {
     std::string place, text;
   };

@@ -55,7 +55,7 @@ bool readNumbers(std::string_view text, size_t count, double* numbers) {
   return nextWord(text).empty();
 }
 
-// What stands behind `name`, where the line begins with it.
+// Sets `value` to the text behind `name` where the line begins with it.
 bool startsWith(std::string_view line, std::string_view name, std::string_view& value) {
   if (!line.starts_with(name)) return false;
   value = line.substr(name.size());

@@ -19,7 +19,7 @@ double regularity(const glm::dmat3& linear);
 // three: of the four rotations the one by the smallest angle. Axes without length are completed.
 glm::dmat3 nearestRotation(const glm::dmat3& linear);
 
-// What a map makes of space where it is much flatter along one direction than along the others.
+// The shape of a map that makes space much flatter along one direction than along the others.
 struct Flatness {
   glm::dvec3 normal{0.0};  // unit: of the plane that is left
   glm::dvec3 lost{0.0};    // unit: the direction, before the map, that is flattened

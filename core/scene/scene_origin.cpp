@@ -18,7 +18,7 @@ double largest(const glm::dvec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-// What is to be told apart at a distance (SceneOrigin::viewSize).
+// The size that must be told apart at a distance (SceneOrigin::viewSize), metres.
 double sizeAt(const SceneCamera& camera, double distance) {
   if (camera.kind == rl::RL_CAMERA_ORTHOGRAPHIC) return 2.0 * camera.ymag;
   return std::min(distance, 2.0 * distance * std::tan(0.5 * camera.yfov));

@@ -17,9 +17,9 @@ struct SceneOrigin {
   glm::dvec3 originW{0.0};  // metres
   // False: the middle of the scene's bounds, from which all that the camera sees is near enough.
   bool followsCamera = false;
-  // Of the main camera, where the scene is so large that it matters; else viewSize is 0. The point
-  // that it looks at (the median of its view) and what is to be told apart there, in metres: the
-  // height of the view, or the distance where that is less.
+  // The point that the main camera looks at (the median of its view) and the size that must be told
+  // apart there, in metres: the height of the view, or the distance where that is less. viewSize is
+  // 0 where the scene is so small that it does not matter.
   glm::dvec3 eyeW{0.0}, focusW{0.0};
   double viewSize = 0.0;
 };

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/scene/ray_triangle.h"
+
 namespace restlab {
 
 namespace {
@@ -18,7 +20,7 @@ double distanceToBox(const glm::dvec3& point, const glm::dvec3& low, const glm::
   return glm::length(glm::max(glm::max(low - point, point - high), glm::dvec3(0.0)));
 }
 
-// Where a ray enters a box, in lengths of its direction.
+// Distance at which a ray enters a box, in lengths of its direction.
 double entryOf(const glm::dvec3& origin, const glm::dvec3& dir, const glm::dvec3& low,
                const glm::dvec3& high) {
   double enter = 0.0, leave = kNone;
@@ -34,22 +36,6 @@ double entryOf(const glm::dvec3& origin, const glm::dvec3& dir, const glm::dvec3
   }
   constexpr double kSlack = 1e-9;  // flat boxes
   return enter <= leave * (1.0 + kSlack) ? enter : kNone;
-}
-
-// Where a ray meets a triangle from either side, in lengths of its direction.
-// (Moeller & Trumbore 1997.)
-double distanceToCorners(const glm::dvec3& origin, const glm::dvec3& dir, const glm::dvec3& a,
-                         const glm::dvec3& b, const glm::dvec3& c) {
-  const glm::dvec3 edge1 = b - a, edge2 = c - a, across = glm::cross(dir, edge2);
-  const double determinant = glm::dot(edge1, across);
-  if (determinant == 0.0) return kNone;
-  const glm::dvec3 offset = origin - a;
-  const double u = glm::dot(offset, across) / determinant;
-  const glm::dvec3 turned = glm::cross(offset, edge1);
-  const double v = glm::dot(dir, turned) / determinant;
-  if (!(u >= 0.0 && v >= 0.0 && u + v <= 1.0)) return kNone;
-  const double t = glm::dot(edge2, turned) / determinant;
-  return t > 0.0 ? t : kNone;
 }
 
 double distanceToEdge(const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3& b) {
@@ -131,7 +117,7 @@ double Sight::distanceTo(const glm::dvec3& originW, const glm::dvec3& dirW) cons
     if (!(entryOf(originW, dirW, piece.low, piece.high) < nearest)) continue;
     for (uint32_t t = 0; t < piece.count; ++t) {
       const auto [a, b, c] = corners(piece, piece.first + t);
-      nearest = std::min(nearest, distanceToCorners(originW, dirW, a, b, c));
+      nearest = std::min(nearest, distanceToTriangle(originW, dirW, a, b, c));
     }
   }
   return nearest;

@@ -1,5 +1,5 @@
-// What a camera sees before anything is compiled: rays and distances in double precision, against
-// boxes of a few triangles each.
+// Rays and distances of a camera in double precision, before anything is compiled, against boxes of
+// a few triangles each.
 #pragma once
 
 #include <array>
@@ -13,7 +13,8 @@ class Sight {
  public:
   explicit Sight(const Scene& scene);  // which must outlive it
 
-  // Where the ray meets the first surface, in lengths of `dirW`; infinite where it meets none.
+  // Distance of the first surface along the ray, in lengths of `dirW`; infinite where there is
+  // none.
   double distanceTo(const glm::dvec3& originW, const glm::dvec3& dirW) const;
   // From the point to the nearest surface, in metres; infinite where there is none. It may stop at
   // the first one nearer than `enough`.

@@ -13,7 +13,7 @@ RL_FN bool lightsAtCentre(RL_IN(QuadRef) visible, uint x, uint y) {
 // As far as the centres of the eight pixels around it tell. A light that no centre shows is missed:
 // it keeps the path's one sample.
 RL_FN bool lightsEndHere(RL_IN(QuadRef) visible, RL_IN(uvec2) pixel) {
-  // In a body light is dimmed on its way, and may pass surfaces that are none.
+  // Light is dimmed on its way in a body, and may pass surfaces that are none.
   if (gFrame.cameraMedia.x != 0u) return false;
   bool isLight = lightsAtCentre(visible, pixel.x, pixel.y);
   for (uint i = 0u; i < 9u; i = i + 1u) {

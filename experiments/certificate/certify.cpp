@@ -106,7 +106,8 @@ uint64_t plannedRuns(RunFolder& folder, const Question& question, const stats::T
   return std::clamp(wanted, kFewestRuns, options.maxRuns);
 }
 
-// As many as the time allows: a fresh batch may take as many again. Fewer than wanted is a line.
+// Limits runs to those that the time allows: a fresh batch may take as many again. Fewer than
+// wanted is a line.
 uint64_t withinTime(uint64_t runs, double runS, const Options& options) {
   if (!options.limit.isSet() || runS <= 0.0) return runs;
   const uint64_t allowed = std::max(uint64_t(0.5 * options.limit.leftS() / runS), kFewestRuns);

@@ -14,7 +14,7 @@
 
 namespace restlab::certificate {
 
-// Of the whole command, from when this is made; 0: none.
+// Time limit of the whole command, from when this is made; 0: none.
 struct TimeLimit {
   double seconds = 0.0;
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();

@@ -32,7 +32,7 @@ std::string duration(double seconds) {
 
 std::string percent(double share) { return shortNumber(100.0 * share, 2) + " %"; }
 
-// What there is and what is wanted, in words.
+// Error and samples that there are, and those that are wanted, in words.
 std::string searchText(double error, uint64_t spp, double timeS, const Options& options) {
   const double wanted = wantedReferenceError(options);
   const double all = sppForError(error, double(spp), wanted);

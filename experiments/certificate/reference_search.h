@@ -21,7 +21,7 @@ double sppForError(double error, double spp, double wanted);
 Reference convergedReference(const Question& question, const std::string& label,
                              const Options& options);
 
-// What a certificate will take, in lines: the reference and its error, the time of a run, and how
+// Estimates a certificate's cost, in lines: the reference and its error, the time of a run, and how
 // many runs there may be. Renders some samples and frames and writes nothing.
 std::string planOf(const Question& question, const Options& options);
 

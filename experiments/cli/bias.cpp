@@ -206,7 +206,7 @@ std::vector<Certified> certifySuite(
   return all;
 }
 
-// What each certificate would take; nothing is written.
+// Prints the cost of each certificate; writes nothing.
 void dryRun(const BiasOptions& options) {
   const certificate::Options how = certificateOptions(options, "");
   const auto print = [&](const Question& question) {

@@ -26,7 +26,8 @@ class FrameLayers {
   // could be meant.
   LayerNames find(const std::filesystem::path& file, const std::vector<std::string>& layers) const;
 
-  // What to read of a file of which find() told the names, and what is then its frame.
+  // selection() tells readers which layers of a file to read, by the names that find() gave;
+  // frame() makes a frame of them.
   static ExrSelection selection(const LayerNames& names);
   static LayeredFrame frame(const LayeredImage& image, const LayerNames& names);
 

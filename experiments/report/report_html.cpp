@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What stands between the page's tags <script>.
+// The text between the page's tags <script>.
 std::string pageScript() {
   return fmt::format("\n(() => {{\n'use strict';\n{}}})();\n", reportScript());
 }

@@ -11,8 +11,9 @@ namespace restlab {
 // </script>.
 std::string scriptHash(std::string_view script);
 
-// Those of all scripts of a page that browsers run, as the value of script-src; 'none' where it has
-// none. What has a type is data. Pages are of this program: lines end with \n, tags are lower case.
+// Hashes of all scripts of a page that browsers run, as the value of script-src; 'none' where it
+// has none. A script with a type is data. Pages are of this program: lines end with \n, tags are
+// lower case.
 std::string scriptHashes(std::string_view page);
 
 }  // namespace restlab

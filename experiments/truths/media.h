@@ -10,7 +10,7 @@
 
 namespace restlab::analytic {
 
-// As whyNotExact() and exactImage().
+// The scene's part of whyNotExact() and exactImage().
 std::string whyNotMedia(const Scene& media, const ExactView& view);
 std::vector<glm::dvec3> mediaImage(const Scene& media, const ExactView& view);
 

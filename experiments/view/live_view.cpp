@@ -226,7 +226,7 @@ uint64_t LiveView::heldBytes() const {
   for (const Pane& pane : panes_) {
     const SessionConfig& config = pane.session->config();
     const uint64_t pixels = uint64_t(config.width) * config.height;
-    // Where it cannot take a frame back it may have copies all the same, which are not counted.
+    // A session that cannot take a frame back may have copies all the same, which are not counted.
     bytes += pixels * hostBytesPerPixel(*pane.session, config.width, config.height) *
              (pane.session->canTakeBack() ? 2 : 1);
   }

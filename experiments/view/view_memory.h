@@ -1,4 +1,4 @@
-// What a view takes of the host's memory, all of it together: each part is allocated at another
+// Memory that a view takes of the host, all of it together: each part is allocated at another
 // time, and would find that there is room for itself.
 #pragma once
 

@@ -274,7 +274,7 @@ void requireImagesOf(const ViewStart& start) {
   std::map<std::string, std::string> words =
       describe(start.prepared, start.settings.panes.front().config);
   describeCamera(start.settings.camera, words);
-  // What images of another version show is compared by whoever looks at them.
+  // Images of another version of the program may be compared.
   for (const char* item : {"camera_index", "reference_sources"}) words.erase(item);
   if (!start.settings.lights.empty()) return;  // no file says which lights were changed by hand
   for (const FileImage& one : start.images.list) {

@@ -106,7 +106,7 @@ TEST(Media, BodiesOverlapTouchAndLieInEachOther) {
     double ends[4];  // of the red body and of the blue one, along -Z
     double red, blue;
   };
-  // Of bodies that overlap, the smaller one fills the place.
+  // The smaller one of two bodies that overlap fills the place.
   for (const Case& c : {Case{"overlapping by 1 mm", {1.0, 2.0, 1.999, 2.5}, 0.999, 0.501},
                         Case{"the other way round", {1.501, 2.5, 1.0, 1.502}, 0.998, 0.502},
                         Case{"touching", {1.0, 2.0, 2.0, 2.5}, 1.0, 0.5},

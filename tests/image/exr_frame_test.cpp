@@ -1,4 +1,4 @@
-// What an EXR says beside its pixels: colours, windows, and channels that nobody asked for.
+// Statements of an EXR beside its pixels: colours, windows, and channels that nobody asked for.
 #include <ImfStandardAttributes.h>
 
 #include <array>

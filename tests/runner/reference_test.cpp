@@ -147,11 +147,11 @@ TEST_F(ReferenceRendering, ALightThatIsHardlyDrawnIsNotConverged) {
   writeReference(file, reference);
   EXPECT_EQ(whyNotConverged(readReference(file)), why);
   EXPECT_TRUE(meetsTarget(readReference(file), {.relmse = 0.02}));
-  // Of the room alone nothing is said.
+  // The room alone gives no line.
   EXPECT_EQ(whyNotConverged(renderReference(prepared(), smallConfig(), {.relmse = 0.02})), "");
 }
 
-// Where a few more samples are enough, they are made.
+// More samples are made where a few are enough.
 TEST_F(ReferenceRendering, ATargetWaitsForLightsThatAreSoonDrawnOften) {
   const double relmse = 0.02;
   const Reference before = renderReference(prepared(), smallConfig(), {.relmse = relmse});

@@ -1,4 +1,4 @@
-// What is said of camera paths that lead through walls, into bodies, or to where nothing is seen.
+// Warnings of camera paths that lead through walls, into bodies, or to where nothing is seen.
 #include <gtest/gtest.h>
 
 #include <glm/gtc/matrix_transform.hpp>

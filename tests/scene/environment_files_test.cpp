@@ -45,7 +45,8 @@ std::string errorOf(const fs::path& file) {
   return "";
 }
 
-// Of OpenEXR's space, where the middle of a map is +Z, its left half +X and its top +Y.
+// The radiance towards a place of OpenEXR's space, where the middle of a map is +Z, its left half
+// +X and its top +Y.
 glm::vec3 towards(const EnvironmentMap& map, double u, double v) {
   return map.radiance.at(size_t(v * map.height) * map.width + size_t(u * map.width));
 }

@@ -38,7 +38,7 @@ TEST(GltfLenient, RawPercentSignsOfNames) {
     EXPECT_EQ(scene.images.size(), 1u) << uri;
     EXPECT_TRUE(warns(scene, "a percent sign that is not escaped")) << uri;
   }
-  // What is escaped by the rules goes first, and without a word.
+  // A name that is escaped by the rules is tried first, and without a word.
   GltfBuilder file;
   file.directory().write("50%.png", test::tinyPng());
   addTexture(file, "50%25.png");
@@ -166,7 +166,7 @@ TEST(GltfLenient, NullAndUselessNumbersOfWhatIsNotRead) {
                             "samplers[0].minFilter: 1", "samplers[0].name: is null",
                             "accessors[0].min[0]: is null", "bufferViews[0].target: 7"})
     EXPECT_TRUE(warns(scene, place)) << place;
-  // What is read is refused all the same.
+  // A number that is read is refused all the same.
   file.doc["cameras"][0]["orthographic"]["ymag"] = nullptr;
   EXPECT_EQ(file.error(), "cameras[0].orthographic.ymag: is null; a number expected");
   file.doc["cameras"][0]["orthographic"]["ymag"] = 1;

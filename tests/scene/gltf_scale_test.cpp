@@ -32,7 +32,7 @@ Scene withCamera(json camera, json root, bool isOrthographic = false) {
   return file.load();
 }
 
-// Where a point of the world is in the image: x to the right, y up, z along the view.
+// The place of a point of the world in the image: x to the right, y up, z along the view.
 glm::vec3 onFilm(const Scene& scene, const glm::dvec3& pointW) {
   const auto compiled = CompiledScene::build(scene);
   const rl::Camera camera = compiled->camera(scene.cameras.at(0), 64, 64);

@@ -44,7 +44,7 @@ TEST(Hdr, ExposuresAndColourCorrectionsAreDividedOut) {
   EXPECT_EQ(one("EXPOSURE=2.0\n"), glm::vec3(0.25f, 0.125f, 0.5f));
   expectNear(one("EXPOSURE= 2.000000e+00\nSOFTWARE=x\nEXPOSURE=+5\r\n"), {0.05, 0.025, 0.1});
   expectNear(one("COLORCORR=2 0.5 1\nEXPOSURE=0.1\nCOLORCORR= 1 0.5 4\n"), {2.5, 10, 2.5});
-  // What an input of the program had is indented, and not of this file.
+  // Indented lines are those of a program's input, and not of this file.
   EXPECT_EQ(one("pcomb a.hdr\n\tEXPOSURE=8\n"), glm::vec3(0.5f, 0.25f, 1.0f));
 }
 

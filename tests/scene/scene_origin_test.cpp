@@ -48,7 +48,7 @@ TEST(SceneOrigin, AStrayMovesNothing) {
   }
 }
 
-// In one mesh with the room, as some exporters join everything.
+// The stray is in one mesh with the room, as some exporters join everything.
 TEST(SceneOrigin, AStrayWithinTheSameMeshMovesNothing) {
   Scene scene = room().finish();
   MeshGeometry& mesh = scene.geometries[0];

@@ -340,7 +340,7 @@ TEST_F(ViewServerTest, BoundsWhatWaitsByBytes) {
     return server_->bytesUnread(opened_[0]);
   };
   EXPECT_EQ(unreadInTheEnd(), 0u) << "all was taken";
-  // Of these one is on its way, and more than two wait.
+  // One of these is on its way, and more than two wait.
   for (int i = 0; i < 20; ++i) server_->send(opened_[0], std::string(4 << 20, 'x'));
   EXPECT_TRUE(waitFor([&] { return closed_.size() == 1; }));
   EXPECT_EQ(unreadInTheEnd(), 0u) << "it is gone";

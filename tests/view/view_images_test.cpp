@@ -120,7 +120,7 @@ TEST_F(ViewImagesTest, AreOfOneSizeAndThere) {
 }
 
 // The label of one table begins with that of another one.
-// As `compare` has it: what both files say of their scene and settings must agree.
+// The rule of `compare`: what both files say of their scene and settings must agree.
 TEST_F(ViewImagesTest, AreOfTheSceneOfTheirReference) {
   const auto writeOf = [&](const char* name, const char* kind, const char* scene,
                            const char* bounces) {

@@ -8,7 +8,7 @@
 
 namespace restlab {
 
-// What is said to whoever means it, after the error of another scene or setting.
+// Ends the error of another scene or setting, for users who mean it.
 constexpr const char* kAnyReference = "--any-reference compares all the same";
 
 // Throws Error (badInput) where both say of which scene and settings they are, and the image of

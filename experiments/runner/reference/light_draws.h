@@ -17,7 +17,7 @@ struct DrawnLight {
   double probability = 0.0;  // that one draw selects it; above 0
 };
 
-// Those that are on, in the order of the light table.
+// Lists the lights that are on, in the order of the light table.
 std::vector<DrawnLight> drawnLights(const CompiledScene& scene);
 
 // Below this many expected draws over the whole image the error of a reference is not known to hold

@@ -51,7 +51,7 @@ void renderUntil(ReferenceHalves& halves, ReferenceState& state, const Reference
   progress.finish();
 }
 
-// Those whose light depends on being drawn: without a scattering event none is.
+// Lists the lights whose light depends on being drawn: without a scattering event none is.
 std::vector<DrawnLight> sampledLights(const PreparedScene& prepared,
                                       const ReferenceConfig& config) {
   return config.maxBounces == 0 ? std::vector<DrawnLight>() : drawnLights(*prepared.scene);

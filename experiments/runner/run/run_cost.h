@@ -1,4 +1,4 @@
-// What a run of a table costs beside those of other tables.
+// The cost of a run of a table relative to runs of other tables.
 #pragma once
 
 #include "experiments/runner/suite/suite.h"

@@ -140,7 +140,7 @@ struct Suite {
   // Index of the plain average of that yardstick's frames: the first `path` with the denoiser
   // `accumulate` on the same backend; methods.size() where there is none.
   size_t average(size_t method) const;
-  // That average in words, as yardstickName().
+  // Names the average of its frames, as yardstickName() names it.
   std::string averageName() const;
   // Index of the first method that differs in nothing but the backend; itself where it is the
   // first.

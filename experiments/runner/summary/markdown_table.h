@@ -9,7 +9,7 @@ namespace restlab {
 class MarkdownTable {
  public:
   explicit MarkdownTable(std::vector<std::string> heads);
-  // As many cells as there are heads. Throws std::invalid_argument otherwise.
+  // Adds a row. Throws std::invalid_argument unless it has a cell for each head.
   void add(std::vector<std::string> cells);
   bool isEmpty() const { return rows_.empty(); }
   // Columns whose cells are all "" or "unknown" are left out, but never the first one. A bar inside

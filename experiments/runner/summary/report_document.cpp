@@ -22,7 +22,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// In titles and helps {0} is the baseline's name and {1} that of its average.
+// A column of the report. {0} in titles and helps is the baseline's name and {1} that of its
+// average.
 struct Column {
   const char *key, *title, *unit, *better, *help;
   Interval (*value)(const MethodSummary&);

@@ -194,7 +194,7 @@ std::string temporalTable(const std::vector<MethodSummary>& rows) {
          moved + ":\n\n" + table.text();
 }
 
-// Of what rows are against; "" where there is no such method.
+// Names of the methods that rows are compared with; "" where there is no such method.
 struct Names {
   std::string yardstick, average;
 };
