@@ -7,30 +7,27 @@
 namespace restlab {
 namespace {
 
-struct Box {
-  glm::dvec3 low{std::numeric_limits<double>::infinity()};
-  glm::dvec3 high{-std::numeric_limits<double>::infinity()};
+bool meet(const BodyBox& a, const BodyBox& b) {
+  return glm::all(glm::lessThanEqual(a.low, b.high)) && glm::all(glm::lessThanEqual(b.low, a.high));
+}
 
-  bool meets(const Box& other) const {
-    return glm::all(glm::lessThanEqual(low, other.high)) &&
-           glm::all(glm::lessThanEqual(other.low, high));
-  }
-  bool holds(const glm::dvec3& p) const {
-    return glm::all(glm::lessThanEqual(low, p)) && glm::all(glm::lessThanEqual(p, high));
-  }
-  double volume() const {
-    const glm::dvec3 size = high - low;
-    return size.x * size.y * size.z;
-  }
-};
+bool holds(const BodyBox& box, const glm::dvec3& p) {
+  return glm::all(glm::lessThanEqual(box.low, p)) && glm::all(glm::lessThanEqual(p, box.high));
+}
+
+double volumeOf(const BodyBox& box) {
+  const glm::dvec3 size = box.high - box.low;
+  return size.x * size.y * size.z;
+}
 
 glm::dvec3 toWorld(const MeshInstance& instance, const glm::vec3& p) {
   return glm::dvec3(instance.objectToWorld * glm::dvec4(glm::dvec3(p), 1.0));
 }
 
 // Wider by what float32 may move a corner: bodies that touch exactly do so after rounding too.
-Box boxOf(const MeshGeometry& mesh, const MeshInstance& instance) {
-  Box box;
+BodyBox boxOf(const MeshGeometry& mesh, const MeshInstance& instance) {
+  BodyBox box{glm::dvec3(std::numeric_limits<double>::infinity()),
+              glm::dvec3(-std::numeric_limits<double>::infinity())};
   for (const glm::vec3& p : mesh.positions) {
     const glm::dvec3 w = toWorld(instance, p);
     box.low = glm::min(box.low, w);
@@ -43,12 +40,12 @@ Box boxOf(const MeshGeometry& mesh, const MeshInstance& instance) {
   return box;
 }
 
-bool anyMeet(std::vector<Box> boxes) {
+bool anyMeet(std::vector<BodyBox> boxes) {
   std::sort(boxes.begin(), boxes.end(),
-            [](const Box& a, const Box& b) { return a.low.x < b.low.x; });
+            [](const BodyBox& a, const BodyBox& b) { return a.low.x < b.low.x; });
   for (size_t i = 0; i < boxes.size(); ++i) {
     for (size_t j = i + 1; j < boxes.size() && boxes[j].low.x <= boxes[i].high.x; ++j) {
-      if (boxes[i].meets(boxes[j])) return true;
+      if (meet(boxes[i], boxes[j])) return true;
     }
   }
   return false;
@@ -100,15 +97,17 @@ Bodies findBodies(const Scene& scene) {
   };
   Bodies bodies;
   bodies.rank.assign(scene.instances.size(), 0u);
+  bodies.boxes.resize(scene.instances.size());
   std::vector<Body> order;
-  std::vector<Box> boxes;
+  std::vector<BodyBox> boxes;
   for (uint32_t i = 0; i < scene.instances.size(); ++i) {
     const MeshInstance& instance = scene.instances[i];
     const MeshGeometry& mesh = scene.geometries[instance.geometry];
     const SceneMaterial& material = scene.materials[instance.material];
     if (mesh.triangles.empty() || !isBody(material.data)) continue;
     boxes.push_back(boxOf(mesh, instance));
-    order.push_back({i, material.priority, boxes.back().volume()});
+    bodies.boxes[i] = boxes.back();
+    order.push_back({i, material.priority, volumeOf(boxes.back())});
   }
   if (order.empty()) return bodies;
   bodies.meet = anyMeet(std::move(boxes));
@@ -131,7 +130,7 @@ glm::uvec4 bodiesAt(const Scene& scene, const Bodies& bodies, const glm::dvec3& 
     if (bodies.rank[i] == 0u) continue;
     const MeshInstance& instance = scene.instances[i];
     const MeshGeometry& mesh = scene.geometries[instance.geometry];
-    if (boxOf(mesh, instance).holds(posW) && isInside(mesh, instance, posW))
+    if (holds(bodies.boxes[i], posW) && isInside(mesh, instance, posW))
       ranks.push_back(bodies.rank[i]);
   }
   std::sort(ranks.rbegin(), ranks.rend());

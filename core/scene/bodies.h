@@ -10,6 +10,11 @@
 
 namespace restlab {
 
+// Corners of an axis-aligned box in the world, metres.
+struct BodyBox {
+  glm::dvec3 low{0.0}, high{0.0};
+};
+
 struct Bodies {
   // Rank of each instance; 0: no body. Else 1 to the number of bodies, each once: where bodies
   // overlap, the greatest rank fills the place. Sorted by SceneMaterial::priority, then by the size
@@ -17,6 +22,8 @@ struct Bodies {
   std::vector<uint32_t> rank;
   // Absorption (m^-1) and index of refraction by rank; [0] is air. Empty where there is no body.
   std::vector<glm::vec4> media;
+  // Boxes by instance, of bodies alone.
+  std::vector<BodyBox> boxes;
   // Two of them touch or overlap, as far as their boxes tell.
   bool meet = false;
 };
