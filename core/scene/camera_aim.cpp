@@ -1,5 +1,6 @@
 // pointLookedAt(): the scene's triangles one by one, in double precision. It is asked for once a
 // path, before anything is rendered, and so needs no hierarchy.
+#include <algorithm>
 #include <limits>
 
 #include "core/scene/camera_path.h"

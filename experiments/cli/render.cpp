@@ -1,6 +1,7 @@
 // restlab render: one image of one integrator, or what it keeps of a pixel.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>

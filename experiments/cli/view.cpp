@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <spawn.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>

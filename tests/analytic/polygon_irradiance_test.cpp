@@ -2,6 +2,7 @@
 // and C-12), against quadrature, and at its limits.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>

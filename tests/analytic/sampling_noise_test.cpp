@@ -1,6 +1,7 @@
 // What is sampled in proportion to what it brings has no noise; what comes near has little.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/scene/compiled_scene.h"

@@ -1,6 +1,7 @@
 // The exact images: furnaces, and the floor under the tilted rectangle.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 

@@ -2,6 +2,7 @@
 // adds up over frames, in reservoirs, entries of a cache or the age of a view.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <vector>

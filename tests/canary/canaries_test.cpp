@@ -3,6 +3,7 @@
 // without it must not be called biased.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <set>
 

@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/image/image.h"
+
+#include <algorithm>
 #include "tests/cli/program.h"
 
 namespace restlab::cli_test {

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include "tests/cli/program.h"
+
+#include <algorithm>
 #include "tests/scene/corpus.h"
 
 namespace restlab::cli_test {

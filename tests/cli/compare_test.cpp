@@ -1,4 +1,5 @@
 // restlab compare: known errors, exit codes, JSON.
+#include <algorithm>
 #include <limits>
 
 #include "tests/cli/compare_fixture.h"

@@ -1,6 +1,7 @@
 // restlab render: what is in the file, and that it is the same for any thread count.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>

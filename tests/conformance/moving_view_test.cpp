@@ -1,6 +1,8 @@
 // What restir_gi does otherwise in frames of a new view.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/session.h"
 #include "tests/bias/test_cameras.h"
 #include "tests/conformance/variants.h"

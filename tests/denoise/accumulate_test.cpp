@@ -1,6 +1,7 @@
 // The exponential average of frames, as sessions show it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"

@@ -7,6 +7,7 @@
 // undefined for a label, by a predicate symmetric in the two anchors.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>

@@ -1,4 +1,5 @@
 // OpenEXR files: round trips, files of other programs, the references of the real scenes.
+#include <algorithm>
 #include <cstring>
 
 #include "core/image/exr_contents.h"

@@ -1,5 +1,6 @@
 #include "tests/lint/tokens.h"
 
+#include <algorithm>
 #include <cctype>
 
 namespace restlab::lint {

@@ -2,6 +2,7 @@
 // is no GPU), must decide alike and compute alike. Every suitable device of the machine is tried.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/backend/cpu_kernel.h"

@@ -2,6 +2,7 @@
 // WebGL2 beside the tables.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/image/layer_colors.h"

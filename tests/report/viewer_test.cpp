@@ -1,4 +1,5 @@
 // The image viewer of a report, driven by real events: what it shows are the numbers of the EXRs.
+#include <algorithm>
 #include <cmath>
 #include <set>
 

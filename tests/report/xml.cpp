@@ -1,5 +1,6 @@
 #include "tests/report/xml.h"
 
+#include <cstdint>
 #include <sstream>
 #include <stdexcept>
 

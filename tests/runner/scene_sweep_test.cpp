@@ -266,7 +266,8 @@ TEST_F(SceneSweepTest, ScenesArePartsOfTheSweep) {
   outputs.add(suite_, block(3, 1.0, 0));
   const std::vector<nlohmann::ordered_json> documents = outputs.documents();
   ASSERT_EQ(documents.size(), 5u);
-  for (size_t i = 1; i < 4; ++i) EXPECT_EQ(documents[i].value("part_of", ""), documents[0]["id"]);
+  for (size_t i = 1; i < 4; ++i)
+    EXPECT_EQ(documents[i].value("part_of", ""), documents[0].value("id", "none"));
   EXPECT_FALSE(documents[4].contains("part_of"));
   checkReportModel({{"schema", kReportSchema}, {"title", "x"}, {"blocks", documents}});
 }

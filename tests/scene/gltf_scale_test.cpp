@@ -1,6 +1,7 @@
 // Scales of nodes that mirror or are 0: what cameras and lights make of them, and plates.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 

@@ -3,6 +3,7 @@
 // impossible events, degenerate input.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>

@@ -2,6 +2,7 @@
 // coverage alpha gives as much light to light sampling as rays find of it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/scene/builtin_builder.h"
@@ -72,7 +73,7 @@ TEST(Alpha, PathRaysStopByChance) {
 TEST(Alpha, DecisionBelongsToKeyAndPrimitive) {
   Dialect<> d(veils());
   for (uint32_t key = 0; key < 1000; ++key) {
-    rl::Hit a, b;
+    rl::Hit a{}, b{};
     d->traceRay(along(d, 1e3f), rl::RL_RAY_PATH, key, a);
     rl::Ray later = along(d, 1e3f);
     later.tMin = 0.25f;

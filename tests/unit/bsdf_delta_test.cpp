@@ -1,6 +1,7 @@
 // Delta lobes: mirror and smooth dielectric. Weights, frequencies, directions, energy.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 

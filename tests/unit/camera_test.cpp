@@ -1,6 +1,7 @@
 // Cameras: rays through the film and projection back, both kinds, any shape of film; film samples.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <set>

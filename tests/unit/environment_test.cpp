@@ -1,6 +1,7 @@
 // The environment map: mapping, rotation, bilinear radiance, and sampling against its density.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

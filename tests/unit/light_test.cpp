@@ -2,6 +2,7 @@
 // light sampling and as a ray see them, punctual lights, MIS weights.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>

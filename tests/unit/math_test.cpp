@@ -1,6 +1,7 @@
 // Small functions of the dialect against wider arithmetic; frames and warps.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <string>
 
 #include "core/scene/builtin_builder.h"
 #include "core/session.h"
@@ -70,12 +71,12 @@ glm::dvec3 albedoOf(Dialect<FEATURES>& d, const rl::Bsdf& bsdf, const glm::vec3&
 
 constexpr float kAlphas[] = {0.002f, 0.02f, 0.1f, 0.3f, 0.6f, 1.0f};
 
-void expectWhiteFurnace(const char* what, rl::Material (*make)(float roughness)) {
+void expectWhiteFurnace(const std::string& what, rl::Material (*make)(float roughness)) {
   Dialect<> on, off;
   on.compensate();
   for (const float alpha : kAlphas) {
     const rl::Bsdf bsdf = bsdfOf(make(std::sqrt(alpha)), true);
-    std::printf("  %s, alpha %.3f, albedo off -> on:", what, double(alpha));
+    std::printf("  %s, alpha %.3f, albedo off -> on:", what.c_str(), double(alpha));
     for (const double angle : kAngles) {
       const glm::vec3 wo = directionAt(angle);
       const double before = albedoOf(off, bsdf, wo).x, after = albedoOf(on, bsdf, wo).x;

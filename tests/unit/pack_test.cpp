@@ -1,6 +1,7 @@
 // Numbers in fewer bits: how far off they come back, and that packing twice changes nothing more.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>

@@ -2,6 +2,7 @@
 // points that see each other stay visible, over eight decades of size and distance from the origin.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include "experiments/view/view_page.h"
+
+#include <algorithm>
 #include "tests/view/live_page.h"
 
 namespace restlab::view_test {

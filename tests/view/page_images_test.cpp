@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include "core/image/metrics.h"
+
+#include <algorithm>
 #include "tests/view/live_page.h"
 
 namespace restlab::view_test {

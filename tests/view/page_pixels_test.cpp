@@ -1,6 +1,7 @@
 // What the live page's canvas shows are the program's pixels.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 

@@ -1,6 +1,7 @@
 // What is changed, probed and measured on the live page is what the program does.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/image/metrics.h"

@@ -1,4 +1,5 @@
 // What a running tev gets of the viewer, and that the viewer does not wait for it.
+#include <algorithm>
 #include <chrono>
 #include <set>
 

@@ -1,4 +1,5 @@
 // `restlab view` as a user runs it.
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <optional>
