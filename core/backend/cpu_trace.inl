@@ -6,7 +6,7 @@ struct TraceContext {
   Ctx* self;
   uint key;
   AlphaPassed passed;
-  Hit body;  // RL_RAY_BODIES: what was found last
+  Hit body;  // RL_RAY_BODIES: the one to keep so far
 };
 
 // Shared meshes are Embree instances; meshes used once lie in the top scene under their own number.
@@ -47,12 +47,13 @@ static void alphaFilterShadow(const RTCFilterFunctionNArguments* args) {
 static void bodyFilter(const RTCFilterFunctionNArguments* args) {
   auto* context = reinterpret_cast<TraceContext*>(args->context);
   const auto* embreeHit = reinterpret_cast<const RTCHit*>(args->hit);
-  const uint instance = instanceOf(embreeHit->geomID, embreeHit->instID[0]);
   args->valid[0] = 0;
-  const uint rank = context->self->recordInstance(instance).flags >> RL_INSTANCE_RANK_SHIFT;
-  if (rank == 0u || instance == context->key) return;
-  context->body.instance = instance;
-  context->body.primitive = embreeHit->primID;
+  Hit hit;
+  hit.instance = instanceOf(embreeHit->geomID, embreeHit->instID[0]);
+  hit.primitive = embreeHit->primID;
+  hit.bary = vec2(embreeHit->u, embreeHit->v);
+  hit.t = 0.0f;
+  if (context->self->traceIsNextBody(context->body, hit, context->key)) context->body = hit;
 }
 
 RL_FN float traceRay(const Ray& ray, uint mode, uint key, Hit& hit) {

@@ -28,8 +28,7 @@ float traceRay(in Ray ray, uint mode, uint key, out Hit hit) {
       cand.bary = rayQueryGetIntersectionBarycentricsEXT(query, false);
       cand.t = rayQueryGetIntersectionTEXT(query, false);
       if (asksBodies && mode == RL_RAY_BODIES) {
-        uint rank = recordInstance(cand.instance).flags >> RL_INSTANCE_RANK_SHIFT;
-        if (rank != 0u && cand.instance != key) hit = cand;
+        if (traceIsNextBody(hit, cand, key)) hit = cand;
         continue;
       }
       if (asksBodies && mediaPasses(key, cand)) continue;

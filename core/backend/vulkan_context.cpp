@@ -1,14 +1,31 @@
 #include "core/backend/vulkan_context.h"
 
+#include <cstdlib>
 #include <map>
 
 namespace restlab {
+namespace {
+
+// The last one stays open: compiling its kernels again would cost the next session seconds.
+std::shared_ptr<VulkanContext>& lastContext() {
+  static std::shared_ptr<VulkanContext> last;
+  return last;
+}
+
+// It is closed before the statics of a validation layer are gone, which were made when the device
+// was opened: later, any call into the layer crashes (version 1.4.309 does).
+void closeAtExit() {
+  static const int isRegistered = std::atexit([] { lastContext().reset(); });
+  static_cast<void>(isRegistered);
+}
+
+}  // namespace
 
 std::shared_ptr<VulkanContext> VulkanContext::of(const VulkanOptions& options) {
-  // The last one stays open: compiling its kernels again would cost the next session seconds.
   static std::map<const VulkanDevice*, std::weak_ptr<VulkanContext>> known;
-  static std::shared_ptr<VulkanContext> last;
+  std::shared_ptr<VulkanContext>& last = lastContext();
   std::shared_ptr<VulkanDevice> device = VulkanDevice::open(options);
+  closeAtExit();
   std::weak_ptr<VulkanContext>& entry = known[device.get()];
   if (auto context = entry.lock()) {
     last = context;

@@ -20,6 +20,9 @@ const uint RL_LOBE_ANY_GLOSSY = 30u;
 
 // GGX alpha below this floor becomes a delta lobe, which is counted (RL_HEALTH_DELTA_LOBES).
 const float RL_ALPHA_FLOOR = 1.0e-3f;
+// An index of refraction, or a ratio of two, within this of 1 is taken as 1: it bends light by less
+// than 1e-5 rad at 45 degrees, and float32 no longer knows the half vector.
+const float RL_CLEAR_CONTRAST = 1.0e-5f;
 
 // Nodes of sqrt(cos) and of sqrt(alpha) in the table of GGX albedos (core/scene/ggx_albedo.h).
 const uint RL_GGX_NODES = 64u;

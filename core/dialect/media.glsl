@@ -4,7 +4,8 @@
 // (Schmidt and Budge, "Simple Nested Dielectrics in Ray Traced Images", 2002).
 //
 // A list holds four; of more, those of the least rank are forgotten. Thin sheets and opaque
-// surfaces change nothing.
+// surfaces change nothing. Two bodies of the same medium have a surface where one ends: it may have
+// a colour or a light of its own, and shadow rays stop there.
 
 RL_FN uvec4 mediaNone() { return uvec4(0u, 0u, 0u, 0u); }
 
@@ -53,45 +54,62 @@ RL_FN uvec4 mediaBehind(RL_IN(uvec4) media, uint rank, bool isFront) {
   return mediaLeave(media, rank);
 }
 
-// The surface of another body at the same place, where two touch: it is met together with this one,
-// so that there is no air between them. facing: of the hit.
-RL_FN Hit mediaTouching(RL_IN(Ray) ray, RL_IN(Hit) hit, RL_IN(vec2) facing) {
+// The interval around a hit in which surfaces of other bodies count as being at the same place.
+// facing: of the hit.
+RL_FN Ray mediaProbe(RL_IN(Ray) ray, RL_IN(Hit) hit, RL_IN(vec2) facing) {
   float reach = 2.0f * facing.y / max(abs(facing.x), 1.0f / 64.0f);
   Ray probe = ray;
   probe.tMin = max(hit.t - reach, 0.0f);
   probe.tMax = hit.t + reach;
-  Hit other = traceNoHit();
-  traceRay(probe, RL_RAY_BODIES, hit.instance, other);
-  return other;
+  return probe;
 }
 
-// Finds the media on both sides of a path ray's hit, before the surface is loaded.
-RL_FN MediaCrossing mediaCross(RL_IN(uvec4) media, RL_IN(Ray) ray, RL_IN(Hit) hit) {
+RL_FN uint mediaRank(RL_IN(Hit) hit) {
+  return recordInstance(hit.instance).flags >> RL_INSTANCE_RANK_SHIFT;
+}
+
+// Finds the media on both sides of a path ray's hit, before the surface is loaded. Bodies that
+// touch there are met together, so that there is no air between them; `hit` becomes that of the
+// greatest rank, whichever of them the ray met first.
+RL_FN MediaCrossing mediaCross(RL_IN(uvec4) media, RL_IN(Ray) ray, RL_INOUT(Hit) hit) {
   MediaCrossing c;
   c.behind = media;
   c.contrast = 0.0f;
   c.isSurface = 1u;
   c.isTouching = 0u;
-  uint rank = recordInstance(hit.instance).flags >> RL_INSTANCE_RANK_SHIFT;
+  uint rank = mediaRank(hit);
   if (rank == 0u) return c;
   vec2 facing = mediaFacing(hit, ray.dir);
   bool isFront = facing.x > 0.0f;
   c.behind = mediaBehind(media, rank, isFront);
-  if (gScene.bodiesMeet != 0u) {
-    Hit other = mediaTouching(ray, hit, facing);
-    if (other.instance != RL_INVALID) {
-      uint otherRank = recordInstance(other.instance).flags >> RL_INSTANCE_RANK_SHIFT;
-      c.behind = mediaBehind(c.behind, otherRank, mediaFacing(other, ray.dir).x > 0.0f);
-      c.isTouching = 1u;
-    }
-  }
   // A body that is left was there, though nobody saw the path enter it: an open mesh.
   uint here = media.x;
   if (!isFront && !mediaContains(media, rank)) here = max(here, rank);
-  vec4 mediumHere = mediaOfRank(here);
-  vec4 mediumBehind = mediaOfRank(c.behind.x);
-  c.isSurface = here != c.behind.x && mediumHere != mediumBehind ? 1u : 0u;
-  c.contrast = isFront ? mediumBehind.w / mediumHere.w : mediumHere.w / mediumBehind.w;
+  if (gScene.bodiesMeet != 0u) {
+    uint first = hit.instance;
+    Ray probe = mediaProbe(ray, hit, facing);
+    uint key = first + 1u;
+    for (uint i = 0u; i < RL_MEDIA_TOUCHING; i = i + 1u) {
+      Hit other = traceNoHit();
+      traceRay(probe, RL_RAY_BODIES, key, other);
+      if (other.instance == RL_INVALID || other.instance == first) break;
+      key = other.instance + 1u;
+      c.isTouching = 1u;
+      uint otherRank = mediaRank(other);
+      bool isOtherFront = mediaFacing(other, ray.dir).x > 0.0f;
+      c.behind = mediaBehind(c.behind, otherRank, isOtherFront);
+      if (otherRank > rank) {
+        rank = otherRank;
+        isFront = isOtherFront;
+        other.t = hit.t;
+        hit = other;
+      }
+    }
+  }
+  c.isSurface = rank >= here ? 1u : 0u;  // as mediaPasses() says of shadow rays
+  float iorHere = mediaOfRank(here).w;
+  float iorBehind = mediaOfRank(c.behind.x).w;
+  c.contrast = isFront ? iorBehind / iorHere : iorHere / iorBehind;
   return c;
 }
 
@@ -99,6 +117,6 @@ RL_FN MediaCrossing mediaCross(RL_IN(uvec4) media, RL_IN(Ray) ray, RL_IN(Hit) hi
 // there, and it ends where the body does.
 RL_FN bool mediaPasses(uint rank, RL_IN(Hit) hit) {
   if (rank == 0u) return false;
-  uint other = recordInstance(hit.instance).flags >> RL_INSTANCE_RANK_SHIFT;
+  uint other = mediaRank(hit);
   return other != 0u && other < rank;
 }

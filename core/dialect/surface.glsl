@@ -261,7 +261,7 @@ RL_FN Surface surfaceLoadBetween(RL_IN(Hit) hit, RL_IN(vec3) rayDir, float contr
       b.transmission = baseColor * ((1.0f - metallic) * transmission);
       bool isThin = (material.flags & RL_MATERIAL_THIN) != 0u;
       // No contrast of indices: nothing is reflected, bent or blurred, however rough the surface.
-      bool isClear = ior == 1.0f;
+      bool isClear = abs(ior - 1.0f) < RL_CLEAR_CONTRAST;
       b.lobes |= isDelta || isClear ? RL_LOBE_TRANSMISSION_DELTA : RL_LOBE_TRANSMISSION;
       if (isThin || isClear) b.lobes |= RL_LOBE_THIN;
       b.eta = isFront || isThin ? ior : 1.0f / ior;

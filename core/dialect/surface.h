@@ -25,7 +25,7 @@ struct Surface {
 struct MediaCrossing {
   uvec4 behind;     // bodies that hold what lies beyond
   float contrast;   // index of refraction inside over outside; 0: as the material says
-  uint isSurface;   // 0: the medium goes on, and so does the ray
+  uint isSurface;   // 0: the same body goes on, and so does the ray
   uint isTouching;  // 1: two surfaces lie here, within twice the position's error
 };
 

@@ -7,8 +7,9 @@
 //   RL_RAY_SHADOW  the return value is the transmittance: 0 blocked, 1 free, between through alpha.
 //                  `key` is the rank of the body that the ray is in (0: none): bodies below it have
 //                  no surface there (core/dialect/media.glsl)
-//   RL_RAY_BODIES  hit is a surface of a body other than instance `key`, the last that was found;
-//                  only where gScene.bodiesMeet
+//   RL_RAY_BODIES  hit is a surface of a body, of the first instance from `key` on that has one in
+//                  the interval; after the last instance the first follows. Without hit.t. Only
+//                  where gScene.bodiesMeet
 RL_PROTO(float traceRay(RL_IN(Ray) ray, uint mode, uint key, RL_OUT(Hit) hit))
 
 // For compilers, which do not see that traversal sets it.
@@ -19,6 +20,12 @@ RL_FN Hit traceNoHit() {
   hit.bary = vec2(0.0f, 0.0f);
   hit.t = 0.0f;
   return hit;
+}
+
+// Is this surface of a body the one to keep? RL_RAY_BODIES asks; `best` is what it has found.
+RL_FN bool traceIsNextBody(RL_IN(Hit) best, RL_IN(Hit) cand, uint key) {
+  if (recordInstance(cand.instance).flags >> RL_INSTANCE_RANK_SHIFT == 0u) return false;
+  return best.instance == RL_INVALID || cand.instance - key < best.instance - key;
 }
 
 // Bits of a corner's place, the same for every triangle and vertex that has it.

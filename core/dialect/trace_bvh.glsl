@@ -206,9 +206,8 @@ RL_FN float traceRay(RL_IN(Ray) ray, uint mode, uint key, RL_OUT(Hit) hit) {
         }
         bool accepts = true;
         if (RL_HAS(RL_FEATURE_VOLUME) && gScene.bodiesMeet != 0u && mode != RL_RAY_PATH) {
-          uint rank = recordInstance(cand.instance).flags >> RL_INSTANCE_RANK_SHIFT;
           if (mode == RL_RAY_BODIES) {
-            if (rank != 0u && cand.instance != key) hit = cand;
+            if (traceIsNextBody(hit, cand, key)) hit = cand;
             accepts = false;
           } else if (mediaPasses(key, cand)) {
             accepts = false;

@@ -19,7 +19,9 @@ const uint RL_MAX_UV_SETS = 4u;
 const uint RL_RAY_PATH =
     0u;  // closest hit; alpha decided by a hash of the sample and the primitive
 const uint RL_RAY_SHADOW = 1u;  // any hit; alpha multiplies the transmittance
-const uint RL_RAY_BODIES = 2u;  // the surface of a body in the interval, whichever is found
+const uint RL_RAY_BODIES = 2u;  // the surface of a body in the interval (core/dialect/trace.glsl)
+// Bodies that may touch at one point, besides the one that a ray met first.
+const uint RL_MEDIA_TOUCHING = 8u;
 
 struct Ray {
   vec3 origin;

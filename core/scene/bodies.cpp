@@ -72,14 +72,16 @@ int leavesOf(const MeshGeometry& mesh, const MeshInstance& instance, const glm::
   return leaves;
 }
 
-bool isInside(const MeshGeometry& mesh, const MeshInstance& instance, const glm::dvec3& posW) {
-  // Directions that no modeller aligns anything with.
+// How many shells of the mesh hold the point: bodies of one mesh may overlap.
+int shellsAround(const MeshGeometry& mesh, const MeshInstance& instance, const glm::dvec3& posW) {
+  // Directions that no modeller aligns anything with; the middle one of three answers counts.
   constexpr std::array<glm::dvec3, 3> kDirs{glm::dvec3{0.5773, 0.2113, 0.7887},
                                             glm::dvec3{-0.3141, 0.8347, -0.4523},
                                             glm::dvec3{0.1193, -0.6871, 0.7167}};
-  int votes = 0;
-  for (const glm::dvec3& dir : kDirs) votes += leavesOf(mesh, instance, posW, dir) > 0 ? 1 : 0;
-  return votes >= 2;
+  std::array<int, 3> leaves{};
+  for (size_t i = 0; i < 3; ++i) leaves[i] = leavesOf(mesh, instance, posW, kDirs[i]);
+  std::sort(leaves.begin(), leaves.end());
+  return std::max(leaves[1], 0);
 }
 
 }  // namespace
@@ -124,14 +126,22 @@ Bodies findBodies(const Scene& scene) {
   return bodies;
 }
 
+bool bodyMeetsAnother(const Bodies& bodies, size_t instance) {
+  for (size_t i = 0; i < bodies.rank.size(); ++i) {
+    if (i != instance && bodies.rank[i] != 0u && meet(bodies.boxes[i], bodies.boxes[instance]))
+      return true;
+  }
+  return false;
+}
+
 glm::uvec4 bodiesAt(const Scene& scene, const Bodies& bodies, const glm::dvec3& posW) {
   std::vector<uint32_t> ranks;
   for (size_t i = 0; i < bodies.rank.size(); ++i) {
     if (bodies.rank[i] == 0u) continue;
     const MeshInstance& instance = scene.instances[i];
     const MeshGeometry& mesh = scene.geometries[instance.geometry];
-    if (holds(bodies.boxes[i], posW) && isInside(mesh, instance, posW))
-      ranks.push_back(bodies.rank[i]);
+    if (!holds(bodies.boxes[i], posW)) continue;
+    ranks.insert(ranks.end(), shellsAround(mesh, instance, posW), bodies.rank[i]);
   }
   std::sort(ranks.rbegin(), ranks.rend());
   ranks.resize(4, 0u);

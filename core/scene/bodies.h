@@ -33,9 +33,13 @@ bool isBody(const rl::Material& material);
 
 Bodies findBodies(const Scene& scene);
 
+// May the body of that instance touch or overlap another one, as far as boxes tell?
+bool bodyMeetsAnother(const Bodies& bodies, size_t instance);
+
 // Ranks of the bodies that hold a point (world, metres), the greatest first; 0: no more. At most
-// four. By the number of surfaces along three rays, of which the majority counts; takes time by the
-// triangles of all bodies whose box holds the point.
+// four; a rank stands there once for each shell of its mesh around the point. By the surfaces along
+// three rays, of which the middle answer counts; takes time by the triangles of all bodies whose
+// box holds the point.
 glm::uvec4 bodiesAt(const Scene& scene, const Bodies& bodies, const glm::dvec3& posW);
 
 }  // namespace restlab

@@ -14,6 +14,8 @@
 #include "core/error.h"
 #include "core/scene/black_textures.h"
 #include "core/scene/bodies.h"
+#include "core/scene/body_warnings.h"
+#include "core/scene/clear_surfaces.h"
 #include "core/scene/coarse_vertices.h"
 #include "core/scene/ggx_albedo.h"
 #include "core/scene/light_table.h"
@@ -347,10 +349,13 @@ CompiledScene::~CompiledScene() = default;
 std::shared_ptr<const CompiledScene> CompiledScene::build(Scene scene) {
   auto impl = std::make_unique<Impl>();
   foldBlackTextures(scene);
+  leaveOutClearSurfaces(scene);
   impl->features = scanFeatures(scene);
   impl->scene = std::move(scene);
   impl->warnings = impl->scene.warnings;
   impl->bodies = findBodies(impl->scene);
+  for (std::string& line : bodyWarnings(impl->scene, impl->bodies))
+    impl->warnings.push_back(std::move(line));
   impl->flatten();
   for (const SceneMaterial& m : impl->scene.materials) {
     impl->materials.push_back(m.data);

@@ -2,7 +2,11 @@
 // white wall behind them, or a lamp among them; each truth is a product of Beer and Lambert's.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "core/scene/builtin_builder.h"
 #include "core/scene/builtin_mesh.h"
@@ -100,6 +104,17 @@ TEST(Media, TheCameraIsInside) {
               0.01, 1);
 }
 
+// Two boxes of one mesh that overlap around the camera: it is in one body, until the last of their
+// faces is behind it.
+TEST(Media, TheCameraIsInTwoShellsOfOneMesh) {
+  SceneBuilder builder("shells");
+  MeshGeometry mesh = box(1.0, -1.0);
+  builtin::append(mesh, box(1.5, -2.0, 6.0));
+  builder.add(mesh, builder.addMaterial("red", body(kRed)));
+  addWhiteWall(builder);
+  expectImage(finish(builder), through(kRed, 2.0), "shells of one mesh");
+}
+
 TEST(Media, BodiesOverlapTouchAndLieInEachOther) {
   struct Case {
     const char* name;
@@ -119,6 +134,22 @@ TEST(Media, BodiesOverlapTouchAndLieInEachOther) {
     addWhiteWall(builder);
     expectImage(finish(builder), through(kRed, c.red) * through(kBlue, c.blue), c.name);
   }
+}
+
+// Whichever of the faces a ray meets first.
+TEST(Media, ThreeBodiesBeginInOnePlane) {
+  const glm::vec3 green(0.9f, 0.1f, 0.6f);
+  std::array<int, 3> order{0, 1, 2};
+  do {
+    SceneBuilder builder("flush");
+    const uint32_t materials[] = {builder.addMaterial("red", body(kRed)),
+                                  builder.addMaterial("blue", body(kBlue)),
+                                  builder.addMaterial("green", body(green))};
+    for (const int i : order) builder.add(box(-1.0, -2.0 - i), materials[i]);
+    addWhiteWall(builder);
+    expectImage(finish(builder), through(kRed, 1.0) * through(kBlue, 1.0) * through(green, 1.0),
+                "order " + std::to_string(order[0]) + std::to_string(order[1]));
+  } while (std::next_permutation(order.begin(), order.end()));
 }
 
 TEST(Media, APriorityDecidesWhoFillsThePlace) {
@@ -145,7 +176,7 @@ TEST(Media, CopiesOfABodyAreOneMedium) {
   builder.place("second", mesh, red, shifted);
   addWhiteWall(builder);
   const double through2 = std::pow(1.0 - std::pow(0.5 / 2.5, 2.0), 2.0);
-  expectImage(finish(builder), through2 * through(kRed, 1.25), "overlap", 4000, 0.01, 2);
+  expectImage(finish(builder), through2 * through(kRed, 1.25), "overlap", 4000, 0.01, 3);
 }
 
 TEST(Media, ThinSheetsLeaveTheMediumAlone) {
@@ -170,6 +201,80 @@ TEST(Media, TouchingBodiesRefractByTheRatio) {
     const double surfaces = passes(1.0, 1.6) * passes(1.6, 1.33) * passes(1.33, 1.0);
     expectImage(finish(builder), surfaces * through(kRed, 1.0) * through(kBlue, 1.0),
                 isSwapped ? "water before glass" : "glass before water", 4000, 0.01, 3);
+  }
+}
+
+// A surface counts though the medium is the same on both sides: by its colour, and by its light.
+TEST(Media, SurfacesWithoutContrastKeepTheirColourAndLight) {
+  for (const bool isInside : {false, true}) {
+    SceneBuilder builder("tinted");
+    rl::Material tinted = body(isInside ? kRed : glm::vec3(0.0f), isInside ? 1.5f : 1.0f);
+    tinted.baseColor = {0.5f, 1.0f, 1.0f};
+    tinted.emission = {0.0f, 0.25f, 0.0f};
+    if (isInside) builder.add(box(1.0, -10.0, 21.0), builder.addMaterial("red", body(kRed, 1.5f)));
+    builder.add(box(-1.0, -2.0), builder.addMaterial("tinted", tinted));
+    addWhiteWall(builder);
+    const auto dimmed = [&](double metres) {
+      return isInside ? through(kRed, metres) : glm::dvec3(1.0);
+    };
+    const glm::dvec3 tint(0.5, 1.0, 1.0), glow(0.0, 0.25, 0.0);
+    expectImage(finish(builder),
+                dimmed(1) * glow + dimmed(2) * tint * glow + dimmed(8) * tint * tint,
+                isInside ? "in a body of its medium" : "in air");
+  }
+}
+
+// A lamp and a wall in one body, and a box of the same medium between them: what shadow rays do not
+// pass, paths must be credited with in full.
+TEST(Media, ABoxOfTheSameMediumTakesNoLight) {
+  const auto means = [](bool hasBox) {
+    SceneBuilder builder("same medium");
+    builder.add(box(2.0, -4.0, 30.0), builder.addMaterial("red", body(kRed, 1.5f)));
+    if (hasBox) builder.add(box(-1.0, -2.0, 25.0), builder.addMaterial("same", body(kRed, 1.5f)));
+    builder.add(builtin::quad("wall", {-20, -20, -3}, {40, 0, 0}, {0, 40, 0}),
+                builder.addMaterial("wall", builtin::lambert(glm::vec3(0.5f))));
+    builder.add(builtin::quad("lamp", {-20, -20, 0.5}, {0, 40, 0}, {40, 0, 0}),
+                builder.addMaterial("lamp", builtin::lamp(glm::vec3(1.0f))));
+    const auto scene = CompiledScene::build(finish(builder));
+    std::vector<double> result;
+    for (const Machine& machine : kMachines) {
+      SessionConfig config;
+      config.integrator = machine.integrator;
+      config.rayTracing = machine.rayTracing;
+      config.width = config.height = 4;
+      config.maxBounces = hasBox ? 5 : 1;  // the same paths, with the box's faces
+      Session session(scene, config);
+      double sum = 0.0;
+      for (int i = 0; i < 1000; ++i) {
+        session.frame();
+        for (const glm::vec3& pixel : session.radiance().pixels) sum += double(pixel.x);
+      }
+      result.push_back(sum / 16000.0);
+    }
+    return result;
+  };
+  const std::vector<double> without = means(false), with = means(true);
+  for (size_t i = 0; i < with.size(); ++i)
+    EXPECT_NEAR(with[i], without[i], 0.03 * without[i]) << kMachines[i].integrator << " " << i;
+}
+
+// It is left out: no event is spent on it, and the light of a point reaches what lies behind.
+TEST(Media, NothingIsSeenOfAnIndexOfOne) {
+  for (const uint32_t flags : {0u, uint32_t(rl::RL_MATERIAL_THIN)}) {
+    SceneBuilder builder("clear");
+    rl::Material clear = body(glm::vec3(0.0f), 1.0f, 0.5f);
+    clear.flags |= flags;
+    builder.add(box(-1.0, -2.0), builder.addMaterial("clear", clear));
+    builder.add(builtin::quad("wall", {-1, -1, -3}, {2, 0, 0}, {0, 2, 0}),
+                builder.addMaterial("wall", builtin::lambert(glm::vec3(0.5f))));
+    PunctualLight lamp;
+    lamp.posW = {0.0, 0.0, 0.5};
+    lamp.intensity = glm::vec3(10.0f);
+    builder.addLight(lamp);
+    Scene scene = finish(builder);
+    scene.cameras[0].xmag = scene.cameras[0].ymag = 1e-4;
+    expectImage(scene, glm::dvec3(10.0 / (3.5 * 3.5) * 0.5 / 3.14159265358979), "behind it", 1,
+                1e-4, 1);
   }
 }
 

@@ -1,5 +1,6 @@
 include(${CMAKE_CURRENT_LIST_DIR}/builtin_sources.cmake)
 set(RL_SCENE_TESTS
+  scene/body_warnings_test.cpp
   scene/camera_keyframes_test.cpp
   scene/camera_path_check_test.cpp
   scene/camera_path_config_test.cpp
