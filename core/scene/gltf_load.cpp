@@ -23,6 +23,7 @@ Scene import(const std::filesystem::path& file, gltf::Report& report) {
   gltf::validateDocument(container.json, report);
   gltf::checkRules(container.json, report);
   gltf::warnNotImported(container.json, report);
+  const std::vector<int> priorities = gltf::readPriorities(container.json, report);
   const gltf::Document document =
       gltf::loadDocument(std::move(container), file.parent_path(), report);
   gltf::checkAccessors(document.model, report);
@@ -32,7 +33,7 @@ Scene import(const std::filesystem::path& file, gltf::Report& report) {
   scene.source = file;
   scene.contentHash = document.contentHash;
   gltf::TextureImporter textures(document, scene, report);
-  gltf::importMaterials(document, textures, scene, report);
+  gltf::importMaterials(document, priorities, textures, scene, report);
   textures.checkUnusedImages();
   gltf::MeshImporter meshes(document, scene, report);
   const std::vector<gltf::PlacedNode> nodes = gltf::placeNodes(document.model, report);

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/scene/bodies.h"
+#include "core/scene/gltf_json.h"
+
 namespace restlab::gltf {
 namespace {
 
@@ -67,7 +70,6 @@ class MaterialImporter {
     importEmission();
     importSpecular();
     importTransmission();
-    importPriority(result);
     if (material_.doubleSided) data_->flags |= rl::RL_MATERIAL_DOUBLE_SIDED;
     if (has("KHR_materials_unlit")) data_->flags |= rl::RL_MATERIAL_UNLIT;
     return result;
@@ -102,19 +104,6 @@ class MaterialImporter {
     setTexture(rl::RL_TEX_METALLIC_ROUGHNESS, pbr.metallicRoughnessTexture, false,
                "pbrMetallicRoughness.metallicRoughnessTexture");
     setTexture(rl::RL_TEX_NORMAL, material_.normalTexture, false, "normalTexture");
-  }
-
-  // A property of this project's own: which of several bodies fills a place (core/scene/bodies.h).
-  void importPriority(SceneMaterial& result) {
-    if (!material_.extras.IsObject() || !material_.extras.Has("priority")) return;
-    const tinygltf::Value& value = material_.extras.Get("priority");
-    if (value.IsInt() && std::abs(value.GetNumberAsInt()) <= kLargestPriority) {
-      result.priority = value.GetNumberAsInt();
-    } else {
-      report_.warn("out of range", place_ + ".extras.priority",
-                   fmt::format("must be a whole number from -{0} to {0}; it is taken as 0",
-                               kLargestPriority));
-    }
   }
 
   void importAlpha() {
@@ -230,6 +219,27 @@ class MaterialImporter {
   rl::Material* data_ = nullptr;
 };
 
+std::string placeOfPriority(size_t material) {
+  return fmt::format("materials[{}].extras.priority", material);
+}
+
+// A property of this project's own: which of several bodies fills a place (core/scene/bodies.h).
+int priorityOf(const nlohmann::json& material, const std::string& place, Report& report) {
+  const auto extras = material.find("extras");
+  if (extras == material.end() || !extras->is_object()) return 0;
+  const auto value = extras->find("priority");
+  if (value == extras->end()) return 0;
+  const bool isNumber = value->is_number();
+  const double number = isNumber ? value->get<double>() : 0.0;
+  if (isNumber && number == std::round(number) && std::abs(number) <= kLargestPriority)
+    return static_cast<int>(number);
+  report.warn(
+      "priority", place,
+      fmt::format("is {}; a whole number from -{} to {} expected; it is read as 0",
+                  isNumber ? value->dump() : typeName(*value), kLargestPriority, kLargestPriority));
+  return 0;
+}
+
 }  // namespace
 
 rl::Material makeDefaultMaterial() {
@@ -247,11 +257,24 @@ rl::Material makeDefaultMaterial() {
   return material;
 }
 
-void importMaterials(const Document& document, TextureImporter& textures, Scene& scene,
-                     Report& report) {
+std::vector<int> readPriorities(const nlohmann::json& document, Report& report) {
+  std::vector<int> priorities;
+  for (const nlohmann::json& material : arrayOf(document, "materials"))
+    priorities.push_back(priorityOf(material, placeOfPriority(priorities.size()), report));
+  return priorities;
+}
+
+void importMaterials(const Document& document, const std::vector<int>& priorities,
+                     TextureImporter& textures, Scene& scene, Report& report) {
   for (size_t i = 0; i < document.model.materials.size(); ++i) {
-    scene.materials.push_back(
-        MaterialImporter(document.model.materials[i], i, textures, report).import());
+    SceneMaterial material =
+        MaterialImporter(document.model.materials[i], i, textures, report).import();
+    material.priority = priorities.at(i);
+    if (material.priority != 0 && !isBody(material.data)) {
+      report.warn("priority without body", placeOfPriority(i),
+                  "has no effect: only materials that transmit and have a volume fill a place");
+    }
+    scene.materials.push_back(std::move(material));
   }
 }
 

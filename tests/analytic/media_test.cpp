@@ -12,6 +12,7 @@
 #include "core/scene/builtin_mesh.h"
 #include "core/scene/compiled_scene.h"
 #include "core/session.h"
+#include "tests/scene/gltf_builder.h"
 
 namespace restlab {
 namespace {
@@ -163,6 +164,53 @@ TEST(Media, APriorityDecidesWhoFillsThePlace) {
   expectImage(scene, through(kRed, 1.0) * through(kBlue, 1.5), "the smaller one");
   scene.materials[red].priority = 1;
   expectImage(scene, through(kRed, 2.0) * through(kBlue, 0.5), "the one of greater priority");
+}
+
+// A red box, a blue one and the white wall, through a glTF file.
+Scene sceneOfFile(const nlohmann::json& redExtras, const nlohmann::json& blueExtras) {
+  test::GltfBuilder file;
+  const auto add = [&](const MeshGeometry& mesh, nlohmann::json material) {
+    std::vector<float> positions;
+    std::vector<uint32_t> corners;
+    for (const glm::vec3& p : mesh.positions) positions.insert(positions.end(), {p.x, p.y, p.z});
+    for (const glm::uvec3& t : mesh.triangles) corners.insert(corners.end(), {t.x, t.y, t.z});
+    file.node({{"mesh", file.mesh({{"attributes", {{"POSITION", file.accessor(positions, "VEC3")}}},
+                                   {"indices", file.accessor(corners, "SCALAR")},
+                                   {"material", file.add("materials", material)}})}});
+  };
+  const auto tinted = [](const glm::vec3& sigma, const nlohmann::json& extras) {
+    const glm::vec3 afterOneMetre = glm::exp(-sigma);
+    nlohmann::json material = {{"pbrMetallicRoughness", {{"roughnessFactor", 0}}}};
+    material["pbrMetallicRoughness"]["metallicFactor"] = 0;
+    material["extensions"] = {
+        {"KHR_materials_ior", {{"ior", 1}}},
+        {"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+        {"KHR_materials_volume",
+         {{"thicknessFactor", 1},
+          {"attenuationDistance", 1},
+          {"attenuationColor", {afterOneMetre.x, afterOneMetre.y, afterOneMetre.z}}}}};
+    if (!extras.is_null()) material["extras"] = extras;
+    return material;
+  };
+  add(box(-1.0, -3.0), tinted(kRed, redExtras));
+  add(box(-2.0, -3.5), tinted(kBlue, blueExtras));
+  add(builtin::quad("white", {-20, -20, -8}, {40, 0, 0}, {0, 40, 0}),
+      {{"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 0, 1}}}},
+       {"emissiveFactor", {1, 1, 1}}});
+  const nlohmann::json film = {{"xmag", 0.1}, {"ymag", 0.1}, {"zfar", 10}, {"znear", 0}};
+  file.add("cameras", {{"type", "orthographic"}, {"orthographic", film}});
+  file.node({{"camera", 0}});
+  return file.load();
+}
+
+TEST(Media, APriorityOfAFileDecides) {
+  const glm::dvec3 redFills = through(kRed, 2.0) * through(kBlue, 0.5),
+                   blueFills = through(kRed, 1.0) * through(kBlue, 1.5);
+  const auto priority = [](int number) { return nlohmann::json{{"priority", number}}; };
+  expectImage(sceneOfFile({}, {}), blueFills, "the smaller one");
+  expectImage(sceneOfFile(priority(1), priority(0)), redFills, "1 and 0");
+  expectImage(sceneOfFile({}, priority(-1)), redFills, "none and -1");
+  expectImage(sceneOfFile(priority(0), priority(1)), blueFills, "0 and 1");
 }
 
 // Copies of one mesh of one material: one medium, of which the length counts once.

@@ -10,4 +10,5 @@ set(RL_ANALYTIC_TESTS
   analytic/polygon_irradiance_test.cpp
   analytic/sampling_noise_test.cpp
   analytic/truths_test.cpp
+  scene/gltf_builder.cpp
 )

@@ -295,5 +295,47 @@ TEST(GltfTexture, ContentHashFollowsEveryFile) {
   EXPECT_NE(first, hash(test::tinyPng(), 0.5f));
 }
 
+// A body of glass, with what its material says besides.
+Loaded loadBody(const json& extras) {
+  GltfBuilder file;
+  json material = {{"name", "amber"}, {"extras", extras}};
+  material["pbrMetallicRoughness"]["metallicFactor"] = 0;
+  material["extensions"] = {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+                            {"KHR_materials_volume", {{"thicknessFactor", 1}}}};
+  return loadMaterial(file, material, {"KHR_materials_transmission", "KHR_materials_volume"});
+}
+
+TEST(GltfMaterial, PrioritiesAreWholeNumbers) {
+  for (const int number : {0, 1, -3, 1'000'000, -1'000'000}) {
+    const Loaded loaded = loadBody({{"priority", number}, {"other", {1, {2, {3}}}}});
+    EXPECT_EQ(loaded.scene.materials[0].priority, number);
+    EXPECT_TRUE(loaded.scene.warnings.empty()) << loaded.scene.warnings[0];
+  }
+  EXPECT_EQ(loadBody({{"priority", 2.0}}).scene.materials[0].priority, 2) << "written as 2.0";
+  for (const auto& extras : {json(), json(7), json("priority"), json({"priority"}), json::object()})
+    EXPECT_TRUE(loadBody(extras).scene.warnings.empty()) << extras;
+}
+
+TEST(GltfMaterial, PrioritiesOfNoUseAreSaid) {
+  json deep = 1;
+  for (int i = 0; i < 100; ++i) deep = json{{"a", deep}};
+  for (const json& value :
+       {json("x"), json("1"), json(1e12), json(-1e300), json(UINT64_MAX), json(1'000'001),
+        json(0.5), json(true), json({1}), deep, json(std::string(100'000, 'x'))}) {
+    const Loaded loaded = loadBody({{"priority", value}});
+    EXPECT_EQ(loaded.scene.materials[0].priority, 0);
+    ASSERT_EQ(loaded.scene.warnings.size(), 1u) << value.dump().substr(0, 40);
+    const std::string& line = loaded.scene.warnings[0];
+    EXPECT_NE(line.find("test.gltf: materials[0].extras.priority: "), std::string::npos) << line;
+    EXPECT_NE(line.find("a whole number from -1000000 to 1000000 expected"), std::string::npos)
+        << line;
+    EXPECT_LT(line.size(), 300u);
+  }
+  // A material that no light travels through fills no place.
+  GltfBuilder file;
+  const Loaded loaded = loadMaterial(file, {{"extras", {{"priority", 1}}}});
+  EXPECT_TRUE(warns(loaded.scene, "materials[0].extras.priority: has no effect"));
+}
+
 }  // namespace
 }  // namespace restlab
