@@ -7,6 +7,7 @@
 #include <cstring>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <set>
 
 #include "core/file_reason.h"
@@ -33,24 +34,93 @@ uint32_t readU32(const std::vector<uint8_t>& bytes, size_t offset) {
   return value;
 }
 
-void checkDepth(std::string_view text, const Report& report) {
-  int depth = 0;
+// Calls visit(i) for every character outside of strings and for the quotes that begin them.
+template <class Visit>
+void visitStructure(std::string_view text, Visit visit) {
   bool inString = false;
   for (size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
     if (inString) {
-      if (c == '\\') ++i;
-      if (c == '"') inString = false;
-    } else if (c == '"') {
-      inString = true;
-    } else if (c == '{' || c == '[') {
-      if (++depth > kMaxJsonDepth) {
-        report.fail("", fmt::format("JSON is nested deeper than {} levels", kMaxJsonDepth));
-      }
-    } else if (c == '}' || c == ']') {
-      --depth;
+      if (text[i] == '\\')
+        ++i;
+      else if (text[i] == '"')
+        inString = false;
+    } else {
+      inString = text[i] == '"';
+      visit(i);
     }
   }
+}
+
+void checkDepth(std::string_view text, const Report& report) {
+  int depth = 0;
+  visitStructure(text, [&](size_t i) {
+    if (text[i] == '{' || text[i] == '[') {
+      if (++depth > kMaxJsonDepth)
+        report.fail("", fmt::format("JSON is nested deeper than {} levels", kMaxJsonDepth));
+    } else if (text[i] == '}' || text[i] == ']') {
+      --depth;
+    }
+  });
+}
+
+bool isNumberOfJson(std::string_view text) {
+  const auto take = [&](std::string_view any) {
+    const bool isThere = !text.empty() && any.find(text[0]) != std::string_view::npos;
+    text.remove_prefix(isThere ? 1 : 0);
+    return isThere;
+  };
+  const auto takeDigits = [&] {
+    const size_t count = std::min(text.find_first_not_of("0123456789"), text.size());
+    text.remove_prefix(count);
+    return count;
+  };
+  take("-");
+  const bool isZero = text.starts_with('0');
+  const size_t whole = takeDigits();
+  if (whole == 0 || (isZero && whole > 1)) return false;
+  if (take(".") && takeDigits() == 0) return false;
+  if (take("eE")) {
+    take("+-");
+    if (takeDigits() == 0) return false;
+  }
+  return text.empty();
+}
+
+// Is this a number of JSON that no double holds? Without an exponent it has 309 digits or more.
+bool overflows(std::string_view token) {
+  constexpr size_t kFewestDigits = 309;
+  if (token.size() < kFewestDigits && token.find_first_of("eE") == std::string_view::npos)
+    return false;
+  if (!isNumberOfJson(token)) return false;  // the parser says what is wrong
+  try {
+    return !nlohmann::json::parse(token).is_number();
+  } catch (const nlohmann::json::out_of_range&) {
+    return true;
+  }
+}
+
+// The same text with 1e308 for numbers that no double holds, or nothing where there are none: the
+// parser would refuse the file, though nothing may read them. The validator refuses them where they
+// are read.
+std::string boundNumbers(std::string_view text) {
+  std::string bounded;
+  size_t copied = 0, start = std::string_view::npos;
+  visitStructure(text, [&](size_t i) {
+    const bool isOfNumber =
+        std::string_view("0123456789+-.eE").find(text[i]) != std::string_view::npos;
+    if (isOfNumber) {
+      start = std::min(start, i);
+      return;
+    }
+    if (start != std::string_view::npos && overflows(text.substr(start, i - start))) {
+      bounded += text.substr(copied, start - copied);
+      bounded += text[start] == '-' ? "-1e308" : "1e308";
+      copied = i;
+    }
+    start = std::string_view::npos;
+  });
+  if (copied != 0) bounded += text.substr(copied);
+  return bounded;
 }
 
 // Says which keys stand twice in an object; of such the parser keeps the last one.
@@ -94,9 +164,10 @@ nlohmann::json parseJson(std::string_view text, Report& report) {
   checkDepth(text, report);
   // A value of two characters, "0,", becomes a node of 16 bytes.
   report.takeMemory("", fmt::format("JSON of {} bytes", text.size()), text.size() * 8);
+  const std::string bounded = boundNumbers(text);
   nlohmann::json json;
   try {
-    json = nlohmann::json::parse(text, DuplicateKeys(report));
+    json = nlohmann::json::parse(bounded.empty() ? text : bounded, DuplicateKeys(report));
   } catch (const nlohmann::json::exception& error) {
     // "[json.exception.parse_error.101] parse error at line 3, column 5: ..." without the label.
     std::string what = error.what();
@@ -112,18 +183,25 @@ nlohmann::json parseJson(std::string_view text, Report& report) {
   return json;
 }
 
-// Zeros and blanks pad chunks.
-bool isPadding(const std::vector<uint8_t>& bytes, size_t from) {
-  return std::all_of(bytes.begin() + static_cast<ptrdiff_t>(from), bytes.end(),
-                     [](uint8_t byte) { return byte == 0 || byte == ' '; });
+// The header of a chunk, and whether all of it is there.
+struct ChunkHeader {
+  uint32_t size = 0, type = 0;
+  bool isWhole = false;
+  bool isKnown() const { return type == kChunkJson || type == kChunkBin; }
+};
+
+// Nothing where the bytes end before.
+std::optional<ChunkHeader> chunkAt(const std::vector<uint8_t>& bytes, size_t offset) {
+  if (offset > bytes.size() || bytes.size() - offset < kChunkHeaderBytes) return {};
+  const uint32_t size = readU32(bytes, offset);
+  return ChunkHeader{size, readU32(bytes, offset + 4),
+                     size <= bytes.size() - offset - kChunkHeaderBytes};
 }
 
 // Does a chunk of a known type begin here, whole?
 bool isChunk(const std::vector<uint8_t>& bytes, size_t offset) {
-  if (offset > bytes.size() || bytes.size() - offset < kChunkHeaderBytes) return false;
-  const uint32_t size = readU32(bytes, offset), type = readU32(bytes, offset + 4);
-  return (type == kChunkJson || type == kChunkBin) &&
-         size <= bytes.size() - offset - kChunkHeaderBytes;
+  const auto header = chunkAt(bytes, offset);
+  return header && header->isKnown() && header->isWhole;
 }
 
 // Finds the start of the chunk behind one that ends at `end`. Some writers leave out the padding of
@@ -136,44 +214,55 @@ size_t nextChunk(const std::vector<uint8_t>& bytes, size_t end) {
 
 Container readGlb(std::vector<uint8_t> bytes, Report& report) {
   if (bytes.size() < kHeaderBytes) {
-    report.fail(
-        "", fmt::format("truncated: {} bytes, a GLB header has {}", bytes.size(), kHeaderBytes));
+    report.fail("", fmt::format("truncated: {}, a GLB header has {}", byteCount(bytes.size()),
+                                kHeaderBytes));
   }
   const uint32_t version = readU32(bytes, 4), length = readU32(bytes, 8);
   if (version != 2) report.fail("", fmt::format("GLB version {}; 2 expected", version));
-  const bool lacksPadding = length > bytes.size() && length - bytes.size() < kAlignment;
-  if (length > bytes.size() && !lacksPadding) {
-    report.fail("", fmt::format("truncated: the GLB header declares {} bytes, the file has {}",
-                                length, bytes.size()));
-  }
-  if (length <= kHeaderBytes) report.fail("", "the GLB holds no chunk; a JSON chunk expected");
   Container container;
   bool haveJson = false;
   std::vector<uint8_t> hashed(bytes.begin(), bytes.begin() + kHeaderBytes);
   size_t offset = kHeaderBytes;
-  for (size_t chunk = 0; offset < std::min<size_t>(length, bytes.size()); ++chunk) {
+  // Ends where the header or the file says, but not before the chunks that a scene is made of.
+  const auto goesOn = [&](size_t chunk) {
+    if (offset < std::min<size_t>(length, bytes.size())) return true;
+    const auto header = chunkAt(bytes, offset);
+    return chunk < 2 && header && header->isWhole &&
+           header->type == (chunk == 0 ? kChunkJson : kChunkBin);
+  };
+  const auto failTruncated = [&](const std::string& place, const std::string& text) {
+    report.fail(place,
+                length > bytes.size()
+                    ? fmt::format("truncated: the GLB header declares {} bytes, the file has "
+                                  "{}; {}",
+                                  length, bytes.size(), text)
+                    : "truncated: " + text);
+  };
+  for (size_t chunk = 0; goesOn(chunk); ++chunk) {
     const std::string place = fmt::format("GLB chunk {}", chunk);
-    if (bytes.size() - offset < kChunkHeaderBytes) {
-      if (haveJson && isPadding(bytes, offset)) {
-        report.warn(
-            "GLB padding", "",
-            fmt::format("{} bytes behind the last GLB chunk belong to none; they are skipped",
-                        bytes.size() - offset));
-        offset = bytes.size();
-        break;
-      }
-      report.fail(place, fmt::format("truncated: {} bytes left, a chunk header has {}",
-                                     bytes.size() - offset, kChunkHeaderBytes));
+    const size_t left = bytes.size() - offset;
+    const auto header = chunkAt(bytes, offset);
+    // Nothing is missing; something is left.
+    if (haveJson && (!header || (!header->isKnown() && !header->isWhole))) {
+      report.warn("GLB padding", "",
+                  fmt::format("{} behind the last GLB chunk {} skipped", byteCount(left),
+                              left == 1 ? "is" : "are"));
+      offset = bytes.size();
+      break;
     }
-    const uint32_t size = readU32(bytes, offset), type = readU32(bytes, offset + 4);
+    if (!header) {
+      failTruncated(
+          place, fmt::format("{} left, a chunk header has {}", byteCount(left), kChunkHeaderBytes));
+    }
+    const auto [size, type, isWhole] = *header;
     offset += kChunkHeaderBytes;
-    if (size > bytes.size() - offset) {
-      report.fail(place, fmt::format("truncated: declares {} bytes, {} are left", size,
-                                     bytes.size() - offset));
+    if (!isWhole) {
+      failTruncated(place,
+                    fmt::format("declares {}, {} left", byteCount(size), bytes.size() - offset));
     }
     if (size % kAlignment != 0) {
       report.warn("GLB padding", place,
-                  fmt::format("has {} bytes; a multiple of {} expected", size, kAlignment));
+                  fmt::format("has {}; a multiple of {} expected", byteCount(size), kAlignment));
     }
     if (chunk == 0 && type != kChunkJson) {
       report.fail(place, fmt::format("is of type 0x{:08x}; the first chunk must be JSON", type));
@@ -196,6 +285,7 @@ Container readGlb(std::vector<uint8_t> bytes, Report& report) {
     }
     offset = nextChunk(bytes, offset + size);
   }
+  if (!haveJson) report.fail("", "the GLB holds no chunk; a JSON chunk expected");
   if (offset != length || length != bytes.size()) {
     report.warn(
         "GLB length", "",
@@ -203,6 +293,7 @@ Container readGlb(std::vector<uint8_t> bytes, Report& report) {
                     "nothing else is read",
                     length, bytes.size(), std::min(offset, bytes.size())));
   }
+  if (length > bytes.size()) container.missingBytes = length - bytes.size();
   container.fileBytes = std::move(hashed);
   return container;
 }

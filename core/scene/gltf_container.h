@@ -15,6 +15,7 @@ struct Container {
   nlohmann::json json;                         // an object
   std::optional<std::vector<uint8_t>> binary;  // the BIN chunk of a .glb
   std::vector<uint8_t> fileBytes;              // of a .gltf; of a .glb all but the BIN chunk
+  uint64_t missingBytes = 0;                   // by which a .glb is shorter than its header says
 };
 
 // Reads the first `bytes` bytes of a regular file (all of it by default). Fails at `place`.

@@ -32,16 +32,21 @@ std::vector<uint8_t> loadBuffer(const json& buffer, size_t index, Container& con
   const auto checkLength = [&](uint64_t available, const std::string& what) {
     if (available < length) {
       report.fail(place + ".byteLength",
-                  fmt::format("{} declared, but {} holds {} bytes", length, what, available));
+                  fmt::format("{} declared, but {} holds {}", length, what, byteCount(available)));
     }
   };
   std::vector<uint8_t> bytes;
   const auto uri = buffer.find("uri");
   if (uri == buffer.end()) {
     if (index != 0 || !container.binary) {
+      const std::string lost =
+          container.missingBytes == 0
+              ? ""
+              : fmt::format("; the file ends {} before the length in its header",
+                            byteCount(container.missingBytes));
       report.fail(place, container.binary
                              ? "has no uri; only buffers[0] may be the GLB's binary chunk"
-                             : "has no uri, and there is no GLB binary chunk");
+                             : "has no uri, and there is no GLB binary chunk" + lost);
     }
     checkLength(container.binary->size(), "the GLB's binary chunk");
     bytes = std::move(*container.binary);

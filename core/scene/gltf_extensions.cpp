@@ -20,7 +20,9 @@ void collectExtensions(const json& value, std::set<std::string>& names) {
     for (const auto& [key, item] : value.items()) {
       if (key == "extras") continue;
       if (key == "extensions" && item.is_object()) {
-        for (const auto& [name, unused] : item.items()) names.insert(name);
+        for (const auto& [name, content] : item.items()) {
+          if (!content.is_null()) names.insert(name);
+        }
       }
       collectExtensions(item, names);
     }
@@ -63,7 +65,7 @@ void checkVersion(const json& document, Report& report) {
   for (const char* key : {"minVersion", "version"}) {
     const bool isMinimum = std::string_view(key) == "minVersion";
     const auto it = asset->find(key);
-    if (it == asset->end()) {
+    if (it == asset->end() || (isMinimum && it->is_null())) {
       if (!isMinimum) report.fail("asset.version", "is missing; '2.0' expected");
       continue;
     }

@@ -6,6 +6,10 @@
 
 namespace restlab::gltf {
 
+std::string byteCount(uint64_t bytes) {
+  return fmt::format("{} byte{}", bytes, bytes == 1 ? "" : "s");
+}
+
 std::string Report::line(std::string_view place, std::string_view text) const {
   return oneLine(place.empty() ? fmt::format("{}: {}", file_, text)
                                : fmt::format("{}: {}: {}", file_, place, text));

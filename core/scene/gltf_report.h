@@ -11,6 +11,9 @@
 
 namespace restlab::gltf {
 
+// "1 byte", "2 bytes".
+std::string byteCount(uint64_t bytes);
+
 class Report {
  public:
   // `file` as the user gave it; it starts every line.

@@ -21,8 +21,8 @@ void checkBufferViews(const json& document, Report& report) {
     const uint64_t offset = sizeOf(views[i], "byteOffset", 0);
     const uint64_t length = views[i].at("byteLength").get<uint64_t>();
     if (offset > available || length > available - offset) {
-      report.fail(place, fmt::format("bytes {} to {} reach beyond buffers[{}], which has {} bytes",
-                                     offset, offset + length, buffer, available));
+      report.fail(place, fmt::format("bytes {} to {} reach beyond buffers[{}], which has {}",
+                                     offset, offset + length, buffer, byteCount(available)));
     }
     if (!views[i].contains("byteStride")) continue;
     const uint64_t stride = sizeOf(views[i], "byteStride", 0);

@@ -17,6 +17,16 @@ Field dispensable(Field field) {
   return field;
 }
 
+Field unreadBeside(const char* other, Field field) {
+  field.unreadBeside = other;
+  return field;
+}
+
+Field onlyWith(const char* name, const char* word, Field field) {
+  field.onlyWith = {name, word};
+  return field;
+}
+
 Field integer(const char* name, double low = 0, double high = kMaxInt) {
   return {.name = name, .kind = Kind::integer, .low = low, .high = high};
 }
@@ -115,9 +125,9 @@ struct Tables {
   Schema normalTextureInfo{
       {required(reference("index", "textures")), integer("texCoord"), number("scale")},
       {{"KHR_texture_transform", &textureTransform}}};
-  Schema occlusionTextureInfo{{required(reference("index", "textures")),
-                               dispensable(integer("texCoord")), ignored("strength")},
-                              {{"KHR_texture_transform", &textureTransform}}};
+  Schema occlusionTextureInfo{
+      {required(reference("index", "textures")), integer("texCoord"), ignored("strength")},
+      {{"KHR_texture_transform", &textureTransform}}};
 
   // Materials.
   Schema metallicRoughness{
@@ -132,14 +142,16 @@ struct Tables {
   Schema transmission{
       {number("transmissionFactor", 0, 1, kClamps), object("transmissionTexture", textureInfo)}};
   Schema volume{{number("thicknessFactor", 0, kMax, kClamps),
-                 object("thicknessTexture", textureInfo), positive("attenuationDistance"),
-                 numbers("attenuationColor", 3, 0, 1, kClamps)}};
+                 dispensable(object("thicknessTexture", textureInfo)),
+                 positive("attenuationDistance"), numbers("attenuationColor", 3, 0, 1, kClamps)}};
   Schema unlit{};
   Schema material{
       {label("name"), object("pbrMetallicRoughness", metallicRoughness),
-       object("normalTexture", normalTextureInfo), object("occlusionTexture", occlusionTextureInfo),
+       object("normalTexture", normalTextureInfo),
+       dispensable(object("occlusionTexture", occlusionTextureInfo)),
        object("emissiveTexture", textureInfo), numbers("emissiveFactor", 3, 0, kMax, kClamps),
-       word("alphaMode", {"OPAQUE", "MASK", "BLEND"}), number("alphaCutoff", 0, kMax, kClamps),
+       word("alphaMode", {"OPAQUE", "MASK", "BLEND"}),
+       onlyWith("alphaMode", "MASK", number("alphaCutoff", 0, kMax, kClamps)),
        boolean("doubleSided")},
       {{"KHR_materials_emissive_strength", &emissiveStrength},
        {"KHR_materials_ior", &ior},
@@ -171,7 +183,7 @@ struct Tables {
   Schema light{{label("name"), numbers("color", 3, 0, kMax, kClamps),
                 number("intensity", 0, kMax, kClamps),
                 required(word("type", {"directional", "point", "spot"})),
-                dispensable(positive("range")), object("spot", spot)}};
+                dispensable(positive("range")), onlyWith("type", "spot", object("spot", spot))}};
   Schema lights{{required(objects("lights", light))}};
 
   // Hierarchy.
@@ -179,8 +191,9 @@ struct Tables {
   Schema gpuInstancing{{required(referenceMap("attributes", "accessors"))}};
   Schema node{
       {label("name"), reference("camera", "cameras"), references("children", "nodes"),
-       reference("skin", "skins"), numbers("matrix", 16), reference("mesh", "meshes"),
-       numbers("rotation", 4), numbers("scale", 3), numbers("translation", 3), ignored("weights")},
+       dispensable(reference("skin", "skins")), numbers("matrix", 16), reference("mesh", "meshes"),
+       unreadBeside("matrix", numbers("rotation", 4)), unreadBeside("matrix", numbers("scale", 3)),
+       unreadBeside("matrix", numbers("translation", 3)), ignored("weights")},
       {{"KHR_lights_punctual", &lightReference}, {"EXT_mesh_gpu_instancing", &gpuInstancing}}};
   Schema scene{{label("name"), references("nodes", "nodes")}};
   Schema asset{

@@ -45,8 +45,14 @@ struct Field {
   const Schema* schema = nullptr;
   std::vector<int> integers = {};       // allowed values (empty: all in range)
   std::vector<const char*> words = {};  // allowed strings (empty: all)
-  // Nothing that is drawn depends on it: a value of no use is a warning and is left out.
+  // Nothing that is drawn depends on it: a value of no use is a warning and is left out. So it is
+  // where the object has `unreadBeside`, and where it says anything but `onlyWith`.
   bool isDispensable = false;
+  const char* unreadBeside = nullptr;  // a property of the same object
+  struct Says {
+    const char* name = nullptr;
+    const char* word = nullptr;
+  } onlyWith = {};
 };
 
 struct Schema {

@@ -140,6 +140,11 @@ std::vector<uint8_t> decodeBase64(std::string_view text, const std::string& plac
   }
   std::optional<std::vector<uint8_t>> bytes = base64Decode(isPlain ? text : repaired);
   if (!bytes) report.fail(place, "data URI holds invalid base64");
+  if ((isPlain ? text : repaired).size() % 4 != 0) {
+    report.warn("base64 padding", place,
+                "data URI's base64 is not padded with '=' to a multiple of 4 characters; it is "
+                "read as if it were");
+  }
   if (!isPlain) {
     report.warn("base64 text", place,
                 "data URI holds escapes, blanks or the letters '-' and '_' in its base64; they are "

@@ -47,6 +47,11 @@ std::string listOf(const std::vector<T>& values) {
   return fmt::format("{}", fmt::join(values, ", "));
 }
 
+// 1e308 stands for all beyond it (boundNumbers() in core/scene/gltf_container.cpp).
+std::string textOf(double number) {
+  return std::abs(number) < 1e308 ? fmt::format("{:g}", number) : "a number of 1e308 or more";
+}
+
 class Walker {
  public:
   Walker(json& document, Report& report) : document_(document), report_(report) {}
@@ -85,11 +90,12 @@ class Walker {
   }
 
   void walkMember(json& object, const Field& field) {
+    const bool isDispensable = isDispensableIn(object, field);
     const auto it = object.find(field.name);
     if (it == object.end()) {
       if (!field.required) return;
       const std::string missing = fmt::format("'{}' is missing", field.name);
-      if (!field.isDispensable) fail(missing);
+      if (!isDispensable) fail(missing);
       leaveOut(object, field, place_.str(), missing);
       return;
     }
@@ -97,19 +103,34 @@ class Walker {
       leaveOutNull(object, field.name);
       return;
     }
-    const Place here = place_;
-    place_.push(field.name);
-    isDispensable_ = field.isDispensable;
-    try {
+    if (!isDispensable || isDispensable_) {  // what holds it is left out as a whole
+      place_.push(field.name);
       walkField(*it, field);
-    } catch (const Useless& useless) {
-      place_ = here;
-      isDispensable_ = false;
-      leaveOut(object, field, useless.place, useless.text);
+      place_.pop();
       return;
     }
+    const Place here = place_;
+    place_.push(field.name);
+    isDispensable_ = true;
+    try {
+      walkField(*it, field);
+      place_.pop();
+    } catch (const Useless& useless) {
+      place_ = here;
+      leaveOut(object, field, useless.place, useless.text);
+    }
     isDispensable_ = false;
-    place_.pop();
+  }
+
+  static bool isDispensableIn(const json& object, const Field& field) {
+    if (field.isDispensable) return true;
+    if (field.unreadBeside) {
+      const auto other = object.find(field.unreadBeside);
+      if (other != object.end() && !other->is_null()) return true;
+    }
+    if (!field.onlyWith.name) return false;
+    const auto says = object.find(field.onlyWith.name);
+    return says == object.end() || *says != field.onlyWith.word;
   }
 
   void leaveOutNull(json& object, const char* key) {
@@ -140,20 +161,27 @@ class Walker {
     place_.pop();
   }
 
+  // Extensions that are not read may be of any type.
   void walkExtensions(json& value, const Schema& schema) {
     if (!value.is_object()) failType(value, "an object");
-    for (auto& [name, item] : value.items()) {
-      place_.push(name);
-      if (!item.is_object()) failType(item, "an object");
-      bool read = false;
-      for (const auto& [known, knownSchema] : schema.extensions) {
-        if (name != known) continue;
-        walkObject(item, *knownSchema);
-        read = true;
+    const auto& supported = supportedExtensions();
+    std::vector<std::string> names;
+    for (const auto& [name, item] : value.items()) names.push_back(name);
+    for (const std::string& name : names) {
+      if (value[name].is_null()) {
+        leaveOutNull(value, name.c_str());
+        continue;
       }
-      const auto& supported = supportedExtensions();
-      if (!read && std::find(supported.begin(), supported.end(), name) != supported.end()) {
-        report_.warn("misplaced extension", place_.str(), "this extension has no meaning here");
+      const auto known =
+          std::find_if(schema.extensions.begin(), schema.extensions.end(),
+                       [&](const auto& extension) { return name == extension.first; });
+      place_.push(name);
+      if (known != schema.extensions.end()) {
+        walkObject(value[name], *known->second);
+      } else {
+        if (std::find(supported.begin(), supported.end(), name) != supported.end())
+          report_.warn("misplaced extension", place_.str(), "this extension has no meaning here");
+        if (!value[name].is_object()) value.erase(name);
       }
       place_.pop();
     }
@@ -243,7 +271,7 @@ class Walker {
     if (!value.is_number_float()) failType(value, expected);
     const double number = value.get<double>();
     if (number != std::floor(number) || std::abs(number) > 9007199254740991.0) {
-      fail(fmt::format("{} is not an integer; {} expected", number, expected));
+      fail(fmt::format("{} is not an integer; {} expected", textOf(number), expected));
     }
     report_.warn("integer as float", place_.str(), "an integer written with a decimal point");
     if (number < 0) {
@@ -273,7 +301,7 @@ class Walker {
     if (!value.is_number()) failType(value, "a number");
     const double number = value.get<double>();
     if (!(std::abs(number) <= FLT_MAX)) {
-      fail(fmt::format("{:g} is too large for a 32-bit float", number));
+      fail(fmt::format("{} is too large for a 32-bit float", textOf(number)));
     }
     value = number;  // tinygltf cuts integers in extensions to 32 bits
     const bool tooLow = field.lowExcluded ? number <= field.low : number < field.low;

@@ -12,11 +12,6 @@ using nlohmann::json;
 using test::GltfBuilder;
 using test::warns;
 
-std::string u32(size_t number) {
-  const auto value = static_cast<uint32_t>(number);
-  return std::string(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
 // A material that shows the image of this URI.
 void addTexture(GltfBuilder& file, const std::string& uri) {
   file.add("images", {{"uri", uri}});
@@ -68,60 +63,13 @@ TEST(GltfLenient, Base64AsBrowsersTakeIt) {
   GltfBuilder file;
   addTexture(file, label + text);
   EXPECT_FALSE(warns(file.load(), "base64"));
+  ASSERT_EQ(text.back(), '=');
+  file.doc["images"][0]["uri"] = label + text.substr(0, text.find('='));
+  const Scene unpadded = file.load();
+  EXPECT_EQ(unpadded.images.at(0).texels.at(0), 0xff0000ffu);
+  EXPECT_TRUE(warns(unpadded, "images[0].uri: data URI's base64 is not padded"));
   file.doc["images"][0]["uri"] = label + "%00" + text;
   EXPECT_NE(file.error().find("invalid base64"), std::string::npos);
-}
-
-// A GLB of both chunks; each with as many bytes of padding in its length and behind it.
-std::string glbWith(const std::string& text, const std::string& binary, size_t inLength,
-                    size_t behind, int lengthError = 0) {
-  std::string body;
-  for (const auto& [type, data] : {std::pair(size_t(0x4e4f534a), text), {0x004e4942, binary}}) {
-    const char pad = type == 0x4e4f534a ? ' ' : '\0';
-    body += u32(data.size() + inLength) + u32(type) + data + std::string(inLength + behind, pad);
-  }
-  return "glTF" + u32(2) + u32(size_t(12 + int(body.size()) + lengthError)) + body;
-}
-
-TEST(GltfLenient, GlbChunksOfAnyLength) {
-  const json doc = {
-      {"asset", {{"version", "2.0"}}},
-      {"buffers", json::array({{{"byteLength", 36}}})},
-      {"bufferViews", json::array({{{"buffer", 0}, {"byteLength", 36}}})},
-      {"accessors",
-       json::array({{{"bufferView", 0}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}}})},
-      {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}}}}}}},
-      {"nodes", json::array({{{"mesh", 0}}})},
-      {"scenes", json::array({{{"nodes", {0}}}})}};
-  const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
-  const std::string binary(reinterpret_cast<const char*>(corners), sizeof corners);
-  test::TempDirectory directory;
-  const auto load = [&](const std::string& bytes) {
-    return loadGltf(directory.write("a.glb", bytes));
-  };
-  for (size_t blanks = 0; blanks < 4; ++blanks) {
-    const std::string text = doc.dump() + std::string(blanks, ' ');
-    const size_t missing = (4 - text.size() % 4) % 4;
-    const bool isWhole = missing == 0;
-    // Without padding; with the padding behind the length.
-    for (const size_t behind : {size_t(0), missing}) {
-      const Scene scene = load(glbWith(text, binary, 0, behind));
-      ASSERT_EQ(scene.instances.size(), 1u);
-      EXPECT_EQ(scene.geometries[0].positions[1].x, 1.0f);
-      EXPECT_EQ(warns(scene, "a multiple of 4 expected"), !isWhole);
-    }
-    const Scene scene = load(glbWith(text, binary, missing, 0));
-    EXPECT_EQ(warns(scene, "GLB chunk 0: has"), false);
-  }
-  // Lengths of the header that count the padding in or leave it out.
-  for (const int error : {-3, -1, 2, 3}) {
-    std::string text = doc.dump();
-    text.resize((text.size() + 3) / 4 * 4, ' ');
-    const Scene scene = load(glbWith(text, binary, 0, 0, error));
-    ASSERT_EQ(scene.instances.size(), 1u);
-    EXPECT_TRUE(warns(scene, "the GLB header declares")) << error;
-  }
-  EXPECT_THROW(load(glbWith(doc.dump(), binary, 40, 0).substr(0, 400)), Error);
 }
 
 TEST(GltfLenient, NullAndUselessNumbersOfWhatIsNotRead) {
@@ -172,6 +120,101 @@ TEST(GltfLenient, NullAndUselessNumbersOfWhatIsNotRead) {
   file.doc["cameras"][0]["orthographic"]["ymag"] = 1;
   file.doc["nodes"][0]["translation"] = {0, nullptr, 0};
   EXPECT_EQ(file.error(), "nodes[0].translation[1]: is null; a number expected");
+}
+
+TEST(GltfLenient, WhatNoImageDependsOnMayBeOfAnyType) {
+  struct Case {
+    const char* place;  // of what stands in the file, as JSON
+    json value;
+    const char* warning;
+  };
+  const json texture99 = {{"index", 99}};
+  for (const Case& c : {
+           Case{"/materials/0/occlusionTexture", texture99, "occlusionTexture.index: 99"},
+           Case{"/materials/0/occlusionTexture", json::object(), "occlusionTexture: 'index'"},
+           Case{"/materials/0/occlusionTexture", 5, "occlusionTexture: is an integer"},
+           Case{"/materials/0/occlusionTexture",
+                {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"scale", 1}}}}}},
+                "KHR_texture_transform.scale: is an integer"},
+           Case{"/materials/0/extensions/KHR_materials_volume/thicknessTexture", texture99,
+                "thicknessTexture.index: 99"},
+           Case{"/materials/0/extensions/KHR_materials_ior", nullptr, "KHR_materials_ior: is null"},
+           Case{"/materials/0/alphaCutoff", "a", "alphaCutoff: is a string"},
+           Case{"/asset/minVersion", nullptr, "asset.minVersion: is null"},
+           Case{"/nodes/0/skin", 3, "nodes[0].skin: 3"},
+           Case{"/nodes/0/translation", "far", "nodes[0].translation: is a string"},
+           Case{"/extensions/KHR_lights_punctual/lights/0/spot", 1, "spot: is an integer"},
+           Case{"/extensions/SOME_other", 1, "SOME_other is not supported"},
+       }) {
+    GltfBuilder file;
+    file.doc["extensionsUsed"] = {"KHR_lights_punctual", "KHR_materials_ior",
+                                  "KHR_materials_volume", "KHR_texture_transform"};
+    file.doc["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+    file.add("images", {{"uri", "data:image/png;base64," + test::base64(test::tinyPng())}});
+    file.add("textures", {{"source", 0}});
+    file.add("materials", {{"extensions", {{"KHR_materials_volume", json::object()}}},
+                           {"emissiveTexture", {{"index", 0}}}});
+    const int mesh = file.triangle({{"material", 0}});
+    const json identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 2, 0, 0, 1};
+    file.node({{"mesh", mesh}, {"matrix", identity}});
+    file.node({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    const size_t before = file.load().warnings.size();
+    file.doc[json::json_pointer(c.place)] = c.value;
+    const Scene scene = file.load();
+    ASSERT_EQ(scene.instances.size(), 1u);
+    EXPECT_EQ(scene.instances[0].objectToWorld[3].x, 2.0);
+    EXPECT_EQ(scene.materials[0].data.ior, 1.5f);
+    EXPECT_TRUE(warns(scene, c.warning)) << c.place;
+    EXPECT_EQ(scene.warnings.size(), before + 1) << c.place;
+  }
+  // The same where it is read.
+  GltfBuilder file;
+  file.add("materials", {{"alphaMode", "MASK"}, {"alphaCutoff", "a"}});
+  EXPECT_EQ(file.error(), "materials[0].alphaCutoff: is a string; a number expected");
+  file.doc["materials"][0] = {{"normalTexture", texture99}};
+  EXPECT_EQ(file.error(),
+            "materials[0].normalTexture.index: 99 does not exist; the file has no textures");
+  file.doc["materials"][0] = {{"extensions", {{"KHR_materials_ior", 5}}}};
+  EXPECT_EQ(file.error(),
+            "materials[0].extensions.KHR_materials_ior: is an integer; an object expected");
+  file.doc["materials"][0] = json::object();
+  file.node({{"translation", "far"}});
+  EXPECT_EQ(file.error(), "nodes[0].translation: is a string; an array of numbers expected");
+}
+
+// Numbers of JSON beyond a double are refused where something reads them.
+TEST(GltfLenient, NumbersBeyondADouble) {
+  test::TempDirectory directory;
+  const auto document = [&](const std::string& yfov, const std::string& zfar) {
+    return directory.write("a.gltf",
+                           R"({"asset": {"version": "2.0", "generator": "1e999, \"-1e999"},
+  "cameras": [{"type": "perspective", "extras": {"a": [1e999, -2e999, 3]},
+               "perspective": {"yfov": )" +
+                               yfov + R"(, "znear": 1e-999, "zfar": )" + zfar +
+                               R"(}}], "nodes": [{"camera": 0}], "scenes": [{"nodes": [0]}]})");
+  };
+  const std::string digits(400, '9');
+  for (const std::string& zfar : {std::string("1e400"), std::string("-12.5E+00999"), digits,
+                                  "-" + digits + ".5", "0.1" + digits + "e310"}) {
+    const Scene scene = loadGltf(document("0.5", zfar));
+    ASSERT_EQ(scene.cameras.size(), 1u);
+    EXPECT_EQ(scene.cameras[0].yfov, 0.5);
+    EXPECT_TRUE(warns(scene, "perspective.zfar: a number of 1e308 or more is too large")) << zfar;
+  }
+  const auto errorOf = [&](const std::string& yfov) {
+    const auto file = document(yfov, "1");
+    try {
+      loadGltf(file);
+    } catch (const Error& error) {
+      return test::placeAndText(error.what(), file);
+    }
+    return std::string();
+  };
+  EXPECT_EQ(
+      errorOf("1e400"),
+      "cameras[0].perspective.yfov: a number of 1e308 or more is too large for a 32-bit float");
+  for (const char* wrong : {"1e", "1e999.5", "01e999", "NaN", "Infinity", "- 1e999"})
+    EXPECT_NE(errorOf(wrong).find("not valid JSON"), std::string::npos) << wrong;
 }
 
 }  // namespace
