@@ -5,6 +5,8 @@
 
 #include <atomic>
 #include <cerrno>
+#include <mutex>
+#include <set>
 #include <system_error>
 
 #include "core/error.h"
@@ -57,13 +59,44 @@ fs::path temporaryNameFor(const fs::path& target) {
   return name;
 }
 
+struct TemporaryFiles {
+  std::mutex mutex;
+  std::set<fs::path> names;
+};
+
+// Never destroyed: threads may write files until the process is gone.
+TemporaryFiles& temporaryFiles() {
+  static auto* files = new TemporaryFiles;
+  return *files;
+}
+
 }  // namespace
+
+void addTemporaryFile(const fs::path& file) {
+  const std::scoped_lock lock(temporaryFiles().mutex);
+  temporaryFiles().names.insert(file);
+}
+
+void forgetTemporaryFile(const fs::path& file) {
+  const std::scoped_lock lock(temporaryFiles().mutex);
+  temporaryFiles().names.erase(file);
+}
+
+void removeTemporaryFiles() {
+  temporaryFiles().mutex.lock();  // for good
+  std::error_code ignored;
+  for (const fs::path& name : temporaryFiles().names) fs::remove(name, ignored);
+}
 
 AtomicFile::AtomicFile(const fs::path& file)
     : file_(file), target_(resolveTarget(file)), temporary_(temporaryNameFor(target_)) {
+  addTemporaryFile(temporary_);
   errno = 0;
   stream_.open(temporary_, std::ios::binary | std::ios::trunc);
-  if (!stream_) failFile(file_, "cannot be created: " + systemReason(errno));
+  if (stream_) return;
+  const int reason = errno;
+  forgetTemporaryFile(temporary_);
+  failFile(file_, "cannot be created: " + systemReason(reason));
 }
 
 AtomicFile::~AtomicFile() {
@@ -71,6 +104,7 @@ AtomicFile::~AtomicFile() {
   stream_.close();
   std::error_code ignored;
   fs::remove(temporary_, ignored);
+  forgetTemporaryFile(temporary_);
 }
 
 void AtomicFile::commit() {
@@ -82,6 +116,7 @@ void AtomicFile::commit() {
   fs::rename(temporary_, target_, error);
   if (error) failFile(file_, "cannot be written: " + error.message());
   committed_ = true;
+  forgetTemporaryFile(temporary_);
 }
 
 void writeTextFile(const fs::path& file, std::string_view text) {

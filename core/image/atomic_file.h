@@ -27,6 +27,13 @@ class AtomicFile {
   bool committed_ = false;
 };
 
+// Keeps the names of files that are to be gone with the process, as an AtomicFile's temporary
+// neighbour is. From any thread.
+void addTemporaryFile(const std::filesystem::path& file);
+void forgetTemporaryFile(const std::filesystem::path& file);
+// Removes them, for a process that ends at once: whoever adds another one waits for the end.
+void removeTemporaryFiles();
+
 // The whole of `text` into `file`.
 void writeTextFile(const std::filesystem::path& file, std::string_view text);
 

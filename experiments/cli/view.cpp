@@ -25,6 +25,7 @@
 #include "experiments/runner/run/print.h"
 #include "experiments/runner/suite/backend_choice.h"
 #include "experiments/view/capture.h"
+#include "experiments/view/prompt_end.h"
 #include "experiments/view/redirect_file.h"
 #include "experiments/view/view_loop.h"
 #include "experiments/view/view_page.h"
@@ -40,6 +41,8 @@ constexpr const char* kDefaultScene = "door-ajar";
 // Of an image whose size nobody says, or as many pixels in the camera's aspect ratio. Two cores
 // then render both panes several times a second.
 constexpr uint32_t kWidth = 320, kHeight = 180;
+
+constexpr const char* kInterrupted = "interrupted: the viewer ends";
 
 constexpr uint64_t kMostFrames = 1u << 30;
 
@@ -207,6 +210,9 @@ ExitCode view(const CLI::App& verb, ViewOptions options) {
     checkOutputs({{"--capture", options.capture, ".png"}}, options.scene.request);
     checkWritable(options.capture);
   }
+  // Outlives what may take long to make, to use or to take down.
+  std::optional<PromptEnd> end;
+  if (options.capture.empty()) end.emplace(verbosity() < 0 ? "" : kInterrupted);
   const ViewStart start = startOf(verb, options);
   if (start.prepared.scene) printWarnings(start.prepared);
   if (!options.capture.empty()) {
@@ -231,6 +237,7 @@ ExitCode view(const CLI::App& verb, ViewOptions options) {
     loop.run();
   } catch (const Error& error) {
     if (error.code() != ExitCode::interrupted) throw;
+    end->setSaid();
     logInfo(error.what());  // how everyone ends the viewer
     return ExitCode::interrupted;
   }

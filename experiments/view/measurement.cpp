@@ -9,9 +9,11 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <thread>
 #include <utility>
 
 #include "core/error.h"
@@ -24,7 +26,11 @@ namespace {
 
 using Json = nlohmann::json;
 
+using Clock = std::chrono::steady_clock;
+
 constexpr size_t kMostLine = 1 << 20;
+// For what is to be kept of the run; the viewer's own end waits for it (prompt_end.h).
+constexpr std::chrono::milliseconds kPatience{400};
 
 // Between fork() and exec(): calls that are safe there, and no others. What fails is written to
 // `failure`.
@@ -63,11 +69,19 @@ struct Pipe {
 
 }  // namespace
 
+// A program that does not end by the first signal, as a driver compiles a kernel, does by the
+// second, which has its default effect (experiments/runner/run/interrupt.h).
 Measurement::~Measurement() {
   if (!isRunning()) return;
   kill(-child_, SIGINT);  // with what it has started
   int status = 0;
-  while (waitpid(child_, &status, 0) < 0 && errno == EINTR) {
+  pid_t ended = 0;
+  for (const auto start = Clock::now(); ended == 0 && Clock::now() - start < kPatience;) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    ended = waitpid(child_, &status, WNOHANG);
+  }
+  if (ended == 0) kill(-child_, SIGINT);
+  while (ended <= 0 && (ended = waitpid(child_, &status, 0)) < 0 && errno == EINTR) {
   }
   close(pipe_);
 }

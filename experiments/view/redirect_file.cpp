@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "core/error.h"
+#include "core/image/atomic_file.h"
 #include "experiments/report/text.h"
 
 namespace restlab {
@@ -34,6 +35,7 @@ RedirectFile::RedirectFile(const std::string& url) {
   const int file = mkstemps(name.data(), int(std::strlen(kExtension)));
   if (file < 0) failInput(fmt::format("{}: cannot be written: {}", name, std::strerror(errno)));
   path_ = name;
+  addTemporaryFile(path_);
   const std::string page = fmt::format(
       "<!doctype html>\n<meta charset=\"utf-8\">\n<meta http-equiv=\"refresh\" "
       "content=\"0;url={0}\">\n<title>restlab view</title>\n<a href=\"{0}\">restlab view</a>\n",
@@ -42,6 +44,7 @@ RedirectFile::RedirectFile(const std::string& url) {
   if (close(file) != 0 || !isWritten) {
     std::error_code ignored;
     fs::remove(path_, ignored);
+    forgetTemporaryFile(path_);
     failInput(fmt::format("{}: cannot be written", name));
   }
 }
@@ -49,6 +52,7 @@ RedirectFile::RedirectFile(const std::string& url) {
 RedirectFile::~RedirectFile() {
   std::error_code ignored;
   std::filesystem::remove(path_, ignored);
+  forgetTemporaryFile(path_);
 }
 
 }  // namespace restlab

@@ -156,6 +156,20 @@ TEST_F(MeasureTest, EndsWithAViewerThatIsKilled) {
   EXPECT_FALSE(isRunning());
 }
 
+// Stands for a run whose driver compiles a kernel.
+TEST_F(MeasureTest, EndsByTheSecondSignalWhereTheFirstOneIsNotHeard) {
+  const fs::path run = program(
+      "trap 'trap - INT' INT\necho $$ > child.new\nmv child.new child\n"
+      "while :; do sleep 100; done");
+  {
+    Measurement measurement;
+    measurement.begin(run, folder(), "suite.toml", "out");
+    while (!fs::exists(folder() / "child"))
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  EXPECT_NE(kill(pid_t(std::stoi(textOf("child"))), 0), 0) << "its run goes on";
+}
+
 TEST_F(MeasureTest, SaysWhyItFailed) {
   facts_.program =
       program("echo '{\"event\":\"error\",\"text\":\"no memory for that\"}' >&2\nexit 3");
