@@ -191,7 +191,16 @@ TEST_F(CompareTest, AnotherWindowIsExitCode3) {
   writeExr(path("wide.exr"), shifted);
   const ProgramResult wide = run("compare --ref shifted.exr wide.exr");
   EXPECT_EQ(wide.code, 0);
-  EXPECT_NE(wide.err.find("wide.exr: its pixelAspectRatio is 2"), std::string::npos) << wide.err;
+  EXPECT_NE(wide.err.find("wide.exr: its pixelAspectRatio is 2:"), std::string::npos) << wide.err;
+  // Pixels of 8x8 stand where they are; the last one of 1.0625 would be half a pixel off.
+  for (const auto& [ratio, text] :
+       {std::pair(1.0000001f, ""), {0.9375f + 1e-6f, ""}, {1.0625f, "is 1.0625:"}}) {
+    shifted.frame.pixelAspectRatio = ratio;
+    writeExr(path("near.exr"), shifted);
+    const std::string said = run("compare --ref shifted.exr near.exr").err;
+    EXPECT_EQ(said.find("pixelAspectRatio") == std::string::npos, *text == 0) << said;
+    EXPECT_NE(said.find(text), std::string::npos) << said;
+  }
 }
 
 TEST_F(CompareTest, OtherSizeIsExitCode3) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <mutex>
 
 #include "core/error.h"
@@ -18,6 +20,14 @@ void warnOnce(const std::string& line) {
   if (said.insert(line).second) logWarning(line);
 }
 
+// A ratio that moves no pixel by half a pixel is rounding.
+bool arePixelsSquare(const LayeredImage& image) {
+  size_t side = 1;
+  for (const auto& [name, layer] : image.layers)
+    side = std::max({side, size_t(layer.width), size_t(layer.height)});
+  return std::abs(double(image.frame.pixelAspectRatio) - 1.0) * double(side) < 0.5;
+}
+
 }  // namespace
 
 LayeredImage readColours(const std::filesystem::path& file, const std::set<std::string>& others) {
@@ -32,10 +42,9 @@ LayeredImage readColours(const std::filesystem::path& file, const std::set<std::
 
 void sayNotes(const std::filesystem::path& file, const LayeredImage& image) {
   for (const std::string& note : image.notes) warnOnce(note);
-  if (image.frame.pixelAspectRatio == 1.0f) return;
-  warnOnce(
-      fmt::format("{}: its pixelAspectRatio is {:.4g}: pixels are taken one by one, as squares",
-                  file.string(), image.frame.pixelAspectRatio));
+  if (arePixelsSquare(image)) return;
+  warnOnce(fmt::format("{}: its pixelAspectRatio is {}: pixels are taken one by one, as squares",
+                       file.string(), image.frame.pixelAspectRatio));
 }
 
 void requireSameWindow(const std::string& what, const PixelWindow& window, const std::string& other,
