@@ -1,6 +1,8 @@
 // Tables of rows with known numbers: what headings, columns and notes say.
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "experiments/runner/summary/report.h"
 #include "experiments/runner/summary/report_document.h"
 #include "tests/runner/summary_fixture.h"
@@ -24,6 +26,21 @@ TEST_F(TableTest, TheBaselineIsNamed) {
   const std::string document = blockDocument(suite_, rows, 1.0f).dump();
   EXPECT_NE(document.find("MSE of gi / MSE"), std::string::npos) << document;
   EXPECT_EQ(document.find("MSE of path"), std::string::npos) << document;
+}
+
+// Letters of any script in a scene's name: the report takes the block, and tells it from others.
+TEST_F(TableTest, IdsOfBlocksArePlainAndDiffer) {
+  std::set<std::string> ids;
+  for (const char* scene : {"Zimmer \u00fc", "Zimmer \u00f6", "Zimmer _", "\u65e5\u672c"}) {
+    block_.scene = scene;
+    const auto document = blockDocument(suite_, summarise(suite_, block_), 1.0f);
+    const std::string id = document.at("id");
+    EXPECT_EQ(id.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
+                                   "0123456789._-"),
+              std::string::npos)
+        << id;
+    EXPECT_TRUE(ids.insert(id).second) << id;
+  }
 }
 
 // Without times and with nothing to compare with there is nothing to say.

@@ -366,7 +366,7 @@ Json blockDocument(const Suite& suite, const std::vector<MethodSummary>& rows, f
   const BlockResult& block = *rows.front().block;
   const std::string label = blockLabel(suite, block);
   Json document = {
-      {"id", label},
+      {"id", plainId(label)},
       {"title", fmt::format("{}, {} light{}", block.scene, componentName(block.component),
                             suite.point.empty() ? "" : ", " + suite.point)},
       {"subtitle",
