@@ -21,11 +21,17 @@ TEST_F(TableTest, TheBaselineIsNamed) {
   EXPECT_NE(table.find("| time per frame (x times that of gi) | MSE | than gi | energy |"),
             std::string::npos)
       << table;
+  EXPECT_NE(table.find("| method | efficiency (against gi) |"), std::string::npos) << table;
+  EXPECT_NE(table.find("| method | MSE without lights in view (than gi) | relMSE without the worst "
+                       "0.1 % (than gi) |"),
+            std::string::npos)
+      << table;
   EXPECT_NE(blockTex(suite_, rows).find("time and lower against gi; "), std::string::npos);
   EXPECT_NE(summaryCsv(suite_, rows).find("baseline"), std::string::npos);
   const std::string document = blockDocument(suite_, rows, 1.0f).dump();
   EXPECT_NE(document.find("MSE of gi / MSE"), std::string::npos) << document;
   EXPECT_EQ(document.find("MSE of path"), std::string::npos) << document;
+  EXPECT_NE(document.find("efficiency against gi"), std::string::npos) << document;
 }
 
 // Letters of any script in a scene's name: the report takes the block, and tells it from others.

@@ -61,7 +61,7 @@ const std::vector<Column>& columns() {
   static const std::vector<Column> all = {
       {"time_ms", "time per frame", "ms", "lower", "median over timed frames: passes, nothing else",
        [](const MethodSummary& row) { return only(row.timeMsMedian); }},
-      {"time_ratio", "time ratio", "", "lower",
+      {"time_ratio", "time / time of {0}", "", "lower",
        "geometric mean over runs of the median over frames of time / time of the frame of {0} "
        "beside it; the ratio of two medians may differ where the machine was disturbed",
        [](const MethodSummary& row) { return row.timeRatio; }},
@@ -71,7 +71,8 @@ const std::vector<Column>& columns() {
        [](const MethodSummary& row) { return row.mseRatio; }},
       {"average_ratio", "MSE of {1} / MSE", "", "higher", "above 1: a lower MSE than {1}",
        [](const MethodSummary& row) { return row.ratioToAverage; }},
-      {"efficiency", "efficiency", "", "higher", "MSE ratio / time ratio",
+      {"efficiency", "efficiency against {0}", "", "higher",
+       "MSE of {0} / MSE, divided by the time ratio to {0}",
        [](const MethodSummary& row) { return row.efficiencyRatio; }},
       {"energy", "energy", "", "none", "mean(image) / mean(reference); its ideal is 1",
        [](const MethodSummary& row) { return row.energyRatio; }},
@@ -91,7 +92,7 @@ const std::vector<Column>& columns() {
        [](const MethodSummary& row) { return row.relmseTrimmed; }},
       {"slope", "slope", "", "lower", "of log(MSE) over log(time) while frames accumulate",
        slopeOf},
-      {"equal_time", "the same at equal time", "", "higher",
+      {"equal_time", "MSE of {0} / MSE at equal time", "", "higher",
        "MSE of {0} / MSE off the fitted lines, where both have taken the same time", equalTimeOf,
        [](const MethodSummary& row) {
          return row.speedUp ? fmt::format("at {} ms", shortNumber(row.speedUp->equalTime.at)) : "";

@@ -223,17 +223,21 @@ std::string errorTable(const std::vector<MethodSummary>& rows, const Names& name
 }
 
 // What makes up the error, and what it took.
-std::string detailsTable(const std::vector<MethodSummary>& rows) {
+std::string detailsTable(const std::vector<MethodSummary>& rows, const Names& names) {
   const std::string backends = backendColumn(*rows.front().suite, rows);
-  MarkdownTable table({"method", "efficiency", "bias^2/MSE", "variance", "worst 0.1 %", "rays/px",
-                       backends.empty() ? "time" : backends});
+  const auto named = [&](const char* what, const char* word) {
+    return names.yardstick.empty() ? what : fmt::format("{} ({} {})", what, word, names.yardstick);
+  };
+  MarkdownTable table({"method", named("efficiency", "against"), "bias^2/MSE", "variance",
+                       "worst 0.1 %", "rays/px", backends.empty() ? "time" : backends});
   for (const MethodSummary& row : rows) {
     table.add({markedName(row), efficiencyCell(row), biasCell(row),
                std::isnan(row.variance.value) ? "unknown" : withEnds(row.variance),
                fmt::format("{:.0f} %", 100.0 * row.worstShare), raysCell(row),
                backendCell(row, backends)});
   }
-  MarkdownTable further({"method", "MSE without lights in view", "relMSE without the worst 0.1 %"});
+  MarkdownTable further({"method", named("MSE without lights in view", "than"),
+                         named("relMSE without the worst 0.1 %", "than")});
   for (const MethodSummary& row : rows)
     further.add({markedName(row), withoutLightsCell(row), trimmedCell(row)});
   return "\n" + table.text() + "\n" + further.text();
@@ -297,7 +301,7 @@ std::string blockTable(const Suite& suite, const std::vector<MethodSummary>& row
   }
   notes += disturbedNote(rows);
   notes += rowNotes(rows);
-  text += detailsTable(rows);
+  text += detailsTable(rows, names);
   text += agesTable(rows, names.yardstick, [](const AgeSummary& age) { return age.mseRatio; });
   text += agesTable(rows, names.average, [](const AgeSummary& age) { return age.ratioToAverage; });
   text += figuresTable(rows);
