@@ -34,6 +34,16 @@ TEST_F(TableTest, TheBaselineIsNamed) {
   EXPECT_NE(document.find("efficiency against gi"), std::string::npos) << document;
 }
 
+// No file of text holds what commands a terminal.
+TEST_F(TableTest, NamesCommandNoTerminal) {
+  suite_.methods[1].name = "g\x1b[31mi\x07\xc2\x9bm\nx";
+  const auto rows = summarise(suite_, block_);
+  for (const std::string& text : {blockTex(suite_, rows), summaryCsv(suite_, rows)}) {
+    EXPECT_EQ(text.find_first_of("\x1b\x07\x9b"), std::string::npos) << text;
+    EXPECT_NE(text.find("g [31mi  m x"), std::string::npos) << text;
+  }
+}
+
 // Letters of any script in a scene's name: the report takes the block, and tells it from others.
 TEST_F(TableTest, IdsOfBlocksArePlainAndDiffer) {
   std::set<std::string> ids;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
 #include "core/image/metrics.h"
 #include "experiments/report/text.h"
 #include "experiments/runner/summary/figures.h"
@@ -15,7 +16,7 @@ namespace {
 
 std::string escaped(const std::string& text) {
   std::string out;
-  for (const char c : text) {
+  for (const char c : oneLine(text)) {
     switch (c) {
       case '\\':
         out += "\\textbackslash{}";
