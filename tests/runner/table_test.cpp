@@ -1,6 +1,7 @@
 // Tables of rows with known numbers: what headings, columns and notes say.
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <set>
 
 #include "experiments/runner/summary/report.h"
@@ -32,6 +33,24 @@ TEST_F(TableTest, TheBaselineIsNamed) {
   EXPECT_NE(document.find("MSE of gi / MSE"), std::string::npos) << document;
   EXPECT_EQ(document.find("MSE of path"), std::string::npos) << document;
   EXPECT_NE(document.find("efficiency against gi"), std::string::npos) << document;
+}
+
+// A ratio whose interval reaches 0 is unbounded there, in the same word everywhere.
+TEST_F(TableTest, RatiosThatReachZeroAreUnbounded) {
+  for (MethodResult& method : block_.methods) method.runs.resize(2);
+  block_.methods[1].runs[0].measured.mse = 0.02;
+  block_.methods[1].runs[1].measured.mse = 0.16;
+  const auto rows = summarise(suite_, block_);
+  const Interval& ratio = rows[1].mseRatio;
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_GT(ratio.value, 0.0);
+  EXPECT_TRUE(ratio.lo > 0.0 || ratio.lo == -infinity) << ratio.lo;
+  EXPECT_LT(rows[1].mse.lo, 0.0) << "two runs say little";
+  for (const std::string& text : {blockTable(suite_, rows), blockTex(suite_, rows)}) {
+    EXPECT_NE(text.find("[unbounded"), std::string::npos) << text;
+    EXPECT_EQ(text.find("x lower [0, "), std::string::npos) << text;
+    EXPECT_EQ(text.find("0.0900 [-"), std::string::npos) << text;
+  }
 }
 
 // No file of text holds what commands a terminal.
