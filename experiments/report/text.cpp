@@ -105,6 +105,13 @@ std::string shortNumber(double value, int digits) {
   return text;
 }
 
+std::pair<std::string, std::string> apartNumbers(double a, double b, int digits) {
+  constexpr int kAllDigits = 17;
+  while (digits < kAllDigits && a != b && shortNumber(a, digits) == shortNumber(b, digits))
+    ++digits;
+  return {shortNumber(a, digits), shortNumber(b, digits)};
+}
+
 std::string intervalText(double lo, double hi, int digits) {
   if (std::isnan(lo) || std::isnan(hi)) return "";
   const bool isOpen = std::isinf(lo), isOpenAbove = std::isinf(hi);

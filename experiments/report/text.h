@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace restlab {
 
@@ -21,6 +22,10 @@ std::string scriptJson(const nlohmann::ordered_json& json);
 // "inf", "-inf".
 constexpr int kDigits = 3;
 std::string shortNumber(double value, int digits = kDigits);
+
+// Both numbers with as few digits as tell them apart, at least `digits`; with all where they are
+// the same.
+std::pair<std::string, std::string> apartNumbers(double a, double b, int digits = kDigits);
 
 // " [lo, hi]"; "unbounded" in the place of an end that is infinite, and once where both are; ""
 // where an end is unknown.

@@ -70,6 +70,10 @@ TEST(Numbers, AreShort) {
     EXPECT_EQ(timesText(0.25, end, 0.5, "lower", "higher"), "4x higher [2, unbounded]");
   }
   EXPECT_EQ(timesText(0.25, 0.125, inf, "lower", "higher"), "4x higher [unbounded, 8]");
+  EXPECT_EQ(apartNumbers(0.1, 0.2), std::pair(std::string("0.100"), std::string("0.200")));
+  EXPECT_EQ(apartNumbers(0.10004, 0.1, 2),
+            std::pair(std::string("0.10004"), std::string("0.10000")));
+  EXPECT_EQ(apartNumbers(0.1, 0.1, 2), std::pair(std::string("0.10"), std::string("0.10")));
   EXPECT_EQ(timesText(0.0026, -inf, inf, "lower", "higher"), "385x higher [unbounded]");
   EXPECT_EQ(timesText(-0.25, nan, nan, "lower", "higher"), "not known");
   EXPECT_EQ(groupedDigits(0), "0");
