@@ -130,8 +130,8 @@ Interval pairedRatioInterval(std::span<const double> numerator, std::span<const 
 }
 
 Interval ratioOfPositives(const Interval& ratio) {
-  const auto end = [](double of) { return std::isfinite(of) ? std::max(of, 0.0) : of; };
-  return {ratio.value, end(ratio.lo), end(ratio.hi)};
+  return {ratio.value, ratio.lo <= 0.0 ? -kInfinity : ratio.lo,
+          ratio.hi <= 0.0 ? kInfinity : ratio.hi};
 }
 
 Interval geometricMeanInterval(std::span<const double> runs, double confidence) {

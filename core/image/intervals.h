@@ -43,8 +43,8 @@ Interval ratioInterval(std::span<const double> numerator, std::span<const double
 Interval pairedRatioInterval(std::span<const double> numerator, std::span<const double> denominator,
                              const SharedNoise& shared = {}, double confidence = 0.95);
 
-// The interval of a ratio of numbers that cannot be negative, errors above all: an end that noise
-// puts below 0 is 0. -inf stays, as it says that there is no bound.
+// The interval of a ratio of numbers that cannot be negative, errors above all. A lower end that is
+// not above 0 says that there is no bound: it is -inf. An upper end that is not above 0 is +inf.
 Interval ratioOfPositives(const Interval& ratio);
 
 // For positive numbers with a ratio scale, times above all: the geometric mean exp(mean(log)),

@@ -107,6 +107,10 @@ glm::dvec3 pointLookedAt(const Scene& scene, const SceneCamera& camera);
 // has asked for before.
 CameraPath parseCameraPath(const ConfigTable& table);
 
+// The value of the key `camera`, which is there: a name, or an index as a number or a string.
+// Throws Error (badUsage) where it is empty or neither.
+std::string readCameraName(const ConfigTable& table);
+
 // The frame from which on the view stands still: 0, or that of the cut; nothing where it keeps
 // moving.
 std::optional<uint32_t> firstStillFrame(const CameraPath& path);

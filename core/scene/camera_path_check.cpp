@@ -21,10 +21,15 @@ constexpr uint32_t kMostSteps = 16, kMostViews = 8;
 constexpr double kMostTests = 2e8;
 // Rays of a view on a side, for what fills it and for what is near.
 constexpr int kViewSide = 5;
+// Of a step: relative to coordinates and to the edges of a triangle.
+constexpr double kBeginSlack = 1e-12, kEdgeSlack = 1e-9;
 
 struct Ray {
   glm::dvec3 originW, dirW;
   double length = kNone;  // in lengths of dirW
+  // Above 0 of a step: what rounding leaves open of its begin, in lengths of dirW. A face there
+  // counts where the step enters it from the front.
+  double slack = 0.0;
   // The first hit: where, of which instance, from behind, and the unit normal.
   double t = kNone;
   size_t instance = 0;
@@ -42,15 +47,20 @@ void meet(const Triangle& triangle, size_t instance, bool isFlipped, Ray& ray) {
   if (determinant == 0.0) return;
   const glm::dvec3 offset = ray.originW - triangle.a;
   const double u = glm::dot(offset, across) / determinant;
-  if (!(u >= 0.0 && u <= 1.0)) return;
+  // A step through the middle of a box meets the edge that two triangles share.
+  const double edge = ray.slack > 0.0 ? kEdgeSlack : 0.0;
+  if (!(u >= -edge && u <= 1.0 + edge)) return;
   const glm::dvec3 turned = glm::cross(offset, triangle.edge1);
   const double v = glm::dot(ray.dirW, turned) / determinant;
-  if (!(v >= 0.0 && u + v <= 1.0)) return;
+  if (!(v >= -edge && u + v <= 1.0 + edge)) return;
   const double t = glm::dot(triangle.edge2, turned) / determinant;
-  if (!(t > 0.0 && t <= ray.length && t < ray.t)) return;
+  const bool isBehind = (determinant < 0.0) != isFlipped;
+  const bool isAtBegin = std::abs(t) <= ray.slack;
+  if (isAtBegin ? isBehind : !(t > 0.0)) return;
+  if (!(t <= ray.length && t < ray.t)) return;
   ray.t = t;
   ray.instance = instance;
-  ray.isBehind = (determinant < 0.0) != isFlipped;
+  ray.isBehind = isBehind;
   ray.normalW = glm::normalize(glm::cross(triangle.edge1, triangle.edge2));
 }
 
@@ -209,6 +219,7 @@ std::vector<std::string> cameraPathWarnings(const Scene& scene, const CameraMoti
     ray.dirW = positionOf(cameraAt(motion, steps[i + 1])) - ray.originW;
     ray.length = 1.0;
     if (ray.dirW == glm::dvec3(0.0)) continue;
+    ray.slack = kBeginSlack * (1.0 + glm::length(ray.originW) / glm::length(ray.dirW));
     rays.push_back(ray);
     stepOf.push_back(i);
   }

@@ -46,8 +46,7 @@ void readCut(const ConfigTable& table, CameraPath& path) {
   if (toCamera && table.has("target")) {
     table.fail("target", "a cut to another camera has no 'target'");
   }
-  path.cutCamera = table.getString("camera", "");
-  if (toCamera && path.cutCamera.empty()) table.fail("camera", "'camera' is empty");
+  if (toCamera) path.cutCamera = readCameraName(table);
   path.cutDegrees = table.getNumber("degrees", 0.0, -360.0, 360.0);
 }
 
@@ -61,8 +60,7 @@ CameraKeyframe readKeyframe(const ConfigTable& table) {
                "a keyframe needs either 'camera' or 'position' and 'target', and not both");
   }
   if (ofCamera) {
-    key.camera = table.getString("camera", "");
-    if (key.camera.empty()) table.fail("camera", "'camera' is empty");
+    key.camera = readCameraName(table);
   } else {
     for (const char* point : {"position", "target"}) {
       require(table, "a keyframe without 'camera'", point);
@@ -78,6 +76,16 @@ CameraKeyframe readKeyframe(const ConfigTable& table) {
 }
 
 }  // namespace
+
+std::string readCameraName(const ConfigTable& table) {
+  const std::vector<std::string> texts = table.getTexts("camera");
+  const bool isIndex = texts.size() == 1 && !texts[0].empty() &&
+                       texts[0].find_first_not_of("0123456789") == std::string::npos;
+  if (isIndex) return texts[0];
+  std::string name = table.getString("camera", "");
+  if (name.empty()) table.fail("camera", "'camera' is empty");
+  return name;
+}
 
 CameraPath parseCameraPath(const ConfigTable& table) {
   CameraPath path;

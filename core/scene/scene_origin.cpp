@@ -132,9 +132,19 @@ std::vector<std::string> farFromOrigin(const Scene& scene, const SceneOrigin& or
                     scene.name, name, mostDistance, camera, mostRounding, most,
                     count > 1 ? fmt::format(" (and {} more objects)", count - 1) : ""));
   }
-  for (const SceneCamera& other : scene.cameras) {
+  for (size_t i = 0; i < scene.cameras.size(); ++i) {
+    const SceneCamera& other = scene.cameras[i];
     const double distance = largest(glm::dvec3(other.cameraToWorld[3]) - origin.originW);
     if (distance <= kHarmlessReach * origin.viewSize) continue;
+    if (i == scene.mainCamera) {
+      // A narrow view from afar: its own place is what float32 rounds.
+      if (!(spacing(distance) > kVisible * origin.viewSize)) continue;
+      lines.push_back(fmt::format(
+          "{}: camera '{}' stands {:.2g} m from what it sees, {:.2g} m of it: float32 rounds its "
+          "place to {:.2g} m; move it nearer",
+          scene.name, other.name, distance, origin.viewSize, spacing(distance)));
+      break;
+    }
     lines.push_back(fmt::format(
         "{}: camera '{}' stands {:.2g} m from what camera '{}' sees, whose numbers hold best: "
         "float32 rounds points there to {:.2g} m; render it by --camera",

@@ -277,6 +277,35 @@ void countNonfiniteSamples(Certificate& c, uint64_t samples) {
       fmt::format("{} of its runs were not finite{}", counted(samples, "sample value"), also);
 }
 
+stats::Quantity leastTestable(const stats::BiasReport& report, const stats::BlockGrid& grid) {
+  stats::Quantity least = quantities().front();
+  uint64_t most = 0;
+  for (const stats::Quantity quantity : quantities()) {
+    uint64_t pixels = 0;
+    for (const stats::CellVerdict& v : report.cells) {
+      const bool isOpen = !v.wholeImage && !v.testable && !v.equal;
+      if (v.quantity == quantity && isOpen) pixels += stats::pixelCount(grid, v.area);
+    }
+    if (pixels <= most) continue;
+    most = pixels;
+    least = quantity;
+  }
+  return least;
+}
+
+std::string testedAsAWhole(const Certificate& certificate, const stats::BlockGrid& grid) {
+  std::string names;
+  for (const ImageBias& b : certificate.image) {
+    const bool isTested =
+        std::any_of(certificate.cells.cells.begin(), certificate.cells.cells.end(),
+                    [&](const stats::CellVerdict& v) {
+                      return v.quantity == b.quantity && v.area.size == grid.side && v.testable;
+                    });
+    if (isTested) names += (names.empty() ? "" : ", ") + std::string(quantityName(b.quantity));
+  }
+  return names;
+}
+
 std::string placeOf(const stats::CellVerdict& cell, const stats::BlockGrid& grid) {
   if (cell.wholeImage || cell.area.size == grid.side) return "the whole image";
   return fmt::format("the cell of blocks x {} y {} size {}", cell.area.x, cell.area.y,

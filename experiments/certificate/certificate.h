@@ -64,6 +64,10 @@ struct ImageBias {
   bool isEquivalent = false;  // the interval lies within the margin
 };
 
+// The rare events (see rareEvents) of a mean that is nearly normal and has an interval, at least.
+constexpr double kRareEventsOfInterval =
+    1.0 / (stats::BiasOptions().maxSkewness * stats::BiasOptions().maxSkewness);
+
 enum class Verdict { equivalent, biased, notDecided };
 const char* verdictName(Verdict verdict);  // "equivalent", "biased", "not decided"
 
@@ -110,6 +114,13 @@ bool rejects(const stats::RunSet& runs, const stats::Truth& truth, const Rules& 
 // and the spread is that of `pilot`; at least kRunsForCells. NaN where the reference's own
 // error alone is too large.
 double runsForEquivalence(const Evidence& pilot, const stats::Truth& truth, const Rules& rules);
+
+// The quantity of which most of the image lies in cells that cannot be tested; luminance where all
+// of it can.
+stats::Quantity leastTestable(const stats::BiasReport& report, const stats::BlockGrid& grid);
+
+// Quantities of which the image as a whole is tested, "red, green"; "" of none.
+std::string testedAsAWhole(const Certificate& certificate, const stats::BlockGrid& grid);
 
 // "the cell of blocks x 6 y 5 size 1", "the whole image".
 std::string placeOf(const stats::CellVerdict& cell, const stats::BlockGrid& grid);

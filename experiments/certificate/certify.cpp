@@ -110,12 +110,10 @@ uint64_t plannedRuns(RunFolder& folder, const Question& question, const stats::T
 // wanted is a line.
 uint64_t withinTime(uint64_t runs, double runS, const Options& options) {
   if (!options.limit.isSet() || runS <= 0.0) return runs;
-  const uint64_t allowed = std::max(uint64_t(0.5 * options.limit.leftS() / runS), kFewestRuns);
+  const double leftS = options.limit.leftS();
+  const uint64_t allowed = std::max(uint64_t(0.5 * leftS / runS), kFewestRuns);
   if (allowed >= runs) return runs;
-  logWarning(
-      fmt::format("{} runs instead of {}: --time-limit leaves {:.0f} s, half of them for a "
-                  "fresh batch",
-                  allowed, runs, options.limit.leftS()));
+  logWarning(timeLimitText(allowed, runs, leftS, runS));
   return allowed;
 }
 
@@ -140,15 +138,17 @@ void addNotes(Certified& c, const DenoiserInfo* denoiser) {
   const Certificate& certificate = c.certificate;
   const std::string outside = denoiser ? whyOutsideRange(*denoiser, c.reference.mean) : "";
   if (!outside.empty()) c.notes.push_back(outside);
-  if (certificate.cells.untestableShare > 0.0) {
-    c.notes.push_back(fmt::format(
-        "{:.1f} % of the image lies in cells that are too skewed for a t-test, merged ones too: "
-        "nothing is said of a cell there{}",
-        100.0 * certificate.cells.untestableShare,
-        !std::isnan(certificate.cells.detectableBiasWhole) ? "; the image as a whole is tested"
-                                                           : ""));
-  }
   const stats::BlockGrid grid(c.mean.width, c.mean.height);
+  if (certificate.cells.untestableShare > 0.0) {
+    const std::string whole = testedAsAWhole(certificate, grid);
+    c.notes.push_back(
+        fmt::format("{:.1f} % of the image lies in cells that are too skewed for a t-test in {}, "
+                    "merged ones too: "
+                    "nothing is said of a cell there{}",
+                    100.0 * certificate.cells.untestableShare,
+                    stats::quantityName(leastTestable(certificate.cells, grid)),
+                    whole.empty() ? "" : "; the image as a whole is tested in " + whole));
+  }
   const bool isOneCell =
       grid.side > 1 && std::none_of(certificate.cells.cells.begin(), certificate.cells.cells.end(),
                                     [&](const stats::CellVerdict& v) {
@@ -203,6 +203,20 @@ double TimeLimit::leftS() const {
   if (!isSet()) return std::numeric_limits<double>::infinity();
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
   return std::max(seconds - spent.count(), 0.0);
+}
+
+std::string timeLimitText(uint64_t allowed, uint64_t wanted, double leftS, double runS) {
+  const std::string left =
+      leftS < 0.5 ? "is used up" : fmt::format("leaves {} s", shortNumber(leftS, 2));
+  const double neededS = 2.0 * double(allowed) * runS;
+  if (neededS <= leftS) {
+    return fmt::format("{} runs instead of {}: --time-limit {}, half of them for a fresh batch",
+                       allowed, wanted, left);
+  }
+  return fmt::format(
+      "{} runs, the fewest that say anything, instead of {}: --time-limit {}; with a fresh batch "
+      "they take about {} s",
+      allowed, wanted, left, shortNumber(neededS, 2));
 }
 
 std::string labelOf(const Question& question) {

@@ -53,6 +53,10 @@ struct Certified {
   double referenceError = 0.0;     // relative standard error of its mean, the largest quantity
 };
 
+// Why `allowed` runs are made and not `wanted`: `leftS` seconds of --time-limit are left, and a run
+// takes `runS`.
+std::string timeLimitText(uint64_t allowed, uint64_t wanted, double leftS, double runS);
+
 // Scene, method and its parameters as part of a file name.
 std::string labelOf(const Question& question);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "core/control_characters.h"
 #include "core/image/atomic_file.h"
 #include "experiments/report/report_html.h"
 #include "experiments/runner/run/build_info.h"
@@ -127,14 +128,16 @@ Json intervalCell(const Interval& i) {
           {"ranked", false}};
 }
 
+Interval only(double value) { return {value, std::nan(""), std::nan("")}; }
+
 Json blockOf(size_t index, const Certified& certified) {
   const Certificate& c = certified.certificate;
   Json rows = Json::array();
   for (const ImageBias& b : c.image) {
     rows.push_back({{"method", stats::quantityName(b.quantity)},
                     {"cells",
-                     {{"bias", intervalCell(b.bias)},
-                      {"detectable", intervalCell({b.detectable, std::nan(""), std::nan("")})}}}});
+                     {{"bias", intervalCell(b.isNormal ? b.bias : only(b.bias.value))},
+                      {"detectable", intervalCell(only(b.detectable))}}}});
   }
   const std::string replay = certified.replay.empty() ? "" : " A pixel: " + certified.replay;
   return {
@@ -176,7 +179,7 @@ Json blockOf(size_t index, const Certified& certified) {
 }  // namespace
 
 void writeTable(const fs::path& folder, const std::string& table) {
-  writeTextFile(folder / "certificates.md", table);
+  writeTextFile(folder / "certificates.md", withoutControls(table, true));
 }
 
 void writeOutputs(const fs::path& folder, const std::vector<Certified>& all,
@@ -192,7 +195,9 @@ void writeOutputs(const fs::path& folder, const std::vector<Certified>& all,
   }
   writeTextFile(
       folder / "certificates.json",
-      Json({{"schema", 1}, {"command", command}, {"certificates", certificates}}).dump(2) + "\n");
+      jsonWithoutControls(
+          Json({{"schema", 1}, {"command", command}, {"certificates", certificates}}).dump(2)) +
+          "\n");
   writeTable(folder, table);
   Json provenance = Json::array();
   for (const auto& [key, value] : provenanceWords()) provenance.push_back({key, value});

@@ -32,25 +32,18 @@ std::string duration(double seconds) {
 
 std::string percent(double share) { return shortNumber(100.0 * share, 2) + " %"; }
 
-// Error and samples that there are, and those that are wanted, in words.
-std::string searchText(double error, uint64_t spp, double timeS, const Options& options) {
-  const double wanted = wantedReferenceError(options);
-  const double all = sppForError(error, double(spp), wanted);
-  const double left = std::max(all - double(spp), 0.0) * timeS / double(spp);
-  return fmt::format(
-      "its error is {} after {} spp; wanted is {}, a fifth of the margin: about {} spp, {} "
-      "more",  //
-      percent(error), groupedDigits(spp), percent(wanted),
-      groupedDigits(uint64_t(std::min(all, 1e18))), duration(left));
+// Error and what is wanted, without the sign: never the same text for two numbers.
+std::pair<std::string, std::string> percents(double error, double wanted) {
+  return apartNumbers(100.0 * error, 100.0 * wanted, 2);
 }
 
 void warnOfCoarse(const Reference& reference, double error, const Options& options,
                   const std::string& boundBy) {
-  const double wanted = wantedReferenceError(options);
+  const auto [own, most] = percents(error, wantedReferenceError(options));
   logWarning(
-      fmt::format("the reference's own error is {} after {} spp, more than {}: stopped by "
+      fmt::format("the reference's own error is {} % after {} spp, more than {} %: stopped by "
                   "{}; the interval is wider for it",
-                  percent(error), groupedDigits(reference.spp), percent(wanted), boundBy));
+                  own, groupedDigits(reference.spp), most, boundBy));
 }
 
 double secondsOfRun(const Question& question) {
@@ -92,6 +85,18 @@ double wantedReferenceError(const Options& options) {
 
 double sppForError(double error, double spp, double wanted) {
   return spp * (error / wanted) * (error / wanted);
+}
+
+std::string searchText(double error, uint64_t spp, double timeS, const Options& options) {
+  const double wanted = wantedReferenceError(options);
+  // One more at least: these are not enough.
+  const double all = std::max(std::ceil(sppForError(error, double(spp), wanted)), double(spp) + 1);
+  const double left = (all - double(spp)) * timeS / double(spp);
+  const auto [own, most] = percents(error, wanted);
+  return fmt::format(
+      "its error is {} % after {} spp; wanted is {} %, a fifth of the margin: about {} spp, {} "
+      "more",
+      own, groupedDigits(spp), most, groupedDigits(uint64_t(std::min(all, 1e18))), duration(left));
 }
 
 Reference convergedReference(const Question& question, const std::string& label,

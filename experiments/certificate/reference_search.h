@@ -15,6 +15,10 @@ double wantedReferenceError(const Options& options);
 // root of their number.
 double sppForError(double error, double spp, double wanted);
 
+// The reference's error and samples that there are, and those that are wanted, in words. `timeS`:
+// seconds that those samples took.
+std::string searchText(double error, uint64_t spp, double timeS, const Options& options);
+
 // Renders until the error is the wanted one, or options.maxReferenceSpp or half of the time that is
 // left is spent. Says first what is wanted and what that will take. A reference that stays above is
 // a warning. Throws Error.

@@ -15,12 +15,27 @@ using Json = nlohmann::ordered_json;
 
 constexpr size_t kWorstCells = 3;
 
-// A mean that is too skewed for an interval is shown without one.
-std::string percents(const ImageBias& b) {
+// A mean that is too skewed for an interval is shown without one, and why. Beside such a one the
+// others say what they have of it.
+std::string percents(const ImageBias& b, bool isOneSkewed) {
   const Interval& i = b.bias;
-  if (!b.isNormal) return fmt::format("{:+.3f} %, too skewed for an interval", 100.0 * i.value);
-  return fmt::format("{:+.3f} % [{:+.3f}, {:+.3f}]", 100.0 * i.value, 100.0 * i.lo, 100.0 * i.hi);
+  const auto [own, needed] = apartNumbers(b.events, kRareEventsOfInterval, 2);
+  if (!b.isNormal) {
+    return fmt::format(
+        "{:+.3f} %, too skewed for an interval (noise as of {} rare events, of {} "
+        "needed)",
+        100.0 * i.value, own, needed);
+  }
+  return fmt::format("{:+.3f} % [{:+.3f}, {:+.3f}]{}", 100.0 * i.value, 100.0 * i.lo, 100.0 * i.hi,
+                     isOneSkewed ? fmt::format(" (as of {}, of {} needed)", own, needed) : "");
 }
+
+bool isOneSkewed(const Certificate& c) {
+  return std::any_of(c.image.begin(), c.image.end(),
+                     [](const ImageBias& b) { return !b.isNormal; });
+}
+
+std::string luminanceText(const Certificate& c) { return percents(c.image.front(), false); }
 
 stats::BlockGrid gridOf(const Certified& certified) {
   return stats::BlockGrid(certified.mean.width, certified.mean.height);
@@ -70,27 +85,36 @@ bool anyOf(const stats::BiasReport& report, const stats::CellArea& area, Conditi
 
 std::string cellsText(const Certified& certified) {
   const stats::BiasReport& report = certified.certificate.cells;
-  const double side = double(gridOf(certified).side);
+  const stats::BlockGrid grid = gridOf(certified);
+  // Each quantity divides the image in its own way: cells and shares are of one.
+  const stats::Quantity quantity = leastTestable(report, grid);
+  const double pixels = double(grid.width) * double(grid.height);
   double largest = 0.0;
   size_t cells = 0, rejected = 0, confirmed = 0;
+  for (const stats::CellVerdict& v : report.cells) {
+    if (v.quantity != quantity || v.wholeImage || !(v.testable || v.equal)) continue;
+    ++cells;
+    largest = std::max(largest, double(stats::pixelCount(grid, v.area)) / pixels);
+  }
   for (const stats::CellVerdict* cell : areasOf(report)) {
     const stats::CellArea& area = cell->area;
-    ++cells;
-    largest = std::max(largest, double(area.size) * double(area.size) / (side * side));
     rejected += anyOf(report, area, [](const stats::CellVerdict& v) { return v.side != 0; });
     confirmed += anyOf(report, area, [](const stats::CellVerdict& v) { return v.confirmed; });
   }
   const bool isSmall = confirmed > 0 && certified.certificate.verdict == Verdict::equivalent;
+  const std::string whole =
+      report.untestableShare > 0.0 ? testedAsAWhole(certified.certificate, grid) : "";
+  const std::string found =
+      std::isnan(report.detectableBias)
+          ? ""
+          : fmt::format("; smallest bias that is found {:.2f} % of a cell (median)",
+                        100.0 * report.detectableBias);
   return fmt::format(
-      "cells: {}, the largest {:.1f} % of the image; {} rejected, {} of them confirmed by fresh "
-      "runs{}; {:.1f} % of the image in cells that cannot be tested{}; smallest bias that is found "
-      "{:.2f} % of a cell (median)",
-      cells, 100.0 * largest, rejected, confirmed, isSmall ? ", each smaller than the margin" : "",
-      100.0 * report.untestableShare,
-      report.untestableShare > 0.0 && !std::isnan(report.detectableBiasWhole)
-          ? ", the image as a whole can"
-          : "",
-      100.0 * report.detectableBias);
+      "cells: {} of {}, the largest {:.1f} % of the image, and {:.1f} % of the image in cells that "
+      "cannot be tested{}; of all quantities {} rejected, {} of them confirmed by fresh runs{}{}",
+      cells, stats::quantityName(quantity), 100.0 * largest, 100.0 * report.untestableShare,
+      whole.empty() ? "" : fmt::format(" (the image as a whole can in {})", whole), rejected,
+      confirmed, isSmall ? ", each smaller than the margin" : "", found);
 }
 
 // JSON has no NaN.
@@ -169,8 +193,7 @@ std::vector<std::string> detailsOf(const Certified& certified) {
 std::string lineOf(const Certified& certified) {
   const Certificate& c = certified.certificate;
   return fmt::format("{:<12} {}: luminance {}{}", verdictName(c.verdict), certified.name,
-                     percents(c.image.front()),
-                     c.verdict == Verdict::notDecided ? "; " + c.reason : "");
+                     luminanceText(c), c.verdict == Verdict::notDecided ? "; " + c.reason : "");
 }
 
 std::string textOf(const Certified& certified) {
@@ -179,7 +202,8 @@ std::string textOf(const Certified& certified) {
   text += fmt::format("  {}\n", certified.how);
   for (const ImageBias& b : c.image) {
     text += fmt::format("  {:<10} bias {}, smallest that is found {:.3f} %\n",
-                        stats::quantityName(b.quantity), percents(b), 100.0 * b.detectable);
+                        stats::quantityName(b.quantity), percents(b, isOneSkewed(c)),
+                        100.0 * b.detectable);
   }
   text += fmt::format("  {}\n", errorText(c));
   text += fmt::format("  {}\n", cellsText(certified));
@@ -247,7 +271,7 @@ std::string markdownOf(const std::vector<Certified>& all) {
   for (const Certified& certified : all) {
     const Certificate& c = certified.certificate;
     text += fmt::format("| {} | {} | {} | {} | {:.1f} % | {} |\n", certified.name,
-                        verdictName(c.verdict), percents(c.image.front()), shareOfBias(c),
+                        verdictName(c.verdict), luminanceText(c), shareOfBias(c),
                         100.0 * c.cells.untestableShare, c.runs);
   }
   return text;

@@ -96,8 +96,10 @@ void makeReference(ReferenceOptions options) {
   }
   if (const std::string why = whyNotConverged(reference); !why.empty()) {
     if (options.target.relmse > 0.0) {
-      logWarning(fmt::format("{}: is not converged, whatever its halves agree on: {}",
-                             options.output, why));
+      const bool isBounded = options.target.spp > 0 || options.target.timeLimitS > 0.0;
+      logWarning(fmt::format("{}: is not converged, whatever its halves agree on: {}{}",
+                             options.output, why,
+                             isBounded ? "" : "; --spp or --time-limit let it go on that far"));
     } else {
       logInfo(fmt::format("{}: {}", options.output, why));
     }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace restlab {
 namespace {
@@ -104,20 +105,29 @@ std::string shortNumber(double value, int digits) {
   return text;
 }
 
+std::pair<std::string, std::string> apartNumbers(double a, double b, int digits) {
+  constexpr int kAllDigits = 17;
+  while (digits < kAllDigits && a != b && shortNumber(a, digits) == shortNumber(b, digits))
+    ++digits;
+  return {shortNumber(a, digits), shortNumber(b, digits)};
+}
+
 std::string intervalText(double lo, double hi, int digits) {
   if (std::isnan(lo) || std::isnan(hi)) return "";
-  if (std::isinf(lo) || std::isinf(hi)) return " [unbounded]";
-  return fmt::format(" [{}, {}]", shortNumber(lo, digits), shortNumber(hi, digits));
+  const bool isOpen = std::isinf(lo), isOpenAbove = std::isinf(hi);
+  if (isOpen && isOpenAbove) return " [unbounded]";
+  return fmt::format(" [{}, {}]", isOpen ? "unbounded" : shortNumber(lo, digits),
+                     isOpenAbove ? "unbounded" : shortNumber(hi, digits));
 }
 
 std::string timesText(double value, double lo, double hi, const char* above, const char* below) {
   if (!(value > 0.0)) return "not known";  // an error below the noise of its reference
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (lo <= 0.0) lo = -kInfinity;
   if (value >= 1.0) return fmt::format("{}x {}{}", shortNumber(value), above, intervalText(lo, hi));
-  const std::string inverse = fmt::format("{}x {}", shortNumber(1.0 / value), below);
-  const bool isUnbounded = std::isinf(lo) || std::isinf(hi);
-  if (std::isnan(lo) || std::isnan(hi) || isUnbounded || lo > 0.0)
-    return inverse + (isUnbounded ? intervalText(lo, hi) : intervalText(1.0 / hi, 1.0 / lo));
-  return inverse + fmt::format(" [{}, unbounded]", shortNumber(1.0 / hi));
+  const auto inverse = [](double end) { return std::isinf(end) ? -end : 1.0 / end; };
+  return fmt::format("{}x {}{}", shortNumber(1.0 / value), below,
+                     intervalText(inverse(hi), inverse(lo)));
 }
 
 std::string counted(uint64_t number, const char* what) {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace restlab {
 
@@ -22,12 +23,17 @@ std::string scriptJson(const nlohmann::ordered_json& json);
 constexpr int kDigits = 3;
 std::string shortNumber(double value, int digits = kDigits);
 
-// " [lo, hi]", " [unbounded]", or "" where an end is unknown.
+// Both numbers with as few digits as tell them apart, at least `digits`; with all where they are
+// the same.
+std::pair<std::string, std::string> apartNumbers(double a, double b, int digits = kDigits);
+
+// " [lo, hi]"; "unbounded" in the place of an end that is infinite, and once where both are; ""
+// where an end is unknown.
 std::string intervalText(double lo, double hi, int digits = kDigits);
 
 // A ratio with its interval as words: "2.5x lower [2.3, 2.8]", and of one below 1 its inverse,
-// "4.0x higher [3.8, 4.2]". Of an interval that begins at 0 the inverse has no upper end: "4.0x
-// higher [3.8, unbounded]". "not known" where the ratio is not positive.
+// "4.0x higher [3.8, 4.2]". A lower end that is not above 0 is no bound: "2.5x lower [unbounded,
+// 2.8]", "4.0x higher [3.8, unbounded]". "not known" where the ratio is not positive.
 std::string timesText(double value, double lo, double hi, const char* above, const char* below);
 
 // Digits of a mean energy over that of the reference, whose ideal is 1.

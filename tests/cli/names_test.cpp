@@ -57,6 +57,21 @@ TEST_F(NamesTest, OfAnyScriptStayInFileNames) {
       fs::exists(path("results/K\u00fcche-\u65e5\u672c/images/cornell-box-all-\u00dcbung-1.exr")));
 }
 
+TEST_F(NamesTest, ScenesOfAnyScriptHaveReports) {
+  std::string suite = kSmallSuite;
+  suite.replace(suite.find("\"cornell-box\""), 13,
+                "\"Zimmer \u00fc.gltf\", \"Zimmer \u00f6.gltf\"");
+  write("suite.toml", suite);
+  for (const char* name : {"Zimmer \u00fc.gltf", "Zimmer \u00f6.gltf"})
+    write(name, triangleGltf({0, 0, 0, 1, 0, 0, 0, 1, 0}));
+  const ProgramResult result = run("run suite.toml -o out --set runs=1");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto plots = entries("out/plots");
+  EXPECT_EQ(plots.size() % 2, 0u);
+  EXPECT_GE(plots.size(), 4u) << "of two scenes";
+  EXPECT_EQ(run("report out").code, 0);
+}
+
 TEST_F(NamesTest, WhyAFileCannotBeReadIsTheSystemsReason) {
   fs::create_symlink("loop.exr", path("loop.exr"));
   fs::create_symlink("loop.toml", path("loop.toml"));

@@ -76,6 +76,18 @@ TEST(Intervals, DegenerateInput) {
   EXPECT_TRUE(std::isnan(ratioInterval(kA, bad).hi));
 }
 
+// An end that is not above 0 bounds no ratio of positive numbers.
+TEST(Intervals, RatiosOfPositivesHavePositiveEnds) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  expectInterval(ratioOfPositives({2.0, 1.0, 3.0}), 2.0, 1.0, 3.0);
+  for (const double end : {0.0, -0.5, -infinity}) {
+    EXPECT_EQ(ratioOfPositives({2.0, end, 3.0}).lo, -infinity);
+    EXPECT_EQ(ratioOfPositives({2.0, end, 3.0}).hi, 3.0);
+  }
+  EXPECT_EQ(ratioOfPositives({-2.0, -3.0, -1.0}).hi, infinity);
+  EXPECT_TRUE(std::isnan(ratioOfPositives({2.0, std::nan(""), std::nan("")}).lo));
+}
+
 TEST(Intervals, MedianAndPercentile) {
   EXPECT_EQ(median(std::vector<double>{3.0, 1.0, 2.0}), 2.0);
   EXPECT_EQ(median(std::vector<double>{4.0, 1.0, 2.0, 3.0}), 2.5);

@@ -55,7 +55,7 @@ TEST(Numbers, AreShort) {
   EXPECT_EQ(shortNumber(64.0), "64");
   EXPECT_EQ(shortNumber(1.00212, kEnergyDigits), "1.002");
   EXPECT_EQ(intervalText(1.0, 2.5), " [1, 2.50]");
-  EXPECT_EQ(intervalText(-std::numeric_limits<double>::infinity(), 1.0), " [unbounded]");
+  EXPECT_EQ(intervalText(-std::numeric_limits<double>::infinity(), 1.0), " [unbounded, 1]");
   EXPECT_EQ(intervalText(std::numeric_limits<double>::quiet_NaN(), 1.0), "");
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(timesText(2.5, 2.0, 4.0, "lower", "higher"), "2.50x lower [2, 4]");
@@ -63,6 +63,17 @@ TEST(Numbers, AreShort) {
   EXPECT_EQ(timesText(0.25, nan, nan, "lower", "higher"), "4x higher");
   EXPECT_EQ(timesText(0.25, 0.0, 0.5, "lower", "higher"), "4x higher [2, unbounded]");
   const double inf = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(intervalText(-inf, inf), " [unbounded]");
+  EXPECT_EQ(intervalText(2.0, inf), " [2, unbounded]");
+  for (const double end : {0.0, -1.0, -inf}) {
+    EXPECT_EQ(timesText(9.99, end, 13.6, "lower", "higher"), "9.99x lower [unbounded, 13.6]");
+    EXPECT_EQ(timesText(0.25, end, 0.5, "lower", "higher"), "4x higher [2, unbounded]");
+  }
+  EXPECT_EQ(timesText(0.25, 0.125, inf, "lower", "higher"), "4x higher [unbounded, 8]");
+  EXPECT_EQ(apartNumbers(0.1, 0.2), std::pair(std::string("0.100"), std::string("0.200")));
+  EXPECT_EQ(apartNumbers(0.10004, 0.1, 2),
+            std::pair(std::string("0.10004"), std::string("0.10000")));
+  EXPECT_EQ(apartNumbers(0.1, 0.1, 2), std::pair(std::string("0.10"), std::string("0.10")));
   EXPECT_EQ(timesText(0.0026, -inf, inf, "lower", "higher"), "385x higher [unbounded]");
   EXPECT_EQ(timesText(-0.25, nan, nan, "lower", "higher"), "not known");
   EXPECT_EQ(groupedDigits(0), "0");

@@ -173,10 +173,25 @@ TEST(ReferenceNoise, RelativeErrorThatHangsOnTheDivisorIsFlagged) {
   const std::string flag = relmseFlag(referenceOf(0.8f), runs);
   EXPECT_NE(flag.find("relMSE depends on the reference's noise: "), std::string::npos) << flag;
   EXPECT_NE(flag.find(" % if its halves divide instead of their mean"), std::string::npos) << flag;
+  EXPECT_NE(flag.find("without the worst pixels"), std::string::npos) << flag;
   Reference whole = referenceOf(0.8f);
   whole.half0.reset();
   whole.half1.reset();
   EXPECT_EQ(relmseFlag(whole, runs), "");
+}
+
+// Of few pixels none is left out: the same numbers are said once.
+TEST(ReferenceNoise, ChangesThatAgreeAreSaidOnce) {
+  Reference reference;
+  reference.mean = Image(4, 4, glm::vec3(1.0f));
+  reference.half0 = Image(4, 4, glm::vec3(1.5f));
+  reference.half1 = Image(4, 4, glm::vec3(0.5f));
+  BiasRuns runs;
+  for (const float value : {3.0f, 4.0f, 5.0f}) runs.add(Image(4, 4, glm::vec3(value)));
+  const std::string flag = relmseFlag(reference, runs);
+  ASSERT_NE(flag, "");
+  EXPECT_NE(flag.find(", with the worst pixels and without"), std::string::npos) << flag;
+  EXPECT_EQ(flag.find(" % and "), flag.rfind(" % and ")) << flag;
 }
 
 }  // namespace

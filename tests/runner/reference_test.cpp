@@ -166,6 +166,52 @@ TEST_F(ReferenceRendering, ATargetWaitsForLightsThatAreSoonDrawnOften) {
   EXPECT_GT(double(reference.spp), 1.5 * double(before.spp));
 }
 
+// A limit that was given is used up for the draws, too: a small error alone is not the target.
+TEST_F(ReferenceRendering, ATargetGoesOnForRareLightsUntilTheLimit) {
+  const PreparedScene scene = withWeakLight(1e-6);
+  const Reference reference = renderReference(scene, smallConfig(), {.spp = 600, .relmse = 0.02});
+  EXPECT_EQ(reference.spp, 600u);
+  EXPECT_NE(whyNotConverged(reference), "");
+  EXPECT_FALSE(meetsTarget(reference, {.spp = 700, .relmse = 0.02}));
+  // Enough draws end it before the limit.
+  EXPECT_LT(renderReference(withWeakLight(0.01), smallConfig(), {.spp = 600, .relmse = 0.02}).spp,
+            600u);
+}
+
+// The lamp of the room with an image of 64x64 texels, of which `bright` shine.
+PreparedScene withTexturedLamp(uint32_t bright) {
+  Scene scene = prepared().scene->source();
+  TextureImage image;
+  image.name = "lamp";
+  image.width = image.height = 64;
+  image.texels.assign(64 * 64, 0xff000000u);
+  std::fill_n(image.texels.begin(), bright, 0xffffffffu);
+  scene.images.push_back(image);
+  TextureUse use;
+  use.image = uint32_t(scene.images.size()) - 1;
+  scene.textureUses.push_back(use);
+  for (SceneMaterial& material : scene.materials) {
+    if (material.data.emission != glm::vec3(0.0f))
+      material.data.textures[rl::RL_TEX_EMISSIVE] = uint32_t(scene.textureUses.size()) - 1;
+  }
+  PreparedScene own = prepared();
+  own.scene = CompiledScene::build(scene);
+  return own;
+}
+
+// A draw of a lamp is one of its light where it lands on what shines.
+TEST_F(ReferenceRendering, DrawsOfATexturedLampCountByWhatTheyFind) {
+  for (const uint32_t bright : {1u, 64u, 4096u}) {
+    const auto lights = drawnLights(*withTexturedLamp(bright).scene);
+    ASSERT_EQ(lights.size(), 1u);
+    EXPECT_NEAR(lights[0].probability, double(bright) / 4096.0, 1e-7) << bright;
+  }
+  const Reference reference = renderReference(withTexturedLamp(1), smallConfig(), {.spp = 32});
+  EXPECT_NE(whyNotConverged(reference), "");
+  EXPECT_EQ(whyNotConverged(renderReference(withTexturedLamp(4096), smallConfig(), {.spp = 32})),
+            "");
+}
+
 TEST_F(ReferenceRendering, FilesHoldWhatTargetsAsk) {
   const PreparedScene scene = prepared();
   const Reference reference = renderReference(scene, smallConfig(), {.spp = 64});

@@ -1,6 +1,9 @@
 // Tables of rows with known numbers: what headings, columns and notes say.
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <set>
+
 #include "experiments/runner/summary/report.h"
 #include "experiments/runner/summary/report_document.h"
 #include "tests/runner/summary_fixture.h"
@@ -19,11 +22,60 @@ TEST_F(TableTest, TheBaselineIsNamed) {
   EXPECT_NE(table.find("| time per frame (x times that of gi) | MSE | than gi | energy |"),
             std::string::npos)
       << table;
+  EXPECT_NE(table.find("| method | efficiency (against gi) |"), std::string::npos) << table;
+  EXPECT_NE(table.find("| method | MSE without lights in view (than gi) | relMSE without the worst "
+                       "0.1 % (than gi) |"),
+            std::string::npos)
+      << table;
   EXPECT_NE(blockTex(suite_, rows).find("time and lower against gi; "), std::string::npos);
   EXPECT_NE(summaryCsv(suite_, rows).find("baseline"), std::string::npos);
   const std::string document = blockDocument(suite_, rows, 1.0f).dump();
   EXPECT_NE(document.find("MSE of gi / MSE"), std::string::npos) << document;
   EXPECT_EQ(document.find("MSE of path"), std::string::npos) << document;
+  EXPECT_NE(document.find("efficiency against gi"), std::string::npos) << document;
+}
+
+// A ratio whose interval reaches 0 is unbounded there, in the same word everywhere.
+TEST_F(TableTest, RatiosThatReachZeroAreUnbounded) {
+  for (MethodResult& method : block_.methods) method.runs.resize(2);
+  block_.methods[1].runs[0].measured.mse = 0.02;
+  block_.methods[1].runs[1].measured.mse = 0.16;
+  const auto rows = summarise(suite_, block_);
+  const Interval& ratio = rows[1].mseRatio;
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_GT(ratio.value, 0.0);
+  EXPECT_TRUE(ratio.lo > 0.0 || ratio.lo == -infinity) << ratio.lo;
+  EXPECT_LT(rows[1].mse.lo, 0.0) << "two runs say little";
+  for (const std::string& text : {blockTable(suite_, rows), blockTex(suite_, rows)}) {
+    EXPECT_NE(text.find("[unbounded"), std::string::npos) << text;
+    EXPECT_EQ(text.find("x lower [0, "), std::string::npos) << text;
+    EXPECT_EQ(text.find("0.0900 [-"), std::string::npos) << text;
+  }
+}
+
+// No file of text holds what commands a terminal.
+TEST_F(TableTest, NamesCommandNoTerminal) {
+  suite_.methods[1].name = "g\x1b[31mi\x07\xc2\x9bm\nx";
+  const auto rows = summarise(suite_, block_);
+  for (const std::string& text : {blockTex(suite_, rows), summaryCsv(suite_, rows)}) {
+    EXPECT_EQ(text.find_first_of("\x1b\x07\x9b"), std::string::npos) << text;
+    EXPECT_NE(text.find("g [31mi  m x"), std::string::npos) << text;
+  }
+}
+
+// Letters of any script in a scene's name: the report takes the block, and tells it from others.
+TEST_F(TableTest, IdsOfBlocksArePlainAndDiffer) {
+  std::set<std::string> ids;
+  for (const char* scene : {"Zimmer \u00fc", "Zimmer \u00f6", "Zimmer _", "\u65e5\u672c"}) {
+    block_.scene = scene;
+    const auto document = blockDocument(suite_, summarise(suite_, block_), 1.0f);
+    const std::string id = document.at("id");
+    EXPECT_EQ(id.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
+                                   "0123456789._-"),
+              std::string::npos)
+        << id;
+    EXPECT_TRUE(ids.insert(id).second) << id;
+  }
 }
 
 // Without times and with nothing to compare with there is nothing to say.

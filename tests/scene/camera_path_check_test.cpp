@@ -79,6 +79,22 @@ TEST(CameraPathCheck, ThroughASurfaceIntoABody) {
   EXPECT_EQ(linesOf(open, keys), Lines());
 }
 
+// The face where a path begins is one that it goes through; so is an edge between two triangles.
+TEST(CameraPathCheck, FromAFaceIntoABody) {
+  for (const double offset : {0.0, 1.7e-15, -1.7e-15}) {
+    for (const double aside : {0.0, 0.3}) {
+      Scene atFace = scene();
+      atFace.cameras[0].cameraToWorld[3] = glm::dvec4(aside, 0, 1.0 + offset, 1);
+      const Lines into = linesOf(atFace, dolly(0.02));
+      ASSERT_FALSE(into.empty()) << offset;
+      EXPECT_EQ(into[0], "path: the camera walks through 'body' between the frames 0 and 2")
+          << offset << " " << aside;
+      for (const std::string& line : linesOf(atFace, dolly(-0.02)))
+        EXPECT_EQ(line.find("walks through"), std::string::npos) << line;
+    }
+  }
+}
+
 TEST(CameraPathCheck, ABlankEndAndNothingInView) {
   Scene beside = scene();
   beside.cameras[0].cameraToWorld[3].x = 5.5;

@@ -95,6 +95,17 @@ struct Wrong {
   const char* message;
 };
 
+TEST(CameraPathConfig, CamerasByIndexAreNumbersOrStrings) {
+  for (const char* camera : {"1", "\"1\""}) {
+    const std::string key = std::string(", camera = ") + camera;
+    EXPECT_EQ(parseInline("kind = \"cut\", frame = 12" + key).cutCamera, "1");
+    EXPECT_EQ(parseInline("kind = \"keyframes\", keyframe = [{ frame = 0" + key + " }]")
+                  .keyframes[0]
+                  .camera,
+              "1");
+  }
+}
+
 TEST(CameraPathConfig, EveryErrorIsOneLineWithItsPlace) {
   const std::vector<Wrong> all = {
       {"path = {}",
@@ -133,6 +144,8 @@ TEST(CameraPathConfig, EveryErrorIsOneLineWithItsPlace) {
       {"path = { kind = \"cut\", frame = 2, camera = \"x\", target = [1, 2, 3] }",
        "a.toml:1:58: a cut to another camera has no 'target'"},
       {"path = { kind = \"cut\", frame = 2, camera = \"\" }", "a.toml:1:44: 'camera' is empty"},
+      {"path = { kind = \"cut\", frame = 2, camera = -1 }",
+       "a.toml:1:44: 'camera' must be a string, not an integer"},
       {"path = { kind = \"cut\", frame = -1, camera = \"x\" }",
        "a.toml:1:32: 'frame' must be in 0..2147483648, not -1"},
       {"path = { kind = \"keyframes\" }",

@@ -99,6 +99,25 @@ TEST(SceneOrigin, FollowsTheMainCamera) {
   EXPECT_EQ(CompiledScene::build(scene)->origin(), away + glm::dvec3(0, 0, 8));
 }
 
+// A narrow view from afar: no line tells a scene's only camera to be rendered by itself.
+TEST(SceneOrigin, TheOnlyCameraIsNotComparedWithItself) {
+  for (const double degrees : {1e-2, 1e-3, 1e-5}) {
+    builtin::SceneBuilder builder("tele");
+    const uint32_t grey = builder.addMaterial("grey", builtin::lambert(glm::vec3(0.5f)));
+    builder.add(builtin::box("room", {-2, -1, -1}, {2, 1, 1.5}), grey);
+    builder.addCamera("camera0", {1.4, 0, 0}, {-2, 0, 0}, degrees);
+    const auto compiled = CompiledScene::build(builder.finish());
+    bool isSaid = false;
+    for (const std::string& line : compiled->warnings()) {
+      EXPECT_EQ(line.find("render it by --camera"), std::string::npos) << line;
+      isSaid |= line.find("tele: camera 'camera0' stands") == 0 &&
+                line.find("float32 rounds its place to") != std::string::npos;
+    }
+    // A float of 3 m has a step of 2.4e-7 m; the view is 6e-4, 6e-5 and 6e-7 m high.
+    EXPECT_EQ(isSaid, degrees < 1e-2) << degrees;
+  }
+}
+
 TEST(SceneOrigin, WithoutACameraTheViewLeavesStraysOut) {
   builtin::SceneBuilder builder = room();
   const SceneCamera plain = framingCamera(builder.finish());

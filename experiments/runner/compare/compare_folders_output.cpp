@@ -1,9 +1,9 @@
 // What `compare DIR DIR` prints.
 #include <fmt/format.h>
 
-#include <cmath>
 #include <set>
 
+#include "experiments/report/text.h"
 #include "experiments/runner/compare/compare_folders.h"
 #include "experiments/runner/run/run_record.h"
 
@@ -13,14 +13,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr int kDigitsOfRuns = 4;
+
 std::string text(const Interval& interval) {
-  std::string ends = " [unknown]";
-  if (std::isfinite(interval.lo) && std::isfinite(interval.hi)) {
-    ends = fmt::format(" [{:.4g}, {:.4g}]", interval.lo, interval.hi);
-  } else if (std::isinf(interval.lo)) {
-    ends = " [unbounded]";
-  }
-  return fmt::format("{:.4g}{}", interval.value, ends);
+  const std::string ends = intervalText(interval.lo, interval.hi, kDigitsOfRuns);
+  return shortNumber(interval.value, kDigitsOfRuns) + (ends.empty() ? " [unknown]" : ends);
 }
 
 Json json(const Interval& interval) {
@@ -70,7 +67,7 @@ std::string comparisonTable(const FolderComparison& comparison) {
   for (const ComparedRow& row : comparison.rows) {
     if (!row.timesOver.empty()) over.insert(row.timesOver);
     lines += fmt::format("| {} | {} | {} | {} | {} | {} | {}{} | {} |\n", row.table, row.method,
-                         text(row.before), text(row.after), text(row.mseRatio),
+                         text(errorOf(row.before)), text(errorOf(row.after)), text(row.mseRatio),
                          row.verdictText(row.error), text(row.timeRatio),
                          row.timesOver.empty() ? "" : " (*)", row.verdictText(row.time));
   }

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
 
 #include "core/error.h"
 #include "experiments/report/text.h"
@@ -29,26 +32,71 @@ class PunctualNames {
   size_t at_ = 0;
 };
 
+// The share of draws of a textured emitter that find its light, by material; each image is read
+// once.
+class TextureShares {
+ public:
+  explicit TextureShares(const Scene& scene) : scene_(scene) {}
+  double of(uint32_t material) {
+    const auto found = byMaterial_.find(material);
+    if (found != byMaterial_.end()) return found->second;
+    return byMaterial_.emplace(material, computed(scene_.materials.at(material).data))
+        .first->second;
+  }
+
+ private:
+  double computed(const rl::Material& material) const {
+    const uint32_t slot = material.textures[rl::RL_TEX_EMISSIVE];
+    if (slot == rl::RL_INVALID) return 1.0;
+    const TextureUse& use = scene_.textureUses.at(slot);
+    // Luminance by channel and byte.
+    std::array<std::array<double, 256>, 3> part{};
+    for (uint32_t c = 0; c < 3; ++c) {
+      glm::vec3 unit(0.0f);
+      unit[int(c)] = material.emission[int(c)];
+      for (size_t byte = 0; byte < 256; ++byte) {
+        const double value = double(byte) / 255.0;
+        part[c][byte] = luminance(unit) * (use.srgb ? std::pow(value, 2.2) : value);
+      }
+    }
+    double sum = 0.0, squares = 0.0;
+    const std::vector<uint32_t>& texels = scene_.images.at(use.image).texels;
+    for (const uint32_t t : texels) {
+      const double value = part[0][t & 255u] + part[1][(t >> 8) & 255u] + part[2][(t >> 16) & 255u];
+      sum += value;
+      squares += value * value;
+    }
+    return squares > 0.0 ? sum * sum / (squares * double(texels.size())) : 1.0;
+  }
+
+  const Scene& scene_;
+  std::map<uint32_t, double> byMaterial_;
+};
+
 }  // namespace
 
 std::vector<DrawnLight> drawnLights(const CompiledScene& scene) {
   const rl::SceneData& data = scene.data();
   const rl::Light* records = data.lights.data;
   PunctualNames punctual(scene.source());
+  TextureShares shares(scene.source());
   std::vector<DrawnLight> lights;
   uint32_t lastInstance = rl::RL_INVALID;
   for (uint32_t i = 0; i < data.lightCount; ++i) {
     const rl::Light& light = records[i];
     const bool isTriangle = light.kind == rl::RL_LIGHT_TRIANGLE;
+    const double probability =
+        double(light.pmf) *
+        (isTriangle ? shares.of(scene.source().instances.at(light.instance).material) : 1.0);
     if (isTriangle && light.instance == lastInstance) {
-      lights.back().probability += double(light.pmf);
+      lights.back().probability += probability;
       continue;
     }
     lastInstance = isTriangle ? light.instance : rl::RL_INVALID;
     const std::string name = isTriangle ? scene.source().instances.at(light.instance).name
                              : light.kind == rl::RL_LIGHT_ENVIRONMENT ? "the environment"
                                                                       : punctual.next();
-    lights.push_back({name, double(light.pmf)});
+    lights.push_back({name, probability});
   }
   std::erase_if(lights, [](const DrawnLight& light) { return !(light.probability > 0.0); });
   return lights;

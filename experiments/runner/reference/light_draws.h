@@ -14,10 +14,13 @@ namespace restlab {
 // environment.
 struct DrawnLight {
   std::string name;
-  double probability = 0.0;  // that one draw selects it; above 0
+  double probability = 0.0;  // that one draw selects it and finds where it shines; above 0
 };
 
-// Lists the lights that are on, in the order of the light table.
+// Lists the lights that are on, in the order of the light table. A draw of an emitting object lands
+// anywhere on it. Under a texture it counts by the share (mean L)^2 / mean L^2, L being the
+// luminance of all texels of the image: one bright texel of 4096 has one useful draw in 4096.
+// Environments are drawn by texel.
 std::vector<DrawnLight> drawnLights(const CompiledScene& scene);
 
 // Below this many expected draws over the whole image the error of a reference is not known to hold

@@ -36,7 +36,9 @@ bool targetReached(const ReferenceTarget& target, uint64_t spp, double relmseSin
   if (target.spp && spp >= target.spp) return true;
   if (target.timeLimitS > 0.0 && timeS >= target.timeLimitS && spp >= 2) return true;
   if (!(target.relmse > 0.0 && relmseSinceHalf <= target.relmse)) return false;
-  return double(spp) >= sppForLights || sppForLights > kMostForLights * double(spp);
+  if (double(spp) >= sppForLights) return true;
+  const bool isBounded = target.spp > 0 || target.timeLimitS > 0.0;
+  return !isBounded && sppForLights > kMostForLights * double(spp);
 }
 
 std::string whyNotConverged(const Reference& reference) {

@@ -38,16 +38,16 @@ const SceneCamera* cameraInsteadOf(const PreparedScene& prepared, const Referenc
 
 // When to stop: at the first target that is reached; 0 is no target. One must be set. What was
 // rendered in earlier calls counts. `relmse` is reached when all estimates since half of the
-// samples are at most that.
+// samples are at most that, and every light was drawn often enough (light_draws.h).
 struct ReferenceTarget {
   uint64_t spp = 0;         // samples per pixel of both halves together, at least 2
   double relmse = 0.0;      // mean d^2/(r^2+1e-2) of the mean, estimated from the halves
   double timeLimitS = 0.0;  // seconds of rendering
 };
 
-// An error that is small enough waits for lights that were drawn too seldom, but for no more than
-// so many times the samples that it took itself: what needs more stops, and is not called
-// converged.
+// An error that is small enough waits for lights that were drawn too seldom, until `spp` or
+// `timeLimitS`. Where neither is set it waits for no more than so many times the samples that it
+// took itself: what needs more stops, and is not called converged.
 constexpr double kMostForLights = 4.0;
 
 // `relmseSinceHalf` as RelmseChecks has it; NaN where it is not known. `sppForLights`: samples per

@@ -68,8 +68,11 @@ std::string relmseFlag(const Reference& reference, const BiasRuns& runs) {
   const std::string of = runs.count() > images.size()
                              ? fmt::format(" (of means of {} runs)", runs.count() / images.size())
                              : "";
+  const bool isSame = relmse.text() == trimmed.text();
   return fmt::format("relMSE{} depends on the reference's noise: {}{}", of, relmse.text(),
-                     trimmed.differs() ? "; without the worst pixels " + trimmed.text() : "");
+                     isSame              ? ", with the worst pixels and without"
+                     : trimmed.differs() ? "; without the worst pixels " + trimmed.text()
+                                         : "");
 }
 
 }  // namespace restlab

@@ -16,13 +16,29 @@ namespace restlab {
 
 namespace {
 
+RareLights rareLightsOf(const ReferenceState& state, const std::vector<DrawnLight>& lights) {
+  return rareLights(lights, double(state.health.raysPath), double(state.spp()));
+}
+
 // Whether the state is what was asked for. An error that is small enough counts where every light
-// was drawn often enough to be in it, or where that is out of reach.
+// was drawn often enough to be in it, or where nothing else would end the wait.
 bool isEnough(const ReferenceState& state, const ReferenceTarget& target,
               const std::vector<DrawnLight>& lights) {
-  const double spp = double(state.spp());
-  const RareLights rare = rareLights(lights, double(state.health.raysPath), spp);
-  return targetReached(target, state.spp(), state.checks.sinceHalf(), state.timeS, rare.sppNeeded);
+  return targetReached(target, state.spp(), state.checks.sinceHalf(), state.timeS,
+                       rareLightsOf(state, lights).sppNeeded);
+}
+
+// What the target still waits for, beside the progress.
+std::string noteOf(const ReferenceState& state, const ReferenceTarget& target,
+                   const std::vector<DrawnLight>& lights) {
+  const std::vector<double>& checks = state.checks.kept();
+  if (checks.empty()) return "";
+  const std::string relmse = fmt::format("relmse {:.3g}", checks.back());
+  if (!(target.relmse > 0.0 && state.checks.sinceHalf() <= target.relmse)) return relmse;
+  const RareLights rare = rareLightsOf(state, lights);
+  if (rare.lights.empty()) return relmse;
+  return fmt::format("{}, {:.3g} of {:g} draws of '{}'", relmse, rare.fewestDraws,
+                     kFewestLightDraws, oneLine(rare.lights.front().name));
 }
 
 void renderUntil(ReferenceHalves& halves, ReferenceState& state, const ReferenceTarget& target,
@@ -45,8 +61,7 @@ void renderUntil(ReferenceHalves& halves, ReferenceState& state, const Reference
       continue;  // with what there was before this sample
     }
     kept.update(state);
-    const std::vector<double>& checks = state.checks.kept();
-    progress.update(state.spp(), checks.empty() ? "" : fmt::format("relmse {:.3g}", checks.back()));
+    progress.update(state.spp(), noteOf(state, target, lights));
   }
   progress.finish();
 }

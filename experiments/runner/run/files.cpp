@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 #include <locale.h>
 #include <unistd.h>
+#include <xxhash.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <cwchar>
@@ -108,6 +110,21 @@ std::string safeFileName(const std::string& name) {
   }
   while (!safe.empty() && safe.back() == '-') safe.pop_back();
   return safe.empty() || safe[0] == '.' ? fmt::format("unnamed{}", safe) : safe;
+}
+
+std::string plainId(const std::string& safeName) {
+  std::string id;
+  for (const char c : safeName) {
+    const bool isFirstByte = (uint8_t(c) & 0xc0u) != 0x80u;
+    if (uint8_t(c) < 0x80u) {
+      id += c;
+    } else if (isFirstByte) {
+      id += '_';
+    }
+  }
+  if (id == safeName) return id;
+  return fmt::format("{}-{:08x}", id,
+                     uint32_t(XXH3_64bits(safeName.data(), safeName.size()) >> 32));
 }
 
 }  // namespace restlab

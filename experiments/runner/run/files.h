@@ -24,4 +24,8 @@ std::filesystem::path resolvedPath(const std::filesystem::path& name);
 // '-'.
 std::string safeFileName(const std::string& name);
 
+// An id of such a name, of ASCII alone, as reports and addresses take it. Letters of other scripts
+// become '_', and a hash of the name behind it keeps ids of different names apart.
+std::string plainId(const std::string& safeName);
+
 }  // namespace restlab

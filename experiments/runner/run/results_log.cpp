@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "core/control_characters.h"
 #include "core/error.h"
 #include "experiments/runner/run/log.h"
 
@@ -52,7 +53,7 @@ void ResultsLog::add(const std::string& key, const JobData& job, bool isMadeAnew
       nlohmann::ordered_json line = own;
       if (isThere) line["replaces_earlier"] = true;
       line["job_ends"] = &method == &job.methods.back() && &own == &method.lines.back();
-      text += line.dump() + "\n";
+      text += jsonWithoutControls(line.dump()) + "\n";
     }
   }
   std::error_code status;

@@ -16,6 +16,7 @@
 #include <set>
 #include <thread>
 
+#include "core/control_characters.h"
 #include "core/error.h"
 #include "core/image/atomic_file.h"
 #include "experiments/runner/reference/block_masks.h"
@@ -460,7 +461,7 @@ class SuiteRun {
                {"skipped", skipped_},
                {"plan", plan_},
                {"peak_resident_mib", peakResidentMiB()}};
-    writeTextFile(request_.out / "run.json", record_.dump(2) + "\n");
+    writeTextFile(request_.out / "run.json", jsonWithoutControls(record_.dump(2)) + "\n");
   }
 
   const std::vector<Suite>& points_;

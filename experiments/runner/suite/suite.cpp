@@ -31,7 +31,7 @@ std::string shownName(const std::string& scene) {
 SuiteScene readScene(const ConfigTable& table, const std::string& folder) {
   SuiteScene scene;
   scene.request.suiteFolder = folder;
-  scene.request.camera = table.getString("camera", "");
+  if (table.has("camera")) scene.request.camera = readCameraName(table);
   scene.request.environment = table.getString("environment", "");
   if (table.has("environment_rotation")) {
     scene.request.environmentRotation = table.getNumber("environment_rotation", 0.0, -360.0, 360.0);

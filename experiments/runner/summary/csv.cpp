@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/error.h"
 #include "core/method_settings.h"
 #include "experiments/runner/summary/report.h"
 
@@ -16,9 +17,10 @@ std::string number(double value) {
   return fmt::format("{:.9g}", value);
 }
 
-// RFC 4180: quoted where a comma, quote or line break stands inside.
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+// RFC 4180: quoted where a comma or quote stands inside; line breaks are blanks.
+std::string quoted(const std::string& value) {
+  const std::string text = oneLine(value);
+  if (text.find_first_of(",\"") == std::string::npos) return text;
   std::string out = "\"";
   for (const char c : text) out.append(c == '"' ? 2 : 1, c);
   out += '"';

@@ -61,17 +61,18 @@ const std::vector<Column>& columns() {
   static const std::vector<Column> all = {
       {"time_ms", "time per frame", "ms", "lower", "median over timed frames: passes, nothing else",
        [](const MethodSummary& row) { return only(row.timeMsMedian); }},
-      {"time_ratio", "time ratio", "", "lower",
+      {"time_ratio", "time / time of {0}", "", "lower",
        "geometric mean over runs of the median over frames of time / time of the frame of {0} "
        "beside it; the ratio of two medians may differ where the machine was disturbed",
        [](const MethodSummary& row) { return row.timeRatio; }},
       {"mse", "MSE", "", "lower", "of the frame after the warm-up, against the reference's halves",
-       [](const MethodSummary& row) { return row.mse; }},
+       [](const MethodSummary& row) { return errorOf(row.mse); }},
       {"mse_ratio", "MSE of {0} / MSE", "", "higher", "above 1: a lower MSE than {0}",
        [](const MethodSummary& row) { return row.mseRatio; }},
       {"average_ratio", "MSE of {1} / MSE", "", "higher", "above 1: a lower MSE than {1}",
        [](const MethodSummary& row) { return row.ratioToAverage; }},
-      {"efficiency", "efficiency", "", "higher", "MSE ratio / time ratio",
+      {"efficiency", "efficiency against {0}", "", "higher",
+       "MSE of {0} / MSE, divided by the time ratio to {0}",
        [](const MethodSummary& row) { return row.efficiencyRatio; }},
       {"energy", "energy", "", "none", "mean(image) / mean(reference); its ideal is 1",
        [](const MethodSummary& row) { return row.energyRatio; }},
@@ -84,14 +85,14 @@ const std::vector<Column>& columns() {
        [](const MethodSummary& row) { return only(100.0 * row.worstShare); }},
       {"mse_without_lights", "MSE without lights in view", "", "lower",
        "over the pixels that show no light directly",
-       [](const MethodSummary& row) { return row.mseWithoutLights; }},
+       [](const MethodSummary& row) { return errorOf(row.mseWithoutLights); }},
       {"relmse", "relMSE", "", "lower", "relmse_e1e-2",
-       [](const MethodSummary& row) { return row.relmse; }},
+       [](const MethodSummary& row) { return errorOf(row.relmse); }},
       {"relmse_trimmed", "relMSE without the worst 0.1 %", "", "lower", "relmse_e1e-2_trim0.1",
-       [](const MethodSummary& row) { return row.relmseTrimmed; }},
+       [](const MethodSummary& row) { return errorOf(row.relmseTrimmed); }},
       {"slope", "slope", "", "lower", "of log(MSE) over log(time) while frames accumulate",
        slopeOf},
-      {"equal_time", "the same at equal time", "", "higher",
+      {"equal_time", "MSE of {0} / MSE at equal time", "", "higher",
        "MSE of {0} / MSE off the fitted lines, where both have taken the same time", equalTimeOf,
        [](const MethodSummary& row) {
          return row.speedUp ? fmt::format("at {} ms", shortNumber(row.speedUp->equalTime.at)) : "";
@@ -366,7 +367,7 @@ Json blockDocument(const Suite& suite, const std::vector<MethodSummary>& rows, f
   const BlockResult& block = *rows.front().block;
   const std::string label = blockLabel(suite, block);
   Json document = {
-      {"id", label},
+      {"id", plainId(label)},
       {"title", fmt::format("{}, {} light{}", block.scene, componentName(block.component),
                             suite.point.empty() ? "" : ", " + suite.point)},
       {"subtitle",

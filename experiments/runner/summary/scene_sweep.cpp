@@ -59,8 +59,8 @@ SceneSweep emptySweep(const SweptBlock& block, const SuiteScene& scene) {
                             scene.sweepName.empty() ? "sweep" : "", sweep.parameter.name,
                             sweep.parameter.scene, component, point.empty() ? "" : ", " + point,
                             counted(block.suite->maxBounces, "scattering event"));
-  sweep.id = safeFileName(fmt::format("sweep-{}-{}-{}{}", scene.sweep, sweep.parameter.name,
-                                      component, point.empty() ? "" : "-" + point));
+  sweep.id = plainId(safeFileName(fmt::format("sweep-{}-{}-{}{}", scene.sweep, sweep.parameter.name,
+                                              component, point.empty() ? "" : "-" + point)));
   for (const MethodSummary& row : *block.rows) sweep.methods.push_back(row.method->name);
   sweep.cells.assign(sweep.methods.size(), std::vector<SweptCell>(names.size()));
   sweep.blocks.resize(names.size());

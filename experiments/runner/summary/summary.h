@@ -99,6 +99,12 @@ inline Interval percent(const Interval& of) {
   return {100.0 * of.value, 100.0 * of.lo, 100.0 * of.hi};
 }
 
+// An error as tables show it: above 0, a lower end that is not says that there is no bound. One
+// below the noise of its reference stays as it is.
+inline Interval errorOf(const Interval& mse) {
+  return mse.value > 0.0 ? ratioOfPositives(mse) : mse;
+}
+
 const char* biasName(BiasClass bias);
 
 }  // namespace restlab

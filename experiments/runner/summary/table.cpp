@@ -25,6 +25,10 @@ std::string withEnds(const Interval& of, int digits = kDigits) {
   return shortNumber(of.value, digits) + intervalText(of.lo, of.hi, digits);
 }
 
+std::string ratioWithEnds(const Interval& of) {
+  return of.value > 0.0 ? withEnds(of) : "not known";
+}
+
 std::string timeCell(const MethodSummary& row) {
   if (std::isnan(row.timeMsMedian)) return "unknown";
   const std::string text = shortNumber(row.timeMsMedian) + " ms";
@@ -43,7 +47,7 @@ std::string ratioCell(const Interval& of, bool isYardstick) {
 
 std::string efficiencyCell(const MethodSummary& row) {
   if (row.isYardstick || std::isnan(row.efficiencyRatio.value)) return "";
-  return withEnds(row.efficiencyRatio);
+  return ratioWithEnds(row.efficiencyRatio);
 }
 
 std::string withoutLightsCell(const MethodSummary& row) {
@@ -138,7 +142,7 @@ std::string accumulatedTable(const std::vector<MethodSummary>& rows, const std::
       toEqualError = readingCell(error, "faster", "slower", "to " + shortNumber(error.at));
     }
     table.add({row.method->name, std::to_string(last.frames), longTime(last.timeMs),
-               withEnds(last.mse), std::isnan(slope.value) ? "" : withEnds(slope),
+               withEnds(errorOf(last.mse)), std::isnan(slope.value) ? "" : withEnds(slope),
                fitCell(*row.convergence), atEqualTime, toEqualError});
   }
   if (table.isEmpty()) return "";
@@ -214,7 +218,7 @@ std::string errorTable(const std::vector<MethodSummary>& rows, const Names& name
                        againstHead("than", names.yardstick), againstHead("than", names.average),
                        "energy"});
   for (const MethodSummary& row : rows) {
-    table.add({markedName(row), timeCell(row), withEnds(row.mse),
+    table.add({markedName(row), timeCell(row), withEnds(errorOf(row.mse)),
                ratioCell(row.mseRatio, row.isYardstick),
                ratioCell(row.ratioToAverage, row.isAverage),
                withEnds(row.energyRatio, kEnergyDigits)});
@@ -223,17 +227,21 @@ std::string errorTable(const std::vector<MethodSummary>& rows, const Names& name
 }
 
 // What makes up the error, and what it took.
-std::string detailsTable(const std::vector<MethodSummary>& rows) {
+std::string detailsTable(const std::vector<MethodSummary>& rows, const Names& names) {
   const std::string backends = backendColumn(*rows.front().suite, rows);
-  MarkdownTable table({"method", "efficiency", "bias^2/MSE", "variance", "worst 0.1 %", "rays/px",
-                       backends.empty() ? "time" : backends});
+  const auto named = [&](const char* what, const char* word) {
+    return names.yardstick.empty() ? what : fmt::format("{} ({} {})", what, word, names.yardstick);
+  };
+  MarkdownTable table({"method", named("efficiency", "against"), "bias^2/MSE", "variance",
+                       "worst 0.1 %", "rays/px", backends.empty() ? "time" : backends});
   for (const MethodSummary& row : rows) {
     table.add({markedName(row), efficiencyCell(row), biasCell(row),
                std::isnan(row.variance.value) ? "unknown" : withEnds(row.variance),
                fmt::format("{:.0f} %", 100.0 * row.worstShare), raysCell(row),
                backendCell(row, backends)});
   }
-  MarkdownTable further({"method", "MSE without lights in view", "relMSE without the worst 0.1 %"});
+  MarkdownTable further({"method", named("MSE without lights in view", "than"),
+                         named("relMSE without the worst 0.1 %", "than")});
   for (const MethodSummary& row : rows)
     further.add({markedName(row), withoutLightsCell(row), trimmedCell(row)});
   return "\n" + table.text() + "\n" + further.text();
@@ -258,7 +266,7 @@ std::string agesTable(const std::vector<MethodSummary>& rows, const std::string&
     std::vector<std::string> cells = {std::to_string(known.front()->ages[i].age)};
     for (const MethodSummary* row : known) {
       const Interval of = ratio(row->ages[i]);
-      cells.push_back(std::isnan(of.value) ? "" : withEnds(of));
+      cells.push_back(std::isnan(of.value) ? "" : ratioWithEnds(of));
     }
     table.add(std::move(cells));
   }
@@ -297,7 +305,7 @@ std::string blockTable(const Suite& suite, const std::vector<MethodSummary>& row
   }
   notes += disturbedNote(rows);
   notes += rowNotes(rows);
-  text += detailsTable(rows);
+  text += detailsTable(rows, names);
   text += agesTable(rows, names.yardstick, [](const AgeSummary& age) { return age.mseRatio; });
   text += agesTable(rows, names.average, [](const AgeSummary& age) { return age.ratioToAverage; });
   text += figuresTable(rows);

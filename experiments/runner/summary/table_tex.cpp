@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
 #include "core/image/metrics.h"
 #include "experiments/report/text.h"
 #include "experiments/runner/summary/figures.h"
@@ -15,7 +16,7 @@ namespace {
 
 std::string escaped(const std::string& text) {
   std::string out;
-  for (const char c : text) {
+  for (const char c : oneLine(text)) {
     switch (c) {
       case '\\':
         out += "\\textbackslash{}";
@@ -53,15 +54,23 @@ std::string number(double value, int digits = kDigits) {
   return fmt::format("${} \\times 10^{{{}}}$", plain.substr(0, e), std::stoi(plain.substr(e + 1)));
 }
 
+// The words of intervalText(), small; "" where an end is unknown.
+std::string ends(const Interval& interval, int digits) {
+  if (std::isnan(interval.lo) || std::isnan(interval.hi)) return "";
+  const auto end = [&](double of) {
+    return std::isinf(of) ? std::string("unbounded") : number(of, digits);
+  };
+  const bool isOpen = std::isinf(interval.lo) && std::isinf(interval.hi);
+  return fmt::format(
+      " {{\\scriptsize [{}]}}",
+      isOpen ? "unbounded" : fmt::format("{}, {}", end(interval.lo), end(interval.hi)));
+}
+
 std::string cell(const Interval& interval, bool isBest, const std::string& unit = "",
                  int digits = kDigits) {
   if (std::isnan(interval.value)) return "";
   const std::string value = number(interval.value, digits) + unit;
-  const bool isKnown = std::isfinite(interval.lo) && std::isfinite(interval.hi);
-  return (isBest ? fmt::format("\\textbf{{{}}}", value) : value) +
-         (isKnown ? fmt::format(" {{\\scriptsize [{}, {}]}}", number(interval.lo, digits),
-                                number(interval.hi, digits))
-                  : "");
+  return (isBest ? fmt::format("\\textbf{{{}}}", value) : value) + ends(interval, digits);
 }
 
 // The smallest value of the rows that count; NaN where there are not two to choose from.
@@ -197,7 +206,7 @@ std::string blockTex(const Suite& suite, const std::vector<MethodSummary>& rows)
         "{} & {} & {} & {} & {} & {} & {} \\\\\n", nameCell(row),
         row.counts && row.timeMsMedian == timeMs ? fmt::format("\\textbf{{{}}}", ms) : ms,
         cell(row.isYardstick ? unknown : row.timeRatio, false, "$\\times$"),
-        cell(row.mse, row.counts && row.mse.value == mse),
+        cell(errorOf(row.mse), row.counts && row.mse.value == mse),
         cell(row.isYardstick ? unknown : row.mseRatio, false, "$\\times$"),
         cell(row.energyRatio, false, "", kEnergyDigits),
         std::isnan(bias) ? "--" : fmt::format("${:+.1f}$\\,\\%", bias));
