@@ -38,6 +38,8 @@ constexpr std::chrono::milliseconds kPatience{400};
                                 pid_t viewer) {
   // However the viewer ends, the run does: it keeps what is finished.
   const bool isTied = prctl(PR_SET_PDEATHSIG, SIGINT) == 0 && getppid() == viewer;
+  // A shell's background jobs ignore it, and so would their children.
+  signal(SIGINT, SIG_DFL);
   // A group of its own: whoever ends the viewer by Ctrl-C ends the run once, through the viewer.
   const bool isReady = isTied && setpgid(0, 0) == 0 && chdir(folder) == 0;
   const int in = open("/dev/null", O_RDONLY), out = open("/dev/null", O_WRONLY);
@@ -70,18 +72,19 @@ struct Pipe {
 }  // namespace
 
 // A program that does not end by the first signal, as a driver compiles a kernel, does by the
-// second, which has its default effect (experiments/runner/run/interrupt.h).
+// second, which has its default effect (experiments/runner/run/interrupt.h). Nothing outlives the
+// third.
 Measurement::~Measurement() {
   if (!isRunning()) return;
-  kill(-child_, SIGINT);  // with what it has started
-  int status = 0;
   pid_t ended = 0;
-  for (const auto start = Clock::now(); ended == 0 && Clock::now() - start < kPatience;) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    ended = waitpid(child_, &status, WNOHANG);
-  }
-  if (ended == 0) kill(-child_, SIGINT);
-  while (ended <= 0 && (ended = waitpid(child_, &status, 0)) < 0 && errno == EINTR) {
+  for (const int signal : {SIGINT, SIGINT, SIGKILL}) {
+    kill(-child_, signal);  // with what it has started
+    for (const auto start = Clock::now(); ended == 0 && Clock::now() - start < kPatience;) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      int status = 0;
+      ended = waitpid(child_, &status, WNOHANG);
+    }
+    if (ended != 0) break;
   }
   close(pipe_);
 }
