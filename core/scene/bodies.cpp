@@ -11,10 +11,6 @@ bool meet(const BodyBox& a, const BodyBox& b) {
   return glm::all(glm::lessThanEqual(a.low, b.high)) && glm::all(glm::lessThanEqual(b.low, a.high));
 }
 
-bool holds(const BodyBox& box, const glm::dvec3& p) {
-  return glm::all(glm::lessThanEqual(box.low, p)) && glm::all(glm::lessThanEqual(p, box.high));
-}
-
 double volumeOf(const BodyBox& box) {
   const glm::dvec3 size = box.high - box.low;
   return size.x * size.y * size.z;
@@ -140,7 +136,7 @@ glm::uvec4 bodiesAt(const Scene& scene, const Bodies& bodies, const glm::dvec3& 
     if (bodies.rank[i] == 0u) continue;
     const MeshInstance& instance = scene.instances[i];
     const MeshGeometry& mesh = scene.geometries[instance.geometry];
-    if (!holds(bodies.boxes[i], posW)) continue;
+    if (!bodies.boxes[i].holds(posW)) continue;
     ranks.insert(ranks.end(), shellsAround(mesh, instance, posW), bodies.rank[i]);
   }
   std::sort(ranks.rbegin(), ranks.rend());

@@ -13,6 +13,10 @@ namespace restlab {
 // Corners of an axis-aligned box in the world, metres.
 struct BodyBox {
   glm::dvec3 low{0.0}, high{0.0};
+
+  bool holds(const glm::dvec3& p) const {
+    return glm::all(glm::lessThanEqual(low, p)) && glm::all(glm::lessThanEqual(p, high));
+  }
 };
 
 struct Bodies {

@@ -28,17 +28,13 @@ bool facesInwards(const MeshGeometry& mesh) {
   return volume < 0.0 && glm::length(sum) < 1e-4 * area;
 }
 
-bool holds(const BodyBox& box, const glm::dvec3& p) {
-  return glm::all(glm::lessThanEqual(box.low, p)) && glm::all(glm::lessThanEqual(p, box.high));
-}
-
 // The most boxes that hold the centre of one of them.
 size_t deepest(const std::vector<BodyBox>& boxes) {
   size_t most = 0;
   for (const BodyBox& inner : boxes) {
     const glm::dvec3 centre = 0.5 * (inner.low + inner.high);
     const auto depth = std::count_if(boxes.begin(), boxes.end(),
-                                     [&](const BodyBox& box) { return holds(box, centre); });
+                                     [&](const BodyBox& box) { return box.holds(centre); });
     most = std::max(most, size_t(depth));
   }
   return most;

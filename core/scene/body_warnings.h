@@ -1,4 +1,4 @@
-// What a scene's bodies cannot do, said in a line each.
+// Warnings about bodies that a path cannot follow as their author meant.
 #pragma once
 
 #include <string>

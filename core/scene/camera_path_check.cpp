@@ -21,7 +21,7 @@ constexpr uint32_t kMostSteps = 16, kMostViews = 8;
 constexpr double kMostTests = 2e8;
 // Rays of a view on a side, for what fills it and for what is near.
 constexpr int kViewSide = 5;
-// Of a step: relative to coordinates and to the edges of a triangle.
+// Tolerance of a step, relative to coordinates and to the edges of a triangle.
 constexpr double kBeginSlack = 1e-12, kEdgeSlack = 1e-9;
 
 struct Ray {

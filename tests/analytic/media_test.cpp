@@ -306,23 +306,29 @@ TEST(Media, ABoxOfTheSameMediumTakesNoLight) {
     EXPECT_NEAR(with[i], without[i], 0.03 * without[i]) << kMachines[i].integrator << " " << i;
 }
 
-// It is left out: no event is spent on it, and the light of a point reaches what lies behind.
+// A grey wall at z = -3 under a point lamp at z = 0.5, seen in one direction, and its radiance.
+Scene finishLitWall(SceneBuilder& builder) {
+  builder.add(builtin::quad("wall", {-1, -1, -3}, {2, 0, 0}, {0, 2, 0}),
+              builder.addMaterial("wall", builtin::lambert(glm::vec3(0.5f))));
+  PunctualLight lamp;
+  lamp.posW = {0.0, 0.0, 0.5};
+  lamp.intensity = glm::vec3(10.0f);
+  builder.addLight(lamp);
+  Scene scene = finish(builder);
+  scene.cameras[0].xmag = scene.cameras[0].ymag = 1e-4;
+  return scene;
+}
+const double kLitWall = 10.0 / (3.5 * 3.5) * 0.5 / 3.14159265358979;
+
+// A surface without contrast or colour is left out: no event is spent on it, and the light of a
+// point reaches what lies behind.
 TEST(Media, NothingIsSeenOfAnIndexOfOne) {
   for (const uint32_t flags : {0u, uint32_t(rl::RL_MATERIAL_THIN)}) {
     SceneBuilder builder("clear");
     rl::Material clear = body(glm::vec3(0.0f), 1.0f, 0.5f);
     clear.flags |= flags;
     builder.add(box(-1.0, -2.0), builder.addMaterial("clear", clear));
-    builder.add(builtin::quad("wall", {-1, -1, -3}, {2, 0, 0}, {0, 2, 0}),
-                builder.addMaterial("wall", builtin::lambert(glm::vec3(0.5f))));
-    PunctualLight lamp;
-    lamp.posW = {0.0, 0.0, 0.5};
-    lamp.intensity = glm::vec3(10.0f);
-    builder.addLight(lamp);
-    Scene scene = finish(builder);
-    scene.cameras[0].xmag = scene.cameras[0].ymag = 1e-4;
-    expectImage(scene, glm::dvec3(10.0 / (3.5 * 3.5) * 0.5 / 3.14159265358979), "behind it", 1,
-                1e-4, 1);
+    expectImage(finishLitWall(builder), glm::dvec3(kLitWall), "behind it", 1, 1e-4, 1);
   }
 }
 
@@ -333,17 +339,9 @@ TEST(Media, ShadowRaysPassBodiesOfLessPriority) {
   const uint32_t red = builder.addMaterial("red", body(kRed, 1.5f));
   builder.add(box(2.0, -4.0, 6.0), red);
   builder.add(box(-1.0, -1.5), builder.addMaterial("blue", body(kBlue, 1.2f)));
-  builder.add(builtin::quad("wall", {-1, -1, -3}, {2, 0, 0}, {0, 2, 0}),
-              builder.addMaterial("wall", builtin::lambert(glm::vec3(0.5f))));
-  PunctualLight lamp;
-  lamp.posW = {0.0, 0.0, 0.5};
-  lamp.intensity = glm::vec3(10.0f);
-  builder.addLight(lamp);
-  Scene scene = finish(builder);
-  scene.cameras[0].xmag = scene.cameras[0].ymag = 1e-4;
+  Scene scene = finishLitWall(builder);
   scene.materials[red].priority = 1;
-  const double lit = 10.0 / (3.5 * 3.5) * 0.5 / 3.14159265358979;
-  expectImage(scene, lit * through(kRed, 3.5 + 3.0), "lamp and wall in one body", 1, 1e-4, 1);
+  expectImage(scene, kLitWall * through(kRed, 3.5 + 3.0), "lamp and wall in one body", 1, 1e-4, 1);
 }
 
 }  // namespace

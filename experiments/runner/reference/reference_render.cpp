@@ -28,7 +28,7 @@ bool isEnough(const ReferenceState& state, const ReferenceTarget& target,
                        rareLightsOf(state, lights).sppNeeded);
 }
 
-// What the target still waits for, beside the progress.
+// Returns the text beside the progress: the error, and the light that the target waits for.
 std::string noteOf(const ReferenceState& state, const ReferenceTarget& target,
                    const std::vector<DrawnLight>& lights) {
   const std::vector<double>& checks = state.checks.kept();
