@@ -32,6 +32,9 @@ class Page {
     const auto port = uint16_t(std::stoi(url.substr(colon + 1, slash - colon - 1)));
     boost::beast::get_lowest_layer(socket_).connect(
         boost::asio::ip::tcp::endpoint(boost::asio::ip::make_address("127.0.0.1"), port));
+    // As browsers do: a command waits for no acknowledgement of the one before.
+    boost::beast::get_lowest_layer(socket_).socket().set_option(
+        boost::asio::ip::tcp::no_delay(true));
     socket_.handshake("localhost", "/socket" + url.substr(slash + 1));
     socket_.read_message_max(0);
   }

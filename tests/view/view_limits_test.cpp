@@ -23,10 +23,9 @@ TEST_F(ViewLimitsTest, SavedSessionsAreCounted) {
   const auto count = [&] {
     return std::distance(fs::directory_iterator(folder()), fs::directory_iterator());
   };
-  for (uint32_t i = 0; i < ViewLoop::kMostSessions; ++i) {
+  for (uint32_t i = 0; i < ViewLoop::kMostSessions; ++i)
     page.say({{"do", "save"}, {"name", fmt::format("n{}", i)}});
-    page.waitFor("saved");
-  }
+  for (uint32_t i = 0; i < ViewLoop::kMostSessions; ++i) page.waitFor("saved");
   EXPECT_EQ(count(), ViewLoop::kMostSessions);
   page.say({{"do", "save"}, {"name", "one more"}});
   const Json said = page.waitFor("said", [](const Json& s) {
@@ -46,6 +45,36 @@ TEST_F(ViewLimitsTest, FilesAreNamedInAnyScript) {
   page.say({{"do", "save"}, {"name", "K\u00fcche 2"}});
   EXPECT_EQ(page.waitFor("saved")["name"], "K\u00fcche-2.toml");
   EXPECT_TRUE(fs::exists(folder() / "K\u00fcche-2.toml"));
+}
+
+// Pictures are kept for a page until it takes them: one that takes none is refused further ones.
+TEST_F(ViewLimitsTest, PicturesThatAPageDoesNotTakeAreBoundedByBytes) {
+  start();
+  Page page(url());
+  page.say({{"do", "pause"}, {"on", true}});
+  page.say({{"do", "resolution"}, {"width", 512}, {"height", 512}});
+  page.waitFor("state", [](const Json& state) { return state["width"] == 512; });
+  constexpr int kAsked = 16;
+  for (int i = 0; i < kAsked; ++i) page.say({{"do", "picture"}, {"image", 0}});
+  Page other(url());
+  other.say({{"do", "picture"}, {"image", 0}});
+  other.waitFor("file");  // All that was asked before it is answered.
+  std::vector<size_t> sent;
+  int refused = 0;
+  while (int(sent.size()) + refused < kAsked) {
+    const Json text = page.next();
+    ASSERT_FALSE(text.is_null());
+    if (text["say"] == "file") sent.push_back(text["base64"].get<std::string>().size());
+    if (text["say"] != "error") continue;
+    EXPECT_NE(text["text"].get<std::string>().find("picture: the page has not taken"),
+              std::string::npos)
+        << text;
+    ++refused;
+  }
+  ASSERT_FALSE(sent.empty());
+  EXPECT_GT(refused, 0) << sent.size() << " pictures of " << sent[0] << " bytes waited";
+  page.say({{"do", "picture"}, {"image", 0}});
+  page.waitFor("file");
 }
 
 // One by one the parts would fit.
