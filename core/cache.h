@@ -1,7 +1,7 @@
-// Where the past of a surface lies. A cache is a folder under core/caches/, a line in
+// Storage of the history of surfaces. A cache is a folder under core/caches/, a line in
 // core/caches/caches.list, and in the folder kernels of its passes and one .cpp that defines `const
-// CacheInfo& <name>CacheInfo()`. Integrators name none: they read the buffers that every cache has
-// (core/caches/README.md).
+// CacheInfo& <name>CacheInfo()`. Integrators name no cache: they read the buffers that every cache
+// has (core/caches/README.md).
 #pragma once
 
 #include <string>
@@ -11,12 +11,12 @@
 
 namespace restlab {
 
-// Its passes run before the integrator's.
+// Passes of the cache run before those of the integrator.
 struct CacheInfo : PartInfo {};
 
 // All caches of caches.list, in its order; the first is the default.
 const std::vector<const CacheInfo*>& cacheRegistry();
-// Throws Error (badUsage) with the nearest name.
+// Throws Error (badUsage) with the nearest name if the cache is unknown.
 const CacheInfo& findCache(const std::string& name);
 
 }  // namespace restlab

@@ -34,7 +34,7 @@ std::string kindOf(const toml::node& node) {
   }
 }
 
-// An assigned value has no line of its own: its "file" is this and the place that assigned it.
+// Prefix that marks the "file" of an assigned value: the place that assigned it, without a line.
 constexpr char kAssigned = '\x01';
 
 std::string formatPlace(const toml::source_region& source, const std::string& file) {
@@ -49,7 +49,7 @@ std::string quotedList(const std::vector<std::string>& names) {
   return text;
 }
 
-// "unknown WHAT 'given', did you mean 'x'?" or with the list of what there is.
+// Returns "unknown WHAT 'given', did you mean 'x'?", or the same with a list of the known names.
 std::string unknownName(const std::string& what, const std::string& given,
                         const std::vector<std::string>& known) {
   const std::string near = nearestName(given, known);
@@ -62,7 +62,7 @@ std::string rangeText(double min, double max) {
   return fmt::format("in {:.10g}..{:.10g}", min, max);
 }
 
-// Converts a TOML node to the parameter's type; "" and the value, or what is wrong.
+// Converts a TOML node to the parameter's type; returns "" and sets `value`, or returns the fault.
 std::string convertParameter(const ParameterInfo& info, const toml::node& node,
                              ParameterValue& value) {
   const bool bounded = info.minValue < info.maxValue;
@@ -99,7 +99,7 @@ std::string convertParameter(const ParameterInfo& info, const toml::node& node,
   return "";
 }
 
-// `text` as a TOML value, or as a bare string. The document keeps the node alive.
+// Parses `text` as a TOML value, or else as a bare string. The document keeps the node alive.
 toml::table parseValue(const std::string& text, const std::string& place) {
   if (text.find('\n') == std::string::npos && text.find('#') == std::string::npos) {
     try {
@@ -115,11 +115,11 @@ toml::table parseValue(const std::string& text, const std::string& place) {
 
 }  // namespace
 
-// One table and what is remembered of it, whichever ConfigTable looks at it.
+// One table and its state, shared by all ConfigTables that refer to it.
 struct ConfigTable::Node {
   toml::table* table = nullptr;
-  std::set<std::string> known;                // keys that were asked for
-  std::map<std::string, std::string> places;  // of assigned keys
+  std::set<std::string> known;                // keys that were read
+  std::map<std::string, std::string> places;  // places of assigned keys
 
   const toml::node* find(const std::string& key) {
     known.insert(key);
@@ -131,7 +131,7 @@ struct ConfigTable::Document {
   toml::table root;
   std::string file;
   std::map<const toml::table*, Node>
-      nodes;  // tables keep their address: toml++ owns them by pointer
+      nodes;  // the addresses stay valid: toml++ owns tables by pointer
 
   Node* nodeOf(toml::table& table) {
     Node& node = nodes[&table];

@@ -1,5 +1,5 @@
-// TOML to typed values with positions. A table notes which keys were asked for; finish() then
-// reports the first key that nobody asked for, with file, line, column and the nearest name:
+// TOML to typed values with positions. A table remembers which keys were read; finish() then
+// reports the first key that was not, with file, line, column and the nearest name:
 //   suite.toml:4:1: unknown key 'sceen', did you mean 'scene'?
 // Every error is an Error with ExitCode::badUsage.
 #pragma once
@@ -18,15 +18,15 @@ namespace restlab {
 
 class ConfigTable {
  public:
-  // With the files that it includes (core/config_include.h).
+  // Parses a file and the files that it includes (core/config_include.h).
   static ConfigTable parseFile(const std::filesystem::path& file);
-  // `name` stands where the file name would in messages.
+  // Parses `text`; `name` replaces the file name in messages.
   static ConfigTable parseText(const std::string& text, const std::string& name);
 
   bool has(const std::string& key) const;
 
-  // Values by key; the fallback is returned where the key is absent. Ranges are inclusive.
-  // A NaN is never inside a range.
+  // Values by key; the fallback is returned if the key is absent. Ranges are inclusive. A NaN is
+  // never inside a range.
   std::string getString(const std::string& key, const std::string& fallback) const;
   std::string getChoice(const std::string& key, const std::string& fallback,
                         const std::vector<std::string>& choices) const;
@@ -35,38 +35,38 @@ class ConfigTable {
   double getNumber(const std::string& key, double fallback,
                    double min = -std::numeric_limits<double>::max(),
                    double max = std::numeric_limits<double>::max()) const;
-  // An array of strings, or one string for an array of one.
+  // Reads an array of strings, or one string as an array of one.
   std::vector<std::string> getStrings(const std::string& key,
                                       const std::vector<std::string>& fallback = {}) const;
   std::vector<int64_t> getIntegers(const std::string& key, const std::vector<int64_t>& fallback,
                                    int64_t min, int64_t max) const;
-  // The values of an array, or one value, each as TOML text that assign() takes.
+  // Reads the values of an array, or one value, each as TOML text that assign() accepts.
   std::vector<std::string> getTexts(const std::string& key) const;
-  // In the order of the file.
+  // Keys in the order of the file.
   std::vector<std::string> keys() const;
-  // The keys that were asked for, in alphabetical order.
+  // Keys that were read, in alphabetical order.
   std::vector<std::string> known() const;
-  // The table, with what was assigned, as TOML.
+  // The table as TOML, including assigned values.
   std::string text() const;
-  // An array of `count` numbers, each inside the range; one number for an array of one.
+  // Reads an array of `count` numbers, each inside the range, or one number as an array of one.
   std::vector<double> getNumbers(const std::string& key, const std::vector<double>& fallback,
                                  size_t count, double min, double max) const;
-  // [key]: an empty table where the key is absent.
+  // [key]: an empty table if the key is absent.
   ConfigTable getTable(const std::string& key) const;
   // [[key]]: the tables in the order of the file.
   std::vector<ConfigTable> getTables(const std::string& key) const;
-  // The key `info.name` with the type, range and choices of `info`; nothing where absent.
+  // Reads the key `info.name` with the type, range and choices of `info`; nullopt if absent.
   std::optional<ParameterValue> getParameter(const ParameterInfo& info) const;
 
   // Sets a key of this table as `--set` does: `valueText` is a TOML value, or else a bare string.
   // Messages about the value name `place` instead of a file and line.
   void assign(const std::string& key, const std::string& valueText, const std::string& place);
 
-  // Throws badUsage at the key (or at the table where the key is absent): "place: message".
+  // Throws badUsage at the key (or at the table if the key is absent): "place: message".
   [[noreturn]] void fail(const std::string& key, const std::string& message) const;
   // "file:line:column" of the key's value, or of the table.
   std::string place(const std::string& key = "") const;
-  // Throws badUsage at the first key, in file order, that was never asked for.
+  // Throws badUsage at the first key, in file order, that was never read.
   void finish() const;
 
  private:
@@ -77,11 +77,12 @@ class ConfigTable {
   Node* node_;  // owned by the document
 };
 
-// The value of `--set NAME=TEXT` with the type, range and choices of `info`; errors name `place`.
+// Parses the value of `--set NAME=TEXT` with the type, range and choices of `info`; errors name
+// `place`.
 ParameterValue parseParameter(const ParameterInfo& info, const std::string& text,
                               const std::string& place);
 
-// Splits "KEY=VALUE" of an option; throws badUsage where there is no '=' or no key.
+// Splits "KEY=VALUE" of an option; throws badUsage if '=' or the key is missing.
 std::pair<std::string, std::string> splitAssignment(const std::string& assignment,
                                                     const std::string& option = "--set");
 

@@ -15,9 +15,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// What people write is far smaller.
+// Far above any file of settings.
 constexpr size_t kMaxFileBytes = size_t(1) << 20;
-// Files that include one file twice, which includes one twice, ... read it 2^n times.
+// Limit on includes: files that each include another one twice are read 2^n times.
 constexpr size_t kMaxIncludes = 100;
 
 bool isArrayOfTables(const toml::node& node) {
@@ -25,7 +25,7 @@ bool isArrayOfTables(const toml::node& node) {
          node.as_array()->is_homogeneous(toml::node_type::table);
 }
 
-// Moves what `own` holds into `all`, over what is there.
+// Moves the content of `own` into `all`, replacing existing values.
 void mergeInto(toml::table& all, toml::table&& own) {
   for (auto&& [key, value] : own) {
     toml::node* there = all.get(key);
@@ -48,14 +48,14 @@ toml::table parse(const std::string& text, const std::string& name) {
   }
 }
 
-// `open`: the files whose includes are being read, to find one that includes itself. `included`:
-// how many files were included so far.
+// Parses a text and its includes. `open`: the files whose includes are being read, to detect a file
+// that includes itself. `included`: number of files included so far.
 toml::table parseOpen(const std::string& text, const std::string& name, const fs::path& folder,
                       std::vector<fs::path>& open, size_t& included) {
   toml::table own = parse(text, name);
   toml::table all;
   const toml::node* include = own.get("include");
-  std::vector<std::pair<std::string, std::string>> files;  // with the place that names them
+  std::vector<std::pair<std::string, std::string>> files;  // file, and the place that names it
   if (include != nullptr) {
     const std::string place = tomlPlace(include->source(), name);
     const auto add = [&](const toml::node& node) {

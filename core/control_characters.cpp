@@ -8,8 +8,8 @@ namespace restlab {
 
 namespace {
 
-// The number of the control character that begins at `at`, and how many bytes it has; 0 bytes:
-// none begins there.
+// Returns the length in bytes of the control character that begins at `at`, and sets its number;
+// returns 0 if none begins there.
 size_t controlAt(const std::string& text, size_t at, uint32_t& number) {
   const auto byte = [&](size_t i) { return i < text.size() ? uint8_t(text[i]) : 0u; };
   number = byte(at);

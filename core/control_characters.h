@@ -1,16 +1,16 @@
-// Characters that command a terminal instead of being shown: those of ASCII, and those from U+0080
-// to U+009F in UTF-8. Names inside files may hold them.
+// Characters that command a terminal instead of being shown: those of ASCII, and U+0080 to U+009F
+// in UTF-8. Names inside files may contain them.
 #pragma once
 
 #include <string>
 
 namespace restlab {
 
-// A blank in the place of each. Line breaks and tabs may stay.
+// Replaces each control character by a blank. With `keepsLines`, line breaks and tabs stay.
 std::string withoutControls(const std::string& text, bool keepsLines);
 
-// JSON with an escape in the place of each, which means the same to who parses it. A dump has
-// escaped those below U+0020 already; its own line breaks stay.
+// Replaces each control character in JSON by an escape, with the same meaning to a parser. A dump
+// has already escaped those below U+0020; its own line breaks stay.
 std::string jsonWithoutControls(const std::string& dump);
 
 }  // namespace restlab

@@ -1,4 +1,4 @@
-// What stands between the shaded radiance and the frame that is shown. A denoiser is a folder under
+// Denoisers: the step from shaded radiance to the frame that is shown. A denoiser is a folder under
 // denoise/, a line in denoise/denoisers.list, kernels (or a filter on the host) and one .cpp that
 // defines `const DenoiserInfo& <name>DenoiserInfo()`.
 #pragma once
@@ -12,23 +12,23 @@
 
 namespace restlab {
 
-// Buffer 0 is the frame that is shown (12 bytes a pixel); without buffers the radiance is shown as
-// it is. Inputs are "radiance" and the buffers of core/view_parts.h: guides and motion of the film
-// samples, and what the centres of pixels show. Not every method has reservoirs
-// ("reservoir_history") or looks for changed light (core/changes): these are optional inputs.
+// Buffer 0 is the frame that is shown (12 bytes per pixel); without buffers the radiance is shown
+// unchanged. Inputs are "radiance" and the buffers of core/view_parts.h: features and motion of the
+// film samples, and the surfaces at pixel centres. Reservoirs ("reservoir_history") and detection
+// of changed light (core/changes) are optional inputs, as some methods lack them.
 struct DenoiserInfo : PartInfo {
-  // What it adds to the bias of the integrator, while the camera stands and when it moves.
+  // Bias that the denoiser adds to the integrator's, for a still and for a moving camera.
   BiasClass biasOfStillView = BiasClass::unbiased;
   BiasClass biasOfMovingView = BiasClass::unbiased;
   std::string why;
-  // How many frames a shown pixel averages, once its history is old, where the integrator's
-  // radiance averages `radianceFrames`; empty: as many.
+  // Number of frames that a shown pixel averages once its history is old, if the integrator's
+  // radiance averages `radianceFrames`; empty: the same number.
   std::function<double(const ParameterMap&, double radianceFrames)> shownFrames;
-  // Its image scales with the radiance in a smaller range (core/radiance_range.h).
+  // The image scales with the radiance only in a smaller range (core/radiance_range.h).
   bool comparesSquares = false;
-  // Of a denoiser that has no passes and no buffers: what runs on the host instead, with so many
-  // threads (0: all cores) and resolved parameters. Its inputs are "radiance" and "guide", and it
-  // has no history.
+  // For a denoiser without passes and buffers: makes the filter that runs on the host, with
+  // `threads` threads (0: all cores) and resolved parameters. The filter's inputs are "radiance"
+  // and "guide", and it has no history.
   std::function<HostFilter(int threads, const ParameterMap&)> onHost;
 };
 
@@ -39,11 +39,12 @@ struct MissingDenoiser {
   std::string whyNot;
 };
 
-// All denoisers of denoisers.list that are there, in its order.
+// All denoisers of denoisers.list in this build, in its order.
 const std::vector<const DenoiserInfo*>& denoiserRegistry();
-// The others.
+// Denoisers of denoisers.list that this build lacks.
 const std::vector<MissingDenoiser>& missingDenoisers();
-// Throws Error (badUsage) with the nearest name, or with the reason why it is missing.
+// Throws Error (badUsage) with the nearest name if the denoiser is unknown, or with the reason if
+// it is missing.
 const DenoiserInfo& findDenoiser(const std::string& name);
 
 }  // namespace restlab

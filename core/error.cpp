@@ -11,7 +11,7 @@ namespace {
 
 char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
-// Edits (insert, delete, replace, swap of neighbours) that turn `a` into `b`; case counts nothing.
+// Edits (insert, delete, replace, swap of neighbours) that turn `a` into `b`, ignoring case.
 size_t editDistance(const std::string& a, const std::string& b) {
   std::vector<size_t> beforePrevious(b.size() + 1), previous(b.size() + 1), current(b.size() + 1);
   std::iota(previous.begin(), previous.end(), size_t(0));
@@ -45,7 +45,7 @@ std::string nearestName(const std::string& name, const std::vector<std::string>&
   for (const std::string& candidate : candidates) {
     if (candidate.size() > kLongestCompared) continue;
     size_t distance = editDistance(name, candidate);
-    // A beginning typed correctly counts as one edit, however much is missing.
+    // A correct prefix counts as one edit, however much is missing.
     if (name.size() >= 3 && candidate.size() > name.size() &&
         std::equal(name.begin(), name.end(), candidate.begin(),
                    [](char a, char b) { return lower(a) == lower(b); })) {

@@ -1,5 +1,5 @@
-// User-facing errors. Each carries the exit code of the program contract and one line of text:
-// file, place, what is wrong, what would be right.
+// User-facing errors. Each carries the exit code of the program and one line of text: file, place,
+// what is wrong, what would be right.
 #pragma once
 
 #include <stdexcept>
@@ -17,8 +17,8 @@ enum class ExitCode : int {
   interrupted = 130,
 };
 
-// `text` with every control character as a blank: names inside files may hold line breaks and the
-// escapes of terminals.
+// Replaces every control character of `text` by a blank: names inside files may contain line breaks
+// and terminal escapes.
 std::string oneLine(std::string text);
 
 class Error : public std::runtime_error {
@@ -30,16 +30,16 @@ class Error : public std::runtime_error {
   ExitCode code_;
 };
 
-// Command line or configuration is wrong (exit code 2).
+// Reports a wrong command line or configuration (exit code 2).
 [[noreturn]] inline void failUsage(const std::string& line) {
   throw Error(ExitCode::badUsage, line);
 }
-// A scene, image or reference is wrong (exit code 3).
+// Reports a wrong scene, image or reference (exit code 3).
 [[noreturn]] inline void failInput(const std::string& line) {
   throw Error(ExitCode::badInput, line);
 }
 
-// Runs `step`; its error is said again with `place` ("file:line:column") before it.
+// Runs `step`; rethrows its error with `place` ("file:line:column") in front.
 template <class Step>
 auto atPlace(const std::string& place, const Step& step) {
   try {
@@ -49,10 +49,10 @@ auto atPlace(const std::string& place, const Step& step) {
   }
 }
 
-// The candidate nearest to `name` by edit distance, or "" when none is close.
+// Returns the candidate nearest to `name` by edit distance, or "" when none is close.
 std::string nearestName(const std::string& name, const std::vector<std::string>& candidates);
 
-// "; did you mean 'x'?" or "" - to be appended to an error line.
+// Returns "; did you mean 'x'?" or "", to be appended to an error line.
 std::string didYouMean(const std::string& name, const std::vector<std::string>& candidates);
 
 }  // namespace restlab

@@ -8,7 +8,7 @@
 namespace restlab {
 
 std::string unreadableReason(const std::filesystem::path& file) {
-  // Waits for no other end of a pipe.
+  // O_NONBLOCK: do not wait for the other end of a pipe.
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
   if (descriptor >= 0) {
     ::close(descriptor);

@@ -1,4 +1,4 @@
-// Why a file cannot be read, in the words of the system.
+// Reasons why a file cannot be read, in the words of the system.
 #pragma once
 
 #include <filesystem>
@@ -7,10 +7,11 @@
 
 namespace restlab {
 
-// "no such file", "cannot be read: Permission denied", and so on. "" where it opens for reading.
+// Returns "no such file", "cannot be read: Permission denied", and so on; "" if the file opens for
+// reading.
 std::string unreadableReason(const std::filesystem::path& file);
 
-// The status could not be had: something may be there, and the system does not say what.
+// Returns whether the status is unavailable: a file may be there, but the system does not tell.
 bool isHidden(const std::error_code& status);
 
 }  // namespace restlab

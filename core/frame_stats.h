@@ -1,4 +1,4 @@
-// What passes of a frame add up to.
+// Sums over the passes of a frame.
 #pragma once
 
 #include "core/pipeline.h"

@@ -32,7 +32,7 @@ Image filterOnHost(const HostFilter& filter, const std::string& name, Pipeline& 
       ++stats.health.counts[rl::RL_HEALTH_NONFINITE];
       frame.radiance.pixels[p] = glm::vec3(0.0f);
     }
-    // As guideWrite() leaves them (core/kernels/guide_data.glsl).
+    // Unpack the words as guideWrite() packs them (core/kernels/guide_data.glsl).
     const uint32_t* guide = guides.data() + 4 * rl::RL_GUIDE_QUADS * p;
     frame.normalW.pixels[p] = {number(guide[0]), number(guide[1]), number(guide[2])};
     isLight[p] = !(number(guide[3]) > 0.0f);

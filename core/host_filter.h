@@ -12,23 +12,23 @@ namespace restlab {
 class Pipeline;     // core/pipeline.h
 struct FrameStats;  // core/session.h
 
-// A frame and what its guides say (core/kernels/guide_data.h); all of one size.
+// A frame and its features (denoiser inputs, core/kernels/guide_data.h); all of one size.
 struct HostFrame {
-  Image radiance;  // 0 where it is not finite
-  Image normalW;   // unit; 0 where the background is seen
-  Image albedo;    // the guides' reflectance: the parameter "demodulate" says of what
+  Image radiance;  // 0 where not finite
+  Image normalW;   // unit; 0 on the background
+  Image albedo;    // reflectance as chosen by the parameter "demodulate"
 };
 
-// What is shown of a frame, of the same size. It depends on that frame alone.
+// Returns the shown image of a frame, of the same size. The result depends on that frame alone.
 using HostFilter = std::function<Image(const HostFrame&)>;
 
-// What filterOnHost() takes of the host's memory: copies of both buffers, the frame, and what is
-// shown. What the filter needs beside them only it knows.
+// Host memory that filterOnHost() takes: copies of both buffers, the frame and the result. The
+// filter's own memory is not included.
 constexpr size_t kHostFilterBytesPerPixel = 5 * sizeof(glm::vec3) + 32;
 
-// Runs the filter on the frame that was collected last: on its buffers "radiance" and "guide".
-// Lights and the background are shown as they are. `stats` get one more pass of that name, with the
-// time of the copies, too, and what was not finite.
+// Runs the filter on the buffers "radiance" and "guide" of the frame that was collected last.
+// Lights and the background are shown unfiltered. Adds a pass of that name to `stats`, with the
+// time including copies, and counts non-finite pixels.
 Image filterOnHost(const HostFilter& filter, const std::string& name, Pipeline& pipeline,
                    uint32_t width, uint32_t height, FrameStats& stats);
 

@@ -21,7 +21,7 @@ namespace restlab {
 
 namespace {
 
-// The layers, in the order of the kernel's Buffers.
+// Layers in the order of the kernel's Buffers struct.
 constexpr std::array<const char*, 5> kLayers = {"radiance", "layer_normal", "layer_albedo",
                                                 "layer_depth", "layer_motion"};
 
@@ -47,7 +47,7 @@ const PartInfo& layersPart() {
   return info;
 }
 
-// A scene with nothing in it: kernels of denoisers ask for none.
+// Makes an empty scene: kernels of denoisers read no scene.
 std::shared_ptr<const CompiledScene> noScene() {
   Scene scene;
   scene.name = "layers of an image";
@@ -62,7 +62,7 @@ struct ImageDenoiser::Impl {
   Method method;
   std::unique_ptr<Backend> backend;
   std::optional<Pipeline> pipeline;
-  HostFilter onHost;  // empty: the denoiser has kernels, or nothing to do
+  HostFilter onHost;  // empty: the denoiser has kernels, or does nothing
   rl::FrameData frame{};
   FrameStats stats;
 };
@@ -72,7 +72,7 @@ ImageDenoiser::ImageDenoiser(const SessionConfig& config) : impl_(std::make_uniq
   m.config = config;
   m.method = findMethod(config);
   m.config.parameters = resolveParameters(m.method, config.parameters);
-  // No path can be traced again in an image.
+  // Switch validation off: an image has no paths to trace again.
   if (const auto every = m.config.parameters.find(kValidateEvery);
       every != m.config.parameters.end())
     every->second = int64_t{0};
@@ -117,7 +117,7 @@ Image ImageDenoiser::frame(const LayeredFrame& layers, float radianceFrames) {
   checked("lights", layers.lights);
   checked("motion", layers.motion);
   if (layers.radiance.pixels.empty()) failUsage("layer radiance: it is missing");
-  // As kLayers; what is not known is a plane that faces the viewer.
+  // In the order of kLayers; defaults describe a plane that faces the viewer.
   const auto orAll = [&](const Image& image, const glm::vec3& value) {
     return image.pixels.empty() ? std::vector<glm::vec3>(pixels, value) : image.pixels;
   };

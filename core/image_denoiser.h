@@ -1,4 +1,4 @@
-// A denoiser over images that were made elsewhere, with layers that came with them.
+// A denoiser for images that were made elsewhere, with the feature layers that came with them.
 #pragma once
 
 #include <memory>
@@ -10,34 +10,34 @@
 
 namespace restlab {
 
-// A frame and what is known of it; all of one size. An empty layer is not known: then every pixel
-// shows the same plane (normalW, depthMetres), reflects everything (albedo) and stands (motion).
+// A frame and its feature layers; all of one size. Defaults for an empty layer: every pixel shows
+// the same plane (normalW, depthMetres), reflects all light (albedo) and does not move (motion).
 struct LayeredFrame {
   Image radiance;
-  Image normalW;      // unit, towards the viewer; 0 where the background is seen
+  Image normalW;      // unit, towards the viewer; 0 on the background
   Image albedo;       // 0 to 1
   Image depthMetres;  // along the view, in the first channel; 0: background
-  Image lights;       // radiance of lights that are seen, or anything above 0
+  Image lights;       // radiance of visible lights, or any value above 0
   // Pixels to the right and down to where the last frame showed the surface; third channel: its
-  // depth there in metres, 0 where it is not known.
+  // depth there in metres, 0 if unknown.
   Image motion;
 };
 
 class ImageDenoiser {
  public:
-  // Of the configuration: backend, device, threads, denoiser, its parameters, width and height.
-  // Throws Error as Session does, and where the denoiser asks for what layers cannot give it.
+  // Uses these settings: backend, device, threads, denoiser, its parameters, width and height.
+  // Throws Error as Session does, and if the denoiser needs inputs that layers cannot provide.
   explicit ImageDenoiser(const SessionConfig& config);
   ~ImageDenoiser();
   ImageDenoiser(const ImageDenoiser&) = delete;
   ImageDenoiser& operator=(const ImageDenoiser&) = delete;
 
-  // The next frame of a sequence. `radianceFrames`: that its radiance averages itself. Throws Error
-  // (badUsage) where a layer has another size.
+  // Denoises the next frame of a sequence. `radianceFrames`: number of frames that the radiance
+  // already averages. Throws Error (badUsage) if a layer has another size.
   Image frame(const LayeredFrame& layers, float radianceFrames = 1.0f);
-  // Of the last frame.
+  // Statistics of the last frame.
   const FrameStats& stats() const;
-  // All of the denoiser's, with the defaults of those that were not given.
+  // All parameters of the denoiser, with defaults for those not given.
   const ParameterMap& parameters() const;
   // Begins a new sequence.
   void reset();

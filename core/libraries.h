@@ -7,8 +7,8 @@
 
 namespace restlab {
 
-// Name and version ("Embree", "3.13.5"). Those of the headers this was built with, but for TBB,
-// which says its own while it runs.
+// Returns name and version ("Embree", "3.13.5"): the version of the headers at build time, but for
+// TBB the version at run time.
 std::vector<std::pair<std::string, std::string>> libraryVersions();
 
 }  // namespace restlab

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The number after the word `key` in a file of "key number" lines.
+// Returns the number after the word `key` in a file of "key number" lines.
 std::optional<uint64_t> numberAfter(const fs::path& file, const std::string& key) {
   std::ifstream in(file);
   for (std::string word; in >> word;) {
@@ -23,7 +23,7 @@ std::optional<uint64_t> numberAfter(const fs::path& file, const std::string& key
   return std::nullopt;
 }
 
-// The number that is the whole of a file: nothing for the word "max".
+// Returns the number that a file consists of; nullopt for the word "max".
 std::optional<uint64_t> numberIn(const fs::path& file) {
   std::ifstream in(file);
   uint64_t value = 0;
@@ -35,7 +35,7 @@ std::optional<uint64_t> leftInControlGroup(const fs::path& folder) {
   const std::optional<uint64_t> limit = numberIn(folder / "memory.max");
   const std::optional<uint64_t> current = numberIn(folder / "memory.current");
   if (!limit || !current) return std::nullopt;
-  // Cached files count as used, but make room for whoever asks.
+  // Count cached files as free: the kernel drops them when memory is needed.
   uint64_t used = *current;
   for (const char* key : {"active_file", "inactive_file"}) {
     used -= std::min(used, numberAfter(folder / "memory.stat", key).value_or(0));
@@ -57,7 +57,7 @@ void requireMemory(const std::string& what, uint32_t width, uint32_t height,
                    uint64_t bytesPerPixel) {
   const std::optional<uint64_t> available = availableMemory();
   const uint64_t pixels = uint64_t(width) * height;
-  // The quotient: a product could wrap around.
+  // Divide, as a product could overflow.
   if (!available || bytesPerPixel == 0 || pixels <= *available / bytesPerPixel) return;
   throw Error(
       ExitCode::deviceUnavailable,

@@ -1,5 +1,5 @@
-// How much memory there is left: what does not fit is refused with a line before it is touched,
-// because the kernel ends a program that takes more without a word.
+// Available memory. Requests that do not fit are refused with a line before memory is touched, as
+// the kernel kills a program that takes too much without a message.
 #pragma once
 
 #include <cstdint>
@@ -9,22 +9,22 @@
 
 namespace restlab {
 
-// Bytes that can still be taken without swapping: the least of what the machine has (MemAvailable)
-// and what the control group allows (version 2; its page cache counts as free). Nothing where the
-// system says neither. `root` is where proc and sys are looked for.
+// Bytes that can still be taken without swapping: the minimum of what the machine has
+// (MemAvailable) and what the control group allows (version 2; its page cache counts as free).
+// nullopt if the system reports neither. `root` is the directory that contains proc and sys.
 std::optional<uint64_t> availableMemory(const std::filesystem::path& root = "/");
 
-// Throws Error (deviceUnavailable) where width x height x bytesPerPixel is more than what is
-// available; `what` starts the line.
+// Throws Error (deviceUnavailable) if width x height x bytesPerPixel exceeds the available memory;
+// `what` starts the line.
 void requireMemory(const std::string& what, uint32_t width, uint32_t height,
                    uint64_t bytesPerPixel);
 
-// What reading a file takes, piece by piece, on the word of that file.
+// Checks the memory for reading a file, piece by piece, as the file declares it.
 class MemoryGuard {
  public:
-  // Before `bytes` bytes are allocated: throws Error (deviceUnavailable) where they are more than
-  // what is available; `what` starts the line. Small pieces are added up and asked for together, as
-  // asking costs a tenth of a millisecond.
+  // Call before allocating `bytes` bytes: throws Error (deviceUnavailable) if they exceed the
+  // available memory; `what` starts the line. Small pieces are summed and checked together, as a
+  // check costs a tenth of a millisecond.
   void take(const std::string& what, uint64_t bytes);
 
  private:

@@ -33,7 +33,7 @@ void checkRange(const std::string& owner, const ParameterInfo& p, double value) 
 }
 
 ParameterValue checked(const std::string& owner, const ParameterInfo& p, ParameterValue value) {
-  // An integer is accepted where a number is meant.
+  // Accept an integer for a number.
   if (p.defaultValue.index() == 2 && value.index() == 1)
     value = static_cast<double>(std::get<int64_t>(value));
   if (value.index() != p.defaultValue.index()) {

@@ -20,7 +20,7 @@ std::string cacheName(const SessionConfig& config) {
   for (const IntegratorInfo* info : integratorRegistry()) {
     if (info->name == config.integrator && info->usesCache) return config.cache;
   }
-  return "none";  // of images that another program made, too
+  return "none";  // also for images of other programs
 }
 
 std::vector<std::pair<std::string, std::string>> settingValues(const SessionConfig& config) {

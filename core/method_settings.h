@@ -1,5 +1,5 @@
-// The settings that choose a method. Options of the command line, keys of suites, keys of jobs,
-// records and columns of tables are all made of this one list.
+// The settings that choose a method. Command line options, keys of suites and jobs, records and
+// table columns are all made from this one list.
 #pragma once
 
 #include <string>
@@ -10,17 +10,17 @@
 namespace restlab {
 
 struct MethodSetting {
-  const char* key;  // in suites and records, and a column's name; on the command line `--key`
+  const char* key;  // key in suites and records, column name; on the command line `--key`
   const char* help;
   std::string SessionConfig::*value;
 };
 
-// In the order in which tables have them.
+// Settings in the order of tables.
 const std::vector<MethodSetting>& methodSettings();
 
-// As tables and records say it: "none" where the integrator keeps no reservoirs.
+// Name of the cache for tables and records: "none" if the integrator keeps no reservoirs.
 std::string cacheName(const SessionConfig& config);
-// Key and value of each.
+// Key and value of each setting.
 std::vector<std::pair<std::string, std::string>> settingValues(const SessionConfig& config);
 
 }  // namespace restlab

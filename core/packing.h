@@ -1,4 +1,4 @@
-// The dialect's functions that pack and unpack (core/dialect/pack.glsl), for the host.
+// Packing and unpacking functions of the dialect (core/dialect/pack.glsl), for the host.
 #pragma once
 
 #include "core/dialect/order.h"

@@ -12,7 +12,7 @@ namespace restlab {
 
 namespace {
 
-// Buffers are read once, when they are first asked for.
+// Caches buffers: each is read once, on its first use.
 class Copies {
  public:
   explicit Copies(std::function<std::vector<uint32_t>(const std::string&)> read)
@@ -59,7 +59,8 @@ Pipeline::Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const s
   }
 }
 
-// What the kernels in use can touch is there, so that a superset kernel never meets a null.
+// Allocates all buffers that the kernels in use can touch, so that a superset kernel never meets a
+// null.
 size_t Pipeline::bytesOf(const PartInfo& part, const BufferInfo& buffer,
                          const ParameterMap& parameters) const {
   const bool isWanted = buffer.neededFeatures == 0 || (buffer.neededFeatures & used_) != 0;
@@ -230,7 +231,7 @@ void Pipeline::restore() {
   backend_.copy(pairs);
 }
 
-// Where the stage did not run, a buffer and the one that it swaps with are both the last run's.
+// If the stage did not run, both buffers of a swapping pair are that of the last run.
 BufferId Pipeline::bound(const Stage& stage, size_t buffer) const {
   const int other = stage.info->buffers[buffer].swapWith;
   if (!stage.runs && other >= 0) return stage.buffers[std::min(buffer, static_cast<size_t>(other))];
@@ -271,7 +272,7 @@ std::vector<PassRun> Pipeline::beginFrame(bool isNewView) {
       const bool isDue = isNewView || !stage.info->passes[p].onlyOnNewViews;
       ran.push_back(stage.runs && isDue && stage.isThere[p]);
     }
-    // What the last run left becomes the history.
+    // The output of the last run becomes the history.
     for (size_t b = 0; stage.runs && b < stage.buffers.size(); ++b) {
       const int other = stage.info->buffers[b].swapWith;
       if (other > static_cast<int>(b)) std::swap(stage.buffers[b], stage.buffers[size_t(other)]);
@@ -317,7 +318,7 @@ BufferId Pipeline::buffer(const std::string& name) const {
 }
 
 BufferId Pipeline::shown() const {
-  // A denoiser without passes shows what came before it.
+  // A denoiser without passes shows the output of the part before it.
   for (size_t s = stages_.size(); s-- > 0;) {
     if (!stages_[s].buffers.empty()) return stages_[s].buffers.front();
   }

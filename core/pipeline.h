@@ -1,4 +1,4 @@
-// The passes of a frame and the buffers that they work on: those of a method's parts, in order.
+// The passes of a frame and their buffers: those of a method's parts, in order.
 #pragma once
 
 #include <deque>
@@ -21,44 +21,45 @@ struct ShownFrame {
 
 class Pipeline {
  public:
-  // `wanted`: the features of the kernels. Throws Error (badUsage) where a part asks for a buffer
-  // that no earlier part has. Nothing is allocated yet.
+  // `wanted`: the features of the kernels. Throws Error (badUsage) if a part needs a buffer that no
+  // earlier part has. Allocates nothing yet.
   Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const std::string& mode,
            const ParameterMap& parameters, uint32_t wanted, size_t pixels);
 
   uint32_t featuresUsed() const { return used_; }
-  // Of the buffers that the kernels in use can touch: one that they cannot is not allocated. Each
-  // is rounded up, and so is their sum: it may be less than that of the rounded ones.
+  // Bytes per pixel of the allocated buffers (those that the kernels in use can touch). Each is
+  // rounded up, and so is their sum, which may be less than the sum of the rounded ones.
   std::vector<std::pair<std::string, size_t>> bufferBytesPerPixel() const;
   size_t bytesPerPixel() const;
-  // Of an image of another size: what is no pixel's is shared by more or fewer of them.
+  // Bytes per pixel for an image of another size: buffers of fixed size are shared by more or fewer
+  // pixels.
   size_t bytesPerPixelOf(size_t pixels) const;
 
-  // Other parameters, of the same mode. False, and nothing is done, where buffers would have
-  // another size.
+  // Sets other parameters of the same mode. Returns false, and does nothing, if buffers would
+  // change their size.
   bool setParameters(const std::string& mode, const ParameterMap& parameters);
-  // What the parts keep of a pixel: their layers, and what else they have to say.
+  // Values that the parts keep for a pixel: layers and other values.
   std::vector<ProbeValue> probe(size_t pixel, const ShownFrame& shown);
   std::vector<Donor> donors(size_t pixel, const ShownFrame& shown);
-  // A layer of a part, of every pixel.
+  // Values of a part's layer, one per pixel.
   std::vector<float> layer(const LayerInfo& info, const ShownFrame& shown);
 
   void allocate();
   void prepare(StartupReport& report);
   // Zeroes every buffer.
   void clear();
-  // Copies every buffer. The first call allocates as much again as allocate() did, and throws as
-  // Backend::allocate() does.
+  // Copies every buffer. The first call allocates as much memory again as allocate() did, and
+  // throws as Backend::allocate() does.
   void keep();
   bool hasCopies() const { return !kept_.empty(); }
-  // As all was at keep(): frames that were begun since then never were.
+  // Restores the snapshot taken by keep(); later frames are discarded.
   void restore();
 
-  // The passes of the next frame, after histories have traded places. `isNewView`: its camera
-  // or its parameters are not those of the frame before it.
+  // Swaps histories and returns the passes of the next frame. `isNewView`: camera or parameters
+  // differ from the frame before.
   std::vector<PassRun> beginFrame(bool isNewView);
-  // Names and times of a frame's passes, of which results holds those that ran; in the order of
-  // beginFrame(). A pass that had nothing to do has no time.
+  // Returns names and times of a frame's passes, in the order of beginFrame(); `result` holds only
+  // those that ran. A pass without work has no time.
   struct PassResult {
     std::string name;
     double timeMs = 0.0;
@@ -66,24 +67,24 @@ class Pipeline {
   };
   std::vector<PassResult> collect(const FrameResult& result);
 
-  // Of the frame that was submitted last.
+  // The shown buffer of the frame that was submitted last.
   BufferId shown() const;
-  // A buffer by name, for who writes to it what no pass does; kNoBuffer where it is not allocated.
+  // Finds a buffer by name, to write data that no pass produces; kNoBuffer if it is not allocated.
   BufferId buffer(const std::string& name) const;
-  // Reads a buffer by name; empty where it is not allocated.
+  // Reads a buffer by name; empty if it is not allocated.
   std::vector<uint32_t> words(const std::string& buffer);
 
  private:
   struct Stage {
     const PartInfo* info = nullptr;
     std::vector<std::byte> params;
-    std::vector<std::byte> shownParams;  // of the frame that was begun last
-    std::vector<uint32_t> masks;         // of each pass
-    std::vector<uint32_t> entries;       // of each pass; 0: pixels
-    std::vector<bool> isThere;           // of each pass: PassInfo::onlyWith, and that of the part
-    std::vector<size_t> bytes;           // of each own buffer; 0: not allocated
+    std::vector<std::byte> shownParams;  // parameters of the frame begun last
+    std::vector<uint32_t> masks;         // by pass
+    std::vector<uint32_t> entries;       // by pass; 0: pixels
+    std::vector<bool> isThere;           // by pass: its PassInfo::onlyWith and its part's are met
+    std::vector<size_t> bytes;           // by own buffer; 0: not allocated
     std::vector<BufferId> buffers;       // the part's own
-    bool runs = true;                    // in the frame that was begun last
+    bool runs = true;                    // in the frame begun last
   };
 
   size_t bytesOf(const PartInfo& part, const BufferInfo& buffer,
@@ -92,7 +93,7 @@ class Pipeline {
   std::optional<std::pair<size_t, size_t>> find(const std::string& name, size_t before) const;
   BufferId bound(const Stage& stage, size_t buffer) const;
   std::vector<BufferId> bindings(size_t stage) const;
-  // Each buffer of kept_ and its copy.
+  // Pairs of each buffer of kept_ and its copy.
   std::vector<std::pair<BufferId, BufferId>> keptBuffers() const;
   PassRun runOf(size_t stage, size_t pass) const;
 
@@ -101,9 +102,9 @@ class Pipeline {
   size_t pixels_ = 0;
   ParameterMap parameters_;
   uint32_t used_ = 0;
-  std::deque<std::vector<bool>> ran_;  // by pass, of the frames under way
-  std::vector<Stage> kept_;            // at keep(); their buffers' contents are in copies_
-  std::vector<BufferId> copies_;       // of all buffers of all stages, in the order of kept_
+  std::deque<std::vector<bool>> ran_;  // by pass, for the frames in flight
+  std::vector<Stage> kept_;            // snapshot of keep(); copies_ holds the contents
+  std::vector<BufferId> copies_;       // copies of all buffers of all stages, in the order of kept_
 };
 
 }  // namespace restlab

@@ -31,7 +31,7 @@ constexpr const char* kAovKernel = "aov";
 const std::vector<std::string> kAovNames = {"radiance", "positionW", "normalW",  "albedo",
                                             "depth",    "object",    "emission", "motion"};
 
-// While it lives.
+// RAII: installs a stop callback for its lifetime.
 class Stops {
  public:
   Stops(Backend& backend, const std::function<bool()>& isWanted) : backend_(backend) {
@@ -85,38 +85,39 @@ struct Session::Impl {
   Method method;
   std::unique_ptr<Backend> backend;
   std::optional<Pipeline> pipeline;
-  HostFilter onHost;  // of the denoiser; empty: it has kernels, or nothing to do
+  HostFilter onHost;  // set by a denoiser that filters on the host
   rl::FrameData frame{};
   uint32_t needed = 0;
   Image radiance;
-  bool isRadianceRead = true;  // `radiance` is that of the last frame
+  bool isRadianceRead = true;  // `radiance` holds the last frame
   StartupReport startup;
   rl::Camera nextCamera{};
-  bool isFirstFrame = true;  // of its history
+  bool isFirstFrame = true;  // next frame begins a history
   bool hasNewParameters = false;
   size_t hostBytesPerPixel = 0;
   std::vector<BufferId> aovBuffers;
-  bool isAovTraced = false;  // of the last frame
+  bool isAovTraced = false;  // for the last frame
   rl::FrameData lastFrame{};
-  std::shared_ptr<const CompiledScene> lastScene;  // of the last frame
+  std::shared_ptr<const CompiledScene> lastScene;  // scene of the last frame
 
-  // What a frame changes beside buffers.
+  // State that a frame changes, other than buffers.
   struct BeforeFrame {
     rl::FrameData frame{}, lastFrame{};
     bool isFirstFrame = true, hasNewParameters = false, isRadianceRead = true;
-    Image filtered;  // on the host
+    Image filtered;  // by the filter on the host
   };
-  std::optional<BeforeFrame> beforeFrame;  // the last frame, which may be taken back
+  std::optional<BeforeFrame> beforeFrame;  // set while the last frame can be taken back
 
-  // Backend, buffers and the first frame of a history, for the configuration.
+  // Creates backend, buffers and the first frame of a history, for the configuration.
   void open();
-  // For another one; where that throws, a new history of the one before.
+  // Opens with another configuration. If that throws, restarts the old configuration with a new
+  // history.
   void reopen(const SessionConfig& changed);
-  // What a frame says of the parameters, and a filter on the host for them.
+  // Derives frame data from the parameters, and the filter on the host.
   void useParameters();
   void submitFrame();
   FrameStats collectFrame();
-  // Whether there is memory for it.
+  // Saves the state before a frame; false if memory does not suffice.
   bool keep();
   void restore();
   ShownFrame shown() const { return {config.parameters, lastFrame, *lastScene}; }
@@ -179,7 +180,7 @@ void Session::Impl::open() {
   f.frame = 0;
   f.seed = config.seed;
   f.pixelFilter = config.pixelFilter;
-  // No path with two or more scattering events contributes to direct light: none is traced.
+  // Direct light alone: do not trace paths with two or more scattering events.
   const bool directOnly = (config.components & rl::RL_COMPONENT_INDIRECT) == 0;
   f.maxBounces = directOnly ? std::min(config.maxBounces, 1u) : config.maxBounces;
   f.components = config.components;
@@ -275,7 +276,7 @@ void Session::Impl::restore() {
   hasNewParameters = beforeFrame->hasNewParameters;
   isAovTraced = false;
   if (onHost) radiance = std::move(beforeFrame->filtered);
-  // Where it was read since, it is that of the frame that goes.
+  // An image read since is that of the discarded frame: it must be read again.
   isRadianceRead = beforeFrame->isRadianceRead && (onHost || !isRadianceRead);
   beforeFrame.reset();
 }
@@ -300,7 +301,7 @@ bool Session::canTakeBack() const { return impl_->beforeFrame.has_value(); }
 std::vector<FrameStats> Session::frames(uint32_t count) {
   impl_->beforeFrame.reset();
   std::vector<FrameStats> all;
-  // A filter on the host reads the buffers before the next frame writes to them.
+  // A filter on the host must read the buffers before the next frame writes to them.
   const uint32_t inFlight = impl_->onHost ? 1 : impl_->backend->framesInFlight();
   for (uint32_t i = 0; i < count; ++i) {
     if (i >= inFlight) all.push_back(impl_->collectFrame());

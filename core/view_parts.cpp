@@ -18,7 +18,7 @@ const PartInfo& visibleSurfaces() {
     i.passes = {{"visible", "visible"}};
     i.hasHistory = true;
     i.onlyOnNewViews = true;
-    // No parameters: the kernel's struct has a padding alone.
+    // No parameters: the kernel's struct holds only padding.
     i.packParameters = [](const std::string&, const ParameterMap&) { return bytesOf(uint32_t{0}); };
     return i;
   }();
@@ -53,7 +53,7 @@ const PartInfo& guides() {
 }  // namespace
 
 std::vector<const PartInfo*> withViewParts(std::vector<const PartInfo*> parts) {
-  // The later one first: it asks for buffers of the earlier one itself.
+  // Later part first: it needs buffers of the earlier one.
   for (const PartInfo* part : {&guides(), &visibleSurfaces()}) {
     const auto asks = [&](const std::string& input) {
       return std::any_of(part->buffers.begin(), part->buffers.end(),

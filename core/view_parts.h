@@ -1,11 +1,11 @@
-// Parts that find what a view shows, for parts that ask for it by the names of these buffers:
-//   "visible", "visible_before"   what each pixel shows at its centre, in this view and in the last
+// Parts that find the visible surfaces, for parts that use them by the names of these buffers:
+//   "visible", "visible_before"   surface at each pixel's centre, in this view and in the last
 //                                 frame's: for histories that follow surfaces
 //                                 (core/dialect/visible.h)
-//   "guide", "guide_before"       what the film samples of this frame show, in a still view their
-//                                 mean; and that of the last frame: for denoisers
+//   "guide", "guide_before"       features of the film samples of this frame (in a still view their
+//                                 mean) and of the last frame: for denoisers
 //                                 (core/kernels/guide_data.h)
-//   "motion"                      where the last frame showed it
+//   "motion"                      position in the last frame
 #pragma once
 
 #include <vector>
@@ -14,7 +14,7 @@
 
 namespace restlab {
 
-// `parts`, after those of these parts whose buffers one of them asks for.
+// Returns `parts`, preceded by those view parts whose buffers one of them uses.
 std::vector<const PartInfo*> withViewParts(std::vector<const PartInfo*> parts);
 
 }  // namespace restlab

@@ -1,4 +1,4 @@
-// How Embree's filter of a partly transparent mesh reaches the kernel that traces the ray.
+// Hands Embree's filter of a partly transparent mesh to the kernel that traces the ray.
 #pragma once
 
 #include "core/backend/embree.h"

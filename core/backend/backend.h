@@ -31,14 +31,14 @@ struct BackendInfo {
   std::string description;  // device, library versions
   bool available = true;
   std::string whyNot;
-  // What its devices are and support, one line each; empty where it has but one.
+  // One line per device: what it is and supports. Empty if the backend has but one.
   std::vector<std::string> devices;
 };
 
-// How a session's kernels are run.
+// Options of how a session's kernels are run.
 struct BackendOptions {
-  int threads = 0;         // of the CPU backend; 0: all cores
-  std::string device;      // of the Vulkan backend, a part of its name; "": the preferred one
+  int threads = 0;         // CPU backend; 0: all cores
+  std::string device;      // Vulkan backend: part of the device's name; "": the preferred one
   std::string rayTracing;  // "embree", "bvh", "query"; "": the backend's best
   bool validate = false;   // Vulkan's validation layers
 };
@@ -47,13 +47,13 @@ struct BackendOptions {
 struct KernelReport {
   std::string kernel;
   uint32_t mask = 0;
-  bool fromDisk = false;                // its SPIR-V was
+  bool fromDisk = false;                // the SPIR-V came from the disk cache
   double glslMs = 0.0, driverMs = 0.0;  // dialect to SPIR-V, SPIR-V to code
 };
 
-// What a session did before its first frame.
+// Work that a session did before its first frame.
 struct StartupReport {
-  double timeMs = 0.0;  // of the kernels; 0 where they were compiled with the program
+  double timeMs = 0.0;  // compile time of the kernels; 0 if they were compiled with the program
   std::vector<KernelReport> kernels;
   bool readsTexels = false;          // a kernel reads through texels, not by address
   std::vector<std::string> notices;  // one line each, for the user
@@ -66,7 +66,7 @@ struct PassRun {
   // In the order of the kernel's Buffers struct; kNoBuffer binds null.
   std::vector<BufferId> buffers;
   std::vector<std::byte> params;
-  uint32_t entries = 0;  // 0: a pixel each
+  uint32_t entries = 0;  // 0: the pass runs over pixels
 
   glm::uvec2 size(const rl::FrameData& frame) const {
     if (entries == 0) return {frame.width, frame.height};
@@ -75,16 +75,16 @@ struct PassRun {
 };
 
 struct FrameResult {
-  std::vector<double> timesMs;         // of each pass
-  std::vector<PassCounters> counters;  // of each pass
+  std::vector<double> timesMs;         // per pass
+  std::vector<PassCounters> counters;  // per pass
 };
 
 class Backend {
  public:
   virtual ~Backend() = default;
 
-  // Throws Error (deviceUnavailable) with the sizes where width x height pixels, of so many bytes
-  // in buffers here and so many beside them on the host, do not fit.
+  // Throws Error (deviceUnavailable) with the sizes if width x height pixels do not fit.
+  // bufferBytes: per pixel, in buffers here; hostBytes: per pixel, beside them on the host.
   virtual void requireMemory(const std::string& what, uint32_t width, uint32_t height,
                              uint64_t bufferBytes, uint64_t hostBytes) const = 0;
   // Zeroed memory; throws Error (deviceUnavailable) with the sizes when there is not enough.
@@ -92,7 +92,7 @@ class Backend {
   virtual void clear(BufferId buffer) = 0;
   virtual void write(BufferId buffer, const void* from, size_t bytes) = 0;
   virtual void read(BufferId buffer, void* to, size_t bytes) = 0;
-  // From each first buffer to its second one, of the same size.
+  // Copies each first buffer to its second one, of the same size.
   virtual void copy(const std::vector<std::pair<BufferId, BufferId>>& buffers) = 0;
 
   // The mask of the specialisation that serves `needed`; throws Error (badUsage) for unknown
@@ -101,22 +101,23 @@ class Backend {
   // Makes a pass ready to run, so that no frame has to wait for a compiler.
   virtual void prepare(const PassRun& pass, StartupReport& report) = 0;
 
-  // Another scene for the frames that come, which differs in its light alone
-  // (CompiledScene::differsInLightAlone); buffers stay. Those under way are waited for.
+  // Sets the scene of later frames, which must differ in its light alone
+  // (CompiledScene::differsInLightAlone). Keeps buffers and waits for frames under way.
   virtual void setScene(std::shared_ptr<const CompiledScene> scene) = 0;
 
-  // Starts a frame: the passes one after another. At most framesInFlight() of them may be under
-  // way; more are waited for.
+  // Starts a frame: the passes one after another. Waits if framesInFlight() frames are under way
+  // already.
   virtual void submit(const std::vector<PassRun>& passes, const rl::FrameData& frame) = 0;
   // Waits for the oldest frame under way.
   virtual FrameResult collect() = 0;
   virtual uint32_t framesInFlight() const = 0;
-  // Ends frames under way in their middle, as a signal does, while it holds: submit() or collect()
-  // then throws FrameStopped. Asked by several threads, often. Empty: signals alone.
+  // Ends frames under way in their middle while isWanted() is true, as a signal does: submit() or
+  // collect() then throws FrameStopped. Several threads call isWanted() often. Empty: signals
+  // alone.
   void stopWhere(std::function<bool()> isWanted) { isStopWanted_ = std::move(isWanted); }
 
-  virtual std::string rayTracing() const = 0;  // the one in use
-  virtual std::string device() const = 0;      // what it runs on, for reports
+  virtual std::string rayTracing() const = 0;  // the method in use
+  virtual std::string device() const = 0;      // description for reports
 
  protected:
   bool isStopped() const { return framesStopped() || (isStopWanted_ && isStopWanted_()); }

@@ -157,7 +157,7 @@ class CpuBackend final : public Backend {
     const glm::uvec2 size = pass.size(frame);
     const uint32_t tilesX = (size.x + kTile - 1) / kTile, tilesY = (size.y + kTile - 1) / kTile;
     std::vector<rl::CpuKernelCounters> tileCounters(size_t(tilesX) * tilesY);
-    std::atomic<bool> isLeftOut = false;  // a tile was
+    std::atomic<bool> isLeftOut = false;  // true: a tile was skipped
     auto runTile = [&](size_t i) {
       if (isStopped()) {
         isLeftOut = true;
@@ -276,8 +276,9 @@ const CpuKernelInfo* findCpuKernel(const char* name, uint32_t needed, const char
 }  // namespace rl
 
 #ifdef RESTLAB_JTHREAD_TILES
-// Embree builds its hierarchies on the distribution's TBB, whose synchronisation this sanitizer
-// does not see. What is looked for is in our own code, which runs on std::jthread here.
+// Suppresses reports from Embree and TBB: Embree builds its hierarchies on the distribution's TBB,
+// whose synchronisation this sanitizer does not see. Only our own code is checked, which runs on
+// std::jthread here.
 extern "C" const char* __tsan_default_suppressions();
 extern "C" const char* __tsan_default_suppressions() {
   return "called_from_lib:libembree\nrace:libembree\nrace:libtbb.so\n";

@@ -1,4 +1,4 @@
-// How a kernel is entered on the CPU. One instantiation per feature mask of core/features.list.
+// Entry of a kernel on the CPU. One instantiation per feature mask of core/features.list.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ struct CpuKernelTile {
   uint32_t x0, y0, x1, y1;
 };
 
-// Counters that each tile adds to its own copy of; summed in tile order.
+// Counters of one tile; summed in tile order.
 struct CpuKernelCounters {
   uint64_t raysPath = 0;
   uint64_t raysShadow = 0;
@@ -33,7 +33,7 @@ using CpuKernelEntry = void (*)(const CpuKernelArgs&, const CpuKernelTile&, CpuK
 struct CpuKernelInfo {
   const char* name;
   const char* maskName;
-  const char* trace;  // what finds hits: "embree" or "bvh"
+  const char* trace;  // ray tracing: "embree" or "bvh"
   uint32_t mask;
   CpuKernelEntry entry;
 };

@@ -1,12 +1,12 @@
 // traceRay() on Embree; included inside Ctx<features>, so that it is specialised with the kernel.
 
-// Embree hands the context back to the alpha filters; the kernel context rides behind it.
+// Embree hands the context back to the alpha filters; the kernel context follows Embree's.
 struct TraceContext {
   AlphaTraceContext alpha;
   Ctx* self;
   uint key;
   AlphaPassed passed;
-  Hit body;  // RL_RAY_BODIES: the one to keep so far
+  Hit body;  // RL_RAY_BODIES: best hit so far
 };
 
 // Shared meshes are Embree instances; meshes used once lie in the top scene under their own number.

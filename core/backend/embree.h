@@ -1,6 +1,5 @@
-// Embree 3 and 4 alike: no other file names a version of Embree.
-// They differ in how a query is told its context: version 3 takes the context itself, version 4
-// takes arguments that point to it.
+// Embree 3 and 4 alike: no other file names a version of Embree. Version 3 takes the context of a
+// query itself, version 4 takes arguments that point to it.
 #pragma once
 
 #if RESTLAB_EMBREE_MAJOR == 4  // cmake/dependencies.cmake says which was found
@@ -14,7 +13,7 @@
 namespace rl {
 
 #if RESTLAB_EMBREE_MAJOR == 4
-// Rides along a query; filters get it back as `context` of their arguments.
+// Context of a query; filters get it back as `context` of their arguments.
 using EmbreeContext = RTCRayQueryContext;
 
 inline void embreeInitContext(EmbreeContext& context) { rtcInitRayQueryContext(&context); }

@@ -75,7 +75,7 @@ bool isAnnotation(uint32_t op) {
   return (op >= 71 && op <= 75) || op == 332 || op == 5632 || op == 5633;
 }
 
-// Debug instructions and what else stands before the annotations.
+// Debug instructions and others that precede the annotations.
 bool isBeforeAnnotations(uint32_t op) {
   return (op >= 3 && op <= 8) || op == 10 || op == 11 || (op >= 14 && op <= 17) || op == 330 ||
          op == 331;
@@ -99,7 +99,7 @@ std::vector<uint32_t> decorateNoContraction(const std::vector<uint32_t>& spirv) 
     const uint32_t op = spirv[i] & 0xffffu;
     const size_t words = spirv[i] >> 16;
     if (words == 0 || i + words > spirv.size())
-      return spirv;  // not a module; the driver will say so
+      return spirv;  // not a module; the driver will report it
     if (isBeforeAnnotations(op) || isAnnotation(op)) insertAt = i + words;
     if (op == kOpDecorate && words >= 3 && spirv[i + 2] == kDecorationNoContraction) {
       decorated.insert(spirv[i + 1]);

@@ -12,16 +12,16 @@ namespace restlab {
 
 struct GlslResult {
   std::vector<uint32_t> spirv;  // empty when it did not compile
-  std::string log;  // glslang's words, "ERROR: file:line: ..." with the included file's name
+  std::string log;  // glslang's messages, "ERROR: file:line: ..." with the included file's name
 };
 
-// What #include "path" reads; nothing where there is no such file.
+// Reads the file of #include "path"; nullopt if there is none.
 using SourceReader = std::function<std::optional<std::string>(const std::string& path)>;
 SourceReader readBelow(const std::filesystem::path& root);
 
 // Compiles a compute shader for Vulkan 1.2; `name` stands for the text itself in messages. Every
-// float operation is decorated NoContraction: a backend that fused multiplications with additions
-// would decide otherwise than the CPU.
+// float operation is decorated NoContraction: fused multiplications and additions would lead to
+// other decisions than on the CPU.
 GlslResult compileGlsl(const std::string& text, const std::string& name, const SourceReader& read);
 
 // Adds NoContraction to the float arithmetic of a module that lacks it.

@@ -1,4 +1,4 @@
-// The GLSL side of a kernel: what core/backend/cpu_kernel.inl is for C++.
+// The GLSL side of a kernel: the counterpart of core/backend/cpu_kernel.inl.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ struct GlslKernel {
   bool readsTexels = false;     // reads by texels and uniform blocks instead of addresses
 };
 
-// What defines traceRay().
+// Implementation of traceRay().
 struct GlslTrace {
   const char* file;
   const char* extensions;
@@ -30,8 +30,8 @@ constexpr GlslTrace kGlslTraceQuery = {"core/backend/trace_query.glsl",
 // Threads of a workgroup in x and y: a tile of the image.
 constexpr uint32_t kGlslTile = 8;
 
-// Counters that a kernel adds to; zero them before a dispatch. They wrap at 2^32. What has not
-// begun when the host sets `stop` does nothing.
+// Counters that a kernel adds to; zero them before a dispatch. Values wrap at 2^32. Threads that
+// begin after the host has set `stop` do nothing.
 struct GlslCounters {
   uint32_t stop = 0;
   uint32_t raysPath = 0;
@@ -61,10 +61,11 @@ struct GlslPushConstants {
   uint64_t buffers = 0;
   uint64_t params = 0;
   uint64_t counters = 0;
-  // Where the scene's texels and those of the buffers begin, for kernels that read by texels.
+  // Base addresses of the scene's texels and of the buffers' texels, for kernels that read by
+  // texels.
   uint64_t sceneBase = 0;
   uint64_t stateBase = 0;
-  // How many pixels, or entries in rows, the pass runs over.
+  // Number of pixels, or of entries in rows, that the pass runs over.
   uint32_t width = 0, height = 0;
 };
 

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// In front of the bytes: what they are, how many, and their hash.
+// File header: magic, number of bytes behind it, and their hash.
 struct Header {
   char magic[8] = {'r', 'l', 'k', 'e', 'r', 'n', '1', '\n'};
   uint64_t count = 0;

@@ -12,17 +12,18 @@ namespace restlab {
 
 class KernelCache {
  public:
-  // `folder` empty: nothing is kept. `warn` gets one line where a file is not what was written, or
-  // cannot be.
+  // `folder` empty: nothing is kept. `warn` gets one line if a file is damaged or cannot be
+  // written.
   using Warn = std::function<void(const std::string& line)>;
   KernelCache(std::filesystem::path folder, Warn warn);
 
   // $XDG_CACHE_HOME/restlab/kernels or ~/.cache/restlab/kernels; empty where there is neither.
   static std::filesystem::path defaultFolder();
 
-  // The bytes stored under a name, unless there are none or they are damaged.
+  // Returns the bytes stored under a name; nullopt if there are none or they are damaged.
   std::optional<std::vector<uint8_t>> read(const std::string& name) const;
-  // A failure is a warning: a cache that cannot be written costs time only.
+  // Stores bytes under a name. A failure is only a warning: a cache that cannot be written costs
+  // time.
   void write(const std::string& name, const void* bytes, size_t count) const;
 
  private:
@@ -30,7 +31,7 @@ class KernelCache {
   Warn warn_;
 };
 
-// 32 hexadecimal digits of the content (XXH3, 128 bits).
+// Hash of the content, 32 hexadecimal digits (XXH3, 128 bits).
 std::string contentKey(const std::string& text);
 
 }  // namespace restlab

@@ -1,4 +1,4 @@
-// Which backends there are.
+// Registry of backends.
 #include <fmt/format.h>
 
 #include "core/backend/backend.h"

@@ -6,7 +6,7 @@ namespace restlab {
 
 namespace {
 
-// Written by a signal handler, read by all threads: no sig_atomic_t.
+// Atomic instead of sig_atomic_t: written by a signal handler and read by all threads.
 std::atomic<bool> stopped = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "as a signal handler needs");
 

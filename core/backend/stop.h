@@ -6,12 +6,12 @@
 
 namespace restlab {
 
-// Tiles and workgroups that have not begun are left out from now on, for good. Safe in a signal
+// Skips tiles and workgroups that have not begun, from now on and for good. Safe in a signal
 // handler.
 void stopFrames() noexcept;
 bool framesStopped() noexcept;
 
-// What a frame throws that was stopped: its image and its session's buffers hold no whole frame.
+// Thrown by a stopped frame: its image and its session's buffers hold no whole frame.
 class FrameStopped : public Error {
  public:
   FrameStopped()

@@ -1,13 +1,13 @@
-// traceRay() by ray queries (GL_EXT_ray_query), of devices that have them: GLSL alone, not the
-// dialect. Instances that are opaque say so in the acceleration structure (core/backend/
-// vulkan_acceleration.h): the loop below only sees those that may be transparent in part.
+// traceRay() by ray queries (GL_EXT_ray_query), for devices that have them: GLSL alone, not the
+// dialect. The acceleration structure (core/backend/vulkan_acceleration.h) flags opaque instances:
+// the loop below only sees instances that may be transparent in part.
 float traceRay(in Ray ray, uint mode, uint key, out Hit hit) {
   RL_COUNT_RAY(mode);
   hit.instance = RL_INVALID;
   hit.primitive = RL_INVALID;
   hit.bary = vec2(0.0f, 0.0f);
   hit.t = 0.0f;
-  // An empty or undefined interval contains nothing; a query's must neither be.
+  // An empty or NaN interval contains nothing, and a ray query must not get one.
   if (!(ray.tMin <= ray.tMax)) return 1.0f;
   AlphaPassed passed = traceAlphaNone();
   uint flags = mode == RL_RAY_SHADOW ? gl_RayFlagsTerminateOnFirstHitEXT : gl_RayFlagsNoneEXT;

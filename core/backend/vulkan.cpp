@@ -29,7 +29,7 @@ namespace restlab {
 namespace {
 
 constexpr uint32_t kSlots = 2;  // frames in flight
-// Of a dispatch, before its time is known: on a graphics card, and in software.
+// Pixels of a dispatch before its time is known: on a graphics card, and on a software driver.
 constexpr uint32_t kFirstBandPixels = 1u << 18;
 constexpr uint32_t kFirstBandPixelsOfCpu = 1u << 16;
 constexpr double kLongestBandMs = 500.0;  // watchdogs end dispatches of a few seconds
@@ -38,8 +38,8 @@ constexpr double kLongestBandMs = 500.0;  // watchdogs end dispatches of a few s
 struct Slot {
   GpuBuffer inputs;    // frame data, then for each pass the addresses of its buffers and parameters
   GpuBuffer counters;  // GlslCounters for each band
-  VulkanParts parts;   // of the running commands
-  VulkanKernels::Bound bound;  // where kernels read by texels
+  VulkanParts parts;   // submission of the running commands
+  VulkanKernels::Bound bound;  // set if kernels read by texels
   std::map<RecordingKey, Recording> recordings;
   const Recording* running = nullptr;
   bool isStale = false;  // the recordings have bands that are too long
@@ -62,7 +62,7 @@ class VulkanBackend final : public Backend {
         buffers_(context_->memory) {
     const bool hasQuery = device_.info().hasRayQuery;
     rayTracing_ = options.rayTracing;
-    // A driver in software traces faster by the hierarchy that kernels hold themselves.
+    // Software drivers trace faster by the hierarchy that kernels traverse themselves.
     if (rayTracing_.empty())
       rayTracing_ = hasQuery && device_.info().kind != "cpu" ? "query" : "bvh";
     if (rayTracing_ != "bvh" && rayTracing_ != "query") {
@@ -133,13 +133,13 @@ class VulkanBackend final : public Backend {
   void setScene(std::shared_ptr<const CompiledScene> scene) override {
     while (!underWay_.empty()) finished_.push_back(finishOldest());
     scene_ = VulkanScene::of(context_->memory, scene, rays_);
-    for (Slot& slot : slots_) forget(slot);  // recordings and texels lead to the scene before
+    for (Slot& slot : slots_) forget(slot);  // recordings and texels refer to the old scene
     if (buffers_.isPlaced()) bindTexels();
   }
 
   uint32_t maskFor(const std::string& kernel, uint32_t needed) const override {
     find(kernel);
-    return needed;  // compiled when it is wanted: exactly what is needed
+    return needed;  // compiled on demand, with exactly the needed mask
   }
 
   void prepare(const PassRun& pass, StartupReport& report) override {
@@ -206,7 +206,7 @@ class VulkanBackend final : public Backend {
     return known;
   }
 
-  // At the first use of any buffer.
+  // Called at the first use of any buffer.
   void placeBuffers() {
     if (buffers_.isPlaced()) return;
     readsTexels_ = choosesTexels(buffers_.bytes());
@@ -228,8 +228,8 @@ class VulkanBackend final : public Backend {
     }
   }
 
-  // A driver in software reads four words through a texel in the time that one takes by address,
-  // which there is a loop over the lanes of a vector. RESTLAB_VULKAN_READS chooses otherwise.
+  // Software drivers read four words through a texel in the time of one word by address, because
+  // reads by address loop over the lanes of a vector. RESTLAB_VULKAN_READS overrides the choice.
   bool choosesTexels(size_t bytes) const {
     const size_t texels = device_.properties().limits.maxTexelBufferElements;
     const GpuBuffer* arrays = scene_->arrays();
@@ -249,9 +249,9 @@ class VulkanBackend final : public Backend {
     return std::string(wanted) == "texels";
   }
 
-  // Texels reach the buffers that were placed together; a pass with others reads by address.
-  // Passes over entries read by addresses: Mesa 22.3's compiler crashes on one that reads texels
-  // and takes a number out of its parameters into a condition (docs/dialect.md).
+  // Texels reach only buffers that were placed together; a pass with others reads by address.
+  // Passes over entries read by address, too: Mesa 22.3's compiler crashes on a pass that reads
+  // texels and uses a parameter in a condition (docs/dialect.md).
   bool readsTexels(const PassRun& pass) const {
     return readsTexels_ && pass.entries == 0 && buffers_.areTogether(pass.buffers);
   }
@@ -280,7 +280,7 @@ class VulkanBackend final : public Backend {
     Recording recording;
     for (uint32_t pass = 0; pass < key.pipelines.size(); ++pass) {
       const uint32_t groupsX = key.groups(pass, 0), groupsY = key.groups(pass, 1);
-      // No more bands than there are counters for.
+      // Limit the bands to the number of counters.
       const auto most =
           static_cast<uint32_t>(kCounterBytes / sizeof(GlslCounters) / key.pipelines.size());
       const uint32_t rows =
@@ -316,7 +316,7 @@ class VulkanBackend final : public Backend {
       const auto count = static_cast<uint32_t>(2 * recording.bands.size());
       vkCmdResetQueryPool(commands, recording.queries, 0, count);
     }
-    // What came before: the other passes, and clears or copies between frames.
+    // Wait for the other passes, and for clears or copies between frames.
     VkMemoryBarrier before{};
     before.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
     before.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
@@ -440,7 +440,7 @@ class VulkanBackend final : public Backend {
     }
   }
 
-  // Halves what one dispatch of a pass covers where it took too long; true when it did.
+  // Shortens the dispatches of a pass after one that took too long; returns true if it did.
   bool shortenBands(const RecordingKey& key, const Band& band, double timeMs) {
     if (timeMs <= kLongestBandMs || band.rows <= 1) return false;
     const uint32_t rows =
@@ -461,7 +461,7 @@ class VulkanBackend final : public Backend {
   VulkanBuffers buffers_;
   bool readsTexels_ = false;
   std::map<std::tuple<std::string, uint32_t, bool>, VkPipeline> pipelines_;
-  std::map<VkPipeline, uint32_t> bandPixels_;  // of passes whose first bands took too long
+  std::map<VkPipeline, uint32_t> bandPixels_;  // pixels per band, if the first took too long
   std::array<Slot, kSlots> slots_;
   uint32_t next_ = 0;
   std::deque<Slot*> underWay_;

@@ -119,7 +119,7 @@ GpuBuffer VulkanAcceleration::allocateOnce(size_t bytes) {
   return temporary_.back();
 }
 
-// Makes the level that a plan builds: its size is the driver's to say.
+// Creates the level that a plan builds, with the size that the driver asks for.
 void VulkanAcceleration::create(Plan& plan) {
   plan.info.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_GEOMETRY_INFO_KHR;
   plan.info.flags = VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR;
@@ -148,7 +148,7 @@ void VulkanAcceleration::create(Plan& plan) {
   plan.scratchBytes = sizes.buildScratchSize;
 }
 
-// Builds the levels in batches, all of them out of one piece of scratch memory.
+// Builds the levels in batches that share one piece of scratch memory.
 void VulkanAcceleration::run(std::vector<Plan*> plans) {
   if (plans.empty()) return;
   const VkDeviceSize alignment =
@@ -156,7 +156,7 @@ void VulkanAcceleration::run(std::vector<Plan*> plans) {
   const auto aligned = [&](VkDeviceSize value) {
     return (value + alignment - 1) / alignment * alignment;
   };
-  // Of one size side by side: a batch takes as long as its largest.
+  // Put levels of similar size side by side: a batch takes as long as its largest.
   std::stable_sort(plans.begin(), plans.end(),
                    [](const Plan* a, const Plan* b) { return a->scratchBytes > b->scratchBytes; });
   VkDeviceSize all = 0;
@@ -179,8 +179,8 @@ void VulkanAcceleration::run(std::vector<Plan*> plans) {
     }
     device_.runNow(
         [&](VkCommandBuffer commands) {
-          // What came before: copies of the input, levels that this one refers to and, in the same
-          // scratch memory, the batch before.
+          // Wait for copies of the input, for levels that this one refers to, and for the previous
+          // batch in the same scratch memory.
           VkMemoryBarrier before{};
           before.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
           before.srcAccessMask =
@@ -194,7 +194,7 @@ void VulkanAcceleration::run(std::vector<Plan*> plans) {
                                VK_PIPELINE_STAGE_ACCELERATION_STRUCTURE_BUILD_BIT_KHR, 0, 1,
                                &before, 0, nullptr, 0, nullptr);
           calls_->build(commands, static_cast<uint32_t>(infos.size()), infos.data(), ranges.data());
-          // Frames wait for kernels and copies alone.
+          // Make the levels visible to kernels: frames wait for kernels and copies alone.
           VkMemoryBarrier after{};
           after.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
           after.srcAccessMask = VK_ACCESS_ACCELERATION_STRUCTURE_WRITE_BIT_KHR;
@@ -210,7 +210,7 @@ void VulkanAcceleration::run(std::vector<Plan*> plans) {
 
 void VulkanAcceleration::buildBottom(const BvhInput& scene, const rl::SceneData& placed) {
   std::vector<bool> isUsed(scene.geometries.size(), false);
-  std::vector<bool> asks(scene.geometries.size(), false);  // some instance the material
+  std::vector<bool> asks(scene.geometries.size(), false);  // rays ask the material of an instance
   for (const rl::Instance& instance : scene.instances) {
     isUsed[instance.geometry] = scene.geometries[instance.geometry].triangleCount > 0;
     if (isTransparent(instance)) asks[instance.geometry] = true;
@@ -228,7 +228,7 @@ void VulkanAcceleration::buildBottom(const BvhInput& scene, const rl::SceneData&
     Plan& plan = plans[order.size()];
     order.push_back(&plan);
     plan.geometry = newGeometry(VK_GEOMETRY_TYPE_TRIANGLES_KHR);
-    // Shadow rays multiply: a surface that is met twice would count twice.
+    // Shadow rays multiply transmittances: a surface that is reported twice would count twice.
     plan.geometry.flags =
         asks[g] ? VK_GEOMETRY_NO_DUPLICATE_ANY_HIT_INVOCATION_BIT_KHR : VK_GEOMETRY_OPAQUE_BIT_KHR;
     VkAccelerationStructureGeometryTrianglesDataKHR& data = plan.geometry.geometry.triangles;

@@ -1,5 +1,6 @@
-// What ray queries traverse: a bottom level for each geometry that instances use, a top level over
-// the instances. The driver builds both on the device, out of the scene's own buffers there.
+// Acceleration structure for ray queries: a bottom level for each geometry that instances use, a
+// top level over the instances. The driver builds both on the device, from the scene's buffers
+// there.
 #pragma once
 
 #include <memory>
@@ -12,8 +13,8 @@ namespace restlab {
 
 class VulkanAcceleration {
  public:
-  // `scene`: what the host has of it; `placed`: the same with addresses of the device. Throws Error
-  // (deviceUnavailable) where memory or the device's limits do not suffice.
+  // `scene`: the host's data; `placed`: the same with device addresses. Throws Error
+  // (deviceUnavailable) if memory or the device's limits do not suffice.
   static std::unique_ptr<VulkanAcceleration> build(std::shared_ptr<VulkanMemory> memory,
                                                    const BvhInput& scene,
                                                    const rl::SceneData& placed);
@@ -31,7 +32,7 @@ class VulkanAcceleration {
     GpuBuffer storage;
     uint64_t address = 0;
   };
-  // A level that is to be built; Vulkan's structs point into each other.
+  // Input of the build of one level; Vulkan's structs point into each other.
   struct Plan {
     VkAccelerationStructureGeometryKHR geometry{};
     VkAccelerationStructureBuildGeometryInfoKHR info{};
@@ -52,7 +53,7 @@ class VulkanAcceleration {
   VulkanDevice& device_;
   std::unique_ptr<Calls> calls_;
   VkPhysicalDeviceAccelerationStructurePropertiesKHR limits_{};
-  std::vector<Level> bottom_;  // of each geometry; null where no instance uses it
+  std::vector<Level> bottom_;  // per geometry; null if no instance uses it
   Level top_;
   std::vector<GpuBuffer> temporary_;  // freed when all is built
 };

@@ -6,7 +6,7 @@ namespace restlab {
 
 namespace {
 
-constexpr size_t kAlignment = 256;  // of parts; more than any limit of a buffer or a view
+constexpr size_t kAlignment = 256;  // alignment of parts; above any limit of a buffer or a view
 
 }  // namespace
 

@@ -9,8 +9,8 @@
 
 namespace restlab {
 
-// Buffers wait for place(), which may give all of them one piece of memory, so that kernels can
-// read them through one view of texels. What comes later has its own.
+// Buffers get memory in place(), which may put all of them into one piece, so that kernels can read
+// them through one view of texels. Later buffers get memory of their own.
 class VulkanBuffers {
  public:
   explicit VulkanBuffers(std::shared_ptr<VulkanMemory> memory) : memory_(std::move(memory)) {}
@@ -18,7 +18,8 @@ class VulkanBuffers {
   VulkanBuffers(const VulkanBuffers&) = delete;
   VulkanBuffers& operator=(const VulkanBuffers&) = delete;
 
-  // Zeroed memory; throws as VulkanMemory::allocate() does, for those that wait in place().
+  // Zeroed memory; throws as VulkanMemory::allocate() does. Before place() only the size is noted,
+  // and place() throws instead.
   BufferId allocate(size_t bytes);
   void place(bool together);
   bool isPlaced() const { return isPlaced_; }
@@ -26,15 +27,15 @@ class VulkanBuffers {
 
   const GpuBuffer& operator[](BufferId buffer) const { return buffers_[buffer]; }
   const GpuBuffer& together() const { return together_; }
-  // Are all of them parts of that piece?
+  // Returns whether all buffers are parts of together().
   bool areTogether(const std::vector<BufferId>& buffers) const;
 
  private:
   void placeAlone(GpuBuffer& buffer);
 
   std::shared_ptr<VulkanMemory> memory_;
-  std::vector<GpuBuffer> buffers_;  // by BufferId; of those that wait, the bytes
-  std::vector<GpuBuffer> alone_;    // those of them that are not parts of together_
+  std::vector<GpuBuffer> buffers_;  // by BufferId; before place() only the bytes are set
+  std::vector<GpuBuffer> alone_;    // buffers that are not parts of together_
   GpuBuffer together_;
   bool isPlaced_ = false;
 };

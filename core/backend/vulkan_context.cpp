@@ -6,14 +6,14 @@
 namespace restlab {
 namespace {
 
-// The last one stays open: compiling its kernels again would cost the next session seconds.
+// Keeps the last context open: compiling its kernels again would cost the next session seconds.
 std::shared_ptr<VulkanContext>& lastContext() {
   static std::shared_ptr<VulkanContext> last;
   return last;
 }
 
-// It is closed before the statics of a validation layer are gone, which were made when the device
-// was opened: later, any call into the layer crashes (version 1.4.309 does).
+// Closes the last context before the statics of a validation layer are gone, which were made when
+// the device was opened. Later, any call into the layer crashes (version 1.4.309 does).
 void closeAtExit() {
   static const int isRegistered = std::atexit([] { lastContext().reset(); });
   static_cast<void>(isRegistered);

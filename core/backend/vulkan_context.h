@@ -1,4 +1,4 @@
-// What the sessions on one Vulkan device share.
+// Objects that the sessions on one Vulkan device share.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@ struct VulkanContext {
   std::shared_ptr<VulkanMemory> memory;
   std::shared_ptr<VulkanKernels> kernels;
 
-  // Of the device that the options name.
+  // Returns the context of the device that the options name.
   static std::shared_ptr<VulkanContext> of(const VulkanOptions& options);
 };
 

@@ -98,7 +98,7 @@ int preference(const VulkanDeviceInfo& info) {
   return static_cast<int>(place) + (info.whyNot.empty() ? 0 : 100);
 }
 
-// What the program needs and the device has not, by the names that the specification gives it.
+// Lists what the program needs and the device lacks, by the names of the specification.
 std::string whatIsMissing(VkPhysicalDevice device, const VkPhysicalDeviceProperties& properties,
                           const Features& features) {
   std::vector<std::string> missing;
@@ -154,7 +154,7 @@ std::string lowerCase(std::string text) {
 
 }  // namespace
 
-// The loader's instance, and what the validation layers say of its devices.
+// The Vulkan instance, and the messages of the validation layers.
 struct VulkanDevice::Instance {
   VkInstance handle = VK_NULL_HANDLE;
   VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
@@ -171,7 +171,7 @@ struct VulkanDevice::Instance {
       destroy(handle, messenger, nullptr);
     }
     if (handle != VK_NULL_HANDLE) vkDestroyInstance(handle, nullptr);
-    // What was said after the last call that could throw, of objects that are still alive.
+    // Print messages that came after the last call that could throw, about objects still alive.
     for (const std::string& message : messages)
       fmt::print(stderr, "the Vulkan validation layers: {}\n", message);
   }
@@ -186,7 +186,7 @@ struct VulkanDevice::Instance {
     return VK_FALSE;
   }
 
-  // Null where there is no driver.
+  // Returns null if there is no driver.
   static std::shared_ptr<Instance> make(bool validate) {
     auto instance = std::make_shared<Instance>();
     VkApplicationInfo app{};
@@ -262,7 +262,7 @@ std::vector<VulkanDeviceInfo> vulkanDeviceInfos() {
 
 std::shared_ptr<VulkanDevice> VulkanDevice::open(const VulkanOptions& given) {
   VulkanOptions options = given;
-  // So that a whole test suite can be run with the layers.
+  // RESTLAB_VALIDATE=1 runs a whole test suite with the layers.
   const char* always = std::getenv("RESTLAB_VALIDATE");
   options.validate = options.validate || (always != nullptr && std::strcmp(always, "1") == 0);
   static std::mutex mutex;
@@ -390,7 +390,7 @@ void VulkanDevice::runNow(const std::function<void(VkCommandBuffer)>& record, co
   begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
   begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
   check(vkBeginCommandBuffer(commands, &begin), what);
-  // That a queue was waited for does not make what it wrote visible to its next commands.
+  // Waiting for a queue does not make its writes visible to its next commands: a barrier is needed.
   VkMemoryBarrier before{};
   before.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
   before.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;

@@ -1,4 +1,4 @@
-// A Vulkan device opened for compute: which there are, which is taken, and its one queue.
+// Vulkan devices for compute: list, selection, and an opened device with its one queue.
 #pragma once
 
 #include <vulkan/vulkan.h>
@@ -10,14 +10,14 @@
 
 namespace restlab {
 
-// What can be said of a device before it is opened.
+// Properties of a device that is not opened yet.
 struct VulkanDeviceInfo {
-  std::string name;    // the driver's
+  std::string name;    // the driver's name for the device
   std::string kind;    // "discrete", "integrated", "virtual", "cpu", "other"
-  std::string driver;  // name and version, as the driver says them
-  std::string whyNot;  // what it lacks for this program; empty: it can be used
+  std::string driver;  // name and version, as the driver reports them
+  std::string whyNot;  // missing requirements of this program; empty: the device can be used
   bool hasRayQuery = false;
-  uint64_t memoryBytes = 0;  // of its largest device-local heap
+  uint64_t memoryBytes = 0;  // size of the largest device-local heap
 };
 
 // All devices in the order in which they are preferred: discrete, integrated, virtual, CPU; those
@@ -25,14 +25,14 @@ struct VulkanDeviceInfo {
 std::vector<VulkanDeviceInfo> vulkanDeviceInfos();
 
 struct VulkanOptions {
-  std::string device;     // a part of its name, in either case; "": the first that can be used
+  std::string device;     // part of the device's name, in any case; "": first that can be used
   bool validate = false;  // with the validation layers, core and synchronisation
 };
 
 class VulkanDevice {
  public:
-  // The device that the options name; the same object for the same options. Throws Error
-  // (deviceUnavailable) that says what is missing.
+  // Opens the device that the options name; returns the same object for the same options. Throws
+  // Error (deviceUnavailable) that says what is missing.
   static std::shared_ptr<VulkanDevice> open(const VulkanOptions& options);
   ~VulkanDevice();
   VulkanDevice(const VulkanDevice&) = delete;

@@ -1,4 +1,4 @@
-// Results of Vulkan calls as errors of the user's kind.
+// Reports results of Vulkan calls as Errors for the user.
 #pragma once
 
 #include <vulkan/vulkan.h>

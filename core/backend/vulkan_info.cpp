@@ -1,4 +1,4 @@
-// What `restlab list backends` says of Vulkan.
+// Vulkan's part of `restlab list backends`.
 #include <fmt/format.h>
 
 #include <vector>

@@ -13,7 +13,7 @@ namespace restlab {
 
 namespace {
 
-// The first error of glslang's words, without its prefix.
+// First error in glslang's log, without its prefix.
 std::string firstError(const std::string& log) {
   const std::string mark = "ERROR: ";
   const size_t begin = log.find(mark);
@@ -43,7 +43,8 @@ VkDescriptorType typeOf(uint32_t binding) {
   return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
 }
 
-// Everything that the shader is made of: its own text and that of all it may include.
+// Cache key of a shader: hash of glslang's version, of the shader's text and of all files it may
+// include.
 std::string expandedKey(const std::string& text, const SourceReader& read) {
   std::string all = fmt::format("glslang {}.{}.{} ", GLSLANG_VERSION_MAJOR, GLSLANG_VERSION_MINOR,
                                 GLSLANG_VERSION_PATCH);
@@ -258,8 +259,8 @@ void VulkanKernels::release(Bound& bound) {
   bound = Bound();
 }
 
-// A first dispatch over no pixels: some drivers generate code only then, and that belongs to
-// start-up, not into a frame.
+// Dispatches a kernel over no pixels: some drivers generate code only at the first dispatch, which
+// belongs to start-up, not into a frame.
 void VulkanKernels::prime(VkPipeline pipeline) {
   GlslPushConstants push;
   push.frame = primer_.address;

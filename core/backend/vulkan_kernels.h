@@ -17,22 +17,22 @@ namespace restlab {
 
 class VulkanKernels {
  public:
-  // `read` gives the dialect's files, `kernels` what there is.
+  // `cacheFolder`: where compiled kernels are kept on disk; empty: nowhere.
   VulkanKernels(std::shared_ptr<VulkanMemory> memory, std::shared_ptr<VulkanDevice> device,
                 std::filesystem::path cacheFolder);
   ~VulkanKernels();
   VulkanKernels(const VulkanKernels&) = delete;
   VulkanKernels& operator=(const VulkanKernels&) = delete;
 
-  // The pipeline of a kernel, compiled where it is not known yet, which `report` then says. Throws
-  // Error (badUsage) for an unknown kernel, (deviceUnavailable) with file and line where it does
-  // not compile.
+  // Returns the pipeline of a kernel; compiles it if it is not known yet, and records that in
+  // `report`. `read` gives the dialect's files. Throws Error (deviceUnavailable) with file and line
+  // if the kernel does not compile.
   VkPipeline pipeline(const GlslKernel& kernel, const std::string& name, uint32_t mask,
                       const SourceReader& read, StartupReport& report);
   VkPipelineLayout layout() const { return layout_; }
 
-  // The bindings of kernels that read by texels (GlslBinding), whose buffers and parameters are
-  // given for the first pass: those of others lie at dynamic offsets from them. Ends by release().
+  // Bindings of kernels that read by texels (GlslBinding). Buffers and parameters are bound for the
+  // first pass; those of other passes lie at dynamic offsets. Freed by release().
   struct Bound {
     VkDescriptorPool pool = VK_NULL_HANDLE;
     VkDescriptorSet set = VK_NULL_HANDLE;
@@ -61,8 +61,8 @@ class VulkanKernels {
   VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
   Bound primerBound_;
-  GpuBuffer primer_;  // zeros: a frame of no pixels, counters
-  std::map<std::pair<std::string, uint32_t>, VkPipeline> pipelines_;  // by what it is and its mask
+  GpuBuffer primer_;  // zeros: a frame without pixels, and counters
+  std::map<std::pair<std::string, uint32_t>, VkPipeline> pipelines_;  // by files and mask
 };
 
 }  // namespace restlab

@@ -15,7 +15,7 @@ namespace {
 
 constexpr size_t kBlockBytes = size_t{64} << 20;
 constexpr size_t kStagingBytes = size_t{16} << 20;
-constexpr size_t kAlignment = 256;  // of every buffer; more than any limit of a storage buffer
+constexpr size_t kAlignment = 256;  // buffer alignment; above any limit of a storage buffer
 
 size_t roundUp(size_t bytes) {
   return (std::max<size_t>(bytes, 1) + kAlignment - 1) & ~(kAlignment - 1);
@@ -41,8 +41,8 @@ void VulkanMemory::release(Block& block) {
   block = Block();
 }
 
-// A driver in software takes the host's memory, whatever size it says its heap has, until the
-// operating system ends the program: what is not there is refused before.
+// Software drivers take the host's memory, whatever heap size they report, until the operating
+// system ends the program. Return what the host has, so that larger requests are refused before.
 uint64_t VulkanMemory::bytesAvailable(MemoryKind kind) const {
   const uint64_t onHost = availableMemory().value_or(~uint64_t{0});
   if (kind != MemoryKind::device || device_->info().kind == "cpu") return onHost;

@@ -19,9 +19,9 @@ enum class MemoryKind {
   readback,  // written by kernels, read by the host
 };
 
-// A part of a block. Copied freely; VulkanMemory::free() ends it.
+// A part of a block. Copied freely; VulkanMemory::free() releases it.
 struct GpuBuffer {
-  VkBuffer buffer = VK_NULL_HANDLE;  // of the whole block
+  VkBuffer buffer = VK_NULL_HANDLE;  // buffer of the whole block
   VkDeviceSize offset = 0;
   size_t bytes = 0;
   uint64_t address = 0;
@@ -36,19 +36,20 @@ class VulkanMemory {
   VulkanMemory(const VulkanMemory&) = delete;
   VulkanMemory& operator=(const VulkanMemory&) = delete;
 
-  // Not cleared. Throws Error (deviceUnavailable) with the sizes where memory does not suffice.
+  // Memory that is not cleared. Throws Error (deviceUnavailable) with the sizes if there is not
+  // enough.
   GpuBuffer allocate(size_t bytes, MemoryKind kind);
   void free(const GpuBuffer& buffer);
 
-  // Copies through memory that both sides see; wait until it is done.
+  // Copy through memory that both sides see, and wait until the copy is done.
   void write(const GpuBuffer& to, const void* data, size_t bytes, size_t offset = 0);
   void read(const GpuBuffer& from, void* data, size_t bytes);
   void clear(const GpuBuffer& buffer);
-  // From each first buffer to its second one, of the same size.
+  // Copies each first buffer to its second one, of the same size.
   void copy(const std::vector<std::pair<GpuBuffer, GpuBuffer>>& buffers);
 
   VulkanDevice& device() const { return *device_; }
-  uint64_t bytesAllocated() const { return bytesAllocated_; }  // in blocks
+  uint64_t bytesAllocated() const { return bytesAllocated_; }  // in whole blocks
   uint64_t bytesAvailable(MemoryKind kind) const;
   // A part of a buffer; not to be freed.
   static GpuBuffer part(const GpuBuffer& whole, size_t offset, size_t bytes);

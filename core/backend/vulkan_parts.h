@@ -1,4 +1,4 @@
-// A frame's commands on their way to the device, in parts with a fence behind each.
+// Submission of a frame's commands in parts, with a fence behind each.
 #pragma once
 
 #include <vulkan/vulkan.h>
@@ -12,12 +12,12 @@
 
 namespace restlab {
 
-// At most two parts are with the device. A driver in software runs a workgroup that has nothing to
-// do in a good part of the time of one that has: it gets one band after the other, and no more of
-// them once a frame is stopped. Other devices get all bands at once.
+// At most two parts are with the device. On a software driver a workgroup with nothing to do takes
+// a good part of the time of one that works: the driver gets one band after the other, and no more
+// bands once a frame is stopped. Other devices get all bands at once.
 class VulkanParts {
  public:
-  // Makes the fences; destroy() takes them back. Throws Error where the device fails.
+  // Creates the fences; destroy() frees them. Throws Error if the device fails.
   void create(VulkanDevice& device);
   void destroy(VulkanDevice& device);
 
@@ -25,18 +25,18 @@ class VulkanParts {
 
   // Submits the first parts. `commands` must live until wait() returns.
   void begin(VulkanDevice& device, const std::vector<VkCommandBuffer>& commands);
-  // Submits the others as parts end, and returns at the end of the last one; true where the frame
-  // was cut. isStopped: asked while waiting. stop: called to end what the device runs.
+  // Submits further parts as earlier ones end, and returns at the end of the last one; true if the
+  // frame was cut. isStopped: polled while waiting. stop: called to end the work on the device.
   bool wait(VulkanDevice& device, const std::function<bool()>& isStopped,
             const std::function<void()>& stop);
 
  private:
   void giveNext(VulkanDevice& device);
 
-  std::array<VkFence, 2> fences_{};  // by turns
+  std::array<VkFence, 2> fences_{};  // used in turn
   const std::vector<VkCommandBuffer>* commands_ = nullptr;
-  size_t given_ = 0;                       // of the commands
-  size_t partsGiven_ = 0, partsDone_ = 0;  // each with a fence
+  size_t given_ = 0;                       // commands that were submitted
+  size_t partsGiven_ = 0, partsDone_ = 0;  // each part has a fence
 };
 
 }  // namespace restlab

@@ -20,15 +20,15 @@ struct Band {
 
 // A frame's commands, with timestamps around every band.
 struct Recording {
-  std::vector<VkCommandBuffer> commands;  // one a band
+  std::vector<VkCommandBuffer> commands;  // one per band
   std::vector<Band> bands;
   VkQueryPool queries = VK_NULL_HANDLE;
 };
 
-// Which recording serves a frame.
+// Key of the recording that serves a frame.
 struct RecordingKey {
   std::vector<VkPipeline> pipelines;
-  std::vector<std::array<uint32_t, 2>> sizes;  // of the passes
+  std::vector<std::array<uint32_t, 2>> sizes;  // size of each pass
   auto operator<=>(const RecordingKey&) const = default;
 
   uint32_t groups(size_t pass, int axis) const {

@@ -13,7 +13,7 @@ std::shared_ptr<VulkanScene> VulkanScene::of(const std::shared_ptr<VulkanMemory>
   using Key = std::tuple<const void*, const void*, bool, SceneRays>;
   static std::map<Key, std::weak_ptr<VulkanScene>> known;
   if (rays == SceneRays::bvh) scene->bindBvh();
-  // A table that a session binds later is not in what was uploaded before.
+  // The key includes the GGX table: an upload from before a session bound the table lacks it.
   const bool hasAlbedo = scene->data().ggxAlbedo.data != nullptr;
   std::weak_ptr<VulkanScene>& entry = known[{memory.get(), scene.get(), hasAlbedo, rays}];
   if (auto uploaded = entry.lock()) return uploaded;

@@ -11,12 +11,12 @@ namespace restlab {
 
 class CompiledScene;
 
-// What rays are traced by: the project's own hierarchy, or an acceleration structure of the driver.
+// Structure that rays traverse: the project's own hierarchy, or the driver's.
 enum class SceneRays { bvh, query };
 
 class VulkanScene {
  public:
-  // The scene as it is bound now, with what the rays need and no more; sessions of one scene share
+  // Returns the scene as it is bound now, with only what the rays need; sessions of one scene share
   // it.
   static std::shared_ptr<VulkanScene> of(const std::shared_ptr<VulkanMemory>& memory,
                                          const std::shared_ptr<const CompiledScene>& scene,
@@ -25,10 +25,10 @@ class VulkanScene {
   VulkanScene(const VulkanScene&) = delete;
   VulkanScene& operator=(const VulkanScene&) = delete;
 
-  uint64_t address() const { return data_.address; }  // of the SceneData
+  uint64_t address() const { return data_.address; }  // device address of the SceneData
   size_t bytes() const { return bytes_; }
   const GpuBuffer& data() const { return data_; }  // the SceneData
-  // All that it leads to, but for acceleration structures; null where that is more than one buffer.
+  // Buffer of all arrays, without acceleration structures; null if there is more than one buffer.
   const GpuBuffer* arrays() const { return buffers_.size() == 1 ? buffers_.data() : nullptr; }
 
  private:

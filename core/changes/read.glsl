@@ -1,5 +1,5 @@
-// What a history keeps where light has changed. Beside a change histories are shortened by what few
-// paths found, which is biased for as long as they are young.
+// Share of a history that is kept if light has changed. Near a change, histories are shortened by
+// the results of few paths, which is biased for as long as the histories are young.
 
 RL_FN float changeKeeps(RL_IN(ChangeParams) params, float change) {
   return max(1.0f - params.response * change, 0.0f);
@@ -9,8 +9,8 @@ RL_FN float changeKept(RL_IN(UintRef) changes, RL_IN(ChangeParams) params, uint 
   if (params.every == 0u) return 1.0f;
   return changeKeeps(params, uintBitsToFloat(changes.data[slot / params.every]));
 }
-// The share that is kept of what is out of view: it goes by the mean over the image, of which it
-// looks at some places.
+// Share that is kept of a history of surfaces out of view: by the mean change over the image, at
+// RL_CHANGE_PLACES places.
 RL_FN float changeKeptOutOfView(RL_IN(UintRef) changes, RL_IN(ChangeParams) params,
                                 RL_IN(Rng) rng) {
   if (params.every == 0u) return 1.0f;

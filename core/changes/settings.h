@@ -6,11 +6,12 @@
 
 namespace restlab {
 
-// There where `validate_every` is not 0, of methods of which a part asks for kChanges. Its passes
-// run before the integrator's.
+// Part that finds changes; enabled if `validate_every` is not 0 and a part of the method asks for
+// kChanges. The passes run before the integrator's.
 const PartInfo& changesPartInfo();
 constexpr const char* kValidateEvery = "validate_every";
-// Its buffer, among the optional inputs of who reads it; ChangeParams::every is 0 where it is null.
+// Buffer of changes, an optional input of the parts that read it. ChangeParams::every is 0 if it is
+// null.
 constexpr const char* kChanges = "changes";
 bool asksForChanges(const PartInfo& part);
 rl::ChangeParams packChanges(const ParameterMap& parameters);

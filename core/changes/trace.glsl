@@ -1,8 +1,8 @@
-// Pass over groups of pixels: one of each traces a path of the last frame again, with that frame's
-// camera and random numbers. It finds what it found, but for rounding, or the light of the scene
-// has changed: noise is never taken for a change. Then it traces one of this frame, to be compared
-// with in the next one (temporal gradients: Schied, Peters and Dachsbacher, "Gradient
-// Estimation for Real-Time Adaptive Temporal Filtering", 2018).
+// Pass over groups of pixels: one pixel of each group traces a path of the last frame again, with
+// that frame's camera and random numbers. If the result differs by more than rounding, the light of
+// the scene has changed: noise is never taken for a change. Then the pixel traces a path of this
+// frame, for comparison in the next one (temporal gradients: Schied, Peters and Dachsbacher,
+// "Gradient Estimation for Real-Time Adaptive Temporal Filtering", 2018).
 #define RL_WALK_STATE ChangeWalk
 #include "core/caches/entries/groups.glsl"
 
@@ -12,7 +12,7 @@ RL_FN uint walkArrives(RL_INOUT(ChangeWalk) state, RL_IN(Walk) walk, RL_INOUT(Su
 
 #include "core/transport/light_sum.glsl"
 
-// Of which frame and settings a path is: others would draw other samples.
+// Tag of a path's frame and settings: other settings would draw other samples.
 RL_FN uint changeTag(uint frame) { return rngHash(frame ^ rngHash(gParams.changes.every)); }
 
 RL_FN void kernelMain(RL_IN(uvec2) row) {
@@ -32,7 +32,7 @@ RL_FN void kernelMain(RL_IN(uvec2) row) {
     if (i == 0u) camera = gFrame.previousCamera;
     ChangeWalk state;
     state.sum = lightSumNone();
-    // Numbers of its own: what a history keeps must not depend on what the pixel draws itself.
+    // Use separate random numbers: what a history keeps must not depend on the pixel's own draws.
     Rng rng = rngInit(gFrame.seed ^ RL_CHANGE_SEED, slot, frame);
     Walk walk = walkBegin(rng, film, cameraFilmRay(camera, pixel, film), 0u);
     walkOn(state, walk);

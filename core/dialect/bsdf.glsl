@@ -1,19 +1,19 @@
-// The BSDF: lobes under one Fresnel layer, the same three functions for every consumer.
+// The BSDF: lobes under one Fresnel layer, the same functions for every consumer.
 //   bsdfEval        f |cos_i| of the non-delta lobes
 //   bsdfPdf         solid-angle density of bsdfDraw over the non-delta lobes
 //   bsdfEvalAndPdf  both at once
 //   bsdfDraw        a direction with weight f |cos_i| / pdf
 // Directions are in world space and point away from the surface; nGeo lies on the side of wo.
-// The layering is that of the glTF 2.0 specification, appendix B, but for the share that the
-// specular layer leaves to the Lambert base (bsdfBaseShare) and, as an option, for light that meets
-// several microfacets (core/dialect/bsdf/multiscatter.glsl): that lobe is drawn by the cosine
-// together with Lambert's. Where the shading normal is not that of the face,
-// core/dialect/bsdf/bent_normal.glsl says what becomes of light that would go through it.
+// The layering is that of the glTF 2.0 specification, appendix B, with two exceptions: the share
+// that the specular layer leaves to the Lambert base (bsdfBaseShare), and the optional compensation
+// of multiple scattering (core/dialect/bsdf/multiscatter.glsl), whose lobe is sampled by the cosine
+// together with Lambert's. core/dialect/bsdf/bent_normal.glsl handles shading normals that differ
+// from the face normal.
 
 RL_FN bool bsdfIsBlack(RL_IN(Bsdf) b) { return b.lobes == 0u; }
 
-// Probabilities of drawing the specular and the transmission lobe; the rest goes to the cosine.
-// They depend on wo alone, so that the density of all lobes together is known.
+// Probabilities of drawing the specular and the transmission lobe; the rest goes to the cosine. The
+// probabilities depend on wo alone, so that the density of all lobes together is known.
 RL_FN vec2 bsdfLobeProbabilities(RL_IN(Bsdf) b, float cosO) {
   if (!RL_HAS(RL_FEATURE_GLOSSY) || (b.lobes & RL_LOBE_ANY_GLOSSY) == 0u) return vec2(0.0f, 0.0f);
   vec3 f = fresnelOfBsdf(b, cosO);
@@ -31,9 +31,9 @@ RL_FN vec2 bsdfLobeProbabilities(RL_IN(Bsdf) b, float cosO) {
   if (RL_HAS(RL_FEATURE_TRANSMISSION) && (b.lobes & RL_LOBE_ANY_TRANSMISSION) != 0u) {
     transmitted = rlLuminance(b.transmission) * through;
   }
-  // No rough lobe that exists is starved, not even where Fresnel at wo leaves it nothing:
-  // microfacets turned towards wo still let light through. Delta lobes know no such facets, and
-  // have exactly their share: clear smooth glass before an even light has no noise.
+  // Give every rough lobe a minimum probability, even if Fresnel at wo leaves it nothing:
+  // microfacets turned towards wo still let light through. Delta lobes have no such facets and keep
+  // exactly their share: clear smooth glass before uniform light has no noise.
   float least = 0.1f * (specular + diffuse + transmitted);
   if ((b.lobes & RL_LOBE_SPECULAR) != 0u) specular = max(specular, least);
   if (hasDiffuse) diffuse = max(diffuse, least);
@@ -43,11 +43,11 @@ RL_FN vec2 bsdfLobeProbabilities(RL_IN(Bsdf) b, float cosO) {
   return vec2(specular / total, transmitted / total);
 }
 
-// The share of light that passes the specular layer to the Lambert base and out again. It enters as
-// 1 - F(o) and leaves, by reciprocity, as 1 - F(i); divided by the mean of the latter, so that a
-// white base returns all that enters (Ashikhmin & Shirley 2000; Kelemen & Szirmay-Kalos 2001). The
-// factor 1 - F(h) of glTF's appendix B makes energy: a white base under a layer of ior 1.5 would
-// reflect 1.22 of the light at 80 degrees.
+// Share of light that passes the specular layer to the Lambert base and out again. Light enters as
+// 1 - F(o) and leaves, by reciprocity, as 1 - F(i). The product is divided by the mean of 1 - F(i),
+// so that a white base returns all light that enters (Ashikhmin & Shirley 2000; Kelemen &
+// Szirmay-Kalos 2001). The factor 1 - F(h) of glTF's appendix B creates energy: a white base under
+// a layer of ior 1.5 would reflect 1.22 of the light at 80 degrees.
 RL_FN float bsdfBaseShare(RL_IN(Bsdf) b, float cosO, float cosI) {
   float enters = 1.0f - min(rlMax3(fresnelOfBsdf(b, cosO)), 1.0f);
   float leaves = 1.0f - min(rlMax3(fresnelOfBsdf(b, cosI)), 1.0f);
@@ -57,12 +57,12 @@ RL_FN float bsdfBaseShare(RL_IN(Bsdf) b, float cosO, float cosI) {
   return enters * leaves * rlSafeDivide(1.0f, 1.0f - mean);
 }
 
-// Is a part of it drawn by the cosine?
+// Returns whether a part of the BSDF is sampled by the cosine.
 RL_FN bool bsdfHasCosineLobe(RL_IN(Bsdf) b) {
   return (b.lobes & RL_LOBE_DIFFUSE) != 0u || multiscatterApplies(b);
 }
 
-// What the lobes send to wiL, the cosine's part only where it is asked for.
+// f |cos_i| of the lobes towards wiL; withCosine: includes the part that is sampled by the cosine.
 RL_FN vec3 bsdfEvalLocal(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) wiL, bool withCosine) {
   vec3 f = vec3(0.0f, 0.0f, 0.0f);
   if (!RL_HAS(RL_FEATURE_GLOSSY)) return b.diffuse * lambertEval(wiL);
@@ -119,8 +119,9 @@ RL_FN float bsdfPdfLocal(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) wiL, bool w
   return max(pdf, 0.0f);
 }
 
-// Sums over the directions that end in one, as they are and mirrored at the face, both local to the
-// normal; (0, 0, 0) where there is none. One call site for both.
+// Sums BSDF and density over the directions that end in one world direction: asItIsL unchanged,
+// mirroredL mirrored at the face. Both are local to the normal; (0, 0, 0): none. One call site for
+// both.
 RL_FN vec3 bsdfSumLocal(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) asItIsL, RL_IN(vec3) mirroredL,
                         RL_OUT(float) pdf) {
   vec3 f = vec3(0.0f, 0.0f, 0.0f);
@@ -170,8 +171,8 @@ RL_FN BsdfDraw bsdfDraw(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_
   result.pdfSolidAngle = 0.0f;
   result.weight = vec3(0.0f, 0.0f, 0.0f);
   result.lobe = 0u;
-  // Lambert alone: its weight is the albedo exactly, and the same bits with and without glossy
-  // lobes in the kernel.
+  // Lambert alone: the weight is exactly the albedo, with the same bits in kernels with and without
+  // glossy lobes.
   if (!RL_HAS(RL_FEATURE_GLOSSY) || (b.lobes & RL_LOBE_ANY_GLOSSY) == 0u) {
     vec3 wiL = lambertDraw(u);
     vec3 wi = frameToWorld(nShade, wiL);
@@ -228,7 +229,7 @@ RL_FN BsdfDraw bsdfDraw(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_
     mirroredL = bentOrigin(b, nGeo, n, wi, wiL);
   } else {
     if (byCosine || side == 0.0f || !bentExists(b)) return result;
-    // What was drawn is mirrored; what it becomes may be drawn as it is.
+    // Mirror the drawn direction at the face. The result may also be drawn unmirrored.
     wi -= nGeo * (2.0f * side);
     asItIsL = frameToLocal(n, wi);
     if (!bentSideAgrees(-side, asItIsL.z)) asItIsL = vec3(0.0f, 0.0f, 0.0f);
@@ -269,13 +270,13 @@ RL_FN Bsdf bsdfNone() {
   return b;
 }
 
-// Lambert alone: what it sends does not depend on the direction.
+// Returns whether the BSDF is Lambert alone: the light it sends does not depend on the direction.
 RL_FN bool bsdfIsLambert(RL_IN(Bsdf) b) {
   return !RL_HAS(RL_FEATURE_GLOSSY) || b.lobes == RL_LOBE_DIFFUSE;
 }
 
-// Can paths that arrive from other directions be exchanged here? Not where it is a mirror, glass or
-// smoother than minAlpha.
+// Returns whether paths that arrive from other directions can be reused here: false for mirrors,
+// glass, and surfaces smoother than minAlpha.
 RL_FN bool bsdfIsReusable(RL_IN(Bsdf) b, float minAlpha) {
   if (bsdfIsBlack(b)) return false;
   if (!RL_HAS(RL_FEATURE_GLOSSY)) return true;
@@ -290,16 +291,15 @@ RL_FN vec3 bsdfReflectance(RL_IN(Bsdf) b) {
   return reflectance;
 }
 
-// And with what is transmitted.
+// Approximate albedo: reflectance plus transmission.
 RL_FN vec3 bsdfAlbedo(RL_IN(Bsdf) b) {
   vec3 albedo = bsdfReflectance(b);
   if (RL_HAS(RL_FEATURE_GLOSSY)) albedo += b.transmission;
   return albedo;
 }
 
-// By how much of its width a lobe turns when the view does, by an angle in radians, times the share
-// of the albedo that is not Lambert's: about the share of the light sent to the viewer that is
-// another then.
+// Approximate share of the light sent to the viewer that changes when the view turns by `angle`
+// radians: angle over the lobe's width, times the share of the albedo that is not Lambert's.
 RL_FN float bsdfTurn(RL_IN(Bsdf) b, float angle) {
   if (!RL_HAS(RL_FEATURE_GLOSSY) && !RL_HAS(RL_FEATURE_TRANSMISSION)) return 0.0f;
   float all = rlLuminance(bsdfAlbedo(b));

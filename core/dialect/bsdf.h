@@ -20,8 +20,8 @@ const uint RL_LOBE_ANY_GLOSSY = 30u;
 
 // GGX alpha below this floor becomes a delta lobe, which is counted (RL_HEALTH_DELTA_LOBES).
 const float RL_ALPHA_FLOOR = 1.0e-3f;
-// An index of refraction, or a ratio of two, within this of 1 is taken as 1: it bends light by less
-// than 1e-5 rad at 45 degrees, and float32 no longer knows the half vector.
+// An index of refraction, or a ratio of two, within this of 1 is taken as 1: light is bent by less
+// than 1e-5 rad at 45 degrees, and float32 cannot resolve the half vector.
 const float RL_CLEAR_CONTRAST = 1.0e-5f;
 
 // Nodes of sqrt(cos) and of sqrt(alpha) in the table of GGX albedos (core/scene/ggx_albedo.h).
@@ -31,17 +31,17 @@ struct Bsdf {
   vec3 diffuse;       // albedo of the Lambert lobe, before the Fresnel layer takes its share
   uint lobes;         // RL_LOBE_*
   vec3 f0;            // specular reflectance at normal incidence
-  float f90;          // and at grazing incidence
+  float f90;          // specular reflectance at grazing incidence
   vec3 transmission;  // tint of the transmitted part
   float alpha;        // GGX roughness, linear
   float eta;          // index of refraction beyond the surface over that on the side of wo
 };
 
-const uint RL_BSDF_QUADS = 3u;  // of one in a buffer (core/dialect/bsdf/pack.glsl)
+const uint RL_BSDF_QUADS = 3u;  // per BSDF in a buffer (core/dialect/bsdf/pack.glsl)
 
 struct BsdfDraw {
   vec3 wi;              // world, unit
-  float pdfSolidAngle;  // over all non-delta lobes; of the lobe choice alone for a delta lobe
+  float pdfSolidAngle;  // over all non-delta lobes; for a delta lobe, of the lobe choice alone
   vec3 weight;          // f |cos| / pdf
   uint lobe;            // the lobe that was drawn; 0: no direction (absorbed)
 };

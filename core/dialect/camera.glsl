@@ -34,10 +34,10 @@ RL_FN bool cameraProject(RL_IN(Camera) camera, RL_IN(vec3) posW, RL_IN(vec2) res
   return true;
 }
 
-// The film sample of a pixel in a frame: a fraction of the pixel's width in the low half word, of
-// its height in the high one. Each is uniform; those of one pixel follow each other in the R2
-// sequence (Roberts 2018: steps of 1/g and 1/g^2, g^3 = g + 1) from a random start, so that few
-// frames cover the pixel evenly: what lies at an edge is averaged by any method that averages.
+// Film sample of a pixel in a frame: a fraction of the pixel's width in the low half word, of its
+// height in the high one. Each sample is uniform. A pixel's samples follow the R2 sequence over the
+// frames (Roberts 2018: steps of 1/g and 1/g^2, g^3 = g + 1) from a random start, so that few
+// frames cover the pixel evenly and any average over frames antialiases edges.
 RL_FN uint cameraFilmBitsOfFrame(RL_IN(uvec2) pixel, uint frame) {
   // The start does not depend on the frame, nor on the numbers that the path draws in frame 0.
   uint pixelIndex = pixel.y * gFrame.width + pixel.x;
@@ -47,7 +47,7 @@ RL_FN uint cameraFilmBitsOfFrame(RL_IN(uvec2) pixel, uint frame) {
 }
 RL_FN uint cameraFilmBits(RL_IN(uvec2) pixel) { return cameraFilmBitsOfFrame(pixel, gFrame.frame); }
 
-// Its film coordinates: anywhere in the pixel (box filter), or the centre.
+// Film coordinates of a film sample: anywhere in the pixel (box filter), or its centre.
 RL_FN vec2 cameraFilmPoint(RL_IN(uvec2) pixel, uint film) {
   vec2 offset = vec2(0.5f, 0.5f);
   if (gFrame.pixelFilter == RL_FILTER_BOX) {
@@ -57,8 +57,8 @@ RL_FN vec2 cameraFilmPoint(RL_IN(uvec2) pixel, uint film) {
   return vec2(float(pixel.x) + offset.x, float(pixel.y) + offset.y);
 }
 
-// The ray through a film sample, and the key by which it decides on partly transparent surfaces:
-// part of the film sample, so that whoever traces it again meets the same surface.
+// Ray through a film sample, and the key that decides its alpha tests. The key is part of the film
+// sample, so that tracing the ray again hits the same surface.
 RL_FN Ray cameraFilmRay(RL_IN(Camera) camera, RL_IN(uvec2) pixel, uint film) {
   vec2 resolution = vec2(float(gFrame.width), float(gFrame.height));
   return cameraRay(camera, cameraFilmPoint(pixel, film), resolution);

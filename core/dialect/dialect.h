@@ -1,4 +1,4 @@
-// The shared kernel language: the words that make one file valid C++20 on GLM and valid GLSL 4.60.
+// The kernel dialect: types and macros that make one file valid C++20 (on GLM) and valid GLSL 4.60.
 //
 // Rules (docs/dialect.md has the reasons): *.h hold types and constants and are included at
 // namespace scope before everything else; *.glsl hold functions only and are included inside the
@@ -36,7 +36,7 @@ inline uint wordAt(const void* from, std::size_t i) {
   std::memcpy(&word, static_cast<const unsigned char*>(from) + 4 * i, sizeof word);
   return word;
 }
-// Word by word: a compiler keeps each where it is needed, and reads no others.
+// Loads word by word, so that the compiler loads only the words that are used.
 inline uvec4 quadAt(const void* from, uint i) {
   const std::size_t at = std::size_t{4} * i;
   return uvec4(wordAt(from, at), wordAt(from, at + 1), wordAt(from, at + 2), wordAt(from, at + 3));
@@ -81,14 +81,14 @@ inline uint atomicGreatest(uint* data, std::size_t i, uint value) {
   struct Name {         \
     T* data;            \
   };
-// The lesser and the greater of two numbers that are not NaN: where one may be, min() and max()
-// cost some machines three instructions.
+// Minimum and maximum of two numbers that are not NaN. min() and max() also handle NaN, which costs
+// three instructions on some devices.
 #define RL_LESSER(a, b) ((a) < (b) ? (a) : (b))
 #define RL_GREATER(a, b) ((a) > (b) ? (a) : (b))
-// Four words in one access, whatever the type behind the address: quad i lies 16 i bytes behind it.
+// Access four words at once, whatever the type behind the address. Quad i lies at byte offset 16 i.
 #define RL_QUAD(ref, i) ::rl::quadAt((ref).data, i)
 #define RL_WRITE_QUAD(ref, i, value) ::rl::writeQuadAt((ref).data, i, value)
-// Of the scene, which no kernel writes: these may go through texels
+// Read scene data, which no kernel writes. On some devices these reads go through texels
 // (core/backend/glsl_preamble.cpp).
 #define RL_SCENE_QUAD(ref, i) RL_QUAD(ref, i)
 #define RL_SCENE_UINT(ref, i) ((ref).data[i])
@@ -96,11 +96,11 @@ inline uint atomicGreatest(uint* data, std::size_t i, uint value) {
 #define RL_SCENE_VEC2(ref, i) ((ref).data[i])
 #define RL_SCENE_VEC3(ref, i) ((ref).data[i])
 #define RL_SCENE_UVEC3(ref, i) ::rl::tripleAt((ref).data, i)
-// What an earlier pass left: read before this pass writes there, never after.
+// Reads data of an earlier pass. Valid only before this pass writes there, never after.
 #define RL_PAST_QUAD(ref, i) RL_QUAD(ref, i)
-// On uints of a buffer, for what several pixels write in one pass; each returns what was there
-// before. Results must not depend on who comes first: sums and greatest values do not, a
-// compare-and-swap that claims a place does where the place decides anything.
+// Atomic operations on uints of a buffer that several pixels write in one pass. Each returns the
+// old value. Results must not depend on execution order: sums and maxima do not. A compare-and-swap
+// that claims a slot does, if the slot matters for the result.
 #define RL_ATOMIC_ADD(ref, i, value) \
   ::rl::atomicAt((ref).data, i).fetch_add(value, std::memory_order_relaxed)
 #define RL_ATOMIC_MAX(ref, i, value) ::rl::atomicGreatest((ref).data, i, value)

@@ -1,6 +1,5 @@
-// What a scene may need. Kernels are specialised by a mask of these bits: a template argument on
-// the CPU, a specialization constant on the GPU. The scan that sets them is
-// core/scene/feature_scan.cpp.
+// Feature bits of a scene. Kernels are specialised by a mask of these bits: a template argument on
+// the CPU, a specialization constant on the GPU. core/scene/feature_scan.cpp sets them.
 #ifndef RL_FEATURES_H
 #define RL_FEATURES_H
 

@@ -1,6 +1,7 @@
 // Orthonormal frames. Local coordinates: z along the normal.
 
-// Duff et al., "Building an Orthonormal Basis, Revisited" (JCGT 2017): continuous but at n.z = -0.
+// Duff et al., "Building an Orthonormal Basis, Revisited" (JCGT 2017): continuous except at
+// n.z = -0.
 RL_FN void frameFromNormal(RL_IN(vec3) n, RL_OUT(vec3) t, RL_OUT(vec3) b) {
   float s = n.z >= 0.0f ? 1.0f : -1.0f;
   float a = -1.0f / (s + n.z);

@@ -1,10 +1,10 @@
 // Lights: one table of emissive triangles, punctual lights and the environment, selected by power
 // within each kind (core/scene/light_table.h).
 //   lightDraw      draws a point of a light
-//   lightConnect   what a receiver gets from it
-//   lightPdf...    the density with which lightDraw would have drawn what a ray has found
+//   lightConnect   evaluates a drawn light for a receiver
+//   lightPdf...    density with which lightDraw would have drawn the light that a ray has found
 
-// The light that 32 bits for the column and 32 for the threshold stand for.
+// Selects a light by the alias method: 32 bits for the column and 32 for the threshold.
 RL_FN uint lightAt(uint columnBits, uint aliasBits) {
   uint i = rlMulHigh(columnBits, gScene.lightCount);
   AliasEntry entry = recordAlias(RL_SCENE_UVEC3(gScene.lightAlias, i));
@@ -19,7 +19,7 @@ RL_FN uint lightSelect(RL_IN(Rng) rng) {
 
 RL_FN bool lightExists() { return gScene.lightCount != 0u; }
 
-// Only where lightExists().
+// Requires lightExists().
 RL_FN_OUTLINE LightSample lightDraw(RL_IN(Rng) rng) {
   LightSample s;
   uint uBits = rngBits(rng, RL_DIM_LIGHT_U);
@@ -131,7 +131,7 @@ RL_FN float lightPdfOfHit(uint lightIndex, RL_IN(vec3) nGeoW, RL_IN(vec3) dirW, 
   return cosLight > 0.0f ? light.pmf * light.areaInverse * distance * distance / cosLight : 0.0f;
 }
 
-// The same for the environment seen in a direction.
+// Solid-angle density with which lightDraw finds the environment in a direction.
 RL_FN float lightPdfOfEnvironment(RL_IN(vec3) dirW) {
   if (gScene.environmentLight == RL_INVALID) return 0.0f;
   return recordLight(gScene.environmentLight).pmf * environmentPdf(dirW);
@@ -139,7 +139,7 @@ RL_FN float lightPdfOfEnvironment(RL_IN(vec3) dirW) {
 
 // Weight of a technique with density p against one with density q (power heuristic, exponent 2).
 RL_FN float lightMisWeight(float p, float q) {
-  // Scaled by the larger one: squares of densities overflow float32 for small lights.
+  // Scale by the larger density: squares of densities overflow float32 for small lights.
   float m = max(p, q);
   if (!(m > 0.0f)) return 0.0f;
   float a = p / m;

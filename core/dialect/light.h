@@ -18,10 +18,10 @@ struct LightSample {
       pdf;  // selection included: per area (triangle), per solid angle (environment), discrete else
   vec3 radiance;   // W sr^-1 m^-2; W/sr for points (spot falloff depends on the receiver's
                    // direction); W/m^2 for directional lights
-  float posError;  // metres, of a triangle's point
+  float posError;  // metres; triangles only
   vec2 cone;       // spot: scale and offset of the angular falloff
   uint isTwoSided;
-  uint record;  // its index in the light table; RL_INVALID where a ray found it
+  uint record;  // index in the light table; RL_INVALID if a ray found the light
 };
 
 // A light sample as a receiver sees it.
@@ -30,7 +30,7 @@ struct LightConnection {
   float distance;  // metres; 0 means at infinity
   vec3 emitted;  // radiance for area lights and the environment; irradiance factor for delta lights
   float geometry;  // |cos_light| / d^2 for triangles, 1 otherwise (d^2 of points is in `emitted`)
-  float pdfSolidAngle;  // of light sampling; 0 for delta lights, which BSDF sampling cannot find
+  float pdfSolidAngle;  // by light sampling; 0 for delta lights, which BSDF sampling cannot find
   bool isDelta;
 };
 

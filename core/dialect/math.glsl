@@ -1,4 +1,4 @@
-// Small functions whose value may decide something: written out so that every machine agrees.
+// Small math functions, written out so that every device computes the same value.
 
 RL_FN bool rlIsFinite(float x) { return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u; }
 

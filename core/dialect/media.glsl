@@ -1,15 +1,15 @@
-// Media: the bodies that a point lies in, the greatest rank first. A body is an instance whose
-// material lets light into it (core/scene/bodies.h ranks them; no two ranks are equal). Where
-// bodies overlap, the first one fills the place, and only where that changes is there a surface
-// (Schmidt and Budge, "Simple Nested Dielectrics in Ray Traced Images", 2002).
+// Media: list of the bodies that a point lies in, the greatest rank first. A body is an instance
+// whose material lets light in (core/scene/bodies.h ranks bodies; no two ranks are equal). If
+// bodies overlap, the one with the greatest rank fills the space, and a surface exists only where
+// that body changes (Schmidt and Budge, "Simple Nested Dielectrics in Ray Traced Images", 2002).
 //
-// A list holds four; of more, those of the least rank are forgotten. Thin sheets and opaque
-// surfaces change nothing. Two bodies of the same medium have a surface where one ends: it may have
-// a colour or a light of its own, and shadow rays stop there.
+// A list holds four bodies; of more, those of the least rank are dropped. Thin sheets and opaque
+// surfaces do not change the list. Two bodies of the same medium have a surface where one ends: the
+// surface may have a colour or an emission of its own, and shadow rays stop there.
 
 RL_FN uvec4 mediaNone() { return uvec4(0u, 0u, 0u, 0u); }
 
-// Absorption (m^-1) and index of refraction of what a rank stands for; 0: air.
+// Absorption (m^-1) and index of refraction of the body of a rank; 0: air.
 RL_FN vec4 mediaOfRank(uint rank) {
   if (rank == 0u) return vec4(0.0f, 0.0f, 0.0f, 1.0f);
   return recordVec4(RL_SCENE_QUAD(gScene.bodies, rank));
@@ -26,7 +26,7 @@ RL_FN uvec4 mediaEnter(RL_IN(uvec4) media, uint rank) {
   return uvec4(media.x, media.y, media.z, max(media.w, rank));
 }
 
-// One entry of that rank is taken out, if there is one.
+// Removes one entry of a rank, if there is one.
 RL_FN uvec4 mediaLeave(RL_IN(uvec4) media, uint rank) {
   if (media.x == rank) return uvec4(media.y, media.z, media.w, 0u);
   if (media.y == rank) return uvec4(media.x, media.z, media.w, 0u);
@@ -35,7 +35,7 @@ RL_FN uvec4 mediaLeave(RL_IN(uvec4) media, uint rank) {
   return media;
 }
 
-// Returns of a hit: x: cosine between the ray back and the triangle's outside, above 0 from
+// Returns for a hit: x: cosine between the ray back and the triangle's outside, above 0 from
 // outside; y: error bound of the position, metres.
 RL_FN vec2 mediaFacing(RL_IN(Hit) hit, RL_IN(vec3) dirW) {
   Instance inst = recordInstance(hit.instance);
@@ -48,14 +48,14 @@ RL_FN vec2 mediaFacing(RL_IN(Hit) hit, RL_IN(vec3) dirW) {
   return vec2(cosine, RL_HIT_ERROR * t.magnitude);
 }
 
-// The list behind a body's surface.
+// Media list behind a body's surface.
 RL_FN uvec4 mediaBehind(RL_IN(uvec4) media, uint rank, bool isFront) {
   if (isFront) return mediaEnter(media, rank);
   return mediaLeave(media, rank);
 }
 
-// The interval around a hit in which surfaces of other bodies count as being at the same place.
-// facing: of the hit.
+// Interval around a hit in which surfaces of other bodies count as being at the same place. facing:
+// mediaFacing() of the hit.
 RL_FN Ray mediaProbe(RL_IN(Ray) ray, RL_IN(Hit) hit, RL_IN(vec2) facing) {
   float reach = 2.0f * facing.y / max(abs(facing.x), 1.0f / 64.0f);
   Ray probe = ray;
@@ -68,9 +68,9 @@ RL_FN uint mediaRank(RL_IN(Hit) hit) {
   return recordInstance(hit.instance).flags >> RL_INSTANCE_RANK_SHIFT;
 }
 
-// Finds the media on both sides of a path ray's hit, before the surface is loaded. Bodies that
-// touch there are met together, so that there is no air between them; `hit` becomes that of the
-// greatest rank, whichever of them the ray met first.
+// Finds the media on both sides of a path ray's hit, before the surface is loaded. Touching bodies
+// are crossed together, so that there is no air between them; `hit` becomes the hit of the body
+// with the greatest rank, whichever body the ray met first.
 RL_FN MediaCrossing mediaCross(RL_IN(uvec4) media, RL_IN(Ray) ray, RL_INOUT(Hit) hit) {
   MediaCrossing c;
   c.behind = media;
@@ -82,7 +82,7 @@ RL_FN MediaCrossing mediaCross(RL_IN(uvec4) media, RL_IN(Ray) ray, RL_INOUT(Hit)
   vec2 facing = mediaFacing(hit, ray.dir);
   bool isFront = facing.x > 0.0f;
   c.behind = mediaBehind(media, rank, isFront);
-  // A body that is left was there, though nobody saw the path enter it: an open mesh.
+  // A body that is left but was never entered (open mesh): assume that the path was inside it.
   uint here = media.x;
   if (!isFront && !mediaContains(media, rank)) here = max(here, rank);
   if (gScene.bodiesMeet != 0u) {
@@ -106,15 +106,15 @@ RL_FN MediaCrossing mediaCross(RL_IN(uvec4) media, RL_IN(Ray) ray, RL_INOUT(Hit)
       }
     }
   }
-  c.isSurface = rank >= here ? 1u : 0u;  // as mediaPasses() says of shadow rays
+  c.isSurface = rank >= here ? 1u : 0u;  // same rule as mediaPasses() for shadow rays
   float iorHere = mediaOfRank(here).w;
   float iorBehind = mediaOfRank(c.behind.x).w;
   c.contrast = isFront ? iorBehind / iorHere : iorHere / iorBehind;
   return c;
 }
 
-// Does a shadow ray in the body of rank `rank` pass this hit? Below its rank bodies have no surface
-// there, and it ends where the body does.
+// Returns whether a shadow ray in the body of rank `rank` passes this hit: bodies of lower rank
+// have no surface in that body. The ray ends where the body ends.
 RL_FN bool mediaPasses(uint rank, RL_IN(Hit) hit) {
   if (rank == 0u) return false;
   uint other = mediaRank(hit);

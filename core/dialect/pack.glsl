@@ -1,12 +1,12 @@
-// Numbers in fewer bits, for buffers that hold something of every pixel.
+// Packs numbers into fewer bits, for per-pixel buffers.
 
-// Without its last bits, rounded to the nearest. Infinities and NaNs stay what they are.
+// Drops the last `bits` bits of a float, rounded to nearest. Keeps infinities and NaNs.
 RL_FN uint packCut(float x, uint bits) {
   return (floatBitsToUint(x) + (1u << (bits - 1u))) >> bits;
 }
 
-// Three numbers that are not negative in 21 bits each: 8 of exponent, 13 of fraction, off by at
-// most 6.1e-5 of the number.
+// Packs three non-negative floats into 21 bits each: 8 bits of exponent, 13 of fraction. Relative
+// error at most 6.1e-5.
 RL_FN uvec2 packPositive3(RL_IN(vec3) v) {
   uint z = packCut(v.z, 10u) & 0x1fffffu;
   return uvec2((packCut(v.x, 10u) & 0x1fffffu) | (z << 21u),
@@ -18,7 +18,8 @@ RL_FN vec3 unpackPositive3(uint w0, uint w1) {
               uintBitsToFloat(z << 10u));
 }
 
-// Three numbers in 21 bits each: sign, 8 bits of exponent, 12 of fraction, off by at most 1.2e-4.
+// Packs three floats into 21 bits each: sign, 8 bits of exponent, 12 of fraction. Relative error at
+// most 1.2e-4.
 RL_FN uvec2 packSigned3(RL_IN(vec3) v) {
   uint z = packCut(v.z, 11u);
   return uvec2(packCut(v.x, 11u) | (z << 21u), packCut(v.y, 11u) | ((z >> 11u) << 21u));
@@ -28,17 +29,17 @@ RL_FN vec3 unpackSigned3(uint w0, uint w1) {
   return vec3(uintBitsToFloat(w0 << 11u), uintBitsToFloat(w1 << 11u), uintBitsToFloat(z << 11u));
 }
 
-// A number of 24 bits (15 of fraction), not below `x`, which is not negative, and 8 bits of
-// something else.
+// Packs a non-negative float, rounded up to 24 bits (15 of fraction), and 8 bits of other data.
 RL_FN uint packAtLeast24(float x, uint other) {
   return ((floatBitsToUint(x) + 0xffu) & 0xffffff00u) | other;
 }
-// The nearest one.
+// Packs a non-negative float, rounded to the nearest of 24 bits, and 8 bits of other data.
 RL_FN uint packNearest24(float x, uint other) { return (packCut(x, 8u) << 8u) | other; }
 RL_FN float unpack24(uint packed) { return uintBitsToFloat(packed & 0xffffff00u); }
 
-// Unit vectors as two numbers of -1 to 1, on the octahedron (Cigolle et al., "A Survey of Efficient
-// Representations for Independent Unit Vectors", JCGT 2014). The zero vector becomes the z axis.
+// Unit vectors as two numbers in [-1, 1], by the octahedral map (Cigolle et al., "A Survey of
+// Efficient Representations for Independent Unit Vectors", JCGT 2014). The zero vector becomes the
+// z axis.
 RL_FN vec2 packOctahedron(RL_IN(vec3) n) {
   float scale = rlSafeDivide(1.0f, abs(n.x) + abs(n.y) + abs(n.z));
   float x = n.x * scale;
@@ -54,7 +55,7 @@ RL_FN vec3 unpackOctahedron(float x, float y) {
                         (1.0f - abs(x)) * (y < 0.0f ? -1.0f : 1.0f), z));
 }
 
-// To within rounding.
+// Packs a unit vector into two floats, exact to rounding.
 RL_FN uvec2 packUnit(RL_IN(vec3) n) {
   vec2 p = packOctahedron(n);
   return uvec2(floatBitsToUint(p.x), floatBitsToUint(p.y));
@@ -63,7 +64,7 @@ RL_FN vec3 unpackUnit(uint w0, uint w1) {
   return unpackOctahedron(uintBitsToFloat(w0), uintBitsToFloat(w1));
 }
 
-// In two numbers of 16 bits: off by at most 1e-4.
+// Packs a unit vector into two 16-bit numbers, error at most 1e-4.
 RL_FN uint packNormal(RL_IN(vec3) n) {
   vec2 p = packOctahedron(n);
   uint x = uint(clamp(p.x * 0.5f + 0.5f, 0.0f, 1.0f) * 65535.0f + 0.5f);
@@ -75,7 +76,7 @@ RL_FN vec3 unpackNormal(uint packed) {
                           float(packed >> 16u) * (2.0f / 65535.0f) - 1.0f);
 }
 
-// Three numbers of 0 to 1 in 10 bits each; the upper two bits are free.
+// Packs three numbers in [0, 1] into 10 bits each; the upper two bits are free.
 RL_FN uint packColor(RL_IN(vec3) c) {
   uint r = uint(clamp(c.x, 0.0f, 1.0f) * 1023.0f + 0.5f);
   uint g = uint(clamp(c.y, 0.0f, 1.0f) * 1023.0f + 0.5f);

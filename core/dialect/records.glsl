@@ -1,5 +1,5 @@
-// Records of the scene, read in quads of words. One access of four words costs a machine that walks
-// the lanes of a vector one by one a quarter of what four accesses cost.
+// Scene records, read in quads of words. On devices that walk the lanes of a vector one by one, one
+// access of four words costs a quarter of four accesses.
 
 RL_FN vec3 recordVec3(RL_IN(uvec4) q) {
   return vec3(uintBitsToFloat(q.x), uintBitsToFloat(q.y), uintBitsToFloat(q.z));

@@ -33,20 +33,20 @@ RL_FN uint rngBits(RL_IN(Rng) rng, uint dimension) {
   return rngHash(rngHash(counter ^ rng.key.x) + rng.key.y);
 }
 
-// Bits as a number in [0, 1): 24 of them, so that 1 is never reached. What happens with a smaller
-// probability than 2^-24 is compared as bits.
+// Maps the upper 24 bits to [0, 1), so that 1 is never reached. Events with a probability below
+// 2^-24 must be decided by comparing the bits themselves.
 RL_FN float rngUnit(uint bits) { return float(bits >> 8u) * 5.9604644775390625e-8f; }
 
 RL_FN float rngDraw(RL_IN(Rng) rng, uint dimension) { return rngUnit(rngBits(rng, dimension)); }
 
-// 32 bits that many pixels share on purpose, such as where a frame's tiles lie: the same number is
-// meant each time, so that asking again is no repetition.
+// 32 random bits that many pixels share on purpose, such as the position of a frame's tiles. Not
+// audited for repeated draws: every pixel must get the same number.
 RL_FN uint rngSharedBits(uint group, uint dimension) {
   Rng rng = rngInit(gFrame.seed ^ 0x3c6ef372u, group, gFrame.frame);
   return rngHash(rngHash(dimension ^ rng.key.x) + rng.key.y);
 }
 
-// Where the film samples of a pixel begin: the same in every frame, and whoever asks.
+// Start of a pixel's sequence of film samples: the same in every frame and for every caller.
 RL_FN uint rngFilmStart(uint pixel, uint dimension) {
   Rng rng = rngInit(gFrame.seed ^ 0x5bd1e995u, pixel, 0u);
   return rngHash(rngHash(dimension ^ rng.key.x) + rng.key.y);

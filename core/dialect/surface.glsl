@@ -121,7 +121,7 @@ RL_FN_OUTLINE vec3 surfaceNormalMapped(RL_IN(Instance) inst, RL_IN(Geometry) geo
     uint uvSet = recordTexture(material.textures[RL_TEX_NORMAL]).uvSet;
     tangentW = surfaceTangentFromUv(t, geometry, corners, uvSet, handedness);
   }
-  // The image on a mirrored instance is mirrored too, and a cross product is not.
+  // Flip the handedness on a mirrored instance: its image is mirrored, a cross product is not.
   if (RL_HAS(RL_FEATURE_INSTANCES) && (inst.flags & RL_INSTANCE_FLIPPED) != 0u)
     handedness = -handedness;
   tangentW = tangentW - normalW * dot(normalW, tangentW);
@@ -134,9 +134,9 @@ RL_FN_OUTLINE vec3 surfaceNormalMapped(RL_IN(Instance) inst, RL_IN(Geometry) geo
   return n2 > 0.0f ? n * (1.0f / sqrt(n2)) : normalW;
 }
 
-// A hit within rounding of an edge may lie beyond the face on the other side of it, and rays from
-// there would leak out of a closed mesh. Its position is kept off the edges by the error bound (by
-// a thousandth of a sliver). area2 is the squared length of cross(e1, e2).
+// Keeps a hit off the triangle's edges by the error bound (for a sliver by a thousandth). A hit
+// within rounding of an edge may lie beyond the neighbouring face, and rays from it would leak out
+// of a closed mesh. area2 is the squared length of cross(e1, e2).
 RL_FN vec2 surfaceInnerBary(RL_IN(TriangleW) t, float area2, float posError, RL_IN(vec2) bary) {
   vec3 e3 = t.e2 - t.e1;
   float longest2 = max(dot(t.e1, t.e1), max(dot(t.e2, t.e2), dot(e3, e3)));
@@ -184,7 +184,7 @@ RL_FN Surface surfaceLoadBetween(RL_IN(Hit) hit, RL_IN(vec3) rayDir, float contr
     nShade = surfaceNormalMapped(inst, geometry, material, corners, hit.bary, t, nShade);
   }
   s.nGeoW = isFront ? nGeo : -nGeo;
-  // A shading normal on the far side of the face has no meaning as a reflector: mirrored back.
+  // Mirror back a shading normal on the far side of the face: it has no meaning as a reflector.
   if (!isFront) nShade = -nShade;
   float side = dot(nShade, s.nGeoW);
   if (side <= 0.0f) nShade = normalize(nShade - s.nGeoW * (2.0f * side) + s.nGeoW * 1.0e-3f);
@@ -203,8 +203,8 @@ RL_FN Surface surfaceLoadBetween(RL_IN(Hit) hit, RL_IN(vec3) rayDir, float contr
       if (slot != RL_TEX_NORMAL && material.textures[slot] != RL_INVALID)
         waiting = waiting | (1u << slot);
     }
-    // One call site of texture filtering for all slots; a round for each that is there, as rays
-    // side by side pay for every round of any.
+    // Use one call site of texture filtering for all slots. Loop over used slots only: parallel
+    // lanes pay for every iteration of any lane.
     while (waiting != 0u) {
       uint slot = uint(findLSB(waiting));
       waiting = waiting & (waiting - 1u);

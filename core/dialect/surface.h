@@ -23,10 +23,10 @@ struct Surface {
 
 // The interface between two media at a hit (core/dialect/media.glsl).
 struct MediaCrossing {
-  uvec4 behind;     // bodies that hold what lies beyond
+  uvec4 behind;     // bodies that contain the point behind the hit
   float contrast;   // index of refraction inside over outside; 0: as the material says
-  uint isSurface;   // 0: the same body goes on, and so does the ray
-  uint isTouching;  // 1: two surfaces lie here, within twice the position's error
+  uint isSurface;   // 0: the same body goes on, and the ray passes
+  uint isTouching;  // 1: surfaces of several bodies lie here, within twice the position error
 };
 
 // A triangle in world space: a corner and the edges to the other two.
@@ -34,7 +34,7 @@ struct TriangleW {
   vec3 p0;
   vec3 e1;
   vec3 e2;
-  float magnitude;  // largest coordinate that its computation went through
+  float magnitude;  // largest coordinate in the computation of the triangle
 };
 
 RL_NAMESPACE_END

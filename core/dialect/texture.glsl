@@ -1,7 +1,7 @@
 // Texture filtering: nearest or bilinear, repeat, clamp or mirror; sRGB decoded before filtering.
 
-// i: at most one texel before the first and two periods behind it, where textureSample() has left
-// it. No division: a vector of integers is divided one by one.
+// Wraps texel index i, which textureSample() keeps at most one texel before the first and two
+// periods behind it. Avoids division: integer vectors are divided lane by lane.
 RL_FN int textureWrap(int i, uint n, uint mode) {
   int size = int(n);
   if (mode == RL_WRAP_CLAMP) return clamp(i, 0, size - 1);

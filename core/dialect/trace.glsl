@@ -1,18 +1,18 @@
-// Ray traversal has one signature; each backend supplies the body (Embree on the CPU; a traversal
-// of our own or ray queries on the GPU).
+// Ray traversal has one signature; each backend supplies the body (Embree on the CPU; the project's
+// own hierarchy or ray queries on the GPU).
 //   RL_RAY_PATH    hit.instance is RL_INVALID when nothing was hit; alpha is decided by `key`:
 //                  the decision does not depend on the order in which surfaces are visited.
 //                  The return value is 1 when no partly transparent surface was passed, less when
-//                  one may have been (those beyond the hit count too, if traversal has met them)
+//                  one may have been (surfaces beyond the hit count too, if traversal met them)
 //   RL_RAY_SHADOW  the return value is the transmittance: 0 blocked, 1 free, between through alpha.
 //                  `key` is the rank of the body that the ray is in (0: none): bodies below it have
 //                  no surface there (core/dialect/media.glsl)
-//   RL_RAY_BODIES  hit is a surface of a body, of the first instance from `key` on that has one in
-//                  the interval; after the last instance the first follows. Without hit.t. Only
-//                  where gScene.bodiesMeet
+//   RL_RAY_BODIES  hit is a body's surface in the interval, of the first instance that has one,
+//                  counted cyclically from `key` on. hit.t is not set. Only if
+//                  gScene.bodiesMeet
 RL_PROTO(float traceRay(RL_IN(Ray) ray, uint mode, uint key, RL_OUT(Hit) hit))
 
-// For compilers, which do not see that traversal sets it.
+// Initial value of a hit, for compilers that do not see that traversal sets it.
 RL_FN Hit traceNoHit() {
   Hit hit;
   hit.instance = RL_INVALID;
@@ -22,22 +22,22 @@ RL_FN Hit traceNoHit() {
   return hit;
 }
 
-// Is this surface of a body the one to keep? RL_RAY_BODIES asks; `best` is what it has found.
+// Returns whether `cand`, a body's surface, replaces `best`. For RL_RAY_BODIES.
 RL_FN bool traceIsNextBody(RL_IN(Hit) best, RL_IN(Hit) cand, uint key) {
   if (recordInstance(cand.instance).flags >> RL_INSTANCE_RANK_SHIFT == 0u) return false;
   return best.instance == RL_INVALID || cand.instance - key < best.instance - key;
 }
 
-// Bits of a corner's place, the same for every triangle and vertex that has it.
+// Hash of a corner's position, the same for every triangle and vertex with that position.
 RL_FN uint traceCornerBits(RL_IN(Geometry) geometry, uint corner) {
   vec3 p = RL_SCENE_VEC3(gScene.positions, geometry.firstVertex + corner);
   return rngHash(rngHash(rngHash(floatBitsToUint(p.x)) + floatBitsToUint(p.y)) +
                  floatBitsToUint(p.z));
 }
 
-// Which part of its instance a hit is on, as far as alpha is concerned: the triangle, or, on an
-// edge or a corner, that edge or corner. Triangles that share it are hit there at once, and are
-// one surface. isShared: 1 where there may be several.
+// Part of the instance that an alpha test decides on: the triangle, or the edge or corner that the
+// hit lies on. Triangles that share an edge or corner are all hit there, and count as one surface.
+// isShared: 1 if the hit is on an edge or corner.
 RL_FN uint traceAlphaPart(RL_IN(Hit) hit, RL_OUT(uint) isShared) {
   float b0 = 1.0f - hit.bary.x - hit.bary.y;
   bool on0 = !(b0 > RL_EDGE_BARY);
@@ -58,7 +58,7 @@ RL_FN uint traceAlphaBits(RL_IN(Hit) hit, uint part, uint alphaKey) {
   return rngHash(rngHash(part ^ alphaKey) + hit.instance * 0x9e3779b9u);
 }
 
-// The decision of a path ray at a partly transparent surface: hash(sample, part of the surface)
+// Decides whether a path ray hits a partly transparent surface: hash(sample, part of the surface)
 // against alpha.
 RL_FN bool traceAlphaAccepts(uint alphaKey, RL_IN(Hit) hit, float alpha) {
   uint isShared;
@@ -74,7 +74,7 @@ RL_FN AlphaPassed traceAlphaNone() {
   return passed;
 }
 
-// A surface that the ray has passed, once: not again by the next triangle at the same edge.
+// Counts a surface that the ray has passed, once for all triangles at the same edge or corner.
 RL_FN void traceAlphaPass(RL_INOUT(AlphaPassed) passed, RL_IN(Hit) hit, float alpha) {
   uint isShared;
   uint part = traceAlphaPart(hit, isShared);

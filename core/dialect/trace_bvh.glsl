@@ -1,7 +1,7 @@
-// traceRay() on the project's own hierarchy: front to back, both levels in one loop. The ray keeps
-// its parameter in an instance, where its direction is transformed and not normalised.
+// traceRay() on the project's own hierarchy: front to back, both levels in one loop. The ray
+// parameter stays the same inside an instance: the direction is transformed and not normalised.
 
-// The components of v, that of `axis` last.
+// Permutes the components of v so that the one of `axis` comes last.
 RL_FN vec3 bvhAxisLast(RL_IN(vec3) v, uint axis) {
   if (axis == 0u) return vec3(v.y, v.z, v.x);
   if (axis == 1u) return vec3(v.z, v.x, v.y);
@@ -17,7 +17,7 @@ RL_FN BvhRay bvhRay(RL_IN(vec3) origin, RL_IN(vec3) dir) {
   if (size.z > max(size.x, size.y)) r.axis = 2u;
   vec3 along = bvhAxisLast(dir, r.axis);
   r.shear = vec2(along.x / along.z, along.y / along.z);
-  // No infinities: 0 times one of them would be no number.
+  // Avoid infinities: 0 times infinity would be NaN.
   vec3 d = dir;
   if (abs(d.x) < 1.0e-18f) d.x = 1.0e-18f;
   if (abs(d.y) < 1.0e-18f) d.y = 1.0e-18f;
@@ -26,9 +26,9 @@ RL_FN BvhRay bvhRay(RL_IN(vec3) origin, RL_IN(vec3) dir) {
   return r;
 }
 
-// Where the ray enters child `shift / 8` of a node, at least tMin; 3e38 where it misses. near and
-// far: the bytes of the planes that the ray meets first and last. The exit is moved out by the
-// rounding error of the slab test (Ize 2013), so that no box hides what it holds.
+// Ray parameter at which the ray enters child `shift / 8` of a node, at least tMin; 3e38 on a miss.
+// near and far: the bytes of the planes that the ray meets first and last. The exit is moved out by
+// the rounding error of the slab test (Ize 2013), so that no box hides its content.
 RL_FN float bvhEnter(RL_IN(BvhRay) r, RL_IN(vec3) origin, RL_IN(vec3) cell, RL_IN(uvec3) near,
                      RL_IN(uvec3) far, uint shift, float tMin, float tMax) {
   vec3 nearBytes = vec3(float((near.x >> shift) & 255u), float((near.y >> shift) & 255u),
@@ -45,7 +45,7 @@ RL_FN float bvhEnter(RL_IN(BvhRay) r, RL_IN(vec3) origin, RL_IN(vec3) cell, RL_I
   return enter <= leave && enter <= tMax ? enter : 3.0e38f;
 }
 
-// Two children, the nearer one first.
+// Sorts two children, the nearer one first.
 RL_FN void bvhOrder(RL_INOUT(float) entryA, RL_INOUT(uint) childA, RL_INOUT(float) entryB,
                     RL_INOUT(uint) childB) {
   bool swaps = entryB < entryA;
@@ -92,14 +92,15 @@ RL_FN BvhHits bvhChildren(RL_IN(BvhRay) r, RL_IN(BvhWords) record, float tMin, f
   return hits;
 }
 
-// A corner, relative to the origin, as the ray sees it.
+// Projects a corner, relative to the ray's origin, along the ray.
 RL_FN vec2 bvhCorner(RL_IN(BvhRay) r, RL_IN(vec3) corner) {
   vec3 v = bvhAxisLast(corner, r.axis);
   return vec2(v.x - r.shear.x * v.z, v.y - r.shear.y * v.z);
 }
 
-// Watertight (Woop, Benthin and Wald 2013): rounding is monotonic, so that the difference of two
-// products has the right sign or is 0, and an edge (0) belongs to both of its triangles.
+// Intersects a triangle, watertight (Woop, Benthin and Wald 2013): rounding is monotonic, so that
+// the difference of two products has the right sign or is 0, and an edge (0) belongs to both of its
+// triangles.
 RL_FN bool bvhTriangle(RL_IN(BvhRay) r, RL_IN(BvhWords) record, float tMin, float tMax,
                        RL_INOUT(Hit) hit) {
   vec3 p0 = vec3(uintBitsToFloat(record.q0.x), uintBitsToFloat(record.q0.y),
@@ -120,8 +121,9 @@ RL_FN bool bvhTriangle(RL_IN(BvhRay) r, RL_IN(BvhWords) record, float tMin, floa
   bool isInside = min(u, min(v, w)) >= 0.0f || max(u, max(v, w)) <= 0.0f;
   float sum = u + v + w;
   if (!isInside || sum == 0.0f) return false;
-  // The distance by the plane: its error is that of a point near the plane (RL_HIT_ERROR), however
-  // far the corners are. The largest of the three products of edges is the stable normal.
+  // Compute the distance from the plane: its error is that of a point near the plane
+  // (RL_HIT_ERROR), however far the corners are. The largest of the three cross products of edges
+  // is the stable normal.
   vec3 e0 = p2 - p0;
   vec3 e1 = p0 - p1;
   vec3 e2 = p1 - p2;
@@ -149,17 +151,17 @@ RL_FN float traceRay(RL_IN(Ray) ray, uint mode, uint key, RL_OUT(Hit) hit) {
   float nearest = ray.tMax;
   BvhRay world = bvhRay(ray.origin, ray.dir);
   BvhRay r = world;
-  uint instance = RL_INVALID;  // the one whose mesh is traversed
-  bool isTransparent = false;  // that instance, in part
-  uint floorOfInstance = 0u;   // height of the stack at which it is left
+  uint instance = RL_INVALID;  // instance whose mesh is traversed
+  bool isTransparent = false;  // the instance may be partly transparent
+  uint floorOfInstance = 0u;   // stack height at which the instance is left
   uint height = 0u;
   uint current = 0u;
   BvhStack stack;
   for (;;) {
     bool pops = true;
     uint kind = current & RL_BVH_KIND;
-    // One reading for nodes and triangles alike: where both branches below cost the same to rays
-    // side by side, this one does not.
+    // Load nodes and triangles by one set of instructions: divergent lanes pay for both branches
+    // below, but only once for this load.
     uint at = (current & RL_BVH_INSTANCE) == 0u ? current & RL_BVH_LEAF_FIRST : 0u;
     at = at * RL_BVH_RECORD_QUADS;
     BvhWords record;
@@ -189,7 +191,7 @@ RL_FN float traceRay(RL_IN(Ray) ray, uint mode, uint key, RL_OUT(Hit) hit) {
         pops = false;
       }
     } else if (kind == RL_BVH_LEAF) {
-      // One triangle a round: rays side by side that have other numbers of them need not wait.
+      // Test one triangle per iteration: lanes with fewer triangles need not wait.
       uint left = ((current & ~RL_BVH_KIND) >> RL_BVH_LEAF_COUNT_SHIFT) - 1u;
       if (left > 0u) {
         current = current + 1u - (1u << RL_BVH_LEAF_COUNT_SHIFT);
@@ -245,7 +247,7 @@ RL_FN float traceRay(RL_IN(Ray) ray, uint mode, uint key, RL_OUT(Hit) hit) {
       }
       if (height == 0u) return passed.transmittance;
       height = height - 1u;
-      // What lies behind the nearest hit is passed over: the next round takes the next entry.
+      // Skip entries behind the nearest hit: the next iteration pops the next one.
       current = stack.entry[height] <= nearest ? stack.child[height] : RL_INVALID;
     }
   }

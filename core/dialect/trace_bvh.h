@@ -15,10 +15,10 @@ struct BvhRay {
   vec3 dir;
   vec3 inverseDir;
   uint axis;   // the largest component of dir
-  vec2 shear;  // takes dir to that axis: the other two over it
+  vec2 shear;  // the other two components of dir over the one of `axis`
 };
 
-// The next node or triangle.
+// Record of a node or a triangle.
 struct BvhWords {
   uvec4 q0;
   uvec4 q1;
@@ -26,7 +26,7 @@ struct BvhWords {
   uvec4 q3;
 };
 
-// Children of a node, x nearest; entry 3e38: the ray misses it.
+// Children of a node, the nearest in x; entry 3e38: the ray misses the child.
 struct BvhHits {
   uvec4 child;
   vec4 entry;
@@ -34,7 +34,7 @@ struct BvhHits {
 
 struct BvhStack {
   uint child[RL_BVH_STACK];
-  float entry[RL_BVH_STACK];  // where the ray enters the child's bounds
+  float entry[RL_BVH_STACK];  // ray parameter at which the ray enters the child's bounds
 };
 
 RL_NAMESPACE_END

@@ -10,8 +10,8 @@
 RL_NAMESPACE_BEGIN
 
 const uint RL_INVALID = 0xffffffffu;
-// A pass over entries instead of pixels: kernelMain() gets entry i as (i % this, i / this), and of
-// the last row also some that are not there.
+// Row length of a pass over entries instead of pixels: kernelMain() gets entry i as (i % this,
+// i / this). The last row may reach beyond the last entry.
 const uint RL_ENTRY_ROW = 1024u;
 const uint RL_MAX_UV_SETS = 4u;
 
@@ -20,7 +20,8 @@ const uint RL_RAY_PATH =
     0u;  // closest hit; alpha decided by a hash of the sample and the primitive
 const uint RL_RAY_SHADOW = 1u;  // any hit; alpha multiplies the transmittance
 const uint RL_RAY_BODIES = 2u;  // the surface of a body in the interval (core/dialect/trace.glsl)
-// Bodies that may touch at one point, besides the one that a ray met first.
+// Largest number of further bodies that are found at one point, besides the one that a ray hit
+// first.
 const uint RL_MEDIA_TOUCHING = 8u;
 
 struct Ray {
@@ -44,8 +45,8 @@ const float RL_EDGE_BARY = 1.0e-6f;
 const uint RL_ALPHA_EDGES = 4u;
 struct AlphaPassed {
   float transmittance;
-  uint count;     // edges and corners among them
-  uint edges[4];  // the last of these, by hash; 0: none
+  uint count;     // edges and corners passed so far
+  uint edges[4];  // hashes of the last edges and corners; 0: none
 };
 
 // One glTF mesh primitive: triangles [firstTriangle, +triangleCount) index vertices from
@@ -160,10 +161,10 @@ struct Light {
   vec3 e2;            // triangle edge; x,y: spot angle scale and offset
   float areaInverse;  // 1/m^2 of a triangle
   vec3 radiance;      // triangle: W sr^-1 m^-2; point, spot: W/sr; directional: W/m^2
-  uint instance;      // of a triangle
+  uint instance;      // triangles only
   uint primitive;
   uint flags;       // RL_MATERIAL_DOUBLE_SIDED, RL_LIGHT_FLIPPED
-  float magnitude;  // metres; of a triangle's corners and of what its transform went through
+  float magnitude;  // metres; largest coordinate of the corners and within their transform
   uint padding;
 };
 RL_STATIC_ASSERT_SIZE(Light, 80);
@@ -172,21 +173,21 @@ RL_STATIC_ASSERT_SIZE(Light, 80);
 struct AliasEntry {
   uint keep;
   uint other;
-  float pmf;  // probability that i is drawn, by whichever column
+  float pmf;  // probability that i is drawn, over all columns
 };
 RL_STATIC_ASSERT_SIZE(AliasEntry, 12);
 
-// The project's own bounding volume hierarchy (core/scene/bvh.h): four children a node, read in
-// quads of words. A child is a node's record, RL_INVALID (none), or one of:
+// The project's own bounding volume hierarchy (core/scene/bvh.h): four children per node, read in
+// quads of words. A child is the record of a node, RL_INVALID (none), or one of:
 const uint RL_BVH_LEAF = 0x40000000u;      // count << 26 | record of its first triangle
 const uint RL_BVH_INSTANCE = 0x80000000u;  // | number of the instance
 const uint RL_BVH_KIND = 0xc0000000u;      // mask of the two
 const uint RL_BVH_LEAF_COUNT_SHIFT = 26u;
 const uint RL_BVH_LEAF_FIRST = 0x03ffffffu;  // mask
-const uint RL_BVH_RECORD_QUADS = 4u;         // of a node or a triangle
-// Largest number of nodes between a root and a leaf; the two levels have one each.
+const uint RL_BVH_RECORD_QUADS = 4u;         // per node or triangle
+// Largest number of nodes between a root and a leaf, in each of the two levels.
 const uint RL_BVH_MAX_DEPTH = 26u;
-const uint RL_BVH_STACK = 160u;  // three children left behind at every node of both levels
+const uint RL_BVH_STACK = 160u;  // 3 deferred children at every node of both levels
 
 const uint RL_CAMERA_PERSPECTIVE = 0u;
 const uint RL_CAMERA_ORTHOGRAPHIC = 1u;
@@ -238,15 +239,15 @@ struct SceneData {
   Vec3Ref environment;        // radiance per texel, already scaled, row 0 on top
   AliasRef environmentAlias;  // pmf per texel
   Vec4Ref bodies;             // by rank: absorption (m^-1) and index of refraction; [0] unused
-  Vec2Ref ggxAlbedo;          // core/scene/ggx_albedo.h; null unless a session compensates
+  Vec2Ref ggxAlbedo;          // core/scene/ggx_albedo.h; null if no session compensates GGX
   // The project's own hierarchy: null unless a session traces it. The world's root is record 0.
-  QuadRef bvh;                  // RL_BVH_RECORD_QUADS a record
+  QuadRef bvh;                  // RL_BVH_RECORD_QUADS quads per record
   UintRef bvhRoots;             // record of the root of each geometry that is shared by instances
-  uvec2 accelerationStructure;  // its address on a device that traces by ray queries; else 0
+  uvec2 accelerationStructure;  // device address if rays are traced by ray queries; else 0
   uint lightCount;
   uint environmentWidth;  // 0: no environment
   uint environmentHeight;
-  uint environmentLight;      // its index in the light table, or RL_INVALID
+  uint environmentLight;      // index in the light table, or RL_INVALID
   float environmentRotation;  // radians about +Y
   uint instanceCount;
   uint bodiesMeet;  // 1: some bodies touch or overlap
@@ -254,16 +255,17 @@ struct SceneData {
 
 const uint RL_COMPONENT_DIRECT =
     1u;  // at most one scattering event, emission seen directly included
-const uint RL_COMPONENT_INDIRECT = 2u;  // two or more
+const uint RL_COMPONENT_INDIRECT = 2u;  // two or more scattering events
 const uint RL_COMPONENT_ALL = 3u;
 
-// The first scattering event after which Russian roulette may end a path. restir_gi keeps what it
-// finds up to the third vertex apart, without the survival probability: 3 is the least it can
-// serve.
+// First scattering event after which Russian roulette may end a path. restir_gi stores
+// contributions up to the third vertex without a survival probability, so 3 is the smallest value
+// it supports.
 const uint RL_ROULETTE_EARLIEST = 3u;
 
-// The camera, or the last frame's, is in a body that absorbs. What x1 receives and sends to it is
-// then no longer what a shift takes it for: reservoirs hold no paths of such views.
+// Flags: the camera of this frame or of the last one is inside an absorbing body. Light on its way
+// to x1 and from x1 to the camera is then absorbed, which shifts do not account for: reservoirs
+// hold no paths of such views.
 const uint RL_CAMERA_ABSORBS_NOW = 1u;
 const uint RL_CAMERA_ABSORBS_BEFORE = 2u;
 
@@ -285,8 +287,8 @@ struct FrameData {
   uint rouletteStart;    // first scattering event that may end a path by Russian roulette;
                          // RL_INVALID: off
   uint multiscatter;     // 1: GGX lobes are compensated, and the scene has ggxAlbedo; 0: off
-  uint stillFrames;      // frames just before this one with its camera and parameters
-  float radianceFrames;  // that the integrator's radiance of an old history is the average of
+  uint stillFrames;      // frames directly before this one with the same camera and parameters
+  float radianceFrames;  // frames averaged by the integrator's radiance once its history is old
   uint cameraAbsorbs;    // RL_CAMERA_ABSORBS_*
 };
 RL_STATIC_ASSERT_SIZE(FrameData, 192);
@@ -296,15 +298,13 @@ const uint RL_HEALTH_NONFINITE = 0u;          // non-finite sample values set to
 const uint RL_HEALTH_REJECTED_JACOBIAN = 1u;  // shifts outside the declared Jacobian domain
 const uint RL_HEALTH_CAPPED_CONFIDENCE = 2u;
 const uint RL_HEALTH_DELTA_LOBES = 3u;        // roughness below the floor, rendered as a delta lobe
-const uint RL_HEALTH_UNREUSABLE_PIXELS = 4u;  // x1 cannot be reused: own light alone
+const uint RL_HEALTH_UNREUSABLE_PIXELS = 4u;  // pixels whose x1 cannot be reused: own light alone
 const uint RL_HEALTH_NEGATIVE = 5u;           // negative radiance left by control variates
-const uint RL_HEALTH_DROPPED_WEIGHTS =
-    6u;                                // resampling weights that are no finite, non-negative number
-const uint RL_HEALTH_CACHE_FULL = 7u;  // pixels whose cell found no place in the cache
-const uint RL_HEALTH_LIGHT_CHANGED =
-    8u;                                 // cells of radiance that began anew: their light is another
-const uint RL_HEALTH_NEW_HISTORY = 9u;  // pixels whose surface a denoiser had no history of
-const uint RL_HEALTH_FIREFLIES = 10u;   // pixels that a denoiser has darkened to their neighbours
+const uint RL_HEALTH_DROPPED_WEIGHTS = 6u;    // negative, infinite or NaN resampling weights
+const uint RL_HEALTH_CACHE_FULL = 7u;         // pixels whose cell found no slot in the cache
+const uint RL_HEALTH_LIGHT_CHANGED = 8u;      // radiance cells reset because their light changed
+const uint RL_HEALTH_NEW_HISTORY = 9u;        // pixels for whose surface a denoiser had no history
+const uint RL_HEALTH_FIREFLIES = 10u;         // pixels that a denoiser darkened to match neighbours
 const uint RL_HEALTH_COUNT = 11u;
 
 RL_NAMESPACE_END

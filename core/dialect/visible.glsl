@@ -1,11 +1,10 @@
-// Surfaces that pixels show at their centres: packing, the test of two, and the way back to the
-// last frame.
+// Visible surfaces at pixel centres: packing, similarity tests, and reprojection to the last frame.
 
-// Where a pixel's entry lies in buffers of pixels, and back.
+// Index of a pixel in per-pixel buffers, and its inverse.
 RL_FN uint slotOfPixel(RL_IN(uvec2) pixel) { return pixel.y * gFrame.width + pixel.x; }
 RL_FN uvec2 pixelOfSlot(uint slot) { return uvec2(slot % gFrame.width, slot / gFrame.width); }
 
-// Of the pixels of an image that this camera took.
+// Reads the visible surface of a pixel in an image that `camera` took.
 RL_FN VisibleSurface visibleRead(RL_IN(QuadRef) quads, RL_IN(Camera) camera, uint pixelIndex) {
   uvec4 q = RL_PAST_QUAD(quads, pixelIndex);
   vec2 resolution = vec2(float(gFrame.width), float(gFrame.height));
@@ -22,7 +21,7 @@ RL_FN VisibleSurface visibleRead(RL_IN(QuadRef) quads, RL_IN(Camera) camera, uin
   return v;
 }
 
-// What the ray of its centre found at a distance.
+// Writes the visible surface that the pixel's centre ray hit at a distance.
 RL_FN void visibleWrite(RL_IN(QuadRef) quads, uint pixelIndex, RL_IN(VisibleSurface) v,
                         float distanceToCamera) {
   RL_WRITE_QUAD(quads, pixelIndex,
@@ -30,9 +29,9 @@ RL_FN void visibleWrite(RL_IN(QuadRef) quads, uint pixelIndex, RL_IN(VisibleSurf
                       packColor(v.reflectance) | (v.isHit << 30u) | (v.emits << 31u)));
 }
 
-// Are two of them alike enough to share a history? Symmetric. distanceToCamera: in metres. Most
-// pairs lie in one plane: what both have is unpacked once. nGeoW: of `a`, unpacked, for who asks of
-// several `b`.
+// Returns whether two surfaces are similar enough to share a history. Symmetric. distanceToCamera:
+// metres. nGeoW: unpacked a.nGeoW, so that a caller that compares several `b` unpacks it once. Most
+// pairs lie in one plane: equal packed normals are not unpacked again.
 RL_FN bool visibleMatchOf(RL_IN(VisibleSurface) a, RL_IN(vec3) nGeoW, RL_IN(VisibleSurface) b,
                           float distanceToCamera, RL_IN(SurfaceTest) test) {
   if (a.isHit != b.isHit) return false;
@@ -50,7 +49,8 @@ RL_FN bool visibleMatch(RL_IN(VisibleSurface) a, RL_IN(VisibleSurface) b, float 
   return visibleMatchOf(a, unpackNormal(a.nGeoW), b, distanceToCamera, test);
 }
 
-// Are two surfaces alike enough to exchange samples? Symmetric; the background is like nothing.
+// Returns whether two surfaces are similar enough to exchange samples. Symmetric. The background is
+// similar to nothing.
 RL_FN bool visibleAlike(RL_IN(VisibleSurface) a, RL_IN(VisibleSurface) b, RL_IN(SurfaceTest) test) {
   if (a.isHit == 0u || b.isHit == 0u) return false;
   vec3 camera = gFrame.camera.posW;
@@ -58,17 +58,18 @@ RL_FN bool visibleAlike(RL_IN(VisibleSurface) a, RL_IN(VisibleSurface) b, RL_IN(
   return visibleMatch(a, b, distanceToCamera, test);
 }
 
-// Is a film position, in pixels, within the image? Every reprojection asks this function.
+// Returns whether a film position, in pixels, lies within the image. Every reprojection uses this
+// test.
 RL_FN bool filmIsInView(RL_IN(vec2) film) {
   return film.x >= 0.0f && film.y >= 0.0f && film.x < float(gFrame.width) &&
          film.y < float(gFrame.height);
 }
 
-// Film coordinates at which the last frame's camera saw it; false where it was out of view.
+// Film coordinates at which the last frame's camera saw the surface; false if it was out of view.
 RL_FN bool visibleFilmBefore(RL_IN(VisibleSurface) v, RL_OUT(vec2) film) {
   vec2 resolution = vec2(float(gFrame.width), float(gFrame.height));
   vec3 posW = v.posW;
-  // The background is as far as it can be: only the direction counts.
+  // The background is infinitely far: only the direction counts.
   if (v.isHit == 0u) posW += gFrame.previousCamera.posW;
   if (!cameraProject(gFrame.previousCamera, posW, resolution, film)) return false;
   return filmIsInView(film);

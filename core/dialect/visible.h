@@ -1,5 +1,5 @@
-// What the centre of a pixel shows: the key by which histories follow surfaces. It knows no film
-// sample: a test that looked at the sample which it lets through would bias what it lets through.
+// Visible surface at the centre of a pixel: the key by which histories follow surfaces. Independent
+// of film samples: an acceptance test that depended on the sample it accepts would be biased.
 #ifndef RL_VISIBLE_H
 #define RL_VISIBLE_H
 
@@ -10,22 +10,22 @@
 RL_NAMESPACE_BEGIN
 
 struct VisibleSurface {
-  vec3 posW;   // where nothing is hit: the direction of the view, unit
+  vec3 posW;   // if nothing is hit: unit view direction
   uint isHit;  // 0: the background
-  uint emits;  // 1: a surface that shines at the camera
+  uint emits;  // 1: emits towards the camera
   uint nGeoW;  // packNormal(); unit, on the side of the camera
   uint nShadeW;
   vec3 reflectance;  // bsdfReflectance(), 0 to 1
 };
 
-// When two of them are alike enough to share samples.
+// Thresholds at which two surfaces are similar enough to share samples.
 struct SurfaceTest {
   float minNormalDot;
-  float maxPlaneDistance;  // over the distance to the camera
+  float maxPlaneDistance;  // relative to the distance to the camera
 };
 
-// In a buffer it is one quad: the distance along the ray through the pixel's centre, two normals,
-// the reflectance, emits, isHit.
+// Layout in a buffer, one quad: the distance along the ray through the pixel's centre, two normals,
+// and the reflectance with emits and isHit.
 
 RL_NAMESPACE_END
 

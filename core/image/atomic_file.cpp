@@ -25,7 +25,8 @@ std::string systemReason(int code) {
   return code == 0 ? "unknown reason" : std::generic_category().message(code);
 }
 
-// The file that `file` names once symbolic links are followed; throws unless it may be created.
+// Returns the file that `file` names after following symbolic links; throws unless it may be
+// created.
 fs::path resolveTarget(const fs::path& file) {
   if (file.empty()) failInput("output file: the name is empty");
   if (!file.has_filename()) failFile(file, "is a directory; name a file in it");
@@ -37,7 +38,7 @@ fs::path resolveTarget(const fs::path& file) {
   }
   const fs::file_status status = fs::status(target, error);
   if (fs::is_directory(status)) failFile(file, "is a directory; name a file in it");
-  // Replacing a device or a pipe by a file is never what was meant.
+  // Refuse devices and pipes: replacing one by a file is never intended.
   if (fs::exists(status) && !fs::is_regular_file(status)) failFile(file, "is not a regular file");
   if (fs::exists(status) && ::access(target.c_str(), W_OK) != 0) {
     failFile(file, "cannot be overwritten: " + systemReason(errno));
@@ -51,7 +52,7 @@ fs::path resolveTarget(const fs::path& file) {
   return target;
 }
 
-// Unique among processes by pid and within one by a counter.
+// Makes a name that is unique among processes by pid and within one by a counter.
 fs::path temporaryNameFor(const fs::path& target) {
   static std::atomic<unsigned> counter{0};
   fs::path name = target;
@@ -64,7 +65,7 @@ struct TemporaryFiles {
   std::set<fs::path> names;
 };
 
-// Never destroyed: threads may write files until the process is gone.
+// Never destroyed: threads may write files until the process ends.
 TemporaryFiles& temporaryFiles() {
   static auto* files = new TemporaryFiles;
   return *files;
@@ -83,7 +84,7 @@ void forgetTemporaryFile(const fs::path& file) {
 }
 
 void removeTemporaryFiles() {
-  temporaryFiles().mutex.lock();  // for good
+  temporaryFiles().mutex.lock();  // never unlocked
   std::error_code ignored;
   for (const fs::path& name : temporaryFiles().names) fs::remove(name, ignored);
 }
@@ -126,7 +127,7 @@ void writeTextFile(const fs::path& file, std::string_view text) {
 }
 
 void checkWritable(const fs::path& file) {
-  // Creates and removes the temporary neighbour, which is what writing will need.
+  // Creates and removes the temporary neighbour: writing will need the same permissions.
   AtomicFile probe(file);
 }
 

@@ -1,4 +1,4 @@
-// Files that appear whole or not at all.
+// Files that appear complete or not at all.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +17,7 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  // Its failures need no checks: commit() throws if any write failed.
+  // Stream to write to. Callers need not check it: commit() throws if any write failed.
   std::ofstream& stream() { return stream_; }
   void commit();
 
@@ -27,14 +27,15 @@ class AtomicFile {
   bool committed_ = false;
 };
 
-// Keeps the names of files that are to be gone with the process, as an AtomicFile's temporary
-// neighbour is. From any thread.
+// Register and unregister files to be removed with the process, such as the temporary neighbour of
+// an AtomicFile. Thread-safe.
 void addTemporaryFile(const std::filesystem::path& file);
 void forgetTemporaryFile(const std::filesystem::path& file);
-// Removes them, for a process that ends at once: whoever adds another one waits for the end.
+// Removes the registered files, for a process that ends at once. addTemporaryFile() then blocks
+// until the process ends.
 void removeTemporaryFiles();
 
-// The whole of `text` into `file`.
+// Writes all of `text` to `file`.
 void writeTextFile(const std::filesystem::path& file, std::string_view text);
 
 }  // namespace restlab

@@ -50,7 +50,7 @@ std::vector<Image> BiasRuns::means() const {
 Interval BiasRuns::variance() const {
   const size_t n = groups_.size();
   if (n < 2) return {kNan, kNan, kNan};
-  // Of differences from the first run, so that no large mean is taken from large squares.
+  // Use differences from the first run: subtracting large squares would lose precision.
   const std::vector<Image> mean = means();
   std::vector<double> product(n * n);
   for (size_t i = 0; i < n; ++i) {
@@ -83,7 +83,7 @@ Interval BiasRuns::squaredBias(const Image& half0, const Image& half1,
       if (i != j) product[i * n + j] = restlab::squaredBias(mean[i], mean[j], half0, half1, mask);
     }
   }
-  // A pair of groups is as many pairs of runs.
+  // Weight a pair of groups by its number of pairs of runs.
   const auto meanOfPairs = [&](std::span<const size_t> chosen) {
     double sum = 0.0, pairs = 0.0;
     for (const size_t i : chosen) {

@@ -14,7 +14,7 @@ glm::dmat3 primariesOf(const Chromaticities& c) {
   return {withZ(c.red), withZ(c.green), withZ(c.blue)};
 }
 
-// How much of each primary the white of luminance 1 has.
+// Returns how much of each primary the white of luminance 1 contains.
 glm::dvec3 sharesOf(const Chromaticities& c) {
   return glm::inverse(primariesOf(c)) * (withZ(c.white) / c.white.y);
 }
@@ -45,7 +45,7 @@ std::string textOf(const Chromaticities& c) {
 
 std::string whyNoColours(const Chromaticities& c) {
   for (const glm::dvec2& xy : {c.red, c.green, c.blue, c.white}) {
-    // Colours of all lights lie within 0 to 1, those of some working spaces a little outside.
+    // Colours of all lights lie within 0 to 1, primaries of some working spaces a little outside.
     if (!(std::abs(xy.x) <= 10.0 && std::abs(xy.y) <= 10.0)) return "numbers of -10 to 10 expected";
   }
   if (std::abs(c.white.y) < 1e-6) return "a white with light, whose y is not 0, expected";

@@ -1,4 +1,4 @@
-// Colours of other primaries and whites as linear Rec. 709.
+// Conversion from other primaries and whites to linear Rec. 709.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -12,7 +12,7 @@ struct Chromaticities {
   glm::dvec2 red, green, blue, white;
 };
 
-// ITU-R BT.709, white D65: what every image of this program is in.
+// ITU-R BT.709, white D65: the colours of every image of this program.
 inline constexpr Chromaticities kRec709 = {
     {0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}, {0.3127, 0.3290}};
 
@@ -20,19 +20,19 @@ inline constexpr Chromaticities kRec709 = {
 inline constexpr Chromaticities kCieXyz = {
     {1.0, 0.0}, {0.0, 1.0}, {0.0, 0.0}, {1.0 / 3.0, 1.0 / 3.0}};
 
-// Tells whether they are those of Rec. 709 to within 1e-4, as files round them.
+// Returns whether the colours are those of Rec. 709 to within 1e-4, the rounding in files.
 bool isRec709(const Chromaticities& colours);
 
-// "red (0.64, 0.33), green (0.3, 0.6), blue (0.15, 0.06), white (0.3127, 0.329)"
+// Formats colours: "red (0.64, 0.33), green (0.3, 0.6), blue (0.15, 0.06), white (0.3127, 0.329)"
 std::string textOf(const Chromaticities& colours);
 
-// Why they say no colour: "" where they do. Primaries must span a triangle, and each must be part
-// of the white, whose y is not 0.
+// Returns why the chromaticities define no colours; "" if they do. Primaries must span a triangle,
+// and each must contribute to the white, whose y must not be 0.
 std::string whyNoColours(const Chromaticities& colours);
 
-// From linear R, G, B of `colours`, for which whyNoColours() is "", to linear Rec. 709, by CIE XYZ
-// as it is: there is no chromatic adaptation, so that light keeps its colour and its luminance
-// whatever white a file is in.
+// Returns the matrix from linear R, G, B of `colours` to linear Rec. 709, through CIE XYZ;
+// whyNoColours() must be "". No chromatic adaptation: light keeps its colour and luminance whatever
+// white a file has.
 glm::dmat3 toRec709(const Chromaticities& colours);
 
 void convert(const glm::dmat3& matrix, std::vector<glm::vec3>& pixels);

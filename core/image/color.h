@@ -14,24 +14,24 @@ inline double luminance(const glm::dvec3& linear) {
   return 0.2126 * linear.x + 0.7152 * linear.y + 0.0722 * linear.z;
 }
 
-// IEC 61966-2-1, for 0..1.
+// sRGB encoding by IEC 61966-2-1, for 0..1.
 template <class Real>
 Real encodeSrgb(Real linear) {
   if (linear <= Real(0.0031308)) return Real(12.92) * linear;
   return Real(1.055) * std::pow(linear, Real(1) / Real(2.4)) - Real(0.055);
 }
 
-// Its inverse.
+// Inverse of encodeSrgb().
 template <class Real>
 Real decodeSrgb(Real encoded) {
   if (encoded <= Real(12.92 * 0.0031308)) return encoded / Real(12.92);
   return std::pow((encoded + Real(0.055)) / Real(1.055), Real(2.4));
 }
 
-// NaN stays NaN: both comparisons are false.
+// Keeps NaN: both comparisons are false.
 inline double clampUnit(double x) { return x < 0.0 ? 0.0 : x > 1.0 ? 1.0 : x; }
 
-// Channel values below `lo` or above `hi`, to say what a clamp changed.
+// Counts channel values below `lo` or above `hi`, to report what a clamp changed.
 inline size_t countOutside(const Image& image, double lo, double hi) {
   size_t count = 0;
   for (const glm::vec3& pixel : image.pixels) {

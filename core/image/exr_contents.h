@@ -1,4 +1,4 @@
-// What an EXR holds, by its header alone.
+// Contents of an EXR, read from its header alone.
 #pragma once
 
 #include <cstdint>
@@ -13,10 +13,10 @@ namespace restlab {
 
 struct ExrContents {
   PixelWindow window;
-  std::vector<std::string> layers;  // those that readExr() would give, sorted
+  std::vector<std::string> layers;  // names that readExr() would return, sorted
 };
 
-// Throws Error as readExr() does.
+// Throws the same errors as readExr().
 ExrContents readExrContents(const std::filesystem::path& file,
                             ExrLayers wanted = ExrLayers::colours);
 

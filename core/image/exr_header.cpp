@@ -18,7 +18,7 @@ void failExr(const fs::path& file, const std::string& what) {
 
 namespace {
 
-// Attribute types whose values OpenEXR reads with a size of their own, whatever the header claims.
+// Attribute types whose values OpenEXR reads with a fixed size, whatever the header claims.
 const std::map<std::string, uint32_t>& fixedSizes() {
   static const std::map<std::string, uint32_t> sizes = {{"box2f", 16},
                                                         {"box2i", 16},
@@ -99,7 +99,7 @@ class HeaderGuard {
     return true;
   }
 
-  // Names with 16 bytes each, and an empty name: OpenEXR reads to that one.
+  // Channels are names with 16 bytes each, ended by an empty name; OpenEXR reads up to that one.
   void checkChannels(const std::string& name, uint64_t begin, uint32_t size) {
     while (!readName().empty()) stream_.ignore(16);
     if (!stream_) failShort();

@@ -8,12 +8,13 @@
 
 namespace restlab {
 
-// Throws Error (badInput): the file and what is wrong with it.
+// Throws Error (badInput) with the file and the fault.
 [[noreturn]] void failExr(const std::filesystem::path& file, const std::string& what);
 
-// Walks over the raw header: attribute sizes, the data window and the tile size may all lie. Where
-// OpenEXR would not take an attribute's size at its word it would read on elsewhere than this does,
-// and find sizes that nobody checked: refused. Returns the pixels of the data window.
+// Checks the raw header: attribute sizes, the data window and the tile size may all be wrong.
+// Refuses an attribute whose declared size differs from what OpenEXR reads: OpenEXR would continue
+// at another place than this check and find unchecked sizes. Returns the number of pixels of the
+// data window.
 uint64_t checkExrHeader(const std::filesystem::path& file, std::ifstream& stream,
                         uint64_t fileBytes);
 

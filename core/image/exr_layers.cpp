@@ -23,12 +23,12 @@ LayerChannels channelsOf(const std::map<std::string, std::string>& named, ExrLay
   }
   const bool anyRgb = has("R") || has("G") || has("B");
   const bool isVector = has("X") || has("Z");
-  // Y alone is a luminance; beside X or Z it is an axis, and RY and BY say chroma.
+  // Y alone is a luminance; beside X or Z it is an axis, and RY and BY mark chroma.
   if (has("Y") && !anyRgb && !isVector && !has("RY") && !has("BY"))
     return {{}, named.at("Y"), false};
   if (wanted == ExrLayers::colours) return {};
   if (has("X") && has("Y") && has("Z")) return three("X", "Y", "Z");
-  // A vector on the film, as of motion.
+  // Vector on the film, such as motion.
   if (has("X") && has("Y") && named.size() == 2)
     return {{named.at("X"), named.at("Y"), ""}, "", false};
   if (named.size() == 1) return {{}, named.begin()->second, false};
@@ -54,7 +54,7 @@ std::map<std::string, LayerChannels> findExrLayers(const fs::path& file, const I
     const LayerChannels of = channelsOf(channels, wanted);
     if (!of.alone.empty() || !of.three[0].empty()) found[layer] = of;
   }
-  // Beside colours without a name, Z is the depth.
+  // Z beside unnamed colours is the depth.
   const auto depth = named[""].find("Z");
   if (wanted == ExrLayers::all && found.contains("") && depth != named[""].end() &&
       !found.contains("Z"))

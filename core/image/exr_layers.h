@@ -12,14 +12,14 @@
 
 namespace restlab {
 
-// The channels that make up one layer: three, or two (a third "" is 0), or one alone.
+// Channels of one layer: three, or two (the third is "" and reads as 0), or one alone.
 struct LayerChannels {
   std::array<std::string, 3> three;
   std::string alone;
-  bool isColour = false;  // three are R, G, B
+  bool isColour = false;  // `three` are R, G, B
 };
 
-// Finds the wanted layers, by name. Throws Error (badInput) where there is none.
+// Finds the wanted layers, by name. Throws Error (badInput) if there are none.
 std::map<std::string, LayerChannels> findExrLayers(const std::filesystem::path& file,
                                                    const Imf::Header& header, ExrLayers wanted);
 

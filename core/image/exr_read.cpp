@@ -37,14 +37,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// OpenEXR's view of an open file; a short read is an exception, never a value made up.
+// Reads an open file for OpenEXR; a short read throws and never makes up values.
 class FileStream : public Imf::IStream {
  public:
   explicit FileStream(std::ifstream& stream) : Imf::IStream(""), stream_(stream) {}
   bool read(char bytes[], int size) override {
     if (!stream_.read(bytes, size)) throw std::runtime_error("the file ends too early");
     const bool more = stream_.peek() != std::ifstream::traits_type::eof();
-    stream_.clear();  // having peeked at the end is no failure
+    stream_.clear();  // peeking at the end is no failure
     return more;
   }
   uint64_t tellg() override { return uint64_t(std::streamoff(stream_.tellg())); }
@@ -102,7 +102,8 @@ Chromaticities chromaticitiesOf(const Imf::Chromaticities& c) {
   return {{c.red.x, c.red.y}, {c.green.x, c.green.y}, {c.blue.x, c.blue.y}, {c.white.x, c.white.y}};
 }
 
-// Luminance alone is grey in any primaries, and what is no colour stays as it is.
+// Converts colour layers to Rec. 709. Luminance alone is grey in any primaries, and data layers
+// stay unchanged.
 void convertColours(const fs::path& file, const Imf::Header& header,
                     const std::map<std::string, LayerChannels>& layers,
                     const std::set<std::string>& data, LayeredImage& image) {
@@ -144,7 +145,7 @@ ExrFrame frameOf(const Imf::Header& header) {
           header.pixelAspectRatio(), environmentOf(header)};
 }
 
-// Opens the channels of `layers` alone.
+// Opens only the channels of `layers`.
 void readLayers(const fs::path& file, Imf::InputFile& exr,
                 const std::map<std::string, LayerChannels>& layers, LayeredImage& result) {
   const PixelWindow window = windowOf(exr.header());
@@ -203,7 +204,7 @@ LayeredImage readOpened(const fs::path& file, std::ifstream& stream, uint64_t fi
   return result;
 }
 
-// `read` takes the file and its size once it is open. What goes wrong names the file.
+// Opens the file and calls `read` with the stream and the file size. Errors name the file.
 template <class Read>
 auto withOpened(const fs::path& file, const Read& read) {
   std::error_code error;

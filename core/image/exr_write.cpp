@@ -19,7 +19,7 @@ namespace restlab {
 namespace {
 
 // Lets OpenEXR write through an AtomicFile, whose commit() sees every failed write: OpenEXR's own
-// stream loses the errors of its last flush. Nothing here throws, for OpenEXR also writes from a
+// stream loses the errors of its last flush. No member throws, as OpenEXR also writes from a
 // destructor.
 class FileStream : public Imf::OStream {
  public:
@@ -39,7 +39,7 @@ class FileStream : public Imf::OStream {
   uint64_t position_ = 0;
 };
 
-// All layers must have the same size and at least one pixel.
+// Returns the first layer. Throws unless all layers have the same size and at least one pixel.
 const Image& checkedFirstLayer(const std::filesystem::path& file, const LayeredImage& image) {
   if (image.layers.empty()) failInput(fmt::format("{}: image has no layer", file.string()));
   const auto& [firstName, first] = *image.layers.begin();

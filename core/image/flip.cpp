@@ -12,11 +12,11 @@
 namespace restlab {
 namespace {
 
-// Of the colour pipeline.
+// Constants of the colour pipeline.
 constexpr double kColorExponent = 0.7;
-constexpr double kKneeOfError = 0.4;    // as a share of the largest colour error ...
-constexpr double kKneeOfResult = 0.95;  // ... and what it becomes
-// Of the feature pipeline: width of the detected features in degrees.
+constexpr double kKneeOfError = 0.4;    // fraction of the largest colour error ...
+constexpr double kKneeOfResult = 0.95;  // ... and the result there
+// Constants of the feature pipeline: width of the detected features in degrees, exponent.
 constexpr double kFeatureWidth = 0.082;
 constexpr double kFeatureExponent = 0.5;
 
@@ -33,8 +33,8 @@ double sigmaInPixels(double variance, double pixelsPerDegree) {
   return std::sqrt(variance / 2.0) / std::numbers::pi * pixelsPerDegree;
 }
 
-// All of one radius, so that what they make of a band has one size; those that need less are 0 at
-// the ends.
+// Filters of one common radius, so that their results for a band have equal size; narrower filters
+// are 0 at the ends.
 struct Filters {
   size_t radius = 0;
   Kernel achromatic, redGreen, blueYellow[2];
@@ -42,7 +42,7 @@ struct Filters {
   Kernel blur, edge, point;
 };
 
-// Derivatives' positive weights are made to add up to 1, their negative ones to -1.
+// Scales the weights of a derivative: positive ones sum to 1, negative ones to -1.
 Kernel balanced(Kernel kernel) {
   double positive = 0.0, negative = 0.0;
   for (const double weight : kernel) (weight > 0.0 ? positive : negative) += std::abs(weight);
@@ -80,7 +80,7 @@ Filters makeFilters(double pixelsPerDegree) {
     const Kernel raw = kernel(kBlueYellow[i]);
     double sum = 0.0;
     for (const double weight : raw) sum += weight;
-    // In two dimensions a term's weights are the products of those across and those down.
+    // In two dimensions a term's weights are the products of the horizontal and vertical weights.
     filters.blueYellowShare[i] =
         kBlueYellow[i].scale * std::sqrt(std::numbers::pi / kBlueYellow[i].variance) * sum * sum;
     total += filters.blueYellowShare[i];
@@ -91,13 +91,13 @@ Filters makeFilters(double pixelsPerDegree) {
   return filters;
 }
 
-// What an observer makes of a band of an image.
+// A band of an image as an observer perceives it.
 struct Seen {
   std::vector<glm::dvec3> lab;  // filtered, with the chroma of the Hunt effect
   Plane edgeX, edgeY, pointX, pointY;
 };
 
-using Display = std::function<glm::dvec3(const glm::dvec3& linear)>;  // to 0..1
+using Display = std::function<glm::dvec3(const glm::dvec3& linear)>;  // result in 0..1
 
 Seen look(const Image& image, size_t firstRow, size_t rows, const Filters& filters,
           const Display& display) {
@@ -138,14 +138,15 @@ double colorDistance(const glm::dvec3& a, const glm::dvec3& b) {
   return std::pow(distance, kColorExponent);
 }
 
-// The largest error that two colours of a screen can have: green against blue.
+// Largest error between two colours of a screen: green against blue.
 double largestColorDistance() {
   static const double largest =
       colorDistance(flip::huntLabFromLinear({0, 1, 0}), flip::huntLabFromLinear({0, 0, 1}));
   return largest;
 }
 
-// Most errors are far below the largest: they get most of the scale.
+// Maps a colour distance to 0..1. Most errors are far below the largest: they get most of the
+// scale.
 double colorError(const glm::dvec3& a, const glm::dvec3& b) {
   const double distance = colorDistance(a, b), largest = largestColorDistance();
   const double knee = kKneeOfError * largest;
@@ -162,7 +163,7 @@ double featureError(const Seen& a, const Seen& b, size_t i) {
   return std::pow(std::max(edge, point) / std::numbers::sqrt2, kFeatureExponent);
 }
 
-// Keeps the larger, and a NaN for good.
+// Raises `value` to `other`. A NaN, once there, stays.
 void raise(double& value, double other) {
   if (!(other <= value) && !std::isnan(value)) value = other;
 }

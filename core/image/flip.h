@@ -3,8 +3,9 @@
 // radiance without an upper bound Andersson et al., "Visualizing Errors in Rendered High Dynamic
 // Range Images" (2021).
 //
-// Values are in 0..1 a pixel, 0 where nothing differs. Borders repeat the edge's pixels. Image and
-// reference have the same size. A NaN is NaN in every pixel that it reaches through the filters.
+// The value of a pixel is in 0..1, 0 where nothing differs. Borders repeat the edge's pixels. Image
+// and reference have the same size. A NaN is NaN in every pixel that it reaches through the
+// filters.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +17,9 @@
 
 namespace restlab {
 
-// Of the papers: 0.7 m from a screen that is 0.7 m and 3840 pixels wide.
+// Viewing condition of the papers: 0.7 m from a screen that is 0.7 m and 3840 pixels wide.
 constexpr double kFlipPixelsPerDegree = 67.02064327658225;
-// What the filters are defined for: below, they are narrower than a pixel.
+// Range that the filters are defined for: below it they are narrower than a pixel.
 constexpr double kFlipMinPixelsPerDegree = 1.0, kFlipMaxPixelsPerDegree = 1000.0;
 
 // `count` factors 2^start to 2^stop on radiance, evenly spaced in the exponent.
@@ -35,25 +36,26 @@ struct FlipOptions {
 constexpr double kFlipMaxExposure = 100.0;  // stops, in either direction
 constexpr uint32_t kFlipMaxExposures = 64;  // each takes seconds
 
-// Throws Error (badUsage) naming what is out of range: pixels per degree, or given exposures.
+// Throws Error (badUsage) naming the option out of range: pixels per degree, or given exposures.
 void requireFlipOptions(const FlipOptions& options);
 
 struct FlipExposureChoice {
-  std::optional<FlipExposures> exposures;  // absent: there are none, and `note` says why
-  std::string note;                        // where the paper's rule had to be left; or ""
+  std::optional<FlipExposures> exposures;  // absent: none possible, and `note` says why
+  std::string note;                        // how the paper's rule was changed; or ""
 };
 
-// The paper's range: the lowest exposure shows the brightest pixel of the reference, the highest
-// its median at 0.85 of the tone-mapped scale; ceil(stop - start) steps, at least 2. Where the
-// median is not positive (most of the picture is black), the median of the pixels that have light.
+// Chooses the paper's range: the lowest exposure shows the brightest pixel of the reference, the
+// highest its median at 0.85 of the tone-mapped scale; ceil(stop - start) steps, at least 2. If the
+// median is not positive (most of the image is black), uses the median of the pixels that have
+// light.
 FlipExposureChoice chooseFlipExposures(const Image& reference);
 
-// Linear Rec. 709 as on a screen: clipped to 0..1.
+// FLIP of linear Rec. 709 as shown on a screen: clipped to 0..1.
 std::vector<double> flipLdrPerPixel(const Image& image, const Image& reference,
                                     double pixelsPerDegree = kFlipPixelsPerDegree);
 
-// The largest over the exposures of what is left after tone mapping (Narkowicz's fit of ACES).
-// Negative values, for which no tone mapper is defined, are taken as 0.
+// HDR-FLIP: the largest error over the exposures after tone mapping (Narkowicz's fit of ACES).
+// Negative values, for which no tone mapper is defined, count as 0.
 std::vector<double> flipHdrPerPixel(const Image& image, const Image& reference,
                                     const FlipExposures& exposures,
                                     double pixelsPerDegree = kFlipPixelsPerDegree);

@@ -13,11 +13,11 @@ glm::dvec3 linearFromOpponent(const glm::dvec3& opponent);
 // CIELAB with chroma that fades towards black (the Hunt effect): a and b times L / 100.
 glm::dvec3 huntLabFromLinear(const glm::dvec3& linear);
 
-// Narkowicz's fit of ACES (2015), from radiance to linear values, clipped to 0..1; negative
+// Tone maps radiance to linear values by Narkowicz's fit of ACES (2015), clipped to 0..1; negative
 // radiance gives 0, NaN stays.
 double toneMap(double radiance);
 
-// The radiance that toneMap shows as `shown`, which is in 0..1.
+// Inverse of toneMap() for `shown` in 0..1.
 double radianceShownAs(double shown);
 
 }  // namespace restlab::flip

@@ -1,4 +1,4 @@
-// How FLIP looks at images: the exposures of its HDR variant, and what can be asked for.
+// Viewing of images by FLIP: the exposures of its HDR variant, and the checks of its options.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,10 +12,10 @@
 namespace restlab {
 namespace {
 
-// Of the tone-mapped scale: what is brighter loses contrast.
+// Position on the tone-mapped scale above which contrast is lost.
 constexpr double kBrightestShown = 0.85;
 
-// Of an even number, the upper one of the middle.
+// Median; of an even number of values, the upper middle one.
 double median(std::vector<double> values) {
   const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());

@@ -1,5 +1,5 @@
 // Squared errors against a reference in two independent halves: the reference's own variance, which
-// an ordinary MSE would add, has no share in the product of two independent deviations.
+// an ordinary MSE would add, cancels in the product of two independent deviations.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ double squaredBias(const Image& runs0, const Image& runs1, const Image& half0, c
     if (!isSelected(mask, p)) continue;
     sum += product(runs0.pixels[p], half0.pixels[p], runs1.pixels[p], half1.pixels[p]);
   }
-  // inf * 0 is NaN already; an infinite pixel must not pass as a merely large error.
+  // An infinite pixel must not pass as a merely large error; inf * 0 is NaN already.
   return std::isfinite(sum) ? sum / double(count) : std::numeric_limits<double>::quiet_NaN();
 }
 

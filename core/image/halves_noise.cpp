@@ -16,7 +16,7 @@ void requireSize(const Image& image, const Image& half) {
 
 double dot(const glm::dvec3& a, const glm::dvec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-// x d of a pixel.
+// x d of a pixel (core/image/halves_noise.h).
 double alongDifference(glm::vec3 run, glm::vec3 half0, glm::vec3 half1) {
   const glm::dvec3 a(half0), b(half1);
   return dot(glm::dvec3(run) - 0.5 * (a + b), a - b);

@@ -17,7 +17,7 @@ namespace restlab {
 struct Image {
   uint32_t width = 0, height = 0;
   std::vector<glm::vec3> pixels;
-  glm::ivec2 origin{0, 0};  // of the first pixel, in the pixel space of the file it was read from
+  glm::ivec2 origin{0, 0};  // first pixel, in the pixel space of its file
 
   Image() = default;
   Image(uint32_t w, uint32_t h, glm::vec3 value = glm::vec3(0.0f))
@@ -28,10 +28,10 @@ struct Image {
 
 enum class EnvironmentKind { none, latLong, cube, unknown };
 
-// Window and colours that an EXR states beside its pixels.
+// Window and colours that an EXR declares beside its pixels.
 struct ExrFrame {
-  glm::ivec2 origin{0, 0};  // of the first pixel: where the data window begins
-  // First and last pixel of the display window; nothing: those of the data window.
+  glm::ivec2 origin{0, 0};  // first pixel: start of the data window
+  // First and last pixel of the display window; absent: those of the data window.
   std::optional<glm::ivec4> display{};
   float pixelAspectRatio = 1.0f;  // width / height of a pixel
   EnvironmentKind environment = EnvironmentKind::none;
@@ -43,38 +43,38 @@ struct LayeredImage {
   std::map<std::string, Image> layers;
   std::map<std::string, std::string> metadata;
   ExrFrame frame{};
-  std::vector<std::string> notes{};  // lines on what was done to the colours as they were read
+  std::vector<std::string> notes{};  // lines about colour conversions on reading
 };
 
 // Writes 32-bit float ZIP EXR through a temporary file and a rename: a partly written file never
-// carries the final name. Its windows and pixels are those of `frame`, its colours Rec. 709. Throws
-// Error (badInput) naming the file.
+// carries the final name. Windows and pixel shape are those of `frame`, colours are Rec. 709.
+// Throws Error (badInput) naming the file.
 void writeExr(const std::filesystem::path& file, const LayeredImage& image);
 
-// Which layers there are for a reader.
+// Kinds of layers that a reader returns.
 enum class ExrLayers {
   colours,  // R, G, B, or Y alone, which becomes grey
-  all       // and vectors X, Y, Z, and single channels, which fill all three: "Z" is a depth
+  all       // also vectors X, Y, Z, and single channels, which fill all three: "Z" is a depth
 };
 
-// Which of them are read. No other channel of the file is opened, whatever it holds.
+// Layers to read. No other channel of the file is opened.
 struct ExrSelection {
   ExrLayers kind = ExrLayers::colours;
-  std::optional<std::set<std::string>> names{};  // nothing: all of them
-  std::set<std::string> data{};                  // R, G, B that are no colours, as of a normal
+  std::optional<std::set<std::string>> names{};  // absent: all
+  std::set<std::string> data{};                  // layers whose R, G, B are no colours (normals)
 
   ExrSelection(ExrLayers wanted = ExrLayers::colours) : kind(wanted) {}
   ExrSelection(ExrLayers wanted, std::set<std::string> layers)
       : kind(wanted), names(std::move(layers)) {}
 };
 
-// Reads layers (half or float), colours of other `chromaticities` converted to Rec. 709. A layer
-// that is wanted by name and not there is left out. Sizes are checked before allocation. Throws
-// Error (badInput) naming the file and what is wrong.
+// Reads layers (half or float); colours of other `chromaticities` are converted to Rec. 709. A
+// layer wanted by name but absent is left out. Sizes are checked before allocation. Throws Error
+// (badInput) naming the file and the fault.
 LayeredImage readExr(const std::filesystem::path& file, const ExrSelection& wanted = {});
 
-// 8-bit sRGB preview, radiance x exposure, clipped (a preview only; no figure is computed from it),
-// with the metadata of the EXR beside it as texts (core/image/png.h).
+// Writes an 8-bit sRGB preview, radiance x exposure, clipped (no figure is computed from it), with
+// the metadata of the EXR beside it as texts (core/image/png.h).
 void writePng(const std::filesystem::path& file, const Image& image, float exposure = 1.0f,
               const std::map<std::string, std::string>& metadata = {});
 

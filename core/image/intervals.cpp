@@ -34,7 +34,7 @@ Moments momentsOf(std::span<const double> runs) {
   return m;
 }
 
-// Two-sided quantile of Student's t.
+// Two-sided quantile of Student's t distribution.
 double tQuantile(double dof, double confidence) {
   const boost::math::students_t_distribution<double> t(dof);
   return boost::math::quantile(boost::math::complement(t, 0.5 * (1.0 - confidence)));
@@ -60,7 +60,7 @@ std::vector<double> logarithms(std::span<const double> positive) {
 // (b^2 - t^2 vb) q^2 - 2 (a b - t^2 vab) q + (a^2 - t^2 va) <= 0, with the (co)variances of means.
 Interval fieller(double a, double b, double va, double vb, double vab, double t,
                  const SharedNoise& shared, double confidence) {
-  // Of the shared noise as many normal deviations.
+  // Scale the shared noise to z normal standard deviations, as the formula multiplies by t.
   const double z = normalQuantile(confidence);
   va += z * z / (t * t) * shared.numerator;
   vb += z * z / (t * t) * shared.denominator;
@@ -101,7 +101,7 @@ Interval ratioInterval(std::span<const double> numerator, std::span<const double
   if (numerator.size() < 2 || denominator.size() < 2 || std::isnan(ratio)) {
     return {ratio, kNan, kNan};
   }
-  // Welch-Satterthwaite for a - ratio b.
+  // Welch-Satterthwaite degrees of freedom for a - ratio b.
   const double va = a.varianceOfMean;
   const double vb = ratio * ratio * b.varianceOfMean;
   const double dof = va + vb == 0.0 ? std::min(a.n, b.n) - 1.0 : welchDof(va, a.n, vb, b.n);

@@ -10,7 +10,7 @@ namespace restlab {
 
 namespace {
 
-// C. Wellons, "hash prospector", 2018.
+// Integer hash: C. Wellons, "hash prospector", 2018.
 uint32_t hashed(uint32_t x) {
   x ^= x >> 16u;
   x *= 0x7feb352du;
@@ -22,7 +22,7 @@ uint32_t hashed(uint32_t x) {
 glm::vec3 colorOf(float name) {
   if (name == 0.0f) return glm::vec3(0.0f);
   const uint32_t bits = hashed(std::bit_cast<uint32_t>(name));
-  // Encoded, and away from black.
+  // Random in encoded values, and away from black.
   const auto channel = [&](uint32_t shift) {
     return decodeSrgb(0.2f + 0.8f * float((bits >> shift) & 0xffu) / 255.0f);
   };

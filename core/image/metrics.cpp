@@ -1,4 +1,4 @@
-// The registry of metrics, and what all of them have in common: sizes, masks, bad values.
+// The registry of metrics, and their common checks: sizes, masks, bad values.
 #include "core/image/metrics.h"
 
 #include <fmt/format.h>
@@ -36,7 +36,7 @@ MetricInfo biasRmsInfo() {
   return info;
 }
 
-// A NaN in either image must reach the result whatever a metric's arithmetic does with it
+// Makes a NaN in either image reach the result whatever a metric's arithmetic does with it
 // (comparisons drop NaN, an infinite denominator would hide an infinite error, and a display clips
 // infinity to white).
 MetricValue guarded(const MetricInfo& metric, const Image& image, const Image& reference,

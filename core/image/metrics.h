@@ -21,7 +21,7 @@ namespace restlab {
 
 struct MetricValue {
   double value = 0.0;
-  std::string detail;  // what else the number needs: the pixel, the peak, the dropped pixels; or ""
+  std::string detail;  // further facts: the pixel, the peak, the dropped pixels; or ""
 };
 
 struct MetricOptions {
@@ -33,10 +33,10 @@ struct MetricInfo {
   std::string name;
   std::string formula;          // one line for lists and reports
   bool higherIsBetter = false;  // energy_ratio: neither, its ideal is 1 (the formula says so)
-  // Computed on the whole image, of which a mask then picks pixels: a value that is not finite
-  // counts wherever it is.
+  // Computed on the whole image, from which a mask then picks pixels: a non-finite value counts
+  // wherever it is.
   bool readsNeighbours = false;
-  // Needs several images (core/image/bias_runs.h); of a single one it is NaN.
+  // Needs several images (core/image/bias_runs.h); NaN for a single one.
   bool needsRuns = false;
   std::function<MetricValue(const Image& image, const Image& reference,
                             const MetricOptions& options)>
@@ -56,7 +56,7 @@ MetricInfo metric(const char* name, const char* formula, Function function) {
 const std::vector<MetricInfo>& metricRegistry();
 std::vector<std::string> metricNames();
 
-// Throws Error (badUsage) with the nearest name.
+// Throws Error (badUsage) with the nearest name if the metric is unknown.
 const MetricInfo& findMetric(const std::string& name);
 
 // Throws Error: badUsage for an unknown name or options out of range, badInput for empty images,
@@ -87,23 +87,23 @@ double squaredBias(const Image& runs0, const Image& runs1, const Image& half0, c
                    const PixelMask& mask = {});
 
 // mean (image - half0)(image - half1) / (divisor^2 + 1e-2): relmse_e1e-2 with no share of the
-// reference's own error in its numerators, and without the 0.1 % of the pixels in which it is
-// largest. `divisor` is the mean of the reference; a half of it shows how much hangs on its noise.
-// Throws Error (badInput) on different sizes or a mask that selects nothing.
+// reference's own error in its numerators, and without the 0.1 % of the pixels with the largest
+// error. `divisor` is the mean of the reference; one of its halves shows the influence of its
+// noise. Throws Error (badInput) on different sizes or a mask that selects nothing.
 struct RelativeError {
-  double relmse = 0.0, trimmed = 0.0;  // NaN where a value that counts is not finite
-  std::string detail;                  // of `trimmed`
+  double relmse = 0.0, trimmed = 0.0;  // NaN if a value that counts is not finite
+  std::string detail;                  // detail of `trimmed`
 };
 RelativeError relmseAgainstHalves(const Image& image, const Image& divisor, const Image& half0,
                                   const Image& half1, const PixelMask& mask = {});
 
-// One value a pixel, averaged over channels, whose mean is `mse` or `mseAgainstHalves`.
+// One value per pixel, averaged over channels, whose mean is `mse` or `mseAgainstHalves`.
 std::vector<double> squaredErrorPerPixel(const Image& image, const Image& reference);
 std::vector<double> squaredErrorPerPixel(const Image& image, const Image& half0,
                                          const Image& half1);
 
-// Share of the sum that the largest `fraction` of the pixels hold (rounded up to whole pixels):
-// how much of an MSE is a few fireflies. 0 when the sum is 0, NaN when it is negative or NaN.
+// Share of the sum in the largest `fraction` of the pixels (rounded up to whole pixels): how much
+// of an MSE is a few fireflies. 0 when the sum is 0, NaN when it is negative or NaN.
 double worstPixelShare(const std::vector<double>& errorPerPixel, double fraction = 1e-3);
 
 }  // namespace restlab

@@ -10,7 +10,7 @@ namespace restlab {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kEpsilon = kRelmseEpsilon;  // of the mean1e-2 of the names as well
+constexpr double kEpsilon = kRelmseEpsilon;  // also the mean1e-2 of the names
 constexpr double kTrimFraction = 1e-3;       // the trim0.1 (per cent) of the names
 
 double squared(double x) { return x * x; }
@@ -62,7 +62,7 @@ MetricValue trimmedRelativeMse(const Image& image, const Image& reference,
   return trimmedMean(std::move(errors));
 }
 
-// The only convention that leaves something out; how much is said.
+// The only convention that leaves pixels out; the detail counts them.
 MetricValue relmseSiio(const Image& image, const Image& reference, const MetricOptions& options) {
   size_t zeros = 0, count = 0;
   const auto term = [&](double i, double r) {
@@ -146,7 +146,7 @@ MetricInfo meanMetric(const char* name, const char* formula, Term term) {
 
 MetricValue trimmedMean(std::vector<double> errors) {
   const size_t dropped = size_t(kTrimFraction * double(errors.size()));
-  // Summed in ascending order: equal values are interchangeable, so the order is fixed.
+  // Sum in ascending order: equal values are interchangeable, so the order is fixed.
   std::sort(errors.begin(), errors.end());
   double sum = 0.0;
   for (size_t p = 0; p + dropped < errors.size(); ++p) sum += errors[p];

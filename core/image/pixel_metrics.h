@@ -1,5 +1,5 @@
-// Metrics that are made of differences pixel by pixel. Images are of one size, their values finite
-// where the mask selects, and it selects something: the registry sees to that.
+// Metrics made of differences pixel by pixel. The registry ensures that images have one size,
+// selected values are finite, and the mask selects something.
 #pragma once
 
 #include <vector>
@@ -8,13 +8,13 @@
 
 namespace restlab {
 
-// In the order of reports. Those of relmseConventions are among them.
+// Metrics in the order of reports, including those of relmseConventions().
 std::vector<MetricInfo> pixelMetrics();
 
 constexpr double kRelmseEpsilon = 1e-2;  // the e1e-2 of the names
 
-// Mean of the errors, one a pixel, without the largest 0.1 % of them (rounded down); the detail has
-// how many. No error at all is an error of the caller.
+// Mean of the errors, one per pixel, without the largest 0.1 % of them (rounded down); the detail
+// has their number. `errors` must not be empty.
 MetricValue trimmedMean(std::vector<double> errors);
 
 // relmse as other programs compute it: metrics `relmse_` + name.

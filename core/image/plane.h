@@ -1,4 +1,4 @@
-// One number a pixel in double precision, and separable filters, for metrics that look at the
+// One number per pixel in double precision, and separable filters, for metrics that look at the
 // neighbourhood of a pixel.
 #pragma once
 
@@ -24,19 +24,19 @@ using Kernel = std::vector<double>;
 // exp(-x^2 / (2 sigma^2)), not normalised.
 Kernel gaussian(double sigma, size_t radius);
 
-// Divided by its sum.
+// Divides a kernel by its sum.
 Kernel normalised(Kernel kernel);
 
-// Correlation with across(x) down(y) at the places where both lie inside `plane`: the result is
-// smaller by their sizes less one.
+// Correlates `plane` with across(x) down(y) wherever both kernels lie inside it: the result is
+// smaller by their sizes minus one.
 Plane filtered(const Plane& plane, const Kernel& across, const Kernel& down);
 
-// Rows firstRow..firstRow+rows of an image, and `border` pixels around them, which beyond the edges
-// repeat the edge's.
+// Copies rows firstRow..firstRow+rows of an image with `border` pixels around them; beyond the
+// image, edge pixels repeat.
 std::vector<glm::dvec3> bandOfPixels(const Image& image, size_t firstRow, size_t rows,
                                      size_t border);
 
-// Calls work(firstRow, rows) for bands that make up `height`, on all processors: what they write
+// Calls work(firstRow, rows) for bands that cover `height`, on all processors: outputs of bands
 // must not overlap. Bounds the memory of filters to a few bands.
 void forEachBand(size_t height, const std::function<void(size_t firstRow, size_t rows)>& work);
 

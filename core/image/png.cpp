@@ -22,7 +22,7 @@ bool isAscii(const std::string& text) {
   return std::all_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x80; });
 }
 
-// PNG takes 1 to 79 printable characters, no blank at either end and no two of them together.
+// PNG keywords have 1 to 79 printable characters, no blank at either end and no two in a row.
 bool isKeyword(const std::string& key) {
   const bool isPrintable =
       std::all_of(key.begin(), key.end(), [](unsigned char c) { return c >= 0x20 && c < 0x7f; });
@@ -43,10 +43,10 @@ std::vector<Text> textsOf(const std::map<std::string, std::string>& metadata) {
     const bool fits = isKeyword(keyword);
     texts.push_back({fits ? keyword : fmt::format("{}more", kExrMetadataPrefix),
                      fits ? value : fmt::format("{}={}", key, value)});
-    // A text of PNG ends at the first byte 0.
+    // PNG ends a text at the first byte 0.
     std::string& text = texts.back().text;
     std::replace(text.begin(), text.end(), '\0', ' ');
-    if (text.empty()) text = " ";  // libspng takes no empty ones
+    if (text.empty()) text = " ";  // libspng rejects empty texts
   }
   return texts;
 }
@@ -87,7 +87,7 @@ std::string encodePng(const std::string& what, uint32_t width, uint32_t height,
   spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1);
   int error = spng_set_ihdr(context.get(), &header);
   if (error == 0) error = spng_set_srgb(context.get(), 0);
-  // The library keeps pointers to the texts until the picture is encoded.
+  // libspng keeps pointers to the texts until the image is encoded.
   std::vector<Text> texts = textsOf(metadata);
   if (error == 0) setTexts(context.get(), texts);
   const size_t size = size_t(width) * height * 3;

@@ -7,7 +7,7 @@
 namespace restlab {
 namespace {
 
-// The comparisons are such that NaN cannot reach the conversion to an integer.
+// Comparisons are written so that NaN cannot reach the conversion to an integer.
 uint8_t encodeSrgb8(float linear) {
   if (!(linear > 0.0f)) return 0;
   if (linear >= 1.0f) return 255;

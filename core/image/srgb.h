@@ -8,8 +8,8 @@
 
 namespace restlab {
 
-// R, G, B of each pixel of radiance x exposure, clipped to 0..1 and encoded by IEC 61966-2-1. A
-// pixel with a NaN is magenta: it must be seen.
+// Encodes each pixel of radiance x exposure as R, G, B, clipped to 0..1, by IEC 61966-2-1. A pixel
+// with a NaN becomes magenta: it must be seen.
 std::vector<uint8_t> srgbBytes(const Image& image, float exposure);
 
 }  // namespace restlab

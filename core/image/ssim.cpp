@@ -24,7 +24,7 @@ Plane windowed(const Plane& a, const Plane& b, const Kernel& window) {
   return filtered(product, window, window);
 }
 
-// Adds a third of the index of a band's channel.
+// Adds a third of the SSIM index of one channel of a band.
 void addIndex(const Plane& a, const Plane& b, const Kernel& window, double* sum) {
   const Plane meanA = filtered(a, window, window), meanB = filtered(b, window, window);
   const Plane aa = windowed(a, a, window), bb = windowed(b, b, window), ab = windowed(a, b, window);

@@ -21,7 +21,7 @@ inline PixelWindow windowOf(const Image& image) {
   return {image.origin, image.width, image.height};
 }
 
-// "8x4", and " from pixel (1, 0) on" where one of the two does not begin at (0, 0).
+// Formats "8x4", with " from pixel (1, 0) on" if one of the two windows does not begin at (0, 0).
 inline std::string windowText(const PixelWindow& window, const PixelWindow& other) {
   const std::string size = fmt::format("{}x{}", window.width, window.height);
   if (window.origin == glm::ivec2(0) && other.origin == glm::ivec2(0)) return size;

@@ -22,7 +22,7 @@ double meanOfMap(const std::vector<double>& map, const PixelMask& mask) {
   return sum / double(countSelected(mask, map.size()));
 }
 
-// What a clip of all channel values to lo..hi changes.
+// Says how many channel values a clip to lo..hi changes.
 std::string clipText(const Image& image, const Image& reference, double lo, double hi) {
   return fmt::format("{} channel values of the image and {} of the reference",
                      countOutside(image, lo, hi), countOutside(reference, lo, hi));

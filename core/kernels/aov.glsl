@@ -1,8 +1,8 @@
 // aov: first-hit attributes of the film samples that the frame used (same seed, same draws).
 
-// From the film sample to where the last frame's film showed what it shows, in pixels, and its
-// depth there; two images away where it was behind the camera. The background is as far as it
-// can be: only the direction counts.
+// Returns the motion in pixels from the film sample to the same point on the last frame's film, and
+// the point's depth there. Two images away if the point was behind the camera. The background is
+// infinitely far: only the direction counts.
 RL_FN vec3 aovMotion(RL_IN(uvec2) pixel, uint film, RL_IN(vec3) posW, bool isHit) {
   vec2 resolution = vec2(float(gFrame.width), float(gFrame.height));
   vec2 before;
@@ -12,7 +12,7 @@ RL_FN vec3 aovMotion(RL_IN(uvec2) pixel, uint film, RL_IN(vec3) posW, bool isHit
   // An orthographic camera sees one direction in every pixel.
   if (!isHit && gFrame.camera.kind == RL_CAMERA_ORTHOGRAPHIC) motion = vec2(0.0f, 0.0f);
   vec3 fromCamera = posW - gFrame.previousCamera.posW;
-  // Along the ray, as the layer depth: those of an orthographic camera are parallel.
+  // Measure along the ray, as in the layer `depth`: rays of an orthographic camera are parallel.
   float depthBefore = gFrame.camera.kind == RL_CAMERA_ORTHOGRAPHIC
                           ? dot(fromCamera, gFrame.previousCamera.forwardW)
                           : length(fromCamera);

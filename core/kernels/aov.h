@@ -13,10 +13,10 @@ struct AovBuffers {
   Vec3Ref normalW;
   Vec3Ref albedo;
   Vec3Ref depth;     // metres along the ray, the same in all three channels; 0 where nothing is hit
-  Vec3Ref object;    // 1 + the scene's number of the instance, as depth
+  Vec3Ref object;    // 1 + number of the scene's instance, in all channels; 0 where nothing is hit
   Vec3Ref emission;  // radiance that the camera sees directly, of lights and of the environment
-  Vec3Ref motion;    // to where the last frame showed it: pixels to the right and down; metres from
-                     // its camera, 0 where nothing is hit
+  Vec3Ref motion;    // vector to the point's place in the last frame: pixels to the right and down;
+                     // metres from the last camera, 0 where nothing is hit
 };
 
 struct AovParams {

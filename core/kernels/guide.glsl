@@ -1,17 +1,17 @@
-// guide: what the film sample of this frame shows, which is the one that paths of this frame begin
-// with. One ray a pixel. While the view stands, guides are means over its film samples: what is
-// shaded then is such a mean, too.
+// guide: denoiser features at the film sample of this frame, where the frame's paths begin. One ray
+// per pixel. In a still view, guides are means over the view's film samples, as is the shaded
+// radiance.
 #include "core/transport/lights_in_view.glsl"
 #include "core/kernels/guide_data.glsl"
 
-// Frames in the mean: more change nothing that a filter could see.
+// Most frames in the mean: more would make no difference to a filter.
 #define RL_GUIDE_FRAMES 255.0f
 
 RL_FN float guideDisparity(RL_IN(Camera) camera, RL_IN(vec3) posW) {
   return rlSafeDivide(1.0f, dot(posW - camera.posW, camera.forwardW));
 }
 
-// Of the plane through a point, over one pixel of the film.
+// Change of disparity per pixel of the film, on the plane through a point.
 RL_FN vec2 guideSlope(RL_IN(vec3) posW, RL_IN(vec3) nGeoW, float disparity) {
   Camera camera = gFrame.camera;
   vec2 step = vec2(dot(nGeoW, camera.rightW) * 2.0f * camera.halfWidth / float(gFrame.width),
@@ -48,7 +48,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   motion.disparity = 0.0f;
   motion.turn = 0.0f;
   vec2 here = cameraFilmPoint(pixel, film);
-  // The background is as far as it can be: only the direction counts.
+  // The background is infinitely far: only the direction counts.
   vec3 posW = ray.dir + gFrame.previousCamera.posW;
   if (hit.instance != RL_INVALID) {
     Surface s = surfaceLoad(hit, ray.dir);

@@ -1,6 +1,6 @@
-// Guides and motions in buffers (core/kernels/guide_data.h).
+// Layout of guides and motions in buffers (core/kernels/guide_data.h).
 
-// The first quad: the normal, and the disparity, less than 0 where a light is seen.
+// First quad of a guide: the normal, and the disparity, negative if a light is seen.
 RL_FN vec4 guideSurface(RL_IN(QuadRef) guides, uint slot) {
   return recordVec4(RL_PAST_QUAD(guides, slot * RL_GUIDE_QUADS));
 }

@@ -1,6 +1,6 @@
-// What denoisers know of a pixel beside its radiance: its guide, two quads, and its motion, one.
-// Distances are kept as disparities, 1 / depth along the camera's axis: of a plane they change
-// evenly over the film of a perspective camera, and those of the background are 0.
+// Features of a pixel for denoisers, beside its radiance: its guide, two quads, and its motion, one
+// quad. Distances are kept as disparities, 1 / depth along the camera's axis: on a plane,
+// disparities are linear over the film of a perspective camera, and the background's are 0.
 #ifndef RL_GUIDE_DATA_H
 #define RL_GUIDE_DATA_H
 
@@ -18,20 +18,20 @@ const uint RL_GUIDE_SPECULAR = 2u;  // at normal incidence
 
 struct Guide {
   vec3 nW;           // unit, shading; 0 where the background is seen
-  float disparity;   // of the surface at the pixel's centre, 1/m
-  vec2 slope;        // its change over a pixel to the right, and to the one below
-  vec3 reflectance;  // that the radiance is divided by: at least RL_GUIDE_FLOOR, of light in view 1
-  uint isLight;      // 1: it shows, in part at least, a light or the background: no filter over
-                     // space changes it or asks it
+  float disparity;   // surface at the pixel's centre, 1/m
+  vec2 slope;        // change of disparity per pixel to the right, and per pixel down
+  vec3 reflectance;  // divisor of the radiance: at least RL_GUIDE_FLOOR; 1 for light in view
+  uint isLight;  // 1: the pixel shows, at least in part, a light or the background: spatial filters
+                 // neither change nor read it
 };
 
-// A smaller reflectance would make too much of what is not reflected by it.
+// A smaller divisor would amplify light that is not reflected by this reflectance.
 const float RL_GUIDE_FLOOR = 0.015625f;
 
 struct Motion {
   vec2 film;        // from here to where the last frame's film showed the surface, in pixels
-  float disparity;  // the surface's there, by the last frame's camera, less that of now
-  float turn;       // by how much of its lobes' width the view has turned: bsdfTurn()
+  float disparity;  // disparity by the last frame's camera minus the one by this frame's
+  float turn;       // turn of the view over the width of the surface's lobes: bsdfTurn()
 };
 
 RL_NAMESPACE_END

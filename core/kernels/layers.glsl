@@ -1,18 +1,18 @@
-// layers: guides from layers that came with an image.
+// layers: computes guides (denoiser features) from layers that came with an image.
 #include "core/kernels/guide_data.glsl"
 
-// 0 of the background, which has no depth, an infinite one, or no normal.
+// Disparity of a pixel; 0 for the background, which has no depth, an infinite one, or no normal.
 RL_FN float layersDisparity(uint slot) {
   float depth = gBuffers.depth.data[slot].x;
   vec3 nW = gBuffers.normalW.data[slot];
   if (dot(nW, nW) == 0.0f) return 0.0f;
-  // What is no number stays none: machines differ in the maximum of it.
+  // Keep NaN: max(NaN, x) differs between devices.
   return depth < 0.0f ? 0.0f : rlSafeDivide(1.0f, depth);
 }
 
-// Pixels on each side that a slope is told by. A layer may be of any point within a pixel, so that
-// the disparities of a plane that is seen at a grazing angle are noisy: a filter that looks 16
-// pixels far needs the slope to a few percent.
+// Pixels on each side that a slope is estimated from. A layer may be of any point within a pixel,
+// so that the disparities of a plane at a grazing angle are noisy: a filter that looks 16 pixels
+// far needs the slope to a few percent.
 #define RL_LAYERS_REACH 8u
 #define RL_LAYERS_NEAR 3u
 
@@ -60,8 +60,8 @@ RL_FN LineSide lineAlong(uvec2 pixel, ivec2 side, float direction, RL_IN(vec3) n
   return line;
 }
 
-// The better one of `best` and the line through the pixel (x = y = 0) and those of `s`, by least
-// squares. Pixels beyond an edge make the residual and so the error large.
+// Returns the better one of `best` and the least-squares line through the pixel (x = y = 0) and the
+// pixels of `s`. Pixels beyond an edge make the residual, and with it the error, large.
 RL_FN LineFit lineBetter(RL_IN(LineFit) best, RL_IN(LineSums) s, float here) {
   float n = s.n + 1.0f;
   if (!(s.n > 0.0f)) return best;
@@ -69,7 +69,7 @@ RL_FN LineFit lineBetter(RL_IN(LineFit) best, RL_IN(LineSums) s, float here) {
   LineFit fit;
   fit.slope = (s.sumXY - s.sumX * s.sumY / n) / spread;
   float residual = s.sumYY - s.sumY * s.sumY / n - fit.slope * (s.sumXY - s.sumX * s.sumY / n);
-  // What rounding alone leaves says nothing: the longer line is the better one then.
+  // Bound the residual by rounding: below that bound the longer line is the better one.
   residual = max(residual, 1.0e-11f * here * here);
   // Too few pixels lie on a line by chance.
   fit.squareError = n < 4.0f ? 1.0e30f : residual / ((n - 2.0f) * spread);

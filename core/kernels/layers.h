@@ -14,19 +14,19 @@ struct LayersBuffers {
   Vec3Ref normalW;  // unit; 0 where the background is seen
   Vec3Ref albedo;
   Vec3Ref depth;   // metres in the first channel, 0: background; above 0 in the second: a light
-  Vec3Ref motion;  // pixels to the right and down to where the last frame showed it; its depth
-                   // then, or 0 where it is not known
+  Vec3Ref motion;  // vector to the point's place in the last frame: pixels to the right and down;
+                   // depth there, 0 if unknown
   QuadRef guide;
   QuadRef guideBefore;
   QuadRef motions;
 };
 
 struct LayersParams {
-  uint demodulates;  // 0: nothing is divided by
+  uint demodulates;  // 0: the radiance is not divided by the albedo
 };
 
 // Sums over pixels of one row or column: x in pixels from the pixel in question, y the disparity
-// less its own.
+// minus that pixel's.
 struct LineSums {
   float n;
   float sumX;
@@ -36,7 +36,7 @@ struct LineSums {
   float sumYY;
 };
 
-// Those of the pixels to one side as long as they have the same normal: the first few, and all.
+// Sums over the pixels to one side while they have the same normal: the first few, and all.
 struct LineSide {
   LineSums near;
   LineSums all;
@@ -44,7 +44,7 @@ struct LineSide {
 
 struct LineFit {
   float slope;
-  float squareError;  // of the slope
+  float squareError;  // squared error of the slope
 };
 
 RL_NAMESPACE_END

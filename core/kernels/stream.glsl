@@ -1,5 +1,5 @@
-// stream: copies a buffer. The quads of words of a tile of 8 x 8 pixels lie together, those of
-// pixels that lie side by side too.
+// stream: copies a buffer. The quads of a tile of 8 x 8 pixels lie together; the i-th quads of
+// adjacent pixels are adjacent, too.
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint tile = (pixel.y / 8u) * (gFrame.width / 8u) + pixel.x / 8u;

@@ -1,4 +1,4 @@
-// Buffers of the `stream` kernel, whose time is that of memory alone.
+// Buffers of the `stream` kernel, whose run time is memory traffic alone.
 #ifndef RL_STREAM_KERNEL_H
 #define RL_STREAM_KERNEL_H
 
@@ -8,7 +8,7 @@
 
 RL_NAMESPACE_BEGIN
 
-const uint RL_STREAM_QUADS = 4u;  // that each pixel reads and writes
+const uint RL_STREAM_QUADS = 4u;  // quads that each pixel reads and writes
 
 struct StreamBuffers {
   QuadRef from;

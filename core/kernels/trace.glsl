@@ -1,4 +1,4 @@
-// trace: nothing but rays. 64 rays that follow one another are traced by one tile of 8 x 8 pixels.
+// trace: traces rays only. One tile of 8 x 8 pixels traces 64 consecutive rays.
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint tile = (pixel.y / 8u) * (gFrame.width / 8u) + pixel.x / 8u;

@@ -9,12 +9,12 @@
 RL_NAMESPACE_BEGIN
 
 struct TraceResult {
-  Hit hit;              // of a path ray
-  float transmittance;  // as traceRay() returns it
+  Hit hit;              // path rays only
+  float transmittance;  // return value of traceRay()
 };
 RL_STATIC_ASSERT_SIZE(TraceResult, 24);
 
-// A ray to trace, read in quads. Each has its mode, as rays of integrators do.
+// A ray to trace, read in quads. The mode is per ray, as in integrators.
 struct TraceQuery {
   Ray ray;
   uint mode;  // RL_RAY_PATH or RL_RAY_SHADOW

@@ -1,4 +1,4 @@
-// visible: what each pixel shows at its centre. One ray a pixel, in frames whose view is new.
+// visible: surfaces at pixel centres. One ray per pixel, in frames of a new view.
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint pixelIndex = pixel.y * gFrame.width + pixel.x;
@@ -6,7 +6,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   vec2 centre = vec2(float(pixel.x) + 0.5f, float(pixel.y) + 0.5f);
   Ray ray = cameraRay(gFrame.camera, centre, resolution);
   Hit hit = traceNoHit();
-  // The same decision at partly transparent surfaces in every frame.
+  // Key by the pixel: alpha tests are decided alike in every frame.
   traceRay(ray, RL_RAY_PATH, pixelIndex, hit);
   VisibleSurface v;
   v.isHit = 0u;

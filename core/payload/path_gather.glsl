@@ -1,12 +1,12 @@
-// What is kept of a pixel's path while it is traced, for a reservoir of it. The path is that of
-// `path`. Its vertices: x1 in the pixel, x2, where other pixels reconnect, x3 beyond it.
+// Gathers a pixel's path for its reservoir while the path is traced. The path is the one of `path`.
+// Vertices: x1 in the pixel, x2, where other pixels reconnect, x3 beyond x2.
 //
-// - Direct light at x1: its light samples, and the light that its BSDF sample met.
-// - Indirect light: x2 and what it sends to x1, by a light sample at x2 and by the path's suffix.
-// - Light in view: what the camera sees directly.
-// - Own light, which no other pixel could use. All light, where x1 cannot be reused (mirror, glass,
-//   roughness below the limit); what a delta lobe at x2 leads to. Which part of the integrand that
-//   is depends on x2 alone, so that the split is the same for every pixel.
+// - Direct light at x1: light samples, and the light that the BSDF sample hit.
+// - Indirect light: x2 and its radiance to x1, by a light sample at x2 and by the path's suffix.
+// - Light in view: emission and environment that the camera sees directly.
+// - Own light, which no other pixel could reuse: all light if x1 cannot be reused (mirror, glass,
+//   roughness below the limit), and light through a delta lobe at x2. Which part of the integrand
+//   is own light depends on x2 alone, so that the split is the same for every pixel.
 #define RL_WALK_STATE PathGather
 
 RL_FN LightSample pathNoLight() {
@@ -85,7 +85,7 @@ RL_FN void pathReachesX2(RL_INOUT(PathGather) p, RL_IN(Surface) s) {
   p.hasX2 = 1u;
 }
 
-// Light that is carried neither by a light sample of x1 nor by x2's: beyond x3, or not reusable.
+// Adds light that neither a light sample of x1 nor one of x2 carries: beyond x3, or not reusable.
 RL_FN void pathAddLight(RL_INOUT(PathGather) p, RL_IN(Walk) walk, RL_IN(vec3) contribution) {
   if (p.isSuffix != 0u) {
     p.rest += p.suffixThroughput * contribution;
@@ -94,7 +94,7 @@ RL_FN void pathAddLight(RL_INOUT(PathGather) p, RL_IN(Walk) walk, RL_IN(vec3) co
   }
 }
 
-// Where the walk is on a path that can be reused; at x3 on one whose suffix goes on beyond x2.
+// Position of the walk on a reusable path. x3 counts only if the path's suffix goes on beyond x2.
 RL_FN bool pathIsAtX1(RL_IN(PathGather) p, RL_IN(Walk) walk) {
   return p.isReusable != 0u && walk.bounces == 0u;
 }
@@ -104,7 +104,7 @@ RL_FN bool pathIsAtX2(RL_IN(PathGather) p, RL_IN(Walk) walk) {
 RL_FN bool pathIsAtX3(RL_IN(PathGather) p, RL_IN(Walk) walk) {
   return p.isSuffix != 0u && walk.bounces == 2u;
 }
-// It has left a vertex, whose shadow ray is back.
+// Returns whether the walk has left a vertex and that vertex's shadow ray is traced.
 RL_FN bool pathHasLeftX1(RL_IN(PathGather) p, RL_IN(Walk) walk) { return pathIsAtX2(p, walk); }
 RL_FN bool pathHasLeftX2(RL_IN(PathGather) p, RL_IN(Walk) walk) {
   return p.hasX2 != 0u && walk.bounces == 2u;
@@ -172,8 +172,8 @@ RL_FN void walkAbsorbs(RL_INOUT(PathGather) p, RL_IN(Walk) walk, RL_IN(vec3) tra
   p.suffixThroughput *= transmittance;
 }
 
-// The path ends in a cell, whose radiance the vertex under way sends back along it: at x2 as a
-// Lambert surface would, in every direction.
+// Ends the path in a cell, whose radiance the current vertex sends back along the path. At x2, the
+// cell's radiance leaves in every direction, as from a Lambert surface.
 RL_FN void pathEnds(RL_INOUT(PathGather) p, RL_IN(Walk) walk, RL_IN(Surface) s,
                     RL_IN(vec3) radiance) {
   if (!pathIsAtX2(p, walk)) {

@@ -1,4 +1,4 @@
-// What becomes of a path on its way to a reservoir.
+// State of a path that is gathered for a reservoir.
 #ifndef RL_PATH_GATHER_H
 #define RL_PATH_GATHER_H
 
@@ -11,12 +11,12 @@
 
 RL_NAMESPACE_BEGIN
 
-// What is kept of a pixel's path (core/payload/path_gather.glsl).
+// Data gathered from a pixel's path (core/payload/path_gather.glsl).
 struct PathGather {
-  vec3 ownLight;  // that no other pixel could use: no reservoir has it
+  vec3 ownLight;  // light that no other pixel could reuse; not in any reservoir
   vec3 inView;    // emission and environment that the camera sees directly
   uint film;
-  uint isReusable;  // x1: can other pixels use what it receives?
+  uint isReusable;  // 1: other pixels can reuse the light that x1 receives
   vec3 x1PosW;
   vec3 x1NGeoW;
   float x1PosError;
@@ -25,31 +25,31 @@ struct PathGather {
   float passedX1;  // Walk::passed of the ray from x1
 
   // Direct light at x1.
-  LightSample light;  // the light sample that was selected
-  real lightSum;      // resampling weights of all light samples
-  vec3 lightF;        // integrand of the selected one
-  LightSample found;  // the light that the BSDF sample met
+  LightSample light;  // selected light sample
+  real lightSum;      // sum of the resampling weights of all light samples
+  vec3 lightF;        // integrand of the selected light sample
+  LightSample found;  // light that the BSDF sample hit
   vec3 foundF;
   real foundWeight;
-  float foundCoverage;  // of the light that it met: what chance let it meet it
+  float foundCoverage;  // alpha of the light that was hit: probability that the ray hit it
 
-  // Indirect light: the path is cut at x2, `suffixThroughput` is that from x3 on.
+  // Indirect light. The path is cut at x2; `suffixThroughput` is the throughput from x3 on.
   uint hasX2;  // a connectable x2 was found
   PathSample x2;
   vec3 woX2;
   vec3 lightAtX2;  // light sample at x2 over its density, without BSDF and MIS weight at x2
   vec3 lightDirX2;
   float lightPdfX2;
-  uint isSuffix;  // beyond x2, on the connectable part
+  uint isSuffix;  // 1: the walk is beyond x2, on the reconnectable part
   vec3 suffixThroughput;
-  float pdfX2;    // of the continuation at x2
-  vec3 weightX2;  // f |cos| / pdf of it
+  float pdfX2;    // density of the continuation at x2
+  vec3 weightX2;  // f |cos| / pdf of the continuation at x2
   vec3 dirX2;
   vec3 emittedAtX3;
   float pdfLightAtX3;
   vec3 rest;      // light beyond x3
-  vec3 absorbed;  // transmittance up to the vertex under way
-  vec3 unseen;    // of the last light sample, without its visibility
+  vec3 absorbed;  // transmittance of the last segment
+  vec3 unseen;    // unshadowed contribution of the last light sample
   RadianceEnd end;
 };
 

@@ -1,10 +1,10 @@
-// What was gathered on a path (core/payload/path_gather.glsl), as one reservoir.
+// Resamples the candidates of a path (core/payload/path_gather.glsl) into one reservoir.
 
-// Path rays pass a partly transparent surface by chance, connections are dimmed by it. What the
-// ray from x1 has found, it has found with a probability of T, the transmittance up to there: its
-// integrand gets T, as every other pixel evaluates it, and its weight 1 / T. The coverage of a
-// light that is itself partly transparent is such a factor, too; that of x2 is the same for every
-// pixel and stays out.
+// Transmittance T from x1 to the vertex or light that the ray from x1 found. Path rays pass partly
+// transparent surfaces at random, connections are attenuated by them. The ray from x1 finds its hit
+// with probability T, so its integrand gets the factor T, as every other pixel evaluates it, and
+// its weight the factor 1 / T. The coverage of a partly transparent light is such a factor, too.
+// The coverage of x2 is the same for every pixel and stays out.
 RL_FN float pathThroughAlpha(RL_IN(PathGather) p) {
   if (!RL_HAS(RL_FEATURE_ALPHA)) return 1.0f;
   if (p.isReusable == 0u || !(p.passedX1 < 1.0f)) return 1.0f;
@@ -14,12 +14,11 @@ RL_FN float pathThroughAlpha(RL_IN(PathGather) p) {
   Ray segment = pathSegment(met, p.x1PosW, p.x1NGeoW, p.x1PosError);
   Hit hit;
   float t = traceRay(segment, RL_RAY_SHADOW, gFrame.cameraMedia.x, hit);
-  // 0: the two rays disagree by rounding; the path ray is believed, as it is among opaque
-  // surfaces.
+  // 0: the two rays disagree by rounding. Trust the path ray, as among opaque surfaces.
   return t > 0.0f ? t : 1.0f;
 }
 
-// Direct light: two techniques whose balance weights are inside the densities.
+// Adds direct light: two techniques whose balance-heuristic weights are inside the densities.
 RL_FN void pathAddDirect(RL_IN(PathGather) p, RL_IN(vec3) foundF, RL_IN(Rng) rng,
                          RL_INOUT(real) wSum, RL_INOUT(vec3) estimate, RL_INOUT(PathReservoir) r) {
   estimate += p.lightF * risContributionWeight(p.lightSum, rlLuminance(p.lightF)) +
@@ -35,14 +34,14 @@ RL_FN void pathAddDirect(RL_IN(PathGather) p, RL_IN(vec3) foundF, RL_IN(Rng) rng
   }
 }
 
-// Indirect light: x2 and what it sends to x1; a glossy x2 has two kinds of paths, lit by a light
-// sample and continued.
+// Adds indirect light: x2 and its radiance towards x1. A glossy x2 has two kinds of paths: lit by a
+// light sample, and continued.
 RL_FN void pathAddIndirect(RL_IN(PathGather) p, float throughAlpha, RL_IN(Rng) rng,
                            RL_INOUT(real) wSum, RL_INOUT(vec3) estimate,
                            RL_INOUT(PathReservoir) r) {
   vec3 zero = vec3(0.0f, 0.0f, 0.0f);
-  vec3 fLight = zero;        // at x2, light sample
-  vec3 continuation = zero;  // at x2, over pdfX2
+  vec3 fLight = zero;        // light sample at x2
+  vec3 continuation = zero;  // continuation at x2, over pdfX2
   Bsdf b = p.x2.suffix.bsdf;
   vec3 nShadeX2 = p.x2.suffix.nShadeW;
   if (!rlIsBlack(p.lightAtX2)) {
@@ -55,8 +54,8 @@ RL_FN void pathAddIndirect(RL_IN(PathGather) p, float throughAlpha, RL_IN(Rng) r
     float weight = p.pdfLightAtX3 > 0.0f ? lightMisWeight(p.pdfX2, p.pdfLightAtX3) : 1.0f;
     continuation = p.weightX2 * (p.rest + p.emittedAtX3 * weight);
   }
-  // Of its resampling weight pHat W, W keeps what chance let the ray from x1 pass
-  // (pathThroughAlpha).
+  // F has the factor T of pathThroughAlpha(), the resampling weight pHat W does not: W carries
+  // 1 / T.
   float inverseX1 = rlSafeDivide(1.0f, p.pdfX1);
   estimate += p.fX1 * (fLight + continuation) * inverseX1;
   bool isLambert = bsdfIsLambert(b);
@@ -94,7 +93,7 @@ RL_FN PathReservoir pathResample(RL_IN(PathGather) p, RL_IN(Rng) rng) {
   if (p.isReusable == 0u) return r;
   float throughAlpha = pathThroughAlpha(p);
   vec3 foundF = p.foundF;
-  if (RL_HAS(RL_FEATURE_ALPHA)) foundF *= throughAlpha * p.foundCoverage;  // its weight stays
+  if (RL_HAS(RL_FEATURE_ALPHA)) foundF *= throughAlpha * p.foundCoverage;  // foundWeight stays
   real wSum = 0.0f;
   vec3 estimate = vec3(0.0f, 0.0f, 0.0f);
   if (walkWants(1u)) pathAddDirect(p, foundF, rng, wSum, estimate, r);

@@ -1,17 +1,17 @@
-// Paths in reservoirs: to and from buffers, and how another x1 sees them.
+// Path samples in reservoirs: layout in buffers, and reconnection to another x1.
 
 RL_FN bool pathIsSpot(uint kind) {
   return (kind & RL_PATH_KIND_MASK) == RL_PATH_DIRECT &&
          ((kind >> RL_PATH_LIGHT_SHIFT) & RL_PATH_LIGHT_MASK) == RL_LIGHT_SPOT;
 }
 
-// Of the path only its radiance, which the state has room for.
+// Writes the state and, of the path, only its radiance, which is stored with the state.
 RL_FN void pathStateWrite(RL_IN(QuadRef) quads, uint at, RL_IN(PathReservoir) r) {
   reservoirStateWrite(quads, at + RL_PATH_SAMPLE_QUADS, r.state, packPositive3(r.path.radiance));
 }
 
-// Exact are position, film sample, geometry and, to rounding, the normal. A spot light has no
-// geometry: its place in the light table stands there.
+// Writes path and state. Position, film sample and geometry are exact, and the normal to rounding.
+// A spot light has no geometry: its index in the light table is stored instead.
 RL_FN void pathReservoirWrite(RL_IN(QuadRef) quads, uint at, RL_IN(PathReservoir) r) {
   uvec2 normal = packUnit(r.path.normalW);
   uint geometry = floatBitsToUint(r.path.geometry);
@@ -27,7 +27,7 @@ RL_FN ReservoirState pathStateRead(RL_IN(QuadRef) quads, uint at) {
   return reservoirStateRead(quads, at + RL_PATH_SAMPLE_QUADS, radiance);
 }
 
-// Without the suffix, which stays as it is.
+// Reads path and state. Keeps r's suffix.
 RL_FN void pathReservoirRead(RL_IN(QuadRef) quads, uint at, RL_INOUT(PathReservoir) r) {
   uvec4 q0 = RL_PAST_QUAD(quads, at);
   uvec4 q1 = RL_PAST_QUAD(quads, at + 1u);
@@ -44,7 +44,7 @@ RL_FN void pathReservoirRead(RL_IN(QuadRef) quads, uint at, RL_INOUT(PathReservo
   r.path.geometry = isSpot ? 0.0f : uintBitsToFloat(q1.z);
 }
 
-// Only where the scene has glossy lobes.
+// Suffixes are stored only if the scene has glossy lobes.
 RL_FN void pathSuffixWrite(RL_IN(QuadRef) quads, uint at, RL_IN(PathSuffix) s) {
   uvec2 nShade = packUnit(s.nShadeW);
   uvec2 wi = packUnit(s.wi);
@@ -64,7 +64,7 @@ RL_FN PathSuffix pathSuffixRead(RL_IN(QuadRef) quads, uint at) {
   return s;
 }
 
-// The scalar by which paths compete, for the resampling algebra.
+// Target function of the resampling algebra.
 RL_FN real reuseTarget(RL_IN(real3) f) { return rlLuminance(f); }
 
 RL_FN PathSuffix pathNoSuffix() {
@@ -113,12 +113,12 @@ RL_FN LightSample pathLight(RL_IN(PathSample) p) {
   return light;
 }
 
-// The radiance that x2 sends towards a point, without visibility; zero on its other side.
+// Radiance that x2 sends towards a point, without visibility; zero on the other side of x2.
 RL_FN vec3 pathRadianceTowards(RL_IN(PathSample) p, RL_IN(vec3) dirFromX2) {
   if (!(dot(p.normalW, dirFromX2) > 0.0f)) return vec3(0.0f, 0.0f, 0.0f);
   if (!RL_HAS(RL_FEATURE_GLOSSY) || pathKind(p) == RL_PATH_LAMBERT) return p.radiance;
   PathSuffix suffix = p.suffix;
-  // BSDF and MIS weight at x2 belong to the direction: a stored weight would break the partition.
+  // Evaluate BSDF and MIS weight at x2 for this direction: stored MIS weights would not sum to one.
   float pdfBsdf;
   vec3 f = bsdfEvalAndPdf(suffix.bsdf, p.normalW, suffix.nShadeW, dirFromX2, suffix.wi, pdfBsdf);
   if (rlIsBlack(f)) return f;
@@ -135,8 +135,8 @@ RL_FN real pathGeometry(RL_IN(PathSample) p, RL_IN(vec3) x1) {
   return shiftGeometryTerm(p.posW, p.normalW, x1);
 }
 
-// The segment from x1 (position, geometric normal, error of the position) to a vertex x2 or a
-// light, as a shadow ray.
+// Segment from x1 (position, geometric normal, error of the position) to a vertex x2 or a light, as
+// a shadow ray.
 RL_FN Ray pathSegment(RL_IN(PathSample) p, RL_IN(vec3) x1PosW, RL_IN(vec3) x1NGeoW,
                       float x1PosError) {
   if (pathKind(p) == RL_PATH_DIRECT) {
@@ -152,10 +152,10 @@ RL_FN Ray pathSegment(RL_IN(PathSample) p, RL_IN(vec3) x1PosW, RL_IN(vec3) x1NGe
   return ray;
 }
 
-// A path as it is seen with another x1, without the visibility of its segment. Lights live in the
-// measure of their light (area, solid angle of the environment, discrete), which all share: J = 1.
-// Of a vertex it is the ratio of geometry terms; outside [1 / maxJacobian, maxJacobian] the shift
-// is undefined, both ways (Lin et al. 2022).
+// Shifts a path to another x1, without the visibility of its segment. Direct light is in the
+// measure of its light (area, solid angle of the environment, discrete), which all pixels share:
+// J = 1. For a vertex x2, J is the ratio of geometry terms; outside [1 / maxJacobian, maxJacobian]
+// the shift is undefined, both ways (Lin et al. 2022).
 RL_FN Shifted pathReconnect(RL_IN(PathSample) p, RL_IN(Surface) x1, real maxJacobian) {
   Shifted s;
   s.F = real3(real(0.0f));

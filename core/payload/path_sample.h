@@ -1,5 +1,5 @@
-// A path as reservoirs hold it: a film sample, and what its first vertex x1 receives. x1 itself is
-// not kept: it is where the ray through the film sample ends, in this pixel or in another.
+// Path sample of a reservoir: a film sample, and the light that the first vertex x1 receives. x1
+// itself is not stored: the ray through the film sample finds it, in this pixel or in another.
 #ifndef RL_PATH_SAMPLE_H
 #define RL_PATH_SAMPLE_H
 
@@ -12,11 +12,11 @@ RL_NAMESPACE_BEGIN
 
 // Kinds of paths. Each is a domain of its own: no shift leads from one to another.
 const uint RL_PATH_DIRECT = 0u;        // x1 lit by a point of a light or by a direction
-const uint RL_PATH_LAMBERT = 1u;       // by a Lambert x2: `radiance` leaves it in every direction
-const uint RL_PATH_LIGHT = 2u;         // by a glossy x2, which a light sample from suffix.wi lights
-const uint RL_PATH_CONTINUATION = 3u;  // by a glossy x2, the path goes on in direction suffix.wi
+const uint RL_PATH_LAMBERT = 1u;       // Lambert x2: `radiance` leaves x2 in every direction
+const uint RL_PATH_LIGHT = 2u;         // glossy x2, lit by a light sample from suffix.wi
+const uint RL_PATH_CONTINUATION = 3u;  // glossy x2, path continues in direction suffix.wi
 
-// What a glossy x2 needs to be evaluated for another direction.
+// Data to evaluate a glossy x2 for another direction.
 struct PathSuffix {
   vec3 nShadeW;
   float pdfLight;  // solid-angle density of light sampling for wi at x2; 0: no competing technique
@@ -26,13 +26,13 @@ struct PathSuffix {
 };
 
 struct PathSample {
-  vec3 posW;       // of x2 or of the light; a unit direction where the light is one
+  vec3 posW;       // x2 or the light; a unit direction if the light is at infinity
   float posError;  // metres
   vec3 normalW;    // x2: geometric, unit, on the side of x1; light: as LightSample::normal
-  uint kind;       // RL_PATH_*, and of a light RL_LIGHT_* << 2 and RL_PATH_TWO_SIDED; 8 bits
-  vec3 radiance;  // x2: sent towards x1, or what it reflects (suffix); light: LightSample::radiance
-  uint film;      // the film sample: cameraFilmBits()
-  uint light;     // of a spot light, LightSample::record, which has axis and cone
+  uint kind;       // RL_PATH_*; light: plus RL_LIGHT_* << 2 and RL_PATH_TWO_SIDED; 8 bits
+  vec3 radiance;   // x2: sent towards x1, or incident (suffix); light: LightSample::radiance
+  uint film;       // the film sample: cameraFilmBits()
+  uint light;      // spot light: LightSample::record, which has axis and cone
   float geometry;  // x2: |cos| / d^2 towards x1 of the pixel that holds it; light: 0
   PathSuffix suffix;
 };
@@ -54,8 +54,8 @@ struct PathReservoir {
   ReservoirState state;
 };
 
-// Quads in a buffer: of the sample, whose radiance lies in the rest of the state's, and of both. Of
-// the suffix, in a buffer of its own.
+// Quads in a buffer: of the sample (its radiance is stored with the state), of sample and state,
+// and of the suffix, which has a buffer of its own.
 const uint RL_PATH_SAMPLE_QUADS = 2u;
 const uint RL_PATH_RESERVOIR_QUADS = RL_PATH_SAMPLE_QUADS + RL_STATE_QUADS;
 const uint RL_PATH_SUFFIX_QUADS = 1u + RL_BSDF_QUADS;

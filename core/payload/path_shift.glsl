@@ -1,5 +1,5 @@
-// The shift of a path sample to another pixel: it keeps the film sample, traces x1 anew, and
-// reconnects what x1 receives. Two rays, the second only where it decides something.
+// Shift of a path sample to another pixel: keeps the film sample, traces x1 anew, and reconnects x2
+// or the light to x1. Two rays; the second is traced only if it can change the result.
 
 RL_FN PathShift pathShiftNone() {
   PathShift s;
@@ -14,20 +14,20 @@ RL_FN PathShift pathShiftNone() {
   return s;
 }
 
-// The key of traceRay(): the film sample's for a path ray; for a segment the body that it lies in,
-// which is the camera's, as x1 lets no light through.
+// Key of traceRay(). Path ray: the key of the film sample. Segment: the body that the segment lies
+// in, which is the camera's, because x1 lets no light through.
 RL_FN uint pathShiftKey(uint mode, uint film) {
   return mode == RL_RAY_PATH ? cameraAlphaKey(film) : gFrame.cameraMedia.x;
 }
 
-// Can paths be exchanged at an x1 of this frame?
+// Returns whether paths can be reused at an x1 of this frame.
 RL_FN bool pathIsReusable(RL_IN(Bsdf) bsdf) {
   return bsdfIsReusable(bsdf, gParams.path.minAlpha) &&
          (gFrame.cameraAbsorbs & RL_CAMERA_ABSORBS_NOW) == 0u;
 }
 
-// Of a reservoir's sample to a pixel of this frame's camera or of the last one's. An empty
-// reservoir has none.
+// Begins the shift of a reservoir's sample to a pixel, seen by this frame's camera or by the last
+// frame's (isBefore). An empty reservoir has no shift.
 RL_FN PathShift pathShiftTo(RL_IN(PathReservoir) r, RL_IN(uvec2) pixel, bool isBefore,
                             bool assumeVisible) {
   PathShift s = pathShiftNone();
@@ -44,7 +44,7 @@ RL_FN PathShift pathShiftTo(RL_IN(PathReservoir) r, RL_IN(uvec2) pixel, bool isB
   return s;
 }
 
-// To a surface point that is known. One ray.
+// Begins the shift of a reservoir's sample to a known surface point. One ray.
 RL_FN PathShift pathShiftToSurface(RL_IN(PathReservoir) r, RL_IN(Surface) x1) {
   PathShift s = pathShiftNone();
   if (!(r.state.W > 0.0f)) return s;
@@ -55,7 +55,7 @@ RL_FN PathShift pathShiftToSurface(RL_IN(PathReservoir) r, RL_IN(Surface) x1) {
   return s;
 }
 
-// The next step, with what the ray that was asked for has found.
+// Advances a shift with the result of the ray that it asked for.
 RL_FN void pathShiftStep(RL_INOUT(PathShift) s, RL_IN(PathSample) path, RL_IN(Hit) hit,
                          float transmittance) {
   uint asked = s.asks;
@@ -73,7 +73,7 @@ RL_FN void pathShiftStep(RL_INOUT(PathShift) s, RL_IN(PathSample) path, RL_IN(Hi
   s.asks = RL_SHIFT_ASKS_SEGMENT;
 }
 
-// Traces what a shift asks for, by one call.
+// Traces the rays that a shift asks for, from one call site.
 RL_FN void pathShiftTrace(RL_INOUT(PathShift) s, RL_IN(PathSample) path) {
   while (s.asks != RL_SHIFT_DONE) {
     Hit hit = traceNoHit();

@@ -1,4 +1,4 @@
-// A path sample on its way to another pixel.
+// State of a path sample's shift to another pixel.
 #ifndef RL_PATH_SHIFT_H
 #define RL_PATH_SHIFT_H
 
@@ -11,11 +11,11 @@ RL_NAMESPACE_BEGIN
 
 // The ray that a shift asks for next.
 const uint RL_SHIFT_DONE = 0u;
-const uint RL_SHIFT_ASKS_X1 = 1u;       // the camera's, through the film sample
+const uint RL_SHIFT_ASKS_X1 = 1u;       // camera ray through the film sample
 const uint RL_SHIFT_ASKS_SEGMENT = 2u;  // from x1 to x2 or the light
 
 struct PathShift {
-  Shifted shifted;  // what the shift gives once it asks for nothing
+  Shifted shifted;  // result, once the shift asks for nothing
   Ray ray;
   uint asks;            // RL_SHIFT_*
   uint assumesVisible;  // 1: the segment is not traced

@@ -1,5 +1,5 @@
-// Cells of radiance as entries whose askers are points: where the rays of the last frame led to,
-// one of a group of pixels at most.
+// Radiance cells as entries of a cache. Askers (queries) are points: hits of the rays of the last
+// frame, at most one per group of pixels.
 #include "core/caches/entries/groups.glsl"
 #include "core/radiance/key.glsl"
 #include "core/caches/entries/victim.glsl"

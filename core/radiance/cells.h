@@ -11,17 +11,17 @@
 
 RL_NAMESPACE_BEGIN
 
-// The names are those that the passes of entries use (core/caches/entries).
+// Buffer names match those in the passes of core/caches/entries.
 struct RadianceCellBuffers {
   RadianceBuffers cells;
-  // RL_RADIANCE_POINT_QUADS of each group: where its ray of the last frame led to.
+  // Per group, RL_RADIANCE_POINT_QUADS: hit of the group's ray of the last frame.
   QuadRef points;
-  // RL_RADIANCE_KEPT_QUADS of each cell: a path that fed it, to be traced again.
+  // Per cell, RL_RADIANCE_KEPT_QUADS: a path that fed the cell, to be traced again.
   QuadRef kept;
-  UintRef seen;     // of cells: frame + 1 in which a point last belonged to it
-  UintRef claims;   // of cells: greatest ticket of those who want the place
-  UintRef feeders;  // of cells: RL_ENTRY_FEEDERS tickets of groups; 0: none
-  UintRef entries;  // of groups: as a pixel's
+  UintRef seen;     // per cell: frame + 1 in which a point last belonged to the cell
+  UintRef claims;   // per cell: greatest ticket (priority) that claims the hash slot
+  UintRef feeders;  // per cell: RL_ENTRY_FEEDERS tickets of groups; 0: none
+  UintRef entries;  // per group: its cell, RL_INVALID, or RL_GRID_CLAIM with the claimed hash slot
 };
 
 struct RadianceCellParams {
@@ -31,7 +31,7 @@ struct RadianceCellParams {
   uint validateEvery;  // one of so many cells has its path traced again in a frame
 };
 
-// A path from a point on: all light that leaves the point but what it emits.
+// State of a path from a point on: gathers all light that leaves the point, without its emission.
 struct RadianceTrace {
   LightSum sum;
   vec3 posW;
@@ -41,15 +41,15 @@ struct RadianceTrace {
   uint hasPoint;
 };
 
-// Position and normal (packNormal); what left it over its reflectance, and posError, negative where
-// there is no point.
+// Layout of a point: position and normal (packNormal); light that left the point over its
+// reflectance, and posError, negative if there is no point.
 const uint RL_RADIANCE_POINT_QUADS = 2u;
-// The ray as in RadianceBuffers::rays, with the frame in its last word; what the path found over
-// the reflectance, and the group.
+// Layout of a kept path: the ray as in RadianceBuffers::rays, with the frame in its last word; the
+// light that the path found over the reflectance, and the group.
 const uint RL_RADIANCE_KEPT_QUADS = 3u;
-// Frames within which a cell was seen whose path is traced again.
+// A cell's path is traced again if the cell was seen within this many frames.
 const uint RL_RADIANCE_RECENT = 64u;
-// Largest difference of two results of one path over their sum.
+// Largest difference of two results of one path over their sum at which they count as equal.
 const float RL_RADIANCE_SAME = 1.0e-3f;
 
 RL_NAMESPACE_END

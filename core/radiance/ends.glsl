@@ -1,11 +1,12 @@
-// Where paths end in cells. A path ends at the first vertex beyond x1 that lies on a rough surface,
-// where its spread is no less than the cell's side, and that belongs to a cell which has light
-// enough. Biased: the cell has one radiance for all its points and, times their reflectance, for
-// all directions. The includer has gBuffers.cells and gParams.cells, and includes
+// Ends paths in radiance cells. A path ends at the first vertex beyond x1 that lies on a rough
+// surface, where its spread is at least the cell's side (times `footprint`), and whose cell has
+// enough samples. Biased: a cell has one radiance for all its points and, times their reflectance,
+// for all directions. The includer has gBuffers.cells and gParams.cells, and includes
 // core/caches/entries/groups.glsl.
 #include "core/radiance/key.glsl"
 
-// What a pixel's path knows at its start. Groups take turns (core/caches/entries/groups.glsl).
+// Initial state of a pixel's path. Pixels of a group take turns to ask for a ray
+// (core/caches/entries/groups.glsl).
 RL_FN RadianceEnd radianceBegin(uint slot) {
   RadianceEnd end;
   end.spread = 0.0f;
@@ -18,13 +19,14 @@ RL_FN RadianceEnd radianceBegin(uint slot) {
   return end;
 }
 
-// At a vertex: true where the path ends there, and the radiance that the cell sends back along it.
+// Returns whether the path ends at this vertex; `radiance` is what the cell sends back along the
+// path.
 RL_FN bool radianceEnds(RL_INOUT(RadianceEnd) end, RL_IN(Walk) walk, RL_IN(Surface) s,
                         RL_OUT(vec3) radiance) {
   radiance = vec3(0.0f, 0.0f, 0.0f);
   if (walk.bounces == 0u) return false;
-  // The square root of the area that one sample of the density stands for (Mueller et al. 2021,
-  // "Real-time Neural Radiance Caching", section 3.4), added up over the path.
+  // Add up over the path the square root of the area that one sample of the density stands for
+  // (Mueller et al. 2021, "Real-time Neural Radiance Caching", section 3.4).
   if (walk.pdfBsdf > 0.0f) {
     float cosine = abs(dot(s.nGeoW, walk.ray.dir));
     end.spread += distance(walk.ray.origin, s.posW) / sqrt(max(walk.pdfBsdf * cosine, 1.0e-12f));

@@ -1,4 +1,4 @@
-// A pass over groups: whose light goes into which cell.
+// Pass over groups: selects which groups' light goes into which cell.
 #include "core/radiance/cell.glsl"
 
 RL_FN void kernelMain(RL_IN(uvec2) row) {

@@ -1,6 +1,6 @@
-// A pass over cells: the light of those who feed joins the mean. In the order of the feeders' lots,
-// which is the same whoever came first. After its turn to be validated a cell keeps the brightest
-// of their paths: one that found no light would notice no change.
+// Pass over cells: adds the light of the feeders to the mean, in the order of their lots, which
+// does not depend on execution order. In the frame of its validation a cell keeps the brightest of
+// the feeders' paths: a path that found no light would notice no change.
 #include "core/caches/entries/groups.glsl"
 #include "core/radiance/turn.glsl"
 

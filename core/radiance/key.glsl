@@ -1,4 +1,4 @@
-// Where the cell of a point lies, and whether the point belongs to it.
+// Hash key of a point's cell, and whether the point belongs to the cell.
 #include "core/caches/entries/grid.glsl"
 
 RL_FN float radianceSide(RL_IN(RadianceParams) cells, RL_IN(vec3) posW) {
@@ -9,8 +9,8 @@ RL_FN uvec2 radianceKey(RL_IN(RadianceParams) cells, RL_IN(vec3) posW, RL_IN(vec
   return gridKey(posW, gridLevel(cells.cellPixels * gridPixel(posW)), gridOctant(nGeoW));
 }
 
-// The place of a cell is a quarter of its side over the point that began it. Who belongs to the
-// cell sees that place: so none reaches through a wall, however thin.
+// Viewpoint of a cell: a quarter of its side over the point that began it. Points belong to the
+// cell only if they see the viewpoint, so no cell reaches through a wall, however thin.
 RL_FN vec3 radiancePlace(RL_IN(RadianceParams) cells, RL_IN(vec3) posW, RL_IN(vec3) nGeoW) {
   return posW + nGeoW * (0.25f * radianceSide(cells, posW));
 }
@@ -19,7 +19,7 @@ RL_FN bool radianceFaces(RL_IN(uvec4) place, RL_IN(vec3) nGeoW) {
   return dot(unpackNormal(place.w), nGeoW) >= RL_RADIANCE_MIN_DOT;
 }
 
-// A ray from a point of a surface to the place, and what came through.
+// Traces a ray from a surface point to the cell's viewpoint; returns whether the way is free.
 RL_FN bool radianceSees(RL_IN(uvec4) place, RL_IN(vec3) posW, RL_IN(vec3) nGeoW, float posError) {
   vec3 to = recordVec3(place);
   Ray ray;

@@ -1,15 +1,15 @@
-// A path from where a ray leads to, to its end: it ends in no cell, as one that did would miss what
-// its cell misses. The same ray, group and frame give the same path.
+// Traces a path from the hit of a ray to its end. The path ends in no cell, because it would miss
+// the light that the cell misses. The same ray, group and frame give the same path.
 #define RL_WALK_STATE RadianceTrace
 
 RL_FN uint walkArrives(RL_INOUT(RadianceTrace) state, RL_IN(Walk) walk, RL_INOUT(Surface) s) {
   if (state.hasPoint != 0u) return 1u;
   if (!bsdfIsReusable(s.bsdf, gParams.cells.minAlpha)) return RL_WALK_ENDS;
-  // Of a colour that a surface does not reflect, it tells nothing.
+  // A surface that does not reflect a colour says nothing about light of that colour.
   vec3 reflectance = bsdfReflectance(s.bsdf);
   if (!(min(reflectance.x, min(reflectance.y, reflectance.z)) > 0.0f)) return RL_WALK_ENDS;
   state.hasPoint = 1u;
-  state.sum.radiance = vec3(0.0f, 0.0f, 0.0f);  // what the point emits is not asked of cells
+  state.sum.radiance = vec3(0.0f, 0.0f, 0.0f);  // cells do not hold the point's emission
   state.posW = s.posW;
   state.nGeoW = s.nGeoW;
   state.posError = s.posError;
@@ -40,7 +40,7 @@ RL_FN RadianceTrace radiancePathFrom(RL_IN(uvec4) from, RL_IN(uvec4) to, uint gr
   return state;
 }
 
-// What cells hold: the light that left the point over its reflectance.
+// Value stored in cells: the light that left the point over its reflectance.
 RL_FN vec3 radianceOfPath(RL_IN(RadianceTrace) state) {
   return vec3(rlSafeDivide(state.sum.radiance.x, state.reflectance.x),
               rlSafeDivide(state.sum.radiance.y, state.reflectance.y),

@@ -1,4 +1,4 @@
-// Cells of radiance: what integrators read and write of them (core/radiance/README.md).
+// Radiance cells: buffers and parameters that integrators use (core/radiance/README.md).
 #ifndef RL_RADIANCE_H
 #define RL_RADIANCE_H
 
@@ -11,34 +11,34 @@
 RL_NAMESPACE_BEGIN
 
 struct RadianceBuffers {
-  UintRef keys;    // of cells: core/caches/entries/grid.glsl
-  QuadRef places;  // of cells: a point over the surface that began it, and its normal (packNormal)
-  QuadRef light;   // of cells: mean of radiance over reflectance, and of how many samples
-  QuadRef rays;    // RL_RADIANCE_RAY_QUADS of each group: what integrators ask to be traced
+  UintRef keys;    // per cell: core/caches/entries/grid.glsl
+  QuadRef places;  // per cell: viewpoint over the point that began it; normal there (packNormal)
+  QuadRef light;   // per cell: mean of radiance over reflectance, and its number of samples
+  QuadRef rays;    // per group, RL_RADIANCE_RAY_QUADS: ray that an integrator asks for
 };
 
 // In the kernels' gParams.cells.
 struct RadianceParams {
-  uint count;  // of cells; 0: paths do not end in any
+  uint count;  // number of cells; 0: paths do not end in cells
   GridParams grid;
-  uint every;        // one of so many pixels side by side asks for a ray
+  uint every;        // one of so many adjacent pixels asks for a ray
   float cellPixels;  // side of a cell, in pixels where it is seen
-  float footprint;   // of a path, in sides of a cell, from which on it may end
+  float footprint;   // spread of a path, in sides of a cell, from which on it may end
   float minAlpha;    // GGX alpha below which a surface has no cells
   float leastCount;  // samples of a cell before a path may end there
 };
 
-// Of a path under way.
+// State of a path that may end in a cell.
 struct RadianceEnd {
-  float spread;  // metres: how far apart the points lie that it could as well have led to
-  uint group;    // that may ask for a ray; RL_INVALID: none, or it has asked
+  float spread;  // metres: width of the area that the path could equally have led to
+  uint group;    // group whose ray the path may ask for; RL_INVALID: none, or already asked
 };
 
-// A ray of a group is its origin and direction: in the fourth words the number of scattering events
-// before it, 0 where there is no ray, and nothing.
+// Layout of a ray: origin and direction. Fourth words: the number of scattering events before the
+// ray (0: no ray), and unused.
 const uint RL_RADIANCE_RAY_QUADS = 2u;
 
-// Least cosine between normals, of a point and the cell that it belongs to.
+// Least cosine between the normals of a point and of the cell that the point belongs to.
 const float RL_RADIANCE_MIN_DOT = 0.9f;
 
 RL_NAMESPACE_END

@@ -9,15 +9,14 @@
 
 namespace restlab {
 
-// The part that keeps the cells: there where the parameter `secondary` is "cache". Its passes run
-// before the integrator's.
+// Part that keeps the cells; enabled if the parameter `secondary` is "cache". The passes run before
+// the integrator's.
 const PartInfo& radiancePartInfo();
-// Do paths end in cells, with these resolved parameters?
+// Returns whether paths end in cells, with these resolved parameters.
 bool endsPaths(const ParameterMap& parameters);
-// The buffers that an integrator whose paths end in cells has among its optional inputs, in the
-// order of rl::RadianceBuffers.
+// Optional inputs of an integrator whose paths end in cells, in the order of rl::RadianceBuffers.
 std::vector<std::string> radianceInputs();
-// For such an integrator. All zero where its paths do not end in cells.
+// Packs RadianceParams for an integrator. All zero if its paths do not end in cells.
 rl::RadianceParams packRadiance(const ParameterMap& parameters);
 
 }  // namespace restlab

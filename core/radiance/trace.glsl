@@ -1,5 +1,5 @@
-// A pass over groups: traces the ray that a pixel asked for in the last frame, and a path from
-// where it leads to.
+// Pass over groups: traces the ray that a pixel asked for in the last frame, and a path from its
+// hit.
 #include "core/radiance/path_from.glsl"
 
 RL_FN void kernelMain(RL_IN(uvec2) row) {

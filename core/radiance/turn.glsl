@@ -1,4 +1,4 @@
-// One of each group of gParams.validateEvery cells is looked at in a frame, all of them in turn.
+// Validation schedule: each frame checks one of each group of gParams.validateEvery cells, in turn.
 RL_FN uint radianceDue(uint group) {
   uint every = gParams.validateEvery;
   return group * every + (rngHash(group) % every + gFrame.frame % every) % every;

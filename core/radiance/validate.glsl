@@ -1,7 +1,7 @@
-// A pass over groups of cells: does the path that the cell whose turn it is keeps still find what
-// it found? The same random numbers lead it along the same way, so what differs is the light of the
-// scene, not noise. A cell whose light is another begins anew (counted). Reservoirs are validated
-// so by Ouyang et al. 2021.
+// Pass over groups of cells: traces again the kept path of the cell whose turn it is, and compares
+// the light. The random numbers are the same, so a difference is a change of the scene's light, not
+// noise. A cell whose light changed is reset (counted). Ouyang et al. 2021 validate reservoirs in
+// this way.
 #include "core/radiance/path_from.glsl"
 #include "core/radiance/turn.glsl"
 
@@ -17,11 +17,11 @@ RL_FN void kernelMain(RL_IN(uvec2) row) {
   uvec4 found = RL_PAST_QUAD(gBuffers.kept, at + 2u);
   vec3 before = recordVec3(found);
   vec3 now = radianceOfPath(radiancePathFrom(from, to, found.w, to.w));
-  // Rounding may differ from that of the pass that traced it first.
+  // Rounding may differ from that of the pass that traced the path first.
   float tolerance = RL_RADIANCE_SAME * (rlMax3(before) + rlMax3(now));
   if (!rlIsFinite3(now) || distance(before, now) <= tolerance) return;
   RL_HEALTH(RL_HEALTH_LIGHT_CHANGED);
-  // With nothing: the kept path was chosen for its light, and no mean may begin with it.
+  // Reset to nothing: the kept path was chosen for its light, so the mean must not begin with it.
   RL_WRITE_QUAD(gBuffers.cells.light, cell, uvec4(0u, 0u, 0u, 0u));
   RL_WRITE_QUAD(gBuffers.kept, at + 2u, recordQuad(now, found.w));
 }

@@ -1,4 +1,4 @@
-// With how much confidence donors enter a merge, and how the estimates that they carry scale.
+// Confidence with which donors enter a merge, and the scale of the estimates that donors carry.
 // Nothing here may depend on samples.
 
 // A donor's confidence after the cap, counted when the cap acts.
@@ -8,17 +8,17 @@ RL_FN real reuseCapped(real confidence, real cap) {
   return capped;
 }
 
-// The share of its confidence with which a donor over space enters the merge of a pixel whose
-// history holds `age` frames of this view. A history averages a pixel's own noise down, but not the
-// difference of two pixels at a donor's one sample: of a frame's variance that is `noise`, and a
-// donor's estimate, at best as good as the pixel's own, is worth 1 / (1 + noise (age - 1)) of it.
-// Any share that does not depend on the samples is unbiased.
+// Share of its confidence with which a spatial donor enters the merge of a pixel whose history
+// holds `age` frames of this view. A history averages a pixel's own noise down, but not the
+// difference of two pixels at a donor's one sample. That difference is the part `noise` of a
+// frame's variance, and a donor's estimate, at best as good as the pixel's own, is worth
+// 1 / (1 + noise (age - 1)) of it. Any share that does not depend on the samples is unbiased.
 RL_FN real reuseDonorShare(real age, real noise) {
   return real(1.0f) / (real(1.0f) + noise * (age - real(1.0f)));
 }
 
-// Expected integrand of `to` over that of `from`: of the carried estimates, which scale with the
-// surface. At most `bound` per channel.
+// Scale of carried estimates, which scale with the surface: expected integrand of `to` over that of
+// `from`. At most `bound` per channel.
 RL_FN real3 reuseReflectanceRatio(RL_IN(real3) from, RL_IN(real3) to, real bound) {
   real3 ratio = real3(misDivide(to.x, from.x), misDivide(to.y, from.y), misDivide(to.z, from.z));
   return min(ratio, real3(bound));

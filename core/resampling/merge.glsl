@@ -1,16 +1,17 @@
 // The reuse algebra: merges donors' reservoirs into the canonical one by generalised RIS with shift
-// maps and pairwise MIS (Lin et al. 2022). It knows no BSDF, no payload, no pixel and no
-// backend; the same lines serve every method and cache, time and space.
+// maps and pairwise MIS (Lin et al. 2022). Independent of BSDF, payload, pixel and backend: the
+// same lines serve every method and cache, time and space.
 //
-// A merge is: mergeBegin(), for every donor mergeWeighCanonical() with the canonical sample as the
-// donor sees it, mergeCanonical(), for every donor mergeDonor() with the donor's sample as it is
-// seen here, mergeEnd() (core/resampling/reuse.glsl).
+// Order of calls: mergeBegin(), for every donor mergeWeighCanonical() with the canonical sample
+// shifted to the donor, mergeCanonical(), for every donor mergeDonor() with the donor's sample
+// shifted here, mergeEnd() (core/resampling/reuse.glsl).
 //
 // Per-channel estimates: the selected sample carries one colour, which a scalar target cannot see.
 // Each reservoir therefore also carries an estimate E of the whole integral per channel, E = F W +
 // residual with E[residual] = 0 given the anchors. A donor's residual, weighted by its share of the
-// confidence and by the expected ratio of reflectances, is a control variate: it depends on no
-// sample, so its expectation stays zero, and it cancels the colour noise of the donor's selection.
+// confidence and by the expected ratio of reflectances, is a control variate: the weight depends on
+// no sample, so the expectation stays zero, and the residual cancels the colour noise of the
+// donor's selection.
 
 // canonical: this anchor's own reservoir; cDonors: the donors' confidences after the cap, summed.
 RL_FN MergeState mergeBegin(RL_IN(ReservoirState) canonical, real cDonors, uint flags) {
@@ -26,8 +27,7 @@ RL_FN MergeState mergeBegin(RL_IN(ReservoirState) canonical, real cDonors, uint 
   return merge;
 }
 
-// A sample as an anchor at the same point sees it: nothing to evaluate, no ray, it keeps its
-// integrand.
+// Identity shift, to an anchor at the same point: no evaluation, no ray, the integrand stays.
 RL_FN Shifted mergeUnshifted(RL_IN(ReservoirState) r) {
   Shifted s;
   s.F = r.F;
@@ -35,7 +35,8 @@ RL_FN Shifted mergeUnshifted(RL_IN(ReservoirState) r) {
   return s;
 }
 
-// there: the canonical sample as a donor of confidence cDonor sees it.
+// Adds a donor's term to the canonical MIS weight. there: the canonical sample shifted to the
+// donor, cDonor: the donor's confidence.
 RL_FN void mergeWeighCanonical(RL_INOUT(MergeState) merge, RL_IN(ReservoirState) canonical,
                                real cDonor, RL_IN(Shifted) there, uint flags) {
   if ((flags & RL_REUSE_PAIRWISE) == 0u) return;
@@ -55,9 +56,9 @@ RL_FN void mergeCanonical(RL_INOUT(MergeState) merge, RL_IN(ReservoirState) cano
   merge.wSum = risCleanWeight(reuseTarget(canonical.F) * contribution);
 }
 
-// A donor's sample, seen here, against what is selected so far. True when it wins: the caller then
-// takes the donor's payload; the state of `selected` is already that of the donor's sample.
-// reflectanceRatio: expected integrand here over that at the donor, from the anchors alone.
+// Adds a donor's sample, shifted here, as a candidate. Returns true if it is selected: the caller
+// then takes the donor's payload; `selected.F` is already set. reflectanceRatio: expected integrand
+// here over that at the donor, from the anchors alone.
 RL_FN bool mergeDonor(RL_INOUT(MergeState) merge, RL_INOUT(ReservoirState) selected,
                       RL_IN(ReservoirState) donor, RL_IN(Shifted) here,
                       RL_IN(real3) reflectanceRatio, uint flags, real u) {
@@ -86,7 +87,7 @@ RL_FN void mergeEnd(RL_INOUT(MergeState) merge, RL_INOUT(ReservoirState) selecte
     selected.W = real(0.0f);
     selected.F = real3(real(0.0f));
   }
-  // All inputs that passed the test of the anchors count, empty ones too: c must not depend on
+  // Count all inputs that passed the test of the anchors, empty ones too: c must not depend on
   // samples.
   selected.confidence = merge.cTotal;
   real3 shaded = selected.F * selected.W;

@@ -1,9 +1,9 @@
-// A pass of new views: which pixels show the outline of a surface, as far as the centres of the
-// four pixels beside them tell. Two pixels there may differ in every sample. The integrator adds it
-// as a kernel of its own; it has gBuffers.outlines beside what partners take.
+// Pass of new views: marks pixels that show the outline of a surface, judged by the centres of the
+// four pixels beside them. Two pixels at an outline may differ in every sample. The integrator adds
+// this file as a kernel of its own, with gBuffers.outlines beside the buffers of partners.glsl.
 #include "core/resampling/partners.glsl"
 
-// Left of column 0 and above row 0 the number wraps to the largest there is, which is outside, too.
+// Left of column 0 and above row 0 the index wraps to a large number, which is outside, too.
 RL_FN bool differsFrom(RL_IN(VisibleSurface) here, uint x, uint y) {
   if (x >= gFrame.width || y >= gFrame.height) return false;
   return !visibleAlike(here, partnerSurface(slotOfPixel(uvec2(x, y))), gParams.partners.alike);

@@ -1,5 +1,5 @@
-// Host side of partners: parameters of an integrator whose pixels exchange samples. Its caches use
-// the two thresholds, too: what is alike over space is alike over time.
+// Host side of partners (spatial neighbours): parameters of an integrator whose pixels exchange
+// samples. Caches use the same two thresholds: similarity over space is similarity over time.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@
 
 namespace restlab {
 
-// spatial_radius, normal_threshold, plane_threshold.
+// Parameters spatial_radius, normal_threshold and plane_threshold.
 std::vector<ParameterInfo> partnerParameters();
-// Of a method whose integrator has them.
+// Pack the parameters of partnerParameters().
 rl::SurfaceTest packSurfaceTest(const ParameterMap& parameters);
 rl::PartnerParams packPartners(const ParameterMap& parameters);
 

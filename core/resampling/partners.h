@@ -1,4 +1,4 @@
-// Which pixels serve each other as donors over space.
+// Parameters of partners: pixels that serve each other as spatial donors.
 #ifndef RL_PARTNERS_H
 #define RL_PARTNERS_H
 

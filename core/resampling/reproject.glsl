@@ -1,7 +1,8 @@
-// Donors over time: the pixel of the last frame that showed a surface. The includer has
+// Temporal donors: the pixel of the last frame that showed a surface. The includer has
 // gBuffers.visible, gBuffers.visibleBefore and gParams.partners.
 
-// Its slot; RL_INVALID where the last frame did not show it, or something else there.
+// Returns the last frame's slot that shows the surface of a pixel; RL_INVALID if the surface was
+// out of view or another one is there.
 RL_FN uint reprojectedSlot(uint slot) {
   if (gFrame.frame == 0u) return RL_INVALID;
   VisibleSurface here = visibleRead(gBuffers.visible, gFrame.camera, slot);

@@ -1,5 +1,5 @@
-// To and from buffers: what every reservoir has. F is off by at most 6.1e-5 of itself per channel,
-// the residual by 1.2e-4. Two words of the last quad are the payload's.
+// Layout of reservoir states in buffers. Relative error per channel: F at most 6.1e-5, the residual
+// 1.2e-4. Two words of the last quad are free for the payload.
 
 RL_FN void reservoirStateWrite(RL_IN(QuadRef) quads, uint at, RL_IN(ReservoirState) r,
                                RL_IN(uvec2) rest) {
@@ -21,7 +21,7 @@ RL_FN ReservoirState reservoirStateRead(RL_IN(QuadRef) quads, uint at, RL_OUT(uv
   return r;
 }
 
-// Of this frame, with nothing in it.
+// Returns an empty reservoir of one frame (confidence 1).
 RL_FN ReservoirState reservoirEmpty() {
   ReservoirState state;
   state.F = vec3(0.0f, 0.0f, 0.0f);
@@ -31,15 +31,14 @@ RL_FN ReservoirState reservoirEmpty() {
   return state;
 }
 
-// Numbers that are none would spread to every pixel that is merged with it: it starts again from
-// nothing. Counted.
+// Resets and counts a reservoir with a NaN or Inf, which would spread by reuse.
 RL_FN void reservoirGuard(RL_INOUT(ReservoirState) r) {
   if (rlIsFinite3(r.F * r.W + r.residual)) return;
   RL_HEALTH(RL_HEALTH_NONFINITE);
   r = reservoirEmpty();
 }
 
-// What a shift gave, with a word of whoever asked for it: one quad.
+// Stores the result of a shift and a word of the caller's in one quad.
 RL_FN void shiftedWrite(RL_IN(QuadRef) quads, uint at, RL_IN(Shifted) s, uint other) {
   uvec2 f = packPositive3(s.F);
   RL_WRITE_QUAD(quads, at, uvec4(f.x, f.y, floatBitsToUint(s.jacobian), other));

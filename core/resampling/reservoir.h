@@ -1,4 +1,4 @@
-// What every reservoir has beside its payload.
+// State of every reservoir, without its payload.
 #ifndef RL_RESERVOIR_H
 #define RL_RESERVOIR_H
 
@@ -11,31 +11,31 @@ RL_NAMESPACE_BEGIN
 struct ReservoirState {
   real3 F;  // integrand of the selected sample at its owner, visibility included; pHat = luminance
   real W;   // unbiased contribution weight: E[F W] is the integral. 0: empty
-  real3 residual;  // estimate - F W: what the per-channel estimate knows beyond the selected sample
+  real3 residual;  // estimate - F W: part of the per-channel estimate beyond the selected sample
   real confidence;
 };
 
-const uint RL_STATE_QUADS = 2u;  // of one in a buffer (core/resampling/reservoir.glsl)
+const uint RL_STATE_QUADS = 2u;  // per state in a buffer (core/resampling/reservoir.glsl)
 
-// A sample as another anchor sees it.
+// Result of a shift to another anchor.
 struct Shifted {
   real3 F;        // integrand there, visibility included; zero where the shift is undefined
   real jacobian;  // |dT/dx| of the shift; 1 where it is undefined
 };
 
-// What a merge has gathered so far.
+// State of a merge under way.
 struct MergeState {
   real cCanonical;
-  real cDonors;     // of all donors
-  real cTotal;      // confidence of all inputs that passed the test of the anchors, empty ones too
+  real cDonors;     // sum over all donors
+  real cTotal;      // sum over all inputs that passed the test of the anchors, empty ones too
   real mCanonical;  // MIS weight of the canonical sample
   real wSum;
-  real3 estimate;  // of the integral per channel
+  real3 estimate;  // per-channel estimate of the integral
 };
 
-const uint RL_MAX_DONORS = 4u;  // of one merge
+const uint RL_MAX_DONORS = 4u;  // per merge
 
-// How a merge is done; declared by the integrator's mode.
+// Flags of a merge, declared by the integrator's mode.
 const uint RL_REUSE_PAIRWISE = 1u;  // pairwise MIS; otherwise weights by confidence only
 // Biased: shifted samples are taken as visible in the MIS weights.
 const uint RL_REUSE_ASSUME_VISIBLE = 2u;

@@ -1,19 +1,19 @@
-// The reuse loop: merges a slot's reservoir with those of its donors, over time or over space, of
+// The reuse loop: merges a slot's reservoir with those of its donors, over time or over space, for
 // any payload and cache (core/resampling/merge.glsl has the algebra).
 //
-// The includer defines RL_REUSE_STATE, a struct, and before the #include these functions, which get
-// it. They give the same answer whenever they are asked:
+// The includer defines RL_REUSE_STATE, a struct, and before the #include the functions below, which
+// get it. Each must return the same result on every call:
 //   bool reuseDonor(state, k, out ReservoirState)  the k-th donor, with the confidence that it
 //       enters with; false: there is none
-//   Shifted reuseOurs(state, k)    the slot's sample as that donor sees it
-//   Shifted reuseTheirs(state, k)  that donor's sample as the slot sees it
+//   Shifted reuseOurs(state, k)    the slot's sample shifted to that donor
+//   Shifted reuseTheirs(state, k)  that donor's sample shifted to the slot
 //   real3 reuseRatio(state, k)     expected integrand here over that at the donor, known without
-//       samples: it scales the estimates that donors carry
+//       samples: scales the estimates that donors carry
 //   real reuseUniform(state, k)    a number in [0, 1)
 
-// Merges `count` donors. `r` becomes the state of what is selected; `winner` is the donor that it
-// came from, RL_INVALID where the slot keeps its own, and `jacobian` that of its shift. Returns the
-// estimate of the integral, per channel.
+// Merges `count` donors. `r` becomes the state of the selected sample. `winner` is the donor that
+// the sample came from, RL_INVALID if the slot keeps its own; `jacobian` is that of the winner's
+// shift. Returns the per-channel estimate of the integral.
 RL_FN real3 reuseMerge(RL_IN(RL_REUSE_STATE) state, uint count, uint flags,
                        RL_INOUT(ReservoirState) r, RL_OUT(uint) winner, RL_OUT(real) jacobian) {
   winner = RL_INVALID;

@@ -1,8 +1,9 @@
 // Resampled importance sampling, streaming (Talbot 2005; Bitterli et al. 2020; Lin et al. 2022,
 // GRIS). Written with `real`, so that the exact tests run these very lines in double precision.
 
-// A resampling weight fit to be added: negative, non-finite and subnormal ones count as zero, all
-// but the last counted. (A sum of weights below 2^-125 cannot be divided by without overflow.)
+// Sanitises a resampling weight: negative, non-finite and subnormal ones become zero, and all but
+// the subnormal ones are counted. (A sum of weights below 2^-125 cannot be divided by without
+// overflow.)
 RL_FN real risCleanWeight(real w) {
   if (!(w >= real(0.0f) && w <= real(3.0e38f))) RL_HEALTH(RL_HEALTH_DROPPED_WEIGHTS);
   return w >= real(2.350988701644575e-38f) && w <= real(3.0e38f) ? w : real(0.0f);

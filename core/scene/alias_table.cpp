@@ -9,13 +9,14 @@ namespace {
 
 constexpr double kDraws = 4294967296.0;  // 2^32
 
-// The share of 32-bit values that rlMulHigh(bits, n) maps to i.
+// Fraction of the 32-bit values that rlMulHigh(bits, n) maps to i.
 double shareOfCell(uint64_t i, uint64_t n) {
   const auto first = [n](uint64_t cell) { return ((cell << 32u) + n - 1u) / n; };
   return double(first(i + 1u) - first(i)) / kDraws;
 }
 
-// A probability as a threshold for 32 bits. What can be drawn stays so.
+// Converts a probability to a 32-bit threshold. The result is never 0 or 1: both outcomes stay
+// possible.
 uint32_t threshold(double probability) {
   return static_cast<uint32_t>(std::clamp(std::round(probability * kDraws), 1.0, kDraws - 1.0));
 }
@@ -43,8 +44,8 @@ std::vector<rl::AliasEntry> buildAliasTable(const std::vector<double>& weights, 
       small.push_back(l);
     }
   }
-  // The remaining entries have probability 1 up to rounding - except one of weight 0, which must
-  // never be kept.
+  // Remaining entries have probability 1 up to rounding, except an entry of weight 0: never keep
+  // that one.
   const auto heaviest =
       static_cast<uint32_t>(std::max_element(weights.begin(), weights.end()) - weights.begin());
   for (const std::vector<uint32_t>& rest : {small, large}) {

@@ -20,7 +20,8 @@ glm::dvec3 toWorld(const MeshInstance& instance, const glm::vec3& p) {
   return glm::dvec3(instance.objectToWorld * glm::dvec4(glm::dvec3(p), 1.0));
 }
 
-// Wider by what float32 may move a corner: bodies that touch exactly do so after rounding too.
+// Computes the world box of an instance, widened by the float32 rounding of a corner: bodies that
+// touch exactly must also touch after rounding.
 BodyBox boxOf(const MeshGeometry& mesh, const MeshInstance& instance) {
   BodyBox box{glm::dvec3(std::numeric_limits<double>::infinity()),
               glm::dvec3(-std::numeric_limits<double>::infinity())};
@@ -47,13 +48,14 @@ bool anyMeet(std::vector<BodyBox> boxes) {
   return false;
 }
 
-// Surfaces that a ray leaves by less those that it enters by; above 0 inside.
+// Counts the surfaces where the ray leaves the mesh minus those where it enters; above 0 if `posW`
+// is inside.
 int leavesOf(const MeshGeometry& mesh, const MeshInstance& instance, const glm::dvec3& posW,
              const glm::dvec3& dirW) {
   const bool isMirrored = glm::determinant(glm::dmat3(instance.objectToWorld)) < 0.0;
   int leaves = 0;
   for (const glm::uvec3& t : mesh.triangles) {
-    // Signs of volumes decide: an edge that two triangles share has one value for both.
+    // Decide by signs of volumes: an edge shared by two triangles has one value for both.
     const glm::dvec3 a = toWorld(instance, mesh.positions[t.x]) - posW,
                      b = toWorld(instance, mesh.positions[t.y]) - posW,
                      c = toWorld(instance, mesh.positions[t.z]) - posW;
@@ -68,9 +70,9 @@ int leavesOf(const MeshGeometry& mesh, const MeshInstance& instance, const glm::
   return leaves;
 }
 
-// How many shells of the mesh hold the point: bodies of one mesh may overlap.
+// Counts the shells of the mesh around the point: bodies of one mesh may overlap.
 int shellsAround(const MeshGeometry& mesh, const MeshInstance& instance, const glm::dvec3& posW) {
-  // Directions that no modeller aligns anything with; the middle one of three answers counts.
+  // Directions along which no modeller aligns edges; the median of the three answers counts.
   constexpr std::array<glm::dvec3, 3> kDirs{glm::dvec3{0.5773, 0.2113, 0.7887},
                                             glm::dvec3{-0.3141, 0.8347, -0.4523},
                                             glm::dvec3{0.1193, -0.6871, 0.7167}};

@@ -1,4 +1,4 @@
-// Bodies that light travels through, and which of them fills a place that several claim.
+// Bodies that light travels through, and which of them fills a place where several overlap.
 #pragma once
 
 #include <array>
@@ -20,30 +20,30 @@ struct BodyBox {
 };
 
 struct Bodies {
-  // Rank of each instance; 0: no body. Else 1 to the number of bodies, each once: where bodies
-  // overlap, the greatest rank fills the place. Sorted by SceneMaterial::priority, then by the size
-  // of the box, the smallest last, so that a body inside another one wins.
+  // Rank of each instance: 0 for no body, else a unique number from 1 to the number of bodies.
+  // Where bodies overlap, the greatest rank fills the place. Sorted by SceneMaterial::priority,
+  // then by the size of the box, the smallest last, so that a body inside another one wins.
   std::vector<uint32_t> rank;
-  // Absorption (m^-1) and index of refraction by rank; [0] is air. Empty where there is no body.
+  // Absorption (m^-1) and index of refraction by rank; [0] is air. Empty if there is no body.
   std::vector<glm::vec4> media;
-  // Boxes by instance, of bodies alone.
+  // Boxes by instance; valid for bodies only.
   std::vector<BodyBox> boxes;
-  // Two of them touch or overlap, as far as their boxes tell.
+  // True if the boxes of two bodies touch or overlap.
   bool meet = false;
 };
 
-// Does light enter what the material bounds? Not behind a thin sheet, nor through metal.
+// Returns whether light enters the volume behind the surface: false for thin sheets and metal.
 bool isBody(const rl::Material& material);
 
 Bodies findBodies(const Scene& scene);
 
-// May the body of that instance touch or overlap another one, as far as boxes tell?
+// Returns whether the body of the instance may touch or overlap another one, judged by boxes.
 bool bodyMeetsAnother(const Bodies& bodies, size_t instance);
 
-// Ranks of the bodies that hold a point (world, metres), the greatest first; 0: no more. At most
-// four; a rank stands there once for each shell of its mesh around the point. By the surfaces along
-// three rays, of which the middle answer counts; takes time by the triangles of all bodies whose
-// box holds the point.
+// Returns the ranks of the bodies that contain a point (world, metres), greatest first; 0 ends the
+// list. At most four; a rank appears once for each shell of its mesh around the point. Traces three
+// rays and takes the median answer; time grows with the triangles of all bodies whose box contains
+// the point.
 glm::uvec4 bodiesAt(const Scene& scene, const Bodies& bodies, const glm::dvec3& posW);
 
 }  // namespace restlab

@@ -8,10 +8,10 @@
 namespace restlab {
 namespace {
 
-constexpr size_t kListed = 4;  // bodies that a list of media holds (core/dialect/media.glsl)
+constexpr size_t kListed = 4;  // capacity of a list of media (core/dialect/media.glsl)
 
-// Is the mesh closed, and do its faces point inwards? The areas of a closed mesh cancel, and its
-// signed volume is that of what its faces enclose.
+// Returns whether the mesh is closed and its faces point inwards. The area vectors of a closed mesh
+// sum to 0, and its signed volume is negative if faces point inwards.
 bool facesInwards(const MeshGeometry& mesh) {
   glm::dvec3 sum(0.0);
   double area = 0.0, volume = 0.0;
@@ -28,7 +28,7 @@ bool facesInwards(const MeshGeometry& mesh) {
   return volume < 0.0 && glm::length(sum) < 1e-4 * area;
 }
 
-// The most boxes that hold the centre of one of them.
+// Returns the largest number of boxes that contain the centre of one of them.
 size_t deepest(const std::vector<BodyBox>& boxes) {
   size_t most = 0;
   for (const BodyBox& inner : boxes) {
@@ -53,7 +53,8 @@ bool filmLiesInOneMedium(const Scene& scene, const Bodies& bodies, const SceneCa
   return true;
 }
 
-// Shadow rays end at what transmits, and no path meets a lamp without an area.
+// Returns a warning if the scene has punctual lights and a transmitting surface: shadow rays end at
+// surfaces that transmit, and no path hits a light without area.
 std::optional<std::string> unreachedLight(const Scene& scene) {
   const auto lamp =
       std::find_if(scene.lights.begin(), scene.lights.end(),

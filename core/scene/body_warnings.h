@@ -1,4 +1,4 @@
-// Warnings about bodies that a path cannot follow as their author meant.
+// Warnings about bodies that a path cannot follow as the author meant.
 #pragma once
 
 #include <string>
@@ -9,9 +9,9 @@
 
 namespace restlab {
 
-// Lines about: closed bodies whose faces point inwards; more bodies inside each other than a list
-// of media holds; orthographic cameras whose film lies in several media; lamps without an area,
-// whose light does not reach what lies behind a surface that transmits.
+// Returns warnings about: closed bodies whose faces point inwards; more nested bodies than a list
+// of media holds; orthographic cameras whose film lies in several media; lights without area that
+// do not reach what lies behind a transmitting surface.
 std::vector<std::string> bodyWarnings(const Scene& scene, const Bodies& bodies);
 
 }  // namespace restlab

@@ -1,4 +1,4 @@
-// The registry of the built-in scenes: one line a scene.
+// The registry of the built-in scenes, one line per scene.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,7 +19,7 @@ struct Entry {
   const char* summary;
 };
 
-// A scene without parameters of its own.
+// Adapts a scene without parameters of its own.
 template <Scene (*make)()>
 Scene fixed(const BuiltinName&) {
   return make();
@@ -123,7 +123,7 @@ const std::vector<OwnParameter>& ownParameters() {
   return all;
 }
 
-// What every scene has.
+// Parameters that every scene has.
 const std::vector<SceneParameter>& relations() {
   static const std::vector<SceneParameter> all = {
       {kScaleParameter, 1.0, 1e-9, 1e9, "factor on all lengths, lights with them: the same image"},
@@ -134,7 +134,7 @@ const std::vector<SceneParameter>& relations() {
   return all;
 }
 
-// Of a name with parameters: the scene's own.
+// Finds a scene by its name; parameters behind '?' are ignored.
 const Entry* find(const std::string& name) {
   for (const Entry& entry : kScenes) {
     if (name.substr(0, name.find('?')) == entry.name) return &entry;
@@ -161,7 +161,7 @@ Scene makeBuiltinScene(const std::string& name) {
   builtin::multiplyRadiance(scene, parsed.value(kRadianceParameter).value());
   builtin::moveScene(scene, parsed.value(kMoveParameter).value());
   if (const auto degrees = parsed.value("fov")) builtin::setFieldOfView(scene, *degrees);
-  scene.contentHash = builtin::hashOf(scene);  // under the base's name: of the contents alone
+  scene.contentHash = builtin::hashOf(scene);  // hash under the base name: contents only
   scene.name = name;
   return scene;
 }

@@ -11,7 +11,7 @@
 namespace restlab::builtin {
 namespace {
 
-// Fed field by field: structures with padding or pointers are never hashed as bytes.
+// Hashes field by field: structures with padding or pointers are never hashed as bytes.
 class Hasher {
  public:
   Hasher() : state_(XXH3_createState(), XXH3_freeState) {

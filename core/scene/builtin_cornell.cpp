@@ -1,10 +1,10 @@
 // The Cornell box from its published measurements (Cornell Program of Computer Graphics:
-// millimetres, x to the left, z into the box). They are divided by 100, which makes a room of 5.5 m
-// out of the box of 55 cm, and turned half about y, (x, y, z) -> (-x, y, -z) / 100, so windings are
-// kept.
+// millimetres, x to the left, z into the box). Coordinates are divided by 100, which makes a room
+// of 5.5 m out of the box of 55 cm, and turned by half a turn about y, (x, y, z) -> (-x, y, -z) /
+// 100, which keeps the windings.
 //
 // The light is black and fills a hole in the ceiling: one- and two-sided emitters then agree. The
-// left wall is not planar, so everything is flat: each triangle has its own normal.
+// left wall is not planar, so everything is flat-shaded: each triangle has its own normal.
 // Mean radiance of 512x512 pixels at 8 scattering events: 0.19590, 0.12730, 0.03641.
 #include "core/scene/builtin_builder.h"
 #include "core/scene/builtin_mesh.h"
@@ -13,7 +13,7 @@
 namespace restlab::builtin {
 namespace {
 
-// Quads with corners in the published frame.
+// Makes quads from corners in the published frame.
 MeshGeometry measured(const std::string& name, std::vector<glm::dvec3> corners) {
   for (glm::dvec3& p : corners) p = glm::dvec3(-p.x, p.y, -p.z) / 100.0;
   return quads(name, corners);

@@ -1,5 +1,5 @@
 // A square court within an arcade, under a clear sky: sun (a directional light) and sky (an
-// environment map). The camera stands in the corridor, where all light but a few sunlit patches
+// environment map). The camera stands in the corridor, where all light except a few sunlit patches
 // comes by way of the court. The bays are instances of one arch and one column.
 #include <cmath>
 #include <glm/gtc/constants.hpp>
@@ -16,8 +16,8 @@ namespace {
 constexpr int kBays = 6;
 constexpr double kBay = 2.4;                     // metres between columns
 constexpr double kHalf = 0.5 * kBays * kBay;     // half side of the court
-constexpr double kDepth = 2.8;                   // of the corridor
-constexpr double kSpring = 2.4, kRadius = 0.98;  // where arches start; their radius
+constexpr double kDepth = 2.8;                   // depth of the corridor
+constexpr double kSpring = 2.4, kRadius = 0.98;  // height where the arches start; their radius
 constexpr double kTop = 4.2, kRoof = 4.6, kThick = 0.36;
 
 // One bay of the arcade wall above the columns: x in -kBay/2..kBay/2, z in -kThick/2..kThick/2,
@@ -31,7 +31,7 @@ MeshGeometry archBay() {
     const double angle = glm::pi<double>() * (1.0 - double(i) / segments);
     return glm::dvec3(kRadius * std::cos(angle), kSpring + kRadius * std::sin(angle), z);
   };
-  // The point of the top edge that belongs to point i of the arc.
+  // Returns the point of the top edge that belongs to point i of the arc.
   const auto rim = [&](int i, double z) {
     return glm::dvec3(-side + 2.0 * side * double(i) / segments, kTop, z);
   };

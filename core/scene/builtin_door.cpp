@@ -1,7 +1,7 @@
 // Two rooms and a door ajar. A ceiling panel lights the far room; the near one, where the camera
-// stands, gets what passes the gap of 30 cm between the door's edge and its jamb. No pixel sees the
-// panel: a narrow splash on wall and floor is lit directly, all else by two or more scattering
-// events.
+// stands, gets the light that passes the gap of 30 cm between the door's edge and its jamb. No
+// pixel sees the panel: only a narrow strip of wall and floor is lit directly, everything else by
+// two or more scattering events.
 //
 // Near room 5.0 x 2.7 x 5.0 m (x -2.5..2.5, z 0..5), wall of 15 cm with the doorway, far room 5.0 x
 // 2.7 x 3.5 m. Everything is Lambert. The shell of both rooms and doorway is one closed surface.
@@ -57,10 +57,11 @@ void addShell(SceneBuilder& scene) {
   }
 }
 
-// Hinged on the left, opening into the near room until its free edge stands kGap from the jamb's.
+// Adds the door: hinged on the left, opening into the near room until its free edge is kGap from
+// the jamb.
 void addDoor(SceneBuilder& scene) {
   const glm::dvec3 hinge(kDoorLeft - 0.001, 0.0, kWallNear);  // no slit on this side
-  // The law of cosines in the triangle of hinge, free edge and jamb.
+  // Law of cosines in the triangle of hinge, free edge and jamb.
   const double jamb = kDoorRight - hinge.x;
   const double cosine =
       (kDoorWidth * kDoorWidth + jamb * jamb - kGap * kGap) / (2.0 * kDoorWidth * jamb);

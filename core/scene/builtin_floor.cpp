@@ -1,7 +1,7 @@
-// A white Lambert floor under a sky of radiance 1. Nothing stands on it, so what it scatters left
-// the sky one event before: its radiance is 1 from any angle, however it is cut into triangles, and
-// the horizon is invisible. Its parameters make it hard to render; experiments/truths/floor.cpp has
-// the radiance where they change it.
+// A white Lambert floor under a sky of radiance 1, with nothing on the floor. All light that the
+// floor scatters comes straight from the sky: its radiance is 1 from any angle and for any
+// triangulation, and the horizon is invisible. The parameters make the floor hard to render;
+// experiments/truths/floor.cpp has the radiance for those that change it.
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
@@ -17,14 +17,15 @@ namespace {
 
 constexpr double kEdge = 16.0;
 constexpr uint32_t kSkyWidth = 1024, kSkyHeight = 512;
-// The row of the sun, 40 degrees off the zenith, and its column, to the left of the first camera.
+// Row of the sun in the map, 40 degrees off the zenith, and its column, to the left of the first
+// camera.
 constexpr uint32_t kSunRow = 114, kSunColumn = 200;
 
 MeshGeometry cutFloor(const std::string& name, const FloorShape& shape) {
   const glm::dvec3 corner(-0.5 * kEdge, 0.0, 0.5 * kEdge), u(kEdge, 0.0, 0.0), v(0.0, 0.0, -kEdge);
   if (shape.needle > 1.0) return grid(name, corner, u, v, 1, uint32_t(std::lround(shape.needle)));
   if (shape.triangles == 1) {
-    MeshGeometry one;  // around the square
+    MeshGeometry one;  // contains the square
     one.name = name;
     one.positions = {glm::vec3(corner - u), glm::vec3(corner + 2.0 * u),
                      glm::vec3(corner + 0.5 * u + 2.0 * v)};
@@ -35,7 +36,7 @@ MeshGeometry cutFloor(const std::string& name, const FloorShape& shape) {
   return grid(name, corner, u, v, side, side);
 }
 
-// The same plane, in other triangles.
+// Returns the same plane in other triangles.
 MeshGeometry turnedFloor(const std::string& name, const FloorShape& shape) {
   return transformed(cutFloor(name, shape), turnAbout({0.0, 0.0, 0.0}, 90.0));
 }
@@ -52,7 +53,7 @@ EnvironmentMap skyWithSun(double sun) {
   return sky;
 }
 
-// A normal map of one texel, which leans to the side by `slope` degrees.
+// Adds a normal map of one texel that tilts the normal sideways by `slope` degrees.
 void lean(Scene& scene, double slope) {
   scene.images.push_back({"lean", 1, 1, {0xffff80ffu}});  // x 1, y 0.004, z 1
   TextureUse use;
@@ -66,8 +67,8 @@ void lean(Scene& scene, double slope) {
   }
 }
 
-// Spots that shine down from a disc, as evenly spread as the seeds of a sunflower. Together they
-// have a power that does not depend on their number.
+// Adds spots that shine down from a disc, spread as evenly as the seeds of a sunflower. Their total
+// power does not depend on their number.
 void addSpots(SceneBuilder& scene, uint32_t count) {
   constexpr double kHeight = 2.0, kRadius = 4.0, kIntensity = 24.0;
   const double goldenAngle = glm::pi<double>() * (3.0 - std::sqrt(5.0));
@@ -85,9 +86,9 @@ void addSpots(SceneBuilder& scene, uint32_t count) {
   }
 }
 
-// What goes into a slab through one of its faces leaves it through that one or the opposite one:
-// no light is caught, as it is in a polyhedron. With 3 a sphere of 5120 faces still holds 0.3 % of
-// an image's light after 64 events.
+// Adds a slab of glass. Light that enters through one face leaves through the same or the opposite
+// face, so no light is trapped as in a polyhedron: at an index of refraction of 3, a sphere of 5120
+// faces still holds 0.3 % of an image's light after 64 events.
 void addSlab(SceneBuilder& scene, double ior) {
   rl::Material material = glass(0.0f, glm::vec3(0.0f));
   material.ior = float(ior);
@@ -128,7 +129,7 @@ Scene makeFloor(const FloorShape& shape) {
   }
   const double angle = glm::radians(shape.viewDegrees);
   const glm::dvec3 eye = 3.0 * glm::dvec3(0.0, std::cos(angle), std::sin(angle));
-  // Straight down there is no upright camera; a little aside shows the same.
+  // An upright camera cannot look straight down: aim slightly beside the centre instead.
   builder.addCamera("eye", eye, {0.0, 0.0, shape.viewDegrees < 1.0 ? -0.05 : 0.0}, 36.0);
   Scene scene = builder.finish();
   if (shape.slopeDegrees > 0.0) lean(scene, shape.slopeDegrees);

@@ -12,7 +12,8 @@ namespace {
 
 constexpr glm::dvec3 kRoomLow(-2.0, 0.0, -3.0), kRoomHigh(2.0, 3.0, 2.0);
 
-// A room around the first one, `wall` away from it, whose light must not come through.
+// Adds a room around the first one, `wall` away from it. No light of the outer room may come
+// through.
 void addRoomBeyond(SceneBuilder& scene, rl::Material glowing, double wall) {
   glowing.emission *= 1e6f;
   const uint32_t bright = scene.addMaterial("glowing, beyond", glowing);
@@ -34,7 +35,7 @@ Scene makeFurnace(const FurnaceShape& shape) {
   SceneBuilder scene("furnace");
   rl::Material glowing = lambert(glm::vec3(static_cast<float>(shape.albedo)));
   glowing.emission = glm::vec3(0.5f);
-  glowing.flags = 0u;  // one side is enough: the walls look inwards, the block outwards
+  glowing.flags = 0u;  // one side suffices: the walls look inwards, the block outwards
   const uint32_t wall = scene.addMaterial("glowing", glowing);
   const glm::dmat4 flat = glm::scale(glm::dmat4(1.0), {1.0, shape.height, 1.0});
   scene.add(transformed(insideOut(box("room", kRoomLow, kRoomHigh)), flat), wall);
@@ -45,11 +46,11 @@ Scene makeFurnace(const FurnaceShape& shape) {
   return scene.finish();
 }
 
-// A convex solid of albedo 1 in an environment of radiance 1. Whatever it scatters left the
-// environment one event before: radiance is 1 at every pixel from one scattering event on, and the
-// solid is invisible. Flat faces: an interpolated normal would lose light below the face's horizon.
-// Metal that reflects everything is as white, where the light that meets several of its microfacets
-// is kept (--multiscatter).
+// A convex solid of albedo 1 in an environment of radiance 1. All light that the solid scatters
+// comes straight from the environment: radiance is 1 at every pixel from one scattering event on,
+// and the solid is invisible. Flat faces: an interpolated normal would lose light below the face's
+// horizon. Metal of reflectance 1 is as white if multiple scattering between microfacets is kept
+// (--multiscatter).
 Scene makeSphereFurnace(std::optional<double> roughness) {
   SceneBuilder scene("sphere-furnace");
   const rl::Material material =

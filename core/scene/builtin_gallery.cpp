@@ -37,7 +37,7 @@ void addRoom(SceneBuilder& scene) {
     scene.add(shell[i], scene.addMaterial(shell[i].name, materials[i]));
 }
 
-// Pairs of spheres of one roughness, metal in front and plastic behind, on pedestals.
+// Adds pairs of spheres of one roughness on pedestals, metal in front and plastic behind.
 void addSpheres(SceneBuilder& scene) {
   const std::array<glm::vec3, 3> metals{
       {{1.00f, 0.77f, 0.34f}, {0.95f, 0.64f, 0.54f}, {0.91f, 0.92f, 0.92f}}};
@@ -60,7 +60,7 @@ void addSpheres(SceneBuilder& scene) {
   scene.add(pedestals, scene.addMaterial("pedestal", lambert({0.6f, 0.6f, 0.6f})));
 }
 
-// Five steel plates leaning back by the same angle, smooth on the left, rough on the right.
+// Adds five steel plates leaning back by the same angle, smooth on the left, rough on the right.
 void addPlates(SceneBuilder& scene) {
   for (int i = 0; i < 5; ++i) {
     const float roughness = kRoughness[size_t(i)];

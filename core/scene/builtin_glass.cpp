@@ -1,5 +1,5 @@
 // Glass in a small lit room: clear, frosted and tinted spheres and slabs, a plain mirror on the
-// back wall. Solids hang a millimetre clear of what carries them, so that no two faces coincide.
+// back wall. Solids hang a millimetre above their supports, so that no two faces coincide.
 #include <algorithm>
 #include <cmath>
 

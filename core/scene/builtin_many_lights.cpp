@@ -14,9 +14,9 @@ namespace restlab::builtin {
 namespace {
 
 constexpr int kGarlands = 100, kLampsPerGarland = 50;
-// A lamp of rank t in [0, 1) has side 0.025 x 10^(0.85 t) metres and radiance 2 x 10^(1.4 t)
-// W sr^-1 m^-2: its power spans 3.1 decades, half of them by size, so that the lamps in view do not
-// drown the picture. Radiance comes in steps, one material each.
+// A lamp of rank t in [0, 1) has side 0.025 x 10^(0.85 t) metres and radiance 2 x 10^(1.4 t) W
+// sr^-1 m^-2: its power spans 3.1 decades, half of them by size, so that the visible lamps do not
+// dominate the image. Radiance comes in steps, one material each.
 constexpr int kRadianceSteps = 16;
 constexpr double kSmallestSide = 0.025, kSideDecades = 0.85;
 constexpr double kDimmestRadiance = 2.0, kRadianceDecades = 1.4;
@@ -24,7 +24,7 @@ constexpr std::array<glm::vec3, 4> kTints{
     {{1.0f, 0.72f, 0.42f}, {1.0f, 0.92f, 0.80f}, {0.72f, 0.85f, 1.0f}, {1.0f, 0.45f, 0.35f}}};
 constexpr double kHalfWidth = 12.0, kHeight = 9.0, kLength = 36.0;
 
-// A square facing down, tilted up to 40 degrees in a random direction.
+// Makes a square that faces down, tilted by up to 40 degrees in a random direction.
 MeshGeometry lampSquare(SceneRandom& random, const glm::dvec3& center, double side) {
   const double azimuth = random.uniform(0.0, 2.0 * glm::pi<double>());
   const double tilt = random.uniform(0.0, glm::radians(40.0));
@@ -42,7 +42,7 @@ void addLamps(SceneBuilder& scene) {
   std::array<MeshGeometry, size_t(kRadianceSteps) * kTints.size()> byMaterial;
   SceneRandom random(2024);
   for (int g = 0; g < kGarlands; ++g) {
-    // One draw a statement: the order in which arguments are evaluated is the compiler's choice.
+    // One draw per statement: C++ leaves the evaluation order of arguments to the compiler.
     const double heightLeft = random.uniform(5.0, 8.6);
     const double heightRight = random.uniform(5.0, 8.6);
     const double z = -random.uniform(0.5, kLength - 0.5);

@@ -1,6 +1,6 @@
-// A camera in a body that absorbs, before two more bodies in it that overlap, under a white sky.
-// Every index of refraction is 1 and the view is parallel: a path goes straight, and each pixel is
-// a product of Beer and Lambert's (experiments/truths/media.cpp).
+// A camera inside an absorbing body, in front of two more bodies in that body that overlap, under a
+// white sky. Every index of refraction is 1 and the camera is orthographic: paths go straight, and
+// each pixel is a product of Beer-Lambert transmittances (experiments/truths/media.cpp).
 #include "core/scene/builtin_builder.h"
 #include "core/scene/builtin_mesh.h"
 #include "core/scene/builtin_scenes.h"

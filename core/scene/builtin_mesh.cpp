@@ -12,7 +12,7 @@
 namespace restlab::builtin {
 namespace {
 
-// The unit vectors and faces of an icosahedron, from the three golden rectangles.
+// Returns unit vectors and faces of an icosahedron, from the three golden rectangles.
 void icosahedron(std::vector<glm::dvec3>& directions, std::vector<glm::uvec3>& faces) {
   const double g = glm::golden_ratio<double>();
   directions = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
@@ -23,7 +23,7 @@ void icosahedron(std::vector<glm::dvec3>& directions, std::vector<glm::uvec3>& f
            {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
 }
 
-// Splits every face in four; the two faces of an edge share the new vertex, so no crack opens.
+// Splits every face into four; the two faces of an edge share the new vertex, so no crack opens.
 void subdivide(std::vector<glm::dvec3>& directions, std::vector<glm::uvec3>& faces) {
   std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles;
   const auto middle = [&](uint32_t a, uint32_t b) {

@@ -18,7 +18,8 @@ MeshGeometry quads(const std::string& name, const std::vector<glm::dvec3>& corne
 MeshGeometry quad(const std::string& name, const glm::dvec3& corner, const glm::dvec3& u,
                   const glm::dvec3& v);
 
-// The same in columns x rows cells along u and v, two triangles each, which share their vertices.
+// The parallelogram of quad() as columns x rows cells along u and v, two triangles each, with
+// shared vertices.
 MeshGeometry grid(const std::string& name, const glm::dvec3& corner, const glm::dvec3& u,
                   const glm::dvec3& v, uint32_t columns, uint32_t rows);
 
@@ -26,7 +27,7 @@ MeshGeometry grid(const std::string& name, const glm::dvec3& corner, const glm::
 MeshGeometry box(const std::string& name, const glm::dvec3& low, const glm::dvec3& high);
 
 // Icosahedron subdivided `level` times (20 x 4^level triangles), vertices on the sphere. With
-// `smooth` it carries the sphere's normals; without, it is a convex polyhedron.
+// `smooth` the mesh carries the sphere's normals; without, the mesh is a convex polyhedron.
 MeshGeometry sphere(const std::string& name, const glm::dvec3& center, double radius, int level,
                     bool smooth = true);
 
@@ -40,7 +41,7 @@ void append(MeshGeometry& mesh, const MeshGeometry& part);
 // The mesh under a rigid or scaling transform; a mirroring one reverses the winding.
 MeshGeometry transformed(MeshGeometry mesh, const glm::dmat4& transform);
 
-// Seen from the other side: winding and normals reversed.
+// Turns the mesh inside out: winding and normals reversed.
 MeshGeometry insideOut(MeshGeometry mesh);
 
 // Rotation by `degrees` about the vertical through `pivot`, counter-clockwise seen from above.

@@ -20,7 +20,7 @@ std::optional<double> plainNumber(std::string_view text) {
   return value;
 }
 
-// "0.5", "1e-3", or a power "2^-13", which no decimal fraction says exactly in few digits.
+// Parses "0.5", "1e-3", or a power "2^-13": a decimal fraction would need many digits for that.
 std::optional<double> numberOf(std::string_view text) {
   const size_t caret = text.find('^');
   if (caret == std::string_view::npos) return plainNumber(text);

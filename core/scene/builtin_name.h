@@ -17,22 +17,23 @@ struct BuiltinName {
   std::string base;          // "furnace"
   std::vector<Given> given;  // in the order of the name
 
-  // A parameter's value; nothing where it is not given and has no default.
+  // Value of a parameter, given or by default; nullopt if neither.
   std::optional<double> value(const std::string& parameter) const;
-  // As it is written; "" where it is not.
+  // Text of a parameter as given; "" if not given.
   std::string text(const std::string& parameter) const;
 };
 
-// Throws Error (badInput) with one line: no such scene, unknown or repeated parameters, values that
-// are no number (as 0.5, 1e-3 or 2^-13) or out of range.
+// Throws Error (badInput) with one line for: an unknown scene; unknown or repeated parameters;
+// values that are not a number (such as 0.5, 1e-3 or 2^-13) or out of range.
 BuiltinName parseBuiltinName(const std::string& name);
 
-// Parameters that change the image of any scene by a known relation, and not its contents.
+// Parameters of every scene that change its image by a known relation.
 constexpr const char* kScaleParameter = "scale";
 constexpr const char* kRadianceParameter = "radiance";
 constexpr const char* kMoveParameter = "move";
 
-// The name without these three: "furnace?albedo=0.99". `name` is a built-in's.
+// Removes kScaleParameter, kRadianceParameter and kMoveParameter from the name of a built-in scene:
+// "furnace?albedo=0.99".
 std::string withoutRelations(const std::string& name);
 
 }  // namespace restlab

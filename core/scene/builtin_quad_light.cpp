@@ -1,10 +1,10 @@
-// A Lambert floor under one rectangle, tilted and turned. The rectangle is black and nothing else
-// stands there, so the floor's radiance is albedo / pi times Lambert's polygon formula, exactly,
-// from one scattering event on. The camera sees floor only, all of it in front of the rectangle's
-// plane. A rectangle that grows would come between the floor and the first camera; the second one,
-// "low", is in front of its plane and sees the floor below any rectangle. A ground and a stray
-// triangle are black and light nothing: they are there for who weighs lights or coordinates by the
-// size of the scene.
+// A Lambert floor under one rectangle, tilted and turned. The rectangle is black and the only other
+// object, so the floor's radiance is albedo / pi times Lambert's polygon formula, exactly, from one
+// scattering event on. The camera sees only floor, all of it in front of the rectangle's plane. A
+// larger rectangle would stand between the floor and the first camera; the second camera, "low", is
+// in front of its plane and sees the floor below any rectangle. A ground and a stray triangle are
+// black and light nothing: they test methods that scale lights or coordinates by the size of the
+// scene.
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
@@ -17,7 +17,7 @@ namespace restlab::builtin {
 
 namespace {
 
-// Takes the triangle in the middle out of the mesh, as one of its own.
+// Removes the middle triangle from the mesh and returns it as a mesh of its own.
 MeshGeometry takeOne(MeshGeometry& mesh, const std::string& name) {
   const size_t middle = mesh.triangles.size() / 2;
   MeshGeometry one;
@@ -43,7 +43,7 @@ Scene makeQuadLight(const QuadLightShape& shape) {
   glm::dmat4 pose = glm::translate(glm::dmat4(1.0), glm::dvec3(0.3, 2.0, -0.2));
   pose = glm::rotate(pose, glm::radians(25.0), glm::dvec3(0.0, 1.0, 0.0));
   pose = glm::rotate(pose, glm::radians(12.0), glm::dvec3(1.0, 0.0, 0.0));
-  // Its normal is -y before the tilt.
+  // u x v, the normal before the tilt, is -y.
   const glm::dvec3 u(1.5 * shape.edge, 0.0, 0.0), v(0.0, 0.0, shape.edge);
   MeshGeometry lamps = side == 1 ? quad("light", -0.5 * (u + v), u, v)
                                  : grid("light", -0.5 * (u + v), u, v, side, side);

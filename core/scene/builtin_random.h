@@ -1,5 +1,5 @@
-// Repeatable pseudo-random numbers for scenes: the same on every compiler and library, which the
-// distributions of <random> are not.
+// Repeatable pseudo-random numbers for scenes: identical on every compiler and library, unlike the
+// distributions of <random>.
 #pragma once
 
 #include <cstdint>

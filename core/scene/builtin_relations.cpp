@@ -27,7 +27,7 @@ void scaleScene(Scene& scene, double factor) {
   }
   for (PunctualLight& light : scene.lights) {
     light.posW *= factor;
-    // W/sr over a distance squared; a directional light's W/m^2 have no distance.
+    // W/sr scales with the square of lengths; W/m^2 of a directional light does not scale.
     if (light.kind != rl::RL_LIGHT_DIRECTIONAL)
       light.intensity = times(light.intensity, factor * factor);
   }

@@ -1,23 +1,23 @@
-// What can be done to any scene so that its image changes by a known relation.
+// Changes to a scene whose effect on the image is known exactly.
 #pragma once
 
 #include "core/scene/scene.h"
 
 namespace restlab::builtin {
 
-// Everything larger by `factor`: geometry, cameras, lights with it, absorption per metre. The image
-// stays the same; with a power of two to the last bit.
+// Scales everything by `factor`: geometry, cameras, lights accordingly, absorption per metre. The
+// image stays the same, bit for bit if `factor` is a power of two.
 void scaleScene(Scene& scene, double factor);
 
-// All light times `factor`: so is the image.
+// Multiplies all light, and so the image, by `factor`.
 void multiplyRadiance(Scene& scene, double factor);
 
-// Everything elsewhere, along every axis by `sizes` times the longest side of the bounds. Vertices
-// of meshes that stand in world space are moved themselves, as by a program that writes a far place
-// into its vertices: they are rounded to float there, and that is the only difference.
+// Moves everything along every axis by `sizes` times the longest side of the bounds. Vertices of
+// meshes that stand in world space are moved themselves, as a program does that writes far
+// coordinates into its vertices: the rounding of these to float is the only difference.
 void moveScene(Scene& scene, double sizes);
 
-// The vertical field of view of every camera.
+// Sets the vertical field of view of every camera.
 void setFieldOfView(Scene& scene, double degrees);
 
 }  // namespace restlab::builtin

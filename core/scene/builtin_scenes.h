@@ -1,4 +1,4 @@
-// The makers of the built-in scenes, one file each; builtin.cpp names them.
+// The makers of the built-in scenes, one file each; builtin.cpp registers them.
 #pragma once
 
 #include <optional>
@@ -16,36 +16,36 @@ Scene makeCourtyard();
 struct FurnaceShape {
   double albedo = 0.5;
   double height = 1.0;         // factor on all heights
-  double gap = 0.8;            // between the block and the floor, m (before that factor)
+  double gap = 0.8;            // between the block and the floor, m (before `height`)
   std::optional<double> wall;  // thickness of the wall to a room 10^6 times as bright, m
 };
 Scene makeFurnace(const FurnaceShape& shape);
-// Lambert without a roughness, else metal that reflects everything.
+// Lambert if `roughness` is not given, else metal of reflectance 1.
 Scene makeSphereFurnace(std::optional<double> roughness);
 struct FloorShape {
   double viewDegrees = 45.0;  // between the view and the floor's normal
-  double slopeDegrees = 0.0;  // of its normal map
-  double triangles = 2.0;     // about so many; 0: no floor
+  double slopeDegrees = 0.0;  // slope of its normal map
+  double triangles = 2.0;     // approximate number; 0: no floor
   double needle = 1.0;        // length of a triangle over its width
-  uint32_t copies = 1;        // of the floor, in one plane
+  uint32_t copies = 1;        // number of floors in one plane
   double sun = 1.0;           // radiance of one pixel of the sky
-  uint32_t spots = 0;         // instead of the sky
-  std::optional<double> ior;  // of a slab of smooth glass, in the floor's place
+  uint32_t spots = 0;         // number of spots, which replace the sky
+  std::optional<double> ior;  // index of a slab of smooth glass in place of the floor
 };
 Scene makeFloor(const FloorShape& shape);
 struct QuadLightShape {
   double edge = 1.0;       // factor on the light's edges, at constant power
-  double triangles = 2.0;  // of the light, about so many
-  double ratio = 1.0;      // radiance of one of them over that of the others, at constant power
-  // Half the side of a black ground under the floor, which a sun below it lights, m.
+  double triangles = 2.0;  // approximate number of the light's triangles
+  double ratio = 1.0;      // radiance of one triangle over the others', at constant power
+  // Half side of a black ground under the floor, lit by a sun from below, m.
   std::optional<double> ground = std::nullopt;
   std::optional<double> stray = std::nullopt;  // distance of a small black triangle, m
 };
 Scene makeQuadLight(const QuadLightShape& shape);
 
 struct MediaShape {
-  double overlap = 0.001;  // of two bodies, m
-  int priority = 0;        // of the farther one; the nearer has 0, and is the smaller one
+  double overlap = 0.001;  // overlap of the two bodies, m
+  int priority = 0;        // priority of the farther body; the nearer, smaller one has 0
 };
 Scene makeMedia(const MediaShape& shape);
 

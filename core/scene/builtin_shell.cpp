@@ -53,7 +53,7 @@ class Shell {
     }
   }
 
-  // The face on the low (0) or high (1) side along `axis`, looking back into the cell.
+  // Adds the face on the low (0) or high (1) side along `axis`, looking back into the cell.
   void addFace(const Cell& cell, int axis, int side) {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
     glm::dvec3 center = centerOf(cell), normal(0.0);
@@ -68,7 +68,7 @@ class Shell {
       grid[size_t(v)] += (i >= 2) ? 1 : 0;
       corners[size_t(i)] = vertex(group, grid);
     }
-    // (u, v, axis) is right-handed: this order looks along +axis.
+    // (u, v, axis) is right-handed: this order of corners faces +axis.
     if (side == 1) std::swap(corners[1], corners[3]);
     MeshGeometry& mesh = meshes_.at(group);
     mesh.triangles.push_back({corners[0], corners[1], corners[2]});

@@ -15,14 +15,15 @@ namespace restlab::builtin {
 
 struct ShellGrid {
   std::array<std::vector<double>, 3> lines;  // ascending coordinates of the grid planes, metres
-  // Is the cell around this point air? Points outside the grid are solid.
+  // Returns whether the cell around this point is air. Points outside the grid are solid.
   std::function<bool(const glm::dvec3& center)> isAir;
-  // Group of the face at `center` whose unit normal points into the air; a group is one mesh.
+  // Returns the group of the face at `center` whose unit normal points into the air. Each group
+  // becomes one mesh.
   std::function<uint32_t(const glm::dvec3& center, const glm::dvec3& normal)> groupOf;
 };
 
-// One flat mesh a group, named NAME-GROUP; every face looks into the air. Groups without a face are
-// empty meshes. Vertices are shared inside a group.
+// Makes one flat mesh per group, named NAME-GROUP; every face looks into the air. Groups without a
+// face are empty meshes. Vertices are shared inside a group.
 std::vector<MeshGeometry> airShell(const std::string& name, const ShellGrid& grid,
                                    const std::vector<std::string>& groups);
 

@@ -1,4 +1,5 @@
-// An analytic clear sky: smooth, bright about the sun and at the horizon, deep blue across from it.
+// An analytic clear sky: smooth, bright around the sun and at the horizon, deep blue opposite the
+// sun.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -13,7 +14,7 @@ struct Sky {
   glm::vec3 ground{0.15f, 0.13f, 0.11f};               // radiance below the horizon
 };
 
-// Radiance towards which a ray of unit direction `dir` looks, before normalisation.
+// Radiance that a ray of unit direction `dir` sees, before normalisation.
 glm::dvec3 skyRadiance(const Sky& sky, const glm::dvec3& dir);
 
 // The sky as a map, scaled to a mean cosine-weighted luminance of 1 above a level plane (irradiance

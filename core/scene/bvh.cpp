@@ -19,9 +19,10 @@ namespace restlab {
 namespace {
 
 constexpr uint32_t kLeafSize = 4;
-constexpr uint32_t kWidth = 4;  // children of a node
-// Room of the builder for pieces of triangles, in triangles. It is dealt out to parts of the scene
-// by their size, not by their need: with little of it, parts with thin crossing triangles stay bad.
+constexpr uint32_t kWidth = 4;  // children per node
+// Memory for pieces of split triangles, as a multiple of the number of triangles. The builder deals
+// it out by the size of parts of the scene, not by need: too little leaves bad trees where thin
+// triangles cross.
 constexpr size_t kSplitRoom = 4;
 
 struct Box {
@@ -33,7 +34,7 @@ struct Box {
   }
 };
 
-// A node of the builder's tree, in its own memory.
+// Node of the builder's tree, in the builder's memory.
 struct BuildNode {
   bool isLeaf = false;
   BuildNode* children[kWidth] = {};
@@ -74,8 +75,9 @@ struct Child {
   Box box;
 };
 
-// The bounds of the children along one axis as bytes; false where the grid is too fine for them.
-// The sums are those of the kernel, in its precision: no rounding lets a child out of its bounds.
+// Quantises the bounds of the children along one axis to bytes; returns false if the grid is too
+// fine. Computes the sums as the kernel does, in its precision: rounding never moves a child out of
+// its bounds.
 bool quantise(const std::vector<Child>& children, int axis, float origin, uint32_t exponent,
               uint32_t& low, uint32_t& high) {
   const float cell = std::bit_cast<float>(exponent << 23);
@@ -108,7 +110,7 @@ BvhNode nodeOf(const std::vector<Child>& children) {
   node.origin = box.low;
   for (int axis = 0; axis < 3; ++axis) {
     const float cell = (box.high[axis] - box.low[axis]) / 255.0f;
-    // Beyond the largest exponent a box is as large as numbers are.
+    // Exponent 254 is the largest of a finite float: the box then takes the whole grid.
     uint32_t exponent = std::min(std::bit_cast<uint32_t>(cell) >> 23, 254u);
     while (
         !quantise(children, axis, node.origin[axis], exponent, node.low[axis], node.high[axis])) {
@@ -124,8 +126,8 @@ BvhNode nodeOf(const std::vector<Child>& children) {
   return node;
 }
 
-// The bounds of a triangle on either side of a plane, within what earlier splits have left of it.
-// A point where an edge meets the plane is moved out by its rounding error.
+// Computes the bounds of a triangle on either side of a plane, within the bounds left by earlier
+// splits. A point where an edge meets the plane is moved out by its rounding error.
 void splitTriangle(const RTCBuildPrimitive* primitive, unsigned int axis, float position,
                    RTCBounds* left, RTCBounds* right, void* user) {
   const BvhTriangle& triangle = static_cast<const BvhTriangle*>(user)[primitive->primID];
@@ -149,7 +151,7 @@ void splitTriangle(const RTCBuildPrimitive* primitive, unsigned int axis, float 
   for (int k = 0; k < 2; ++k) {
     glm::vec3 from = glm::max(sides[k].low, low), to = glm::min(sides[k].high, high);
     (k == 0 ? to : from)[dim] = position;
-    // Rounding may leave nothing of a sliver; a box with the wrong order would be none.
+    // Rounding may leave nothing of a sliver: avoid inverted bounds.
     to = glm::max(from, to);
     RTCBounds& bounds = k == 0 ? *left : *right;
     bounds.lower_x = from.x;
@@ -173,7 +175,7 @@ class Builder {
     bvh_.roots.assign(in_.geometries.size(), rl::RL_INVALID);
     newNode();
     std::vector<Triangle> world;
-    std::vector<uint32_t> placed;  // instances
+    std::vector<uint32_t> placed;  // indices of instances with a transform
     for (uint32_t i = 0; i < in_.instances.size(); ++i) {
       const rl::Instance& inst = in_.instances[i];
       if (in_.geometries[inst.geometry].triangleCount == 0) continue;
@@ -194,7 +196,7 @@ class Builder {
  private:
   using Triangle = BvhTriangle;
 
-  // The number of the next record; throws where `count` more of them have none.
+  // Returns the number of the next record; throws if `count` more do not fit.
   uint32_t nextRecord(uint32_t count) const {
     const size_t next = bvh_.records.size();
     if (next + count > rl::RL_BVH_LEAF_FIRST) {
@@ -237,7 +239,7 @@ class Builder {
     return box;
   }
 
-  // The corners of the mesh's box, transformed, and the rounding error of a ray's transform.
+  // Bounds the transformed corners of the mesh's box and the rounding error of a ray's transform.
   Box boxOf(const rl::Instance& inst) const {
     const Box mesh = geometryBoxes_.at(inst.geometry);
     Box box;
@@ -279,11 +281,11 @@ class Builder {
     bvh_.records[bvh_.roots[geometry]] = std::bit_cast<BvhRecord>(nodeOf(tree));
   }
 
-  // A tree as the one child of what stands above it; none where there is nothing.
+  // Returns the tree as a single child for the node above; empty if there are no triangles.
   std::vector<Child> treeOfTriangles(const std::vector<Triangle>& triangles) {
     std::vector<Box> boxes;
     for (const Triangle& t : triangles) boxes.push_back(boxOf(t));
-    // A triangle in two leaves would dim a shadow ray twice where it is transparent.
+    // A triangle in two leaves would dim a shadow ray twice if it is transparent.
     const bool mayRepeat =
         std::none_of(in_.instances.begin(), in_.instances.end(),
                      [](const rl::Instance& i) { return (i.flags & rl::RL_INSTANCE_ALPHA) != 0; });
@@ -305,8 +307,8 @@ class Builder {
     });
   }
 
-  // `number` gives the number of a leaf as a child. `splits`: the triangles of the boxes, where
-  // they may be split by planes (spatial splits, Stich et al. 2009); null: boxes stay whole.
+  // `number` returns the child number of a leaf. `splits`: the triangles of the boxes, if planes
+  // may split them (spatial splits, Stich et al. 2009); null: boxes stay whole.
   template <class Number>
   std::vector<Child> tree(const std::vector<Box>& boxes, uint32_t leafSize, const Triangle* splits,
                           const Number& number) {

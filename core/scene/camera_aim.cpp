@@ -1,5 +1,5 @@
-// pointLookedAt(): the scene's triangles one by one, in double precision. It is asked for once a
-// path, before anything is rendered, and so needs no hierarchy.
+// pointLookedAt(): tests the scene's triangles one by one, in double precision. No hierarchy is
+// needed: it runs once per path, before rendering.
 #include <algorithm>
 #include <limits>
 
@@ -10,7 +10,7 @@ namespace restlab {
 
 namespace {
 
-// Along the axis of the view, in metres; infinite where it meets nothing.
+// Distance along the view axis in metres; infinite if the axis meets no surface.
 double distanceToSurface(const Scene& scene, const glm::dvec3& originW, const glm::dvec3& dirW) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const MeshInstance& instance : scene.instances) {

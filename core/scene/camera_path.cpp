@@ -18,7 +18,7 @@ constexpr double kVertical = 1e-6;
 
 glm::dvec3 positionOf(const SceneCamera& camera) { return glm::dvec3(camera.cameraToWorld[3]); }
 
-// Right, up, back: orthonormal, as kernels take them from a matrix that may be scaled.
+// Right, up, back: orthonormal, derived as kernels do from a matrix that may be scaled.
 glm::dmat3 basisOf(const SceneCamera& camera) {
   const glm::dvec3 back = glm::normalize(glm::dvec3(camera.cameraToWorld[2]));
   const glm::dvec3 up =
@@ -32,7 +32,7 @@ glm::dmat4 matrixOf(const glm::dmat3& basis, const glm::dvec3& positionW) {
   return matrix;
 }
 
-// The camera turned about an axis through a point; the same bits where it comes round.
+// Turns the camera about an axis through a point. Multiples of 360 degrees return identical bits.
 SceneCamera turned(const SceneCamera& camera, const glm::dvec3& pointW, const glm::dvec3& axisW,
                    double degrees) {
   const double angle = std::fmod(degrees, 360.0);
@@ -53,7 +53,7 @@ SceneCamera walked(const SceneCamera& camera, double metres) {
   return result;
 }
 
-// An upright camera like `like`. `place` starts the error.
+// Makes an upright camera with the other properties of `like`. `place` starts the error text.
 SceneCamera lookingAt(const SceneCamera& like, const glm::dvec3& positionW,
                       const glm::dvec3& targetW, const glm::dvec3& upW, const std::string& place) {
   const glm::dvec3 view = positionW - targetW;
@@ -111,7 +111,7 @@ void resolveKeyframes(CameraMotion& motion, const Scene& scene) {
   }
 }
 
-// Between two keyframes, at `t` in (0, 1).
+// Interpolates between two keyframes, at `t` in (0, 1).
 SceneCamera between(const CameraMotion& motion, size_t first, double t, uint32_t frame) {
   const CameraKeyframe &keyA = motion.path.keyframes[first],
                        &keyB = motion.path.keyframes[first + 1];

@@ -1,5 +1,5 @@
-// cameraPathWarnings(): rays against the scene's triangles one by one, in double precision. They
-// are few, and asked for once a path.
+// cameraPathWarnings(): tests a few rays per path against the scene's triangles one by one, in
+// double precision.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,11 +15,11 @@ namespace restlab {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::infinity();
-// Frames that are looked at of a path; its ends are always among them. Of scenes with many
-// triangles fewer, so that there are at most so many tests of a triangle.
+// Limits on the frames of a path that are checked; both ends are always checked. Scenes with many
+// triangles get fewer frames, to stay within kMostTests ray-triangle tests.
 constexpr uint32_t kMostSteps = 16, kMostViews = 8;
 constexpr double kMostTests = 2e8;
-// Rays of a view on a side, for what fills it and for what is near.
+// Rays per side of a view, to find out what fills it and what is near.
 constexpr int kViewSide = 5;
 // Tolerance of a step, relative to coordinates and to the edges of a triangle.
 constexpr double kBeginSlack = 1e-12, kEdgeSlack = 1e-9;
@@ -27,10 +27,10 @@ constexpr double kBeginSlack = 1e-12, kEdgeSlack = 1e-9;
 struct Ray {
   glm::dvec3 originW, dirW;
   double length = kNone;  // in lengths of dirW
-  // Above 0 of a step: what rounding leaves open of its begin, in lengths of dirW. A face there
-  // counts where the step enters it from the front.
+  // Above 0 only for a step of the camera: rounding error of the step's start, in lengths of dirW.
+  // A face within it counts if the step enters the face from the front.
   double slack = 0.0;
-  // The first hit: where, of which instance, from behind, and the unit normal.
+  // First hit: distance, instance, whether from behind, and unit normal.
   double t = kNone;
   size_t instance = 0;
   bool isBehind = false;
@@ -47,7 +47,8 @@ void meet(const Triangle& triangle, size_t instance, bool isFlipped, Ray& ray) {
   if (determinant == 0.0) return;
   const glm::dvec3 offset = ray.originW - triangle.a;
   const double u = glm::dot(offset, across) / determinant;
-  // A step through the middle of a box meets the edge that two triangles share.
+  // Widen edges for steps: a step through the middle of a box meets the edge that two triangles
+  // share.
   const double edge = ray.slack > 0.0 ? kEdgeSlack : 0.0;
   if (!(u >= -edge && u <= 1.0 + edge)) return;
   const glm::dvec3 turned = glm::cross(offset, triangle.edge1);
@@ -89,7 +90,7 @@ size_t trianglesOf(const Scene& scene) {
 
 glm::dvec3 positionOf(const SceneCamera& camera) { return glm::dvec3(camera.cameraToWorld[3]); }
 
-// Rays of a view with dirW of length 1 along its axis, so that `t` is the depth.
+// Adds rays of a view. dirW has length 1 along the view axis, so that `t` is the depth.
 void addView(const SceneCamera& camera, std::vector<Ray>& rays) {
   const glm::dvec3 back = glm::normalize(glm::dvec3(camera.cameraToWorld[2]));
   const glm::dvec3 up =
@@ -101,7 +102,7 @@ void addView(const SceneCamera& camera, std::vector<Ray>& rays) {
   const double halfWidth = isFlat ? camera.xmag : halfHeight * aspect;
   for (int y = 0; y < kViewSide; ++y) {
     for (int x = 0; x < kViewSide; ++x) {
-      // Inside the corners, and off the edges that triangles of a wall share.
+      // Stay inside the corners, and off the edges that triangles of a wall share.
       const glm::dvec3 aside = right * (halfWidth * (2.0 * (x + 0.53) / kViewSide - 1.0)) +
                                up * (halfHeight * (2.0 * (y + 0.47) / kViewSide - 1.0));
       Ray ray;
@@ -112,7 +113,7 @@ void addView(const SceneCamera& camera, std::vector<Ray>& rays) {
   }
 }
 
-// Adds rays to all sides, off the axes, along which a scene's edges lie.
+// Adds rays to all sides, off the axes: edges of a scene often lie along the axes.
 void addSides(const SceneCamera& camera, std::vector<Ray>& rays) {
   for (const double x : {-1.0, 0.07, 1.0}) {
     for (const double y : {-0.83, 0.91}) {
@@ -131,7 +132,7 @@ std::string objectName(const Scene& scene, const Ray& ray) {
 
 using Rays = std::span<const Ray>;
 
-// The object whose insides are seen to all sides; null where there is none.
+// Returns a ray to the object if all sides see the inside of one object, else null.
 const Ray* insideOf(Rays sides) {
   const bool isInside = std::all_of(sides.begin(), sides.end(), [&](const Ray& ray) {
     return ray.t < kNone && ray.isBehind && ray.instance == sides[0].instance;
@@ -144,7 +145,7 @@ const Ray* nearestOf(Rays view) {
                             [](const Ray& a, const Ray& b) { return a.t < b.t; });
 }
 
-// One flat surface in all of the view.
+// Returns whether one flat surface fills the view.
 bool isBlank(Rays view) {
   constexpr double kFlat = 0.9998;  // the cosine of a degree
   return std::all_of(view.begin(), view.end(), [&](const Ray& ray) {
@@ -167,7 +168,7 @@ std::string nearLine(const Scene& scene, const Ray& nearest, const SceneCamera& 
                      objectName(scene, nearest), nearest.t, camera.znear);
 }
 
-// Evenly over 0 .. frames - 1, both ends among them.
+// Picks frames evenly over 0 .. frames - 1, including both ends.
 std::vector<uint32_t> someOf(uint32_t frames, uint32_t most) {
   const uint32_t count = std::max(std::min(frames, most), 1u);
   std::vector<uint32_t> chosen;
@@ -207,12 +208,12 @@ std::vector<std::string> cameraPathWarnings(const Scene& scene, const CameraMoti
     addSides(camera, rays);
     addView(camera, rays);
   }
-  // A cut leads through nothing.
+  // Exclude cuts: the camera does not move through the space between.
   const bool walks = motion.path.kind == CameraPathKind::orbit ||
                      motion.path.kind == CameraPathKind::dolly ||
                      motion.path.kind == CameraPathKind::keyframes;
   const size_t firstStep = rays.size();
-  std::vector<size_t> stepOf;  // of the rays behind that one
+  std::vector<size_t> stepOf;  // index of the step, by ray from `firstStep` on
   for (size_t i = 0; walks && i + 1 < steps.size(); ++i) {
     Ray ray;
     ray.originW = positionOf(cameraAt(motion, steps[i]));

@@ -14,7 +14,7 @@ namespace {
 constexpr int64_t kMaxFrame = int64_t(1) << 31;
 constexpr double kMaxMetres = 1e9;
 
-// In the order of CameraPathKind.
+// Order: that of CameraPathKind.
 const std::vector<std::string> kKinds = {"still", "orbit", "dolly",    "pan",
                                          "cut",   "back",  "keyframes"};
 
@@ -112,7 +112,7 @@ CameraPath parseCameraPath(const ConfigTable& table) {
                                       : what + " turns about nothing");
   }
   if (!walks) {
-    // "world" is glTF's up, and older than the other names.
+    // "world" is glTF's up and the oldest of these names.
     const std::string about = table.getChoice("about", "scene", kAxes);
     path.about = about == "scene"    ? CameraAxis::scene
                  : about == "camera" ? CameraAxis::camera

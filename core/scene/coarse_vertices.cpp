@@ -10,7 +10,7 @@ namespace restlab {
 
 namespace {
 
-// How far the box of a mesh's vertices is from a point.
+// Distance of a point to the box of a mesh's vertices.
 double distanceTo(const MeshGeometry& mesh, const glm::dmat4& toWorld, const glm::dvec3& pointW) {
   glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
   for (const glm::vec3& p : mesh.positions) {
@@ -28,7 +28,7 @@ std::string coarseVertices(const Scene& scene) {
 }
 
 std::string coarseVertices(const Scene& scene, const SceneOrigin& origin) {
-  std::vector<float> farthest;  // coordinate of a vertex, by geometry
+  std::vector<float> farthest;  // largest coordinate of a vertex, by geometry
   for (const MeshGeometry& mesh : scene.geometries) {
     float& most = farthest.emplace_back(0.0f);
     for (const glm::vec3& p : mesh.positions)

@@ -7,15 +7,15 @@
 
 namespace restlab {
 
-// Largest spacing of float32 numbers at a vertex, over the size of the scene, without a line.
-// docs/manual.md has what was measured on both sides.
+// Largest float32 spacing at a vertex, relative to the size of the scene, that gives no warning.
+// docs/manual.md has measurements on both sides of this limit.
 constexpr double kCoarsestVertices = 1e-4;
 
-// A line that names the scene and the mesh whose vertices are rounded most, where that is more than
-// kCoarsestVertices; "" elsewhere and of scenes without vertices. A compiled scene is recentred in
-// double precision, but what a file has rounded before is lost. Where the origin follows the
-// camera, what the camera sees takes the place of the scene, and objects out of its reach do not
-// count.
+// Returns a warning that names the scene and the mesh whose vertices are rounded most, if that
+// rounding exceeds kCoarsestVertices; "" otherwise and for scenes without vertices. A compiled
+// scene is recentred in double precision, but that does not restore what a file has rounded. If the
+// origin follows the camera, the size of what the camera sees replaces the size of the scene, and
+// objects out of reach of the camera do not count.
 std::string coarseVertices(const Scene& scene, const SceneOrigin& origin);
 std::string coarseVertices(const Scene& scene);
 

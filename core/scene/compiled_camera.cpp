@@ -1,4 +1,4 @@
-// CompiledScene::camera(): a camera of the scene as kernels have it.
+// CompiledScene::camera(): converts a camera of the scene to the form that kernels read.
 #include <cmath>
 
 #include "core/scene/compiled_scene.h"

@@ -42,7 +42,7 @@ uint32_t append(std::vector<T>& pool, const std::vector<T>& values) {
   return offset;
 }
 
-// The exact sRGB decoding of every 8-bit value (IEC 61966-2-1).
+// Exact sRGB decoding of every 8-bit value (IEC 61966-2-1).
 std::vector<float> srgbTable() {
   std::vector<float> table(256);
   for (int i = 0; i < 256; ++i) {
@@ -75,7 +75,7 @@ struct CompiledScene::Impl {
   Bodies bodies;
   rl::SceneData data{};
   size_t instancedTriangles = 0;
-  // Kept by Embree itself; it allocates from several threads.
+  // Memory held by Embree, which allocates from several threads.
   std::atomic<ptrdiff_t> embreeBytes{0};
   RTCDevice device = nullptr;
   RTCScene top = nullptr;
@@ -97,8 +97,8 @@ struct CompiledScene::Impl {
   void bindAddresses();
 };
 
-// Copies a mesh to the pools; with `bake` its vertices go to world space, winding kept outward: to
-// where `positionsW` says, if that is given.
+// Copies a mesh to the pools. With `bake`, vertices go to world space with the winding kept
+// outward, at `positionsW` if given.
 void CompiledScene::Impl::addGeometry(const MeshGeometry& mesh, const glm::dmat4* bake,
                                       const std::vector<glm::dvec3>* positionsW) {
   rl::Geometry g{};
@@ -117,8 +117,8 @@ void CompiledScene::Impl::addGeometry(const MeshGeometry& mesh, const glm::dmat4
                                            : transformPoint(*bake, positions[i]);
     }
     const glm::dmat3 linear(*bake);
-    // Not normalised one by one: kernels do that after interpolation, so that a baked mesh shades
-    // as an instance of it does. The common factor only keeps them in range.
+    // Normals stay unnormalised: kernels normalise after interpolation, so that a baked mesh shades
+    // like an instance of it. The common factor only keeps them in range.
     glm::dmat3 normalMatrix = glm::transpose(glm::inverse(linear));
     normalMatrix /= std::max(
         {glm::length(normalMatrix[0]), glm::length(normalMatrix[1]), glm::length(normalMatrix[2])});
@@ -135,8 +135,8 @@ void CompiledScene::Impl::addGeometry(const MeshGeometry& mesh, const glm::dmat4
       }
     }
     if (glm::determinant(linear) < 0.0) {
-      // A mirrored mesh would face inwards. Normals and UVs follow their vertices; the bitangent of
-      // a mirrored tangent frame changes sign with the cross product.
+      // Flip the winding: a mirrored mesh would face inwards. Normals and UVs follow their
+      // vertices; the bitangent of a mirrored tangent frame changes sign with the cross product.
       for (size_t i = g.firstTriangle; i < triangles.size(); ++i)
         std::swap(triangles[i].y, triangles[i].z);
       if (g.tangentOffset != rl::RL_INVALID) {
@@ -239,7 +239,7 @@ void CompiledScene::Impl::buildEmbree() {
     return true;
   };
   rtcSetDeviceMemoryMonitorFunction(device, count, &embreeBytes);
-  // Kernels ask about hits where something may be transparent in part, and where bodies meet.
+  // Kernels check hits on partly transparent instances, and on bodies if bodies meet.
   const bool alpha = (features & rl::RL_FEATURE_ALPHA) != 0;
   const auto asks = [&](const rl::Instance& inst) {
     return (alpha && (inst.flags & rl::RL_INSTANCE_ALPHA) != 0) ||
@@ -256,7 +256,7 @@ void CompiledScene::Impl::buildEmbree() {
   };
   auto newTriangles = [&](const rl::Geometry& g, size_t vertexCount, bool isAsked) {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    // Copied into Embree's own buffers: it asks for padding behind the last vertex.
+    // Copy to Embree's own buffers: Embree requires padding after the last vertex.
     auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertexCount));
     auto* t = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
@@ -290,7 +290,7 @@ void CompiledScene::Impl::buildEmbree() {
       continue;
     }
     if (meshScenes[g] == nullptr) {
-      // Its instances may have different materials: the filter asks each one's.
+      // Instances may have different materials: the filter checks each hit's own.
       RTCGeometry geometry = newTriangles(geometries[g], vertexCount(g), alpha || bodies.meet);
       meshScenes[g] = newScene();
       rtcAttachGeometryByID(meshScenes[g], geometry, 0);
@@ -331,7 +331,7 @@ void CompiledScene::Impl::bindAddresses() {
   data.srgbToLinear.data = srgb.data();
   data.lights.data = lights.lights.data();
   data.lightAlias.data = lights.alias.data();
-  data.lightCount = static_cast<uint32_t>(lights.alias.size());  // none is drawn where all are off
+  data.lightCount = static_cast<uint32_t>(lights.alias.size());  // 0: all lights are off
   data.environment.data = lights.environment.data();
   data.environmentAlias.data = lights.environmentAlias.data();
   data.environmentWidth = scene.environment ? scene.environment->width : 0;
@@ -387,7 +387,7 @@ uint32_t CompiledScene::features(bool multiscatter) const {
 
 void CompiledScene::bindGgxAlbedo() const {
   std::call_once(impl_->ggxAlbedoBound, [this] {
-    // Kernels only read; the type of the address is that of every buffer.
+    // Kernels only read; all buffer addresses share one non-const type.
     impl_->data.ggxAlbedo.data = const_cast<glm::vec2*>(ggxAlbedoTable().data());
   });
 }
@@ -447,7 +447,7 @@ glm::dvec3 CompiledScene::origin() const { return impl_->origin; }
 
 bool CompiledScene::differsInLightAlone(const CompiledScene& other) const {
   const Impl &a = *impl_, &b = *other.impl_;
-  // A material that one of its meshes shines with may have become two.
+  // Compare by content: a light factor may have split the material of several meshes in two.
   const auto isSameInstance = [&](const rl::Instance& of, const rl::Instance& with) {
     rl::Instance there = with;
     there.material = of.material;
@@ -456,7 +456,7 @@ bool CompiledScene::differsInLightAlone(const CompiledScene& other) const {
     return std::memcmp(&of, &there, sizeof of) == 0 && std::memcmp(&here, &its, sizeof here) == 0;
   };
   const auto isSame = [](const auto& of, const auto& with) {
-    // memcmp() takes no null, which an empty vector has.
+    // memcmp() does not accept null, the data() of an empty vector.
     return of.size() == with.size() &&
            (of.empty() || std::memcmp(of.data(), with.data(), of.size() * sizeof(of[0])) == 0);
   };

@@ -1,4 +1,4 @@
-// A Scene made ready for kernels: flat buffers, light table, feature mask, Embree scene.
+// A Scene prepared for kernels: flat buffers, light table, feature mask, Embree scene.
 #pragma once
 
 #include <functional>
@@ -23,8 +23,8 @@ class CompiledScene {
 
   const Scene& source() const;
   const rl::SceneData& data() const;  // addresses stay valid as long as this object
-  // What the scene needs (RL_FEATURE_*), with RL_FEATURE_MULTISCATTER where that is asked for and
-  // changes something.
+  // Features that the scene needs (RL_FEATURE_*). RL_FEATURE_MULTISCATTER is included only if
+  // `multiscatter` is set and changes something.
   uint32_t features(bool multiscatter = false) const;
   // Makes SceneData::ggxAlbedo point to its table, for sessions that read it; computed at the first
   // call.
@@ -32,26 +32,28 @@ class CompiledScene {
   // Makes SceneData::bvh and bvhRoots point to the project's own hierarchy, for sessions
   // that trace it; built at the first call. Returns it.
   const Bvh& bindBvh() const;
-  BvhInput bvhInput() const;  // what hierarchies are built of; valid as long as this object
-  // data() for a machine with memory of its own: every address replaced by what `place` returns
-  // for the bytes there (0 for an empty buffer); with the project's own hierarchy where it is
-  // bound and wanted.
+  BvhInput bvhInput() const;  // input of hierarchy builders; valid as long as this object
+  // Returns data() for a device with its own memory: every address is replaced by what `place`
+  // returns for the bytes there (0 for an empty buffer). Includes the project's own hierarchy if it
+  // is bound and `withBvh` is set.
   using Place = std::function<uint64_t(const void* bytes, size_t count)>;
   rl::SceneData placedAt(const Place& place, bool withBvh) const;
-  const std::vector<std::string>& warnings() const;  // import's and compilation's
+  const std::vector<std::string>& warnings() const;  // from import and compilation
   rl::Camera camera(const SceneCamera& camera, uint32_t width, uint32_t height) const;
-  // Ranks of the bodies that hold a point (relative to origin()), the greatest first; 0: no more.
+  // Ranks of the bodies that contain a point (relative to origin()), greatest first; 0 ends the
+  // list.
   glm::uvec4 bodiesAt(const glm::vec3& posW) const;
-  bool absorbs(uint32_t rank) const;      // does the body of that rank? 0: air, which does not
+  bool absorbs(uint32_t rank) const;      // false for rank 0, air
   size_t triangleCount() const;           // unique
-  size_t instancedTriangleCount() const;  // as seen by rays
+  size_t instancedTriangleCount() const;  // with every instance counted
   size_t emissiveTriangleCount() const;
-  size_t bytes() const;        // of all buffers that kernels read
-  size_t embreeBytes() const;  // of Embree's copy of the triangles and its hierarchies
+  size_t bytes() const;        // all buffers that kernels read
+  size_t embreeBytes() const;  // Embree's copy of the triangles and its hierarchies
   void* embreeScene() const;   // RTCScene
   glm::dvec3 origin() const;   // subtracted from world positions
-  // Are both of one scene, whose lights may shine by other factors (core/scene/light_factor.h)?
-  // What was rendered of one then has the same surfaces, lights and kernels in the other.
+  // Returns whether both compile one scene and differ only in light factors
+  // (core/scene/light_factor.h). Histories of one are then valid for the other: same surfaces,
+  // lights and kernels.
   bool differsInLightAlone(const CompiledScene& other) const;
 
  private:
@@ -60,9 +62,9 @@ class CompiledScene {
   std::unique_ptr<Impl> impl_;
 };
 
-// What the scene needs, before compilation (core/scene/feature_scan.cpp).
+// Features that the scene needs, before compilation (core/scene/feature_scan.cpp).
 uint32_t scanFeatures(const Scene& scene);
-// Has some surface the rough reflection that multiple-scattering compensation changes?
+// Returns whether a surface has the rough reflection that multiple-scattering compensation changes.
 bool hasRoughReflection(const Scene& scene);
 
 }  // namespace restlab

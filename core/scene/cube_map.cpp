@@ -16,7 +16,7 @@ class Cube {
   explicit Cube(const Image& image)
       : image_(image), window_({0, 0}, {int(image.width) - 1, int(image.height) - 1}) {}
 
-  // Between the pixels of one face, whose outer ones lie on its edges.
+  // Interpolates between the pixels of one face; the outer pixels lie on the face's edges.
   glm::dvec3 value(const Imath::V3f& direction) const {
     Imf::CubeMapFace face = Imf::CUBEFACE_POS_X;
     Imath::V2f at;
@@ -42,7 +42,7 @@ class Cube {
   Imath::Box2i window_;
 };
 
-// The direction of a place in the map; u, v from 0 to 1 from its left and upper edge.
+// Direction at a point of the map; u, v from 0 to 1 from its left and upper edge.
 Imath::V3f directionAt(double u, double v) {
   const double longitude = -2.0 * std::numbers::pi * (u - 0.5);
   const double latitude = -std::numbers::pi * (v - 0.5);

@@ -21,11 +21,11 @@ namespace {
   failInput(fmt::format("{}: {}", file.string(), text));
 }
 
-// Returns whether the colours were converted from others.
+// Returns whether colours were converted to Rec. 709.
 bool readHdrMap(const fs::path& file, EnvironmentMap& map) {
   std::error_code error;
   const uint64_t size = fs::file_size(file, error);
-  // Uncompressed 16384 x 16384 RGBE and a header; nothing larger can be read.
+  // Uncompressed 16384 x 16384 RGBE plus a header: the largest file that can be read.
   constexpr uint64_t kMaxBytes = uint64_t(kMaxImageSize) * kMaxImageSize * 4 + 65536;
   if (const std::string reason = unreadableReason(file); !reason.empty()) fail(file, reason);
   if (error || size > kMaxBytes)
@@ -51,7 +51,7 @@ bool readHdrMap(const fs::path& file, EnvironmentMap& map) {
   return decoded.isConverted;
 }
 
-// A part of a sky, or one with a rim, would be bent over the whole sphere.
+// Rejects crops and maps with a border: they would be stretched over the whole sphere.
 void requireWhole(const fs::path& file, const ExrFrame& frame, const Image& image) {
   const glm::ivec4 data(frame.origin, frame.origin.x + int(image.width) - 1,
                         frame.origin.y + int(image.height) - 1);
@@ -63,7 +63,7 @@ void requireWhole(const fs::path& file, const ExrFrame& frame, const Image& imag
                    data.x, data.y, data.z, data.w, display.x, display.y, display.z, display.w));
 }
 
-// Returns whether the colours were converted from others.
+// Returns whether colours were converted to Rec. 709.
 bool readExrMap(const fs::path& file, EnvironmentMap& map) {
   LayeredImage read = readExr(file, {ExrLayers::colours, {""}});
   const auto layer = read.layers.find("");
@@ -97,8 +97,8 @@ bool readExrMap(const fs::path& file, EnvironmentMap& map) {
   return !read.notes.empty();
 }
 
-// Colours that Rec. 709 does not reach have channels below 0 after their conversion, which no light
-// can have. Rounding makes some, too, and is not counted.
+// Sets channels below 0 to 0. Converting colours outside Rec. 709 makes such channels, but light
+// cannot have them. Tiny ones come from rounding and are not counted in the warning.
 void cutAtZero(const fs::path& file, EnvironmentMap& map) {
   size_t count = 0;
   for (glm::vec3& texel : map.radiance) {

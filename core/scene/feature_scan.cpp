@@ -1,10 +1,9 @@
-// What a scene needs of the kernels (features.h), exact in one direction and tight in the other: a
-// feature that can change a pixel is never missed (of a scene whose black textures are folded:
-// black_textures.h), one that cannot is left out as far as factors,
-// texels and vertices tell. Only what an instance with triangles uses counts. The conditions mirror
-// surfaceLoad() in core/dialect/surface.glsl. RL_FEATURE_MULTISCATTER is a session's option, not a
-// scene's need, and is never set here; hasRoughReflection() says whether the option changes
-// anything.
+// Features of the kernels (features.h) that a scene needs. A feature that can change a pixel is
+// never missed (for a scene whose black textures are folded: black_textures.h); a feature that
+// cannot is left out, as far as factors, texels and vertices tell. Only content used by an instance
+// with triangles counts. The conditions mirror surfaceLoad() in core/dialect/surface.glsl.
+// RL_FEATURE_MULTISCATTER is a session's option, not a scene's need, and is never set here;
+// hasRoughReflection() says whether the option changes anything.
 #include <algorithm>
 #include <cmath>
 
@@ -16,7 +15,7 @@
 namespace restlab {
 namespace {
 
-// Vertex normals within this distance of the unit face normal shade as the face does.
+// Vertex normals within this distance of the unit face normal shade like the face.
 constexpr float kFlatNormalTolerance = 1.0e-4f;
 
 bool isPositive(const glm::vec3& v) { return v.x > 0.0f || v.y > 0.0f || v.z > 0.0f; }
@@ -27,7 +26,7 @@ glm::vec3 times(const glm::vec3& v, const std::array<float, 4>& texel) {
 
 bool hasTexture(const rl::Material& m, uint32_t slot) { return m.textures[slot] != rl::RL_INVALID; }
 
-// What the material asks for wherever it is used; emission and alpha depend on the mesh too.
+// Features that the material needs on any mesh; emission and alpha also depend on the mesh.
 uint32_t scanSurface(const rl::Material& m, TextureRanges& ranges) {
   const bool scatters = (m.flags & (rl::RL_MATERIAL_UNLIT | rl::RL_MATERIAL_BLACK)) == 0;
   uint32_t features = hasTexture(m, rl::RL_TEX_BASE_COLOR) ? rl::RL_FEATURE_TEXTURES : 0u;
@@ -62,7 +61,7 @@ uint32_t scanSurface(const rl::Material& m, TextureRanges& ranges) {
   return features;
 }
 
-// Rough reflection of a surface that somewhere transmits nothing.
+// Returns whether the surface has a rough reflection and somewhere does not transmit.
 bool reflectsRoughly(const rl::Material& m, TextureRanges& ranges) {
   if ((m.flags & (rl::RL_MATERIAL_UNLIT | rl::RL_MATERIAL_BLACK)) != 0) return false;
   const TexelRange& range = ranges.ofSlot(m, rl::RL_TEX_METALLIC_ROUGHNESS);
@@ -98,7 +97,7 @@ bool hasColors(const MeshGeometry& mesh) {
                      [](const glm::vec4& c) { return c != glm::vec4(1.0f); });
 }
 
-// Can a ray pass through some part?
+// Returns whether a ray can pass through some part of the surface.
 bool hasHoles(const rl::Material& m, const MeshGeometry& mesh, TextureRanges& ranges) {
   float alpha = m.alpha * ranges.ofSlot(m, rl::RL_TEX_BASE_COLOR).low[3];
   float lowest = mesh.colors.empty() ? 1.0f : mesh.colors[0].w;
@@ -115,7 +114,7 @@ bool hasSmoothNormals(const MeshGeometry& mesh) {
     const glm::dvec3 face =
         glm::cross(glm::dvec3(mesh.positions[t.y]) - p, glm::dvec3(mesh.positions[t.z]) - p);
     const double length = glm::length(face);
-    if (!(length > 0.0)) return false;  // nothing hits it
+    if (!(length > 0.0)) return false;  // no ray hits it
     for (const uint32_t corner : {t.x, t.y, t.z}) {
       const glm::dvec3 normal(mesh.normals[corner]);
       const double size = glm::length(normal);
@@ -160,12 +159,12 @@ uint32_t scanFeatures(const Scene& scene) {
     if (hasHoles(m, mesh, ranges)) features |= rl::RL_FEATURE_ALPHA;
     const uint32_t useCount = ++uses[instance.geometry];
     if (useCount == 2) features |= rl::RL_FEATURE_INSTANCES;
-    if (useCount == 1) {  // once a mesh
+    if (useCount == 1) {  // only once per mesh
       if (hasColors(mesh)) features |= rl::RL_FEATURE_VERTEX_COLORS;
       if (hasSmoothNormals(mesh)) features |= rl::RL_FEATURE_SMOOTH_NORMALS;
     }
   }
-  // Between bodies that meet, light is refracted by the ratio of their indices.
+  // Bodies that meet refract light by the ratio of their indices.
   const bool transmits = (features & rl::RL_FEATURE_TRANSMISSION) != 0;
   if (transmits && findBodies(scene).meet) features |= rl::RL_FEATURE_VOLUME;
   return features;

@@ -11,8 +11,9 @@ namespace restlab {
 namespace {
 
 constexpr uint32_t kNodes = rl::RL_GGX_NODES;
-// Points in the two variables of a visible normal. The integrand has a kink where the reflected
-// direction meets the horizon: the error is about 1e-5 (tests/unit/multiscatter_test.cpp).
+// Quadrature points for the two variables of a visible normal. The integrand has a kink where the
+// reflected direction meets the horizon: the error is about 1e-5
+// (tests/unit/multiscatter_test.cpp).
 constexpr uint32_t kPoints = 64, kAzimuths = 24;
 
 // Gauss-Legendre abscissae on [-1, 1] of positive sign and their weights, for 3 points.

@@ -10,20 +10,21 @@
 namespace restlab::gltf {
 namespace {
 
-// Of all accessors without buffer view, which cost a file nothing; no real one overrides zeros so
-// often.
+// Limit on the elements of all accessors without buffer view: they cost a file no bytes, and no
+// real file overrides zeros so often.
 constexpr size_t kMaxElementsWithoutData = size_t(1) << 24;
 
-// Accessors may overlap, and each is read whole: what they name together, by what there is.
+// Limit on the bytes that all accessors name together, as a multiple of the bytes in all buffers:
+// accessors may overlap, and each is read whole.
 constexpr uint64_t kMaxReadsOfAByte = 64;
-constexpr uint64_t kFreeBytes = uint64_t(1) << 26;  // of small files nobody waits for the rest
+constexpr uint64_t kFreeBytes = uint64_t(1) << 26;  // always allowed: small files load quickly
 
 size_t componentBytes(int componentType) {
   return static_cast<size_t>(
       tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(componentType)));
 }
 
-// 0: not a matrix.
+// Returns 0 if the accessor is not a matrix.
 size_t matrixRows(const tinygltf::Accessor& accessor) {
   switch (accessor.type) {
     case TINYGLTF_TYPE_MAT2:
@@ -131,7 +132,7 @@ void checkSparse(const tinygltf::Model& model, const tinygltf::Accessor& accesso
 void checkAccessor(const tinygltf::Model& model, size_t index, size_t& elementsWithoutData,
                    Report& report) {
   const tinygltf::Accessor& accessor = model.accessors[index];
-  if (accessor.count == 0) return;  // nothing that is drawn: gltf_rules.h
+  if (accessor.count == 0) return;  // never drawn: gltf_rules.h
   const std::string place = fmt::format("accessors[{}]", index);
   const ElementSize element = elementSize(accessor);
   if (accessor.normalized && (accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT ||
@@ -160,7 +161,8 @@ void checkAccessor(const tinygltf::Model& model, size_t index, size_t& elementsW
   if (accessor.sparse.isSparse) checkSparse(model, accessor, place + ".sparse", report);
 }
 
-// Whether `value` lies outside the declared bounds by more than their decimal digits explain.
+// Returns whether `value` lies outside the declared bounds by more than their decimal digits
+// explain.
 bool outsideBounds(double value, double low, double high) {
   const double tolerance = 1e-4 * std::max({std::abs(low), std::abs(high), high - low, 1e-6});
   return value < low - tolerance || value > high + tolerance;
@@ -208,7 +210,7 @@ void checkAccessors(const tinygltf::Model& model, Report& report) {
   size_t elementsWithoutData = 0;
   for (size_t i = 0; i < model.accessors.size(); ++i) {
     checkAccessor(model, i, elementsWithoutData, report);
-    // Its range was found inside of a buffer, so that no product or sum overflows.
+    // checkAccessor() found the range inside a buffer, so no product or sum overflows.
     const tinygltf::Accessor& accessor = model.accessors[i];
     if (accessor.bufferView >= 0) named += uint64_t(accessor.count) * elementSize(accessor).extent;
     if (named > allowed) {

@@ -15,12 +15,12 @@ namespace restlab::gltf {
 // cannot reach outside a buffer.
 void checkAccessors(const tinygltf::Model& model, Report& report);
 
-// Warns of numbers outside an accessor's declared bounds, and of NaN and infinity where nothing
-// imported reads them (what is imported was checked when it was read, and is named better there).
+// Warns of numbers outside an accessor's declared bounds, and of NaN and infinity in accessors that
+// are not imported (imported ones are checked when read, with a better place).
 void surveyAccessors(const tinygltf::Model& model, Report& report);
 
-// Reads elements of one accessor of a model that checkAccessors() accepted. The model must outlive
-// it.
+// Reads elements of one accessor. checkAccessors() must have accepted the model, and the model must
+// outlive the reader.
 class AccessorReader {
  public:
   AccessorReader(const tinygltf::Model& model, int accessor);
@@ -30,12 +30,12 @@ class AccessorReader {
   int componentType() const { return accessor_->componentType; }
   bool normalized() const { return accessor_->normalized; }
 
-  // Component `component` of element `element` as the accessor's numbers say: integers converted,
-  // and divided by their largest value when normalised (-128 and -32768 become -1).
+  // Value of a component. Integers are converted, and divided by their largest value when
+  // normalised (-128 and -32768 become -1).
   float number(size_t element, int component) const;
-  // The same, never divided.
+  // Value of a component as stored, never divided.
   double storedNumber(size_t element, int component) const;
-  // The first component of an unsigned integer accessor.
+  // First component of an unsigned integer accessor.
   uint32_t index(size_t element) const;
 
  private:
@@ -44,9 +44,9 @@ class AccessorReader {
 
   const tinygltf::Accessor* accessor_;
   int components_;
-  const uint8_t* base_ = nullptr;  // null: elements are zero but for the sparse ones
+  const uint8_t* base_ = nullptr;  // null: elements are zero except for the sparse ones
   size_t stride_ = 0;
-  size_t elementStride_ = 0;             // of packed elements
+  size_t elementStride_ = 0;             // stride of packed elements
   std::vector<uint32_t> sparseIndices_;  // increasing
   const uint8_t* sparseValues_ = nullptr;
 };

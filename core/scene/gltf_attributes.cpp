@@ -11,7 +11,7 @@
 namespace restlab::gltf {
 namespace {
 
-// Unit vectors stored in 8 bits are off by less than this.
+// Upper bound on the length error of unit vectors stored in 8 bits.
 constexpr float kUnitTolerance = 0.02f;
 
 enum class Semantic { position, normal, tangent, texcoord, color, notRead, unknown };
@@ -102,7 +102,7 @@ void readNormals(const AccessorReader& reader, const std::vector<uint32_t>& used
                        reader.number(used[i], 2));
     const double length = glm::length(n);
     if (length < 1e-6) {
-      // Rare enough that each such vertex may look at every triangle, up to a number.
+      // Zero normals are rare: searching all triangles for each is affordable, up to a limit.
       constexpr size_t kLookedAt = 1000;
       geometry.normals[i] =
           ++zero <= kLookedAt ? normalOf(geometry, static_cast<uint32_t>(i)) : glm::vec3(0, 0, 1);
@@ -288,7 +288,7 @@ void readAttributes(const tinygltf::Model& model, const tinygltf::Primitive& pri
         break;
     }
   }
-  // The specification: without normals the primitive is flat, and its tangents are ignored.
+  // glTF specification: without normals the primitive is flat, and its tangents are ignored.
   if (geometry.normals.empty()) geometry.tangents.clear();
 }
 

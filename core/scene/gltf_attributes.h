@@ -11,13 +11,13 @@
 namespace restlab::gltf {
 
 // Fails unless every attribute has a format that glTF or KHR_mesh_quantization allows and as many
-// elements as POSITION; warns of attributes that are not read. Attributes that need
-// KHR_mesh_quantization without declaring it warn.
+// elements as POSITION. Warns of attributes that are not read, and of those that need
+// KHR_mesh_quantization without declaring it.
 void checkAttributes(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
                      const std::string& place, Report& report);
 
-// Fails where an attribute that is read holds NaN or infinity, naming the vertex. `finite` marks
-// the accessors already looked at.
+// Fails if an attribute that is read holds NaN or infinity, naming the vertex. `finite` marks the
+// accessors already checked.
 void checkFinite(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
                  const std::string& place, std::vector<bool>& finite, Report& report);
 

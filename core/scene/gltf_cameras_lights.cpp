@@ -42,7 +42,7 @@ SceneCamera importCamera(const tinygltf::Model& model, int index, Report& report
     zfar = source.orthographic.zfar;
   }
   camera.znear = std::max(znear, 0.0);
-  // A path tracer has no clipping planes; that these make no sense is worth a line all the same.
+  // A path tracer has no clipping planes, but senseless ones deserve a warning.
   if (zfar != 0.0 && zfar <= znear) {
     report.warn("clipping planes", place,
                 fmt::format("zfar {:g} is not beyond znear {:g}; neither is used", zfar, znear));
@@ -61,8 +61,8 @@ void warnOfScale(const PlacedNode& placed, const tinygltf::Model& model, const s
                   what, what));
 }
 
-// The camera's right-handed axes, and whether the image is turned left to right: what stands below
-// a mirrored node looks to its camera as it would without the mirror.
+// Computes the camera's right-handed axes, and whether the image is mirrored left to right: a
+// camera and objects below the same mirrored node give the image without the mirror.
 void placeCamera(SceneCamera& camera, const PlacedNode& placed) {
   glm::dmat3 axes = carriedAxes(placed);
   camera.isMirrored = glm::determinant(axes) < 0.0;
@@ -93,7 +93,7 @@ PunctualLight importLight(const tinygltf::Light& source, const std::string& plac
     report.fail(place + ".spot",
                 fmt::format("innerConeAngle {:g} exceeds outerConeAngle {:g}", inner, outer));
   }
-  // The falloff between the angles needs a width.
+  // Keep a minimum width for the falloff between the angles.
   constexpr double kWidest = 0.999;
   if (inner > kWidest * outer) {
     report.warn("spot edge", place + ".spot.innerConeAngle",
@@ -122,7 +122,7 @@ void addCameras(const tinygltf::Model& model, const std::vector<PlacedNode>& nod
     scene.cameras.push_back(std::move(camera));
   }
   for (size_t i = 0; i < model.cameras.size(); ++i) {
-    importCamera(model, static_cast<int>(i), report);  // what no node carries is checked as well
+    importCamera(model, static_cast<int>(i), report);  // also checks unused cameras
   }
 }
 

@@ -22,8 +22,8 @@ constexpr uint32_t kMagic = 0x46546c67;      // "glTF"
 constexpr uint32_t kChunkJson = 0x4e4f534a;  // "JSON"
 constexpr uint32_t kChunkBin = 0x004e4942;   // "BIN\0"
 constexpr size_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
-constexpr size_t kAlignment = 4;  // of chunks
-// tinygltf takes a 32-bit length, and a document nested deeper than any glTF needs is an attack on
+constexpr size_t kAlignment = 4;  // bytes, for chunks
+// tinygltf takes a 32-bit length. A document nested deeper than any glTF needs is an attack on
 // recursive readers.
 constexpr uint64_t kMaxJsonBytes = 0x7fffffff;
 constexpr int kMaxJsonDepth = 128;
@@ -86,12 +86,13 @@ bool isNumberOfJson(std::string_view text) {
   return text.empty();
 }
 
-// Is this a number of JSON that no double holds? Without an exponent it has 309 digits or more.
+// Returns whether the token is a JSON number too large for a double. Without an exponent such a
+// number has 309 digits or more.
 bool overflows(std::string_view token) {
   constexpr size_t kFewestDigits = 309;
   if (token.size() < kFewestDigits && token.find_first_of("eE") == std::string_view::npos)
     return false;
-  if (!isNumberOfJson(token)) return false;  // the parser says what is wrong
+  if (!isNumberOfJson(token)) return false;  // the parser reports the error
   try {
     return !nlohmann::json::parse(token).is_number();
   } catch (const nlohmann::json::out_of_range&) {
@@ -99,9 +100,9 @@ bool overflows(std::string_view token) {
   }
 }
 
-// The same text with 1e308 for numbers that no double holds, or nothing where there are none: the
-// parser would refuse the file, though nothing may read them. The validator refuses them where they
-// are read.
+// Returns the text with 1e308 in place of numbers too large for a double, or "" if there are none.
+// The parser would refuse the whole file, even if nothing reads these numbers; the validator
+// refuses them where they are read.
 std::string boundNumbers(std::string_view text) {
   std::string bounded;
   size_t copied = 0, start = std::string_view::npos;
@@ -123,7 +124,7 @@ std::string boundNumbers(std::string_view text) {
   return bounded;
 }
 
-// Says which keys stand twice in an object; of such the parser keeps the last one.
+// Reports keys that stand twice in an object; the parser keeps the last one.
 class DuplicateKeys {
  public:
   explicit DuplicateKeys(Report& report) : report_(&report) {}
@@ -146,7 +147,7 @@ class DuplicateKeys {
  private:
   static constexpr size_t kLongestKey = 100;
   Report* report_;
-  // The keys of the objects that are open; shared, as the parser copies this.
+  // Keys of the open objects; shared, as the parser copies this callback.
   std::shared_ptr<std::vector<std::set<std::string>>> open_ =
       std::make_shared<std::vector<std::set<std::string>>>();
 };
@@ -162,14 +163,15 @@ nlohmann::json parseJson(std::string_view text, Report& report) {
     text.remove_prefix(3);
   }
   checkDepth(text, report);
-  // A value of two characters, "0,", becomes a node of 16 bytes.
+  // Worst case: a value of two characters, "0,", becomes a node of 16 bytes.
   report.takeMemory("", fmt::format("JSON of {} bytes", text.size()), text.size() * 8);
   const std::string bounded = boundNumbers(text);
   nlohmann::json json;
   try {
     json = nlohmann::json::parse(bounded.empty() ? text : bounded, DuplicateKeys(report));
   } catch (const nlohmann::json::exception& error) {
-    // "[json.exception.parse_error.101] parse error at line 3, column 5: ..." without the label.
+    // Remove the label from "[json.exception.parse_error.101] parse error at line 3, column 5:
+    // ...".
     std::string what = error.what();
     const size_t bracket = what.find("] ");
     if (bracket != std::string::npos) what.erase(0, bracket + 2);
@@ -183,14 +185,14 @@ nlohmann::json parseJson(std::string_view text, Report& report) {
   return json;
 }
 
-// The header of a chunk, and whether all of it is there.
+// Header of a chunk, and whether the chunk is complete.
 struct ChunkHeader {
   uint32_t size = 0, type = 0;
   bool isWhole = false;
   bool isKnown() const { return type == kChunkJson || type == kChunkBin; }
 };
 
-// Nothing where the bytes end before.
+// Returns nullopt if the bytes end before the header does.
 std::optional<ChunkHeader> chunkAt(const std::vector<uint8_t>& bytes, size_t offset) {
   if (offset > bytes.size() || bytes.size() - offset < kChunkHeaderBytes) return {};
   const uint32_t size = readU32(bytes, offset);
@@ -198,14 +200,14 @@ std::optional<ChunkHeader> chunkAt(const std::vector<uint8_t>& bytes, size_t off
                      size <= bytes.size() - offset - kChunkHeaderBytes};
 }
 
-// Does a chunk of a known type begin here, whole?
+// Returns whether a complete chunk of a known type begins here.
 bool isChunk(const std::vector<uint8_t>& bytes, size_t offset) {
   const auto header = chunkAt(bytes, offset);
   return header && header->isKnown() && header->isWhole;
 }
 
-// Finds the start of the chunk behind one that ends at `end`. Some writers leave out the padding of
-// a chunk that is no multiple of 4 long, and some leave it out of the length.
+// Finds the start of the chunk after one that ends at `end`. Some writers omit the padding of a
+// chunk whose length is not a multiple of 4, and some do not count it in the length.
 size_t nextChunk(const std::vector<uint8_t>& bytes, size_t end) {
   const size_t aligned = (end + kAlignment - 1) / kAlignment * kAlignment;
   if (end == aligned || isChunk(bytes, end)) return end;
@@ -223,7 +225,7 @@ Container readGlb(std::vector<uint8_t> bytes, Report& report) {
   bool haveJson = false;
   std::vector<uint8_t> hashed(bytes.begin(), bytes.begin() + kHeaderBytes);
   size_t offset = kHeaderBytes;
-  // Ends where the header or the file says, but not before the chunks that a scene is made of.
+  // Stop where the header or the file ends, but not before the JSON and BIN chunks.
   const auto goesOn = [&](size_t chunk) {
     if (offset < std::min<size_t>(length, bytes.size())) return true;
     const auto header = chunkAt(bytes, offset);
@@ -242,7 +244,7 @@ Container readGlb(std::vector<uint8_t> bytes, Report& report) {
     const std::string place = fmt::format("GLB chunk {}", chunk);
     const size_t left = bytes.size() - offset;
     const auto header = chunkAt(bytes, offset);
-    // Nothing is missing; something is left.
+    // The JSON chunk is read, so nothing is missing: skip the bytes left.
     if (haveJson && (!header || (!header->isKnown() && !header->isWhole))) {
       report.warn("GLB padding", "",
                   fmt::format("{} behind the last GLB chunk {} skipped", byteCount(left),
@@ -333,7 +335,7 @@ Container readContainer(const fs::path& file, Report& report) {
   if (extension != ".gltf" && extension != ".glb") {
     report.fail("", "not a scene file; .gltf or .glb expected");
   }
-  constexpr uint64_t kMaxFileBytes = UINT32_MAX;  // what a GLB's header can say
+  constexpr uint64_t kMaxFileBytes = UINT32_MAX;  // limit of a GLB header
   const uint64_t size = fs::file_size(file, error);
   if (!error && size > kMaxFileBytes) {
     report.fail("", fmt::format("{} bytes are too many; at most {} are read", size, kMaxFileBytes));

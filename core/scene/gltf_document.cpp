@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr uint64_t kMaxImageBytes = 0x7fffffff;  // tinygltf hands image sizes on as int
+constexpr uint64_t kMaxImageBytes = 0x7fffffff;  // tinygltf passes image sizes as int
 
 void checkMediaType(const std::string& found, const std::vector<std::string>& expected,
                     const std::string& place, Report& report) {
@@ -24,7 +24,8 @@ void checkMediaType(const std::string& found, const std::vector<std::string>& ex
               fmt::format("media type '{}'; {} expected", found, fmt::join(expected, " or ")));
 }
 
-// The bytes [0, byteLength) of buffer `index`. More bytes than declared are allowed and not read.
+// Loads the bytes [0, byteLength) of buffer `index`. More bytes than declared are allowed and not
+// read.
 std::vector<uint8_t> loadBuffer(const json& buffer, size_t index, Container& container,
                                 const fs::path& directory, Report& report) {
   const std::string place = fmt::format("buffers[{}]", index);
@@ -69,7 +70,7 @@ std::vector<uint8_t> loadBuffer(const json& buffer, size_t index, Container& con
   return bytes;
 }
 
-// Bytes of the images with a URI; those in buffer views arrive through tinygltf.
+// Loads the bytes of images with a URI; images in buffer views arrive through tinygltf.
 std::vector<EncodedImage> loadImages(const json& document, const fs::path& directory,
                                      Report& report) {
   const json& images = arrayOf(document, "images");
@@ -100,7 +101,7 @@ std::vector<EncodedImage> loadImages(const json& document, const fs::path& direc
   return encoded;
 }
 
-// Resources under the generated names "buffer-N" and "image-N", each handed over once.
+// Resources under the generated names "buffer-N" and "image-N", each served once.
 struct Served {
   std::map<std::string, std::vector<uint8_t>> files;
 };

@@ -1,4 +1,4 @@
-// checkVersionAndExtensions(): whether this program can read the file at all.
+// checkVersionAndExtensions(): checks whether this program can read the file at all.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-// Every extension object below `value`, wherever it stands.
+// Collects the extension names below `value`, at any depth.
 void collectExtensions(const json& value, std::set<std::string>& names) {
   if (value.is_object()) {
     for (const auto& [key, item] : value.items()) {
@@ -37,7 +37,7 @@ std::vector<std::string> textsOf(const json& document, const char* key) {
                                                : it->get<std::vector<std::string>>();
 }
 
-// What to do about a required extension that is not read.
+// Advice for a required extension that is not read.
 std::string remedyFor(const std::string& extension) {
   if (extension == "KHR_draco_mesh_compression" || extension == "EXT_meshopt_compression") {
     return "export the file without mesh compression";

@@ -1,4 +1,4 @@
-// Files in memory for tinygltf, whose versions ask for more and more of them.
+// Files in memory for tinygltf, through the callbacks of its various versions.
 #pragma once
 
 #include <limits>
@@ -9,7 +9,7 @@
 
 namespace restlab::gltf {
 
-// Answers of whoever has the files; `user` is handed on to each.
+// Callbacks that serve the files; `user` is passed to each.
 struct FileAnswers {
   tinygltf::FileExistsFunction exists;
   tinygltf::ExpandFilePathFunction path;
@@ -18,14 +18,14 @@ struct FileAnswers {
   void* user;
 };
 
-// Nothing is written; tinygltf 2.9 takes no callbacks without it.
+// Refuses to write: tinygltf 2.9 accepts no callbacks without a writer.
 inline bool refuseToWrite(std::string* error, const std::string& name,
                           const std::vector<unsigned char>&, void*) {
   if (error) *error += name + " is not written";
   return false;
 }
 
-// Makes the loader read through `answers` alone. Returns whether it takes them.
+// Makes the loader read only through `answers`. Returns whether the loader accepts the callbacks.
 template <class Loader>
 bool serveFiles(Loader& loader, const FileAnswers& answers) {
   tinygltf::FsCallbacks callbacks = {};
@@ -34,7 +34,7 @@ bool serveFiles(Loader& loader, const FileAnswers& answers) {
   callbacks.ReadWholeFile = answers.read;
   callbacks.WriteWholeFile = refuseToWrite;
   callbacks.user_data = answers.user;
-  // Since 2.9, with a limit of 2 GB that 2.7 does not have.
+  // tinygltf has this callback since 2.9, with a limit of 2 GB that 2.7 does not have.
   const auto addSize = [&](auto& all) {
     if constexpr (requires { all.GetFileSizeInBytes; }) all.GetFileSizeInBytes = answers.size;
   };

@@ -11,14 +11,14 @@ namespace restlab::gltf {
 namespace {
 
 constexpr const char* kInstancing = "EXT_mesh_gpu_instancing";
-// Shared accessors let a small file ask for any number of instances.
+// Limit on instances: shared accessors let a small file ask for any number.
 constexpr size_t kMaxInstances = size_t(1) << 24;
 
 bool isMirrored(const glm::dmat3& regular) { return glm::determinant(regular) < 0.0; }
 
-// The transform that a mesh is drawn by; nothing where less than a plane is left. One that flattens
-// keeps a trace of thickness, on the side that a very small scale in place of 0 would give;
-// CompiledScene makes it as thick as numbers can tell.
+// Returns the transform to draw a mesh with; nullopt if less than a plane remains. A flattening
+// transform keeps a trace of thickness, on the side that a very small scale in place of 0 would
+// give; CompiledScene increases the thickness to what float32 resolves.
 std::optional<glm::dmat4> drawable(const glm::dmat4& toWorld, bool mirrored) {
   const glm::dmat3 linear(toWorld);
   if (regularity(linear) > kSmallestRegularity) return toWorld;
@@ -57,7 +57,7 @@ class InstanceTransforms {
 
   size_t count() const { return count_.value_or(0); }
 
-  // With `isRegular`, scales of 0 are read as 1.
+  // Transform of instance `i`. With `isRegular`, scales of 0 are read as 1.
   glm::dmat4 transform(size_t i, bool isRegular) const {
     glm::dvec4 rotation(0, 0, 0, 1);
     if (rotation_) {
@@ -67,7 +67,7 @@ class InstanceTransforms {
         report_.fail(place_ + "ROTATION",
                      fmt::format("the quaternion of instance {} has no length", i));
       }
-      constexpr double kTolerance = 0.02;  // of 8-bit quaternions
+      constexpr double kTolerance = 0.02;  // rounding of 8-bit quaternions
       if (std::abs(length - 1.0) > kTolerance) {
         report_.warn("rotation length", place_ + "ROTATION",
                      fmt::format("the quaternion of instance {} has length {:g}; it is normalised",

@@ -1,4 +1,4 @@
-// Small reads of a JSON document.
+// Helpers to read a JSON document.
 #pragma once
 
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 
 namespace restlab::gltf {
 
-// "an array", "a string": for error lines.
+// Name of the value's type for error lines: "an array", "a string".
 inline std::string typeName(const nlohmann::json& value) {
   if (value.is_array()) return "an array";
   if (value.is_object()) return "an object";
@@ -25,7 +25,7 @@ inline const nlohmann::json& arrayOf(const nlohmann::json& document, const char*
   return it == document.end() ? kNone : *it;
 }
 
-// A non-negative integer, `otherwise` when absent.
+// Reads a non-negative integer; `otherwise` if absent.
 inline uint64_t sizeOf(const nlohmann::json& object, const char* key, uint64_t otherwise) {
   const auto it = object.find(key);
   return it == object.end() ? otherwise : it->get<uint64_t>();

@@ -1,4 +1,4 @@
-// loadGltf(): the order in which the parts of the import run.
+// loadGltf(): runs the parts of the import in order.
 #include <new>
 
 #include "core/error.h"

@@ -11,15 +11,15 @@
 namespace restlab::gltf {
 namespace {
 
-// Absorption of a channel whose attenuation colour is 0 would be infinite; this transmittance over
-// the attenuation distance is black in 8 bits and finite in Beer-Lambert's exponent.
+// Smallest transmittance over the attenuation distance. An attenuation colour of 0 would mean
+// infinite absorption; this value is black in 8 bits and finite in Beer-Lambert's exponent.
 constexpr double kSmallestTransmittance = 1e-4;
-// Of a material that transmits: nothing transparent bends light more, and beyond it the half
-// vectors of rough refraction lose their digits.
+// Largest index of refraction of a transmitting material: no transparent material bends light more,
+// and beyond it the half vectors of rough refraction lose precision.
 constexpr double kLargestIor = 4.0;
 constexpr int kLargestPriority = 1'000'000;
 
-// Numbers of an extension's object; absent ones have the value that the caller gives.
+// Numbers of an extension's object; absent numbers get the caller's default.
 class Properties {
  public:
   Properties(const tinygltf::ExtensionMap& extensions, const char* name) {
@@ -186,7 +186,8 @@ class MaterialImporter {
     }
   }
 
-  // Beer-Lambert: attenuationColor is what remains of white after attenuationDistance metres.
+  // Computes absorption by Beer-Lambert: attenuationColor is what remains of white after
+  // attenuationDistance metres.
   void importAbsorption(const Properties& volume) {
     const std::string place = placeOf("KHR_materials_volume");
     if (volume.has("thicknessTexture")) {
@@ -223,7 +224,7 @@ std::string placeOfPriority(size_t material) {
   return fmt::format("materials[{}].extras.priority", material);
 }
 
-// A property of this project's own: which of several bodies fills a place (core/scene/bodies.h).
+// Reads this project's own property: which of several bodies fills a place (core/scene/bodies.h).
 int priorityOf(const nlohmann::json& material, const std::string& place, Report& report) {
   const auto extras = material.find("extras");
   if (extras == material.end() || !extras->is_object()) return 0;

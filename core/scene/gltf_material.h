@@ -8,20 +8,20 @@
 
 namespace restlab::gltf {
 
-// Reads `extras.priority` of each material of a valid document: -1e6 to 1e6, 0 where there is none.
-// Anything else is a warning, and 0.
+// Reads `extras.priority` of each material of a valid document: -1e6 to 1e6, 0 if absent. Any other
+// value gives 0 and a warning.
 std::vector<int> readPriorities(const nlohmann::json& document, Report& report);
 
 // Appends every material of the document to the scene, in the file's order; `priorities` has one
-// for each.
+// entry per material.
 void importMaterials(const Document& document, const std::vector<int>& priorities,
                      TextureImporter& textures, Scene& scene, Report& report);
 
-// The material that the specification gives to primitives without one: white, metallic 1,
-// roughness 1. Appended at the first call; returns its index.
+// Returns the index of the material that the specification gives to primitives without one: white,
+// metallic 1, roughness 1. The first call appends it.
 uint32_t defaultMaterial(Scene& scene, size_t documentMaterials);
 
-// What rl::Material holds where a file says nothing: glTF's defaults, all texture slots empty.
+// Makes an rl::Material with glTF's defaults and empty texture slots.
 rl::Material makeDefaultMaterial();
 
 }  // namespace restlab::gltf

@@ -9,8 +9,8 @@
 namespace restlab::gltf {
 namespace {
 
-// Vertices that the triangles use, in the accessors' order; the triangles are renumbered.
-// Primitives that share one large vertex buffer so keep only their own part of it.
+// Returns the vertices that the triangles use, in the accessors' order, and renumbers the
+// triangles. A primitive that shares a large vertex buffer thus keeps only its own part.
 std::vector<uint32_t> compactVertices(std::vector<glm::uvec3>& triangles, size_t vertexCount) {
   std::vector<uint32_t> renumbered(vertexCount, rl::RL_INVALID);
   for (const glm::uvec3& t : triangles) {
@@ -53,11 +53,11 @@ std::optional<MeshGeometry> MeshImporter::decode(const tinygltf::Primitive& prim
     report_.fail(place,
                  fmt::format("{} vertices; fewer than {} expected", vertexCount, rl::RL_INVALID));
   }
-  // Any number of primitives may share one buffer, each with a copy of its own.
+  // Check the memory first: many primitives may share one buffer, and each makes a copy.
   const size_t indexCount = primitive.indices < 0
                                 ? vertexCount
                                 : model.accessors[static_cast<size_t>(primitive.indices)].count;
-  constexpr uint64_t kVertexBytes = 4 + sizeof(glm::vec3);  // the renumbering and the position
+  constexpr uint64_t kVertexBytes = 4 + sizeof(glm::vec3);  // renumbering and position
   constexpr uint64_t kIndexBytes = 4 + sizeof(glm::uvec3);
   report_.takeMemory(place, fmt::format("{} vertices and {} indices", vertexCount, indexCount),
                      vertexCount * kVertexBytes + indexCount * kIndexBytes);
@@ -130,7 +130,8 @@ void MeshImporter::checkUnusedMeshes() {
     if (parts_[i]) continue;
     added_.clear();
     parts(i);
-    // Nothing may refer to what is dropped here, and no other unused mesh need decode it again.
+    // Reset to nullopt: nothing may refer to the dropped geometries, and other unused meshes need
+    // not decode them again.
     for (std::optional<uint32_t>* geometry : added_) geometry->reset();
     scene_.geometries.resize(geometryCount);
     scene_.materials.resize(materialCount);

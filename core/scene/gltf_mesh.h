@@ -21,18 +21,18 @@ class MeshImporter {
     uint32_t material;
   };
 
-  // The scene's materials are those of the document, in its order.
+  // The scene's materials must be those of the document, in the same order.
   MeshImporter(const Document& document, Scene& scene, Report& report);
 
-  // The drawable primitives of a mesh; decoded into the scene's geometries at the first call.
-  // Primitives of the same accessors share a geometry, whatever their materials.
+  // Returns the drawable primitives of a mesh, decoded into the scene's geometries at the first
+  // call. Primitives of the same accessors share a geometry, whatever their materials.
   const std::vector<Part>& parts(size_t mesh);
 
-  // Decodes what no node has asked for, to report what is wrong with it, and drops the result.
+  // Decodes meshes that no node uses, to report their faults, and drops the result.
   void checkUnusedMeshes();
 
  private:
-  // Attributes, indices and mode: what makes the geometry of a primitive.
+  // Attributes, indices and mode: determine the geometry of a primitive.
   using Key = std::tuple<std::map<std::string, int>, int, int>;
 
   std::optional<MeshGeometry> decode(const tinygltf::Primitive& primitive, const std::string& name,
@@ -45,7 +45,7 @@ class MeshImporter {
   Report& report_;
   std::vector<std::optional<std::vector<Part>>> parts_;
   std::map<Key, std::optional<uint32_t>> geometries_;  // nullopt: not drawable
-  std::vector<std::optional<uint32_t>*> added_;        // entries of geometries_ made last
+  std::vector<std::optional<uint32_t>*> added_;        // entries of geometries_ that one mesh added
   std::vector<bool> finite_;                           // accessors known to hold finite numbers
 };
 

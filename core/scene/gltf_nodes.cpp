@@ -16,7 +16,7 @@ namespace {
 
 constexpr size_t kNoParent = SIZE_MAX;
 
-// The parent of every node. Fails on a node with two parents and on loops.
+// Returns the parent of every node. Fails on a node with two parents and on loops.
 std::vector<size_t> findParents(const tinygltf::Model& model, Report& report) {
   std::vector<size_t> parents(model.nodes.size(), kNoParent);
   for (size_t i = 0; i < model.nodes.size(); ++i) {
@@ -31,7 +31,7 @@ std::vector<size_t> findParents(const tinygltf::Model& model, Report& report) {
       parent = i;
     }
   }
-  // With one parent each, a node that no root reaches is on or below a loop.
+  // Each node has at most one parent: a node that no root reaches is on or below a loop.
   std::vector<size_t> stack;
   std::vector<bool> reached(model.nodes.size());
   for (size_t i = 0; i < parents.size(); ++i) {
@@ -86,7 +86,7 @@ glm::dvec3 vec3Of(const std::vector<double>& v, glm::dvec3 otherwise) {
 
 struct LocalTransform {
   glm::dmat4 matrix;
-  glm::dmat3 regular, rotation;  // as in PlacedNode
+  glm::dmat3 regular, rotation;  // see PlacedNode
   bool isScalePositive;
 };
 
@@ -139,7 +139,7 @@ LocalTransform localTransform(const tinygltf::Model& model, size_t index, Report
           std::min({scale.x, scale.y, scale.z}) > kSmallestScale};
 }
 
-// Products of long chains stay in range.
+// Rescales extreme axes, so that products along long chains stay in range.
 glm::dmat3 inRange(const glm::dmat3& linear) {
   constexpr double kLargest = 1e60;
   double most = 0.0;
@@ -172,7 +172,7 @@ std::vector<PlacedNode> placeNodes(const tinygltf::Model& model, Report& report)
   const std::vector<size_t> parents = findParents(model, report);
   std::vector<size_t> roots = findRoots(model, parents, report);
   std::vector<PlacedNode> placed;
-  // A stack of our own: chains of nodes may be deeper than the program's.
+  // Explicit stack: chains of nodes may be deeper than the call stack allows.
   std::vector<PlacedNode> stack;
   for (auto it = roots.rbegin(); it != roots.rend(); ++it) stack.push_back({*it, glm::dmat4(1.0)});
   while (!stack.empty()) {

@@ -13,20 +13,20 @@ namespace restlab::gltf {
 struct PlacedNode {
   size_t node;
   glm::dmat4 toWorld;  // finite
-  // The linear part with every scale of 0 read as 1, up to a positive factor: invertible. Its
-  // determinant says whether the node is mirrored.
+  // Linear part with every scale of 0 read as 1, up to a positive factor: invertible. The
+  // determinant tells whether the node is mirrored.
   glm::dmat3 regular{1.0};
-  // The same with the node's own scale read as 1 altogether: what carries a camera or a light.
+  // `regular` with the node's own scale read as 1: the axes of a camera or light on the node.
   glm::dmat3 unscaled{1.0};
-  bool isOwnScalePositive = true;  // and no scale above it is 0
+  bool isOwnScalePositive = true;  // also: no scale above it is 0
 };
 
-// The linear part that a camera or a light of the node has: scales count for nothing but mirrors
-// and shears of the nodes above. Invertible.
+// Linear part for a camera or light of the node: scales have no effect, except mirrors and shears
+// of the nodes above. Invertible.
 glm::dmat3 carriedAxes(const PlacedNode& placed);
 
-// Nodes of the default scene (or the first; or all, when there is none) in depth-first order. Fails
-// on loops, nodes with two parents and transforms that are not finite or not affine.
+// Places the nodes of the default scene (or the first; or all, when there is none) in depth-first
+// order. Fails on loops, nodes with two parents and transforms that are not finite or not affine.
 std::vector<PlacedNode> placeNodes(const tinygltf::Model& model, Report& report);
 
 // "nodes[3] ('lamp')" for error lines.

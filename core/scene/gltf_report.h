@@ -16,17 +16,17 @@ std::string byteCount(uint64_t bytes);
 
 class Report {
  public:
-  // `file` as the user gave it; it starts every line.
+  // `file` as given by the user; it starts every line.
   explicit Report(std::string file) : file_(std::move(file)) {}
 
   // Throws Error (badInput). `place` is a path such as meshes[0].primitives[1].indices, or "".
   [[noreturn]] void fail(std::string_view place, std::string_view text) const;
 
-  // Before `bytes` bytes are allocated for what stands at `place`: throws Error (deviceUnavailable)
-  // where they do not fit into the memory.
+  // Checks that the `bytes` bytes for the object at `place` fit into memory, before allocation;
+  // throws Error (deviceUnavailable) if not.
   void takeMemory(std::string_view place, std::string_view what, uint64_t bytes);
 
-  // Lines of one `kind` are counted: the first kShown are kept, the rest become one line.
+  // Adds a warning. The first kShown warnings of one `kind` are kept, the rest become one line.
   void warn(const std::string& kind, std::string_view place, std::string_view text);
 
   // All warnings, one line each, in the order in which their kinds first appeared.

@@ -51,7 +51,7 @@ void checkAccessorOffsets(const json& document, Report& report) {
   }
 }
 
-// Accessors that meshes and instances are made of.
+// Returns the accessors that meshes and instances use.
 std::set<uint64_t> drawnAccessors(const json& document) {
   std::set<uint64_t> drawn;
   const auto addAll = [&](const json& attributes) {
@@ -70,7 +70,7 @@ std::set<uint64_t> drawnAccessors(const json& document) {
   return drawn;
 }
 
-// Exporters leave empty accessors behind, of animations mostly.
+// Checks accessors with count 0: exporters leave some behind, mostly of animations.
 void checkEmptyAccessors(const json& document, Report& report) {
   const json& accessors = arrayOf(document, "accessors");
   std::set<uint64_t> drawn;
@@ -83,7 +83,8 @@ void checkEmptyAccessors(const json& document, Report& report) {
   }
 }
 
-// Indices without a buffer view come from compression that is not read (or are all zero).
+// Warns of indices without a buffer view: they come from compression that is not read, or are all
+// zero.
 void checkIndexAccessors(const json& document, Report& report) {
   const json& meshes = arrayOf(document, "meshes");
   const json& accessors = arrayOf(document, "accessors");

@@ -4,7 +4,7 @@ namespace restlab::gltf {
 namespace {
 
 constexpr double kMax = std::numeric_limits<double>::max();
-constexpr double kMaxInt = 2147483647.0;         // of properties that tinygltf holds as int
+constexpr double kMaxInt = 2147483647.0;         // limit of properties that tinygltf holds as int
 constexpr double kMaxSize = 9007199254740991.0;  // 2^53 - 1: exact in JSON
 
 Field required(Field field) {
@@ -61,7 +61,7 @@ Field text(const char* name) { return {.name = name, .kind = Kind::text}; }
 Field texts(const char* name) { return {.name = name, .kind = Kind::texts}; }
 Field ignored(const char* name) { return {.name = name, .kind = Kind::ignored}; }
 
-// A text that only messages show.
+// Text that only messages show.
 Field label(const char* name) { return dispensable(text(name)); }
 
 Field word(const char* name, std::vector<const char*> words) {
@@ -110,8 +110,8 @@ struct Tables {
        required(word("type", {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"})),
        dispensable(numbers("max", 0)), dispensable(numbers("min", 0)), object("sparse", sparse)}};
 
-  // Textures. A texture's source and sampler are checked where a material uses them: files with
-  // dangling ones that nothing uses are common.
+  // Textures. A texture's source and sampler are checked only if a material uses it: files with
+  // unused dangling references are common.
   Schema image{
       {label("name"), text("uri"), text("mimeType"), reference("bufferView", "bufferViews")}};
   Schema sampler{{label("name"), choice("magFilter", {9728, 9729}),

@@ -17,15 +17,15 @@ enum class Kind {
   text,
   numbers,       // array of `count` numbers (0: any length)
   texts,         // array of strings
-  object,        // of `schema`
+  object,        // JSON object of `schema`
   objects,       // array of objects of `schema`
   reference,     // index into the top-level array `target`
   references,    // array of such indices
   referenceMap,  // object: name -> index into `target`
-  ignored,       // not imported, its content is not looked at
+  ignored,       // not imported; its content is not checked
 };
 
-// What a number out of range means.
+// Consequence of a number out of range.
 enum class OutOfRange {
   fails,
   clamps,  // a warning, and the nearest number in range is used
@@ -45,8 +45,9 @@ struct Field {
   const Schema* schema = nullptr;
   std::vector<int> integers = {};       // allowed values (empty: all in range)
   std::vector<const char*> words = {};  // allowed strings (empty: all)
-  // Nothing that is drawn depends on it: a value of no use is a warning and is left out. So it is
-  // where the object has `unreadBeside`, and where it says anything but `onlyWith`.
+  // Nothing that is drawn depends on the field: a useless value gives a warning and is left out.
+  // The same applies if the object has `unreadBeside`, or unless `onlyWith.name` has the value
+  // `onlyWith.word`.
   bool isDispensable = false;
   const char* unreadBeside = nullptr;  // a property of the same object
   struct Says {
@@ -57,11 +58,11 @@ struct Field {
 
 struct Schema {
   std::vector<Field> fields;
-  // Extension objects that are read at this place.
+  // Extension objects that are read on this object.
   std::vector<std::pair<const char*, const Schema*>> extensions = {};
 };
 
-// The document's own schema; every other hangs below it.
+// Schema of the whole document; all others hang below it.
 const Schema& documentSchema();
 
 // Names of the extensions that are imported.

@@ -55,7 +55,7 @@ uint32_t TextureImporter::decodedImage(int index, const std::string& place) {
   const std::string imagePlace = fmt::format("images[{}]", index);
   ImageSize size;
   if (checkImageHeader(encoded.bytes, size).empty()) {
-    // Inflated, as pixels of the decoder, and as texels; more where a channel has 16 bits.
+    // Inflated file, the decoder's pixels, and texels; more if a channel has 16 bits.
     constexpr uint64_t kBytesPerPixel = 16;
     report_.takeMemory(imagePlace,
                        fmt::format("{}: {}x{} pixels", encoded.source, size.width, size.height),
@@ -141,7 +141,7 @@ void TextureImporter::checkUnusedImages() {
     ImageSize size;
     const std::string problem = checkImageHeader(encoded.bytes, size);
     if (problem.empty()) continue;
-    // A PNG or JPEG that is broken is a broken file; another format is a matter of extensions.
+    // A broken PNG or JPEG means a broken file; other formats may belong to an extension.
     if (!found.empty()) report_.fail(place, encoded.source + ": " + problem);
     report_.warn("unused image", place,
                  fmt::format("{}: {}; no material that is read uses it", encoded.source, problem));

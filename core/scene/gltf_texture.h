@@ -9,12 +9,12 @@
 
 namespace restlab::gltf {
 
-// A textureInfo object, whichever of tinygltf's types or extension values it came from.
+// A textureInfo object, from any of tinygltf's types or extension values.
 struct TextureReference {
   int index = -1;
   int texCoord = 0;
   const tinygltf::ExtensionMap* extensions = nullptr;
-  tinygltf::ExtensionMap ownedExtensions;  // when it came from an extension's value
+  tinygltf::ExtensionMap ownedExtensions;  // if read from an extension's value
 };
 
 class TextureImporter {
@@ -22,10 +22,10 @@ class TextureImporter {
   TextureImporter(const Document& document, Scene& scene, Report& report);
 
   // Adds a texture use to the scene and returns its index; decodes the image at its first use.
-  // `place` is the textureInfo's, for error lines.
+  // `place` is that of the textureInfo, for error lines.
   uint32_t add(const TextureReference& reference, bool srgb, const std::string& place);
 
-  // Images that no supported slot uses are not decoded, but broken ones are reported.
+  // Reports broken images that no supported slot uses, without decoding them.
   void checkUnusedImages();
 
  private:
@@ -34,7 +34,7 @@ class TextureImporter {
   const Document& document_;
   Scene& scene_;
   Report& report_;
-  std::vector<uint32_t> sceneImage_;  // of each glTF image, RL_INVALID while not decoded
+  std::vector<uint32_t> sceneImage_;  // by glTF image; RL_INVALID: not decoded yet
 };
 
 }  // namespace restlab::gltf

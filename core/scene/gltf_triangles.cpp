@@ -79,7 +79,7 @@ std::vector<glm::uvec3> readTriangles(const tinygltf::Model& model,
     const glm::uvec3 triangle =
         isStrip ? glm::uvec3(indices[i], indices[i + 1 + i % 2], indices[i + 2 - i % 2])
                 : glm::uvec3(indices[i + 1], indices[i + 2], indices[0]);
-    // Strips are stitched by triangles that name a vertex twice.
+    // Skip degenerate triangles: they only stitch strips together.
     if (triangle.x == triangle.y || triangle.y == triangle.z || triangle.z == triangle.x) continue;
     triangles.push_back(triangle);
   }

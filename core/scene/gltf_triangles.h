@@ -10,7 +10,7 @@
 
 namespace restlab::gltf {
 
-// Triangles of a list, strip or fan with counter-clockwise fronts. All indices are below
+// Reads the triangles of a list, strip or fan with counter-clockwise fronts. All indices are below
 // `vertexCount`. Fails on other indices; warns of incomplete triangles.
 std::vector<glm::uvec3> readTriangles(const tinygltf::Model& model,
                                       const tinygltf::Primitive& primitive, size_t vertexCount,

@@ -23,7 +23,7 @@ int hexDigit(char c) {
 struct PercentText {
   std::string decoded;
   bool hasEscape = false;
-  bool hasRaw = false;  // percent signs that begin no escape: they stand for themselves
+  bool hasRaw = false;  // percent signs that begin no escape and stay literal
 };
 
 PercentText percentDecode(std::string_view text) {
@@ -45,7 +45,7 @@ PercentText percentDecode(std::string_view text) {
   return result;
 }
 
-// Text of RFC 4648, padded or not.
+// Decodes base64 (RFC 4648), padded or not.
 std::optional<std::vector<uint8_t>> base64Decode(std::string_view text) {
   static const std::array<int8_t, 256> kValues = [] {
     std::array<int8_t, 256> values{};
@@ -78,7 +78,8 @@ std::optional<std::vector<uint8_t>> base64Decode(std::string_view text) {
   return bytes;
 }
 
-// Letters, digits, '+', '-', '.' before the first ':' (RFC 3986); a one-letter scheme is a drive.
+// Returns whether the URI has a scheme: letters, digits, '+', '-', '.' before the first ':' (RFC
+// 3986). A scheme of one letter is a drive.
 bool hasScheme(std::string_view uri) {
   const size_t colon = uri.find(':');
   if (colon == std::string_view::npos) return false;
@@ -100,7 +101,7 @@ std::vector<std::string> namesIn(const fs::path& directory) {
   return names;
 }
 
-// What stands where the file should be, or a hint at the name that was meant.
+// Says what is at the path instead of the file, or suggests the name that was meant.
 std::string missingText(const fs::path& file, const std::string& uri) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
@@ -126,7 +127,7 @@ std::string lowerCase(std::string_view text) {
   return lower;
 }
 
-// Browsers take escapes and blanks in base64, too; what they stand for leaves no choice.
+// Accepts escapes and blanks in base64, as browsers do; their meaning is unambiguous.
 std::vector<uint8_t> decodeBase64(std::string_view text, const std::string& place, Report& report) {
   const bool isPlain = std::none_of(text.begin(), text.end(), [](char c) {
     return c == '%' || c == '-' || c == '_' || isSpace(c);
@@ -234,8 +235,8 @@ fs::path resolveUri(const std::string& uri, const fs::path& directory, const std
     if (text.hasRaw) warnUnescaped();
     return file;
   }
-  // Exporters that do not escape: what looks like an escape is part of the name. The same rules
-  // apply.
+  // Some exporters do not escape: what looks like an escape is then part of the name. The same
+  // rules apply.
   const fs::path verbatim = pathFromUtf8(uri).lexically_normal();
   if (name != uri && *verbatim.begin() != ".." && isRegularFile(directory / verbatim)) {
     warnUnescaped();

@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-// Where the walk stands, written out only when there is something to say.
+// Place of the walk in the document; formatted only for messages.
 class Place {
  public:
   void push(const std::string& name) { segments_.push_back({name, 0, false}); }
@@ -47,7 +47,8 @@ std::string listOf(const std::vector<T>& values) {
   return fmt::format("{}", fmt::join(values, ", "));
 }
 
-// 1e308 stands for all beyond it (boundNumbers() in core/scene/gltf_container.cpp).
+// Formats a number; 1e308 stands for all larger ones (boundNumbers() in
+// core/scene/gltf_container.cpp).
 std::string textOf(double number) {
   return std::abs(number) < 1e308 ? fmt::format("{:g}", number) : "a number of 1e308 or more";
 }
@@ -59,7 +60,7 @@ class Walker {
   void walkDocument() { walkObject(document_, documentSchema()); }
 
  private:
-  // A fault of a dispensable field.
+  // Fault in a dispensable field.
   struct Useless {
     std::string place, text;
   };
@@ -103,7 +104,7 @@ class Walker {
       leaveOutNull(object, field.name);
       return;
     }
-    if (!isDispensable || isDispensable_) {  // what holds it is left out as a whole
+    if (!isDispensable || isDispensable_) {  // faults go to the outer field
       place_.push(field.name);
       walkField(*it, field);
       place_.pop();
@@ -146,7 +147,7 @@ class Walker {
     report_.warn(fmt::format("useless {}", field.name), place,
                  text + "; nothing that is drawn depends on it");
     object.erase(field.name);
-    if (field.required) object[field.name] = 0.0;  // tinygltf asks for it
+    if (field.required) object[field.name] = 0.0;  // tinygltf requires it
   }
 
   void warnUnknown(const std::string& key, const Schema& schema) {
@@ -161,7 +162,7 @@ class Walker {
     place_.pop();
   }
 
-  // Extensions that are not read may be of any type.
+  // Walks the extension objects; extensions that are not read may be of any type.
   void walkExtensions(json& value, const Schema& schema) {
     if (!value.is_object()) failType(value, "an object");
     const auto& supported = supportedExtensions();
@@ -265,7 +266,7 @@ class Walker {
                      didYouMean(text, words)));
   }
 
-  // Turns an integer written as 1.0 into one.
+  // Converts an integer written as 1.0.
   void toInteger(json& value, const std::string& expected) {
     if (value.is_number_integer()) return;
     if (!value.is_number_float()) failType(value, expected);
@@ -321,7 +322,7 @@ class Walker {
     value = used;
   }
 
-  // How many objects the top-level array `target` holds; "a.b.c" walks into objects.
+  // Number of objects in the top-level array `target`; "a.b.c" descends into objects.
   size_t targetSize(std::string_view target) const {
     const json* value = &document_;
     while (true) {
@@ -351,7 +352,7 @@ class Walker {
   json& document_;
   Report& report_;
   Place place_;
-  bool isDispensable_ = false;  // the field that the walk is in
+  bool isDispensable_ = false;  // the walk is inside a dispensable field
 };
 
 }  // namespace

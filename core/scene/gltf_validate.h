@@ -8,12 +8,12 @@
 namespace restlab::gltf {
 
 // Compares the document with the schema: types, ranges, required properties, references. Fails on
-// what cannot be read. Numbers outside the range of a material property are clamped in `json`,
-// integers written as 1.0 become integers; both with a warning, as have unknown properties.
+// content that cannot be read. Clamps numbers outside the range of a material property in `json`
+// and converts integers written as 1.0, both with a warning. Warns of unknown properties.
 void validateDocument(nlohmann::json& json, Report& report);
 
-// The asset's version, and the extensions: required ones that are not supported fail, used ones
-// warn.
+// Checks the asset's version and its extensions: fails on required extensions that are not
+// supported, warns of used ones.
 void checkVersionAndExtensions(const nlohmann::json& json, Report& report);
 
 }  // namespace restlab::gltf

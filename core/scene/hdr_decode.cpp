@@ -13,10 +13,10 @@ namespace {
 
 using Rgbe = std::array<uint8_t, 4>;
 
-// Rows may be flat, or have runs of one of the two kinds. Returns the fewest bytes of a row.
+// Returns the fewest bytes of a row: rows may be flat or have runs of one of two kinds.
 uint64_t fewestBytes(uint64_t length) {
   const uint64_t flat = 4 * length;
-  // A pixel, and marks that repeat it 255, 255 * 256, ... times.
+  // Older runs: a pixel, and marks that repeat it 255, 255 * 256, ... times.
   const uint64_t old = length <= 1 ? 4 : length <= 256 ? 8 : 12;
   return std::min(flat, old);
 }
@@ -27,7 +27,7 @@ class RowReader {
 
   // Returns "" or what is wrong.
   std::string read(std::vector<Rgbe>& row) {
-    // A row of runs begins with two twos and its length, which no pixel does that a program writes.
+    // A row of newer runs begins with the bytes 2, 2 and its length; no writer makes such a pixel.
     const size_t length = row.size();
     const bool hasRuns = length >= 8 && length < 32768 && bytes_.size() - at_ >= 4 &&
                          bytes_[at_] == 2 && bytes_[at_ + 1] == 2 && bytes_[at_ + 2] < 128;
@@ -40,8 +40,8 @@ class RowReader {
   }
 
  private:
-  // Pixels, among them marks (1, 1, 1, n): the last pixel n times more. Marks that follow each
-  // other are digits to the base of 256, the lowest first.
+  // Reads pixels, among them marks (1, 1, 1, n) that repeat the last pixel n times. Consecutive
+  // marks are digits to base 256, lowest first.
   std::string readFlat(std::vector<Rgbe>& row) {
     uint32_t shift = 0;
     for (size_t x = 0; x < row.size();) {
@@ -64,7 +64,8 @@ class RowReader {
     return "";
   }
 
-  // Each component by itself: a byte above 128 and one to repeat, or a count and so many bytes.
+  // Reads each component separately: a byte above 128 and one to repeat, or a count and that many
+  // bytes.
   std::string readRuns(std::vector<Rgbe>& row) {
     for (size_t c = 0; c < 4; ++c) {
       for (size_t x = 0; x < row.size();) {
@@ -94,13 +95,13 @@ class RowReader {
   size_t at_;
 };
 
-// Mantissas are 0 to 255 of 256, the exponent is of 2 and has 128 added.
+// Decodes RGBE: mantissas in units of 1/256, exponent to base 2 with a bias of 128.
 glm::dvec3 valueOf(const Rgbe& pixel) {
   if (pixel[3] == 0) return glm::dvec3(0.0);
   return glm::dvec3(pixel[0], pixel[1], pixel[2]) * std::ldexp(1.0, int(pixel[3]) - (128 + 8));
 }
 
-// From the file's values to radiance.
+// Returns the matrix from the file's values to radiance.
 glm::dmat3 matrixOf(const HdrHeader& header) {
   const glm::dmat3 exposed(1.0 / header.exposure.x, 0, 0, 0, 1.0 / header.exposure.y, 0, 0, 0,
                            1.0 / header.exposure.z);

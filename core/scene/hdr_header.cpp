@@ -15,7 +15,7 @@ namespace {
 
 constexpr size_t kMaxHeaderBytes = size_t(1) << 20;
 
-// A header is lines of text up to an empty one, and a line with the size.
+// Reads the lines of a header: text up to an empty line, then a line with the size.
 class Lines {
  public:
   explicit Lines(const std::vector<uint8_t>& bytes)
@@ -44,7 +44,7 @@ std::string_view nextWord(std::string_view& text) {
   return word;
 }
 
-// `count` finite numbers and nothing else.
+// Parses `count` finite numbers and nothing else.
 bool readNumbers(std::string_view text, size_t count, double* numbers) {
   for (size_t i = 0; i < count; ++i) {
     std::string_view word = nextWord(text);
@@ -56,7 +56,7 @@ bool readNumbers(std::string_view text, size_t count, double* numbers) {
   return nextWord(text).empty();
 }
 
-// Sets `value` to the text behind `name` where the line begins with it.
+// Sets `value` to the text behind `name` if the line begins with it.
 bool startsWith(std::string_view line, std::string_view name, std::string_view& value) {
   if (!line.starts_with(name)) return false;
   value = line.substr(name.size());
@@ -69,7 +69,7 @@ std::string readPrimaries(std::string_view line, std::string_view value, HdrHead
   header.colours.reset();
   bool areZero = true;
   for (const double number : n) areZero = areZero && number == 0.0;
-  if (areZero) return "";  // what programs write that do not know them
+  if (areZero) return "";  // from programs that do not know the primaries
   const Chromaticities colours = {{n[0], n[1]}, {n[2], n[3]}, {n[4], n[5]}, {n[6], n[7]}};
   if (const std::string why = whyNoColours(colours); !why.empty())
     return fmt::format("'{}': {}", line, why);
@@ -105,7 +105,7 @@ std::string readVariable(std::string_view line, bool& hasFormat, HdrHeader& head
   return "";
 }
 
-// A sign, an axis and how many pixels: "-Y 512".
+// Parses a sign, an axis and a number of pixels: "-Y 512".
 bool readAxis(std::string_view& text, char& sign, char& axis, uint64_t& count) {
   const std::string_view name = nextWord(text), number = nextWord(text);
   if (name.size() != 2 || (name[0] != '+' && name[0] != '-') || (name[1] != 'X' && name[1] != 'Y'))

@@ -13,13 +13,13 @@
 namespace restlab {
 
 struct HdrHeader {
-  bool isXyz = false;                     // X, Y, Z with an exponent, else R, G, B
-  glm::dvec3 exposure{1.0};               // what the file's values were multiplied by, in all
-  std::optional<Chromaticities> colours;  // none, or eight zeros: Rec. 709
-  uint32_t rows = 0, rowLength = 0;       // as the file has them: rows may be columns
-  bool rowsAreColumns = false;            // a row of the file goes from top to bottom, or back
+  bool isXyz = false;                     // X, Y, Z with an exponent, not R, G, B
+  glm::dvec3 exposure{1.0};               // product of all factors on the file's values
+  std::optional<Chromaticities> colours;  // absent, or eight zeros in the file: Rec. 709
+  uint32_t rows = 0, rowLength = 0;       // order of the file: rows may be columns
+  bool rowsAreColumns = false;            // a row of the file runs vertically
   bool isFromBottom = false, isFromRight = false;
-  size_t pixels = 0;  // where they begin
+  size_t pixels = 0;  // offset of the first pixel, bytes
   std::vector<std::string> notes;
 
   uint32_t width() const { return rowsAreColumns ? rows : rowLength; }

@@ -28,9 +28,10 @@ class Decoder {
     return problem;
   }
 
-  // Four bytes a pixel: RGBA, or CMYK where the file is of that.
+  // Decodes to four bytes per pixel: RGBA, or CMYK if the file is CMYK.
   std::string read(const ImageSize& size, std::vector<uint32_t>& texels) {
-    // Five hundred scans are refused: each may go over all pixels, and costs a file a dozen bytes.
+    // TJFLAG_LIMITSCANS refuses 500 scans: each may touch all pixels but costs a file a dozen
+    // bytes.
     constexpr int kFlags = TJFLAG_ACCURATEDCT | TJFLAG_LIMITSCANS;
     const auto decode = [&](int flags) {
       return tjDecompress2(handle_.get(), bytes_.data(), bytes_.size(),
@@ -38,7 +39,8 @@ class Decoder {
                            int(size.height), isCmyk() ? TJPF_CMYK : TJPF_RGBA, flags) == 0;
     };
     if (decode(kFlags | TJFLAG_STOPONWARNING)) return "";
-    // Bytes between segments are harmless; what else the decoder only warns of are lost pixels.
+    // Extra bytes between segments are harmless; every other warning of the decoder means lost
+    // pixels.
     const bool isHarmless = reason().find("extraneous bytes") != std::string_view::npos;
     return isHarmless && decode(kFlags) ? "" : message();
   }
@@ -59,7 +61,7 @@ class Decoder {
   int colourSpace_ = 0;
 };
 
-// A block of 8 x 8 pixels takes a bit at least, in the first scan of a progressive file.
+// An 8 x 8 block takes at least one bit, in the first scan of a progressive file.
 uint64_t fewestBytes(const ImageSize& size) {
   return uint64_t(size.width) * size.height / (64 * 8);
 }
@@ -77,7 +79,7 @@ std::string decodeJpeg(const std::vector<uint8_t>& bytes, DecodedImage& image) {
   if (std::string problem = decoder.readHeader(size); !problem.empty()) return problem;
   if (std::string problem = decoder.read(size, image.texels); !problem.empty()) return problem;
   if (!decoder.isCmyk()) return "";
-  // As Adobe's programs store it: inverted.
+  // Adobe's programs store CMYK inverted.
   for (uint32_t& texel : image.texels) {
     const uint32_t black = texel >> 24;
     const auto times = [&](uint32_t ink) { return ((ink & 0xffu) * black + 127u) / 255u; };

@@ -18,8 +18,8 @@ bool emits(const SceneMaterial& material) {
   return (material.data.flags & rl::RL_MATERIAL_UNLIT) == 0 && std::max({e.x, e.y, e.z}) > 0.0f;
 }
 
-// Emission is the material's: one that other meshes have too, which keep theirs, is copied. The
-// copy comes last, as materials are known by their index.
+// Sets the light factor of emitting materials. A material that other meshes share is copied, so
+// that those keep their factor. The copy goes last, as materials are known by their index.
 void setEmission(Scene& scene, const std::string& name, float factor) {
   const size_t count = scene.materials.size();
   for (uint32_t m = 0; m < count; ++m) {

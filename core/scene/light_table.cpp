@@ -26,8 +26,8 @@ int wrapIndex(int i, int n, uint32_t mode) {
   return r >= n ? period - 1 - r : r;
 }
 
-// Luminance of the emissive texture at a UV, undecoded nearest texel: an estimate that only steers
-// selection probabilities.
+// Luminance of the emissive texture at a UV (nearest texel, not decoded): an estimate that only
+// steers selection probabilities.
 double texelLuminance(const Scene& scene, const TextureUse& use, const glm::vec2& uv) {
   const TextureImage& image = scene.images[use.image];
   const glm::vec3 h(uv, 1.0f);
@@ -40,8 +40,8 @@ double texelLuminance(const Scene& scene, const TextureUse& use, const glm::vec2
   return luminance({decode(t & 255u), decode((t >> 8) & 255u), decode((t >> 16) & 255u)});
 }
 
-// Mean luminance of the texture over a triangle from 16 stratified points. Never zero: a point that
-// was missed may still shine, so a twentieth of full brightness is always assumed.
+// Mean luminance of the texture over a triangle from 16 stratified points. Never zero: texels
+// between the points may still shine, so a twentieth of full brightness is always assumed.
 double textureFactor(const LightTableInput& in, const rl::Geometry& g, const TextureUse& use,
                      const glm::uvec3& corners) {
   const uint32_t offset = g.uvOffset[use.uvSet];
@@ -75,7 +75,7 @@ glm::vec3 vectorToWorld(const rl::Instance& inst, const glm::vec3& v) {
           glm::dot(inst.objectToWorldRow2, h)};
 }
 
-// What bounds the rounding error of a triangle's points, as in surfaceTriangle(): |M| |p| + |T|.
+// Bounds the rounding error of a triangle's points, as in surfaceTriangle(): |M| |p| + |T|.
 float magnitudeOf(const rl::Instance& inst, const glm::vec3& corner) {
   if ((inst.flags & rl::RL_INSTANCE_IDENTITY) != 0) return std::max({corner.x, corner.y, corner.z});
   const glm::vec4 h(corner, 1.0f);
@@ -84,12 +84,12 @@ float magnitudeOf(const rl::Instance& inst, const glm::vec3& corner) {
                    glm::dot(glm::abs(inst.objectToWorldRow2), h)});
 }
 
-// Weights of the lights, by kinds that have no common unit: a lamp has power (W), the sun and the
-// sky have power per area that faces them. Between kinds nothing is known but the number of them.
+// Kinds of lights whose weights have no common unit: a lamp has power (W), sun and sky have power
+// per area that faces them. Weights of different kinds are not comparable.
 enum Kind : size_t { kLamps, kSuns, kSky, kKinds };
 
 struct Weights {
-  std::vector<double> values;  // one a light: W, W/m^2, W/m^2
+  std::vector<double> values;  // one per light: W, W/m^2, W/m^2
   std::vector<Kind> kinds;
 
   void add(Kind kind, double value) {
@@ -98,8 +98,8 @@ struct Weights {
   }
 };
 
-// Weights that give each kind that shines the same share, whatever its unit: docs/decisions.md,
-// "The choice of a light". Empty where nothing shines.
+// Scales weights so that each kind with any weight gets the same share, whatever its unit:
+// docs/decisions.md, "The choice of a light". Empty if all weights are 0.
 std::vector<double> withFairShares(const Weights& weights) {
   std::array<double, kKinds> total{};
   for (size_t i = 0; i < weights.values.size(); ++i) total[weights.kinds[i]] += weights.values[i];
@@ -129,7 +129,7 @@ size_t addTriangles(const LightTableInput& in, const rl::Instance& inst, uint32_
                     p1 = in.positions[g.firstVertex + corners.y],
                     p2 = in.positions[g.firstVertex + corners.z];
     light.p0 = toWorld(inst, p0);
-    // As vectors: differences of far corners would leave small triangles no area.
+    // Transform edges as vectors: differences of far corners would leave small triangles no area.
     light.e1 = vectorToWorld(inst, p1 - p0);
     light.e2 = vectorToWorld(inst, p2 - p0);
     light.magnitude =
@@ -170,9 +170,9 @@ rl::Light punctual(const PunctualLight& source, const glm::dvec3& origin) {
   return light;
 }
 
-// Alias weights of the environment: solid angle of the row times the texel's mean of the bilinear
-// luminance, which is 6/8 of its own and 1/8 of each neighbour's, along both axes. It is positive
-// wherever the radiance is.
+// Computes alias weights of the environment: solid angle of the row times the mean of the bilinear
+// luminance over the texel, which is 6/8 of its own and 1/8 of each neighbour's value, along both
+// axes. The weight is positive wherever the radiance is.
 double addEnvironment(const EnvironmentMap& map, LightTable& table) {
   const int w = int(map.width), h = int(map.height);
   table.environment.resize(size_t(w) * h);
@@ -231,7 +231,7 @@ LightTable buildLightTable(const LightTableInput& in, std::vector<rl::Instance>&
     const double intensity = luminance(glm::dvec3(source.intensity));
     double power = 4.0 * kPi * intensity;
     if (source.kind == rl::RL_LIGHT_SPOT)
-      // 1 - cos, without its cancellation
+      // 1 - cos without cancellation
       power = 4.0 * kPi * std::pow(std::sin(0.5 * double(source.outerConeAngle)), 2.0) * intensity;
     const bool isSun = source.kind == rl::RL_LIGHT_DIRECTIONAL;
     if (isSun) power = intensity;  // W/m^2

@@ -1,5 +1,5 @@
-// The light table: every emitter with its probability of being selected. Lamps, suns and the sky
-// share it evenly, as far as there are any; within each kind it is proportional to power.
+// The light table: every emitter with its selection probability. Lamps, suns and the sky get equal
+// shares, if present; within each kind the probability is proportional to power.
 #pragma once
 
 #include <string>
@@ -11,17 +11,17 @@
 namespace restlab {
 
 struct LightTable {
-  // Those that are off (core/scene/light_factor.h) too, with probability 0: reservoirs know lights
-  // by their index.
+  // Includes lights that are off (core/scene/light_factor.h), with probability 0: reservoirs
+  // identify lights by index.
   std::vector<rl::Light> lights;
-  std::vector<rl::AliasEntry> alias;   // as long, or empty where none of them shines
+  std::vector<rl::AliasEntry> alias;   // one per light; empty if none shines
   std::vector<glm::vec3> environment;  // scaled radiance
   std::vector<rl::AliasEntry> environmentAlias;
   uint32_t environmentLight = rl::RL_INVALID;
-  size_t emissiveTriangles = 0;  // of positive area and power
+  size_t emissiveTriangles = 0;  // with positive area and power
 };
 
-// The flattened buffers that emissive triangles are read from.
+// Flattened buffers that emissive triangles are read from.
 struct LightTableInput {
   const Scene& scene;
   const std::vector<glm::vec3>& positions;

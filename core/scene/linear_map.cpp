@@ -7,7 +7,7 @@ namespace restlab {
 
 namespace {
 
-// The largest cross product of two of three vectors.
+// Largest cross product of two of the three axes.
 glm::dvec3 largestCross(const glm::dmat3& m) {
   glm::dvec3 largest = glm::cross(m[0], m[1]);
   for (const glm::dvec3& other : {glm::cross(m[1], m[2]), glm::cross(m[2], m[0])})
@@ -19,7 +19,8 @@ double longestAxis(const glm::dmat3& m) {
   return std::max({glm::length(m[0]), glm::length(m[1]), glm::length(m[2])});
 }
 
-// A unit vector along `v`, or along the first of the others that has a length across `notAlong`.
+// Returns the unit vector perpendicular to `notAlong` in the direction of the first of `vectors`
+// that is not parallel to it.
 glm::dvec3 directionAcross(const glm::dvec3& notAlong, std::initializer_list<glm::dvec3> vectors) {
   for (const glm::dvec3& v : vectors) {
     const double length = glm::length(v);

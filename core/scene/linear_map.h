@@ -1,35 +1,35 @@
-// Linear maps that lose a dimension, or nearly: how far they are from it, what is left of them.
+// Linear maps that lose a dimension, or nearly: how close they are to it, what remains of space.
 #pragma once
 
 #include <glm/glm.hpp>
 
 namespace restlab {
 
-// Shorter axes have no direction.
+// Length of an axis below which its direction is undefined.
 inline constexpr double kSmallestScale = 1e-30;
-// Below this a map counts as one that loses a dimension.
+// Regularity below which a map counts as losing a dimension.
 inline constexpr double kSmallestRegularity = 1e-9;
 
-// How far a map is from losing a dimension by shear: |determinant| over the product of the lengths
-// of the axes, 0 when an axis has no length. 1 for any rotation with any scale.
+// Measures how far a map is from losing a dimension by shear: |determinant| over the product of the
+// lengths of the axes, 0 when an axis has no length. 1 for any rotation with any scale.
 double regularity(const glm::dmat3& linear);
 
-// Right-handed and orthonormal: Z along that of the map, X as near to that of the map as that
-// allows. A map that mirrors is read as a rotation times a scale with one negative number, or
-// three: of the four rotations the one by the smallest angle. Axes without length are completed.
+// Right-handed, orthonormal axes: Z along the map's Z, X as near to the map's X as that allows. A
+// mirroring map is read as a rotation times a scale with one or three negative numbers: of the four
+// possible rotations, the one by the smallest angle. Axes without length are completed.
 glm::dmat3 nearestRotation(const glm::dmat3& linear);
 
-// The shape of a map that makes space much flatter along one direction than along the others.
+// Shape of a map that makes space much flatter along one direction than along the others.
 struct Flatness {
-  glm::dvec3 normal{0.0};  // unit: of the plane that is left
-  glm::dvec3 lost{0.0};    // unit: the direction, before the map, that is flattened
+  glm::dvec3 normal{0.0};  // unit normal of the plane that remains
+  glm::dvec3 lost{0.0};    // unit; the direction, before the map, that is flattened
   double stretch = 0.0;    // along `normal`, of a unit along `lost`; signed
-  double ratio = 1.0;      // of |stretch| to the next larger stretch
-  double inPlane = 0.0;    // that next larger stretch; 0: no more than a line is left
+  double ratio = 1.0;      // |stretch| over the next larger stretch
+  double inPlane = 0.0;    // the next larger stretch; 0: at most a line remains
 };
 Flatness flatnessOf(const glm::dmat3& linear);
 
-// The map with another stretch along the normal.
+// Returns the map with another stretch along the normal.
 glm::dmat3 withStretch(const glm::dmat3& linear, const Flatness& flatness, double stretch);
 
 }  // namespace restlab

@@ -21,7 +21,7 @@ bool isScene(const fs::path& file) {
   return (extension == ".gltf" || extension == ".glb") && fs::is_regular_file(file, error);
 }
 
-// glTF files in a directory and in its direct subdirectories (NAME/glTF/NAME.gltf is common).
+// Lists glTF files in a directory and in its direct subdirectories (NAME/glTF/NAME.gltf is common).
 std::vector<fs::path> scenesIn(const fs::path& directory, int depth = 1) {
   std::vector<fs::path> found, subdirectories;
   std::error_code error;
@@ -42,7 +42,8 @@ std::vector<fs::path> scenesIn(const fs::path& directory, int depth = 1) {
   return found;
 }
 
-// A candidate that is a file, a directory with one scene in it, or a stem. Empty: nothing there.
+// Resolves a candidate: a file, a directory with one scene in it, or a stem. Empty if nothing is
+// there.
 fs::path resolve(const fs::path& candidate) {
   std::error_code error;
   if (fs::is_directory(candidate, error)) {
@@ -71,7 +72,7 @@ fs::path resolve(const fs::path& candidate) {
   return {};
 }
 
-// Names that would be found directly under `directory`, for "did you mean".
+// Collects names that would be found directly under `directory`, for "did you mean".
 void collectNames(const fs::path& directory, const fs::path& prefix,
                   std::vector<std::string>& names) {
   std::error_code error;
@@ -83,8 +84,8 @@ void collectNames(const fs::path& directory, const fs::path& prefix,
   }
 }
 
-// A scene of this name further down in a folder of scenes, as one would give it; "" where there is
-// none.
+// Finds a scene of this name further down in a folder of scenes, as a user would give it; "" if
+// there is none.
 std::string namesakeBelow(const fs::path& folder, const fs::path& name) {
   constexpr int kDepth = 3;
   std::error_code error;
@@ -98,7 +99,7 @@ std::string namesakeBelow(const fs::path& folder, const fs::path& name) {
     if (isOne && path.stem() == name.stem())
       found.push_back(path.lexically_relative(folder).string());
   }
-  // The shortest: a folder before the file in it.
+  // Prefer the shortest: a folder before the file in it.
   const auto isShorter = [](const std::string& a, const std::string& b) {
     return std::pair(a.size(), a) < std::pair(b.size(), b);
   };

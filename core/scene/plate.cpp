@@ -23,7 +23,8 @@ glm::dmat4 withThickness(const glm::dmat4& toWorld, const MeshGeometry& mesh) {
   }
   constexpr double kOffsets = 8.0;
   const double thickness = kOffsets * double(rl::RL_HIT_ERROR) * coordinate;
-  // A mesh that is flat there itself has one side, wherever its normals point.
+  // A mesh that is itself flat along `lost` has a single side and needs no thickness: just make the
+  // map regular.
   const double wanted = high > low ? thickness / (high - low) : flatness.inPlane;
   const double stretch = flatness.stretch < 0.0 ? -wanted : wanted;
   glm::dmat4 thick(withStretch(linear, flatness, stretch));

@@ -1,4 +1,4 @@
-// PNG by libspng. Values are taken as they are: glTF has no use for gamma and colour profiles.
+// PNG by libspng. Values are taken unchanged: glTF ignores gamma and colour profiles.
 #include <fmt/format.h>
 #include <spng.h>
 
@@ -20,8 +20,8 @@ std::string messageOf(int error) {
   return fmt::format("cannot be decoded ({})", spng_strerror(error));
 }
 
-// The file without the chunks that no pixel depends on: texts, times, profiles. The library stops
-// at 1000 of them, whatever it is told (0.7.3). From a chunk that is not whole on, all is kept.
+// Removes the chunks that no pixel depends on: texts, times, profiles. libspng 0.7.3 stops at 1000
+// of them, whatever its limits. Everything after a truncated chunk is kept.
 std::vector<uint8_t> pixelsAlone(const std::vector<uint8_t>& bytes) {
   constexpr size_t kSignatureBytes = 8, kChunkBytes = 12;
   std::vector<uint8_t> kept(
@@ -43,12 +43,12 @@ std::vector<uint8_t> pixelsAlone(const std::vector<uint8_t>& bytes) {
   return kept;
 }
 
-// Reads the header. `bytes` must outlive what is returned.
+// Reads the header. `bytes` must outlive the result.
 Context open(const std::vector<uint8_t>& bytes, spng_ihdr& header, std::string& problem) {
   Context context(spng_ctx_new(0), &spng_ctx_free);
   if (!context) throw std::bad_alloc();
   spng_set_image_limits(context.get(), kMaxImageSize, kMaxImageSize);
-  // A chunk is no longer than its file, whatever it says, and what is kept of texts no more.
+  // Limit chunks, and the texts kept from them, to the size of the file, whatever they declare.
   spng_set_chunk_limits(context.get(), bytes.size(), bytes.size());
   spng_set_crc_action(context.get(), SPNG_CRC_ERROR, SPNG_CRC_DISCARD);
   spng_set_png_buffer(context.get(), bytes.data(), bytes.size());
@@ -61,7 +61,7 @@ Context open(const std::vector<uint8_t>& bytes, spng_ihdr& header, std::string& 
   return context;
 }
 
-// Deflate shrinks to 1 / 1032 at most.
+// Deflate compresses to 1 / 1032 at best.
 uint64_t fewestBytes(const spng_ihdr& header) {
   constexpr std::array<uint64_t, 7> kChannels = {1, 1, 3, 1, 2, 1, 4};
   const uint64_t bitsPerPixel = header.bit_depth * kChannels.at(header.color_type);
@@ -93,11 +93,11 @@ std::string decodePng(const std::vector<uint8_t>& bytes, DecodedImage& image) {
   void* out = image.roundedFrom16Bit ? static_cast<void*>(values.data()) : image.texels.data();
   const size_t room = image.texels.size() * (image.roundedFrom16Bit ? 8 : 4);
   int error = spng_decode_image(context.get(), out, room, format, SPNG_DECODE_TRNS);
-  // To the end of the file: the sum of the last piece of the picture stands behind it.
+  // Read to the end of the file: the checksum of the last image data stands after it.
   if (error == 0 && spng_decode_chunks(context.get()) == SPNG_ECHUNK_CRC) error = SPNG_ECHUNK_CRC;
   if (error != 0) return messageOf(error);
   if (!image.roundedFrom16Bit) return "";
-  // Nearest of 256 levels: v / 65535 * 255, rounded.
+  // Round to the nearest of 256 levels: v / 65535 * 255.
   const auto round = [&](size_t i) { return (uint32_t(values[i]) + 128u) / 257u; };
   for (size_t i = 0; i < image.texels.size(); ++i)
     image.texels[i] = packRgba(round(4 * i), round(4 * i + 1), round(4 * i + 2), round(4 * i + 3));

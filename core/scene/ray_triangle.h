@@ -1,4 +1,4 @@
-// Rays against single triangles in double precision, for what is asked before a scene is compiled.
+// Rays against single triangles in double precision, for use before a scene is compiled.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -6,8 +6,8 @@
 
 namespace restlab {
 
-// The distance, in lengths of `dir`, at which a ray from `origin` meets a triangle from either
-// side; infinite where it does not (Moeller & Trumbore 1997).
+// Distance, in lengths of `dir`, at which a ray from `origin` meets a triangle from either side;
+// infinite if it misses (Moeller & Trumbore 1997).
 inline double distanceToTriangle(const glm::dvec3& origin, const glm::dvec3& dir,
                                  const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   constexpr double kNone = std::numeric_limits<double>::infinity();

@@ -53,19 +53,19 @@ struct TextureUse {
 struct SceneMaterial {
   std::string name;
   rl::Material data{};       // data.textures[] index Scene::textureUses
-  float lightFactor = 1.0f;  // on data.emission (core/scene/light_factor.h)
-  int priority = 0;          // of bodies that overlap, the greater one fills the place
+  float lightFactor = 1.0f;  // factor on data.emission (core/scene/light_factor.h)
+  int priority = 0;          // among overlapping bodies, the greatest fills the place
 };
 
 struct SceneCamera {
   std::string name;
   uint32_t kind = rl::RL_CAMERA_PERSPECTIVE;
   glm::dmat4 cameraToWorld{1.0};  // looks along -Z, +Y up; right-handed; scale is ignored
-  bool isMirrored = false;        // the image shows left what lies to the right
+  bool isMirrored = false;        // the image is mirrored left to right
   double yfov = 0.8;              // radians (perspective)
   double xmag = 1.0, ymag = 1.0;  // half extents in metres (orthographic)
   double aspect = 0.0;            // width / height, 0: free
-  double znear = 0.0;  // metres, as a file says it; nothing is clipped (camera_path.h warns by it)
+  double znear = 0.0;  // metres, from the file; no clipping, only warnings (camera_path.h)
 };
 
 struct PunctualLight {
@@ -75,7 +75,7 @@ struct PunctualLight {
   glm::dvec3 dirW{0.0, 0.0, -1.0};  // direction of travel (spot, directional)
   glm::vec3 intensity{1.0f};        // W/sr (point, spot), W/m^2 (directional)
   float innerConeAngle = 0.0f, outerConeAngle = 0.785398f;  // radians
-  float lightFactor = 1.0f;  // on the intensity (core/scene/light_factor.h)
+  float lightFactor = 1.0f;  // factor on the intensity (core/scene/light_factor.h)
 };
 
 // Latitude-longitude map, row 0 at +Y; u = 0.5 looks along -Z rotated by `rotation` about +Y.
@@ -85,8 +85,8 @@ struct EnvironmentMap {
   std::vector<glm::vec3> radiance;
   float rotation = 0.0f;  // radians
   float scale = 1.0f;
-  float lightFactor = 1.0f;             // on scale (core/scene/light_factor.h)
-  std::vector<std::string> warnings{};  // of its file, one line each
+  float lightFactor = 1.0f;             // factor on scale (core/scene/light_factor.h)
+  std::vector<std::string> warnings{};  // about its file, one line each
 };
 
 struct Scene {
@@ -99,53 +99,55 @@ struct Scene {
   std::vector<TextureImage> images;
   std::vector<SceneCamera>
       cameras;              // never empty after loading: one is made when the file has none
-  uint32_t mainCamera = 0;  // whose view numbers must hold best (core/scene/scene_origin.h)
+  uint32_t mainCamera = 0;  // its view is the most precise (core/scene/scene_origin.h)
   std::vector<PunctualLight> lights;
   std::optional<EnvironmentMap> environment;
   std::vector<std::string> warnings;  // one line each, printed by the program
-  uint64_t contentHash = 0;           // of every byte the scene was made from
-  size_t skippedPrimitives = 0;       // points and lines
+  uint64_t contentHash = 0;           // hash of every byte the scene was made from
+  size_t skippedPrimitives = 0;       // number of points and lines
 };
 
 // Imports a glTF 2.0 file (.gltf or .glb). Throws Error (badInput) with one line.
 Scene loadGltf(const std::filesystem::path& file);
 
-// A number in the name of a built-in scene, "furnace?albedo=0.9" (core/scene/builtin_name.h).
+// Numeric parameter in the name of a built-in scene, "furnace?albedo=0.9"
+// (core/scene/builtin_name.h).
 struct SceneParameter {
   std::string name;
-  std::optional<double> fallback;  // nothing: `summary` says what holds where it is not given
+  std::optional<double> fallback;  // absent: `summary` says what applies if not given
   double lo = 0.0, hi = 0.0;       // inclusive
   std::string summary;
 };
 
-// Makes a built-in scene; the name is one of builtinSceneNames(), with parameters behind a '?' or
-// without. Equal contents have one content hash, whatever the name. Throws Error (badInput).
+// Makes a built-in scene; the name is one of builtinSceneNames(), with or without parameters behind
+// a '?'. Equal contents have equal content hashes, whatever the name. Throws Error (badInput).
 Scene makeBuiltinScene(const std::string& name);
 const std::vector<std::string>& builtinSceneNames();
-// Is this the name of a built-in scene, whatever stands behind a '?' in it?
+// Returns whether this names a built-in scene; text behind a '?' is ignored.
 bool isBuiltinScene(const std::string& name);
-// One line for `restlab list scenes`.
+// One-line summary for `restlab list scenes`.
 std::string builtinSceneSummary(const std::string& name);
-// Its own parameters, then those of every built-in scene.
+// Parameters of this scene, then those of every built-in scene.
 std::vector<SceneParameter> builtinSceneParameters(const std::string& name);
 
-// A built-in's name, or a path: tried as given, then under RESTLAB_SCENES, then under
+// Loads a built-in by name, or a path: tried as given, then under RESTLAB_SCENES, then under
 // ../shared/scenes; a directory or a stem finds the one glTF inside. Throws Error (badInput).
 Scene loadScene(const std::string& nameOrPath);
 
-// Reads a latitude-longitude .hdr or .exr, or a cube that an .exr says it is. Negative and
+// Reads a latitude-longitude .hdr or .exr, or an .exr that declares itself a cube. Negative and
 // non-finite texels are an error.
 EnvironmentMap loadEnvironment(const std::filesystem::path& file);
 
-// A camera looking at the whole scene, for files that have none.
+// Makes a camera that looks at the whole scene, for files that have none.
 SceneCamera framingCamera(const Scene& scene);
 
-// Index of the camera of that name or number; throws Error (badUsage) with the nearest name.
+// Index of the camera with that name or number; throws Error (badUsage) with the nearest name.
 uint32_t findCamera(const Scene& scene, const std::string& nameOrIndex);
 
 // World bounding box of all instances (min, max).
 std::array<glm::dvec3, 2> worldBounds(const Scene& scene);
-// The same without what lies a hundred times farther out than anything else: strays, a huge ground.
+// Bounding box without strays, which lie a hundred times farther out than all else: lost vertices,
+// a huge ground.
 std::array<glm::dvec3, 2> boundsWithoutStrays(const Scene& scene);
 
 }  // namespace restlab

@@ -11,7 +11,7 @@ namespace {
 
 using Box = std::array<glm::dvec3, 2>;
 
-constexpr size_t kMostSamples = size_t(1) << 20;  // of vertices
+constexpr size_t kMostSamples = size_t(1) << 20;  // vertices sampled at most, about
 
 Box emptyBox() {
   return {glm::dvec3(std::numeric_limits<double>::infinity()),
@@ -26,7 +26,7 @@ void extend(Box& box, const glm::dvec3& point) {
 }  // namespace
 
 std::array<glm::dvec3, 2> worldBounds(const Scene& scene) {
-  // Exact for meshes seen a few times; forests of instances take the corners of each mesh's box.
+  // Exact for meshes used a few times; meshes used often count by the corners of their box.
   constexpr size_t kExactUses = 16;
   std::vector<size_t> uses(scene.geometries.size());
   for (const MeshInstance& instance : scene.instances) ++uses[instance.geometry];
@@ -63,7 +63,7 @@ Box boundsWithoutStrays(const Scene& scene) {
     count += scene.geometries[instance.geometry].positions.size();
   const size_t step = count / kMostSamples + 1;
   std::vector<glm::dvec3> points;
-  size_t next = 0;  // of the mesh's vertices
+  size_t next = 0;  // index among the mesh's vertices
   for (const MeshInstance& instance : scene.instances) {
     const std::vector<glm::vec3>& positions = scene.geometries[instance.geometry].positions;
     for (; next < positions.size(); next += step)
@@ -71,7 +71,7 @@ Box boundsWithoutStrays(const Scene& scene) {
     next -= positions.size();
   }
   if (points.empty()) return all;
-  // The middle of the vertices, not of the bounds: a stray moves it by one place.
+  // Median of the vertices, not the middle of the bounds: a stray moves it by one rank only.
   glm::dvec3 middle;
   std::vector<double> numbers(points.size());
   const auto half = numbers.begin() + ptrdiff_t(numbers.size() / 2);
@@ -88,8 +88,8 @@ Box boundsWithoutStrays(const Scene& scene) {
     return nearer > 0.0 && farther > kGap * nearer;
   });
   if (gap == numbers.end()) return all;
-  // Inside of the gap, where those that were not asked lie, too. What a triangle joins stays
-  // together: a rod is no stray of its own end.
+  // Put the limit inside the gap, as vertices outside the sample lie there, too. Vertices of one
+  // triangle stay together: the far end of a rod is not a stray.
   const double farthest = std::sqrt(kGap) * *gap;
   Box bounds = emptyBox();
   for (const MeshInstance& instance : scene.instances) {

@@ -12,13 +12,13 @@ namespace restlab {
 
 namespace {
 
-constexpr int kRaysASide = 7;  // of the view
+constexpr int kRaysASide = 7;  // rays per side of the view
 
 double largest(const glm::dvec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-// The size that must be told apart at a distance (SceneOrigin::viewSize), metres.
+// Size that must be resolved at a distance (SceneOrigin::viewSize), metres.
 double sizeAt(const SceneCamera& camera, double distance) {
   if (camera.kind == rl::RL_CAMERA_ORTHOGRAPHIC) return 2.0 * camera.ymag;
   return std::min(distance, 2.0 * distance * std::tan(0.5 * camera.yfov));
@@ -29,7 +29,7 @@ struct Seen {
   glm::dvec3 pointW;
 };
 
-// The first surfaces on a grid of rays, the nearest first. Aspect ratios are left out: 1.
+// Finds the first surfaces on a grid of rays, nearest first. The aspect ratio is taken as 1.
 std::vector<Seen> seenBy(const Sight& sight, const SceneCamera& camera) {
   const glm::dmat4& m = camera.cameraToWorld;
   const glm::dvec3 eye(m[3]), back = glm::normalize(glm::dvec3(m[2]));
@@ -66,7 +66,7 @@ SceneOrigin originOf(const Scene& scene, uint32_t cameraIndex) {
     return coordinate <= kHarmlessReach * sizeAt(camera, distance);
   };
   const Sight sight(scene);
-  // Nothing that it sees can be nearer.
+  // Lower bound on the distance of anything that the camera sees.
   const double nearest =
       sight.distanceToNearest(eye, reach / (kHarmlessReach * sizeAt(camera, 1.0)));
   if (isHarmless(reach, nearest)) return origin;
@@ -79,7 +79,7 @@ SceneOrigin originOf(const Scene& scene, uint32_t cameraIndex) {
   }
   origin.eyeW = eye;
   origin.focusW = median.pointW;
-  std::vector<double> coordinates;  // over what does no harm
+  std::vector<double> coordinates;  // over the size to be resolved at that point
   for (const Seen& one : seen.empty() ? std::vector<Seen>{median} : seen)
     coordinates.push_back(largest(one.pointW - origin.originW) / sizeAt(camera, one.distance));
   std::nth_element(coordinates.begin(), coordinates.begin() + ptrdiff_t(coordinates.size() / 2),
@@ -98,7 +98,7 @@ std::vector<std::string> farFromOrigin(const Scene& scene, const SceneOrigin& or
     const auto at = static_cast<float>(std::min(coordinate, 1e38));
     return double(std::nextafter(at, std::numeric_limits<float>::infinity())) - double(at);
   };
-  constexpr double kVisible = 1e-3;  // of an object's size
+  constexpr double kVisible = 1e-3;  // fraction of an object's size
   double most = 0.0, mostDistance = 0.0, mostRounding = 0.0;
   size_t count = 0;
   std::string name;
@@ -137,7 +137,7 @@ std::vector<std::string> farFromOrigin(const Scene& scene, const SceneOrigin& or
     const double distance = largest(glm::dvec3(other.cameraToWorld[3]) - origin.originW);
     if (distance <= kHarmlessReach * origin.viewSize) continue;
     if (i == scene.mainCamera) {
-      // A narrow view from afar: its own place is what float32 rounds.
+      // Narrow view from afar: float32 rounds the camera's own position.
       if (!(spacing(distance) > kVisible * origin.viewSize)) continue;
       lines.push_back(fmt::format(
           "{}: camera '{}' stands {:.2g} m from what it sees, {:.2g} m of it: float32 rounds its "

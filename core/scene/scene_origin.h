@@ -1,5 +1,5 @@
-// The point that a compiled scene counts its coordinates from. Kernels have 32-bit floats: a
-// coordinate of a million metres is known to 6 cm, and rays from there start 2 m off the surface.
+// The origin of a compiled scene's coordinates. Kernels have 32-bit floats: a coordinate of a
+// million metres is known to 6 cm, and rays from there start 2 m off the surface.
 #pragma once
 
 #include <string>
@@ -15,23 +15,24 @@ constexpr double kHarmlessReach = 256.0;
 
 struct SceneOrigin {
   glm::dvec3 originW{0.0};  // metres
-  // False: the middle of the scene's bounds, from which all that the camera sees is near enough.
+  // False: the origin is the middle of the scene's bounds, near enough to all that the camera sees.
   bool followsCamera = false;
-  // The point that the main camera looks at (the median of its view) and the size that must be told
-  // apart there, in metres: the height of the view, or the distance where that is less. viewSize is
-  // 0 where the scene is so small that it does not matter.
+  // Position of the main camera, the point it looks at (the median of its view) and the size that
+  // must be resolved there, in metres: the height of the view, or the distance if that is less.
+  // viewSize is 0 if the scene is so small that it does not matter.
   glm::dvec3 eyeW{0.0}, focusW{0.0};
   double viewSize = 0.0;
 };
 
-// For the camera of that index (none is needed). A scene of harmless extent has the middle of its
-// bounds for an origin; elsewhere it is the middle of all vertices that lie within kHarmlessReach
-// of what the camera sees. Looks at every triangle once, and at some of them a few times more where
-// the scene is large for the camera's distance.
+// Chooses the origin for the camera of that index (an index without a camera is allowed). A scene
+// of harmless extent gets the middle of its bounds; otherwise the origin is the middle of all
+// vertices within kHarmlessReach of what the camera sees. Visits every triangle once, and some of
+// them a few times more if the scene is large for the camera's distance.
 SceneOrigin originOf(const Scene& scene, uint32_t camera);
 
-// Lines about what 32-bit floats cannot hold all the same, each with the object's name: objects far
-// from the origin of a scene that follows its camera, and cameras of the scene far from it.
+// Returns warnings about what 32-bit floats cannot resolve despite the chosen origin, each with the
+// object's name: objects far from the origin of a scene that follows its camera, and cameras of the
+// scene far from it.
 std::vector<std::string> farFromOrigin(const Scene& scene, const SceneOrigin& origin);
 
 }  // namespace restlab

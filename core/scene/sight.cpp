@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::infinity();
 constexpr uint32_t kPieceSize = 64;  // triangles
-constexpr uint32_t kManyUses = 16;   // of a mesh: a forest
+constexpr uint32_t kManyUses = 16;   // more uses of a mesh: a forest
 
 double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
 
@@ -34,7 +34,7 @@ double entryOf(const glm::dvec3& origin, const glm::dvec3& dir, const glm::dvec3
     enter = std::max(enter, std::min(a, b));
     leave = std::min(leave, std::max(a, b));
   }
-  constexpr double kSlack = 1e-9;  // flat boxes
+  constexpr double kSlack = 1e-9;  // for flat boxes
   return enter <= leave * (1.0 + kSlack) ? enter : kNone;
 }
 

@@ -1,4 +1,4 @@
-// Rays and distances of a camera in double precision, before anything is compiled, against boxes of
+// Rays and distances of a camera in double precision, before a scene is compiled, against boxes of
 // a few triangles each.
 #pragma once
 
@@ -11,20 +11,19 @@ namespace restlab {
 
 class Sight {
  public:
-  explicit Sight(const Scene& scene);  // which must outlive it
+  explicit Sight(const Scene& scene);  // the scene must outlive it
 
-  // Distance of the first surface along the ray, in lengths of `dirW`; infinite where there is
-  // none.
+  // Distance of the first surface along the ray, in lengths of `dirW`; infinite if there is none.
   double distanceTo(const glm::dvec3& originW, const glm::dvec3& dirW) const;
-  // From the point to the nearest surface, in metres; infinite where there is none. It may stop at
-  // the first one nearer than `enough`.
+  // Distance from the point to the nearest surface, in metres; infinite if there is none. The
+  // search may stop at the first surface nearer than `enough`.
   double distanceToNearest(const glm::dvec3& pointW, double enough) const;
-  // Bounds of the vertices that are no farther than `reach` from the point, by their largest
-  // coordinate; min > max where there is none. Forests count by the corners of their boxes.
+  // Bounds of the vertices within `reach` of the point, by the largest coordinate difference; min >
+  // max if there are none. Meshes used many times count by the corners of their boxes.
   std::array<glm::dvec3, 2> boundsWithin(const glm::dvec3& pointW, double reach) const;
 
  private:
-  // Consecutive triangles of an instance; all of them where its mesh is used many times.
+  // Consecutive triangles of an instance; all of them if its mesh is used many times.
   struct Piece {
     uint32_t instance, first, count;
     glm::dvec3 low, high;
@@ -35,7 +34,7 @@ class Sight {
   std::vector<Piece> pieces_;
 };
 
-// From a point to a triangle, in double precision.
+// Distance from a point to a triangle, in double precision.
 double distanceToTriangle(const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3& b,
                           const glm::dvec3& c);
 

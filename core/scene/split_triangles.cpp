@@ -9,7 +9,7 @@ namespace restlab {
 
 namespace {
 
-// Shorter edges than this part of the coordinates gain nothing by a split.
+// Fraction of the coordinates below which an edge gains nothing by a split.
 constexpr double kShortest = 0.125;
 
 double largest(const glm::dvec3& v) {
@@ -49,7 +49,7 @@ class Splitter {
         done.push_back(t);
         continue;
       }
-      // The longest edge first: pieces stay round.
+      // Split the longest edge: pieces stay round.
       const double xy = glm::length(at(t.y) - at(t.x)), yz = glm::length(at(t.z) - at(t.y)),
                    zx = glm::length(at(t.x) - at(t.z));
       const glm::uvec3 turned = xy >= yz && xy >= zx ? t
@@ -95,7 +95,7 @@ std::optional<SplitMesh> splitHugeTriangles(const MeshGeometry& mesh, const glm:
     most = std::max(most, largest(positionsW.back() - origin.originW));
   }
   if (!(most > kHarmlessReach * origin.viewSize)) return std::nullopt;
-  MeshGeometry bare;  // attributes are copied where a triangle is split
+  MeshGeometry bare;  // attributes are copied only if a triangle is split
   const Splitter looker(bare, origin, positionsW);
   const bool isSplit = std::any_of(mesh.triangles.begin(), mesh.triangles.end(),
                                    [&](const glm::uvec3& t) { return looker.isHuge(t); });

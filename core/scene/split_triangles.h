@@ -1,5 +1,5 @@
-// Triangles of a huge mesh that pass near the camera, in pieces: the error of a point is that of
-// its triangle's farthest corner.
+// Splitting of huge triangles that pass near the camera: the error of a point is that of its
+// triangle's farthest corner.
 #pragma once
 
 #include <optional>
@@ -9,13 +9,13 @@
 namespace restlab {
 
 struct SplitMesh {
-  MeshGeometry mesh;                   // positions stay as they were; new ones are at their end
-  std::vector<glm::dvec3> positionsW;  // of all vertices, metres, in the world
+  MeshGeometry mesh;                   // positions are kept; new ones follow at the end
+  std::vector<glm::dvec3> positionsW;  // all vertices, metres, in the world
 };
 
-// Splits what reaches too far for its distance from the camera and from what the camera looks at.
-// Nothing where no triangle does, which is so wherever `origin.viewSize` is 0. A face stays where
-// it is; neighbours of pieces stay whole, so that an edge may have points on one side only.
+// Splits triangles that reach too far for their distance from the camera and from what it looks at.
+// Returns nullopt if there are none, always if `origin.viewSize` is 0. The surface stays in place;
+// neighbours of pieces stay whole, so that an edge may have points on one side only.
 std::optional<SplitMesh> splitHugeTriangles(const MeshGeometry& mesh, const glm::dmat4& toWorld,
                                             const SceneOrigin& origin);
 

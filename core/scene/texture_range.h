@@ -1,4 +1,4 @@
-// What values a material's texture can take, for deciding what a scene needs.
+// Ranges of a material's texture values, for deciding what a scene needs.
 #pragma once
 
 #include <array>
@@ -8,19 +8,19 @@
 
 namespace restlab {
 
-// Bounds of every texel's RGBA, in [0, 1]. Filtering is a convex combination of texels, so they
-// bound every look-up too. sRGB decoding is monotonic and keeps 0 and 1: zero and one stay what
-// they are.
+// Bounds of every texel's RGBA, in [0, 1]. Filtering is a convex combination of texels, so the
+// bounds hold for every look-up. sRGB decoding is monotonic and keeps 0 and 1: bounds of 0 and 1
+// stay exact.
 struct TexelRange {
   std::array<float, 4> low{1.0f, 1.0f, 1.0f, 1.0f};
   std::array<float, 4> high{1.0f, 1.0f, 1.0f, 1.0f};
 };
 
-// Reads each image once, when first asked for.
+// Reads each image once, at its first use.
 class TextureRanges {
  public:
   explicit TextureRanges(const Scene& scene) : scene_(scene) {}
-  // The range of a material's slot; all ones where it is empty.
+  // Range of a material's slot; all ones if it is empty.
   const TexelRange& ofSlot(const rl::Material& material, uint32_t slot);
 
  private:

@@ -1,4 +1,4 @@
-#include <fstream>  // tinygltf's writer names file streams even where it has no file access
+#include <fstream>  // for tinygltf's writer, which uses file streams even without file access
 
 #define TINYGLTF_IMPLEMENTATION
 #include "core/scene/tinygltf.h"

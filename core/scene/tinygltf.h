@@ -1,4 +1,4 @@
-// The one way in which tinygltf is included: without its own image and file access.
+// Includes tinygltf without its own image and file access. Other files include only this header.
 #pragma once
 
 #ifndef TINYGLTF_NO_STB_IMAGE

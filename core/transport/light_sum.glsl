@@ -1,5 +1,5 @@
-// The walk that adds up the light which its path meets: at each vertex one light sample and one
-// BSDF sample, combined by the power heuristic (Veach 1997, chapter 9). The includer defines
+// Path loop that sums the light found along a path: at each vertex one light sample and one BSDF
+// sample, combined by the power heuristic (Veach 1997, chapter 9). The includer defines
 // RL_WALK_STATE, a struct with a LightSum `sum`, and walkArrives() (core/transport/walk.glsl).
 
 RL_FN void walkEscapes(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, RL_IN(vec3) radiance,

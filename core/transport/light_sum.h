@@ -1,4 +1,4 @@
-// What a path has found (core/transport/light_sum.glsl).
+// Light found along a path (core/transport/light_sum.glsl).
 #ifndef RL_LIGHT_SUM_H
 #define RL_LIGHT_SUM_H
 
@@ -11,7 +11,7 @@ RL_NAMESPACE_BEGIN
 
 struct LightSum {
   vec3 radiance;
-  vec3 unseen;  // of the last light sample, without its visibility
+  vec3 unseen;  // unshadowed contribution of the last light sample
 };
 
 RL_NAMESPACE_END

@@ -1,23 +1,24 @@
-// Light that the camera sees directly, in pixels that show the edge of a lamp. One film sample
-// meets it or does not: the largest error of a frame with a lamp in view. A camera ray is cheap
-// beside a path, so such pixels take several.
+// Directly visible light in pixels at the edge of a lamp. A single film sample hits the lamp or
+// misses it: the largest error of a frame with a lamp in view. Camera rays are cheap compared with
+// paths, so such pixels take several.
 //
-// Edges of the sky keep the one: what stands before it is often as bright, and then it is best that
-// light in view and the rest are of the same film sample. In a white furnace that is exact.
+// Edges of the sky keep one film sample. Objects before the sky are often as bright as the sky, and
+// then directly visible and reflected light should come from the same film sample. In a white
+// furnace that is exact.
 
-// Does the centre of a pixel show a lamp? `visible`: core/dialect/visible.h.
+// Returns whether the centre of a pixel shows a lamp. `visible`: core/dialect/visible.h.
 RL_FN bool lightsAtCentre(RL_IN(QuadRef) visible, uint x, uint y) {
   return visibleRead(visible, gFrame.camera, y * gFrame.width + x).emits != 0u;
 }
 
-// As far as the centres of the eight pixels around it tell. A light that no centre shows is missed:
-// it keeps the path's one sample.
+// Returns whether a lamp ends at this pixel, judged by its centre and those of the eight pixels
+// around it. A light that no centre shows is missed and keeps the path's one sample.
 RL_FN bool lightsEndHere(RL_IN(QuadRef) visible, RL_IN(uvec2) pixel) {
-  // Light is dimmed on its way in a body, and may pass surfaces that are none.
+  // Skip cameras inside a body: lightsAtFilm() handles neither absorption nor overlapping bodies.
   if (gFrame.cameraMedia.x != 0u) return false;
   bool isLight = lightsAtCentre(visible, pixel.x, pixel.y);
   for (uint i = 0u; i < 9u; i = i + 1u) {
-    // Left of column 0 and above row 0 the number wraps to the largest there is: outside, too.
+    // Left of column 0 and above row 0 the index wraps to a large number: outside, too.
     uint x = pixel.x + i % 3u - 1u;
     uint y = pixel.y + i / 3u - 1u;
     if (x >= gFrame.width || y >= gFrame.height) continue;
@@ -36,8 +37,8 @@ RL_FN vec3 lightsAtFilm(RL_IN(uvec2) pixel, uint film) {
   return vec3(0.0f, 0.0f, 0.0f);
 }
 
-// Its mean over the pixel's film samples of this frame and the next ones: what a still view would
-// have averaged after so many frames.
+// Mean of the directly visible radiance over the pixel's film samples of this frame and the next
+// ones: the average that a still view reaches after `samples` frames.
 RL_FN vec3 lightsInView(RL_IN(uvec2) pixel, uint samples) {
   vec3 sum = vec3(0.0f, 0.0f, 0.0f);
   for (uint i = 0u; i < samples; i = i + 1u) {

@@ -1,33 +1,33 @@
-// The one path loop of the project. Everything that traces paths includes this file and says what
-// becomes of the light that a path meets; the loop decides where the path goes, and which rays and
-// random numbers that takes. At each vertex light samples and one BSDF sample are drawn; each round
-// traces at most two rays by one call: the shadow ray of the last vertex's light sample, then the
+// The path loop. Every kernel that traces paths includes this file and defines what happens to the
+// light that a path finds. The loop decides where the path goes, and which rays and random numbers
+// are used. At each vertex light samples and one BSDF sample are drawn. Each iteration traces at
+// most two rays from one call site: the shadow ray of the last vertex's light sample, then the
 // path's own next ray.
 //
-// The includer defines RL_WALK_STATE, a struct, and before the #include these functions, which get
-// the state as RL_INOUT(RL_WALK_STATE) and the Walk. Vertices are counted as scattering events are:
-// x1, the first, is where walk.bounces is 0.
-//   walkEscapes(state, walk, radiance, pdfLight)   the ray left the scene: the environment's
-//       radiance. pdfLight: solid-angle density of light sampling for the ray; 0 where none
-//       competes
-//   walkEmits(state, walk, surface, hit, pdfLight) the ray met an emitter, s.emission towards it
-//   walkAbsorbs(state, walk, transmittance)        through a medium, up to the next vertex
+// The includer defines RL_WALK_STATE, a struct, and before the #include the functions below, which
+// get the state as RL_INOUT(RL_WALK_STATE) and the Walk. Vertices are counted as scattering events:
+// walk.bounces is 0 at the first one, x1.
+//   walkEscapes(state, walk, radiance, pdfLight)   the ray left the scene: radiance of the
+//       environment. pdfLight: solid-angle density of light sampling for the ray; 0 if light
+//       sampling does not compete
+//   walkEmits(state, walk, surface, hit, pdfLight) the ray hit an emitter, s.emission towards it
+//   walkAbsorbs(state, walk, transmittance)        transmittance of a medium, up to the next vertex
 //   walkArrives(state, walk, surface)              a vertex that scatters, before anything is
 //       drawn; returns how many light samples are drawn there, or RL_WALK_ENDS
 //   walkLights(state, walk, rng, surface, light, connection)  a light sample at the vertex, without
-//       its visibility; true: its shadow ray is to be traced (of several the last one)
-//   walkSees(state, walk, transmittance)           of that shadow ray. walk.bounces counts the
-//       scattering event at its origin already
+//       visibility; returns whether to trace its shadow ray (of several only the last is traced)
+//   walkSees(state, walk, transmittance)           transmittance of that shadow ray. walk.bounces
+//       counts the scattering event at the ray's origin already
 //   walkScatters(state, walk, surface, draw)       the BSDF sample, before walk.throughput has it
 //   walkSurvives(state, walk, factor)              Russian roulette: 1 / probability of survival
-// Light is only looked for where gFrame.components wants it.
+// Only the components of light in gFrame.components are gathered.
 
 RL_FN bool walkWants(uint bounces) {
   uint component = bounces >= 2u ? RL_COMPONENT_INDIRECT : RL_COMPONENT_DIRECT;
   return (gFrame.components & component) != 0u;
 }
 
-// The shadow ray of a light sample and whether there is one. shadowRay is set where it is.
+// Draws light samples. Returns whether there is a shadow ray to trace; only then sets shadowRay.
 RL_FN bool walkDrawLights(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, RL_IN(Surface) s,
                           uint candidates, RL_INOUT(Ray) shadowRay) {
   bool hasShadowRay = false;
@@ -45,7 +45,8 @@ RL_FN bool walkDrawLights(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, RL_IN
   return hasShadowRay;
 }
 
-// Draws where the path goes on, and moves the walk there. behind: bodies beyond the surface.
+// Samples the next direction of the path and moves the walk there. behind: bodies beyond the
+// surface.
 RL_FN void walkScatter(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk, RL_IN(Surface) s,
                        RL_IN(uvec4) behind) {
   float uLobe = rngDraw(walk.rng, RL_DIM_BSDF_LOBE);
@@ -74,7 +75,7 @@ RL_FN void walkScatter(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk, RL_IN
   walk.ray.dir = draw.wi;
 }
 
-// A path that begins with a ray, after `bounces` scattering events.
+// Starts a path with a ray, after `bounces` scattering events.
 RL_FN Walk walkBegin(RL_IN(Rng) rng, uint film, RL_IN(Ray) ray, uint bounces) {
   Walk walk;
   walk.rng = rng;
@@ -92,11 +93,11 @@ RL_FN Walk walkBegin(RL_IN(Rng) rng, uint film, RL_IN(Ray) ray, uint bounces) {
   return walk;
 }
 
-// From there to its end.
+// Traces a path from its next ray to its end.
 RL_FN void walkOn(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk) {
   bool hasShadowRay = false;
   Ray shadowRay = walk.ray;
-  uint shadowRank = 0u;  // of the body that the shadow ray travels in
+  uint shadowRank = 0u;  // rank of the body that the shadow ray travels in
   for (;;) {
     Hit hit = traceNoHit();
     for (uint which = 0u; which < 2u; which = which + 1u) {
@@ -136,7 +137,7 @@ RL_FN void walkOn(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk) {
     if (RL_HAS(RL_FEATURE_VOLUME)) {
       s.sigmaAbsorption = vec3(mediaOfRank(crossing.behind.x));
       if (crossing.isTouching != 0u) s.posError *= 3.0f;
-      // Only a ray that ends here has gone its way.
+      // Not a surface: the ray goes on. Absorption is applied at the surface where the ray ends.
       if (crossing.isSurface == 0u) {
         walk.media = crossing.behind;
         walk.passedT += hit.t;
@@ -170,7 +171,7 @@ RL_FN void walkOn(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk) {
   }
 }
 
-// The path of a pixel in this frame, from its film sample (cameraFilmBits) to its end.
+// Traces the path of a pixel in this frame, from its film sample (cameraFilmBits) to its end.
 RL_FN void walkPath(RL_INOUT(RL_WALK_STATE) state, RL_IN(uvec2) pixel, uint film) {
   Rng rng = rngInit(gFrame.seed, pixel.y * gFrame.width + pixel.x, gFrame.frame);
   Walk walk = walkBegin(rng, film, cameraFilmRay(gFrame.camera, pixel, film), 0u);

@@ -9,22 +9,22 @@
 RL_NAMESPACE_BEGIN
 
 struct Walk {
-  Rng rng;          // its vertex is that of the scattering event under way
+  Rng rng;          // rng.vertex is the current scattering event
   uint film;        // the film sample that the path begins with
   Ray ray;          // the next ray of the path
   uint bounces;     // scattering events before that ray
-  vec3 throughput;  // of the path up to the ray's origin: f |cos| / pdf of every event
+  vec3 throughput;  // up to the ray's origin: product of f |cos| / pdf of all events
   uvec4 media;      // bodies that the ray travels in (core/dialect/media.glsl)
   vec3 sigma;       // m^-1, absorption of the medium that the ray travels in
-  float passedT;    // metres that the ray came before its origin, through surfaces that are none
+  float passedT;    // metres travelled before the ray's origin, since the last real surface
   float
       pdfBsdf;  // solid-angle density of the ray; 0: camera or delta lobe, no light sample competes
   uint rouletteStart;  // first scattering event that may end the path by Russian roulette
-  float passed;  // of the ray, by traceRay(): below 1 it may have passed something transparent
-  uint isAlive;  // 0: absorbed, or ended by Russian roulette
+  float passed;        // traceRay() of the ray: below 1 it may have passed something transparent
+  uint isAlive;        // 0: absorbed, or ended by Russian roulette
 };
 
-// What walkArrives() returns where the path has what it was looking for.
+// Returned by walkArrives() to end the path.
 const uint RL_WALK_ENDS = 0xffffffffu;
 
 RL_NAMESPACE_END

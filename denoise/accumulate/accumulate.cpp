@@ -54,7 +54,7 @@ const DenoiserInfo& accumulateDenoiserInfo() {
                  {"accumulate_history_before", 16, 0, 1}};
     i.passes = {{"accumulate", "accumulate", false}};
     i.hasHistory = true;
-    // Frames count from the first whole average on (see the kernel).
+    // accumulate_cap counts from the first whole average on (accumulate.glsl).
     i.shownFrames = [](const ParameterMap& p, double radianceFrames) {
       return radianceFrames + std::get<double>(p.at("accumulate_cap"));
     };

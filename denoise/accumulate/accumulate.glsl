@@ -1,16 +1,16 @@
-// accumulate: the exponential average of the frames that show the same surface. What anyone gets
-// for no ray more, and what reuse is measured against.
+// accumulate: the exponential average of the frames that show the same surface. Costs no ray, and
+// is the baseline that reuse is measured against.
 //
 //   shown = history + (radiance - history) / n,   n = min(frames in the history, cap) + 1
 //
-// Reuse averages frames itself, up to h of them: while a history is younger than that, the radiance
-// is the average of all of it and is shown as it is; frames count from then on.
+// Reuse averages frames itself, up to h of them: while a history is younger than h, the radiance is
+// the average of all of its frames and is shown unchanged; frames count from then on.
 //
-// While the camera stands, a pixel's history is its own: the average is unbiased, its weights
-// depend on nothing but the frame's number. When it moves, the history is that of the pixel (or
-// between the four pixels) that showed the same surface, where the centres of both pass the test
-// of visibleMatch(); what fails begins anew. Radiance that changes with the direction of the view,
-// and pixels that show more than one surface, then lag behind: biased.
+// In a still view a pixel's history is its own: the average is unbiased, because its weights depend
+// on the frame's number alone. In a moving view the history is read at the pixel (or between the
+// four pixels) that showed the same surface, if the centres of both pass visibleMatch(); otherwise
+// the history is reset. Radiance that changes with the direction of the view, and pixels that show
+// more than one surface, then lag behind: biased.
 
 #include "core/changes/read.glsl"
 #include "denoise/common/average.glsl"
@@ -28,7 +28,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     float weight = 1.0f / max(history.frames - held, 1.0f);
     history.mean = history.mean * (1.0f - weight) + radiance * weight;
   } else {
-    // It would stay in every later mean.
+    // Skip NaN and Inf, which would stay in every later mean.
     RL_HEALTH(RL_HEALTH_NONFINITE);
   }
   gBuffers.accumulated.data[pixelIndex] = history.mean;

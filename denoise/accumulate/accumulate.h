@@ -13,11 +13,11 @@ RL_NAMESPACE_BEGIN
 const uint RL_ACCUMULATE_BILINEAR = 1u;  // flag: the history is read between pixels
 
 struct AccumulateBuffers {
-  Vec3Ref radiance;  // of this frame
+  Vec3Ref radiance;  // radiance of this frame
   QuadRef visible;   // core/dialect/visible.h
   QuadRef visibleBefore;
   UintRef changes;      // core/changes
-  Vec3Ref accumulated;  // what is shown
+  Vec3Ref accumulated;  // the output
   QuadRef history;      // Average
   QuadRef historyBefore;
 };

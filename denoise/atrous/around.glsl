@@ -1,4 +1,4 @@
-// atrous, second pass: the light around each pixel.
+// atrous, second pass: computes the mean luminance around each pixel.
 #include "core/kernels/guide_data.glsl"
 #include "denoise/common/filter.glsl"
 

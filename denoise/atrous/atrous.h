@@ -19,7 +19,7 @@ struct AtrousBuffers {
 };
 
 struct AtrousParams {
-  uint step;  // of the pass
+  uint step;  // iteration of the pass
   uint iterations;
   float deviations;
   FilterEdges edges;

@@ -1,4 +1,4 @@
-// atrous, first pass: radiance over reflectance.
+// atrous, first pass: divides the radiance by the reflectance.
 #include "core/kernels/guide_data.glsl"
 #include "denoise/common/filter.glsl"
 

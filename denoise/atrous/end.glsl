@@ -1,4 +1,4 @@
-// atrous, last pass: times reflectance.
+// atrous, last pass: multiplies by the reflectance.
 #include "core/kernels/guide_data.glsl"
 #include "denoise/common/filter.glsl"
 #include "denoise/atrous/read.glsl"

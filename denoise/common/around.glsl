@@ -1,12 +1,12 @@
-// The mean luminance around a pixel, by surface alone, and the variance of that mean.
+// Mean luminance around a pixel, weighted by surface alone, and the variance of that mean.
 //
-// The includer defines, before the #include:
-//   bool aroundSees(uint slot, RL_OUT(float) luminance, RL_OUT(float) variance)   of a pixel; the
-//       variance is below 0 where only its neighbours can tell. False where it has no light
-// and has gParams.edges and gBuffers.guide.
+// The includer has gParams.edges and gBuffers.guide, and defines before the #include:
+//   bool aroundSees(uint slot, RL_OUT(float) luminance, RL_OUT(float) variance)
+//       luminance and variance of a pixel; the variance is below 0 if it must be estimated from
+//       neighbours. Returns false if the pixel has no light
 #include "denoise/common/spline.glsl"
 
-// Of nine pixels, so many apart.
+// Spacing of the nine pixels.
 #define RL_AROUND_APART 1u
 
 RL_FN Around aroundOf(RL_IN(uvec2) pixel) {
@@ -18,7 +18,7 @@ RL_FN Around aroundOf(RL_IN(uvec2) pixel) {
   float weights = 0.0f;
   float weightSquares = 0.0f;
   bool isKnown = true;
-  // Sums are of differences to one of the numbers: they keep their digits.
+  // Sum differences to one of the values: sums of the values would lose digits.
   float base;
   float ignored;
   if (!aroundSees(slot, base, ignored)) base = 0.0f;

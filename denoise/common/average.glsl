@@ -1,6 +1,6 @@
-// Averages of the last frame, and where they are found when the camera has moved: at the pixels
-// whose centres showed the surface that is at this one's centre. Centres know no film sample, so
-// that a pixel at an edge averages both of its sides, as the pixel filter does.
+// Averages of the last frame, and their reprojection: an average follows the surface at the pixel's
+// centre. Centres do not depend on film samples, so that a pixel at an edge averages both of its
+// sides, as the pixel filter does.
 //
 // The includer has gBuffers.visible and .visibleBefore.
 #include "denoise/common/between.glsl"
@@ -33,15 +33,15 @@ RL_FN void averageGather(RL_IN(QuadRef) before, RL_IN(VisibleSurface) here, RL_I
   VisibleSurface there = visibleRead(gBuffers.visibleBefore, gFrame.previousCamera, slot);
   if (!visibleMatchOf(here, nGeoW, there, distanceToCamera, test)) return;
   Average a = averageRead(before, slot);
-  // What has never been finite has no average, which is not a black one.
+  // Skip pixels that were never finite: having no average is not the same as a black one.
   if (!(a.frames > 0.0f)) return;
   sum.mean += a.mean * weight;
   sum.frames += a.frames * weight;
   weights += weight;
 }
 
-// The last frame's average of what the pixel shows, read between the four pixels around it or of
-// the one that it falls on; of no frames where there is none.
+// Returns the last frame's average of the surface that the pixel shows, read between four pixels or
+// from the nearest one; zero frames if there is none.
 RL_FN Average averageReprojected(RL_IN(QuadRef) before, uint slot, RL_IN(SurfaceTest) test,
                                  bool isBetween) {
   Average sum = averageOfNone();
@@ -75,7 +75,7 @@ RL_FN Average averageReprojected(RL_IN(QuadRef) before, uint slot, RL_IN(Surface
   return sum;
 }
 
-// Of the pixel itself in a still view, and where the surface was when the view is new.
+// Returns the average of the pixel itself in a still view, the reprojected one in a new view.
 RL_FN Average averageOfBefore(RL_IN(QuadRef) before, uint slot, RL_IN(SurfaceTest) test,
                               bool isBetween) {
   if (gFrame.stillFrames != 0u) return averageRead(before, slot);

@@ -1,4 +1,4 @@
-// The mean over the frames that show what a pixel shows at its centre.
+// Mean over the frames that show the surface at a pixel's centre.
 #ifndef RL_AVERAGE_H
 #define RL_AVERAGE_H
 
@@ -9,10 +9,10 @@
 
 RL_NAMESPACE_BEGIN
 
-// In a buffer it is one quad.
+// Layout in a buffer: one quad.
 struct Average {
   vec3 mean;
-  float frames;  // in it, no more than matter; between pixels no whole number
+  float frames;  // number of frames in the mean, capped; no whole number if read between pixels
 };
 
 RL_NAMESPACE_END

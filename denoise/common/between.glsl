@@ -1,8 +1,8 @@
-// Histories that are read between four pixels.
+// Bilinear reads of histories, between four pixels.
 
-// The share of the bilinear weights at a film position that lies on pixels of the image; 0 where
-// the position itself is out of view. A history at the border counts for that share of its frames:
-// it is made up from one side alone, and content that enters by less than a pixel a frame would
+// Share of the bilinear weights at a film position that lies on pixels of the image; 0 if the
+// position itself is out of view. A history at the border counts for that share of its frames: it
+// comes from one side alone, and content that enters by less than a pixel per frame would otherwise
 // keep it for ever.
 RL_FN float betweenShareInView(RL_IN(vec2) film) {
   if (!filmIsInView(film)) return 0.0f;

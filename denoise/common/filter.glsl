@@ -1,5 +1,5 @@
-// Radiance over reflectance, which changes slowly over a surface, and the edges where it does not.
-// Includers have gBuffers.guide.
+// Radiance over reflectance, which changes slowly over a surface, and edge weights. Includers have
+// gBuffers.guide.
 
 RL_FN Filtered filterRead(RL_IN(QuadRef) quads, uint slot) {
   uvec4 q = RL_PAST_QUAD(quads, slot);
@@ -12,13 +12,13 @@ RL_FN void filterWrite(RL_IN(QuadRef) quads, uint slot, RL_IN(Filtered) f) {
   RL_WRITE_QUAD(quads, slot, recordQuad(f.light, floatBitsToUint(f.reflectance)));
 }
 
-// Of this frame. What is not finite is counted, and is not there: neighbours do not see it, and
-// they say what the pixel shows.
+// Divides this frame's radiance by the reflectance. Values that are not finite are counted and
+// treated as missing: neighbours ignore them, and the pixel shows its neighbours' mean.
 RL_FN Filtered filterBegin(RL_IN(vec3) radiance, RL_IN(Guide) guide) {
   Filtered f;
   f.light = radiance / guide.reflectance;
   f.reflectance = rlLuminance(guide.reflectance);
-  // Nor is what has no finite variance.
+  // Squares must be finite, too: the variance needs them.
   if (!rlIsFinite3(f.light * f.light)) {
     RL_HEALTH(RL_HEALTH_NONFINITE);
     f.light = vec3(0.0f, 0.0f, 0.0f);
@@ -27,7 +27,7 @@ RL_FN Filtered filterBegin(RL_IN(vec3) radiance, RL_IN(Guide) guide) {
   return f;
 }
 
-// 1 at 0, 0 from 1 on, smooth between: unlike an exponential it ends.
+// Falloff: 1 at 0, 0 from 1 on, smooth between. Unlike an exponential it ends.
 RL_FN float filterFall(float x) {
   float rest = max(1.0f - x * x, 0.0f);
   return rest * rest;
@@ -37,14 +37,14 @@ RL_FN FilterSurface filterSurface(RL_IN(Guide) g, RL_IN(FilterEdges) edges) {
   s.nW = g.nW;
   s.disparity = g.disparity;
   s.slope = g.slope;
-  // Guides are of points within pixels: they may lie a pixel apart on their own plane.
+  // Allow a pixel's distance on the plane: guides hold points anywhere within pixels.
   float distance = edges.plane * g.disparity + abs(g.slope.x) + abs(g.slope.y);
   s.perPlane = rlSafeDivide(1.0f, distance);
   s.perNormal = 1.0f / edges.normal;
   return s;
 }
-// The weight of a pixel so many pixels away, by its guide's first quad: 0 beyond an edge. Of light
-// and background, which no filter asks, too.
+// Weight of a pixel at an offset in pixels, by its guide's first quad: 0 beyond an edge, and for
+// lights and background, which no filter reads.
 RL_FN float filterEdge(RL_IN(FilterSurface) here, RL_IN(vec4) there, float dx, float dy) {
   if (guideIsLight(there)) return 0.0f;
   float onPlane = here.disparity + here.slope.x * dx + here.slope.y * dy;
@@ -53,16 +53,16 @@ RL_FN float filterEdge(RL_IN(FilterSurface) here, RL_IN(vec4) there, float dx, f
          filterFall(max(1.0f - cosine, 0.0f) * here.perNormal);
 }
 
-// The weight of a pixel whose surroundings are as bright as they are: near 1 where noise alone
-// would make as large a difference, and less the more standard deviations it is. Means are compared
-// and not pixels: a weight that depends on a pixel's own noise takes light away, as it leaves out
-// what is bright by chance. It is the same for both.
+// Weight of a pixel by the brightness around both: near 1 if noise alone would make as large a
+// difference, and less the more standard deviations the difference is. Compares means instead of
+// pixels: a weight that depends on a pixel's own noise loses energy, because it leaves out what is
+// bright by chance. Symmetric in both pixels.
 RL_FN float filterLikeness(RL_IN(Around) here, RL_IN(Around) there, float squareDeviations) {
   float difference = here.luminance - there.luminance;
   float allowed = squareDeviations * (here.variance + there.variance);
-  // Rounding is no difference.
+  // Ignore differences within rounding.
   allowed += 1.0e-10f * (here.luminance * here.luminance + there.luminance * there.luminance);
-  allowed = min(allowed, 1.0e38f);  // of infinities there is no share
+  allowed = min(allowed, 1.0e38f);  // infinity over infinity would be NaN
   float share = rlSafeDivide(allowed, allowed + 0.5f * difference * difference);
   return allowed > 0.0f ? share * share : 1.0f;
 }

@@ -1,4 +1,4 @@
-// What denoisers that filter over space have in common.
+// Types of denoisers that filter over space.
 #ifndef RL_FILTER_H
 #define RL_FILTER_H
 
@@ -9,14 +9,14 @@
 
 RL_NAMESPACE_BEGIN
 
-// How alike two surfaces must be to share light.
+// Thresholds at which two surfaces are similar enough to share light.
 struct FilterEdges {
   float plane;   // distance from each other's plane over the distance to the camera, at which a
                  // weight is 0
   float normal;  // 1 - cosine of normals, at which a weight is 0
 };
 
-// What a pixel compares others with.
+// Surface of the pixel that is filtered, to compare others with.
 struct FilterSurface {
   vec3 nW;
   float disparity;
@@ -25,15 +25,15 @@ struct FilterSurface {
   float perNormal;
 };
 
-// A pixel between passes.
+// Value of a pixel between passes.
 struct Filtered {
   vec3 light;         // radiance over reflectance
-  float reflectance;  // its luminance: light times it is the radiance that a filter keeps in sum;
-                      // 0: the pixel has no light that is finite
+  float reflectance;  // luminance of the reflectance (filters conserve the sum of light times
+                      // this); 0: the pixel has no finite light
 };
 
-// What decides whether two pixels have the same light: the mean luminance around each, and the
-// variance of that mean.
+// Mean luminance around a pixel and the variance of that mean, which decide whether two pixels have
+// the same light.
 struct Around {
   float luminance;
   float variance;

@@ -6,15 +6,15 @@
 
 namespace restlab {
 
-// "demodulate", which the guides read (core/view_parts.cpp).
+// Parameter "demodulate", which the guides read (core/view_parts.cpp).
 ParameterInfo demodulateParameter();
-// That, "edge_plane" and "edge_normal".
+// Parameters "demodulate", "edge_plane" and "edge_normal".
 std::vector<ParameterInfo> filterParameters();
 rl::FilterEdges packFilterEdges(const ParameterMap& parameters);
 
-// "NAME_deviations".
+// Parameter "NAME_deviations".
 ParameterInfo deviationsParameter(const std::string& name, double defaultValue);
-// "NAME_iterations", and its passes "NAME 1", "NAME 2" and so on, of the kernel.
+// Parameter "NAME_iterations", and its passes "NAME 1", "NAME 2" and so on, of the kernel.
 ParameterInfo iterationsParameter(const std::string& name, int64_t defaultValue,
                                   const std::string& source);
 std::vector<PassInfo> waveletPasses(const std::string& kernel, const char* parameter);

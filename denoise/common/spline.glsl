@@ -1,12 +1,12 @@
-// A spline over three places, and what a pixel's surroundings are.
+// Three-tap spline filter, and reads of the mean luminance around pixels.
 
-// Repeated at twice the distance each time, its sum is a triangle without steps.
+// Weight of a tap. Repeated at twice the distance each time, the filter is a triangle without
+// steps.
 RL_FN float splineWeight(uint at) { return at == 1u ? 0.5f : 0.25f; }
 
-// The row or column of the image at one of the three places, which lie so many pixels apart; false
-// outside.
+// Row or column of a tap; taps lie `apart` pixels apart. Returns false outside the image.
 RL_FN bool splineAt(uint here, uint at, uint apart, uint size, RL_OUT(uint) there) {
-  // Below 0 the number wraps to the largest there is: outside, too.
+  // Below 0 the index wraps to a large number: outside, too.
   there = here + at * apart - apart;
   return there < size;
 }

@@ -1,15 +1,16 @@
 // One iteration of an edge-avoiding a-trous wavelet transform (Dammertz, Sewtz, Hanika and Lensch,
-// "Edge-Avoiding A-Trous Wavelet Transform for fast Global Illumination Filtering", 2010): an
-// exchange of light between pixels that lie 2^step apart, by how alike they are. The paper's
-// iteration asks 5x5 pixels; of 3x3 the cost is a third, and the reach half.
+// "Edge-Avoiding A-Trous Wavelet Transform for fast Global Illumination Filtering", 2010):
+// exchanges light between pixels that lie 2^step apart, by their similarity. The paper's iteration
+// reads 5x5 pixels; 3x3 pixels have a third of the cost and half of the reach.
 //
-// What differs from the paper: light is told by means around pixels (around.glsl) instead of the
-// pixels themselves, and the sum of weights is not divided by. What a pixel does not get from a
-// neighbour it keeps, and a pair gives each other the same share: the filter keeps energy.
+// Differences from the paper: light is compared by means around pixels (around.glsl) instead of the
+// pixels themselves, and the result is not divided by the sum of weights. A pixel keeps the light
+// that it does not get from a neighbour, and a pair exchanges equal shares: the filter keeps
+// energy.
 //
 // The includer has gParams.step, .edges and .deviations, gBuffers.guide and .around, and defines
 // before the #include:
-//   Filtered waveletRead(uint slot)   what the iteration before left
+//   Filtered waveletRead(uint slot)   result of the previous iteration
 #include "denoise/common/spline.glsl"
 
 RL_FN Filtered waveletStep(RL_IN(uvec2) pixel) {
@@ -21,7 +22,7 @@ RL_FN Filtered waveletStep(RL_IN(uvec2) pixel) {
   Around around = aroundRead(gBuffers.around, slot);
   float squareDeviations = gParams.deviations * gParams.deviations;
   uint reach = 1u << gParams.step;
-  // A darker surface gives less light away than a brighter one, and takes as much.
+  // Scale weights by min(reflectance there, here) / here: a pair exchanges equal radiance.
   float perReflectance = rlSafeDivide(1.0f, here.reflectance);
   vec3 light = vec3(0.0f, 0.0f, 0.0f);
   float weights = 0.0f;
@@ -52,7 +53,7 @@ RL_FN Filtered waveletStep(RL_IN(uvec2) pixel) {
   if (here.reflectance > 0.0f) {
     here.light += light - here.light * weights;
   } else if (weights > 0.0f) {
-    // It has nothing to keep: it shows what its neighbours do, and nobody asks it.
+    // A pixel without finite light shows the mean of its neighbours, and others do not read it.
     here.light = light * (1.0f / weights);
   }
   return here;

@@ -1,5 +1,5 @@
-// firefly: no pixel is brighter than its brightest neighbour, times a factor. A clamp: the energy
-// that it takes away is gone. Lights and what lies beside them are left alone.
+// firefly: clamps each pixel to its brightest neighbour, times a factor. The energy that the clamp
+// takes away is lost. Lights and pixels beside them are left alone.
 #include "core/kernels/guide_data.glsl"
 #include "denoise/common/filter.glsl"
 
@@ -12,7 +12,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint neighbours = 0u;
   uint side = 2u * gParams.radius + 1u;
   for (uint i = 0u; i < side * side; i = i + 1u) {
-    // Left of column 0 and above row 0 the number wraps to the largest there is: outside, too.
+    // Left of column 0 and above row 0 the index wraps to a large number: outside, too.
     uint x = pixel.x + i % side - gParams.radius;
     uint y = pixel.y + i / side - gParams.radius;
     if (x >= gFrame.width || y >= gFrame.height) continue;

@@ -1,6 +1,6 @@
-// oidn: Intel Open Image Denoise, a network that was trained on path-traced images. It sees one
-// frame with its guides, and runs on the processor whatever the backend is. Built only where CMake
-// finds the library.
+// oidn: Intel Open Image Denoise, a network that was trained on path-traced images. The network
+// sees one frame with its guides, and runs on the processor whatever the backend is. Built only
+// where CMake finds the library.
 #include <OpenImageDenoise/oidn.hpp>
 
 #include <fmt/format.h>
@@ -43,7 +43,7 @@ class Network {
     set("albedo", frame.albedo);
     set("normal", frame.normalW);
     set("output", shown);
-    // The network is built for the first frame; for others of its size addresses alone change.
+    // The network is built for the first frame; later frames of its size only change addresses.
     filter_.commit();
     filter_.execute();
     check();
@@ -51,14 +51,14 @@ class Network {
   }
 
  private:
-  // The library knows inputs and outputs by name, and takes all of them as memory to write to. Its
-  // CPU device sees ours.
+  // Sets an input or output by its name. The library takes all of them as writable memory, and its
+  // CPU device reads the host's.
   void set(const char* name, const Image& image) {
     filter_.setImage(name, const_cast<glm::vec3*>(image.pixels.data()), oidn::Format::Float3,
                      image.width, image.height);
   }
 
-  // Of a device that could not be made, too.
+  // Throws the device's error, also of a device that could not be created.
   void check() {
     const char* message = nullptr;
     if (device_.getError(message) == oidn::Error::None) return;

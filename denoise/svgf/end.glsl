@@ -1,7 +1,8 @@
-// svgf, last pass: times reflectance, and the average over the frames that show what is at the
-// pixel's centre. Histories before it follow the film sample, which lies on one side of an edge: a
-// filtered pixel at an edge shows one of both, another one in each frame. The pixel filter's mean
-// of both is found over time alone (temporal antialiasing, the last step of Schied et al. 2017).
+// svgf, last pass: multiplies by the reflectance, and averages over the frames that show the
+// surface at the pixel's centre. Earlier histories follow the film sample, which lies on one side
+// of an edge: a filtered pixel at an edge shows one side, and in each frame another one. Only an
+// average over time gives the pixel filter's mean of both (temporal antialiasing, the last step of
+// Schied et al. 2017).
 #include "core/kernels/guide_data.glsl"
 #include "denoise/common/filter.glsl"
 #include "denoise/common/average.glsl"

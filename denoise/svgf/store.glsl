@@ -1,4 +1,4 @@
-// svgf: what passes and frames leave to each other.
+// svgf: data that passes and frames leave to each other.
 
 RL_FN bool svgfHas(uint flag) { return (gParams.flags & flag) != 0u; }
 
@@ -43,17 +43,17 @@ RL_FN void svgfHistoryWrite(RL_IN(QuadRef) quads, uint slot, RL_IN(SvgfHistory) 
   RL_WRITE_QUAD(quads, slot * RL_SVGF_HISTORY_QUADS + 2u, recordQuad(h.reflectance, 0u));
 }
 
-// Of so many frames those that show what this view does: a gloss that has turned away is another
-// light.
+// Reduces a number of frames by the turn of the view: a glossy lobe sends other light to another
+// view.
 RL_FN float svgfInView(float frames, uint slot) {
   float turn = motionRead(gBuffers.motion, slot).turn * gParams.turnResponse;
   return frames / (1.0f + frames * turn);
 }
 
-// Over how many frames the radiance averages itself, this one included, of so many: of its
-// confidence a part is what the same pixel knew the frame before, no more than the cap of a donor
-// over time. The rest is new, or comes from other pixels; an average that renews a share of itself
-// is one over as many frames as that share goes into 1.
+// Number of frames that the radiance itself averages, this one included; at most `frames`. A part
+// of a reservoir's confidence comes from the same pixel in the last frame, at most the cap of a
+// temporal donor. The rest is new, or comes from other pixels. An average that renews a share s of
+// itself is one over 1 / s frames.
 RL_FN float svgfHeld(uint slot, float frames) {
   if (!svgfHas(RL_SVGF_CONFIDENCE)) return 1.0f;
   float cap = gFrame.stillFrames != 0u ? gParams.donorCap : gParams.movingDonorCap;

@@ -55,7 +55,7 @@ std::vector<ParameterInfo> parametersOf(const SvgfDefaults& defaults) {
                  "share of a glossy history that is forgotten when the view turns by the width of "
                  "its lobe; 0: none",
                  "measured: docs/denoising.md"});
-  // Whoever sets it begins anew: an average that was not written for a while is a stale picture.
+  // A change of this parameter resets the history: an average that was not written is stale.
   all.push_back(
       {"svgf_resolve",
        4.0,
@@ -71,8 +71,8 @@ std::vector<ParameterInfo> parametersOf(const SvgfDefaults& defaults) {
   return all;
 }
 
-// Confidence that a reservoir may have from the pixel's own last frame: in a still view and when
-// the view is new; less than 0 where there are no reservoirs.
+// Confidence that a reservoir may have from the pixel's own last frame: in a still view and in a
+// new view; below 0 if there are no reservoirs.
 struct DonorCaps {
   float still = -1.0f, moving = -1.0f;
 };
@@ -103,7 +103,7 @@ std::vector<std::byte> pack(const std::string&, const ParameterMap& p) {
   out.changes = packChanges(p);
   out.turnResponse = floatOf(p, "svgf_turn");
   out.resolveCap = floatOf(p, "svgf_resolve");
-  out.resolveTest = {0.9f, 0.05f};  // as of `accumulate` and the pixel cache
+  out.resolveTest = {0.9f, 0.05f};  // the values of `accumulate` and the pixel cache
   return bytesOf(out);
 }
 

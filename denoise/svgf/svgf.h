@@ -13,18 +13,18 @@
 RL_NAMESPACE_BEGIN
 
 // SvgfParams::flags
-const uint RL_SVGF_FEEDBACK = 1u;     // the first iteration's result is what the history keeps
-const uint RL_SVGF_CONFIDENCE = 2u;   // frames that the radiance averages itself are not averaged
+const uint RL_SVGF_FEEDBACK = 1u;     // the history keeps the result of the first iteration
+const uint RL_SVGF_CONFIDENCE = 2u;   // do not average frames that the radiance averages itself
 const uint RL_SVGF_DIFFERENCES = 4u;  // variance by differences of frames that share samples
 const uint RL_SVGF_SPACE = 8u;        // variance over neighbours alone
 
-// What a pixel remembers: three quads.
+// History of a pixel: three quads.
 struct SvgfHistory {
   vec3 light;    // mean radiance over mean reflectance of the frames
-  float frames;  // in the means, no more than matter; between pixels no whole number
+  float frames;  // number of frames in the means, capped; no whole number if read between pixels
   vec3 reflectance;
-  float mean;    // of the luminance of single frames
-  float spread;  // their variance
+  float mean;    // mean luminance of single frames
+  float spread;  // variance of the luminance of single frames
   float step;    // mean of the squared difference of one frame's luminance and the next one's
   float last;    // the last frame's luminance
 };
@@ -35,7 +35,7 @@ struct SvgfBuffers {
   QuadRef guide;
   QuadRef guideBefore;
   QuadRef motion;
-  QuadRef reservoirs;  // of the last merge; null where the integrator has none
+  QuadRef reservoirs;  // reservoirs of the last merge; null if the integrator has none
   UintRef changes;     // core/changes
   QuadRef visible;     // null where resolveCap is 0
   QuadRef visibleBefore;
@@ -45,21 +45,20 @@ struct SvgfBuffers {
   Vec2Ref around;
   QuadRef history;
   QuadRef historyBefore;
-  QuadRef resolved;  // Average, of what was shown
+  QuadRef resolved;  // Average of the output
   QuadRef resolvedBefore;
 };
 
 struct SvgfParams {
-  uint step;  // of the pass
+  uint step;  // iteration of the pass
   uint iterations;
   uint flags;
   float cap;  // frames that a history may weigh
   float deviations;
   FilterEdges edges;
   ChangeParams changes;
-  float donorCap;        // confidence of a donor over time in a still view; less than 0: there are
-                         // no reservoirs
-  float movingDonorCap;  // and when the view is new
+  float donorCap;        // confidence of a temporal donor in a still view; below 0: no reservoirs
+  float movingDonorCap;  // confidence of a temporal donor in a new view
   float turnResponse;    // share of a history that is forgotten, over Motion::turn
   float resolveCap;      // frames that a resolved history may weigh
   SurfaceTest resolveTest;

@@ -8,7 +8,7 @@ namespace restlab {
 struct SvgfDefaults {
   std::string name;
   std::string summary;
-  std::string variance;  // of the parameter
+  std::string variance;  // default of svgf_variance
   bool confidence = false;
   int64_t validateEvery = 0;  // default of the part that finds light that has changed
 };

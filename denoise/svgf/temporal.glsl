@@ -1,13 +1,13 @@
 // svgf, first pass: the mean over the frames that showed the surface, and moments of its luminance
 // (Schied et al., "Spatiotemporal Variance-Guided Filtering", 2017, sections 4.1 and 4.2). Frames
-// count alike until there are `cap` of them; then the mean is exponential.
+// have equal weights until there are `cap` of them; then the mean is exponential.
 #include "core/kernels/guide_data.glsl"
 #include "denoise/common/between.glsl"
 #include "denoise/common/filter.glsl"
 #include "denoise/svgf/store.glsl"
 #include "core/changes/read.glsl"
 
-// How well a pixel of the last frame shows this surface: 0 to 1.
+// Similarity of a pixel of the last frame to this surface, 0 to 1.
 RL_FN float svgfLikeness(RL_IN(Guide) here, RL_IN(FilterSurface) surface, RL_IN(vec4) there,
                          float dx, float dy) {
   if (here.isLight == 0u) return filterEdge(surface, there, dx, dy);
@@ -28,7 +28,7 @@ RL_FN void svgfGather(RL_IN(Guide) here, RL_IN(FilterSurface) surface, RL_IN(vec
   weight *= svgfLikeness(here, surface, there, x + 0.5f - film.x, y + 0.5f - film.y);
   if (!(weight > 0.0f)) return;
   SvgfHistory h = svgfHistoryRead(gBuffers.historyBefore, slot);
-  // What has never been finite has no history, which is not a black one.
+  // Skip pixels that were never finite: having no history is not the same as a black one.
   if (!(h.frames > 0.0f)) return;
   sum.light += h.light * weight;
   sum.frames += h.frames * weight;
@@ -37,15 +37,15 @@ RL_FN void svgfGather(RL_IN(Guide) here, RL_IN(FilterSurface) surface, RL_IN(vec
   sum.spread += h.spread * weight;
   sum.step += h.step * weight;
   weights += weight;
-  // A mean of several pixels would differ by their noise: that of one pixel went on.
+  // Take `last` from the nearest pixel alone: a mean of several would differ by their noise.
   if (share > nearest) {
     nearest = share;
     sum.last = h.last;
   }
 }
 
-// The history of what the pixel shows, read between the four pixels that saw it; of no frames where
-// none of them did.
+// Returns the history of the surface that the pixel shows, read between the four pixels that saw
+// it; zero frames if none did.
 RL_FN SvgfHistory svgfReprojected(RL_IN(uvec2) pixel, RL_IN(Guide) here) {
   uint slot = slotOfPixel(pixel);
   Motion motion = motionRead(gBuffers.motion, slot);
@@ -67,7 +67,7 @@ RL_FN SvgfHistory svgfReprojected(RL_IN(uvec2) pixel, RL_IN(Guide) here) {
   svgfGather(then, surface, film, x + 1.0f, y, u * (1.0f - v), sum, weights, nearest);
   svgfGather(then, surface, film, x, y + 1.0f, (1.0f - u) * v, sum, weights, nearest);
   svgfGather(then, surface, film, x + 1.0f, y + 1.0f, u * v, sum, weights, nearest);
-  // Of so little is known about the surface that it would be mostly noise.
+  // Bilinear weights sum to nearly 0: reject the history.
   if (!(weights > 0.01f)) return svgfNoHistory();
   float scale = 1.0f / weights;
   sum.light *= scale;
@@ -86,7 +86,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   SvgfHistory h = svgfNoHistory();
   if (gFrame.stillFrames != 0u) {
     h = svgfHistoryRead(gBuffers.historyBefore, slot);
-    // The guide is the mean over the film samples of the view, and goes on without the history.
+    // Follow the guide, which is the mean over the view's film samples and changes with each frame.
     h.light *= h.reflectance / guide.reflectance;
     h.reflectance = guide.reflectance;
   } else if (gFrame.frame > 0u) {
@@ -102,12 +102,13 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     float before = h.frames;
     h.frames = min(h.frames, gParams.cap + held - 1.0f) + 1.0f;
     float weight = 1.0f / max(h.frames - held + 1.0f, 1.0f);
-    // Where radiance averages film samples itself it is not that of this frame's reflectance: a
-    // mean of their quotients would make energy at every edge of a texture.
+    // Keep a ratio of means: radiance that averages film samples itself does not belong to this
+    // frame's reflectance, and a mean of quotients would create energy at every edge of a texture.
     h.reflectance += (guide.reflectance - h.reflectance) * weight;
     h.light += (now.light - h.light) * (guide.reflectance / h.reflectance * weight);
     float momentWeight = 1.0f / h.frames;
-    // Not by a mean of squares: what is left of it less the mean's square are no digits.
+    // Update the variance directly: a mean of squares minus the square of the mean loses all
+    // digits.
     float deviation = luminance - h.mean;
     h.mean += deviation * momentWeight;
     h.spread = (1.0f - momentWeight) * (h.spread + deviation * deviation * momentWeight);

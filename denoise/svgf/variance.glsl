@@ -1,18 +1,20 @@
-// svgf, second pass: the light around each pixel, and how far its mean may be from its truth. A
-// history of some frames tells; for a younger one neighbours do (Schied et al. 2017, section 4.2).
+// svgf, second pass: mean luminance around each pixel, and the variance of that mean. The variance
+// comes from a history of some frames; for younger histories from neighbours (Schied et al. 2017,
+// section 4.2).
 //
-// Frames that share samples lie closer to each other than to their mean's truth: where radiance
-// averages c frames itself, a frame brings 1/c of new light, and what differs from one frame to the
-// next has the variance 2 v / c, if v is that of the radiance (an exponential average).
+// Frames that share samples lie closer to each other than to the true mean. If radiance itself
+// averages c frames, a frame brings 1/c of new light, and the difference of one frame and the next
+// has the variance 2 v / c, with v the variance of the radiance (an exponential average).
 #include "core/kernels/guide_data.glsl"
 #include "denoise/common/filter.glsl"
 #include "denoise/svgf/store.glsl"
 
-// Frames; between whole numbers, so that rounding does not decide.
+// Frames from which on a history is not young; between whole numbers, so that rounding does not
+// decide.
 #define RL_SVGF_YOUNG 3.5f
 
-// Few frames tell little of their variance, as bright ones are rare: times 1 + this / frames, a
-// history of one frame allows three times the deviations.
+// Few frames underestimate their variance, because bright ones are rare. With the factor
+// 1 + this / frames, a history of one frame allows three times the deviations.
 #define RL_SVGF_UNSURE 8.0f
 
 RL_FN bool aroundSees(uint slot, RL_OUT(float) luminance, RL_OUT(float) variance) {
@@ -21,7 +23,7 @@ RL_FN bool aroundSees(uint slot, RL_OUT(float) luminance, RL_OUT(float) variance
   variance = -1.0f;
   if (!(h.frames > 0.0f)) return false;
   if (h.frames < RL_SVGF_YOUNG || svgfHas(RL_SVGF_SPACE)) return true;
-  // Frames in the mean that know nothing of each other.
+  // Number of independent frames in the mean.
   float held = svgfHeld(slot, h.frames);
   float frames = max(h.frames - held + 1.0f, 1.0f);
   if (svgfHas(RL_SVGF_DIFFERENCES)) {

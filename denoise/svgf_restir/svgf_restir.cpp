@@ -1,5 +1,5 @@
-// svgf_restir: `svgf` for radiance whose frames share samples. Moments of such frames say that they
-// vary several times less than they do, and averaging them again brings little.
+// svgf_restir: `svgf` for radiance whose frames share samples. Moments of such frames underestimate
+// their variance several times, and averaging the frames again brings little.
 #include "denoise/svgf/svgf_info.h"
 
 namespace restlab {

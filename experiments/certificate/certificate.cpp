@@ -18,21 +18,21 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// A mean is nearly normal, and has a t interval, up to this |skewness| / sqrt(runs).
+// Limit of |skewness| / sqrt(runs) up to which a mean is nearly normal and has a t interval.
 constexpr double kMaxSkewness = stats::BiasOptions().maxSkewness;
 
 double normalQuantile(double p) { return quantile(boost::math::normal(), p); }
 
 stats::CellArea wholeImage(const stats::BlockGrid& grid) { return {0, 0, grid.side}; }
 
-// Deviations of the interval's end and of the power, together. An unbiased method may miss the
-// margin on either side, so that each gets half of what the power leaves.
+// Returns the sum of the normal quantiles of interval and power. An unbiased method may miss the
+// margin on either side, so each side gets half of 1 - power.
 double deviations(const Rules& rules) {
   return normalQuantile(0.5 + 0.5 * rules.confidence) + normalQuantile(0.5 + 0.5 * rules.power);
 }
 
-// Runs of this variance whose mean lies `shift` deviations from what is to be excluded, with the
-// reference's error; NaN where that alone is too large.
+// Returns the runs after which `distance` is `count` standard errors, those of mean and reference
+// together; NaN if the reference's error alone is too large.
 double runsFor(double variance, double referenceVariance, double distance, double count) {
   const double allowed = distance * distance / (count * count) - referenceVariance;
   return allowed > 0.0 ? variance / allowed : kNan;
@@ -56,7 +56,7 @@ ImageBias biasOf(const Evidence& evidence, const stats::Truth& truth, stats::Qua
   b.isNormal = std::abs(skewness) / std::sqrt(double(means.size())) <= kMaxSkewness;
   const double scale = std::abs(reference.mean);
   if (scale == 0.0 || !std::isfinite(sample.mean)) {
-    // Black is equal to black, and to nothing else.
+    // Black equals black, and nothing else.
     const bool isBlack = sample.mean == 0.0 && sample.variance == 0.0;
     b.bias = isBlack ? Interval{0.0, 0.0, 0.0} : Interval{kNan, kNan, kNan};
     b.isEquivalent = isBlack;
@@ -76,8 +76,8 @@ ImageBias biasOf(const Evidence& evidence, const stats::Truth& truth, stats::Qua
   return b;
 }
 
-// How many runs in all would decide about one quantity; `batches`: how many batches of the size
-// that rejects a cell the evidence holds.
+// Returns how many runs in total would decide about one quantity. `batches`: size of the evidence
+// relative to the batch that tests cells.
 double runsToDecide(const Evidence& evidence, const stats::Truth& truth, const ImageBias& b,
                     double batches, const Rules& rules) {
   const stats::CellArea whole = wholeImage(evidence.runs().grid());
@@ -85,7 +85,7 @@ double runsToDecide(const Evidence& evidence, const stats::Truth& truth, const I
   const stats::Sample sample = stats::summarise(means);
   const double scale = std::abs(b.reference);
   if (scale == 0.0 || !std::isfinite(b.bias.value)) return kNan;
-  // A bias that may be none is taken for none: its value is noise.
+  // If the interval holds 0, plan for a bias of 0: the estimate may be noise.
   const bool mayBeNone = b.bias.lo <= 0.0 && b.bias.hi >= 0.0;
   const double found = mayBeNone ? 0.0 : std::abs(b.bias.value);
   const double variance = sample.variance / (scale * scale);
@@ -95,30 +95,32 @@ double runsToDecide(const Evidence& evidence, const stats::Truth& truth, const I
   const double decided = found < rules.margin
                              ? runsFor(variance, own, rules.margin - found, deviations(rules))
                              : batches * runsFor(variance, own, found, count);
-  // And enough for a nearly normal mean.
+  // Require enough runs for a nearly normal mean, too.
   const double skewness = stats::skewness(means) / kMaxSkewness;
   return std::max(decided, skewness * skewness);
 }
 
-// Half of the interval of a cell's bias.
+// Returns half the width of the interval of a cell's bias.
 double halfInterval(const stats::CellVerdict& v, const Rules& rules) {
   return stats::studentQuantile(0.5 + 0.5 * rules.confidence, v.welch.dof) * v.welch.standardError;
 }
 
-// The interval of a cell's relative bias lies within the margin: too small to be held against it.
+// Returns whether the interval of a cell's relative bias lies within the margin: too small to
+// count.
 bool isWithin(const stats::CellVerdict& v, const Rules& rules) {
   const double scale = std::abs(v.reference);
   if (scale == 0.0 || !std::isfinite(v.welch.dof)) return false;
   return std::abs(v.welch.difference) + halfInterval(v, rules) < rules.margin * scale;
 }
 
-// The interval lies beyond it.
+// Returns whether the interval lies beyond the margin.
 bool isBeyond(const stats::CellVerdict& v, const Rules& rules) {
   const double half = std::isfinite(v.welch.dof) ? halfInterval(v, rules) : 0.0;
   return std::abs(v.welch.difference) - half > rules.margin * std::abs(v.reference);
 }
 
-// The confirmed rejection that is largest, relative to its reference; null without one that counts.
+// Returns the confirmed rejection with the largest bias relative to its reference; null if none
+// counts.
 const stats::CellVerdict* worstConfirmed(const stats::BiasReport& report, const Rules& rules) {
   const stats::CellVerdict* worst = nullptr;
   const auto size = [](const stats::CellVerdict& v) {
@@ -139,7 +141,7 @@ stats::BiasOptions testsOf(const Rules& rules) {
   return options;
 }
 
-// Would no number of runs tell even a bias of 0 from the margin?
+// Returns whether no number of runs could tell even a bias of 0 from the margin.
 bool isReferenceTooCoarse(const stats::Truth& truth, const Rules& rules) {
   return relativeError(truth) >= rules.margin / deviations(rules);
 }
@@ -198,7 +200,7 @@ void decide(Certificate& c, const Evidence& evidence, double batches, const stat
           ? "; the reference's own error is too large for any number of runs"
           : "; the bias is too near the margin for a reference with this error");
   if (std::isnan(runs)) return;
-  // What should have been decided by these runs, and was not, takes as many again.
+  // If these runs should have been enough, ask for as many again.
   const double there = double(evidence.count()), more = std::ceil(runs) - there;
   c.moreRuns = uint64_t(std::min(more > 0.0 ? more : there, 1e15));
 }
@@ -320,7 +322,7 @@ std::string relativeText(const stats::CellVerdict& cell, int digits) {
 }
 
 bool rejects(const stats::RunSet& runs, const stats::Truth& truth, const Rules& rules) {
-  // What these runs reject they reject again: each rejection is kept.
+  // Pass the same runs as the fresh batch, which confirms every rejection.
   const stats::BiasReport report =
       stats::testBias(runs, truth, testsOf(rules), [&] { return runs; });
   return std::any_of(report.cells.begin(), report.cells.end(), [&](const stats::CellVerdict& v) {

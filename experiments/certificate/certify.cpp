@@ -26,9 +26,9 @@ namespace {
 
 using Batch = RunFolder::Batch;
 
-// Runs from which the number of runs follows.
+// Pilot runs, from which the number of runs is planned.
 constexpr uint64_t kPilotRuns = 64;
-// A mean of so many events is known to a seventh only.
+// With fewer rare events a mean is known no better than to one seventh.
 constexpr double kFewEvents = 50.0;
 
 std::string integratorName(const SessionConfig& config) {
@@ -78,8 +78,8 @@ Evidence evidenceOf(const RunFolder& folder, const Question& question, Batch bat
   return evidence;
 }
 
-// How many runs a certificate takes, from a first few; `runS`: seconds that each of these took,
-// where they were made here.
+// Plans the number of runs from pilot runs. `runS`: seconds per pilot run, set if they were
+// rendered now.
 uint64_t plannedRuns(RunFolder& folder, const Question& question, const stats::Truth& truth,
                      const Options& options, double& runS) {
   const uint64_t pilot = std::min(kPilotRuns, options.maxRuns);
@@ -106,8 +106,8 @@ uint64_t plannedRuns(RunFolder& folder, const Question& question, const stats::T
   return std::clamp(wanted, kFewestRuns, options.maxRuns);
 }
 
-// Limits runs to those that the time allows: a fresh batch may take as many again. Fewer than
-// wanted is a line.
+// Limits runs to the remaining time, half of which is kept for a fresh batch. Warns if that is
+// fewer than wanted.
 uint64_t withinTime(uint64_t runs, double runS, const Options& options) {
   if (!options.limit.isSet() || runS <= 0.0) return runs;
   const double leftS = options.limit.leftS();
@@ -168,7 +168,7 @@ void addNotes(Certified& c, const DenoiserInfo* denoiser) {
     c.notes.push_back("the reference says nothing of its own error and is taken as exact");
 }
 
-// The command that makes the last frame of one of these runs again.
+// Returns the command that renders the last frame of one of these runs.
 std::string replayOf(const Question& question, uint32_t seed) {
   std::vector<std::string> words = renderWords(question.request, question.config, question.config);
   for (const std::string& word :
@@ -182,7 +182,7 @@ uint64_t pixelHash(const Image& image) {
   return XXH3_64bits(image.pixels.data(), image.pixels.size() * sizeof(glm::vec3));
 }
 
-// Throws Error (badInput) where the images say that they are not of one method.
+// Throws Error (badInput) if the metadata show that the images are of different methods.
 void requireOneMethod(const std::string& file, const std::map<std::string, std::string>& words,
                       const std::string& first, const std::map<std::string, std::string>& ofFirst) {
   std::vector<std::string> keys = {"integrator", "mode",   "cache",         "denoiser",
@@ -220,7 +220,7 @@ std::string timeLimitText(uint64_t allowed, uint64_t wanted, double leftS, doubl
 }
 
 std::string labelOf(const Question& question) {
-  constexpr size_t kLongest = 120;  // names of files end at 255 bytes
+  constexpr size_t kLongest = 120;  // file names are limited to 255 bytes
   const std::string name = safeFileName(nameOf(question));
   if (name.size() <= kLongest) return name;
   return name.substr(0, kLongest) + "-" + hexHash(XXH3_64bits(name.data(), name.size()));
@@ -241,7 +241,7 @@ Certified certify(const Question& question, const Options& options) {
       options.runs > 0 ? options.runs : plannedRuns(folder, question, truth, options, runS);
   runs = withinTime(runs, runS, options);
   judgeRuns(folder, question, runs, options, c);
-  // What the first runs rejected, and more of them did not, takes all its runs.
+  // Use all planned runs if the pilot runs rejected but the first batch did not decide.
   if (options.fewOfBiased && options.runs == 0 && c.certificate.verdict == Verdict::notDecided) {
     Options all = options;
     all.fewOfBiased = false;
@@ -288,7 +288,7 @@ Certified certifyImages(const std::vector<std::string>& files, const std::string
       failInput(fmt::format("{}: has the pixels of {}; a certificate takes independent runs",
                             files[i], other->second));
     }
-    if (i == 0 || c.reference.metadata.contains("scene_hash")) {  // else it is said once
+    if (i == 0 || c.reference.metadata.contains("scene_hash")) {  // else warned once
       requireSameConfiguration(fmt::format("{}, for {}", reference, files[i]), c.reference.metadata,
                                file.metadata);
     }
@@ -308,7 +308,7 @@ Certified certifyImages(const std::vector<std::string>& files, const std::string
   c.name = fmt::format("images against {}", std::filesystem::path(reference).filename().string());
   c.label = "images";
   c.referenceError = relativeError(truthOf(c.reference, grid));
-  // Cells are judged by both halves of the images, the mean by all of them.
+  // Test cells with one half of the images, confirm with the other; the mean uses all.
   c.certificate = judge(
       evidence, first.runs(), [&] { return fresh.runs(); }, c.reference, options.rules);
   c.mean = evidence.mean();

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// What stands behind the label in the names of its maps.
+// Suffixes of the names of maps, after the label.
 constexpr const char* kMaps[] = {"-bias.exr",      "-bias.png", "-p.png",     "-mean.exr",
                                  "-reference.exr", "-p.exr",    "-signed.exr"};
 
@@ -28,8 +28,8 @@ Image differenceOf(const Image& a, const Image& b) {
   return result;
 }
 
-// Of luminance, before Holm's correction; 1 where a cell is equal without noise, -1 where it is not
-// tested. Later cells of the list are the whole image.
+// Maps p-values of luminance, before Holm's correction; 1 for cells that are equal without noise,
+// -1 for untested ones. Skips the whole-image test.
 Image pValues(const Certified& certified) {
   const Image& mean = certified.mean;
   const stats::BlockGrid grid(mean.width, mean.height);
@@ -45,7 +45,7 @@ Image pValues(const Certified& certified) {
   return map;
 }
 
-// Brighter is orange, darker is blue; full where it is a tenth of the image's mean.
+// Colours brighter pixels orange, darker ones blue; saturated at a tenth of the image's mean.
 Image signedColours(const Image& difference, const Image& reference) {
   double sum = 0.0;
   for (const glm::vec3& p : reference.pixels)
@@ -61,7 +61,7 @@ Image signedColours(const Image& difference, const Image& reference) {
   return picture;
 }
 
-// Black where p is 1, yellow where it is 1e-4 or less; grey where nothing was tested.
+// Colours p = 1 black, p <= 1e-4 yellow, untested cells grey.
 Image pColours(const Image& pValues) {
   Image picture(pValues.width, pValues.height);
   for (size_t i = 0; i < picture.pixels.size(); ++i) {
@@ -88,7 +88,7 @@ void writeMaps(const fs::path& folder, const Certified& certified) {
            1.0f, file.metadata);
   writePng(folder / (certified.label + "-p.png"), pColours(file.layers["p_value"]), 1.0f,
            file.metadata);
-  // What the page shows beside each other, each an image of its own.
+  // Write each image that the page compares into a file of its own.
   const auto writeOne = [&](const char* what, const Image& image) {
     LayeredImage one;
     one.layers[""] = image;
@@ -102,7 +102,8 @@ void writeMaps(const fs::path& folder, const Certified& certified) {
   writeOne("signed", signedColours(file.layers[""], reference));
 }
 
-// Those of the certificates that were here before, and nothing else.
+// Removes the maps of the certificates that the folder's certificates.json lists, and no other
+// files.
 void removeMaps(const fs::path& folder) {
   std::ifstream in(folder / "certificates.json");
   const Json document = Json::parse(in, nullptr, /*allow_exceptions=*/false);
@@ -111,7 +112,7 @@ void removeMaps(const fs::path& folder) {
     if (!one.is_object() || !one.contains("label") || !one["label"].is_string()) continue;
     const std::string label = one["label"].get<std::string>();
     if (label != safeFileName(label)) continue;
-    std::error_code status;  // what stays is replaced or stands beside
+    std::error_code status;  // maps that cannot be removed stay
     for (const char* what : kMaps) fs::remove(folder / "maps" / (label + what), status);
   }
 }

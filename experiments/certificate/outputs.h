@@ -1,4 +1,4 @@
-// What a certificate leaves: lines for people, JSON, maps and a page.
+// Output of certificates: text, JSON, maps and a page.
 #pragma once
 
 #include <filesystem>
@@ -11,27 +11,27 @@
 namespace restlab::certificate {
 
 std::string textOf(const Certified& certified);
-// One line: "equivalent  door-ajar, restir_gi unbiased: +0.04 % [-0.15, +0.22]".
+// Returns one line: "equivalent door-ajar, restir_gi unbiased: +0.04 % [-0.15, +0.22]".
 std::string lineOf(const Certified& certified);
 nlohmann::ordered_json jsonOf(const Certified& certified);
-// What is said besides of the error, the cells and the health, a sentence each.
+// Returns further statements on error, cells and health, one sentence each.
 std::vector<std::string> detailsOf(const Certified& certified);
-// A row a certificate, for documents.
+// Returns a markdown table, one row per certificate.
 std::string markdownOf(const std::vector<Certified>& all);
 
-// Of a suite: how many of each declared class have which verdict, what is declared unbiased and was
-// found biased, and tables of all verdicts, a row a method and up to three scenes beside each
-// other. "" of none.
+// Returns the summary of a suite: verdicts counted by declared class, methods declared unbiased but
+// found biased, and tables of all verdicts with one row per method and up to three scenes side by
+// side. "" without certificates.
 std::string suiteMarkdownOf(const std::vector<Certified>& all, const Rules& rules,
                             const std::string& command);
 
-// DIR/certificates.json and .md, DIR/maps/LABEL-bias.exr (signed difference of the runs' mean to
-// the reference, with the layers "mean", "reference" and "p_value", which holds that of the cell)
-// and PNGs of both maps, DIR/report.html. Maps of earlier certificates are gone. `table` is the
-// text of certificates.md. Throws Error (badInput) where a file cannot be written.
+// Writes DIR/certificates.json and .md, DIR/maps/LABEL-bias.exr (runs' mean minus reference, with
+// the layers "mean", "reference" and "p_value" of the pixel's cell), PNGs of both maps and
+// DIR/report.html. Removes maps of earlier certificates. `table`: text of certificates.md. Throws
+// Error (badInput) if a file cannot be written.
 void writeOutputs(const std::filesystem::path& folder, const std::vector<Certified>& all,
                   const std::string& table, const std::string& command);
-// DIR/certificates.md alone.
+// Writes only DIR/certificates.md.
 void writeTable(const std::filesystem::path& folder, const std::string& table);
 
 }  // namespace restlab::certificate

@@ -14,12 +14,12 @@
 namespace restlab::certificate {
 namespace {
 
-// The reference's standard error, of the margin: it takes half of what the planned interval may
-// have in squares, so that runs are twice as many as with an exact one. Half of that error would
-// take four times the samples.
+// Wanted standard error of the reference, as a share of the margin: half of the variance that the
+// planned interval may have, so that twice as many runs are needed as with an exact reference. Half
+// of that error would need four times the samples.
 constexpr double kReferenceShare = 0.2;
 constexpr uint64_t kFirstReferenceSpp = 2048;
-// A plan guesses by this many samples, and by so many frames.
+// Samples and frames from which --plan estimates costs.
 constexpr uint64_t kPlanSpp = 64;
 constexpr uint32_t kPlanFrames = 4;
 constexpr double kShareOfReference = 0.5;  // of the time limit
@@ -32,7 +32,7 @@ std::string duration(double seconds) {
 
 std::string percent(double share) { return shortNumber(100.0 * share, 2) + " %"; }
 
-// Error and what is wanted, without the sign: never the same text for two numbers.
+// Prints both without sign, with enough digits to tell them apart.
 std::pair<std::string, std::string> percents(double error, double wanted) {
   return apartNumbers(100.0 * error, 100.0 * wanted, 2);
 }
@@ -89,7 +89,7 @@ double sppForError(double error, double spp, double wanted) {
 
 std::string searchText(double error, uint64_t spp, double timeS, const Options& options) {
   const double wanted = wantedReferenceError(options);
-  // One more at least: these are not enough.
+  // At least one more: the present samples are not enough.
   const double all = std::max(std::ceil(sppForError(error, double(spp), wanted)), double(spp) + 1);
   const double left = (all - double(spp)) * timeS / double(spp);
   const auto [own, most] = percents(error, wanted);
@@ -119,13 +119,13 @@ Reference convergedReference(const Question& question, const std::string& label,
       warnOfCoarse(reference, error, options, "--max-reference-spp");
       return reference;
     }
-    // The next step takes as long as all before it.
+    // The next step takes as long as all before.
     const double nextS = reference.timeS * double(target.spp) / double(reference.spp);
     if (options.limit.isSet() && nextS > kShareOfReference * options.limit.leftS()) {
       warnOfCoarse(reference, error, options, "--time-limit");
       return reference;
     }
-    target.timeLimitS = 0.0;  // what was rendered in earlier calls is in it
+    target.timeLimitS = 0.0;  // time of earlier calls is in reference.timeS
   }
 }
 

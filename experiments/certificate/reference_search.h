@@ -1,5 +1,4 @@
-// The reference of a certificate: as many samples as its margin asks for, within the bounds that
-// are set.
+// Reference of a certificate: as many samples as its margin needs, within the given limits.
 #pragma once
 
 #include <string>
@@ -8,25 +7,24 @@
 
 namespace restlab::certificate {
 
-// The relative standard error of the reference's mean that a certificate wants, of 1.
+// Returns the wanted relative standard error of the reference's mean.
 double wantedReferenceError(const Options& options);
 
-// Samples per pixel with which an error of `error` after `spp` falls to `wanted`: it falls by the
-// root of their number.
+// Returns the samples per pixel with which `error` after `spp` falls to `wanted`: the error falls
+// with the root of their number.
 double sppForError(double error, double spp, double wanted);
 
-// The reference's error and samples that there are, and those that are wanted, in words. `timeS`:
-// seconds that those samples took.
+// Describes the reference's error and samples, and the wanted ones. `timeS`: seconds for `spp`.
 std::string searchText(double error, uint64_t spp, double timeS, const Options& options);
 
-// Renders until the error is the wanted one, or options.maxReferenceSpp or half of the time that is
-// left is spent. Says first what is wanted and what that will take. A reference that stays above is
-// a warning. Throws Error.
+// Renders until the error is the wanted one, or up to options.maxReferenceSpp or half of the
+// remaining time. Logs each step's wanted samples and time. Warns if the error stays above the
+// wanted one. Throws Error.
 Reference convergedReference(const Question& question, const std::string& label,
                              const Options& options);
 
-// Estimates a certificate's cost, in lines: the reference and its error, the time of a run, and how
-// many runs there may be. Renders some samples and frames and writes nothing.
+// Estimates a certificate's cost: samples of the reference, the time of a run, and the number of
+// runs. Renders some samples and frames and writes nothing.
 std::string planOf(const Question& question, const Options& options);
 
 }  // namespace restlab::certificate

@@ -23,14 +23,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Seeds of the batches do not meet: at most as many runs as this.
+// Offsets of the batches' seeds, far enough apart for all runs.
 constexpr uint32_t kFirstBatch = 10'000'000, kFreshBatch = 20'000'000;
 constexpr const char* kHealth = "health";
 constexpr const char* kKept = "finished runs are kept; the same command goes on from them";
 
 uint32_t cores() { return std::max(1u, std::thread::hardware_concurrency()); }
 
-// Everything that the pixels of the runs depend on, but for the number of a run.
+// Returns everything that the pixels of the runs depend on, except the number of a run.
 std::map<std::string, std::string> wordsOf(const Question& question) {
   std::map<std::string, std::string> words = describe(question.prepared, question.config);
   words["kind"] = "image";
@@ -47,7 +47,7 @@ std::string keyOf(const std::map<std::string, std::string>& words) {
   return hexHash(XXH3_64bits(text.data(), text.size()));
 }
 
-// Counts as HealthSum::text() writes them.
+// Parses counts as HealthSum::text() writes them.
 void addHealth(const std::string& text, HealthSum& sum) {
   for (size_t i = 0; i < sum.health.counts.size(); ++i) {
     const char* name = Health::names()[i];
@@ -106,7 +106,7 @@ void RunFolder::make(Batch batch, uint64_t count) {
   if (config.threads == 0) config.threads = int(std::max(1u, cores() / workers));
   Progress progress(batch == Batch::first ? "run" : "fresh run", count, count - missing.size());
   std::atomic<size_t> next{0};
-  std::mutex mutex;  // of what follows
+  std::mutex mutex;  // guards done, failure and progress
   uint64_t done = count - missing.size();
   std::exception_ptr failure;
   const auto work = [&] {

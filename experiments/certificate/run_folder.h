@@ -1,5 +1,5 @@
-// The independent runs of a certificate, an EXR each, in a folder that is named by all that they
-// depend on: what is there already is not rendered again.
+// Independent runs of a certificate, one EXR each, in a folder named by all inputs of the runs:
+// existing runs are not rendered again.
 #pragma once
 
 #include <filesystem>
@@ -13,32 +13,32 @@
 
 namespace restlab::certificate {
 
-// What is certified. A run is a history of its own: the mean of its frames warmup ..
-// warmup + frames - 1. Every frame of an unbiased method has the right mean, so that their mean is
-// as good an observation as one of them, and a quieter one; consecutive frames are correlated and
-// are no observations of their own (docs/laboratory.md).
+// Subject of a certificate. A run has its own history and is the mean of the frames warmup ..
+// warmup + frames - 1. Every frame of an unbiased method has the right mean, so the mean of frames
+// is as good an observation as a single one, and less noisy. Consecutive frames are correlated and
+// are no separate observations (docs/laboratory.md).
 struct Question {
-  SceneRequest request;  // of `prepared`
+  SceneRequest request;  // that `prepared` was made from
   PreparedScene prepared;
-  SessionConfig config;  // complete; its seed is the first one
+  SessionConfig config;  // complete; its seed is the base of all seeds
   uint32_t warmup = 0, frames = 1;
-  std::string name;                // of the scene, in tables and file names; "": as it calls itself
-  std::optional<Reference> exact;  // where the image is known without rendering
+  std::string name;                // of the scene, in tables and file names; "": its own name
+  std::optional<Reference> exact;  // if the image is known without rendering
 };
 
 class RunFolder {
  public:
-  enum class Batch { first, fresh };  // of seeds of their own
+  enum class Batch { first, fresh };  // each with its own seeds
 
-  // `jobs` runs are made side by side; 0: one a core. On a Vulkan device one after the other.
+  // Renders `jobs` runs in parallel; 0: one per core. On a Vulkan device always one at a time.
   RunFolder(const Question& question, const std::filesystem::path& folder, uint32_t jobs);
 
-  // Renders those of runs 0 .. count - 1 that are not there. Throws Error (interrupted) on SIGINT;
-  // finished runs stay.
+  // Renders the missing ones of runs 0 .. count - 1. Throws Error (interrupted) on SIGINT; finished
+  // runs stay.
   void make(Batch batch, uint64_t count);
-  // Those runs in their order, each once it is made.
+  // Passes these runs in order to `take`; all of them must exist.
   void forEach(Batch batch, uint64_t count, const std::function<void(const Image&)>& take) const;
-  // Of the frames of those runs, warm-up included.
+  // Returns the counters over all frames of the runs passed by forEach(), warm-up included.
   const HealthSum& health() const { return health_; }
 
   std::filesystem::path file(Batch batch, uint64_t run) const;
@@ -48,7 +48,7 @@ class RunFolder {
   void render(Session& session, Batch batch, uint64_t run);
 
   const Question& question_;
-  std::filesystem::path folder_;  // with the key
+  std::filesystem::path folder_;  // including the key
   std::map<std::string, std::string> words_;
   uint32_t jobs_;
   mutable HealthSum health_;

@@ -1,4 +1,4 @@
-// The certificates of a suite as a document: who is as declared, and a table of all of them.
+// Markdown summary of the certificates of a suite: declared classes against verdicts, and a table.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,14 +13,14 @@
 namespace restlab::certificate {
 namespace {
 
-// With method, denoiser and class six columns: as wide as a page is.
+// Six columns with method, denoiser and class: the width of a page.
 constexpr size_t kScenesBeside = 3;
 
 constexpr Verdict kVerdicts[] = {Verdict::equivalent, Verdict::notDecided, Verdict::biased};
 constexpr BiasClass kClasses[] = {BiasClass::unbiased, BiasClass::consistent, BiasClass::biased};
 
-// Nothing else contradicts what a method says of itself: a consistent one may be biased after any
-// number of frames, and a biased one may be right.
+// Only an unbiased method can contradict its class: a consistent one may be biased after any number
+// of frames, and a biased one may happen to be right.
 bool isContradiction(const Certified& c) {
   return c.declared == BiasClass::unbiased && c.certificate.verdict == Verdict::biased;
 }
@@ -40,7 +40,7 @@ std::string cellOf(const Certified& certified) {
   }
   const uint64_t nonfinite = c.cells.nonfinite + c.nonfiniteSamples;
   if (nonfinite > 0) text += fmt::format(", {} values not finite", nonfinite);
-  // What was too skewed to be tested, and may hold any bias.
+  // Untested cells may hide any bias.
   if (c.cells.untestableShare >= 0.005)
     text += fmt::format(", {:.0f} % in untested cells", 100.0 * c.cells.untestableShare);
   if (c.moreRuns) text += fmt::format(", {} more runs", *c.moreRuns);
@@ -51,7 +51,7 @@ std::string range(uint64_t least, uint64_t most) {
   return least == most ? std::to_string(least) : fmt::format("{} to {}", least, most);
 }
 
-// Values in their order, each once.
+// Returns values in their order, each once.
 template <class Value>
 std::vector<Value> distinct(const std::vector<Certified>& all, Value (*of)(const Certified&)) {
   std::vector<Value> values;
@@ -97,7 +97,7 @@ std::string tableOf(const std::vector<Certified>& all, const std::vector<std::st
   text += "\n" + line + "\n";
   const std::vector<Row> rows =
       distinct<Row>(all, [](const Certified& c) { return Row(c.method, c.denoiser); });
-  // Behind the methods of a line, in the order of the first of each.
+  // Methods of equal lines, and the rest of the line, in order of the first method.
   std::vector<std::pair<std::string, std::string>> lines;
   for (const Row& row : rows) {
     std::string cells;
@@ -109,7 +109,7 @@ std::string tableOf(const std::vector<Certified>& all, const std::vector<std::st
       cells += fmt::format(" {} |", found == all.end() ? "" : cellOf(*found));
       if (found != all.end()) declared = found->declared ? biasName(*found->declared) : "";
     }
-    // A method that none of these scenes has.
+    // Skip methods that none of these scenes has.
     if (declared == nullptr) continue;
     const std::string rest = fmt::format(" | {} | {} |{}\n", row.second, declared, cells);
     const auto same = std::find_if(lines.begin(), lines.end(),
@@ -134,7 +134,7 @@ std::string suiteMarkdownOf(const std::vector<Certified>& all, const Rules& rule
   for (const Certified& c : all) {
     fewestRuns = std::min<uint64_t>(fewestRuns, c.certificate.runs);
     mostRuns = std::max<uint64_t>(mostRuns, c.certificate.runs);
-    if (c.reference.spp > 0) {  // 0: in closed form
+    if (c.reference.spp > 0) {  // 0: closed form
       leastSpp = std::min(leastSpp, c.reference.spp);
       mostSpp = std::max(mostSpp, c.reference.spp);
     }

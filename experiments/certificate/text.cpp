@@ -1,4 +1,4 @@
-// Certificates in words and numbers.
+// Certificates as text and JSON.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,8 +15,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr size_t kWorstCells = 3;
 
-// A mean that is too skewed for an interval is shown without one, and why. Beside such a one the
-// others say what they have of it.
+// Shows a mean that is too skewed without an interval, and why. If one quantity is skewed, the
+// others show their rare events, too.
 std::string percents(const ImageBias& b, bool isOneSkewed) {
   const Interval& i = b.bias;
   const auto [own, needed] = apartNumbers(b.events, kRareEventsOfInterval, 2);
@@ -45,7 +45,7 @@ bool isSame(const stats::CellArea& a, const stats::CellArea& b) {
   return a.x == b.x && a.y == b.y && a.size == b.size;
 }
 
-// What is said of an area: by the quantity that lies farthest from the reference, in deviations.
+// Returns one verdict per area: of the quantity farthest from the reference, in standard errors.
 std::vector<const stats::CellVerdict*> areasOf(const stats::BiasReport& report) {
   std::vector<const stats::CellVerdict*> areas;
   const auto distance = [](const stats::CellVerdict& v) {
@@ -75,7 +75,7 @@ std::string cellText(const stats::CellVerdict& v, const stats::BlockGrid& grid) 
   return text;
 }
 
-// Of the tests of luminance and channels of an area.
+// Returns whether a test of luminance or a channel of an area meets the condition.
 template <class Condition>
 bool anyOf(const stats::BiasReport& report, const stats::CellArea& area, Condition condition) {
   return std::any_of(report.cells.begin(), report.cells.end(), [&](const stats::CellVerdict& v) {
@@ -86,7 +86,7 @@ bool anyOf(const stats::BiasReport& report, const stats::CellArea& area, Conditi
 std::string cellsText(const Certified& certified) {
   const stats::BiasReport& report = certified.certificate.cells;
   const stats::BlockGrid grid = gridOf(certified);
-  // Each quantity divides the image in its own way: cells and shares are of one.
+  // Report cells and shares of one quantity: each quantity divides the image in its own way.
   const stats::Quantity quantity = leastTestable(report, grid);
   const double pixels = double(grid.width) * double(grid.height);
   double largest = 0.0;
@@ -117,7 +117,7 @@ std::string cellsText(const Certified& certified) {
       confirmed, isSmall ? ", each smaller than the margin" : "", found);
 }
 
-// JSON has no NaN.
+// Writes NaN, which JSON does not have, as null.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 Json intervalJson(const Interval& i) {
   return {{"value", number(i.value)}, {"lo", number(i.lo)}, {"hi", number(i.hi)}};
@@ -143,7 +143,7 @@ Json cellJson(const stats::CellVerdict& v) {
 
 double mse(const Certificate& c) { return c.squaredBias.value + c.variance.value; }
 
-// "+1.2 %" of the MSE of a run; "no error" of an image that is exact.
+// Returns "+1.2 %" of the MSE of a run; "no error" for an exact image.
 std::string shareOfBias(const Certificate& c) {
   const double whole = mse(c);
   return whole == 0.0 ? "no error" : fmt::format("{:+.2f} %", 100.0 * c.squaredBias.value / whole);
@@ -165,9 +165,9 @@ std::string healthText(const Certified& certified) {
                                   : fmt::format("{}; health: {}", text, certified.health.text());
 }
 
-// `--images` has no more runs to ask for.
+// Names an option only for rendered runs: for `--images` the user has to supply more images.
 std::string moreRunsText(const Certified& certified) {
-  constexpr uint64_t kMostRuns = 1'000'000;  // that --runs takes
+  constexpr uint64_t kMostRuns = 1'000'000;  // limit of --runs
   const Certificate& c = certified.certificate;
   if (!c.moreRuns) return "";
   if (certified.replay.empty())

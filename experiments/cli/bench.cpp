@@ -36,17 +36,17 @@ struct BenchOptions {
   bool json = false;
 };
 
-// What the frames of one session were, on average or in the median.
+// Averages or medians over the frames of one session.
 struct FrameRates {
   double timeMs = 0.0, p95Ms = 0.0, cpuS = 0.0;
   double raysPath = 0.0, raysShadow = 0.0;  // per frame
   std::vector<PassTiming> passes;           // median time
 };
 
-// The sessions take turns frame by frame: what slows the machine down slows all of them.
+// Interleaves the sessions frame by frame, so that a slowdown of the machine affects all of them.
 std::vector<FrameRates> measureFrames(const std::vector<std::unique_ptr<Session>>& sessions,
                                       uint32_t frames) {
-  constexpr uint32_t kWarmup = 4;  // caches, page faults, the clock's frequency
+  constexpr uint32_t kWarmup = 4;  // for caches, page faults, clock frequency
   std::vector<FrameRates> rates(sessions.size());
   std::vector<std::vector<double>> times(sessions.size());
   std::vector<std::vector<std::vector<double>>> passTimes(sessions.size());
@@ -75,8 +75,8 @@ std::vector<FrameRates> measureFrames(const std::vector<std::unique_ptr<Session>
   return rates;
 }
 
-// MSE of single frames over the pixels that show no light, times the CPU seconds of a frame. Both
-// scale as 1/N and N with the number of samples: the product does not depend on it.
+// Returns the MSE of single frames over pixels without lights, times the CPU seconds of a frame.
+// The product does not depend on the number of samples N, because the factors scale as 1/N and N.
 Json errorPerCpuSecond(const PreparedScene& prepared, const SessionConfig& config,
                        const BenchOptions& options) {
   ReferenceTarget target;
@@ -92,7 +92,7 @@ Json errorPerCpuSecond(const PreparedScene& prepared, const SessionConfig& confi
   double cpuS = 0.0;
   std::vector<double> errors;
   for (uint32_t i = 0; i < options.frames; ++i) {
-    session.reset(session.config().seed + 1);  // frames of one history depend on each other
+    session.reset(session.config().seed + 1);  // independent frames: no shared history
     const double before = processCpuSeconds();
     session.frame();
     cpuS += (processCpuSeconds() - before) / options.frames;
@@ -110,8 +110,8 @@ Json errorPerCpuSecond(const PreparedScene& prepared, const SessionConfig& confi
           {"reference_spp", reference.spp}};
 }
 
-// Each pass beside the least time that its rays, at the rates of rays alone, and the buffers of
-// its integrator, once at the rate of a copy, would take.
+// Compares each pass with its lower bound: the time of its rays alone, and of copying the
+// integrator's buffers once.
 Json passesJson(const Session& session, const FrameRates& rates, const BackendRates& roofs) {
   const double pixels = double(session.config().width) * session.config().height;
   const double bytes = double(session.bytesPerPixel()) * pixels;
@@ -132,8 +132,8 @@ Json passesJson(const Session& session, const FrameRates& rates, const BackendRa
   return passes;
 }
 
-// The passes of a denoiser beside the time to read and write its inputs and buffers once; guides
-// are the passes that neither it nor the integrator has.
+// Compares a denoiser's passes with the time to read and write its inputs and buffers once. Passes
+// of neither the denoiser nor the integrator count as guides.
 Json denoiserJson(const Session& session, const FrameRates& rates, const BackendRates& roofs) {
   const SessionConfig& config = session.config();
   const DenoiserInfo& denoiser = findDenoiser(config.denoiser);
@@ -170,7 +170,7 @@ Json frameJson(const Session& session, const FrameRates& rates, const EmbreeRate
   const double pixels = double(config.width) * config.height;
   const double seconds = rates.timeMs / 1000.0;
   const double rays = rates.raysPath + rates.raysShadow;
-  // What Embree alone would take for as many rays: a lower bound of the share that perf measures.
+  // Time of Embree alone for as many rays: a lower bound of the share that perf measures.
   const double alone = (embree.incoherent > 0.0 ? rates.raysPath / embree.incoherent : 0.0) +
                        (embree.shadow > 0.0 ? rates.raysShadow / embree.shadow : 0.0);
   Json buffers = Json::object();
@@ -198,7 +198,7 @@ struct BenchedMethod {
   std::string integrator, mode, denoiser;
 };
 
-// Each mode of each integrator as it is, and each denoiser after the first of them.
+// Returns each mode of each integrator without a denoiser, and each denoiser on the first of them.
 std::vector<BenchedMethod> benchedMethods() {
   std::vector<BenchedMethod> methods;
   for (const IntegratorInfo* info : integratorRegistry())
@@ -295,7 +295,7 @@ void bench(BenchOptions options) {
   chosen.backend = options.backend;
   SessionConfig config = makeConfig(options.scene, chosen);
   completeConfig(prepared, config);
-  // The backend that was asked for stands beside the CPU, measured in turns.
+  // Measure the requested backend and the CPU, interleaved.
   std::vector<SessionConfig> configs = {config};
   if (config.backend != "cpu") {
     SessionConfig cpu = config;

@@ -29,7 +29,7 @@ void addRay(RayBatch& rays, const glm::vec3& origin, const glm::vec3& direction,
 }
 
 struct HitPoint {
-  glm::vec3 posW, normalW;  // the normal looks back along the ray
+  glm::vec3 posW, normalW;  // the normal faces the ray's origin
 };
 
 RTCRay makeRay(const RayBatch& rays, size_t i) {
@@ -46,7 +46,7 @@ RTCRay makeRay(const RayBatch& rays, size_t i) {
   return ray;
 }
 
-// Embree alone sees no textures: every hit is opaque, also that of a mesh with a filter.
+// Accepts every hit: Embree alone sees no textures.
 void acceptHit(const RTCFilterFunctionNArguments*) {}
 
 rl::AlphaTraceContext opaqueContext() {
@@ -93,7 +93,7 @@ std::vector<HitPoint> hitPoints(RTCScene scene, const RayBatch& rays) {
   for (size_t i = 0; i < rays.size(); ++i) {
     const RTCRayHit query = traceClosest(scene, rays, i);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
-    // The normal of an instance is in its own space; for directions of a benchmark that will do.
+    // Normals of instances stay in object space: good enough for the directions of a benchmark.
     glm::vec3 normal = glm::vec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
     const float length = glm::length(normal);
     if (!(length > 0.0f)) continue;
@@ -117,7 +117,7 @@ RayBatch bounceRays(const std::vector<HitPoint>& points) {
   std::uniform_real_distribution<float> unit(0.0f, 1.0f);
   RayBatch rays;
   for (const HitPoint& point : points) {
-    // A point on the unit sphere around the normal's tip: cosine distributed.
+    // Sample the unit sphere around the normal's tip: cosine-distributed directions.
     glm::vec3 direction = point.normalW + uniformDirection(random, unit);
     const float length = glm::length(direction);
     direction = length > 1e-3f ? direction / length : point.normalW;
@@ -131,7 +131,8 @@ RayBatch lightRays(const std::vector<HitPoint>& points, const rl::SceneData& sce
   std::uniform_real_distribution<float> unit(0.0f, 1.0f);
   RayBatch rays;
   for (const HitPoint& point : points) {
-    glm::vec3 span = uniformDirection(random, unit) * 1e6f;  // no light, or the environment
+    glm::vec3 span = uniformDirection(random, unit) * 1e6f;  // without lights, or for the
+                                                             // environment
     if (scene.lightCount > 0) {
       const uint32_t index =
           std::min(uint32_t(unit(random) * float(scene.lightCount)), scene.lightCount - 1);
@@ -155,7 +156,7 @@ RayBatch lightRays(const std::vector<HitPoint>& points, const rl::SceneData& sce
 }
 
 std::string versionOf(RTCScene scene) {
-  RTCDevice device = rtcGetSceneDevice(scene);  // one more owner
+  RTCDevice device = rtcGetSceneDevice(scene);  // adds a reference
   const auto part = [&](RTCDeviceProperty property) {
     return rtcGetDeviceProperty(device, property);
   };
@@ -166,7 +167,7 @@ std::string versionOf(RTCScene scene) {
   return version;
 }
 
-// Rays per second of the median repetition.
+// Returns the rays per second of the median repetition.
 template <class Trace>
 double rate(size_t count, int threads, double seconds, const Trace& trace) {
   if (count == 0) return 0.0;

@@ -1,4 +1,4 @@
-// Rays per second through Embree alone: the roof that a frame's rays per second are held against.
+// Rays per second of Embree alone: the upper bound for a frame's rays per second.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 namespace restlab {
 
 struct EmbreeRates {
-  std::string version;                                   // "4.3.3", of the library that ran
+  std::string version;                                   // "4.3.3", of the loaded library
   double primary = 0.0, shadow = 0.0, incoherent = 0.0;  // rays per second
 };
 
@@ -19,11 +19,11 @@ struct RaySets {
   std::vector<rl::Ray> incoherent;  // closest hit, cosine-distributed from the same hits
 };
 
-// Of the camera of the scene; hits are found by Embree.
+// Makes rays from the scene's camera; Embree finds the hits.
 RaySets makeRays(const PreparedScene& prepared, uint32_t width, uint32_t height);
 
-// Only queries of core/backend/embree.h are timed, on `threads` threads
-// (0: all). Each kind is repeated for at least `seconds`; the median repetition counts.
+// Times only queries of core/backend/embree.h, on `threads` threads (0: all). Repeats each kind for
+// at least `seconds` and uses the median repetition.
 EmbreeRates measureEmbree(const PreparedScene& prepared, const RaySets& rays, int threads,
                           double seconds);
 

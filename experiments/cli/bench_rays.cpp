@@ -16,7 +16,7 @@ namespace restlab {
 
 namespace {
 
-// A frame of at least so many pixels, in whole workgroups.
+// Returns a frame of at least `pixels` pixels, in whole workgroups.
 rl::FrameData frameOf(size_t pixels) {
   rl::FrameData frame{};
   frame.width = 1024;
@@ -24,7 +24,7 @@ rl::FrameData frameOf(size_t pixels) {
   return frame;
 }
 
-// Median time of a pass in seconds.
+// Returns the median time of a pass in seconds.
 double secondsOf(Backend& backend, const PassRun& pass, const rl::FrameData& frame,
                  double seconds) {
   using Clock = std::chrono::steady_clock;
@@ -48,7 +48,7 @@ std::vector<std::byte> bytesOf(const Params& params) {
   return bytes;
 }
 
-// Buffers are allocated before the first pass runs: a backend places them together.
+// Allocates the buffers before the first pass runs, as backends place them together.
 PassRun rayPass(Backend& backend, uint32_t mask, const std::vector<rl::Ray>& rays) {
   PassRun pass;
   pass.kernel = "trace";
@@ -69,7 +69,7 @@ double rayRate(Backend& backend, const PassRun& pass, const std::vector<rl::Ray>
   return double(rays.size()) / secondsOf(backend, pass, frameOf(rays.size()), seconds);
 }
 
-// 64 MiB each way: more than any cache of a CPU.
+// Moves 64 MiB each way: more than any CPU cache.
 rl::FrameData streamFrame() { return frameOf(size_t{1} << 20); }
 size_t streamBytes() {
   const rl::FrameData frame = streamFrame();

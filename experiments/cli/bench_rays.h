@@ -1,5 +1,4 @@
-// Rays per second of a backend alone, and its memory's bytes per second: the roofs that a pass is
-// held against.
+// Rays per second of a backend alone, and bytes per second of its memory: upper bounds for passes.
 #pragma once
 
 #include "core/backend/backend.h"
@@ -10,10 +9,10 @@ namespace restlab {
 
 struct BackendRates {
   double primary = 0.0, shadow = 0.0, incoherent = 0.0;  // rays per second, the median repetition
-  double bytesPerSecond = 0.0;                           // read and written, of a plain copy
+  double bytesPerSecond = 0.0;                           // read plus written, by a plain copy
 };
 
-// Each kind is repeated for at least `seconds`; timed as passes are.
+// Repeats each kind for at least `seconds`; timed like passes.
 BackendRates measureBackend(const PreparedScene& prepared, const std::string& backend,
                             const BackendOptions& options, const RaySets& rays, double seconds);
 

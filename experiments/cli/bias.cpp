@@ -1,4 +1,5 @@
-// restlab bias: is a method biased? A verdict with an interval, from independent runs.
+// restlab bias: tests whether a method is biased. A verdict with an interval, from independent
+// runs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,7 +33,7 @@ namespace {
 using certificate::Certified;
 using certificate::Question;
 
-// Small images decide sooner: what counts is the number of runs, and each has every pixel.
+// Small images decide sooner: the number of runs matters, and each run has every pixel.
 constexpr uint32_t kDefaultWidth = 96;
 constexpr uint32_t kDefaultWarmup = 8, kDefaultFrames = 16;
 
@@ -57,7 +58,7 @@ std::vector<std::string> imagesLike(const std::string& pattern) {
 
 bool isSuite(const std::string& name) { return std::filesystem::path(name).extension() == ".toml"; }
 
-// `name`: of the folder of results, where none is given.
+// `name`: of the folder of results if --out is not given.
 certificate::Options certificateOptions(const BiasOptions& options, const std::string& name) {
   certificate::Options result;
   result.rules.margin = options.marginPercent / 100.0;
@@ -89,7 +90,7 @@ Question questionOf(BiasOptions options) {
   return question;
 }
 
-// What a certificate cannot be held against is said before the first run.
+// Throws for scenes that a certificate cannot judge, before the first run.
 void checkTruths(const Suite& whole) {
   for (const SuiteScene& scene : whole.scenes) {
     const Suite suite = ofScene(whole, scene);
@@ -117,7 +118,7 @@ void checkTruths(const Suite& whole) {
   }
 }
 
-// Nothing where it is to be rendered.
+// Returns nothing if the reference must be rendered.
 std::optional<Reference> knownTruth(const Suite& suite, const SuiteScene& scene,
                                     const PreparedScene& prepared, const SessionConfig& picture) {
   if (scene.truth != Truth::exact) return std::nullopt;
@@ -126,8 +127,8 @@ std::optional<Reference> knownTruth(const Suite& suite, const SuiteScene& scene,
   return exactReference(scene.request, plain, config);
 }
 
-// Files are named by it. Two certificates may differ in what their names do not say: the camera,
-// the environment, the backend.
+// Makes the label unique, because files are named by it. Names do not include the camera,
+// environment or backend.
 void giveOwnLabel(std::vector<Certified>& all) {
   std::string& label = all.back().label;
   const std::string name = label;
@@ -138,7 +139,7 @@ void giveOwnLabel(std::vector<Certified>& all) {
   for (int number = 2; isTaken(); ++number) label = fmt::format("{}-{}", name, number);
 }
 
-// Rows of images are there already, and may be of one history.
+// Logs rows of images: they exist already, and may come from one history.
 void sayWhatIsLeftOut(const Suite& suite) {
   for (const SuiteMethod& method : suite.methods) {
     if (method.images) {
@@ -150,8 +151,8 @@ void sayWhatIsLeftOut(const Suite& suite) {
   }
 }
 
-// Every method of the suite on every scene, still. `sceneIsDone` follows the methods of a scene and
-// component.
+// Passes every method of the suite on every scene, with a still camera, to `take`. Calls
+// `sceneIsDone` after the methods of a scene and component.
 void forEachQuestion(const Suite& whole, const BiasOptions& options,
                      const std::function<void(const Question&)>& take,
                      const std::function<void()>& sceneIsDone) {
@@ -192,7 +193,7 @@ void forEachQuestion(const Suite& whole, const BiasOptions& options,
   if (!isAny) failInput(fmt::format("{}: none of its scenes is here", whole.file));
 }
 
-// `sceneIsDone` sees all certificates that there are so far.
+// `sceneIsDone`: receives all certificates so far.
 std::vector<Certified> certifySuite(
     const Suite& whole, const BiasOptions& options, const certificate::Options& how,
     const std::function<void(const std::vector<Certified>&)>& sceneIsDone) {
@@ -219,7 +220,7 @@ void dryRun(const BiasOptions& options) {
   forEachQuestion(suite, options, print, [] {});
 }
 
-// The options that are used, but for those of a scene, are among these; otherwise `why` is said.
+// Fails with `why` if an option is used that is not in `usable`.
 void requireAmong(const std::vector<std::string>& usable, const CLI::App& verb,
                   const std::string& why) {
   for (const CLI::Option* option : verb.get_options()) {
@@ -230,7 +231,7 @@ void requireAmong(const std::vector<std::string>& usable, const CLI::App& verb,
   }
 }
 
-// What goes with a scene goes with nothing else.
+// Rejects combinations of scene, suite and image options.
 void checkOptions(const CLI::App& verb, const BiasOptions& options) {
   const bool hasImages = !options.images.empty();
   const std::string& scene = options.scene.request.scene;
@@ -258,7 +259,7 @@ void checkOptions(const CLI::App& verb, const BiasOptions& options) {
     failUsage("--max-runs: --runs says how many there are; give one of the two");
 }
 
-// That of the certificates in a folder; "" where there are none.
+// Returns the command of the certificates in a folder; "" if there are none.
 std::string commandOf(const std::filesystem::path& folder) {
   std::ifstream in(folder / "certificates.json");
   const auto document = nlohmann::json::parse(in, nullptr, /*allow_exceptions=*/false);
@@ -278,7 +279,7 @@ void bias(BiasOptions options, const CLI::App& verb, Outcome& outcome) {
   std::string table;
   std::vector<Certified> all;
   std::optional<FolderLock> lock;
-  // Nothing is left of what cannot be certified, and what is replaced is named.
+  // Open the folder only after all checks, and log which certificates it will lose.
   const auto openFolder = [&](const std::string& name) {
     how = certificateOptions(options, name);
     makeWritableDirectory(how.out);
@@ -298,7 +299,7 @@ void bias(BiasOptions options, const CLI::App& verb, Outcome& outcome) {
     checkTruths(suite);
     openFolder(safeFileName(std::filesystem::path(scene).stem().string()));
     how.fewOfBiased = true;
-    // What takes hours is read before it is over.
+    // Write the table after each scene: the whole suite may take hours.
     all = certifySuite(suite, options, how, [&](const std::vector<Certified>& some) {
       table = certificate::suiteMarkdownOf(some, how.rules, command);
       certificate::writeTable(how.out, table);

@@ -25,7 +25,7 @@ namespace {
 
 constexpr const char* kFailIfWorse = "--fail-if-worse";
 
-// Of all images together where a metric needs runs.
+// Includes metrics that need several runs: they are computed over all images together.
 std::vector<std::string> chosenMetrics(const CompareOptions& options,
                                        const std::vector<Expectation>& expectations) {
   std::vector<std::string> metrics = {"mse", "relmse_e1e-2", "mape_e1e-2", "energy_ratio"};
@@ -167,7 +167,7 @@ void addMaskOptions(CLI::App& verb, CompareOptions& options) {
   verb.add_option("--mask", options.maskFile, "EXR: only pixels where it is not 0");
 }
 
-// What is asked of images says nothing of folders, and would be passed over.
+// Rejects options for images, which would be ignored for folders.
 void refuseImageOptions(const CLI::App& verb) {
   const std::vector<std::string> known = {"images",  "--json",    kFailIfWorse,
                                           "--quiet", "--verbose", "--help"};
@@ -195,7 +195,7 @@ void requireTwoFolders(const std::vector<std::string>& folders) {
     failUsage(fmt::format("compare: takes two folders of results, not {}", folders.size()));
 }
 
-// Two folders instead of a reference and images.
+// Compares two folders, instead of images with a reference.
 void compareResults(const CLI::App& verb, const CompareOptions& options, Outcome& outcome) {
   requireTwoFolders(options.images);
   refuseImageOptions(verb);

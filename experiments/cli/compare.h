@@ -1,4 +1,4 @@
-// What the parts of `restlab compare` share.
+// Shared declarations of the parts of `restlab compare`.
 #pragma once
 
 #include <optional>
@@ -19,45 +19,44 @@ struct CompareOptions {
   bool json = false, anyReference = false, withoutLights = false, failIfWorse = false;
 };
 
-// A bound that fails the comparison (exit code 1). NaN never holds.
+// Bound that fails the comparison (exit code 1). NaN never holds.
 struct Expectation {
   std::string text, metric, relation;
   double bound = 0.0;
   bool holds(double value) const;
 };
 
-// From --expect "mse<0.01" and --max "mse=0.01". Throws Error (badUsage).
+// Parse --expect "mse<0.01" and --max "mse=0.01". Throw Error (badUsage).
 Expectation parseExpectation(const std::string& text);
 Expectation parseMaximum(const std::string& text);
 
 struct MaskChoice {
   PixelMask mask;    // empty: all pixels
-  std::string text;  // what it selects; "" for all pixels
+  std::string text;  // description; "" for all pixels
 };
 
-// The pixels that count, by --mask, --rect, --object and --without-lights: those that all of them
-// select. The latter two trace the scene that the reference's metadata name. Throws Error:
-// badUsage, badInput.
+// Returns the intersection of --mask, --rect, --object and --without-lights. The latter two trace
+// rays in the scene that the reference's metadata name. Throws Error: badUsage, badInput.
 MaskChoice chooseMask(const CompareOptions& options, const Reference& reference);
 
 struct ComparedImage {
   std::string file;
-  size_t nonfinite = 0;  // in all of its pixels
+  size_t nonfinite = 0;  // over all pixels
   std::vector<MetricValue> values;
 };
 
 // bias_rms of all images together.
 struct ComparedRuns {
   size_t count = 0;
-  Interval squaredBias;  // signed
+  Interval squaredBias;  // may be negative
   MetricValue biasRms;
 };
 
-// Images that are independent runs of one method.
+// Accumulates images that are independent runs of one method.
 class ComparedMethod {
  public:
-  // Throws Error (badInput) naming what says that `image` is no independent run of the method of
-  // the others.
+  // Throws Error (badInput) if pixels or metadata show that `image` is no independent run of the
+  // method of the other images; names what differs.
   void add(const std::string& file, const LayeredImage& image);
   ComparedRuns bias(const Reference& reference, const PixelMask& mask) const;
 
@@ -74,8 +73,8 @@ class ComparedMethod {
 struct Comparison {
   std::string referenceFile;
   Reference reference;
-  size_t referenceNonfinite = 0;     // in all pixels of its mean and its halves
-  std::vector<std::string> metrics;  // of one image each
+  size_t referenceNonfinite = 0;     // over all pixels of its mean and its halves
+  std::vector<std::string> metrics;  // computed per image
   MaskChoice mask;
   std::vector<ComparedImage> images;
   std::optional<ComparedRuns> runs;
@@ -84,7 +83,7 @@ struct Comparison {
 void printTable(const Comparison& comparison);
 void printJson(const Comparison& comparison, const CompareOptions& options);
 
-// Logs an error for a reference and for each image that hold non-finite values, and for each bound
+// Logs an error for a reference and each image with values that are not finite, and for each bound
 // that does not hold.
 ExitCode judge(const Comparison& comparison, const std::vector<Expectation>& expectations);
 

@@ -1,4 +1,4 @@
-// Bounds on metrics: what scripts ask of a comparison.
+// Bounds on metrics, for scripts.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -72,7 +72,7 @@ ExitCode judge(const Comparison& comparison, const std::vector<Expectation>& exp
     for (const Expectation& expectation : expectations) {
       const auto& names = comparison.metrics;
       const auto at = std::find(names.begin(), names.end(), expectation.metric);
-      if (at == names.end()) continue;  // of all images together
+      if (at == names.end()) continue;  // computed over all images together
       worse(judgeValue(image.file, image.values[size_t(at - names.begin())].value, expectation));
     }
   }

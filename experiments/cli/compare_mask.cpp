@@ -1,4 +1,4 @@
-// Which pixels `restlab compare` looks at.
+// Mask of the pixels that `restlab compare` uses.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -40,12 +40,12 @@ PixelMask readMask(const std::string& file, const Image& reference) {
 
 class MaskBuilder {
  public:
-  // Only pixels that `mask` selects; `text` says which.
+  // Keeps only pixels that `mask` selects; `text` describes it.
   void keep(const PixelMask& mask, const std::string& text) {
     choice_.mask = intersection(choice_.mask, mask);
     choice_.text += (choice_.text.empty() ? "" : ", ") + text;
   }
-  // Throws where no pixel is left.
+  // Throws if no pixel is left.
   MaskChoice finish() const {
     const auto isSet = [](uint8_t byte) { return byte != 0; };
     if (!choice_.mask.empty() && std::none_of(choice_.mask.begin(), choice_.mask.end(), isSet)) {

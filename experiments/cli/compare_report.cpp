@@ -1,4 +1,4 @@
-// What `restlab compare` prints.
+// Output of `restlab compare`.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,8 +22,8 @@ Json finite(double value) {
   return value;
 }
 
-// A NaN without its reason is of no use, and neither is a number that depends on how it was
-// computed; the other details are there for those who ask.
+// Warns with the reason of a NaN, logs how ambiguous metrics were computed, and shows other details
+// only with -v.
 void logDetailOf(const std::string& file, const std::string& metric, const MetricValue& value) {
   if (value.detail.empty()) return;
   const std::string line = fmt::format("{}: {}: {}", file, metric, value.detail);

@@ -1,4 +1,4 @@
-// The bias of a method from independent runs of it.
+// Bias of a method from independent runs.
 #include <fmt/format.h>
 #include <xxhash.h>
 
@@ -12,7 +12,7 @@ namespace restlab {
 
 namespace {
 
-// What differs between runs of one method, or between machines that made them.
+// Returns whether metadata may differ between runs of one method, or between machines.
 bool mayDiffer(const std::string& key) {
   static const std::vector<std::string> keys = {
       "seed",        "render_time_s",     "health", "backend", "device",

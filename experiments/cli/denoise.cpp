@@ -1,4 +1,4 @@
-// restlab denoise: a denoiser over images that were rendered before, here or elsewhere.
+// restlab denoise: applies a denoiser to images rendered before, also by other programs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ struct DenoiseOptions {
   std::optional<double> radianceFrames;
 };
 
-// Denoisers that ask over how many frames the radiance averages itself have this parameter.
+// Parameter of denoisers that need to know over how many frames the radiance was averaged.
 constexpr const char* kAsksRadianceFrames = "svgf_confidence";
 
 bool asksRadianceFrames(const DenoiserInfo& denoiser, const ParameterMap& given) {
@@ -49,7 +49,7 @@ bool asksRadianceFrames(const DenoiserInfo& denoiser, const ParameterMap& given)
   return false;
 }
 
-// Throws Error (badUsage) where a denoiser asks for more than layers give.
+// Throws Error (badUsage) if a denoiser needs more inputs than layers.
 void requireLayersAlone(const DenoiserInfo& denoiser) {
   const bool needsScene =
       std::any_of(denoiser.inputs.begin(), denoiser.inputs.end(),
@@ -68,7 +68,7 @@ SessionConfig configOf(const DenoiseOptions& options) {
   requireLayersAlone(denoiser);
   applyBackend(options.backend, config);
   config.threads = options.threads;
-  // Parameters of the search for changed light belong to `render`, and so are unknown here.
+  // Parameters of change detection belong to `render`, and are unknown here.
   config.parameters = parseParameters(
       denoiser.parameters, "denoiser " + options.denoiser + " on an image", options.parameters);
   for (const ParameterInfo& parameter : denoiser.parameters) {
@@ -92,8 +92,8 @@ SessionConfig configOf(const DenoiseOptions& options) {
   return config;
 }
 
-// Looks at all files before one is written. Returns the names of their layers, and their size in
-// `config`. All have one window.
+// Checks all files before one is written. Returns the names of their layers, and their size in
+// `config`. All files must have the same window.
 std::vector<LayerNames> checkFrames(const std::vector<FrameFiles>& files, const FrameLayers& layers,
                                     SessionConfig& config) {
   std::vector<LayerNames> names;
@@ -118,7 +118,7 @@ std::vector<LayerNames> checkFrames(const std::vector<FrameFiles>& files, const 
   return names;
 }
 
-// Those of the input, and what was done to it.
+// Returns the metadata of the input, and how it was denoised.
 std::map<std::string, std::string> metadataOf(const std::map<std::string, std::string>& input,
                                               const std::filesystem::path& file,
                                               const SessionConfig& config,

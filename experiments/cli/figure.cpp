@@ -1,4 +1,4 @@
-// restlab figure: a paper's crop strip.
+// restlab figure: makes a crop strip for a paper.
 #include "experiments/report/figure.h"
 
 #include <fmt/format.h>
@@ -29,10 +29,10 @@ struct FigureOptions {
   bool cropErrors = false, anyReference = false;
 };
 
-// A crop of usual size is about this wide in the figure, in pixels.
+// Approximate width of a crop in the figure, in pixels.
 constexpr uint32_t kCellWidth = 160;
 constexpr uint32_t kMaxScale = 64;
-// Of the whole figure; a page holds far less.
+// Limit for the whole figure; a page holds far less.
 constexpr uint64_t kMaxFigurePixels = uint64_t(1) << 26;
 
 Crop parseCrop(const std::string& text) {
@@ -65,8 +65,8 @@ std::vector<Crop> parseCrops(const std::vector<std::string>& texts) {
   return crops;
 }
 
-// How many characters all names have in common at their front, up to a '-' and with it; 0 where
-// that would leave nothing of one.
+// Returns the length of the common prefix of all names up to and including a '-'; 0 if that would
+// leave one name empty.
 size_t commonFront(const std::vector<std::string>& names) {
   size_t length = names.front().size();
   for (const std::string& name : names) {
@@ -81,8 +81,8 @@ size_t commonFront(const std::vector<std::string>& names) {
   return isRest ? dash + 1 : 0;
 }
 
-// "path" and "gi" of cornell-box-all-path.exr and cornell-box-all-gi.exr. What one image alone has
-// in common with others, its reference's name tells.
+// Returns "path" and "gi" for cornell-box-all-path.exr and cornell-box-all-gi.exr. For a single
+// image the prefix is found with the name of the reference.
 std::vector<std::string> namesOf(const FigureOptions& options) {
   std::vector<std::string> names;
   for (const std::string& image : options.images)
@@ -108,7 +108,7 @@ std::vector<std::string> labelsOf(const FigureOptions& options) {
   return given;
 }
 
-// --exposure, else what `run` has chosen for its previews, else 1.
+// Returns --exposure, else the preview exposure that `run` has stored, else 1.
 float exposureOf(const FigureOptions& options, const Reference& reference) {
   if (options.exposure > 0.0) return float(options.exposure);
   const auto found = reference.metadata.find("preview_exposure");
@@ -135,8 +135,7 @@ Reference cropped(const Reference& reference, const Crop& crop) {
   return out;
 }
 
-// Marks the best error, where that is known: a finite one, of several, by a metric with a better
-// end.
+// Marks the best finite error of several, if the metric has a better end.
 void markBest(const MetricInfo& metric, const std::vector<double>& errors,
               std::vector<FigureColumn>& columns) {
   if (metric.name == "energy_ratio" || errors.size() < 2) return;
@@ -159,7 +158,7 @@ uint32_t scaleOf(const FigureOptions& options, const std::vector<Crop>& crops) {
 void checkFigureSize(const FigureSpec& spec) {
   const uint64_t width = uint64_t(spec.crops[0].width) * spec.scale * spec.columns.size();
   const uint64_t height = uint64_t(spec.crops[0].height) * spec.scale * spec.crops.size();
-  // The whole image is as high as the crops.
+  // The whole image is scaled to the height of the crops.
   const uint64_t full = height * spec.full->width / spec.full->height;
   if ((width + full) * height > kMaxFigurePixels) {
     failUsage(
@@ -169,7 +168,8 @@ void checkFigureSize(const FigureSpec& spec) {
   }
 }
 
-// The words of a figure's PNG: its own, the reference's, and what of an image's differs from those.
+// Returns the metadata of a figure's PNG: its own, the reference's, and what differs in each
+// image's.
 std::map<std::string, std::string> wordsOf(
     const FigureOptions& options, const FigureSpec& spec, const Reference& reference,
     const std::vector<std::map<std::string, std::string>>& images) {
@@ -218,7 +218,7 @@ void makeFigure(const FigureOptions& options) {
     }
   }
   std::vector<Image> images;
-  images.reserve(options.images.size());  // columns point into it
+  images.reserve(options.images.size());  // columns point into this vector
   std::vector<std::map<std::string, std::string>> words;
   std::vector<double> errors;
   for (size_t i = 0; i < options.images.size(); ++i) {

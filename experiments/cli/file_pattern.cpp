@@ -17,7 +17,7 @@ bool isThere(const fs::path& file) {
   return fs::exists(fs::symlink_status(file, status));
 }
 
-// The entries of `folder` that one part of a pattern names.
+// Returns the entries of `folder` that match one component of a pattern.
 std::vector<fs::path> matches(const fs::path& folder, const fs::path& part) {
   if (part.empty()) return {folder / ""};
   if (isThere(folder / part)) return {folder / part};

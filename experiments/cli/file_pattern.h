@@ -1,4 +1,4 @@
-// Names of files with '*', '?' and '[...]', as a shell has them.
+// File names with '*', '?' and '[...]', as in a shell.
 #pragma once
 
 #include <string>
@@ -6,9 +6,8 @@
 
 namespace restlab {
 
-// The files that `pattern` names, in alphabetical order. A folder or a file that is called exactly
-// as a part of it is that part: "[1]/a-*.exr" looks into a folder "[1]". A backslash takes a
-// character as it is.
+// Returns the files that match `pattern`, in alphabetical order. A component that exists literally
+// is taken literally: "[1]/a-*.exr" looks into a folder "[1]". A backslash quotes a character.
 std::vector<std::string> filesLike(const std::string& pattern);
 
 }  // namespace restlab

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A name around the number that stands for its run of #.
+// Name split around a run of #, which stands for the number.
 struct Pattern {
   fs::path folder;
   std::string before, after;
@@ -69,7 +69,7 @@ std::vector<uint64_t> numbersThere(const std::string& text, const Pattern& patte
   return numbers;
 }
 
-// A later frame's input would be read after it was written over.
+// Rejects outputs that would overwrite the input of a later frame.
 void requireOthers(const std::vector<FrameFiles>& files) {
   std::set<fs::path> inputs;
   for (const FrameFiles& frame : files) inputs.insert(resolvedPath(frame.input));

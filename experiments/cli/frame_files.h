@@ -11,10 +11,10 @@ struct FrameFiles {
   std::filesystem::path input, output;
 };
 
-// Of patterns with a run of # each, "a/frame-####.exr": the inputs that are there, by number, and
-// the outputs with the same numbers. Without a # in either it is one file. Throws Error (badUsage)
-// where only one has #, or one is no *.exr, or an output is an input; (badInput) where no input is
-// there or a number is missing between two.
+// Finds the inputs of a pattern with a run of #, "a/frame-####.exr", by number, and the outputs
+// with the same numbers. Without # in both it is one file. Throws Error: badUsage if only one has
+// #, one is no *.exr, or an output is an input; badInput if no input exists or a number is missing
+// in between.
 std::vector<FrameFiles> frameFiles(const std::string& input, const std::string& output);
 
 }  // namespace restlab

@@ -13,12 +13,12 @@ namespace restlab {
 
 namespace {
 
-// What a layer is for, and the names that it usually has: ours first.
+// Purpose of a layer, and its usual names: those of restlab first.
 struct LayerKind {
   const char* name;
   std::vector<std::string> usual;
   Image LayeredFrame::*into;
-  const char* without;  // what is taken for it where it is missing; null: it is needed
+  const char* without;  // assumption if the layer is missing; null: required
 };
 
 const std::vector<LayerKind>& layerKinds() {
@@ -46,7 +46,7 @@ Names shown(const Names& layers) {
   return names;
 }
 
-// The layers that are called `usual` after a prefix.
+// Returns the layers named `usual` after a prefix.
 Names withPrefix(const Names& layers, const std::string& usual) {
   Names found;
   for (const std::string& layer : layers) {

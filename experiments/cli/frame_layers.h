@@ -1,4 +1,4 @@
-// Layers of rendered images, ours and those of others, by their names.
+// Finds layers of rendered images, also of other programs, by their names.
 #pragma once
 
 #include <filesystem>
@@ -11,27 +11,26 @@
 
 namespace restlab {
 
-// Names of the layers of one file, by what they are for: "radiance", "normal", "depth", "albedo",
-// "emission", "motion". Those that the file lacks and that are not needed are not in it.
+// Names of the layers of one file by kind: "radiance", "normal", "depth", "albedo", "emission",
+// "motion". Without optional layers that the file lacks.
 using LayerNames = std::map<std::string, std::string>;
 
 class FrameLayers {
  public:
-  // `named`: "normal=N,depth=Z", names of layers by kind; "" in the place of a name: without that
-  // layer. Kinds that are not in it have one of their usual names, which may follow a prefix that
-  // ends with a dot ("ViewLayer.Combined"). Throws Error (badUsage).
+  // `named`: "normal=N,depth=Z", layer names by kind; "" instead of a name: without that layer.
+  // Other kinds are found by their usual names, possibly after a prefix with a dot
+  // ("ViewLayer.Combined"). Throws Error (badUsage).
   explicit FrameLayers(const std::string& named);
 
-  // Throws Error (badInput) where a layer that is needed, or that was named, is not there, or two
-  // could be meant.
+  // Throws Error (badInput) if a required or named layer is missing, or the choice is ambiguous.
   LayerNames find(const std::filesystem::path& file, const std::vector<std::string>& layers) const;
 
-  // selection() tells readers which layers of a file to read, by the names that find() gave;
-  // frame() makes a frame of them.
+  // selection(): layers to read from a file, by the names from find(). frame(): makes a frame of
+  // them.
   static ExrSelection selection(const LayerNames& names);
   static LayeredFrame frame(const LayeredImage& image, const LayerNames& names);
 
-  // What is taken for the layers that are not in `names`: "albedo: it is not divided by", by kind.
+  // Returns assumptions for the layers that `names` lacks, by kind: "albedo: it is not divided by".
   static std::map<std::string, std::string> missing(const LayerNames& names);
 
  private:

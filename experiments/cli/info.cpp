@@ -1,5 +1,5 @@
-// restlab info: what a scene holds, what it needs of the kernels, what each integrator costs in
-// memory.
+// restlab info: prints the contents of a scene, the kernel features it needs, and the memory that
+// each integrator needs.
 #include <fmt/format.h>
 
 #include <memory>
@@ -37,7 +37,7 @@ const char* lightKind(uint32_t kind) {
   }
 }
 
-// All of them, or the one that was asked for.
+// Lists all cameras, or the requested one.
 Json camerasJson(const Scene& scene, std::optional<size_t> only) {
   Json cameras = Json::array();
   for (size_t index = 0; index < scene.cameras.size(); ++index) {
@@ -53,9 +53,8 @@ Json camerasJson(const Scene& scene, std::optional<size_t> only) {
       json["half_extent_m"] = {camera.xmag, camera.ymag};
     }
     json["aspect"] = camera.aspect;
-    // As another program wants it: where it is, along which axis it looks, which way is up. A node
-    // may scale or shear; the axes are those that rays are made of (CompiledScene::camera), of unit
-    // length.
+    // Position, forward and up axis for other programs. Axes as in CompiledScene::camera,
+    // normalised: a node may scale or shear.
     const glm::dmat3 axes(camera.cameraToWorld);
     const glm::dvec3 back = glm::normalize(axes[2]);
     const glm::dvec3 up = glm::normalize(glm::cross(back, axes[0]));
@@ -78,7 +77,7 @@ Json integratorsJson(const PreparedScene& prepared, bool multiscatter) {
     config.integrator = info->name;
     config.camera = prepared.camera;
     config.multiscatter = multiscatter;
-    config.width = config.height = 16;  // the sizes below are per pixel
+    config.width = config.height = 16;  // sizes below are per pixel
     config.threads = 1;
     const Session session(prepared.scene, config);
     Json buffers = Json::object();
@@ -118,7 +117,7 @@ Json sceneJson(const PreparedScene& prepared, const InfoOptions& options) {
                       {"intensity", {light.intensity.x, light.intensity.y, light.intensity.z}}});
   }
   json["lights"] = lights;
-  // As `objects` of a mask takes them, whose numbers begin at 1.
+  // Names for `objects` of a mask, whose numbers begin at 1.
   Json objects = Json::array();
   for (const MeshInstance& instance : scene.instances) objects.push_back(instance.name);
   json["objects"] = objects;

@@ -1,4 +1,4 @@
-// Previews of layers as PNG, beside that of the image.
+// PNG previews of layers, beside that of the image.
 #pragma once
 
 #include <filesystem>
@@ -9,13 +9,13 @@
 
 namespace restlab {
 
-// "a.png" and "depth" to "a.depth.png".
+// Returns "a.depth.png" for "a.png" and "depth".
 std::filesystem::path layerPreviewPath(const std::filesystem::path& preview,
                                        const std::string& layer);
 
-// Radiance and albedo as they are; what numbers name in false colours; other numbers from black to
-// white, with a line that says from which value to which. `layer` is one of method.aovNames() and
-// of `image`, whose metadata the preview has, too.
+// Writes radiance and albedo unchanged, ids in false colours, and other numbers from black to white
+// with a log line on their range. `layer`: one of method.aovNames(), in `image`, whose metadata are
+// added to the preview.
 void writeLayerPreview(const std::filesystem::path& file, const std::string& layer,
                        const LayeredImage& image, const Method& method);
 

@@ -1,4 +1,4 @@
-// restlab list: what there is to choose from.
+// restlab list: lists integrators, scenes and other choices.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ struct ListOptions {
   bool json = false;
 };
 
-// glTF files under the folder of scenes of others, by their path inside it.
+// Returns glTF files in the folder of downloaded scenes, by their path inside it.
 std::vector<std::string> scenesOfOthers() {
   namespace fs = std::filesystem;
   std::vector<std::string> names;
@@ -38,7 +38,7 @@ std::vector<std::string> scenesOfOthers() {
     const std::string extension = it->path().extension().string();
     if (extension != ".gltf" && extension != ".glb") continue;
     const std::string name = fs::relative(it->path(), folder).string();
-    if (name.rfind("bad-", 0) != 0) names.push_back(name);  // broken files, kept for tests
+    if (name.rfind("bad-", 0) != 0) names.push_back(name);  // broken files for tests
   }
   std::sort(names.begin(), names.end());
   return names;
@@ -65,7 +65,8 @@ Json scenes() {
   return all;
 }
 
-// What a name may have behind a '?': those of one scene below it, those of all at the end.
+// Prints parameters after the '?' of a name: with an indent those of one scene, without one those
+// that all scenes have.
 void printSceneParameters(const Json& all, const Json& parameters, const char* indent) {
   for (const Json& parameter : parameters) {
     const bool isOfAll = std::all_of(all.begin(), all.end(), [&](const Json& scene) {

@@ -35,7 +35,7 @@ std::vector<std::string> optionNames(const CLI::App& verb) {
   return names;
 }
 
-// Options that the verb does not know, before anything else is said about the command line.
+// Rejects unknown options before any other error in the command line is reported.
 void checkOptionNames(const CLI::App& verb, const std::vector<std::string>& arguments) {
   const std::vector<std::string> known = optionNames(verb);
   for (const std::string& argument : arguments) {
@@ -144,7 +144,7 @@ int main(int argc, char** argv) {
     logError("out of memory; choose a smaller resolution or scene");
     return int(ExitCode::deviceUnavailable);
   } catch (const std::exception& error) {
-    // The formatting library throws where a stream takes no more.
+    // fmt throws if a stream cannot be written.
     if (std::ferror(stdout) != 0) return failStdout();
     logError(fmt::format("internal error: {}", error.what()));
     return int(ExitCode::badInput);

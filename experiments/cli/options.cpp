@@ -23,7 +23,7 @@ namespace restlab {
 
 namespace {
 
-// The nearest name, else those that hold the word, else where all of them are.
+// Suggests the nearest name, else names that contain the word, else where to find all names.
 std::string parametersLike(const std::string& key, const std::vector<std::string>& names) {
   if (names.empty()) return "; it has none";
   const std::string near = didYouMean(key, names);
@@ -83,7 +83,7 @@ void applyBackend(const BackendChoice& choice, SessionConfig& config) {
 
 namespace {
 
-// All of `text` as a number, or NaN.
+// Parses all of `text` as a number; NaN if it is none.
 double numberOf(const std::string& text) {
   double value = 0.0;
   const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -91,7 +91,7 @@ double numberOf(const std::string& text) {
   return isWhole ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
-// What a number with that ending is multiplied by.
+// Number endings and their factors.
 using Endings = std::vector<std::pair<std::string, double>>;
 Endings endingsOf(const std::string& unit) {
   if (unit == "seconds") return {{"s", 1.0}, {"m", 60.0}, {"h", 3600.0}};
@@ -127,7 +127,7 @@ CLI::Validator wholeNumberFrom(uint64_t lo, uint64_t hi) {
         uint64_t whole = 0;
         const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), whole);
         if (status != std::errc() || end != text.data() + text.size()) {
-          // Beyond 2^53 not every whole number has a double of its own.
+          // Limit to 2^53: not every larger whole number is a double.
           const double value = numberOf(text);
           const bool isWhole = value >= 0.0 && value <= 0x1p53 && value == std::floor(value);
           if (!isWhole) return fmt::format("'{}' is no whole number {}", text, range);
@@ -246,7 +246,7 @@ void completeConfig(const PreparedScene& prepared, SessionConfig& config) {
 }
 
 void checkOutputs(const std::vector<OutputFile>& outputs, const SceneRequest& request) {
-  std::map<std::filesystem::path, std::string> taken;  // by what it is
+  std::map<std::filesystem::path, std::string> taken;  // resolved file -> what it is
   for (const auto& [what, name] :
        {std::pair("scene", request.scene), std::pair("environment", request.environment)}) {
     const std::filesystem::path found = findAsset(name);

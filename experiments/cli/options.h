@@ -1,4 +1,4 @@
-// Options that several verbs share, and their translation to a session.
+// Options shared by several verbs, and their translation to a session.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -22,29 +22,29 @@ struct SceneOptions {
   int threads = 0;
 };
 
-// What kernels run on.
+// Options of the backend.
 struct BackendChoice {
   std::string backend = "cpu";
-  std::string device;      // a part of its name
+  std::string device;      // part of its name
   std::string rayTracing;  // "": the backend's best
   bool validate = false;
 };
 
 struct MethodOptions {
-  SessionConfig choice;  // methodSettings() of it, but for the backend
+  SessionConfig choice;  // has methodSettings(), without the backend
   BackendChoice backend;
   std::vector<std::string> parameters;  // KEY=VALUE
-  std::string prefix = "--";            // of its options, for errors
+  std::string prefix = "--";            // of its options, for error messages
   bool russianRoulette = false;
   bool general = false;
 };
 
-// Bounds that the options state in --help.
+// Bounds stated in --help.
 constexpr uint32_t kMaxBounces = 1024;
 
-// A number in lo..hi, which may have a unit: of "seconds" s, m or h, of "degrees" deg.
+// Accepts a number in lo..hi, optionally with a unit: s, m or h for "seconds", deg for "degrees".
 CLI::Validator numberFrom(double lo, double hi, const std::string& unit = "");
-// A whole number in lo..hi, also as 1e6.
+// Accepts a whole number in lo..hi, also as 1e6.
 CLI::Validator wholeNumberFrom(uint64_t lo, uint64_t hi);
 
 void addSceneOptions(CLI::App& verb, SceneOptions& options);
@@ -54,33 +54,34 @@ void addOutput(CLI::App& verb, std::string& output);
 void addThreads(CLI::App& verb, int& threads);
 void addMultiscatter(CLI::App& verb, bool& multiscatter);
 
-// KEY=VALUE of `option`; `owner` has the known ones, for errors. Throws badUsage.
+// Parses KEY=VALUE of `option`. `owner`: the part that has the parameters `known`, for errors.
+// Throws badUsage.
 ParameterMap parseParameters(const std::vector<ParameterInfo>& known, const std::string& owner,
                              const std::vector<std::string>& given,
                              const std::string& option = "--set");
-// What can be said without opening anything; whether a device is there the session says. Throws
-// badUsage.
+// Checks what can be checked without a device; the session finds out whether the device exists.
+// Throws badUsage.
 void applyBackend(const BackendChoice& choice, SessionConfig& config);
 
-// Width and height from --resolution, --width, --height; 0 where not given. Throws badUsage.
+// Sets width and height from --resolution, --width, --height; 0 if not given. Throws badUsage.
 void resolveResolution(SceneOptions& options);
 
-// A validated configuration; camera and size are filled in from the scene. Throws badUsage.
+// Returns a validated configuration; camera and size come from the scene. Throws badUsage.
 SessionConfig makeConfig(const SceneOptions& scene, const MethodOptions& method);
 void completeConfig(const PreparedScene& prepared, SessionConfig& config);
 
 struct OutputFile {
-  std::string option;  // as the user named it, for errors
+  std::string option;  // as the user named it, for error messages
   std::filesystem::path file;
-  std::string extension;  // that it must have, in either case
-  std::string hint = {};  // for who has named it otherwise
+  std::string extension;  // required, in either case
+  std::string hint = {};  // ends the error on another extension
 };
 
-// Throws badUsage where an output has another extension, or is another output, the scene or the
-// environment.
+// Throws badUsage if an output has another extension, or is the same file as another output, the
+// scene or the environment.
 void checkOutputs(const std::vector<OutputFile>& outputs, const SceneRequest& request);
 
-// "a,b" to {"a", "b"}; empty items are an error naming `option`.
+// Splits "a,b" into {"a", "b"}. Empty items are an error naming `option`.
 std::vector<std::string> splitList(const std::string& text, const std::string& option);
 
 }  // namespace restlab

@@ -1,4 +1,4 @@
-// restlab reference: a converged image in two independent halves.
+// restlab reference: renders a converged image in two independent halves.
 #include <fmt/format.h>
 
 #include <memory>
@@ -23,7 +23,8 @@ struct ReferenceOptions {
   bool anew = false;
 };
 
-// What is at `file` already, of the same samples; `unused` says why it does not serve.
+// Returns the reference in `file` if it is of the same samples and good enough; else sets `unused`
+// to the reason.
 std::optional<Reference> sameReference(const std::string& file, const ReferenceId& id,
                                        const ReferenceTarget& target, std::string& unused) {
   StoredReference stored = readStored(file, id.key);
@@ -41,7 +42,7 @@ std::optional<Reference> sameReference(const std::string& file, const ReferenceI
   return std::nullopt;
 }
 
-// The reference at --output, made or extended where it has to be.
+// Returns the reference at --output, rendered or extended if necessary.
 Reference updatedReference(const PreparedScene& prepared, const ReferenceConfig& config,
                            const ReferenceOptions& options) {
   ReferenceStore store;

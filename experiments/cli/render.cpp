@@ -1,4 +1,4 @@
-// restlab render: one image of one integrator, or what it keeps of a pixel.
+// restlab render: renders one image with one integrator, or prints the state of a pixel.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,10 +26,10 @@ namespace restlab {
 
 namespace {
 
-// `--spp` of a method with a history takes frames after this many.
+// Warm-up frames before --spp frames of a method with a history.
 constexpr uint64_t kWarmupFrames = 32;
-// Frames that a device gets at once where nobody asks for their images: an interrupt waits for
-// them.
+// Frames submitted to a device at once if their images are not needed. An interrupt waits for all
+// of them.
 constexpr uint64_t kFramesAtOnce = 4;
 constexpr uint64_t kMaxCount = 1u << 30;
 
@@ -45,7 +45,7 @@ struct RenderOptions {
 std::vector<std::string> checkedAovs(const std::string& list, const Method& method) {
   if (list.empty()) return {};
   const std::vector<std::string> known = method.aovNames();
-  std::vector<std::string> names;  // each once
+  std::vector<std::string> names;  // without repetitions
   for (const std::string& name : splitList(list, "--aov")) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
       failUsage(fmt::format("--aov {}: unknown name (known: {}){}", name, fmt::join(known, ", "),
@@ -61,7 +61,7 @@ std::filesystem::path pngPath(const RenderOptions& options) {
   return std::filesystem::path(options.output).replace_extension(".png");
 }
 
-// What came out of the frames.
+// Result of rendering frames.
 struct Rendered {
   Image image;
   HealthSum health;
@@ -103,16 +103,17 @@ Rendered renderFrames(Session& session, const RenderOptions& options, bool histo
     rendered.health.add(stats);
     rendered.timeMs += stats.timeMs;
   }
-  // A finished image is written, whatever has come since.
+  // Keep a finished image even after a signal.
   rendered.image = mean ? sum.mean() : session.radiance();
   rendered.frame = total - 1;
   return rendered;
 }
 
-// Beside the buffers: the image, twice; the sums of its mean; AOVs as buffers and as layers.
+// Memory besides the buffers: the image, twice; the sums of its mean; AOVs as buffers and as
+// layers.
 size_t hostBytesPerPixel(const RenderOptions& options, const std::vector<std::string>& aovs) {
   const size_t image = sizeof(glm::vec3), sum = sizeof(glm::dvec3);
-  // The last one: the preview of a layer.
+  // One more for the preview of a layer.
   const size_t aov = aovs.empty() ? 0 : Session::aovNames().size() + aovs.size() + 1;
   return 2 * image + (options.spp > 0 ? sum : 0) + aov * image;
 }
@@ -138,7 +139,7 @@ LayeredImage layers(const Session& session, const PreparedScene& prepared, const
   return file;
 }
 
-// The files that are asked for, looked at before anything is loaded.
+// Checks output files before anything is loaded.
 void checkFiles(const RenderOptions& options, const std::vector<std::string>& aovs) {
   if (options.output.empty()) {
     if (options.pixel.empty())
@@ -195,7 +196,7 @@ void render(RenderOptions options) {
       renderFrames(session, options, findMethod(config).hasHistory(session.config().parameters));
   std::optional<LayeredImage> file;
   if (isWritten) file = layers(session, prepared, rendered, aovs);
-  StartupLog further;  // of the layers
+  StartupLog further;  // kernels of the layers
   further.add(session, kernels, notices);
   further.print();
   if (file) writeFiles(options, *file, aovs, findMethod(config));

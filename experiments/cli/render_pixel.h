@@ -1,4 +1,4 @@
-// What `render --pixel` prints.
+// Output of `render --pixel`.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,12 @@ struct PixelPlace {
   uint32_t x = 0, y = 0;
 };
 
-// "X,Y"; throws Error (badUsage) where it is none, or outside of the image.
+// Parses "X,Y". Both throw Error (badUsage): for bad syntax, or a pixel outside the image.
 PixelPlace parsePixel(const std::string& text);
 void requireInside(const PixelPlace& pixel, const SessionConfig& config);
 
-// After frame number `frame` of a history: lines of name and value, or one JSON object.
+// Print values after frame number `frame` of a history: lines of name and value, or one JSON
+// object.
 std::string pixelText(const Session& session, const PixelPlace& pixel);
 std::string pixelJson(const Session& session, const PixelPlace& pixel, uint64_t frame);
 

@@ -1,4 +1,4 @@
-// restlab status, report, clean: folders that `run` left.
+// restlab status, report, clean: work on folders written by `run`.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ struct FolderOptions {
   bool json = false;
 };
 
-// Which of a block's jobs are there.
+// Counts the existing jobs of a block.
 size_t countThere(const PlannedBlock& block, const std::vector<std::string>& there) {
   return size_t(std::count_if(block.jobs.begin(), block.jobs.end(), [&](const std::string& key) {
     return std::binary_search(there.begin(), there.end(), key);

@@ -1,4 +1,4 @@
-// restlab run: a suite of experiments.
+// restlab run: runs a suite of experiments.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,12 +27,12 @@ namespace {
 struct RunOptions {
   std::string suite, out, scenes, methods;
   std::vector<std::string> overrides, sweeps;
-  int threads = -1;  // -1: as the suite says
+  int threads = -1;  // -1: from the suite
   uint32_t jobs = 1;
   bool force = false, dryRun = false;
 };
 
-// Of a sweep also the name that its scenes have in common.
+// Includes the common name of a sweep's scenes.
 std::vector<std::string> namesOf(const SuiteScene& scene) {
   if (scene.sweepName.empty()) return {scene.name};
   return {scene.name, scene.sweepName};
@@ -41,8 +41,8 @@ std::vector<std::string> namesOf(const SuiteMethod& method) {
   return {method.name, method.base, method.given};
 }
 
-// Keeps the items one of whose names is in the comma-separated list, or is the list: what is swept
-// has commas in its name.
+// Keeps the items with a name in the comma-separated list, or equal to the whole list: names of
+// swept items have commas.
 template <class Item>
 void keepNamed(std::vector<Item>& items, const std::string& list, const std::string& option) {
   if (list.empty()) return;
@@ -114,7 +114,7 @@ void setJobs(uint32_t jobs, Suite& suite) {
     failUsage(fmt::format("-j {}: runs on vulkan are made one after the other", jobs));
 }
 
-// Who names a scene wants `render`.
+// Refers users who name a scene to `render`.
 void refuseScene(const std::string& name) {
   const std::string extension = std::filesystem::path(name).extension().string();
   if (extension != ".gltf" && extension != ".glb" &&

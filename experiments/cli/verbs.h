@@ -1,4 +1,4 @@
-// One function a verb: adds it to the command line; its callback does the work. Errors are thrown.
+// One function per verb that adds it to the command line; its callback does the work and may throw.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -10,7 +10,7 @@
 
 namespace restlab {
 
-// What a verb's callback leaves behind.
+// Result of a verb's callback.
 struct Outcome {
   ExitCode code = ExitCode::ok;
   std::vector<std::string> argv;  // the whole command line, for records
@@ -18,7 +18,7 @@ struct Outcome {
 
 using Action = std::function<void(Outcome&)>;
 
-// Each returns what runs when the verb was given.
+// Return the action that runs if the verb was given.
 Action addRunVerb(CLI::App& app);
 Action addStatusVerb(CLI::App& app);
 Action addReportVerb(CLI::App& app);

@@ -1,5 +1,4 @@
-// restlab view: two methods beside each other and their reference, on a page that this program
-// serves.
+// restlab view: serves a page that shows two methods side by side with their reference.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
@@ -38,8 +37,8 @@ namespace restlab {
 namespace {
 
 constexpr const char* kDefaultScene = "door-ajar";
-// Of an image whose size nobody says, or as many pixels in the camera's aspect ratio. Two cores
-// then render both panes several times a second.
+// Default image size, or as many pixels in the camera's aspect ratio. Two CPU cores then render
+// both panes several times a second.
 constexpr uint32_t kWidth = 320, kHeight = 180;
 
 constexpr const char* kInterrupted = "interrupted: the viewer ends";
@@ -48,16 +47,17 @@ constexpr uint64_t kMostFrames = 1u << 30;
 
 struct ViewOptions {
   SceneOptions scene;
-  std::vector<std::string> images;  // beside the scene's methods, or after the first image
-  std::string reference, table;     // of images alone
-  bool anyReference = false;        // also of images of another scene
+  std::vector<std::string> images;  // beside the scene's methods, or further ones after the first
+                                    // image
+  std::string reference, table;     // only for images
+  bool anyReference = false;        // accept images of another scene
   MethodOptions first, second;
-  std::string secondBackend;  // "": as the first
+  std::string secondBackend;  // "": same as the first
   ViewServerOptions server;
   bool open = false;
-  std::string capture;  // "": a page instead
+  std::string capture;  // "": serve a page instead
   CaptureOptions captured;
-  std::string tev;  // "": no other viewer
+  std::string tev;  // "": no tev
 };
 
 bool isSuite(const std::string& name) { return std::filesystem::path(name).extension() == ".toml"; }
@@ -67,7 +67,7 @@ bool isResults(const std::string& name) {
   return std::filesystem::is_directory(name, status);
 }
 
-// Options but those of any view and `more` were not given.
+// Fails if options other than those of any view and `more` were given.
 void requireNoOptions(const CLI::App& verb, const std::string& file,
                       const std::set<std::string>& more, const std::string& why) {
   for (const CLI::Option* option : verb.get_options()) {
@@ -95,7 +95,7 @@ void chooseSize(const PreparedScene& prepared, SessionConfig& config) {
   completeConfig(prepared, config);
 }
 
-// Methods beside images, the first of which pane B shows.
+// Adds images beside the methods; pane B shows the first one.
 void addImages(const ViewOptions& options, ViewStart& start, std::vector<SessionConfig>& panes) {
   if (options.images.empty()) return;
   start.images = readViewImages({options.images.begin(), options.images.end()}, {}, false);
@@ -172,7 +172,7 @@ void logSessions(const LiveView& live) {
   for (size_t i = 0; i < live.panes(); ++i) logStartup(live.session(i));
 }
 
-// Whoever has no browser here opens the address elsewhere.
+// Warns if no browser can be started here: the user may open the address elsewhere.
 void openInBrowser(const std::string& file) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -191,7 +191,7 @@ void openInBrowser(const std::string& file) {
 
 void writeCapture(const ViewStart& start, const ViewOptions& options) {
   requireCaptureSize(start.settings);
-  // Nothing but the picture is written: the reference is not kept.
+  // The reference is not stored: only the picture is written.
   LiveView live = viewOf(start, {});
   logSessions(live);
   const Figure figure = capture(live, options.captured);
@@ -210,7 +210,7 @@ ExitCode view(const CLI::App& verb, ViewOptions options) {
     checkOutputs({{"--capture", options.capture, ".png"}}, options.scene.request);
     checkWritable(options.capture);
   }
-  // Outlives what may take long to make, to use or to take down.
+  // Declared first to outlive everything that may be slow to construct or destroy.
   std::optional<PromptEnd> end;
   if (options.capture.empty()) end.emplace(verbosity() < 0 ? "" : kInterrupted);
   const ViewStart start = startOf(verb, options);
@@ -231,14 +231,14 @@ ExitCode view(const CLI::App& verb, ViewOptions options) {
   print("{}\n", loop.url());
   std::fflush(stdout);
   logInfo("open the address in a browser; Ctrl-C ends the viewer");
-  std::optional<RedirectFile> redirect;  // until the end: browsers may be slow to start
+  std::optional<RedirectFile> redirect;  // kept until the end: browsers may be slow to start
   if (options.open) openInBrowser(redirect.emplace(loop.url()).path().string());
   try {
     loop.run();
   } catch (const Error& error) {
     if (error.code() != ExitCode::interrupted) throw;
     end->setSaid();
-    logInfo(error.what());  // how everyone ends the viewer
+    logInfo(error.what());  // the normal way to end the viewer
     return ExitCode::interrupted;
   }
   return ExitCode::ok;

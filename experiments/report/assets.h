@@ -1,5 +1,4 @@
-// The style sheet and the scripts of the report, files of html/ that the build puts into the
-// program.
+// Style sheet and scripts of the report, files of html/ that the build embeds into the program.
 #pragma once
 
 #include <string_view>
@@ -7,6 +6,6 @@
 namespace restlab {
 
 std::string_view reportStyle();
-std::string_view reportScript();  // all scripts, one after the other
+std::string_view reportScript();  // all scripts, concatenated
 
 }  // namespace restlab

@@ -9,12 +9,13 @@
 namespace restlab {
 namespace {
 
-// Intervals may widen the range of the values by at most this: a factor, or a multiple of the span.
+// Limits by how much intervals may widen the range of the values: a factor, or a multiple of the
+// span.
 constexpr double kWidestFactor = 10.0, kWidestSpan = 0.5;
 
 bool canShow(bool log, double value) { return std::isfinite(value) && (!log || value > 0.0); }
 
-// A number as a label: no exponent within 0.001..9999.
+// Sets the label; without an exponent for decades in 0.001..10000.
 void label(Tick& tick, bool decade) {
   const double size = std::abs(tick.value);
   if (decade && (size < 0.9e-3 || size > 1.1e4)) {
@@ -36,7 +37,7 @@ std::vector<Tick> logTicks(const Axis& axis) {
   for (int decade = first; decade <= last; ++decade) {
     for (int digit = 1; digit <= 9; ++digit) {
       Tick tick;
-      // From text, so that 3e-5 is the double that is written so.
+      // Parsed from text: the value is the double nearest to 3e-5, say.
       tick.value = std::stod(fmt::format("{}e{}", digit, decade));
       if (!axis.shows(tick.value)) continue;
       const bool major = digit == 1 && decade % every == 0;
@@ -49,7 +50,7 @@ std::vector<Tick> logTicks(const Axis& axis) {
   return ticks;
 }
 
-// 1, 2 or 5 times a power of ten, near `rough`.
+// Returns 1, 2 or 5 times a power of ten, near `rough`.
 double niceStep(double rough) {
   const double power = std::pow(10.0, std::floor(std::log10(rough)));
   for (const double digit : {1.0, 2.0, 5.0}) {
@@ -63,7 +64,7 @@ std::vector<Tick> linearTicks(const Axis& axis) {
   std::vector<Tick> ticks;
   for (double i = std::ceil(axis.lo / step - 1e-9); i * step <= axis.hi + 1e-9 * step; i += 1.0) {
     Tick tick;
-    tick.value = i * step + 0.0;  // no -0
+    tick.value = i * step + 0.0;  // avoids -0
     label(tick, false);
     ticks.push_back(std::move(tick));
   }
@@ -105,8 +106,8 @@ Axis fitAxis(bool log, const std::vector<double>& inner, const std::vector<doubl
     axis.lo = std::min(axis.lo, std::max(value, least));
     axis.hi = std::max(axis.hi, std::min(value, most));
   }
-  // Room around the outermost marks; more where all values are one, but for rounding: no tick would
-  // tell them apart.
+  // Leave room around the outermost marks; more if all values are equal up to rounding: ticks could
+  // not tell them apart.
   const bool differ = axis.hi - axis.lo > 1e-9 * std::max(std::abs(axis.lo), std::abs(axis.hi));
   if (log) {
     const double room = differ ? std::pow(axis.hi / axis.lo, 0.05) : 2.0;
@@ -122,7 +123,7 @@ Axis fitAxis(bool log, const std::vector<double>& inner, const std::vector<doubl
 }
 
 std::vector<Tick> axisTicks(const Axis& axis) {
-  // Less than half a decade has too few powers of ten and their doubles.
+  // A shorter range has too few ticks at 1, 2 and 5 times powers of ten.
   constexpr double kHalfDecade = 3.5;
   return axis.log && axis.hi / axis.lo > kHalfDecade ? logTicks(axis) : linearTicks(axis);
 }

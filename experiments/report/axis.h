@@ -6,12 +6,13 @@
 
 namespace restlab {
 
-// lo < hi; both positive where `log`.
+// Requires lo < hi; both positive if `log`.
 struct Axis {
   bool log = false;
   double lo = 0.0, hi = 1.0;
 
-  // 0 at lo, 1 at hi; outside of them where `value` is. NaN where the axis has no such value.
+  // Position of a value: 0 at lo, 1 at hi, also outside of them. NaN if the axis cannot show the
+  // value.
   double position(double value) const;
   bool shows(double value) const;
 };
@@ -19,15 +20,14 @@ struct Axis {
 struct Tick {
   double value = 0.0;
   std::string label;     // "" for a minor tick
-  std::string exponent;  // label "10" with a raised exponent, or ""
+  std::string exponent;  // exponent of the label "10", or ""
 };
 
-// The axis that holds every value of `inner` and, as far as that does not squeeze them, of `outer`
-// (ends of intervals). Values that it cannot show are passed over. With nothing to show: 0.1..10
-// or 0..1.
+// Fits an axis to all values of `inner` and, as far as they do not squeeze those, of `outer` (ends
+// of intervals). Values that the axis cannot show are ignored. Without values: 0.1..10 or 0..1.
 Axis fitAxis(bool log, const std::vector<double>& inner, const std::vector<double>& outer);
 
-// In ascending order, all within the axis.
+// Returns the ticks within the axis in ascending order.
 std::vector<Tick> axisTicks(const Axis& axis);
 
 }  // namespace restlab

@@ -1,4 +1,4 @@
-// Which part of images that are too large for a report it holds.
+// Chooses the part of images that a report holds if they are too large for it.
 #include <algorithm>
 #include <cmath>
 
@@ -7,7 +7,7 @@
 namespace restlab {
 namespace {
 
-// min(1, relative error) of a pixel, summed over the images.
+// Returns min(1, relative error) of each pixel, summed over the images.
 std::vector<double> relativeErrors(const std::vector<const Image*>& images,
                                    const Image& reference) {
   std::vector<double> errors(reference.pixels.size(), 0.0);
@@ -17,13 +17,13 @@ std::vector<double> relativeErrors(const std::vector<const Image*>& images,
       const glm::vec3 d = glm::abs(image->pixels[i] - reference.pixels[i]);
       const glm::vec3 r = glm::abs(reference.pixels[i]);
       const double error = double(d.x + d.y + d.z) / (double(r.x + r.y + r.z) + 0.01);
-      errors[i] += error < 1.0 ? error : 1.0;  // NaN: 1
+      errors[i] += error < 1.0 ? error : 1.0;  // NaN counts 1
     }
   }
   return errors;
 }
 
-// sums[(y) * (width + 1) + x]: of all values above and left of (x, y).
+// Returns sums[y * (width + 1) + x]: the sum of all values above and left of (x, y).
 std::vector<double> prefixSums(const std::vector<double>& values, size_t width, size_t height) {
   std::vector<double> sums((width + 1) * (height + 1), 0.0);
   for (size_t y = 0; y < height; ++y) {
@@ -46,7 +46,7 @@ Crop chooseCrop(const std::vector<const Image*>& images, const Image* reference,
   Crop crop;
   crop.width = std::clamp(uint32_t(double(width) * scale), 1u, width);
   crop.height = std::clamp(uint32_t(double(height) * scale), 1u, height);
-  // Where the short side has rounded up to one pixel.
+  // The short side may have been rounded up to one pixel: enforce the limit again.
   crop.width = uint32_t(std::clamp<size_t>(limit / crop.height, 1, crop.width));
   crop.height = uint32_t(std::clamp<size_t>(limit / crop.width, 1, crop.height));
   crop.x = (width - crop.width) / 2;
@@ -59,7 +59,7 @@ Crop chooseCrop(const std::vector<const Image*>& images, const Image* reference,
     return sums[(y + crop.height) * stride + x + crop.width] - sums[y * stride + x + crop.width] -
            sums[(y + crop.height) * stride + x] + sums[y * stride + x];
   };
-  // Only places of a grid, and only what is clearly better than the centre.
+  // Only try positions on a grid, and only move for a clear gain over the centre.
   constexpr uint32_t kGrid = 8;
   double best = 1.001 * total(crop.x, crop.y);
   Crop chosen = crop;

@@ -11,7 +11,7 @@ namespace {
 constexpr double kMargin = 8.0, kGap = 6.0;
 constexpr double kLargestText = 18.0, kSmallestText = 10.0;
 
-// The largest size of text at which every label fits into a column.
+// Returns the largest size of text at which every label fits into a column.
 double textSize(const FigureSpec& spec, double width) {
   double size = kLargestText;
   for (const FigureColumn& column : spec.columns) {
@@ -21,7 +21,7 @@ double textSize(const FigureSpec& spec, double width) {
 }
 
 std::string cropColour(size_t index) {
-  // The palette in an order that begins with what stands out on pictures.
+  // Palette order that begins with colours that stand out on pictures.
   static const size_t order[] = {1, 5, 2, 4, 3, 0, 6};
   return svg::colour(order[index % 7]);
 }
@@ -36,7 +36,7 @@ class Layout {
     for (const FigureColumn& column : spec.columns) hasCropErrors_ |= !column.cropErrors.empty();
     const double rows = double(spec.crops.size());
     rowStep_ = cellHeight_ + kGap + (hasCropErrors_ ? line_ : 0.0);
-    // Descenders of the labels stay clear of the frames.
+    // Keep the descenders of the labels clear of the frames.
     top_ = kMargin + std::ceil(1.2 * size_) + 5.0;
     stripHeight_ = rows * rowStep_ - kGap;
   }
@@ -55,7 +55,7 @@ class Layout {
   }
 
  private:
-  // The whole image as high as the rows of crops; its width.
+  // Adds the whole image, as high as the rows of crops. Returns its width.
   double addFull() {
     const Image& full = *spec_.full;
     const double height = hasCropErrors_ ? stripHeight_ - line_ : stripHeight_;
@@ -98,7 +98,7 @@ class Layout {
     addText(middle, errorLine(), "middle", column.error, cellWidth_, column.best);
   }
 
-  // Left of the first column, in line with the errors.
+  // Left of the first column, on the line of the errors.
   void addMetricName(double fullWidth) {
     addText(kMargin + fullWidth, errorLine(), "end", spec_.metric, fullWidth, false);
   }

@@ -1,4 +1,4 @@
-// A figure as one picture: no more than rectangles and a bitmap font are drawn.
+// Rasterises a figure; draws only rectangles and a bitmap font.
 #include <stb_easy_font.h>
 
 #include <algorithm>
@@ -65,7 +65,7 @@ class Painter {
     for (const char c : text.text) {
       if ((uint8_t(c) & 0xc0) != 0x80) ascii += c >= ' ' && c <= '~' ? c : '?';
     }
-    // The font is 7 pixels high; larger by whole pixels only.
+    // The font is 7 pixels high; scale it by whole pixels only.
     const double scale = std::max(1.0, std::round(text.size / 11.0));
     const double width = scale * stb_easy_font_width(ascii.data());
     const double left = text.anchor == "middle" ? text.x - width / 2.0

@@ -8,7 +8,7 @@ namespace restlab {
 std::string figureSvg(const Figure& figure) {
   std::string out = svg::open(figure.width, figure.height, "Crops of images", "figure");
   for (const FigurePicture& picture : figure.pictures) {
-    // Enlarged pixels are in the PNG already; a viewer that scales it further must not blur them.
+    // The PNG holds the enlarged pixels; a viewer that scales it further must not blur them.
     out += fmt::format(
         "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" "
         "style=\"image-rendering:pixelated\" href=\"data:image/png;base64,{}\"/>\n",

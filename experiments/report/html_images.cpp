@@ -1,4 +1,4 @@
-// The viewer's container and its data.
+// Writes the viewer's container and its data.
 #include <fmt/format.h>
 
 #include <ostream>
@@ -42,7 +42,7 @@ void writeImages(std::ostream& out, const ReportModel& block, size_t index,
   std::vector<Image> images;
   std::vector<const Image*> pointers;
   const Image* reference = nullptr;
-  images.reserve(list.size());  // pointers stay valid
+  images.reserve(list.size());  // keeps the pointers valid
   for (const ReportModel& entry : list) {
     const std::filesystem::path file = folder / reportText(entry, "file");
     const Image& image = images.emplace_back(readImage(file));
@@ -81,7 +81,7 @@ void writeImages(std::ostream& out, const ReportModel& block, size_t index,
   for (size_t i = 0; i < images.size(); ++i) {
     out << fmt::format("<script type=\"application/octet-stream\" id=\"pixels-{}-{}\">", index, i)
         << packPixels(images[i], crop) << "</script>\n";
-    images[i] = Image();  // a block of large images is not held twice
+    images[i] = Image();  // frees the memory early
   }
 }
 

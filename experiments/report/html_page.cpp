@@ -1,4 +1,4 @@
-// Head, foot and figures of the page.
+// Writes head, foot and figures of the page.
 #include <fmt/format.h>
 
 #include "experiments/report/html_parts.h"
@@ -14,7 +14,7 @@ std::string paragraph(const char* cssClass, const std::string& text) {
   return text.empty() ? "" : fmt::format("<p class=\"{}\">{}</p>\n", cssClass, escapeMarkup(text));
 }
 
-// Links to the blocks that are part of the one with this id; "": of none.
+// Returns links to the blocks that are part of the block with this id; "": top-level blocks.
 std::string linksTo(const ReportModel& blocks, const std::string& whole) {
   std::string links;
   for (const ReportModel& block : blocks) {

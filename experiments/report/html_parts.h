@@ -1,4 +1,4 @@
-// The parts of report.html, from a checked model. All text of the model is escaped.
+// Parts of report.html, made from a checked model. All text of the model is escaped.
 #pragma once
 
 #include <filesystem>
@@ -9,12 +9,12 @@
 
 namespace restlab::html {
 
-// The table of a block: sortable headings, the best of each column marked, rows that do not count
-// marked with why; below it what the columns mean. "" without columns.
+// Table of a block: sortable headings, the best of each column marked, rows that do not count
+// marked with the reason; below it the meaning of the columns. "" without columns.
 std::string resultTable(const ReportModel& block);
 
-// What the kernels of each method left out; "" where nothing is said.
-// What each method was given.
+// Settings of each method, and the features that the kernels of each method leave out. Both are ""
+// if the block has none.
 std::string settingsList(const ReportModel& block);
 std::string leftOutList(const ReportModel& block);
 
@@ -24,17 +24,17 @@ std::string healthTable(const ReportModel& block);
 // Plots and bars as figures, each an SVG in the page.
 std::string plotFigures(const ReportModel& block);
 
-// The container of the viewer of block `index` and, in scripts that do not run, what it shows: the
-// EXR files below `folder`. Each image holds at most `limit` pixels. Writes nothing where the block
-// has no images. Throws Error (badInput) naming a file that cannot be read, holds no R, G, B, or
-// differs in size from the first.
+// Writes the container of the viewer of block `index` and its data in scripts that do not run: the
+// pixels of the EXR files below `folder`, at most `limit` pixels per image. Writes nothing if the
+// block has no images. Throws Error (badInput) naming a file that cannot be read, holds no R, G, B,
+// or differs in size from the first.
 void writeImages(std::ostream& out, const ReportModel& block, size_t index,
                  const std::filesystem::path& folder, size_t limit);
 
-// Heading, question, notes and, for several blocks, links to them.
+// Heading, question, notes and, if there are several blocks, links to them.
 std::string reportHead(const ReportModel& model);
 
-// Provenance, and what the file holds of the images.
+// Provenance, and a note on how the file holds the images.
 std::string reportFoot(const ReportModel& model, size_t limit);
 
 }  // namespace restlab::html

@@ -14,7 +14,7 @@ namespace {
 
 bool counts(const ReportModel& row) { return row.value("counts", true); }
 
-// A cell of a row, or null.
+// Returns a cell of a row, or null.
 const ReportModel* cellOf(const ReportModel& row, const std::string& key) {
   const auto found = row["cells"].find(key);
   return found == row["cells"].end() ? nullptr : &*found;
@@ -24,14 +24,14 @@ bool isRanked(const ReportModel& row, const ReportModel* cell) {
   return cell && counts(row) && cell->value("ranked", true);
 }
 
-// The best finite value of a column among at least two rows that count; NaN where there is none, or
-// where its interval holds a part of another row's.
+// Returns the best finite value of a column among at least two rows that count; NaN if there is
+// none, or if its interval overlaps another row's.
 double bestValue(const ReportModel& block, const ReportModel& column) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const std::string better = column.value("better", "none");
   if (better == "none") return kNone;
   struct Range {
-    double value, nearest, farthest;  // of the interval, seen from the better side
+    double value, nearest, farthest;  // interval's ends, seen from the better side
   };
   const double sign = better == "lower" ? 1.0 : -1.0;
   std::vector<Range> ranges;
@@ -51,13 +51,13 @@ double bestValue(const ReportModel& block, const ReportModel& column) {
   };
   std::sort(ranges.begin(), ranges.end(), isBetter);
   for (size_t i = 1; i < ranges.size(); ++i) {
-    // The same value, as of a method that is there twice, is as good.
+    // Equal values do not compete: the same method may be listed twice.
     if (ranges[i].value != ranges[0].value && ranges[i].nearest <= ranges[0].farthest) return kNone;
   }
   return ranges[0].value;
 }
 
-// The value that a script sorts by: all digits, and nothing for NaN, which stays last.
+// Returns the sort key for the script: all digits; "" for NaN, which stays last.
 std::string sortValue(double value) {
   if (std::isnan(value)) return "";
   if (std::isinf(value)) return value > 0.0 ? "Infinity" : "-Infinity";
@@ -83,7 +83,7 @@ std::string rowHead(const ReportModel& row) {
                      counts(row) ? "" : " <span class=\"badge\">does not count</span>");
 }
 
-// Below the table, where lines are long enough to be read; what is said of several rows once.
+// Lists flags below the table, where lines are long enough to be read; a flag of several rows once.
 std::string flagList(const ReportModel& block) {
   struct Said {
     std::string flag;
@@ -139,13 +139,13 @@ std::string columnHelp(const ReportModel& block) {
       list);
 }
 
-// The table of the columns that are details, or of the others; "" where there are none.
+// Returns the table of the detail columns, or of the others; "" if there are none.
 std::string tableOf(const ReportModel& block, bool isDetail) {
   const std::string rows = reportText(block, "row_title");
   std::string head =
       fmt::format("<th scope=\"col\" aria-sort=\"none\"><button type=\"button\">{}</button></th>",
                   rows.empty() ? "method" : escapeMarkup(rows));
-  std::vector<std::pair<const ReportModel*, double>> columns;  // and their best values
+  std::vector<std::pair<const ReportModel*, double>> columns;  // columns with their best values
   for (const ReportModel& column : block["columns"]) {
     if (column.value("detail", false) != isDetail) continue;
     head += columnHead(column);

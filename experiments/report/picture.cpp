@@ -8,10 +8,10 @@
 namespace restlab {
 namespace {
 
-// The part of [a, a + 1) x scale that each source pixel fills: begin, end and the weights' ends.
+// Source pixels of one target pixel: begin, end and the weights of the first and the last one.
 struct Span {
   uint32_t begin, end;
-  double first, last;  // of the first and the last pixel; 1 in between
+  double first, last;  // 1 in between
 };
 
 Span spanOf(uint32_t target, uint32_t targets, uint32_t sources) {

@@ -11,21 +11,20 @@
 
 namespace restlab {
 
-// Row 0 on top; R, G, B of sRGB for each pixel.
+// Row 0 on top; R, G, B in sRGB for each pixel.
 struct Picture {
   uint32_t width = 0, height = 0;
   std::vector<uint8_t> bytes;
 };
 
-// Radiance x exposure of the crop, as core/image/srgb.h has it, each pixel a square of `scale` x
-// `scale`.
+// Converts radiance x exposure of the crop as core/image/srgb.h does; each pixel becomes a square
+// of `scale` x `scale`.
 Picture pictureOf(const Image& image, const Crop& crop, float exposure, uint32_t scale);
 
-// Another size by mean over the areas that become one pixel, of radiance: a smaller picture keeps
-// its brightness.
+// Resizes by area averages of radiance: a smaller picture keeps its brightness.
 Image resized(const Image& image, uint32_t width, uint32_t height);
 
-// A PNG file (core/image/png.h) with these texts.
+// Encodes a PNG file (core/image/png.h) with these texts.
 std::string encodePng(const Picture& picture,
                       const std::map<std::string, std::string>& metadata = {});
 

@@ -80,7 +80,7 @@ std::string packPixels(const Image& image, const Crop& crop) {
 Image unpackPixels(std::string_view text, uint32_t width, uint32_t height) {
   const std::string packed = decodeBase64(text);
   const size_t count = size_t(width) * height;
-  std::string planes(count * 12 + 1, '\0');  // one more, so that too many bytes are noticed
+  std::string planes(count * 12 + 1, '\0');  // one more, to detect too many bytes
   uLongf size = uLong(planes.size());
   const int status =
       uncompress(reinterpret_cast<Bytef*>(planes.data()), &size,

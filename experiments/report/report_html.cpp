@@ -19,12 +19,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The text between the page's tags <script>.
+// Returns the content of the page's <script>.
 std::string pageScript() {
   return fmt::format("\n(() => {{\n'use strict';\n{}}})();\n", reportScript());
 }
 
-// Nothing may be fetched and nothing else may run, whatever the page holds.
+// Content-Security-Policy: nothing is fetched and only the page's own script runs.
 std::string policy() {
   return fmt::format(
       "default-src 'none'; script-src {}; style-src 'unsafe-inline'; img-src data: blob:; base-uri "

@@ -14,7 +14,7 @@
 namespace restlab {
 namespace {
 
-// A value and where it stands.
+// JSON value with its path in the model.
 struct Place {
   const ReportModel& json;
   std::string path;
@@ -30,7 +30,7 @@ std::string joined(const std::string& path, const std::string& key) {
 
 using Names = std::initializer_list<const char*>;
 
-// An object that has every name of `required` and none outside `required` and `optional`.
+// Requires an object that has every name of `required` and no others except `optional`.
 void requireObject(const Place& at, Names required, Names optional) {
   if (!at.json.is_object()) failAt(at.path, "must be an object");
   for (const char* name : required) {
@@ -83,7 +83,7 @@ void oneOf(const Place& at, Names names) {
   failAt(at.path, fmt::format("must be one of {}", fmt::join(names, ", ")));
 }
 
-// An id becomes part of file names and addresses, so it stands for itself and only once.
+// Requires an id that is unique and can be used unescaped in file names and addresses.
 void uniqueId(const Place& at, std::set<std::string>& seen) {
   text(at);
   const std::string id = at.json.get<std::string>();

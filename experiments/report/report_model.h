@@ -1,4 +1,4 @@
-// The contract between whoever measures and the report: one JSON document, and EXR files beside it.
+// Interface between measurements and the report: one JSON document, with EXR files beside it.
 //
 // { "schema": 1,
 //   "title": text, "question": text?, "generated": text? (UTC), "command": text?,
@@ -7,13 +7,13 @@
 //   "blocks": [ {
 //     "id": text                                       [A-Za-z0-9._-]+, once in the document
 //     "title": text, "subtitle": text?,
-//     "notes": [text...]?                              what is said of all of its rows
+//     "notes": [text...]?                              notes on all of its rows
 //     "part_of": text?                                 id of an earlier block, which lists this one
-//     "row_title": text?                               of the first column; "method" by default
+//     "row_title": text?                               title of the first column; default "method"
 //     "columns": [ { "key": text, "title": text, "unit": text?, "help": text?,
 //                    "better": "lower" | "higher" | "none"?,
 //                    "detail": bool?               true: in a second table
-//                    "digits": integer? } ]            that count, 1 to 17; 3 by default
+//                    "digits": integer? } ]            significant digits, 1 to 17; default 3
 //     "rows": [ { "method": text, "counts": bool?, "flags": [text...]?,
 //                 "cells": { KEY: { "value": number, "lo": number?, "hi": number?, "note": text?,
 //                                  "ranked": bool? } } } ]
@@ -21,11 +21,11 @@
 //     "plots": [ { "id": text                          as a block's, once in the block
 //                  "title": text,
 //                  "x": { "title": text, "log": bool?, "note": text? },
-//                                                   a note stands behind the title
+//                                                   a note is placed behind the title
 //                  "y": likewise,
 //                  "series": [ { "name": text,
 //                                "points": [[x, y] | [x, y, lo, hi]...]   in order of x
-//                                "hollow": [integer...]?    places among the points, from 0
+//                                "hollow": [integer...]?    indices of points, from 0
 //                                "fit": { "slope": number, "lo": number?, "hi": number?,
 //                                         "intercept": number }? } ] } ]?
 //     "bars": { "title": text, "unit": text?, "rows": [ { "name": text,
@@ -35,18 +35,17 @@
 //     "health": { "columns": [ text | { "name": text, "help": text?, "bad": bool? } ],
 //                 "rows": [ { "method": text, "counts": [integer...] } ] }?
 //     "images": [ { "name": text, "file": text, "role": "reference" | "method" } ]?
-//     "exposure": number?                              above 0; 1 by default
+//     "exposure": number?                              above 0; default 1
 //   } ] }
 //
-// "?" stands after what may be left out. A number is a JSON number or "nan", "inf", "-inf"; a NaN
-// "lo" or "hi" is an unknown one. `counts` false: the row does not count, `flags` says why; it is
-// true by default. `note` stands behind the number. `ranked` false: the number is not compared with
-// those of other rows, and never the best; true by default.
-// A series that has the name of a row looks the same in all plots of the block. `fit`: log10 y =
-// intercept + slope log10 x where both axes are logarithmic (a linear axis enters without its
-// logarithm); lo and hi are the slope's interval. `hollow`: points that the fit leaves out. `bad`:
-// any count above 0 is a fault. `file` is relative to the report's folder; the images of a block
-// have one size.
+// "?" marks an optional member. A number is a JSON number or "nan", "inf", "-inf"; NaN as "lo" or
+// "hi" means unknown. `counts` false: the row does not count, `flags` says why; default true.
+// `note` is placed behind the number. `ranked` false: the number is not compared with other rows
+// and is never the best; default true. A series with the name of a row looks the same in all plots
+// of the block. `fit`: log10 y = intercept + slope log10 x if both axes are logarithmic (a linear
+// axis enters without its logarithm); lo and hi are the interval of the slope. `hollow`: points
+// that the fit leaves out. `bad`: any count above 0 is a fault. `file` is relative to the report's
+// folder; the images of a block have one size.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -62,16 +61,16 @@ constexpr int kReportSchema = 1;
 // out of bounds: "report model: blocks[0].rows[1].cells.mse.value: ...".
 void checkReportModel(const ReportModel& model);
 
-// A number of a checked model: a JSON number, "nan", "inf" or "-inf".
+// Returns a number of a checked model: a JSON number, "nan", "inf" or "-inf".
 double reportNumber(const ReportModel& value);
 
-// The same for a member that may be missing: then `otherwise`.
+// Returns the number of a member, or `otherwise` if it is missing.
 double reportNumber(const ReportModel& object, const char* key, double otherwise);
 
-// A text that may be missing: then "".
+// Returns the text of a member, or "" if it is missing.
 std::string reportText(const ReportModel& object, const char* key);
 
-// The list of that name, or an empty one.
+// Returns the list of a member, or an empty one if it is missing.
 const ReportModel& reportList(const ReportModel& object, const char* key);
 
 }  // namespace restlab

@@ -14,7 +14,7 @@ std::string scriptHash(std::string_view script) {
   if (EVP_Digest(script.data(), script.size(), hash.data(), &size, EVP_sha256(), nullptr) != 1 ||
       size != hash.size())
     throw std::runtime_error("OpenSSL has no SHA-256");
-  std::array<unsigned char, 45> digits{};  // four for each three bytes, and an end
+  std::array<unsigned char, 45> digits{};  // four for each three bytes, and a terminator
   EVP_EncodeBlock(digits.data(), hash.data(), int(hash.size()));
   return fmt::format("'sha256-{}'", reinterpret_cast<const char*>(digits.data()));
 }

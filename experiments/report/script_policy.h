@@ -1,5 +1,5 @@
-// Which scripts a page may run: those that stand in it when it is made, by their hashes. A script
-// that gets into it later, by a name that was not escaped, say, runs nowhere.
+// Restricts a page to the scripts that it is made with, by their hashes. A script that is injected
+// later, such as by an unescaped name, does not run.
 #pragma once
 
 #include <string>
@@ -7,13 +7,13 @@
 
 namespace restlab {
 
-// A source of a Content-Security-Policy: 'sha256-...' of what stands between <script> and
+// Returns a source of a Content-Security-Policy: 'sha256-...' of the text between <script> and
 // </script>.
 std::string scriptHash(std::string_view script);
 
-// Hashes of all scripts of a page that browsers run, as the value of script-src; 'none' where it
-// has none. A script with a type is data. Pages are of this program: lines end with \n, tags are
-// lower case.
+// Returns the hashes of all scripts of a page that browsers run, as the value of script-src; 'none'
+// if there are none. A script with a type is data. Expects a page made by this program: lines end
+// with \n, tags are lower case.
 std::string scriptHashes(std::string_view page);
 
 }  // namespace restlab

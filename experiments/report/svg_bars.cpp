@@ -21,7 +21,7 @@ double sum(const BarsSpec::Row& row) {
   return total;
 }
 
-// Names of parts in order of first appearance: the index of each is its colour.
+// Returns the parts' names in order of first appearance; the index of each selects its colour.
 std::vector<std::string> partNames(const BarsSpec& bars) {
   std::vector<std::string> names;
   for (const BarsSpec::Row& row : bars.rows) {
@@ -34,7 +34,7 @@ std::vector<std::string> partNames(const BarsSpec& bars) {
   return names;
 }
 
-// After the palette's end the same colours come again with stripes of the ground in between.
+// Beyond the palette the colours repeat with stripes of the background.
 std::string box(double x, double y, double width, double height, size_t index,
                 const std::string& tip) {
   std::string out = fmt::format(
@@ -67,7 +67,7 @@ std::string barsSvg(const BarsSpec& bars) {
   const double span = kWidth - kRight - left;
   const double bottom = kTop + kRow * double(bars.rows.size());
 
-  // The legend in as many columns as its longest entry leaves room for.
+  // Arrange the legend in as many columns as its longest entry allows.
   double entry = 60.0;
   for (const std::string& name : names) {
     entry = std::max(entry, std::min(kLongestName, svg::textWidth(name, 12.0)) + 34.0);

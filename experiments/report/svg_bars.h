@@ -1,4 +1,4 @@
-// Stacked horizontal bars as SVG: what each pass of a method takes of its frame.
+// Stacked horizontal bars as SVG: the time of each pass in a method's frame.
 #pragma once
 
 #include <string>
@@ -18,11 +18,11 @@ struct BarsSpec {
   std::vector<Row> rows;
 };
 
-// A whole SVG document, the same bytes for the same bars. A part's name has one colour in all rows;
-// the sum stands behind each bar.
+// Returns a complete SVG document, identical bytes for identical bars. Equal part names have one
+// colour in all rows; the sum stands behind each bar.
 std::string barsSvg(const BarsSpec& bars);
 
-// The member "bars" of a block of a checked model.
+// Reads the member "bars" of a block of a checked model.
 BarsSpec barsFromModel(const ReportModel& bars);
 
 }  // namespace restlab

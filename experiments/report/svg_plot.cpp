@@ -34,7 +34,7 @@ std::vector<PlotPoint> shownPoints(const Canvas& canvas, const PlotSeries& serie
   return shown;
 }
 
-// A tick's label; an exponent is raised.
+// Draws a tick's label; an exponent is raised.
 std::string tickLabel(double x, double y, const char* anchor, const Tick& tick) {
   if (tick.exponent.empty()) return svg::text(x, y, anchor, tick.label, "class=\"tick\"");
   return fmt::format(
@@ -72,14 +72,14 @@ std::string axes(const Canvas& canvas, const PlotSpec& plot) {
 
 bool hasInterval(const PlotPoint& point) { return !std::isnan(point.lo) && !std::isnan(point.hi); }
 
-// Where an end of an interval is drawn: at the axis's end where it lies beyond it.
+// Returns the end of an interval, clamped to the axis.
 double clamped(const Canvas& canvas, double value) {
   return std::isfinite(value) ? std::clamp(value, canvas.y.lo, canvas.y.hi)
          : value > 0.0        ? canvas.y.hi
                               : canvas.y.lo;
 }
 
-// The band of each unbroken row of intervals; whiskers where one stands alone.
+// Draws a band for each unbroken sequence of intervals; whiskers for a single one.
 std::string band(const Canvas& canvas, const std::vector<PlotPoint>& points, size_t index) {
   std::string out;
   for (size_t begin = 0; begin < points.size(); ++begin) {
@@ -127,7 +127,7 @@ std::string lineThrough(const Canvas& canvas, const std::vector<PlotPoint>& poin
       index % svg::kColours);
 }
 
-// The fitted line over the range of the series, as far as it lies inside the axes.
+// Draws the fitted line over the range of the series, clipped to the axes.
 std::string fitted(const Canvas& canvas, const std::vector<PlotPoint>& points, const PlotFit& fit,
                    size_t index) {
   if (points.empty() || !std::isfinite(fit.slope) || !std::isfinite(fit.intercept)) return "";
@@ -210,7 +210,7 @@ void collect(const PlotSpec& plot, bool isX, std::vector<double>& inner,
              std::vector<double>& outer) {
   for (const PlotSeries& series : plot.series) {
     for (const PlotPoint& point : series.points) {
-      // A point counts for neither axis where one of them cannot show it.
+      // A point is ignored for both axes if one of them cannot show it.
       const auto can = [](bool log, double v) { return std::isfinite(v) && (!log || v > 0.0); };
       if (!can(plot.x.log, point.x) || !can(plot.y.log, point.y)) continue;
       inner.push_back(isX ? point.x : point.y);
@@ -221,7 +221,8 @@ void collect(const PlotSpec& plot, bool isX, std::vector<double>& inner,
   }
 }
 
-// The place of the row of that name; of series that are no rows: after all rows.
+// Returns the index of the row with that name; for a series that is not a row: an index after all
+// rows.
 size_t styleByName(const ReportModel& rows, const std::string& name, size_t place) {
   for (size_t i = 0; i < rows.size(); ++i) {
     if (reportText(rows[i], "method") == name) return i;
@@ -229,7 +230,7 @@ size_t styleByName(const ReportModel& rows, const std::string& name, size_t plac
   return rows.size() + place;
 }
 
-// What is not there, or not in the lines.
+// Counts the points that are not shown, or not part of the lines.
 std::string notesOf(const PlotSpec& plot, size_t hidden, size_t hollow) {
   std::string notes;
   if (hidden) {
@@ -274,7 +275,7 @@ std::string plotSvg(const PlotSpec& plot) {
                    svg::fitText(plot.title, kPlotWidth - kPlotArea.left - 8.0, 14.5),
                    "font-size=\"14\" font-weight=\"bold\"");
   out += axes(canvas, plot);
-  // Bands below all lines.
+  // Draw the bands below all lines.
   for (size_t i = 0; i < plot.series.size(); ++i) {
     out += band(canvas, shownPoints(canvas, plot.series[i]), styleOf(plot, i));
   }

@@ -13,14 +13,13 @@ namespace restlab {
 
 struct PlotPoint {
   double x = 0.0, y = 0.0;
-  // The interval of y; NaN: unknown.
+  // Interval of y; NaN: unknown.
   double lo = std::numeric_limits<double>::quiet_NaN();
   double hi = std::numeric_limits<double>::quiet_NaN();
-  bool isHollow = false;  // the fit leaves it out
+  bool isHollow = false;  // left out of the fit
 };
 
-// y = intercept + slope x, where a logarithmic axis enters as log10; slopeLo and slopeHi NaN:
-// unknown.
+// y = intercept + slope x; a logarithmic axis enters as log10. slopeLo and slopeHi NaN: unknown.
 struct PlotFit {
   double slope = 0.0, slopeLo = 0.0, slopeHi = 0.0, intercept = 0.0;
 };
@@ -30,7 +29,7 @@ struct PlotSeries {
   std::vector<PlotPoint> points;  // in order of x
   std::optional<PlotFit> fit = std::nullopt;
   std::optional<size_t> style =
-      std::nullopt;  // colour and marker; its place among the series by default
+      std::nullopt;  // colour and marker; default: the index of the series
 };
 
 struct PlotAxis {
@@ -45,23 +44,24 @@ struct PlotSpec {
   std::vector<PlotSeries> series;
 };
 
-// The part of an image, in its pixels, that the axes span.
+// Area inside the axes, in pixels of the image.
 struct PlotArea {
   double left = 0.0, top = 0.0, width = 0.0, height = 0.0;
 };
 constexpr double kPlotWidth = 640.0;
 constexpr PlotArea kPlotArea = {68.0, 36.0, 556.0, 300.0};
 
-// The axes that plotSvg draws.
+// Axes that plotSvg() draws.
 Axis plotAxisX(const PlotSpec& plot);
 Axis plotAxisY(const PlotSpec& plot);
 
-// A whole SVG document, the same bytes for the same plot. Points that an axis cannot show (not
-// finite; not positive on a logarithmic axis) are left out, and a line below the plot counts them.
+// Returns a complete SVG document, identical bytes for identical plots. Points that an axis cannot
+// show (not finite; not positive on a logarithmic axis) are left out and counted in a line below
+// the plot.
 std::string plotSvg(const PlotSpec& plot);
 
-// A member of "plots" of a block of a checked model. A series that has the name of one of the
-// block's rows has the style of its place there, so that a method looks the same in every plot.
+// Reads a member of "plots" of a block of a checked model. A series with the name of one of the
+// block's rows gets the style of that row's index: a method looks the same in every plot.
 PlotSpec plotFromModel(const ReportModel& block, const ReportModel& plot);
 
 }  // namespace restlab

@@ -11,7 +11,7 @@
 namespace restlab::svg {
 namespace {
 
-// Closed outlines about the origin; all look about as large as the circle of radius 4.
+// Returns a closed outline around (x, y); all look about as large as a circle of radius 4.
 std::string outline(size_t shape, double x, double y) {
   const auto polygon = [&](size_t corners, double radius, double startDegrees) {
     std::string points;
@@ -72,7 +72,7 @@ std::string coordinate(double value) {
 }
 
 std::string line(double x0, double y0, double x1, double y1, std::string_view cssClass) {
-  // Only three kinds of thin lines stand in a plot: its frame, grid and the finer grid.
+  // Plots have only three kinds of thin lines: frame, grid and finer grid.
   const bool frame = cssClass == "frame";
   const char* stroke = frame ? "#404040" : cssClass == "grid" ? "#d4d4d4" : "#ececec";
   return fmt::format(

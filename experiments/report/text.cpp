@@ -12,7 +12,8 @@ namespace {
 
 constexpr const char* kReplacement = "\xef\xbf\xbd";
 
-// Bytes of the UTF-8 sequence at the start of `text`, or 0 where it is none that XML allows.
+// Returns the length in bytes of the UTF-8 sequence at the start of `text`, or 0 if it is not one
+// that XML allows.
 size_t sequenceLength(std::string_view text) {
   const auto byte = [&](size_t i) { return i < text.size() ? uint8_t(text[i]) : 0u; };
   const uint32_t first = byte(0);
@@ -76,7 +77,7 @@ std::string escapeMarkup(std::string_view text) {
 }
 
 std::string scriptJson(const nlohmann::ordered_json& json) {
-  // ASCII only, so that U+2028 and U+2029 are escaped too.
+  // ASCII only, to escape U+2028 and U+2029, too.
   const std::string plain = json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
   std::string out;
   for (const char c : plain) {
@@ -94,11 +95,11 @@ std::string shortNumber(double value, int digits) {
   if (std::isinf(value)) return value > 0.0 ? "inf" : "-inf";
   const bool isReadable = std::abs(value) < 1e6;
   if (isReadable && value == std::round(value)) return fmt::format("{:.0f}", value);
-  // Not fmt's "#", which has a zero too many where no digit is behind the point ("123.0").
+  // fmt's "#" adds one zero too many if no digit follows the point ("123.0").
   std::array<char, 64> buffer{};
   std::snprintf(buffer.data(), buffer.size(), "%#.*g", digits, value);
   std::string text = buffer.data();
-  // Digits before the point are all said: "1234", not "1.23e+03".
+  // Keep all digits before the point: "1234", not "1.23e+03".
   if (isReadable && std::abs(value) >= 1.0 && text.find('e') != std::string::npos)
     return fmt::format("{:.0f}", value);
   if (text.back() == '.') text.pop_back();
@@ -121,7 +122,7 @@ std::string intervalText(double lo, double hi, int digits) {
 }
 
 std::string timesText(double value, double lo, double hi, const char* above, const char* below) {
-  if (!(value > 0.0)) return "not known";  // an error below the noise of its reference
+  if (!(value > 0.0)) return "not known";  // the error is below its reference's noise
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (lo <= 0.0) lo = -kInfinity;
   if (value >= 1.0) return fmt::format("{}x {}{}", shortNumber(value), above, intervalText(lo, hi));

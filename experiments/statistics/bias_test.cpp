@@ -18,12 +18,12 @@ namespace {
 
 constexpr size_t kFewestRuns = 8;
 
-// Images are floats and references sums of many: what is constant in both (a light seen directly)
-// still differs by this much, relatively.
+// Rounding: images are floats and references sums of many, so values that are constant in both (a
+// light seen directly) still differ by this much, relatively.
 constexpr double kRounding = 1e-5;
 
-// Cells darker than this share of the whole image's brightness are held to the rounding of that
-// share: where (almost) nothing arrives, a difference relative to the cell itself means nothing.
+// In cells darker than this share of the whole image's brightness, rounding is relative to that
+// share: where almost no light arrives, a difference relative to the cell itself means nothing.
 constexpr double kDarkness = 0.1;
 
 class Comparison {
@@ -41,13 +41,14 @@ class Comparison {
     }
   }
 
-  // What counts as rounding in a cell of these means.
+  // Returns the difference that counts as rounding in a cell of these means.
   double rounding(double mean, double reference, Quantity quantity) const {
     return kRounding * std::max({std::abs(mean), std::abs(reference),
                                  kDarkness * brightness_[size_t(quantity)]});
   }
 
-  // Neither side has noise, and both are equal. (Values that are not finite equal nothing.)
+  // Returns whether neither side has noise and both are equal. False for values that are not
+  // finite.
   bool equal(const CellArea& area, Quantity quantity) const {
     const Sample sample = summarise(runs.cellMeans(area, quantity));
     const Sample other = truth.cell(area, quantity);
@@ -74,9 +75,9 @@ class Comparison {
   std::array<double, kQuantities> brightness_{};  // of the whole image
 };
 
-// Divides `area` into cells that can be judged, as small as they can be. The four children are kept
-// when all of their area is judgeable; else they are merged if the merged cell is; else they are
-// kept with what is judgeable among them.
+// Division of an area into judgeable cells, as small as possible. The four children are kept if all
+// of their area is judgeable; else they are merged if the merged cell is judgeable; else they are
+// kept, with unjudgeable cells among them.
 struct Division {
   std::vector<CellArea> cells;
   bool complete = true;  // every cell is judgeable
@@ -119,7 +120,7 @@ CellVerdict judge(const Comparison& comparison, const CellArea& area, Quantity q
   return v;
 }
 
-// Holm over the testable members; sets adjustedP and side.
+// Applies Holm's correction over the testable members; sets adjustedP and side.
 void correct(std::vector<CellVerdict>& verdicts, double familyError) {
   std::vector<double> pValues;
   for (const CellVerdict& v : verdicts) {
@@ -134,13 +135,14 @@ void correct(std::vector<CellVerdict>& verdicts, double familyError) {
   }
 }
 
-// The rejected cells again, on fresh runs and as a family of their own.
+// Tests the rejected cells again, on fresh runs and as a family of their own.
 void confirm(std::vector<CellVerdict>& verdicts, const Comparison& fresh) {
   std::vector<CellVerdict> again;
   for (const CellVerdict& v : verdicts) {
     if (v.side == 0) continue;
     CellVerdict second = judge(fresh, v.area, v.quantity);
-    // The cell was found testable by the first batch; a fresh batch decides about the mean only.
+    // Keep the cell testable, as the first batch found: the fresh batch only decides about the
+    // mean.
     second.testable = !second.equal && !std::isnan(second.welch.pValue);
     again.push_back(second);
   }
@@ -162,7 +164,7 @@ void statePower(std::vector<CellVerdict>& verdicts, const BiasOptions& options) 
   }
 }
 
-// Of the image's area, the cells of a quantity that `counts` accepts.
+// Returns the share of the image's area in cells of a quantity that `counts` accepts.
 template <class F>
 double share(const std::vector<CellVerdict>& verdicts, const BlockGrid& grid, Quantity quantity,
              F counts) {
@@ -262,7 +264,7 @@ BiasReport testBias(const RunSet& runs, const Truth& truth, const BiasOptions& o
 }
 
 bool BiasReport::failed() const {
-  // Black beside black is equal, and says nothing.
+  // Equal black cells do not count as tested.
   const bool anyTested = std::any_of(cells.begin(), cells.end(), [](const CellVerdict& v) {
     return v.testable || (v.equal && std::max(std::abs(v.mean), std::abs(v.reference)) > 0.0);
   });

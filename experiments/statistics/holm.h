@@ -6,12 +6,12 @@
 
 namespace restlab::stats {
 
-// Adjusted p-values, in the order given: reject where the value is at most the family's error,
-// which then bounds the chance of any false rejection under any dependence between the tests.
-// Throws std::invalid_argument for a p outside [0, 1] or NaN (leave untestable members out).
+// Returns adjusted p-values, in the given order. Rejecting those up to the family error bounds the
+// chance of any false rejection by it, under any dependence between the tests. Throws
+// std::invalid_argument for a p outside [0, 1] or NaN (leave untestable members out).
 std::vector<double> holmAdjusted(std::span<const double> pValues);
 
-// Which hypotheses are rejected at the family error.
+// Returns which hypotheses are rejected at the family error.
 std::vector<bool> holmReject(std::span<const double> pValues, double familyError);
 
 }  // namespace restlab::stats

@@ -23,7 +23,7 @@ double testPower(double shift, double standardError, double dof, double alpha) {
     throw std::invalid_argument("power: standard error and dof must be positive");
   }
   const double noncentrality = std::abs(shift) / standardError;
-  // 1 - alpha/2 would round for a tiny alpha.
+  // Avoid 1 - alpha/2, which would round for a tiny alpha.
   const double critical = -studentQuantile(0.5 * alpha, dof);
   if (std::isinf(dof) || noncentrality == 0.0) {
     return studentUpper(critical - noncentrality, dof) +

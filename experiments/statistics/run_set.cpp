@@ -99,7 +99,7 @@ double skewness(const std::vector<double>& values) {
   }
   m2 /= double(values.size());
   m3 /= double(values.size());
-  // Below the resolution of float images all spread is rounding, and its skewness means nothing.
+  // Return 0 if the spread is below the resolution of float images: its skewness is of rounding.
   const double rounding = 1e-7 * mean;
   return m2 > rounding * rounding ? m3 / (m2 * std::sqrt(m2)) : 0.0;
 }
@@ -130,7 +130,7 @@ ReferenceCells ReferenceCells::fromHalves(const BlockGrid& grid, const Image& ha
   ReferenceCells cells = build(grid, half0, 1.0, [&](size_t p, Quantity q) {
     const double a = quantityOf(half0.pixels[p], q);
     const double b = quantityOf(half1.pixels[p], q);
-    // Unbiased: Var((a + b) / 2) = E[(a - b)^2] / 4.
+    // Unbiased estimate: Var((a + b) / 2) = E[(a - b)^2] / 4.
     return std::pair(0.5 * (a + b), 0.25 * (a - b) * (a - b));
   });
   cells.nonfinite_ += countNonfinite(half1);
@@ -144,7 +144,7 @@ ReferenceCells ReferenceCells::fromVariance(const BlockGrid& grid, const Image& 
   ReferenceCells cells = build(grid, mean, infinite, [&](size_t p, Quantity q) {
     const glm::vec3& v = varianceOfMean.pixels[p];
     if (q != Quantity::luminance) return std::pair(quantityOf(mean.pixels[p], q), quantityOf(v, q));
-    // The channels' correlation is not stored: fully correlated is the largest, safe variance.
+    // The channels' correlation is not stored: assume full correlation, the largest variance.
     const double deviation = 0.212639 * std::sqrt(double(v.x)) + 0.715169 * std::sqrt(double(v.y)) +
                              0.072192 * std::sqrt(double(v.z));
     return std::pair(quantityOf(mean.pixels[p], q), deviation * deviation);

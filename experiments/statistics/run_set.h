@@ -1,5 +1,5 @@
-// Independent runs of one method, reduced to block means as they come: what a bias test needs, in a
-// few kilobytes whatever the resolution.
+// Independent runs of one method, reduced to block means as they arrive: enough for a bias test, in
+// a few kilobytes at any resolution.
 #pragma once
 
 #include <array>
@@ -11,19 +11,19 @@
 
 namespace restlab::stats {
 
-// What is compared.
+// Quantities that are compared.
 enum class Quantity : uint32_t { luminance = 0, red = 1, green = 2, blue = 3 };
 constexpr size_t kQuantities = 4;
 const char* quantityName(Quantity quantity);
 
-// Of one pixel, linear Rec. 709.
+// Returns a quantity of one pixel, linear Rec. 709.
 double quantityOf(const glm::vec3& pixel, Quantity quantity);
 
-// A square grid of blocks over an image; at most 8x8 = 64, fewer for an image below 8 pixels a
+// A square grid of blocks over an image: at most 8x8 = 64, fewer for an image below 8 pixels a
 // side.
 struct BlockGrid {
   uint32_t width = 0, height = 0;  // of the image, pixels
-  uint32_t side = 0;               // blocks a side: 8, 4, 2 or 1
+  uint32_t side = 0;               // blocks per side: 8, 4, 2 or 1
 
   BlockGrid() = default;
   // Throws std::invalid_argument for an image without pixels or maxSide not a power of two.
@@ -33,7 +33,7 @@ struct BlockGrid {
   size_t count() const { return size_t(side) * side; }
 };
 
-// A square of blocks: [x, x + size) x [y, y + size) in units of blocks.
+// Square of blocks: [x, x + size) x [y, y + size) in units of blocks.
 struct CellArea {
   uint32_t x = 0, y = 0, size = 1;
 };
@@ -43,17 +43,17 @@ class RunSet {
  public:
   explicit RunSet(const BlockGrid& grid) : grid_(grid) {}
 
-  // One independent run: a new seed and the whole history again. Throws std::invalid_argument when
-  // the size is not the grid's.
+  // Adds one independent run: a new seed and a new history. Throws std::invalid_argument if the
+  // size is not the grid's.
   void add(const Image& run);
 
   size_t runs() const { return sums_.size(); }
   const BlockGrid& grid() const { return grid_; }
   uint64_t nonfinite() const {
     return nonfinite_;
-  }  // channel values seen, which spoil every verdict
+  }  // channel values seen, which invalidate every verdict
 
-  // The mean over the cell's pixels, one value a run.
+  // Returns the mean over the cell's pixels, one value per run.
   std::vector<double> cellMeans(const CellArea& area, Quantity quantity) const;
 
  private:
@@ -63,19 +63,19 @@ class RunSet {
   uint64_t nonfinite_ = 0;
 };
 
-// Fisher's skewness m3 / m2^1.5 of a sample; 0 for one that is constant but for rounding.
+// Returns Fisher's skewness m3 / m2^1.5 of a sample; 0 if it is constant up to rounding.
 double skewness(const std::vector<double>& values);
 
-// What a reference says of each cell: a mean and its own uncertainty. Pixels of a reference are
-// taken as independent, which holds for a path tracer with a box filter.
+// Reference of each cell: a mean and its uncertainty. Assumes independent pixels, which holds for a
+// path tracer with a box filter.
 class ReferenceCells {
  public:
-  // Two independent halves of equal size: the mean is theirs, the variance from their difference.
+  // From two independent halves of equal size: their mean, and the variance from their difference.
   static ReferenceCells fromHalves(const BlockGrid& grid, const Image& half0, const Image& half1);
-  // A mean and, per pixel, the variance of that mean (not of one sample).
+  // From a mean and, per pixel, the variance of that mean (not of one sample).
   static ReferenceCells fromVariance(const BlockGrid& grid, const Image& mean,
                                      const Image& varianceOfMean);
-  // Known without error: an analytic truth.
+  // From an analytic truth without error.
   static ReferenceCells exact(const BlockGrid& grid, const Image& truth);
 
   const BlockGrid& grid() const { return grid_; }
@@ -94,7 +94,7 @@ class ReferenceCells {
                               F valueAndVariance);
 
   BlockGrid grid_;
-  double dofPerPixel_;  // of each pixel's variance estimate; infinite when it is known
+  double dofPerPixel_;  // of each pixel's variance estimate; infinite if the variance is known
   std::vector<Block> blocks_;
   uint64_t nonfinite_ = 0;
 };

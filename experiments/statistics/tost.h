@@ -1,5 +1,5 @@
-// Equivalence: two one-sided t-tests. Where a t-test that does not reject proves nothing, this one
-// rejects the hypothesis that the means differ by a margin or more.
+// Equivalence by two one-sided t-tests: rejects the hypothesis that the means differ by a margin or
+// more. A t-test that does not reject proves no equivalence.
 #pragma once
 
 #include "experiments/statistics/welch.h"

@@ -20,7 +20,7 @@ void check(const Sample& s) {
   }
 }
 
-// v^2 / (n - 1) with v the variance of the mean; 0 for a constant, whose n - 1 may be 0.
+// Returns v^2 / (n - 1) with v the variance of the mean; 0 for a constant, whose n - 1 may be 0.
 double satterthwaiteTerm(double v, double n) { return v > 0.0 ? v * v / (n - 1.0) : 0.0; }
 
 }  // namespace
@@ -57,7 +57,7 @@ WelchResult welchTest(const Sample& a, const Sample& b) {
     return r;
   }
   r.t = r.difference / r.standardError;
-  // A variance so small that its square is 0 leaves no usable estimate: the normal limit.
+  // Use the normal limit if the variance is so small that its square is 0.
   const double denominator = satterthwaiteTerm(va, a.n) + satterthwaiteTerm(vb, b.n);
   r.dof = denominator > 0.0 ? (va + vb) * (va + vb) / denominator : kInfinity;
   r.pValue = studentTwoSided(r.t, r.dof);

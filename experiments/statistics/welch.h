@@ -5,8 +5,9 @@
 
 namespace restlab::stats {
 
-// n independent observations. A constant known without error is {1, value, 0}. An estimate known
-// by its standard error alone is {n, value, n * error^2}, with n - 1 its degrees of freedom.
+// Summary of n independent observations. A constant known without error is {1, value, 0}. An
+// estimate known only by its standard error is {n, value, n * error^2}, with n - 1 its degrees of
+// freedom.
 struct Sample {
   double n = 0.0;
   double mean = 0.0;
@@ -19,22 +20,22 @@ Sample summarise(std::span<const double> observations);
 struct WelchResult {
   double difference = 0.0;     // mean a - mean b
   double standardError = 0.0;  // of the difference
-  double t = 0.0;              // infinite when constants differ
-  double dof = 0.0;            // Welch-Satterthwaite; infinite when both variances are 0
-  double pValue = 0.0;         // two-sided; NaN when any input is NaN
+  double t = 0.0;              // infinite if constants differ
+  double dof = 0.0;            // Welch-Satterthwaite; infinite if both variances are 0
+  double pValue = 0.0;         // two-sided; NaN if any input is NaN
 };
 
 // Throws std::invalid_argument for n < 1, a negative variance, or a variance other than 0 with n
 // = 1.
 WelchResult welchTest(const Sample& a, const Sample& b);
 
-// P(|T| >= |t|) of Student's t; the normal distribution's for infinite dof.
+// Returns P(|T| >= |t|) of Student's t; of the normal distribution for infinite dof.
 double studentTwoSided(double t, double dof);
 
-// P(T >= t).
+// Returns P(T >= t).
 double studentUpper(double t, double dof);
 
-// The t with P(T <= t) = p.
+// Returns the t with P(T <= t) = p.
 double studentQuantile(double p, double dof);
 
 }  // namespace restlab::stats

@@ -44,7 +44,7 @@ glm::dvec3 floorPoint(const SceneCamera& camera, const glm::dvec3& dir) {
 
 bool seesOnly(const glm::dvec3& low, const glm::dvec3& high, const SceneCamera& camera,
               const ExactView& view) {
-  // What lies between its corners is as they are: the view is convex, and so is the rectangle.
+  // Checking the corners is enough: the view and the rectangle are convex.
   for (const double x : {0.0, double(view.width)}) {
     for (const double y : {0.0, double(view.height)}) {
       const glm::dvec3 dir = directionThrough(camera, x, y, view);

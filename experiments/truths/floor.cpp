@@ -11,7 +11,7 @@
 namespace restlab::analytic {
 namespace {
 
-// What goes to and fro in the slab for longer is below the error that truths.h promises of it.
+// Light after more reflections inside the slab is below the error stated in truths.h.
 constexpr uint32_t kEventsOfGlass = 64;
 
 struct Sun {
@@ -28,7 +28,7 @@ Sun sunOf(const EnvironmentMap& sky) {
 
 bool leans(const Scene& scene) { return !scene.textureUses.empty(); }
 
-// The texel says (1, y, 1), and y is not 0: 8 bits have no middle.
+// The texel is (1, y, 1), with y not 0: 8 bits have no exact middle.
 double cosineOfSlope(const Scene& scene) {
   const double scale = double(scene.materials.at(0).data.normalScale);
   const double y = 2.0 * 128.0 / 255.0 - 1.0;
@@ -51,7 +51,7 @@ glm::dvec3 spotlitRadiance(const std::vector<PunctualLight>& spots, const glm::d
     const double d2 = glm::dot(d, d), distance = std::sqrt(d2);
     const double cosOuter = std::cos(double(spot.outerConeAngle)),
                  cosInner = std::cos(double(spot.innerConeAngle));
-    // KHR_lights_punctual.
+    // Falloff of KHR_lights_punctual.
     const double cone = std::clamp(
         (glm::dot(d, spot.dirW) / distance - cosOuter) / (cosInner - cosOuter), 0.0, 1.0);
     sum += glm::dvec3(spot.intensity) * double(spot.lightFactor) *

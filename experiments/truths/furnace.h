@@ -5,11 +5,11 @@
 
 namespace restlab::analytic {
 
-// Closed enclosure, paths of at most `scatteringEvents`: emission (1 + a + ... + a^n), in the unit
-// of `emission`. albedo in [0, 1].
+// Radiance in a closed enclosure with paths of at most `scatteringEvents`: emission (1 + a + ... +
+// a^n), in the unit of `emission`. albedo in [0, 1].
 double furnaceRadiance(double emission, double albedo, uint32_t scatteringEvents);
 
-// Without a limit: emission / (1 - albedo); albedo in [0, 1).
+// Radiance without a limit: emission / (1 - albedo); albedo in [0, 1).
 double furnaceRadianceLimit(double emission, double albedo);
 
 }  // namespace restlab::analytic

@@ -27,7 +27,7 @@ Slab slabOf(const Scene& scene, const char* name) {
 
 std::string whyNotMedia(const Scene&, const ExactView& view) {
   if (view.moved) return "from a camera that is not its own";
-  // A surface of index 1 is an event all the same, if nothing else is.
+  // Surfaces of index 1 count as scattering events, too.
   return view.scatteringEvents < 5 ? "below 5 scattering events" : "";
 }
 

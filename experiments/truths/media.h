@@ -1,4 +1,4 @@
-// The exact image of "media": lengths through bodies.
+// Exact image of "media": absorption along lengths through bodies.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -10,7 +10,7 @@
 
 namespace restlab::analytic {
 
-// The scene's part of whyNotExact() and exactImage().
+// Implement whyNotExact() and exactImage() for this scene.
 std::string whyNotMedia(const Scene& media, const ExactView& view);
 std::vector<glm::dvec3> mediaImage(const Scene& media, const ExactView& view);
 

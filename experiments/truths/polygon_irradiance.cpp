@@ -30,11 +30,11 @@ double projectedSolidAngle(const std::vector<glm::dvec3>& vertices, const glm::d
     const glm::dvec3 axis = glm::cross(a, b);
     const double sine = glm::length(axis);
     if (!(sine > 0.0)) continue;  // an edge that points at pos spans no angle
-    // atan2 keeps its precision at both ends, where acos of the cosine loses it.
+    // atan2 is precise at both ends, unlike acos of the cosine.
     const double angle = std::atan2(sine, glm::dot(a, b));
     sum += angle * glm::dot(axis, normal) / sine;
   }
-  // Vertices counter-clockwise for pos have a normal towards it, against the directions a and b.
+  // Negate: for vertices counter-clockwise as seen from pos, the normal points against a and b.
   return -0.5 * sum;
 }
 

@@ -6,15 +6,15 @@
 
 namespace restlab::analytic {
 
-// Part of a planar polygon with dot(v - pos, normal) >= 0, in the order of its vertices; empty when
-// none of it is above the horizon.
+// Returns the part of a planar polygon with dot(v - pos, normal) >= 0, in the order of its
+// vertices; empty if none of it is above the horizon.
 std::vector<glm::dvec3> clipToHorizon(const std::vector<glm::dvec3>& vertices,
                                       const glm::dvec3& pos, const glm::dvec3& normal);
 
-// The integral of cos(theta) over the solid angle that the polygon fills above the horizon of
-// `pos`, in sr: irradiance per radiance, pi for the whole hemisphere. `normal` is unit. Positive
-// when `pos` sees the vertices counter-clockwise (the polygon's front), negative when it sees them
-// clockwise. The polygon is planar and simple; `pos` is not on it.
+// Returns the integral of cos(theta) over the solid angle that the polygon covers above the horizon
+// of `pos`, in sr: irradiance per radiance, pi for the whole hemisphere. `normal` is unit. Positive
+// if `pos` sees the vertices counter-clockwise (the polygon's front), negative if clockwise. The
+// polygon must be planar and simple, and `pos` not on it.
 double projectedSolidAngle(const std::vector<glm::dvec3>& vertices, const glm::dvec3& pos,
                            const glm::dvec3& normal);
 

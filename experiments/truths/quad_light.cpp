@@ -16,7 +16,7 @@ struct Emitter {
   glm::dvec3 radiance;
 };
 
-// Of a mesh of one polygon, or of a square grid whose first and last rows are its sides.
+// Returns the corners of a mesh of one polygon, or of a square grid.
 std::vector<glm::dvec3> outline(const MeshGeometry& mesh) {
   std::vector<glm::dvec3> p(mesh.positions.begin(), mesh.positions.end());
   if (p.size() <= 4) return p;
@@ -33,7 +33,7 @@ glm::dvec3 emissionOf(const Scene& scene, const MeshInstance& instance) {
   return glm::dvec3(material.data.emission) * double(material.lightFactor);
 }
 
-// The rectangle as if all of it were alike, and what its brightest triangle has beyond that.
+// Returns the rectangle as if uniform, and the excess of its brightest triangle.
 std::vector<Emitter> emittersOf(const Scene& scene) {
   const MeshInstance& light = instanceNamed(scene, "light");
   std::vector<Emitter> all = {{cornersOf(scene, "light"), emissionOf(scene, light)}};
@@ -45,7 +45,7 @@ std::vector<Emitter> emittersOf(const Scene& scene) {
   return all;
 }
 
-// Is all of it beyond one of the four sides of what the camera sees?
+// Returns whether all points are beyond one of the four sides of the view.
 bool isOutOfView(const std::vector<glm::dvec3>& points, const SceneCamera& camera,
                  const ExactView& view) {
   const double vertical = std::tan(0.5 * camera.yfov);
@@ -67,7 +67,7 @@ glm::dvec3 radianceOf(const std::vector<Emitter>& emitters, const glm::dvec3& al
   glm::dvec3 sum(0.0);
   for (const Emitter& e : emitters) {
     const double irradiance = projectedSolidAngle(e.corners, posW, {0.0, 1.0, 0.0});
-    sum += e.radiance * std::max(irradiance, 0.0);  // its back is black
+    sum += e.radiance * std::max(irradiance, 0.0);  // the back is black
   }
   return albedo / glm::pi<double>() * sum;
 }
@@ -82,8 +82,8 @@ glm::dvec3 quadLightRadiance(const Scene& scene, const glm::dvec3& posW) {
   return radianceOf(emittersOf(scene), albedoOf(scene), posW);
 }
 
-// The polygon formula gives the floor's radiance; the picture must show floor alone, on the side of
-// the light to which it shines.
+// The polygon formula gives the radiance of the floor. The view must show only floor, on the side
+// that the light shines on.
 std::string whyNotQuadLight(const Scene& scene, const ExactView& view) {
   const SceneCamera& camera = cameraOf(scene, view);
   const std::vector<glm::dvec3> light = cornersOf(scene, "light"),

@@ -1,4 +1,4 @@
-// The exact image of "quad-light": a Lambert floor under one rectangle.
+// Exact image of "quad-light": a Lambert floor under one rectangle.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -10,11 +10,11 @@
 
 namespace restlab::analytic {
 
-// Radiance that it sends up from a point of its floor: albedo / pi times Lambert's polygon formula,
-// of the rectangle and of the brightest of its triangles.
+// Returns the radiance that a point of the floor sends up: albedo / pi times Lambert's polygon
+// formula of the rectangle and of the brightest of its triangles.
 glm::dvec3 quadLightRadiance(const Scene& quadLight, const glm::dvec3& posW);
 
-// As whyNotExact() and exactImage().
+// Implement whyNotExact() and exactImage() for this scene.
 std::string whyNotQuadLight(const Scene& quadLight, const ExactView& view);
 std::vector<glm::dvec3> quadLightImage(const Scene& quadLight, const ExactView& view);
 

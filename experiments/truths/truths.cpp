@@ -20,7 +20,7 @@ Pixels constantImage(const ExactView& view, double radiance) {
   return Pixels(size_t(view.width) * view.height, glm::dvec3(radiance));
 }
 
-// Does the eye stand in the room, where no other room's light is?
+// Returns whether the eye is inside the room, which light of other rooms does not reach.
 bool isInRoom(const Scene& furnace, const ExactView& view) {
   const glm::dvec3 eye(cameraOf(furnace, view).cameraToWorld[3]);
   const MeshGeometry& room = furnace.geometries.at(instanceNamed(furnace, "room").geometry);
@@ -36,7 +36,7 @@ std::string whyNotFurnace(const Scene& scene, const ExactView& view) {
   return isInRoom(scene, view) ? "" : "from a camera outside the room";
 }
 
-// Every surface of the room shines alike, switched or not.
+// All surfaces of the room emit the same, switched or not.
 Pixels furnaceImage(const Scene& scene, const ExactView& view) {
   const SceneMaterial& m = scene.materials.at(0);
   const double emission = double(m.data.emission.x) * double(m.lightFactor);

@@ -1,5 +1,5 @@
-// The style sheet and the scripts of the live page, files of the build: those of the report's
-// viewer, then its own.
+// Style sheet and scripts of the live page, embedded by the build: first those of the report's
+// viewer, then the live page's own.
 #pragma once
 
 #include <string_view>
@@ -7,6 +7,6 @@
 namespace restlab {
 
 std::string_view viewStyle();
-std::string_view viewScript();  // all scripts, one after the other
+std::string_view viewScript();  // all scripts, concatenated
 
 }  // namespace restlab

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kMargin = 8.0, kGap = 6.0;
 constexpr double kLargestText = 16.0, kSmallestText = 10.0;
-constexpr uint64_t kMaxPixels = uint64_t(1) << 26;  // as of `figure`
+constexpr uint64_t kMaxPixels = uint64_t(1) << 26;  // same limit as `figure`
 constexpr const char* kInterrupted = "nothing was written";
 
 struct Column {
@@ -49,7 +49,7 @@ void renderAll(LiveView& view, const CaptureOptions& options) {
   }
 }
 
-// The largest size at which every name fits above its picture.
+// Returns the largest size at which every name fits above its picture.
 double textSize(const std::vector<Column>& columns, double width) {
   double size = kLargestText;
   for (const Column& column : columns)

@@ -1,4 +1,5 @@
-// A view without a page: its panes and the reference side by side, as one picture.
+// Renders a view without a page and lays out its panes and the reference side by side, as one
+// picture.
 #pragma once
 
 #include "experiments/report/figure.h"
@@ -7,18 +8,19 @@
 namespace restlab {
 
 struct CaptureOptions {
-  uint64_t frames = 1;         // of each pane
+  uint64_t frames = 1;         // per pane
   uint64_t referenceSpp = 64;  // at least 2
 };
 
-// Throws Error (badUsage) where the picture would be too large.
+// Throws Error (badUsage) if the picture would be too large.
 void requireCaptureSize(const ViewSettings& settings);
 
-// Renders, and lays out A | B | reference with their names above, as bright as a page shows the
-// scene at first. Throws Error (interrupted) where a signal has come.
+// Renders and lays out A | B | reference with their names above, at the exposure with which a page
+// opens the scene. Throws Error (interrupted) on a signal.
 Figure capture(LiveView& view, const CaptureOptions& options);
 
-// The metadata of its PNG: settings that both panes have, those of one as "A.mode", "B.mode".
+// Returns the metadata of the PNG. A setting that both panes share has its plain key, any other is
+// written as "A.mode", "B.mode".
 std::map<std::string, std::string> captureWords(const LiveView& view);
 
 }  // namespace restlab

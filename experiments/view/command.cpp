@@ -17,9 +17,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr size_t kMostCharacters = 256;  // of a text
+constexpr size_t kMostCharacters = 256;  // length limit of a string
 
-// The members of a command, each asked for once: what nobody asks for is unknown.
+// Reads the members of a command. expectNoMore() refuses members that were never read.
 class Members {
  public:
   explicit Members(const Json& json) : json_(json) { name_ = text("do"); }
@@ -109,7 +109,7 @@ std::optional<ParameterValue> parameterOf(Members& members) {
   return members.number("value", -1e30, 1e30);
 }
 
-// Columns of unit length that stand upright on each other, in the order of right hands.
+// Requires orthonormal, right-handed columns (a rotation and a translation).
 void expectRigid(const Members& members, const std::array<double, 16>& m) {
   constexpr double kTolerance = 1e-3;
   const auto dot = [&](size_t a, size_t b) {

@@ -1,26 +1,26 @@
-// What a page asks of the viewer: one JSON object a message, {"do": NAME, ...}.
+// Commands of a page to the viewer: one JSON object per message, {"do": NAME, ...}.
 //
 //   set         pane, key, value     a setting: integrator, mode, cache, denoiser, backend
 //   parameter   pane, name, value    one of the method's parameters; value null: its default
-//   camera      to_world, yfov?      16 numbers, column by column, rigid; metres, radians
+//   camera      to_world, yfov?      16 numbers, column-major, rigid; metres, radians
 //   resolution  width, height        pixels
-//   light       name, factor         on the radiance of a light of the scene
-//   layer       pane, name           a layer of the method over its image; "": none
-//   probe       pane, x, y           what the pane keeps of a pixel
-//   pause       on                   panes stand; the reference goes on
-//   look        on                   whether somebody sees the page; one that nobody does gets no
-//                                    images, and keeps nothing at work
-//   restart                          histories begin anew, with the next seed
-//   copy        from, to             the pane `to` gets the method of the pane `from`
-//   undo, redo                       the last step of what is set, back and forth
-//   save        name?                what is set, as a suite
-//   measure     name?                the same, and `restlab run` on it
-//   cancel                           ends what is measured
-//   picture     image                what is shown there as it was rendered, an EXR
+//   light       name, factor         factor on the radiance of a light of the scene
+//   layer       pane, name           shows a layer of the method over its image; "": none
+//   probe       pane, x, y           asks for what the pane keeps for a pixel
+//   pause       on                   stops the panes; the reference goes on
+//   look        on                   whether the page is visible; a hidden page gets no images
+//                                    and causes no rendering
+//   restart                          restarts the histories, with the next seed
+//   copy        from, to             gives the pane `to` the method of the pane `from`
+//   undo, redo                       one step back or forth in the settings
+//   save        name?                saves the settings as a suite
+//   measure     name?                saves the suite and starts `restlab run` on it
+//   cancel                           ends the running measurement
+//   picture     image                saves the image as it was rendered, an EXR
 //
-// Panes are numbered from 0; the image after those of panes is the reference. What a method or a
-// scene does not know, whoever runs the command says; here numbers are finite and bounded, and
-// texts short.
+// Panes are numbered from 0; the image after the last pane is the reference. The parser only checks
+// that numbers are finite and bounded and that texts are short. Names that a method or a scene does
+// not know are refused when the command is run.
 #pragma once
 
 #include <array>
@@ -40,10 +40,10 @@ struct SetSetting {
 struct SetParameter {
   uint32_t pane = 0;
   std::string name;
-  std::optional<ParameterValue> value;  // nothing: the default
+  std::optional<ParameterValue> value;  // empty: the default
 };
 struct MoveCamera {
-  std::array<double, 16> toWorld{};  // column by column
+  std::array<double, 16> toWorld{};  // column-major
   std::optional<double> yfov;
 };
 struct Resize {
@@ -73,7 +73,7 @@ struct CopyMethod {
 struct Undo {};
 struct Redo {};
 struct SaveSession {
-  std::string name;  // of the suite; "": of the scene and the time
+  std::string name;  // name of the suite; "": made from the scene and the time
 };
 struct Measure {
   std::string name;
@@ -89,9 +89,9 @@ using ViewCommand = std::variant<SetSetting, SetParameter, MoveCamera, Resize, S
 
 constexpr uint32_t kMostPanes = 2;
 
-// Throws Error (badUsage) with one line: what is wrong and what would be right.
+// Throws Error (badUsage) with one line: the mistake and what would be right.
 ViewCommand parseViewCommand(const std::string& text);
-// It changes what frames show or how they are made: the one under way is of no use any more.
+// True if the command changes the content or the making of frames: the frame under way is useless.
 bool changesFrames(const ViewCommand& command);
 
 }  // namespace restlab

@@ -33,7 +33,7 @@ Bytes imageMessage(ImageHeader header, const Image& image) {
   }
   for (const glm::vec3& pixel : image.pixels) {
     for (int c = 0; c < 3; ++c) {
-      // An infinity is the mark of a fault: what is finite stays so.
+      // Clamp finite values: an infinity would be taken for a fault of the renderer.
       const float most = HALF_MAX;
       const half value(std::isfinite(pixel[c]) ? std::clamp(pixel[c], -most, most) : pixel[c]);
       write(&value, sizeof value);

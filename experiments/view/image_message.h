@@ -1,8 +1,8 @@
-// An image on its way to a page.
+// Encodes an image for a page.
 //
-// Little-endian: "RLI1", then as 32-bit unsigned numbers slot, format (0: floats, 1: halves),
-// width, height and frame, as a 64-bit one epoch; from byte 32 on R, G, B of each pixel, row 0 on
-// top.
+// Format, little-endian: "RLI1"; then slot, format (0: floats, 1: halves), width, height and frame
+// as 32-bit unsigned numbers; epoch as a 64-bit one. R, G, B of each pixel begin at byte 32, row 0
+// on top.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,8 @@ struct ImageHeader {
 };
 constexpr size_t kImageHeaderBytes = 32;
 
-// `header` says the format; the size is the image's. Halves are rounded to the nearest; what
-// is finite and too large for them becomes the largest of them.
+// Takes the format from `header` and the size from `image`. Halves are rounded to the nearest; a
+// finite value above their range becomes the largest half.
 Bytes imageMessage(ImageHeader header, const Image& image);
 
 }  // namespace restlab

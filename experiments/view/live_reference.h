@@ -1,5 +1,5 @@
-// The reference of what a viewer shows. It converges while nothing else is to do, goes on from the
-// progress that other programs have kept of it, and is kept for them.
+// Reference of the viewer's picture. Converges while nothing else is to do. Starts from the
+// progress that other programs have stored and stores its own for them.
 #pragma once
 
 #include <functional>
@@ -13,38 +13,40 @@ namespace restlab {
 class LiveReference {
  public:
   explicit LiveReference(const ReferenceStore& store) : store_(store) {}
-  // Keeps what there is.
+  // Stores the samples, as keep() does.
   ~LiveReference();
   LiveReference(const LiveReference&) = delete;
   LiveReference& operator=(const LiveReference&) = delete;
 
-  // From here on of this picture; nothing is rendered yet. `prepared` must live until the next.
+  // Begins a new picture; renders nothing yet. `prepared` must live until the next call.
   void begin(const PreparedScene& prepared, const ReferenceConfig& config);
-  // The next sample of every pixel, for one half and then for the other.
-  // Where `isStopped` holds before it ends there is none, and the same one is next: false then.
+  // Renders the next sample of every pixel, for one half and then for the other. If `isStopped`
+  // becomes true before the end, the sample is dropped, stays the next one, and the result is
+  // false.
   bool addSample(const std::function<bool()>& isStopped = {});
-  // One that was read, instead: nothing is rendered. Without halves its own noise is in every
-  // error.
+  // Shows a reference that was read instead of rendering one. If it has no halves, its noise is in
+  // every error.
   void show(const Reference& reference);
-  // Where others find it; nothing where it is none of the scene's own cameras.
+  // Stores the samples for other programs; does nothing for a camera that is not one of the scene's
+  // own.
   void keep();
-  // With the metadata of a file. It is there, and was not given.
+  // Returns the reference with the metadata of a file. Requires isThere() and a rendered reference.
   Reference whole() const { return referenceOf(*prepared_, config_, state_); }
 
-  // Bytes that the rendered samples hold in the host's memory.
+  // Bytes of host memory that hold the rendered samples.
   uint64_t heldBytes() const {
     const bool isRendered = halves_.has_value() || state_.spp() > 0;
     return isRendered ? uint64_t(config_.width) * config_.height * kStateBytesPerPixel : 0;
   }
   uint64_t spp() const { return isGiven_ ? pictures_.spp : state_.spp(); }
-  // Both halves have a sample, as the rest needs.
+  // True if both halves have a sample; required by the functions below.
   bool isThere() const { return isGiven_ || state_.half1.count() > 0; }
-  // Made once after each sample.
+  // Pictures are computed once after each sample.
   const Image& mean() const { return pictures().mean; }
   const Image& half0() const { return pictures().half0; }
   const Image& half1() const { return pictures().half1; }
   double relmse() const { return pictures().relmse; }
-  // Of the last sample; 0 before there was one of this picture.
+  // Time of the last sample of this picture; 0 before the first one.
   double sampleMs() const { return sampleMs_; }
 
  private:
@@ -59,9 +61,10 @@ class LiveReference {
   const PreparedScene* prepared_ = nullptr;
   ReferenceConfig config_;
   ReferenceState state_;
-  // Of the scene's own cameras: those of a camera that somebody moves are seen once.
+  // Only set for the scene's own cameras: the reference of a camera moved by hand is never needed
+  // again.
   std::optional<ReferenceProgress> progress_;
-  std::optional<ReferenceHalves> halves_;  // from the first sample on
+  std::optional<ReferenceHalves> halves_;  // made at the first sample
   mutable Pictures pictures_;
   bool isGiven_ = false;
   double sampleMs_ = 0.0;

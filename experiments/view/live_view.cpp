@@ -21,7 +21,7 @@ bool hasHistory(const SessionConfig& config) {
   return method.hasHistory(resolveParameters(method, config.parameters));
 }
 
-// A size, a method or a parameter is another one.
+// True if a size, a method or a parameter differs.
 bool needsOtherMemory(const ViewSettings& a, const ViewSettings& b) {
   for (size_t i = 0; i < a.panes.size(); ++i) {
     const SessionConfig &before = a.panes[i].config, &after = b.panes[i].config;
@@ -124,7 +124,7 @@ bool LiveView::renderFrames(const StopCheck& isStopped) {
     Pane& pane = panes_[i];
     const auto stats = nextFrame(*pane.session, mayStop ? isStopped : StopCheck());
     if (!stats) {
-      // Panes keep step: those that have rendered go back.
+      // Keep the panes in step: undo the frames of panes that have already rendered.
       for (const auto& [before, ignored] : whole) before->session->takeBack();
       return false;
     }
@@ -226,7 +226,7 @@ uint64_t LiveView::heldBytes() const {
   for (const Pane& pane : panes_) {
     const SessionConfig& config = pane.session->config();
     const uint64_t pixels = uint64_t(config.width) * config.height;
-    // A session that cannot take a frame back may have copies all the same, which are not counted.
+    // A session that cannot take a frame back may still hold copies; they are not counted.
     bytes += pixels * hostBytesPerPixel(*pane.session, config.width, config.height) *
              (pane.session->canTakeBack() ? 2 : 1);
   }
@@ -292,7 +292,7 @@ void LiveView::resize(const std::vector<Pane*>& panes, const SessionConfig& befo
   try {
     resizeAll(after);
   } catch (...) {
-    // Where there was memory before. If there is none now, no session is whole: that is the end.
+    // Go back to the old size, which had memory. If this fails, no session is usable: give up.
     try {
       resizeAll(before);
     } catch (const std::exception& error) {
@@ -308,13 +308,13 @@ void LiveView::resize(const std::vector<Pane*>& panes, const SessionConfig& befo
   }
 }
 
-// What may throw comes first: a session of another method, then what the others can say no to.
+// Does everything that may throw first: new sessions, then changes that a kept session may refuse.
 void LiveView::become(ViewSettings next) {
   if (!hasScene()) {
     settings_ = std::move(next);
     return beginEpoch(false);
   }
-  // Runs go on with the seeds that they have: a step back is no run of before.
+  // Keep the current seeds: an undone step must not repeat an old run.
   for (size_t i = 0; i < panes_.size(); ++i)
     next.panes[i].config.seed = settings_.panes[i].config.seed;
   const bool isAnotherPicture = !isSamePicture(settings_, next);

@@ -29,22 +29,22 @@ using Json = nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
 constexpr size_t kMostLine = 1 << 20;
-// For what is to be kept of the run; the viewer's own end waits for it (prompt_end.h).
+// Time for the run to store its results; the viewer's own end waits for it (prompt_end.h).
 constexpr std::chrono::milliseconds kPatience{400};
 
-// Between fork() and exec(): calls that are safe there, and no others. What fails is written to
-// `failure`.
+// Runs between fork() and exec(): only async-signal-safe calls are allowed. Writes errno to
+// `failure` on an error.
 [[noreturn]] void becomeProgram(char* const* arguments, const char* folder, int output, int failure,
                                 pid_t viewer) {
-  // However the viewer ends, the run does: it keeps what is finished.
+  // Ends the run with the viewer, however that ends; the run keeps its finished results.
   const bool isTied = prctl(PR_SET_PDEATHSIG, SIGINT) == 0 && getppid() == viewer;
-  // A shell's background jobs ignore it, and so would their children.
+  // A shell's background jobs ignore SIGINT, and their children would inherit that.
   signal(SIGINT, SIG_DFL);
-  // A group of its own: whoever ends the viewer by Ctrl-C ends the run once, through the viewer.
+  // Own process group: Ctrl-C in the viewer must reach the run once, through the viewer.
   const bool isReady = isTied && setpgid(0, 0) == 0 && chdir(folder) == 0;
   const int in = open("/dev/null", O_RDONLY), out = open("/dev/null", O_WRONLY);
   if (isReady && dup2(in, 0) == 0 && dup2(out, 1) == 1 && dup2(output, 2) == 2) {
-    // The server's connections are none of its business.
+    // Close the server's connections in the new program.
     if (close_range(3, ~0u, CLOSE_RANGE_CLOEXEC) == 0) execve(arguments[0], arguments, environ);
   }
   const int error = errno;
@@ -52,7 +52,7 @@ constexpr std::chrono::milliseconds kPatience{400};
   _exit(127);
 }
 
-// Two ends; none where there was an error.
+// RAII: pipe with both ends. Throws Error (badInput) if it cannot be made.
 struct Pipe {
   Pipe() {
     if (pipe2(ends, O_CLOEXEC) != 0)
@@ -71,14 +71,13 @@ struct Pipe {
 
 }  // namespace
 
-// A program that does not end by the first signal, as a driver compiles a kernel, does by the
-// second, which has its default effect (experiments/runner/run/interrupt.h). Nothing outlives the
-// third.
+// Sends SIGINT twice, then SIGKILL. The first signal may be missed while a driver compiles a
+// kernel; the second one has its default effect (experiments/runner/run/interrupt.h).
 Measurement::~Measurement() {
   if (!isRunning()) return;
   pid_t ended = 0;
   for (const int signal : {SIGINT, SIGINT, SIGKILL}) {
-    kill(-child_, signal);  // with what it has started
+    kill(-child_, signal);  // the whole process group
     for (const auto start = Clock::now(); ended == 0 && Clock::now() - start < kPatience;) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
       int status = 0;
@@ -102,7 +101,7 @@ void Measurement::begin(const std::filesystem::path& program, const std::filesys
   int error = child_ < 0 ? errno : 0;
   output.closeWriting();
   failure.closeWriting();
-  // Nothing comes where the program has begun.
+  // Nothing is read if the program has started: exec() closes the pipe.
   if (child_ > 0 && ::read(failure.ends[0], &error, sizeof error) == sizeof error) {
     int status = 0;
     waitpid(child_, &status, 0);
@@ -124,7 +123,7 @@ void Measurement::begin(const std::filesystem::path& program, const std::filesys
 void Measurement::cancel() {
   if (!isRunning()) failUsage("cancel: nothing is measured");
   isCancelled_ = true;
-  kill(-child_, SIGINT);  // with what it has started
+  kill(-child_, SIGINT);  // the whole process group
 }
 
 bool Measurement::poll() {
@@ -132,7 +131,7 @@ bool Measurement::poll() {
   const bool isNew = read();
   int status = 0;
   if (waitpid(child_, &status, WNOHANG) != child_) return isNew;
-  read();  // what it said at last
+  read();  // the rest of its output
   close(pipe_);
   end(status);
   return true;
@@ -152,7 +151,7 @@ bool Measurement::read() {
   return isNew;
 }
 
-// A line of `run --json`.
+// Reads a line of `run --json`.
 void Measurement::hear(const std::string& line) {
   const Json event = Json::parse(line, nullptr, false);
   if (!event.is_object()) return;

@@ -1,5 +1,5 @@
-// `restlab run` of a saved session, as a process of its own. It ends with the thread that has begun
-// it, by whatever ends that.
+// Runs `restlab run` on a saved session, as a process of its own. The process ends with the thread
+// that began it, however that ends.
 #pragma once
 
 #include <sys/types.h>
@@ -14,27 +14,27 @@ class Measurement {
   enum class State { none, running, finished, failed, cancelled };
 
   Measurement() = default;
-  // Ends the run: what is finished of it stays in its folder.
+  // Ends the run; finished results stay in its folder.
   ~Measurement();
   Measurement(const Measurement&) = delete;
   Measurement& operator=(const Measurement&) = delete;
 
-  // `program` run `suite` -o `out` in `folder`. None is running. Throws Error (badInput) where it
-  // cannot be begun.
+  // Starts `program` run `suite` -o `out` in `folder`. None may be running. Throws Error (badInput)
+  // if it cannot be started.
   void begin(const std::filesystem::path& program, const std::filesystem::path& folder,
              const std::string& suite, const std::string& out);
-  // Reads what it has said; never waits. True where something is new.
+  // Reads the process's output; never waits. Returns true if something is new.
   bool poll();
-  // It ends when it has kept what is finished.
+  // Asks the process to end; it stores its finished results first.
   void cancel();
 
   State state() const { return state_; }
   bool isRunning() const { return state_ == State::running; }
-  // The last line that it said, for people.
+  // Last line of output, for people.
   const std::string& text() const { return text_; }
-  // Of the whole suite, from 0 to 1; 0 while it is unknown.
+  // Progress of the whole suite, from 0 to 1; 0 while unknown.
   double done() const { return done_; }
-  // The suite, and the folder of results, as begin() was given them.
+  // Arguments of begin(): the suite and the folder of results.
   const std::string& suite() const { return suite_; }
   std::filesystem::path report() const { return folder_ / out_ / "report.html"; }
   const std::string& out() const { return out_; }

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// EXR files are written to a disk; this one is gone with the object.
+// RAII: path of a temporary EXR, removed with the object. EXR files can only be written to a disk.
 class TemporaryFile {
  public:
   TemporaryFile() {

@@ -1,4 +1,5 @@
-// What a viewer shows, as a file: an EXR of what was rendered, with the metadata of `render`.
+// Writes an image of the viewer as a file: an EXR of what was rendered, with the metadata of
+// `render`.
 #pragma once
 
 #include <string>
@@ -7,11 +8,12 @@
 
 namespace restlab {
 
-// `image`: that of a pane, or after those the reference. "door-ajar-A-restir_gi.exr".
+// Returns a file name such as "door-ajar-A-restir_gi.exr". `image`: index of a pane, or the number
+// of panes for the reference.
 std::string pictureName(const LiveView& view, size_t image);
 
-// Bytes of the file: of a method its last frame as floats; of the reference its mean, halves and
-// variance; an image as its file is. Throws Error (badUsage) where it is not there yet.
+// Returns the bytes of the file: the last frame of a method as floats; mean, halves and variance of
+// the reference; an image's own file. Throws Error (badUsage) if it does not exist yet.
 std::string pictureBytes(const LiveView& view, size_t image);
 
 }  // namespace restlab

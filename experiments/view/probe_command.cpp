@@ -1,4 +1,4 @@
-// A pixel of a pane as a command line.
+// Makes the command line that renders a probed pixel again.
 #include <fmt/format.h>
 
 #include "experiments/runner/run/build_info.h"

@@ -15,11 +15,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Not "radiance", which is what a reservoir keeps.
+// Not named "radiance": a reservoir has a value of that name.
 constexpr const char* kShown = "shaded radiance";
 constexpr const char* kShownHelp = "what the frame shows: R, G, B";
 
-// "0.5 1 2 m" of the unit m is three numbers; what is no numbers stays a text.
+// Splits a value into numbers: "0.5 1 2 m" of the unit m is three numbers. A value that is not
+// numeric stays a text.
 Json valueJson(std::string text, const std::string& unit) {
   if (!unit.empty() && text.ends_with(" " + unit)) text.resize(text.size() - unit.size() - 1);
   std::istringstream words(text);

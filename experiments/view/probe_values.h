@@ -1,4 +1,4 @@
-// What a method keeps of a pixel and did there, as the page and `render --pixel` say it.
+// Values that a method keeps for a pixel, as the page and `render --pixel` show them.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,15 +9,15 @@
 
 namespace restlab {
 
-// After the last frame: the radiance that is shown, then Session::probe(). Throws Error (badUsage)
-// where there is no such pixel.
+// Returns the shown radiance of the last frame, then Session::probe(). Throws Error (badUsage) if
+// there is no such pixel.
 std::vector<ProbeValue> probedValues(const Session& session, uint32_t x, uint32_t y);
 
 // [{"name", "value", "unit", "help"}, ...]; a value is a number, several numbers or a text.
 nlohmann::ordered_json probedValuesJson(const Session& session, uint32_t x, uint32_t y);
 
-// Session::donors(): a line each, and [{"reuse", "x", "y" or "entry", "shift", "confidence",
-// "mis_weight", "share", "jacobian", "selected"}, ...] with null for what is not known.
+// Session::donors(): as text, one line each, and as [{"reuse", "x", "y" or "entry", "shift",
+// "confidence", "mis_weight", "share", "jacobian", "selected"}, ...] with null for unknown values.
 std::string probedDonorsText(const Session& session, uint32_t x, uint32_t y);
 nlohmann::ordered_json probedDonorsJson(const Session& session, uint32_t x, uint32_t y);
 

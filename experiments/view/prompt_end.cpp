@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kInterval{20};
 
-// True where it is stopped within `time`.
+// Returns true if a stop is requested within `time`.
 bool isStoppedWithin(const std::stop_token& stop, std::chrono::milliseconds time) {
   std::mutex mutex;
   std::condition_variable_any wake;
@@ -28,17 +28,17 @@ bool isStoppedWithin(const std::stop_token& stop, std::chrono::milliseconds time
   return wake.wait_for(lock, stop, time, [&] { return stop.stop_requested(); });
 }
 
-// Goes past the stream's buffer, whose lock another thread may hold. Says nothing where nobody
-// reads.
+// Bypasses the stream's buffer, whose lock another thread may hold. Writes nothing if stderr would
+// block.
 void sayAtEnd(const std::string& line) {
   pollfd out = {STDERR_FILENO, POLLOUT, 0};
   if (line.empty() || poll(&out, 1, 0) != 1) return;
   const std::string text = line + "\n";
-  if (write(STDERR_FILENO, text.data(), text.size()) < 0) return;  // the end comes all the same
+  if (write(STDERR_FILENO, text.data(), text.size()) < 0) return;  // the process ends anyway
 }
 
-// Drivers keep threads of the lowest priority. The process is gone when they are, which takes
-// seconds on a busy machine. Whoever may not raise them waits so long.
+// Drivers keep threads of the lowest priority, and the process is gone only when they are: seconds
+// on a busy machine. Without the right to raise them this wait remains.
 void raiseThreads() {
   std::error_code error;
   const int own = getpriority(PRIO_PROCESS, 0);

@@ -1,5 +1,5 @@
-// Ends the viewer soon after a signal, whatever its threads are in: a driver that compiles a kernel
-// for seconds hears none.
+// Ends the viewer soon after a signal, even if its threads cannot react, such as in a driver that
+// compiles a kernel for seconds.
 #pragma once
 
 #include <atomic>
@@ -11,15 +11,16 @@ namespace restlab {
 
 class PromptEnd {
  public:
-  // Leaves a busy machine some of the second in which the viewer is to end.
+  // Time after a signal for an orderly end: leaves a busy machine some of the second in which the
+  // viewer must be gone.
   static constexpr std::chrono::milliseconds kPatience{700};
 
-  // Looks for a signal (core/backend/stop.h) from here on. Unless it is destroyed within `patience`
-  // of it, temporary files are removed, `line` is said on stderr ("": nothing), and the process
-  // ends with ExitCode::interrupted. Files that are there are whole: each has got its name when it
-  // was (core/image/atomic_file.h).
+  // Watches for a signal (core/backend/stop.h). Unless destroyed within `patience` of it, removes
+  // temporary files, writes `line` to stderr ("": nothing) and ends the process with
+  // ExitCode::interrupted. Files that exist are complete: each got its name only when it was
+  // (core/image/atomic_file.h).
   explicit PromptEnd(std::string line, std::chrono::milliseconds patience = kPatience);
-  // The line is on stderr already.
+  // Suppresses the line: it is on stderr already.
   void setSaid() { isSaid_ = true; }
 
  private:

@@ -31,7 +31,7 @@ fs::path folderOfUser() {
 RedirectFile::RedirectFile(const std::string& url) {
   constexpr const char* kExtension = ".html";
   std::string name = (folderOfUser() / "restlab-view-XXXXXX.html").string();
-  // Readable for its owner alone from the first moment on.
+  // mkstemps() makes the file readable for its owner only, from the start.
   const int file = mkstemps(name.data(), int(std::strlen(kExtension)));
   if (file < 0) failInput(fmt::format("{}: cannot be written: {}", name, std::strerror(errno)));
   path_ = name;

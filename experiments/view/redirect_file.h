@@ -1,5 +1,5 @@
-// A page on the disk that leads to an address with a secret, for programs that open a browser: what
-// they are called with every user of the machine can read, and this file its owner alone.
+// Temporary page that redirects to an address with a secret, for starting a browser: every user of
+// the machine can read a program's arguments, but only the owner this file.
 #pragma once
 
 #include <filesystem>
@@ -9,10 +9,10 @@ namespace restlab {
 
 class RedirectFile {
  public:
-  // In the user's runtime folder, or that of temporary files. Throws Error (badInput) where it
-  // cannot be written.
+  // Writes to the user's runtime folder or the folder for temporary files. Throws Error (badInput)
+  // if it cannot be written.
   explicit RedirectFile(const std::string& url);
-  // Removes it.
+  // Removes the file.
   ~RedirectFile();
   RedirectFile(const RedirectFile&) = delete;
   RedirectFile& operator=(const RedirectFile&) = delete;

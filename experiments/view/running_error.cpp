@@ -37,14 +37,14 @@ Interval RunningError::Window::mean() const {
   for (size_t b = 0; b < kBatches; ++b)
     batches.push_back(meanOf(b * count / kBatches, (b + 1) * count / kBatches));
   Interval interval = meanInterval(batches);
-  // Batches may differ by a frame.
+  // Batches may differ in size by one frame: move the interval to the exact mean.
   interval.lo += mean - interval.value;
   interval.hi += mean - interval.value;
   interval.value = mean;
   return interval;
 }
 
-// Not by sums: a frame that was not finite is gone when it is no longer among them.
+// Sums directly, not by differences of sums_: a non-finite frame must not affect later windows.
 double RunningError::Window::meanOfNewest() const {
   if (size() < kNewest) return kUnknown;
   return std::accumulate(numbers_.end() - std::ptrdiff_t(kNewest), numbers_.end(), 0.0) /

@@ -12,31 +12,31 @@ namespace restlab {
 
 class RunningError {
  public:
-  // Forgets every frame: numbers of two settings never mix.
+  // Discards all frames: numbers of two settings must not be mixed.
   void restart();
-  // A frame, and the reference as it is by then: its mean, independent halves, and the samples of
-  // a pixel that are in them. relMSE and energy divide by the mean: those of a reference that was
-  // still noisy are another number. They begin anew whenever the samples have doubled.
+  // Adds a frame, compared with the current reference: its mean, independent halves, and samples
+  // per pixel. relMSE and energy divide by the mean and would mix references of different noise:
+  // they restart whenever `referenceSpp` has doubled.
   void add(const Image& frame, const Image& mean, const Image& half0, const Image& half1,
            uint64_t referenceSpp);
 
   size_t frames() const { return mse_.size(); }
-  double lastMse() const { return mse_.last(); }  // there is a frame
-  // Means over the window; each costs the same however long it is. Intervals are those of kBatches
-  // batches of frames side by side, and unknown before there are kLeastFrames. Histories that are
-  // longer than a batch make them too narrow, and a method that still converges makes them wide.
+  double lastMse() const { return mse_.last(); }  // requires a frame
+  // Means over the window; constant time for any length. Intervals come from kBatches consecutive
+  // batches of frames and are NaN before kLeastFrames. Histories longer than a batch make them too
+  // narrow, a method that still converges makes them wide.
   Interval mse() const;
   Interval relmse() const;       // relmse_e1e-2 against the halves
   Interval energyRatio() const;  // mean(frame) / mean(reference)
-  // Means of the newest kNewest frames, which a method that has converged by then no longer warms
-  // up in; NaN before there are so many.
+  // Means of the newest kNewest frames, in which a converged method no longer warms up; NaN before
+  // there are kNewest frames.
   double newestMse() const { return mse_.meanOfNewest(); }
   double newestRelmse() const { return relmse_.meanOfNewest(); }
 
   static constexpr size_t kBatches = 8, kLeastFrames = 64, kNewest = 32;
 
  private:
-  // Numbers, and their sums from the first on.
+  // Numbers and their prefix sums.
   class Window {
    public:
     void add(double number);
@@ -54,7 +54,7 @@ class RunningError {
     std::vector<double> numbers_, sums_{0.0};
   };
   Window mse_, relmse_, energy_;
-  uint64_t relativeSpp_ = 0;  // of the reference when relmse_ and energy_ began
+  uint64_t relativeSpp_ = 0;  // reference's spp when relmse_ and energy_ began
 };
 
 }  // namespace restlab

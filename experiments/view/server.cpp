@@ -39,7 +39,7 @@ constexpr std::chrono::seconds kPageTimeout{120};  // reports hold images
 constexpr std::chrono::milliseconds kAcceptPause{100};
 constexpr uint32_t kMostHeaderBytes = 8 << 10;
 
-// Nothing is fetched but from this server, and nothing runs but the page's own scripts.
+// Content-Security-Policy: loads nothing from other servers and runs only the page's own scripts.
 std::string policyOf(const std::string& page) {
   return fmt::format(
       "default-src 'none'; script-src {}; style-src 'unsafe-inline'; img-src data: blob:; "
@@ -47,7 +47,7 @@ std::string policyOf(const std::string& page) {
       scriptHashes(page));
 }
 
-// A page that the server gives, with its policy.
+// HTML page with its policy.
 struct Page {
   explicit Page(std::string text) : html(std::move(text)), policy(policyOf(html)) {}
   const std::string html, policy;
@@ -84,9 +84,9 @@ class ViewServer::Impl {
 
   struct Message {
     std::shared_ptr<const std::string> text;
-    std::shared_ptr<const Bytes> bytes;  // where there is no text
-    std::optional<uint32_t> slot;        // of which the newest counts
-    // Bytes that are never replaced.
+    std::shared_ptr<const Bytes> bytes;  // used if `text` is null
+    std::optional<uint32_t> slot;        // replaces a waiting message of the same slot
+    // Bytes of a text that is never replaced by a newer one.
     size_t keptBytes() const { return text && !slot ? text->size() : 0; }
   };
   void send(ClientId id, Message message);
@@ -131,7 +131,7 @@ class ViewServer::Impl {
     port_ = acceptor_.local_endpoint().port();
   }
 
-  // The address given, or that of a name which this machine has.
+  // Returns the given address, or the address of a given host name.
   asio::ip::address addressToListenOn() {
     ErrorCode error;
     const asio::ip::address given = asio::ip::make_address(options_.listen, error);
@@ -150,14 +150,14 @@ class ViewServer::Impl {
 
   void accept();
 
-  // What a request gets that is refused; nothing: it may have what it asks for.
+  // Returns status and reason of a refusal, or nothing if the request may be served.
   std::optional<std::pair<http::status, std::string>> refusal(const Request& request) const {
     const auto refuse = [](http::status status, const std::string& why) {
       return std::make_optional(std::make_pair(status, why));
     };
     if (request.method() != http::verb::get)
       return refuse(http::status::method_not_allowed, "only GET is served here");
-    // Two are refused: a proxy may go by the other one.
+    // Refuse duplicates: a proxy may have checked the other one.
     for (const http::field field : {http::field::host, http::field::origin}) {
       if (request.count(field) > 1)
         return refuse(http::status::bad_request,
@@ -189,7 +189,7 @@ class ViewServer::Impl {
     return std::nullopt;
   }
 
-  // Any name where the user chose to be reached from elsewhere.
+  // Accepts any name if the user chose to listen to other machines.
   bool isOurName(const std::string& name) const {
     if (!address_.is_loopback()) return !name.empty();
     return name == "localhost" || name == "127.0.0.1" || name == "[::1]" ||
@@ -214,7 +214,7 @@ class ViewServer::Impl {
   std::thread thread_;
 };
 
-// An open page.
+// Connection to an open page.
 class ViewServer::Impl::Client : public std::enable_shared_from_this<Client> {
  public:
   Client(Impl& server, ClientId id, beast::tcp_stream stream)
@@ -245,7 +245,7 @@ class ViewServer::Impl::Client : public std::enable_shared_from_this<Client> {
     write();
   }
 
-  // Without a word to the other side.
+  // Closes the connection without a closing handshake.
   void drop() {
     ErrorCode ignored;
     beast::get_lowest_layer(socket_).socket().close(ignored);
@@ -287,7 +287,7 @@ class ViewServer::Impl::Client : public std::enable_shared_from_this<Client> {
     });
   }
 
-  // Reading and writing may both find out.
+  // Called by both reading and writing on an error; only the first call counts.
   void end() {
     server_.unread_.forget(id_);
     if (server_.clients_.erase(id_) > 0) server_.events_.closed(id_);
@@ -298,11 +298,11 @@ class ViewServer::Impl::Client : public std::enable_shared_from_this<Client> {
   websocket::stream<beast::tcp_stream> socket_;
   beast::flat_buffer buffer_;
   std::deque<Message> waiting_;  // the first is being written while isWriting_
-  size_t waitingBytes_ = 0;      // of the others' texts
+  size_t waitingBytes_ = 0;      // bytes of the other texts
   bool isWriting_ = false;
 };
 
-// One request: the page, a refusal, or the way to a Client.
+// Serves one request: with the page, a refusal, or by becoming a Client.
 class ViewServer::Impl::Connection : public std::enable_shared_from_this<Connection> {
  public:
   Connection(Impl& server, Tcp::socket socket) : server_(server), stream_(std::move(socket)) {
@@ -339,7 +339,7 @@ class ViewServer::Impl::Connection : public std::enable_shared_from_this<Connect
     client->begin(request);
   }
 
-  // A page, or a line that says why there is none.
+  // Sends a page, or a line that says why there is none.
   void reply(http::status status, const std::string& line,
              const std::shared_ptr<const Page>& page = nullptr) {
     const bool isPage = page != nullptr;
@@ -397,8 +397,8 @@ void ViewServer::Impl::accept() {
       std::make_shared<Connection>(*this, std::move(socket))->begin();
       return accept();
     }
-    // No descriptor is free, say: whoever waits goes on waiting, and would be asked for again at
-    // once.
+    // An error such as no free descriptor: the connection keeps waiting and accept() would fail
+    // again at once, so pause first.
     acceptAgain_.expires_after(kAcceptPause);
     acceptAgain_.async_wait([this](ErrorCode) {
       if (!isClosing_) accept();

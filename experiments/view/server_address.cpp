@@ -50,7 +50,7 @@ std::string openedAs(const std::string& listen) {
   ErrorCode error;
   const asio::ip::address address = asio::ip::make_address(listen, error);
   if (error || !address.is_unspecified()) return listen;
-  // The sender of a packet that is never sent, to an address of documents.
+  // Ask the system for the sender address of a packet to a documentation address; nothing is sent.
   const bool isV6 = address.is_v6();
   const auto elsewhere = asio::ip::make_address(isV6 ? "2001:db8::1" : "192.0.2.1");
   asio::io_context io;

@@ -18,7 +18,7 @@ class Message {
  public:
   explicit Message(Operation operation) : bytes_(sizeof(uint32_t), '\0') {
     put(operation);
-    put(uint8_t{0});  // the keyboard stays where it is
+    put(uint8_t{0});  // false: tev does not take the keyboard focus
   }
   template <class Number>
   void put(Number value) {
@@ -59,7 +59,7 @@ std::string tevUpdateMessage(const std::string& name, const Image& image) {
   message.putText(name);
   message.putChannels();
   for (const int32_t side : {0, 0, int32_t(image.width), int32_t(image.height)}) message.put(side);
-  // In floats: the first of each channel, and from one pixel to the next.
+  // Offset of each channel, then the stride from pixel to pixel, both in floats.
   for (int64_t channel = 0; channel < kChannelCount; ++channel) message.put(channel);
   for (int channel = 0; channel < kChannelCount; ++channel) message.put(int64_t{kChannelCount});
   message.putPixels(image);

@@ -1,7 +1,8 @@
-// What tev, an image viewer, takes over a connection.
+// Messages to tev, an image viewer, over a connection.
 //
-// Little-endian: a 32-bit length of the whole message, a byte that says what to do, then what that
-// needs: texts end with 0, truth is one byte, numbers have 32 bits and those of memory 64.
+// Format, little-endian: a 32-bit length of the whole message, a byte with the operation, then its
+// arguments. Texts end with a zero byte, booleans are one byte, numbers have 32 bits, sizes in
+// memory 64 bits.
 #pragma once
 
 #include <string>
@@ -10,10 +11,10 @@
 
 namespace restlab {
 
-// A new image, black, in place of one of that name.
+// Creates a black image, replacing one with the same name.
 std::string tevCreateMessage(const std::string& name, uint32_t width, uint32_t height);
 
-// The pixels of an image that is there, as floats.
+// Sets the pixels of an existing image, as floats.
 std::string tevUpdateMessage(const std::string& name, const Image& image);
 
 }  // namespace restlab

@@ -21,10 +21,10 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr milliseconds kRetry{2000};
-// How long an end may wait for.
+// Longest wait in one call, so that the sender can end soon.
 constexpr milliseconds kGlance{100};
 
-// The other side has closed it. It has nothing to say else.
+// True if the other side has closed the socket. tev sends nothing that is needed here.
 bool isClosed(int socket) {
   char ignored[256];
   const ssize_t count = recv(socket, ignored, sizeof ignored, MSG_DONTWAIT);
@@ -102,7 +102,7 @@ void TevSender::work() {
   } while (rest(kRetry));
 }
 
-// Until the connection is lost, or this is to end.
+// Returns when the connection is lost or the sender is to end.
 void TevSender::serve(int socket) {
   Sizes sizes;
   while (std::optional<Waiting> images = nextImages(socket)) {
@@ -137,7 +137,7 @@ bool TevSender::rest(milliseconds time) {
   return !changed_.wait_for(lock, time, [&] { return isStopped_.load(); });
 }
 
-// A socket that does not block, or -1.
+// Returns a non-blocking socket, or -1.
 int TevSender::connected() {
   addrinfo hints{};
   hints.ai_socktype = SOCK_STREAM;

@@ -1,6 +1,6 @@
-// Images on their way to a running tev, on a thread of its own: who renders never waits for it. Of
-// each image the newest goes, twice a second at most. Where tev is not there, or goes away, that is
-// said once, and tried again from time to time.
+// Sends images to a running tev, on a thread of its own: rendering never waits for it. Sends the
+// newest of each image, at most twice a second. If tev is missing or goes away, warns once and
+// retries from time to time.
 #pragma once
 
 #include <atomic>
@@ -22,7 +22,7 @@ struct TevAddress {
   uint16_t port = 14158;
 };
 
-// "HOST", "HOST:PORT" or "[IPv6]:PORT". Throws Error (badUsage) where it is none.
+// Reads "HOST", "HOST:PORT" or "[IPv6]:PORT". Throws Error (badUsage) if `text` is none of them.
 TevAddress parseTevAddress(const std::string& text);
 
 class TevSender {
@@ -34,22 +34,23 @@ class TevSender {
   TevSender(const TevSender&) = delete;
   TevSender& operator=(const TevSender&) = delete;
 
-  // A number for each connection, which knows nothing of what went over another; 0: there is none.
+  // Number of the current connection, 0 if there is none. A new connection knows no image of an
+  // older one.
   uint64_t connection() const { return connection_; }
-  // An image of that name would be sent now.
+  // True if an image of that name would be sent now.
   bool takes(const std::string& name) const;
   void show(const std::string& name, const Image& image);
 
  private:
   using Clock = std::chrono::steady_clock;
   using Waiting = std::map<std::string, Image>;
-  using Sizes = std::map<std::string, std::pair<uint32_t, uint32_t>>;  // of images that tev has
+  using Sizes = std::map<std::string, std::pair<uint32_t, uint32_t>>;  // sizes of tev's images
 
   void work();
   void serve(int socket);
   std::optional<Waiting> nextImages(int socket);
   void complain(const std::string& why);
-  // False once this is to end.
+  // Waits; returns false if the sender is to end.
   bool rest(std::chrono::milliseconds time);
   int connected();
   bool sendAll(int socket, const std::string& bytes);
@@ -57,13 +58,13 @@ class TevSender {
   const TevAddress address_;
   std::atomic<bool> isStopped_{false};
   std::atomic<uint64_t> connection_{0};
-  bool isSaid_ = false;  // of the thread
+  bool isSaid_ = false;  // warned already; only used by the thread
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   Waiting waiting_;
   std::map<std::string, Clock::time_point> taken_;
-  std::thread thread_;  // the last: it uses the others
+  std::thread thread_;  // last: uses the members above
 };
 
 }  // namespace restlab

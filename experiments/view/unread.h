@@ -1,4 +1,4 @@
-// Bytes of texts that clients of the viewer's server have not taken. Any thread may ask.
+// Counts the bytes of texts that clients of the viewer's server have not taken. Thread-safe.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ class Unread {
     const std::lock_guard lock(mutex_);
     if (const auto found = bytes_.find(id); found != bytes_.end()) found->second -= bytes;
   }
-  // The client is gone.
+  // Forgets a client that is gone.
   void forget(ClientId id) {
     const std::lock_guard lock(mutex_);
     bytes_.erase(id);

@@ -13,8 +13,8 @@ namespace {
 constexpr uint32_t kBlockSide = 8;
 constexpr uint64_t kFewSamples = 32;
 
-// The largest channel of each mean over so many pixels a side that lies in a block with light. A
-// black one there is what few samples left so.
+// Returns the largest channel of each mean over `side` x `side` pixels within blocks that have
+// light. Black means within such blocks count as 0: few samples left them black.
 std::vector<float> brightestOf(const Image& image, uint32_t side, const Image& blocks) {
   const Image small = blockMeans(image, side);
   std::vector<float> brightest;
@@ -53,7 +53,8 @@ float exposureOfNoise(const Image& image) {
   for (const glm::vec3& mean : means.pixels)
     if (const double luminance = previewLuminance(mean); luminance > 0.0)
       luminances.push_back(luminance);
-  // Noise makes bright pixels brighter, and means make lamps larger: the darker of both is nearer.
+  // Noise makes single pixels too bright, means of 2x2 make lamps too large: take the larger
+  // exposure.
   return std::max(previewExposure(luminances, brightestOf(image, 1, means)),
                   previewExposure(luminances, brightestOf(image, 2, means)));
 }

@@ -1,20 +1,20 @@
-// How bright a page shows a scene at first.
+// Exposure with which a page opens a scene.
 #pragma once
 
 #include "experiments/view/live_view.h"
 
 namespace restlab {
 
-// As reports have it (previewExposure), of the reference or of the first pane's last frame; 1 where
-// there is neither.
+// Returns the exposure that reports use (previewExposure), from the reference or else the first
+// pane's last frame; 1 if there is neither.
 double exposureOf(const LiveView& view);
 
-// Estimates what previewExposure() says of the picture without noise. Of few samples most pixels
-// are black and the others far too bright: the average is of means over blocks of 8x8 pixels. What
-// is clipped goes by single pixels and 2x2, as a block at a lamp's edge is as bright as the lamp.
+// Estimates previewExposure() of the noise-free picture. With few samples most pixels are black and
+// the others far too bright: the average is over means of 8x8 blocks. Clipping is judged on single
+// pixels and on 2x2 means: a block at a lamp's edge would be as bright as the lamp.
 float exposureOfNoise(const Image& image);
 
-// Means over blocks of so many pixels a side; those at the right and below may be smaller.
+// Means over blocks of `side` x `side` pixels; blocks at the right and bottom edges may be smaller.
 Image blockMeans(const Image& image, uint32_t side);
 
 }  // namespace restlab

@@ -21,7 +21,7 @@ bool saysItIsReference(const fs::path& file, const LayeredImage& read) {
   return file.extension() == ".exr" && kind != read.metadata.end() && kind->second == "reference";
 }
 
-// As short as tells them apart.
+// Returns the shortest name that is not taken.
 std::string freeName(const ViewImages& images, const fs::path& file) {
   const auto isFree = [&](const std::string& name) {
     return !name.empty() && name != kReferenceSource && images.find(name) == nullptr;
@@ -48,7 +48,7 @@ void requireOneSize(const ViewImages& images) {
   if (images.reference) require(images.referenceFile, images.reference->mean);
 }
 
-// The check that `compare` makes.
+// Requires that all images are of the reference's scene, as `compare` does.
 void requireOneScene(const ViewImages& images) {
   const std::string reference = images.referenceFile.string();
   for (const FileImage& one : images.list)
@@ -114,7 +114,7 @@ ViewImages readResultsImages(const fs::path& folder, const std::string& table, b
     failUsage(fmt::format("--table {}: {} has no such table (it has: {}){}", label, folder.string(),
                           fmt::join(tables, ", "), didYouMean(label, tables)));
   }
-  // The front of another table's name may be this one's.
+  // Take the longest table name that fits: one table's name may begin with another's.
   const auto tableOf = [&](const std::string& stem) {
     std::string longest;
     for (const std::string& one : tables)

@@ -1,5 +1,5 @@
-// Images of files that a viewer shows in the place of methods: named one by one, or those that
-// `run` left in a folder.
+// Images of files that a viewer shows instead of methods: given one by one, or left by `run` in a
+// folder.
 #pragma once
 
 #include <filesystem>
@@ -13,43 +13,43 @@
 namespace restlab {
 
 struct FileImage {
-  std::string name;  // unique, and none of kMethodSource and kReferenceSource
+  std::string name;  // unique; neither kMethodSource nor kReferenceSource
   std::filesystem::path file;
   Image image;
   std::map<std::string, std::string> metadata = {};
 };
 
-// All of one size.
+// Images and reference of one size.
 struct ViewImages {
   std::string title;
   std::vector<FileImage> list;
   std::optional<Reference> reference;
   std::filesystem::path referenceFile;
 
-  // Null where none has that name.
+  // Returns null if no image has that name.
   const FileImage* find(const std::string& name) const;
 };
 
-// What a pane shows, beside the names of images.
+// Sources of a pane besides the names of images.
 constexpr const char* kMethodSource = "";
 constexpr const char* kReferenceSource = "reference";
 
-// A file that says of itself that it is a reference becomes that, where `reference` names none,
-// another image is there and it is looked for: methods have a reference of their own. Throws Error
-// (badInput) where a file cannot be read, is of another size than the first one or, unless
-// `anyReference`, says that it is of another scene or setting than the reference; (badUsage) where
-// there is none.
+// Reads images. Without `reference`, a file whose metadata says that it is a reference becomes the
+// reference, if there is another image and `looksForReference` is set (methods have a reference of
+// their own). Throws Error (badInput) if a file cannot be read, has another size than the first one
+// or, unless `anyReference`, names another scene or setting than the reference; (badUsage) if
+// `files` is empty.
 ViewImages readViewImages(const std::vector<std::filesystem::path>& files,
                           const std::filesystem::path& reference = {},
                           bool looksForReference = true, bool anyReference = false);
 
-// Of one table of a folder of results: the one of that name, or the first. Throws Error (badInput)
-// where the folder has no images of `run`, and as readViewImages() does; (badUsage) where it has
-// none of that table.
+// Reads the images of one table of a folder of results; table "": the first. Throws Error
+// (badInput) if the folder has no images of `run`, and as readViewImages() does; (badUsage) if
+// there is no such table.
 ViewImages readResultsImages(const std::filesystem::path& folder, const std::string& table,
                              bool anyReference = false);
 
-// Those of a folder that have images, in alphabetical order: "cornell-box-all".
+// Names of the folder's tables that have images, in alphabetical order: "cornell-box-all".
 std::vector<std::string> tablesOfResults(const std::filesystem::path& folder);
 
 }  // namespace restlab

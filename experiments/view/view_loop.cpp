@@ -27,7 +27,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// How long a signal may wait for, where there is nothing to do.
+// Longest wait for events when there is nothing to do; a signal may have to wait as long.
 constexpr milliseconds kIdle{100}, kShort{20};
 constexpr milliseconds kReferenceInterval{500};
 
@@ -35,7 +35,7 @@ double secondsSince(std::chrono::steady_clock::time_point then) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
 }
 
-// Processes that want to run, for each thread of the machine.
+// Load average per thread of the machine.
 double loadOfMachine() {
   double average = 0.0;
   const double threads = std::max(1u, std::thread::hardware_concurrency());
@@ -50,7 +50,7 @@ bool isNameLayer(const PaneSettings& pane) {
          });
 }
 
-// What has come of one page, read.
+// Parsed message of a page.
 struct Said {
   ClientId page = 0;
   std::string text;
@@ -114,7 +114,7 @@ void ViewLoop::take(const std::vector<PageEvent>& events) {
   }
   bool isOther = false;
   for (size_t i = 0; i < said.size(); ++i) {
-    // Of a drag its end is enough.
+    // Run only the last of consecutive commands on one target, such as a drag.
     const std::string target = targetOf(said[i].command);
     if (!target.empty() && i + 1 < said.size() && targetOf(said[i + 1].command) == target) continue;
     try {
@@ -133,7 +133,7 @@ void ViewLoop::take(const std::vector<PageEvent>& events) {
 }
 
 void ViewLoop::welcome(ClientId page) {
-  // The first frame says how bright the page is to show it.
+  // Render a first frame: the exposure in hello is computed from it.
   if (view_.frames(0) == 0 && !isStanding()) view_.renderFrames();
   sender_.opened(page);
   sender_.tell(page, helloText(facts_, view_));
@@ -193,7 +193,7 @@ void ViewLoop::change(const ViewCommand& command) {
     pictureChanged_ = changed_;
     referenceCreditS_ = 0.0;
   }
-  if (isPaused_) showPanes();  // another layer, say
+  if (isPaused_) showPanes();  // such as another layer
 }
 
 void ViewLoop::measure(const std::string& name) {
@@ -205,7 +205,7 @@ void ViewLoop::measure(const std::string& name) {
       freeSessionName(saveFolder_, name.empty() ? sessionName(view_) : safeFileName(name));
   writeTextFile(saveFolder_ / (suite + ".toml"), sessionToml(facts_, view_, suite));
   ++filesWritten_;
-  // What there is of the reference need not be rendered again.
+  // Store the reference: the run need not render its samples again.
   view_.keepReference();
   const std::filesystem::path program =
       facts_.program.empty() ? std::filesystem::read_symlink("/proc/self/exe") : facts_.program;
@@ -258,7 +258,7 @@ LiveView::StopCheck ViewLoop::stopCheck(double patienceS) const {
 
 void ViewLoop::renderRound() {
   const Clock::time_point start = Clock::now();
-  bool isNew = false;  // nobody knows how long it takes
+  bool isNew = false;  // a first frame may take any time
   for (size_t i = 0; i < view_.panes(); ++i)
     isNew = isNew || (view_.renders(i) && view_.frames(i) == 0);
   const bool isShort = !isNew && roundS_ < kLongRoundS;
@@ -268,14 +268,14 @@ void ViewLoop::renderRound() {
   roundS_ = secondsSince(start);
   showPanes();
   tellNumbers();
-  // What is saved up is spent at once where samples take longer than rounds, and is bounded.
+  // Credit is spent at once if samples take longer than rounds; bound it.
   referenceCreditS_ = std::min(referenceCreditS_ + kReferenceShare * secondsSince(start), 60.0);
 }
 
 bool ViewLoop::refine() {
   const LiveReference& reference = view_.reference();
   if (!view_.hasScene() || measurement_.isRunning()) return false;
-  // Rounds may be longer than that: who drags has said more meanwhile.
+  // Rounds may be longer than kStillS: a drag may have sent more commands meanwhile.
   if (secondsSince(pictureChanged_) < kStillS || events_.areWaiting()) return false;
   if (reference.spp() >= kMostReferenceSpp || view_.picture() == withoutReference_) return false;
   if (!isStanding() && referenceCreditS_ < reference.sampleMs() / 1000.0) return false;
@@ -315,7 +315,7 @@ void ViewLoop::showPanes() {
     sender_.show(header, view_.session(i).radiance(), isStill());
     if (view_.layer(i).empty()) continue;
     header.slot = kFirstLayerSlot + i;
-    // Names are to the last bit: a rounded one is another.
+    // Name layers (IDs) must be exact: a rounded ID is another one.
     sender_.show(header, view_.session(i).aov(view_.layer(i)),
                  isStill() || isNameLayer(view_.settings().panes[i]));
   }
@@ -355,15 +355,15 @@ void ViewLoop::showReference(bool isUrgent) {
   if (isStanding()) tellNumbers();
 }
 
-// Panes that stand are shown to the last bit; the reference again after each change, as pages go by
-// epochs.
+// Sends exact images of panes that stand still. Sends the reference again after each change: pages
+// match images by epoch.
 void ViewLoop::showWhatIsExact() {
   if (isPaused_ && (sender_.isRounded(0) || sender_.isRounded(1))) showPanes();
   showStanding(false);
   showReference(isStill() && sender_.isRounded(kReferenceSlot));
 }
 
-// What tev has not seen, where it is time for another image.
+// Sends tev the images that it has not seen, if it is time for another one.
 void ViewLoop::showTev() {
   if (!tev_) return;
   const uint64_t connection = tev_->connection();

@@ -9,12 +9,12 @@ namespace restlab {
 
 namespace {
 
-// More than any methods take.
+// Upper bound for any methods.
 constexpr uint64_t kMostBytesPerPixel = 32 << 10;
 // Two panes, a layer over each, and the reference.
 constexpr uint64_t kImagesForPages = 5;
 
-// Mesa's device in software has no memory of its own.
+// llvmpipe, Mesa's software device, uses host memory.
 bool isOnHost(const Session& session) {
   return session.config().backend == "cpu" || session.device().rfind("llvmpipe", 0) == 0;
 }
@@ -41,7 +41,7 @@ uint64_t viewBytesPerPixel(const std::vector<size_t>& panes, size_t referenceHal
 void requireViewMemory(uint32_t width, uint32_t height, uint64_t bytesPerPixel, uint64_t held,
                        const std::optional<uint64_t>& available) {
   const uint64_t pixels = uint64_t(width) * height;
-  // The quotient: a product could wrap around.
+  // Compare by division: a product could wrap around.
   if (!available || bytesPerPixel == 0 || pixels <= (*available + held) / bytesPerPixel) return;
   throw Error(ExitCode::deviceUnavailable,
               fmt::format("view: {}x{} pixels of {} bytes (both panes, their copies and the "

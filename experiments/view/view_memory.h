@@ -1,5 +1,5 @@
-// Memory that a view takes of the host, all of it together: each part is allocated at another
-// time, and would find that there is room for itself.
+// Checks the host memory of a whole view at once: its parts are allocated one after another, and
+// each would fit alone.
 #pragma once
 
 #include <cstddef>
@@ -12,23 +12,23 @@
 
 namespace restlab {
 
-// Bytes a pixel of buffers that lie in the host's memory, of a session with an image of that size.
-// 0 of one on a graphics card.
+// Bytes per pixel of a session's buffers in host memory, for an image of that size. 0 on a graphics
+// card.
 size_t hostBytesPerPixel(const Session& session, uint32_t width, uint32_t height);
 
-// The same of a session that is not there. A session of one pixel is made to find out.
+// Bytes per pixel of a session that does not exist yet. Creates a session of one pixel to find out.
 size_t hostBytesPerPixelOf(const PreparedScene& prepared, SessionConfig config);
 
-// Panes of so many bytes a pixel with the copies of their buffers, both halves of a reference of so
-// many with theirs and its sums, and the images for pages.
+// Bytes per pixel of a whole view: `panes` (bytes per pixel of each) with copies of their buffers,
+// both halves of a reference (`referenceHalf` each) with copies and sums, and the images for pages.
 uint64_t viewBytesPerPixel(const std::vector<size_t>& panes, size_t referenceHalf);
 
-// Throws Error (deviceUnavailable) where it is more than what is `available` and `held` by the view
-// already. Nothing available: the system does not say.
+// Throws Error (deviceUnavailable) if the view needs more than `available` plus the bytes it
+// already holds (`held`). No value in `available`: the system does not say.
 void requireViewMemory(uint32_t width, uint32_t height, uint64_t bytesPerPixel, uint64_t held,
                        const std::optional<uint64_t>& available);
 
-// Whether no view of that size can be too large: then nobody needs to ask further.
+// True if any view of that size fits: no further check is needed.
 bool fitsSurely(uint32_t width, uint32_t height, const std::optional<uint64_t>& available);
 
 }  // namespace restlab

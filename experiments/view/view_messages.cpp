@@ -22,7 +22,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Names of scenes and devices may hold any bytes.
+// Replaces invalid UTF-8: names of scenes and devices may hold any bytes.
 std::string textOf(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -34,7 +34,8 @@ Json intervalJson(const Interval& interval) {
   return {{"value", interval.value}, {"lo", orNull(interval.lo)}, {"hi", orNull(interval.hi)}};
 }
 
-// Rigid, as commands are; a node that scales or shears has no part in the view.
+// Returns a rigid matrix, as the camera command requires; scale and shear of a node do not affect
+// the view.
 Json matrixJson(const SceneCamera& camera) {
   glm::dmat4 m = camera.cameraToWorld;
   const glm::dmat3 axes(m);
@@ -68,7 +69,7 @@ std::string kindOfLight(const Scene& scene, const std::string& name) {
   return "material";
 }
 
-// Those that a factor may be given for.
+// Names of lights that may get a factor.
 std::vector<std::string> namesOfLights(const Scene& scene) {
   std::vector<std::string> names = lightNames(scene);
   if (names.size() > 1) names.insert(names.begin(), kAllLights);
@@ -111,7 +112,7 @@ Json parametersJson(const SessionConfig& config) {
   const ParameterMap resolved = resolveParameters(method, config.parameters);
   const std::vector<ParameterInfo> infos = method.parameters();
   Json all = Json::array();
-  size_t next = 0;  // parameters() has those of each part, in their order
+  size_t next = 0;  // parameters() lists the parameters of each part, in the order of parts()
   for (const PartInfo* part : method.parts()) {
     for (size_t i = 0; i < part->parameters.size(); ++i) {
       const ParameterInfo& info = infos.at(next++);
@@ -125,7 +126,7 @@ Json parametersJson(const SessionConfig& config) {
   return all;
 }
 
-// What every method can show; the manual says more of each.
+// Layers that every method has; the manual says more of each.
 Json layersJson(const SessionConfig& config) {
   Json all = {
       {{"name", "depth"}, {"unit", "m"}, {"help", "distance along the ray"}},
@@ -265,7 +266,7 @@ std::string numbersText(const LiveView& view, const Transport& transport, double
   const LiveReference& reference = view.reference();
   const SessionConfig& size = view.settings().panes.front().config;
   const double sampleMs = reference.sampleMs();
-  Json referenceJson = nullptr;  // there can be none
+  Json referenceJson = nullptr;  // stays null if there can be no reference
   if (view.hasScene() || reference.isThere()) {
     referenceJson = {{"spp", reference.spp()},
                      {"relmse", reference.isThere() ? orNull(reference.relmse()) : Json(nullptr)},

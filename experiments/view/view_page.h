@@ -1,11 +1,11 @@
-// The page of the viewer: one file that loads nothing else.
+// Page of the viewer: one HTML file that loads nothing else.
 #pragma once
 
 #include <string>
 
 namespace restlab {
 
-// HTML. What stands on it the scripts make.
+// Returns the HTML; its content is made by the scripts.
 std::string viewPage();
 
 }  // namespace restlab

@@ -13,7 +13,7 @@ bool isChangeOfFrames(const std::string& text) {
   try {
     return changesFrames(parseViewCommand(text));
   } catch (const Error&) {
-    return false;  // whoever takes it says why
+    return false;  // the error is reported when the command is run
   }
 }
 

@@ -1,4 +1,4 @@
-// What pages have said, on its way from the server's thread to the one that renders.
+// Queue of page events, from the server's thread to the rendering thread.
 #pragma once
 
 #include <atomic>
@@ -20,26 +20,27 @@ struct PageEvent {
 
 class PageEvents {
  public:
-  // Texts beyond are lost: no page types so fast. Pages that come and go never are.
+  // Limits of queued texts; further texts are lost, as no page sends so fast. Opened and closed
+  // events are never lost.
   static constexpr size_t kMostTexts = 4096, kMostBytes = 4 << 20;
 
-  // Never waits for long.
+  // Never blocks for long.
   void add(PageEvent event);
-  // All there are; where there is none, after so long a time at the latest.
+  // Returns all events; waits for the first one at most `patience`.
   std::vector<PageEvent> take(std::chrono::milliseconds patience);
   bool areWaiting() const;
-  // Commands that change frames are. Asked for often.
+  // True if commands that change frames are waiting. Cheap: called often during a frame.
   bool areChangesWaiting() const { return areChanges_.load(std::memory_order_relaxed); }
-  // Whether texts were lost since the last call.
+  // Returns whether texts were lost since the last call.
   bool takeLost();
-  // Ends waits.
+  // Ends a wait in take().
   void wake();
 
  private:
   mutable std::mutex mutex_;
   std::condition_variable there_;
   std::vector<PageEvent> events_;
-  size_t bytes_ = 0;  // of their texts
+  size_t bytes_ = 0;  // bytes of queued texts
   bool isWoken_ = false, isLost_ = false;
   std::atomic<bool> areChanges_ = false;
 };

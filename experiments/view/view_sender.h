@@ -1,4 +1,4 @@
-// From the viewer to its pages: texts and images, of which the newest count.
+// Sends texts and images to the viewer's pages; newer ones replace those still waiting.
 #pragma once
 
 #include <chrono>
@@ -13,42 +13,42 @@
 
 namespace restlab {
 
-// Slots of images; those of panes are 0 and 1, those of the layers over them 16 more.
+// Slots of images: panes are 0 and 1, the layers over them kFirstLayerSlot + pane.
 constexpr uint32_t kReferenceSlot = 2, kFirstLayerSlot = 16;
 
 class ViewSender {
  public:
-  // Floats of so many bytes go out even while something moves.
+  // Images of at most this size are sent as floats even while something moves.
   static constexpr size_t kSmallBytes = 512 << 10;
 
   ViewSender(const ViewServerOptions& options, PageEvents& events);
 
   std::string url() const { return server_.url(); }
-  // Pages that somebody sees.
+  // True if at least one page is visible.
   bool hasPages() const { return pages_.size() > unseen_.size(); }
   void opened(ClientId page) { pages_.insert(page); }
   void closed(ClientId page) {
     pages_.erase(page);
     unseen_.erase(page);
   }
-  // In the background of a browser a page gets no numbers and no images.
+  // Hides or shows a page: a page in the background gets no numbers and no images.
   void setSeen(ClientId page, bool isSeen);
 
-  // In their order. A page that takes none for long is let go.
+  // Sends texts in order. A page that does not read them for long is disconnected.
   void tell(ClientId page, const std::string& text) { server_.send(page, text); }
   void tellAll(const std::string& text);
-  // Of each kind the newest.
+  // Replaces a waiting text of the same kind.
   void tellState(const std::string& text) { tellNewest(kStateSlot, text, true); }
   void tellNumbers(const std::string& text) { tellNewest(kNumbersSlot, text, false); }
-  // `isExact`: as floats, whatever it takes. To all pages that somebody sees.
+  // Sends to all visible pages. `isExact`: as floats, whatever the size.
   void show(ImageHeader header, const Image& image, bool isExact);
 
   size_t bytesUnread(ClientId page) const { return server_.bytesUnread(page); }
   void setReport(std::string html) { server_.setReport(std::move(html)); }
 
-  // The slot's last image went out in halves.
+  // True if the slot's last image was sent as halves.
   bool isRounded(uint32_t slot) const;
-  // Of the panes' last image, and bytes on their way over the last second.
+  // Format of the first pane's last image and rate of bytes written over the last second.
   Transport transport();
 
  private:
@@ -60,7 +60,7 @@ class ViewSender {
   std::chrono::steady_clock::time_point measured_ = std::chrono::steady_clock::now();
   uint64_t measuredBytes_ = 0;
   double megabytesPerSecond_ = 0.0;
-  ViewServer server_;  // the first to go: it calls back
+  ViewServer server_;  // last, destroyed first: it calls back
 };
 
 }  // namespace restlab

@@ -39,7 +39,7 @@ std::string quoted(const std::string& text) {
   return out + '"';
 }
 
-// A number of TOML that reads back as it was, and never as a whole number.
+// Formats a TOML float that reads back exactly; never a whole number.
 std::string numberText(double value) {
   const std::string text = fmt::format("{}", value);
   return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
@@ -91,7 +91,7 @@ std::string nameOf(const SessionConfig& config) {
          (config.denoiser == "none" ? "" : " + " + config.denoiser);
 }
 
-// Ratios are against what the last pane shows, by its name in tables of several backends, too.
+// Ratios are against the last pane; tables of several backends name it with its backend.
 std::string baselineOf(const ViewSettings& settings) {
   const SessionConfig &first = settings.panes.front().config, &last = settings.panes.back().config;
   const std::string name = methodNames(settings).back();
@@ -161,7 +161,7 @@ std::string methodToml(const PaneSettings& pane, const std::string& name) {
   return text;
 }
 
-// Upright cameras have their right in the horizon.
+// True if the camera's right is not horizontal.
 bool isRolled(const SceneCamera& camera) {
   return std::abs(glm::normalize(glm::dvec3(camera.cameraToWorld[0])).y) > 1e-6;
 }
@@ -198,7 +198,7 @@ ViewSettings settingsOfSuite(const Suite& suite, const SuiteScene& scene,
 constexpr const char* kSourceKeys[kMostPanes] = {"a", "b"};
 constexpr const char* kMethodWord = "method";
 
-// "method", "reference" or the file of an image.
+// Reads "method", "reference" or the file of an image.
 std::string sourceOf(const ConfigTable& table, const char* key, const ViewImages& images) {
   const std::string given = table.getString(key, kMethodWord);
   if (given == kMethodWord) return kMethodSource;
@@ -274,7 +274,8 @@ void requireImagesOf(const ViewStart& start) {
   std::map<std::string, std::string> words =
       describe(start.prepared, start.settings.panes.front().config);
   describeCamera(start.settings.camera, words);
-  // Images of another version of the program may be compared.
+  // Ignore the program's version, since images of other versions may be compared, and the camera's
+  // index, since its numbers identify it.
   for (const char* item : {"camera_index", "reference_sources"}) words.erase(item);
   if (!start.settings.lights.empty()) return;  // no file says which lights were changed by hand
   for (const FileImage& one : start.images.list) {

@@ -1,4 +1,5 @@
-// What a viewer shows as a suite: a file that `restlab view` opens and `restlab run` measures.
+// Stores a viewer's settings as a suite: a file that `restlab view` opens and `restlab run`
+// measures.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +9,7 @@
 
 namespace restlab {
 
-// A scene and what is set in it; without a scene images alone.
+// Scene and settings of a suite; without a scene only images.
 struct ViewStart {
   SceneRequest request;
   PreparedScene prepared;
@@ -16,33 +17,34 @@ struct ViewStart {
   ViewImages images;
 };
 
-// Of a suite: the first scene, the first two methods that are rendered, the camera and the light of
-// the measured frame. With one method the other pane has the average of path's frames. What panes
-// show in the place of methods is in a table [view]; a file that holds no more shows images alone.
-// Throws Error with the place of what is wrong; of images as readViewImages() does.
+// Reads a suite: the first scene, the first two rendered methods, the camera and the light of the
+// measured frame. With one method the other pane gets the average of path's frames. The table
+// [view] says what panes show instead of methods; a file with only this table shows only images.
+// Throws Error with the place of a mistake; for images as readViewImages() does.
 ViewStart startOfSuite(const std::filesystem::path& file, bool anyReference = false);
 
-// Layers are not in it: no suite has any. Throws Error (badUsage) where a suite cannot say what is
-// set: a camera that looks straight up or down. `name`: of the suite, and of its folder of results.
-// Its reference gets the samples that the view's has, and kLeastReferenceSpp at least.
+// Writes the suite. Layers are left out: suites have none. Throws Error (badUsage) if a suite
+// cannot express the settings: a camera that looks straight up or down. `name`: name of the suite
+// and of its folder of results. The suite's reference gets as many samples as the view's, at least
+// kLeastReferenceSpp.
 std::string sessionToml(const ViewFacts& facts, const LiveView& view, const std::string& name);
 constexpr uint64_t kLeastReferenceSpp = 256;
 
-// Of the scene and of now, as part of file names.
+// Name made of the scene and the time, for file names.
 std::string sessionName(const LiveView& view);
 
-// Of the panes' methods, each another one: "restir_gi (biased)", "path + accumulate".
+// Distinct names of the panes' methods: "restir_gi (biased)", "path + accumulate".
 std::vector<std::string> methodNames(const ViewSettings& settings);
 
-// What panes show: the name of a method, "reference", or that of an image.
+// Names of what panes show: a method, "reference" or an image.
 std::vector<std::string> paneNames(const LiveView& view);
 
-// Throws Error (badInput) where methods are of another size than images beside them.
+// Throws Error (badInput) if methods have another size than the images beside them.
 void requireSizeOf(const ViewImages& images, const ViewSettings& settings, bool hasScene);
-// The same where images say that they are of another scene or setting than the methods.
+// Throws if images say that they are of another scene or setting than the methods.
 void requireImagesOf(const ViewStart& start);
 
-// The camera is not upright, as those of keyframes are: it is saved without its roll.
+// True if the camera has a roll, which is lost in the suite: keyframes are upright.
 bool losesRoll(const LiveView& view);
 
 }  // namespace restlab

@@ -1,4 +1,4 @@
-// Where sessions go.
+// Names of the files and folders of saved sessions.
 #pragma once
 
 #include <filesystem>
@@ -6,11 +6,11 @@
 
 namespace restlab {
 
-// A name of which the folder has neither a suite nor results: STEM, or STEM-2 and so on. No file is
-// written over, and no run replaces the results of another one.
+// Returns a name for which the folder has neither a suite nor results: STEM, STEM-2, ... No file is
+// overwritten, and no run replaces the results of another one.
 std::string freeSessionName(const std::filesystem::path& folder, const std::string& stem);
 
-// Where the results of a suite of that name go, in the same folder.
+// Folder of the results of a suite, relative to the suite's folder.
 std::filesystem::path resultsOfSession(const std::string& name);
 
 }  // namespace restlab

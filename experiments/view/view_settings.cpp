@@ -17,7 +17,7 @@ namespace restlab {
 
 namespace {
 
-// Those of another method's parameters that this one has.
+// Keeps the parameters that the new method has, too.
 ParameterMap parametersFor(const SessionConfig& config) {
   ParameterMap kept;
   for (const ParameterInfo& info : findMethod(config).parameters()) {
@@ -27,7 +27,7 @@ ParameterMap parametersFor(const SessionConfig& config) {
   return kept;
 }
 
-// A whole number is a number, too.
+// Converts a whole number to a real parameter.
 ParameterValue valueFor(const ParameterInfo& info, const ParameterValue& value) {
   const int64_t* whole = std::get_if<int64_t>(&value);
   if (whole && std::holds_alternative<double>(info.defaultValue)) return double(*whole);
@@ -41,20 +41,20 @@ bool hasLayer(const SessionConfig& config, const std::string& name) {
 
 char letterOf(uint32_t pane) { return char('A' + int(pane)); }
 
-// Both stand in one place and look along one axis, with the same side up.
+// True if both have the same position, viewing axis and up side.
 bool isSamePlace(const glm::dmat4& a, const glm::dmat4& b) {
   constexpr double kClose = 1e-9;
   const glm::dvec3 apart(a[3] - b[3]);
   if (glm::length(apart) > kClose * (1.0 + glm::length(glm::dvec3(a[3])))) return false;
   for (const int axis : {1, 2}) {
     const glm::dvec3 was = glm::normalize(glm::dvec3(a[axis]));
-    const double least = axis == 2 ? 1.0 - kClose : 0.5;  // sheared axes are no right ones
+    const double least = axis == 2 ? 1.0 - kClose : 0.5;  // sheared axes need not be orthogonal
     if (glm::dot(was, glm::normalize(glm::dvec3(b[axis]))) < least) return false;
   }
   return true;
 }
 
-// Changes settings in place, and says what in words.
+// Changes settings in place and describes the change in words.
 struct Change {
   ViewSettings& settings;
   const ViewChoices& choices;
@@ -66,7 +66,7 @@ struct Change {
     return settings.panes[index];
   }
 
-  // What the new method does not have goes.
+  // Drop the parameters and the layer that the new method does not have.
   void setMethod(PaneSettings& pane, SessionConfig config) {
     config.parameters = parametersFor(config);
     pane.config = withNames(std::move(config));
@@ -97,7 +97,7 @@ struct Change {
                             fmt::join(keys, ", "), didYouMean(command.key, keys)));
     }
     config.*(setting->value) = command.value;
-    // Modes and caches are the integrator's.
+    // Reset mode and cache: they belong to the integrator.
     if (setting->value == &SessionConfig::integrator) config.mode = config.cache = "";
     setMethod(pane, std::move(config));
     text = fmt::format("{}: {} {}", letterOf(command.pane), command.key, command.value);
@@ -132,7 +132,7 @@ struct Change {
         camera.cameraToWorld[column][row] = command.toWorld[size_t(4 * column + row)];
     }
     if (command.yfov) camera.yfov = *command.yfov;
-    // The page knows no mirrors: it names a camera of the scene by its place alone.
+    // A page does not know mirroring: take it from the scene's camera at the same place.
     for (const SceneCamera& known : choices.scene->cameras)
       if (isSamePlace(known.cameraToWorld, camera.cameraToWorld))
         camera.isMirrored = known.isMirrored;
@@ -200,7 +200,8 @@ std::string targetOf(const ViewCommand& command) { return std::visit(Target{}, c
 
 void setLight(LightFactors& lights, const std::string& name, double factor) {
   std::erase_if(lights, [&](const auto& light) { return light.first == name; });
-  // A mesh and its material may both have one, of which the last counts, 1 as well.
+  // A mesh and its material may both have a factor, and the last one counts: keep a factor of 1
+  // then.
   const bool isAlone = name == kAllLights ||
                        std::all_of(lights.begin(), lights.end(),
                                    [](const auto& light) { return light.first == kAllLights; });
@@ -228,7 +229,7 @@ LightFactors ownLights(const LightFactors& absolute, const Scene& scene) {
       setLight(own, name, factor);
     }
   }
-  // Of nothing no factor makes something: then each light is off by itself.
+  // No factor on 0 gives a light again: switch each light off by itself instead.
   const bool isOff = all == 0.0 && std::any_of(own.begin(), own.end(), [](const auto& light) {
                        return light.second != 0.0;
                      });
@@ -245,7 +246,7 @@ LightFactors ownLights(const LightFactors& absolute, const Scene& scene) {
 
 namespace {
 
-// Of images alone there is no method, light or camera to change.
+// True if the command is possible with images only: without a method, light or camera.
 bool isOfImages(const ViewCommand& command) {
   const auto* set = std::get_if<SetSetting>(&command);
   return (set != nullptr && set->key == "source") || std::holds_alternative<CopyMethod>(command);

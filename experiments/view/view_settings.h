@@ -1,5 +1,5 @@
-// What a page can set in a viewer, apart from who renders it: a value to keep, to go back to and to
-// write down.
+// Settings of a viewer that a page can change, independent of rendering: they can be stored, undone
+// and written to a file.
 #pragma once
 
 #include <string>
@@ -12,61 +12,61 @@
 namespace restlab {
 
 struct PaneSettings {
-  SessionConfig config;  // mode and cache by their names; parameters that were given, and no others
-  std::string layer;     // over its image; "": none
-  // What it shows: kMethodSource, kReferenceSource or the name of an image (view_images.h).
+  SessionConfig config;  // mode and cache by name; only parameters that were given
+  std::string layer;     // layer over the image; "": none
+  // kMethodSource, kReferenceSource or the name of an image (view_images.h).
   std::string source = {};
 };
 
-// In the order of their setting. That of `all` is a factor on those of every light.
+// Factors in the order they were set. The factor of `all` multiplies those of every light.
 using LightFactors = std::vector<std::pair<std::string, double>>;
 
 struct ViewSettings {
-  std::vector<PaneSettings> panes;  // of one size
-  LightFactors lights;              // those that were set
+  std::vector<PaneSettings> panes;  // all of one size
+  LightFactors lights;              // lights that were set
   SceneCamera camera;
 };
 
-// What a command changes.
+// Result of a command.
 struct ViewChange {
-  ViewSettings settings;  // afterwards
-  std::string target;     // what it is about: changes of one target in a row are one step
-  std::string text;       // for people, short
+  ViewSettings settings;  // after the change
+  std::string target;     // consecutive changes of one target are one step
+  std::string text;       // short description
 };
 
-// What commands may name.
+// Names that commands may use.
 struct ViewChoices {
-  const Scene* scene = nullptr;      // as it was loaded; null: images alone are shown
-  std::vector<std::string> sources;  // of panes
+  const Scene* scene = nullptr;      // as loaded; null: only images are shown
+  std::vector<std::string> sources;  // sources of panes
 };
 
-// Of commands that set something: all but Probe, Pause, Restart, Undo, Redo and SaveSession. Throws
-// Error (badUsage) in one line where the command names what is not there; what a session finds out
-// is not looked at.
+// Applies a command that sets something, such as SetSetting or CopyMethod. Throws Error (badUsage)
+// with one line if the command names something unknown; mistakes that only a session finds are not
+// checked.
 ViewChange changedBy(const ViewCommand& command, const ViewSettings& settings,
                      const ViewChoices& choices);
 
-// With the names that are there where none was given. Throws Error (badUsage) as findMethod() does.
+// Fills in default names of mode and cache. Throws Error (badUsage) as findMethod() does.
 SessionConfig withNames(SessionConfig config);
 
-// Needs a session of its own to go from one to the other: all but parameters, size and seed.
+// False if a change from one to the other needs a new session. Ignores parameters, size and seed.
 bool isSameMethod(const SessionConfig& a, const SessionConfig& b);
 bool isSameSize(const SessionConfig& a, const SessionConfig& b);
 bool isSameCamera(const SceneCamera& a, const SceneCamera& b);
-// Apart from seeds.
+// Ignores seeds.
 bool isSame(const ViewSettings& a, const ViewSettings& b);
-// The same picture, whatever methods make it.
+// Compares the picture only, not the methods.
 bool isSamePicture(const ViewSettings& a, const ViewSettings& b);
 
-// The last factor of a light counts; a 1 that changes nothing is left out.
+// Replaces an earlier factor of the light; drops a factor of 1 that has no effect.
 void setLight(LightFactors& lights, const std::string& name, double factor);
-// As the events of suites have them, one after the other: the last factor of a light counts, and
-// `all` is one for every light.
+// Converts to factors as events of a suite use them, applied in order: the last factor of a light
+// counts, and `all` sets every light.
 LightFactors absoluteLights(const LightFactors& lights);
-// The other way round, of lights that set what absoluteLights() would.
+// Inverse of absoluteLights().
 LightFactors ownLights(const LightFactors& absolute, const Scene& scene);
 
-// "" for what may not be left out where more of the same follows. Of Probe and so on, too.
+// Target of the command; "" if the command must not be skipped when another one follows.
 std::string targetOf(const ViewCommand& command);
 
 }  // namespace restlab

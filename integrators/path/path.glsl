@@ -1,6 +1,6 @@
 // path: the yardstick. One path per pixel and frame; at each vertex one light sample and one BSDF
-// sample, combined by the power heuristic (Veach 1997, chapter 9). Unbiased, but where its paths
-// end in cells of radiance.
+// sample, combined by the power heuristic (Veach 1997, chapter 9). Unbiased, unless paths end in
+// radiance cells.
 #define RL_WALK_STATE PathState
 #include "core/caches/entries/groups.glsl"
 #include "core/radiance/ends.glsl"

@@ -1,14 +1,14 @@
 // restir_gi: the age of histories.
 
-// How many frames of this view a history averages, this one included. A history that the camera has
-// moved counts as one frame: what its pixel did not see from where it was, it knows from this frame
-// alone, and that decides the error. Neighbours may have seen it.
+// Number of frames of this view that a history averages, this one included. After a camera move a
+// history counts as one frame: light that the pixel did not see from the old position is known from
+// this frame alone, which decides the error. Neighbours may have seen that light.
 RL_FN float giAge() {
   if (gParams.temporalReuse == 0u) return 1.0f;
   return min(float(gFrame.stillFrames), gParams.confidenceCap) + 1.0f;
 }
 
-// Of a pixel's own light: the last word of its quad.
+// Unpacks the last word of a pixel's own-light quad.
 RL_FN GiOwnCount giOwnCount(uint word) {
   GiOwnCount count;
   count.taken = word & 0xffu;

@@ -10,7 +10,7 @@ namespace restlab {
 
 namespace {
 
-// The exchange of the last frame.
+// Results of the exchange pass in the last frame.
 class Exchanged {
  public:
   explicit Exchanged(const Kept& kept)
@@ -18,7 +18,7 @@ class Exchanged {
     const rl::RestirGiParams params = giParamsOf(kept);
     places_ = params.spatialNeighbours;
     if (kept.frame == nullptr || quads_.empty()) return;
-    // As giDonors() has it.
+    // Number of donors as in giDonors().
     donors_ = kept.frame->stillFrames < params.settledFrames ? params.spatialNeighbours
                                                              : params.agedNeighbours;
   }
@@ -28,7 +28,7 @@ class Exchanged {
     const size_t W = 4 * (slot * rl::RL_PATH_RESERVOIR_QUADS + rl::RL_PATH_SAMPLE_QUADS) + 2;
     return std::bit_cast<float>(reservoirs_[W]) > 0.0f;
   }
-  // Its sample, as its k-th partner sees it.
+  // Returns whether the k-th partner sees the slot's sample.
   bool isSeen(size_t slot, uint32_t k) const {
     const size_t at = 4 * (slot * places_ + k);
     const glm::vec3 F = packing_.unpackPositive3(quads_[at], quads_[at + 1]);

@@ -7,7 +7,7 @@
 
 namespace restlab {
 
-// rejected_shifts and partner. They are read off the exchange's buffer: no pass writes them.
+// Layers rejected_shifts and partner, read from the exchange buffer: no pass writes them.
 std::vector<LayerInfo> giDonorLayers();
 
 }  // namespace restlab

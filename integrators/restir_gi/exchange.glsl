@@ -1,5 +1,5 @@
-// restir_gi, exchange pass: every pixel shows its sample to the partners that it serves over space.
-// Partners are mutual, so that each shift serves the merges of both.
+// restir_gi, exchange pass: every pixel shifts its sample to its spatial partners. Partners are
+// mutual, so that each shift serves the merges of both.
 #include "core/resampling/shift.glsl"
 #include "core/resampling/reservoir.glsl"
 #include "core/payload/path_sample.glsl"

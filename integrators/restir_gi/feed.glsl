@@ -1,9 +1,9 @@
-// restir_gi, feed pass of caches in world space: each entry that was seen merges samples of this
-// frame that pixels have offered. An offer is what the pixel found in this frame alone, at this
-// frame's film sample: the entry's own sample is seen from that very x1, so that the merge is right
-// for each film sample on its own. A new entry begins with an offer, at the x1 that it started
-// from: there, and for no other point, it is a sample. One that nobody feeds may forget
-// (change.glsl).
+// restir_gi, feed pass of caches in world space: each entry that was seen merges samples that
+// pixels have offered in this frame. An offer is the sample that the pixel found in this frame
+// alone, at this frame's film sample. The entry's own sample is shifted to the offer's x1, so that
+// the merge is right for each film sample on its own. A new entry begins with an offer, at the x1
+// that the offer started from: the offer is a valid sample there, and for no other point. An entry
+// without feeders may forget (change.glsl).
 #include "core/resampling/ris.glsl"
 #include "core/resampling/mis.glsl"
 #include "core/resampling/shift.glsl"
@@ -41,9 +41,10 @@ RL_FN real reuseUniform(RL_IN(GiWithEntries) s, uint k) {
 
 #include "core/resampling/reuse.glsl"
 
-// Three rays an offer: the camera's to its x1, from there to the entry's sample, from the anchor to
-// the offer. Without an anchor the first offer that shows the pixel's surface gives it: `here` then
-// is that offer, and the entry begins.
+// Traces three rays per offer: the camera ray to the offer's x1, from that x1 to the entry's
+// sample, and from the anchor to the offer's sample. If the entry has no anchor, the first offer
+// that shows the pixel's surface provides it: `here` becomes that offer, and the entry begins.
+// Returns whether the entry has begun.
 RL_FN bool giAskOffers(RL_INOUT(GiWithEntries) s, RL_INOUT(PathReservoir) here,
                        RL_INOUT(Anchor) anchor) {
   bool isNew = anchor.surface.isHit == 0u;
@@ -134,7 +135,7 @@ RL_FN void kernelMain(RL_IN(uvec2) row) {
   PathReservoir here;
   here.path.suffix = pathNoSuffix();
   giReadEntry(entry, here);
-  // As the first of those who feed it has noticed.
+  // Share kept, as found at the pixel of the first feeder.
   float kept = giKept(entryOfferer(s.id[first]));
   here.state.confidence = reuseCapped(here.state.confidence, gParams.entries.cap) * kept;
   bool isForgotten = !(kept > 0.0f);

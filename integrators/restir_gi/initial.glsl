@@ -1,6 +1,6 @@
 // restir_gi, initial pass: traces the pixel's path and makes a reservoir of it. In a still view the
-// last frame's sample is one of the same pixel: it is merged here. What no other pixel could use
-// (mirrors, glass, lights in view) is averaged over time alone.
+// last frame's sample is one of the same pixel and is merged here. Light that no other pixel could
+// reuse (mirrors, glass, lights in view) is averaged over time alone.
 #include "core/resampling/ris.glsl"
 #include "core/caches/entries/entries.glsl"
 #include "core/resampling/shift.glsl"
@@ -17,8 +17,8 @@
 #include "integrators/restir_gi/age.glsl"
 #include "integrators/restir_gi/change.glsl"
 
-// The merge over time of a still view: the shift is the identity, for every surface and path. Both
-// are samples of one pixel, with one target: weights by confidence are exact.
+// Temporal merge in a still view: the shift is the identity, for every surface and path. Both are
+// samples of one pixel, with one target, so MIS weights by confidence are exact.
 RL_FN void giMergeStillView(uint slot, float kept, RL_INOUT(PathReservoir) r) {
   ReservoirState donor = giReadStateBefore(slot);
   GiOverTime t;
@@ -63,7 +63,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
       count.taken = 0u;
       count.frames = uint(float(count.frames) * kept);
     }
-    // The first frame had this frame's film sample already.
+    // lights_in_view took this frame's film sample already, in the first frame of the view.
     float weight = 1.0f / (min(float(count.frames), gParams.confidenceCap) + 1.0f);
     if (gFrame.stillFrames < count.taken) weight = 0.0f;
     own = recordVec3(before) * (1.0f - weight) + own * weight;

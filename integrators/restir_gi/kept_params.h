@@ -8,7 +8,7 @@
 
 namespace restlab {
 
-// All zero where no session has rendered it.
+// Returns zeros if no session has rendered the frame.
 inline rl::RestirGiParams giParamsOf(const Kept& kept) {
   rl::RestirGiParams params{};
   if (kept.params.size() == sizeof params) std::memcpy(&params, kept.params.data(), sizeof params);

@@ -1,5 +1,5 @@
-// restir_gi, pass of new views: light seen directly at the edges of lamps, from the film samples
-// of this frame and the next ones. If the view stays, those frames have nothing to add.
+// restir_gi, pass of new views: light seen directly at the edges of lamps, from the film samples of
+// this frame and the next ones. If the view stays, the next frames add nothing.
 #include "core/transport/lights_in_view.glsl"
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {

@@ -1,4 +1,4 @@
-// restir_gi: the merge of a slot's reservoir with the one that was left in the last frame.
+// restir_gi: temporal merge of a slot's reservoir with the one of the last frame.
 #define RL_REUSE_STATE GiOverTime
 
 RL_FN bool reuseDonor(RL_IN(GiOverTime) t, uint k, RL_OUT(ReservoirState) donor) {
@@ -12,7 +12,7 @@ RL_FN real reuseUniform(RL_IN(GiOverTime) t, uint k) { return t.u; }
 
 #include "core/resampling/reuse.glsl"
 
-// With the donor's confidence capped. The uniform number of the merge.
+// Sets the donor, with its confidence capped, and draws the random number of the merge.
 RL_FN void giBeginOverTime(RL_INOUT(GiOverTime) t, RL_IN(ReservoirState) donor, uint slot) {
   t.donor = donor;
   t.donor.confidence =

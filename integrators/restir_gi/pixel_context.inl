@@ -1,4 +1,4 @@
-// Members of a kernel context that is made for one pixel, as core/backend/cpu_kernel.inl has them.
+// Members of a kernel context that is made for one pixel, as in core/backend/cpu_kernel.inl.
 static constexpr uint kFeatures = FEATURES;
 
 const SceneData& gScene;
@@ -11,7 +11,7 @@ const RestirGiParams& gParams;
 #include "core/dialect/order.glsl"
 #include "core/backend/cpu_trace.inl"
 
-// What a slot has after the frame, its suffix too.
+// Returns the reservoir of a slot after the frame, with its suffix.
 PathReservoir reservoirOf(uint slot) {
   PathReservoir r;
   r.path.suffix = pathNoSuffix();

@@ -25,10 +25,10 @@ namespace {
 
 using Donors = std::vector<restlab::Donor>;
 
-// Of what is told by a difference: of shares, as reservoirs are packed; of sums of confidences.
+// Rounding errors of differences: of shares (reservoirs are packed), of sums of confidences.
 constexpr double kRoundingOfShares = 1e-3, kRoundingOfConfidence = 1e-4;
 
-// As in core/backend/cpu_kernel.inl: the spatial pass, with the shifts that the exchange pass made.
+// The spatial pass, with the shifts of the exchange pass; as in core/backend/cpu_kernel.inl.
 namespace over_space {
 template <uint FEATURES>
 struct Ctx {
@@ -87,7 +87,7 @@ struct Ctx {
 
 #undef RL_REUSE_STATE
 
-// The initial pass, which knows what the pixel found in this frame alone, and the merge over time.
+// The initial pass, which finds the pixel's sample of this frame again, and the temporal merge.
 namespace over_time {
 template <uint FEATURES>
 struct Ctx {
@@ -106,7 +106,7 @@ struct Ctx {
     return r;
   }
 
-  // The resampling weight of what the pixel found, against a donor of the pixel `before`.
+  // Resampling weight of the pixel's own sample, against a donor of the pixel `before`.
   real ownWeight(const PathReservoir& own, uint before, real cDonor) {
     const bool isStill = gFrame.stillFrames != 0u;
     const uint flags = isStill ? gParams.temporalFlags & ~RL_REUSE_PAIRWISE : gParams.temporalFlags;
@@ -121,7 +121,8 @@ struct Ctx {
     return merge.wSum;
   }
 
-  // `confidence`: of the pixel's reservoir before entries were merged. `isLast`: none were.
+  // `confidence`: of the pixel's reservoir before entries were merged. `isLast`: no entries were
+  // merged.
   Donors donors(uvec2 pixel, real confidence, bool isLast) {
     const uint slot = slotOfPixel(pixel);
     if (gParams.temporalReuse == 0u || gFrame.frame == 0u) return {};
@@ -132,22 +133,22 @@ struct Ctx {
     restlab::Donor donor;
     donor.reuse = "time";
     donor.id = before;
-    // The pixel's sample of this frame has the confidence 1; without one more, nothing was merged.
+    // The pixel's sample of this frame has confidence 1: without more, nothing was merged.
     donor.confidence = confidence - 1.0f;
     if (before == RL_INVALID || !(donor.confidence > kRoundingOfConfidence)) return {};
     const PathReservoir merged = reservoirOf(slot);
     const real wSum = merged.state.W * reuseTarget(merged.state.F);
     const uint film = cameraFilmBits(pixel);
-    // Samples keep the film sample that they were found with, each pixel and frame has another one.
+    // Reused samples keep their film sample, and each pixel and frame has another one.
     donor.isSelected = isLast && wSum > 0.0f && merged.path.film != film;
-    // What is left of the donor: all of the weights that is not the pixel's own. Cells in which
-    // paths end are not what they were.
+    // Share of the donor: the part of the weights that is not the pixel's own. Unknown if paths end
+    // in cells, which have changed since.
     if (isLast && wSum > 0.0f && gParams.cells.count == 0u) {
       const real own = ownWeight(found(pixel), before, real(donor.confidence));
       donor.share = clamp(1.0f - own / wSum, 0.0f, 1.0f);
     }
-    // Both samples are of one pixel in a still view: the shift is the identity. Otherwise a share
-    // tells, if it is more than what packing hides.
+    // In a still view both samples are of one pixel: the shift is the identity. Otherwise the shift
+    // was accepted if the share exceeds the rounding of packing.
     donor.shift =
         isStill || donor.share.value_or(0.0) > kRoundingOfShares ? "accepted" : "not kept";
     if (isStill) donor.misWeight = donor.confidence / confidence;
@@ -205,7 +206,7 @@ struct Ctx {
         giReadEntry(s.id[k], r);
         one.shift = failedTest(r, pixel, film);
       }
-      // Of several the one whose integrand the pixel has, but for rounding.
+      // Select the donor whose integrand is the pixel's, up to rounding.
       const real off = length(s.theirs[k].F - now.state.F);
       if (all.size() == 1 || off < nearest) {
         nearest = off;
@@ -245,7 +246,7 @@ namespace restlab {
 
 namespace {
 
-// Kernels read these alone, so that what they read may be a copy that nobody writes to.
+// Binds a buffer. Kernels only read it, so a copy that nobody writes to may be bound.
 template <typename Ref>
 void bind(const Kept& kept, const std::string& name, Ref& ref) {
   const std::span<const uint32_t> words = kept.words(name);
@@ -270,7 +271,7 @@ std::vector<Donor> giDonorsOf(const Kept& kept, size_t pixel) {
   bind(kept, "entry_reservoirs", buffers.entryReservoirs);
   bind(kept, "entry_suffixes", buffers.entrySuffixes);
   const rl::uvec2 at(pixel % kept.frame->width, pixel / kept.frame->width);
-  // Suffixes are not there in scenes without glossy surfaces.
+  // Scenes without glossy surfaces have no suffixes.
   constexpr uint32_t kAll = rl::RL_FEATURE_ALL;
   return buffers.suffixes.data != nullptr
              ? rl::donorsOf<kAll>(kept, buffers, giParamsOf(kept), at)

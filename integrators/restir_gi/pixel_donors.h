@@ -1,4 +1,4 @@
-// What the merges of restir_gi did at a pixel in the last frame, computed again on the host.
+// Merges of restir_gi at a pixel in the last frame, computed again on the host.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,9 @@
 
 namespace restlab {
 
-// The pixel's own sample, then the donors over space, over time and of its entries. Of the
-// merge over time the donor's state is gone, as the frame has written over it: its share is what
-// the pixel's own sample, traced again, leaves.
+// Returns the pixel's own sample, then its spatial donors, its temporal donor and its entries. The
+// frame has overwritten the state of the temporal donor: the donor's share is the rest that the
+// pixel's own sample, traced again, leaves.
 std::vector<Donor> giDonorsOf(const Kept& kept, size_t pixel);
 
 }  // namespace restlab

@@ -1,7 +1,7 @@
-// What a merge makes of one candidate. Inside a kernel context, after core/resampling/merge.glsl
-// and core/payload/path_shift.glsl.
+// Candidates of a merge, one by one. Included inside a kernel context, after
+// core/resampling/merge.glsl and core/payload/path_shift.glsl.
 
-// Of all donors, after caps.
+// Sum of the confidences of all donors, after caps.
 real confidenceOf(const RL_REUSE_STATE& s, uint count) {
   ReservoirState donor = reservoirEmpty();
   real sum = 0.0f;
@@ -11,8 +11,8 @@ real confidenceOf(const RL_REUSE_STATE& s, uint count) {
   return sum;
 }
 
-// The first test that the shift of a sample to the pixel fails, in the order of pathShiftStep(),
-// with x1 seen through `film`.
+// Names the first test that the shift of a sample to the pixel fails, in the order of
+// pathShiftStep(), with x1 seen through `film`.
 const char* failedTest(const PathReservoir& r, const uvec2& pixel, uint film) {
   if (!(r.state.W > 0.0f)) return "empty";
   const Ray ray = cameraFilmRay(gFrame.camera, pixel, film);
@@ -27,7 +27,8 @@ const char* failedTest(const PathReservoir& r, const uvec2& pixel, uint film) {
   return reuseTarget(shifted.F) > 0.0f ? "occluded" : "dark";
 }
 
-// A donor in a merge. Its share is the resampling weight until who asks divides by their sum.
+// Describes a donor of a merge. `share` is the resampling weight until the caller divides it by the
+// sum of weights.
 restlab::Donor asDonor(const char* reuse, size_t id, const ReservoirState& donor,
                        const Shifted& here, MergeState merge, uint flags) {
   restlab::Donor out;

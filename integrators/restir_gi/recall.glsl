@@ -1,9 +1,10 @@
-// restir_gi, recall pass of caches in world space, in frames of a new view: merges what entries
-// remember into the pixel's reservoir. An entry's sample is a path from its anchor alone; here it
-// gets a film sample, drawn for this one merge. So both have one domain, film times paths, and the
-// shift between them keeps the film sample. MIS weights depend on the anchor, and where the anchor
-// lies depends on the film samples of the pixel that began the entry: that pixel does not ask it.
-// (That film sample may travel to others by reuse. What is left is said in docs/decisions.md.)
+// restir_gi, recall pass of caches in world space, in frames of a new view: merges samples of
+// entries into the pixel's reservoir. An entry's sample is a path from its anchor alone; here it
+// gets a film sample, drawn for this one merge. Both samples then have one domain, film times
+// paths, and the shift between them keeps the film sample. MIS weights depend on the anchor, and
+// the anchor's position depends on the film samples of the pixel that began the entry: that pixel
+// does not use it. (The film sample may travel to others by reuse. docs/decisions.md says what is
+// left.)
 #include "core/resampling/ris.glsl"
 #include "core/resampling/mis.glsl"
 #include "core/resampling/shift.glsl"
@@ -40,9 +41,9 @@ RL_FN real reuseUniform(RL_IN(GiWithEntries) s, uint k) {
 
 #include "core/resampling/reuse.glsl"
 
-// One camera ray, then two segments an entry: the pixel's sample from the anchor, the entry's from
-// the x1 of the film sample. The biased mode traces them, too: taken as free, the first costs up to
-// a fifth of the energy where what anchors see differs from what the pixel sees.
+// Traces one camera ray, then two segments per entry: from the anchor to the pixel's sample, and
+// from the film sample's x1 to the entry's sample. The biased mode traces both, too: taken as free,
+// the first costs up to a fifth of the energy if anchors and pixel see different things.
 RL_FN void giAskEntries(RL_INOUT(GiWithEntries) s, RL_IN(PathReservoir) here, RL_IN(uvec2) pixel,
                         uint film, uint count) {
   Surface x1 = anchorSurface(anchorNone());

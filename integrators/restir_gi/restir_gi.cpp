@@ -223,7 +223,8 @@ std::string whyWithoutEffect(const std::string& name, const ParameterMap& p) {
 
 std::string three(const glm::vec3& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }
 
-// As pathReservoirWrite() and, from kState on, reservoirStateWrite() lay reservoirs out.
+// Word offsets of a reservoir, as in pathReservoirWrite() and, from kState on,
+// reservoirStateWrite().
 constexpr size_t kReservoir = 4 * rl::RL_PATH_RESERVOIR_QUADS;
 constexpr size_t kState = 4 * rl::RL_PATH_SAMPLE_QUADS;
 constexpr size_t kConfidence = kState + 3;
@@ -276,7 +277,7 @@ std::vector<LayerInfo> layers() {
   age.summary = "frames since the view was new or the light around the pixel was found changed";
   age.unit = "frames";
   age.values = [](const Kept& kept) {
-    // As giOwnWord() packs it.
+    // Layout as in giOwnWord().
     return [words = kept.words("own_light")](size_t pixel) {
       return float(words[4 * pixel + 3] >> 8u);
     };
@@ -286,7 +287,7 @@ std::vector<LayerInfo> layers() {
   ofEntry.unit = "samples";
   ofEntry.onlyWith.parameter = kEntryCount;
   ofEntry.values = [](const Kept& kept) {
-    // A place that a new entry has taken may still hold the reservoir of the one before it.
+    // A hash slot that a new entry has taken may still hold the reservoir of the previous one.
     const auto words = kept.words("entry_reservoirs"), anchors = kept.words("anchors");
     return ofPixelsEntry(kept, [words, anchors](uint32_t entry) {
       const bool hasAnchor = anchors[4 * rl::RL_ANCHOR_QUADS * size_t{entry} + 6] >> 30u != 0;

@@ -14,61 +14,61 @@
 
 RL_NAMESPACE_BEGIN
 
-// The merge over time: of one donor.
+// State of the temporal merge: one donor.
 struct GiOverTime {
-  ReservoirState donor;  // its confidence capped
+  ReservoirState donor;  // confidence is capped
   Shifted ours;
   Shifted theirs;
   vec3 ratio;
   float u;
 };
 
-// The merge over space: of the slot's partners.
+// State of the spatial merge: the slot's partners are the donors.
 struct GiOverSpace {
   uint slot;
-  float share;  // of their confidence
+  float share;  // factor of the donors' confidence
   Rng rng;
 };
 
-// The merge of a pixel with its entries, and that of an entry with what pixels offer: of
+// State of the merge of a pixel with its entries, and of an entry with the offers of pixels: up to
 // RL_MAX_DONORS donors.
 struct GiWithEntries {
-  uint slot;   // of the pixel; the entry
-  uint id[4];  // entries; groups of pixels. RL_INVALID: none
+  uint slot;   // slot of the pixel; or the entry
+  uint id[4];  // entries; or groups of pixels. RL_INVALID: none
   Shifted ours[4];
   Shifted theirs[4];
   Rng rng;
 };
 
-// What a pixel's own light is the average of.
+// Number of samples in the average of a pixel's own light.
 struct GiOwnCount {
-  uint taken;   // film samples of which lights_in_view took light in view when the view was new
-  uint frames;  // of this view, but for those whose light is forgotten
+  uint taken;   // film samples that lights_in_view took when the view was new
+  uint frames;  // frames of this view, less those that were forgotten
 };
 
 struct RestirGiBuffers {
   QuadRef visible;  // core/dialect/visible.h
   QuadRef visibleBefore;
-  // Of caches in world space (core/caches/README.md).
+  // From caches in world space (core/caches/README.md).
   UintRef proposals;
   QuadRef anchors;
   UintRef feeders;
   RadianceBuffers cells;
   UintRef changes;  // core/changes
   Vec3Ref radiance;
-  // One quad: light that no other pixel could use, averaged over time in a still view, and its
-  // GiOwnCount. lights_in_view leaves its light here for the initial pass.
+  // One quad per pixel: light that no other pixel could reuse, averaged over time in a still view,
+  // and its GiOwnCount. lights_in_view leaves its light here for the initial pass.
   QuadRef own;
   QuadRef ownBefore;
-  QuadRef reservoirs;  // of this frame: initial, then temporal
-  QuadRef history;  // of the last frame, in still views then offers; replaced by the spatial pass
+  QuadRef reservoirs;  // reservoirs of this frame: initial, then temporal
+  QuadRef history;     // last frame's, in still views then offers; replaced by the spatial pass
   QuadRef suffixes;
   QuadRef suffixesHistory;
-  // Between the exchange and the spatial pass, spatialNeighbours entries a pixel: its sample as the
-  // partner sees it, and the partner's slot (RL_INVALID: none).
+  // Between the exchange and the spatial pass, spatialNeighbours entries per pixel: the pixel's
+  // sample shifted to the partner, and the partner's slot (RL_INVALID: none).
   QuadRef exchange;
   UintRef outlines;  // 1: a pixel beside it shows another surface
-  // Of caches in world space: reservoirs of entries (core/caches/entries/entries.glsl).
+  // For caches in world space: reservoirs of entries (core/caches/entries/entries.glsl).
   QuadRef entryReservoirs;
   QuadRef entrySuffixes;
 };
@@ -76,16 +76,16 @@ struct RestirGiBuffers {
 struct RestirGiParams {
   uint temporalFlags;  // RL_REUSE_*
   uint spatialFlags;
-  uint spatialNeighbours;  // of young histories; at least agedNeighbours
+  uint spatialNeighbours;  // donors of young histories; at least agedNeighbours
   uint agedNeighbours;
-  uint settledFrames;  // after so many still frames none is young
+  uint settledFrames;  // after so many still frames no history is young
   uint lightEdgeSamples;
   float donorNoise;    // reuseDonorShare()
   uint temporalReuse;  // 0: off
-  uint reproject;      // 0: pixels do not follow surfaces
+  uint reproject;      // 0: no reprojection
   float confidenceCap;
-  float movingConfidenceCap;  // of frames of a new view
-  float maxReflectanceRatio;  // per channel, of surfaces, for the carried per-channel estimates
+  float movingConfidenceCap;  // in frames of a new view
+  float maxReflectanceRatio;  // bound per channel on the reflectance ratio of carried estimates
   PathParams path;
   PartnerParams partners;
   EntryParams entries;

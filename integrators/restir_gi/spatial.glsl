@@ -1,5 +1,5 @@
-// restir_gi, spatial pass: merges partners' reservoirs, shades, and leaves the history. It traces
-// no ray: the exchange pass has made the shifts.
+// restir_gi, spatial pass: merges partners' reservoirs, shades, and leaves the history. No ray is
+// traced: the exchange pass has made the shifts.
 #include "core/resampling/ris.glsl"
 #include "core/resampling/mis.glsl"
 #include "core/resampling/shift.glsl"
@@ -64,7 +64,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   if (winner != RL_INVALID) giTakePathNow(giPartner(s.slot, winner), r);
   r.path.geometry *= jacobian;
   if (!rlIsFinite3(radiance)) {
-    // A poisoned history would spread: it starts again from nothing here.
+    // A NaN or Inf would spread by reuse. Reset the reservoir and count it.
     RL_HEALTH(RL_HEALTH_NONFINITE);
     radiance = vec3(0.0f, 0.0f, 0.0f);
     r.state = reservoirEmpty();

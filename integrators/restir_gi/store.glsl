@@ -1,6 +1,5 @@
-// Where restir_gi keeps reservoirs: those of this frame (initial, then merged over time) and those
-// of the last one. Reads are of what earlier passes left (RL_PAST_QUAD): no pass reads what it has
-// written itself.
+// Storage of restir_gi's reservoirs: this frame's (initial, then merged over time) and the last
+// frame's. Reads are of earlier passes' data (RL_PAST_QUAD): no pass reads its own writes.
 
 RL_FN void giRead(RL_IN(QuadRef) quads, RL_IN(QuadRef) suffixes, uint slot,
                   RL_INOUT(PathReservoir) r) {
@@ -28,7 +27,7 @@ RL_FN void giWriteHistory(uint slot, RL_IN(PathReservoir) r) {
   giWrite(gBuffers.history, gBuffers.suffixesHistory, slot, r);
 }
 
-// Merges decide by states, and only the winner's path has to be moved: they are read on their own.
+// States are read on their own: merges decide by states, and only the winner's path is moved.
 RL_FN ReservoirState giReadStateNow(uint slot) {
   return pathStateRead(gBuffers.reservoirs, slot * RL_PATH_RESERVOIR_QUADS);
 }
@@ -38,7 +37,7 @@ RL_FN ReservoirState giReadStateBefore(uint slot) {
 RL_FN void giWriteStateNow(uint slot, RL_IN(PathReservoir) r) {
   pathStateWrite(gBuffers.reservoirs, slot * RL_PATH_RESERVOIR_QUADS, r);
 }
-// Another reservoir's path, under the state that is selected.
+// Replaces the path by the one of another reservoir, under the selected state.
 RL_FN void giTakePathNow(uint slot, RL_INOUT(PathReservoir) r) {
   PathReservoir from = r;
   giReadNow(slot, from);
@@ -50,7 +49,7 @@ RL_FN void giTakePathBefore(uint slot, RL_INOUT(PathReservoir) r) {
   r.path = from.path;
 }
 
-// An entry's reservoir.
+// Reservoirs of entries.
 RL_FN void giReadEntry(uint entry, RL_INOUT(PathReservoir) r) {
   giRead(gBuffers.entryReservoirs, gBuffers.entrySuffixes, entry, r);
 }
@@ -66,9 +65,9 @@ RL_FN void giWriteEntry(uint entry, RL_IN(PathReservoir) r) {
   giWrite(gBuffers.entryReservoirs, gBuffers.entrySuffixes, entry, r);
 }
 
-// What a pixel offers to its entry is what it found in this frame alone. Before the temporal pass
-// its reservoir is just that. In a still view the initial pass has merged the history already:
-// there the offer takes the history's place, which the spatial pass fills again.
+// Reads the sample that a pixel offers to its entry: the one it found in this frame alone. Before
+// the temporal pass that is the pixel's reservoir. In a still view the initial pass has merged the
+// history already: the offer then takes the history's place, which the spatial pass fills again.
 RL_FN void giReadOffer(uint slot, RL_INOUT(PathReservoir) r) {
   if (gFrame.stillFrames == 0u) {
     giReadNow(slot, r);
@@ -86,5 +85,5 @@ RL_FN void giTakeOfferPath(uint slot, RL_INOUT(PathReservoir) r) {
   r.path = from.path;
 }
 
-// A slot's sample as its k-th partner sees it, and that partner; RL_INVALID: there is none.
+// Index in the exchange buffer of a slot's sample shifted to its k-th partner.
 RL_FN uint giExchangeIndex(uint slot, uint k) { return slot * gParams.spatialNeighbours + k; }

@@ -1,6 +1,5 @@
-// restir_gi, temporal pass, in frames whose view is new: merges the last frame's reservoir of the
-// pixel's surface into this frame's, whose history then goes on. (In a still view the initial pass
-// does it, without a ray.)
+// restir_gi, temporal pass, in frames of a new view: merges the last frame's reservoir of the
+// pixel's surface into this frame's. (In a still view the initial pass merges both, without a ray.)
 #include "core/resampling/ris.glsl"
 #include "core/resampling/mis.glsl"
 #include "core/resampling/shift.glsl"
@@ -28,13 +27,13 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   giReadNow(slot, here);
   giReadBefore(before, donor);
   GiOverTime t;
-  // As the pixel that found it has noticed.
+  // Share kept, as found at the donor's pixel.
   float kept = giKept(before);
   if (!(kept > 0.0f)) return;
   giBeginOverTime(t, donor.state, slot);
   t.donor.confidence *= kept;
   t.ratio = giRatio(visibleRead(gBuffers.visibleBefore, gFrame.previousCamera, before), slot);
-  // The pixel's own sample as the last frame sees it, then the last frame's as the pixel sees it.
+  // Shift the pixel's own sample to the last frame, then the last frame's sample to the pixel.
   PathShift shift =
       pathShiftTo(here, pixelOfSlot(before), true, (flags & RL_REUSE_ASSUME_VISIBLE) != 0u);
   PathSample path = here.path;

@@ -1,4 +1,4 @@
-// Host side of `template`: what the program, the tables and the tests know about it.
+// Host side of `template`: its description for the program, the tables and the tests.
 #include "integrators/template/template.h"
 
 #include "core/integrator.h"
@@ -10,7 +10,7 @@ const IntegratorInfo& templateIntegratorInfo() {
     IntegratorInfo i;
     i.name = "template";
     i.summary = "1 path per pixel and frame, in the fewest lines: to be copied (CONTRIBUTING.md)";
-    // The bias tests decide by the class: they hold an unbiased mode to the truth.
+    // The bias tests read the class: unbiased modes are compared with the truth.
     i.modes = {{"unbiased", BiasClass::unbiased,
                 "every path up to max_bounces scattering events has positive density in one "
                 "technique, and the MIS "

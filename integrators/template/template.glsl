@@ -5,16 +5,16 @@
 // two densities (Veach 1997, section 9.2.3; b is the parameter mis_exponent). Bias: none, the
 // weights of the techniques that can make a path sum to one, and every path has one.
 //
-// The walk traces the path (core/transport/walk.glsl); these functions say what becomes of the
-// light that it meets.
+// The walk traces the path (core/transport/walk.glsl); the functions here handle the light that it
+// finds.
 #define RL_WALK_STATE TemplateState
 
-// Of a technique with density p beside one with density q.
+// MIS weight of a technique with density p against one with density q.
 RL_FN float templateMisWeight(float p, float q) {
   return p > 0.0f ? 1.0f / (1.0f + pow(q / p, gParams.misExponent)) : 0.0f;
 }
 
-// A ray left the scene, or met something that shines.
+// Adds the light of a ray that left the scene or hit an emitter.
 RL_FN void templateAdd(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, RL_IN(vec3) radiance,
                        float pdfLight) {
   float weight = pdfLight > 0.0f ? templateMisWeight(walk.pdfBsdf, pdfLight) : 1.0f;
@@ -29,13 +29,13 @@ RL_FN void walkEmits(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, RL_IN(Surf
   templateAdd(state, walk, s.emission, pdfLight);
 }
 
-// The light sample of a vertex, and whether it was seen from there.
+// Light sample of a vertex, then its visibility.
 RL_FN bool walkLights(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, RL_IN(Rng) rng,
                       RL_IN(Surface) s, RL_IN(LightSample) light, RL_IN(LightConnection) c) {
   float pdf;
   vec3 f = bsdfEvalAndPdf(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW, pdf);
   if (rlIsBlack(f)) return false;
-  // A point or a direction is met by no ray.
+  // No BSDF sample can hit a point light or a directional light.
   float weight = c.isDelta ? 1.0f : templateMisWeight(c.pdfSolidAngle, pdf);
   vec3 arriving = c.emitted * (c.geometry * weight / light.pdf);
   if (RL_HAS(RL_FEATURE_VOLUME)) arriving *= exp(-surfaceSigma(s, walk.sigma, c.dirW) * c.distance);
@@ -46,7 +46,7 @@ RL_FN void walkSees(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, float trans
   state.radiance += state.unseen * transmittance;
 }
 
-// Nothing else is kept of the path; one light sample a vertex.
+// Hooks that are not needed here; one light sample per vertex.
 RL_FN uint walkArrives(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, RL_INOUT(Surface) s) {
   return 1u;
 }

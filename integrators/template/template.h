@@ -19,10 +19,10 @@ struct TemplateParams {
   float misExponent;
 };
 
-// What is kept of a path while it is traced.
+// State of a path while it is traced.
 struct TemplateState {
   vec3 radiance;
-  vec3 unseen;  // of the last light sample, without its visibility
+  vec3 unseen;  // unshadowed contribution of the last light sample
 };
 
 RL_NAMESPACE_END

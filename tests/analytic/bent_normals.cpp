@@ -32,7 +32,7 @@ uint32_t addBumps(Scene& scene, float sine) {
 Scene solidInFurnace(Solid solid, const rl::Material& material) {
   MeshGeometry mesh = builtin::sphere("solid", glm::dvec3(0.0), 1.0, solid == Solid::smooth ? 1 : 4,
                                       solid != Solid::flat);
-  // Around the sphere once; where the faces of the seam run backwards, bumps are bumps.
+  // UVs go around the sphere once; faces at the seam run backwards, where bumps are still bumps.
   for (const glm::vec3& p : mesh.positions) {
     mesh.uvs[0].emplace_back(std::atan2(p.z, p.x) * glm::one_over_two_pi<float>(),
                              std::acos(glm::clamp(p.y, -1.0f, 1.0f)) * glm::one_over_pi<float>());

@@ -1,5 +1,4 @@
-// Surfaces whose normals send light through their own faces, and turn their backs to whom sees
-// them.
+// Surfaces whose shading normals send light through their own faces, or face away from the viewer.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +15,8 @@ uint32_t addBumps(Scene& scene, float sine);
 // A closed solid in an environment of radiance 1, as in the built-in scene "sphere-furnace".
 enum class Solid {
   flat,    // a polyhedron of many faces, nearly a sphere
-  smooth,  // of 80 faces, with the sphere's normals
-  mapped,  // the smooth one of many faces, under bumps
+  smooth,  // 80 faces, with the sphere's normals
+  mapped,  // many faces, with the sphere's normals and bumps
 };
 Scene solidInFurnace(Solid solid, const rl::Material& material);
 

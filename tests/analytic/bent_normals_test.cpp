@@ -1,5 +1,6 @@
-// Glossy surfaces under normals that are not those of their faces, in white furnaces: what a lobe
-// returns does not depend on how its normal is bent (core/dialect/bsdf/bent_normal.glsl).
+// Glossy surfaces whose shading normals differ from the normals of their faces, in white furnaces:
+// the albedo of a lobe does not depend on the bend of its normal
+// (core/dialect/bsdf/bent_normal.glsl).
 #include "tests/analytic/bent_normals.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +16,7 @@
 namespace restlab::analytic {
 namespace {
 
-// Of the mean of all frames, in red: the mean, the least pixel, and how many are nearly black.
+// Statistics of the mean of all frames, in red: mean, least pixel, number of nearly black pixels.
 struct Seen {
   double mean = 0.0, least = 1e9;
   int dark = 0;
@@ -43,7 +44,7 @@ Seen seen(Solid solid, const rl::Material& material, const char* integrator, uin
   return result;
 }
 
-// Black rings, once: on 524 of the 4096 pixels, about 2000 of which show the solid.
+// Regression: black rings appeared on 524 of the 4096 pixels, about 2000 of which show the solid.
 TEST(BentNormals, AMirrorReturnsAllLight) {
   const rl::Material mirror = builtin::metal(glm::vec3(1.0f), 0.0f);
   for (const Solid solid : {Solid::flat, Solid::smooth, Solid::mapped}) {
@@ -56,8 +57,8 @@ TEST(BentNormals, AMirrorReturnsAllLight) {
   }
 }
 
-// Rough metal loses what meets a second microfacet, the more the flatter it is seen: under bumps
-// that is a mean over other angles, and no more.
+// Rough metal loses light that meets a second microfacet, more at flatter views: bumps only average
+// this loss over other angles.
 TEST(BentNormals, RoughMetalReturnsWhatItDoesWithoutBumps) {
   for (const float alpha : {0.01f, 0.1f, 0.3f}) {
     const rl::Material rough = builtin::metal(glm::vec3(1.0f), std::sqrt(alpha));
@@ -75,7 +76,7 @@ TEST(BentNormals, RoughMetalReturnsWhatItDoesWithoutBumps) {
   }
 }
 
-// Light that is refracted back, or reflected inside through the face, stays on its side, too.
+// Light refracted back, or reflected inside through the face, also stays on its side.
 TEST(BentNormals, GlassKeepsItsLight) {
   const rl::Material glass = builtin::glass(0.0f, glm::vec3(0.0f));
   const Seen flat = seen(Solid::flat, glass, "path", 8, 64);

@@ -4,7 +4,7 @@
 
 namespace restlab::analytic {
 
-// 2,048 stratified samples a pixel in eight independent parts, which give the standard error.
+// 2,048 stratified samples per pixel in eight independent parts, which give the standard error.
 const TileMeans& cornellTileMeans() {
   // clang-format off: a row is a tile
   static const TileMeans means{{

@@ -1,5 +1,5 @@
 // Converged tile means of the built-in Cornell box: a truth for whole global illumination that
-// needs no file. Not exact but measured, by a renderer that shares no code with this one.
+// needs no file. Measured, not exact, by a renderer that shares no code with this one.
 #pragma once
 
 #include <array>
@@ -10,21 +10,21 @@
 
 namespace restlab::analytic {
 
-// The image that was measured: 512 x 512 pixels, box filter of one pixel, first camera, at most 8
-// scattering events, no Russian roulette.
+// Measured image: 512 x 512 pixels, box filter of one pixel, first camera, at most 8 scattering
+// events, no Russian roulette.
 constexpr uint32_t kCornellTileSize = 64, kCornellTilesPerSide = 8, kCornellScatteringEvents = 8;
 
 // Mean radiance of the 8 x 8 tiles, row by row from the upper left.
 using TileMeans = std::array<glm::dvec3, size_t(kCornellTilesPerSide) * kCornellTilesPerSide>;
 const TileMeans& cornellTileMeans();
 
-// Largest relative standard error of any channel of any tile above.
+// Largest relative standard error of any channel of any tile in cornellTileMeans().
 constexpr double kCornellTileError = 0.0015;
 
-// Mean over all pixels, from another renderer and a thousand samples a pixel.
+// Mean over all pixels, from another renderer with a thousand samples per pixel.
 inline const glm::dvec3 kCornellMean(0.19590, 0.12730, 0.03641);
 
-// Means of the same tiles of another image; it must be 512 x 512 (std::invalid_argument).
+// Means of the tiles of an image, which must be 512 x 512 (std::invalid_argument).
 TileMeans tileMeansOf(const Image& image);
 
 }  // namespace restlab::analytic

@@ -1,4 +1,4 @@
-// The committed tile means against the published mean and, where it is there, the gate's image.
+// The committed tile means against the published mean and, if available, the gate's image.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
-// Bodies that absorb and refract: around the camera, inside each other, overlapping, touching. A
-// white wall behind them, or a lamp among them; each truth is a product of Beer and Lambert's.
+// Bodies that absorb and refract: around the camera, inside each other, overlapping, touching. With
+// a white wall behind them, or a lamp among them; each truth is a product of Beer-Lambert
+// transmittances.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,25 +22,25 @@ using builtin::SceneBuilder;
 
 const glm::vec3 kRed(0.2f, 1.0f, 2.0f), kBlue(1.5f, 0.7f, 0.1f);
 
-// Absorbs, and bends light by its index.
+// Material that absorbs, and refracts by its index.
 rl::Material body(const glm::vec3& sigma, float ior = 1.0f, float roughness = 0.0f) {
   rl::Material m = builtin::glass(roughness, sigma);
   m.ior = ior;
   return m;
 }
 
-// A box around the z axis, wide enough that all rays of the camera meet its ends alone.
+// A box around the z axis, so wide that all rays of the camera hit only its ends.
 MeshGeometry box(double nearZ, double farZ, double halfWidth = 5.0) {
   return builtin::box("box", {-halfWidth, -halfWidth, farZ}, {halfWidth, halfWidth, nearZ});
 }
 
-// Behind the bodies alone: what they reflect is black.
+// Adds a white wall, only behind the bodies: reflections of the bodies are black.
 void addWhiteWall(SceneBuilder& builder) {
   builder.add(builtin::quad("white", {-20, -20, -8}, {40, 0, 0}, {0, 40, 0}),
               builder.addMaterial("white", builtin::lamp(glm::vec3(1.0f))));
 }
 
-// Looks along -Z from z = 0, through parallel rays.
+// Adds a camera that looks along -Z from z = 0 with parallel rays.
 Scene finish(SceneBuilder& builder) {
   Scene scene = builder.finish();
   SceneCamera camera;
@@ -56,7 +57,7 @@ struct Machine {
 };
 constexpr Machine kMachines[] = {{"path", "embree"}, {"path", "bvh"}, {"restir_gi", "embree"}};
 
-// The mean of every pixel over `frames`; each pixel has it where there is no noise.
+// Compares the mean of all pixels over `frames` frames.
 void expectImage(const Scene& scene, const glm::dvec3& expected, const std::string& what,
                  uint32_t frames = 1, double tolerance = 1e-4, uint32_t maxBounces = 16) {
   const auto compiled = CompiledScene::build(scene);
@@ -100,13 +101,12 @@ TEST(Media, TheCameraIsInside) {
   dense.add(box(1.0, -1.5), dense.addMaterial("red", body(kRed, 1.5f)));
   addWhiteWall(dense);
   const double reflected = std::pow(0.5 / 2.5, 2.0);
-  // Radiance in glass is that in air times the square of its index.
+  // Radiance in glass is that in air times the square of the index.
   expectImage(finish(dense), 2.25 * (1.0 - reflected) * through(kRed, 1.5), "out of glass", 4000,
               0.01, 1);
 }
 
-// Two boxes of one mesh that overlap around the camera: it is in one body, until the last of their
-// faces is behind it.
+// Two boxes of one mesh overlap around the camera: one body, which ends at the last of their faces.
 TEST(Media, TheCameraIsInTwoShellsOfOneMesh) {
   SceneBuilder builder("shells");
   MeshGeometry mesh = box(1.0, -1.0);
@@ -119,10 +119,10 @@ TEST(Media, TheCameraIsInTwoShellsOfOneMesh) {
 TEST(Media, BodiesOverlapTouchAndLieInEachOther) {
   struct Case {
     const char* name;
-    double ends[4];  // of the red body and of the blue one, along -Z
+    double ends[4];  // ends of the red and of the blue body, along -Z
     double red, blue;
   };
-  // The smaller one of two bodies that overlap fills the place.
+  // The smaller of two overlapping bodies fills the place.
   for (const Case& c : {Case{"overlapping by 1 mm", {1.0, 2.0, 1.999, 2.5}, 0.999, 0.501},
                         Case{"the other way round", {1.501, 2.5, 1.0, 1.502}, 0.998, 0.502},
                         Case{"touching", {1.0, 2.0, 2.0, 2.5}, 1.0, 0.5},
@@ -137,7 +137,7 @@ TEST(Media, BodiesOverlapTouchAndLieInEachOther) {
   }
 }
 
-// Whichever of the faces a ray meets first.
+// The result must not depend on the face that a ray meets first.
 TEST(Media, ThreeBodiesBeginInOnePlane) {
   const glm::vec3 green(0.9f, 0.1f, 0.6f);
   std::array<int, 3> order{0, 1, 2};
@@ -213,7 +213,7 @@ TEST(Media, APriorityOfAFileDecides) {
   expectImage(sceneOfFile(priority(0), priority(1)), blueFills, "0 and 1");
 }
 
-// Copies of one mesh of one material: one medium, of which the length counts once.
+// Copies of one mesh with one material are one medium, whose length counts once.
 TEST(Media, CopiesOfABodyAreOneMedium) {
   SceneBuilder builder("copies");
   const uint32_t mesh = builder.addGeometry(box(-1.0, -2.0)),
@@ -237,7 +237,7 @@ TEST(Media, ThinSheetsLeaveTheMediumAlone) {
   expectImage(finish(builder), through(kRed, 1.0), "thin sheets in a body");
 }
 
-// Perpendicular, without the light that is reflected back and forth.
+// Perpendicular view, without light that is reflected back and forth.
 TEST(Media, TouchingBodiesRefractByTheRatio) {
   for (const bool isSwapped : {false, true}) {
     SceneBuilder builder("touching");
@@ -252,7 +252,7 @@ TEST(Media, TouchingBodiesRefractByTheRatio) {
   }
 }
 
-// A surface counts though the medium is the same on both sides: by its colour, and by its light.
+// A surface between equal media still counts, by its colour and by its emission.
 TEST(Media, SurfacesWithoutContrastKeepTheirColourAndLight) {
   for (const bool isInside : {false, true}) {
     SceneBuilder builder("tinted");
@@ -272,8 +272,8 @@ TEST(Media, SurfacesWithoutContrastKeepTheirColourAndLight) {
   }
 }
 
-// A lamp and a wall in one body, and a box of the same medium between them: what shadow rays do not
-// pass, paths must be credited with in full.
+// A lamp and a wall in one body, and a box of the same medium between them: shadow rays stop at the
+// box, so paths must get the full credit for that light.
 TEST(Media, ABoxOfTheSameMediumTakesNoLight) {
   const auto means = [](bool hasBox) {
     SceneBuilder builder("same medium");
@@ -306,7 +306,8 @@ TEST(Media, ABoxOfTheSameMediumTakesNoLight) {
     EXPECT_NEAR(with[i], without[i], 0.03 * without[i]) << kMachines[i].integrator << " " << i;
 }
 
-// A grey wall at z = -3 under a point lamp at z = 0.5, seen in one direction, and its radiance.
+// Adds a grey wall at z = -3 under a point lamp at z = 0.5, seen in one direction. kLitWall is the
+// radiance of the wall.
 Scene finishLitWall(SceneBuilder& builder) {
   builder.add(builtin::quad("wall", {-1, -1, -3}, {2, 0, 0}, {0, 2, 0}),
               builder.addMaterial("wall", builtin::lambert(glm::vec3(0.5f))));
@@ -320,8 +321,8 @@ Scene finishLitWall(SceneBuilder& builder) {
 }
 const double kLitWall = 10.0 / (3.5 * 3.5) * 0.5 / 3.14159265358979;
 
-// A surface without contrast or colour is left out: no event is spent on it, and the light of a
-// point reaches what lies behind.
+// A surface without contrast or colour is removed: it costs no event, and light of a point lamp
+// reaches the wall behind.
 TEST(Media, NothingIsSeenOfAnIndexOfOne) {
   for (const uint32_t flags : {0u, uint32_t(rl::RL_MATERIAL_THIN)}) {
     SceneBuilder builder("clear");
@@ -332,8 +333,8 @@ TEST(Media, NothingIsSeenOfAnIndexOfOne) {
   }
 }
 
-// A lamp and a wall in one body, with a body of less priority between them that changes nothing:
-// shadow rays pass what is no surface.
+// A lamp and a wall in one body, with a body of lower priority between them that changes nothing:
+// shadow rays must pass its faces, which are no surfaces.
 TEST(Media, ShadowRaysPassBodiesOfLessPriority) {
   SceneBuilder builder("shadow");
   const uint32_t red = builder.addMaterial("red", body(kRed, 1.5f));

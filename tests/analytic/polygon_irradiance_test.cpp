@@ -30,7 +30,7 @@ double cornerUpright(double a, double b, double c) {
   return 0.5 * (std::atan(1.0 / y) - y / r * std::atan(1.0 / r));
 }
 
-// Seen counter-clockwise from below.
+// Corners counter-clockwise as seen from below.
 std::vector<glm::dvec3> parallelQuad(double a, double b, double c) {
   return {{0, 0, c}, {0, b, c}, {a, b, c}, {a, 0, c}};
 }
@@ -65,7 +65,7 @@ TEST(PolygonIrradiance, UprightRectangleIsCutByNothingButTouchesTheHorizon) {
   for (const auto& [a, b, c] : {std::array{1.0, 1.0, 1.0}, std::array{0.3, 2.0, 0.5}}) {
     const std::vector<glm::dvec3> wall{{0, c, 0}, {0, c, a}, {b, c, a}, {b, c, 0}};
     EXPECT_NEAR(std::abs(projectedSolidAngle(wall, kOrigin, kUp)), cornerUpright(a, b, c), 1e-13);
-    // The same wall sunk into the ground: what is below the horizon adds nothing.
+    // The wall sunk into the ground: the part below the horizon adds nothing.
     const std::vector<glm::dvec3> sunk{{0, c, -2}, {0, c, a}, {b, c, a}, {b, c, -2}};
     EXPECT_NEAR(std::abs(projectedSolidAngle(sunk, kOrigin, kUp)), cornerUpright(a, b, c), 1e-13);
   }
@@ -97,7 +97,7 @@ TEST(PolygonIrradiance, RandomPosesAgainstQuadrature) {
     const glm::dvec3 u(draw(-1, 1), draw(-1, 1), draw(-1, 1)),
         v(draw(-1, 1), draw(-1, 1), draw(-1, 1));
     const std::vector<glm::dvec3> quad{corner, corner + u, corner + u + v, corner + v};
-    // Near the plane of the quad or close to it, quadrature is no truth.
+    // Quadrature is inaccurate close to the quad or its plane.
     const glm::dvec3 n = glm::cross(u, v);
     if (std::abs(glm::dot(corner, n)) < 0.5 * glm::length(n)) continue;
     const double truth = quadrature(corner, u, v, 1200);

@@ -1,4 +1,4 @@
-// What is sampled in proportion to what it brings has no noise; what comes near has little.
+// Sampling proportional to the contribution has no noise; nearly proportional sampling has little.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,9 +10,9 @@
 namespace restlab::analytic {
 namespace {
 
-// Of single frames, over all pixels.
+// Statistics of single frames, over all pixels.
 struct Spread {
-  double mean = 0.0, relativeVariance = 0.0, furthest = 0.0;  // the last: |pixel - mean|
+  double mean = 0.0, relativeVariance = 0.0, furthest = 0.0;  // furthest: largest |pixel - mean|
 };
 
 Spread spreadOf(const std::string& scene, uint32_t maxBounces, uint32_t frames) {
@@ -43,9 +43,8 @@ Spread spreadOf(const std::string& scene, uint32_t maxBounces, uint32_t frames) 
   return s;
 }
 
-// Smooth glass reflects exactly what Fresnel says of the direction it is seen from. With a tenth of
-// the paths for a reflection that has a hundred-thousandth of the light, pixels were 1.21 or
-// 0.0006.
+// Smooth glass reflects exactly the Fresnel term of the viewing direction. With a tenth of the
+// paths for a reflection that has a hundred-thousandth of the light, pixels were 1.21 or 0.0006.
 TEST(SamplingNoise, SmoothGlassHasNone) {
   for (const char* scene : {"floor?ior=1.0001", "floor?ior=1.01", "floor?ior=1.5", "floor?ior=3"}) {
     const Spread s = spreadOf(scene, 64, 8);
@@ -54,8 +53,8 @@ TEST(SamplingNoise, SmoothGlassHasNone) {
   }
 }
 
-// A sun of one pixel is spread by bilinear interpolation. Texels drawn by their mean of it leave a
-// relative variance of 1.1; by the plain mean of the 3 x 3 neighbourhood it was 3.
+// Bilinear interpolation spreads a sun of one pixel. Drawing texels by their interpolated mean
+// leaves a relative variance of 1.1; the plain mean of the 3 x 3 neighbourhood gave 3.
 TEST(SamplingNoise, TexelsAreDrawnByTheirMean) {
   const Spread s = spreadOf("floor?sun=1e9", 1, 64);
   EXPECT_GT(s.relativeVariance, 0.9);

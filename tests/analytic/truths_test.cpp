@@ -50,7 +50,7 @@ TEST(Truths, OnlyTheNamedScenesHaveAnExactImage) {
   EXPECT_THROW(exactImage(makeBuiltinScene("cornell-box"), kSmall), std::invalid_argument);
 }
 
-// Wherever the camera stands in the room, and not beyond its walls.
+// The camera may stand anywhere in the room, but not beyond its walls.
 TEST(Truths, FurnaceNeedsACameraInside) {
   const Scene scene = makeBuiltinScene("furnace?wall=0.1");
   ExactView view = kSmall;
@@ -61,7 +61,7 @@ TEST(Truths, FurnaceNeedsACameraInside) {
   EXPECT_EQ(whyNotExact(scene, view), "from a camera outside the room");
 }
 
-// A lamp that was dimmed is dimmed in the image.
+// The exact image follows the light factors.
 TEST(Truths, FollowTheLights) {
   for (const std::string& name : exactSceneNames()) {
     Scene scene = makeBuiltinScene(name);
@@ -81,8 +81,8 @@ TEST(Truths, FloorIsWhiteHoweverItIsCut) {
   }
 }
 
-// By brute force over the hemisphere: directions about the leaning normal, less those below the
-// floor.
+// Compares with brute force over the hemisphere: directions about the leaning normal, without those
+// below the floor.
 TEST(Truths, LeaningFloorAgainstQuadrature) {
   for (const double degrees : {10.0, 45.0, 80.0}) {
     const glm::dvec3 lean(std::sin(glm::radians(degrees)), std::cos(glm::radians(degrees)), 0.0);
@@ -98,12 +98,12 @@ TEST(Truths, LeaningFloorAgainstQuadrature) {
     const double returned = 2.0 * sum / (double(n) * n);  // 2 pi of the hemisphere over pi
     EXPECT_NEAR(leaningRadiance(lean.y), returned, 1e-5) << degrees;
     const Scene scene = makeBuiltinScene("floor?slope=" + std::to_string(degrees));
-    // The map leans a little forwards, too.
+    // The map also leans slightly forwards.
     EXPECT_NEAR(exactImage(scene, kSmall)[0].x, returned, 2e-5) << degrees;
   }
 }
 
-// Bilinear between the middles of pixels, as docs/dialect.md has it, summed over a fine grid.
+// Bilinear between pixel centres, as docs/dialect.md defines it, summed over a fine grid.
 TEST(Truths, SunlitFloorAgainstQuadrature) {
   constexpr uint32_t width = 32, height = 16, row = 3;
   constexpr double sun = 1000.0;
@@ -127,7 +127,7 @@ TEST(Truths, SunlitFloorAgainstQuadrature) {
               1e3, 0.1);
 }
 
-// One spot by hand; many of them as a disc that shines.
+// Compares one spot with a hand computation, and many spots with a shining disc.
 TEST(Truths, SpotsAgainstADiscOfThem) {
   const Scene one = makeBuiltinScene("floor?spots=1");
   ASSERT_EQ(one.lights.size(), 1u);
@@ -175,7 +175,8 @@ TEST(Truths, GlassNeedsManyEvents) {
   EXPECT_EQ(exactImage(scene, view)[0], glm::dvec3(1.0));
 }
 
-// Cut into triangles the rectangle gives what it gave; of one of them, what a small light gives.
+// The rectangle cut into triangles gives the same light; one of the triangles acts as a small
+// light.
 TEST(Truths, QuadLightOfManyTriangles) {
   const glm::dvec3 posW(0.4, 0.0, 0.6);
   const double whole = quadLightRadiance(makeBuiltinScene("quad-light"), posW).x;
@@ -196,7 +197,7 @@ TEST(Truths, QuadLightOfManyTriangles) {
   EXPECT_NEAR(quadLightRadiance(scene, posW).x / expected, 1.0, 1e-4);
 }
 
-// Of every albedo: the sum against the recursion of radiance and against the closed form.
+// For every albedo, compares the sum with the recursion of radiance and with the closed form.
 TEST(Truths, FurnacesOfEveryAlbedo) {
   for (const char* albedo : {"0", "0.5", "0.9", "0.99", "0.999", "0.9999", "1"}) {
     const Scene scene = makeBuiltinScene(std::string("furnace?albedo=") + albedo);
@@ -220,12 +221,12 @@ TEST(Truths, SphereFurnaceOfMetalNeedsItsCompensation) {
   EXPECT_THROW(exactImage(scene, view), std::invalid_argument);
   view.multiscatter = true;
   EXPECT_EQ(exactImage(scene, view)[0], glm::dvec3(1.0));
-  // A mirror loses nothing.
+  // A mirror loses no light.
   EXPECT_EQ(exactImage(makeBuiltinScene("sphere-furnace?roughness=0"), kSmall)[0], glm::dvec3(1.0));
 }
 
-// The limits of its edge: a point, by the inverse square, and a plane without an end, which fills
-// (1 + cos) / 2 of what the floor sees, weighted by the cosine.
+// Limits of the light's size: a point, by the inverse square, and an endless plane, which fills (1
+// + cos) / 2 of the floor's cosine-weighted view.
 TEST(Truths, QuadLightBetweenAPointAndAPlane) {
   const glm::dvec3 posW(0.4, 0.0, 0.6);
   const double pi = glm::pi<double>();
@@ -260,7 +261,7 @@ TEST(Truths, QuadLightNeedsAViewOfTheFloorAlone) {
   EXPECT_EQ(why("quad-light?fov=120", 1), "from a camera that sees more than the floor");
 }
 
-// The same integral by brute force over the light's surface, without the polygon formula.
+// Compares with brute force over the light's surface, without the polygon formula.
 TEST(Truths, QuadLightAgainstQuadrature) {
   const Scene scene = makeBuiltinScene("quad-light");
   const MeshGeometry* light = nullptr;

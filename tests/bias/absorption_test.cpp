@@ -1,4 +1,4 @@
-// Bodies that absorb: rough glass, and boxes that overlap.
+// Absorbing bodies: rough glass, and overlapping boxes.
 #include <gtest/gtest.h>
 
 #include "core/scene/builtin_builder.h"
@@ -28,9 +28,9 @@ Method weighted(double misExponent) {
   return method;
 }
 
-// A light sample may leave through the surface that it is taken at, and then travels in another
-// medium than the path did. `path` is the truth of all bias tests, so its own techniques are held
-// against each other: MIS weights that favour light samples against weights that do not.
+// A light sample may leave through the surface that it is drawn at, and then travels in another
+// medium than the path did. `path` is the truth of all bias tests, so its own techniques are
+// compared with each other: MIS weights that favour light samples with weights that do not.
 TEST(Absorption, TechniquesAgreeOnRoughGlass) {
   constexpr size_t kRuns = 64;
   const auto scene = blueSlab();
@@ -41,9 +41,9 @@ TEST(Absorption, TechniquesAgreeOnRoughGlass) {
   }
 }
 
-// Two tinted boxes that overlap and stand on a floor under a lamp as wide as the room. Shifts end
-// inside of them, pass them, and reach them from neighbours that see past them. Their sides bend
-// nothing, so that there are no caustics.
+// Two overlapping tinted boxes on a floor under a lamp as wide as the room. Shifts end inside of
+// them, pass them, and reach them from neighbours that see past them. Their sides do not refract,
+// so there are no caustics.
 std::shared_ptr<const CompiledScene> tintedBoxes() {
   using namespace builtin;
   SceneBuilder scene("tinted-boxes");

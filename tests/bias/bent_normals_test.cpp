@@ -1,5 +1,5 @@
-// Rough metal under bumps: reuse evaluates its lobes for directions that the path did not come
-// from, from which other facets turn their backs and other light is mirrored at the faces.
+// Rough metal with bumps: reuse evaluates its lobes for directions that the path did not come from,
+// where other facets face away and other light is mirrored at the faces.
 #include <gtest/gtest.h>
 
 #include "core/scene/builtin_builder.h"
@@ -10,7 +10,7 @@
 namespace restlab::bias {
 namespace {
 
-// A corridor, seen along its walls; its lamp lights floor and ceiling.
+// A corridor, seen along its walls, with a lamp that lights floor and ceiling.
 std::shared_ptr<const CompiledScene> corridor() {
   using namespace builtin;
   SceneBuilder builder("corridor");

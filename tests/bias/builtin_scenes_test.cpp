@@ -1,10 +1,9 @@
-// `path` and unbiased `restir_gi` on the built-in scenes: no cell of the image may differ from what
-// `path` says with other seeds.
+// `path` and unbiased `restir_gi` on the built-in scenes: no cell of the image may differ from
+// `path` with other seeds.
 //
-// restir_gi runs with its defaults and once more with every safeguard open: donors from anywhere,
-// whatever their normal, plane or roughness, and Jacobians of any size. That raises the variance
-// and may not move the mean: what keeps reuse unbiased are its weights, not the tests of
-// similarity.
+// restir_gi runs with its defaults and with all safeguards open: donors from anywhere, with any
+// normal, plane or roughness, and Jacobians of any size. That raises the variance but must not move
+// the mean: reuse is unbiased by its weights, not by the tests of similarity.
 #include <gtest/gtest.h>
 
 #include "tests/bias/independent_runs.h"
@@ -17,11 +16,11 @@ struct Case {
   const char* name;  // of the test
   const char* scene;
   uint32_t components;
-  std::vector<SceneCamera> cameras = {};  // none: the scene's own
-  // Bounds on the share of the area whose runs are too skewed to test, by default and with every
-  // safeguard open; a few hundredths where no rare path dominates.
+  std::vector<SceneCamera> cameras = {};  // empty: the scene's own
+  // Bounds on the share of the area whose runs are too skewed to test, by default and with all
+  // safeguards open; a few hundredths without dominant rare paths.
   double untestable = 0.1, untestableOpen = 0.1;
-  // So many times as many frames a run: means of more frames are less skewed.
+  // Factor on the frames per run: means of more frames are less skewed.
   uint32_t longer = 1;
 };
 
@@ -29,8 +28,8 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
 struct Effort {
   size_t runs;
-  uint32_t truthFrames, pathFrames;  // of a run of `path`
-  uint32_t frames, skipped;          // of a history of restir_gi
+  uint32_t truthFrames, pathFrames;  // per run of `path`
+  uint32_t frames, skipped;          // per history of restir_gi
   int threads;
 };
 
@@ -39,7 +38,7 @@ ParameterMap openParameters() {
           {"max_jacobian", 1.0e6},    {"spatial_neighbours", int64_t{2}}, {"spatial_radius", 48.0}};
 }
 
-// What says too little for its time is left to the night.
+// Leaves slow cases that show little to the nightly tests.
 bool isWorthIt(const Case& c, const Effort& effort) {
   return effort.threads == 0 || c.longer == 1 || c.untestableOpen < 0.5;
 }
@@ -61,7 +60,7 @@ void expectUnbiased(const Case& c, Effort effort) {
     return restirMethod(effort.frames, effort.skipped, parameters);
   };
   std::vector<std::pair<Method, double>> methods = {{adapted(restir({}), ""), c.untestable}};
-  // Against itself `path` can show no bias of its own; it shows false rejections.
+  // `path` against itself cannot show a bias, only false rejections.
   if (effort.threads == 0)
     methods.push_back({adapted(pathMethod(effort.pathFrames), ""), c.untestable});
   if (isWorthIt(c, effort))
@@ -77,14 +76,14 @@ void expectUnbiased(const Case& c, Effort effort) {
 constexpr uint32_t kAll = rl::RL_COMPONENT_ALL;
 const std::vector<Case> kCases = {
     {"cornell_box", "cornell-box", kAll},
-    // Without the lamp's outline, which is most of the noise seen from outside.
+    // Lamp out of view: its outline is most of the noise seen from outside.
     {"cornell_box_inside", "cornell-box", kAll, {cornellBelowTheLamp()}},
     {"door_ajar", "door-ajar", kAll},
     {"door_ajar_indirect", "door-ajar", rl::RL_COMPONENT_INDIRECT},
-    // Most of it is dark. With every safeguard open, carried estimates of lit pixels reach there:
-    // rare noise of zero mean, too skewed to test in 49 % of the area.
+    // Mostly dark. With all safeguards open, carried estimates of lit pixels reach dark ones: rare
+    // noise of zero mean, too skewed to test in 49 % of the area.
     {"door_ajar_direct", "door-ajar", rl::RL_COMPONENT_DIRECT, {}, 0.1, 0.6},
-    // Caustics are nearly all of its noise: in short runs 64 % of the area is too skewed to test.
+    // Noise is mostly caustics: in short runs 64 % of the area is too skewed to test.
     {"glossy_gallery", "glossy-gallery", kAll, {}, 0.1, 0.6, 4},
     {"many_lights", "many-lights", kAll},
     {"glass", "glass", kAll, {}, 0.85, 0.85},

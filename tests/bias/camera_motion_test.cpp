@@ -1,6 +1,6 @@
-// A moving camera: donors come from other pixels, or from entries in space, and were lit for
-// another eye. The image of the last camera may not depend on where the camera was before, whatever
-// cache remembers it.
+// A moving camera: donors come from other pixels or from entries in space, and were shaded for
+// another eye. The image of the last camera must not depend on where the camera was before, with
+// any cache.
 #include <gtest/gtest.h>
 
 #include "core/cache.h"
@@ -14,11 +14,11 @@ namespace {
 struct Walk {
   const char* name;
   const char* scene;
-  glm::dvec3 stepW;  // metres a frame
+  glm::dvec3 stepW;  // metres per frame
   double turnDegrees;
-  bool showsTheLamp = false;  // of the Cornell box: seen by the scene's own camera
+  bool showsTheLamp = false;  // in the Cornell box: use the scene's own camera, which sees the lamp
   double untestable = 0.1;    // bound on the share of the area whose runs are too skewed to test
-  bool isBack = false;        // the first half of the frames stands where the last one does
+  bool isBack = false;        // the first half of the frames has the last camera
 };
 
 void PrintTo(const Walk& w, std::ostream* out) { *out << w.name; }
@@ -35,13 +35,13 @@ std::vector<Setting> allCaches() {
 
 struct Effort {
   size_t runs;
-  uint32_t truthFrames;  // of each of 128 runs of `path`
+  uint32_t truthFrames;  // in each of 128 runs of `path`
   int threads;
 };
 constexpr Effort kEveryDay{128, 48, 1};
 constexpr Effort kNightly{2048, 384, 0};
 
-// Half of a test's time: walks that end at one camera are one test.
+// Takes half of a test's time, so walks that end at one camera share a test.
 stats::Truth truthAt(const std::string& scene, const SceneCamera& end, const Effort& effort) {
   Method truth = pathMethod(effort.truthFrames);
   truth.cameras = {end};
@@ -49,7 +49,7 @@ stats::Truth truthAt(const std::string& scene, const SceneCamera& end, const Eff
   return stats::truthOf(independentRuns(builtinScene(scene), truth, 1, 128));
 }
 
-// Every frame of the history has a camera of its own, so only its last frame may be compared.
+// Compares only the last frame of a history, because every frame has its own camera.
 void expectUnbiased(const Walk& walk, const SceneCamera& end, const stats::Truth& truth,
                     const Effort& effort, uint32_t frames,
                     const std::vector<Setting>& settings = allCaches()) {
@@ -58,7 +58,7 @@ void expectUnbiased(const Walk& walk, const SceneCamera& end, const stats::Truth
     method.config.cache = setting.cache;
     method.name = std::string(walk.name) + " camera, " + method.name + ", " + setting.cache;
     method.cameras = walkTo(end, frames, walk.stepW, walk.turnDegrees);
-    // There and back: it ends as it began, where it has been.
+    // Walks there and back: the first half of the frames has the last camera.
     for (uint32_t i = 0; walk.isBack && i < frames / 2; ++i) method.cameras[i] = end;
     method.config.threads = effort.threads;
     const stats::BiasReport report =
@@ -81,7 +81,7 @@ const Walk kWalkingAndTurning{"walking and turning", "cornell-box", {0.06, 0.01,
 const Walk kPastTheLamp{"past_the_lamp", "cornell-box", {0.05, 0.03, 0.0}, 0.0, true};
 const Walk kAwayAndBack{"away", "cornell-box", {0.5, 0.2, -0.3}, 20.0, false, 0.1, true};
 
-// Cells and discs over edges and through walls, many donors, entries that forget at once.
+// Cells and discs across edges and through walls, many donors, and entries with a short memory.
 std::vector<Setting> openEntries() {
   const ParameterMap open = {{"normal_threshold", -1.0}, {"plane_threshold", 10.0},
                              {"max_jacobian", 1.0e6},    {"entry_spread", 8.0},
@@ -115,9 +115,8 @@ TEST(MovingCamera, AmongGlossLeavesTheMean) {
   expectUnbiased(walk, end, truthAt(walk.scene, end, effort), effort, 5);
 }
 
-// Through the open side of the Cornell box: what the camera comes to changes the level of its cells
-// and the size of its discs once or twice, and entries of the level before serve until there are
-// new ones.
+// Through the open side of the Cornell box. The level of its cells and the size of its discs change
+// once or twice on the way, and entries of the old level are used until there are new ones.
 TEST(MovingCamera, NightlyFlyThroughLeavesTheMean) {
   const Walk walk{"flying", "cornell-box", {0.0, -0.02, -0.8}, 0.0};
   const SceneCamera end = lookAt({-2.78, 2.7, -1.5}, {-2.78, 2.4, -5.5}, 55.0);

@@ -1,4 +1,4 @@
-// Caches of entries, in sessions of a few pixels.
+// Caches with entries, for sessions of a few pixels.
 #pragma once
 
 #include <algorithm>
@@ -21,8 +21,8 @@ inline std::vector<std::string> cachesWithEntries() {
   return names;
 }
 
-// About two entries a pixel, for the image's size as it is now: passes that go over all entries
-// would take the most of the time.
+// Sets about two entries per pixel of the current image size: passes over all entries would
+// otherwise take most of the time.
 inline void useFewEntries(SessionConfig& config) {
   const uint64_t pixels = uint64_t(config.width) * config.height;
   const uint64_t entries = std::clamp<uint64_t>(std::bit_floor(2 * pixels), 1024, 65536);

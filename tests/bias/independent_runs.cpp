@@ -12,10 +12,10 @@
 namespace restlab::bias {
 namespace {
 
-// Batches of one method never share a seed, and neither do methods and truths.
+// Batches of one method, methods and truths never share a seed.
 constexpr uint32_t kFirstBatch = 10'000'000, kSecondBatch = 20'000'000, kPart = 100'000'000;
 
-// The worst cell by |t|, which may be far from significant.
+// Returns the cell with the largest |t|, which may be far from significant.
 const stats::CellVerdict* worstCell(const stats::BiasReport& report) {
   const stats::CellVerdict* worst = nullptr;
   for (const stats::CellVerdict& v : report.cells) {
@@ -26,7 +26,7 @@ const stats::CellVerdict* worstCell(const stats::BiasReport& report) {
   return worst;
 }
 
-// Renders a history and adds what of it is compared to `shown`.
+// Renders a history and adds its compared frames to `shown`.
 void addHistory(Session& session, const Method& method, Image& shown) {
   const float weight = 1.0f / float(method.frames - method.skipped);
   for (uint32_t frame = 0; frame < method.frames; ++frame) {
@@ -72,7 +72,7 @@ std::shared_ptr<const CompiledScene> builtinScene(const std::string& name) {
 }
 
 uint32_t seedOffset() {
-  constexpr uint32_t kLargest = 8, kStep = 1'000'000;  // all of it below the first batch
+  constexpr uint32_t kLargest = 8, kStep = 1'000'000;  // all offsets stay below the first batch
   const char* text = std::getenv("RESTLAB_TEST_SEED");
   if (text == nullptr || *text == '\0') return 0;
   if (text[0] < '0' || text[0] > char('0' + kLargest) || text[1] != '\0') {

@@ -1,5 +1,5 @@
-// Thousands of frames of one history: the energy of the last ones is that of the first. Nothing
-// adds up over frames, in reservoirs, entries of a cache or the age of a view.
+// Thousands of frames of one history: the energy must not drift. Nothing may accumulate over frames
+// in reservoirs, entries of a cache or the age of a view.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,8 @@ struct History {
   bool isTurning;
 };
 
-// In a still view caches and modes show one image (tests/conformance/still_view_test.cpp).
+// Caches and modes only matter with a moving camera: in a still view they render one image
+// (tests/conformance/still_view_test.cpp).
 std::vector<History> histories(const std::vector<std::string>& modes) {
   std::vector<History> all = {{"restir_gi", cacheRegistry().front()->name, "unbiased", false}};
   for (const CacheInfo* cache : cacheRegistry())
@@ -33,13 +34,13 @@ std::string nameOf(const History& h) {
 }
 void PrintTo(const History& h, std::ostream* out) { *out << nameOf(h); }
 
-// Change of the energy over a decade of frames, relative: the slope of a line through the means of
-// the frames 1 to 9, 10 to 99, ..., by least squares.
+// Returns the relative change of the energy per decade of frames: the slope of a least squares line
+// through the means of the frames 1 to 9, 10 to 99, ...
 double slopeOf(const std::vector<double>& energies) {
   std::vector<double> means;
   for (size_t begin = 1; begin <= energies.size(); begin *= 10) {
     const size_t end = std::min(10 * begin, energies.size() + 1);
-    if (2 * (end - begin) < begin) break;  // the end of a decade that is not there
+    if (2 * (end - begin) < begin) break;  // skip an incomplete decade
     double sum = 0.0;
     for (size_t frame = begin; frame < end; ++frame) sum += energies[frame - 1];
     means.push_back(sum / double(end - begin));
@@ -55,7 +56,8 @@ double slopeOf(const std::vector<double>& energies) {
   return up / down / level;
 }
 
-// Energies of the frames of a history in the furnace, whose image is the same from everywhere.
+// Returns the energies of a history's frames in the furnace, whose image is the same from
+// everywhere.
 std::vector<double> energiesOf(Session& session, const History& history, uint32_t seed,
                                uint32_t frames) {
   const SceneCamera camera = makeBuiltinScene("furnace").cameras.at(0);
@@ -72,13 +74,13 @@ std::vector<double> energiesOf(Session& session, const History& history, uint32_
   return energies;
 }
 
-// Of runs of other seeds.
+// Slope over runs of other seeds.
 struct Slope {
-  double mean = 0.0, half = 0.0;  // of its interval, at 99.9 %: several histories are asked
+  double mean = 0.0, half = 0.0;  // half width of the 99.9 % interval: several histories are tested
   bool isZero() const { return std::abs(mean) <= half; }
 };
 
-// `drift`: planted, of the energy over a decade of frames.
+// `drift`: artificial drift per decade of frames.
 Slope slopeOf(Session& session, const History& history, uint32_t firstSeed, uint32_t frames,
               uint32_t runs, double drift = 0.0) {
   std::vector<double> slopes;
@@ -125,7 +127,7 @@ TEST(Slope, OfMadeUpEnergies) {
   EXPECT_NEAR(slopeOf(energies), 0.01, 1e-12);
 }
 
-// A drift of one percent a decade is found, by fresh seeds too.
+// A drift of one percent per decade is found, also with fresh seeds.
 TEST(Slope, OfAPlantedDriftIsFound) {
   const History history = histories({"unbiased"}).front();
   Session session(builtinScene("furnace"), configOf(history));
@@ -135,7 +137,7 @@ TEST(Slope, OfAPlantedDriftIsFound) {
   }
 }
 
-// How often is a first batch of a method rejected that has no history, so no slope?
+// Counts false rejections for a method without a history, which has no slope.
 TEST(Slope, NightlyOfPathIsRarelyRejected) {
   const History history{"path", "", "", false};
   Session session(builtinScene("furnace"), configOf(history));

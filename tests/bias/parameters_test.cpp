@@ -1,7 +1,6 @@
-// Parameter invariance: no setting of an unbiased mode may move the mean. Theory gives these tests
-// for free, and each reaches code that the defaults leave untouched. Red and blue are tested beside
-// luminance: the three ways of shading have the same luminance by construction and differ in
-// colour.
+// Parameter invariance: no setting of an unbiased mode may move the mean. Each setting reaches code
+// that the defaults do not. Red and blue are tested besides luminance: the three ways of shading
+// have the same luminance by construction and differ in colour.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -51,7 +50,7 @@ struct Effort {
   uint32_t frames, skipped;
   int threads;
 };
-// A history longer than a confidence cap of 5.
+// Longer than a confidence cap of 5.
 constexpr Effort kEveryDay{48, 27, 96, 32, 8, 2, 1};
 constexpr Effort kNightly{64, 36, 512, 128, 64, 8, 0};
 
@@ -77,8 +76,7 @@ void expectInvariant(const std::string& sceneName, const std::vector<SceneCamera
   }
 }
 
-// The box from inside, its lamp out of view: seen directly, the lamp's outline is most of the
-// noise.
+// The box from inside with its lamp out of view, whose outline would be most of the noise.
 TEST(ParameterInvariance, CornellBox) {
   expectInvariant("cornell-box", {cornellBelowTheLamp()}, kSettings, kEveryDay);
 }

@@ -8,15 +8,15 @@
 
 namespace restlab::bias {
 
-// Upright at `eye`, looking at `target`; the field of view is vertical, in degrees.
+// Upright camera at `eye`, looking at `target`; vertical field of view in degrees.
 SceneCamera lookAt(const glm::dvec3& eye, const glm::dvec3& target, double yfovDegrees);
 
-// Inside the Cornell box, the lamp just out of view.
+// Inside the Cornell box, with the lamp just out of view.
 SceneCamera cornellBelowTheLamp();
 
-// `frames` cameras that walk and turn from a beginning to `end`, which is the last one: every frame
-// sees other points in other pixels, and some for the first time. `stepW` is the walk of a frame in
-// metres, `turnDegrees` its turn about the vertical.
+// Returns `frames` cameras that move and turn until `end`, the last one: every frame sees other
+// points in other pixels, and some for the first time. `stepW`: metres per frame; `turnDegrees`:
+// turn per frame about the vertical.
 std::vector<SceneCamera> walkTo(const SceneCamera& end, uint32_t frames, const glm::dvec3& stepW,
                                 double turnDegrees);
 

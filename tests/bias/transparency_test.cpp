@@ -1,5 +1,5 @@
-// Partly transparent surfaces. Path rays pass them by chance, shadow rays and reconnections are
-// dimmed by them: two pictures of one integrand, which reuse has to bring together.
+// Partly transparent surfaces: path rays pass them at random, while they dim shadow rays and
+// reconnections. Reuse must combine both estimates of one integrand.
 #include <gtest/gtest.h>
 
 #include "core/scene/builtin_builder.h"
@@ -9,8 +9,8 @@
 namespace restlab::bias {
 namespace {
 
-// A room divided by screens of coverage 1/2, so that neighbouring pixels see a vertex through them
-// or past them; the large lamp is such a screen itself when `lampCoverage` is below 1.
+// A room divided by screens of coverage 1/2: neighbouring pixels see a vertex through them or past
+// them. With `lampCoverage` below 1 the large lamp is such a screen, too.
 std::shared_ptr<const CompiledScene> screens(float lampCoverage) {
   using namespace builtin;
   SceneBuilder scene("screens");

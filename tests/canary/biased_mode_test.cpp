@@ -1,6 +1,6 @@
-// The mode `biased` is declared so; here is by how much. Its energy must stay within 5 % of that
-// of the unbiased mode and its squared bias within a quarter of its mean squared error, or its
-// figures would not count. In a still view both modes are one: the camera walks.
+// Measures the bias of the mode `biased`: its energy must stay within 5 % of that of the unbiased
+// mode, and its squared bias within a quarter of its mean squared error, or its rows would not
+// count. The camera walks, because in a still view both modes are the same.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -18,8 +18,8 @@ void accumulate(Image& sum, const Image& image, float weight) {
 }
 
 struct Effort {
-  uint32_t truthFrames;  // of each half
-  uint32_t frames;       // of a history: the last one is judged
+  uint32_t truthFrames;  // per half
+  uint32_t frames;       // per history: the last one is judged
   uint32_t runs;         // even
   int threads;
 };
@@ -27,8 +27,8 @@ struct Effort {
 struct Measured {
   double energyRatio = 0.0;
   double mse = 0.0;
-  double squaredBias = 0.0;  // signed: about 0 for an unbiased method
-  double shadowRays = 0.0;   // of all frames
+  double squaredBias = 0.0;  // may be negative: about 0 for an unbiased method
+  double shadowRays = 0.0;   // over all frames
 };
 
 std::array<Image, 2> pathHalves(const std::shared_ptr<const CompiledScene>& scene,
@@ -92,7 +92,8 @@ void expectBounded(const Effort& effort, const std::string& cache) {
     EXPECT_LE(m.squaredBias, 0.25 * m.mse) << mode;
     measured.push_back(m);
   }
-  // Few runs say little of an energy; of the same seeds' energies with and without bias they do.
+  // Compare the energies of equal seeds with and without bias: few runs say little of a single
+  // energy.
   const double energy = measured.at(0).energyRatio / measured.at(1).energyRatio;
   EXPECT_GT(energy, 0.95);
   EXPECT_LT(energy, 1.05);
@@ -106,7 +107,7 @@ std::vector<std::string> allCaches() {
   return names;
 }
 
-// 32 warm-up frames, as in every published row.
+// 32 warm-up frames, as in published tables.
 class BiasedMode : public ::testing::TestWithParam<std::string> {};
 TEST_P(BiasedMode, StaysWithinItsDeclaredBound) { expectBounded({512, 33, 48, 1}, GetParam()); }
 TEST_P(BiasedMode, NightlyStaysWithinItsDeclaredBound) {

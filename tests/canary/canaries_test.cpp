@@ -1,6 +1,6 @@
-// Deliberately wrong estimators that the certificate must call biased. A test that has never
-// rejected anything proves nothing. Each is tried where its mistake matters; the same settings
-// without it must not be called biased.
+// Deliberately wrong estimators that the certificate must call biased: a test that never rejects
+// proves nothing. Each is tried where its mistake matters; the same settings without it must not be
+// called biased.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,15 +28,15 @@ constexpr double kPower = 0.9;
 
 struct Effort {
   size_t runs;
-  uint32_t truthFrames;  // of each half
+  uint32_t truthFrames;  // per half
   int threads;
 };
 constexpr Effort kEveryDay{128, 1024, 1};
-constexpr Effort kObvious{64, 256, 1};  // of a mistake by half of the image
-constexpr Effort kSmall{192, 1024, 1};  // of one by a few percent of some cells
+constexpr Effort kObvious{64, 256, 1};  // for a mistake of half of the image
+constexpr Effort kSmall{192, 1024, 1};  // for a mistake of a few percent of some cells
 constexpr Effort kNightly{256, 8192, 0};
 
-// What is rendered, and the light of the frames that count.
+// Rendered scene and method, and the scene with the light of the frames that count.
 struct Setting {
   std::shared_ptr<const CompiledScene> scene, lightAtLast;
   Method method;
@@ -53,8 +53,8 @@ Image meanOf(const Setting& setting, uint32_t seed, const Effort& effort) {
   return mean;
 }
 
-// That a first batch and a fresh one both reject the cell that is clearest, if its bias is what was
-// measured.
+// Returns the probability that a first and a fresh batch both reject the clearest cell, if its bias
+// is as measured.
 double powerOf(const Certificate& c) {
   const certificate::Rules rules;
   double family = 0.0, power = 0.0;
@@ -68,7 +68,7 @@ double powerOf(const Certificate& c) {
   return power;
 }
 
-// A setting with its truth.
+// A setting with its reference.
 class Trial {
  public:
   Trial(Setting setting, const Effort& effort) : setting_(std::move(setting)), effort_(effort) {
@@ -81,7 +81,7 @@ class Trial {
           0.5f * (reference_.half0->pixels[p] + reference_.half1->pixels[p]);
   }
 
-  // With the kernels that are there.
+  // Uses the currently registered kernels.
   Certificate certify(const ParameterMap& more = {}) const {
     const Evidence first = batch(kFirstBatch, more);
     return certificate::judge(first, first.runs(), [&] { return batch(kFreshBatch, more).runs(); },
@@ -122,8 +122,7 @@ class Trial {
   Reference reference_;
 };
 
-// Donors from far away, whatever they look like: the more they differ, the more their weights
-// matter.
+// Distant donors of any similarity: the more they differ, the more their weights matter.
 ParameterMap farDonors() {
   return {{"spatial_neighbours", int64_t{2}},
           {"spatial_radius", 48.0},
@@ -143,14 +142,14 @@ Setting belowTheLamp(const ParameterMap& parameters) {
   s.method.cameras = {bias::cornellBelowTheLamp()};
   return s;
 }
-// A walk whose last frame counts.
+// A moving camera; only the last frame counts.
 Setting walking(const ParameterMap& parameters) {
   Setting s = still("cornell-box", parameters);
   s.method = bias::restirMethod(6, 5, parameters);
   s.method.cameras = bias::walkTo(bias::cornellBelowTheLamp(), 6, {0.06, 0.01, -0.05}, 0.0);
   return s;
 }
-// A walk in which entries alone are merged over time, far ones among them.
+// A moving camera with temporal reuse only from entries, distant ones included.
 Setting walkingWithEntries(const std::string& cache) {
   Setting s = walking({{"reproject", false},
                        {"spatial_neighbours", int64_t{0}},
@@ -164,8 +163,8 @@ Setting walkingWithEntries(const std::string& cache) {
   s.method.config.cache = cache;
   return s;
 }
-// The lamp is dimmed before the last frame but one; the last one counts. Where light has changed
-// at all, all is forgotten.
+// The lamp is dimmed before the last frame but one; the last one counts. With this
+// validate_response any change of light discards the history.
 Setting dimmed() {
   constexpr uint32_t kFrames = 10;
   Setting s = still("cornell-box", {{"validate_every", int64_t{1}}, {"validate_response", 1000.0}});
@@ -182,7 +181,7 @@ Setting dimmed() {
 
 const ParameterMap kConfidence = {{"mis", std::string("confidence")}};
 
-// What is tried in a still view with far donors.
+// Canaries for a still view with distant donors.
 const std::vector<std::string> kOfWeights = {"empty_inputs_dropped", "failed_shifts_dropped",
                                              "jacobian_left_out", "light_density_of_the_source",
                                              "random_dimension_reused"};
@@ -200,7 +199,7 @@ void tryAll(const Trial& trial, const std::vector<std::string>& canaries) {
 void tryWeights(const Effort& effort) {
   tryAll(Trial(belowTheLamp(farDonors()), effort), kOfWeights);
 }
-// With the donors of the defaults. Of far ones an inverted Jacobian makes noise too skewed to test.
+// Uses the default donors: with distant ones an inverted Jacobian makes noise too skewed to test.
 void tryNear(const Effort& effort) {
   const Trial trial(belowTheLamp({}), effort);
   tryAll(trial, kOfNearDonors);
@@ -238,8 +237,8 @@ TEST_P(CanaryOfEntries, AnOmittedJacobianIsRejected) { tryEntries(kSmall, GetPar
 INSTANTIATE_TEST_SUITE_P(Cache, CanaryOfEntries, ::testing::ValuesIn(bias::cachesWithEntries()),
                          [](const auto& test) { return test.param; });
 
-// Not the mean is wrong without a cap, but what a mean of many frames is worth: a mean of running
-// means has twice the variance of a mean.
+// Without a cap the mean is right, but its variance is not: a mean of running means has twice the
+// variance of a mean.
 TEST(Canary, HistoriesWithoutACapAreSeenInTheVarianceOfALongMean) {
   constexpr uint32_t kFrames = 256;
   constexpr size_t kRuns = 24;
@@ -263,9 +262,9 @@ TEST(Canary, HistoriesWithoutACapAreSeenInTheVarianceOfALongMean) {
   EXPECT_GT(wrong.lo, 1.2 * right.hi);
 }
 
-// A patch that no test applies would be no canary.
+// Checks that every patch is used by a test.
 TEST(Canary, EveryOneIsTried) {
-  // The variance of a long mean, and extremes_test.cpp.
+  // Tested by the variance of a long mean, and in extremes_test.cpp.
   std::set<std::string> tried = {"no_cap", "absolute_epsilon", "clamp_at_1e3", "fixed_ray_offset"};
   for (const auto* canaries : {&kOfWeights, &kOfNearDonors, &kOfFilm, &kOfWalks, &kOfChangingLight})
     tried.insert(canaries->begin(), canaries->end());

@@ -1,6 +1,6 @@
-// Numbers that hold in scenes of a usual size and brightness alone must be found by the shipped
-// experiments/suites/stress-quick.toml: each mistake by the sweep that is there for it. Truths are
-// exact: nothing wrong is rendered for them.
+// Constants that only suit scenes of usual size and brightness must be found by the shipped
+// experiments/suites/stress-quick.toml, each by its sweep. Truths are exact, so no wrong kernel
+// renders them.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -18,8 +18,8 @@
 namespace restlab::canary {
 namespace {
 
-// Sweeps of the suite that do not end at their last value with these mistakes, and `path` alone:
-// the mistakes are in what all methods share.
+// Sweeps of the suite that end early with these mistakes. Tested with `path` alone, because the
+// mistakes are in code that all methods share.
 const std::set<std::string> kSweeps = {"more light", "less light", "larger", "smaller"};
 
 std::vector<Suite> quickSuite() {
@@ -35,8 +35,8 @@ std::vector<Suite> quickSuite() {
 
 class Extremes : public TemporaryFolder {
  protected:
-  // The last value that still holds, by the name of the sweep. The suite fails by the first energy
-  // that is far off.
+  // Returns the last value that holds, by the name of the sweep. The suite fails at the first
+  // energy that is far off.
   std::map<std::string, std::string> lasts(bool fails) const {
     SuiteRequest request;
     request.out = folder() / "out";
@@ -55,7 +55,7 @@ class Extremes : public TemporaryFolder {
       found[(*it)[1]] = (*it)[2];
     return found;
   }
-  // Which one does not hold to its end, and where it stops.
+  // Expects these sweeps to end early, at these values.
   void expectFound(const std::string& canary, std::map<std::string, std::string> expected) const {
     const WrongKernels wrong(canary);
     const auto found = lasts(true);
@@ -73,7 +73,7 @@ TEST_F(Extremes, AnAbsoluteEpsilonIsFound) {
   expectFound("absolute_epsilon", {{"less light", "1"}});
 }
 TEST_F(Extremes, AClampAt1e3IsFound) { expectFound("clamp_at_1e3", {{"more light", "1"}}); }
-// Beyond the walls of a small room, and below the spacing of floats in a large one.
+// The offset exceeds the walls of a small room, and is below the spacing of floats in a large one.
 TEST_F(Extremes, AFixedRayOffsetIsFound) {
   expectFound("fixed_ray_offset", {{"smaller", "1"}, {"larger", "1"}});
 }

@@ -20,7 +20,7 @@ WrongKernels::WrongKernels(const std::string& canary) : own_(rl::cpuKernelTable(
     rows_.push_back(wrong.kernel);
   }
   if (rows_.empty()) throw std::invalid_argument("there is no canary '" + canary + "'");
-  // Rows of other masks would be taken where they are smaller.
+  // Leave out all rows of replaced kernels: rows of other masks would be used if they are smaller.
   std::copy_if(own_.rows, own_.rows + own_.count, std::back_inserter(rows_),
                [&](const rl::CpuKernelInfo& row) { return replaced.count(row.name) == 0; });
   rl::registerCpuKernels({rows_.data(), uint32_t(rows_.size())});

@@ -1,4 +1,4 @@
-// Kernels with one mistake each (tests/canary/CMakeLists.txt makes them).
+// Kernels with one mistake each (made by tests/canary/CMakeLists.txt).
 #pragma once
 
 #include <string>
@@ -10,19 +10,19 @@ namespace restlab::canary {
 
 struct WrongKernel {
   const char* canary;
-  rl::CpuKernelInfo kernel;  // named as the one of the program
+  rl::CpuKernelInfo kernel;  // has the name of the program's kernel
 };
-// Generated.
+// Generated at build time.
 const std::vector<WrongKernel>& allWrongKernels();
 
 // The canaries' names, each once.
 std::vector<std::string> canaryNames();
 
-// Sessions that are made while it lives run a canary's kernels in place of the program's, and must
-// end before it. One at a time.
+// RAII: sessions constructed during its lifetime use a canary's kernels instead of the program's,
+// and must end before it. Only one may exist at a time.
 class WrongKernels {
  public:
-  // Throws std::invalid_argument where there is no such canary.
+  // Throws std::invalid_argument if there is no such canary.
   explicit WrongKernels(const std::string& canary);
   ~WrongKernels() { rl::registerCpuKernels(own_); }
   WrongKernels(const WrongKernels&) = delete;

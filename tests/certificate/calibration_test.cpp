@@ -1,5 +1,5 @@
-// Certificates of a correct estimator, again and again: how often is the verdict false, and are
-// p-values what they claim to be?
+// Many certificates of a correct estimator: how often the verdict is false, and whether p-values
+// are uniform.
 #include <gtest/gtest.h>
 
 #include <boost/math/distributions/binomial.hpp>
@@ -17,7 +17,7 @@ constexpr int kEveryDay = 20, kNightly = 200;
 
 struct Tally {
   int equivalent = 0, biased = 0, notDecided = 0;
-  std::vector<double> pValues;  // of luminance of the whole image
+  std::vector<double> pValues;  // luminance of the whole image
 
   void add(const Certificate& c) {
     equivalent += c.verdict == Verdict::equivalent;
@@ -29,7 +29,7 @@ struct Tally {
     }
   }
   int count() const { return equivalent + biased + notDecided; }
-  // A share of them with its 95 % interval (Clopper and Pearson).
+  // Prints a share of the certificates with its 95 % interval (Clopper and Pearson).
   void print(const char* name, const char* what, int of) const {
     using boost::math::binomial;
     std::printf(
@@ -39,18 +39,18 @@ struct Tally {
         100.0 * binomial::find_lower_bound_on_p(count(), of, 0.025),
         100.0 * binomial::find_upper_bound_on_p(count(), of, 0.025));
   }
-  // Of a method without a bias.
+  // Checks certificates of a method without a bias.
   void expectCalibrated(const char* name) const {
     const double uniform = stats::ksUniformTest(pValues).pValue;
     print(name, "false verdicts", biased);
     std::printf("%s: p-values uniform: p %.3f\n", name, uniform);
-    // The family's error is 1e-3 before fresh runs are asked, and less than 1e-6 after them.
+    // The family error is 1e-3 before the fresh batch, and less than 1e-6 after it.
     EXPECT_EQ(biased, 0);
     EXPECT_GT(uniform, 1e-3);
   }
 };
 
-// With as many runs as a method without a bias takes.
+// Uses as many runs as planned for a method without a bias.
 Tally certifyMadeUp(int certificates, double bias) {
   const Image truth = gradient(8);
   const Noise noise{0.15, bias, 1.0};
@@ -78,7 +78,7 @@ void certifyWithoutABias(int certificates) {
 TEST(Calibration, OfMadeUpRuns) { certifyWithoutABias(kEveryDay); }
 TEST(Calibration, NightlyOfMadeUpRuns) { certifyWithoutABias(kNightly); }
 
-// A bias that is the margin is called equivalent in 2.5 % of the certificates at most.
+// At most 2.5 % of certificates call a bias at the margin equivalent.
 void certifyAtTheMargin(int certificates, double bias) {
   const Tally tally = certifyMadeUp(certificates, bias);
   tally.print("made-up runs with the bias of the margin", "falsely equivalent", tally.equivalent);
@@ -92,7 +92,7 @@ TEST(Calibration, NightlyOfABiasAtTheMargin) {
   certifyAtTheMargin(kNightly, 0.995);
 }
 
-// `path` on a small scene, against runs of itself in two halves.
+// `path` on a small scene, against a reference of its own in two halves.
 TEST(Calibration, NightlyOfPath) {
   const auto scene = bias::builtinScene("cornell-box");
   SessionConfig config;

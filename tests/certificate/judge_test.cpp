@@ -36,7 +36,7 @@ TEST(Judge, ABiasOfAQuarterIsFoundThere) {
   const Certificate c = judged({0.3, 1.0, 0.97}, 128);
   EXPECT_EQ(c.verdict, Verdict::biased) << c.reason;
   EXPECT_GT(c.cells.confirmed, 0u);
-  // The quarter has less of the red and the blue gradient than the others.
+  // The quarter has less of the red and blue gradients than the others.
   EXPECT_LT(c.image[0].bias.hi, 0.0);
   EXPECT_GT(c.image[0].bias.lo, -0.01);
   for (const stats::CellVerdict& v : c.cells.cells) {
@@ -48,7 +48,7 @@ TEST(Judge, ABiasOfAQuarterIsFoundThere) {
 }
 
 TEST(Judge, ABiasWithinTheMarginDoesNotCount) {
-  // Each test rejects: the noise is far below the bias.
+  // All tests reject, because the noise is far below the bias.
   const Noise noise{0.02, 1.002, 1.0};
   const Certificate c = judged(noise, 128, {}, 0.001);
   EXPECT_GT(c.cells.confirmed, 0u);
@@ -58,7 +58,7 @@ TEST(Judge, ABiasWithinTheMarginDoesNotCount) {
   EXPECT_EQ(judged(noise, 128, strict, 0.001).verdict, Verdict::biased);
 }
 
-// What a suite stops at is what would be found biased, and nothing else.
+// Pilot runs reject exactly what a certificate would find biased.
 TEST(Judge, FewRunsRejectWhatCounts) {
   const Image truth = gradient(kSide);
   const auto isRejected = [&](const Noise& noise, double margin) {
@@ -70,7 +70,7 @@ TEST(Judge, FewRunsRejectWhatCounts) {
   };
   EXPECT_TRUE(isRejected({0.3, 1.0, 0.97}, 0.005));
   EXPECT_FALSE(isRejected({}, 0.005));
-  // A certain bias that is smaller than the margin.
+  // A clear bias that is smaller than the margin.
   EXPECT_TRUE(isRejected({0.02, 1.002, 1.0}, 0.001));
   EXPECT_FALSE(isRejected({0.02, 1.002, 1.0}, 0.005));
 }
@@ -96,7 +96,7 @@ TEST(Judge, AReferenceThatIsTooCoarseCannotDecide) {
 }
 
 TEST(Judge, SkewedMeansHaveNoInterval) {
-  // One run in a hundred is a thousand times as bright in one pixel.
+  // One of 128 runs is a thousand times as bright in one pixel.
   const Image truth = gradient(kSide);
   std::mt19937_64 random(3);
   Evidence evidence(kSide, kSide);
@@ -127,7 +127,7 @@ TEST(Judge, WhatIsNotFiniteIsBiased) {
   EXPECT_NE(c.reason.find("1 value of its images"), std::string::npos) << c.reason;
 }
 
-// Kernels set such values to zero, so that images do not have them.
+// Kernels set such values to zero, so images do not show them.
 TEST(Judge, WhatWasSetToZeroIsBiased) {
   Certificate c = judged({}, 128);
   countNonfiniteSamples(c, 0);
@@ -142,7 +142,7 @@ TEST(Judge, WhatWasSetToZeroIsBiased) {
       << wrong.reason;
 }
 
-// What fresh runs do not confirm is not said to need one run more.
+// After an unconfirmed rejection the certificate asks for as many runs again, not for one more.
 TEST(Judge, AnUnconfirmedRejectionAsksForAsManyAgain) {
   const Image truth = gradient(kSide);
   const Noise wrong{0.3, 1.03, 1.0}, right{0.3, 1.0, 1.0};
@@ -157,7 +157,7 @@ TEST(Judge, AnUnconfirmedRejectionAsksForAsManyAgain) {
   EXPECT_GE(*c.moreRuns, 128u);
 }
 
-// Of images each second one is of the fresh batch: a batch takes what a test takes.
+// If only every second image is in the first batch, twice as many images are needed.
 TEST(Judge, BatchesOfHalfTheRunsAskForTwiceAsMany) {
   const Image truth = gradient(kSide);
   const Noise noise{3.0, 1.02, 1.0};
@@ -175,7 +175,8 @@ TEST(Judge, BatchesOfHalfTheRunsAskForTwiceAsMany) {
 }
 
 TEST(Judge, ABiasNearTheMarginIsNotTheReferencesFault) {
-  // Near 0.5 %: told apart by a better reference alone, though this one would do for no bias.
+  // A bias near the margin of 0.5 % needs a better reference, although this one is good enough for
+  // a bias of 0.
   const Certificate c = judged({0.02, 1.002, 1.0}, 128, {}, 0.05);
   ASSERT_EQ(c.verdict, Verdict::notDecided) << c.reason;
   EXPECT_FALSE(c.moreRuns);
@@ -199,7 +200,7 @@ TEST(Judge, BlackSaysNothing) {
   EXPECT_NE(c.reason.find("black"), std::string::npos) << c.reason;
 }
 
-// A channel without light is equal in all runs, and does not stand in the way.
+// A channel without light is equal in all runs, and does not prevent a verdict.
 TEST(Judge, ABlackChannelIsEquivalent) {
   Image truth = gradient(kSide);
   for (glm::vec3& p : truth.pixels) p.z = 0.0f;
@@ -218,8 +219,7 @@ TEST(Judge, SharesOfTheErrorAreThoseOfBiasAndNoise) {
   EXPECT_NEAR(c.variance.value / (0.0121 * truthSquared), 1.0, 0.03);
 }
 
-// Holm's correction is over all cells of all quantities: of the tests that 0.1 % each would reject,
-// some stay.
+// Holm's correction covers all cells of all quantities: not every test below 0.1 % is rejected.
 TEST(Judge, AllTestsAreOneFamily) {
   const Certificate c = judged({0.3, 1.0, 0.985}, 128);
   std::vector<double> pValues;
@@ -239,7 +239,7 @@ TEST(Judge, AllTestsAreOneFamily) {
 }
 
 TEST(Judge, AnImageHasAtMost64Cells) {
-  // Blocks of eight or nine pixels a side.
+  // Blocks of eight or nine pixels per side.
   constexpr uint32_t kOdd = 67;
   const Image truth = gradient(kOdd);
   const Certificate c =
@@ -259,8 +259,8 @@ TEST(Judge, AnImageHasAtMost64Cells) {
   }
 }
 
-// A factor with a deviation of 10 is skewed in any cell, one of 0.3 in none; between them cells are
-// merged until they are not.
+// A pixel factor with deviation 10 is skewed in any cell, one of 0.3 in none; in between, cells are
+// merged until they are not skewed.
 TEST(Judge, WhatIsTestedIsNearlyNormal) {
   size_t merged = 0;
   for (const double sigma : {0.3, 2.0, 10.0}) {
@@ -283,7 +283,7 @@ TEST(Judge, WhatIsTestedIsNearlyNormal) {
   EXPECT_GT(merged, 0u);
 }
 
-// What a first batch rejects a fresh one must reject, on the same side.
+// A fresh batch must reject what the first one rejects, on the same side.
 TEST(Judge, AFreshBatchHasToSayTheSame) {
   const Image truth = gradient(kSide);
   const Reference reference = makeReference(truth, 0.005, 2);
@@ -302,7 +302,7 @@ TEST(Judge, AFreshBatchHasToSayTheSame) {
     EXPECT_EQ(c.cells.confirmed > 0, quarter < 1.0) << quarter;
     EXPECT_EQ(c.verdict == Verdict::biased, quarter < 1.0) << quarter << ": " << c.reason;
   }
-  // It is not made where nothing is rejected.
+  // Without a rejection no fresh batch is rendered.
   const Evidence right = makeEvidence(truth, {}, 1, 128);
   const auto none = [&]() -> stats::RunSet {
     ADD_FAILURE() << "no fresh batch was wanted";
@@ -311,8 +311,8 @@ TEST(Judge, AFreshBatchHasToSayTheSame) {
   EXPECT_EQ(judge(right, right.runs(), none, reference, Rules()).verdict, Verdict::equivalent);
 }
 
-// A block that is bright in 4 of 128 runs: n q (1 - q) / (1 - 2 q)^2 with q = 4 / 128. Another one
-// is in a third of them, and so is the whole image.
+// A block that is bright in 4 of 128 runs: n q (1 - q) / (1 - 2 q)^2 events with q = 4 / 128.
+// Another block is bright in a third of the runs, and so is the whole image.
 TEST(Judge, TheWorstCellSaysHowManyEventsItHas) {
   const Image truth = gradient(kSide);
   std::mt19937_64 random(3);
@@ -328,7 +328,7 @@ TEST(Judge, TheWorstCellSaysHowManyEventsItHas) {
   EXPECT_NEAR(c.fewestEvents, 128.0 * q * (1.0 - q) / ((1.0 - 2.0 * q) * (1.0 - 2.0 * q)), 0.01);
 }
 
-// Half of the runs a tenth above the truth, half a tenth below it.
+// Half of the runs are a tenth above the truth, half a tenth below.
 Evidence evenly(const Image& truth, int runs) {
   Evidence evidence(truth.width, truth.height);
   for (int run = 0; run < runs; ++run) {
@@ -339,8 +339,8 @@ Evidence evenly(const Image& truth, int runs) {
   return evidence;
 }
 
-// An interval of 95 % that lies within the margin nine times out of ten: a mean with an error of
-// margin / (1.960 + 1.645).
+// A 95 % interval that lies within the margin nine times out of ten: a mean with a standard error
+// of margin / (1.960 + 1.645).
 TEST(RunsForEquivalence, KnownValues) {
   Reference reference;
   reference.mean = gradient(kSide);
@@ -355,13 +355,13 @@ TEST(RunsForEquivalence, KnownValues) {
   const double wanted = variance * deviations * deviations;
   EXPECT_NEAR(runs(0.005) / (wanted / (0.005 * 0.005)), 1.0, 1e-5);
   EXPECT_NEAR(runs(0.02) / (wanted / (0.02 * 0.02)), 1.0, 1e-5);
-  EXPECT_EQ(runs(0.2), 128.0);  // for its cells
-  // A reference with an error of its own takes more, and one with too large a one any number.
+  EXPECT_EQ(runs(0.2), 128.0);  // minimum for cells
+  // A reference with an error needs more runs; with too large an error no number is enough.
   EXPECT_EQ(relativeError(truthOf(reference, grid)), 0.0);
   reference.half0 = reference.half1 = reference.mean;
   for (glm::vec3& p : reference.half0->pixels) p *= 1.032f;
   for (glm::vec3& p : reference.half1->pixels) p *= 0.968f;
-  // Of red, whose pixels differ most: deviations of 3.2 % of each pixel.
+  // Red has the largest error, because its pixels differ most: deviations of 3.2 % of each pixel.
   double squares = 0.0, sum = 0.0;
   for (const glm::vec3& p : reference.mean.pixels) {
     squares += 0.032 * 0.032 * double(p.x) * double(p.x);

@@ -1,4 +1,4 @@
-// Runs of a made-up renderer: a truth with a gradient, times a factor of mean 1 a pixel.
+// Runs of a made-up renderer: a gradient, times a random factor of mean 1 per pixel.
 #pragma once
 
 #include <cmath>
@@ -11,8 +11,8 @@ namespace restlab::certificate {
 
 struct Noise {
   double sigma = 0.3;        // of a pixel's factor, which is log-normal
-  double bias = 1.0;         // of every pixel
-  double quarterBias = 1.0;  // of the left upper quarter besides
+  double bias = 1.0;         // factor of every pixel
+  double quarterBias = 1.0;  // further factor of the upper left quarter
 };
 
 inline Image gradient(uint32_t side) {
@@ -45,7 +45,7 @@ inline Evidence makeEvidence(const Image& truth, const Noise& noise, uint64_t se
   return evidence;
 }
 
-// Two halves with this much noise each, relative to a pixel.
+// Makes two halves with this relative noise per pixel.
 inline Reference makeReference(const Image& truth, double sigma, uint64_t seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<float> normal;

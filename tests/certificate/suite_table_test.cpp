@@ -1,4 +1,4 @@
-// The document of a suite: a method that is not what it says of itself cannot be overlooked.
+// Markdown of a suite: a method that contradicts its declared class must stand out.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr uint32_t kSide = 16;
 
-// A certificate of made-up runs, as `certify` leaves it.
+// Makes a certificate of made-up runs, as `certify` would.
 Certified planted(const std::string& scene, const std::string& method, const std::string& denoiser,
                   BiasClass declared, const Noise& noise) {
   const Image truth = gradient(kSide);
@@ -58,7 +58,7 @@ std::vector<std::string> linesOf(const std::string& text) {
 
 std::string document() { return suiteMarkdownOf(plantedSuite(), Rules(), "restlab bias x.toml"); }
 
-// Lines that begin so.
+// Returns the lines with this beginning.
 std::vector<std::string> linesWith(const std::string& begin) {
   std::vector<std::string> found;
   for (const std::string& line : linesOf(document()))
@@ -77,8 +77,8 @@ TEST(SuiteTable, CountsVerdictsByWhatIsDeclared) {
 }
 
 TEST(SuiteTable, AMethodThatIsNotAsDeclaredStandsOut) {
-  // Said above the tables with the reason, and in bold where it stands; what is biased by
-  // declaration is neither.
+  // Listed above the tables with the reason, and bold in its cell; a method that is declared biased
+  // is neither.
   const std::vector<std::string> said = linesWith("- **");
   ASSERT_EQ(said.size(), 1u) << document();
   EXPECT_EQ(said[0].rfind("- **four, reuse**: luminance of the image by ", 0), 0u) << said[0];
@@ -102,13 +102,14 @@ TEST(SuiteTable, ARowAMethodAndThreeScenesATable) {
             (std::vector<std::string>{"| method | denoiser | declared | one | two | three |",
                                       "| method | denoiser | declared | four |"}));
   EXPECT_EQ(linesWith("| path | none |").size(), 2u);
-  // `reuse` is not in the first three scenes: no cell, and no row there.
+  // `reuse` is not in the first three scenes: it has no row there.
   EXPECT_EQ(linesWith("| reuse |").size(), 1u) << document();
   for (const std::string& line : linesOf(document()))
     EXPECT_LE(std::count(line.begin(), line.end(), '|'), 7) << "more than six columns: " << line;
 }
 
-// In a still view caches and modes show one image: that is one line, unless they declare unlike.
+// Methods with equal verdicts share a line, as caches and modes render one image in a still view,
+// unless their declared classes differ.
 TEST(SuiteTable, WhatAgreesSharesALine) {
   std::vector<Certified> all;
   for (const char* method : {"reuse, pixel", "other", "reuse, voxel"})
@@ -129,7 +130,7 @@ TEST(SuiteTable, WhatIsNotDecidedSaysHowManyRunsWould) {
   EXPECT_NE(open[0].find(" more runs |"), std::string::npos) << open[0];
 }
 
-// An image of which most could not be tested is not as sure as another one.
+// The share of the image that could not be tested is stated.
 TEST(SuiteTable, WhatWasNotTestedIsSaid) {
   std::vector<Certified> all = {plantedSuite().front()};
   all[0].certificate.cells.untestableShare = 0.0;

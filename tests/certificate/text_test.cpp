@@ -1,4 +1,4 @@
-// Texts of certificates: shares, cells and bounds that stand side by side agree with each other.
+// Texts of certificates: shares, cells and bounds in one text must agree with each other.
 #include <gtest/gtest.h>
 
 #include <regex>
@@ -13,7 +13,8 @@ namespace {
 constexpr uint32_t kSide = 32;
 constexpr uint64_t kRuns = 128;
 
-// Red is skewed in each pixel and not in the mean; one run of 64 has much green and blue.
+// Red is skewed in each pixel but not in the mean; one run in 64 is much brighter in green and
+// blue.
 Certified oddlySkewed() {
   const Image truth = gradient(kSide);
   std::mt19937_64 random(7);
@@ -54,7 +55,7 @@ TEST(CertificateText, CellsAndSharesAreOfOneQuantity) {
   EXPECT_NE(found[2], "red") << text;
   EXPECT_LE(std::stod(found[3]) + std::stod(found[4]), 100.0 + 0.1) << text;
   EXPECT_TRUE(found[5].matched) << text;
-  // Why one has an interval and the others do not.
+  // Says why one quantity has an interval and the others do not.
   EXPECT_TRUE(
       std::regex_search(text, std::regex("red +bias [^\\n]*\\] \\(as of [0-9]+, of 400 needed\\)")))
       << text;

@@ -1,5 +1,5 @@
-// Backends as a user meets them: options, devices that are absent, start-up, and suites that put
-// several backends into one table.
+// Backends from the command line: options, absent devices, start-up, and suites with several
+// backends in one table.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -39,7 +39,7 @@ name = "gi"
 integrator = "restir_gi"
 )";
 
-// A variable of the environment that the program inherits.
+// RAII: sets an environment variable that the program inherits.
 class Variable {
  public:
   Variable(const char* name, const char* value) : name_(name) {
@@ -56,8 +56,8 @@ class Variable {
 };
 
 class BackendTest : public ProgramTest {
-  // The driver in software (Mesa 22.3) leaves 128 bytes behind, with no frame that names it; in a
-  // build that looks for leaks each program would end with an error. Other tests look for our own.
+  // The software driver (Mesa 22.3) leaks 128 bytes, with no frame that names it: in a build with
+  // leak checks every program would end with an error. Other tests check for our own leaks.
   const Variable leaks_{"ASAN_OPTIONS", "detect_leaks=0:verify_asan_link_order=0"};
 
  protected:
@@ -86,7 +86,7 @@ class BackendTest : public ProgramTest {
   }
 };
 
-// Like BackendTest, where there is a device.
+// BackendTest that needs a device, and skips without one.
 class VulkanTest : public BackendTest {
  protected:
   void SetUp() override {
@@ -198,7 +198,7 @@ TEST_F(VulkanTest, RayQueriesOfADeviceWithoutThemAreOneLine) {
   const std::string render = "render cornell-box -q -o x.exr --resolution 8x8 --backend vulkan";
   if (device.find(", query") != std::string::npos) {
     ASSERT_EQ(run(render).code, 0);
-    // In software the hierarchy is faster.
+    // A software device traces faster with the project's own hierarchy.
     const bool isSoftware = device.find("(cpu;") != std::string::npos;
     EXPECT_EQ(readExr(path("x.exr")).metadata.at("ray_tracing"), isSoftware ? "bvh" : "query");
     GTEST_SKIP() << "SKIPPED: " << device;
@@ -308,7 +308,8 @@ TEST_F(VulkanTest, SeveralBackendsShareATable) {
   }
   EXPECT_EQ(onlyReference("out").metadata.at("backend"), "cpu");
 
-  // Its frames one by one are those that `render` gives a device several at once.
+  // `render` submits several frames at once to a device; `run` one by one. Both give the same
+  // image.
   ASSERT_EQ(run("render cornell-box -o again.exr --resolution 32x24 --max-bounces 3 --frames 6 "
                 "--integrator restir_gi --backend vulkan")
                 .code,
@@ -316,7 +317,7 @@ TEST_F(VulkanTest, SeveralBackendsShareATable) {
   EXPECT_EQ(readExr(path("out/images/cornell-box-all-gi-vulkan.exr")).layers.at("").pixels,
             readExr(path("again.exr")).layers.at("").pixels);
 
-  // What several backends call alike is chosen together.
+  // A name that several backends share selects the methods of all of them.
   ASSERT_EQ(run("run suite.toml --out few --set runs=2 --methods path").code, 0);
   EXPECT_EQ(parseCsv(read("few/summary.csv")).size(), 2u);
   ASSERT_EQ(run({"run", "suite.toml", "--out", "one", "--methods", "path @vulkan"}).code, 0);
@@ -338,7 +339,8 @@ TEST_F(VulkanTest, ALostDeviceIsOneLineAndFinishedRunsStay) {
     expectError(run(suite), 4, lost);
     EXPECT_FALSE(fs::exists(path("out/summary.csv"))) << "no run was finished";
   }
-  // By what is finished, not by a number of submissions: frames that take long have more.
+  // Lose the device by finished runs, not by submissions, whose number depends on the time of
+  // frames.
   const Variable finished("RESTLAB_TEST_RESULTS", path("out/results.jsonl").c_str());
   const ProgramResult result = run(suite);
   EXPECT_EQ(result.code, 4) << result.err;

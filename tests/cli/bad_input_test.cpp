@@ -1,4 +1,4 @@
-// Every bad input of the contract: one clear line, the exit code, no image left behind.
+// Bad inputs: one clear line, the right exit code, no image left behind.
 #include <limits>
 
 #include "core/image/image.h"
@@ -287,7 +287,7 @@ TEST_F(OptionsTest, AnEmptyArgumentIsNone) {
 using OutputTest = ProgramTest;
 
 TEST_F(OutputTest, IsCheckedBeforeRendering) {
-  // A billion samples would take hours: the answer comes at once.
+  // A billion samples would take hours: the error must come before rendering.
   expectError(run("render cornell-box -o absent/x.exr --spp 1000000000"), 3, {"absent"});
   expectError(run("reference cornell-box -o absent/x.exr --time-limit 100000"), 3, {"absent"});
 }
@@ -331,7 +331,7 @@ TEST_F(OutputTest, FullDiskIsSaid) {
 TEST_F(OutputTest, WhatDoesNotFitIntoMemoryIsRefused) {
   const auto available = availableMemory();
   if (!available) GTEST_SKIP() << "this system does not say how much memory there is";
-  // 127 GiB, most of it reservoirs.
+  // Needs 127 GiB, most of it reservoirs.
   if (*available > uint64_t(96) << 30) GTEST_SKIP() << "there may be enough memory here";
   expectError(run("render cornell-box -o x.exr --integrator restir_gi --resolution 16384x16384"), 4,
               {"restir_gi", "16384x16384", "MiB", "available", "smaller resolution"});
@@ -348,7 +348,7 @@ TEST_F(OutputTest, AvailableMemoryIsTheLeastOfMachineAndControlGroup) {
   EXPECT_EQ(availableMemory(root), 2048u * 1024u);
   write("root/sys/fs/cgroup/memory.max", "1000000\n");
   EXPECT_EQ(availableMemory(root), 100000u);
-  // Cached files make room.
+  // Cached files count as available memory.
   write("root/sys/fs/cgroup/memory.stat", "anon 5\ninactive_file 300000\nactive_file 100000\n");
   EXPECT_EQ(availableMemory(root), 500000u);
   write("root/sys/fs/cgroup/memory.current", "2000000\n");

@@ -1,4 +1,4 @@
-// restlab run: ratios against a method that the suite names, and methods chosen by their names.
+// restlab run: ratios relative to a method that the suite names, and methods selected by name.
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -27,7 +27,7 @@ class BaselineTest : public ProgramTest {
   }
 };
 
-// Fewer runs than there are: the tables lose some, which must not look like all there is.
+// With fewer runs than exist the tables lose some of them, which must be reported.
 TEST_F(BaselineTest, FewerRunsThanThereAreIsSaid) {
   ASSERT_EQ(run("run suite.toml -o out --set runs=5").code, 0);
   const ProgramResult result = run("run suite.toml -o out");
@@ -44,7 +44,7 @@ TEST_F(BaselineTest, FewerRunsThanThereAreIsSaid) {
 TEST_F(BaselineTest, CountsTheRunsThatAreThereAnew) {
   ASSERT_EQ(run("run suite.toml -o out").code, 0);
   std::vector<double> four, eight;
-  double noise = 0.0;  // of the reference, which all have in common
+  double noise = 0.0;  // of the reference, shared by all runs
   std::istringstream text(read("out/results.jsonl"));
   for (std::string line; std::getline(text, line);) {
     const auto json = nlohmann::json::parse(line);
@@ -88,7 +88,7 @@ TEST_F(BaselineTest, MustBeThere) {
   EXPECT_FALSE(fs::exists(path("out")));
 }
 
-// A number may be written in another way, and a backend left out.
+// The baseline may be named with another notation of a number, and without the backend.
 TEST_F(BaselineTest, IsFollowedWhereItsNameIsWrittenOtherwise) {
   ASSERT_EQ(
       run({"run", "suite.toml", "-o", "out", "-q", "--set", "baseline=gi, spatial_radius=8"}).code,

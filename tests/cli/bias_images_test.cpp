@@ -1,4 +1,4 @@
-// restlab bias --images: certificates of images that are there already.
+// restlab bias --images: certificates of existing images.
 #include <fmt/format.h>
 
 #include <functional>
@@ -15,11 +15,11 @@ using Json = nlohmann::json;
 
 class BiasImagesTest : public ProgramTest {
  protected:
-  // One bounce of a lamp on a floor, known in closed form, with little noise.
+  // One bounce from a lamp to a floor: little noise, and an exact image.
   const std::string small_ = "bias quad-light --resolution 16x16 --max-bounces 1 -o out";
 };
 
-// One run of 64 is bright in a pixel: its cell says that its noise is that of one event.
+// Only one image of 64 is bright in a pixel: the noise of its cell is that of one rare event.
 TEST_F(BiasImagesTest, RareEventsArePrinted) {
   std::mt19937 random(1);
   std::uniform_real_distribution<float> uniform(0.9f, 1.1f);
@@ -43,7 +43,7 @@ TEST_F(BiasImagesTest, RareEventsArePrinted) {
   EXPECT_NEAR(document.at("fewest_rare_events").get<double>(), 1.102, 0.001);
 }
 
-// Images of other programs: those of the runs themselves.
+// Certifies the runs of a certificate as if they were images of another program.
 TEST_F(BiasImagesTest, AreCertifiedAlike) {
   ASSERT_EQ(run(small_ + " --runs 64 --frames 32 -q").code, 0);
   const std::string runs = entries("out/runs").at(0).string();
@@ -55,7 +55,7 @@ TEST_F(BiasImagesTest, AreCertifiedAlike) {
   EXPECT_EQ(result.code, 0) << result.err << result.out;
   EXPECT_NE(result.out.find("equivalent"), std::string::npos) << result.out;
 
-  // The same pixels twice, and the same seed.
+  // An image with the pixels of another, then one with its seed.
   std::filesystem::copy(runs + "/run-00003.exr", runs + "/run-00003-again.exr");
   expectError(run(command), 3, {"run-00003-again.exr", "run-00003.exr", "independent"});
   LayeredImage image = readExr(runs + "/run-00004.exr");
@@ -66,7 +66,7 @@ TEST_F(BiasImagesTest, AreCertifiedAlike) {
   std::filesystem::remove(runs + "/run-00004-again.exr");
   writeExr(runs + "/run-99999.exr", {{{"", Image(8, 8)}}, {}});
   expectError(run(command), 3, {"run-99999.exr", "8x8", "16x16"});
-  // One run alone, and a reference that is not there or of another size.
+  // A single image, then a reference that does not exist or has another size.
   expectError(run({"bias", "--images", runs + "/run-00007.exr", "--ref", reference}), 3,
               {"--images: 1 file, the first of which is", "run-00007.exr", "at least 64"});
   std::filesystem::remove(runs + "/run-99999.exr");
@@ -74,14 +74,14 @@ TEST_F(BiasImagesTest, AreCertifiedAlike) {
   writeExr(path("small.exr"), {{{"", Image(4, 4, glm::vec3(1.0f))}}, {}});
   expectError(run({"bias", "--images", runs + "/run-*.exr", "--ref", "small.exr"}), 3,
               {"run-00000.exr", "16x16", "small.exr", "4x4"});
-  // A run in the folder of a certificate that is a copy of another one.
+  // A file in the folder of a certificate that is a copy of another run.
   std::filesystem::copy(runs + "/run-00005.exr", runs + "/run-00006.exr",
                         std::filesystem::copy_options::overwrite_existing);
   expectError(run(small_ + " --runs 64 --frames 32 -q"), 3,
               {"run-00006.exr", "10000006", "not", "delete it"});
 }
 
-// Images that are not runs of one method of what the reference shows.
+// Refuses images that are not runs of one method of what the reference shows.
 TEST_F(BiasImagesTest, ThatDoNotBelongTogetherAreRefused) {
   const auto images = [&](const std::string& folder, const char* key,
                           const std::function<std::string(int)>& value) {
@@ -114,7 +114,7 @@ TEST_F(BiasImagesTest, ThatDoNotBelongTogetherAreRefused) {
               {"other/99.exr", "the pixels of the reference truth.exr"});
   std::filesystem::remove(path("other/99.exr"));
   EXPECT_FALSE(std::filesystem::exists(path("out"))) << "nothing is left of what is refused";
-  // What others call so may be of a sample: it is not used.
+  // Other programs' variance may be of a sample, not of the mean: ignored.
   LayeredImage theirs;
   theirs.layers[""] = Image(8, 8, glm::vec3(1.0f));
   theirs.layers["variance"] = Image(8, 8, glm::vec3(-1.0f));

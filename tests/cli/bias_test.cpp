@@ -1,4 +1,4 @@
-// restlab bias: verdicts, what is left in the folder, going on, and what is refused.
+// restlab bias: verdicts, files, continuing, and errors.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -15,7 +15,7 @@ using Json = nlohmann::json;
 
 class BiasTest : public ProgramTest {
  protected:
-  // One bounce of a lamp on a floor, known in closed form, with little noise.
+  // One bounce from a lamp to a floor: little noise, and an exact image.
   const std::string small_ = "bias quad-light --resolution 16x16 --max-bounces 1 -o out";
 };
 
@@ -47,7 +47,7 @@ TEST_F(BiasTest, PathIsEquivalentAndGoesOnWhereItWas) {
   EXPECT_EQ(document.at("image").size(), 4u);
   EXPECT_EQ(document.at("nonfinite"), 0);
 
-  // The signed difference is that of what stands beside it.
+  // The map is the difference of the images beside it.
   const std::string name = "out/maps/" + document.at("label").get<std::string>() + "-bias";
   EXPECT_TRUE(std::filesystem::exists(path(name + ".png")));
   const LayeredImage map = readExr(path(name + ".exr"));
@@ -68,7 +68,7 @@ TEST_F(BiasTest, PathIsEquivalentAndGoesOnWhereItWas) {
   EXPECT_GT(cells, 1u) << "blocks are of 2x2 pixels";
 }
 
-// Runs made side by side, and in two goes, are those of one after the other.
+// Runs rendered in parallel or in two calls equal runs rendered one by one.
 TEST_F(BiasTest, RunsDoNotDependOnHowTheyAreMade) {
   const int code = run(small_ + " --runs 32 -j 1 --json -q").code;
   const Json one = Json::parse(read("out/certificates.json")).at("certificates").at(0);
@@ -90,7 +90,7 @@ TEST_F(BiasTest, AWrongWeightIsBiasedWithItsSize) {
   EXPECT_GT(document.at("squared_bias").at("lo").get<double>(), 0.0);
   const std::string replay = document.at("replay");
   EXPECT_NE(replay.find("--set mis=confidence"), std::string::npos) << replay;
-  // It names a command that works.
+  // The replay is a command that works.
   const size_t begin = replay.find("render");
   std::string command = replay.substr(begin);
   command.replace(command.find("X,Y"), 3, "3,4");
@@ -99,8 +99,8 @@ TEST_F(BiasTest, AWrongWeightIsBiasedWithItsSize) {
   EXPECT_NE(pixel.out.find("confidence"), std::string::npos) << pixel.out;
 }
 
-// Of a run of one frame: the command renders that frame, pixel by pixel, whatever of scene, light,
-// film and method was set.
+// The command renders the frame of a one-frame run pixel by pixel, with any options for scene,
+// light, film and method.
 TEST_F(BiasTest, TheReplayIsTheFrameOfTheRun) {
   Image sky(4, 2);
   for (size_t i = 0; i < sky.pixels.size(); ++i) sky.pixels[i] = glm::vec3(float(i), 2.0f, 1.0f);
@@ -179,7 +179,7 @@ integrator = "restir_gi"
   expectError(run("bias two.toml --resolution 8x8 -o out"), 2, {"--resolution", "two.toml"});
 }
 
-// What is stopped leaves the table of the scenes that are finished; the same command goes on.
+// An interrupted suite leaves the table of the finished scenes, and the same command continues.
 TEST_F(BiasTest, AStoppedSuiteLeavesATableOfItsFinishedScenes) {
   write("two.toml", R"(name = "two"
 [settings]
@@ -213,8 +213,7 @@ integrator = "path"
       << read("out/certificates.md");
 }
 
-// What is wrong beyond doubt takes no more runs than cells need; the same runs of a method that is
-// right would be too few.
+// A clearly biased method gets no more runs than cells need; a correct one needs more.
 TEST_F(BiasTest, ASuiteSpendsNoRunsOnWhatIsClearlyBiased) {
   write("two.toml", R"(name = "two"
 scenes = ["door-ajar"]
@@ -238,7 +237,7 @@ mis = "confidence"
   EXPECT_EQ(document.at(1).at("runs"), 128);
 }
 
-// Of experiments/suites/certificates.toml, with fewer runs than its document has.
+// Uses experiments/suites/certificates.toml, with fewer runs than in its document.
 TEST_F(BiasTest, NightlyNothingThatIsDeclaredUnbiasedIsFoundBiased) {
   const ProgramResult result =
       run("bias " RESTLAB_SOURCE_DIR
@@ -261,7 +260,7 @@ TEST_F(BiasTest, NightlyNothingThatIsDeclaredUnbiasedIsFoundBiased) {
             std::string::npos);
 }
 
-// Of a furnace whose image is known; each certificate has maps of its own.
+// A furnace with a known image; each certificate has its own maps.
 TEST_F(BiasTest, ASuiteIsHeldAgainstItsTruths) {
   const std::string settings = R"(name = "truths"
 [settings]
@@ -287,7 +286,7 @@ integrator = "path"
     EXPECT_NE(one.at("how").get<std::string>().find("in closed form"), std::string::npos);
   EXPECT_EQ(entries("out/references").size(), 0u);
 
-  // Names that say the same.
+  // Two scenes that give the same certificate name.
   write("cameras.toml", settings +
                             "[[scene]]\nname = \"a\"\nscene = \"quad-light\"\nmax_bounces = 1\n"
                             "[[scene]]\nname = \"b\"\nscene = \"quad-light\"\nmax_bounces = 1\n"
@@ -295,7 +294,7 @@ integrator = "path"
   EXPECT_LE(run("bias cameras.toml --runs 32 --margin 50 -o two -q").code, 1);
   EXPECT_EQ(entries("two/maps").size(), 2u * 7u);
 
-  // Truths that a sweep does not have, before the first run.
+  // Missing truths of a sweep are reported before the first run.
   write("none.toml", settings +
                          "[[scene]]\nscene = [\"cornell-box?fov=30\", "
                          "\"cornell-box?fov=40\"]\ntruth = \"exact\"\n");
@@ -306,7 +305,7 @@ integrator = "path"
   expectError(run("bias file.toml --runs 32 -o none"), 2, {"file.toml:15:13", "--ref"});
 }
 
-// Of what cannot be certified no folder is left; two methods have two.
+// A failed command leaves no folder; each method has its own.
 TEST_F(BiasTest, EachMethodHasAFolder) {
   expectError(run("bias no-such-scene"), 3, {"no-such-scene"});
   write("broken.toml", "name = \"broken\"\nscenes = [\"no-such-scene\"]\n");
@@ -320,7 +319,7 @@ TEST_F(BiasTest, EachMethodHasAFolder) {
   EXPECT_EQ(entries("results").size(), 2u);
 }
 
-// A folder of results may hold other files; maps of another certificate go with its page.
+// Replaces and names another certificate's page and maps, but leaves other files in the folder.
 TEST_F(BiasTest, WhatIsReplacedIsNamedAndNothingElseGoes) {
   std::filesystem::create_directories(path("out/maps"));
   write("out/maps/terrain.txt", "mine");
@@ -334,12 +333,12 @@ TEST_F(BiasTest, WhatIsReplacedIsNamedAndNothingElseGoes) {
   EXPECT_EQ(read("out/maps/terrain.txt"), "mine");
   EXPECT_FALSE(std::filesystem::exists(path("out/maps/quad-light-path-bias.png")));
   EXPECT_EQ(entries("out/maps").size(), 1u + 7u);
-  // Another program's file of that name is no certificate.
+  // A foreign certificates.json does no harm.
   write("out/certificates.json", "{\"command\": 3, \"certificates\": [{\"label\": \"../x\"}]}");
   EXPECT_LE(run(small_ + " --runs 32 --frames 2 --margin 50").code, 1);
 }
 
-// Names of files have an end.
+// File names are limited in length.
 TEST_F(BiasTest, ManySettingsMakeAShortName) {
   const ProgramResult result = run(
       "bias quad-light --resolution 8x8 --max-bounces 1 --runs 32 --frames 2 --margin 50 -q "
@@ -374,7 +373,7 @@ image = ["theirs.exr"]
       << result.err;
 }
 
-// A reference that never has the error that is wanted ends at the bound, and says what was wanted.
+// A reference that does not reach the wanted error ends at the bound, and states the wanted error.
 TEST_F(BiasTest, TheReferenceHasABound) {
   const std::string box = "bias cornell-box --resolution 16x16 --frames 2 --margin 1 -o out ";
   const ProgramResult bounded = run(box + "--runs 32 --max-reference-spp 64");

@@ -1,6 +1,6 @@
-// Every broken glTF of the collection through the program: exit code 0 or 3, one line, no file left
-// behind, bounded time and memory. With sanitizers it is the same test; what they find ends the
-// program with another code.
+// Runs the program on every broken glTF file of the collection: exit code 0 or 3, one line, no file
+// left behind, bounded time and memory. In a sanitizer build, errors that it finds give another
+// exit code.
 #include <fmt/format.h>
 
 #include "tests/cli/program.h"
@@ -14,13 +14,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The slowest takes a tenth of a second and 60 MiB; a sanitizer makes that a second and 110 MiB.
+// The slowest file takes 0.1 s and 60 MiB; with a sanitizer 1 s and 110 MiB.
 constexpr double kMostSeconds = 20.0;
 constexpr uint64_t kMostBytes = uint64_t(400) << 20;
 
 class BrokenScenes : public ProgramTest {
  protected:
-  // Runs `verb`, the scene, `options` for each of them.
+  // Runs `verb`, the scene and `options` for each broken file.
   void runAll(const std::string& verb, const std::vector<std::string>& options) {
     const fs::path folder = fs::absolute(test::sceneFolder() / "bad-gltf");
     SKIP_WITHOUT(folder);

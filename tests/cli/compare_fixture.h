@@ -1,4 +1,4 @@
-// Images of known error for `restlab compare`.
+// Images with known errors for `restlab compare`.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -15,7 +15,7 @@ class CompareTest : public ProgramTest {
     image.layers[""] = Image(side, side, glm::vec3(value));
     writeExr(path(name), image);
   }
-  // A reference of value 0.5 whose halves are 0.5 +- 0.1.
+  // Writes a reference of value 0.5 whose halves are 0.5 +- 0.1.
   void writeReferenceWithHalves() const {
     LayeredImage image;
     image.layers[""] = Image(8, 8, glm::vec3(0.5f));

@@ -1,5 +1,4 @@
-// restlab compare DIR DIR: is this version better? What is compared with what, and what scripts
-// see.
+// restlab compare DIR DIR: is the new version better? Pairing, verdicts and output for scripts.
 #include <nlohmann/json.hpp>
 
 #include "core/image/image.h"
@@ -27,7 +26,7 @@ class CompareFoldersTest : public ProgramTest {
     EXPECT_EQ(result.code, 0) << result.err;
     return Json::parse(result.out);
   }
-  // Images of another program: the picture plus noise, which tables of this suite then compare.
+  // Writes images as if by another program: the picture plus noise, as rows of this suite.
   void writeNoisy(const std::string& stem, const Image& picture, float noise, float factor) const {
     for (int i = 0; i < 4; ++i) {
       LayeredImage file;
@@ -50,7 +49,7 @@ class CompareFoldersTest : public ProgramTest {
 TEST_F(CompareFoldersTest, MethodByMethod) {
   runInto("a", "--set runs=6");
   runInto("b", "--set runs=6");
-  // The same sources and seeds: the same errors, bit for bit.
+  // Same sources and seeds give the same errors, bit for bit.
   const Json same = compared("a b");
   ASSERT_EQ(same["rows"].size(), 2u);
   for (const Json& row : same["rows"]) {
@@ -78,7 +77,7 @@ TEST_F(CompareFoldersTest, MethodByMethod) {
   expectError(run("compare a suite.toml -q"), 2, {"--ref"});
 }
 
-// More runs of the same: what both have is still compared in pairs.
+// Folders with different numbers of runs: the common runs are compared in pairs.
 TEST_F(CompareFoldersTest, FewerRunsArePairedWithTheirs) {
   runInto("a", "--set runs=5");
   runInto("b", "--set runs=2");
@@ -95,7 +94,7 @@ TEST_F(CompareFoldersTest, FewerRunsArePairedWithTheirs) {
   EXPECT_TRUE(hasNote(others, "of runs that are not paired")) << others["notes"];
 }
 
-// Two runs say next to nothing: their intervals are unbounded.
+// A single run has no interval.
 TEST_F(CompareFoldersTest, NothingKnownIsNotWorse) {
   runInto("a", "--set runs=1");
   runInto("b", "--set runs=1");
@@ -109,8 +108,8 @@ TEST_F(CompareFoldersTest, NothingKnownIsNotWorse) {
   EXPECT_EQ(run("compare a b --fail-if-worse").code, 0);
 }
 
-// The same program and settings: of few runs, beside other programs or on a disturbed machine their
-// times look worse, and are no reason to fail.
+// Times of one program are not judged: with few runs, other load or a disturbed machine they may
+// look worse, which is no reason to fail.
 TEST_F(CompareFoldersTest, TimesOfOneProgramAreNotJudged) {
   runInto("a", "--set runs=5");
   runInto("b", "--set runs=2");
@@ -125,7 +124,7 @@ TEST_F(CompareFoldersTest, TimesOfOneProgramAreNotJudged) {
   }
 }
 
-// A baseline of one folder that the other has not: no time is over it.
+// If the folders have different baselines, times are compared without them.
 TEST_F(CompareFoldersTest, BaselinesThatDifferAreSaid) {
   runInto("a");
   runInto("b", "--set baseline=gi");
@@ -160,7 +159,7 @@ TEST_F(CompareFoldersTest, BetterAndWorseAreTheExitCodeOfScripts) {
   const ProgramResult better = run("compare after before --fail-if-worse --json");
   EXPECT_EQ(better.code, 0) << better.err;
   EXPECT_EQ(Json::parse(better.out)["rows"][2]["error"], "better");
-  // The time alone.
+  // Only the time is worse.
   const std::string text = kSmallSuite + rows;
   write("suite.toml",
         std::string(text).replace(text.find("[4.0, 4.1, 4.2, 4.3]"), 20, "[8.0, 8.1, 8.2, 8.3]"));
@@ -202,7 +201,7 @@ TEST_F(CompareFoldersTest, ADifferentReferenceOfTheSamePictureIsNoUnlikeThing) {
     EXPECT_EQ(row["unlike"].size(), 0u) << row;
     EXPECT_EQ(row["error"], "not told apart");
   }
-  // An image of nobody knows what.
+  // A reference without metadata.
   LayeredImage file;
   file.layers[""] = readExr(path("a/images/cornell-box-all-reference.exr")).layers.at("");
   writeExr(path("ref.exr"), file);

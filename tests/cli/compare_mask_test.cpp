@@ -1,4 +1,4 @@
-// restlab compare over a part of the picture, and over runs of one method.
+// restlab compare with a mask, and over runs of one method.
 #include <cmath>
 
 #include "tests/cli/compare_fixture.h"
@@ -9,7 +9,7 @@ namespace {
 
 class CompareMaskTest : public CompareTest {
  protected:
-  // 8x8 pixels, 0.5 but for one pixel.
+  // Writes 8x8 pixels of 0.5 with one different pixel.
   void writeSpot(const std::string& name, uint32_t x, uint32_t y, float value) const {
     LayeredImage image;
     image.layers[""] = Image(8, 8, glm::vec3(0.5f));
@@ -53,7 +53,7 @@ TEST_F(CompareMaskTest, FromAFile) {
   expectError(run("compare --ref ref.exr a.exr --mask small.exr"), 3, {"small.exr", "4x4", "8x8"});
 }
 
-// What cannot be masked must not pass as masked.
+// An option that cannot be applied is an error, not ignored.
 TEST_F(CompareMaskTest, ImageWithoutASceneHasNoObjects) {
   writeConstant("ref.exr", 0.5f);
   for (const char* option : {"--object 1", "--without-lights"}) {
@@ -66,7 +66,7 @@ TEST_F(CompareMaskTest, ObjectsAndLightsOfTheScene) {
   const std::string size = " --resolution 32x32 -q ";
   ASSERT_EQ(run("reference cornell-box -o ref.exr --spp 4" + size).code, 0);
   ASSERT_EQ(run("render cornell-box -o a.exr --filter center --aov object" + size).code, 0);
-  // The layer and the mask know the same objects.
+  // The AOV layer and the mask have the same object numbers.
   const LayeredImage image = readExr(path("a.exr"));
   size_t block = 0, light = 0;
   for (const glm::vec3& id : image.layers.at("object").pixels) {
@@ -108,7 +108,7 @@ TEST_F(CompareMaskTest, SceneIsFoundAgainWithItsEnvironment) {
   const auto result = json("--ref ref.exr ref.exr --object 1");
   EXPECT_EQ(result["mask"]["pixels"], 16 * 8) << "the left half";
   expectError(run("compare --ref ref.exr ref.exr --without-lights"), 3, {"no pixel"});
-  // Another scene under the same name is none of ours.
+  // Another scene under the same file name is not accepted.
   write("triangle.gltf", triangleGltf({-9, -9, 0, 0.2F, -9, 0, 0.2F, 9, 0}));
   expectError(run("compare --ref ref.exr ref.exr --object 1"), 3, {"ref.exr", "not the scene"});
   std::filesystem::remove(path("triangle.gltf"));
@@ -121,7 +121,7 @@ TEST_F(CompareRunsTest, BiasIsSignedAndOfAllImages) {
   writeReferenceWithHalves();  // 0.5 +- 0.1
   writeConstant("a.exr", 0.8f);
   writeConstant("b.exr", 0.9f);
-  // Both orders of the pair: ((0.8 - 0.6)(0.9 - 0.4) + (0.9 - 0.6)(0.8 - 0.4)) / 2.
+  // Average of both orders of the pair: ((0.8 - 0.6)(0.9 - 0.4) + (0.9 - 0.6)(0.8 - 0.4)) / 2.
   const auto biased = json("--ref ref.exr a.exr b.exr --metrics bias_rms,mae");
   EXPECT_EQ(biased["runs"]["count"], 2);
   EXPECT_NEAR(biased["runs"]["squared_bias"].get<double>(), 0.11, 1e-6);

@@ -27,7 +27,7 @@ TEST_F(CompareTest, HalvesTakeTheReferencesNoiseOut) {
   writeReferenceWithHalves();
   writeConstant("a.exr", 0.8f);
   const auto result = json("--ref ref.exr a.exr --metrics mse");
-  // (0.8 - 0.6)(0.8 - 0.4); against the mean it would be 0.09.
+  // (0.8 - 0.6)(0.8 - 0.4); against the mean of the halves it would be 0.09.
   EXPECT_NEAR(result["images"][0]["metrics"]["mse"].get<double>(), 0.08, 1e-6);
   EXPECT_NE(result["images"][0]["details"]["mse"].get<std::string>().find("halves"),
             std::string::npos);
@@ -82,7 +82,7 @@ TEST_F(CompareTest, MaximumIsForScripts) {
   ASSERT_EQ(above.errors().size(), 1u) << "a.exr, but not the reference itself";
   EXPECT_NE(above.errors()[0].find("a.exr: mae is 0.1"), std::string::npos) << above.err;
   EXPECT_NE(above.out.find("mae"), std::string::npos) << "a bound's metric is printed";
-  // NaN is not below anything.
+  // NaN is below no bound.
   writeConstant("black.exr", 0.0f);
   EXPECT_EQ(run("compare --ref black.exr a.exr --max flip_hdr=1").code, 1);
   EXPECT_EQ(run("compare --ref black.exr a.exr --max relmse_mean2=inf").code, 1);
@@ -112,7 +112,7 @@ TEST_F(CompareTest, ConventionsAreInTheNames) {
   }
 }
 
-// Seconds of work that nobody asked for.
+// FLIP takes seconds, and is only computed on request.
 TEST_F(CompareTest, FlipIsComputedWhenAsked) {
   writeConstant("ref.exr", 0.5f);
   writeConstant("a.exr", 0.4f);
@@ -153,7 +153,7 @@ TEST_F(CompareTest, NonfiniteImageFails) {
   EXPECT_EQ(json["images"][0]["metrics"]["mse"], "nan") << "never silently skipped";
   EXPECT_NE(json["images"][0]["details"]["mse"].get<std::string>().find("1 non-finite"),
             std::string::npos);
-  // Outside of a mask it does not matter to the metric, but to the image.
+  // A NaN outside the mask does not change the metric, but still fails the image.
   const ProgramResult masked = run("compare --ref ref.exr nan.exr --rect 0,0,3,3 --json");
   EXPECT_EQ(masked.code, 1);
   EXPECT_EQ(nlohmann::json::parse(masked.out)["images"][0]["metrics"]["mse"], 0.0);
@@ -175,7 +175,7 @@ TEST_F(CompareTest, NonfiniteReferenceFails) {
   }
 }
 
-// The same pixels in another place are other pixels.
+// Equal pixels at another position are different pixels.
 TEST_F(CompareTest, AnotherWindowIsExitCode3) {
   writeConstant("ref.exr", 0.5f);
   writeConstant("a.exr", 0.5f);
@@ -192,7 +192,7 @@ TEST_F(CompareTest, AnotherWindowIsExitCode3) {
   const ProgramResult wide = run("compare --ref shifted.exr wide.exr");
   EXPECT_EQ(wide.code, 0);
   EXPECT_NE(wide.err.find("wide.exr: its pixelAspectRatio is 2:"), std::string::npos) << wide.err;
-  // Pixels of 8x8 stand where they are; the last one of 1.0625 would be half a pixel off.
+  // An aspect ratio is ignored while no pixel of 8x8 moves by half a pixel; 1.0625 reaches that.
   for (const auto& [ratio, text] :
        {std::pair(1.0000001f, ""), {0.9375f + 1e-6f, ""}, {1.0625f, "is 1.0625:"}}) {
     shifted.frame.pixelAspectRatio = ratio;

@@ -1,4 +1,4 @@
-// restlab denoise.
+// restlab denoise: layers, sequences, windows and errors.
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
@@ -26,7 +26,7 @@ class DenoiseTest : public ProgramTest {
               0);
     ASSERT_EQ(run("render cornell-box -o right.exr --resolution 48x48 --spp 256").code, 0);
   }
-  // Below the lamp: what pixels at its edge show of it is the film sample's matter.
+  // Skips the lamp, whose edge pixels depend on the film samples.
   double errorOf(const std::string& name) const {
     const Image image = readExr(path(name)).layers.at("");
     const Image right = readExr(path("right.exr")).layers.at("");
@@ -41,7 +41,7 @@ class DenoiseTest : public ProgramTest {
   LayeredImage noisy() const { return readExr(path("noisy.exr")); }
 };
 
-// A channel of integers beside what the file has, as other programs write them.
+// Adds a channel of integers to a file, as other programs write them.
 void addIntegers(const std::filesystem::path& file, const char* channel) {
   std::list<std::vector<uint32_t>> words;
   Imf::FrameBuffer frame;
@@ -95,7 +95,7 @@ TEST_F(DenoiseTest, LayersOfOthersHaveTheirNames) {
             readExr(path("b.exr")).layers.at("").pixels);
 }
 
-// Without albedo a texture is noise; what layers cannot serve is said.
+// Without albedo a texture counts as noise. A required layer cannot be left out.
 TEST_F(DenoiseTest, LayersAreLeftOut) {
   ASSERT_EQ(run("denoise noisy.exr -o a.exr --set demodulate=none").code, 0);
   ASSERT_EQ(run("denoise noisy.exr -o b.exr --layers albedo=").code, 0);
@@ -110,7 +110,7 @@ TEST_F(DenoiseTest, LayersAreLeftOut) {
   EXPECT_NE(other.err.find("light that changes is not found"), std::string::npos) << other.err;
 }
 
-// What has moved by three pixels is found by a layer of motion.
+// A motion layer finds pixels that have moved by three.
 TEST_F(DenoiseTest, ASequenceFollowsItsMotion) {
   const auto shifted = [](const Image& image, uint32_t by) {
     Image moved = image;
@@ -143,7 +143,7 @@ TEST_F(DenoiseTest, ASequenceFollowsItsMotion) {
   const auto differs = [&](const char* name) {
     const Image image = readExr(path(name)).layers.at("");
     double sum = 0.0;
-    // Columns that were in view in all frames.
+    // Only columns that are in view in all frames.
     for (uint32_t y = 0; y < image.height; ++y) {
       for (uint32_t x = 0; x + 16 < image.width; ++x) {
         const size_t p = size_t(y) * image.width + x;
@@ -155,7 +155,7 @@ TEST_F(DenoiseTest, ASequenceFollowsItsMotion) {
   EXPECT_LT(differs("clean-moving-5.exr"), 0.3 * differs("clean-blind-5.exr"));
 }
 
-// The frames of a sequence are one history; without its wavelets that is all that svgf does.
+// Frames of a sequence are one history; without its wavelets svgf only accumulates.
 TEST_F(DenoiseTest, ASequenceIsDenoisedInOrder) {
   for (int i = 8; i < 13; ++i) {
     const std::string name = "frame-" + std::to_string(1000 + i).substr(1) + ".exr";
@@ -172,7 +172,7 @@ TEST_F(DenoiseTest, ASequenceIsDenoisedInOrder) {
   EXPECT_FALSE(std::filesystem::exists(path("again-008.exr")));
 }
 
-// A part of a larger picture stays where it is; channels that hold integers are of no interest.
+// Keeps the window of a part of a larger picture, and ignores integer channels.
 TEST_F(DenoiseTest, WindowsAreKeptAndOtherChannelsLeftAlone) {
   LayeredImage image = noisy();
   image.frame.origin = {5, 3};
@@ -189,13 +189,13 @@ TEST_F(DenoiseTest, WindowsAreKeptAndOtherChannelsLeftAlone) {
   EXPECT_EQ(clean.frame.pixelAspectRatio, 1.5f);
   ASSERT_EQ(run("denoise noisy.exr -o whole.exr").code, 0);
   EXPECT_EQ(clean.layers.at("").pixels, readExr(path("whole.exr")).layers.at("").pixels);
-  // Frames of a sequence are one view.
+  // All frames of a sequence must have one window.
   writeExr(path("p-1.exr"), noisy());
   writeExr(path("p-2.exr"), image);
   expectError(run("denoise p-#.exr -o q-#.exr"), 3, {"p-2.exr: is 48x48 from pixel (5, 3) on"});
 }
 
-// An output of another pattern may be the input of a later frame.
+// An output with another pattern may be the input of a later frame.
 TEST_F(DenoiseTest, NoInputIsWrittenOver) {
   for (const char* name : {"a-9.exr", "a-10.exr"})
     std::filesystem::copy_file(path("noisy.exr"), path(name));
@@ -214,7 +214,7 @@ TEST_F(DenoiseTest, FramesOfASequenceAreAlike) {
   expectError(run("denoise b-#.exr -o c-#.exr"), 3, {"b-2.exr", "16x8", "16x16"});
 }
 
-// Others call layers by the view that they are of.
+// Other programs prefix layers with the name of a view.
 TEST_F(DenoiseTest, LayersAreFoundAfterAPrefix) {
   LayeredImage other;
   for (const auto& [name, layer] : noisy().layers)
@@ -230,7 +230,7 @@ TEST_F(DenoiseTest, LayersAreFoundAfterAPrefix) {
               {"more than one layer for normal", "Second.normalW", "View.normalW"});
 }
 
-// Nothing is written where a later frame lacks a layer.
+// Nothing is written if a later frame lacks a layer.
 TEST_F(DenoiseTest, AllFramesAreLookedAtFirst) {
   std::filesystem::copy_file(path("noisy.exr"), path("d-1.exr"));
   LayeredImage later = noisy();
@@ -252,7 +252,7 @@ TEST_F(DenoiseTest, TheFileSaysWhatWasDone) {
   EXPECT_TRUE(std::filesystem::exists(path("a.png")));
 }
 
-// svgf_restir alone asks over how many frames the radiance averages itself.
+// Only svgf_restir needs to know over how many frames the radiance was averaged.
 TEST_F(DenoiseTest, RadianceFramesAreNotIgnoredInSilence) {
   const auto says = [&](const std::string& arguments, const char* text) {
     const ProgramResult result = run("denoise noisy.exr -o a.exr " + arguments);

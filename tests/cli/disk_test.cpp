@@ -1,5 +1,5 @@
-// restlab run on disks that are full or read-only: what is there is whole, and the same command
-// goes on once there is room.
+// restlab run on full or read-only disks: files are complete, and the same command continues once
+// there is room.
 #include <nlohmann/json.hpp>
 
 #include "core/image/image.h"
@@ -26,7 +26,7 @@ class DiskTest : public ProgramTest {
       all.push_back(row.at("mse") + " " + row.at("mse_ci_lo") + " " + row.at("runs"));
     return all;
   }
-  // Whatever has the name of something finished can be read to its end.
+  // Expects every file with a final name to be readable to its end.
   void expectWhole(const fs::path& folder) const {
     std::error_code status;
     for (const auto& entry : fs::recursive_directory_iterator(folder, status)) {
@@ -53,7 +53,7 @@ TEST_F(DiskTest, AFullOneLosesAtMostTheRunInProgress) {
   ASSERT_EQ(run("run suite.toml -o good").code, 0);
   SmallDisk disk(path("disk"), "size=16k");
   if (!disk.whyNot().empty()) GTEST_SKIP() << disk.whyNot();
-  // Full in the reference, in the jobs, in the images, in the report.
+  // Sizes at which the disk is full in the reference, the jobs, the images and the report.
   size_t failures = 0, withJobs = 0;
   for (const int kib : {16, 48, 96, 128, 192, 224, 256, 288, 320, 384, 512}) {
     ASSERT_TRUE(disk.remount("size=" + std::to_string(kib) + "k"));

@@ -1,4 +1,4 @@
-// restlab figure: a crop strip from one command, and what is wrong said in one line.
+// restlab figure: crop strips, and one-line errors.
 #include "core/image/image.h"
 #include "tests/cli/program.h"
 
@@ -59,12 +59,12 @@ TEST_F(FigureTest, LabelsAreWhatTellsTheNamesApart) {
   };
   expectAll(labels("ref.exr", {"box-all-path.exr", "box-all-gi-unbiased.exr"}),
             {"path", "gi-unbiased"});
-  // Up to a '-', not inside a word.
+  // A common prefix ends at a '-', not inside a word.
   expectAll(labels("ref.exr", {"box-pairs.exr", "box-path.exr"}), {"pairs", "path"});
   expectAll(labels("ref.exr", {"pairs.exr", "path.exr"}), {"pairs", "path"});
-  // Nothing would be left of the first.
+  // The prefix would leave nothing of the first name.
   expectAll(labels("ref.exr", {"box-.exr", "box-path.exr"}), {"box-", "box-path"});
-  // One alone: what its reference's name has, too.
+  // A single image: the prefix that it shares with its reference.
   expectAll(labels("ref.exr", {"box-all-path.exr"}), {"box-all-path"});
   writeConstant("box-all-reference.exr", 0.5f, 32, 24);
   expectAll(labels("box-all-reference.exr", {"box-all-gi-biased.exr"}), {"gi-biased"});

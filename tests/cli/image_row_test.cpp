@@ -1,4 +1,4 @@
-// restlab run: images that another program rendered, as rows of the tables.
+// restlab run: rows of images that another program rendered.
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 class ImageRowTest : public ProgramTest {
  protected:
-  // The measured frame of run `run` of "gi", as another program would have left it.
+  // Renders the measured frame of run `run` of "gi", as if by another program.
   void renderRun(uint32_t run_, const std::string& file) const {
     const ProgramResult result =
         run("render cornell-box --resolution 24x16 --max-bounces 3 --frames 4 --integrator "
@@ -27,7 +27,7 @@ class ImageRowTest : public ProgramTest {
   std::vector<std::map<std::string, std::string>> rows() const {
     return parseCsv(read("out/summary.csv"));
   }
-  // Without what only this program knows of an image.
+  // Writes an image without the metadata of this program.
   void writeImage(const std::string& name, const Image& image) const {
     LayeredImage file;
     file.layers[""] = image;
@@ -62,9 +62,9 @@ bias = "unbiased"
   EXPECT_EQ(theirs.at("time_ratio_ci_lo"), "nan") << "nobody measured the spread";
   EXPECT_EQ(theirs.at("rays_per_pixel"), "nan");
 
-  // Independent of our runs: not in pairs with them.
+  // Images are independent of our runs: compared unpaired.
   std::vector<double> pathMse, theirMse;
-  double noise = 0.0;  // of the reference, which all have in common
+  double noise = 0.0;  // of the reference, shared by all runs
   std::istringstream text(read("out/results.jsonl"));
   for (std::string line; std::getline(text, line);) {
     const auto json = nlohmann::json::parse(line);
@@ -179,7 +179,7 @@ TEST_F(ImageRowTest, WrongRowsAreToldBeforeAnythingIsRendered) {
          {"suite.toml:20:1", "spatial_radius"});
 }
 
-// `compare` refuses it, too: its errors would be against another picture.
+// `compare` rejects such an image, too.
 TEST_F(ImageRowTest, IsOfTheSuitesScene) {
   for (const auto& [scene, more, what] :
        {std::tuple("door-ajar", "", "scene_hash"), {"cornell-box", " --filter center", "filter"}}) {

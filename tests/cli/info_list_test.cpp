@@ -36,7 +36,7 @@ TEST_F(InfoTest, SceneInNumbers) {
   EXPECT_EQ(json["features_needed"], "area_lights");
   ASSERT_EQ(json["objects"].size(), json["instances"].get<size_t>());
   EXPECT_NE(json["objects"].dump().find("\"Light\""), std::string::npos) << json["objects"];
-  // A triangle takes three indices and positions at the least, here and in Embree.
+  // A triangle takes at least three indices and positions, both here and in Embree.
   EXPECT_GT(json["bytes"].get<int>(), json["triangles"].get<int>() * 48);
   EXPECT_GT(json["embree_bytes"].get<int>(), json["triangles"].get<int>() * 48);
   ASSERT_GE(json["integrators"].size(), 2u);
@@ -53,8 +53,8 @@ TEST_F(InfoTest, SceneInNumbers) {
   EXPECT_NE(text.out.find("2 emissive"), std::string::npos) << text.out;
 }
 
-// Directions are unit vectors whatever the node does; of a sheared one up is across the view, as
-// the rays have it.
+// Camera directions are unit vectors under any node. Under a shearing node, up is perpendicular to
+// the view, as for rays.
 TEST_F(InfoTest, CamerasUnderScaledNodesHaveUnitDirections) {
   write("scene.gltf", triangleGltf({0, 0, 0, 1, 0, 0, 0, 1, 0}));
   const std::string plain = read("scene.gltf");
@@ -205,7 +205,7 @@ TEST_F(InfoTest, HelpAndVersion) {
   expectError(run("list"), 2, {"say what"});
 }
 
-// It refuses a verb that the program does not have before it builds anything.
+// The launcher rejects unknown verbs before it builds the program.
 TEST_F(InfoTest, TheLauncherKnowsTheVerbs) {
   const auto verbsAfter = [](const std::string& text, const std::string& begin,
                              const std::regex& one) {

@@ -1,5 +1,4 @@
-// A signal ends a frame in its middle: of a program that is to render for hours there is none that
-// ends by itself.
+// A signal stops a frame in the middle: a frame may take hours.
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -14,15 +13,15 @@ namespace fs = std::filesystem;
 
 class InterruptTest : public ProgramTest {
  protected:
-  // The signal comes when the program is inside its first frame, which would take half an hour.
+  // Sends the signal inside the first frame, which would take half an hour.
   ProgramResult endInAFrame(int signal, const std::string& arguments) const {
     using Clock = std::chrono::steady_clock;
     std::optional<Clock::time_point> begun;
     Circumstances circumstances;
     circumstances.signal = signal;
-    circumstances.maxCpuS = 100.0;  // ends a program that does not listen
+    circumstances.maxCpuS = 100.0;  // ends a program that ignores signals
     circumstances.signalWhen = [&] {
-      if (!begun) begun = Clock::now();  // it listens to signals from here on
+      if (!begun) begun = Clock::now();  // the program handles signals from here on
       return Clock::now() - *begun > std::chrono::milliseconds(1500);
     };
     return run(arguments + " furnace --resolution 2048x2048 --max-bounces 1024", circumstances);

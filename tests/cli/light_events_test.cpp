@@ -1,4 +1,4 @@
-// restlab run: lamps that are switched while histories go on.
+// restlab run: lights that are switched during histories.
 #include "core/image/image.h"
 #include "tests/cli/program.h"
 #include "tests/cli/small_suite.h"
@@ -44,7 +44,7 @@ TEST_F(LightEventsRun, AreMeasuredAgainstTheLightOfTheFrame) {
   for (const glm::vec3& pixel : dim.layers.at("").pixels) sumDim += double(pixel.y);
   EXPECT_NEAR(sumDim / sumBright, 0.125, 1e-4) << "the same samples";
   EXPECT_NE(read("out/table.md").find("lights: Light x0.125 from frame 2"), std::string::npos);
-  // Everything is found again, and nothing of it under another event.
+  // All runs are found again; after a change of the event only those of the other path are.
   std::vector<std::string> dry = words;
   dry.push_back("--dry-run");
   EXPECT_NE(run(dry).out.find("6 jobs, 6 there"), std::string::npos) << run(dry).out;

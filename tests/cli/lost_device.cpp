@@ -1,8 +1,8 @@
-// A device that is lost: this library, loaded before the Vulkan loader, answers every submission
+// Simulates a lost device: this library, loaded before the Vulkan loader, answers every submission
 // with VK_ERROR_DEVICE_LOST
 //   after the first RESTLAB_TEST_SUBMISSIONS, if that is set;
 //   once the file RESTLAB_TEST_RESULTS, if that is set, has three lines.
-// How many submissions there were goes to the file RESTLAB_TEST_SUBMISSION_COUNT.
+// Writes the number of submissions to the file RESTLAB_TEST_SUBMISSION_COUNT.
 #include <dlfcn.h>
 #include <vulkan/vulkan.h>
 

@@ -1,4 +1,4 @@
-// A denoiser whose library was not there when the program was built: it says so, and why.
+// A denoiser whose library was missing when the program was built: the error says why.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -30,7 +30,7 @@ TEST_F(MissingDenoiserTest, OidnSaysWhy) {
   expectError(run("denoise a.exr -o b.exr --denoiser oidn"), 2, {"oidn", "OpenImageDenoise"});
   write("suite.toml", std::string(kSmallSuite) + "denoiser = \"oidn\"\n");
   expectError(run("run suite.toml --out out"), 2, {"suite.toml:17", "oidn", "OpenImageDenoise"});
-  // Nothing is near that is not there.
+  // A missing denoiser is not suggested.
   const ProgramResult near = run("render cornell-box -o a.exr --denoiser oidm");
   expectError(near, 2, {"oidm"});
   EXPECT_EQ(near.err.find("'oidn'"), std::string::npos) << near.err;

@@ -1,4 +1,4 @@
-// --multiscatter and the suite's key `multiscatter`: what they change and where they are recorded.
+// --multiscatter and the suite's key `multiscatter`: their effect and where they are recorded.
 #include <nlohmann/json.hpp>
 #include <sstream>
 

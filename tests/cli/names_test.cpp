@@ -1,5 +1,4 @@
-// Names as users have them: control characters, any script, brackets; and files that cannot be
-// read.
+// Names with control characters, any script or brackets, and unreadable files.
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -16,7 +15,7 @@ namespace fs = std::filesystem;
 
 class NamesTest : public ProgramTest {};
 
-// No control character but line breaks, of ASCII or of the block after it.
+// Expects no control characters except line breaks and tabs, neither of ASCII nor of the C1 block.
 void expectPlain(const std::string& text) {
   for (size_t i = 0; i < text.size(); ++i) {
     const auto c = uint8_t(text[i]), next = uint8_t(i + 1 < text.size() ? text[i + 1] : 0);
@@ -93,7 +92,7 @@ TEST_F(NamesTest, WhyAFileCannotBeReadIsTheSystemsReason) {
     SCOPED_TRACE(arguments);
     expectError(run(arguments), arguments.rfind("run", 0) == 0 ? 2 : 3, says);
   }
-  if (geteuid() == 0) return;  // may read everything
+  if (geteuid() == 0) return;  // root may read everything
   fs::permissions(path("a.exr"), fs::perms::none);
   expectError(run("compare --ref a.exr a.exr"), 3, {"a.exr: cannot be read: Permission denied"});
 }
@@ -103,7 +102,7 @@ TEST_F(NamesTest, OfFoldersAreNoPatterns) {
   for (const char* name : {"a-1.exr", "a-2.exr", "b-1.exr"})
     writeExr(path(std::string("[1] runs*/") + name), {{{"", Image(4, 4)}}, {}});
   writeExr(path("ref.exr"), {{{"", Image(4, 4)}}, {}});
-  // Two are too few: it has found them.
+  // Two images are too few, but the error shows that they were found.
   for (const std::string& pattern :
        {path("[1] runs*/a-*.exr").string(), std::string("[1] runs*/a-?.exr"),
         std::string("[[]1] runs*/a-[0-9].exr")}) {

@@ -27,7 +27,7 @@ std::string readFile(const fs::path& file) {
   return text.str();
 }
 
-// In the child: streams to files, the folder as working directory, then the program.
+// Runs in the child: redirects the streams, changes to the folder and executes the program.
 [[noreturn]] void becomeProgram(const fs::path& folder, const fs::path& outFile,
                                 const fs::path& errFile, const std::vector<std::string>& arguments,
                                 const Circumstances& circumstances) {
@@ -56,7 +56,7 @@ std::string readFile(const fs::path& file) {
 
 constexpr std::chrono::seconds kPatience{60};
 
-// Whether the program has got as far as to handle `signal`.
+// Returns whether the program has installed its handler of `signal`.
 bool handles(pid_t program, int signal) {
   std::ifstream status(fmt::format("/proc/{}/status", program));
   for (std::string line; std::getline(status, line);) {
@@ -66,7 +66,7 @@ bool handles(pid_t program, int signal) {
   return false;
 }
 
-// Sends the signal that was asked for, unless the program ends before. Returns its status.
+// Sends the requested signal, unless the program ends before. Returns its status.
 int waitFor(pid_t child, const Circumstances& circumstances, rusage& usage) {
   const auto now = [] { return std::chrono::steady_clock::now(); };
   const auto start = now();

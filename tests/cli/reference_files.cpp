@@ -24,7 +24,7 @@ uint64_t ReferenceFilesTest::keptSpp() const {
   const std::string text = read(fs::relative(files[0], folder_).string());
   constexpr size_t kPrefixBytes = 24;
   if (text.size() < kPrefixBytes) return 0;
-  uint32_t count = 0;  // of the header's bytes
+  uint32_t count = 0;  // bytes of the header
   std::memcpy(&count, text.data() + 12, sizeof(count));
   const auto header = nlohmann::json::parse(text.substr(kPrefixBytes, count));
   return header.at("samples_half0").get<uint64_t>() + header.at("samples_half1").get<uint64_t>();
@@ -36,7 +36,7 @@ void ReferenceFilesTest::expectSame(const std::string& a, const std::string& b) 
   for (const auto& [name, layer] : first.layers) {
     EXPECT_EQ(layer.pixels, second.layers.at(name).pixels) << a << ", " << b << ": " << name;
   }
-  // What says how and when it was made.
+  // Metadata about how and when the image was rendered.
   for (const char* word : {"render_time_s", "utc", "command", "load_1min", "peak_resident_mib"}) {
     EXPECT_EQ(first.metadata.erase(word), 1u) << word;
     EXPECT_EQ(second.metadata.erase(word), 1u) << word;

@@ -1,4 +1,4 @@
-// A program that makes references, and what tells whether two of them are the same.
+// Fixture for programs that render references, with comparisons of references.
 #pragma once
 
 #include "core/image/image.h"
@@ -8,13 +8,13 @@ namespace restlab::cli_test {
 
 class ReferenceFilesTest : public ProgramTest {
  protected:
-  // Stored progress, in the order of their names.
+  // Returns stored progress files, sorted by name.
   std::vector<std::filesystem::path> states() const;
-  // Samples per pixel that its only state has; 0 where there is none.
+  // Returns samples per pixel of the only state; 0 if there is none.
   uint64_t keptSpp() const;
-  // Expects two files to hold the same reference, whatever time they took.
+  // Expects two files to hold the same reference, except for times.
   void expectSame(const std::string& a, const std::string& b) const;
-  // Expects `file` to be what one call without stored progress makes of `options`.
+  // Expects `file` to equal the result of one call with `options` without stored progress.
   void expectInOneGo(const std::string& file, const std::string& options) const;
 };
 

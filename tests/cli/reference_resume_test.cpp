@@ -1,5 +1,5 @@
-// References that have too few samples are continued, those that were interrupted or killed too:
-// the image is that of one rendering, to the last bit.
+// References with too few samples are continued, also after an interrupt or kill: the image equals
+// that of one rendering, to the last bit.
 #include <fmt/format.h>
 
 #include <regex>
@@ -16,7 +16,7 @@ constexpr const char* kScene = " cornell-box --resolution 24x16 --max-bounces 3 
 
 class ReferenceResume : public ReferenceFilesTest {
  protected:
-  // Renders towards a target that is out of reach until `signal` ends it.
+  // Renders towards an unreachable target until `signal` ends the program.
   ProgramResult endBy(int signal, const std::function<bool()>& when) const {
     Circumstances circumstances;
     circumstances.signal = signal;
@@ -36,7 +36,7 @@ TEST_F(ReferenceResume, ExtendedIsBitForBitThatOfOneGo) {
     expectInOneGo("ref.exr", options);
   }
   EXPECT_EQ(keptSpp(), 65u);
-  // Under any other name as well: progress belongs to what is rendered.
+  // Progress is found under any output name: its key identifies what is rendered.
   const ProgramResult other = run(std::string("reference -o other.exr --spp 70") + kScene);
   EXPECT_TRUE(has(other.err, "reference: continues after the 65 spp of ")) << other.err;
   expectInOneGo("other.exr", std::string("--spp 70") + kScene);
@@ -50,7 +50,7 @@ TEST_F(ReferenceResume, EnoughSamplesStayAsTheyAre) {
   EXPECT_TRUE(has(fewer.err, "ref.exr: is of this scene and these settings already")) << fewer.err;
   EXPECT_TRUE(has(fewer.err, "ref.exr: 32 spp")) << fewer.err;
   EXPECT_EQ(read("ref.exr"), before);
-  // Exactly what is asked for, where somebody wants that.
+  // --anew gives exactly the requested samples.
   ASSERT_EQ(run(std::string("reference -o ref.exr --anew --spp 8") + kScene).code, 0);
   EXPECT_EQ(readExr(path("ref.exr")).metadata.at("spp"), "8");
   EXPECT_EQ(keptSpp(), 32u) << "which leaves the progress alone";
@@ -89,7 +89,7 @@ TEST_F(ReferenceResume, InterruptedContinues) {
     const ProgramResult result = endBy(signal, [&] { return keptSpp() > before + 20; });
     EXPECT_EQ(result.code, 130) << result.err;
     EXPECT_FALSE(fs::exists(path("ref.exr")));
-    // Not the last checkpoint: the last sample.
+    // All samples are kept, not only those of the last checkpoint.
     std::smatch said;
     ASSERT_TRUE(std::regex_search(result.err, said,
                                   std::regex("not finished; its (\\d+) spp are kept, and the same "
@@ -148,7 +148,7 @@ TEST_F(ReferenceResume, SuitesContinueToo) {
   ASSERT_EQ(cut.code, 130) << cut.err;
   const uint64_t kept = keptSpp();
   ASSERT_GT(kept, 32u);
-  // Of the same key: what is there is more than enough.
+  // Same key: the stored samples are more than enough.
   const ProgramResult enough = run("run suite.toml --out out");
   ASSERT_EQ(enough.code, 0) << enough.err;
   EXPECT_TRUE(has(enough.err, fmt::format("made of the {} spp of ", kept))) << enough.err;
@@ -156,7 +156,7 @@ TEST_F(ReferenceResume, SuitesContinueToo) {
   ASSERT_EQ(made.size(), 1u);
   const std::string file = "out/references/" + made[0].filename().string();
   EXPECT_EQ(readExr(path(file)).metadata.at("spp"), std::to_string(kept));
-  // More, for a suite of another seed: the stored sequence goes on.
+  // A suite with another seed and more samples continues the stored sequence.
   const std::string more = fmt::format("reference.spp={}", kept + 11);
   const ProgramResult extended = run("run suite.toml --out out --set seed=5 --set " + more);
   ASSERT_EQ(extended.code, 0) << extended.err;

@@ -1,5 +1,5 @@
-// Where references cannot be stored: full disks, limits, folders that cannot be written to, files
-// that are damaged. What was there before stays, and nothing half-written looks complete.
+// References that cannot be stored: full disks, limits, unwritable folders, damaged files. Existing
+// files stay, and no incomplete file looks complete.
 #include <unistd.h>
 
 #include <fstream>
@@ -22,7 +22,7 @@ class ReferenceStorage : public ReferenceFilesTest {
     ASSERT_EQ(run(std::string("reference -q -o ref.exr --spp 4") + kScene).code, 0);
     ASSERT_EQ(keptSpp(), 4u);
   }
-  // The reference of four samples is whole, and can be continued.
+  // Expects the reference of four samples to be complete and continuable.
   void expectUnharmed() const {
     EXPECT_EQ(keptSpp(), 4u);
     expectInOneGo("ref.exr", std::string("--spp 4") + kScene);
@@ -34,7 +34,7 @@ class ReferenceStorage : public ReferenceFilesTest {
   size_t filesIn(const fs::path& folder) const {
     size_t count = 0;
     for (const auto& entry : fs::directory_iterator(folder)) {
-      // What the programs said stands in .stdout1, .stderr1 and so on.
+      // Skip .stdout1, .stderr1 etc., which hold the programs' output.
       count += entry.path().filename().string().rfind(".std", 0) != 0;
     }
     return count;
@@ -73,7 +73,7 @@ TEST_F(ReferenceStorage, FullDiskIsOneLine) {
   fs::create_directory(path("small"));
   SmallDisk disk(path("small"), "size=160k");
   if (!disk.whyNot().empty()) GTEST_SKIP() << disk.whyNot();
-  // A state of 108 KiB fits, another one beside it does not, nor does an image.
+  // A state of 108 KiB fits, but not a second one, nor an image.
   fs::rename(path("cache"), path("cache-before"));
   fs::create_directories(path("small/cache"));
   fs::create_directory_symlink(path("small/cache"), path("cache"));
@@ -86,7 +86,7 @@ TEST_F(ReferenceStorage, FullDiskIsOneLine) {
   EXPECT_TRUE(has(result.err, "warning: the progress of the reference is not kept"));
   EXPECT_FALSE(fs::exists(path("small/ref.exr")));
   EXPECT_EQ(filesIn(path("small")), 1u) << "unfinished files";
-  // The same command, once there is room.
+  // The same command succeeds once there is room.
   ASSERT_TRUE(disk.remount("size=4m"));
   expectUnharmed();
 }

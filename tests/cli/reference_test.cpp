@@ -25,7 +25,7 @@ TEST_F(ReferenceTest, HalvesAndVarianceBelongToTheMean) {
   for (size_t i = 0; i < mean.pixels.size(); ++i) {
     for (int channel = 0; channel < 3; ++channel) {
       const double a = half0.pixels[i][channel], b = half1.pixels[i][channel];
-      const double expected = (33.0 * a + 32.0 * b) / 65.0;  // the first half has the odd sample
+      const double expected = (33.0 * a + 32.0 * b) / 65.0;  // the first half has one more sample
       ASSERT_NEAR(mean.pixels[i][channel], expected, 1e-5 * (1.0 + expected));
       ASSERT_GE(variance.pixels[i][channel], 0.0f);
       fromVariance += variance.pixels[i][channel];
@@ -67,7 +67,7 @@ TEST_F(ReferenceTest, TargetThatIsMissedIsSaid) {
 }
 
 TEST_F(ReferenceTest, SeedsOfMethodsAreNotSeedsOfHalves) {
-  // A half that shared its samples with a method's image would hide that image's error.
+  // If a half shared its samples with a method's image, that image's error would be hidden.
   ASSERT_EQ(run("reference cornell-box -o ref.exr --resolution 16x16 --spp 2 --seed 1").code, 0);
   ASSERT_EQ(run("render cornell-box -o image.exr --resolution 16x16 --frames 1 --seed 1").code, 0);
   const LayeredImage reference = readExr(path("ref.exr"));

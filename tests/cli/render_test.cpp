@@ -1,4 +1,4 @@
-// restlab render: what is in the file, and that it is the same for any thread count.
+// restlab render: contents of the files, equal for any thread count.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ double meanOf(const Image& image) {
   return sum / (3.0 * double(image.pixels.size()));
 }
 
-// Where float32 ends for a filter.
+// Warns about filters at the end of float32.
 TEST_F(RenderTest, SaysWhereAFilterLeavesItsRange) {
   const auto errOf = [&](const std::string& scene, const std::string& denoiser) {
     const ProgramResult result = run("render " + scene +
@@ -103,7 +103,7 @@ TEST_F(RenderTest, ParametersWithoutEffectAreSaid) {
 }
 
 TEST_F(RenderTest, FirstHitLayersHoldTheSceneThatIsSeen) {
-  // A triangle in the plane z = 0, far from the middle of its own bounds, that faces the camera at
+  // A triangle in the plane z = 0, far from the middle of its bounds, that faces the camera at
   // (0.3, 0.3, 2) and fills the left half.
   write("triangle.gltf",
         triangleGltf({-9, -9, 0, 0.3F, -9, 0, 0.3F, 9, 0},
@@ -134,7 +134,7 @@ TEST_F(RenderTest, FirstHitLayersHoldTheSceneThatIsSeen) {
       EXPECT_NEAR(glm::length(layer("normalW") - glm::vec3(0, 0, 1)), 0.0F, 1e-5F);
       EXPECT_EQ(layer("object"), glm::vec3(1.0F));
       EXPECT_NEAR(glm::length(layer("motion") - glm::vec3(0, 0, layer("depth").x)), 0.0F, 1e-4F);
-      // The diffuse colour and 4 % of specular reflection at normal incidence.
+      // Diffuse colour plus 4 % of specular reflection at normal incidence.
       EXPECT_NEAR(glm::length(layer("albedo") - glm::vec3(0.54F, 0.29F, 0.04F)), 0.0F, 1e-5F);
     }
   }
@@ -271,7 +271,7 @@ TEST_F(RenderTest, PrintsWhatIsKeptOfAPixel) {
   ASSERT_EQ(text.code, 0) << text.err;
   EXPECT_EQ(text.out.rfind("shaded radiance ", 0), 0u) << text.out;
   EXPECT_NE(text.out.find("\nconfidence "), std::string::npos) << text.out;
-  // Of the same frame as that of the file.
+  // The same frame as in the file.
   const ProgramResult both = run(render + "--pixel 5,15 --frames 4 --json -o image.exr");
   ASSERT_EQ(both.code, 0) << both.err;
   const auto json = nlohmann::json::parse(both.out);
@@ -286,7 +286,7 @@ TEST_F(RenderTest, PrintsWhatIsKeptOfAPixel) {
     ASSERT_TRUE(std::getline(lines, line));
     EXPECT_EQ(line.rfind(value["name"].get<std::string>() + " ", 0), 0u) << line;
   }
-  // Its own sample, donors over space, and the pixel itself over time.
+  // Own sample first, then donors over space, last the pixel itself over time.
   ASSERT_GE(json["donors"].size(), 2u);
   EXPECT_EQ(json["donors"].front()["reuse"], "own");
   EXPECT_EQ(json["donors"].back()["reuse"], "time");

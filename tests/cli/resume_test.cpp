@@ -1,4 +1,4 @@
-// restlab run goes on where it stopped: jobs, their keys, damage, locks, full disks; status,
+// restlab run continues where it stopped: jobs, their keys, damage, locks, full disks; status,
 // report, clean.
 #include <unistd.h>
 
@@ -40,7 +40,7 @@ class ResumeTest : public ProgramTest {
   }
 };
 
-// All but times, which differ from run to run.
+// Drops times, which differ from run to run.
 std::vector<std::map<std::string, std::string>> errorsOf(const std::string& csv) {
   auto rows = parseCsv(csv);
   for (auto& row : rows) {
@@ -69,7 +69,7 @@ TEST_F(ResumeTest, FinishedRunsAreTakenAsTheyAre) {
   const size_t before = lines();
   const ProgramResult forced = run("run suite.toml --out out --force");
   EXPECT_EQ(forced.err.find("already"), std::string::npos) << forced.err;
-  // Times differ: the log says those that tables show, and that they replace others.
+  // Times differ: the log has those shown in tables, marked as replacing others.
   EXPECT_EQ(lines(), before + 6);
   const std::string log = read("out/results.jsonl");
   const auto last = nlohmann::json::parse(log.substr(log.rfind('\n', log.size() - 2) + 1));
@@ -101,7 +101,7 @@ TEST_F(ResumeTest, WhatChangesTheNumbersMakesTheRunAnew) {
 TEST_F(ResumeTest, InterruptedAndKilledRunsGoOn) {
   ASSERT_EQ(run("run suite.toml --out whole").code, 0);
   const std::string whole = read("whole/summary.csv");
-  // So many that the signal comes before the last.
+  // Enough runs for the signal to come before the last.
   const std::string many = "run suite.toml --out out --set runs=100000";
   EXPECT_EQ(runUntil([&] { return jobs().size() >= 4; }, many).code, 130);
   const size_t interrupted = jobs().size();
@@ -138,7 +138,7 @@ TEST_F(ResumeTest, DamagedJobsAreMadeAnewWithALine) {
   damage("job.json", [](std::string& bytes) { bytes.clear(); });
   damage("job.json", [](std::string& bytes) {
     const size_t at = bytes.find("\"mse\": ") + 7;
-    bytes[at] = bytes[at] == '1' ? '2' : '1';  // a number that parses
+    bytes[at] = bytes[at] == '1' ? '2' : '1';  // a number that still parses
   });
   damage("method0.exr", [](std::string& bytes) { bytes[bytes.size() - 9] ^= 1; });
   damage("method1.exr", [](std::string& bytes) { bytes.resize(100); });
@@ -151,7 +151,7 @@ TEST_F(ResumeTest, ATornLineIsCutOffAndWrittenAgain) {
   ASSERT_EQ(run("run suite.toml --out out").code, 0);
   std::string text = read("out/results.jsonl");
   const std::string whole = text;
-  // The last job's two lines: one whole, one torn.
+  // Damage the last job's two lines: one complete, one torn.
   text.resize(text.size() - 40);
   write("out/results.jsonl", text);
   const ProgramResult result = run("run suite.toml --out out");
@@ -187,7 +187,7 @@ TEST_F(ResumeTest, TwoProgramsInOneFolder) {
 TEST_F(ResumeTest, AFullDiskLeavesNothingThatLooksWhole) {
   ASSERT_EQ(run("run suite.toml --out out").code, 0);
   const std::string csv = read("out/summary.csv");
-  // Files of at most so many bytes: what is larger cannot be written, as on a full disk.
+  // A limit on file sizes acts like a full disk.
   for (const uint64_t kib : {1, 4, 8}) {
     Circumstances full;
     full.maxFileBytes = kib * 1024;
@@ -220,7 +220,7 @@ TEST_F(ResumeTest, ReportMakesTheSameFilesAgain) {
   const auto status = nlohmann::json::parse(run("status out --json").out);
   EXPECT_EQ(status["blocks"].size(), 2u);
   for (const auto& block : status["blocks"]) EXPECT_EQ(block["runs_there"], 3);
-  // The first run of a table, whose images are shown, and then one more.
+  // Remove the first run of a table, whose images are shown, and one more.
   const auto plan = nlohmann::json::parse(read("out/run.json"))["plan"];
   fs::remove_all(path("out/jobs/" + plan[0]["jobs"][0].get<std::string>()));
   fs::remove_all(path("out/jobs/" + plan[1]["jobs"][2].get<std::string>()));
@@ -262,7 +262,7 @@ TEST_F(ResumeTest, ADryRunIsTheMatrixAndSaysWhatItDoesNotKnow) {
   EXPECT_EQ(methods.out.find(row), methods.out.rfind(row)) << "once, not for each point";
   EXPECT_NE(methods.out.find("| path | path, unbiased | none | cpu | none |  |"),
             std::string::npos);
-  // How long a relmse takes is not known.
+  // The time until a relmse is reached is unknown.
   EXPECT_NE(methods.out.find("; about "), std::string::npos) << methods.out;
   write("relmse.toml",
         std::string(kSmallSuite)
@@ -287,7 +287,7 @@ TEST_F(ResumeTest, ADryRunCountsSecondReferencesAndRunsSideBySide) {
   EXPECT_NE(run(line).out.find("| to be made | 60 min |"), std::string::npos);
   const ProgramResult two = run(line + " --set temporal=true");
   EXPECT_NE(two.out.find("| 2 to be made | 120 min |"), std::string::npos) << two.out;
-  // Every one of them has buffers: 128x128 pixels are enough for whole MiB.
+  // Each parallel run has its own buffers; 256x256 pixels make several MiB.
   const auto memory = [&](const std::string& jobs) {
     const std::string said = run("run suite.toml --out out --dry-run --set width=256 --set "
                                  "height=256 --set timing=false" +
@@ -329,7 +329,7 @@ TEST_F(ResumeTest, CleanTakesWhatNoTableUsesAndSaysWhat) {
 
 TEST_F(ResumeTest, CleanStaysInItsFolderAndAtItsOwn) {
   ASSERT_EQ(run("run suite.toml --out out --set runs=1").code, 0);
-  // References that several folders share, and what somebody put beside the jobs.
+  // References shared by several folders, and a foreign folder beside the jobs.
   fs::create_directories(path("shared"));
   write("shared/other.exr", "of another suite");
   for (const auto& entry : fs::directory_iterator(path("out/references")))
@@ -337,7 +337,7 @@ TEST_F(ResumeTest, CleanStaysInItsFolderAndAtItsOwn) {
   fs::remove(path("out/references"));
   fs::create_directory_symlink(path("shared"), path("out/references"));
   write("out/jobs/backup/file", "mine");
-  // A program that still runs is writing: this one.
+  // A file being written by a running process: this one.
   const std::string writing = "out/images/x.exr.tmp-" + std::to_string(getpid()) + "-0";
   write(writing, "half");
   const ProgramResult cleaned = run("clean out");
@@ -352,7 +352,7 @@ TEST_F(ResumeTest, CleanStaysInItsFolderAndAtItsOwn) {
 TEST_F(ResumeTest, CleanKeepsWhatAnUnfinishedSuiteMayNeed) {
   const std::string sweep = "run suite.toml --out out --sweep max_bounces=1,2";
   ASSERT_EQ(run(sweep).code, 0);
-  // As an interrupted run leaves it: the second table was not reached.
+  // Simulate an interrupt before the second table.
   auto record = nlohmann::ordered_json::parse(read("out/run.json"));
   record["status"] = "interrupted";
   record["plan"][1]["jobs"].clear();
@@ -441,7 +441,7 @@ TEST_F(ResumeTest, CamerasMoveAlongPaths) {
     EXPECT_GT(std::stod(rows[moving].at("temporal_difference_of_reference_noise")), 0.0);
   }
   EXPECT_EQ(rows[0].at("temporal_variance").find("nan"), std::string::npos);
-  // Reference and images are of the measured frame's camera: their errors are those of noise.
+  // Reference and images are of the measured frame's camera: their errors are only noise.
   for (const auto& row : rows) EXPECT_NEAR(std::stod(row.at("energy_ratio")), 1.0, 0.5);
   const auto still = readExr(path("out/images/cornell-box-all-camera_path-still-path.exr"));
   const auto orbit = readExr(path("out/images/cornell-box-all-camera_path-orbit-path.exr"));

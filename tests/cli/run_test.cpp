@@ -1,4 +1,4 @@
-// restlab run: what it leaves in its folder, the ratios, references, overrides, interruption.
+// restlab run: files in its folder, ratios, references, overrides, interruption.
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -143,7 +143,7 @@ TEST_F(RunTest, MeasuredImageIsTheFrameAfterTheWarmup) {
             0);
   EXPECT_EQ(readExr(path("out/images/cornell-box-all-gi.exr")).layers.at("").pixels,
             readExr(path("again.exr")).layers.at("").pixels);
-  // And its MSE is what `compare` says of it.
+  // Its MSE is that of `compare`.
   std::string reference;
   for (const auto& entry : fs::directory_iterator(path("out/references"))) {
     reference = entry.path().string();
@@ -192,7 +192,7 @@ TEST_F(RunTest, GivenReferenceMustAgree) {
   expectError(run("run suite.toml --out out -q"), 3, {"suite.toml:29:13", "24x16", "23x16"});
   replaceInSuite("bad.exr", "absent.exr");
   expectError(run("run suite.toml --out out -q"), 3, {"suite.toml:29:13", "absent.exr"});
-  // What is no reference: an image with the noise of one sample, and one with a hole.
+  // Files that are no references: an image with the noise of one sample, and one with a NaN.
   replaceInSuite("width = 23", "width = 24");
   replaceInSuite("absent.exr", "out/images/cornell-box-all-path.exr");
   expectError(run("run suite.toml --out out -q"), 3,
@@ -228,7 +228,7 @@ TEST_F(RunTest, MemoryIsCheckedBeforeAnythingIsRendered) {
   const auto available = availableMemory();
   if (!available) GTEST_SKIP() << "this system does not say how much memory there is";
   std::string suite = kSuite;
-  // Enough methods for four times what there is, at no less than 64 bytes a pixel each.
+  // Enough methods for four times the available memory, at no less than 64 bytes per pixel each.
   const uint64_t methods = 1 + *available / 16 / (uint64_t(8192) * 8192);
   for (uint64_t i = 0; i < methods; ++i) {
     suite += "[[method]]\nintegrator = \"restir_gi\"\nname = \"gi" + std::to_string(i) + "\"\n";
@@ -245,7 +245,7 @@ TEST_F(RunTest, EarlierResultsDoNotPassForNewOnes) {
   fs::create_directory(path("out/images/folder.png"));
   fs::remove_all(path("cache"));
   fs::remove_all(path("out/references"));
-  // Interrupted in its reference, before it has a row.
+  // Interrupted in the reference, before any row exists.
   const ProgramResult result =
       runUntil([&] { return isSaid("\"total\":100000000"); },
                "run suite.toml --out out --json --set reference.spp=100000000");
@@ -317,8 +317,8 @@ TEST_F(RunTest, InterruptKeepsFinishedRuns) {
   EXPECT_NE(read("out/table.md").find("Not finished"), std::string::npos);
 }
 
-// The launcher tells `run` without a suite from one with a suite: it knows which options take a
-// value.
+// The launcher distinguishes `run` with a suite from `run` without one: it must know which options
+// take a value.
 TEST_F(RunTest, LauncherKnowsTheOptionsThatTakeValues) {
   std::ifstream file(fs::path(RESTLAB_SOURCE_DIR) / "lab");
   const std::string launcher((std::istreambuf_iterator<char>(file)),
@@ -385,7 +385,7 @@ TEST_F(RunTest, BadSuitesNameThePlace) {
   expectError(run("run suite.toml --out plain/out -q"), 3, {"plain/out"});
 }
 
-// The warm-up's time counts, and so do its frames: it only says which frame is measured alone.
+// Time and frames of the warm-up count: the warm-up only determines the measured frame.
 TEST_F(RunTest, AccumulationBeginsWithTheHistory) {
   const auto accumulated = [&](const std::string& settings) {
     fs::remove_all(path("out"));
@@ -409,7 +409,7 @@ TEST_F(RunTest, AccumulationBeginsWithTheHistory) {
   EXPECT_EQ(warm, accumulated("--set warmup_frames=0 --set frames=6"));
 }
 
-// While a method averages its whole history itself, its last frame is what has accumulated.
+// While a method averages its whole history, its last frame is the accumulated image.
 TEST_F(RunTest, AccumulatedAveragesAreNotAveragedTwice) {
   write("suite.toml", std::string(kSuite) + "\ndenoiser = \"accumulate\"\naccumulate_cap = 3.0\n");
   ASSERT_EQ(

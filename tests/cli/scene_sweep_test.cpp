@@ -1,4 +1,4 @@
-// restlab run: sweeps of a scene's parameter against truths that are known.
+// restlab run: sweeps of a scene's parameter against known truths.
 #include <cmath>
 #include <limits>
 
@@ -10,7 +10,7 @@ namespace restlab::cli_test {
 
 namespace {
 
-// The small suite without its scene; the next line is the 16th.
+// Returns the small suite without its scene; the next line is the 16th.
 std::string settings() {
   std::string text = kSmallSuite;
   const std::string scenes = "scenes = [\"cornell-box\"]\n";
@@ -61,7 +61,7 @@ TEST_F(SceneSweepRun, HoldsAgainstTheExactImage) {
     EXPECT_EQ(row.at("max_bounces"), "16");
     EXPECT_NEAR(std::stod(row.at("energy_ratio")), 1.0, 0.1) << row.at("method");
   }
-  // What was made is found again, and shown again; a sweep by its name.
+  // Existing runs are found and shown again; a sweep is selected by its name.
   EXPECT_NE(runSuite(kFurnaces, " --dry-run --scenes albedo").out.find("9 jobs, 9 there"),
             std::string::npos);
   EXPECT_NE(runSuite(kFurnaces, " --dry-run").out.find("9 jobs, 9 there"), std::string::npos);
@@ -72,7 +72,7 @@ TEST_F(SceneSweepRun, HoldsAgainstTheExactImage) {
   ASSERT_EQ(run("report out").code, 0) << "clean has left what the tables are made of";
 }
 
-// By powers of two everything scales to the last bit, errors too.
+// Powers of two scale everything to the last bit, errors included.
 TEST_F(SceneSweepRun, RelationsChangeNothing) {
   const ProgramResult result = runSuite(
       "[[scene]]\nscene = [\"cornell-box?radiance=1\", \"cornell-box?radiance=2^10\"]\n"
@@ -161,7 +161,7 @@ constexpr const char* kTurning =
     "camera_path = \"turning\"\n"
     "[[camera_path]]\nname = \"turning\"\nkind = \"pan\"\ndegrees_per_frame = 2.0\n";
 
-// The truth is of the camera of the measured frame, and of the light times its factor.
+// The truth uses the camera of the measured frame, and the light times its factor.
 TEST_F(SceneSweepRun, TruthsOfAMovingCamera) {
   const std::string scene =
       "[[scene]]\nscene = [\"cornell-box?radiance=1\", \"cornell-box?radiance=2^10\"]\n"
@@ -195,7 +195,7 @@ TEST_F(SceneSweepRun, WhatATruthOfAMovingCameraIsNotOf) {
               2, {"suite.toml:18:9", "without 'scale' and 'move'"});
 }
 
-// Runs of a scene that says how many it has are not those of the suite.
+// For a scene with its own `runs`, further runs are reported with that key.
 TEST_F(SceneSweepRun, FurtherRunsAreTakenWhereTheyAreSaid) {
   const std::string scene = "[[scene]]\nscene = \"furnace\"\ntruth = \"exact\"\nruns = ";
   const ProgramResult first = runSuite(scene + "4\n");

@@ -1,5 +1,5 @@
-// The suites that are shipped, and those that docs/experiments.md tells to write: each loads, says
-// its question and its time, and runs.
+// Shipped suites, and suites written as docs/experiments.md tells: each loads, states its question
+// and its time, and runs.
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -45,7 +45,8 @@ class ShippedSuite : public ProgramTest, public ::testing::WithParamInterface<st
   fs::path file() const { return kSuites / (GetParam() + ".toml"); }
 };
 
-// Every integrator, mode and cache, and of certificates every denoiser: what is new joins them.
+// Suites must name every integrator, mode and cache, and for certificates every denoiser, also new
+// ones.
 TEST_F(ProgramTest, LaboratorySuitesHaveEveryMethod) {
   using Json = nlohmann::json;
   const auto namesOf = [&](const char* what) {
@@ -65,7 +66,7 @@ TEST_F(ProgramTest, LaboratorySuitesHaveEveryMethod) {
     if (suite == std::string("certificates")) lists.push_back("denoisers");
     for (const std::string& list : lists) {
       std::set<std::string> names = namesOf(list.c_str());
-      names.erase("oidn");  // which is not on every machine
+      names.erase("oidn");  // not available on every machine
       for (const std::string& name : names)
         EXPECT_NE(text.find("\"" + name + "\""), std::string::npos) << suite << ": " << name;
     }
@@ -81,7 +82,7 @@ TEST_P(ShippedSuite, SaysItsQuestionAndItsTime) {
       comment, std::regex("([Aa]bout \\d+( to \\d+)?|under (a|two)) minutes? on two cores")))
       << comment;
   EXPECT_NE(text.find("name = \"" + GetParam() + "\"\n"), std::string::npos) << text;
-  // And the document that lists them has it with the same time.
+  // docs/experiments.md must list it with the same time.
   const std::string table = textOf(fs::path(RESTLAB_SOURCE_DIR) / "docs/experiments.md");
   const size_t row = table.find("| `" + GetParam() + ".toml` |");
   ASSERT_NE(row, std::string::npos) << "docs/experiments.md has no row of it";
@@ -98,7 +99,7 @@ TEST_P(ShippedSuite, IsPlannedWhole) {
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_TRUE(result.errors().empty());
   EXPECT_EQ(result.err.find("warning"), std::string::npos) << result.err;
-  // What is optional is planned or skipped with a line; nothing else may be missing.
+  // Optional scenes are planned or skipped with a line; nothing else may be missing.
   const std::string text = textOf(file());
   std::set<std::string> skipped;
   std::istringstream lines(result.out);
@@ -121,7 +122,7 @@ INSTANTIATE_TEST_SUITE_P(All, ShippedSuite, ::testing::ValuesIn(shippedSuites())
                            return name;
                          });
 
-// Every file below a folder, relative to it; keys of jobs and references as KEY.
+// Returns every file below a folder, by relative path; keys of jobs and references become KEY.
 std::set<std::string> filesBelow(const fs::path& folder) {
   std::set<std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -161,13 +162,13 @@ TEST_F(ConvergenceSuite, LeavesWhatIsDocumented) {
       << "a job a run";
   EXPECT_EQ(std::distance(fs::directory_iterator(path("out/references")), fs::directory_iterator()),
             1);
-  // The report holds all tables of table.md, and the numbers of summary.csv are in its data.
+  // The report holds all tables of table.md, and its data have the numbers of summary.csv.
   const std::string page = read("out/report.html"), table = read("out/table.md");
   for (const char* method : {"path traced", "ReSTIR GI (biased)", "ReSTIR GI (unbiased)"}) {
     EXPECT_NE(page.find(method), std::string::npos) << method;
     EXPECT_NE(table.find(std::string("| ") + method), std::string::npos) << table;
   }
-  // Not the speed-ups: whether so short curves have a time or an error in common is the machine's.
+  // Skip the speed-ups: whether such short curves share a time or an error depends on the machine.
   for (const char* column :
        {"MSE", "slope", "efficiency", "relMSE without the worst 0.1 %", "bytes / pixel"})
     EXPECT_NE(page.find(column), std::string::npos) << column << " is in no table of the report";
@@ -184,12 +185,12 @@ TEST_F(ConvergenceSuite, LeavesWhatIsDocumented) {
   EXPECT_EQ(accumulated, 5u * 8u * 3u) << "methods x runs x (1, 2 and 4 frames)";
 }
 
-// docs/experiments.md, whose code blocks are indented by four blanks.
+// Returns the code blocks of docs/experiments.md, which are indented by four blanks.
 std::vector<std::string> codeBlocks() {
   std::vector<std::string> blocks;
   std::istringstream lines(textOf(fs::path(RESTLAB_SOURCE_DIR) / "docs/experiments.md"));
   std::string block, line;
-  // A block inside a list is indented by more, and ends where the text goes on.
+  // A block inside a list is indented by more, and ends where the text continues.
   const auto end = [&] {
     while (!block.empty() && block.ends_with("\n\n")) block.pop_back();
     if (!block.empty()) blocks.push_back(block);
@@ -216,7 +217,7 @@ std::string blockWith(const std::string& words) {
   return "";
 }
 
-// Settings of a document, made as small as they can be.
+// Settings that make a run of the document as small as possible.
 constexpr const char* kTinyRun =
     " --set width=16 --set height=9 --set max_bounces=2 --set runs=2 --set reference.spp=32 --set "
     "warmup_frames=1";
@@ -227,7 +228,7 @@ class ExperimentsDocument : public ProgramTest {
     ProgramTest::SetUp();
     write("radius.toml", blockWith("name = \"radius\""));
   }
-  // A command of the document as the words of the program; "" where it is none of ours.
+  // Returns the arguments of a ./lab command in the document; "" for other commands.
   static std::string ofProgram(std::string command) {
     command = std::regex_replace(command, std::regex("^\\s+"), "");
     return command.rfind("./lab ", 0) == 0 ? command.substr(6) : "";
@@ -263,7 +264,7 @@ TEST_F(ExperimentsDocument, EveryCommandRuns) {
         continue;
       }
       std::vector<std::string> arguments = words(command);
-      // What a shell makes of {4,8,16}.
+      // Expand {4,8,16} as a shell would.
       std::vector<std::string> all;
       for (const std::string& word : arguments) {
         const size_t open = word.find('{'), close = word.find('}');
@@ -278,7 +279,7 @@ TEST_F(ExperimentsDocument, EveryCommandRuns) {
       if (all.front() == "run") {
         for (const std::string& word : words(kTinyRun)) all.push_back(word);
       }
-      // The crop of an image of 160x90, in one of 16x9.
+      // Scale the crop from an image of 160x90 to one of 16x9.
       std::replace(all.begin(), all.end(), std::string("40,30,32,24"), std::string("4,3,3,2"));
       const ProgramResult result = run(all);
       EXPECT_EQ(result.code, 0) << line << "\n" << result.err;
@@ -293,10 +294,10 @@ TEST_F(ExperimentsDocument, EveryCommandRuns) {
     EXPECT_TRUE(fs::exists(path(file))) << file;
 }
 
-// With a reference that is good enough for a line through their errors.
+// The reference must be good enough to fit a line through the errors.
 constexpr const char* kFewFrames = " --set runs=4 --set frames=4 --set reference.spp=1024";
 
-// The keys that the document tells to add, in the suite that it tells to write.
+// Adds the keys from the document to the suite from the document.
 TEST_F(ExperimentsDocument, FurtherKeysAreOfASuite) {
   const std::string suite = read("radius.toml");
   const std::string accumulate = blockWith("accumulate = true");
@@ -304,7 +305,7 @@ TEST_F(ExperimentsDocument, FurtherKeysAreOfASuite) {
   const size_t at = suite.find(heading);
   ASSERT_NE(at, std::string::npos);
   std::string text = suite;
-  // `temporal` and `metrics` are named in the text only.
+  // `temporal` and `metrics` only appear in the text of the document.
   text.insert(at + heading.size(), accumulate + "metrics = [\"flip_hdr\", \"ssim\"]\n");
   text += blockWith("[[mask]]");
   text = std::regex_replace(text, std::regex("rectangle = \\[60, 20, 90, 70\\]"),
@@ -313,7 +314,7 @@ TEST_F(ExperimentsDocument, FurtherKeysAreOfASuite) {
   const ProgramResult missing =
       run(std::string("run further.toml --out out") + kTinyRun + kFewFrames);
   expectError(missing, 3, {"door-ajar-1.exr"});
-  // Theirs: any image of the size.
+  // Stand-ins for images of another program.
   for (const char* file : {"door-ajar-1.exr", "door-ajar-2.exr"}) {
     const std::string seed = file[10] == '1' ? "1" : "2";
     ASSERT_EQ(run("render door-ajar --resolution 16x9 --max-bounces 2 -o " + std::string(file) +

@@ -1,4 +1,4 @@
-// restlab run -j: runs side by side, and --json: its events.
+// restlab run -j: runs in parallel, and --json: its events.
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -130,7 +130,7 @@ TEST_F(SideBySideTest, EventsAreOneObjectALine) {
   for (const Json& event : again) there += event["event"] == "run" && event["was_there"] == true;
   EXPECT_EQ(there, 5u);
 
-  // Of runs side by side as each ends, and each once.
+  // Parallel runs have one event each, when they end.
   const auto beside = events(run("run suite.toml -o beside --json -j 2 --set runs=40").err);
   std::set<uint32_t> ended;
   for (const Json& event : beside) {
@@ -160,7 +160,7 @@ TEST_F(SideBySideTest, EventsAreOneObjectALine) {
   EXPECT_TRUE(isProgress) << cut.err;
 }
 
-// Not when all of the table are made.
+// Events must come when each run ends, not at the end of the table.
 TEST_F(SideBySideTest, EventsOfRunsComeWhenTheyEnd) {
   const ProgramResult cut =
       runUntil([&] { return isSaid("\"suite_total\""); },
@@ -175,7 +175,7 @@ TEST_F(SideBySideTest, EventsOfRunsComeWhenTheyEnd) {
     isProgress = true;
     EXPECT_EQ(event["suite_total"], 4000);
     EXPECT_EQ(event["suite_done"], event["done"]) << "of the first table";
-    EXPECT_GT(event["suite_left_s"].get<double>(), 0.0);  // how much more than left_s hangs on load
+    EXPECT_GT(event["suite_left_s"].get<double>(), 0.0);  // its excess over left_s depends on load
   }
   EXPECT_GT(ended, 0u);
   EXPECT_TRUE(isProgress) << cut.err;

@@ -13,8 +13,8 @@ namespace restlab::cli_test {
 
 namespace {
 
-// Mounts of this process are seen by no other from here on. Who is not root becomes root of a user
-// namespace, where the system has those.
+// Makes mounts of this process invisible to others. Without root rights this needs a user
+// namespace, if the system has them.
 bool separateMounts() {
   static const bool done = [] {
     const uid_t user = geteuid();

@@ -1,4 +1,4 @@
-// A file system of a size of its own, which only this process and its children see.
+// A small file system that only this process and its children see.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 namespace restlab::cli_test {
 
-// At a folder that exists, until this ends.
+// RAII: mounted at an existing folder during its lifetime.
 class SmallDisk {
  public:
   // `options` of tmpfs: "size=160k", "size=1m,ro".
@@ -15,9 +15,9 @@ class SmallDisk {
   SmallDisk(const SmallDisk&) = delete;
   SmallDisk& operator=(const SmallDisk&) = delete;
 
-  // Why there is none: nobody may mount file systems here, say; "" where there is one.
+  // Returns why mounting failed, e.g. missing rights; "" if mounted.
   const std::string& whyNot() const { return whyNot_; }
-  // With other options; what it holds stays.
+  // Changes the options and keeps the files.
   bool remount(const std::string& options, bool isReadOnly = false);
 
  private:

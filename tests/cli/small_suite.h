@@ -1,4 +1,4 @@
-// A suite that takes a twentieth of a second: `path` and unbiased `restir_gi`, three runs of five
+// A suite that runs in a twentieth of a second: `path` and unbiased `restir_gi`, three runs of five
 // frames of 24x16 pixels. Tests append what they need; the next line is the 17th.
 #pragma once
 

@@ -1,4 +1,4 @@
-// restlab run: the further metrics and masks of a suite.
+// restlab run: further metrics and masks of a suite.
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -45,7 +45,7 @@ class SuiteMetricsTest : public ProgramTest {
   void writeSuite(const std::string& settings, const std::string& rest) const {
     write("suite.toml", kSettings + settings + kRest + rest);
   }
-  // What `compare` says of the measured image of a run: the mean over runs has no image.
+  // Returns the result of `compare` on the measured image of a run: a mean over runs has no image.
   double compared(const std::string& metric, const std::string& mask) const {
     std::string reference;
     for (const auto& entry : fs::directory_iterator(path("out/references")))

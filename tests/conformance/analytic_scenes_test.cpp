@@ -1,4 +1,4 @@
-// Scenes with an exact answer: the furnaces and the floor under the tilted rectangle.
+// Scenes with an exact solution: the furnaces and the floor under the tilted rectangle.
 #include <gtest/gtest.h>
 
 #include "core/image/metrics.h"
@@ -16,7 +16,7 @@ Image exact(const Scene& scene, uint32_t width, uint32_t height, uint32_t scatte
   return image;
 }
 
-// Of the image's area, what is too skewed for a t-test.
+// Share of the image's area that is too skewed for a t-test.
 double skewedShare(const stats::BiasReport& report, const stats::BlockGrid& grid) {
   double pixels = 0.0;
   for (const stats::CellVerdict& v : report.cells) {
@@ -28,8 +28,8 @@ double skewedShare(const stats::BiasReport& report, const stats::BlockGrid& grid
 
 class Analytic : public ::testing::TestWithParam<Variant> {
  protected:
-  // Unbiased modes by t-tests per cell; what is declared biased by the bound of published rows, an
-  // energy within 5 %. Cells without any noise must be equal.
+  // Checks unbiased modes by t-tests per cell, and modes declared biased by the bound for published
+  // rows: an energy within 5 %. Cells without any noise must be equal.
   void expectExact(const std::string& sceneName, uint32_t maxBounces, bool roulette = false) {
     const auto scene = bias::builtinScene(sceneName);
     bias::Method method = methodOf(GetParam(), 8, 2);
@@ -79,8 +79,8 @@ TEST_P(Analytic, FloorUnderATiltedRectangle) {
   for (const uint32_t events : {1u, 8u}) expectExact("quad-light", events);
 }
 
-// What a filter makes of a whole image tests/denoise/energy_test.cpp tells; of cells there is no
-// bound.
+// Filters are left out: tests/denoise/energy_test.cpp checks them on whole images, and single cells
+// have no bound.
 std::vector<Variant> variantsWithoutFilters() {
   std::vector<Variant> all = allVariants();
   std::erase_if(all, [](const Variant& v) { return v.blurs(); });

@@ -1,6 +1,6 @@
-// What every cache with entries keeps to: what pixels see is found again, whoever comes first; what
-// has no place is counted; what is seen stays, what was not seen for longest gives way; samples
-// come from pixels that see the entry.
+// Rules for every cache with entries: pixels find their surfaces again, in any order of the pixels;
+// pixels without a place are counted; entries in view stay, the entry unseen for longest is
+// replaced; samples come from pixels that see the entry.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,8 +35,8 @@ size_t proposed(const CacheRun& run) {
   return count;
 }
 
-// The same frames of two caches, of one by one thread in order, of the other by seven in others:
-// every buffer has the same words.
+// Runs equal frames on two caches, one by a single thread in order, the other by seven threads in
+// other orders: every buffer must have the same words.
 void expectSameByOneAndByMany(CacheRun& one, CacheRun& many, uint32_t frames) {
   for (uint32_t frame = 0; frame < frames; ++frame) {
     one.frame(true, 1, 0);
@@ -58,7 +58,7 @@ TEST_P(CacheEntries, WhatIsSeenIsFoundAgain) {
   run.frame();
   EXPECT_EQ(proposed(run), 0u) << "nothing is remembered yet";
   for (int i = 0; i < 6; ++i) run.frame();
-  // Who loses two claims in a row waits for the next frame.
+  // A pixel that loses two claims in a row waits for the next frame.
   EXPECT_LT(run.full(), run.pixels() / 100);
   EXPECT_GT(double(proposed(run)), 0.98 * run.pixels());
   for (uint32_t slot = 0; slot < run.pixels(); ++slot) {
@@ -66,7 +66,7 @@ TEST_P(CacheEntries, WhatIsSeenIsFoundAgain) {
       if (entry == rl::RL_INVALID) continue;
       ASSERT_LT(entry, run.entries().count);
       EXPECT_TRUE(run.hasAnchor(entry));
-      // Discs have a radius of six pixels of 0.25 metres, and are looked for 1.5 radii around.
+      // Discs have a radius of six pixels of 0.25 metres and are searched within 1.5 radii.
       EXPECT_LT(glm::distance(run.posW(slot), run.anchorPosW(entry)), 2.5f * 1.5f) << slot;
     }
   }
@@ -83,7 +83,7 @@ TEST_P(CacheEntries, ProposalsOfAPixelDiffer) {
   }
 }
 
-// 10^6 pixels ask.
+// 10^6 pixels claim entries.
 TEST_P(CacheEntries, TheOrderOfPixelsDoesNotMatter) {
   CacheRun one = make({1000, 1000}, 1 << 17), many = make({1000, 1000}, 1 << 17);
   const auto waves = [](glm::uvec2 p) {
@@ -103,7 +103,7 @@ TEST_P(CacheEntries, WhatHasNoPlaceIsCounted) {
   run.frame();
   EXPECT_GT(run.full(), 1000u);
   EXPECT_GT(proposed(run), 1000u);
-  // What is seen stays.
+  // Entries in view stay.
   const std::vector<uint32_t> before = run.words("anchors");
   for (int i = 0; i < 4; ++i) run.frame();
   for (uint32_t entry = 0; entry < run.entries().count; ++entry) {
@@ -159,7 +159,8 @@ TEST_P(CacheEntries, ThosePixelsFeedThatSeeIt) {
       }
     }
   }
-  // Half of the pixels offer in a frame, another half in the next; an entry takes four.
+  // One half of the pixels offers samples in a frame, the other half in the next; an entry takes
+  // four.
   EXPECT_GT(double(fed), 8 * 0.2 * run.pixels());
   EXPECT_GT(double(slots.size()), 0.8 * run.pixels());
 }
@@ -183,7 +184,7 @@ TEST_P(CacheEntries, TwoSidesOfAWallAreTwoEntries) {
   EXPECT_GT(double(seen), 0.9 * run.pixels());
 }
 
-// A cell, or a disc, as wide as the view: everybody asks for the same place.
+// A cell or a disc is as wide as the view: all pixels claim the same entries.
 TEST_P(CacheEntries, AllPixelsInAFewEntries) {
   const ParameterMap wide = {{kEntryCount, int64_t{1024}}, {GetParam() + "_pixels", 128.0}};
   CacheRun one(GetParam(), {48, 48}, wide), many(GetParam(), {48, 48}, wide);

@@ -15,7 +15,7 @@
 namespace rl {
 namespace {
 
-// The functions of entries, for one frame.
+// Context of the kernel functions for entries, for one frame.
 struct EntriesContext {
   FrameData gFrame{};
   struct {
@@ -85,7 +85,7 @@ void CacheRun::look(const std::function<Shown(glm::uvec2)>& shown, float x) {
 }
 
 void CacheRun::pass(const PassInfo& info, uint32_t threads, uint32_t order) {
-  const rl::SceneData nothing{};  // kernels of caches ask for no scene
+  const rl::SceneData nothing{};  // kernels of caches use no scene
   rl::CpuKernelArgs args;
   args.scene = &nothing;
   args.frame = &frame_;

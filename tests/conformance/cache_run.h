@@ -1,4 +1,4 @@
-// The passes of a cache, run over surfaces made by hand, without an integrator.
+// Runs the passes of a cache over synthetic surfaces, without an integrator.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -15,7 +15,7 @@
 
 namespace restlab::conformance {
 
-// What a pixel shows: its distance from the camera, which looks along -z; 0: nothing.
+// Surface in a pixel; `distance` from the camera, which looks along -z; 0: no surface.
 struct Shown {
   float distance = 10.0f;
   glm::vec3 normalW = {0.0f, 0.0f, 1.0f};
@@ -23,27 +23,27 @@ struct Shown {
 
 class CacheRun {
  public:
-  // An orthographic camera whose pixels are 0.25 metres wide, at the origin.
+  // Places an orthographic camera with pixels 0.25 metres wide at the origin.
   CacheRun(const std::string& cache, glm::uvec2 size, const ParameterMap& parameters);
 
-  // The view from now on, with the camera moved aside.
+  // Sets the surfaces that are seen from now on, and the camera's position along x.
   void look(const std::function<Shown(glm::uvec2)>& shown, float x = 0.0f);
-  // The passes of a frame, each over its pixels in an order of its own, by some threads; then what
-  // an integrator does for entries that have no anchor yet: the first pixel that feeds gives its
-  // own.
+  // Runs the passes of a frame over their pixels, in a shuffled order (`order` 0: in order), on
+  // `threads` threads. Then gives entries without an anchor that of the first pixel that feeds
+  // them, as an integrator does.
   void frame(bool isNewView = true, uint32_t threads = 1, uint32_t order = 0);
 
   uint32_t pixels() const { return size_.x * size_.y; }
   const std::vector<uint32_t>& words(const std::string& buffer) const {
     return buffers_.at(buffer);
   }
-  // A buffer's entry `i`, of a pixel or of an entry, in words.
+  // Item `i` of a buffer, of a pixel or of an entry, in words.
   std::vector<uint32_t> entry(const std::string& buffer, uint32_t i, size_t words) const;
   rl::EntryParams entries() const { return entries_; }
   glm::vec3 posW(uint32_t slot) const;
   glm::vec3 anchorPosW(uint32_t entry) const;
   bool hasAnchor(uint32_t entry) const;
-  // Slots of the pixels that feed an entry in the frame that has just run.
+  // Slots of the pixels that fed an entry in the last frame.
   std::vector<uint32_t> feedersOf(uint32_t entry) const;
   uint64_t full() const { return counters_.health[rl::RL_HEALTH_CACHE_FULL]; }
   const std::map<std::string, std::vector<uint32_t>>& buffers() const { return buffers_; }

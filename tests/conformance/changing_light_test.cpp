@@ -1,5 +1,5 @@
-// Histories that trace paths of the last frame again: a still light changes nothing, one that
-// changes is forgotten.
+// Histories that retrace paths of the last frame: a constant light must change nothing, a changed
+// light must be forgotten.
 #include <gtest/gtest.h>
 
 #include "core/scene/compiled_scene.h"
@@ -36,7 +36,8 @@ double energyOf(const Image& image) {
   return sum;
 }
 
-// The camera stands, then walks; a parameter changes; groups do not fill the image.
+// Tests a still camera, then a moving one, a changed parameter, and an image size that is no
+// multiple of the groups.
 TEST_P(ChangingLight, AStillLightChangesNoBit) {
   for (const char* name : {"door-ajar", "glossy-gallery", "glass"}) {
     const auto scene = bias::builtinScene(name);
@@ -113,8 +114,8 @@ TEST_P(ChangingLight, ALampThatIsElsewhereIsForgotten) {
   EXPECT_GT(remembers, 10.0 * errorOf(right, plain)) << "the check sees what is remembered";
 }
 
-// Histories that follow surfaces forget, and entries do, whether they are fed in the frame of the
-// change or not.
+// Histories that follow surfaces forget old light, and so do entries, even if they are not fed in
+// the frame of the change.
 TEST_P(ChangingLight, LightThatWasIsForgottenWhileTheCameraWalks) {
   const auto bright = bias::builtinScene("cornell-box"), dim = dimmed("cornell-box");
   const SceneCamera start = bright->source().cameras.front();

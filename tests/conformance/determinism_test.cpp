@@ -1,4 +1,5 @@
-// Same seed, same image: for any number of threads, after a reset, and in the general kernel.
+// Equal seeds give equal images: for any number of threads, after a reset, and with the general
+// kernel.
 #include <gtest/gtest.h>
 
 #include "core/error.h"
@@ -7,14 +8,14 @@
 namespace restlab::conformance {
 namespace {
 
-// Young histories, an old one, and two frames of a camera that has begun to walk (runFrames).
+// Enough frames for young histories, an old one, and two of a camera that moves (runFrames).
 constexpr uint32_t kFrames = 11;
 
 class Determinism : public ::testing::TestWithParam<Variant> {};
 
 TEST_P(Determinism, OneThreadAndManyThreadsAgreeBitForBit) {
   for (const char* scene : {"door-ajar", "glossy-gallery", "glass", "courtyard"}) {
-    SessionConfig config = configOf(GetParam(), 67, 35);  // tiles that the image cuts
+    SessionConfig config = configOf(GetParam(), 67, 35);  // cuts the tiles at the border
     const Image one = render(bias::builtinScene(scene), config, kFrames);
     for (const int threads : {2, 5}) {
       config.threads = threads;
@@ -40,7 +41,7 @@ TEST_P(Determinism, ResetStartsTheSameHistoryAgain) {
   EXPECT_GT(countDifferent(first, other), size_t(config.width) * config.height) << "seed unused";
 }
 
-// References go on where they ended. A history cannot: what it would go on from is not there.
+// References continue from a frame number. A method with a history cannot: the history is missing.
 TEST_P(Determinism, FramesGoOnFromANumber) {
   const auto scene = bias::builtinScene("glossy-gallery");
   Session session(scene, configOf(GetParam()));
@@ -57,7 +58,7 @@ TEST_P(Determinism, FramesGoOnFromANumber) {
   Session other(scene, configOf(GetParam()));
   other.reset(7, 3);
   other.frame();
-  // Guides of a still view are means over its frames: a filter's edges move a little.
+  // In a still view guides are averaged over the frames, which shifts a filter's edges slightly.
   if (GetParam().blurs()) return;
   EXPECT_EQ(countDifferent(fourth, other.radiance()), 0u);
   EXPECT_GT(countDifferent(third, other.radiance()), 0u);
@@ -71,8 +72,8 @@ TEST_P(Determinism, FramesOfOneHistoryDiffer) {
   EXPECT_GT(countDifferent(first, session.radiance()), first.pixels.size() / 2);
 }
 
-// Both kernels are compiled from the same lines; the general one asks at run time what the
-// specialised one knows. Every selection must be the same, and so must be every bit.
+// Both kernels are compiled from the same source; the general one tests at run time what the
+// specialised one knows at compile time. Every selection and every bit must be the same.
 TEST_P(Determinism, SpecialisedKernelsAgreeWithTheGeneralOne) {
   size_t specialised = 0;
   for (const std::string& name : builtinSceneNames()) {

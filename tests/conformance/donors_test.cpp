@@ -1,4 +1,4 @@
-// Donors of a pixel: what Session::donors() computes again is what the frame did.
+// Donors of a pixel: Session::donors() recomputes what the frame did.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ SessionConfig smallConfig(const ParameterMap& parameters = {}, const std::string
 
 const ParameterMap kAlone = {{"spatial_neighbours", int64_t{0}}};
 
-// What tells the sample of a pixel from all others: its film sample and its vertex. "": none.
+// Identifies the sample of a pixel by its film sample and its vertex. "": no sample.
 std::string sampleOf(const Session& session, size_t pixel) {
   std::map<std::string, std::string> values;
   for (const ProbeValue& v : session.probe(uint32_t(pixel % kWidth), uint32_t(pixel / kWidth)))
@@ -51,8 +51,8 @@ SceneCamera walked(const CompiledScene& scene, double metres) {
 
 class DonorScenes : public testing::TestWithParam<const char*> {};
 
-// The sample that a pixel has after the frame is the one that the selected donor had in a session
-// without reuse over space; confidences add up.
+// The sample of a pixel after the frame equals the selected donor's sample in a session without
+// spatial reuse; confidences add up.
 TEST_P(DonorScenes, TheSelectedDonorGaveTheSample) {
   const auto scene = bias::builtinScene(GetParam());
   Session alone(scene, smallConfig(kAlone)), session(scene, smallConfig());
@@ -91,7 +91,7 @@ TEST_P(DonorScenes, TheSelectedDonorGaveTheSample) {
   EXPECT_GT(accepted, taken);
 }
 
-// Histories that are old have other numbers of donors, with a share of their confidence.
+// Old histories have another number of donors, with a share of their confidence.
 TEST_P(DonorScenes, ConfidencesAddUpInOldHistories) {
   const auto scene = bias::builtinScene(GetParam());
   Session session(scene, smallConfig({{"young_frames", 3.0}, {"aged_neighbours", int64_t{1}}}));
@@ -122,8 +122,8 @@ INSTANTIATE_TEST_SUITE_P(Scene, DonorScenes,
                            return name;
                          });
 
-// Without reuse over space a pixel's sample after the frame is the one that was left over time, or
-// its own; where the camera has moved the donor is another pixel.
+// Without spatial reuse a pixel's sample after the frame comes from the temporal donor or is its
+// own; if the camera has moved, that donor is another pixel.
 TEST(Donors, OverTimeAreThePixelsThatShowedTheSurface) {
   const auto scene = bias::builtinScene("cornell-box");
   for (const double moved : {0.0, 0.2}) {
@@ -156,7 +156,7 @@ TEST(Donors, OverTimeAreThePixelsThatShowedTheSurface) {
     }
     EXPECT_GT(found, after.size() / 2);
     EXPECT_GT(selected, found / 4);
-    // Shares are the chances of being selected.
+    // A donor's share is its probability of being selected.
     EXPECT_LT(std::abs(double(selected) - expected), 4.0 * std::sqrt(variance));
     EXPECT_GT(variance, 20.0);
     if (moved == 0.0) {
@@ -206,7 +206,7 @@ std::map<std::string, size_t> shiftsOf(const char* scene, const ParameterMap& pa
   return counts;
 }
 
-// Each test of a shift by the parameter, or the scene, that makes it fail.
+// Makes each test of a shift fail, by a parameter or a scene.
 TEST(Donors, SayWhichTestFailed) {
   const ParameterMap far = {{"normal_threshold", -1.0}, {"plane_threshold", 10.0}};
   const auto with = [&](const char* name, double value) {
@@ -220,10 +220,10 @@ TEST(Donors, SayWhichTestFailed) {
   EXPECT_GT(door["dark"], 0u);
   EXPECT_EQ(door["smooth"] + door["background"], 0u);
   EXPECT_GT(shiftsOf("door-ajar", with("max_jacobian", 1.01))["jacobian"], 2 * door["jacobian"]);
-  // Some vertices are seen edge-on, whatever the bound.
+  // Some vertices are seen edge-on and fail with any bound.
   EXPECT_LT(shiftsOf("door-ajar", with("max_jacobian", 1.0e6))["jacobian"], door["jacobian"]);
   EXPECT_GT(shiftsOf("courtyard", far)["background"], 0u);
-  // Mirrors are smooth, whatever the limit.
+  // Mirrors are smooth with any limit.
   EXPECT_GT(shiftsOf("glossy-gallery", with("roughness_limit", 0.3))["smooth"],
             2 * shiftsOf("glossy-gallery", with("roughness_limit", 0.0))["smooth"]);
 }
@@ -248,7 +248,7 @@ TEST(Donors, AskingChangesNoBit) {
   EXPECT_TRUE(without.donors(0, 0).empty());
 }
 
-// Parameters of the next frame are not those of the one that is shown.
+// Donors use the parameters of the shown frame, not those set for the next one.
 TEST(Donors, AreThoseOfTheFrameThatIsShown) {
   Session session(bias::builtinScene("door-ajar"), smallConfig({{"young_frames", 100.0}}));
   for (int frame = 0; frame < 3; ++frame) session.frame();

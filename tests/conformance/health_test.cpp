@@ -1,4 +1,4 @@
-// No value that is not finite, on any built-in scene and at any size.
+// No non-finite values, on any built-in scene and at any size.
 #include <gtest/gtest.h>
 
 #include "core/image/metrics.h"
@@ -37,8 +37,8 @@ TEST_P(Healthy, AtOddSizes) {
   }
 }
 
-// A single pixel is the mean of the image: what it shows, over many seeds, is the image's mean.
-// (The camera's field of view is vertical, so a square image has the same one.)
+// A single pixel shows the mean of the image: its average over many seeds must be that mean. The
+// camera's field of view is vertical, so a square image has the same one.
 TEST_P(Healthy, OnePixelShowsTheMeanOfTheImage) {
   const auto scene = bias::builtinScene("sphere-furnace");
   SessionConfig config = configOf(GetParam(), 1, 1);

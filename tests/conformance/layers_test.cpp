@@ -1,4 +1,4 @@
-// Layers of a method: numbers of each pixel that are what its buffers hold.
+// Layers of a method: per-pixel numbers that match its buffers.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ SessionConfig smallConfig(const std::string& cache, const ParameterMap& paramete
 
 class EntryLayers : public testing::TestWithParam<std::string> {};
 
-// Over surfaces made by hand, whose buffers can be looked into: so many that places are rare.
+// Uses synthetic surfaces, whose buffers can be inspected: so many that places are scarce.
 TEST_P(EntryLayers, AreWhatTheBuffersHold) {
   const ParameterMap given = {{kEntryCount, int64_t{1024}}};
   const Method method = findMethod("restir_gi", GetParam(), "none");
@@ -96,7 +96,7 @@ TEST_P(EntryLayers, PixelsOfOneEntryHaveOneColour) {
     const float confidence = confidences.pixels[i].x;
     EXPECT_EQ(colourOf.try_emplace(entry.x, colour).first->second, colour);
     EXPECT_EQ(confidenceOf.try_emplace(entry.x, confidence).first->second, confidence);
-    // Each offer has the confidence 1.
+    // Each offered sample has confidence 1.
     EXPECT_LE(confidence, cap + float(rl::RL_ENTRY_FEEDERS));
     remembered += confidence >= 1.0f;
     different.insert({colour.x, colour.y, colour.z});
@@ -122,8 +122,8 @@ TEST_P(EntryLayers, AProbeSaysTheSameNumbers) {
 INSTANTIATE_TEST_SUITE_P(Cache, EntryLayers, testing::ValuesIn(bias::cachesWithEntries()),
                          [](const auto& test) { return test.param; });
 
-// In a still view without donors over space a history gains one sample a frame, up to the cap and
-// the frame's own.
+// In a still view without spatial donors a history gains one sample per frame, up to the cap plus
+// the frame's own sample.
 TEST(Layers, ConfidenceGrowsToTheCap) {
   const ParameterMap alone = {{"spatial_neighbours", int64_t{0}}, {"confidence_cap", 5.0}};
   Session session(bias::builtinScene("cornell-box"), smallConfig("pixel", alone));

@@ -1,5 +1,4 @@
-// What the settings of a session mean, for every integrator: bounces, components, pixel filter,
-// Russian roulette.
+// Settings of a session, for every integrator: bounces, components, pixel filter, Russian roulette.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,8 +20,8 @@ bias::Method boxMethod(const Variant& variant) {
   return method;
 }
 
-// Emission only: black, or the lamp as it is. With the filter at the pixel's centre no seed
-// matters.
+// Shows only emission: black or the lamp's colour. With the filter at the pixel's centre the seed
+// does not matter.
 TEST_P(LightTransport, NoScatteringEventShowsEmissionAlone) {
   SessionConfig config = configOf(GetParam(), 64, 64);
   config.maxBounces = 0;
@@ -41,7 +40,7 @@ TEST_P(LightTransport, NoScatteringEventShowsEmissionAlone) {
   EXPECT_EQ(countDifferent(image, render(scene, config, 2)), 0u);
 }
 
-// The box filter sees the lamp's outline partly; the mean over frames is its coverage.
+// The box filter covers the lamp's outline partly; the mean over frames is the coverage.
 TEST_P(LightTransport, BoxFilterCoversThePixel) {
   SessionConfig config = configOf(GetParam(), 64, 64);
   config.maxBounces = 0;
@@ -60,7 +59,7 @@ TEST_P(LightTransport, BoxFilterCoversThePixel) {
   EXPECT_GT(partly, 8) << "no pixel shows a part of the lamp";
 }
 
-// One scattering event is direct light, whatever says so.
+// One scattering event is direct light, whether set by maxBounces or by components.
 TEST_P(LightTransport, OneScatteringEventIsDirectLight) {
   const auto scene = bias::builtinScene("cornell-box");
   SessionConfig one = configOf(GetParam());
@@ -105,7 +104,7 @@ TEST_P(UnbiasedTransport, RussianRouletteLeavesTheMean) {
   expectRouletteLeavesTheMean("cornell-box", boxMethod(GetParam()), kRuns);
 }
 
-// Caustics and highlights: the distributions are too skewed for a few hundred runs.
+// Caustics and highlights have distributions too skewed for a few hundred runs.
 TEST_P(UnbiasedTransport, NightlyRussianRouletteLeavesTheMean) {
   for (const char* scene : {"glass", "glossy-gallery"}) {
     bias::Method method = methodOf(GetParam(), 24, 2);
@@ -114,7 +113,7 @@ TEST_P(UnbiasedTransport, NightlyRussianRouletteLeavesTheMean) {
   }
 }
 
-// It must do something, too.
+// Russian roulette must have an effect, too.
 TEST_P(LightTransport, RussianRouletteSavesRays) {
   const auto scene = bias::builtinScene("cornell-box");
   SessionConfig config = configOf(GetParam());

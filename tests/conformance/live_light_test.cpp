@@ -1,4 +1,4 @@
-// A session whose lamps are switched while its history goes on.
+// Lamps of a session are switched while its history goes on.
 #include <gtest/gtest.h>
 
 #include "core/error.h"
@@ -34,7 +34,7 @@ struct Switch {
   const char* light;
 };
 
-// Nothing of the scene before is left in what a method without a history renders.
+// A method without a history renders nothing of the earlier scene.
 TEST(LiveLight, PathRendersWhatAFreshSessionDoes) {
   for (const Switch& lamp :
        {Switch{"glossy-gallery", "light-large"}, Switch{"glossy-gallery", "all"},
@@ -62,7 +62,7 @@ TEST(LiveLight, PathRendersWhatAFreshSessionDoes) {
   }
 }
 
-// Light adds up: a lamp, and all but that lamp.
+// Light is additive: one lamp, and all other lamps.
 TEST(LiveLight, WhatALampGivesIsMissingWithoutIt) {
   SessionConfig config = smallConfig("path");
   config.maxBounces = 2;
@@ -86,8 +86,8 @@ TEST(LiveLight, WhatALampGivesIsMissingWithoutIt) {
 
 class LiveLightOf : public ::testing::TestWithParam<Variant> {};
 
-// A history is not told: with the same light in another scene every bit is as without it, whether
-// the view stands or moves.
+// A history is not told of the switch: with equal light in another scene object every bit stays the
+// same, in a still view and in a moving one.
 TEST_P(LiveLightOf, TheHistoryGoesOn) {
   const auto scene = bias::builtinScene("glossy-gallery");
   const auto same = lit("glossy-gallery", "all", 1.0);
@@ -105,7 +105,7 @@ TEST_P(LiveLightOf, TheHistoryGoesOn) {
   }
 }
 
-// All goes dark. Without a history the next frame is black; with one the light that was fades.
+// All lights go off. Without a history the next frame is black; with one the old light fades.
 TEST_P(LiveLightOf, LightThatWasFades) {
   const Variant& what = GetParam();
   Session session(bias::builtinScene("glossy-gallery"), configOf(what));
@@ -118,14 +118,15 @@ TEST_P(LiveLightOf, LightThatWasFades) {
     EXPECT_EQ(first, 0.0);
     return;
   }
-  // What traces paths again knows.
+  // Histories that retrace paths notice the change at once.
   const ParameterMap known = resolveParameters(findMethod(session.config()), {});
   if (const auto every = known.find("validate_every");
       every != known.end() && std::get<int64_t>(every->second) != 0) {
     EXPECT_LT(first, 0.5 * before);
     return;
   }
-  // Cells of radiance have a part of the indirect light alone, and notice the change in turn.
+  // Cells of radiance hold only a part of the indirect light and notice the change one after
+  // another.
   EXPECT_GT(first, (what.endsPaths ? 0.02 : 0.5) * before);
   EXPECT_LT(first, before);
   for (int i = 0; i < 80; ++i) session.frame();

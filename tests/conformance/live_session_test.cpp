@@ -1,4 +1,4 @@
-// A session that is changed while it runs, as an interactive program does.
+// Changes to a running session, as an interactive program makes them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,8 +34,7 @@ Image shown(Session& session, uint32_t frames) {
   return session.radiance();
 }
 
-// A parameter that changes no buffer: the history goes on, and from then on frames are those of the
-// new value.
+// A parameter that changes no buffer keeps the history; frames use the new value from then on.
 TEST(LiveSession, ParametersChangeWithoutANewHistory) {
   const auto scene = bias::builtinScene("door-ajar");
   SessionConfig config = smallConfig();
@@ -46,15 +45,15 @@ TEST(LiveSession, ParametersChangeWithoutANewHistory) {
   EXPECT_EQ(std::get<double>(changed.config().parameters.at("confidence_cap")), 40.0);
   const Image after = shown(changed, 3), before = shown(kept, 3);
   EXPECT_GT(countDifferent(after, before), 0u);
-  // It is the ninth frame of a history, not the third.
+  // `after` is the ninth frame of a history, not the third.
   config.parameters["confidence_cap"] = 40.0;
   Session fresh(scene, config);
   EXPECT_GT(countDifferent(after, shown(fresh, 3)), 0u);
   EXPECT_GT(numberOf(changed, "confidence"), numberOf(fresh, "confidence"));
 }
 
-// The cache looks at surfaces in frames of a new view alone, and new parameters begin one: with
-// thresholds that match everything there are no outlines any more.
+// The cache reads surfaces only in frames of a new view, and new parameters begin one: with
+// thresholds that accept everything there are no outlines left.
 TEST(LiveSession, ParametersOfTheCacheReachAStillView) {
   const auto scene = bias::builtinScene("cornell-box");
   const ParameterMap open = {{"normal_threshold", -1.0}, {"plane_threshold", 10.0}};
@@ -62,7 +61,7 @@ TEST(LiveSession, ParametersOfTheCacheReachAStillView) {
   Session changed(scene, config);
   config.parameters = open;
   Session fresh(scene, config);
-  // Rays of the exchange in 16 frames of old histories.
+  // Sums the rays of the pass `exchange` in 16 frames of an old history.
   const auto rays = [](Session& session) {
     double sum = 0.0;
     for (uint32_t frame = 0; frame < 16; ++frame) {
@@ -80,7 +79,7 @@ TEST(LiveSession, ParametersOfTheCacheReachAStillView) {
   EXPECT_NEAR(rays(changed) / wanted, 1.0, 0.05);
 }
 
-// Nothing is there to reuse over time in the first frame of a history.
+// The first frame of a history has nothing to reuse over time.
 TEST(LiveSession, TheFirstFrameIsReuseOverSpaceAlone) {
   const auto scene = bias::builtinScene("door-ajar");
   SessionConfig config = smallConfig();
@@ -91,8 +90,8 @@ TEST(LiveSession, TheFirstFrameIsReuseOverSpaceAlone) {
   EXPECT_GT(countDifferent(shown(both, 1), shown(space, 1)), 0u);
 }
 
-// The limit decides which light is in reservoirs: those of another limit would be wrong. Values
-// that are there already change nothing.
+// The limit decides which light the reservoirs hold: reservoirs of another limit would be wrong.
+// Setting a parameter to its current value changes nothing.
 TEST(LiveSession, AnotherSplitOfLightBeginsANewHistory) {
   const auto scene = bias::builtinScene("glossy-gallery");
   SessionConfig config = smallConfig();
@@ -114,7 +113,7 @@ TEST(LiveSession, AnUnknownParameterChangesNothing) {
   EXPECT_EQ(countDifferent(shown(changed, 4), shown(kept, 4)), 0u);
 }
 
-// One that does change buffers: a new session in all but name.
+// A parameter that changes buffers acts like a new session.
 TEST(LiveSession, OtherBuffersStartANewHistory) {
   const auto scene = bias::builtinScene("cornell-box");
   Session changed(scene, smallConfig());
@@ -140,7 +139,7 @@ TEST(LiveSession, AResizedImageIsThatOfAFreshSession) {
   EXPECT_THROW(changed.resize(0, 36), Error);
 }
 
-// Layers are of a frame; those of another size, or of a history that is gone, are of none.
+// Layers belong to a frame: after a resize or a new history there are none.
 TEST(LiveSession, LayersNeedAFrame) {
   const auto scene = bias::builtinScene("cornell-box");
   Session session(scene, smallConfig());
@@ -156,7 +155,7 @@ TEST(LiveSession, LayersNeedAFrame) {
   EXPECT_THROW(session.aov("depth"), Error);
 }
 
-// Layers of a frame are of that frame, whichever was asked for first, and of the next one after it.
+// Layers belong to the last frame, in any order of requests.
 TEST(LiveSession, LayersAreTracedOnceAFrame) {
   const auto scene = bias::builtinScene("cornell-box");
   Session one(scene, smallConfig()), other(scene, smallConfig());
@@ -166,7 +165,7 @@ TEST(LiveSession, LayersAreTracedOnceAFrame) {
   EXPECT_EQ(countDifferent(depth, other.aov("depth")), 0u);
   EXPECT_EQ(countDifferent(normal, other.aov("normalW")), 0u);
   one.frame();
-  EXPECT_GT(countDifferent(one.aov("depth"), depth), 0u);  // other film samples
+  EXPECT_GT(countDifferent(one.aov("depth"), depth), 0u);  // the film samples differ
 }
 
 TEST(LiveSession, AProbeShowsTheReservoir) {

@@ -1,5 +1,5 @@
-// Long runs of caches whose entries are too few for what the camera sees: the energy stays, the
-// memory stays, and the last frames trace as many rays as the first.
+// Long runs of caches with too few entries for the view: energy and memory stay constant, and the
+// last frames trace as many rays as the first ones.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -21,7 +21,8 @@
 namespace restlab::conformance {
 namespace {
 
-// The camera goes round in so many frames. The first round fills the cache, and is not compared.
+// The camera moves in a circle of kRound frames. The first round fills the cache and is not
+// compared.
 constexpr uint32_t kRound = 40, kRounds = 50, kQuarter = 12;
 constexpr uint32_t kRuns = 4;
 
@@ -31,7 +32,7 @@ SceneCamera cameraOf(uint32_t frame) {
   return bias::lookAt(glm::dvec3(-2.78, 3.6, 0.2) + aside, {-2.78, 1.0, -3.6}, 55.0);
 }
 
-// What a round was like.
+// Measurements of one round.
 struct Round {
   double luminance = 0.0;  // mean over pixels and frames
   uint64_t rays = 0, full = 0;
@@ -59,7 +60,7 @@ Round runRound(Session& session) {
   return round;
 }
 
-// A mean over runs of other seeds, which know nothing of each other: rounds of one run do.
+// Mean over runs with different seeds, which are independent; rounds of one run are not.
 struct Estimate {
   double value = 0.0, error = 0.0, dof = 0.0;
 
@@ -80,7 +81,7 @@ double meanOf(const std::vector<double>& y) {
   return std::accumulate(y.begin(), y.end(), 0.0) / double(y.size());
 }
 
-// From the first to the last, by the line of least squares.
+// Returns the change from the first to the last value along the least-squares line.
 double driftOf(const std::vector<double>& y) {
   const double middle = 0.5 * double(y.size() - 1), mean = meanOf(y);
   double xx = 0.0, xy = 0.0;
@@ -108,8 +109,8 @@ std::vector<Round> runRounds(Session& session, uint32_t seed) {
   return rounds;
 }
 
-// Luminance beside that of path's frames at the same cameras, as a share of it: of each run, and
-// its drift from round to round.
+// Relative difference of luminance from path's frames at the same cameras: mean of each run, and
+// its drift over the rounds.
 struct Energies {
   std::vector<double> mean, drift;
 
@@ -123,7 +124,7 @@ struct Energies {
   }
 };
 
-// A round wants many times the places there are, and in each frame some have none left.
+// Method with far too few places: each frame leaves some pixels without a place.
 struct Crowded {
   std::string name;
   const char* integrator;
@@ -174,7 +175,7 @@ TEST_P(CacheLongRun, KeepsItsEnergyItsMemoryAndItsRays) {
   plain.height = config().height;
   Session truth(scene, plain), session(scene, config());
   uint64_t firstRays = 0, lastRays = 0, full = 0;
-  double timeRatio = 1e9;  // of the run in which nothing else was in the way
+  double timeRatio = 1e9;  // smallest over runs, the least disturbed one
   const auto batch = [&](uint32_t firstSeed) {
     Energies energies;
     for (uint32_t seed = firstSeed; seed < firstSeed + kRuns; ++seed) {
@@ -208,11 +209,12 @@ TEST_P(CacheLongRun, KeepsItsEnergyItsMemoryAndItsRays) {
   EXPECT_LT(grown, double(4 << 20)) << "bytes that the frames took";
   EXPECT_NEAR(rays, 1.0, 0.01);
   EXPECT_NEAR(mean.value, 0.0, 0.05);
-  // What it could have seen.
+  // Check the resolution of the measurement.
   EXPECT_LT(mean.halfWidth(), 0.02);
   EXPECT_LT(drift.halfWidth(), 0.05);
   if ((mean.isZero() || GetParam().isBiased) && drift.isZero()) return;
-  // One of twenty leaves its interval by chance, but hardly with other seeds on the same side.
+  // One in twenty intervals misses zero by chance, but hardly twice on the same side: confirm by
+  // other seeds.
   const Energies again = batch(1 + kRuns);
   const auto expectZero = [](const Estimate& a, const Estimate& b, const char* what) {
     const bool isConfirmed = !a.isZero() && !b.isZero() && (a.value > 0.0) == (b.value > 0.0);

@@ -1,4 +1,4 @@
-// What restir_gi does otherwise in frames of a new view.
+// Special behaviour of restir_gi in frames of a new view.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ uint64_t exchangeRays(const FrameStats& stats) {
   return 0;
 }
 
-// Per pixel: the sum over seeds of a frame, and of its square.
+// Sums over seeds of each pixel's value, and of its square.
 struct Sums {
   std::vector<double> first, second;
 };
@@ -62,9 +62,9 @@ Sums firstFrames(const std::string& scene, const ParameterMap& parameters, uint3
   return sums;
 }
 
-// The edge of the lamp is most of the variance of a frame of the Cornell box. Eight film samples
-// there leave little of it, and the mean of every pixel as it was. In the courtyard they may harm
-// nothing.
+// The edge of the lamp causes most of the variance of a frame of the Cornell box. Eight film
+// samples there must remove most of it and keep the mean of every pixel. In the courtyard the
+// variance must not rise.
 TEST(MovingView, TheEdgesOfLightsTakeSeveralFilmSamples) {
   constexpr uint32_t kSeeds = 256;
   const ParameterMap one = {

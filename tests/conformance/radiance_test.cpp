@@ -1,5 +1,5 @@
-// Paths that end in cells of radiance, against path's own: the energy is kept, the error of the
-// mean is small beside that of a frame, and rays are saved.
+// Paths that end in cells of radiance, compared with path's own: the energy is kept, the error of
+// the mean is small compared with that of a frame, and rays are saved.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,8 +27,8 @@ SessionConfig boxConfig(const char* secondary) {
 struct Measured {
   glm::dvec3 mean{0.0};
   std::vector<glm::dvec3> pixels;
-  std::vector<double> variances;  // of a frame, all channels
-  double rays = 0.0;              // of a frame
+  std::vector<double> variances;  // per frame, summed over channels
+  double rays = 0.0;              // per frame
 };
 
 Measured measure(Session& session, uint32_t frames) {
@@ -58,7 +58,7 @@ TEST(Radiance, PathsThatEndKeepTheEnergyAndSaveRays) {
     ending.frames(kWarmUp);
     const Measured a = measure(whole, 192), b = measure(ending, 192);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(b.mean[c] / a.mean[c], 1.0, 0.06) << c;
-    // Each mean has 1/192 of the error of a frame: what their difference has beyond that is bias.
+    // Each mean has 1/192 of a frame's error; any further difference between them is bias.
     double difference = 0.0, error = 0.0;
     for (size_t p = 0; p < a.pixels.size(); ++p) {
       difference += glm::dot(b.pixels[p] - a.pixels[p], b.pixels[p] - a.pixels[p]);
@@ -101,7 +101,7 @@ TEST(Radiance, WhatHasNoPlaceIsCountedAndTraced) {
   EXPECT_NEAR(b.mean.y / a.mean.y, 1.0, 0.08);
 }
 
-// A still light is never taken for another one, wherever the camera is; one that changes is
+// A constant light must never count as changed, whatever the camera does; a changed light must be
 // noticed.
 TEST(Radiance, CellsForgetLightThatChanged) {
   const auto bright = bias::builtinScene("door-ajar");
@@ -134,7 +134,7 @@ TEST(Radiance, CellsForgetLightThatChanged) {
   EXPECT_GT(energyAfter(1 << 20) / right, 1.3) << "the check sees what is remembered";
 }
 
-// One lamp of several, which many paths do not carry, goes off and on again.
+// One lamp of several, which only some paths carry, goes off and on again.
 TEST(Radiance, OneLampOfSeveralIsNoticed) {
   SessionConfig config = boxConfig("cache");
   config.parameters["radiance_validate"] = int64_t{4};

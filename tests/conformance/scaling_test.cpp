@@ -1,6 +1,6 @@
-// No number of the renderer has a unit: an image of twice the light is twice the image, and one of
-// a scene of another size is the same. By powers of two that holds to the last bit, whatever a
-// method draws or keeps. A constant that is compared with a radiance or a length breaks it.
+// The renderer has no constants with units: twice the light gives twice the image, and a scaled
+// scene gives the same image. For powers of two this holds to the last bit, whatever a method draws
+// or stores. A constant that is compared with a radiance or a length breaks it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ constexpr uint32_t kFrames = 6;
 
 class Scaling : public ::testing::TestWithParam<Variant> {
  protected:
-  // Channel values that are not those of the plain scene times 2^`power`.
+  // Counts channel values that differ from those of the plain scene times 2^`power`.
   size_t differences(const std::string& scene, const std::string& relation, int power) const {
     const SessionConfig config = configOf(GetParam(), 32, 18);
     Image expected = imageOf(scene, config);
@@ -26,7 +26,7 @@ class Scaling : public ::testing::TestWithParam<Variant> {
 
   static const DenoiserInfo& denoiser() { return findDenoiser(GetParam().denoiser); }
 
-  // The camera stands still: runFrames() walks by metres.
+  // Keeps the camera still: runFrames() moves by metres.
   static Image imageOf(const std::string& scene, const SessionConfig& config) {
     Session session(CompiledScene::build(makeBuiltinScene(scene)), config);
     for (uint32_t frame = 0; frame < kFrames; ++frame) session.frame();
@@ -37,8 +37,8 @@ class Scaling : public ::testing::TestWithParam<Variant> {
 constexpr const char* kScenes[] = {"cornell-box", "glossy-gallery", "courtyard"};
 
 TEST_P(Scaling, RadianceTimesAPowerOfTwo) {
-  // Squares of radiance leave float's range earlier (docs/denoising.md). Of a filter of another
-  // library nobody says where it ends.
+  // Squares of radiance leave float's range earlier (docs/denoising.md). The range of another
+  // library's filter is unknown.
   const int most = denoiser().comparesSquares || denoiser().onHost ? 40 : 60;
   for (const char* scene : kScenes) {
     for (const int power : {-most, most})
@@ -47,8 +47,8 @@ TEST_P(Scaling, RadianceTimesAPowerOfTwo) {
   }
 }
 
-// Beyond, a filter weighs otherwise, but makes nothing that is not finite; a line says so there and
-// there alone.
+// Beyond its range a filter has other weights but makes nothing non-finite; only then a warning
+// says so.
 TEST_P(Scaling, BeyondTheirRangeFiltersStayFinite) {
   if (!denoiser().comparesSquares) GTEST_SKIP() << "no squares";
   for (const char* relation : {"radiance=2^60", "radiance=2^-60"}) {

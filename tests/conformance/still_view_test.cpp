@@ -1,5 +1,5 @@
-// In a still view nothing comes from another camera: modes and caches of an integrator with
-// reservoirs show one image, bit for bit. What tells them apart is motion.
+// In a still view nothing comes from another camera: all modes and caches of an integrator with
+// reservoirs show one image, bit for bit. Only motion makes them differ.
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -34,7 +34,7 @@ TEST(StillView, ModesAndCachesShowOneImage) {
   }
 }
 
-// Otherwise the test above would say nothing: modes and caches do something once the camera moves.
+// Proves that the test above can fail: modes and caches have an effect once the camera moves.
 TEST(StillView, InAMovingOneTheyDiffer) {
   const SceneCamera end = makeBuiltinScene("cornell-box").cameras.at(0);
   const std::vector<SceneCamera> cameras = bias::walkTo(end, 12, {0.06, 0.01, -0.05}, 1.5);

@@ -1,4 +1,4 @@
-// Frames that are stopped in their middle, or taken back: as if they had not begun.
+// Frames that are stopped in the middle, or taken back: as if they had never begun.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace restlab::conformance {
 namespace {
 
-// Holds from that look on.
+// Returns a check that is true from its call number `look` on.
 std::function<bool()> stopAt(uint32_t look) {
   return [left = std::make_shared<std::atomic<int64_t>>(look)] { return left->fetch_sub(1) <= 0; };
 }
@@ -41,13 +41,13 @@ void expectSame(const FrameStats& a, const FrameStats& b) {
 
 class StoppedFrames : public ::testing::TestWithParam<Variant> {};
 
-// Still frames, then moves. Between the frames others are stopped early, late, and in passes in
-// between, with the camera of before the move or with that after it.
+// Runs still frames, then moves. Between them other frames are stopped early, late and in passes in
+// between, with the camera before or after the move.
 TEST_P(StoppedFrames, LeaveNoTrace) {
   const auto scene = bias::builtinScene("door-ajar");
   const SessionConfig config = configOf(GetParam());
   Session whole(scene, config), stopped(scene, config);
-  uint32_t looks = 0;  // of a whole frame
+  uint32_t looks = 0;  // calls of the check in a whole frame
   const auto count = [&] {
     ++looks;
     return false;
@@ -63,7 +63,7 @@ TEST_P(StoppedFrames, LeaveNoTrace) {
     for (const uint32_t at : {0u, looks / 3, looks * frame / 9, looks - 1}) {
       stopped.setCamera(cameraOf(*scene, at % 2 == 0 ? step : step + 3));
       if (stopped.frameUnless(stopAt(at))) {
-        stopped.takeBack();  // one with fewer passes
+        stopped.takeBack();  // had fewer passes, and was not stopped
         continue;
       }
       ++stops;
@@ -82,7 +82,7 @@ TEST_P(StoppedFrames, LeaveNoTrace) {
 INSTANTIATE_TEST_SUITE_P(Registry, StoppedFrames, ::testing::ValuesIn(allVariants()),
                          VariantName());
 
-// Of several threads, which are not all told at the same time; by a device, too.
+// Several threads do not stop at the same time; devices are tested, too.
 TEST(StoppedFrame, IsWholeOrNotThere) {
   const auto scene = bias::builtinScene("door-ajar");
   for (const BackendInfo& backend : backendRegistry()) {
@@ -115,7 +115,7 @@ TEST(StoppedFrame, IsWholeOrNotThere) {
   }
 }
 
-// A filter on the host, and what was not read before.
+// Covers a filter on the host, and images that were not read before.
 TEST(StoppedFrame, IsTakenBackWithItsImage) {
   const auto scene = bias::builtinScene("cornell-box");
   SessionConfig config;

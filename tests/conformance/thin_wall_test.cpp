@@ -1,5 +1,5 @@
-// A bright and a dark room with one floor and one ceiling, a wall of a millimetre between them:
-// what a cache learns in one of them it may not tell in the other.
+// A bright and a dark room share floor and ceiling, with a wall of a millimetre between them: light
+// cached in one room must not appear in the other.
 #include <gtest/gtest.h>
 
 #include "core/caches/entries/settings.h"
@@ -34,7 +34,7 @@ class ThinWall : public ::testing::TestWithParam<Variant> {};
 TEST_P(ThinWall, TheDarkRoomStaysDark) {
   const auto scene = twoRooms();
   SessionConfig config = configOf(GetParam(), 64, 48);
-  // Cells and discs that reach through the wall.
+  // Makes cells and discs reach through the wall.
   const ParameterMap wide = {{config.cache + "_pixels", 24.0},
                              {"entry_spread", 4.0},
                              {"radiance_pixels", 64.0},
@@ -43,8 +43,8 @@ TEST_P(ThinWall, TheDarkRoomStaysDark) {
   for (const ParameterInfo& p : findMethod(config).parameters()) {
     if (wide.contains(p.name)) config.parameters[p.name] = wide.at(p.name);
   }
-  // The biased mode takes the last frame's sample as visible, also where the camera came through
-  // the wall. That is what it declares, and no cache's doing.
+  // The biased mode assumes that the last frame's sample is visible, even if the camera came
+  // through the wall. That bias is declared and not caused by a cache.
   const bool assumesVisible = GetParam().mode == "biased";
   const bool hasEntries = config.parameters.contains(kEntryCount);
   if (assumesVisible && hasEntries) config.parameters["reproject"] = false;

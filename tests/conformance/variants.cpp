@@ -85,7 +85,7 @@ void runFrames(Session& session, const CompiledScene& scene, uint32_t frames) {
   for (uint32_t frame = 0; frame < frames; ++frame) {
     if (frame >= kStill) {
       SceneCamera camera = start;
-      // To its right and ahead.
+      // Move to its right and ahead.
       camera.cameraToWorld[3] += 0.02 * double(frame - kStill + 1) *
                                  (start.cameraToWorld[0] - 0.5 * start.cameraToWorld[2]);
       session.setCamera(camera);

@@ -1,5 +1,5 @@
-// What every integrator has to pass: the tests of this folder run over the registry, so an
-// integrator that is added is under all of them at once.
+// Variants of all registered integrators: the tests of this folder run over the registry and cover
+// a new integrator at once.
 #pragma once
 
 #include <memory>
@@ -11,29 +11,29 @@
 
 namespace restlab::conformance {
 
-// One integrator in one of its modes with one of the caches, or with paths that end in cells of
-// radiance, or `path` with a denoiser.
+// One integrator in one mode with one cache, or with paths that end in cells of radiance, or `path`
+// with a denoiser.
 struct Variant {
   std::string integrator;
   std::string mode;
-  BiasClass bias = BiasClass::unbiased;  // in a still view
+  BiasClass bias = BiasClass::unbiased;  // bias in a still view
   std::string denoiser = "none";
-  std::string cache;  // "" without reservoirs
+  std::string cache;  // "": no reservoirs
   bool endsPaths = false;
 
-  // "restir_gi_unbiased", fit for a test's name; with the cache where it is not the first one, and
-  // "_secondary" where paths end.
+  // Returns a test name such as "restir_gi_unbiased"; with the cache if it is not the first one,
+  // and "_secondary" if paths end in cells.
   std::string name() const;
-  // The denoiser averages over neighbours.
+  // True if the denoiser averages over neighbours.
   bool blurs() const;
 };
 
-// All of them, in the registry's order.
+// Returns all variants in the registry's order.
 std::vector<Variant> allVariants();
-// Those whose expectation is the truth in every frame.
+// Returns the variants whose expectation is the truth in every frame.
 std::vector<Variant> unbiasedVariants();
 
-// gtest prints and names parameters by these.
+// Used by gtest to print and name parameters.
 void PrintTo(const Variant& variant, std::ostream* out);
 struct VariantName {
   template <class Info>
@@ -42,17 +42,17 @@ struct VariantName {
   }
 };
 
-// A small session's configuration, one thread, defaults otherwise.
+// Returns a small session's configuration: one thread, defaults otherwise.
 SessionConfig configOf(const Variant& variant, uint32_t width = 48, uint32_t height = 27);
 
-// The same as a method of the bias tests: histories of `frames` frames, the first `skipped` ones
-// not compared.
+// Returns the variant as a method of the bias tests: histories of `frames` frames, of which the
+// first `skipped` are not compared.
 bias::Method methodOf(const Variant& variant, uint32_t frames, uint32_t skipped);
 
-// Frames of a new history: the camera stands for nine of them, in which a history becomes old, and
-// walks from then on.
+// Renders frames of a new history. The camera stands still for nine frames, in which the history
+// becomes old, and moves from then on.
 void runFrames(Session& session, const CompiledScene& scene, uint32_t frames);
-// The last of them.
+// Returns the last of these frames.
 Image render(const std::shared_ptr<const CompiledScene>& scene, const SessionConfig& config,
              uint32_t frames);
 

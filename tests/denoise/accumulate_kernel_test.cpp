@@ -1,4 +1,4 @@
-// The kernel of `accumulate` on images made by hand.
+// Kernel of `accumulate` on synthetic images.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,10 +13,10 @@ namespace {
 
 constexpr uint32_t kSide = 3;
 
-// Frames of one history, in a still view.
+// Runs the kernel over the frames of one history, in a still view.
 class Kernel {
  public:
-  // radianceFrames: as of FrameData.
+  // radianceFrames: as in FrameData.
   explicit Kernel(float radianceFrames = 1.0f, float cap = 20.0f) {
     frame_.width = frame_.height = kSide;
     frame_.stillFrames = 1;
@@ -24,7 +24,7 @@ class Kernel {
     params_.cap = cap;
   }
 
-  // What is shown of a frame; health of all frames so far.
+  // Returns the shown image of a frame; health is summed over all frames.
   const std::vector<glm::vec3>& show(const std::vector<glm::vec3>& radiance) {
     radiance_ = radiance;
     void* buffers[] = {radiance_.data(), nullptr,     nullptr,       nullptr,
@@ -60,7 +60,7 @@ TEST(AccumulateKernel, NothingThatIsNotFiniteSpreadsOrStays) {
   frame[7] = {infinity, 0.0f, 0.0f};
   for (const glm::vec3& pixel : kernel.show(frame)) EXPECT_EQ(pixel, glm::vec3(2.0f));
   EXPECT_EQ(kernel.counters.health[rl::RL_HEALTH_NONFINITE], 2u);
-  // What came before it is kept, and counts as one frame.
+  // The earlier average is kept and counts as one frame.
   frame.assign(kSide * kSide, glm::vec3(4.0f));
   const std::vector<glm::vec3>& shown = kernel.show(frame);
   for (size_t p = 0; p < shown.size(); ++p) {
@@ -78,8 +78,8 @@ TEST(AccumulateKernel, BlackIsShownUntilSomethingFiniteComes) {
   for (const glm::vec3& pixel : kernel.show(fine)) EXPECT_EQ(pixel, glm::vec3(5.0f));
 }
 
-// Radiance that averages four frames itself is shown as it is for four; from then on the average of
-// what is shown, of three frames at most.
+// Radiance that is itself an average of four frames is shown unchanged for four frames; then the
+// shown images are averaged, at most three frames.
 TEST(AccumulateKernel, AHistoryOfTheRadianceIsNotAveragedAgainWhileItIsYoung) {
   Kernel kernel(4.0f, 2.0f);
   const auto show = [&](float value) {

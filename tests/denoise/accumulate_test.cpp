@@ -1,4 +1,4 @@
-// The exponential average of frames, as sessions show it.
+// Exponential average of frames, as sessions show it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,8 +40,8 @@ double largestRelative(const Image& image, const std::vector<glm::dvec3>& truth)
   return largest;
 }
 
-// Frame n weighs 1 / min(n, cap + 1), and what was there before the rest: computed here in double
-// precision from the frames themselves. Of restir_gi, whose radiance averages 21 frames, n counts
+// Frame n has weight 1 / min(n, cap + 1), the earlier average the rest: computed here in double
+// precision from the frames themselves. For restir_gi, whose radiance averages 21 frames, n counts
 // from frame 21 on.
 class AnalyticWeights : public ::testing::TestWithParam<std::tuple<const char*, double>> {};
 
@@ -93,7 +93,7 @@ TEST(Accumulate, BeginsAnewAfterAResetAndACut) {
   }
 }
 
-// A room whose every point shines alike: wherever a history comes from.
+// Every point of the room emits alike: the source of a history does not matter.
 TEST(Accumulate, LeavesAConstantAsItIs) {
   const auto scene = builtinScene("furnace");
   for (const char* filter : {"nearest", "bilinear"}) {
@@ -117,7 +117,7 @@ TEST(Accumulate, LeavesAConstantAsItIs) {
   }
 }
 
-// Seen again after a turn there and back, or followed while the camera turns: the history is there.
+// The history is found after a turn there and back, and followed while the camera turns.
 TEST(Accumulate, FollowsSurfacesThroughAPan) {
   const auto scene = builtinScene("door-ajar");
   CameraPath path;
@@ -150,7 +150,7 @@ TEST(Accumulate, FollowsSurfacesThroughAPan) {
         errorOf(configWith("accumulate", {{"accumulate_filter", std::string(filter)}}));
     EXPECT_LT(average, plain / 2.0) << filter;
   }
-  // With a test that nothing passes every frame is the first.
+  // With a test that always fails, every frame begins a history.
   const double never = errorOf(configWith(
       "accumulate", {{"accumulate_plane_threshold", 0.0}, {"accumulate_normal_threshold", 1.0}}));
   EXPECT_GT(never, plain / 2.0);

@@ -1,4 +1,4 @@
-// Content that comes into view by less than a pixel a frame: the border's history is not its.
+// Content that enters the view by less than a pixel per frame must not take the border's history.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr glm::uvec2 kSize = {32, 8};
 
-// From above; the image is 4 m wide, around x.
+// View from above; the image is 4 m wide, centred on x.
 SceneCamera above(double x) {
   SceneCamera camera;
   camera.kind = rl::RL_CAMERA_ORTHOGRAPHIC;
@@ -23,8 +23,8 @@ SceneCamera above(double x) {
   return camera;
 }
 
-// A floor under one lamp beside the image, whose light falls to a small part across it. Without
-// noise: one light, one scattering event.
+// Floor under one lamp beside the image, whose light falls to a small fraction across the image.
+// Free of noise: one light, one scattering event.
 std::shared_ptr<const CompiledScene> darkeningFloor() {
   builtin::SceneBuilder builder("darkening floor");
   builder.add(builtin::quad("floor", {-40, 0, -40}, {0, 0, 80}, {80, 0, 0}),

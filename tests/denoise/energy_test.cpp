@@ -1,4 +1,4 @@
-// A filter moves light between pixels; it makes none and takes none away.
+// A filter moves light between pixels; it must not change the total.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,8 +20,8 @@ double meanOf(const Image& image) {
   return sum / double(image.pixels.size());
 }
 
-// Of frames of a history that weigh alike, or of single frames: the frames of both are the same, so
-// that their noise is.
+// Compares the mean of a history with equally weighted frames, or of single frames. Both sessions
+// have the same frames and therefore the same noise.
 TEST_P(FilterEnergy, IsWithinOnePercent) {
   const auto& [name, denoiser] = GetParam();
   constexpr uint32_t kFrames = 12, kRuns = 4;

@@ -1,4 +1,4 @@
-// What every denoiser that filters by guides keeps to, on images made by hand.
+// Rules for every denoiser that filters by guides, on synthetic images.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -43,7 +43,7 @@ TEST_P(Filters, ConstantsPassUnchanged) {
   }
 }
 
-// Light that is the same everywhere, on a texture.
+// Constant light on a texture.
 TEST_P(Filters, TexturesStaySharp) {
   const glm::uvec2 size = {64, 32};
   ImageDenoiser denoiser(config(size));
@@ -60,10 +60,10 @@ TEST_P(Filters, TexturesStaySharp) {
   }
 }
 
-// Where a filter sees as far to the left as to the right.
+// Only pixels from which the filter reaches equally far to the left and to the right.
 TEST_P(Filters, LinearImagesPassUnchanged) {
   const glm::uvec2 size = {200, 24};
-  const uint32_t reach = 66;  // of five iterations and an estimate of the variance
+  const uint32_t reach = 66;  // reach of five iterations and a variance estimate
   ImageDenoiser denoiser(config(size));
   LayeredFrame frame;
   frame.radiance = imageOf(size, [](glm::uvec2 p) { return glm::vec3(1.0f + 0.01f * float(p.x)); });
@@ -76,7 +76,7 @@ TEST_P(Filters, LinearImagesPassUnchanged) {
   }
 }
 
-// A step of light at an edge of depth, and at one of normals.
+// A step of light at an edge of depth, and at an edge of normals.
 TEST_P(Filters, NothingBleedsOverEdges) {
   const glm::uvec2 size = {64, 24};
   for (const bool byNormal : {false, true}) {
@@ -98,7 +98,7 @@ TEST_P(Filters, NothingBleedsOverEdges) {
       });
       shown = denoiser.frame(frame);
     }
-    // Means of columns: the noise of single pixels is not what is asked about.
+    // Means over columns: the noise of single pixels does not matter here.
     for (uint32_t x = 0; x < size.x; ++x) {
       double column = 0.0;
       for (uint32_t y = 0; y < size.y; ++y)
@@ -133,7 +133,7 @@ TEST_P(Filters, WhatIsNotFiniteStaysAPixelsMatter) {
   }
 }
 
-// Neighbours do not take a pixel without a history for a black one when the image moves.
+// When the image moves, neighbours must not take a pixel without a history for a black one.
 TEST_P(Filters, WhatIsNotFiniteLeavesNoBlackHistory) {
   const glm::uvec2 size = {40, 20};
   ImageDenoiser denoiser(config(size));
@@ -148,7 +148,7 @@ TEST_P(Filters, WhatIsNotFiniteLeavesNoBlackHistory) {
   }
 }
 
-// Bounds of what is alike may be larger than any number.
+// Bounds of similarity may overflow to infinity.
 TEST_P(Filters, WideDeviationsOfLargeNumbersStayFinite) {
   const glm::uvec2 size = {24, 12};
   SessionConfig wide = config(size);
@@ -163,7 +163,7 @@ TEST_P(Filters, WideDeviationsOfLargeNumbersStayFinite) {
   EXPECT_EQ(countNonfinite(denoiser.frame(frame)), 0u);
 }
 
-// Other renderers say a large depth where nothing is, and no normal.
+// Other renderers write a large depth and no normal for the background.
 TEST_P(Filters, WhatHasNoNormalIsTheBackground) {
   const glm::uvec2 size = {32, 16};
   ImageDenoiser denoiser(config(size));
@@ -227,14 +227,14 @@ TEST_P(Filters, ImagesOfAnySize) {
 INSTANTIATE_TEST_SUITE_P(, Filters, testing::ValuesIn(filters()),
                          [](const auto& test) { return test.param; });
 
-// Those that average.
+// Denoisers that average.
 class Averaging : public Filters {};
 
 TEST_P(Averaging, NoiseFallsAndTheMeanStays) {
   const glm::uvec2 size = {96, 64};
   ImageDenoiser denoiser(config(size));
   LayeredFrame frame;
-  // Few pixels are bright, as those of paths are.
+  // Few pixels are bright, as in path tracing.
   frame.radiance =
       imageOf(size, [](glm::uvec2 p) { return glm::vec3(noiseAt(p, 3) < 0.1f ? 10.0f : 0.0f); });
   const double before = squareError(frame.radiance, 1.0f);
@@ -246,10 +246,10 @@ TEST_P(Averaging, NoiseFallsAndTheMeanStays) {
 INSTANTIATE_TEST_SUITE_P(, Averaging, testing::Values("atrous", "svgf", "svgf_restir"),
                          [](const auto& test) { return test.param; });
 
-// Those that have a history.
+// Denoisers with a history.
 class Remembering : public Filters {};
 
-// The history alone.
+// Tests the history without the filter.
 TEST_P(Remembering, ErrorsFallFromFrameToFrame) {
   const glm::uvec2 size = {64, 48};
   SessionConfig history = config(size);
@@ -266,7 +266,7 @@ TEST_P(Remembering, ErrorsFallFromFrameToFrame) {
   EXPECT_LT(errors[19], 0.1 * errors[0]);
 }
 
-// What moves by whole pixels is found where it was.
+// Content that moves by whole pixels is found at its old position.
 TEST_P(Remembering, HistoriesFollowMotion) {
   const glm::uvec2 size = {64, 48};
   ImageDenoiser moving(config(size)), still(config(size));
@@ -284,7 +284,7 @@ TEST_P(Remembering, HistoriesFollowMotion) {
     };
     a.radiance = noisy(3u * i);
     b.radiance = noisy(0u);
-    // The pattern moves to the left: it was to the right of where it is.
+    // The pattern moves to the left: its old position is to the right.
     const Image shownA = moving.frame(a), shownB = still.frame(b);
     movingError = stillError = 0.0;
     for (uint32_t y = 0; y < size.y; ++y) {
@@ -299,7 +299,7 @@ TEST_P(Remembering, HistoriesFollowMotion) {
   EXPECT_GT(stillError, 0.0);
 }
 
-// Everything out of view: no history, and it is said.
+// Everything leaves the view: no history is left, and the health count says so.
 TEST_P(Remembering, ACutBeginsAnew) {
   const glm::uvec2 size = {32, 16};
   ImageDenoiser denoiser(config(size));

@@ -1,5 +1,5 @@
-// Denoisers that run on the host (core/host_filter.h), by one that is made here and registered
-// while a test lasts.
+// Denoisers that run on the host (core/host_filter.h), tested by one that is registered for the
+// duration of a test.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@
 namespace restlab::denoise {
 namespace {
 
-// Shows the radiance times "dimmed_factor", and keeps what it was given.
+// Shows the radiance times "dimmed_factor" and stores its inputs.
 class HostFilters : public testing::Test {
  protected:
   HostFilters() : before_(denoiserRegistry()) {
@@ -41,7 +41,8 @@ class HostFilters : public testing::Test {
     registerMethods(integratorRegistry(), cacheRegistry(), before_, missingDenoisers());
   }
 
-  // Pixels of `shown` that are `factor` times what the filter was given; the rest is as given.
+  // Counts the pixels of `shown` that are `factor` times the filter's input; all others must be
+  // unchanged.
   size_t dimmed(const Image& shown, float factor) const {
     size_t count = 0;
     for (size_t p = 0; p < shown.pixels.size(); ++p) {
@@ -119,7 +120,7 @@ TEST_F(HostFilters, AreNotToldReflectancesThatAreNotAskedFor) {
 class HostFiltersOfSessions : public HostFilters,
                               public testing::WithParamInterface<std::string> {};
 
-// Of a scene: what is shown is what the filter makes of the same frame without it.
+// The shown image of a scene is the filtered image of the same frame without the filter.
 TEST_P(HostFiltersOfSessions, MakeTheFrame) {
   if (GetParam() == "vulkan" && !vulkanBackendInfo().available)
     GTEST_SKIP() << "SKIPPED: " << vulkanBackendInfo().whyNot;
@@ -131,12 +132,12 @@ TEST_P(HostFiltersOfSessions, MakeTheFrame) {
   plain.frame();
   expectPass(filtered.frame());
   EXPECT_EQ(given_.radiance.pixels, plain.radiance().pixels);
-  // The lamp is in view.
+  // The lamp is in view and stays unchanged.
   EXPECT_GT(dimmed(filtered.radiance(), 0.5f), pixels / 2);
   EXPECT_LT(dimmed(filtered.radiance(), 0.5f), pixels);
   EXPECT_EQ(filtered.aov("radiance").pixels, filtered.radiance().pixels);
 
-  // Frames whose images nobody asks for are filtered, too: their times are those of others.
+  // Frames whose images are not read are filtered, too: their times must compare.
   for (const FrameStats& stats : filtered.frames(4)) expectPass(stats);
   EXPECT_EQ(frames_, 5u);
   for (int i = 0; i < 4; ++i) plain.frame();

@@ -1,4 +1,4 @@
-// Images made by hand for denoisers, with their layers.
+// Synthetic images with layers, for tests of denoisers.
 #pragma once
 
 #include <functional>
@@ -11,11 +11,11 @@
 
 namespace restlab::denoise {
 
-// Denoisers that filter by guides, and so run on layers alone.
+// Names of denoisers that filter by guides and therefore run on layers alone.
 inline std::vector<std::string> filters() {
   std::vector<std::string> names;
   for (const DenoiserInfo* info : denoiserRegistry()) {
-    if (info->onHost) continue;  // a network keeps none of their tolerances
+    if (info->onHost) continue;  // a network does not meet the tolerances
     for (const std::string& input : info->inputs)
       if (input == "guide") names.push_back(info->name);
   }
@@ -41,7 +41,7 @@ inline Image imageOf(glm::uvec2 size, const std::function<glm::vec3(glm::uvec2)>
   return image;
 }
 
-// A number of 0 to 1 that is another for each pixel and frame.
+// Returns a number in [0, 1) that differs for each pixel and frame.
 inline float noiseAt(glm::uvec2 p, uint32_t frame) {
   uint32_t h = p.x * 0x9e3779b1u ^ p.y * 0x85ebca77u ^ frame * 0xc2b2ae3du;
   h = (h ^ (h >> 15u)) * 0x2c1b3c6du;

@@ -1,4 +1,4 @@
-// oidn, where this program was built with it: that the network is given what it asks for.
+// Tests of oidn, if this program was built with it: the network must get the right inputs.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,7 +34,7 @@ TEST_P(Oidn, ConstantsPass) {
   }
 }
 
-// Noise on a texture that the albedo tells of. Two frames: the filter is kept between them.
+// Noise on a texture that the albedo shows. Two frames: the filter object is kept between them.
 TEST_P(Oidn, NoiseFallsAndTexturesStay) {
   const glm::uvec2 size = {96, 64};
   ImageDenoiser denoiser(config(size));

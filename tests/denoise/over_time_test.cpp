@@ -1,5 +1,5 @@
-// What denoisers that remember do from frame to frame: errors fall while nothing changes, and what
-// was shown before a cut or a switch goes.
+// Denoisers with a history from frame to frame: errors fall while nothing changes, and old images
+// disappear after a cut or a switch.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -26,7 +26,7 @@ Image add(const Image& a, const Image& b, double share) {
   return sum;
 }
 
-// The mean of so many frames of path tracing.
+// Returns the mean of `frames` frames of path tracing.
 Image meanOfFrames(const std::shared_ptr<const CompiledScene>& scene, uint32_t frames,
                    uint32_t seed, const std::optional<SceneCamera>& camera = {},
                    glm::uvec2 size = kSize) {
@@ -45,8 +45,8 @@ Image meanOfFrames(const std::shared_ptr<const CompiledScene>& scene, uint32_t f
 struct Method {
   const char* integrator;
   const char* denoiser;
-  double floor;    // of the MSE in the end, over that of one frame of path tracing
-  int framesDark;  // until a switch is forgotten to a tenth of its step, at most
+  double floor;    // limit of the final MSE over that of one path-traced frame
+  int framesDark;  // most frames until a switch has faded to a tenth
 };
 std::string nameOf(const testing::TestParamInfo<Method>& info) {
   return std::string(info.param.integrator) + "_" + info.param.denoiser;
@@ -59,10 +59,10 @@ SessionConfig configOf(const Method& method) {
 
 class OverTime : public testing::TestWithParam<Method> {};
 
-// To a floor, which is what the filter blurs.
+// Errors fall to a floor: the blur of the filter.
 TEST_P(OverTime, ErrorsFallInAStillView) {
   const auto scene = bias::builtinScene("door-ajar");
-  // Once for all methods.
+  // Shared by all methods.
   static const Image half0 = meanOfFrames(scene, 512, 7001), half1 = meanOfFrames(scene, 512, 7002);
   constexpr uint32_t kRuns = 4;
   std::map<uint32_t, double> errors;  // by frames in the history
@@ -86,7 +86,7 @@ TEST_P(OverTime, ErrorsFallInAStillView) {
   EXPECT_LT(errors[64], GetParam().floor * plain);
 }
 
-// How much of the picture before is in what is shown: 1 all of it, 0 nothing.
+// Returns how much of the earlier image remains: 1 all of it, 0 nothing.
 double ghost(const Image& shown, const Image& before, const Image& now) {
   double sum = 0.0, all = 0.0;
   for (size_t p = 0; p < shown.pixels.size(); ++p) {
@@ -123,7 +123,7 @@ TEST_P(OverTime, ALampThatIsSwitchedIsForgotten) {
   EXPECT_LE(ghosts.back(), 0.1);
 }
 
-// All that is in view is new, and it is said: what was shown before changes no bit.
+// Everything in view is new, and the health count says so: the earlier image changes no bit.
 TEST_P(OverTime, ACutIsForgottenAtOnce) {
   const auto scene = bias::builtinScene("door-ajar");
   Session session(scene, configOf(GetParam()));
@@ -147,14 +147,14 @@ TEST_P(OverTime, ACutIsForgottenAtOnce) {
   EXPECT_EQ(stats.health.counts[rl::RL_HEALTH_NEW_HISTORY], kSize.x * kSize.y);
 }
 
-// A camera that orbits for so many frames, over so many runs: the MSE of the last one.
+// Returns the MSE of the last of `frames` frames of an orbiting camera, averaged over `runs`.
 double errorOfOrbit(const char* name, const SessionConfig& config, uint32_t frames, uint32_t runs) {
   const auto scene = bias::builtinScene(name);
   CameraPath path;
   path.kind = CameraPathKind::orbit;
   path.degreesPerFrame = -0.25;
   const CameraMotion motion = resolveCameraPath(path, scene->source(), 0);
-  // Of each scene once.
+  // One reference per scene.
   static std::map<std::string, std::array<Image, 2>> references;
   auto [halves, isNew] = references.try_emplace(name);
   for (uint32_t half = 0; isNew && half < 2; ++half)
@@ -173,7 +173,7 @@ double errorOfOrbit(const char* name, const SessionConfig& config, uint32_t fram
   return error;
 }
 
-// A parameter that lowers that error, to less than so much of it without.
+// Requires that a parameter lowers that error below `share` of the error without it.
 void expectLower(const char* scene, glm::uvec2 size, const char* parameter, uint32_t frames,
                  uint32_t runs, double share) {
   SessionConfig config = filterConfig("svgf", size);
@@ -184,14 +184,14 @@ void expectLower(const char* scene, glm::uvec2 size, const char* parameter, uint
   EXPECT_LT(with, share * without);
 }
 
-// An edge between what is bright and what is dark has its film sample on one side in each frame.
+// In each frame the film sample of an edge pixel lies on the bright or on the dark side.
 TEST(MovingView, EdgesAreAveraged) { expectLower("door-ajar", kSize, "svgf_resolve", 24, 4, 0.75); }
-// In an image of half the size the lamp's edge decides the error.
+// At half the image size the lamp's edge dominates the error.
 TEST(MovingView, GlossIsForgotten) {
   expectLower("glossy-gallery", {128, 72}, "svgf_turn", 36, 3, 0.85);
 }
 
-// It reads the reservoirs of other pixels' threads.
+// The filter reads reservoirs that other threads write.
 TEST(MovingView, ThreadsChangeNoBit) {
   const auto scene = bias::builtinScene("glossy-gallery");
   SessionConfig config = filterConfig("svgf_restir", kSize);
@@ -204,8 +204,8 @@ TEST(MovingView, ThreadsChangeNoBit) {
   EXPECT_EQ(conformance::countDifferent(one.radiance(), many.radiance()), 0u);
 }
 
-// Layers of a session's frames under a camera that moves, given to the denoiser of images, show
-// what the session does, but for edges: a layer knows less of a surface than its guide.
+// Layers of a session's frames with a moving camera, filtered as an image sequence, give the
+// session's result except at edges: a layer describes a surface less well than its guide.
 TEST(Motion, IsALayerThatSequencesFollow) {
   const auto scene = bias::builtinScene("door-ajar");
   CameraPath path;
@@ -243,7 +243,7 @@ TEST(Motion, IsALayerThatSequencesFollow) {
   EXPECT_LT(followed, 0.7 * blurred);
 }
 
-// In a still view the depth of before is that of now, for parallel rays, too.
+// In a still view the previous depth equals the current one, with parallel rays, too.
 TEST(Motion, HasTheDepthOfOrthographicCameras) {
   const auto scene = bias::builtinScene("cornell-box");
   SceneCamera camera = scene->source().cameras.at(0);

@@ -1,6 +1,5 @@
-// In a still view the shift over time is the identity: what restir_gi shows without donors over
-// space is the exponential average of its own first samples, whatever the surfaces: mirrors, glass,
-// lamps in view.
+// In a still view the shift over time is the identity: without spatial donors restir_gi shows the
+// exponential average of its own initial samples, for any surfaces: mirrors, glass, lamps in view.
 #include <gtest/gtest.h>
 
 #include <algorithm>

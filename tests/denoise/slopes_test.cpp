@@ -1,5 +1,5 @@
-// Filters on layers of an image that tells depths and normals, and no planes: how a depth changes
-// over a surface is found from its neighbours (core/kernels/layers.glsl).
+// Filters on images with depths and normals but without planes: the slope of the depth on a surface
+// is estimated from neighbours (core/kernels/layers.glsl).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,8 +11,8 @@ namespace {
 
 class Slopes : public testing::TestWithParam<std::string> {};
 
-// A floor that recedes: its disparity falls evenly over the film. Depths are of any point within a
-// pixel, as those of a renderer that filters its film.
+// Receding floor: its disparity falls linearly over the film. Depths are taken at a random point in
+// each pixel, as renderers with a film filter do.
 LayeredFrame floorFrame(glm::uvec2 size, float perPixel, uint32_t frame) {
   LayeredFrame f;
   f.radiance = imageOf(size, [&](glm::uvec2 p) { return glm::vec3(2.0f * noiseAt(p, frame)); });
@@ -47,8 +47,8 @@ TEST_P(Slopes, GrazingSurfacesAreFilteredAsOthersAre) {
     EXPECT_LT(variance(perPixel), 2.5 * frontal) << perPixel << " per metre and pixel";
 }
 
-// A bright strip in front of a dark wall that is parallel to it, or in it with another normal (a
-// wall at 1). Both are so noisy that their light does not tell them apart.
+// A bright strip in front of a parallel dark wall, or in its plane with another normal (`behind` =
+// 1). Both are so noisy that their light does not tell them apart.
 TEST_P(Slopes, ThinStripsKeepTheirLight) {
   const glm::uvec2 size = {64, 96};
   for (const uint32_t width : {1u, 2u, 3u, 4u, 5u, 8u, 12u}) {

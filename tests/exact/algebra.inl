@@ -1,4 +1,5 @@
-// The proofs, included once per meaning of `real`, with EXACT_SUITE and kTolerance defined before.
+// Proofs of unbiasedness, included once per meaning of `real`, with EXACT_SUITE and kTolerance
+// defined before.
 #include "tests/exact/world.inl"
 
 namespace rl {
@@ -8,10 +9,10 @@ namespace {
 
 constexpr uint kPairwise = RL_REUSE_PAIRWISE;
 constexpr uint kDefensive = RL_REUSE_PAIRWISE | RL_REUSE_DEFENSIVE;
-constexpr double kBiasSeen = 5e-3;  // relative: what a negative test must exceed
+constexpr double kBiasSeen = 5e-3;  // relative error that a negative test must exceed
 
 double relativeError(const dvec3& value, const dvec3& truth) {
-  // A truth of 0 is compared with what single samples are worth.
+  // Compare a truth of 0 with the size of single samples.
   const double scale = std::max({truth.x, truth.y, truth.z, 0.1});
   const dvec3 d = abs(value - truth) / scale;
   return std::max({d.x, d.y, d.z});
@@ -23,7 +24,7 @@ void expectTruth(const dvec3& value, const dvec3& truth, const char* what, uint 
       << ") instead of (" << truth.x << ", " << truth.y << ", " << truth.z << ")";
 }
 
-// Everything that is claimed of an unbiased merge at anchor 0.
+// Checks all claims on an unbiased merge at anchor 0.
 void expectUnbiased(const World& world, const std::vector<Outcome>& outcomes, uint seed) {
   const dvec3 truth = world.truth(0);
   expectTruth(meanOfSample(outcomes), truth, "E[F W]", seed);
@@ -44,7 +45,7 @@ EXACT_TEST(AcceptanceThreshold) {
     EXPECT_EQ(kernel.risAcceptShipped(wSum, real(1.0f), u), u < real(0.25f));
     EXPECT_EQ(wSum, real(4.0f));
     wSum = real(0.0f);
-    EXPECT_TRUE(kernel.risAcceptShipped(wSum, h, u));  // the first of positive weight is taken
+    EXPECT_TRUE(kernel.risAcceptShipped(wSum, h, u));  // the first positive weight is always taken
   }
   real wSum = real(3.0f);
   EXPECT_FALSE(kernel.risAcceptShipped(wSum, real(1.0f), real(0.25f)));
@@ -76,13 +77,13 @@ EXACT_TEST(RisOfIndependentCandidates) {
   }
 }
 
-// Candidates of two techniques with overlapping supports under the balance heuristic:
-// w = pHat / sum_t n_t p_t.
+// Candidates of two techniques with overlapping supports under the balance heuristic: w = pHat /
+// sum_t n_t p_t.
 EXACT_TEST(RisUnderTheBalanceHeuristic) {
   for (uint seed = 0; seed < 60; ++seed) {
     World world = randomWorld(seed, false);
-    // Technique 0 (the anchor 1's candidates) misses label 0, technique 1 (of anchor 2) label 2;
-    // label 1 and 3 are common.
+    // Technique 0 (candidates of anchor 1) misses label 0, technique 1 (of anchor 2) misses label
+    // 2; labels 1 and 3 are common.
     world.candidate[1][0] = 0.0;
     world.candidate[2][2] = 0.0;
     const uint draws[2] = {2, 1};
@@ -119,7 +120,7 @@ EXACT_TEST(RisUnderTheBalanceHeuristic) {
   }
 }
 
-// sum m = 1 for any targets, confidences from 1e-6 to 1e3, and donors that cannot have y.
+// sum m = 1 for any targets, confidences from 1e-6 to 1e3, and donors that cannot produce y.
 EXACT_TEST(PairwiseWeightsSumToOne) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> uniform;
@@ -156,9 +157,9 @@ EXACT_TEST(PairwiseWeightsSumToOne) {
   }
 }
 
-// Donors that are like the canonical input in everything: the estimate is the mean of all
-// estimates, weighed by confidence, whatever is selected. (The defensive form has more of the
-// canonical sample than of its carried estimate.)
+// With donors identical to the canonical input the estimate is the confidence-weighted mean of all
+// estimates, whatever is selected. (The defensive form weighs the canonical sample more than its
+// carried estimate.)
 EXACT_TEST(AlikeInputsAreAveraged) {
   for (uint seed = 0; seed < 50; ++seed) {
     World world = randomWorld(seed, seed % 2 != 0);
@@ -197,7 +198,7 @@ EXACT_TEST(AlikeInputsAreAveraged) {
   }
 }
 
-// The shipped merge of up to four donors: partial supports and shifts, occluders, Jacobians, failed
+// Shipped merge of up to four donors: partial supports and shifts, occluders, Jacobians, failed
 // candidates, empty reservoirs, real-valued confidences down to 1e-4.
 EXACT_TEST(PairwiseMerge) {
   for (uint seed = 0; seed < 200; ++seed) {
@@ -228,7 +229,7 @@ EXACT_TEST(PairwiseMerge) {
   }
 }
 
-// A donor at the very anchor of the canonical sample (a still camera) takes the short way.
+// A donor at the anchor of the canonical sample itself (a still camera) is not shifted.
 EXACT_TEST(DonorAtTheSameAnchor) {
   for (uint seed = 0; seed < 100; ++seed) {
     const World world = randomWorld(seed, true);
@@ -240,7 +241,7 @@ EXACT_TEST(DonorAtTheSameAnchor) {
   }
 }
 
-// No label that the donors can have is seen from here, nor the other way round.
+// Labels that the donors can have are invisible here, and the other way round.
 EXACT_TEST(DisjointSupports) {
   for (uint seed = 0; seed < 20; ++seed) {
     World world = randomWorld(seed, false);
@@ -258,7 +259,7 @@ EXACT_TEST(DisjointSupports) {
   }
 }
 
-// Nothing anywhere: all stays empty, but confidence grows.
+// No light anywhere: all reservoirs stay empty, but the confidence grows.
 EXACT_TEST(AllEmpty) {
   World world = randomWorld(5, false);
   for (uint a = 0; a < kAnchors; ++a) {
@@ -272,7 +273,7 @@ EXACT_TEST(AllEmpty) {
   EXPECT_EQ(outcomes[0].estimate, dvec3(0.0));
 }
 
-// A donor that is not there changes nothing, wherever it stands in the list.
+// An absent donor changes nothing, at any position in the list.
 EXACT_TEST(AbsentDonorsChangeNothing) {
   const uint flags = kPairwise | RL_REUSE_CONTROL_VARIATE;
   for (uint seed = 0; seed < 20; ++seed) {
@@ -305,8 +306,8 @@ EXACT_TEST(AbsentDonorsChangeNothing) {
   }
 }
 
-// Frames of temporal reuse with a capped confidence and a moving camera: fresh samples at anchors
-// 2, 1, 0, each merged with what the frame before left. Residuals are carried along.
+// Frames of temporal reuse with a capped confidence and a moving camera: new samples at anchors 2,
+// 1, 0, each merged with the result of the frame before. Residuals are carried along.
 EXACT_TEST(ChainedMerges) {
   for (uint seed = 0; seed < 100; ++seed) {
     const World world = randomWorld(seed, seed % 4 != 0);
@@ -328,8 +329,8 @@ EXACT_TEST(ChainedMerges) {
 }
 
 // A pixel's domain is its film times paths: labels are two film positions times two light points.
-// Through some positions a pixel shows what cannot be reused (a mirror, a lamp): its candidates
-// fail there, and no shift that keeps the film sample leads there or back.
+// At some film positions a pixel shows a surface that cannot be reused (a mirror, a lamp): its
+// candidates fail there, and no shift that keeps the film sample leads there or back.
 constexpr uint filmOf(uint label) { return label / 2; }
 
 struct FilmWorld {
@@ -344,7 +345,7 @@ FilmWorld filmWorld(uint seed) {
     w.usable[a][random() % 2] = true;
     w.usable[a][0] |= random() % 2 == 0;
     for (uint l = 0; l < kLabels; l += 2) {
-      // The film sample first, evenly, then the light.
+      // Draws the film sample first, uniformly, then the light.
       const double pair = w.world.candidate[a][l] + w.world.candidate[a][l + 1];
       const double first = w.world.candidate[a][l] / pair;
       const bool usable = w.usable[a][filmOf(l)];
@@ -362,7 +363,7 @@ FilmWorld filmWorld(uint seed) {
   return w;
 }
 
-// Over time at the pixel itself, then with a neighbour that shows something else at its edge.
+// Reuses over time at the pixel itself, then a neighbour that shows another surface at its edge.
 EXACT_TEST(FilmTimesPaths) {
   for (uint seed = 0; seed < 100; ++seed) {
     const World world = filmWorld(seed).world;
@@ -378,8 +379,8 @@ EXACT_TEST(FilmTimesPaths) {
   }
 }
 
-// Two neighbours that serve each other, twice: in the second round the donor holds, in part, the
-// canonical sample's own ancestors. Correlated inputs leave the mean unchanged.
+// Two neighbours exchange samples twice: in the second round the donor partly holds ancestors of
+// the canonical sample. Correlated inputs leave the mean unchanged.
 EXACT_TEST(SharedAncestors) {
   for (uint seed = 0; seed < 100; ++seed) {
     const World world = randomWorld(seed, true);
@@ -405,8 +406,8 @@ EXACT_TEST(SharedAncestors) {
   }
 }
 
-// With full supports and unit Jacobians, weights by confidence alone are right: so what the
-// negative tests below see is the supports and the Jacobian, not the harness.
+// With full supports and unit Jacobians weights by confidence alone are right: the negative tests
+// below therefore detect the supports and the Jacobian, not the harness.
 EXACT_TEST(ConfidenceWeightsAreExactOnFullSupports) {
   for (uint seed = 0; seed < 20; ++seed) {
     const World world = randomWorld(seed, false);
@@ -419,10 +420,10 @@ EXACT_TEST(ConfidenceWeightsAreExactOnFullSupports) {
   }
 }
 
-// What is wrong by design is seen: each deliberate mistake moves the mean in most worlds.
+// Counts how often a deliberate mistake is detected: it must move the mean in most worlds.
 struct Mistake {
   int seen = 0, worlds = 0;
-  double signedSum = 0.0;  // of relative errors in luminance
+  double signedSum = 0.0;  // sum of relative errors in luminance
 
   void add(const World& world, const std::vector<Outcome>& outcomes) {
     const dvec3 truth = world.truth(0);
@@ -447,7 +448,7 @@ Mistake mistakeOf(uint flags, const std::function<void(World&)>& change, bool pa
   return mistake;
 }
 
-// Label 0 is hidden from the donors, all else is seen.
+// Hides label 0 from the donors; everything else stays visible.
 void hideFromDonors(World& world) { world.visibility[1][0] = world.visibility[2][0] = real(0.0f); }
 
 EXACT_TEST(NegativeConfidenceWeightsWithOccluders) {
@@ -474,7 +475,7 @@ EXACT_TEST(NegativeOmittedJacobian) {
   EXPECT_EQ(confidence.seen, confidence.worlds);
   const auto none = [](World&) {};
   EXPECT_EQ(mistakeOf(kPairwise, none, false).seen, 0);
-  // Where all measures agree there is nothing to omit.
+  // With equal measures the Jacobian is 1: omitting it changes nothing.
   const auto equal = [](World& world) {
     world.omitsJacobian = true;
     for (uint a = 0; a < kAnchors; ++a) {
@@ -485,11 +486,11 @@ EXACT_TEST(NegativeOmittedJacobian) {
 }
 
 EXACT_TEST(NegativeAssumedVisibility) {
-  // Donors assumed to see what they do not: their share is missing.
+  // Donors are assumed to see samples that are hidden from them: their share is missing.
   const Mistake darker = mistakeOf(kPairwise | RL_REUSE_ASSUME_VISIBLE, hideFromDonors, false);
   EXPECT_EQ(darker.seen, darker.worlds);
   EXPECT_LT(darker.signedSum, 0.0);
-  // Light that leaks through an occluder here.
+  // Light leaks through an occluder at the canonical anchor.
   const auto hideHere = [](World& world) { world.visibility[0][2] = real(0.0f); };
   const Mistake leak = mistakeOf(kPairwise | RL_REUSE_ASSUME_VISIBLE_HERE, hideHere, false);
   EXPECT_EQ(leak.seen, leak.worlds);
@@ -497,7 +498,7 @@ EXACT_TEST(NegativeAssumedVisibility) {
   EXPECT_EQ(mistakeOf(kPairwise, hideHere, false).seen, 0);
 }
 
-// The canonical candidates must cover what the canonical target can be.
+// The canonical candidates must cover the support of the canonical target.
 EXACT_TEST(NegativeCanonicalMissesItsSupport) {
   const auto change = [](World& world) {
     hideFromDonors(world);
@@ -532,13 +533,13 @@ EXACT_TEST(NegativeEmptyDonorsDropped) {
   EXPECT_GE(seen, worlds * 8 / 10);
 }
 
-// A donor that counts only where its own film sample shows something alike here is chosen by its
-// sample.
+// A donor that counts only if its own film sample shows a similar surface here is selected by its
+// sample: biased.
 EXACT_TEST(NegativeDonorsTestedByTheirFilmSample) {
   int seen = 0, worlds = 0;
   for (uint seed = 0; seed < 60; ++seed) {
     const FilmWorld film = filmWorld(seed);
-    // Worlds in which the donor's sample may count here or not.
+    // Only worlds in which the donor's sample sometimes counts here and sometimes does not.
     if (!film.usable[1][0] || !film.usable[1][1] || (film.usable[0][0] && film.usable[0][1]))
       continue;
     const Source canonical = initialSource(film.world, 0, 1, real(1.0f));

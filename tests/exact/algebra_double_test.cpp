@@ -1,4 +1,4 @@
-// The shipped resampling files in double precision: exact to 1e-12.
+// Proofs on the shipped resampling code in double precision: exact to 1e-12.
 #define RL_REAL_DOUBLE
 #define EXACT_SUITE ExactDouble
 namespace rl {

@@ -1,4 +1,4 @@
-// The shipped resampling files as they render: exact to 1e-5.
+// Proofs on the shipped resampling code in single precision, as rendered: exact to 1e-5.
 #define EXACT_SUITE ExactFloat
 namespace rl {
 namespace {

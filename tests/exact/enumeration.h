@@ -1,5 +1,5 @@
-// Exhaustive enumeration: a program that makes random yes/no decisions is run once for every
-// sequence of outcomes, and each run knows its probability.
+// Exhaustive enumeration: runs a program with random yes/no decisions once for every sequence of
+// outcomes, with the probability of each run.
 #pragma once
 
 #include <cstddef>
@@ -20,9 +20,9 @@ class Decisions {
     return choice.yes;
   }
 
-  double probability() const { return probability_; }  // of this run
+  double probability() const { return probability_; }  // probability of this run
 
-  // To the next sequence; false when all have been run.
+  // Advances to the next sequence; returns false after the last one.
   bool advance() {
     while (!choices_.empty() && !choices_.back().noIsLeft) choices_.pop_back();
     if (choices_.empty()) return false;

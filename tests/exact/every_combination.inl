@@ -1,12 +1,12 @@
-// Every MIS weight x what is shown x confidence cap x empty inputs x supports, each in a few random
-// worlds, by enumeration: no sampling, no statistics. Included once per meaning of `real`, with
-// EXACT_SUITE and kTolerance defined before.
+// All combinations of MIS weights, shown estimate, confidence cap, empty inputs and supports, each
+// in a few random worlds, by enumeration: no sampling, no statistics. Included once per meaning of
+// `real`, with EXACT_SUITE and kTolerance defined before.
 //
-// Expected is, of an input i of share c_i / c of the confidence and support S_i (the labels that it
-// can hold and that a shift leads here):
+// Expected value, for inputs i with share c_i / c of the confidence and support S_i (the labels
+// that the input can hold and that a shift leads here):
 //   unbiased weights      sum over l of F_l
 //   confidence alone      sum over l of F_l (sum over i with l in S_i of c_i / c)
-// The second is what 1/M is known to lose, as an exact number.
+// The second formula gives the known loss of 1/M weights as an exact number.
 #include <algorithm>
 #include <cstdio>
 
@@ -16,7 +16,7 @@
 namespace rl {
 namespace {
 
-constexpr uint kInputs = 3;  // anchor 0, which is merged into, and its donors 1 and 2
+constexpr uint kInputs = 3;  // anchor 0, the canonical input, and its donors 1 and 2
 constexpr uint kWorlds = 20;
 
 struct Named {
@@ -31,9 +31,10 @@ constexpr Named kShown[] = {{"winner", RL_REUSE_WINNER_ONLY},
 enum Cap : uint { capNone, capBinds };
 constexpr Named kCaps[] = {{"none", capNone}, {"binds", capBinds}};
 
-// Whose inputs hold nothing. `byChance`: each one now and then, so that all eight combinations
-// occur; of the others an input is always empty or never. (Where the canonical input is always
-// empty its target is zero, and so is the truth: its candidates must cover what it can be.)
+// Choice of the empty inputs. `emptyByChance`: each input now and then, so that all eight
+// combinations occur; with all other values an input is always empty or never. (If the canonical
+// input is always empty its target is zero, and so is the truth: candidates must cover the target's
+// support.)
 enum Empty : uint {
   emptyNone,
   emptyOneDonor,
@@ -46,8 +47,8 @@ constexpr Named kEmpty[] = {{"none", emptyNone},         {"one donor", emptyOneD
                             {"all donors", emptyDonors}, {"canonical", emptyCanonical},
                             {"all", emptyAll},           {"each by chance", emptyByChance}};
 
-// Where the target of one input is zero and another's is not, and why: the integrand, an occluder,
-// or no shift between canonical input and donor.
+// How the supports differ: the target of one input is zero where another's is not, because of the
+// integrand, an occluder, or no shift between canonical input and donor.
 enum Support : uint {
   supportFull,
   supportPartOfIntegrand,
@@ -65,7 +66,8 @@ constexpr Named kSupports[] = {{"the same", supportFull},
                                {"disjoint, occluder", supportDisjointView},
                                {"disjoint, shift", supportDisjointShift}};
 
-// Labels of each input. A shift is undefined where the donor's list or the canonical one lacks it.
+// Labels of each input. A shift is undefined if the donor's list or the canonical one lacks the
+// label.
 constexpr bool kOverlapping[kInputs][kLabels] = {
     {true, true, true, false}, {false, true, true, true}, {true, false, false, true}};
 constexpr bool kDisjoint[kInputs][kLabels] = {
@@ -101,7 +103,8 @@ bool isLit(const World& w, uint anchor, uint label) {
   return w.f[anchor][label].x > real(0.0f) && w.visibility[anchor][label] > real(0.0f);
 }
 
-// Candidates of what an input can be, and by chance of what it cannot, or none at all.
+// Restricts candidates to the support of each input; with emptyByChance they also cover labels
+// outside and may fail.
 void chooseCandidates(World& w, uint empty) {
   const bool byChance = empty == emptyByChance;
   for (uint a = 0; a < kInputs; ++a) {
@@ -126,7 +129,7 @@ World combinedWorld(uint seed, uint empty, uint support) {
   return w;
 }
 
-// An input with a residual that depends on its sample and has the mean 0, as histories have it.
+// Gives an input a residual that depends on its sample and has mean 0, as histories do.
 Source withResidual(uint anchor, real confidence, std::vector<Outcome> outcomes, uint seed) {
   std::mt19937 random(300 + 10 * seed + anchor);
   std::uniform_real_distribution<double> uniform(-0.5, 0.5);
@@ -141,7 +144,7 @@ Source withResidual(uint anchor, real confidence, std::vector<Outcome> outcomes,
   return {anchor, confidence, std::move(outcomes)};
 }
 
-// The sum over labels of F, each as often as the weights count it.
+// Returns the sum of F over labels, each weighted by how often the weights count it.
 dvec3 expectedOf(const World& w, const MisValue& mis, const real (&c)[kInputs]) {
   const double total = double(c[0] + c[1] + c[2]);
   dvec3 sum(0.0);
@@ -159,17 +162,18 @@ dvec3 expectedOf(const World& w, const MisValue& mis, const real (&c)[kInputs]) 
 double largest(const dvec3& v) { return std::max({v.x, v.y, v.z}); }
 
 double distance(const dvec3& value, const dvec3& truth) {
-  // A truth of 0 is compared with what single samples are worth.
+  // Compare a truth of 0 with the size of single samples.
   return largest(abs(value - truth)) / std::max(largest(truth), 0.1);
 }
 
-// What was seen of the empty inputs of one combination: bit a is set where input a held nothing.
+// Returns which inputs were empty together in any outcome, as a set of patterns: bit a of a pattern
+// is set if input a is empty.
 uint emptyPatterns(const std::vector<Source>& sources) {
-  uint patterns = 1u;  // bit p: pattern p occurs
+  uint patterns = 1u;  // bit p is set if pattern p occurs
   for (size_t i = 0; i < sources.size(); ++i) {
     bool some = false, none = false;
     for (const Outcome& o : sources[i].outcomes) {
-      // What is left of 1 after all labels, in rounding, is no outcome.
+      // Ignore the rounding residue of 1 minus all labels' probabilities.
       if (o.probability > 1e-12) (o.reservoir.state.W > real(0.0f) ? some : none) = true;
     }
     uint next = 0u;
@@ -209,8 +213,8 @@ struct Combination {
   }
 };
 
-// True where weights by confidence alone were wrong, as they must be where an input lacks
-// something.
+// Checks one combination in one world. Returns true if the expected value is biased, which weights
+// by confidence alone must be if an input lacks something.
 bool expectOf(const Combination& c, uint seed) {
   const World world = combinedWorld(seed, c.empty.value, c.support.value);
   const real own[kInputs] = {real(1.0f), real(9.0f), real(0.75f)};
@@ -253,7 +257,7 @@ TEST(EXACT_SUITE, EveryCombination) {
             bool isBiased = false;
             for (uint seed = 0; seed < kWorlds; ++seed) isBiased = expectOf(c, seed) || isBiased;
             ++combinations;
-            // Where the canonical input can hold nothing there is nothing to lose.
+            // An always empty canonical input has nothing to lose.
             const bool hasLight = !isEmptied(empty.value, 0);
             const bool isLacking = support.value != supportFull || isEmptied(empty.value, 1);
             const bool expected = !mis.isUnbiased && hasLight && isLacking;

@@ -1,5 +1,5 @@
-// The values of `mis` and how the reuse loop is told each; mis_values_test.cpp holds them against
-// the registry.
+// Values of the parameter `mis` and their flags for the reuse loop; mis_values_test.cpp compares
+// them with the registry.
 #pragma once
 
 #include "core/resampling/reservoir.h"
@@ -9,7 +9,7 @@ namespace rl {
 struct MisValue {
   const char* name;
   uint flags;
-  bool isUnbiased;  // whatever the supports
+  bool isUnbiased;  // for any supports
 };
 
 inline constexpr MisValue kMisValues[] = {

@@ -1,4 +1,4 @@
-// What EveryCombination takes for all values of `mis` is what is registered.
+// The values of `mis` in mis_values.h match the registered ones.
 #include "tests/exact/mis_values.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The reconnection Jacobian against central differences of the map it belongs to.
+// Reconnection Jacobian compared with central differences of its map.
 #define RL_REAL_DOUBLE
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ namespace {
 
 struct Shift {
 #include "core/resampling/shift.glsl"
-  // Of a reconnection at xk; it multiplies the resampling weight.
+  // Jacobian of a reconnection at xk; a factor of the resampling weight.
   double jacobian(dvec3 xk, dvec3 normal, dvec3 source, dvec3 destination) {
     return shiftGeometryTerm(xk, normal, destination) / shiftGeometryTerm(xk, normal, source);
   }
@@ -22,7 +22,7 @@ dvec3 randomUnit(std::mt19937& random) {
   return normalize(dvec3(normal(random), normal(random), normal(random)));
 }
 
-// The point of the plane (xk, normal) seen from `from` in direction `dir`.
+// Returns the point of the plane (xk, normal) seen from `from` in direction `dir`.
 dvec3 hitPlane(dvec3 from, dvec3 dir, dvec3 xk, dvec3 normal) {
   return from + dir * (dot(xk - from, normal) / dot(dir, normal));
 }
@@ -52,7 +52,7 @@ TEST(ReconnectionJacobian, EqualsFiniteDifferences) {
     const double numeric = length(cross(du, dv)) / (4.0 * h * h);
     const double j = shift.jacobian(xk, normal, source, destination);
     ASSERT_NEAR(j / numeric, 1.0, 1e-4);
-    // There and back again.
+    // The inverse shift has the inverse Jacobian.
     const double back = shift.jacobian(xk, normal, destination, source);
     ASSERT_NEAR(j * back, 1.0, 1e-12);
   }
@@ -62,10 +62,10 @@ TEST(ReconnectionJacobian, KnownValuesAndOrientation) {
   Shift shift;
   const dvec3 origin(0.0), up(0.0, 0.0, 1.0);
   EXPECT_NEAR(shift.jacobian(origin, up, {0, 0, 1}, {0, 0, 1}), 1.0, 1e-15);
-  // Twice as far along the normal: a quarter of the solid angle; it multiplies the weight.
+  // Twice as far along the normal: a quarter of the solid angle, a factor of the weight.
   EXPECT_NEAR(shift.jacobian(origin, up, {0, 0, 1}, {0, 0, 2}), 0.25, 1e-15);
   EXPECT_NEAR(shift.jacobian(origin, up, {0, 0, 1}, {1, 0, 1}), std::sqrt(0.5) / 2.0, 1e-15);
-  // The length of the normal's sign does not matter, its side does not either.
+  // Neither the sign of the normal nor the side of the plane matters.
   EXPECT_NEAR(shift.jacobian(origin, -up, {0, 0, 1}, {0, 0, -2}), 0.25, 1e-15);
   // Nothing arrives in the plane of x_k, nor at x_k itself.
   EXPECT_EQ(shift.shiftGeometryTerm(origin, up, {1, 0, 0}), 0.0);

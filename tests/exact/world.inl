@@ -1,10 +1,10 @@
-// A small discrete world under the shipped resampling files. Included by one translation unit per
-// meaning of `real`; everything is in an unnamed namespace, for the two units' types differ.
+// Small discrete world for the shipped resampling code. Included by one translation unit per
+// meaning of `real`; everything is in an unnamed namespace, since the types differ between units.
 //
-// Samples are labels 0..3, shared by all anchors as light points are: a shift keeps the label. At
-// an anchor a label has a measure (the size of its piece of the domain, so that the integral is sum
-// measure f V), which makes the shift's Jacobian measure_to / measure_from. A shift may be
-// undefined for a label, by a predicate symmetric in the two anchors.
+// Samples are labels 0..3, shared by all anchors like points on lights: a shift keeps the label. At
+// an anchor a label has a measure (the size of its part of the domain; the integral is sum measure
+// f V), which makes the shift's Jacobian measure_to / measure_from. A shift may be undefined for a
+// label, by a predicate symmetric in the two anchors.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -43,10 +43,9 @@ struct World {
   real visibility[kAnchors][kLabels];  // transmittance between anchor and sample
   real measure[kAnchors][kLabels];
   bool defined[kAnchors][kAnchors][kLabels];
-  double candidate[kAnchors][kLabels];  // probability of drawing the label, sums to 1 or less:
-                                        // the rest fails
-  real3 ratio[kAnchors][kAnchors];      // of reflectances: any numbers at all
-  bool omitsJacobian = false;           // a deliberate mistake: donors weigh without it
+  double candidate[kAnchors][kLabels];  // probability of drawing the label; the rest fails
+  real3 ratio[kAnchors][kAnchors];      // ratio of reflectances: arbitrary
+  bool omitsJacobian = false;           // deliberate mistake: donors' weights omit it
 
   dvec3 truth(uint anchor) const {
     dvec3 sum(0.0);
@@ -57,24 +56,24 @@ struct World {
   }
 };
 
-// An input of a merge.
+// Input of a merge.
 struct MergeInput {
   uint anchor = 0;
   WorldReservoir reservoir;
   real confidence = real(1.0f);
-  bool exists = true;                                // of a donor
-  real cap = std::numeric_limits<real>::infinity();  // of a donor's confidence
+  bool exists = true;                                // donors only
+  real cap = std::numeric_limits<real>::infinity();  // cap of a donor's confidence
 };
 
-// What the shipped loop asks for.
+// State of the shipped reuse loop.
 struct WorldMerge {
   std::vector<MergeInput> donors;
   std::vector<Shifted> ours, theirs;
   std::vector<real3> ratios;
 };
 
-// The shipped files with functions that ask the world. Random numbers are not drawn but decided:
-// the shipped acceptance is called with a u on the wanted side of its threshold, and must agree.
+// Shipped code with callbacks into the world. Random numbers are decided instead of drawn: the
+// shipped acceptance is called with u on the wanted side of its threshold, and must agree.
 struct Kernel {
   const World* world = nullptr;
   Decisions* decisions = nullptr;
@@ -99,7 +98,7 @@ struct Kernel {
   }
 
   real reuseTarget(const real3& f) { return rlLuminance(f); }
-  // The sample of a reservoir that lives at `from`, as `to` sees it, without visibility.
+  // Returns the sample of a reservoir at `from` as seen by `to`, without visibility.
   Shifted shift(const WorldReservoir& r, const WorldAnchor& from, const WorldAnchor& to) const {
     Shifted s{real3(real(0.0f)), real(1.0f)};
     if (!(r.state.W > real(0.0f)) || !world->defined[from.index][to.index][r.label]) return s;
@@ -126,7 +125,7 @@ struct Kernel {
 #include "core/resampling/reuse.glsl"
 };
 
-// A reservoir that a random process may leave, with its probability; equal ones are joined.
+// Reservoir that a random process may produce, with its probability; equal reservoirs are joined.
 struct Outcome {
   double probability = 0.0;
   WorldReservoir reservoir;
@@ -183,7 +182,7 @@ dvec3 meanOfResidual(const std::vector<Outcome>& outcomes) {
   return sum;
 }
 
-// Initial resampling of `count` independent candidates at an anchor.
+// Returns all outcomes of initial resampling of `count` independent candidates at an anchor.
 std::vector<Outcome> initialOutcomes(const World& world, uint anchor, uint count, real confidence) {
   Outcomes outcomes;
   Kernel kernel;
@@ -216,7 +215,7 @@ std::vector<Outcome> initialOutcomes(const World& world, uint anchor, uint count
   return outcomes.list();
 }
 
-// One shipped merge of given reservoirs, over all its decisions.
+// Runs one shipped merge of given reservoirs, over all its decisions.
 template <class F>
 void mergeOnce(const World& world, const MergeInput& canonical,
                const std::vector<MergeInput>& donors, uint flags, F use) {
@@ -253,7 +252,7 @@ void mergeOnce(const World& world, const MergeInput& canonical,
   });
 }
 
-// A merge of independent inputs, each in all its outcomes.
+// Independent input of a merge, with all its outcomes.
 struct Source {
   uint anchor = 0;
   real confidence = real(1.0f);
@@ -284,8 +283,9 @@ std::vector<Outcome> mergeOutcomes(const World& world, const Source& canonical,
   return result.list();
 }
 
-// A random world. `partial` leaves out visibility, integrands and shifts here and there; the
-// candidates of every anchor cover what its integrand can be, and draw some zeros too.
+// Makes a random world. `partial` sets some visibilities and integrands to zero and leaves some
+// shifts undefined; the candidates of every anchor cover its integrand's support and may draw
+// zeros, too.
 World randomWorld(uint seed, bool partial) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform(0.1, 1.0);

@@ -1,5 +1,5 @@
-// What reads files of others, as functions of bytes: fuzzed with libFuzzer (CMakeLists.txt) and, by
-// any compiler, fed with the committed seeds (seeds_test.cpp).
+// Readers of untrusted files as functions of bytes, for libFuzzer (CMakeLists.txt) and for the
+// committed seeds (seeds_test.cpp).
 #pragma once
 
 #include <cstddef>
@@ -7,16 +7,16 @@
 
 namespace restlab::fuzz {
 
-// True where the bytes were read, false where they were refused as the manual promises: an Error of
-// the right exit code, one line of text. Anything else is thrown: libFuzzer ends on it, a test
-// fails.
+// Returns true if the bytes were read, false if they were refused as the manual promises: an Error
+// with the right exit code and one line of text. Throws anything else, which ends libFuzzer or
+// fails a test.
 using Entry = bool (*)(const uint8_t* bytes, size_t count);
 
 bool readGltf(const uint8_t* bytes, size_t count);     // .gltf or .glb, up to the compiled scene
 bool readSuite(const uint8_t* bytes, size_t count);    // .toml
 bool readHdr(const uint8_t* bytes, size_t count);      // an environment, .hdr
 bool readExr(const uint8_t* bytes, size_t count);      // .exr
-bool readCommand(const uint8_t* bytes, size_t count);  // of a page to the viewer
+bool readCommand(const uint8_t* bytes, size_t count);  // from a page to the viewer
 bool readTexture(const uint8_t* bytes, size_t count);  // PNG or JPEG
 
 }  // namespace restlab::fuzz

@@ -8,7 +8,7 @@ namespace restlab::fuzz {
 bool readExr(const uint8_t* bytes, size_t count) {
   const std::filesystem::path file = inputFile("image.exr", bytes, count);
   const bool read = isRead(file, ExitCode::badInput, [&] { restlab::readExr(file); });
-  // A cube is made another map.
+  // Environments may be cubes, which are converted.
   if (read) isRead(file, ExitCode::badInput, [&] { loadEnvironment(file); });
   return read;
 }

@@ -5,7 +5,7 @@
 namespace restlab::fuzz {
 
 bool readGltf(const uint8_t* bytes, size_t count) {
-  // The first bytes decide whether it is a GLB, not the name.
+  // The first bytes, not the name, decide whether the file is a GLB.
   const std::filesystem::path file = inputFile("scene.gltf", bytes, count);
   return isRead(file, ExitCode::badInput, [&] { CompiledScene::build(loadGltf(file)); });
 }

@@ -53,7 +53,7 @@ bool isRead(const fs::path& file, ExitCode refusal, const std::function<void()>&
     if (error.code() != refusal) throw std::logic_error("wrong exit code: " + line);
     if (line.rfind(file.string() + ":", 0) != 0) throw std::logic_error("names no file: " + line);
     const bool plain = std::none_of(line.begin(), line.end(), [](unsigned char c) {
-      return c < 0x20 || c == 0x7f;  // a line break, a terminal's escape
+      return c < 0x20 || c == 0x7f;  // control characters: line breaks, terminal escapes
     });
     if (!plain) throw std::logic_error("more than a line of text: " + line);
     return false;

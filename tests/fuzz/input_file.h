@@ -1,4 +1,4 @@
-// The bytes as a file, and what may come of reading it.
+// Writes fuzzed bytes to a file, and checks how reading it may fail.
 #pragma once
 
 #include <cstddef>
@@ -10,11 +10,11 @@
 
 namespace restlab::fuzz {
 
-// Writes the bytes to `name` in a temporary folder of this process, over what was there.
+// Writes the bytes to `name` in a temporary folder of this process, replacing the file.
 std::filesystem::path inputFile(const char* name, const uint8_t* bytes, size_t count);
 
-// Runs `read`. False where it throws an Error of this exit code whose one line of plain text begins
-// with the file's name; throws std::logic_error for any other Error.
+// Runs `read`. Returns false if it throws an Error with this exit code and one line of plain text
+// that begins with the file's name; throws std::logic_error for any other Error.
 bool isRead(const std::filesystem::path& file, ExitCode refusal, const std::function<void()>& read);
 
 }  // namespace restlab::fuzz

@@ -1,5 +1,5 @@
-// The committed seeds through what the fuzz targets feed: those whose name begins with 'read' are
-// read, all others are refused with a line. Crashes that fuzzing found are among them.
+// Feeds the committed seeds, crashes found by fuzzing among them, to the fuzz targets. Files whose
+// name begins with 'read' must be read, all others refused with a line.
 #include <gtest/gtest.h>
 
 #include <algorithm>

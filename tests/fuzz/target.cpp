@@ -1,4 +1,4 @@
-// One libFuzzer target; RL_FUZZ_ENTRY names what it feeds.
+// One libFuzzer target; RL_FUZZ_ENTRY names its reader.
 #include "tests/fuzz/entries.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t count);

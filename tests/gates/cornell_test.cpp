@@ -1,4 +1,5 @@
-// The Cornell box, three times: the built-in one against its committed tiles, and the two gates.
+// The Cornell box: the built-in one against its committed tiles, and two against images of other
+// renderers.
 #include <fmt/format.h>
 
 #include "core/image/metrics.h"
@@ -14,7 +15,7 @@ namespace {
 
 struct Effort {
   uint32_t side;           // pixels
-  uint32_t parts, frames;  // samples a pixel: parts x frames
+  uint32_t parts, frames;  // samples per pixel: parts x frames
   int threads;
 };
 
@@ -34,19 +35,19 @@ void expectWithin(const TileComparison& c, double meanBound, double p90Bound) {
   EXPECT_LE(c.p90, p90Bound) << c.text();
 }
 
-// Every tile and channel against the table by Welch's test, with the table's own error.
+// Compares every tile and channel with the table by Welch's test, with the table's own error.
 void expectNoTileDiffers(const Parts& parts) {
   std::vector<std::vector<glm::dvec3>> ofPart;
   for (const Image& image : parts.images) {
     ofPart.push_back(tileMeans(image, analytic::kCornellTilesPerSide));
   }
-  const double n = 8.0;  // the table's parts
+  const double n = 8.0;  // parts of the table
   std::vector<double> pValues;
   std::vector<std::string> names;
   for (size_t t = 0; t < analytic::cornellTileMeans().size(); ++t) {
     for (int c = 0; c < 3; ++c) {
       const double mean = analytic::cornellTileMeans()[t][c];
-      // It is printed to five decimals.
+      // The table has five decimals.
       const double error = std::hypot(analytic::kCornellTileError * mean, 0.5e-5 / std::sqrt(3.0));
       std::vector<double> values;
       for (const auto& tiles : ofPart) values.push_back(tiles[t][c]);
@@ -96,7 +97,7 @@ TEST(Gates, NightlyBuiltinCornellBox) { builtinAgainstItsTiles({512, 16, 64, 0},
 // La Jolla, 1,024 spp, 8 scattering events; pbrt agrees.
 TEST(Gates, CornellD8) {
   RESTLAB_NEED_GATE("cornell-d8");
-  // The file is the image that is meant: its means are known to five digits.
+  // Check that the file is the right image: its means are known to five digits.
   const glm::dvec3 mean =
       channelMeans(readExr(gateFolder("cornell-d8") / "reference.exr").layers.at(""));
   const glm::dvec3 stated(0.19590, 0.12730, 0.03641);
@@ -108,7 +109,7 @@ TEST(Gates, NightlyCornellD8) {
   gateAgainstItsImage("cornell-d8", "cornell.gltf", "reference.exr", 8, 8, {512, 16, 64, 0}, 0.001);
 }
 
-// Tungsten, 64 bounces, 1024 x 1024: 16 x 16 tiles of 64 x 64 of its pixels.
+// Rendered by Tungsten, 64 bounces, 1024 x 1024: 16 x 16 tiles of 64 x 64 pixels.
 TEST(Gates, CornellBoxOfTungsten) {
   RESTLAB_NEED_GATE("cornell-box");
   gateAgainstItsImage("cornell-box", "cornell-box.gltf", "TungstenRender.exr", 64, 16,

@@ -1,5 +1,5 @@
-// Truths rendered by others, for these very scenes. They are not part of the project: found under
-// RESTLAB_SCENES, else under ../shared/scenes beside it; where they are absent the tests skip.
+// Images of other renderers for the same scenes. They are not part of the project: found under
+// RESTLAB_SCENES, else under ../shared/scenes beside it; without them the tests skip.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,12 +10,12 @@
 
 namespace restlab::gates {
 
-// The folder of a gate; it need not exist.
+// Returns the folder of a gate, which need not exist.
 std::filesystem::path gateFolder(const std::string& gate);
 
 }  // namespace restlab::gates
 
-// Ends the test with a visible line where the gate is absent.
+// Skips the test with a visible line if the gate is absent.
 #define RESTLAB_NEED_GATE(gate)                                                                  \
   if (!std::filesystem::exists(::restlab::gates::gateFolder(gate))) {                            \
     std::printf("skipped: gate %s is absent (RESTLAB_SCENES names the scenes' folder)\n", gate); \

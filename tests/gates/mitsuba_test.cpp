@@ -1,4 +1,4 @@
-// Two images of Mitsuba, direct light of a directional light: units of KHR_lights_punctual,
+// Two images by Mitsuba of direct light from a directional light: units of KHR_lights_punctual,
 // shadows, and linear vertex colours that multiply the base colour.
 #include "core/image/metrics.h"
 #include "tests/bias/independent_runs.h"
@@ -8,12 +8,12 @@
 namespace restlab::gates {
 namespace {
 
-// The images have a noise of their own; their file of variances has negative entries. Single pixels
-// look like some 20,000 samples. But the means of their three channels, equal by construction, lie
-// 0.12 % apart, which 20,000 independent samples a pixel would do once in a million times: of such
-// means the spread is that of some 2,000.
+// Samples per pixel of Mitsuba's images, which have noise; their file of variances has negative
+// entries. Single pixels look like some 20,000 samples. The means of their three channels, equal by
+// construction, differ by 0.12 %: with 20,000 independent samples per pixel a chance of one in a
+// million, with some 2,000 the expected spread.
 constexpr double kTheirSamples = 2'000.0;
-constexpr double kMargin = 0.002;  // of the mean, for equivalence
+constexpr double kMargin = 0.002;  // relative to the mean, for equivalence
 
 void expectAgreement(const std::string& gate, size_t runs, uint32_t frames) {
   const auto scene = CompiledScene::build(loadGltf(gateFolder(gate) / (gate + ".gltf")));
@@ -23,7 +23,7 @@ void expectAgreement(const std::string& gate, size_t runs, uint32_t frames) {
   method.config.height = truth.height;
   method.config.maxBounces = 1;
 
-  // Our own variance of a sample, per pixel, serves for theirs.
+  // Uses our variance of a sample, per pixel, for Mitsuba's image.
   Image mean(truth.width, truth.height), variance(truth.width, truth.height);
   Session session(scene, method.config);
   constexpr int kFrames = 64;
@@ -49,7 +49,7 @@ void expectAgreement(const std::string& gate, size_t runs, uint32_t frames) {
   const stats::BiasReport report = bias::testMethod(scene, method, reference, runs, options);
   EXPECT_FALSE(report.failed()) << report.text();
 
-  // The mean of the image and of its channels: a single channel of theirs has too much noise.
+  // Compares the mean over channels, because a single channel of Mitsuba's image is too noisy.
   const stats::CellArea whole{0, 0, grid.side};
   const stats::RunSet set = bias::independentRuns(scene, method, 50'000'000, runs);
   std::vector<double> grey(runs, 0.0);
@@ -61,7 +61,7 @@ void expectAgreement(const std::string& gate, size_t runs, uint32_t frames) {
     const stats::Sample channel = reference.cell(whole, q);
     theirs.n = channel.n;
     theirs.mean += channel.mean / channels;
-    theirs.variance += channel.variance / (channels * channels);  // drawn independently
+    theirs.variance += channel.variance / (channels * channels);  // independent channels
     std::printf("gate %s, %s: %.6f beside %.6f\n", gate.c_str(), stats::quantityName(q),
                 stats::summarise(means).mean, channel.mean);
   }

@@ -1,5 +1,5 @@
-// The squared bias of a method from all pairs of its runs: known answers, no bias of its own, and
-// how often its interval holds the truth.
+// Squared bias of a method from all pairs of its runs: known answers, no bias of the estimate, and
+// coverage of its interval.
 #include "core/image/bias_runs.h"
 
 #include <gtest/gtest.h>
@@ -26,12 +26,12 @@ TEST(BiasRuns, KnownAnswers) {
   EXPECT_NEAR(runsOf({1.5f, 1.5f}).squaredBias(half, half).value, 0.25, 1e-7);
   EXPECT_NEAR(runsOf({1.5f, 1.5f}).biasRms(half, half).value, 0.5, 1e-7);
   EXPECT_EQ(runsOf({1.5f, 1.5f}).biasRms(half, half).detail, "squared bias +0.25");
-  // Deviations of opposite sign: noise, not bias. A root of |...| would call it a bias of 0.5.
+  // Deviations of opposite sign are noise, not bias: a root of |...| would give a bias of 0.5.
   EXPECT_EQ(runsOf({1.5f, 0.5f}).biasRms(half, half).value, 0.0);
   EXPECT_EQ(runsOf({1.5f, 0.5f}).biasRms(half, half).detail, "squared bias -0.25");
-  // (1 * 2 + 1 * -3 + 2 * -3) / 3, and not the square of the mean, which is 0.
+  // (1 * 2 + 1 * -3 + 2 * -3) / 3, unlike the square of the mean, which is 0.
   EXPECT_NEAR(runsOf({2.0f, 3.0f, -2.0f}).squaredBias(half, half).value, -7.0 / 3.0, 1e-6);
-  // Against different halves: the mean of (1 * 3 + 2 * 2) / 2 for d = 1, 2 and e = 2, 3.
+  // Different halves: the mean of (1 * 3 + 2 * 2) / 2 for d = 1, 2 and e = 2, 3.
   EXPECT_NEAR(runsOf({2.0f, 3.0f}).squaredBias(half, constant(0.0f)).value, 3.5, 1e-6);
 }
 
@@ -45,7 +45,7 @@ TEST(BiasRuns, MoreRunsThanGroupsWeighEveryPairAlike) {
     sum += value;
     runs.add(constant(float(value)));
   }
-  // All ordered pairs of runs but those inside the first group, which has two.
+  // All ordered pairs of runs except those inside the first group, which has two runs.
   double expected = sum * sum - first * first;
   for (size_t r = 1; r < BiasRuns::kGroups; ++r)
     expected -= (double(r % 3) - 0.5) * (double(r % 3) - 0.5);
@@ -77,13 +77,13 @@ TEST(BiasRuns, MasksSizesAndWhatIsNotFinite) {
   EXPECT_FALSE(std::isnan(runs.squaredBias(half, half, mask).value)) << "outside the mask";
 }
 
-// Of 1000 sets: held in 0.98 to 0.99 where the bias is small against the noise (the jackknife
-// overstates the variance of a degenerate U-statistic), in 0.95 to 0.98 where it is large.
+// Coverage of 1000 sets: 0.98 to 0.99 for a bias small against the noise (the jackknife overstates
+// the variance of a degenerate U-statistic), 0.95 to 0.98 for a large one.
 //
 // Sets of runs with noise of deviation 1 and a bias of `bias` in every pixel.
 struct Rates {
-  double mean = 0.0, deviation = 0.0;  // of the estimate
-  double held = 0.0;                   // share of the intervals that hold the truth
+  double mean = 0.0, deviation = 0.0;  // mean and deviation of the estimate
+  double held = 0.0;                   // fraction of intervals that contain the truth
 };
 Rates ratesOf(size_t runs, float bias, int sets) {
   std::mt19937 random(7);
@@ -124,8 +124,8 @@ TEST(BiasRuns, IntervalsHoldTheTruth) {
   }
 }
 
-// The variance is 1 in every channel. Of 1000 sets of 3, 8, 11 and 24 runs the interval held it in
-// 0.97 to 0.98.
+// The variance is 1 in every channel. In 1000 sets of 3, 8, 11 and 24 runs the interval contained
+// it in 0.97 to 0.98.
 TEST(BiasRuns, VarianceIsTheRestOfTheMse) {
   std::mt19937 random(11);
   std::normal_distribution<float> noise;

@@ -1,4 +1,5 @@
-// Damaged and lying files: one line, no crash, no memory taken on the word of a header.
+// Damaged and false files: one line of error, no crash, no memory allocated from an unchecked
+// header.
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -6,7 +7,7 @@
 
 #include "tests/image/exr_fixture.h"
 
-// Sanitizers reserve terabytes of address space: no limit can be set under them.
+// Sanitizers reserve terabytes of address space: they allow no limit.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define RL_SANITIZED 1
 #elif defined(__has_feature)
@@ -44,7 +45,7 @@ TEST_F(ExrTest, TruncatedAnywhereIsOneLine) {
 
 TEST_F(ExrTest, FlippedBytesNeverCrash) {
   LayeredImage image;
-  // Smooth, hence stored compressed and with a checksum.
+  // Smooth, so that the data are stored compressed and with a checksum.
   image.layers[""] = Image(32, 16);
   for (uint32_t x = 0; x < 32; ++x) image.layers[""].at(x, x % 16) = glm::vec3(float(x));
   image.metadata["note"] = "text";
@@ -70,7 +71,7 @@ TEST_F(ExrTest, FlippedBytesNeverCrash) {
   EXPECT_GT(refused, bytes.size());  // text, windows and chromaticities cannot be checked
 }
 
-// Where the value of a header's attribute begins.
+// Position of the value of a header's attribute.
 size_t attributeValue(const std::string& bytes, const std::string& name, const std::string& type) {
   const std::string key = name + '\0' + type + '\0';
   const size_t at = bytes.find(key);
@@ -95,7 +96,7 @@ TEST_F(ExrTest, LyingHeadersAreRefusedBeforeAllocation) {
                       {15, 0x7fffffff, "data window"},   {-1, 15, "data window"},
                       {15, -2000000000, "data window"},  {32767, 32767, "data window"},
                       {16383, 16383, "too few"},         {32767, 8191, "too few"}};
-  // The address space is the witness: 3 GiB of pixels would not fit.
+  // Limit the address space: 3 GiB of pixels would not fit.
   rlimit before{};
   ASSERT_EQ(::getrlimit(RLIMIT_AS, &before), 0);
 #if !RL_SANITIZED
@@ -118,8 +119,8 @@ TEST_F(ExrTest, LyingHeadersAreRefusedBeforeAllocation) {
     EXPECT_TRUE(named) << line;
     EXPECT_EQ(line.find("memory"), std::string::npos) << line;
   }
-  // An attribute that claims 2 GiB, also where only OpenEXR would come upon it: inside of a value
-  // that claims more bytes than its type has, and behind channels that go on after their size.
+  // An attribute that claims 2 GiB, also at places that only OpenEXR would reach: inside a value
+  // that claims more bytes than its type has, and after channels that continue beyond their size.
   std::string lying = bytes;
   putInt(lying, attributeValue(bytes, "restlab:note", "string") - 4, 0x7ffffff0);
   writeBytes(path("lie.exr"), lying);

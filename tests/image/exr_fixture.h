@@ -1,4 +1,4 @@
-// What the tests of image files share: a temporary folder, awkward images, foreign and damaged
+// Common parts of the image file tests: a temporary folder, awkward images, foreign and damaged
 // files.
 #pragma once
 
@@ -43,7 +43,7 @@ class ExrTest : public ::testing::Test {
   fs::path directory_;
 };
 
-// Distinct, awkward values: negative, denormal, beyond half's range, infinite, NaN.
+// Image with distinct, awkward values: negative, denormal, beyond half's range, infinite, NaN.
 inline Image testImage(uint32_t width, uint32_t height, float seed = 0.5f) {
   Image image(width, height);
   float value = seed;
@@ -59,7 +59,7 @@ inline Image testImage(uint32_t width, uint32_t height, float seed = 0.5f) {
   return image;
 }
 
-// The line of the Error that `action` must throw.
+// Returns the line of the Error that `action` must throw.
 template <class F>
 std::string errorLine(F action, ExitCode code = ExitCode::badInput) {
   try {

@@ -1,4 +1,4 @@
-// Statements of an EXR beside its pixels: colours, windows, and channels that nobody asked for.
+// Contents of an EXR beside its pixels: colours, windows, and channels that are not read.
 #include <ImfStandardAttributes.h>
 
 #include <array>
@@ -19,7 +19,7 @@ struct ForeignChannel {
   int sampling = 1;
 };
 
-// Constant channels of any types, with what `attributes` adds to the header.
+// Writes constant channels of any types; `attributes` adds to the header.
 void writeMixed(const fs::path& file, const Imath::Box2i& display, const Imath::Box2i& data,
                 const std::vector<ForeignChannel>& channels,
                 const std::function<void(Imf::Header&)>& attributes = {}) {
@@ -55,7 +55,7 @@ class ExrFrameTest : public ExrTest {
  protected:
   const Imath::Box2i window_ = box(0, 0, 3, 1);
 
-  // A file of one colour whose chromaticities are (x, y) of red, green, blue and white.
+  // Writes a file of one colour whose chromaticities are (x, y) of red, green, blue and white.
   fs::path coloured(const glm::vec3& colour, const std::array<float, 8>& xy) {
     writeMixed(path("c.exr"), window_, window_, rgb(colour), [&](Imf::Header& header) {
       Imf::addChromaticities(header, Imf::Chromaticities({xy[0], xy[1]}, {xy[2], xy[3]},
@@ -65,7 +65,7 @@ class ExrFrameTest : public ExrTest {
   }
 };
 
-// The matrices of ITU-R BT.2087 (2020 to 709) and of IEC 61966-2-1 (XYZ to sRGB).
+// Expected: matrices of ITU-R BT.2087 (2020 to 709) and of IEC 61966-2-1 (XYZ to sRGB).
 TEST_F(ExrFrameTest, ColoursOfOtherPrimariesBecomeRec709) {
   const std::array<float, 8> rec2020 = {0.708f, 0.292f, 0.170f,  0.797f,
                                         0.131f, 0.046f, 0.3127f, 0.3290f};
@@ -77,12 +77,12 @@ TEST_F(ExrFrameTest, ColoursOfOtherPrimariesBecomeRec709) {
              {-0.5876, 1.1329, -0.1006}, 1e-4);
   const float third = 1.0f / 3.0f;
   const std::array<float, 8> xyz = {1, 0, 0, 1, 0, 0, third, third};
-  // Without an adaptation: the XYZ of D65 is white.
+  // No chromatic adaptation: the XYZ of D65 is white.
   expectNear(readExr(coloured({0.950456f, 1.0f, 1.089058f}, xyz)).layers.at("").at(0, 0), {1, 1, 1},
              1e-5);
   expectNear(readExr(coloured({1, 0, 0}, xyz)).layers.at("").at(0, 0), {3.2406, -0.9689, 0.0557},
              1e-3);
-  // ACES AP0, whose blue has a y below 0 and whose white is D60: luminance stays what it is.
+  // ACES AP0, whose blue has a y below 0 and whose white is D60: luminance must not change.
   const std::array<float, 8> ap0 = {0.7347f, 0.2653f, 0.0f,     1.0f,
                                     0.0001f, -0.077f, 0.32168f, 0.33767f};
   const glm::vec3 white = readExr(coloured({1, 1, 1}, ap0)).layers.at("").at(0, 0);

@@ -79,13 +79,13 @@ TEST_F(ExrTest, ReadsHalfOffsetWindowsTilesAndLuminance) {
   const LayeredImage read = readExr(path("n.exr"));
   ASSERT_EQ(read.layers.size(), 1u);
   EXPECT_EQ(read.layers.at("").at(0, 0), glm::vec3(1, 2, 3));
-  // Who asks for them gets them.
+  // ExrLayers::all includes them.
   const LayeredImage all = readExr(path("n.exr"), ExrLayers::all);
   ASSERT_EQ(all.layers.size(), 4u);
   EXPECT_EQ(all.layers.at("N").at(0, 0), glm::vec3(4, 5, 6));
   EXPECT_EQ(all.layers.at("Z").at(0, 0), glm::vec3(7));
   EXPECT_EQ(all.layers.at("motion").at(4, 3), glm::vec3(8, 9, 0)) << "a vector on the film";
-  // The header alone says the same.
+  // The header alone gives the same layers.
   const ExrContents contents = readExrContents(path("n.exr"), ExrLayers::all);
   EXPECT_EQ(contents.layers, (std::vector<std::string>{"", "N", "Z", "motion"}));
   EXPECT_EQ(contents.window.width, 5u);
@@ -121,7 +121,7 @@ TEST_F(ExrTest, ForeignChannelsThatCannotBeReadAreNamed) {
   EXPECT_NE(line.find("R, Z"), std::string::npos) << line;
 }
 
-// The reference images that come with the real scenes.
+// Folder of the real scenes with their reference images.
 fs::path sceneFolder() {
   const char* given = std::getenv("RESTLAB_SCENES");
   return given != nullptr && *given != '\0' ? fs::path(given)

@@ -1,5 +1,5 @@
 // FLIP against known answers of the authors' implementation, against the papers' formulas in NumPy
-// (two-dimensional kernels, double precision), and where other implementations return nonsense.
+// (two-dimensional kernels, double precision), and in cases where other implementations fail.
 #include "core/image/flip.h"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ double meanOf(const std::vector<double>& map) {
   return sum / double(map.size());
 }
 
-// Mean and the pixels (5, 9) and (31, 31).
+// Mean and the values of pixels (5, 9) and (31, 31).
 struct Answer {
   double mean, at5x9, at31x31;
 };
@@ -62,10 +62,10 @@ TEST(Flip, KnownAnswersLdr) {
                {0.2054918, 0.1439545, 0.2064883}, {3e-7, 3e-7, 3e-7});
 }
 
-// Where an edge or point of both images is equally strong, its error is a root of rounding: 2.5e-8
-// in single precision, in which the answers were computed, becomes 1.3e-4 in the exponent. Hence
-// two rows of answers: the authors' with bounds for that (their mean of a constant even differs
-// from its pixels), and NumPy's in double precision.
+// If an edge or point is equally strong in both images, its error is the root of a rounding error:
+// 2.5e-8 in single precision, which the authors used, becomes 1.3e-4 in the exponent. The test
+// therefore has two rows of answers: the authors' with wide bounds (their mean of a constant even
+// differs from its pixels), and NumPy's in double precision.
 TEST(Flip, KnownAnswersLdrOfEqualFeatures) {
   const Image grey4(64, 64, glm::vec3(0.4f)), grey5(64, 64, glm::vec3(0.5f));
   const std::vector<double> flat = flipLdrPerPixel(grey4, grey5);
@@ -90,7 +90,7 @@ TEST(Flip, KnownAnswersHdr) {
                {0.1964911, 0.1887897, 0.1988290}, {3e-7, 3e-7, 1.5e-6});
 }
 
-// An image that is no square, has borders close by, and is taller than a band of rows.
+// An image that is not square, has borders close by, and is taller than a band of rows.
 TEST(Flip, AgreesWithTheFormulasInNumPy) {
   const image_test::RoughPair pair;
   const auto at = [](const std::vector<double>& map, size_t x, size_t y) {
@@ -110,7 +110,7 @@ TEST(Flip, AgreesWithTheFormulasInNumPy) {
   EXPECT_NEAR(at(hdr, 7, 64), 0.2739536513, 1e-9);
 }
 
-// Flipping between two images looks the same from either side, in LDR.
+// LDR FLIP is symmetric in image and reference.
 TEST(Flip, IsSymmetricAndWithinBounds) {
   const image_test::RoughPair pair;
   const std::vector<double> map = flipLdrPerPixel(pair.image, pair.reference);
@@ -119,18 +119,18 @@ TEST(Flip, IsSymmetricAndWithinBounds) {
     ASSERT_GE(value, 0.0);
     ASSERT_LE(value, 1.0);
   }
-  // The largest difference there is, without edges that could raise it.
+  // Largest possible difference, without edges that could raise it.
   const Image green(32, 32, glm::vec3(0, 1, 0)), blue(32, 32, glm::vec3(0, 0, 1));
   EXPECT_NEAR(meanOf(flipLdrPerPixel(green, blue)), 1.0, 1e-9);
 }
 
-// Trap: a NaN that a clamp turns into black leaves the mean as it was.
+// Trap: a clamp turns a NaN into black and leaves the mean unchanged.
 TEST(Flip, NanPixelIsNotClampedAway) {
   const Image reference = ramp(1.0f, 1.0f, 0.25f);
   for (const bool inReference : {false, true}) {
     Image image = ramp(0.9f, 1.0f, 0.25f), other = reference;
     (inReference ? other : image).at(20, 40).y = kNanF;
-    // Without the guard of the registry, by the filters themselves.
+    // Bypass the registry's check: the filters themselves must propagate the NaN.
     const std::vector<double> ldr = flipLdrPerPixel(image, other);
     const std::vector<double> hdr = flipHdrPerPixel(image, other, {-1.0, 1.0, 3});
     for (const auto& map : {ldr, hdr}) {
@@ -145,7 +145,7 @@ TEST(Flip, NanPixelIsNotClampedAway) {
       EXPECT_NE(value.detail.find(inReference ? "1 in the reference" : "1 non-finite"),
                 std::string::npos)
           << value.detail;
-      // It is in the neighbourhood of pixels, so a mask does not hide it.
+      // The NaN lies in the filter neighbourhood, so a mask does not hide it.
       MetricOptions options;
       options.mask = maskOfRectangles(64, 64, {{0, 0, 4, 4}});
       EXPECT_TRUE(std::isnan(evaluateMetric(name, image, other, options).value)) << name;
@@ -153,7 +153,7 @@ TEST(Flip, NanPixelIsNotClampedAway) {
   }
 }
 
-// Trap: exposures from a median of 0 are infinitely many, and an empty loop over them gives 0, a
+// Trap: a median of 0 gives infinitely many exposures, and an empty loop over them gives 0, a
 // perfect score.
 TEST(Flip, MostlyBlackReferenceHasExposures) {
   Image reference(32, 32), image = reference;
@@ -181,13 +181,13 @@ TEST(Flip, BlackReferenceIsNoPerfectScore) {
   options.flip.exposures = FlipExposures{0.0, 0.0, 1};
   EXPECT_GT(evaluateMetric("flip_hdr", grey, black, options).value, 0.1);
   EXPECT_GT(evaluateMetric("flip_ldr", grey, black).value, 0.1);
-  // Nor does a picture of 100 stops take minutes.
+  // A range of 100 stops must not take minutes either.
   Image wide(16, 16, glm::vec3(1e-30f));
   wide.at(0, 0) = glm::vec3(1.0f);
   EXPECT_FALSE(chooseFlipExposures(wide).exposures);
 }
 
-// Trap: values above 1 are clipped and the number is called FLIP all the same.
+// Trap: values above 1 are clipped, and the number is still called FLIP.
 TEST(Flip, SaysWhatItClips) {
   const Image reference(16, 16, glm::vec3(3.0f)), image(16, 16, glm::vec3(6.0f));
   const MetricValue ldr = evaluateMetric("flip_ldr", image, reference);
@@ -211,7 +211,7 @@ TEST(Flip, RecordsHowItWasComputed) {
               1e-9);
 }
 
-// ACES' polynomials are positive for negative radiance: it would shine.
+// ACES' polynomials are positive for negative radiance, which would shine.
 TEST(Flip, NegativeRadianceIsBlack) {
   EXPECT_EQ(flip::toneMap(-2.0), 0.0);
   EXPECT_TRUE(std::isnan(flip::toneMap(std::nan(""))));

@@ -1,5 +1,5 @@
-// The noise of a reference's halves, which all runs share: what is estimated of it, and how often
-// intervals of MSE, squared bias and ratios hold the truth with it.
+// Noise of a reference's halves, which all runs share: its estimates, and the coverage of intervals
+// of MSE, squared bias and ratios with it.
 #include "core/image/halves_noise.h"
 
 #include <gtest/gtest.h>
@@ -29,14 +29,14 @@ TEST(HalvesNoise, KnownAnswers) {
   EXPECT_NEAR(noise.varianceOfProduct, 25.0 / 12.0 / 36.0, 1e-12);
   EXPECT_NEAR(halvesNoise(half0, half1, {1, 0}).varianceOfHalf, 5.0 / 2.0 / 3.0, 1e-12);
   EXPECT_NEAR(halvesNoise(half0, half1, {1, 0}).varianceOfProduct, 25.0 / 12.0 / 9.0, 1e-12);
-  // The middle of the halves is (2, 1, 1.5): x of a run of 4 is (2, 3, 2.5), x d = 6.5; of one of 1
-  // it is (-1, 0, -0.5), x d = -2.5.
+  // The mean of the halves is (2, 1, 1.5): x of a run of 4 is (2, 3, 2.5), x d = 6.5; x of a run of
+  // 1 is (-1, 0, -0.5), x d = -2.5.
   EXPECT_NEAR(sharedVarianceAtMost(constant(4.0f), half0, half1), 6.5 * 6.5 / 36.0, 1e-12);
   EXPECT_NEAR(sharedVariance({constant(4.0f), constant(1.0f)}, half0, half1), -6.5 * 2.5 / 36.0,
               1e-12);
   EXPECT_NEAR(sharedVariance({constant(4.0f), constant(4.0f), constant(1.0f)}, half0, half1),
               (6.5 * 6.5 - 2.0 * 6.5 * 2.5) / 3.0 / 36.0, 1e-12);
-  // Of runs, at least what the halves alone have.
+  // sharedVariance() of runs is at least that of the halves alone.
   BiasRuns runs;
   runs.add(constant(4.0f));
   EXPECT_EQ(runs.sharedVariance(half0, half1), noise.varianceOfProduct);
@@ -47,7 +47,7 @@ TEST(HalvesNoise, KnownAnswers) {
   EXPECT_THROW(sharedVarianceAtMost(Image(1, 1, glm::vec3(1.0f)), half0, half1), Error);
 }
 
-// Noise of mean 0 and variance 1 on the average of pixels and channels.
+// Noise of mean 0 and variance 1, averaged over pixels and channels.
 using Noise = std::function<glm::vec3(std::mt19937&, size_t pixel)>;
 
 glm::vec3 ofChannels(std::mt19937& random, size_t) {
@@ -61,7 +61,7 @@ glm::vec3 grey(std::mt19937& random, size_t) {
   return glm::vec3(normal(random));
 }
 
-// A quarter of the pixels has nine times the variance of the others.
+// Noise with nine times the variance in a quarter of the pixels.
 glm::vec3 uneven(std::mt19937& random, size_t pixel) {
   return grey(random, pixel) * std::sqrt(pixel % 4 == 0 ? 3.0f : 1.0f / 3.0f);
 }
@@ -76,13 +76,13 @@ Image imageOf(std::mt19937& random, const Noise& noise, double variance, float b
 struct Case {
   const char* name;
   Noise noise;
-  double ratio;  // the variance of a run over that of a half, which is 1
+  double ratio;  // variance of a run over that of a half, which is 1
   float bias;
 };
 
 struct Rates {
-  double mse = 0.0, squaredBias = 0.0, ratio = 0.0;  // shares of intervals that hold the truth
-  double withoutNoise = 0.0;                         // of the MSE's, by the spread of runs alone
+  double mse = 0.0, squaredBias = 0.0, ratio = 0.0;  // fractions of intervals with the truth
+  double withoutNoise = 0.0;                         // for the MSE, by the spread of runs alone
 };
 
 Rates ratesOf(const Case& of) {

@@ -29,7 +29,8 @@ TEST(Intervals, KnownValues) {
                  2.0264317180616738, 1.9735420971296276, 2.0849343109802434);
 }
 
-// By a solution of (a - q b)^2 = t^2 (va - 2 q vab + q^2 vb) + z^2 (sa - 2 q sab + q^2 sb) for q.
+// Expected: solution of (a - q b)^2 = t^2 (va - 2 q vab + q^2 vb) + z^2 (sa - 2 q sab + q^2 sb) for
+// q.
 TEST(Intervals, SharedNoiseWidens) {
   const double z = 1.959963984540054;
   expectInterval(widened({1.0, 0.7, 1.4}, 0.01), 1.0, 1.0 - std::hypot(0.3, 0.1 * z),
@@ -37,13 +38,13 @@ TEST(Intervals, SharedNoiseWidens) {
   EXPECT_TRUE(std::isnan(widened({1.0, std::nan(""), 1.4}, 0.01).lo));
   const std::vector<double> constant = {2.0, 2.0, 2.0}, four = {4.0, 4.0};
   const SharedNoise noise = {0.09, 0.04, 0.03};
-  // (2 - 4 q)^2 = z^2 (0.09 - 0.06 q + 0.04 q^2), for runs without a spread.
+  // (2 - 4 q)^2 = z^2 (0.09 - 0.06 q + 0.04 q^2), for runs without spread.
   const double zz = z * z, a = 16.0 - 0.04 * zz, b = 8.0 - 0.03 * zz, c = 4.0 - 0.09 * zz;
   const double root = std::sqrt(b * b - a * c);
   expectInterval(ratioInterval(constant, four, noise), 0.5, (b - root) / a, (b + root) / a);
   const std::vector<double> fours = {4.0, 4.0, 4.0};
   expectInterval(pairedRatioInterval(constant, fours, noise), 0.5, (b - root) / a, (b + root) / a);
-  // What moves both alike moves no ratio of equals.
+  // Noise that moves both alike does not change a ratio of equals.
   expectInterval(pairedRatioInterval(kB, kB, {0.04, 0.04, 0.04}), 1.0, 1.0, 1.0);
   EXPECT_LT(ratioInterval(kA, kB, noise).lo, ratioInterval(kA, kB).lo);
   EXPECT_GT(ratioInterval(kA, kB, noise).hi, ratioInterval(kA, kB).hi);
@@ -56,7 +57,7 @@ TEST(Intervals, TooFewRunsHaveNoWidth) {
   EXPECT_TRUE(std::isnan(ratioInterval(one, kB).hi));
   EXPECT_TRUE(std::isnan(ratioInterval(kA, one).hi));
   EXPECT_TRUE(std::isnan(pairedRatioInterval(one, std::vector<double>{3.0}).lo));
-  EXPECT_EQ(pairedRatioInterval(one, one).lo, 1.0);  // the same numbers need no other runs
+  EXPECT_EQ(pairedRatioInterval(one, one).lo, 1.0);  // equal numbers need no further runs
   EXPECT_THROW(meanInterval({}), std::invalid_argument);
   EXPECT_THROW(ratioInterval(kA, {}), std::invalid_argument);
   EXPECT_THROW(pairedRatioInterval(kA, kB), std::invalid_argument);
@@ -67,7 +68,7 @@ TEST(Intervals, DegenerateInput) {
   expectInterval(meanInterval(constant), 2.0, 2.0, 2.0);
   expectInterval(ratioInterval(constant, four), 0.5, 0.5, 0.5);
   expectInterval(pairedRatioInterval(constant, constant), 1.0, 1.0, 1.0);
-  // A denominator that may be 0 bounds nothing.
+  // A denominator that may be 0 gives no bounds.
   const std::vector<double> aroundZero = {-1.0, 1.2, 0.3, -0.4};
   EXPECT_EQ(ratioInterval(kA, aroundZero).lo, -std::numeric_limits<double>::infinity());
   EXPECT_EQ(ratioInterval(kA, aroundZero).hi, std::numeric_limits<double>::infinity());
@@ -76,7 +77,7 @@ TEST(Intervals, DegenerateInput) {
   EXPECT_TRUE(std::isnan(ratioInterval(kA, bad).hi));
 }
 
-// An end that is not above 0 bounds no ratio of positive numbers.
+// An end not above 0 gives no bound for a ratio of positive numbers.
 TEST(Intervals, RatiosOfPositivesHavePositiveEnds) {
   const double infinity = std::numeric_limits<double>::infinity();
   expectInterval(ratioOfPositives({2.0, 1.0, 3.0}), 2.0, 1.0, 3.0);
@@ -101,7 +102,7 @@ TEST(Intervals, MedianAndPercentile) {
 }
 
 TEST(Intervals, OfRatiosStayPositive) {
-  // Two runs of 1.5 and 4: the mean's interval reaches far below 0.
+  // Two runs of 1.5 and 4: the interval of the mean extends far below 0.
   const std::vector<double> two = {1.5, 4.0};
   EXPECT_LT(meanInterval(two).lo, 0.0);
   const Interval ratio = geometricMeanInterval(two);
@@ -123,7 +124,8 @@ TEST(Intervals, OfRatiosStayPositive) {
   EXPECT_TRUE(std::isnan(geometricRatioInterval(kA, std::vector<double>{0.0, 1.0, 2.0}).lo));
 }
 
-// 4000 experiments: the share of 95 % intervals that hold the truth has a standard error of 0.34 %.
+// 4000 experiments: the fraction of 95 % intervals that contain the truth has a standard error of
+// 0.34 %.
 TEST(Intervals, Coverage) {
   std::mt19937_64 random(11);
   std::normal_distribution<double> normal;
@@ -133,7 +135,7 @@ TEST(Intervals, Coverage) {
     std::vector<double> a(8), b(12), p(8);
     for (double& x : a) x = 10.0 + 2.0 * normal(random);
     for (double& x : b) x = 5.0 + 1.5 * normal(random);
-    // Half of the spread of p is common with a.
+    // Half of the spread of p is shared with a.
     for (size_t i = 0; i < p.size(); ++i) p[i] = 5.0 + 0.5 * (a[i] - 10.0) + normal(random);
     const auto holds = [](const Interval& i, double truth) {
       return i.lo <= truth && truth <= i.hi;
@@ -147,12 +149,12 @@ TEST(Intervals, Coverage) {
   EXPECT_NEAR(double(paired) / kExperiments, 0.95, 0.012);
 }
 
-// Times that spread by a tenth; where they are disturbed, every tenth run takes half as long again,
-// as on a busy machine. Of 4000 sets of 2, 3 and 8 runs the interval of the geometric mean held the
+// Times with a spread of a tenth; if disturbed, every tenth run takes half as long again, as on a
+// busy machine. In 4000 sets of 2, 3 and 8 runs the interval of the geometric mean contained the
 // truth in 95.1, 94.1 and 95.3 % (disturbed 94.7, 94.5 and 92.1 %: eight runs show the skewness),
 // that of the ratio in 98.0, 96.5 and 95.3 % (98.0, 97.8 and 96.0 %; Welch's degrees of freedom are
-// cautious for few runs), and wholly above it, a false "worse", were 0.9, 1.6 and 2.3 % (1.0, 1.1
-// and 2.0 %).
+// cautious for few runs). An interval wholly above the truth, a false "worse", occurred in 0.9, 1.6
+// and 2.3 % (1.0, 1.1 and 2.0 %).
 TEST(Intervals, CoverageOfRatiosOfTimes) {
   std::mt19937_64 random(23);
   std::normal_distribution<double> normal;

@@ -1,4 +1,4 @@
-// Images that NumPy makes as well, with values that are exact in float.
+// Images that a NumPy script makes as well, with values that are exact in float.
 #pragma once
 
 #include "core/image/image.h"
@@ -22,8 +22,8 @@ struct KnownPair {
   }
 };
 
-// 20x150 pixels of no regular look, taller than what filters take at once: r = scale k/256, image =
-// scale k/1024.
+// 20x150 pixels without a regular pattern, taller than a band of the filters: r = scale k/256,
+// image = scale k/1024.
 struct RoughPair {
   Image image{20, 150}, reference{20, 150};
   explicit RoughPair(float scale = 1.0f) {

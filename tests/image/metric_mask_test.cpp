@@ -1,4 +1,4 @@
-// Metrics over a part of the picture.
+// Metrics over a part of the image.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -53,7 +53,7 @@ TEST(MetricMask, KnownValues) {
               0.0013885498046875, 1e-15);
 }
 
-// For whatever is made of single pixels, a mask is a smaller image.
+// Metrics of single pixels give the same value with a mask as on the cropped image.
 TEST(MetricMask, IsTheSameAsACropForPixelMetrics) {
   const KnownPair pair;
   const PixelRectangle part{3, 2, 38, 29};
@@ -87,7 +87,7 @@ TEST(MetricMask, PicksFromTheMapOfWindowMetrics) {
 TEST(MetricMask, WorstPixelIsNamedInTheImage) {
   KnownPair pair;
   pair.image.at(20, 10).z = 9.0f;
-  pair.image.at(1, 1).x = 50.0f;  // not asked for
+  pair.image.at(1, 1).x = 50.0f;  // outside the mask
   MetricOptions options;
   options.mask = maskOfRectangles(40, 30, {{10, 5, 25, 20}});
   EXPECT_EQ(evaluateMetric("max_err", pair.image, pair.reference, options).detail,

@@ -1,4 +1,4 @@
-// Defects that measuring code of this field has had, each with the metric that would show it.
+// Defects found in measuring code of this field, each with the metric that reveals it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,16 +19,16 @@ double value(const std::string& name, const Image& image, const Image& reference
 
 Image constant(float x) { return Image(4, 4, glm::vec3(x)); }
 
-// "mae" that squares, "rmse" that is relative or without the root.
+// Defect: "mae" that squares, "rmse" that is relative or without the root.
 TEST(MetricTraps, NamesSayWhatIsComputed) {
   EXPECT_NEAR(value("mae", constant(3.5f), constant(3.0f)), 0.5, 1e-12);
   EXPECT_NEAR(value("mse", constant(3.5f), constant(3.0f)), 0.25, 1e-12);
   EXPECT_NEAR(value("rmse", constant(3.5f), constant(3.0f)), 0.5, 1e-12);
-  // A relative error whose denominator was not squared.
+  // Defect: a relative error whose denominator is not squared.
   EXPECT_NEAR(value("relmse_e1e-2", constant(3.5f), constant(3.0f)), 0.25 / 9.01, 1e-12);
 }
 
-// The first image in the denominator.
+// Defect: the first image in the denominator.
 TEST(MetricTraps, TheReferenceIsTheDenominator) {
   for (const std::string name :
        {"relmse_e1e-2", "relmse_e1e-2_trim0.1", "relmse_tev", "relmse_siio"}) {
@@ -37,7 +37,7 @@ TEST(MetricTraps, TheReferenceIsTheDenominator) {
   }
   EXPECT_NEAR(value("mape_e1e-2", constant(1.0f), constant(2.0f)), 1.0 / 2.01, 1e-12);
   EXPECT_NEAR(value("energy_ratio", constant(1.0f), constant(2.0f)), 0.5, 1e-12);
-  // And where there is none, the order does not matter.
+  // Metrics without a denominator must be symmetric.
   const KnownPair pair;
   for (const char* name : {"mse", "rmse", "mae", "smape", "ssim", "flip_ldr", "max_err"}) {
     EXPECT_EQ(value(name, pair.image, pair.reference), value(name, pair.reference, pair.image))
@@ -45,14 +45,14 @@ TEST(MetricTraps, TheReferenceIsTheDenominator) {
   }
 }
 
-// Loading or measuring through a display: everything above 1 is the same white.
+// Defect: loading or measuring through a display, where everything above 1 is the same white.
 TEST(MetricTraps, RadianceIsNotClamped) {
   EXPECT_NEAR(value("mse", constant(50.0f), constant(40.0f)), 100.0, 1e-9);
   EXPECT_NEAR(value("mae", constant(-2.0f), constant(-1.0f)), 1.0, 1e-12);
   EXPECT_NEAR(value("psnr", constant(50.0f), constant(40.0f)), 20.0 * std::log10(4.0), 1e-9);
 }
 
-// A mean over N - 1, or one that is larger than the maximum.
+// Defect: a mean over N - 1, or one larger than the maximum.
 TEST(MetricTraps, MeansAreOverAllValues) {
   Image reference(1, 1, glm::vec3(1.0f)), image(1, 1, glm::vec3(1.0f));
   image.at(0, 0).x = 4.0f;
@@ -62,7 +62,8 @@ TEST(MetricTraps, MeansAreOverAllValues) {
   EXPECT_LE(value("mae", pair.image, pair.reference), value("max_err", pair.image, pair.reference));
 }
 
-// Black pixels of the reference that are left out: a bright image of nothing would be perfect.
+// Defect: black pixels of the reference are left out, so a bright image of a black reference is
+// perfect.
 TEST(MetricTraps, BlackReferencePixelsCount) {
   const Image grey = constant(0.5f), black = constant(0.0f);
   EXPECT_NEAR(value("relmse_e1e-2", grey, black), 25.0, 1e-12);
@@ -70,11 +71,11 @@ TEST(MetricTraps, BlackReferencePixelsCount) {
   EXPECT_NEAR(value("relmse_tev", grey, black), 25.0, 1e-12);
   EXPECT_NEAR(value("relmse_jeri", grey, black), 2500.0, 1e-9);
   EXPECT_NEAR(value("mape_e1e-2", grey, black), 50.0, 1e-12);
-  // The one convention that leaves them out says so.
+  // relmse_siio, the only convention that leaves them out, reports it.
   const MetricValue siio = evaluateMetric("relmse_siio", grey, black);
   EXPECT_EQ(siio.value, 0.0);
   EXPECT_EQ(siio.detail, "48 of 48 channel values have r = 0 and count as 0");
-  // Those that are relative to the mean have none to be relative to.
+  // Metrics relative to the mean are undefined for a mean of 0.
   for (const char* name : {"relmse_mean2", "mape_mean1e-2"}) {
     const MetricValue none = evaluateMetric(name, grey, black);
     EXPECT_TRUE(std::isnan(none.value)) << name;
@@ -82,7 +83,7 @@ TEST(MetricTraps, BlackReferencePixelsCount) {
   }
 }
 
-// Infinite errors that are skipped: the worse the image, the better its mean.
+// Defect: infinite errors are skipped, so the worse the image, the better its mean.
 TEST(MetricTraps, InfiniteErrorsAreNotSkipped) {
   Image image = constant(0.5f);
   image.at(1, 1).x = std::numeric_limits<float>::infinity();
@@ -94,12 +95,12 @@ TEST(MetricTraps, InfiniteErrorsAreNotSkipped) {
       EXPECT_TRUE(std::isnan(result)) << metric.name << " " << result;
     }
   }
-  // A finite error may be as large as it likes.
+  // A finite error may be arbitrarily large.
   image.at(1, 1).x = 3e38f;
   EXPECT_GT(value("mse", image, constant(0.5f)), 1e75);
 }
 
-// Sums in single precision: of 1e6 small terms after a large one little is left.
+// Defect: sums in single precision lose most of 1e6 small terms after a large one.
 TEST(MetricTraps, SumsAreDoubles) {
   Image reference(1024, 1024), image(1024, 1024, glm::vec3(0.01f));
   image.at(0, 0) = glm::vec3(512.0f);
@@ -125,7 +126,7 @@ TEST(MetricTraps, ConventionsOfRelativeErrors) {
   }
 }
 
-// Units do not matter to what is relative to the reference's own mean.
+// Scaling does not change metrics relative to the reference's own mean.
 TEST(MetricTraps, MeanRelativeErrorsHaveNoScale) {
   KnownPair pair, brighter;
   for (Image* image : {&brighter.image, &brighter.reference}) {
@@ -139,7 +140,7 @@ TEST(MetricTraps, MeanRelativeErrorsHaveNoScale) {
             2.0 * value("relmse_e1e-2", pair.image, pair.reference));
 }
 
-// Losing light must not go unseen: a relative error may prefer the image that clamps.
+// Lost light must show: a relative error may prefer the image that clamps.
 TEST(MetricTraps, LostEnergyShows) {
   const KnownPair pair;
   Image dark = pair.reference;

@@ -1,4 +1,4 @@
-// Metrics against values computed with NumPy from the same formulas, and what they do with bad
+// Metrics against values computed with NumPy from the same formulas, and their handling of bad
 // input.
 #include "core/image/metrics.h"
 
@@ -103,7 +103,7 @@ TEST(Metrics, OneBadValueMakesEveryMetricNan) {
         }
       }
       EXPECT_TRUE(std::isnan(mseAgainstHalves(pair.image, pair.reference, pair.reference)));
-      // The same value in both images cancels in the difference but not in the verdict.
+      // Equal values in both images cancel in the difference; the verdict must still be NaN.
       pair.image.at(39, 29).y = pair.reference.at(39, 29).y = value;
       EXPECT_TRUE(std::isnan(evaluateMetric("mse", pair.image, pair.reference).value));
     }
@@ -146,7 +146,7 @@ TEST(Metrics, UsersErrors) {
   }
 }
 
-// Image = truth + noise of variance 1/4; the halves carry noise of variance 1/9 each.
+// Known answers of the relative error, with constant images and halves.
 TEST(Metrics, RelativeErrorAgainstHalves) {
   const Image image(2, 1, glm::vec3(3.0f)), divisor(2, 1, glm::vec3(2.0f));
   Image half0(2, 1, glm::vec3(1.0f)), half1(2, 1, glm::vec3(2.5f));
@@ -157,7 +157,7 @@ TEST(Metrics, RelativeErrorAgainstHalves) {
   EXPECT_NEAR(error.trimmed, 0.375 / 4.01, 1e-12) << "a thousandth of two pixels is none";
   EXPECT_EQ(error.detail, "dropped 0 of 2 pixels");
   EXPECT_NEAR(relmseAgainstHalves(image, divisor, half0, half1, {1, 0}).relmse, 1.0 / 4.01, 1e-12);
-  // A reference that stands for both halves leaves the metrics of the registry.
+  // With the reference as both halves, the results are the metrics of the registry.
   const RelativeError plain = relmseAgainstHalves(image, half0, half0, half0);
   EXPECT_NEAR(plain.relmse, evaluateMetric("relmse_e1e-2", image, half0).value, 1e-12);
   EXPECT_NEAR(plain.trimmed, evaluateMetric("relmse_e1e-2_trim0.1", image, half0).value, 1e-12);
@@ -182,7 +182,7 @@ TEST(Metrics, HalvesCarryNoErrorOfTheReference) {
     }
     mask[p] = p % 2 == 0 ? 1 : 0;
   }
-  // Standard error of a product of two such deviations over 196608 values: below 0.001.
+  // Standard error of the mean product of two such deviations over 196608 values: below 0.001.
   EXPECT_NEAR(mseAgainstHalves(image, half0, half1), 0.25, 0.005);
   EXPECT_NEAR(mseAgainstHalves(image, half0, half1, mask), 0.25, 0.007);
   EXPECT_NEAR(evaluateMetric("mse", image, mean).value, 0.25 + 1.0 / 18.0, 0.005);

@@ -1,4 +1,5 @@
-// Outputs: what cannot be written is said, and a file that is not whole never carries the name.
+// Outputs: files that cannot be written give an error, and a partly written file never has the
+// final name.
 #include <sys/resource.h>
 #include <unistd.h>
 

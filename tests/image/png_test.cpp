@@ -27,7 +27,7 @@ TEST(Png, SrgbKnownValues) {
 
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-  // Radiance, exposure 2, and the bytes of IEC 61966-2-1 for twice the radiance.
+  // Radiance, and the bytes of IEC 61966-2-1 for twice the radiance (exposure 2).
   struct Case {
     glm::vec3 radiance;
     int bytes[3];
@@ -55,7 +55,7 @@ TEST(Png, SrgbKnownValues) {
   std::filesystem::remove_all(folder);
 }
 
-// Texts of a PNG by their keyword: tEXt, and iTXt without compression.
+// Returns the texts of a PNG by keyword: tEXt, and iTXt without compression.
 std::map<std::string, std::string> textsOf(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
@@ -66,7 +66,7 @@ std::map<std::string, std::string> textsOf(const std::string& file) {
     const std::string type = bytes.substr(at + 4, 4), data = bytes.substr(at + 8, length);
     const size_t end = data.find('\0');
     if (type == "tEXt") texts[data.substr(0, end)] = data.substr(end + 1);
-    // A flag, a method, and two more texts that end with a zero and are empty.
+    // Skip a flag, a method, and two empty texts, each ended by a zero.
     if (type == "iTXt") texts[data.substr(0, end)] = "iTXt " + data.substr(end + 5);
     at += 12 + length;
   }

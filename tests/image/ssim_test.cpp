@@ -24,7 +24,7 @@ TEST(Ssim, AgreesWithTheFormulaInNumPy) {
   EXPECT_EQ(map, ssimPerPixel(pair.reference, pair.image)) << "symmetric";
 }
 
-// Without variance only the luminance term is left, of the sRGB values.
+// Without variance only the luminance term remains, of the sRGB values.
 TEST(Ssim, ConstantsByFormula) {
   const Image reference(16, 9, glm::vec3(0.5f)), image(16, 9, glm::vec3(0.4f));
   EXPECT_NEAR(evaluateMetric("ssim", image, reference).value, 0.994992383076619, 1e-7);

@@ -1,4 +1,4 @@
-// A shell command, its exit status and what it printed.
+// Runs a shell command and returns its exit status and output.
 #pragma once
 
 #include <sys/wait.h>

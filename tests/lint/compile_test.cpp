@@ -1,4 +1,4 @@
-// Every dialect file through three compilers: g++ and clang++ as C++, glslang as GLSL.
+// Compiles every dialect file by three compilers: g++ and clang++ as C++, glslang as GLSL.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,14 +31,14 @@ std::filesystem::path writeUnit(const std::string& compiler, const std::string& 
   return file;
 }
 
-// Relative includes from the repository's root, so that messages start with core/...
+// Compiles in the repository's root with relative includes: messages start with core/...
 CommandResult compile(const std::string& compiler, const std::string& arguments) {
   return runCommand("cd '" RESTLAB_SOURCE_DIR "' && " + compiler +
                     " -std=c++20 -I. " RESTLAB_WARNINGS " " + arguments);
 }
 
 // Compiles C++ text without producing code; messages name the dialect's files. `before`: a header
-// in front of it, "" for none.
+// included first, "" for none.
 CommandResult checkCpp(const std::string& compiler, const std::string& name,
                        const std::string& text, const std::string& before = "") {
   const std::filesystem::path file = writeUnit(compiler, name, ".cpp", text);
@@ -46,8 +46,8 @@ CommandResult checkCpp(const std::string& compiler, const std::string& name,
   return compile(compiler, "-fsyntax-only " + include + "'" + file.string() + "'");
 }
 
-// A header with what all kernels include, and the same precompiled beside it: reading those headers
-// takes three quarters of a kernel's time.
+// Writes a header with the includes of all kernels, and precompiles it: reading these headers takes
+// three quarters of a kernel's compile time.
 std::string precompiledHeader(const std::string& compiler) {
   const std::string header = writeUnit(compiler, "kernels", ".h",
                                        "#include \"core/backend/embree.h\"\n"
@@ -61,12 +61,12 @@ std::string precompiledHeader(const std::string& compiler) {
   return header;
 }
 
-// A line that names a file.
+// Returns a #define of a file name.
 std::string define(const char* word, const std::string& path) {
   return std::string("\n#define ") + word + " \"" + path + "\"";
 }
 
-// `trace`: a file with traceRay(); "": the one that kernels have without being told.
+// `trace`: file with traceRay(); "": the default of kernels.
 std::string kernelUnit(const Kernel& kernel, const std::string& mask, const std::string& trace) {
   const std::string traceLine = trace.empty() ? "" : "#define RL_KERNEL_TRACE \"" + trace + "\"\n";
   return traceLine + "#define RL_KERNEL_NAME " + kernel.name +
@@ -79,7 +79,7 @@ class Cpp : public testing::TestWithParam<std::string> {};
 class CppHeaders : public Cpp {};
 
 TEST_P(CppHeaders, EveryOneCompilesAlone) {
-  // Twice the same header: an include guard that is missing or misspelt shows.
+  // Include the header twice, to detect a missing or misspelt include guard.
   for (const std::string& header : dialectHeaders()) {
     const std::string include = "#include \"" + header + "\"\n";
     const CommandResult result = checkCpp(GetParam(), header, include + include);
@@ -89,11 +89,11 @@ TEST_P(CppHeaders, EveryOneCompilesAlone) {
 
 TEST_P(Cpp, EveryKernelCompiles) {
   std::vector<std::string> traces = traceFiles();
-  traces.emplace_back();  // Embree's
+  traces.emplace_back();  // Embree's default
   const std::string before = precompiledHeader(GetParam());
   for (const Kernel& kernel : kernels()) {
     for (const char* mask : {"0u", "16383u"}) {
-      // The build has compiled those, with every warning.
+      // The build has compiled these already, with every warning.
       if (GetParam() == RESTLAB_GXX && std::string(mask) != "0u") continue;
       for (const std::string& trace : traces) {
         const std::string name = kernel.name + "_" + mask + "_" + trace;
@@ -117,7 +117,7 @@ const char* compilerName(const testing::TestParamInfo<std::string>& test) {
   return test.param.find("clang") != std::string::npos ? "clang" : "gcc";
 }
 INSTANTIATE_TEST_SUITE_P(, Cpp, testing::Values(RESTLAB_GXX, RESTLAB_CLANGXX), compilerName);
-// Headers that lack an include lack it for both compilers.
+// A missing include is missing for both compilers: one suffices.
 INSTANTIATE_TEST_SUITE_P(, CppHeaders, testing::Values(RESTLAB_CLANGXX), compilerName);
 INSTANTIATE_TEST_SUITE_P(Nightly, CppHeaders, testing::Values(RESTLAB_GXX), compilerName);
 
@@ -171,7 +171,7 @@ TEST(Glsl, ErrorsNameFileAndLine) {
 }
 
 TEST(Glsl, EveryFileIsInAKernel) {
-  // A .glsl that no kernel includes is compiled by nobody.
+  // A .glsl that no kernel includes is never compiled.
   for (const std::string& file : allGlslFiles()) {
     const auto& known = dialectFiles();
     EXPECT_NE(std::find(known.begin(), known.end(), file), known.end())

@@ -1,5 +1,5 @@
-// Which files are written in the dialect, found by following the includes of every kernel and of
-// every traceRay().
+// Lists the files written in the dialect, by following the includes of every kernel and of every
+// traceRay().
 #pragma once
 
 #include <string>
@@ -13,20 +13,20 @@ struct Kernel {
 };
 const std::vector<Kernel>& kernels();
 
-// The files with a traceRay() that both languages share; backends name them beside the kernel
-// (RL_KERNEL_TRACE, GlslKernel::traceFile), so that no include leads there.
+// Files with a traceRay() for both languages. Backends name them beside the kernel
+// (RL_KERNEL_TRACE, GlslKernel::traceFile): no include leads to them.
 const std::vector<std::string>& traceFiles();
 
-// Text of a file of the repository; fails the test when it cannot be read.
+// Returns the text of a file of the repository; fails the test if it cannot be read.
 std::string readSource(const std::string& path);
 
-// Every file that some kernel or trace file includes, directly or not, and these: sorted, each
-// once.
+// Every file that some kernel or trace file includes, directly or not, and these themselves:
+// sorted, without duplicates.
 const std::vector<std::string>& dialectFiles();
 std::vector<std::string> dialectHeaders();
 
-// Every .glsl under core/ and integrators/, included or not; but for core/backend/, where GLSL is
-// that of devices alone.
+// Every .glsl under core/ and integrators/, included or not; except core/backend/, where GLSL is
+// for devices only.
 std::vector<std::string> allGlslFiles();
 
 }  // namespace restlab::lint

@@ -1,5 +1,4 @@
-// Every source file is as clang-format 16 leaves it; other versions disagree with it here and
-// there.
+// Checks that every source file is formatted by clang-format 16; other versions differ in places.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -13,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Differences of a file from what the formatter makes of it, as a diff; empty where there are none.
+// Returns the difference between a file and its formatted text, as a diff; empty if there is none.
 CommandResult formatDiff(const std::string& path) {
   // The dialect's files are formatted as C++.
   return runCommand("cd '" RESTLAB_SOURCE_DIR "' && " RESTLAB_CLANG_FORMAT

@@ -1,5 +1,5 @@
-// Specialisation is real: few instantiations, and each specialised kernel is smaller than the
-// general.
+// Specialisation has an effect: few instantiations, and each specialised kernel is smaller than the
+// general one.
 #include <elf.h>
 #include <gtest/gtest.h>
 
@@ -36,8 +36,8 @@ std::map<std::string, std::vector<Row>> rowsByKernel() {
   return result;
 }
 
-// Names of kernels that are added with NO_FEATURES, as patterns, as a loop may give a part of a
-// name: they work on buffers alone, so that no scene can have or lack anything that they ask for.
+// Names of kernels added with NO_FEATURES, as patterns, since a loop may insert a part of a
+// name. These kernels work on buffers only and depend on no feature of a scene.
 std::set<std::string> kernelsWithoutFeatures() {
   namespace fs = std::filesystem;
   static const std::regex added(R"(rl_add_kernel\(([\w${}]+)[^)]*\bNO_FEATURES\b)");
@@ -56,7 +56,7 @@ std::set<std::string> kernelsWithoutFeatures() {
   return names;
 }
 
-// Bytes of executable sections of an ELF64 object file, or 0 when it is none.
+// Returns the bytes of executable sections of an ELF64 object file, or 0 if it is not one.
 size_t codeBytes(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
@@ -66,7 +66,7 @@ size_t codeBytes(const std::string& path) {
   if (std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0 || header.e_ident[EI_CLASS] != ELFCLASS64)
     return 0;
   size_t total = 0;
-  // More than 65279 sections put the count into section 0.
+  // With more than 65279 sections the count is in section 0.
   Elf64_Shdr first;
   if (bytes.size() < header.e_shoff + sizeof first) return 0;
   std::memcpy(&first, bytes.data() + header.e_shoff, sizeof first);
@@ -82,7 +82,7 @@ size_t codeBytes(const std::string& path) {
   return total;
 }
 
-// The object file of generated/kernels/<kernel>_<mask>.cpp.
+// Object file of generated/kernels/<kernel>_<mask>.cpp.
 std::string objectFile(const std::string& kernel, const std::string& mask) {
   std::ifstream list(RESTLAB_KERNEL_OBJECTS);
   const std::string wanted = "/kernels/" + kernel + "_" + mask + ".cpp";
@@ -102,7 +102,7 @@ TEST(Instantiation, AtMostNineMasksAKernel) {
     for (const Row& row : rows) {
       EXPECT_EQ(row.features & ~rl::RL_FEATURE_ALL, 0u) << name << " " << row.mask;
       if (row.trace == "bvh") {
-        // What a Vulkan device is compared with; nobody renders with it, so that one will do.
+        // Only compared with a Vulkan device, never used to render: one instantiation suffices.
         ++bvh;
         EXPECT_EQ(row.features, rl::RL_FEATURE_ALL) << name << " " << row.mask;
         continue;
@@ -133,8 +133,8 @@ TEST(Instantiation, SpecialisedCodeIsSmaller) {
       std::printf("  %-24s %-20s %8zu bytes of code, %5.1f %% of the general kernel's\n",
                   name.c_str(), row.mask.c_str(), bytes, 100.0 * double(bytes) / double(general));
       if (row.features == rl::RL_FEATURE_ALL) continue;
-      // The spatial pass traces no ray and evaluates no BSDF: of all features it asks for glossy
-      // lobes only, and a mask that has them leaves nothing else out.
+      // The spatial pass traces no ray and evaluates no BSDF: glossy lobes are the only feature
+      // that it depends on, and a mask with glossy lobes leaves nothing else out.
       const bool tracesNothing = name.ends_with("_spatial");
       if (tracesNothing && (row.features & rl::RL_FEATURE_GLOSSY) != 0) {
         EXPECT_LE(bytes, general) << name << " " << row.mask;

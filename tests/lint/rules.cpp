@@ -88,7 +88,7 @@ std::vector<Finding> findReservedWords(const TokenizedFile& file) {
 
 std::vector<Finding> findBareLiterals(const TokenizedFile& file) {
   std::vector<Finding> found;
-  // Host-side words that take plain integers count as int variables do.
+  // Host-side names that take plain integers count as int variables.
   std::set<std::string> integers = {"int", "ivec2", "ivec3", "ivec4", "RL_STATIC_ASSERT_SIZE"};
   const auto& t = file.tokens;
   for (size_t i = 0; i + 1 < t.size(); ++i) {

@@ -1,4 +1,4 @@
-// The rules of the kernel dialect that neither compiler checks by itself (docs/dialect.md).
+// Rules of the kernel dialect that no compiler checks (docs/dialect.md).
 #pragma once
 
 #include <string>
@@ -14,10 +14,10 @@ struct Finding {
   std::string message;
 };
 
-// "path:line: message", one a line.
+// "path:line: message", one per line.
 std::string format(const std::vector<Finding>& findings);
 
-// Words that GLSL or HLSL reserve, used as names.
+// Names that are reserved words of GLSL or HLSL.
 std::vector<Finding> findReservedWords(const TokenizedFile& file);
 // Floating literals without f, hexadecimal ones without u, decimal integers without u in a
 // statement that has no int variable.
@@ -30,18 +30,18 @@ std::vector<Finding> findSwizzles(const TokenizedFile& file);
 std::vector<Finding> findBadDirectives(const TokenizedFile& file);
 // Default arguments of RL_FN functions.
 std::vector<Finding> findDefaultArguments(const TokenizedFile& file);
-// RL_FN functions that bear the name of a GLSL built-in: a member of that name hides all of GLM's.
+// RL_FN functions with the name of a GLSL built-in: a member with that name hides all of GLM's.
 std::vector<Finding> findHiddenBuiltins(const TokenizedFile& file);
 // A function in a .h, a type or constant at file scope in a .glsl.
 std::vector<Finding> findMisplaced(const TokenizedFile& file);
-// `gScene.<array>.data`: the scene's arrays are read by RL_SCENE_*, which may go through texels.
+// `gScene.<array>.data`: the scene's arrays must be read by RL_SCENE_*, which may use texels.
 std::vector<Finding> findSceneByAddress(const TokenizedFile& file);
 
-// All of the above.
+// Findings of all rules above.
 std::vector<Finding> findAll(const TokenizedFile& file);
 
 // RL_DIM_* constants that share a number or reach RL_DIMENSIONS. A comment "+ donor index (N at
-// most)" reserves N numbers, which needs the text itself.
+// most)" reserves N numbers: this rule needs the text with comments.
 struct SourceText {
   std::string path, text;
 };

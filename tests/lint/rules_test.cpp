@@ -1,4 +1,4 @@
-// The rules on snippets that must and must not be found, then on every dialect file.
+// Tests of the rules on snippets with and without findings, then on every dialect file.
 #include "tests/lint/rules.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ struct Case {
   std::vector<Finding> (*rule)(const TokenizedFile&);
   const char* path;
   const char* text;
-  int line;  // where the finding must be; 0: there must be none
+  int line;  // line of the expected finding; 0: none
 };
 
 class Rule : public testing::TestWithParam<Case> {};
@@ -105,7 +105,7 @@ TEST(Dimensions, AreUnique) {
 TEST(DialectFiles, KeepTheRules) {
   std::string report;
   for (const std::string& path : dialectFiles()) {
-    // The file that defines the dialect's own words speaks both languages.
+    // The header that defines the dialect's words uses both languages.
     if (path == "core/dialect/dialect.h") continue;
     report += format(findAll(tokenize(path, readSource(path))));
   }

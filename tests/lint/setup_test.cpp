@@ -1,5 +1,5 @@
-// Systems that lack a package or a library, or have an old one: ./lab and CMake say so in one line
-// each.
+// Systems that lack a package or library, or have an old one: ./lab and CMake report each in one
+// line.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -26,13 +26,14 @@ class Setup : public testing::Test {
     std::ofstream(folder_ / name) << text;
   }
 
-  // A program of this name before those of the system.
+  // Puts a program of this name before the system's own.
   void fake(const std::string& name, const std::string& script) const {
     write(fs::path("bin") / name, "#!/bin/sh\n" + script);
     fs::permissions(folder_ / "bin" / name, fs::perms::owner_all);
   }
 
-  // The launcher in a tree of its own, on a system with the given packages ("name status version").
+  // Sets up the launcher in a tree of its own, on a system with the given packages ("name status
+  // version").
   void system(const std::string& installed, const std::string& offered = "") const {
     for (const char* file : {"lab", "CMakePresets.json"})
       fs::copy_file(fs::path(RESTLAB_SOURCE_DIR) / file, folder_ / file);
@@ -49,7 +50,7 @@ class Setup : public testing::Test {
     fake("apt-cache", "shift 2\ncase $1 in\n" + offered + "*) ;;\nesac\n");
     fake("apt-get", "exit 0\n");
     fake("sudo", "[ \"$1\" = -n ] && shift\nexec \"$@\"\n");
-    // Neither configures nor builds.
+    // Stub: neither configures nor builds.
     fake("cmake", "echo 'missing library: Ray 3.13 or later (package libray-dev)'\nexit 1\n");
   }
 
@@ -78,7 +79,7 @@ TEST_F(Setup, OldPackageIsNamedWithTheVersionNeeded) {
 
 TEST_F(Setup, MissingPackageIsNamedWithItsAlternatives) {
   if (runCommand("dpkg --version").status != 0) GTEST_SKIP() << "no dpkg here";
-  // The epoch of a package is not the version of what is in it.
+  // The epoch of a package is not part of the program's version.
   system(
       "libray-dev installed 4.3.3-1\nliboldnew1-dev installed 9:8.9-1\n"
       "libany-dev deinstalled 1.0-1\n");
@@ -97,7 +98,7 @@ TEST_F(Setup, OptionalPackageStopsNothing) {
       "libray-dev installed 4.3.3-1\nlibnew-dev installed 2.1-1\nlibany-dev installed 1-1\n"
       "libtest-dev installed 1-1\n");
   const CommandResult result = lab("test");
-  // The launcher goes on to CMake, whose line it hands on without the rest of the log.
+  // The launcher goes on to CMake and passes on its line without the rest of the log.
   EXPECT_EQ(result.status, 1) << result.output;
   EXPECT_EQ(result.output.find("lab: missing package: browser; tests that need it are skipped\n"),
             0u)

@@ -1,5 +1,4 @@
-// cmake/source_hash.cmake: a changed source changes the keys of jobs or references that it is
-// under.
+// Tests of cmake/source_hash.cmake: a changed source changes the hashes that include it.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -33,7 +32,7 @@ class SourceHash : public TemporaryFolder {
     fs::create_directories((folder() / file).parent_path());
     std::ofstream(folder() / file) << text;
   }
-  // By name: SOURCE, REFERENCE, MEASURING.
+  // Returns the hashes by name: SOURCE, REFERENCE, MEASURING.
   std::map<std::string, std::string> hashes() const {
     const fs::path header = folder() / "source_hash.h";
     const CommandResult result =
@@ -52,7 +51,8 @@ class SourceHash : public TemporaryFolder {
     EXPECT_EQ(found.size(), 3u) << all;
     return found;
   }
-  // Which of the hashes another text of `file` changes: "SOURCE REFERENCE " and the like.
+  // Returns the names of the hashes that a changed text of `file` changes, such as "SOURCE
+  // REFERENCE ".
   std::string changedBy(const fs::path& file) const {
     const auto before = hashes();
     write(file, "two");
@@ -81,8 +81,7 @@ TEST_F(SourceHash, IsOfTheSourcesThatDecideTheNumbers) {
   EXPECT_NE(hashes().at("SOURCE"), before.at("SOURCE")) << "names count";
 }
 
-// Somebody's new suites and notes make no commit another one; what is changed in it does, and new
-// sources.
+// New suites and notes of a user do not make a commit dirty; changed files and new sources do.
 TEST_F(SourceHash, DirtyAreChangesAndNewSources) {
   const auto isDirty = [&] {
     hashes();
@@ -112,7 +111,7 @@ TEST_F(SourceHash, DirtyAreChangesAndNewSources) {
   EXPECT_TRUE(isDirty());
 }
 
-// A file that is renamed must not leave the hash in silence.
+// A renamed file must not silently drop out of the hash.
 TEST(MeasuringSources, AreAllThere) {
   std::ifstream in(RESTLAB_SOURCE_DIR "/cmake/source_hash.cmake");
   std::ostringstream text;

@@ -7,8 +7,8 @@ namespace restlab::lint {
 
 namespace {
 
-// Replaces comments by blanks and joins continued lines, keeping every newline where it was needed
-// to count lines: a joined line is followed by the newlines it swallowed.
+// Replaces comments by blanks and joins continued lines. Keeps the line count: the newlines removed
+// by joining follow the joined line.
 std::string withoutComments(const std::string& text) {
   std::string out;
   int swallowed = 0;
@@ -43,7 +43,7 @@ std::string withoutComments(const std::string& text) {
 bool isWordStart(char c) { return std::isalpha(static_cast<unsigned char>(c)) || c == '_'; }
 bool isDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)); }
 
-// Length of a preprocessing number that starts at `at`.
+// Returns the length of the preprocessing number that starts at `at`.
 size_t numberLength(const std::string& text, size_t at) {
   size_t end = at;
   while (end < text.size()) {

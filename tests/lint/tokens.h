@@ -1,4 +1,4 @@
-// A tokenizer just sharp enough for the rules of the kernel dialect.
+// Tokenizer that is just precise enough for the rules of the kernel dialect.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ struct Token {
   int line;  // from 1
 };
 
-// A preprocessor line, continuation lines joined, comments removed.
+// Preprocessor line with continuation lines joined and comments removed.
 struct Directive {
   std::string text;
   int line;
@@ -26,10 +26,11 @@ struct TokenizedFile {
   std::vector<Directive> directives;
 };
 
-// Comments and string literals give no tokens; punctuation is one character a token.
+// Skips comments and string literals; punctuation is one character per token.
 TokenizedFile tokenize(const std::string& path, const std::string& text);
 
-// [first, last) ranges of tokens between ';', '{' and '}'. The three clauses of a `for` are three.
+// Ranges [first, last) of tokens between ';', '{' and '}'. The three clauses of a `for` are
+// separate.
 struct TokenRange {
   size_t first, last;
 };

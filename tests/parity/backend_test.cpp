@@ -1,5 +1,5 @@
-// core/backend on a bad day: damaged files, broken kernels, too little memory, unknown devices; and
-// what it does with memory on a good one.
+// core/backend under failures: damaged files, broken kernels, too little memory, unknown devices;
+// and its allocator in normal use.
 #include <gtest/gtest.h>
 
 #include <stdlib.h>
@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The line and the exit code of what `run` throws.
+// Line and exit code of the error that `run` throws.
 struct Failure {
   std::string line;
   ExitCode code = ExitCode::ok;
@@ -48,7 +48,7 @@ class BackendTest : public testing::Test {
   }
 };
 
-// A fresh opening of a device with a folder of its own for compiled kernels.
+// Opens a device with its own folder for compiled kernels.
 class KernelCacheTest : public BackendTest {
  protected:
   void SetUp() override {
@@ -63,7 +63,7 @@ class KernelCacheTest : public BackendTest {
     if (!folder_.empty()) fs::remove_all(folder_, ignored);
   }
 
-  // What a kernel computes, and in `report` where it came from.
+  // Returns the results of a kernel; `report` tells where the kernel came from.
   std::vector<rl::RisResult> results(StartupReport& report) const {
     TestDevice device = openDevice({}, folder_);
     const rl::FrameData frame = plainFrame(32, 32, 5);
@@ -112,7 +112,7 @@ TEST_F(KernelCacheTest, DamagedFilesAreCompiledAnew) {
   EXPECT_TRUE(report.notices.empty()) << report.notices.front();
   ASSERT_EQ(report.kernels.size(), 1u);
   EXPECT_FALSE(report.kernels[0].fromDisk);
-  // A kernel and the driver's own.
+  // Two files: the kernel's and the driver's own.
   ASSERT_EQ(files().size(), 2u);
   EXPECT_TRUE(isSame(results(report), good));
   EXPECT_TRUE(report.kernels.at(0).fromDisk);
@@ -124,7 +124,7 @@ TEST_F(KernelCacheTest, DamagedFilesAreCompiledAnew) {
       ASSERT_EQ(report.notices.size(), 1u);
       EXPECT_NE(report.notices[0].find(file.string()), std::string::npos) << report.notices[0];
       EXPECT_EQ(report.kernels.at(0).fromDisk, file.extension() != ".spv");
-      // What was compiled anew is kept.
+      // The file compiled anew is kept.
       EXPECT_TRUE(isSame(results(report), good));
       EXPECT_TRUE(report.notices.empty()) << report.notices.front();
       EXPECT_TRUE(report.kernels.at(0).fromDisk);
@@ -141,7 +141,7 @@ TEST_F(KernelCacheTest, FolderThatCannotBeWrittenCostsANotice) {
   EXPECT_NE(report.notices[0].find("not kept"), std::string::npos) << report.notices[0];
 }
 
-// The folder that sessions use.
+// Default folder of sessions.
 TEST(KernelCacheFolder, IsBelowTheUsersCache) {
   ASSERT_NE(std::getenv("XDG_CACHE_HOME"), nullptr) << "kernel_runner.cpp sets it";
   EXPECT_EQ(KernelCache::defaultFolder(),
@@ -166,7 +166,7 @@ TEST_F(BackendTest, BrokenKernelIsNamedWithFileAndLine) {
   EXPECT_TRUE(failure.holds(file + ":3:")) << failure.line;
   EXPECT_TRUE(failure.holds("missing")) << failure.line;
   EXPECT_EQ(failure.line.find('\n'), std::string::npos) << failure.line;
-  // The device and the kernel, once it is whole, are as good as before.
+  // The device still works, and so does the kernel once its file is complete.
   EXPECT_NE(device.kernels->pipeline(kernel, "path", rl::RL_FEATURE_ALL, good, report),
             VkPipeline{});
 }
@@ -221,7 +221,7 @@ TEST_F(BackendTest, SmallBuffersShareBlocks) {
   std::vector<GpuBuffer> buffers;
   for (size_t i = 0; i < 1000; ++i)
     buffers.push_back(memory.allocate(1 + 37 * i, MemoryKind::device));
-  // 19 MB of buffers lie in what is one block of 64 MiB, or the one that was there.
+  // 19 MB of buffers fit into one new block of 64 MiB, or into an existing block.
   EXPECT_LE(memory.bytesAllocated() - before, uint64_t{64} << 20);
   std::vector<std::pair<uint64_t, uint64_t>> ranges;
   for (size_t i = 0; i < buffers.size(); ++i) {
@@ -232,7 +232,7 @@ TEST_F(BackendTest, SmallBuffersShareBlocks) {
   std::sort(ranges.begin(), ranges.end());
   for (size_t i = 1; i < ranges.size(); ++i) EXPECT_LE(ranges[i - 1].second, ranges[i].first);
 
-  // Every buffer keeps what is written into it.
+  // Every buffer keeps its content.
   const auto content = [](size_t i) { return std::vector<uint8_t>(1 + 37 * i, uint8_t(i % 251)); };
   for (size_t i = 0; i < buffers.size(); i += 50)
     memory.write(buffers[i], content(i).data(), content(i).size());
@@ -243,7 +243,7 @@ TEST_F(BackendTest, SmallBuffersShareBlocks) {
     EXPECT_EQ(found, content(i)) << i;
   }
 
-  // Neighbours that are freed, in any order, become one hole, which the next buffer fills.
+  // Neighbours freed in any order merge into one hole, which the next buffer fills.
   const GpuBuffer first = buffers[500], last = buffers[503];
   for (size_t i : {501u, 503u, 500u, 502u}) memory.free(buffers[i]);
   const size_t hole = size_t(last.offset - first.offset) + last.bytes;

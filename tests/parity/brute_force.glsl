@@ -1,5 +1,5 @@
 // traceRay() for the parity tests: every triangle of every instance, in order. No acceleration
-// structure, so that what is compared is the kernel and not a traversal.
+// structure: the tests compare kernels, not traversals.
 
 RL_FN bool bruteTriangle(RL_IN(Ray) ray, RL_IN(TriangleW) t, float tMax, RL_INOUT(Hit) hit) {
   vec3 p = cross(ray.dir, t.e2);

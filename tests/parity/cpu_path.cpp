@@ -1,4 +1,4 @@
-// The path kernel as C++, on the same traversal as its GLSL twin.
+// The path kernel as C++, with the same traversal as its GLSL build.
 #define RL_KERNEL_NAME parity_path
 #define RL_KERNEL_MASK_NAME general
 #define RL_KERNEL_MASK 16383u

@@ -1,4 +1,4 @@
-// What Session::donors() and its layers say of a frame of the Vulkan backend and of the CPU's.
+// Session::donors() and donor layers of a frame, on the Vulkan backend against the CPU backend.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,8 +13,8 @@ constexpr uint32_t kWidth = 64, kHeight = 48;
 
 class DonorsParity : public testing::TestWithParam<const char*> {};
 
-// Whose partner a pixel is depends on what pixels show at their centres; whether a shift is
-// accepted, on rounding as well: a sample that differs is a donor of three pixels.
+// Pairs of partners depend on the surfaces at pixel centres; acceptance of a shift also depends on
+// rounding: a sample that differs is a donor of three pixels.
 TEST_P(DonorsParity, BothBackendsSayTheSame) {
   if (!hasVulkan()) GTEST_SKIP() << kNoDevice;
   const auto scene = sceneNamed(GetParam());

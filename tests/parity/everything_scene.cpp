@@ -12,7 +12,7 @@ uint32_t texel(uint32_t r, uint32_t g, uint32_t b, uint32_t a) {
   return r | g << 8 | b << 16 | a << 24;
 }
 
-// 4 x 4 texels that differ in every channel.
+// Adds an image of 4 x 4 texels that differ in every channel.
 uint32_t addImage(Scene& scene, uint32_t base, uint32_t alphaStep) {
   TextureImage image{"pattern", 4, 4, {}};
   for (uint32_t i = 0; i < 16; ++i) {
@@ -23,7 +23,7 @@ uint32_t addImage(Scene& scene, uint32_t base, uint32_t alphaStep) {
   return static_cast<uint32_t>(scene.images.size() - 1);
 }
 
-// A sampler's use of the image; every wrap mode and filter occurs once among three uses.
+// Adds a sampler's use of the image; every wrap mode and filter occurs once among three uses.
 uint32_t addUse(Scene& scene, uint32_t image, uint32_t wrap, bool srgb, bool nearest) {
   TextureUse use;
   use.image = image;
@@ -36,7 +36,7 @@ uint32_t addUse(Scene& scene, uint32_t image, uint32_t wrap, bool srgb, bool nea
   return static_cast<uint32_t>(scene.textureUses.size() - 1);
 }
 
-// Its own copy of a mesh's material, to be changed by the caller.
+// Gives a mesh its own copy of its material, to be changed by the caller.
 rl::Material& ownMaterial(Scene& scene, Mesh mesh) {
   scene.materials.push_back(scene.materials[scene.instances[mesh].material]);
   scene.instances[mesh].material = static_cast<uint32_t>(scene.materials.size() - 1);

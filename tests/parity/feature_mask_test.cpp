@@ -1,5 +1,5 @@
-// Kernels of the mask that the feature scan asks for against general ones, as shaders, over random
-// materials. tests/unit/feature_mask_test.cpp asks the same of many more materials in C++.
+// Kernels with the mask from the feature scan against general ones, as shaders, over random
+// materials. tests/unit/feature_mask_test.cpp compares many more materials in C++.
 #include <gtest/gtest.h>
 
 #include <glm/gtc/matrix_transform.hpp>

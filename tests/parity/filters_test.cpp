@@ -1,4 +1,4 @@
-// Denoisers that filter by guides show the same on both machines.
+// Denoisers that filter by features give the same image on the CPU and on a Vulkan device.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,8 +17,8 @@ using denoise::noiseAt;
 
 class Filters : public testing::TestWithParam<std::string> {};
 
-// A wall, a floor, the background and a lamp, all noise, under a camera that moves; and guides that
-// are no numbers.
+// A wall, a floor, the background and a lamp, all noisy, under a moving camera; one depth and one
+// normal are NaN.
 LayeredFrame frameOf(glm::uvec2 size, uint32_t frame) {
   LayeredFrame layers;
   const auto isBackground = [](glm::uvec2 p) { return p.y < 6u; };

@@ -20,7 +20,7 @@ namespace restlab::parity {
 
 namespace {
 
-// The first hits of a session's pixels, found again on both intersectors.
+// Finds the first hits of a session's pixels again, with both intersectors.
 class FirstHits {
  public:
   FirstHits(const std::shared_ptr<const CompiledScene>& scene, const SessionConfig& config)
@@ -34,7 +34,7 @@ class FirstHits {
     f.camera = scene->camera(camera, config.width, config.height);
   }
 
-  // Does the ray through a pixel pass so close to an edge that rounding decides?
+  // Returns whether the ray through a pixel passes so close to an edge that rounding decides.
   bool passesAnEdge(uint32_t x, uint32_t y) {
     const rl::FrameData& f = embree_.frame;
     const rl::uvec2 pixel(x, y);
@@ -57,7 +57,7 @@ double meanLength(const Image& image) {
   return sum / double(image.pixels.size());
 }
 
-// |a - b| / (|v| + mean); infinite for what is no number.
+// |a - b| / (|v| + mean); infinite for NaN.
 class Distance {
  public:
   Distance(const Image& a, const Image& b)
@@ -133,7 +133,7 @@ std::vector<Combination> combinations() {
     if (info->name != "none")
       all.push_back({"path", findIntegrator("path").modes.front().name, "", info->name});
   }
-  // The one that reads reservoirs.
+  // svgf_restir reads reservoirs, so it needs another integrator.
   all.push_back({"restir_gi", findIntegrator("restir_gi").modes.front().name,
                  cacheRegistry().front()->name, "svgf_restir"});
   return all;
@@ -210,7 +210,7 @@ FrameDifference classify(const std::shared_ptr<const CompiledScene>& scene, Sess
   for (size_t i = 0; i < result.pixels; ++i) {
     if (!(distance(i) > kSameWithin)) continue;
     const float da = left.depth.pixels[i].x, db = right.depth.pixels[i].x;
-    // Distances are rounded at the size of the coordinates.
+    // Distances are rounded relative to the size of the coordinates.
     const glm::vec3 p = glm::abs(left.positionW.pixels[i] - origin);
     const float tolerance = 1e-4f * da + 2e-5f * std::max({p.x, p.y, p.z});
     const bool isOneMissed = (da == 0.0f) != (db == 0.0f);

@@ -1,11 +1,11 @@
 // Sessions on the Vulkan backend against sessions on the CPU backend: every integrator, mode and
-// cache on every built-in scene, with the same seeds. The camera walks from the third frame on.
+// cache on every built-in scene, with the same seeds. The camera moves from the third frame on.
 //
-// A pixel of the first frame differs where rounding made somebody decide otherwise: which triangle
-// a ray through an edge hits, which candidate a reservoir keeps. Every such pixel is put into a
-// class, and their share is bounded. Later frames reuse the first, so that what differs spreads to
-// neighbours and stays; there the growth is bounded, and at frame 16, at night 32, the images of
-// independent runs must have the same mean.
+// A pixel of the first frame differs if rounding changed a decision: which triangle a ray through
+// an edge hits, which candidate a reservoir keeps. Every such pixel is classified, and their
+// fraction is bounded. Later frames reuse the first, so differences spread to neighbours and
+// persist; their growth is bounded, and at frame 16 (nightly: 32) the images of independent runs
+// must have the same mean.
 #include <gtest/gtest.h>
 
 #include <boost/math/distributions/poisson.hpp>
@@ -24,11 +24,11 @@
 namespace restlab::parity {
 namespace {
 
-constexpr double kMaxShare = 1e-3;  // of the pixels of a first frame, that differ
-// And that two intersectors make differ on the CPU alone. Most in many-lights, 1.4e-3 after eight
-// bounces between round columns.
+constexpr double kMaxShare = 1e-3;  // fraction of the pixels of a first frame that may differ
+// Fraction that may differ between two intersectors on the CPU alone. Largest in many-lights,
+// 1.4e-3 after eight bounces between round columns.
 constexpr double kMaxShareOfIntersectors = 3e-3;
-// What a few pixels more than their share may say by chance, where an image is small.
+// Probability that a small image exceeds its bound by chance.
 constexpr double kChance = 1e-4;
 
 struct Size {
@@ -37,29 +37,30 @@ struct Size {
   int threads;
 };
 
-// The count that a share of kMaxShare exceeds with kChance only; the share itself where there are
-// pixels enough.
+// Largest allowed count: the quantile that a fraction of kMaxShare exceeds with probability
+// kChance; the fraction itself for large images.
 double mostDifferent(size_t pixels, double share = kMaxShare) {
   const double expected = share * double(pixels);
   if (expected >= 250.0) return expected;
   return quantile(complement(boost::math::poisson(expected), kChance));
 }
 
-// How many pixels of a frame may differ for one of the first. Without reuse: one. With it, every
-// frame brings its own, and a pixel that differs takes its spatial partner along into the next. A
-// filter takes the pixels beside it along, and its history keeps them.
+// Bound on the pixels that differ in a frame, per differing pixel of the first frame. Without
+// reuse: one. With reuse, every frame adds its own, and a pixel that differs makes its spatial
+// partner differ in the next frame. A filter makes adjacent pixels differ, and its history keeps
+// them.
 double spreadAt(const Combination& what, uint32_t frame) {
   if (what.hasFilter()) return 9.0 * (double(frame) + 1.0);
   return what.cache.empty() ? 1.0 : double((2u << frame) - 1u);
 }
 
-// And in the first frame: where a reservoir decided otherwise, a filter shows it in the pixels
-// beside it, too.
+// Bound in the first frame: a filter shows a different decision of a reservoir in adjacent pixels,
+// too.
 double spreadAtFirst(const Combination& what) {
   return what.hasFilter() && !what.cache.empty() ? spreadAt(what, 0) : 1.0;
 }
 
-// One scene on two machines, frame by frame; the difference of the first frames.
+// Compares one scene on two machines, frame by frame; returns the difference of the first frames.
 FrameDifference compareFrames(const Combination& what, const std::string& sceneName,
                               const Machine& left, const Machine& right, const Size& size,
                               std::vector<FrameDifference>& later) {
@@ -70,7 +71,7 @@ FrameDifference compareFrames(const Combination& what, const std::string& sceneN
     return std::make_unique<Session>(scene, config);
   };
   const auto a = open(left), b = open(right);
-  // What b's machine makes with the intersector of a.
+  // Session on b's machine with the intersector of a.
   const bool isEmbree = std::string(right.rayTracing) == "embree";
   const auto other = isEmbree ? open(kCpuBvh) : nullptr;
   FrameDifference first;
@@ -138,10 +139,10 @@ class Frames : public testing::TestWithParam<Combination> {
   }
 };
 
-// What has to do with rays and with features alone.
+// Tests of rays and features only.
 class TracedFrames : public Frames {};
 
-// One scene of one combination, so that a night's work can be divided.
+// One scene of one combination, so that nightly work can be divided.
 class FramesNightly : public testing::TestWithParam<std::tuple<Combination, std::string>> {
  protected:
   void SetUp() override {
@@ -169,13 +170,14 @@ std::vector<std::string> nightlyScenes() {
 constexpr const char* kNoHistory = "has no history: every frame is like frame 0";
 constexpr const char* kOtherModes = "SKIPPED: of other modes with --nightly";
 constexpr const char* kOtherCaches = "SKIPPED: of other caches with --nightly";
-// The one with entries in which paths end runs every pass that those without have.
+// Skips caches whose passes run elsewhere: the combination with entries that end paths runs every
+// pass.
 bool isLeftToTheNight(const Combination& what) {
   return !what.endsPaths && (what.cache == "surflet" || what.cache == "voxel");
 }
 
 constexpr Size kSmall{64, 36, 4, 1};
-constexpr Size kLarge{704, 396, 4, 0};  // more than one dispatch a pass
+constexpr Size kLarge{704, 396, 4, 0};  // more than one dispatch per pass
 
 TEST_P(Frames, AsOnTheCpuWithTheSameHierarchy) {
   expectParity(GetParam(), sceneNames(), kVulkan, kCpuBvh, kSmall);
@@ -201,7 +203,7 @@ TEST_P(FramesNightly, AsWithoutSpecialisation) {
   expectParity(combination(), scenes(), kVulkanSpecialised, kVulkan, kLarge);
 }
 
-// The last frame of independent histories; seeds of two sets must not meet.
+// Last frames of independent histories; seeds of two sets must not overlap.
 stats::RunSet historyEnds(const Combination& what, const std::string& scene, const Machine& where,
                           const Size& size, uint32_t firstSeed, size_t runs) {
   SessionConfig config = configOf(what, where, size.width, size.height, firstSeed);
@@ -216,7 +218,7 @@ stats::RunSet historyEnds(const Combination& what, const std::string& scene, con
   return set;
 }
 
-// At frame 16 the machines have long gone different ways: only their noise may differ.
+// By frame 16 the machines have diverged: only their noise may differ.
 void expectSameMean(const Combination& what, const std::string& scene, const Size& size,
                     size_t runs) {
   const stats::RunSet host = historyEnds(what, scene, kCpuBvh, size, 1, runs);
@@ -242,7 +244,7 @@ TEST_P(FramesNightly, Frame32HasTheSameMean) {
   expectSameMean(combination(), scenes().front(), {64, 36, 33, 0}, 64);
 }
 
-// Validation layers have nothing to say of a frame; a message throws.
+// Validation layers must report nothing for a frame; a message throws.
 TEST_P(TracedFrames, ValidatedFrame) {
   const auto scene = sceneNamed("everything");
   SessionConfig config = configOf(GetParam(), kVulkan, 32, 18, 3);
@@ -267,7 +269,7 @@ TEST_P(TracedFrames, ValidatedFrame) {
   }
 }
 
-// What one dispatch does not cover: a message here, or rows of the image left out.
+// Several dispatches: errors give a validation message or miss rows of the image.
 TEST(LargeFrame, IsValidInSeveralDispatches) {
   if (!hasVulkan()) GTEST_SKIP() << kNoDevice;
   const auto scene = sceneNamed("furnace");
@@ -293,7 +295,7 @@ TEST(LargeFrame, IsValidInSeveralDispatches) {
   }
 }
 
-// The number of an instance, which each way of tracing rays finds in another place.
+// Index of the instance, which each way of tracing rays reads from another place.
 TEST(FirstHitLayers, ObjectsHaveTheSameNumbers) {
   if (!hasVulkan()) GTEST_SKIP() << kNoDevice;
   const auto scene = sceneNamed("courtyard");
@@ -316,7 +318,7 @@ TEST(FirstHitLayers, ObjectsHaveTheSameNumbers) {
   }
 }
 
-// The classes themselves, on one machine.
+// Returns the classes of differences on one machine.
 FrameDifference classesOf(const SessionConfig& left, const SessionConfig& right) {
   const auto scene = sceneNamed("cornell-box");
   Session a(scene, left), b(scene, right);
@@ -340,7 +342,7 @@ TEST(FrameDifference, AnotherDecisionLaterHasTheSameFirstHit) {
 TEST(FrameDifference, AnotherFirstHitIsNotExplainedWithoutAnEdge) {
   const SessionConfig left = configOf({"path", "", ""}, kCpuBvh, 64, 64, 1);
   SessionConfig right = left;
-  right.seed = 2;  // other places on the film
+  right.seed = 2;  // other film samples
   const FrameDifference found = classesOf(left, right);
   EXPECT_GT(found.unexplained, found.pixels / 4) << found.text();
 }

@@ -11,7 +11,7 @@ namespace restlab::parity {
 
 namespace {
 
-// Sessions of the tests neither read nor fill the user's own cache.
+// Sessions of the tests neither read nor write the user's own cache.
 const int kCacheIsSet = setenv("XDG_CACHE_HOME", RESTLAB_PARITY_CACHE, 1);
 
 GlslKernel bruteForceKernel(const std::string& header, const std::string& file) {
@@ -115,8 +115,8 @@ rl::FrameData plainFrame(uint32_t width, uint32_t height, uint32_t seed) {
 }  // namespace restlab::parity
 
 #if defined(__SANITIZE_ADDRESS__)
-// The software driver (Mesa 22.3) leaves 128 bytes behind when it is unloaded, with no frame that
-// names it; leaks of our own are looked for in every other test program.
+// The software driver (Mesa 22.3) leaks 128 bytes when unloaded, without a stack frame that names
+// it; every other test program checks for own leaks.
 extern "C" const char* __asan_default_options();
 extern "C" const char* __asan_default_options() { return "detect_leaks=0"; }
 #endif

@@ -1,4 +1,4 @@
-// Offsets of the shared structs: what glslang lays out as `scalar` against what C++ does.
+// Offsets of the shared structs: glslang's `scalar` layout against C++.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace {
 
 using Offsets = std::map<std::string, uint32_t>;
 
-// Member offsets of every struct that lies in a buffer, by struct and member name, out of SPIR-V.
+// Reads member offsets of every struct in a buffer, by struct and member name, from SPIR-V.
 std::map<std::string, Offsets> offsetsOf(const std::vector<uint32_t>& spirv) {
   constexpr uint32_t kOpName = 5, kOpMemberName = 6, kOpMemberDecorate = 72, kDecorationOffset = 35;
   std::map<uint32_t, std::string> names;
@@ -162,7 +162,7 @@ TEST(Layout, StructsLieAlikeInBothLanguages) {
     SCOPED_TRACE(name);
     const auto it = found.find(name);
     ASSERT_NE(it, found.end()) << "is in no buffer of the kernel";
-    // Also the set of members: a field that is added must be added above.
+    // Compares the set of members, too: a new field must be added above.
     EXPECT_EQ(it->second, offsets);
   }
 }

@@ -1,5 +1,5 @@
-// Lamps that are switched between the frames of a session on a Vulkan device: recorded commands
-// and texels that were bound lead to the scene before.
+// Lights switched between the frames of a session on a Vulkan device: recorded commands and bound
+// texels refer to the scene before the switch.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -65,7 +65,7 @@ TEST_P(LightSwitch, TheHistoryGoesOn) {
   EXPECT_FALSE(isSame(live, kept));
 }
 
-// A path that is traced again finds the same light, though another pipeline traces it.
+// A path traced again must find the same light, although another pipeline traces it.
 TEST_P(LightSwitch, AStillLightChangesNoBit) {
   if (!hasVulkan()) GTEST_SKIP() << kNoDevice;
   const Reads reads(GetParam());

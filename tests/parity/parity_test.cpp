@@ -1,5 +1,5 @@
-// The same kernel files, built by the C++ compiler and run by a Vulkan device (lavapipe where there
-// is no GPU), must decide alike and compute alike. Every suitable device of the machine is tried.
+// Kernel files, built by the C++ compiler and run by a Vulkan device (lavapipe without a GPU), must
+// decide alike and compute alike. Every suitable device of the machine is tried.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,10 +25,10 @@ extern const CpuKernelEntry kernel_parity_path_general;
 namespace restlab::parity {
 namespace {
 
-constexpr double kMaxDifferentDecisions = 1e-5;  // share of threads
+constexpr double kMaxDifferentDecisions = 1e-5;  // fraction of threads
 constexpr double kMaxRelativeDifference = 1e-4;
-// 1 - Fresnel at grazing angles and the densities of sharp lobes amplify the last bit: this share
-// of the threads may go beyond the line above, none beyond this.
+// 1 - Fresnel at grazing angles and the densities of sharp lobes amplify the last bit: this
+// fraction of the threads may exceed kMaxRelativeDifference, none may exceed kMaxWorst.
 constexpr double kMaxIllConditioned = 5e-5;
 constexpr double kMaxWorst = 2e-3;
 
@@ -55,7 +55,7 @@ class Parity : public testing::Test {
 
 using ParityNightly = Parity;
 
-// On both machines, over as many random surfaces as there are pixels.
+// Compares both machines over one random surface per pixel.
 void compareResampling(std::vector<TestDevice>& devices, const rl::FrameData& frame) {
   const size_t threads = size_t{frame.width} * frame.height;
   const rl::RisParams params{32};
@@ -105,14 +105,14 @@ TEST_F(Parity, ResamplingOverRandomSurfaces) {
   compareResampling(devices_, plainFrame(512, 512, 7));
 }
 
-// A share of 1e-5 is ten of these.
+// At 2^20 threads a fraction of 1e-5 is ten threads.
 TEST_F(ParityNightly, ResamplingOverRandomSurfaces) {
   compareResampling(devices_, plainFrame(1024, 1024, 8));
 }
 
-// How two images of the same seed differ.
+// Difference of two images with the same seed.
 struct ImageDifference {
-  size_t pixels = 0;  // that differ by more than kMaxRelativeDifference
+  size_t pixels = 0;  // number that differs by more than kMaxRelativeDifference
   double worst = 0.0;
 };
 
@@ -126,11 +126,11 @@ ImageDifference compareImages(const rl::vec3* a, const rl::vec3* b, size_t pixel
   return result;
 }
 
-// What one scene's path-traced frame looks like on each machine.
+// A scene whose path-traced frame is compared between the machines.
 struct PathCase {
   const char* name;
   Scene (*make)();
-  double maxDifferentShare;  // of the pixels, beyond kMaxRelativeDifference
+  double maxDifferentShare;  // fraction of pixels beyond kMaxRelativeDifference
   double maxMeanDifference;  // relative, of the whole image
   uint32_t multiscatter;     // FrameData::multiscatter
 };
@@ -143,8 +143,8 @@ rl::dvec3 meanOf(const rl::vec3* image, size_t pixels) {
   return sum / double(pixels);
 }
 
-// A whole path tracer, eight scattering events a path: the C++ build on the same brute-force
-// traversal, the program's own kernel on Embree, and the device.
+// Compares a whole path tracer, eight scattering events per path: the C++ build with the same
+// brute-force traversal, the program's own kernel with Embree, and the device.
 TEST_P(PathParity, SameSeedSameImage) {
   const PathCase& c = GetParam();
   const auto scene = CompiledScene::build(c.make());

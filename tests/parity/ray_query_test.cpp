@@ -24,8 +24,8 @@ struct QueryCase {
 };
 
 Scene everything() { return makeEverythingScene(); }
-// Blocks in the middle of the room that let light through, one before the other, beside opaque
-// instances of the same mesh.
+// Adds partly transparent blocks in the middle of the room, one in front of the other, beside
+// opaque instances of the same mesh.
 Scene alphaInstances() {
   Scene scene = makeEverythingScene();
   scene.materials.push_back(scene.materials[scene.instances.back().material]);
@@ -100,7 +100,7 @@ TEST_P(RayQuery, SameSeedSameImage) {
                 100.0 * share, squares / double(query.pixels.size()),
                 std::abs(mean / meanOther - 1.0));
     EXPECT_GT(mean, 0.0);
-    // Paths that meet an edge, or a surface at a grazing angle, may take another turn.
+    // Paths that hit an edge, or a surface at a grazing angle, may diverge.
     EXPECT_LT(share, 0.01 * kFrames) << who;
     EXPECT_NEAR(mean / meanOther, 1.0, 0.01) << who;
   };

@@ -1,4 +1,4 @@
-// Rays alone on a backend, by the `trace` kernel.
+// Traces single rays on a backend, by the `trace` kernel.
 #pragma once
 
 #include <memory>
@@ -25,7 +25,7 @@ class RayTracer {
   StartupReport report_;
 };
 
-// Path rays from everywhere in the scene's bounds in all directions.
+// Path rays from random points in the scene's bounds in random directions.
 std::vector<rl::TraceQuery> randomQueries(const std::shared_ptr<const CompiledScene>& scene,
                                           size_t count, uint64_t seed);
 

@@ -1,5 +1,5 @@
 // Rays of a Vulkan device, by the project's own hierarchy and by ray queries, against Embree's: ray
-// by ray, along edges, and through surfaces that let light pass.
+// by ray, along edges, and through partly transparent surfaces.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ void compare(const std::vector<rl::TraceQuery>& queries, const std::vector<rl::T
   for (size_t i = 0; i < queries.size(); ++i) sum.add(queries[i].ray, embree[i].hit, device[i].hit);
 }
 
-// `count` rays in all directions, and as many that leave what the first ones have hit.
+// Compares `count` rays in all directions, and as many that start near their hits.
 void expectEmbreesHits(const std::string& sceneName, const std::string& rayTracing, size_t count) {
   const Compiled scene = sceneNamed(sceneName);
   RayTracer embree(scene, "cpu", "embree"), device(scene, "vulkan", rayTracing);
@@ -42,7 +42,7 @@ void expectEmbreesHits(const std::string& sceneName, const std::string& rayTraci
   for (size_t i = 0; i < count; ++i) {
     if (found[i].hit.instance == rl::RL_INVALID) continue;
     rl::Ray& ray = queries[i].ray;
-    // A thousandth before the surface: neither tracer is asked about the surface itself.
+    // Start a thousandth before the surface, so that no tracer decides about the surface itself.
     ray.origin += ray.dir * (0.999f * found[i].hit.t);
     ray.dir = inputs.direction();
   }
@@ -53,7 +53,7 @@ void expectEmbreesHits(const std::string& sceneName, const std::string& rayTraci
   EXPECT_LT(sum.explainedShare(), 1e-2) << sceneName;
 }
 
-// From inside a closed mesh, at its corners and along its edges: none gets out.
+// Rays from inside a closed mesh to its corners and edges: none may get out.
 void expectWatertight(const std::string& rayTracing) {
   const unit::ClosedBall ball(glm::dvec3(0.0));
   std::vector<rl::TraceQuery> queries;
@@ -64,13 +64,13 @@ void expectWatertight(const std::string& rayTracing) {
     leaks += result.hit.instance != 0u ? 1 : 0;
   std::printf("  %s: %zu of %zu rays at edges and corners pass\n", rayTracing.c_str(), leaks,
               queries.size());
-  // The ray queries of Mesa 25's lavapipe are not watertight (0.5 % of these rays): a property of
-  // that driver, which is bounded here and written down in docs/performance.md.
+  // Ray queries of Mesa 25's lavapipe are not watertight (0.5 % of these rays): a property of that
+  // driver, bounded here and documented in docs/performance.md.
   const bool isDriversOwn = rayTracing == "query" && vulkanDeviceInfos()[0].kind == "cpu";
   EXPECT_LE(leaks, isDriversOwn ? queries.size() / 100 : 0u) << "of " << queries.size();
 }
 
-// Shadow rays through veils: what Embree's filters multiply, the device multiplies.
+// Shadow rays through veils: the device must multiply the same transmittances as Embree's filters.
 void expectSameTransmittance(const std::string& rayTracing) {
   const Compiled scene = unit::veils();
   unit::Inputs inputs(9);

@@ -1,4 +1,4 @@
-// How kernels read on a Vulkan device, for the time of a scope.
+// RAII: sets how kernels read on a Vulkan device, for a scope.
 #pragma once
 
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-// Kernels that read through texels and uniform blocks, as a driver in software is served best,
-// against the same kernels that read by addresses, as every other device does: the same bits.
+// Kernels that read through texels and uniform blocks (fastest for a software driver) against the
+// same kernels that read by addresses (every other device): the bits must be equal.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace restlab::parity {
 namespace {
 
-// The third frame, then a layer, whose buffers are allocated after it: they lie elsewhere.
+// Images of the third frame, then of a layer, whose buffers are allocated later and lie elsewhere.
 std::vector<Image> seenBy(const char* how, const std::string& scene, const Combination& what) {
   const Reads reads(how);
   Session session(sceneNamed(scene), configOf(what, kVulkanSpecialised, 64, 48, 11));
@@ -28,9 +28,9 @@ class ReadsTest : public testing::TestWithParam<Combination> {};
 
 TEST_P(ReadsTest, ByTexelsAndByAddressesGiveTheSameBits) {
   if (!hasVulkan()) GTEST_SKIP() << kNoDevice;
-  // Modes differ in weights, not in what is read.
+  // Modes differ in weights, not in reads.
   if (GetParam().mode != "unbiased") GTEST_SKIP() << "SKIPPED: of unbiased modes alone";
-  // All features; and a scene without most of them.
+  // A scene with all features, and one without most of them.
   for (const char* scene : {"everything", "cornell-box"}) {
     SCOPED_TRACE(scene);
     const std::vector<Image> texels = seenBy("texels", scene, GetParam());
@@ -45,7 +45,7 @@ TEST_P(ReadsTest, ByTexelsAndByAddressesGiveTheSameBits) {
   }
 }
 
-// Texels do not reach buffers that came after the first pass: its rays are read all the same.
+// Texels do not reach buffers allocated after the first pass: kernels must read those all the same.
 TEST(Reads, BuffersThatCameLaterAreRead) {
   if (!hasVulkan()) GTEST_SKIP() << kNoDevice;
   const Reads reads("texels");

@@ -1,4 +1,4 @@
-// Resampled importance sampling over a random surface a thread: random numbers, warps, GGX
+// Resampled importance sampling over one random surface per thread: random numbers, warps, GGX
 // reflection and transmission, and the streaming reservoir, on files that every integrator uses.
 #include "core/resampling/ris.glsl"
 
@@ -12,8 +12,8 @@ RL_FN vec3 parityRadiance(RL_IN(vec3) dirW) {
   return vec3(0.1f + 8.0f * cap, 0.2f + 4.0f * cap, 0.4f + 0.5f * dirW.x * dirW.x);
 }
 
-// A surface from the thread's own random numbers: diffuse under a rough dielectric or metallic
-// layer, every fourth one transmissive.
+// Makes a surface from the thread's own random numbers: diffuse under a rough dielectric or
+// metallic layer, every fourth one transmissive.
 RL_FN Bsdf parityBsdf(RL_IN(Rng) rng, uint pixelIndex) {
   Bsdf b;
   float u = rngDraw(rng, RL_DIM_LIGHT_SELECT);

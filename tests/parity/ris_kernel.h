@@ -1,4 +1,4 @@
-// Buffers and parameters of the parity kernel: what each thread decided and computed.
+// Buffers and parameters of the parity kernel: decisions and results of each thread.
 #ifndef RL_PARITY_RIS_H
 #define RL_PARITY_RIS_H
 
@@ -14,7 +14,7 @@ struct RisResult {
   float W;      // unbiased contribution weight
   float wSum;
   vec3 f;   // integrand of the selected candidate
-  vec3 wi;  // and its direction
+  vec3 wi;  // direction of the selected candidate
 };
 RL_STATIC_ASSERT_SIZE(RisResult, 40);
 

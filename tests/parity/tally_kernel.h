@@ -9,10 +9,10 @@
 RL_NAMESPACE_BEGIN
 
 struct TallyBuffers {
-  UintRef counts;    // of each bin: its pixels
-  UintRef greatest;  // the greatest of their hashes
-  UintRef claims;    // RL_INVALID at first, then one of its pixels
-  UintRef claimed;   // of each pixel: 1 where its claim came first
+  UintRef counts;    // by bin: number of its pixels
+  UintRef greatest;  // by bin: greatest hash of its pixels
+  UintRef claims;    // by bin: RL_INVALID at first, then one of its pixels
+  UintRef claimed;   // by pixel: 1 if its claim came first
 };
 
 struct TallyParams {

@@ -1,5 +1,5 @@
-// What caches need beside pixels: words that many pixels write in one pass, and passes over
-// entries.
+// Operations that caches need beyond pixels: words that many pixels write in one pass, and passes
+// over entries.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,11 +31,11 @@ struct Tally {
   std::vector<uint32_t> claimed = std::vector<uint32_t>(kPixels, 0);
 };
 
-// As rngHash() of the dialect: bins are even enough that every one has hundreds of pixels.
+// Bins follow rngHash() of the dialect, even enough that every bin has hundreds of pixels.
 void expectWhole(const Tally& tally, const Tally* same) {
   EXPECT_EQ(std::accumulate(tally.counts.begin(), tally.counts.end(), 0u), kPixels);
   EXPECT_GT(*std::min_element(tally.counts.begin(), tally.counts.end()), kPixels / kBins / 2);
-  // One pixel of each bin came first, and it is the one that stands there.
+  // One pixel of each bin came first, and `claims` holds that pixel.
   EXPECT_EQ(std::accumulate(tally.claimed.begin(), tally.claimed.end(), 0u), kBins);
   for (const uint32_t pixel : tally.claims) {
     ASSERT_LT(pixel, kPixels);
@@ -99,13 +99,13 @@ TEST(AtomicWords, AreThoseOfOneThreadOnManyAndOnADevice) {
   }
 }
 
-// A pass over entries covers their rows, whatever the size of the image. (The kernel copies what it
-// runs over.)
+// A pass over entries covers their rows, whatever the size of the image. (The kernel copies its
+// entries.)
 void expectEntriesCopied(const std::string& name) {
   const auto scene = sceneNamed("cornell-box");
   const auto backend = makeBackend(name, scene, {});
   constexpr uint32_t kEntries = 8 * rl::RL_ENTRY_ROW, kAll = 2 * kEntries;
-  constexpr uint32_t kWords = 4 * rl::RL_STREAM_QUADS;  // of an entry
+  constexpr uint32_t kWords = 4 * rl::RL_STREAM_QUADS;  // per entry
   std::vector<uint32_t> from(size_t(kAll) * kWords), to(from.size(), 0);
   std::iota(from.begin(), from.end(), 1u);
   PassRun pass{"stream", backend->maskFor("stream", 0), {}, std::vector<std::byte>(4), kEntries};

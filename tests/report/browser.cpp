@@ -30,11 +30,11 @@ double nowS() {
   return duration<double>(steady_clock::now().time_since_epoch()).count();
 }
 
-// In the child: the protocol's pipes are its descriptors 3 and 4.
+// Runs in the child: Chromium expects the protocol's pipes at descriptors 3 and 4.
 [[noreturn]] void becomeBrowser(const std::string& program, const fs::path& folder, int read,
                                 int write, int width, int height) {
   setpgid(0, 0);
-  // Above 4 first: either may be the other's place.
+  // Move both above 4 first: one may occupy the other's place.
   const int in = fcntl(read, F_DUPFD, 10), out = fcntl(write, F_DUPFD, 10);
   const int log = open((folder / "browser.log").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   const int none = ::open("/dev/null", O_RDONLY);
@@ -60,9 +60,9 @@ double nowS() {
       "--no-first-run",
       "--no-default-browser-check",
       "--mute-audio"};
-  // WebGL2 without a graphics processor, for the tests that ask for it.
+  // Enables WebGL2 without a GPU, for the tests that need it.
   words.push_back("--enable-unsafe-swiftshader");
-  // Chromium's own sandbox does not start for the superuser.
+  // Chromium's sandbox does not start for root.
   if (geteuid() == 0) words.push_back("--no-sandbox");
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
@@ -86,7 +86,7 @@ std::string findBrowser() {
 }
 
 Browser::Browser(const fs::path& folder, int width, int height) {
-  // A browser that has died is an error of write(), not a signal.
+  // Without this, writing to a dead browser would raise a signal instead of an error.
   signal(SIGPIPE, SIG_IGN);
   int toChild[2], fromChild[2];
   if (pipe2(toChild, O_CLOEXEC) != 0 || pipe2(fromChild, O_CLOEXEC) != 0) {
@@ -123,7 +123,7 @@ Browser::~Browser() { end(); }
 void Browser::end() {
   close(in_);
   close(out_);
-  // It ends when its pipe does; if not, its whole group is ended.
+  // The browser ends when its pipe closes; otherwise kill its whole process group.
   for (int i = 0; i < 50; ++i) {
     if (waitpid(child_, nullptr, WNOHANG) != 0) {
       child_ = -1;
@@ -164,7 +164,7 @@ void Browser::note(const Json& event) {
     const std::string url = parameters["request"]["url"];
     if (url != opened_) requests_.push_back(url);
   }
-  // That it is slow here is known: a picture made by software is read back.
+  // Ignore warnings about slow readback of a software-rendered picture.
   if (parameters.dump().find("GL Driver Message (OpenGL, Performance") != std::string::npos) return;
   if (method == "Runtime.exceptionThrown") complaints_.push_back(parameters.dump());
   if (method == "Runtime.consoleAPICalled" &&
@@ -264,7 +264,7 @@ void Browser::wheel(double x, double y, double deltaY) {
 void Browser::sendKey(const char* type, const std::string& key, const std::string& code,
                       bool shift) {
   Json event = {{"type", type}, {"key", key}, {"code", code}, {"modifiers", shift ? 8 : 0}};
-  // What the browser itself does at a key (a click, a dialog that closes) goes by its number.
+  // Default actions of the browser (a click, closing a dialog) depend on the key's number.
   static const std::map<std::string, int> numbers = {
       {"Enter", 13}, {"Escape", 27}, {"End", 35}, {"ArrowLeft", 37}, {"ArrowRight", 39}};
   const auto number = numbers.find(key);

@@ -1,4 +1,4 @@
-// The page itself in a browser: tables, text of others, light and dark.
+// Page of a report in a browser: tables, hostile text, light and dark.
 #include "experiments/report/report_html.h"
 #include "tests/report/page.h"
 
@@ -20,7 +20,7 @@ TEST_F(ReportPage, TableSortsByNumbersAndNanStaysLast) {
   const Names original = {"path", "gi biased", "gi unbiased", "broken"};
   EXPECT_EQ(methods(), original);
 
-  // The time: lower is better, so the first click goes up. As text, 100 would stand before 70.
+  // Time: lower is better, so the first click sorts ascending. As text, 100 would precede 70.
   click(head(2) + " button");
   EXPECT_EQ(methods(), (Names{"gi biased", "path", "gi unbiased", "broken"}));
   EXPECT_EQ(attribute(head(2), "aria-sort"), "ascending");
@@ -28,7 +28,7 @@ TEST_F(ReportPage, TableSortsByNumbersAndNanStaysLast) {
   EXPECT_EQ(methods(), (Names{"broken", "gi unbiased", "path", "gi biased"}));
   EXPECT_EQ(attribute(head(2), "aria-sort"), "descending");
 
-  // MSE: NaN last both ways.
+  // MSE: NaN stays last both ways.
   click(head(3) + " button");
   EXPECT_EQ(methods(), (Names{"gi biased", "gi unbiased", "path", "broken"}));
   EXPECT_EQ(attribute(head(2), "aria-sort"), "none");
@@ -38,7 +38,7 @@ TEST_F(ReportPage, TableSortsByNumbersAndNanStaysLast) {
   EXPECT_EQ(methods(), original) << "the third click";
   EXPECT_EQ(attribute(head(3), "aria-sort"), "none");
 
-  // The ratio: higher is better. Cells that are missing stay last, in their order.
+  // Ratio: higher is better. Missing cells stay last, in their order.
   click(head(4) + " button");
   EXPECT_EQ(methods(), (Names{"gi biased", "gi unbiased", "path", "broken"}));
   EXPECT_EQ(attribute(head(4), "aria-sort"), "descending");
@@ -109,7 +109,7 @@ TEST_F(ReportPage, ReportWithoutImagesWorks) {
   EXPECT_EQ(texts("#b-second .results tbody .method").front(), "gi biased");
 }
 
-// Programs that take a picture of the page do not scroll; images that nobody sees cost nothing.
+// Programs that take a screenshot do not scroll; viewers outside of the window cost nothing.
 TEST_F(ReportPage, FirstImagesOpenAtOnceAndOthersWhenNear) {
   ReportModel model = sampleModel(folder_.path());
   model["blocks"][1]["images"] = model["blocks"][0]["images"];

@@ -1,4 +1,4 @@
-// Crop strips: pictures and frames where they belong, pixels unblurred, text as text.
+// Crop strips: pictures and frames at their places, pixels unblurred, text as text.
 #include "experiments/report/figure.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 namespace restlab::report_test {
 namespace {
 
-// A PNG read by another library.
+// Decodes a PNG by another library.
 Picture decodePng(const std::string& bytes) {
   int width = 0, height = 0, channels = 0;
   unsigned char* data = stbi_load_from_memory(reinterpret_cast<const unsigned char*>(bytes.data()),
@@ -97,7 +97,7 @@ TEST_F(FigureTest, SvgHasTheCropsOfEachImage) {
   const auto picture = [&](size_t i) {
     return decodePng(decodeBase64(images[i]->attributes.at("href").substr(prefix.size())));
   };
-  // Column by column; 8 output pixels a pixel.
+  // Pictures come column by column, with 8 output pixels per pixel.
   EXPECT_EQ(picture(2).width, 16u * 8u);
   EXPECT_EQ(pixelOf(picture(2), 8 * 5 + 3, 8 * 7 + 1), srgbOf(path_, 45, 27, 1.5f));
   EXPECT_EQ(pixelOf(picture(3), 8 * 5 + 3, 8 * 7 + 1), srgbOf(reference_, 15, 15, 1.5f));
@@ -108,7 +108,7 @@ TEST_F(FigureTest, SvgHasTheCropsOfEachImage) {
 TEST_F(FigureTest, FramesAreWhereTheCropsAre) {
   const Figure figure = layOutFigure(spec_);
   const FigurePicture& full = figure.pictures[0];
-  // Each crop: a white frame and a coloured one in it.
+  // Each crop has a white frame with a coloured one inside.
   const FigureFrame& frame = figure.frames[3];
   const double scale = full.height / 36.0;
   EXPECT_NEAR(frame.x - full.x, 40.0 * scale, 1e-9);
@@ -161,7 +161,7 @@ TEST_F(FigureTest, PngIsTheSamePicture) {
   const FigurePicture& crop = figure.pictures[2];
   EXPECT_EQ(pixelOf(png, crop.x + 8 * 5 + 3, crop.y + 8 * 7 + 1), srgbOf(path_, 45, 27, 1.5f));
   EXPECT_EQ(pixelOf(png, crop.x - 1, crop.y + 20), (std::vector<int>{0x56, 0xb4, 0xe9})) << "frame";
-  // Some ink where the label is.
+  // The label has some dark pixels.
   const FigureText& label = figure.texts[1];
   size_t dark = 0;
   for (double x = label.x - 20; x < label.x + 20; x += 1.0) {

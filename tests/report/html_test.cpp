@@ -1,4 +1,4 @@
-// report.html as a file: whole or not at all, escaped, limits said.
+// report.html as a file: complete or missing, escaped, limits stated.
 #include <gtest/gtest.h>
 
 #include "core/error.h"
@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 class HtmlTest : public testing::Test {
  protected:
-  // report.html of a model.
+  // Writes the report of a model and returns report.html.
   std::string report(const ReportModel& model) const {
     writeReport(folder_.path(), model);
     return readFile(folder_.path() / "report.html");
@@ -33,7 +33,7 @@ class HtmlTest : public testing::Test {
       EXPECT_EQ(entry.path().filename(), "images") << "something was left behind";
     }
   }
-  // What stands between two marks of a text.
+  // Returns the text between two marks.
   static std::string between(const std::string& text, const std::string& from,
                              const std::string& to) {
     const size_t begin = text.find(from);
@@ -80,7 +80,7 @@ TEST_F(HtmlTest, FetchesNothing) {
        {"src=", "@import", "url(", "fetch(", "XMLHttpRequest", "<link", "import("}) {
     EXPECT_EQ(html.find(word), std::string::npos) << word;
   }
-  // The only address in it is the name space of SVG, which is never asked for.
+  // The only address is the namespace of SVG, which is never requested.
   EXPECT_EQ(occurrences(html, "://"), occurrences(html, "http://www.w3.org/2000/svg"));
   EXPECT_NE(html.find("default-src 'none'"), std::string::npos);
 }
@@ -104,7 +104,7 @@ TEST_F(HtmlTest, TextIsHarmless) {
   const std::string html = report(model);
   EXPECT_EQ(html.find("<img"), std::string::npos);
   EXPECT_EQ(html.find("<b>"), std::string::npos);
-  // Every script that begins ends once: nothing in the data ended one.
+  // Each script that begins ends once: no data ended one early.
   EXPECT_EQ(occurrences(html, "<script"), occurrences(html, "</script>"));
   EXPECT_EQ(occurrences(html, "<script"), occurrences(report(model_), "<script"));
 }
@@ -119,7 +119,7 @@ TEST_F(HtmlTest, TheFirstColumnSaysWhatRowsAre) {
   EXPECT_NE(head(other).find(">quantity"), std::string::npos) << head(other);
 }
 
-// The list of contents stays short: parts stand under what they are parts of.
+// The contents stay short: parts are listed under their whole.
 TEST_F(HtmlTest, PartsAreListedUnderTheirWhole) {
   const auto contents = [&](const ReportModel& model) {
     return between(report(model), "<nav aria-label=\"Contents\">", "</nav>");
@@ -148,7 +148,8 @@ TEST_F(HtmlTest, NotesStandAboveTheTable) {
 
 TEST_F(HtmlTest, BestOfThoseThatCount) {
   const std::string html = report(model_);
-  // Of the times 70, 8 (does not count), 86, 100, and of MSE and its ratio.
+  // Only the times (70, 8 that does not count, 86, 100) have a best: intervals of MSE overlap, and
+  // its ratio has a single value that counts.
   const std::string table = between(html, "<table class=\"results\">", "</table>");
   EXPECT_EQ(occurrences(table, "num best\""), 1u)
       << "a single value has no best, nor have values that their intervals do not tell apart";

@@ -1,4 +1,4 @@
-// The contract: what a model must be, and that an error names the field.
+// Checks of the report model: errors name the wrong field.
 #include "experiments/report/report_model.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 struct Wrong {
   const char* name;
   const char* pointer;  // RFC 6901
-  const char* value;    // JSON; "" removes what stands there
+  const char* value;    // JSON; "" removes the member
   const char* line;
 };
 

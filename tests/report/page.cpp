@@ -20,7 +20,7 @@ std::string element(const std::string& selector) {
   return "document.querySelector(" + quoted(selector) + ")";
 }
 
-// A number as the page writes it.
+// Parses a number as the page writes it.
 float parse(const std::string& word) {
   if (word == "NaN") return std::numeric_limits<float>::quiet_NaN();
   if (word == "+Inf") return std::numeric_limits<float>::infinity();
@@ -134,7 +134,7 @@ Status PageTest::status() {
 }
 
 std::vector<int> PageTest::canvasBytes(Position at, int around) {
-  // On a canvas of its own: reading from the page's would change how the browser draws it.
+  // Read a copy: reading the page's canvas would change how the browser draws it.
   return browser_->evaluate(fmt::format(
       "(() => {{ const c = document.querySelector('.stage canvas'); const b = "
       "c.getBoundingClientRect(); const one = new OffscreenCanvas({2}, {2}).getContext('2d'); "

@@ -1,5 +1,5 @@
-// What colours the pictures of a viewer: new versions of images, images without data, overlays, and
-// WebGL2 beside the tables.
+// Colouring of a viewer's pictures: new versions of images, images without data, overlays, and
+// WebGL2 compared with the tables.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,8 +23,9 @@ class PainterTest : public PageTest {
       images_.push_back(readExr(file).layers.at(""));
     }
   }
-  // The value of the body of a function that has the viewer, its painter and these helpers:
-  // bytes(layer) of a canvas; state(change); renew(i, data) gives image i a new version.
+  // Returns the value of the body of a function that can use the viewer, its painter and these
+  // helpers: bytes(layer) reads a canvas; state(change); renew(i, data) gives image i a new
+  // version.
   Json page(const std::string& body) {
     const Json value = browser_->evaluate(R"((async () => {
       const viewer = document.querySelector('.viewer').viewer, {painter, images} = viewer;
@@ -46,7 +47,7 @@ class PainterTest : public PageTest {
   std::vector<Image> images_;  // reference, path, gi
 };
 
-// The byte of an sRGB picture (IEC 61966-2-1).
+// Byte of an sRGB picture (IEC 61966-2-1).
 int srgb(float linear) {
   if (!(linear > 0.0f)) return 0;
   const double x = double(linear);
@@ -67,7 +68,7 @@ TEST_F(PainterTest, EveryByteIsTheSrgbOfTheFile) {
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) continue;
         for (int c = 0; c < 3; ++c) {
           const float shown = float(2.0 * std::exp2(stops)) * p[c];
-          // A float may lie so near a border that both levels are right.
+          // A value close to a level's border may round to either level.
           const int near[] = {srgb(shown * (1.0f - 1e-6f)), srgb(shown * (1.0f + 1e-6f))};
           const int byte = bytes[4 * k + size_t(c)];
           ASSERT_TRUE(byte == near[0] || byte == near[1])
@@ -94,13 +95,13 @@ TEST_F(PainterTest, NewVersionChangesPictureAndError) {
   const double first = evaluateMetric("mae", half, images_[0]).value;
   EXPECT_NEAR(std::stod(text(kMean)), first, 0.006 * first);
   const std::vector<int> shown = canvasColour(at);
-  // Into the memory of the same array, too.
+  // Change the data within the same array, too.
   page("renew(1, images[1].data.map(value => 3 * value)); viewer.set({});");
   for (glm::vec3& pixel : half.pixels) pixel *= 3.0f;
   const double second = evaluateMetric("mae", half, images_[0]).value;
   EXPECT_NEAR(std::stod(text(kMean)), second, 0.006 * second);
   EXPECT_NE(canvasColour(at), shown);
-  // The error changes with a new version of the reference as well.
+  // A new version of the reference changes the error, too.
   page("renew(0, Float32Array.from(images[1].data)); viewer.set({});");
   EXPECT_EQ(text(kMean), "0");
 }
@@ -120,7 +121,8 @@ TEST_F(PainterTest, MovingColoursNothing) {
 }
 
 TEST_F(PainterTest, RangeOfErrorsIsSteady) {
-  // Factors on the error of both methods: each is a new version. The range after each.
+  // Scales the error of both methods by each factor, a new version each time, and returns the range
+  // after each.
   const auto ranges = [&](const std::string& factors) {
     return page(
                "state({error: 'absolute', compare: 0, stops: 0});"
@@ -206,7 +208,7 @@ TEST_F(PainterTest, OverlayHasItsOwnColours) {
   EXPECT_EQ(seen, (Json{nullptr, nullptr, age, age, difference, nullptr, nullptr}));
 }
 
-// Names by the colours of `render --aov --png`, so that neighbours in number are not alike.
+// IDs have the colours of `render --aov --png`, which differ even for consecutive numbers.
 TEST_F(PainterTest, LayersOfNamesHaveAColourEach) {
   const std::vector<float> names = {0.0f, 1.0f, 2.0f, 70001.0f, 1.0f, 16777215.0f};
   Image given(uint32_t(names.size()), 1);
@@ -234,7 +236,7 @@ TEST_F(PainterTest, LayersOfNamesHaveAColourEach) {
   EXPECT_EQ(seen[2], ": one colour a number");
 }
 
-// x, y and z by themselves: no sum of them says which way a normal points.
+// Each component has its own colour: no sum shows where a normal points.
 TEST_F(PainterTest, LayersOfVectorsShowTheirComponents) {
   const Json seen = page(R"(
     const count = images[1].width * images[1].height, view = {image: 1, isError: false};
@@ -261,8 +263,8 @@ TEST_F(PainterTest, LayersOfVectorsShowTheirComponents) {
   EXPECT_EQ(seen[6][2], "0 " + std::to_string(srgb(float(page("return painter.factor;")))) + " 0");
 }
 
-// Pictures by tables and by WebGL2: [most that a byte differs by, bytes where it is more than 1,
-// bytes that differ].
+// Compares pictures made by tables and by WebGL2. Returns [largest difference of a byte, number of
+// bytes that differ by more than 1, number of bytes that differ].
 constexpr const char* kCompare = R"(
   const compare = (i, isError) => {
     const pictures = ['2d', 'webgl2'].map(kind => {
@@ -287,7 +289,7 @@ TEST_F(PainterTest, WebGlPaintsTheSame) {
       const Json image = page(start + fmt::format("return compare({}, false);", i));
       EXPECT_LE(image[0], 1) << "sRGB, image " << i;
       EXPECT_LE(image[2], kSampleWidth * kSampleHeight / 100) << "and that seldom";
-      // One step of a map is at most six levels; where it is, rounding went the other way.
+      // Rounding may select the next colour of a map, which differs by at most six levels.
       const auto expectNear = [&](const Json& found, const std::string& what) {
         EXPECT_LE(found[0], 6) << what;
         EXPECT_LE(found[1], kSampleWidth * kSampleHeight / 500) << what;

@@ -1,4 +1,4 @@
-// Images inside the report: lossless, and which part of them.
+// Images inside the report: lossless encoding, and the choice of crops.
 #include "experiments/report/pixels.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ bool sameBits(const Image& a, const Image& b) {
 Crop whole(const Image& image) { return {0, 0, image.width, image.height}; }
 
 TEST(PackPixels, KeepsEveryBit) {
-  // All bit patterns there are, NaN payloads and denormals among them.
+  // Random bit patterns, including NaN payloads and denormals.
   Image image(37, 19);
   std::mt19937 random(7);
   for (glm::vec3& pixel : image.pixels) {

@@ -1,4 +1,4 @@
-// Plots and bars: well-formed, marks where the numbers say, text harmless.
+// Plots and bars: well-formed, marks at the right places, text escaped.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,7 +27,7 @@ PlotSpec logPlot() {
   return plot;
 }
 
-// Where a value must be drawn, from the axis's own ends.
+// Returns where a value must be drawn, from the ends of the axis.
 double expectedX(const PlotSpec& plot, double value) {
   const Axis axis = plotAxisX(plot);
   const double at = plot.x.log ? std::log10(value / axis.lo) / std::log10(axis.hi / axis.lo)
@@ -153,7 +153,7 @@ TEST(Plot, NothingToShow) {
   EXPECT_EQ(findAll(one, "path", "whisker").size(), 1u) << "a single point has whiskers";
 }
 
-// Errors of an image without noise differ by rounding alone.
+// Errors of a noise-free image differ by rounding only.
 TEST(Plot, ValuesThatDifferByRoundingHaveTicks) {
   for (const bool log : {false, true}) {
     const double value = 1.43e-5;
@@ -209,7 +209,7 @@ TEST(AxisTicks, LabelsOfDecades) {
   for (const Tick& tick : axisTicks(axis)) {
     if (!tick.label.empty()) labels.push_back(tick.label + tick.exponent);
   }
-  // Every second of many decades; raised exponents where digits would be long.
+  // With many decades every second one is labelled; long numbers use raised exponents.
   const std::string minus = "\xe2\x88\x92";
   const std::vector<std::string> expected = {
       "10" + minus + "6", "10" + minus + "4", "0.01", "1", "100", "10000"};

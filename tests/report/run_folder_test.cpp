@@ -1,5 +1,5 @@
-// The report of a folder that `run` left, from the program to the browser: its numbers are those of
-// summary.csv and of the EXRs.
+// Report of a folder made by `run`, tested from the program to the browser: its numbers match
+// summary.csv and the EXRs.
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -52,7 +52,7 @@ class RunFolder : public PageTest {
     ASSERT_EQ(std::system(command.c_str()), 0);
     openFile(folder_.path() / "out/report.html");
   }
-  // A column of summary.csv, which has no quotes before it, by method.
+  // Returns a column of summary.csv with the methods. Requires that no column before it has quotes.
   std::vector<std::pair<double, std::string>> column(const std::string& name) const {
     std::ifstream in(folder_.path() / "out/summary.csv");
     const auto cells = [&] {
@@ -126,7 +126,7 @@ TEST_F(RunFolder, PixelsAreThoseOfTheFiles) {
 }
 
 TEST_F(RunFolder, HasItsParts) {
-  // Over time, over frames, of single frames, bars.
+  // Plots over time, over frames and of single frames; bars.
   EXPECT_EQ(browser_->evaluate("document.querySelectorAll('figure svg').length"), 4);
   const std::string page = text("body");
   for (const char* words : {"ssim", "Are these the numbers?", "bias^2 / MSE", "nonfinite",

@@ -57,7 +57,7 @@ Image noisy(const Image& image, float strength, uint32_t seed) {
   Image out = image;
   for (glm::vec3& pixel : out.pixels) {
     const float u = float(random() % 65536) / 65536.0f;
-    // Rare and large: what a path tracer's noise looks like.
+    // Rare and large values, like the noise of a path tracer.
     pixel *= 1.0f + strength * (u > 0.9f ? 6.0f * (u - 0.5f) : -0.3f);
   }
   return out;
@@ -77,7 +77,7 @@ std::vector<glm::vec3> specialPixels() {
 
 namespace {
 
-// Of braces alone the library would make an object of a list of pairs, or nothing of a list of one.
+// From braces alone the library would make an object of a list of pairs, and drop a list of one.
 ReportModel list(std::initializer_list<ReportModel> items) {
   ReportModel array = ReportModel::array();
   for (const ReportModel& item : items) array.push_back(item);

@@ -1,4 +1,4 @@
-// A small report with every part of one: known numbers, known pixels.
+// Small report that has every part of a report: known numbers, known pixels.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace restlab::report_test {
 
-// A folder that is removed in the end.
+// RAII: a temporary folder.
 class TemporaryFolder {
  public:
   TemporaryFolder();
@@ -26,18 +26,19 @@ std::string readFile(const std::filesystem::path& file);
 
 void writeImage(const std::filesystem::path& file, const Image& image);
 
-// Smooth, with a bright corner; every pixel differs.
+// Smooth image with a bright corner; every pixel differs.
 Image sampleReference(uint32_t width, uint32_t height);
-// The reference with noise of `strength`, the same for the same seed.
+// Returns the image with noise of `strength`, identical for the same seed.
 Image noisy(const Image& image, float strength, uint32_t seed);
 
-// Pixels of the third image of the sample that hold NaN, +Inf, -Inf, a negative and a denormal
-// number, -0 and the largest float: pixel i is at x = 3 + i, y = 5.
+// Pixels of the sample's third image that hold NaN, +Inf, -Inf, a negative and a denormal number,
+// -0 and the largest float: pixel i is at x = 3 + i, y = 5.
 std::vector<glm::vec3> specialPixels();
 
 constexpr uint32_t kSampleWidth = 64, kSampleHeight = 36;
 
-// Two blocks, "first" and "second"; the first has everything. Writes images/*.exr below `folder`.
+// Model of two blocks, "first" and "second"; the first has every part. Writes images/*.exr below
+// `folder`.
 ReportModel sampleModel(const std::filesystem::path& folder);
 
 }  // namespace restlab::report_test

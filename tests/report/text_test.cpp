@@ -1,4 +1,4 @@
-// Text of others inside markup and scripts.
+// Tests of hostile text inside markup and scripts, and of formatted numbers.
 #include "experiments/report/text.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The image viewer of a report, driven by real events: what it shows are the numbers of the EXRs.
+// Image viewer of a report, driven by real events: it must show the numbers of the EXRs.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -26,8 +26,8 @@ class ViewerTest : public PageTest {
     settle();
   }
   double scale() { return std::stod(state("scale")); }
-  // Real wheel steps at a position until the image is magnified so far. (A busy browser may drop
-  // one.)
+  // Turns the wheel at a position until the image is magnified enough. A busy browser may drop a
+  // step.
   void zoomTo(Position at, double wanted) {
     for (int i = 0; i < 60 && scale() < wanted; ++i) browser_->wheel(at.x, at.y, -240.0);
     ASSERT_GE(scale(), wanted);
@@ -37,7 +37,7 @@ class ViewerTest : public PageTest {
   Image reference_, path_, gi_;
 };
 
-// The byte of an sRGB picture (IEC 61966-2-1).
+// Byte of an sRGB picture (IEC 61966-2-1).
 int srgb(float linear) {
   if (!(linear > 0.0f)) return 0;
   const double encoded =
@@ -66,7 +66,7 @@ TEST_F(ViewerTest, StatusLineSaysTheFilesNumbers) {
     const Status status = this->status();
     EXPECT_EQ(status.x, x);
     EXPECT_EQ(status.y, y);
-    // Equal, not near: the shortest text that names the float.
+    // Exactly equal: the text is the shortest that names the float.
     EXPECT_EQ(status.values.at("path"), floats(path_.at(uint32_t(x), uint32_t(y))));
     EXPECT_EQ(status.values.at("reference"), floats(reference_.at(uint32_t(x), uint32_t(y))));
   }
@@ -177,7 +177,7 @@ TEST_F(ViewerTest, WheelZoomsAboutThePointer) {
 }
 
 TEST_F(ViewerTest, NumbersStandInLargePixels) {
-  // Colours inside one image pixel of the canvas: one, until its numbers are drawn there.
+  // Counts the colours inside one image pixel: one, until its numbers are drawn there.
   const auto colours = [&](Position at) {
     std::set<std::vector<int>> found;
     const std::vector<int> bytes = canvasBytes(at, 4);
@@ -224,7 +224,7 @@ TEST_F(ViewerTest, WipeFollowsTheDivider) {
   pointAt(10, 30);
   EXPECT_EQ(status().values.count("path"), 0u) << "the pointer is over the reference";
   screenshot("wipe");
-  // By keyboard too.
+  // By keyboard, too.
   browser_->evaluate("document.querySelector('.divider').focus()");
   press("End", "End");
   EXPECT_EQ(attribute(".divider", "aria-valuenow"), "100");
@@ -240,7 +240,7 @@ TEST_F(ViewerTest, SideBySideIsOneZoom) {
         "w.width, w.height]); })()");
   };
   const Json first = views()[0], last = views()[2];
-  // At 3/4 and 1/2 of the first view.
+  // Position at 3/4 and 1/2 of the first view.
   const Position at = {double(first[0]) + 0.75 * double(first[2]),
                        double(first[1]) + 0.5 * double(first[3])};
   zoomTo(at, 60.0);

@@ -42,7 +42,7 @@ class Parser {
     if (at_ == begin) fail("expected a name");
     return std::string(text_.substr(begin, at_ - begin));
   }
-  // Characters up to `end`, which is not taken.
+  // Reads characters up to `end`, which is not consumed.
   std::string characters(char end) {
     std::string out;
     while (peek() != end) {

@@ -1,4 +1,4 @@
-// A strict parser of the XML that plots are: elements, attributes, text, the five entities.
+// Strict parser for the XML of plots: elements, attributes, text, the five entities.
 #pragma once
 
 #include <map>
@@ -9,7 +9,7 @@
 namespace restlab::report_test {
 
 struct XmlElement {
-  std::string name, text;  // text: all of it, without that of children
+  std::string name, text;  // text: without the text of children
   std::map<std::string, std::string> attributes;
   std::vector<XmlElement> children;
 
@@ -17,14 +17,14 @@ struct XmlElement {
   bool hasClass(const std::string& word) const;
 };
 
-// Throws std::runtime_error at anything that is not well formed.
+// Throws std::runtime_error if `text` is not well-formed.
 XmlElement parseXml(std::string_view text);
 
-// All elements of this name below `root`, in document order.
+// Returns all elements of this name below `root`, in document order.
 std::vector<const XmlElement*> findAll(const XmlElement& root, const std::string& name,
                                        const std::string& cssClass = "");
 
-// "x,y x,y ..." as pairs.
+// Parses "x,y x,y ..." into pairs.
 std::vector<std::pair<double, double>> pointList(const std::string& text);
 
 }  // namespace restlab::report_test

@@ -29,7 +29,7 @@ TEST(ImageSum, VarianceOfTheMean) {
   for (const float value : {1.0f, 2.0f}) a.add(constant(value));
   for (const float value : {3.0f, 4.0f}) b.add(constant(value));
   for (const float value : {1.0f, 3.0f, 2.0f, 4.0f}) squares.addSquares(constant(value));
-  // Samples 1 2 3 4: variance 5/3, of the mean 5/12.
+  // Samples 1 2 3 4: variance 5/3, variance of the mean 5/12.
   const Image variance = ImageSum::varianceOfMean(a, b, squares);
   EXPECT_NEAR(variance.at(0, 0).x, 5.0 / 12.0, 1e-6);
   EXPECT_NEAR(variance.at(0, 0).y, 4.0 * 5.0 / 12.0, 1e-6);
@@ -50,8 +50,8 @@ TEST(HistoryMean, OfFramesThatStandAloneIsTheirMean) {
   EXPECT_EQ(history.mean().at(0, 0), glm::vec3(3.0f, 6.0f, 0.0f));
 }
 
-// Frames are exponential averages of samples. Here each sample stands in a pixel of its own, so
-// that the pixels of the accumulated image are the weights of the samples.
+// Frames are exponential averages of samples. Each sample has its own pixel, so the pixels of the
+// accumulated image are the weights of the samples.
 TEST(HistoryMean, WeighsSamplesOfAveragesAlike) {
   constexpr uint32_t kAll = 96, kAveraged = 21;
   HistoryMean history(kAveraged);

@@ -1,4 +1,4 @@
-// The images of a block.
+// Exposure of the preview images of a block.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Verdicts of intervals, and what makes two folders' numbers unlike things.
+// Verdicts of intervals, and which differences make two folders incomparable.
 #include "experiments/runner/compare/compare_folders.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ TEST(CompareFolders, AVerdictNeedsAnIntervalThatLeavesOutOne) {
   EXPECT_EQ(verdictOf({1.0, 0.9, 1.1}), Verdict::notToldApart);
   EXPECT_EQ(verdictOf({1.0, 1.0, 1.0}), Verdict::same);
   EXPECT_EQ(verdictOf({0.5, 0.5, 0.5}), Verdict::better);
-  // What is not known is not worse, nor better.
+  // An unknown or unbounded ratio is neither worse nor better.
   EXPECT_EQ(verdictOf({1.2, -kInfinity, kInfinity}), Verdict::notToldApart);
   EXPECT_EQ(verdictOf({1.2, kUnknown, kUnknown}), Verdict::notToldApart);
   EXPECT_EQ(verdictOf({0.4, -0.1, 0.9}), Verdict::notToldApart);
@@ -27,8 +27,8 @@ TEST(CompareFolders, AVerdictNeedsAnIntervalThatLeavesOutOne) {
   EXPECT_EQ(verdictOf({kUnknown, kUnknown, kUnknown}), Verdict::notToldApart);
 }
 
-// The same times twice, spread by a tenth: of 4000 pairs of sets of 2 runs 1.5 % were worse and
-// 1.3 % better, of 8 runs 1.9 and 2.6 %.
+// Compares equal distributions of times with a spread of a tenth: of 4000 pairs of sets of 2 runs
+// 1.5 % were worse and 1.3 % better, of 8 runs 1.9 and 2.6 %.
 TEST(CompareFolders, EqualTimesAreRarelyWorse) {
   std::mt19937_64 random(5);
   std::lognormal_distribution<double> time(0.0, 0.1);
@@ -57,7 +57,7 @@ TEST(CompareFolders, SettingsMakeThingsUnlikeTheRestIsSaid) {
   EXPECT_TRUE(differencesOf(before, after).empty());
   after["max_bounces"] = "2";
   after["seeds"] = "9-16";
-  after["new_parameter"] = "1";  // that the older program did not know
+  after["new_parameter"] = "1";  // unknown to the older program
   after["reference"] = "(key 89abcdef, 64 spp, pixels 1)";
   const auto differences = differencesOf(before, after);
   ASSERT_EQ(differences.size(), 4u);

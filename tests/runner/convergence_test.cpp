@@ -1,5 +1,5 @@
-// Fitted lines on runs whose truth is known, how often their intervals hold it, and how often a
-// line is called none.
+// Fitted lines on runs whose truth is known: how often the intervals hold it, and how often a line
+// is rejected as a fit.
 #include "experiments/runner/summary/convergence.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ TEST(Convergence, WhatIsNotAboveTheNoiseIsNotFitted) {
   EXPECT_FALSE(curve->points.back().isFitted);
   EXPECT_EQ(curve->fitted(), 6u);
   EXPECT_NEAR(curve->slope.value, -1.0, 1e-12);
-  // 8, 4, 2, 1, 0.5, 0.25: two of them stand in the reference's noise.
+  // 8, 4, 2, 1, 0.5, 0.25: the last two are below the reference's noise.
   EXPECT_EQ(convergenceOf(runs, noiseBelow(0.5))->fitted(), 4u);
   EXPECT_FALSE(convergenceOf(std::vector<RunResult>(3)).has_value()) << "nothing was accumulated";
   EXPECT_FALSE(convergenceOf({}).has_value());
@@ -44,7 +44,8 @@ TEST(Convergence, WhatIsNotAboveTheNoiseIsNotFitted) {
   EXPECT_EQ(one->fitted(), 7u);
 }
 
-// A spread so large that the interval of the mean holds 0 says nothing of the reference.
+// A large spread of the runs does not count as noise of the reference, even if the interval holds
+// 0.
 TEST(Convergence, SpreadOfRunsLeavesNoPointOut) {
   auto runs = runsOf(1, {.scale = 8.0, .frameMs = 10.0});
   for (AccumulatedError& point : runs[0].accumulated) point.error.mse *= 100.0;
@@ -64,13 +65,13 @@ TEST(Convergence, FallingIsWhatTheIntervalSays) {
 }
 
 TEST(Convergence, CurvesThatAreNoLinesAreSaid) {
-  // Falls fast, then stands: frames that share their samples.
+  // Falls fast, then stays constant, like frames that share their samples.
   const auto bent = convergenceOf(runsOf(1, {.noise = 0.02, .floor = 0.2}));
   EXPECT_TRUE(bent->isNoLine);
   EXPECT_GT(bent->misfit, 0.08) << "a fifth";
-  // A bend that is smaller than the spread of the runs is none that could be seen.
+  // A bend smaller than the spread of the runs cannot be seen.
   EXPECT_FALSE(convergenceOf(runsOf(1, {.noise = 2.0, .floor = 0.01}))->isNoLine);
-  // Nor does it matter where it is below 5 %, however well it is known.
+  // A bend below 5 % does not matter, however precisely it is known.
   EXPECT_FALSE(convergenceOf(runsOf(1, {.noise = 1e-6, .floor = 1e-3}))->isNoLine);
 }
 
@@ -86,7 +87,7 @@ TEST(AccumulatedCurve, InterpolatesBetweenItsPoints) {
 }
 
 // Over 1000 sets of runs of a correct estimator, with these seeds: the slope's interval held the
-// truth 955 times, a line was called none 54 times.
+// truth 955 times, and a line was rejected as a fit 54 times.
 TEST(Convergence, IntervalsHoldTheTruthAsOftenAsTheySay) {
   int slopes = 0, none = 0;
   constexpr int kSets = 1000;
@@ -101,9 +102,9 @@ TEST(Convergence, IntervalsHoldTheTruthAsOftenAsTheySay) {
   EXPECT_LE(none, 78);
 }
 
-// The reference's noise moves all points of all runs of both methods by the same: here by a third
-// of the last error of the second. Over 1000 sets slope and speed-up held the truth in 96.4
-// and 96.7 %; by the jackknife alone in 35.7 and 39.1 %.
+// The reference's noise moves all points of all runs of both methods by the same amount: here by a
+// third of the last error of the second method. Over 1000 sets slope and speed-up held the truth in
+// 96.4 and 96.7 %; with the jackknife alone in 35.7 and 39.1 %.
 TEST(Convergence, IntervalsKnowOfTheReferencesNoise) {
   constexpr int kSets = 1000;
   constexpr double kNoise = 0.005;
@@ -134,8 +135,8 @@ TEST(Convergence, IntervalsKnowOfTheReferencesNoise) {
   EXPECT_GE(ratios, 930);
 }
 
-// Of a biased method's accumulation the bound of its runs counts; where lines of before have none,
-// nothing is known.
+// For a biased method the bound of its runs counts; if older lines lack it, the interval is
+// unknown.
 TEST(Convergence, BoundOfRunsWhereTheMethodIsBiased) {
   auto runs = runsOf(1, {.scale = 8.0, .frameMs = 10.0});
   for (RunResult& run : runs) run.accumulated[0].error.mseVarianceAtMost = 0.04;

@@ -1,4 +1,4 @@
-// Locks of folders where the file system has none, as some network ones: flock() is replaced.
+// Folder locks on file systems without locks, like some network ones: flock() is replaced.
 #include "experiments/runner/run/folder_lock.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 #include "tests/runner/temporary_folder.h"
 
 namespace {
-int reason = 0;  // of the failure; 0: the system's own
+int reason = 0;  // of the failure; 0: calls the system's flock
 }
 
 extern "C" int flock(int file, int operation) {

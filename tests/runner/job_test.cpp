@@ -1,4 +1,4 @@
-// What a job's key depends on, and what of a run survives the way to disk and back.
+// Inputs of a job's key, and writing and reading a run.
 #include "experiments/runner/run/job.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,4 @@
-// [[event]] of suites: what is read, what is refused, which scene a frame shows, and what of it is
-// in keys.
+// [[event]] of suites: parsing, errors, the scene of each frame, and the part in keys.
 #include "experiments/runner/suite/light_events.h"
 
 #include <gtest/gtest.h>
@@ -92,7 +91,7 @@ TEST_F(LightEventsTest, ErrorsNameThePlace) {
   expect(errorOf(eventOf(1, "all", 0.0) + eventOf(1, "all", 1.0, "orbit")), {"two events"});
   EXPECT_EQ(errorOf(eventOf(1, "all", 0.0, "still") + eventOf(1, "all", 1.0, "orbit")), "");
   EXPECT_EQ(errorOf(eventOf(1, "all", 0.0) + eventOf(1, "light-left", 1.0)), "");
-  // Means over the history are of one light; a lamp that is off from the first frame on is.
+  // `accumulate` rejects changing light, but accepts a lamp that is off from the first frame on.
   expect(errorOf(eventOf(1, "all", 0.0), "accumulate = true\n"),
          {"suite.toml:5:14", "'accumulate'", "all x0 from frame 1"});
   EXPECT_EQ(errorOf(eventOf(0, "light-left", 0.0), "accumulate = true\n"), "");
@@ -153,7 +152,7 @@ TEST_F(LightEventsTest, KeysHoldTheLight) {
   SessionConfig session;
   EXPECT_EQ(describe(sceneAt(phases, loaded, 2), session).at("lights"), "all x0.5 from frame 2");
   EXPECT_FALSE(describe(sceneAt(phases, loaded, 6), session).contains("lights"));
-  // A job's key is of every frame, not of the measured one alone.
+  // A job's key includes events of every frame, not only of the measured one.
   BlockResult block;
   block.width = block.height = 8;
   const auto key = [&](const std::string& events) {
@@ -166,7 +165,7 @@ TEST_F(LightEventsTest, KeysHoldTheLight) {
   EXPECT_NE(key(eventOf(2, "light-left", 0.5)), key(eventOf(2, "all", 0.5)));
 }
 
-// What a history holds is of another light, however it is weighted.
+// Any history under changing light is biased, however it is weighted.
 TEST_F(LightEventsTest, HistoriesAreBiasedByThem) {
   const auto biases = [&](const std::string& events) {
     const Suite suite = load(events);

@@ -1,4 +1,4 @@
-// How long the rest of a suite takes, by the runs that were made.
+// Estimated remaining time of a suite.
 #include "experiments/runner/run/pace.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ TEST(Pace, RunsThatWereThereTakeNoTime) {
   EXPECT_EQ(pace.progress().leftS, 0.0) << "one was damaged and made twice";
 }
 
-// A sweep over sizes begins with the small ones: the mean of its first runs says nothing of the
+// A sweep over sizes begins with small ones: the mean time of its first runs does not predict the
 // last.
 TEST(Pace, TimeGoesByTheCostOfWhatIsLeft) {
   Pace pace;

@@ -1,5 +1,5 @@
-// What rows say of the reference's noise: wider intervals, flags, and a relMSE that does not take
-// the reference's noise for the method's.
+// Effect of the reference's noise on rows: wider intervals, flags, and a relMSE that does not count
+// it as noise of the method.
 #include "experiments/runner/reference/reference_noise.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr uint32_t kSide = 32;
 
-// Dark and bright pixels, as rooms have; noise is relative to the light.
+// Dark and bright pixels, as in a room; noise is relative to the light.
 float truthOf(size_t pixel) { return pixel % 2 == 0 ? 0.05f : 1.0f; }
 
 Image noisy(uint32_t seed, float deviation) {
@@ -99,7 +99,7 @@ TEST(ReferenceNoise, IntervalsOfARowHaveIt) {
   ASSERT_GT(gi.noise.shared, 0.0);
   EXPECT_NEAR(gi.mse.hi, widened(ofRuns, gi.noise.shared).hi, 1e-12);
   EXPECT_GT(gi.mse.hi - gi.mse.lo, 1.2 * (ofRuns.hi - ofRuns.lo));
-  // Of every interval that is taken against the halves.
+  // All intervals against the halves are widened.
   EXPECT_LT(gi.mseWithoutLights.lo, gi.mse.value);
   Fixture without(0.5f);
   without.block.reference.half0.reset();
@@ -119,7 +119,7 @@ TEST(ReferenceNoise, IntervalsOfARowHaveIt) {
   EXPECT_EQ(rows[0].mseRatio.lo, 1.0) << "of path against itself";
 }
 
-// Kernels of another feature mask render the same images: the noise cancels, and nothing is unsure.
+// The reference's noise cancels for kernels of another feature mask, which render the same images.
 TEST(ReferenceNoise, CancelsWhereImagesAreTheSame) {
   Fixture fixture(0.5f);
   fixture.block.methods[1] = fixture.block.methods[0];
@@ -132,7 +132,7 @@ TEST(ReferenceNoise, CancelsWhereImagesAreTheSame) {
 }
 
 TEST(ReferenceNoise, NearItRowsAreFlagged) {
-  // gi has a variance of (0.5 / 2)^2 times the light, a half of 0.5^2 or of 0.05^2 times it.
+  // Variance of gi: (0.5 / 2)^2 times the squared light; of a half: 0.5^2 or 0.05^2 times it.
   const Fixture near(0.5f), far(0.05f);
   const MethodSummary gi = summarise(near.suite, near.block)[1];
   EXPECT_TRUE(hasFlag(gi, "its MSE is 0.2")) << flagsOf(gi);
@@ -144,7 +144,7 @@ TEST(ReferenceNoise, NearItRowsAreFlagged) {
   EXPECT_FALSE(hasFlag(rows[1], "relMSE")) << flagsOf(rows[1]);
 }
 
-// Numerators have the reference's noise by the mean of the halves, but not by their product.
+// The mean of the halves adds the reference's noise to the numerators, their product does not.
 TEST(ReferenceNoise, RelativeErrorHasNoShareOfIt) {
   const Image image = noisy(7, 0.1f);
   const Reference good = referenceOf(0.001f), poor = referenceOf(0.1f);
@@ -154,7 +154,7 @@ TEST(ReferenceNoise, RelativeErrorHasNoShareOfIt) {
   const double trimmed = errorAgainst("relmse_e1e-2_trim0.1", image, good).value;
   EXPECT_NEAR(errorAgainst("relmse_e1e-2_trim0.1", image, poor).value, trimmed, 0.1 * trimmed);
   EXPECT_EQ(errorAgainst("relmse_e1e-2", image, poor).detail, "against the reference's two halves");
-  // As `run` has it.
+  // Same value as in `run`.
   EXPECT_EQ(measureFrame(image, poor, 0, {}).relmse,
             errorAgainst("relmse_e1e-2", image, poor).value);
   EXPECT_EQ(measureFrame(image, poor, 0, {}).relmseTrimmed,
@@ -165,7 +165,7 @@ TEST(ReferenceNoise, RelativeErrorHasNoShareOfIt) {
   EXPECT_EQ(errorAgainst("relmse_e1e-2", poor.mean, poor).value, 0.0);
 }
 
-// What is left is in the denominators: pixels that a half has too dark.
+// The denominators still have noise: pixels that are too dark in one half.
 TEST(ReferenceNoise, RelativeErrorThatHangsOnTheDivisorIsFlagged) {
   BiasRuns runs;
   for (uint32_t run = 0; run < 3; ++run) runs.add(noisy(50 + run, 0.5f));
@@ -180,7 +180,7 @@ TEST(ReferenceNoise, RelativeErrorThatHangsOnTheDivisorIsFlagged) {
   EXPECT_EQ(relmseFlag(whole, runs), "");
 }
 
-// Leaving out the worst 0.1 % of few pixels changes nothing: the same numbers are said once.
+// Leaving out the worst 0.1 % of few pixels changes nothing: equal numbers are printed once.
 TEST(ReferenceNoise, ChangesThatAgreeAreSaidOnce) {
   Reference reference;
   reference.mean = Image(4, 4, glm::vec3(1.0f));

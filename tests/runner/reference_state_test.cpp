@@ -1,4 +1,4 @@
-// The file of a reference's progress: bit for bit what was written, or one line.
+// File of a reference's progress: read bit for bit, or rejected with one line.
 #include "experiments/runner/reference/reference_state.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ Image frame(uint32_t index) {
   return image;
 }
 
-// Progress of `spp` samples that no float could hold.
+// Makes progress of `spp` samples with sums that no float can represent.
 ReferenceState makeState(uint32_t spp) {
   ReferenceState state;
   state.id = {"0123456789abcdef0123456789abcdef", 7, "cpu"};
@@ -148,7 +148,7 @@ TEST_F(ReferenceStateTest, SaysWhatIsWrong) {
   EXPECT_NE(messageOfReading().find("its sums are not what was written"), std::string::npos);
 }
 
-// What load() and save() do with files, and with folders that are full.
+// load() and save() with good and bad files, and with full folders.
 class ReferenceProgressTest : public TemporaryFolder {
  protected:
   ReferenceStore store() const {
@@ -187,7 +187,7 @@ TEST_F(ReferenceProgressTest, DamagedStateIsRemoved) {
   ASSERT_TRUE(progress.save(state));
   fs::resize_file(progress.file(), fs::file_size(progress.file()) - 1);
   EXPECT_FALSE(progress.load());
-  // Its header still says eight samples: what comes after it must not wait for the ninth.
+  // The damaged file's header still says eight samples; saving must not wait for the ninth.
   EXPECT_TRUE(progress.save(makeState(4)));
   const std::optional<ReferenceState> again = progress.load();
   ASSERT_TRUE(again);
@@ -215,7 +215,7 @@ TEST_F(ReferenceProgressTest, RoomIsMadeByWhatWasNotUsedForLongest) {
     files.push_back(progress.file());
     age(files.back(), 10 - int(seed));
   }
-  age(files[0], 2);  // the youngest of those that may go
+  age(files[0], 2);  // the youngest file that may be removed
   age(files[3], 0);  // in use
   small.maxBytes = fs::file_size(files[0]) * 2;
   const fs::path reference = small.folder / "finished.exr";

@@ -1,5 +1,5 @@
-// References in the library: extended bit for bit, of cameras that the scene does not have, under
-// keys that tell cameras apart.
+// References in the library: extended bit for bit, for cameras that the scene does not have, under
+// keys that distinguish cameras.
 #include "experiments/runner/reference/reference.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ ReferenceConfig smallConfig() {
   return config;
 }
 
-// The scene's camera, a step to the side.
+// Moves the scene's camera sideways.
 SceneCamera aside(const PreparedScene& scene, double metres = 0.25) {
   SceneCamera camera = scene.scene->source().cameras.at(scene.camera);
   camera.cameraToWorld[3].x += metres;
@@ -49,7 +49,7 @@ void expectSame(const Reference& a, const Reference& b) {
   EXPECT_EQ(a.variance->pixels, b.variance->pixels);
   EXPECT_EQ(a.relmse, b.relmse);
   auto wordsA = a.metadata, wordsB = b.metadata;
-  // What says how and when it was made.
+  // Metadata about how and when the image was rendered.
   auto circumstances = provenanceWords();
   circumstances["render_time_s"];
   for (const auto& [word, ignored] : circumstances) {
@@ -65,7 +65,7 @@ TEST_F(ReferenceRendering, ExtendedIsBitForBitThatOfOneGo) {
   const PreparedScene scene = prepared();
   ReferenceStore store;
   store.folder = folder();
-  // An odd number in between: the second half has the next sample.
+  // Odd numbers in between: the second half has the next sample.
   for (const uint64_t spp : {2, 9, 10, 27}) {
     const Reference inParts = renderReference(scene, smallConfig(), {.spp = spp}, store);
     expectSame(inParts, renderReference(scene, smallConfig(), {.spp = spp}));
@@ -79,14 +79,14 @@ TEST_F(ReferenceRendering, TargetOfErrorIsMetAtTheSameSample) {
   ASSERT_GE(inOneGo.spp, 40u) << "checks of several calls are needed";
   EXPECT_LE(inOneGo.relmse, target.relmse);
   EXPECT_LE(inOneGo.relmseSinceHalf, target.relmse);
-  // Interrupted wherever that may be, between two checks and on one.
+  // Interrupt between two checks and at one.
   for (const uint64_t spp : {uint64_t(2), inOneGo.spp / 2, inOneGo.spp / 2 + 1, inOneGo.spp - 1}) {
     ReferenceStore store;
     store.folder = folder() / std::to_string(spp);
     renderReference(scene, smallConfig(), {.spp = spp}, store);
     expectSame(renderReference(scene, smallConfig(), target, store), inOneGo);
   }
-  // What has been rendered beyond it is known, and counts.
+  // Samples beyond the target are known already, and count.
   ReferenceStore store;
   store.folder = folder();
   const Reference more = renderReference(scene, smallConfig(), {.spp = 4 * inOneGo.spp}, store);
@@ -96,7 +96,7 @@ TEST_F(ReferenceRendering, TargetOfErrorIsMetAtTheSameSample) {
 
 TEST_F(ReferenceRendering, OneEstimateBelowTheTargetIsNotEnough) {
   const PreparedScene scene = prepared();
-  // What 64 samples say of themselves, which those before them did not.
+  // The estimate from 64 samples, which fewer samples did not reach.
   const double relmse = renderReference(scene, smallConfig(), {.spp = 64}).relmse;
   const Reference reference = renderReference(scene, smallConfig(), {.relmse = relmse});
   EXPECT_GT(reference.spp, 64u);
@@ -108,7 +108,7 @@ TEST_F(ReferenceRendering, OneEstimateBelowTheTargetIsNotEnough) {
   EXPECT_FALSE(meetsTarget(before, {.relmse = relmse})) << "of an earlier version";
 }
 
-// The lamp of the room with `weak`, a point light that is drawn with about this probability.
+// Adds to the room a point light "weak" that is drawn with about this probability.
 PreparedScene withWeakLight(double probability) {
   Scene scene = prepared().scene->source();
   PunctualLight light;
@@ -117,7 +117,7 @@ PreparedScene withWeakLight(double probability) {
   light.posW = glm::dvec3(0.0, 0.5, 0.0);
   light.intensity = glm::vec3(1.0f);
   scene.lights.push_back(light);
-  // Shares go by power: what one watt per steradian gets tells how many are needed.
+  // Lights are drawn by power: measure the probability at some intensities to find the wanted one.
   double unit = 1.0;
   for (int i = 0; i < 2; ++i) {
     scene.lights.back().intensity = glm::vec3(float(unit));
@@ -131,7 +131,7 @@ PreparedScene withWeakLight(double probability) {
   return own;
 }
 
-// Halves that both miss a light agree. What is expected to be drawn too seldom is named, and the
+// Halves that both miss a light agree. A light with too few expected draws is named, and the
 // reference is not called converged.
 TEST_F(ReferenceRendering, ALightThatIsHardlyDrawnIsNotConverged) {
   const PreparedScene scene = withWeakLight(1e-6);
@@ -148,11 +148,11 @@ TEST_F(ReferenceRendering, ALightThatIsHardlyDrawnIsNotConverged) {
   writeReference(file, reference);
   EXPECT_EQ(whyNotConverged(readReference(file)), why);
   EXPECT_TRUE(meetsTarget(readReference(file), {.relmse = 0.02}));
-  // The room alone gives no line.
+  // The room alone gives no warning.
   EXPECT_EQ(whyNotConverged(renderReference(prepared(), smallConfig(), {.relmse = 0.02})), "");
 }
 
-// More samples are made where a few are enough.
+// Renders more samples if that is enough for the weak light.
 TEST_F(ReferenceRendering, ATargetWaitsForLightsThatAreSoonDrawnOften) {
   const double relmse = 0.02;
   const Reference before = renderReference(prepared(), smallConfig(), {.relmse = relmse});
@@ -166,19 +166,19 @@ TEST_F(ReferenceRendering, ATargetWaitsForLightsThatAreSoonDrawnOften) {
   EXPECT_GT(double(reference.spp), 1.5 * double(before.spp));
 }
 
-// A limit that was given is used up for the draws, too: a small error alone is not the target.
+// A given limit is used up for rare lights, even after the error is small enough.
 TEST_F(ReferenceRendering, ATargetGoesOnForRareLightsUntilTheLimit) {
   const PreparedScene scene = withWeakLight(1e-6);
   const Reference reference = renderReference(scene, smallConfig(), {.spp = 600, .relmse = 0.02});
   EXPECT_EQ(reference.spp, 600u);
   EXPECT_NE(whyNotConverged(reference), "");
   EXPECT_FALSE(meetsTarget(reference, {.spp = 700, .relmse = 0.02}));
-  // Enough draws end it before the limit.
+  // Enough draws end the rendering before the limit.
   EXPECT_LT(renderReference(withWeakLight(0.01), smallConfig(), {.spp = 600, .relmse = 0.02}).spp,
             600u);
 }
 
-// The lamp of the room with an image of 64x64 texels, of which `bright` shine.
+// Gives the room's lamp an image of 64x64 texels, of which `bright` emit.
 PreparedScene withTexturedLamp(uint32_t bright) {
   Scene scene = prepared().scene->source();
   TextureImage image;
@@ -199,7 +199,7 @@ PreparedScene withTexturedLamp(uint32_t bright) {
   return own;
 }
 
-// A draw of a lamp is one of its light where it lands on what shines.
+// A draw of a textured lamp counts only if it hits a bright texel.
 TEST_F(ReferenceRendering, DrawsOfATexturedLampCountByWhatTheyFind) {
   for (const uint32_t bright : {1u, 64u, 4096u}) {
     const auto lights = drawnLights(*withTexturedLamp(bright).scene);
@@ -295,7 +295,7 @@ TEST(ReferenceCamera, IsTheOneThatIsGiven) {
   config.camera = aside(scene);
   config.camera->yfov *= 1.1;
   config.camera->name = "step";
-  // A scene that has this camera renders the same image.
+  // A scene with this camera as its own renders the same image.
   Scene changed = scene.scene->source();
   changed.cameras[0] = *config.camera;
   PreparedScene own = scene;
@@ -311,7 +311,7 @@ TEST(ReferenceCamera, IsTheOneThatIsGiven) {
   EXPECT_EQ(given.metadata.at("camera_index"), "none");
 }
 
-// A sample that was stopped is the next one again.
+// A stopped sample is rendered again as the next one.
 TEST(ReferenceSamples, AreWholeOrNotThere) {
   const PreparedScene scene = prepared();
   ReferenceState whole, stopped;

@@ -1,4 +1,4 @@
-// When references are checked, and how seldom they stop before they are good enough.
+// Error checks of references: when they are due, and how rarely a reference stops too early.
 #include "experiments/runner/reference/relmse_checks.h"
 
 #include <gtest/gtest.h>
@@ -36,17 +36,17 @@ TEST(RelmseChecks, AllSinceHalfOfTheSamples) {
   EXPECT_TRUE(std::isnan(checks.sinceHalf()));
 }
 
-// Pixels of value 1 in which one sample in 200 is a firefly of 50: a target of 0.02 asks for 385
-// samples. A reference of 64 pixels, in two halves.
+// Pixels of value 1 in which one sample in 200 is a firefly of 50: a target of 0.02 needs 385
+// samples. The reference has 64 pixels, in two halves.
 constexpr double kTarget = 0.02;
 constexpr double kMean = 1.0 + 49.0 / 200.0;
 constexpr double kRelativeVariance =
     49.0 * 49.0 / 200.0 * (1.0 - 1.0 / 200.0) / (kMean * kMean + 1e-2);
 
-// Samples of one reference.
+// Samples at which one reference stops.
 struct Stops {
   uint64_t first = 0;    // at the first estimate below the target
-  uint64_t settled = 0;  // as RelmseChecks says
+  uint64_t settled = 0;  // by RelmseChecks
 };
 
 Stops stopsOf(uint32_t seed) {
@@ -71,9 +71,9 @@ Stops stopsOf(uint32_t seed) {
   return stops;
 }
 
-// Of 1000 references with these seeds 9 stopped with a true error above the target, 7 with more
-// than twice of it; at the first estimate of those below it 567 and 127. The mean is 697 samples
-// for 385.
+// With these seeds 9 of 1000 references stopped with a true error above the target, 7 with more
+// than twice of it; stopping at the first estimate below the target gives 567 and 127. The mean is
+// 697 samples instead of 385.
 TEST(RelmseChecks, SeldomStopBeforeTheTargetIsReached) {
   constexpr int kSets = 1000;
   int firstAbove = 0, firstTwice = 0, above = 0, twice = 0;

@@ -1,4 +1,4 @@
-// A scene may have camera paths turn the other way.
+// `reverse_turns`: a scene that turns camera paths the other way.
 #include <gtest/gtest.h>
 
 #include <fstream>

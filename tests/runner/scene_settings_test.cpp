@@ -1,5 +1,5 @@
-// What a [[scene]] says of itself wins over [settings]: its frames, runs and camera path, with the
-// lights of that path; and known truths of what is measured then.
+// Settings in a [[scene]] override [settings]: frames, runs and camera path, with the lights of
+// that path; and known truths for these settings.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -29,7 +29,7 @@ class SceneSettings : public TemporaryFolder {
     }
     return "";
   }
-  // The exact image of the suite's only scene, one pixel of it.
+  // Returns one pixel of the exact image of the suite's only scene.
   float truthOf(const std::string& text) const {
     const Suite whole = load(text);
     const SuiteScene& scene = whole.scenes.front();

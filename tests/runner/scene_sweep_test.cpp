@@ -1,4 +1,4 @@
-// Sweeps of a scene's parameter: which scenes are one, and up to where a method holds.
+// Sweeps of a scene's parameter: which scenes form one, and up to which value a method holds.
 #include "experiments/runner/summary/scene_sweep.h"
 
 #include <gtest/gtest.h>
@@ -58,7 +58,7 @@ TEST(Holds, WhereTheIntervalTouches) {
   EXPECT_EQ(holds({1.0, nan, nan}, 0, 0.01), Holding::notDecided) << "one run";
 }
 
-// Noise is no merit.
+// A noisy result must not hold just because its interval is wide.
 TEST(Holds, IsNotDecidedByAWideInterval) {
   EXPECT_EQ(holds({1.0, 0.951, 1.049}, 0, 0.01), Holding::yes);
   EXPECT_EQ(holds({1.0, 0.949, 1.051}, 0, 0.01), Holding::notDecided);
@@ -76,8 +76,8 @@ TEST(IsFarOff, BeyondTheToleranceAndThreeHalfWidths) {
   EXPECT_FALSE(isFarOff({0.5, kUnknown, kUnknown}, 0.01)) << "one run";
 }
 
-// A suite of three scenes and two methods; the second one loses energy at the last value, and has a
-// value that is not finite at the second.
+// A suite with a sweep of three scenes and two methods. Tests let the second method lose energy or
+// have values that are not finite.
 class SceneSweepTest : public TemporaryFolder {
  protected:
   void SetUp() override {
@@ -91,7 +91,7 @@ class SceneSweepTest : public TemporaryFolder {
                            "[[method]]\nname = \"gi\"\nintegrator = \"restir_gi\"\n";
     suite_ = loadSuite(file, {});
   }
-  // What a run of two methods leaves of the scene.
+  // Makes the results of both methods on one scene.
   BlockResult block(size_t scene, double energyOfGi, uint64_t nonfinite) const {
     BlockResult block;
     block.scene = suite_.scenes.at(scene).name;
@@ -114,7 +114,7 @@ class SceneSweepTest : public TemporaryFolder {
     }
     return block;
   }
-  // A block of each scene of the sweep.
+  // Adds a block for each scene of the sweep.
   struct OfGi {
     double energy;
     uint64_t nonfinite;
@@ -125,7 +125,7 @@ class SceneSweepTest : public TemporaryFolder {
   }
   Suite suite_;
 
-  // The rows of all scenes of the sweep, where both methods are right; a test spoils some.
+  // Rows of all scenes of the sweep in which both methods are right; tests change some.
   struct Right {
     explicit Right(const SceneSweepTest& test) : own(ofScene(test.suite_, test.suite_.scenes[0])) {
       for (size_t i = 0; i < 3; ++i) results.push_back(test.block(i, 1.0, 0));
@@ -190,14 +190,14 @@ TEST_F(SceneSweepTest, NamesTheFirstWrongEnergy) {
             "furnace?albedo=0.9, with 0.9000 [0.8982, 0.9018]");
 }
 
-// Each figure is of the value where it is worst.
+// Each figure is shown at its worst value.
 TEST_F(SceneSweepTest, FiguresAreOfTheWorstValue) {
   Right right(*this);
   std::vector<std::vector<MethodSummary>>& rows = right.rows;
   MethodSummary& worst = rows[1][1];
   worst.mse = {4.0, 3.24, 4.84};
   worst.biasShare = {0.02, 0.01, 0.03};
-  rows[2][1].biasShare = {0.05, -0.2, 0.3};  // larger, by its noise alone
+  rows[2][1].biasShare = {0.05, -0.2, 0.3};  // larger only by noise
   worst.timeMsMedian = 8.0;
   rows[0][1].timeMsMedian = 3.0;
   worst.health.health.counts[rl::RL_HEALTH_NONFINITE] = 5;
@@ -217,7 +217,7 @@ TEST_F(SceneSweepTest, FiguresAreOfTheWorstValue) {
   EXPECT_EQ(sweepDocument(sweep)["plots"].size(), 3u);
 }
 
-// 0 has a place on a logarithmic axis.
+// 0 also has a place on a logarithmic axis.
 TEST_F(SceneSweepTest, ZeroStandsLeftOfAll) {
   SceneSweep sweep;
   sweep.suite = &suite_;
@@ -239,7 +239,7 @@ TEST_F(SceneSweepTest, ZeroStandsLeftOfAll) {
   EXPECT_EQ(near["series"][0]["points"][0][0], 0.0);
 }
 
-// What is too noisy to be told is no last that holds, and does not end the count.
+// A value that is too noisy to decide is not the last that holds, and does not end the count.
 TEST_F(SceneSweepTest, AWideIntervalIsNotDecided) {
   Right right(*this);
   std::vector<std::vector<MethodSummary>>& rows = right.rows;
@@ -247,7 +247,7 @@ TEST_F(SceneSweepTest, AWideIntervalIsNotDecided) {
   const std::vector<SweptBlock> blocks = right.blocks();
   const SceneSweep sweep = sceneSweeps(blocks).at(0);
   EXPECT_EQ(sweep.lastThatHolds(0), 2u);
-  // Noise everywhere is no failure at the first value.
+  // Noise at all values is no failure at the first.
   for (auto& row : rows) row[0].energyRatio = {0.9, 0.7, 1.1};
   EXPECT_NE(sweepTable(sceneSweeps(blocks).at(0)).find("| path | not decided | "),
             std::string::npos);
@@ -258,7 +258,7 @@ TEST_F(SceneSweepTest, AWideIntervalIsNotDecided) {
       << table;
 }
 
-// The report lists scenes under their sweep, and says nothing of load where nothing is timed.
+// The report lists scenes under their sweep.
 TEST_F(SceneSweepTest, ScenesArePartsOfTheSweep) {
   const Suite own = ofScene(suite_, suite_.scenes[0]);
   Outputs outputs(folder());
@@ -272,7 +272,7 @@ TEST_F(SceneSweepTest, ScenesArePartsOfTheSweep) {
   checkReportModel({{"schema", kReportSchema}, {"title", "x"}, {"blocks", documents}});
 }
 
-// A later value that holds does not make up for it.
+// The count ends at the first failure, even if a later value holds.
 TEST_F(SceneSweepTest, EndsAtTheFirstThatDoesNot) {
   const Suite own = ofScene(suite_, suite_.scenes[0]);
   Outputs outputs(folder());

@@ -1,5 +1,5 @@
-// Speed-ups on runs whose truth is known: where they are read, where they are not, and how often
-// their intervals hold the truth.
+// Speed-ups on runs whose truth is known: where they are read, where not, and how often their
+// intervals hold the truth.
 #include "experiments/runner/summary/speed_up.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ TEST(SpeedUp, ExactLines) {
 }
 
 TEST(SpeedUp, IsReadInsideBothMeasuredRanges) {
-  // Sixty-four frames of the method end before the first of `path`.
+  // The method's sixty-four frames end before the first frame of `path`.
   const auto apart = speedUpOf(runsOf(1, {.frameMs = 100.0}), runsOf(1, {.frameMs = 1.0}));
   EXPECT_TRUE(std::isnan(apart->equalTime.ratio.value));
   EXPECT_NE(apart->equalTime.why.find("outside the measured range"), std::string::npos);
@@ -47,8 +47,8 @@ TEST(SpeedUp, IsReadInsideBothMeasuredRanges) {
   EXPECT_TRUE(std::isnan(lower->equalError.ratio.value));
   EXPECT_NE(lower->equalError.why.find("outside the measured range"), std::string::npos);
   EXPECT_NEAR(lower->equalTime.ratio.value, 100.0, 1e-9);
-  // Nor off a line that has errors which were never measured: it falls from 1 and stands at a half,
-  // and the line comes to less.
+  // No ratio is read where the line goes below all measured errors: the method falls from 1 to a
+  // constant half, but its line continues to fall.
   const auto bent = speedUpOf(runsOf(1, {}), runsOf(1, {.scale = 0.5, .floor = 1.0}));
   EXPECT_NEAR(bent->equalError.at, 0.5 + 0.5 / 64.0, 1e-9);
 }
@@ -67,7 +67,7 @@ TEST(SpeedUp, ErrorsThatDoNotFallAreNotReached) {
 
 TEST(SpeedUp, PointsInTheNoiseOfTheReferenceAreNotRead) {
   const auto path = runsOf(1, {.scale = 8.0}), method = runsOf(1, {.scale = 1.0});
-  // 1, 0.5, 0.25, 0.125 are left of the method: 8 frames.
+  // 1, 0.5, 0.25, 0.125 of the method are above the noise: 8 frames.
   EXPECT_NEAR(speedUpOf(path, method, noiseBelow(0.1), noiseBelow(0.1))->equalTime.at, 8.0, 1e-9);
   const auto none = speedUpOf(path, method, noiseBelow(0.9), noiseBelow(0.9));
   EXPECT_NE(none->equalTime.why.find("fewer than two points"), std::string::npos);
@@ -75,7 +75,7 @@ TEST(SpeedUp, PointsInTheNoiseOfTheReferenceAreNotRead) {
 }
 
 TEST(SpeedUp, WhatTheLinesMissIsMeasured) {
-  // At 64 frames: 1 / 64 over 1 / 64 + 0.2. The line is lower than the method.
+  // Truth at 64 frames: 1 / 64 over 1 / 64 + 0.2. The fitted line is below the method's error.
   const auto up = speedUpOf(runsOf(1, {.noise = 0.01}), runsOf(2, {.noise = 0.01, .floor = 0.2}));
   EXPECT_TRUE(up->equalTime.isOffTheLines);
   EXPECT_NEAR(up->equalTime.measured.value, (1.0 / 64.0) / (1.0 / 64.0 + 0.2), 0.002);
@@ -83,13 +83,13 @@ TEST(SpeedUp, WhatTheLinesMissIsMeasured) {
 }
 
 // Over 1000 sets of runs of a correct estimator, with these seeds: at equal time 958 intervals held
-// the truth and 948 between the measured points, to equal error 961 and 948; 49 and 56 readings
-// were said to be off their lines.
+// the truth, and 948 between the measured points; to equal error 961 and 948. 49 and 56 readings
+// were reported as off their lines.
 TEST(SpeedUp, IntervalsHoldTheTruthAsOftenAsTheySay) {
   constexpr int kSets = 1000;
   int time = 0, error = 0, timeMeasured = 0, errorMeasured = 0, timeOff = 0, errorOff = 0;
   for (uint32_t seed = 0; seed < kSets; ++seed) {
-    // The lines are not parallel: the truth depends on where they are read.
+    // The lines are not parallel: the truth depends on where the ratio is read.
     const auto up = speedUpOf(
         runsOf(2 * seed, {.scale = 8.0, .frameMs = 10.0, .noise = 0.3}),
         runsOf(2 * seed + 1, {.scale = 1.0, .frameMs = 20.0, .slope = -0.8, .noise = 0.3}));

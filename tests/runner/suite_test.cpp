@@ -1,5 +1,5 @@
-// Suites of several backends: which methods there are, what each is compared with, and what of the
-// settings reaches which backend. Nothing is rendered.
+// Suites of several backends: their methods, what each is compared with, and which settings reach
+// which backend. Nothing is rendered.
 #include "experiments/runner/suite/suite.h"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ TEST_F(SuiteTest, EveryMethodRunsOnEveryBackend) {
   EXPECT_EQ(names(suite), (Names{"gi @vulkan", "gi @cpu", "path @vulkan", "path @cpu"}));
   EXPECT_EQ(suite.methodBackends(), (Names{"vulkan", "cpu"}));
   EXPECT_EQ(suite.methods[1].session.backend, "cpu");
-  // Its yardstick is of its own backend; its counterpart of the first.
+  // The yardstick is on the method's own backend, the counterpart on the first.
   EXPECT_EQ(suite.yardstick(0), 2u);
   EXPECT_EQ(suite.yardstick(1), 3u);
   EXPECT_EQ(suite.yardstick(3), 3u);

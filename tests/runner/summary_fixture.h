@@ -1,4 +1,4 @@
-// Runs with known numbers: `path` and a biased `restir_gi`, three runs each, with a reference of 1
+// Runs with known numbers: three of `path` and three of a biased `restir_gi`, with a reference of 1
 // in exact halves.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Rows from runs with known numbers: means, ratios, bias, and the rules by which a row counts.
+// Rows from runs with known numbers: means, ratios, bias, and the rules for counting a row.
 #include "experiments/runner/summary/summary.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ TEST_F(SummaryTest, MeansAndRatios) {
   EXPECT_GT(rows[1].mseRatio.hi, 10.0);
   EXPECT_NEAR(rows[0].timeMsMedian, 22.0, 1e-12);
   EXPECT_EQ(rows[0].timedFrames, 6u);
-  // Every frame took 1.1 times as long as the path frame beside it, however the clock wandered.
+  // Every frame took 1.1 times as long as the interleaved frame of path, although the clock varies.
   EXPECT_NEAR(rows[1].timeRatio.value, 1.1, 1e-12);
   EXPECT_NEAR(rows[1].timeRatio.lo, 1.1, 1e-9);
   EXPECT_NEAR(rows[1].timeRatio.hi, 1.1, 1e-9);
@@ -34,7 +34,7 @@ TEST_F(SummaryTest, MeansAndRatios) {
   EXPECT_EQ(rows[0].timeRatio.value, 1.0);
 }
 
-// The median of sums is no sum of medians: what is drawn ends where the table's time is.
+// Passes are scaled so that bars end at the time in the table: medians do not add up to the median.
 TEST_F(SummaryTest, PassesAddUpToTheTimeOfAFrame) {
   for (RunResult& run : block_.methods[1].runs)
     run.passes = {{"initial", 3.0 + run.run}, {"spatial", 1.0}};
@@ -74,7 +74,7 @@ TEST_F(SummaryTest, BiasedRowsCountWithinBoundsOnly) {
   for (RunResult& run : block_.methods[1].runs) run.measured.mse = 0.041;
   EXPECT_TRUE(summarise(suite_, block_)[1].counts);
   EXPECT_TRUE(summarise(suite_, block_)[1].flags.empty());
-  // A mode may not keep its name when a parameter takes its ground away.
+  // A parameter can make a mode that is called unbiased biased.
   suite_.methods[1].session.mode = "unbiased";
   for (RunResult& run : block_.methods[1].runs) run.measured.energyRatio = 0.94;
   suite_.methods[1].session.parameters["mis"] = std::string("confidence");
@@ -83,8 +83,7 @@ TEST_F(SummaryTest, BiasedRowsCountWithinBoundsOnly) {
   EXPECT_FALSE(row.counts);
 }
 
-// An estimate out of bounds whose interval is not is left open by the runs, and so is one in
-// bounds.
+// Runs leave an estimate undecided if its interval crosses a bound, inside or outside the bounds.
 TEST_F(SummaryTest, BiasedRowsAreJudgedByIntervals) {
   auto& runs = block_.methods[1].runs;
   const auto setEnergies = [&](double middle, double spread) {
@@ -92,7 +91,7 @@ TEST_F(SummaryTest, BiasedRowsAreJudgedByIntervals) {
       runs[r].measured.energyRatio = middle + spread * (double(r) - 1.0);
     return summarise(suite_, block_)[1];
   };
-  // Student's t of three runs: a half width of 2.48 times the spread.
+  // Student's t of three runs: the half width is 2.48 times the spread.
   for (const double middle : {1.061, 0.939, 1.0}) {
     const MethodSummary open = setEnergies(middle, 0.065);
     EXPECT_TRUE(open.counts) << middle;
@@ -111,8 +110,7 @@ TEST_F(SummaryTest, BiasedRowsAreJudgedByIntervals) {
             "does not count: energy ratio 1.061 [1.051, 1.071] is outside 0.95..1.05");
   EXPECT_FALSE(setEnergies(0.939, 0.004).counts);
 
-  // Squared bias of nothing, 0.01 and 0.04 in three runs: a mean of 0.011 that hangs on one of
-  // them.
+  // Squared bias of 0, 0.01 and 0.04 in three runs: a mean of 0.011 that depends on one of them.
   setEnergies(1.0, 0.0);
   block_.methods[1].measured = BiasRuns();
   for (const float pixel : {1.0f, 1.1f, 1.2f})
@@ -130,7 +128,7 @@ TEST_F(SummaryTest, BiasedRowsAreJudgedByIntervals) {
             std::string::npos)
       << open.flags[0];
   EXPECT_TRUE(setMse(1.0).flags.empty());
-  // Two runs are one pair, whose spread is unknown.
+  // Two runs form one pair, whose spread is unknown.
   runs.pop_back();
   block_.methods[1].measured = BiasRuns();
   for (int r = 0; r < 2; ++r) block_.methods[1].measured.add(Image(kSide, kSide, glm::vec3(1.1f)));
@@ -149,7 +147,7 @@ TEST_F(SummaryTest, UnbiasedRowsAreDoubtedWhereTheyContradictThemselves) {
     runs[2].measured.energyRatio = c;
     return summarise(suite_, block_)[1];
   };
-  // Squared bias of 0.01 in every run of an MSE of 0.1: its interval leaves out 0.
+  // Squared bias of 0.01 in every run, MSE 0.1: the interval leaves out 0.
   const MethodSummary biased = setEnergies(0.90, 0.94, 0.98);
   EXPECT_TRUE(biased.counts) << "noise explains its energy; its bias is small";
   ASSERT_EQ(biased.flags.size(), 1u);
@@ -168,14 +166,14 @@ TEST_F(SummaryTest, UnbiasedRowsAreDoubtedWhereTheyContradictThemselves) {
   const MethodSummary slightly = setEnergies(1.0100, 1.0101, 1.0102);
   EXPECT_TRUE(slightly.counts);
   EXPECT_EQ(slightly.flags.size(), 1u);
-  // The reference's own energy is not known to the last digit.
+  // The reference's energy has an error of its own.
   block_.reference.variance = Image(kSide, kSide, glm::vec3(0.01f));
   EXPECT_TRUE(setEnergies(1.0100, 1.0101, 1.0102).flags.empty());
   EXPECT_FALSE(setEnergies(1.3000, 1.3001, 1.3002).flags.empty());
 }
 
-// Of 1000 correct rows of 8 runs 2 are doubted with noise that is nearly normal, 13 with a long
-// tail and few pixels.
+// Doubted are 2 of 1000 correct rows of 8 runs with nearly normal noise, 13 with a long tail and
+// few pixels.
 TEST_F(SummaryTest, CorrectRowsAreNotDoubted) {
   suite_.methods[1].session.mode = "unbiased";
   std::mt19937 random(5);
@@ -186,7 +184,7 @@ TEST_F(SummaryTest, CorrectRowsAreNotDoubted) {
       block_.methods[1] = {};
       for (uint32_t r = 0; r < 8; ++r) {
         RunResult run = makeRun(r, 0.1, {1.0, 1.0});
-        // Log-normal, of mean 1.
+        // Log-normal with mean 1.
         run.measured.energyRatio = std::exp(tail * normal(random) - 0.5 * tail * tail);
         block_.methods[1].runs.push_back(std::move(run));
         Image image(kSide, kSide);
@@ -235,7 +233,7 @@ TEST_F(SummaryTest, WithoutYardstickRatiosAreUnknown) {
   EXPECT_NE(summaryCsv(suite_, rows).find(",nan,"), std::string::npos);
 }
 
-// The same two methods on a second backend, which is three times as fast and a little noisier.
+// The same two methods on a second backend, three times as fast and a little noisier.
 TEST_F(SummaryTest, RatiosStayWithinABackend) {
   for (size_t m = 0; m < 2; ++m) {
     SuiteMethod method = suite_.methods[m];
@@ -266,7 +264,7 @@ TEST_F(SummaryTest, RatiosStayWithinABackend) {
   const std::string table = blockTable(suite_, rows);
   EXPECT_NE(table.find("| time / cpu |"), std::string::npos) << table;
   EXPECT_NE(table.find(" 0.333x [0.333, 0.333] |"), std::string::npos) << table;
-  // Without its yardstick a backend has no ratios, but still a first backend.
+  // A backend without its yardstick has no ratios, but is still compared with the first backend.
   block_.methods[2].runs.clear();
   const auto fewer = summarise(suite_, block_);
   ASSERT_EQ(fewer.size(), 3u);
@@ -274,7 +272,7 @@ TEST_F(SummaryTest, RatiosStayWithinABackend) {
   EXPECT_NEAR(fewer[2].timeToFirstBackend.value, 1.0 / 3.0, 1e-12);
 }
 
-// The average of the yardstick's frames, as a third method: 0.02 in every run.
+// Adds the average of the yardstick's frames as a third method: 0.02 in every run.
 TEST_F(SummaryTest, RowsAreComparedWithTheAverageOfPathsFrames) {
   SuiteMethod method = suite_.methods[0];
   method.name = "path + accumulate";
@@ -284,7 +282,7 @@ TEST_F(SummaryTest, RowsAreComparedWithTheAverageOfPathsFrames) {
   for (uint32_t run = 0; run < 3; ++run) {
     addRun(2, makeRun(run, 0.02, {10.0, 20.0}), 1.0f);
     for (size_t m = 0; m < 3; ++m) {
-      // Errors halve from age to age; the average's second frame is a quarter of path's.
+      // MSE by age: path 1, gi 0.5 / age, average 1 / age.
       for (const uint32_t age : {1u, 4u}) {
         AgedError aged;
         aged.age = age;
@@ -320,7 +318,8 @@ TEST_F(SummaryTest, RowsAreComparedWithTheAverageOfPathsFrames) {
   EXPECT_EQ(blockTable(suite_, summarise(suite_, block_)).find("accumulate"), std::string::npos);
 }
 
-// A row against itself is 1, whatever its spread; an end that is not above 0 bounds no ratio.
+// A row against itself is exactly 1, whatever its spread; an end not above 0 leaves a ratio
+// unbounded.
 TEST_F(SummaryTest, RatiosAreThoseOfErrors) {
   auto& runs = block_.methods[0].runs;
   for (size_t r = 0; r < 3; ++r) runs[r].measured.mse = r == 1 ? 30.0 : 0.1;
@@ -351,7 +350,7 @@ TEST_F(SummaryTest, CsvQuotesWhatNeedsIt) {
   EXPECT_NE(csv.find("\"a \"\"b\"\", c\""), std::string::npos) << csv;
 }
 
-// Errors after 1, 2, 4, 8 frames, the same in every run but for a hair.
+// Sets errors after 1, 2, 4, 8 frames, almost the same in every run.
 void accumulate(MethodResult& method, const std::vector<double>& mse, double frameMs) {
   for (RunResult& run : method.runs) {
     run.accumulated.clear();
@@ -378,12 +377,12 @@ TEST_F(SummaryTest, AccumulatedErrorsSayWhatWasReadOffTheirLines) {
   EXPECT_NE(table.find("| 4 of 4 points, up to 1.00x off | 2.00x lower"), std::string::npos)
       << table;
   EXPECT_TRUE(rows[1].flags.empty()) << rows[1].flags[0];
-  // The method stands after two frames, where the line goes on.
+  // The method stops improving after two frames, the line does not.
   accumulate(block_.methods[1], {4.0, 2.0, 2.0, 2.0}, 10.0);
   rows = summarise(suite_, block_);
   EXPECT_TRUE(hasFlag(rows[1], "do not lie on a line: up to 1.32x off"));
   EXPECT_TRUE(hasFlag(rows[1], "at equal time 2.00x higher")) << "8 frames each: 2 over 1";
-  // Not one error was measured of both.
+  // No error was measured for both.
   accumulate(block_.methods[1], {0.4, 0.2, 0.1, 0.05}, 10.0);
   rows = summarise(suite_, block_);
   EXPECT_TRUE(hasFlag(rows[1], "nothing to equal error: outside the measured range"));
@@ -395,7 +394,8 @@ TEST_F(SummaryTest, AccumulatedErrorsSayWhatWasReadOffTheirLines) {
 
 TEST_F(SummaryTest, ErrorsInTheNoiseOfTheReferenceAreNotFitted) {
   accumulate(block_.methods[0], {8.0, 4.0, 2.0, 1.0}, 10.0);
-  // Halves 4 apart: 8 / sqrt(3) a pixel, over 16 pixels 1.15, four times which is 4.6.
+  // Halves 4 apart: a deviation of 8 / sqrt(3) per pixel, 1.15 over 16 pixels, four times that is
+  // 4.6.
   block_.reference.half0 = Image(kSide, kSide, glm::vec3(3.0f));
   block_.reference.half1 = Image(kSide, kSide, glm::vec3(-1.0f));
   const auto rows = summarise(suite_, block_);

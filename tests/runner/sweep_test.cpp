@@ -1,4 +1,4 @@
-// Sweeps and includes: which suites and methods they make, and where errors are said to be.
+// Sweeps and includes: resulting suites and methods, and places of errors.
 #include "experiments/runner/suite/sweep.h"
 
 #include <gtest/gtest.h>
@@ -103,7 +103,7 @@ TEST_F(SweepTest, MethodKeysMakeMethods) {
   EXPECT_EQ(load(kBase, {"sweep.max_bounces=[1,2]"}).size(), 2u);
 }
 
-// A size that a command or a sweep gives replaces that of the file, whichever keys say it.
+// A size from the command or a sweep replaces that of the file, in either notation.
 TEST_F(SweepTest, ASizeReplacesThatOfTheFile) {
   const Suite set = load(kBase, {"resolution=16x9"}).at(0);
   EXPECT_EQ(std::pair(set.width, set.height), std::pair(16u, 9u));
@@ -142,7 +142,7 @@ TEST_F(SweepTest, ErrorsNameThePlace) {
   EXPECT_NE(errorOf(base, {}, {"runs=1,,2"}).find("empty value"), std::string::npos);
 }
 
-// The sweep's values would replace it in silence.
+// --set of a swept key is refused: the sweep would replace it.
 TEST_F(SweepTest, WhatIsSweptIsNotSet) {
   const std::string swept = std::string(kBase) +
                             "[sweep]\nmax_bounces = [2, 4]\n"
@@ -158,7 +158,7 @@ TEST_F(SweepTest, WhatIsSweptIsNotSet) {
             std::string::npos);
   const std::string backends = std::string(kBase) + "[sweep]\nbackend = [\"cpu\", \"vulkan\"]\n";
   EXPECT_NE(errorOf(backends, {"backend=vulkan"}).find("--sweep backend=VALUE"), std::string::npos);
-  // Another method's, or one that the sweep leaves to others.
+  // Allowed: keys of another method, or of methods that the sweep leaves out.
   EXPECT_EQ(load(swept, {"method.spatial_radius=12", "method.restir_gi.spatial_radius=3"}).size(),
             2u);
 }
@@ -175,7 +175,7 @@ TEST_F(SweepTest, IncludesAreMergedAndKeepTheirPlaces) {
   EXPECT_EQ(suites[0].maxBounces, 7u) << "the including file wins";
   EXPECT_EQ(suites[0].width, 8u);
   EXPECT_EQ(names(suites[0]), (Names{"path", "gi", "restir_gi (unbiased)", "third"}));
-  // What is written out means the same.
+  // The resolved text gives the same suite.
   const auto again = load(suites[0].resolved);
   EXPECT_EQ(again[0].maxBounces, 7u);
   EXPECT_EQ(names(again[0]), names(suites[0]));
@@ -199,7 +199,7 @@ TEST_F(SweepTest, EndlessSweepsAreRefused) {
     axes += "]\n";
   }
   const std::string error = errorOf(std::string(kBase) + "[sweep]\n" + axes);
-  EXPECT_NE(error.find("'height'"), std::string::npos) << error;  // 30^3 are more than 2000
+  EXPECT_NE(error.find("'height'"), std::string::npos) << error;  // 30^3 is more than 2000
   EXPECT_NE(error.find("more than 2000 combinations"), std::string::npos) << error;
 }
 

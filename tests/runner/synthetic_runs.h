@@ -1,4 +1,4 @@
-// Runs of accumulated frames whose errors are known but for their noise.
+// Runs of accumulated frames with known errors plus noise.
 #pragma once
 
 #include <cmath>
@@ -12,14 +12,14 @@ namespace restlab {
 struct SyntheticCurve {
   double scale = 1.0, frameMs = 1.0;
   double slope = -1.0;
-  double noise = 0.0;  // relative, of a run
-  double floor = 0.0;  // MSE that no accumulation lowers, relative to `scale`
+  double noise = 0.0;  // relative, per run
+  double floor = 0.0;  // MSE that accumulation does not lower, relative to `scale`
   int points = 7;      // 1, 2, 4, ... frames
   int runs = 8;
 };
 
-// A run whose MSE after n frames is scale (n^slope + floor), times (1 + noise): correlated from
-// point to point as the means of the same frames are.
+// Makes a run whose MSE after n frames is scale (n^slope + floor) times (1 + noise). The noise is
+// correlated from point to point, like means of the same frames.
 inline RunResult runOf(std::mt19937& random, const SyntheticCurve& curve) {
   std::normal_distribution<double> normal;
   RunResult run;
@@ -40,7 +40,7 @@ inline RunResult runOf(std::mt19937& random, const SyntheticCurve& curve) {
   return run;
 }
 
-// Noise of the reference in which errors up to `mse` stand.
+// Returns the noise of a reference that hides errors up to `mse`.
 inline AccumulatedNoise noiseBelow(double mse) {
   const double deviation = mse / kNoiseOfFittedErrors;
   return {deviation * deviation, true};

@@ -1,4 +1,4 @@
-// Tables of rows with known numbers: what headings, columns and notes say.
+// Tables of rows with known numbers: headings, columns and notes.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -14,7 +14,7 @@ namespace {
 
 using TableTest = SummaryTest;
 
-// Whatever ratios are against, every table and file names it.
+// Every table and file names the method that ratios are relative to.
 TEST_F(TableTest, TheBaselineIsNamed) {
   suite_.baseline = "gi";
   const auto rows = summarise(suite_, block_);
@@ -35,7 +35,7 @@ TEST_F(TableTest, TheBaselineIsNamed) {
   EXPECT_NE(document.find("efficiency against gi"), std::string::npos) << document;
 }
 
-// A ratio whose interval reaches 0 is unbounded there, in the same word everywhere.
+// A ratio whose interval reaches 0 is called unbounded in every output.
 TEST_F(TableTest, RatiosThatReachZeroAreUnbounded) {
   for (MethodResult& method : block_.methods) method.runs.resize(2);
   block_.methods[1].runs[0].measured.mse = 0.02;
@@ -53,7 +53,7 @@ TEST_F(TableTest, RatiosThatReachZeroAreUnbounded) {
   }
 }
 
-// No file of text holds what commands a terminal.
+// Text files contain no control characters that could command a terminal.
 TEST_F(TableTest, NamesCommandNoTerminal) {
   suite_.methods[1].name = "g\x1b[31mi\x07\xc2\x9bm\nx";
   const auto rows = summarise(suite_, block_);
@@ -63,7 +63,7 @@ TEST_F(TableTest, NamesCommandNoTerminal) {
   }
 }
 
-// Letters of any script in a scene's name: the report takes the block, and tells it from others.
+// Scene names in any script give distinct ASCII ids.
 TEST_F(TableTest, IdsOfBlocksArePlainAndDiffer) {
   std::set<std::string> ids;
   for (const char* scene : {"Zimmer \u00fc", "Zimmer \u00f6", "Zimmer _", "\u65e5\u672c"}) {
@@ -78,7 +78,7 @@ TEST_F(TableTest, IdsOfBlocksArePlainAndDiffer) {
   }
 }
 
-// Without times and with nothing to compare with there is nothing to say.
+// Columns without times or comparisons are left out.
 TEST_F(TableTest, EmptyColumnsAreLeftOut) {
   for (MethodResult& method : block_.methods)
     for (RunResult& run : method.runs) run.timesMs.clear();
@@ -89,7 +89,7 @@ TEST_F(TableTest, EmptyColumnsAreLeftOut) {
   EXPECT_EQ(table.find("|  |"), std::string::npos) << table;
 }
 
-// Three rows that are told the same thing are told it in one line.
+// Three rows with the same note share one line.
 TEST_F(TableTest, NotesOfManyRowsAreOneLine) {
   for (int i = 0; i < 3; ++i) {
     suite_.methods.push_back(suite_.methods[1]);
@@ -109,8 +109,7 @@ TEST_F(TableTest, NotesOfManyRowsAreOneLine) {
   EXPECT_EQ(table.find("does not count: energy", first + 1), std::string::npos) << table;
 }
 
-// The same frame of other runs tells what the machine did; a method whose frames differ is none of
-// its doing.
+// The same frame of other runs reveals a disturbed machine; frames that differ within a run do not.
 TEST_F(TableTest, ADisturbedMachineIsSaid) {
   const auto timed = [&](double slowest) {
     for (size_t m = 0; m < 2; ++m) {

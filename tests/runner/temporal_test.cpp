@@ -1,4 +1,4 @@
-// Flicker and correlation of errors, on frames whose figures are known.
+// Flicker and correlation of errors on frames with known figures.
 #include "experiments/runner/summary/temporal.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ TEST(Temporal, KnownFrames) {
   const Reference reference = referenceOf(1.0f, 1.0f);
   TemporalSum sum(reference);
   for (const float value : {2.0f, 0.0f, 2.0f, 0.0f}) sum.add(Image(8, 8, glm::vec3(value)));
-  // The reference is larger: only the pixels of the frames count.
+  // Only the pixels of the frames count; the reference is larger.
   const TemporalFigures figures = sum.figures();
   EXPECT_NEAR(figures.variance, 4.0 / 3.0, 1e-12);
   EXPECT_NEAR(figures.difference, 2.0, 1e-12);
@@ -53,7 +53,7 @@ TEST(Temporal, OneFrameHasNoFigures) {
   EXPECT_NEAR(without.figures().difference, 1.0, 1e-6);
 }
 
-// An autoregressive noise of known correlation, against a reference that is noisy itself.
+// Autoregressive noise of known correlation, against a noisy reference.
 TEST(Temporal, CorrelationOfKnownNoise) {
   std::mt19937 random(1);
   std::normal_distribution<float> normal;
@@ -79,8 +79,8 @@ TEST(Temporal, CorrelationOfKnownNoise) {
   EXPECT_NEAR(figures.difference, std::sqrt(0.4) * std::sqrt(2.0 / 3.14159265), 0.01);
 }
 
-// Over 1000 sets of 8 runs of autoregressive noise, with these seeds: the intervals held the
-// truth 957 times for the variance, 961 for the squared difference, 942 and 955 for the first lags.
+// Over 1000 sets of 8 runs of autoregressive noise, with these seeds: the intervals held the truth
+// 957 times for the variance, 961 for the squared difference, 942 and 955 for the first two lags.
 TEST(Temporal, IntervalsOverRunsHoldTheTruth) {
   constexpr int kSets = 1000, kRuns = 8, kFrames = 6;
   constexpr float kRho = 0.6f;
@@ -113,7 +113,7 @@ TEST(Temporal, IntervalsOverRunsHoldTheTruth) {
       lag1.push_back(figures.autocorrelation[0]);
       lag2.push_back(figures.autocorrelation[1]);
     }
-    // The sample variance of n correlated frames: 1 - 2 / (n (n - 1)) sum (n - k) rho^k.
+    // Expected sample variance of n correlated frames: 1 - 2 / (n (n - 1)) sum (n - k) rho^k.
     double shared = 0.0;
     for (int k = 1; k < kFrames; ++k) shared += (kFrames - k) * std::pow(double(kRho), k);
     variances += holds(variance, 1.0 - 2.0 * shared / (kFrames * (kFrames - 1.0)));
@@ -127,8 +127,8 @@ TEST(Temporal, IntervalsOverRunsHoldTheTruth) {
   for (const int held : {variances, squares, first, second}) EXPECT_NEAR(held, 950, 28);
 }
 
-// A pair of frames of noise 1 about a step of `moved` on a quarter of the pixels, and references of
-// noise `ofHalf` in each half.
+// Returns the figures of two frames with noise 1 around a step of `moved` on a quarter of the
+// pixels, with references of noise `ofHalf` in each half.
 TemporalFigures figuresOfMotion(uint32_t seed, float moved, float ofHalf) {
   std::mt19937 random(seed);
   std::normal_distribution<float> normal;
@@ -152,8 +152,8 @@ TemporalFigures figuresOfMotion(uint32_t seed, float moved, float ofHalf) {
   return figuresOfPair(noisy(false, 1.0f), noisy(true, 1.0f), references[0], references[1]);
 }
 
-// The change of errors is that of the frames, whatever the references' noise; the difference of the
-// references is not, and says by how much at most.
+// The squared change of errors is free of the references' noise; the difference of the references
+// is not, but has a bound for it.
 TEST(Temporal, NoiseOfTheReferencesIsOutOrSaid) {
   constexpr int kSets = 1000;
   for (const float ofHalf : {0.0f, 0.3f, 1.0f}) {

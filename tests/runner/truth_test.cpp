@@ -1,4 +1,4 @@
-// References that are known: the exact image and the same image.
+// References that are known without rendering the measured scene: Truth::exact and Truth::same.
 #include "experiments/runner/reference/truth.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Lines about bodies that a path cannot follow as their author meant.
+// Warnings about bodies that a path cannot follow as the author meant.
 #include <gtest/gtest.h>
 
 #include "core/scene/builtin_builder.h"

@@ -1,4 +1,4 @@
-// Built-in scenes with parameters in their names: what is read of them, and what they change.
+// Built-in scenes with parameters in their names: parsing, and the effect on the scene.
 #include "core/scene/builtin_name.h"
 #include "core/scene/coarse_vertices.h"
 
@@ -129,7 +129,7 @@ TEST(BuiltinName, EveryParameterWorksAtBothEnds) {
       EXPECT_FALSE(parameter.summary.empty());
       for (const double value : {parameter.lo, parameter.hi}) {
         const std::string name = scene + "?" + parameter.name + "=" + std::to_string(value);
-        // to_string has six digits behind the point: the smallest ones are written otherwise.
+        // std::to_string() gives six digits behind the point: write small values as 1e-4 instead.
         const std::string exact =
             std::abs(value) < 1e-3 ? scene + "?" + parameter.name + "=1e-4" : name;
         if (std::abs(value) < 1e-3 && (1e-4 < parameter.lo || 1e-4 > parameter.hi)) continue;
@@ -180,11 +180,11 @@ TEST(BuiltinRelations, RadianceIsOfEveryLight) {
   EXPECT_EQ(furnace.materials[0].data.emission.x, std::exp2(-61.0f));
 }
 
-// Both in one piece: what stood in one place still does.
+// Vertices and eye move together: coinciding points stay coincident.
 TEST(BuiltinRelations, MovesVerticesAndEyeAlike) {
   const Scene plain = makeBuiltinScene("furnace"), moved = makeBuiltinScene("furnace?move=100");
   const double offset = 100.0 * 5.0;        // the room is 5 m deep
-  const float spacing = std::exp2(-15.0f);  // of floats from 256 to 512
+  const float spacing = std::exp2(-15.0f);  // spacing of floats from 256 to 512
   for (size_t g = 0; g < plain.geometries.size(); ++g) {
     for (size_t i = 0; i < plain.geometries[g].positions.size(); ++i) {
       const glm::dvec3 apart(glm::dvec3(moved.geometries[g].positions[i]) - offset -
@@ -203,7 +203,7 @@ std::string coarseWarning(const std::string& name) {
   return "";
 }
 
-// The limit of float32 is said where it is passed, and not before.
+// The warning about the limit of float32 appears beyond the limit, and not before.
 TEST(CoarseVertices, AreAWarningBeyondTheLimitAlone) {
   for (const std::string& name : builtinSceneNames()) EXPECT_EQ(coarseWarning(name), "") << name;
   EXPECT_EQ(coarseWarning("furnace?move=500"), "") << "2^-13 m of 5 m";
@@ -221,7 +221,7 @@ TEST(CoarseVertices, ASceneWithoutAnyHasNoWarning) {
   EXPECT_EQ(coarseVertices(Scene()), "");
 }
 
-// A node's transform loses nothing: scenes are recentred in double.
+// The transform of a node loses nothing: scenes are recentred in double.
 TEST(CoarseVertices, ADistanceOfTheNodeIsKept) {
   Scene scene = makeBuiltinScene("furnace");
   for (MeshInstance& instance : scene.instances)

@@ -1,4 +1,4 @@
-// The built-in scenes made for experiments: what each promises of its light and its surfaces.
+// The built-in scenes made for experiments: the promised properties of light and surfaces.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ bool isEmitter(const Scene& scene, const WorldTriangle& t) {
   return scene.materials.at(material).data.emission != glm::vec3(0.0f);
 }
 
-// Emitted power per pi of one side, W; luminance weights do not matter here.
+// Emitted power of one side over pi, W; luminance weights do not matter here.
 double powerOf(const Scene& scene, const WorldTriangle& t) {
   const uint32_t material = scene.instances.at(t.instance).material;
   const glm::vec3& e = scene.materials.at(material).data.emission;
@@ -29,7 +29,7 @@ TEST(DoorAjar, ShellIsClosed) {
   const Scene scene = makeBuiltinScene("door-ajar");
   const std::vector<WorldTriangle> shell = test::worldTriangles(scene, "shell-");
   EXPECT_EQ(test::openEdge(shell), "");
-  // Both rooms and the doorway; faces look into the air.
+  // Air of both rooms and the doorway; negative, as faces look into the air.
   const double air = 5.0 * 2.7 * 5.0 + 5.0 * 2.7 * 3.5 + 0.9 * 2.05 * 0.15;
   EXPECT_NEAR(test::signedVolume(shell), -air, 1e-5);
   const std::vector<WorldTriangle> door = test::worldTriangles(scene, "door");
@@ -86,7 +86,7 @@ TEST(DoorAjar, TheOnlyLightIsNextDoorAndUnseen) {
   }
 }
 
-// A small part of the near room sees the panel: the splash is there, the rest is indirect.
+// Only a small part of the near room sees the panel; all other light there is indirect.
 TEST(DoorAjar, DirectLightReachesLittleOfTheRoom) {
   const Scene scene = makeBuiltinScene("door-ajar");
   const std::vector<WorldTriangle> all = test::worldTriangles(scene);
@@ -126,8 +126,8 @@ TEST(ManyLights, TenThousandTrianglesOverThreeDecades) {
   ASSERT_EQ(powers.size(), 10000u);
   std::sort(powers.begin(), powers.end());
   EXPECT_GE(powers.back() / powers.front(), 1000.0);
-  // Log-uniform: medians of the halves are a decade and a half apart; the top tenth has half the
-  // light.
+  // Log-uniform powers: medians of the halves are a decade and a half apart; the top tenth has half
+  // the light.
   EXPECT_NEAR(std::log10(powers[7500] / powers[2500]), 1.55, 0.15);
   double all = 0.0, top = 0.0;
   for (size_t i = 0; i < powers.size(); ++i) {
@@ -197,7 +197,7 @@ TEST(Courtyard, BaysAreInstancesAndTheCameraStandsUnderTheRoof) {
   const auto roof = test::nearestHit(all, eye, {0.0, 1.0, 0.0});
   ASSERT_TRUE(roof.has_value());
   EXPECT_EQ(scene.instances[roof->triangle->instance].name, "roof");
-  // The camera itself is in the shade.
+  // The camera stands in the shade.
   EXPECT_TRUE(test::nearestHit(all, eye, -scene.lights.at(0).dirW).has_value());
   // The court sees the sun.
   EXPECT_FALSE(test::nearestHit(all, {0.0, 0.01, 3.0}, -scene.lights.at(0).dirW).has_value());

@@ -1,4 +1,4 @@
-// What holds for every built-in scene.
+// Properties of every built-in scene.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -139,7 +139,7 @@ TEST_P(BuiltinScene, TrianglesAreSound) {
       const glm::dvec3 e2 = glm::dvec3(mesh.positions[t.z]) - p;
       const double longest = std::max({glm::length(e1), glm::length(e2), glm::length(e2 - e1)});
       const glm::dvec3 face = glm::cross(e1, e2);
-      // Thinner than a hundredth of its length would be a sliver.
+      // A sliver is thinner than a hundredth of its length.
       ASSERT_GT(glm::length(face), 1e-2 * longest * longest * 0.1);
       size = std::max(size, longest);
       if (mesh.normals.empty()) continue;
@@ -160,7 +160,7 @@ TEST_P(BuiltinScene, CameraIsUprightAndSeesTheScene) {
     EXPECT_NEAR(frame[0].y, 0.0, 1e-12) << "tilted sideways";
     EXPECT_GT(frame[1].y, 0.5);
     const glm::dvec3 eye(camera.cameraToWorld[3]);
-    // Nothing closer than 20 cm fills the picture.
+    // No surface within 20 cm of the camera may fill the image.
     for (const double x : {0.1, 0.5, 0.9}) {
       for (const double y : {0.1, 0.5, 0.9}) {
         const glm::dvec3 dir = glm::normalize(test::cameraDirection(camera, x, y, 16.0 / 9.0));

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::WorldTriangle;
 
-// A file of the scenes that are not part of the project; empty where the folder is absent.
+// A scene file outside the project; empty if the folder is absent.
 fs::path sharedScene(const std::string& path) {
   const char* variable = std::getenv("RESTLAB_SCENES");
   const fs::path root =
@@ -53,7 +53,7 @@ TEST(CornellBox, IsThePublishedOne) {
   }
   EXPECT_NEAR(light, 1.30 * 1.05, 1e-6);
   EXPECT_NEAR(ceiling + light, 5.56 * 5.592, 1e-5);
-  // The left wall's triangles do not lie in one plane.
+  // The two triangles of the left wall are not coplanar.
   const std::vector<WorldTriangle> left = test::worldTriangles(scene, "LeftWall");
   ASSERT_EQ(left.size(), 2u);
   const double cosine =
@@ -61,7 +61,7 @@ TEST(CornellBox, IsThePublishedOne) {
   EXPECT_GT(std::acos(cosine), 0.005);
 }
 
-// Both soups sorted by position, so that neither order nor names matter.
+// Triangles sorted by position, so that neither order nor names matter.
 std::vector<std::array<glm::dvec3, 3>> sortedSoup(const Scene& scene) {
   std::vector<std::array<glm::dvec3, 3>> soup;
   const auto key = [](const glm::dvec3& p) {
@@ -70,7 +70,7 @@ std::vector<std::array<glm::dvec3, 3>> sortedSoup(const Scene& scene) {
   };
   for (const WorldTriangle& t : test::worldTriangles(scene)) {
     std::array<glm::dvec3, 3> corners{t.p0, t.p1, t.p2};
-    // Turned, not mirrored, to start with the least corner: winding is compared too.
+    // Rotate, without mirroring, to start with the least corner: winding is compared too.
     std::rotate(corners.begin(),
                 std::min_element(corners.begin(), corners.end(),
                                  [&](const auto& a, const auto& b) { return key(a) < key(b); }),
@@ -155,7 +155,7 @@ TEST(SphereFurnace, IsConvexWhiteAndEvenlyLit) {
   for (const glm::vec3& texel : scene.environment->radiance) EXPECT_EQ(texel, glm::vec3(1.0f));
 }
 
-// Of both cameras; the second one also below lights of every size.
+// Checks both cameras; the second one also below lights of every size.
 TEST(QuadLight, FloorFillsThePictureInFrontOfTheLight) {
   for (const auto& [name, camera] :
        {std::pair("quad-light", 0), {"quad-light", 1}, {"quad-light?edge=1e3", 1}}) {

@@ -1,4 +1,5 @@
-// Keyframes: exact where they are, continuous in between, and what cannot be interpolated is said.
+// Keyframes: exact at their frames, continuous in between, with errors for keyframes that cannot be
+// interpolated.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -87,7 +88,7 @@ TEST(CameraKeyframes, AreMetExactly) {
   EXPECT_EQ(middle.yfov, 1.1);
   EXPECT_EQ(middle.name, "start");
   EXPECT_EQ(position(last), glm::dvec3(-4, 0.5, 2));
-  // Before and after them it stands still.
+  // The camera stands still before the first and after the last keyframe.
   for (const uint32_t frame : {0u, 4u}) {
     EXPECT_EQ(cameraAt(motion, frame).cameraToWorld, first.cameraToWorld);
   }
@@ -133,7 +134,8 @@ TEST(CameraKeyframes, TargetsAreLinear) {
             1e-14);
 }
 
-// A step of a frame is a part of the whole way: no jump at a keyframe, or anywhere else.
+// The step between two frames is a small part of the whole way: no jump at a keyframe or anywhere
+// else.
 TEST(CameraKeyframes, AreContinuous) {
   const CameraMotion motion =
       motionOf({key(1000, {1, 2, 3}, {0, 1, 0}), key(3000, "rolled"), key(4000, "start"),

@@ -1,4 +1,4 @@
-// Warnings of camera paths that lead through walls, into bodies, or to where nothing is seen.
+// Warnings of camera paths that lead through walls, into bodies, or to views without a surface.
 #include <gtest/gtest.h>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -68,7 +68,7 @@ TEST(CameraPathCheck, ThroughASurfaceIntoABody) {
   EXPECT_EQ(lines[1],
             "path: at frame 34 the camera is inside 'body', whose back it sees to all sides");
   EXPECT_EQ(lines[2], "path: at frame 40 one flat surface of 'body' fills the view");
-  // A cut leads through nothing.
+  // The camera passes through nothing at a cut.
   CameraPath keys;
   keys.kind = CameraPathKind::cut;
   keys.cutFrame = 3;
@@ -79,7 +79,7 @@ TEST(CameraPathCheck, ThroughASurfaceIntoABody) {
   EXPECT_EQ(linesOf(open, keys), Lines());
 }
 
-// The face where a path begins is one that it goes through; so is an edge between two triangles.
+// The face where a path begins counts as crossed; so does an edge between two triangles.
 TEST(CameraPathCheck, FromAFaceIntoABody) {
   for (const double offset : {0.0, 1.7e-15, -1.7e-15}) {
     for (const double aside : {0.0, 0.3}) {
@@ -98,7 +98,7 @@ TEST(CameraPathCheck, FromAFaceIntoABody) {
 TEST(CameraPathCheck, ABlankEndAndNothingInView) {
   Scene beside = scene();
   beside.cameras[0].cameraToWorld[3].x = 5.5;
-  beside.instances[0].objectToWorld[3].x = 4.0;  // in view at first, then behind
+  beside.instances[0].objectToWorld[3].x = 4.0;  // in view at first, later behind
   const Lines blank = linesOf(beside, dolly(0.35));
   ASSERT_FALSE(blank.empty());
   EXPECT_EQ(blank.back(), "path: at frame 40 one flat surface of 'wall' fills the view");
@@ -121,7 +121,7 @@ TEST(CameraPathCheck, NearerThanTheNearDistance) {
   EXPECT_EQ(cameraWarnings(near, near.cameras[0]).size(), 1u);
 }
 
-// A mirrored instance turns its triangles, and its inside stays its inside.
+// A mirrored instance flips its triangles; its inside must stay inside.
 TEST(CameraPathCheck, AMirroredBodyHasItsInside) {
   Scene mirrored = scene();
   mirrored.instances[0].objectToWorld = glm::scale(glm::dmat4(1.0), glm::dvec3(-1, 1, 1));

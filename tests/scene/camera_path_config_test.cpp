@@ -1,4 +1,4 @@
-// Camera paths as TOML: what is read, and the line of every error.
+// Camera paths as TOML: parsed values, and the line of every error.
 #include <gtest/gtest.h>
 
 #include <numbers>

@@ -1,4 +1,4 @@
-// Camera paths: where the camera is, what stays as it was, and that nothing adds up over frames.
+// Camera paths: positions, invariants, and no error that accumulates over frames.
 #include "core/scene/camera_path.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ SceneCamera cameraAtPoint(const glm::dvec3& eye, const glm::dvec3& target,
   return camera;
 }
 
-// Upright ones, one that is rolled, one that looks almost straight down.
+// Upright cameras, a rolled one, and one that looks almost straight down.
 const std::vector<SceneCamera> kCameras = {
     cameraAtPoint({0, 0, 5}, {0, 0, 0}),
     cameraAtPoint({1, 2, 3}, {-4, 0.5, 7}),
@@ -40,7 +40,7 @@ const std::vector<SceneCamera> kCameras = {
     cameraAtPoint({100, 1000, -20}, {100, 0, -20.1}),
 };
 
-// A floor at y = 0 and two more cameras.
+// A floor at y = 0, `camera`, and two more cameras.
 Scene sceneWith(const SceneCamera& camera) {
   Scene scene;
   scene.name = "floor";
@@ -119,7 +119,7 @@ TEST(CameraPath, OrbitGoesAnticlockwiseSeenFromAbove) {
 }
 
 TEST(CameraPath, NothingDrifts) {
-  // 0.1 is no binary fraction: sums of it are off by 1e-10 after a million frames.
+  // 0.1 is not a binary fraction: sums of it are off by 1e-10 after a million frames.
   for (const CameraPathKind kind : {CameraPathKind::orbit, CameraPathKind::pan}) {
     CameraPath path = pathOf(kind, 0.1);
     path.targetW = glm::dvec3(3, 2, 1);
@@ -167,12 +167,12 @@ TEST(CameraPath, PanTurnsOnTheSpot) {
       }
     }
   }
-  // To the left: from -Z to -X.
+  // A turn to the left goes from -Z to -X.
   const SceneCamera left = cameraAt(motionOf(pathOf(CameraPathKind::pan, 45.0), kCameras[0]), 2);
   EXPECT_LT(glm::distance(forward(left), {-1, 0, 0}), kTiny);
 }
 
-// A scene whose up is +Z shows it in its cameras alone: turns are about that, and no roll.
+// Only the cameras of a scene show that its up is +Z: turns are about +Z, without roll.
 TEST(CameraPath, TurnsAboutTheUpOfTheScene) {
   const SceneCamera start = cameraAtPoint({4, -3, 1.5}, {0, 0, 1}, {0, 0, 1});
   EXPECT_EQ(sceneUp(start), glm::dvec3(0, 0, 1));
@@ -204,7 +204,7 @@ TEST(CameraPath, TurnsAboutTheUpOfTheScene) {
 }
 
 TEST(CameraPath, TurnsAreEven) {
-  // The angle between one frame and the next, of a camera that turns about its own up.
+  // Angle between consecutive frames, for a camera that turns about its own up.
   CameraPath path = pathOf(CameraPathKind::pan, 0.5);
   path.about = CameraAxis::camera;
   const CameraMotion motion = motionOf(path, kCameras[2]);
@@ -277,10 +277,10 @@ TEST(CameraAim, IsTheFirstSurface) {
                                    glm::dvec3(-0.5, 1.0, 0.5));
   scene.instances.push_back(shelf);
   EXPECT_LT(glm::distance(pointLookedAt(scene, camera), {-0.5, 2, 2}), 1e-12);
-  // What lies behind the camera is not looked at.
+  // Surfaces behind the camera do not count.
   scene.instances[0].objectToWorld = glm::translate(glm::dmat4(1.0), glm::dvec3(4, 8, 5));
   EXPECT_LT(glm::distance(pointLookedAt(scene, camera), {-0.5, 2, 2}), 1e-12);
-  // A triangle ends at each of its edges: the middle of its bounds is 1 m below it.
+  // A triangle ends at its edges: the middle of its bounds is 1 m below it.
   Scene triangle = sceneWith(camera);
   triangle.geometries[0].triangles.pop_back();
   triangle.geometries[0].positions[3].y = -2.0f;
@@ -293,10 +293,10 @@ TEST(CameraAim, IsTheFirstSurface) {
 }
 
 TEST(CameraAim, WhereThereIsNoSurface) {
-  // Past the floor, whose middle is the origin: the nearest point of the axis.
+  // Past the floor, whose middle is the origin: the nearest point of the axis counts.
   const SceneCamera past = cameraAtPoint({-3, 4, 2}, {5, 4, 2});
   EXPECT_LT(glm::distance(pointLookedAt(sceneWith(past), past), {0, 4, 2}), 1e-12);
-  // Away from it: as far ahead as the floor's diagonal.
+  // Away from the floor: a point as far ahead as the floor's diagonal counts.
   const SceneCamera away = cameraAtPoint({60, 4, 0}, {61, 4, 0});
   EXPECT_LT(
       glm::distance(pointLookedAt(sceneWith(away), away), {60.0 + 100.0 * std::sqrt(2.0), 4, 0}),
@@ -308,7 +308,7 @@ TEST(CameraAim, OrbitsGoAboutIt) {
   const SceneCamera camera = cameraAtPoint({1, 4, 3}, {-2, 0, 1});
   const CameraMotion motion = motionOf(pathOf(CameraPathKind::orbit, 10.0), camera);
   const SceneCamera turned = cameraAt(motion, 9);
-  // A quarter about (-2, y, 1): from (3, ., 2) relative to it to (2, ., -3).
+  // A quarter turn about (-2, y, 1): from (3, ., 2) relative to it to (2, ., -3).
   EXPECT_LT(glm::distance(position(turned), {0, 4, -2}), 1e-10);
 }
 

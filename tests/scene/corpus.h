@@ -1,5 +1,5 @@
-// The collection of scenes that is not part of the project: the folder of RESTLAB_SCENES, else
-// ../shared/scenes beside it. Tests that need it skip, visibly, where it is absent.
+// Collection of scenes outside the project: the folder of RESTLAB_SCENES, else ../shared/scenes
+// beside the project. Tests that need it skip, visibly, if it is absent.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ inline std::filesystem::path sceneFolder() {
                                : std::filesystem::path(RESTLAB_SOURCE_DIR) / "../shared/scenes";
 }
 
-// Every .gltf and .glb below a folder, sorted.
+// Lists every .gltf and .glb below a folder, sorted.
 inline std::vector<std::filesystem::path> gltfsBelow(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {

@@ -1,4 +1,4 @@
-// Environments of files that say more than their pixels: cubes, windows, colours.
+// Environment files that declare more than pixels: cubes, windows, colours.
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
@@ -45,8 +45,8 @@ std::string errorOf(const fs::path& file) {
   return "";
 }
 
-// The radiance towards a place of OpenEXR's space, where the middle of a map is +Z, its left half
-// +X and its top +Y.
+// Radiance towards a point in OpenEXR's convention: the middle of a map is +Z, its left half +X and
+// its top +Y.
 glm::vec3 towards(const EnvironmentMap& map, double u, double v) {
   return map.radiance.at(size_t(v * map.height) * map.width + size_t(u * map.width));
 }
@@ -72,7 +72,7 @@ TEST_F(EnvironmentFiles, CubesAreDrawnAsSixFaces) {
                          towards(map, 0.5, 0.05).x, towards(map, 0.5, 0.95).x,
                          towards(map, 0.5, 0.5).x,  towards(map, 0.01, 0.5).x};
   for (int face = 0; face < 6; ++face) EXPECT_EQ(right[face], float(1 + face)) << face;
-  // A face is a sixth of the sphere.
+  // A face covers a sixth of the sphere.
   double light = 0.0, area = 0.0;
   for (uint32_t y = 0; y < map.height; ++y) {
     const double ring = std::sin((y + 0.5) / map.height * 3.14159265);
@@ -110,7 +110,7 @@ TEST_F(EnvironmentFiles, WhatIsNoWholeMapIsAnError) {
       << errorOf(file());
   writeWith(file(), image, [](Imf::Header& header) { Imf::addEnvmap(header, Imf::Envmap(7)); });
   EXPECT_NE(errorOf(file()).find("'envmap' is neither"), std::string::npos) << errorOf(file());
-  // Elsewhere than at the origin, but whole.
+  // A whole map whose window is not at the origin.
   writeWith(file(), image, [](Imf::Header& header) {
     header.displayWindow() = header.dataWindow() = {{5, 5}, {12, 8}};
   });

@@ -1,4 +1,4 @@
-// The feature scan: each bit is set by what needs it and by nothing else.
+// The feature scan: each bit is set exactly by the content that needs it.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -15,7 +15,7 @@ using builtin::lambert;
 using builtin::metal;
 using builtin::plastic;
 
-// One flat square under a material.
+// A flat square with a material.
 Scene square(const rl::Material& material) {
   Scene scene;
   scene.geometries.push_back(builtin::quad("square", {0, 0, 0}, {1, 0, 0}, {0, 1, 0}));
@@ -224,7 +224,7 @@ TEST(FeatureScan, Alpha) {
   EXPECT_EQ(scanOf(with(m, mask)), rl::RL_FEATURE_ALPHA);
   EXPECT_EQ(scanOf(with(kGray, blend)), 0u) << "alpha 1";
   EXPECT_EQ(scanOf(with(m, mask | rl::RL_MATERIAL_UNLIT)), rl::RL_FEATURE_ALPHA);
-  // From the base colour's alpha channel: half of it a hole, or just above the cutoff of 1/2.
+  // Alpha channel of the base colour texture: one texel a hole, or just above the cutoff of 1/2.
   const uint32_t slot = rl::RL_TEX_BASE_COLOR;
   EXPECT_EQ(scanTextured(with(kGray, mask), slot, kWhite, 0x7fffffffu),
             rl::RL_FEATURE_ALPHA | rl::RL_FEATURE_TEXTURES);
@@ -232,7 +232,7 @@ TEST(FeatureScan, Alpha) {
   EXPECT_EQ(scanTextured(with(kGray, blend), slot, kWhite, 0xfeffffffu),
             rl::RL_FEATURE_ALPHA | rl::RL_FEATURE_TEXTURES);
   EXPECT_EQ(scanTextured(kGray, slot, kNone, kNone), rl::RL_FEATURE_TEXTURES);
-  // From vertex colours.
+  // Alpha of vertex colours.
   Scene scene = square(with(kGray, blend));
   scene.geometries[0].colors.assign(4, glm::vec4(1.0f, 1.0f, 1.0f, 0.9f));
   EXPECT_EQ(scanFeatures(scene), rl::RL_FEATURE_ALPHA | rl::RL_FEATURE_VERTEX_COLORS);

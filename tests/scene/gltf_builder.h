@@ -12,7 +12,7 @@
 
 namespace restlab::test {
 
-// A directory of its own, removed at the end.
+// A temporary directory, removed on destruction.
 class TempDirectory {
  public:
   TempDirectory();
@@ -27,7 +27,7 @@ class TempDirectory {
   std::filesystem::path path_;
 };
 
-// A glTF document whose numbers go into one buffer. `doc` may be changed at will before load().
+// A glTF document whose numbers go into one buffer. Tests may change `doc` freely before load().
 class GltfBuilder {
  public:
   nlohmann::json doc = {{"asset", {{"version", "2.0"}}}};
@@ -45,16 +45,16 @@ class GltfBuilder {
   int addAccessor(int view, size_t byteOffset, size_t count, int componentType,
                   const std::string& type, bool normalized = false);
 
-  // A mesh of one primitive; returns its index.
+  // Adds a mesh of one primitive; returns its index.
   int mesh(const nlohmann::json& primitive);
-  // A mesh of the triangle (0,0,0) (1,0,0) (0,1,0), without indices.
+  // Adds a mesh of the triangle (0,0,0) (1,0,0) (0,1,0), without indices.
   int triangle(const nlohmann::json& more = nlohmann::json::object());
   // Appends to a top-level array; returns the index.
   int add(const char* array, const nlohmann::json& object);
-  // A root node of the scene.
+  // Adds a root node of the scene.
   int node(const nlohmann::json& object);
 
-  // Writes the file and loads it. error() returns the line of the Error thrown, "" if none was.
+  // Write the file and load it. error() returns the line of the Error thrown, "" if none was.
   Scene load();
   std::string error();
   std::filesystem::path write();
@@ -74,16 +74,17 @@ class GltfBuilder {
   std::string bytes_;
 };
 
-// The part of an error line behind the file's name.
+// Returns the part of an error line behind the file's name.
 std::string placeAndText(const std::string& line, const std::filesystem::path& file);
-// Whether one of the warnings contains `text`.
+// Returns whether one of the warnings contains `text`.
 bool warns(const Scene& scene, const std::string& text);
-// A GLB of a JSON chunk and, unless empty, a BIN chunk; its header declares `extraLength` too much.
+// Makes a GLB of a JSON chunk and, unless empty, a BIN chunk; its header declares a length too
+// large by `extraLength`.
 std::string glb(const std::string& jsonText, const std::string& binary, uint32_t extraLength = 0);
 std::string base64(const std::string& bytes);
-// A PNG of 2 x 1 pixels: red, then green half transparent (stored without compression).
+// A PNG of 2 x 1 pixels: red, and half transparent green (stored without compression).
 std::string tinyPng();
-// The same with 16 bits a channel: (0xffff, 0x01ff, 0x0080, 0x7f7f) twice.
+// A PNG of 2 x 1 pixels with 16 bits per channel: (0xffff, 0x01ff, 0x0080, 0x7f7f) twice.
 std::string tinyPng16();
 
 }  // namespace restlab::test

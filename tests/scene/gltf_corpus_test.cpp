@@ -1,5 +1,5 @@
-// Every glTF of the scene collection, where it is present: what must load loads with the numbers
-// its table states, and no broken file brings more than an Error.
+// Every glTF of the scene collection, if present: valid files load with the numbers that the table
+// states, and broken files cause at most an Error.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ size_t instancedTriangles(const Scene& scene) {
   return triangles;
 }
 
-// Indices inside a scene are the import's promise to everything behind it.
+// The import guarantees that indices inside a scene are valid.
 void expectConsistent(const Scene& scene, const fs::path& file) {
   for (const MeshGeometry& geometry : scene.geometries) {
     for (const glm::uvec3& t : geometry.triangles) {

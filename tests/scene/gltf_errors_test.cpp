@@ -1,4 +1,4 @@
-// Broken glTF files: one line each that names the file, the place and what is wrong.
+// Broken glTF files: each gives one line that names the file, the place and the fault.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +18,7 @@ using test::glb;
 using test::GltfBuilder;
 using test::placeAndText;
 
-// What loading a file of these bytes says.
+// Returns the error of loading a file with these bytes.
 std::string errorOf(const std::string& name, const std::string& content) {
   test::TempDirectory directory;
   const std::filesystem::path file = directory.write(name, content);
@@ -67,7 +67,7 @@ TEST(GltfErrors, Glb) {
   EXPECT_NE(errorOf("a.glb", "{}").find("not a GLB"), std::string::npos);
   EXPECT_EQ(errorOf("a.glb", glb(doc.dump(), "")),
             "buffers[0]: has no uri, and there is no GLB binary chunk");
-  // The chunk is lost with the end of the file.
+  // The end of the file is cut off, and the chunk with it.
   EXPECT_EQ(
       errorOf("a.glb", good.substr(0, good.size() - 36 - 5)),
       "buffers[0]: has no uri, and there is no GLB binary chunk; the file ends 41 bytes before "
@@ -162,7 +162,7 @@ TEST(GltfErrors, BuffersViewsAccessors) {
   const auto triangleFile = [](auto change) {
     GltfBuilder file;
     file.node({{"mesh", file.triangle()}});
-    file.write();  // makes the buffer, so that the change can touch it
+    file.write();  // makes the buffer, so that `change` can modify it
     change(file.doc);
     return file.error();
   };
@@ -261,7 +261,7 @@ TEST(GltfErrors, IndicesOutOfRange) {
   GltfBuilder file;
   const int indices = file.accessor<uint16_t>({0, 1, 2, 0, 3, 1}, "SCALAR");
   file.triangle({{"indices", indices}});
-  // No node draws the mesh: it is checked all the same.
+  // Check the mesh although no node draws it.
   expectError(file,
               "meshes[0].primitives[0].indices: element 4 of accessors[0] is 3, but the "
               "primitive has 3 vertices");

@@ -34,7 +34,7 @@ TEST(GltfGeometry, ListWithEachIndexType) {
   }
 }
 
-// All triangles of a strip or fan in the plane z = 0 must face +Z when the first one does.
+// All triangles of a strip or fan in the plane z = 0 must face +Z if the first one does.
 void expectFacing(const MeshGeometry& geometry, size_t count) {
   ASSERT_EQ(geometry.triangles.size(), count);
   for (const glm::uvec3& t : geometry.triangles) {
@@ -97,7 +97,7 @@ TEST(GltfGeometry, PointsAndLinesAreSkippedAndCounted) {
 
 TEST(GltfGeometry, InterleavedAttributes) {
   GltfBuilder file;
-  // position, normal, uv: 32 bytes a vertex.
+  // Position, normal, uv: 32 bytes per vertex.
   const std::vector<float> vertices = {0, 0, 0, 0, 0, 1, 0.0f, 0.0f,   //
                                        1, 0, 0, 0, 1, 0, 0.5f, 0.25f,  //
                                        0, 1, 0, 1, 0, 0, 0.0f, 0.75f};
@@ -148,7 +148,7 @@ TEST(GltfGeometry, QuantizedAndNormalized) {
   GltfBuilder file;
   file.doc["extensionsUsed"] = {"KHR_mesh_quantization"};
   file.doc["extensionsRequired"] = {"KHR_mesh_quantization"};
-  // Vertex data begin at multiples of four bytes.
+  // Vertex data must begin at multiples of four bytes.
   const std::vector<int16_t> positions = {0, 0, 0, 0, 100, 0, 0, 0, -32768, 32767, 0, 0};
   const std::vector<int8_t> normals = {0, 0, 127, 0, 0, 127, 0, 0, -128, 0, 0, 0};
   const std::vector<uint8_t> uvs = {0, 255, 0, 0, 51, 0, 0, 0, 255, 102, 0, 0};
@@ -231,7 +231,7 @@ TEST(GltfGeometry, SharedMeshesAreInstanced) {
   const int mesh = file.triangle({{"material", 0}});
   file.add("materials", {{"name", "a"}});
   file.add("materials", {{"name", "b"}});
-  // Another mesh of the same accessors with another material shares the geometry, too.
+  // Another mesh of the same accessors with another material also shares the geometry.
   json same = file.doc["meshes"][size_t(mesh)]["primitives"][0];
   same["material"] = 1;
   const int other = file.mesh(same);

@@ -1,5 +1,5 @@
-// GLB files whose lengths do not fit: chunks are read one by one, with a warning where a rule is
-// broken.
+// GLB files with inconsistent lengths: chunks are read one by one, with a warning for each broken
+// rule.
 #include <gtest/gtest.h>
 
 #include "core/error.h"
@@ -16,7 +16,8 @@ std::string u32(size_t number) {
   return std::string(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-// A GLB of both chunks; each with as many bytes of padding in its length and behind it.
+// Makes a GLB of both chunks; each has `inLength` bytes of padding within its length and `behind`
+// bytes after it.
 std::string glbWith(const std::string& text, const std::string& binary, size_t inLength,
                     size_t behind, int lengthError = 0) {
   std::string body;
@@ -27,7 +28,7 @@ std::string glbWith(const std::string& text, const std::string& binary, size_t i
   return "glTF" + u32(2) + u32(size_t(12 + int(body.size()) + lengthError)) + body;
 }
 
-// A triangle in the binary chunk of a GLB.
+// A document with a triangle in the binary chunk of a GLB.
 json triangleDocument() {
   return {
       {"asset", {{"version", "2.0"}}},
@@ -56,7 +57,7 @@ TEST(GltfGlb, ChunksOfAnyLength) {
     const std::string text = doc.dump() + std::string(blanks, ' ');
     const size_t missing = (4 - text.size() % 4) % 4;
     const bool isWhole = missing == 0;
-    // Without padding; with the padding behind the length.
+    // Without padding; with padding that the length does not count.
     for (const size_t behind : {size_t(0), missing}) {
       const Scene scene = load(glbWith(text, binary, 0, behind));
       ASSERT_EQ(scene.instances.size(), 1u);
@@ -69,7 +70,7 @@ TEST(GltfGlb, ChunksOfAnyLength) {
   EXPECT_THROW(load(glbWith(doc.dump(), binary, 40, 0).substr(0, 400)), Error);
 }
 
-// Chunks say how long they are; nothing of a scene hangs on what the header says.
+// The lengths of the chunks decide; the length in the header does not matter.
 TEST(GltfGlb, HeadersOfAnyLengthAndBytesBehindTheChunks) {
   const std::string binary = triangleBytes();
   std::string text = triangleDocument().dump();

@@ -1,5 +1,4 @@
-// Files that break a rule of glTF and leave no doubt about what they mean are drawn, with a
-// warning.
+// Files that break a rule of glTF but have a clear meaning are drawn, with a warning.
 #include <gtest/gtest.h>
 
 #include "core/error.h"
@@ -12,7 +11,7 @@ using nlohmann::json;
 using test::GltfBuilder;
 using test::warns;
 
-// A material that shows the image of this URI.
+// Adds a material that shows the image of this URI.
 void addTexture(GltfBuilder& file, const std::string& uri) {
   file.add("images", {{"uri", uri}});
   file.add("textures", {{"source", 0}});
@@ -33,7 +32,7 @@ TEST(GltfLenient, RawPercentSignsOfNames) {
     EXPECT_EQ(scene.images.size(), 1u) << uri;
     EXPECT_TRUE(warns(scene, "a percent sign that is not escaped")) << uri;
   }
-  // A name that is escaped by the rules is tried first, and without a word.
+  // A correctly escaped name is tried first, without a warning.
   GltfBuilder file;
   file.directory().write("50%.png", test::tinyPng());
   addTexture(file, "50%25.png");
@@ -114,7 +113,7 @@ TEST(GltfLenient, NullAndUselessNumbersOfWhatIsNotRead) {
                             "samplers[0].minFilter: 1", "samplers[0].name: is null",
                             "accessors[0].min[0]: is null", "bufferViews[0].target: 7"})
     EXPECT_TRUE(warns(scene, place)) << place;
-  // A number that is read is refused all the same.
+  // A null number that is read stays an error.
   file.doc["cameras"][0]["orthographic"]["ymag"] = nullptr;
   EXPECT_EQ(file.error(), "cameras[0].orthographic.ymag: is null; a number expected");
   file.doc["cameras"][0]["orthographic"]["ymag"] = 1;
@@ -124,7 +123,7 @@ TEST(GltfLenient, NullAndUselessNumbersOfWhatIsNotRead) {
 
 TEST(GltfLenient, WhatNoImageDependsOnMayBeOfAnyType) {
   struct Case {
-    const char* place;  // of what stands in the file, as JSON
+    const char* place;  // place in the file, as a JSON pointer
     json value;
     const char* warning;
   };
@@ -167,7 +166,7 @@ TEST(GltfLenient, WhatNoImageDependsOnMayBeOfAnyType) {
     EXPECT_TRUE(warns(scene, c.warning)) << c.place;
     EXPECT_EQ(scene.warnings.size(), before + 1) << c.place;
   }
-  // The same where it is read.
+  // The same values are errors if something reads them.
   GltfBuilder file;
   file.add("materials", {{"alphaMode", "MASK"}, {"alphaCutoff", "a"}});
   EXPECT_EQ(file.error(), "materials[0].alphaCutoff: is a string; a number expected");
@@ -182,7 +181,7 @@ TEST(GltfLenient, WhatNoImageDependsOnMayBeOfAnyType) {
   EXPECT_EQ(file.error(), "nodes[0].translation: is a string; an array of numbers expected");
 }
 
-// Numbers of JSON beyond a double are refused where something reads them.
+// JSON numbers beyond a double are refused if something reads them.
 TEST(GltfLenient, NumbersBeyondADouble) {
   test::TempDirectory directory;
   const auto document = [&](const std::string& yfov, const std::string& zfar) {

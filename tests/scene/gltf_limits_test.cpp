@@ -1,4 +1,4 @@
-// What a glTF file claims is checked before memory is taken for it.
+// Sizes that a glTF file claims are checked before memory is allocated for them.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -47,7 +47,7 @@ TEST(GltfLimits, CountsBeyondTheirData) {
               std::string::npos)
         << file.error();
   }
-  for (const uint64_t count : {uint64_t(4), uint64_t(0x7fffffff)}) {  // of 3 elements
+  for (const uint64_t count : {uint64_t(4), uint64_t(0x7fffffff)}) {  // the accessor has 3 elements
     GltfBuilder file;
     file.triangle();
     const uint16_t indices[] = {0, 1, 2};
@@ -60,7 +60,7 @@ TEST(GltfLimits, CountsBeyondTheirData) {
   }
 }
 
-// Time, not memory: each accessor is looked through.
+// Limits time, not memory: each accessor is read whole.
 TEST(GltfLimits, OverlappingAccessorsCountTogether) {
   GltfBuilder file;
   file.triangle();
@@ -92,7 +92,7 @@ TEST(GltfLimits, ElementsWithoutDataCountTogether) {
   EXPECT_NE(file.error().find("accessors[0].count"), std::string::npos);
 }
 
-// A file that claims a size without having the bytes on the disk; false where the disk cannot.
+// Makes a file of that size without bytes on the disk; false if the disk does not support it.
 bool makeSparse(const fs::path& file, uint64_t bytes) {
   std::ofstream(file, std::ios::binary) << '{';
   std::error_code error;

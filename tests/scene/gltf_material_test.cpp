@@ -12,7 +12,7 @@ using nlohmann::json;
 using test::GltfBuilder;
 using test::warns;
 
-// The one material of a file with a triangle of it.
+// A scene with one triangle, and its material.
 struct Loaded {
   Scene scene;
   rl::Material data;
@@ -164,7 +164,7 @@ TEST(GltfMaterial, LargeIntegersInExtensionsSurvive) {
   EXPECT_EQ(loaded.data.emission, glm::vec3(5e9f));
 }
 
-// A file with the tiny image, one sampler and one texture of both.
+// Adds the tiny image, a sampler and a texture that uses both.
 void addTexture(GltfBuilder& file, const json& sampler = json::object()) {
   file.directory().write("tiny.png", test::tinyPng());
   file.add("images", {{"uri", "tiny.png"}, {"name", "tiny"}});
@@ -224,7 +224,7 @@ TEST(GltfTexture, TransformOffsetsRotatesAndScales) {
                    {"KHR_texture_transform"});
   const TextureUse& rotated =
       loaded.scene.textureUses.at(loaded.data.textures[rl::RL_TEX_BASE_COLOR]);
-  // The corner that Khronos' TextureTransformTest marks as correct: (0.421, 1.016) lands on the
+  // Corner that Khronos' TextureTransformTest marks as correct: (0.421, 1.016) lands on the
   // diagonal at 1.1, where the arrow points.
   const glm::vec3 corner(0.42095f, 1.01627f, 1.0f);
   EXPECT_NEAR(glm::dot(rotated.uvRow0, corner), 0.77782f, 1e-4f);
@@ -295,7 +295,7 @@ TEST(GltfTexture, ContentHashFollowsEveryFile) {
   EXPECT_NE(first, hash(test::tinyPng(), 0.5f));
 }
 
-// A body of glass, with what its material says besides.
+// Loads a body of glass whose material has these extras.
 Loaded loadBody(const json& extras) {
   GltfBuilder file;
   json material = {{"name", "amber"}, {"extras", extras}};
@@ -331,7 +331,7 @@ TEST(GltfMaterial, PrioritiesOfNoUseAreSaid) {
         << line;
     EXPECT_LT(line.size(), 300u);
   }
-  // A material that no light travels through fills no place.
+  // A material that transmits no light makes no body.
   GltfBuilder file;
   const Loaded loaded = loadMaterial(file, {{"extras", {{"priority", 1}}}});
   EXPECT_TRUE(warns(loaded.scene, "materials[0].extras.priority: has no effect"));

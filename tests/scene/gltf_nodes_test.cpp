@@ -27,7 +27,7 @@ TEST(GltfNodes, HierarchyWithNegativeAndNonUniformScale) {
   const int child = file.add(
       "nodes",
       {{"mesh", mesh}, {"translation", {1, 0, 0}}, {"scale", {-1, 2, 1}}, {"name", "child"}});
-  // A quarter turn about Z.
+  // The parent turns by 90 degrees about Z.
   file.node(
       {{"children", {child}}, {"rotation", {0, 0, kHalf, kHalf}}, {"translation", {0, 0, 3}}});
   const Scene scene = file.load();
@@ -197,7 +197,7 @@ TEST(GltfNodes, PunctualLights) {
   file.node({{"mesh", file.triangle()}});
   // The scale of a node does not change a light's numbers.
   file.node(light(0, {{"translation", {1, 2, 3}}, {"scale", {5, 5, 5}}}));
-  // A quarter turn about X: -Z becomes +Y.
+  // A turn by 90 degrees about X: -Z becomes +Y.
   file.node(light(1, {{"rotation", {kHalf, 0, 0, kHalf}}, {"scale", {1, 1, 4}}}));
   file.node(light(2, json::object()));
   const Scene scene = file.load();

@@ -1,4 +1,4 @@
-// Scales of nodes that mirror or are 0: what cameras and lights make of them, and plates.
+// Node scales that mirror or are 0: their effect on cameras and lights, and plates.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using test::warns;
 
 const double kHalf = std::sqrt(0.5);
 
-// The camera of a file in which `camera` carries one, below `root`.
+// Loads a file in which the node `camera` carries a camera, below `root`.
 Scene withCamera(json camera, json root, bool isOrthographic = false) {
   GltfBuilder file;
   if (isOrthographic) {
@@ -33,7 +33,7 @@ Scene withCamera(json camera, json root, bool isOrthographic = false) {
   return file.load();
 }
 
-// The place of a point of the world in the image: x to the right, y up, z along the view.
+// Position of a world point in the image: x to the right, y up, z along the view.
 glm::vec3 onFilm(const Scene& scene, const glm::dvec3& pointW) {
   const auto compiled = CompiledScene::build(scene);
   const rl::Camera camera = compiled->camera(scene.cameras.at(0), 64, 64);
@@ -45,7 +45,7 @@ void expectSame(const glm::vec3& a, const glm::vec3& b, const json& node) {
   EXPECT_LT(glm::distance(a, b), 1e-5f) << node << ": " << a.x << " " << a.y << " " << a.z;
 }
 
-// The camera and all that it sees below one mirror: the image is that without the mirror.
+// One mirror above both the camera and all that it sees leaves the image unchanged.
 TEST(GltfScale, AMirrorAboveCameraAndMeshesShowsInNoImage) {
   const json turned = {{"rotation", {0, 0.6, 0, 0.8}}, {"translation", {1, 2, 3}}};
   for (const bool isOrthographic : {false, true}) {
@@ -70,7 +70,7 @@ TEST(GltfScale, TheScaleOfACameraIsIgnored) {
         glm::dvec3(0, 0, 0), glm::dvec3(1, 0, 1), glm::dvec3(0, 1, -1), glm::dvec3(2, 3, 0)}) {
     const json scaled = {{"scale", {s.x, s.y, s.z}}};
     const json matrix = {{"matrix", {s.x, 0, 0, 0, 0, s.y, 0, 0, 0, 0, s.z, 0, 0, 0, 0, 1}}};
-    // The signs of a matrix without volume cannot be told.
+    // The signs of a matrix without volume cannot be determined.
     const bool isReadable = s.x * s.y * s.z != 0.0 || std::min({s.x, s.y, s.z}) >= 0.0;
     for (const json& node : isReadable ? std::vector{scaled, matrix} : std::vector{scaled}) {
       const Scene scene = withCamera(node, json::object());
@@ -93,7 +93,7 @@ TEST(GltfScale, ZeroAboveACameraCountsAsOne) {
   }
 }
 
-// Below an uneven scale axes are no longer at right angles: the view keeps its middle.
+// Below an uneven scale, axes are not orthogonal: the centre of the view must stay.
 TEST(GltfScale, AShearedCameraLooksWhereItsNodeSays) {
   const json turned = {{"rotation", {0, std::sin(0.3), 0, std::cos(0.3)}}};
   const Scene scene = withCamera(turned, {{"scale", {3, 1, 1}}});
@@ -124,7 +124,7 @@ TEST(GltfScale, PlatesAreDrawnAndLinesAreNot) {
   const int mesh = file.triangle();
   file.node({{"mesh", mesh}, {"scale", {1, 0, 1}}, {"name", "plate"}});
   file.node({{"mesh", mesh}, {"scale", {1, 0, 0}}, {"name", "line"}});
-  // Flattened across the axes of the mesh.
+  // Flattened along a direction that is no axis of the mesh.
   const int turned = file.add("nodes", {{"mesh", mesh}, {"rotation", {0, 0, 0.6, 0.8}}});
   file.node({{"children", {turned}}, {"scale", {1, 0, 1}}});
   const Scene scene = file.load();

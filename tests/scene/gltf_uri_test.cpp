@@ -1,4 +1,4 @@
-// URIs of buffers and images name files below the scene's folder, however they are written.
+// URIs of buffers and images name only files below the scene's folder, however they are written.
 #include <gtest/gtest.h>
 
 #include "tests/scene/gltf_builder.h"
@@ -11,8 +11,8 @@ using test::GltfBuilder;
 
 constexpr const char* kBytes = "thirty-six bytes of corners, or more";
 
-// A scene in the folder `inside`, whose buffer or image has this URI. What it would find outside is
-// there, as a buffer and as an image.
+// Error of loading a scene in the folder `inside` whose buffer or image has this URI. Files outside
+// the folder exist, valid as a buffer and as an image.
 std::string errorOf(const char* array, const std::string& uri) {
   GltfBuilder file;
   file.fileName = "inside/test.gltf";

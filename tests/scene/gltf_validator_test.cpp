@@ -1,5 +1,5 @@
-// What the glTF validator calls an error and the import accepts is what docs/gltf.md lists, file by
-// file: the corpus holds the validator's report of each.
+// docs/gltf.md must list, file by file, the errors of the glTF validator that the import accepts;
+// the corpus has the validator's report of each file.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -52,7 +52,7 @@ bool isAccepted(const fs::path& file) {
   }
 }
 
-// "`CODE` 2/3" in a row of the table: accepted in 2 of the 3 files that have it.
+// Entry of a table row: "`CODE` 2/3" means accepted in 2 of the 3 files that have the error.
 Counts listed() {
   const std::string text = textOf(fs::path(RESTLAB_SOURCE_DIR) / "docs/gltf.md");
   static const std::regex entry("`([A-Z_]+)` (\\d+)/(\\d+)");

@@ -1,4 +1,4 @@
-// Radiance HDR by the words of its header and its runs of both kinds.
+// Radiance HDR: the keywords of its header, and its runs of both kinds.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,7 +29,7 @@ std::string bytes(std::initializer_list<int> values) {
   return text;
 }
 
-// 0.5, 0.25, 1.
+// RGBE of (0.5, 0.25, 1).
 const std::string kPixel = bytes({64, 32, 128, 129});
 
 void expectNear(const glm::vec3& found, const glm::dvec3& right, double tolerance = 1e-6) {
@@ -44,7 +44,7 @@ TEST(Hdr, ExposuresAndColourCorrectionsAreDividedOut) {
   EXPECT_EQ(one("EXPOSURE=2.0\n"), glm::vec3(0.25f, 0.125f, 0.5f));
   expectNear(one("EXPOSURE= 2.000000e+00\nSOFTWARE=x\nEXPOSURE=+5\r\n"), {0.05, 0.025, 0.1});
   expectNear(one("COLORCORR=2 0.5 1\nEXPOSURE=0.1\nCOLORCORR= 1 0.5 4\n"), {2.5, 10, 2.5});
-  // Indented lines are those of a program's input, and not of this file.
+  // Indented lines belong to a program's input, not to this file.
   EXPECT_EQ(one("pcomb a.hdr\n\tEXPOSURE=8\n"), glm::vec3(0.5f, 0.25f, 1.0f));
 }
 
@@ -56,10 +56,10 @@ TEST(Hdr, ColoursOfOtherPrimariesBecomeRec709) {
   expectNear(wide.pixels[0], {1.6605, -0.1246, -0.0182}, 1e-4);
   EXPECT_TRUE(wide.isConverted);
   EXPECT_EQ(wide.notes.size(), 1u);
-  // Exposure is of the file's own channels.
+  // Exposure applies to the file's own channels.
   expectNear(decoded("COLORCORR=2 1 1\n" + rec2020, "-Y 1 +X 1", red).pixels[0],
              {0.8302, -0.0623, -0.0091}, 1e-4);
-  // Eight zeros are written by programs that do not know.
+  // Programs that do not know the primaries write eight zeros.
   const DecodedHdr unknown =
       decoded("GAMMA=1\nPRIMARIES=0 0 0 0 0 0 0 0\n" + std::string(kRgbe), "-Y 1 +X 1", red);
   EXPECT_EQ(unknown.pixels[0], glm::vec3(1, 0, 0));
@@ -70,7 +70,7 @@ TEST(Hdr, ColoursOfOtherPrimariesBecomeRec709) {
 }
 
 TEST(Hdr, RunsOfTheOldKind) {
-  // 300 pixels: one, its 43 = 0x2b repetitions and 256 more, in digits of 256.
+  // 300 pixels: one, its 43 = 0x2b repetitions and 256 more, in digits to base 256.
   const std::string other = bytes({128, 0, 0, 129});
   const DecodedHdr image =
       decoded(kRgbe, "-Y 2 +X 300",
@@ -109,7 +109,7 @@ TEST(Hdr, RunsOfTheNewKindBesideOthers) {
   EXPECT_NE(problem(kRgbe, "-Y 1 +X 9", wrong).find("a run of no pixels"), std::string::npos);
 }
 
-// The same picture, 1 2 3 above 4 5 6, in all eight orders.
+// One image, 1 2 3 above 4 5 6, in all eight orders.
 TEST(Hdr, RowsOfEveryOrder) {
   const auto pixels = [](const std::string& order) {
     std::string text;

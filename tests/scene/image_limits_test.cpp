@@ -1,4 +1,5 @@
-// Images whose headers lie: refused by the size of the file, before memory is taken for the pixels.
+// Images with false headers: refused by the size of the file, before memory is allocated for the
+// pixels.
 #include <gtest/gtest.h>
 
 #include "core/scene/image_decode.h"
@@ -31,7 +32,7 @@ std::string pngOfSize(uint32_t width, uint32_t height) {
 
 TEST(ImageLimits, PngThatClaimsMorePixels) {
   EXPECT_EQ(problemOf(test::tinyPng()), "");
-  // 2^28 pixels of four bytes each: 1 MiB at best.
+  // 2^28 pixels of four bytes each compress to 1 MiB at best.
   EXPECT_NE(problemOf(pngOfSize(16384, 16384)).find("16384x16384 pixels in "), std::string::npos);
   EXPECT_NE(problemOf(pngOfSize(16384, 16384)).find("at least 1040"), std::string::npos)
       << problemOf(pngOfSize(16384, 16384));
@@ -41,7 +42,8 @@ TEST(ImageLimits, PngThatClaimsMorePixels) {
 }
 
 TEST(ImageLimits, PngChunkThatClaimsTheRest) {
-  // The length of the chunk of pixels, behind the signature and the header's chunk of 25 bytes.
+  // Replace the length of the IDAT chunk, which follows the signature and the IHDR chunk of 25
+  // bytes.
   std::string png = test::tinyPng();
   ASSERT_EQ(png.substr(37, 4), "IDAT");
   EXPECT_EQ(problemOf(png.replace(33, 4, bigEndian(1u << 30))), "truncated");
@@ -54,14 +56,14 @@ TEST(ImageLimits, PngWhoseLastPieceHasAWrongSum) {
   EXPECT_NE(problemOf(png), "");
 }
 
-// Nothing forbids it.
+// The PNG specification allows empty IDAT chunks.
 TEST(ImageLimits, PngThatBeginsWithAnEmptyChunkOfPixels) {
   std::string png = test::tinyPng();
   png.insert(33, std::string("\0\0\0\0IDAT\x35\xaf\x06\x1e", 12));
   EXPECT_EQ(problemOf(png), "");
 }
 
-// More than a thousand texts, at which the library stops by itself.
+// More than a thousand texts, the internal limit of libspng.
 TEST(ImageLimits, PngOfManyChunks) {
   std::string png = test::tinyPng();
   const std::string text("\0\0\0\x03tEXta\0b\xdc\x49\xa2\x3b", 15);
@@ -71,7 +73,7 @@ TEST(ImageLimits, PngOfManyChunks) {
   EXPECT_EQ(problemOf(png), "");
 }
 
-// Chunks of a JPEG of one grey component: 'd' the baseline frame or its progressive relative.
+// JPEG of one grey component, baseline or progressive, with `scans` scans.
 std::string jpeg(uint32_t width, uint32_t height, size_t scans, bool progressive = false) {
   const auto segment = [](uint8_t marker, const std::string& data) {
     return std::string{'\xff', static_cast<char>(marker)} +
@@ -101,7 +103,7 @@ TEST(ImageLimits, JpegOfManyScans) {
   EXPECT_EQ(problemOf(jpeg(8, 8, 500, true)), "");
   const std::string problem = problemOf(jpeg(8, 8, 501, true));
   EXPECT_NE(problem.find("has more than 500 scans"), std::string::npos) << problem;
-  // A picture inside a segment, as cameras store, is no scan of this one.
+  // An image inside a segment, as cameras store it, does not count as a scan.
   const std::string inside = jpeg(8, 8, 501, true);
   std::string file = jpeg(8, 8, 1);
   file.insert(2, "\xff\xe1" + bigEndian(static_cast<uint32_t>(inside.size()) + 2, 2) + inside);
@@ -109,7 +111,7 @@ TEST(ImageLimits, JpegOfManyScans) {
 }
 
 TEST(ImageLimits, JpegOfTooManyCodes) {
-  // Two codes of each length but the longest, of which there are 255.
+  // Two codes of each length except the longest, which has 255.
   const std::string good = jpeg(8, 8, 1);
   const size_t table = good.find("\xff\xc4");
   std::string file = good;
@@ -126,9 +128,9 @@ TEST(ImageLimits, HdrThatClaimsMorePixels) {
   // Eight pixels of one colour: a row of four runs.
   const std::string row = std::string("\2\2\0\10", 4) + "\x88\1\x88\1\x88\1\x88\1";
   EXPECT_EQ(hdrProblem(hdr("-Y 1 +X 8", row)), "");
-  // Runs that end with the file.
+  // Runs that end at the end of the file.
   EXPECT_EQ(hdrProblem(hdr("-Y 2 +X 8", row + std::string("\2\2\0\10\x88\1", 6))), "truncated");
-  // 16384 rows of a pixel and two marks that repeat it.
+  // At least 16384 rows of one pixel and two marks that repeat it.
   EXPECT_NE(hdrProblem(hdr("-Y 16384 +X 16384", row)).find("at least 196608 expected"),
             std::string::npos)
       << hdrProblem(hdr("-Y 16384 +X 16384", row));

@@ -1,4 +1,4 @@
-// Lamps that are off or dimmed: which there are, what a factor changes, and what it must not.
+// Light factors: names of lights, effects of a factor, and properties that must stay.
 #include "core/scene/light_factor.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ MeshGeometry square(const std::string& name, double x) {
   return builtin::quad(name, {x, 2.0, 0.0}, {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0});
 }
 
-// Two lamps of one material, one of another, a spot light and a floor.
+// Two lights of one material, one of another, a spot light and a floor.
 Scene lamps() {
   builtin::SceneBuilder scene("lamps");
   const uint32_t warm = scene.addMaterial("warm", builtin::lamp({3.0f, 2.0f, 1.0f}));
@@ -52,7 +52,7 @@ float factorOf(const Scene& scene, size_t instance) {
   return scene.materials.at(scene.instances.at(instance).material).lightFactor;
 }
 
-// Power by light of the table, as the selection has it.
+// Selection probability of each light of the table.
 std::vector<float> probabilities(const CompiledScene& scene) {
   std::vector<float> all;
   const size_t count = 2 * 3 + 1;
@@ -80,7 +80,7 @@ TEST(LightFactor, AMeshHasItsOwnOfASharedMaterial) {
   Scene scene = withLightFactor(lamps(), "left", 0.25);
   EXPECT_EQ(factorOf(scene, 0), 0.25f);
   EXPECT_EQ(factorOf(scene, 1), 1.0f);
-  // Again, and it gets no further copy; a material is all of its meshes.
+  // A second factor makes no further copy; a factor on a material applies to all its meshes.
   const size_t materials = scene.materials.size();
   scene = withLightFactor(std::move(scene), "left", 0.5);
   EXPECT_EQ(scene.materials.size(), materials);
@@ -93,7 +93,7 @@ TEST(LightFactor, AMeshHasItsOwnOfASharedMaterial) {
   EXPECT_TRUE(lightFactors(withLightFactor(scene, "all", 1.0)).empty());
 }
 
-// Reservoirs know lights by their index, and kernels by features: a lamp that is off keeps both.
+// Reservoirs identify lights by index, and kernels by features: a light that is off keeps both.
 TEST(LightFactor, ALampThatIsOffKeepsItsPlace) {
   const auto on = CompiledScene::build(lamps());
   const auto off = CompiledScene::build(withLightFactor(lamps(), "left", 0.0));

@@ -1,4 +1,4 @@
-// How scenes and environments are found and read.
+// Finding and loading of scenes and environments.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -27,7 +27,7 @@ std::string errorOf(Call call) {
   return "";
 }
 
-// Sets a variable of the environment for a scope.
+// RAII: sets an environment variable for a scope.
 class Variable {
  public:
   Variable(const char* name, const std::string& value) : name_(name) {

@@ -1,4 +1,4 @@
-// Geometry of scenes as tests look at it: world triangles, closedness, volume, rays by brute force.
+// Geometry checks of scenes for tests: world triangles, closedness, volume, rays by brute force.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -19,8 +19,8 @@ struct WorldTriangle {
 // Triangles of the instances whose name starts with `prefix` ("": all), in world space.
 std::vector<WorldTriangle> worldTriangles(const Scene& scene, const std::string& prefix = "");
 
-// "" when the surface is closed and consistently oriented: every edge, by exact position, is run
-// through as often one way as the other. Else the first edge that is not.
+// Returns "" when the surface is closed and consistently oriented: every edge, by exact position,
+// is traversed equally often in both directions. Else describes the first edge that is not.
 std::string openEdge(const std::vector<WorldTriangle>& triangles);
 
 // Volume inside a closed surface, m^3; negative when its faces look inwards.
@@ -30,14 +30,14 @@ struct WorldHit {
   double t = 0.0;
   const WorldTriangle* triangle = nullptr;
 };
-// The nearest triangle along origin + t dir, t > 0.
+// Finds the nearest triangle along origin + t dir, t > 0.
 std::optional<WorldHit> nearestHit(const std::vector<WorldTriangle>& triangles,
                                    const glm::dvec3& origin, const glm::dvec3& dir);
 
 // Direction (not unit) through film position (x, y) in [0, 1]^2, (0, 0) the upper left corner.
 glm::dvec3 cameraDirection(const SceneCamera& camera, double x, double y, double aspect);
 
-// The first instance of that name; throws std::invalid_argument.
+// Returns the first instance of that name; throws std::invalid_argument if there is none.
 const MeshInstance& instanceNamed(const Scene& scene, const std::string& name);
 
 }  // namespace restlab::test

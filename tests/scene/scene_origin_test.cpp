@@ -1,4 +1,4 @@
-// The origin of a scene follows its camera where something lies too far off; elsewhere it is the
+// The origin of a scene follows its camera if something lies too far off; otherwise it is the
 // middle of the bounds. Huge triangles near the camera are drawn in pieces.
 #include "core/scene/scene_origin.h"
 
@@ -49,7 +49,7 @@ TEST(SceneOrigin, AStrayMovesNothing) {
   }
 }
 
-// The stray is in one mesh with the room, as some exporters join everything.
+// The stray belongs to the room's mesh, as with exporters that join everything.
 TEST(SceneOrigin, AStrayWithinTheSameMeshMovesNothing) {
   Scene scene = room().finish();
   MeshGeometry& mesh = scene.geometries[0];
@@ -74,7 +74,7 @@ TEST(SceneOrigin, HarmlessScenesKeepTheMiddleOfTheirBounds) {
       EXPECT_EQ(origin.originW, 0.5 * (bounds[0] + bounds[1])) << name;
     }
   }
-  // Far from the world's origin, and seen from afar: neither is a stray.
+  // Far from the world's origin, or seen from afar: neither makes a stray.
   EXPECT_FALSE(originOf(room({1e7, 0, 1e7}).finish(), 0).followsCamera);
   builtin::SceneBuilder far("far");
   addStray(far, glm::dvec3(0.0));
@@ -83,7 +83,7 @@ TEST(SceneOrigin, HarmlessScenesKeepTheMiddleOfTheirBounds) {
   EXPECT_FALSE(originOf(far.finish(), 0).followsCamera);
 }
 
-// Two rooms a thousand kilometres apart: each camera has the numbers of its own room.
+// Two rooms a thousand kilometres apart: each camera gets precise coordinates in its own room.
 TEST(SceneOrigin, FollowsTheMainCamera) {
   builtin::SceneBuilder builder = room();
   const glm::dvec3 away(1e6, 0, 0);
@@ -99,7 +99,7 @@ TEST(SceneOrigin, FollowsTheMainCamera) {
   EXPECT_EQ(CompiledScene::build(scene)->origin(), away + glm::dvec3(0, 0, 8));
 }
 
-// A narrow view from afar: no line tells a scene's only camera to be rendered by itself.
+// A narrow view from afar: no warning advises to render a scene's only camera by itself.
 TEST(SceneOrigin, TheOnlyCameraIsNotComparedWithItself) {
   for (const double degrees : {1e-2, 1e-3, 1e-5}) {
     builtin::SceneBuilder builder("tele");
@@ -128,7 +128,8 @@ TEST(SceneOrigin, WithoutACameraTheViewLeavesStraysOut) {
   }
 }
 
-// Vertices that the file has rounded count by what is seen, not by the distance of a stray.
+// Vertices rounded in the file are judged relative to the visible part, not to the distance of a
+// stray.
 TEST(SceneOrigin, RoundedVerticesNearTheCameraAreSaidBesideAStray) {
   builtin::SceneBuilder builder = room();
   MeshGeometry rounded = builtin::box("rounded", {-0.1, -0.9, -0.1}, {0.1, -0.5, 0.1});

@@ -1,5 +1,5 @@
-// The bias test tested: on a made-up renderer whose truth is known, with skewed and correlated
-// noise like that of path reuse. It must leave a correct estimator alone and find a wrong one.
+// Tests the bias test on a made-up renderer whose truth is known, with skewed and correlated noise
+// like that of path reuse: it must accept a correct estimator and find a wrong one.
 #include "experiments/statistics/bias_test.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ Image truthImage() {
   return image;
 }
 
-// Mean 1, skewness sqrt 2.
+// Returns a random factor of mean 1 and skewness sqrt 2.
 double skewedFactor(std::mt19937_64& random) {
   const uint64_t bits = random();
   const double u = (double(bits >> 32) + 0.5) * 0x1p-32;
@@ -36,8 +36,8 @@ double skewedFactor(std::mt19937_64& random) {
   return -0.5 * std::log(u * v);
 }
 
-// One run: every 2x2 pixels share a skewed factor, every pixel has one of its own. `bias`
-// multiplies the pixels of the left upper quarter.
+// Makes one run: every 2x2 pixels share a skewed factor, and every pixel has its own. `bias`
+// multiplies the pixels of the upper left quarter.
 Image makeRun(const Image& truth, std::mt19937_64& random, double bias = 1.0) {
   Image run(truth.width, truth.height);
   for (uint32_t y = 0; y < run.height; y += 2) {
@@ -62,7 +62,7 @@ RunSet makeRuns(const Image& truth, uint64_t seed, double bias = 1.0, int runs =
   return set;
 }
 
-// A reference of 2 x 512 runs' worth of independent pixel noise.
+// Makes a reference with independent pixel noise worth 2 x 512 runs.
 ReferenceCells makeReference(const Image& truth, uint64_t seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<float> normal;
@@ -79,7 +79,7 @@ RunSet noSecondBatch() {
 }
 
 TEST(ReferenceCells, VarianceOfHalvesIsMeasured) {
-  // Halves of standard deviation 0.03 x value: the mean's is that / sqrt 2.
+  // Halves of standard deviation 0.03 x value: that of the mean is smaller by sqrt 2.
   Image truth(64, 64, glm::vec3(2.0f));
   const Sample s = makeReference(truth, 31).cell({0, 0, 8}, Quantity::red);
   EXPECT_NEAR(s.mean, 2.0, 0.004);
@@ -95,8 +95,8 @@ TEST(ReferenceCells, VarianceOfHalvesIsMeasured) {
       0.0);
 }
 
-// A correct estimator, 100 seeds. Measured: the first batch rejects in 0 of 100 (0.1 expected), and
-// no area is untestable.
+// 100 seeds of a correct estimator. Measured: the first batch rejects in 0 of 100 (0.1 expected),
+// and no area is untestable.
 TEST(BiasTest, LeavesACorrectEstimatorAlone) {
   const Image truth = truthImage();
   int firstRejections = 0, confirmed = 0;
@@ -124,9 +124,9 @@ TEST(BiasTest, LeavesACorrectEstimatorAlone) {
   EXPECT_GT(ksUniformTest(cellP).pValue, 1e-3);
 }
 
-// A quarter of the image is too dark by what the test says it finds in a cell with power 0.9.
-// Measured: found and confirmed in 40 of 40 seeds; of the single blocks concerned, 266 of 280 (95
-// %) by the first batch.
+// A quarter of the image is too dark by the bias that the test says it finds in a cell with power
+// 0.9. Measured: found and confirmed in 40 of 40 seeds; of the single blocks concerned, 266 of 280
+// (95 %) by the first batch.
 TEST(BiasTest, FindsABiasOfTheSizeItStates) {
   const Image truth = truthImage();
   const Truth reference = truthOf(makeReference(truth, 77));
@@ -192,7 +192,7 @@ TEST(BiasTest, AFlukeIsNotConfirmed) {
 
 TEST(BiasTest, SkewedCellsAreMergedOrPrintedAsUntestable) {
   const Image truth = truthImage();
-  // Fireflies in the last block column: rare and huge there.
+  // Rare and huge fireflies in the last block column.
   const auto fireflies = [&](uint64_t seed) {
     std::mt19937_64 random(seed);
     RunSet set(BlockGrid(kSize, kSize));
@@ -216,7 +216,7 @@ TEST(BiasTest, SkewedCellsAreMergedOrPrintedAsUntestable) {
     EXPECT_LE(v.testable ? std::abs(v.skewness) / std::sqrt(double(kRuns)) : 0.0, 0.05);
   }
   EXPECT_LE(report.cells.size(), 65u);
-  // The areas of all cells are the image, once.
+  // The areas of all cells cover the image once.
   uint64_t pixels = 0;
   for (const CellVerdict& v : report.cells) {
     if (!v.wholeImage) pixels += pixelCount(BlockGrid(kSize, kSize), v.area);
@@ -232,7 +232,7 @@ BiasReport testConstant(const Image& shown, const Image& truth) {
                   {}, [&] { return runs; });
 }
 
-// Lamps seen directly and furnaces: there is no noise for a t-test, only rounding.
+// Lamps seen directly and furnaces have no noise for a t-test, only rounding.
 TEST(BiasTest, CellsWithoutNoiseAreComparedForEquality) {
   const Image lamp(kSize, kSize, glm::vec3(17.3f, 12.1f, 5.7f));
   const Image rounded(kSize, kSize, glm::vec3(17.300003f, 12.099999f, 5.7f));
@@ -243,7 +243,7 @@ TEST(BiasTest, CellsWithoutNoiseAreComparedForEquality) {
   EXPECT_EQ(same.equalShare, 1.0);
   for (const CellVerdict& v : same.cells) EXPECT_TRUE(v.equal && !v.testable && v.whyNot.empty());
 
-  // Constant and different is a bias beyond doubt, however small, and on the side it is on.
+  // A constant difference is a certain bias, however small, with the right side.
   for (const float factor : {0.99f, 0.9999f, 1.0001f, 1.01f}) {
     const Image other(kSize, kSize, glm::vec3(17.3f, 12.1f, 5.7f) * factor);
     const BiasReport wrong = testConstant(other, lamp);
@@ -252,8 +252,8 @@ TEST(BiasTest, CellsWithoutNoiseAreComparedForEquality) {
     for (const CellVerdict& v : wrong.cells) EXPECT_EQ(v.side, factor > 1.0f ? 1 : -1);
   }
 
-  // One different block among equal ones is found, and a change of what is constant in the second
-  // batch is no confirmation.
+  // One different block among equal ones is found. A different constant in the second batch does
+  // not confirm it.
   Image patched = lamp;
   for (uint32_t y = 12; y < 18; ++y) {
     for (uint32_t x = 30; x < 36; ++x) patched.at(x, y) *= 1.001f;
@@ -275,7 +275,7 @@ TEST(BiasTest, CellsWithoutNoiseAreComparedForEquality) {
   EXPECT_EQ(fluke.confirmed, 0u);
 }
 
-// Runs whose only spread is the rounding of their sums, some of it one-sided: equal, not skewed.
+// Runs that differ only by the rounding of their sums, some of it one-sided, are equal, not skewed.
 TEST(BiasTest, RoundingIsNoNoise) {
   const Image truth(kSize, kSize, glm::vec3(1.0f));
   std::mt19937_64 random(11);
@@ -292,8 +292,8 @@ TEST(BiasTest, RoundingIsNoNoise) {
   EXPECT_EQ(same.equalShare, 1.0) << same.text();
 }
 
-// Where (almost) nothing arrives the cell's own brightness is no measure: a rare glimmer of a
-// ten-millionth of the image is rounding. A dark cell that is wrong by more is still found.
+// In cells with almost no light, rounding is relative to the image's brightness: a rare glimmer of
+// a ten-millionth of it is ignored. A dark cell with a larger error is still found.
 TEST(BiasTest, DarkCellsAreHeldToTheImagesBrightness) {
   Image truth = truthImage();
   const auto darken = [](Image& image, float value) {
@@ -322,25 +322,25 @@ TEST(BiasTest, DarkCellsAreHeldToTheImagesBrightness) {
   EXPECT_FALSE(glimmer.failed()) << glimmer.text();
   EXPECT_NEAR(glimmer.equalShare, 0.5, 1e-12);
   EXPECT_LT(glimmer.untestableShare, 0.1);
-  // The same in every run, and more than rounding: a leak.
+  // A constant difference above rounding is a leak.
   const BiasReport leak =
       testBias(withDark(5, 1e-5f, 1), reference, {}, [&] { return withDark(6, 1e-5f, 1); });
   EXPECT_GE(leak.confirmed, 32u) << leak.text();
-  // Rare and large is noise, and skewed: neither equal nor tested.
+  // Rare large values are skewed noise: neither equal nor testable.
   const BiasReport fireflies = testBias(withDark(7, 1.0f, 40), reference, {}, noSecondBatch);
   EXPECT_LT(fireflies.equalShare, 0.01);
   EXPECT_GE(fireflies.untestableShare, 0.5);
 }
 
 TEST(BiasTest, BadValuesAndBlackImages) {
-  // Black beside black: nothing was tested, and that is no pass.
+  // Equal black images are no passed test: nothing was tested.
   const BiasReport black = testConstant(Image(kSize, kSize), Image(kSize, kSize));
   EXPECT_EQ(black.rejected, 0u);
   EXPECT_TRUE(black.failed());
 
   const Image truth = truthImage();
   const Truth reference = truthOf(ReferenceCells::exact(BlockGrid(kSize, kSize), truth));
-  // One NaN fails, whatever the rest says.
+  // One NaN fails the test, whatever the other values.
   RunSet spoilt = makeRuns(truth, 5);
   Image bad = truth;
   bad.at(7, 40).y = std::numeric_limits<float>::quiet_NaN();

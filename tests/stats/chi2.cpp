@@ -21,7 +21,7 @@ std::vector<Cell> pool(std::vector<Cell> cells, double minExpected) {
                    [](const Cell& a, const Cell& b) { return a.expected < b.expected; });
   std::vector<Cell> result;
   Cell rest;
-  bool pooling = false;  // a pool that expects nothing may still have been hit
+  bool pooling = false;  // a pool that expects no hits may still have some
   for (const Cell& cell : cells) {
     if (cell.expected < minExpected || (pooling && rest.expected < minExpected)) {
       pooling = true;
@@ -76,8 +76,8 @@ Chi2Result chi2Test(std::span<const uint64_t> counts, std::span<const double> pr
                          : fmt::format("chi2: probabilities sum to {:.6f}", total);
     return result;
   }
-  // Within the tolerance the rest may be a small negative number, which means none. Failures that
-  // the probabilities leave no room for are weighed in the pooled cell.
+  // Clamp: within the tolerance the rest may be slightly negative. Failures beyond the remaining
+  // probability count in the pooled cell.
   const double rest = std::max(0.0, 1.0 - total) * double(samples);
   if (rest > 0.0 || result.failures > 0) cells.push_back({rest, double(result.failures)});
   cells = pool(std::move(cells), minExpected);

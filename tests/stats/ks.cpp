@@ -10,10 +10,10 @@ namespace {
 
 constexpr size_t kExactLimit = 400;
 
-// P(D_n < d) = n!/n^n times the middle entry of H^n, where n d = k - h, 0 <= h < 1, and H has
-// 2k - 1 rows: 1/(i-j+1)! on and below the first superdiagonal, with the first column and the last
-// row corrected for h. Each factor of the power is scaled by a step of n!/n^n, so that nothing
-// overflows: the factors are applied one at a time to a row vector.
+// Returns P(D_n < d) = n!/n^n times the middle entry of H^n, where n d = k - h, 0 <= h < 1, and H
+// has 2k - 1 rows: 1/(i-j+1)! on and below the first superdiagonal, with the first column and the
+// last row corrected for h. The factors are applied one at a time to a row vector, and each is
+// scaled by a step of n!/n^n, so that nothing overflows.
 double exactLowerTail(double d, size_t n) {
   const double nd = double(n) * d;
   const size_t k = size_t(std::floor(nd)) + 1;
@@ -47,7 +47,7 @@ double exactLowerTail(double d, size_t n) {
   return std::clamp(row[k - 1], 0.0, 1.0);
 }
 
-// Kolmogorov's limit distribution, 2 sum (-1)^(j-1) exp(-2 j^2 x^2).
+// Returns Kolmogorov's limit distribution, 2 sum (-1)^(j-1) exp(-2 j^2 x^2).
 double limitUpperTail(double x) {
   if (x < 0.2) return 1.0;  // 1 - 5e-13
   double sum = 0.0;
@@ -67,7 +67,7 @@ double ksUpperTail(double d, size_t n) {
   if (d >= 1.0) return 0.0;
   const double rootN = std::sqrt(double(n));
   const double corrected = d * (rootN + 0.12 + 0.11 / rootN);
-  // Far in the tail 1 - P loses all digits, and large d makes a large matrix.
+  // Far in the tail 1 - P loses all digits, and a large d needs a large matrix.
   if (n > kExactLimit || corrected > 2.4) return limitUpperTail(corrected);
   return 1.0 - exactLowerTail(d, n);
 }

@@ -1,4 +1,4 @@
-// Runs and references reduced to cells, by hand.
+// Runs and references reduced to cells, against values computed by hand.
 #include "experiments/statistics/run_set.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace restlab::stats {
 namespace {
 
 TEST(RunSet, CellMeansAreExact) {
-  // 13 x 9 pixels: blocks of unequal size.
+  // 13 x 9 pixels give blocks of unequal size.
   Image image(13, 9);
   std::mt19937 random(1);
   for (glm::vec3& pixel : image.pixels) {
@@ -42,7 +42,7 @@ TEST(RunSet, CellMeansAreExact) {
 }
 
 TEST(RunSet, QuantitiesOfAPixel) {
-  // The luminance of Rec. 709 / sRGB (ITU-R BT.709, four digits there).
+  // Luminance of Rec. 709 / sRGB (ITU-R BT.709 gives four digits).
   EXPECT_NEAR(quantityOf({1.0f, 0.0f, 0.0f}, Quantity::luminance), 0.2126, 5e-5);
   EXPECT_NEAR(quantityOf({0.0f, 1.0f, 0.0f}, Quantity::luminance), 0.7152, 5e-5);
   EXPECT_NEAR(quantityOf({0.0f, 0.0f, 1.0f}, Quantity::luminance), 0.0722, 5e-5);
@@ -58,11 +58,11 @@ TEST(RunSet, QuantitiesOfAPixel) {
 TEST(RunSet, Skewness) {
   EXPECT_EQ(skewness({1.0, 1.0, 1.0}), 0.0);
   EXPECT_NEAR(skewness({1.0, 2.0, 3.0}), 0.0, 1e-15);
-  // Of (0, 0, 3): m2 = 2, m3 = 2.
+  // (0, 0, 3) has m2 = 2, m3 = 2.
   EXPECT_NEAR(skewness({0.0, 0.0, 3.0}), 2.0 / std::pow(2.0, 1.5), 1e-15);
 }
 
-// Two pixels, by hand.
+// Two pixels, computed by hand.
 TEST(ReferenceCells, KnownValues) {
   const auto pair = [](float a, float b) {
     Image image(2, 1);
@@ -72,14 +72,14 @@ TEST(ReferenceCells, KnownValues) {
   };
   const BlockGrid grid(2, 1);
   const CellArea whole{0, 0, 1};
-  // Variances of the pixels' means (a - b)^2 / 4: 1 and 1/16; of the mean of both a quarter of
+  // Variances of the pixels' means (a - b)^2 / 4: 1 and 1/16. The mean of both has a quarter of
   // their sum, with 3 (sum v)^2 / sum v^2 degrees of freedom.
   const Sample halves = ReferenceCells::fromHalves(grid, pair(1.0f, 2.0f), pair(3.0f, 2.5f))
                             .cell(whole, Quantity::red);
   EXPECT_NEAR(halves.mean, 2.125, 1e-15);
   EXPECT_NEAR(halves.variance / halves.n, (1.0 + 0.0625) / 4.0, 1e-12);
   EXPECT_NEAR(halves.n - 1.0, 3.0 * 1.0625 * 1.0625 / (1.0 + 0.0625 * 0.0625), 1e-12);
-  // A variance that is given is known without error. Channels are taken as fully correlated.
+  // A given variance is known without error. Channels are taken as fully correlated.
   Image variance(2, 1);
   variance.at(0, 0) = {0.04f, 0.01f, 0.09f};
   variance.at(1, 0) = {0.16f, 0.0f, 0.0f};

@@ -1,6 +1,6 @@
-// The statistics against SciPy 1.10 (chisquare, ttest_ind, ttest_1samp, kstwo and its exact form
-// _kolmogn_DMTW for n = 400, nct, norm), and their behaviour: p-values uniform under the null,
-// impossible events, degenerate input.
+// Statistics against SciPy 1.10 (chisquare, ttest_ind, ttest_1samp, kstwo and its exact form
+// _kolmogn_DMTW for n = 400, nct, norm), and their behaviour: p-values uniform under the null
+// hypothesis, impossible events, degenerate input.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,14 +35,14 @@ TEST(Chi2, KnownValue) {
 }
 
 TEST(Chi2, FailedSamplesAreACell) {
-  // The pdf promises that 20 of 100 fail; 30 do.
+  // The pdf predicts 20 failures of 100; 30 occur.
   const std::vector<uint64_t> counts = {17, 18, 17, 18};
   const std::vector<double> probabilities(4, 0.2);
   const Chi2Result r = chi2Test(counts, probabilities, 100);
   EXPECT_NEAR(r.statistic, (9.0 + 4.0 + 9.0 + 4.0 + 100.0) / 20.0, 1e-12);
   EXPECT_EQ(r.dof, 4.0);
   EXPECT_EQ(r.failures, 30u);
-  // Failures that the pdf leaves no room for reject, though no single cell looks wrong.
+  // Failures are rejected if the pdf integrates to 1, even if no single cell looks wrong.
   const std::vector<double> full(4, 0.25);
   const std::vector<uint64_t> lost = {225, 225, 225, 225};
   EXPECT_LT(chi2Test(lost, full, 1000).pValue, 1e-5);
@@ -67,7 +67,7 @@ TEST(Chi2, PoolsSmallCellsAndRefusesNonsense) {
   const Chi2Result r = chi2Test(counts, probabilities, 100);
   EXPECT_EQ(r.dof, 1.0);
   EXPECT_NEAR(r.statistic, 0.0, 1e-12);
-  // A pool still below 5 takes the next cell: 2 + 8.
+  // A pool below 5 takes the next cell: 2 + 8.
   const std::vector<uint64_t> two = {2, 8, 90};
   const std::vector<double> twoP = {0.02, 0.08, 0.90};
   EXPECT_EQ(chi2Test(two, twoP, 100).dof, 1.0);
@@ -87,7 +87,7 @@ TEST(Summarise, KnownValues) {
   EXPECT_NEAR(s.variance, 32.0 / 7.0, 1e-15);
 }
 
-// Quantiles from the tables of textbooks, tails of one and two degrees of freedom in closed form.
+// Quantiles from textbook tables, tails of one and two degrees of freedom in closed form.
 TEST(Student, TablesAndClosedForms) {
   const struct {
     double dof, at95, at975, at9995;
@@ -120,7 +120,7 @@ TEST(Welch, KnownValues) {
   EXPECT_NEAR(r.t, 0.3875592806077372, 1e-9);
   EXPECT_NEAR(r.dof, 9.254545645430266, 1e-9);
   EXPECT_NEAR(r.pValue, 0.7071053944939399, 1e-9);
-  // Against a constant it is the one-sample t-test.
+  // Against a constant, Welch's test is the one-sample t-test.
   const WelchResult one = welchTest(summarise(kA), {1.0, 3.0, 0.0});
   EXPECT_NEAR(one.t, 1.0281993596310308, 1e-9);
   EXPECT_NEAR(one.dof, 7.0, 1e-12);
@@ -202,8 +202,7 @@ TEST(Holm, KnownValues) {
   EXPECT_THROW(holmAdjusted(std::vector<double>{1.1}), std::invalid_argument);
 }
 
-// 20000 families of 10 true hypotheses at 5 %: at least one rejection in 5 % (standard error 0.15
-// %).
+// 20000 families of 10 true hypotheses at 5 %: 5 % have a rejection (standard error 0.15 %).
 TEST(Holm, HoldsTheFamilyError) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> uniform;
@@ -254,7 +253,7 @@ TEST(Power, KnownValues) {
   // Cohen's table: two groups of 64, half a deviation apart, at 5 %.
   EXPECT_NEAR(testPower(0.5, std::sqrt(2.0 / 64.0), 126.0, 0.05), 0.80, 0.005);
   EXPECT_NEAR(testPower(-0.5, std::sqrt(2.0 / 64.0), 126.0, 0.05), 0.80, 0.005);
-  // Of a known deviation: the normal distribution's two tails.
+  // Known deviation: two tails of the normal distribution.
   const auto normalUpper = [](double z) { return 0.5 * std::erfc(z / std::sqrt(2.0)); };
   const double z = 1.959963984540054;
   EXPECT_NEAR(testPower(1.0, 0.5, kInfinity, 0.05), normalUpper(z - 2.0) + normalUpper(z + 2.0),
@@ -265,7 +264,8 @@ TEST(Power, KnownValues) {
   EXPECT_THROW(testPower(1.0, 1.0, 5.0, 0.0), std::invalid_argument);
 }
 
-// Under the null every test's p-values are uniform: 400 experiments each, by Kolmogorov-Smirnov.
+// Under the null hypothesis the p-values of every test are uniform: 400 experiments each, by
+// Kolmogorov-Smirnov.
 TEST(Null, PValuesAreUniform) {
   std::mt19937_64 random(23);
   std::normal_distribution<double> normal;
@@ -276,7 +276,7 @@ TEST(Null, PValuesAreUniform) {
     for (double& x : b) x = 1.0 + normal(random);
     welch.push_back(welchTest(summarise(a), summarise(b)).pValue);
     oneSample.push_back(welchTest(summarise(a), {1.0, 1.0, 0.0}).pValue);
-    // 21 equal cells of which the last is "failed".
+    // 21 equal cells, the last of which counts as failed.
     std::vector<uint64_t> counts(20, 0);
     for (int s = 0; s < 21 * 200; ++s) {
       std::uniform_int_distribution<int> cell(0, 20);
@@ -290,7 +290,7 @@ TEST(Null, PValuesAreUniform) {
   EXPECT_GT(ksUniformTest(chi2).pValue, 1e-3);
 }
 
-// The power that testPower states is the power that is measured (standard error 0.8 %).
+// The measured power is what testPower states (standard error 0.8 %).
 TEST(Power, StatedPowerIsMeasured) {
   std::mt19937_64 random(29);
   std::normal_distribution<double> normal;

@@ -1,5 +1,5 @@
 // Partly transparent surfaces: path rays decide by chance, shadow rays multiply, and an emitter of
-// coverage alpha gives as much light to light sampling as rays find of it.
+// coverage alpha gives as much light to light sampling as rays find.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ rl::Material veil(float alpha) {
   return m;
 }
 
-// Three veils and, at the end, a wall; all across the z axis.
+// Three veils and a wall behind them, all across the z axis.
 std::shared_ptr<const CompiledScene> veils() {
   builtin::SceneBuilder builder("veils");
   const float alphas[4] = {0.5f, 0.2f, 0.9f, 1.0f};
@@ -34,7 +34,7 @@ std::shared_ptr<const CompiledScene> veils() {
   return CompiledScene::build(builder.finish());
 }
 
-// Along -z from in front of the first veil, as far as `length` metres behind it.
+// Ray along -z from in front of the first veil to `length` metres behind it.
 rl::Ray along(const Dialect<>& d, float length) {
   rl::Ray ray;
   ray.origin = glm::vec3(glm::dvec3(0, 0, 0.5) - d.compiledScene->origin());
@@ -54,7 +54,7 @@ TEST(Alpha, ShadowRaysMultiplyTransmittance) {
   EXPECT_EQ(d->traceRay(along(d, 3.5f), rl::RL_RAY_SHADOW, 0, hit), 0.0f);
 }
 
-// Over many keys each veil stops its share of the path rays, independently of the others.
+// Over many keys each veil stops its fraction of the path rays, independently of the others.
 TEST(Alpha, PathRaysStopByChance) {
   Dialect<> d(veils());
   const std::vector<double> expected = {0.5, 0.5 * 0.2, 0.5 * 0.8 * 0.9, 0.5 * 0.8 * 0.1};
@@ -69,7 +69,7 @@ TEST(Alpha, PathRaysStopByChance) {
   expectFits(counts, expected, n, "veils");
 }
 
-// Same key, same decision: the answer does not depend on where the ray starts.
+// Equal keys give equal decisions, wherever the ray starts.
 TEST(Alpha, DecisionBelongsToKeyAndPrimitive) {
   Dialect<> d(veils());
   for (uint32_t key = 0; key < 1000; ++key) {
@@ -84,7 +84,7 @@ TEST(Alpha, DecisionBelongsToKeyAndPrimitive) {
 }
 
 // A square of two triangles and a fan of six, both half transparent: rays through the shared edge
-// and through the shared corner meet one surface, whichever machine traces them.
+// and through the shared corner meet one surface, with every tracer.
 template <typename Trace>
 void expectOneSurfaceAtEdges(const char* what, const Trace& trace) {
   struct Place {
@@ -110,10 +110,10 @@ TEST(Alpha, IsAskedOnceWhereTrianglesMeet) {
   fan.name = "fan";
   fan.positions = {{10, 0, 0}};
   for (int i = 0; i < 6; ++i) {
-    // The corners of a hexagon, of which two lie on the x axis.
+    // Corners of a hexagon, two of them on the x axis.
     const double angle = i * 3.14159265358979323846 / 3.0;
     fan.positions.emplace_back(10.0 + std::cos(angle), i % 3 == 0 ? 0.0 : std::sin(angle), 0.0);
-    // Each triangle has corners of its own: what is shared is the place.
+    // Each triangle has a centre vertex of its own: only the position is shared.
     fan.positions.emplace_back(10, 0, 0);
   }
   for (uint32_t i = 0; i < 6; ++i)
@@ -131,7 +131,7 @@ TEST(Alpha, IsAskedOnceWhereTrianglesMeet) {
     ray.tMax = 2.0f;
     return ray;
   };
-  // Transmittance of shadow rays; 1 of path rays that stop, 0 of the others.
+  // Transmittance of shadow rays; for path rays 1 if they stop, else 0.
   const auto with = [&](auto& context) {
     return [&](const glm::dvec2& at, uint32_t mode, uint32_t key) {
       rl::Hit hit;

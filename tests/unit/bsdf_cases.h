@@ -23,7 +23,7 @@ struct BsdfCase {
 std::vector<BsdfCase> continuousBsdfs();
 std::vector<BsdfCase> deltaBsdfs();
 
-// wo at these angles from the normal, in degrees; with `wo` in the plane of azimuth 0.7 rad.
+// Angles of wo from the normal, in degrees; directionAt() has azimuth 0.7 rad.
 inline constexpr double kAngles[] = {0.0, 30.0, 60.0, 80.0, 88.5};
 glm::vec3 directionAt(double degrees);
 

@@ -18,12 +18,12 @@ const glm::vec3 kUp(0.0f, 0.0f, 1.0f);
 
 struct LobeSum {
   uint64_t draws = 0;
-  glm::dvec3 weight{0.0};  // of one draw; the same for all
+  glm::dvec3 weight{0.0};  // weight of a draw; equal for all draws
   glm::vec3 wi{0.0f};
   float pdf = 0.0f;
 };
 
-// Draws often; every draw of one delta lobe must be the same.
+// Draws many times; every draw of one delta lobe must be the same.
 std::map<uint32_t, LobeSum> drawLobes(const rl::Bsdf& bsdf, const glm::vec3& wo, uint64_t samples) {
   Dialect<> d;
   Inputs inputs(9);
@@ -65,12 +65,13 @@ TEST(BsdfDelta, FrequencyIsTheDeclaredProbability) {
   }
 }
 
-// An index of 1 is no surface: nothing is bent, blurred or lost, thin or solid, from either side.
+// An index of refraction of 1 is no surface: light is neither bent, blurred nor lost, thin or
+// solid, from either side.
 TEST(BsdfDelta, AnIndexOfOneIsNotThere) {
   for (const float roughness : {0.0f, 0.5f, 1.0f}) {
     for (const uint32_t flags : {0u, rl::RL_MATERIAL_THIN}) {
       rl::Material m = builtin::glass(roughness, glm::vec3(0.0f));
-      m.baseColor = glm::vec3(0.5f);  // what has no colour either is left out of scenes
+      m.baseColor = glm::vec3(0.5f);  // colourless, the surface would be removed from the scene
       m.ior = 1.0f;
       m.flags |= flags;
       for (const bool front : {true, false}) {
@@ -121,7 +122,7 @@ TEST(BsdfDelta, SmoothGlassKeepsEnergy) {
       const bool isTotal = std::sqrt(1.0 - double(wo.z) * wo.z) / eta >= 1.0;
       EXPECT_EQ(lobes.count(rl::RL_LOBE_TRANSMISSION_DELTA), isTotal ? 0u : 1u) << angle;
       if (isTotal) continue;
-      // Snell's law, straight through in azimuth.
+      // Snell's law; the azimuth goes straight through.
       const glm::vec3 wi = lobes.at(rl::RL_LOBE_TRANSMISSION_DELTA).wi;
       EXPECT_LT(wi.z, 0.0f);
       EXPECT_NEAR(-wi.x * eta, wo.x, 1e-5);
@@ -146,9 +147,8 @@ TEST(BsdfDelta, ThinGlassLetsLightStraightThrough) {
   }
 }
 
-// No contrast of indices: the surface is not there.
-// A white base under a smooth layer returns everything: what is reflected and what passes the layer
-// twice sum to one at every angle.
+// A white base under a smooth layer returns everything: the reflected light and the light that
+// passes the layer twice sum to one at every angle.
 TEST(BsdfDelta, WhiteBaseUnderASmoothLayerIsAWhiteFurnace) {
   Dialect<> d;
   const rl::Bsdf bsdf = bsdfOf(builtin::plastic(glm::vec3(1.0f), 0.0f), true);
@@ -165,7 +165,7 @@ TEST(BsdfDelta, WhiteBaseUnderASmoothLayerIsAWhiteFurnace) {
   }
 }
 
-// Roughness below the declared floor becomes a delta lobe, and is counted.
+// Roughness below the floor becomes a delta lobe, and is counted.
 TEST(BsdfDelta, AlphaFloorIsCounted) {
   builtin::SceneBuilder builder("floor");
   const float below = std::sqrt(0.999f * rl::RL_ALPHA_FLOOR),

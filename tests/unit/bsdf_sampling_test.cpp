@@ -16,9 +16,9 @@ namespace {
 
 constexpr uint64_t kSamples = 500'000;
 
-// The base under a layer is scaled by the Fresnel term of a smooth one, which a rough layer of
-// ior 1.5 exceeds by up to 0.0018 around 50 degrees (a perfectly white base; the loss at other
-// angles is larger).
+// Tolerance of energy. The base under a layer is scaled by the Fresnel term of a smooth layer,
+// which a rough layer of ior 1.5 exceeds by up to 0.0018 around 50 degrees (for a perfectly white
+// base; the loss at other angles is larger).
 constexpr double kEnergyTolerance = 2e-3;
 
 struct Setting {
@@ -29,7 +29,7 @@ struct Setting {
   uint64_t samples = kSamples;
 };
 
-// Where the lobes of a BSDF point, so that the cells resolve them (all normals are near +z).
+// Makes a grid whose cells resolve the lobes of the BSDF (all normals are near +z).
 SphereGrid gridFor(const Setting& s) {
   const glm::dvec3 n(s.nShade), wo(s.wo);
   const double cosO = glm::dot(n, wo), alpha = s.bsdf.alpha;
@@ -68,7 +68,7 @@ Estimate drawAll(Dialect<>& d, const Setting& s, const SphereGrid& grid,
     sum += w;
     squares += w * w;
     if (const auto cell = grid.find(glm::dvec3(draw.wi))) ++counts[*cell];
-    // Every thousandth draw: the weight is what eval and pdf say about this direction.
+    // Every thousandth draw: the weight must agree with eval and pdf for this direction.
     if (i % 1000 != 0) continue;
     const float pdf = d->bsdfPdf(s.bsdf, s.nGeo, s.nShade, s.wo, draw.wi);
     const glm::vec3 f = d->bsdfEval(s.bsdf, s.nGeo, s.nShade, s.wo, draw.wi);
@@ -85,13 +85,13 @@ Estimate drawAll(Dialect<>& d, const Setting& s, const SphereGrid& grid,
   return e;
 }
 
-// Refraction into a denser medium concentrates radiance by eta^2, which is no gain of energy: the
-// adjoint's 1 / eta^2 is taken out.
+// Factor from radiance to flux. Refraction into a denser medium concentrates radiance by eta^2
+// without a gain of energy: takes out the adjoint's 1 / eta^2.
 double fluxScale(const rl::Bsdf& b) {
   return (b.lobes & rl::RL_LOBE_THIN) != 0 ? 1.0 : double(b.eta) * b.eta;
 }
 
-// The density of draws is bsdfPdf, what it misses of 1 is absorbed; the mean weight is the albedo.
+// The density of draws is bsdfPdf, its deficit from 1 is absorbed; the mean weight is the albedo.
 void checkSetting(const Setting& s, uint64_t seed) {
   Dialect<> d;
   if (s.multiscatter) d.compensate();
@@ -158,9 +158,9 @@ TEST(BsdfSampling, ContinuousLobes) { checkCases(continuousBsdfs(), 100); }
 
 TEST(BsdfSampling, ContinuousPartBesideDeltaLobes) { checkCases(deltaBsdfs(), 1000); }
 
-// Interpolated normals: what lands on the wrong side of the face is mirrored at it, or absorbed
-// where the cosine drew it, and the pdf says so. The last of the directions sees the normal from
-// behind.
+// Interpolated normals: a direction on the wrong side of the face is mirrored at the face, or
+// absorbed if cosine sampling drew it, and the pdf accounts for both. The last direction sees the
+// normal from behind.
 TEST(BsdfSampling, ShadingNormalOffTheFace) {
   const glm::vec3 up(0.0f, 0.0f, 1.0f);
   const glm::vec3 slightly = glm::normalize(glm::vec3(0.4f, -0.2f, 1.0f));
@@ -178,8 +178,8 @@ TEST(BsdfSampling, ShadingNormalOffTheFace) {
   }
 }
 
-// Under a bent normal a lobe returns what it does under one that is not: the albedo of white metal
-// and glass depends on the angle between wo and the normal alone.
+// A lobe returns the same under a bent normal as under an unbent one: the albedo of white metal and
+// glass depends only on the angle between wo and the normal.
 TEST(BsdfSampling, BentNormalsKeepTheAlbedoOfALobe) {
   const glm::vec3 up(0.0f, 0.0f, 1.0f);
   Dialect<> d;
@@ -192,7 +192,7 @@ TEST(BsdfSampling, BentNormalsKeepTheAlbedoOfALobe) {
     for (int i = 0; i < n; ++i) {
       const float uLobe = inputs.uniform();
       const rl::BsdfDraw draw = d->bsdfDraw(bsdf, nGeo, nShade, wo, uLobe, inputs.square());
-      // What is reflected stays on this side of the face, what is transmitted leaves it.
+      // Reflected light stays on this side of the face, transmitted light leaves it.
       const bool passes = (draw.lobe & rl::RL_LOBE_ANY_TRANSMISSION) != 0u;
       wrong += draw.lobe != 0u && (glm::dot(draw.wi, nGeo) < 0.0f) != passes;
       sum += draw.weight.x / n;

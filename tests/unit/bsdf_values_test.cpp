@@ -27,11 +27,11 @@ TEST(Fresnel, KnownValuesOfGlass) {
   EXPECT_NEAR(d->fresnelDielectric(1.0f, 1.5f), 0.04f, 1e-7f);
   EXPECT_NEAR(d->fresnelDielectric(1.0f, 1.0f / 1.5f), 0.04f, 1e-7f);
   EXPECT_NEAR(d->fresnelDielectric(0.0f, 1.5f), 1.0f, 1e-7f);
-  // At Brewster's angle, tan = n, nothing is reflected in the plane of incidence: what is left is
-  // half of ((n^2 - 1) / (n^2 + 1))^2.
+  // At Brewster's angle, tan = n, no light is reflected in the plane of incidence: half of ((n^2 -
+  // 1) / (n^2 + 1))^2 remains.
   const double brewster = std::atan(1.5) * 180.0 / kPi;
   EXPECT_NEAR(d->fresnelDielectric(cosine(brewster), 1.5f), 0.5 * std::pow(1.25 / 3.25, 2.0), 1e-6);
-  // Total internal reflection from 41.81 degrees on.
+  // Total internal reflection begins at 41.81 degrees.
   const double critical = std::asin(1.0 / 1.5) * 180.0 / kPi;
   EXPECT_LT(d->fresnelDielectric(cosine(critical - 0.1), 1.0f / 1.5f), 0.9f);
   for (double degrees : {critical + 0.01, 60.0, 89.0}) {
@@ -85,7 +85,7 @@ TEST(Refraction, SnellsLawInThePlaneOfIncidence) {
     const glm::dvec3 woT = glm::dvec3(wo) - glm::dvec3(h) * glm::dot(glm::dvec3(wo), glm::dvec3(h));
     const glm::dvec3 wiT = glm::dvec3(wi) - glm::dvec3(h) * glm::dot(glm::dvec3(wi), glm::dvec3(h));
     ASSERT_LT(glm::length(woT + double(eta) * wiT), 4e-6);
-    // And the half vector finds the facet again.
+    // The half vector must find the facet again.
     if (std::abs(eta - 1.0f) > 0.05f && h.z > 0.1f) {
       ASSERT_LT(glm::distance(d->transmissionHalfVector(wo, wi, eta), h),
                 1e-3f / std::abs(eta - 1.0f) * 0.02f);
@@ -166,7 +166,7 @@ TEST(Ggx, ReflectionMatchesTheFormula) {
   }
 }
 
-// Sum over the sphere of eval, per channel and hemisphere.
+// Integral of eval over the sphere, per channel and hemisphere.
 struct Albedo {
   glm::dvec3 up{0.0}, down{0.0};
 };
@@ -256,7 +256,7 @@ TEST(Reciprocity, OfEveryBsdf) {
       } else {
         back = glm::dvec3(d->bsdfEval(other, -kUp, -kUp, wi, wo)) / double(cosO) / eta2;
       }
-      // Far from its peak a lobe is a difference of nearly equal numbers: what is left is below
+      // Far from its peak a lobe is a difference of nearly equal numbers: values there are below
       // 1e-2.
       const double scale = std::max({there.x, there.y, there.z, 1e-2});
       ASSERT_LT(glm::length(there - back), 3e-3 * scale)

@@ -1,4 +1,4 @@
-// The dialect's functions with traceRay() on the project's own hierarchy.
+// The dialect's functions with traceRay() through the project's own hierarchy.
 #pragma once
 
 #include "tests/unit/dialect_context.h"

@@ -14,7 +14,7 @@
 namespace restlab::unit {
 namespace {
 
-// One scene behind both.
+// One scene with both tracers.
 struct BothTracers {
   explicit BothTracers(const std::shared_ptr<const CompiledScene>& scene)
       : bound(scene->bindBvh()), embree(scene), own{scene->data(), embree.frame, counters} {}
@@ -78,7 +78,7 @@ TEST(BvhNightly, AgreesWithEmbreeOnBuiltinScenes) {
   }
 }
 
-// Stretched, mirrored and rotated instances of one mesh, inside one another.
+// Stretched, mirrored and rotated instances of one mesh, inside each other.
 TEST(Bvh, AgreesWithEmbreeOnInstances) {
   Inputs inputs(3);
   builtin::SceneBuilder builder("instances");
@@ -95,7 +95,7 @@ TEST(Bvh, AgreesWithEmbreeOnInstances) {
   expectAgreement(compareScene(CompiledScene::build(builder.finish()), 200'000), "instances");
 }
 
-// Rays from inside a closed mesh, at its corners and along its edges: none gets out.
+// Rays from inside a closed mesh to its corners and edges: none may get out.
 TEST(Bvh, ClosedMeshesAreWatertight) {
   for (const double distance : {0.0, 1e3}) {
     const ClosedBall ball(distance * glm::dvec3(0.6, -0.64, 0.48));
@@ -111,8 +111,8 @@ TEST(Bvh, ClosedMeshesAreWatertight) {
   }
 }
 
-// Any-hit rays: what Embree's filters multiply, the traversal multiplies; closest hits: what they
-// let through, it lets through.
+// Both tracers must multiply the same transmittances for any-hit rays, and let closest-hit rays
+// pass at the same surfaces.
 void compareTransparentSheets(uint64_t rays) {
   const auto scene = veils();
   BothTracers both(scene);

@@ -27,7 +27,7 @@ SceneCamera lookingDownX(uint32_t kind) {
   camera.kind = kind;
   camera.yfov = 0.9;
   camera.ymag = 1.5;
-  // From (1, 2, 3) towards +X, rolled a little.
+  // Looks from (1, 2, 3) towards +X, rolled a little.
   camera.cameraToWorld =
       glm::inverse(glm::lookAt(glm::dvec3(1, 2, 3), glm::dvec3(9, 2, 3), glm::dvec3(0, 1, 0.3)));
   return camera;
@@ -68,7 +68,7 @@ TEST(Camera, ProjectionIsTheInverseOfTheRay) {
         const glm::vec3 point = ray.origin + ray.dir * inputs.scale(0.1f, 100.0f);
         glm::vec2 back;
         ASSERT_TRUE(d->cameraProject(c, point, resolution, back));
-        // Float positions at a hundred metres: a hundredth of a pixel.
+        // Float positions at a hundred metres resolve a hundredth of a pixel.
         ASSERT_LT(glm::distance(back, film), 1e-2f);
       }
     }
@@ -116,7 +116,8 @@ TEST_F(FilmTest, CenterFilterIsTheCentre) {
   EXPECT_EQ(d->cameraFilmPoint({3, 7}, d->cameraFilmBits({3, 7})), glm::vec2(3.5f, 7.5f));
 }
 
-// Another one in every frame, each uniform over seeds; its bits are its place to the last one.
+// Samples differ in every frame, are uniform over seeds, and their bits give their position
+// exactly.
 TEST_F(FilmTest, SamplesAreFreshAndTheirBitsAreTheirPlace) {
   d.frame.pixelFilter = rl::RL_FILTER_BOX;
   std::set<uint32_t> seen;
@@ -136,8 +137,8 @@ TEST_F(FilmTest, SamplesAreFreshAndTheirBitsAreTheirPlace) {
   expectUniform(counts, "film samples of one frame over seeds");
 }
 
-// From wherever a history starts, few frames cover the pixel: every cell of 4 x 4 gets two to six
-// of 64 samples. (Of independent samples one cell of sixteen misses that in a tenth of all tries.)
+// From any frame on, a few frames cover the pixel: every cell of 4 x 4 gets two to six of 64
+// samples. (With independent samples one cell of sixteen misses that in a tenth of all tries.)
 TEST_F(FilmTest, AFewFramesCoverThePixelEvenly) {
   for (uint32_t x = 0; x < 32; ++x) {
     std::vector<uint32_t> counts(16);

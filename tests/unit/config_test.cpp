@@ -9,7 +9,7 @@ namespace restlab {
 
 namespace {
 
-// The message of the Error that `action` throws; it must be one of bad usage.
+// Returns the message of the Error that `action` throws, which must be badUsage.
 template <class Action>
 std::string messageOf(const Action& action) {
   try {
@@ -118,7 +118,7 @@ TEST(Config, AssignedValuesNameTheirOption) {
   table.assign("rnus", "5", "--set rnus");
   EXPECT_EQ(messageOf([&] { table.finish(); }),
             "--set rnus: unknown key 'rnus', did you mean 'runs'?");
-  // Seen through another handle of the same table as well.
+  // Another handle of the same table sees the value as well.
   ConfigTable inner = table.getTable("settings");
   inner.assign("width", "wide", "--set width");
   EXPECT_EQ(messageOf([&] { table.getTable("settings").getInteger("width", 0, 0, 9); }),

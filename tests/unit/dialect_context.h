@@ -1,5 +1,5 @@
-// The dialect's functions for tests, as a kernel sees them: members of rl::Ctx<features>, with the
-// scene's own Embree structure behind traceRay().
+// The dialect's functions for tests, as in a kernel: members of rl::Ctx<features>, with the scene's
+// own Embree structure behind traceRay().
 #pragma once
 
 #include <memory>
@@ -38,8 +38,8 @@ struct Ctx {
 
 namespace restlab::unit {
 
-// A kernel context with the storage that it refers to. Without a scene, `scene` can be filled by
-// hand and no ray may be traced.
+// A kernel context with the storage that it refers to. Without a compiled scene, tests fill `scene`
+// by hand and must trace no rays.
 template <uint32_t FEATURES = rl::RL_FEATURE_ALL>
 struct Dialect {
   Dialect() : ctx{scene, frame, counters, nullptr} {}

@@ -30,7 +30,7 @@ EnvironmentMap noisyMap(uint32_t width, uint32_t height, float rotation, uint64_
   return map;
 }
 
-// One texel is black, one is a sun.
+// A noisy map in which one texel is black and one is a sun.
 EnvironmentMap harshMap(float rotation) {
   EnvironmentMap map = noisyMap(8, 4, rotation, 77);
   map.radiance[10] = glm::vec3(0.0f);
@@ -38,7 +38,7 @@ EnvironmentMap harshMap(float rotation) {
   return map;
 }
 
-// Black everywhere but for one texel: most of the sphere must never be drawn.
+// A map that is black except for one texel: most of the sphere must never be drawn.
 EnvironmentMap lonelyMap() {
   EnvironmentMap map;
   map.width = 16;
@@ -107,7 +107,7 @@ TEST(Environment, Orientation) {
   EXPECT_NEAR(turned->environmentRadiance({0, 0, -1}).y, 1.0f, 1e-3f);
 }
 
-// Bilinear in texture coordinates, across the seam too, scaled.
+// Radiance is bilinear in texture coordinates, also across the seam, and scaled.
 TEST(Environment, RadianceIsBilinear) {
   EnvironmentMap map = noisyMap(8, 4, 0.4f, 3);
   map.scale = 2.5f;
@@ -142,7 +142,7 @@ std::vector<MapCase> mapCases() {
           {"not a power of two", noisyMap(15, 7, 0.5f, 8)}};
 }
 
-// Cells finer than texels, so that the place inside a texel is tested as well.
+// Cells are finer than texels, to test the position inside a texel as well.
 TEST(Environment, DrawsFollowTheDensity) {
   for (const MapCase& c : mapCases()) {
     Dialect<> d(sceneWith(c.map));
@@ -180,13 +180,13 @@ TEST(Environment, DrawsFollowTheDensity) {
                       std::min(int(uv.x * float(nu)), nu - 1))];
     }
     expectFits(counts, probabilities, n, c.name);
-    // Rounding may carry a draw over the border of its texel, no more.
+    // Rounding may carry a few draws over the border of their texel.
     EXPECT_LT(different, n / 50'000) << c.name;
   }
 }
 
 // Columns and thresholds are drawn with 32 bits: radiance over 12 decades in 8192 columns is drawn
-// with the probability that the density says. Draws at every column's middle find its threshold.
+// with the probability given by the density. Draws at every column's middle find its threshold.
 TEST(Environment, DrawsWhatIsRareAsOftenAsTheDensitySays) {
   EnvironmentMap map;
   map.width = 8192;
@@ -214,7 +214,7 @@ TEST(Environment, DrawsWhatIsRareAsOftenAsTheDensitySays) {
     ASSERT_NEAR(d.scene.environmentAlias.data[i].pmf / drawn[i], 1.0, 1e-6) << i;
 }
 
-// The integral of the density over the sphere, by a lattice that knows nothing of texels.
+// Integrates the density over the sphere on a lattice unrelated to texels.
 TEST(Environment, DensityIntegratesToOne) {
   for (const MapCase& c : mapCases()) {
     Dialect<> d(sceneWith(c.map));
@@ -229,7 +229,7 @@ TEST(Environment, DensityIntegratesToOne) {
   }
 }
 
-// Importance sampling finds all the light there is: the mean of radiance / pdf is the flux.
+// Importance sampling finds all the light: the mean of radiance / pdf is the flux.
 TEST(Environment, EstimatesTheWholeSky) {
   for (const MapCase& c : mapCases()) {
     Dialect<> d(sceneWith(c.map));
@@ -259,7 +259,7 @@ TEST(Environment, EstimatesTheWholeSky) {
   }
 }
 
-// The environment through the light table: selection times direction.
+// Pdf of the environment through the light table: selection times direction.
 TEST(Environment, LightPdfIncludesTheSelection) {
   builtin::SceneBuilder builder("sky and lamp");
   builder.add(builtin::quad("lamp", {-1, 0, -1}, {0, 0, 2}, {2, 0, 0}),

@@ -1,6 +1,6 @@
-// A kernel of the mask that the feature scan asks for sees what the general kernel sees, over
-// random materials: factors and texels that are 0, 1 or between, and other materials beside them,
-// whose needs switch a feature on for all.
+// The kernel with the mask from the feature scan gives the same results as the general kernel, over
+// random materials: factors and texels that are 0, 1 or between, beside other materials whose needs
+// switch a feature on for all.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -17,18 +17,18 @@ namespace {
 
 using namespace rl;
 
-// The dialect's functions under a mask that is known at run time only.
+// The dialect's functions under a mask that is known only at run time.
 struct MaskedContext {
   const uint kFeatures;
   const SceneData& gScene;
   const FrameData& gFrame;
 
 #include "core/dialect/order.glsl"
-  // No ray is traced: surfaces are asked for by their hits.
+  // Tests trace no rays: they load surfaces from hand-made hits.
   float traceRay(const Ray&, uint, uint, Hit&) { return 0.0f; }
 };
 
-// Everything that a path reads of a surface, and what its BSDF makes of two directions.
+// Compares all that a path reads from a surface, and the values of its BSDF for two directions.
 void expectSameSurface(MaskedContext& own, MaskedContext& general, const Hit& hit, Inputs& inputs,
                        uint32_t seed) {
   const glm::vec3 dir = inputs.direction();

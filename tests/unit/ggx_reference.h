@@ -1,5 +1,5 @@
-// GGX microfacets in double precision, written from the papers and sharing nothing with the
-// dialect: Walter et al. 2007 (D, transmission), Heitz 2014 (height-correlated masking).
+// GGX microfacets in double precision, written from the papers without code of the dialect: Walter
+// et al. 2007 (D, transmission), Heitz 2014 (height-correlated masking).
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
-// Chi-squared verdicts of this program. Seeds are fixed, so a verdict never changes by itself; the
-// family error is what an honest sampler had to survive once.
+// Chi-squared verdicts of this program. Seeds are fixed, so a verdict never changes by itself; a
+// correct sampler had to pass the family error only once.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,8 +13,8 @@
 
 namespace restlab::unit {
 
-// The chance that any test of this program rejects a correct sampler, spread evenly (Bonferroni)
-// over more tests than there are.
+// Probability that any test of this program rejects a correct sampler, spread evenly (Bonferroni)
+// over more tests than exist.
 inline constexpr double kFamilyError = 1e-3;
 inline constexpr double kTests = 500;
 

@@ -1,5 +1,5 @@
-// The light table and its sampling: selection by kind and power, points on triangles, densities as
-// light sampling and as a ray see them, punctual lights, MIS weights.
+// The light table and its sampling: selection by kind and power, points on triangles, densities of
+// light sampling and of ray hits, punctual lights, MIS weights.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -66,7 +66,7 @@ TEST(LightSelection, TenThousandLightsByPower) {
   for (size_t i = 0; i < power.size(); ++i) {
     power[i] /= total;
     sum += d.scene.lights.data[i].pmf;
-    // The threshold of a column is one of 2^32.
+    // The threshold of a column is a multiple of 2^-32.
     const double rounding = 1.0 / (power[i] * double(power.size()) * 0x1p32);
     ASSERT_NEAR(d.scene.lights.data[i].pmf / power[i], 1.0, 1e-3 + rounding) << i;
   }
@@ -77,8 +77,8 @@ TEST(LightSelection, TenThousandLightsByPower) {
   expectFits(counts, power, n, "light selection");
 }
 
-// Lamps share by power, and so do suns; the lamps, the suns and the sky each get a third, however
-// large the scene is.
+// Lamps share by power, and so do suns; lamps, suns and sky each get a third, whatever the size of
+// the scene.
 TEST(LightSelection, KindsShareEvenlyWhateverTheSize) {
   for (const float ground : {1.0f, 1e7f}) {
     builtin::SceneBuilder builder("kinds");
@@ -123,8 +123,8 @@ TEST(LightSelection, KindsShareEvenlyWhateverTheSize) {
   }
 }
 
-// Powers over 12 decades: each lamp is drawn as often as its pmf says, found by the threshold of
-// each column. 24 random bits would draw what is rarer than 2^-24 too often.
+// Powers over 12 decades: each lamp is drawn with the probability of its pmf, found from the
+// threshold of each column. With 24 random bits, lamps rarer than 2^-24 would be drawn too often.
 TEST(LightSelection, WhatIsRareIsDrawnAsOftenAsItsPmfSays) {
   builtin::SceneBuilder builder("rare");
   constexpr uint32_t n = 13;
@@ -144,7 +144,7 @@ TEST(LightSelection, WhatIsRareIsDrawnAsOftenAsItsPmfSays) {
     const auto at = [&](uint64_t aliasBits) {
       return d->lightAt(uint32_t(first + (end - first) / 2u), uint32_t(aliasBits));
     };
-    // The first aliasBits that give another light than 0 does; 2^32 where none does.
+    // Find the first aliasBits that give another light than 0 does; 2^32 if there are none.
     uint64_t low = 0, high = uint64_t(1) << 32u;
     while (low + 1u < high) {
       const uint64_t middle = (low + high) / 2u;
@@ -163,7 +163,7 @@ TEST(LightSelection, WhatIsRareIsDrawnAsOftenAsItsPmfSays) {
 }
 
 struct OneLamp {
-  // A skew triangle far from the origin of the scene; the wall keeps the scene's centre off it.
+  // A skew triangle far from the scene's origin; the wall keeps the scene's centre away from it.
   glm::dvec3 a{1.0, 2.0, 0.5}, b{1.8, 2.1, 0.4}, c{1.1, 2.9, 0.9};
   std::shared_ptr<const CompiledScene> scene;
   glm::dvec3 origin{0.0};
@@ -175,7 +175,7 @@ struct OneLamp {
     const uint32_t id = builder.addMaterial("lamp", lamp);
     const uint32_t mesh = builder.addGeometry(triangle(glm::vec3(a), glm::vec3(b), glm::vec3(c)));
     builder.place("lamp", mesh, id, mirror != nullptr ? *mirror : glm::dmat4(1.0));
-    // A second use makes both of them instances.
+    // A second use of the mesh makes both instances.
     if (mirror != nullptr) {
       builder.place("twin", mesh, builder.addMaterial("dark", builtin::lambert(glm::vec3(0.0f))),
                     glm::dmat4(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 90, 0, 0, 1));
@@ -200,7 +200,7 @@ TEST(LightDraw, TriangleIsUniformOverItsArea) {
   for (uint32_t i = 0; i < samples; ++i) {
     const rl::LightSample s = d->lightDraw(rngOf(d, i));
     ASSERT_NEAR(s.pdf * area, 1.0, 1e-4);
-    // Barycentric coordinates by projection.
+    // Compute barycentric coordinates by projection.
     const glm::dvec3 v = glm::dvec3(s.point) - a;
     ASSERT_LT(std::abs(glm::dot(v, normal)), 1e-5);
     const double d11 = glm::dot(e1, e1), d12 = glm::dot(e1, e2), d22 = glm::dot(e2, e2);
@@ -216,7 +216,7 @@ TEST(LightDraw, TriangleIsUniformOverItsArea) {
       EXPECT_EQ(s.radiance, glm::vec3(2.0f, 1.0f, 0.5f));
     }
   }
-  // Squares of the barycentric grid, and the triangles along its diagonal.
+  // Cells: squares of the barycentric grid, and triangles along its diagonal.
   size_t k = 0;
   for (int ix = 0; ix < n; ++ix) {
     for (int iy = 0; iy < n - ix; ++iy)
@@ -233,8 +233,8 @@ double solidAngle(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b,
                                    1.0 + glm::dot(x, y) + glm::dot(y, z) + glm::dot(z, x)));
 }
 
-// Density per solid angle from density per area, against the solid angle of a patch around the
-// point.
+// Checks the density per solid angle, converted from density per area, against the solid angle of a
+// patch around the point.
 TEST(LightConnect, ConvertsAreaToSolidAngle) {
   for (const bool twoSided : {false, true}) {
     OneLamp lamp(twoSided);
@@ -274,7 +274,7 @@ TEST(LightConnect, ConvertsAreaToSolidAngle) {
   }
 }
 
-// What light sampling says about a point is what a ray that hits it says: density, radiance, side.
+// Light sampling and a ray that hits the same point agree on density, radiance and side.
 void expectRaysAgree(OneLamp& lamp) {
   Dialect<> d(lamp.scene);
   Inputs inputs(4);

@@ -1,4 +1,4 @@
-// Small functions of the dialect against wider arithmetic; frames and warps.
+// Small functions of the dialect against arithmetic of higher precision; frames and warps.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -69,7 +69,7 @@ TEST(Math, FinitenessSeesEveryKindOfNumber) {
 TEST(Math, LuminanceOfRec709) {
   Dialect<0> d;
   EXPECT_NEAR(d->rlLuminance(glm::vec3(1.0f)), 1.0f, 1e-6f);
-  // Y row of the primaries (0.64, 0.33), (0.30, 0.60), (0.15, 0.06) and D65.
+  // Expected: Y row of the primaries (0.64, 0.33), (0.30, 0.60), (0.15, 0.06) and D65.
   EXPECT_NEAR(d->rlLuminance(glm::vec3(1, 0, 0)), 0.2126390, 1e-6);
   EXPECT_NEAR(d->rlLuminance(glm::vec3(0, 1, 0)), 0.7151687, 1e-6);
   EXPECT_NEAR(d->rlLuminance(glm::vec3(0, 0, 1)), 0.0721923, 1e-6);
@@ -135,7 +135,7 @@ TEST(Warp, CosineHemisphere) {
     const glm::vec3 w = d->warpCosineHemisphere(inputs.square());
     ASSERT_NEAR(glm::dot(w, w), 1.0f, 2e-6f);
     ASSERT_GE(w.z, 0.0f);
-    // The measure cos dw is uniform over sin^2 and azimuth.
+    // The cosine-weighted measure is uniform over sin^2 and azimuth.
     const double s2 = double(w.x) * w.x + double(w.y) * w.y;
     const double turn = std::atan2(double(w.y), double(w.x)) / (2.0 * kPi) + 0.5;
     ++counts[std::min(int(s2 * n), n - 1) * n + std::min(int(turn * n), n - 1)];
@@ -146,7 +146,7 @@ TEST(Warp, CosineHemisphere) {
 TEST(Warp, TriangleIsUniformOverItsArea) {
   Dialect<0> d;
   Inputs inputs(5);
-  // n^2 congruent small triangles: the two halves of each cell of the barycentric grid.
+  // Cells: n^2 congruent small triangles, the two halves of each cell of the barycentric grid.
   constexpr int n = 24;
   std::vector<uint64_t> counts(n * n);
   for (int i = 0; i < 2'000'000; ++i) {

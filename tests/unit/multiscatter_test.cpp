@@ -1,6 +1,6 @@
 // Multiple-scattering compensation of GGX (core/dialect/bsdf/multiscatter.glsl): the table, white
-// furnaces, coloured metal against the formula, reciprocity, and that switched off it is not there.
-// Its sampling is tested in bsdf_sampling_test.cpp.
+// furnaces, coloured metal against the formula, reciprocity, and no effect when switched off.
+// bsdf_sampling_test.cpp tests its sampling.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,8 +22,8 @@ namespace {
 const glm::vec3 kUp(0.0f, 0.0f, 1.0f);
 constexpr uint32_t kWithout = rl::RL_FEATURE_ALL & ~rl::RL_FEATURE_MULTISCATTER;
 
-// What interpolation of the table may be off by, of an albedo: alpha from 0.02 on and below it. The
-// smoother a surface, the closer to the horizon its albedo turns.
+// Allowed interpolation error of the table in an albedo: for alpha from 0.02 on, and below. On
+// smoother surfaces, the albedo turns closer to the horizon.
 constexpr double kRoughError = 1e-3, kSmoothError = 5e-3;
 
 double tableError(double alpha) { return alpha < 0.02 ? kSmoothError : kRoughError; }
@@ -35,7 +35,7 @@ TEST(Multiscatter, TableAgainstIntegralsOverMicrofacets) {
   Dialect<> d;
   d.compensate();
   double worst = 0.0;
-  // Between the nodes, most of them.
+  // Most values lie between the nodes.
   for (const double alpha : {0.0015, 0.005, 0.012, 0.02, 0.1, 0.35, 0.71, 1.0}) {
     for (const double cosO : {0.01, 0.053, 0.2, 0.47, 1.0}) {
       glm::vec2 at, mean;
@@ -48,7 +48,7 @@ TEST(Multiscatter, TableAgainstIntegralsOverMicrofacets) {
     }
   }
   std::printf("  largest error of the table: %.2g\n", worst);
-  // Known in closed form: at alpha = 1 and normal incidence the loss is ln 2.
+  // Closed form: at alpha = 1 and normal incidence the loss is ln 2.
   glm::vec2 at, mean;
   d->multiscatterAlbedo(1.0f, 1.0f, at, mean);
   EXPECT_NEAR(at.x, std::log(2.0), 5e-4);
@@ -81,7 +81,7 @@ void expectWhiteFurnace(const std::string& what, rl::Material (*make)(float roug
       const glm::vec3 wo = directionAt(angle);
       const double before = albedoOf(off, bsdf, wo).x, after = albedoOf(on, bsdf, wo).x;
       std::printf("  %.4f -> %.4f", before, after);
-      // 1e-3 more for the integral itself.
+      // Allow 1e-3 more for the numeric integral.
       EXPECT_NEAR(after, 1.0, tableError(alpha) + 1e-3)
           << what << ", alpha " << alpha << " at " << angle;
     }
@@ -91,7 +91,7 @@ void expectWhiteFurnace(const std::string& what, rl::Material (*make)(float roug
 
 TEST(Multiscatter, WhiteMetalIsAWhiteFurnace) {
   expectWhiteFurnace("white metal", [](float r) { return builtin::metal(glm::vec3(1.0f), r); });
-  // The test would see the loss.
+  // Check that the test would detect the loss.
   Dialect<> off;
   const rl::Bsdf rough = bsdfOf(builtin::metal(glm::vec3(1.0f), 1.0f), true);
   EXPECT_NEAR(albedoOf(off, rough, kUp).x, 1.0 - std::log(2.0), 2e-3);
@@ -101,7 +101,7 @@ TEST(Multiscatter, WhiteBaseUnderARoughCoatIsAWhiteFurnace) {
   expectWhiteFurnace("white coat", [](float r) { return builtin::plastic(glm::vec3(1.0f), r); });
 }
 
-// Neither metal nor coat: half of each.
+// Half metal, half coated base.
 TEST(Multiscatter, WhiteMixtureMakesNoEnergy) {
   Dialect<> on;
   on.compensate();
@@ -116,14 +116,14 @@ TEST(Multiscatter, WhiteMixtureMakesNoEnergy) {
   }
 }
 
-// The formula in double precision, over integrals that share nothing with the table.
+// Compares with the formula in double precision, over integrals that do not use the table.
 TEST(Multiscatter, ColouredMetalFollowsTheFormula) {
   const glm::vec3 f0(1.0f, 0.5f, 0.04f);
   Dialect<> on, off;
   on.compensate();
   for (const float alpha : {0.3f, 1.0f}) {
     const rl::Bsdf bsdf = bsdfOf(builtin::metal(f0, std::sqrt(alpha)), true);
-    double mean = 0.0;  // of E, weighted by the cosine
+    double mean = 0.0;  // cosine-weighted mean of E
     for (int i = 0; i < 5; ++i) {
       const double x = 0.5 + 0.5 * kGauss5X[i];
       mean += kGauss5W[i] * x * reference::reflectedAlbedo(x, bsdf.alpha, one);
@@ -138,7 +138,7 @@ TEST(Multiscatter, ColouredMetalFollowsTheFormula) {
         EXPECT_NEAR(albedo[c] - single[c], expected, 2e-3)
             << "alpha " << alpha << " at " << angle << ", channel " << c;
       }
-      // More bounces, more colour.
+      // More bounces give more saturated colour.
       EXPECT_LT(albedo.y / albedo.x, single.y / single.x);
     }
   }
@@ -189,8 +189,8 @@ void expectSameBits(A& a, B& b, const BsdfCase& c) {
   }
 }
 
-// Switched off, the kernel that could is the kernel that cannot; switched on, mirrors, glass and
-// Lambert stay what they are.
+// Switched off, the general kernel gives the bits of the kernel without the feature; switched on,
+// mirrors, glass and Lambert stay unchanged.
 TEST(Multiscatter, OffIsTheSameBits) {
   Dialect<> off, on;
   on.compensate();
@@ -224,8 +224,8 @@ Image rendered(const std::shared_ptr<const CompiledScene>& scene, bool multiscat
   return session.radiance();
 }
 
-// A session needs the feature where it is asked for and changes something; the general kernel has
-// the code, and asks the frame.
+// A session needs the feature if it is asked for and changes something; the general kernel has the
+// code, controlled by the frame.
 TEST(Multiscatter, SessionsNeedItWhereItChangesSomething) {
   constexpr uint32_t bit = rl::RL_FEATURE_MULTISCATTER;
   const auto box = CompiledScene::build(makeBuiltinScene("cornell-box"));

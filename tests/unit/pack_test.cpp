@@ -1,4 +1,5 @@
-// Numbers in fewer bits: how far off they come back, and that packing twice changes nothing more.
+// Packing of numbers into fewer bits: the error after unpacking, and that packing twice changes
+// nothing more.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace {
 
 class Pack : public ::testing::Test {
  protected:
-  // Of any size that a float has.
+  // Positive number of any magnitude that a float has.
   float positive() { return std::ldexp(1.0f + unit_(rng_), int(unit_(rng_) * 250.0f) - 125); }
   float sign() { return unit_(rng_) < 0.5f ? -1.0f : 1.0f; }
   glm::vec3 direction() {
@@ -53,7 +54,7 @@ TEST_F(Pack, ThreeNumbersWithSigns) {
   }
 }
 
-// What is wrong must be seen as such afterwards; zero stays zero.
+// Non-finite values must stay non-finite after packing; zero stays zero.
 TEST_F(Pack, ZeroAndWhatIsNotFinite) {
   const float infinity = std::numeric_limits<float>::infinity(), nan = std::nanf("");
   for (const float bad : {infinity, nan, -nan}) {

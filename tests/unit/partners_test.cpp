@@ -1,5 +1,5 @@
-// Donors over space come in pairs: a pixel's k-th partner has it as its own k-th partner. Each
-// shift of a pair serves both merges, so that one pair without its counterpart would read a stale
+// Spatial donors come in pairs: if b is the k-th partner of pixel a, then a is the k-th partner of
+// b. Each shift of a pair serves both merges: a pair without its counterpart would read a stale
 // shift.
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 namespace rl {
 namespace {
 
-// Partners over surfaces made by hand.
+// Context with partners over hand-made surfaces.
 struct PairContext {
   FrameData gFrame{};
   struct {
@@ -46,8 +46,8 @@ struct PairContext {
 #undef visibleRead
 };
 
-// Every so many pixels show nothing; surfaces are two parallel planes, in stripes, that do not
-// match.
+// Every `unusableEvery`-th pixel shows nothing; surfaces are two parallel planes, in stripes, that
+// do not match.
 PairContext makeContext(uint width, uint height, uint tile, bool stripes, uint unusableEvery) {
   PairContext c;
   c.gFrame.width = width;
@@ -99,8 +99,8 @@ TEST(Partners, ThePartnerOfThePartnerIsThePixel) {
   }
 }
 
-// On one large surface nearly every pixel has a partner; where surfaces alternate, two pairings
-// find more than one would (a half each: 1/2 + 1/2 * 1/4).
+// On one large surface nearly every pixel has a partner; on alternating surfaces, two pairings find
+// more than one would (half each: 1/2 + 1/2 * 1/4).
 TEST(Partners, MostPixelsHaveOne) {
   const auto share = [](bool stripes) {
     PairContext c = makeContext(200, 200, 10, stripes, 0);
@@ -109,12 +109,12 @@ TEST(Partners, MostPixelsHaveOne) {
       found += partnerOf(c, slot, 0) != RL_INVALID;
     return double(found) / double(c.surfaces.size());
   };
-  EXPECT_GT(share(false), 0.94);  // border tiles reach out of the image
+  EXPECT_GT(share(false), 0.94);  // border tiles extend beyond the image
   EXPECT_GT(share(true), 0.55);
 }
 
-// Over frames, a pixel meets every offset of the tile about equally often, and other pixels in
-// other pairings and frames.
+// Over frames, a pixel meets every offset of the tile at its expected frequency, and different
+// pixels in different pairings and frames.
 TEST(Partners, EveryOffsetIsReached) {
   constexpr uint kTile = 6, kFrames = 24200;
   PairContext c = makeContext(41, 41, kTile, false, 0);
@@ -130,8 +130,8 @@ TEST(Partners, EveryOffsetIsReached) {
     if (hasFirst) ++offsets[{int(first.x) - 20, int(first.y) - 20}];
   }
   ASSERT_EQ(slot, 840u);
-  // Offsets -5..5 by -5..5 without the pixel itself; the probability falls off linearly from the
-  // middle.
+  // Offsets are -5..5 by -5..5 without the pixel itself; the probability falls off linearly from
+  // the middle.
   EXPECT_EQ(offsets.size(), 120u);
   double chi2 = 0.0;
   for (const auto& [offset, count] : offsets) {

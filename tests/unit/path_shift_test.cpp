@@ -1,5 +1,5 @@
-// The shift of a path to the pixel that it came from, after it was packed and unpacked: it gives
-// the integrand that the initial pass stored, and the Jacobian 1.
+// Shifts a path, after packing and unpacking, to its own pixel: the result must be the integrand
+// that the initial pass stored, and Jacobian 1.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -90,8 +90,8 @@ TEST_P(SelfShift, GivesWhatWasStored) {
   }
   std::printf("  %s: of %zu %zu differ, %zu are rounded\n", GetParam(), tested, different, rounded);
   EXPECT_GT(tested, 500u);
-  // A path ray and a connection to where it ended disagree by rounding: at edges about visibility,
-  // in corners and at nearly smooth x2 about the direction.
+  // A path ray and a connection to its end point differ by rounding: at edges in visibility, in
+  // corners and at nearly smooth x2 in direction.
   EXPECT_LE(different, tested / 500);
   EXPECT_LE(rounded, tested / 100);
 }

@@ -14,10 +14,10 @@
 namespace restlab::unit {
 namespace {
 
-constexpr double kTrace = 1e-10;  // what an import leaves of the flattened axis
+constexpr double kTrace = 1e-10;  // scale that an import leaves of the flattened axis
 
-// Smooth lamps of 2 m, flattened along their own Y, under `matrix`; the last one far off, so that
-// coordinates are as large as they are.
+// Smooth balls of 2 m that emit, flattened along their own Y, under `matrix`; the second one is far
+// off, so that coordinates are large.
 std::shared_ptr<const CompiledScene> plates(const glm::dmat4& matrix, bool shared) {
   builtin::SceneBuilder builder("plates");
   const uint32_t id = builder.addMaterial("lamp", builtin::lamp(glm::vec3(1.0f)));
@@ -85,7 +85,7 @@ TEST(Plates, AreAsThinAsRaysAllow) {
   EXPECT_GT(thickness, 4.0 * rl::RL_HIT_ERROR * 15.0);
   EXPECT_LT(thickness, 16.0 * rl::RL_HIT_ERROR * 17.0);
   EXPECT_NEAR((thick * glm::dvec4(0.0, 0.2, 0.0, 1.0)).y, flat[3].y, 1e-9) << "its middle stays";
-  // Thin is not flat.
+  // Thin meshes that are not flat stay unchanged.
   const glm::dmat4 thin = glm::scale(glm::dmat4(1.0), glm::dvec3(1e3, 1e-4, 1.0));
   EXPECT_EQ(withThickness(thin, ball), thin);
 }

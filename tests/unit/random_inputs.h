@@ -1,4 +1,4 @@
-// Random inputs of the tests: a generator that shares nothing with the one under test.
+// Random inputs of the tests, from a generator independent of the one under test.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@ class Inputs {
  public:
   explicit Inputs(uint64_t seed) : engine_(seed) {}
 
-  // Uniform in [0, 1), of as many bits as the dialect's draws.
+  // Uniform in [0, 1), with as many bits as the dialect's draws.
   float uniform() { return static_cast<float>(engine_() >> 40) * 0x1p-24f; }
   float uniform(float low, float high) { return low + (high - low) * uniform(); }
   glm::vec2 square() {
@@ -29,7 +29,7 @@ class Inputs {
     const double r = std::sqrt(1.0 - z * z);
     return glm::vec3(glm::normalize(glm::dvec3(r * std::cos(phi), r * std::sin(phi), z)));
   }
-  // Uniform on the half of the sphere around n.
+  // Uniform on the hemisphere around n.
   glm::vec3 directionAbove(const glm::vec3& n) {
     const glm::vec3 d = direction();
     return glm::dot(d, n) < 0.0f ? -d : d;

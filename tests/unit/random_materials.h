@@ -15,7 +15,7 @@ inline float randomFactor(Inputs& inputs) {
   return kind == 0 ? 0.0f : kind == 1 ? 1.0f : inputs.uniform();
 }
 
-// A 2 x 1 image whose channels are 0 or 255 throughout, or differ between its texels.
+// Adds a 2 x 1 image whose channels are 0 or 255 throughout, or differ between its texels.
 inline uint32_t addRandomTexture(Scene& scene, Inputs& inputs) {
   TextureImage image{"image", 2, 1, {0u, 0u}};
   for (uint32_t channel = 0; channel < 4; ++channel) {
@@ -57,7 +57,7 @@ inline rl::Material randomMaterial(Scene& scene, Inputs& inputs) {
   return m;
 }
 
-// Squares of 1 m in a row along +x, 3 m apart, that face +z, each of a material of its own.
+// Squares of 1 m in a row along +x, 3 m apart, facing +z, each with its own material.
 inline Scene randomSquares(Inputs& inputs, uint32_t count) {
   Scene scene;
   for (uint32_t i = 0; i < count; ++i) {

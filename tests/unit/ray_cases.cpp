@@ -19,7 +19,7 @@ bool isNearEdge(const rl::Hit& hit) {
 void RayAgreement::add(const rl::Ray& ray, const rl::Hit& embree, const rl::Hit& other) {
   const rl::Hit &a = embree, &b = other;
   const bool hitsA = a.instance != rl::RL_INVALID, hitsB = b.instance != rl::RL_INVALID;
-  // Distances are rounded at the size of the coordinates.
+  // Distances are rounded relative to the size of the coordinates.
   const glm::vec3 o = glm::abs(ray.origin);
   const float atOrigin = 2e-5f * std::max({o.x, o.y, o.z});
   const bool isAsFar = hitsA && hitsB && std::abs(a.t - b.t) <= 1e-4f * a.t + atOrigin;
@@ -67,7 +67,7 @@ ClosedBall::ClosedBall(const glm::dvec3& at) : mesh_(builtin::sphere("ball", at,
   builtin::SceneBuilder builder("closed");
   const uint32_t id = builder.addMaterial("grey", builtin::lambert(glm::vec3(0.5f)));
   builder.add(mesh_, id);
-  // Coordinates stay large where the scene's origin is that of the world.
+  // A counterweight keeps the scene's origin at the world's, so coordinates stay large.
   if (at != glm::dvec3(0.0)) builder.add(builtin::box("counterweight", -at - 0.01, -at + 0.01), id);
   scene = CompiledScene::build(builder.finish());
   centre_ = glm::vec3(at);
@@ -79,7 +79,7 @@ std::vector<rl::Ray> ClosedBall::raysAtEdges(size_t count, uint64_t seed) const 
   std::vector<rl::Ray> rays(count);
   for (size_t i = 0; i < count; ++i) {
     const glm::uvec3 t = mesh_.triangles[inputs.below(uint32_t(mesh_.triangles.size()))];
-    const float u = i % 4 == 0 ? 0.0f : inputs.uniform();  // a corner, or a place on an edge
+    const float u = i % 4 == 0 ? 0.0f : inputs.uniform();  // a corner, or a point on an edge
     const glm::vec3 target =
         mesh_.positions[t.x] + u * (mesh_.positions[t.y] - mesh_.positions[t.x]);
     const glm::vec3 from = centre_ + 0.5f * inputs.uniform() * inputs.direction();

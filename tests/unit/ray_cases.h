@@ -1,4 +1,4 @@
-// Scenes and rays that tell two tracers apart, and what explains a difference between them.
+// Scenes and rays that reveal differences between two tracers, and the explained differences.
 #pragma once
 
 #include <array>
@@ -12,33 +12,34 @@
 
 namespace restlab::unit {
 
-// Within 1e-4 of an edge, as a share of the triangle.
+// Returns whether the hit is within 1e-4 of an edge, relative to the triangle.
 bool isNearEdge(const rl::Hit& hit);
 
 // Closest hits of the same rays by Embree and by another tracer.
 struct RayAgreement {
   uint64_t rays = 0, hits = 0, same = 0;
-  uint64_t ties = 0;         // two surfaces in one place
+  uint64_t ties = 0;         // two surfaces at the same place
   uint64_t edges = 0;        // within 1e-4 of an edge of one of the triangles
   uint64_t grazing = 0;      // the same triangle, almost along its plane: t is ill-conditioned
-  uint64_t starts = 0;       // on a surface, to rounding: only one of the two has hit it
-  uint64_t unexplained = 0;  // all others
-  std::string first;         // of those
+  uint64_t starts = 0;       // start on a surface, to rounding: only one tracer hits it
+  uint64_t unexplained = 0;  // all other differences
+  std::string first;         // description of the first unexplained one
 
   void add(const rl::Ray& ray, const rl::Hit& embree, const rl::Hit& other);
   double explainedShare() const { return double(ties + edges + grazing + starts) / double(rays); }
   std::string text() const;
 };
 
-// Where rays start: the scene's bounds, about its origin. A flat scene has bounds as high as they
-// are long: what starts in its plane starts on its surface.
+// Bounds for ray origins: the scene's bounds, about its origin. A flat scene gets bounds as high as
+// they are long: a ray that starts in its plane starts on its surface.
 std::array<glm::vec3, 2> startBounds(const CompiledScene& scene);
 
-// A closed ball about `at`, the scene centred there.
+// A closed ball at `at`, the centre of the scene.
 struct ClosedBall {
   explicit ClosedBall(const glm::dvec3& at);
   std::shared_ptr<const CompiledScene> scene;
-  // From inside to corners and to places on edges: none must get out (hit another instance than 0).
+  // Rays from inside to corners and to points on edges: none may get out (hit another instance than
+  // 0).
   std::vector<rl::Ray> raysAtEdges(size_t count, uint64_t seed) const;
 
  private:
@@ -46,9 +47,10 @@ struct ClosedBall {
   glm::vec3 centre_{0.0f};
 };
 
-// Veils of a quarter's coverage, instances of one mesh and one of its own, before a solid block.
+// Veils of a quarter's coverage in front of a solid block: instances of one mesh, and a mesh used
+// once.
 std::shared_ptr<const CompiledScene> veils();
-// A ray whose span (tMax 1) ends among them or behind the block.
+// A ray whose span (tMax 1) ends among the veils or behind the block.
 rl::Ray rayThroughVeils(const CompiledScene& scene, Inputs& inputs);
 
 }  // namespace restlab::unit

@@ -1,5 +1,5 @@
 // Ray offsets without a constant epsilon: no surface shadows itself, no closed mesh leaks, and
-// points that see each other stay visible, over eight decades of size and distance from the origin.
+// mutually visible points stay visible, over eight decades of size and distance from the origin.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ rl::Ray pathRay(const glm::vec3& origin, const glm::vec3& dir) {
   return ray;
 }
 
-// Directions in all of the sphere, most of them close to the plane of the surface.
+// Directions over the whole sphere, most of them close to the plane of the surface.
 glm::vec3 leavingDirection(Inputs& inputs, const glm::vec3& n) {
   const glm::vec3 d = inputs.direction();
   const float lift = inputs.below(2) == 0 ? 1.0f : inputs.scale(1e-6f, 1.0f);
@@ -57,8 +57,8 @@ uint64_t countSelfHits(Dialect<>& d, Inputs& inputs, uint32_t aims, const PointO
   return selfHits;
 }
 
-// 100,000 triangles of sizes 1e-4 .. 1e4 at distances 1e-4 .. 1e4 (as far as float can tell their
-// corners apart).
+// 100,000 triangles of sizes 1e-4 .. 1e4 at distances 1e-4 .. 1e4 (as far as float can distinguish
+// their corners).
 TEST(RayOffset, NoTriangleHitsItself) {
   Inputs inputs(1);
   uint64_t left = 0, selfHits = 0;
@@ -96,7 +96,7 @@ TEST(RayOffset, NoTriangleHitsItself) {
   EXPECT_EQ(selfHits, 0u) << "of " << left;
 }
 
-// The same for instances: the ray is transformed to the mesh, which adds its own rounding.
+// Instances: transforming the ray to the mesh adds rounding of its own.
 TEST(RayOffset, NoInstanceHitsItself) {
   Inputs inputs(2);
   uint64_t left = 0, selfHits = 0;
@@ -139,8 +139,8 @@ struct ClosedMesh {
   glm::vec3 center;
 };
 
-// A closed convex mesh of a given size, off the origin: a small box on the other side holds the
-// scene's centre.
+// Makes a closed convex mesh of a given size, off the origin: a small box on the other side keeps
+// the scene's centre at the origin.
 ClosedMesh closedMesh(bool isBox, double size, const glm::dvec3& at) {
   builtin::SceneBuilder builder("closed");
   const uint32_t id = builder.addMaterial("grey", builtin::lambert(glm::vec3(0.5f)));
@@ -165,7 +165,7 @@ std::vector<ClosedMesh> closedMeshes() {
   for (const bool isBox : {true, false}) {
     for (double size : {1e-4, 1e-2, 1.0, 1e2, 1e4}) {
       for (double distance : {0.0, 1.0, 1e2, 1e4}) {
-        // The offset is 2e-6 of the distance: it must be small against the mesh.
+        // The offset is 2e-6 of the distance and must be small relative to the mesh.
         if (size < 1e-3 * distance) continue;
         meshes.push_back(closedMesh(isBox, size, distance * glm::dvec3(0.48, -0.6, 0.64)));
       }
@@ -183,7 +183,7 @@ TEST(RayOffset, ClosedMeshesDoNotLeak) {
     for (int bounce = 0; bounce < 200'000; ++bounce) {
       rl::Hit hit;
       d->traceRay(ray, rl::RL_RAY_PATH, 0, hit);
-      if (hit.instance != 0u) {  // nothing, or the counterweight
+      if (hit.instance != 0u) {  // a miss, or the counterweight
         ++leaks;
         ray = pathRay(mesh.center, inputs.direction());
         continue;
@@ -197,7 +197,7 @@ TEST(RayOffset, ClosedMeshesDoNotLeak) {
   }
 }
 
-// Inside a convex mesh all pairs of points see each other; the shadow ray is shortened at both
+// All pairs of points inside a convex mesh see each other; the shadow ray is shortened at both
 // ends.
 TEST(RayOffset, ConvexMeshesDoNotShadowThemselves) {
   for (const ClosedMesh& mesh : closedMeshes()) {
@@ -215,7 +215,7 @@ TEST(RayOffset, ConvexMeshesDoNotShadowThemselves) {
         if (isInside) end = d->surfaceLoad(hit, dir);
       }
       ASSERT_TRUE(isInside);
-      if (glm::dot(ends[0].nGeoW, ends[1].nGeoW) > 0.9999f) continue;  // one plane
+      if (glm::dot(ends[0].nGeoW, ends[1].nGeoW) > 0.9999f) continue;  // both on one plane
       rl::LightSample target{};
       target.kind = rl::RL_LIGHT_TRIANGLE;
       target.point = ends[1].posW;
@@ -235,8 +235,8 @@ TEST(RayOffset, ConvexMeshesDoNotShadowThemselves) {
   }
 }
 
-// The lamp's end of a shadow ray carries the error of its instance's transform: a mesh that is
-// modelled far from its own origin and moved back by its nodes must not shadow itself.
+// The lamp's end of a shadow ray carries the error of its instance's transform: a mesh modelled far
+// from its own origin and moved back by its nodes must not shadow itself.
 TEST(RayOffset, LampsOfInstancesAreSeen) {
   constexpr int kLamps = 64;
   for (const double offset : {0.0, 16.0, 1024.0, 16384.0}) {
@@ -245,12 +245,12 @@ TEST(RayOffset, LampsOfInstancesAreSeen) {
     const uint32_t lamp = builder.addMaterial("lamp", builtin::lamp(glm::vec3(1.0f)));
     const uint32_t mesh = builder.addGeometry(builtin::quad(
         "quad", far - glm::dvec3(0.1, 0.1, 0), glm::dvec3(0.2, 0, 0), glm::dvec3(0, 0.2, 0)));
-    // All around the receiver, each facing it, none before another.
+    // Lamps all around the receiver, each facing it, none in front of another.
     for (int i = 0; i < kLamps; ++i) {
       const double z = 1.0 - (2.0 * i + 1.0) / kLamps, angle = 2.4 * i;
       const glm::dvec3 at = 3.0 * glm::dvec3(std::sqrt(1.0 - z * z) * std::cos(angle),
                                              std::sqrt(1.0 - z * z) * std::sin(angle), z);
-      const glm::dmat4 m =  // looks along -z, so that +z faces the receiver
+      const glm::dmat4 m =  // view along -z, so that +z faces the receiver
           glm::inverse(glm::lookAt(at, 2.0 * at, glm::dvec3(0.1, 0.9, 0.2)));
       builder.place("lamp", mesh, lamp, glm::translate(m, -far));
     }
@@ -270,7 +270,7 @@ TEST(RayOffset, LampsOfInstancesAreSeen) {
   }
 }
 
-// The other way round: an offset must not jump over a surface that is there.
+// Conversely, an offset must not jump over an existing surface.
 TEST(RayOffset, ThinWallsStillBlock) {
   for (double thickness : {1e-3, 1e-4}) {
     builtin::SceneBuilder builder("sheet");
@@ -284,7 +284,7 @@ TEST(RayOffset, ThinWallsStillBlock) {
       d->traceRay(pathRay(from, {0, 0, -1}), rl::RL_RAY_PATH, 0, hit);
       ASSERT_NE(hit.instance, rl::RL_INVALID);
       const rl::Surface s = d->surfaceLoad(hit, {0, 0, -1});
-      // Into the sheet: its other side is met, from inside.
+      // A ray into the sheet must hit its other side from inside.
       rl::Hit next;
       const glm::vec3 in(0, 0, -1);
       d->traceRay(pathRay(d->surfaceOffset(s.posW, s.nGeoW, s.posError, in), in), rl::RL_RAY_PATH,

@@ -15,7 +15,7 @@ namespace {
 
 constexpr uint32_t kCount = 3;
 
-// Records of words that are all different, none of which is a NaN or zero.
+// Makes records whose words all differ, none of them NaN or zero.
 template <class Record>
 std::vector<Record> distinct() {
   std::vector<Record> records(kCount);
@@ -26,7 +26,7 @@ std::vector<Record> distinct() {
   return records;
 }
 
-// `padding`: words at the end that no kernel reads.
+// `padding`: number of words at the end that no kernel reads.
 template <class Record>
 void expectSame(const Record& read, const Record& written, size_t padding) {
   std::array<uint32_t, sizeof(Record) / 4> a, b;

@@ -1,4 +1,4 @@
-// Reservoirs of restir_gi: what a pass writes, the next one reads.
+// Reservoirs of restir_gi: a pass reads what the pass before has written.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -28,7 +28,7 @@ struct StoreCtx {
 #include "core/resampling/reservoir.glsl"
 #include "core/payload/path_sample.glsl"
 #include "integrators/restir_gi/store.glsl"
-  // No ray is traced.
+  // Tests trace no rays.
   float traceRay(const Ray&, uint, uint, Hit&) { return 0.0f; }
 };
 
@@ -58,7 +58,7 @@ struct Store {
     give(buffers.suffixesHistory, rl::RL_PATH_SUFFIX_QUADS);
     give(buffers.exchange, 1);
   }
-  // Words that differ from what they were at first, outside of the slot.
+  // Counts words outside the slot that differ from their initial value.
   size_t touchedElsewhere() const {
     size_t count = 0;
     for (const auto& buffer : memory) {
@@ -78,7 +78,8 @@ struct Store {
   rl::StoreCtx<FEATURES> ctx;
 };
 
-// Numbers that lose nothing by packing: at most 12 bits of fraction, unit vectors.
+// Makes a reservoir whose numbers lose nothing by packing: at most 12 bits of fraction, unit
+// vectors.
 rl::PathReservoir reservoir(float first) {
   const auto vector = [&first](float sign = 1.0f) {
     first += 1.0f;
@@ -105,7 +106,7 @@ rl::PathReservoir reservoir(float first) {
   return r;
 }
 
-constexpr float kUnit = 3e-7f;  // unit vectors come back to within rounding
+constexpr float kUnit = 3e-7f;  // rounding of unit vectors
 
 void expectState(const rl::ReservoirState& read, const rl::ReservoirState& written) {
   EXPECT_TRUE(isSame(read, written));
@@ -146,7 +147,7 @@ void expectReservoirs() {
   c.giReadBefore(kSlot, read);
   expectState(read.state, before.state);
   expectPath(read.path, before.path, isGlossy);
-  // The state alone leaves the path as it is.
+  // Writing only the state must leave the path unchanged.
   rl::PathReservoir changed = now;
   changed.state = reservoir(300.0f).state;
   c.giWriteStateNow(kSlot, changed);
@@ -154,7 +155,7 @@ void expectReservoirs() {
   expectState(c.giReadStateBefore(kSlot), before.state);
   c.giReadNow(kSlot, read);
   expectPath(read.path, now.path, isGlossy);
-  // The path alone leaves the state.
+  // Taking only the path must leave the state unchanged.
   c.giTakePathBefore(kSlot, read);
   expectState(read.state, changed.state);
   expectPath(read.path, before.path, isGlossy);
@@ -166,7 +167,7 @@ TEST(ReservoirStore, ReservoirsAreReadAsTheyWereWritten) {
   expectReservoirs<0>();
 }
 
-// The place of a spot light in the table lies where the geometry of other paths is.
+// The index of a spot light uses the field that holds the geometry of other paths.
 TEST(ReservoirStore, SpotLightsComeBack) {
   Store<0> store;
   rl::PathReservoir written = reservoir(1.0f), read{};
@@ -190,7 +191,7 @@ TEST(ReservoirStore, ShiftedSamplesAreReadAsTheyWereWritten) {
   EXPECT_EQ(store.touchedElsewhere(), 0u);
 }
 
-// A light in a reservoir is the light again.
+// A light stored in a reservoir comes back unchanged.
 TEST(ReservoirStore, LightsComeBack) {
   Store<rl::RL_FEATURE_ALL> store;
   std::vector<rl::Light> table(3);

@@ -23,7 +23,7 @@ namespace {
 using Draw = std::array<uint32_t, 4>;
 std::vector<Draw> recorded;
 
-// The repeated draws of the record, which is emptied.
+// Returns the repeated draws of the record, and empties it.
 std::vector<Draw> takeRepeated() {
   std::sort(recorded.begin(), recorded.end());
   std::vector<Draw> repeated;
@@ -39,13 +39,13 @@ constexpr uint32_t kWidth = 28, kHeight = 20;
 struct Audited {
   const char* integrator;
   const char* mode;
-  std::map<std::string, rl::CpuKernelEntry> kernels;  // by the name of the pass
+  std::map<std::string, rl::CpuKernelEntry> kernels;  // by name of the pass
   const char* cache = "";                             // "": the first one
   ParameterMap parameters = {};
 };
 
-// Runs frames of the passes of a cache and an integrator with their audited kernels, as the session
-// does.
+// Runs the passes of a cache and an integrator frame by frame with their audited kernels, as a
+// session does.
 class AuditedRun {
  public:
   AuditedRun(const std::string& sceneName, const Audited& audited)
@@ -60,7 +60,7 @@ class AuditedRun {
     frame_.maxBounces = 6;
     frame_.components = rl::RL_COMPONENT_ALL;
     frame_.rouletteStart = rl::RL_ROULETTE_EARLIEST;
-    // What pixels show at their centres, in this view and in the last, which are the same.
+    // Buffers of the surfaces at pixel centres, equal in this view and the last.
     for (const char* name : {"visible", "visible_before"})
       buffers_[name].resize(size_t{16} * kWidth * kHeight);
     for (const PartInfo* part : method.parts()) {
@@ -83,7 +83,7 @@ class AuditedRun {
       }
     }
     ++frame_.frame;
-    // Every other frame runs what new views take.
+    // Every other frame runs the passes for new views.
     frame_.stillFrames = frame_.frame % 2;
   }
 
@@ -92,7 +92,7 @@ class AuditedRun {
     const PartInfo* info = nullptr;
     std::vector<std::byte> params;
     std::vector<void*> addresses;
-    size_t own = 0;  // where its own buffers begin
+    size_t own = 0;  // index of its first own buffer
   };
 
   static rl::CpuKernelTile pixels() { return {0, 0, kWidth, kHeight}; }
@@ -124,7 +124,7 @@ class AuditedRun {
       const auto entries = uint32_t(std::get<int64_t>(resolved_.at(pass.entriesParameter)));
       tile = {0, 0, rl::RL_ENTRY_ROW, (entries + rl::RL_ENTRY_ROW - 1) / rl::RL_ENTRY_ROW};
     }
-    // As if each pixel were a group of its own: passes leave out groups that are not there.
+    // Treat each pixel as a group of its own: passes skip groups that do not exist.
     if (pass.onePerParameter != nullptr) tile = {0, 0, rl::RL_ENTRY_ROW, 1};
     const auto audited = kernels_.find(pass.name);
     call(audited != kernels_.end()
@@ -152,7 +152,7 @@ class AuditedRun {
   rl::FrameData frame_{};
 };
 
-// The (vertex, dimension) that were drawn.
+// (vertex, dimension) pairs that were drawn.
 using Kinds = std::set<std::pair<uint32_t, uint32_t>>;
 
 Kinds expectNoRepeats(AuditedRun run, const std::string& what) {
@@ -207,7 +207,7 @@ TEST(RngAudit, Path) {
   }
 }
 
-// Every pixel asks for a ray, which is traced beside the pixel's own in the next frame.
+// Every pixel requests a ray, which the next frame traces beside the pixel's own.
 TEST(RngAudit, PathsThatEnd) {
   const ParameterMap ending = {{"secondary", std::string("cache")},
                                {"radiance_entries", int64_t{4096}},
@@ -226,7 +226,7 @@ TEST(RngAudit, Template) {
 }
 
 TEST(RngAudit, RestirGi) {
-  // Every loop over draws runs more than once.
+  // Make every loop over draws run more than once.
   const ParameterMap busy = {{"light_candidates", int64_t{5}},
                              {"validate_every", int64_t{1}},
                              {"spatial_neighbours", int64_t{rl::RL_MAX_DONORS}}};
@@ -240,8 +240,7 @@ TEST(RngAudit, RestirGi) {
   }
 }
 
-// With as many donors and offers as there may be, the passes of entries draw beside those of
-// pixels.
+// With the maximal number of donors and offers, the passes of entries draw beside those of pixels.
 TEST(RngAudit, RestirGiWithEntries) {
   const ParameterMap busy = {{"light_candidates", int64_t{2}},
                              {"spatial_neighbours", int64_t{rl::RL_MAX_DONORS}},
@@ -249,7 +248,7 @@ TEST(RngAudit, RestirGiWithEntries) {
                              {"entry_proposals", int64_t{rl::RL_MAX_DONORS}},
                              {"feed_every", int64_t{1}}};
   for (const std::string& name : builtinSceneNames()) {
-    if (name == "media") continue;  // has no surface whose paths can be exchanged
+    if (name == "media") continue;  // no surface whose paths can be exchanged
     for (const std::string& cache : bias::cachesWithEntries()) {
       ASSERT_TRUE(kRestirKernels.contains(cache + "_propose")) << "it draws, and is not audited";
       const std::string what = std::string("restir_gi with ") + cache + ", " + name;

@@ -106,11 +106,11 @@ TEST_F(RngTest, LowBitsAreUniformToo) {
   expectUniform(counts, "low byte");
 }
 
-// Pairs that a renderer uses together must fill the square evenly.
+// Pairs of draws that a renderer uses together must fill the square evenly.
 TEST_F(RngTest, PairsAreIndependent) {
   struct Pair {
     const char* name;
-    uint32_t seed, pixel, frame, vertex, dimension;  // of the second draw, relative to the first
+    uint32_t seed, pixel, frame, vertex, dimension;  // second draw, relative to the first
   };
   const std::vector<Pair> pairs = {{"next dimension", 0, 0, 0, 0, 1},
                                    {"next vertex", 0, 0, 0, 1, 0},
@@ -152,7 +152,7 @@ TEST_F(RngTest, SerialTriplesOfAPathAreIndependent) {
   expectUniform(counts, "triples");
 }
 
-// Two pixels of a frame must not share their whole key: they would draw the same path.
+// Pixels of a frame must not share their whole key: they would draw the same path.
 TEST_F(RngTest, KeysOfAFrameAreDistinct) {
   for (uint32_t frame : {0u, 1u, 99u}) {
     std::vector<uint64_t> keys;

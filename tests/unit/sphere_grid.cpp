@@ -57,7 +57,7 @@ glm::dvec4 adaptive(const SphereGrid::Function& f, const Box& b, const glm::dvec
   return sum;
 }
 
-// Distances from a peak, in widths, at which cells end.
+// Distances from a peak, in widths, of the cell borders.
 constexpr double kSteps[] = {0.25, 0.6, 1.0, 1.6, 2.6, 4.5, 8.0, 15.0, 30.0, 60.0};
 
 void addAround(std::vector<double>& edges, double center, double width, double low, double high) {
@@ -69,7 +69,7 @@ void addAround(std::vector<double>& edges, double center, double width, double l
   if (center > low && center < high) edges.push_back(center);
 }
 
-// Sorted, without slivers; `fixed` edges stay.
+// Sorts edges and removes slivers; `fixed` edges stay.
 std::vector<double> tidy(std::vector<double> edges, const std::vector<double>& fixed,
                          double sliver) {
   std::sort(edges.begin(), edges.end());

@@ -12,7 +12,7 @@ namespace restlab::unit {
 
 class SphereGrid {
  public:
-  // Where a density is concentrated: a unit direction and an angular width in radians.
+  // Concentration of a density: a unit direction and an angular width in radians.
   struct Peak {
     glm::dvec3 direction;
     double width;
@@ -23,18 +23,18 @@ class SphereGrid {
   explicit SphereGrid(const std::vector<Peak>& peaks = {});
 
   size_t size() const { return (thetas_.size() - 1) * (phis_.size() - 1); }
-  // The cell of a unit direction; none for one that is not finite.
+  // Cell of a unit direction; nullopt if it is not finite.
   std::optional<size_t> find(const glm::dvec3& direction) const;
 
-  // Does the cell lie below the horizon (z < 0)?
+  // Returns whether the cell lies below the horizon (z < 0).
   bool isBelow(size_t cell) const;
 
   // Integral over solid angle of a vector function, per cell: adaptive Gauss quadrature. The error
-  // of a cell is below 1e-7 + 1e-4 of its value for smooth functions, about 1e-3 of the value where
-  // a discontinuity crosses it.
+  // of a cell is below 1e-7 + 1e-4 of its value for smooth functions, about 1e-3 of the value if a
+  // discontinuity crosses the cell.
   using Function = std::function<glm::dvec4(const glm::dvec3&)>;
   std::vector<glm::dvec4> integrate(const Function& f) const;
-  // One cell, split into 4^depth parts before anything is believed: finds slivers that the first
+  // Integral over one cell, always split into at least 4^depth parts: finds slivers that the first
   // points of integrate() missed.
   glm::dvec4 integrateCell(size_t cell, const Function& f, int depth) const;
 

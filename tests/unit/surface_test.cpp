@@ -85,7 +85,8 @@ TEST(Surface, NormalsTurnToTheViewer) {
   }
 }
 
-// A vertex normal on the far side of its face is mirrored to this one, and stays a unit vector.
+// A vertex normal on the far side of its face is mirrored to the near side, and stays a unit
+// vector.
 TEST(Surface, ImpossibleShadingNormals) {
   MeshGeometry mesh = fullTriangle();
   for (const glm::vec3 n :
@@ -98,9 +99,9 @@ TEST(Surface, ImpossibleShadingNormals) {
   }
 }
 
-// What reuse stores of a vertex is evaluated for other directions: the normal may depend on the
-// side of the face that is seen, and on nothing else of the direction. (bent_normal.glsl turns
-// normals that wo sees from behind, at every evaluation.)
+// Reuse evaluates a stored vertex for other directions: the normal may depend only on the visible
+// side of the face, not otherwise on the direction. (bent_normal.glsl turns normals that wo sees
+// from behind, at every evaluation.)
 TEST(Surface, ShadingNormalsAreThoseOfASide) {
   MeshGeometry mesh = fullTriangle();
   mesh.normals = {{0.9f, 0, 0.3f}, {0, 0.9f, 0.1f}, {0.9f, -0.5f, 0.2f}};
@@ -144,7 +145,7 @@ TEST(Surface, UnlitShowsItsColourOnBothSides) {
   EXPECT_EQ(load(d, {0.2f, 0.2f}).light, rl::RL_INVALID);
 }
 
-// Traversal aborts on rays that are not finite: no triangle, however small, may make one.
+// Traversal aborts on non-finite rays: no triangle, however small, may produce one.
 TEST(Surface, TinyTrianglesHaveANormal) {
   MeshGeometry mesh = fullTriangle();
   mesh.normals.clear();
@@ -194,7 +195,7 @@ TEST(Surface, TextureSlots) {
 TEST(Surface, UvSetsAreKeptApart) {
   Scene scene = sceneOf(fullTriangle(), builtin::lambert(glm::vec3(1.0f)));
   scene.geometries[0].colors.clear();
-  // Set 1 runs over v in 0.25 .. 0.75, u in 0 .. 0.5: only the left texels of the two rows.
+  // Set 1 covers v in 0.25 .. 0.75, u in 0 .. 0.5: only the left texels of the two rows.
   const uint32_t use =
       addTexture(scene, 2, 2, {0xff0000ffu, 0xffffffffu, 0xff00ff00u, 0xffffffffu}, 1);
   scene.materials[0].data.textures[rl::RL_TEX_BASE_COLOR] = use;
@@ -210,7 +211,7 @@ TEST(Surface, NormalMapOfUpIsTheIdentity) {
     rl::Material m = builtin::lambert(glm::vec3(0.5f));
     Scene plain = sceneOf(mesh, m);
     Scene mapped = plain;
-    // 127.5 would be exactly up: 128 is off by 1/255.
+    // Exactly up would be 127.5: 128 is off by 1/255.
     mapped.materials[0].data.textures[rl::RL_TEX_NORMAL] = addTexture(mapped, 1, 1, {0xffff8080u});
     Dialect<> a(CompiledScene::build(std::move(plain))), b(CompiledScene::build(std::move(mapped)));
     for (const glm::vec2 bary : {glm::vec2(0.2f, 0.3f), glm::vec2(0.7f, 0.1f)}) {

@@ -1,4 +1,5 @@
-// Instances: a mesh shared through a transform is the mesh baked into world space, mirrored or not.
+// Instances: a mesh shared through a transform shades like the mesh baked into world space,
+// mirrored or not.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -56,7 +57,7 @@ MeshGeometry patch(bool hasTangents) {
   return mesh;
 }
 
-// The patch under the transform; `shared` places it twice, which makes both instances.
+// The patch under the transform; `shared` places it twice, which makes both uses instances.
 Scene sceneOf(const MeshGeometry& mesh, const glm::dmat4& matrix, bool shared, bool mapped,
               const rl::Material& m) {
   builtin::SceneBuilder builder("instances");
@@ -100,7 +101,7 @@ void expectSameSurfaces(const TransformCase& c, bool hasTangents, bool mapped) {
     const glm::vec3 target = glm::vec3(center) + 0.5f * inputs.uniform() * inputs.direction();
     const glm::vec3 dir = inputs.direction(), origin = target - 4.0f * dir;
     const rl::Hit a = trace(baked, origin, dir), b = trace(instanced, origin, dir);
-    if (a.instance == rl::RL_INVALID || b.instance == rl::RL_INVALID) continue;  // along an edge
+    if (a.instance == rl::RL_INVALID || b.instance == rl::RL_INVALID) continue;  // at an edge
     if (a.primitive != b.primitive) continue;
     const rl::Surface s = baked->surfaceLoad(a, dir), t = instanced->surfaceLoad(b, dir);
     // At grazing angles the rounding of the ray itself, thirty metres off, moves the hit.
@@ -129,8 +130,8 @@ TEST(Instances, EqualTheBakedMeshUnderANormalMap) {
   }
 }
 
-// In a mirror everything is mirrored: surface and shading normals of a mirrored instance are the
-// reflections of the original's, with and without a normal map.
+// Surface and shading normals of a mirrored instance are the reflections of the original's, with
+// and without a normal map.
 TEST(Instances, MirroredSurfaceIsTheMirrorImage) {
   const glm::vec3 flip(-1.0f, 1.0f, 1.0f);
   const glm::dmat4 matrix = glm::scale(glm::dmat4(1.0), glm::dvec3(flip));

@@ -11,18 +11,18 @@
 namespace restlab::unit {
 namespace {
 
-// The exact decoding of IEC 61966-2-1.
+// Exact decoding by IEC 61966-2-1.
 double decodeSrgb(uint32_t value) {
   const double c = value / 255.0;
   return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
 }
 
-// The index that a repeated, mirrored or clamped row of texels shows at i.
+// Index of the texel that a repeated, mirrored or clamped row shows at i.
 int wrapped(int i, int n, uint32_t mode) {
   if (mode == rl::RL_WRAP_CLAMP) return i < 0 ? 0 : (i >= n ? n - 1 : i);
   int k = 0;
   for (int step = 1, at = 0; at != i;
-       at += i > 0 ? 1 : -1) {  // walk there, turning round at mirrors
+       at += i > 0 ? 1 : -1) {  // walk step by step, turning at mirrors
     if (mode == rl::RL_WRAP_REPEAT) {
       k = (k + (i > 0 ? 1 : n - 1)) % n;
       continue;
@@ -52,7 +52,7 @@ struct TextureTest : testing::Test {
 
   TextureTest() {
     Inputs inputs(1);
-    for (int i = 0; i < 7; ++i) texels.push_back(0xdeadbeefu);  // another image lies in front
+    for (int i = 0; i < 7; ++i) texels.push_back(0xdeadbeefu);  // texels of another image in front
     for (int i = 0; i < kWidth * kHeight; ++i) texels.push_back(inputs.bits());
     for (uint32_t i = 0; i < 256; ++i) srgb.push_back(static_cast<float>(decodeSrgb(i)));
     d.scene.texels.data = texels.data();
@@ -87,13 +87,13 @@ struct TextureTest : testing::Test {
 TEST_F(TextureTest, WrapsEveryIndex) {
   for (uint32_t mode : {rl::RL_WRAP_REPEAT, rl::RL_WRAP_CLAMP, rl::RL_WRAP_MIRROR}) {
     for (int n : {1, 2, 3, 5, 8}) {
-      for (int i = -1; i <= 2 * n; ++i) {  // all that filtering asks for
+      for (int i = -1; i <= 2 * n; ++i) {  // range that filtering uses
         EXPECT_EQ(d->textureWrap(i, uint32_t(n), mode), wrapped(i, n, mode))
             << mode << ": " << i << " of " << n;
       }
     }
   }
-  // The mirror, spelled out: 0 | 0 1 2 | 2 1 0 | 0.
+  // The mirrored row, spelled out: 0 | 0 1 2 | 2 1 0 | 0.
   const std::array<int, 8> mirror = {0, 0, 1, 2, 2, 1, 0, 0};
   for (int i = 0; i < 8; ++i)
     EXPECT_EQ(d->textureWrap(i - 1, 3u, rl::RL_WRAP_MIRROR), mirror[size_t(i)]);
@@ -121,7 +121,7 @@ TEST_F(TextureTest, NearestAndBilinearInEveryMode) {
           const glm::vec4 value = d->textureSample(tex, uv);
           const double x = double(uv.x) * kWidth, y = double(uv.y) * kHeight;
           if ((flags & rl::RL_TEXTURE_NEAREST) != 0) {
-            // Rounding decides within a hair of a border.
+            // Close to a border, rounding decides.
             if (std::abs(x - std::round(x)) < 1e-5 || std::abs(y - std::round(y)) < 1e-5) continue;
             ASSERT_LT(
                 glm::distance(glm::dvec4(value), texel(int(std::floor(x)), int(std::floor(y)))),
@@ -136,7 +136,8 @@ TEST_F(TextureTest, NearestAndBilinearInEveryMode) {
   }
 }
 
-// Decoded before filtering: half way between black and white is half the light, not half the code.
+// Decoding precedes filtering: half way between black and white is half the light, not half the
+// code.
 TEST_F(TextureTest, SrgbIsDecodedBeforeFiltering) {
   texels[7] = 0xff000000u;
   texels[8] = 0xffffffffu;
@@ -145,7 +146,7 @@ TEST_F(TextureTest, SrgbIsDecodedBeforeFiltering) {
   tex.wrapU = rl::RL_WRAP_CLAMP;
   tex.flags = rl::RL_TEXTURE_SRGB;
   EXPECT_NEAR(d->textureSample(tex, {0.5f, 0.5f}).x, 0.5f, 1e-6f);
-  // Alpha is linear in either case.
+  // Alpha is always linear.
   texels[7] = 0x80808080u;
   tex.width = 1;
   const glm::vec4 grey = d->textureSample(tex, {0.5f, 0.5f});
@@ -167,7 +168,7 @@ TEST_F(TextureTest, TransformIsAppliedFirst) {
   }
 }
 
-// Coordinates without a fraction, or none at all: some texel, never a read outside.
+// Coordinates without fraction bits, or non-finite: must give some texel and never read outside.
 TEST_F(TextureTest, HugeCoordinatesAreSafe) {
   for (uint32_t mode : {rl::RL_WRAP_REPEAT, rl::RL_WRAP_CLAMP, rl::RL_WRAP_MIRROR}) {
     tex.wrapU = tex.wrapV = mode;

@@ -1,4 +1,4 @@
-// What a page may say to the viewer, and what comes back where it says something else.
+// Tests of the commands that a page may send, and of the replies to anything else.
 #include "experiments/view/command.h"
 
 #include <gtest/gtest.h>

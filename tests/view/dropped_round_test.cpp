@@ -1,4 +1,4 @@
-// Rounds of frames that end in their middle for what a page asks: nothing is left of them.
+// Rounds of frames that a page's command stops in the middle: they leave no trace.
 #include <atomic>
 #include <functional>
 #include <memory>
@@ -10,7 +10,7 @@
 namespace restlab::view_test {
 namespace {
 
-// Holds from that look on.
+// Returns a check that is true from its call number `look` on.
 LiveView::StopCheck stopAt(int look) {
   return [left = std::make_shared<std::atomic<int>>(look)] { return left->fetch_sub(1) <= 0; };
 }
@@ -31,8 +31,8 @@ int looksOf(LiveView& view) {
   return looks;
 }
 
-// Images, numbers of frames and errors are those of sessions of `run`, to the last bit: of both
-// panes, dropped in the first one and in the second one, before and after a move.
+// Images, frame counts and errors match sessions of `run` exactly: in both panes, if dropped in the
+// first one or in the second one, before and after a move.
 TEST(DroppedRounds, EnterNoHistoryAndNoNumber) {
   const std::vector<SessionConfig> panes = {smallPane("restir_gi"),
                                             smallPane("path", "accumulate")};
@@ -76,7 +76,7 @@ TEST(DroppedRounds, EnterNoHistoryAndNoNumber) {
     ++dropped;
   };
   for (uint64_t frame = 1; frame < 4; ++frame) {
-    // In still views some passes do not run.
+    // Some passes do not run while the view is still, so there are fewer checks.
     for (const int look : {0, 1, 3, 5, 7}) drop(view, look);
     EXPECT_TRUE(view.renderFrames());
     expectFrame(frame, true);
@@ -98,7 +98,7 @@ TEST(DroppedRounds, EnterNoHistoryAndNoNumber) {
 
 class DroppedRoundTest : public ViewLoopTest {
  protected:
-  // Rounds of minutes, once they have so many pixels.
+  // At this size a round takes minutes.
   static constexpr int kSide = 1024;
   void SetUp() override {
     ViewLoopTest::SetUp();
@@ -119,7 +119,7 @@ TEST_F(DroppedRoundTest, CommandsDoNotWaitForIt) {
   matrix[12] = matrix[12].get<double>() + 0.125;
   page.say({{"do", "camera"}, {"to_world", matrix}});
   page.waitFor("state", [&](const Json& s) { return s["camera"]["to_world"] == matrix; });
-  // The next one is waited for, but not without end.
+  // The next round is waited for, but not forever.
   const auto begun = std::chrono::steady_clock::now();
   page.say({{"do", "resolution"}, {"width", 24}, {"height", 16}});
   page.waitFor("state", [](const Json& s) { return s["width"] == 24; });

@@ -1,4 +1,4 @@
-// What a page gets of an image.
+// Tests of the encoding of images for pages.
 #include "experiments/view/image_message.h"
 
 #include <gtest/gtest.h>
@@ -38,8 +38,8 @@ TEST(ImageMessages, RoundToHalves) {
   const Bytes bytes = imageMessage({0, PixelFormat::halves}, twoPixels());
   ASSERT_EQ(bytes.size(), kImageHeaderBytes + 12);
   EXPECT_EQ(at<uint32_t>(bytes, 8), 1u);
-  // 0.1 is 1.6 x 2^-4: 0x2e66 is nearest. 1e6 is above the largest half, which stands for it; 3e-8
-  // is nearest 2^-25 of none, 2^-24 of 1.
+  // 0.1 is 1.6 x 2^-4, nearest to 0x2e66. 1e6 is above the largest half and becomes that. 3e-8 is
+  // nearest to the smallest half, 2^-24.
   const uint16_t expected[] = {0x2e66, 0x8000, 0, 0x7bff, 0x7c00, 0x0001};
   for (size_t i = 0; i < 6; ++i) {
     const uint16_t word = at<uint16_t>(bytes, kImageHeaderBytes + 2 * i);

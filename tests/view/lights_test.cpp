@@ -1,5 +1,5 @@
-// Light as a viewer sets it: a factor for all on top of each light's own, and what suites make of
-// it.
+// Lights set in a viewer: a factor for all lights on top of each light's own, and their form in
+// suites.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ TEST(ViewLights, OfAllIsOnTopOfTheirOwn) {
   EXPECT_TRUE(lights.empty()) << "which is the scene as it was loaded";
 }
 
-// A mesh and its material name the same light: the last one counts, 1 as well.
+// A mesh and its material may name the same light; the last factor counts, even a 1.
 TEST(ViewLights, KeepAOneThatCounts) {
   LightFactors lights;
   setLight(lights, "material", 0.5);
@@ -68,7 +68,7 @@ TEST_F(ViewLightsTest, AreTheSameAsEventsOfASuite) {
     EXPECT_EQ(again(lights), lights);
 }
 
-// All off, then one on: events of a suite that no product of factors makes.
+// All lights off, then one on: a suite's events that no product of factors can express.
 TEST_F(ViewLightsTest, OffByASuiteButOneAreOffByThemselves) {
   const Scene scene = cornellBox().scene->source();
   const LightFactors lights = ownLights({{kAllLights, 0.0}, {light(), 0.25}}, scene);
@@ -77,7 +77,7 @@ TEST_F(ViewLightsTest, OffByASuiteButOneAreOffByThemselves) {
   EXPECT_EQ(lights.size(), lightNames(scene).size());
 }
 
-// An average knows nothing of it; a single sample has nothing to know.
+// A history is not told of a change of the light; a method without a history is not affected.
 TEST_F(ViewLightsTest, HistoriesThatGoOnAreSaid) {
   LiveView view = open();
   view.renderFrames();

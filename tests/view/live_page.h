@@ -1,4 +1,4 @@
-// The live page in a browser, with the viewer that it shows at work in the same program.
+// Live page in a browser, with its viewer running in the test program.
 #pragma once
 
 #include <string>
@@ -10,53 +10,53 @@ namespace restlab::view_test {
 
 using report_test::Browser;
 
-// A key as a command names it, as the browser has it.
+// Key named as in the commands' table, as the browser reports it.
 struct Key {
   std::string key, code;
   bool shift = false, control = false, alt = false;
 };
 Key keyNamed(std::string name);
 
-// Skips without a browser. In the end nothing may have been complained of in the console, nor
-// anything been requested but of the viewer.
+// Skips without a browser. Finally requires that the console has no errors and that only the
+// viewer's server was asked.
 class LivePageTest : public ViewLoopTest {
  protected:
   void SetUp() override;
   void TearDown() override;
 
-  // restir_gi beside path + accumulate, 64x36.
+  // restir_gi and path + accumulate, 64x36.
   static std::vector<SessionConfig> smallPanes();
   void serve(const std::vector<SessionConfig>& panes);
-  // The view that is there.
+  // Serves view_ as it is.
   void serveView();
   // Opens the address and waits until all three images are there.
   void open(Browser& browser);
-  // Serves the small panes, and opens them.
+  // Serves smallPanes() and opens the page.
   void open();
-  // The same of a page that is on its way; one that sets window.isOld is not meant.
+  // Waits for a page that is loading; ignores an old page that has set window.isOld.
   void waitUntilShown(Browser& browser, const std::vector<int>& images = {0, 1, 2});
 
-  // The value of the body of an async function of the page, which has
+  // Returns the value of the body of an async function in the page, which can use
   //   page, viewer        as the page has them
-  //   until(holds)        waits until it is true
-  //   frame()             waits for the next frame of the browser
-  //   send(command)       to the program
+  //   until(holds)        waits until the function is true
+  //   frame()             waits for the browser's next frame
+  //   send(command)       sends a command to the program
   Json page(Browser& browser, const std::string& body);
   Json page(const std::string& body) { return page(*browser_, body); }
-  // Returns once the page has the last frame of both panes.
+  // Returns when the page has received the last frame of both panes.
   void pause();
 
-  // Real events, apart from keys with Ctrl or Alt.
+  // Sends real events, except for keys with Ctrl or Alt.
   void press(const std::string& name);
-  // From now on window.delays gets, of each key that changes the exposure, the milliseconds from
-  // the browser's event to the second frame of the page that has it.
+  // Makes window.delays collect, for each key that changes the exposure, the milliseconds from the
+  // browser's event to the second frame that shows the change.
   void watchExposureKeys();
   void keyDown(const std::string& name);
   void keyUp(const std::string& name);
   void click(const std::string& selector);
   std::string text(const std::string& selector);
-  // The window's position of the middle of an image pixel, while one view fills the stage and the
-  // whole image is in it.
+  // Window position of the centre of an image pixel. Requires a single view that shows the whole
+  // image.
   std::pair<double, double> positionOf(uint32_t x, uint32_t y);
 
   void expectNothingWrong(const Browser& browser) const;

@@ -72,7 +72,7 @@ TEST_F(LiveViewTest, NumbersAreThoseOfTheFramesSinceTheReferenceWasThere) {
   EXPECT_NEAR(view.error(1).energyRatio().value, 1.0, 0.5);
 }
 
-// Of the same seed and the same reference, to the last bit.
+// Exact with the same seed and the same reference.
 TEST_F(LiveViewTest, NumbersOfAFrameAreThoseOfASuite) {
   LiveView view = open();
   for (int sample = 0; sample < 6; ++sample) view.refineReference();
@@ -107,7 +107,7 @@ TEST_F(LiveViewTest, EveryChangeBeginsTheNumbersAnew) {
   for (int i = 0; i < 16; ++i) move.toWorld[size_t(i)] = camera.cameraToWorld[i / 4][i % 4];
   move.toWorld[12] += 0.1;
   const std::pair<ViewCommand, bool> changes[] = {
-      // And whether the reference is of another picture.
+      // With whether the change makes a new picture.
       {SetSetting{0, "mode", "biased"}, false},
       {SetSetting{1, "denoiser", "svgf"}, false},
       {SetSetting{0, "cache", "voxel"}, false},
@@ -184,7 +184,7 @@ TEST_F(LiveViewTest, AnotherIntegratorKeepsWhatItHas) {
   view.renderFrames();
 }
 
-// Of the scene's own camera, the reference is that of the other programs.
+// The reference of the scene's own camera is the one that other programs store.
 TEST_F(LiveViewTest, TheReferenceGoesOnFromWhatIsKept) {
   ReferenceStore store;
   store.folder = folder();
@@ -201,7 +201,7 @@ TEST_F(LiveViewTest, TheReferenceGoesOnFromWhatIsKept) {
   EXPECT_EQ(view.reference().mean().pixels, anew.reference().mean().pixels);
 }
 
-// The panes' runs begin anew, the reference does not.
+// The panes' runs restart, the reference does not.
 TEST_F(LiveViewTest, TheReferenceHasItsSeedAfterARestart) {
   ReferenceStore store;
   store.folder = folder();
@@ -246,7 +246,7 @@ TEST(RunningErrors, HaveAMeanOfTheNewestFrames) {
   EXPECT_TRUE(std::isnan(error.newestMse()));
 }
 
-// They are asked for after each round, for hours.
+// Means are read after each round, for hours.
 TEST(RunningErrors, CostTheSameHoweverLongTheWindowIs) {
   const Image one(1, 1, glm::vec3(1.0f));
   RunningError error;

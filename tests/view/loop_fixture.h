@@ -1,4 +1,4 @@
-// A viewer at work on another thread, of two small panes.
+// A running viewer on another thread, with two small panes.
 #pragma once
 
 #include <filesystem>
@@ -41,7 +41,7 @@ class ViewLoopTest : public TemporaryFolder {
     });
   }
 
-  // The view is the test's again.
+  // Ends the loop: afterwards the test may use the view.
   void stop() {
     if (!thread_.joinable()) return;
     loop_->stop();
@@ -57,7 +57,7 @@ class ViewLoopTest : public TemporaryFolder {
 
   std::string url() const { return loop_->url(); }
 
-  // What is called in the place of `restlab run SUITE -o FOLDER --json`: these lines of a shell.
+  // Writes a shell script to run instead of `restlab run SUITE -o FOLDER --json`.
   std::filesystem::path program(const std::string& lines) const {
     const std::filesystem::path file = folder() / "program";
     std::ofstream(file) << "#!/bin/sh\n" << lines << "\n";
@@ -66,7 +66,7 @@ class ViewLoopTest : public TemporaryFolder {
   }
 
   ViewFacts facts_;
-  std::optional<TevAddress> tev_;  // of the loop
+  std::optional<TevAddress> tev_;  // passed to the loop
   std::optional<LiveView> view_;
   std::unique_ptr<ViewLoop> loop_;
   std::thread thread_;

@@ -1,4 +1,4 @@
-// A saved session that `restlab run` measures, and the picture as a file.
+// Tests of measuring a saved session by `restlab run`, and of saving the picture as a file.
 #include <gtest/gtest.h>
 
 #include <sys/wait.h>
@@ -42,7 +42,7 @@ TEST_F(MeasureTest, RunsTheSessionAndShowsItsReport) {
   EXPECT_EQ(said["done"], 0.25);
   EXPECT_EQ(said["text"], "runs 3 of 12, 9 s left");
   EXPECT_EQ(said["folder"], "results/my-suite");
-  // Nothing renders beside it, and nothing is changed.
+  // During a measurement nothing renders and nothing can be changed.
   const auto framesOf = [&] {
     page.say({{"do", "save"}});
     page.waitFor("saved");
@@ -61,7 +61,7 @@ TEST_F(MeasureTest, RunsTheSessionAndShowsItsReport) {
             std::string::npos);
   page.say({{"do", "measure"}});
   EXPECT_NE(page.waitFor("error")["text"].get<std::string>().find("under way"), std::string::npos);
-  // Who opens the page now is told.
+  // A page opened now is told of the measurement.
   EXPECT_EQ(Page(url()).waitFor("measure")["state"], "running");
   std::ofstream(folder() / "go") << "";
   said = waitForEnd(page);
@@ -69,13 +69,13 @@ TEST_F(MeasureTest, RunsTheSessionAndShowsItsReport) {
   EXPECT_EQ(textOf("words"), "run my-suite.toml -o results/my-suite --json\n");
   EXPECT_EQ(loadSuite(folder() / "my-suite.toml", {}).name, "my-suite");
   page.waitFor("numbers", [&](const Json& n) { return n["panes"][0]["frame"] > before; });
-  // A second one replaces nothing.
+  // A second measurement replaces nothing.
   page.say({{"do", "measure"}, {"name", "my suite"}});
   page.waitFor("measure", [](const Json& m) { return m["folder"] == "results/my-suite-2"; });
   EXPECT_EQ(loadSuite(folder() / "my-suite-2.toml", {}).name, "my-suite-2");
 }
 
-// `run` without -o puts results where the suite's name says.
+// `run` without -o derives the folder of results from the suite's name.
 TEST_F(MeasureTest, NamesOfSuitesAreThoseOfTheirFiles) {
   fs::create_directories(folder() / "results" / "old");
   start();
@@ -87,7 +87,7 @@ TEST_F(MeasureTest, NamesOfSuitesAreThoseOfTheirFiles) {
   }
 }
 
-// The reference that was kept is of the first seed, and is the suite's only if its seed is, too.
+// The stored reference has the first seed; the suite can only use it with the same seed.
 TEST_F(MeasureTest, SuitesHaveTheFirstSeedWhateverBeganAnew) {
   start();
   Page page(url());
@@ -156,7 +156,7 @@ TEST_F(MeasureTest, EndsWithAViewerThatIsKilled) {
   EXPECT_FALSE(isRunning());
 }
 
-// Stands for a run whose driver compiles a kernel.
+// Ignores the first SIGINT, like a run whose driver compiles a kernel.
 TEST_F(MeasureTest, EndsByTheSecondSignalWhereTheFirstOneIsNotHeard) {
   const fs::path run = program(
       "trap 'trap - INT' INT\necho $$ > child.new\nmv child.new child\n"
@@ -181,7 +181,7 @@ TEST_F(MeasureTest, SaysWhyItFailed) {
   EXPECT_EQ(said["text"], "no memory for that");
 }
 
-// The reference that is there is the one of the suite.
+// The suite's reference gets as many samples as the page's.
 TEST_F(MeasureTest, TakesTheSamplesOfThePage) {
   const LiveView few(cornellBox(), {smallPane("restir_gi"), smallPane("path")}, {});
   EXPECT_NE(sessionToml(facts_, few, "a").find("spp = 256\n"), std::string::npos);

@@ -1,4 +1,4 @@
-// A page without a browser: a WebSocket that keeps what the viewer says.
+// A page without a browser: a WebSocket client that collects the viewer's messages.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -26,13 +26,13 @@ struct ShownImage {
 
 class Page {
  public:
-  // `url`: as the program prints it.
+  // `url`: as printed by the program.
   explicit Page(const std::string& url) : socket_(io_) {
     const size_t colon = url.rfind(':'), slash = url.find('/', colon);
     const auto port = uint16_t(std::stoi(url.substr(colon + 1, slash - colon - 1)));
     boost::beast::get_lowest_layer(socket_).connect(
         boost::asio::ip::tcp::endpoint(boost::asio::ip::make_address("127.0.0.1"), port));
-    // As browsers do: a command waits for no acknowledgement of the one before.
+    // Like browsers: send a command without waiting for the acknowledgement of the one before.
     boost::beast::get_lowest_layer(socket_).socket().set_option(
         boost::asio::ip::tcp::no_delay(true));
     socket_.handshake("localhost", "/socket" + url.substr(slash + 1));
@@ -42,7 +42,7 @@ class Page {
   void say(const Json& command) { sayText(command.dump()); }
   void sayText(const std::string& text) { socket_.write(boost::asio::buffer(text)); }
 
-  // The next text of that name for which `holds`; images on the way are kept.
+  // Returns the next message of that name for which `holds`; stores images received meanwhile.
   template <class Holds>
   Json waitFor(const std::string& name, const Holds& holds) {
     const auto end = std::chrono::steady_clock::now() + kPatience;
@@ -58,7 +58,7 @@ class Page {
     return waitFor(name, [](const Json&) { return true; });
   }
 
-  // The next text; null where none comes.
+  // Returns the next text; null if none arrives.
   Json next() {
     for (;;) {
       if (!read()) return nullptr;
@@ -67,7 +67,7 @@ class Page {
     }
   }
 
-  // The newest of each slot.
+  // Newest image of each slot.
   const std::map<uint32_t, ShownImage>& images() const { return images_; }
   template <class Holds>
   bool waitForImage(const Holds& holds) {
@@ -79,7 +79,7 @@ class Page {
     return false;
   }
 
-  // Received so far.
+  // Bytes received so far.
   uint64_t bytes() const { return bytes_; }
   void close() { boost::beast::get_lowest_layer(socket_).close(); }
 

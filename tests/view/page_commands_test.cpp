@@ -1,12 +1,12 @@
-// Every command of the live page's table, by each of its keys and by the palette. What a command
-// does is looked at where it is known here; one that is new is run, and must not throw.
+// Runs every command of the live page by each of its keys and by the palette. Checks the effects
+// that are known here; a new command must at least not throw.
 #include "tests/view/live_page.h"
 
 namespace restlab::view_test {
 namespace {
 
-// window.tools: prepare(id) makes a state in which the command has something to do, done(id) says
-// what is wrong afterwards, or "".
+// window.tools: prepare(id) makes a state in which the command has an effect; done(id) returns what
+// is wrong afterwards, or "".
 constexpr const char* kTools = R"JS(
 const tools = window.tools = {ran: [], files: []};
 for (const one of page.commands) {
@@ -204,7 +204,7 @@ tools.done = async id => {
 
 class PageCommandsTest : public LivePageTest {
  protected:
-  // [id, keys, title, whether it lasts while a key is held]...
+  // Returns [id, keys, title, whether it lasts while a key is held]...
   Json start() {
     facts_.program = program("sleep 100");
     open();
@@ -213,7 +213,7 @@ class PageCommandsTest : public LivePageTest {
         "return page.commands.map(({id, keys, title, release}) => [id, keys, title, "
         "Boolean(release)]);");
   }
-  // There are three images.
+  // True for commands of a fourth or later image: there are three images.
   static bool isOfMoreImages(const std::string& id) {
     return (id.rfind("image-", 0) == 0 || id.rfind("compare-", 0) == 0) && id.back() > '3';
   }
@@ -279,7 +279,7 @@ TEST_F(PageCommandsTest, ArePickedInThePaletteByTyping) {
   EXPECT_EQ(page("return Boolean(document.querySelector('dialog[open]'));"), false);
 }
 
-// What is known here of a command that is gone is forgotten.
+// This file must not know commands that no longer exist.
 TEST_F(PageCommandsTest, AreAllThatThisFileKnows) {
   start();
   EXPECT_EQ(page("return tools.known.filter(id => !page.commands.some(one => one.id === id));"),

@@ -9,7 +9,7 @@ namespace restlab::view_test {
 
 namespace {
 
-// Counts what comes: in window.seen the frame of each slot and when it came.
+// Records in window.seen, for each slot, the last frame and its time of arrival.
 constexpr const char* kWatch = R"((() => {
   const page = document.body.page, show = page.showImage;
   window.seen = {};
@@ -63,7 +63,7 @@ void LivePageTest::SetUp() {
 
 void LivePageTest::TearDown() {
   if (browser_) expectNothingWrong(*browser_);
-  browser_.reset();  // first: a page whose program ends complains
+  browser_.reset();  // first: a page complains when its program ends
   ViewLoopTest::TearDown();
 }
 
@@ -126,7 +126,7 @@ void LivePageTest::waitUntilShown(Browser& browser, const std::vector<int>& imag
       browser.evaluate(kWatch);
       return;
     } catch (const std::runtime_error&) {
-      // While another page comes there is none to ask.
+      // Evaluation fails while another page is loading.
       if (std::chrono::steady_clock::now() > end) throw;
     }
   }

@@ -1,4 +1,4 @@
-// The live page of images of files, and the run and the files that it makes.
+// Live page that shows images of files, and a session's measurement and saved files.
 #include <fmt/format.h>
 
 #include "core/image/metrics.h"
@@ -20,7 +20,7 @@ class PageImagesTest : public LivePageTest {
     for (uint32_t x = 0; x < 20; ++x) image.at(x, 5) = {value, 0.5f * value, float(x) / 20.0f};
     return image;
   }
-  // a.exr, b.exr and a reference.
+  // Opens a.exr, b.exr and, if wanted, the reference r.exr.
   void openImages(bool hasReference = true) {
     for (const char* name : {"a", "b"}) {
       writeExr(folder() / (std::string(name) + ".exr"),
@@ -57,7 +57,7 @@ TEST_F(PageImagesTest, ShowsThemAsItShowsMethods) {
     const double told = page(fmt::format("return page.last.panes[{}].mse.value;", i));
     EXPECT_NEAR(told, expected, 1e-6 * expected);
   }
-  // All pixels, to the last bit.
+  // All pixels are exact.
   const Image b = striped(0.5f);
   const Json data = page("return Array.from(viewer.images[1].data);");
   ASSERT_EQ(data.size(), 3 * b.pixels.size());
@@ -91,7 +91,7 @@ TEST_F(PageImagesTest, SaysWhereThereIsNothingToChange) {
   EXPECT_EQ(page("return document.querySelectorAll('.message.error').length;"), 0);
 }
 
-// Nothing is timed or counted of an image, and there is no interval to wait for.
+// Images have no times, no counts and no interval to wait for.
 TEST_F(PageImagesTest, NumbersAreErrorsAlone) {
   openImages();
   const std::string rows =

@@ -1,4 +1,4 @@
-// The live page on a small screen: 1280 pixels wide.
+// Layout of the live page on a small screen: 1280 pixels wide.
 #include "tests/view/live_page.h"
 
 namespace restlab::view_test {
@@ -9,7 +9,7 @@ class PageLayoutTest : public LivePageTest {
   void SetUp() override {
     LivePageTest::SetUp();
     if (!browser_) return;
-    facts_.request.scene = "door-ajar";  // whose title is long
+    facts_.request.scene = "door-ajar";  // has a long title
     open();
     page(
         "send({do: 'set', pane: 1, key: 'integrator', value: 'restir_gi'});"
@@ -20,7 +20,7 @@ class PageLayoutTest : public LivePageTest {
 };
 
 TEST_F(PageLayoutTest, NamesAreWhole) {
-  // Texts that their elements cut off.
+  // Collects texts that their elements cut off.
   EXPECT_EQ(page(R"(
     const chosen = ['.live-header h1', '.tag', 'table.images .name', '.numbers-table thead th',
                     '.parameter > label', '.parameter > .label', '.header-buttons button'];
@@ -49,7 +49,7 @@ TEST_F(PageLayoutTest, TheToolbarIsOneRow) {
       << "there is no room for it, and a key";
 }
 
-// All of the stage is of some picture; the zoom is one for all of them.
+// The views fill the stage, and all of them share one zoom.
 TEST_F(PageLayoutTest, SideBySideLeavesNothingEmpty) {
   press("b");
   EXPECT_EQ(page("await frame(); return viewer.stage.views.length;"), 3);
@@ -57,7 +57,7 @@ TEST_F(PageLayoutTest, SideBySideLeavesNothingEmpty) {
     const {views, width, height} = viewer.stage;
     return views.reduce((sum, view) => sum + view.width * view.height, 0) / (width * height);)");
   EXPECT_GT(covered.get<double>(), 0.96);
-  // A pixel is where the pointer finds it.
+  // The pointer finds the pixel where it is drawn.
   EXPECT_EQ(page(R"(const {views} = viewer.stage, {camera} = viewer;
     return views.map(view => viewer.stage.hit(...camera.toView(view, 20.5, 10.5)).pixel);)"),
             (Json{{{"x", 20}, {"y", 10}}, {{"x", 20}, {"y", 10}}, {{"x", 20}, {"y", 10}}}));

@@ -1,4 +1,4 @@
-// The live page as it is opened: alone, twice at once, again, and what it saves.
+// Opening the live page: alone, twice at once, again; and the session that it saves.
 #include <fstream>
 
 #include "experiments/view/view_session.h"
@@ -18,7 +18,7 @@ TEST_F(PageOpenTest, ShowsBothPanesAndTheReference) {
             (Json{"1  A: restir_gi, pixel", "2  B: path + accumulate", "3  reference"}));
   EXPECT_EQ(text(".link"), "connected");
   EXPECT_EQ(page("return [page.state.width, page.state.height];"), (Json{64, 36}));
-  // Frames go on coming.
+  // Frames keep arriving.
   page(
       "const first = seen[0]?.frame ?? 0; await until(() => seen[0] && seen[0].frame > first + "
       "3);");
@@ -76,7 +76,7 @@ TEST_F(PageOpenTest, ReloadTakesNothingBack) {
     window.isOld = true;
     setTimeout(() => location.reload(), 0);)");
   waitUntilShown(*browser_);
-  // What it might ask for is done by then.
+  // By then the page has sent anything that it would send on loading.
   page("send({do: 'save'}); await until(() => document.querySelector('.message'));");
   EXPECT_EQ(page("return page.state.paused;"), true);
   EXPECT_EQ(page("return page.state.panes[0].parameters.find("

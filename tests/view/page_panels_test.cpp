@@ -1,4 +1,4 @@
-// What the panels of the live page say while something changes, is refused or goes on by itself.
+// Panels of the live page while something changes, is refused or plays.
 #include "tests/view/live_page.h"
 
 namespace restlab::view_test {
@@ -12,7 +12,7 @@ class PagePanelsTest : public LivePageTest {
   }
 };
 
-// Typed and refused: with the focus goes what was never so.
+// A refused value disappears when its field loses the focus.
 TEST_F(PagePanelsTest, ARefusedLightDoesNotStayInItsField) {
   const std::string field = "document.querySelector('[data-light] input[type=number]')";
   press("Alt+2");
@@ -22,7 +22,7 @@ TEST_F(PagePanelsTest, ARefusedLightDoesNotStayInItsField) {
   page("await until(() => document.querySelector('.message.error'));");
   page("document.activeElement.blur();");
   EXPECT_EQ(page("return " + field + ".value;"), "1");
-  // One that is on its way is not taken back.
+  // A value that is still being sent is not reset.
   page(field + ".focus(); " + field + ".select();");
   press("3");
   browser_->press("Tab", "Tab");
@@ -61,7 +61,7 @@ TEST_F(PagePanelsTest, HeadsOfTheNumbersNameTheMethods) {
   EXPECT_EQ(page(heads), (Json{"A: restir_gi, pixel", "B: path"}));
 }
 
-// Values of before are said to be so, and asked for again as soon as there are others.
+// Old values are marked as old and probed again after the change is rendered.
 TEST_F(PagePanelsTest, AProbeFollowsAChange) {
   press("s");
   press("1");
@@ -88,7 +88,7 @@ TEST_F(PagePanelsTest, AProbeFollowsAChange) {
   EXPECT_EQ(page("return document.querySelectorAll('.message.error').length;"), 0);
 }
 
-// Estimates against a noisy reference may be below 0: to leave them out would lift the curve.
+// Estimates against a noisy reference may be negative; leaving them out would lift the curve.
 TEST_F(PagePanelsTest, ErrorsThatAreNotAboveZeroAreInThePlot) {
   pause();
   press("Alt+3");
@@ -127,7 +127,7 @@ TEST_F(PagePanelsTest, ARecordedPathIsPlayedOnceWithItsFieldOfView) {
       "return [before, looks.length, page.recorder.play.textContent];");
   EXPECT_EQ(stopped[0], stopped[1]) << "asked for again it stops";
   EXPECT_EQ(stopped[2], "play");
-  // Stopped and begun in one frame of the browser, it goes once, to its end.
+  // Stopped and restarted within one browser frame, it plays once, to its end.
   page(R"(looks.length = 0;
     for (let i = 0; i < 3; ++i) page.recorder.playBack();
     await until(() => looks.length > 3 && !page.recorder.playing);
@@ -139,7 +139,7 @@ TEST_F(PagePanelsTest, ARecordedPathIsPlayedOnceWithItsFieldOfView) {
   EXPECT_NEAR(page("return page.state.camera.to_world[12];").get<double>(), 0.3, 1e-9);
 }
 
-// What was on its way when it did so still comes.
+// Messages that are already on their way still arrive after the page is hidden.
 TEST_F(PagePanelsTest, InTheBackgroundItLooksAway) {
   page(R"(await until(() => page.last.age > 2);
     Object.defineProperty(document, 'hidden', {value: true, configurable: true});

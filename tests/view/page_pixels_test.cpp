@@ -1,4 +1,4 @@
-// What the live page's canvas shows are the program's pixels.
+// The live page's canvas shows the program's pixels.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace restlab::view_test {
 namespace {
 
-// The byte of an sRGB picture (IEC 61966-2-1).
+// Byte of an sRGB picture (IEC 61966-2-1).
 int srgb(double linear) {
   if (!(linear > 0.0)) return 0;
   const double encoded =
@@ -26,10 +26,10 @@ class PagePixelsTest : public LivePageTest {
     open();
     page("await until(() => page.last.panes[0].frame > 2);");
     pause();
-    stop();  // the page stays, and the view is the test's
+    stop();  // the page stays open; the test may use the view
   }
-  // What the canvas shows now at the middle of each image pixel, of the whole image in one view;
-  // and the images that it shows.
+  // Reads the canvas at the centre of each image pixel, with the whole image in one view, and the
+  // images that are shown.
   void readBack() {
     const Json read = page(R"(
       viewer.pointer = null;
@@ -54,12 +54,12 @@ class PagePixelsTest : public LivePageTest {
     exposure_ = read["exposure"];
     divider_ = read["left"];
   }
-  // Each pixel of those whose middle lies in [x0, x1) is that image's by exposure and sRGB.
+  // Checks the pixels whose centre lies in [x0, x1) against the image, by exposure and sRGB.
   void expectShown(size_t image, double x0, double x1, double factor = 1.0) {
     int count = 0, wrong = 0;
     for (size_t k = 0; k < colours_.size(); ++k) {
       const double x = double(k / 3 % 64) + 0.5;
-      // The divider itself is a line over the middle of a pixel.
+      // The divider is drawn as a line over the centre of a pixel.
       if (x < x0 + 0.2 || x > x1 - 0.2) continue;
       ++count;
       wrong += std::abs(colours_[k] - srgb(factor * exposure_ * images_[image][k])) > 1;
@@ -68,7 +68,7 @@ class PagePixelsTest : public LivePageTest {
     EXPECT_EQ(wrong, 0) << "of image " << image << " between " << x0 << " and " << x1;
   }
   std::string status() { return text(".status"); }
-  // R, G, B of an image as the status line says them.
+  // Returns R, G, B of an image in the status line.
   std::vector<float> saidOf(const std::string& name) {
     const std::string line = status();
     const size_t at = line.find(name + ": ");
@@ -136,7 +136,7 @@ TEST_F(PagePixelsTest, WipeIsTheReferenceLeftAndThePaneRight) {
   readBack();
   expectShown(2, 0.0, divider_, 2.0);
   expectShown(1, divider_, 64.0, 2.0);
-  // And the other image on the left.
+  // The other image on the left.
   press("Shift+1");
   press("r");
   readBack();
@@ -191,7 +191,7 @@ TEST_F(PagePixelsTest, ZoomedPixelsHoldTheirNumbers) {
   press("1");
   const auto [x, y] = positionOf(20, 30);
   browser_->moveMouse(x, y);
-  // Colours near the pointer: one, until numbers are drawn there.
+  // Counts the colours near the pointer: one, unless numbers are drawn there.
   const auto colours = [&, x = x, y = y] {
     return page(fmt::format(R"(await frame();
       await frame();

@@ -1,4 +1,4 @@
-// What is changed, probed and measured on the live page is what the program does.
+// Changes, probes and numbers of the live page match the program.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ class PageSessionTest : public LivePageTest {
     return page(fmt::format("return document.querySelectorAll('[data-number={}]')[{}].textContent;",
                             name, pane));
   }
-  // Of pane A, by the program's state.
+  // Returns value and is_set of pane A's confidence_cap in the program's state.
   Json cap() {
     return page(
         "const {value, is_set} = page.state.panes[0].parameters.find("
@@ -30,7 +30,7 @@ class PageSessionTest : public LivePageTest {
   void waitForEpochAfter(const Json& epoch) {
     page("await until(() => page.state.epoch > " + epoch.dump() + ");");
   }
-  // Types into the field of a parameter of pane A.
+  // Types into the field of pane A's confidence_cap.
   void type(const std::string& number) {
     const std::string selector = "[data-parameter=confidence_cap] input[type=number]";
     click(selector);
@@ -49,7 +49,7 @@ TEST_F(PageSessionTest, ParametersChangeTheProgram) {
   type("7");
   waitForEpochAfter(first);
   EXPECT_EQ(cap(), (Json{7, true}));
-  // Of the new setting nothing was measured yet, while panes stand.
+  // While the panes are paused, nothing is measured for the new setting.
   page("await until(() => page.last.epoch === page.state.epoch);");
   for (int pane : {0, 1}) {
     const std::string frames = number("frames", pane);
@@ -107,7 +107,7 @@ TEST_F(PageSessionTest, ClickProbesThePixel) {
   page("await until(() => page.probe.answers[0] && page.probe.answers[1]);");
   EXPECT_EQ(page("return [page.tabs.current, page.probe.pixel];"),
             (Json{"probe", {{"x", kX}, {"y", kY}}}));
-  // By name, the texts of A and B.
+  // Rows of the table: name, text of A, text of B.
   const Json rows = page(
       "return Array.from(document.querySelectorAll('.probe-table tbody tr'), row "
       "=> [row.firstChild.firstChild.data, ...Array.from(row.querySelectorAll("
@@ -143,8 +143,8 @@ TEST_F(PageSessionTest, ClickProbesThePixel) {
   EXPECT_NE(commands[0].get<std::string>().find(end), std::string::npos) << commands[0];
 }
 
-// A line leads from the probe to each donor, where the picture is enlarged and moved, too; the
-// table says of each what the program says.
+// A line leads from the probe to each donor, even if the picture is zoomed and panned; the table
+// lists each donor as the program sent it.
 TEST_F(PageSessionTest, DonorsAreDrawnAndListed) {
   press("s");
   press("1");
@@ -185,7 +185,7 @@ TEST_F(PageSessionTest, DonorsAreDrawnAndListed) {
     return {message, donor, zoomed, panned, marks, rows, cleared: lineAt(),
             left: document.querySelectorAll('.donors').length};)");
   ASSERT_FALSE(seen["donor"].is_null());
-  // Light in red and green, whether white or yellow; it is thinner than two pixels.
+  // White and yellow are both bright in red and green; the line is thinner than two pixels.
   for (const char* when : {"zoomed", "panned"}) {
     EXPECT_GE(seen[when][0], 200) << when << seen[when];
     EXPECT_GE(seen[when][1], 160) << when << seen[when];
@@ -213,8 +213,9 @@ TEST_F(PageSessionTest, DonorsAreDrawnAndListed) {
   EXPECT_EQ(seen["marks"].size(), marked);
 }
 
-// Frames made again, against the halves of the reference as it is in the end. As it goes on while
-// frames are measured, and with it every error a little, they agree within five percent.
+// Renders the frames again and compares them with the final halves of the reference. The reference
+// still improves while frames are measured and changes their errors slightly: they agree within
+// five percent.
 TEST_F(PageSessionTest, RunningErrorIsThatOfTheFrames) {
   pause();
   page(R"(await until(() => page.last.reference.spp >= 768);

@@ -1,6 +1,6 @@
-// Times of docs/performance.md, "The viewer": how fluent the page is while nobody renders, and what
-// it costs to be watched. They are printed, and say nothing on a busy machine; what is asserted
-// holds on any.
+// Measures the times of docs/performance.md, "The viewer": how fluent the page is while nothing
+// renders, and the cost of being watched. The printed times mean nothing on a busy machine; the
+// assertions hold on any machine.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -17,7 +17,7 @@ double percentileOf(std::vector<double> values, double fraction) {
 
 using PageSpeedTest = LivePageTest;
 
-// What the events of a pointer call, once a frame of the browser, for three seconds each.
+// Calls what pointer events call, once per browser frame, for three seconds each.
 TEST_F(PageSpeedTest, NightlyPanZoomAndWipe) {
   facts_.request.scene = "door-ajar";
   std::vector<SessionConfig> panes = {smallPane("restir_gi"), smallPane("path")};
@@ -74,7 +74,8 @@ TEST_F(PageSpeedTest, NightlyPanZoomAndWipe) {
               percentileOf(delays, 0.5), percentileOf(delays, 0.95));
 }
 
-// The passes of each frame, of a view that nobody sees and of one that a page receives, in turn.
+// Compares the passes of frames in a view that nobody sees and in one that a page receives, in
+// turn.
 TEST_F(PageSpeedTest, NightlyBeingWatched) {
   constexpr int kRounds = 6, kWarmUp = 10, kFrames = 40;
   facts_.request.scene = "door-ajar";

@@ -1,4 +1,4 @@
-// The live page while frames are slow, and under commands in any order.
+// Live page while frames are slow, and under commands in random order.
 #include <algorithm>
 #include <iostream>
 
@@ -9,8 +9,8 @@ namespace {
 
 using PageStressTest = LivePageTest;
 
-// The wall clock of a busy machine is no measure: only the median is asserted, far
-// above what it is on a quiet one.
+// Times on a busy machine vary: only the median is checked, with a limit far above its value on a
+// quiet machine.
 TEST_F(PageStressTest, KeysAreAnsweredWhileAFrameRenders) {
   constexpr double kMostMs = 250.0;
   constexpr int kKeys = 20;
@@ -42,7 +42,7 @@ TEST_F(PageStressTest, KeysAreAnsweredWhileAFrameRenders) {
   EXPECT_LT(delays[kKeys / 2], kMostMs);
 }
 
-// By keys, most of them; by messages that panels send, some of them refused.
+// Runs random commands: most by keys, others by messages of panels, some of which are refused.
 constexpr const char* kRandom = R"JS(
   let seed = SEED;
   const below = n => {
@@ -95,7 +95,7 @@ constexpr const char* kRandom = R"JS(
 TEST_F(PageStressTest, LivesThroughRandomCommands) {
   open();
   std::string script = kRandom;
-  // Others by --gtest_shuffle --gtest_random_seed=N.
+  // Other commands: --gtest_shuffle --gtest_random_seed=N.
   const int seed = 18 + testing::UnitTest::GetInstance()->random_seed();
   script.replace(script.find("SEED"), 4, std::to_string(seed));
   page(script);

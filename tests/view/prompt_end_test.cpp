@@ -1,4 +1,4 @@
-// A process whose thread hears no signal ends all the same, and leaves whole files.
+// A process whose thread cannot react to signals still ends, and leaves complete files.
 #include <gtest/gtest.h>
 
 #include <unistd.h>
@@ -27,9 +27,9 @@ class PromptEndDeathTest : public TemporaryFolder {
   }
 };
 
-// Stands for a driver that compiles.
+// Behaves like a driver that compiles a kernel.
 [[noreturn]] void hangForAMinute() {
-  alarm(60);  // where nothing ends it
+  alarm(60);  // ends the test if nothing else does
   while (true) pause();
 }
 

@@ -1,4 +1,5 @@
-// The viewer's server from outside: who is let in, what clients get, and what ends them.
+// Tests of the viewer's server from outside: access, messages to clients, and reasons to
+// disconnect.
 #include "experiments/view/server.h"
 
 #include <gtest/gtest.h>
@@ -38,7 +39,7 @@ constexpr const char* kUpgrade =
     "Connection: upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
     "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n";
 
-// A server and what it has heard.
+// Fixture: a server that records its events.
 class ViewServerTest : public ::testing::Test {
  protected:
   void start(const ViewServerOptions& given = {}) {
@@ -75,7 +76,7 @@ class ViewServerTest : public ::testing::Test {
     return socket;
   }
 
-  // What comes back for bytes, until the server ends the connection.
+  // Sends bytes and returns the answer, until the server closes the connection.
   std::string answerTo(const std::string& bytes) {
     Tcp::socket socket = connect();
     ErrorCode error;
@@ -86,7 +87,7 @@ class ViewServerTest : public ::testing::Test {
     return answer;
   }
 
-  // Its status and its body.
+  // Returns status and body.
   std::pair<int, std::string> get(const std::string& target, const std::string& headers = "") {
     const std::string host =
         headers.find("Host:") == std::string::npos ? "Host: localhost\r\n" : "";
@@ -125,7 +126,7 @@ class ViewServerTest : public ::testing::Test {
   std::condition_variable heard_;
   std::vector<ClientId> opened_, closed_;
   std::vector<std::string> said_;
-  std::unique_ptr<ViewServer> server_;  // the first to go: it calls back
+  std::unique_ptr<ViewServer> server_;  // last, destroyed first: it calls back
 };
 
 TEST_F(ViewServerTest, GivesThePageToWhoKnowsTheToken) {
@@ -140,8 +141,7 @@ TEST_F(ViewServerTest, GivesThePageToWhoKnowsTheToken) {
   EXPECT_NE(answer.find("<title>the page</title>"), std::string::npos) << answer;
 }
 
-// The hash of "alert(1)" as `openssl dgst -sha256 -binary | base64` has it. What has a type is
-// data.
+// Hash of "alert(1)": `openssl dgst -sha256 -binary | base64`. A script with a type is data.
 TEST_F(ViewServerTest, LetsRunTheScriptsOfThePageAlone) {
   start();
   server_->setReport(
@@ -262,14 +262,14 @@ TEST_F(ViewServerTest, EndsWhoSendsWhatIsNoText) {
     socket->write(isLarge ? asio::buffer(large) : asio::buffer(large.data(), 4), error);
     beast::flat_buffer buffer;
     socket->read(buffer, error);
-    // Of what is too long the server reads no more, which may end the connection first.
+    // The server stops reading a message that is too long, which may end the connection first.
     EXPECT_TRUE(error) << isLarge;
     if (!isLarge) {
       EXPECT_EQ(error, websocket::error::closed) << error.message();
       EXPECT_EQ(socket->reason().code, websocket::close_code::bad_payload);
     }
   }
-  // Half a frame, then nothing.
+  // Half a frame, then the connection closes.
   {
     const auto socket = open();
     ASSERT_TRUE(socket);
@@ -281,7 +281,7 @@ TEST_F(ViewServerTest, EndsWhoSendsWhatIsNoText) {
   EXPECT_EQ(get("/?token=" + token_).first, 200);
 }
 
-// Slots that were overtaken are left out; the last one comes.
+// Overtaken messages of a slot are left out; the last one arrives.
 TEST_F(ViewServerTest, GivesASlowPageFewerFramesAndNotOlderOnes) {
   start();
   const auto socket = open();
@@ -321,7 +321,7 @@ TEST_F(ViewServerTest, LetsGoWhoDoesNotRead) {
   EXPECT_TRUE(waitFor([&] { return closed_.size() == 1; }));
 }
 
-// Few texts, and large ones; one alone may have any size.
+// Limits many large texts; a single text may have any size.
 TEST_F(ViewServerTest, BoundsWhatWaitsByBytes) {
   ViewServerOptions options;
   options.mostWaitingBytes = 8 << 20;
@@ -341,13 +341,13 @@ TEST_F(ViewServerTest, BoundsWhatWaitsByBytes) {
     return server_->bytesUnread(opened_[0]);
   };
   EXPECT_EQ(unreadInTheEnd(), 0u) << "all was taken";
-  // One of these is on its way, and more than two wait.
+  // One of these is being written, and more than two are queued.
   for (int i = 0; i < 20; ++i) server_->send(opened_[0], std::string(4 << 20, 'x'));
   EXPECT_TRUE(waitFor([&] { return closed_.size() == 1; }));
   EXPECT_EQ(unreadInTheEnd(), 0u) << "it is gone";
 }
 
-// A page that nobody can let in waits, and the server with it.
+// Without a free descriptor the server waits, without busy looping.
 TEST_F(ViewServerTest, WaitsForADescriptor) {
   start();
   Tcp::socket page(io_, Tcp::v4());
@@ -381,7 +381,7 @@ TEST(ViewServerPorts, ThatAreTakenAreSaid) {
   };
   ViewServerOptions same, nowhere, words;
   same.port = server.port();
-  nowhere.listen = "192.0.2.1";  // of documents, of no machine
+  nowhere.listen = "192.0.2.1";  // address for documentation; no machine has it
   words.listen = "everywhere";
   EXPECT_NE(errorOf(same).find("is taken"), std::string::npos);
   EXPECT_NE(errorOf(nowhere).find("--listen 192.0.2.1: is no address of this machine"),

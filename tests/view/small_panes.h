@@ -1,4 +1,4 @@
-// Panes that render in a blink.
+// Panes that render quickly, for tests.
 #pragma once
 
 #include <string>

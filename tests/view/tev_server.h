@@ -1,4 +1,4 @@
-// A tev as far as a sender sees it: takes a connection, and reads the messages that come.
+// Stands in for tev: accepts a connection and reads its messages.
 #pragma once
 
 #include <arpa/inet.h>
@@ -26,7 +26,7 @@ struct TevMessage {
 
 class TevServer {
  public:
-  // Otherwise the port is taken, and nobody is there.
+  // `isListening` false: the port is reserved, but connections are refused.
   explicit TevServer(bool isListening = true) : listener_(socket(AF_INET, SOCK_STREAM, 0)) {
     sockaddr_in address{};
     address.sin_family = AF_INET;
@@ -56,7 +56,7 @@ class TevServer {
     client_ = -1;
   }
 
-  // Nothing where none comes. Fails where a message is longer or shorter than it says.
+  // Returns nothing if no message arrives. Fails if a message is not as long as it says.
   std::optional<TevMessage> next(int patienceMs = kPatienceMs) {
     bytes_.clear();
     at_ = 0;

@@ -1,4 +1,4 @@
-// What a running tev gets of the viewer, and that the viewer does not wait for it.
+// Tests of the images that a running tev gets, and that the viewer does not wait for tev.
 #include <algorithm>
 #include <chrono>
 #include <set>
@@ -97,7 +97,7 @@ TEST_F(TevTest, DelaysNothingWhereItDoesNotRead) {
   start();
   server_.accept();
   Page page(url());
-  // Three images of 3 MB every half a second: no buffer of the connection holds many.
+  // Three images of 3 MB every half second: more than the connection can buffer.
   page.say({{"do", "resolution"}, {"width", 512}, {"height", 512}});
   const auto begun = Clock::now();
   Clock::duration longest{};
@@ -106,7 +106,7 @@ TEST_F(TevTest, DelaysNothingWhereItDoesNotRead) {
     longest = std::max(longest, Clock::now() - last);
     last = Clock::now();
   }
-  // It never reads: whoever waited for it would wait for good.
+  // tev never reads: waiting for it would never end.
   EXPECT_LT(longest, std::chrono::seconds(20));
   const auto stopping = Clock::now();
   stop();

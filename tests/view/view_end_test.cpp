@@ -1,4 +1,4 @@
-// Signals that end the viewer, beside SIGINT and SIGTERM.
+// Signals that end the viewer, besides SIGINT and SIGTERM.
 #include <chrono>
 #include <csignal>
 
@@ -22,7 +22,7 @@ class ViewEndTest : public cli_test::ProgramTest {
     return "";
   }
 
-  // The process that works in the test's folder; 0: none does.
+  // Returns the process whose working folder is the test's; 0: none.
   pid_t viewer() const {
     std::error_code error;
     for (const auto& entry : fs::directory_iterator("/proc", error)) {
@@ -43,7 +43,7 @@ TEST_F(ViewEndTest, AHangUpEndsItAsSigtermDoes) {
   EXPECT_NE(result.err.find("interrupted: the viewer ends"), std::string::npos) << result.err;
 }
 
-// `nohup` has it ignored, and so it stays.
+// `nohup` ignores SIGHUP, and the viewer must keep that.
 TEST_F(ViewEndTest, AnIgnoredHangUpIsNoEnd) {
   cli_test::Circumstances circumstances;
   circumstances.signal = SIGTERM;

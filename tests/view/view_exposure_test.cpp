@@ -1,4 +1,4 @@
-// How bright a page begins.
+// Tests of the exposure with which a page opens.
 #include "experiments/view/view_exposure.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace restlab::view_test {
 namespace {
 
-// A lamp of a few pixels lies in more blocks than one in a hundred: they do not count as the lamp.
+// A lamp of a few pixels touches more than one block in a hundred; they must not count as lamp.
 TEST(ViewExposure, OfNoiseIsThatOfThePictureBesideALamp) {
   const auto roomOf = [](double share) {
     std::mt19937 random(1);

@@ -1,4 +1,4 @@
-// Steps back and forth: what belongs to one, and that each leads to what was there.
+// Undo and redo: which changes form a step, and that each step restores the settings.
 #include "experiments/view/view_history.h"
 
 #include <fmt/format.h>
@@ -68,7 +68,7 @@ TEST_F(ViewStepsTest, EachLeadsBackAndForth) {
     EXPECT_TRUE(isSame(view_.settings(), passed[i])) << i;
   }
   EXPECT_THROW(view_.apply(Redo{}), Error);
-  // What is rendered is what is set, not what is written in a list.
+  // Panes must render the settings, not only list them.
   view_.apply(Restart{});
   view_.renderFrames();
   for (size_t i = 0; i < view_.panes(); ++i) {
@@ -89,7 +89,7 @@ TEST_F(ViewStepsTest, ADragIsOne) {
   view_.apply(Undo{});
   EXPECT_FALSE(view_.history().canUndo());
   EXPECT_TRUE(isSameCamera(view_.camera(), view_.loaded().scene->source().cameras[0]));
-  // A change after a step back is a step of its own, and the steps forth are gone.
+  // A change after an undo is a new step and discards the redo steps.
   view_.apply(Redo{});
   view_.apply(cameraAt(view_, 0.7));
   EXPECT_FALSE(view_.history().canRedo());
@@ -98,7 +98,7 @@ TEST_F(ViewStepsTest, ADragIsOne) {
               view_.loaded().scene->source().cameras[0].cameraToWorld[3][0] + 0.5, 1e-12);
 }
 
-// Who sets a value, looks at it for a while and sets another one wants to go back to the first.
+// After a long pause a change is a new step: the value before it can be restored.
 TEST_F(ViewStepsTest, APauseEndsADrag) {
   ViewHistory history;
   const auto begun = ViewHistory::Clock::now();

@@ -29,7 +29,7 @@ class ViewImagesTest : public ViewLoopTest {
     return file;
   }
 
-  // Two images and a reference in halves, 24x16.
+  // Returns two images and a reference with halves, 24x16.
   ViewImages small() {
     LayeredImage reference;
     reference.layers[""] = imageOf(24, 16, 1.0f);
@@ -119,8 +119,7 @@ TEST_F(ViewImagesTest, AreOfOneSizeAndThere) {
   EXPECT_NE(line.find("no images of `restlab run`"), std::string::npos) << line;
 }
 
-// The label of one table begins with that of another one.
-// The rule of `compare`: what both files say of their scene and settings must agree.
+// Applies the rule of `compare`: scene and settings in both files' metadata must agree.
 TEST_F(ViewImagesTest, AreOfTheSceneOfTheirReference) {
   const auto writeOf = [&](const char* name, const char* kind, const char* scene,
                            const char* bounces) {
@@ -148,7 +147,7 @@ TEST_F(ViewImagesTest, AreOfTheSceneOfTheirReference) {
             std::string::npos);
 }
 
-// Methods beside them make a reference of their own scene.
+// Beside methods, images must be of the methods' scene: the reference is made for it.
 TEST_F(ViewImagesTest, BesideMethodsAreOfTheirScene) {
   ViewStart start;
   start.prepared = cornellBox();
@@ -207,7 +206,7 @@ TEST_F(ViewImagesTest, SessionsKeepTheChoice) {
   const ViewStart start = startOfSuite(folder() / "methods.toml");
   ASSERT_NE(start.prepared.scene, nullptr);
   EXPECT_TRUE(isSame(start.settings, view.settings())) << sessionToml(facts_, view, "a-name");
-  // A reference of a file is not for methods: where files stand beside them it is an image.
+  // Methods make their own reference: a reference file beside them is an ordinary image.
   small();
   const ViewImages beside = readViewImages({folder() / "a.exr", folder() / "r.exr"}, {}, false);
   EXPECT_EQ(beside.list.size(), 2u);
@@ -219,7 +218,7 @@ TEST_F(ViewImagesTest, SessionsKeepTheChoice) {
   EXPECT_NE(line.find("wrong.toml:3"), std::string::npos) << line;
 }
 
-// An image is of the picture that was there when it was named.
+// An image belongs to the picture that was set when it was opened.
 TEST_F(ViewImagesTest, StandBesideMethods) {
   ViewImages images = readViewImages({write("c.exr", imageOf(24, 16, 0.3f))});
   LiveView view(cornellBox(), settingsOf(cornellBox(), {smallPane("restir_gi"), smallPane("path")}),
@@ -244,7 +243,7 @@ TEST_F(ViewImagesTest, StandBesideMethods) {
   EXPECT_EQ(view.picture(1), nullptr) << "what it showed is no frame of the method";
   view.renderFrames();
   EXPECT_EQ(view.frames(1), 1u);
-  // As if it had rendered from the start.
+  // The method's frame is as if it had rendered from the start.
   Session again(view.loaded().scene, view.settings().panes[1].config);
   again.frame();
   EXPECT_EQ(view.picture(1)->pixels, again.radiance().pixels);

@@ -1,4 +1,4 @@
-// Limits of a viewer: pictures on their way, files, memory.
+// Limits of a viewer: unread pictures, files, memory.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -47,7 +47,7 @@ TEST_F(ViewLimitsTest, FilesAreNamedInAnyScript) {
   EXPECT_TRUE(fs::exists(folder() / "K\u00fcche-2.toml"));
 }
 
-// Pictures are kept for a page until it takes them: one that takes none is refused further ones.
+// Unread pictures are kept for a page: a page that does not read them is refused more.
 TEST_F(ViewLimitsTest, PicturesThatAPageDoesNotTakeAreBoundedByBytes) {
   start();
   Page page(url());
@@ -58,7 +58,7 @@ TEST_F(ViewLimitsTest, PicturesThatAPageDoesNotTakeAreBoundedByBytes) {
   for (int i = 0; i < kAsked; ++i) page.say({{"do", "picture"}, {"image", 0}});
   Page other(url());
   other.say({{"do", "picture"}, {"image", 0}});
-  other.waitFor("file");  // All that was asked before it is answered.
+  other.waitFor("file");  // all earlier requests are answered by now
   std::vector<size_t> sent;
   int refused = 0;
   while (int(sent.size()) + refused < kAsked) {
@@ -77,7 +77,7 @@ TEST_F(ViewLimitsTest, PicturesThatAPageDoesNotTakeAreBoundedByBytes) {
   page.waitFor("file");
 }
 
-// One by one the parts would fit.
+// Each part alone would fit.
 TEST_F(ViewLimitsTest, MemoryIsThatOfAllTogether) {
   const std::vector<size_t> panes = {200, 100};
   const uint64_t all = viewBytesPerPixel(panes, 12);

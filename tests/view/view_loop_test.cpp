@@ -1,4 +1,4 @@
-// The viewer as pages see it: what they are told, what they may ask for, and what cannot stop it.
+// Tests of the viewer by its messages to pages, their commands, and mistakes that must not stop it.
 #include "experiments/view/view_loop.h"
 
 #include <fmt/format.h>
@@ -121,7 +121,7 @@ TEST_F(ViewLoopTest, PausedPanesStandAndTheReferenceGoesOn) {
   page.waitFor("numbers", [&](const Json& n) { return n["age"] > later["age"]; });
 }
 
-// A pane whose method was changed shows it; the other one stands.
+// A pane whose method was changed shows its first frame; the other pane stays as it is.
 TEST_F(ViewLoopTest, PausedPanesShowAChangeOfTheirMethod) {
   start();
   Page page(url());
@@ -149,7 +149,7 @@ TEST_F(ViewLoopTest, TellsEveryPageOfAChange) {
     EXPECT_EQ(state["panes"][0]["integrator"], "path");
     EXPECT_EQ(state["panes"][0]["denoiser"], "accumulate");
   }
-  // One that goes and comes back finds what was set.
+  // A page that reconnects finds the settings unchanged.
   first.close();
   second.close();
   Page third(url());
@@ -182,7 +182,7 @@ TEST_F(ViewLoopTest, RefusesInOneLineAndChangesNothing) {
 }
 
 TEST_F(ViewLoopTest, ProbesAPixel) {
-  // The lamp's brightest pixel: no other has its light.
+  // Probe the lamp's brightest pixel: its value is unique.
   Session once(prepareScene(facts_.request).scene, smallPane("restir_gi"));
   once.frame();
   const std::vector<glm::vec3>& pixels = once.radiance().pixels;
@@ -204,7 +204,7 @@ TEST_F(ViewLoopTest, ProbesAPixel) {
     EXPECT_EQ(value["unit"], "samples");
     EXPECT_GE(value["value"].get<double>(), 1.0);
   }
-  // Those of a session that renders as many frames, as `render --pixel` does.
+  // Values equal those of a session with as many frames, which is what `render --pixel` renders.
   Session again(prepareScene(facts_.request).scene, smallPane("restir_gi"));
   for (int frame = 0; frame < probe["frame"]; ++frame) again.frame();
   EXPECT_EQ(probe["values"], Json(probedValuesJson(again, x, y)));
@@ -221,7 +221,7 @@ TEST_F(ViewLoopTest, ProbesAPixel) {
       command.find(fmt::format("--pixel {},{} --seed 1 --frame {}", x, y, probe["frame"].dump())),
       std::string::npos)
       << command;
-  // No command line has a camera that somebody moved.
+  // A camera that was moved by hand has no command line.
   Json camera = page.waitFor("numbers");
   page.say({{"do", "camera"}, {"to_world", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.1, 1, 3, 1}}});
   page.say({{"do", "probe"}, {"pane", 0}, {"x", x}, {"y", y}});
@@ -232,10 +232,10 @@ TEST_F(ViewLoopTest, GoesOnWhenAPageStopsReading) {
   start();
   Page deaf(url()), page(url());
   deaf.waitFor("state");
-  // 70 KB a round: no buffer of the connection holds so many.
+  // 70 KB per round: more than the connection can buffer.
   page.say({{"do", "resolution"}, {"width", 64}, {"height", 48}});
   page.waitFor("numbers", [](const Json& n) { return n["age"].get<int>() > 500; });
-  // Nor has it been let go: what it has not taken are numbers and images, of which the newest wait.
+  // The page is still connected: only the newest numbers and images wait for it.
   deaf.say({{"do", "pause"}, {"on", true}});
   page.waitFor("state", [](const Json& state) { return state["paused"]; });
 }
@@ -286,7 +286,7 @@ TEST_F(ViewLoopTest, SavesWhatItShows) {
   EXPECT_NEAR(was.yfov, is.yfov, 1e-12);
   before.camera = is;
   EXPECT_TRUE(isSame(before, start.settings)) << saved["toml"].get<std::string>();
-  // And once more, to the letter.
+  // Saving the opened session again gives an identical file.
   const LiveView again(start.prepared, start.settings, {});
   const std::string name = loadSuite(folder() / "session.toml", {}).name;
   EXPECT_EQ(name.rfind("cornell-box-20", 0), 0u) << "of the scene and the time: " << name;

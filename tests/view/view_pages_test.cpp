@@ -1,4 +1,4 @@
-// What the viewer does for pages, and what it does not do where nobody looks.
+// Work of the viewer for its pages, and its rest while nobody looks.
 #include <ctime>
 #include <fstream>
 
@@ -50,8 +50,7 @@ TEST_F(ViewPagesTest, SavesLightAsItIs) {
   EXPECT_EQ(startOfSuite(file).settings.lights, (LightFactors{{"all", 4.0}, {light, 0.5}}));
 }
 
-// A page in the background of a browser keeps nothing at work, and is up to date when it comes
-// back.
+// A hidden page causes no rendering, and is up to date when it becomes visible again.
 TEST_F(ViewPagesTest, RestsWhileNobodyLooks) {
   start();
   Page hidden(url());
@@ -62,13 +61,13 @@ TEST_F(ViewPagesTest, RestsWhileNobodyLooks) {
   const std::clock_t before = std::clock();
   std::this_thread::sleep_for(std::chrono::milliseconds(700));
   EXPECT_LT(double(std::clock() - before) / CLOCKS_PER_SEC, 0.2);
-  // What is set it hears of.
+  // A hidden page is still told of changed settings.
   hidden.say({{"do", "layer"}, {"pane", 0}, {"name", "age"}});
   hidden.waitFor("state", [](const Json& state) { return state["can_undo"]; });
   hidden.say({{"do", "look"}, {"on", true}});
   const Json back = hidden.waitFor("numbers");
   hidden.waitFor("numbers", [&](const Json& n) { return n["age"] > back["age"]; });
-  // It goes while another one is there: that one is served alone.
+  // The page is hidden while another one is visible: only the other one gets numbers.
   Page seen(url());
   hidden.say({{"do", "look"}, {"on", false}});
   hidden.say({{"do", "layer"}, {"pane", 0}, {"name", ""}});
@@ -82,7 +81,7 @@ TEST_F(ViewPagesTest, RestsWhileNobodyLooks) {
   seen.waitFor("numbers", [&](const Json& n) { return n["age"] > back["age"].get<int>() + 10; });
 }
 
-// A rounded name is another one.
+// Rounding an ID would make it another ID.
 TEST_F(ViewPagesTest, LayersOfNamesAreNeverRounded) {
   std::vector<SessionConfig> panes = {smallPane("restir_gi"), smallPane("path")};
   for (SessionConfig& pane : panes) {
@@ -93,7 +92,7 @@ TEST_F(ViewPagesTest, LayersOfNamesAreNeverRounded) {
   Page page(url());
   page.say({{"do", "layer"}, {"pane", 0}, {"name", "object"}});
   page.say({{"do", "layer"}, {"pane", 1}, {"name", "depth"}});
-  page.say({{"do", "restart"}});  // something moves
+  page.say({{"do", "restart"}});  // not still: large images are rounded
   page.waitForImage([](const ShownImage& image) {
     EXPECT_FALSE(image.header.slot == kFirstLayerSlot &&
                  image.header.format == PixelFormat::halves);

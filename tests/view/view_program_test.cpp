@@ -1,4 +1,4 @@
-// `restlab view` as a user runs it.
+// Tests of `restlab view` as a user runs it.
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -24,7 +24,7 @@ using Clock = std::chrono::steady_clock;
 
 class ViewProgramTest : public cli_test::ProgramTest {
  protected:
-  // What the running program has printed; "" before it has.
+  // Returns the first line that the running program has printed; "" before that.
   std::string printedUrl() const {
     for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
       const std::string name = entry.path().filename().string();
@@ -35,7 +35,7 @@ class ViewProgramTest : public cli_test::ProgramTest {
     return "";
   }
 
-  // Ended by the signal once a page is open and `when` holds of it.
+  // Runs the viewer; sends `signal` once a page is open and `when` holds for it.
   ProgramResult view(int signal, std::vector<std::string> arguments,
                      const std::function<bool(Page&)>& when) {
     for (const auto& entry : std::filesystem::directory_iterator(folder_))
@@ -60,7 +60,7 @@ class ViewProgramTest : public cli_test::ProgramTest {
   double secondsToEnd() const { return std::chrono::duration<double>(ended_ - signalled_).count(); }
 
   Clock::time_point signalled_, ended_;
-  std::set<std::string> before_;  // files that earlier programs have left
+  std::set<std::string> before_;  // files of earlier programs
 };
 
 void expectEnded(const ProgramResult& result) {
@@ -101,7 +101,7 @@ TEST_F(ViewProgramTest, ShowsTheDefaultsAndKeepsTheReference) {
   EXPECT_FALSE(entries("cache/restlab/references").empty());
 }
 
-// What it is called with every user of the machine can read.
+// Every user of the machine can read a program's arguments.
 TEST_F(ViewProgramTest, OpensABrowserWithoutTellingTheSecret) {
   write("xdg-open",
         "#!/bin/sh\necho \"$@\" > words\nstat -c %a \"$1\" > mode\ncat \"$1\" > page.new\n"
@@ -125,8 +125,8 @@ TEST_F(ViewProgramTest, OpensABrowserWithoutTellingTheSecret) {
   EXPECT_FALSE(std::filesystem::exists(words.substr(0, words.size() - 1))) << "it is gone again";
 }
 
-// The command of a probe, as a shell runs it, prints what the page was told; of a suite's scene
-// with blanks in its name and of changed parameters, too.
+// The command of a probe, run by a shell, prints the values that the page got; also for a suite's
+// scene with blanks in its name and for changed parameters.
 TEST_F(ViewProgramTest, ProbeIsThatOfItsCommand) {
   write("a scene/a triangle.gltf", cli_test::triangleGltf({0, 0, 0, 1, 0, 0, 0, 1, 0}));
   write("a scene/suite.toml",
@@ -173,8 +173,8 @@ TEST_F(ViewProgramTest, EndsWhileNobodyLooks) {
   expectEnded(run("view cornell-box", circumstances));
 }
 
-// One that is not there, that comes, goes and comes again. Each is said once, and the viewer goes
-// on.
+// tev is missing, then appears, disappears and returns. Each change is reported once, and the
+// viewer goes on.
 TEST_F(ViewProgramTest, GoesOnWithoutTev) {
   const auto tev = std::make_unique<TevServer>(false);
   const std::string address = "127.0.0.1:" + std::to_string(tev->port());
@@ -184,7 +184,7 @@ TEST_F(ViewProgramTest, GoesOnWithoutTev) {
           page.say({{"do", "restart"}});
           page.waitFor("numbers", [&](const Json& n) { return n["panes"][0]["frame"] > frames; });
         };
-        std::this_thread::sleep_for(std::chrono::milliseconds(2500));  // it has tried twice
+        std::this_thread::sleep_for(std::chrono::milliseconds(2500));  // two attempts were made
         isOlder(3);
         EXPECT_TRUE(isSaid("--tev " + address + ": Connection refused"));
         tev->listen();
@@ -208,7 +208,7 @@ TEST_F(ViewProgramTest, GoesOnWithoutTev) {
   EXPECT_NE(warnings[1].find("the connection was lost; the viewer goes on"), std::string::npos);
 }
 
-// A PNG without its texts, which say when it was made.
+// Returns a PNG without its texts, which contain the time.
 std::string pictureOnly(const std::string& png) {
   std::string kept = png.substr(0, 8);
   for (size_t at = 8; at + 12 <= png.size();) {
@@ -238,7 +238,7 @@ TEST_F(ViewProgramTest, CapturesWhatAPageWouldShow) {
        {"Software", "restlab:scene", "A.integrator", "B.denoiser", "restlab:frame", "restlab:width",
         "restlab:max_bounces", "restlab:reference_spp"})
     EXPECT_NE(read("a.png").find(word), std::string::npos) << word;
-  // Each picture as large as it was rendered, and as bright as the page begins.
+  // Each picture has the rendered size and the exposure of a page.
   EXPECT_EQ(view.frames(0), 3u);
   EXPECT_EQ(view.reference().spp(), 8u);
   const std::vector<const Image*> images = {&view.session(0).radiance(),
@@ -270,7 +270,7 @@ TEST_F(ViewProgramTest, InterruptedCaptureLeavesNothing) {
   }
 }
 
-// Files, a folder of results, a session of images: nothing renders.
+// Shows files, a folder of results and a session of images: nothing renders.
 TEST_F(ViewProgramTest, ShowsImagesOfFiles) {
   write("suite.toml",
         "name = \"s\"\nscenes = [\"cornell-box\"]\n[settings]\nwidth = 16\nheight = 12\n"
@@ -310,7 +310,7 @@ TEST_F(ViewProgramTest, ShowsImagesOfFiles) {
   EXPECT_TRUE(std::filesystem::exists(path("a.png")));
 }
 
-// The button runs this program.
+// The command `measure` runs this program.
 TEST_F(ViewProgramTest, MeasuresItsSession) {
   const ProgramResult result =
       view(SIGINT, {"cornell-box", "--resolution", "12x8", "--max-bounces", "2"}, [&](Page& page) {

@@ -1,4 +1,4 @@
-// Surface points that entries are valid at, in buffers.
+// Layout of anchors (surface points that entries are valid at) in buffers.
 
 RL_FN Anchor anchorNone() {
   Anchor a;

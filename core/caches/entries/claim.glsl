@@ -1,4 +1,4 @@
-// A pass: who belongs to no entry asks for a place. The includer defines entryAsker(),
+// Pass: askers (queries) without an entry claim a hash slot. The includer defines entryAsker(),
 // entryVisible() and entryWanted().
 RL_FN void kernelMain(RL_IN(uvec2) at) {
   uint asker = entryAsker(at);

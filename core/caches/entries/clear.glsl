@@ -1,4 +1,4 @@
-// A pass over entries, in every frame: nobody wants a place yet, nobody feeds.
+// Pass over entries, in every frame: clears claims and feeders.
 
 RL_FN void kernelMain(RL_IN(uvec2) row) {
   uint entry = row.y * RL_ENTRY_ROW + row.x;

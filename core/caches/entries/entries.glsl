@@ -1,4 +1,4 @@
-// What integrators read of caches in world space.
+// Functions by which integrators read caches in world space.
 #include "core/caches/entries/anchor.glsl"
 #include "core/caches/entries/groups.glsl"
 

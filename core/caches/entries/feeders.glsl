@@ -1,4 +1,4 @@
-// A pass of every frame: whose samples go into which entries.
+// Pass of every frame: selects which groups' samples go into which entries.
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint slot = slotOfPixel(pixel);
   uint group = entryGroup(slot);

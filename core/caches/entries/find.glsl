@@ -1,4 +1,4 @@
-// A pass: to which entry does each asker belong?
+// Pass: looks up the entry of each asker (query).
 #include "core/caches/entries/look.glsl"
 
 RL_FN void kernelMain(RL_IN(uvec2) at) {

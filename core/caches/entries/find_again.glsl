@@ -1,4 +1,4 @@
-// A pass: those who had no entry look again, as others have claimed places.
+// Pass: askers (queries) without an entry look again, after others have claimed hash slots.
 #include "core/caches/entries/look.glsl"
 
 RL_FN void kernelMain(RL_IN(uvec2) at) {

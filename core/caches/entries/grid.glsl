@@ -1,8 +1,9 @@
-// A hashed grid in space: cubes whose side is a power of two of metres, near a number of pixels
-// where they are seen. A cell's entry lies in one of some places from its hash on; a key of 63 bits
-// says whose it is, so that no cell is taken for another.
+// Hash grid in space: cubes whose side is a power of two of metres, near a number of pixels where
+// they are seen. A cell's entry lies in one of `probes` hash slots from its hash on. A whole key of
+// 63 bits identifies the cell, so that no cell is taken for another.
 
-// Level of the largest cell that is no larger: the exponent of its side, with the bias of floats.
+// Level of the largest cell whose side is at most `side`: exponent of the cell's side, with the
+// bias of floats.
 RL_FN uint gridLevel(float side) { return (floatBitsToUint(side) >> 23u) & 0xffu; }
 RL_FN float gridSide(uint level) { return uintBitsToFloat(level << 23u); }
 
@@ -19,9 +20,9 @@ RL_FN uint gridOctant(RL_IN(vec3) normalW) {
          (normalW.z < least ? 4u : 0u);
 }
 
-// `kind`: 3 bits that the cache chooses. Zero, which is nobody's key, where the position is beyond
-// 2^16 cells from the origin or no number. Without a branch: of numbers of the frame and of
-// parameters alone, one may not depend on many (docs/dialect.md).
+// Key of a cell. `kind`: 3 bits that the cache chooses. Zero, which is never a cell's key, if the
+// position is NaN or beyond 2^16 cells from the origin. No branch: a condition must not depend on
+// many numbers of the frame and of parameters alone (docs/dialect.md).
 RL_FN uvec2 gridKey(RL_IN(vec3) posW, uint level, uint kind) {
   float inverse = 1.0f / gridSide(level);
   vec3 at = posW * inverse + vec3(RL_GRID_OFF, RL_GRID_OFF, RL_GRID_OFF);
@@ -45,8 +46,8 @@ RL_FN uint gridPlace(RL_IN(GridParams) grid, RL_IN(uvec2) key, uint probe) {
   return (rngHash(rngHash(key.x) ^ key.y) + probe) % grid.places;
 }
 
-// The entry of a cell; RL_INVALID where it has none, and for the key zero. Places are filled in the
-// order of probes and never given back: behind one that is nobody's there is nothing.
+// Finds the entry of a cell; RL_INVALID if there is none, and for the key zero. Hash slots are
+// filled in the order of probes and never freed: the search ends at the first empty one.
 RL_FN uint gridFind(RL_IN(GridParams) grid, RL_IN(UintRef) keys, RL_IN(uvec2) key) {
   for (uint i = 0u; i < grid.probes; i = i + 1u) {
     uint entry = gridPlace(grid, key, i);

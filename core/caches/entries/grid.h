@@ -10,15 +10,15 @@ RL_NAMESPACE_BEGIN
 
 // In the kernels' gParams.grid.
 struct GridParams {
-  uint places;  // for entries
-  uint probes;  // of them where an entry may lie
+  uint places;  // hash slots for entries
+  uint probes;  // hash slots in which an entry may lie
 };
 
-const uint RL_GRID_TAKEN = 0x80000000u;  // in the first word of every key
-const uint RL_GRID_CLAIM = 0x80000000u;  // a place that a pixel wants, not an entry that it has
+const uint RL_GRID_TAKEN = 0x80000000u;  // set in the first word of every key
+const uint RL_GRID_CLAIM = 0x80000000u;  // marks a claimed hash slot instead of an owned entry
 
-// Floors and walls lie at round numbers and face along the axes: there rounding would decide which
-// cell a point is in. So the grid begins beside zero (in sides of a cell), octants do, too.
+// Offsets of the grid (in sides of a cell) and of octants from zero. Floors and walls lie at round
+// numbers and face along the axes: without offsets, rounding would decide which cell a point is in.
 const float RL_GRID_OFF = 0.381966f;
 const float RL_GRID_OFF_NORMAL = 0.0137f;
 

@@ -19,8 +19,8 @@ namespace restlab {
 
 namespace {
 
-// The places where the entry of a key may lie: `probes` of them from `home` on, the last one is
-// followed by the first.
+// Hash slots where the entry of a key may lie: `probes` slots from `home` on; the first slot
+// follows the last one.
 struct Places {
   std::span<const uint32_t> keys;
   uint32_t count = 0, probes = 0;
@@ -29,7 +29,7 @@ struct Places {
       : keys(kept.words("entry_keys")),
         count(packEntries(kept.parameters).count),
         probes(packGrid(kept.parameters).probes) {}
-  // As gridPlace() has it (core/caches/entries/grid.glsl).
+  // First hash slot of a key, as in gridPlace() (core/caches/entries/grid.glsl).
   uint32_t home(uint32_t entry) const {
     rl::Hashing hashing;
     const size_t at = size_t{2} * entry;

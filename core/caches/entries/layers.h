@@ -1,4 +1,4 @@
-// What a cache of entries keeps of every pixel, as pictures.
+// Layers (pictures) of caches with entries: one number per pixel.
 #pragma once
 
 #include <functional>
@@ -8,11 +8,10 @@
 
 namespace restlab {
 
-// The layers that all such caches have.
+// Layers that all caches with entries have.
 std::vector<LayerInfo> entryLayers();
 
-// A layer of something that each entry has: its number for an entry, by way of the entry of each
-// pixel; 0 where a pixel has none.
+// Layer of a number that each entry has: `value` of the pixel's entry, 0 if the pixel has none.
 std::function<float(size_t pixel)> ofPixelsEntry(const Kept& kept,
                                                  std::function<float(uint32_t entry)> value);
 

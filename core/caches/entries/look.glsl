@@ -1,5 +1,5 @@
-// The entry that an asker's surface belongs to. The includer of this and of the two passes defines
-// entryAsker(), entryVisible() and entryOwn().
+// Lookup of the entry that an asker's (query's) surface belongs to. The includer of this file and
+// of find.glsl and find_again.glsl defines entryAsker(), entryVisible() and entryOwn().
 RL_FN void entryLook(uint asker) {
   VisibleSurface here = entryVisible(asker);
   uint entry = RL_INVALID;

@@ -1,13 +1,13 @@
-// A pass of new views: the entries that serve a pixel as donors. The first is the one that it
-// belongs to, the others are those of points beside it on its tangent plane. Where there is none
-// that remembers anything, the next coarser and finer levels are asked: the camera may have come
-// nearer. The includer defines entryLevel(), entryNear() and entrySpread(), in metres.
+// Pass of new views: selects the entries that serve a pixel as donors. The first is the pixel's own
+// entry, the others are entries of points beside it on its tangent plane. If no entry serves, the
+// next coarser and finer levels are tried: the camera may have come nearer. The includer defines
+// entryLevel(), entryNear() and entrySpread(), in metres.
 
-// Does an entry remember anything that is like what the pixel shows?
+// Returns whether an entry has an anchor similar to the surface that the pixel shows.
 RL_FN bool entryServes(RL_IN(VisibleSurface) here, uint entry) {
   return visibleAlike(here, anchorRead(gBuffers.anchors, entry).surface, gParams.alike);
 }
-// The entry that covers a point, where it serves.
+// Entry that covers a point, if it serves the pixel; else RL_INVALID.
 RL_FN uint entryServing(RL_IN(VisibleSurface) here, RL_IN(vec3) posW, uint level) {
   uint entry = entryNear(here, posW, level);
   return entry != RL_INVALID && entryServes(here, entry) ? entry : RL_INVALID;

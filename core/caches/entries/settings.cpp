@@ -77,7 +77,7 @@ CacheInfo entryCache(const std::string& name, const std::string& summary) {
   PassInfo clear = pass("clear"), feeders = pass("feeders");
   clear.onlyOnNewViews = feeders.onlyOnNewViews = false;
   clear.entriesParameter = kEntryCount;
-  // Twice: who loses a claim to another has another place to go.
+  // Twice: an asker (query) that loses a claim to another one has other hash slots to try.
   i.passes = {clear,
               pass("find"),
               pass("claim"),

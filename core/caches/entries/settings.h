@@ -10,19 +10,19 @@
 
 namespace restlab {
 
-// The parameter that says how many entries there are. A method without it has a cache without any.
+// Parameter with the number of entries. The cache of a method without it has no entries.
 constexpr const char* kEntryCount = "entries";
-// The buffer of each pixel's entry; what is no place in the grid stands for none.
+// Buffer of each pixel's entry; a value that is no hash slot means none.
 constexpr const char* kEntryOfPixel = "entry_of_pixel";
 
-// A cache of entries that a grid finds: its inputs, its buffers but for those of its own, which
-// come last, its parameters but for those of its own, its layers, and its passes: kernels
-// <name>_clear, _find, _claim, _settle, _propose, _feeders (core/caches/entries/*.glsl).
+// Describes a cache of entries that a hash grid finds: inputs, buffers and parameters (the cache
+// appends its own), layers, and passes: kernels <name>_clear, _find, _claim, _settle, _propose,
+// _feeders (core/caches/entries/*.glsl).
 CacheInfo entryCache(const std::string& name, const std::string& summary);
-// A buffer of one for each entry.
+// Buffer with one element per entry.
 BufferInfo entryBuffer(const std::string& name, uint32_t entryBytes);
 
-// All zero where the method's cache has no entries.
+// Pack the parameters of entries. All zero if the method's cache has no entries.
 rl::EntryParams packEntries(const ParameterMap& parameters);
 rl::GridParams packGrid(const ParameterMap& parameters);
 

@@ -1,5 +1,6 @@
-// A pass: a place goes to the asker with the greatest ticket of those who want it. The includer
-// defines entryAsker(), entryVisible(), entryWanted(), which looks at no place, and entryBegin().
+// Pass: resolves claims. The asker (query) with the greatest ticket (priority) gets the hash slot.
+// The includer defines entryAsker(), entryVisible(), entryWanted(), which reads no hash slot, and
+// entryBegin().
 RL_FN void kernelMain(RL_IN(uvec2) at) {
   uint asker = entryAsker(at);
   if (asker == RL_INVALID) return;

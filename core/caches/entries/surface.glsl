@@ -1,4 +1,4 @@
-// What a reservoir of an entry was made for: a Lambert surface, whatever there is. Any target would
+// Surface that an entry's reservoir is valid for: Lambert, whatever the material. Any target would
 // do, as long as it is always the same.
 RL_FN Surface anchorSurface(RL_IN(Anchor) anchor) {
   Surface s;
@@ -23,7 +23,7 @@ RL_FN Anchor anchorOfSurface(RL_IN(Surface) s, uint slot) {
   a.surface.emits = 0u;
   a.surface.nGeoW = packNormal(s.nGeoW);
   a.surface.nShadeW = packNormal(s.nShadeW);
-  // As it will be read: a target that changed with its rounding would be another one.
+  // Round as buffers do: a target that changed by rounding would be another one.
   a.surface.reflectance = unpackColor(packColor(bsdfReflectance(s.bsdf)));
   a.posError = s.posError;
   a.begunBy = slot;

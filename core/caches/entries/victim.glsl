@@ -1,4 +1,4 @@
-// The place that a new cell takes: that which was not seen for longest. RL_INVALID where all were
+// Hash slot that a new cell takes: the one that was not seen for longest. RL_INVALID if all were
 // seen in this frame.
 RL_FN uint gridVictim(RL_IN(uvec2) key) {
   uint victim = RL_INVALID;

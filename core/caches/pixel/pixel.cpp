@@ -1,4 +1,4 @@
-// The pixel cache: there is nothing but the pixels' own histories, which integrators keep.
+// The pixel cache: no storage beside the pixels' own histories, which integrators keep.
 #include "core/cache.h"
 
 namespace restlab {

@@ -1,6 +1,7 @@
-// The surflet cache: discs on surfaces, each with an entry. A disc is as wide as some pixels are
-// where it was spawned; one is spawned where no disc covers what a pixel shows. The grid, whose
-// cells are about as wide as a disc's radius, finds them: a disc lies in the cell of its centre.
+// The surflet cache: discs on surfaces, each with an entry. The radius of a disc is a number of
+// pixels where the disc was spawned. Discs are spawned where no disc covers the surface that a
+// pixel shows. A hash grid, whose cells are about as wide as a disc's radius, finds discs by the
+// cell of their centre.
 #include "core/caches/entries/entries.glsl"
 #include "core/caches/entries/grid.glsl"
 #include "core/caches/entries/victim.glsl"
@@ -22,15 +23,15 @@ RL_FN void entryBegin(uint entry, RL_IN(uvec2) key, RL_IN(VisibleSurface) s) {
   anchorWrite(gBuffers.anchors, entry, anchorNone());
 }
 
-// How far away a disc's centre is. Each disc counts a little nearer or further than it is: pixels
-// lie in rows, and where many are as far from one disc as from another rounding would decide.
+// Distance to a disc's centre, scaled at random per disc by up to 5 %: pixels lie in rows, and
+// where many are equally far from two discs rounding would decide.
 RL_FN float discDistance(uint entry, RL_IN(Anchor) disc, RL_IN(vec3) posW) {
   float own = float(rngHash(entry) >> 8u) * 5.9604644775390625e-8f;
   return distance(disc.surface.posW, posW) * (0.95f + 0.1f * own);
 }
 
-// The disc whose centre is nearest to a point, of those that cover it and lie on a surface like
-// that which the pixel shows. Looked for in the four cells around the point on its tangent plane.
+// Disc with the nearest centre, of those that cover a point and lie on a surface similar to the one
+// that the pixel shows. Searches the four cells around the point on its tangent plane.
 RL_FN uint discCovering(RL_IN(VisibleSurface) here, RL_IN(vec3) posW, uint level) {
   uint best = RL_INVALID;
   float least = 0.0f;
@@ -52,7 +53,7 @@ RL_FN uint discCovering(RL_IN(VisibleSurface) here, RL_IN(vec3) posW, uint level
   return best;
 }
 
-// Where none covers it, that of its own cell will do: two in one cell there are not.
+// Entry of a surface: the disc that covers it, or else the disc of its cell, which has at most one.
 RL_FN uint entryOwn(RL_IN(VisibleSurface) s) {
   uint entry = discCovering(s, s.posW, entryLevel(s));
   if (entry == RL_INVALID) entry = gridFind(gParams.grid, gBuffers.keys, entryWanted(s));

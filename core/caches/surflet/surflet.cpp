@@ -10,7 +10,7 @@ const CacheInfo& surfletCacheInfo() {
   static const CacheInfo info = [] {
     CacheInfo i =
         entryCache("surflet", "discs on surfaces: each remembers at a surface point of its own");
-    // Of each entry; after those that all such caches have.
+    // One per entry; comes after the buffers that all caches with entries have.
     i.buffers.push_back(entryBuffer("discs", 16 * rl::RL_ANCHOR_QUADS));
     i.parameters.push_back(
         {"surflet_pixels",

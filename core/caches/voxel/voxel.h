@@ -12,14 +12,14 @@ RL_NAMESPACE_BEGIN
 
 struct VoxelCacheBuffers {
   QuadRef visible;    // core/dialect/visible.h
-  UintRef proposals;  // entries.proposals a pixel: entries; RL_INVALID: none
-  // Of each entry:
+  UintRef proposals;  // entries.proposals entries per pixel; RL_INVALID: none
+  // Per entry:
   QuadRef anchors;
   UintRef feeders;  // RL_ENTRY_FEEDERS tickets of groups; 0: none
-  UintRef keys;     // two words; 0 in the first: nobody's
-  UintRef seen;     // frame + 1 in which a pixel last found it
-  UintRef claims;   // greatest ticket of the pixels that want the place in this frame; 0: nobody
-  // Of each pixel: its entry; RL_INVALID: none; with RL_GRID_CLAIM: the place that it wants.
+  UintRef keys;     // two words; 0 in the first: empty
+  UintRef seen;     // frame + 1 in which a pixel last found the entry
+  UintRef claims;   // greatest ticket (priority) that claims the hash slot in this frame; 0: none
+  // Per pixel: its entry; RL_INVALID: none; with RL_GRID_CLAIM: the hash slot that it claims.
   UintRef entries;
 };
 

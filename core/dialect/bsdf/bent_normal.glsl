@@ -1,14 +1,13 @@
-// Interpolated and mapped normals: facets that the mesh does not have. Two things then mean
-// nothing, and both used to make glossy surfaces black:
+// Interpolated and mapped normals: facets that the mesh does not have. Two cases have no meaning
+// for such normals and would make glossy surfaces black:
 //   a facet that turns its back to wo is seen as its mirror image at the plane across wo;
 //   light that a microfacet sends through the face (refracted: back to this side) is mirrored at
 //   the face, which it meets next: a direction u becomes u - 2 nGeo (nGeo . u).
-// So two directions of a lobe may end in one, where the values of both add up, and a lobe returns
-// what it returns under a normal of that angle. All of this is a function of the two normals and
-// the directions, so that it can be evaluated for any wo. What is drawn by the cosine (Lambert's
-// light, and the compensation of multiple scattering) and goes below the face is absorbed, as it is
-// on surfaces without gloss: adding it up there would double the step where light passes the
-// horizon.
+// Two directions of a lobe may therefore end in one. The values of both add up, and a lobe returns
+// what it returns under a normal of that angle. Everything is a function of the two normals and the
+// directions, so that it can be evaluated for any wo. Directions that are sampled by the cosine
+// (Lambert, and the compensation of multiple scattering) and go below the face are absorbed, as on
+// surfaces without gloss: adding them up would double the step where light passes the horizon.
 
 RL_FN bool bentExists(RL_IN(Bsdf) b) {
   return RL_HAS(RL_FEATURE_SMOOTH_NORMALS | RL_FEATURE_NORMAL_MAPS) &&
@@ -16,7 +15,7 @@ RL_FN bool bentExists(RL_IN(Bsdf) b) {
 }
 
 // Reflection must stay on the geometric side of wo, transmission must leave it: no light leaks
-// through a face where the interpolated normal says otherwise. sideW: nGeo . w, of one direction.
+// through a face because of the interpolated normal. sideW: nGeo . w of a direction w.
 RL_FN bool bentSideAgrees(float sideW, float wLocalZ) {
   return wLocalZ > 0.0f ? sideW > 0.0f : sideW < 0.0f;
 }
@@ -24,7 +23,7 @@ RL_FN bool bentSideAgrees(float sideW, float wLocalZ) {
 // The shading normal that wo sees; cosO: nShade . wo.
 RL_FN vec3 bentNormal(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(vec3) wo,
                       float cosO) {
-  // wo behind the face itself, by rounding at a grazing angle, is nobody's to repair.
+  // Leave a wo behind the face itself (rounding at a grazing angle) unrepaired.
   bool turns = cosO < 0.0f && bentExists(b) && dot(nGeo, wo) > 0.0f;
   return turns ? nShade - wo * (2.0f * cosO) : nShade;
 }

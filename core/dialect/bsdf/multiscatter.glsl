@@ -1,12 +1,12 @@
-// Light that meets more than one microfacet. Smith's masking stops it there: a rough
-// white metal loses up to 69 % of it. The loss is given back by a lobe that is symmetric in both
-// directions (Kulla & Conty 2017, "Revisiting Physically Based Shading at Imageworks", after
-// Kelemen & Szirmay-Kalos 2001):
+// Compensation of multiple scattering between microfacets. Smith's masking drops light that meets
+// more than one microfacet: a rough white metal loses up to 69 % of its light. A lobe that is
+// symmetric in both directions returns the loss (Kulla & Conty 2017, "Revisiting Physically Based
+// Shading at Imageworks", after Kelemen & Szirmay-Kalos 2001):
 //   f_ms = F_ms (1 - E(o)) (1 - E(i)) / (pi (1 - E_avg))
 //   F_ms = F_avg^2 E_avg / (1 - F_avg (1 - E_avg))
 // E is the albedo of the GGX lobe whose microfacets reflect everything. The second line sums over
-// the number of bounces; the first of them is the GGX lobe itself, hence the square (Hill 2018, "A
-// Multi-Faceted Exploration", part 2). Everything follows from alpha, f0 and f90.
+// the number of bounces; the first bounce is the GGX lobe itself, hence the square (Hill 2018, "A
+// Multi-Faceted Exploration", part 2). All terms follow from alpha, f0 and f90.
 
 // Loss 1 - E and Schlick part of E at one direction, and their cosine-weighted means.
 RL_FN void multiscatterAlbedo(float alpha, float cosTheta, RL_OUT(vec2) at, RL_OUT(vec2) mean) {
@@ -29,8 +29,8 @@ RL_FN void multiscatterAlbedo(float alpha, float cosTheta, RL_OUT(vec2) at, RL_O
   mean = lowMean * (1.0f - ty) + highMean * ty;
 }
 
-// Is this BSDF compensated? Rough reflection of opaque materials; what a rough dielectric loses
-// leaves on both of its sides, which this model does not describe.
+// Returns whether this BSDF is compensated: only rough reflection of opaque materials. The loss of
+// a rough dielectric leaves on both of its sides, which this model does not describe.
 RL_FN bool multiscatterApplies(RL_IN(Bsdf) b) {
   return RL_HAS(RL_FEATURE_MULTISCATTER) && gFrame.multiscatter != 0u &&
          (b.lobes & RL_LOBE_SPECULAR) != 0u && (b.lobes & RL_LOBE_ANY_TRANSMISSION) == 0u;
@@ -47,8 +47,8 @@ RL_FN vec3 multiscatterSingle(RL_IN(Bsdf) b, RL_IN(vec2) albedo) {
   return b.f0 * (1.0f - albedo.x - albedo.y) + vec3(b.f90, b.f90, b.f90) * albedo.y;
 }
 
-// The lobe times |cos_i|, with the share that the layer as a whole leaves to the Lambert base: that
-// of bsdfBaseShare(), with the albedo of the rough layer in place of F.
+// The compensation lobe times |cos_i|, plus the share that the layer as a whole leaves to the
+// Lambert base: as in bsdfBaseShare(), with the albedo of the rough layer in place of F.
 RL_FN vec3 multiscatterEval(RL_IN(Bsdf) b, float cosO, float cosI) {
   vec2 atO;
   vec2 atI;
@@ -66,7 +66,8 @@ RL_FN vec3 multiscatterEval(RL_IN(Bsdf) b, float cosO, float cosI) {
   return f * (cosI * RL_INV_PI);
 }
 
-// Luminances of the albedos for wo: x of the GGX lobe, y of the lobes that are drawn by the cosine.
+// Luminances of the albedos for wo: x of the GGX lobe, y of the lobes that are sampled by the
+// cosine.
 RL_FN vec2 multiscatterLuminances(RL_IN(Bsdf) b, float cosO) {
   vec2 at;
   vec2 mean;

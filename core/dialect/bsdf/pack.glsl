@@ -1,5 +1,5 @@
-// A BSDF as payloads keep it: colours off by at most 6.1e-5 of themselves. Three words of its last
-// quad are the payload's.
+// Layout of a BSDF in buffers: relative error of colours at most 6.1e-5. Three words of the last
+// quad are free for the caller.
 
 RL_FN void bsdfWrite(RL_IN(QuadRef) quads, uint at, RL_IN(Bsdf) b, RL_IN(uvec3) rest) {
   uvec2 diffuse = packPositive3(b.diffuse);

@@ -1,5 +1,5 @@
 // GGX transmission (Walter et al. 2007, eq. 17 and 21): woL.z > 0 > wiL.z, eta = n beyond / n here.
-// Radiance transport: the factor 1/eta^2 of refracted radiance is inside.
+// Radiance transport: the factor 1/eta^2 of refracted radiance is included.
 
 // The half vector of a refracted pair, on the side of woL.
 RL_FN vec3 transmissionHalfVector(RL_IN(vec3) woL, RL_IN(vec3) wiL, float eta) {

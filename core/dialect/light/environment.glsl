@@ -16,7 +16,7 @@ RL_FN vec3 environmentRotate(RL_IN(vec3) d, float angle) {
 RL_FN vec2 environmentUv(RL_IN(vec3) dirW) {
   vec3 d = environmentRotate(dirW, -gScene.environmentRotation);
   float u = atan(d.x, -d.z) * (0.5f * RL_INV_PI) + 0.5f;
-  // Not acos(y): it has lost half of its digits at the poles.
+  // Avoid acos(y): it loses half of its digits at the poles.
   float v = atan(sqrt(d.x * d.x + d.z * d.z), d.y) * RL_INV_PI;
   if (!(u < 1.0f)) u = 0.0f;
   return vec2(max(u, 0.0f), clamp(v, 0.0f, 0.99999994f));
@@ -62,8 +62,8 @@ RL_FN_OUTLINE float environmentPdf(RL_IN(vec3) dirW) {
   return environmentPdfOfTexel(y * w + x, sqrt(dirW.x * dirW.x + dirW.z * dirW.z));
 }
 
-// bits pick column and row of the alias table and, by what is left of them, the place inside the
-// texel; aliasBits decide between the column's own texel and its alias.
+// bits: pick column and row of the alias table; their remainders pick the position inside the
+// texel. aliasBits: decide between the column's own texel and its alias.
 RL_FN_OUTLINE vec3 environmentDraw(RL_IN(uvec2) bits, uint aliasBits, RL_OUT(float) pdfSolidAngle) {
   uint w = gScene.environmentWidth;
   uint h = gScene.environmentHeight;

@@ -1,10 +1,10 @@
-// What a painter keeps: pictures and errors until an image changes, ranges for longer.
+// Caches of a painter: pictures and errors until an image changes, ranges for longer.
 
-// Of anything with data; report images have none and never change.
+// Version of anything with data; the images of a report have none and never change.
 function versionOf(source) { return source.version || 0; }
 
-// The last value of each slot; made anew when its key has changed, and then given the old value,
-// whose memory it may use. `made` counts.
+// Keeps the last value of each slot. A changed key makes a new value; `make` gets the old one to
+// reuse its memory. `made` counts new values.
 class SlotCache {
   constructor() {
     this.slots = new Map();
@@ -23,17 +23,17 @@ class SlotCache {
   clear() { this.slots.clear(); }
 }
 
-// The range of a scale of images that change many times a second. A range holds while the size that
-// it must show lies in (range / 5, range]. It is found anew
-//   - when the subject changes, which is what is shown against what,
-//   - when the size was outside at eight versions in a row,
-//   - at once when it is more than ten times off either end: another picture, not noise.
-// So colours do not flicker between frames, and images that do not change have the range of their
+// Range of a scale for images that change many times a second. A range is kept while the size to
+// show lies in (range / 5, range]. A new one is chosen
+//   - if the subject changes: what is shown and what it is compared with,
+//   - if the size was outside for eight versions in a row,
+//   - at once if it is more than ten times off either end: another picture, not noise.
+// Colours then do not flicker between frames, and images that do not change have the range of their
 // numbers.
 const RANGE_PATIENCE = 8, RANGE_JUMP = 10;
 
 class SteadyRange {
-  // `find` returns the size, or null where there is nothing yet; called once for each version.
+  // `find` returns the size, or null if there is nothing yet; called once for each version.
   get(subject, version, find) {
     if (this.subject === subject && this.version === version) return this.range;
     const size = find();
@@ -49,7 +49,7 @@ class SteadyRange {
 
   isOutgrown(size) {
     const {range} = this;
-    // All zero: any range shows that.
+    // All values are 0: any range shows that.
     const fits = size === 0 || size <= range && size > range / 5;
     this.misses = fits ? 0 : this.misses + 1;
     return this.misses >= RANGE_PATIENCE ||

@@ -1,5 +1,5 @@
-// Which part of the images all views of a viewer show: the image position at the middle of a view,
-// and CSS pixels per image pixel. Images of another size are stretched to this one.
+// Visible part of the images, shared by all views of a viewer: the image position at the centre of
+// a view, and CSS pixels per image pixel. Images of another size are stretched to this one.
 class Camera {
   constructor(width, height) {
     this.width = width;
@@ -13,7 +13,7 @@ class Camera {
     this.y = this.height / 2;
   }
 
-  // Images of another size: the same part of them.
+  // Takes over another image size; keeps showing the same part.
   resize(width, height) {
     if (!this.fitted) {
       this.x *= width / this.width;
@@ -24,14 +24,14 @@ class Camera {
     if (this.fitted) this.fit();
   }
 
-  // The index of a pixel in an image that may have another size.
+  // Returns the index of a pixel in an image that may have another size.
   indexIn(image, pixel) {
     const x = Math.floor((pixel.x + 0.5) * image.width / this.width);
     const y = Math.floor((pixel.y + 0.5) * image.height / this.height);
     return y * image.width + x;
   }
 
-  // Called for each drawing, as views change their size.
+  // Called for each drawing: views may have changed their size.
   adapt(viewWidth, viewHeight) {
     this.fitScale = Math.min(viewWidth / this.width, viewHeight / this.height);
     if (this.fitted) this.scale = this.fitScale;
@@ -40,8 +40,8 @@ class Camera {
   get least() { return Math.min(this.fitScale, 1); }
   get most() { return 256; }
 
-  // Keeps the image position at (dx, dy), CSS pixels from the view's middle, where it is. False
-  // where the scale is at its end already.
+  // Zooms and keeps the image position at (dx, dy), CSS pixels from the centre of the view, in
+  // place. Returns false if the scale is at its limit.
   zoom(factor, dx, dy) {
     const scale = Math.min(this.most, Math.max(this.least, this.scale * factor));
     if (scale === this.scale) return false;
@@ -65,7 +65,7 @@ class Camera {
     this.y = Math.min(this.height, Math.max(0, this.y));
   }
 
-  // View position (CSS pixels) of an image position, and back.
+  // View position (CSS pixels) of an image position, and the inverse.
   toView(view, x, y) {
     return [view.x + view.width / 2 + (x - this.x) * this.scale,
             view.y + view.height / 2 + (y - this.y) * this.scale];

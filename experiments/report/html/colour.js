@@ -1,10 +1,11 @@
-// Colours: the maps of errors and false colour, and the scales of values in them.
+// Colour maps of errors and false colour, and the scales that map values to them.
 
-// R, G, B as a pixel of a canvas, whose bytes are R, G, B, A: one 32-bit word where the least
-// significant byte stands first, as in every browser.
+// Packs R, G, B into a canvas pixel, whose bytes are R, G, B, A: one 32-bit word, assuming the
+// little-endian order of every browser.
 function colourWord(r, g, b) { return (0xff000000 | b << 16 | g << 8 | r) >>> 0; }
 
-// A map of 256 colours, linear in sRGB between equally spaced anchors; `words` of them as pixels.
+// Makes a map of 256 colours, linear in sRGB between equally spaced anchors; `words`: the colours
+// as canvas pixels.
 function colourMap(anchors) {
   const rgb = anchors.map(hex => [1, 3, 5].map(at => parseInt(hex.slice(at, at + 2), 16)));
   const table = new Uint8Array(3 * 256);
@@ -21,7 +22,7 @@ function colourMap(anchors) {
 }
 
 const MAPS = {
-  // Its lightness rises all the way: larger is lighter.
+  // Lightness rises monotonically: larger is lighter.
   rising: colourMap(
       ['#07070c', '#1c1850', '#4b1d7c', '#8a2679', '#c63a60', '#ec6b3a', '#fbb13f', '#fdf7b8']),
   // Blue below 0, white at 0, orange above.
@@ -30,7 +31,7 @@ const MAPS = {
                        '#f7d9d4'])
 };
 
-// What is no number has a colour that no map has.
+// NaN and infinities have colours that no map has.
 const NAN_COLOUR = [255, 0, 255], INF_COLOUR = [0, 255, 0];
 const NAN_WORD = colourWord(...NAN_COLOUR), INF_WORD = colourWord(...INF_COLOUR);
 
@@ -44,14 +45,14 @@ function cssGradient(table) {
   return `linear-gradient(to right, ${stops.join(', ')})`;
 }
 
-// Where values lie in a map: 0 at lo, 1 at hi, by logarithm or in proportion.
+// Maps values to 0 at lo .. 1 at hi, logarithmically or linearly.
 function makeScale(lo, hi, log, map) {
   const logLo = Math.log2(lo), logSpan = Math.log2(hi / lo), span = hi - lo;
   return {
     lo, hi, log, map,
     position: value => log ? (value > 0 ? (Math.log2(value) - logLo) / logSpan : -1)
                            : (value - lo) / span,
-    // NaN has no index.
+    // NaN has no index: callers handle it before.
     index(value) {
       const at = this.position(value) * 255;
       return at <= 0 ? 0 : at >= 255 ? 255 : Math.round(at);

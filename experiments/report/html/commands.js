@@ -1,11 +1,10 @@
-// What can be done to a viewer: one table from which keys, toolbar titles, help and palette are
-// made.
+// Commands of a viewer: one table for keys, toolbar titles, help and palette.
 //
-// {id, keys, title, group, run(viewer), ...}: `keys` as keyName() says them. Optional:
-// when(viewer): whether there is something to do; release(viewer): it lasts while the key is held;
-// isFocused: only while the viewer itself has the focus; isAnywhere: it needs no viewer;
-// inFields: also while text is typed; isOnce: a key that is held does it once; row: [keys, text] of
-// the help, of several commands one line.
+// {id, keys, title, group, run(viewer), ...}: `keys` as keyName() returns them. Optional:
+// when(viewer): true if the command can do something; release(viewer): called when the key is
+// released, the command lasts until then; isFocused: only while the viewer itself has the focus;
+// isAnywhere: needs no viewer; inFields: also while text is typed; isOnce: no repeats while the key
+// is held; row: [keys, text] of one help line for several commands.
 
 function imageCommands() {
   const commands = [];
@@ -87,7 +86,7 @@ const VIEWER_COMMANDS = [
 const KEY_TEXTS = {ArrowLeft: '\u2190', ArrowRight: '\u2192', ArrowUp: '\u2191',
                    ArrowDown: '\u2193', '-': '\u2212'};
 
-// A key as people read it: 'Ctrl+Shift+z' is Ctrl + Shift + Z.
+// Formats a key for people: 'Ctrl+Shift+z' is Ctrl + Shift + Z.
 function keyText(name) {
   const parts = name === '+' ? [name] : name.split('+');
   const last = parts.pop();
@@ -99,7 +98,7 @@ function keysText(command) {
   return command.keys.map(keyText).join(', ') + (command.release ? ' (held)' : '');
 }
 
-// The text of a button that does the same; its keys are in it.
+// Returns the tooltip of a command's button, with its keys.
 function commandTitle(id, commands = VIEWER_COMMANDS) {
   const command = commands.find(one => one.id === id);
   return command.keys.length ? `${command.title} (${keysText(command)})` : command.title;

@@ -1,6 +1,6 @@
-// Pixels as the file holds them: base64 of a zlib stream of twelve planes of one byte a pixel; of R
-// its bytes from the most to the least significant one, then of G, of B. Lossless: every bit of
-// every 32-bit float comes back.
+// Decodes the pixels of a report: base64 of a zlib stream of twelve planes of one byte per pixel;
+// the bytes of R from the most to the least significant one, then those of G, then of B. Lossless:
+// every bit of every 32-bit float is restored.
 
 function bytesOfBase64(text) {
   const binary = atob(text.trim());
@@ -17,7 +17,7 @@ async function inflate(bytes) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-// R, G, B of `count` pixels, one pixel after the other.
+// Returns R, G, B of `count` pixels, interleaved.
 async function decodePixels(text, count) {
   const planes = await inflate(bytesOfBase64(text));
   if (planes.length !== 12 * count) throw new Error('their data are damaged');
@@ -33,7 +33,7 @@ async function decodePixels(text, count) {
   return new Float32Array(words.buffer);
 }
 
-// Indices of pixels with a NaN or an infinity.
+// Returns the indices of pixels with a NaN or an infinity.
 function nonfinitePixels(data) {
   const found = [];
   for (let i = 0; i < data.length; i += 3) {

@@ -1,4 +1,4 @@
-// Elements made by script. All text goes in as text, never as markup.
+// Makes elements. All text is inserted as text, never as markup.
 
 // make('button', {class: 'x', type: 'button'}, 'text', child...)
 function make(tag, attributes, ...children) {
@@ -10,7 +10,7 @@ function make(tag, attributes, ...children) {
   return element;
 }
 
-// A group of buttons of which one is pressed. `choices`: [value, label, help]...
+// Makes a group of buttons of which one is pressed. `choices`: [value, label, help]...
 function makeChoice(label, choices, choose) {
   const buttons = new Map();
   const group = make('div', {class: 'group', role: 'group', 'aria-label': label});
@@ -32,12 +32,12 @@ function makeButton(text, help, action) {
   return button;
 }
 
-// A click beside a dialog's box closes it.
+// Closes a dialog on a click outside of its box.
 function closeBeside(dialog) {
   dialog.addEventListener('click', event => { if (event.target === dialog) dialog.close(); });
 }
 
-// Without touching the page where nothing has changed.
+// Sets a text; leaves the page alone if nothing has changed.
 function setText(element, text) {
   if (element.textContent !== text) element.textContent = text;
 }

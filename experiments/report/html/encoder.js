@@ -1,19 +1,21 @@
-// From floats to pixels by tables. The upper bits of a float find the colour of all floats that
-// have them; only where a table cannot tell is the exact rule asked, so that the bytes are its own.
+// Converts floats to pixels by tables. The upper bits of a float select the colour of all floats
+// that share them. If a table cannot decide, the exact rule is evaluated: the bytes are always
+// those of the exact rule.
 
 const ONE_FLOAT = new Float32Array(1), ONE_WORD = new Int32Array(ONE_FLOAT.buffer);
 const INF_BITS = 0x7f800000;
 
-// The bits of the nearest float.
+// Returns the bits of the nearest float.
 function floatBits(value) {
   ONE_FLOAT[0] = value;
   return ONE_WORD[0];
 }
 
-// The bits of floats as integers; those of positive floats rise with the float.
+// Reinterprets floats as integers; for positive floats both have the same order.
 function bitsOf(data) { return new Int32Array(data.buffer, data.byteOffset, data.length); }
 
-// Linear radiance times exposure from which sRGB rounds to level i of 255 (IEC 61966-2-1).
+// Threshold of linear radiance times exposure from which sRGB rounds to level i of 255 (IEC
+// 61966-2-1).
 const SRGB_LEVELS = (() => {
   const levels = new Float64Array(257);
   for (let i = 1; i < 256; ++i) {
@@ -24,19 +26,19 @@ const SRGB_LEVELS = (() => {
   return levels;
 })();
 
-// Levels of radiance times `factor`. `table`: by the upper 16 bits, the level of the least float
-// that has them. `last[level]`: the bits of the greatest float of a level. Within one table entry
-// the level rises at most once: levels lie further apart than 2^-7 of their value.
+// Encodes radiance times `factor` as sRGB levels. `table`: indexed by the upper 16 bits, the level
+// of the smallest float that has them. `last[level]`: the bits of the largest float of a level. The
+// level rises at most once within a table entry: levels are further apart than 2^-7 of their value.
 class SrgbEncoder {
   constructor(factor) {
     this.last = new Int32Array(256).fill(0x7fffffff);
     for (let level = 0; level < 255; ++level) {
       const next = SRGB_LEVELS[level + 1] / factor;
       const bits = floatBits(next);
-      // The least float that is not below `next`, less one.
+      // Bits of the largest float below `next`.
       this.last[level] = ONE_FLOAT[0] < next ? bits : bits - 1;
     }
-    // Subnormal floats are coarser: at a factor of 1e34 or more.
+    // Subnormal floats are too coarse for that; happens at a factor of 1e34 or more.
     this.isCoarse = this.last[0] < 0x00800000;
     this.table = new Uint8Array(32768);
     let level = 0;
@@ -44,11 +46,11 @@ class SrgbEncoder {
       while (i << 16 > this.last[level]) ++level;
       this.table[i] = level;
     }
-    // Infinities and NaN, which have marks of their own.
+    // Infinities and NaN are marked separately.
     this.table.fill(255, INF_BITS >>> 16);
   }
 
-  // The exact rule.
+  // Exact rule: the level of a float.
   level(bits) {
     if (bits < 0) return 0;
     let level = this.table[bits >>> 16];
@@ -56,7 +58,7 @@ class SrgbEncoder {
     return level;
   }
 
-  // Of R, G, B at `at` on.
+  // Returns the pixel of R, G, B starting at index `at`.
   colour(bits, at) {
     return colourWord(this.level(bits[at]), this.level(bits[at + 1]), this.level(bits[at + 2]));
   }
@@ -68,7 +70,8 @@ class SrgbEncoder {
       return;
     }
     for (let i = 0, k = 0; k < n; i += 3, ++k) {
-      // Without branches, which noise makes unpredictable: negative is 0; one more above `last`.
+      // Branch-free, since noise makes branches unpredictable: negative values become 0; add 1 to
+      // the level above `last`.
       const red = bits[i] & ~(bits[i] >> 31);
       const green = bits[i + 1] & ~(bits[i + 1] >> 31);
       const blue = bits[i + 2] & ~(bits[i + 2] >> 31);
@@ -79,14 +82,15 @@ class SrgbEncoder {
   }
 }
 
-// The exact rule: the pixel of a value by a scale.
+// Exact rule: the pixel of a value on a scale.
 function scaledColour(value, scale) {
   if (Number.isNaN(value)) return NAN_WORD;
   return Number.isFinite(value) ? scale.map.words[scale.index(value)] : INF_WORD;
 }
 
-// By the upper 17 bits of a float the pixel of all floats that have them, or 0 where the exact rule
-// must be asked: near the 255 values where the index changes, and for what is not finite.
+// Returns a table indexed by the upper 17 bits of a float: the pixel of all floats that have them,
+// or 0 if the exact rule is needed: near the 255 values where the index changes, and for non-finite
+// values.
 function logColours(scale) {
   const table = new Uint32Array(131072), {words} = scale.map;
   const octaves = Math.log2(scale.hi / scale.lo);
@@ -103,7 +107,7 @@ function logColours(scale) {
   return table;
 }
 
-// Pixels of values, one each.
+// Writes the pixel of each value.
 function fillScaled(values, scale, out) {
   const n = out.length;
   if (scale.log) {
@@ -114,12 +118,12 @@ function fillScaled(values, scale, out) {
   const {lo} = scale, {words} = scale.map, span = scale.hi - lo;
   for (let k = 0; k < n; ++k) {
     const at = (values[k] - lo) / span * 255;
-    // Neither holds for NaN.
+    // Both comparisons are false for NaN.
     out[k] = at > 0 && at < 255 ? words[Math.round(at)] : scaledColour(values[k], scale);
   }
 }
 
-// Pixels of the luminance of R, G, B by a logarithmic scale.
+// Writes the pixel of each luminance of R, G, B, by a logarithmic scale.
 function fillLuminance(data, scale, out) {
   const table = logColours(scale), n = out.length;
   for (let i = 0, k = 0; k < n; i += 3, ++k) {

@@ -1,9 +1,9 @@
-// Errors of an image against another one, one value a pixel.
+// Errors of an image against another one, one value per pixel.
 
-// `fill(a, r, out)` writes the error of each pixel of the image a against the reference r, three
-// values a pixel in both, and returns their sum; d = a - r. One loop for each kind: a function
-// called for each pixel takes several times as long. `metric` is the name of the metric which the
-// mean over all pixels is, where there is one.
+// `fill(a, r, out)` writes the error of each pixel of the image a against the reference r, with
+// three values per pixel in both, and returns the sum; d = a - r. Every kind has its own loop: a
+// function call per pixel takes several times as long. `metric`: name of the metric that is the
+// mean over all pixels, if there is one.
 const ERRORS = {
   signed: {
     title: 'signed error', formula: 'mean over channels of d', metric: 'mean error',
@@ -67,8 +67,8 @@ const ERROR_ORDER = ['none', 'signed', 'absolute', 'squared', 'relative'];
 // Decades of a logarithmic scale.
 const ERROR_DECADES = 4;
 
-// {values: one a pixel, mean}; a value that is not finite makes the mean NaN, as in the metrics.
-// `values` of a plane that is no longer wanted may be given to be written over.
+// Returns {values: one per pixel, mean}; a non-finite value makes the mean NaN, as in the metrics.
+// `values`: memory of an old plane to reuse.
 function errorPlane(kind, image, reference, values) {
   const count = image.length / 3;
   if (!values || values.length !== count) values = new Float32Array(count);
@@ -76,8 +76,8 @@ function errorPlane(kind, image, reference, values) {
   return {values, mean: Number.isFinite(sum) ? sum / count : NaN};
 }
 
-// What 98 % of the finite values of all lists together do not exceed in size, from about 20000 of
-// each; null where there are none.
+// Returns the 98th percentile of the absolute finite values of all lists together, from about 20000
+// samples of each; null if there are none.
 function commonSize(lists) {
   const steps = lists.map(values => Math.max(1, Math.floor(values.length / 20000)));
   const sizes = new Float32Array(
@@ -92,7 +92,7 @@ function commonSize(lists) {
   return count ? sizes.subarray(0, count).sort()[Math.floor(0.98 * (count - 1))] : null;
 }
 
-// The scale of an error: [-range, range], [0, range] or decades below range.
+// Returns the scale of an error: [-range, range], [0, range] or decades below range.
 function errorScale(kind, range, log) {
   if (ERRORS[kind].signed) return makeScale(-range, range, false, MAPS.diverging);
   if (log) return makeScale(range / Math.pow(10, ERROR_DECADES), range, true, MAPS.rising);

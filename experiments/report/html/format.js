@@ -1,10 +1,10 @@
-// Numbers as text.
+// Formats numbers.
 
 function nonfiniteText(value) {
   return Number.isNaN(value) ? 'NaN' : value > 0 ? '+Inf' : '-Inf';
 }
 
-// The shortest decimal that names this 32-bit float and no other.
+// Returns the shortest decimal that reads back as this 32-bit float.
 function exactFloat(value) {
   if (!Number.isFinite(value)) return nonfiniteText(value);
   if (Object.is(value, -0)) return '-0';
@@ -15,13 +15,13 @@ function exactFloat(value) {
   return String(Number(value.toPrecision(9)));
 }
 
-// Three significant digits.
+// Formats with three significant digits.
 function shortNumber(value) {
   if (!Number.isFinite(value)) return nonfiniteText(value);
   return String(Number(value.toPrecision(3))).replace('e+', 'e');
 }
 
-// The number of the form 1, 2 or 5 times a power of ten that is not below `value`.
+// Returns the smallest 1, 2 or 5 times a power of ten that is not below `value`.
 function niceAbove(value) {
   if (!(value > 0) || !Number.isFinite(value)) return 1;
   const power = Math.pow(10, Math.floor(Math.log10(value)));

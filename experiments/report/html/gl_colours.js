@@ -1,12 +1,12 @@
-// Colours of images and errors by WebGL2: the same pictures as by tables, made by the graphics
-// processor. A byte of sRGB differs by at most one. A colour of a map is at most the next one, where
-// 32-bit arithmetic rounds to the other side.
+// Colours images and errors by WebGL2: the same pictures as by tables, made on the GPU. A byte of
+// sRGB differs by at most one. A colour of a map is at most the next one, if 32-bit arithmetic
+// rounds to the other side.
 
 const GL_KINDS = ['srgb', 'luminance', 'signed', 'absolute', 'squared', 'relative'];
 
 const GL_VERTEX = `#version 300 es
 void main() {
-  // One triangle over everything.
+  // One triangle covers everything.
   gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);
 }`;
 
@@ -21,7 +21,7 @@ uniform bool isLog;
 uniform float factor, lo, span;
 out vec4 pixel;
 
-// By their bits: the language lets arithmetic on them do as it likes.
+// Test the bits: GLSL allows any result for arithmetic on NaN and infinities.
 uint magnitude(float value) { return floatBitsToUint(value) & 0x7fffffffu; }
 bool isNan(float value) { return magnitude(value) > 0x7f800000u; }
 bool isOdd(float value) { return magnitude(value) >= 0x7f800000u; }
@@ -42,7 +42,7 @@ vec3 srgb(vec3 linear) {
 }
 
 void main() {
-  // The picture's first row is at the top.
+  // Row 0 of the image is at the top.
   ivec2 at = ivec2(int(gl_FragCoord.x), height - 1 - int(gl_FragCoord.y));
   vec3 a = texelFetch(image, at, 0).rgb;
   if (kind < 2) {
@@ -56,7 +56,7 @@ void main() {
     return;
   }
   vec3 r = texelFetch(reference, at, 0).rgb, d = a - r, size = abs(d);
-  // Thirds first: no sum overflows where the mean does not.
+  // Multiply by 1/3 before adding: the sum must not overflow if the mean does not.
   vec3 third = vec3(1.0 / 3.0);
   if (kind == 2) pixel = mapped(dot(d, third));
   if (kind == 3) pixel = mapped(dot(size, third));
@@ -64,11 +64,11 @@ void main() {
   if (kind == 5) pixel = mapped(dot(size / (abs(r) + 0.01), third));
 }`;
 
-// Images held on the graphics processor.
+// Limit of images held on the GPU.
 const GL_MOST_IMAGES = 8;
 
 class GlColours {
-  // Throws where it cannot be. `isStrict`: not without a graphics processor.
+  // Throws if WebGL2 is not available. `isStrict`: also throws without a GPU.
   constructor(isStrict) {
     this.canvas = document.createElement('canvas');
     const gl = this.canvas.getContext('webgl2', {
@@ -104,8 +104,8 @@ class GlColours {
     return this.places[name];
   }
 
-  // A picture of `kind` of an image in a canvas of its size; `held` as in layers.js. Null where it
-  // cannot be made: the context has been lost, or the image is too large.
+  // Draws a picture of `kind` of an image into a canvas of its size; `held` as in layers.js.
+  // Returns null if that fails: the context is lost, or the image is too large.
   layer({kind, image, reference, factor, scale}, held) {
     const {gl} = this, {width, height} = image;
     if (this.isLost || Math.max(width, height) > this.largest) return null;
@@ -113,7 +113,7 @@ class GlColours {
       Object.assign(this.canvas, {width, height});
     }
     gl.viewport(0, 0, width, height);
-    // All of them first: to make one binds it.
+    // Make all textures first: making one binds it.
     const textures = [this.imageTexture(image), reference ? this.imageTexture(reference) : null,
                       scale ? this.mapTexture(scale.map) : null];
     textures.forEach((texture, unit) => this.bind(unit, texture));
@@ -138,7 +138,7 @@ class GlColours {
     this.gl.bindTexture(this.gl.TEXTURE_2D, texture);
   }
 
-  // Of the newest version; the image that was used longest ago gives way.
+  // Returns the texture of the newest version; evicts the least recently used image.
   imageTexture(image) {
     const {gl, images} = this, version = versionOf(image);
     let held = images.get(image);
@@ -180,7 +180,7 @@ class GlColours {
     const {gl} = this, texture = gl.createTexture();
     this.bind(0, texture);
     gl.texStorage2D(gl.TEXTURE_2D, 1, format, width, height);
-    // Floats are read as they are: there is nothing between pixels.
+    // No filtering: texels are read exactly.
     for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) {
       gl.texParameteri(gl.TEXTURE_2D, name, gl.NEAREST);
     }
@@ -203,14 +203,14 @@ function linkedProgram(gl) {
   return program;
 }
 
-// Where the main processor does the work, tables are faster.
+// On a software renderer tables are faster.
 function isSoftwareGl(gl) {
   const info = gl.getExtension('WEBGL_debug_renderer_info');
   const name = gl.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : gl.RENDERER);
   return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
 }
 
-// One for all viewers, as a browser has few contexts to give; null where there is none.
+// Shared by all viewers, since browsers limit the number of contexts; null if not available.
 const glColours = (() => {
   const made = new Map();
   return isStrict => {
@@ -219,7 +219,7 @@ const glColours = (() => {
       try {
         colours = new GlColours(isStrict);
       } catch (error) {
-        // The tables do it.
+        // Fall back to the tables.
       }
       made.set(isStrict, colours);
     }

@@ -1,12 +1,12 @@
-// The keys of a viewer, as ? shows them.
+// Help of a viewer, opened by ?.
 
-// What has no key of its own.
+// Pointer actions, which have no keys.
 const POINTER_HELP = [
   ['wheel', 'zoom about the pointer'],
   ['drag', 'move the picture']
 ];
 
-// [keys, text] of the commands of a group.
+// Returns [keys, text] of the commands of a group.
 function helpRows(commands) {
   const rows = [];
   for (const command of commands) {

@@ -1,7 +1,7 @@
-// The table below a viewer: one row an image, with its key, its mean error and its values at the
-// pixel under the pointer.
+// Table below a viewer: one row per image, with its key, its mean error and its values at the pixel
+// under the pointer.
 class ImageList {
-  // `whole`: the images are no crops.
+  // `whole`: the images are not crops.
   constructor(images, whole, camera, actions) {
     Object.assign(this, {images, whole, camera});
     const head = make('tr', {}, make('th', {scope: 'col'}, 'key'),

@@ -1,7 +1,7 @@
-// Keys of the viewers, by the table of commands.
+// Keyboard control of the viewers, by the table of commands.
 
-// The name of what is pressed, as commands have it: a character, with Shift in it, or the key's
-// name; digits by their place, since Shift makes other characters of them.
+// Returns the name of the pressed key, as commands use it: a character that includes Shift, or the
+// key's name. Digits are named by their position, since Shift turns them into other characters.
 function keyName(event) {
   const digit = /^(?:Digit|Numpad)([1-9])$/.exec(event.code);
   const control = event.ctrlKey || event.metaKey;
@@ -12,13 +12,13 @@ function keyName(event) {
   return control ? `Ctrl+${name}` : name;
 }
 
-// Height of the part of an element that the window shows.
+// Returns the height of the visible part of an element.
 function shownHeight(element) {
   const box = element.getBoundingClientRect();
   return Math.min(box.bottom, window.innerHeight) - Math.max(box.top, 0);
 }
 
-// The viewer with the focus, else the one that fills most of the window.
+// Returns the viewer with the focus, or else the one that fills most of the window.
 function keyTarget(viewers, focused) {
   const holder = viewers.find(viewer => viewer.root.contains(focused));
   if (holder) return holder;
@@ -26,23 +26,23 @@ function keyTarget(viewers, focused) {
   return shown.sort((a, b) => shownHeight(b.root) - shownHeight(a.root))[0];
 }
 
-// Whether keys are text there.
+// True if keys type text in the element.
 function isField(element) {
   return Boolean(element.closest('input:not([type=range], [type=checkbox]), textarea, select'));
 }
 
-// What a slider does by itself.
+// True if the slider handles the key itself.
 function movesSlider(event) {
   return /^(Arrow|Home|End|Page)/.test(event.key) && event.target.closest('input[type=range]');
 }
 
-// Arrows scroll a table that is wider than its place.
+// True if arrow keys scroll a table that is wider than its container.
 function scrollsTable(event) {
   const table = event.key.startsWith('Arrow') && event.target.closest('.scroll');
   return table && table.scrollWidth > table.clientWidth;
 }
 
-// The command of a key and its viewer, or null.
+// Returns the command of a key and its viewer, or null.
 function commandOfKey(event, viewers, commands) {
   const name = keyName(event);
   const viewer = keyTarget(viewers, event.target);
@@ -54,14 +54,14 @@ function commandOfKey(event, viewers, commands) {
 }
 
 function addKeys(viewers, commands) {
-  const held = new Map();  // by the key's place on the keyboard
+  const held = new Map();  // by event.code
   const release = code => {
     const {command, viewer} = held.get(code);
     held.delete(code);
     command.release(viewer);
   };
   document.addEventListener('keydown', event => {
-    // A dialog has its own keys, and what took a key has it.
+    // Ignore keys that were already handled or belong to an open dialog.
     if (event.defaultPrevented || document.querySelector('dialog[open]')) return;
     if (scrollsTable(event) || movesSlider(event)) return;
     const found = commandOfKey(event, viewers, commands);

@@ -1,7 +1,7 @@
-// Coloured pictures of images and errors at the images' own size; a view enlarges them. Each is a
-// canvas; one that is no longer wanted is written over.
+// Colours images and errors at the images' own size; a view enlarges them. Each layer is a canvas;
+// `held` is an old one to reuse.
 
-// One for all canvases of a size: a canvas takes a copy.
+// Shared by all canvases of one size: a canvas copies it.
 let sharedPicture = null;
 
 function canvasOf(width, height, held) {
@@ -12,7 +12,7 @@ function canvasOf(width, height, held) {
   return canvas;
 }
 
-// `fill` writes one word a pixel.
+// `fill` writes one word per pixel.
 function paintedCanvas(width, height, held, fill) {
   const canvas = canvasOf(width, height, held), context = canvas.getContext('2d');
   if (!sharedPicture || sharedPicture.width !== width || sharedPicture.height !== height) {
@@ -23,7 +23,7 @@ function paintedCanvas(width, height, held, fill) {
   return canvas;
 }
 
-// The pixel of R, G, B of which one is no finite number.
+// Returns the pixel for R, G, B of which at least one is not finite.
 function nonfiniteColour(data, i) {
   return data.subarray(3 * i, 3 * i + 3).some(Number.isNaN) ? NAN_WORD : INF_WORD;
 }
@@ -32,7 +32,7 @@ function markNonfinite(image, out) {
   for (const i of image.nonfinite) out[i] = nonfiniteColour(image.data, i);
 }
 
-// Radiance times exposure as sRGB, clipped.
+// Draws radiance times exposure as sRGB, clipped.
 function srgbLayer(image, encoder, held) {
   return paintedCanvas(image.width, image.height, held, out => {
     encoder.fill(image.data, out);
@@ -40,7 +40,7 @@ function srgbLayer(image, encoder, held) {
   });
 }
 
-// Luminance by a logarithmic scale.
+// Draws the luminance by a logarithmic scale.
 function falseColourLayer(image, scale, held) {
   return paintedCanvas(image.width, image.height, held, out => {
     fillLuminance(image.data, scale, out);
@@ -48,13 +48,13 @@ function falseColourLayer(image, scale, held) {
   });
 }
 
-// Values by a scale, one a pixel.
+// Draws one value per pixel by a scale.
 function scaledLayer(image, values, scale, held) {
   return paintedCanvas(image.width, image.height, held, out => fillScaled(values, scale, out));
 }
 
-// One value a pixel of an overlay of that, or of R, G, B; null where it is not as large as its
-// image.
+// Returns one value per pixel of an overlay, which has one value or R, G, B per pixel; null if its
+// size differs from the image's.
 function overlayValues(image) {
   const {data} = image.overlay, count = image.width * image.height;
   if (!data || data.length === count) return data;

@@ -1,4 +1,4 @@
-// The legend of what is shown: a bar with numbers, or one line.
+// Legend of a viewer: a bar with numbers, or one line.
 
 function legendTicks(scale) {
   if (!scale.log) {
@@ -30,19 +30,19 @@ function swatch(colour, text) {
   return make('span', {class: 'key'}, box, text);
 }
 
-// Whether there is an image that has an error.
+// True if an image has an error to show.
 function isScaleThere(state, images) {
   const reference = images[state.compare];
   return images.some((image, i) => i !== state.compare && areComparable(image, reference));
 }
 
-// The end of the scale of what lies over image i.
+// Returns the upper end of the scale of the overlay on image i.
 function overlayEnd(painter, image, i) {
   const scale = image.overlay && painter.overlayScale ? painter.overlayScale(i) : null;
   return scale ? scale.hi : 0;
 }
 
-// What lies over images; the painter knows the scale of each.
+// Makes the legends of overlays; the painter knows the scale of each.
 function overlayLegend(painter, images) {
   const shown = images.map((_, i) => i).filter(i => images[i].overlay);
   return shown.map(i => {
@@ -55,7 +55,7 @@ function overlayLegend(painter, images) {
   });
 }
 
-// `painter` as the stage has it. Nothing is made anew while it would be the same.
+// `painter` as in stage.js. Leaves the page alone if nothing has changed.
 function showLegend(element, state, painter, images) {
   const isError = state.error !== 'none' && isScaleThere(state, images);
   const scale = isError ? painter.errorScale() :

@@ -1,4 +1,4 @@
-// Brings the page to life: tables and the first viewer at once, the others when they come near the
+// Starts the page: tables and the first viewer at once, other viewers when they come near the
 // window.
 
 async function openViewer(root) {
@@ -30,8 +30,8 @@ const viewers = [];
 const start = root => openViewer(root).then(viewer => viewers.push(viewer));
 const roots = Array.from(document.querySelectorAll('.viewer'));
 if (roots.length) {
-  // Not by the observer, which tells nothing before the window's first frame: a browser that only
-  // takes a picture of the page may not have one in time.
+  // The observer reports nothing before the window's first frame, and a browser that only takes a
+  // screenshot of the page may not have one in time.
   start(roots[0]);
   const near = new IntersectionObserver(entries => {
     for (const entry of entries) {

@@ -1,11 +1,11 @@
-// What is drawn over a picture that is enlarged: grid, values, marks. All take a view (CSS pixels),
-// inside which the caller clips.
+// Draws over an enlarged picture: grid, values, marks. All functions take a view (CSS pixels); the
+// caller clips to it.
 
-// From these sizes on of an image pixel, in CSS pixels.
+// Sizes of an image pixel from which grid and values are drawn, in CSS pixels.
 const GRID_FROM = 14, VALUES_FROM = 56;
 const MOST_MARKS = 400;
 
-// Image pixels that a view shows, as [x0, y0, x1, y1], the ends excluded.
+// Returns the image pixels in a view as [x0, y0, x1, y1], the ends excluded.
 function shownPixels(camera, view, width, height) {
   const [left, top] = camera.toImage(view, view.x, view.y);
   const [right, bottom] = camera.toImage(view, view.x + view.width, view.y + view.height);
@@ -31,7 +31,7 @@ function drawGrid(context, camera, view, shown) {
   context.stroke();
 }
 
-// `lines(i)`: the texts of pixel i; `isLight(i)`: whether its picture is light.
+// `lines(i)`: texts of pixel i; `isLight(i)`: true if its picture is light.
 function drawValues(context, camera, view, shown, width, lines, isLight) {
   const [x0, y0, x1, y1] = shown;
   const size = Math.min(15, camera.scale / 5);
@@ -49,8 +49,8 @@ function drawValues(context, camera, view, shown, width, lines, isLight) {
   }
 }
 
-// Boxes around pixels that hold no number: at least nine pixels wide, so that one is seen in a
-// picture of any size.
+// Draws boxes around non-finite pixels: at least nine CSS pixels wide, to be visible in a picture
+// of any size.
 function drawNonfinite(context, camera, view, image) {
   const size = Math.max(9, camera.scale + 4);
   let marks = 0;
@@ -70,7 +70,7 @@ function drawNonfinite(context, camera, view, image) {
   }
 }
 
-// Where the pointer is, in the views that it is not over.
+// Marks the pointer's pixel in the views that the pointer is not over.
 function drawPointer(context, camera, view, pixel) {
   const [x, y] = camera.toView(view, pixel.x, pixel.y);
   const size = Math.max(7, camera.scale);
@@ -83,7 +83,7 @@ function drawPointer(context, camera, view, pixel) {
   }
 }
 
-// Light between dark edges, so that it is seen on everything.
+// Strokes in a light colour between dark edges, visible on any picture.
 function strokeOnAll(context, thick, colour) {
   for (const [edge, width] of [['#000', thick + 2], [colour, thick]]) {
     context.strokeStyle = edge;
@@ -92,9 +92,9 @@ function strokeOnAll(context, thick, colour) {
   }
 }
 
-// Rings around pixels, [{x, y, kind: 'donor' | 'probe', state}], and lines from the probe to its
-// donors: dashed where the shift was rejected, yellow to the one that was selected. The probe's
-// ring is larger and thicker, and is drawn last.
+// Draws rings around pixels, [{x, y, kind: 'donor' | 'probe', state}], and lines from the probe to
+// its donors: dashed if the shift was rejected, yellow to the selected one. The probe's ring is
+// larger and thicker and is drawn last.
 function drawMarks(context, camera, view, marks) {
   const rings = {donor: {radius: 5, thick: 1.5}, probe: {radius: 9, thick: 3}};
   const place = mark => camera.toView(view, mark.x + 0.5, mark.y + 0.5);

@@ -1,7 +1,7 @@
-// Colours of what lies over an image, by what its numbers are:
-//   number    how much: by a scale; of R, G, B their luminance
-//   name      which: one colour each, that of the previews of `restlab render --aov`; 0 is black
-//   vector    x, y, z as red, green, blue: 0 is the middle of each; vector2: x and y alone
+// Colours of overlays, by the kind of their numbers:
+//   number    a quantity: by a scale; for R, G, B the luminance
+//   name      an ID: one colour each, as in the previews of `restlab render --aov`; 0 is black
+//   vector    x, y, z as red, green, blue, 0 is the middle of each; vector2: only x and y
 //   colour    as sRGB; radiance: times the exposure
 
 const OVERLAY_TEXTS = {
@@ -14,19 +14,19 @@ const OVERLAY_TEXTS = {
   radiance: (overlay, range, factor) => ` \u00d7 ${shortNumber(factor)} as sRGB`
 };
 
-// As C. Wellons, "hash prospector", 2018; falseColors() of the program makes the same ones.
+// Hash: C. Wellons, "hash prospector", 2018; falseColors() of the program makes the same colours.
 function nameColour(value) {
   if (value === 0) return colourWord(0, 0, 0);
   let x = floatBits(value);
   x = Math.imul(x ^ x >>> 16, 0x7feb352d);
   x = Math.imul(x ^ x >>> 15, 0x846ca68b);
   x ^= x >>> 16;
-  // Away from black.
+  // Keep the colour away from black.
   const channel = shift => Math.round(51 + 0.8 * (x >>> shift & 255));
   return colourWord(channel(0), channel(8), channel(16));
 }
 
-// Of the first of R, G, B, which are equal.
+// Colours IDs by the first of R, G, B, which are equal.
 function fillNames(data, out) {
   const known = new Map();
   for (let k = 0; k < out.length; ++k) {
@@ -49,7 +49,7 @@ function fillVectors(data, size, range, out) {
   }
 }
 
-// The components that a vector has.
+// Returns only the components that the vector has.
 function vectorValues(data, size) {
   return size > 2 ? data : data.filter((_, i) => i % 3 < size);
 }

@@ -1,5 +1,5 @@
-// Which picture and which numbers a view shows: images by exposure, errors by a common range. All
-// is kept until an image has a new version; to move, enlarge or wipe colours nothing anew.
+// Pictures and numbers of a view: images by exposure, errors by a common range. Everything is
+// cached until an image has a new version; moving, zooming or wiping recolours nothing.
 class Painter {
   constructor(state, images, exposure) {
     Object.assign(this, {state, images, exposure});
@@ -7,14 +7,14 @@ class Painter {
     this.planes = new SlotCache();
     this.range = new SteadyRange();
     this.overlays = new Map();
-    // Called when pictures must be drawn again for a reason of the painter's own.
+    // Called when pictures must be drawn again because the WebGL context was lost.
     this.onLost = () => {};
   }
 
   // Factor on radiance.
   get factor() { return this.exposure * Math.pow(2, this.state.stops); }
 
-  // 'webgl2', '2d' or 'auto': WebGL2 where a graphics processor does it. Returns what is used, as
+  // `kind`: 'webgl2', '2d' or 'auto' (WebGL2 if there is a GPU). Returns the kind that is used:
   // there may be no WebGL2.
   use(kind) {
     this.gl = kind === '2d' ? null : glColours(kind === 'auto');
@@ -27,7 +27,7 @@ class Painter {
     return this.gl && !this.gl.isLost ? 'webgl2' : '2d';
   }
 
-  // Error of image i against the one that is compared with; null while they cannot be compared.
+  // Error of image i against the compared one; null while they cannot be compared.
   plane(kind, i) {
     const image = this.images[i], other = this.images[this.state.compare];
     if (!areComparable(image, other)) return null;
@@ -36,7 +36,7 @@ class Painter {
                                kind, image.data, other.data, held && held.values));
   }
 
-  // One scale for all images, so that they can be compared; brighter exposure, narrower range.
+  // One scale for all images, to compare them; a brighter exposure narrows the range.
   errorScale() {
     const {error, compare, stops} = this.state;
     const versions = this.images.map(versionOf).join(' ');
@@ -52,7 +52,7 @@ class Painter {
     return error in log ? log[error] : ERRORS[error].log;
   }
 
-  // Twelve stops of luminance; mid grey of the sRGB view is near the middle.
+  // Twelve stops of luminance; the sRGB view's mid grey is near the middle.
   luminanceScale() {
     return makeScale(Math.pow(2, -8) / this.factor, Math.pow(2, 4) / this.factor, true,
                      MAPS.spectrum);
@@ -66,7 +66,7 @@ class Painter {
     return this.srgbEncoder;
   }
 
-  // A canvas as large as the image, or null while there is nothing to show.
+  // Returns a canvas of the image's size, or null while there is nothing to show.
   layer(view) {
     const image = this.images[view.image];
     if (!image.data) return null;
@@ -97,9 +97,9 @@ class Painter {
 
   glLayer(job, held) { return this.kind === 'webgl2' ? this.gl.layer(job, held) : null; }
 
-  // What lies over image i: {kind, values, range, scale}, or null (overlay_colours.js). Numbers have
-  // a scale of their own, about zero where there are values below zero, and as steady as that of
-  // errors; so is the range of vectors.
+  // Returns the overlay of image i, {kind, values, range, scale}, or null (overlay_colours.js).
+  // Numbers have a scale of their own, symmetric about zero if there are negative values, and as
+  // steady as the errors' scale; the range of vectors is steady, too.
   overlay(i) {
     const image = this.images[i], {overlay} = image;
     if (!overlay || !overlay.data) return null;
@@ -134,7 +134,7 @@ class Painter {
     return {kind, values, range, scale};
   }
 
-  // What the colours say, where no scale does.
+  // Explains the colours of an overlay without a scale.
   overlayText(i) {
     const found = this.overlay(i);
     return found && found.kind in OVERLAY_TEXTS
@@ -146,7 +146,7 @@ class Painter {
     return overlay && overlay.scale;
   }
 
-  // A canvas as large as the image, or null; to be drawn over the image's layer.
+  // Returns a canvas of the image's size to draw over its layer, or null.
   overlayLayer(view) {
     const overlay = this.overlay(view.image);
     if (!overlay) return null;
@@ -172,7 +172,8 @@ class Painter {
     return plane ? [shortNumber(plane.values[i])] : [];
   }
 
-  // Whether the picture of a pixel is light: computed, as to read it back would stop the browser.
+  // True if the picture of a pixel is light. Computed, since reading the canvas back stalls the
+  // browser.
   isLight(view, i) {
     const word = this.pixelColour(view, i);
     return 0.3 * (word & 255) + 0.59 * (word >> 8 & 255) + 0.11 * (word >> 16 & 255) > 140;

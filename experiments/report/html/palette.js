@@ -1,7 +1,7 @@
-// All commands in a list that is searched as one types.
+// Palette: a list of all commands, searched while typing.
 
-// Whether the words of a question stand in a text, in any order; a match at a word's start counts
-// more, and so do words in the text's own order: all of "A to B" stand in "B to A", too. 0: no.
+// Scores how well the words occur in a text, in any order; 0 if one is missing. A match at the
+// start of a word counts more, and so does the whole question: "A to B" must rank above "B to A".
 function matchScore(text, words) {
   const lower = text.toLowerCase();
   let score = lower.includes(words.join(' ')) ? 2 : 1;
@@ -20,12 +20,12 @@ function matchingCommands(commands, viewer, question) {
                      (!one.when || one.when(viewer)))
       .map(command => ({command, score: matchScore(`${command.title} ${command.group}`, words)}))
       .filter(entry => entry.score > 0)
-      .sort((a, b) => b.score - a.score)  // stable: the table's order among equals
+      .sort((a, b) => b.score - a.score)  // stable: keeps the table's order among equal scores
       .map(entry => entry.command);
 }
 
 class Palette {
-  // `target` says to which viewer a command goes.
+  // `target` returns the viewer for a command.
   constructor(commands, target) {
     Object.assign(this, {commands, target, found: [], at: 0});
     this.input = make('input', {type: 'search', role: 'combobox', 'aria-expanded': 'true',
@@ -82,7 +82,7 @@ class Palette {
       this.run(this.at);
     } else if (event.key === 'Escape' ||
                (event.key.toLowerCase() === 'k' && (event.ctrlKey || event.metaKey))) {
-      this.dialog.close();  // at once, where a search field would only forget its text
+      this.dialog.close();  // Escape in a search field would only clear the text
     } else if (to === undefined || !n) {
       return;
     } else {

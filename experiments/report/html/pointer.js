@@ -1,19 +1,19 @@
 // Mouse, pen and touch on a viewer: wheel, drag, divider, the pixel under the pointer.
 
-// A wheel that scrolls the page goes on scrolling it when a viewer comes under the pointer; after a
-// pause of so many milliseconds it zooms.
+// Pause in milliseconds after which the wheel zooms: a wheel that is scrolling the page goes on
+// scrolling when a viewer moves under the pointer.
 const WHEEL_PAUSE = 350;
 let lastPageScroll = -Infinity;
 document.addEventListener('wheel', event => {
   if (!event.defaultPrevented) lastPageScroll = event.timeStamp;
 }, {passive: true});
 
-// A press that moves no farther than so many CSS pixels is a click.
+// Largest movement of a click, in CSS pixels.
 const CLICK_RADIUS = 4;
 
-// `viewer.data.pointer`, where there is one, may take a drag or the wheel: drag(event, hit) says
-// what does it, {move(dx, dy)}, or null; wheel(event) whether it did; click(hit) ends a press that
-// did not move.
+// `viewer.data.pointer`, if set, may take over drag and wheel. drag(event, hit) returns a handler
+// {move(dx, dy)} or null; wheel(event) returns whether it was handled; click(hit) is called after a
+// press without movement.
 function addPointer(viewer) {
   const {canvas, divider, frame} = viewer, own = viewer.data.pointer;
   const position = event => {
@@ -30,7 +30,7 @@ function addPointer(viewer) {
     if (event.ctrlKey || event.timeStamp - lastPageScroll < WHEEL_PAUSE) return;
     const unit = event.deltaMode === 1 ? 20 : event.deltaMode === 2 ? 400 : 1;
     const moved = viewer.zoom(Math.exp(-event.deltaY * unit * 0.002), ...position(event));
-    // At the end of the zoom the page scrolls.
+    // At the limit of the zoom, let the page scroll.
     if (moved || event.deltaY < 0) event.preventDefault();
   }, {passive: false});
 
@@ -78,7 +78,7 @@ function addPointer(viewer) {
   for (const name of ['pointerup', 'pointercancel']) {
     divider.addEventListener(name, () => {
       dragging = false;
-      // Keys are the viewer's again; who comes by Tab moves it by arrows.
+      // Give the keys back to the viewer; keyboard users reach the divider by Tab.
       viewer.root.focus({preventScroll: true});
     });
   }

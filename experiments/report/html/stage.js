@@ -1,8 +1,8 @@
-// The canvas of a viewer: one view, two in one place with a divider, or all images side by side.
+// Canvas of a viewer: one view, two in one place with a divider, or all images side by side.
 
 const VIEW_GAP = 6;
 
-// The columns for n views of these proportions that make them largest.
+// Returns the number of columns that makes n views of this aspect ratio largest.
 function bestColumns(n, width, mostHeight, aspect) {
   let best = 1, bestWidth = 0;
   for (let columns = 1; columns <= n; ++columns) {
@@ -10,28 +10,28 @@ function bestColumns(n, width, mostHeight, aspect) {
     const byWidth = (width - VIEW_GAP * (columns - 1)) / columns;
     const byHeight = (mostHeight - VIEW_GAP * (rows - 1)) / rows * aspect;
     const size = Math.min(byWidth, byHeight);
-    // A little larger is not worth a row more.
+    // A slightly larger size is not worth another row.
     if (size > bestWidth * 1.02) [best, bestWidth] = [columns, size];
   }
   return best;
 }
 
-// Whether an image can be compared with another one pixel by pixel. Those of a live page have an
-// epoch: another one is of another picture or method.
+// True if two images can be compared pixel by pixel. Images of a live page have an epoch; different
+// epochs mean another picture or method.
 function areComparable(a, b) {
   return Boolean(a.data && b.data) && a.data.length === b.data.length && a.width === b.width &&
       a.height === b.height && a.epoch === b.epoch;
 }
 
-// {height, views: [{x, y, width, height, image, isError, clip: [left, right] or absent}]} in CSS
-// pixels. Of two views in one place the divider shows the left part of the first. `room`:
+// Returns {height, views: [{x, y, width, height, image, isError, clip: [left, right] or absent}]}
+// in CSS pixels. With a divider the first view is left of it, the second right of it. `room`:
 // {width, mostHeight, isFilled}; `aspect` of the images, width over height.
 function layOut(state, images, aspect, room) {
   const {width, mostHeight} = room;
   const isError = i => state.error !== 'none' && i !== state.compare &&
       areComparable(images[i], images[state.compare]);
   if (state.mode === 'side' && !state.held) {
-    // All of them in the window, but on a narrow one.
+    // Fit all views into the window, unless it is narrow.
     const sideHeight = mostHeight * (width < 600 && !room.isFilled ? 2 : 1);
     const columns = bestColumns(images.length, width, sideHeight, aspect);
     const rows = Math.ceil(images.length / columns);
@@ -40,7 +40,7 @@ function layOut(state, images, aspect, room) {
     const cellHeight = room.isFilled ? mostCell : Math.min(cellWidth / aspect, mostCell);
     const views = images.map((image, i) => {
       const row = Math.floor(i / columns), isLast = row === rows - 1;
-      // A last row with fewer of them leaves nothing empty where the stage has its size.
+      // If the stage has a fixed size, stretch a shorter last row to leave no gap.
       const n = room.isFilled && isLast ? images.length - columns * row : columns;
       const cell = (width - VIEW_GAP * (n - 1)) / n;
       return {x: (i - columns * row) * (cell + VIEW_GAP), y: row * (cellHeight + VIEW_GAP),
@@ -61,7 +61,7 @@ function layOut(state, images, aspect, room) {
   return {height, views: [{...whole, image: shown, isError: isError(shown)}]};
 }
 
-// Of an image that has not come yet.
+// Draws a placeholder for an image that has not arrived yet.
 function drawWaiting(context, view, x, y, width, height) {
   context.fillStyle = '#55585e';
   context.fillRect(x, y, width, height);
@@ -74,12 +74,12 @@ function drawWaiting(context, view, x, y, width, height) {
 }
 
 class Stage {
-  // `painter` gives the picture of a view and the texts of its pixels.
+  // `painter` provides the picture of a view and the texts of its pixels.
   constructor(canvas, camera, images, painter) {
     Object.assign(this, {canvas, camera, images, painter, views: []});
   }
 
-  // Places the views in a stage of so many CSS pixels; `room` as layOut() has it.
+  // Places the views in the stage; `room` as in layOut().
   arrange(state, room) {
     const {camera} = this;
     const layout = layOut(state, this.images, camera.width / camera.height, room);
@@ -87,7 +87,7 @@ class Stage {
     camera.adapt(this.views[0].width, this.views[0].height);
   }
 
-  // `pixel` is marked in all views but `overView`, which the pointer is over; null: nowhere.
+  // Marks `pixel` in all views except `overView`, the one under the pointer; null: no mark.
   draw(pixel, overView) {
     const ratio = window.devicePixelRatio || 1;
     const pixels = [Math.round(this.width * ratio), Math.round(this.height * ratio)];
@@ -99,7 +99,7 @@ class Stage {
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, this.width, this.height);
     this.views.forEach((view, k) => {
-      // Views in one place share the pointer.
+      // Views in one place are both under the pointer.
       const elsewhere = pixel && k !== overView && !view.clip;
       this.drawView(context, view, elsewhere ? pixel : null);
     });
@@ -126,7 +126,7 @@ class Stage {
     return image.width === this.camera.width && image.height === this.camera.height;
   }
 
-  // The image pixels `shown` of a view, what lies over them, and their grid and numbers.
+  // Draws the image pixels `shown` of a view, their overlay, grid, numbers and marks.
   drawPicture(context, view, shown) {
     const {camera, painter} = this, image = this.images[view.image];
     const [x0, y0, x1, y1] = shown, [dx, dy] = camera.toView(view, x0, y0);
@@ -156,7 +156,7 @@ class Stage {
     }
   }
 
-  // The view and the pixel at a position in CSS pixels of the canvas, or null.
+  // Returns the view and the pixel at a canvas position in CSS pixels, or null.
   hit(x, y) {
     for (let k = 0; k < this.views.length; ++k) {
       const view = this.views[k];

@@ -1,5 +1,5 @@
-// Tables that sort by a click on a heading: up, down, as they were. A row without a number in that
-// column stays last either way.
+// Sorts tables by clicks on a heading: ascending, descending, original order. A row without a
+// number in that column stays last either way.
 
 function cellValue(row, column) {
   const cell = row.cells[column];
@@ -19,7 +19,7 @@ function makeSortable(table) {
   heads.forEach((head, column) => {
     const button = head.querySelector('button');
     if (!button) return;
-    // The better end first.
+    // Begin with the better end.
     const first = head.dataset.better === 'higher' ? 'descending' : 'ascending';
     const second = first === 'ascending' ? 'descending' : 'ascending';
     button.addEventListener('click', () => {

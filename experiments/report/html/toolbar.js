@@ -1,4 +1,4 @@
-// The buttons above a viewer. Everything here has a key too.
+// Toolbar of a viewer. Every button has a key, too.
 class Toolbar {
   constructor(viewer) {
     const set = change => viewer.set(change);

@@ -1,18 +1,18 @@
-// A viewer: the state of one block's images, its controls and its drawing.
+// Viewer: the state of one block's images, its controls and its drawing.
 class Viewer {
-  // `data` as in the file; `images`: {name, role, width, height, data, nonfinite, version}. Of a
-  // live page `data` may have more: `room()`: CSS pixels for the stage, which it fills; `pointer`
-  // (pointer.js); `idle()`: the status line while the pointer is nowhere.
+  // `data` as in the report; `images`: {name, role, width, height, data, nonfinite, version}. On a
+  // live page `data` may also have `room()`: height of the stage in CSS pixels, which is then
+  // filled; `pointer` (pointer.js); `idle()`: the status line while the pointer is outside.
   constructor(root, data, images) {
-    // `pointer`: its position in the stage in CSS pixels, or null; `pixel` and `overView`: what is
-    // there.
+    // `pointer`: position in the stage in CSS pixels, or null; `pixel` and `overView`: pixel and
+    // view at that position.
     Object.assign(this, {root, data, images, pointer: null, pixel: null, overView: 0});
     const reference = images.findIndex(image => image.role === 'reference');
     const compare = Math.max(0, reference);
     const method = images.findIndex((_, i) => i !== compare);
     this.state = {
       current: method < 0 ? 0 : method, compare,
-      // A noisy image alone says little.
+      // Compare with the reference: a noisy image alone says little.
       mode: reference >= 0 && method >= 0 ? 'wipe' : 'single', error: 'none', stops: 0,
       tone: 'srgb', log: {}, wipe: 0.5, held: false, opacity: 0.7
     };
@@ -44,7 +44,6 @@ class Viewer {
     addPointer(this);
   }
 
-  // Changes the state and shows it.
   set(change) {
     Object.assign(this.state, change);
     const {state} = this;
@@ -59,7 +58,7 @@ class Viewer {
     this.redraw();
   }
 
-  // Shows other pixels, or another name, of an image; `change` has what is new.
+  // Replaces pixels or other properties of an image by those in `change`.
   setImage(i, change) {
     const image = this.images[i];
     Object.assign(image, change);
@@ -67,7 +66,7 @@ class Viewer {
     this.redraw();
   }
 
-  // The size that all images are shown in.
+  // Sets the size at which all images are shown.
   setSize(width, height) {
     if (width === this.camera.width && height === this.camera.height) return;
     this.camera.resize(width, height);
@@ -91,13 +90,13 @@ class Viewer {
   label(view) {
     const error = view.isError ? ` \u2013 ${ERRORS[this.state.error].title}` : '';
     const image = this.images[view.image];
-    // Of a live page: what shows the state before a change.
+    // On a live page: the image was rendered before the last change.
     const isOld = image.data && image.epoch !== undefined && image.epoch !== this.data.epoch;
     return `${view.image < 9 ? `${view.image + 1}  ` : ''}${image.name}${error}${
         isOld ? ' \u2013 before the change' : ''}`;
   }
 
-  // At the next frame, however often it is asked for.
+  // Schedules a drawing for the next frame; repeated calls are merged.
   redraw() {
     if (this.waiting) return;
     this.waiting = true;
@@ -121,7 +120,7 @@ class Viewer {
     this.list.show(this.state, this.painter, this.pixel);
     showLegend(this.legend, this.state, this.painter, this.images);
     this.toolbar.showZoom(this.camera);
-    // A finger moves the page until there is something to move in the view.
+    // A touch scrolls the page while the whole image fits into the view.
     this.canvas.style.touchAction = this.camera.fitted ? 'pan-y' : 'none';
     this.root.dataset.scale = this.camera.scale;
     this.root.dataset.drawn = Number(this.root.dataset.drawn || 0) + 1;
@@ -150,7 +149,7 @@ class Viewer {
 
   tag(view) {
     const current = this.state.mode === 'side' && view.image === this.state.current;
-    // Out of the way of what the pointer is at.
+    // Fade the tag if the pointer is near.
     const isNear = this.pointer && Math.abs(this.pointer[1] - view.y) < 48;
     const [left, right] = view.clip || [view.x, view.x + view.width];
     const side = view.clip && left > 0 ? `right:${this.frame.clientWidth - right}px`
@@ -161,7 +160,7 @@ class Viewer {
     };
   }
 
-  // Coordinates are those of the whole image, of which the file may hold a part.
+  // Coordinates are those of the whole image, even if the file holds a crop.
   showStatus() {
     const {pixel, state, images} = this;
     if (!pixel) {
@@ -209,7 +208,7 @@ class Viewer {
 
   toggleTone() { this.set({tone: this.state.tone === 'srgb' ? 'false' : 'srgb'}); }
 
-  // By CSS pixels.
+  // Moves by CSS pixels.
   pan(dx, dy) {
     this.camera.pan(dx, dy);
     this.redraw();
@@ -220,7 +219,8 @@ class Viewer {
     this.redraw();
   }
 
-  // About a position in the stage (CSS pixels), or the middle of a view. False where nothing moved.
+  // Zooms about a position in the stage (CSS pixels), or about the centre. Returns false if nothing
+  // moved.
   zoom(factor, x, y) {
     const hit = x === undefined ? null : this.stage.hit(x, y);
     const view = this.stage.views[hit ? hit.view : 0];

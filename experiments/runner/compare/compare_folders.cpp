@@ -18,15 +18,15 @@ namespace restlab {
 
 namespace {
 
-// Below this many runs the spread of times is itself a guess.
+// With fewer runs the spread of times is itself a guess.
 constexpr uint32_t kFewestTimedRuns = 4;
 
 struct Table {
   const Suite* suite = nullptr;
   BlockResult block;
   std::vector<MethodSummary> rows;
-  std::map<std::string, Words> words;  // of the methods
-  std::string reference;               // of its pixels
+  std::map<std::string, Words> words;  // by method name
+  std::string reference;               // hash of the reference's pixels
 };
 
 std::map<std::string, Table> tablesOf(const ResultsFolder& results) {
@@ -61,11 +61,10 @@ const MethodSummary* find(const Table& table, const std::string& name) {
 }
 
 struct Mses {
-  std::vector<double> before, after;  // of runs
+  std::vector<double> before, after;  // one value per run
 };
 
-// Of the runs that have a partner of the same seed, in pairs; nothing where some of the smaller set
-// have none.
+// Pairs runs of the same seed. Returns nothing if a run of the smaller set has no partner.
 std::optional<Mses> pairedMses(const std::vector<RunResult>& before,
                                const std::vector<RunResult>& after) {
   Mses pairs;
@@ -91,8 +90,8 @@ bool haveTimes(const std::vector<RunResult>& runs) {
                       [](const RunResult& run) { return run.timesMs.empty(); });
 }
 
-// One number a run: its median time, over that of `path`, the baseline, frame by frame where there
-// is one.
+// Returns the median frame time of each run. If `path` (the baseline) is given, each frame's time
+// is first divided by that of the baseline's run with the same index.
 std::vector<double> timesOf(const std::vector<RunResult>& runs,
                             const std::vector<RunResult>* path) {
   std::vector<double> all;
@@ -137,7 +136,7 @@ ComparedRow compareRows(const std::string& label, const Table& a, const MethodSu
   row.mseRatio = ratioOfPositives(pairs ? pairedRatioInterval(mses.after, mses.before, shared)
                                         : ratioInterval(mses.after, mses.before, shared));
   if ((pairs || !haveSeeds) && areSame)
-    row.mseRatio = {1.0, 1.0, 1.0};  // however few runs there are
+    row.mseRatio = {1.0, 1.0, 1.0};  // exact, however few runs there are
   if (haveSeeds && !pairs) {
     row.runsOfRatio = "of runs that are not paired, as their seeds differ";
   } else if (haveSeeds && runsA.size() != runsB.size()) {
@@ -158,7 +157,8 @@ ComparedRow compareRows(const std::string& label, const Table& a, const MethodSu
   return row;
 }
 
-// Times of rows of images were measured by another program: nothing here speaks against them.
+// Returns why the times get no verdict, "" if they get one. Images are not warned about: another
+// program measured their times.
 std::string whyTimesAreNotJudged(const ComparedRow& row, const MethodSummary& before,
                                  const MethodSummary& after, const FolderComparison& comparison) {
   if (row.time == Verdict::notKnown || before.method->images || after.method->images) return "";
@@ -179,7 +179,7 @@ std::string whyTimesAreNotJudged(const ComparedRow& row, const MethodSummary& be
   return "";
 }
 
-// Said once for all rows of a table that have the same reason.
+// Adds one note for all rows of a table that share a reason.
 void noteTimes(const std::string& label, const std::map<std::string, std::vector<std::string>>& why,
                size_t rows, FolderComparison& comparison) {
   for (const auto& [reason, methods] : why) {
@@ -190,12 +190,13 @@ void noteTimes(const std::string& label, const std::map<std::string, std::vector
   }
 }
 
-// Whatever else ran on the machine is in the times, also in those over the baseline.
+// Notes a difference in machine load: other processes slow frames down, and ratios over the
+// baseline too.
 void noteLoads(const ResultsFolder& first, const ResultsFolder& second,
                FolderComparison& comparison) {
   const double before = first.record.at("machine").at("load_1min").get<double>();
   const double after = second.record.at("machine").at("load_1min").get<double>();
-  if (before < 0.0 || after < 0.0) return;  // not known
+  if (before < 0.0 || after < 0.0) return;  // unknown
   const double cores = second.record.at("machine").at("cores").get<double>();
   if (std::abs(after - before) < 0.5 && std::max(before, after) < cores + 0.5) return;
   comparison.loads = fmt::format(
@@ -205,7 +206,7 @@ void noteLoads(const ResultsFolder& first, const ResultsFolder& second,
   comparison.notes.push_back(comparison.loads);
 }
 
-// Whoever made the folders, and whether they are whole.
+// Notes who made the folders and whether both are complete.
 void noteOrigins(FolderComparison& comparison) {
   const std::vector<std::string> differences =
       originDifferences(comparison.before, comparison.after);
@@ -233,7 +234,7 @@ void noteDifferences(const std::string& where, const std::vector<Difference>& di
   }
 }
 
-// Times over two baselines are no times over one.
+// Notes different baselines: times over two baselines cannot be compared.
 void noteBaselines(const std::string& label, const Table& a, const Table& b,
                    FolderComparison& comparison) {
   const std::string before = a.suite->yardstickName(), after = b.suite->yardstickName();
@@ -244,13 +245,13 @@ void noteBaselines(const std::string& label, const Table& a, const Table& b,
                   label, before.empty() ? "none" : before, after.empty() ? "none" : after));
 }
 
-// What differs in all rows of a table is said once.
+// Compares two tables. Notes a difference once if all rows of the table have it.
 void compareTables(const std::string& label, const Table& a, const Table& b,
                    FolderComparison& comparison) {
   std::vector<std::pair<std::string, std::vector<Difference>>> differences;
   std::map<std::string, size_t> counts;
-  std::map<std::string, std::vector<std::string>> ratios;  // the methods, by which runs they are of
-  std::map<std::string, std::vector<std::string>> notJudged;  // the methods, by why
+  std::map<std::string, std::vector<std::string>> ratios;     // text on the paired runs -> methods
+  std::map<std::string, std::vector<std::string>> notJudged;  // reason -> methods
   for (const MethodSummary& row : a.rows) {
     const std::string& name = row.method->name;
     const MethodSummary* same = find(b, name);

@@ -1,4 +1,4 @@
-// Is this version better? Two folders of results, table by table, method by method.
+// Compares two folders of results, table by table and method by method: is the new version better?
 #pragma once
 
 #include <filesystem>
@@ -11,23 +11,23 @@ namespace restlab {
 
 enum class Verdict { same, better, worse, notToldApart, notJudged, notKnown };
 
-// Of after / before of something of which less is better: better or worse where the interval is
-// bounded, does not reach 0 and leaves out 1.
+// Judges the interval of the ratio after / before of a quantity of which less is better. Returns
+// better or worse if the interval is bounded, lies above 0 and leaves out 1.
 Verdict verdictOf(const Interval& afterOverBefore);
 
 struct ComparedRow {
   std::string table, method;
   Interval before, after;  // MSE
-  // after / before: below 1 is better. Of the MSE, runs paired where the seeds of one folder are
-  // among those of the other; of the time, each over that of the baseline in its own folder where
-  // both have the same one, as the clocks of two hours differ.
+  // after / before: below 1 is better. MSE: runs are paired if the seeds of one folder are among
+  // those of the other. Time: each folder's times are divided by its own baseline if both have the
+  // same one, because clock speeds differ from hour to hour.
   Interval mseRatio, timeRatio;
-  std::string timesOver;    // the name of that baseline; "": times as they are
-  std::string whyNoTime;    // why the time gets no verdict though it is known; "": it gets one
-  std::string runsOfRatio;  // where the MSE's ratio is not of all runs in pairs: of which, and how
+  std::string timesOver;    // name of that baseline; "": times are not divided
+  std::string whyNoTime;    // why a known time gets no verdict; "": it gets one
+  std::string runsOfRatio;  // which runs the MSE's ratio is of, if not all in pairs
   Verdict error = Verdict::notKnown, time = Verdict::notKnown;
-  // Settings that define what is measured and differ, "max_bounces 8 / 2": then unlike things are
-  // compared, and the verdicts say so.
+  // Differing settings that define what is measured, "max_bounces 8 / 2". The verdicts then say
+  // that unlike things are compared.
   std::vector<std::string> unlike;
 
   bool isWorse() const { return error == Verdict::worse || time == Verdict::worse; }
@@ -37,17 +37,17 @@ struct ComparedRow {
 struct FolderComparison {
   FolderOrigin before, after;
   std::vector<ComparedRow> rows;
-  std::vector<std::string> notes;  // what is in one folder only, and all that differs
-  std::string loads;               // what else the machine did, where times may hold it; else ""
-  bool isOneProgram = false;       // made by the same sources, compiler, machine and devices
+  std::vector<std::string> notes;  // what only one folder has, and all differences
+  std::string loads;               // machine load that may be in the times; else ""
+  bool isOneProgram = false;       // same sources, compiler, machine and devices
 };
 
-// Throws Error (badInput) where a folder is none that `run` left, or the two have no method of a
+// Throws Error (badInput) if a folder was not written by `run`, or if the two have no method of a
 // table in common.
 FolderComparison compareFolders(const std::filesystem::path& before,
                                 const std::filesystem::path& after);
 
-// As a table in markdown, with who made what above and the notes below.
+// Returns a markdown table, with the origins of both folders above and the notes below.
 std::string comparisonTable(const FolderComparison& comparison);
 nlohmann::ordered_json comparisonJson(const FolderComparison& comparison);
 

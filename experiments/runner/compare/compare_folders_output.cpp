@@ -1,4 +1,4 @@
-// What `compare DIR DIR` prints.
+// Output of `compare DIR DIR`.
 #include <fmt/format.h>
 
 #include <set>

@@ -13,8 +13,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Of a job's identity: what names it, what FolderOrigin has, and what is measured. The seeds and
-// the reference are said in words of their own.
+// Keys of a job's identity that are not compared as words: names, what FolderOrigin has, and
+// measured values. Seeds and reference get words of their own.
 const std::set<std::string> kLeftOut = {"schema",    "results_schema",
                                         "kind",      "point",
                                         "run",       "seed",
@@ -26,13 +26,13 @@ const std::set<std::string> kLeftOut = {"schema",    "results_schema",
                                         "measuring", "compiler",
                                         "flags",     "build_type"};
 
-// Differences in these are said, but the measured quantity is the same: names of what hashes and
-// numbers tell beside them, what else is recorded, what the runs are drawn from and run on.
+// Keys whose differences are reported without making the measured quantity another one: names of
+// things that hashes and numbers identify beside them, further recorded outputs, seeds and devices.
 const std::set<std::string> kNoSettings = {
     "scene_source", "environment", "camera", "camera_index", "figures",  "timing",
     "device",       "bias",        "seeds",  "images",       "reference"};
 
-// Of the metadata of a reference: what it is an image of.
+// Metadata that identify the picture of a reference.
 const std::vector<std::string> kPicture = {"scene_hash", "camera_to_world", "camera_yfov",
                                            "width",      "height",          "max_bounces",
                                            "component",  "filter",          "multiscatter"};
@@ -52,7 +52,7 @@ void addWords(const Json& from, Words& words) {
   }
 }
 
-// "1-8", "1, 4, 7".
+// Returns "1-8" or "1, 4, 7".
 std::string numbersText(std::vector<int64_t> numbers) {
   std::sort(numbers.begin(), numbers.end());
   const bool isDense =
@@ -61,7 +61,7 @@ std::string numbersText(std::vector<int64_t> numbers) {
   return fmt::format("{}", fmt::join(numbers, ", "));
 }
 
-// The pixels decide whether two references are the same.
+// Includes a hash of the pixels, which decides whether two references are the same.
 std::string referenceText(const Reference& reference, const std::string& pixels) {
   const auto key = reference.metadata.find("reference_key");
   return fmt::format("({}, {} spp, pixels {})",
@@ -69,8 +69,8 @@ std::string referenceText(const Reference& reference, const std::string& pixels)
                      reference.spp, pixels.substr(0, 8));
 }
 
-// A setting that one of the two programs does not know is a difference of the programs. References
-// without a key may be images of anything.
+// Returns whether the difference makes the measured quantity another one. A setting that only one
+// program knows is a difference of the programs. References without a key may show anything.
 bool isSetting(const std::string& name, const std::string& before, const std::string& after) {
   if (before.empty() || after.empty()) return false;
   if (name == "reference")
@@ -80,7 +80,7 @@ bool isSetting(const std::string& name, const std::string& before, const std::st
 
 std::string shown(const std::string& word) { return word.empty() ? "none" : word; }
 
-// `from` has "build" and "machine".
+// `from`: has "build" and "machine".
 Words provenanceOf(const Json& from) {
   Words words;
   const auto add = [&](const char* part, std::initializer_list<const char*> names) {
@@ -99,7 +99,7 @@ FolderOrigin originOf(const ResultsFolder& results) {
   FolderOrigin origin;
   origin.folder = results.folder.string();
   origin.status = results.record.at("status").get<std::string>();
-  // Runs that were there already may be of another build than the last program's.
+  // Runs kept from an earlier call may be of another build than the last program's.
   std::map<std::string, std::set<std::string>> values;
   const auto add = [&](const Json& from) {
     for (const auto& [name, word] : provenanceOf(from)) values[name].insert(word);

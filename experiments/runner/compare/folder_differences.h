@@ -1,5 +1,5 @@
-// What the numbers of a folder of results depend on, in words, and in which of them two folders
-// differ.
+// Inputs that the numbers of a folder of results depend on, as words, and differences between
+// folders.
 #pragma once
 
 #include <map>
@@ -12,26 +12,25 @@ namespace restlab {
 
 using Words = std::map<std::string, std::string>;
 
-// Who made a folder's numbers: commit, sources, compiler, machine, devices. A word has several
-// values, joined, where runs of several builds are in the folder.
+// Origin of a folder's numbers: commit, sources, compiler, machine, devices. A word holds several
+// values, joined, if the folder has runs of several builds.
 struct FolderOrigin {
   std::string folder, status;
   Words words;
 };
 FolderOrigin originOf(const ResultsFolder& results);
-// "a: finished, commit 0123456789ab, ...".
+// Returns "a: finished, commit 0123456789ab, ...".
 std::string originText(const FolderOrigin& origin);
-// "git_commit a / b" for each word in which they differ.
+// Returns "git_commit a / b" for each differing word.
 std::vector<std::string> originDifferences(const FolderOrigin& before, const FolderOrigin& after);
 
-// What the numbers of each method of a block depend on but for what FolderOrigin has, by the
-// method's name.
+// Returns, by method name, what the numbers of a block depend on, without what FolderOrigin has.
 std::map<std::string, Words> blockWords(const ResultsFolder& results, const PlannedBlock& block,
                                         const Reference& reference);
 
 struct Difference {
   std::string text;        // "max_bounces 8 / 2"
-  bool isSetting = false;  // of what defines the measured quantity: the two are unlike things
+  bool isSetting = false;  // defines the measured quantity: unlike things are compared
 };
 std::vector<Difference> differencesOf(const Words& before, const Words& after);
 

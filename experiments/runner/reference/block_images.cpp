@@ -1,4 +1,4 @@
-// The images of a block.
+// Writes the images of a block, with an exposure for previews.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ float previewExposure(const Image& reference) {
   std::vector<float> brightest;
   for (const glm::vec3& pixel : reference.pixels) {
     const double luminance = previewLuminance(pixel);
-    // What is black, beside a room that is open to nothing, say, does not brighten it.
+    // Black pixels do not brighten the image, such as those around a room in an empty scene.
     if (luminance == 0.0) continue;
     luminances.push_back(luminance);
     brightest.push_back(std::max({pixel.x, pixel.y, pixel.z}));
@@ -37,19 +37,19 @@ float previewExposure(std::vector<double> luminances, std::vector<float> brighte
     std::nth_element(values.begin(), at, values.end());
     return double(*at);
   };
-  // The mean of logarithms: a lamp in view does not darken the picture. What is nearly black counts
-  // as a ten-thousandth of the median.
+  // Geometric mean: a lamp in view does not darken the image. Nearly black pixels count as a
+  // ten-thousandth of the median.
   const double least = 1e-4 * percentileOf(luminances, 0.5);
   double sum = 0.0;
   for (const double luminance : luminances) sum += std::log(std::max(luminance, least));
   const double exposure = 0.18 / std::exp(sum / double(luminances.size()));
-  // At most one lit pixel in a hundred is clipped, for no more than two stops.
+  // Clips at most one lit pixel in a hundred, but darkens by at most two stops for that.
   return float(std::clamp(1.0 / percentileOf(brightest, 0.99), 0.25 * exposure, exposure));
 }
 
 std::string blockLabel(const Suite& suite, const BlockResult& block) {
   const std::string path = suite.cameraPathName == "still" ? "" : "-" + suite.cameraPathName;
-  // Where paths are swept, the point names them.
+  // A swept path is already named in the point.
   const bool isNamed = suite.point.find("camera_path=") != std::string::npos;
   const std::string point = suite.point.empty() ? "" : "-" + suite.point;
   return safeFileName(block.scene + "-" + componentName(block.component) + (isNamed ? "" : path) +

@@ -18,7 +18,7 @@ constexpr size_t kNamedLights = 5;
 
 double luminance(const glm::vec3& c) { return 0.212639 * c.x + 0.715169 * c.y + 0.072192 * c.z; }
 
-// The table leaves out punctual lights without intensity.
+// Names punctual lights in the order of the light table, which leaves out lights without intensity.
 class PunctualNames {
  public:
   explicit PunctualNames(const Scene& scene) : scene_(scene) {}
@@ -32,8 +32,7 @@ class PunctualNames {
   size_t at_ = 0;
 };
 
-// The share of draws of a textured emitter that find its light, by material; each image is read
-// once.
+// Share of draws of a textured emitter that find its light, by material. Each image is read once.
 class TextureShares {
  public:
   explicit TextureShares(const Scene& scene) : scene_(scene) {}
@@ -49,7 +48,7 @@ class TextureShares {
     const uint32_t slot = material.textures[rl::RL_TEX_EMISSIVE];
     if (slot == rl::RL_INVALID) return 1.0;
     const TextureUse& use = scene_.textureUses.at(slot);
-    // Luminance by channel and byte.
+    // Luminance of a texel's channel, by byte value.
     std::array<std::array<double, 256>, 3> part{};
     for (uint32_t c = 0; c < 3; ++c) {
       glm::vec3 unit(0.0f);

@@ -16,7 +16,7 @@ namespace restlab {
 
 namespace {
 
-// All numbers of a camera that its image depends on, exactly. A zero has one sign here.
+// Writes all numbers of a camera that its image depends on, exactly. -0 is written as 0.
 std::string exactly(const SceneCamera& camera) {
   std::string text = camera.kind == rl::RL_CAMERA_ORTHOGRAPHIC ? "orthographic" : "perspective";
   if (camera.isMirrored) text += " mirrored";

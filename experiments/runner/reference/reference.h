@@ -1,6 +1,6 @@
-// Converged references: made by `path` with Russian roulette off, in two independent halves, so
-// that their own error is known; kept under a key of everything they depend on, and extended where
-// they have too few samples.
+// Converged references: rendered by `path` with Russian roulette off, in two independent halves
+// that give an estimate of the error; cached under a key of all their inputs, and extended on
+// demand.
 #pragma once
 
 #include <filesystem>
@@ -13,10 +13,10 @@
 
 namespace restlab {
 
-// What a reference depends on besides the scene.
+// Inputs of a reference besides the scene.
 struct ReferenceConfig {
   uint32_t width = 0, height = 0;
-  // Instead of the scene's camera: one of a camera path, say.
+  // Replaces the scene's camera, e.g. by one on a camera path.
   std::optional<SceneCamera> camera;
   uint32_t maxBounces = 8;
   uint32_t components = rl::RL_COMPONENT_ALL;
@@ -24,34 +24,34 @@ struct ReferenceConfig {
   bool multiscatter = false;
   uint32_t seed = 1;  // not part of the key
   int threads = 0;
-  // What renders it; not part of the key either.
+  // Device that renders; not part of the key.
   std::string backend = "cpu", device, rayTracing;
   bool validate = false;
 };
 
-// What `session` asks of a reference: the same picture on the same device, without its
-// method.
+// Returns the reference of what `session` renders: same picture, same device, without the method.
 ReferenceConfig referenceConfigOf(const SessionConfig& session);
 
-// The camera of `config` where its view is not exactly that of the scene's camera; else nothing.
+// Returns the camera of `config` if its view is not exactly that of the scene's camera; else
+// nothing.
 const SceneCamera* cameraInsteadOf(const PreparedScene& prepared, const ReferenceConfig& config);
 
-// When to stop: at the first target that is reached; 0 is no target. One must be set. What was
-// rendered in earlier calls counts. `relmse` is reached when all estimates since half of the
-// samples are at most that, and every light was drawn often enough (light_draws.h).
+// When to stop: at the first target that is reached; 0 is no target. At least one must be set.
+// Samples of earlier calls count. `relmse` is reached when all estimates since half of the samples
+// are at most `relmse`, and every light was drawn often enough (light_draws.h).
 struct ReferenceTarget {
   uint64_t spp = 0;         // samples per pixel of both halves together, at least 2
   double relmse = 0.0;      // mean d^2/(r^2+1e-2) of the mean, estimated from the halves
   double timeLimitS = 0.0;  // seconds of rendering
 };
 
-// An error that is small enough waits for lights that were drawn too seldom, until `spp` or
-// `timeLimitS`. Where neither is set it waits for no more than so many times the samples that it
-// took itself: what needs more stops, and is not called converged.
+// Limit of waiting for rarely drawn lights after the error is small enough. The wait ends at `spp`
+// or `timeLimitS`; if neither is set, a rendering that needs more than this many times its samples
+// stops, and is not called converged.
 constexpr double kMostForLights = 4.0;
 
-// `relmseSinceHalf` as RelmseChecks has it; NaN where it is not known. `sppForLights`: samples per
-// pixel with which every light is drawn often enough (light_draws.h); 0 where that is not known.
+// `relmseSinceHalf`: from RelmseChecks; NaN if unknown. `sppForLights`: samples per pixel with
+// which every light is drawn often enough (light_draws.h); 0 if unknown.
 bool targetReached(const ReferenceTarget& target, uint64_t spp, double relmseSinceHalf,
                    double timeS, double sppForLights);
 
@@ -66,35 +66,33 @@ struct Reference {
   double timeS = 0.0;            // rendering only
 };
 
-// Why its error may lack the share of some lights, which both halves may have missed: the lights
-// and how often they were drawn (light_draws.h); "" where each was drawn often enough, or nobody
-// knows.
+// Returns which lights were drawn too seldom and how often (light_draws.h): both halves may have
+// missed their share. "" if every light was drawn often enough, or nothing is known.
 std::string whyNotConverged(const Reference& reference);
 
 // Layers of the file that writeReference makes: the mean, its variance, two halves.
 constexpr uint32_t kReferenceLayers = 4;
 
-// What renderReference holds, roughly: two sessions of `path`, each a buffer and an image; the
+// Approximate memory of renderReference: two sessions of `path`, each a buffer and an image; the
 // sums; the layers and their copies.
 constexpr size_t kReferenceBytesPerPixel =
     4 * sizeof(glm::vec3) + kStateBytesPerPixel + 2 * kReferenceLayers * sizeof(glm::vec3);
 
-// The key: scene and environment bytes, camera (the number of the scene's, all numbers of another
-// one), size, bounces, components, filter, multiscatter and the sources of core/ and
+// Hashes the bytes of scene and environment, camera (the number of the scene's, all numbers of
+// another one), size, bounces, components, filter, multiscatter and the sources of core/ and
 // integrators/path.
 std::string referenceKey(const PreparedScene& prepared, const ReferenceConfig& config);
 
 // Renders until the target is reached, from the progress that `store` has of this key, seed and
-// backend; the result is bit for bit that of one rendering on the same device. Progress goes to
-// stderr and, now and then, to `store`. Throws Error (interrupted) on SIGINT; that and any other
-// error costs nothing that was rendered, where the store can be written. `unused`: why a stored
-// file does not serve, which is said together with what is done about it.
+// backend. The result is bit for bit that of one rendering on the same device. Writes progress to
+// stderr and regularly to `store`. Throws Error (interrupted) on SIGINT; no error loses rendered
+// samples if the store can be written. `unused`: why a stored file cannot be used, for the log.
 Reference renderReference(const PreparedScene& prepared, const ReferenceConfig& config,
                           const ReferenceTarget& target, const ReferenceStore& store = {},
                           const std::string& unused = "");
 
 struct ReferenceState;
-// What a state holds so far, with its metadata. Both halves have a sample.
+// Returns the current result of a state, with its metadata. Both halves must have a sample.
 Reference referenceOf(const PreparedScene& prepared, const ReferenceConfig& config,
                       const ReferenceState& state);
 
@@ -102,29 +100,30 @@ Reference referenceOf(const PreparedScene& prepared, const ReferenceConfig& conf
 void writeReference(const std::filesystem::path& file, const Reference& reference);
 Reference readReference(const std::filesystem::path& file);
 
-// What a file of references holds.
+// Result of reading a stored reference.
 struct StoredReference {
-  std::optional<Reference> reference;  // of the wanted key, whole, with halves
-  std::string unused;                  // a line that says why there is none; "": there is no file
+  std::optional<Reference> reference;  // of the wanted key, complete, with halves
+  std::string unused;                  // why the file cannot be used, one line; "": no file
 };
 StoredReference readStored(const std::filesystem::path& file, const std::string& key);
 
-// True when `reference` is at least as good as the target asks.
+// Returns whether `reference` is at least as good as the target asks.
 bool meetsTarget(const Reference& reference, const ReferenceTarget& target);
 
-// Throws Error (badInput) where a reference given as a file holds values that are not finite, or is
-// an image of restlab's that no reference is.
+// Throws Error (badInput) if a reference given as a file holds values that are not finite, or is a
+// restlab image of another kind.
 void requireUsable(const std::string& file, const Reference& reference);
 
-// Throws Error (badInput) naming the first item in which a reference given as a file disagrees with
-// what is asked; a file without restlab's metadata passes with a warning.
+// Throws Error (badInput) that names the first item in which a reference given as a file disagrees
+// with `wanted`. A file without restlab's metadata passes with a warning.
 void requireSameConfiguration(const std::string& file,
                               const std::map<std::string, std::string>& reference,
                               const std::map<std::string, std::string>& wanted);
 
-// The reference for a row of `run`: from `folder` or the user's cache where the key agrees and the
-// samples are enough, else continued or rendered, and stored in both. A stored one may be of
-// another seed, with which it is continued, or backend. `label` names the file inside `folder`.
+// Obtains the reference for a row of `run`: from `folder` or the user's cache if the key agrees and
+// the samples are enough, else continued or rendered, and stored in both. A stored reference may be
+// of another seed, with which it is continued, or of another backend. `label` names the file inside
+// `folder`.
 Reference obtainReference(const PreparedScene& prepared, const ReferenceConfig& config,
                           const ReferenceTarget& target, const std::filesystem::path& folder,
                           const std::string& label);

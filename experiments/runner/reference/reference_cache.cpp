@@ -1,5 +1,5 @@
-// References on disk: in the result folder under a readable name, and in the user's cache under
-// their key. Both are checked by key; neither is trusted by name.
+// References on disk: in the results folder under a readable name, and in the user's cache under
+// their key. Both are checked by key, never trusted by name.
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -63,7 +63,7 @@ Reference obtainReference(const PreparedScene& prepared, const ReferenceConfig& 
   store.folder = referenceCacheFolder();
   const fs::path cached = store.folder.empty() ? fs::path() : store.folder / (key + ".exr");
   ReferenceConfig wanted = config;
-  std::string unused;  // what is wrong with the first file
+  std::string unused;  // why the first file cannot be used
   for (const fs::path& file : {local, cached}) {
     StoredReference stored = readStored(file, key);
     if (stored.reference && meetsTarget(*stored.reference, target)) {

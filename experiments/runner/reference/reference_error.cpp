@@ -17,7 +17,7 @@ bool identical(const Image& a, const Image& b) {
 
 MetricValue errorAgainst(const std::string& metric, const Image& image, const Reference& reference,
                          const MetricOptions& options) {
-  // The halves are for images that are independent of the reference, which it itself is not.
+  // The two-halves estimate needs an image that is independent of the reference: not the reference.
   const bool isRelative = metric == "relmse_e1e-2" || metric == "relmse_e1e-2_trim0.1";
   if (!(metric == "mse" || isRelative) || !reference.half0 || identical(image, reference.mean)) {
     return evaluateMetric(metric, image, reference.mean, options);

@@ -38,7 +38,7 @@ Reference readReference(const std::filesystem::path& file) {
   LayeredImage image = readColours(file, {"half0", "half1", "variance"});
   Reference reference;
   reference.mean = std::move(image.layers.at(""));
-  // What other programs call so is of samples or of the mean: nobody knows.
+  // Drop a layer "variance" of other programs: of samples or of the mean, nobody knows.
   if (image.metadata["kind"] != "reference") image.layers.erase("variance");
   for (const char* name : {"half0", "half1", "variance"}) {
     const auto layer = image.layers.find(name);

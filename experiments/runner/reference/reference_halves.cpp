@@ -11,7 +11,7 @@ namespace restlab {
 
 namespace {
 
-// The seeds of the halves are far from those that methods are run with.
+// Keeps the seeds of the halves far from the seeds of the methods.
 uint32_t halfSeed(uint32_t seed, uint32_t half) {
   const uint32_t words[3] = {seed, half, 0x72656665u};
   return uint32_t(XXH3_64bits(words, sizeof(words)));
@@ -55,7 +55,8 @@ SessionConfig referenceSession(const PreparedScene& prepared, const ReferenceCon
 }
 
 double estimateRelmse(const ImageSum& a, const ImageSum& b) {
-  // The difference of the halves has the variance s^2 (1/n0 + 1/n1), their mean s^2 / (n0 + n1).
+  // For variance s^2 per sample, the difference of the halves has the variance s^2 (1/n0 + 1/n1),
+  // their mean s^2 / (n0 + n1).
   const Image half0 = a.mean(), half1 = b.mean(), mean = ImageSum::meanOfBoth(a, b);
   const double n0 = double(a.count()), n1 = double(b.count());
   const double factor = n0 * n1 / ((n0 + n1) * (n0 + n1));
@@ -93,7 +94,7 @@ bool ReferenceHalves::addSample(const std::function<bool()>& isStopped) {
       isStopped ? half.frameUnless(isStopped) : std::optional(half.frame());
   if (!stats) return false;
   const Image& frame = half.radiance();
-  // From here on nothing fails: a state that is kept holds whole samples.
+  // Nothing below throws: a kept state holds whole samples.
   (isFirst ? state_.half0 : state_.half1).add(frame);
   state_.squares.addSquares(frame);
   state_.health.add(*stats);

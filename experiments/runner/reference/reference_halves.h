@@ -1,4 +1,4 @@
-// Renders the samples of a reference, one after the other, to its two independent halves.
+// Renders the samples of a reference one by one, alternating between its two independent halves.
 #pragma once
 
 #include <functional>
@@ -9,23 +9,24 @@
 
 namespace restlab {
 
-// What a half of a reference is rendered with, but for its seed.
+// Returns the session that renders a half of a reference, apart from its seed.
 SessionConfig referenceSession(const PreparedScene& prepared, const ReferenceConfig& config);
 
-// relmse_e1e-2 of the mean of both halves against the truth, estimated from what they differ in.
+// Estimates relmse_e1e-2 of the mean of both halves against the truth from their difference.
 double estimateRelmse(const ImageSum& a, const ImageSum& b);
 
-// One session a half. Each starts at the frame after those that its half has.
+// One session per half. Each continues after the frames that its half has already.
 class ReferenceHalves {
  public:
-  // `state` is what there is, and gets what is added; it must live as long. `hostBytesPerPixel`: as
-  // of a session.
+  // `state`: holds the samples so far and receives new ones; must outlive this object.
+  // `hostBytesPerPixel`: see Session.
   ReferenceHalves(const PreparedScene& prepared, const ReferenceConfig& config,
                   ReferenceState& state, size_t hostBytesPerPixel = 0);
 
-  // The next sample of every pixel, of the half whose turn it is, with its time and the checks that
-  // are due. What ends it early leaves the state as it was. Where `isStopped` holds before it ends
-  // (Session::frameUnless) there is none, and the same one is next: false then.
+  // Renders the next sample of every pixel for the half whose turn it is, and updates time and
+  // error estimates. An exception leaves the state as it was. If `isStopped` returns true before
+  // the frame ends (Session::frameUnless), returns false without a sample; the next call renders
+  // the same one.
   bool addSample(const std::function<bool()>& isStopped = {});
 
  private:

@@ -12,7 +12,7 @@ namespace restlab {
 
 namespace {
 
-// Mean over images, by the mean and by each half as the divisor.
+// relMSE averaged over images, with the mean and with each half as the divisor.
 struct ByDivisor {
   double mean = 0.0, half0 = 0.0, half1 = 0.0;
   bool differs() const {
@@ -64,7 +64,7 @@ std::string relmseFlag(const Reference& reference, const BiasRuns& runs) {
     add(trimmed, share * mean.trimmed, share * by0.trimmed, share * by1.trimmed);
   }
   if (!relmse.differs() && !trimmed.differs()) return "";
-  // Of many runs only means of groups are left, whose errors are smaller.
+  // Many runs are kept only as means of groups, which have smaller errors.
   const std::string of = runs.count() > images.size()
                              ? fmt::format(" (of means of {} runs)", runs.count() / images.size())
                              : "";

@@ -1,5 +1,5 @@
-// What the reference's own noise does to the numbers of a row: how much wider it makes the
-// intervals of its squared errors, and what a reader must be told.
+// Effect of the reference's own noise on the numbers of a row: how much it widens the intervals of
+// squared errors, and warnings for the reader.
 #pragma once
 
 #include <string>
@@ -13,27 +13,27 @@ namespace restlab {
 // All 0 for a reference without halves, whose noise is part of every MSE.
 struct ReferenceNoise {
   double varianceOfHalf = 0.0;  // mean over pixels and channels
-  double common = 0.0;          // variance of what it adds to the MSE of all methods
+  double common = 0.0;          // variance of its contribution to the MSE of all methods
   double commonAtLeast = 0.0;
-  double shared = 0.0;  // variance of what it adds to the MSE of all runs of this one
+  double shared = 0.0;  // variance of its contribution to the MSE of all runs of this method
 };
 
 ReferenceNoise noiseOf(const Reference& reference, const BiasRuns& runs);
 
-// Of the ratio of two methods' MSE against the same halves.
+// Returns the noise in the ratio of two methods' MSE against the same halves.
 SharedNoise sharedNoise(const ReferenceNoise& numerator, const ReferenceNoise& denominator,
                         bool areSameImages = false);
 
-// Below this many variances of a half an MSE is flagged. The interval is right there, too, but more
-// samples of the reference would narrow it, not more runs.
+// Flags an MSE below this many variances of a half. Its interval is still right, but only more
+// samples of the reference narrow it, not more runs.
 constexpr double kVariancesOfHalfMin = 4.0;
 bool isNearNoise(double mse, const ReferenceNoise& noise);
 
-// Of relMSE, with and without its worst pixels: the largest relative change where a half of the
-// reference divides instead of its mean. More than this is flagged.
+// Flags relMSE, with or without its worst pixels, if it changes relatively by more than this when a
+// half of the reference divides instead of the mean.
 constexpr double kRelmseChangeMax = 0.05;
 
-// Why relMSE of these runs depends on the reference's noise; "" where it does not, or where the
+// Returns why relMSE of these runs depends on the reference's noise; "" if it does not, or if the
 // reference has no halves.
 std::string relmseFlag(const Reference& reference, const BiasRuns& runs);
 

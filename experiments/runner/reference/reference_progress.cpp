@@ -17,9 +17,9 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kExtension = ".state";
-// Writing takes at most one part in so many of the time.
+// Minimum ratio of rendering time to writing time.
 constexpr double kRenderingPerSaving = 20.0;
-// What was touched since then may be in use.
+// Files used within this time may be in use by another program.
 constexpr std::chrono::hours kInUse{1};
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
@@ -32,7 +32,7 @@ struct Kept {
   uint64_t bytes = 0;
 };
 
-// Every state of the folder; removes the unfinished ones that programs left when they were killed.
+// Lists the states of the folder. Removes unfinished files of programs that were killed.
 std::vector<Kept> statesIn(const fs::path& folder) {
   std::vector<Kept> states;
   const auto longAgo = fs::file_time_type::clock::now() - kInUse;
@@ -51,7 +51,7 @@ std::vector<Kept> statesIn(const fs::path& folder) {
   return states;
 }
 
-// Removes states until the folder holds at most `maxBytes` of them; says so.
+// Removes the least recently used states until the folder holds at most `maxBytes`, and logs it.
 void makeRoom(const fs::path& folder, uint64_t maxBytes) {
   std::vector<Kept> states = statesIn(folder);
   uint64_t bytes = 0, removedBytes = 0;

@@ -1,6 +1,5 @@
 // Progress of references between calls of the program: a state under the reference's key, written
-// every half a minute. A file that cannot be written costs what was rendered since, never the
-// rendering.
+// every half minute. A failed write loses progress since the last one, never the rendering.
 #pragma once
 
 #include <chrono>
@@ -12,32 +11,31 @@
 
 namespace restlab {
 
-// Where progress is kept, and how.
+// Where and how often progress is stored.
 struct ReferenceStore {
   std::filesystem::path folder;  // empty: nothing is kept
-  double intervalS = 30.0;       // between two writes; more where writing takes long
-  // States that were not used for longest are removed beyond this; never one of the last hour.
+  double intervalS = 30.0;       // between two writes; longer if writing takes long
+  // Beyond this size the least recently used states are removed, but none used in the last hour.
   uint64_t maxBytes = uint64_t(8) << 30;
 };
 
 // $XDG_CACHE_HOME/restlab/references or ~/.cache/restlab/references; empty where neither is set.
 std::filesystem::path referenceCacheFolder();
 
-// The file of a state in its folder.
 std::filesystem::path stateFile(const std::filesystem::path& folder, const ReferenceId& id);
 
 class ReferenceProgress {
  public:
-  // Makes room in the folder. One that cannot be written to is a warning.
+  // Makes room in the folder. Warns if the folder cannot be written.
   ReferenceProgress(const ReferenceStore& store, ReferenceId id);
 
   const std::filesystem::path& file() const { return file_; }  // empty: nothing is kept
-  // What was kept of these samples. A damaged file is one line, and is removed.
+  // Returns the stored state of these samples. Logs and removes a damaged file.
   std::optional<ReferenceState> load() const;
-  // Writes when it is time to.
+  // Writes if the interval has passed.
   void update(const ReferenceState& state);
-  // Writes at once, unless the file holds more already: programs may work at one reference at the
-  // same time. The first failure is a warning. True when the samples are kept.
+  // Writes at once, unless the file holds more samples already: several programs may work at one
+  // reference. Warns at the first failure. Returns true if the samples are kept.
   bool save(const ReferenceState& state);
 
  private:

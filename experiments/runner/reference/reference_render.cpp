@@ -1,4 +1,4 @@
-// Rendering of references: samples go by turns to two halves, from wherever stored progress ended.
+// Renders references: samples alternate between two halves, starting from stored progress.
 #include <fmt/format.h>
 
 #include "core/backend/stop.h"
@@ -20,8 +20,8 @@ RareLights rareLightsOf(const ReferenceState& state, const std::vector<DrawnLigh
   return rareLights(lights, double(state.health.raysPath), double(state.spp()));
 }
 
-// Whether the state is what was asked for. An error that is small enough counts where every light
-// was drawn often enough to be in it, or where nothing else would end the wait.
+// Returns whether the state meets the target. A small enough error counts if every light was drawn
+// often enough, or if nothing else would end the wait.
 bool isEnough(const ReferenceState& state, const ReferenceTarget& target,
               const std::vector<DrawnLight>& lights) {
   return targetReached(target, state.spp(), state.checks.sinceHalf(), state.timeS,
@@ -58,7 +58,7 @@ void renderUntil(ReferenceHalves& halves, ReferenceState& state, const Reference
     try {
       halves.addSample();
     } catch (const FrameStopped&) {
-      continue;  // with what there was before this sample
+      continue;  // with the samples before this one
     }
     kept.update(state);
     progress.update(state.spp(), noteOf(state, target, lights));
@@ -66,7 +66,7 @@ void renderUntil(ReferenceHalves& halves, ReferenceState& state, const Reference
   progress.finish();
 }
 
-// Lists the lights whose light depends on being drawn: without a scattering event none is.
+// Lists the lights that are sampled: none without a scattering event.
 std::vector<DrawnLight> sampledLights(const PreparedScene& prepared,
                                       const ReferenceConfig& config) {
   return config.maxBounces == 0 ? std::vector<DrawnLight>() : drawnLights(*prepared.scene);
@@ -105,7 +105,7 @@ Reference referenceOf(const PreparedScene& prepared, const ReferenceConfig& conf
   if (const SceneCamera* camera = cameraInsteadOf(prepared, config)) {
     describeCamera(*camera, reference.metadata);
   }
-  reference.metadata.merge(provenanceWords());  // of the program that rendered the last of it
+  reference.metadata.merge(provenanceWords());  // of the program that rendered the last samples
   reference.metadata["device"] = joined(state.devices);
   reference.metadata["ray_tracing"] = joined(state.rayTracing);
   reference.metadata["kind"] = "reference";
@@ -150,7 +150,7 @@ Reference renderReference(const PreparedScene& prepared, const ReferenceConfig& 
     try {
       renderUntil(halves, state, target, kept, lights);
     } catch (...) {
-      kept.save(state);  // a lost device, say: what came before it is kept
+      kept.save(state);  // keep the samples before e.g. a lost device
       throw;
     }
     kept.save(state);

@@ -1,5 +1,6 @@
-// The file: a prefix of fixed size, a header in JSON, the three sums as they lie in memory, and the
-// hash of the sums. It belongs to one machine: doubles and integers are in its byte order.
+// File layout: a prefix of fixed size, a header in JSON, the three sums as they lie in memory, and
+// the hash of the sums. Doubles and integers are in the byte order of the machine that wrote the
+// file.
 #include "experiments/runner/reference/reference_state.h"
 
 #include <fmt/format.h>
@@ -65,7 +66,7 @@ nlohmann::ordered_json headerOf(const ReferenceState& state) {
           {"ray_tracing", state.rayTracing}};
 }
 
-// The header of an opened file, which then stands at the first sum.
+// Reads the header of an opened file and leaves the stream at the first sum.
 nlohmann::json readHeader(const fs::path& file, std::ifstream& in) {
   Prefix prefix;
   in.read(reinterpret_cast<char*>(&prefix), sizeof(prefix));
@@ -93,7 +94,7 @@ ReferenceState fromHeader(const fs::path& file, const nlohmann::json& header) {
   ReferenceState state;
   state.id = idOf(header);
   state.timeS = header.at("render_time_s").get<double>();
-  // Earlier versions kept none: then a target of error waits for new ones.
+  // Earlier versions stored no checks: a target of error then waits for new ones.
   if (const auto checks = header.find("relmse_checks"); checks != header.end())
     state.checks = RelmseChecks(checks->get<std::vector<double>>());
   const auto health = header.at("health").get<std::vector<uint64_t>>();
@@ -145,7 +146,7 @@ ReferenceState readState(const fs::path& file) {
 }  // namespace
 
 void writeReferenceState(const fs::path& file, const ReferenceState& state) {
-  // A driver may call its device anything.
+  // Replace invalid UTF-8: a driver may give its device any name.
   const std::string header =
       headerOf(state).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   Prefix prefix;
@@ -184,7 +185,7 @@ uint64_t storedSamples(const fs::path& file, const ReferenceId& id) {
     if (idOf(header) != id) return 0;
     return header.at("samples_half0").get<uint64_t>() + header.at("samples_half1").get<uint64_t>();
   } catch (const std::exception&) {
-    return 0;  // whoever reads it says what is wrong
+    return 0;  // reading the file reports what is wrong
   }
 }
 

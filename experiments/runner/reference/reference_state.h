@@ -1,5 +1,5 @@
-// What a reference is made of, exactly: sums in double precision, to which further samples can be
-// added as if the rendering had never stopped; and the file that keeps them.
+// Exact state of a reference: sums in double precision that further samples can be added to as if
+// the rendering had never stopped, and the file that stores them.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace restlab {
 
-// Which samples: those of one key, seed and backend make one sequence.
+// Identifies a sequence of samples: one key, seed and backend.
 struct ReferenceId {
   std::string key;  // referenceKey(): the scene, the settings and the sources
   uint32_t seed = 1;
@@ -22,13 +22,14 @@ struct ReferenceId {
 
 struct ReferenceState {
   ReferenceId id;
-  // Samples go by turns, half0 first. What a half has summed is also the number of its next frame.
+  // Samples alternate between the halves, half0 first. A half's count is the number of its next
+  // frame.
   ImageSum half0, half1;
-  ImageSum squares;  // of the samples of both
+  ImageSum squares;  // over both halves
   RelmseChecks checks;
   HealthSum health;
   double timeS = 0.0;  // spent rendering
-  // What rendered it, in the order in which they came, each named once.
+  // Devices and ray tracing backends in order of use, each named once.
   std::vector<std::string> devices, rayTracing;
 
   uint64_t spp() const { return half0.count() + half1.count(); }
@@ -37,16 +38,16 @@ struct ReferenceState {
 // Bytes of a state, in memory and in its file.
 constexpr size_t kStateBytesPerPixel = 3 * sizeof(glm::dvec3);
 
-// Writes a state of at least two samples, whole or not at all. Throws Error (badInput) naming the
-// file.
+// Writes a state of at least two samples, completely or not at all. Throws Error (badInput) naming
+// the file.
 void writeReferenceState(const std::filesystem::path& file, const ReferenceState& state);
 
-// Reads it back, bit for bit. Sizes are checked before anything is allocated, everything against
-// checksums. Throws Error (badInput): the file, and what is wrong with it.
+// Reads a state, bit for bit. Checks sizes before it allocates, and everything against checksums.
+// Throws Error (badInput): the file, and what is wrong with it.
 ReferenceState readReferenceState(const std::filesystem::path& file);
 
-// Samples per pixel of the state in a file, from its header alone; 0 where there is no file, or one
-// of other samples.
+// Returns samples per pixel of the state in a file, from its header alone; 0 if there is no file,
+// or its samples are of another id.
 uint64_t storedSamples(const std::filesystem::path& file, const ReferenceId& id);
 
 }  // namespace restlab

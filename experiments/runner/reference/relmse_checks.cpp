@@ -9,7 +9,7 @@ namespace restlab {
 
 namespace {
 
-constexpr int kBitsOfDoubling = 2;                            // 2^2 checks
+constexpr int kBitsOfDoubling = 2;                            // 2^2 checks per doubling
 constexpr size_t kKept = (size_t(1) << kBitsOfDoubling) + 1;  // both ends of a doubling
 
 }  // namespace

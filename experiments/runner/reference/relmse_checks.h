@@ -1,6 +1,7 @@
-// When a reference has samples enough for a target error. Its estimate is noisy, and too low as
-// long as no sample has found a rare bright path: the first one below the target would stop too
-// early. So estimates are made at fixed numbers of samples, and all since half of them must agree.
+// Decides when a reference has enough samples for a target error. The estimated error is noisy, and
+// too low until a sample finds a rare bright path: stopping at the first estimate below the target
+// would be too early. Estimates are therefore made at fixed numbers of samples, and all since half
+// of the samples must agree.
 #pragma once
 
 #include <cstdint>
@@ -10,21 +11,21 @@ namespace restlab {
 
 class RelmseChecks {
  public:
-  // Below this many samples the two halves say too little about their own error.
+  // With fewer samples the two halves say too little about their own error.
   static constexpr uint64_t kFirstSpp = 16;
 
   RelmseChecks() = default;
-  // Those that were kept of an earlier call.
+  // Continues with the checks kept from an earlier call.
   explicit RelmseChecks(std::vector<double> kept) : last_(std::move(kept)) {}
 
-  // Four times for each doubling: 16, 20, 24, 28, 32, 40, 48, ... samples. Nowhere else, so that a
-  // rendering that was interrupted stops where it would have stopped.
+  // Due four times per doubling: at 16, 20, 24, 28, 32, 40, 48, ... samples. Fixed numbers let an
+  // interrupted rendering stop at the same sample as an uninterrupted one.
   static bool isDue(uint64_t spp);
   void add(double relmse);
-  // What later decisions need: the last estimates, the newest last.
+  // Returns the estimates that later decisions need, the newest last.
   const std::vector<double>& kept() const { return last_; }
-  // The largest of the estimates from n / 2 to n samples, n those of the last; NaN where some of
-  // them were not made.
+  // Returns the largest estimate from n / 2 to n samples, n being the number at the last estimate;
+  // NaN if some of them were not made.
   double sinceHalf() const;
 
  private:

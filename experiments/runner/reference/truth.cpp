@@ -12,7 +12,7 @@ namespace restlab {
 
 namespace {
 
-// Of the metadata: absent where a reference was rendered of the scene itself.
+// Metadata key; absent if a reference was rendered from the scene itself.
 constexpr const char* kTruth = "truth";
 
 analytic::ExactView viewOf(const PreparedScene& plain, const ReferenceConfig& config) {

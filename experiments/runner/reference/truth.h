@@ -1,4 +1,4 @@
-// References that are known, and not rendered of the scene that is measured.
+// References that are not rendered from the measured scene, but known in another way.
 #pragma once
 
 #include <filesystem>
@@ -9,38 +9,39 @@
 namespace restlab {
 
 enum class Truth {
-  rendered,  // of the scene itself, as everywhere
+  rendered,  // from the scene itself, the default
   exact,     // in closed form (experiments/truths)
-  same,      // of the scene without `scale`, `radiance` and `move`, times its radiance
+  same,      // from the scene without `scale`, `radiance` and `move`, times its radiance
 };
 
-// The scene of a request without these three.
+// Removes these three parameters from the scene of a request.
 SceneRequest withoutRelations(SceneRequest request);
-// What `radiance` in a scene's name multiplies its image by; 1 where the name has none.
+// Returns the factor that `radiance` in a scene's name applies to its image; 1 without it.
 double radianceFactor(const std::string& scene);
 
-// Has it a `scale` or a `move`? Lengths of a camera path are then not those of the plain scene.
+// Returns whether the scene has a `scale` or a `move`. Lengths of a camera path then differ from
+// the plain scene's.
 bool isElsewhere(const std::string& scene);
 
-// Why `truth` cannot be had of this view, in words; "": it can. `plain`: prepared of
+// Returns why `truth` is not available for this view; "" if it is. `plain`: prepared from
 // withoutRelations().
 std::string whyNoTruth(Truth truth, const SceneRequest& request, const PreparedScene& plain,
                        const ReferenceConfig& config);
 
-// The exact image as a reference without noise: both halves are it.
+// Returns the exact image as a reference without noise: both halves equal it.
 Reference exactReference(const SceneRequest& request, const PreparedScene& plain,
                          const ReferenceConfig& config);
-// `reference` times `factor`, with its noise.
+// Returns `reference` times `factor`, its noise included.
 Reference multiplied(Reference reference, double factor);
 
-// The name, in a folder of results, of the file that is rendered for Truth::same, with the camera
-// on the path of that name.
+// Names the file in a folder of results that is rendered for Truth::same, with the camera on the
+// path of that name.
 constexpr const char* kPlainReference = "-plain";
 std::string plainLabel(const SceneRequest& request, const std::string& path,
                        const PreparedScene& plain, const ReferenceConfig& config);
 
-// "in closed form", "of the scene without ..., 256 spp", "256 spp": where a reference comes from,
-// for tables.
+// Returns where a reference comes from, for tables: "in closed form", "of the scene without ...,
+// 256 spp", "256 spp".
 std::string originOf(const Reference& reference);
 
 }  // namespace restlab

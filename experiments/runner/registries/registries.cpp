@@ -38,7 +38,7 @@ Json parametersJson(const PartInfo& part) {
   for (const ParameterInfo& parameter : part.parameters)
     parameters.push_back(parameterJson(parameter));
   if (!asksForChanges(part)) return parameters;
-  // Those of a part that comes with it, with the defaults that it gives them.
+  // Adds the parameters of the part that detects changes, with the defaults that `part` gives them.
   for (ParameterInfo parameter : changesPartInfo().parameters) {
     const auto changed = part.defaults.find(parameter.name);
     if (changed != part.defaults.end()) parameter.defaultValue = changed->second;

@@ -1,4 +1,4 @@
-// What there is to choose from, as JSON: that of `restlab list KIND --json`.
+// Registries as JSON: the output of `restlab list KIND --json`.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -7,15 +7,15 @@
 
 namespace restlab {
 
-// "name", "default", "range" of numbers, "choices", "help" and "source".
+// Returns "name", "default", "range" of numbers, "choices", "help" and "source".
 nlohmann::ordered_json parameterJson(const ParameterInfo& parameter);
 nlohmann::ordered_json parameterValueJson(const ParameterValue& value);
 
-// Arrays in the order of the registries.
+// Return arrays in the order of the registries.
 nlohmann::ordered_json integratorsJson();
 nlohmann::ordered_json cachesJson();
 nlohmann::ordered_json backendsJson();
-// Those that are there, then those that the program was built without.
+// Lists available denoisers first, then those that the program was built without.
 nlohmann::ordered_json denoisersJson();
 nlohmann::ordered_json metricsJson();
 

@@ -20,7 +20,7 @@ std::vector<std::string> warningsOf(const Suite& suite, const PreparedScene& pre
     const std::string line = fmt::format("{}: {}", blockLabel(suite, block), what);
     if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
   };
-  // A camera that has left the room, say: nothing can be said of an image without light.
+  // For example a camera that has left the room. Without light in the image no row means anything.
   if (std::all_of(reference.pixels.begin(), reference.pixels.end(),
                   [](const glm::vec3& p) { return p == glm::vec3(0.0f); }))
     say("its reference is black; its rows say nothing");

@@ -1,4 +1,4 @@
-// What a reader must know of a scene before its rows.
+// Warnings about a scene that a reader must see before its rows.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace restlab {
 
-// A line each, with the block's label: a black reference, one that may lack lights, a camera that
-// walks through walls, filters at the end of float32.
+// Returns one line per warning, with the block's label: a black reference, one that may lack
+// lights, a camera that walks through walls, filters at the end of float32.
 std::vector<std::string> warningsOf(const Suite& suite, const PreparedScene& prepared,
                                     const BlockResult& block);
 

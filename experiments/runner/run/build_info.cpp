@@ -18,7 +18,7 @@ namespace restlab {
 
 namespace {
 
-// The first line of a small system file, or "unknown".
+// Returns the first line of a small system file, or "unknown".
 std::string firstLine(const char* file) {
   std::ifstream in(file);
   std::string line;

@@ -1,4 +1,4 @@
-// What this program was built from, and the machine it runs on.
+// Sources and compiler of this program, and the machine that it runs on.
 #pragma once
 
 #include <map>
@@ -11,7 +11,7 @@ namespace restlab {
 struct BuildInfo {
   std::string sourceHash;     // of core/, integrators/, denoise/
   std::string referenceHash;  // of core/, integrators/path/
-  std::string measuringHash;  // of what takes a run's numbers, in experiments/runner/
+  std::string measuringHash;  // of the sources in experiments/runner/ that compute a run's numbers
   std::string gitCommit;      // "unknown" outside a repository
   bool gitDirty = false;
   std::string compiler, compilerFlags, buildType;
@@ -19,23 +19,23 @@ struct BuildInfo {
 };
 const BuildInfo& buildInfo();
 
-// CPU, cores, governor, load, memory, operating system, library versions; for run.json.
+// For run.json: CPU, cores, governor, load, memory, operating system, library versions.
 nlohmann::ordered_json machineJson();
 nlohmann::ordered_json buildJson();
 
-// The command line of this program, for records; set once, by main().
+// Command line of this program, for records; set once, by main().
 void setArguments(std::vector<std::string> argv);
 const std::vector<std::string>& arguments();
-// Words as a shell takes them, quoted where it matters.
+// Joins words to a shell command, quoted if necessary.
 std::string shellCommand(const std::vector<std::string>& words);
 
-// Build, machine, arguments, time and peak memory as metadata of an image.
+// Returns build, machine, arguments, time and peak memory as metadata of an image.
 std::map<std::string, std::string> provenanceWords();
-// The same of a line of results.jsonl.
+// Returns the same for a line of results.jsonl.
 nlohmann::ordered_json provenanceJson();
 
 std::string librariesText();  // "Embree 3.13.5, TBB 2021.8.0, ..."
-std::string cpuModel();       // "unknown" where /proc/cpuinfo does not say
+std::string cpuModel();       // "unknown" if /proc/cpuinfo has no name
 std::string utcNow();         // "2024-05-01T12:00:00Z"
 double peakResidentMiB();     // of this process
 double processCpuSeconds();   // user + system, of this process

@@ -35,8 +35,9 @@ uint64_t bytesOf(const fs::path& path) {
   return bytes;
 }
 
-// As JobStore and AtomicFile name them. Jobs are written under the lock, which is ours; files may
-// be written by `render` or `figure` as well, and their names have the process.
+// Matches the names that JobStore and AtomicFile give. Jobs are written under the folder's lock,
+// which this process holds. Files may also be written by `render` or `figure`: their names have the
+// process number, and only those of dead processes match.
 bool isUnfinished(const fs::path& file) {
   const std::string name = file.filename().string();
   if (name.rfind(".unfinished-", 0) == 0) return true;
@@ -47,7 +48,7 @@ bool isUnfinished(const fs::path& file) {
   return process.size() > 9 || (kill(pid_t(std::stol(process)), 0) != 0 && errno == ESRCH);
 }
 
-// A link leads to what may be somebody else's.
+// Rejects links: the folder they lead to may belong to somebody else.
 bool isOwnFolder(const fs::path& folder) {
   std::error_code status;
   if (fs::is_symlink(folder, status)) {
@@ -65,7 +66,7 @@ std::vector<fs::path> entriesOf(const fs::path& folder) {
   return found;
 }
 
-// References of the plan, those of the frame before the measured one too.
+// Returns whether the plan uses this reference, also as that of the frame before the measured one.
 bool usesReference(const ResultsFolder& results, const fs::path& file) {
   std::error_code status;
   for (const PlannedBlock& block : results.plan) {
@@ -74,7 +75,7 @@ bool usesReference(const ResultsFolder& results, const fs::path& file) {
     used.replace_filename(used.stem().string() + "-before.exr");
     if (fs::equivalent(file, used, status)) return true;
   }
-  // What truths that are the same for several blocks are made of.
+  // Plain-scene files from which the references of scenes with Truth::same are made.
   if (file.stem().string().ends_with(kPlainReference)) {
     for (const Suite& suite : results.points) {
       for (const SuiteScene& scene : suite.scenes)
@@ -101,7 +102,7 @@ bool readsFile(const Suite& suite, const fs::path& file) {
 }
 
 Cleaned cleanResults(const fs::path& folder) {
-  openResults(folder);  // says where it is no folder of results, before it is locked
+  openResults(folder);  // throws for other folders before one is locked
   const FolderLock lock(folder);
   const ResultsFolder results = openResults(folder);
   Cleaned cleaned;

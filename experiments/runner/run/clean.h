@@ -1,4 +1,4 @@
-// What a folder of results no longer needs.
+// Removes files that a folder of results no longer needs.
 #pragma once
 
 #include <filesystem>
@@ -9,22 +9,22 @@
 
 namespace restlab {
 
-// True where the suite itself reads this file.
+// Returns whether the suite itself reads this file.
 bool readsFile(const Suite& suite, const std::filesystem::path& file);
 
-// What was removed of DIR, and what stayed.
+// Numbers of removed and kept files.
 struct Cleaned {
   size_t jobs = 0, jobsKept = 0;
-  std::vector<std::string> references;  // names of their files
+  std::vector<std::string> references;  // names of removed files
   size_t referencesKept = 0;
-  size_t unfinished = 0;    // files and folders that interrupted writers left
-  uint64_t bytes = 0;       // of all that was removed
-  bool isFinished = false;  // false: the last suite may need more than is known, so that only the
-                            // unfinished were removed
+  size_t unfinished = 0;    // files and folders left by interrupted writers
+  uint64_t bytes = 0;       // of everything removed
+  bool isFinished = false;  // false: the last suite may need more than is known, so only unfinished
+                            // files were removed
 };
 
-// Removes jobs and references that the folder's last suite does not use. Throws Error (badInput)
-// where the folder is none that `run` left, or another program is at work there.
+// Removes jobs and references that the folder's last suite does not use. Throws Error (badInput) if
+// the folder was not written by `run`, or if another program is at work there.
 Cleaned cleanResults(const std::filesystem::path& folder);
 
 }  // namespace restlab

@@ -24,7 +24,7 @@ namespace restlab {
 
 namespace {
 
-// Median over frames of each pass, in the order of the first frame.
+// Returns the median over frames of each pass, in the pass order of the first frame.
 std::vector<PassTiming> medianPasses(const std::vector<std::vector<PassTiming>>& frames) {
   std::vector<PassTiming> medians = frames.front();
   for (size_t pass = 0; pass < medians.size(); ++pass) {
@@ -35,14 +35,14 @@ std::vector<PassTiming> medianPasses(const std::vector<std::vector<PassTiming>>&
   return medians;
 }
 
-// The age at which the error of this frame is recorded; 0: it is not.
+// Returns the age at which the error of this frame is recorded, 0 if it is not.
 uint32_t ageOf(const Suite& suite, uint32_t frame) {
   const auto found = std::find_if(suite.ages.begin(), suite.ages.end(),
                                   [&](uint32_t age) { return suite.frameOfAge(age) == frame; });
   return found == suite.ages.end() ? 0 : *found;
 }
 
-// 1, 2, 4, ... frames, and all of them.
+// Accumulated images are measured after 1, 2, 4, ... frames, and after all of them.
 bool isAccumulationPoint(uint32_t count, uint32_t all) {
   return count == all || (count & (count - 1)) == 0;
 }
@@ -84,7 +84,7 @@ SessionConfig methodConfig(const Suite& suite, const SuiteMethod& method,
 }
 
 size_t hostBytesPerPixelOfMethod(const Suite& suite) {
-  // The session's image, those that are kept of a run, the one that is shown, those of the runs.
+  // Session image, kept frames of a run, shown image, images of the runs.
   size_t images = 3 + suite.ages.size(), sums = 0;
   images += 1 + std::min<size_t>(suite.runs, BiasRuns::kGroups);
   if (suite.accumulate) {
@@ -100,7 +100,7 @@ size_t hostBytesPerPixelOfMethod(const Suite& suite) {
 
 FrameError measureFrame(const Image& image, const Reference& reference, uint32_t frame,
                         const std::vector<uint8_t>& withoutLights) {
-  // A reference without halves stands for both: its own noise is then part of the MSE.
+  // Without halves the mean stands in for both: the reference's own noise is then part of the MSE.
   const Image& half0 = reference.half0 ? *reference.half0 : reference.mean;
   const Image& half1 = reference.half1 ? *reference.half1 : reference.mean;
   FrameError error;
@@ -149,10 +149,10 @@ struct BlockExecutor::Impl {
     prepareMasks(suite, prepared, block);
   }
 
-  // What one method's frames of a run leave.
+  // Data collected from one method's frames during a run.
   struct Frames {
     std::vector<std::vector<PassTiming>> passes;
-    std::vector<std::pair<uint32_t, Image>> kept;          // by frame
+    std::vector<std::pair<uint32_t, Image>> kept;          // frame index, image
     std::vector<std::pair<AccumulatedError, Image>> sums;  // accumulated images
     std::optional<HistoryMean> accumulated;
     double timeMs = 0.0;  // since the history began
@@ -169,7 +169,7 @@ struct BlockExecutor::Impl {
         frames.passes.push_back(stats.passes);
       }
     }
-    // Only copied here: errors are computed after the run, not between timed frames.
+    // Only copy here: errors are computed after the run, not between timed frames.
     const bool isBefore = block.referenceBefore && frame + 1 == suite.warmupFrames;
     const uint32_t age = ageOf(suite, frame);
     if (age > 0) {
@@ -186,7 +186,7 @@ struct BlockExecutor::Impl {
     }
   }
 
-  // Of the whole history: the time of the warm-up has its samples.
+  // Accumulates from the start of the history, because its time includes the warm-up.
   void accumulate(const Session& session, uint32_t frame, Frames& frames) const {
     if (!frames.accumulated) frames.accumulated.emplace(session.averagedFrames());
     frames.accumulated->add(session.radiance());
@@ -226,7 +226,7 @@ struct BlockExecutor::Impl {
     if (frames.temporal) result.temporal = frames.temporal->figures();
   }
 
-  // Nothing where a signal has come.
+  // Returns nothing after a signal.
   std::optional<JobData> execute(uint32_t run, const std::string& job,
                                  const std::string& startedUtc) {
     try {
@@ -281,7 +281,7 @@ struct BlockExecutor::Impl {
   const PreparedScene& prepared;
   BlockResult& block;
   std::vector<std::unique_ptr<Session>> sessions;
-  std::vector<MethodResult> descriptions;  // what is the same in every run
+  std::vector<MethodResult> descriptions;  // constant over runs
 };
 
 BlockExecutor::BlockExecutor(const Suite& suite, const PreparedScene& prepared, BlockResult& block)
@@ -307,7 +307,7 @@ void addJob(const Suite& suite, const JobData& job, BlockResult& block) {
     RunResult run = runOfLines(own.lines, method);
     run.method = m;
     method.measured.add(own.measured);
-    if (method.runs.empty()) {  // run 0 where it is there
+    if (method.runs.empty()) {  // run 0 if present
       method.shown = own.measured;
       method.metadata = own.metadata;
     }

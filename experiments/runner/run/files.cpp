@@ -24,13 +24,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Letters of every script, whatever the user's locale is.
+// Locale that classifies letters of every script, independent of the user's locale.
 locale_t anyScript() {
   static const locale_t locale = newlocale(LC_CTYPE_MASK, "C.UTF-8", locale_t(nullptr));
   return locale;
 }
 
-// The bytes of the letter, digit, accent, '.' or '_' that begins at `at`; 0: it is something else.
+// Returns the number of bytes of the letter, digit, accent, '.' or '_' that begins at `at`; 0 for
+// any other character.
 size_t letterBytes(const std::string& name, size_t at) {
   const char c = name[at];
   if (uint8_t(c) < 0x80) return std::isalnum(uint8_t(c)) || c == '.' || c == '_' ? 1 : 0;
@@ -39,7 +40,7 @@ size_t letterBytes(const std::string& name, size_t at) {
   std::mbstate_t state{};
   wchar_t letter = 0;
   const size_t bytes = std::mbrtowc(&letter, name.data() + at, name.size() - at, &state);
-  const bool isWhole = bytes <= name.size() - at;  // else it is no UTF-8
+  const bool isWhole = bytes <= name.size() - at;  // else invalid UTF-8
   const bool isLetter = isWhole && (std::iswalnum(std::wint_t(letter)) ||
                                     std::iswctype(std::wint_t(letter), std::wctype("combining")));
   uselocale(before);

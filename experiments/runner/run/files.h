@@ -1,4 +1,4 @@
-// Result folders and the search for scenes and environments.
+// Results folders and the search for scenes and environments.
 #pragma once
 
 #include <filesystem>
@@ -6,26 +6,25 @@
 
 namespace restlab {
 
-// Makes a directory and its parents; throws Error (badInput) when it cannot be written to.
+// Creates a directory and its parents. Throws Error (badInput) if it cannot be written to.
 void makeWritableDirectory(const std::filesystem::path& directory);
 
-// `name` as given (a scene's extension may be left out), else under RESTLAB_SCENES, else under
-// ../shared/scenes; empty when nowhere.
+// Finds `name` as given (a scene's extension may be left out), else under RESTLAB_SCENES, else
+// under ../shared/scenes. Returns an empty path if not found.
 std::filesystem::path findAsset(const std::string& name);
 
-// The folder of scenes of others: RESTLAB_SCENES, else ../shared/scenes; empty when absent.
+// Returns the folder of downloaded scenes: RESTLAB_SCENES, else ../shared/scenes; empty if absent.
 std::filesystem::path sceneFolder();
 
-// The file that a name leads to, through links and other spellings of its folder, whether it is
-// there or not yet.
+// Resolves links and other spellings of a file's folder. The file need not exist.
 std::filesystem::path resolvedPath(const std::filesystem::path& name);
 
-// A name that is safe as part of a file name: letters and digits of any script (UTF-8), '.', '_',
+// Makes a name safe as part of a file name: letters and digits of any script (UTF-8), '.', '_',
 // '-'.
 std::string safeFileName(const std::string& name);
 
-// An id of such a name, of ASCII alone, as reports and addresses take it. Letters of other scripts
-// become '_', and a hash of the name behind it keeps ids of different names apart.
+// Makes an ASCII id of a safe name, for reports and URLs. Letters of other scripts become '_', and
+// a hash of the name is appended to keep ids of different names apart.
 std::string plainId(const std::string& safeName);
 
 }  // namespace restlab

@@ -25,7 +25,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder) {
     const ssize_t length = read(file_, holder, sizeof(holder) - 1);
     close(file_);
     file_ = -1;
-    // Where the file system knows no locks, nobody can be kept out.
+    // File systems without locks: only warn.
     if (reason != EWOULDBLOCK) {
       logWarning(
           fmt::format("{}: cannot be locked ({}): see to it that no second restlab works "
@@ -39,7 +39,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder) {
                     folder.string(), length > 0 ? holder : "?"));
   }
   const std::string own = std::to_string(getpid());
-  // The number is for messages alone.
+  // The process number is only used in messages: ignore errors.
   if (ftruncate(file_, 0) != 0 || write(file_, own.data(), own.size()) < 0) return;
 }
 

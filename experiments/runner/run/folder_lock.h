@@ -1,12 +1,13 @@
-// One program at a time in a folder.
+// Lock that lets only one program work in a folder.
 #pragma once
 
 #include <filesystem>
 
 namespace restlab {
 
-// Held until destruction, also by a process that is killed. Throws Error (badInput) with the other
-// process's number where one holds it, and where the folder cannot be written to.
+// RAII: holds the lock until destruction; the system frees that of a killed process. Throws Error
+// (badInput) with the other process's number if the folder is locked, and if it cannot be written
+// to.
 class FolderLock {
  public:
   explicit FolderLock(const std::filesystem::path& folder);

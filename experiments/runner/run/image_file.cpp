@@ -20,7 +20,7 @@ void warnOnce(const std::string& line) {
   if (said.insert(line).second) logWarning(line);
 }
 
-// A ratio that moves no pixel by half a pixel is rounding.
+// Ignores an aspect ratio that moves no pixel by half a pixel: rounding.
 bool arePixelsSquare(const LayeredImage& image) {
   size_t side = 1;
   for (const auto& [name, layer] : image.layers)

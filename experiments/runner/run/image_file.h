@@ -1,4 +1,4 @@
-// Images of users: their colours, where these lie, and what must be said of them.
+// Reads users' images: colours, data window, and notes about conversions.
 #pragma once
 
 #include <filesystem>
@@ -10,18 +10,18 @@
 
 namespace restlab {
 
-// Opens R, G, B outside named layers (or Y alone), and of the named ones those of `others`: nothing
-// else of the file matters. Says on stderr what sayNotes() does. Throws Error (badInput) where the
-// file cannot be read or has no such colours.
+// Reads R, G, B outside named layers (or Y alone) and the named layers in `others`; ignores the
+// rest of the file. Prints what sayNotes() prints. Throws Error (badInput) if the file cannot be
+// read or has no such colours.
 LayeredImage readColours(const std::filesystem::path& file,
                          const std::set<std::string>& others = {});
 
-// Conversions of colours, and pixels that are no squares; each line once.
+// Prints a line about converted colours and one about non-square pixels, each once.
 void sayNotes(const std::filesystem::path& file, const LayeredImage& image);
 
-// Throws Error (badInput) unless both are the same pixels of pixel space: "a.exr: is 8x8 from pixel
-// (1, 0) on, the reference b.exr is 8x8 from pixel (0, 0) on", of "a.exr:" and "the reference
-// b.exr".
+// Throws Error (badInput) unless both windows are the same pixels of pixel space: "a.exr: is 8x8
+// from pixel (1, 0) on, the reference b.exr is 8x8 from pixel (0, 0) on" for "a.exr:" and "the
+// reference b.exr".
 void requireSameWindow(const std::string& what, const PixelWindow& window, const std::string& other,
                        const PixelWindow& otherWindow);
 

@@ -27,7 +27,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text;
 }
 
-// Of image `run` of a row.
+// Returns the file of image `run` of a row.
 fs::path fileOf(const ImageRow& row, uint32_t run, const std::string& scene, uint32_t component) {
   const std::string name =
       replaced(replaced(row.files.at(run), kScene, scene), kComponent, componentName(component));
@@ -52,7 +52,7 @@ LayeredImage read(const ImageRow& row, const fs::path& file, uint32_t width, uin
   }
 }
 
-// The same file under every name of a scene, say, would be measured against the wrong reference.
+// Prevents one file from being measured against the references of several scenes or components.
 void requirePlaceholder(const ImageRow& row, const char* placeholder, const char* what,
                         size_t count) {
   for (const std::string& file : row.files) {

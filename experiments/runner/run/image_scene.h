@@ -1,4 +1,4 @@
-// The scene behind an image, for what must be traced again to look at the image.
+// Finds the scene that an image was rendered from, to trace rays in it again.
 #pragma once
 
 #include <map>
@@ -10,11 +10,11 @@ namespace restlab {
 
 struct ImageScene {
   PreparedScene prepared;
-  SessionConfig config;  // camera, size and filter of the image; nothing of its method
+  SessionConfig config;  // camera, size and filter of the image, without its method
 };
 
-// Loads what the metadata of `file` name. Throws Error (badInput) where they do not, where the
-// scene or its environment is not found, and where it is not the one that was rendered.
+// Loads the scene named in the metadata of `file`. Throws Error (badInput) if the metadata lack it,
+// the scene or its environment is not found, or its hash differs from that of the rendered one.
 ImageScene sceneOfImage(const std::string& file,
                         const std::map<std::string, std::string>& metadata);
 

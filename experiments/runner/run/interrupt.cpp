@@ -20,11 +20,11 @@ void installInterruptHandler() {
   action.sa_flags = static_cast<int>(SA_RESETHAND);  // the second signal has its default effect
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
-  // The terminal is gone. `nohup` had it ignored, and so it stays.
+  // SIGHUP means that the terminal is gone. Keep it ignored under `nohup`.
   struct sigaction before = {};
   sigaction(SIGHUP, nullptr, &before);
   if (before.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
-  // A limit on the size of files is an error of the write that meets it, not the program's end.
+  // Turns exceeding the file size limit into a write error instead of the program's end.
   std::signal(SIGXFSZ, SIG_IGN);
 }
 

@@ -4,10 +4,10 @@
 
 namespace restlab {
 
-// The first signal stops frames; a second one ends the process at once.
+// The first signal stops the frame; a second one ends the process at once.
 void installInterruptHandler();
 bool interruptRequested();
-// Throws Error (ExitCode::interrupted) when a signal has come.
+// Throws Error (ExitCode::interrupted) after a signal.
 void throwIfInterrupted(const char* what);
 
 }  // namespace restlab

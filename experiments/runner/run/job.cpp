@@ -25,7 +25,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kJobSchema = 1;
-// Folders that are being written; their writer may have been killed.
+// Prefix of folders being written, which remain if their writer is killed.
 constexpr const char* kUnfinished = ".unfinished-";
 
 std::string hexOf(XXH128_hash_t hash) { return hexHash(hash.high64) + hexHash(hash.low64); }
@@ -42,7 +42,7 @@ std::string hashOfFile(const fs::path& file) {
 
 std::string imageName(size_t method) { return fmt::format("method{}.exr", method); }
 
-// Every bit of a view.
+// Writes every bit of a view.
 std::string cameraWords(const SceneCamera& camera) {
   std::string words =
       fmt::format("{} {:a} {:a} {:a}", camera.kind, camera.yfov, camera.xmag, camera.ymag);
@@ -122,7 +122,7 @@ JobIdentity jobIdentity(const Suite& suite, const PreparedScene& prepared, const
   }
   Json uses = Json::array();
   for (const DeviceUse& use : devices) uses.push_back({use.backend, use.device, use.rayTracing});
-  // The path is where it leads.
+  // Identify the path by its cameras, not by its name.
   Json cameras = Json::array();
   for (uint32_t frame = 0; block.motion && frame < suite.warmupFrames + suite.timedFrames; ++frame)
     cameras.push_back(cameraWords(cameraAt(*block.motion, frame)));
@@ -202,7 +202,7 @@ void JobStore::save(const JobIdentity& identity, const JobData& job) const {
     }
     document["checksum"] = hashOfText(document.dump());
     writeTextFile(unfinished / "job.json", document.dump(1) + "\n");
-    fs::remove_all(folderOf(key), status);  // a damaged one
+    fs::remove_all(folderOf(key), status);  // a damaged job
     fs::rename(unfinished, folderOf(key), status);
     if (status) {
       failInput(fmt::format("{}: cannot be renamed: {}", unfinished.string(), status.message()));

@@ -1,5 +1,5 @@
-// Jobs: one run of every method of a block. A job is a folder named by its key; it appears by a
-// rename when all of it is written, and is taken again where the key agrees.
+// Jobs: one run of every method of a block. A job is a folder named by its key. It appears by a
+// rename once complete, and is reused if the key agrees.
 #pragma once
 
 #include <filesystem>
@@ -13,41 +13,40 @@
 
 namespace restlab {
 
-// What a job's results depend on, in words.
+// Names and values that a job's results depend on.
 struct JobIdentity {
   nlohmann::ordered_json words;
   std::string key() const;  // 32 hexadecimal digits
 };
 
-// `build`: what this program was built from, and how; `referenceHash`: of the
-// pixels that errors are measured against; `devices`: what kernels run on.
+// `build`: sources and compiler of this program; `referenceHash`: hash of the pixels that errors
+// are measured against; `devices`: all devices in use.
 JobIdentity jobIdentity(const Suite& suite, const PreparedScene& prepared, const BlockResult& block,
                         uint32_t run, const BuildInfo& build, const std::string& referenceHash,
                         const std::vector<DeviceUse>& devices);
 
-// Of the pixels.
+// Returns a hash of the pixels.
 std::string imageHash(const Image& image);
-// Of the pixels of the mean and the halves.
+// Returns a hash of the pixels of the mean and the halves.
 std::string referenceHash(const Reference& reference);
 
-// DIR/jobs.
+// Job folders in DIR/jobs.
 class JobStore {
  public:
-  // `out` exists and is writable.
+  // `out`: must exist and be writable.
   explicit JobStore(const std::filesystem::path& out) : folder_(out / "jobs") {}
 
-  // The folder of a job, whether it is there or not.
+  // Returns the folder of a job, even if it does not exist.
   std::filesystem::path folderOf(const std::string& key) const { return folder_ / key; }
-  // Lines and images of the job; nothing where it is not there or, with one line that says what is
-  // wrong, where it is damaged.
+  // Returns lines and images of the job; nothing if it is absent or damaged. Logs damage.
   std::optional<JobData> load(const std::string& key) const;
-  // Its job.json without the images: "identity" in words, "methods" with their "lines". Nothing
-  // where that is not there or damaged, about which nothing is said.
+  // Returns the job.json without images: "identity" in words, "methods" with their "lines". Returns
+  // nothing, silently, if it is absent or damaged.
   std::optional<nlohmann::ordered_json> record(const std::string& key) const;
-  // Writes it under its key. Throws Error (badInput) where the disk is full or read-only; nothing
-  // is left under the key then.
+  // Writes the job under its key. Throws Error (badInput) if the disk is full or read-only, and
+  // then leaves nothing under the key.
   void save(const JobIdentity& identity, const JobData& job) const;
-  // Keys of the jobs that are there, sorted.
+  // Returns the keys of existing jobs, sorted.
   std::vector<std::string> keys() const;
 
  private:

@@ -17,7 +17,7 @@ namespace {
 int level = 0;
 bool isEventLog = false;
 
-// One line whatever a file name or a library's message holds.
+// Prints one line, even if a file name or a library's message has line breaks.
 void line(const std::string& text) {
   std::fputs((oneLine(text) + "\n").c_str(), stderr);
   std::fflush(stderr);
@@ -39,7 +39,7 @@ void logEvent(const nlohmann::ordered_json& event) {
   if (!isEventLog) return;
   nlohmann::ordered_json line = {{"utc", utcNow()}};
   line.update(event);
-  // Names of files may hold anything.
+  // Replace invalid UTF-8, which file names may have.
   const auto anyBytes = nlohmann::ordered_json::error_handler_t::replace;
   std::fputs((jsonWithoutControls(line.dump(-1, ' ', false, anyBytes)) + "\n").c_str(), stderr);
   std::fflush(stderr);
@@ -72,7 +72,7 @@ void Progress::update(uint64_t done, const std::string& note, const WholeProgres
   const auto now = Clock::now();
   const double sinceLastS = std::chrono::duration<double>(now - lastPrint_).count();
   const int tenth = total_ ? int(done * 10 / total_) : 0;
-  // In a log: the tenths, a first line soon, and a sign of life.
+  // Without a terminal: print at each tenth, at first after 3 s, then at least every 30 s.
   const double silenceS = lastPrint_ == start_ ? 3.0 : 30.0;
   const bool due = terminal_ ? sinceLastS >= 0.2 || done == total_
                              : (tenth > lastTenth_ && sinceLastS >= 1.0) || sinceLastS >= silenceS;
@@ -105,7 +105,7 @@ void Progress::print(uint64_t done, const std::string& note, const WholeProgress
   } else {
     text += fmt::format(" {} ({:.0f} s elapsed)", done, elapsedS);
   }
-  // A suite of one table has said it all.
+  // Skip the suite's progress if it has only this table.
   if (whole.total > total_)
     text += fmt::format("; suite {}/{} ({:.0f} s left)", whole.done, whole.total, whole.leftS);
   if (!note.empty()) text += " " + note;

@@ -1,4 +1,5 @@
-// Lines for people, on stderr; stdout carries data only. No colours, so a file reads the same.
+// Messages for users, on stderr; stdout carries data only. No colours, so that a file reads the
+// same.
 #pragma once
 
 #include <chrono>
@@ -8,7 +9,7 @@
 
 namespace restlab {
 
-// -1: errors and warnings only (-q); 0: normal; 1 and more: details (-v).
+// -1: errors and warnings only (-q); 0: normal; 1 or more: details (-v).
 void setVerbosity(int level);
 int verbosity();
 
@@ -17,13 +18,13 @@ void logDetail(const std::string& line);   // with -v
 void logWarning(const std::string& line);  // always, prefixed "warning: "
 void logError(const std::string& line);    // always, prefixed "error: "
 
-// Instead of lines for people one JSON object a line: "event" ("info", "detail", "warning",
-// "error", "progress", or what logEvent() is given), "utc" and what belongs to it.
+// Switches from text lines to one JSON object per line: "event" ("info", "detail", "warning",
+// "error", "progress", or as given to logEvent()), "utc" and further fields.
 void setEventLog(bool isOn);
-// Nothing where lines are for people. May be called by several threads, as all of these.
+// Does nothing for text lines. Thread-safe, like all functions here.
 void logEvent(const nlohmann::ordered_json& event);
 
-// Of all loops of which a loop is one: what is left of them, by those that are done.
+// Progress of all loops together, and their remaining time.
 struct WholeProgress {
   uint64_t done = 0, total = 0;  // total 0: unknown
   double leftS = 0.0;
@@ -32,7 +33,7 @@ struct WholeProgress {
 // Progress of a loop: on a terminal one line that is rewritten, else a line per 10 % or 30 s.
 class Progress {
  public:
-  // `total` 0: unknown. `already` were done before the loop began.
+  // `total` 0: unknown. `already`: number done before the loop began.
   Progress(std::string label, uint64_t total, uint64_t already = 0);
   ~Progress();
   void update(uint64_t done, const std::string& note = "", const WholeProgress& whole = {});

@@ -12,7 +12,7 @@ namespace restlab {
 
 namespace {
 
-// Marks the numbers of instances, from 1, that `object` names.
+// Marks the instances that `object` names, counted from 1.
 void markObject(const Scene& scene, const std::string& object, std::vector<uint8_t>& isWanted) {
   std::vector<std::string> names;
   bool isFound = false;

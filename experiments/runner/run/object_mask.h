@@ -1,4 +1,4 @@
-// Which pixels show an object.
+// Mask of pixels that show an object.
 #pragma once
 
 #include <optional>
@@ -10,9 +10,9 @@
 
 namespace restlab {
 
-// 1 where the ray through the pixel's centre first meets one of the objects. An object is a name
-// that instances of the scene have, or a number as in the AOV layer `object`. `config` gives camera
-// and size; `camera`: instead of the scene's. Throws Error (badUsage) with the nearest name.
+// Returns 1 for a pixel if the ray through its centre first hits one of the objects. An object is a
+// name of instances in the scene, or a number as in the AOV layer `object`. `config` gives camera
+// and size; `camera`: replaces the scene's. Throws Error (badUsage) with the nearest name.
 PixelMask pixelsOfObjects(const PreparedScene& prepared, SessionConfig config,
                           const std::vector<std::string>& objects,
                           const std::optional<SceneCamera>& camera = {});

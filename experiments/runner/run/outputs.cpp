@@ -33,7 +33,7 @@ std::string Outputs::add(const Suite& suite, BlockResult result) {
   block.referenceMean = meanOf(block.result.reference.mean);
   block.rows = summarise(suite, block.result);
   for (MethodResult& method : block.result.methods) {
-    // Only the numbers are needed from here on.
+    // Free the images: only the numbers are needed from here on.
     method.measured = BiasRuns();
     method.shown = Image();
   }

@@ -1,4 +1,5 @@
-// What a folder of results shows: made of jobs alone, so that it can be made again at any time.
+// Tables, images and report of a folder of results, made from jobs alone, so they can be made
+// again.
 #pragma once
 
 #include <deque>
@@ -17,24 +18,24 @@ class Outputs {
  public:
   explicit Outputs(std::filesystem::path out) : out_(std::move(out)) {}
 
-  // Summarises a block and writes its images; its images are freed, its numbers stay. `suite` must
-  // outlive this. Returns the block's table.
+  // Summarises a block and writes its images; then frees its images and keeps its numbers. `suite`
+  // must outlive this object. Returns the block's table.
   std::string add(const Suite& suite, BlockResult block);
-  // A line below the tables' heading.
+  // Adds a line below the tables' heading.
   void note(const std::string& line) { notes_.push_back(line); }
-  // What methods ran on; shown below the tables.
+  // Sets the devices shown below the tables.
   void use(const std::vector<DeviceUse>& devices) { devices_ = devices; }
-  // summary.csv, table.md and table.tex. `suite`: any point, for name and question.
+  // Writes summary.csv, table.md and table.tex. `suite`: any point, for name and question.
   void write(const Suite& suite, bool finished) const;
-  // The tables of sweeps of scenes; "" where there is none.
+  // Returns the tables of scene sweeps; "" without sweeps.
   std::string sweepTables() const;
-  // Where values are not finite, in a line; "" where all are.
+  // Returns one line on where values are not finite; "" if all are finite.
   std::string nonfinite() const;
-  // Which rows have an energy that is far off (isFarOff()); "": none.
+  // Returns one line on rows whose energy is far off (isFarOff()); "" if there are none.
   std::string wrongEnergies() const;
-  // The blocks of the report: sweeps first, then scenes, as parts of their sweep.
+  // Returns the blocks of the report: sweeps first, then scenes, as parts of their sweep.
   std::vector<nlohmann::ordered_json> documents() const;
-  // report.html and plots/*.svg; `record`: run.json. Nothing where there is no block.
+  // Writes report.html and plots/*.svg, unless there is no block. `record`: run.json.
   void writePages(const Suite& suite, const nlohmann::ordered_json& record) const;
 
  private:

@@ -1,4 +1,4 @@
-// How long the rest of a suite takes.
+// Estimates the remaining time of a suite.
 #pragma once
 
 #include <algorithm>
@@ -10,9 +10,9 @@
 
 namespace restlab {
 
-// Runs of all tables, whoever made them, and what those that were made here took. `cost` is that of
-// one run in any unit, the same for all tables: a run of four times the pixels is to take four
-// times as long.
+// Counts the runs of all tables, and the time of those rendered in this call. `cost`: of one run,
+// in any unit that is the same for all tables; a run with four times the pixels is assumed to take
+// four times as long.
 class Pace {
  public:
   void plan(uint32_t runs, double cost) {
@@ -23,16 +23,16 @@ class Pace {
     ++done_;
     costDone_ += cost;
   }
-  // `seconds`: since the run before it ended, or since its making began.
+  // `seconds`: since the previous run ended, or since rendering began.
   void made(double seconds, double cost) {
     found(cost);
     costMade_ += cost;
     seconds_ += seconds;
   }
-  // As if none of the others were there: what is found by then takes no time.
+  // Assumes that no remaining run exists already: one that is found later takes no time.
   WholeProgress progress() const {
     const double perCostS = costMade_ > 0.0 ? seconds_ / costMade_ : 0.0;
-    // A damaged run is made twice.
+    // Keep it positive: a damaged run counts twice.
     return {done_, runs_, perCostS * std::max(cost_ - costDone_, 0.0)};
   }
 
@@ -43,7 +43,7 @@ class Pace {
 
 class Stopwatch {
  public:
-  // Seconds since the last lap, or since this was made.
+  // Returns seconds since the last lap, or since construction.
   double lap() {
     const auto before = std::exchange(start_, std::chrono::steady_clock::now());
     return std::chrono::duration<double>(start_ - before).count();

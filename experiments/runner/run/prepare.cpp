@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A relative name is tried beside the suite too; "" when it is nowhere.
+// Also looks for a relative name beside the suite; returns "" if not found.
 std::string locate(const std::string& name, const std::string& suiteFolder) {
   const fs::path found = findAsset(name);
   if (!found.empty()) return found.string();
@@ -45,14 +45,14 @@ uint64_t hashEnvironment(const EnvironmentMap& map, uint64_t seed) {
 
 float radiansOf(double degrees) { return float(degrees * std::numbers::pi / 180.0); }
 
-// In degrees, with as many digits as give the same radians again.
+// Returns degrees, with enough digits to give the same radians again.
 std::string rotationText(float radians) {
   const double degrees = radians * 180.0 / std::numbers::pi;
   const std::string text = fmt::format("{:.6g}", degrees);
   return radiansOf(std::stod(text)) == radians ? text : fmt::format("{:.12g}", degrees);
 }
 
-// A whole number of pixels in 1..kMaxSide, or 0 when `text` is none.
+// Returns a whole number of pixels in 1..kMaxSide, or 0 if `text` is none.
 uint32_t parseSide(std::string_view text) {
   uint32_t side = 0;
   const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), side);
@@ -127,7 +127,7 @@ PreparedScene prepareScene(const SceneRequest& request, std::optional<Environmen
   if (scene.environment) {
     prepared.contentHash = hashEnvironment(*scene.environment, scene.contentHash);
   }
-  // Before the scene is compiled, which can take long.
+  // Report an unknown camera before the slow compilation.
   setCamera(prepared, scene, request.camera);
   scene.mainCamera = prepared.camera;
   prepared.scene = CompiledScene::build(std::move(scene));
@@ -182,7 +182,7 @@ void completeResolution(const PreparedScene& prepared, uint32_t& width, uint32_t
   if (width == 0 && height == 0) width = 512;
   if (width != 0 && height != 0) return;
   const double wanted = std::round(width == 0 ? height * ratio : width / ratio);
-  // In floating point: the ratio may be anything.
+  // Check as a double: the ratio may be anything.
   if (!(wanted >= 1.0 && wanted <= double(kMaxSide))) {
     failInput(
         fmt::format("{}: camera '{}' has the aspect ratio {:g}: {} pixels {} would be {:g} {}, "

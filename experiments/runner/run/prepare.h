@@ -1,5 +1,5 @@
-// From names on a command line or in a suite to a compiled scene, and the words that describe it
-// in keys, metadata and results.
+// Turns names on a command line or in a suite into a compiled scene, and describes it in words for
+// keys, metadata and results.
 #pragma once
 
 #include <map>
@@ -20,7 +20,7 @@ struct SceneRequest {
   std::string environment;                    // file; "": the scene's own
   std::optional<double> environmentRotation;  // degrees about +Y; absent: as the scene has it
   std::optional<double> environmentScale;     // factor on the radiance
-  std::string suiteFolder;                    // where relative names are looked for as well
+  std::string suiteFolder;                    // also searched for relative names
 };
 
 struct PreparedScene {
@@ -30,41 +30,41 @@ struct PreparedScene {
   std::string environmentName;  // "none", a file or "built-in"
   // Scene bytes, environment texels, rotation and scale, factors of lights.
   uint64_t contentHash = 0;
-  std::string lights;       // the events that changed them, in words; "": they are as loaded
+  std::string lights;       // description of their changes; "": as loaded
   double loadTimeMs = 0.0;  // import and compilation
 };
 
-// Imports and compiles. Throws Error: badInput for files, badUsage for an unknown camera.
+// Imports and compiles a scene. Throws Error: badInput for files, badUsage for an unknown camera.
 PreparedScene prepareScene(const SceneRequest& request);
 
-// In two steps, for callers that know more of where a request comes from. The environment that the
-// request names; nothing where it names none.
+// The same in two steps, for callers that must check the environment. Returns the environment that
+// the request names, if any.
 std::optional<EnvironmentMap> readEnvironment(const SceneRequest& request);
 PreparedScene prepareScene(const SceneRequest& request, std::optional<EnvironmentMap> environment);
 
-// The same scene, compiled with other factors of its lights (core/scene/light_factor.h); `words`
-// say which. `loaded` is as it was loaded.
+// Returns the scene compiled with other factors of its lights (core/scene/light_factor.h).
+// `loaded`: the scene as loaded. `words`: description of the factors.
 PreparedScene withLights(const PreparedScene& loaded,
                          const std::shared_ptr<const CompiledScene>& scene,
                          const std::string& words);
 
-// Another camera of the same scene; throws badUsage where there is none.
+// Chooses another camera of the scene. Throws badUsage if it does not exist.
 void chooseCamera(PreparedScene& prepared, const std::string& nameOrIndex);
 
-// True when the scene or the environment of the request is a file that is nowhere to be found.
+// Returns true and sets `missing` if the scene or environment file of the request is not found.
 bool assetsMissing(const SceneRequest& request, std::string& missing);
 
-// Prints the scene's warnings on stderr, each once.
+// Prints each warning of the scene on stderr once.
 void printWarnings(const PreparedScene& prepared);
 
-// Sides of "640x360"; throws badUsage with `place` where it is none or a side is outside
+// Parses the sides of "640x360". Throws badUsage with `place` on bad syntax or a side outside
 // 1..kMaxSide.
 void parseResolution(const std::string& text, const std::string& place, uint32_t& width,
                      uint32_t& height);
 
-// The size in pixels where only one side, or none, was given: 512 wide, and the height from the
-// camera's aspect ratio, or square where the camera leaves it free. Throws badInput naming the
-// camera where its ratio asks for a side outside 1..kMaxSide.
+// Completes a size with missing sides: 512 wide if both are missing, and the other side from the
+// camera's aspect ratio, or square if the camera has none. Throws badInput naming the camera if the
+// resulting side is outside 1..kMaxSide.
 void completeResolution(const PreparedScene& prepared, uint32_t& width, uint32_t& height);
 
 std::string componentName(uint32_t components);
@@ -75,12 +75,12 @@ uint32_t parseFilter(const std::string& name, const std::string& place);
 std::string hexHash(uint64_t hash);
 std::string parameterText(const ParameterValue& value);
 
-// The configuration as metadata of an image, without seed, sample count and times. The camera is
-// the scene's.
+// Returns the configuration as metadata of an image, without seed, sample count and times. The
+// camera is the scene's.
 std::map<std::string, std::string> describe(const PreparedScene& prepared,
                                             const SessionConfig& config);
 
-// Replaces the camera in `words` by one that is not of the scene: `camera_index` is "none".
+// Replaces the camera in `words` by one that the scene does not have: `camera_index` is "none".
 void describeCamera(const SceneCamera& camera, std::map<std::string, std::string>& words);
 
 }  // namespace restlab

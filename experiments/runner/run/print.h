@@ -1,5 +1,5 @@
-// Prints to stdout, all of it: names that a suite or a scene gave command no terminal.
-// A write that fails is seen at the program's end (stdout's error mark).
+// Prints to stdout, without control sequences that names from a suite or scene could send to a
+// terminal. Write errors are detected at the program's end (stdout's error flag).
 #pragma once
 
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 
 namespace restlab {
 
-// Control characters but line breaks and tabs become blanks.
+// Replaces control characters by blanks, except line breaks and tabs.
 void printText(const std::string& text);
 
 template <class... Values>
@@ -17,7 +17,7 @@ void print(fmt::format_string<Values...> format, Values&&... values) {
   printText(fmt::format(format, std::forward<Values>(values)...));
 }
 
-// A dump of JSON and a line break. Its control characters become escapes.
+// Prints a JSON dump and a line break. Control characters become escapes.
 void printJsonText(const std::string& dump);
 
 }  // namespace restlab

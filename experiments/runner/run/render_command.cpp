@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 using Words = std::vector<std::string>;
 
-// Looked for in the order in which prepareScene() does.
+// Searches in the same order as prepareScene().
 std::string fileFromAnywhere(const std::string& name, const std::string& suiteFolder) {
   std::error_code status;
   const fs::path found = findAsset(name);
@@ -51,7 +51,7 @@ void addPicture(const SessionConfig& config, Words& words) {
   if (config.multiscatter) words.emplace_back("--multiscatter");
 }
 
-// To the last bit, unlike parameterText().
+// Writes numbers to the last bit, unlike parameterText().
 std::string valueText(const ParameterValue& value) {
   const double* number = std::get_if<double>(&value);
   return number ? fmt::format("{}", *number) : parameterText(value);
@@ -81,7 +81,7 @@ SceneRequest fromAnywhere(SceneRequest request) {
 
 std::vector<std::string> renderWords(const SceneRequest& request, const SessionConfig& picture,
                                      const SessionConfig& method) {
-  // So that the program is found again.
+  // Keep the name that this program was started with.
   Words words = {arguments().empty() ? "restlab" : arguments().front(), "render"};
   addScene(fromAnywhere(request), words);
   addPicture(picture, words);

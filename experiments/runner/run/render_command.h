@@ -1,4 +1,4 @@
-// A command line that renders something again.
+// Builds a command line that renders an image again.
 #pragma once
 
 #include <string>
@@ -8,11 +8,12 @@
 
 namespace restlab {
 
-// The scene and the environment by names that work from any folder.
+// Replaces the scene and the environment by names that work from any folder.
 SceneRequest fromAnywhere(SceneRequest request);
 
-// `render` with scene, camera and environment of the request, size and light of `picture` and the
-// method of `method`, as this program was called. Seed, frame and output are left to the caller.
+// Returns `render` with scene, camera and environment of the request, size and light of `picture`
+// and the method of `method`, starting with this program's name. The caller adds seed, frame and
+// output.
 std::vector<std::string> renderWords(const SceneRequest& request, const SessionConfig& picture,
                                      const SessionConfig& method);
 

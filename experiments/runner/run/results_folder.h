@@ -1,4 +1,4 @@
-// A folder that `run` left: what it holds, and its tables made again without rendering.
+// Folder written by `run`: reads its contents and makes its tables again without rendering.
 #pragma once
 
 #include <filesystem>
@@ -17,35 +17,34 @@ struct PlannedBlock {
   std::string point, scene, camera, component, reference;
   uint32_t width = 0, height = 0;
   std::vector<std::string> jobs;    // keys, in the order of their runs
-  std::vector<std::string> images;  // the same of the rows of images
+  std::vector<std::string> images;  // keys of the rows of images
 };
 
 struct ResultsFolder {
   std::filesystem::path folder;
   nlohmann::ordered_json record;  // run.json
   std::vector<Suite> points;      // of suite.toml
-  // By point and scene: as it is for a scene that has settings of its own.
+  // By point and scene: the suite with a scene's own settings applied.
   std::map<std::pair<std::string, std::string>, Suite> ofScenes;
   std::vector<PlannedBlock> plan;
 };
 
-// Reads run.json and suite.toml. Throws Error (badInput) naming the file where the folder is not
-// one that `run` left.
+// Reads run.json and suite.toml. Throws Error (badInput) naming the file if the folder was not
+// written by `run`.
 ResultsFolder openResults(const std::filesystem::path& folder);
 
-// The suite of a block's point and scene; throws Error (badInput) where suite.toml has none.
+// Returns the suite of a block's point and scene. Throws Error (badInput) if suite.toml lacks it.
 const Suite& suiteOf(const ResultsFolder& results, const PlannedBlock& block);
 
-// The block with every job of the plan that is there. A job that is missing or damaged is one line
-// and counted.
+// Loads the block with all jobs of the plan. Logs and counts missing or damaged jobs.
 struct LoadedBlock {
   BlockResult result;
   size_t missing = 0;
 };
 LoadedBlock loadBlock(const ResultsFolder& results, const PlannedBlock& block);
 
-// Everything that `run` writes besides jobs, references and results.jsonl, made again; the tables
-// are returned. Throws Error.
+// Writes all outputs of `run` again, except jobs, references and results.jsonl. Returns the tables.
+// Throws Error.
 std::string remakeOutputs(const std::filesystem::path& folder);
 
 }  // namespace restlab

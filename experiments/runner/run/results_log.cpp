@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 ResultsLog::ResultsLog(fs::path file) : file_(std::move(file)) {
   std::ifstream in(file_, std::ios::binary);
   if (!in) return;
-  uintmax_t whole = 0;  // bytes of whole jobs
-  uintmax_t bytes = 0;  // of whole lines
+  uintmax_t whole = 0;  // of complete jobs
+  uintmax_t bytes = 0;  // of complete lines
   size_t number = 0;
   for (std::string line; std::getline(in, line);) {
     if (in.eof()) break;  // no end of line
@@ -46,7 +46,7 @@ ResultsLog::ResultsLog(fs::path file) : file_(std::move(file)) {
 void ResultsLog::add(const std::string& key, const JobData& job, bool isMadeAnew) {
   const bool isThere = jobs_.count(key) != 0;
   if (isThere && !isMadeAnew) return;
-  // The last line of a job says so: a reader knows whether all of them are there.
+  // Mark the last line of a job, so that a reader can tell whether the job is complete.
   std::string text;
   for (const JobMethod& method : job.methods) {
     for (const nlohmann::ordered_json& own : method.lines) {

@@ -1,4 +1,4 @@
-// results.jsonl: one JSON object a line, append-only.
+// results.jsonl: one JSON object per line, append-only.
 #pragma once
 
 #include <filesystem>
@@ -12,14 +12,13 @@ namespace restlab {
 
 class ResultsLog {
  public:
-  // Notes which jobs the file has lines of. A last line without an end, which a killed writer left,
-  // is cut off, with one line that says so; of a line that is no JSON object throws Error
-  // (badInput) with file and line.
+  // Notes which jobs have lines in the file. Cuts off incomplete jobs at the end, left by a killed
+  // writer, and logs that. Throws Error (badInput) with file and line if a line is no JSON object.
   explicit ResultsLog(std::filesystem::path file);
 
-  // Adds the job's lines unless they are there; lines of a job that was made anew are added in any
-  // case, with `replaces_earlier`. All of them or none: throws Error (badInput) where the disk is
-  // full or read-only, with the file as it was.
+  // Appends the job's lines unless they exist. Lines of a job that was rendered again are always
+  // appended, with `replaces_earlier`. Writes all of them or none: throws Error (badInput) if the
+  // disk is full or read-only, and restores the file.
   void add(const std::string& key, const JobData& job, bool isMadeAnew = false);
 
  private:

@@ -1,12 +1,12 @@
-// The cost of a run of a table relative to runs of other tables.
+// Cost of a run of a table relative to runs of other tables.
 #pragma once
 
 #include "experiments/runner/suite/suite.h"
 
 namespace restlab {
 
-// Frames times pixels times methods, in no unit. `suite` is that of the scene (ofScene). A side
-// that the camera decides is taken as that of an image of 16 to 9.
+// Returns frames times pixels times methods, without a unit. `suite`: from ofScene(). A side that
+// depends on the camera is estimated from a 16:9 image.
 double costOfRun(const Suite& suite, const SuiteScene& scene);
 
 }  // namespace restlab

@@ -72,7 +72,7 @@ void addError(Json& line, const FrameError& error) {
 
 void addFigures(Json& line, const RunResult& run) {
   Json figures = Json::object();
-  // The pixel of an extreme, the exposures of FLIP: what the number is not known without.
+  // Details that belong to a number: the pixel of an extreme, the exposures of FLIP.
   Json details = Json::object();
   for (const auto& [name, figure] : run.figures) {
     figures[name] = finiteJson(figure.value);

@@ -43,8 +43,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The share of all cores' time that was not idle over a quarter of a second; 0 where the system
-// does not tell. The load would hold the build that has just ended.
+// Returns the busy share of all cores over a quarter of a second; 0 if unknown. The load average
+// would still include a build that has just ended.
 double busyShare() {
   const auto times = [] {
     std::ifstream stat("/proc/stat");
@@ -66,9 +66,8 @@ double busyShare() {
   return all > 0.0 ? 1.0 - (after[0] - before[0]) / all : 0.0;
 }
 
-// summary.csv, table.md and the images belong to one run: what an earlier one left would pass for
-// this one's where this one ends early. results.jsonl says of every line which run it is of.
-// A file that the suite itself reads stays.
+// Removes outputs of an earlier run, which would be mistaken for this one's if this run ends early.
+// results.jsonl stays: each of its lines names its run. Files that the suite itself reads stay.
 void removeEarlierResults(const fs::path& out, const Suite& suite) {
   std::error_code status;
   std::vector<fs::path> old = {out / "summary.csv", out / "table.md", out / "table.tex",
@@ -89,7 +88,7 @@ void removeEarlierResults(const fs::path& out, const Suite& suite) {
   }
 }
 
-// A block's place in the plan of run.json, with the keys of its jobs.
+// Returns a block's entry in the plan of run.json, without the keys of its jobs.
 nlohmann::ordered_json planOf(const Suite& suite, const BlockResult& block) {
   return {{"point", suite.point},
           {"scene", block.scene},
@@ -148,11 +147,11 @@ class SuiteRun {
   }
 
  private:
-  // Before anything in the folder changes: a wrong suite costs no earlier result.
+  // Checks before the folder changes: a wrong suite must not delete earlier results.
   void check() {
     std::error_code status;
     const bool isNew = !fs::exists(request_.out, status);
-    makeWritableDirectory(request_.out);  // quickly said, unlike what follows
+    makeWritableDirectory(request_.out);  // fails fast, before the slow checks
     try {
       checks_ = checkSuites(points_);
       for (const SuiteCheck& found : checks_) {
@@ -167,7 +166,7 @@ class SuiteRun {
     }
   }
 
-  // Every block, in the order of executeAll(), before anything of it is known but its name.
+  // Lists every block in the order of executeAll(); only names are known yet.
   void makePlan() {
     std::string missing;
     for (size_t s = 0; s < points_.front().scenes.size(); ++s) {
@@ -187,7 +186,7 @@ class SuiteRun {
   }
 
   bool executeAll() {
-    // Scenes are the same at every point.
+    // All points have the same scenes.
     for (size_t s = 0; s < points_.front().scenes.size(); ++s) {
       const SuiteScene& scene = points_.front().scenes[s];
       std::string missing;
@@ -212,7 +211,7 @@ class SuiteRun {
 
   bool executeBlock(size_t point, const SuiteScene& scene, const PreparedScene& prepared,
                     uint32_t component) {
-    // Its rows point to it until the end.
+    // Keep the suite until the end: the block's rows point to it.
     const Suite& suite = ofScenes_.emplace_back(ofScene(points_[point], scene));
     BlockResult block;
     block.scene = scene.name;
@@ -230,7 +229,7 @@ class SuiteRun {
     nlohmann::ordered_json& plan = plan_.at(next_++);
     plan = planOf(suite, block);
     bool finished = false;
-    std::exception_ptr failure;  // a lost device, say: what was finished before it is kept
+    std::exception_ptr failure;  // rethrown after finished runs are written, e.g. a lost device
     try {
       finished = executeRuns(suite, scene, prepared, block, plan);
     } catch (const Error&) {
@@ -277,7 +276,7 @@ class SuiteRun {
       plan["jobs"].push_back(key);
       if (made.count(key) == 0) logRun(suite, block, run, key, isThere);
       writeRecord("running");
-      // What was made side by side was counted then, together with what was there.
+      // With several jobs, makeSideBySide() has reported the progress already.
       if (suite.jobs < 2) progress.update(run + 1, "", pace_.progress());
     }
     progress.finish();
@@ -285,7 +284,7 @@ class SuiteRun {
     return true;
   }
 
-  // Of an earlier `run` with more runs: the tables are about to lose them.
+  // Logs further runs of an earlier, longer `run`, which the tables leave out.
   void sayWhatIsLeft(const Suite& suite, const PreparedScene& prepared, const BlockResult& block,
                      const std::string& reference) const {
     uint32_t runs = suite.runs;
@@ -315,14 +314,14 @@ class SuiteRun {
     return jobIdentity(suite, prepared, block, run, buildInfo(), reference, devices_);
   }
 
-  // The missing runs where several are made at once; the keys of those that were finished, in the
-  // store.
+  // Renders missing runs in parallel if the suite asks for it. Returns the keys of finished ones,
+  // which are in the store.
   std::set<std::string> makeSideBySide(const Suite& suite, const PreparedScene& prepared,
                                        BlockResult& block, const std::string& reference,
                                        Progress& progress, double cost) {
     std::set<std::string> made;
     if (suite.jobs < 2) return made;
-    prepareMasks(suite, prepared, block);  // not by each of them
+    prepareMasks(suite, prepared, block);  // once, not in each thread
     std::vector<uint32_t> missing;
     for (uint32_t run = 0; run < suite.runs; ++run) {
       const std::string key = identityOf(suite, prepared, block, run, reference).key();
@@ -365,7 +364,7 @@ class SuiteRun {
     return made;
   }
 
-  // Quickly done, and so not taken again.
+  // Always measured anew, because this is fast.
   void measureImageRows(const Suite& suite, const PreparedScene& prepared, BlockResult& block,
                         const std::string& reference, nlohmann::ordered_json& plan) {
     if (imageRuns(suite) > 0) prepareMasks(suite, prepared, block);
@@ -382,7 +381,7 @@ class SuiteRun {
   bool obtain(const Suite& suite, const SuiteScene& scene, const PreparedScene& prepared,
               BlockResult& block) {
     if (!scene.reference.empty()) {
-      // Of this configuration, as checkSuites() found.
+      // checkSuites() has checked its configuration.
       const fs::path found = findAsset(scene.reference);
       block.reference = readReference(found.empty() ? fs::path(scene.reference) : found);
       block.referenceFile =
@@ -429,14 +428,14 @@ class SuiteRun {
         radianceFactor(scene.request.scene));
   }
 
-  // --methods may have taken some of the suite's.
+  // Lists the methods that --methods has left.
   std::vector<std::string> methodNames() const {
     std::vector<std::string> names;
     for (const SuiteMethod& method : points_.front().methods) names.push_back(method.name);
     return names;
   }
 
-  // What was run, where, from which sources: whoever finds the folder can run it again.
+  // Writes run.json: all that is needed to run this again (arguments, devices, sources).
   void writeRecord(const std::string& status) {
     nlohmann::ordered_json devices = nlohmann::ordered_json::array();
     for (const DeviceUse& use : devices_) {
@@ -467,19 +466,19 @@ class SuiteRun {
   const std::vector<Suite>& points_;
   const SuiteRequest& request_;
   std::string started_;
-  double busyAtStart_ = busyShare();  // of the machine, by others
+  double busyAtStart_ = busyShare();  // by other programs
   Outputs outputs_;
   JobStore store_;
   std::optional<FolderLock> lock_;
   std::optional<ResultsLog> log_;
-  std::vector<SuiteCheck> checks_;  // of the points
+  std::vector<SuiteCheck> checks_;  // by point
   std::vector<DeviceUse> devices_;
   std::vector<std::string> skipped_;
   std::vector<nlohmann::ordered_json> plan_;
-  nlohmann::ordered_json record_;  // run.json
+  nlohmann::ordered_json record_;  // contents of run.json
   Pace pace_;
   std::deque<Suite> ofScenes_;  // addresses must stay
-  size_t next_ = 0;             // block of the plan
+  size_t next_ = 0;             // block in the plan
   size_t made_ = 0, reused_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// `run`: a suite from its file to its folder of results.
+// `run`: executes a suite and writes its folder of results.
 #pragma once
 
 #include <filesystem>
@@ -12,13 +12,12 @@ namespace restlab {
 struct SuiteRequest {
   std::filesystem::path out;
   std::vector<std::string> argv;  // recorded in run.json
-  bool force = false;             // jobs that are there are made anew
+  bool force = false;             // existing jobs are rendered again
 };
 
-// Executes every block of every point; prints each table on stdout as soon as it is known. Runs
-// that are in the folder already, under their key, are taken as they are. Returns false when it was
-// interrupted: what was finished is written. Throws Error; where another program is at work in the
-// folder, badInput.
+// Executes every block of every point and prints each table on stdout as soon as it is complete.
+// Runs that exist in the folder under their key are reused. Returns false after an interrupt, with
+// all finished results written. Throws Error; badInput if another program is at work in the folder.
 bool runSuite(const std::vector<Suite>& points, const SuiteRequest& request);
 
 }  // namespace restlab

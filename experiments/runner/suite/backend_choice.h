@@ -1,4 +1,4 @@
-// Which backend a session runs on, and what it says when its kernels are ready.
+// Chooses the backend of a session, and logs its start-up.
 #pragma once
 
 #include <cstddef>
@@ -10,26 +10,26 @@
 
 namespace restlab {
 
-// All that there are; no backend has every one.
+// Lists all of them; no backend supports every one.
 const std::vector<std::string>& rayTracingNames();
-// True where a backend may have it: whether its device does, the session finds out.
+// Returns whether the backend may support it. Only the session knows whether the device does.
 bool mayTraceBy(const std::string& backend, const std::string& rayTracing);
 
-// What methods of a table ran on.
+// Device that methods of a table ran on.
 struct DeviceUse {
   std::string backend, device, rayTracing;
   auto operator<=>(const DeviceUse&) const = default;
 };
 DeviceUse deviceUseOf(const Session& session);
 
-// Start-up of several sessions in as few lines as it needs. Kernels that were ready before are in
-// no report, so that nothing is said twice.
+// Logs the start-up of several sessions in few lines. A kernel that was ready before is in no
+// report, so nothing is logged twice.
 class StartupLog {
  public:
-  // `firstKernel`, `firstNotice`: those before them were added already.
+  // `firstKernel`, `firstNotice`: skip those added before.
   void add(const Session& session, size_t firstKernel = 0, size_t firstNotice = 0);
-  // Warnings, then "vulkan: 3 kernels ready in 2.4 s (2 from the cache) on ..." for each device;
-  // with -v one line a kernel.
+  // Prints warnings, then "vulkan: 3 kernels ready in 2.4 s (2 from the cache) on ..." for each
+  // device; with -v one line per kernel.
   void print();
 
  private:

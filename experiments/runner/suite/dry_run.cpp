@@ -22,10 +22,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The first frame of a history is cheaper than those that have something to reuse.
+// Time the last of several frames: the first frame of a history is cheap, without reuse.
 constexpr uint32_t kProbeFrames = 4;
 
-// Seconds of a frame with all that happens between the passes, by the steady clock.
+// Returns the wall-clock seconds of a frame, including work between its passes.
 double secondsOfFrame(const PreparedScene& prepared, const SessionConfig& config,
                       size_t& bytesPerPixel) {
   Session session(prepared.scene, config);
@@ -40,7 +40,7 @@ double secondsOfFrame(const PreparedScene& prepared, const SessionConfig& config
   return seconds;
 }
 
-// One that a run would take as it is.
+// Finds a reference that a run would use without further samples.
 std::optional<Reference> findReference(const Suite& suite, const PreparedScene& prepared,
                                        const ReferenceConfig& config, const fs::path& out,
                                        const std::string& label) {
@@ -55,17 +55,17 @@ std::optional<Reference> findReference(const Suite& suite, const PreparedScene& 
       const bool isOf = stored != reference.metadata.end() && stored->second == key;
       if (isOf && meetsTarget(reference, suite.target)) return reference;
     } catch (const Error&) {
-      continue;  // a run says what is wrong with it
+      continue;  // a run reports the error
     }
   }
   return std::nullopt;
 }
 
-// All that a block is measured against.
+// References of a block that exist.
 struct ReferencesThere {
-  std::string text;    // what there is of it
-  size_t missing = 0;  // are to be made
-  std::string hash;    // that the jobs' keys hold; "" where some are missing
+  std::string text;    // for the table
+  size_t missing = 0;  // number to be rendered
+  std::string hash;    // part of the jobs' keys; "" if some are missing
 };
 
 ReferencesThere referencesThere(const Suite& suite, const SuiteScene& scene,
@@ -118,12 +118,12 @@ ReferencesThere referencesThere(const Suite& suite, const SuiteScene& scene,
 struct Cost {
   size_t there = 0;
   double seconds = 0.0, memoryMiB = 0.0;
-  // A reference stops at an error, and nobody knows when that is reached.
+  // Set if a reference stops at a target error: the time until then is unknown.
   bool isLowerBound = false;
-  std::string reference;  // what there is of it
+  std::string reference;  // existing references, for the table
 };
 
-// Of one reference; nothing where it is not known.
+// Returns the seconds for one reference, if known.
 std::optional<double> secondsOfReference(const Suite& suite, const PreparedScene& prepared,
                                          SessionConfig path) {
   path.camera = prepared.camera;
@@ -133,7 +133,7 @@ std::optional<double> secondsOfReference(const Suite& suite, const PreparedScene
   if (target.spp == 0) return seconds;
   size_t ignored = 0;
   const double bySamples = double(target.spp) * secondsOfFrame(prepared, path, ignored);
-  return std::min(seconds.value_or(bySamples), bySamples);  // whatever is reached first
+  return std::min(seconds.value_or(bySamples), bySamples);  // the target reached first
 }
 
 Cost costOf(const Suite& suite, const SuiteScene& scene, const PreparedScene& prepared,
@@ -158,8 +158,8 @@ Cost costOf(const Suite& suite, const SuiteScene& scene, const PreparedScene& pr
         jobIdentity(suite, prepared, block, run, buildInfo(), references.hash, devices);
     cost.there += store.load(identity.key()).has_value();
   }
-  // Side by side: each with its share of the cores, with which the frames were timed, and with
-  // buffers of its own.
+  // Jobs in parallel: each has its share of the cores, with which the frames were timed, and its
+  // own buffers.
   const size_t toMake = request.force ? suite.runs : suite.runs - cost.there;
   const size_t beside = std::max<size_t>(1, std::min<size_t>(suite.jobs, toMake));
   cost.seconds = runS * double((toMake + beside - 1) / beside);
@@ -179,7 +179,7 @@ std::string duration(double seconds) {
   return fmt::format("{:.0f} min", seconds / 60.0);
 }
 
-// What the tables' rows are going to be; of a sweep over settings each once.
+// Lists the methods of the tables; each once if settings are swept.
 std::string methodsText(const std::vector<Suite>& points) {
   std::string lines =
       "| method | integrator, mode | cache | backend | denoiser | parameters that are given |\n"

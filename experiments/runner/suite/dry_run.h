@@ -1,4 +1,4 @@
-// `run --dry-run`: the matrix of jobs, and what they are going to cost.
+// `run --dry-run`: lists the jobs of a suite and estimates their cost.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace restlab {
 
-// A table in markdown, a line a block: runs that are there, runs to be made, seconds that
-// references and runs will take, memory. Seconds are those of a few frames of each method, which
-// are rendered for it; nothing is written. Throws Error as runSuite() would before its first frame.
+// Returns a markdown table with one line per block: existing runs, missing runs, estimated seconds
+// of references and runs, memory. Seconds are measured by rendering a few frames of each method;
+// nothing is written. Throws Error as runSuite() would before its first frame.
 std::string planText(const std::vector<Suite>& points, const SuiteRequest& request);
 
 }  // namespace restlab

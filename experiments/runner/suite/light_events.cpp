@@ -15,7 +15,7 @@ constexpr double kMaxFactor = 1e6;
 
 struct FileEvent {
   LightEvent event;
-  std::string path;  // "": every one
+  std::string path;  // "": every path
 };
 
 FileEvent readEvent(const ConfigTable& table, const std::vector<SuitePath>& paths) {
@@ -23,7 +23,7 @@ FileEvent readEvent(const ConfigTable& table, const std::vector<SuitePath>& path
     if (!table.has(key)) table.fail("", fmt::format("[[event]] needs '{}'", key));
   }
   FileEvent read;
-  // Beyond any run: the limit of a run is said later, with its reason.
+  // Accept any frame here; checkLightEvents() rejects late frames with a reason.
   read.event.frame = uint32_t(table.getInteger("frame", 0, 0, int64_t(1) << 31));
   read.event.light = table.getString("light", "");
   read.event.place = table.place("light");

@@ -1,4 +1,4 @@
-// Lamps that are switched while a history goes on: [[event]] of a suite.
+// Lights that are switched during a history: [[event]] of a suite.
 #pragma once
 
 #include <optional>
@@ -14,34 +14,35 @@ struct Suite;
 struct SuitePath;
 
 struct LightEvent {
-  uint32_t frame = 0;             // of the history, from 0: the first one that it holds in
-  std::string light;              // as withLightFactor() knows it
-  double factor = 1.0;            // of the light that was loaded; until another event of the light
-  std::string place, framePlace;  // of the name and of the frame in the suite, for errors
+  uint32_t frame = 0;             // of the history, from 0: the first one with the new factor
+  std::string light;              // name, for withLightFactor()
+  double factor = 1.0;            // relative to the loaded light; until the light's next event
+  std::string place, framePlace;  // of the name and the frame in the suite, for errors
 };
 
-// Gives every path its events, by frame and then in the order of the file. Throws Error (badUsage)
-// with the place of what is wrong.
+// Adds the events to their paths, sorted by frame and then by their order in the file. Throws Error
+// (badUsage) with the place of the mistake.
 void readLightEvents(const ConfigTable& root, std::vector<SuitePath>& paths);
-// Do the events of the suite's path come before what it measures, and go with its settings? Else
-// throws likewise.
+// Throws Error (badUsage) if an event of the suite's path comes after the measured frame or
+// conflicts with the settings.
 void checkLightEvents(const ConfigTable& settings, const Suite& suite);
 
-// "panel x0 from frame 8, lamp x0.5 from frame 16": those that came until a frame; "" without one.
+// Returns "panel x0 from frame 8, lamp x0.5 from frame 16": events up to `frame`; "" without
+// events.
 std::string eventsText(const std::vector<LightEvent>& events, uint32_t frame);
 
-// The scene as it is from a frame on.
+// Scene with the light from `firstFrame` on.
 struct LightPhase {
   uint32_t firstFrame = 0;
   PreparedScene prepared;
 };
 
-// Of the suite's events in the scene, the first of them from frame 0; nothing where there are no
-// events. Throws Error (badUsage) at the place of a light that the scene does not have. Phases with
-// the same light share one compiled scene.
+// Applies the suite's events to the scene. The first phase starts at frame 0; returns an empty
+// vector without events. Throws Error (badUsage) at the place of a light that the scene does not
+// have. Phases with the same light share one compiled scene.
 std::vector<LightPhase> lightPhases(const Suite& suite, const PreparedScene& prepared);
 
-// What a frame shows; `prepared` where there are no phases.
+// Returns the scene in a frame; `prepared` if there are no phases.
 const PreparedScene& sceneAt(const std::vector<LightPhase>& phases, const PreparedScene& prepared,
                              uint32_t frame);
 

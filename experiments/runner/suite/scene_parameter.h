@@ -1,4 +1,4 @@
-// Scenes that differ in one number of their names.
+// Built-in scenes whose names differ in one number.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@ namespace restlab {
 
 struct SweptParameter {
   std::string name;            // "albedo"
-  std::string scene;           // what the names have in common: "furnace?scale=2"
-  std::vector<double> values;  // of the names, in their order
+  std::string scene;           // common part of the names: "furnace?scale=2"
+  std::vector<double> values;  // in the order of the names
   std::vector<std::string> texts;
 };
 
-// Of at least two names. Throws Error (badUsage) where they are not of one built-in scene, differ
-// in more than one parameter or have a value twice.
+// Parses at least two names. Throws Error (badUsage) if they are not of one built-in scene, differ
+// in more than one parameter or repeat a value.
 SweptParameter sweptParameter(const std::vector<std::string>& names);
 
 }  // namespace restlab

@@ -23,7 +23,7 @@ namespace restlab {
 
 namespace {
 
-// A file's name without its folder and ending; a built-in's with all of its parameters.
+// Returns a file's name without folder and extension; a built-in's name with all parameters.
 std::string shownName(const std::string& scene) {
   return isBuiltinScene(scene) ? scene : std::filesystem::path(scene).stem().string();
 }
@@ -68,8 +68,8 @@ SuiteScene readScene(const ConfigTable& table, const std::string& folder) {
   return scene;
 }
 
-// The scenes of a [[scene]], which are a sweep where there are several: of one built-in, and
-// different in one parameter.
+// Reads the scenes of a [[scene]]. Several scenes are a sweep: of one built-in, different in one
+// parameter.
 std::vector<SuiteScene> readScenes(const ConfigTable& table, const std::string& folder,
                                    size_t sweep) {
   const SuiteScene common = readScene(table, folder);
@@ -96,7 +96,7 @@ std::vector<SuiteScene> readScenes(const ConfigTable& table, const std::string& 
   return scenes;
 }
 
-// In a table of several backends every name says which one it is of.
+// Adds the backend to every name in a table of several backends.
 void nameByBackend(Suite& suite) {
   if (suite.methodBackends().size() < 2) return;
   for (SuiteMethod& method : suite.methods) {
@@ -104,7 +104,7 @@ void nameByBackend(Suite& suite) {
   }
 }
 
-// A setting that no backend in use could have would be ignored in silence.
+// Rejects a setting that no backend in use supports, instead of ignoring it.
 void requireSomeUse(const ConfigTable& settings, const Suite& suite) {
   std::vector<std::string> used = suite.methodBackends();
   used.push_back(suite.referenceBackend);
@@ -126,8 +126,8 @@ void requireSomeUse(const ConfigTable& settings, const Suite& suite) {
   }
 }
 
-// Notes a name by what file names keep of it. Fails at `place` where another one, in `seen`, is or
-// looks the same: the images of both would have one name.
+// Registers a name by its form in file names. Fails at `place` if `seen` has the same form already:
+// the images of both would have one name.
 void requireUniqueName(std::map<std::string, std::string>& seen, const std::string& what,
                        const std::string& name, const std::string& place) {
   const auto [other, isNew] = seen.emplace(safeFileName(name), name);
@@ -225,7 +225,7 @@ void Suite::chooseDevice(SessionConfig& config) const {
 
 namespace {
 
-// One point of the sweep over settings. `root` holds all overrides and this point's values.
+// Reads one point of the sweep over settings. `root`: with all overrides and this point's values.
 Suite readSuite(const ConfigTable& root, const std::filesystem::path& file, const Sweep& sweep) {
   Suite suite;
   suite.file = file.string();
@@ -270,8 +270,8 @@ Suite readSuite(const ConfigTable& root, const std::filesystem::path& file, cons
   return suite;
 }
 
-// Run r has the seed `seed` + r: seeds of a sweep that are nearer than there are runs would make
-// the same runs twice, which look like two.
+// Rejects swept seeds that are closer than the number of runs: run r has the seed `seed` + r, so
+// two points would share runs that look independent.
 void requireOwnSeeds(const std::vector<SweepAxis>& axes, const std::vector<Suite>& points) {
   const Suite& last = points.back();
   for (const SweepAxis& axis : axes) {
@@ -288,13 +288,13 @@ void requireOwnSeeds(const std::vector<SweepAxis>& axes, const std::vector<Suite
   }
 }
 
-// Every value of the sweep would replace what was set, in silence.
+// Rejects --set of a swept key, whose value the sweep would replace.
 void requireSetKeysAreNotSwept(const Sweep& sweep, const std::vector<std::string>& overrides) {
   for (const std::string& assignment : overrides) {
     const std::string key = splitAssignment(assignment).first;
     std::string method, leaf = key.rfind("settings.", 0) == 0 ? key.substr(9) : key;
     const bool isOfMethods = splitMethodKey(key, method, leaf);
-    // A swept `backend` is the methods', in place of the list of [settings].
+    // A swept `backend` belongs to the methods, not to the list of [settings].
     const bool isBackend = !isOfMethods && leaf == "backend";
     for (const SweepAxis& axis : isOfMethods || isBackend ? sweep.methods : sweep.settings) {
       const bool isAll = axis.method.empty() || axis.method == method;

@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A session of one pixel. What is wrong with its device is said where the suite chooses it; such
-// errors begin with the option that chooses it on a command line.
+// Opens a session of one pixel. Reports device errors at the place in the suite that chooses the
+// device; the error text begins with the command line option that would choose it.
 Session open(const Suite& suite, const std::string& backendPlace, const PreparedScene& prepared,
              const SessionConfig& config) {
   try {
@@ -38,7 +38,7 @@ Session open(const Suite& suite, const std::string& backendPlace, const Prepared
   }
 }
 
-// The reference given as a file must be of exactly the suite's configuration.
+// Throws unless the reference file has exactly the suite's configuration.
 void checkReference(const Suite& suite, const SuiteScene& scene, const PreparedScene& prepared,
                     uint32_t width, uint32_t height) {
   const std::string& file = scene.reference;
@@ -56,11 +56,11 @@ void checkReference(const Suite& suite, const SuiteScene& scene, const PreparedS
   }
 }
 
-// Opens every method's device and makes its kernels ready. Returns the bytes per pixel, at that
-// size, of all methods of a block together, which are there at once, as their frames take turns.
+// Opens every method's device and makes its kernels ready. Returns bytes per pixel, at that size,
+// of all methods of a block together: their frames are interleaved, so all are in memory at once.
 size_t openMethods(const Suite& suite, const SuiteScene& scene, const PreparedScene& prepared,
                    uint32_t width, uint32_t height, SuiteCheck& found) {
-  // A session of one pixel knows the bytes of every pixel.
+  // One pixel is enough: sessions compute the bytes per pixel of any size.
   const SessionConfig picture = pictureOf(suite, 1, 1, suite.components.front());
   StartupLog startup;
   size_t bytesPerPixel = 0;
@@ -85,7 +85,7 @@ size_t openMethods(const Suite& suite, const SuiteScene& scene, const PreparedSc
 
 PreparedScene loadScene(const SuiteScene& scene) {
   SceneRequest request = scene.request;
-  request.camera.clear();  // looked for below, at a place of its own
+  request.camera.clear();  // chosen below, for errors at its own place
   std::optional<EnvironmentMap> environment =
       atPlace(scene.environmentPlace, [&] { return readEnvironment(request); });
   PreparedScene prepared =
@@ -121,10 +121,10 @@ void checkScene(const Suite& suite, const SuiteScene& scene, const PreparedScene
   for (const uint32_t component : suite.components) {
     std::map<std::string, std::string> words = describe(
         sceneAt(lights, prepared, suite.warmupFrames), pictureOf(suite, width, height, component));
-    words.erase("reference_sources");  // an image of another version is a row like any other
+    words.erase("reference_sources");  // images of other versions are accepted
     if (const auto motion = motionOf(suite, scene, prepared)) {
       describeCamera(cameraAt(*motion, suite.warmupFrames), words);
-      words.erase("camera_index");  // its numbers say it
+      words.erase("camera_index");  // its numbers identify the camera
     }
     checkImageRows(suite, scene.name, component, width, height, words);
   }
@@ -188,7 +188,7 @@ std::optional<CameraMotion> motionOf(const Suite& suite, const SuiteScene& scene
     path.cutDegrees = -path.cutDegrees;
   }
   CameraMotion motion = resolveCameraPath(path, prepared.scene->source(), prepared.camera);
-  // Every frame: a path that leads through its target is found before the first one is rendered.
+  // Compute every frame's camera to detect a path through its target before rendering.
   for (uint32_t frame = 0; frame < suite.warmupFrames + suite.timedFrames; ++frame)
     cameraAt(motion, frame);
   return motion;
@@ -215,7 +215,7 @@ std::vector<SuiteCheck> checkSuites(const std::vector<Suite>& points) {
   std::string missing;
   for (const SuiteScene& scene : scenes) {
     if (scene.optional || !assetsMissing(scene.request, missing)) continue;
-    // What reads them says what is wrong, before the scenes that are there take their time.
+    // Loading reports the error, before the slow checks of existing scenes.
     if (missing == scene.request.environment)
       atPlace(scene.environmentPlace, [&] { return readEnvironment(scene.request); });
     atPlace(scene.place, [&] { return prepareScene(scene.request, std::nullopt); });

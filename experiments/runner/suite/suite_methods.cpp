@@ -15,7 +15,7 @@ namespace restlab {
 
 namespace {
 
-// A row of images: [[method]] with a key 'image'.
+// Reads a row of images: [[method]] with a key 'image'.
 SuiteMethod readImageRow(const ConfigTable& table, const std::string& folder) {
   ImageRow row;
   row.files = table.getStrings("image");
@@ -53,7 +53,7 @@ SuiteMethod readImageRow(const ConfigTable& table, const std::string& folder) {
   return method;
 }
 
-// A method, once for each of its backends.
+// Reads a method. Returns one copy per backend.
 std::vector<SuiteMethod> readMethod(const ConfigTable& table, const ConfigTable& settings,
                                     const Suite& suite) {
   SuiteMethod method;
@@ -105,7 +105,7 @@ std::vector<SuiteMethod> readMethod(const ConfigTable& table, const ConfigTable&
   return all;
 }
 
-// Whether a sweep over all methods means these parts: `path` has one mode and no cache.
+// Returns whether a sweep over all methods applies: `path` has one mode and no cache.
 bool isMeant(const SweepAxis& axis, const std::string& integrator, const std::string& denoiser) {
   const std::vector<std::string> known = methodKeys(integrator, denoiser);
   if (std::find(known.begin(), known.end(), axis.leaf) == known.end()) return false;
@@ -118,7 +118,7 @@ bool isMeant(const SweepAxis& axis, const std::string& integrator, const std::st
   return true;
 }
 
-// A method's table once for every combination of what is swept of it.
+// Reads a method's table once for every combination of its swept keys.
 std::vector<SuiteMethod> readSwept(ConfigTable& table, const ConfigTable& settings,
                                    const Sweep& sweep, const Suite& suite) {
   const std::string integrator = table.getString("integrator", "path");
@@ -151,7 +151,7 @@ std::vector<SuiteMethod> readSwept(ConfigTable& table, const ConfigTable& settin
       table.assign(axes[i].leaf, axes[i].texts[choice[i]], axes[i].place);
       // A method without a name of its own is named by its integrator and mode.
       if (!isNamed && (axes[i].leaf == "integrator" || axes[i].leaf == "mode")) continue;
-      if (axes[i].leaf == "backend") continue;  // nameByBackend() says it
+      if (axes[i].leaf == "backend") continue;  // nameByBackend() adds it
       shown.push_back(axes[i]);
       shownChoice.push_back(choice[i]);
     }

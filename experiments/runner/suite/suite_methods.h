@@ -1,5 +1,5 @@
-// The methods of a suite: [[method]] tables, once for each of what is swept and each backend, and
-// rows of images.
+// Reads the methods of a suite: [[method]] tables, for each combination of swept keys and each
+// backend, and rows of images.
 #pragma once
 
 #include "core/config.h"
@@ -8,8 +8,8 @@
 
 namespace restlab {
 
-// Fills `suite.methods`, whose settings are read. `folder`: of the suite's file. Throws Error
-// (badUsage) with the place.
+// Fills `suite.methods`; the settings must have been read. `folder`: of the suite's file. Throws
+// Error (badUsage) with the place.
 void readMethods(const ConfigTable& root, const ConfigTable& settings, const Sweep& sweep,
                  const std::string& folder, Suite& suite);
 

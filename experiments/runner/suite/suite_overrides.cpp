@@ -15,7 +15,7 @@ bool startsWith(const std::string& text, const std::string& prefix) {
   return text.rfind(prefix, 0) == 0;
 }
 
-// method.KEY or method.NAME.KEY.
+// Applies method.KEY or method.NAME.KEY.
 void overrideMethods(const ConfigTable& root, const std::string& key, const std::string& value,
                      const std::string& place) {
   std::string wanted, leaf;

@@ -1,4 +1,4 @@
-// `--set KEY=VALUE` of suites.
+// Applies `--set KEY=VALUE` to suites.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace restlab {
 
-// Changes a suite's document as loadSuites() says. Throws Error (badUsage) naming the option.
+// Changes a suite's document; see loadSuites(). Throws Error (badUsage) naming the option.
 void applyOverride(ConfigTable& root, const std::string& assignment);
 
 }  // namespace restlab

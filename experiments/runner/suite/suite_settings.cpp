@@ -86,7 +86,8 @@ void readMasks(const ConfigTable& root, Suite& suite) {
 
 namespace {
 
-// A size of the command or of a sweep replaces that of the file, in whichever way that says it.
+// Lets a size from the command line or a sweep replace that of the file, also in the other
+// notation.
 void readSize(const ConfigTable& table, const std::set<std::string>& swept, Suite& suite) {
   const auto isLater = [&](const std::string& key) {
     return table.has(key) && (swept.count(key) > 0 || table.place(key).rfind("--", 0) == 0);
@@ -193,7 +194,7 @@ void takePath(Suite& suite, const std::string& name, const std::string& place) {
 void checkPath(const ConfigTable& settings, const Suite& suite) {
   checkLightEvents(settings, suite);
   const uint32_t length = suite.warmupFrames + suite.timedFrames;
-  // There is one reference, of the measured frame's camera.
+  // The only reference is of the measured frame's camera.
   const std::optional<uint32_t> still = firstStillFrame(suite.cameraPath);
   if (!suite.ages.empty() && (!still || *still > suite.warmupFrames)) {
     settings.fail("ages", fmt::format("'ages' count the frames of a view that stands still; on the "

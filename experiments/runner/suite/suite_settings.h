@@ -1,5 +1,5 @@
-// What a suite says of all of its methods: [settings], [reference], [[mask]] and [[camera_path]].
-// All throw Error (badUsage) with the place.
+// Reads what a suite sets for all methods: [settings], [reference], [[mask]] and [[camera_path]].
+// All functions throw Error (badUsage) with the place.
 #pragma once
 
 #include <set>
@@ -9,25 +9,25 @@
 
 namespace restlab {
 
-// Of `max_bounces`.
+// Limit of `max_bounces`.
 constexpr int64_t kMaxBouncesOfSuites = 1024;
-// Of frames and runs.
+// Limit of frames and runs.
 constexpr int64_t kMaxCount = 1000000;
 
-// One name or several; "cpu" and so on, each once.
+// Reads one name or several: "cpu" and so on, each once.
 std::vector<std::string> readBackends(const ConfigTable& table,
                                       const std::vector<std::string>& fallback);
-// `swept`: keys whose values are those of a sweep.
+// `swept`: keys with swept values.
 void readSettings(const ConfigTable& table, Suite& suite, const std::set<std::string>& swept = {});
-// The keys that [settings] has: those that readSettings() asks for.
+// Returns the known keys of [settings].
 const std::vector<std::string>& settingsKeys();
-// Every [[camera_path]] and what is switched on it; "still" needs none.
+// Reads every [[camera_path]] and its events; "still" needs no table.
 void readPaths(const ConfigTable& root, Suite& suite);
-// Makes one of them the suite's; `place`: where it is named, for errors.
+// Selects a path for the suite. `place`: where it is named, for errors.
 void takePath(Suite& suite, const std::string& name, const std::string& place);
-// Does it go with what the suite measures?
+// Throws if the path conflicts with what the suite measures.
 void checkPath(const ConfigTable& settings, const Suite& suite);
-// Of the scenes, which are read.
+// Requires that the scenes have been read.
 void readMasks(const ConfigTable& root, Suite& suite);
 void readReference(const ConfigTable& table, Suite& suite);
 

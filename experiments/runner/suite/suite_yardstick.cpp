@@ -15,7 +15,7 @@ namespace {
 
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 
-// The name with every number in one form: 8, 8.0 and 0.8e1 are one setting.
+// Rewrites every number in one form: 8, 8.0 and 0.8e1 are one setting.
 std::string withPlainNumbers(const std::string& name) {
   std::string plain;
   for (size_t at = 0; at < name.size();) {

@@ -1,4 +1,4 @@
-// The method that ratios are against, by the name that a suite or a command gives it.
+// Finds the method that ratios are relative to by the name given in a suite or command.
 #pragma once
 
 #include "core/config.h"
@@ -6,9 +6,9 @@
 
 namespace restlab {
 
-// Completes `suite.baseline`. It may be a method's name, its name without the backend, or its name
-// with numbers written in another way ("radius=8" of "radius=8.0"); then it becomes the method's
-// own. Throws Error (badUsage) with place where it is none of these.
+// Replaces `suite.baseline` by the exact name of a method. It may be given as a method's name, its
+// name without the backend, or with numbers in another notation ("radius=8" for "radius=8.0").
+// Throws Error (badUsage) with the place if no method matches.
 void followBaseline(const ConfigTable& settings, Suite& suite);
 
 }  // namespace restlab

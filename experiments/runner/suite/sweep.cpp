@@ -15,7 +15,7 @@ namespace restlab {
 
 namespace {
 
-// A report has no use for more tables, and reading more of them takes long.
+// Maximum number of combinations; reports with more tables are of no use, and slow to read.
 constexpr int64_t kMaxCounted = 2000;
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
@@ -33,7 +33,7 @@ void requireSomeMethod(const ConfigTable& root, const std::vector<std::string>& 
     names.push_back(name);
     if (!axis.method.empty() && axis.method != name) continue;
     named = true;
-    // An image is of one setting.
+    // Skip rows of images, which have nothing to sweep.
     if (table.has("image")) continue;
     const std::vector<std::string> known = methodKeys(table);
     if (contains(known, axis.leaf)) return;
@@ -86,7 +86,7 @@ std::vector<std::string> methodKeys(const std::string& integrator, const std::st
   const bool usesCache = std::any_of(
       integratorRegistry().begin(), integratorRegistry().end(),
       [&](const IntegratorInfo* info) { return info->name == integrator && info->usesCache; });
-  // Of every cache: which one it is may be swept, too.
+  // Parameters of every cache, because the cache may be swept too.
   for (const CacheInfo* info : cacheRegistry()) add(*info, usesCache ? info->name : "");
   for (const DenoiserInfo* info : denoiserRegistry()) add(*info, denoiser);
   return names;
@@ -138,7 +138,7 @@ Sweep readSweep(const ConfigTable& root, const std::vector<std::string>& setting
     if (once.size() < axis.texts.size())
       table.fail(key, fmt::format("'{}' has a value twice", key));
     if (!splitMethodKey(key, axis.method, axis.leaf)) axis.leaf = key;
-    // `backend` of [settings] is a list of its own: what is swept is a method's.
+    // Treat `backend` as a key of methods: in [settings] it is a list.
     const bool isSetting = axis.leaf == key && contains(settingsKeys, key) && key != "backend";
     if (!isSetting) requireSomeMethod(root, settingsKeys, axis);
     (isSetting ? sweep.settings : sweep.methods).push_back(std::move(axis));

@@ -52,7 +52,7 @@ Image ImageSum::varianceOfMean(const ImageSum& a, const ImageSum& b, const Image
   for (size_t i = 0; i < a.sum_.size(); ++i) {
     const glm::dvec3 mean = (a.sum_[i] + b.sum_[i]) / n;
     const glm::dvec3 meanSquare = squares.sum_[i] / n;
-    // Rounding can leave a variance of a constant pixel a hair below zero.
+    // Clamp: rounding can make the variance of a constant pixel slightly negative.
     const glm::dvec3 variance = glm::max(meanSquare - mean * mean, glm::dvec3(0.0));
     image.pixels[i] = glm::vec3(variance / (n - 1.0));
   }

@@ -14,7 +14,7 @@ namespace restlab {
 class ImageSum {
  public:
   ImageSum() = default;
-  // A sum as it was after `count` frames (at least one) of that size.
+  // Restores a sum of `count` frames (at least one) of that size.
   ImageSum(uint32_t width, uint32_t height, uint64_t count, std::vector<glm::dvec3> sums);
 
   void add(const Image& frame);
@@ -29,8 +29,8 @@ class ImageSum {
   Image mean() const;
   // Mean of the frames of both sums.
   static Image meanOfBoth(const ImageSum& a, const ImageSum& b);
-  // Per-pixel variance of that mean, from the sample variance over all frames (at least two);
-  // `squares` is the sum of the squares of all of them.
+  // Per-pixel variance of that mean, from the sample variance over all frames (at least two).
+  // `squares`: sum of the squares of all frames.
   static Image varianceOfMean(const ImageSum& a, const ImageSum& b, const ImageSum& squares);
 
  private:
@@ -40,15 +40,14 @@ class ImageSum {
   std::vector<glm::dvec3> sum_;
 };
 
-// The accumulated image of a still view: what is best known of it after each frame. Frames of a
-// method may be averages of its history already, of all of it up to `averagedFrames`; a mean of
-// such frames from the first one on would count the first samples several times. So up to that age
-// the last frame is the accumulated image, and from there on the mean of the frames since: all
-// frames of the history but the last ones weigh the same in it.
+// Accumulated image of a still view after each frame. Up to the age `averagedFrames`, frames of a
+// method average their whole history; a mean of such frames would count the first samples several
+// times. Up to that age the accumulated image is therefore the last frame, and afterwards the mean
+// of the frames since: all frames of the history but the last ones have the same weight.
 class HistoryMean {
  public:
   explicit HistoryMean(double averagedFrames) : averagedFrames_(averagedFrames) {}
-  // The next frame of the history.
+  // Adds the next frame of the history.
   void add(const Image& frame);
   uint64_t frames() const { return frames_; }
   Image mean() const { return sum_.mean(); }
@@ -59,16 +58,16 @@ class HistoryMean {
   ImageSum sum_;
 };
 
-// Whether the health count of that number must not happen: a value or a weight was lost. The others
-// say what a method does.
+// Returns whether the health counter of this index counts faults: lost values or weights. The
+// others describe what a method does.
 bool isFault(size_t count);
 
-// Counters of several frames.
+// Sums the counters of several frames.
 struct HealthSum {
   Health health;
   uint64_t raysPath = 0, raysShadow = 0;
   void add(const FrameStats& frame);
-  // "nonfinite=0 rejected_jacobian=12 ...".
+  // Returns "nonfinite=0 rejected_jacobian=12 ...".
   std::string text() const;
 };
 

@@ -22,7 +22,7 @@ double varianceOfPoint(const std::vector<RunResult>& runs, std::span<const size_
   double atMost = 0.0;
   for (const size_t run : chosen)
     atMost += runs[run].accumulated.at(point).error.mseVarianceAtMost / double(chosen.size());
-  return std::max(atMost, noise.common);  // NaN stays
+  return std::max(atMost, noise.common);  // keeps NaN
 }
 
 AccumulatedCurve accumulatedCurve(const std::vector<RunResult>& runs,

@@ -1,5 +1,5 @@
-// Mean error of accumulated frames over time, in natural logarithms: the line through it, and where
-// the measured points themselves stand.
+// Mean error of accumulated frames over time, in natural logarithms: the fitted line, and
+// interpolation between the measured points.
 #pragma once
 
 #include <functional>
@@ -12,40 +12,41 @@
 
 namespace restlab {
 
-// What the reference's noise adds to all runs of a method, in points of an accumulation.
+// Noise that the reference adds to all runs of a method, at points of an accumulation.
 struct AccumulatedNoise {
   double common = 0.0;  // variance in the MSE of every unbiased method
-  // Images of accumulations are not kept, so that of another one only an upper bound is known, that
-  // of its runs (FrameError::mseVarianceAtMost).
+  // Accumulated images are not kept. For a biased method only an upper bound of the variance is
+  // known, from its runs (FrameError::mseVarianceAtMost).
   bool isUnbiased = true;
 };
 
-// Its variance in an accumulation of these runs; NaN where lines of older programs lack it.
+// Returns that variance at one point, for these runs; NaN if lines of older programs lack it.
 double varianceOfPoint(const std::vector<RunResult>& runs, std::span<const size_t> chosen,
                        size_t point, const AccumulatedNoise& noise);
 
-// Errors that are not above so many standard deviations of it are not fitted.
+// Excludes errors below this many standard deviations of the reference's noise from fits.
 constexpr double kNoiseOfFittedErrors = 4.0;
 
 struct CurvePoint {
-  size_t index = 0;  // among the run's accumulations
+  size_t index = 0;  // among the accumulated images of a run
   double logTime = 0.0, logMse = 0.0;
 };
 
-// In order of time.
+// Sorted by time.
 using AccumulatedCurve = std::vector<CurvePoint>;
 
-// Of the mean over these runs, moved by so many standard deviations of the reference's noise. Left
-// out is what has no logarithm and, unmoved, what is not above kNoiseOfFittedErrors of them.
+// Returns the curve of the mean over these runs, moved by `deviations` standard deviations of the
+// reference's noise. Leaves out points without a logarithm, and points whose error before the move
+// is below kNoiseOfFittedErrors standard deviations.
 AccumulatedCurve accumulatedCurve(const std::vector<RunResult>& runs,
                                   std::span<const size_t> chosen, const AccumulatedNoise& noise,
                                   double deviations = 0.0);
 
-// 0, 1, 2, ...: all of the runs.
+// Returns the indices of all runs: 0, 1, 2, ...
 std::vector<size_t> everyRun(size_t runs);
 
-// Intervals of statistics of curves: the jackknife's over runs, and what one standard deviation of
-// the reference's noise, up or down, moves, added as widened() does.
+// Returns intervals of statistics of curves: the jackknife over runs, widened() by the change that
+// one standard deviation of the reference's noise, up or down, causes.
 using CurveStatistics =
     std::function<std::vector<double>(std::span<const size_t> chosen, double deviations)>;
 std::vector<Interval> curveIntervals(size_t runs, const CurveStatistics& statistics,
@@ -58,13 +59,13 @@ struct CurveLine {
   double reaches(double logMse) const { return (logMse - intercept) / slope; }
 };
 
-// Least squares; NaN with fewer than two times.
+// Fits by least squares; NaN with fewer than two times.
 CurveLine fitLine(const AccumulatedCurve& curve);
 
-// Between the measured points along straight lines, beyond them along the last; NaN with fewer than
-// two points.
+// Interpolates linearly between the measured points and extrapolates beyond them; NaN with fewer
+// than two points.
 double interpolatedError(const AccumulatedCurve& curve, double logTime);
-// The first time at which that is not above `logMse`; NaN where it never comes to it.
+// Returns the first time at which the interpolated error falls to `logMse`; NaN if there is none.
 double interpolatedTime(const AccumulatedCurve& curve, double logMse);
 
 }  // namespace restlab

@@ -1,5 +1,5 @@
-// Error over the age of the history, against the yardstick and against the plain average of its
-// frames, which is what anyone gets for no ray more.
+// Error over the age of the history, relative to the yardstick and to the plain average of the
+// yardstick's frames, which costs no additional rays.
 #pragma once
 
 #include <vector>
@@ -18,13 +18,13 @@ struct AgeSummary {
   Interval ratioToAverage;  // MSE of the average of the yardstick's frames / MSE
 };
 
-// What ages are taken against: runs, and the reference's noise in their MSE. No runs: unknown.
+// Runs to compare with, and the reference's noise in their MSE. No runs: unknown.
 struct AgeYardstick {
   const std::vector<RunResult>* runs = nullptr;
   ReferenceNoise noise;
 };
 
-// Runs are compared in pairs: those of one number took turns. `own`: the method's own runs.
+// Compares runs in pairs: runs of one number were interleaved. `own`: the method's own runs.
 std::vector<AgeSummary> agesOf(const AgeYardstick& own, const AgeYardstick& yardstick,
                                const AgeYardstick& average);
 

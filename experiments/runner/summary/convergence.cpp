@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// log10(mse / line) of every point; NaN where it is not fitted.
+// Returns log10(mse / line) of every point; NaN for points that are not fitted.
 std::vector<double> residuals(const AccumulatedCurve& curve, size_t points) {
   std::vector<double> all(points, kNan);
   const CurveLine line = fitLine(curve);
@@ -21,7 +21,7 @@ std::vector<double> residuals(const AccumulatedCurve& curve, size_t points) {
   return all;
 }
 
-// The measured points against the line: each of them has its share of the errors of all.
+// Tests each measured point against the line. The error probability is divided among the points.
 void judgeLine(const std::vector<RunResult>& runs, const AccumulatedNoise& noise,
                Convergence& curve) {
   const double each = (1.0 - kMisfitConfidence) / double(std::max<size_t>(1, curve.fitted()));

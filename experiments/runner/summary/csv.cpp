@@ -1,4 +1,4 @@
-// summary.csv: the columns scripts depend on first and in their order, further ones after them.
+// summary.csv: first the columns that scripts depend on, in a fixed order, then further ones.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ std::string number(double value) {
   return fmt::format("{:.9g}", value);
 }
 
-// RFC 4180: quoted where a comma or quote stands inside; line breaks are blanks.
+// RFC 4180: quotes text with a comma or quote; line breaks become blanks.
 std::string quoted(const std::string& value) {
   const std::string text = oneLine(value);
   if (text.find_first_of(",\"") == std::string::npos) return text;
@@ -56,7 +56,7 @@ std::vector<Column> contractColumns(const Suite& suite, const MethodSummary& row
   return columns;
 }
 
-// "confidence_cap=20 temporal=true": all of them, defaults too.
+// Returns "confidence_cap=20 temporal=true": all parameters, defaults included.
 std::string parametersText(const SuiteMethod& method) {
   std::string text;
   for (const auto& [key, value] : method.parameters())
@@ -64,7 +64,7 @@ std::string parametersText(const SuiteMethod& method) {
   return text;
 }
 
-// The method that the row's ratios are against; "" where there is none.
+// Returns the method that the row's ratios are relative to; "" if there is none.
 std::string nameAt(const Suite& suite, size_t (Suite::*of)(size_t) const,
                    const MethodSummary& row) {
   const size_t found = (suite.*of)(size_t(row.method - suite.methods.data()));

@@ -12,10 +12,10 @@ namespace restlab {
 
 namespace {
 
-// A ratio of medians that is further from that of pairs is said.
+// Reports a ratio of medians that differs from the ratio of pairs by more than this share.
 constexpr double kRatiosDiffer = 0.05;
 
-// "gi: medians 1.40, pairs 1.28"; "" where both agree or are not known.
+// Returns "gi 1.40 by medians and 1.28 by pairs"; "" if both agree or are unknown.
 std::string ratiosOf(const MethodSummary& row) {
   const double apart = row.timeRatioOfMedians / row.timeRatio.value;
   if (row.isYardstick || !(std::abs(apart - 1.0) > kRatiosDiffer)) return "";

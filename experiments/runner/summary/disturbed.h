@@ -1,4 +1,4 @@
-// Whether something else than the program took time while frames were timed.
+// Detects whether other processes took time while frames were timed.
 #pragma once
 
 #include <string>
@@ -8,20 +8,20 @@
 
 namespace restlab {
 
-// The share by which one frame in twenty took longer than the same frame of other runs: 0.8 where
-// it took 1.8 times their median. The same frame has the same view and age in all runs, so that
-// nothing but noise and the machine is in it. Of one run the other frames stand for other runs. 0
-// without times, and of rows of images.
+// Returns by which share the slowest twentieth of frames took longer than the same frame of other
+// runs: 0.8 for 1.8 times their median. The same frame has the same view and age in all runs, so
+// the difference is noise and the machine. With one run its other frames are used instead. Returns
+// 0 without times, and for rows of images.
 double disturbance(const MethodSummary& row);
 
-// A row whose disturbance is above this has times of a machine that did something else as well.
+// Rows above this disturbance were timed on a busy machine.
 constexpr double kDisturbed = 0.25;
 
-// "- the machine was disturbed: ..." with the rows and what their times differ by; "" where it was
-// not.
+// Returns "- the machine was disturbed: ..." with the rows and the differences of their times; ""
+// if no row was disturbed.
 std::string disturbedNote(const std::vector<MethodSummary>& rows);
 
-// How a time, its ratio in brackets and their p95 belong together: one line for all tables.
+// Explains a time, the ratio in brackets and their p95: one line for all tables.
 std::string timesExplained();
 
 }  // namespace restlab

@@ -11,7 +11,7 @@ namespace restlab {
 
 namespace {
 
-// Standard error of the reference's energy relative to it; 0 where it does not say.
+// Returns the relative standard error of the reference's energy; 0 if unknown.
 double energyNoise(const Reference& reference) {
   if (!reference.variance) return 0.0;
   double variance = 0.0, energy = 0.0;
@@ -24,7 +24,7 @@ double energyNoise(const Reference& reference) {
   return energy > 0.0 ? std::sqrt(variance) / energy : 0.0;
 }
 
-// The runs' verdict on a bound: nothing is beyond it, or inside, for its estimate alone.
+// Verdict on a bound, by the whole interval: the estimate alone decides nothing.
 enum class Verdict { inside, outside, undecided };
 
 Verdict energyVerdict(const Interval& energy) {
@@ -49,7 +49,7 @@ std::string shareText(const Interval& share) {
   return fmt::format("{} % [{}, {}]", digits(share.value), digits(share.lo), digits(share.hi));
 }
 
-// What an unbiased method shows of a mistake in it, or in what it was told.
+// Flags signs of an error in a method that is declared unbiased.
 void judgeUnbiased(MethodSummary& row) {
   const Interval& energy = row.energyRatio;
   const double noise = 2.0 * energyNoise(row.block->reference);
@@ -69,8 +69,8 @@ void judgeUnbiased(MethodSummary& row) {
   }
 }
 
-// Bounds of a biased method. A row is left out for what its runs show, not for what they leave
-// open.
+// Checks the bounds of a biased method. A row counts unless its runs show a violation; undecided
+// bounds are only flagged.
 void judgeBiased(MethodSummary& row) {
   switch (energyVerdict(row.energyRatio)) {
     case Verdict::outside:
@@ -111,7 +111,7 @@ void judgeBiased(MethodSummary& row) {
   }
 }
 
-// Flags what hangs on the reference's own noise. No reason for a row not to count.
+// Flags numbers that depend on the reference's own noise. The row still counts.
 void flagNoise(MethodSummary& row) {
   const auto near = [&](const std::string& what, double mse) {
     row.flags.push_back(fmt::format(

@@ -1,12 +1,12 @@
-// Whether a row of a table counts, and what its numbers depend on.
+// Decides whether a row of a table counts, and flags what its numbers depend on.
 #pragma once
 
 #include "experiments/runner/summary/summary.h"
 
 namespace restlab {
 
-// Adds flags to a row, and takes `counts` from one whose values are not finite or that is not what
-// its bias class declares.
+// Adds flags to a row, and clears `counts` if it has values that are not finite or contradicts its
+// declared bias class.
 void judge(MethodSummary& row);
 
 }  // namespace restlab

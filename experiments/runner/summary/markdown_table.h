@@ -1,4 +1,4 @@
-// A table in markdown, without the columns in which nothing stands.
+// A markdown table without its empty columns.
 #pragma once
 
 #include <string>
@@ -12,8 +12,8 @@ class MarkdownTable {
   // Adds a row. Throws std::invalid_argument unless it has a cell for each head.
   void add(std::vector<std::string> cells);
   bool isEmpty() const { return rows_.empty(); }
-  // Columns whose cells are all "" or "unknown" are left out, but never the first one. A bar inside
-  // a cell is escaped.
+  // Leaves out columns whose cells are all "" or "unknown", but never the first. Escapes bars in
+  // cells.
   std::string text() const;
 
  private:

@@ -23,8 +23,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A column of the report. {0} in titles and helps is the baseline's name and {1} that of its
-// average.
+// Column of the report. In titles and helps, {0} is the baseline's name and {1} the average's.
 struct Column {
   const char *key, *title, *unit, *better, *help;
   Interval (*value)(const MethodSummary&);
@@ -56,7 +55,7 @@ Interval correlationOf(const MethodSummary& row) {
   return row.temporal ? row.temporal->autocorrelation[0] : kNone;
 }
 
-// A column that is unknown in every row is left out.
+// Columns that are unknown in every row are left out of the report.
 const std::vector<Column>& columns() {
   static const std::vector<Column> all = {
       {"time_ms", "time per frame", "ms", "lower", "median over timed frames: passes, nothing else",
@@ -121,7 +120,7 @@ const std::vector<Column>& columns() {
   return all;
 }
 
-// The first table has what is asked first, and fits into a window.
+// Keeps only the main figures in the first table, so that it fits into a window.
 bool isDetail(const std::string& key) {
   static const std::set<std::string> first = {"time_ms",   "time_ratio",    "mse",
                                               "mse_ratio", "average_ratio", "energy"};
@@ -135,8 +134,8 @@ Json cellOf(const Interval& interval) {
   return cell;
 }
 
-// Whether a value is one to compare with other rows': an error below the reference's noise is not,
-// nor what another program says of its time.
+// Returns whether a value may be ranked: errors below the reference's noise and times of other
+// programs may not.
 bool isRanked(const Column& column, const MethodSummary& row, double value) {
   const std::string key = column.key;
   const bool isTime = key == "time_ms" || key == "time_ratio" || key == "efficiency";
@@ -179,7 +178,7 @@ void addTable(const std::vector<MethodSummary>& rows, Json& block) {
                      {"digits", column.key == std::string("energy") ? kEnergyDigits : kDigits},
                      {"help", named(column.help)}});
     for (size_t i = 0; i < rows.size(); ++i) {
-      // NaN says that an image held one; what is only unknown is an empty cell.
+      // Write NaN only for images with NaN; unknown values stay empty cells.
       const Interval value = column.value(rows[i]);
       if (!std::isnan(value.value) || rows[i].nonfinite > 0)
         lines[i]["cells"][column.key] = cellOf(column, rows[i], value);
@@ -204,7 +203,7 @@ void addTable(const std::vector<MethodSummary>& rows, Json& block) {
   block["rows"] = std::move(lines);
 }
 
-// MSE of accumulated frames over `x` of a point.
+// Plots MSE of accumulated frames over `x` of a point.
 Json curves(const std::vector<MethodSummary>& rows, const char* id, const char* title,
             const char* xTitle, double (*x)(const ConvergencePoint&), bool isFitted) {
   Json series = Json::array();
@@ -234,7 +233,7 @@ Json curves(const std::vector<MethodSummary>& rows, const char* id, const char* 
           {"series", std::move(series)}};
 }
 
-// Error of a single frame over its time: where a viewer stands.
+// Plots the error of a single frame over its time, as a viewer sees it.
 Json singleFrames(const std::vector<MethodSummary>& rows) {
   Json series = Json::array();
   for (const MethodSummary& row : rows) {
@@ -251,7 +250,7 @@ Json singleFrames(const std::vector<MethodSummary>& rows) {
           {"series", std::move(series)}};
 }
 
-// A figure of single frames over the age of the history. `ratio`: of nothing where it is unknown.
+// Plots a figure of single frames over the age of the history. Leaves out unknown values.
 Json agePlot(const std::vector<MethodSummary>& rows, const char* id, const std::string& title,
              const std::string& yTitle, Interval (*value)(const AgeSummary&)) {
   Json series = Json::array();
@@ -399,7 +398,7 @@ Json blockDocument(const Suite& suite, const std::vector<MethodSummary>& rows, f
   if (suite.timing) plots.push_back(singleFrames(rows));
   const bool isStill = !suite.hasMovingCamera();
   if (rows.front().temporal && isStill) plots.push_back(correlations(rows));
-  // A figure that leaves the report must still say what it was measured against.
+  // Name the reference in each plot, which may be used outside the report.
   for (Json& plot : plots) {
     plot["x"]["note"] = "reference: " + originOf(block.reference);
   }
@@ -427,7 +426,7 @@ Json blockDocument(const Suite& suite, const std::vector<MethodSummary>& rows, f
   return document;
 }
 
-// What changes the worth of everything below.
+// Returns warnings about the whole report.
 Json warningsOf(const Suite& suite, const Json& record) {
   Json warnings = Json::array();
   const std::string status = record.at("status").get<std::string>();

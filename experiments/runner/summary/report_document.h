@@ -1,4 +1,4 @@
-// The rows of blocks as the document that report.html and the plots are made of
+// Converts the rows of blocks to the document that report.html and the plots are made from
 // (experiments/report/report_model.h).
 #pragma once
 
@@ -10,20 +10,19 @@
 
 namespace restlab {
 
-// Exposure at which the block's previews and its images in the report are shown: the logarithmic
-// mean of the luminance of the reference's pixels that are not black becomes mid grey.
+// Returns the exposure of the block's previews and images in the report: maps the logarithmic mean
+// of the luminance of the reference's non-black pixels to mid grey.
 float previewExposure(const Image& reference);
-// The same of the luminances whose mean that is, and of the largest channel of each pixel that may
-// be clipped.
+// The same from luminances, and from the largest channel of each pixel that may be clipped.
 float previewExposure(std::vector<double> luminances, std::vector<float> brightest);
-// 0 of what does not count: black, and what is not finite.
+// Returns 0 for pixels that do not count: black or not finite.
 double previewLuminance(const glm::vec3& pixel);
 
-// A member of "blocks". The files are those that writeBlockImages() made.
+// Returns a member of "blocks". Refers to the files that writeBlockImages() wrote.
 nlohmann::ordered_json blockDocument(const Suite& suite, const std::vector<MethodSummary>& rows,
                                      float exposure);
 
-// The whole document, without its notes. `record`: run.json.
+// Returns the whole document. `record`: run.json.
 nlohmann::ordered_json reportDocument(const Suite& suite, const nlohmann::ordered_json& record,
                                       std::vector<nlohmann::ordered_json> blocks,
                                       const std::vector<std::string>& notes);

@@ -13,11 +13,11 @@ namespace {
 constexpr size_t kManyRows = 3;
 
 struct Said {
-  std::string kind;  // the flag with its numbers masked, and whether its row counts
+  std::string kind;  // flag with its numbers masked, and whether its row counts
   std::vector<std::string> names, texts;
 };
 
-// Digits, signs, points and exponents of numbers become one mark.
+// Replaces every number, with sign, point and exponent, by one mark.
 std::string kindOf(const std::string& flag) {
   std::string kind;
   bool inNumber = false;

@@ -1,4 +1,4 @@
-// The lines below a table: what is said of several rows is said once.
+// Notes below a table; a note on several rows is written once.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace restlab {
 
-// One line a kind of flag: "- path; gi: text". Flags that differ in their numbers alone are one
-// line from three rows on: the text of the first row, and the names of the others.
+// Returns one line per kind of flag: "- path; gi: text". From three rows on, flags that differ only
+// in numbers are merged: the text of the first row, and the names of the others.
 std::string rowNotes(const std::vector<MethodSummary>& rows);
 
 }  // namespace restlab

@@ -26,7 +26,7 @@ SweptCell cellOf(const MethodSummary& row, double referenceMean) {
   cell.timeMs = row.timeMsMedian;
   for (size_t i = 0; i < rl::RL_HEALTH_COUNT; ++i)
     if (isFault(i)) cell.faults += row.health.health.counts[i];
-  // A mean error that its noise has made negative is none.
+  // Leave a negative mean error unknown: it is below the reference's noise.
   if (row.mse.value >= 0.0 && referenceMean > 0.0) {
     cell.error = {rootOf(row.mse.value, referenceMean), rootOf(row.mse.lo, referenceMean),
                   rootOf(row.mse.hi, referenceMean)};
@@ -42,7 +42,7 @@ const SuiteScene* sceneOf(const SweptBlock& block) {
   return nullptr;
 }
 
-// All scenes of the sweep, also those that are not there yet.
+// Creates cells for all scenes of the sweep, including those not rendered yet.
 SceneSweep emptySweep(const SweptBlock& block, const SuiteScene& scene) {
   SceneSweep sweep;
   sweep.suite = block.suite;
@@ -50,7 +50,7 @@ SceneSweep emptySweep(const SweptBlock& block, const SuiteScene& scene) {
   for (const SuiteScene& other : block.suite->scenes) {
     if (other.sweep == scene.sweep) names.push_back(other.request.scene);
   }
-  // Fewer by --scenes: what is left may differ in nothing.
+  // Skip a sweep that --scenes has reduced to one scene.
   if (names.size() < 2) return sweep;
   sweep.parameter = sweptParameter(names);
   const std::string component = componentName(block.rows->front().block->component);
@@ -77,7 +77,7 @@ bool isFarOff(const Interval& energy, double within) {
 Holding holds(const Interval& energy, uint64_t nonfinite, double within) {
   if (nonfinite > 0 || std::isnan(energy.value)) return Holding::no;
   if (energy.lo > 1.0 + within || energy.hi < 1.0 - within) return Holding::no;
-  // False of an interval that is not known.
+  // False for an unknown interval.
   const double widest = kWidestTolerances * within;
   const bool isNear = energy.lo >= 1.0 - widest && energy.hi <= 1.0 + widest;
   return isNear ? Holding::yes : Holding::notDecided;

@@ -1,4 +1,4 @@
-// Sweeps of a scene's parameter: up to which of its values every method holds.
+// Sweeps of a scene's parameter: up to which value does each method hold?
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -11,17 +11,17 @@
 
 namespace restlab {
 
-// Nothing is said of an energy whose interval is so wide that most errors would lie in it.
+// An energy whose interval is so wide that most errors would lie in it is not decided.
 enum class Holding { yes, no, notDecided };
 
-// A method at one value; as it is where the method has no row there.
+// A method at one value; default values if the method has no row there.
 struct SweptCell {
   Interval energy{kUnknown, kUnknown, kUnknown};
   Interval error{kUnknown, kUnknown, kUnknown};  // root of the MSE over the mean of the reference
   Interval biasShare{kUnknown, kUnknown, kUnknown};  // bias^2 / MSE
-  double timeMs = kUnknown;                          // of a frame, median
+  double timeMs = kUnknown;                          // median of a frame
   uint64_t nonfinite = 0;
-  uint64_t faults = 0;  // all counts of health that are faults (isFault)
+  uint64_t faults = 0;  // sum of all health counts that are faults (isFault)
   Holding holding = Holding::notDecided;
 };
 
@@ -31,23 +31,23 @@ struct SceneSweep {
   SweptParameter parameter;
   std::vector<std::string> methods;
   std::vector<std::vector<SweptCell>> cells;  // by method, then by value
-  // The block of each value; a run that was interrupted lacks some.
+  // Block of each value; absent if an interrupted run lacks it.
   std::vector<std::optional<size_t>> blocks;
 
-  // The place of the last value at which the method holds, of those before the first at which it
-  // does not; nothing where there is none.
+  // Returns the index of the last value at which the method holds, before the first at which it
+  // does not; nothing if there is none.
   std::optional<size_t> lastThatHolds(size_t method) const;
 };
 
-// A value holds where nothing is without a finite value and the interval of the energy ratio
-// touches 1 within the tolerance and lies within kWidestTolerances tolerances of 1; it is not
-// decided where it only touches, and without an interval (one run). An energy that is not known
-// does not hold.
+// A value holds if all values of the images are finite and the interval of the energy ratio touches
+// 1 within the tolerance and lies within kWidestTolerances tolerances of 1. If the interval only
+// touches, or is unknown (one run), the value is not decided. A value with unknown energy does not
+// hold.
 constexpr double kWidestTolerances = 5.0;
 Holding holds(const Interval& energy, uint64_t nonfinite, double within);
 
-// Is it off 1 by more than the tolerance and three half-widths of its interval? Of a correct method
-// one in 10^5 is, with 16 runs. An energy without an interval never is.
+// Returns whether the energy is off 1 by more than the tolerance and three half-widths of its
+// interval. With 16 runs this holds for one in 10^5 correct methods. False without an interval.
 bool isFarOff(const Interval& energy, double within);
 
 struct SweptBlock {
@@ -56,15 +56,15 @@ struct SweptBlock {
   double referenceMean;  // over pixels and channels
 };
 
-// The sweeps among the blocks: scenes of one [[scene]], by component and point.
+// Finds the sweeps among the blocks: scenes of one [[scene]], by component and point.
 std::vector<SceneSweep> sceneSweeps(const std::vector<SweptBlock>& blocks);
 
-// In markdown: a row a method, with what it is like where it is worst.
+// Returns a markdown table: one row per method, with its figures at their worst value.
 std::string sweepTable(const SceneSweep& sweep);
-// All of them, and what they have in common before the first; "" of none.
+// Returns all tables, with a common explanation before the first; "" without sweeps.
 std::string sweepTables(const std::vector<SceneSweep>& sweeps);
-// The same as a block of the report (experiments/report/report_model.h), with the energy of every
-// value as details, and plots over the values.
+// Returns a sweep as a block of the report (experiments/report/report_model.h), with the energy of
+// every value as details, and plots over the values.
 nlohmann::ordered_json sweepDocument(const SceneSweep& sweep);
 
 }  // namespace restlab

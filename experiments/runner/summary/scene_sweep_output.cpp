@@ -1,4 +1,4 @@
-// What is shown of a sweep: its table and its block of the report.
+// Output of a sweep: its table and its block of the report.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The cell of a method that is farthest by `distance`; none where no cell has a distance.
+// Cell of a method with the largest `distance`; null if no cell has one.
 struct Worst {
   size_t value = 0;
   const SweptCell* cell = nullptr;
@@ -36,18 +36,17 @@ Worst worstOf(const SceneSweep& sweep, size_t method, double (*distance)(const S
   return worst;
 }
 
-// A figure of a row; `digits` of its numbers; its plot over the values, which has one where it has
-// a title of the y axis.
+// A figure of a row, shown with `digits`. Has a plot over the values if `yTitle` is set.
 struct SweepColumn {
   const char *key, *title, *help;
   int digits;
   const char* yTitle;
   bool isLogY;
   Interval (*value)(const SweptCell&);
-  double (*distance)(const SweptCell&);  // the largest is shown; NaN: not this one
+  double (*distance)(const SweptCell&);  // the largest is shown; NaN: skip this cell
 };
 
-// A column a figure, each where it is worst.
+// Figures of sweeps, each shown at its worst value.
 const std::vector<SweepColumn>& sweepColumns() {
   static const std::vector<SweepColumn> all = {
       {"energy", "energy", "mean of the images over that of the truth, where it is farthest from 1",
@@ -75,7 +74,7 @@ const std::vector<SweepColumn>& sweepColumns() {
   return all;
 }
 
-// Nobody knows the time of a suite whose runs are made side by side.
+// Returns whether any cell has the figure: without timing, for example, no cell has a time.
 bool isKnown(const SceneSweep& sweep, const SweepColumn& column) {
   for (size_t m = 0; m < sweep.methods.size(); ++m)
     if (worstOf(sweep, m, column.distance).cell) return true;
@@ -99,7 +98,7 @@ std::string worstText(const SceneSweep& sweep, size_t method, const SweepColumn&
                      sweep.parameter.texts[worst.value]);
 }
 
-// Where the method has no last value that holds.
+// Returns the text for a method without a last value that holds.
 std::string noLastText(const SceneSweep& sweep, size_t method) {
   for (size_t i = 0; i < sweep.blocks.size(); ++i)
     if (sweep.blocks[i] && sweep.cells[method][i].holding == Holding::no) return "none";
@@ -128,7 +127,7 @@ std::string whatHolds(const Suite& suite) {
       suite.holdsWithin, kWidestTolerances * suite.holdsWithin);
 }
 
-// What is said of a value at which a method does not hold, or may not; "" where it does.
+// Describes a value at which a method does not hold or is not decided; "" if it holds.
 std::string doubtOf(const SceneSweep& sweep, size_t method, size_t value) {
   const SweptCell& cell = sweep.cells[method][value];
   if (!sweep.blocks[value] || cell.holding == Holding::yes) return "";
@@ -141,7 +140,7 @@ std::string doubtOf(const SceneSweep& sweep, size_t method, size_t value) {
                      sweep.parameter.name, sweep.parameter.texts[value], why);
 }
 
-// Where values stand on the axis of a plot. 0 has a place on a logarithmic one, too: left of all.
+// Axis of a plot. On a logarithmic one, 0 is drawn left of all other values.
 struct Axis {
   bool isLog = false;
   double zeroAt = 0.0;
@@ -162,7 +161,7 @@ Axis axisOf(const std::vector<double>& values) {
   return {true, zeroAt, fmt::format("0 is drawn at {:g}", zeroAt)};
 }
 
-// Of all methods over the values, in their order on the axis.
+// Plots all methods over the values, in ascending order.
 Json plotOf(const SceneSweep& sweep, const SweepColumn& column) {
   const std::vector<double>& values = sweep.parameter.values;
   std::vector<size_t> order(values.size());
@@ -207,7 +206,7 @@ Json cellJson(const Interval& of) {
   return {{"value", finiteJson(of.value)}, {"lo", finiteJson(of.lo)}, {"hi", finiteJson(of.hi)}};
 }
 
-// The columns of `sweepDocument`, in the order in which they are shown.
+// Returns the columns of `sweepDocument`, in the order in which they are shown.
 Json columnsOf(const SceneSweep& sweep) {
   Json columns = Json::array();
   columns.push_back(columnJson("last", "last " + sweep.parameter.name + " that holds",
@@ -285,7 +284,7 @@ std::string sweepTable(const SceneSweep& sweep) {
     text += "\n";
   }
   text += "\n";
-  // What is said of several methods once.
+  // Merge equal notes of several methods.
   std::vector<std::pair<std::string, std::string>> said;
   const auto say = [&](const std::string& what, const std::string& method) {
     const auto same = std::find_if(said.begin(), said.end(),

@@ -22,7 +22,7 @@ Range timesOf(const AccumulatedCurve& curve) {
   return {curve.front().logTime, curve.back().logTime};
 }
 
-// Errors that were measured and that the line has between the first and the last point.
+// Range of errors covered both by the measured points and by the line between its end points.
 Range errorsOf(const AccumulatedCurve& curve) {
   const auto [least, most] = std::minmax_element(
       curve.begin(), curve.end(),
@@ -32,12 +32,12 @@ Range errorsOf(const AccumulatedCurve& curve) {
           std::min(most->logMse, line.at(curve.front().logTime))};
 }
 
-// The runs of both, and what both are read from.
+// Paired runs of both methods, from which ratios are read.
 struct Pair {
   std::vector<RunResult> path, method;
   AccumulatedNoise pathNoise, methodNoise;
 
-  // `value` of each: off its line, and between its points.
+  // Reads the value of a curve: on its fitted line, or between its points.
   using Read = std::function<double(const AccumulatedCurve&, bool isFitted)>;
   CurveReading read(double at, const Read& value) const {
     const auto logRatios = [&](std::span<const size_t> chosen, double deviations) {
@@ -101,7 +101,7 @@ std::optional<SpeedUp> speedUpOf(const std::vector<RunResult>& path,
                                  const AccumulatedNoise& pathNoise,
                                  const AccumulatedNoise& methodNoise) {
   if (!hasTimes(path) || !hasTimes(method)) return std::nullopt;
-  // An interrupted block may have one run more of the first methods.
+  // An interrupted block may have one more run of the first methods.
   const auto paired = std::ptrdiff_t(std::min(path.size(), method.size()));
   const Pair pair = {{path.begin(), path.begin() + paired},
                      {method.begin(), method.begin() + paired},

@@ -1,4 +1,4 @@
-// What a method gains over the yardstick while frames accumulate: at equal time, to equal error.
+// Gain of a method over the yardstick while frames accumulate: at equal time, to equal error.
 #pragma once
 
 #include <optional>
@@ -10,13 +10,13 @@
 
 namespace restlab {
 
-// One ratio, read off the two fitted lines at a place inside both measured ranges; intervals by the
-// jackknife over runs paired by seed, of the logarithm.
+// One ratio, read off the two fitted lines at a place inside both measured ranges. Intervals are
+// the jackknife of its logarithm over runs paired by seed.
 struct CurveReading {
-  Interval ratio;     // NaN: not read, and `why` says why
-  Interval measured;  // the same between the measured points, without a line
-  double at = 0.0;    // the time in ms, or the MSE
-  // The interval of ratio / measured leaves out 1, by more than kMisfitMin: the lines do not
+  Interval ratio;     // NaN: not read, see `why`
+  Interval measured;  // the same interpolated between measured points, without a line
+  double at = 0.0;    // time in ms, or MSE
+  // Set if the interval of ratio / measured leaves out 1, by more than kMisfitMin: the lines do not
   // describe the curves there.
   bool isOffTheLines = false;
   std::string why;
@@ -27,8 +27,8 @@ struct SpeedUp {
   CurveReading equalError;  // time(path) / time(method) at the lowest error that both have had
 };
 
-// Nothing where one of them holds no accumulation, or no times. The noises
-// are of one reference: it moves both curves the same way.
+// Returns nothing if one of them has no accumulated images or no times. Both noises must be of one
+// reference: its noise moves both curves the same way.
 std::optional<SpeedUp> speedUpOf(const std::vector<RunResult>& path,
                                  const std::vector<RunResult>& method,
                                  const AccumulatedNoise& pathNoise = {},

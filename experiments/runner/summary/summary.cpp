@@ -27,7 +27,7 @@ double runMse(const RunResult& run) { return run.measured.mse; }
 double runRelmseTrimmed(const RunResult& run) { return run.measured.relmseTrimmed; }
 double runMseWithoutLights(const RunResult& run) { return run.measured.mseWithoutLights; }
 
-// Median over the frames of a run of time / time of `other` in the same interleaved round.
+// Returns the median over frames of time / time of `other` in the same interleaved round.
 double runTimeRatio(const RunResult& run, const RunResult& other) {
   if (run.timesMs.empty()) return kUnknown;
   std::vector<double> ratios;
@@ -61,7 +61,7 @@ void summariseTimes(const MethodResult& result, size_t pixels, MethodSummary& ro
     for (const RunResult& run : result.runs) medians.push_back(run.passes.at(pass).timeMs);
     row.passes[pass].timeMs = median(medians);
   }
-  // The median frame is no sum of medians: they are its shares, so that bars end where it does.
+  // Scale the medians of passes to add up to the median frame, so that bars end there.
   double sum = 0.0;
   for (const PassTiming& pass : row.passes) sum += pass.timeMs;
   if (sum > 0.0 && row.timeMsMedian > 0.0) {
@@ -69,7 +69,7 @@ void summariseTimes(const MethodResult& result, size_t pixels, MethodSummary& ro
   }
 }
 
-// Of the pixels without lights, by what the runs recorded.
+// Returns the noise over pixels without lights, as recorded by the runs.
 ReferenceNoise noiseInside(const std::vector<RunResult>& runs, bool isUnbiased) {
   HalvesNoise halves;
   halves.varianceOfProduct = runs.front().measured.insideVarianceCommon;
@@ -112,7 +112,8 @@ void summariseErrors(const MethodResult& result, const Reference& reference, Met
   row.variance = result.measured.variance();
 }
 
-// Images of another program are independent of all runs, and their frames took no turns with any.
+// Compares unpaired: images of another program are independent of all runs, and were not
+// interleaved.
 void compareImages(const MethodResult& path, const MethodSummary& pathRow,
                    const MethodResult& result, MethodSummary& row) {
   const auto ratioOf = [&](double (*value)(const RunResult&), const SharedNoise& shared) {
@@ -127,12 +128,12 @@ void compareImages(const MethodResult& path, const MethodSummary& pathRow,
   row.efficiencyRatio.value = row.mseRatio.value / row.timeRatio.value;
 }
 
-// `value`: of all runs, those without a partner too.
+// `value`: over all runs, including those without a partner.
 Interval pairedErrorRatio(const std::vector<double>& numerators,
                           const std::vector<double>& denominators, double value,
                           const SharedNoise& shared = {}) {
   const Interval paired = ratioOfPositives(pairedRatioInterval(numerators, denominators, shared));
-  // The same numbers leave no room, whatever their spread.
+  // Equal numbers have the exact ratio 1, whatever their spread.
   if (numerators == denominators && paired.value == 1.0) return paired;
   return {value, paired.lo, paired.hi};
 }
@@ -140,7 +141,7 @@ Interval pairedErrorRatio(const std::vector<double>& numerators,
 void compareWithYardstick(const MethodResult& path, const MethodSummary& pathRow,
                           const MethodResult& result, MethodSummary& row) {
   if (row.method->images) return compareImages(path, pathRow, result, row);
-  // An interrupted block may have one run more of the first methods.
+  // An interrupted block may have one more run of the first methods.
   const size_t paired = std::min(path.runs.size(), result.runs.size());
   std::vector<double> pathMse, mse, timeRatios, work, pathInside, inside, pathTrimmed, trimmed;
   for (size_t r = 0; r < paired; ++r) {
@@ -153,7 +154,7 @@ void compareWithYardstick(const MethodResult& path, const MethodSummary& pathRow
     pathTrimmed.push_back(runRelmseTrimmed(path.runs[r]));
     trimmed.push_back(runRelmseTrimmed(result.runs[r]));
   }
-  // As those of general kernels and the scene's own are.
+  // Equal errors occur, e.g. for general kernels and kernels of the scene.
   const bool isSame = pathMse == mse;
   const SharedNoise shared = sharedNoise(pathRow.noise, row.noise, isSame);
   row.mseRatio = pairedErrorRatio(pathMse, mse, pathRow.mse.value / row.mse.value, shared);
@@ -165,21 +166,22 @@ void compareWithYardstick(const MethodResult& path, const MethodSummary& pathRow
   row.timeRatio = geometricMeanInterval(timeRatios);
   row.timeRatioOfMedians = row.timeMsMedian / pathRow.timeMsMedian;
   const double time = row.timeRatio.value;
-  if (isSame) {  // the time alone tells them apart
+  if (isSame) {  // only the times differ
     row.efficiencyRatio = {1.0 / time, 1.0 / row.timeRatio.hi, 1.0 / row.timeRatio.lo};
     return;
   }
   row.efficiencyRatio = pairedRatioInterval(
       pathMse, work,
       {shared.numerator, time * time * shared.denominator, time * shared.covariance});
-  // Fieller's is of the arithmetic mean of the time ratios, the value of their geometric mean.
+  // Fieller's interval is of the arithmetic mean of the time ratios; `value` uses their geometric
+  // mean.
   const double value = row.mseRatio.value / time;
   const double shift = value / row.efficiencyRatio.value;
   row.efficiencyRatio =
       ratioOfPositives({value, shift * row.efficiencyRatio.lo, shift * row.efficiencyRatio.hi});
 }
 
-// The time of a method against that of the same method on another backend.
+// Returns the time of a method relative to the same method on another backend.
 Interval timeAgainst(const MethodResult& result, const MethodResult& first) {
   std::vector<double> ratios;
   for (size_t r = 0; r < std::min(result.runs.size(), first.runs.size()); ++r)
@@ -191,7 +193,7 @@ AccumulatedNoise accumulatedNoise(const MethodSummary& row) {
   return {row.noise.common, row.bias == BiasClass::unbiased};
 }
 
-// Nothing where a run has none.
+// Returns nothing if a run has no temporal figures.
 std::optional<TemporalSummary> temporalOf(const std::vector<RunResult>& runs) {
   for (const RunResult& run : runs) {
     if (!run.temporal) return std::nullopt;
@@ -215,7 +217,7 @@ std::optional<TemporalSummary> temporalOf(const std::vector<RunResult>& runs) {
   return all;
 }
 
-// Of the references, and so of every row.
+// Flags noise of the references, which is the same in every row.
 void noteTemporal(MethodSummary& row) {
   if (!row.temporal) return;
   const double share = row.temporal->referenceDifferenceNoise / row.temporal->referenceDifference;
@@ -225,7 +227,7 @@ void noteTemporal(MethodSummary& row) {
                   100.0 * share));
 }
 
-// One value a run; nothing where a run lacks it.
+// Uses one value per run; unknown if a run lacks it.
 std::vector<std::pair<std::string, Interval>> figuresOf(const Suite& suite,
                                                         const MethodResult& result,
                                                         const ReferenceNoise& noise) {
@@ -239,7 +241,7 @@ std::vector<std::pair<std::string, Interval>> figuresOf(const Suite& suite,
     }
     const bool isKnown = values.size() == result.runs.size();
     Interval over = isKnown ? meanInterval(values) : Interval{kUnknown, kUnknown, kUnknown};
-    // Of a mask the pixels are not kept.
+    // The shared noise over a mask is unknown, because images of runs are not kept.
     if (figure.metric == "mse" && figure.mask < 0) over = widened(over, noise.shared);
     figures.emplace_back(figure.name, over);
   }
@@ -272,7 +274,7 @@ void noteSpeedUp(MethodSummary& row) {
   noteReading(row.speedUp->equalError, "to equal error", "faster", "slower", row);
 }
 
-// Compares with the average of the yardstick's frames, and all of both over the age of the history.
+// Compares with the average of the yardstick's frames, and with both over the age of the history.
 void compareAges(const Suite& suite, const BlockResult& block, size_t m,
                  const std::vector<size_t>& rowOf, std::vector<MethodSummary>& rows) {
   MethodSummary& row = rows[rowOf[m]];

@@ -1,4 +1,4 @@
-// table.md: the lecture's table of each scene and component, with what its reader must know.
+// table.md: the table of each scene and component, with notes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ constexpr uint32_t kFewRuns = 4;
 
 std::string endsOf(const Interval& of) { return intervalText(of.lo, of.hi); }
 
-// Value and interval.
+// Returns the value followed by its interval.
 std::string withEnds(const Interval& of, int digits = kDigits) {
   return shortNumber(of.value, digits) + intervalText(of.lo, of.hi, digits);
 }
@@ -63,12 +63,12 @@ std::string trimmedCell(const MethodSummary& row) {
                      ratio.empty() ? "" : fmt::format(" ({})", ratio));
 }
 
-// A column of an error or time that is against `name`; "" where there is none.
+// Returns the heading of a column relative to `name`; without the name if it is "".
 std::string againstHead(const std::string& what, const std::string& name) {
   return name.empty() ? what : fmt::format("{} {}", what, name);
 }
 
-// Heading of the column that compares backends; "" where no row has another one to compare with.
+// Returns the heading of the column that compares backends; "" if no row has another backend.
 std::string backendColumn(const Suite& suite, const std::vector<MethodSummary>& rows) {
   std::string first;
   for (const MethodSummary& row : rows) {
@@ -101,14 +101,15 @@ std::string biasCell(const MethodSummary& row) {
   return fmt::format("{} [{:+.1f}, {:+.1f}] %", text, 100.0 * share.lo, 100.0 * share.hi);
 }
 
-// Where all methods run on one that is not the usual one; several are in the methods' names.
+// Names the backend if all methods run on the same one and it is not "cpu". Otherwise method names
+// do.
 std::string onBackend(const Suite& suite) {
   const std::vector<std::string> backends = suite.methodBackends();
   return backends.size() == 1 && backends[0] != "cpu" ? fmt::format("Backend {}. ", backends[0])
                                                       : "";
 }
 
-// "6 of 8 points (not 1, 2 frames), up to 1.04x off"; "" without a line.
+// Returns "6 of 8 points (not 1, 2 frames), up to 1.04x off"; "" without a line.
 std::string fitCell(const Convergence& curve) {
   if (std::isnan(curve.slope.value)) return "";
   std::string left;
@@ -127,7 +128,7 @@ std::string readingCell(const CurveReading& reading, const char* gain, const cha
   return timesText(ratio.value, ratio.lo, ratio.hi, gain, loss) + " " + at;
 }
 
-// Slopes and speed-ups; "" where nothing was accumulated.
+// Returns slopes and speed-ups; "" if nothing was accumulated.
 std::string accumulatedTable(const std::vector<MethodSummary>& rows, const std::string& against) {
   MarkdownTable table(
       {"method", "frames", "time", "MSE", "slope", "line", "at equal time", "to equal error"});
@@ -198,12 +199,12 @@ std::string temporalTable(const std::vector<MethodSummary>& rows) {
          moved + ":\n\n" + table.text();
 }
 
-// Names of the methods that rows are compared with; "" where there is no such method.
+// Names of the methods that rows are compared with; "" if there is none.
 struct Names {
   std::string yardstick, average;
 };
 
-// "(times that of path)" where a row has such a ratio.
+// Returns "(x times that of path)"; "" without a yardstick.
 std::string timesOf(const Names& names) {
   return names.yardstick.empty() ? "" : fmt::format("(x times that of {})", names.yardstick);
 }
@@ -212,7 +213,7 @@ std::string markedName(const MethodSummary& row) {
   return oneLine(row.method->name) + (row.counts ? "" : " (*)");
 }
 
-// What each row costs and what it leaves.
+// Returns the main table: time and error of each row.
 std::string errorTable(const std::vector<MethodSummary>& rows, const Names& names) {
   MarkdownTable table({"method", againstHead("time per frame", timesOf(names)), "MSE",
                        againstHead("than", names.yardstick), againstHead("than", names.average),
@@ -226,7 +227,7 @@ std::string errorTable(const std::vector<MethodSummary>& rows, const Names& name
   return table.text();
 }
 
-// What makes up the error, and what it took.
+// Returns the parts of the error, and the efficiency.
 std::string detailsTable(const std::vector<MethodSummary>& rows, const Names& names) {
   const std::string backends = backendColumn(*rows.front().suite, rows);
   const auto named = [&](const char* what, const char* word) {
@@ -247,7 +248,7 @@ std::string detailsTable(const std::vector<MethodSummary>& rows, const Names& na
   return "\n" + table.text() + "\n" + further.text();
 }
 
-// One line an age, one column a method; "" where nothing is known.
+// Returns one line per age, one column per method; "" if nothing is known.
 std::string agesTable(const std::vector<MethodSummary>& rows, const std::string& against,
                       Interval (*ratio)(const AgeSummary&)) {
   std::vector<const MethodSummary*> known;

@@ -1,4 +1,4 @@
-// table.tex: the tables for a paper, with booktabs; the best that counts in bold.
+// table.tex: tables for a paper, with booktabs; the best counting row in bold.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -44,7 +44,7 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-// "0.0278"; "1.30e-05" as a power of ten.
+// Returns "0.0278"; writes "1.30e-05" as a power of ten.
 std::string number(double value, int digits = kDigits) {
   if (std::isnan(value)) return "--";
   if (std::isinf(value)) return value > 0.0 ? "$\\infty$" : "$-\\infty$";
@@ -54,7 +54,7 @@ std::string number(double value, int digits = kDigits) {
   return fmt::format("${} \\times 10^{{{}}}$", plain.substr(0, e), std::stoi(plain.substr(e + 1)));
 }
 
-// The words of intervalText(), small; "" where an end is unknown.
+// Returns the text of intervalText() in a small font; "" if an end is unknown.
 std::string ends(const Interval& interval, int digits) {
   if (std::isnan(interval.lo) || std::isnan(interval.hi)) return "";
   const auto end = [&](double of) {
@@ -73,7 +73,7 @@ std::string cell(const Interval& interval, bool isBest, const std::string& unit 
   return (isBest ? fmt::format("\\textbf{{{}}}", value) : value) + ends(interval, digits);
 }
 
-// The smallest value of the rows that count; NaN where there are not two to choose from.
+// Returns the smallest value of the counting rows; NaN if fewer than two have one.
 template <class Value>
 double best(const std::vector<MethodSummary>& rows, const Value& value) {
   double smallest = kUnknown;
@@ -86,7 +86,7 @@ double best(const std::vector<MethodSummary>& rows, const Value& value) {
   return values < 2 ? kUnknown : smallest;
 }
 
-// "scene, all light, max_bounces=2", as every caption begins.
+// Returns the beginning of captions: "scene, all light, max_bounces=2".
 std::string subjectOf(const Suite& suite, const BlockResult& block) {
   return fmt::format("{}, {} light{}", escaped(block.scene), componentName(block.component),
                      suite.point.empty() ? "" : ", " + escaped(suite.point));
@@ -96,7 +96,7 @@ std::string nameCell(const MethodSummary& row) {
   return escaped(row.method->name) + (row.counts ? "" : "$^*$");
 }
 
-// `heads` of the columns behind the method; `lines` are whole, and stand between the rules.
+// `heads`: of the columns after the method; `lines`: complete lines between the rules.
 std::string tableOf(const std::string& caption, const std::vector<std::string>& heads,
                     const std::string& lines, const std::string& notes) {
   std::string row = "method";
@@ -107,7 +107,7 @@ std::string tableOf(const std::string& caption, const std::vector<std::string>& 
       caption, std::string(heads.size(), 'r'), row, lines, notes);
 }
 
-// The suite's further metrics and masks, a column each; "" where it has none.
+// Returns the suite's further metrics and masks, one column each; "" if there are none.
 std::string figuresTex(const Suite& suite, const std::vector<MethodSummary>& rows) {
   const std::vector<FigureInfo> infos = figureInfos(suite);
   struct Column {
@@ -143,7 +143,7 @@ std::string figuresTex(const Suite& suite, const std::vector<MethodSummary>& row
                  heads, lines, "");
 }
 
-// Slopes and speed-ups; "" where nothing was accumulated.
+// Returns slopes and speed-ups; "" if nothing was accumulated.
 std::string accumulatedTex(const Suite& suite, const std::vector<MethodSummary>& rows) {
   std::string lines;
   for (const MethodSummary& row : rows) {
@@ -171,7 +171,7 @@ std::string accumulatedTex(const Suite& suite, const std::vector<MethodSummary>&
       {"frames", "slope", "lower", "faster"}, lines, "");
 }
 
-// Why rows do not count stands below the table; what else table.md says of rows is for the author.
+// Prints why rows do not count below the table; other flags become comments for the author.
 std::string notesOf(const std::vector<MethodSummary>& rows) {
   std::string notes;
   for (const MethodSummary& row : rows) {
@@ -189,11 +189,11 @@ std::string notesOf(const std::vector<MethodSummary>& rows) {
 std::string blockTex(const Suite& suite, const std::vector<MethodSummary>& rows) {
   if (rows.empty()) return "";
   const BlockResult& block = *rows.front().block;
-  // An error below the reference's noise is no best.
+  // Exclude errors below the reference's noise from the best.
   const double mse = best(rows, [](const MethodSummary& row) {
     return row.mse.value > 0.0 ? row.mse.value : kUnknown;
   });
-  // What others say of their time was not measured beside ours.
+  // Exclude times reported by other programs, which were not measured here.
   const double timeMs = best(rows, [](const MethodSummary& row) {
     return row.method->images ? kUnknown : row.timeMsMedian;
   });

@@ -11,7 +11,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 double channelSum(const glm::dvec3& v) { return v.x + v.y + v.z; }
 
-// mean (a - half0)(b - half1), and with the halves exchanged: both are as good.
+// Returns mean (a - half0)(b - half1), averaged with the same for exchanged halves.
 double errorProduct(const Image& a, const Image& b, const Image& half0, const Image& half1) {
   double sum = 0.0;
   for (size_t i = 0; i < a.pixels.size(); ++i) {
@@ -21,7 +21,7 @@ double errorProduct(const Image& a, const Image& b, const Image& half0, const Im
   return sum / (6.0 * double(a.pixels.size()));
 }
 
-// mean (d - d0)(d - d1): of frames d apart, d0 and d1 those of the halves.
+// Returns mean (d - d0)(d - d1) with d the difference of the frames, d0 and d1 those of the halves.
 double errorDifference(const Image& before, const Image& measured, const Reference& referenceBefore,
                        const Reference& reference) {
   double sum = 0.0;
@@ -52,8 +52,8 @@ double meanAbsoluteDifference(const Image& a, const Image& b) {
   return sum / (3.0 * double(a.pixels.size()));
 }
 
-// What mean |r_t - r_{t-1}| has too much by the noise of the references, at most. With noise of
-// strength s the excess g(s) is convex and g(0) = 0, so that g(sqrt(2) s) >= sqrt(2) g(s); the
+// Returns an upper bound of what the noise of the references adds to mean |r_t - r_{t-1}|. With
+// noise of strength s the excess g(s) is convex and g(0) = 0, so g(sqrt(2) s) >= sqrt(2) g(s). The
 // halves have sqrt(2) times the noise of the mean, and all three differences are known.
 double noiseOfDifference(const Reference& before, const Reference& reference, double ofMeans) {
   const double ofHalves = 0.5 * (meanAbsoluteDifference(*reference.half0, *before.half0) +

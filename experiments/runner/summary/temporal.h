@@ -1,4 +1,4 @@
-// How the frames of a run hang together: flicker and the correlation of their errors.
+// Temporal figures of the frames of a run: flicker and the correlation of their errors.
 #pragma once
 
 #include <deque>
@@ -9,11 +9,11 @@
 
 namespace restlab {
 
-// Of the measured frame and the one before it, and of their references, of a moving camera.
+// Compares the measured frame with the one before it, and their references, for a moving camera.
 TemporalFigures figuresOfPair(const Image& before, const Image& measured,
                               const Reference& referenceBefore, const Reference& reference);
 
-// Takes frames of one size, one after the other, against one reference (a still camera).
+// Accumulates the figures of successive frames of one size against one reference (a still camera).
 class TemporalSum {
  public:
   static constexpr size_t kLags = std::tuple_size_v<decltype(TemporalFigures::autocorrelation)>;
@@ -21,12 +21,12 @@ class TemporalSum {
   // `reference` must outlive this.
   explicit TemporalSum(const Reference& reference) : reference_(reference) {}
   void add(const Image& frame);
-  // At least one frame was added; NaN where two are needed and there is one.
+  // Requires at least one frame; figures that need two are NaN if there is only one.
   TemporalFigures figures() const;
 
  private:
   const Reference& reference_;
-  std::deque<Image> last_;  // the newest first
+  std::deque<Image> last_;  // newest first
   std::vector<glm::dvec3> sum_, sumSquares_;
   size_t frames_ = 0;
   double differences_ = 0.0, squaredDifferences_ = 0.0;

@@ -1,4 +1,4 @@
-// Views that the reader keeps, in the browser, by the scene's name.
+// Bookmarked views, kept in the browser by the scene's name.
 
 class Bookmarks {
   constructor(page, sceneName) {
@@ -16,7 +16,7 @@ class Bookmarks {
       const list = JSON.parse(localStorage.getItem(this.key) || '[]');
       return Array.isArray(list) ? list : [];
     } catch {
-      return [];  // no storage, or what is no list
+      return [];  // no storage, or not a list
     }
   }
 

@@ -1,4 +1,5 @@
-// The camera of the scene by hand: camera mode (fly with keys, look with the pointer) and orbits.
+// Moves the camera of the scene by hand: camera mode (fly with keys, look with the pointer) and
+// orbits.
 
 const WHEEL_STEP = 1.2, FAST = 4, TURN_KEYS_SPEED = 1.2;  // radians a second
 
@@ -12,10 +13,11 @@ class CameraControl {
     this.speed = this.size / 8;  // metres a second
   }
 
-  // What the program says; while a hand moves the camera, the hand knows better.
+  // Takes the camera from the program's state, unless a hand is moving it: the hand's pose is
+  // newer.
   show({to_world, yfov, mirrored}) {
     this.yfov = yfov;
-    this.side = mirrored ? -1 : 1;  // the picture's right in the camera's
+    this.side = mirrored ? -1 : 1;  // +1, or -1 if the picture is mirrored
     this.matrix = to_world;
     if (!this.isMoving && !this.isWaiting) this.pose = poseOf(to_world);
   }
@@ -46,7 +48,7 @@ class CameraControl {
     this.page.recorder.note(this.pose, this.yfov, this.targetOf(pose));
   }
 
-  // Upright, from a position towards a target.
+  // Looks upright from a position towards a target.
   lookFrom(position, target, yfov = this.yfov) {
     this.yfov = yfov;
     const [x, y, z] = plus(target, position, -1);
@@ -54,7 +56,7 @@ class CameraControl {
                  pitch: clampPitch(Math.atan2(y, Math.hypot(x, z)))});
   }
 
-  // A point ahead, as far as the middle of the scene is.
+  // Returns a point straight ahead, as far away as the scene's centre.
   targetOf(pose) {
     return plus(pose.position, axesOf(pose).forward, this.reach(pose));
   }
@@ -95,12 +97,12 @@ class CameraControl {
     this.moveTo({position, yaw: this.pose.yaw + turn, pitch: clampPitch(this.pose.pitch + tilt)});
   }
 
-  // For pointer.js.
+  // Begins a drag; called by pointer.js.
   drag(event, hit) {
     const isOrbit = event.altKey || this.isOrbit;
     if (!isOrbit && !this.isOn) return null;
     if (!this.pose) return null;
-    // Radians of the picture's middle for a CSS pixel.
+    // Radians per CSS pixel at the centre of the picture.
     const scale = (this.yfov || 0.8) / (this.page.state.height * this.page.viewer.camera.scale);
     const sideways = scale * this.side, round = 0.008 * this.side;
     const target = isOrbit ? this.orbitTarget(hit, event.altKey && hit && hit.pixel) : null;
@@ -117,7 +119,8 @@ class CameraControl {
                                            pitch: clampPitch(this.pose.pitch - scale * dy)})};
   }
 
-  // The point under the pointer, as far away as the scene's middle; else the one ahead.
+  // Returns the point under the pointer at the distance of the scene's centre, or else the point
+  // straight ahead.
   orbitTarget(hit, isUnderPointer) {
     if (!isUnderPointer) return this.targetOf(this.pose);
     const {width, height} = this.page.state;

@@ -1,4 +1,4 @@
-// The part of the picture that is shown, as `restlab figure` takes it.
+// Options of `restlab figure` for the visible part of the picture.
 
 function figureOptions(viewer) {
   viewer.draw();

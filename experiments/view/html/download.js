@@ -1,4 +1,4 @@
-// Files for the reader, made by the page.
+// Downloads of files that the page makes.
 
 function downloadBlob(name, blob) {
   const url = URL.createObjectURL(blob);
@@ -13,7 +13,7 @@ function downloadText(name, text) {
   downloadBlob(name, new Blob([text], {type: 'text/plain;charset=utf-8'}));
 }
 
-// A button that puts `text()` on the clipboard, which an address without TLS may not have.
+// Makes a button that copies `text()`. Browsers may refuse the clipboard to a page without TLS.
 function copyButton(text, help, say) {
   return makeButton('copy', help, async () => {
     try {
@@ -25,7 +25,7 @@ function copyButton(text, help, say) {
   });
 }
 
-// What the stage shows, with the names of its views, as a PNG.
+// Saves the visible stage with the names of its views, as a PNG.
 function saveScreenshot(viewer, name) {
   viewer.draw();
   const {canvas} = viewer, ratio = canvas.width / viewer.stage.width;

@@ -1,4 +1,5 @@
-// The whole state of the page in its address, after the #: what is opened again shows the same.
+// Keeps the whole state of the page in its address, after the #: opening the address again restores
+// it.
 
 const VIEW_FIELDS = ['mode', 'current', 'compare', 'error', 'stops', 'tone', 'log', 'wipe',
                      'opacity'];
@@ -27,7 +28,7 @@ const fragmentOf = kept => `#${encodeURIComponent(JSON.stringify(kept))}`;
 const isObject = value => value !== null && typeof value === 'object';
 const isKept = kept => isObject(kept) && Array.isArray(kept.panes) && kept.panes.every(isObject);
 
-// Null where there is none, or one that is none of ours.
+// Returns null if there is no fragment or it was not made by this page.
 function readFragment(hash) {
   if (hash.length < 2) return null;
   try {
@@ -38,7 +39,7 @@ function readFragment(hash) {
   }
 }
 
-// The commands that lead from `state` to what was kept.
+// Returns the commands that lead from `state` to the kept state.
 function commandsTowards(kept, state, settings) {
   const commands = [];
   const differs = (a, b) => JSON.stringify(a) !== JSON.stringify(b);
@@ -48,7 +49,7 @@ function commandsTowards(kept, state, settings) {
     for (const key of settings) {
       if (!(key in want) || (!isOther && want[key] === is[key])) continue;
       commands.push({do: 'set', pane, key, value: want[key]});
-      isOther = isOther || key === 'integrator';  // its mode is another one, too
+      isOther = isOther || key === 'integrator';  // another integrator has another mode, too
     }
     const wanted = want.parameters || {};
     for (const info of is.parameters) {
@@ -91,7 +92,8 @@ function applyView(view, viewer) {
   for (const key of ['current', 'compare']) if (!viewer.images[change[key]]) delete change[key];
   if (!ERROR_ORDER.includes(change.error)) delete change.error;
   viewer.set(change);
-  // The program's own says how bright the picture was when this page was opened.
+  // The state's own exposure is the brightness at the time this page was opened: the kept exposure
+  // wins.
   if (view && view.exposure > 0 && Number.isFinite(view.exposure)) viewer.setExposure(view.exposure);
   if (view && Array.isArray(view.zoom) && view.zoom.every(Number.isFinite)) {
     const [x, y, scale] = view.zoom;

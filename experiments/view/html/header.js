@@ -1,4 +1,4 @@
-// The line above everything: the scene, the connection, and what concerns the whole session.
+// Top line of the page: the scene, the connection and buttons for the whole session.
 
 const LINK_TEXTS = {
   connecting: 'connecting \u2026', connected: 'connected', reconnecting: 'reconnecting \u2026',
@@ -19,7 +19,7 @@ class Header {
                         this.buttons);
   }
 
-  // Once the commands can do something.
+  // Adds the buttons; called when the commands can run.
   fill() {
     const button = (id, text) => {
       const command = this.page.commands.find(one => one.id === id);

@@ -1,5 +1,5 @@
-// What can be done to a live session, besides what can be done to any viewer. They come first: in
-// camera mode their keys are the camera's.
+// Commands of a live session. They precede those of every viewer: in camera mode their keys move
+// the camera.
 
 // [way, keys, title] of the camera's keys in camera mode.
 const FLY_KEYS = [
@@ -12,22 +12,22 @@ const FLY_KEYS = [
   ['turn-down', ['ArrowDown', 'Shift+ArrowDown'], 'look down']
 ];
 
-// Lines of the help, by the first command of each.
+// Rows of the help, keyed by the first command of each.
 const FLY_ROWS = {
   forward: ['w, s, a, d, e, q', 'fly forward, back, left, right, up, down; with Shift faster'],
   'turn-left': ['\u2190 \u2192 \u2191 \u2193', 'look around; where dragging orbits (o), orbit']
 };
 
-// What a key goes on doing while it is held; the rest it does once.
+// Commands that repeat while their key is held.
 const REPEATED = ['faster', 'slower', 'undo', 'redo'];
 
-// Of images alone there is nothing for these to do.
+// Commands that do nothing if only images of files are shown.
 const NEEDS_METHOD = ['restart', 'pause', 'probe', 'find-parameter', 'measure'];
 
 function makeLiveCommands(page) {
   const send = command => () => page.session.send(command);
   const isOn = () => page.camera.isOn;
-  // Where the camera turns with the arrows.
+  // True if the arrow keys turn the camera.
   const isTurning = () => isOn() || page.camera.isOrbit;
   const session = 'Session', camera = 'Camera', fly = 'Camera mode (c)';
   const commands = [

@@ -1,3 +1,3 @@
-// Brings the live page to life.
+// Starts the live page.
 const page = new LivePage();
-document.body.page = page;  // for tests and for the curious
+document.body.page = page;  // for tests and for the browser's console

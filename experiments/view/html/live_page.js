@@ -1,4 +1,4 @@
-// The page of a live session: a viewer of two panes and the reference, and panels beside it.
+// Page of a live session: a viewer of two panes and the reference, with panels beside it.
 
 const REFERENCE_SLOT = 2, LAYER_SLOTS = 16;
 
@@ -31,10 +31,10 @@ class LivePage {
 
   get state() { return this.session.state; }
 
-  // One that nobody sees keeps nothing at work.
+  // Tells the program whether the page is visible: it renders nothing for hidden pages.
   look() { this.session.socket.send(JSON.stringify({do: 'look', on: !document.hidden})); }
 
-  // Of another scene than before nothing here is true any more.
+  // Reloads the page if the program now has another scene: nothing shown here would be true.
   greet(hello) {
     if (document.hidden) this.look();
     if (this.hello && this.hello.scene.name !== hello.scene.name) location.reload();
@@ -57,7 +57,7 @@ class LivePage {
     this.numbers.showNames(this.viewer.images.map(image => image.name));
     const {camera} = this.viewer;
     if (!isFirst && (camera.width !== state.width || camera.height !== state.height)) {
-      this.probe.clear();  // its pixel is another one now
+      this.probe.clear();  // the probed pixel is elsewhere now
     }
     this.viewer.setSize(state.width, state.height);
     this.camera.show(state.camera);
@@ -69,7 +69,7 @@ class LivePage {
     if (isFirst) this.begin(state);
   }
 
-  // Controls show again what is.
+  // Shows the error and resets the controls to the actual state.
   refused({text, command}) {
     this.messages.error(text, command);
     if (!this.viewer) return;
@@ -117,8 +117,8 @@ class LivePage {
     this.showCameraMode();
   }
 
-  // Goes to what the address says, then keeps it there. A page that is loaded again finds the
-  // program as it is: the address may lag behind the last change.
+  // Applies the address, then keeps it up to date. A reloaded page keeps the program's settings:
+  // the address may lag behind the last change.
   begin(state) {
     const {settings} = this.hello;
     const [navigation] = performance.getEntriesByType('navigation');
@@ -130,7 +130,7 @@ class LivePage {
     if (this.kept && !isReload) {
       for (const command of commandsTowards(this.kept, state, settings)) this.session.send(command);
     }
-    // Who pastes another address goes there, too.
+    // Apply an address that is pasted later, too.
     window.addEventListener('hashchange', () => {
       const kept = readFragment(location.hash);
       if (!kept) return;
@@ -235,7 +235,7 @@ class LivePage {
     this.measurement.element.scrollIntoView({block: 'nearest'});
   }
 
-  // Of the image that is chosen.
+  // Saves the current image.
   savePicture() {
     const {current} = this.viewer.state;
     const isReference = this.viewer.images[current].role === 'reference';

@@ -1,4 +1,4 @@
-// `restlab run` of what is set: begun here, followed, and its report.
+// Panel that starts `restlab run` on the current settings, follows it and links its report.
 
 class MeasurePanel {
   constructor(page) {
@@ -26,7 +26,7 @@ class MeasurePanel {
     this.begin.disabled = this.isRunning || !this.page.hello.has_scene;
     this.cancel.disabled = !this.isRunning;
     this.progress.hidden = !this.isRunning;
-    // Without a value it says that something goes on.
+    // Without a value the bar only shows that something is under way.
     if (done > 0) this.progress.value = done; else this.progress.removeAttribute('value');
     this.text.dataset.measure = state;
     this.text.classList.toggle('warn', state === 'failed');

@@ -1,5 +1,5 @@
-// Images as the program sends them (image_message.h): 32 bytes of head, then R, G, B of each pixel
-// as floats or halves.
+// Decodes images from the program (image_message.h): a header of 32 bytes, then R, G, B of each
+// pixel as floats or halves.
 
 const IMAGE_HEAD_BYTES = 32;
 
@@ -15,7 +15,7 @@ const HALVES = (() => {
   return values;
 })();
 
-// {slot, isHalf, width, height, frame, epoch, bytes}. Throws where it is no image.
+// Returns {slot, isHalf, width, height, frame, epoch, bytes}. Throws if `bytes` is not an image.
 function readImageHead(bytes) {
   const view = new DataView(bytes);
   const isImage = bytes.byteLength >= IMAGE_HEAD_BYTES && view.getUint32(0, true) === 0x31494c52;
@@ -30,7 +30,7 @@ function readImageHead(bytes) {
   return head;
 }
 
-// The pixels of a message, in `room` where that has the size.
+// Returns the pixels of a message. Reuses `room` if it has the right size.
 function readPixels(head, room) {
   const count = 3 * head.width * head.height;
   const data = room && room.length === count ? room : new Float32Array(count);

@@ -1,4 +1,4 @@
-// What the program refuses or notices, one line each, with a button that takes it away.
+// Errors and notices of the program, one line each, with a button to dismiss it.
 
 const MOST_MESSAGES = 6, NOTICE_MS = 8000;
 
@@ -8,7 +8,7 @@ class Messages {
                                 'aria-label': 'Messages'});
   }
 
-  // `more` is said where the pointer rests on it.
+  // `more`: tooltip of the message.
   add(text, isError, more) {
     const last = this.element.lastElementChild;
     if (last && last.firstChild.textContent === text) return;

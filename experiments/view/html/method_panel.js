@@ -1,9 +1,9 @@
-// The methods of the panes: settings, parameters, the layer over the image. All is made from what
-// the program says; no method and no parameter is known here.
+// Panel of the panes' methods: settings, parameters, the layer over the image. Everything is made
+// from the program's descriptions; no method or parameter is known here.
 
 const PANE_NAMES = ['A', 'B'];
 
-// What a pane shows, in a few words.
+// Returns a short name of the pane's method.
 function methodName(pane, hello) {
   const info = hello.integrators.find(one => one.name === pane.integrator);
   const isFirstMode = !info || !info.modes.length || info.modes[0].name === pane.mode;
@@ -14,10 +14,10 @@ function methodName(pane, hello) {
 
 const sourceText = source => source || 'a method';
 
-// What a pane shows: a method, the reference or an image.
+// Returns the name of what a pane shows: a method, the reference or an image.
 function paneName(pane, hello) { return pane.source || methodName(pane, hello); }
 
-// The choices of a setting of a pane; null where there is nothing to choose.
+// Returns the choices of a pane's setting; null if there is nothing to choose.
 function settingChoices(key, pane, hello) {
   const integrator = hello.integrators.find(one => one.name === pane.integrator);
   const option = (one, why) => ({
@@ -120,7 +120,7 @@ class PanePanel {
     this.filter(this.words || []);
   }
 
-  // Shows the parameters that have all words; their number.
+  // Shows the parameters that contain all words; returns how many.
   filter(words) {
     this.words = words;
     let count = 0;
@@ -159,7 +159,7 @@ class MethodPanel {
     this.open(0);
   }
 
-  // Of the layers of all panes, while there is one.
+  // Makes the slider for the opacity of all panes' layers, shown while there is a layer.
   makeOpacity() {
     const {viewer} = this.page;
     this.opacity = make('input', {type: 'range', min: 0, max: 1, step: 0.01,

@@ -1,6 +1,6 @@
-// The numbers of both panes side by side, as they run; and what they are measured against.
+// Running numbers of both panes side by side, and the reference they are measured against.
 
-// Of the reference and of images of files nothing is timed or counted.
+// The reference and images of files have no times and no counts.
 const showsMethod = pane => pane.ms !== null;
 const OF_FRAMES = ['mse_newest', 'relmse_newest', 'frames', 'ms', 'rays', 'bytes'];
 
@@ -24,7 +24,7 @@ const NUMBER_ROWS = [
 ];
 
 class NumbersPanel {
-  // `faults`: names of the health counts that must be 0; the others say what a method does.
+  // `faults`: names of the health counts that must be 0; the other counts describe the method.
   constructor(count, faults) {
     this.faults = new Set(faults);
     this.cells = new Map();
@@ -58,7 +58,7 @@ class NumbersPanel {
                         this.histories, this.reference, this.transport);
   }
 
-  // Of the panes, as their pictures have them.
+  // Shows the panes' names, as their pictures have them.
   showNames(names) { this.names.forEach((name, i) => setText(name, names[i])); }
 
   show(numbers) {
@@ -91,7 +91,7 @@ class NumbersPanel {
         isBusy ? ', times are longer than on a quiet machine' : ''}` : '';
     setText(this.transport, (t ? `images: ${t.width}\u00d7${t.height}, ${t.bits} bits, ${
         quantity(t.mb_per_second)} MB/s` : '') + busy);
-    // The viewer itself keeps every thread busy.
+    // Warn above a load of 2 only: the viewer itself keeps every thread busy.
     this.transport.classList.toggle('warn', isBusy);
     this.transport.title = 'what goes to all pages; load average of the machine over its threads';
   }
@@ -99,7 +99,7 @@ class NumbersPanel {
   showCell({value, interval}, given, digits, hasFrames) {
     if (given === null || given === undefined) {
       setText(value, NOTHING);
-      setText(interval, interval.textContent ? '\u00a0' : '');  // the place stays
+      setText(interval, interval.textContent ? '\u00a0' : '');  // keeps the height of the cell
     } else if (typeof given === 'object') {
       setText(value, quantity(given.value, digits));
       const isKnown = Number.isFinite(given.lo) && Number.isFinite(given.hi);
@@ -118,7 +118,7 @@ class NumbersPanel {
   }
 }
 
-// Milliseconds of each pass as bars of one scale.
+// Bars with the milliseconds of each pass, on one scale.
 class PassBars {
   constructor() {
     this.element = make('div', {class: 'passes'});

@@ -1,8 +1,8 @@
-// A control made from what the program says of a parameter: kind, range, choices, default, help.
+// Control of a parameter, made from its description: kind, range, choices, default, help.
 
 let controlCount = 0;
 
-// What decides which control it is; another value alone does not.
+// Key of everything that decides the kind of control; the value is left out.
 function controlKey(info) {
   return JSON.stringify([info.name, info.range, info.choices, info.help, info.default,
                          info.part]);
@@ -15,10 +15,10 @@ function isWholeNumber(info) {
 }
 
 class ParameterControl {
-  // `send(value)`; null is the default.
+  // `send(value)`; null means the default.
   constructor(info, send) {
     this.id = `parameter-${++controlCount}`;
-    // Whatever the answer is, it is shown.
+    // Forces show() to display the answer, even if the value is unchanged.
     this.send = value => {
       this.shown = null;
       this.isAsked = true;
@@ -38,7 +38,7 @@ class ParameterControl {
                         make('label', {for: this.id, title: info.help || ''}, info.name), more,
                         this.reset, this.input.element, this.about);
     this.words = [info.name, info.help, info.part, info.source].join(' ').toLowerCase();
-    // What was not shown while somebody was at it: a refusal, say.
+    // Show a value that was held back while the control had the focus, such as a refused one.
     this.element.addEventListener('focusout', () => {
       if (!this.isAsked && this.shown === null) this.show(this.info);
     });
@@ -83,7 +83,7 @@ class ParameterControl {
   }
 }
 
-// A select of texts, or of [value, text] pairs; those that are not available are disabled.
+// Makes a select of texts or of {value, text, disabled, title} choices.
 function makeSelect(choices, send, attributes = {}) {
   const options = choices.map(choice => {
     const isText = typeof choice !== 'object';
@@ -95,7 +95,7 @@ function makeSelect(choices, send, attributes = {}) {
   const show = value => {
     element.value = value;
     if (element.value === String(value)) return;
-    // What is set is shown, on the list or not.
+    // Add a value that is not on the list: the select must show what is set.
     element.append(make('option', {value}, String(value)));
     element.value = value;
   };

@@ -1,4 +1,4 @@
-// The way of the camera as keyframes: recorded, played back, and written for a suite.
+// Records the camera's path as keyframes, plays it back and writes it for a suite.
 
 const KEYFRAME_SECONDS = 0.2;
 
@@ -9,7 +9,8 @@ const tomlNumber = value => {
 };
 const tomlPoint = point => `[${point.map(tomlNumber).join(', ')}]`;
 
-// [[camera_path]] of a suite. Frames must rise: of keyframes in one frame the last one stays.
+// Returns a [[camera_path]] of a suite. Frames must increase: if several keyframes fall into one
+// frame, the last one stays.
 function cameraPathToml(name, keyframes, framesPerSecond) {
   const byFrame = new Map();
   for (const key of keyframes) byFrame.set(Math.round(key.seconds * framesPerSecond), key);
@@ -83,7 +84,7 @@ class PathRecorder {
     }
   }
 
-  // To its end, until it is asked for again, or until a hand takes the camera.
+  // Plays to the end, until called again or until a hand takes the camera.
   playBack() {
     if (this.keyframes.length < 2 || this.isRecording) return;
     const began = performance.now(), {keyframes, page} = this, last = keyframes.length - 1;

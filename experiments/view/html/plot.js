@@ -1,4 +1,4 @@
-// A small plot of curves on logarithmic axes.
+// Small plot of curves on logarithmic axes.
 
 const SVG = 'http://www.w3.org/2000/svg';
 const PLOT = {width: 360, height: 190, left: 52, right: 10, top: 8, bottom: 34};
@@ -10,7 +10,7 @@ function svg(tag, attributes, ...children) {
   return element;
 }
 
-// Ends of an axis around values: powers of ten, or 1, 2, 5 of them where they are near.
+// Returns the ends of an axis around values: 1, 2 or 5 times a power of ten.
 function logEnds(values) {
   const lo = Math.min(...values), hi = Math.max(...values);
   const down = value => {
@@ -21,7 +21,7 @@ function logEnds(values) {
   return to > from ? [from, to] : [from, from * 10];
 }
 
-// Numbers on a logarithmic axis: powers of ten, with 2 and 5 of them where those are few.
+// Returns the ticks of a logarithmic axis: powers of ten, with 2 and 5 times them if there are few.
 function logTicks(lo, hi) {
   const decades = Math.log10(hi / lo), ticks = [];
   const step = Math.max(1, Math.ceil(decades / 5));
@@ -37,7 +37,7 @@ function logTicks(lo, hi) {
 }
 
 class LogPlot {
-  // `x`: the field of a point that is the abscissa.
+  // `x`: name of the point's field for the abscissa.
   constructor(title, x, xTitle, yTitle) {
     Object.assign(this, {x, xTitle, yTitle});
     this.picture = svg('svg', {viewBox: `0 0 ${PLOT.width} ${PLOT.height}`, role: 'img',
@@ -45,7 +45,7 @@ class LogPlot {
     this.element = make('figure', {}, this.picture);
   }
 
-  // `curves` and the shadows of those before: lists of points for each pane.
+  // `curves` and `before` (the previous epoch, drawn as shadows): a list of points for each pane.
   show(curves, before) {
     const all = [...curves, ...before].flat();
     if (!all.length) {
@@ -56,8 +56,8 @@ class LogPlot {
     }
     const {left, right, top, bottom, width, height} = PLOT;
     const [x0, x1] = logEnds(all.map(point => Math.max(1e-4, point[this.x])));
-    // An estimate against a noisy reference may fall to 0 and below, which a logarithm has no place
-    // for: it lies on the axis, and has a mark.
+    // An MSE estimate against a noisy reference may be 0 or negative, which has no logarithm: it is
+    // drawn on the axis, with a mark.
     const above = all.map(point => point.mse).filter(mse => mse > 0);
     const [y0, y1] = above.length ? logEnds(above) : [1e-6, 1e-5];
     const spanX = width - left - right, spanY = height - top - bottom;

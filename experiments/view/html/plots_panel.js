@@ -1,5 +1,5 @@
-// Errors over age and time, and the passes' times. Drawn a few times a second at most, and only
-// while somebody sees them.
+// Panel of the errors over age and time and of the passes' times. Drawn a few times a second at
+// most, and only while visible.
 
 const PLOT_INTERVAL_MS = 300;
 

@@ -1,4 +1,4 @@
-// What the panes keep of a pixel: path, reservoir, donors, cache slot, as the program tells it.
+// Panel of what the panes keep for a pixel: path, reservoir, donors, cache slot.
 
 function probeText(value) {
   if (Array.isArray(value)) return value.map(probeText).join('  ');
@@ -8,7 +8,7 @@ function probeText(value) {
   return typeof value === 'number' ? quantity(value, 5) : String(value ?? NOTHING);
 }
 
-// What the program says of a donor's shift, beside "accepted".
+// Help on the reasons the program gives for a donor's shift.
 const SHIFT_HELP = {
   accepted: 'the pixel sees the donor\'s sample',
   empty: 'the donor has no sample',
@@ -77,7 +77,7 @@ class ProbePanel {
                         this.commands);
   }
 
-  // Of all panes, so that they compare.
+  // Probes all panes at once, to compare them.
   ask({x, y}) {
     this.pixel = {x, y};
     this.x.value = x;
@@ -88,14 +88,14 @@ class ProbePanel {
     });
   }
 
-  // While nothing was probed.
+  // Shows a hint while nothing is probed.
   invite() {
     setText(this.hint, this.page.state.panes.every(({source}) => source)
         ? 'Only methods keep something of a pixel, and no pane shows one.'
         : 'Click a pixel of the picture, or point at one and press g.');
   }
 
-  // After a change: again as soon as the panes have rendered it, once.
+  // Probes again after a change, once, when the panes have rendered it.
   follow({epoch, age, panes}) {
     if (!this.pixel || epoch !== this.page.state.epoch || this.followed === epoch || !age) return;
     const {x, y} = this.pixel;
@@ -115,7 +115,7 @@ class ProbePanel {
   }
 
   answer(message) {
-    // One that nobody waits for any more.
+    // Discard an answer for a pixel that is no longer probed.
     if (!this.pixel || message.x !== this.pixel.x || message.y !== this.pixel.y) return;
     this.answers[message.pane] = message;
     this.page.viewer.setImage(message.pane, {
@@ -124,7 +124,7 @@ class ProbePanel {
     this.show();
   }
 
-  // Whether the values are of what is set now.
+  // Marks values that were probed before the last change.
   showAge() {
     if (!this.answers.some(Boolean)) return this.invite();
     const {epoch} = this.page.state;

@@ -1,5 +1,5 @@
-// Where a camera is: a position, and turns about the vertical (yaw) and its own right (pitch), in
-// radians. It has no roll. It looks along -Z, +Y is up; matrices are column by column.
+// Pose of a camera: a position, a yaw about the vertical and a pitch about the camera's right, in
+// radians, without a roll. A camera looks along -Z, +Y is up; matrices are column-major.
 
 const MOST_PITCH = 89 * Math.PI / 180;
 const clampPitch = pitch => Math.min(MOST_PITCH, Math.max(-MOST_PITCH, pitch));
@@ -22,12 +22,12 @@ function matrixOf(pose) {
   return [...right, 0, ...up, 0, ...forward.map(value => -value), 0, ...pose.position, 1];
 }
 
-// The pose turned as one piece with the point `target`: about the vertical through it by `turn`,
-// then about the camera's right by `tilt`.
+// Turns the pose rigidly around the point `target`: by `turn` about the vertical through the
+// target, then by `tilt` about the camera's right.
 function orbited(pose, target, turn, tilt) {
   const pitch = clampPitch(pose.pitch + tilt);
   const axes = axesOf(pose), offset = plus(pose.position, target, -1);
-  // The target in the camera's own axes stays what it is.
+  // Keep the target's position in the camera's own axes.
   const own = ['right', 'up', 'forward'].map(
       name => offset.reduce((sum, value, i) => sum + value * axes[name][i], 0));
   const turned = {...pose, yaw: pose.yaw + turn, pitch};
@@ -37,7 +37,8 @@ function orbited(pose, target, turn, tilt) {
   return {...turned, position};
 }
 
-// The direction of the ray through a place of the image, (0, 0) the middle, (1, 1) its top right.
+// Returns the direction of the ray through an image position; (0, 0) is the centre, (1, 1) the top
+// right.
 function rayThrough(pose, yfov, aspect, x, y) {
   const {right, up, forward} = axesOf(pose), t = Math.tan(yfov / 2);
   const way = plus(plus(forward, right, x * t * aspect), up, y * t);

@@ -1,7 +1,7 @@
-// What is looked at: camera, size, light.
+// Panel of the camera, the size and the lights.
 
 const SIZES = ['320x180', '640x360', '960x540', '1280x720', '1920x1080'];
-// Factors of a light that its slider reaches; 0 is off.
+// Range of a light's factor on its slider; 0 is off.
 const LIGHT_RANGE = [0, 1000];
 
 class ScenePanel {
@@ -88,7 +88,7 @@ class ScenePanel {
                 ...lines.map(line => make('p', {class: 'hint'}, line)));
   }
 
-  // What was typed and refused goes with the focus, unless the program has not answered yet.
+  // Resets a refused input when it loses the focus, unless the program's answer is still due.
   showWhenLeft(input, key) {
     input.element.addEventListener('focusout', () => {
       const {session, state} = this.page;

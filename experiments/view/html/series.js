@@ -1,7 +1,7 @@
-// Errors of both panes as the frames go by, for plots. One series is of one epoch: another setting
-// begins anew, and the series before it stays as a shadow.
+// Series of both panes' errors over the frames, for plots. A series holds one epoch: a change of
+// settings begins a new one and the previous one stays as a shadow.
 
-// Points nearer than this factor in age are one point: a curve on a logarithmic axis needs no more.
+// Points closer than this factor in age are merged: a logarithmic axis shows no more.
 const POINT_SPACING = 1.02;
 
 class ErrorSeries {
@@ -16,8 +16,8 @@ class ErrorSeries {
     this.curves = Array.from({length: this.count}, () => ({points: [], seconds: 0, rounds: 0, frames: 0}));
   }
 
-  // Of a message of numbers. `seconds` is the time that the pane rendered since the change, as
-  // rounds times the last frame's time.
+  // Adds a message of numbers. `seconds` estimates the pane's render time since the change: the
+  // number of rounds times the last frame's time.
   add(numbers) {
     if (numbers.epoch !== this.epoch) {
       if (this.epoch !== null) this.before = this.curves.map(curve => curve.points);
@@ -34,7 +34,7 @@ class ErrorSeries {
       const point = {age: Math.max(1, numbers.age), seconds: curve.seconds, mse: pane.last_mse};
       const {points} = curve, last = points[points.length - 1];
       const one = points[points.length - 2];
-      // The newest point is always there; the one before it only where it is far enough.
+      // Always keep the newest point; drop the one before it if it is too close to its predecessor.
       if (last && one && last.age < one.age * POINT_SPACING) points.pop();
       points.push(point);
     });

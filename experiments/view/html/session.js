@@ -1,7 +1,7 @@
-// What the program says, and what it is asked for.
+// Connection to the program: its messages in, commands out.
 
-// A number that the program writes with a point is no whole number, whatever its value: JSON alone
-// does not keep that. Where the browser does not tell, panels guess.
+// Marks a default that the program writes with a point as real: JSON alone makes 1.0 a whole
+// number. If the browser does not pass the source text, panels guess.
 function parseKeepingPoints(text) {
   return JSON.parse(text, function(key, value, context) {
     if (key === 'default' && typeof value === 'number' && context && context.source) {
@@ -11,12 +11,12 @@ function parseKeepingPoints(text) {
   });
 }
 
-// An answer that does not come is not waited for any longer, in milliseconds.
+// Milliseconds after which a missing answer is no longer waited for.
 const ANSWER_TIMEOUT = 1500;
 
 class Session {
-  // `on`: a function for each thing that is said (hello, state, numbers, ...), `image(head)` for
-  // the newest image of a slot, once before each picture of the window, and `link(state)`.
+  // `on`: a function for each message (hello, state, numbers, ...), `image(head)` for the newest
+  // image of a slot, called before a repaint, and `link(state)`.
   constructor(url, on) {
     Object.assign(this, {on, hello: null, state: null, images: new Map(), waiting: new Map()});
     this.socket = new Socket(url, {
@@ -47,7 +47,7 @@ class Session {
       this.on.error({text: error.message});
       return;
     }
-    this.images.set(head.slot, head);  // an older one that nobody saw is never decoded
+    this.images.set(head.slot, head);  // replaces an older one before it is decoded
     if (this.isAsked) return;
     this.isAsked = true;
     requestAnimationFrame(() => {
@@ -64,7 +64,7 @@ class Session {
     return isSent;
   }
 
-  // Of what changes with every move of a hand: the newest, when the last one was answered.
+  // Sends values that change with every move of a hand: the newest, once the last one was answered.
   sendNewest(key, command) {
     const slot = this.waiting.get(key);
     if (slot && performance.now() - slot.since < ANSWER_TIMEOUT) {

@@ -1,9 +1,9 @@
-// Where the values of a range lie on a slider of so many steps.
+// Maps the values of a range to positions of a slider.
 
 const SLIDER_STEPS = 1000;
 
-// Ranges over several powers of ten are logarithmic; one that begins with 0 is so from a
-// thousandth of its end, or from 1 where it is of whole numbers.
+// Ranges over several powers of ten are logarithmic. If the range begins with 0, the logarithm
+// begins at a thousandth of the end, or at 1 for whole numbers.
 function sliderScale(lo, hi, isWhole) {
   const tidy = value => {
     const rounded = isWhole ? Math.round(value) : Number(value.toPrecision(3));
@@ -22,7 +22,7 @@ function sliderScale(lo, hi, isWhole) {
   };
 }
 
-// A slider and a number that are one value. `send(value)` for each move of it.
+// Slider and number field of one value. `send(value)` is called for each move.
 class NumberInput {
   constructor({name, lo, hi, isWhole, id}, send) {
     this.scale = sliderScale(lo, hi, isWhole);
@@ -36,7 +36,7 @@ class NumberInput {
       this.number.value = value;
       send(value);
     });
-    // Steps of a hundredth by keys; whole numbers one by one.
+    // Arrow keys move by a hundredth of the range; whole numbers by at least 1.
     this.slider.addEventListener('keydown', event => {
       const sign = {ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1}[event.key];
       if (!sign) return;

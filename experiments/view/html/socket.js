@@ -1,5 +1,5 @@
-// The connection to the program. Where it breaks off it is made again; after some failures in a row
-// the program has ended.
+// WebSocket to the program. Reconnects after a failure; after several failures in a row the program
+// counts as ended.
 
 const MOST_FAILURES = 5;
 
@@ -35,13 +35,13 @@ class Socket {
     setTimeout(() => this.open(), Math.min(4000, 250 * 2 ** this.failures));
   }
 
-  // After the program has ended.
+  // Tries again after the program has ended.
   again() {
     this.failures = 0;
     this.open();
   }
 
-  // False where nobody hears it.
+  // Returns false if there is no connection.
   send(text) {
     if (this.socket.readyState !== WebSocket.OPEN) return false;
     this.socket.send(text);

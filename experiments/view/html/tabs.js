@@ -1,4 +1,4 @@
-// Panels of which one is open: tabs by click, arrows, Home and End.
+// Panels of which one is open at a time: tabs by click, arrows, Home and End.
 
 class Tabs {
   // `panels`: [id, title, element]...

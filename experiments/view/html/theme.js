@@ -1,6 +1,6 @@
-// Light or dark, as the system says or as the reader chooses.
+// Switches between light and dark; follows the system until the reader chooses.
 
-// The rules of the dark scheme: those of a media query, which is switched.
+// Media rules of the dark scheme; switched by replacing their media text.
 let darkRules = null;
 
 function findDarkRules() {
@@ -29,16 +29,16 @@ function toggleTheme() {
   try {
     localStorage.setItem(THEME_KEY, theme);
   } catch {
-    // No storage: it lasts as long as the page.
+    // Without storage the choice lasts as long as the page.
   }
 }
 
-// As it was chosen the last time.
+// Restores the last choice.
 function startTheme() {
   try {
     const theme = localStorage.getItem(THEME_KEY);
     if (theme === 'light' || theme === 'dark') setTheme(theme);
   } catch {
-    // The system's.
+    // Without storage the system's scheme is used.
   }
 }

@@ -1,4 +1,4 @@
-// Quantities as people read them.
+// Quantities with prefixes and units, for people.
 
 const NOTHING = '\u2013';
 
