@@ -151,7 +151,7 @@ function(rl_add_kernel name kernel_file)
   # On the project's own hierarchy with the general mask alone: there to be compared, not to be fast.
   set(source ${RL_GENERATED_DIR}/kernels/${name}_bvh.cpp)
   rl_write_kernel_source(${source} ${name} bvh ${RL_FEATURE_BIT_ALL} ${kernel_path} ${header_path}
-                         core/dialect/trace_bvh.glsl)
+                         core/geometry/trace_bvh.glsl)
   target_sources(rl_kernels PRIVATE ${source})
   set_property(GLOBAL APPEND PROPERTY RL_KERNELS ${name})
   # The row of the tables that say which files make a kernel: name|file|header.

@@ -12,9 +12,9 @@
 
 #include "core/backend/backend.h"
 #include "core/backend/embree.h"
-#include "core/error.h"
-#include "core/memory.h"
-#include "core/scene/compiled_scene.h"
+#include "core/base/error.h"
+#include "core/base/memory.h"
+#include "core/scene/compiled/compiled_scene.h"
 
 #ifndef RESTLAB_JTHREAD_TILES
 #include <tbb/parallel_for.h>

@@ -23,7 +23,7 @@ struct GlslTrace {
   const char* file;
   const char* extensions;
 };
-constexpr GlslTrace kGlslTraceBvh = {"core/dialect/trace_bvh.glsl", ""};
+constexpr GlslTrace kGlslTraceBvh = {"core/geometry/trace_bvh.glsl", ""};
 constexpr GlslTrace kGlslTraceQuery = {"core/backend/trace_query.glsl",
                                        "#extension GL_EXT_ray_query : require\n"};
 

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "core/error.h"
-#include "core/image/atomic_file.h"
+#include "core/base/error.h"
+#include "core/image/io/atomic_file.h"
 
 namespace restlab {
 

@@ -2,7 +2,7 @@
 // that takes minutes. One session's frames are ended by Backend::stopWhere().
 #pragma once
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace restlab {
 

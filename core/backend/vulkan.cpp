@@ -20,9 +20,9 @@
 #include "core/backend/vulkan_parts.h"
 #include "core/backend/vulkan_recording.h"
 #include "core/backend/vulkan_scene.h"
-#include "core/error.h"
-#include "core/memory.h"
-#include "core/scene/compiled_scene.h"
+#include "core/base/error.h"
+#include "core/base/memory.h"
+#include "core/scene/compiled/compiled_scene.h"
 
 namespace restlab {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace restlab {
 

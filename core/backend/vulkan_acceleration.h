@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/backend/vulkan_memory.h"
-#include "core/scene/bvh.h"
+#include "core/scene/compiled/bvh.h"
 
 namespace restlab {
 

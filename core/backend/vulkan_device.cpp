@@ -11,7 +11,7 @@
 #include <optional>
 
 #include "core/backend/vulkan_error.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace restlab {
 

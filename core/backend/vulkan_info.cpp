@@ -5,7 +5,7 @@
 
 #include "core/backend/backend.h"
 #include "core/backend/vulkan_device.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace restlab {
 

@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "core/backend/vulkan_error.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace restlab {
 

@@ -6,8 +6,8 @@
 #include <cstring>
 
 #include "core/backend/vulkan_error.h"
-#include "core/error.h"
-#include "core/memory.h"
+#include "core/base/error.h"
+#include "core/base/memory.h"
 
 namespace restlab {
 

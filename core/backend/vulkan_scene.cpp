@@ -3,7 +3,7 @@
 #include <map>
 #include <tuple>
 
-#include "core/scene/compiled_scene.h"
+#include "core/scene/compiled/compiled_scene.h"
 
 namespace restlab {
 

@@ -1,5 +1,5 @@
 // Feature bits of a scene. Kernels are specialised by a mask of these bits: a template argument on
-// the CPU, a specialization constant on the GPU. core/scene/feature_scan.cpp sets them.
+// the CPU, a specialization constant on the GPU. core/scene/compiled/feature_scan.cpp sets them.
 #ifndef RL_FEATURES_H
 #define RL_FEATURES_H
 

@@ -20,8 +20,8 @@ struct Rng {
 const uint RL_VERTEX_PIXEL = 0u;
 const uint RL_VERTEX_TEMPORAL = 0x1000u;
 const uint RL_VERTEX_SPATIAL = 0x2000u;
-const uint RL_VERTEX_FEED = 0x3000u;
-const uint RL_VERTEX_RECALL = 0x3800u;
+const uint RL_VERTEX_CACHE_UPDATE = 0x3000u;
+const uint RL_VERTEX_CACHE_REUSE = 0x3800u;
 const uint RL_VERTEX_CANDIDATES = 0x4000u;  // + index of a light candidate
 
 const uint RL_DIM_FILTER_X = 0u;

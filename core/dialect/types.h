@@ -19,7 +19,7 @@ const uint RL_MAX_UV_SETS = 4u;
 const uint RL_RAY_PATH =
     0u;  // closest hit; alpha decided by a hash of the sample and the primitive
 const uint RL_RAY_SHADOW = 1u;  // any hit; alpha multiplies the transmittance
-const uint RL_RAY_BODIES = 2u;  // the surface of a body in the interval (core/dialect/trace.glsl)
+const uint RL_RAY_BODIES = 2u;  // the surface of a body in the interval (core/geometry/trace.glsl)
 // Largest number of further bodies that are found at one point, besides the one that a ray hit
 // first.
 const uint RL_MEDIA_TOUCHING = 8u;
@@ -64,10 +64,11 @@ struct Geometry {
 };
 RL_STATIC_ASSERT_SIZE(Geometry, 48);
 
-const uint RL_INSTANCE_IDENTITY = 1u;    // vertices are stored in world space
-const uint RL_INSTANCE_FLIPPED = 2u;     // the transform mirrors: winding is reversed
-const uint RL_INSTANCE_ALPHA = 4u;       // some part may be transparent: rays ask the material
-const uint RL_INSTANCE_RANK_SHIFT = 8u;  // above: rank of the body (core/scene/bodies.h), 0: none
+const uint RL_INSTANCE_IDENTITY = 1u;  // vertices are stored in world space
+const uint RL_INSTANCE_FLIPPED = 2u;   // the transform mirrors: winding is reversed
+const uint RL_INSTANCE_ALPHA = 4u;     // some part may be transparent: rays ask the material
+const uint RL_INSTANCE_RANK_SHIFT =
+    8u;  // above: rank of the body (core/scene/compiled/bodies.h), 0: none
 
 struct Instance {
   vec4 objectToWorldRow0;  // rows of the affine 3x4 matrix
@@ -177,8 +178,8 @@ struct AliasEntry {
 };
 RL_STATIC_ASSERT_SIZE(AliasEntry, 12);
 
-// The project's own bounding volume hierarchy (core/scene/bvh.h): four children per node, read in
-// quads of words. A child is the record of a node, RL_INVALID (none), or one of:
+// The project's own bounding volume hierarchy (core/scene/compiled/bvh.h): four children per node,
+// read in quads of words. A child is the record of a node, RL_INVALID (none), or one of:
 const uint RL_BVH_LEAF = 0x40000000u;      // count << 26 | record of its first triangle
 const uint RL_BVH_INSTANCE = 0x80000000u;  // | number of the instance
 const uint RL_BVH_KIND = 0xc0000000u;      // mask of the two
@@ -239,7 +240,7 @@ struct SceneData {
   Vec3Ref environment;        // radiance per texel, already scaled, row 0 on top
   AliasRef environmentAlias;  // pmf per texel
   Vec4Ref bodies;             // by rank: absorption (m^-1) and index of refraction; [0] unused
-  Vec2Ref ggxAlbedo;          // core/scene/ggx_albedo.h; null if no session compensates GGX
+  Vec2Ref ggxAlbedo;  // core/scene/compiled/ggx_albedo.h; null if no session compensates GGX
   // The project's own hierarchy: null unless a session traces it. The world's root is record 0.
   QuadRef bvh;                  // RL_BVH_RECORD_QUADS quads per record
   UintRef bvhRoots;             // record of the root of each geometry that is shared by instances
@@ -293,7 +294,7 @@ struct FrameData {
 };
 RL_STATIC_ASSERT_SIZE(FrameData, 192);
 
-// Numerical health: counters that every kernel adds to; names in core/session.cpp.
+// Numerical health: counters that every kernel adds to; names in core/frame/session.cpp.
 const uint RL_HEALTH_NONFINITE = 0u;          // non-finite sample values set to zero
 const uint RL_HEALTH_REJECTED_JACOBIAN = 1u;  // shifts outside the declared Jacobian domain
 const uint RL_HEALTH_CAPPED_CONFIDENCE = 2u;

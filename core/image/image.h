@@ -74,7 +74,7 @@ struct ExrSelection {
 LayeredImage readExr(const std::filesystem::path& file, const ExrSelection& wanted = {});
 
 // Writes an 8-bit sRGB preview, radiance x exposure, clipped (no figure is computed from it), with
-// the metadata of the EXR beside it as texts (core/image/png.h).
+// the metadata of the EXR beside it as texts (core/image/io/png.h).
 void writePng(const std::filesystem::path& file, const Image& image, float exposure = 1.0f,
               const std::map<std::string, std::string>& metadata = {});
 

@@ -8,12 +8,13 @@
 //
 // Per-channel estimates: the selected sample carries one colour, which a scalar target cannot see.
 // Each reservoir therefore also carries an estimate E of the whole integral per channel, E = F W +
-// residual with E[residual] = 0 given the anchors. A donor's residual, weighted by its share of the
-// confidence and by the expected ratio of reflectances, is a control variate: the weight depends on
-// no sample, so the expectation stays zero, and the residual cancels the colour noise of the
-// donor's selection.
+// residual with E[residual] = 0 given the shading points. A donor's residual, weighted by its share
+// of the confidence and by the expected ratio of reflectances, is a control variate: the weight
+// depends on no sample, so the expectation stays zero, and the residual cancels the colour noise of
+// the donor's selection.
 
-// canonical: this anchor's own reservoir; cDonors: the donors' confidences after the cap, summed.
+// canonical: this shading point's own reservoir; cDonors: the donors' confidences after the cap,
+// summed.
 RL_FN MergeState mergeBegin(RL_IN(ReservoirState) canonical, real cDonors, uint flags) {
   MergeState merge;
   merge.cCanonical = canonical.confidence;
@@ -27,7 +28,8 @@ RL_FN MergeState mergeBegin(RL_IN(ReservoirState) canonical, real cDonors, uint 
   return merge;
 }
 
-// Identity shift, to an anchor at the same point: no evaluation, no ray, the integrand stays.
+// Identity shift, to a shading point at the same point: no evaluation, no ray, the integrand
+// stays.
 RL_FN Shifted mergeUnshifted(RL_IN(ReservoirState) r) {
   Shifted s;
   s.F = r.F;
@@ -58,7 +60,7 @@ RL_FN void mergeCanonical(RL_INOUT(MergeState) merge, RL_IN(ReservoirState) cano
 
 // Adds a donor's sample, shifted here, as a candidate. Returns true if it is selected: the caller
 // then takes the donor's payload; `selected.F` is already set. reflectanceRatio: expected integrand
-// here over that at the donor, from the anchors alone.
+// here over that at the donor, from the shading points alone.
 RL_FN bool mergeDonor(RL_INOUT(MergeState) merge, RL_INOUT(ReservoirState) selected,
                       RL_IN(ReservoirState) donor, RL_IN(Shifted) here,
                       RL_IN(real3) reflectanceRatio, uint flags, real u) {
@@ -87,8 +89,8 @@ RL_FN void mergeEnd(RL_INOUT(MergeState) merge, RL_INOUT(ReservoirState) selecte
     selected.W = real(0.0f);
     selected.F = real3(real(0.0f));
   }
-  // Count all inputs that passed the test of the anchors, empty ones too: c must not depend on
-  // samples.
+  // Count all inputs that passed the test of the shading points, empty ones too: c must not depend
+  // on samples.
   selected.confidence = merge.cTotal;
   real3 shaded = selected.F * selected.W;
   if ((flags & RL_REUSE_WINNER_ONLY) != 0u) merge.estimate = shaded;

@@ -1,19 +1,19 @@
 // Pass of new views: marks pixels that show the outline of a surface, judged by the centres of the
 // four pixels beside them. Two pixels at an outline may differ in every sample. The integrator adds
-// this file as a kernel of its own, with gBuffers.outlines beside the buffers of partners.glsl.
-#include "core/resampling/partners.glsl"
+// this file as a kernel of its own, with gBuffers.outlines beside the buffers of pairs.glsl.
+#include "core/resampling/pairs.glsl"
 
 // Left of column 0 and above row 0 the index wraps to a large number, which is outside, too.
-RL_FN bool differsFrom(RL_IN(VisibleSurface) here, uint x, uint y) {
+RL_FN bool differsFrom(RL_IN(GBufferTexel) here, uint x, uint y) {
   if (x >= gFrame.width || y >= gFrame.height) return false;
-  return !visibleAlike(here, partnerSurface(slotOfPixel(uvec2(x, y))), gParams.partners.alike);
+  return !visibleIsSimilar(here, pairSurface(pixelIndexOf(uvec2(x, y))), gParams.pairs.similarity);
 }
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
-  uint slot = slotOfPixel(pixel);
-  VisibleSurface here = partnerSurface(slot);
+  uint pixelIndex = pixelIndexOf(pixel);
+  GBufferTexel here = pairSurface(pixelIndex);
   bool isOutline =
       differsFrom(here, pixel.x - 1u, pixel.y) || differsFrom(here, pixel.x + 1u, pixel.y) ||
       differsFrom(here, pixel.x, pixel.y - 1u) || differsFrom(here, pixel.x, pixel.y + 1u);
-  gBuffers.outlines.data[slot] = isOutline ? 1u : 0u;
+  gBuffers.outlines.data[pixelIndex] = isOutline ? 1u : 0u;
 }

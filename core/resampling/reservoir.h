@@ -26,8 +26,8 @@ struct Shifted {
 // State of a merge under way.
 struct MergeState {
   real cCanonical;
-  real cDonors;     // sum over all donors
-  real cTotal;      // sum over all inputs that passed the test of the anchors, empty ones too
+  real cDonors;  // sum over all donors
+  real cTotal;   // sum over all inputs that passed the test of the shading points, empty ones too
   real mCanonical;  // MIS weight of the canonical sample
   real wSum;
   real3 estimate;  // per-channel estimate of the integral

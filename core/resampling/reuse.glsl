@@ -1,19 +1,20 @@
-// The reuse loop: merges a slot's reservoir with those of its donors, over time or over space, for
-// any payload and cache (core/resampling/merge.glsl has the algebra).
+// The reuse loop: merges a reservoir, the canonical one, with those of its donors, over time or
+// over space, for any payload and cache (core/resampling/merge.glsl has the algebra).
 //
 // The includer defines RL_REUSE_STATE, a struct, and before the #include the functions below, which
 // get it. Each must return the same result on every call:
 //   bool reuseDonor(state, k, out ReservoirState)  the k-th donor, with the confidence that it
 //       enters with; false: there is none
-//   Shifted reuseOurs(state, k)    the slot's sample shifted to that donor
-//   Shifted reuseTheirs(state, k)  that donor's sample shifted to the slot
-//   real3 reuseRatio(state, k)     expected integrand here over that at the donor, known without
+//   Shifted reuseCanonicalAtNeighbour(state, k)    the canonical sample shifted to that donor
+//   Shifted reuseNeighbourAtCanonical(state, k)  that donor's sample shifted to the canonical
+//   domain real3 reuseRatio(state, k)     expected integrand here over that at the donor, known
+//   without
 //       samples: scales the estimates that donors carry
 //   real reuseUniform(state, k)    a number in [0, 1)
 
 // Merges `count` donors. `r` becomes the state of the selected sample. `winner` is the donor that
-// the sample came from, RL_INVALID if the slot keeps its own; `jacobian` is that of the winner's
-// shift. Returns the per-channel estimate of the integral.
+// the sample came from, RL_INVALID if the canonical sample stays; `jacobian` is that of the
+// winner's shift. Returns the per-channel estimate of the integral.
 RL_FN real3 reuseMerge(RL_IN(RL_REUSE_STATE) state, uint count, uint flags,
                        RL_INOUT(ReservoirState) r, RL_OUT(uint) winner, RL_OUT(real) jacobian) {
   winner = RL_INVALID;
@@ -26,15 +27,16 @@ RL_FN real3 reuseMerge(RL_IN(RL_REUSE_STATE) state, uint count, uint flags,
   MergeState merge = mergeBegin(r, cDonors, flags);
   for (uint k = 0u; k < count; k = k + 1u) {
     if (!reuseDonor(state, k, donor)) continue;
-    mergeWeighCanonical(merge, r, donor.confidence, reuseOurs(state, k), flags);
+    mergeWeighCanonical(merge, r, donor.confidence, reuseCanonicalAtNeighbour(state, k), flags);
   }
   mergeCanonical(merge, r, flags);
   for (uint k = 0u; k < count; k = k + 1u) {
     if (!reuseDonor(state, k, donor)) continue;
-    Shifted theirs = reuseTheirs(state, k);
-    if (mergeDonor(merge, r, donor, theirs, reuseRatio(state, k), flags, reuseUniform(state, k))) {
+    Shifted neighbourAtCanonical = reuseNeighbourAtCanonical(state, k);
+    if (mergeDonor(merge, r, donor, neighbourAtCanonical, reuseRatio(state, k), flags,
+                   reuseUniform(state, k))) {
       winner = k;
-      jacobian = theirs.jacobian;
+      jacobian = neighbourAtCanonical.jacobian;
     }
   }
   mergeEnd(merge, r, flags);

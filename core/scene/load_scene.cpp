@@ -5,8 +5,8 @@
 #include <charconv>
 #include <cstdlib>
 
-#include "core/error.h"
-#include "core/file_reason.h"
+#include "core/base/error.h"
+#include "core/base/file_reason.h"
 #include "core/scene/scene.h"
 
 namespace restlab {

@@ -53,7 +53,7 @@ struct TextureUse {
 struct SceneMaterial {
   std::string name;
   rl::Material data{};       // data.textures[] index Scene::textureUses
-  float lightFactor = 1.0f;  // factor on data.emission (core/scene/light_factor.h)
+  float lightFactor = 1.0f;  // factor on data.emission (core/scene/compiled/light_factor.h)
   int priority = 0;          // among overlapping bodies, the greatest fills the place
 };
 
@@ -75,7 +75,7 @@ struct PunctualLight {
   glm::dvec3 dirW{0.0, 0.0, -1.0};  // direction of travel (spot, directional)
   glm::vec3 intensity{1.0f};        // W/sr (point, spot), W/m^2 (directional)
   float innerConeAngle = 0.0f, outerConeAngle = 0.785398f;  // radians
-  float lightFactor = 1.0f;  // factor on the intensity (core/scene/light_factor.h)
+  float lightFactor = 1.0f;  // factor on the intensity (core/scene/compiled/light_factor.h)
 };
 
 // Latitude-longitude map, row 0 at +Y; u = 0.5 looks along -Z rotated by `rotation` about +Y.
@@ -85,7 +85,7 @@ struct EnvironmentMap {
   std::vector<glm::vec3> radiance;
   float rotation = 0.0f;  // radians
   float scale = 1.0f;
-  float lightFactor = 1.0f;             // factor on scale (core/scene/light_factor.h)
+  float lightFactor = 1.0f;             // factor on scale (core/scene/compiled/light_factor.h)
   std::vector<std::string> warnings{};  // about its file, one line each
 };
 
@@ -99,7 +99,7 @@ struct Scene {
   std::vector<TextureImage> images;
   std::vector<SceneCamera>
       cameras;              // never empty after loading: one is made when the file has none
-  uint32_t mainCamera = 0;  // its view is the most precise (core/scene/scene_origin.h)
+  uint32_t mainCamera = 0;  // its view is the most precise (core/scene/compiled/scene_origin.h)
   std::vector<PunctualLight> lights;
   std::optional<EnvironmentMap> environment;
   std::vector<std::string> warnings;  // one line each, printed by the program
@@ -111,7 +111,7 @@ struct Scene {
 Scene loadGltf(const std::filesystem::path& file);
 
 // Numeric parameter in the name of a built-in scene, "furnace?albedo=0.9"
-// (core/scene/builtin_name.h).
+// (core/scene/builtin/name.h).
 struct SceneParameter {
   std::string name;
   std::optional<double> fallback;  // absent: `summary` says what applies if not given

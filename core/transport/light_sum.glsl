@@ -1,24 +1,23 @@
 // Path loop that sums the light found along a path: at each vertex one light sample and one BSDF
 // sample, combined by the power heuristic (Veach 1997, chapter 9). The includer defines
-// RL_WALK_STATE, a struct with a LightSum `sum`, and walkArrives() (core/transport/walk.glsl).
+// RL_WALK_STATE, a struct with a LightSum `sum`, and onVertex() (core/transport/walk.glsl).
 
-RL_FN void walkEscapes(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, RL_IN(vec3) radiance,
-                       float pdfLight) {
+RL_FN void onMiss(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, RL_IN(vec3) radiance,
+                  float pdfLight) {
   float weight = pdfLight > 0.0f ? lightMisWeight(walk.pdfBsdf, pdfLight) : 1.0f;
   state.sum.radiance += walk.throughput * radiance * weight;
 }
 
-RL_FN void walkEmits(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, RL_IN(Surface) s,
-                     RL_IN(Hit) hit, float pdfLight) {
+RL_FN void onEmission(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, RL_IN(Surface) s,
+                      RL_IN(Hit) hit, float pdfLight) {
   float weight = pdfLight > 0.0f ? lightMisWeight(walk.pdfBsdf, pdfLight) : 1.0f;
   state.sum.radiance += walk.throughput * s.emission * weight;
 }
 
-RL_FN void walkAbsorbs(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, RL_IN(vec3) transmittance) {
-}
+RL_FN void onMedium(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, RL_IN(vec3) transmittance) {}
 
-RL_FN bool walkLights(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, RL_IN(Rng) rng,
-                      RL_IN(Surface) s, RL_IN(LightSample) light, RL_IN(LightConnection) c) {
+RL_FN bool onLightSample(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, RL_IN(Rng) rng,
+                         RL_IN(Surface) s, RL_IN(LightSample) light, RL_IN(LightConnection) c) {
   float pdf;
   vec3 f = bsdfEvalAndPdf(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW, pdf);
   if (rlIsBlack(f)) return false;
@@ -29,14 +28,14 @@ RL_FN bool walkLights(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, RL_IN(Rng
   return true;
 }
 
-RL_FN void walkSees(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, float transmittance) {
+RL_FN void onShadowRay(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, float transmittance) {
   state.sum.radiance += state.sum.unseen * transmittance;
 }
 
-RL_FN void walkScatters(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, RL_IN(Surface) s,
-                        RL_IN(BsdfDraw) draw) {}
+RL_FN void onBsdfSample(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, RL_IN(Surface) s,
+                        RL_IN(BsdfSample) draw) {}
 
-RL_FN void walkSurvives(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, float factor) {}
+RL_FN void onRoulette(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, float factor) {}
 
 #include "core/transport/walk.glsl"
 

@@ -6,7 +6,7 @@
 // then directly visible and reflected light should come from the same film sample. In a white
 // furnace that is exact.
 
-// Returns whether the centre of a pixel shows a lamp. `visible`: core/dialect/visible.h.
+// Returns whether the centre of a pixel shows a lamp. `visible`: core/gbuffer/visible.h.
 RL_FN bool lightsAtCentre(RL_IN(QuadRef) visible, uint x, uint y) {
   return visibleRead(visible, gFrame.camera, y * gFrame.width + x).emits != 0u;
 }

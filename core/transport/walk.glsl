@@ -7,19 +7,21 @@
 // The includer defines RL_WALK_STATE, a struct, and before the #include the functions below, which
 // get the state as RL_INOUT(RL_WALK_STATE) and the Walk. Vertices are counted as scattering events:
 // walk.bounces is 0 at the first one, x1.
-//   walkEscapes(state, walk, radiance, pdfLight)   the ray left the scene: radiance of the
+//   onMiss(state, walk, radiance, pdfLight)   the ray left the scene: radiance of the
 //       environment. pdfLight: solid-angle density of light sampling for the ray; 0 if light
 //       sampling does not compete
-//   walkEmits(state, walk, surface, hit, pdfLight) the ray hit an emitter, s.emission towards it
-//   walkAbsorbs(state, walk, transmittance)        transmittance of a medium, up to the next vertex
-//   walkArrives(state, walk, surface)              a vertex that scatters, before anything is
+//   onEmission(state, walk, surface, hit, pdfLight) the ray hit an emitter, s.emission towards it
+//   onMedium(state, walk, transmittance)        transmittance of a medium, up to the next vertex
+//   onVertex(state, walk, surface)              a vertex that scatters, before anything is
 //       drawn; returns how many light samples are drawn there, or RL_WALK_ENDS
-//   walkLights(state, walk, rng, surface, light, connection)  a light sample at the vertex, without
+//   onLightSample(state, walk, rng, surface, light, connection)  a light sample at the vertex,
+//   without
 //       visibility; returns whether to trace its shadow ray (of several only the last is traced)
-//   walkSees(state, walk, transmittance)           transmittance of that shadow ray. walk.bounces
+//   onShadowRay(state, walk, transmittance)           transmittance of that shadow ray.
+//   walk.bounces
 //       counts the scattering event at the ray's origin already
-//   walkScatters(state, walk, surface, draw)       the BSDF sample, before walk.throughput has it
-//   walkSurvives(state, walk, factor)              Russian roulette: 1 / probability of survival
+//   onBsdfSample(state, walk, surface, draw)       the BSDF sample, before walk.throughput has it
+//   onRoulette(state, walk, factor)              Russian roulette: 1 / probability of survival
 // Only the components of light in gFrame.components are gathered.
 
 RL_FN bool walkWants(uint bounces) {
@@ -34,10 +36,10 @@ RL_FN bool walkDrawLights(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, RL_IN
   for (uint i = 0u; i < candidates; i = i + 1u) {
     Rng rng = walk.rng;
     if (i > 0u) rng.vertex = RL_VERTEX_CANDIDATES + i;
-    LightSample light = lightDraw(rng);
+    LightSample light = lightSample(rng);
     LightConnection c = lightConnect(light, s.posW);
     if (!(light.pdf > 0.0f) || rlIsBlack(c.emitted)) continue;
-    if (walkLights(state, walk, rng, s, light, c)) {
+    if (onLightSample(state, walk, rng, s, light, c)) {
       shadowRay = lightShadowRay(light, c, s.posW, s.nGeoW, s.posError);
       hasShadowRay = true;
     }
@@ -53,15 +55,15 @@ RL_FN void walkScatter(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk, RL_IN
   vec2 u;
   u.x = rngDraw(walk.rng, RL_DIM_BSDF_U);
   u.y = rngDraw(walk.rng, RL_DIM_BSDF_V);
-  BsdfDraw draw = bsdfDraw(s.bsdf, s.nGeoW, s.nShadeW, s.wo, uLobe, u);
+  BsdfSample draw = bsdfSample(s.bsdf, s.nGeoW, s.nShadeW, s.wo, uLobe, u);
   walk.isAlive = draw.lobe != 0u && !rlIsBlack(draw.weight) ? 1u : 0u;
-  walkScatters(state, walk, s, draw);
+  onBsdfSample(state, walk, s, draw);
   walk.throughput *= draw.weight;
   if (walk.isAlive != 0u && walk.bounces + 1u >= walk.rouletteStart) {
     float survival = min(rlMax3(walk.throughput), 0.95f);
     if (rngDraw(walk.rng, RL_DIM_ROULETTE) < survival) {
       walk.throughput *= 1.0f / survival;
-      walkSurvives(state, walk, 1.0f / survival);
+      onRoulette(state, walk, 1.0f / survival);
     } else {
       walk.isAlive = 0u;
     }
@@ -111,7 +113,7 @@ RL_FN void walkOn(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk) {
       if (RL_HAS(RL_FEATURE_VOLUME) && isShadow) alphaKey = shadowRank;
       float passed = traceRay(traced, mode, alphaKey, hit);
       if (isShadow) {
-        walkSees(state, walk, passed);
+        onShadowRay(state, walk, passed);
       } else {
         walk.passed = passed;
       }
@@ -123,7 +125,7 @@ RL_FN void walkOn(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk) {
       if (environmentExists() && walkWants(walk.bounces)) {
         vec3 radiance = environmentRadiance(walk.ray.dir);
         float pdfLight = walk.pdfBsdf > 0.0f ? lightPdfOfEnvironment(walk.ray.dir) : 0.0f;
-        walkEscapes(state, walk, radiance, pdfLight);
+        onMiss(state, walk, radiance, pdfLight);
       }
       break;
     }
@@ -148,17 +150,17 @@ RL_FN void walkOn(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk) {
       walk.passedT = 0.0f;
       vec3 transmittance = exp(-walk.sigma * hit.t);
       walk.throughput *= transmittance;
-      walkAbsorbs(state, walk, transmittance);
+      onMedium(state, walk, transmittance);
     }
     if (!rlIsBlack(s.emission) && walkWants(walk.bounces)) {
       float pdfLight = 0.0f;
       if (walk.pdfBsdf > 0.0f && s.light != RL_INVALID)
         pdfLight = lightPdfOfHit(s.light, s.nGeoW, walk.ray.dir, hit.t);
-      walkEmits(state, walk, s, hit, pdfLight);
+      onEmission(state, walk, s, hit, pdfLight);
     }
     if (walk.bounces >= gFrame.maxBounces || bsdfIsBlack(s.bsdf)) break;
     walk.rng.vertex = walk.bounces + 1u;
-    uint candidates = walkArrives(state, walk, s);
+    uint candidates = onVertex(state, walk, s);
     if (candidates == RL_WALK_ENDS) break;
     if (lightExists() && walkWants(walk.bounces + 1u))
       hasShadowRay = walkDrawLights(state, walk, s, candidates, shadowRay);

@@ -14,7 +14,7 @@ struct Walk {
   Ray ray;          // the next ray of the path
   uint bounces;     // scattering events before that ray
   vec3 throughput;  // up to the ray's origin: product of f |cos| / pdf of all events
-  uvec4 media;      // bodies that the ray travels in (core/dialect/media.glsl)
+  uvec4 media;      // bodies that the ray travels in (core/transport/media.glsl)
   vec3 sigma;       // m^-1, absorption of the medium that the ray travels in
   float passedT;    // metres travelled before the ray's origin, since the last real surface
   float
@@ -24,7 +24,7 @@ struct Walk {
   uint isAlive;        // 0: absorbed, or ended by Russian roulette
 };
 
-// Returned by walkArrives() to end the path.
+// Returned by onVertex() to end the path.
 const uint RL_WALK_ENDS = 0xffffffffu;
 
 RL_NAMESPACE_END

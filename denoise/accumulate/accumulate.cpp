@@ -1,8 +1,8 @@
 // Host side of `accumulate`.
 #include "denoise/accumulate/accumulate.h"
 
-#include "core/changes/settings.h"
-#include "core/denoiser.h"
+#include "core/frame/denoiser.h"
+#include "core/temporal_gradients/settings.h"
 
 namespace restlab {
 
@@ -61,9 +61,9 @@ const DenoiserInfo& accumulateDenoiserInfo() {
     i.packParameters = [](const std::string&, const ParameterMap& p) {
       rl::AccumulateParams out{};
       out.cap = static_cast<float>(std::get<double>(p.at("accumulate_cap")));
-      out.alike.minNormalDot =
+      out.similarity.minNormalDot =
           static_cast<float>(std::get<double>(p.at("accumulate_normal_threshold")));
-      out.alike.maxPlaneDistance =
+      out.similarity.maxPlaneDistance =
           static_cast<float>(std::get<double>(p.at("accumulate_plane_threshold")));
       if (std::get<std::string>(p.at("accumulate_filter")) == "bilinear")
         out.flags |= rl::RL_ACCUMULATE_BILINEAR;

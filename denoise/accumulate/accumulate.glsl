@@ -12,14 +12,15 @@
 // the history is reset. Radiance that changes with the direction of the view, and pixels that show
 // more than one surface, then lag behind: biased.
 
-#include "core/changes/read.glsl"
+#include "core/temporal_gradients/read.glsl"
 #include "denoise/common/average.glsl"
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint pixelIndex = pixel.y * gFrame.width + pixel.x;
   bool isBetween = (gParams.flags & RL_ACCUMULATE_BILINEAR) != 0u;
-  Average history = averageOfBefore(gBuffers.historyBefore, pixelIndex, gParams.alike, isBetween);
-  history.frames *= changeKept(gBuffers.changes, gParams.changes, pixelIndex);
+  Average history =
+      averageOfBefore(gBuffers.historyBefore, pixelIndex, gParams.similarity, isBetween);
+  history.frames *= changeHistoryWeight(gBuffers.changes, gParams.changes, pixelIndex);
   if (!(history.frames > 0.0f)) RL_HEALTH(RL_HEALTH_NEW_HISTORY);
   vec3 radiance = gBuffers.radiance.data[pixelIndex];
   if (rlIsFinite3(radiance)) {

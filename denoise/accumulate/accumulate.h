@@ -5,7 +5,7 @@
 #ifdef __cplusplus
 #include "core/dialect/types.h"
 #endif
-#include "core/changes/changes.h"
+#include "core/temporal_gradients/changes.h"
 #include "denoise/common/average.h"
 
 RL_NAMESPACE_BEGIN
@@ -14,9 +14,9 @@ const uint RL_ACCUMULATE_BILINEAR = 1u;  // flag: the history is read between pi
 
 struct AccumulateBuffers {
   Vec3Ref radiance;  // radiance of this frame
-  QuadRef visible;   // core/dialect/visible.h
+  QuadRef visible;   // core/gbuffer/visible.h
   QuadRef visibleBefore;
-  UintRef changes;      // core/changes
+  UintRef changes;      // core/temporal_gradients
   Vec3Ref accumulated;  // the output
   QuadRef history;      // Average
   QuadRef historyBefore;
@@ -24,7 +24,7 @@ struct AccumulateBuffers {
 
 struct AccumulateParams {
   float cap;  // frames
-  SurfaceTest alike;
+  SimilarityThresholds similarity;
   uint flags;  // RL_ACCUMULATE_*
   ChangeParams changes;
 };

@@ -1,6 +1,7 @@
 // asvgf: `svgf` whose histories forget light that has changed (Schied, Peters and Dachsbacher,
 // "Gradient Estimation for Real-Time Adaptive Temporal Filtering", 2018). The paper estimates
-// gradients for one pixel of nine and spreads them by wavelets; here core/changes does both.
+// gradients for one pixel of nine and spreads them by wavelets; here core/temporal_gradients does
+// both.
 #include "denoise/svgf/svgf_info.h"
 
 namespace restlab {

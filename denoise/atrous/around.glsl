@@ -1,9 +1,9 @@
 // atrous, second pass: computes the mean luminance around each pixel.
-#include "core/kernels/guide_data.glsl"
+#include "core/gbuffer/guide_data.glsl"
 #include "denoise/common/filter.glsl"
 
-RL_FN bool aroundSees(uint slot, RL_OUT(float) luminance, RL_OUT(float) variance) {
-  Filtered f = filterRead(gBuffers.even, slot);
+RL_FN bool aroundSees(uint pixelIndex, RL_OUT(float) luminance, RL_OUT(float) variance) {
+  Filtered f = filterRead(gBuffers.even, pixelIndex);
   luminance = rlLuminance(f.light);
   variance = -1.0f;
   return f.reflectance > 0.0f;
@@ -12,6 +12,6 @@ RL_FN bool aroundSees(uint slot, RL_OUT(float) luminance, RL_OUT(float) variance
 #include "denoise/common/around.glsl"
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
-  Around a = aroundOf(pixel);
-  gBuffers.around.data[slotOfPixel(pixel)] = vec2(a.luminance, a.variance);
+  LocalLuminance a = aroundOf(pixel);
+  gBuffers.around.data[pixelIndexOf(pixel)] = vec2(a.luminance, a.variance);
 }

@@ -1,7 +1,7 @@
 // Mean luminance around a pixel, weighted by surface alone, and the variance of that mean.
 //
 // The includer has gParams.edges and gBuffers.guide, and defines before the #include:
-//   bool aroundSees(uint slot, RL_OUT(float) luminance, RL_OUT(float) variance)
+//   bool aroundSees(uint pixelIndex, RL_OUT(float) luminance, RL_OUT(float) variance)
 //       luminance and variance of a pixel; the variance is below 0 if it must be estimated from
 //       neighbours. Returns false if the pixel has no light
 #include "denoise/common/spline.glsl"
@@ -9,9 +9,9 @@
 // Spacing of the nine pixels.
 #define RL_AROUND_APART 1u
 
-RL_FN Around aroundOf(RL_IN(uvec2) pixel) {
-  uint slot = slotOfPixel(pixel);
-  Guide guide = guideRead(gBuffers.guide, slot);
+RL_FN LocalLuminance aroundOf(RL_IN(uvec2) pixel) {
+  uint pixelIndex = pixelIndexOf(pixel);
+  Guide guide = guideRead(gBuffers.guide, pixelIndex);
   float sum = 0.0f;
   float squares = 0.0f;
   float variances = 0.0f;
@@ -21,7 +21,7 @@ RL_FN Around aroundOf(RL_IN(uvec2) pixel) {
   // Sum differences to one of the values: sums of the values would lose digits.
   float base;
   float ignored;
-  if (!aroundSees(slot, base, ignored)) base = 0.0f;
+  if (!aroundSees(pixelIndex, base, ignored)) base = 0.0f;
   FilterSurface surface = filterSurface(guide, gParams.edges);
   for (uint i = 0u; i < 9u; i = i + 1u) {
     uint row = i / 3u;
@@ -33,7 +33,7 @@ RL_FN Around aroundOf(RL_IN(uvec2) pixel) {
       continue;
     uint other = y * gFrame.width + x;
     float weight = splineWeight(row) * splineWeight(column);
-    if (other != slot) {
+    if (other != pixelIndex) {
       float dx = (float(column) - 1.0f) * float(RL_AROUND_APART);
       float dy = (float(row) - 1.0f) * float(RL_AROUND_APART);
       weight *= filterEdge(surface, guideSurface(gBuffers.guide, other), dx, dy);
@@ -49,7 +49,7 @@ RL_FN Around aroundOf(RL_IN(uvec2) pixel) {
     weights += weight;
     weightSquares += weight * weight;
   }
-  Around a;
+  LocalLuminance a;
   float mean = rlSafeDivide(sum, weights);
   a.luminance = base + mean;
   // The share of one pixel's variance that is left in the mean.

@@ -11,28 +11,29 @@ RL_FN Average averageOfNone() {
   a.frames = 0.0f;
   return a;
 }
-RL_FN Average averageRead(RL_IN(QuadRef) quads, uint slot) {
-  uvec4 q = RL_PAST_QUAD(quads, slot);
+RL_FN Average averageRead(RL_IN(QuadRef) quads, uint pixelIndex) {
+  uvec4 q = RL_PAST_QUAD(quads, pixelIndex);
   Average a;
   a.mean = recordVec3(q);
   a.frames = uintBitsToFloat(q.w);
   return a;
 }
-RL_FN void averageWrite(RL_IN(QuadRef) quads, uint slot, RL_IN(Average) a) {
-  RL_WRITE_QUAD(quads, slot, recordQuad(a.mean, floatBitsToUint(a.frames)));
+RL_FN void averageWrite(RL_IN(QuadRef) quads, uint pixelIndex, RL_IN(Average) a) {
+  RL_WRITE_QUAD(quads, pixelIndex, recordQuad(a.mean, floatBitsToUint(a.frames)));
 }
 
 // Adds the average of a pixel of the last frame, if it showed the surface.
-RL_FN void averageGather(RL_IN(QuadRef) before, RL_IN(VisibleSurface) here, RL_IN(vec3) nGeoW,
-                         float distanceToCamera, RL_IN(SurfaceTest) test, RL_IN(ivec2) pixel,
-                         float weight, RL_INOUT(Average) sum, RL_INOUT(float) weights) {
+RL_FN void averageGather(RL_IN(QuadRef) before, RL_IN(GBufferTexel) here, RL_IN(vec3) nGeoW,
+                         float distanceToCamera, RL_IN(SimilarityThresholds) test,
+                         RL_IN(ivec2) pixel, float weight, RL_INOUT(Average) sum,
+                         RL_INOUT(float) weights) {
   if (!(weight > 0.0f) || pixel.x < 0 || pixel.y < 0 || pixel.x >= int(gFrame.width) ||
       pixel.y >= int(gFrame.height))
     return;
-  uint slot = uint(pixel.y) * gFrame.width + uint(pixel.x);
-  VisibleSurface there = visibleRead(gBuffers.visibleBefore, gFrame.previousCamera, slot);
+  uint pixelIndex = uint(pixel.y) * gFrame.width + uint(pixel.x);
+  GBufferTexel there = visibleRead(gBuffers.visibleBefore, gFrame.previousCamera, pixelIndex);
   if (!visibleMatchOf(here, nGeoW, there, distanceToCamera, test)) return;
-  Average a = averageRead(before, slot);
+  Average a = averageRead(before, pixelIndex);
   // Skip pixels that were never finite: having no average is not the same as a black one.
   if (!(a.frames > 0.0f)) return;
   sum.mean += a.mean * weight;
@@ -42,10 +43,10 @@ RL_FN void averageGather(RL_IN(QuadRef) before, RL_IN(VisibleSurface) here, RL_I
 
 // Returns the last frame's average of the surface that the pixel shows, read between four pixels or
 // from the nearest one; zero frames if there is none.
-RL_FN Average averageReprojected(RL_IN(QuadRef) before, uint slot, RL_IN(SurfaceTest) test,
-                                 bool isBetween) {
+RL_FN Average averageReprojected(RL_IN(QuadRef) before, uint pixelIndex,
+                                 RL_IN(SimilarityThresholds) test, bool isBetween) {
   Average sum = averageOfNone();
-  VisibleSurface here = visibleRead(gBuffers.visible, gFrame.camera, slot);
+  GBufferTexel here = visibleRead(gBuffers.visible, gFrame.camera, pixelIndex);
   vec2 film;
   if (!visibleFilmBefore(here, film)) return sum;
   vec3 nGeoW = unpackNormal(here.nGeoW);
@@ -76,9 +77,9 @@ RL_FN Average averageReprojected(RL_IN(QuadRef) before, uint slot, RL_IN(Surface
 }
 
 // Returns the average of the pixel itself in a still view, the reprojected one in a new view.
-RL_FN Average averageOfBefore(RL_IN(QuadRef) before, uint slot, RL_IN(SurfaceTest) test,
-                              bool isBetween) {
-  if (gFrame.stillFrames != 0u) return averageRead(before, slot);
+RL_FN Average averageOfBefore(RL_IN(QuadRef) before, uint pixelIndex,
+                              RL_IN(SimilarityThresholds) test, bool isBetween) {
+  if (gFrame.stillFrames != 0u) return averageRead(before, pixelIndex);
   if (gFrame.frame == 0u) return averageOfNone();
-  return averageReprojected(before, slot, test, isBetween);
+  return averageReprojected(before, pixelIndex, test, isBetween);
 }

@@ -5,7 +5,7 @@
 #ifdef __cplusplus
 #include "core/dialect/types.h"
 #endif
-#include "core/dialect/visible.h"
+#include "core/gbuffer/visible.h"
 
 RL_NAMESPACE_BEGIN
 

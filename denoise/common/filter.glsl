@@ -1,15 +1,15 @@
 // Radiance over reflectance, which changes slowly over a surface, and edge weights. Includers have
 // gBuffers.guide.
 
-RL_FN Filtered filterRead(RL_IN(QuadRef) quads, uint slot) {
-  uvec4 q = RL_PAST_QUAD(quads, slot);
+RL_FN Filtered filterRead(RL_IN(QuadRef) quads, uint pixelIndex) {
+  uvec4 q = RL_PAST_QUAD(quads, pixelIndex);
   Filtered f;
   f.light = recordVec3(q);
   f.reflectance = uintBitsToFloat(q.w);
   return f;
 }
-RL_FN void filterWrite(RL_IN(QuadRef) quads, uint slot, RL_IN(Filtered) f) {
-  RL_WRITE_QUAD(quads, slot, recordQuad(f.light, floatBitsToUint(f.reflectance)));
+RL_FN void filterWrite(RL_IN(QuadRef) quads, uint pixelIndex, RL_IN(Filtered) f) {
+  RL_WRITE_QUAD(quads, pixelIndex, recordQuad(f.light, floatBitsToUint(f.reflectance)));
 }
 
 // Divides this frame's radiance by the reflectance. Values that are not finite are counted and
@@ -57,7 +57,8 @@ RL_FN float filterEdge(RL_IN(FilterSurface) here, RL_IN(vec4) there, float dx, f
 // difference, and less the more standard deviations the difference is. Compares means instead of
 // pixels: a weight that depends on a pixel's own noise loses energy, because it leaves out what is
 // bright by chance. Symmetric in both pixels.
-RL_FN float filterLikeness(RL_IN(Around) here, RL_IN(Around) there, float squareDeviations) {
+RL_FN float filterLikeness(RL_IN(LocalLuminance) here, RL_IN(LocalLuminance) there,
+                           float squareDeviations) {
   float difference = here.luminance - there.luminance;
   float allowed = squareDeviations * (here.variance + there.variance);
   // Ignore differences within rounding.

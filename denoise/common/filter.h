@@ -5,7 +5,7 @@
 #ifdef __cplusplus
 #include "core/dialect/types.h"
 #endif
-#include "core/kernels/guide_data.h"
+#include "core/gbuffer/guide_data.h"
 
 RL_NAMESPACE_BEGIN
 
@@ -34,7 +34,7 @@ struct Filtered {
 
 // Mean luminance around a pixel and the variance of that mean, which decide whether two pixels have
 // the same light.
-struct Around {
+struct LocalLuminance {
   float luminance;
   float variance;
 };

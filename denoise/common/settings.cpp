@@ -69,7 +69,7 @@ std::vector<PassInfo> waveletPasses(const std::string& kernel, const char* param
     pass.name = fmt::format("{} {}", kernel, step + 1);
     pass.kernel = kernel;
     pass.hasFeatures = false;
-    pass.onlyWith = {parameter, nullptr, step + 1};
+    pass.enabledIf = {parameter, nullptr, step + 1};
     pass.step = step;
     passes.push_back(std::move(pass));
   }

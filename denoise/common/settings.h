@@ -1,12 +1,12 @@
 // Parameters that denoisers share.
 #pragma once
 
-#include "core/part.h"
+#include "core/frame/part.h"
 #include "denoise/common/filter.h"
 
 namespace restlab {
 
-// Parameter "demodulate", which the guides read (core/view_parts.cpp).
+// Parameter "demodulate", which the guides read (core/gbuffer/view_parts.cpp).
 ParameterInfo demodulateParameter();
 // Parameters "demodulate", "edge_plane" and "edge_normal".
 std::vector<ParameterInfo> filterParameters();

@@ -11,9 +11,9 @@ RL_FN bool splineAt(uint here, uint at, uint apart, uint size, RL_OUT(uint) ther
   return there < size;
 }
 
-RL_FN Around aroundRead(RL_IN(Vec2Ref) arounds, uint slot) {
-  vec2 words = arounds.data[slot];
-  Around a;
+RL_FN LocalLuminance aroundRead(RL_IN(Vec2Ref) arounds, uint pixelIndex) {
+  vec2 words = arounds.data[pixelIndex];
+  LocalLuminance a;
   a.luminance = words.x;
   a.variance = words.y;
   return a;

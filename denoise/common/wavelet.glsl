@@ -10,16 +10,16 @@
 //
 // The includer has gParams.step, .edges and .deviations, gBuffers.guide and .around, and defines
 // before the #include:
-//   Filtered waveletRead(uint slot)   result of the previous iteration
+//   Filtered waveletRead(uint pixelIndex)   result of the previous iteration
 #include "denoise/common/spline.glsl"
 
 RL_FN Filtered waveletStep(RL_IN(uvec2) pixel) {
-  uint slot = slotOfPixel(pixel);
-  Filtered here = waveletRead(slot);
-  Guide guide = guideRead(gBuffers.guide, slot);
+  uint pixelIndex = pixelIndexOf(pixel);
+  Filtered here = waveletRead(pixelIndex);
+  Guide guide = guideRead(gBuffers.guide, pixelIndex);
   if (guide.isLight != 0u) return here;
   FilterSurface surface = filterSurface(guide, gParams.edges);
-  Around around = aroundRead(gBuffers.around, slot);
+  LocalLuminance around = aroundRead(gBuffers.around, pixelIndex);
   float squareDeviations = gParams.deviations * gParams.deviations;
   uint reach = 1u << gParams.step;
   // Scale weights by min(reflectance there, here) / here: a pair exchanges equal radiance.

@@ -1,7 +1,7 @@
 // Host side of `firefly`.
 #include "denoise/firefly/firefly.h"
 
-#include "core/denoiser.h"
+#include "core/frame/denoiser.h"
 #include "denoise/common/settings.h"
 
 namespace restlab {

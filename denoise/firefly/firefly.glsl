@@ -1,12 +1,12 @@
 // firefly: clamps each pixel to its brightest neighbour, times a factor. The energy that the clamp
 // takes away is lost. Lights and pixels beside them are left alone.
-#include "core/kernels/guide_data.glsl"
+#include "core/gbuffer/guide_data.glsl"
 #include "denoise/common/filter.glsl"
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
-  uint slot = slotOfPixel(pixel);
-  vec3 radiance = gBuffers.radiance.data[slot];
-  Guide guide = guideRead(gBuffers.guide, slot);
+  uint pixelIndex = pixelIndexOf(pixel);
+  vec3 radiance = gBuffers.radiance.data[pixelIndex];
+  Guide guide = guideRead(gBuffers.guide, pixelIndex);
   Filtered here = filterBegin(radiance, guide);
   float greatest = 0.0f;
   uint neighbours = 0u;
@@ -17,7 +17,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     uint y = pixel.y + i / side - gParams.radius;
     if (x >= gFrame.width || y >= gFrame.height) continue;
     uint other = y * gFrame.width + x;
-    if (other == slot) continue;
+    if (other == pixelIndex) continue;
     Guide there = guideRead(gBuffers.guide, other);
     float luminance = rlLuminance(gBuffers.radiance.data[other] / there.reflectance);
     if (!rlIsFinite(luminance)) continue;
@@ -31,5 +31,5 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     RL_HEALTH(RL_HEALTH_FIREFLIES);
     shown *= most / luminance;
   }
-  gBuffers.shown.data[slot] = shown;
+  gBuffers.shown.data[pixelIndex] = shown;
 }

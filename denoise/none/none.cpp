@@ -1,6 +1,6 @@
 // none: the frame as it was shaded. The session shows the radiance buffer itself, without a copy,
 // so that a row of the table without a denoiser pays for none.
-#include "core/denoiser.h"
+#include "core/frame/denoiser.h"
 
 namespace restlab {
 

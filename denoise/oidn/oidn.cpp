@@ -7,8 +7,8 @@
 
 #include <memory>
 
-#include "core/denoiser.h"
-#include "core/error.h"
+#include "core/base/error.h"
+#include "core/frame/denoiser.h"
 #include "denoise/common/settings.h"
 
 namespace restlab {

@@ -2,9 +2,9 @@
 
 RL_FN bool svgfHas(uint flag) { return (gParams.flags & flag) != 0u; }
 
-RL_FN Filtered svgfRead(uint slot, uint step) {
-  if ((step & 1u) == 0u) return filterRead(gBuffers.even, slot);
-  return filterRead(gBuffers.odd, slot);
+RL_FN Filtered svgfRead(uint pixelIndex, uint step) {
+  if ((step & 1u) == 0u) return filterRead(gBuffers.even, pixelIndex);
+  return filterRead(gBuffers.odd, pixelIndex);
 }
 
 RL_FN SvgfHistory svgfNoHistory() {
@@ -18,10 +18,10 @@ RL_FN SvgfHistory svgfNoHistory() {
   h.last = 0.0f;
   return h;
 }
-RL_FN SvgfHistory svgfHistoryRead(RL_IN(QuadRef) quads, uint slot) {
-  vec4 q0 = recordVec4(RL_PAST_QUAD(quads, slot * RL_SVGF_HISTORY_QUADS));
-  vec4 q1 = recordVec4(RL_PAST_QUAD(quads, slot * RL_SVGF_HISTORY_QUADS + 1u));
-  vec4 q2 = recordVec4(RL_PAST_QUAD(quads, slot * RL_SVGF_HISTORY_QUADS + 2u));
+RL_FN SvgfHistory svgfHistoryRead(RL_IN(QuadRef) quads, uint pixelIndex) {
+  vec4 q0 = recordVec4(RL_PAST_QUAD(quads, pixelIndex * RL_SVGF_HISTORY_QUADS));
+  vec4 q1 = recordVec4(RL_PAST_QUAD(quads, pixelIndex * RL_SVGF_HISTORY_QUADS + 1u));
+  vec4 q2 = recordVec4(RL_PAST_QUAD(quads, pixelIndex * RL_SVGF_HISTORY_QUADS + 2u));
   SvgfHistory h;
   h.reflectance = vec3(q2.x, q2.y, q2.z);
   h.light = vec3(q0.x, q0.y, q0.z);
@@ -32,21 +32,23 @@ RL_FN SvgfHistory svgfHistoryRead(RL_IN(QuadRef) quads, uint slot) {
   h.last = q1.w;
   return h;
 }
-RL_FN void svgfHistoryWriteLight(RL_IN(QuadRef) quads, uint slot, RL_IN(vec3) light, float frames) {
-  RL_WRITE_QUAD(quads, slot * RL_SVGF_HISTORY_QUADS, recordQuad(light, floatBitsToUint(frames)));
+RL_FN void svgfHistoryWriteLight(RL_IN(QuadRef) quads, uint pixelIndex, RL_IN(vec3) light,
+                                 float frames) {
+  RL_WRITE_QUAD(quads, pixelIndex * RL_SVGF_HISTORY_QUADS,
+                recordQuad(light, floatBitsToUint(frames)));
 }
-RL_FN void svgfHistoryWrite(RL_IN(QuadRef) quads, uint slot, RL_IN(SvgfHistory) h) {
-  svgfHistoryWriteLight(quads, slot, h.light, h.frames);
-  RL_WRITE_QUAD(quads, slot * RL_SVGF_HISTORY_QUADS + 1u,
+RL_FN void svgfHistoryWrite(RL_IN(QuadRef) quads, uint pixelIndex, RL_IN(SvgfHistory) h) {
+  svgfHistoryWriteLight(quads, pixelIndex, h.light, h.frames);
+  RL_WRITE_QUAD(quads, pixelIndex * RL_SVGF_HISTORY_QUADS + 1u,
                 uvec4(floatBitsToUint(h.mean), floatBitsToUint(h.spread), floatBitsToUint(h.step),
                       floatBitsToUint(h.last)));
-  RL_WRITE_QUAD(quads, slot * RL_SVGF_HISTORY_QUADS + 2u, recordQuad(h.reflectance, 0u));
+  RL_WRITE_QUAD(quads, pixelIndex * RL_SVGF_HISTORY_QUADS + 2u, recordQuad(h.reflectance, 0u));
 }
 
 // Reduces a number of frames by the turn of the view: a glossy lobe sends other light to another
 // view.
-RL_FN float svgfInView(float frames, uint slot) {
-  float turn = motionRead(gBuffers.motion, slot).turn * gParams.turnResponse;
+RL_FN float svgfInView(float frames, uint pixelIndex) {
+  float turn = motionRead(gBuffers.motion, pixelIndex).turn * gParams.lobeRotationResponse;
   return frames / (1.0f + frames * turn);
 }
 
@@ -54,11 +56,11 @@ RL_FN float svgfInView(float frames, uint slot) {
 // of a reservoir's confidence comes from the same pixel in the last frame, at most the cap of a
 // temporal donor. The rest is new, or comes from other pixels. An average that renews a share s of
 // itself is one over 1 / s frames.
-RL_FN float svgfHeld(uint slot, float frames) {
+RL_FN float svgfEffectiveHistoryLength(uint pixelIndex, float frames) {
   if (!svgfHas(RL_SVGF_CONFIDENCE)) return 1.0f;
   float cap = gFrame.stillFrames != 0u ? gParams.donorCap : gParams.movingDonorCap;
   if (cap < 0.0f) return clamp(gFrame.radianceFrames, 1.0f, max(frames, 1.0f));
-  uint state = slot * RL_PATH_RESERVOIR_QUADS + RL_PATH_SAMPLE_QUADS;
+  uint state = pixelIndex * RL_PATH_RESERVOIR_QUADS + RL_PATH_SAMPLE_QUADS;
   float confidence = uintBitsToFloat(RL_PAST_QUAD(gBuffers.reservoirs, state).w);
   if (!(confidence > 1.0f)) return 1.0f;
   return min(confidence / max(confidence - min(cap, confidence - 1.0f), 1.0f), max(frames, 1.0f));

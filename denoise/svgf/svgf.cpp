@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "core/changes/settings.h"
+#include "core/temporal_gradients/settings.h"
 #include "denoise/common/settings.h"
 #include "denoise/svgf/svgf_info.h"
 
@@ -101,7 +101,7 @@ std::vector<std::byte> pack(const std::string&, const ParameterMap& p) {
   if (variance == "differences") out.flags |= rl::RL_SVGF_DIFFERENCES;
   if (variance == "space") out.flags |= rl::RL_SVGF_SPACE;
   out.changes = packChanges(p);
-  out.turnResponse = floatOf(p, "svgf_turn");
+  out.lobeRotationResponse = floatOf(p, "svgf_turn");
   out.resolveCap = floatOf(p, "svgf_resolve");
   out.resolveTest = {0.9f, 0.05f};  // the values of `accumulate` and the pixel cache
   return bytesOf(out);

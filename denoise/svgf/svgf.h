@@ -5,8 +5,8 @@
 #ifdef __cplusplus
 #include "core/dialect/order.h"
 #endif
-#include "core/changes/changes.h"
-#include "core/payload/path_sample.h"
+#include "core/path_sample/path_sample.h"
+#include "core/temporal_gradients/changes.h"
 #include "denoise/common/average.h"
 #include "denoise/common/filter.h"
 
@@ -36,7 +36,7 @@ struct SvgfBuffers {
   QuadRef guideBefore;
   QuadRef motion;
   QuadRef reservoirs;  // reservoirs of the last merge; null if the integrator has none
-  UintRef changes;     // core/changes
+  UintRef changes;     // core/temporal_gradients
   QuadRef visible;     // null where resolveCap is 0
   QuadRef visibleBefore;
   Vec3Ref shown;
@@ -59,9 +59,9 @@ struct SvgfParams {
   ChangeParams changes;
   float donorCap;        // confidence of a temporal donor in a still view; below 0: no reservoirs
   float movingDonorCap;  // confidence of a temporal donor in a new view
-  float turnResponse;    // share of a history that is forgotten, over Motion::turn
-  float resolveCap;      // frames that a resolved history may weigh
-  SurfaceTest resolveTest;
+  float lobeRotationResponse;  // share of a history that is forgotten, over Motion::turn
+  float resolveCap;            // frames that a resolved history may weigh
+  SimilarityThresholds resolveTest;
 };
 
 RL_NAMESPACE_END

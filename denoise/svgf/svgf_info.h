@@ -1,7 +1,7 @@
 // `svgf` and its kin: one filter under several names, with other defaults.
 #pragma once
 
-#include "core/denoiser.h"
+#include "core/frame/denoiser.h"
 
 namespace restlab {
 

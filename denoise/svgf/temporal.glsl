@@ -1,11 +1,11 @@
 // svgf, first pass: the mean over the frames that showed the surface, and moments of its luminance
 // (Schied et al., "Spatiotemporal Variance-Guided Filtering", 2017, sections 4.1 and 4.2). Frames
 // have equal weights until there are `cap` of them; then the mean is exponential.
-#include "core/kernels/guide_data.glsl"
+#include "core/gbuffer/guide_data.glsl"
 #include "denoise/common/between.glsl"
 #include "denoise/common/filter.glsl"
 #include "denoise/svgf/store.glsl"
-#include "core/changes/read.glsl"
+#include "core/temporal_gradients/read.glsl"
 
 // Similarity of a pixel of the last frame to this surface, 0 to 1.
 RL_FN float svgfLikeness(RL_IN(Guide) here, RL_IN(FilterSurface) surface, RL_IN(vec4) there,
@@ -23,11 +23,11 @@ RL_FN void svgfGather(RL_IN(Guide) here, RL_IN(FilterSurface) surface, RL_IN(vec
   if (!(weight > 0.0f) || !(x >= 0.0f) || !(y >= 0.0f) || !(x < float(gFrame.width)) ||
       !(y < float(gFrame.height)))
     return;
-  uint slot = uint(y) * gFrame.width + uint(x);
-  vec4 there = guideSurface(gBuffers.guideBefore, slot);
+  uint pixelIndex = uint(y) * gFrame.width + uint(x);
+  vec4 there = guideSurface(gBuffers.guideBefore, pixelIndex);
   weight *= svgfLikeness(here, surface, there, x + 0.5f - film.x, y + 0.5f - film.y);
   if (!(weight > 0.0f)) return;
-  SvgfHistory h = svgfHistoryRead(gBuffers.historyBefore, slot);
+  SvgfHistory h = svgfHistoryRead(gBuffers.historyBefore, pixelIndex);
   // Skip pixels that were never finite: having no history is not the same as a black one.
   if (!(h.frames > 0.0f)) return;
   sum.light += h.light * weight;
@@ -47,8 +47,8 @@ RL_FN void svgfGather(RL_IN(Guide) here, RL_IN(FilterSurface) surface, RL_IN(vec
 // Returns the history of the surface that the pixel shows, read between the four pixels that saw
 // it; zero frames if none did.
 RL_FN SvgfHistory svgfReprojected(RL_IN(uvec2) pixel, RL_IN(Guide) here) {
-  uint slot = slotOfPixel(pixel);
-  Motion motion = motionRead(gBuffers.motion, slot);
+  uint pixelIndex = pixelIndexOf(pixel);
+  Motion motion = motionRead(gBuffers.motion, pixelIndex);
   Guide then = here;
   then.disparity = here.disparity + motion.disparity;
   SvgfHistory sum = svgfNoHistory();
@@ -80,24 +80,24 @@ RL_FN SvgfHistory svgfReprojected(RL_IN(uvec2) pixel, RL_IN(Guide) here) {
 }
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
-  uint slot = slotOfPixel(pixel);
-  Guide guide = guideRead(gBuffers.guide, slot);
-  Filtered now = filterBegin(gBuffers.radiance.data[slot], guide);
+  uint pixelIndex = pixelIndexOf(pixel);
+  Guide guide = guideRead(gBuffers.guide, pixelIndex);
+  Filtered now = filterBegin(gBuffers.radiance.data[pixelIndex], guide);
   SvgfHistory h = svgfNoHistory();
   if (gFrame.stillFrames != 0u) {
-    h = svgfHistoryRead(gBuffers.historyBefore, slot);
+    h = svgfHistoryRead(gBuffers.historyBefore, pixelIndex);
     // Follow the guide, which is the mean over the view's film samples and changes with each frame.
     h.light *= h.reflectance / guide.reflectance;
     h.reflectance = guide.reflectance;
   } else if (gFrame.frame > 0u) {
     h = svgfReprojected(pixel, guide);
-    h.frames = svgfInView(h.frames, slot);
+    h.frames = svgfInView(h.frames, pixelIndex);
   }
-  h.frames *= changeKept(gBuffers.changes, gParams.changes, slot);
+  h.frames *= changeHistoryWeight(gBuffers.changes, gParams.changes, pixelIndex);
   if (!(h.frames > 0.0f)) RL_HEALTH(RL_HEALTH_NEW_HISTORY);
   if (now.reflectance > 0.0f) {
     float luminance = rlLuminance(now.light);
-    float held = svgfHeld(slot, h.frames + 1.0f);
+    float held = svgfEffectiveHistoryLength(pixelIndex, h.frames + 1.0f);
     float difference = luminance - h.last;
     float before = h.frames;
     h.frames = min(h.frames, gParams.cap + held - 1.0f) + 1.0f;
@@ -115,5 +115,5 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     if (before > 0.0f) h.step += (difference * difference - h.step) / max(h.frames - 1.0f, 1.0f);
     h.last = luminance;
   }
-  svgfHistoryWrite(gBuffers.history, slot, h);
+  svgfHistoryWrite(gBuffers.history, pixelIndex, h);
 }

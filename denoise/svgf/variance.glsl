@@ -5,7 +5,7 @@
 // Frames that share samples lie closer to each other than to the true mean. If radiance itself
 // averages c frames, a frame brings 1/c of new light, and the difference of one frame and the next
 // has the variance 2 v / c, with v the variance of the radiance (an exponential average).
-#include "core/kernels/guide_data.glsl"
+#include "core/gbuffer/guide_data.glsl"
 #include "denoise/common/filter.glsl"
 #include "denoise/svgf/store.glsl"
 
@@ -17,14 +17,14 @@
 // 1 + this / frames, a history of one frame allows three times the deviations.
 #define RL_SVGF_UNSURE 8.0f
 
-RL_FN bool aroundSees(uint slot, RL_OUT(float) luminance, RL_OUT(float) variance) {
-  SvgfHistory h = svgfHistoryRead(gBuffers.history, slot);
+RL_FN bool aroundSees(uint pixelIndex, RL_OUT(float) luminance, RL_OUT(float) variance) {
+  SvgfHistory h = svgfHistoryRead(gBuffers.history, pixelIndex);
   luminance = rlLuminance(h.light);
   variance = -1.0f;
   if (!(h.frames > 0.0f)) return false;
   if (h.frames < RL_SVGF_YOUNG || svgfHas(RL_SVGF_SPACE)) return true;
   // Number of independent frames in the mean.
-  float held = svgfHeld(slot, h.frames);
+  float held = svgfEffectiveHistoryLength(pixelIndex, h.frames);
   float frames = max(h.frames - held + 1.0f, 1.0f);
   if (svgfHas(RL_SVGF_DIFFERENCES)) {
     variance = 0.5f * h.step * held * min((2.0f * held - 1.0f) / frames, 1.0f);
@@ -37,15 +37,16 @@ RL_FN bool aroundSees(uint slot, RL_OUT(float) luminance, RL_OUT(float) variance
 #include "denoise/common/around.glsl"
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
-  uint slot = slotOfPixel(pixel);
-  Around a = aroundOf(pixel);
-  SvgfHistory h = svgfHistoryRead(gBuffers.history, slot);
-  float frames = max(h.frames - svgfHeld(slot, h.frames) + 1.0f, 1.0f);
+  uint pixelIndex = pixelIndexOf(pixel);
+  LocalLuminance a = aroundOf(pixel);
+  SvgfHistory h = svgfHistoryRead(gBuffers.history, pixelIndex);
+  float frames = max(h.frames - svgfEffectiveHistoryLength(pixelIndex, h.frames) + 1.0f, 1.0f);
   float unsure = 1.0f + RL_SVGF_UNSURE / frames;
-  gBuffers.around.data[slot] = vec2(a.luminance, a.variance * unsure);
+  gBuffers.around.data[pixelIndex] = vec2(a.luminance, a.variance * unsure);
   Filtered f;
   f.light = h.light;
   f.reflectance = 0.0f;
-  if (h.frames > 0.0f) f.reflectance = rlLuminance(guideRead(gBuffers.guide, slot).reflectance);
-  filterWrite(gBuffers.even, slot, f);
+  if (h.frames > 0.0f)
+    f.reflectance = rlLuminance(guideRead(gBuffers.guide, pixelIndex).reflectance);
+  filterWrite(gBuffers.even, pixelIndex, f);
 }

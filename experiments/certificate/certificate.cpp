@@ -8,7 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "experiments/report/text.h"
 #include "experiments/statistics/power.h"
 #include "experiments/statistics/tost.h"

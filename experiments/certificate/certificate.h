@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "core/image/bias_runs.h"
+#include "core/image/statistics/bias_runs.h"
 #include "experiments/runner/reference/reference.h"
 #include "experiments/runner/summary/accumulate.h"
 #include "experiments/statistics/bias_test.h"

@@ -10,10 +10,10 @@
 #include <limits>
 #include <map>
 
-#include "core/error.h"
-#include "core/image/metrics.h"
-#include "core/method.h"
-#include "core/radiance_range.h"
+#include "core/base/error.h"
+#include "core/base/radiance_range.h"
+#include "core/frame/method.h"
+#include "core/image/metrics/metrics.h"
 #include "experiments/report/text.h"
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/run/files.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/part.h"
+#include "core/frame/part.h"
 #include "experiments/certificate/certificate.h"
 #include "experiments/certificate/run_folder.h"
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <fstream>
 
-#include "core/control_characters.h"
-#include "core/image/atomic_file.h"
+#include "core/base/control_characters.h"
+#include "core/image/io/atomic_file.h"
 #include "experiments/report/report_html.h"
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/run/files.h"

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "core/session.h"
+#include "core/frame/session.h"
 #include "experiments/report/text.h"
 #include "experiments/runner/run/interrupt.h"
 #include "experiments/runner/run/log.h"

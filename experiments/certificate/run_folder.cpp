@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "core/backend/stop.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/run/files.h"
 #include "experiments/runner/run/interrupt.h"

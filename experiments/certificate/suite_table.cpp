@@ -129,11 +129,11 @@ std::string tableOf(const std::vector<Certified>& all, const std::vector<std::st
 std::string suiteMarkdownOf(const std::vector<Certified>& all, const Rules& rules,
                             const std::string& command) {
   if (all.empty()) return "";
-  uint64_t fewestRuns = UINT64_MAX, mostRuns = 0, leastSpp = UINT64_MAX, mostSpp = 0;
+  uint64_t minRuns = UINT64_MAX, maxRuns = 0, leastSpp = UINT64_MAX, mostSpp = 0;
   std::set<std::pair<uint32_t, uint32_t>> sizes;
   for (const Certified& c : all) {
-    fewestRuns = std::min<uint64_t>(fewestRuns, c.certificate.runs);
-    mostRuns = std::max<uint64_t>(mostRuns, c.certificate.runs);
+    minRuns = std::min<uint64_t>(minRuns, c.certificate.runs);
+    maxRuns = std::max<uint64_t>(maxRuns, c.certificate.runs);
     if (c.reference.spp > 0) {  // 0: closed form
       leastSpp = std::min(leastSpp, c.reference.spp);
       mostSpp = std::max(mostSpp, c.reference.spp);
@@ -145,7 +145,7 @@ std::string suiteMarkdownOf(const std::vector<Certified>& all, const Rules& rule
   std::string text = fmt::format(
       "`{}`, {}. Images of {} pixels, {} runs a certificate, references {}, a margin of "
       "+-{:g} %.\n\n",
-      command, utcNow().substr(0, 10), fmt::join(pixels, ", "), range(fewestRuns, mostRuns),
+      command, utcNow().substr(0, 10), fmt::join(pixels, ", "), range(minRuns, maxRuns),
       mostSpp == 0 ? "in closed form" : fmt::format("of {} spp", range(leastSpp, mostSpp)),
       100.0 * rules.margin);
   text += countsOf(all) + "\n" + contradictionsOf(all) + "\n";

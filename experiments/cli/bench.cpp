@@ -5,11 +5,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "core/denoiser.h"
-#include "core/integrator.h"
-#include "core/method_settings.h"
-#include "core/image/intervals.h"
-#include "core/image/metrics.h"
+#include "core/frame/denoiser.h"
+#include "core/frame/integrator.h"
+#include "core/frame/method_settings.h"
+#include "core/image/statistics/intervals.h"
+#include "core/image/metrics/metrics.h"
 #include "experiments/cli/bench_rays.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"

@@ -4,12 +4,12 @@
 #include <chrono>
 #include <cstring>
 
-#include "core/image/intervals.h"
-#include "core/kernels/stream.h"
+#include "core/bench/stream.h"
+#include "core/image/statistics/intervals.h"
 #undef RL_KERNEL_BUFFERS
 #undef RL_KERNEL_PARAMS
-#include "core/kernels/trace.h"
-#include "core/scene/compiled_scene.h"
+#include "core/bench/trace.h"
+#include "core/scene/compiled/compiled_scene.h"
 #include "experiments/runner/run/interrupt.h"
 
 namespace restlab {

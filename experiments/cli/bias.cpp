@@ -9,7 +9,7 @@
 #include <memory>
 #include <optional>
 
-#include "core/method.h"
+#include "core/frame/method.h"
 #include "core/scene/scene.h"
 #include "experiments/certificate/certify.h"
 #include "experiments/certificate/outputs.h"

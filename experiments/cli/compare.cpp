@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "core/image/pixel_metrics.h"
+#include "core/image/metrics/pixel_metrics.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/compare/compare_folders.h"

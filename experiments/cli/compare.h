@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "core/error.h"
-#include "core/image/bias_runs.h"
-#include "core/image/metrics.h"
+#include "core/base/error.h"
+#include "core/image/metrics/metrics.h"
+#include "core/image/statistics/bias_runs.h"
 #include "experiments/runner/reference/reference.h"
 
 namespace restlab {

@@ -9,11 +9,11 @@
 #include <set>
 #include <utility>
 
-#include "core/changes/settings.h"
-#include "core/image/exr_contents.h"
-#include "core/image_denoiser.h"
-#include "core/method.h"
-#include "core/radiance_range.h"
+#include "core/base/radiance_range.h"
+#include "core/frame/image_denoiser.h"
+#include "core/frame/method.h"
+#include "core/image/io/exr_contents.h"
+#include "core/temporal_gradients/settings.h"
 #include "experiments/cli/frame_files.h"
 #include "experiments/cli/frame_layers.h"
 #include "experiments/cli/options.h"

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "core/image/atomic_file.h"
+#include "core/image/io/atomic_file.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/reference/beside_reference.h"

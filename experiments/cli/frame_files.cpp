@@ -6,7 +6,7 @@
 #include <charconv>
 #include <set>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "experiments/runner/run/files.h"
 
 namespace restlab {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <set>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "experiments/cli/options.h"
 
 namespace restlab {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/frame/image_denoiser.h"
 #include "core/image/image.h"
-#include "core/image_denoiser.h"
 
 namespace restlab {
 

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "core/error.h"
-#include "core/scene/camera_path.h"
+#include "core/base/error.h"
+#include "core/scene/camera_path/camera_path.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/run/print.h"

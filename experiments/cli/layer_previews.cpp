@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/image/layer_colors.h"
+#include "core/image/io/layer_colors.h"
 #include "experiments/runner/run/log.h"
 
 namespace restlab {

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "core/frame/method.h"
 #include "core/image/image.h"
-#include "core/method.h"
 
 namespace restlab {
 

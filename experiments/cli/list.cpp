@@ -6,7 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/scene/scene.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/registries/registries.h"

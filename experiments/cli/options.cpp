@@ -10,11 +10,11 @@
 #include <map>
 
 #include "core/backend/backend.h"
-#include "core/cache.h"
-#include "core/config.h"
-#include "core/error.h"
-#include "core/method.h"
-#include "core/method_settings.h"
+#include "core/frame/cache.h"
+#include "core/base/config.h"
+#include "core/base/error.h"
+#include "core/frame/method.h"
+#include "core/frame/method_settings.h"
 #include "experiments/runner/suite/backend_choice.h"
 #include "experiments/runner/run/files.h"
 #include "experiments/runner/run/log.h"

@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "core/image/exr_limits.h"
+#include "core/image/io/exr_limits.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/run/log.h"

@@ -6,11 +6,11 @@
 #include <memory>
 #include <optional>
 
-#include "core/image/exr_limits.h"
-#include "core/image/metrics.h"
-#include "core/method.h"
-#include "core/radiance_range.h"
-#include "core/scene/compiled_scene.h"
+#include "core/image/io/exr_limits.h"
+#include "core/image/metrics/metrics.h"
+#include "core/frame/method.h"
+#include "core/base/radiance_range.h"
+#include "core/scene/compiled/compiled_scene.h"
 #include "experiments/cli/layer_previews.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/render_pixel.h"

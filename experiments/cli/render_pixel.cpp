@@ -4,7 +4,7 @@
 
 #include <charconv>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "experiments/view/probe_values.h"
 
 namespace restlab {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/session.h"
+#include "core/frame/session.h"
 
 namespace restlab {
 

@@ -8,8 +8,8 @@
 #include <set>
 
 #include "core/backend/backend.h"
-#include "core/error.h"
-#include "core/method.h"
+#include "core/base/error.h"
+#include "core/frame/method.h"
 #include "core/scene/scene.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
@@ -67,9 +67,9 @@ void keepNamed(std::vector<Item>& items, const std::string& list, const std::str
   });
 }
 
-void warnOfYardsticks(const Suite& suite) {
+void warnOfBaselines(const Suite& suite) {
   if (!suite.baseline.empty()) {
-    if (suite.yardstick(0) == suite.methods.size())
+    if (suite.baselineOf(0) == suite.methods.size())
       failUsage(fmt::format("--methods leaves out '{}', the baseline", suite.baseline));
     return;
   }
@@ -77,7 +77,7 @@ void warnOfYardsticks(const Suite& suite) {
     const auto first =
         std::find_if(suite.methods.begin(), suite.methods.end(),
                      [&](const SuiteMethod& method) { return method.session.backend == backend; });
-    if (suite.yardstick(size_t(first - suite.methods.begin())) < suite.methods.size()) continue;
+    if (suite.baselineOf(size_t(first - suite.methods.begin())) < suite.methods.size()) continue;
     logWarning(
         fmt::format("the suite has no method with integrator = \"path\" on {}: there is nothing to "
                     "compare with, ratios are nan",
@@ -138,19 +138,19 @@ void runVerb(const RunOptions& options, Outcome& outcome) {
     setJobs(options.jobs, suite);
   }
   const Suite& suite = points.front();
-  if (suite.fewestRuns() < 2) {
+  if (suite.minRuns() < 2) {
     logWarning("runs = 1: no interval and no bias can be given; biased rows will not count");
   }
-  warnOfYardsticks(suite);
+  warnOfBaselines(suite);
   warnOfParameters(points);
   SuiteRequest request;
   request.out = options.out.empty() ? std::filesystem::path("results") / safeFileName(suite.name)
                                     : std::filesystem::path(options.out);
   request.argv = outcome.argv;
   request.force = options.force;
-  const std::string runs = suite.fewestRuns() == suite.mostRuns()
-                               ? counted(suite.mostRuns(), "run")
-                               : fmt::format("{} to {} runs", suite.fewestRuns(), suite.mostRuns());
+  const std::string runs = suite.minRuns() == suite.maxRuns()
+                               ? counted(suite.maxRuns(), "run")
+                               : fmt::format("{} to {} runs", suite.minRuns(), suite.maxRuns());
   logInfo(fmt::format("{}: {}{}, {}, {}; results in {}", suite.name,
                       points.size() > 1 ? counted(points.size(), "point") + ", " : "",
                       counted(suite.scenes.size(), "scene"),

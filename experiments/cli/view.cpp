@@ -12,10 +12,10 @@
 #include <set>
 #include <thread>
 
-#include "core/error.h"
-#include "core/image/atomic_file.h"
-#include "core/method_settings.h"
-#include "core/scene/compiled_scene.h"
+#include "core/base/error.h"
+#include "core/frame/method_settings.h"
+#include "core/image/io/atomic_file.h"
+#include "core/scene/compiled/compiled_scene.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/reference/reference_progress.h"

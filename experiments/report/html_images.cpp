@@ -3,7 +3,7 @@
 
 #include <ostream>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/image/image.h"
 #include "experiments/report/html_parts.h"
 #include "experiments/report/pixels.h"

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/image/png.h"
-#include "core/image/srgb.h"
+#include "core/image/io/png.h"
+#include "core/image/io/srgb.h"
 
 namespace restlab {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace restlab {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <system_error>
 
-#include "core/error.h"
-#include "core/image/atomic_file.h"
+#include "core/base/error.h"
+#include "core/image/io/atomic_file.h"
 #include "experiments/report/assets.h"
 #include "experiments/report/html_parts.h"
 #include "experiments/report/pixels.h"

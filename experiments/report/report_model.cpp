@@ -9,7 +9,7 @@
 #include <set>
 #include <vector>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace restlab {
 namespace {

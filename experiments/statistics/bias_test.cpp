@@ -9,7 +9,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "core/image/intervals.h"
+#include "core/image/statistics/intervals.h"
 #include "experiments/statistics/holm.h"
 #include "experiments/statistics/power.h"
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "core/image/metrics.h"
+#include "core/image/metrics/metrics.h"
 
 namespace restlab::stats {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <stdexcept>
 
-#include "core/scene/compiled_scene.h"
+#include "core/scene/compiled/compiled_scene.h"
 #include "experiments/truths/film.h"
 #include "experiments/truths/floor.h"
 #include "experiments/truths/furnace.h"

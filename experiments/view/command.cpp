@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "experiments/runner/run/prepare.h"
 
 namespace restlab {

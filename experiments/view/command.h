@@ -29,7 +29,7 @@
 #include <string>
 #include <variant>
 
-#include "core/part.h"
+#include "core/frame/part.h"
 
 namespace restlab {
 

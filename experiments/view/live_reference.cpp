@@ -51,7 +51,7 @@ const LiveReference::Pictures& LiveReference::pictures() const {
 }
 
 void LiveReference::keep() {
-  if (progress_ && halves_ && isThere()) progress_->save(state_);
+  if (progress_ && halves_ && isEnabled()) progress_->save(state_);
 }
 
 }  // namespace restlab

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "core/error.h"
-#include "core/file_reason.h"
+#include "core/base/error.h"
+#include "core/base/file_reason.h"
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/run/files.h"
 #include "experiments/runner/summary/accumulate.h"
@@ -100,7 +100,7 @@ std::string pictureBytes(const LiveView& view, size_t image) {
   const TemporaryFile file;
   if (isReference(view, image)) {
     if (view.images().reference && !view.hasScene()) return bytesOf(view.images().referenceFile);
-    if (!view.reference().isThere()) failUsage("picture: there is no reference yet");
+    if (!view.reference().isEnabled()) failUsage("picture: there is no reference yet");
     writeReference(file.path(), view.reference().whole());
   } else {
     if (view.frames(image) == 0) failUsage("picture: no frame was rendered yet");

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "core/method.h"
+#include "core/frame/method.h"
 
 namespace restlab {
 

@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "core/backend/stop.h"
-#include "core/error.h"
-#include "core/image/atomic_file.h"
+#include "core/base/error.h"
+#include "core/image/io/atomic_file.h"
 
 namespace restlab {
 

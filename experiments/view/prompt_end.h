@@ -18,7 +18,7 @@ class PromptEnd {
   // Watches for a signal (core/backend/stop.h). Unless destroyed within `patience` of it, removes
   // temporary files, writes `line` to stderr ("": nothing) and ends the process with
   // ExitCode::interrupted. Files that exist are complete: each got its name only when it was
-  // (core/image/atomic_file.h).
+  // (core/image/io/atomic_file.h).
   explicit PromptEnd(std::string line, std::chrono::milliseconds patience = kPatience);
   // Suppresses the line: it is on stderr already.
   void setSaid() { isSaid_ = true; }

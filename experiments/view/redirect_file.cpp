@@ -9,8 +9,8 @@
 #include <cstring>
 #include <system_error>
 
-#include "core/error.h"
-#include "core/image/atomic_file.h"
+#include "core/base/error.h"
+#include "core/image/io/atomic_file.h"
 #include "experiments/report/text.h"
 
 namespace restlab {

@@ -3,7 +3,7 @@
 #include <limits>
 #include <numeric>
 
-#include "core/image/metrics.h"
+#include "core/image/metrics/metrics.h"
 
 namespace restlab {
 

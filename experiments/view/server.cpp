@@ -16,7 +16,7 @@
 #include <optional>
 #include <thread>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "experiments/report/script_policy.h"
 #include "experiments/view/server_address.h"
 #include "experiments/view/unread.h"

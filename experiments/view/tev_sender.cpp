@@ -10,7 +10,7 @@
 #include <charconv>
 #include <cstring>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "experiments/runner/run/log.h"
 #include "experiments/view/tev_message.h"
 

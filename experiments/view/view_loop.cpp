@@ -12,9 +12,9 @@
 #include <thread>
 
 #include "core/backend/stop.h"
-#include "core/error.h"
-#include "core/image/atomic_file.h"
-#include "core/method.h"
+#include "core/base/error.h"
+#include "core/frame/method.h"
+#include "core/image/io/atomic_file.h"
 #include "experiments/runner/run/files.h"
 #include "experiments/runner/run/interrupt.h"
 #include "experiments/view/picture_file.h"
@@ -342,7 +342,7 @@ void ViewLoop::showStanding(bool isUrgent) {
 void ViewLoop::showReference(bool isUrgent) {
   const LiveReference& reference = view_.reference();
   const std::pair now{view_.epoch(), reference.spp()};
-  if (!reference.isThere()) return;
+  if (!reference.isEnabled()) return;
   if (!isUrgent && (now == shownReference_ || Clock::now() - referenceShown_ < kReferenceInterval))
     return;
   ImageHeader header;
@@ -380,7 +380,7 @@ void ViewLoop::showTev() {
          [&]() -> const Image& { return *view_.picture(i); });
   }
   const LiveReference& reference = view_.reference();
-  show(kReferenceSlot, "restlab reference", reference.isThere() ? reference.spp() : 0,
+  show(kReferenceSlot, "restlab reference", reference.isEnabled() ? reference.spp() : 0,
        [&]() -> const Image& { return reference.mean(); });
 }
 

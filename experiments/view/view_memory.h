@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/session.h"
+#include "core/frame/session.h"
 #include "experiments/runner/run/prepare.h"
 
 namespace restlab {

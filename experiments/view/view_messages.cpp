@@ -5,10 +5,10 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
-#include "core/method.h"
-#include "core/method_settings.h"
-#include "core/scene/light_factor.h"
+#include "core/base/error.h"
+#include "core/frame/method.h"
+#include "core/frame/method_settings.h"
+#include "core/scene/compiled/light_factor.h"
 #include "experiments/report/pixels.h"
 #include "experiments/runner/registries/registries.h"
 #include "experiments/runner/run/build_info.h"
@@ -267,9 +267,9 @@ std::string numbersText(const LiveView& view, const Transport& transport, double
   const SessionConfig& size = view.settings().panes.front().config;
   const double sampleMs = reference.sampleMs();
   Json referenceJson = nullptr;  // stays null if there can be no reference
-  if (view.hasScene() || reference.isThere()) {
+  if (view.hasScene() || reference.isEnabled()) {
     referenceJson = {{"spp", reference.spp()},
-                     {"relmse", reference.isThere() ? orNull(reference.relmse()) : Json(nullptr)},
+                     {"relmse", reference.isEnabled() ? orNull(reference.relmse()) : Json(nullptr)},
                      {"ms_per_sample", sampleMs > 0.0 ? Json(sampleMs) : Json(nullptr)}};
   }
   return textOf({{"say", "numbers"},

@@ -7,11 +7,11 @@
 #include <optional>
 #include <variant>
 
-#include "core/image/window.h"
-#include "core/config.h"
-#include "core/error.h"
-#include "core/integrator.h"
-#include "core/scene/light_factor.h"
+#include "core/image/metrics/window.h"
+#include "core/base/config.h"
+#include "core/base/error.h"
+#include "core/frame/integrator.h"
+#include "core/scene/compiled/light_factor.h"
 #include "experiments/runner/reference/beside_reference.h"
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/run/experiment.h"

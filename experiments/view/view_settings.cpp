@@ -7,10 +7,10 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "core/error.h"
-#include "core/method.h"
-#include "core/method_settings.h"
-#include "core/scene/light_factor.h"
+#include "core/base/error.h"
+#include "core/frame/method.h"
+#include "core/frame/method_settings.h"
+#include "core/scene/compiled/light_factor.h"
 #include "experiments/runner/run/prepare.h"
 
 namespace restlab {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/session.h"
+#include "core/frame/session.h"
 #include "experiments/view/command.h"
 
 namespace restlab {

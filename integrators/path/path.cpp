@@ -1,8 +1,8 @@
 // Host side of `path`, the yardstick that every ratio is measured against.
 #include "integrators/path/path.h"
 
-#include "core/integrator.h"
-#include "core/radiance/settings.h"
+#include "core/frame/integrator.h"
+#include "core/radiance_cache/settings.h"
 
 namespace restlab {
 

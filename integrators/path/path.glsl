@@ -3,12 +3,12 @@
 // radiance cells.
 #define RL_WALK_STATE PathState
 #include "core/caches/entries/groups.glsl"
-#include "core/radiance/ends.glsl"
+#include "core/radiance_cache/termination.glsl"
 
-RL_FN uint walkArrives(RL_INOUT(PathState) state, RL_IN(Walk) walk, RL_INOUT(Surface) s) {
+RL_FN uint onVertex(RL_INOUT(PathState) state, RL_IN(Walk) walk, RL_INOUT(Surface) s) {
   if (gParams.cells.count == 0u) return 1u;
   vec3 radiance;
-  if (!radianceEnds(state.end, walk, s, radiance)) return 1u;
+  if (!cacheTerminates(state.end, walk, s, radiance)) return 1u;
   state.sum.radiance += walk.throughput * radiance;
   return RL_WALK_ENDS;
 }
@@ -16,14 +16,14 @@ RL_FN uint walkArrives(RL_INOUT(PathState) state, RL_IN(Walk) walk, RL_INOUT(Sur
 #include "core/transport/light_sum.glsl"
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
-  uint slot = slotOfPixel(pixel);
+  uint pixelIndex = pixelIndexOf(pixel);
   PathState state;
   state.sum = lightSumNone();
-  state.end = radianceBegin(slot);
+  state.end = cacheTerminationBegin(pixelIndex);
   walkPath(state, pixel, cameraFilmBits(pixel));
   if (!rlIsFinite3(state.sum.radiance)) {
     RL_HEALTH(RL_HEALTH_NONFINITE);
     state.sum.radiance = vec3(0.0f, 0.0f, 0.0f);
   }
-  gBuffers.radiance.data[slot] = state.sum.radiance;
+  gBuffers.radiance.data[pixelIndex] = state.sum.radiance;
 }

@@ -5,7 +5,7 @@
 #ifdef __cplusplus
 #include "core/dialect/order.h"
 #endif
-#include "core/radiance/radiance.h"
+#include "core/radiance_cache/radiance.h"
 #include "core/transport/light_sum.h"
 
 RL_NAMESPACE_BEGIN
@@ -21,7 +21,7 @@ struct PathKernelParams {
 
 struct PathState {
   LightSum sum;
-  RadianceEnd end;
+  CacheTermination end;
 };
 
 RL_NAMESPACE_END

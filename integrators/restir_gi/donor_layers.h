@@ -3,11 +3,11 @@
 
 #include <vector>
 
-#include "core/part.h"
+#include "core/frame/part.h"
 
 namespace restlab {
 
-// Layers rejected_shifts and partner, read from the exchange buffer: no pass writes them.
+// Layers rejected_shifts and neighbour, read from the paired_shift buffer: no pass writes them.
 std::vector<LayerInfo> giDonorLayers();
 
 }  // namespace restlab

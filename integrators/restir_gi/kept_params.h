@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "core/part.h"
+#include "core/frame/part.h"
 #include "integrators/restir_gi/restir_gi.h"
 
 namespace restlab {

@@ -11,10 +11,10 @@ const RestirGiParams& gParams;
 #include "core/dialect/order.glsl"
 #include "core/backend/cpu_trace.inl"
 
-// Returns the reservoir of a slot after the frame, with its suffix.
-PathReservoir reservoirOf(uint slot) {
+// Returns the reservoir of a pixel after the frame, with its suffix.
+PathReservoir reservoirOf(uint pixelIndex) {
   PathReservoir r;
   r.path.suffix = pathNoSuffix();
-  giReadNow(slot, r);
+  giReadNow(pixelIndex, r);
   return r;
 }

@@ -7,8 +7,8 @@
 #include "core/backend/cpu_kernel.h"
 #include "core/backend/embree.h"
 #include "core/caches/entries/settings.h"
-#include "core/changes/settings.h"
-#include "core/scene/compiled_scene.h"
+#include "core/scene/compiled/compiled_scene.h"
+#include "core/temporal_gradients/settings.h"
 #include "integrators/restir_gi/kept_params.h"
 #include "integrators/restir_gi/restir_gi.h"
 
@@ -28,35 +28,35 @@ using Donors = std::vector<restlab::Donor>;
 // Rounding errors of differences: of shares (reservoirs are packed), of sums of confidences.
 constexpr double kRoundingOfShares = 1e-3, kRoundingOfConfidence = 1e-4;
 
-// The spatial pass, with the shifts of the exchange pass; as in core/backend/cpu_kernel.inl.
+// The spatial pass, with the shifts of the spatial_shift pass; as in core/backend/cpu_kernel.inl.
 namespace over_space {
 template <uint FEATURES>
 struct Ctx {
 #include "integrators/restir_gi/pixel_context.inl"
 #include "integrators/restir_gi/spatial.glsl"
-#include "core/payload/path_shift.glsl"
+#include "core/path_sample/path_shift.glsl"
 #include "integrators/restir_gi/pixel_donors.inl"
 
   // The merge of core/resampling/reuse.glsl, step by step.
   Donors overSpace(uvec2 pixel) {
     const uint flags = gParams.spatialFlags;
-    GiOverSpace s;
-    s.slot = slotOfPixel(pixel);
+    GiSpatialMerge s;
+    s.pixelIndex = pixelIndexOf(pixel);
     s.share = reuseDonorShare(giAge(), gParams.donorNoise);
-    s.rng = rngInit(gFrame.seed, s.slot, gFrame.frame);
+    s.rng = rngInit(gFrame.seed, s.pixelIndex, gFrame.frame);
     s.rng.vertex = RL_VERTEX_SPATIAL;
-    const ReservoirState own = reservoirOf(s.slot).state;
+    const ReservoirState own = reservoirOf(s.pixelIndex).state;
     const uint count = giDonors();
     ReservoirState donor = own, selected = own;
     MergeState merge = mergeBegin(own, confidenceOf(s, count), flags);
     for (uint k = 0; k < count; ++k) {
       if (reuseDonor(s, k, donor))
-        mergeWeighCanonical(merge, own, donor.confidence, reuseOurs(s, k), flags);
+        mergeWeighCanonical(merge, own, donor.confidence, reuseCanonicalAtNeighbour(s, k), flags);
     }
     mergeCanonical(merge, own, flags);
     Donors all(1);
     all[0].reuse = "own";
-    all[0].id = s.slot;
+    all[0].id = s.pixelIndex;
     all[0].shift = own.W > 0.0f ? "accepted" : "empty";
     all[0].confidence = own.confidence;
     if (own.W > 0.0f) {
@@ -66,11 +66,11 @@ struct Ctx {
     size_t winner = 0;
     for (uint k = 0; k < count; ++k) {
       if (!reuseDonor(s, k, donor)) continue;
-      const Shifted here = reuseTheirs(s, k);
-      const uint partner = giPartner(s.slot, k);
-      all.push_back(asDonor("space", partner, donor, here, merge, flags));
+      const Shifted here = reuseNeighbourAtCanonical(s, k);
+      const uint neighbour = giNeighbour(s.pixelIndex, k);
+      all.push_back(asDonor("space", neighbour, donor, here, merge, flags));
       if (!all.back().jacobian) {
-        const PathReservoir r = reservoirOf(partner);
+        const PathReservoir r = reservoirOf(neighbour);
         all.back().shift = failedTest(r, pixel, r.path.film);
       }
       if (mergeDonor(merge, selected, donor, here, reuseRatio(s, k), flags, reuseUniform(s, k)))
@@ -93,15 +93,15 @@ template <uint FEATURES>
 struct Ctx {
 #include "integrators/restir_gi/pixel_context.inl"
 #include "integrators/restir_gi/initial.glsl"
-#include "core/payload/path_shift.glsl"
+#include "core/path_sample/path_shift.glsl"
 #include "core/resampling/reproject.glsl"
 
   PathReservoir found(uvec2 pixel) {
     const uint film = cameraFilmBits(pixel);
-    PathGather p = pathNothingGathered(film);
-    p.end = radianceBegin(slotOfPixel(pixel));
+    PathRecord p = pathRecordEmpty(film);
+    p.end = cacheTerminationBegin(pixelIndexOf(pixel));
     walkPath(p, pixel, film);
-    PathReservoir r = pathResample(p, rngInit(gFrame.seed, slotOfPixel(pixel), gFrame.frame));
+    PathReservoir r = pathResample(p, rngInit(gFrame.seed, pixelIndexOf(pixel), gFrame.frame));
     reservoirGuard(r.state);
     return r;
   }
@@ -113,7 +113,7 @@ struct Ctx {
     MergeState merge = mergeBegin(own.state, cDonor, flags);
     if (!isStill) {
       const bool assumesVisible = (flags & RL_REUSE_ASSUME_VISIBLE) != 0u;
-      PathShift shift = pathShiftTo(own, pixelOfSlot(before), true, assumesVisible);
+      PathShift shift = pathShiftTo(own, pixelOfIndex(before), true, assumesVisible);
       pathShiftTrace(shift, own.path);
       mergeWeighCanonical(merge, own.state, cDonor, shift.shifted, flags);
     }
@@ -124,11 +124,11 @@ struct Ctx {
   // `confidence`: of the pixel's reservoir before entries were merged. `isLast`: no entries were
   // merged.
   Donors donors(uvec2 pixel, real confidence, bool isLast) {
-    const uint slot = slotOfPixel(pixel);
+    const uint pixelIndex = pixelIndexOf(pixel);
     if (gParams.temporalReuse == 0u || gFrame.frame == 0u) return {};
     const bool isStill = gFrame.stillFrames != 0u;
-    const uint before = isStill                   ? slot
-                        : gParams.reproject != 0u ? reprojectedSlot(slot)
+    const uint before = isStill                   ? pixelIndex
+                        : gParams.reproject != 0u ? reprojectedPixelIndex(pixelIndex)
                                                   : RL_INVALID;
     restlab::Donor donor;
     donor.reuse = "time";
@@ -136,7 +136,7 @@ struct Ctx {
     // The pixel's sample of this frame has confidence 1: without more, nothing was merged.
     donor.confidence = confidence - 1.0f;
     if (before == RL_INVALID || !(donor.confidence > kRoundingOfConfidence)) return {};
-    const PathReservoir merged = reservoirOf(slot);
+    const PathReservoir merged = reservoirOf(pixelIndex);
     const real wSum = merged.state.W * reuseTarget(merged.state.F);
     const uint film = cameraFilmBits(pixel);
     // Reused samples keep their film sample, and each pixel and frame has another one.
@@ -159,32 +159,34 @@ struct Ctx {
 
 #undef RL_REUSE_STATE
 
-// The recall pass.
+// The cache_reuse pass.
 namespace of_entries {
 template <uint FEATURES>
 struct Ctx {
 #include "integrators/restir_gi/pixel_context.inl"
-#include "integrators/restir_gi/recall.glsl"
+#include "integrators/restir_gi/cache_reuse.glsl"
 #include "integrators/restir_gi/pixel_donors.inl"
 
   Donors ofEntries(uvec2 pixel) {
     const uint flags = gParams.spatialFlags, count = gParams.entries.proposals;
-    GiWithEntries s;
-    s.slot = slotOfPixel(pixel);
-    if (gFrame.stillFrames != 0u || gParams.temporalReuse == 0u || !(giKept(s.slot) > 0.0f))
+    GiCacheMerge s;
+    s.pixelIndex = pixelIndexOf(pixel);
+    if (gFrame.stillFrames != 0u || gParams.temporalReuse == 0u ||
+        !(giHistoryWeight(s.pixelIndex) > 0.0f))
       return {};
     bool isAsked = false;
     for (uint k = 0; k < count; ++k) {
-      s.id[k] = gBuffers.proposals.data[s.slot * count + k];
+      s.id[k] = gBuffers.proposals.data[s.pixelIndex * count + k];
       if (s.id[k] == RL_INVALID) continue;
-      const Anchor anchor = anchorRead(gBuffers.anchors, s.id[k]);
-      if (anchor.surface.isHit == 0u || anchor.begunBy == s.slot) s.id[k] = RL_INVALID;
+      const ShadingPoint shadingPoint = shadingPointRead(gBuffers.shadingPoints, s.id[k]);
+      if (shadingPoint.surface.isHit == 0u || shadingPoint.sourcePixel == s.pixelIndex)
+        s.id[k] = RL_INVALID;
       isAsked = isAsked || s.id[k] != RL_INVALID;
     }
     if (!isAsked) return {};
-    const PathReservoir now = reservoirOf(s.slot);
-    s.rng = rngInit(gFrame.seed, s.slot, gFrame.frame);
-    s.rng.vertex = RL_VERTEX_RECALL;
+    const PathReservoir now = reservoirOf(s.pixelIndex);
+    s.rng = rngInit(gFrame.seed, s.pixelIndex, gFrame.frame);
+    s.rng.vertex = RL_VERTEX_CACHE_REUSE;
     const uint film = rngBits(s.rng, RL_DIM_FILTER_X);
     giAskEntries(s, now, pixel, film, count);
     ReservoirState donor = now.state, canonical = now.state;
@@ -198,7 +200,7 @@ struct Ctx {
     size_t winner = 0;
     for (uint k = 0; k < count; ++k) {
       if (!reuseDonor(s, k, donor)) continue;
-      all.push_back(asDonor("entry", s.id[k], donor, s.theirs[k], merge, flags));
+      all.push_back(asDonor("entry", s.id[k], donor, s.neighbourAtCanonical[k], merge, flags));
       restlab::Donor& one = all.back();
       if (one.share) one.share = misDivide(real(*one.share), wSum);
       if (!one.jacobian) {
@@ -207,7 +209,7 @@ struct Ctx {
         one.shift = failedTest(r, pixel, film);
       }
       // Select the donor whose integrand is the pixel's, up to rounding.
-      const real off = length(s.theirs[k].F - now.state.F);
+      const real off = length(s.neighbourAtCanonical[k].F - now.state.F);
       if (all.size() == 1 || off < nearest) {
         nearest = off;
         winner = all.size() - 1;
@@ -263,11 +265,11 @@ std::vector<Donor> giDonorsOf(const Kept& kept, size_t pixel) {
   bind(kept, "visible", buffers.visible);
   bind(kept, "visible_before", buffers.visibleBefore);
   bind(kept, "proposals", buffers.proposals);
-  bind(kept, "anchors", buffers.anchors);
+  bind(kept, "shading_points", buffers.shadingPoints);
   bind(kept, kChanges, buffers.changes);
   bind(kept, "reservoirs", buffers.reservoirs);
   bind(kept, "path_suffixes", buffers.suffixes);
-  bind(kept, "exchange", buffers.exchange);
+  bind(kept, "spatial_shift", buffers.pairedShifts);
   bind(kept, "entry_reservoirs", buffers.entryReservoirs);
   bind(kept, "entry_suffixes", buffers.entrySuffixes);
   const rl::uvec2 at(pixel % kept.frame->width, pixel / kept.frame->width);

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/part.h"
+#include "core/frame/part.h"
 
 namespace restlab {
 

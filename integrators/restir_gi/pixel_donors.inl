@@ -1,5 +1,5 @@
 // Candidates of a merge, one by one. Included inside a kernel context, after
-// core/resampling/merge.glsl and core/payload/path_shift.glsl.
+// core/resampling/merge.glsl and core/path_sample/path_shift.glsl.
 
 // Sum of the confidences of all donors, after caps.
 real confidenceOf(const RL_REUSE_STATE& s, uint count) {

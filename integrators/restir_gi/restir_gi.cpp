@@ -14,13 +14,13 @@
 #include <bit>
 #include <span>
 
+#include "core/base/packing.h"
 #include "core/caches/entries/layers.h"
 #include "core/caches/entries/settings.h"
-#include "core/changes/settings.h"
-#include "core/integrator.h"
-#include "core/packing.h"
-#include "core/radiance/settings.h"
-#include "core/resampling/partner_settings.h"
+#include "core/frame/integrator.h"
+#include "core/radiance_cache/settings.h"
+#include "core/resampling/pair_settings.h"
+#include "core/temporal_gradients/settings.h"
 #include "integrators/restir_gi/donor_layers.h"
 #include "integrators/restir_gi/pixel_donors.h"
 
@@ -139,7 +139,7 @@ std::vector<ParameterInfo> parameterInfos() {
        "biased and darker",
        "Lin et al. 2022, section 5.4; Wyman et al. 2023, algorithm 7; Bitterli et al. 2020"},
   };
-  for (ParameterInfo& info : partnerParameters()) infos.push_back(std::move(info));
+  for (ParameterInfo& info : pairParameters()) infos.push_back(std::move(info));
   return infos;
 }
 
@@ -164,12 +164,12 @@ std::vector<std::byte> pack(const std::string& mode, const ParameterMap& p) {
   }
   out.path.lightCandidates = static_cast<uint32_t>(get<int64_t>(p, "light_candidates"));
   out.spatialNeighbours = static_cast<uint32_t>(get<int64_t>(p, "spatial_neighbours"));
-  out.agedNeighbours =
+  out.neighboursLongHistory =
       std::min(static_cast<uint32_t>(get<int64_t>(p, "aged_neighbours")), out.spatialNeighbours);
   // A history of n still frames before this one has the age min(n, cap) + 1.
   const double young = get<double>(p, "young_frames");
   const double oldest = get<bool>(p, "temporal") ? get<double>(p, "confidence_cap") + 1.0 : 1.0;
-  out.settledFrames = oldest <= young ? rl::RL_INVALID : static_cast<uint32_t>(young);
+  out.longHistoryFrames = oldest <= young ? rl::RL_INVALID : static_cast<uint32_t>(young);
   out.lightEdgeSamples = static_cast<uint32_t>(get<int64_t>(p, "light_edge_samples"));
   out.donorNoise = static_cast<float>(get<double>(p, "donor_noise"));
   out.temporalReuse = get<bool>(p, "temporal") ? 1u : 0u;
@@ -181,7 +181,7 @@ std::vector<std::byte> pack(const std::string& mode, const ParameterMap& p) {
   out.path.minAlpha = roughness * roughness;
   out.path.maxJacobian = static_cast<float>(get<double>(p, "max_jacobian"));
   out.maxReflectanceRatio = static_cast<float>(get<double>(p, "max_reflectance_ratio"));
-  out.partners = packPartners(p);
+  out.pairs = packPairs(p);
   out.changes = packChanges(p);
   out.entries = packEntries(p);
   out.cells = packRadiance(p);
@@ -192,7 +192,7 @@ bool isOneOf(const std::string& name, std::initializer_list<const char*> names) 
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-std::string whyWithoutEffect(const std::string& name, const ParameterMap& p) {
+std::string reasonUnused(const std::string& name, const ParameterMap& p) {
   const bool isOverTime = get<bool>(p, "temporal");
   const int64_t neighbours = get<int64_t>(p, "spatial_neighbours");
   const double young = get<double>(p, "young_frames");
@@ -233,7 +233,7 @@ float number(std::span<const uint32_t> words, size_t at) { return std::bit_cast<
 
 std::vector<ProbeValue> probe(const Kept& kept, size_t pixel) {
   const auto words = kept.words("reservoir_history").subspan(kReservoir * pixel, kReservoir);
-  const auto own = kept.words("own_light").subspan(4 * pixel, 4);
+  const auto own = kept.words("unresampled_radiance").subspan(4 * pixel, 4);
   const auto vector = [](std::span<const uint32_t> from) {
     return glm::vec3(number(from, 0), number(from, 1), number(from, 2));
   };
@@ -260,8 +260,8 @@ std::vector<ProbeValue> probe(const Kept& kept, size_t pixel) {
   return values;
 }
 
-static_assert(sizeof(rl::GiWithEntries::id) / sizeof(uint32_t) >= rl::RL_MAX_DONORS &&
-              sizeof(rl::GiWithEntries::id) / sizeof(uint32_t) >= rl::RL_ENTRY_FEEDERS);
+static_assert(sizeof(rl::GiCacheMerge::id) / sizeof(uint32_t) >= rl::RL_MAX_DONORS &&
+              sizeof(rl::GiCacheMerge::id) / sizeof(uint32_t) >= rl::RL_ENTRY_INSERTIONS);
 
 std::vector<LayerInfo> layers() {
   LayerInfo confidence, age, ofEntry;
@@ -277,21 +277,22 @@ std::vector<LayerInfo> layers() {
   age.summary = "frames since the view was new or the light around the pixel was found changed";
   age.unit = "frames";
   age.values = [](const Kept& kept) {
-    // Layout as in giOwnWord().
-    return [words = kept.words("own_light")](size_t pixel) {
+    // Layout as in giViewLightWord().
+    return [words = kept.words("unresampled_radiance")](size_t pixel) {
       return float(words[4 * pixel + 3] >> 8u);
     };
   };
   ofEntry.name = "entry_confidence";
   ofEntry.summary = "confidence of the reservoir of the pixel's entry";
   ofEntry.unit = "samples";
-  ofEntry.onlyWith.parameter = kEntryCount;
+  ofEntry.enabledIf.parameter = kEntryCount;
   ofEntry.values = [](const Kept& kept) {
     // A hash slot that a new entry has taken may still hold the reservoir of the previous one.
-    const auto words = kept.words("entry_reservoirs"), anchors = kept.words("anchors");
-    return ofPixelsEntry(kept, [words, anchors](uint32_t entry) {
-      const bool hasAnchor = anchors[4 * rl::RL_ANCHOR_QUADS * size_t{entry} + 6] >> 30u != 0;
-      return hasAnchor ? number(words, kReservoir * entry + kConfidence) : 0.0f;
+    const auto words = kept.words("entry_reservoirs"), shadingPoints = kept.words("shading_points");
+    return ofPixelsEntry(kept, [words, shadingPoints](uint32_t entry) {
+      const bool hasShadingPoint =
+          shadingPoints[4 * rl::RL_SHADING_POINT_QUADS * size_t{entry} + 6] >> 30u != 0;
+      return hasShadingPoint ? number(words, kReservoir * entry + kConfidence) : 0.0f;
     });
   };
   std::vector<LayerInfo> all = {confidence, age, ofEntry};
@@ -309,10 +310,10 @@ const IntegratorInfo& restir_giIntegratorInfo() {
         "ReSTIR GI: one reservoir a pixel, of light samples and of paths that reconnect at x2";
     i.modes = {
         {"unbiased", BiasClass::unbiased,
-         "targets include visibility at every anchor, MIS weights sum to one over those who can "
-         "produce a sample, "
-         "confidences depend on anchors alone (near light that changed, with validate_every, on "
-         "the change), BSDF and MIS weight at x2 are re-evaluated"},
+         "targets include visibility at every shading point, MIS weights sum to one over those who "
+         "can produce a sample, confidences depend on shading points alone (near light that "
+         "changed, with validate_every, on the change), BSDF and MIS weight at x2 are "
+         "re-evaluated"},
         {"biased", BiasClass::biased,
          "the last frame's sample is taken as visible here, and the pixel's own as visible from "
          "there: fewer rays, a little energy moved at shadow edges"},
@@ -322,18 +323,18 @@ const IntegratorInfo& restir_giIntegratorInfo() {
     i.hasHistory = true;
     i.inputs = {"visible", "visible_before"};
     i.endsPaths = true;
-    i.optionalInputs = {"proposals", "anchors", "feeders"};
+    i.optionalInputs = {"proposals", "shading_points", "insertions"};
     for (std::string& input : radianceInputs()) i.optionalInputs.push_back(std::move(input));
     i.optionalInputs.emplace_back(kChanges);
     i.buffers = {
         {"radiance", 12, 0, -1},
-        {"own_light", 16, 0, 2},
-        {"own_light_before", 16, 0, 1},
+        {"unresampled_radiance", 16, 0, 2},
+        {"unresampled_radiance_before", 16, 0, 1},
         {"reservoirs", 16 * rl::RL_PATH_RESERVOIR_QUADS, 0, -1},
         {"reservoir_history", 16 * rl::RL_PATH_RESERVOIR_QUADS, 0, -1},
         {"path_suffixes", 16 * rl::RL_PATH_SUFFIX_QUADS, rl::RL_FEATURE_GLOSSY, -1},
         {"path_suffix_history", 16 * rl::RL_PATH_SUFFIX_QUADS, rl::RL_FEATURE_GLOSSY, -1},
-        {"exchange", 16, 0, -1, "spatial_neighbours"},
+        {"spatial_shift", 16, 0, -1, "spatial_neighbours"},
         {"outlines", sizeof(uint32_t), 0, -1},
         {"entry_reservoirs", 16 * rl::RL_PATH_RESERVOIR_QUADS, 0, -1},
         {"entry_suffixes", 16 * rl::RL_PATH_SUFFIX_QUADS, rl::RL_FEATURE_GLOSSY, -1},
@@ -343,17 +344,18 @@ const IntegratorInfo& restir_giIntegratorInfo() {
     }
     i.passes = {{"lights_in_view", "restir_gi_lights_in_view", true, true},
                 {"initial", "restir_gi_initial"},
-                {"feed", "restir_gi_feed"},
+                {"cache_update", "restir_gi_cache_update"},
                 {"temporal", "restir_gi_temporal", true, true},
-                {"recall", "restir_gi_recall", true, true},
+                {"cache_reuse", "restir_gi_cache_reuse", true, true},
                 {"outlines", "restir_gi_outlines", false, true},
-                {"exchange", "restir_gi_exchange"},
+                {"spatial_shift", "restir_gi_spatial_shift"},
                 {"spatial", "restir_gi_spatial"}};
     for (PassInfo& pass : i.passes) {
-      if (pass.name == "recall" || pass.name == "feed") pass.onlyWith.parameter = kEntryCount;
-      if (pass.name == "feed") pass.entriesParameter = kEntryCount;
+      if (pass.name == "cache_reuse" || pass.name == "cache_update")
+        pass.enabledIf.parameter = kEntryCount;
+      if (pass.name == "cache_update") pass.entriesParameter = kEntryCount;
     }
-    i.whyWithoutEffect = whyWithoutEffect;
+    i.reasonUnused = reasonUnused;
     i.packParameters = pack;
     i.radianceFrames = [](const ParameterMap& p) {
       return get<bool>(p, "temporal") ? get<double>(p, "confidence_cap") + 1.0 : 1.0;

@@ -6,67 +6,67 @@
 #include "core/dialect/order.h"
 #endif
 #include "core/caches/entries/entries.h"
-#include "core/changes/changes.h"
-#include "core/payload/path_gather.h"
-#include "core/payload/path_sample.h"
-#include "core/payload/path_shift.h"
-#include "core/resampling/partners.h"
+#include "core/path_sample/path_record.h"
+#include "core/path_sample/path_sample.h"
+#include "core/path_sample/path_shift.h"
+#include "core/resampling/pairs.h"
+#include "core/temporal_gradients/changes.h"
 
 RL_NAMESPACE_BEGIN
 
 // State of the temporal merge: one donor.
-struct GiOverTime {
+struct GiTemporalMerge {
   ReservoirState donor;  // confidence is capped
-  Shifted ours;
-  Shifted theirs;
+  Shifted canonicalAtNeighbour;
+  Shifted neighbourAtCanonical;
   vec3 ratio;
   float u;
 };
 
-// State of the spatial merge: the slot's partners are the donors.
-struct GiOverSpace {
-  uint slot;
+// State of the spatial merge: the neighbours are the donors.
+struct GiSpatialMerge {
+  uint pixelIndex;
   float share;  // factor of the donors' confidence
   Rng rng;
 };
 
-// State of the merge of a pixel with its entries, and of an entry with the offers of pixels: up to
-// RL_MAX_DONORS donors.
-struct GiWithEntries {
-  uint slot;   // slot of the pixel; or the entry
-  uint id[4];  // entries; or groups of pixels. RL_INVALID: none
-  Shifted ours[4];
-  Shifted theirs[4];
+// State of the merge of a pixel with its entries, and of an entry with the candidates of pixels: up
+// to RL_MAX_DONORS donors.
+struct GiCacheMerge {
+  uint pixelIndex;  // of the pixel; or the entry
+  uint id[4];       // entries; or groups of pixels. RL_INVALID: none
+  Shifted canonicalAtNeighbour[4];
+  Shifted neighbourAtCanonical[4];
   Rng rng;
 };
 
 // Number of samples in the average of a pixel's own light.
-struct GiOwnCount {
+struct GiViewLight {
   uint taken;   // film samples that lights_in_view took when the view was new
   uint frames;  // frames of this view, less those that were forgotten
 };
 
 struct RestirGiBuffers {
-  QuadRef visible;  // core/dialect/visible.h
+  QuadRef visible;  // core/gbuffer/visible.h
   QuadRef visibleBefore;
   // From caches in world space (core/caches/README.md).
   UintRef proposals;
-  QuadRef anchors;
-  UintRef feeders;
+  QuadRef shadingPoints;
+  UintRef insertions;
   RadianceBuffers cells;
-  UintRef changes;  // core/changes
+  UintRef changes;  // core/temporal_gradients
   Vec3Ref radiance;
   // One quad per pixel: light that no other pixel could reuse, averaged over time in a still view,
-  // and its GiOwnCount. lights_in_view leaves its light here for the initial pass.
-  QuadRef own;
-  QuadRef ownBefore;
+  // and its GiViewLight. lights_in_view leaves its light here for the initial pass.
+  QuadRef unresampled;
+  QuadRef unresampledBefore;
   QuadRef reservoirs;  // reservoirs of this frame: initial, then temporal
-  QuadRef history;     // last frame's, in still views then offers; replaced by the spatial pass
+  QuadRef history;     // last frame's, in still views then candidates; replaced by the spatial pass
   QuadRef suffixes;
   QuadRef suffixesHistory;
-  // Between the exchange and the spatial pass, spatialNeighbours entries per pixel: the pixel's
-  // sample shifted to the partner, and the partner's slot (RL_INVALID: none).
-  QuadRef exchange;
+  // Between the spatial_shift and the spatial pass, spatialNeighbours entries per pixel: the
+  // pixel's sample shifted to the neighbour, and the neighbour's pixel index (RL_INVALID: none).
+  QuadRef pairedShifts;
   UintRef outlines;  // 1: a pixel beside it shows another surface
   // For caches in world space: reservoirs of entries (core/caches/entries/entries.glsl).
   QuadRef entryReservoirs;
@@ -76,9 +76,9 @@ struct RestirGiBuffers {
 struct RestirGiParams {
   uint temporalFlags;  // RL_REUSE_*
   uint spatialFlags;
-  uint spatialNeighbours;  // donors of young histories; at least agedNeighbours
-  uint agedNeighbours;
-  uint settledFrames;  // after so many still frames no history is young
+  uint spatialNeighbours;  // donors of young histories; at least neighboursLongHistory
+  uint neighboursLongHistory;
+  uint longHistoryFrames;  // after so many still frames no history is young
   uint lightEdgeSamples;
   float donorNoise;    // reuseDonorShare()
   uint temporalReuse;  // 0: off
@@ -87,7 +87,7 @@ struct RestirGiParams {
   float movingConfidenceCap;  // in frames of a new view
   float maxReflectanceRatio;  // bound per channel on the reflectance ratio of carried estimates
   PathParams path;
-  PartnerParams partners;
+  PairParams pairs;
   EntryParams entries;
   RadianceParams cells;
   ChangeParams changes;

@@ -1,7 +1,7 @@
 // Host side of `template`: its description for the program, the tables and the tests.
 #include "integrators/template/template.h"
 
-#include "core/integrator.h"
+#include "core/frame/integrator.h"
 
 namespace restlab {
 

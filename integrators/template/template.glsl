@@ -20,18 +20,18 @@ RL_FN void templateAdd(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, RL_IN(ve
   float weight = pdfLight > 0.0f ? templateMisWeight(walk.pdfBsdf, pdfLight) : 1.0f;
   state.radiance += walk.throughput * radiance * weight;
 }
-RL_FN void walkEscapes(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, RL_IN(vec3) radiance,
-                       float pdfLight) {
+RL_FN void onMiss(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, RL_IN(vec3) radiance,
+                  float pdfLight) {
   templateAdd(state, walk, radiance, pdfLight);
 }
-RL_FN void walkEmits(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, RL_IN(Surface) s,
-                     RL_IN(Hit) hit, float pdfLight) {
+RL_FN void onEmission(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, RL_IN(Surface) s,
+                      RL_IN(Hit) hit, float pdfLight) {
   templateAdd(state, walk, s.emission, pdfLight);
 }
 
 // Light sample of a vertex, then its visibility.
-RL_FN bool walkLights(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, RL_IN(Rng) rng,
-                      RL_IN(Surface) s, RL_IN(LightSample) light, RL_IN(LightConnection) c) {
+RL_FN bool onLightSample(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, RL_IN(Rng) rng,
+                         RL_IN(Surface) s, RL_IN(LightSample) light, RL_IN(LightConnection) c) {
   float pdf;
   vec3 f = bsdfEvalAndPdf(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW, pdf);
   if (rlIsBlack(f)) return false;
@@ -42,18 +42,18 @@ RL_FN bool walkLights(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, RL_IN(Rng
   state.unseen = walk.throughput * f * arriving;
   return true;
 }
-RL_FN void walkSees(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, float transmittance) {
+RL_FN void onShadowRay(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, float transmittance) {
   state.radiance += state.unseen * transmittance;
 }
 
 // Hooks that are not needed here; one light sample per vertex.
-RL_FN uint walkArrives(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, RL_INOUT(Surface) s) {
+RL_FN uint onVertex(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, RL_INOUT(Surface) s) {
   return 1u;
 }
-RL_FN void walkAbsorbs(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, RL_IN(vec3) passed) {}
-RL_FN void walkScatters(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, RL_IN(Surface) s,
-                        RL_IN(BsdfDraw) draw) {}
-RL_FN void walkSurvives(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, float factor) {}
+RL_FN void onMedium(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, RL_IN(vec3) passed) {}
+RL_FN void onBsdfSample(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, RL_IN(Surface) s,
+                        RL_IN(BsdfSample) draw) {}
+RL_FN void onRoulette(RL_INOUT(TemplateState) state, RL_IN(Walk) walk, float factor) {}
 
 #include "core/transport/walk.glsl"
 

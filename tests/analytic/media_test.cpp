@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/builtin_builder.h"
-#include "core/scene/builtin_mesh.h"
-#include "core/scene/compiled_scene.h"
-#include "core/session.h"
+#include "core/frame/session.h"
+#include "core/scene/builtin/builder.h"
+#include "core/scene/builtin/mesh.h"
+#include "core/scene/compiled/compiled_scene.h"
 #include "tests/scene/gltf_builder.h"
 
 namespace restlab {

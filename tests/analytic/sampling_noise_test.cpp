@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/scene/compiled_scene.h"
-#include "core/session.h"
+#include "core/frame/session.h"
+#include "core/scene/compiled/compiled_scene.h"
 
 namespace restlab::analytic {
 namespace {

@@ -1,10 +1,10 @@
 # Solutions that tests compare with and that are no library of experiments/truths, and the tests of both.
 set(RL_ANALYTIC_SOURCES
-  analytic/bent_normals.cpp
+  analytic/inconsistent_normals.cpp
   analytic/cornell_tiles.cpp
 )
 set(RL_ANALYTIC_TESTS
-  analytic/bent_normals_test.cpp
+  analytic/inconsistent_normals_test.cpp
   analytic/cornell_tiles_test.cpp
   analytic/media_test.cpp
   analytic/polygon_irradiance_test.cpp

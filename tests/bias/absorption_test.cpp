@@ -1,8 +1,8 @@
 // Absorbing bodies: rough glass, and overlapping boxes.
 #include <gtest/gtest.h>
 
-#include "core/scene/builtin_builder.h"
-#include "core/scene/builtin_mesh.h"
+#include "core/scene/builtin/builder.h"
+#include "core/scene/builtin/mesh.h"
 #include "tests/bias/independent_runs.h"
 
 namespace restlab::bias {

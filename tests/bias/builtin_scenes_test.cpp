@@ -92,9 +92,20 @@ const std::vector<Case> kCases = {
 
 std::string caseName(const ::testing::TestParamInfo<Case>& info) { return info.param.name; }
 
+// By day: bounces and a lamp out of view, light through a gap, and a sun with a sky.
+std::vector<Case> dailyCases() {
+  std::vector<Case> daily;
+  for (const Case& one : kCases) {
+    const std::string name = one.name;
+    if (name == "cornell_box_inside" || name == "door_ajar_indirect" || name == "courtyard")
+      daily.push_back(one);
+  }
+  return daily;
+}
+
 class Unbiased : public ::testing::TestWithParam<Case> {};
 TEST_P(Unbiased, AgreesWithPath) { expectUnbiased(GetParam(), {128, 12, 4, 8, 2, 1}); }
-INSTANTIATE_TEST_SUITE_P(Builtin, Unbiased, ::testing::ValuesIn(kCases), caseName);
+INSTANTIATE_TEST_SUITE_P(Builtin, Unbiased, ::testing::ValuesIn(dailyCases()), caseName);
 
 class UnbiasedNightly : public ::testing::TestWithParam<Case> {};
 TEST_P(UnbiasedNightly, AgreesWithPath) { expectUnbiased(GetParam(), {512, 128, 32, 48, 8, 0}); }

@@ -3,7 +3,7 @@
 // any cache.
 #include <gtest/gtest.h>
 
-#include "core/cache.h"
+#include "core/frame/cache.h"
 #include "tests/bias/few_entries.h"
 #include "tests/bias/independent_runs.h"
 #include "tests/bias/test_cameras.h"
@@ -95,7 +95,7 @@ std::vector<Setting> openEntries() {
   return settings;
 }
 
-TEST(MovingCamera, BelowTheLampLeavesTheMean) {
+TEST(MovingCamera, NightlyBelowTheLampLeavesTheMean) {
   const SceneCamera end = cornellBelowTheLamp();
   const stats::Truth truth = truthAt("cornell-box", end, kEveryDay);
   expectUnbiased(kWalkingAndTurning, end, truth, kEveryDay, 6);
@@ -108,7 +108,7 @@ TEST(MovingCamera, PastTheLampLeavesTheMean) {
   expectUnbiased(kPastTheLamp, end, truthAt("cornell-box", end, kEveryDay), kEveryDay, 6);
 }
 
-TEST(MovingCamera, AmongGlossLeavesTheMean) {
+TEST(MovingCamera, NightlyAmongGlossLeavesTheMean) {
   const Effort effort{256, 16, 1};
   const Walk walk{"strolling", "glossy-gallery", {0.04, 0.0, -0.06}, 0.7};
   const SceneCamera end = endOf(walk);

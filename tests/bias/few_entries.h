@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <bit>
 
-#include "core/cache.h"
 #include "core/caches/entries/settings.h"
-#include "core/method.h"
-#include "core/session.h"
+#include "core/frame/cache.h"
+#include "core/frame/method.h"
+#include "core/frame/session.h"
 
 namespace restlab::bias {
 

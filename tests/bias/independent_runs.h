@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/compiled_scene.h"
-#include "core/session.h"
+#include "core/frame/session.h"
+#include "core/scene/compiled/compiled_scene.h"
 #include "experiments/statistics/bias_test.h"
 
 namespace restlab::bias {

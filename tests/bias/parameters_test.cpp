@@ -51,7 +51,6 @@ struct Effort {
   int threads;
 };
 // Longer than a confidence cap of 5.
-constexpr Effort kEveryDay{48, 27, 96, 32, 8, 2, 1};
 constexpr Effort kNightly{64, 36, 512, 128, 64, 8, 0};
 
 void expectInvariant(const std::string& sceneName, const std::vector<SceneCamera>& cameras,
@@ -77,9 +76,6 @@ void expectInvariant(const std::string& sceneName, const std::vector<SceneCamera
 }
 
 // The box from inside with its lamp out of view, whose outline would be most of the noise.
-TEST(ParameterInvariance, CornellBox) {
-  expectInvariant("cornell-box", {cornellBelowTheLamp()}, kSettings, kEveryDay);
-}
 TEST(ParameterInvariance, NightlyCornellBox) {
   expectInvariant("cornell-box", {cornellBelowTheLamp()}, kSettings, kNightly);
 }

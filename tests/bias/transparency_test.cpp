@@ -2,8 +2,8 @@
 // reconnections. Reuse must combine both estimates of one integrand.
 #include <gtest/gtest.h>
 
-#include "core/scene/builtin_builder.h"
-#include "core/scene/builtin_mesh.h"
+#include "core/scene/builtin/builder.h"
+#include "core/scene/builtin/mesh.h"
 #include "tests/bias/independent_runs.h"
 
 namespace restlab::bias {
@@ -58,7 +58,6 @@ void expectUnbiased(float lampCoverage, const Effort& effort) {
 }
 
 TEST(Transparency, ScreensLeaveTheMean) { expectUnbiased(1.0f, kEveryDay); }
-TEST(Transparency, ATransparentLampLeavesTheMean) { expectUnbiased(0.5f, kEveryDay); }
 TEST(Transparency, NightlyScreensLeaveTheMean) { expectUnbiased(1.0f, kNightly); }
 TEST(Transparency, NightlyATransparentLampLeavesTheMean) { expectUnbiased(0.5f, kNightly); }
 

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <set>
 
-#include "core/scene/light_factor.h"
+#include "core/scene/compiled/light_factor.h"
 #include "experiments/certificate/certificate.h"
 #include "experiments/statistics/power.h"
 #include "tests/bias/few_entries.h"
@@ -215,7 +215,6 @@ void tryEntries(const Effort& effort, const std::string& cache) {
 void tryChangingLight(const Effort& effort) { tryAll(Trial(dimmed(), effort), kOfChangingLight); }
 
 TEST(Canary, WrongWeightsAreRejected) { tryWeights(kEveryDay); }
-TEST(Canary, WrongWeightsOfNearDonorsAreRejected) { tryNear(kEveryDay); }
 TEST(Canary, ConfidenceByTheFilmSampleIsRejected) { tryFilm(kEveryDay); }
 TEST(Canary, MissingVisibilityIsRejected) { tryWalking(kEveryDay); }
 TEST(Canary, AStaleTargetIsRejected) { tryChangingLight(kObvious); }
@@ -234,8 +233,12 @@ TEST(Canary, NightlyBehindTheDoor) {
 
 class CanaryOfEntries : public ::testing::TestWithParam<std::string> {};
 TEST_P(CanaryOfEntries, AnOmittedJacobianIsRejected) { tryEntries(kSmall, GetParam()); }
-INSTANTIATE_TEST_SUITE_P(Cache, CanaryOfEntries, ::testing::ValuesIn(bias::cachesWithEntries()),
-                         [](const auto& test) { return test.param; });
+// One cache by day: the kernels of the merge are the same.
+const auto kNameOf = [](const auto& test) { return test.param; };
+INSTANTIATE_TEST_SUITE_P(Cache, CanaryOfEntries,
+                         ::testing::Values(bias::cachesWithEntries().front()), kNameOf);
+INSTANTIATE_TEST_SUITE_P(Nightly, CanaryOfEntries, ::testing::ValuesIn(bias::cachesWithEntries()),
+                         kNameOf);
 
 // Without a cap the mean is right, but its variance is not: a mean of running means has twice the
 // variance of a mean.

@@ -10,7 +10,7 @@
 #include <regex>
 #include <set>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "experiments/runner/run/suite_runner.h"
 #include "tests/canary/wrong_kernels.h"
 #include "tests/runner/temporary_folder.h"

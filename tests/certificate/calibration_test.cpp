@@ -5,7 +5,7 @@
 #include <boost/math/distributions/binomial.hpp>
 #include <cstdio>
 
-#include "core/scene/compiled_scene.h"
+#include "core/scene/compiled/compiled_scene.h"
 #include "tests/bias/independent_runs.h"
 #include "tests/certificate/made_up_runs.h"
 #include "tests/stats/ks.h"

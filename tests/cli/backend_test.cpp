@@ -271,7 +271,7 @@ TEST_F(VulkanTest, SeveralBackendsShareATable) {
     EXPECT_NEAR(number(row, "mse_ratio"), number(path, "mse") / number(row, "mse"),
                 1e-6 * number(row, "mse_ratio"));
     if (i < 2) {
-      EXPECT_EQ(number(row, "time_ratio"), 1.0) << "each backend has its yardstick";
+      EXPECT_EQ(number(row, "time_ratio"), 1.0) << "each backend has its baseline";
     }
     EXPECT_NEAR(number(row, "mse"), number(onCpu, "mse"), 0.1 * number(onCpu, "mse"))
         << "the same samples on every backend, but for rounding";

@@ -1,8 +1,8 @@
 // Bad inputs: one clear line, the right exit code, no image left behind.
 #include <limits>
 
+#include "core/base/memory.h"
 #include "core/image/image.h"
-#include "core/memory.h"
 #include "tests/cli/program.h"
 
 namespace restlab::cli_test {

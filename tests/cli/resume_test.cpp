@@ -233,6 +233,17 @@ TEST_F(ResumeTest, ReportMakesTheSameFilesAgain) {
   expectError(run("status nowhere -q"), 3, {"nowhere/run.json"});
 }
 
+TEST_F(ResumeTest, ReportKeepsWarnings) {
+  const std::string dark =
+      "run suite.toml --out out --methods path --set max_bounces=1 --set components=indirect";
+  const ProgramResult rendered = run(dark);
+  ASSERT_EQ(rendered.code, 0) << rendered.err;
+  const std::string table = read("out/table.md");
+  EXPECT_NE(table.find("its reference is black"), std::string::npos) << table;
+  ASSERT_EQ(run("report out").code, 0);
+  EXPECT_EQ(read("out/table.md"), table);
+}
+
 TEST_F(ResumeTest, ADryRunWritesNothingAndKnowsWhatIsThere) {
   const std::string line = "run suite.toml --out out --sweep max_bounces=2,3 --dry-run";
   const ProgramResult first = run(line);

@@ -6,8 +6,8 @@
 #include <regex>
 #include <sstream>
 
+#include "core/base/memory.h"
 #include "core/image/image.h"
-#include "core/memory.h"
 #include "tests/cli/program.h"
 
 namespace restlab::cli_test {

@@ -1,7 +1,7 @@
 // Scenes with an exact solution: the furnaces and the floor under the tilted rectangle.
 #include <gtest/gtest.h>
 
-#include "core/image/metrics.h"
+#include "core/image/metrics/metrics.h"
 #include "experiments/truths/truths.h"
 #include "tests/conformance/variants.h"
 
@@ -87,7 +87,9 @@ std::vector<Variant> variantsWithoutFilters() {
   return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, Analytic, ::testing::ValuesIn(variantsWithoutFilters()),
+INSTANTIATE_TEST_SUITE_P(Every, Analytic, ::testing::ValuesIn(byDay(variantsWithoutFilters())),
+                         VariantName());
+INSTANTIATE_TEST_SUITE_P(Nightly, Analytic, ::testing::ValuesIn(byNight(variantsWithoutFilters())),
                          VariantName());
 
 }  // namespace

@@ -48,7 +48,8 @@ void expectSameByOneAndByMany(CacheRun& one, CacheRun& many, uint32_t frames) {
 
 size_t anchored(const CacheRun& run) {
   size_t count = 0;
-  for (uint32_t entry = 0; entry < run.entries().count; ++entry) count += run.hasAnchor(entry);
+  for (uint32_t entry = 0; entry < run.entries().count; ++entry)
+    count += run.hasShadingPoint(entry);
   return count;
 }
 
@@ -65,7 +66,7 @@ TEST_P(CacheEntries, WhatIsSeenIsFoundAgain) {
     for (const uint32_t entry : run.entry("proposals", slot, run.entries().proposals)) {
       if (entry == rl::RL_INVALID) continue;
       ASSERT_LT(entry, run.entries().count);
-      EXPECT_TRUE(run.hasAnchor(entry));
+      EXPECT_TRUE(run.hasShadingPoint(entry));
       // Discs have a radius of six pixels of 0.25 metres and are searched within 1.5 radii.
       EXPECT_LT(glm::distance(run.posW(slot), run.anchorPosW(entry)), 2.5f * 1.5f) << slot;
     }
@@ -104,12 +105,12 @@ TEST_P(CacheEntries, WhatHasNoPlaceIsCounted) {
   EXPECT_GT(run.full(), 1000u);
   EXPECT_GT(proposed(run), 1000u);
   // Entries in view stay.
-  const std::vector<uint32_t> before = run.words("anchors");
+  const std::vector<uint32_t> before = run.words("shading_points");
   for (int i = 0; i < 4; ++i) run.frame();
   for (uint32_t entry = 0; entry < run.entries().count; ++entry) {
-    const size_t at = size_t{4} * rl::RL_ANCHOR_QUADS * entry;
+    const size_t at = size_t{4} * rl::RL_SHADING_POINT_QUADS * entry;
     if (before[at + 6] >> 30u == 0) continue;
-    EXPECT_EQ(run.words("anchors")[at], before[at]);
+    EXPECT_EQ(run.words("shading_points")[at], before[at]);
   }
 }
 
@@ -149,11 +150,11 @@ TEST_P(CacheEntries, ThosePixelsFeedThatSeeIt) {
   for (int i = 0; i < 8; ++i) {
     run.frame(false);
     for (uint32_t entry = 0; entry < run.entries().count; ++entry) {
-      const std::vector<uint32_t> feeders = run.feedersOf(entry);
-      fed += feeders.size();
-      for (const uint32_t slot : feeders) {
+      const std::vector<uint32_t> insertions = run.insertionsOf(entry);
+      fed += insertions.size();
+      for (const uint32_t slot : insertions) {
         ASSERT_LT(slot, run.pixels());
-        EXPECT_TRUE(run.hasAnchor(entry));
+        EXPECT_TRUE(run.hasShadingPoint(entry));
         EXPECT_LT(glm::distance(run.posW(slot), run.anchorPosW(entry)), 3.0f);
         slots.insert(slot);
       }
@@ -176,8 +177,8 @@ TEST_P(CacheEntries, TwoSidesOfAWallAreTwoEntries) {
   for (uint32_t slot = 0; slot < run.pixels(); ++slot) {
     for (const uint32_t entry : run.entry("proposals", slot, run.entries().proposals)) {
       if (entry == rl::RL_INVALID) continue;
-      const auto anchor = run.entry("anchors", entry, 4 * rl::RL_ANCHOR_QUADS);
-      EXPECT_EQ(anchor[3], run.entry("visible", slot, 4)[1]);
+      const auto shadingPoint = run.entry("shading_points", entry, 4 * rl::RL_SHADING_POINT_QUADS);
+      EXPECT_EQ(shadingPoint[3], run.entry("visible", slot, 4)[1]);
       ++seen;
     }
   }
@@ -196,12 +197,12 @@ TEST_P(CacheEntries, AllPixelsInAFewEntries) {
   EXPECT_GT(double(proposed(one)), 0.98 * one.pixels());
   size_t fed = 0;
   for (uint32_t entry = 0; entry < one.entries().count; ++entry) {
-    const std::vector<uint32_t> feeders = one.feedersOf(entry);
-    EXPECT_EQ(std::set<uint32_t>(feeders.begin(), feeders.end()).size(), feeders.size());
-    fed += feeders.size();
+    const std::vector<uint32_t> insertions = one.insertionsOf(entry);
+    EXPECT_EQ(std::set<uint32_t>(insertions.begin(), insertions.end()).size(), insertions.size());
+    fed += insertions.size();
   }
   EXPECT_GT(fed, 0u);
-  EXPECT_LE(fed, anchored(one) * rl::RL_ENTRY_FEEDERS);
+  EXPECT_LE(fed, anchored(one) * rl::RL_ENTRY_INSERTIONS);
 }
 
 TEST_P(CacheEntries, HostileSurfaces) {

@@ -10,7 +10,7 @@
 
 #include "core/caches/entries/settings.h"
 #include "core/dialect/order.h"
-#include "core/method.h"
+#include "core/frame/method.h"
 
 namespace rl {
 namespace {
@@ -120,14 +120,15 @@ void CacheRun::frame(bool isNewView, uint32_t threads, uint32_t order) {
   }
   lastFrame_ = frame_;
   for (uint32_t entry = 0; entry < entries_.count; ++entry) {
-    const std::vector<uint32_t> feeders = feedersOf(entry);
-    if (feeders.empty() || hasAnchor(entry)) continue;
-    const uint32_t* visible = buffers_.at("visible").data() + size_t{4} * feeders.front();
-    uint32_t* anchor = buffers_.at("anchors").data() + size_t{4} * rl::RL_ANCHOR_QUADS * entry;
-    const glm::vec3 at = posW(feeders.front());
-    for (int i = 0; i < 3; ++i) anchor[i] = std::bit_cast<uint32_t>(at[i]);
-    anchor[3] = anchor[4] = visible[1];
-    anchor[6] = visible[3];
+    const std::vector<uint32_t> insertions = insertionsOf(entry);
+    if (insertions.empty() || hasShadingPoint(entry)) continue;
+    const uint32_t* visible = buffers_.at("visible").data() + size_t{4} * insertions.front();
+    uint32_t* shadingPoint =
+        buffers_.at("shading_points").data() + size_t{4} * rl::RL_SHADING_POINT_QUADS * entry;
+    const glm::vec3 at = posW(insertions.front());
+    for (int i = 0; i < 3; ++i) shadingPoint[i] = std::bit_cast<uint32_t>(at[i]);
+    shadingPoint[3] = shadingPoint[4] = visible[1];
+    shadingPoint[6] = visible[3];
   }
   ++frame_.frame;
 }
@@ -145,22 +146,24 @@ glm::vec3 CacheRun::posW(uint32_t slot) const {
 }
 
 glm::vec3 CacheRun::anchorPosW(uint32_t entry) const {
-  const std::vector<uint32_t> words = this->entry("anchors", entry, 4 * rl::RL_ANCHOR_QUADS);
+  const std::vector<uint32_t> words =
+      this->entry("shading_points", entry, 4 * rl::RL_SHADING_POINT_QUADS);
   return {std::bit_cast<float>(words[0]), std::bit_cast<float>(words[1]),
           std::bit_cast<float>(words[2])};
 }
 
-bool CacheRun::hasAnchor(uint32_t entry) const {
-  return buffers_.at("anchors")[size_t{4} * rl::RL_ANCHOR_QUADS * entry + 6] >> 30u != 0;
+bool CacheRun::hasShadingPoint(uint32_t entry) const {
+  return buffers_.at("shading_points")[size_t{4} * rl::RL_SHADING_POINT_QUADS * entry + 6] >> 30u !=
+         0;
 }
 
-std::vector<uint32_t> CacheRun::feedersOf(uint32_t entry) const {
+std::vector<uint32_t> CacheRun::insertionsOf(uint32_t entry) const {
   rl::EntriesContext context;
   context.gFrame = lastFrame_;
   context.gParams.entries = entries_;
   std::vector<uint32_t> slots;
-  for (const uint32_t ticket : this->entry("feeders", entry, rl::RL_ENTRY_FEEDERS)) {
-    if (ticket != 0) slots.push_back(context.entryOfferer(context.entryOfTicket(ticket)));
+  for (const uint32_t ticket : this->entry("insertions", entry, rl::RL_ENTRY_INSERTIONS)) {
+    if (ticket != 0) slots.push_back(context.entryCandidatePixel(context.entryOfPriority(ticket)));
   }
   return slots;
 }

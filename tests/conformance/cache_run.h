@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/backend/cpu_kernel.h"
-#include "core/cache.h"
 #include "core/caches/entries/entries.h"
+#include "core/frame/cache.h"
 
 namespace restlab::conformance {
 
@@ -29,8 +29,8 @@ class CacheRun {
   // Sets the surfaces that are seen from now on, and the camera's position along x.
   void look(const std::function<Shown(glm::uvec2)>& shown, float x = 0.0f);
   // Runs the passes of a frame over their pixels, in a shuffled order (`order` 0: in order), on
-  // `threads` threads. Then gives entries without an anchor that of the first pixel that feeds
-  // them, as an integrator does.
+  // `threads` threads. Then gives entries without a shading point that of the first pixel that
+  // feeds them, as an integrator does.
   void frame(bool isNewView = true, uint32_t threads = 1, uint32_t order = 0);
 
   uint32_t pixels() const { return size_.x * size_.y; }
@@ -42,9 +42,9 @@ class CacheRun {
   rl::EntryParams entries() const { return entries_; }
   glm::vec3 posW(uint32_t slot) const;
   glm::vec3 anchorPosW(uint32_t entry) const;
-  bool hasAnchor(uint32_t entry) const;
+  bool hasShadingPoint(uint32_t entry) const;
   // Slots of the pixels that fed an entry in the last frame.
-  std::vector<uint32_t> feedersOf(uint32_t entry) const;
+  std::vector<uint32_t> insertionsOf(uint32_t entry) const;
   uint64_t full() const { return counters_.health[rl::RL_HEALTH_CACHE_FULL]; }
   const std::map<std::string, std::vector<uint32_t>>& buffers() const { return buffers_; }
 

@@ -2,8 +2,8 @@
 // light must be forgotten.
 #include <gtest/gtest.h>
 
-#include "core/scene/compiled_scene.h"
-#include "core/scene/light_factor.h"
+#include "core/scene/compiled/compiled_scene.h"
+#include "core/scene/compiled/light_factor.h"
 #include "tests/conformance/variants.h"
 
 namespace restlab::conformance {

@@ -2,7 +2,7 @@
 // kernel.
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/conformance/variants.h"
 
 namespace restlab::conformance {

@@ -7,7 +7,7 @@
 #include <set>
 #include <sstream>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/conformance/variants.h"
 
 namespace restlab::conformance {

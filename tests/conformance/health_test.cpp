@@ -1,7 +1,7 @@
 // No non-finite values, on any built-in scene and at any size.
 #include <gtest/gtest.h>
 
-#include "core/image/metrics.h"
+#include "core/image/metrics/metrics.h"
 #include "tests/conformance/variants.h"
 
 namespace restlab::conformance {
@@ -54,7 +54,9 @@ TEST_P(Healthy, OnePixelShowsTheMeanOfTheImage) {
   EXPECT_NEAR(sum / kSeeds, 1.0, 0.1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, Healthy, ::testing::ValuesIn(allVariants()), VariantName());
+INSTANTIATE_TEST_SUITE_P(Every, Healthy, ::testing::ValuesIn(byDay(allVariants())), VariantName());
+INSTANTIATE_TEST_SUITE_P(Nightly, Healthy, ::testing::ValuesIn(byNight(allVariants())),
+                         VariantName());
 
 }  // namespace
 }  // namespace restlab::conformance

@@ -6,10 +6,10 @@
 #include <map>
 #include <set>
 
+#include "core/base/error.h"
 #include "core/caches/entries/settings.h"
-#include "core/denoiser.h"
-#include "core/error.h"
-#include "core/image/layer_colors.h"
+#include "core/frame/denoiser.h"
+#include "core/image/io/layer_colors.h"
 #include "tests/bias/few_entries.h"
 #include "tests/conformance/cache_run.h"
 #include "tests/conformance/variants.h"
@@ -97,7 +97,7 @@ TEST_P(EntryLayers, PixelsOfOneEntryHaveOneColour) {
     EXPECT_EQ(colourOf.try_emplace(entry.x, colour).first->second, colour);
     EXPECT_EQ(confidenceOf.try_emplace(entry.x, confidence).first->second, confidence);
     // Each offered sample has confidence 1.
-    EXPECT_LE(confidence, cap + float(rl::RL_ENTRY_FEEDERS));
+    EXPECT_LE(confidence, cap + float(rl::RL_ENTRY_INSERTIONS));
     remembered += confidence >= 1.0f;
     different.insert({colour.x, colour.y, colour.z});
   }

@@ -124,8 +124,10 @@ TEST_P(LightTransport, RussianRouletteSavesRays) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, LightTransport, ::testing::ValuesIn(allVariants()), VariantName());
-INSTANTIATE_TEST_SUITE_P(Every, UnbiasedTransport, ::testing::ValuesIn(unbiasedVariants()),
+INSTANTIATE_TEST_SUITE_P(Every, UnbiasedTransport, ::testing::ValuesIn(byDay(unbiasedVariants())),
                          VariantName());
+INSTANTIATE_TEST_SUITE_P(Nightly, UnbiasedTransport,
+                         ::testing::ValuesIn(byNight(unbiasedVariants())), VariantName());
 
 }  // namespace
 }  // namespace restlab::conformance

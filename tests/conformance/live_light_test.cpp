@@ -1,9 +1,9 @@
 // Lamps of a session are switched while its history goes on.
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "core/scene/light_factor.h"
-#include "core/session.h"
+#include "core/base/error.h"
+#include "core/frame/session.h"
+#include "core/scene/compiled/light_factor.h"
 #include "tests/conformance/variants.h"
 
 namespace restlab::conformance {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "core/error.h"
-#include "core/session.h"
+#include "core/base/error.h"
+#include "core/frame/session.h"
 #include "tests/conformance/variants.h"
 
 namespace restlab::conformance {
@@ -66,7 +66,7 @@ TEST(LiveSession, ParametersOfTheCacheReachAStillView) {
     double sum = 0.0;
     for (uint32_t frame = 0; frame < 16; ++frame) {
       for (const PassTiming& pass : session.frame().passes)
-        sum += pass.name == "exchange" ? double(pass.raysPath) : 0.0;
+        sum += pass.name == "spatial_shift" ? double(pass.raysPath) : 0.0;
     }
     return sum;
   };

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "core/session.h"
+#include "core/frame/session.h"
 #include "tests/bias/test_cameras.h"
 #include "tests/conformance/variants.h"
 
@@ -33,9 +33,9 @@ FrameStats lastFrame(Session& session, bool isMoving) {
   return stats;
 }
 
-uint64_t exchangeRays(const FrameStats& stats) {
+uint64_t spatialShiftRays(const FrameStats& stats) {
   for (const PassTiming& pass : stats.passes) {
-    if (pass.name == "exchange") return pass.raysPath;
+    if (pass.name == "spatial_shift") return pass.raysPath;
   }
   return 0;
 }
@@ -94,9 +94,9 @@ TEST(MovingView, TheEdgesOfLightsTakeSeveralFilmSamples) {
 TEST(MovingView, MovedHistoriesTakeTheDonorsOfYoungOnes) {
   const auto scene = bias::builtinScene("cornell-box");
   Session still(scene, smallConfig()), moving(scene, smallConfig());
-  const uint64_t old = exchangeRays(lastFrame(still, false));
+  const uint64_t old = spatialShiftRays(lastFrame(still, false));
   EXPECT_GT(old, 0u);
-  EXPECT_GT(exchangeRays(lastFrame(moving, true)), 2 * old);
+  EXPECT_GT(spatialShiftRays(lastFrame(moving, true)), 2 * old);
 }
 
 TEST(MovingView, HasACapOfItsOwn) {

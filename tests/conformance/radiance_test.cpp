@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "core/error.h"
-#include "core/scene/compiled_scene.h"
-#include "core/scene/light_factor.h"
+#include "core/base/error.h"
+#include "core/scene/compiled/compiled_scene.h"
+#include "core/scene/compiled/light_factor.h"
 #include "tests/bias/few_entries.h"
 #include "tests/conformance/variants.h"
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "core/radiance_range.h"
+#include "core/base/radiance_range.h"
 #include "core/scene/scene.h"
 #include "tests/conformance/variants.h"
 

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "core/backend/backend.h"
-#include "core/session.h"
+#include "core/frame/session.h"
 #include "tests/conformance/variants.h"
 
 namespace restlab::conformance {

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "core/caches/entries/settings.h"
-#include "core/scene/builtin_builder.h"
-#include "core/scene/builtin_mesh.h"
-#include "core/scene/compiled_scene.h"
+#include "core/scene/builtin/builder.h"
+#include "core/scene/builtin/mesh.h"
+#include "core/scene/compiled/compiled_scene.h"
 #include "tests/bias/test_cameras.h"
 #include "tests/conformance/variants.h"
 

@@ -5,7 +5,7 @@
 #include <ostream>
 #include <stdexcept>
 
-#include "core/cache.h"
+#include "core/frame/cache.h"
 #include "tests/bias/few_entries.h"
 
 namespace restlab::conformance {
@@ -50,6 +50,29 @@ std::vector<Variant> allVariants() {
 std::vector<Variant> unbiasedVariants() {
   std::vector<Variant> all = allVariants();
   std::erase_if(all, [](const Variant& v) { return v.bias != BiasClass::unbiased; });
+  return all;
+}
+
+namespace {
+
+bool isDaily(const Variant& v) {
+  if (v.denoiser != "none") return v.denoiser == "accumulate" || v.denoiser == "asvgf";
+  if (v.cache.empty()) return !v.endsPaths;
+  const bool isFirstMode = v.mode == findIntegrator(v.integrator).modes.front().name;
+  const bool isFirstCache = v.cache == cacheRegistry().front()->name;
+  if (v.endsPaths) return v.cache == cacheRegistry().back()->name;
+  return isFirstCache == isFirstMode;
+}
+
+}  // namespace
+
+std::vector<Variant> byDay(std::vector<Variant> all) {
+  std::erase_if(all, [](const Variant& v) { return !isDaily(v); });
+  return all;
+}
+
+std::vector<Variant> byNight(std::vector<Variant> all) {
+  std::erase_if(all, isDaily);
   return all;
 }
 

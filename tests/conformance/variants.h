@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/method.h"
+#include "core/frame/method.h"
 #include "tests/bias/independent_runs.h"
 
 namespace restlab::conformance {
@@ -32,6 +32,11 @@ struct Variant {
 std::vector<Variant> allVariants();
 // Returns the variants whose expectation is the truth in every frame.
 std::vector<Variant> unbiasedVariants();
+
+// Splits variants for the dearer tests: by day every kernel runs in one of them, the others wait
+// for the night.
+std::vector<Variant> byDay(std::vector<Variant> all);
+std::vector<Variant> byNight(std::vector<Variant> all);
 
 // Used by gtest to print and name parameters.
 void PrintTo(const Variant& variant, std::ostream* out);

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
-#include "core/image/metrics.h"
-#include "core/scene/camera_path.h"
+#include "core/base/error.h"
+#include "core/image/metrics/metrics.h"
+#include "core/scene/camera_path/camera_path.h"
 #include "tests/conformance/variants.h"
 
 namespace restlab {

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "core/scene/builtin_builder.h"
-#include "core/scene/builtin_mesh.h"
-#include "core/scene/compiled_scene.h"
+#include "core/scene/builtin/builder.h"
+#include "core/scene/builtin/mesh.h"
+#include "core/scene/compiled/compiled_scene.h"
 #include "tests/denoise/layered_images.h"
 
 namespace restlab::denoise {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/image/metrics.h"
-#include "core/method.h"
+#include "core/frame/method.h"
+#include "core/image/metrics/metrics.h"
 #include "tests/denoise/layered_images.h"
 
 namespace restlab::denoise {

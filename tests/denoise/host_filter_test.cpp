@@ -1,11 +1,11 @@
-// Denoisers that run on the host (core/host_filter.h), tested by one that is registered for the
-// duration of a test.
+// Denoisers that run on the host (core/frame/host_filter.h), tested by one that is registered for
+// the duration of a test.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/backend/backend.h"
-#include "core/method.h"
+#include "core/frame/method.h"
 #include "denoise/common/settings.h"
 #include "tests/bias/independent_runs.h"
 #include "tests/denoise/layered_images.h"

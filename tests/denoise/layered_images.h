@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/error.h"
-#include "core/image_denoiser.h"
+#include "core/base/error.h"
+#include "core/frame/image_denoiser.h"
 #include "core/dialect/order.h"
 
 namespace restlab::denoise {

@@ -7,10 +7,10 @@
 #include <map>
 #include <optional>
 
-#include "core/image/metrics.h"
-#include "core/scene/camera_path.h"
-#include "core/scene/compiled_scene.h"
-#include "core/scene/light_factor.h"
+#include "core/image/metrics/metrics.h"
+#include "core/scene/camera_path/camera_path.h"
+#include "core/scene/compiled/compiled_scene.h"
+#include "core/scene/compiled/light_factor.h"
 #include "tests/conformance/variants.h"
 #include "tests/denoise/layered_images.h"
 
@@ -187,7 +187,7 @@ void expectLower(const char* scene, glm::uvec2 size, const char* parameter, uint
 // In each frame the film sample of an edge pixel lies on the bright or on the dark side.
 TEST(MovingView, EdgesAreAveraged) { expectLower("door-ajar", kSize, "svgf_resolve", 24, 4, 0.75); }
 // At half the image size the lamp's edge dominates the error.
-TEST(MovingView, GlossIsForgotten) {
+TEST(MovingView, NightlyGlossIsForgotten) {
   expectLower("glossy-gallery", {128, 72}, "svgf_turn", 36, 3, 0.85);
 }
 
@@ -259,9 +259,11 @@ TEST(Motion, HasTheDepthOfOrthographicCameras) {
 
 INSTANTIATE_TEST_SUITE_P(, OverTime,
                          testing::Values(Method{"path", "accumulate", 0.035, 60},
-                                         Method{"path", "svgf", 0.009, 60},
-                                         Method{"path", "asvgf", 0.009, 5},
                                          Method{"restir_gi", "svgf_restir", 0.009, 79}),
+                         nameOf);
+INSTANTIATE_TEST_SUITE_P(Nightly, OverTime,
+                         testing::Values(Method{"path", "svgf", 0.009, 60},
+                                         Method{"path", "asvgf", 0.009, 5}),
                          nameOf);
 
 }  // namespace

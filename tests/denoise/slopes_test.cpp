@@ -1,5 +1,5 @@
 // Filters on images with depths and normals but without planes: the slope of the depth on a surface
-// is estimated from neighbours (core/kernels/layers.glsl).
+// is estimated from neighbours (core/gbuffer/layers.glsl).
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -24,7 +24,7 @@ void expectTruth(const dvec3& value, const dvec3& truth, const char* what, uint 
       << ") instead of (" << truth.x << ", " << truth.y << ", " << truth.z << ")";
 }
 
-// Checks all claims on an unbiased merge at anchor 0.
+// Checks all claims on an unbiased merge at shading point 0.
 void expectUnbiased(const World& world, const std::vector<Outcome>& outcomes, uint seed) {
   const dvec3 truth = world.truth(0);
   expectTruth(meanOfSample(outcomes), truth, "E[F W]", seed);
@@ -32,8 +32,8 @@ void expectUnbiased(const World& world, const std::vector<Outcome>& outcomes, ui
   expectTruth(meanOfResidual(outcomes) + truth, truth, "E[residual] + truth", seed);
 }
 
-Source initialSource(const World& world, uint anchor, uint count, real confidence) {
-  return {anchor, confidence, initialOutcomes(world, anchor, count, confidence)};
+Source initialSource(const World& world, uint shadingPoint, uint count, real confidence) {
+  return {shadingPoint, confidence, initialOutcomes(world, shadingPoint, count, confidence)};
 }
 
 // Acceptance is decided at u = w / wSum, strictly.
@@ -82,8 +82,8 @@ EXACT_TEST(RisOfIndependentCandidates) {
 EXACT_TEST(RisUnderTheBalanceHeuristic) {
   for (uint seed = 0; seed < 60; ++seed) {
     World world = randomWorld(seed, false);
-    // Technique 0 (candidates of anchor 1) misses label 0, technique 1 (of anchor 2) misses label
-    // 2; labels 1 and 3 are common.
+    // Technique 0 (candidates of shading point 1) misses label 0, technique 1 (of shading point 2)
+    // misses label 2; labels 1 and 3 are common.
     world.candidate[1][0] = 0.0;
     world.candidate[2][2] = 0.0;
     const uint draws[2] = {2, 1};
@@ -229,7 +229,7 @@ EXACT_TEST(PairwiseMerge) {
   }
 }
 
-// A donor at the anchor of the canonical sample itself (a still camera) is not shifted.
+// A donor at the shading point of the canonical sample itself (a still camera) is not shifted.
 EXACT_TEST(DonorAtTheSameAnchor) {
   for (uint seed = 0; seed < 100; ++seed) {
     const World world = randomWorld(seed, true);
@@ -278,9 +278,10 @@ EXACT_TEST(AbsentDonorsChangeNothing) {
   const uint flags = kPairwise | RL_REUSE_CONTROL_VARIATE;
   for (uint seed = 0; seed < 20; ++seed) {
     const World world = randomWorld(seed, true);
-    const auto input = [&](uint anchor) {
-      const Source s = initialSource(world, anchor, 1, real(1.0f));
-      return MergeInput{anchor, s.outcomes.back().reservoir, real(float(anchor) + 0.5f)};
+    const auto input = [&](uint shadingPoint) {
+      const Source s = initialSource(world, shadingPoint, 1, real(1.0f));
+      return MergeInput{shadingPoint, s.outcomes.back().reservoir,
+                        real(float(shadingPoint) + 0.5f)};
     };
     const auto merged = [&](const std::vector<MergeInput>& donors) {
       Outcomes result;
@@ -306,21 +307,22 @@ EXACT_TEST(AbsentDonorsChangeNothing) {
   }
 }
 
-// Frames of temporal reuse with a capped confidence and a moving camera: new samples at anchors 2,
-// 1, 0, each merged with the result of the frame before. Residuals are carried along.
+// Frames of temporal reuse with a capped confidence and a moving camera: new samples at shading
+// points 2, 1, 0, each merged with the result of the frame before. Residuals are carried along.
 EXACT_TEST(ChainedMerges) {
   for (uint seed = 0; seed < 100; ++seed) {
     const World world = randomWorld(seed, seed % 4 != 0);
     const real cap = real(1.7f);
     for (const uint flags : {kPairwise, kPairwise | RL_REUSE_CONTROL_VARIATE}) {
       Source history = initialSource(world, 3, 1, real(1.0f));
-      for (const uint anchor : {2u, 1u, 0u}) {
-        Source merged{
-            anchor, real(0.0f),
-            mergeOutcomes(world, initialSource(world, anchor, 1, real(1.0f)), {history}, flags)};
+      for (const uint shadingPoint : {2u, 1u, 0u}) {
+        Source merged{shadingPoint, real(0.0f),
+                      mergeOutcomes(world, initialSource(world, shadingPoint, 1, real(1.0f)),
+                                    {history}, flags)};
         const real confidence = merged.outcomes.front().reservoir.state.confidence;
         merged.confidence = Kernel{}.reuseCapped(confidence, cap);
-        expectTruth(meanOfSample(merged.outcomes), world.truth(anchor), "E[F W] of a frame", seed);
+        expectTruth(meanOfSample(merged.outcomes), world.truth(shadingPoint), "E[F W] of a frame",
+                    seed);
         history = merged;
       }
       expectUnbiased(world, history.outcomes, seed);
@@ -490,7 +492,7 @@ EXACT_TEST(NegativeAssumedVisibility) {
   const Mistake darker = mistakeOf(kPairwise | RL_REUSE_ASSUME_VISIBLE, hideFromDonors, false);
   EXPECT_EQ(darker.seen, darker.worlds);
   EXPECT_LT(darker.signedSum, 0.0);
-  // Light leaks through an occluder at the canonical anchor.
+  // Light leaks through an occluder at the canonical shadingPoint.
   const auto hideHere = [](World& world) { world.visibility[0][2] = real(0.0f); };
   const Mistake leak = mistakeOf(kPairwise | RL_REUSE_ASSUME_VISIBLE_HERE, hideHere, false);
   EXPECT_EQ(leak.seen, leak.worlds);

@@ -16,7 +16,7 @@
 namespace rl {
 namespace {
 
-constexpr uint kInputs = 3;  // anchor 0, the canonical input, and its donors 1 and 2
+constexpr uint kInputs = 3;  // shading point 0, the canonical input, and its donors 1 and 2
 constexpr uint kWorlds = 20;
 
 struct Named {
@@ -73,11 +73,11 @@ constexpr bool kOverlapping[kInputs][kLabels] = {
 constexpr bool kDisjoint[kInputs][kLabels] = {
     {true, true, false, false}, {false, false, true, false}, {false, false, false, true}};
 
-bool isEmptied(uint empty, uint anchor) {
+bool isEmptied(uint empty, uint shadingPoint) {
   if (empty == emptyAll) return true;
-  if (empty == emptyCanonical) return anchor == 0;
-  if (empty == emptyDonors) return anchor > 0;
-  return empty == emptyOneDonor && anchor == 1;
+  if (empty == emptyCanonical) return shadingPoint == 0;
+  if (empty == emptyDonors) return shadingPoint > 0;
+  return empty == emptyOneDonor && shadingPoint == 1;
 }
 
 void restrictSupports(World& w, uint support) {
@@ -99,8 +99,8 @@ void restrictSupports(World& w, uint support) {
   }
 }
 
-bool isLit(const World& w, uint anchor, uint label) {
-  return w.f[anchor][label].x > real(0.0f) && w.visibility[anchor][label] > real(0.0f);
+bool isLit(const World& w, uint shadingPoint, uint label) {
+  return w.f[shadingPoint][label].x > real(0.0f) && w.visibility[shadingPoint][label] > real(0.0f);
 }
 
 // Restricts candidates to the support of each input; with emptyByChance they also cover labels
@@ -130,8 +130,8 @@ World combinedWorld(uint seed, uint empty, uint support) {
 }
 
 // Gives an input a residual that depends on its sample and has mean 0, as histories do.
-Source withResidual(uint anchor, real confidence, std::vector<Outcome> outcomes, uint seed) {
-  std::mt19937 random(300 + 10 * seed + anchor);
+Source withResidual(uint shadingPoint, real confidence, std::vector<Outcome> outcomes, uint seed) {
+  std::mt19937 random(300 + 10 * seed + shadingPoint);
   std::uniform_real_distribution<double> uniform(-0.5, 0.5);
   dvec3 mean(0.0);
   std::vector<dvec3> residuals;
@@ -141,7 +141,7 @@ Source withResidual(uint anchor, real confidence, std::vector<Outcome> outcomes,
   }
   for (size_t i = 0; i < outcomes.size(); ++i)
     outcomes[i].reservoir.state.residual = real3(residuals[i] - mean);
-  return {anchor, confidence, std::move(outcomes)};
+  return {shadingPoint, confidence, std::move(outcomes)};
 }
 
 // Returns the sum of F over labels, each weighted by how often the weights count it.

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/method.h"
-#include "core/session.h"
+#include "core/frame/method.h"
+#include "core/frame/session.h"
 #include "integrators/restir_gi/restir_gi.h"
 
 namespace restlab {

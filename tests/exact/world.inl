@@ -1,10 +1,10 @@
 // Small discrete world for the shipped resampling code. Included by one translation unit per
 // meaning of `real`; everything is in an unnamed namespace, since the types differ between units.
 //
-// Samples are labels 0..3, shared by all anchors like points on lights: a shift keeps the label. At
-// an anchor a label has a measure (the size of its part of the domain; the integral is sum measure
-// f V), which makes the shift's Jacobian measure_to / measure_from. A shift may be undefined for a
-// label, by a predicate symmetric in the two anchors.
+// Samples are labels 0..3, shared by all shading points like points on lights: a shift keeps the
+// label. At a shading point a label has a measure (the size of its part of the domain; the
+// integral is sum measure f V), which makes the shift's Jacobian measure_to / measure_from. A shift
+// may be undefined for a label, by a predicate symmetric in the two shading points.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,17 +40,18 @@ struct WorldReservoir {
 
 struct World {
   real3 f[kAnchors][kLabels];          // integrand without visibility
-  real visibility[kAnchors][kLabels];  // transmittance between anchor and sample
+  real visibility[kAnchors][kLabels];  // transmittance between shading point and sample
   real measure[kAnchors][kLabels];
   bool defined[kAnchors][kAnchors][kLabels];
   double candidate[kAnchors][kLabels];  // probability of drawing the label; the rest fails
   real3 ratio[kAnchors][kAnchors];      // ratio of reflectances: arbitrary
   bool omitsJacobian = false;           // deliberate mistake: donors' weights omit it
 
-  dvec3 truth(uint anchor) const {
+  dvec3 truth(uint shadingPoint) const {
     dvec3 sum(0.0);
     for (uint l = 0; l < kLabels; ++l) {
-      sum += dvec3(f[anchor][l]) * double(visibility[anchor][l]) * double(measure[anchor][l]);
+      sum += dvec3(f[shadingPoint][l]) * double(visibility[shadingPoint][l]) *
+             double(measure[shadingPoint][l]);
     }
     return sum;
   }
@@ -58,7 +59,7 @@ struct World {
 
 // Input of a merge.
 struct MergeInput {
-  uint anchor = 0;
+  uint shadingPoint = 0;
   WorldReservoir reservoir;
   real confidence = real(1.0f);
   bool exists = true;                                // donors only
@@ -68,7 +69,7 @@ struct MergeInput {
 // State of the shipped reuse loop.
 struct WorldMerge {
   std::vector<MergeInput> donors;
-  std::vector<Shifted> ours, theirs;
+  std::vector<Shifted> canonicalAtNeighbour, neighbourAtCanonical;
   std::vector<real3> ratios;
 };
 
@@ -113,11 +114,15 @@ struct Kernel {
   bool reuseDonor(const WorldMerge& m, uint k, ReservoirState& donor) {
     donor = m.donors[k].reservoir.state;
     donor.confidence = reuseCapped(m.donors[k].confidence, m.donors[k].cap);
-    if (world->omitsJacobian) donor.W /= m.theirs[k].jacobian;
+    if (world->omitsJacobian) donor.W /= m.neighbourAtCanonical[k].jacobian;
     return m.donors[k].exists;
   }
-  Shifted reuseOurs(const WorldMerge& m, uint k) const { return m.ours[k]; }
-  Shifted reuseTheirs(const WorldMerge& m, uint k) const { return m.theirs[k]; }
+  Shifted reuseCanonicalAtNeighbour(const WorldMerge& m, uint k) const {
+    return m.canonicalAtNeighbour[k];
+  }
+  Shifted reuseNeighbourAtCanonical(const WorldMerge& m, uint k) const {
+    return m.neighbourAtCanonical[k];
+  }
   real3 reuseRatio(const WorldMerge& m, uint k) const { return m.ratios[k]; }
   real reuseUniform(const WorldMerge&, uint) const { return real(0.5f); }
 #include "core/resampling/donors.glsl"
@@ -182,8 +187,9 @@ dvec3 meanOfResidual(const std::vector<Outcome>& outcomes) {
   return sum;
 }
 
-// Returns all outcomes of initial resampling of `count` independent candidates at an anchor.
-std::vector<Outcome> initialOutcomes(const World& world, uint anchor, uint count, real confidence) {
+// Returns all outcomes of initial resampling of `count` independent candidates at an shadingPoint.
+std::vector<Outcome> initialOutcomes(const World& world, uint shadingPoint, uint count,
+                                     real confidence) {
   Outcomes outcomes;
   Kernel kernel;
   kernel.world = &world;
@@ -195,12 +201,12 @@ std::vector<Outcome> initialOutcomes(const World& world, uint anchor, uint count
     for (uint c = 0; c < count; ++c) {
       double left = 1.0;
       for (uint l = 0; l < kLabels; ++l) {
-        const double p = world.candidate[anchor][l];
+        const double p = world.candidate[shadingPoint][l];
         const bool drawn = p > 0.0 && decisions.decide(std::min(1.0, p / left));
         left -= p;
         if (!drawn) continue;
-        const real3 F = world.f[anchor][l] * world.visibility[anchor][l];
-        const real W = real(double(world.measure[anchor][l]) / p);
+        const real3 F = world.f[shadingPoint][l] * world.visibility[shadingPoint][l];
+        const real W = real(double(world.measure[shadingPoint][l]) / p);
         if (kernel.risAccept(wSum, kernel.reuseTarget(F) * W / real(float(count)), real(0.0f))) {
           selected.label = l;
           selected.state.F = F;
@@ -232,10 +238,11 @@ void mergeOnce(const World& world, const MergeInput& canonical,
     return s;
   };
   for (const MergeInput& donor : donors) {
-    merge.ours.push_back(shift(own, canonical.anchor, donor.anchor, RL_REUSE_ASSUME_VISIBLE));
-    merge.theirs.push_back(
-        shift(donor.reservoir, donor.anchor, canonical.anchor, RL_REUSE_ASSUME_VISIBLE_HERE));
-    merge.ratios.push_back(world.ratio[donor.anchor][canonical.anchor]);
+    merge.canonicalAtNeighbour.push_back(
+        shift(own, canonical.shadingPoint, donor.shadingPoint, RL_REUSE_ASSUME_VISIBLE));
+    merge.neighbourAtCanonical.push_back(shift(
+        donor.reservoir, donor.shadingPoint, canonical.shadingPoint, RL_REUSE_ASSUME_VISIBLE_HERE));
+    merge.ratios.push_back(world.ratio[donor.shadingPoint][canonical.shadingPoint]);
   }
   restlab::exact::enumerate([&](Decisions& decisions) {
     kernel.decisions = &decisions;
@@ -246,7 +253,7 @@ void mergeOnce(const World& world, const MergeInput& canonical,
         kernel.reuseMerge(merge, uint(donors.size()), flags, r.state, winner, jacobian);
     if (winner != RL_INVALID) {
       r.label = donors[winner].reservoir.label;
-      EXPECT_EQ(jacobian, merge.theirs[winner].jacobian);
+      EXPECT_EQ(jacobian, merge.neighbourAtCanonical[winner].jacobian);
     }
     use(decisions.probability(), r, dvec3(estimate));
   });
@@ -254,7 +261,7 @@ void mergeOnce(const World& world, const MergeInput& canonical,
 
 // Independent input of a merge, with all its outcomes.
 struct Source {
-  uint anchor = 0;
+  uint shadingPoint = 0;
   real confidence = real(1.0f);
   std::vector<Outcome> outcomes;
 };
@@ -267,13 +274,13 @@ std::vector<Outcome> mergeOutcomes(const World& world, const Source& canonical,
   std::function<void(size_t, double)> choose = [&](size_t k, double probability) {
     if (k < donors.size()) {
       for (const Outcome& o : donors[k].outcomes) {
-        inputs[k] = {donors[k].anchor, o.reservoir, donors[k].confidence, true, cap};
+        inputs[k] = {donors[k].shadingPoint, o.reservoir, donors[k].confidence, true, cap};
         choose(k + 1, probability * o.probability);
       }
       return;
     }
     for (const Outcome& o : canonical.outcomes) {
-      mergeOnce(world, {canonical.anchor, o.reservoir, canonical.confidence}, inputs, flags,
+      mergeOnce(world, {canonical.shadingPoint, o.reservoir, canonical.confidence}, inputs, flags,
                 [&](double p, const WorldReservoir& r, const dvec3& estimate) {
                   result.add(probability * o.probability * p, r, estimate);
                 });
@@ -284,8 +291,8 @@ std::vector<Outcome> mergeOutcomes(const World& world, const Source& canonical,
 }
 
 // Makes a random world. `partial` sets some visibilities and integrands to zero and leaves some
-// shifts undefined; the candidates of every anchor cover its integrand's support and may draw
-// zeros, too.
+// shifts undefined; the candidates of every shading point cover its integrand's support and may
+// draw zeros, too.
 World randomWorld(uint seed, bool partial) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform(0.1, 1.0);

@@ -1,4 +1,4 @@
-#include "core/scene/compiled_scene.h"
+#include "core/scene/compiled/compiled_scene.h"
 #include "tests/fuzz/entries.h"
 #include "tests/fuzz/input_file.h"
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace restlab::fuzz {
 

@@ -1,6 +1,6 @@
 #include <stdexcept>
 
-#include "core/scene/image_decode.h"
+#include "core/scene/textures/image_decode.h"
 #include "tests/fuzz/entries.h"
 
 namespace restlab::fuzz {

@@ -2,7 +2,7 @@
 // renderers.
 #include <fmt/format.h>
 
-#include "core/image/metrics.h"
+#include "core/image/metrics/metrics.h"
 #include "tests/analytic/cornell_tiles.h"
 #include "tests/bias/independent_runs.h"
 #include "tests/gates/gate_files.h"

@@ -1,6 +1,6 @@
 // Two images by Mitsuba of direct light from a directional light: units of KHR_lights_punctual,
 // shadows, and linear vertex colours that multiply the base colour.
-#include "core/image/metrics.h"
+#include "core/image/metrics/metrics.h"
 #include "tests/bias/independent_runs.h"
 #include "tests/gates/gate_files.h"
 #include "experiments/statistics/tost.h"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/compiled_scene.h"
-#include "core/session.h"
+#include "core/frame/session.h"
+#include "core/scene/compiled/compiled_scene.h"
 
 namespace restlab::gates {
 

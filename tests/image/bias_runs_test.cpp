@@ -1,13 +1,13 @@
 // Squared bias of a method from all pairs of its runs: known answers, no bias of the estimate, and
 // coverage of its interval.
-#include "core/image/bias_runs.h"
+#include "core/image/statistics/bias_runs.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace restlab {
 

@@ -5,8 +5,8 @@
 #include <cstring>
 #include <functional>
 
-#include "core/image/chromaticities.h"
-#include "core/image/exr_contents.h"
+#include "core/image/io/chromaticities.h"
+#include "core/image/io/exr_contents.h"
 #include "tests/image/exr_fixture.h"
 
 namespace restlab {

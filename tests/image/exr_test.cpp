@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cstring>
 
-#include "core/image/exr_contents.h"
-#include "core/image/metrics.h"
+#include "core/image/io/exr_contents.h"
+#include "core/image/metrics/metrics.h"
 #include "tests/image/exr_fixture.h"
 
 namespace restlab {

@@ -1,6 +1,6 @@
 // FLIP against known answers of the authors' implementation, against the papers' formulas in NumPy
 // (two-dimensional kernels, double precision), and in cases where other implementations fail.
-#include "core/image/flip.h"
+#include "core/image/metrics/flip.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/image/flip_color.h"
-#include "core/image/metrics.h"
+#include "core/image/metrics/flip_color.h"
+#include "core/image/metrics/metrics.h"
 #include "tests/image/known_pair.h"
 
 namespace restlab {

@@ -1,6 +1,6 @@
 // Noise of a reference's halves, which all runs share: its estimates, and the coverage of intervals
 // of MSE, squared bias and ratios with it.
-#include "core/image/halves_noise.h"
+#include "core/image/statistics/halves_noise.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <functional>
 #include <random>
 
-#include "core/error.h"
-#include "core/image/bias_runs.h"
+#include "core/base/error.h"
+#include "core/image/statistics/bias_runs.h"
 
 namespace restlab {
 

@@ -1,4 +1,4 @@
-#include "core/image/layer_colors.h"
+#include "core/image/io/layer_colors.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <set>
 
-#include "core/image/srgb.h"
+#include "core/image/io/srgb.h"
 
 namespace restlab {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "core/error.h"
-#include "core/image/metrics.h"
-#include "core/image/ssim.h"
+#include "core/base/error.h"
+#include "core/image/metrics/metrics.h"
+#include "core/image/metrics/ssim.h"
 #include "tests/image/known_pair.h"
 
 namespace restlab {

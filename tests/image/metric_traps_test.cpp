@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/image/metrics.h"
-#include "core/image/pixel_metrics.h"
+#include "core/image/metrics/metrics.h"
+#include "core/image/metrics/pixel_metrics.h"
 #include "tests/image/known_pair.h"
 
 namespace restlab {

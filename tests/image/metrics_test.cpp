@@ -1,6 +1,6 @@
 // Metrics against values computed with NumPy from the same formulas, and their handling of bad
 // input.
-#include "core/image/metrics.h"
+#include "core/image/metrics/metrics.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <random>
 #include <set>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/image/known_pair.h"
 
 namespace restlab {

@@ -5,7 +5,7 @@
 
 #include <csignal>
 
-#include "core/image/atomic_file.h"
+#include "core/image/io/atomic_file.h"
 #include "tests/image/exr_fixture.h"
 
 namespace restlab {

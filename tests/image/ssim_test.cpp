@@ -1,12 +1,12 @@
 // SSIM against the paper's formula in NumPy, window by window.
-#include "core/image/ssim.h"
+#include "core/image/metrics/ssim.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "core/image/metrics.h"
+#include "core/image/metrics/metrics.h"
 #include "tests/image/known_pair.h"
 
 namespace restlab {

@@ -38,7 +38,7 @@ const std::vector<Kernel>& kernels() {
 }
 
 const std::vector<std::string>& traceFiles() {
-  static const std::vector<std::string> files = {"core/dialect/trace_bvh.glsl"};
+  static const std::vector<std::string> files = {"core/geometry/trace_bvh.glsl"};
   return files;
 }
 

@@ -22,7 +22,7 @@ class SourceHash : public TemporaryFolder {
   void SetUp() override {
     TemporaryFolder::SetUp();
     for (const char* file :
-         {"core/session.cpp", "core/kernels/path.h", "core/CMakeLists.txt", "core/readme.md",
+         {"core/frame/session.cpp", "core/kernels/path.h", "core/CMakeLists.txt", "core/readme.md",
           "integrators/path/path.cpp", "integrators/restir_gi/reuse.glsl", "denoise/none/none.cpp",
           "experiments/runner/summary/temporal.cpp", "experiments/runner/run/experiment.h",
           "experiments/runner/summary/table.cpp", "tests/unit/rng_test.cpp"})
@@ -65,7 +65,7 @@ class SourceHash : public TemporaryFolder {
 
 TEST_F(SourceHash, IsOfTheSourcesThatDecideTheNumbers) {
   EXPECT_EQ(hashes(), hashes());
-  EXPECT_EQ(changedBy("core/session.cpp"), "REFERENCE SOURCE ");
+  EXPECT_EQ(changedBy("core/frame/session.cpp"), "REFERENCE SOURCE ");
   EXPECT_EQ(changedBy("core/kernels/path.h"), "REFERENCE SOURCE ");
   EXPECT_EQ(changedBy("core/CMakeLists.txt"), "REFERENCE SOURCE ");
   EXPECT_EQ(changedBy("integrators/path/path.cpp"), "REFERENCE SOURCE ");
@@ -77,7 +77,7 @@ TEST_F(SourceHash, IsOfTheSourcesThatDecideTheNumbers) {
        {"experiments/runner/summary/table.cpp", "core/readme.md", "tests/unit/rng_test.cpp"})
     EXPECT_EQ(changedBy(layout), "") << layout;
   const auto before = hashes();
-  fs::rename(folder() / "core/session.cpp", folder() / "core/sessions.cpp");
+  fs::rename(folder() / "core/frame/session.cpp", folder() / "core/sessions.cpp");
   EXPECT_NE(hashes().at("SOURCE"), before.at("SOURCE")) << "names count";
 }
 

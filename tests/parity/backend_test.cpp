@@ -13,8 +13,8 @@
 #include <iterator>
 
 #include "core/backend/glsl_compiler.h"
-#include "core/error.h"
-#include "core/session.h"
+#include "core/base/error.h"
+#include "core/frame/session.h"
 #include "tests/parity/frames.h"
 #include "tests/parity/kernel_runner.h"
 #include "tests/parity/ris_kernel.h"
@@ -158,7 +158,7 @@ TEST_F(BackendTest, BrokenKernelIsNamedWithFileAndLine) {
              "  float x = missing(p);\n}\n";
     return good(path);
   };
-  const GlslKernel kernel{"integrators/path/path.h", file, "core/dialect/trace_bvh.glsl"};
+  const GlslKernel kernel{"integrators/path/path.h", file, "core/geometry/trace_bvh.glsl"};
   StartupReport report;
   const Failure failure = failureOf(
       [&] { device.kernels->pipeline(kernel, "path", rl::RL_FEATURE_ALL, read, report); });

@@ -4,7 +4,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "core/scene/builtin_mesh.h"
+#include "core/scene/builtin/mesh.h"
 #include "tests/parity/frames.h"
 #include "tests/parity/kernel_runner.h"
 #include "tests/unit/random_materials.h"

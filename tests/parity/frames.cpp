@@ -9,8 +9,8 @@
 #include <ostream>
 
 #include "core/backend/vulkan_device.h"
-#include "core/cache.h"
-#include "core/method.h"
+#include "core/frame/cache.h"
+#include "core/frame/method.h"
 #include "tests/bias/few_entries.h"
 #include "tests/parity/everything_scene.h"
 #include "tests/unit/bvh_context.h"
@@ -112,6 +112,27 @@ std::vector<Combination> combinationsThatTrace() {
     hasFilter |= isFirst;
     return !isFirst;
   });
+  return all;
+}
+
+namespace {
+
+bool isDaily(const Combination& what) {
+  if (what.denoiser != "none") return what.denoiser == "asvgf";
+  if (what.cache.empty()) return !what.endsPaths;
+  const bool isFirstMode = what.mode == findIntegrator(what.integrator).modes.front().name;
+  return what.cache != cacheRegistry().front()->name && (what.endsPaths || !isFirstMode);
+}
+
+}  // namespace
+
+std::vector<Combination> byDay(std::vector<Combination> all) {
+  std::erase_if(all, [](const Combination& what) { return !isDaily(what); });
+  return all;
+}
+
+std::vector<Combination> byNight(std::vector<Combination> all) {
+  std::erase_if(all, isDaily);
   return all;
 }
 

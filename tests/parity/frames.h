@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/compiled_scene.h"
-#include "core/session.h"
+#include "core/frame/session.h"
+#include "core/scene/compiled/compiled_scene.h"
 
 namespace restlab::parity {
 
@@ -25,6 +25,10 @@ std::vector<Combination> combinations();
 // Combinations whose kernels trace rays differently; of denoisers, which trace nothing, only one
 // with features.
 std::vector<Combination> combinationsThatTrace();
+// Splits combinations into those that each change is tested with, which run every kernel between
+// them, and the others, which wait for the night.
+std::vector<Combination> byDay(std::vector<Combination> all);
+std::vector<Combination> byNight(std::vector<Combination> all);
 
 // Backend and tracer that a session uses.
 struct Machine {

@@ -15,7 +15,7 @@
 #include <set>
 #include <tuple>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/parity/frames.h"
 #include "tests/parity/kernel_runner.h"
 #include "tests/parity/reads.h"
@@ -154,7 +154,6 @@ class FramesNightly : public testing::TestWithParam<std::tuple<Combination, std:
   std::vector<std::string> scenes() const { return {std::get<1>(GetParam())}; }
 };
 
-const auto kCombinations = testing::ValuesIn(combinations());
 const auto kTraced = testing::ValuesIn(combinationsThatTrace());
 std::string identifier(std::string name) {
   for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
@@ -347,10 +346,13 @@ TEST(FrameDifference, AnotherFirstHitIsNotExplainedWithoutAnEdge) {
   EXPECT_GT(found.unexplained, found.pixels / 4) << found.text();
 }
 
-INSTANTIATE_TEST_SUITE_P(, Frames, kCombinations,
-                         [](const auto& test) { return identifier(test.param.name()); });
-INSTANTIATE_TEST_SUITE_P(, TracedFrames, kTraced,
-                         [](const auto& test) { return identifier(test.param.name()); });
+const auto kNameOf = [](const auto& test) { return identifier(test.param.name()); };
+INSTANTIATE_TEST_SUITE_P(, Frames, testing::ValuesIn(byDay(combinations())), kNameOf);
+INSTANTIATE_TEST_SUITE_P(Nightly, Frames, testing::ValuesIn(byNight(combinations())), kNameOf);
+INSTANTIATE_TEST_SUITE_P(, TracedFrames, testing::ValuesIn(byDay(combinationsThatTrace())),
+                         kNameOf);
+INSTANTIATE_TEST_SUITE_P(Nightly, TracedFrames, testing::ValuesIn(byNight(combinationsThatTrace())),
+                         kNameOf);
 INSTANTIATE_TEST_SUITE_P(, FramesNightly,
                          testing::Combine(kTraced, testing::ValuesIn(nightlyScenes())),
                          [](const auto& test) {

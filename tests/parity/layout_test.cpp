@@ -112,24 +112,23 @@ const std::map<std::string, Offsets>& expected() {
         FIELD(SceneData, bodiesMeet)}},
       {"RestirGiBuffers",
        {FIELD(RestirGiBuffers, visible), FIELD(RestirGiBuffers, visibleBefore),
-        FIELD(RestirGiBuffers, proposals), FIELD(RestirGiBuffers, anchors),
-        FIELD(RestirGiBuffers, feeders), FIELD(RestirGiBuffers, cells),
-        FIELD(RestirGiBuffers, radiance), FIELD(RestirGiBuffers, own),
-        FIELD(RestirGiBuffers, ownBefore), FIELD(RestirGiBuffers, reservoirs),
+        FIELD(RestirGiBuffers, proposals), FIELD(RestirGiBuffers, shadingPoints),
+        FIELD(RestirGiBuffers, insertions), FIELD(RestirGiBuffers, cells),
+        FIELD(RestirGiBuffers, radiance), FIELD(RestirGiBuffers, unresampled),
+        FIELD(RestirGiBuffers, unresampledBefore), FIELD(RestirGiBuffers, reservoirs),
         FIELD(RestirGiBuffers, history), FIELD(RestirGiBuffers, suffixes),
-        FIELD(RestirGiBuffers, suffixesHistory), FIELD(RestirGiBuffers, exchange),
+        FIELD(RestirGiBuffers, suffixesHistory), FIELD(RestirGiBuffers, pairedShifts),
         FIELD(RestirGiBuffers, outlines), FIELD(RestirGiBuffers, entryReservoirs),
         FIELD(RestirGiBuffers, entrySuffixes), FIELD(RestirGiBuffers, changes)}},
       {"RestirGiParams",
        {FIELD(RestirGiParams, temporalFlags), FIELD(RestirGiParams, spatialFlags),
-        FIELD(RestirGiParams, spatialNeighbours), FIELD(RestirGiParams, agedNeighbours),
-        FIELD(RestirGiParams, settledFrames), FIELD(RestirGiParams, lightEdgeSamples),
+        FIELD(RestirGiParams, spatialNeighbours), FIELD(RestirGiParams, neighboursLongHistory),
+        FIELD(RestirGiParams, longHistoryFrames), FIELD(RestirGiParams, lightEdgeSamples),
         FIELD(RestirGiParams, donorNoise), FIELD(RestirGiParams, temporalReuse),
         FIELD(RestirGiParams, reproject), FIELD(RestirGiParams, confidenceCap),
         FIELD(RestirGiParams, movingConfidenceCap), FIELD(RestirGiParams, maxReflectanceRatio),
-        FIELD(RestirGiParams, path), FIELD(RestirGiParams, partners),
-        FIELD(RestirGiParams, entries), FIELD(RestirGiParams, cells),
-        FIELD(RestirGiParams, changes)}},
+        FIELD(RestirGiParams, path), FIELD(RestirGiParams, pairs), FIELD(RestirGiParams, entries),
+        FIELD(RestirGiParams, cells), FIELD(RestirGiParams, changes)}},
       {"ChangeParams", {FIELD(ChangeParams, every), FIELD(ChangeParams, response)}},
       {"ChangeBuffers",
        {FIELD(ChangeBuffers, found), FIELD(ChangeBuffers, differences),
@@ -137,10 +136,11 @@ const std::map<std::string, Offsets>& expected() {
       {"PathParams",
        {FIELD(PathParams, lightCandidates), FIELD(PathParams, minAlpha),
         FIELD(PathParams, maxJacobian)}},
-      {"PartnerParams", {FIELD(PartnerParams, tile), FIELD(PartnerParams, alike)}},
-      {"SurfaceTest", {FIELD(SurfaceTest, minNormalDot), FIELD(SurfaceTest, maxPlaneDistance)}},
+      {"PairParams", {FIELD(PairParams, tile), FIELD(PairParams, similarity)}},
+      {"SimilarityThresholds",
+       {FIELD(SimilarityThresholds, minNormalDot), FIELD(SimilarityThresholds, maxPlaneDistance)}},
       {"EntryParams",
-       {FIELD(EntryParams, count), FIELD(EntryParams, proposals), FIELD(EntryParams, feedEvery),
+       {FIELD(EntryParams, count), FIELD(EntryParams, proposals), FIELD(EntryParams, insertEvery),
         FIELD(EntryParams, cap), FIELD(EntryParams, spread)}},
       {"GridParams", {FIELD(GridParams, places), FIELD(GridParams, probes)}},
       {"RadianceBuffers",
@@ -157,7 +157,8 @@ const std::map<std::string, Offsets>& expected() {
 TEST(Layout, StructsLieAlikeInBothLanguages) {
   std::map<std::string, Offsets> found = offsetsOf(
       compileKernel("integrators/restir_gi/restir_gi.h", "integrators/restir_gi/initial.glsl"));
-  found.merge(offsetsOf(compileKernel("core/changes/passes.h", "core/changes/share.glsl")));
+  found.merge(offsetsOf(
+      compileKernel("core/temporal_gradients/passes.h", "core/temporal_gradients/share.glsl")));
   for (const auto& [name, offsets] : expected()) {
     SCOPED_TRACE(name);
     const auto it = found.find(name);

@@ -4,7 +4,7 @@
 
 #include <cstring>
 
-#include "core/scene/light_factor.h"
+#include "core/scene/compiled/light_factor.h"
 #include "tests/parity/frames.h"
 #include "tests/parity/kernel_runner.h"
 #include "tests/parity/reads.h"
@@ -89,8 +89,9 @@ TEST_P(LightSwitch, AStillLightChangesNoBit) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Reading, LightSwitch, testing::Values("texels", "addresses"),
-                         [](const auto& how) { return std::string(how.param); });
+const auto kNameOf = [](const auto& how) { return std::string(how.param); };
+INSTANTIATE_TEST_SUITE_P(Reading, LightSwitch, testing::Values("texels"), kNameOf);
+INSTANTIATE_TEST_SUITE_P(Nightly, LightSwitch, testing::Values("addresses"), kNameOf);
 
 }  // namespace
 }  // namespace restlab::parity

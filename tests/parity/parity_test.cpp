@@ -8,7 +8,7 @@
 #include "core/backend/cpu_kernel.h"
 #include "core/backend/vulkan_scene.h"
 #include "core/dialect/features.h"
-#include "core/scene/compiled_scene.h"
+#include "core/scene/compiled/compiled_scene.h"
 #include "core/scene/scene.h"
 #include "integrators/path/path.h"
 #include "tests/parity/everything_scene.h"

@@ -8,8 +8,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/backend/vulkan_device.h"
-#include "core/scene/compiled_scene.h"
-#include "core/session.h"
+#include "core/frame/session.h"
+#include "core/scene/compiled/compiled_scene.h"
 #include "tests/parity/everything_scene.h"
 
 namespace restlab::parity {

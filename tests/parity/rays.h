@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/backend/backend.h"
-#include "core/kernels/trace.h"
-#include "core/scene/compiled_scene.h"
+#include "core/bench/trace.h"
+#include "core/scene/compiled/compiled_scene.h"
 
 namespace restlab::parity {
 

@@ -6,7 +6,7 @@
 #include <cctype>
 #include <cstring>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/parity/frames.h"
 #include "tests/parity/kernel_runner.h"
 #include "tests/parity/rays.h"
@@ -71,13 +71,14 @@ TEST(Reads, AnotherWordIsRefused) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(, ReadsTest, testing::ValuesIn(combinationsThatTrace()),
-                         [](const auto& test) {
-                           std::string name = test.param.name();
-                           for (char& c : name)
-                             c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
-                           return name;
-                         });
+const auto kNameOf = [](const auto& test) {
+  std::string name = test.param.name();
+  for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+  return name;
+};
+INSTANTIATE_TEST_SUITE_P(, ReadsTest, testing::ValuesIn(byDay(combinationsThatTrace())), kNameOf);
+INSTANTIATE_TEST_SUITE_P(Nightly, ReadsTest, testing::ValuesIn(byNight(combinationsThatTrace())),
+                         kNameOf);
 
 }  // namespace
 }  // namespace restlab::parity

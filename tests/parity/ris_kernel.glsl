@@ -58,7 +58,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     float uLobe = rngDraw(rng, RL_DIM_BSDF_LOBE);
     u.x = rngDraw(rng, RL_DIM_BSDF_U);
     u.y = rngDraw(rng, RL_DIM_BSDF_V);
-    BsdfDraw draw = bsdfDraw(bsdf, normal, normal, wo, uLobe, u);
+    BsdfSample draw = bsdfSample(bsdf, normal, normal, wo, uLobe, u);
     result.lobes = rngHash(result.lobes ^ draw.lobe);
     if (draw.lobe == 0u) continue;
     vec3 f = bsdfEval(bsdf, normal, normal, wo, draw.wi) * parityRadiance(draw.wi);

@@ -13,7 +13,7 @@
 #include "tests/parity/tally_kernel.h"
 #undef RL_KERNEL_BUFFERS  // another kernel's follow
 #undef RL_KERNEL_PARAMS
-#include "core/kernels/stream.h"
+#include "core/bench/stream.h"
 
 namespace rl {
 extern const CpuKernelEntry kernel_parity_tally_general;

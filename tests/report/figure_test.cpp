@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "core/image/srgb.h"
+#include "core/image/io/srgb.h"
 #include "tests/report/sample.h"
 #include "tests/report/xml.h"
 

@@ -1,7 +1,7 @@
 // report.html as a file: complete or missing, escaped, limits stated.
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "experiments/report/pixels.h"
 #include "experiments/report/report_html.h"
 #include "tests/report/sample.h"

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/image/layer_colors.h"
-#include "core/image/metrics.h"
+#include "core/image/io/layer_colors.h"
+#include "core/image/metrics/metrics.h"
 #include "tests/report/page.h"
 
 namespace restlab::report_test {

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <random>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/report/sample.h"
 
 namespace restlab::report_test {

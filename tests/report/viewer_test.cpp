@@ -3,7 +3,7 @@
 #include <cmath>
 #include <set>
 
-#include "core/image/metrics.h"
+#include "core/image/metrics/metrics.h"
 #include "tests/report/page.h"
 
 namespace restlab::report_test {

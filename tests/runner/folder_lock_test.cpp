@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/runner/temporary_folder.h"
 
 namespace {

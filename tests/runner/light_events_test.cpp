@@ -6,8 +6,8 @@
 #include <fstream>
 #include <set>
 
-#include "core/error.h"
-#include "core/scene/light_factor.h"
+#include "core/base/error.h"
+#include "core/scene/compiled/light_factor.h"
 #include "experiments/runner/run/job.h"
 #include "experiments/runner/suite/suite.h"
 #include "tests/runner/temporary_folder.h"

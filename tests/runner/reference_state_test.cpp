@@ -7,7 +7,7 @@
 #include <functional>
 #include <sstream>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "experiments/runner/reference/reference_progress.h"
 #include "tests/runner/temporary_folder.h"
 

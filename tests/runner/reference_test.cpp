@@ -9,7 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <memory>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "experiments/runner/reference/light_draws.h"
 #include "experiments/runner/reference/reference_halves.h"
 #include "experiments/runner/run/build_info.h"

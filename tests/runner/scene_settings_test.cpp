@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "experiments/runner/reference/truth.h"
 #include "experiments/runner/suite/suite_check.h"
 #include "tests/runner/temporary_folder.h"

@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "experiments/report/report_model.h"
 #include "experiments/runner/run/outputs.h"
 #include "tests/runner/temporary_folder.h"

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/runner/temporary_folder.h"
 
 namespace restlab {
@@ -39,10 +39,10 @@ TEST_F(SuiteTest, EveryMethodRunsOnEveryBackend) {
   EXPECT_EQ(names(suite), (Names{"gi @vulkan", "gi @cpu", "path @vulkan", "path @cpu"}));
   EXPECT_EQ(suite.methodBackends(), (Names{"vulkan", "cpu"}));
   EXPECT_EQ(suite.methods[1].session.backend, "cpu");
-  // The yardstick is on the method's own backend, the counterpart on the first.
-  EXPECT_EQ(suite.yardstick(0), 2u);
-  EXPECT_EQ(suite.yardstick(1), 3u);
-  EXPECT_EQ(suite.yardstick(3), 3u);
+  // The baseline is on the method's own backend, the counterpart on the first.
+  EXPECT_EQ(suite.baselineOf(0), 2u);
+  EXPECT_EQ(suite.baselineOf(1), 3u);
+  EXPECT_EQ(suite.baselineOf(3), 3u);
   EXPECT_EQ(suite.onFirstBackend(0), 0u);
   EXPECT_EQ(suite.onFirstBackend(1), 0u);
   EXPECT_EQ(suite.onFirstBackend(3), 2u);
@@ -62,8 +62,8 @@ TEST_F(SuiteTest, AMethodsOwnBackendWins) {
   const std::string own = std::string(kMethods) + "backend = \"vulkan\"\n";
   const Suite suite = load("backend = [\"cpu\", \"vulkan\"]\n", own);
   EXPECT_EQ(names(suite), (Names{"gi @cpu", "gi @vulkan", "path @vulkan"}));
-  EXPECT_EQ(suite.yardstick(0), suite.methods.size()) << "no path on the CPU";
-  EXPECT_EQ(suite.yardstick(1), 2u);
+  EXPECT_EQ(suite.baselineOf(0), suite.methods.size()) << "no path on the CPU";
+  EXPECT_EQ(suite.baselineOf(1), 2u);
   EXPECT_EQ(names(load("", own)), (Names{"gi @cpu", "path @vulkan"}));
   EXPECT_EQ(names(load("", kMethods, {"method.path.backend=[\"cpu\",\"vulkan\"]"})),
             (Names{"gi @cpu", "path @cpu", "path @vulkan"}));

@@ -226,7 +226,7 @@ TEST_F(SummaryTest, FlagsFirefliesAndNonfiniteValues) {
   EXPECT_FALSE(rows[0].counts);
 }
 
-TEST_F(SummaryTest, WithoutYardstickRatiosAreUnknown) {
+TEST_F(SummaryTest, WithoutBaselineRatiosAreUnknown) {
   suite_.methods[0].session.integrator = "restir_gi";
   const auto rows = summarise(suite_, block_);
   EXPECT_TRUE(std::isnan(rows[1].mseRatio.value));
@@ -255,8 +255,8 @@ TEST_F(SummaryTest, RatiosStayWithinABackend) {
   EXPECT_NEAR(rows[3].mseRatio.value, 20.0, 1e-12) << "against path @vulkan";
   EXPECT_NEAR(rows[3].timeRatio.value, 1.1, 1e-12);
   EXPECT_EQ(rows[2].timeRatio.value, 1.0);
-  EXPECT_TRUE(rows[0].isYardstick && rows[2].isYardstick);
-  EXPECT_FALSE(rows[1].isYardstick || rows[3].isYardstick);
+  EXPECT_TRUE(rows[0].isBaseline && rows[2].isBaseline);
+  EXPECT_FALSE(rows[1].isBaseline || rows[3].isBaseline);
   EXPECT_TRUE(std::isnan(rows[0].timeToFirstBackend.value));
   EXPECT_TRUE(std::isnan(rows[1].timeToFirstBackend.value));
   EXPECT_NEAR(rows[2].timeToFirstBackend.value, 1.0 / 3.0, 1e-12);
@@ -264,7 +264,7 @@ TEST_F(SummaryTest, RatiosStayWithinABackend) {
   const std::string table = blockTable(suite_, rows);
   EXPECT_NE(table.find("| time / cpu |"), std::string::npos) << table;
   EXPECT_NE(table.find(" 0.333x [0.333, 0.333] |"), std::string::npos) << table;
-  // A backend without its yardstick has no ratios, but is still compared with the first backend.
+  // A backend without its baseline has no ratios, but is still compared with the first backend.
   block_.methods[2].runs.clear();
   const auto fewer = summarise(suite_, block_);
   ASSERT_EQ(fewer.size(), 3u);
@@ -272,7 +272,7 @@ TEST_F(SummaryTest, RatiosStayWithinABackend) {
   EXPECT_NEAR(fewer[2].timeToFirstBackend.value, 1.0 / 3.0, 1e-12);
 }
 
-// Adds the average of the yardstick's frames as a third method: 0.02 in every run.
+// Adds the average of the baseline's frames as a third method: 0.02 in every run.
 TEST_F(SummaryTest, RowsAreComparedWithTheAverageOfPathsFrames) {
   SuiteMethod method = suite_.methods[0];
   method.name = "path + accumulate";
@@ -293,8 +293,8 @@ TEST_F(SummaryTest, RowsAreComparedWithTheAverageOfPathsFrames) {
     }
   }
   const auto rows = summarise(suite_, block_);
-  EXPECT_TRUE(rows[0].isYardstick && rows[2].isAverage);
-  EXPECT_FALSE(rows[1].isYardstick || rows[1].isAverage || rows[2].isYardstick);
+  EXPECT_TRUE(rows[0].isBaseline && rows[2].isAverage);
+  EXPECT_FALSE(rows[1].isBaseline || rows[1].isAverage || rows[2].isBaseline);
   EXPECT_NEAR(rows[0].ratioToAverage.value, 0.02, 1e-12);
   EXPECT_NEAR(rows[1].ratioToAverage.value, 0.2, 1e-12);
   EXPECT_TRUE(std::isnan(rows[2].ratioToAverage.value));

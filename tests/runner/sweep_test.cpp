@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "experiments/runner/suite/suite.h"
 #include "tests/runner/temporary_folder.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/image/intervals.h"
+#include "core/image/statistics/intervals.h"
 
 namespace restlab {
 

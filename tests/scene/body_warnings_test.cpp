@@ -1,9 +1,9 @@
 // Warnings about bodies that a path cannot follow as the author meant.
 #include <gtest/gtest.h>
 
-#include "core/scene/builtin_builder.h"
-#include "core/scene/builtin_mesh.h"
-#include "core/scene/compiled_scene.h"
+#include "core/scene/builtin/builder.h"
+#include "core/scene/builtin/mesh.h"
+#include "core/scene/compiled/compiled_scene.h"
 
 namespace restlab {
 namespace {

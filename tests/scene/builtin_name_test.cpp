@@ -1,16 +1,16 @@
 // Built-in scenes with parameters in their names: parsing, and the effect on the scene.
-#include "core/scene/builtin_name.h"
-#include "core/scene/coarse_vertices.h"
+#include "core/scene/builtin/name.h"
+#include "core/scene/compiled/coarse_vertices.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
-#include "core/scene/builtin_builder.h"
-#include "core/scene/builtin_relations.h"
-#include "core/scene/compiled_scene.h"
+#include "core/base/error.h"
+#include "core/scene/builtin/builder.h"
+#include "core/scene/builtin/relations.h"
+#include "core/scene/compiled/compiled_scene.h"
 
 namespace restlab {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <set>
 
-#include "core/error.h"
-#include "core/scene/builtin_builder.h"
+#include "core/base/error.h"
+#include "core/scene/builtin/builder.h"
 #include "core/scene/scene.h"
 #include "tests/scene/mesh_checks.h"
 

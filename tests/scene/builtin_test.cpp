@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <glm/gtc/constants.hpp>
 
-#include "core/scene/builtin_sky.h"
+#include "core/scene/builtin/sky.h"
 #include "core/scene/scene.h"
 #include "tests/scene/mesh_checks.h"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "core/error.h"
-#include "core/scene/camera_path.h"
+#include "core/base/error.h"
+#include "core/scene/camera_path/camera_path.h"
 
 namespace restlab {
 

@@ -3,7 +3,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "core/scene/camera_path.h"
+#include "core/scene/camera_path/camera_path.h"
 
 namespace restlab {
 

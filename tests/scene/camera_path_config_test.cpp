@@ -3,9 +3,9 @@
 
 #include <numbers>
 
-#include "core/config.h"
-#include "core/error.h"
-#include "core/scene/camera_path.h"
+#include "core/base/config.h"
+#include "core/base/error.h"
+#include "core/scene/camera_path/camera_path.h"
 
 namespace restlab {
 

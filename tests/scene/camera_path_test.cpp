@@ -1,12 +1,12 @@
 // Camera paths: positions, invariants, and no error that accumulates over frames.
-#include "core/scene/camera_path.h"
+#include "core/scene/camera_path/camera_path.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace restlab {
 

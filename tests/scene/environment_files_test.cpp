@@ -9,7 +9,7 @@
 #include <cmath>
 #include <functional>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/image/image.h"
 #include "core/scene/scene.h"
 #include "tests/scene/gltf_builder.h"

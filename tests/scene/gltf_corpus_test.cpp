@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/scene/scene.h"
 #include "tests/scene/corpus.h"
 

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <limits>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/scene/gltf_builder.h"
 
 namespace restlab {

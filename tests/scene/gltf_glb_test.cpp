@@ -2,7 +2,7 @@
 // rule.
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/scene/gltf_builder.h"
 
 namespace restlab {

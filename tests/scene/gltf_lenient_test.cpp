@@ -1,7 +1,7 @@
 // Files that break a rule of glTF but have a clear meaning are drawn, with a warning.
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/scene/gltf_builder.h"
 
 namespace restlab {

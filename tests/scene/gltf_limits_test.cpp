@@ -3,8 +3,8 @@
 
 #include <fstream>
 
-#include "core/error.h"
-#include "core/memory.h"
+#include "core/base/error.h"
+#include "core/base/memory.h"
 #include "tests/scene/gltf_builder.h"
 
 namespace restlab {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/scene/gltf_builder.h"
 
 namespace restlab {

@@ -9,7 +9,7 @@
 #include <set>
 #include <sstream>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/scene/scene.h"
 #include "tests/scene/corpus.h"
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/scene/image_decode.h"
+#include "core/scene/textures/image_decode.h"
 
 namespace restlab {
 namespace {

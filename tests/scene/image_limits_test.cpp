@@ -2,7 +2,7 @@
 // pixels.
 #include <gtest/gtest.h>
 
-#include "core/scene/image_decode.h"
+#include "core/scene/textures/image_decode.h"
 #include "tests/scene/gltf_builder.h"
 
 namespace restlab {

@@ -1,15 +1,15 @@
 // Light factors: names of lights, effects of a factor, and properties that must stay.
-#include "core/scene/light_factor.h"
+#include "core/scene/compiled/light_factor.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <numeric>
 
-#include "core/error.h"
-#include "core/scene/builtin_builder.h"
-#include "core/scene/builtin_mesh.h"
-#include "core/scene/compiled_scene.h"
+#include "core/base/error.h"
+#include "core/scene/builtin/builder.h"
+#include "core/scene/builtin/mesh.h"
+#include "core/scene/compiled/compiled_scene.h"
 
 namespace restlab {
 namespace {

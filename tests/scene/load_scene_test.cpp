@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/image/image.h"
 #include "tests/scene/gltf_builder.h"
 

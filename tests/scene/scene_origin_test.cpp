@@ -1,6 +1,6 @@
 // The origin of a scene follows its camera if something lies too far off; otherwise it is the
 // middle of the bounds. Huge triangles near the camera are drawn in pieces.
-#include "core/scene/scene_origin.h"
+#include "core/scene/compiled/scene_origin.h"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,11 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "core/scene/builtin_builder.h"
-#include "core/scene/builtin_mesh.h"
-#include "core/scene/coarse_vertices.h"
-#include "core/scene/compiled_scene.h"
-#include "core/scene/split_triangles.h"
+#include "core/scene/builtin/builder.h"
+#include "core/scene/builtin/mesh.h"
+#include "core/scene/compiled/coarse_vertices.h"
+#include "core/scene/compiled/compiled_scene.h"
+#include "core/scene/compiled/split_triangles.h"
 
 namespace restlab {
 namespace {

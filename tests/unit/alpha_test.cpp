@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/scene/builtin_builder.h"
-#include "core/scene/builtin_mesh.h"
+#include "core/scene/builtin/builder.h"
+#include "core/scene/builtin/mesh.h"
 #include "tests/unit/bvh_context.h"
 #include "tests/unit/dialect_context.h"
 #include "tests/unit/goodness.h"
@@ -163,7 +163,7 @@ TEST(Alpha, EmittersGiveWhatRaysFind) {
   double byLight = 0.0, byRays = 0.0, squares = 0.0;
   for (uint32_t i = 0; i < n; ++i) {
     const rl::Rng rng = d->rngInit(4, i, 0);
-    const rl::LightSample s = d->lightDraw(rng);
+    const rl::LightSample s = d->lightSample(rng);
     const rl::LightConnection c = d->lightConnect(s, at);
     byLight += double(c.emitted.x) * c.geometry * std::max(-c.dirW.z, 0.0f) / s.pdf / n;
     rl::Ray ray;

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/scene/builtin_builder.h"
-#include "core/scene/builtin_mesh.h"
+#include "core/scene/builtin/builder.h"
+#include "core/scene/builtin/mesh.h"
 #include "tests/unit/dialect_context.h"
 
 namespace restlab::unit {

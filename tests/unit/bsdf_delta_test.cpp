@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "core/scene/builtin_builder.h"
+#include "core/scene/builtin/builder.h"
 #include "tests/unit/bsdf_cases.h"
 #include "tests/unit/dialect_context.h"
 #include "tests/unit/ggx_reference.h"
@@ -30,7 +30,7 @@ std::map<uint32_t, LobeSum> drawLobes(const rl::Bsdf& bsdf, const glm::vec3& wo,
   std::map<uint32_t, LobeSum> lobes;
   for (uint64_t i = 0; i < samples; ++i) {
     const float uLobe = inputs.uniform();
-    const rl::BsdfDraw draw = d->bsdfDraw(bsdf, kUp, kUp, wo, uLobe, inputs.square());
+    const rl::BsdfSample draw = d->bsdfSample(bsdf, kUp, kUp, wo, uLobe, inputs.square());
     LobeSum& lobe = lobes[draw.lobe];
     ++lobe.draws;
     if ((draw.lobe & rl::RL_LOBE_ANY_DELTA) == 0) continue;
@@ -159,7 +159,7 @@ TEST(BsdfDelta, WhiteBaseUnderASmoothLayerIsAWhiteFurnace) {
     constexpr int n = 400'000;
     for (int i = 0; i < n; ++i) {
       const float uLobe = inputs.uniform();
-      sum += d->bsdfDraw(bsdf, kUp, kUp, wo, uLobe, inputs.square()).weight.x;
+      sum += d->bsdfSample(bsdf, kUp, kUp, wo, uLobe, inputs.square()).weight.x;
     }
     EXPECT_NEAR(sum / n, 1.0, 3e-3) << angle;
   }

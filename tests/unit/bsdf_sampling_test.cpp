@@ -1,10 +1,10 @@
-// bsdfDraw against bsdfPdf and bsdfEval: distribution, weights, energy.
+// bsdfSample against bsdfPdf and bsdfEval: distribution, weights, energy.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/scene/builtin_builder.h"
+#include "core/scene/builtin/builder.h"
 #include "tests/unit/bsdf_cases.h"
 #include "tests/unit/dialect_context.h"
 #include "tests/unit/goodness.h"
@@ -58,7 +58,8 @@ Estimate drawAll(Dialect<>& d, const Setting& s, const SphereGrid& grid,
   uint64_t wrong = 0;
   for (uint64_t i = 0; i < s.samples; ++i) {
     const float uLobe = inputs.uniform();
-    const rl::BsdfDraw draw = d->bsdfDraw(s.bsdf, s.nGeo, s.nShade, s.wo, uLobe, inputs.square());
+    const rl::BsdfSample draw =
+        d->bsdfSample(s.bsdf, s.nGeo, s.nShade, s.wo, uLobe, inputs.square());
     if (draw.lobe == 0u) continue;
     const glm::dvec3 w(draw.weight);
     const bool sane = std::isfinite(w.x + w.y + w.z) && std::min({w.x, w.y, w.z}) >= 0.0 &&
@@ -191,7 +192,7 @@ TEST(BsdfSampling, BentNormalsKeepTheAlbedoOfALobe) {
     constexpr int n = 100'000;
     for (int i = 0; i < n; ++i) {
       const float uLobe = inputs.uniform();
-      const rl::BsdfDraw draw = d->bsdfDraw(bsdf, nGeo, nShade, wo, uLobe, inputs.square());
+      const rl::BsdfSample draw = d->bsdfSample(bsdf, nGeo, nShade, wo, uLobe, inputs.square());
       // Reflected light stays on this side of the face, transmitted light leaves it.
       const bool passes = (draw.lobe & rl::RL_LOBE_ANY_TRANSMISSION) != 0u;
       wrong += draw.lobe != 0u && (glm::dot(draw.wi, nGeo) < 0.0f) != passes;
@@ -230,8 +231,8 @@ TEST(BsdfSampling, LambertKernelAgreesWithTheGeneralOne) {
     const glm::vec3 wo = inputs.directionAbove(nGeo), wi = inputs.direction();
     const float uLobe = inputs.uniform();
     const glm::vec2 u = inputs.square();
-    const rl::BsdfDraw a = general->bsdfDraw(bsdf, nGeo, nShade, wo, uLobe, u);
-    const rl::BsdfDraw b = lean->bsdfDraw(bsdf, nGeo, nShade, wo, uLobe, u);
+    const rl::BsdfSample a = general->bsdfSample(bsdf, nGeo, nShade, wo, uLobe, u);
+    const rl::BsdfSample b = lean->bsdfSample(bsdf, nGeo, nShade, wo, uLobe, u);
     ASSERT_EQ(a.lobe, b.lobe);
     ASSERT_EQ(a.wi, b.wi);
     ASSERT_LT(glm::distance(a.weight, b.weight), 1e-6f);

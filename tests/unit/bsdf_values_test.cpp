@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/scene/builtin_builder.h"
+#include "core/scene/builtin/builder.h"
 #include "tests/unit/bsdf_cases.h"
 #include "tests/unit/dialect_context.h"
 #include "tests/unit/ggx_reference.h"

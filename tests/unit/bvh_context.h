@@ -13,7 +13,7 @@ struct BvhCtx {
   CpuKernelCounters& gCounters;
 
 #include "core/dialect/order.glsl"
-#include "core/dialect/trace_bvh.glsl"
+#include "core/geometry/trace_bvh.glsl"
 };
 
 }  // namespace rl

@@ -6,8 +6,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <set>
 
-#include "core/scene/builtin_builder.h"
-#include "core/scene/builtin_mesh.h"
+#include "core/scene/builtin/builder.h"
+#include "core/scene/builtin/mesh.h"
 #include "tests/unit/dialect_context.h"
 #include "tests/unit/goodness.h"
 #include "tests/unit/random_inputs.h"

@@ -1,9 +1,9 @@
-// core/config.h: typed values, places in messages, unknown keys.
-#include "core/config.h"
+// core/base/config.h: typed values, places in messages, unknown keys.
+#include "core/base/config.h"
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace restlab {
 

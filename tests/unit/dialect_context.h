@@ -8,8 +8,8 @@
 #include "core/backend/cpu_kernel.h"
 #include "core/backend/embree.h"
 #include "core/dialect/order.h"
-#include "core/scene/compiled_scene.h"
-#include "core/scene/ggx_albedo.h"
+#include "core/scene/compiled/compiled_scene.h"
+#include "core/scene/compiled/ggx_albedo.h"
 
 #ifdef RL_RNG_AUDIT
 #error "rl::Ctx would differ between the files of the program"

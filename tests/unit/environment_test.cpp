@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/scene/builtin_builder.h"
-#include "core/scene/builtin_mesh.h"
+#include "core/scene/builtin/builder.h"
+#include "core/scene/builtin/mesh.h"
 #include "tests/unit/dialect_context.h"
 #include "tests/unit/goodness.h"
 #include "tests/unit/random_inputs.h"
@@ -272,7 +272,7 @@ TEST(Environment, LightPdfIncludesTheSelection) {
   int seen = 0;
   for (uint32_t i = 0; i < 20'000; ++i) {
     const rl::Rng rng = d->rngInit(3, i, 0);
-    const rl::LightSample s = d->lightDraw(rng);
+    const rl::LightSample s = d->lightSample(rng);
     if (s.kind != rl::RL_LIGHT_ENVIRONMENT) continue;
     ++seen;
     const rl::LightConnection c = d->lightConnect(s, glm::vec3(0.3f));

@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "core/dialect/order.h"
-#include "core/scene/compiled_scene.h"
+#include "core/scene/compiled/compiled_scene.h"
 #include "tests/unit/random_materials.h"
 
 #define RL_HAS(features) ((kFeatures & (features)) != 0u)
@@ -44,8 +44,8 @@ void expectSameSurface(MaskedContext& own, MaskedContext& general, const Hit& hi
   ASSERT_EQ(pdfA, pdfB) << seed;
   const float uLobe = inputs.uniform();
   const glm::vec2 u = inputs.square();
-  const BsdfDraw drawA = own.bsdfDraw(a.bsdf, a.nGeoW, a.nShadeW, a.wo, uLobe, u),
-                 drawB = general.bsdfDraw(b.bsdf, b.nGeoW, b.nShadeW, b.wo, uLobe, u);
+  const BsdfSample drawA = own.bsdfSample(a.bsdf, a.nGeoW, a.nShadeW, a.wo, uLobe, u),
+                   drawB = general.bsdfSample(b.bsdf, b.nGeoW, b.nShadeW, b.wo, uLobe, u);
   ASSERT_EQ(drawA.lobe, drawB.lobe) << seed;
   if (drawA.lobe == 0u) return;
   ASSERT_EQ(drawA.weight, drawB.weight) << seed;

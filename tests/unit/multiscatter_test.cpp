@@ -1,4 +1,4 @@
-// Multiple-scattering compensation of GGX (core/dialect/bsdf/multiscatter.glsl): the table, white
+// Multiple-scattering compensation of GGX (core/shading/bsdf/multiscatter.glsl): the table, white
 // furnaces, coloured metal against the formula, reciprocity, and no effect when switched off.
 // bsdf_sampling_test.cpp tests its sampling.
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <cstring>
 #include <string>
 
-#include "core/scene/builtin_builder.h"
-#include "core/session.h"
+#include "core/frame/session.h"
+#include "core/scene/builtin/builder.h"
 #include "tests/unit/bsdf_cases.h"
 #include "tests/unit/dialect_context.h"
 #include "tests/unit/ggx_reference.h"
@@ -176,8 +176,8 @@ void expectSameBits(A& a, B& b, const BsdfCase& c) {
     const glm::vec3 wo = inputs.directionAbove(nGeo), wi = inputs.direction();
     const float uLobe = inputs.uniform();
     const glm::vec2 u = inputs.square();
-    const rl::BsdfDraw x = a->bsdfDraw(c.bsdf, nGeo, nShade, wo, uLobe, u);
-    const rl::BsdfDraw y = b->bsdfDraw(c.bsdf, nGeo, nShade, wo, uLobe, u);
+    const rl::BsdfSample x = a->bsdfSample(c.bsdf, nGeo, nShade, wo, uLobe, u);
+    const rl::BsdfSample y = b->bsdfSample(c.bsdf, nGeo, nShade, wo, uLobe, u);
     ASSERT_EQ(x.lobe, y.lobe) << c.name;
     ASSERT_EQ(x.pdfSolidAngle, y.pdfSolidAngle) << c.name;
     ASSERT_TRUE(sameBits(x.wi, y.wi) && sameBits(x.weight, y.weight)) << c.name;

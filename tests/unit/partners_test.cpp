@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/dialect/order.h"
-#include "core/resampling/partners.h"
+#include "core/resampling/pairs.h"
 #include "core/resampling/reservoir.h"
 
 namespace rl {
@@ -22,9 +22,9 @@ struct PairContext {
     QuadRef visible;
   } gBuffers{};
   struct {
-    PartnerParams partners;
+    PairParams pairs;
   } gParams{};
-  std::vector<VisibleSurface> surfaces;
+  std::vector<GBufferTexel> surfaces;
 
 #define RL_HAS(features) false
 #define RL_HEALTH(kind) (void)(kind)
@@ -34,15 +34,15 @@ struct PairContext {
   uvec4 recordQuad(const vec3& v, uint w) const {
     return uvec4(floatBitsToUint(v.x), floatBitsToUint(v.y), floatBitsToUint(v.z), w);
   }
-#include "core/dialect/camera.glsl"
+#include "core/shading/camera.glsl"
 #include "core/dialect/frame.glsl"
 #include "core/dialect/math.glsl"
 #include "core/dialect/pack.glsl"
 #include "core/dialect/rng.glsl"
 #include "core/dialect/warp.glsl"
-#include "core/dialect/visible.glsl"
+#include "core/gbuffer/visible.glsl"
 #define visibleRead(quads, camera, slot) surfaces[slot]
-#include "core/resampling/partners.glsl"
+#include "core/resampling/pairs.glsl"
 #undef visibleRead
 };
 
@@ -53,9 +53,9 @@ PairContext makeContext(uint width, uint height, uint tile, bool stripes, uint u
   c.gFrame.width = width;
   c.gFrame.height = height;
   c.gFrame.seed = 11;
-  c.gParams.partners = {tile, {0.9f, 0.05f}};
+  c.gParams.pairs = {tile, {0.9f, 0.05f}};
   for (uint i = 0; i < width * height; ++i) {
-    VisibleSurface a{};
+    GBufferTexel a{};
     const bool isFar = stripes && (i % width / 5) % 2 == 1;
     const uint row = i / width;
     a.posW = vec3(float(i % width), float(row), isFar ? -40.0f : -10.0f);
@@ -69,7 +69,7 @@ PairContext makeContext(uint width, uint height, uint tile, bool stripes, uint u
 uint partnerOf(PairContext& c, uint slot, uint k) {
   const uvec2 pixel(slot % c.gFrame.width, slot / c.gFrame.width);
   uint partner = 0;
-  const bool found = c.partnerFind(pixel, k, partner);
+  const bool found = c.pairFind(pixel, k, partner);
   EXPECT_EQ(found, partner != RL_INVALID);
   return partner;
 }

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/dialect/order.h"
-#include "core/scene/builtin_scenes.h"
+#include "core/scene/builtin/scenes.h"
 #include "integrators/restir_gi/restir_gi.h"
 #include "tests/unit/dialect_context.h"
 
@@ -31,7 +31,7 @@ struct Ctx {
 #include "core/dialect/order.glsl"
 #include "core/backend/cpu_trace.inl"
 #include "integrators/restir_gi/initial.glsl"
-#include "core/payload/path_shift.glsl"
+#include "core/path_sample/path_shift.glsl"
 };
 
 }  // namespace rl::self_shift
@@ -73,7 +73,7 @@ TEST_P(SelfShift, GivesWhatWasStored) {
   for (frame_.frame = 0; frame_.frame < 4; ++frame_.frame) {
     for (uint32_t slot = 0; slot < kWidth * kHeight; ++slot) {
       const rl::uvec2 pixel(slot % kWidth, slot / kWidth);
-      rl::PathGather path = c.pathNothingGathered(c.cameraFilmBits(pixel));
+      rl::PathRecord path = c.pathRecordEmpty(c.cameraFilmBits(pixel));
       c.walkPath(path, pixel, path.film);
       c.giWriteNow(0, c.pathResample(path, c.rngInit(frame_.seed, slot, frame_.frame)));
       rl::PathReservoir r{};

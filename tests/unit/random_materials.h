@@ -3,8 +3,8 @@
 
 #include <iterator>
 
-#include "core/scene/builtin_builder.h"
-#include "core/scene/builtin_mesh.h"
+#include "core/scene/builtin/builder.h"
+#include "core/scene/builtin/mesh.h"
 #include "core/scene/scene.h"
 #include "tests/unit/random_inputs.h"
 

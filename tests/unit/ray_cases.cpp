@@ -6,8 +6,8 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "core/scene/builtin_builder.h"
-#include "core/scene/builtin_mesh.h"
+#include "core/scene/builtin/builder.h"
+#include "core/scene/builtin/mesh.h"
 
 namespace restlab::unit {
 

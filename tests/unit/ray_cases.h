@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/dialect/types.h"
-#include "core/scene/compiled_scene.h"
+#include "core/scene/compiled/compiled_scene.h"
 #include "tests/unit/random_inputs.h"
 
 namespace restlab::unit {

@@ -26,8 +26,8 @@ struct StoreCtx {
 #include "core/dialect/order.glsl"
 #include "core/resampling/shift.glsl"
 #include "core/resampling/reservoir.glsl"
-#include "core/payload/path_sample.glsl"
-#include "integrators/restir_gi/store.glsl"
+#include "core/path_sample/path_sample.glsl"
+#include "integrators/restir_gi/reservoir_store.glsl"
   // Tests trace no rays.
   float traceRay(const Ray&, uint, uint, Hit&) { return 0.0f; }
 };
@@ -56,7 +56,7 @@ struct Store {
     give(buffers.history, rl::RL_PATH_RESERVOIR_QUADS);
     give(buffers.suffixes, rl::RL_PATH_SUFFIX_QUADS);
     give(buffers.suffixesHistory, rl::RL_PATH_SUFFIX_QUADS);
-    give(buffers.exchange, 1);
+    give(buffers.pairedShifts, 1);
   }
   // Counts words outside the slot that differ from their initial value.
   size_t touchedElsewhere() const {
@@ -183,10 +183,10 @@ TEST(ReservoirStore, ShiftedSamplesAreReadAsTheyWereWritten) {
   Store<rl::RL_FEATURE_ALL> store;
   store.params.spatialNeighbours = 1;
   const rl::Shifted written{{0.5f, 3.0f, 0.25f}, 0.3f};
-  const uint32_t index = store.ctx.giExchangeIndex(kSlot, 0);
-  store.ctx.shiftedWrite(store.buffers.exchange, index, written, 77);
+  const uint32_t index = store.ctx.giPairedShiftIndex(kSlot, 0);
+  store.ctx.shiftedWrite(store.buffers.pairedShifts, index, written, 77);
   uint32_t partner = 0;
-  EXPECT_TRUE(isSame(store.ctx.shiftedRead(store.buffers.exchange, index, partner), written));
+  EXPECT_TRUE(isSame(store.ctx.shiftedRead(store.buffers.pairedShifts, index, partner), written));
   EXPECT_EQ(partner, 77u);
   EXPECT_EQ(store.touchedElsewhere(), 0u);
 }

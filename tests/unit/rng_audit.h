@@ -20,11 +20,11 @@ extern const CpuKernelEntry kernel_radiance_trace_audited;
 extern const CpuKernelEntry kernel_restir_gi_lights_in_view_audited;
 extern const CpuKernelEntry kernel_restir_gi_initial_audited;
 extern const CpuKernelEntry kernel_restir_gi_temporal_audited;
-extern const CpuKernelEntry kernel_restir_gi_exchange_audited;
+extern const CpuKernelEntry kernel_restir_gi_spatial_shift_audited;
 extern const CpuKernelEntry kernel_changes_trace_audited;
 extern const CpuKernelEntry kernel_restir_gi_spatial_audited;
-extern const CpuKernelEntry kernel_restir_gi_recall_audited;
-extern const CpuKernelEntry kernel_restir_gi_feed_audited;
+extern const CpuKernelEntry kernel_restir_gi_cache_reuse_audited;
+extern const CpuKernelEntry kernel_restir_gi_cache_update_audited;
 extern const CpuKernelEntry kernel_surflet_propose_audited;
 extern const CpuKernelEntry kernel_voxel_propose_audited;
 

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "core/dialect/order.h"
-#include "core/method.h"
+#include "core/frame/method.h"
 #include "core/resampling/reservoir.h"
-#include "core/scene/compiled_scene.h"
+#include "core/scene/compiled/compiled_scene.h"
 #include "core/scene/scene.h"
 #include "tests/bias/few_entries.h"
 
@@ -64,7 +64,8 @@ class AuditedRun {
     for (const char* name : {"visible", "visible_before"})
       buffers_[name].resize(size_t{16} * kWidth * kHeight);
     for (const PartInfo* part : method.parts()) {
-      if (part != method.denoiser && isThere(part->onlyWith, resolved_)) add(*part, audited.mode);
+      if (part != method.denoiser && isEnabled(part->enabledIf, resolved_))
+        add(*part, audited.mode);
     }
     if (method.cache == nullptr) return;
     const std::vector<void*> seen = {buffers_["visible"].data()};
@@ -118,7 +119,7 @@ class AuditedRun {
 
   void run(const Part& part, const PassInfo& pass) {
     if (frame_.stillFrames != 0 && pass.onlyOnNewViews) return;
-    if (!isThere(pass.onlyWith, resolved_)) return;
+    if (!isEnabled(pass.enabledIf, resolved_)) return;
     rl::CpuKernelTile tile = pixels();
     if (pass.entriesParameter != nullptr) {
       const auto entries = uint32_t(std::get<int64_t>(resolved_.at(pass.entriesParameter)));
@@ -193,10 +194,10 @@ const std::map<std::string, rl::CpuKernelEntry> kRestirKernels = {
     {"initial", rl::kernel_restir_gi_initial_audited},
     {"replay", rl::kernel_changes_trace_audited},
     {"temporal", rl::kernel_restir_gi_temporal_audited},
-    {"exchange", rl::kernel_restir_gi_exchange_audited},
+    {"spatial_shift", rl::kernel_restir_gi_spatial_shift_audited},
     {"spatial", rl::kernel_restir_gi_spatial_audited},
-    {"recall", rl::kernel_restir_gi_recall_audited},
-    {"feed", rl::kernel_restir_gi_feed_audited},
+    {"cache_reuse", rl::kernel_restir_gi_cache_reuse_audited},
+    {"cache_update", rl::kernel_restir_gi_cache_update_audited},
     {"surflet_propose", rl::kernel_surflet_propose_audited},
     {"voxel_propose", rl::kernel_voxel_propose_audited}};
 
@@ -255,10 +256,10 @@ TEST(RngAudit, RestirGiWithEntries) {
       const Kinds kinds = expectNoRepeats(
           {name, {"restir_gi", "unbiased", kRestirKernels, cache.c_str(), busy}}, what);
       using namespace rl;
-      EXPECT_TRUE(kinds.contains({RL_VERTEX_RECALL, RL_DIM_FILTER_X})) << what;
+      EXPECT_TRUE(kinds.contains({RL_VERTEX_CACHE_REUSE, RL_DIM_FILTER_X})) << what;
       for (uint32_t k = 0; k < RL_MAX_DONORS; ++k) {
-        EXPECT_TRUE(kinds.contains({RL_VERTEX_RECALL, RL_DIM_RIS_MERGE + k})) << what;
-        EXPECT_TRUE(kinds.contains({RL_VERTEX_FEED, RL_DIM_RIS_MERGE + k})) << what;
+        EXPECT_TRUE(kinds.contains({RL_VERTEX_CACHE_REUSE, RL_DIM_RIS_MERGE + k})) << what;
+        EXPECT_TRUE(kinds.contains({RL_VERTEX_CACHE_UPDATE, RL_DIM_RIS_MERGE + k})) << what;
       }
       for (uint32_t k = 1; k < RL_MAX_DONORS; ++k) {
         EXPECT_TRUE(kinds.contains({RL_VERTEX_SPATIAL + k, RL_DIM_DONOR_U})) << what;

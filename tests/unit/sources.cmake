@@ -23,11 +23,11 @@ list(APPEND RL_UNIT_TESTS
   reservoir_store_test.cpp
   rng_audit_path.cpp
   rng_audit_radiance_trace.cpp
-  rng_audit_restir_exchange.cpp
-  rng_audit_restir_feed.cpp
+  rng_audit_restir_spatial_shift.cpp
+  rng_audit_restir_cache_update.cpp
   rng_audit_restir_initial.cpp
   rng_audit_restir_lights_in_view.cpp
-  rng_audit_restir_recall.cpp
+  rng_audit_restir_cache_reuse.cpp
   rng_audit_changes_trace.cpp
   rng_audit_restir_spatial.cpp
   rng_audit_restir_temporal.cpp

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "core/scene/builtin_builder.h"
-#include "core/scene/builtin_mesh.h"
+#include "core/scene/builtin/builder.h"
+#include "core/scene/builtin/mesh.h"
 #include "tests/unit/dialect_context.h"
 #include "tests/unit/random_inputs.h"
 
@@ -100,8 +100,8 @@ TEST(Surface, ImpossibleShadingNormals) {
 }
 
 // Reuse evaluates a stored vertex for other directions: the normal may depend only on the visible
-// side of the face, not otherwise on the direction. (bent_normal.glsl turns normals that wo sees
-// from behind, at every evaluation.)
+// side of the face, not otherwise on the direction. (inconsistent_normal.glsl turns normals that wo
+// sees from behind, at every evaluation.)
 TEST(Surface, ShadingNormalsAreThoseOfASide) {
   MeshGeometry mesh = fullTriangle();
   mesh.normals = {{0.9f, 0, 0.3f}, {0, 0.9f, 0.1f}, {0.9f, -0.5f, 0.2f}};

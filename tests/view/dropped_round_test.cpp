@@ -3,7 +3,7 @@
 #include <functional>
 #include <memory>
 
-#include "core/image/metrics.h"
+#include "core/image/metrics/metrics.h"
 #include "experiments/runner/run/experiment.h"
 #include "tests/view/loop_fixture.h"
 

@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "core/scene/light_factor.h"
+#include "core/scene/compiled/light_factor.h"
 #include "experiments/view/live_view.h"
 #include "experiments/view/view_session.h"
 #include "tests/runner/temporary_folder.h"

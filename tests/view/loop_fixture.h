@@ -8,7 +8,7 @@
 #include <string>
 #include <thread>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "experiments/view/view_loop.h"
 #include "tests/runner/temporary_folder.h"
 #include "tests/view/page.h"

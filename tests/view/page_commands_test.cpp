@@ -42,7 +42,7 @@ const rendered = async () => {
   await until(() => !page.state.paused && page.last.epoch === page.state.epoch &&
                     page.last.panes.every(pane => pane.frame > 0));
 };
-// What must be so before some commands, for them to change something.
+// Preconditions of some commands: without them a command changes nothing.
 const first = {
   single: () => viewer.set({mode: 'side'}),
   'image-2': () => viewer.set({current: 0}),

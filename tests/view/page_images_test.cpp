@@ -1,7 +1,7 @@
 // Live page that shows images of files, and a session's measurement and saved files.
 #include <fmt/format.h>
 
-#include "core/image/metrics.h"
+#include "core/image/metrics/metrics.h"
 
 #include <algorithm>
 #include "tests/view/live_page.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/image/metrics.h"
+#include "core/image/metrics/metrics.h"
 #include "tests/view/live_page.h"
 
 namespace restlab::view_test {

@@ -80,7 +80,7 @@ constexpr const char* kRandom = R"JS(
   ];
   let release = null;
   for (let i = 0; i < 300; ++i) {
-    // What holds a key lets it go at the next.
+    // A held key is released by the next one.
     if (release) release();
     release = null;
     const open = document.querySelector('dialog[open]');

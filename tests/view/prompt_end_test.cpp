@@ -6,7 +6,7 @@
 #include <csignal>
 
 #include "core/backend/stop.h"
-#include "core/image/atomic_file.h"
+#include "core/image/io/atomic_file.h"
 #include "experiments/view/prompt_end.h"
 #include "tests/runner/temporary_folder.h"
 

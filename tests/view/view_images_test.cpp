@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "core/image/metrics.h"
+#include "core/image/metrics/metrics.h"
 #include "experiments/view/view_session.h"
 #include "tests/view/loop_fixture.h"
 

@@ -1,6 +1,10 @@
 // Functions by which integrators read caches in world space.
-#include "core/caches/entries/anchor.glsl"
+#include "core/caches/entries/shading_point.glsl"
 #include "core/caches/entries/groups.glsl"
 
-RL_FN uint entryGroup(uint slot) { return groupOfSlot(slot, gParams.entries.feedEvery); }
-RL_FN uint entryOfferer(uint group) { return groupOfferer(group, gParams.entries.feedEvery); }
+RL_FN uint entryGroup(uint pixelIndex) {
+  return groupOfPixel(pixelIndex, gParams.entries.insertEvery);
+}
+RL_FN uint entryCandidatePixel(uint group) {
+  return groupCandidatePixel(group, gParams.entries.insertEvery);
+}

@@ -1,7 +1,7 @@
-// Pass: looks up the entry of each asker (query).
-#include "core/caches/entries/look.glsl"
+// Pass: looks up the entry of each query.
+#include "core/caches/entries/lookup.glsl"
 
 RL_FN void kernelMain(RL_IN(uvec2) at) {
-  uint asker = entryAsker(at);
-  if (asker != RL_INVALID) entryLook(asker);
+  uint query = entryQuery(at);
+  if (query != RL_INVALID) entryLook(query);
 }

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "core/part.h"
+#include "core/frame/part.h"
 
 namespace restlab {
 

@@ -3,24 +3,25 @@
 // next coarser and finer levels are tried: the camera may have come nearer. The includer defines
 // entryLevel(), entryNear() and entrySpread(), in metres.
 
-// Returns whether an entry has an anchor similar to the surface that the pixel shows.
-RL_FN bool entryServes(RL_IN(VisibleSurface) here, uint entry) {
-  return visibleAlike(here, anchorRead(gBuffers.anchors, entry).surface, gParams.alike);
+// Returns whether an entry has a shading point similar to the surface that the pixel shows.
+RL_FN bool entryServes(RL_IN(GBufferTexel) here, uint entry) {
+  return visibleIsSimilar(here, shadingPointRead(gBuffers.shadingPoints, entry).surface,
+                          gParams.similarity);
 }
 // Entry that covers a point, if it serves the pixel; else RL_INVALID.
-RL_FN uint entryServing(RL_IN(VisibleSurface) here, RL_IN(vec3) posW, uint level) {
+RL_FN uint entryServing(RL_IN(GBufferTexel) here, RL_IN(vec3) posW, uint level) {
   uint entry = entryNear(here, posW, level);
   return entry != RL_INVALID && entryServes(here, entry) ? entry : RL_INVALID;
 }
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
-  uint slot = slotOfPixel(pixel);
-  VisibleSurface here = entryVisible(slot);
-  if (here.isHit != 0u && gBuffers.entries.data[slot] == RL_INVALID)
+  uint pixelIndex = pixelIndexOf(pixel);
+  GBufferTexel here = entryVisible(pixelIndex);
+  if (here.isHit != 0u && gBuffers.entries.data[pixelIndex] == RL_INVALID)
     RL_HEALTH(RL_HEALTH_CACHE_FULL);
   uint level = entryLevel(here);
-  uint first = slot * gParams.entries.proposals;
-  Rng rng = rngInit(gFrame.seed ^ 0x3c6ef372u, slot, gFrame.frame);
+  uint first = pixelIndex * gParams.entries.proposals;
+  Rng rng = rngInit(gFrame.seed ^ 0x3c6ef372u, pixelIndex, gFrame.frame);
   for (uint k = 0u; k < gParams.entries.proposals; k = k + 1u) {
     uint entry = RL_INVALID;
     if (here.isHit != 0u) {
@@ -37,7 +38,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
       if (k > 0u) {
         entry = entryServing(here, posW, level);
       } else {
-        entry = gBuffers.entries.data[slot];
+        entry = gBuffers.entries.data[pixelIndex];
         if (entry >= RL_GRID_CLAIM || !entryServes(here, entry)) entry = RL_INVALID;
       }
       if (entry == RL_INVALID) entry = entryServing(here, posW, level + 1u);

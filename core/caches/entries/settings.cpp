@@ -65,8 +65,8 @@ CacheInfo entryCache(const std::string& name, const std::string& summary) {
   i.parameters = entryParameters();
   i.inputs = {"visible"};
   i.buffers = {{"proposals", sizeof(uint32_t), 0, -1, "entry_proposals"},
-               entryBuffer("anchors", 16 * rl::RL_ANCHOR_QUADS),
-               entryBuffer("feeders", sizeof(uint32_t) * rl::RL_ENTRY_FEEDERS),
+               entryBuffer("shading_points", 16 * rl::RL_SHADING_POINT_QUADS),
+               entryBuffer("insertions", sizeof(uint32_t) * rl::RL_ENTRY_INSERTIONS),
                entryBuffer("entry_keys", 2 * sizeof(uint32_t)),
                entryBuffer("entry_seen", sizeof(uint32_t)),
                entryBuffer("entry_claims", sizeof(uint32_t)),
@@ -74,22 +74,22 @@ CacheInfo entryCache(const std::string& name, const std::string& summary) {
   const auto pass = [&](const std::string& what, const std::string& again = "") {
     return PassInfo{name + "_" + what + again, name + "_" + what, false, true};
   };
-  PassInfo clear = pass("clear"), feeders = pass("feeders");
-  clear.onlyOnNewViews = feeders.onlyOnNewViews = false;
+  PassInfo clear = pass("clear"), insertions = pass("insertions");
+  clear.onlyOnNewViews = insertions.onlyOnNewViews = false;
   clear.entriesParameter = kEntryCount;
-  // Twice: an asker (query) that loses a claim to another one has other hash slots to try.
+  // Twice: an query that loses a claim to another one has other hash slots to try.
   i.passes = {clear,
               pass("find"),
               pass("claim"),
-              pass("settle"),
-              pass("find_again"),
+              pass("resolve_claims"),
+              pass("find_after_claims"),
               pass("claim", "_again"),
-              pass("settle", "_again"),
-              pass("find_again", "_last"),
+              pass("resolve_claims", "_again"),
+              pass("find_after_claims", "_last"),
               pass("propose"),
-              feeders};
+              insertions};
   i.hasHistory = true;
-  i.whyWithoutEffect = [cache = name + "_"](const std::string& what, const ParameterMap& p) {
+  i.reasonUnused = [cache = name + "_"](const std::string& what, const ParameterMap& p) {
     const bool isOwn = what.starts_with("entr") || what == "feed_every" || what.starts_with(cache);
     const auto temporal = p.find("temporal");
     const bool isAsked = temporal == p.end() || std::get<bool>(temporal->second);

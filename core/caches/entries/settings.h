@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "core/cache.h"
 #include "core/caches/entries/entries.h"
 #include "core/caches/entries/grid.h"
+#include "core/frame/cache.h"
 
 namespace restlab {
 
@@ -16,8 +16,8 @@ constexpr const char* kEntryCount = "entries";
 constexpr const char* kEntryOfPixel = "entry_of_pixel";
 
 // Describes a cache of entries that a hash grid finds: inputs, buffers and parameters (the cache
-// appends its own), layers, and passes: kernels <name>_clear, _find, _claim, _settle, _propose,
-// _feeders (core/caches/entries/*.glsl).
+// appends its own), layers, and passes: kernels <name>_clear, _find, _claim, _resolve_claims,
+// _propose, _insertions (core/caches/entries/*.glsl).
 CacheInfo entryCache(const std::string& name, const std::string& summary);
 // Buffer with one element per entry.
 BufferInfo entryBuffer(const std::string& name, uint32_t entryBytes);

@@ -1,5 +1,5 @@
 // The pixel cache: no storage beside the pixels' own histories, which integrators keep.
-#include "core/cache.h"
+#include "core/frame/cache.h"
 
 namespace restlab {
 

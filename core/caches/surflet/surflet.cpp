@@ -2,7 +2,7 @@
 #include "core/caches/surflet/surflet.h"
 
 #include "core/caches/entries/settings.h"
-#include "core/resampling/partner_settings.h"
+#include "core/resampling/pair_settings.h"
 
 namespace restlab {
 
@@ -11,7 +11,7 @@ const CacheInfo& surfletCacheInfo() {
     CacheInfo i =
         entryCache("surflet", "discs on surfaces: each remembers at a surface point of its own");
     // One per entry; comes after the buffers that all caches with entries have.
-    i.buffers.push_back(entryBuffer("discs", 16 * rl::RL_ANCHOR_QUADS));
+    i.buffers.push_back(entryBuffer("discs", 16 * rl::RL_SHADING_POINT_QUADS));
     i.parameters.push_back(
         {"surflet_pixels",
          6.0,
@@ -25,7 +25,7 @@ const CacheInfo& surfletCacheInfo() {
       out.entries = packEntries(p);
       out.grid = packGrid(p);
       out.discPixels = static_cast<float>(std::get<double>(p.at("surflet_pixels")));
-      out.alike = packSurfaceTest(p);
+      out.similarity = packSimilarity(p);
       return bytesOf(out);
     };
     return i;

@@ -11,24 +11,24 @@
 RL_NAMESPACE_BEGIN
 
 struct SurfletCacheBuffers {
-  QuadRef visible;    // core/dialect/visible.h
+  QuadRef visible;    // core/gbuffer/visible.h
   UintRef proposals;  // entries.proposals entries per pixel; RL_INVALID: none
   // Per entry:
-  QuadRef anchors;
-  UintRef feeders;  // RL_ENTRY_FEEDERS tickets of groups; 0: none
-  UintRef keys;     // two words; 0 in the first: empty
-  UintRef seen;     // frame + 1 in which a pixel last found the entry
-  UintRef claims;   // greatest ticket (priority) that claims the hash slot in this frame; 0: none
+  QuadRef shadingPoints;
+  UintRef insertions;  // RL_ENTRY_INSERTIONS priorities of groups; 0: none
+  UintRef keys;        // two words; 0 in the first: empty
+  UintRef seen;        // frame + 1 in which a pixel last found the entry
+  UintRef claims;      // greatest priority that claims the hash slot in this frame; 0: none
   // Per pixel: its entry; RL_INVALID: none; with RL_GRID_CLAIM: the hash slot that it claims.
   UintRef entries;
-  QuadRef discs;  // per entry, as anchors: centre, normals; radius in place of posError
+  QuadRef discs;  // per entry, as shading points: centre, normals; radius in place of posError
 };
 
 struct SurfletCacheParams {
   EntryParams entries;
   GridParams grid;
   float discPixels;  // radius of a disc, in pixels where it is spawned
-  SurfaceTest alike;
+  SimilarityThresholds similarity;
 };
 
 RL_NAMESPACE_END

@@ -2,7 +2,7 @@
 #include "core/caches/voxel/voxel.h"
 
 #include "core/caches/entries/settings.h"
-#include "core/resampling/partner_settings.h"
+#include "core/resampling/pair_settings.h"
 
 namespace restlab {
 
@@ -23,7 +23,7 @@ const CacheInfo& voxelCacheInfo() {
       out.entries = packEntries(p);
       out.grid = packGrid(p);
       out.cellPixels = static_cast<float>(std::get<double>(p.at("voxel_pixels")));
-      out.alike = packSurfaceTest(p);
+      out.similarity = packSimilarity(p);
       return bytesOf(out);
     };
     return i;

@@ -11,14 +11,14 @@
 RL_NAMESPACE_BEGIN
 
 struct VoxelCacheBuffers {
-  QuadRef visible;    // core/dialect/visible.h
+  QuadRef visible;    // core/gbuffer/visible.h
   UintRef proposals;  // entries.proposals entries per pixel; RL_INVALID: none
   // Per entry:
-  QuadRef anchors;
-  UintRef feeders;  // RL_ENTRY_FEEDERS tickets of groups; 0: none
-  UintRef keys;     // two words; 0 in the first: empty
-  UintRef seen;     // frame + 1 in which a pixel last found the entry
-  UintRef claims;   // greatest ticket (priority) that claims the hash slot in this frame; 0: none
+  QuadRef shadingPoints;
+  UintRef insertions;  // RL_ENTRY_INSERTIONS priorities of groups; 0: none
+  UintRef keys;        // two words; 0 in the first: empty
+  UintRef seen;        // frame + 1 in which a pixel last found the entry
+  UintRef claims;      // greatest priority that claims the hash slot in this frame; 0: none
   // Per pixel: its entry; RL_INVALID: none; with RL_GRID_CLAIM: the hash slot that it claims.
   UintRef entries;
 };
@@ -27,7 +27,7 @@ struct VoxelCacheParams {
   EntryParams entries;
   GridParams grid;
   float cellPixels;  // side of a cell, in pixels where it is seen
-  SurfaceTest alike;
+  SimilarityThresholds similarity;
 };
 
 RL_NAMESPACE_END

@@ -8,7 +8,7 @@
 #include <optional>
 #include <set>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "experiments/runner/run/job.h"
 #include "experiments/runner/reference/reference_noise.h"
 #include "experiments/runner/summary/disturbed.h"
@@ -104,16 +104,16 @@ std::vector<double> timesOf(const std::vector<RunResult>& runs,
   return all;
 }
 
-const std::vector<RunResult>* yardstickRuns(const Table& table, const MethodSummary& row) {
-  if (row.isYardstick || row.method->images) return nullptr;
-  const size_t path = table.suite->yardstick(size_t(row.method - table.suite->methods.data()));
+const std::vector<RunResult>* baselineRuns(const Table& table, const MethodSummary& row) {
+  if (row.isBaseline || row.method->images) return nullptr;
+  const size_t path = table.suite->baselineOf(size_t(row.method - table.suite->methods.data()));
   if (path >= table.block.methods.size()) return nullptr;
   const std::vector<RunResult>& runs = table.block.methods[path].runs;
   return runs.size() >= row.result->runs.size() ? &runs : nullptr;
 }
 
-std::string yardstickName(const Table& table, const MethodSummary& row) {
-  const size_t index = table.suite->yardstick(size_t(row.method - table.suite->methods.data()));
+std::string baselineName(const Table& table, const MethodSummary& row) {
+  const size_t index = table.suite->baselineOf(size_t(row.method - table.suite->methods.data()));
   return index < table.suite->methods.size() ? table.suite->methods[index].name : "";
 }
 
@@ -145,11 +145,11 @@ ComparedRow compareRows(const std::string& label, const Table& a, const MethodSu
   row.error = verdictOf(row.mseRatio);
   row.timeRatio = {kUnknown, kUnknown, kUnknown};
   if (!haveTimes(runsA) || !haveTimes(runsB)) return row;
-  const std::vector<RunResult>* pathA = yardstickRuns(a, before);
-  const std::vector<RunResult>* pathB = yardstickRuns(b, after);
+  const std::vector<RunResult>* pathA = baselineRuns(a, before);
+  const std::vector<RunResult>* pathB = baselineRuns(b, after);
   const bool isSamePath =
-      pathA != nullptr && pathB != nullptr && yardstickName(a, before) == yardstickName(b, after);
-  if (isSamePath) row.timesOver = yardstickName(a, before);
+      pathA != nullptr && pathB != nullptr && baselineName(a, before) == baselineName(b, after);
+  if (isSamePath) row.timesOver = baselineName(a, before);
   const auto timesA = timesOf(runsA, isSamePath ? pathA : nullptr);
   const auto timesB = timesOf(runsB, isSamePath ? pathB : nullptr);
   row.timeRatio = geometricRatioInterval(timesB, timesA);
@@ -237,7 +237,7 @@ void noteDifferences(const std::string& where, const std::vector<Difference>& di
 // Notes different baselines: times over two baselines cannot be compared.
 void noteBaselines(const std::string& label, const Table& a, const Table& b,
                    FolderComparison& comparison) {
-  const std::string before = a.suite->yardstickName(), after = b.suite->yardstickName();
+  const std::string before = a.suite->baselineName(), after = b.suite->baselineName();
   if (before == after) return;
   comparison.notes.push_back(
       fmt::format("{}: the baseline is '{}' before and '{}' after: times are not over it; run the "

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "experiments/runner/run/image_file.h"
 #include "experiments/runner/run/log.h"
 

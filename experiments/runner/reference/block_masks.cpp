@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "experiments/runner/run/light_mask.h"
 #include "experiments/runner/run/object_mask.h"
 #include "experiments/runner/suite/suite_check.h"

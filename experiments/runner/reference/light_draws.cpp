@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "experiments/report/text.h"
 
 namespace restlab {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/compiled_scene.h"
+#include "core/scene/compiled/compiled_scene.h"
 
 namespace restlab {
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "core/error.h"
-#include "core/image/metrics.h"
+#include "core/base/error.h"
+#include "core/image/metrics/metrics.h"
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/run/log.h"
 

@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "experiments/runner/run/files.h"
 #include "experiments/runner/run/log.h"
 #include "experiments/runner/reference/reference.h"

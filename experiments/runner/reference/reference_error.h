@@ -1,7 +1,7 @@
 // Metric of an image against a reference, without the reference's own noise where possible.
 #pragma once
 
-#include "core/image/metrics.h"
+#include "core/image/metrics/metrics.h"
 #include "experiments/runner/reference/reference.h"
 
 namespace restlab {

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "experiments/runner/reference/reference.h"
 #include "experiments/runner/run/image_file.h"
 

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "core/session.h"
+#include "core/frame/session.h"
 #include "experiments/runner/reference/reference.h"
 #include "experiments/runner/reference/reference_state.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/image/halves_noise.h"
+#include "core/image/statistics/halves_noise.h"
 #include "experiments/report/text.h"
 
 namespace restlab {

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "core/image/bias_runs.h"
-#include "core/image/intervals.h"
+#include "core/image/statistics/bias_runs.h"
+#include "core/image/statistics/intervals.h"
 #include "experiments/runner/reference/reference.h"
 
 namespace restlab {

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "experiments/runner/run/files.h"
 #include "experiments/runner/run/log.h"
 

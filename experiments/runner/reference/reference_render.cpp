@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "core/backend/stop.h"
-#include "core/error.h"
-#include "core/memory.h"
+#include "core/base/error.h"
+#include "core/base/memory.h"
 #include "experiments/runner/suite/backend_choice.h"
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/run/interrupt.h"
@@ -136,15 +136,15 @@ Reference renderReference(const PreparedScene& prepared, const ReferenceConfig& 
   if (found) state = std::move(*found);
 
   const std::vector<DrawnLight> lights = sampledLights(prepared, config);
-  const bool isThere = isEnough(state, target, lights);
+  const bool isEnabled = isEnough(state, target, lights);
   if (found) {
     logInfo(fmt::format("{}: {} {} spp of {}", unused.empty() ? "reference" : unused,
-                        isThere ? "made of the" : "continues after the", state.spp(),
+                        isEnabled ? "made of the" : "continues after the", state.spp(),
                         kept.file().string()));
   } else if (!unused.empty()) {
     logInfo(unused + "; rendered anew");
   }
-  if (!isThere) {
+  if (!isEnabled) {
     const size_t there = 2 * sizeof(glm::vec3) + (state.spp() > 0 ? kStateBytesPerPixel : 0);
     ReferenceHalves halves(prepared, config, state, kReferenceBytesPerPixel - there);
     try {

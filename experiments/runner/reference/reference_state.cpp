@@ -12,9 +12,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
-#include "core/file_reason.h"
-#include "core/image/atomic_file.h"
+#include "core/base/error.h"
+#include "core/base/file_reason.h"
+#include "core/image/io/atomic_file.h"
 #include "experiments/runner/run/prepare.h"
 
 namespace restlab {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/scene/builtin_name.h"
+#include "core/scene/builtin/name.h"
 #include "experiments/runner/reference/reference_halves.h"
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/run/files.h"

@@ -3,12 +3,12 @@
 #include <variant>
 
 #include "core/backend/backend.h"
-#include "core/cache.h"
-#include "core/changes/settings.h"
-#include "core/denoiser.h"
-#include "core/image/metrics.h"
-#include "core/integrator.h"
-#include "core/radiance/settings.h"
+#include "core/frame/cache.h"
+#include "core/frame/denoiser.h"
+#include "core/frame/integrator.h"
+#include "core/image/metrics/metrics.h"
+#include "core/radiance_cache/settings.h"
+#include "core/temporal_gradients/settings.h"
 #include "experiments/runner/summary/summary.h"
 
 namespace restlab {
@@ -51,7 +51,8 @@ Json layersJson(const PartInfo& part) {
   Json layers = Json::array();
   for (const LayerInfo& layer : part.layers) {
     layers.push_back({{"name", layer.name}, {"unit", layer.unit}, {"help", layer.summary}});
-    if (layer.onlyWith.parameter != nullptr) layers.back()["only_with"] = layer.onlyWith.parameter;
+    if (layer.enabledIf.parameter != nullptr)
+      layers.back()["only_with"] = layer.enabledIf.parameter;
   }
   return layers;
 }

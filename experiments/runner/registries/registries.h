@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/part.h"
+#include "core/frame/part.h"
 
 namespace restlab {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "core/method.h"
-#include "core/radiance_range.h"
+#include "core/base/radiance_range.h"
+#include "core/frame/method.h"
 #include "experiments/runner/reference/light_draws.h"
 #include "experiments/runner/summary/report.h"
 

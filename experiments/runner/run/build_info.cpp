@@ -11,7 +11,7 @@
 #include <sstream>
 #include <thread>
 
-#include "core/libraries.h"
+#include "core/base/libraries.h"
 #include "source_hash.h"
 
 namespace restlab {

@@ -8,7 +8,7 @@
 #include <regex>
 #include <set>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "experiments/runner/run/files.h"
 #include "experiments/runner/run/folder_lock.h"
 #include "experiments/runner/run/image_rows.h"

@@ -9,9 +9,9 @@
 #include <thread>
 
 #include "core/backend/stop.h"
-#include "core/image/halves_noise.h"
-#include "core/image/intervals.h"
-#include "core/image/metrics.h"
+#include "core/image/statistics/halves_noise.h"
+#include "core/image/statistics/intervals.h"
+#include "core/image/metrics/metrics.h"
 #include "experiments/runner/reference/block_masks.h"
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/summary/figures.h"

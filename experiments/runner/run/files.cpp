@@ -16,7 +16,7 @@
 #include <fstream>
 #include <vector>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace restlab {
 

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <string>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "experiments/runner/run/log.h"
 
 namespace restlab {

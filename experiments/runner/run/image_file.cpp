@@ -6,7 +6,7 @@
 #include <cmath>
 #include <mutex>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "experiments/runner/run/log.h"
 
 namespace restlab {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/image/image.h"
-#include "core/image/window.h"
+#include "core/image/metrics/window.h"
 
 namespace restlab {
 

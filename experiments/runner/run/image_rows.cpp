@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "experiments/runner/reference/beside_reference.h"
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/summary/figures.h"

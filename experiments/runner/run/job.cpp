@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <fstream>
 
-#include "core/error.h"
-#include "core/image/atomic_file.h"
+#include "core/base/error.h"
+#include "core/image/io/atomic_file.h"
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/summary/figures.h"
 #include "experiments/runner/run/files.h"

@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "core/control_characters.h"
-#include "core/error.h"
+#include "core/base/control_characters.h"
+#include "core/base/error.h"
 #include "experiments/runner/run/build_info.h"
 
 namespace restlab {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "experiments/runner/suite/backend_choice.h"
 
 namespace restlab {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/image/mask.h"
+#include "core/image/metrics/mask.h"
 #include "experiments/runner/run/prepare.h"
 
 namespace restlab {

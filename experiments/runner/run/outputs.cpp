@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/control_characters.h"
-#include "core/image/atomic_file.h"
+#include "core/base/control_characters.h"
+#include "core/image/io/atomic_file.h"
 #include "experiments/report/report_html.h"
 #include "experiments/report/text.h"
 #include "experiments/runner/run/build_info.h"
@@ -123,7 +123,7 @@ void Outputs::write(const Suite& suite, bool finished) const {
   for (const std::string& line : notes_) text += line + "\n\n";
   const bool hasRatios = std::any_of(blocks_.begin(), blocks_.end(), [](const Block& block) {
     return std::any_of(block.rows.begin(), block.rows.end(), [](const MethodSummary& row) {
-      return !row.isYardstick && !std::isnan(row.timeRatio.value);
+      return !row.isBaseline && !std::isnan(row.timeRatio.value);
     });
   });
   if (hasRatios) text += timesExplained() + "\n\n";

@@ -9,12 +9,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/error.h"
-#include "core/file_reason.h"
-#include "core/method.h"
-#include "core/method_settings.h"
-#include "core/scene/light_factor.h"
-#include "core/scene/scene_origin.h"
+#include "core/base/error.h"
+#include "core/base/file_reason.h"
+#include "core/frame/method.h"
+#include "core/frame/method_settings.h"
+#include "core/scene/compiled/light_factor.h"
+#include "core/scene/compiled/scene_origin.h"
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/run/files.h"
 #include "experiments/runner/run/log.h"

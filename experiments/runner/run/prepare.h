@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "core/scene/compiled_scene.h"
-#include "core/session.h"
+#include "core/frame/session.h"
+#include "core/scene/compiled/compiled_scene.h"
 
 namespace restlab {
 
@@ -42,7 +42,7 @@ PreparedScene prepareScene(const SceneRequest& request);
 std::optional<EnvironmentMap> readEnvironment(const SceneRequest& request);
 PreparedScene prepareScene(const SceneRequest& request, std::optional<EnvironmentMap> environment);
 
-// Returns the scene compiled with other factors of its lights (core/scene/light_factor.h).
+// Returns the scene compiled with other factors of its lights (core/scene/compiled/light_factor.h).
 // `loaded`: the scene as loaded. `words`: description of the factors.
 PreparedScene withLights(const PreparedScene& loaded,
                          const std::shared_ptr<const CompiledScene>& scene,

@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "core/control_characters.h"
+#include "core/base/control_characters.h"
 
 namespace restlab {
 

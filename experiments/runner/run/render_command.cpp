@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "core/method_settings.h"
+#include "core/frame/method_settings.h"
 #include "core/scene/scene.h"
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/run/files.h"

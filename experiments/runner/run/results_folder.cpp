@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <fstream>
 
-#include "core/error.h"
-#include "core/file_reason.h"
+#include "core/base/error.h"
+#include "core/base/file_reason.h"
 #include "experiments/runner/run/folder_lock.h"
 #include "experiments/runner/run/job.h"
 #include "experiments/runner/run/log.h"
@@ -31,7 +31,8 @@ PlannedBlock blockOf(const Json& json) {
   block.width = json.at("width").get<uint32_t>();
   block.height = json.at("height").get<uint32_t>();
   block.jobs = json.at("jobs").get<std::vector<std::string>>();
-  if (json.contains("images")) block.images = json.at("images").get<std::vector<std::string>>();
+  for (auto [key, list] : {std::pair{"images", &block.images}, {"warnings", &block.warnings}})
+    if (json.contains(key)) *list = json.at(key).get<std::vector<std::string>>();
   return block;
 }
 
@@ -125,6 +126,7 @@ std::string remakeOutputs(const fs::path& folder) {
   bool finished = results.record.at("status").get<std::string>() == "finished";
   for (const PlannedBlock& planned : results.plan) {
     if (planned.jobs.empty() && planned.images.empty()) continue;
+    for (const std::string& line : planned.warnings) outputs.note("Warning: " + line);
     LoadedBlock block = loadBlock(results, planned);
     finished = finished && block.missing == 0;
     if (!block.result.methods.empty())

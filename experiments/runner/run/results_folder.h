@@ -18,6 +18,7 @@ struct PlannedBlock {
   uint32_t width = 0, height = 0;
   std::vector<std::string> jobs;    // keys, in the order of their runs
   std::vector<std::string> images;  // keys of the rows of images
+  std::vector<std::string> warnings;
 };
 
 struct ResultsFolder {

@@ -6,8 +6,8 @@
 #include <cstring>
 #include <fstream>
 
-#include "core/control_characters.h"
-#include "core/error.h"
+#include "core/base/control_characters.h"
+#include "core/base/error.h"
 #include "experiments/runner/run/log.h"
 
 namespace restlab {
@@ -44,14 +44,14 @@ ResultsLog::ResultsLog(fs::path file) : file_(std::move(file)) {
 }
 
 void ResultsLog::add(const std::string& key, const JobData& job, bool isMadeAnew) {
-  const bool isThere = jobs_.count(key) != 0;
-  if (isThere && !isMadeAnew) return;
+  const bool isEnabled = jobs_.count(key) != 0;
+  if (isEnabled && !isMadeAnew) return;
   // Mark the last line of a job, so that a reader can tell whether the job is complete.
   std::string text;
   for (const JobMethod& method : job.methods) {
     for (const nlohmann::ordered_json& own : method.lines) {
       nlohmann::ordered_json line = own;
-      if (isThere) line["replaces_earlier"] = true;
+      if (isEnabled) line["replaces_earlier"] = true;
       line["job_ends"] = &method == &job.methods.back() && &own == &method.lines.back();
       text += jsonWithoutControls(line.dump()) + "\n";
     }

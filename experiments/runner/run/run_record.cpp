@@ -5,8 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "core/method_settings.h"
-#include "core/image/intervals.h"
+#include "core/frame/method_settings.h"
+#include "core/image/statistics/intervals.h"
 #include "experiments/runner/run/build_info.h"
 
 namespace restlab {

@@ -16,9 +16,9 @@
 #include <set>
 #include <thread>
 
-#include "core/control_characters.h"
-#include "core/error.h"
-#include "core/image/atomic_file.h"
+#include "core/base/control_characters.h"
+#include "core/base/error.h"
+#include "core/image/io/atomic_file.h"
 #include "experiments/runner/reference/block_masks.h"
 #include "experiments/runner/run/block_warnings.h"
 #include "experiments/runner/run/build_info.h"
@@ -98,7 +98,8 @@ nlohmann::ordered_json planOf(const Suite& suite, const BlockResult& block) {
           {"height", block.height},
           {"reference", block.referenceFile},
           {"jobs", nlohmann::ordered_json::array()},
-          {"images", nlohmann::ordered_json::array()}};
+          {"images", nlohmann::ordered_json::array()},
+          {"warnings", nlohmann::ordered_json::array()}};
 }
 
 class SuiteRun {
@@ -222,12 +223,13 @@ class SuiteRun {
     block.motion = motionOf(suite, scene, prepared);
     block.lights = lightPhases(suite, prepared);
     if (!obtain(suite, scene, prepared, block)) return false;
+    nlohmann::ordered_json& plan = plan_.at(next_++);
+    plan = planOf(suite, block);
     for (const std::string& line : warningsOf(suite, prepared, block)) {
       logWarning(line);
       outputs_.note("Warning: " + line);
+      plan["warnings"].push_back(line);
     }
-    nlohmann::ordered_json& plan = plan_.at(next_++);
-    plan = planOf(suite, block);
     bool finished = false;
     std::exception_ptr failure;  // rethrown after finished runs are written, e.g. a lost device
     try {
@@ -260,21 +262,21 @@ class SuiteRun {
       const std::string key = identity.key();
       std::optional<JobData> job;
       if (!request_.force || made.count(key) != 0) job = store_.load(key);
-      const bool isThere = job.has_value() && made.count(key) == 0;
+      const bool isEnabled = job.has_value() && made.count(key) == 0;
       if (!job) {
         Stopwatch watch;
         job = executor.execute(run, key, started_);
         if (!job) return false;
         store_.save(identity, *job);
         pace_.made(watch.lap(), cost);
-      } else if (isThere && suite.jobs < 2) {
+      } else if (isEnabled && suite.jobs < 2) {
         pace_.found(cost);
       }
-      ++(isThere ? reused_ : made_);
-      log_->add(key, *job, !isThere);
+      ++(isEnabled ? reused_ : made_);
+      log_->add(key, *job, !isEnabled);
       addJob(suite, *job, block);
       plan["jobs"].push_back(key);
-      if (made.count(key) == 0) logRun(suite, block, run, key, isThere);
+      if (made.count(key) == 0) logRun(suite, block, run, key, isEnabled);
       writeRecord("running");
       // With several jobs, makeSideBySide() has reported the progress already.
       if (suite.jobs < 2) progress.update(run + 1, "", pace_.progress());

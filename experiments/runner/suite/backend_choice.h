@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/backend/backend.h"
-#include "core/session.h"
+#include "core/frame/session.h"
 
 namespace restlab {
 

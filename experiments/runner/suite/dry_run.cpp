@@ -6,8 +6,8 @@
 #include <chrono>
 #include <set>
 
-#include "core/method_settings.h"
-#include "core/error.h"
+#include "core/frame/method_settings.h"
+#include "core/base/error.h"
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/run/experiment.h"
 #include "experiments/runner/run/files.h"
@@ -45,8 +45,10 @@ std::optional<Reference> findReference(const Suite& suite, const PreparedScene& 
                                        const ReferenceConfig& config, const fs::path& out,
                                        const std::string& label) {
   const std::string key = referenceKey(prepared, config);
-  for (const fs::path& file :
-       {out / "references" / (label + ".exr"), referenceCacheFolder() / (key + ".exr")}) {
+  std::vector<fs::path> files = {out / "references" / (label + ".exr")};
+  if (const fs::path cache = referenceCacheFolder(); !cache.empty())
+    files.push_back(cache / (key + ".exr"));
+  for (const fs::path& file : files) {
     std::error_code status;
     if (!fs::exists(file, status)) continue;
     try {

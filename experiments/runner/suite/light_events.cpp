@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "core/error.h"
-#include "core/scene/light_factor.h"
+#include "core/base/error.h"
+#include "core/scene/compiled/light_factor.h"
 #include "experiments/runner/suite/suite.h"
 
 namespace restlab {

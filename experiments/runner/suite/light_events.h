@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/config.h"
+#include "core/base/config.h"
 #include "experiments/runner/run/prepare.h"
 
 namespace restlab {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <set>
 
-#include "core/error.h"
-#include "core/scene/builtin_name.h"
+#include "core/base/error.h"
+#include "core/scene/builtin/name.h"
 
 namespace restlab {
 

@@ -6,16 +6,16 @@
 #include <map>
 #include <set>
 
-#include "core/config.h"
-#include "core/error.h"
-#include "core/method.h"
-#include "core/radiance/settings.h"
+#include "core/base/config.h"
+#include "core/base/error.h"
+#include "core/frame/method.h"
+#include "core/radiance_cache/settings.h"
 #include "experiments/runner/suite/backend_choice.h"
 #include "experiments/runner/run/files.h"
 #include "experiments/runner/suite/suite_methods.h"
 #include "experiments/runner/suite/suite_overrides.h"
 #include "experiments/runner/suite/suite_settings.h"
-#include "experiments/runner/suite/suite_yardstick.h"
+#include "experiments/runner/suite/suite_baseline.h"
 #include "experiments/runner/suite/scene_parameter.h"
 #include "experiments/runner/suite/sweep.h"
 
@@ -172,14 +172,14 @@ BiasClass SuiteMethod::bias(const Suite& suite) const {
   return method.bias(session.mode, parameters(), suite.hasMovingCamera());
 }
 
-uint32_t Suite::mostRuns() const {
+uint32_t Suite::maxRuns() const {
   uint32_t most = 0;
   for (const SuiteScene& scene : scenes) most = std::max(most, scene.runs.value_or(runs));
   return most;
 }
 
-uint32_t Suite::fewestRuns() const {
-  uint32_t fewest = mostRuns();
+uint32_t Suite::minRuns() const {
+  uint32_t fewest = maxRuns();
   for (const SuiteScene& scene : scenes) fewest = std::min(fewest, scene.runs.value_or(runs));
   return fewest;
 }
@@ -279,11 +279,11 @@ void requireOwnSeeds(const std::vector<SweepAxis>& axes, const std::vector<Suite
     for (const Suite& other : points) {
       const uint32_t apart =
           other.seed < last.seed ? last.seed - other.seed : other.seed - last.seed;
-      if (apart == 0 || apart >= std::min(last.mostRuns(), other.mostRuns())) continue;
+      if (apart == 0 || apart >= std::min(last.maxRuns(), other.maxRuns())) continue;
       failUsage(
           fmt::format("{}: seeds {} and {} have runs in common, as run r has the seed "
                       "'seed' + r; leave at least {} between them",
-                      axis.place, other.seed, last.seed, last.mostRuns()));
+                      axis.place, other.seed, last.seed, last.maxRuns()));
     }
   }
 }

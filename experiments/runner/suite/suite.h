@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/image/mask.h"
-#include "core/scene/camera_path.h"
+#include "core/image/metrics/mask.h"
+#include "core/scene/camera_path/camera_path.h"
 #include "experiments/runner/run/prepare.h"
 #include "experiments/runner/reference/reference.h"
 #include "experiments/runner/reference/truth.h"
@@ -128,22 +128,22 @@ struct Suite {
   ReferenceTarget target;
 
   // Over its scenes.
-  uint32_t mostRuns() const;
-  uint32_t fewestRuns() const;
+  uint32_t maxRuns() const;
+  uint32_t minRuns() const;
   // Returns the methods without rows of images.
   std::span<const SuiteMethod> rendered() const;
   // Returns the index of the method that ratios of `method` are relative to: the baseline, else the
   // first `path` method on the same backend (for a row of images: on the first backend);
   // methods.size() if there is none. A baseline named without backend is looked up on the method's
   // backend.
-  size_t yardstick(size_t method) const;
-  // Describes the yardstick of all methods, for headings: "gi, spatial_radius=8.0", or "path on the
+  size_t baselineOf(size_t method) const;
+  // Describes the baseline of all methods, for headings: "gi, spatial_radius=8.0", or "path on the
   // same backend" if each backend has its own; "" if there is none.
-  std::string yardstickName() const;
+  std::string baselineName() const;
   // Returns the index of the plain average of frames: the first `path` with the denoiser
   // `accumulate` on the same backend; methods.size() if there is none.
   size_t average(size_t method) const;
-  // Describes the average for headings, like yardstickName().
+  // Describes the average for headings, like baselineName().
   std::string averageName() const;
   // Returns the index of the first method that differs only in the backend; `method` if it is the
   // first.

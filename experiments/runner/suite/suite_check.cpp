@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "core/error.h"
-#include "core/image/exr_limits.h"
-#include "core/image/window.h"
-#include "core/memory.h"
+#include "core/base/error.h"
+#include "core/base/memory.h"
+#include "core/image/io/exr_limits.h"
+#include "core/image/metrics/window.h"
 #include "experiments/runner/reference/block_masks.h"
 #include "experiments/runner/run/experiment.h"
 #include "experiments/runner/run/files.h"

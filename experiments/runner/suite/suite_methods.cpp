@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <iterator>
 
-#include "core/cache.h"
-#include "core/error.h"
-#include "core/method.h"
-#include "core/method_settings.h"
+#include "core/base/error.h"
+#include "core/frame/cache.h"
+#include "core/frame/method.h"
+#include "core/frame/method_settings.h"
 #include "experiments/runner/suite/suite_settings.h"
 
 namespace restlab {

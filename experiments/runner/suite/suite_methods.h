@@ -2,7 +2,7 @@
 // backend, and rows of images.
 #pragma once
 
-#include "core/config.h"
+#include "core/base/config.h"
 #include "experiments/runner/suite/suite.h"
 #include "experiments/runner/suite/sweep.h"
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/config.h"
+#include "core/base/config.h"
 
 namespace restlab {
 

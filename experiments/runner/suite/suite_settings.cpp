@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "core/backend/backend.h"
-#include "core/error.h"
-#include "core/image/metrics.h"
+#include "core/base/error.h"
+#include "core/image/metrics/metrics.h"
 #include "experiments/runner/suite/backend_choice.h"
 
 namespace restlab {
@@ -168,9 +168,9 @@ void readPaths(const ConfigTable& root, Suite& suite) {
   for (const ConfigTable& table : root.getTables("camera_path")) {
     const std::string name = table.getString("name", "");
     if (name.empty()) table.fail("name", "[[camera_path]] needs a 'name'");
-    const bool isThere = std::any_of(suite.paths.begin(), suite.paths.end(),
-                                     [&](const SuitePath& path) { return path.name == name; });
-    if (isThere) table.fail("name", fmt::format("two camera paths are named '{}'", name));
+    const bool isEnabled = std::any_of(suite.paths.begin(), suite.paths.end(),
+                                       [&](const SuitePath& path) { return path.name == name; });
+    if (isEnabled) table.fail("name", fmt::format("two camera paths are named '{}'", name));
     suite.paths.push_back({name, parseCameraPath(table), {}});
   }
   readLightEvents(root, suite.paths);

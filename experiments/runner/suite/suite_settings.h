@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "core/config.h"
+#include "core/base/config.h"
 #include "experiments/runner/suite/suite.h"
 
 namespace restlab {

@@ -7,9 +7,9 @@
 #include <regex>
 #include <set>
 
-#include "core/error.h"
-#include "core/method.h"
-#include "core/method_settings.h"
+#include "core/base/error.h"
+#include "core/frame/method.h"
+#include "core/frame/method_settings.h"
 
 namespace restlab {
 

@@ -5,8 +5,8 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "core/frame/session.h"
 #include "core/image/image.h"
-#include "core/session.h"
 
 namespace restlab {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "core/image/intervals.h"
+#include "core/image/statistics/intervals.h"
 #include "experiments/runner/run/experiment.h"
 
 namespace restlab {

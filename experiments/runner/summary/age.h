@@ -1,10 +1,10 @@
-// Error over the age of the history, relative to the yardstick and to the plain average of the
-// yardstick's frames, which costs no additional rays.
+// Error over the age of the history, relative to the baseline and to the plain average of the
+// baseline's frames, which costs no additional rays.
 #pragma once
 
 #include <vector>
 
-#include "core/image/intervals.h"
+#include "core/image/statistics/intervals.h"
 #include "experiments/runner/run/experiment.h"
 #include "experiments/runner/reference/reference_noise.h"
 
@@ -13,19 +13,19 @@ namespace restlab {
 struct AgeSummary {
   uint32_t age = 0;
   Interval mse;
-  Interval timeRatio;       // this frame's time over that of the yardstick's
-  Interval mseRatio;        // MSE of the yardstick's frame of this age / MSE
-  Interval ratioToAverage;  // MSE of the average of the yardstick's frames / MSE
+  Interval timeRatio;       // this frame's time over that of the baseline's
+  Interval mseRatio;        // MSE of the baseline's frame of this age / MSE
+  Interval ratioToAverage;  // MSE of the average of the baseline's frames / MSE
 };
 
 // Runs to compare with, and the reference's noise in their MSE. No runs: unknown.
-struct AgeYardstick {
+struct AgeBaseline {
   const std::vector<RunResult>* runs = nullptr;
   ReferenceNoise noise;
 };
 
 // Compares runs in pairs: runs of one number were interleaved. `own`: the method's own runs.
-std::vector<AgeSummary> agesOf(const AgeYardstick& own, const AgeYardstick& yardstick,
-                               const AgeYardstick& average);
+std::vector<AgeSummary> agesOf(const AgeBaseline& own, const AgeBaseline& baseline,
+                               const AgeBaseline& average);
 
 }  // namespace restlab

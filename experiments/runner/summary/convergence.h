@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/image/intervals.h"
+#include "core/image/statistics/intervals.h"
 #include "experiments/runner/summary/accumulated_curve.h"
 
 namespace restlab {

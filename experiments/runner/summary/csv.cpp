@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "core/error.h"
-#include "core/method_settings.h"
+#include "core/base/error.h"
+#include "core/frame/method_settings.h"
 #include "experiments/runner/summary/report.h"
 
 namespace restlab {
@@ -144,7 +144,7 @@ std::vector<Column> furtherColumns(const Suite& suite, const MethodSummary& row)
       {"time_ratio_to_first_backend_ci_hi", number(row.timeToFirstBackend.hi)},
       {"point", suite.point},
       {"parameters", parametersText(*row.method)},
-      {"baseline", nameAt(suite, &Suite::yardstick, row)},
+      {"baseline", nameAt(suite, &Suite::baselineOf, row)},
       {"average", nameAt(suite, &Suite::average, row)},
   };
   const Interval none{kUnknown, kUnknown, kUnknown};

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "experiments/report/text.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace restlab {
 
@@ -18,7 +18,7 @@ constexpr double kRatiosDiffer = 0.05;
 // Returns "gi 1.40 by medians and 1.28 by pairs"; "" if both agree or are unknown.
 std::string ratiosOf(const MethodSummary& row) {
   const double apart = row.timeRatioOfMedians / row.timeRatio.value;
-  if (row.isYardstick || !(std::abs(apart - 1.0) > kRatiosDiffer)) return "";
+  if (row.isBaseline || !(std::abs(apart - 1.0) > kRatiosDiffer)) return "";
   return fmt::format("{} {} by medians and {} by pairs", oneLine(row.method->name),
                      shortNumber(row.timeRatioOfMedians), shortNumber(row.timeRatio.value));
 }

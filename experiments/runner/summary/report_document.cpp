@@ -7,8 +7,8 @@
 #include <numbers>
 #include <set>
 
-#include "core/image/metrics.h"
-#include "core/method_settings.h"
+#include "core/image/metrics/metrics.h"
+#include "core/frame/method_settings.h"
 #include "experiments/report/text.h"
 #include "experiments/runner/run/build_info.h"
 #include "experiments/runner/summary/figures.h"
@@ -155,9 +155,9 @@ Json cellOf(const Column& column, const MethodSummary& row, const Interval& valu
 
 void addTable(const std::vector<MethodSummary>& rows, Json& block) {
   const Suite& suite = *rows.front().suite;
-  const std::string yardstick = suite.yardstickName(), average = suite.averageName();
+  const std::string baseline = suite.baselineName(), average = suite.averageName();
   const auto named = [&](const char* text) {
-    return fmt::format(fmt::runtime(text), yardstick, average);
+    return fmt::format(fmt::runtime(text), baseline, average);
   };
   Json heads = Json::array(), lines = Json::array();
   for (const MethodSummary& row : rows) {
@@ -276,9 +276,9 @@ void addAgePlots(const std::vector<MethodSummary>& rows, Json& plots) {
   plots.push_back(agePlot(rows, "age", "MSE of a single frame over the age of the history", "MSE",
                           [](const AgeSummary& age) { return age.mse; }));
   const Suite& suite = *rows.front().suite;
-  const std::string yardstick = suite.yardstickName(), averaged = suite.averageName();
-  Json ratio = agePlot(rows, "age-path", fmt::format("times lower than {}, by age", yardstick),
-                       fmt::format("MSE of {} / MSE", yardstick),
+  const std::string baseline = suite.baselineName(), averaged = suite.averageName();
+  Json ratio = agePlot(rows, "age-path", fmt::format("times lower than {}, by age", baseline),
+                       fmt::format("MSE of {} / MSE", baseline),
                        [](const AgeSummary& age) { return age.mseRatio; });
   if (!ratio["series"].empty()) plots.push_back(std::move(ratio));
   Json average = agePlot(rows, "age-average", fmt::format("times lower than {}, by age", averaged),

@@ -1,11 +1,11 @@
-// Gain of a method over the yardstick while frames accumulate: at equal time, to equal error.
+// Gain of a method over the baseline while frames accumulate: at equal time, to equal error.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "core/image/intervals.h"
+#include "core/image/statistics/intervals.h"
 #include "experiments/runner/summary/accumulated_curve.h"
 
 namespace restlab {

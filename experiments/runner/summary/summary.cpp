@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/image/halves_noise.h"
-#include "core/image/metrics.h"
+#include "core/image/statistics/halves_noise.h"
+#include "core/image/metrics/metrics.h"
 #include "experiments/report/text.h"
 #include "experiments/runner/summary/figures.h"
 #include "experiments/runner/summary/judge.h"
@@ -138,8 +138,8 @@ Interval pairedErrorRatio(const std::vector<double>& numerators,
   return {value, paired.lo, paired.hi};
 }
 
-void compareWithYardstick(const MethodResult& path, const MethodSummary& pathRow,
-                          const MethodResult& result, MethodSummary& row) {
+void compareWithBaseline(const MethodResult& path, const MethodSummary& pathRow,
+                         const MethodResult& result, MethodSummary& row) {
   if (row.method->images) return compareImages(path, pathRow, result, row);
   // An interrupted block may have one more run of the first methods.
   const size_t paired = std::min(path.runs.size(), result.runs.size());
@@ -269,21 +269,21 @@ void noteReading(const CurveReading& reading, const char* what, const char* gain
 }
 
 void noteSpeedUp(MethodSummary& row) {
-  if (!row.speedUp || row.isYardstick) return;
+  if (!row.speedUp || row.isBaseline) return;
   noteReading(row.speedUp->equalTime, "at equal time", "lower", "higher", row);
   noteReading(row.speedUp->equalError, "to equal error", "faster", "slower", row);
 }
 
-// Compares with the average of the yardstick's frames, and with both over the age of the history.
+// Compares with the average of the baseline's frames, and with both over the age of the history.
 void compareAges(const Suite& suite, const BlockResult& block, size_t m,
                  const std::vector<size_t>& rowOf, std::vector<MethodSummary>& rows) {
   MethodSummary& row = rows[rowOf[m]];
   const auto runsOf = [&](size_t method) {
     const size_t at = rowOf[method];
-    return at < rows.size() ? AgeYardstick{&block.methods[method].runs, rows[at].noise}
-                            : AgeYardstick{};
+    return at < rows.size() ? AgeBaseline{&block.methods[method].runs, rows[at].noise}
+                            : AgeBaseline{};
   };
-  const AgeYardstick own = runsOf(m), average = runsOf(suite.average(m));
+  const AgeBaseline own = runsOf(m), average = runsOf(suite.average(m));
   row.isAverage = m == suite.average(m);
   if (average.runs && !row.isAverage && !row.method->images) {
     const size_t paired = std::min(own.runs->size(), average.runs->size());
@@ -295,7 +295,7 @@ void compareAges(const Suite& suite, const BlockResult& block, size_t m,
     row.ratioToAverage =
         ratioOfPositives(pairedRatioInterval(others, mse, sharedNoise(average.noise, own.noise)));
   }
-  if (!own.runs->front().aged.empty()) row.ages = agesOf(own, runsOf(suite.yardstick(m)), average);
+  if (!own.runs->front().aged.empty()) row.ages = agesOf(own, runsOf(suite.baselineOf(m)), average);
 }
 
 }  // namespace
@@ -325,17 +325,17 @@ std::vector<MethodSummary> summarise(const Suite& suite, const BlockResult& bloc
       row.flags.push_back(row.runs == 1 ? "one image" : fmt::format("{} images", row.runs));
     }
     judge(row);
-    row.isYardstick = m == suite.yardstick(m);
+    row.isBaseline = m == suite.baselineOf(m);
     rowOf[m] = rows.size();
     rows.push_back(std::move(row));
   }
   for (size_t m = 0; m < block.methods.size(); ++m) {
     if (rowOf[m] >= rows.size()) continue;
     MethodSummary& row = rows[rowOf[m]];
-    if (const size_t path = rowOf[suite.yardstick(m)]; path < rows.size()) {
-      const MethodSummary yardstick = rows[path];
-      compareWithYardstick(*yardstick.result, yardstick, *row.result, row);
-      row.speedUp = speedUpOf(yardstick.result->runs, row.result->runs, accumulatedNoise(yardstick),
+    if (const size_t path = rowOf[suite.baselineOf(m)]; path < rows.size()) {
+      const MethodSummary baseline = rows[path];
+      compareWithBaseline(*baseline.result, baseline, *row.result, row);
+      row.speedUp = speedUpOf(baseline.result->runs, row.result->runs, accumulatedNoise(baseline),
                               accumulatedNoise(row));
       noteSpeedUp(row);
     }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/image/intervals.h"
+#include "core/image/statistics/intervals.h"
 #include "experiments/runner/summary/age.h"
 #include "experiments/runner/summary/convergence.h"
 #include "experiments/runner/run/experiment.h"
@@ -56,7 +56,7 @@ struct MethodSummary {
   double worstShare = kUnknown;                      // mean over runs
   uint64_t nonfinite = 0;                            // in images, and samples set to zero
 
-  // Relative to the yardstick on the same backend: path / method for errors, method / path for
+  // Relative to the baseline on the same backend: path / method for errors, method / path for
   // times.
   Interval mseRatio{kUnknown, kUnknown, kUnknown};
   Interval mseRatioWithoutLights{kUnknown, kUnknown, kUnknown};
@@ -67,16 +67,16 @@ struct MethodSummary {
   double timeRatioOfMedians = kUnknown;
   // Same ratio to this method on the suite's first backend; unknown on the first backend itself.
   Interval timeToFirstBackend{kUnknown, kUnknown, kUnknown};
-  bool isYardstick = false;
+  bool isBaseline = false;
   Interval efficiencyRatio{kUnknown, kUnknown, kUnknown};  // mseRatio / timeRatio
 
-  // MSE of the plain average of the yardstick's frames / MSE; unknown if the suite has no average.
+  // MSE of the plain average of the baseline's frames / MSE; unknown if the suite has no average.
   Interval ratioToAverage{kUnknown, kUnknown, kUnknown};
   bool isAverage = false;        // this row is that average
   std::vector<AgeSummary> ages;  // at the suite's ages
 
   std::optional<Convergence> convergence;   // if the suite accumulates
-  std::optional<SpeedUp> speedUp;           // relative to the yardstick
+  std::optional<SpeedUp> speedUp;           // relative to the baseline
   std::optional<TemporalSummary> temporal;  // if the suite asks for it
 
   // Further figures of the suite, in the order of figureInfos(); unknown if the mask is of another

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "experiments/report/text.h"
 #include "experiments/runner/summary/figures.h"
 #include "experiments/runner/summary/disturbed.h"
@@ -32,7 +32,7 @@ std::string ratioWithEnds(const Interval& of) {
 std::string timeCell(const MethodSummary& row) {
   if (std::isnan(row.timeMsMedian)) return "unknown";
   const std::string text = shortNumber(row.timeMsMedian) + " ms";
-  if (row.isYardstick || std::isnan(row.timeRatio.value)) return text;
+  if (row.isBaseline || std::isnan(row.timeRatio.value)) return text;
   return text + fmt::format(" ({}x{})", shortNumber(row.timeRatio.value), endsOf(row.timeRatio));
 }
 
@@ -40,25 +40,25 @@ std::string longTime(double timeMs) {
   return std::isnan(timeMs) ? "unknown" : shortNumber(timeMs) + " ms";
 }
 
-std::string ratioCell(const Interval& of, bool isYardstick) {
-  if (isYardstick || std::isnan(of.value)) return "";
+std::string ratioCell(const Interval& of, bool isBaseline) {
+  if (isBaseline || std::isnan(of.value)) return "";
   return timesText(of.value, of.lo, of.hi, "lower", "higher");
 }
 
 std::string efficiencyCell(const MethodSummary& row) {
-  if (row.isYardstick || std::isnan(row.efficiencyRatio.value)) return "";
+  if (row.isBaseline || std::isnan(row.efficiencyRatio.value)) return "";
   return ratioWithEnds(row.efficiencyRatio);
 }
 
 std::string withoutLightsCell(const MethodSummary& row) {
   if (std::isnan(row.mseWithoutLights.value)) return "no such pixel";
-  const std::string ratio = ratioCell(row.mseRatioWithoutLights, row.isYardstick);
+  const std::string ratio = ratioCell(row.mseRatioWithoutLights, row.isBaseline);
   return fmt::format("{}{}", shortNumber(row.mseWithoutLights.value),
                      ratio.empty() ? "" : fmt::format(" ({})", ratio));
 }
 
 std::string trimmedCell(const MethodSummary& row) {
-  const std::string ratio = ratioCell(row.relmseTrimmedRatio, row.isYardstick);
+  const std::string ratio = ratioCell(row.relmseTrimmedRatio, row.isBaseline);
   return fmt::format("{}{}", shortNumber(row.relmseTrimmed.value),
                      ratio.empty() ? "" : fmt::format(" ({})", ratio));
 }
@@ -137,7 +137,7 @@ std::string accumulatedTable(const std::vector<MethodSummary>& rows, const std::
     const ConvergencePoint& last = row.convergence->points.back();
     const Interval& slope = row.convergence->slope;
     std::string atEqualTime, toEqualError;
-    if (row.speedUp && !row.isYardstick) {
+    if (row.speedUp && !row.isBaseline) {
       const CurveReading &time = row.speedUp->equalTime, &error = row.speedUp->equalError;
       atEqualTime = readingCell(time, "lower", "higher", "at " + longTime(time.at));
       toEqualError = readingCell(error, "faster", "slower", "to " + shortNumber(error.at));
@@ -201,12 +201,12 @@ std::string temporalTable(const std::vector<MethodSummary>& rows) {
 
 // Names of the methods that rows are compared with; "" if there is none.
 struct Names {
-  std::string yardstick, average;
+  std::string baseline, average;
 };
 
-// Returns "(x times that of path)"; "" without a yardstick.
+// Returns "(x times that of path)"; "" without a baseline.
 std::string timesOf(const Names& names) {
-  return names.yardstick.empty() ? "" : fmt::format("(x times that of {})", names.yardstick);
+  return names.baseline.empty() ? "" : fmt::format("(x times that of {})", names.baseline);
 }
 
 std::string markedName(const MethodSummary& row) {
@@ -216,11 +216,11 @@ std::string markedName(const MethodSummary& row) {
 // Returns the main table: time and error of each row.
 std::string errorTable(const std::vector<MethodSummary>& rows, const Names& names) {
   MarkdownTable table({"method", againstHead("time per frame", timesOf(names)), "MSE",
-                       againstHead("than", names.yardstick), againstHead("than", names.average),
+                       againstHead("than", names.baseline), againstHead("than", names.average),
                        "energy"});
   for (const MethodSummary& row : rows) {
     table.add({markedName(row), timeCell(row), withEnds(errorOf(row.mse)),
-               ratioCell(row.mseRatio, row.isYardstick),
+               ratioCell(row.mseRatio, row.isBaseline),
                ratioCell(row.ratioToAverage, row.isAverage),
                withEnds(row.energyRatio, kEnergyDigits)});
   }
@@ -231,7 +231,7 @@ std::string errorTable(const std::vector<MethodSummary>& rows, const Names& name
 std::string detailsTable(const std::vector<MethodSummary>& rows, const Names& names) {
   const std::string backends = backendColumn(*rows.front().suite, rows);
   const auto named = [&](const char* what, const char* word) {
-    return names.yardstick.empty() ? what : fmt::format("{} ({} {})", what, word, names.yardstick);
+    return names.baseline.empty() ? what : fmt::format("{} ({} {})", what, word, names.baseline);
   };
   MarkdownTable table({"method", named("efficiency", "against"), "bias^2/MSE", "variance",
                        "worst 0.1 %", "rays/px", backends.empty() ? "time" : backends});
@@ -296,7 +296,7 @@ std::string blockTable(const Suite& suite, const std::vector<MethodSummary>& row
       filterName(suite.pixelFilter), suite.multiscatter ? ", multiple scattering compensated" : "",
       counted(rows.front().runs, "run"), suite.warmupFrames, suite.timedFrames,
       originOf(block.reference));
-  const Names names = {suite.yardstickName(), suite.averageName()};
+  const Names names = {suite.baselineName(), suite.averageName()};
   text += errorTable(rows, names);
   std::string notes;
   if (rows.front().runs < kFewRuns) {
@@ -307,10 +307,10 @@ std::string blockTable(const Suite& suite, const std::vector<MethodSummary>& row
   notes += disturbedNote(rows);
   notes += rowNotes(rows);
   text += detailsTable(rows, names);
-  text += agesTable(rows, names.yardstick, [](const AgeSummary& age) { return age.mseRatio; });
+  text += agesTable(rows, names.baseline, [](const AgeSummary& age) { return age.mseRatio; });
   text += agesTable(rows, names.average, [](const AgeSummary& age) { return age.ratioToAverage; });
   text += figuresTable(rows);
-  text += accumulatedTable(rows, names.yardstick);
+  text += accumulatedTable(rows, names.baseline);
   text += temporalTable(rows);
   if (!block.reference.half0) {
     notes += "- the reference has no halves: its own noise is part of every MSE\n";

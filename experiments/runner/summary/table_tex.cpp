@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
-#include "core/image/metrics.h"
+#include "core/base/error.h"
+#include "core/image/metrics/metrics.h"
 #include "experiments/report/text.h"
 #include "experiments/runner/summary/figures.h"
 #include "experiments/runner/summary/report.h"
@@ -150,7 +150,7 @@ std::string accumulatedTex(const Suite& suite, const std::vector<MethodSummary>&
     if (!row.convergence || row.convergence->points.empty()) continue;
     lines += fmt::format("{} & {} & {}", nameCell(row), row.convergence->points.back().frames,
                          cell(row.convergence->slope, false));
-    if (!row.speedUp || row.isYardstick) {
+    if (!row.speedUp || row.isBaseline) {
       lines += " & & \\\\\n";
       continue;
     }
@@ -167,7 +167,7 @@ std::string accumulatedTex(const Suite& suite, const std::vector<MethodSummary>&
       subjectOf(suite, *rows.front().block) +
           ": frames accumulated; slope of log(MSE) over log(time), MSE times lower at "
           "equal time, times faster to equal MSE" +
-          (suite.yardstickName().empty() ? "" : ", against " + escaped(suite.yardstickName())),
+          (suite.baselineName().empty() ? "" : ", against " + escaped(suite.baselineName())),
       {"frames", "slope", "lower", "faster"}, lines, "");
 }
 
@@ -205,13 +205,13 @@ std::string blockTex(const Suite& suite, const std::vector<MethodSummary>& rows)
     lines += fmt::format(
         "{} & {} & {} & {} & {} & {} & {} \\\\\n", nameCell(row),
         row.counts && row.timeMsMedian == timeMs ? fmt::format("\\textbf{{{}}}", ms) : ms,
-        cell(row.isYardstick ? unknown : row.timeRatio, false, "$\\times$"),
+        cell(row.isBaseline ? unknown : row.timeRatio, false, "$\\times$"),
         cell(errorOf(row.mse), row.counts && row.mse.value == mse),
-        cell(row.isYardstick ? unknown : row.mseRatio, false, "$\\times$"),
+        cell(row.isBaseline ? unknown : row.mseRatio, false, "$\\times$"),
         cell(row.energyRatio, false, "", kEnergyDigits),
         std::isnan(bias) ? "--" : fmt::format("${:+.1f}$\\,\\%", bias));
   }
-  const std::string against = suite.yardstickName();
+  const std::string against = suite.baselineName();
   const std::string caption = fmt::format(
       "{}: {}$\\times${}, {} of {} warm-up and {} timed frames, reference of {} spp (relMSE "
       "{}); {}95\\,\\% intervals",

@@ -1,2 +1,0 @@
-#include "core/caches/surflet/disc.glsl"
-#include "core/caches/entries/find_again.glsl"

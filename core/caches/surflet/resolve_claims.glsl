@@ -1,0 +1,2 @@
+#include "core/caches/surflet/disc.glsl"
+#include "core/caches/entries/resolve_claims.glsl"

@@ -1,0 +1,2 @@
+#include "core/caches/voxel/cell.glsl"
+#include "core/caches/entries/insertions.glsl"

@@ -1,2 +1,0 @@
-#include "core/caches/voxel/cell.glsl"
-#include "core/caches/entries/settle.glsl"

@@ -1,0 +1,42 @@
+// A shading point.
+#ifndef RL_SURFACE_H
+#define RL_SURFACE_H
+
+#ifdef __cplusplus
+#include "core/dialect/types.h"
+#include "core/shading/bsdf.h"
+#endif
+
+RL_NAMESPACE_BEGIN
+
+struct Surface {
+  vec3 posW;
+  float posError;  // metres: bound of the rounding error of posW and of a test against its triangle
+  vec3 nGeoW;      // unit, on the side of wo
+  vec3 nShadeW;    // unit, dot(nShadeW, nGeoW) > 0
+  vec3 wo;         // unit, towards where the ray came from
+  vec3 emission;   // radiance towards wo
+  vec3 sigmaAbsorption;  // m^-1 beyond the surface, for rays that cross it; set by the walk
+  uint light;            // index in the light table, RL_INVALID where it does not emit
+  Bsdf bsdf;
+};
+
+// The interface between two media at a hit (core/transport/media.glsl).
+struct MediaCrossing {
+  uvec4 behind;     // bodies that contain the point behind the hit
+  float contrast;   // index of refraction inside over outside; 0: as the material says
+  uint isSurface;   // 0: the same body goes on, and the ray passes
+  uint isTouching;  // 1: surfaces of several bodies lie here, within twice the position error
+};
+
+// A triangle in world space: a corner and the edges to the other two.
+struct TriangleW {
+  vec3 p0;
+  vec3 e1;
+  vec3 e2;
+  float magnitude;  // largest coordinate in the computation of the triangle
+};
+
+RL_NAMESPACE_END
+
+#endif

@@ -1,2 +1,0 @@
-#include "core/radiance/cell.glsl"
-#include "core/caches/entries/find.glsl"

@@ -1,0 +1,497 @@
+#include "core/scene/compiled/compiled_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <mutex>
+
+#include "core/backend/alpha_filter.h"
+#include "core/backend/embree.h"
+#include "core/base/error.h"
+#include "core/scene/compiled/black_textures.h"
+#include "core/scene/compiled/bodies.h"
+#include "core/scene/compiled/body_warnings.h"
+#include "core/scene/compiled/clear_surfaces.h"
+#include "core/scene/compiled/coarse_vertices.h"
+#include "core/scene/compiled/ggx_albedo.h"
+#include "core/scene/compiled/light_table.h"
+#include "core/scene/compiled/split_triangles.h"
+#include "core/scene/plate.h"
+
+namespace restlab {
+
+namespace {
+
+glm::vec3 transformPoint(const glm::dmat4& m, const glm::vec3& p) {
+  return glm::vec3(m * glm::dvec4(glm::dvec3(p), 1.0));
+}
+
+glm::vec4 row(const glm::dmat4& m, int r) {
+  return glm::vec4(glm::dvec4(m[0][r], m[1][r], m[2][r], m[3][r]));
+}
+
+template <typename T>
+uint32_t append(std::vector<T>& pool, const std::vector<T>& values) {
+  if (values.empty()) return rl::RL_INVALID;
+  const auto offset = static_cast<uint32_t>(pool.size());
+  pool.insert(pool.end(), values.begin(), values.end());
+  return offset;
+}
+
+// Exact sRGB decoding of every 8-bit value (IEC 61966-2-1).
+std::vector<float> srgbTable() {
+  std::vector<float> table(256);
+  for (int i = 0; i < 256; ++i) {
+    const double c = i / 255.0;
+    table[i] = static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+  }
+  return table;
+}
+
+}  // namespace
+
+struct CompiledScene::Impl {
+  Scene scene;
+  uint32_t features = 0;
+  std::once_flag ggxAlbedoBound, bvhBound;
+  Bvh bvh;
+  glm::dvec3 origin{0.0};
+  std::vector<std::string> warnings;
+  std::vector<glm::vec3> positions, normals;
+  std::vector<glm::vec4> tangents, colors;
+  std::vector<glm::vec2> uvs;
+  std::vector<glm::uvec3> triangles;
+  std::vector<rl::Geometry> geometries;
+  std::vector<rl::Instance> instances;
+  std::vector<rl::Material> materials;
+  std::vector<rl::Texture> textures;
+  std::vector<uint32_t> texels;
+  std::vector<float> srgb;
+  LightTable lights;
+  Bodies bodies;
+  rl::SceneData data{};
+  size_t instancedTriangles = 0;
+  // Memory held by Embree, which allocates from several threads.
+  std::atomic<ptrdiff_t> embreeBytes{0};
+  RTCDevice device = nullptr;
+  RTCScene top = nullptr;
+  std::vector<RTCScene> meshScenes;
+
+  ~Impl() {
+    if (top != nullptr) rtcReleaseScene(top);
+    for (RTCScene s : meshScenes) {
+      if (s != nullptr) rtcReleaseScene(s);
+    }
+    if (device != nullptr) rtcReleaseDevice(device);
+  }
+
+  void flatten();
+  void addGeometry(const MeshGeometry& mesh, const glm::dmat4* bake,
+                   const std::vector<glm::dvec3>* positionsW);
+  void buildTextures();
+  void buildEmbree();
+  void bindAddresses();
+};
+
+// Copies a mesh to the pools. With `bake`, vertices go to world space with the winding kept
+// outward, at `positionsW` if given.
+void CompiledScene::Impl::addGeometry(const MeshGeometry& mesh, const glm::dmat4* bake,
+                                      const std::vector<glm::dvec3>* positionsW) {
+  rl::Geometry g{};
+  g.firstTriangle = static_cast<uint32_t>(triangles.size());
+  g.triangleCount = static_cast<uint32_t>(mesh.triangles.size());
+  g.firstVertex = static_cast<uint32_t>(positions.size());
+  g.normalOffset = append(normals, mesh.normals);
+  g.tangentOffset = append(tangents, mesh.tangents);
+  g.colorOffset = append(colors, mesh.colors);
+  for (uint32_t i = 0; i < rl::RL_MAX_UV_SETS; ++i) g.uvOffset[i] = append(uvs, mesh.uvs[i]);
+  append(positions, mesh.positions);
+  append(triangles, mesh.triangles);
+  if (bake != nullptr) {
+    for (size_t i = g.firstVertex; i < positions.size(); ++i) {
+      positions[i] = positionsW != nullptr ? glm::vec3((*positionsW)[i - g.firstVertex] - origin)
+                                           : transformPoint(*bake, positions[i]);
+    }
+    const glm::dmat3 linear(*bake);
+    // Normals stay unnormalised: kernels normalise after interpolation, so that a baked mesh shades
+    // like an instance of it. The common factor only keeps them in range.
+    glm::dmat3 normalMatrix = glm::transpose(glm::inverse(linear));
+    normalMatrix /= std::max(
+        {glm::length(normalMatrix[0]), glm::length(normalMatrix[1]), glm::length(normalMatrix[2])});
+    if (g.normalOffset != rl::RL_INVALID) {
+      for (size_t i = g.normalOffset; i < normals.size(); ++i) {
+        const glm::dvec3 n = normalMatrix * glm::dvec3(normals[i]);
+        normals[i] = std::isfinite(n.x + n.y + n.z) ? glm::vec3(n) : glm::vec3(0.0f);
+      }
+    }
+    if (g.tangentOffset != rl::RL_INVALID) {
+      for (size_t i = g.tangentOffset; i < tangents.size(); ++i) {
+        const glm::dvec3 t = linear * glm::dvec3(glm::vec3(tangents[i]));
+        tangents[i] = glm::vec4(glm::vec3(t), tangents[i].w);
+      }
+    }
+    if (glm::determinant(linear) < 0.0) {
+      // Flip the winding: a mirrored mesh would face inwards. Normals and UVs follow their
+      // vertices; the bitangent of a mirrored tangent frame changes sign with the cross product.
+      for (size_t i = g.firstTriangle; i < triangles.size(); ++i)
+        std::swap(triangles[i].y, triangles[i].z);
+      if (g.tangentOffset != rl::RL_INVALID) {
+        for (size_t i = g.tangentOffset; i < tangents.size(); ++i) tangents[i].w = -tangents[i].w;
+      }
+    }
+  }
+  geometries.push_back(g);
+}
+
+void CompiledScene::Impl::flatten() {
+  std::vector<uint32_t> uses(scene.geometries.size(), 0);
+  for (const MeshInstance& m : scene.instances) ++uses[m.geometry];
+  const SceneOrigin sceneOrigin = originOf(scene, scene.mainCamera);
+  origin = sceneOrigin.originW;
+  if (std::string warning = coarseVertices(scene, sceneOrigin); !warning.empty())
+    warnings.push_back(std::move(warning));
+  for (std::string& warning : farFromOrigin(scene, sceneOrigin))
+    warnings.push_back(std::move(warning));
+
+  std::vector<uint32_t> sharedGeometry(scene.geometries.size(), rl::RL_INVALID);
+  for (const MeshInstance& m : scene.instances) {
+    const std::optional<SplitMesh> split =
+        splitHugeTriangles(scene.geometries[m.geometry], m.objectToWorld, sceneOrigin);
+    const MeshGeometry& mesh = split ? split->mesh : scene.geometries[m.geometry];
+    glm::dmat4 toWorld = m.objectToWorld;
+    toWorld[3] -= glm::dvec4(origin, 0.0);
+    toWorld = withThickness(toWorld, mesh);
+    rl::Instance inst{};
+    inst.material = m.material;
+    inst.firstLight = rl::RL_INVALID;
+    const bool shared = uses[m.geometry] > 1 && !split;
+    if (shared) {
+      if (sharedGeometry[m.geometry] == rl::RL_INVALID) {
+        sharedGeometry[m.geometry] = static_cast<uint32_t>(geometries.size());
+        addGeometry(mesh, nullptr, nullptr);
+      }
+      inst.geometry = sharedGeometry[m.geometry];
+      if (glm::determinant(glm::dmat3(toWorld)) < 0.0) inst.flags |= rl::RL_INSTANCE_FLIPPED;
+    } else {
+      inst.geometry = static_cast<uint32_t>(geometries.size());
+      addGeometry(mesh, &toWorld, split ? &split->positionsW : nullptr);
+      toWorld = glm::dmat4(1.0);
+      inst.flags |= rl::RL_INSTANCE_IDENTITY;
+    }
+    const glm::dmat4 toObject = glm::inverse(toWorld);
+    inst.objectToWorldRow0 = row(toWorld, 0);
+    inst.objectToWorldRow1 = row(toWorld, 1);
+    inst.objectToWorldRow2 = row(toWorld, 2);
+    inst.worldToObjectRow0 = row(toObject, 0);
+    inst.worldToObjectRow1 = row(toObject, 1);
+    inst.worldToObjectRow2 = row(toObject, 2);
+    const uint32_t alphaFlags = rl::RL_MATERIAL_ALPHA_MASK | rl::RL_MATERIAL_ALPHA_BLEND;
+    if ((scene.materials[m.material].data.flags & alphaFlags) != 0)
+      inst.flags |= rl::RL_INSTANCE_ALPHA;
+    inst.flags |= bodies.rank[instances.size()] << rl::RL_INSTANCE_RANK_SHIFT;
+    instancedTriangles += mesh.triangles.size();
+    instances.push_back(inst);
+  }
+}
+
+void CompiledScene::Impl::buildTextures() {
+  std::vector<uint32_t> firstTexel;
+  size_t total = 0;
+  for (const TextureImage& image : scene.images) {
+    firstTexel.push_back(static_cast<uint32_t>(total));
+    total += image.texels.size();
+  }
+  if (total > std::numeric_limits<uint32_t>::max()) {
+    failInput(fmt::format("{}: textures have {} texels; at most 4294967295 are supported",
+                          scene.name, total));
+  }
+  texels.reserve(total);
+  for (const TextureImage& image : scene.images) {
+    texels.insert(texels.end(), image.texels.begin(), image.texels.end());
+  }
+  for (const TextureUse& use : scene.textureUses) {
+    const TextureImage& image = scene.images[use.image];
+    rl::Texture t{};
+    t.uvRow0 = use.uvRow0;
+    t.uvRow1 = use.uvRow1;
+    t.firstTexel = firstTexel[use.image];
+    t.width = image.width;
+    t.height = image.height;
+    t.wrapU = use.wrapU;
+    t.wrapV = use.wrapV;
+    t.flags = (use.nearest ? rl::RL_TEXTURE_NEAREST : 0u) | (use.srgb ? rl::RL_TEXTURE_SRGB : 0u);
+    t.uvSet = use.uvSet;
+    textures.push_back(t);
+  }
+  srgb = srgbTable();
+}
+
+void CompiledScene::Impl::buildEmbree() {
+  device = rtcNewDevice("");
+  if (device == nullptr)
+    throw Error(ExitCode::deviceUnavailable, "Embree could not create a device");
+  const auto count = [](void* bytes, ptrdiff_t change, bool) {
+    static_cast<std::atomic<ptrdiff_t>*>(bytes)->fetch_add(change);
+    return true;
+  };
+  rtcSetDeviceMemoryMonitorFunction(device, count, &embreeBytes);
+  // Kernels check hits on partly transparent instances, and on bodies if bodies meet.
+  const bool alpha = (features & rl::RL_FEATURE_ALPHA) != 0;
+  const auto asks = [&](const rl::Instance& inst) {
+    return (alpha && (inst.flags & rl::RL_INSTANCE_ALPHA) != 0) ||
+           (bodies.meet && inst.flags >> rl::RL_INSTANCE_RANK_SHIFT != 0);
+  };
+  // ROBUST: watertight along shared edges. High quality splits triangles, which would report a hit
+  // twice to the alpha filter of shadow rays.
+  const RTCBuildQuality quality = alpha ? RTC_BUILD_QUALITY_MEDIUM : RTC_BUILD_QUALITY_HIGH;
+  auto newScene = [&] {
+    RTCScene s = rtcNewScene(device);
+    rtcSetSceneFlags(s, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(s, quality);
+    return s;
+  };
+  auto newTriangles = [&](const rl::Geometry& g, size_t vertexCount, bool isAsked) {
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    // Copy to Embree's own buffers: Embree requires padding after the last vertex.
+    auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertexCount));
+    auto* t = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
+                                                             RTC_FORMAT_UINT3, 3 * sizeof(uint32_t),
+                                                             g.triangleCount));
+    if (v == nullptr || t == nullptr)
+      failInput(fmt::format("{}: out of memory for the ray-tracing structure", scene.name));
+    std::copy_n(&positions[g.firstVertex].x, 3 * vertexCount, v);
+    std::copy_n(&triangles[g.firstTriangle].x, 3 * size_t(g.triangleCount), t);
+    if (isAsked) {
+      rtcSetGeometryIntersectFilterFunction(geometry, rl::alphaFilterTrampoline);
+      rtcSetGeometryOccludedFilterFunction(geometry, rl::alphaFilterTrampoline);
+    }
+    rtcCommitGeometry(geometry);
+    return geometry;
+  };
+  auto vertexCount = [&](uint32_t g) {
+    const size_t end = g + 1 < geometries.size() ? geometries[g + 1].firstVertex : positions.size();
+    return end - geometries[g].firstVertex;
+  };
+  top = newScene();
+  meshScenes.resize(geometries.size(), nullptr);
+  for (uint32_t i = 0; i < instances.size(); ++i) {
+    const rl::Instance& inst = instances[i];
+    const uint32_t g = inst.geometry;
+    if (geometries[g].triangleCount == 0) continue;
+    if ((inst.flags & rl::RL_INSTANCE_IDENTITY) != 0) {
+      RTCGeometry geometry = newTriangles(geometries[g], vertexCount(g), asks(inst));
+      rtcAttachGeometryByID(top, geometry, i);
+      rtcReleaseGeometry(geometry);
+      continue;
+    }
+    if (meshScenes[g] == nullptr) {
+      // Instances may have different materials: the filter checks each hit's own.
+      RTCGeometry geometry = newTriangles(geometries[g], vertexCount(g), alpha || bodies.meet);
+      meshScenes[g] = newScene();
+      rtcAttachGeometryByID(meshScenes[g], geometry, 0);
+      rtcReleaseGeometry(geometry);
+      rtcCommitScene(meshScenes[g]);
+    }
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(geometry, meshScenes[g]);
+    rtcSetGeometryTimeStepCount(geometry, 1);
+    const glm::vec4 r0 = inst.objectToWorldRow0, r1 = inst.objectToWorldRow1,
+                    r2 = inst.objectToWorldRow2;
+    const float rows[12] = {r0.x, r0.y, r0.z, r0.w, r1.x, r1.y, r1.z, r1.w, r2.x, r2.y, r2.z, r2.w};
+    rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, rows);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(top, geometry, i);
+    rtcReleaseGeometry(geometry);
+  }
+  rtcCommitScene(top);
+  const RTCError error = rtcGetDeviceError(device);
+  if (error != RTC_ERROR_NONE) {
+    failInput(fmt::format("{}: building the ray-tracing structure failed (Embree error {})",
+                          scene.name, static_cast<int>(error)));
+  }
+}
+
+void CompiledScene::Impl::bindAddresses() {
+  data.positions.data = positions.data();
+  data.normals.data = normals.data();
+  data.tangents.data = tangents.data();
+  data.colors.data = colors.data();
+  data.uvs.data = uvs.data();
+  data.triangles.data = triangles.data();
+  data.geometries.data = geometries.data();
+  data.instances.data = instances.data();
+  data.materials.data = materials.data();
+  data.textures.data = textures.data();
+  data.texels.data = texels.data();
+  data.srgbToLinear.data = srgb.data();
+  data.lights.data = lights.lights.data();
+  data.lightAlias.data = lights.alias.data();
+  data.lightCount = static_cast<uint32_t>(lights.alias.size());  // 0: all lights are off
+  data.environment.data = lights.environment.data();
+  data.environmentAlias.data = lights.environmentAlias.data();
+  data.environmentWidth = scene.environment ? scene.environment->width : 0;
+  data.environmentHeight = scene.environment ? scene.environment->height : 0;
+  data.environmentLight = lights.environmentLight;
+  data.environmentRotation = scene.environment ? scene.environment->rotation : 0.0f;
+  data.bodies.data = bodies.media.data();
+  data.bodiesMeet = bodies.meet ? 1u : 0u;
+  data.instanceCount = static_cast<uint32_t>(instances.size());
+}
+
+CompiledScene::CompiledScene(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+CompiledScene::~CompiledScene() = default;
+
+std::shared_ptr<const CompiledScene> CompiledScene::build(Scene scene) {
+  auto impl = std::make_unique<Impl>();
+  foldBlackTextures(scene);
+  leaveOutClearSurfaces(scene);
+  impl->features = scanFeatures(scene);
+  impl->scene = std::move(scene);
+  impl->warnings = impl->scene.warnings;
+  impl->bodies = findBodies(impl->scene);
+  for (std::string& line : bodyWarnings(impl->scene, impl->bodies))
+    impl->warnings.push_back(std::move(line));
+  impl->flatten();
+  for (const SceneMaterial& m : impl->scene.materials) {
+    impl->materials.push_back(m.data);
+    impl->materials.back().emission *= m.lightFactor;
+  }
+  impl->buildTextures();
+  impl->lights = buildLightTable(
+      {impl->scene, impl->positions, impl->uvs, impl->triangles, impl->geometries, impl->origin},
+      impl->instances, impl->warnings);
+  if (impl->lights.lights.empty()) {
+    bool unlit = false;
+    for (const SceneMaterial& m : impl->scene.materials)
+      unlit |= (m.data.flags & rl::RL_MATERIAL_UNLIT) != 0;
+    impl->warnings.push_back(impl->scene.name + ": the scene has no light" +
+                             (unlit ? " but unlit materials" : "; every pixel will be black") +
+                             (unlit || impl->scene.environment ? "" : " (try --environment FILE)"));
+  }
+  impl->buildEmbree();
+  impl->bindAddresses();
+  return std::shared_ptr<const CompiledScene>(new CompiledScene(std::move(impl)));
+}
+
+const Scene& CompiledScene::source() const { return impl_->scene; }
+const rl::SceneData& CompiledScene::data() const { return impl_->data; }
+uint32_t CompiledScene::features(bool multiscatter) const {
+  const bool changes = multiscatter && hasRoughReflection(impl_->scene);
+  return impl_->features | (changes ? rl::RL_FEATURE_MULTISCATTER : 0u);
+}
+
+void CompiledScene::bindGgxAlbedo() const {
+  std::call_once(impl_->ggxAlbedoBound, [this] {
+    // Kernels only read; all buffer addresses share one non-const type.
+    impl_->data.ggxAlbedo.data = const_cast<glm::vec2*>(ggxAlbedoTable().data());
+  });
+}
+const Bvh& CompiledScene::bindBvh() const {
+  Impl& m = *impl_;
+  std::call_once(m.bvhBound, [&] {
+    m.bvh = buildBvh(m.device, bvhInput());
+    m.data.bvh.data = reinterpret_cast<glm::uvec4*>(m.bvh.records.data());
+    m.data.bvhRoots.data = m.bvh.roots.data();
+  });
+  return m.bvh;
+}
+
+BvhInput CompiledScene::bvhInput() const {
+  const Impl& m = *impl_;
+  return {m.positions, m.triangles, m.geometries, m.instances};
+}
+
+rl::SceneData CompiledScene::placedAt(const Place& place, bool withBvh) const {
+  const Impl& m = *impl_;
+  rl::SceneData placed = m.data;
+  const auto move = [&](auto& ref, size_t count) {
+    static_assert(sizeof ref.data == sizeof(uint64_t));
+    const bool isEmpty = count == 0 || ref.data == nullptr;
+    const uint64_t address = isEmpty ? 0 : place(ref.data, count * sizeof ref.data[0]);
+    std::memcpy(&ref.data, &address, sizeof address);
+  };
+  move(placed.positions, m.positions.size());
+  move(placed.normals, m.normals.size());
+  move(placed.tangents, m.tangents.size());
+  move(placed.colors, m.colors.size());
+  move(placed.uvs, m.uvs.size());
+  move(placed.triangles, m.triangles.size());
+  move(placed.geometries, m.geometries.size());
+  move(placed.instances, m.instances.size());
+  move(placed.materials, m.materials.size());
+  move(placed.textures, m.textures.size());
+  move(placed.texels, m.texels.size());
+  move(placed.srgbToLinear, m.srgb.size());
+  move(placed.lights, m.lights.lights.size());
+  move(placed.lightAlias, m.lights.alias.size());
+  move(placed.environment, m.lights.environment.size());
+  move(placed.environmentAlias, m.lights.environmentAlias.size());
+  move(placed.bodies, m.bodies.media.size());
+  move(placed.ggxAlbedo, m.data.ggxAlbedo.data != nullptr ? ggxAlbedoTable().size() : 0);
+  move(placed.bvh, withBvh ? m.bvh.records.size() * rl::RL_BVH_RECORD_QUADS : 0);
+  move(placed.bvhRoots, withBvh ? m.bvh.roots.size() : 0);
+  return placed;
+}
+
+const std::vector<std::string>& CompiledScene::warnings() const { return impl_->warnings; }
+size_t CompiledScene::triangleCount() const { return impl_->triangles.size(); }
+size_t CompiledScene::instancedTriangleCount() const { return impl_->instancedTriangles; }
+size_t CompiledScene::emissiveTriangleCount() const { return impl_->lights.emissiveTriangles; }
+void* CompiledScene::embreeScene() const { return impl_->top; }
+glm::dvec3 CompiledScene::origin() const { return impl_->origin; }
+
+bool CompiledScene::differsInLightAlone(const CompiledScene& other) const {
+  const Impl &a = *impl_, &b = *other.impl_;
+  // Compare by content: a light factor may have split the material of several meshes in two.
+  const auto isSameInstance = [&](const rl::Instance& of, const rl::Instance& with) {
+    rl::Instance there = with;
+    there.material = of.material;
+    rl::Material here = a.materials[of.material], its = b.materials[with.material];
+    its.emission = here.emission;
+    return std::memcmp(&of, &there, sizeof of) == 0 && std::memcmp(&here, &its, sizeof here) == 0;
+  };
+  const auto isSame = [](const auto& of, const auto& with) {
+    // memcmp() does not accept null, the data() of an empty vector.
+    return of.size() == with.size() &&
+           (of.empty() || std::memcmp(of.data(), with.data(), of.size() * sizeof(of[0])) == 0);
+  };
+  return a.features == b.features && a.origin == b.origin && a.positions == b.positions &&
+         isSame(a.normals, b.normals) && isSame(a.tangents, b.tangents) && isSame(a.uvs, b.uvs) &&
+         isSame(a.colors, b.colors) && isSame(a.geometries, b.geometries) &&
+         isSame(a.triangles, b.triangles) && isSame(a.textures, b.textures) &&
+         isSame(a.texels, b.texels) &&
+         std::equal(a.instances.begin(), a.instances.end(), b.instances.begin(), b.instances.end(),
+                    isSameInstance) &&
+         a.lights.lights.size() == b.lights.lights.size() &&
+         a.data.environmentWidth == b.data.environmentWidth &&
+         a.data.environmentHeight == b.data.environmentHeight;
+}
+
+glm::uvec4 CompiledScene::bodiesAt(const glm::vec3& posW) const {
+  const Impl& m = *impl_;
+  return restlab::bodiesAt(m.scene, m.bodies, glm::dvec3(posW) + m.origin);
+}
+
+bool CompiledScene::absorbs(uint32_t rank) const {
+  return rank != 0 && glm::vec3(impl_->bodies.media.at(rank)) != glm::vec3(0.0f);
+}
+
+size_t CompiledScene::embreeBytes() const {
+  return size_t(std::max<ptrdiff_t>(0, impl_->embreeBytes));
+}
+
+size_t CompiledScene::bytes() const {
+  auto of = [](const auto& v) { return v.size() * sizeof(v[0]); };
+  const Impl& i = *impl_;
+  return of(i.positions) + of(i.normals) + of(i.tangents) + of(i.colors) + of(i.uvs) +
+         of(i.triangles) + of(i.geometries) + of(i.instances) + of(i.materials) + of(i.textures) +
+         of(i.texels) + of(i.srgb) + of(i.lights.lights) + of(i.lights.alias) +
+         of(i.lights.environment) + of(i.lights.environmentAlias) + of(i.bodies.media);
+}
+
+}  // namespace restlab

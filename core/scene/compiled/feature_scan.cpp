@@ -1,0 +1,182 @@
+// Features of the kernels (features.h) that a scene needs. A feature that can change a pixel is
+// never missed (for a scene whose black textures are folded: black_textures.h); a feature that
+// cannot is left out, as far as factors, texels and vertices tell. Only content used by an instance
+// with triangles counts. The conditions mirror surfaceLoad() in core/geometry/surface.glsl.
+// RL_FEATURE_MULTISCATTER is a session's option, not a scene's need, and is never set here;
+// hasRoughReflection() says whether the option changes anything.
+#include <algorithm>
+#include <cmath>
+
+#include "core/scene/compiled/bodies.h"
+#include "core/scene/compiled/compiled_scene.h"
+#include "core/scene/textures/texture_range.h"
+#include "core/shading/bsdf.h"
+
+namespace restlab {
+namespace {
+
+// Vertex normals within this distance of the unit face normal shade like the face.
+constexpr float kFlatNormalTolerance = 1.0e-4f;
+
+bool isPositive(const glm::vec3& v) { return v.x > 0.0f || v.y > 0.0f || v.z > 0.0f; }
+
+glm::vec3 times(const glm::vec3& v, const std::array<float, 4>& texel) {
+  return v * glm::vec3(texel[0], texel[1], texel[2]);
+}
+
+bool hasTexture(const rl::Material& m, uint32_t slot) { return m.textures[slot] != rl::RL_INVALID; }
+
+// Features that the material needs on any mesh; emission and alpha also depend on the mesh.
+uint32_t scanSurface(const rl::Material& m, TextureRanges& ranges) {
+  const bool scatters = (m.flags & (rl::RL_MATERIAL_UNLIT | rl::RL_MATERIAL_BLACK)) == 0;
+  uint32_t features = hasTexture(m, rl::RL_TEX_BASE_COLOR) ? rl::RL_FEATURE_TEXTURES : 0u;
+  if (!scatters) return features;
+
+  const TexelRange& metalRange = ranges.ofSlot(m, rl::RL_TEX_METALLIC_ROUGHNESS);
+  const glm::vec3 base = times(m.baseColor, ranges.ofSlot(m, rl::RL_TEX_BASE_COLOR).high);
+  const glm::vec3 tint = times(m.specularColor, ranges.ofSlot(m, rl::RL_TEX_SPECULAR_COLOR).high);
+  const bool isSometimesMetal = m.metallic * metalRange.high[2] > 0.0f;
+  const bool isSometimesDielectric = m.metallic * metalRange.low[2] < 1.0f;
+  const float specular = m.specular * ranges.ofSlot(m, rl::RL_TEX_SPECULAR).high[3];
+  const float transmission = m.transmission * ranges.ofSlot(m, rl::RL_TEX_TRANSMISSION).high[0];
+
+  const bool isMetal = isSometimesMetal && isPositive(base);
+  const bool isCoated =
+      isSometimesDielectric && specular > 0.0f && isPositive(tint) && m.ior != 1.0f;
+  const bool transmits = isSometimesDielectric && transmission > 0.0f;
+  if (isMetal || isCoated || transmits) {
+    features |= rl::RL_FEATURE_GLOSSY;
+    for (const uint32_t slot : {rl::RL_TEX_METALLIC_ROUGHNESS, rl::RL_TEX_TRANSMISSION,
+                                rl::RL_TEX_SPECULAR, rl::RL_TEX_SPECULAR_COLOR}) {
+      if (hasTexture(m, slot)) features |= rl::RL_FEATURE_TEXTURES;
+    }
+  }
+  if (transmits) {
+    features |= rl::RL_FEATURE_TRANSMISSION;
+    const bool isThin = (m.flags & rl::RL_MATERIAL_THIN) != 0;
+    if (!isThin && isPositive(m.sigmaAbsorption)) features |= rl::RL_FEATURE_VOLUME;
+  }
+  if (hasTexture(m, rl::RL_TEX_NORMAL) && m.normalScale != 0.0f)
+    features |= rl::RL_FEATURE_NORMAL_MAPS;
+  return features;
+}
+
+// Returns whether the surface has a rough reflection and somewhere does not transmit.
+bool reflectsRoughly(const rl::Material& m, TextureRanges& ranges) {
+  if ((m.flags & (rl::RL_MATERIAL_UNLIT | rl::RL_MATERIAL_BLACK)) != 0) return false;
+  const TexelRange& range = ranges.ofSlot(m, rl::RL_TEX_METALLIC_ROUGHNESS);
+  const glm::vec3 base = times(m.baseColor, ranges.ofSlot(m, rl::RL_TEX_BASE_COLOR).high);
+  const glm::vec3 tint = times(m.specularColor, ranges.ofSlot(m, rl::RL_TEX_SPECULAR_COLOR).high);
+  const bool isMetal = m.metallic * range.high[2] > 0.0f && isPositive(base);
+  const bool isCoated = m.metallic * range.low[2] < 1.0f && isPositive(tint) && m.ior != 1.0f &&
+                        m.specular * ranges.ofSlot(m, rl::RL_TEX_SPECULAR).high[3] > 0.0f;
+  const float roughness = m.roughness * range.high[1];
+  const bool alwaysTransmits =
+      m.transmission * ranges.ofSlot(m, rl::RL_TEX_TRANSMISSION).low[0] > 0.0f &&
+      m.metallic * range.high[2] < 1.0f;
+  return (isMetal || isCoated) && roughness * roughness >= rl::RL_ALPHA_FLOOR && !alwaysTransmits;
+}
+
+bool emits(const rl::Material& m, TextureRanges& ranges) {
+  if ((m.flags & rl::RL_MATERIAL_UNLIT) != 0) return false;  // not in the light table
+  return isPositive(times(m.emission, ranges.ofSlot(m, rl::RL_TEX_EMISSIVE).high));
+}
+
+bool hasArea(const MeshGeometry& mesh, const glm::dmat4& toWorld) {
+  const glm::dmat3 linear(toWorld);
+  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const glm::uvec3& t) {
+    const glm::dvec3 p(mesh.positions[t.x]);
+    const glm::dvec3 e1 = linear * (glm::dvec3(mesh.positions[t.y]) - p);
+    const glm::dvec3 e2 = linear * (glm::dvec3(mesh.positions[t.z]) - p);
+    return glm::length(glm::cross(e1, e2)) > 0.0;
+  });
+}
+
+bool hasColors(const MeshGeometry& mesh) {
+  return std::any_of(mesh.colors.begin(), mesh.colors.end(),
+                     [](const glm::vec4& c) { return c != glm::vec4(1.0f); });
+}
+
+// Returns whether a ray can pass through some part of the surface.
+bool hasHoles(const rl::Material& m, const MeshGeometry& mesh, TextureRanges& ranges) {
+  float alpha = m.alpha * ranges.ofSlot(m, rl::RL_TEX_BASE_COLOR).low[3];
+  float lowest = mesh.colors.empty() ? 1.0f : mesh.colors[0].w;
+  for (const glm::vec4& c : mesh.colors) lowest = std::min(lowest, c.w);
+  alpha *= lowest;
+  if ((m.flags & rl::RL_MATERIAL_ALPHA_MASK) != 0) return alpha < m.alphaCutoff;
+  return (m.flags & rl::RL_MATERIAL_ALPHA_BLEND) != 0 && alpha < 1.0f;
+}
+
+bool hasSmoothNormals(const MeshGeometry& mesh) {
+  if (mesh.normals.empty()) return false;
+  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const glm::uvec3& t) {
+    const glm::dvec3 p(mesh.positions[t.x]);
+    const glm::dvec3 face =
+        glm::cross(glm::dvec3(mesh.positions[t.y]) - p, glm::dvec3(mesh.positions[t.z]) - p);
+    const double length = glm::length(face);
+    if (!(length > 0.0)) return false;  // no ray hits it
+    for (const uint32_t corner : {t.x, t.y, t.z}) {
+      const glm::dvec3 normal(mesh.normals[corner]);
+      const double size = glm::length(normal);
+      if (size > 0.0 && glm::distance(normal / size, face / length) > kFlatNormalTolerance)
+        return true;
+    }
+    return false;
+  });
+}
+
+uint32_t scanLights(const Scene& scene) {
+  uint32_t features = 0;
+  for (const PunctualLight& light : scene.lights) {
+    if (isPositive(light.intensity)) features |= rl::RL_FEATURE_PUNCTUAL_LIGHTS;
+  }
+  if (scene.environment && scene.environment->scale > 0.0f) {
+    const std::vector<glm::vec3>& map = scene.environment->radiance;
+    if (std::any_of(map.begin(), map.end(), isPositive)) features |= rl::RL_FEATURE_ENVIRONMENT;
+  }
+  return features;
+}
+
+}  // namespace
+
+uint32_t scanFeatures(const Scene& scene) {
+  uint32_t features = scanLights(scene);
+  TextureRanges ranges(scene);
+  std::vector<uint32_t> uses(scene.geometries.size(), 0);
+  std::vector<char> isMaterialSeen(scene.materials.size(), 0);
+  for (const MeshInstance& instance : scene.instances) {
+    const MeshGeometry& mesh = scene.geometries.at(instance.geometry);
+    const rl::Material& m = scene.materials.at(instance.material).data;
+    if (mesh.triangles.empty()) continue;
+    if (isMaterialSeen[instance.material] == 0) {
+      isMaterialSeen[instance.material] = 1;
+      features |= scanSurface(m, ranges);
+    }
+    if (emits(m, ranges) && hasArea(mesh, instance.objectToWorld)) {
+      features |= rl::RL_FEATURE_AREA_LIGHTS;
+      if (hasTexture(m, rl::RL_TEX_EMISSIVE)) features |= rl::RL_FEATURE_EMISSIVE_TEXTURES;
+    }
+    if (hasHoles(m, mesh, ranges)) features |= rl::RL_FEATURE_ALPHA;
+    const uint32_t useCount = ++uses[instance.geometry];
+    if (useCount == 2) features |= rl::RL_FEATURE_INSTANCES;
+    if (useCount == 1) {  // only once per mesh
+      if (hasColors(mesh)) features |= rl::RL_FEATURE_VERTEX_COLORS;
+      if (hasSmoothNormals(mesh)) features |= rl::RL_FEATURE_SMOOTH_NORMALS;
+    }
+  }
+  // Bodies that meet refract light by the ratio of their indices.
+  const bool transmits = (features & rl::RL_FEATURE_TRANSMISSION) != 0;
+  if (transmits && findBodies(scene).meet) features |= rl::RL_FEATURE_VOLUME;
+  return features;
+}
+
+bool hasRoughReflection(const Scene& scene) {
+  TextureRanges ranges(scene);
+  return std::any_of(scene.instances.begin(), scene.instances.end(),
+                     [&](const MeshInstance& instance) {
+                       return !scene.geometries.at(instance.geometry).triangles.empty() &&
+                              reflectsRoughly(scene.materials.at(instance.material).data, ranges);
+                     });
+}
+
+}  // namespace restlab

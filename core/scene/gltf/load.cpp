@@ -1,0 +1,70 @@
+// loadGltf(): runs the parts of the import in order.
+#include <new>
+
+#include "core/base/error.h"
+#include "core/scene/gltf/accessor.h"
+#include "core/scene/gltf/container.h"
+#include "core/scene/gltf/document.h"
+#include "core/scene/gltf/material.h"
+#include "core/scene/gltf/mesh.h"
+#include "core/scene/gltf/nodes.h"
+#include "core/scene/gltf/objects.h"
+#include "core/scene/gltf/rules.h"
+#include "core/scene/gltf/texture.h"
+#include "core/scene/gltf/validate.h"
+#include "core/scene/scene.h"
+
+namespace restlab {
+namespace {
+
+Scene import(const std::filesystem::path& file, gltf::Report& report) {
+  gltf::Container container = gltf::readContainer(file, report);
+  gltf::checkVersionAndExtensions(container.json, report);
+  gltf::validateDocument(container.json, report);
+  gltf::checkRules(container.json, report);
+  gltf::warnNotImported(container.json, report);
+  const std::vector<int> priorities = gltf::readPriorities(container.json, report);
+  const gltf::Document document =
+      gltf::loadDocument(std::move(container), file.parent_path(), report);
+  gltf::checkAccessors(document.model, report);
+
+  Scene scene;
+  scene.name = file.stem().string();
+  scene.source = file;
+  scene.contentHash = document.contentHash;
+  gltf::TextureImporter textures(document, scene, report);
+  gltf::importMaterials(document, priorities, textures, scene, report);
+  textures.checkUnusedImages();
+  gltf::MeshImporter meshes(document, scene, report);
+  const std::vector<gltf::PlacedNode> nodes = gltf::placeNodes(document.model, report);
+  gltf::addMeshInstances(document.model, nodes, meshes, scene, report);
+  gltf::addCameras(document.model, nodes, scene, report);
+  gltf::addLights(document.model, nodes, scene, report);
+  meshes.checkUnusedMeshes();
+  gltf::surveyAccessors(document.model, report);
+  if (scene.instances.empty()) report.warn("empty scene", "", "the scene holds no triangle");
+  if (scene.cameras.empty()) {
+    scene.cameras.push_back(framingCamera(scene));
+    if (boundsWithoutStrays(scene) != worldBounds(scene)) {
+      report.warn("framing", "cameras",
+                  "the file has none; the camera that is made for it leaves out what lies far off "
+                  "the rest");
+    }
+  }
+  return scene;
+}
+
+}  // namespace
+
+Scene loadGltf(const std::filesystem::path& file) {
+  gltf::Report report(file.string());
+  try {
+    Scene scene = import(file, report);
+    scene.warnings = report.lines();
+    return scene;
+  } catch (const std::bad_alloc&) {
+    throw Error(ExitCode::deviceUnavailable, file.string() + ": not enough memory for this scene");
+  }
+}
+
+}  // namespace restlab

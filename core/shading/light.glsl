@@ -1,0 +1,148 @@
+// Lights: one table of emissive triangles, punctual lights and the environment, selected by power
+// within each kind (core/scene/compiled/light_table.h).
+//   lightSample      draws a point of a light
+//   lightConnect   evaluates a drawn light for a receiver
+//   lightPdf...    density with which lightSample would have drawn the light that a ray has found
+
+// Selects a light by the alias method: 32 bits for the column and 32 for the threshold.
+RL_FN uint lightAt(uint columnBits, uint aliasBits) {
+  uint i = rlMulHigh(columnBits, gScene.lightCount);
+  AliasEntry entry = recordAlias(RL_SCENE_UVEC3(gScene.lightAlias, i));
+  return aliasBits < entry.keep ? i : entry.other;
+}
+
+RL_FN uint lightSelect(RL_IN(Rng) rng) {
+  uint columnBits = rngBits(rng, RL_DIM_LIGHT_SELECT);
+  uint aliasBits = rngBits(rng, RL_DIM_LIGHT_ALIAS);
+  return lightAt(columnBits, aliasBits);
+}
+
+RL_FN bool lightExists() { return gScene.lightCount != 0u; }
+
+// Requires lightExists().
+RL_FN_OUTLINE LightSample lightSample(RL_IN(Rng) rng) {
+  LightSample s;
+  uint uBits = rngBits(rng, RL_DIM_LIGHT_U);
+  uint vBits = rngBits(rng, RL_DIM_LIGHT_V);
+  vec2 u = vec2(rngUnit(uBits), rngUnit(vBits));
+  s.record = lightSelect(rng);
+  Light light = recordLight(s.record);
+  s.kind = light.kind;
+  s.point = light.p0;
+  s.normal = vec3(0.0f, 0.0f, 0.0f);
+  s.pdf = light.pmf;
+  s.radiance = light.radiance;
+  s.posError = 0.0f;
+  s.cone = vec2(light.e2.x, light.e2.y);
+  if (light.kind == RL_LIGHT_SPOT) s.normal = light.e1;
+  s.isTwoSided = 0u;
+  if (RL_HAS(RL_FEATURE_AREA_LIGHTS) && light.kind == RL_LIGHT_TRIANGLE) {
+    vec2 bary = warpTriangle(u);
+    s.point = light.p0 + bary.x * light.e1 + bary.y * light.e2;
+    s.normal = normalize(cross(light.e1, light.e2));
+    if ((light.flags & RL_LIGHT_FLIPPED) != 0u) s.normal = -s.normal;
+    s.pdf = light.pmf * light.areaInverse;
+    s.posError = RL_HIT_ERROR * light.magnitude;
+    s.isTwoSided = light.flags & RL_MATERIAL_DOUBLE_SIDED;
+    if (RL_HAS(RL_FEATURE_EMISSIVE_TEXTURES)) s.radiance = s.radiance * lightTexture(light, bary);
+    if (RL_HAS(RL_FEATURE_ALPHA)) {
+      // Path rays meet a partly transparent emitter with probability alpha.
+      Hit hit;
+      hit.instance = light.instance;
+      hit.primitive = light.primitive;
+      hit.bary = bary;
+      hit.t = 0.0f;
+      s.radiance = s.radiance * surfaceAlpha(hit);
+    }
+  }
+  if (RL_HAS(RL_FEATURE_PUNCTUAL_LIGHTS) && light.kind == RL_LIGHT_DIRECTIONAL) s.point = -light.e1;
+  if (RL_HAS(RL_FEATURE_ENVIRONMENT) && light.kind == RL_LIGHT_ENVIRONMENT) {
+    float pdfSolidAngle = 0.0f;
+    uint aliasBits = rngBits(rng, RL_DIM_ENVIRONMENT_ALIAS);
+    s.point = environmentDraw(uvec2(uBits, vBits), aliasBits, pdfSolidAngle);
+    s.pdf = light.pmf * pdfSolidAngle;
+    s.radiance = environmentRadiance(s.point);
+  }
+  return s;
+}
+
+RL_FN LightConnection lightConnect(RL_IN(LightSample) s, RL_IN(vec3) posW) {
+  LightConnection c;
+  c.isDelta = false;
+  c.geometry = 1.0f;
+  c.distance = 0.0f;
+  c.emitted = s.radiance;
+  c.dirW = s.point;
+  c.pdfSolidAngle = s.pdf;
+  if (s.kind == RL_LIGHT_ENVIRONMENT) return c;
+  if (s.kind == RL_LIGHT_DIRECTIONAL) {
+    c.isDelta = true;
+    c.pdfSolidAngle = 0.0f;
+    return c;
+  }
+  vec3 d = s.point - posW;
+  float d2 = dot(d, d);
+  c.distance = sqrt(d2);
+  c.dirW = d * rlSafeDivide(1.0f, c.distance);
+  if (s.kind == RL_LIGHT_TRIANGLE) {
+    float cosLight = -dot(s.normal, c.dirW);
+    if (s.isTwoSided != 0u) cosLight = abs(cosLight);
+    if (!(cosLight > 0.0f) || !(d2 > 0.0f)) {
+      c.emitted = vec3(0.0f, 0.0f, 0.0f);
+      c.geometry = 0.0f;
+      c.pdfSolidAngle = 0.0f;
+      return c;
+    }
+    c.geometry = cosLight / d2;
+    c.pdfSolidAngle = s.pdf / c.geometry;
+    return c;
+  }
+  c.isDelta = true;
+  c.pdfSolidAngle = 0.0f;
+  c.emitted = c.emitted * rlSafeDivide(1.0f, d2);
+  if (s.kind == RL_LIGHT_SPOT) {
+    float falloff = clamp(-dot(c.dirW, s.normal) * s.cone.x + s.cone.y, 0.0f, 1.0f);
+    c.emitted = c.emitted * (falloff * falloff);
+  }
+  return c;
+}
+
+// The shadow ray of a connection: origin to target with tMax 1, both ends moved off their surfaces.
+RL_FN Ray lightShadowRay(RL_IN(LightSample) s, RL_IN(LightConnection) c, RL_IN(vec3) posW,
+                         RL_IN(vec3) nGeoW, float posError) {
+  Ray ray;
+  ray.origin = surfaceOffset(posW, nGeoW, posError, c.dirW);
+  ray.tMin = 0.0f;
+  if (c.distance > 0.0f) {
+    vec3 target = surfaceOffset(s.point, s.normal, s.posError, -c.dirW);
+    ray.dir = target - ray.origin;
+    ray.tMax = 1.0f;
+  } else {
+    ray.dir = c.dirW;
+    ray.tMax = 3.0e38f;
+  }
+  return ray;
+}
+
+// Solid-angle density with which lightSample finds the emissive triangle that a path ray has hit.
+RL_FN float lightPdfOfHit(uint lightIndex, RL_IN(vec3) nGeoW, RL_IN(vec3) dirW, float distance) {
+  Light light = recordLight(lightIndex);
+  float cosLight = abs(dot(nGeoW, dirW));
+  return cosLight > 0.0f ? light.pmf * light.areaInverse * distance * distance / cosLight : 0.0f;
+}
+
+// Solid-angle density with which lightSample finds the environment in a direction.
+RL_FN float lightPdfOfEnvironment(RL_IN(vec3) dirW) {
+  if (gScene.environmentLight == RL_INVALID) return 0.0f;
+  return recordLight(gScene.environmentLight).pmf * environmentPdf(dirW);
+}
+
+// Weight of a technique with density p against one with density q (power heuristic, exponent 2).
+RL_FN float lightMisWeight(float p, float q) {
+  // Scale by the larger density: squares of densities overflow float32 for small lights.
+  float m = max(p, q);
+  if (!(m > 0.0f)) return 0.0f;
+  float a = p / m;
+  float b = q / m;
+  return a * a / (a * a + b * b);
+}

@@ -1,0 +1,19 @@
+// Host side of the part that finds light that has changed.
+#pragma once
+
+#include "core/frame/part.h"
+#include "core/temporal_gradients/changes.h"
+
+namespace restlab {
+
+// Part that finds changes; enabled if `validate_every` is not 0 and a part of the method asks for
+// kChanges. The passes run before the integrator's.
+const PartInfo& changesPartInfo();
+constexpr const char* kValidateEvery = "validate_every";
+// Buffer of changes, an optional input of the parts that read it. ChangeParams::every is 0 if it is
+// null.
+constexpr const char* kChanges = "changes";
+bool asksForChanges(const PartInfo& part);
+rl::ChangeParams packChanges(const ParameterMap& parameters);
+
+}  // namespace restlab

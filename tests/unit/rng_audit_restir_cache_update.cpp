@@ -1,0 +1,7 @@
+#pragma GCC diagnostic ignored "-Wunused-parameter"  // one signature for every payload
+#include "tests/unit/rng_audit.h"
+
+#define RL_KERNEL_NAME restir_gi_cache_update
+#define RL_KERNEL_HEADER "integrators/restir_gi/restir_gi.h"
+#define RL_KERNEL_FILE "integrators/restir_gi/cache_update.glsl"
+#include "core/backend/cpu_kernel.inl"

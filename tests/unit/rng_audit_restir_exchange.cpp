@@ -1,7 +1,0 @@
-#pragma GCC diagnostic ignored "-Wunused-parameter"  // one signature for every payload
-#include "tests/unit/rng_audit.h"
-
-#define RL_KERNEL_NAME restir_gi_exchange
-#define RL_KERNEL_HEADER "integrators/restir_gi/restir_gi.h"
-#define RL_KERNEL_FILE "integrators/restir_gi/exchange.glsl"
-#include "core/backend/cpu_kernel.inl"
