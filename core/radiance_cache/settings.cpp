@@ -133,7 +133,7 @@ const PartInfo& radiancePartInfo() {
                  ofCells("radiance_claims", sizeof(uint32_t)),
                  ofCells("radiance_insertions", sizeof(uint32_t) * rl::RL_ENTRY_INSERTIONS),
                  ofGroups("radiance_cell_of_group", sizeof(uint32_t))};
-    // Twice: an query that loses a claim to another one has other hash slots to try.
+    // Twice: a query that loses a claim to another one has other hash slots to try.
     i.passes = {pass("clear"),
                 pass("validate"),
                 pass("trace"),

@@ -492,7 +492,7 @@ EXACT_TEST(NegativeAssumedVisibility) {
   const Mistake darker = mistakeOf(kPairwise | RL_REUSE_ASSUME_VISIBLE, hideFromDonors, false);
   EXPECT_EQ(darker.seen, darker.worlds);
   EXPECT_LT(darker.signedSum, 0.0);
-  // Light leaks through an occluder at the canonical shadingPoint.
+  // Light leaks through an occluder at the canonical shading point.
   const auto hideHere = [](World& world) { world.visibility[0][2] = real(0.0f); };
   const Mistake leak = mistakeOf(kPairwise | RL_REUSE_ASSUME_VISIBLE_HERE, hideHere, false);
   EXPECT_EQ(leak.seen, leak.worlds);

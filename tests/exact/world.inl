@@ -187,7 +187,7 @@ dvec3 meanOfResidual(const std::vector<Outcome>& outcomes) {
   return sum;
 }
 
-// Returns all outcomes of initial resampling of `count` independent candidates at an shadingPoint.
+// Returns all outcomes of initial resampling of `count` independent candidates at a shading point.
 std::vector<Outcome> initialOutcomes(const World& world, uint shadingPoint, uint count,
                                      real confidence) {
   Outcomes outcomes;

@@ -1,5 +1,5 @@
 // Caches in world space keep entries, each with a reservoir for one surface point, its
-// shadingPoint. Types shared by caches and integrators (core/caches/README.md).
+// shading point. Types shared by caches and integrators (core/caches/README.md).
 #ifndef RL_ENTRIES_H
 #define RL_ENTRIES_H
 

@@ -1,4 +1,4 @@
-// Lookup of the entry that an query's (query's) surface belongs to. The includer of this file and
+// Lookup of the entry that a query's surface belongs to. The includer of this file and
 // of find.glsl and find_after_claims.glsl defines entryQuery(), entryVisible() and entryOwn().
 RL_FN void entryLook(uint query) {
   GBufferTexel here = entryVisible(query);

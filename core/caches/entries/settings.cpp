@@ -77,7 +77,7 @@ CacheInfo entryCache(const std::string& name, const std::string& summary) {
   PassInfo clear = pass("clear"), insertions = pass("insertions");
   clear.onlyOnNewViews = insertions.onlyOnNewViews = false;
   clear.entriesParameter = kEntryCount;
-  // Twice: an query that loses a claim to another one has other hash slots to try.
+  // Twice: a query that loses a claim to another one has other hash slots to try.
   i.passes = {clear,
               pass("find"),
               pass("claim"),
