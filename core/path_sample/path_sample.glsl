@@ -54,13 +54,13 @@ RL_FN void pathSuffixWrite(RL_IN(QuadRef) quads, uint at, RL_IN(PathSuffix) s) {
 }
 RL_FN PathSuffix pathSuffixRead(RL_IN(QuadRef) quads, uint at) {
   uvec4 q = RL_PAST_QUAD(quads, at);
-  uvec3 suffixRadiance;
+  uvec3 rest;
   PathSuffix s;
-  s.bsdf = bsdfRead(quads, at + 1u, suffixRadiance);
+  s.bsdf = bsdfRead(quads, at + 1u, rest);
   s.nShadeW = unpackUnit(q.x, q.y);
   s.wi = unpackUnit(q.z, q.w);
-  s.emitted = unpackPositive3(suffixRadiance.x, suffixRadiance.y);
-  s.pdfLight = uintBitsToFloat(suffixRadiance.z);
+  s.emitted = unpackPositive3(rest.x, rest.y);
+  s.pdfLight = uintBitsToFloat(rest.z);
   return s;
 }
 
