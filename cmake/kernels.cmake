@@ -122,7 +122,7 @@ function(rl_repository_path result kernel file)
 endfunction()
 
 # rl_add_kernel(<name> <file.glsl> HEADER <buffers and parameters .h> [NO_FEATURES])
-# NO_FEATURES: the kernel asks for none, and one mask is enough. Paths are relative to the calling folder or to the repository. <name> is what PassInfo::kernel says.
+# NO_FEATURES: the kernel asks for none, and one mask is enough. Paths are relative to the calling folder or to the repository. <name> is what a part records its passes with.
 function(rl_add_kernel name kernel_file)
   cmake_parse_arguments(PARSE_ARGV 2 arg "NO_FEATURES" "HEADER" "")
   if(NOT arg_HEADER OR arg_UNPARSED_ARGUMENTS)

@@ -133,6 +133,9 @@ std::unique_ptr<Backend> makeVulkanBackend(const std::shared_ptr<const CompiledS
                                            const BackendOptions& options);
 BackendInfo vulkanBackendInfo();
 
+// Returns whether a kernel is compiled for several feature masks.
+bool hasFeatures(const std::string& kernel);
+
 // Names of all backends; nothing is opened.
 const std::vector<std::string>& backendNames();
 // All backends, for `restlab list backends`.

@@ -239,6 +239,14 @@ BackendInfo cpuBackendInfo() {
   return info;
 }
 
+bool hasFeatures(const std::string& kernel) {
+  const rl::CpuKernelTable table = rl::cpuKernelTable();
+  const auto isOfKernel = [&](const rl::CpuKernelInfo& row) {
+    return row.name == kernel && std::strcmp(row.trace, "embree") == 0;
+  };
+  return std::count_if(table.rows, table.rows + table.count, isOfKernel) > 1;
+}
+
 }  // namespace restlab
 
 namespace rl {

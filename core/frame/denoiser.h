@@ -12,11 +12,9 @@
 
 namespace restlab {
 
-// Buffer 0 is the frame that is shown (12 bytes per pixel); without buffers the radiance is shown
-// unchanged. Inputs are "radiance" and the buffers of core/gbuffer/view_parts.h: features and
-// motion of the film samples, and the surfaces at pixel centres. Reservoirs ("reservoir_history")
-// and detection of changed light (core/temporal_gradients) are optional inputs, as some methods
-// lack them.
+// Reads FrameBuffers::radiance, and the surfaces or features that it needs (PartInfo), and sets
+// FrameBuffers::shown (12 bytes per pixel); one that sets nothing shows the radiance unchanged.
+// Reservoirs and changes are there only in some methods.
 struct DenoiserInfo : PartInfo {
   // Bias that the denoiser adds to the integrator's, for a still and for a moving camera.
   BiasClass biasOfStillView = BiasClass::unbiased;
@@ -29,7 +27,7 @@ struct DenoiserInfo : PartInfo {
   bool comparesSquares = false;
   // For a denoiser without passes and buffers: makes the filter that runs on the host, with
   // `threads` threads (0: all cores) and resolved parameters. The filter's inputs are "radiance"
-  // and "guide", and it has no history.
+  // and the features, and it has no history.
   std::function<HostFilter(int threads, const ParameterMap&)> onHost;
 };
 

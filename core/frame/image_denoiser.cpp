@@ -25,23 +25,31 @@ namespace {
 constexpr std::array<const char*, 5> kLayers = {"radiance", "layer_normal", "layer_albedo",
                                                 "layer_depth", "layer_motion"};
 
+void recordLayers(FrameGraph& g, const FrameInfo& f) {
+  std::array<Buffer, kLayers.size()> layer;
+  for (size_t i = 0; i < kLayers.size(); ++i)
+    layer[i] = g.buffer(kLayers[i], f.pixels, sizeof(glm::vec3));
+  const History features = g.advance(g.history("guide", f.pixels, 16 * rl::RL_GUIDE_QUADS));
+  const Buffer motion = g.buffer("motion", f.pixels, 16);
+  const bool demodulates =
+      f.parameters.contains("demodulate") && textOf(f.parameters, "demodulate") != "none";
+  g.kernels<rl::LayersBuffers>(
+       rl::LayersParams{demodulates ? 1u : 0u},
+       {layer[0], layer[1], layer[2], layer[3], layer[4], features.now, features.before, motion})
+      .pass("layers", "layers")
+      .reads({layer[0], layer[1], layer[2], layer[3], layer[4]})
+      .writes({features.now, motion});
+  g.shared.radiance = layer[0];
+  g.shared.features = features;
+  g.shared.motion = motion;
+}
+
 const PartInfo& layersPart() {
   static const PartInfo info = [] {
     PartInfo i;
     i.name = "layers";
     i.summary = "guides from layers of an image";
-    for (const char* layer : kLayers) i.buffers.push_back({layer, sizeof(glm::vec3)});
-    const uint32_t bytes = 16 * rl::RL_GUIDE_QUADS;
-    const int guide = static_cast<int>(i.buffers.size());
-    i.buffers.push_back({"guide", bytes, 0, guide + 1});
-    i.buffers.push_back({"guide_before", bytes, 0, guide});
-    i.buffers.push_back({"motion", 16});
-    i.passes = {{"layers", "layers", false}};
-    i.packParameters = [](const std::string&, const ParameterMap& p) {
-      const auto found = p.find("demodulate");
-      const bool demodulates = found != p.end() && std::get<std::string>(found->second) != "none";
-      return bytesOf(rl::LayersParams{demodulates ? 1u : 0u});
-    };
+    i.record = recordLayers;
     return i;
   }();
   return info;

@@ -19,7 +19,7 @@ struct ModeInfo {
   std::string why;
 };
 
-// Buffer 0 is the radiance of a frame, "radiance" (12 bytes per pixel).
+// Sets FrameBuffers::radiance (12 bytes per pixel).
 struct IntegratorInfo : PartInfo {
   std::vector<ModeInfo> modes;
   bool usesCache = false;  // keeps reservoirs in a cache

@@ -135,7 +135,7 @@ std::vector<const PartInfo*> Method::parts() const {
   std::vector<const PartInfo*> all;
   if (cache != nullptr) all.push_back(cache);
   if (integrator->endsPaths) all.push_back(&radiancePartInfo());
-  if (asksForChanges(*integrator) || asksForChanges(*denoiser)) all.push_back(&changesPartInfo());
+  if (integrator->followsChanges || denoiser->followsChanges) all.push_back(&changesPartInfo());
   all.push_back(integrator);
   all.push_back(denoiser);
   return all;
@@ -243,23 +243,6 @@ bool isEnabled(const EnabledIf& only, const ParameterMap& resolved) {
   if (only.value != nullptr) return std::get<std::string>(found->second) == only.value;
   const int64_t* number = std::get_if<int64_t>(&found->second);
   return number == nullptr || *number >= only.least;
-}
-
-size_t bufferBytes(const BufferInfo& buffer, const ParameterMap& parameters, size_t pixels) {
-  const auto number = [&](const char* name) {
-    const auto parameter = parameters.find(name);
-    return parameter == parameters.end()
-               ? 0
-               : static_cast<size_t>(std::get<int64_t>(parameter->second));
-  };
-  size_t entries = pixels;
-  if (buffer.perParameter != nullptr) entries = pixels * number(buffer.perParameter);
-  if (buffer.onePerParameter != nullptr) {
-    const size_t group = number(buffer.onePerParameter);
-    entries = group == 0 ? 0 : (pixels + group - 1) / group;
-  }
-  if (buffer.entriesParameter != nullptr) entries = number(buffer.entriesParameter);
-  return entries * buffer.entryBytes;
 }
 
 }  // namespace restlab

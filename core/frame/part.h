@@ -1,5 +1,5 @@
-// Common base of integrators, caches and denoisers: parameters, buffers and passes. A session runs
-// the passes of its parts, one part after another.
+// Common base of integrators, caches and denoisers: parameters, and the passes that a part records
+// for a frame (core/frame/frame_graph.h), one part after another.
 #pragma once
 
 #include <cstddef>
@@ -19,6 +19,8 @@ struct FrameData;  // core/dialect/types.h
 namespace restlab {
 
 class CompiledScene;  // core/scene/compiled/compiled_scene.h
+class FrameGraph;     // core/frame/frame_graph.h
+struct FrameInfo;     // core/frame/frame_graph.h
 
 using ParameterValue = std::variant<bool, int64_t, double, std::string>;
 
@@ -50,37 +52,8 @@ struct EnabledIf {
 };
 bool isEnabled(const EnabledIf& only, const ParameterMap& resolved);
 
-// A buffer with one entry per pixel, or as many as a parameter says.
-struct BufferInfo {
-  std::string name;  // unique among the parts of a method
-  uint32_t entryBytes = 0;
-  uint32_t neededFeatures = 0;  // allocated only if the mask has one of these bits; 0: always
-  int swapWith = -1;            // index of the buffer it swaps with every frame
-  // Names of integer parameters, or null: number of entries per pixel; number of pixels per entry;
-  // total number of entries. Not allocated if the method lacks the parameter.
-  const char* perParameter = nullptr;
-  const char* onePerParameter = nullptr;
-  const char* entriesParameter = nullptr;
-};
-
-struct PassInfo {
-  std::string name;             // name of its time column
-  std::string kernel;           // name in CMake's rl_add_kernel
-  bool hasFeatures = true;      // false: NO_FEATURES, one kernel for every scene
-  bool onlyOnNewViews = false;  // nothing to do in a still view
-  // Integer parameter: the pass runs over that many entries (RL_ENTRY_ROW), not over pixels.
-  const char* entriesParameter = nullptr;
-  // Integer parameter: the pass runs over groups of that many pixels, or entries.
-  const char* onePerParameter = nullptr;
-  EnabledIf enabledIf = {};
-  // For several passes of one kernel: replaces the first word of gParams, a uint. -1: gParams stays
-  // as packParameters() packed it.
-  int step = -1;
-  bool isReplay = false;  // repeats earlier work whose health was already counted
-};
-
-// Buffers of a method after a frame.
-struct Kept {
+// What is left of a frame: buffers of the method, and the inputs of the frame.
+struct FrameSnapshot {
   // All words of a buffer of any part, by name; empty if it is not allocated.
   std::function<std::span<const uint32_t>(const std::string& buffer)> words;
   const ParameterMap& parameters;  // resolved
@@ -115,8 +88,8 @@ struct LayerInfo {
   std::string unit;     // "" if it has none
   bool isName = false;  // numbers are identifiers, not amounts: shown in false colours
   EnabledIf enabledIf = {};
-  // Returns the number of a pixel; valid while `Kept` lives.
-  std::function<std::function<float(size_t pixel)>(const Kept&)> values;
+  // Returns the number of a pixel; valid while `FrameSnapshot` lives.
+  std::function<std::function<float(size_t pixel)>(const FrameSnapshot&)> values;
 };
 
 struct PartInfo {
@@ -125,49 +98,44 @@ struct PartInfo {
   std::vector<ParameterInfo> parameters;
   // Defaults for parameters of other parts, if this part is in the method.
   std::map<std::string, ParameterValue> defaults;
-  // Names of buffers of earlier parts; the kernels' Buffers struct begins with them.
-  std::vector<std::string> inputs;
-  // Optional buffers of earlier parts, next in that struct; null if no earlier part has the name.
-  std::vector<std::string> optionalInputs;
-  // Own buffers of the part: the rest of the Buffers struct, in order.
-  std::vector<BufferInfo> buffers;
-  std::vector<PassInfo> passes;
-  // If the condition is not met, the part has no buffers and its passes do not run.
+  // Records the part's buffers and passes of a frame. Empty: it has none.
+  std::function<void(FrameGraph&, const FrameInfo&)> record;
+  // Buffers of FrameBuffers that the part cannot do without: they are recorded before it.
+  bool needsSurfaces = false, needsFeatures = false;
+  // The part reads FrameBuffers::changes, if the method finds changes (core/temporal_gradients).
+  bool followsChanges = false;
+  // If the condition is not met, the part records nothing.
   EnabledIf enabledIf = {};
   bool hasHistory = false;  // a frame depends on earlier frames
   // Best bias class of a method that contains this part.
   BiasClass bias = BiasClass::unbiased;
-  // Run the passes only if this frame's view or parameters are new. Otherwise the earlier results
-  // stand, and both buffers of a swapping pair are that of the last run.
-  bool onlyOnNewViews = false;
   // Says why a parameter (of this part or another one) or the "mode" has no effect, given the
   // parameters; "" if it has an effect, or if another part answers. Empty: every setting has an
   // effect.
   std::function<std::string(const std::string& name, const ParameterMap&)> reasonUnused;
-  // Packs validated parameters into the block that kernels read as gParams. `mode` is the
-  // integrator's.
-  std::function<std::vector<std::byte>(const std::string& mode, const ParameterMap&)>
-      packParameters;
   std::vector<LayerInfo> layers;
   // Values of a pixel beside its layers; empty: none.
-  std::function<std::vector<ProbeValue>(const Kept&, size_t pixel)> probe;
+  std::function<std::vector<ProbeValue>(const FrameSnapshot&, size_t pixel)> probe;
   // Recomputes the donors from the buffers that the frame has left, so that frames cost nothing
   // extra. Empty: the part merges no samples.
-  std::function<std::vector<Donor>(const Kept&, size_t pixel)> donors;
+  std::function<std::vector<Donor>(const FrameSnapshot&, size_t pixel)> donors;
 };
 
-// Bytes of a buffer, with resolved parameters.
-size_t bufferBytes(const BufferInfo& buffer, const ParameterMap& parameters, size_t pixels);
-
-// For packParameters: an integer and a number of the resolved parameters, as kernel types.
+// Parameters as kernel types.
 inline uint32_t uintOf(const ParameterMap& parameters, const char* name) {
   return static_cast<uint32_t>(std::get<int64_t>(parameters.at(name)));
+}
+inline bool boolOf(const ParameterMap& parameters, const char* name) {
+  return std::get<bool>(parameters.at(name));
+}
+inline const std::string& textOf(const ParameterMap& parameters, const char* name) {
+  return std::get<std::string>(parameters.at(name));
 }
 inline float floatOf(const ParameterMap& parameters, const char* name) {
   return static_cast<float>(std::get<double>(parameters.at(name)));
 }
 
-// For packParameters: the bytes of a Params struct.
+// Bytes of a Params struct.
 template <typename T>
 std::vector<std::byte> bytesOf(const T& params) {
   const auto* from = reinterpret_cast<const std::byte*>(&params);

@@ -2,13 +2,15 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/backend/backend.h"
-#include "core/frame/part.h"
+#include "core/frame/frame_graph.h"
 
 namespace restlab {
 
@@ -21,8 +23,7 @@ struct ShownFrame {
 
 class Pipeline {
  public:
-  // `wanted`: the features of the kernels. Throws Error (badUsage) if a part needs a buffer that no
-  // earlier part has. Allocates nothing yet.
+  // `wanted`: the features of the kernels. Allocates nothing yet.
   Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const std::string& mode,
            const ParameterMap& parameters, uint32_t wanted, size_t pixels);
 
@@ -30,10 +31,14 @@ class Pipeline {
   // Bytes per pixel of the allocated buffers (those that the kernels in use can touch). Each is
   // rounded up, and so is their sum, which may be less than the sum of the rounded ones.
   std::vector<std::pair<std::string, size_t>> bufferBytesPerPixel() const;
-  size_t bytesPerPixel() const;
+  size_t bytesPerPixel() const { return bytesPerPixelOf(pixels_); }
   // Bytes per pixel for an image of another size: buffers of fixed size are shared by more or fewer
   // pixels.
   size_t bytesPerPixelOf(size_t pixels) const;
+  // The frame begun last; before the first one, a frame of a new view.
+  const FrameGraph& graph() const { return graph_; }
+  // Bytes of a buffer of the graph; 0: not allocated, as no kernel in use touches it.
+  size_t bytesOf(Buffer buffer) const;
 
   // Sets other parameters of the same mode. Returns false, and does nothing, if buffers would
   // change their size.
@@ -51,14 +56,14 @@ class Pipeline {
   // Copies every buffer. The first call allocates as much memory again as allocate() did, and
   // throws as Backend::allocate() does.
   void keep();
-  bool hasCopies() const { return !kept_.empty(); }
+  bool hasCopies() const { return kept_.has_value(); }
   // Restores the snapshot taken by keep(); later frames are discarded.
   void restore();
 
-  // Swaps histories and returns the passes of the next frame. `isNewView`: camera or parameters
-  // differ from the frame before.
+  // Records the next frame and returns its passes. `isNewView`: camera or parameters differ from
+  // the frame before.
   std::vector<PassRun> beginFrame(bool isNewView);
-  // Returns names and times of a frame's passes, in the order of beginFrame(); `result` holds only
+  // Returns names and times of a frame's passes, in the order of a new view's; `result` holds only
   // those that ran. A pass without work has no time.
   struct PassResult {
     std::string name;
@@ -75,36 +80,43 @@ class Pipeline {
   std::vector<uint32_t> words(const std::string& buffer);
 
  private:
-  struct Stage {
-    const PartInfo* info = nullptr;
-    std::vector<std::byte> params;
-    std::vector<std::byte> shownParams;  // parameters of the frame begun last
-    std::vector<uint32_t> masks;         // by pass
-    std::vector<uint32_t> entries;       // by pass; 0: pixels
-    std::vector<bool> isEnabled;         // by pass: its PassInfo::enabledIf and its part's are met
-    std::vector<size_t> bytes;           // by own buffer; 0: not allocated
-    std::vector<BufferId> buffers;       // the part's own
-    bool runs = true;                    // in the frame begun last
+  FrameGraph recorded(const ParameterMap& parameters, size_t pixels) const;
+  bool isUsed(const GraphBuffer& buffer) const;
+  BufferId idOf(Buffer buffer) const { return buffer ? ids_[buffer.index] : kNoBuffer; }
+  // Feature mask of the kernel that serves the scene.
+  uint32_t maskOf(const std::string& kernel);
+  PassRun runOf(const GraphPass& pass);
+  // Parameters that kernels of a part had in the frame begun last.
+  std::span<const std::byte> paramsOf(const PartInfo& part) const;
+  // Pairs of each buffer and its copy.
+  std::vector<std::pair<BufferId, BufferId>> withCopies() const;
+
+  // A pass that a frame may run, in the table of times.
+  struct Column {
+    std::string name;
+    bool isReplay = false;
+    bool operator==(const Column&) const = default;
+  };
+  // Passes of a new view, and those that ran in one frame.
+  struct Ran {
+    std::vector<Column> columns;
+    std::vector<bool> hasRun;  // by column
   };
 
-  size_t bytesOf(const PartInfo& part, const BufferInfo& buffer,
-                 const ParameterMap& parameters) const;
-  void pack(Stage& stage, const std::string& mode, const ParameterMap& parameters) const;
-  std::optional<std::pair<size_t, size_t>> find(const std::string& name, size_t before) const;
-  BufferId bound(const Stage& stage, size_t buffer) const;
-  std::vector<BufferId> bindings(size_t stage) const;
-  // Pairs of each buffer of kept_ and its copy.
-  std::vector<std::pair<BufferId, BufferId>> keptBuffers() const;
-  PassRun runOf(size_t stage, size_t pass) const;
-
   Backend& backend_;
-  std::vector<Stage> stages_;
-  size_t pixels_ = 0;
+  std::vector<const PartInfo*> parts_;
+  std::string mode_;
   ParameterMap parameters_;
+  uint32_t wanted_ = 0;
+  std::map<std::string, uint32_t> masks_;  // by kernel
+  size_t pixels_ = 0;
+  FrameGraph graph_;
   uint32_t used_ = 0;
-  std::deque<std::vector<bool>> ran_;  // by pass, for the frames in flight
-  std::vector<Stage> kept_;            // snapshot of keep(); copies_ holds the contents
-  std::vector<BufferId> copies_;       // copies of all buffers of all stages, in the order of kept_
+  std::vector<Column> columns_;
+  std::vector<BufferId> ids_;       // by buffer of the graph; kNoBuffer: not allocated
+  std::deque<Ran> ran_;             // of the frames in flight
+  std::optional<FrameGraph> kept_;  // snapshot of keep(); copies_ holds the contents
+  std::vector<BufferId> copies_;    // by buffer of the graph
 };
 
 }  // namespace restlab

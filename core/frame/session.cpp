@@ -470,6 +470,8 @@ std::vector<std::pair<std::string, size_t>> Session::bufferBytesPerPixel() const
   return impl_->pipeline->bufferBytesPerPixel();
 }
 
+const FrameGraph& Session::graph() const { return impl_->pipeline->graph(); }
+
 size_t Session::bytesPerPixel() const { return impl_->pipeline->bytesPerPixel(); }
 size_t Session::bytesPerPixelOf(uint32_t width, uint32_t height) const {
   return impl_->pipeline->bytesPerPixelOf(size_t(width) * height);

@@ -16,6 +16,7 @@
 
 namespace restlab {
 
+class FrameGraph;      // core/frame/frame_graph.h
 class CompiledScene;   // core/scene/compiled/compiled_scene.h
 struct StartupReport;  // core/backend/backend.h
 
@@ -137,6 +138,8 @@ class Session {
   std::string rayTracing() const;        // the one in use
   std::string device() const;            // device that kernels run on
   std::vector<std::pair<std::string, size_t>> bufferBytesPerPixel() const;
+  // Buffers and passes of the last frame; before the first one, those of a new view.
+  const FrameGraph& graph() const;
 
  private:
   struct Impl;

@@ -3,48 +3,68 @@
 #include <algorithm>
 
 #include "core/dialect/order.h"
+#include "core/frame/frame_graph.h"
 #include "core/gbuffer/guide.h"
+#undef RL_KERNEL_BUFFERS
+#undef RL_KERNEL_PARAMS
+#include "core/gbuffer/visible_pass.h"
 
 namespace restlab {
 
 namespace {
 
-const PartInfo& visibleSurfaces() {
+// Surfaces change with the view alone. Kernels find those of a still view as the last frame's, too.
+void recordSurfaces(FrameGraph& g, const FrameInfo& f) {
+  History surfaces = g.history("visible", f.pixels, 16);
+  if (f.isNewView) {
+    surfaces = g.advance(surfaces);
+    g.kernels<rl::VisibleBuffers>(rl::VisibleParams{}, {surfaces.now, surfaces.before})
+        .pass("visible", "visible")
+        .writes({surfaces.now});
+  } else {
+    surfaces.before = surfaces.now;
+  }
+  g.shared.surfaces = surfaces;
+}
+
+void recordFeatures(FrameGraph& g, const FrameInfo& f) {
+  const Buffer surfaces = g.shared.surfaces.now;
+  const History features = g.advance(g.history("guide", f.pixels, 16 * rl::RL_GUIDE_QUADS));
+  const Buffer motion = g.buffer("motion", f.pixels, 16);
+  rl::GuideParams params{};
+  if (f.parameters.contains("demodulate")) {
+    const std::string& what = textOf(f.parameters, "demodulate");
+    params.flags |= what == "none" ? 0u : rl::RL_GUIDE_DIFFUSE;
+    params.flags |= what == "all" ? rl::RL_GUIDE_SPECULAR : 0u;
+  }
+  g.kernels<rl::GuideBuffers>(params, {surfaces, features.now, features.before, motion})
+      .pass("guide", "guide")
+      .reads({surfaces, features.before})
+      .writes({features.now, motion});
+  g.shared.features = features;
+  g.shared.motion = motion;
+}
+
+const PartInfo& surfacesPart() {
   static const PartInfo info = [] {
     PartInfo i;
     i.name = "visible";
     i.summary = "what each pixel shows at its centre";
-    i.buffers = {{"visible", 16, 0, 1}, {"visible_before", 16, 0, 0}};
-    i.passes = {{"visible", "visible"}};
+    i.record = recordSurfaces;
     i.hasHistory = true;
-    i.onlyOnNewViews = true;
-    // No parameters: the kernel's struct holds only padding.
-    i.packParameters = [](const std::string&, const ParameterMap&) { return bytesOf(uint32_t{0}); };
     return i;
   }();
   return info;
 }
 
-const PartInfo& guides() {
+const PartInfo& featuresPart() {
   static const PartInfo info = [] {
     PartInfo i;
     i.name = "guide";
     i.summary = "what the film samples show, for denoisers";
-    i.inputs = {"visible"};
-    const uint32_t bytes = 16 * rl::RL_GUIDE_QUADS;
-    i.buffers = {{"guide", bytes, 0, 1}, {"guide_before", bytes, 0, 0}, {"motion", 16, 0, -1}};
-    i.passes = {{"guide", "guide"}};
+    i.needsSurfaces = true;
+    i.record = recordFeatures;
     i.hasHistory = true;
-    i.packParameters = [](const std::string&, const ParameterMap& p) {
-      rl::GuideParams out{};
-      const auto demodulate = p.find("demodulate");
-      if (demodulate != p.end()) {
-        const std::string& what = std::get<std::string>(demodulate->second);
-        out.flags |= what == "none" ? 0u : rl::RL_GUIDE_DIFFUSE;
-        out.flags |= what == "all" ? rl::RL_GUIDE_SPECULAR : 0u;
-      }
-      return bytesOf(out);
-    };
     return i;
   }();
   return info;
@@ -53,17 +73,12 @@ const PartInfo& guides() {
 }  // namespace
 
 std::vector<const PartInfo*> withViewParts(std::vector<const PartInfo*> parts) {
-  // Later part first: it needs buffers of the earlier one.
-  for (const PartInfo* part : {&guides(), &visibleSurfaces()}) {
-    const auto asks = [&](const std::string& input) {
-      return std::any_of(part->buffers.begin(), part->buffers.end(),
-                         [&](const BufferInfo& buffer) { return buffer.name == input; });
-    };
-    const bool isAsked = std::any_of(parts.begin(), parts.end(), [&](const PartInfo* other) {
-      return std::any_of(other->inputs.begin(), other->inputs.end(), asks);
-    });
-    if (isAsked) parts.insert(parts.begin(), part);
-  }
+  const auto anyNeeds = [&](bool PartInfo::*buffers) {
+    return std::any_of(parts.begin(), parts.end(),
+                       [&](const PartInfo* part) { return part->*buffers; });
+  };
+  if (anyNeeds(&PartInfo::needsFeatures)) parts.insert(parts.begin(), &featuresPart());
+  if (anyNeeds(&PartInfo::needsSurfaces)) parts.insert(parts.begin(), &surfacesPart());
   return parts;
 }
 

@@ -1,11 +1,8 @@
-// Parts that find the visible surfaces, for parts that use them by the names of these buffers:
-//   "visible", "visible_before"   surface at each pixel's centre, in this view and in the last
-//                                 frame's: for histories that follow surfaces
-//                                 (core/gbuffer/visible.h)
-//   "guide", "guide_before"       features of the film samples of this frame (in a still view their
-//                                 mean) and of the last frame: for denoisers
-//                                 (core/gbuffer/guide_data.h)
-//   "motion"                      position in the last frame
+// Parts that find the visible surfaces, for the parts that need them (FrameBuffers):
+//   surfaces   at each pixel's centre, in this view and in the last frame's: for histories that
+//              follow surfaces (core/gbuffer/visible.h)
+//   features   of the film samples of this frame (in a still view their mean) and of the last
+//              frame, with their motion: for denoisers (core/gbuffer/guide_data.h)
 #pragma once
 
 #include <vector>
@@ -14,7 +11,7 @@
 
 namespace restlab {
 
-// Returns `parts`, preceded by those view parts whose buffers one of them uses.
+// Returns `parts`, preceded by those view parts that one of them needs.
 std::vector<const PartInfo*> withViewParts(std::vector<const PartInfo*> parts);
 
 }  // namespace restlab

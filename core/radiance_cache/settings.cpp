@@ -1,5 +1,6 @@
 #include "core/radiance_cache/settings.h"
 
+#include "core/frame/frame_graph.h"
 #include "core/radiance_cache/cells.h"
 
 namespace restlab {
@@ -95,24 +96,59 @@ std::vector<ParameterInfo> parameterInfos() {
   };
 }
 
-BufferInfo ofCells(const char* name, size_t bytes) {
-  BufferInfo buffer{name, static_cast<uint32_t>(bytes)};
-  buffer.entriesParameter = kEntries;
-  return buffer;
-}
-BufferInfo ofGroups(const char* name, size_t bytes) {
-  BufferInfo buffer{name, static_cast<uint32_t>(bytes)};
-  buffer.onePerParameter = kEvery;
-  return buffer;
-}
+void recordRadiance(FrameGraph& g, const FrameInfo& f) {
+  const ParameterMap& p = f.parameters;
+  rl::RadianceCellParams params{};
+  params.entries.count = uintOf(p, kEntries);
+  params.entries.insertEvery = uintOf(p, kEvery);
+  params.entries.cap = float(uintOf(p, "radiance_cap"));
+  params.cells = packRadiance(p);
+  params.grid = params.cells.grid;
+  params.validateEvery = uintOf(p, kValidate);
+  const size_t cells = params.entries.count, groups = f.groups(params.entries.insertEvery);
+  constexpr uint32_t kWord = sizeof(uint32_t);
+  const Buffer keys = g.buffer("radiance_keys", cells, 2 * kWord);
+  const Buffer places = g.buffer("radiance_places", cells, 16);
+  const Buffer light = g.buffer("radiance_light", cells, 16);
+  const Buffer rays = g.buffer("radiance_rays", groups, 16 * rl::RL_RADIANCE_RAY_QUADS);
+  const Buffer points = g.buffer("radiance_points", groups, 16 * rl::RL_RADIANCE_POINT_QUADS);
+  const Buffer kept = g.buffer("radiance_kept", cells, 16 * rl::RL_RADIANCE_KEPT_QUADS);
+  const Buffer seen = g.buffer("radiance_seen", cells, kWord);
+  const Buffer claims = g.buffer("radiance_claims", cells, kWord);
+  const Buffer insertions = g.buffer("radiance_insertions", cells, kWord * rl::RL_ENTRY_INSERTIONS);
+  const Buffer cellOfGroup = g.buffer("radiance_cell_of_group", groups, kWord);
+  g.shared.cellKeys = keys;
+  g.shared.cellPlaces = places;
+  g.shared.cellLight = light;
+  g.shared.cellRays = rays;
 
-PassInfo pass(const std::string& what, const std::string& again = "") {
-  PassInfo info{"radiance_" + what + again, "radiance_" + what, false};
-  info.hasFeatures = what == "trace" || what == "insertions" || what == "validate";
-  const bool isOfCells = what == "clear" || what == "fill" || what == "validate";
-  (isOfCells ? info.entriesParameter : info.onePerParameter) = isOfCells ? kEntries : kEvery;
-  if (what == "validate") info.onePerParameter = kValidate;
-  return info;
+  const Kernels kernels = g.kernels<rl::RadianceCellBuffers>(
+      params, {keys, places, light, rays, points, kept, seen, claims, insertions, cellOfGroup});
+  const auto pass = [&](const std::string& what, const std::string& again = "") -> GraphPass& {
+    return kernels.pass("radiance_" + what + again, "radiance_" + what);
+  };
+  const auto find = [&](const std::string& what, const std::string& again = "") {
+    pass(what, again).over(groups).reads({points, keys}).updates({seen, cellOfGroup});
+  };
+  const auto claim = [&](const std::string& again = "") {
+    pass("claim", again).over(groups).reads({points, seen}).updates({claims, cellOfGroup});
+    pass("resolve_claims", again)
+        .over(groups)
+        .reads({points, claims, cellOfGroup})
+        .updates({keys, places, light, kept, seen});
+  };
+  pass("clear").over(cells).writes({claims, insertions});
+  const size_t validated = (cells + params.validateEvery - 1) / params.validateEvery;
+  pass("validate").over(validated).reads({seen}).updates({kept, light});
+  pass("trace").over(groups).reads({rays}).writes({points});
+  find("find");
+  // Twice: a query that loses a claim to another one has other hash slots to try.
+  claim();
+  find("find_after_claims");
+  claim("_again");
+  find("find_after_claims", "_last");
+  pass("insertions").over(groups).reads({points, cellOfGroup, places}).updates({insertions});
+  pass("fill").over(cells).reads({insertions, points, rays}).updates({light, kept});
 }
 
 }  // namespace
@@ -123,29 +159,7 @@ const PartInfo& radiancePartInfo() {
     i.name = "radiance";
     i.summary = "cells in space with the radiance that leaves them, in which paths may end";
     i.parameters = parameterInfos();
-    i.buffers = {ofCells("radiance_keys", 2 * sizeof(uint32_t)),
-                 ofCells("radiance_places", 16),
-                 ofCells("radiance_light", 16),
-                 ofGroups("radiance_rays", size_t{16} * rl::RL_RADIANCE_RAY_QUADS),
-                 ofGroups("radiance_points", size_t{16} * rl::RL_RADIANCE_POINT_QUADS),
-                 ofCells("radiance_kept", size_t{16} * rl::RL_RADIANCE_KEPT_QUADS),
-                 ofCells("radiance_seen", sizeof(uint32_t)),
-                 ofCells("radiance_claims", sizeof(uint32_t)),
-                 ofCells("radiance_insertions", sizeof(uint32_t) * rl::RL_ENTRY_INSERTIONS),
-                 ofGroups("radiance_cell_of_group", sizeof(uint32_t))};
-    // Twice: a query that loses a claim to another one has other hash slots to try.
-    i.passes = {pass("clear"),
-                pass("validate"),
-                pass("trace"),
-                pass("find"),
-                pass("claim"),
-                pass("resolve_claims"),
-                pass("find_after_claims"),
-                pass("claim", "_again"),
-                pass("resolve_claims", "_again"),
-                pass("find_after_claims", "_last"),
-                pass("insertions"),
-                pass("fill")};
+    i.record = recordRadiance;
     i.enabledIf = kIsCache;
     i.hasHistory = true;
     i.bias = BiasClass::biased;
@@ -153,26 +167,12 @@ const PartInfo& radiancePartInfo() {
       const bool isOwn = name.starts_with("radiance_");
       return isOwn && !endsPaths(p) ? "secondary is trace" : "";
     };
-    i.packParameters = [](const std::string&, const ParameterMap& p) {
-      rl::RadianceCellParams out{};
-      out.entries.count = uintOf(p, kEntries);
-      out.entries.insertEvery = uintOf(p, kEvery);
-      out.entries.cap = float(uintOf(p, "radiance_cap"));
-      out.cells = packRadiance(p);
-      out.grid = out.cells.grid;
-      out.validateEvery = uintOf(p, kValidate);
-      return bytesOf(out);
-    };
     return i;
   }();
   return info;
 }
 
 bool endsPaths(const ParameterMap& parameters) { return isEnabled(kIsCache, parameters); }
-
-std::vector<std::string> radianceInputs() {
-  return {"radiance_keys", "radiance_places", "radiance_light", "radiance_rays"};
-}
 
 rl::RadianceParams packRadiance(const ParameterMap& p) {
   rl::RadianceParams out{};

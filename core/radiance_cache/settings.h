@@ -14,8 +14,6 @@ namespace restlab {
 const PartInfo& radiancePartInfo();
 // Returns whether paths end in cells, with these resolved parameters.
 bool endsPaths(const ParameterMap& parameters);
-// Optional inputs of an integrator whose paths end in cells, in the order of rl::RadianceBuffers.
-std::vector<std::string> radianceInputs();
 // Packs RadianceParams for an integrator. All zero if its paths do not end in cells.
 rl::RadianceParams packRadiance(const ParameterMap& parameters);
 

@@ -1,10 +1,29 @@
 #include "core/temporal_gradients/settings.h"
 
-#include <algorithm>
-
+#include "core/frame/frame_graph.h"
 #include "core/temporal_gradients/passes.h"
 
 namespace restlab {
+
+namespace {
+
+void recordChanges(FrameGraph& g, const FrameInfo& f) {
+  const rl::ChangePassParams params{packChanges(f.parameters)};
+  const size_t groups = f.groups(params.changes.every);
+  const Buffer found = g.buffer("change_found", groups, 2 * sizeof(uint32_t));
+  const Buffer differences = g.buffer("change_differences", groups, 2 * sizeof(uint32_t));
+  const Buffer changes = g.buffer("changes", groups, sizeof(uint32_t));
+  const Kernels kernels = g.kernels<rl::ChangeBuffers>(params, {found, differences, changes});
+  kernels.pass("replay", "changes_trace")
+      .over(groups)
+      .writes({differences})
+      .updates({found})
+      .replays();
+  kernels.pass("changes", "changes_share").over(groups).reads({differences}).writes({changes});
+  g.shared.changes = changes;
+}
+
+}  // namespace
 
 const PartInfo& changesPartInfo() {
   static const PartInfo info = [] {
@@ -30,28 +49,14 @@ const PartInfo& changesPartInfo() {
          "measured: docs/decisions.md, Light that changed is found by replay"}};
     i.enabledIf.parameter = kValidateEvery;
     i.hasHistory = true;
-    i.buffers = {{"change_found", 2 * sizeof(uint32_t)},
-                 {"change_differences", 2 * sizeof(uint32_t)},
-                 {kChanges, sizeof(uint32_t)}};
-    i.passes = {{"replay", "changes_trace"}, {"changes", "changes_share", false}};
-    for (BufferInfo& buffer : i.buffers) buffer.onePerParameter = kValidateEvery;
-    for (PassInfo& pass : i.passes) pass.onePerParameter = kValidateEvery;
-    i.passes.front().isReplay = true;
+    i.record = recordChanges;
     i.reasonUnused = [](const std::string& name, const ParameterMap& p) -> std::string {
       const bool isOff = std::get<int64_t>(p.at(kValidateEvery)) == 0;
       return name == "validate_response" && isOff ? "validate_every is 0" : "";
     };
-    i.packParameters = [](const std::string&, const ParameterMap& p) {
-      return bytesOf(rl::ChangePassParams{packChanges(p)});
-    };
     return i;
   }();
   return info;
-}
-
-bool asksForChanges(const PartInfo& part) {
-  return std::find(part.optionalInputs.begin(), part.optionalInputs.end(), kChanges) !=
-         part.optionalInputs.end();
 }
 
 rl::ChangeParams packChanges(const ParameterMap& parameters) {

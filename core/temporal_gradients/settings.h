@@ -6,14 +6,11 @@
 
 namespace restlab {
 
-// Part that finds changes; enabled if `validate_every` is not 0 and a part of the method asks for
-// kChanges. The passes run before the integrator's.
+// Part that finds changes; enabled if `validate_every` is not 0 and a part of the method follows
+// them (PartInfo::followsChanges). The passes run before the integrator's.
 const PartInfo& changesPartInfo();
 constexpr const char* kValidateEvery = "validate_every";
-// Buffer of changes, an optional input of the parts that read it. ChangeParams::every is 0 if it is
-// null.
-constexpr const char* kChanges = "changes";
-bool asksForChanges(const PartInfo& part);
+// ChangeParams::every is 0 if no changes are found.
 rl::ChangeParams packChanges(const ParameterMap& parameters);
 
 }  // namespace restlab

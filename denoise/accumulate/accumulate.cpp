@@ -2,11 +2,35 @@
 #include "denoise/accumulate/accumulate.h"
 
 #include "core/frame/denoiser.h"
+#include "core/frame/frame_graph.h"
 #include "core/temporal_gradients/settings.h"
 
 namespace restlab {
 
 const DenoiserInfo& accumulateDenoiserInfo();
+
+namespace {
+
+void recordAccumulate(FrameGraph& g, const FrameInfo& f) {
+  const ParameterMap& p = f.parameters;
+  rl::AccumulateParams params{};
+  params.cap = floatOf(p, "accumulate_cap");
+  params.similarity.minNormalDot = floatOf(p, "accumulate_normal_threshold");
+  params.similarity.maxPlaneDistance = floatOf(p, "accumulate_plane_threshold");
+  if (textOf(p, "accumulate_filter") == "bilinear") params.flags |= rl::RL_ACCUMULATE_BILINEAR;
+  params.changes = packChanges(p);
+  const FrameBuffers& s = g.shared;
+  const Buffer shown = g.buffer("accumulated", f.pixels, sizeof(glm::vec3));
+  const History history = g.advance(g.history("accumulate_history", f.pixels, 16));
+  g.kernels<rl::AccumulateBuffers>(params, {s.radiance, s.surfaces.now, s.surfaces.before,
+                                            s.changes, shown, history.now, history.before})
+      .pass("accumulate", "accumulate")
+      .reads({s.radiance, s.surfaces.now, s.surfaces.before, s.changes, history.before})
+      .writes({shown, history.now});
+  g.shared.shown = shown;
+}
+
+}  // namespace
 
 const DenoiserInfo& accumulateDenoiserInfo() {
   static const DenoiserInfo info = [] {
@@ -47,28 +71,13 @@ const DenoiserInfo& accumulateDenoiserInfo() {
          {},
          "largest distance from each other's plane over the distance to the camera",
          "as of the pixel cache"}};
-    i.inputs = {"radiance", "visible", "visible_before"};
-    i.optionalInputs = {kChanges};
-    i.buffers = {{"accumulated", sizeof(glm::vec3), 0, -1},
-                 {"accumulate_history", 16, 0, 2},
-                 {"accumulate_history_before", 16, 0, 1}};
-    i.passes = {{"accumulate", "accumulate", false}};
+    i.needsSurfaces = true;
+    i.followsChanges = true;
+    i.record = recordAccumulate;
     i.hasHistory = true;
     // accumulate_cap counts from the first whole average on (accumulate.glsl).
     i.shownFrames = [](const ParameterMap& p, double radianceFrames) {
       return radianceFrames + std::get<double>(p.at("accumulate_cap"));
-    };
-    i.packParameters = [](const std::string&, const ParameterMap& p) {
-      rl::AccumulateParams out{};
-      out.cap = static_cast<float>(std::get<double>(p.at("accumulate_cap")));
-      out.similarity.minNormalDot =
-          static_cast<float>(std::get<double>(p.at("accumulate_normal_threshold")));
-      out.similarity.maxPlaneDistance =
-          static_cast<float>(std::get<double>(p.at("accumulate_plane_threshold")));
-      if (std::get<std::string>(p.at("accumulate_filter")) == "bilinear")
-        out.flags |= rl::RL_ACCUMULATE_BILINEAR;
-      out.changes = packChanges(p);
-      return bytesOf(out);
     };
     return i;
   }();

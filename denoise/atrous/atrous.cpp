@@ -2,11 +2,44 @@
 #include "denoise/atrous/atrous.h"
 
 #include "core/frame/denoiser.h"
+#include "core/frame/frame_graph.h"
 #include "denoise/common/settings.h"
 
 namespace restlab {
 
 const DenoiserInfo& atrousDenoiserInfo();
+
+namespace {
+
+void recordAtrous(FrameGraph& g, const FrameInfo& f) {
+  const ParameterMap& p = f.parameters;
+  rl::AtrousParams params{};
+  params.iterations = uintOf(p, "atrous_iterations");
+  params.deviations = floatOf(p, "atrous_deviations");
+  params.edges = packFilterEdges(p);
+  const Buffer radiance = g.shared.radiance, features = g.shared.features.now;
+  const Buffer shown = g.buffer("atrous_shown", f.pixels, sizeof(glm::vec3));
+  const Buffer even = g.buffer("atrous_even", f.pixels, 16);
+  const Buffer odd = g.buffer("atrous_odd", f.pixels, 16);
+  const Buffer around = g.buffer("atrous_around", f.pixels, sizeof(glm::vec2));
+  const auto kernels = [&] {
+    return g.kernels<rl::AtrousBuffers>(params, {radiance, features, shown, even, odd, around});
+  };
+  kernels().pass("atrous_begin", "atrous_begin").reads({radiance, features}).writes({even});
+  kernels().pass("atrous_around", "atrous_around").reads({even, features}).writes({around});
+  for (params.step = 0; params.step < params.iterations; ++params.step) {
+    const bool isEven = params.step % 2 == 0;
+    kernels()
+        .pass(iterationName("atrous", params.step), "atrous")
+        .reads({isEven ? even : odd, features, around})
+        .writes({isEven ? odd : even});
+  }
+  const Buffer last = params.iterations % 2 == 0 ? even : odd;
+  kernels().pass("atrous_end", "atrous_end").reads({last, features}).writes({shown});
+  g.shared.shown = shown;
+}
+
+}  // namespace
 
 const DenoiserInfo& atrousDenoiserInfo() {
   static const DenoiserInfo info = [] {
@@ -20,22 +53,8 @@ const DenoiserInfo& atrousDenoiserInfo() {
                     deviationsParameter("atrous", 3.0)};
     for (ParameterInfo& parameter : filterParameters()) i.parameters.push_back(parameter);
     i.comparesSquares = true;
-    i.inputs = {"radiance", "guide"};
-    i.buffers = {{"atrous_shown", sizeof(glm::vec3), 0, -1},
-                 {"atrous_even", 16, 0, -1},
-                 {"atrous_odd", 16, 0, -1},
-                 {"atrous_around", sizeof(glm::vec2), 0, -1}};
-    i.passes = {{"atrous_begin", "atrous_begin", false}, {"atrous_around", "atrous_around", false}};
-    for (PassInfo& pass : waveletPasses("atrous", "atrous_iterations"))
-      i.passes.push_back(std::move(pass));
-    i.passes.push_back({"atrous_end", "atrous_end", false});
-    i.packParameters = [](const std::string&, const ParameterMap& p) {
-      rl::AtrousParams out{};
-      out.iterations = uintOf(p, "atrous_iterations");
-      out.deviations = floatOf(p, "atrous_deviations");
-      out.edges = packFilterEdges(p);
-      return bytesOf(out);
-    };
+    i.needsFeatures = true;
+    i.record = recordAtrous;
     return i;
   }();
   return info;

@@ -1,7 +1,5 @@
 #include "denoise/common/settings.h"
 
-#include <fmt/format.h>
-
 namespace restlab {
 
 ParameterInfo demodulateParameter() {
@@ -60,20 +58,6 @@ ParameterInfo iterationsParameter(const std::string& name, int64_t defaultValue,
           "wavelet iterations; iteration i reaches 2^i pixels to each side",
           source,
           true};
-}
-
-std::vector<PassInfo> waveletPasses(const std::string& kernel, const char* parameter) {
-  std::vector<PassInfo> passes;
-  for (int step = 0; step < kMostIterations; ++step) {
-    PassInfo pass;
-    pass.name = fmt::format("{} {}", kernel, step + 1);
-    pass.kernel = kernel;
-    pass.hasFeatures = false;
-    pass.enabledIf = {parameter, nullptr, step + 1};
-    pass.step = step;
-    passes.push_back(std::move(pass));
-  }
-  return passes;
 }
 
 }  // namespace restlab

@@ -2,11 +2,29 @@
 #include "denoise/firefly/firefly.h"
 
 #include "core/frame/denoiser.h"
+#include "core/frame/frame_graph.h"
 #include "denoise/common/settings.h"
 
 namespace restlab {
 
 const DenoiserInfo& fireflyDenoiserInfo();
+
+namespace {
+
+void recordFirefly(FrameGraph& g, const FrameInfo& f) {
+  rl::FireflyParams params{};
+  params.radius = uintOf(f.parameters, "firefly_radius");
+  params.factor = floatOf(f.parameters, "firefly_factor");
+  const Buffer radiance = g.shared.radiance, features = g.shared.features.now;
+  const Buffer shown = g.buffer("firefly_shown", f.pixels, sizeof(glm::vec3));
+  g.kernels<rl::FireflyBuffers>(params, {radiance, features, shown})
+      .pass("firefly", "firefly")
+      .reads({radiance, features})
+      .writes({shown});
+  g.shared.shown = shown;
+}
+
+}  // namespace
 
 const DenoiserInfo& fireflyDenoiserInfo() {
   static const DenoiserInfo info = [] {
@@ -34,15 +52,8 @@ const DenoiserInfo& fireflyDenoiserInfo() {
          "have",
          "1: rank-ordered, as is usual"},
         demodulateParameter()};
-    i.inputs = {"radiance", "guide"};
-    i.buffers = {{"firefly_shown", sizeof(glm::vec3), 0, -1}};
-    i.passes = {{"firefly", "firefly", false}};
-    i.packParameters = [](const std::string&, const ParameterMap& p) {
-      rl::FireflyParams out{};
-      out.radius = uintOf(p, "firefly_radius");
-      out.factor = floatOf(p, "firefly_factor");
-      return bytesOf(out);
-    };
+    i.needsFeatures = true;
+    i.record = recordFirefly;
     return i;
   }();
   return info;

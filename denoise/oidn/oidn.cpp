@@ -92,7 +92,7 @@ const DenoiserInfo& oidnDenoiserInfo() {
         "reflectances that the network is told: none, the diffuse one, or that and the specular "
         "one at normal incidence";
     i.parameters.back().source = "the library's manual: what it asks for of metals";
-    i.inputs = {"radiance", "guide"};
+    i.needsFeatures = true;
     i.onHost = [](int threads, const ParameterMap& p) -> HostFilter {
       const auto network = std::make_shared<Network>(threads, qualityOf(p));
       return [network](const HostFrame& frame) { return network->run(frame); };

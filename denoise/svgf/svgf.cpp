@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/frame/frame_graph.h"
 #include "core/temporal_gradients/settings.h"
 #include "denoise/common/settings.h"
 #include "denoise/svgf/svgf_info.h"
@@ -84,7 +85,7 @@ DonorCaps donorCaps(const ParameterMap& p) {
   return {still, isFollowed ? std::min(still, floatOf(p, "moving_confidence_cap")) : 0.0f};
 }
 
-std::vector<std::byte> pack(const std::string&, const ParameterMap& p) {
+rl::SvgfParams packed(const ParameterMap& p) {
   rl::SvgfParams out{};
   out.iterations = uintOf(p, "svgf_iterations");
   out.cap = floatOf(p, "svgf_cap");
@@ -104,7 +105,50 @@ std::vector<std::byte> pack(const std::string&, const ParameterMap& p) {
   out.lobeRotationResponse = floatOf(p, "svgf_turn");
   out.resolveCap = floatOf(p, "svgf_resolve");
   out.resolveTest = {0.9f, 0.05f};  // the values of `accumulate` and the pixel cache
-  return bytesOf(out);
+  return out;
+}
+
+void recordSvgf(FrameGraph& g, const FrameInfo& f) {
+  rl::SvgfParams params = packed(f.parameters);
+  const FrameBuffers& s = g.shared;
+  const Buffer features = s.features.now;
+  const Buffer shown = g.buffer("svgf_shown", f.pixels, sizeof(glm::vec3));
+  const Buffer even = g.buffer("svgf_even", f.pixels, 16);
+  const Buffer odd = g.buffer("svgf_odd", f.pixels, 16);
+  const Buffer around = g.buffer("svgf_around", f.pixels, sizeof(glm::vec2));
+  const History history =
+      g.advance(g.history("svgf_history", f.pixels, 16 * rl::RL_SVGF_HISTORY_QUADS));
+  const History resolved = g.advance(g.history("svgf_resolved", f.pixels, 16));
+  const auto kernels = [&] {
+    return g.kernels<rl::SvgfBuffers>(
+        params, {s.radiance, features, s.features.before, s.motion, s.reservoirs, s.changes,
+                 s.surfaces.now, s.surfaces.before, shown, even, odd, around, history.now,
+                 history.before, resolved.now, resolved.before});
+  };
+  kernels()
+      .pass("svgf_temporal", "svgf_temporal")
+      .reads({s.radiance, features, s.features.before, s.motion, s.reservoirs, s.changes,
+              history.before})
+      .writes({history.now});
+  kernels()
+      .pass("svgf_variance", "svgf_variance")
+      .reads({history.now, features, s.motion, s.reservoirs})
+      .writes({around, even});
+  for (params.step = 0; params.step < params.iterations; ++params.step) {
+    const bool isEven = params.step % 2 == 0;
+    GraphPass& pass = kernels()
+                          .pass(iterationName("svgf", params.step), "svgf")
+                          .reads({isEven ? even : odd, features, around})
+                          .writes({isEven ? odd : even});
+    const bool feedsBack = params.step == 0 && (params.flags & rl::RL_SVGF_FEEDBACK) != 0;
+    if (feedsBack) pass.updates({history.now});
+  }
+  kernels()
+      .pass("svgf_end", "svgf_end")
+      .reads({params.iterations % 2 == 0 ? even : odd, features, s.motion, s.changes,
+              s.surfaces.now, s.surfaces.before, resolved.before})
+      .writes({shown, resolved.now});
+  g.shared.shown = shown;
 }
 
 }  // namespace
@@ -121,25 +165,13 @@ DenoiserInfo makeSvgf(const SvgfDefaults& defaults) {
   i.parameters = parametersOf(defaults);
   if (defaults.validateEvery != 0) i.defaults[kValidateEvery] = defaults.validateEvery;
   i.comparesSquares = true;
-  i.inputs = {"radiance", "guide", "guide_before", "motion"};
-  i.optionalInputs = {"reservoir_history", kChanges, "visible", "visible_before"};
-  const uint32_t historyBytes = 16 * rl::RL_SVGF_HISTORY_QUADS;
-  i.buffers = {{"svgf_shown", sizeof(glm::vec3), 0, -1},
-               {"svgf_even", 16, 0, -1},
-               {"svgf_odd", 16, 0, -1},
-               {"svgf_around", sizeof(glm::vec2), 0, -1},
-               {"svgf_history", historyBytes, 0, 5},
-               {"svgf_history_before", historyBytes, 0, 4},
-               {"svgf_resolved", 16, 0, 7},
-               {"svgf_resolved_before", 16, 0, 6}};
-  i.passes = {{"svgf_temporal", "svgf_temporal", false}, {"svgf_variance", "svgf_variance", false}};
-  for (PassInfo& pass : waveletPasses("svgf", "svgf_iterations")) i.passes.push_back(pass);
-  i.passes.push_back({"svgf_end", "svgf_end", false});
+  i.needsFeatures = true;
+  i.followsChanges = true;
+  i.record = recordSvgf;
   i.hasHistory = true;
   i.shownFrames = [](const ParameterMap& p, double radianceFrames) {
     return radianceFrames + std::get<double>(p.at("svgf_cap"));
   };
-  i.packParameters = pack;
   return i;
 }
 

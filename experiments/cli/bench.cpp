@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "core/frame/denoiser.h"
+#include "core/frame/frame_graph.h"
 #include "core/frame/integrator.h"
 #include "core/frame/method_settings.h"
 #include "core/image/statistics/intervals.h"
@@ -137,23 +139,27 @@ Json passesJson(const Session& session, const FrameRates& rates, const BackendRa
 Json denoiserJson(const Session& session, const FrameRates& rates, const BackendRates& roofs) {
   const SessionConfig& config = session.config();
   const DenoiserInfo& denoiser = findDenoiser(config.denoiser);
-  const auto isOf = [](const PartInfo& part, const std::string& pass) {
-    return std::any_of(part.passes.begin(), part.passes.end(),
-                       [&](const PassInfo& info) { return info.name == pass; });
+  const FrameGraph& graph = session.graph();
+  const auto isOf = [&](const std::string& part, const std::string& pass) {
+    const std::vector<const GraphPass*> own = graph.passesOf(part);
+    return std::any_of(own.begin(), own.end(),
+                       [&](const GraphPass* info) { return info->name == pass; });
   };
   double ofDenoiser = 0.0, ofIntegrator = 0.0, ofGuides = 0.0;
   for (const PassTiming& pass : rates.passes) {
-    const bool isFilter = isOf(denoiser, pass.name) || pass.name == denoiser.name;
-    const bool isIntegrator = isOf(findIntegrator(config.integrator), pass.name);
+    const bool isFilter = isOf(denoiser.name, pass.name) || pass.name == denoiser.name;
+    const bool isIntegrator = isOf(config.integrator, pass.name);
     (isFilter ? ofDenoiser : isIntegrator ? ofIntegrator : ofGuides) += pass.timeMs;
   }
+  std::set<std::string> touched;
+  for (const GraphPass* pass : graph.passesOf(denoiser.name)) {
+    for (const std::vector<Buffer>* buffers : {&pass->read, &pass->written})
+      for (const Buffer buffer : *buffers) touched.insert(graph.buffers()[buffer.index].name);
+  }
+  if (denoiser.onHost) touched = {"radiance", "guide"};
   double bytes = 0.0;
   for (const auto& [name, bytesPerPixel] : session.bufferBytesPerPixel()) {
-    const auto& inputs = denoiser.inputs;
-    const bool isInput = std::find(inputs.begin(), inputs.end(), name) != inputs.end();
-    const bool isOwn = std::any_of(denoiser.buffers.begin(), denoiser.buffers.end(),
-                                   [&](const BufferInfo& buffer) { return buffer.name == name; });
-    if (isInput || isOwn) bytes += double(bytesPerPixel) * config.width * config.height;
+    if (touched.contains(name)) bytes += double(bytesPerPixel) * config.width * config.height;
   }
   const double onceMs = 1e3 * bytes / roofs.bytesPerSecond;
   return {{"time_ms", ofDenoiser},

@@ -51,10 +51,7 @@ bool asksRadianceFrames(const DenoiserInfo& denoiser, const ParameterMap& given)
 
 // Throws Error (badUsage) if a denoiser needs more inputs than layers.
 void requireLayersAlone(const DenoiserInfo& denoiser) {
-  const bool needsScene =
-      std::any_of(denoiser.inputs.begin(), denoiser.inputs.end(),
-                  [](const std::string& input) { return input.rfind("visible", 0) == 0; });
-  if (!needsScene) return;
+  if (!denoiser.needsSurfaces) return;
   failUsage(
       fmt::format("--denoiser {}: asks the scene what each pixel shows, which an image does "
                   "not hold; render --denoiser {} has it, svgf does without",

@@ -131,7 +131,8 @@ int main(int argc, char** argv) {
                              {"compare", addCompareVerb(app)}, {"figure", addFigureVerb(app)},
                              {"denoise", addDenoiseVerb(app)}, {"info", addInfoVerb(app)},
                              {"list", addListVerb(app)},       {"bench", addBenchVerb(app)},
-                             {"view", addViewVerb(app)},       {"bias", addBiasVerb(app)}};
+                             {"view", addViewVerb(app)},       {"bias", addBiasVerb(app)},
+                             {"graph", addGraphVerb(app)}};
   for (const Verb& verb : verbs) addVerbosity(*app.get_subcommand(verb.name));
   try {
     const int code = runVerb(app, verbs, std::vector<std::string>(argv, argv + argc));

@@ -32,6 +32,7 @@ Action addInfoVerb(CLI::App& app);
 Action addListVerb(CLI::App& app);
 Action addBenchVerb(CLI::App& app);
 Action addBiasVerb(CLI::App& app);
+Action addGraphVerb(CLI::App& app);
 Action addViewVerb(CLI::App& app);
 
 }  // namespace restlab

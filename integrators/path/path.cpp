@@ -1,10 +1,27 @@
 // Host side of `path`, the yardstick that every ratio is measured against.
 #include "integrators/path/path.h"
 
+#include "core/frame/frame_graph.h"
 #include "core/frame/integrator.h"
 #include "core/radiance_cache/settings.h"
 
 namespace restlab {
+
+namespace {
+
+void recordPath(FrameGraph& g, const FrameInfo& f) {
+  const FrameBuffers& s = g.shared;
+  const Buffer radiance = g.buffer("radiance", f.pixels, sizeof(glm::vec3));
+  g.kernels<rl::PathBuffers>(rl::PathKernelParams{packRadiance(f.parameters)},
+                             {s.cellKeys, s.cellPlaces, s.cellLight, s.cellRays, radiance})
+      .pass("path", "path")
+      .reads({s.cellKeys, s.cellPlaces, s.cellLight})
+      .writes({radiance})
+      .updates({s.cellRays});
+  g.shared.radiance = radiance;
+}
+
+}  // namespace
 
 const IntegratorInfo& pathIntegratorInfo() {
   static const IntegratorInfo info = [] {
@@ -17,12 +34,7 @@ const IntegratorInfo& pathIntegratorInfo() {
                 "technique, and the "
                 "power-heuristic weights sum to one"}};
     i.endsPaths = true;
-    i.optionalInputs = radianceInputs();
-    i.buffers = {{"radiance", sizeof(glm::vec3), 0, -1}};
-    i.passes = {{"path", "path"}};
-    i.packParameters = [](const std::string&, const ParameterMap& p) {
-      return bytesOf(rl::PathKernelParams{packRadiance(p)});
-    };
+    i.record = recordPath;
     return i;
   }();
   return info;

@@ -13,7 +13,7 @@ namespace {
 // Results of the spatial_shift pass in the last frame.
 class Exchanged {
  public:
-  explicit Exchanged(const Kept& kept)
+  explicit Exchanged(const FrameSnapshot& kept)
       : quads_(kept.words("spatial_shift")), reservoirs_(kept.words("reservoirs")) {
     const rl::RestirGiParams params = giParamsOf(kept);
     places_ = params.spatialNeighbours;
@@ -67,7 +67,7 @@ std::vector<LayerInfo> giDonorLayers() {
   rejected.name = "rejected_shifts";
   rejected.summary =
       "share of the samples of the pixel's donors over space that it does not see, 0 to 1";
-  rejected.values = [](const Kept& kept) {
+  rejected.values = [](const FrameSnapshot& kept) {
     return [exchanged = Exchanged(kept)](size_t pixel) { return rejectedShare(exchanged, pixel); };
   };
   neighbour.name = "partner";
@@ -75,7 +75,7 @@ std::vector<LayerInfo> giDonorLayers() {
       "pairs of pixels that serve each other over space: 1 + the lower number of the pixel's first "
       "pair";
   neighbour.isName = true;
-  neighbour.values = [](const Kept& kept) {
+  neighbour.values = [](const FrameSnapshot& kept) {
     return [exchanged = Exchanged(kept)](size_t pixel) { return pairOf(exchanged, pixel); };
   };
   for (LayerInfo* layer : {&rejected, &neighbour})

@@ -9,7 +9,7 @@
 namespace restlab {
 
 // Returns zeros if no session has rendered the frame.
-inline rl::RestirGiParams giParamsOf(const Kept& kept) {
+inline rl::RestirGiParams giParamsOf(const FrameSnapshot& kept) {
   rl::RestirGiParams params{};
   if (kept.params.size() == sizeof params) std::memcpy(&params, kept.params.data(), sizeof params);
   return params;

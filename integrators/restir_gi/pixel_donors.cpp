@@ -222,7 +222,7 @@ struct Ctx {
 }  // namespace of_entries
 
 template <uint FEATURES>
-Donors donorsOf(const restlab::Kept& kept, const RestirGiBuffers& buffers,
+Donors donorsOf(const restlab::FrameSnapshot& kept, const RestirGiBuffers& buffers,
                 const RestirGiParams& params, uvec2 pixel) {
   CpuKernelCounters counters;
   const SceneData& scene = kept.scene->data();
@@ -250,7 +250,7 @@ namespace {
 
 // Binds a buffer. Kernels only read it, so a copy that nobody writes to may be bound.
 template <typename Ref>
-void bind(const Kept& kept, const std::string& name, Ref& ref) {
+void bind(const FrameSnapshot& kept, const std::string& name, Ref& ref) {
   const std::span<const uint32_t> words = kept.words(name);
   ref.data = words.empty()
                  ? nullptr
@@ -259,14 +259,14 @@ void bind(const Kept& kept, const std::string& name, Ref& ref) {
 
 }  // namespace
 
-std::vector<Donor> giDonorsOf(const Kept& kept, size_t pixel) {
+std::vector<Donor> giDonorsOf(const FrameSnapshot& kept, size_t pixel) {
   if (kept.frame == nullptr || kept.scene == nullptr) return {};
   rl::RestirGiBuffers buffers{};
   bind(kept, "visible", buffers.visible);
   bind(kept, "visible_before", buffers.visibleBefore);
   bind(kept, "proposals", buffers.proposals);
   bind(kept, "shading_points", buffers.shadingPoints);
-  bind(kept, kChanges, buffers.changes);
+  bind(kept, "changes", buffers.changes);
   bind(kept, "reservoirs", buffers.reservoirs);
   bind(kept, "path_suffixes", buffers.suffixes);
   bind(kept, "spatial_shift", buffers.pairedShifts);

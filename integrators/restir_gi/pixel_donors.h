@@ -10,6 +10,6 @@ namespace restlab {
 // Returns the pixel's own sample, then its spatial donors, its temporal donor and its entries. The
 // frame has overwritten the state of the temporal donor: the donor's share is the rest that the
 // pixel's own sample, traced again, leaves.
-std::vector<Donor> giDonorsOf(const Kept& kept, size_t pixel);
+std::vector<Donor> giDonorsOf(const FrameSnapshot& kept, size_t pixel);
 
 }  // namespace restlab

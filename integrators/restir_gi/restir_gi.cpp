@@ -17,6 +17,7 @@
 #include "core/base/packing.h"
 #include "core/caches/entries/layers.h"
 #include "core/caches/entries/settings.h"
+#include "core/frame/frame_graph.h"
 #include "core/frame/integrator.h"
 #include "core/radiance_cache/settings.h"
 #include "core/resampling/pair_settings.h"
@@ -148,7 +149,7 @@ T get(const ParameterMap& parameters, const char* name) {
   return std::get<T>(parameters.at(name));
 }
 
-std::vector<std::byte> pack(const std::string& mode, const ParameterMap& p) {
+rl::RestirGiParams packed(const std::string& mode, const ParameterMap& p) {
   uint32_t flags = 0;
   const std::string& mis = get<std::string>(p, "mis");
   if (mis != "confidence") flags |= rl::RL_REUSE_PAIRWISE;
@@ -185,7 +186,78 @@ std::vector<std::byte> pack(const std::string& mode, const ParameterMap& p) {
   out.changes = packChanges(p);
   out.entries = packEntries(p);
   out.cells = packRadiance(p);
-  return bytesOf(out);
+  return out;
+}
+
+void recordRestirGi(FrameGraph& g, const FrameInfo& f) {
+  const FrameBuffers& s = g.shared;
+  const rl::RestirGiParams params = packed(f.mode, f.parameters);
+  const bool isTemporal = params.temporalReuse != 0, hasEntries = params.entries.count != 0;
+  constexpr uint32_t kQuad = 16, kGlossy = rl::RL_FEATURE_GLOSSY;
+  constexpr uint32_t kReservoir = kQuad * rl::RL_PATH_RESERVOIR_QUADS;
+  constexpr uint32_t kSuffix = kQuad * rl::RL_PATH_SUFFIX_QUADS;
+  const Buffer radiance = g.buffer("radiance", f.pixels, sizeof(glm::vec3));
+  const History unresampled = g.advance(g.history("unresampled_radiance", f.pixels, kQuad));
+  const Buffer reservoirs = g.buffer("reservoirs", f.pixels, kReservoir);
+  const Buffer history = g.buffer("reservoir_history", f.pixels, kReservoir);
+  const Buffer suffixes = g.buffer("path_suffixes", f.pixels, kSuffix, kGlossy);
+  const Buffer suffixHistory = g.buffer("path_suffix_history", f.pixels, kSuffix, kGlossy);
+  const Buffer pairedShifts = g.buffer("spatial_shift", f.pixels * params.spatialNeighbours, kQuad);
+  const Buffer outlines = g.buffer("outlines", f.pixels, sizeof(uint32_t));
+  const Buffer entryReservoirs = g.buffer("entry_reservoirs", params.entries.count, kReservoir);
+  const Buffer entrySuffixes = g.buffer("entry_suffixes", params.entries.count, kSuffix, kGlossy);
+  const Kernels kernels = g.kernels<rl::RestirGiBuffers>(
+      params,
+      {s.surfaces.now, s.surfaces.before, s.proposals,        s.shadingPoints, s.insertions,
+       s.cellKeys,     s.cellPlaces,      s.cellLight,        s.cellRays,      s.changes,
+       radiance,       unresampled.now,   unresampled.before, reservoirs,      history,
+       suffixes,       suffixHistory,     pairedShifts,       outlines,        entryReservoirs,
+       entrySuffixes});
+
+  if (f.isNewView) {
+    kernels.pass("lights_in_view", "restir_gi_lights_in_view")
+        .reads({s.surfaces.now})
+        .writes({unresampled.now});
+  }
+  // In a still view this pass merges the history, too, and leaves candidates for entries in it.
+  GraphPass& initial = kernels.pass("initial", "restir_gi_initial")
+                           .reads({unresampled.before, history, suffixHistory, s.changes,
+                                   s.cellKeys, s.cellPlaces, s.cellLight})
+                           .writes({reservoirs, suffixes})
+                           .updates({unresampled.now, s.cellRays});
+  if (hasEntries) {
+    initial.updates({history, suffixHistory});
+    kernels.pass("cache_update", "restir_gi_cache_update")
+        .over(params.entries.count)
+        .reads(
+            {s.surfaces.now, s.insertions, s.changes, reservoirs, suffixes, history, suffixHistory})
+        .updates({s.shadingPoints, entryReservoirs, entrySuffixes});
+  }
+  if (f.isNewView && isTemporal) {
+    kernels.pass("temporal", "restir_gi_temporal")
+        .reads({s.surfaces.now, s.surfaces.before, s.changes, history, suffixHistory})
+        .updates({reservoirs, suffixes});
+    if (hasEntries) {
+      kernels.pass("cache_reuse", "restir_gi_cache_reuse")
+          .reads({s.surfaces.now, s.proposals, s.shadingPoints, s.changes, entryReservoirs,
+                  entrySuffixes})
+          .updates({reservoirs, suffixes});
+    }
+  }
+  if (params.spatialNeighbours != 0) {
+    if (f.isNewView) {
+      kernels.pass("outlines", "restir_gi_outlines").reads({s.surfaces.now}).writes({outlines});
+    }
+    kernels.pass("spatial_shift", "restir_gi_spatial_shift")
+        .reads({s.surfaces.now, reservoirs, suffixes, outlines})
+        .writes({pairedShifts});
+  }
+  // Shades, too, and so runs without neighbours.
+  kernels.pass("spatial", "restir_gi_spatial")
+      .reads({s.surfaces.now, reservoirs, suffixes, pairedShifts, unresampled.now})
+      .writes({history, suffixHistory, radiance});
+  g.shared.radiance = radiance;
+  g.shared.reservoirs = history;
 }
 
 bool isOneOf(const std::string& name, std::initializer_list<const char*> names) {
@@ -231,7 +303,7 @@ constexpr size_t kConfidence = kState + 3;
 
 float number(std::span<const uint32_t> words, size_t at) { return std::bit_cast<float>(words[at]); }
 
-std::vector<ProbeValue> probe(const Kept& kept, size_t pixel) {
+std::vector<ProbeValue> probe(const FrameSnapshot& kept, size_t pixel) {
   const auto words = kept.words("reservoir_history").subspan(kReservoir * pixel, kReservoir);
   const auto own = kept.words("unresampled_radiance").subspan(4 * pixel, 4);
   const auto vector = [](std::span<const uint32_t> from) {
@@ -268,7 +340,7 @@ std::vector<LayerInfo> layers() {
   confidence.name = "confidence";
   confidence.summary = "confidence of the pixel's reservoir";
   confidence.unit = "samples";
-  confidence.values = [](const Kept& kept) {
+  confidence.values = [](const FrameSnapshot& kept) {
     return [words = kept.words("reservoir_history")](size_t pixel) {
       return number(words, kReservoir * pixel + kConfidence);
     };
@@ -276,7 +348,7 @@ std::vector<LayerInfo> layers() {
   age.name = "age";
   age.summary = "frames since the view was new or the light around the pixel was found changed";
   age.unit = "frames";
-  age.values = [](const Kept& kept) {
+  age.values = [](const FrameSnapshot& kept) {
     // Layout as in giViewLightWord().
     return [words = kept.words("unresampled_radiance")](size_t pixel) {
       return float(words[4 * pixel + 3] >> 8u);
@@ -286,7 +358,7 @@ std::vector<LayerInfo> layers() {
   ofEntry.summary = "confidence of the reservoir of the pixel's entry";
   ofEntry.unit = "samples";
   ofEntry.enabledIf.parameter = kEntryCount;
-  ofEntry.values = [](const Kept& kept) {
+  ofEntry.values = [](const FrameSnapshot& kept) {
     // A hash slot that a new entry has taken may still hold the reservoir of the previous one.
     const auto words = kept.words("entry_reservoirs"), shadingPoints = kept.words("shading_points");
     return ofPixelsEntry(kept, [words, shadingPoints](uint32_t entry) {
@@ -321,42 +393,11 @@ const IntegratorInfo& restir_giIntegratorInfo() {
     i.parameters = parameterInfos();
     i.usesCache = true;
     i.hasHistory = true;
-    i.inputs = {"visible", "visible_before"};
+    i.needsSurfaces = true;
+    i.followsChanges = true;
     i.endsPaths = true;
-    i.optionalInputs = {"proposals", "shading_points", "insertions"};
-    for (std::string& input : radianceInputs()) i.optionalInputs.push_back(std::move(input));
-    i.optionalInputs.emplace_back(kChanges);
-    i.buffers = {
-        {"radiance", 12, 0, -1},
-        {"unresampled_radiance", 16, 0, 2},
-        {"unresampled_radiance_before", 16, 0, 1},
-        {"reservoirs", 16 * rl::RL_PATH_RESERVOIR_QUADS, 0, -1},
-        {"reservoir_history", 16 * rl::RL_PATH_RESERVOIR_QUADS, 0, -1},
-        {"path_suffixes", 16 * rl::RL_PATH_SUFFIX_QUADS, rl::RL_FEATURE_GLOSSY, -1},
-        {"path_suffix_history", 16 * rl::RL_PATH_SUFFIX_QUADS, rl::RL_FEATURE_GLOSSY, -1},
-        {"spatial_shift", 16, 0, -1, "spatial_neighbours"},
-        {"outlines", sizeof(uint32_t), 0, -1},
-        {"entry_reservoirs", 16 * rl::RL_PATH_RESERVOIR_QUADS, 0, -1},
-        {"entry_suffixes", 16 * rl::RL_PATH_SUFFIX_QUADS, rl::RL_FEATURE_GLOSSY, -1},
-    };
-    for (BufferInfo& buffer : i.buffers) {
-      if (buffer.name.starts_with("entry_")) buffer.entriesParameter = kEntryCount;
-    }
-    i.passes = {{"lights_in_view", "restir_gi_lights_in_view", true, true},
-                {"initial", "restir_gi_initial"},
-                {"cache_update", "restir_gi_cache_update"},
-                {"temporal", "restir_gi_temporal", true, true},
-                {"cache_reuse", "restir_gi_cache_reuse", true, true},
-                {"outlines", "restir_gi_outlines", false, true},
-                {"spatial_shift", "restir_gi_spatial_shift"},
-                {"spatial", "restir_gi_spatial"}};
-    for (PassInfo& pass : i.passes) {
-      if (pass.name == "cache_reuse" || pass.name == "cache_update")
-        pass.enabledIf.parameter = kEntryCount;
-      if (pass.name == "cache_update") pass.entriesParameter = kEntryCount;
-    }
+    i.record = recordRestirGi;
     i.reasonUnused = reasonUnused;
-    i.packParameters = pack;
     i.radianceFrames = [](const ParameterMap& p) {
       return get<bool>(p, "temporal") ? get<double>(p, "confidence_cap") + 1.0 : 1.0;
     };

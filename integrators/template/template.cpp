@@ -1,9 +1,27 @@
 // Host side of `template`: its description for the program, the tables and the tests.
 #include "integrators/template/template.h"
 
+#include "core/frame/frame_graph.h"
 #include "core/frame/integrator.h"
 
 namespace restlab {
+
+namespace {
+
+// Records a frame: its buffers, and its passes in their order.
+void recordTemplate(FrameGraph& g, const FrameInfo& f) {
+  rl::TemplateParams params{};
+  params.misExponent = floatOf(f.parameters, "mis_exponent");
+  // Name, number of elements, bytes per element.
+  const Buffer radiance = g.buffer("radiance", f.pixels, sizeof(glm::vec3));
+  // Buffers in the order of TemplateBuffers; name in the time columns, name of rl_add_kernel.
+  g.kernels<rl::TemplateBuffers>(params, {radiance})
+      .pass("template", "template")
+      .writes({radiance});
+  g.shared.radiance = radiance;  // what denoisers and the session read
+}
+
+}  // namespace
 
 const IntegratorInfo& templateIntegratorInfo() {
   static const IntegratorInfo info = [] {
@@ -23,16 +41,7 @@ const IntegratorInfo& templateIntegratorInfo() {
                      {},
                      "exponent of the MIS weights; 1: balance heuristic",
                      "Veach 1997, section 9.2.3: 2"}};
-    // Bytes per pixel; feature bits without which it is not allocated (0: always); the buffer that
-    // it trades places with after a frame, for histories (-1: none).
-    i.buffers = {{"radiance", sizeof(glm::vec3), 0, -1}};
-    // Name in the time columns, name of rl_add_kernel.
-    i.passes = {{"template", "template"}};
-    i.packParameters = [](const std::string&, const ParameterMap& parameters) {
-      rl::TemplateParams out{};
-      out.misExponent = static_cast<float>(std::get<double>(parameters.at("mis_exponent")));
-      return bytesOf(out);
-    };
+    i.record = recordTemplate;
     return i;
   }();
   return info;

@@ -9,12 +9,12 @@
 
 RL_NAMESPACE_BEGIN
 
-// In the order of IntegratorInfo::buffers; the radiance comes first. Read as gBuffers.
+// Bound in this order by recordTemplate(). Read as gBuffers.
 struct TemplateBuffers {
   Vec3Ref radiance;
 };
 
-// Filled by packParameters. Read as gParams.
+// Filled by recordTemplate(). Read as gParams.
 struct TemplateParams {
   float misExponent;
 };

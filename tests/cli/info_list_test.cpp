@@ -2,6 +2,7 @@
 #include <array>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
@@ -51,6 +52,36 @@ TEST_F(InfoTest, SceneInNumbers) {
   const ProgramResult text = run("info cornell-box");
   ASSERT_EQ(text.code, 0);
   EXPECT_NE(text.out.find("2 emissive"), std::string::npos) << text.out;
+}
+
+TEST_F(InfoTest, GraphShowsPassesAndBuffers) {
+  const ProgramResult result =
+      run("graph restir_gi --cache voxel --scene quad-light --json -o frame.svg");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  size_t sum = 0;
+  std::set<std::string> buffers;
+  for (const auto& buffer : json.at("buffers")) {
+    sum += buffer.at("bytes_per_pixel").get<size_t>();
+    buffers.insert(buffer.at("name").get<std::string>());
+  }
+  EXPECT_GE(sum, json.at("bytes_per_pixel").get<size_t>());
+  std::map<std::string, nlohmann::json> passes;
+  for (const auto& pass : json.at("passes")) {
+    passes[pass.at("name").get<std::string>()] = pass;
+    for (const char* key : {"reads", "writes"})
+      for (const auto& name : pass.at(key)) EXPECT_TRUE(buffers.contains(name)) << name;
+  }
+  EXPECT_FALSE(passes.at("temporal").at("in_still_view"));
+  EXPECT_TRUE(passes.at("initial").at("in_still_view"));
+  EXPECT_GT(passes.at("temporal").at("rays_per_pixel_moving"), 0.0);
+  EXPECT_EQ(passes.at("temporal").at("rays_per_pixel_still"), 0.0);
+  EXPECT_NE(read("frame.svg").find("reservoir_history"), std::string::npos);
+  const ProgramResult text = run("graph path --scene quad-light");
+  EXPECT_NE(text.out.find("12 bytes per pixel in all"), std::string::npos) << text.out;
+  expectError(run("graph restir"), 2, {"restir"});
+  expectError(run("graph path -o frame.png"), 2, {"frame.png", ".svg"});
+  expectError(run("graph path --scene absent.gltf"), 3, {"absent.gltf"});
 }
 
 // Camera directions are unit vectors under any node. Under a shearing node, up is perpendicular to

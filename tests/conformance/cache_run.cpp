@@ -48,18 +48,12 @@ constexpr float kPixel = 0.25f;
 
 CacheRun::CacheRun(const std::string& cache, glm::uvec2 size, const ParameterMap& parameters)
     : info_(findCache(cache)), size_(size) {
-  const ParameterMap resolved =
-      resolveParameters(findMethod("restir_gi", cache, "none"), parameters);
-  params_ = info_.packParameters("", resolved);
-  entries_ = packEntries(resolved);
-  for (const std::string& input : info_.inputs) {
-    buffers_[input].resize(size_t{4} * pixels());
-    addresses_.push_back(buffers_[input].data());
-  }
-  for (const BufferInfo& buffer : info_.buffers) {
-    buffers_[buffer.name].resize(bufferBytes(buffer, resolved, pixels()) / sizeof(uint32_t));
-    addresses_.push_back(buffers_[buffer.name].data());
-  }
+  resolved_ = resolveParameters(findMethod("restir_gi", cache, "none"), parameters);
+  entries_ = packEntries(resolved_);
+  surfaces_.record = [](FrameGraph& g, const FrameInfo& f) {
+    g.shared.surfaces.now = g.buffer("visible", f.pixels, 16);
+  };
+  record(true);
   frame_.width = size.x;
   frame_.height = size.y;
   frame_.seed = 3;
@@ -70,6 +64,12 @@ CacheRun::CacheRun(const std::string& cache, glm::uvec2 size, const ParameterMap
   frame_.camera.halfWidth = 0.5f * kPixel * float(size.x);
   frame_.camera.halfHeight = 0.5f * kPixel * float(size.y);
   frame_.previousCamera = frame_.camera;
+}
+
+void CacheRun::record(bool isNewView) {
+  graph_.record({&surfaces_, &info_}, {"", resolved_, pixels(), isNewView});
+  for (const GraphBuffer& buffer : graph_.buffers())
+    buffers_[buffer.name].resize(buffer.bytes() / sizeof(uint32_t));
 }
 
 void CacheRun::look(const std::function<Shown(glm::uvec2)>& shown, float x) {
@@ -84,15 +84,20 @@ void CacheRun::look(const std::function<Shown(glm::uvec2)>& shown, float x) {
   }
 }
 
-void CacheRun::pass(const PassInfo& info, uint32_t threads, uint32_t order) {
+void CacheRun::pass(const GraphPass& info, uint32_t threads, uint32_t order) {
   const rl::SceneData nothing{};  // kernels of caches use no scene
   rl::CpuKernelArgs args;
   args.scene = &nothing;
   args.frame = &frame_;
-  args.buffers = addresses_.data();
-  args.params = params_.data();
+  std::vector<void*> addresses;
+  for (size_t slot = 0; slot < info.slots.size(); ++slot) {
+    const Buffer buffer = info.bound(slot);
+    addresses.push_back(buffer ? buffers_.at(graph_.buffers()[buffer.index].name).data() : nullptr);
+  }
+  args.buffers = addresses.data();
+  args.params = info.params.data();
   const auto entry = rl::findCpuKernel(info.kernel.c_str(), rl::RL_FEATURE_ALL)->entry;
-  const bool isOfEntries = info.entriesParameter != nullptr;
+  const bool isOfEntries = info.entries != 0;
   const uint32_t width = isOfEntries ? rl::RL_ENTRY_ROW : size_.x;
   std::vector<uint32_t> items(isOfEntries ? entries_.count : pixels());
   std::iota(items.begin(), items.end(), 0u);
@@ -115,9 +120,8 @@ void CacheRun::pass(const PassInfo& info, uint32_t threads, uint32_t order) {
 
 void CacheRun::frame(bool isNewView, uint32_t threads, uint32_t order) {
   frame_.stillFrames = isNewView ? 0 : frame_.stillFrames + 1;
-  for (const PassInfo& info : info_.passes) {
-    if (isNewView || !info.onlyOnNewViews) pass(info, threads, order);
-  }
+  record(isNewView);
+  for (const GraphPass& info : graph_.passes()) pass(info, threads, order);
   lastFrame_ = frame_;
   for (uint32_t entry = 0; entry < entries_.count; ++entry) {
     const std::vector<uint32_t> insertions = insertionsOf(entry);

@@ -12,6 +12,7 @@
 #include "core/backend/cpu_kernel.h"
 #include "core/caches/entries/entries.h"
 #include "core/frame/cache.h"
+#include "core/frame/frame_graph.h"
 
 namespace restlab::conformance {
 
@@ -49,16 +50,18 @@ class CacheRun {
   const std::map<std::string, std::vector<uint32_t>>& buffers() const { return buffers_; }
 
  private:
-  void pass(const PassInfo& info, uint32_t threads, uint32_t order);
+  void record(bool isNewView);
+  void pass(const GraphPass& info, uint32_t threads, uint32_t order);
 
   const CacheInfo& info_;
+  PartInfo surfaces_;  // leaves the surfaces that look() has set
   glm::uvec2 size_;
-  std::vector<std::byte> params_;
+  ParameterMap resolved_;
+  FrameGraph graph_;
   rl::EntryParams entries_{};
   rl::FrameData frame_{};
   rl::FrameData lastFrame_{};
   std::map<std::string, std::vector<uint32_t>> buffers_;
-  std::vector<void*> addresses_;
   rl::CpuKernelCounters counters_{};
 };
 

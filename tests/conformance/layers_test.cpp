@@ -39,7 +39,7 @@ TEST_P(EntryLayers, AreWhatTheBuffersHold) {
   CacheRun run(GetParam(), {256, 192}, given);
   run.look([](glm::uvec2) { return Shown{}; });
   for (int i = 0; i < 3; ++i) run.frame();
-  const Kept kept{
+  const FrameSnapshot kept{
       [&](const std::string& name) -> std::span<const uint32_t> { return run.words(name); },
       resolved};
   std::map<std::string, std::function<float(size_t)>> layers;

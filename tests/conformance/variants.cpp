@@ -16,10 +16,7 @@ std::string Variant::name() const {
          (denoiser == "none" ? "" : "_" + denoiser) + (endsPaths ? "_secondary" : "");
 }
 
-bool Variant::blurs() const {
-  const std::vector<std::string>& inputs = findDenoiser(denoiser).inputs;
-  return std::find(inputs.begin(), inputs.end(), "guide") != inputs.end();
-}
+bool Variant::blurs() const { return findDenoiser(denoiser).needsFeatures; }
 
 std::vector<Variant> allVariants() {
   std::vector<Variant> all;

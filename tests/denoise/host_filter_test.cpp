@@ -18,7 +18,7 @@ class HostFilters : public testing::Test {
  protected:
   HostFilters() : before_(denoiserRegistry()) {
     info_.name = "dimmed";
-    info_.inputs = {"radiance", "guide"};
+    info_.needsFeatures = true;
     info_.parameters = {
         {"dimmed_factor", 0.5, 0.0, 1.0, {}, "what a frame is multiplied by", "a test"},
         demodulateParameter()};

@@ -16,8 +16,7 @@ inline std::vector<std::string> filters() {
   std::vector<std::string> names;
   for (const DenoiserInfo* info : denoiserRegistry()) {
     if (info->onHost) continue;  // a network does not meet the tolerances
-    for (const std::string& input : info->inputs)
-      if (input == "guide") names.push_back(info->name);
+    if (info->needsFeatures) names.push_back(info->name);
   }
   return names;
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/frame/frame_graph.h"
 #include "core/frame/method.h"
 #include "core/frame/session.h"
 #include "integrators/restir_gi/restir_gi.h"
@@ -42,7 +43,9 @@ TEST(MisValues, ReachTheReuseLoopAsTheyAreListed) {
   for (const rl::MisValue& value : rl::kMisValues) {
     const ParameterMap parameters =
         resolveParameters(findMethod(config), {{"mis", std::string(value.name)}});
-    const std::vector<std::byte> bytes = integrator.packParameters("unbiased", parameters);
+    FrameGraph graph;
+    graph.record({&integrator}, {"unbiased", parameters, 1, true});
+    const std::vector<std::byte>& bytes = graph.passes().front().params;
     rl::RestirGiParams packed{};
     ASSERT_EQ(bytes.size(), sizeof packed);
     std::memcpy(&packed, bytes.data(), sizeof packed);

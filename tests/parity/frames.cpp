@@ -98,10 +98,7 @@ std::string Combination::name() const {
 
 void PrintTo(const Combination& what, std::ostream* out) { *out << what.name(); }
 
-bool Combination::hasFilter() const {
-  const std::vector<std::string>& inputs = findDenoiser(denoiser).inputs;
-  return std::find(inputs.begin(), inputs.end(), "guide") != inputs.end();
-}
+bool Combination::hasFilter() const { return findDenoiser(denoiser).needsFeatures; }
 
 std::vector<Combination> combinationsThatTrace() {
   std::vector<Combination> all = combinations();

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/dialect/order.h"
+#include "core/frame/frame_graph.h"
 #include "core/frame/method.h"
 #include "core/resampling/reservoir.h"
 #include "core/scene/compiled/compiled_scene.h"
@@ -60,86 +61,67 @@ class AuditedRun {
     frame_.maxBounces = 6;
     frame_.components = rl::RL_COMPONENT_ALL;
     frame_.rouletteStart = rl::RL_ROULETTE_EARLIEST;
-    // Buffers of the surfaces at pixel centres, equal in this view and the last.
-    for (const char* name : {"visible", "visible_before"})
-      buffers_[name].resize(size_t{16} * kWidth * kHeight);
-    for (const PartInfo* part : method.parts()) {
-      if (part != method.denoiser && isEnabled(part->enabledIf, resolved_))
-        add(*part, audited.mode);
-    }
+    mode_ = audited.mode;
+    surfaces_.record = [](FrameGraph& g, const FrameInfo& f) {
+      g.shared.surfaces = {g.buffer("visible", f.pixels, 16),
+                           g.buffer("visible_before", f.pixels, 16)};
+    };
+    parts_ = {&surfaces_};
+    for (const PartInfo* part : method.parts())
+      if (part != method.denoiser) parts_.push_back(part);
+    record();
+    // The surfaces are the same in this view and in the last.
     if (method.cache == nullptr) return;
-    const std::vector<void*> seen = {buffers_["visible"].data()};
-    const PartInfo none;
-    call(rl::findCpuKernel("visible", rl::RL_FEATURE_ALL)->entry, {&none, {}, seen, 0}, pixels());
-    buffers_["visible_before"] = buffers_["visible"];
+    const std::array<void*, 2> seen = {words_[0].data(), nullptr};
+    const uint32_t padding = 0;
+    call(rl::findCpuKernel("visible", rl::RL_FEATURE_ALL)->entry, seen.data(), &padding, pixels());
+    words_[1] = words_[0];
   }
 
+  AuditedRun(const AuditedRun&) = delete;
+  AuditedRun& operator=(const AuditedRun&) = delete;
+
   void frame() {
-    for (Part& part : parts_) {
-      for (const PassInfo& pass : part.info->passes) run(part, pass);
-      for (size_t i = 0; i < part.info->buffers.size(); ++i) {
-        const int other = part.info->buffers[i].swapWith;
-        if (other > int(i))
-          std::swap(part.addresses[part.own + i], part.addresses[part.own + size_t(other)]);
-      }
-    }
+    record();
+    for (const GraphPass& pass : graph_.passes()) run(pass);
     ++frame_.frame;
-    // Every other frame runs the passes for new views.
+    // Every other frame is of a still view.
     frame_.stillFrames = frame_.frame % 2;
   }
 
  private:
-  struct Part {
-    const PartInfo* info = nullptr;
-    std::vector<std::byte> params;
-    std::vector<void*> addresses;
-    size_t own = 0;  // index of its first own buffer
-  };
-
   static rl::CpuKernelTile pixels() { return {0, 0, kWidth, kHeight}; }
 
-  void add(const PartInfo& info, const std::string& mode) {
-    Part part;
-    part.info = &info;
-    part.params = info.packParameters(mode, resolved_);
-    for (const std::vector<std::string>* names : {&info.inputs, &info.optionalInputs}) {
-      for (const std::string& name : *names) {
-        const auto found = buffers_.find(name);
-        part.addresses.push_back(found == buffers_.end() ? nullptr : found->second.data());
-      }
-    }
-    part.own = part.addresses.size();
-    for (const BufferInfo& b : info.buffers) {
-      std::vector<std::byte>& bytes = buffers_[b.name];
-      bytes.resize(bufferBytes(b, resolved_, kWidth * kHeight));
-      part.addresses.push_back(bytes.data());
-    }
-    parts_.push_back(std::move(part));
+  void record() {
+    graph_.record(parts_, {mode_, resolved_, kWidth * kHeight, frame_.stillFrames == 0});
+    words_.resize(graph_.buffers().size());
+    for (size_t i = 0; i < words_.size(); ++i)
+      words_[i].resize(graph_.buffers()[i].bytes() / sizeof(uint32_t));
   }
 
-  void run(const Part& part, const PassInfo& pass) {
-    if (frame_.stillFrames != 0 && pass.onlyOnNewViews) return;
-    if (!isEnabled(pass.enabledIf, resolved_)) return;
-    rl::CpuKernelTile tile = pixels();
-    if (pass.entriesParameter != nullptr) {
-      const auto entries = uint32_t(std::get<int64_t>(resolved_.at(pass.entriesParameter)));
-      tile = {0, 0, rl::RL_ENTRY_ROW, (entries + rl::RL_ENTRY_ROW - 1) / rl::RL_ENTRY_ROW};
+  void run(const GraphPass& pass) {
+    std::vector<void*> addresses;
+    for (size_t slot = 0; slot < pass.slots.size(); ++slot) {
+      const Buffer buffer = pass.bound(slot);
+      addresses.push_back(buffer ? words_[buffer.index].data() : nullptr);
     }
-    // Treat each pixel as a group of its own: passes skip groups that do not exist.
-    if (pass.onePerParameter != nullptr) tile = {0, 0, rl::RL_ENTRY_ROW, 1};
+    rl::CpuKernelTile tile = pixels();
+    if (pass.entries != 0)
+      tile = {0, 0, rl::RL_ENTRY_ROW, (pass.entries + rl::RL_ENTRY_ROW - 1) / rl::RL_ENTRY_ROW};
     const auto audited = kernels_.find(pass.name);
     call(audited != kernels_.end()
              ? audited->second
              : rl::findCpuKernel(pass.kernel.c_str(), rl::RL_FEATURE_ALL)->entry,
-         part, tile);
+         addresses.data(), pass.params.data(), tile);
   }
 
-  void call(rl::CpuKernelEntry entry, const Part& part, const rl::CpuKernelTile& tile) {
+  void call(rl::CpuKernelEntry entry, const void* buffers, const void* params,
+            const rl::CpuKernelTile& tile) {
     rl::CpuKernelArgs args;
     args.scene = &scene_->data();
     args.frame = &frame_;
-    args.buffers = part.addresses.data();
-    args.params = part.params.data();
+    args.buffers = buffers;
+    args.params = params;
     args.embreeScene = scene_->embreeScene();
     rl::CpuKernelCounters counters;
     entry(args, tile, counters);
@@ -148,8 +130,11 @@ class AuditedRun {
   std::shared_ptr<const CompiledScene> scene_;
   std::map<std::string, rl::CpuKernelEntry> kernels_;
   ParameterMap resolved_;
-  std::map<std::string, std::vector<std::byte>> buffers_;
-  std::vector<Part> parts_;
+  std::string mode_;
+  PartInfo surfaces_;  // leaves the surfaces at pixel centres
+  std::vector<const PartInfo*> parts_;
+  FrameGraph graph_;
+  std::vector<std::vector<uint32_t>> words_;  // by buffer of the graph
   rl::FrameData frame_{};
 };
 

@@ -20,6 +20,7 @@ list(APPEND RL_UNIT_TESTS
   plate_test.cpp
   ray_offset_test.cpp
   records_test.cpp
+  frame_graph_test.cpp
   reservoir_store_test.cpp
   rng_audit_path.cpp
   rng_audit_radiance_trace.cpp

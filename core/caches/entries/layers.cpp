@@ -25,7 +25,7 @@ struct Places {
   std::span<const uint32_t> keys;
   uint32_t count = 0, probes = 0;
 
-  explicit Places(const Kept& kept)
+  explicit Places(const FrameSnapshot& kept)
       : keys(kept.words("entry_keys")),
         count(packEntries(kept.parameters).count),
         probes(packGrid(kept.parameters).probes) {}
@@ -46,7 +46,7 @@ float load(const Places& places, uint32_t entry) {
 
 }  // namespace
 
-std::function<float(size_t pixel)> ofPixelsEntry(const Kept& kept,
+std::function<float(size_t pixel)> ofPixelsEntry(const FrameSnapshot& kept,
                                                  std::function<float(uint32_t entry)> value) {
   return [entries = kept.words(kEntryOfPixel), value = std::move(value)](size_t pixel) {
     const uint32_t entry = entries[pixel];
@@ -59,19 +59,19 @@ std::vector<LayerInfo> entryLayers() {
   entry.name = "entry";
   entry.summary = "1 + the place of the entry that the pixel's surface belongs to";
   entry.isName = true;
-  entry.values = [](const Kept& kept) {
+  entry.values = [](const FrameSnapshot& kept) {
     return ofPixelsEntry(kept, [](uint32_t place) { return float(place) + 1.0f; });
   };
   loads.name = "load";
   loads.summary = "share of the places that the pixel's entry might lie in that are taken";
-  loads.values = [](const Kept& kept) {
+  loads.values = [](const FrameSnapshot& kept) {
     const Places places(kept);
     return ofPixelsEntry(kept, [places](uint32_t place) { return load(places, place); });
   };
   probes.name = "probes";
   probes.summary = "places that are looked at until the pixel's entry is found";
   probes.unit = "places";
-  probes.values = [](const Kept& kept) {
+  probes.values = [](const FrameSnapshot& kept) {
     const Places places(kept);
     return ofPixelsEntry(kept, [places](uint32_t place) {
       return float((place + places.count - places.home(place)) % places.count + 1);

@@ -52,42 +52,12 @@ std::vector<ParameterInfo> entryParameters() {
 
 }  // namespace
 
-BufferInfo entryBuffer(const std::string& name, uint32_t entryBytes) {
-  BufferInfo buffer{name, entryBytes, 0, -1};
-  buffer.entriesParameter = kEntryCount;
-  return buffer;
-}
-
 CacheInfo entryCache(const std::string& name, const std::string& summary) {
   CacheInfo i;
   i.name = name;
   i.summary = summary;
   i.parameters = entryParameters();
-  i.inputs = {"visible"};
-  i.buffers = {{"proposals", sizeof(uint32_t), 0, -1, "entry_proposals"},
-               entryBuffer("shading_points", 16 * rl::RL_SHADING_POINT_QUADS),
-               entryBuffer("insertions", sizeof(uint32_t) * rl::RL_ENTRY_INSERTIONS),
-               entryBuffer("entry_keys", 2 * sizeof(uint32_t)),
-               entryBuffer("entry_seen", sizeof(uint32_t)),
-               entryBuffer("entry_claims", sizeof(uint32_t)),
-               {kEntryOfPixel, sizeof(uint32_t), 0, -1}};
-  const auto pass = [&](const std::string& what, const std::string& again = "") {
-    return PassInfo{name + "_" + what + again, name + "_" + what, false, true};
-  };
-  PassInfo clear = pass("clear"), insertions = pass("insertions");
-  clear.onlyOnNewViews = insertions.onlyOnNewViews = false;
-  clear.entriesParameter = kEntryCount;
-  // Twice: a query that loses a claim to another one has other hash slots to try.
-  i.passes = {clear,
-              pass("find"),
-              pass("claim"),
-              pass("resolve_claims"),
-              pass("find_after_claims"),
-              pass("claim", "_again"),
-              pass("resolve_claims", "_again"),
-              pass("find_after_claims", "_last"),
-              pass("propose"),
-              insertions};
+  i.needsSurfaces = true;
   i.hasHistory = true;
   i.reasonUnused = [cache = name + "_"](const std::string& what, const ParameterMap& p) {
     const bool isOwn = what.starts_with("entr") || what == "feed_every" || what.starts_with(cache);

@@ -15,12 +15,9 @@ constexpr const char* kEntryCount = "entries";
 // Buffer of each pixel's entry; a value that is no hash slot means none.
 constexpr const char* kEntryOfPixel = "entry_of_pixel";
 
-// Describes a cache of entries that a hash grid finds: inputs, buffers and parameters (the cache
-// appends its own), layers, and passes: kernels <name>_clear, _find, _claim, _resolve_claims,
-// _propose, _insertions (core/caches/entries/*.glsl).
+// Describes a cache of entries that a hash grid finds: parameters (the cache appends its own) and
+// layers. Its passes: core/caches/entries/passes.h.
 CacheInfo entryCache(const std::string& name, const std::string& summary);
-// Buffer with one element per entry.
-BufferInfo entryBuffer(const std::string& name, uint32_t entryBytes);
 
 // Pack the parameters of entries. All zero if the method's cache has no entries.
 rl::EntryParams packEntries(const ParameterMap& parameters);

@@ -8,9 +8,6 @@ const CacheInfo& pixelCacheInfo() {
     CacheInfo i;
     i.name = "pixel";
     i.summary = "histories live in pixels alone and follow surfaces by reprojection";
-    i.packParameters = [](const std::string&, const ParameterMap&) {
-      return std::vector<std::byte>();
-    };
     return i;
   }();
   return info;

@@ -1,17 +1,34 @@
 // Host side of the surflet cache.
 #include "core/caches/surflet/surflet.h"
 
+#include "core/caches/entries/passes.h"
 #include "core/caches/entries/settings.h"
 #include "core/resampling/pair_settings.h"
 
 namespace restlab {
 
+namespace {
+
+void recordSurflet(FrameGraph& g, const FrameInfo& f) {
+  rl::SurfletCacheParams params{};
+  params.entries = packEntries(f.parameters);
+  params.grid = packGrid(f.parameters);
+  params.discPixels = floatOf(f.parameters, "surflet_pixels");
+  params.similarity = packSimilarity(f.parameters);
+  const EntryBuffers b = entryBuffers(g, f);
+  const Buffer discs = g.buffer("discs", params.entries.count, 16 * rl::RL_SHADING_POINT_QUADS);
+  recordEntries(f, "surflet", b, discs,
+                g.kernels<rl::SurfletCacheBuffers>(
+                    params, {b.surfaces, b.proposals, b.shadingPoints, b.insertions, b.keys, b.seen,
+                             b.claims, b.entryOfPixel, discs}));
+}
+
+}  // namespace
+
 const CacheInfo& surfletCacheInfo() {
   static const CacheInfo info = [] {
     CacheInfo i =
         entryCache("surflet", "discs on surfaces: each remembers at a surface point of its own");
-    // One per entry; comes after the buffers that all caches with entries have.
-    i.buffers.push_back(entryBuffer("discs", 16 * rl::RL_SHADING_POINT_QUADS));
     i.parameters.push_back(
         {"surflet_pixels",
          6.0,
@@ -20,14 +37,7 @@ const CacheInfo& surfletCacheInfo() {
          {},
          "radius of a disc in pixels, where it is spawned",
          "measured: docs/decisions.md, Entries have reservoirs at points of their own"});
-    i.packParameters = [](const std::string&, const ParameterMap& p) {
-      rl::SurfletCacheParams out{};
-      out.entries = packEntries(p);
-      out.grid = packGrid(p);
-      out.discPixels = static_cast<float>(std::get<double>(p.at("surflet_pixels")));
-      out.similarity = packSimilarity(p);
-      return bytesOf(out);
-    };
+    i.record = recordSurflet;
     return i;
   }();
   return info;

@@ -1,10 +1,28 @@
 // Host side of the voxel cache.
 #include "core/caches/voxel/voxel.h"
 
+#include "core/caches/entries/passes.h"
 #include "core/caches/entries/settings.h"
 #include "core/resampling/pair_settings.h"
 
 namespace restlab {
+
+namespace {
+
+void recordVoxel(FrameGraph& g, const FrameInfo& f) {
+  rl::VoxelCacheParams params{};
+  params.entries = packEntries(f.parameters);
+  params.grid = packGrid(f.parameters);
+  params.cellPixels = floatOf(f.parameters, "voxel_pixels");
+  params.similarity = packSimilarity(f.parameters);
+  const EntryBuffers b = entryBuffers(g, f);
+  recordEntries(f, "voxel", b, {},
+                g.kernels<rl::VoxelCacheBuffers>(
+                    params, {b.surfaces, b.proposals, b.shadingPoints, b.insertions, b.keys, b.seen,
+                             b.claims, b.entryOfPixel}));
+}
+
+}  // namespace
 
 const CacheInfo& voxelCacheInfo() {
   static const CacheInfo info = [] {
@@ -18,14 +36,7 @@ const CacheInfo& voxelCacheInfo() {
          {},
          "side of a cell in pixels, rounded down to a power of two of metres",
          "measured: docs/decisions.md, Entries have reservoirs at points of their own"});
-    i.packParameters = [](const std::string&, const ParameterMap& p) {
-      rl::VoxelCacheParams out{};
-      out.entries = packEntries(p);
-      out.grid = packGrid(p);
-      out.cellPixels = static_cast<float>(std::get<double>(p.at("voxel_pixels")));
-      out.similarity = packSimilarity(p);
-      return bytesOf(out);
-    };
+    i.record = recordVoxel;
     return i;
   }();
   return info;

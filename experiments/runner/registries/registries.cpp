@@ -37,7 +37,7 @@ Json parametersJson(const PartInfo& part) {
   Json parameters = Json::array();
   for (const ParameterInfo& parameter : part.parameters)
     parameters.push_back(parameterJson(parameter));
-  if (!asksForChanges(part)) return parameters;
+  if (!part.followsChanges) return parameters;
   // Adds the parameters of the part that detects changes, with the defaults that `part` gives them.
   for (ParameterInfo parameter : changesPartInfo().parameters) {
     const auto changed = part.defaults.find(parameter.name);

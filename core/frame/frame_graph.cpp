@@ -1,0 +1,134 @@
+#include "core/frame/frame_graph.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/error.h"
+
+namespace restlab {
+
+void GraphPass::declare(std::initializer_list<Buffer> buffers, std::vector<Buffer>& as) {
+  for (const Buffer buffer : buffers) {
+    if (!buffer) continue;
+    if (std::find(slots.begin(), slots.end(), buffer) == slots.end())
+      failUsage(fmt::format("pass {}: declares a buffer that its kernel has no slot for", name));
+    if (std::find(as.begin(), as.end(), buffer) == as.end()) as.push_back(buffer);
+  }
+}
+
+GraphPass& GraphPass::reads(std::initializer_list<Buffer> buffers) {
+  declare(buffers, read);
+  return *this;
+}
+
+GraphPass& GraphPass::writes(std::initializer_list<Buffer> buffers) {
+  declare(buffers, written);
+  return *this;
+}
+
+GraphPass& GraphPass::updates(std::initializer_list<Buffer> buffers) {
+  return reads(buffers).writes(buffers);
+}
+
+GraphPass& GraphPass::over(size_t elements) {
+  entries = static_cast<uint32_t>(elements);
+  return *this;
+}
+
+GraphPass& GraphPass::replays() {
+  isReplay = true;
+  return *this;
+}
+
+Buffer GraphPass::bound(size_t slot) const {
+  const auto has = [&](const std::vector<Buffer>& all) {
+    return std::find(all.begin(), all.end(), slots[slot]) != all.end();
+  };
+  return has(read) || has(written) ? slots[slot] : Buffer{};
+}
+
+GraphPass& Kernels::pass(const std::string& name, const std::string& kernel) const {
+  GraphPass& pass = graph_.passes_.emplace_back();
+  pass.name = name;
+  pass.part = graph_.part_;
+  pass.kernel = kernel;
+  pass.params = params_;
+  pass.slots = slots_;
+  return pass;
+}
+
+void FrameGraph::record(const std::vector<const PartInfo*>& parts, const FrameInfo& frame) {
+  passes_.clear();
+  shared = {};
+  for (const PartInfo* part : parts) {
+    if (!part->record || !isEnabled(part->enabledIf, frame.parameters)) continue;
+    part_ = part->name;
+    part->record(*this, frame);
+  }
+}
+
+Buffer FrameGraph::declare(const GraphBuffer& wanted) {
+  if (wanted.count == 0) return {};
+  const auto [at, isNew] = byName_.try_emplace(wanted.name, static_cast<uint32_t>(buffers_.size()));
+  if (isNew) {
+    buffers_.push_back(wanted);
+    buffers_.back().part = part_;
+    isSwapped_.push_back(false);
+  } else if (buffers_[at->second].part != part_ || buffers_[at->second].bytes() != wanted.bytes()) {
+    failUsage(fmt::format("{}: buffer '{}' is declared twice, by {} too", part_, wanted.name,
+                          buffers_[at->second].part));
+  }
+  return {at->second};
+}
+
+Buffer FrameGraph::buffer(const std::string& name, size_t count, uint32_t elementBytes,
+                          uint32_t features) {
+  return declare({name, "", count, elementBytes, features, false});
+}
+
+History FrameGraph::history(const std::string& name, size_t count, uint32_t elementBytes,
+                            uint32_t features) {
+  const Buffer first = declare({name, "", count, elementBytes, features, true});
+  const Buffer second = declare({name + "_before", "", count, elementBytes, features, true});
+  if (!first) return {};
+  return isSwapped_[first.index] ? History{second, first} : History{first, second};
+}
+
+History FrameGraph::advance(const History& history) {
+  if (history.now) {
+    const uint32_t first = std::min(history.now.index, history.before.index);
+    isSwapped_[first] = !isSwapped_[first];
+  }
+  return {history.before, history.now};
+}
+
+std::vector<Buffer> FrameGraph::checkedSlots(size_t structBytes,
+                                             std::initializer_list<Buffer> slots) {
+  if (slots.size() * sizeof(uint64_t) != structBytes) {
+    failUsage(fmt::format("{} buffers for the {} slots of a kernel's Buffers struct", slots.size(),
+                          structBytes / sizeof(uint64_t)));
+  }
+  return slots;
+}
+
+std::vector<const GraphPass*> FrameGraph::passesOf(const std::string& part) const {
+  std::vector<const GraphPass*> all;
+  for (const GraphPass& pass : passes_)
+    if (pass.part == part) all.push_back(&pass);
+  return all;
+}
+
+Buffer FrameGraph::find(const std::string& name) const {
+  const auto found = byName_.find(name);
+  if (found == byName_.end()) return {};
+  uint32_t index = found->second;
+  if (!buffers_[index].isHistory) return {index};
+  // Histories are declared in pairs, side by side.
+  const bool isSecond = index > 0 && name == buffers_[index - 1].name + "_before";
+  const uint32_t first = isSecond ? index - 1 : index;
+  if (isSwapped_[first]) index = isSecond ? first : first + 1;
+  return {index};
+}
+
+}  // namespace restlab

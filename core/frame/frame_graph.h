@@ -1,0 +1,153 @@
+// A frame as code: the parts of a method record their buffers and passes, one part after another,
+// for every frame. The graph is a description; core/frame/pipeline.h runs it on a backend.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/frame/part.h"
+
+namespace restlab {
+
+// Handle of a buffer in the graph. A buffer that is not there is false; kernels see it as null.
+struct Buffer {
+  static constexpr uint32_t kNone = 0xffffffffu;
+  uint32_t index = kNone;
+  explicit operator bool() const { return index != kNone; }
+  bool operator==(const Buffer&) const = default;
+};
+
+// Two buffers of one kind: one of this frame and one of an earlier frame.
+struct History {
+  Buffer now, before;
+};
+
+// Buffers that parts leave for the parts after them. Not there until a part has set them.
+struct FrameBuffers {
+  Buffer radiance;    // radiance of the frame, 12 bytes per pixel
+  Buffer shown;       // the frame that is shown, 12 bytes per pixel; set by denoisers
+  History surfaces;   // at pixel centres: core/gbuffer/visible.h
+  History features;   // of film samples, for denoisers: core/gbuffer/guide_data.h
+  Buffer motion;      // of the features, to the last frame
+  Buffer reservoirs;  // after the last merge: core/path_sample/path_sample.h
+  Buffer changes;     // core/temporal_gradients
+  // Caches in world space: core/caches/README.md
+  Buffer proposals, shadingPoints, insertions;
+  // Radiance cache, in the order of rl::RadianceBuffers.
+  Buffer cellKeys, cellPlaces, cellLight, cellRays;
+};
+
+// Facts about the frame to record.
+struct FrameInfo {
+  const std::string& mode;         // of the integrator
+  const ParameterMap& parameters;  // resolved
+  size_t pixels = 0;
+  bool isNewView = true;  // camera or parameters differ from those of the frame before
+
+  // Number of groups of `perGroup` pixels; the last one may have fewer.
+  size_t groups(size_t perGroup) const { return (pixels + perGroup - 1) / perGroup; }
+};
+
+// A buffer of the graph: `count` elements.
+struct GraphBuffer {
+  std::string name;  // unique in the graph
+  std::string part;
+  size_t count = 0;
+  uint32_t elementBytes = 0;
+  uint32_t features = 0;  // allocated only if kernels have one of these features; 0: always
+  bool isHistory = false;
+
+  size_t bytes() const { return count * elementBytes; }
+};
+
+// A pass of the graph: one kernel over all pixels, or over `entries` elements.
+struct GraphPass {
+  std::string name;  // name of its time column
+  std::string part;
+  std::string kernel;
+  std::vector<std::byte> params;  // gParams
+  std::vector<Buffer> slots;      // of the kernel's Buffers struct, in its order
+  std::vector<Buffer> read, written;
+  uint32_t entries = 0;   // 0: pixels
+  bool isReplay = false;  // repeats earlier work whose health was already counted
+
+  // The kernel finds the buffers that the pass declares, and null in all other slots.
+  GraphPass& reads(std::initializer_list<Buffer> buffers);
+  GraphPass& writes(std::initializer_list<Buffer> buffers);
+  // Writes that depend on what was there, or leave some of it.
+  GraphPass& updates(std::initializer_list<Buffer> buffers);
+  // Runs over elements instead of pixels (RL_ENTRY_ROW).
+  GraphPass& over(size_t elements);
+  GraphPass& replays();
+
+  // Buffer of a slot as the kernel sees it.
+  Buffer bound(size_t slot) const;
+
+ private:
+  void declare(std::initializer_list<Buffer> buffers, std::vector<Buffer>& as);
+};
+
+class FrameGraph;
+
+// Kernels that share one Buffers struct and one Params struct.
+class Kernels {
+ public:
+  Kernels(FrameGraph& graph, std::vector<std::byte> params, std::vector<Buffer> slots)
+      : graph_(graph), params_(std::move(params)), slots_(std::move(slots)) {}
+  // Appends a pass to the frame. The reference holds until the next pass is appended.
+  GraphPass& pass(const std::string& name, const std::string& kernel) const;
+
+ private:
+  FrameGraph& graph_;
+  std::vector<std::byte> params_;
+  std::vector<Buffer> slots_;
+};
+
+class FrameGraph {
+ public:
+  FrameBuffers shared;
+
+  // Records a frame of the parts, in order, after forgetting the passes of the frame before.
+  // Buffers stay; histories keep their turn. Parts whose condition is not met record nothing.
+  void record(const std::vector<const PartInfo*>& parts, const FrameInfo& frame);
+
+  // Declares a buffer, zero at first; the same one in every frame. Not there if `count` is 0. Its
+  // contents stay until a pass writes it.
+  Buffer buffer(const std::string& name, size_t count, uint32_t elementBytes,
+                uint32_t features = 0);
+  // Declares two such buffers, `name` and `name_before`.
+  History history(const std::string& name, size_t count, uint32_t elementBytes,
+                  uint32_t features = 0);
+  // Begins a new element of a history: `now` of the last frame becomes `before`.
+  History advance(const History& history);
+
+  // Slots are in the order of the struct `Buffers`; each is a reference of 8 bytes.
+  template <class Buffers, class Params>
+  Kernels kernels(const Params& params, std::initializer_list<Buffer> slots) {
+    return {*this, bytesOf(params), checkedSlots(sizeof(Buffers), slots)};
+  }
+
+  const std::vector<GraphBuffer>& buffers() const { return buffers_; }
+  const std::vector<GraphPass>& passes() const { return passes_; }
+  // Passes of one part.
+  std::vector<const GraphPass*> passesOf(const std::string& part) const;
+  // Finds a buffer by name, with histories as the last recorded frame had them.
+  Buffer find(const std::string& name) const;
+
+ private:
+  friend class Kernels;
+  static std::vector<Buffer> checkedSlots(size_t structBytes, std::initializer_list<Buffer> slots);
+  Buffer declare(const GraphBuffer& wanted);
+
+  std::vector<GraphBuffer> buffers_;
+  std::map<std::string, uint32_t> byName_;
+  std::vector<bool> isSwapped_;  // by buffer: the first of a history whose turn is odd
+  std::vector<GraphPass> passes_;
+  std::string part_;  // that records
+};
+
+}  // namespace restlab
