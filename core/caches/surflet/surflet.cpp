@@ -12,14 +12,13 @@ const CacheInfo& surfletCacheInfo() {
         entryCache("surflet", "discs on surfaces: each remembers at a surface point of its own");
     // One per entry; comes after the buffers that all caches with entries have.
     i.buffers.push_back(entryBuffer("discs", 16 * rl::RL_SHADING_POINT_QUADS));
-    i.parameters.push_back(
-        {"surflet_pixels",
-         6.0,
-         0.25,
-         256.0,
-         {},
-         "radius of a disc in pixels, where it is spawned",
-         "measured: docs/decisions.md, Entries have reservoirs at points of their own"});
+    i.parameters.push_back({"surflet_pixels",
+                            6.0,
+                            0.25,
+                            256.0,
+                            {},
+                            "radius of a disc in pixels, where it is spawned",
+                            "measured: docs/decisions/parameters-of-entries.md"});
     i.packParameters = [](const std::string&, const ParameterMap& p) {
       rl::SurfletCacheParams out{};
       out.entries = packEntries(p);
