@@ -10,7 +10,7 @@ namespace {
 constexpr const char* kEntries = "radiance_entries";
 constexpr const char* kEvery = "radiance_every";
 constexpr const char* kValidate = "radiance_validate";
-constexpr const char* kSwept = "measured: docs/decisions.md, Paths end in cells that see one place";
+constexpr const char* kSwept = "measured: docs/decisions/parameters-of-the-radiance-cache.md";
 constexpr EnabledIf kIsCache = {"secondary", "cache"};
 
 std::vector<ParameterInfo> parameterInfos() {
@@ -22,7 +22,7 @@ std::vector<ParameterInfo> parameterInfos() {
        {"trace", "cache"},
        "from the second vertex on a path is traced to its end, or ends in a cell of radiance where "
        "one serves: biased",
-       "docs/decisions.md, Paths end in cells that see one place"},
+       "docs/decisions/radiance-cache.md"},
       {kEntries,
        int64_t{65536},
        1024,
@@ -85,7 +85,7 @@ std::vector<ParameterInfo> parameterInfos() {
        "other "
        "light the cell begins anew (counted: light_changed)",
        "Ouyang et al. 2021 validate all of their samples every six frames; measured: "
-       "docs/decisions.md, Paths end in cells that see one place"},
+       "docs/decisions/parameters-of-the-radiance-cache.md"},
       {"radiance_cap",
        int64_t{1024},
        8,

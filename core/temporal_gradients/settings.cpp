@@ -46,7 +46,7 @@ const PartInfo& changesPartInfo() {
          {},
          "share of a history that is forgotten, over the share of the light around that has "
          "changed",
-         "measured: docs/decisions.md, Light that changed is found by replay"}};
+         "measured: docs/decisions/temporal-gradients.md"}};
     i.enabledIf.parameter = kValidateEvery;
     i.hasHistory = true;
     i.record = recordChanges;

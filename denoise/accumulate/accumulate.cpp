@@ -56,7 +56,7 @@ const DenoiserInfo& accumulateDenoiserInfo() {
          0,
          {"nearest", "bilinear"},
          "how the history is read where the camera has moved",
-         "measured: docs/decisions.md, The average reads between pixels"},
+         "measured: docs/decisions/bilinear-history.md"},
         {"accumulate_normal_threshold",
          0.9,
          -1.0,

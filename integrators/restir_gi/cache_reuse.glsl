@@ -4,7 +4,7 @@
 // times paths, and the shift between them keeps the film sample. MIS weights depend on the shading
 // point, and the shading point's position depends on the film samples of the pixel that began the
 // entry: that pixel does not use it. (The film sample may travel to others by reuse.
-// docs/decisions.md says what is left.)
+// docs/decisions/reservoirs-of-entries.md says what is left.)
 #include "core/resampling/ris.glsl"
 #include "core/resampling/mis.glsl"
 #include "core/resampling/shift.glsl"

@@ -1,9 +1,9 @@
-// restir_gi, feed pass of caches in world space: each entry that was seen merges samples that
-// pixels have offered in this frame. A candidate is the sample that the pixel found in this frame
+// restir_gi, cache_update pass of caches in world space: each entry merges samples that pixels have
+// offered in this frame. A candidate is the sample that the pixel found in this frame
 // alone, at this frame's film sample. The entry's own sample is shifted to the candidate's x1, so
 // that the merge is right for each film sample on its own. A new entry begins with a candidate, at
 // the x1 that the candidate started from: the candidate is a valid sample there, and for no other
-// point. An entry without insertions may forget (change.glsl).
+// point. An entry without insertions may forget (history_weight.glsl).
 #include "core/resampling/ris.glsl"
 #include "core/resampling/mis.glsl"
 #include "core/resampling/shift.glsl"

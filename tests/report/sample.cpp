@@ -188,7 +188,7 @@ ReportModel sampleModel(const fs::path& folder) {
           {"generated", "2026-01-02T03:04:05Z"},
           {"command", "restlab run sample.toml"},
           {"notes", list({"interrupted"})},
-          {"provenance", list({pair("restlab", "0.1.0"), pair("machine", "two cores")})},
+          {"provenance", list({pair("restlab", "0.2.0"), pair("machine", "two cores")})},
           {"blocks", list({first, second})}};
 }
 

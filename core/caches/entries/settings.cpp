@@ -6,8 +6,7 @@ namespace restlab {
 
 namespace {
 
-constexpr const char* kSwept =
-    "measured: docs/decisions.md, Entries have reservoirs at points of their own";
+constexpr const char* kSwept = "measured: docs/decisions/parameters-of-entries.md";
 
 std::vector<ParameterInfo> entryParameters() {
   return {

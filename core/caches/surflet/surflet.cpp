@@ -29,14 +29,13 @@ const CacheInfo& surfletCacheInfo() {
   static const CacheInfo info = [] {
     CacheInfo i =
         entryCache("surflet", "discs on surfaces: each remembers at a surface point of its own");
-    i.parameters.push_back(
-        {"surflet_pixels",
-         6.0,
-         0.25,
-         256.0,
-         {},
-         "radius of a disc in pixels, where it is spawned",
-         "measured: docs/decisions.md, Entries have reservoirs at points of their own"});
+    i.parameters.push_back({"surflet_pixels",
+                            6.0,
+                            0.25,
+                            256.0,
+                            {},
+                            "radius of a disc in pixels, where it is spawned",
+                            "measured: docs/decisions/parameters-of-entries.md"});
     i.record = recordSurflet;
     return i;
   }();

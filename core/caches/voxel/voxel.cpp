@@ -28,14 +28,13 @@ const CacheInfo& voxelCacheInfo() {
   static const CacheInfo info = [] {
     CacheInfo i = entryCache(
         "voxel", "a hashed grid in space: a cell remembers at a surface point of its own");
-    i.parameters.push_back(
-        {"voxel_pixels",
-         4.0,
-         0.25,
-         256.0,
-         {},
-         "side of a cell in pixels, rounded down to a power of two of metres",
-         "measured: docs/decisions.md, Entries have reservoirs at points of their own"});
+    i.parameters.push_back({"voxel_pixels",
+                            4.0,
+                            0.25,
+                            256.0,
+                            {},
+                            "side of a cell in pixels, rounded down to a power of two of metres",
+                            "measured: docs/decisions/parameters-of-entries.md"});
     i.record = recordVoxel;
     return i;
   }();

@@ -99,7 +99,7 @@ struct Weights {
 };
 
 // Scales weights so that each kind with any weight gets the same share, whatever its unit:
-// docs/decisions.md, "The choice of a light". Empty if all weights are 0.
+// docs/decisions/light-selection.md. Empty if all weights are 0.
 std::vector<double> withFairShares(const Weights& weights) {
   std::array<double, kKinds> total{};
   for (size_t i = 0; i < weights.values.size(); ++i) total[weights.kinds[i]] += weights.values[i];

@@ -12,7 +12,6 @@ namespace restlab {
 
 // Light as a user knows it: all triangles of an emitting object, a punctual light, or the
 // environment.
-// environment.
 struct DrawnLight {
   std::string name;
   double probability = 0.0;  // that a draw selects it and hits a lit texel; above 0
