@@ -128,7 +128,12 @@ class FrameGraph {
   // Slots are in the order of the struct `Buffers`; each is a reference of 8 bytes.
   template <class Buffers, class Params>
   Kernels kernels(const Params& params, std::initializer_list<Buffer> slots) {
-    return {*this, bytesOf(params), checkedSlots(sizeof(Buffers), slots)};
+    return kernels<Buffers>(bytesOf(params), slots);
+  }
+  // `params`: bytes of the Params struct.
+  template <class Buffers>
+  Kernels kernels(std::vector<std::byte> params, std::initializer_list<Buffer> slots) {
+    return {*this, std::move(params), checkedSlots(sizeof(Buffers), slots)};
   }
 
   const std::vector<GraphBuffer>& buffers() const { return buffers_; }

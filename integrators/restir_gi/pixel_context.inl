@@ -5,7 +5,7 @@ const SceneData& gScene;
 const FrameData& gFrame;
 CpuKernelCounters& gCounters;
 RTCScene embreeScene;
-const RestirGiBuffers& gBuffers;
+const ReuseBuffers& gBuffers;
 const RestirGiParams& gParams;
 
 #include "core/dialect/order.glsl"
@@ -15,6 +15,6 @@ const RestirGiParams& gParams;
 PathReservoir reservoirOf(uint pixelIndex) {
   PathReservoir r;
   r.path.suffix = pathNoSuffix();
-  giReadNow(pixelIndex, r);
+  reservoirReadNow(pixelIndex, r);
   return r;
 }

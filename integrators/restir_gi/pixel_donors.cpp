@@ -34,19 +34,18 @@ template <uint FEATURES>
 struct Ctx {
 #include "integrators/restir_gi/pixel_context.inl"
 #include "integrators/restir_gi/spatial.glsl"
-#include "core/path_sample/path_shift.glsl"
 #include "integrators/restir_gi/pixel_donors.inl"
 
   // The merge of core/resampling/reuse.glsl, step by step.
   Donors overSpace(uvec2 pixel) {
-    const uint flags = gParams.spatialFlags;
-    GiSpatialMerge s;
+    const uint flags = gParams.reuse.spatialFlags;
+    SpatialMerge s;
     s.pixelIndex = pixelIndexOf(pixel);
-    s.share = reuseDonorShare(giAge(), gParams.donorNoise);
+    s.share = reuseDonorShare(historyAge(), gParams.reuse.donorNoise);
     s.rng = rngInit(gFrame.seed, s.pixelIndex, gFrame.frame);
     s.rng.vertex = RL_VERTEX_SPATIAL;
     const ReservoirState own = reservoirOf(s.pixelIndex).state;
-    const uint count = giDonors();
+    const uint count = spatialDonors();
     ReservoirState donor = own, selected = own;
     MergeState merge = mergeBegin(own, confidenceOf(s, count), flags);
     for (uint k = 0; k < count; ++k) {
@@ -67,7 +66,7 @@ struct Ctx {
     for (uint k = 0; k < count; ++k) {
       if (!reuseDonor(s, k, donor)) continue;
       const Shifted here = reuseNeighbourAtCanonical(s, k);
-      const uint neighbour = giNeighbour(s.pixelIndex, k);
+      const uint neighbour = pairedNeighbour(s.pixelIndex, k);
       all.push_back(asDonor("space", neighbour, donor, here, merge, flags));
       if (!all.back().jacobian) {
         const PathReservoir r = reservoirOf(neighbour);
@@ -93,7 +92,6 @@ template <uint FEATURES>
 struct Ctx {
 #include "integrators/restir_gi/pixel_context.inl"
 #include "integrators/restir_gi/initial.glsl"
-#include "core/path_sample/path_shift.glsl"
 #include "core/resampling/reproject.glsl"
 
   PathReservoir found(uvec2 pixel) {
@@ -109,12 +107,13 @@ struct Ctx {
   // Resampling weight of the pixel's own sample, against a donor of the pixel `before`.
   real ownWeight(const PathReservoir& own, uint before, real cDonor) {
     const bool isStill = gFrame.stillFrames != 0u;
-    const uint flags = isStill ? gParams.temporalFlags & ~RL_REUSE_PAIRWISE : gParams.temporalFlags;
+    const uint flags =
+        isStill ? gParams.reuse.temporalFlags & ~RL_REUSE_PAIRWISE : gParams.reuse.temporalFlags;
     MergeState merge = mergeBegin(own.state, cDonor, flags);
     if (!isStill) {
       const bool assumesVisible = (flags & RL_REUSE_ASSUME_VISIBLE) != 0u;
-      PathShift shift = pathShiftTo(own, pixelOfIndex(before), true, assumesVisible);
-      pathShiftTrace(shift, own.path);
+      PathShift shift = shiftTo(own, pixelOfIndex(before), true, assumesVisible);
+      shiftTrace(shift, own);
       mergeWeighCanonical(merge, own.state, cDonor, shift.shifted, flags);
     }
     mergeCanonical(merge, own.state, flags);
@@ -125,11 +124,11 @@ struct Ctx {
   // merged.
   Donors donors(uvec2 pixel, real confidence, bool isLast) {
     const uint pixelIndex = pixelIndexOf(pixel);
-    if (gParams.temporalReuse == 0u || gFrame.frame == 0u) return {};
+    if (gParams.reuse.temporalReuse == 0u || gFrame.frame == 0u) return {};
     const bool isStill = gFrame.stillFrames != 0u;
-    const uint before = isStill                   ? pixelIndex
-                        : gParams.reproject != 0u ? reprojectedPixelIndex(pixelIndex)
-                                                  : RL_INVALID;
+    const uint before = isStill                         ? pixelIndex
+                        : gParams.reuse.reproject != 0u ? reprojectedPixelIndex(pixelIndex)
+                                                        : RL_INVALID;
     restlab::Donor donor;
     donor.reuse = "time";
     donor.id = before;
@@ -168,11 +167,11 @@ struct Ctx {
 #include "integrators/restir_gi/pixel_donors.inl"
 
   Donors ofEntries(uvec2 pixel) {
-    const uint flags = gParams.spatialFlags, count = gParams.entries.proposals;
-    GiCacheMerge s;
+    const uint flags = gParams.reuse.spatialFlags, count = gParams.entries.proposals;
+    CacheMerge s;
     s.pixelIndex = pixelIndexOf(pixel);
-    if (gFrame.stillFrames != 0u || gParams.temporalReuse == 0u ||
-        !(giHistoryWeight(s.pixelIndex) > 0.0f))
+    if (gFrame.stillFrames != 0u || gParams.reuse.temporalReuse == 0u ||
+        !(historyWeight(s.pixelIndex) > 0.0f))
       return {};
     bool isAsked = false;
     for (uint k = 0; k < count; ++k) {
@@ -188,7 +187,7 @@ struct Ctx {
     s.rng = rngInit(gFrame.seed, s.pixelIndex, gFrame.frame);
     s.rng.vertex = RL_VERTEX_CACHE_REUSE;
     const uint film = rngBits(s.rng, RL_DIM_FILTER_X);
-    giAskEntries(s, now, pixel, film, count);
+    shiftEntries(s, now, pixel, film, count);
     ReservoirState donor = now.state, canonical = now.state;
     const real cDonors = confidenceOf(s, count);
     canonical.confidence -= cDonors;
@@ -205,7 +204,7 @@ struct Ctx {
       if (one.share) one.share = misDivide(real(*one.share), wSum);
       if (!one.jacobian) {
         PathReservoir r = now;
-        giReadEntry(s.id[k], r);
+        entryReservoirRead(s.id[k], r);
         one.shift = failedTest(r, pixel, film);
       }
       // Select the donor whose integrand is the pixel's, up to rounding.
@@ -222,7 +221,7 @@ struct Ctx {
 }  // namespace of_entries
 
 template <uint FEATURES>
-Donors donorsOf(const restlab::FrameSnapshot& kept, const RestirGiBuffers& buffers,
+Donors donorsOf(const restlab::FrameSnapshot& kept, const ReuseBuffers& buffers,
                 const RestirGiParams& params, uvec2 pixel) {
   CpuKernelCounters counters;
   const SceneData& scene = kept.scene->data();
@@ -261,7 +260,7 @@ void bind(const FrameSnapshot& kept, const std::string& name, Ref& ref) {
 
 std::vector<Donor> giDonorsOf(const FrameSnapshot& kept, size_t pixel) {
   if (kept.frame == nullptr || kept.scene == nullptr) return {};
-  rl::RestirGiBuffers buffers{};
+  rl::ReuseBuffers buffers{};
   bind(kept, "visible", buffers.visible);
   bind(kept, "visible_before", buffers.visibleBefore);
   bind(kept, "proposals", buffers.proposals);

@@ -49,8 +49,8 @@ TEST(MisValues, ReachTheReuseLoopAsTheyAreListed) {
     rl::RestirGiParams packed{};
     ASSERT_EQ(bytes.size(), sizeof packed);
     std::memcpy(&packed, bytes.data(), sizeof packed);
-    EXPECT_EQ(packed.temporalFlags & kOfWeights, value.flags) << value.name;
-    EXPECT_EQ(packed.spatialFlags & kOfWeights, value.flags) << value.name;
+    EXPECT_EQ(packed.reuse.temporalFlags & kOfWeights, value.flags) << value.name;
+    EXPECT_EQ(packed.reuse.spatialFlags & kOfWeights, value.flags) << value.name;
     const BiasClass bias = integrator.biasOfParameters("unbiased", parameters);
     EXPECT_EQ(bias == BiasClass::unbiased, value.isUnbiased) << value.name;
   }

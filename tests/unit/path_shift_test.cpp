@@ -25,13 +25,12 @@ struct Ctx {
   const FrameData& gFrame;
   CpuKernelCounters& gCounters;
   RTCScene embreeScene;
-  const RestirGiBuffers& gBuffers;
+  const ReuseBuffers& gBuffers;
   const RestirGiParams& gParams;
 
 #include "core/dialect/order.glsl"
 #include "core/backend/cpu_trace.inl"
 #include "integrators/restir_gi/initial.glsl"
-#include "core/path_sample/path_shift.glsl"
 };
 
 }  // namespace rl::self_shift
@@ -60,7 +59,7 @@ class SelfShift : public ::testing::TestWithParam<const char*> {
   std::shared_ptr<const CompiledScene> scene_;
   rl::SceneData data_;
   rl::FrameData frame_{};
-  rl::RestirGiBuffers buffers_{};
+  rl::ReuseBuffers buffers_{};
   rl::RestirGiParams params_{};
   rl::CpuKernelCounters counters_;
   std::vector<glm::uvec4> quads_;
@@ -75,9 +74,9 @@ TEST_P(SelfShift, GivesWhatWasStored) {
       const rl::uvec2 pixel(slot % kWidth, slot / kWidth);
       rl::PathRecord path = c.pathRecordEmpty(c.cameraFilmBits(pixel));
       c.walkPath(path, pixel, path.film);
-      c.giWriteNow(0, c.pathResample(path, c.rngInit(frame_.seed, slot, frame_.frame)));
+      c.reservoirWriteNow(0, c.pathResample(path, c.rngInit(frame_.seed, slot, frame_.frame)));
       rl::PathReservoir r{};
-      c.giReadNow(0, r);
+      c.reservoirReadNow(0, r);
       if (!(r.state.W > 0.0f)) continue;
       rl::PathShift shift = c.pathShiftTo(r, pixel, false, false);
       c.pathShiftTrace(shift, r.path);

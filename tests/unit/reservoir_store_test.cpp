@@ -19,17 +19,15 @@ struct StoreCtx {
 
   const SceneData& gScene;
   const FrameData& gFrame;
-  const RestirGiBuffers& gBuffers;
+  const ReuseBuffers& gBuffers;
   const RestirGiParams& gParams;
   CpuKernelCounters& gCounters;
 
 #include "core/dialect/order.glsl"
-#include "core/resampling/shift.glsl"
-#include "core/resampling/reservoir.glsl"
-#include "core/path_sample/path_sample.glsl"
-#include "integrators/restir_gi/reservoir_store.glsl"
   // Tests trace no rays.
   float traceRay(const Ray&, uint, uint, Hit&) { return 0.0f; }
+#include "integrators/restir_gi/sample.glsl"
+#include "core/reuse/reservoir_store.glsl"
 };
 
 }  // namespace rl
@@ -72,7 +70,7 @@ struct Store {
   std::vector<std::vector<glm::uvec4>> memory;
   rl::SceneData scene{};
   rl::FrameData frame{};
-  rl::RestirGiBuffers buffers{};
+  rl::ReuseBuffers buffers{};
   rl::RestirGiParams params{};
   rl::CpuKernelCounters counters;
   rl::StoreCtx<FEATURES> ctx;
@@ -138,25 +136,25 @@ void expectReservoirs() {
   auto& c = store.ctx;
   const bool isGlossy = (FEATURES & rl::RL_FEATURE_GLOSSY) != 0;
   const rl::PathReservoir now = reservoir(1.0f), before = reservoir(100.0f);
-  c.giWriteNow(kSlot, now);
-  c.giWriteHistory(kSlot, before);
+  c.reservoirWriteNow(kSlot, now);
+  c.reservoirWriteHistory(kSlot, before);
   rl::PathReservoir read{};
-  c.giReadNow(kSlot, read);
+  c.reservoirReadNow(kSlot, read);
   expectState(read.state, now.state);
   expectPath(read.path, now.path, isGlossy);
-  c.giReadBefore(kSlot, read);
+  c.reservoirReadBefore(kSlot, read);
   expectState(read.state, before.state);
   expectPath(read.path, before.path, isGlossy);
   // Writing only the state must leave the path unchanged.
   rl::PathReservoir changed = now;
   changed.state = reservoir(300.0f).state;
-  c.giWriteStateNow(kSlot, changed);
-  expectState(c.giReadStateNow(kSlot), changed.state);
-  expectState(c.giReadStateBefore(kSlot), before.state);
-  c.giReadNow(kSlot, read);
+  c.stateWriteNow(kSlot, changed);
+  expectState(c.stateReadNow(kSlot), changed.state);
+  expectState(c.stateReadBefore(kSlot), before.state);
+  c.reservoirReadNow(kSlot, read);
   expectPath(read.path, now.path, isGlossy);
   // Taking only the path must leave the state unchanged.
-  c.giTakePathBefore(kSlot, read);
+  c.takeSampleBefore(kSlot, read);
   expectState(read.state, changed.state);
   expectPath(read.path, before.path, isGlossy);
   EXPECT_EQ(store.touchedElsewhere(), 0u);
@@ -174,16 +172,16 @@ TEST(ReservoirStore, SpotLightsComeBack) {
   written.path.kind = rl::RL_PATH_DIRECT | (rl::RL_LIGHT_SPOT << rl::RL_PATH_LIGHT_SHIFT);
   written.path.light = 4711;
   written.path.geometry = written.path.posError = 0.0f;
-  store.ctx.giWriteNow(kSlot, written);
-  store.ctx.giReadNow(kSlot, read);
+  store.ctx.reservoirWriteNow(kSlot, written);
+  store.ctx.reservoirReadNow(kSlot, read);
   expectPath(read.path, written.path, false);
 }
 
 TEST(ReservoirStore, ShiftedSamplesAreReadAsTheyWereWritten) {
   Store<rl::RL_FEATURE_ALL> store;
-  store.params.spatialNeighbours = 1;
+  store.params.reuse.spatialNeighbours = 1;
   const rl::Shifted written{{0.5f, 3.0f, 0.25f}, 0.3f};
-  const uint32_t index = store.ctx.giPairedShiftIndex(kSlot, 0);
+  const uint32_t index = store.ctx.pairedShiftIndex(kSlot, 0);
   store.ctx.shiftedWrite(store.buffers.pairedShifts, index, written, 77);
   uint32_t partner = 0;
   EXPECT_TRUE(isSame(store.ctx.shiftedRead(store.buffers.pairedShifts, index, partner), written));

@@ -1,6 +1,5 @@
 // Pass of new views: marks pixels that show the outline of a surface, judged by the centres of the
-// four pixels beside them. Two pixels at an outline may differ in every sample. The integrator adds
-// this file as a kernel of its own, with gBuffers.outlines beside the buffers of pairs.glsl.
+// four pixels beside them. Two pixels at an outline may differ in every sample.
 #include "core/resampling/pairs.glsl"
 
 // Left of column 0 and above row 0 the index wraps to a large number, which is outside, too.

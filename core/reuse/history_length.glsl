@@ -1,18 +1,18 @@
-// restir_gi: the age of histories.
+// The age of histories.
 
 // Number of frames of this view that a history averages, this one included. After a camera move a
 // history counts as one frame: light that the pixel did not see from the old position is known from
 // this frame alone, which decides the error. Neighbours may have seen that light.
-RL_FN float giAge() {
-  if (gParams.temporalReuse == 0u) return 1.0f;
-  return min(float(gFrame.stillFrames), gParams.confidenceCap) + 1.0f;
+RL_FN float historyAge() {
+  if (gParams.reuse.temporalReuse == 0u) return 1.0f;
+  return min(float(gFrame.stillFrames), gParams.reuse.confidenceCap) + 1.0f;
 }
 
 // Unpacks the last word of a pixel's own-light quad.
-RL_FN GiViewLight giViewLight(uint word) {
-  GiViewLight count;
+RL_FN ViewLight viewLightUnpack(uint word) {
+  ViewLight count;
   count.taken = word & 0xffu;
   count.frames = word >> 8u;
   return count;
 }
-RL_FN uint giViewLightWord(RL_IN(GiViewLight) count) { return count.taken | (count.frames << 8u); }
+RL_FN uint viewLightPack(RL_IN(ViewLight) count) { return count.taken | (count.frames << 8u); }

@@ -1,13 +1,13 @@
-// restir_gi: shortens histories of light that has changed (core/temporal_gradients).
+// Shortens histories of light that has changed (core/temporal_gradients).
 #include "core/temporal_gradients/read.glsl"
 
 // The share of a pixel's history that is kept in this frame.
-RL_FN float giHistoryWeight(uint pixelIndex) {
+RL_FN float historyWeight(uint pixelIndex) {
   return changeHistoryWeight(gBuffers.changes, gParams.changes, pixelIndex);
 }
 
 // Share of its history that an entry without insertions keeps: its surroundings are out of view.
-RL_FN float giHistoryWeightOutOfView(uint entry) {
+RL_FN float historyWeightOutOfView(uint entry) {
   Rng rng = rngInit(gFrame.seed, entry, gFrame.frame);
   rng.vertex = RL_VERTEX_CACHE_UPDATE;
   return changeHistoryWeightOutOfView(gBuffers.changes, gParams.changes, rng);

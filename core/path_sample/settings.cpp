@@ -1,0 +1,79 @@
+#include "core/path_sample/settings.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <bit>
+
+#include "core/base/packing.h"
+
+namespace restlab {
+
+namespace {
+
+std::string three(const glm::vec3& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }
+
+float number(std::span<const uint32_t> words, size_t at) { return std::bit_cast<float>(words[at]); }
+
+}  // namespace
+
+std::vector<ParameterInfo> pathParameters() {
+  return {
+      {"light_candidates",
+       int64_t{1},
+       1,
+       64,
+       {},
+       "light samples a pixel and frame, of which one is kept",
+       "1: the same rays as the path tracer"},
+      {"roughness_limit",
+       0.2,
+       0.0,
+       1.0,
+       {},
+       "perceptual roughness below which x1 is not reused: own light alone (counted)",
+       "Lin et al. 2022, section 6.5: 0.2",
+       true},
+      {"max_jacobian",
+       10.0,
+       1.0,
+       1.0e6,
+       {},
+       "shifts whose Jacobian lies outside [1/x, x] are undefined, both ways",
+       "symmetric rejection keeps the estimator unbiased; Falcor and RTXDI: 10; measured: "
+       "docs/decisions/moving-confidence-cap.md"},
+  };
+}
+
+rl::PathParams packPath(const ParameterMap& p) {
+  const float roughness = floatOf(p, "roughness_limit");
+  return {uintOf(p, "light_candidates"), roughness * roughness, floatOf(p, "max_jacobian")};
+}
+
+std::vector<ProbeValue> pathProbe(std::span<const uint32_t> words) {
+  // From here on as reservoirStateWrite() lays it out.
+  constexpr size_t kState = 4 * rl::RL_PATH_SAMPLE_QUADS;
+  rl::Packing packing;
+  static const std::array<const char*, 4> kinds = {
+      "light at x1", "Lambert x2", "glossy x2, light sample", "glossy x2, continued"};
+  const uint32_t kind = words[7] & rl::RL_PATH_KIND_MASK, film = words[3];
+  const float weight = number(words, kState + 2);
+  std::vector<ProbeValue> values = {
+      {"W", fmt::format("{:.6g}", weight)},
+      {"F", three(packing.unpackPositive3(words[kState], words[kState + 1]))},
+      {"residual", three(packing.unpackSigned3(words[kState + 4], words[kState + 5]))}};
+  if (!(weight > 0.0f)) {
+    values.push_back({"kind", "none: the reservoir is empty"});
+    return values;
+  }
+  values.push_back({"kind", kinds.at(kind)});
+  values.push_back({"film", fmt::format("{:.4f} {:.4f}", double(film & 0xffffu) / 65536.0,
+                                        double(film >> 16) / 65536.0)});
+  values.push_back(
+      {"position or direction", three({number(words, 0), number(words, 1), number(words, 2)})});
+  values.push_back(
+      {"radiance", three(packing.unpackPositive3(words[kState + 6], words[kState + 7]))});
+  return values;
+}
+
+}  // namespace restlab

@@ -1,0 +1,14 @@
+// Layers of methods with reservoirs: what the passes of reuse left of a pixel in the last frame.
+#pragma once
+
+#include <vector>
+
+#include "core/frame/part.h"
+
+namespace restlab {
+
+// Layers confidence, age, entry_confidence, rejected_shifts and partner. `reservoirQuads`: of a
+// reservoir of the method.
+std::vector<LayerInfo> reuseLayers(uint32_t reservoirQuads);
+
+}  // namespace restlab

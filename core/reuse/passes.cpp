@@ -1,0 +1,82 @@
+#include "core/reuse/passes.h"
+
+namespace restlab {
+
+void recordReuse(FrameGraph& g, const FrameInfo& f, const ReusedSample& sample,
+                 const rl::ReuseParams& reuse, const rl::EntryParams& entries,
+                 std::vector<std::byte> params) {
+  const FrameBuffers& s = g.shared;
+  const bool isTemporal = reuse.temporalReuse != 0, hasEntries = entries.count != 0;
+  const auto withSuffix = [&](size_t count) { return sample.suffixQuads == 0 ? 0 : count; };
+  constexpr uint32_t kQuad = 16, kGlossy = rl::RL_FEATURE_GLOSSY;
+  const uint32_t reservoirBytes = kQuad * sample.reservoirQuads;
+  const uint32_t suffixBytes = kQuad * sample.suffixQuads;
+  const Buffer radiance = g.buffer("radiance", f.pixels, sizeof(glm::vec3));
+  const History unresampled = g.advance(g.history("unresampled_radiance", f.pixels, kQuad));
+  const Buffer reservoirs = g.buffer("reservoirs", f.pixels, reservoirBytes);
+  const Buffer history = g.buffer("reservoir_history", f.pixels, reservoirBytes);
+  const Buffer suffixes = g.buffer("path_suffixes", withSuffix(f.pixels), suffixBytes, kGlossy);
+  const Buffer suffixHistory =
+      g.buffer("path_suffix_history", withSuffix(f.pixels), suffixBytes, kGlossy);
+  const Buffer pairedShifts = g.buffer("spatial_shift", f.pixels * reuse.spatialNeighbours, kQuad);
+  const Buffer outlines = g.buffer("outlines", f.pixels, sizeof(uint32_t));
+  const Buffer entryReservoirs = g.buffer("entry_reservoirs", entries.count, reservoirBytes);
+  const Buffer entrySuffixes =
+      g.buffer("entry_suffixes", withSuffix(entries.count), suffixBytes, kGlossy);
+  const Kernels kernels = g.kernels<rl::ReuseBuffers>(
+      std::move(params),
+      {s.surfaces.now, s.surfaces.before, s.proposals,        s.shadingPoints, s.insertions,
+       s.cellKeys,     s.cellPlaces,      s.cellLight,        s.cellRays,      s.changes,
+       radiance,       unresampled.now,   unresampled.before, reservoirs,      history,
+       suffixes,       suffixHistory,     pairedShifts,       outlines,        entryReservoirs,
+       entrySuffixes});
+
+  if (f.isNewView) {
+    kernels.pass("lights_in_view", sample.method + "_lights_in_view")
+        .reads({s.surfaces.now})
+        .writes({unresampled.now});
+  }
+  // In a still view this pass merges the history, too, and leaves candidates for entries in it.
+  GraphPass& initial = kernels.pass("initial", sample.method + "_initial")
+                           .reads({unresampled.before, history, suffixHistory, s.changes,
+                                   s.cellKeys, s.cellPlaces, s.cellLight})
+                           .writes({reservoirs, suffixes})
+                           .updates({unresampled.now, s.cellRays});
+  if (hasEntries) {
+    initial.updates({history, suffixHistory});
+    kernels.pass("cache_update", sample.method + "_cache_update")
+        .over(entries.count)
+        .reads(
+            {s.surfaces.now, s.insertions, s.changes, reservoirs, suffixes, history, suffixHistory})
+        .updates({s.shadingPoints, entryReservoirs, entrySuffixes});
+  }
+  if (f.isNewView && isTemporal) {
+    kernels.pass("temporal", sample.method + "_temporal")
+        .reads({s.surfaces.now, s.surfaces.before, s.changes, history, suffixHistory})
+        .updates({reservoirs, suffixes});
+    if (hasEntries) {
+      kernels.pass("cache_reuse", sample.method + "_cache_reuse")
+          .reads({s.surfaces.now, s.proposals, s.shadingPoints, s.changes, entryReservoirs,
+                  entrySuffixes})
+          .updates({reservoirs, suffixes});
+    }
+  }
+  if (reuse.spatialNeighbours != 0) {
+    if (f.isNewView) {
+      kernels.pass("outlines", sample.method + "_outlines")
+          .reads({s.surfaces.now})
+          .writes({outlines});
+    }
+    kernels.pass("spatial_shift", sample.method + "_spatial_shift")
+        .reads({s.surfaces.now, reservoirs, suffixes, outlines})
+        .writes({pairedShifts});
+  }
+  // Shades, too, and so runs without neighbours.
+  kernels.pass("spatial", sample.method + "_spatial")
+      .reads({s.surfaces.now, reservoirs, suffixes, pairedShifts, unresampled.now})
+      .writes({history, suffixHistory, radiance});
+  g.shared.radiance = radiance;
+  g.shared.reservoirs = history;
+}
+
+}  // namespace restlab

@@ -1,0 +1,79 @@
+// Storage of reservoirs: this frame's (initial, then merged over time), the last frame's, and those
+// of entries. Reads are of earlier passes' data (RL_PAST_QUAD): no pass reads its own writes.
+
+RL_FN void reservoirReadNow(uint pixelIndex, RL_INOUT(RL_RESERVOIR) r) {
+  sampleRead(gBuffers.reservoirs, gBuffers.suffixes, pixelIndex, r);
+}
+RL_FN void reservoirReadBefore(uint pixelIndex, RL_INOUT(RL_RESERVOIR) r) {
+  sampleRead(gBuffers.history, gBuffers.suffixesHistory, pixelIndex, r);
+}
+RL_FN void reservoirWriteNow(uint pixelIndex, RL_IN(RL_RESERVOIR) r) {
+  sampleWrite(gBuffers.reservoirs, gBuffers.suffixes, pixelIndex, r);
+}
+RL_FN void reservoirWriteHistory(uint pixelIndex, RL_IN(RL_RESERVOIR) r) {
+  sampleWrite(gBuffers.history, gBuffers.suffixesHistory, pixelIndex, r);
+}
+
+// States are read on their own: merges decide by states, and only the winner's sample is moved.
+RL_FN ReservoirState stateReadNow(uint pixelIndex) {
+  return sampleStateRead(gBuffers.reservoirs, pixelIndex);
+}
+RL_FN ReservoirState stateReadBefore(uint pixelIndex) {
+  return sampleStateRead(gBuffers.history, pixelIndex);
+}
+RL_FN void stateWriteNow(uint pixelIndex, RL_IN(RL_RESERVOIR) r) {
+  sampleStateWrite(gBuffers.reservoirs, pixelIndex, r);
+}
+// Replaces the sample by that of another reservoir, under the selected state.
+RL_FN void takeSampleNow(uint pixelIndex, RL_INOUT(RL_RESERVOIR) r) {
+  RL_RESERVOIR from = r;
+  reservoirReadNow(pixelIndex, from);
+  sampleTake(r, from);
+}
+RL_FN void takeSampleBefore(uint pixelIndex, RL_INOUT(RL_RESERVOIR) r) {
+  RL_RESERVOIR from = r;
+  reservoirReadBefore(pixelIndex, from);
+  sampleTake(r, from);
+}
+
+// Reservoirs of entries.
+RL_FN void entryReservoirRead(uint entry, RL_INOUT(RL_RESERVOIR) r) {
+  sampleRead(gBuffers.entryReservoirs, gBuffers.entrySuffixes, entry, r);
+}
+RL_FN ReservoirState entryStateRead(uint entry) {
+  return sampleStateRead(gBuffers.entryReservoirs, entry);
+}
+RL_FN void takeEntrySample(uint entry, RL_INOUT(RL_RESERVOIR) r) {
+  RL_RESERVOIR from = r;
+  entryReservoirRead(entry, from);
+  sampleTake(r, from);
+}
+RL_FN void entryReservoirWrite(uint entry, RL_IN(RL_RESERVOIR) r) {
+  sampleWrite(gBuffers.entryReservoirs, gBuffers.entrySuffixes, entry, r);
+}
+
+// Reads the candidate of a pixel for its entry: the sample that it found in this frame alone.
+// Before the temporal pass that is the pixel's reservoir. In a still view the initial pass has
+// merged the history already: the candidate then takes the history's place, which the spatial pass
+// fills again.
+RL_FN void candidateRead(uint pixelIndex, RL_INOUT(RL_RESERVOIR) r) {
+  if (gFrame.stillFrames == 0u) {
+    reservoirReadNow(pixelIndex, r);
+  } else {
+    reservoirReadBefore(pixelIndex, r);
+  }
+}
+RL_FN ReservoirState candidateStateRead(uint pixelIndex) {
+  if (gFrame.stillFrames == 0u) return stateReadNow(pixelIndex);
+  return stateReadBefore(pixelIndex);
+}
+RL_FN void takeCandidateSample(uint pixelIndex, RL_INOUT(RL_RESERVOIR) r) {
+  RL_RESERVOIR from = r;
+  candidateRead(pixelIndex, from);
+  sampleTake(r, from);
+}
+
+// Index in the pairedShifts buffer of a pixel's sample shifted to its k-th neighbour.
+RL_FN uint pairedShiftIndex(uint pixelIndex, uint k) {
+  return pixelIndex * gParams.reuse.spatialNeighbours + k;
+}

@@ -1,0 +1,96 @@
+// Buffers, parameters and state of the passes of reuse (core/reuse/README.md). A method's Params
+// struct has `reuse`, `pairs`, `entries`, `cells` and `changes`, and what its samples need.
+#ifndef RL_REUSE_H
+#define RL_REUSE_H
+
+#ifdef __cplusplus
+#include "core/dialect/order.h"
+#endif
+#include "core/caches/entries/entries.h"
+#include "core/radiance_cache/radiance.h"
+#include "core/resampling/pairs.h"
+#include "core/resampling/reservoir.h"
+#include "core/temporal_gradients/changes.h"
+
+RL_NAMESPACE_BEGIN
+
+// State of the temporal merge: one donor.
+struct TemporalMerge {
+  ReservoirState donor;  // confidence is capped
+  Shifted canonicalAtNeighbour;
+  Shifted neighbourAtCanonical;
+  vec3 ratio;
+  float u;
+};
+
+// State of the spatial merge: the neighbours are the donors.
+struct SpatialMerge {
+  uint pixelIndex;
+  float share;  // factor of the donors' confidence
+  Rng rng;
+};
+
+// State of the merge of a pixel with its entries, and of an entry with the candidates of pixels: up
+// to RL_MAX_DONORS donors.
+struct CacheMerge {
+  uint pixelIndex;  // of the pixel; or the entry
+  uint id[4];       // entries; or groups of pixels. RL_INVALID: none
+  Shifted canonicalAtNeighbour[4];
+  Shifted neighbourAtCanonical[4];
+  Rng rng;
+};
+
+// Number of samples in the average of a pixel's unresampled light.
+struct ViewLight {
+  uint taken;   // film samples that lights_in_view took when the view was new
+  uint frames;  // frames of this view, less those that were forgotten
+};
+
+struct ReuseBuffers {
+  QuadRef visible;  // core/gbuffer/visible.h
+  QuadRef visibleBefore;
+  // From caches in world space (core/caches/README.md).
+  UintRef proposals;
+  QuadRef shadingPoints;
+  UintRef insertions;
+  RadianceBuffers cells;
+  UintRef changes;  // core/temporal_gradients
+  Vec3Ref radiance;
+  // One quad per pixel: light that no other pixel could reuse, averaged over time in a still view,
+  // and its ViewLight. lights_in_view leaves its light here for the initial pass.
+  QuadRef unresampled;
+  QuadRef unresampledBefore;
+  QuadRef reservoirs;  // reservoirs of this frame: initial, then temporal
+  QuadRef history;     // last frame's, in still views then candidates; replaced by the spatial pass
+  // What samples keep beside the reservoirs; null if they keep nothing.
+  QuadRef suffixes;
+  QuadRef suffixesHistory;
+  // Between the spatial_shift and the spatial pass, spatialNeighbours entries per pixel: the
+  // pixel's sample shifted to the neighbour, and the neighbour's pixel index (RL_INVALID: none).
+  QuadRef pairedShifts;
+  UintRef outlines;  // 1: a pixel beside it shows another surface
+  // For caches in world space: reservoirs of entries (core/caches/entries/entries.glsl).
+  QuadRef entryReservoirs;
+  QuadRef entrySuffixes;
+};
+
+struct ReuseParams {
+  uint temporalFlags;  // RL_REUSE_*
+  uint spatialFlags;
+  uint spatialNeighbours;  // donors of young histories; at least neighboursLongHistory
+  uint neighboursLongHistory;
+  uint longHistoryFrames;  // after so many still frames no history is young
+  uint lightEdgeSamples;
+  float donorNoise;    // reuseDonorShare()
+  uint temporalReuse;  // 0: off
+  uint reproject;      // 0: no reprojection
+  float confidenceCap;
+  float movingConfidenceCap;  // in frames of a new view
+  float maxReflectanceRatio;  // bound per channel on the reflectance ratio of carried estimates
+};
+
+RL_NAMESPACE_END
+
+#define RL_KERNEL_BUFFERS ReuseBuffers
+
+#endif

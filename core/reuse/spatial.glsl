@@ -1,0 +1,67 @@
+// Spatial pass: merges neighbours' reservoirs, shades, and leaves the history. No ray is
+// traced: the spatial_shift pass has made the shifts.
+#include "core/resampling/pairs.glsl"
+#include "core/reuse/reservoir_store.glsl"
+#include "core/reuse/reflectance_ratio.glsl"
+#include "core/reuse/neighbours.glsl"
+
+#define RL_REUSE_STATE SpatialMerge
+
+RL_FN Shifted pairedShift(uint pixelIndex, uint k, RL_OUT(uint) neighbour) {
+  return shiftedRead(gBuffers.pairedShifts, pairedShiftIndex(pixelIndex, k), neighbour);
+}
+RL_FN uint pairedNeighbour(uint pixelIndex, uint k) {
+  uint neighbour;
+  pairedShift(pixelIndex, k, neighbour);
+  return neighbour;
+}
+RL_FN Shifted reuseCanonicalAtNeighbour(RL_IN(SpatialMerge) s, uint k) {
+  uint neighbour;
+  return pairedShift(s.pixelIndex, k, neighbour);
+}
+RL_FN Shifted reuseNeighbourAtCanonical(RL_IN(SpatialMerge) s, uint k) {
+  uint pixelIndex;
+  return pairedShift(pairedNeighbour(s.pixelIndex, k), k, pixelIndex);
+}
+RL_FN bool reuseDonor(RL_IN(SpatialMerge) s, uint k, RL_OUT(ReservoirState) donor) {
+  donor = reservoirEmpty();
+  uint neighbour = pairedNeighbour(s.pixelIndex, k);
+  if (neighbour == RL_INVALID) return false;
+  donor = stateReadNow(neighbour);
+  donor.confidence *= s.share;
+  return true;
+}
+RL_FN real3 reuseRatio(RL_IN(SpatialMerge) s, uint k) {
+  return pixelReflectanceRatio(pairSurface(pairedNeighbour(s.pixelIndex, k)), s.pixelIndex);
+}
+RL_FN real reuseUniform(RL_IN(SpatialMerge) s, uint k) {
+  Rng rng = s.rng;
+  return rngDraw(rng, RL_DIM_RIS_MERGE + k);
+}
+
+#include "core/resampling/reuse.glsl"
+
+RL_FN void kernelMain(RL_IN(uvec2) pixel) {
+  SpatialMerge s;
+  s.pixelIndex = pixelIndexOf(pixel);
+  s.share = reuseDonorShare(historyAge(), gParams.reuse.donorNoise);
+  s.rng = rngInit(gFrame.seed, s.pixelIndex, gFrame.frame);
+  s.rng.vertex = RL_VERTEX_SPATIAL;
+  RL_RESERVOIR r = sampleNone();
+  reservoirReadNow(s.pixelIndex, r);
+  uint winner;
+  float jacobian;
+  vec3 radiance = recordVec3(RL_PAST_QUAD(gBuffers.unresampled, s.pixelIndex));
+  radiance += reuseMerge(s, spatialDonors(), gParams.reuse.spatialFlags, r.state, winner, jacobian);
+  if (winner != RL_INVALID) takeSampleNow(pairedNeighbour(s.pixelIndex, winner), r);
+  sampleFollow(r, jacobian);
+  if (!rlIsFinite3(radiance)) {
+    // A NaN or Inf would spread by reuse. Reset the reservoir and count it.
+    RL_HEALTH(RL_HEALTH_NONFINITE);
+    radiance = vec3(0.0f, 0.0f, 0.0f);
+    r.state = reservoirEmpty();
+  }
+  reservoirWriteHistory(s.pixelIndex, r);
+  if (min(radiance.x, min(radiance.y, radiance.z)) < 0.0f) RL_HEALTH(RL_HEALTH_NEGATIVE);
+  gBuffers.radiance.data[s.pixelIndex] = radiance;
+}

@@ -1,0 +1,22 @@
+// spatial_shift, a pass: every pixel shifts its sample to its spatial neighbours.
+// Neighbours are mutual, so that each shift serves the merges of both.
+#include "core/resampling/pairs.glsl"
+#include "core/reuse/reservoir_store.glsl"
+#include "core/reuse/neighbours.glsl"
+
+RL_FN void kernelMain(RL_IN(uvec2) pixel) {
+  uint pixelIndex = pixelIndexOf(pixel);
+  RL_RESERVOIR r = sampleNone();
+  reservoirReadNow(pixelIndex, r);
+  uint donors = spatialDonors();
+  for (uint k = 0u; k < donors; k = k + 1u) {
+    uint index = pairedShiftIndex(pixelIndex, k);
+    uint neighbour;
+    bool exists = pairFind(pixel, k, neighbour);
+    if (exists) exists = mayExchange(pixelIndex, neighbour);
+    RL_SHIFT shift = shiftNone();
+    if (exists) shift = shiftTo(r, pixelOfIndex(neighbour), false, false);
+    shiftTrace(shift, r);
+    shiftedWrite(gBuffers.pairedShifts, index, shift.shifted, exists ? neighbour : RL_INVALID);
+  }
+}

@@ -1,5 +1,0 @@
-// Reflectance here over that of a donor's surface, for carried estimates.
-RL_FN vec3 giReflectanceRatio(RL_IN(GBufferTexel) donor, uint pixelIndex) {
-  GBufferTexel here = visibleRead(gBuffers.visible, gFrame.camera, pixelIndex);
-  return reuseReflectanceRatio(donor.reflectance, here.reflectance, gParams.maxReflectanceRatio);
-}

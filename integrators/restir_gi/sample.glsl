@@ -1,0 +1,59 @@
+// The sample of restir_gi: a film sample, and a path that reconnects at x2 or at its light. These
+// functions are all that the passes of core/reuse ask of it (core/reuse/README.md).
+#include "core/resampling/ris.glsl"
+#include "core/resampling/mis.glsl"
+#include "core/resampling/shift.glsl"
+#include "core/resampling/reservoir.glsl"
+#include "core/path_sample/path_sample.glsl"
+#include "core/path_sample/path_shift.glsl"
+#include "core/resampling/merge.glsl"
+#include "core/resampling/donors.glsl"
+#include "core/caches/entries/entries.glsl"
+
+// A reservoir to read into.
+RL_FN PathReservoir sampleNone() {
+  PathReservoir r;
+  r.path.suffix = pathNoSuffix();
+  return r;
+}
+
+// Storage: the reservoir of an index, and for glossy scenes the suffix of its path.
+RL_FN void sampleRead(RL_IN(QuadRef) quads, RL_IN(QuadRef) suffixes, uint index,
+                      RL_INOUT(PathReservoir) r) {
+  pathReservoirRead(quads, index * RL_PATH_RESERVOIR_QUADS, r);
+  if (RL_HAS(RL_FEATURE_GLOSSY))
+    r.path.suffix = pathSuffixRead(suffixes, index * RL_PATH_SUFFIX_QUADS);
+}
+RL_FN void sampleWrite(RL_IN(QuadRef) quads, RL_IN(QuadRef) suffixes, uint index,
+                       RL_IN(PathReservoir) r) {
+  pathReservoirWrite(quads, index * RL_PATH_RESERVOIR_QUADS, r);
+  if (RL_HAS(RL_FEATURE_GLOSSY))
+    pathSuffixWrite(suffixes, index * RL_PATH_SUFFIX_QUADS, r.path.suffix);
+}
+RL_FN ReservoirState sampleStateRead(RL_IN(QuadRef) quads, uint index) {
+  return pathStateRead(quads, index * RL_PATH_RESERVOIR_QUADS);
+}
+RL_FN void sampleStateWrite(RL_IN(QuadRef) quads, uint index, RL_IN(PathReservoir) r) {
+  pathStateWrite(quads, index * RL_PATH_RESERVOIR_QUADS, r);
+}
+
+// Replaces the sample, under the selected state.
+RL_FN void sampleTake(RL_INOUT(PathReservoir) r, RL_IN(PathReservoir) from) { r.path = from.path; }
+// Follows a shift: `jacobian` is that of the shift that brought the sample here.
+RL_FN void sampleFollow(RL_INOUT(PathReservoir) r, float jacobian) { r.path.geometry *= jacobian; }
+RL_FN uint sampleFilm(RL_IN(PathReservoir) r) { return r.path.film; }
+RL_FN void sampleSetFilm(RL_INOUT(PathReservoir) r, uint film) { r.path.film = film; }
+
+// Shifts, step by step, so that a kernel has one call of traceRay().
+RL_FN PathShift shiftNone() { return pathShiftNone(); }
+RL_FN PathShift shiftTo(RL_IN(PathReservoir) r, RL_IN(uvec2) pixel, bool isBefore,
+                        bool assumeVisible) {
+  return pathShiftTo(r, pixel, isBefore, assumeVisible);
+}
+RL_FN PathShift shiftToSurface(RL_IN(PathReservoir) r, RL_IN(Surface) x1) {
+  return pathShiftToSurface(r, x1);
+}
+RL_FN void shiftTrace(RL_INOUT(PathShift) s, RL_IN(PathReservoir) r) { pathShiftTrace(s, r.path); }
+RL_FN uint shiftKey(uint mode, uint film) { return pathShiftKey(mode, film); }
+// Returns whether samples can be reused at a surface of this frame.
+RL_FN bool shiftServes(RL_IN(Bsdf) bsdf) { return pathIsReusable(bsdf); }
