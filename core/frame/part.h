@@ -52,7 +52,7 @@ struct EnabledIf {
 };
 bool isEnabled(const EnabledIf& only, const ParameterMap& resolved);
 
-// What is left of a frame: buffers of the method, and the inputs of the frame.
+// Snapshot of a frame: buffers of the method after it, and its inputs.
 struct FrameSnapshot {
   // All words of a buffer of any part, by name; empty if it is not allocated.
   std::function<std::span<const uint32_t>(const std::string& buffer)> words;

@@ -62,7 +62,7 @@ struct ReuseBuffers {
   QuadRef unresampledBefore;
   QuadRef reservoirs;  // reservoirs of this frame: initial, then temporal
   QuadRef history;     // last frame's, in still views then candidates; replaced by the spatial pass
-  // What samples keep beside the reservoirs; null if they keep nothing.
+  // Parts of samples that are kept beside the reservoirs; null if there are none.
   QuadRef suffixes;
   QuadRef suffixesHistory;
   // Between the spatial_shift and the spatial pass, spatialNeighbours entries per pixel: the
