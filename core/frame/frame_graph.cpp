@@ -58,9 +58,11 @@ GraphPass& Kernels::pass(const std::string& name, const std::string& kernel) con
   return pass;
 }
 
-void FrameGraph::record(const std::vector<const PartInfo*>& parts, const FrameInfo& frame) {
+void FrameGraph::record(const std::vector<const PartInfo*>& parts, FrameInfo frame) {
   passes_.clear();
   shared = {};
+  for (const PartInfo* part : parts)
+    frame.wantsEffectiveSamples = frame.wantsEffectiveSamples || part->readsEffectiveSamples;
   for (const PartInfo* part : parts) {
     if (!part->record || !isEnabled(part->enabledIf, frame.parameters)) continue;
     part_ = part->name;

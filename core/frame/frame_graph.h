@@ -28,13 +28,14 @@ struct History {
 
 // Buffers that parts leave for the parts after them. Not there until a part has set them.
 struct FrameBuffers {
-  Buffer radiance;    // radiance of the frame, 12 bytes per pixel
-  Buffer shown;       // the frame that is shown, 12 bytes per pixel; set by denoisers
-  History surfaces;   // at pixel centres: core/gbuffer/visible.h
-  History features;   // of film samples, for denoisers: core/gbuffer/guide_data.h
-  Buffer motion;      // of the features, to the last frame
-  Buffer reservoirs;  // after the last merge: core/path_sample/path_sample.h
-  Buffer changes;     // core/temporal_gradients
+  Buffer radiance;   // radiance of the frame, 12 bytes per pixel
+  Buffer shown;      // the frame that is shown, 12 bytes per pixel; set by denoisers
+  History surfaces;  // at pixel centres: core/gbuffer/visible.h
+  History features;  // of film samples, for denoisers: core/gbuffer/guide_data.h
+  Buffer motion;     // of the features, to the last frame
+  // Number of frames that the radiance of each pixel averages, this one included: a float.
+  Buffer effectiveSamples;
+  Buffer changes;  // core/temporal_gradients
   // Caches in world space: core/caches/README.md
   Buffer proposals, shadingPoints, insertions;
   // Radiance cache, in the order of rl::RadianceBuffers.
@@ -46,7 +47,8 @@ struct FrameInfo {
   const std::string& mode;         // of the integrator
   const ParameterMap& parameters;  // resolved
   size_t pixels = 0;
-  bool isNewView = true;  // camera or parameters differ from those of the frame before
+  bool isNewView = true;               // camera or parameters differ from those of the frame before
+  bool wantsEffectiveSamples = false;  // a part reads FrameBuffers::effectiveSamples
 
   // Number of groups of `perGroup` pixels; the last one may have fewer.
   size_t groups(size_t perGroup) const { return (pixels + perGroup - 1) / perGroup; }
@@ -112,8 +114,9 @@ class FrameGraph {
   FrameBuffers shared;
 
   // Records a frame of the parts, in order, after forgetting the passes of the frame before.
-  // Buffers stay; histories keep their turn. Parts whose condition is not met record nothing.
-  void record(const std::vector<const PartInfo*>& parts, const FrameInfo& frame);
+  // Buffers stay; histories keep their turn. Parts whose condition is not met record nothing. Sets
+  // what the parts want of each other in `frame`.
+  void record(const std::vector<const PartInfo*>& parts, FrameInfo frame);
 
   // Declares a buffer, zero at first; the same one in every frame. Not there if `count` is 0. Its
   // contents stay until a pass writes it.

@@ -8,6 +8,18 @@ RL_FN float historyAge() {
   return min(float(gFrame.stillFrames), gParams.reuse.confidenceCap) + 1.0f;
 }
 
+// Number of frames that the radiance of a reservoir averages, this one included. A part of its
+// confidence comes from the same pixel in the last frame, at most the cap of a temporal donor. The
+// rest is new, or comes from other pixels. An average that renews a share s of itself is one over
+// 1 / s frames.
+RL_FN float effectiveSamples(float confidence) {
+  if (!(confidence > 1.0f)) return 1.0f;
+  float cap = gParams.reuse.reproject != 0u ? gParams.reuse.movingConfidenceCap : 0.0f;
+  if (gFrame.stillFrames != 0u) cap = gParams.reuse.confidenceCap;
+  if (gParams.reuse.temporalReuse == 0u) cap = 0.0f;
+  return confidence / max(confidence - min(cap, confidence - 1.0f), 1.0f);
+}
+
 // Unpacks the last word of a pixel's own-light quad.
 RL_FN ViewLight viewLightUnpack(uint word) {
   ViewLight count;

@@ -12,6 +12,8 @@ void recordReuse(FrameGraph& g, const FrameInfo& f, const ReusedSample& sample,
   const uint32_t reservoirBytes = kQuad * sample.reservoirQuads;
   const uint32_t suffixBytes = kQuad * sample.suffixQuads;
   const Buffer radiance = g.buffer("radiance", f.pixels, sizeof(glm::vec3));
+  const Buffer effectiveSamples = g.buffer(
+      "effective_samples", reuse.writesEffectiveSamples != 0 ? f.pixels : 0, sizeof(float));
   const History unresampled = g.advance(g.history("unresampled_radiance", f.pixels, kQuad));
   const Buffer reservoirs = g.buffer("reservoirs", f.pixels, reservoirBytes);
   const Buffer history = g.buffer("reservoir_history", f.pixels, reservoirBytes);
@@ -25,11 +27,11 @@ void recordReuse(FrameGraph& g, const FrameInfo& f, const ReusedSample& sample,
       g.buffer("entry_suffixes", withSuffix(entries.count), suffixBytes, kGlossy);
   const Kernels kernels = g.kernels<rl::ReuseBuffers>(
       std::move(params),
-      {s.surfaces.now, s.surfaces.before, s.proposals,        s.shadingPoints, s.insertions,
-       s.cellKeys,     s.cellPlaces,      s.cellLight,        s.cellRays,      s.changes,
-       radiance,       unresampled.now,   unresampled.before, reservoirs,      history,
-       suffixes,       suffixHistory,     pairedShifts,       outlines,        entryReservoirs,
-       entrySuffixes});
+      {s.surfaces.now,  s.surfaces.before, s.proposals,     s.shadingPoints,    s.insertions,
+       s.cellKeys,      s.cellPlaces,      s.cellLight,     s.cellRays,         s.changes,
+       radiance,        effectiveSamples,  unresampled.now, unresampled.before, reservoirs,
+       history,         suffixes,          suffixHistory,   pairedShifts,       outlines,
+       entryReservoirs, entrySuffixes});
 
   if (f.isNewView) {
     kernels.pass("lights_in_view", sample.method + "_lights_in_view")
@@ -74,9 +76,9 @@ void recordReuse(FrameGraph& g, const FrameInfo& f, const ReusedSample& sample,
   // Shades, too, and so runs without neighbours.
   kernels.pass("spatial", sample.method + "_spatial")
       .reads({s.surfaces.now, reservoirs, suffixes, pairedShifts, unresampled.now})
-      .writes({history, suffixHistory, radiance});
+      .writes({history, suffixHistory, radiance, effectiveSamples});
   g.shared.radiance = radiance;
-  g.shared.reservoirs = history;
+  g.shared.effectiveSamples = effectiveSamples;
 }
 
 }  // namespace restlab

@@ -56,6 +56,7 @@ struct ReuseBuffers {
   RadianceBuffers cells;
   UintRef changes;  // core/temporal_gradients
   Vec3Ref radiance;
+  FloatRef effectiveSamples;  // frames that each pixel's radiance averages, this one included
   // One quad per pixel: light that no other pixel could reuse, averaged over time in a still view,
   // and its ViewLight. lights_in_view leaves its light here for the initial pass.
   QuadRef unresampled;
@@ -85,8 +86,9 @@ struct ReuseParams {
   uint temporalReuse;  // 0: off
   uint reproject;      // 0: no reprojection
   float confidenceCap;
-  float movingConfidenceCap;  // in frames of a new view
-  float maxReflectanceRatio;  // bound per channel on the reflectance ratio of carried estimates
+  float movingConfidenceCap;    // in frames of a new view
+  float maxReflectanceRatio;    // bound per channel on the reflectance ratio of carried estimates
+  uint writesEffectiveSamples;  // 1: a denoiser reads them
 };
 
 RL_NAMESPACE_END

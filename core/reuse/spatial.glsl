@@ -64,4 +64,6 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   reservoirWriteHistory(s.pixelIndex, r);
   if (min(radiance.x, min(radiance.y, radiance.z)) < 0.0f) RL_HEALTH(RL_HEALTH_NEGATIVE);
   gBuffers.radiance.data[s.pixelIndex] = radiance;
+  if (gParams.reuse.writesEffectiveSamples != 0u)
+    gBuffers.effectiveSamples.data[s.pixelIndex] = effectiveSamples(r.state.confidence);
 }

@@ -52,16 +52,10 @@ RL_FN float svgfInView(float frames, uint pixelIndex) {
   return frames / (1.0f + frames * turn);
 }
 
-// Number of frames that the radiance itself averages, this one included; at most `frames`. A part
-// of a reservoir's confidence comes from the same pixel in the last frame, at most the cap of a
-// temporal donor. The rest is new, or comes from other pixels. An average that renews a share s of
-// itself is one over 1 / s frames.
+// Number of frames that the radiance itself averages, this one included; at most `frames`.
 RL_FN float svgfEffectiveHistoryLength(uint pixelIndex, float frames) {
   if (!svgfHas(RL_SVGF_CONFIDENCE)) return 1.0f;
-  float cap = gFrame.stillFrames != 0u ? gParams.donorCap : gParams.movingDonorCap;
-  if (cap < 0.0f) return clamp(gFrame.radianceFrames, 1.0f, max(frames, 1.0f));
-  uint state = pixelIndex * RL_PATH_RESERVOIR_QUADS + RL_PATH_SAMPLE_QUADS;
-  float confidence = uintBitsToFloat(RL_PAST_QUAD(gBuffers.reservoirs, state).w);
-  if (!(confidence > 1.0f)) return 1.0f;
-  return min(confidence / max(confidence - min(cap, confidence - 1.0f), 1.0f), max(frames, 1.0f));
+  float averaged = gFrame.radianceFrames;
+  if (svgfHas(RL_SVGF_EFFECTIVE)) averaged = gBuffers.effectiveSamples.data[pixelIndex];
+  return clamp(averaged, 1.0f, max(frames, 1.0f));
 }

@@ -72,19 +72,6 @@ std::vector<ParameterInfo> parametersOf(const SvgfDefaults& defaults) {
   return all;
 }
 
-// Confidence that a reservoir may have from the pixel's own last frame: in a still view and in a
-// new view; below 0 if there are no reservoirs.
-struct DonorCaps {
-  float still = -1.0f, moving = -1.0f;
-};
-DonorCaps donorCaps(const ParameterMap& p) {
-  if (!p.contains("confidence_cap")) return {};
-  if (!std::get<bool>(p.at("temporal"))) return {0.0f, 0.0f};
-  const float still = floatOf(p, "confidence_cap");
-  const bool isFollowed = std::get<bool>(p.at("reproject"));
-  return {still, isFollowed ? std::min(still, floatOf(p, "moving_confidence_cap")) : 0.0f};
-}
-
 rl::SvgfParams packed(const ParameterMap& p) {
   rl::SvgfParams out{};
   out.iterations = uintOf(p, "svgf_iterations");
@@ -92,12 +79,7 @@ rl::SvgfParams packed(const ParameterMap& p) {
   out.deviations = floatOf(p, "svgf_deviations");
   out.edges = packFilterEdges(p);
   if (std::get<bool>(p.at("svgf_feedback"))) out.flags |= rl::RL_SVGF_FEEDBACK;
-  if (std::get<bool>(p.at("svgf_confidence"))) {
-    out.flags |= rl::RL_SVGF_CONFIDENCE;
-    const DonorCaps caps = donorCaps(p);
-    out.donorCap = caps.still;
-    out.movingDonorCap = caps.moving;
-  }
+  if (boolOf(p, "svgf_confidence")) out.flags |= rl::RL_SVGF_CONFIDENCE;
   const std::string& variance = std::get<std::string>(p.at("svgf_variance"));
   if (variance == "differences") out.flags |= rl::RL_SVGF_DIFFERENCES;
   if (variance == "space") out.flags |= rl::RL_SVGF_SPACE;
@@ -111,6 +93,7 @@ rl::SvgfParams packed(const ParameterMap& p) {
 void recordSvgf(FrameGraph& g, const FrameInfo& f) {
   rl::SvgfParams params = packed(f.parameters);
   const FrameBuffers& s = g.shared;
+  if (s.effectiveSamples) params.flags |= rl::RL_SVGF_EFFECTIVE;
   const Buffer features = s.features.now;
   const Buffer shown = g.buffer("svgf_shown", f.pixels, sizeof(glm::vec3));
   const Buffer even = g.buffer("svgf_even", f.pixels, 16);
@@ -121,18 +104,18 @@ void recordSvgf(FrameGraph& g, const FrameInfo& f) {
   const History resolved = g.advance(g.history("svgf_resolved", f.pixels, 16));
   const auto kernels = [&] {
     return g.kernels<rl::SvgfBuffers>(
-        params, {s.radiance, features, s.features.before, s.motion, s.reservoirs, s.changes,
+        params, {s.radiance, features, s.features.before, s.motion, s.effectiveSamples, s.changes,
                  s.surfaces.now, s.surfaces.before, shown, even, odd, around, history.now,
                  history.before, resolved.now, resolved.before});
   };
   kernels()
       .pass("svgf_temporal", "svgf_temporal")
-      .reads({s.radiance, features, s.features.before, s.motion, s.reservoirs, s.changes,
+      .reads({s.radiance, features, s.features.before, s.motion, s.effectiveSamples, s.changes,
               history.before})
       .writes({history.now});
   kernels()
       .pass("svgf_variance", "svgf_variance")
-      .reads({history.now, features, s.motion, s.reservoirs})
+      .reads({history.now, features, s.motion, s.effectiveSamples})
       .writes({around, even});
   for (params.step = 0; params.step < params.iterations; ++params.step) {
     const bool isEven = params.step % 2 == 0;
@@ -168,6 +151,7 @@ DenoiserInfo makeSvgf(const SvgfDefaults& defaults) {
   i.needsFeatures = true;
   i.followsChanges = true;
   i.record = recordSvgf;
+  i.readsEffectiveSamples = true;
   i.hasHistory = true;
   i.shownFrames = [](const ParameterMap& p, double radianceFrames) {
     return radianceFrames + std::get<double>(p.at("svgf_cap"));

@@ -5,7 +5,6 @@
 #ifdef __cplusplus
 #include "core/dialect/order.h"
 #endif
-#include "core/path_sample/path_sample.h"
 #include "core/temporal_gradients/changes.h"
 #include "denoise/common/average.h"
 #include "denoise/common/filter.h"
@@ -17,6 +16,7 @@ const uint RL_SVGF_FEEDBACK = 1u;     // the history keeps the result of the fir
 const uint RL_SVGF_CONFIDENCE = 2u;   // do not average frames that the radiance averages itself
 const uint RL_SVGF_DIFFERENCES = 4u;  // variance by differences of frames that share samples
 const uint RL_SVGF_SPACE = 8u;        // variance over neighbours alone
+const uint RL_SVGF_EFFECTIVE = 16u;   // SvgfBuffers::effectiveSamples is there
 
 // History of a pixel: three quads.
 struct SvgfHistory {
@@ -35,9 +35,9 @@ struct SvgfBuffers {
   QuadRef guide;
   QuadRef guideBefore;
   QuadRef motion;
-  QuadRef reservoirs;  // reservoirs of the last merge; null if the integrator has none
-  UintRef changes;     // core/temporal_gradients
-  QuadRef visible;     // null where resolveCap is 0
+  FloatRef effectiveSamples;  // of the radiance; null where all pixels have gFrame.radianceFrames
+  UintRef changes;            // core/temporal_gradients
+  QuadRef visible;            // null where resolveCap is 0
   QuadRef visibleBefore;
   Vec3Ref shown;
   QuadRef even;  // Filtered, a quad each: read by iterations 0, 2, ... and written by the others
@@ -57,8 +57,6 @@ struct SvgfParams {
   float deviations;
   FilterEdges edges;
   ChangeParams changes;
-  float donorCap;        // confidence of a temporal donor in a still view; below 0: no reservoirs
-  float movingDonorCap;  // confidence of a temporal donor in a new view
   float lobeRotationResponse;  // share of a history that is forgotten, over Motion::turn
   float resolveCap;            // frames that a resolved history may weigh
   SimilarityThresholds resolveTest;

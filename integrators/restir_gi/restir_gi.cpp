@@ -30,6 +30,7 @@ void recordRestirGi(FrameGraph& g, const FrameInfo& f) {
   const ParameterMap& p = f.parameters;
   rl::RestirGiParams params{};
   params.reuse = packReuse(p, f.mode == "biased");
+  params.reuse.writesEffectiveSamples = f.wantsEffectiveSamples ? 1u : 0u;
   params.path = packPath(p);
   params.pairs = packPairs(p);
   params.entries = packEntries(p);
