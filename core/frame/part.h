@@ -123,18 +123,9 @@ struct PartInfo {
   std::function<std::vector<Donor>(const FrameSnapshot&, size_t pixel)> donors;
 };
 
-// Parameters as kernel types.
-inline uint32_t uintOf(const ParameterMap& parameters, const char* name) {
-  return static_cast<uint32_t>(std::get<int64_t>(parameters.at(name)));
-}
-inline bool boolOf(const ParameterMap& parameters, const char* name) {
-  return std::get<bool>(parameters.at(name));
-}
+// A string of the resolved parameters.
 inline const std::string& textOf(const ParameterMap& parameters, const char* name) {
   return std::get<std::string>(parameters.at(name));
-}
-inline float floatOf(const ParameterMap& parameters, const char* name) {
-  return static_cast<float>(std::get<double>(parameters.at(name)));
 }
 
 // Bytes of a Params struct.

@@ -6,10 +6,35 @@
 #include <bit>
 
 #include "core/base/packing.h"
+#include "core/frame/schema.h"
 
 namespace restlab {
 
 namespace {
+
+struct PathSettings {
+  uint32_t lightCandidates = 1;
+  double roughnessLimit = 0.2;
+  double maxJacobian = 10.0;
+};
+
+const Schema<PathSettings>& schema() {
+  static const Schema<PathSettings> all = {
+      Parameter<PathSettings>(&PathSettings::lightCandidates, "light_candidates", Range{1, 64},
+                              "light samples a pixel and frame, of which one is kept",
+                              "1: the same rays as the path tracer"),
+      Parameter<PathSettings>(
+          &PathSettings::roughnessLimit, "roughness_limit", Range{0.0, 1.0},
+          "perceptual roughness below which x1 is not reused: own light alone (counted)",
+          "Lin et al. 2022, section 6.5: 0.2")
+          .beginsHistory(),
+      Parameter<PathSettings>(
+          &PathSettings::maxJacobian, "max_jacobian", Range{1.0, 1.0e6},
+          "shifts whose Jacobian lies outside [1/x, x] are undefined, both ways",
+          "symmetric rejection keeps the estimator unbiased; Falcor and RTXDI: 10; measured: "
+          "docs/decisions/moving-confidence-cap.md")};
+  return all;
+}
 
 std::string three(const glm::vec3& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }
 
@@ -17,37 +42,12 @@ float number(std::span<const uint32_t> words, size_t at) { return std::bit_cast<
 
 }  // namespace
 
-std::vector<ParameterInfo> pathParameters() {
-  return {
-      {"light_candidates",
-       int64_t{1},
-       1,
-       64,
-       {},
-       "light samples a pixel and frame, of which one is kept",
-       "1: the same rays as the path tracer"},
-      {"roughness_limit",
-       0.2,
-       0.0,
-       1.0,
-       {},
-       "perceptual roughness below which x1 is not reused: own light alone (counted)",
-       "Lin et al. 2022, section 6.5: 0.2",
-       true},
-      {"max_jacobian",
-       10.0,
-       1.0,
-       1.0e6,
-       {},
-       "shifts whose Jacobian lies outside [1/x, x] are undefined, both ways",
-       "symmetric rejection keeps the estimator unbiased; Falcor and RTXDI: 10; measured: "
-       "docs/decisions/moving-confidence-cap.md"},
-  };
-}
+std::vector<ParameterInfo> pathParameters() { return schema().infos(); }
 
-rl::PathParams packPath(const ParameterMap& p) {
-  const float roughness = floatOf(p, "roughness_limit");
-  return {uintOf(p, "light_candidates"), roughness * roughness, floatOf(p, "max_jacobian")};
+rl::PathParams packPath(const ParameterMap& parameters) {
+  const PathSettings s = schema().read(parameters);
+  const auto roughness = float(s.roughnessLimit);
+  return {s.lightCandidates, roughness * roughness, float(s.maxJacobian)};
 }
 
 std::vector<ProbeValue> pathProbe(std::span<const uint32_t> words) {

@@ -1,110 +1,84 @@
 #include "core/radiance_cache/settings.h"
 
 #include "core/frame/frame_graph.h"
+#include "core/frame/schema.h"
 #include "core/radiance_cache/cells.h"
 
 namespace restlab {
 
 namespace {
 
-constexpr const char* kEntries = "radiance_entries";
-constexpr const char* kEvery = "radiance_every";
-constexpr const char* kValidate = "radiance_validate";
 constexpr const char* kSwept = "measured: docs/decisions/parameters-of-the-radiance-cache.md";
 constexpr EnabledIf kIsCache = {"secondary", "cache"};
 
-std::vector<ParameterInfo> parameterInfos() {
-  return {
-      {"secondary",
-       std::string("trace"),
-       0,
-       0,
-       {"trace", "cache"},
-       "from the second vertex on a path is traced to its end, or ends in a cell of radiance where "
-       "one serves: biased",
-       "docs/decisions/radiance-cache.md"},
-      {kEntries,
-       int64_t{65536},
-       1024,
-       1 << 24,
-       {},
-       "cells of radiance; a point that finds no place is counted (cache_full)",
-       kSwept},
-      {"radiance_probes",
-       int64_t{8},
-       1,
-       64,
-       {},
-       "places from its hash on where a cell may lie",
-       kSwept},
-      {kEvery,
-       int64_t{16},
-       1,
-       1024,
-       {},
-       "one of so many pixels side by side has a path traced on from where it asks for a cell, "
-       "each "
-       "frame",
-       "Mueller et al. 2021 train with 3 to 5 % of the paths"},
-      {"radiance_pixels",
-       16.0,
-       0.25,
-       1024.0,
-       {},
-       "side of a cell in pixels, rounded down to a power of two of metres",
-       kSwept},
-      {"radiance_footprint",
-       1.0,
-       0.0,
-       1000.0,
-       {},
-       "spread of a path, in sides of the cell, from which on it may end there: no cell is seen "
-       "sharply",
-       "Mueller et al. 2021, section 3.4, compare it with that of the pixel"},
-      {"radiance_roughness",
-       0.2,
-       0.0,
-       1.0,
-       {},
-       "perceptual roughness below which a surface has no cells",
-       kSwept,
-       true},
-      {"radiance_least",
-       int64_t{4},
-       1,
-       1000,
-       {},
-       "samples of a cell before a path may end there",
-       kSwept},
-      {kValidate,
-       int64_t{8},
-       1,
-       1 << 20,
-       {},
-       "one of so many cells has a path that it keeps traced again each frame; where it finds "
-       "other "
-       "light the cell begins anew (counted: light_changed)",
-       "Ouyang et al. 2021 validate all of their samples every six frames; measured: "
-       "docs/decisions/parameters-of-the-radiance-cache.md"},
-      {"radiance_cap",
-       int64_t{1024},
-       8,
-       1 << 20,
-       {},
-       "samples that the mean of a cell is of at most: older ones fade",
-       kSwept},
-  };
+struct RadianceSettings {
+  std::string secondary = "trace";
+  uint32_t count = 65536;
+  uint32_t probes = 8;
+  uint32_t every = 16;
+  double cellPixels = 16.0;
+  double footprint = 1.0;
+  double roughness = 0.2;
+  uint32_t leastCount = 4;
+  uint32_t validateEvery = 8;
+  uint32_t cap = 1024;
+};
+
+const Schema<RadianceSettings>& schema() {
+  static const Schema<RadianceSettings> all = {
+      Parameter<RadianceSettings>(&RadianceSettings::secondary, "secondary",
+                                  Choices{"trace", "cache"},
+                                  "from the second vertex on a path is traced to its end, or ends "
+                                  "in a cell of radiance where "
+                                  "one serves: biased",
+                                  "docs/decisions/radiance-cache.md"),
+      Parameter<RadianceSettings>(
+          &RadianceSettings::count, "radiance_entries", Range{1024, 1 << 24},
+          "cells of radiance; a point that finds no place is counted (cache_full)", kSwept),
+      Parameter<RadianceSettings>(&RadianceSettings::probes, "radiance_probes", Range{1, 64},
+                                  "places from its hash on where a cell may lie", kSwept),
+      Parameter<RadianceSettings>(
+          &RadianceSettings::every, "radiance_every", Range{1, 1024},
+          "one of so many pixels side by side has a path traced on from where it asks for a cell, "
+          "each "
+          "frame",
+          "Mueller et al. 2021 train with 3 to 5 % of the paths"),
+      Parameter<RadianceSettings>(
+          &RadianceSettings::cellPixels, "radiance_pixels", Range{0.25, 1024.0},
+          "side of a cell in pixels, rounded down to a power of two of metres", kSwept),
+      Parameter<RadianceSettings>(
+          &RadianceSettings::footprint, "radiance_footprint", Range{0.0, 1000.0},
+          "spread of a path, in sides of the cell, from which on it may end there: no cell is seen "
+          "sharply",
+          "Mueller et al. 2021, section 3.4, compare it with that of the pixel"),
+      Parameter<RadianceSettings>(&RadianceSettings::roughness, "radiance_roughness",
+                                  Range{0.0, 1.0},
+                                  "perceptual roughness below which a surface has no cells", kSwept)
+          .beginsHistory(),
+      Parameter<RadianceSettings>(&RadianceSettings::leastCount, "radiance_least", Range{1, 1000},
+                                  "samples of a cell before a path may end there", kSwept),
+      Parameter<RadianceSettings>(
+          &RadianceSettings::validateEvery, "radiance_validate", Range{1, 1 << 20},
+          "one of so many cells has a path that it keeps traced again each frame; where it finds "
+          "other "
+          "light the cell begins anew (counted: light_changed)",
+          "Ouyang et al. 2021 validate all of their samples every six frames; measured: "
+          "docs/decisions/parameters-of-the-radiance-cache.md"),
+      Parameter<RadianceSettings>(&RadianceSettings::cap, "radiance_cap", Range{8, 1 << 20},
+                                  "samples that the mean of a cell is of at most: older ones fade",
+                                  kSwept)};
+  return all;
 }
 
 void recordRadiance(FrameGraph& g, const FrameInfo& f) {
-  const ParameterMap& p = f.parameters;
+  const RadianceSettings s = schema().read(f.parameters);
   rl::RadianceCellParams params{};
-  params.entries.count = uintOf(p, kEntries);
-  params.entries.insertEvery = uintOf(p, kEvery);
-  params.entries.cap = float(uintOf(p, "radiance_cap"));
-  params.cells = packRadiance(p);
+  params.entries.count = s.count;
+  params.entries.insertEvery = s.every;
+  params.entries.cap = float(s.cap);
+  params.cells = packRadiance(f.parameters);
   params.grid = params.cells.grid;
-  params.validateEvery = uintOf(p, kValidate);
+  params.validateEvery = s.validateEvery;
   const size_t cells = params.entries.count, groups = f.groups(params.entries.insertEvery);
   constexpr uint32_t kWord = sizeof(uint32_t);
   const Buffer keys = g.buffer("radiance_keys", cells, 2 * kWord);
@@ -158,7 +132,7 @@ const PartInfo& radiancePartInfo() {
     PartInfo i;
     i.name = "radiance";
     i.summary = "cells in space with the radiance that leaves them, in which paths may end";
-    i.parameters = parameterInfos();
+    i.parameters = schema().infos();
     i.record = recordRadiance;
     i.enabledIf = kIsCache;
     i.hasHistory = true;
@@ -174,17 +148,18 @@ const PartInfo& radiancePartInfo() {
 
 bool endsPaths(const ParameterMap& parameters) { return isEnabled(kIsCache, parameters); }
 
-rl::RadianceParams packRadiance(const ParameterMap& p) {
+rl::RadianceParams packRadiance(const ParameterMap& parameters) {
   rl::RadianceParams out{};
-  if (!endsPaths(p)) return out;
-  out.count = uintOf(p, kEntries);
-  out.grid = {out.count, uintOf(p, "radiance_probes")};
-  out.every = uintOf(p, kEvery);
-  out.cellPixels = floatOf(p, "radiance_pixels");
-  out.footprint = floatOf(p, "radiance_footprint");
-  const float roughness = floatOf(p, "radiance_roughness");
+  if (!endsPaths(parameters)) return out;
+  const RadianceSettings s = schema().read(parameters);
+  out.count = s.count;
+  out.grid = {s.count, s.probes};
+  out.every = s.every;
+  out.cellPixels = float(s.cellPixels);
+  out.footprint = float(s.footprint);
+  const auto roughness = float(s.roughness);
   out.minAlpha = roughness * roughness;
-  out.leastCount = float(uintOf(p, "radiance_least"));
+  out.leastCount = float(s.leastCount);
   return out;
 }
 

@@ -1,11 +1,33 @@
 #include "core/temporal_gradients/settings.h"
 
 #include "core/frame/frame_graph.h"
+#include "core/frame/schema.h"
 #include "core/temporal_gradients/passes.h"
 
 namespace restlab {
 
 namespace {
+
+struct ChangeSettings {
+  uint32_t every = 0;
+  double response = 4.0;
+};
+
+const Schema<ChangeSettings>& schema() {
+  static const Schema<ChangeSettings> all = {
+      Parameter<ChangeSettings>(
+          &ChangeSettings::every, kValidateEvery, Range{0, 4096},
+          "one of so many pixels traces its path of the last frame again each frame; where it "
+          "finds "
+          "other light, histories around it forget; 0: none does",
+          "Schied et al. 2018 trace one of nine; 0: of no use where no light changes"),
+      Parameter<ChangeSettings>(
+          &ChangeSettings::response, "validate_response", Range{0.0, 1000.0},
+          "share of a history that is forgotten, over the share of the light around that has "
+          "changed",
+          "measured: docs/decisions/temporal-gradients.md")};
+  return all;
+}
 
 void recordChanges(FrameGraph& g, const FrameInfo& f) {
   const rl::ChangePassParams params{packChanges(f.parameters)};
@@ -30,28 +52,12 @@ const PartInfo& changesPartInfo() {
     PartInfo i;
     i.name = "changes";
     i.summary = "light that has changed, by paths that are traced again";
-    i.parameters = {
-        {kValidateEvery,
-         int64_t{0},
-         0,
-         4096,
-         {},
-         "one of so many pixels traces its path of the last frame again each frame; where it finds "
-         "other light, histories around it forget; 0: none does",
-         "Schied et al. 2018 trace one of nine; 0: of no use where no light changes"},
-        {"validate_response",
-         4.0,
-         0.0,
-         1000.0,
-         {},
-         "share of a history that is forgotten, over the share of the light around that has "
-         "changed",
-         "measured: docs/decisions/temporal-gradients.md"}};
+    i.parameters = schema().infos();
     i.enabledIf.parameter = kValidateEvery;
     i.hasHistory = true;
     i.record = recordChanges;
     i.reasonUnused = [](const std::string& name, const ParameterMap& p) -> std::string {
-      const bool isOff = std::get<int64_t>(p.at(kValidateEvery)) == 0;
+      const bool isOff = schema().read(p).every == 0;
       return name == "validate_response" && isOff ? "validate_every is 0" : "";
     };
     return i;
@@ -60,7 +66,8 @@ const PartInfo& changesPartInfo() {
 }
 
 rl::ChangeParams packChanges(const ParameterMap& parameters) {
-  return {uintOf(parameters, kValidateEvery), floatOf(parameters, "validate_response")};
+  const ChangeSettings s = schema().read(parameters);
+  return {s.every, float(s.response)};
 }
 
 }  // namespace restlab

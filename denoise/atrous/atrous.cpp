@@ -11,12 +11,25 @@ const DenoiserInfo& atrousDenoiserInfo();
 
 namespace {
 
+struct AtrousSettings {
+  uint32_t iterations = 5;
+  double deviations = 3.0;
+};
+
+const Schema<AtrousSettings>& schema() {
+  static const Schema<AtrousSettings> all = {
+      iterationsParameter(&AtrousSettings::iterations, "atrous_iterations",
+                          "Dammertz et al. 2010, section 3"),
+      deviationsParameter(&AtrousSettings::deviations, "atrous_deviations")};
+  return all;
+}
+
 void recordAtrous(FrameGraph& g, const FrameInfo& f) {
-  const ParameterMap& p = f.parameters;
+  const AtrousSettings s = schema().read(f.parameters);
   rl::AtrousParams params{};
-  params.iterations = uintOf(p, "atrous_iterations");
-  params.deviations = floatOf(p, "atrous_deviations");
-  params.edges = packFilterEdges(p);
+  params.iterations = s.iterations;
+  params.deviations = float(s.deviations);
+  params.edges = packFilterEdges(f.parameters);
   const Buffer radiance = g.shared.radiance, features = g.shared.features.now;
   const Buffer shown = g.buffer("atrous_shown", f.pixels, sizeof(glm::vec3));
   const Buffer even = g.buffer("atrous_even", f.pixels, 16);
@@ -49,9 +62,8 @@ const DenoiserInfo& atrousDenoiserInfo() {
     i.biasOfStillView = BiasClass::biased;
     i.biasOfMovingView = BiasClass::biased;
     i.why = "light is averaged over neighbours on like surfaces";
-    i.parameters = {iterationsParameter("atrous", 5, "Dammertz et al. 2010, section 3"),
-                    deviationsParameter("atrous", 3.0)};
-    for (ParameterInfo& parameter : filterParameters()) i.parameters.push_back(parameter);
+    i.parameters = schema().infos();
+    append(i.parameters, filterParameters());
     i.comparesSquares = true;
     i.needsFeatures = true;
     i.record = recordAtrous;

@@ -11,10 +11,27 @@ const DenoiserInfo& fireflyDenoiserInfo();
 
 namespace {
 
+struct FireflySettings {
+  uint32_t radius = 1;
+  double factor = 1.0;
+};
+
+const Schema<FireflySettings>& schema() {
+  static const Schema<FireflySettings> all = {
+      Parameter<FireflySettings>(&FireflySettings::radius, "firefly_radius", Range{1, 8},
+                                 "neighbours of a pixel: as far away, in pixels",
+                                 "3x3 pixels, as is usual"),
+      Parameter<FireflySettings>(
+          &FireflySettings::factor, "firefly_factor", Range{0.0, 1.0e6},
+          "times the brightest neighbour's luminance, over reflectance: what a pixel may "
+          "have",
+          "1: rank-ordered, as is usual")};
+  return all;
+}
+
 void recordFirefly(FrameGraph& g, const FrameInfo& f) {
-  rl::FireflyParams params{};
-  params.radius = uintOf(f.parameters, "firefly_radius");
-  params.factor = floatOf(f.parameters, "firefly_factor");
+  const FireflySettings s = schema().read(f.parameters);
+  const rl::FireflyParams params{s.radius, float(s.factor)};
   const Buffer radiance = g.shared.radiance, features = g.shared.features.now;
   const Buffer shown = g.buffer("firefly_shown", f.pixels, sizeof(glm::vec3));
   g.kernels<rl::FireflyBuffers>(params, {radiance, features, shown})
@@ -35,23 +52,8 @@ const DenoiserInfo& fireflyDenoiserInfo() {
     i.biasOfMovingView = BiasClass::biased;
     i.why = "a clamp takes energy away; it is counted as fireflies";
     i.comparesSquares = true;
-    i.parameters = {
-        {"firefly_radius",
-         int64_t{1},
-         1,
-         8,
-         {},
-         "neighbours of a pixel: as far away, in pixels",
-         "3x3 pixels, as is usual"},
-        {"firefly_factor",
-         1.0,
-         0.0,
-         1.0e6,
-         {},
-         "times the brightest neighbour's luminance, over reflectance: what a pixel may "
-         "have",
-         "1: rank-ordered, as is usual"},
-        demodulateParameter()};
+    i.parameters = schema().infos();
+    append(i.parameters, demodulateSchema().infos());
     i.needsFeatures = true;
     i.record = recordFirefly;
     return i;

@@ -17,8 +17,20 @@ const DenoiserInfo& oidnDenoiserInfo();
 
 namespace {
 
+struct OidnSettings {
+  std::string quality = "high";
+};
+
+const Schema<OidnSettings>& schema() {
+  static const Schema<OidnSettings> all = {Parameter<OidnSettings>(
+      &OidnSettings::quality, "oidn_quality", Choices{"fast", "balanced", "high"},
+      "the library's modes: fast and balanced are less exact than high",
+      "the library's own default")};
+  return all;
+}
+
 oidn::Quality qualityOf(const ParameterMap& parameters) {
-  const std::string& name = std::get<std::string>(parameters.at("oidn_quality"));
+  const std::string name = schema().read(parameters).quality;
   if (name == "fast") return oidn::Quality::Fast;
   return name == "balanced" ? oidn::Quality::Balanced : oidn::Quality::High;
 }
@@ -80,14 +92,8 @@ const DenoiserInfo& oidnDenoiserInfo() {
     i.biasOfStillView = BiasClass::biased;
     i.biasOfMovingView = BiasClass::biased;
     i.why = "a network averages neighbours";
-    i.parameters = {{"oidn_quality",
-                     std::string("high"),
-                     0,
-                     0,
-                     {"fast", "balanced", "high"},
-                     "the library's modes: fast and balanced are less exact than high",
-                     "the library's own default"},
-                    demodulateParameter()};
+    i.parameters = schema().infos();
+    append(i.parameters, demodulateSchema().infos());
     i.parameters.back().help =
         "reflectances that the network is told: none, the diffuse one, or that and the specular "
         "one at normal incidence";

@@ -14,78 +14,78 @@ const DenoiserInfo& svgfDenoiserInfo();
 
 namespace {
 
-std::vector<ParameterInfo> parametersOf(const SvgfDefaults& defaults) {
-  std::vector<ParameterInfo> all = {
-      iterationsParameter("svgf", 5, "Schied et al. 2017, section 4.4"),
-      {"svgf_cap",
-       20.0,
-       0.0,
-       1.0e6,
-       {},
-       "frames that a history may weigh; the weight of a new frame is 1 / (this + 1) at least",
-       "measured: docs/denoising.md (Schied et al. 2017: 4)"},
-      deviationsParameter("svgf", 1.0),
-      {"svgf_feedback",
-       false,
-       0,
-       0,
-       {},
-       "the history keeps the result of the first iteration, not the mean of frames",
-       "measured: docs/denoising.md (Schied et al. 2017, section 4.1: true)",
-       true},
-      {"svgf_variance",
-       defaults.variance,
-       0,
-       0,
-       {"moments", "differences", "space"},
-       "what the variance is estimated by: frames as if they shared no samples; differences of "
-       "frames, which knows that they do; neighbours",
-       "measured: docs/denoising.md"},
-      {"svgf_confidence",
-       defaults.confidence,
-       0,
-       0,
-       {},
-       "frames that the radiance averages itself, as reservoirs tell, are not averaged again",
-       "measured: docs/denoising.md"}};
-  all.push_back({"svgf_turn",
-                 0.25,
-                 0.0,
-                 1.0e6,
-                 {},
-                 "share of a glossy history that is forgotten when the view turns by the width of "
-                 "its lobe; 0: none",
-                 "measured: docs/denoising.md"});
-  // A change of this parameter resets the history: an average that was not written is stale.
-  all.push_back(
-      {"svgf_resolve",
-       4.0,
-       0.0,
-       1.0e6,
-       {},
-       "frames of a moving view that what is shown may average, by what pixels show at "
-       "their centres; 0: it averages none",
-       "measured: docs/denoising.md (temporal antialiasing: Schied et al. 2017, section 4)",
-       true,
-       "visible"});
-  for (ParameterInfo& parameter : filterParameters()) all.push_back(std::move(parameter));
+struct SvgfSettings {
+  uint32_t iterations = 5;
+  double cap = 20.0;
+  double deviations = 1.0;
+  bool feedback = false;
+  std::string variance = "moments";
+  bool confidence = false;
+  double turn = 0.25;
+  double resolve = 4.0;
+};
+
+const Schema<SvgfSettings>& schema() {
+  static const Schema<SvgfSettings> all = {
+      iterationsParameter(&SvgfSettings::iterations, "svgf_iterations",
+                          "Schied et al. 2017, section 4.4"),
+      Parameter<SvgfSettings>(
+          &SvgfSettings::cap, "svgf_cap", Range{0.0, 1.0e6},
+          "frames that a history may weigh; the weight of a new frame is 1 / (this + 1) at least",
+          "measured: docs/denoising.md (Schied et al. 2017: 4)"),
+      deviationsParameter(&SvgfSettings::deviations, "svgf_deviations"),
+      Parameter<SvgfSettings>(
+          &SvgfSettings::feedback, "svgf_feedback",
+          "the history keeps the result of the first iteration, not the mean of frames",
+          "measured: docs/denoising.md (Schied et al. 2017, section 4.1: true)")
+          .beginsHistory(),
+      Parameter<SvgfSettings>(
+          &SvgfSettings::variance, "svgf_variance", Choices{"moments", "differences", "space"},
+          "what the variance is estimated by: frames as if they shared no samples; differences of "
+          "frames, which knows that they do; neighbours",
+          "measured: docs/denoising.md"),
+      Parameter<SvgfSettings>(
+          &SvgfSettings::confidence, "svgf_confidence",
+          "frames that the radiance averages itself, as reservoirs tell, are not averaged again",
+          "measured: docs/denoising.md"),
+      Parameter<SvgfSettings>(
+          &SvgfSettings::turn, "svgf_turn", Range{0.0, 1.0e6},
+          "share of a glossy history that is forgotten when the view turns by the width of "
+          "its lobe; 0: none",
+          "measured: docs/denoising.md"),
+      Parameter<SvgfSettings>(
+          &SvgfSettings::resolve, "svgf_resolve", Range{0.0, 1.0e6},
+          "frames of a moving view that what is shown may average, by what pixels show at "
+          "their centres; 0: it averages none",
+          "measured: docs/denoising.md (temporal antialiasing: Schied et al. 2017, section 4)")
+          .beginsHistory()
+          .needs("visible")};
   return all;
 }
 
-rl::SvgfParams packed(const ParameterMap& p) {
+std::vector<ParameterInfo> parametersOf(const SvgfDefaults& defaults) {
+  SvgfSettings settings;
+  settings.variance = defaults.variance;
+  settings.confidence = defaults.confidence;
+  std::vector<ParameterInfo> all = schema().infos(settings);
+  append(all, filterParameters());
+  return all;
+}
+
+rl::SvgfParams packed(const ParameterMap& parameters) {
+  const SvgfSettings s = schema().read(parameters);
   rl::SvgfParams out{};
-  out.iterations = uintOf(p, "svgf_iterations");
-  out.cap = floatOf(p, "svgf_cap");
-  out.deviations = floatOf(p, "svgf_deviations");
-  out.edges = packFilterEdges(p);
-  if (std::get<bool>(p.at("svgf_feedback"))) out.flags |= rl::RL_SVGF_FEEDBACK;
-  if (boolOf(p, "svgf_confidence")) out.flags |= rl::RL_SVGF_CONFIDENCE;
-  const std::string& variance = std::get<std::string>(p.at("svgf_variance"));
-  if (variance == "differences") out.flags |= rl::RL_SVGF_DIFFERENCES;
-  if (variance == "space") out.flags |= rl::RL_SVGF_SPACE;
-  out.changes = packChanges(p);
-  out.lobeRotationResponse = floatOf(p, "svgf_turn");
-  out.resolveCap = floatOf(p, "svgf_resolve");
+  out.iterations = s.iterations;
+  out.cap = float(s.cap);
+  out.deviations = float(s.deviations);
+  out.edges = packFilterEdges(parameters);
+  if (s.feedback) out.flags |= rl::RL_SVGF_FEEDBACK;
+  if (s.confidence) out.flags |= rl::RL_SVGF_CONFIDENCE;
+  if (s.variance == "differences") out.flags |= rl::RL_SVGF_DIFFERENCES;
+  if (s.variance == "space") out.flags |= rl::RL_SVGF_SPACE;
+  out.changes = packChanges(parameters);
+  out.lobeRotationResponse = float(s.turn);
+  out.resolveCap = float(s.resolve);
   out.resolveTest = {0.9f, 0.05f};  // the values of `accumulate` and the pixel cache
   return out;
 }
@@ -154,7 +154,7 @@ DenoiserInfo makeSvgf(const SvgfDefaults& defaults) {
   i.readsEffectiveSamples = true;
   i.hasHistory = true;
   i.shownFrames = [](const ParameterMap& p, double radianceFrames) {
-    return radianceFrames + std::get<double>(p.at("svgf_cap"));
+    return radianceFrames + schema().read(p).cap;
   };
   return i;
 }

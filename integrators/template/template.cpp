@@ -3,15 +3,29 @@
 
 #include "core/frame/frame_graph.h"
 #include "core/frame/integrator.h"
+#include "core/frame/schema.h"
 
 namespace restlab {
 
 namespace {
 
+// Parameters with their defaults.
+struct TemplateSettings {
+  double misExponent = 2.0;
+};
+
+// Member, name, range, meaning, where the default comes from.
+const Schema<TemplateSettings>& schema() {
+  static const Schema<TemplateSettings> all = {Parameter<TemplateSettings>(
+      &TemplateSettings::misExponent, "mis_exponent", Range{1.0, 8.0},
+      "exponent of the MIS weights; 1: balance heuristic", "Veach 1997, section 9.2.3: 2")};
+  return all;
+}
+
 // Records a frame: its buffers, and its passes in their order.
 void recordTemplate(FrameGraph& g, const FrameInfo& f) {
   rl::TemplateParams params{};
-  params.misExponent = floatOf(f.parameters, "mis_exponent");
+  params.misExponent = float(schema().read(f.parameters).misExponent);
   // Name, number of elements, bytes per element.
   const Buffer radiance = g.buffer("radiance", f.pixels, sizeof(glm::vec3));
   // Buffers in the order of TemplateBuffers; name in the time columns, name of rl_add_kernel.
@@ -33,14 +47,7 @@ const IntegratorInfo& templateIntegratorInfo() {
                 "every path up to max_bounces scattering events has positive density in one "
                 "technique, and the MIS "
                 "weights sum to one"}};
-    // Name, default, range, choices (of strings), meaning, where the default comes from.
-    i.parameters = {{"mis_exponent",
-                     2.0,
-                     1.0,
-                     8.0,
-                     {},
-                     "exponent of the MIS weights; 1: balance heuristic",
-                     "Veach 1997, section 9.2.3: 2"}};
+    i.parameters = schema().infos();
     i.record = recordTemplate;
     return i;
   }();

@@ -20,11 +20,11 @@ class HostFilters : public testing::Test {
     info_.name = "dimmed";
     info_.needsFeatures = true;
     info_.parameters = {
-        {"dimmed_factor", 0.5, 0.0, 1.0, {}, "what a frame is multiplied by", "a test"},
-        demodulateParameter()};
+        {"dimmed_factor", 0.5, 0.0, 1.0, {}, "what a frame is multiplied by", "a test"}};
+    append(info_.parameters, demodulateSchema().infos());
     info_.onHost = [this](int threads, const ParameterMap& parameters) -> HostFilter {
       threads_ = threads;
-      const float factor = floatOf(parameters, "dimmed_factor");
+      const auto factor = float(std::get<double>(parameters.at("dimmed_factor")));
       return [this, factor](const HostFrame& frame) {
         ++frames_;
         given_ = frame;

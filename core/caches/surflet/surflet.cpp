@@ -3,17 +3,30 @@
 
 #include "core/caches/entries/passes.h"
 #include "core/caches/entries/settings.h"
+#include "core/frame/schema.h"
 #include "core/resampling/pair_settings.h"
 
 namespace restlab {
 
 namespace {
 
+struct SurfletSettings {
+  double discPixels = 6.0;
+};
+
+const Schema<SurfletSettings>& schema() {
+  static const Schema<SurfletSettings> all = {
+      Parameter<SurfletSettings>(&SurfletSettings::discPixels, "surflet_pixels", Range{0.25, 256.0},
+                                 "radius of a disc in pixels, where it is spawned",
+                                 "measured: docs/decisions/parameters-of-entries.md")};
+  return all;
+}
+
 void recordSurflet(FrameGraph& g, const FrameInfo& f) {
   rl::SurfletCacheParams params{};
   params.entries = packEntries(f.parameters);
   params.grid = packGrid(f.parameters);
-  params.discPixels = floatOf(f.parameters, "surflet_pixels");
+  params.discPixels = float(schema().read(f.parameters).discPixels);
   params.similarity = packSimilarity(f.parameters);
   const EntryBuffers b = entryBuffers(g, f);
   const Buffer discs = g.buffer("discs", params.entries.count, 16 * rl::RL_SHADING_POINT_QUADS);
@@ -29,13 +42,7 @@ const CacheInfo& surfletCacheInfo() {
   static const CacheInfo info = [] {
     CacheInfo i =
         entryCache("surflet", "discs on surfaces: each remembers at a surface point of its own");
-    i.parameters.push_back({"surflet_pixels",
-                            6.0,
-                            0.25,
-                            256.0,
-                            {},
-                            "radius of a disc in pixels, where it is spawned",
-                            "measured: docs/decisions/parameters-of-entries.md"});
+    append(i.parameters, schema().infos());
     i.record = recordSurflet;
     return i;
   }();
