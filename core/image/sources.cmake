@@ -1,6 +1,5 @@
 target_sources(rl_core PRIVATE
   image/io/atomic_file.cpp
-  image/statistics/bias_runs.cpp
   image/io/chromaticities.cpp
   image/io/exr_header.cpp
   image/io/exr_layers.cpp
@@ -9,9 +8,6 @@ target_sources(rl_core PRIVATE
   image/metrics/flip.cpp
   image/metrics/flip_color.cpp
   image/metrics/flip_exposures.cpp
-  image/statistics/half_products.cpp
-  image/statistics/halves_noise.cpp
-  image/statistics/intervals.cpp
   image/io/layer_colors.cpp
   image/metrics/mask.cpp
   image/metrics/metrics.cpp

@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "core/image/statistics/bias_runs.h"
 #include "experiments/runner/reference/reference.h"
-#include "experiments/runner/summary/accumulate.h"
+#include "experiments/statistics/bias_runs.h"
 #include "experiments/statistics/bias_test.h"
+#include "experiments/statistics/image_sum.h"
 
 namespace restlab::certificate {
 

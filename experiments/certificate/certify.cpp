@@ -1,7 +1,5 @@
 #include "experiments/certificate/certify.h"
 
-#include "experiments/certificate/reference_search.h"
-
 #include <fmt/format.h>
 #include <xxhash.h>
 
@@ -13,13 +11,16 @@
 #include "core/base/error.h"
 #include "core/base/radiance_range.h"
 #include "core/frame/method.h"
+#include "core/frame/method_settings.h"
 #include "core/image/metrics/metrics.h"
+#include "experiments/certificate/reference_search.h"
 #include "experiments/report/text.h"
-#include "experiments/runner/run/build_info.h"
-#include "experiments/runner/run/files.h"
-#include "experiments/runner/run/image_file.h"
-#include "experiments/runner/run/log.h"
+#include "experiments/runner/base/build_info.h"
+#include "experiments/runner/base/files.h"
+#include "experiments/runner/base/image_file.h"
+#include "experiments/runner/base/log.h"
 #include "experiments/runner/run/render_command.h"
+#include "experiments/runner/suite/image_settings.h"
 
 namespace restlab::certificate {
 namespace {

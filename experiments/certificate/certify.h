@@ -10,6 +10,7 @@
 #include "core/frame/part.h"
 #include "experiments/certificate/certificate.h"
 #include "experiments/certificate/run_folder.h"
+#include "experiments/runner/base/health_sum.h"
 
 namespace restlab::certificate {
 

@@ -9,8 +9,8 @@
 #include "core/base/control_characters.h"
 #include "core/image/io/atomic_file.h"
 #include "experiments/report/report_html.h"
-#include "experiments/runner/run/build_info.h"
-#include "experiments/runner/run/files.h"
+#include "experiments/runner/base/build_info.h"
+#include "experiments/runner/base/files.h"
 
 namespace restlab::certificate {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "core/frame/session.h"
 #include "experiments/report/text.h"
-#include "experiments/runner/run/interrupt.h"
-#include "experiments/runner/run/log.h"
+#include "experiments/runner/base/interrupt.h"
+#include "experiments/runner/base/log.h"
 
 namespace restlab::certificate {
 namespace {

@@ -13,10 +13,11 @@
 
 #include "core/backend/stop.h"
 #include "core/base/error.h"
-#include "experiments/runner/run/build_info.h"
-#include "experiments/runner/run/files.h"
-#include "experiments/runner/run/interrupt.h"
-#include "experiments/runner/run/log.h"
+#include "experiments/runner/base/build_info.h"
+#include "experiments/runner/base/files.h"
+#include "experiments/runner/base/interrupt.h"
+#include "experiments/runner/base/log.h"
+#include "experiments/statistics/image_sum.h"
 
 namespace restlab::certificate {
 namespace {

@@ -7,9 +7,9 @@
 #include <optional>
 #include <string>
 
+#include "experiments/runner/base/health_sum.h"
 #include "experiments/runner/reference/reference.h"
-#include "experiments/runner/run/prepare.h"
-#include "experiments/runner/summary/accumulate.h"
+#include "experiments/runner/suite/prepare.h"
 
 namespace restlab::certificate {
 

@@ -7,8 +7,9 @@
 #include <utility>
 
 #include "experiments/certificate/outputs.h"
-#include "experiments/runner/run/build_info.h"
-#include "experiments/runner/summary/summary.h"
+#include "experiments/runner/base/bias_name.h"
+#include "experiments/runner/base/build_info.h"
+#include "experiments/runner/tables/summary.h"
 
 namespace restlab::certificate {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "experiments/certificate/outputs.h"
 #include "experiments/report/text.h"
-#include "experiments/runner/summary/summary.h"
+#include "experiments/runner/base/bias_name.h"
 
 namespace restlab::certificate {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "core/backend/alpha_filter.h"
 #include "core/backend/embree.h"
-#include "core/image/statistics/intervals.h"
+#include "experiments/statistics/intervals.h"
 
 namespace restlab {
 

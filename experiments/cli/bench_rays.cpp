@@ -5,12 +5,12 @@
 #include <cstring>
 
 #include "core/bench/stream.h"
-#include "core/image/statistics/intervals.h"
+#include "experiments/statistics/intervals.h"
 #undef RL_KERNEL_BUFFERS
 #undef RL_KERNEL_PARAMS
 #include "core/bench/trace.h"
 #include "core/scene/compiled/compiled_scene.h"
-#include "experiments/runner/run/interrupt.h"
+#include "experiments/runner/base/interrupt.h"
 
 namespace restlab {
 

@@ -3,7 +3,7 @@
 
 #include "core/backend/backend.h"
 #include "experiments/cli/bench_embree.h"
-#include "experiments/runner/run/prepare.h"
+#include "experiments/runner/suite/prepare.h"
 
 namespace restlab {
 

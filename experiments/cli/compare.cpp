@@ -13,11 +13,11 @@
 #include "core/image/metrics/pixel_metrics.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
+#include "experiments/runner/base/log.h"
+#include "experiments/runner/base/print.h"
 #include "experiments/runner/compare/compare_folders.h"
 #include "experiments/runner/reference/beside_reference.h"
-#include "experiments/runner/run/log.h"
 #include "experiments/runner/reference/reference_error.h"
-#include "experiments/runner/run/print.h"
 
 namespace restlab {
 

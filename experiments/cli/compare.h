@@ -7,8 +7,8 @@
 
 #include "core/base/error.h"
 #include "core/image/metrics/metrics.h"
-#include "core/image/statistics/bias_runs.h"
 #include "experiments/runner/reference/reference.h"
+#include "experiments/statistics/bias_runs.h"
 
 namespace restlab {
 

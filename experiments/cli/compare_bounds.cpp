@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "experiments/cli/compare.h"
-#include "experiments/runner/run/log.h"
+#include "experiments/runner/base/log.h"
 
 namespace restlab {
 

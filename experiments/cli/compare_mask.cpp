@@ -6,7 +6,7 @@
 
 #include "experiments/cli/compare.h"
 #include "experiments/cli/options.h"
-#include "experiments/runner/run/image_file.h"
+#include "experiments/runner/base/image_file.h"
 #include "experiments/runner/run/image_scene.h"
 #include "experiments/runner/run/light_mask.h"
 #include "experiments/runner/run/object_mask.h"

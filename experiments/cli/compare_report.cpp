@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/cli/compare.h"
-#include "experiments/runner/run/log.h"
-#include "experiments/runner/run/print.h"
+#include "experiments/runner/base/log.h"
+#include "experiments/runner/base/print.h"
 
 namespace restlab {
 

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "experiments/cli/compare.h"
-#include "experiments/runner/run/build_info.h"
+#include "experiments/runner/base/build_info.h"
 
 namespace restlab {
 

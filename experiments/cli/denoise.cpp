@@ -12,17 +12,18 @@
 #include "core/base/radiance_range.h"
 #include "core/frame/image_denoiser.h"
 #include "core/frame/method.h"
+#include "core/frame/method_settings.h"
 #include "core/image/io/exr_contents.h"
 #include "core/temporal_gradients/settings.h"
 #include "experiments/cli/frame_files.h"
 #include "experiments/cli/frame_layers.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
-#include "experiments/runner/run/build_info.h"
-#include "experiments/runner/run/image_file.h"
-#include "experiments/runner/run/interrupt.h"
-#include "experiments/runner/run/log.h"
-#include "experiments/runner/summary/accumulate.h"
+#include "experiments/runner/base/build_info.h"
+#include "experiments/runner/base/health_sum.h"
+#include "experiments/runner/base/image_file.h"
+#include "experiments/runner/base/interrupt.h"
+#include "experiments/runner/base/log.h"
 
 namespace restlab {
 

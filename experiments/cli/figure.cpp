@@ -1,5 +1,4 @@
 // restlab figure: makes a crop strip for a paper.
-#include "experiments/report/figure.h"
 
 #include <fmt/format.h>
 
@@ -12,9 +11,10 @@
 #include "core/image/io/atomic_file.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
+#include "experiments/report/figure.h"
+#include "experiments/runner/base/build_info.h"
+#include "experiments/runner/base/log.h"
 #include "experiments/runner/reference/beside_reference.h"
-#include "experiments/runner/run/build_info.h"
-#include "experiments/runner/run/log.h"
 #include "experiments/runner/reference/reference_error.h"
 
 namespace restlab {

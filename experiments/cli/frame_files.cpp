@@ -7,7 +7,7 @@
 #include <set>
 
 #include "core/base/error.h"
-#include "experiments/runner/run/files.h"
+#include "experiments/runner/base/files.h"
 
 namespace restlab {
 

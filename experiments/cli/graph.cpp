@@ -16,8 +16,8 @@
 #include "experiments/cli/verbs.h"
 #include "experiments/report/graph_svg.h"
 #include "experiments/report/text.h"
-#include "experiments/runner/run/print.h"
-#include "experiments/runner/summary/markdown_table.h"
+#include "experiments/runner/base/print.h"
+#include "experiments/runner/tables/markdown_table.h"
 
 namespace restlab {
 

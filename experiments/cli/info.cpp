@@ -10,7 +10,7 @@
 #include "core/scene/camera_path/camera_path.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
-#include "experiments/runner/run/print.h"
+#include "experiments/runner/base/print.h"
 
 namespace restlab {
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/image/io/layer_colors.h"
-#include "experiments/runner/run/log.h"
+#include "experiments/runner/base/log.h"
 
 namespace restlab {
 

@@ -9,9 +9,9 @@
 #include "core/base/error.h"
 #include "core/scene/scene.h"
 #include "experiments/cli/verbs.h"
+#include "experiments/runner/base/files.h"
+#include "experiments/runner/base/print.h"
 #include "experiments/runner/registries/registries.h"
-#include "experiments/runner/run/files.h"
-#include "experiments/runner/run/print.h"
 
 namespace restlab {
 

@@ -7,10 +7,10 @@
 #include <exception>
 
 #include "experiments/cli/verbs.h"
-#include "experiments/runner/run/build_info.h"
-#include "experiments/runner/run/interrupt.h"
-#include "experiments/runner/run/log.h"
-#include "experiments/runner/run/print.h"
+#include "experiments/runner/base/build_info.h"
+#include "experiments/runner/base/interrupt.h"
+#include "experiments/runner/base/log.h"
+#include "experiments/runner/base/print.h"
 
 namespace {
 

@@ -10,14 +10,15 @@
 #include <map>
 
 #include "core/backend/backend.h"
-#include "core/frame/cache.h"
 #include "core/base/config.h"
 #include "core/base/error.h"
+#include "core/frame/cache.h"
 #include "core/frame/method.h"
 #include "core/frame/method_settings.h"
+#include "experiments/runner/base/files.h"
+#include "experiments/runner/base/log.h"
 #include "experiments/runner/suite/backend_choice.h"
-#include "experiments/runner/run/files.h"
-#include "experiments/runner/run/log.h"
+#include "experiments/runner/suite/image_settings.h"
 
 namespace restlab {
 

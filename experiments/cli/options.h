@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/runner/run/prepare.h"
+#include "experiments/runner/suite/prepare.h"
 
 namespace restlab {
 

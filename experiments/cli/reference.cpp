@@ -7,7 +7,7 @@
 #include "core/image/io/exr_limits.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
-#include "experiments/runner/run/log.h"
+#include "experiments/runner/base/log.h"
 #include "experiments/runner/reference/reference.h"
 
 namespace restlab {

@@ -6,21 +6,22 @@
 #include <memory>
 #include <optional>
 
+#include "core/base/radiance_range.h"
+#include "core/frame/method.h"
 #include "core/image/io/exr_limits.h"
 #include "core/image/metrics/metrics.h"
-#include "core/frame/method.h"
-#include "core/base/radiance_range.h"
 #include "core/scene/compiled/compiled_scene.h"
 #include "experiments/cli/layer_previews.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/render_pixel.h"
 #include "experiments/cli/verbs.h"
-#include "experiments/runner/run/print.h"
-#include "experiments/runner/summary/accumulate.h"
+#include "experiments/runner/base/build_info.h"
+#include "experiments/runner/base/health_sum.h"
+#include "experiments/runner/base/interrupt.h"
+#include "experiments/runner/base/log.h"
+#include "experiments/runner/base/print.h"
 #include "experiments/runner/suite/backend_choice.h"
-#include "experiments/runner/run/interrupt.h"
-#include "experiments/runner/run/build_info.h"
-#include "experiments/runner/run/log.h"
+#include "experiments/statistics/image_sum.h"
 
 namespace restlab {
 

@@ -6,11 +6,11 @@
 #include <memory>
 
 #include "experiments/cli/verbs.h"
-#include "experiments/runner/run/clean.h"
+#include "experiments/runner/base/log.h"
+#include "experiments/runner/base/print.h"
+#include "experiments/runner/results/clean.h"
+#include "experiments/runner/results/results_folder.h"
 #include "experiments/runner/run/job.h"
-#include "experiments/runner/run/log.h"
-#include "experiments/runner/run/print.h"
-#include "experiments/runner/run/results_folder.h"
 
 namespace restlab {
 

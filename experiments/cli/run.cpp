@@ -14,11 +14,11 @@
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/report/text.h"
-#include "experiments/runner/run/print.h"
-#include "experiments/runner/suite/dry_run.h"
-#include "experiments/runner/run/files.h"
-#include "experiments/runner/run/log.h"
-#include "experiments/runner/run/suite_runner.h"
+#include "experiments/runner/base/files.h"
+#include "experiments/runner/base/log.h"
+#include "experiments/runner/base/print.h"
+#include "experiments/runner/results/dry_run.h"
+#include "experiments/runner/results/suite_runner.h"
 
 namespace restlab {
 

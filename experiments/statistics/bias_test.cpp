@@ -9,8 +9,8 @@
 #include <memory>
 #include <stdexcept>
 
-#include "core/image/statistics/intervals.h"
 #include "experiments/statistics/holm.h"
+#include "experiments/statistics/intervals.h"
 #include "experiments/statistics/power.h"
 
 namespace restlab::stats {

@@ -8,10 +8,10 @@
 #include "core/backend/stop.h"
 #include "core/base/error.h"
 #include "experiments/report/svg_style.h"
-#include "experiments/runner/run/build_info.h"
+#include "experiments/runner/base/build_info.h"
+#include "experiments/runner/base/interrupt.h"
+#include "experiments/runner/base/log.h"
 #include "experiments/runner/run/experiment.h"
-#include "experiments/runner/run/interrupt.h"
-#include "experiments/runner/run/log.h"
 #include "experiments/view/view_exposure.h"
 #include "experiments/view/view_session.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "experiments/runner/run/prepare.h"
+#include "experiments/runner/suite/image_settings.h"
 
 namespace restlab {
 

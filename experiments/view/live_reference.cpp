@@ -4,6 +4,8 @@
 #include <chrono>
 #include <utility>
 
+#include "experiments/statistics/image_sum.h"
+
 namespace restlab {
 
 LiveReference::~LiveReference() { keep(); }

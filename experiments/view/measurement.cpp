@@ -72,7 +72,7 @@ struct Pipe {
 }  // namespace
 
 // Sends SIGINT twice, then SIGKILL. The first signal may be missed while a driver compiles a
-// kernel; the second one has its default effect (experiments/runner/run/interrupt.h).
+// kernel; the second one has its default effect (experiments/runner/base/interrupt.h).
 Measurement::~Measurement() {
   if (!isRunning()) return;
   pid_t ended = 0;

@@ -10,9 +10,9 @@
 
 #include "core/base/error.h"
 #include "core/base/file_reason.h"
-#include "experiments/runner/run/build_info.h"
-#include "experiments/runner/run/files.h"
-#include "experiments/runner/summary/accumulate.h"
+#include "experiments/runner/base/build_info.h"
+#include "experiments/runner/base/files.h"
+#include "experiments/runner/base/health_sum.h"
 #include "experiments/view/view_session.h"
 
 namespace restlab {

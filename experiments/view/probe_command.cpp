@@ -1,7 +1,7 @@
 // Makes the command line that renders a probed pixel again.
 #include <fmt/format.h>
 
-#include "experiments/runner/run/build_info.h"
+#include "experiments/runner/base/build_info.h"
 #include "experiments/runner/run/render_command.h"
 #include "experiments/view/view_session.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/image/image.h"
-#include "core/image/statistics/intervals.h"
+#include "experiments/statistics/intervals.h"
 
 namespace restlab {
 

@@ -11,7 +11,7 @@
 #include <cstring>
 
 #include "core/base/error.h"
-#include "experiments/runner/run/log.h"
+#include "experiments/runner/base/log.h"
 #include "experiments/view/tev_message.h"
 
 namespace restlab {

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/runner/summary/report_document.h"
+#include "experiments/runner/tables/preview.h"
 
 namespace restlab {
 

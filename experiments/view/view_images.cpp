@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "core/base/error.h"
+#include "experiments/runner/base/image_file.h"
 #include "experiments/runner/reference/beside_reference.h"
-#include "experiments/runner/run/image_file.h"
 
 namespace restlab {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/frame/session.h"
-#include "experiments/runner/run/prepare.h"
+#include "experiments/runner/suite/prepare.h"
 
 namespace restlab {
 

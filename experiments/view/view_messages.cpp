@@ -10,9 +10,9 @@
 #include "core/frame/method_settings.h"
 #include "core/scene/compiled/light_factor.h"
 #include "experiments/report/pixels.h"
+#include "experiments/runner/base/build_info.h"
+#include "experiments/runner/base/health_sum.h"
 #include "experiments/runner/registries/registries.h"
-#include "experiments/runner/run/build_info.h"
-#include "experiments/runner/summary/accumulate.h"
 #include "experiments/view/probe_values.h"
 #include "experiments/view/view_exposure.h"
 

@@ -7,18 +7,19 @@
 #include <optional>
 #include <variant>
 
-#include "core/image/metrics/window.h"
 #include "core/base/config.h"
 #include "core/base/error.h"
 #include "core/frame/integrator.h"
+#include "core/image/metrics/window.h"
 #include "core/scene/compiled/light_factor.h"
+#include "experiments/runner/base/build_info.h"
+#include "experiments/runner/base/files.h"
 #include "experiments/runner/reference/beside_reference.h"
-#include "experiments/runner/run/build_info.h"
 #include "experiments/runner/run/experiment.h"
-#include "experiments/runner/run/files.h"
 #include "experiments/runner/run/render_command.h"
+#include "experiments/runner/suite/image_settings.h"
+#include "experiments/runner/suite/picture.h"
 #include "experiments/runner/suite/suite.h"
-#include "experiments/runner/suite/suite_check.h"
 
 namespace restlab {
 

@@ -10,8 +10,8 @@
 #include "core/base/error.h"
 #include "core/frame/method.h"
 #include "core/frame/method_settings.h"
+#include "core/frame/session.h"
 #include "core/scene/compiled/light_factor.h"
-#include "experiments/runner/run/prepare.h"
 
 namespace restlab {
 

@@ -11,7 +11,7 @@
 #include <set>
 
 #include "core/base/error.h"
-#include "experiments/runner/run/suite_runner.h"
+#include "experiments/runner/results/suite_runner.h"
 #include "tests/canary/wrong_kernels.h"
 #include "tests/runner/temporary_folder.h"
 

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "core/scene/compiled/compiled_scene.h"
+#include "experiments/statistics/image_sum.h"
 #include "tests/bias/independent_runs.h"
 #include "tests/certificate/made_up_runs.h"
 #include "tests/stats/ks.h"

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "core/image/statistics/intervals.h"
+#include "experiments/statistics/intervals.h"
 #include "tests/cli/program.h"
 #include "tests/cli/small_suite.h"
 

@@ -3,7 +3,7 @@
 #include <sstream>
 
 #include "core/image/image.h"
-#include "core/image/statistics/intervals.h"
+#include "experiments/statistics/intervals.h"
 #include "tests/cli/program.h"
 #include "tests/cli/small_suite.h"
 

@@ -1,6 +1,6 @@
 // Squared bias of a method from all pairs of its runs: known answers, no bias of the estimate, and
 // coverage of its interval.
-#include "core/image/statistics/bias_runs.h"
+#include "experiments/statistics/bias_runs.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Noise of a reference's halves, which all runs share: its estimates, and the coverage of intervals
 // of MSE, squared bias and ratios with it.
-#include "core/image/statistics/halves_noise.h"
+#include "experiments/statistics/halves_noise.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <random>
 
 #include "core/base/error.h"
-#include "core/image/statistics/bias_runs.h"
+#include "experiments/statistics/bias_runs.h"
 
 namespace restlab {
 

@@ -1,5 +1,5 @@
 // Intervals against SciPy (Fieller's by solving |t(q)| = t_crit for q), and their coverage.
-#include "core/image/statistics/intervals.h"
+#include "experiments/statistics/intervals.h"
 
 #include <gtest/gtest.h>
 

@@ -24,8 +24,9 @@ class SourceHash : public TemporaryFolder {
     for (const char* file :
          {"core/frame/session.cpp", "core/kernels/path.h", "core/CMakeLists.txt", "core/readme.md",
           "integrators/path/path.cpp", "integrators/restir_gi/reuse.glsl", "denoise/none/none.cpp",
-          "experiments/runner/summary/temporal.cpp", "experiments/runner/run/experiment.h",
-          "experiments/runner/summary/table.cpp", "tests/unit/rng_test.cpp"})
+          "experiments/runner/run/temporal.cpp", "experiments/runner/run/experiment.h",
+          "experiments/runner/tables/table.cpp", "experiments/statistics/halves_noise.cpp",
+          "tests/unit/rng_test.cpp"})
       write(file, "one");
   }
   void write(const fs::path& file, const std::string& text) const {
@@ -71,10 +72,11 @@ TEST_F(SourceHash, IsOfTheSourcesThatDecideTheNumbers) {
   EXPECT_EQ(changedBy("integrators/path/path.cpp"), "REFERENCE SOURCE ");
   EXPECT_EQ(changedBy("integrators/restir_gi/reuse.glsl"), "SOURCE ");
   EXPECT_EQ(changedBy("denoise/none/none.cpp"), "SOURCE ");
-  EXPECT_EQ(changedBy("experiments/runner/summary/temporal.cpp"), "MEASURING ");
+  EXPECT_EQ(changedBy("experiments/runner/run/temporal.cpp"), "MEASURING ");
   EXPECT_EQ(changedBy("experiments/runner/run/experiment.h"), "MEASURING ");
+  EXPECT_EQ(changedBy("experiments/statistics/halves_noise.cpp"), "MEASURING ");
   for (const char* layout :
-       {"experiments/runner/summary/table.cpp", "core/readme.md", "tests/unit/rng_test.cpp"})
+       {"experiments/runner/tables/table.cpp", "core/readme.md", "tests/unit/rng_test.cpp"})
     EXPECT_EQ(changedBy(layout), "") << layout;
   const auto before = hashes();
   fs::rename(folder() / "core/frame/session.cpp", folder() / "core/sessions.cpp");
@@ -122,8 +124,7 @@ TEST(MeasuringSources, AreAllThere) {
   std::istringstream names(list[1].str());
   size_t count = 0;
   for (std::string name; names >> name; ++count)
-    EXPECT_TRUE(fs::exists(fs::path(RESTLAB_SOURCE_DIR "/experiments/runner") / (name + ".cpp")))
-        << name;
+    EXPECT_TRUE(fs::exists(fs::path(RESTLAB_SOURCE_DIR "/experiments") / (name + ".cpp"))) << name;
   EXPECT_GE(count, 8u);
 }
 

@@ -1,12 +1,12 @@
 // Sums of frames: mean and variance of the mean of known samples.
-#include "experiments/runner/summary/accumulate.h"
+#include "experiments/statistics/image_sum.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/runner/run/files.h"
+#include "experiments/runner/base/files.h"
 
 namespace restlab {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "experiments/runner/summary/report_document.h"
+#include "experiments/runner/tables/preview.h"
 
 namespace restlab {
 

@@ -1,5 +1,6 @@
 // Verdicts of intervals, and which differences make two folders incomparable.
 #include "experiments/runner/compare/compare_folders.h"
+#include "experiments/runner/tables/summary.h"
 
 #include <gtest/gtest.h>
 

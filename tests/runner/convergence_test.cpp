@@ -1,13 +1,13 @@
 // Fitted lines on runs whose truth is known: how often the intervals hold it, and how often a line
 // is rejected as a fit.
-#include "experiments/runner/summary/convergence.h"
+#include "experiments/runner/tables/convergence.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "experiments/runner/summary/accumulated_curve.h"
-#include "experiments/runner/summary/speed_up.h"
+#include "experiments/runner/tables/accumulated_curve.h"
+#include "experiments/runner/tables/speed_up.h"
 #include "tests/runner/synthetic_runs.h"
 
 namespace restlab {

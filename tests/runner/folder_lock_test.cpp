@@ -1,5 +1,5 @@
 // Folder locks on file systems without locks, like some network ones: flock() is replaced.
-#include "experiments/runner/run/folder_lock.h"
+#include "experiments/runner/results/folder_lock.h"
 
 #include <gtest/gtest.h>
 #include <sys/syscall.h>

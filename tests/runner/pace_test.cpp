@@ -1,5 +1,5 @@
 // Estimated remaining time of a suite.
-#include "experiments/runner/run/pace.h"
+#include "experiments/runner/base/pace.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "experiments/runner/reference/reference_error.h"
-#include "experiments/runner/summary/summary.h"
+#include "experiments/runner/tables/summary.h"
 
 namespace restlab {
 

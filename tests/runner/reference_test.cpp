@@ -10,9 +10,9 @@
 #include <memory>
 
 #include "core/base/error.h"
+#include "experiments/runner/base/build_info.h"
 #include "experiments/runner/reference/light_draws.h"
 #include "experiments/runner/reference/reference_halves.h"
-#include "experiments/runner/run/build_info.h"
 #include "tests/runner/temporary_folder.h"
 
 namespace restlab {

@@ -3,8 +3,8 @@
 
 #include <fstream>
 
+#include "experiments/runner/suite/picture.h"
 #include "experiments/runner/suite/suite.h"
-#include "experiments/runner/suite/suite_check.h"
 #include "tests/runner/temporary_folder.h"
 
 namespace restlab {

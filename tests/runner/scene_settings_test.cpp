@@ -6,7 +6,7 @@
 
 #include "core/base/error.h"
 #include "experiments/runner/reference/truth.h"
-#include "experiments/runner/suite/suite_check.h"
+#include "experiments/runner/run/suite_check.h"
 #include "tests/runner/temporary_folder.h"
 
 namespace restlab {

@@ -1,5 +1,5 @@
 // Sweeps of a scene's parameter: which scenes form one, and up to which value a method holds.
-#include "experiments/runner/summary/scene_sweep.h"
+#include "experiments/runner/tables/scene_sweep.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "core/base/error.h"
 #include "experiments/report/report_model.h"
-#include "experiments/runner/run/outputs.h"
+#include "experiments/runner/results/outputs.h"
 #include "tests/runner/temporary_folder.h"
 
 namespace restlab {

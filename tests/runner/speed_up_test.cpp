@@ -1,6 +1,6 @@
 // Speed-ups on runs whose truth is known: where they are read, where not, and how often their
 // intervals hold the truth.
-#include "experiments/runner/summary/speed_up.h"
+#include "experiments/runner/tables/speed_up.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "experiments/runner/summary/summary.h"
+#include "experiments/runner/tables/summary.h"
 
 namespace restlab {
 

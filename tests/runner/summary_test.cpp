@@ -1,12 +1,12 @@
 // Rows from runs with known numbers: means, ratios, bias, and the rules for counting a row.
-#include "experiments/runner/summary/summary.h"
+#include "experiments/runner/tables/summary.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <random>
 
-#include "experiments/runner/summary/report.h"
+#include "experiments/runner/tables/report.h"
 #include "tests/runner/summary_fixture.h"
 
 namespace restlab {
@@ -230,7 +230,7 @@ TEST_F(SummaryTest, WithoutBaselineRatiosAreUnknown) {
   suite_.methods[0].session.integrator = "restir_gi";
   const auto rows = summarise(suite_, block_);
   EXPECT_TRUE(std::isnan(rows[1].mseRatio.value));
-  EXPECT_NE(summaryCsv(suite_, rows).find(",nan,"), std::string::npos);
+  EXPECT_NE(summaryCsv(rows).find(",nan,"), std::string::npos);
 }
 
 // The same two methods on a second backend, three times as fast and a little noisier.
@@ -306,7 +306,7 @@ TEST_F(SummaryTest, RowsAreComparedWithTheAverageOfPathsFrames) {
   EXPECT_NEAR(rows[1].ages[1].ratioToAverage.value, 2.0, 1e-12);
   EXPECT_NEAR(rows[1].ages[1].timeRatio.value, 1.5, 1e-12);
   EXPECT_NEAR(rows[2].ages[1].mseRatio.value, 4.0, 1e-12);
-  const std::string table = blockTable(suite_, rows), csv = summaryCsv(suite_, rows);
+  const std::string table = blockTable(suite_, rows), csv = summaryCsv(rows);
   EXPECT_NE(table.find("| than path | than path + accumulate | energy |"), std::string::npos)
       << table;
   EXPECT_NE(table.find("| frame | gi | path + accumulate |"), std::string::npos) << table;
@@ -346,7 +346,7 @@ TEST_F(SummaryTest, UnfinishedMethodsAreLeftOut) {
 
 TEST_F(SummaryTest, CsvQuotesWhatNeedsIt) {
   suite_.methods[1].name = "a \"b\", c";
-  const std::string csv = summaryCsv(suite_, summarise(suite_, block_));
+  const std::string csv = summaryCsv(summarise(suite_, block_));
   EXPECT_NE(csv.find("\"a \"\"b\"\", c\""), std::string::npos) << csv;
 }
 
@@ -389,7 +389,7 @@ TEST_F(SummaryTest, AccumulatedErrorsSayWhatWasReadOffTheirLines) {
   table = blockTable(suite_, rows);
   EXPECT_NE(table.find("20.0x lower"), std::string::npos) << table;
   EXPECT_EQ(table.find("x faster"), std::string::npos) << table;
-  EXPECT_NE(summaryCsv(suite_, rows).find("accumulated_points_fitted"), std::string::npos);
+  EXPECT_NE(summaryCsv(rows).find("accumulated_points_fitted"), std::string::npos);
 }
 
 TEST_F(SummaryTest, ErrorsInTheNoiseOfTheReferenceAreNotFitted) {
@@ -424,7 +424,7 @@ TEST_F(SummaryTest, TemporalFiguresHaveIntervals) {
   EXPECT_NEAR(rows[1].temporal->autocorrelation[0].value, 0.6, 1e-12);
   EXPECT_LT(rows[1].temporal->autocorrelation[0].lo, 0.5);
   EXPECT_TRUE(rows[1].flags.empty());
-  const std::string csv = summaryCsv(suite_, rows), table = blockTable(suite_, rows);
+  const std::string csv = summaryCsv(rows), table = blockTable(suite_, rows);
   for (const char* column : {"temporal_variance_ci_lo", "error_autocorrelation_8_ci_hi",
                              "temporal_error_difference_squared_ci_hi"})
     EXPECT_NE(csv.find(column), std::string::npos) << column;

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "experiments/runner/summary/accumulated_curve.h"
+#include "experiments/runner/tables/accumulated_curve.h"
 
 namespace restlab {
 

@@ -4,8 +4,8 @@
 #include <limits>
 #include <set>
 
-#include "experiments/runner/summary/report.h"
-#include "experiments/runner/summary/report_document.h"
+#include "experiments/runner/tables/report.h"
+#include "experiments/runner/tables/report_document.h"
 #include "tests/runner/summary_fixture.h"
 
 namespace restlab {
@@ -28,7 +28,7 @@ TEST_F(TableTest, TheBaselineIsNamed) {
             std::string::npos)
       << table;
   EXPECT_NE(blockTex(suite_, rows).find("time and lower against gi; "), std::string::npos);
-  EXPECT_NE(summaryCsv(suite_, rows).find("baseline"), std::string::npos);
+  EXPECT_NE(summaryCsv(rows).find("baseline"), std::string::npos);
   const std::string document = blockDocument(suite_, rows, 1.0f).dump();
   EXPECT_NE(document.find("MSE of gi / MSE"), std::string::npos) << document;
   EXPECT_EQ(document.find("MSE of path"), std::string::npos) << document;
@@ -57,7 +57,7 @@ TEST_F(TableTest, RatiosThatReachZeroAreUnbounded) {
 TEST_F(TableTest, NamesCommandNoTerminal) {
   suite_.methods[1].name = "g\x1b[31mi\x07\xc2\x9bm\nx";
   const auto rows = summarise(suite_, block_);
-  for (const std::string& text : {blockTex(suite_, rows), summaryCsv(suite_, rows)}) {
+  for (const std::string& text : {blockTex(suite_, rows), summaryCsv(rows)}) {
     EXPECT_EQ(text.find_first_of("\x1b\x07\x9b"), std::string::npos) << text;
     EXPECT_NE(text.find("g [31mi  m x"), std::string::npos) << text;
   }

@@ -1,12 +1,12 @@
 // Flicker and correlation of errors on frames with known figures.
-#include "experiments/runner/summary/temporal.h"
+#include "experiments/runner/run/temporal.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "core/image/statistics/intervals.h"
+#include "experiments/statistics/intervals.h"
 
 namespace restlab {
 

@@ -9,7 +9,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "core/image/statistics/intervals.h"
+#include "experiments/statistics/intervals.h"
 #include "tests/stats/ks.h"
 
 namespace restlab::stats {

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <cstdio>
 
-#include "core/image/statistics/intervals.h"
+#include "experiments/statistics/intervals.h"
 #include "tests/view/live_page.h"
 
 namespace restlab::view_test {

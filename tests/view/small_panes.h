@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "experiments/runner/run/prepare.h"
+#include "experiments/runner/suite/prepare.h"
 
 namespace restlab::view_test {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "experiments/runner/summary/report_document.h"
+#include "experiments/runner/tables/preview.h"
 #include "tests/view/small_panes.h"
 
 namespace restlab::view_test {

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "core/base/memory.h"
+#include "experiments/runner/suite/image_settings.h"
 #include "experiments/view/view_memory.h"
 #include "experiments/view/view_session_file.h"
 #include "tests/view/loop_fixture.h"

@@ -36,7 +36,7 @@ struct MetricInfo {
   // Computed on the whole image, from which a mask then picks pixels: a non-finite value counts
   // wherever it is.
   bool readsNeighbours = false;
-  // Needs several images (core/image/statistics/bias_runs.h); NaN for a single one.
+  // Needs several images (experiments/statistics/bias_runs.h); NaN for a single one.
   bool needsRuns = false;
   std::function<MetricValue(const Image& image, const Image& reference,
                             const MetricOptions& options)>

@@ -9,10 +9,10 @@
 #include <set>
 
 #include "core/base/error.h"
-#include "experiments/runner/run/job.h"
 #include "experiments/runner/reference/reference_noise.h"
-#include "experiments/runner/summary/disturbed.h"
-#include "experiments/runner/summary/report.h"
+#include "experiments/runner/run/block_label.h"
+#include "experiments/runner/run/job.h"
+#include "experiments/runner/tables/disturbed.h"
 
 namespace restlab {
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "experiments/runner/compare/folder_differences.h"
+#include "experiments/statistics/intervals.h"
 
 namespace restlab {
 

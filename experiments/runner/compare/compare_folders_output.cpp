@@ -4,8 +4,9 @@
 #include <set>
 
 #include "experiments/report/text.h"
+#include "experiments/runner/base/json_number.h"
 #include "experiments/runner/compare/compare_folders.h"
-#include "experiments/runner/run/run_record.h"
+#include "experiments/runner/tables/summary.h"
 
 namespace restlab {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/runner/run/results_folder.h"
+#include "experiments/runner/results/results_folder.h"
 
 namespace restlab {
 

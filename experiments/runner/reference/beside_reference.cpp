@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "experiments/runner/run/image_file.h"
-#include "experiments/runner/run/log.h"
+#include "experiments/runner/base/image_file.h"
+#include "experiments/runner/base/log.h"
 
 namespace restlab {
 

@@ -9,8 +9,9 @@
 
 #include "core/base/error.h"
 #include "core/image/metrics/metrics.h"
-#include "experiments/runner/run/build_info.h"
-#include "experiments/runner/run/log.h"
+#include "experiments/runner/base/build_info.h"
+#include "experiments/runner/base/log.h"
+#include "experiments/runner/suite/image_settings.h"
 
 namespace restlab {
 

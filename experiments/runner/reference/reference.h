@@ -8,8 +8,9 @@
 #include <string>
 
 #include "core/image/image.h"
-#include "experiments/runner/run/prepare.h"
 #include "experiments/runner/reference/reference_progress.h"
+#include "experiments/runner/suite/prepare.h"
+#include "experiments/runner/suite/reference_target.h"
 
 namespace restlab {
 
@@ -35,15 +36,6 @@ ReferenceConfig referenceConfigOf(const SessionConfig& session);
 // Returns the camera of `config` if its view is not exactly that of the scene's camera; else
 // nothing.
 const SceneCamera* cameraInsteadOf(const PreparedScene& prepared, const ReferenceConfig& config);
-
-// When to stop: at the first target that is reached; 0 is no target. At least one must be set.
-// Samples of earlier calls count. `relmse` is reached when all estimates since half of the samples
-// are at most `relmse`, and every light was drawn often enough (light_draws.h).
-struct ReferenceTarget {
-  uint64_t spp = 0;         // samples per pixel of both halves together, at least 2
-  double relmse = 0.0;      // mean d^2/(r^2+1e-2) of the mean, estimated from the halves
-  double timeLimitS = 0.0;  // seconds of rendering
-};
 
 // Limit of waiting for rarely drawn lights after the error is small enough. The wait ends at `spp`
 // or `timeLimitS`; if neither is set, a rendering that needs more than this many times its samples

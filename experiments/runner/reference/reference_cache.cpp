@@ -5,8 +5,8 @@
 #include <cstdlib>
 
 #include "core/base/error.h"
-#include "experiments/runner/run/files.h"
-#include "experiments/runner/run/log.h"
+#include "experiments/runner/base/files.h"
+#include "experiments/runner/base/log.h"
 #include "experiments/runner/reference/reference.h"
 
 namespace restlab {

@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "core/base/error.h"
+#include "experiments/runner/base/image_file.h"
 #include "experiments/runner/reference/reference.h"
-#include "experiments/runner/run/image_file.h"
 
 namespace restlab {
 

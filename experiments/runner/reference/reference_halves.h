@@ -6,6 +6,7 @@
 #include "core/frame/session.h"
 #include "experiments/runner/reference/reference.h"
 #include "experiments/runner/reference/reference_state.h"
+#include "experiments/statistics/image_sum.h"
 
 namespace restlab {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/image/statistics/halves_noise.h"
 #include "experiments/report/text.h"
+#include "experiments/statistics/halves_noise.h"
 
 namespace restlab {
 

@@ -4,9 +4,9 @@
 
 #include <string>
 
-#include "core/image/statistics/bias_runs.h"
-#include "core/image/statistics/intervals.h"
 #include "experiments/runner/reference/reference.h"
+#include "experiments/statistics/bias_runs.h"
+#include "experiments/statistics/intervals.h"
 
 namespace restlab {
 

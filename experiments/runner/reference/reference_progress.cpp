@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "experiments/runner/run/files.h"
-#include "experiments/runner/run/log.h"
+#include "experiments/runner/base/files.h"
+#include "experiments/runner/base/log.h"
 
 namespace restlab {
 

@@ -4,13 +4,14 @@
 #include "core/backend/stop.h"
 #include "core/base/error.h"
 #include "core/base/memory.h"
-#include "experiments/runner/suite/backend_choice.h"
-#include "experiments/runner/run/build_info.h"
-#include "experiments/runner/run/interrupt.h"
-#include "experiments/runner/run/log.h"
+#include "experiments/runner/base/build_info.h"
+#include "experiments/runner/base/interrupt.h"
+#include "experiments/runner/base/log.h"
 #include "experiments/runner/reference/light_draws.h"
 #include "experiments/runner/reference/reference.h"
 #include "experiments/runner/reference/reference_halves.h"
+#include "experiments/runner/suite/backend_choice.h"
+#include "experiments/statistics/image_sum.h"
 
 namespace restlab {
 

@@ -15,7 +15,7 @@
 #include "core/base/error.h"
 #include "core/base/file_reason.h"
 #include "core/image/io/atomic_file.h"
-#include "experiments/runner/run/prepare.h"
+#include "experiments/runner/suite/image_settings.h"
 
 namespace restlab {
 

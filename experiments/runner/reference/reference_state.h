@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "experiments/runner/summary/accumulate.h"
+#include "experiments/runner/base/health_sum.h"
 #include "experiments/runner/reference/relmse_checks.h"
+#include "experiments/statistics/image_sum.h"
 
 namespace restlab {
 

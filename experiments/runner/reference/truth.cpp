@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "core/base/error.h"
 #include "core/scene/builtin/name.h"
+#include "experiments/runner/base/build_info.h"
+#include "experiments/runner/base/files.h"
 #include "experiments/runner/reference/reference_halves.h"
-#include "experiments/runner/run/build_info.h"
-#include "experiments/runner/run/files.h"
+#include "experiments/runner/suite/image_settings.h"
+#include "experiments/runner/suite/picture.h"
 #include "experiments/truths/truths.h"
 
 namespace restlab {
@@ -64,6 +67,31 @@ std::string whyNoTruth(Truth truth, const SceneRequest& request, const PreparedS
   return why.empty() ? ""
                      : fmt::format("{} {} has no exact image {}", name,
                                    withoutRelations(request.scene), why);
+}
+
+PreparedScene plainOf(const Suite& suite, const SuiteScene& scene, const PreparedScene& prepared,
+                      ReferenceConfig& config) {
+  const SceneRequest request = withoutRelations(scene.request);
+  PreparedScene plain = request.scene == scene.request.scene
+                            ? prepared
+                            : atPlace(scene.place, [&] { return prepareScene(request); });
+  if (suite.hasMovingCamera()) {
+    if (isElsewhere(scene.request.scene)) {
+      failUsage(
+          fmt::format("{}: 'truth' of a camera that moves is of a scene without 'scale' and "
+                      "'move': paths are in its metres",
+                      scene.truthPlace));
+    }
+    if (suite.temporal) {
+      failUsage(fmt::format("{}: 'truth' is of one frame, but 'temporal' needs a second reference",
+                            scene.truthPlace));
+    }
+    config.camera = cameraAt(*motionOf(suite, scene, plain), suite.warmupFrames);
+  }
+  plain = sceneAt(lightPhases(suite, plain), plain, suite.warmupFrames);
+  const std::string why = whyNoTruth(scene.truth, scene.request, plain, config);
+  if (!why.empty()) failUsage(fmt::format("{}: {}", scene.truthPlace, why));
+  return plain;
 }
 
 Reference exactReference(const SceneRequest& request, const PreparedScene& plain,

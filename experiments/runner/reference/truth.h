@@ -5,16 +5,11 @@
 #include <string>
 
 #include "experiments/runner/reference/reference.h"
+#include "experiments/runner/suite/suite.h"
 
 namespace restlab {
 
-enum class Truth {
-  rendered,  // from the scene itself, the default
-  exact,     // in closed form (experiments/truths)
-  same,      // from the scene without `scale`, `radiance` and `move`, times its radiance
-};
-
-// Removes these three parameters from the scene of a request.
+// Removes `scale`, `radiance` and `move` from the scene of a request.
 SceneRequest withoutRelations(SceneRequest request);
 // Returns the factor that `radiance` in a scene's name applies to its image; 1 without it.
 double radianceFactor(const std::string& scene);
@@ -27,6 +22,12 @@ bool isElsewhere(const std::string& scene);
 // withoutRelations().
 std::string whyNoTruth(Truth truth, const SceneRequest& request, const PreparedScene& plain,
                        const ReferenceConfig& config);
+
+// Returns the scene without its relations, in the light of the measured frame, for which the truth
+// is known. `prepared`: the scene itself. A moving camera of that frame is set in `config`. Throws
+// Error (badUsage) at the place in the suite if the requested truth is not available for this view.
+PreparedScene plainOf(const Suite& suite, const SuiteScene& scene, const PreparedScene& prepared,
+                      ReferenceConfig& config);
 
 // Returns the exact image as a reference without noise: both halves equal it.
 Reference exactReference(const SceneRequest& request, const PreparedScene& plain,

@@ -6,10 +6,9 @@
 #include "core/frame/cache.h"
 #include "core/frame/denoiser.h"
 #include "core/frame/integrator.h"
+#include "core/frame/method_settings.h"
 #include "core/image/metrics/metrics.h"
-#include "core/radiance_cache/settings.h"
-#include "core/temporal_gradients/settings.h"
-#include "experiments/runner/summary/summary.h"
+#include "experiments/runner/base/bias_name.h"
 
 namespace restlab {
 
@@ -33,17 +32,9 @@ Json parameterJson(const ParameterInfo& parameter) {
 
 namespace {
 
-Json parametersJson(const PartInfo& part) {
+Json parametersJson(const std::vector<ParameterInfo>& all) {
   Json parameters = Json::array();
-  for (const ParameterInfo& parameter : part.parameters)
-    parameters.push_back(parameterJson(parameter));
-  if (!part.followsChanges) return parameters;
-  // Adds the parameters of the part that detects changes, with the defaults that `part` gives them.
-  for (ParameterInfo parameter : changesPartInfo().parameters) {
-    const auto changed = part.defaults.find(parameter.name);
-    if (changed != part.defaults.end()) parameter.defaultValue = changed->second;
-    parameters.push_back(parameterJson(parameter));
-  }
+  for (const ParameterInfo& parameter : all) parameters.push_back(parameterJson(parameter));
   return parameters;
 }
 
@@ -66,16 +57,11 @@ Json integratorsJson() {
     for (const ModeInfo& mode : info->modes) {
       modes.push_back({{"name", mode.name}, {"bias", biasName(mode.bias)}, {"why", mode.why}});
     }
-    Json parameters = parametersJson(*info);
-    if (info->endsPaths) {
-      for (Json& parameter : parametersJson(radiancePartInfo()))
-        parameters.push_back(std::move(parameter));
-    }
     all.push_back({{"name", info->name},
                    {"summary", info->summary},
                    {"uses_cache", info->usesCache},
                    {"modes", modes},
-                   {"parameters", parameters},
+                   {"parameters", parametersJson(parametersOf(*info))},
                    {"layers", layersJson(*info)}});
   }
   return all;
@@ -86,7 +72,7 @@ Json cachesJson() {
   for (const CacheInfo* cache : cacheRegistry()) {
     all.push_back({{"name", cache->name},
                    {"summary", cache->summary},
-                   {"parameters", parametersJson(*cache)},
+                   {"parameters", parametersJson(parametersOf(*cache))},
                    {"layers", layersJson(*cache)}});
   }
   return all;
@@ -113,7 +99,7 @@ Json denoisersJson() {
                    {"bias_still", biasName(denoiser->biasOfStillView)},
                    {"bias_moving", biasName(denoiser->biasOfMovingView)},
                    {"why", denoiser->why},
-                   {"parameters", parametersJson(*denoiser)}});
+                   {"parameters", parametersJson(parametersOf(*denoiser))}});
   }
   for (const MissingDenoiser& missing : missingDenoisers()) {
     all.push_back({{"name", missing.name},

@@ -8,7 +8,7 @@
 #include "core/base/radiance_range.h"
 #include "core/frame/method.h"
 #include "experiments/runner/reference/light_draws.h"
-#include "experiments/runner/summary/report.h"
+#include "experiments/runner/run/block_label.h"
 
 namespace restlab {
 

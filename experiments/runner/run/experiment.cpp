@@ -9,16 +9,17 @@
 #include <thread>
 
 #include "core/backend/stop.h"
-#include "core/image/statistics/halves_noise.h"
-#include "core/image/statistics/intervals.h"
 #include "core/image/metrics/metrics.h"
-#include "experiments/runner/reference/block_masks.h"
-#include "experiments/runner/run/build_info.h"
-#include "experiments/runner/summary/figures.h"
-#include "experiments/runner/run/interrupt.h"
+#include "experiments/runner/base/build_info.h"
+#include "experiments/runner/base/interrupt.h"
+#include "experiments/runner/run/block_masks.h"
+#include "experiments/runner/run/figures.h"
 #include "experiments/runner/run/run_record.h"
-#include "experiments/runner/suite/suite_check.h"
-#include "experiments/runner/summary/temporal.h"
+#include "experiments/runner/run/temporal.h"
+#include "experiments/runner/suite/picture.h"
+#include "experiments/statistics/halves_noise.h"
+#include "experiments/statistics/image_sum.h"
+#include "experiments/statistics/intervals.h"
 
 namespace restlab {
 

@@ -9,10 +9,11 @@
 #include <optional>
 #include <vector>
 
-#include "core/image/statistics/bias_runs.h"
-#include "experiments/runner/summary/accumulate.h"
+#include "experiments/runner/base/health_sum.h"
+#include "experiments/runner/reference/reference.h"
 #include "experiments/runner/suite/backend_choice.h"
 #include "experiments/runner/suite/suite.h"
+#include "experiments/statistics/bias_runs.h"
 
 namespace restlab {
 
@@ -22,7 +23,7 @@ struct FrameError {
   double mse = 0.0;               // against the two halves if the reference has them
   double mseWithoutLights = 0.0;  // over pixels that show no light; NaN if all do
   // Upper bound on the variance that the noise of the halves adds to the MSE of all runs: includes
-  // the image's own noise (core/image/statistics/halves_noise.h). 0 without halves, NaN if not
+  // the image's own noise (experiments/statistics/halves_noise.h). 0 without halves, NaN if not
   // recorded.
   double mseVarianceAtMost = 0.0;
   // For mseWithoutLights, whose mask is not kept: the same upper bound, and the part of the

@@ -5,12 +5,13 @@
 #include <algorithm>
 
 #include "core/base/error.h"
+#include "experiments/runner/base/build_info.h"
+#include "experiments/runner/base/files.h"
+#include "experiments/runner/base/image_file.h"
 #include "experiments/runner/reference/beside_reference.h"
-#include "experiments/runner/run/build_info.h"
-#include "experiments/runner/summary/figures.h"
-#include "experiments/runner/run/files.h"
-#include "experiments/runner/run/image_file.h"
+#include "experiments/runner/run/figures.h"
 #include "experiments/runner/run/run_record.h"
+#include "experiments/runner/suite/image_settings.h"
 
 namespace restlab {
 

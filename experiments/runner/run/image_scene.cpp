@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "core/base/error.h"
+#include "experiments/runner/suite/image_settings.h"
 
 namespace restlab {
 

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "experiments/runner/run/prepare.h"
+#include "experiments/runner/suite/prepare.h"
 
 namespace restlab {
 

@@ -9,12 +9,12 @@
 
 #include "core/base/error.h"
 #include "core/image/io/atomic_file.h"
-#include "experiments/runner/run/build_info.h"
-#include "experiments/runner/summary/figures.h"
-#include "experiments/runner/run/files.h"
-#include "experiments/runner/run/log.h"
+#include "experiments/runner/base/build_info.h"
+#include "experiments/runner/base/files.h"
+#include "experiments/runner/base/log.h"
+#include "experiments/runner/run/figures.h"
 #include "experiments/runner/run/run_record.h"
-#include "experiments/runner/suite/suite_check.h"
+#include "experiments/runner/suite/picture.h"
 
 namespace restlab {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/runner/run/build_info.h"
+#include "experiments/runner/base/build_info.h"
 #include "experiments/runner/run/experiment.h"
 
 namespace restlab {

@@ -6,8 +6,9 @@
 
 #include "core/frame/method_settings.h"
 #include "core/scene/scene.h"
-#include "experiments/runner/run/build_info.h"
-#include "experiments/runner/run/files.h"
+#include "experiments/runner/base/build_info.h"
+#include "experiments/runner/base/files.h"
+#include "experiments/runner/suite/image_settings.h"
 
 namespace restlab {
 

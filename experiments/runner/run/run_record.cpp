@@ -6,8 +6,11 @@
 #include <stdexcept>
 
 #include "core/frame/method_settings.h"
-#include "core/image/statistics/intervals.h"
-#include "experiments/runner/run/build_info.h"
+#include "experiments/runner/base/build_info.h"
+#include "experiments/runner/base/health_sum.h"
+#include "experiments/runner/base/json_number.h"
+#include "experiments/runner/suite/image_settings.h"
+#include "experiments/statistics/intervals.h"
 
 namespace restlab {
 
@@ -163,21 +166,6 @@ Health healthOf(const Json& json) {
 }
 
 }  // namespace
-
-Json finiteJson(double value) {
-  if (std::isnan(value)) return "nan";
-  if (std::isinf(value)) return value > 0.0 ? "inf" : "-inf";
-  return value;
-}
-
-double finiteNumber(const Json& value) {
-  if (value.is_number()) return value.get<double>();
-  const std::string text = value.get<std::string>();
-  if (text == "nan") return std::numeric_limits<double>::quiet_NaN();
-  if (text == "inf") return std::numeric_limits<double>::infinity();
-  if (text == "-inf") return -std::numeric_limits<double>::infinity();
-  throw std::invalid_argument("'" + text + "' is no number");
-}
 
 Json imageLine(const Suite& suite, const BlockResult& block, const RunResult& run,
                const std::string& file, const std::string& job, const std::string& startedUtc) {

@@ -12,10 +12,6 @@ namespace restlab {
 // Version of the lines of results.jsonl; raised if a field changes its meaning.
 constexpr int kResultsSchema = 3;
 
-// Writes NaN and infinity, which JSON does not have, as "nan", "inf", "-inf".
-nlohmann::ordered_json finiteJson(double value);
-double finiteNumber(const nlohmann::ordered_json& value);
-
 // Returns one line per age of a finished run, one per number of accumulated frames, and a last one
 // of kind "run" with everything else. `job`: key of the job.
 std::vector<nlohmann::ordered_json> runLines(const Suite& suite, const BlockResult& block,

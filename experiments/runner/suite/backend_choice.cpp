@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "experiments/runner/run/log.h"
+#include "experiments/runner/base/log.h"
 
 namespace restlab {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/config.h"
-#include "experiments/runner/run/prepare.h"
+#include "experiments/runner/suite/prepare.h"
 
 namespace restlab {
 

@@ -10,13 +10,14 @@
 #include "core/base/error.h"
 #include "core/frame/method.h"
 #include "core/radiance_cache/settings.h"
+#include "experiments/runner/base/files.h"
 #include "experiments/runner/suite/backend_choice.h"
-#include "experiments/runner/run/files.h"
+#include "experiments/runner/suite/image_settings.h"
+#include "experiments/runner/suite/scene_parameter.h"
+#include "experiments/runner/suite/suite_baseline.h"
 #include "experiments/runner/suite/suite_methods.h"
 #include "experiments/runner/suite/suite_overrides.h"
 #include "experiments/runner/suite/suite_settings.h"
-#include "experiments/runner/suite/suite_baseline.h"
-#include "experiments/runner/suite/scene_parameter.h"
 #include "experiments/runner/suite/sweep.h"
 
 namespace restlab {

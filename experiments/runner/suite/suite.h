@@ -9,10 +9,9 @@
 
 #include "core/image/metrics/mask.h"
 #include "core/scene/camera_path/camera_path.h"
-#include "experiments/runner/run/prepare.h"
-#include "experiments/runner/reference/reference.h"
-#include "experiments/runner/reference/truth.h"
 #include "experiments/runner/suite/light_events.h"
+#include "experiments/runner/suite/prepare.h"
+#include "experiments/runner/suite/reference_target.h"
 
 namespace restlab {
 
@@ -111,7 +110,7 @@ struct Suite {
   double holdsWithin = 0.01;         // tolerance of energy ratios around 1 in a sweep of scenes
   bool failOnNonfinite = false;      // end with an error after a value that is not finite
   bool failOnEnergy = false;         // end with an error if an energy is far off
-                                     // (summary/scene_sweep.h)
+                                     // (tables/scene_sweep.h)
   std::vector<SuiteMask> masks;
   std::vector<SuitePath> paths;  // the first is "still"
   CameraPath cameraPath;         // applied to every scene, relative to its camera

@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/image/metrics/metrics.h"
 #include "experiments/runner/suite/backend_choice.h"
+#include "experiments/runner/suite/image_settings.h"
 
 namespace restlab {
 

@@ -8,7 +8,6 @@
 #include <set>
 
 #include "core/base/error.h"
-#include "core/frame/method.h"
 #include "core/frame/method_settings.h"
 
 namespace restlab {
@@ -78,17 +77,8 @@ const std::vector<std::string>& methodKeys() {
 
 std::vector<std::string> methodKeys(const std::string& integrator, const std::string& denoiser) {
   std::vector<std::string> names = methodKeys();
-  const auto add = [&](const PartInfo& part, const std::string& chosen) {
-    if (part.name != chosen) return;
-    for (const ParameterInfo& parameter : part.parameters) names.push_back(parameter.name);
-  };
-  for (const IntegratorInfo* info : integratorRegistry()) add(*info, integrator);
-  const bool usesCache = std::any_of(
-      integratorRegistry().begin(), integratorRegistry().end(),
-      [&](const IntegratorInfo* info) { return info->name == integrator && info->usesCache; });
-  // Parameters of every cache, because the cache may be swept too.
-  for (const CacheInfo* info : cacheRegistry()) add(*info, usesCache ? info->name : "");
-  for (const DenoiserInfo* info : denoiserRegistry()) add(*info, denoiser);
+  // With any cache, because the cache may be swept too.
+  for (std::string& name : parameterNames(integrator, denoiser)) names.push_back(std::move(name));
   return names;
 }
 
