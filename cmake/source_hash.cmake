@@ -22,7 +22,7 @@ endfunction()
 hash_of(SOURCE_HASH core/* integrators/* denoise/*)
 hash_of(REFERENCE_HASH core/* integrators/path/*)
 # What a run's numbers go through before they are in a job.
-set(measuring runner/base/health_sum runner/reference/reference_error runner/run/block_masks runner/run/experiment
+set(measuring runner/base/health_sum runner/base/json_number runner/reference/reference_error runner/run/block_masks runner/run/experiment
     runner/run/figures runner/run/image_rows runner/run/light_mask runner/run/object_mask runner/run/run_record
     runner/run/temporal runner/suite/light_events statistics/half_products statistics/halves_noise
     statistics/image_sum statistics/intervals)

@@ -241,10 +241,13 @@ BackendInfo cpuBackendInfo() {
 
 bool hasFeatures(const std::string& kernel) {
   const rl::CpuKernelTable table = rl::cpuKernelTable();
-  const auto isOfKernel = [&](const rl::CpuKernelInfo& row) {
-    return row.name == kernel && std::strcmp(row.trace, "embree") == 0;
+  const auto rowsOf = [&](const std::string& name) {
+    return std::count_if(table.rows, table.rows + table.count, [&](const rl::CpuKernelInfo& row) {
+      return row.name == name && std::strcmp(row.trace, "embree") == 0;
+    });
   };
-  return std::count_if(table.rows, table.rows + table.count, isOfKernel) > 1;
+  // A build without masks has one row for every kernel: each may need any feature there.
+  return rowsOf(kernel) > 1 || rowsOf("visible") == 1;
 }
 
 }  // namespace restlab

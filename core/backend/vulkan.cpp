@@ -47,7 +47,7 @@ struct Slot {
   std::chrono::steady_clock::time_point started;
 };
 
-constexpr size_t kInputBytes = 64 * 1024;
+constexpr size_t kInputBytes = 128 * 1024;
 constexpr size_t kCounterBytes = 64 * 1024;
 constexpr size_t kPassOffset = 256;
 constexpr size_t kPassBytes = 2048;  // addresses, then parameters

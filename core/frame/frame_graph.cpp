@@ -32,6 +32,7 @@ GraphPass& GraphPass::updates(std::initializer_list<Buffer> buffers) {
 }
 
 GraphPass& GraphPass::over(size_t elements) {
+  if (elements == 0) failUsage(fmt::format("pass {}: runs over no element", name));
   entries = static_cast<uint32_t>(elements);
   return *this;
 }
@@ -49,6 +50,10 @@ Buffer GraphPass::bound(size_t slot) const {
 }
 
 GraphPass& Kernels::pass(const std::string& name, const std::string& kernel) const {
+  for (const GraphPass& other : graph_.passes_) {
+    if (other.name == name)
+      failUsage(fmt::format("pass {}: {} has one of that name, too", name, other.part));
+  }
   GraphPass& pass = graph_.passes_.emplace_back();
   pass.name = name;
   pass.part = graph_.part_;
@@ -61,6 +66,7 @@ GraphPass& Kernels::pass(const std::string& name, const std::string& kernel) con
 void FrameGraph::record(const std::vector<const PartInfo*>& parts, FrameInfo frame) {
   passes_.clear();
   shared = {};
+  isDeclared_.assign(buffers_.size(), false);
   for (const PartInfo* part : parts)
     frame.wantsEffectiveSamples = frame.wantsEffectiveSamples || part->readsEffectiveSamples;
   for (const PartInfo* part : parts) {
@@ -73,15 +79,20 @@ void FrameGraph::record(const std::vector<const PartInfo*>& parts, FrameInfo fra
 Buffer FrameGraph::declare(const GraphBuffer& wanted) {
   if (wanted.count == 0) return {};
   const auto [at, isNew] = byName_.try_emplace(wanted.name, static_cast<uint32_t>(buffers_.size()));
+  const uint32_t index = at->second;
   if (isNew) {
     buffers_.push_back(wanted);
     buffers_.back().part = part_;
     isSwapped_.push_back(false);
-  } else if (buffers_[at->second].part != part_ || buffers_[at->second].bytes() != wanted.bytes()) {
-    failUsage(fmt::format("{}: buffer '{}' is declared twice, by {} too", part_, wanted.name,
-                          buffers_[at->second].part));
+    isDeclared_.push_back(false);
   }
-  return {at->second};
+  const GraphBuffer& known = buffers_[index];
+  if (isDeclared_[index])
+    failUsage(fmt::format("{}: buffer '{}' is declared twice", part_, wanted.name));
+  if (known.part != part_ || known.bytes() != wanted.bytes() || known.features != wanted.features)
+    failUsage(fmt::format("{}: buffer '{}' changes between frames", part_, wanted.name));
+  isDeclared_[index] = true;
+  return {index};
 }
 
 Buffer FrameGraph::buffer(const std::string& name, size_t count, uint32_t elementBytes,

@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/frame/part.h"
@@ -82,7 +83,7 @@ struct GraphPass {
   GraphPass& writes(std::initializer_list<Buffer> buffers);
   // Writes that depend on what was there, or leave some of it.
   GraphPass& updates(std::initializer_list<Buffer> buffers);
-  // Runs over elements instead of pixels (RL_ENTRY_ROW).
+  // Runs over this many elements, at least one, instead of over pixels (RL_ENTRY_ROW).
   GraphPass& over(size_t elements);
   GraphPass& replays();
 
@@ -115,7 +116,7 @@ class FrameGraph {
 
   // Records a frame of the parts, in order, after forgetting the passes of the frame before.
   // Buffers stay; histories keep their turn. Parts whose condition is not met record nothing. Sets
-  // what the parts want of each other in `frame`.
+  // frame.wantsEffectiveSamples if a part reads them.
   void record(const std::vector<const PartInfo*>& parts, FrameInfo frame);
 
   // Declares a buffer, zero at first; the same one in every frame. Not there if `count` is 0. Its
@@ -153,7 +154,9 @@ class FrameGraph {
 
   std::vector<GraphBuffer> buffers_;
   std::map<std::string, uint32_t> byName_;
-  std::vector<bool> isSwapped_;  // by buffer: the first of a history whose turn is odd
+  std::vector<bool> isDeclared_;  // by buffer: in the frame that is recorded
+  // By buffer: it is the first of a history, whose second is `now`.
+  std::vector<bool> isSwapped_;
   std::vector<GraphPass> passes_;
   std::string part_;  // that records
 };

@@ -20,8 +20,8 @@ float number(uint32_t word) { return std::bit_cast<float>(word); }
 Image filterOnHost(const HostFilter& filter, const std::string& name, Pipeline& pipeline,
                    uint32_t width, uint32_t height, FrameStats& stats) {
   const auto start = std::chrono::steady_clock::now();
-  const std::vector<uint32_t> radiance = pipeline.words("radiance");
-  const std::vector<uint32_t> guides = pipeline.words("guide");
+  const std::vector<uint32_t> radiance = pipeline.words(pipeline.graph().shared.radiance);
+  const std::vector<uint32_t> guides = pipeline.words(pipeline.graph().shared.features.now);
   HostFrame frame = {Image(width, height), Image(width, height), Image(width, height)};
   const size_t pixels = frame.radiance.pixels.size();
   std::memcpy(frame.radiance.pixels.data(), radiance.data(), pixels * sizeof(glm::vec3));

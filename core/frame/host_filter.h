@@ -26,7 +26,7 @@ using HostFilter = std::function<Image(const HostFrame&)>;
 // filter's own memory is not included.
 constexpr size_t kHostFilterBytesPerPixel = 5 * sizeof(glm::vec3) + 32;
 
-// Runs the filter on the buffers "radiance" and "guide" of the frame that was collected last.
+// Runs the filter on the radiance and the features of the frame that was collected last.
 // Lights and the background are shown unfiltered. Adds a pass of that name to `stats`, with the
 // time including copies, and counts non-finite pixels.
 Image filterOnHost(const HostFilter& filter, const std::string& name, Pipeline& pipeline,

@@ -37,7 +37,7 @@ void recordLayers(FrameGraph& g, const FrameInfo& f) {
        rl::LayersParams{demodulates ? 1u : 0u},
        {layer[0], layer[1], layer[2], layer[3], layer[4], features.now, features.before, motion})
       .pass("layers", "layers")
-      .reads({layer[0], layer[1], layer[2], layer[3], layer[4]})
+      .reads({layer[1], layer[2], layer[3], layer[4]})
       .writes({features.now, motion});
   g.shared.radiance = layer[0];
   g.shared.features = features;

@@ -41,6 +41,8 @@ Pipeline::Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const s
       wanted_(wanted),
       pixels_(pixels),
       graph_(recorded(parameters, pixels)) {
+  if (!graph_.shared.radiance)
+    failUsage(fmt::format("{}: its frame leaves no radiance (FrameBuffers)", parts_.back()->name));
   for (const GraphPass& pass : graph_.passes()) {
     columns_.push_back({pass.name, pass.isReplay});
     if (hasFeatures(pass.kernel)) used_ |= maskOf(pass.kernel);
@@ -54,8 +56,8 @@ FrameGraph Pipeline::recorded(const ParameterMap& parameters, size_t pixels) con
   return graph;
 }
 
-// All buffers are allocated that the kernels in use can touch, so that a kernel of more features
-// than the scene has never meets a null.
+// Allocates every buffer that the kernels in use can touch, so that a kernel compiled for more
+// features than the scene has meets no null.
 bool Pipeline::isUsed(const GraphBuffer& buffer) const {
   return buffer.features == 0 || (buffer.features & used_) != 0;
 }
@@ -66,7 +68,7 @@ size_t Pipeline::bytesOf(Buffer buffer) const {
   return isUsed(info) ? info.bytes() : 0;
 }
 
-bool Pipeline::setParameters(const std::string& mode, const ParameterMap& parameters) {
+bool Pipeline::setParameters(const ParameterMap& parameters, StartupReport& report) {
   const FrameGraph changed = recorded(parameters, pixels_);
   const auto isSame = [](const GraphBuffer& a, const GraphBuffer& b) {
     return a.name == b.name && a.bytes() == b.bytes();
@@ -74,10 +76,16 @@ bool Pipeline::setParameters(const std::string& mode, const ParameterMap& parame
   if (!std::equal(changed.buffers().begin(), changed.buffers().end(), graph_.buffers().begin(),
                   graph_.buffers().end(), isSame))
     return false;
-  mode_ = mode;
+  for (const GraphPass& pass : changed.passes()) {
+    const bool needsMore = hasFeatures(pass.kernel) && (maskOf(pass.kernel) & ~used_) != 0;
+    if (needsMore) return false;
+  }
   parameters_ = parameters;
   columns_.clear();
-  for (const GraphPass& pass : changed.passes()) columns_.push_back({pass.name, pass.isReplay});
+  for (const GraphPass& pass : changed.passes()) {
+    columns_.push_back({pass.name, pass.isReplay});
+    backend_.prepare(runOf(pass), report);
+  }
   return true;
 }
 
@@ -87,12 +95,13 @@ std::span<const std::byte> Pipeline::paramsOf(const PartInfo& part) const {
   return {};
 }
 
-std::vector<uint32_t> Pipeline::words(const std::string& buffer) {
-  const BufferId id = this->buffer(buffer);
-  const size_t bytes = id == kNoBuffer ? 0 : bytesOf(graph_.find(buffer));
-  MemoryGuard().take(fmt::format("a copy of buffer {}", buffer), bytes);
-  std::vector<uint32_t> all(bytes / sizeof(uint32_t));
-  if (bytes > 0) backend_.read(id, all.data(), bytes);
+std::vector<uint32_t> Pipeline::words(Buffer buffer) {
+  const BufferId id = idOf(buffer);
+  if (id == kNoBuffer) return {};
+  const GraphBuffer& info = graph_.buffers()[buffer.index];
+  MemoryGuard().take(fmt::format("a copy of buffer {}", info.name), info.bytes());
+  std::vector<uint32_t> all(info.bytes() / sizeof(uint32_t));
+  backend_.read(id, all.data(), info.bytes());
   return all;
 }
 
@@ -131,7 +140,8 @@ std::vector<float> Pipeline::layer(const LayerInfo& info, const ShownFrame& show
     const std::vector<LayerInfo>& own = part->layers;
     if (std::none_of(own.begin(), own.end(), [&](const LayerInfo& one) { return &one == &info; }))
       continue;
-    const auto value = info.values(copies.kept(shown, paramsOf(*part)));
+    const FrameSnapshot kept = copies.kept(shown, paramsOf(*part));
+    const auto value = info.values(kept);
     for (size_t pixel = 0; pixel < pixels_; ++pixel) all[pixel] = value(pixel);
   }
   return all;
@@ -210,6 +220,9 @@ PassRun Pipeline::runOf(const GraphPass& pass) {
 
 std::vector<PassRun> Pipeline::beginFrame(bool isNewView) {
   graph_.record(parts_, {mode_, parameters_, pixels_, isNewView});
+  if (graph_.buffers().size() != ids_.size())
+    failUsage(
+        fmt::format("buffer {}: a frame of a new view lacks it", graph_.buffers().back().name));
   Ran ran = {columns_, std::vector<bool>(columns_.size(), false)};
   std::vector<PassRun> runs;
   size_t column = 0;
@@ -219,7 +232,7 @@ std::vector<PassRun> Pipeline::beginFrame(bool isNewView) {
     while (column < columns_.size() && columns_[column].name != pass.name) ++column;
     if (column == columns_.size())
       failUsage(fmt::format("pass {}: a frame of a new view lacks it", pass.name));
-    ran.hasRun[column] = true;
+    ran.hasRun[column++] = true;
   }
   ran_.push_back(std::move(ran));
   return runs;

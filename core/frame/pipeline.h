@@ -28,9 +28,9 @@ class Pipeline {
            const ParameterMap& parameters, uint32_t wanted, size_t pixels);
 
   uint32_t featuresUsed() const { return used_; }
-  // Bytes per pixel of the allocated buffers (those that the kernels in use can touch). Each is
-  // rounded up, and so is their sum, which may be less than the sum of the rounded ones.
+  // Bytes per pixel of each allocated buffer (one that the kernels in use can touch), rounded up.
   std::vector<std::pair<std::string, size_t>> bufferBytesPerPixel() const;
+  // Their sum, rounded up once: it may be less than the sum of the rounded ones.
   size_t bytesPerPixel() const { return bytesPerPixelOf(pixels_); }
   // Bytes per pixel for an image of another size: buffers of fixed size are shared by more or fewer
   // pixels.
@@ -40,9 +40,9 @@ class Pipeline {
   // Bytes of a buffer of the graph; 0: not allocated, as no kernel in use touches it.
   size_t bytesOf(Buffer buffer) const;
 
-  // Sets other parameters of the same mode. Returns false, and does nothing, if buffers would
-  // change their size.
-  bool setParameters(const std::string& mode, const ParameterMap& parameters);
+  // Sets other parameters of the same mode, and makes passes ready that were left out before.
+  // Returns false, and does nothing, if buffers would change their size or kernels need others.
+  bool setParameters(const ParameterMap& parameters, StartupReport& report);
   // Values that the parts keep for a pixel: layers and other values.
   std::vector<ProbeValue> probe(size_t pixel, const ShownFrame& shown);
   std::vector<Donor> donors(size_t pixel, const ShownFrame& shown);
@@ -76,8 +76,9 @@ class Pipeline {
   BufferId shown() const;
   // Finds a buffer by name, to write data that no pass produces; kNoBuffer if it is not allocated.
   BufferId buffer(const std::string& name) const;
-  // Reads a buffer by name; empty if it is not allocated.
-  std::vector<uint32_t> words(const std::string& buffer);
+  // Reads a buffer; empty if it is not allocated.
+  std::vector<uint32_t> words(Buffer buffer);
+  std::vector<uint32_t> words(const std::string& buffer) { return words(graph_.find(buffer)); }
 
  private:
   FrameGraph recorded(const ParameterMap& parameters, size_t pixels) const;

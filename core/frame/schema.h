@@ -7,6 +7,7 @@
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "core/frame/part.h"
@@ -27,27 +28,17 @@ class Parameter {
   template <class T>
   Parameter(T Settings::*member, const char* name, Range range, const char* help,
             const char* source)
-      : Parameter(member, name, help, source) {
+      : Parameter(Base{}, member, name, help, source) {
     info_.minValue = range.lo;
     info_.maxValue = range.hi;
   }
   Parameter(std::string Settings::*member, const char* name, Choices choices, const char* help,
             const char* source)
-      : Parameter(member, name, help, source) {
+      : Parameter(Base{}, member, name, help, source) {
     info_.choices = std::move(choices);
   }
-  template <class T>
-  Parameter(T Settings::*member, const char* name, const char* help, const char* source)
-      : set_([member](Settings& settings, const ParameterValue& value) {
-          settings.*member = static_cast<T>(std::get<Stored<T>>(value));
-        }),
-        get_([member](const Settings& settings) -> ParameterValue {
-          return static_cast<Stored<T>>(settings.*member);
-        }) {
-    info_.name = name;
-    info_.help = help;
-    info_.source = source;
-  }
+  Parameter(bool Settings::*member, const char* name, const char* help, const char* source)
+      : Parameter(Base{}, member, name, help, source) {}
 
   // A change of the value begins a new history: the old one holds light of the old value.
   Parameter beginsHistory() const {
@@ -71,6 +62,20 @@ class Parameter {
   void read(Settings& settings, const ParameterValue& value) const { set_(settings, value); }
 
  private:
+  struct Base {};  // tells the constructor below from the others
+  template <class T>
+  Parameter(Base, T Settings::*member, const char* name, const char* help, const char* source)
+      : set_([member](Settings& settings, const ParameterValue& value) {
+          settings.*member = static_cast<T>(std::get<Stored<T>>(value));
+        }),
+        get_([member](const Settings& settings) -> ParameterValue {
+          return static_cast<Stored<T>>(settings.*member);
+        }) {
+    info_.name = name;
+    info_.help = help;
+    info_.source = source;
+  }
+
   template <class T>
   using Stored = std::conditional_t<std::is_same_v<T, uint32_t>, int64_t, T>;
 

@@ -335,7 +335,7 @@ bool Session::setParameters(const ParameterMap& parameters) {
   const bool beginsHistory = std::any_of(infos.begin(), infos.end(), [&](const ParameterInfo& p) {
     return p.beginsHistory && changed.parameters.at(p.name) != m.config.parameters.at(p.name);
   });
-  if (!beginsHistory && m.pipeline->setParameters(changed.mode, changed.parameters)) {
+  if (!beginsHistory && m.pipeline->setParameters(changed.parameters, m.startup)) {
     m.beforeFrame.reset();
     m.config = changed;
     m.useParameters();
@@ -377,7 +377,8 @@ size_t Session::Impl::pixelAt(uint32_t x, uint32_t y) const {
 
 std::vector<ProbeValue> Session::probe(uint32_t x, uint32_t y) const {
   Impl& m = *impl_;
-  return m.pipeline->probe(m.pixelAt(x, y), m.shown());
+  const size_t pixel = m.pixelAt(x, y);
+  return m.isFirstFrame ? std::vector<ProbeValue>{} : m.pipeline->probe(pixel, m.shown());
 }
 
 std::vector<Donor> Session::donors(uint32_t x, uint32_t y) const {

@@ -3,14 +3,14 @@
 //
 // The includer defines RL_REUSE_STATE, a struct, and before the #include the functions below, which
 // get it. Each must return the same result on every call:
-//   bool reuseDonor(state, k, out ReservoirState)  the k-th donor, with the confidence that it
-//       enters with; false: there is none
-//   Shifted reuseCanonicalAtNeighbour(state, k)    the canonical sample shifted to that donor
-//   Shifted reuseNeighbourAtCanonical(state, k)  that donor's sample shifted to the canonical
-//   domain real3 reuseRatio(state, k)     expected integrand here over that at the donor, known
-//   without
-//       samples: scales the estimates that donors carry
-//   real reuseUniform(state, k)    a number in [0, 1)
+// - bool reuseDonor(state, k, out ReservoirState): the k-th donor, with the confidence that it
+//   enters with; false: there is none
+// - Shifted reuseCanonicalAtNeighbour(state, k): the canonical sample shifted to that donor
+// - Shifted reuseNeighbourAtCanonical(state, k): that donor's sample shifted to the canonical
+//   domain
+// - real3 reuseRatio(state, k): expected integrand here over that at the donor, known without
+//   samples: scales the estimates that donors carry
+// - real reuseUniform(state, k): a number in [0, 1)
 
 // Merges `count` donors. `r` becomes the state of the selected sample. `winner` is the donor that
 // the sample came from, RL_INVALID if the canonical sample stays; `jacobian` is that of the

@@ -1,10 +1,10 @@
 // cache_reuse, a pass of caches in world space, in frames of a new view: merges samples of
 // entries into the pixel's reservoir. An entry's sample is a path from its shading point alone;
 // here it gets a film sample, drawn for this one merge. Both samples then have one domain, film
-// times paths, and the shift between them keeps the film sample. MIS weights depend on the shading
-// point, and the shading point's position depends on the film samples of the pixel that began the
-// entry: that pixel does not use it. (The film sample may travel to others by reuse.
-// docs/decisions/reservoirs-of-entries.md says what is left.)
+// times paths, and the shift between them keeps the film sample. The shading point depends on the
+// film sample of the pixel that began the entry. If that pixel used the entry, its MIS weights
+// would depend on its own film sample; so it does not. (The film sample may travel by reuse:
+// docs/decisions/reservoirs-of-entries.md.)
 #include "core/caches/entries/surface.glsl"
 #include "core/reuse/reservoir_store.glsl"
 #include "core/reuse/reflectance_ratio.glsl"

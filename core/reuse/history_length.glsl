@@ -10,7 +10,7 @@ RL_FN float historyAge() {
 
 // Number of frames that the radiance of a reservoir averages, this one included. A part of its
 // confidence comes from the same pixel in the last frame, at most the cap of a temporal donor. The
-// rest is new, or comes from other pixels. An average that renews a share s of itself is one over
+// rest is new, or comes from other pixels. An average that renews a share s of itself averages
 // 1 / s frames.
 RL_FN float effectiveSamples(float confidence) {
   if (!(confidence > 1.0f)) return 1.0f;

@@ -1,4 +1,4 @@
-// Number of spatial donors. Independent of samples: any number is unbiased.
+// Number of spatial donors. The number depends on no sample, so any number is unbiased.
 #include "core/reuse/history_length.glsl"
 
 RL_FN bool hasShortHistory() { return gFrame.stillFrames < gParams.reuse.longHistoryFrames; }

@@ -38,24 +38,31 @@ void recordReuse(FrameGraph& g, const FrameInfo& f, const ReusedSample& sample,
         .reads({s.surfaces.now})
         .writes({unresampled.now});
   }
-  // In a still view this pass merges the history, too, and leaves candidates for entries in it.
   GraphPass& initial = kernels.pass("initial", sample.method + "_initial")
-                           .reads({unresampled.before, history, suffixHistory, s.changes,
-                                   s.cellKeys, s.cellPlaces, s.cellLight})
+                           .reads({s.cellKeys, s.cellPlaces, s.cellLight})
                            .writes({reservoirs, suffixes})
                            .updates({unresampled.now, s.cellRays});
+  // In a still view this pass merges the history, too.
+  if (!f.isNewView) initial.reads({unresampled.before, history, suffixHistory, s.changes});
   if (hasEntries) {
-    initial.updates({history, suffixHistory});
-    kernels.pass("cache_update", sample.method + "_cache_update")
-        .over(entries.count)
-        .reads(
-            {s.surfaces.now, s.insertions, s.changes, reservoirs, suffixes, history, suffixHistory})
-        .updates({s.shadingPoints, entryReservoirs, entrySuffixes});
+    // Candidates of a still view stand in the history's place.
+    if (!f.isNewView) initial.updates({history, suffixHistory});
+    GraphPass& update = kernels.pass("cache_update", sample.method + "_cache_update")
+                            .over(entries.count)
+                            .reads({s.surfaces.now, s.insertions, s.changes})
+                            .updates({s.shadingPoints, entryReservoirs, entrySuffixes});
+    if (f.isNewView) {
+      update.reads({reservoirs, suffixes});
+    } else {
+      update.reads({history, suffixHistory});
+    }
   }
   if (f.isNewView && isTemporal) {
-    kernels.pass("temporal", sample.method + "_temporal")
-        .reads({s.surfaces.now, s.surfaces.before, s.changes, history, suffixHistory})
-        .updates({reservoirs, suffixes});
+    if (reuse.reproject != 0) {
+      kernels.pass("temporal", sample.method + "_temporal")
+          .reads({s.surfaces.now, s.surfaces.before, s.changes, history, suffixHistory})
+          .updates({reservoirs, suffixes});
+    }
     if (hasEntries) {
       kernels.pass("cache_reuse", sample.method + "_cache_reuse")
           .reads({s.surfaces.now, s.proposals, s.shadingPoints, s.changes, entryReservoirs,

@@ -54,8 +54,8 @@ RL_FN void entryReservoirWrite(uint entry, RL_IN(RL_RESERVOIR) r) {
 
 // Reads the candidate of a pixel for its entry: the sample that it found in this frame alone.
 // Before the temporal pass that is the pixel's reservoir. In a still view the initial pass has
-// merged the history already: the candidate then takes the history's place, which the spatial pass
-// fills again.
+// merged the history already: it leaves the candidate in the history's place, which the spatial
+// pass fills again.
 RL_FN void candidateRead(uint pixelIndex, RL_INOUT(RL_RESERVOIR) r) {
   if (gFrame.stillFrames == 0u) {
     reservoirReadNow(pixelIndex, r);

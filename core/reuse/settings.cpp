@@ -43,8 +43,8 @@ const Schema<ReuseSettings>& schema() {
           "measured: docs/decisions/moving-confidence-cap.md"),
       Parameter<ReuseSettings>(
           &ReuseSettings::spatialNeighbours, "spatial_neighbours", Range{0, rl::RL_MAX_DONORS},
-          "donors of the spatial pass while the view is new: it moves, or was still for "
-          "young_frames",
+          "donors of the spatial pass while the history is young: the view moves, or has been "
+          "still for fewer frames than young_frames",
           "each costs a shift, two rays a pixel; measured: docs/decisions/donors-by-age.md"),
       Parameter<ReuseSettings>(
           &ReuseSettings::neighboursLongHistory, "aged_neighbours", Range{0, rl::RL_MAX_DONORS},
@@ -61,8 +61,7 @@ const Schema<ReuseSettings>& schema() {
       Parameter<ReuseSettings>(
           &ReuseSettings::lightEdgeSamples, "light_edge_samples", Range{0, 64},
           "camera rays through pixels where a lamp in view ends, in frames of a new view; 0: none "
-          "but "
-          "the path's",
+          "but the path's",
           "core/transport/lights_in_view.glsl; measured: docs/decisions/light-edge-samples.md"),
       Parameter<ReuseSettings>(&ReuseSettings::temporal, "temporal", "temporal reuse",
                                "Ouyang et al. 2021"),
@@ -79,9 +78,7 @@ const Schema<ReuseSettings>& schema() {
       Parameter<ReuseSettings>(
           &ReuseSettings::shading, "shading", Choices{"winner", "decoupled", "control_variate"},
           "what is shown: the selected sample, the weighted sum of all inputs, or that sum with "
-          "the "
-          "inputs' "
-          "per-channel estimates carried along",
+          "the inputs' per-channel estimates carried along",
           "decoupled: Wyman and Panteleev 2021; control variate: core/resampling/merge.glsl"),
       Parameter<ReuseSettings>(
           &ReuseSettings::mis, "mis", Choices{"pairwise", "defensive", "confidence"},

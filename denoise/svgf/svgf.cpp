@@ -115,7 +115,7 @@ void recordSvgf(FrameGraph& g, const FrameInfo& f) {
       .writes({history.now});
   kernels()
       .pass("svgf_variance", "svgf_variance")
-      .reads({history.now, features, s.motion, s.effectiveSamples})
+      .reads({history.now, features, s.effectiveSamples})
       .writes({around, even});
   for (params.step = 0; params.step < params.iterations; ++params.step) {
     const bool isEven = params.step % 2 == 0;

@@ -16,6 +16,7 @@
 #include "experiments/cli/verbs.h"
 #include "experiments/report/graph_svg.h"
 #include "experiments/report/text.h"
+#include "experiments/runner/base/log.h"
 #include "experiments/runner/base/print.h"
 #include "experiments/runner/tables/markdown_table.h"
 
@@ -199,6 +200,7 @@ void graph(GraphOptions& options) {
     checkOutputs({{"-o", options.output, ".svg"}}, options.scene.request);
   SessionConfig config = makeConfig(options.scene, options.method);
   const PreparedScene prepared = prepareScene(options.scene.request);
+  printWarnings(prepared);
   completeConfig(prepared, config);
   const MeasuredFrames frames = measure(prepared, config);
   if (options.json) {
@@ -206,6 +208,8 @@ void graph(GraphOptions& options) {
   } else {
     printText(frames);
   }
+  if (findMethod(config).denoiser->onHost)
+    logInfo(fmt::format("denoiser {} runs on the host after these passes", config.denoiser));
   if (options.output.empty()) return;
   const Method method = findMethod(config);
   std::string title = config.integrator;
@@ -232,6 +236,7 @@ Action addGraphVerb(CLI::App& app) {
   verb->add_option("-o,--output", options->output, "an .svg file");
   verb->add_flag("--json", options->json, "JSON on stdout");
   addMethodOptions(*verb, options->method);
+  verb->remove_option(verb->get_option("--integrator"));
   return [options](Outcome&) { graph(*options); };
 }
 

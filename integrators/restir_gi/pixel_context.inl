@@ -11,7 +11,7 @@ const RestirGiParams& gParams;
 #include "core/dialect/order.glsl"
 #include "core/backend/cpu_trace.inl"
 
-// Returns the reservoir of a pixel after the frame, with its suffix.
+// Returns the reservoir of a pixel as the spatial pass found it, with its suffix.
 PathReservoir reservoirOf(uint pixelIndex) {
   PathReservoir r;
   r.path.suffix = pathNoSuffix();

@@ -6,9 +6,7 @@
 #include "core/backend/alpha_filter.h"
 #include "core/backend/cpu_kernel.h"
 #include "core/backend/embree.h"
-#include "core/caches/entries/settings.h"
 #include "core/scene/compiled/compiled_scene.h"
-#include "core/temporal_gradients/settings.h"
 #include "integrators/restir_gi/kept_params.h"
 #include "integrators/restir_gi/restir_gi.h"
 

@@ -1,5 +1,5 @@
-// The sample of restir_gi: a film sample, and a path that reconnects at x2 or at its light. These
-// functions are all that the passes of core/reuse ask of it (core/reuse/README.md).
+// The sample of restir_gi: a film sample, and a path that reconnects at x2 or at its light. The
+// passes of core/reuse ask for these functions, and the initial pass for those of candidate.glsl.
 #include "core/resampling/ris.glsl"
 #include "core/resampling/mis.glsl"
 #include "core/resampling/shift.glsl"

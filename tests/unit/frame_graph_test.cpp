@@ -93,6 +93,18 @@ TEST(FrameGraph, MistakesOfARecordingAreNamed) {
         g.buffer("twice", 1, 8);
       },
       "'twice' is declared twice");
+  expectRefused(
+      [](FrameGraph& g) {
+        const Kernels kernels = g.kernels<TwoBuffers>(uint32_t{0}, {Buffer{}, Buffer{}});
+        kernels.pass("blur", "kernel");
+        kernels.pass("blur", "kernel");
+      },
+      "pass blur");
+  expectRefused(
+      [](FrameGraph& g) {
+        g.kernels<TwoBuffers>(uint32_t{0}, {Buffer{}, Buffer{}}).pass("idle", "kernel").over(0);
+      },
+      "pass idle: runs over no element");
   expectRefused([](FrameGraph& g) { g.kernels<TwoBuffers>(uint32_t{0}, {Buffer{}}); },
                 "1 buffers for the 2 slots");
   expectRefused(
@@ -111,7 +123,11 @@ TEST(FrameGraph, AStillViewLeavesPassesOut) {
       for (const CacheInfo* cache : cacheRegistry()) {
         const std::string name = integrator->usesCache ? cache->name : "";
         const Method method = findMethod(integrator->name, name, denoiser->name);
-        const ParameterMap parameters = resolveParameters(method, {});
+        ParameterMap given;
+        if (integrator->endsPaths) given["secondary"] = std::string("cache");
+        if (integrator->followsChanges || denoiser->followsChanges)
+          given["validate_every"] = int64_t{8};
+        const ParameterMap parameters = resolveParameters(method, given);
         FrameGraph graph;
         const auto names = [&](bool isNewView) {
           graph.record(withViewParts(method.parts()),
@@ -124,7 +140,8 @@ TEST(FrameGraph, AStillViewLeavesPassesOut) {
         auto at = moving.begin();
         for (const std::string& pass : still) {
           at = std::find(at, moving.end(), pass);
-          EXPECT_NE(at, moving.end()) << integrator->name << " " << name << " " << pass;
+          ASSERT_NE(at, moving.end()) << integrator->name << " " << name << " " << pass;
+          ++at;
         }
       }
     }

@@ -28,18 +28,23 @@ std::string firstBackend(const std::vector<MethodSummary>& rows) {
 }
 
 // Puts names in a title. Without a name, its bracket or the word goes: "than", "efficiency".
-std::string named(std::string title, const Names& names) {
-  for (size_t i = 0; i < names.size(); ++i) {
-    const std::string mark = "{" + std::to_string(i) + "}";
-    size_t at = title.find(mark);
-    if (at != std::string::npos && names[i].empty()) {
-      const size_t bracket = title.rfind(" (", at);
-      return title.substr(0, bracket != std::string::npos ? bracket : title.rfind(' ', at));
+std::string named(const std::string& title, const Names& names) {
+  std::string out;
+  for (size_t at = 0; at < title.size(); ++at) {
+    const bool isMark = title[at] == '{' && at + 2 < title.size() && title[at + 2] == '}';
+    if (!isMark) {
+      out += title[at];
+      continue;
     }
-    for (; at != std::string::npos; at = title.find(mark, at + names[i].size()))
-      title.replace(at, mark.size(), names[i]);
+    const std::string& name = names.at(size_t(title[at + 1] - '0'));
+    if (name.empty()) {
+      const size_t bracket = out.rfind(" (");
+      return out.substr(0, bracket != std::string::npos ? bracket : out.rfind(' '));
+    }
+    out += name;
+    at += 2;
   }
-  return title;
+  return out;
 }
 
 }  // namespace
