@@ -2,6 +2,7 @@
 // last frame's sample is one of the same pixel and is merged here. Light that no other pixel could
 // reuse (mirrors, glass, lights in view) is averaged over time alone.
 #include "core/reuse/reservoir_store.glsl"
+#include "core/reuse/still_shift.glsl"
 #include "core/reuse/temporal_merge.glsl"
 #include "core/reuse/history_length.glsl"
 #include "core/reuse/history_weight.glsl"
@@ -38,7 +39,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     float weight = 1.0f / (min(float(count.frames), gParams.reuse.confidenceCap) + 1.0f);
     if (gFrame.stillFrames < count.taken) weight = 0.0f;
     own = recordVec3(before) * (1.0f - weight) + own * weight;
-    if (kept > 0.0f) temporalMerge(pixelIndex, pixelIndex, kept, true, r);
+    if (kept > 0.0f) temporalMerge(pixelIndex, pixelIndex, kept, r);
   }
   reservoirWriteNow(pixelIndex, r);
   bool isCandidate =

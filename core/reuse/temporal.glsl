@@ -2,6 +2,7 @@
 // into this frame's. (In a still view the initial pass merges both, without a ray.)
 #include "core/resampling/reproject.glsl"
 #include "core/reuse/reservoir_store.glsl"
+#include "core/reuse/temporal_shift.glsl"
 #include "core/reuse/temporal_merge.glsl"
 #include "core/reuse/history_weight.glsl"
 
@@ -15,7 +16,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   if (!(kept > 0.0f)) return;
   RL_RESERVOIR here = sampleNone();
   reservoirReadNow(pixelIndex, here);
-  if (temporalMerge(pixelIndex, before, kept, false, here)) {
+  if (temporalMerge(pixelIndex, before, kept, here)) {
     reservoirWriteNow(pixelIndex, here);
   } else {
     stateWriteNow(pixelIndex, here);

@@ -1,6 +1,5 @@
-// Temporal merge of a pixel's reservoir with one of the last frame. In a still view both are
-// samples of one pixel: the shift is the identity and traces nothing.
-#include "core/reuse/reflectance_ratio.glsl"
+// Temporal merge of a pixel's reservoir with one of the last frame. The includer has included the
+// shift over time before: core/reuse/temporal_shift.glsl or core/reuse/still_shift.glsl.
 
 #define RL_REUSE_STATE TemporalMerge
 
@@ -19,34 +18,11 @@ RL_FN real reuseUniform(RL_IN(TemporalMerge) t, uint k) { return t.u; }
 
 #include "core/resampling/reuse.glsl"
 
-// Shifts the pixel's own sample to the donor's pixel in the last frame, then the donor's sample to
-// this pixel.
-RL_FN void temporalShift(RL_INOUT(TemporalMerge) t, RL_IN(RL_RESERVOIR) here,
-                         RL_IN(RL_RESERVOIR) donor, uint pixelIndex, uint before) {
-  uint flags = gParams.reuse.temporalFlags;
-  t.ratio = pixelReflectanceRatio(
-      visibleRead(gBuffers.visibleBefore, gFrame.previousCamera, before), pixelIndex);
-  RL_SHIFT shift =
-      shiftTo(here, pixelOfIndex(before), true, (flags & RL_REUSE_ASSUME_VISIBLE) != 0u);
-  RL_RESERVOIR moved = here;
-  t.canonicalAtNeighbour = shift.shifted;
-  for (uint i = 0u; i < 2u; i = i + 1u) {
-    if (i == 1u) {
-      t.canonicalAtNeighbour = shift.shifted;
-      shift = shiftTo(donor, pixelOfIndex(pixelIndex), false,
-                      (flags & RL_REUSE_ASSUME_VISIBLE_HERE) != 0u);
-      moved = donor;
-    }
-    shiftTrace(shift, moved);
-  }
-  t.neighbourAtCanonical = shift.shifted;
-}
-
 // Merges the reservoir that pixel `before` had in the last frame, with the share `kept` of its
-// confidence, into `here`. In a still view `before` is the pixel itself, and both samples have one
-// target: MIS weights by confidence are exact. Returns whether the donor's sample was selected.
-RL_FN bool temporalMerge(uint pixelIndex, uint before, float kept, bool isStill,
-                         RL_INOUT(RL_RESERVOIR) here) {
+// confidence, into `here`. In a still view `before` is the pixel itself. Returns whether the
+// donor's sample was selected.
+RL_FN bool temporalMerge(uint pixelIndex, uint before, float kept, RL_INOUT(RL_RESERVOIR) here) {
+  bool isStill = temporalIsStill();
   RL_RESERVOIR donor = here;
   if (isStill) {
     donor.state = stateReadBefore(before);
@@ -63,14 +39,8 @@ RL_FN bool temporalMerge(uint pixelIndex, uint before, float kept, bool isStill,
   rng.vertex = RL_VERTEX_TEMPORAL;
   t.u = rngDraw(rng, RL_DIM_RIS_MERGE);
   uint flags = gParams.reuse.temporalFlags;
-  if (isStill) {
-    flags = flags & ~RL_REUSE_PAIRWISE;
-    t.canonicalAtNeighbour = mergeUnshifted(here.state);
-    t.neighbourAtCanonical = mergeUnshifted(donor.state);
-    t.ratio = vec3(1.0f, 1.0f, 1.0f);
-  } else {
-    temporalShift(t, here, donor, pixelIndex, before);
-  }
+  if (isStill) flags = flags & ~RL_REUSE_PAIRWISE;
+  temporalShift(t, here, donor, pixelIndex, before);
   uint winner;
   float jacobian;
   reuseMerge(t, 1u, flags, here.state, winner, jacobian);
