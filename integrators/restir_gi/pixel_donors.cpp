@@ -93,11 +93,8 @@ struct Ctx {
 #include "core/resampling/reproject.glsl"
 
   PathReservoir found(uvec2 pixel) {
-    const uint film = cameraFilmBits(pixel);
-    PathRecord p = pathRecordEmpty(film);
-    p.end = cacheTerminationBegin(pixelIndexOf(pixel));
-    walkPath(p, pixel, film);
-    PathReservoir r = pathResample(p, rngInit(gFrame.seed, pixelIndexOf(pixel), gFrame.frame));
+    vec3 unresampled, inView;
+    PathReservoir r = sampleInitial(pixel, cameraFilmBits(pixel), unresampled, inView);
     reservoirGuard(r.state);
     return r;
   }
