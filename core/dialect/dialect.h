@@ -66,8 +66,19 @@ inline uint atomicGreatest(uint* data, std::size_t i, uint value) {
 
 }  // namespace rl
 
+#ifdef RL_REAL_DOUBLE
+// Types that hold a `real` have another size here: without a name of their own a linker would mix
+// what is made of them (std::vector<Shifted>) with that of other files of a program.
+#define RL_NAMESPACE_BEGIN \
+  namespace rl {           \
+  inline namespace of_double {
+#define RL_NAMESPACE_END \
+  }                      \
+  }
+#else
 #define RL_NAMESPACE_BEGIN namespace rl {
 #define RL_NAMESPACE_END }
+#endif
 #define RL_FN inline __attribute__((always_inline))
 // For functions with several call sites whose inlining only bloats the caller.
 #define RL_FN_OUTLINE inline __attribute__((noinline))
