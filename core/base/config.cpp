@@ -367,6 +367,11 @@ void ConfigTable::assign(const std::string& key, const std::string& valueText,
   node_->places[key] = place;
 }
 
+void ConfigTable::remove(const std::string& key) {
+  node_->table->erase(key);
+  node_->places.erase(key);
+}
+
 void ConfigTable::finish() const {
   const toml::key* first = nullptr;
   for (const auto& [key, value] : *node_->table) {

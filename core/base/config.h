@@ -62,6 +62,9 @@ class ConfigTable {
   // Messages about the value name `place` instead of a file and line.
   void assign(const std::string& key, const std::string& valueText, const std::string& place);
 
+  // Takes a key out of this table.
+  void remove(const std::string& key);
+
   // Throws badUsage at the key (or at the table if the key is absent): "place: message".
   [[noreturn]] void fail(const std::string& key, const std::string& message) const;
   // "file:line:column" of the key's value, or of the table.

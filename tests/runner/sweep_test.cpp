@@ -107,6 +107,7 @@ TEST_F(SweepTest, MethodKeysMakeMethods) {
 TEST_F(SweepTest, ASizeReplacesThatOfTheFile) {
   const Suite set = load(kBase, {"resolution=16x9"}).at(0);
   EXPECT_EQ(std::pair(set.width, set.height), std::pair(16u, 9u));
+  EXPECT_EQ(load(set.resolved).at(0).width, 16u) << "suite.toml of the results can be read";
   const std::vector<Suite> swept = load(kBase, {}, {"resolution=8x4,16x8"});
   ASSERT_EQ(swept.size(), 2u);
   EXPECT_EQ(std::pair(swept[1].width, swept[1].height), std::pair(16u, 8u));
@@ -114,6 +115,7 @@ TEST_F(SweepTest, ASizeReplacesThatOfTheFile) {
   text.replace(text.find("width = 8"), 9, "resolution = \"8x6\"");
   const Suite side = load(text, {"width=12"}).at(0);
   EXPECT_EQ(std::pair(side.width, side.height), std::pair(12u, 0u)) << "the camera's shape";
+  EXPECT_EQ(load(side.resolved).at(0).width, 12u);
   EXPECT_NE(errorOf(std::string(kBase).replace(text.find("resolution"), 9,
                                                "width = 8\nresolution = \"8x6\"")),
             "");

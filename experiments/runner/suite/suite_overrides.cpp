@@ -42,6 +42,23 @@ void overrideMethods(const ConfigTable& root, const std::string& key, const std:
   failUsage(fmt::format("{}: no method is named '{}'{}", place, wanted, didYouMean(wanted, names)));
 }
 
+// Applies KEY of [settings]. A size replaces one of the file in the other notation.
+void overrideSetting(const ConfigTable& root, const std::string& key, const std::string& value,
+                     const std::string& place) {
+  ConfigTable settings = root.getTable("settings");
+  const auto replace = [&](const char* other) {
+    const bool isOfFile = settings.has(other) && !startsWith(settings.place(other), "--");
+    if (isOfFile) settings.remove(other);
+  };
+  if (key == "resolution") {
+    replace("width");
+    replace("height");
+  } else if (key == "width" || key == "height") {
+    replace("resolution");
+  }
+  settings.assign(key, value, place);
+}
+
 }  // namespace
 
 void applyOverride(ConfigTable& root, const std::string& assignment) {
@@ -52,7 +69,7 @@ void applyOverride(ConfigTable& root, const std::string& assignment) {
   } else if (startsWith(key, "reference.")) {
     root.getTable("reference").assign(key.substr(10), value, place);
   } else if (startsWith(key, "settings.")) {
-    root.getTable("settings").assign(key.substr(9), value, place);
+    overrideSetting(root, key.substr(9), value, place);
   } else if (startsWith(key, "sweep.")) {
     root.getTable("sweep").assign(key.substr(6), value, place);
   } else if (key == "name" || key == "question" || key == "scenes") {
@@ -61,7 +78,7 @@ void applyOverride(ConfigTable& root, const std::string& assignment) {
     failUsage(
         fmt::format("{}: unknown table; known are settings, reference, method and sweep", place));
   } else {
-    root.getTable("settings").assign(key, value, place);
+    overrideSetting(root, key, value, place);
   }
 }
 
