@@ -171,14 +171,13 @@ RL_FN void onMedium(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(vec3) transm
   p.suffixThroughput *= transmittance;
 }
 
-// Ends the path in a cell, whose radiance the current vertex sends back along the path. At x2, the
-// cell's radiance leaves in every direction, as from a Lambert surface.
-RL_FN void pathEnds(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(Surface) s,
-                    RL_IN(vec3) radiance) {
+// At x2, the radiance leaves in every direction, as from a Lambert surface.
+RL_FN void onEnd(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(Surface) s, RL_IN(vec3) radiance) {
   if (!pathIsAtX2(p, walk)) {
     pathAddLight(p, walk, radiance);
     return;
   }
+  p.alphaTransmittanceX1 = walk.passed;
   pathReachesX2(p, s);
   p.x2.suffix.bsdf = bsdfNone();
   p.x2.suffix.bsdf.lobes = RL_LOBE_DIFFUSE;
@@ -199,13 +198,6 @@ RL_FN uint onVertex(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_INOUT(Surface) 
     if (p.isReusable == 0u) RL_HEALTH(RL_HEALTH_UNREUSABLE_PIXELS);
   }
   if (pathIsAtX2(p, walk)) p.alphaTransmittanceX1 = walk.passed;
-  if (gParams.cells.count != 0u) {
-    vec3 radiance;
-    if (cacheTerminates(p.end, walk, s, radiance)) {
-      pathEnds(p, walk, s, radiance);
-      return RL_WALK_ENDS;
-    }
-  }
   return pathIsAtX1(p, walk) ? gParams.path.lightCandidates : 1u;
 }
 

@@ -5,6 +5,10 @@
 // core/caches/entries/groups.glsl.
 #include "core/radiance_cache/key.glsl"
 
+// Hook of core/transport/walk.glsl; the state has a CacheTermination `end`.
+#define RL_WALK_END(state, walk, surface, radiance) \
+  cacheTerminates(state.end, walk, surface, radiance)
+
 // Initial state of a pixel's path. Pixels of a group take turns to ask for a ray
 // (core/caches/entries/groups.glsl).
 RL_FN CacheTermination cacheTerminationBegin(uint pixelIndex) {
@@ -24,7 +28,7 @@ RL_FN CacheTermination cacheTerminationBegin(uint pixelIndex) {
 RL_FN bool cacheTerminates(RL_INOUT(CacheTermination) end, RL_IN(Walk) walk, RL_IN(Surface) s,
                            RL_OUT(vec3) radiance) {
   radiance = vec3(0.0f, 0.0f, 0.0f);
-  if (walk.bounces == 0u) return false;
+  if (gParams.cells.count == 0u || walk.bounces == 0u) return false;
   // Add up over the path the square root of the area that one sample of the density stands for
   // (Mueller et al. 2021, "Real-time Neural Radiance Caching", section 3.4).
   if (walk.pdfBsdf > 0.0f) {

@@ -1,6 +1,7 @@
 // Path loop that sums the light found along a path: at each vertex one light sample and one BSDF
 // sample, combined by the power heuristic (Veach 1997, chapter 9). The includer defines
-// RL_WALK_STATE, a struct with a LightSum `sum`, and onVertex() (core/transport/walk.glsl).
+// RL_WALK_STATE, a struct with a LightSum `sum`, and onVertex(), and onEnd() where RL_WALK_END is
+// defined (core/transport/walk.glsl).
 
 RL_FN void onMiss(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, RL_IN(vec3) radiance,
                   float pdfLight) {

@@ -14,6 +14,8 @@
 //   onMedium(state, walk, transmittance)        transmittance of a medium, up to the next vertex
 //   onVertex(state, walk, surface)              a vertex that scatters, before anything is
 //       drawn; returns how many light samples are drawn there, or RL_WALK_ENDS
+//   onEnd(state, walk, surface, radiance)  before onVertex: the path ends here, in something that
+//       sends `radiance` back along it; only where RL_WALK_END is defined
 //   onLightSample(state, walk, rng, surface, light, connection)  a light sample at the vertex,
 //   without
 //       visibility; returns whether to trace its shadow ray (of several only the last is traced)
@@ -22,6 +24,8 @@
 //       counts the scattering event at the ray's origin already
 //   onBsdfSample(state, walk, surface, draw)       the BSDF sample, before walk.throughput has it
 //   onRoulette(state, walk, factor)              Russian roulette: 1 / probability of survival
+// RL_WALK_END(state, walk, surface, radiance): returns whether the path ends at a vertex, and sets
+// the radiance (core/radiance_cache/termination.glsl). Not defined: no path ends there.
 // Only the components of light in gFrame.components are gathered.
 
 RL_FN bool walkWants(uint bounces) {
@@ -160,6 +164,13 @@ RL_FN void walkOn(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk) {
     }
     if (walk.bounces >= gFrame.maxBounces || bsdfIsBlack(s.bsdf)) break;
     walk.rng.vertex = walk.bounces + 1u;
+#ifdef RL_WALK_END
+    vec3 sentBack;
+    if (RL_WALK_END(state, walk, s, sentBack)) {
+      onEnd(state, walk, s, sentBack);
+      break;
+    }
+#endif
     uint candidates = onVertex(state, walk, s);
     if (candidates == RL_WALK_ENDS) break;
     if (lightExists() && walkWants(walk.bounces + 1u))

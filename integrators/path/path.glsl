@@ -5,13 +5,11 @@
 #include "core/caches/entries/groups.glsl"
 #include "core/radiance_cache/termination.glsl"
 
-RL_FN uint onVertex(RL_INOUT(PathState) state, RL_IN(Walk) walk, RL_INOUT(Surface) s) {
-  if (gParams.cells.count == 0u) return 1u;
-  vec3 radiance;
-  if (!cacheTerminates(state.end, walk, s, radiance)) return 1u;
+RL_FN void onEnd(RL_INOUT(PathState) state, RL_IN(Walk) walk, RL_IN(Surface) s,
+                 RL_IN(vec3) radiance) {
   state.sum.radiance += walk.throughput * radiance;
-  return RL_WALK_ENDS;
 }
+RL_FN uint onVertex(RL_INOUT(PathState) state, RL_IN(Walk) walk, RL_INOUT(Surface) s) { return 1u; }
 
 #include "core/transport/light_sum.glsl"
 
