@@ -214,8 +214,10 @@ void tryEntries(const Effort& effort, const std::string& cache) {
 }
 void tryChangingLight(const Effort& effort) { tryAll(Trial(dimmed(), effort), kOfChangingLight); }
 
-TEST(Canary, WrongWeightsAreRejected) { tryWeights(kEveryDay); }
-TEST(Canary, ConfidenceByTheFilmSampleIsRejected) { tryFilm(kEveryDay); }
+// By day one mistake of each kind: over space, over time, in light that changes, in entries.
+TEST(Canary, AWrongWeightIsRejected) {
+  tryAll(Trial(belowTheLamp(farDonors()), kEveryDay), {kOfWeights.front()});
+}
 TEST(Canary, MissingVisibilityIsRejected) { tryWalking(kEveryDay); }
 TEST(Canary, AStaleTargetIsRejected) { tryChangingLight(kObvious); }
 
@@ -242,7 +244,7 @@ INSTANTIATE_TEST_SUITE_P(Nightly, CanaryOfEntries, ::testing::ValuesIn(bias::cac
 
 // Without a cap the mean is right, but its variance is not: a mean of running means has twice the
 // variance of a mean.
-TEST(Canary, HistoriesWithoutACapAreSeenInTheVarianceOfALongMean) {
+TEST(Canary, NightlyHistoriesWithoutACapAreSeenInTheVarianceOfALongMean) {
   constexpr uint32_t kFrames = 256;
   constexpr size_t kRuns = 24;
   Setting setting = still("cornell-box", {});

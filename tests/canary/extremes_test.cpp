@@ -69,10 +69,10 @@ class Extremes : public TemporaryFolder {
 };
 
 TEST_F(Extremes, WithoutAMistakeAllHold) { EXPECT_EQ(lasts(false), kAll); }
-TEST_F(Extremes, AnAbsoluteEpsilonIsFound) {
+TEST_F(Extremes, NightlyAnAbsoluteEpsilonIsFound) {
   expectFound("absolute_epsilon", {{"less light", "1"}});
 }
-TEST_F(Extremes, AClampAt1e3IsFound) { expectFound("clamp_at_1e3", {{"more light", "1"}}); }
+TEST_F(Extremes, NightlyAClampAt1e3IsFound) { expectFound("clamp_at_1e3", {{"more light", "1"}}); }
 // The offset exceeds the walls of a small room, and is below the spacing of floats in a large one.
 TEST_F(Extremes, AFixedRayOffsetIsFound) {
   expectFound("fixed_ray_offset", {{"smaller", "1"}, {"larger", "1"}});

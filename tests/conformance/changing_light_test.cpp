@@ -137,8 +137,10 @@ TEST_P(ChangingLight, LightThatWasIsForgottenWhileTheCameraWalks) {
   EXPECT_GT(plain, validated + 0.2) << "the check sees what is remembered";
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, ChangingLight, ::testing::ValuesIn(variantsThatValidate()),
+INSTANTIATE_TEST_SUITE_P(Every, ChangingLight, ::testing::ValuesIn(byDay(variantsThatValidate())),
                          VariantName());
+INSTANTIATE_TEST_SUITE_P(Nightly, ChangingLight,
+                         ::testing::ValuesIn(byNight(variantsThatValidate())), VariantName());
 
 }  // namespace
 }  // namespace restlab::conformance

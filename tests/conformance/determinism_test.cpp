@@ -93,7 +93,10 @@ TEST_P(Determinism, SpecialisedKernelsAgreeWithTheGeneralOne) {
   EXPECT_GE(specialised, 4u) << "hardly any scene has a kernel of its own";
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, Determinism, ::testing::ValuesIn(allVariants()), VariantName());
+INSTANTIATE_TEST_SUITE_P(Every, Determinism, ::testing::ValuesIn(byDay(allVariants())),
+                         VariantName());
+INSTANTIATE_TEST_SUITE_P(Nightly, Determinism, ::testing::ValuesIn(byNight(allVariants())),
+                         VariantName());
 
 }  // namespace
 }  // namespace restlab::conformance

@@ -123,7 +123,10 @@ TEST_P(LightTransport, RussianRouletteSavesRays) {
   EXPECT_LT(double(on.frame().raysPath), 0.9 * double(off.frame().raysPath));
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, LightTransport, ::testing::ValuesIn(allVariants()), VariantName());
+INSTANTIATE_TEST_SUITE_P(Every, LightTransport, ::testing::ValuesIn(byDay(allVariants())),
+                         VariantName());
+INSTANTIATE_TEST_SUITE_P(Nightly, LightTransport, ::testing::ValuesIn(byNight(allVariants())),
+                         VariantName());
 INSTANTIATE_TEST_SUITE_P(Every, UnbiasedTransport, ::testing::ValuesIn(byDay(unbiasedVariants())),
                          VariantName());
 INSTANTIATE_TEST_SUITE_P(Nightly, UnbiasedTransport,

@@ -133,7 +133,10 @@ TEST_P(LiveLightOf, LightThatWasFades) {
   EXPECT_LT(energy(session.radiance()), 0.5 * first);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, LiveLightOf, ::testing::ValuesIn(allVariants()), VariantName());
+INSTANTIATE_TEST_SUITE_P(All, LiveLightOf, ::testing::ValuesIn(byDay(allVariants())),
+                         VariantName());
+INSTANTIATE_TEST_SUITE_P(Nightly, LiveLightOf, ::testing::ValuesIn(byNight(allVariants())),
+                         VariantName());
 
 TEST(LiveLight, AnotherSceneIsRefused) {
   Session session(bias::builtinScene("cornell-box"), smallConfig("restir_gi"));

@@ -83,7 +83,9 @@ TEST_P(Scaling, ASceneOfAnotherSize) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, Scaling, ::testing::ValuesIn(allVariants()), VariantName());
+INSTANTIATE_TEST_SUITE_P(Every, Scaling, ::testing::ValuesIn(byDay(allVariants())), VariantName());
+INSTANTIATE_TEST_SUITE_P(Nightly, Scaling, ::testing::ValuesIn(byNight(allVariants())),
+                         VariantName());
 
 }  // namespace
 }  // namespace restlab::conformance

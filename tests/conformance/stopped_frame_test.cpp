@@ -79,7 +79,9 @@ TEST_P(StoppedFrames, LeaveNoTrace) {
   EXPECT_GE(stops, 16u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, StoppedFrames, ::testing::ValuesIn(allVariants()),
+INSTANTIATE_TEST_SUITE_P(Registry, StoppedFrames, ::testing::ValuesIn(byDay(allVariants())),
+                         VariantName());
+INSTANTIATE_TEST_SUITE_P(Nightly, StoppedFrames, ::testing::ValuesIn(byNight(allVariants())),
                          VariantName());
 
 // Several threads do not stop at the same time; devices are tested, too.

@@ -69,7 +69,9 @@ std::vector<Variant> variantsWithoutDenoiser() {
   return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, ThinWall, ::testing::ValuesIn(variantsWithoutDenoiser()),
+INSTANTIATE_TEST_SUITE_P(Every, ThinWall, ::testing::ValuesIn(byDay(variantsWithoutDenoiser())),
+                         VariantName());
+INSTANTIATE_TEST_SUITE_P(Nightly, ThinWall, ::testing::ValuesIn(byNight(variantsWithoutDenoiser())),
                          VariantName());
 
 }  // namespace

@@ -128,6 +128,17 @@ std::vector<Combination> byDay(std::vector<Combination> all) {
   return all;
 }
 
+std::vector<Combination> everyPassOnce() {
+  std::vector<Combination> all = byDay(combinations());
+  // Plain ones run no pass of their own but `template`, and the last cache is that of the
+  // combination whose paths end in cells.
+  std::erase_if(all, [](const Combination& what) {
+    const bool isPlain = what.cache.empty() && what.denoiser == "none";
+    return isPlain || (what.cache == cacheRegistry().back()->name && !what.endsPaths);
+  });
+  return all;
+}
+
 std::vector<Combination> byNight(std::vector<Combination> all) {
   std::erase_if(all, isDaily);
   return all;

@@ -28,6 +28,8 @@ std::vector<Combination> combinationsThatTrace();
 // Splits combinations into those that each change is tested with, which run every kernel between
 // them, and the others, which wait for the night.
 std::vector<Combination> byDay(std::vector<Combination> all);
+// A few that run every pass between them, for tests that look at passes and not at methods.
+std::vector<Combination> everyPassOnce();
 std::vector<Combination> byNight(std::vector<Combination> all);
 
 // Backend and tracer that a session uses.

@@ -142,6 +142,9 @@ class Frames : public testing::TestWithParam<Combination> {
 // Tests of rays and features only.
 class TracedFrames : public Frames {};
 
+// Tests of passes, on a device alone or on two of its ways.
+class DevicePasses : public Frames {};
+
 // One scene of one combination, so that nightly work can be divided.
 class FramesNightly : public testing::TestWithParam<std::tuple<Combination, std::string>> {
  protected:
@@ -168,12 +171,6 @@ std::vector<std::string> nightlyScenes() {
 
 constexpr const char* kNoHistory = "has no history: every frame is like frame 0";
 constexpr const char* kOtherModes = "SKIPPED: of other modes with --nightly";
-constexpr const char* kOtherCaches = "SKIPPED: of other caches with --nightly";
-// Skips caches whose passes run elsewhere: the combination with entries that end paths runs every
-// pass.
-bool isLeftToTheNight(const Combination& what) {
-  return !what.endsPaths && (what.cache == "surflet" || what.cache == "voxel");
-}
 
 // Scenes of the running test: all at night. By day those that differ most: area lights alone,
 // reflection and glass, every feature at once.
@@ -194,9 +191,8 @@ TEST_P(TracedFrames, AsOnTheCpuWithEmbree) {
   if (GetParam().mode != "unbiased") GTEST_SKIP() << kOtherModes;
   expectParity(GetParam(), scenesOfTest(), kVulkan, kCpuEmbree, kSmall);
 }
-TEST_P(TracedFrames, AsWithoutSpecialisation) {
+TEST_P(DevicePasses, AsWithoutSpecialisation) {
   if (GetParam().mode != "unbiased") GTEST_SKIP() << kOtherModes;
-  if (isLeftToTheNight(GetParam())) GTEST_SKIP() << kOtherCaches;
   expectParity(GetParam(), {"cornell-box", "glass"}, kVulkanSpecialised, kVulkan, kSmall);
 }
 
@@ -240,10 +236,9 @@ void expectSameMean(const Combination& what, const std::string& scene, const Siz
   EXPECT_EQ(report.nonfinite, 0u) << scene;
 }
 
-TEST_P(TracedFrames, Frame16HasTheSameMean) {
+TEST_P(DevicePasses, Frame16HasTheSameMean) {
   if (GetParam().cache.empty()) GTEST_SKIP() << kNoHistory;
   if (GetParam().mode != "unbiased") GTEST_SKIP() << kOtherModes;
-  if (isLeftToTheNight(GetParam())) GTEST_SKIP() << kOtherCaches;
   expectSameMean(GetParam(), "cornell-box", {32, 18, 17, 1}, 32);
 }
 TEST_P(FramesNightly, Frame32HasTheSameMean) {
@@ -252,7 +247,7 @@ TEST_P(FramesNightly, Frame32HasTheSameMean) {
 }
 
 // Validation layers must report nothing for a frame; a message throws.
-TEST_P(TracedFrames, ValidatedFrame) {
+TEST_P(DevicePasses, ValidatedFrame) {
   const auto scene = sceneNamed("everything");
   SessionConfig config = configOf(GetParam(), kVulkan, 32, 18, 3);
   config.validate = true;
@@ -360,6 +355,9 @@ INSTANTIATE_TEST_SUITE_P(Nightly, Frames, testing::ValuesIn(combinations()), kNa
 INSTANTIATE_TEST_SUITE_P(, TracedFrames, testing::ValuesIn(byDay(combinationsThatTrace())),
                          kNameOf);
 INSTANTIATE_TEST_SUITE_P(Nightly, TracedFrames, testing::ValuesIn(combinationsThatTrace()),
+                         kNameOf);
+INSTANTIATE_TEST_SUITE_P(, DevicePasses, testing::ValuesIn(everyPassOnce()), kNameOf);
+INSTANTIATE_TEST_SUITE_P(Nightly, DevicePasses, testing::ValuesIn(combinationsThatTrace()),
                          kNameOf);
 INSTANTIATE_TEST_SUITE_P(, FramesNightly,
                          testing::Combine(kTraced, testing::ValuesIn(nightlyScenes())),
