@@ -67,6 +67,7 @@ void FrameGraph::record(const std::vector<const PartInfo*>& parts, FrameInfo fra
   passes_.clear();
   shared = {};
   isDeclared_.assign(buffers_.size(), false);
+  isAdvanced_.assign(buffers_.size(), false);
   for (const PartInfo* part : parts)
     frame.wantsEffectiveSamples = frame.wantsEffectiveSamples || part->readsEffectiveSamples;
   for (const PartInfo* part : parts) {
@@ -85,6 +86,7 @@ Buffer FrameGraph::declare(const GraphBuffer& wanted) {
     buffers_.back().part = part_;
     isSwapped_.push_back(false);
     isDeclared_.push_back(false);
+    isAdvanced_.push_back(false);
   }
   const GraphBuffer& known = buffers_[index];
   if (isDeclared_[index])
@@ -97,13 +99,18 @@ Buffer FrameGraph::declare(const GraphBuffer& wanted) {
 
 Buffer FrameGraph::buffer(const std::string& name, size_t count, uint32_t elementBytes,
                           uint32_t features) {
-  return declare({name, "", count, elementBytes, features, false});
+  return declare({name, "", count, elementBytes, features, false, false});
+}
+
+Buffer FrameGraph::transient(const std::string& name, size_t count, uint32_t elementBytes,
+                             uint32_t features) {
+  return declare({name, "", count, elementBytes, features, false, true});
 }
 
 History FrameGraph::history(const std::string& name, size_t count, uint32_t elementBytes,
                             uint32_t features) {
-  const Buffer first = declare({name, "", count, elementBytes, features, true});
-  const Buffer second = declare({name + "_before", "", count, elementBytes, features, true});
+  const Buffer first = declare({name, "", count, elementBytes, features, true, false});
+  const Buffer second = declare({name + "_before", "", count, elementBytes, features, true, false});
   if (!first) return {};
   return isSwapped_[first.index] ? History{second, first} : History{first, second};
 }
@@ -112,8 +119,67 @@ History FrameGraph::advance(const History& history) {
   if (history.now) {
     const uint32_t first = std::min(history.now.index, history.before.index);
     isSwapped_[first] = !isSwapped_[first];
+    isAdvanced_[first] = true;
   }
   return {history.before, history.now};
+}
+
+namespace {
+
+bool holds(const std::vector<Buffer>& all, Buffer buffer) {
+  return std::find(all.begin(), all.end(), buffer) != all.end();
+}
+bool touches(const GraphPass& pass, Buffer buffer) {
+  return holds(pass.read, buffer) || holds(pass.written, buffer);
+}
+
+}  // namespace
+
+// Now and before of a history in this frame. `first`: its first buffer.
+History FrameGraph::historyOf(uint32_t first) const {
+  const History both = {{first}, {first + 1}};
+  return isSwapped_[first] ? History{both.before, both.now} : both;
+}
+
+// Returns whether the last frame's buffer of a history may be overwritten from the first pass that
+// writes `transient` on: no later pass of this frame touches it, and in the next frame of this kind
+// no pass reads that memory, as `now` or `before`, until one has written all of it.
+bool FrameGraph::isFreeFrom(uint32_t first, Buffer transient) const {
+  const History history = historyOf(first);
+  const auto begin = std::find_if(passes_.begin(), passes_.end(),
+                                  [&](const GraphPass& pass) { return touches(pass, transient); });
+  if (begin != passes_.end() && holds(begin->read, transient)) return false;
+  if (std::any_of(begin, passes_.end(),
+                  [&](const GraphPass& pass) { return touches(pass, history.before); }))
+    return false;
+  const Buffer overwritten = isAdvanced_[first] ? history.now : history.before;
+  const auto next = std::find_if(passes_.begin(), passes_.end(),
+                                 [&](const GraphPass& pass) { return touches(pass, overwritten); });
+  if (next != passes_.end()) return !holds(next->read, overwritten);
+  return !isAdvanced_[first];
+}
+
+void FrameGraph::shareMemory(const FrameGraph& still) {
+  lenders_.assign(buffers_.size(), Buffer::kNone);
+  for (uint32_t wants = 0; wants < buffers_.size(); ++wants) {
+    if (!buffers_[wants].isTransient) continue;
+    for (uint32_t first = 0; first + 1 < buffers_.size(); ++first) {
+      const GraphBuffer& lends = buffers_[first];
+      const bool isFirst = lends.isHistory && buffers_[first + 1].name == lends.name + "_before";
+      if (!isFirst || lends.features != 0 || lends.bytes() < buffers_[wants].bytes() ||
+          std::find(lenders_.begin(), lenders_.end(), first) != lenders_.end() ||
+          !isFreeFrom(first, {wants}) || !still.isFreeFrom(first, {wants}))
+        continue;
+      lenders_[wants] = first;
+      break;
+    }
+  }
+}
+
+Buffer FrameGraph::lenderOf(Buffer buffer) const {
+  if (!buffer || buffer.index >= lenders_.size() || lenders_[buffer.index] == Buffer::kNone)
+    return {};
+  return historyOf(lenders_[buffer.index]).before;
 }
 
 std::vector<Buffer> FrameGraph::checkedSlots(size_t structBytes,

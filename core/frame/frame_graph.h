@@ -63,6 +63,7 @@ struct GraphBuffer {
   uint32_t elementBytes = 0;
   uint32_t features = 0;  // allocated only if kernels have one of these features; 0: always
   bool isHistory = false;
+  bool isTransient = false;  // holds nothing between frames
 
   size_t bytes() const { return count * elementBytes; }
 };
@@ -123,11 +124,24 @@ class FrameGraph {
   // contents stay until a pass writes it.
   Buffer buffer(const std::string& name, size_t count, uint32_t elementBytes,
                 uint32_t features = 0);
+  // Declares a buffer whose contents nobody needs after the frame's passes, except to look at the
+  // frame before the next one begins. It may share memory: shareMemory().
+  Buffer transient(const std::string& name, size_t count, uint32_t elementBytes,
+                   uint32_t features = 0);
   // Declares two such buffers, `name` and `name_before`.
   History history(const std::string& name, size_t count, uint32_t elementBytes,
                   uint32_t features = 0);
   // Begins a new element of a history: `now` of the last frame becomes `before`.
   History advance(const History& history);
+
+  // Lets transient buffers use the memory of histories whose last frame is not read any more when
+  // the buffer is first written, in this frame of a new view and in a frame of a still view of the
+  // same parts. `still`: that frame, recorded after this one.
+  void shareMemory(const FrameGraph& still);
+  // Returns whether the same histories lend to the same buffers.
+  bool sharesAlike(const FrameGraph& other) const { return lenders_ == other.lenders_; }
+  // The buffer that lends its memory to a transient one in this frame; false: it has its own.
+  Buffer lenderOf(Buffer buffer) const;
 
   // Slots are in the order of the struct `Buffers`; each is a reference of 8 bytes.
   template <class Buffers, class Params>
@@ -151,12 +165,16 @@ class FrameGraph {
   friend class Kernels;
   static std::vector<Buffer> checkedSlots(size_t structBytes, std::initializer_list<Buffer> slots);
   Buffer declare(const GraphBuffer& wanted);
+  History historyOf(uint32_t first) const;
+  bool isFreeFrom(uint32_t first, Buffer transient) const;
 
   std::vector<GraphBuffer> buffers_;
   std::map<std::string, uint32_t> byName_;
   std::vector<bool> isDeclared_;  // by buffer: in the frame that is recorded
   // By buffer: it is the first of a history, whose second is `now`.
   std::vector<bool> isSwapped_;
+  std::vector<bool> isAdvanced_;   // by buffer, the first of a history: in this frame
+  std::vector<uint32_t> lenders_;  // by buffer: the first of the history that lends; kNone
   std::vector<GraphPass> passes_;
   std::string part_;  // that records
 };

@@ -53,6 +53,9 @@ Pipeline::Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const s
 FrameGraph Pipeline::recorded(const ParameterMap& parameters, size_t pixels) const {
   FrameGraph graph;
   graph.record(parts_, {mode_, parameters, pixels, true});
+  FrameGraph still = graph;
+  still.record(parts_, {mode_, parameters, pixels, false});
+  graph.shareMemory(still);
   return graph;
 }
 
@@ -60,6 +63,18 @@ FrameGraph Pipeline::recorded(const ParameterMap& parameters, size_t pixels) con
 // features than the scene has meets no null.
 bool Pipeline::isUsed(const GraphBuffer& buffer) const {
   return buffer.features == 0 || (buffer.features & used_) != 0;
+}
+
+size_t Pipeline::ownBytes(const FrameGraph& graph, size_t index) const {
+  const GraphBuffer& buffer = graph.buffers()[index];
+  const bool isOwn = isUsed(buffer) && !graph.lenderOf({static_cast<uint32_t>(index)});
+  return isOwn ? buffer.bytes() : 0;
+}
+
+BufferId Pipeline::idOf(Buffer buffer) const {
+  if (!buffer) return kNoBuffer;
+  const Buffer lender = graph_.lenderOf(buffer);
+  return ids_[lender ? lender.index : buffer.index];
 }
 
 size_t Pipeline::bytesOf(Buffer buffer) const {
@@ -73,7 +88,8 @@ bool Pipeline::setParameters(const ParameterMap& parameters, StartupReport& repo
   const auto isSame = [](const GraphBuffer& a, const GraphBuffer& b) {
     return a.name == b.name && a.bytes() == b.bytes();
   };
-  if (!std::equal(changed.buffers().begin(), changed.buffers().end(), graph_.buffers().begin(),
+  if (!changed.sharesAlike(graph_) ||
+      !std::equal(changed.buffers().begin(), changed.buffers().end(), graph_.buffers().begin(),
                   graph_.buffers().end(), isSame))
     return false;
   for (const GraphPass& pass : changed.passes()) {
@@ -149,8 +165,10 @@ std::vector<float> Pipeline::layer(const LayerInfo& info, const ShownFrame& show
 
 std::vector<std::pair<std::string, size_t>> Pipeline::bufferBytesPerPixel() const {
   std::vector<std::pair<std::string, size_t>> sizes;
-  for (const GraphBuffer& buffer : graph_.buffers()) {
-    if (isUsed(buffer)) sizes.emplace_back(buffer.name, (buffer.bytes() + pixels_ - 1) / pixels_);
+  for (size_t i = 0; i < graph_.buffers().size(); ++i) {
+    if (isUsed(graph_.buffers()[i])) {
+      sizes.emplace_back(graph_.buffers()[i].name, (ownBytes(graph_, i) + pixels_ - 1) / pixels_);
+    }
   }
   return sizes;
 }
@@ -158,14 +176,15 @@ std::vector<std::pair<std::string, size_t>> Pipeline::bufferBytesPerPixel() cons
 size_t Pipeline::bytesPerPixelOf(size_t pixels) const {
   const FrameGraph graph = recorded(parameters_, pixels);
   size_t sum = 0;
-  for (const GraphBuffer& buffer : graph.buffers())
-    if (isUsed(buffer)) sum += buffer.bytes();
+  for (size_t i = 0; i < graph.buffers().size(); ++i) sum += ownBytes(graph, i);
   return (sum + pixels - 1) / pixels;
 }
 
 void Pipeline::allocate() {
-  for (const GraphBuffer& buffer : graph_.buffers())
-    ids_.push_back(isUsed(buffer) ? backend_.allocate(buffer.bytes()) : kNoBuffer);
+  for (size_t i = 0; i < graph_.buffers().size(); ++i) {
+    const size_t bytes = ownBytes(graph_, i);
+    ids_.push_back(bytes > 0 ? backend_.allocate(bytes) : kNoBuffer);
+  }
 }
 
 void Pipeline::prepare(StartupReport& report) {
@@ -189,8 +208,10 @@ std::vector<std::pair<BufferId, BufferId>> Pipeline::withCopies() const {
 void Pipeline::keep() {
   if (!kept_) {
     std::vector<BufferId> copies;
-    for (const GraphBuffer& buffer : graph_.buffers())
-      copies.push_back(isUsed(buffer) ? backend_.allocate(buffer.bytes()) : kNoBuffer);
+    for (size_t i = 0; i < graph_.buffers().size(); ++i) {
+      const size_t bytes = ownBytes(graph_, i);
+      copies.push_back(bytes > 0 ? backend_.allocate(bytes) : kNoBuffer);
+    }
     copies_ = std::move(copies);
   }
   kept_ = graph_;

@@ -28,7 +28,8 @@ class Pipeline {
            const ParameterMap& parameters, uint32_t wanted, size_t pixels);
 
   uint32_t featuresUsed() const { return used_; }
-  // Bytes per pixel of each allocated buffer (one that the kernels in use can touch), rounded up.
+  // Bytes per pixel of each buffer that the kernels in use can touch, rounded up; 0: it uses the
+  // memory of another one.
   std::vector<std::pair<std::string, size_t>> bufferBytesPerPixel() const;
   // Their sum, rounded up once: it may be less than the sum of the rounded ones.
   size_t bytesPerPixel() const { return bytesPerPixelOf(pixels_); }
@@ -37,7 +38,7 @@ class Pipeline {
   size_t bytesPerPixelOf(size_t pixels) const;
   // The frame begun last; before the first one, a frame of a new view.
   const FrameGraph& graph() const { return graph_; }
-  // Bytes of a buffer of the graph; 0: not allocated, as no kernel in use touches it.
+  // Bytes of a buffer of the graph; 0: no kernel in use touches it.
   size_t bytesOf(Buffer buffer) const;
 
   // Sets other parameters of the same mode, and makes passes ready that were left out before.
@@ -83,7 +84,9 @@ class Pipeline {
  private:
   FrameGraph recorded(const ParameterMap& parameters, size_t pixels) const;
   bool isUsed(const GraphBuffer& buffer) const;
-  BufferId idOf(Buffer buffer) const { return buffer ? ids_[buffer.index] : kNoBuffer; }
+  // Bytes that are allocated for the buffer itself.
+  size_t ownBytes(const FrameGraph& graph, size_t index) const;
+  BufferId idOf(Buffer buffer) const;
   // Feature mask of the kernel that serves the scene.
   uint32_t maskOf(const std::string& kernel);
   PassRun runOf(const GraphPass& pass);

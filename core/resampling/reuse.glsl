@@ -12,6 +12,14 @@
 //   samples: scales the estimates that donors carry
 // - real reuseUniform(state, k): a number in [0, 1)
 
+// RL_REUSE_WATCH_CANONICAL(merge, canonical) and RL_REUSE_WATCH_DONOR(k, donor, shifted, merge,
+// isSelected) show each candidate to who asks what a merge did (Session::donors()). Kernels leave
+// them empty.
+#ifndef RL_REUSE_WATCH_DONOR
+#define RL_REUSE_WATCH_CANONICAL(merge, canonical)
+#define RL_REUSE_WATCH_DONOR(k, donor, shifted, merge, isSelected)
+#endif
+
 // Merges `count` donors. `r` becomes the state of the selected sample. `winner` is the donor that
 // the sample came from, RL_INVALID if the canonical sample stays; `jacobian` is that of the
 // winner's shift. Returns the per-channel estimate of the integral.
@@ -30,11 +38,14 @@ RL_FN real3 reuseMerge(RL_IN(RL_REUSE_STATE) state, uint count, uint flags,
     mergeWeighCanonical(merge, r, donor.confidence, reuseCanonicalAtNeighbour(state, k), flags);
   }
   mergeCanonical(merge, r, flags);
+  RL_REUSE_WATCH_CANONICAL(merge, r)
   for (uint k = 0u; k < count; k = k + 1u) {
     if (!reuseDonor(state, k, donor)) continue;
     Shifted neighbourAtCanonical = reuseNeighbourAtCanonical(state, k);
-    if (mergeDonor(merge, r, donor, neighbourAtCanonical, reuseRatio(state, k), flags,
-                   reuseUniform(state, k))) {
+    bool isSelected = mergeDonor(merge, r, donor, neighbourAtCanonical, reuseRatio(state, k), flags,
+                                 reuseUniform(state, k));
+    RL_REUSE_WATCH_DONOR(k, donor, neighbourAtCanonical, merge, isSelected)
+    if (isSelected) {
       winner = k;
       jacobian = neighbourAtCanonical.jacobian;
     }

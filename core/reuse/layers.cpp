@@ -1,12 +1,14 @@
 #include "core/reuse/layers.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 
 #include "core/base/packing.h"
 #include "core/caches/entries/layers.h"
 #include "core/caches/entries/settings.h"
+#include "core/reuse/passes.h"
 #include "core/reuse/reuse.h"
 
 namespace restlab {
@@ -43,35 +45,33 @@ rl::ReuseParams paramsOf(const FrameSnapshot& kept) {
 class Exchanged {
  public:
   Exchanged(const FrameSnapshot& kept, const ReservoirWords& reservoir)
-      : quads_(kept.words("spatial_shift")),
-        reservoirs_(kept.words("reservoirs")),
-        reservoir_(reservoir) {
+      : reservoirs_(kept.words("reservoirs")), reservoir_(reservoir) {
     const rl::ReuseParams params = paramsOf(kept);
-    places_ = params.spatialNeighbours;
-    if (kept.frame == nullptr || quads_.empty()) return;
+    if (kept.frame == nullptr || params.spatialNeighbours == 0) return;
     // Number of donors as in spatialDonors().
     donors_ = kept.frame->stillFrames < params.longHistoryFrames ? params.spatialNeighbours
                                                                  : params.neighboursLongHistory;
+    for (uint32_t k = 0; k < donors_; ++k) quads_[k] = kept.words(pairedShiftsName(k));
+    if (donors_ > 0 && quads_[0].empty()) donors_ = 0;
   }
   uint32_t donors() const { return donors_; }
-  uint32_t neighbour(size_t pixelIndex, uint32_t k) const {
-    return quads_[4 * (pixelIndex * places_ + k) + 3];
-  }
+  uint32_t neighbour(size_t pixelIndex, uint32_t k) const { return quads_[k][4 * pixelIndex + 3]; }
   bool hasSample(size_t pixelIndex) const {
     return reservoir_.weight(reservoirs_, pixelIndex) > 0.0f;
   }
   // Returns whether the k-th neighbour sees the pixel's sample.
   bool isSeen(size_t pixelIndex, uint32_t k) const {
-    const size_t at = 4 * (pixelIndex * places_ + k);
-    const glm::vec3 F = packing_.unpackPositive3(quads_[at], quads_[at + 1]);
+    const size_t at = 4 * pixelIndex;
+    const glm::vec3 F = packing_.unpackPositive3(quads_[k][at], quads_[k][at + 1]);
     return F.x + F.y + F.z > 0.0f;
   }
 
  private:
-  std::span<const uint32_t> quads_, reservoirs_;
+  std::array<std::span<const uint32_t>, rl::RL_MAX_DONORS> quads_;
+  std::span<const uint32_t> reservoirs_;
   ReservoirWords reservoir_;
   mutable rl::Packing packing_;
-  uint32_t places_ = 0, donors_ = 0;
+  uint32_t donors_ = 0;
 };
 
 float rejectedShare(const Exchanged& exchanged, size_t pixel) {

@@ -1,6 +1,15 @@
 #include "core/reuse/passes.h"
 
+#include <array>
+
 namespace restlab {
+
+// Each has a slot of ReuseBuffers.
+static_assert(rl::RL_MAX_DONORS == 4);
+
+std::string pairedShiftsName(uint32_t neighbour) {
+  return "spatial_shift_" + std::to_string(neighbour);
+}
 
 void recordReuse(FrameGraph& g, const FrameInfo& f, const ReusedSample& sample,
                  const rl::ReuseParams& reuse, const rl::EntryParams& entries,
@@ -20,7 +29,9 @@ void recordReuse(FrameGraph& g, const FrameInfo& f, const ReusedSample& sample,
   const Buffer suffixes = g.buffer("path_suffixes", withSuffix(f.pixels), suffixBytes, kGlossy);
   const Buffer suffixHistory =
       g.buffer("path_suffix_history", withSuffix(f.pixels), suffixBytes, kGlossy);
-  const Buffer pairedShifts = g.buffer("spatial_shift", f.pixels * reuse.spatialNeighbours, kQuad);
+  std::array<Buffer, rl::RL_MAX_DONORS> pairedShifts;
+  for (uint32_t k = 0; k < reuse.spatialNeighbours; ++k)
+    pairedShifts[k] = g.transient(pairedShiftsName(k), f.pixels, kQuad);
   const Buffer outlines = g.buffer("outlines", f.pixels, sizeof(uint32_t));
   const Buffer entryReservoirs = g.buffer("entry_reservoirs", entries.count, reservoirBytes);
   const Buffer entrySuffixes =
@@ -30,8 +41,8 @@ void recordReuse(FrameGraph& g, const FrameInfo& f, const ReusedSample& sample,
       {s.surfaces.now,  s.surfaces.before, s.proposals,     s.shadingPoints,    s.insertions,
        s.cellKeys,      s.cellPlaces,      s.cellLight,     s.cellRays,         s.changes,
        radiance,        effectiveSamples,  unresampled.now, unresampled.before, reservoirs,
-       history,         suffixes,          suffixHistory,   pairedShifts,       outlines,
-       entryReservoirs, entrySuffixes});
+       history,         suffixes,          suffixHistory,   pairedShifts[0],    pairedShifts[1],
+       pairedShifts[2], pairedShifts[3],   outlines,        entryReservoirs,    entrySuffixes});
 
   if (f.isNewView) {
     kernels.pass("lights_in_view", sample.method + "_lights_in_view")
@@ -40,10 +51,14 @@ void recordReuse(FrameGraph& g, const FrameInfo& f, const ReusedSample& sample,
   }
   GraphPass& initial = kernels.pass("initial", sample.method + "_initial")
                            .reads({s.cellKeys, s.cellPlaces, s.cellLight})
-                           .writes({reservoirs, suffixes})
-                           .updates({unresampled.now, s.cellRays});
-  // In a still view this pass merges the history, too.
-  if (!f.isNewView) initial.reads({unresampled.before, history, suffixHistory, s.changes});
+                           .writes({reservoirs, suffixes, unresampled.now})
+                           .updates({s.cellRays});
+  if (f.isNewView) {
+    initial.reads({unresampled.now});
+  } else {
+    // In a still view this pass merges the history, too.
+    initial.reads({unresampled.before, history, suffixHistory, s.changes});
+  }
   if (hasEntries) {
     // Candidates of a still view stand in the history's place.
     if (!f.isNewView) initial.updates({history, suffixHistory});
@@ -78,11 +93,12 @@ void recordReuse(FrameGraph& g, const FrameInfo& f, const ReusedSample& sample,
     }
     kernels.pass("spatial_shift", sample.method + "_spatial_shift")
         .reads({s.surfaces.now, reservoirs, suffixes, outlines})
-        .writes({pairedShifts});
+        .writes({pairedShifts[0], pairedShifts[1], pairedShifts[2], pairedShifts[3]});
   }
   // Shades, too, and so runs without neighbours.
   kernels.pass("spatial", sample.method + "_spatial")
-      .reads({s.surfaces.now, reservoirs, suffixes, pairedShifts, unresampled.now})
+      .reads({s.surfaces.now, reservoirs, suffixes, pairedShifts[0], pairedShifts[1],
+              pairedShifts[2], pairedShifts[3], unresampled.now})
       .writes({history, suffixHistory, radiance, effectiveSamples});
   g.shared.radiance = radiance;
   g.shared.effectiveSamples = effectiveSamples;

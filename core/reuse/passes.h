@@ -15,6 +15,9 @@ struct ReusedSample {
   uint32_t suffixQuads = 0;     // kept beside it in glossy scenes; 0: nothing
 };
 
+// Name of the buffer of samples shifted to the k-th neighbours.
+std::string pairedShiftsName(uint32_t neighbour);
+
 // Records the passes. `params`: the method's Params struct, which begins with `reuse`; `entries`:
 // of the cache.
 void recordReuse(FrameGraph& graph, const FrameInfo& frame, const ReusedSample& sample,

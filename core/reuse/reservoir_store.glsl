@@ -73,7 +73,11 @@ RL_FN void takeCandidateSample(uint pixelIndex, RL_INOUT(RL_RESERVOIR) r) {
   sampleTake(r, from);
 }
 
-// Index in the pairedShifts buffer of a pixel's sample shifted to its k-th neighbour.
-RL_FN uint pairedShiftIndex(uint pixelIndex, uint k) {
-  return pixelIndex * gParams.reuse.spatialNeighbours + k;
+// Pixels' samples shifted to their k-th neighbours.
+RL_FN QuadRef pairedShifts(uint k) {
+  QuadRef shifts = gBuffers.pairedShifts0;
+  if (k == 1u) shifts = gBuffers.pairedShifts1;
+  if (k == 2u) shifts = gBuffers.pairedShifts2;
+  if (k == 3u) shifts = gBuffers.pairedShifts3;
+  return shifts;
 }

@@ -66,9 +66,13 @@ struct ReuseBuffers {
   // Parts of samples that are kept beside the reservoirs; null if there are none.
   QuadRef suffixes;
   QuadRef suffixesHistory;
-  // Between the spatial_shift and the spatial pass, spatialNeighbours entries per pixel: the
-  // pixel's sample shifted to the neighbour, and the neighbour's pixel index (RL_INVALID: none).
-  QuadRef pairedShifts;
+  // Between the spatial_shift and the spatial pass, a buffer for each of up to RL_MAX_DONORS
+  // neighbours: the pixel's sample shifted to the neighbour, and the neighbour's pixel index
+  // (RL_INVALID: none). Buffers of their own, so that each can share memory.
+  QuadRef pairedShifts0;
+  QuadRef pairedShifts1;
+  QuadRef pairedShifts2;
+  QuadRef pairedShifts3;
   UintRef outlines;  // 1: a pixel beside it shows another surface
   // For caches in world space: reservoirs of entries (core/caches/entries/entries.glsl).
   QuadRef entryReservoirs;

@@ -8,7 +8,7 @@
 #define RL_REUSE_STATE SpatialMerge
 
 RL_FN Shifted pairedShift(uint pixelIndex, uint k, RL_OUT(uint) neighbour) {
-  return shiftedRead(gBuffers.pairedShifts, pairedShiftIndex(pixelIndex, k), neighbour);
+  return shiftedRead(pairedShifts(k), pixelIndex, neighbour);
 }
 RL_FN uint pairedNeighbour(uint pixelIndex, uint k) {
   uint neighbour;
@@ -41,29 +41,37 @@ RL_FN real reuseUniform(RL_IN(SpatialMerge) s, uint k) {
 
 #include "core/resampling/reuse.glsl"
 
-RL_FN void kernelMain(RL_IN(uvec2) pixel) {
+// Returns the merged reservoir; `estimate` is that of its integral.
+RL_FN RL_RESERVOIR spatialMerge(uint pixelIndex, RL_OUT(vec3) estimate) {
   SpatialMerge s;
-  s.pixelIndex = pixelIndexOf(pixel);
+  s.pixelIndex = pixelIndex;
   s.share = reuseDonorShare(historyAge(), gParams.reuse.donorNoise);
-  s.rng = rngInit(gFrame.seed, s.pixelIndex, gFrame.frame);
+  s.rng = rngInit(gFrame.seed, pixelIndex, gFrame.frame);
   s.rng.vertex = RL_VERTEX_SPATIAL;
   RL_RESERVOIR r = sampleNone();
-  reservoirReadNow(s.pixelIndex, r);
+  reservoirReadNow(pixelIndex, r);
   uint winner;
   float jacobian;
-  vec3 radiance = recordVec3(RL_PAST_QUAD(gBuffers.unresampled, s.pixelIndex));
-  radiance += reuseMerge(s, spatialDonors(), gParams.reuse.spatialFlags, r.state, winner, jacobian);
-  if (winner != RL_INVALID) takeSampleNow(pairedNeighbour(s.pixelIndex, winner), r);
+  estimate = reuseMerge(s, spatialDonors(), gParams.reuse.spatialFlags, r.state, winner, jacobian);
+  if (winner != RL_INVALID) takeSampleNow(pairedNeighbour(pixelIndex, winner), r);
   sampleFollow(r, jacobian);
+  return r;
+}
+
+RL_FN void kernelMain(RL_IN(uvec2) pixel) {
+  uint pixelIndex = pixelIndexOf(pixel);
+  vec3 estimate;
+  RL_RESERVOIR r = spatialMerge(pixelIndex, estimate);
+  vec3 radiance = recordVec3(RL_PAST_QUAD(gBuffers.unresampled, pixelIndex)) + estimate;
   if (!rlIsFinite3(radiance)) {
     // A NaN or Inf would spread by reuse. Reset the reservoir and count it.
     RL_HEALTH(RL_HEALTH_NONFINITE);
     radiance = vec3(0.0f, 0.0f, 0.0f);
     r.state = reservoirEmpty();
   }
-  reservoirWriteHistory(s.pixelIndex, r);
+  reservoirWriteHistory(pixelIndex, r);
   if (min(radiance.x, min(radiance.y, radiance.z)) < 0.0f) RL_HEALTH(RL_HEALTH_NEGATIVE);
-  gBuffers.radiance.data[s.pixelIndex] = radiance;
+  gBuffers.radiance.data[pixelIndex] = radiance;
   if (gParams.reuse.writesEffectiveSamples != 0u)
-    gBuffers.effectiveSamples.data[s.pixelIndex] = effectiveSamples(r.state.confidence);
+    gBuffers.effectiveSamples.data[pixelIndex] = effectiveSamples(r.state.confidence);
 }

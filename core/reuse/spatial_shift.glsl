@@ -10,13 +10,12 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   reservoirReadNow(pixelIndex, r);
   uint donors = spatialDonors();
   for (uint k = 0u; k < donors; k = k + 1u) {
-    uint index = pairedShiftIndex(pixelIndex, k);
     uint neighbour;
     bool exists = pairFind(pixel, k, neighbour);
     if (exists) exists = mayExchange(pixelIndex, neighbour);
     RL_SHIFT shift = shiftNone();
     if (exists) shift = shiftTo(r, pixelOfIndex(neighbour), false, false);
     shiftTrace(shift, r);
-    shiftedWrite(gBuffers.pairedShifts, index, shift.shifted, exists ? neighbour : RL_INVALID);
+    shiftedWrite(pairedShifts(k), pixelIndex, shift.shifted, exists ? neighbour : RL_INVALID);
   }
 }

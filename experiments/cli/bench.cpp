@@ -116,7 +116,10 @@ Json errorPerCpuSecond(const PreparedScene& prepared, const SessionConfig& confi
 // integrator's buffers once.
 Json passesJson(const Session& session, const FrameRates& rates, const BackendRates& roofs) {
   const double pixels = double(session.config().width) * session.config().height;
-  const double bytes = double(session.bytesPerPixel()) * pixels;
+  double bytes = 0.0;  // of buffers that share memory, too: passes read and write them
+  for (const GraphBuffer& buffer : session.graph().buffers())
+    if (buffer.features == 0 || (buffer.features & session.featuresUsed()) != 0)
+      bytes += double(buffer.bytes());
   Json passes = Json::array();
   for (const PassTiming& pass : rates.passes) {
     double raysS = 0.0;

@@ -119,8 +119,18 @@ Json graphJson(const MeasuredFrames& frames) {
                        {"elements", buffer.count},
                        {"bytes_per_element", buffer.elementBytes},
                        {"bytes_per_pixel", frames.bytesPerPixel.at(buffer.name)}});
+    const Buffer lender = frames.moving.lenderOf(frames.moving.find(buffer.name));
+    if (lender) buffers.back()["in"] = nameOf(frames.moving, lender);
   }
   return {{"passes", passes}, {"buffers", buffers}, {"bytes_per_pixel", frames.bytes}};
+}
+
+// Bytes per pixel of a buffer; or whose memory it uses.
+std::string bytesText(const MeasuredFrames& frames, const GraphBuffer& buffer) {
+  const FrameGraph& graph = frames.moving;
+  const Buffer lender = graph.lenderOf(graph.find(buffer.name));
+  return lender ? "in " + nameOf(graph, lender)
+                : std::to_string(frames.bytesPerPixel.at(buffer.name));
 }
 
 std::string listed(const std::vector<std::string>& names) {
@@ -143,8 +153,7 @@ void printText(const MeasuredFrames& frames) {
   for (const GraphBuffer& buffer : frames.moving.buffers()) {
     if (!frames.bytesPerPixel.contains(buffer.name)) continue;
     buffers.add({buffer.name, buffer.part, groupedDigits(buffer.count),
-                 std::to_string(buffer.elementBytes),
-                 std::to_string(frames.bytesPerPixel.at(buffer.name))});
+                 std::to_string(buffer.elementBytes), bytesText(frames, buffer)});
   }
   print("{}\n{}\n{} bytes per pixel in all\n", passes.text(), buffers.text(), frames.bytes);
 }
@@ -153,9 +162,9 @@ GraphDrawing drawingOf(const MeasuredFrames& frames, const std::string& title) {
   GraphDrawing drawing;
   drawing.title = title;
   drawing.footnote =
-      "Filled: writes; hollow: reads. Dashed frame: only where the view is new. Arrow: for the "
-      "next "
-      "frame. Beside a pass: rays per pixel (moving, still); beside a buffer: bytes per pixel.";
+      "Filled: writes; hollow: reads. Dashed frame: only where the view is new. "
+      "Arrow: for the next frame. Beside a pass: rays per pixel (moving, still); "
+      "beside a buffer: bytes per pixel (0: in the memory of another one).";
   std::map<std::string, size_t> lanes;
   for (const GraphPass& pass : frames.moving.passes()) {
     GraphDrawing::Pass& drawn = drawing.passes.emplace_back();

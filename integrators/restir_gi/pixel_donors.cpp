@@ -6,6 +6,7 @@
 #include "core/backend/alpha_filter.h"
 #include "core/backend/cpu_kernel.h"
 #include "core/backend/embree.h"
+#include "core/reuse/passes.h"
 #include "core/scene/compiled/compiled_scene.h"
 #include "integrators/restir_gi/kept_params.h"
 #include "integrators/restir_gi/restir_gi.h"
@@ -26,7 +27,10 @@ using Donors = std::vector<restlab::Donor>;
 // Rounding errors of differences: of shares (reservoirs are packed), of sums of confidences.
 constexpr double kRoundingOfShares = 1e-3, kRoundingOfConfidence = 1e-4;
 
-// The spatial pass, with the shifts of the spatial_shift pass; as in core/backend/cpu_kernel.inl.
+// The spatial pass, watched; as in core/backend/cpu_kernel.inl.
+#define RL_REUSE_WATCH_CANONICAL(merge, canonical) watchCanonical(merge, canonical);
+#define RL_REUSE_WATCH_DONOR(k, donor, shifted, merge, isSelected) \
+  watchDonor(state.pixelIndex, k, donor, shifted, merge, isSelected);
 namespace over_space {
 template <uint FEATURES>
 struct Ctx {
@@ -34,55 +38,48 @@ struct Ctx {
 #include "integrators/restir_gi/spatial.glsl"
 #include "integrators/restir_gi/pixel_donors.inl"
 
-  // The merge of core/resampling/reuse.glsl, step by step.
+  Donors watched_ = {};
+  size_t watchedWinner_ = 0;
+  real watchedWSum_ = 0.0f;
+
+  void watchCanonical(const MergeState& merge, const ReservoirState& own) {
+    restlab::Donor& canonical = watched_.emplace_back();
+    canonical.reuse = "own";
+    canonical.shift = own.W > 0.0f ? "accepted" : "empty";
+    canonical.confidence = own.confidence;
+    watchedWSum_ = merge.wSum;
+    if (!(own.W > 0.0f)) return;
+    canonical.misWeight = merge.mCanonical;
+    canonical.share = merge.wSum;
+  }
+  void watchDonor(uint pixelIndex, uint k, const ReservoirState& donor, const Shifted& here,
+                  const MergeState& merge, bool isSelected) {
+    const uint neighbour = pairedNeighbour(pixelIndex, k);
+    watched_.push_back(asDonor("space", neighbour, donor, here, merge, gParams.reuse.spatialFlags));
+    if (!watched_.back().jacobian) {
+      const PathReservoir r = reservoirOf(neighbour);
+      watched_.back().shift = failedTest(r, pixelOfIndex(pixelIndex), r.path.film);
+    }
+    if (isSelected) watchedWinner_ = watched_.size() - 1;
+    watchedWSum_ = merge.wSum;
+  }
+
   Donors overSpace(uvec2 pixel) {
-    const uint flags = gParams.reuse.spatialFlags;
-    SpatialMerge s;
-    s.pixelIndex = pixelIndexOf(pixel);
-    s.share = reuseDonorShare(historyAge(), gParams.reuse.donorNoise);
-    s.rng = rngInit(gFrame.seed, s.pixelIndex, gFrame.frame);
-    s.rng.vertex = RL_VERTEX_SPATIAL;
-    const ReservoirState own = reservoirOf(s.pixelIndex).state;
-    const uint count = spatialDonors();
-    ReservoirState donor = own, selected = own;
-    MergeState merge = mergeBegin(own, confidenceOf(s, count), flags);
-    for (uint k = 0; k < count; ++k) {
-      if (reuseDonor(s, k, donor))
-        mergeWeighCanonical(merge, own, donor.confidence, reuseCanonicalAtNeighbour(s, k), flags);
+    vec3 estimate;
+    spatialMerge(pixelIndexOf(pixel), estimate);
+    watched_[0].id = pixelIndexOf(pixel);
+    for (restlab::Donor& one : watched_) {
+      if (one.share) one.share = misDivide(real(*one.share), watchedWSum_);
     }
-    mergeCanonical(merge, own, flags);
-    Donors all(1);
-    all[0].reuse = "own";
-    all[0].id = s.pixelIndex;
-    all[0].shift = own.W > 0.0f ? "accepted" : "empty";
-    all[0].confidence = own.confidence;
-    if (own.W > 0.0f) {
-      all[0].misWeight = merge.mCanonical;
-      all[0].share = merge.wSum;
-    }
-    size_t winner = 0;
-    for (uint k = 0; k < count; ++k) {
-      if (!reuseDonor(s, k, donor)) continue;
-      const Shifted here = reuseNeighbourAtCanonical(s, k);
-      const uint neighbour = pairedNeighbour(s.pixelIndex, k);
-      all.push_back(asDonor("space", neighbour, donor, here, merge, flags));
-      if (!all.back().jacobian) {
-        const PathReservoir r = reservoirOf(neighbour);
-        all.back().shift = failedTest(r, pixel, r.path.film);
-      }
-      if (mergeDonor(merge, selected, donor, here, reuseRatio(s, k), flags, reuseUniform(s, k)))
-        winner = all.size() - 1;
-    }
-    for (restlab::Donor& one : all) {
-      if (one.share) one.share = misDivide(real(*one.share), merge.wSum);
-    }
-    all[winner].isSelected = merge.wSum > 0.0f;
-    return all;
+    watched_[watchedWinner_].isSelected = watchedWSum_ > 0.0f;
+    return watched_;
   }
 };
 }  // namespace over_space
 
 #undef RL_REUSE_STATE
+#undef RL_REUSE_WATCH_CANONICAL
+#undef RL_REUSE_WATCH_DONOR
 
 // The initial pass, which finds the pixel's sample of this frame again, and the temporal merge.
 namespace over_time {
@@ -90,6 +87,14 @@ template <uint FEATURES>
 struct Ctx {
 #include "integrators/restir_gi/pixel_context.inl"
 #include "integrators/restir_gi/initial.glsl"
+#include "core/gbuffer/visible_trace.glsl"
+
+  // Traces the surface again: later passes have used the memory of the last frame's.
+  GBufferTexel visibleBefore(uint pixelIndex) {
+    float distanceToCamera;
+    return visibleTrace(gFrame.previousCamera, pixelIndex, distanceToCamera);
+  }
+
 #include "core/resampling/reproject.glsl"
 
   PathReservoir found(uvec2 pixel) {
@@ -121,9 +126,11 @@ struct Ctx {
     const uint pixelIndex = pixelIndexOf(pixel);
     if (gParams.reuse.temporalReuse == 0u || gFrame.frame == 0u) return {};
     const bool isStill = gFrame.stillFrames != 0u;
-    const uint before = isStill                         ? pixelIndex
-                        : gParams.reuse.reproject != 0u ? reprojectedPixelIndex(pixelIndex)
-                                                        : RL_INVALID;
+    const uint before =
+        isStill ? pixelIndex
+        : gParams.reuse.reproject != 0u
+            ? reprojectedPixelIndex(visibleRead(gBuffers.visible, gFrame.camera, pixelIndex))
+            : RL_INVALID;
     restlab::Donor donor;
     donor.reuse = "time";
     donor.id = before;
@@ -244,7 +251,7 @@ namespace {
 
 // Binds a buffer. Kernels only read it, so a copy that nobody writes to may be bound.
 template <typename Ref>
-void bind(const FrameSnapshot& kept, const std::string& name, Ref& ref) {
+void bindCopy(const FrameSnapshot& kept, const std::string& name, Ref& ref) {
   const std::span<const uint32_t> words = kept.words(name);
   ref.data = words.empty()
                  ? nullptr
@@ -256,16 +263,18 @@ void bind(const FrameSnapshot& kept, const std::string& name, Ref& ref) {
 std::vector<Donor> giDonorsOf(const FrameSnapshot& kept, size_t pixel) {
   if (kept.frame == nullptr || kept.scene == nullptr) return {};
   rl::ReuseBuffers buffers{};
-  bind(kept, "visible", buffers.visible);
-  bind(kept, "visible_before", buffers.visibleBefore);
-  bind(kept, "proposals", buffers.proposals);
-  bind(kept, "shading_points", buffers.shadingPoints);
-  bind(kept, "changes", buffers.changes);
-  bind(kept, "reservoirs", buffers.reservoirs);
-  bind(kept, "path_suffixes", buffers.suffixes);
-  bind(kept, "spatial_shift", buffers.pairedShifts);
-  bind(kept, "entry_reservoirs", buffers.entryReservoirs);
-  bind(kept, "entry_suffixes", buffers.entrySuffixes);
+  bindCopy(kept, "visible", buffers.visible);
+  bindCopy(kept, "proposals", buffers.proposals);
+  bindCopy(kept, "shading_points", buffers.shadingPoints);
+  bindCopy(kept, "changes", buffers.changes);
+  bindCopy(kept, "reservoirs", buffers.reservoirs);
+  bindCopy(kept, "path_suffixes", buffers.suffixes);
+  bindCopy(kept, pairedShiftsName(0), buffers.pairedShifts0);
+  bindCopy(kept, pairedShiftsName(1), buffers.pairedShifts1);
+  bindCopy(kept, pairedShiftsName(2), buffers.pairedShifts2);
+  bindCopy(kept, pairedShiftsName(3), buffers.pairedShifts3);
+  bindCopy(kept, "entry_reservoirs", buffers.entryReservoirs);
+  bindCopy(kept, "entry_suffixes", buffers.entrySuffixes);
   const rl::uvec2 at(pixel % kept.frame->width, pixel / kept.frame->width);
   // Scenes without glossy surfaces have no suffixes.
   constexpr uint32_t kAll = rl::RL_FEATURE_ALL;

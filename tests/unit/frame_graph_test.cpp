@@ -148,5 +148,58 @@ TEST(FrameGraph, AStillViewLeavesPassesOut) {
   }
 }
 
+// Records a frame with a history `light` and a buffer `scratch` that is written late, shares
+// memory, and returns whether the last frame's light lends its memory.
+struct Lending {
+  bool advancesInStillView = true;
+  bool readsBeforeLate = false;  // reads the last frame's light after the scratch is written
+  bool updatesNow = false;       // this frame's light depends on what its memory held
+  bool readsBeforeInStill = false;
+  uint32_t scratchBytes = 16;
+
+  bool lends() const {
+    const auto record = [this](FrameGraph& g, const FrameInfo& f) {
+      History light = g.history("light", f.pixels, 16);
+      if (f.isNewView || advancesInStillView) light = g.advance(light);
+      const Buffer scratch = g.transient("scratch", f.pixels, scratchBytes);
+      struct Slots {
+        uint64_t now, before, scratch;
+      };
+      const Kernels kernels = g.kernels<Slots>(uint32_t{0}, {light.now, light.before, scratch});
+      if (f.isNewView || advancesInStillView) {
+        GraphPass& shade = kernels.pass("shade", "shade").reads({light.before});
+        updatesNow ? shade.updates({light.now}) : shade.writes({light.now});
+      } else if (readsBeforeInStill) {
+        kernels.pass("again", "again").reads({light.before});
+      }
+      kernels.pass("mark", "mark").reads({light.now}).writes({scratch});
+      if (readsBeforeLate) kernels.pass("late", "late").reads({light.before});
+    };
+    Recording recording(record);
+    recording.frame();
+    Recording still = recording;
+    still.frame(false);
+    recording.graph.shareMemory(still.graph);
+    const Buffer scratch = recording.graph.find("scratch");
+    const Buffer lender = recording.graph.lenderOf(scratch);
+    EXPECT_FALSE(recording.graph.lenderOf(recording.graph.find("light")));
+    if (!lender) return false;
+    EXPECT_EQ(lender, recording.graph.find("light_before"));
+    recording.frame();
+    EXPECT_EQ(recording.graph.lenderOf(scratch), recording.graph.find("light_before"));
+    return true;
+  }
+};
+
+TEST(FrameGraph, ABufferSharesMemoryOfAHistoryThatIsReadNoMore) {
+  EXPECT_TRUE(Lending{}.lends());
+  EXPECT_TRUE(Lending{.advancesInStillView = false}.lends());
+  EXPECT_TRUE(Lending{.scratchBytes = 12}.lends());
+  EXPECT_FALSE(Lending{.readsBeforeLate = true}.lends());
+  EXPECT_FALSE(Lending{.updatesNow = true}.lends());
+  EXPECT_FALSE((Lending{.advancesInStillView = false, .readsBeforeInStill = true}.lends()));
+  EXPECT_FALSE(Lending{.scratchBytes = 20}.lends());
+}
+
 }  // namespace
 }  // namespace restlab::unit

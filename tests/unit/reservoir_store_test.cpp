@@ -54,7 +54,7 @@ struct Store {
     give(buffers.history, rl::RL_PATH_RESERVOIR_QUADS);
     give(buffers.suffixes, rl::RL_PATH_SUFFIX_QUADS);
     give(buffers.suffixesHistory, rl::RL_PATH_SUFFIX_QUADS);
-    give(buffers.pairedShifts, 1);
+    give(buffers.pairedShifts0, 1);
   }
   // Counts words outside the slot that differ from their initial value.
   size_t touchedElsewhere() const {
@@ -181,10 +181,9 @@ TEST(ReservoirStore, ShiftedSamplesAreReadAsTheyWereWritten) {
   Store<rl::RL_FEATURE_ALL> store;
   store.params.reuse.spatialNeighbours = 1;
   const rl::Shifted written{{0.5f, 3.0f, 0.25f}, 0.3f};
-  const uint32_t index = store.ctx.pairedShiftIndex(kSlot, 0);
-  store.ctx.shiftedWrite(store.buffers.pairedShifts, index, written, 77);
+  store.ctx.shiftedWrite(store.ctx.pairedShifts(0), kSlot, written, 77);
   uint32_t partner = 0;
-  EXPECT_TRUE(isSame(store.ctx.shiftedRead(store.buffers.pairedShifts, index, partner), written));
+  EXPECT_TRUE(isSame(store.ctx.shiftedRead(store.ctx.pairedShifts(0), kSlot, partner), written));
   EXPECT_EQ(partner, 77u);
   EXPECT_EQ(store.touchedElsewhere(), 0u);
 }
