@@ -46,7 +46,7 @@ std::vector<Text> textsOf(const std::map<std::string, std::string>& metadata) {
     // PNG ends a text at the first byte 0.
     std::string& text = texts.back().text;
     std::replace(text.begin(), text.end(), '\0', ' ');
-    if (text.empty()) text = " ";  // libspng rejects empty texts
+    if (text.empty()) text.push_back(' ');  // libspng rejects empty texts
   }
   return texts;
 }
