@@ -32,26 +32,6 @@ void checkRange(const std::string& owner, const ParameterInfo& p, double value) 
                         p.maxValue));
 }
 
-ParameterValue checked(const std::string& owner, const ParameterInfo& p, ParameterValue value) {
-  // Accept an integer for a number.
-  if (p.defaultValue.index() == 2 && value.index() == 1)
-    value = static_cast<double>(std::get<int64_t>(value));
-  if (value.index() != p.defaultValue.index()) {
-    failUsage(fmt::format("{}.{}: is {} but must be {}", owner, p.name, typeName(value),
-                          typeName(p.defaultValue)));
-  }
-  if (value.index() == 1) checkRange(owner, p, static_cast<double>(std::get<int64_t>(value)));
-  if (value.index() == 2) checkRange(owner, p, std::get<double>(value));
-  if (value.index() == 3 && !p.choices.empty()) {
-    const std::string& text = std::get<std::string>(value);
-    if (std::find(p.choices.begin(), p.choices.end(), text) == p.choices.end()) {
-      failUsage(fmt::format("{}.{} = '{}': must be one of {}{}", owner, p.name, text,
-                            fmt::join(p.choices, ", "), didYouMean(text, p.choices)));
-    }
-  }
-  return value;
-}
-
 struct Registry {
   std::vector<const IntegratorInfo*> integrators;
   std::vector<const CacheInfo*> caches;
@@ -188,6 +168,27 @@ BiasClass Method::bias(const std::string& mode, const ParameterMap& resolved,
   return bias;
 }
 
+ParameterValue checkedValue(const std::string& owner, const ParameterInfo& p,
+                            ParameterValue value) {
+  // Accept an integer for a number.
+  if (p.defaultValue.index() == 2 && value.index() == 1)
+    value = static_cast<double>(std::get<int64_t>(value));
+  if (value.index() != p.defaultValue.index()) {
+    failUsage(fmt::format("{}.{}: is {} but must be {}", owner, p.name, typeName(value),
+                          typeName(p.defaultValue)));
+  }
+  if (value.index() == 1) checkRange(owner, p, static_cast<double>(std::get<int64_t>(value)));
+  if (value.index() == 2) checkRange(owner, p, std::get<double>(value));
+  if (value.index() == 3 && !p.choices.empty()) {
+    const std::string& text = std::get<std::string>(value);
+    if (std::find(p.choices.begin(), p.choices.end(), text) == p.choices.end()) {
+      failUsage(fmt::format("{}.{} = '{}': must be one of {}{}", owner, p.name, text,
+                            fmt::join(p.choices, ", "), didYouMean(text, p.choices)));
+    }
+  }
+  return value;
+}
+
 ParameterMap resolveParameters(const Method& method, const ParameterMap& given) {
   ParameterMap resolved;
   std::vector<std::string> names;
@@ -197,7 +198,7 @@ ParameterMap resolveParameters(const Method& method, const ParameterMap& given) 
     for (const ParameterInfo& p : part->parameters) {
       const auto value = given.find(p.name);
       resolved[p.name] =
-          value == given.end() ? defaults.at(p.name) : checked(part->name, p, value->second);
+          value == given.end() ? defaults.at(p.name) : checkedValue(part->name, p, value->second);
       names.push_back(p.name);
     }
   }

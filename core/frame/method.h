@@ -45,6 +45,10 @@ Method findMethod(const std::string& integrator, const std::string& cache,
                   const std::string& denoiser);
 Method findMethod(const SessionConfig& config);
 
+// Returns the value with the parameter's type; throws Error (badUsage), naming the part `owner`, on
+// a wrong type, range or choice.
+ParameterValue checkedValue(const std::string& owner, const ParameterInfo& info,
+                            ParameterValue value);
 // Returns the defaults overlaid by `given`; throws Error (badUsage) on unknown names, wrong types,
 // ranges, choices.
 ParameterMap resolveParameters(const Method& method, const ParameterMap& given);

@@ -36,6 +36,8 @@ struct ParameterInfo {
   bool beginsHistory = false;
   // Optional input that the parameter belongs to: without that input the number is 0. "": none.
   std::string needs = {};
+  // The value changes noise and time, not the expected image.
+  bool sameMean = false;
 };
 
 using ParameterMap = std::map<std::string, ParameterValue>;

@@ -2,6 +2,7 @@
 // gives each member its name, range, meaning and source.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <initializer_list>
 #include <string>
@@ -37,6 +38,20 @@ class Parameter {
       : Parameter(Base{}, member, name, help, source) {
     info_.choices = std::move(choices);
   }
+  // A member that holds the index of the choice.
+  Parameter(uint32_t Settings::*member, const char* name, Choices choices, const char* help,
+            const char* source)
+      : set_([member, choices](Settings& settings, const ParameterValue& value) {
+          const auto found =
+              std::find(choices.begin(), choices.end(), std::get<std::string>(value));
+          settings.*member = uint32_t(found - choices.begin());
+        }),
+        get_([member, choices](const Settings& settings) -> ParameterValue {
+          return choices.at(settings.*member);
+        }) {
+    describe(name, help, source);
+    info_.choices = std::move(choices);
+  }
   Parameter(bool Settings::*member, const char* name, const char* help, const char* source)
       : Parameter(Base{}, member, name, help, source) {}
 
@@ -44,6 +59,12 @@ class Parameter {
   Parameter beginsHistory() const {
     Parameter changed = *this;
     changed.info_.beginsHistory = true;
+    return changed;
+  }
+  // ParameterInfo::sameMean.
+  Parameter sameMean() const {
+    Parameter changed = *this;
+    changed.info_.sameMean = true;
     return changed;
   }
   // ParameterInfo::needs.
@@ -71,6 +92,9 @@ class Parameter {
         get_([member](const Settings& settings) -> ParameterValue {
           return static_cast<Stored<T>>(settings.*member);
         }) {
+    describe(name, help, source);
+  }
+  void describe(const char* name, const char* help, const char* source) {
     info_.name = name;
     info_.help = help;
     info_.source = source;
@@ -99,11 +123,15 @@ class Schema {
   // Reads resolved parameters. A parameter that the method lacks keeps its default.
   Settings read(const ParameterMap& resolved) const {
     Settings settings;
-    for (const Parameter<Settings>& parameter : parameters_) {
-      const auto found = resolved.find(parameter.name());
-      if (found != resolved.end()) parameter.read(settings, found->second);
-    }
+    assign(settings, resolved);
     return settings;
+  }
+  // Sets the members that `values` names.
+  void assign(Settings& settings, const ParameterMap& values) const {
+    for (const Parameter<Settings>& parameter : parameters_) {
+      const auto found = values.find(parameter.name());
+      if (found != values.end()) parameter.read(settings, found->second);
+    }
   }
 
  private:

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/frame/integrator.h"
+#include "core/frame/transport_settings.h"
 #include "core/image/image.h"
 #include "core/scene/scene.h"
 
@@ -20,7 +21,7 @@ class FrameGraph;      // core/frame/frame_graph.h
 class CompiledScene;   // core/scene/compiled/compiled_scene.h
 struct StartupReport;  // core/backend/backend.h
 
-struct SessionConfig {
+struct SessionConfig : TransportSettings {
   std::string integrator = "path";
   std::string mode;   // "": the integrator's first
   std::string cache;  // "": the first one; only for integrators with reservoirs
@@ -32,14 +33,10 @@ struct SessionConfig {
   uint32_t width = 512, height = 512;
   uint32_t camera = 0;
   uint32_t seed = 1;
-  uint32_t maxBounces = 8;
   uint32_t components = rl::RL_COMPONENT_ALL;
-  uint32_t pixelFilter = rl::RL_FILTER_BOX;
-  bool russianRoulette = false;
-  bool multiscatter = false;  // multiple-scattering compensation of rough reflection
-  bool specialise = true;     // false: the general kernel
-  int threads = 0;            // 0: all cores
-  ParameterMap parameters;    // method parameters, such as confidence_cap
+  bool specialise = true;   // false: the general kernel
+  int threads = 0;          // 0: all cores
+  ParameterMap parameters;  // method parameters, such as confidence_cap
 };
 
 struct PassTiming {
@@ -51,6 +48,8 @@ struct PassTiming {
 struct Health {
   std::array<uint64_t, rl::RL_HEALTH_COUNT> counts{};
   static const std::array<const char*, rl::RL_HEALTH_COUNT>& names();
+  // Say what is counted, and whether it matters.
+  static const std::array<const char*, rl::RL_HEALTH_COUNT>& meanings();
 };
 
 struct FrameStats {

@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 
 struct InfoOptions {
   SceneRequest request;
-  bool multiscatter = false;
+  TransportTexts transport;
   bool json = false;
 };
 
@@ -93,7 +93,9 @@ Json integratorsJson(const PreparedScene& prepared, bool multiscatter) {
 }
 
 Json sceneJson(const PreparedScene& prepared, const InfoOptions& options) {
-  const bool multiscatter = options.multiscatter;
+  TransportSettings transport;
+  applyTransport(options.transport, transport);
+  const bool multiscatter = transport.multiscatter;
   std::optional<size_t> only;
   if (!options.request.camera.empty()) only = prepared.camera;
   const CompiledScene& compiled = *prepared.scene;
@@ -220,7 +222,8 @@ Action addInfoVerb(CLI::App& app) {
                    "name or index of the camera to show (default: all of them)");
   verb->add_option("--environment", options->request.environment,
                    "latitude-longitude .hdr or .exr");
-  addMultiscatter(*verb, options->multiscatter);
+  addTransport(*verb, options->transport,
+               [](const ParameterInfo& setting) { return setting.name == "multiscatter"; });
   verb->add_flag("--json", options->json, "JSON on stdout");
   return [options](Outcome&) { info(*options); };
 }

@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/scene/scene.h"
+#include "experiments/cli/reference_page.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/base/files.h"
 #include "experiments/runner/base/print.h"
@@ -19,7 +20,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kKinds = "integrators, caches, backends, denoisers, metrics or scenes";
+constexpr const char* kKinds =
+    "integrators, caches, backends, denoisers, metrics, scenes, or all: docs/reference.md";
 
 struct ListOptions {
   std::string what;
@@ -112,15 +114,22 @@ void printDetails(const Json& part) {
   }
 }
 
-void list(const ListOptions& options) {
+void list(const CLI::App& app, const ListOptions& options) {
+  if (options.what == "all" && !options.json) return printText(referencePage(app));
   const std::vector<std::pair<std::string, Json (*)()>> kinds = {
       {"integrators", integratorsJson}, {"caches", cachesJson},   {"backends", backendsJson},
       {"denoisers", denoisersJson},     {"metrics", metricsJson}, {"scenes", scenes}};
+  if (options.what == "all") {
+    Json all = {{"settings", transportSettingsJson()}};
+    for (const auto& [name, listed] : kinds) all[name] = listed();
+    return printJsonText(all.dump(2, ' ', false, Json::error_handler_t::replace));
+  }
   const auto kind = std::find_if(kinds.begin(), kinds.end(),
                                  [&](const auto& entry) { return entry.first == options.what; });
   if (kind == kinds.end()) {
     std::vector<std::string> names;
     for (const auto& entry : kinds) names.push_back(entry.first);
+    names.emplace_back("all");
     const std::string known = fmt::format("{}", fmt::join(names, ", "));
     if (options.what.empty()) failUsage("list: say what: " + known);
     failUsage(fmt::format("list {}: unknown kind (known: {}){}", options.what, known,
@@ -161,7 +170,7 @@ Action addListVerb(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("list", kKinds);
   verb->add_option("what", options->what, kKinds);
   verb->add_flag("--json", options->json, "JSON on stdout");
-  return [options](Outcome&) { list(*options); };
+  return [&app, options](Outcome&) { list(app, *options); };
 }
 
 }  // namespace restlab

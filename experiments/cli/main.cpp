@@ -19,7 +19,7 @@ using namespace restlab;
 constexpr const char* kFooter =
     "Exit codes: 0 ok, 1 a comparison failed, 2 bad usage or configuration, 3 bad input,\n"
     "4 device unavailable, 130 interrupted (finished results are kept).\n"
-    "docs/manual.md describes every option, suite key, file and metric.";
+    "docs/reference.md has every option, setting, parameter and column; docs/manual.md the rest.";
 
 struct Verb {
   const char* name;

@@ -146,9 +146,42 @@ void addThreads(CLI::App& verb, int& threads) {
       ->transform(wholeNumberFrom(0, 1024));
 }
 
-void addMultiscatter(CLI::App& verb, bool& multiscatter) {
-  verb.add_flag("--multiscatter", multiscatter,
-                "rough reflection keeps the light that meets several microfacets (default off)");
+void addTransport(CLI::App& verb, TransportTexts& given,
+                  const std::function<bool(const ParameterInfo&)>& isMeant) {
+  for (const ParameterInfo& info : transportSchema().infos()) {
+    if (!isMeant(info)) continue;
+    const std::string help =
+        fmt::format("{} (default {})", info.help, settingText(info.defaultValue));
+    std::string names = optionName(info.name);
+    if (info.name == "russian_roulette") names = "--rr," + names;
+    if (std::holds_alternative<bool>(info.defaultValue)) {
+      names += ",!" + optionName(info.name, false);
+      verb.add_flag_function(
+          names,
+          [&given, name = info.name](int64_t count) { given[name] = count > 0 ? "true" : "false"; },
+          help);
+      continue;
+    }
+    CLI::Option* option = verb.add_option_function<std::string>(
+        names, [&given, name = info.name](const std::string& text) { given[name] = text; }, help);
+    if (std::holds_alternative<int64_t>(info.defaultValue)) {
+      option->type_name("UINT");
+      option->transform(wholeNumberFrom(uint64_t(info.minValue), uint64_t(info.maxValue)));
+    } else if (!info.choices.empty()) {
+      option->type_name(fmt::format("{}", fmt::join(info.choices, "|")));
+    }
+  }
+}
+
+void applyTransport(const TransportTexts& given, TransportSettings& settings) {
+  ParameterMap values;
+  for (const ParameterInfo& info : transportSchema().infos()) {
+    const auto found = given.find(info.name);
+    if (found == given.end()) continue;
+    values[info.name] = parseParameter(info, found->second,
+                                       fmt::format("{} {}", optionName(info.name), found->second));
+  }
+  transportSchema().assign(settings, values);
 }
 
 void addBackendOptions(CLI::App& verb, BackendChoice& options) {
@@ -175,17 +208,13 @@ void addSceneOptions(CLI::App& verb, SceneOptions& options) {
   verb.add_option("--seed", options.seed, "random seed (default 1)")
       ->transform(wholeNumberFrom(0, ~uint32_t{0}));
   verb.add_option("--camera", request.camera, "name or index (default: the first)");
-  verb.add_option("--max-bounces", options.maxBounces,
-                  "scattering events; 0: emission only, 1: direct light (default 8)")
-      ->transform(wholeNumberFrom(0, kMaxBounces));
   verb.add_option("--environment", request.environment, "latitude-longitude .hdr or .exr");
   verb.add_option("--environment-rotation", request.environmentRotation, "degrees about +Y")
       ->transform(numberFrom(-360.0, 360.0, "degrees"));
   verb.add_option("--environment-scale", request.environmentScale, "factor on its radiance")
       ->transform(numberFrom(0.0, 1e9));
   verb.add_option("--component", options.component, "all, direct or indirect light");
-  verb.add_option("--filter", options.filter, "pixel filter: box (one pixel) or center");
-  addMultiscatter(verb, options.multiscatter);
+  addTransport(verb, options.transport, [](const ParameterInfo& info) { return !info.sameMean; });
   addThreads(verb, options.threads);
 }
 
@@ -199,7 +228,7 @@ void addMethodOptions(CLI::App& verb, MethodOptions& options) {
                   "KEY=VALUE: a parameter of the integrator, the cache or the denoiser")
       ->take_all()
       ->allow_extra_args(false);
-  verb.add_flag("--rr", options.russianRoulette, "Russian roulette (default off)");
+  addTransport(verb, options.transport, [](const ParameterInfo& info) { return info.sameMean; });
   verb.add_flag("--general", options.general, "the general kernels instead of specialised ones");
 }
 
@@ -228,15 +257,13 @@ SessionConfig makeConfig(const SceneOptions& scene, const MethodOptions& method)
     logWarning(fmt::format("{}{}{} has no effect: {}", method.prefix, name == "mode" ? "" : "set ",
                            name, why));
   }
-  config.russianRoulette = method.russianRoulette;
   config.specialise = !method.general;
   config.width = scene.width;
   config.height = scene.height;
   config.seed = scene.seed;
-  config.maxBounces = scene.maxBounces;
+  applyTransport(scene.transport, config);
+  applyTransport(method.transport, config);
   config.components = parseComponent(scene.component, "--component");
-  config.pixelFilter = parseFilter(scene.filter, "--filter");
-  config.multiscatter = scene.multiscatter;
   config.threads = scene.threads;
   return config;
 }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,15 +12,16 @@
 
 namespace restlab {
 
+// Given ones of transportSchema(), by name, as texts.
+using TransportTexts = std::map<std::string, std::string>;
+
 struct SceneOptions {
   SceneRequest request;
   std::string resolution;  // "WxH"
   uint32_t width = 0, height = 0;
   uint32_t seed = 1;
-  uint32_t maxBounces = 8;
+  TransportTexts transport;  // those that change the expected image
   std::string component = "all";
-  std::string filter = "box";
-  bool multiscatter = false;
   int threads = 0;
 };
 
@@ -35,12 +38,9 @@ struct MethodOptions {
   BackendChoice backend;
   std::vector<std::string> parameters;  // KEY=VALUE
   std::string prefix = "--";            // of its options, for error messages
-  bool russianRoulette = false;
+  TransportTexts transport;             // those that leave the expected image as it is
   bool general = false;
 };
-
-// Bounds stated in --help.
-constexpr uint32_t kMaxBounces = 1024;
 
 // Accepts a number in lo..hi, optionally with a unit: s, m or h for "seconds", deg for "degrees".
 CLI::Validator numberFrom(double lo, double hi, const std::string& unit = "");
@@ -52,7 +52,11 @@ void addMethodOptions(CLI::App& verb, MethodOptions& options);
 void addBackendOptions(CLI::App& verb, BackendChoice& options);
 void addOutput(CLI::App& verb, std::string& output);
 void addThreads(CLI::App& verb, int& threads);
-void addMultiscatter(CLI::App& verb, bool& multiscatter);
+// Adds the settings of transportSchema() for which `isMeant` returns true.
+void addTransport(CLI::App& verb, TransportTexts& given,
+                  const std::function<bool(const ParameterInfo&)>& isMeant);
+// Sets what was given. Throws badUsage.
+void applyTransport(const TransportTexts& given, TransportSettings& settings);
 
 // Parses KEY=VALUE of `option`. `owner`: the part that has the parameters `known`, for errors.
 // Throws badUsage.

@@ -110,7 +110,7 @@ void addImages(const ViewOptions& options, ViewStart& start, std::vector<Session
 ViewStart startOfMethods(ViewOptions& options) {
   resolveResolution(options.scene);
   MethodOptions& second = options.second;
-  second.russianRoulette = options.first.russianRoulette;
+  second.transport = options.first.transport;
   second.general = options.first.general;
   second.backend = options.first.backend;
   if (!options.secondBackend.empty() && options.secondBackend != second.backend.backend) {

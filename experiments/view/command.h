@@ -4,6 +4,7 @@
 //   parameter   pane, name, value    one of the method's parameters; value null: its default
 //   camera      to_world, yfov?      16 numbers, column-major, rigid; metres, radians
 //   resolution  width, height        pixels
+//   transport   name, value          a setting of light transport, of all panes; null: its default
 //   light       name, factor         factor on the radiance of a light of the scene
 //   layer       pane, name           shows a layer of the method over its image; "": none
 //   probe       pane, x, y           asks for what the pane keeps for a pixel
@@ -49,6 +50,10 @@ struct MoveCamera {
 struct Resize {
   uint32_t width = 0, height = 0;
 };
+struct SetTransport {
+  std::string name;
+  std::optional<ParameterValue> value;  // empty: the default
+};
 struct SetLight {
   std::string name;
   double factor = 1.0;
@@ -83,9 +88,9 @@ struct SavePicture {
   uint32_t image = 0;
 };
 
-using ViewCommand = std::variant<SetSetting, SetParameter, MoveCamera, Resize, SetLight, ShowLayer,
-                                 Probe, Pause, Look, Restart, CopyMethod, Undo, Redo, SaveSession,
-                                 Measure, CancelMeasure, SavePicture>;
+using ViewCommand = std::variant<SetSetting, SetParameter, MoveCamera, Resize, SetTransport,
+                                 SetLight, ShowLayer, Probe, Pause, Look, Restart, CopyMethod, Undo,
+                                 Redo, SaveSession, Measure, CancelMeasure, SavePicture>;
 
 constexpr uint32_t kMostPanes = 2;
 

@@ -126,6 +126,19 @@ Json parametersJson(const SessionConfig& config) {
   return all;
 }
 
+Json transportJson(const SessionConfig& config) {
+  const std::vector<ParameterInfo> defaults = transportSchema().infos();
+  const std::vector<ParameterInfo> own = transportSchema().infos(config);
+  Json all = Json::array();
+  for (size_t i = 0; i < own.size(); ++i) {
+    Json json = parameterJson(defaults[i]);
+    json["value"] = parameterValueJson(own[i].defaultValue);
+    json["is_set"] = own[i].defaultValue != defaults[i].defaultValue;
+    all.push_back(std::move(json));
+  }
+  return all;
+}
+
 // Layers that every method has; the manual says more of each.
 Json layersJson(const SessionConfig& config) {
   Json all = {
@@ -252,6 +265,7 @@ std::string stateText(const LiveView& view, bool isPaused) {
                    {"mirrored", settings.camera.isMirrored}}},
                  {"width", size.width},
                  {"height", size.height},
+                 {"transport", view.hasScene() ? transportJson(size) : Json::array()},
                  {"lights", lights},
                  {"paused", isPaused},
                  {"can_undo", history.canUndo()},

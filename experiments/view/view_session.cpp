@@ -103,11 +103,11 @@ std::string settingsToml(const LiveView& view) {
   const ViewSettings& settings = view.settings();
   const SessionConfig& first = settings.panes.front().config;
   std::string text = fmt::format(
-      "\n[settings]\nwidth = {}\nheight = {}\nmax_bounces = {}\nseed = {}\ncomponents = [{}]\n"
-      "filter = {}\nmultiscatter = {}\nrussian_roulette = {}\nbaseline = {}\n",
-      first.width, first.height, first.maxBounces, view.firstSeed() & 0x7fffffffu,
-      quoted(componentName(first.components)), quoted(filterName(first.pixelFilter)),
-      first.multiscatter, first.russianRoulette, quoted(baselineOf(settings)));
+      "\n[settings]\nwidth = {}\nheight = {}\nseed = {}\ncomponents = [{}]\nbaseline = {}\n",
+      first.width, first.height, view.firstSeed() & 0x7fffffffu,
+      quoted(componentName(first.components)), quoted(baselineOf(settings)));
+  for (const ParameterInfo& info : transportSchema().infos(first))
+    text += fmt::format("{} = {}\n", info.name, valueText(info.defaultValue));
   if (first.threads > 0) text += fmt::format("threads = {}\n", first.threads);
   for (const PaneSettings& pane : settings.panes) {
     const SessionConfig& config = pane.config;

@@ -147,6 +147,23 @@ struct Change {
     text = fmt::format("{}x{}", command.width, command.height);
   }
 
+  void operator()(const SetTransport& command) {
+    const std::vector<ParameterInfo> known = transportSchema().infos();
+    const auto info = std::find_if(known.begin(), known.end(),
+                                   [&](const ParameterInfo& p) { return p.name == command.name; });
+    if (info == known.end()) {
+      std::vector<std::string> names;
+      for (const ParameterInfo& p : known) names.push_back(p.name);
+      failUsage(fmt::format("'{}': is no setting of light transport (known: {}){}", command.name,
+                            fmt::join(names, ", "), didYouMean(command.name, names)));
+    }
+    const ParameterValue value =
+        checkedValue("transport", *info, command.value.value_or(info->defaultValue));
+    for (PaneSettings& pane : settings.panes)
+      transportSchema().assign(pane.config, {{info->name, value}});
+    text = fmt::format("{} {}", info->name, settingText(value));
+  }
+
   void operator()(const SetLight& command) {
     requireLight(*choices.scene, command.name);
     setLight(settings.lights, command.name, command.factor);
@@ -187,6 +204,7 @@ struct Target {
   }
   std::string operator()(const MoveCamera&) { return "camera"; }
   std::string operator()(const Resize&) { return "resolution"; }
+  std::string operator()(const SetTransport& c) { return "transport " + c.name; }
   std::string operator()(const SetLight& c) { return "light " + c.name; }
   template <class Other>
   std::string operator()(const Other&) {
@@ -275,10 +293,9 @@ SessionConfig withNames(SessionConfig config) {
 bool isSameMethod(const SessionConfig& a, const SessionConfig& b) {
   const auto of = [](const SessionConfig& c) {
     return std::tie(c.integrator, c.mode, c.cache, c.backend, c.device, c.rayTracing, c.validate,
-                    c.denoiser, c.camera, c.maxBounces, c.components, c.pixelFilter,
-                    c.russianRoulette, c.multiscatter, c.specialise, c.threads);
+                    c.denoiser, c.camera, c.components, c.specialise, c.threads);
   };
-  return of(a) == of(b);
+  return of(a) == of(b) && static_cast<const TransportSettings&>(a) == b;
 }
 
 bool isSameSize(const SessionConfig& a, const SessionConfig& b) {
@@ -292,7 +309,8 @@ bool isSameCamera(const SceneCamera& a, const SceneCamera& b) {
 
 bool isSamePicture(const ViewSettings& a, const ViewSettings& b) {
   return a.lights == b.lights && isSameCamera(a.camera, b.camera) &&
-         isSameSize(a.panes.front().config, b.panes.front().config);
+         isSameSize(a.panes.front().config, b.panes.front().config) &&
+         referenceTransport(a.panes.front().config) == referenceTransport(b.panes.front().config);
 }
 
 bool isSame(const ViewSettings& a, const ViewSettings& b) {

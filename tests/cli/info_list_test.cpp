@@ -122,6 +122,14 @@ TEST_F(InfoTest, LightlessSceneIsWarnedOf) {
   EXPECT_NE(result.err.find("no light"), std::string::npos) << result.err;
 }
 
+TEST_F(InfoTest, ListAllIsTheReferenceOfTheDocuments) {
+  std::ifstream in(RESTLAB_SOURCE_DIR "/docs/reference.md");
+  const std::string page((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  EXPECT_TRUE(run("list all").out == page) << "./lab list all > docs/reference.md writes it again";
+  const auto all = nlohmann::json::parse(run("list all --json").out);
+  EXPECT_EQ(all.at("caches"), nlohmann::json::parse(run("list caches --json").out));
+}
+
 TEST_F(InfoTest, ListsNameWhatTheirVerbsTake) {
   const auto list = [&](const std::string& what) {
     const ProgramResult result = run("list " + what + " --json");

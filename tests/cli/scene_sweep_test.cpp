@@ -48,7 +48,7 @@ TEST_F(SceneSweepRun, HoldsAgainstTheExactImage) {
   EXPECT_NE(result.out.find("| method | last that holds | energy | error |"), std::string::npos)
       << result.out;
   EXPECT_NE(table.find("reference in closed form"), std::string::npos) << table;
-  EXPECT_NE(table.find("16 scattering events, Russian roulette off"), std::string::npos) << table;
+  EXPECT_NE(table.find("max_bounces 16, russian_roulette off"), std::string::npos) << table;
   EXPECT_TRUE(std::filesystem::exists(path("out/plots/sweep-1-albedo-all-error.svg")));
   EXPECT_NE(read("out/report.html").find("last albedo that holds"), std::string::npos);
   const auto reference = readExr(path("out/images/albedo-furnace-albedo-0.9-all-reference.exr"));

@@ -10,8 +10,10 @@
 #include "core/base/error.h"
 #include "core/frame/method_settings.h"
 #include "experiments/runner/registries/registries.h"
+#include "experiments/runner/run/render_command.h"
 #include "experiments/runner/suite/suite.h"
 #include "experiments/runner/suite/suite_settings.h"
+#include "experiments/runner/tables/column_groups.h"
 #include "tests/runner/every_method.h"
 #include "tests/runner/temporary_folder.h"
 
@@ -121,6 +123,44 @@ TEST_F(EveryParameter, OfAnotherMethodIsRefused) {
     }
   }
   EXPECT_GT(refused, 50u);
+}
+
+// Every setting of light transport is a key of [settings] and [[scene]], is taken by --set and a
+// sweep, has a column, and stands in the command that renders the row again.
+TEST_F(EveryParameter, OfLightTransportIsTaken) {
+  const auto loaded = [&](const Lines& scene, const Lines& settings, const Lines& overrides = {},
+                          const Lines& sweeps = {}) {
+    const std::filesystem::path file = folder() / "suite.toml";
+    std::ofstream(file) << fmt::format(
+        "[[scene]]\nscene = \"furnace\"\n{}\n[[method]]\n[settings]\n{}\n", fmt::join(scene, "\n"),
+        fmt::join(settings, "\n"));
+    const std::vector<Suite> suites = loadSuites(file, overrides, sweeps);
+    EXPECT_EQ(suites.size(), 1u);
+    return ofScene(suites[0], suites[0].scenes[0]);
+  };
+  Lines assigned;
+  ParameterMap values;
+  for (const ParameterInfo& info : transportSchema().infos()) {
+    values[info.name] = anotherValue(info);
+    assigned.push_back(assignment(info.name, values[info.name]));
+  }
+  const TransportSettings wanted = transportSchema().read(values);
+  EXPECT_FALSE(wanted == TransportSettings());
+  EXPECT_TRUE(static_cast<TransportSettings>(loaded({}, assigned)) == wanted);
+  EXPECT_TRUE(static_cast<TransportSettings>(loaded(assigned, {})) == wanted);
+  EXPECT_TRUE(static_cast<TransportSettings>(loaded({}, {}, assigned)) == wanted);
+  EXPECT_TRUE(static_cast<TransportSettings>(loaded({}, {}, {}, assigned)) == wanted);
+
+  SessionConfig config;
+  static_cast<TransportSettings&>(config) = wanted;
+  const std::vector<std::string> words = renderWords(SceneRequest(), config, config);
+  for (const ParameterInfo& info : transportSchema().infos()) {
+    EXPECT_EQ(std::count(words.begin(), words.end(), optionName(info.name)), 1) << info.name;
+    const Columns columns = conditionColumns();
+    EXPECT_TRUE(std::any_of(columns.begin(), columns.end(), [&](const Column& column) {
+      return column.key == info.name;
+    })) << info.name;
+  }
 }
 
 // Returns what the lists of the registries say a part brings.

@@ -173,7 +173,7 @@ TEST_F(SceneSweepTest, SaysTheLastValueThatHolds) {
             std::string::npos)
       << table;
   EXPECT_EQ(outputs.nonfinite(), "");
-  outputs.write(own, true);
+  outputs.write(own, {}, true);
   std::ifstream in(folder() / "table.md");
   const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
   EXPECT_LT(text.find("last that holds"), text.find("## light: furnace?albedo=0.5, all light"));

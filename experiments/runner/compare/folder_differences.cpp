@@ -33,9 +33,12 @@ const std::set<std::string> kNoSettings = {
     "device",       "bias",        "seeds",  "images",       "reference"};
 
 // Metadata that identify the picture of a reference.
-const std::vector<std::string> kPicture = {"scene_hash", "camera_to_world", "camera_yfov",
-                                           "width",      "height",          "max_bounces",
-                                           "component",  "filter",          "multiscatter"};
+std::vector<std::string> pictureKeys() {
+  std::vector<std::string> keys = {"scene_hash", "camera_to_world", "camera_yfov",
+                                   "width",      "height",          "component"};
+  for (const auto& setting : transportTexts({}, true)) keys.push_back(setting.first);
+  return keys;
+}
 
 constexpr const char* kNoKey = "no key";
 
@@ -161,7 +164,7 @@ std::map<std::string, Words> blockWords(const ResultsFolder& results, const Plan
     } else {
       own["seeds"] = numbersText(seeds[name]);
     }
-    for (const std::string& word : kPicture) {
+    for (const std::string& word : pictureKeys()) {
       const auto found = reference.metadata.find(word);
       if (found != reference.metadata.end()) own.emplace(word, found->second);
     }

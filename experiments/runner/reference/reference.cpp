@@ -57,10 +57,8 @@ ReferenceConfig referenceConfigOf(const SessionConfig& session) {
   ReferenceConfig config;
   config.width = session.width;
   config.height = session.height;
-  config.maxBounces = session.maxBounces;
+  static_cast<TransportSettings&>(config) = referenceTransport(session);
   config.components = session.components;
-  config.pixelFilter = session.pixelFilter;
-  config.multiscatter = session.multiscatter;
   config.seed = session.seed;
   config.threads = session.threads;
   config.backend = session.backend;
@@ -72,12 +70,11 @@ ReferenceConfig referenceConfigOf(const SessionConfig& session) {
 
 std::string referenceKey(const PreparedScene& prepared, const ReferenceConfig& config) {
   const SceneCamera* camera = cameraInsteadOf(prepared, config);
-  const std::string text = fmt::format(
-      "reference-2 {} camera {} {}x{} bounces {} {} {} multiscatter {} sources {}",
-      hexHash(prepared.contentHash), camera ? exactly(*camera) : std::to_string(prepared.camera),
-      config.width, config.height, config.maxBounces, componentName(config.components),
-      filterName(config.pixelFilter), config.multiscatter ? "on" : "off",
-      buildInfo().referenceHash);
+  std::string text =
+      fmt::format("reference-3 {} camera {} {}x{} {} sources {}", hexHash(prepared.contentHash),
+                  camera ? exactly(*camera) : std::to_string(prepared.camera), config.width,
+                  config.height, componentName(config.components), buildInfo().referenceHash);
+  for (const auto& [name, value] : transportTexts(config, true)) text += " " + name + " " + value;
   const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
   return hexHash(hash.high64) + hexHash(hash.low64);
 }
@@ -131,9 +128,11 @@ void requireSameConfiguration(const std::string& file,
     logWarning(fmt::format("{}: says nothing about its scene and settings; taken on trust", file));
     return;
   }
-  for (const char* item :
-       {"scene_hash", "camera_index", "camera_to_world", "camera_yfov", "width", "height",
-        "max_bounces", "component", "filter", "multiscatter", "reference_sources"}) {
+  std::vector<std::string> items = {
+      "scene_hash", "camera_index", "camera_to_world", "camera_yfov",
+      "width",      "height",       "component",       "reference_sources"};
+  for (const auto& setting : transportTexts({}, true)) items.push_back(setting.first);
+  for (const std::string& item : items) {
     const auto have = reference.find(item), want = wanted.find(item);
     if (have == reference.end() || want == wanted.end() || have->second == want->second) continue;
     failInput(fmt::format("{}: the reference is of another configuration: {} is {}, not {}", file,

@@ -15,14 +15,11 @@
 namespace restlab {
 
 // Inputs of a reference besides the scene.
-struct ReferenceConfig {
+struct ReferenceConfig : TransportSettings {
   uint32_t width = 0, height = 0;
   // Replaces the scene's camera, e.g. by one on a camera path.
   std::optional<SceneCamera> camera;
-  uint32_t maxBounces = 8;
   uint32_t components = rl::RL_COMPONENT_ALL;
-  uint32_t pixelFilter = rl::RL_FILTER_BOX;
-  bool multiscatter = false;
   uint32_t seed = 1;  // not part of the key
   int threads = 0;
   // Device that renders; not part of the key.

@@ -41,11 +41,8 @@ SessionConfig referenceSession(const PreparedScene& prepared, const ReferenceCon
   session.width = config.width;
   session.height = config.height;
   session.camera = prepared.camera;
-  session.maxBounces = config.maxBounces;
+  static_cast<TransportSettings&>(session) = referenceTransport(config);
   session.components = config.components;
-  session.pixelFilter = config.pixelFilter;
-  session.multiscatter = config.multiscatter;
-  session.russianRoulette = false;
   session.threads = config.threads;
   session.backend = config.backend;
   session.device = config.device;

@@ -124,10 +124,11 @@ Reference multiplied(Reference reference, double factor) {
 
 std::string plainLabel(const SceneRequest& request, const std::string& path,
                        const PreparedScene& plain, const ReferenceConfig& config) {
-  return safeFileName(fmt::format("{}-{}-{}-{}-{}x{}-{}{}{}", withoutRelations(request.scene),
+  std::string settings;
+  for (const auto& [name, text] : transportTexts(config, true)) settings += "-" + text;
+  return safeFileName(fmt::format("{}-{}-{}-{}-{}x{}{}{}", withoutRelations(request.scene),
                                   componentName(config.components), plain.cameraName, path,
-                                  config.width, config.height, config.maxBounces,
-                                  config.multiscatter ? "-multiscatter" : "", kPlainReference));
+                                  config.width, config.height, settings, kPlainReference));
 }
 
 std::string originOf(const Reference& reference) {

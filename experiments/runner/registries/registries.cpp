@@ -7,6 +7,7 @@
 #include "core/frame/denoiser.h"
 #include "core/frame/integrator.h"
 #include "core/frame/method_settings.h"
+#include "core/frame/transport_settings.h"
 #include "core/image/metrics/metrics.h"
 #include "experiments/runner/base/bias_name.h"
 
@@ -49,6 +50,8 @@ Json layersJson(const PartInfo& part) {
 }
 
 }  // namespace
+
+Json transportSettingsJson() { return parametersJson(transportSchema().infos()); }
 
 Json integratorsJson() {
   Json all = Json::array();

@@ -11,6 +11,9 @@ namespace restlab {
 nlohmann::ordered_json parameterJson(const ParameterInfo& parameter);
 nlohmann::ordered_json parameterValueJson(const ParameterValue& value);
 
+// Settings of light transport.
+nlohmann::ordered_json transportSettingsJson();
+
 // Return arrays in the order of the registries.
 nlohmann::ordered_json integratorsJson();
 nlohmann::ordered_json cachesJson();

@@ -107,7 +107,25 @@ void Outputs::writePages(const Suite& suite, const nlohmann::ordered_json& recor
   writeReport(out_, document);
 }
 
-void Outputs::write(const Suite& suite, bool finished) const {
+namespace {
+
+// Returns "Made on 2026-11-27 by restlab 0.2.0 (b07e551): `restlab run ...`", the program by its
+// name alone.
+std::string madeBy(const nlohmann::ordered_json& record) {
+  if (!record.contains("argv") || record["argv"].empty()) return "";
+  auto words = record["argv"].get<std::vector<std::string>>();
+  words[0] = "restlab";
+  const nlohmann::ordered_json& build = record.at("build");
+  return fmt::format("Made on {} by restlab {} ({}{}): `{}`\n\n",
+                     record.at("started").get<std::string>().substr(0, 10),
+                     build.at("version").get<std::string>(),
+                     build.at("git_commit").get<std::string>(),
+                     build.at("git_dirty").get<bool>() ? ", modified" : "", shellCommand(words));
+}
+
+}  // namespace
+
+void Outputs::write(const Suite& suite, const nlohmann::ordered_json& record, bool finished) const {
   std::string csv;
   for (const Block& block : blocks_) {
     const std::string part = summaryCsv(block.rows);
@@ -120,6 +138,7 @@ void Outputs::write(const Suite& suite, bool finished) const {
   if (!tex.empty()) writeTextFile(out_ / "table.tex", tex);
   std::string text = fmt::format("# {}\n\n", suite.name);
   if (!suite.question.empty()) text += suite.question + "\n\n";
+  text += madeBy(record);
   if (!finished) text += "Not finished: the rows below are of what was.\n\n";
   for (const std::string& line : notes_) text += line + "\n\n";
   const bool hasRatios = std::any_of(blocks_.begin(), blocks_.end(), [](const Block& block) {

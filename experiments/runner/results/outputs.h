@@ -25,7 +25,8 @@ class Outputs {
   // Sets the devices shown below the tables.
   void use(const std::vector<DeviceUse>& devices) { devices_ = devices; }
   // Writes summary.csv, table.md and table.tex. `suite`: any point, for name and question.
-  void write(const Suite& suite, bool finished) const;
+  // `record`: run.json.
+  void write(const Suite& suite, const nlohmann::ordered_json& record, bool finished) const;
   // Returns the tables of scene sweeps; "" without sweeps.
   std::string sweepTables() const;
   // Returns one line on where values are not finite; "" if all are finite.

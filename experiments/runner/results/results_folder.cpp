@@ -133,7 +133,7 @@ std::string remakeOutputs(const fs::path& folder) {
     if (!block.result.methods.empty())
       tables += outputs.add(suiteOf(results, planned), std::move(block.result));
   }
-  outputs.write(results.points.front(), finished);
+  outputs.write(results.points.front(), results.record, finished);
   outputs.writePages(results.points.front(), results.record);
   return tables;
 }

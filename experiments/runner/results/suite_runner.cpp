@@ -126,7 +126,7 @@ class SuiteRun {
     writeRecord("running");
     try {
       const bool finished = executeAll();
-      outputs_.write(points_.front(), finished);
+      outputs_.write(points_.front(), record_, finished);
       if (finished) printText(outputs_.sweepTables());
       writeRecord(finished ? "finished" : "interrupted");
       outputs_.writePages(points_.front(), record_);
@@ -245,7 +245,7 @@ class SuiteRun {
       printText(outputs_.add(suite, std::move(block)));
       std::fflush(stdout);
     }
-    outputs_.write(points_.front(), false);
+    outputs_.write(points_.front(), record_, false);
     if (failure) std::rethrow_exception(failure);
     return finished;
   }

@@ -78,7 +78,6 @@ SessionConfig methodConfig(const Suite& suite, const SuiteMethod& method,
   config.backend = method.session.backend;
   suite.chooseDevice(config);
   config.camera = prepared.camera;
-  config.russianRoulette = suite.russianRoulette;
   if (suite.jobs > 1 && suite.threads == 0)
     config.threads = int(std::max(1u, std::thread::hardware_concurrency() / suite.jobs));
   return config;

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 
+#include "core/base/config.h"
 #include "core/base/error.h"
 #include "experiments/runner/suite/image_settings.h"
 
@@ -38,7 +39,11 @@ ImageScene sceneOfImage(const std::string& file,
   ImageScene scene;
   scene.config.width = side("width");
   scene.config.height = side("height");
-  scene.config.pixelFilter = parseFilter(word("filter"), file);
+  for (const ParameterInfo& info : transportSchema().infos()) {
+    if (info.name != "filter") continue;
+    const ParameterValue filter = parseParameter(info, word("filter"), file);
+    transportSchema().assign(scene.config, {{info.name, filter}});
+  }
   try {
     scene.prepared = prepareScene(request);
   } catch (const Error& error) {

@@ -44,12 +44,18 @@ void addScene(const SceneRequest& request, Words& words) {
 
 void addPicture(const SessionConfig& config, Words& words) {
   add(words, "--resolution", fmt::format("{}x{}", config.width, config.height));
-  add(words, "--max-bounces", std::to_string(config.maxBounces));
+  const std::vector<ParameterInfo> defaults = transportSchema().infos();
+  const std::vector<ParameterInfo> own = transportSchema().infos(config);
+  for (size_t i = 0; i < own.size(); ++i) {
+    const ParameterValue& value = own[i].defaultValue;
+    const bool isNumber = std::holds_alternative<int64_t>(value);
+    if (!isNumber && value == defaults[i].defaultValue) continue;
+    const bool* flag = std::get_if<bool>(&value);
+    words.push_back(optionName(own[i].name, !flag || *flag));
+    if (!flag) words.push_back(parameterText(value));
+  }
   if (config.components != rl::RL_COMPONENT_ALL)
     add(words, "--component", componentName(config.components));
-  if (config.pixelFilter != rl::RL_FILTER_BOX)
-    add(words, "--filter", filterName(config.pixelFilter));
-  if (config.multiscatter) words.emplace_back("--multiscatter");
 }
 
 // Writes numbers to the last bit, unlike parameterText().
@@ -63,7 +69,6 @@ void addMethod(const SessionConfig& config, Words& words) {
     add(words, std::string("--") + setting.key, config.*(setting.value));
   add(words, "--device", config.device);
   add(words, "--ray-tracing", config.rayTracing);
-  if (config.russianRoulette) words.emplace_back("--rr");
   if (!config.specialise) words.emplace_back("--general");
   for (const auto& [name, value] : config.parameters)
     add(words, "--set", fmt::format("{}={}", name, valueText(value)));

@@ -18,11 +18,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json valueJson(const ParameterValue& value) {
+  return std::visit([](const auto& typed) { return Json(typed); }, value);
+}
+
 Json parametersJson(const SuiteMethod& method) {
   Json json = Json::object();
-  for (const auto& [key, value] : method.parameters()) {
-    std::visit([&, &name = key](const auto& typed) { json[name] = typed; }, value);
-  }
+  for (const auto& [key, value] : method.parameters()) json[key] = valueJson(value);
   return json;
 }
 
@@ -43,12 +45,10 @@ Json configurationJson(const Suite& suite, const BlockResult& block, size_t meth
                {"parameters", parametersJson(suite.methods[method])},
                {"width", block.width},
                {"height", block.height},
-               {"max_bounces", suite.maxBounces},
-               {"multiscatter", suite.multiscatter},
-               {"russian_roulette", suite.russianRoulette},
-               {"filter", filterName(suite.pixelFilter)},
                {"warmup_frames", suite.warmupFrames},
                {"timed_frames", suite.timedFrames}};
+  for (const ParameterInfo& info : transportSchema().infos(suite))
+    json[info.name] = valueJson(info.defaultValue);
   for (const auto& [key, value] : settingValues(session)) json[key] = value;
   return json;
 }

@@ -47,15 +47,4 @@ uint32_t parseComponent(const std::string& name, const std::string& place) {
                         didYouMean(name, {"all", "direct", "indirect"})));
 }
 
-std::string filterName(uint32_t filter) {
-  return filter == rl::RL_FILTER_CENTER ? "center" : "box";
-}
-
-uint32_t parseFilter(const std::string& name, const std::string& place) {
-  if (name == "box") return rl::RL_FILTER_BOX;
-  if (name == "center") return rl::RL_FILTER_CENTER;
-  failUsage(fmt::format("{}: unknown filter '{}' (known: box, center){}", place, name,
-                        didYouMean(name, {"box", "center"})));
-}
-
 }  // namespace restlab

@@ -1,4 +1,4 @@
-// Size, component and filter of images, as command lines, suites and records name them.
+// Size and component of images, as command lines, suites and records name them.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,5 @@ void parseResolution(const std::string& text, const std::string& place, uint32_t
 std::string componentName(uint32_t components);
 // Throws badUsage with the nearest name; `place` names the option or the file position.
 uint32_t parseComponent(const std::string& name, const std::string& place);
-std::string filterName(uint32_t filter);
-uint32_t parseFilter(const std::string& name, const std::string& place);
 
 }  // namespace restlab

@@ -29,10 +29,8 @@ SessionConfig pictureOf(const Suite& suite, uint32_t width, uint32_t height, uin
   SessionConfig config;
   config.width = width;
   config.height = height;
-  config.maxBounces = suite.maxBounces;
+  static_cast<TransportSettings&>(config) = suite;
   config.components = component;
-  config.pixelFilter = suite.pixelFilter;
-  config.multiscatter = suite.multiscatter;
   config.seed = suite.seed;
   config.threads = suite.threads;
   config.backend = suite.referenceBackend;

@@ -188,15 +188,12 @@ std::map<std::string, std::string> describe(const PreparedScene& prepared,
       {"environment", prepared.environmentName},
       {"width", std::to_string(config.width)},
       {"height", std::to_string(config.height)},
-      {"max_bounces", std::to_string(config.maxBounces)},
       {"component", componentName(config.components)},
-      {"filter", filterName(config.pixelFilter)},
-      {"multiscatter", config.multiscatter ? "on" : "off"},
-      {"russian_roulette", config.russianRoulette ? "on" : "off"},
       {"kernel", config.specialise ? "specialised" : "general"},
       {"source_hash", buildInfo().sourceHash},
       {"reference_sources", buildInfo().referenceHash},
   };
+  for (const auto& [key, text] : transportTexts(config)) words[key] = text;
   for (const auto& [key, value] : settingValues(config)) words[key] = value;
   describeCamera(source.cameras.at(prepared.camera), words);
   words["camera"] = prepared.cameraName;

@@ -47,11 +47,7 @@ SuiteScene readScene(const ConfigTable& table, const std::string& folder) {
   scene.truth = truth == "exact" ? Truth::exact : truth == "same" ? Truth::same : Truth::rendered;
   if (scene.truth != Truth::rendered && !scene.reference.empty())
     table.fail("truth", "'truth' and 'reference' exclude each other");
-  if (table.has("max_bounces"))
-    scene.maxBounces = uint32_t(table.getInteger("max_bounces", 0, 0, kMaxBouncesOfSuites));
-  if (table.has("russian_roulette"))
-    scene.russianRoulette = table.getBool("russian_roulette", false);
-  if (table.has("multiscatter")) scene.multiscatter = table.getBool("multiscatter", false);
+  scene.transport = readTransport(table);
   if (table.has("warmup_frames"))
     scene.warmupFrames = uint32_t(table.getInteger("warmup_frames", 0, 0, kMaxCount));
   if (table.has("runs")) scene.runs = uint32_t(table.getInteger("runs", 1, 1, kMaxCount));
@@ -187,9 +183,7 @@ uint32_t Suite::minRuns() const {
 
 Suite ofScene(const Suite& suite, const SuiteScene& scene) {
   Suite own = suite;
-  own.maxBounces = scene.maxBounces.value_or(own.maxBounces);
-  own.russianRoulette = scene.russianRoulette.value_or(own.russianRoulette);
-  own.multiscatter = scene.multiscatter.value_or(own.multiscatter);
+  transportSchema().assign(own, scene.transport);
   own.warmupFrames = scene.warmupFrames.value_or(own.warmupFrames);
   own.runs = scene.runs.value_or(own.runs);
   if (scene.cameraPath) takePath(own, *scene.cameraPath, scene.cameraPathPlace);

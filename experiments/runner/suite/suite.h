@@ -24,8 +24,8 @@ struct SuiteScene {
   bool optional = false;           // skipped with a message if its files are absent
   Truth truth = Truth::rendered;
   // Settings of this scene instead of the suite's.
-  std::optional<uint32_t> maxBounces, warmupFrames, runs;
-  std::optional<bool> russianRoulette, multiscatter;
+  ParameterMap transport;  // of transportSchema()
+  std::optional<uint32_t> warmupFrames, runs;
   std::optional<std::string> cameraPath;  // name of the path
   // Number of the [[scene]] whose scenes are a sweep, from 1; 0: a [[scene]] of one scene.
   size_t sweep = 0;
@@ -33,9 +33,7 @@ struct SuiteScene {
   // Places in the suite, for errors: file:line:column.
   std::string place, cameraPlace, environmentPlace, referencePlace, truthPlace, cameraPathPlace;
 
-  bool hasOwnSettings() const {
-    return maxBounces || warmupFrames || runs || russianRoulette || multiscatter || cameraPath;
-  }
+  bool hasOwnSettings() const { return !transport.empty() || warmupFrames || runs || cameraPath; }
 };
 
 // A [[camera_path]], or "still", with the light events on it, by frame.
@@ -83,7 +81,7 @@ struct SuiteMask {
   std::string place, objectsPlace, rectanglePlace;
 };
 
-struct Suite {
+struct Suite : TransportSettings {
   std::string name, question, file;
   std::string point;     // values of swept settings, "max_bounces=4"; "" without a sweep
   std::string resolved;  // suite with includes, overrides and sweeps, as TOML
@@ -91,11 +89,8 @@ struct Suite {
   std::vector<SuiteMethod> methods;  // rendered ones first, then rows of images
   std::vector<uint32_t> components = {rl::RL_COMPONENT_ALL};
   uint32_t width = 0, height = 0;  // 0: from the camera's aspect ratio
-  uint32_t maxBounces = 8;
-  bool multiscatter = false;
-  bool russianRoulette = false;
-  uint32_t warmupFrames = 32;  // the next frame is the measured one
-  uint32_t timedFrames = 8;    // per run, the measured one first
+  uint32_t warmupFrames = 32;      // the next frame is the measured one
+  uint32_t timedFrames = 8;        // per run, the measured one first
   uint32_t runs = 8;
   uint32_t seed = 1;  // of run 0; run r uses seed + r
   // Ages at which the error is also recorded: frames since view and lights came to rest, the first
@@ -122,7 +117,6 @@ struct Suite {
   bool validate = false;
   std::string devicePlace, rayTracingPlace;  // for errors
   std::string referenceBackend = "cpu", referenceBackendPlace;
-  uint32_t pixelFilter = rl::RL_FILTER_BOX;
   int threads = 0;
   ReferenceTarget target;
 

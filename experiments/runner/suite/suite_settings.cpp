@@ -112,12 +112,16 @@ void readSize(const ConfigTable& table, const std::set<std::string>& swept, Suit
 
 }  // namespace
 
+ParameterMap readTransport(const ConfigTable& table) {
+  ParameterMap given;
+  for (const ParameterInfo& info : transportSchema().infos())
+    if (const auto value = table.getParameter(info)) given[info.name] = *value;
+  return given;
+}
+
 void readSettings(const ConfigTable& table, Suite& suite, const std::set<std::string>& swept) {
   readSize(table, swept, suite);
-  suite.maxBounces =
-      uint32_t(table.getInteger("max_bounces", suite.maxBounces, 0, kMaxBouncesOfSuites));
-  suite.multiscatter = table.getBool("multiscatter", suite.multiscatter);
-  suite.russianRoulette = table.getBool("russian_roulette", suite.russianRoulette);
+  transportSchema().assign(suite, readTransport(table));
   suite.warmupFrames =
       uint32_t(table.getInteger("warmup_frames", suite.warmupFrames, 0, kMaxCount));
   suite.timedFrames = uint32_t(table.getInteger("frames", suite.timedFrames, 1, kMaxCount));
@@ -143,7 +147,6 @@ void readSettings(const ConfigTable& table, Suite& suite, const std::set<std::st
   suite.baseline = table.getString("baseline", suite.baseline);
   for (const std::string& given : table.getStrings("metrics", {}))
     addMetric(table, given, suite.metrics);
-  suite.pixelFilter = parseFilter(table.getString("filter", "box"), table.place("filter"));
   suite.components.clear();
   for (const std::string& name : table.getStrings("components", {"all"})) {
     const uint32_t component = parseComponent(name, table.place("components"));

@@ -9,14 +9,14 @@
 
 namespace restlab {
 
-// Limit of `max_bounces`.
-constexpr int64_t kMaxBouncesOfSuites = 1024;
 // Limit of frames and runs.
 constexpr int64_t kMaxCount = 1000000;
 
 // Reads one name or several: "cpu" and so on, each once.
 std::vector<std::string> readBackends(const ConfigTable& table,
                                       const std::vector<std::string>& fallback);
+// Reads the given ones of transportSchema().
+ParameterMap readTransport(const ConfigTable& table);
 // `swept`: keys with swept values.
 void readSettings(const ConfigTable& table, Suite& suite, const std::set<std::string>& swept = {});
 // Returns the known keys of [settings].

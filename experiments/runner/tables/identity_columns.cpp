@@ -12,8 +12,6 @@ namespace {
 
 using Row = MethodSummary;
 
-std::string onOff(bool isOn) { return isOn ? "on" : "off"; }
-
 std::string flagsText(const Row& row) { return fmt::format("{}", fmt::join(row.flags, "; ")); }
 
 // Returns "confidence_cap=20 temporal=true": all parameters, defaults included.
@@ -36,64 +34,116 @@ std::string kernelName(const SuiteMethod& method) {
   return method.session.specialise ? "specialised" : "general";
 }
 
-Column settingColumn(size_t index, const std::string& key) {
-  return {.key = key, .get = [index](const Row& row) {
-            return settingValues(row.method->session)[index].second;
-          }};
+Column settingColumn(size_t index, const MethodSetting& setting) {
+  return {
+      .key = setting.key,
+      .get = [index](const Row& row) { return settingValues(row.method->session)[index].second; },
+      .help = std::string("the method's ") + setting.key};
+}
+
+Column transportColumn(size_t index, const ParameterInfo& info) {
+  return {.key = info.name,
+          .get = [index](const Row& row) { return transportTexts(*row.suite)[index].second; },
+          .help = info.help};
 }
 
 }  // namespace
 
 Columns identityColumns() {
-  Columns all = {
-      {.key = "scene", .get = [](const Row& row) { return row.block->scene; }},
-      {.key = "camera", .get = [](const Row& row) { return row.block->camera; }},
-      {.key = "width", .get = [](const Row& row) { return uint64_t(row.block->width); }},
-      {.key = "height", .get = [](const Row& row) { return uint64_t(row.block->height); }},
-      {.key = "frames", .get = [](const Row& row) { return uint64_t(row.suite->timedFrames); }},
-      {.key = "runs", .get = [](const Row& row) { return uint64_t(row.runs); }},
-      {.key = "nonfinite", .get = [](const Row& row) { return row.nonfinite; }},
-      {.key = "features_left_out",
-       .get = [](const Row& row) { return row.result->featuresLeftOut; }},
-      {.key = "component",
-       .get = [](const Row& row) { return componentName(row.block->component); }},
-      {.key = "method", .get = [](const Row& row) { return row.method->name; }},
-      {.key = "bias_class", .get = [](const Row& row) { return std::string(biasName(row.bias)); }},
-      {.key = "counts", .get = [](const Row& row) { return uint64_t(row.counts); }},
-      {.key = "flags", .get = flagsText}};
+  Columns all = {{.key = "scene",
+                  .get = [](const Row& row) { return row.block->scene; },
+                  .help = "name in the suite"},
+                 {.key = "camera",
+                  .get = [](const Row& row) { return row.block->camera; },
+                  .help = "name or index of the camera"},
+                 {.key = "width",
+                  .get = [](const Row& row) { return uint64_t(row.block->width); },
+                  .help = "pixels"},
+                 {.key = "height",
+                  .get = [](const Row& row) { return uint64_t(row.block->height); },
+                  .help = "pixels"},
+                 {.key = "frames",
+                  .get = [](const Row& row) { return uint64_t(row.suite->timedFrames); },
+                  .help = "timed frames of a run"},
+                 {.key = "runs",
+                  .get = [](const Row& row) { return uint64_t(row.runs); },
+                  .help = "finished runs"},
+                 {.key = "nonfinite",
+                  .get = [](const Row& row) { return row.nonfinite; },
+                  .help = "non-finite channel values of measured frames, and sample values set to "
+                          "zero in timed ones"},
+                 {.key = "features_left_out",
+                  .get = [](const Row& row) { return row.result->featuresLeftOut; },
+                  .help = "scene features that the kernels leave out"},
+                 {.key = "component",
+                  .get = [](const Row& row) { return componentName(row.block->component); },
+                  .help = "light that is rendered and measured"},
+                 {.key = "method",
+                  .get = [](const Row& row) { return row.method->name; },
+                  .help = "name in the suite"},
+                 {.key = "bias_class",
+                  .get = [](const Row& row) { return std::string(biasName(row.bias)); },
+                  .help = "what the method declares for this view: unbiased, consistent or biased"},
+                 {.key = "counts",
+                  .get = [](const Row& row) { return uint64_t(row.counts); },
+                  .help = "0: the row does not count in comparisons"},
+                 {.key = "flags",
+                  .get = flagsText,
+                  .help = "why a row does not count, and what its numbers lack"}};
   const std::vector<MethodSetting>& settings = methodSettings();
-  for (size_t i = 0; i < settings.size(); ++i) all.push_back(settingColumn(i, settings[i].key));
+  for (size_t i = 0; i < settings.size(); ++i) all.push_back(settingColumn(i, settings[i]));
   return all;
 }
 
 Columns conditionColumns() {
-  return {
-      {.key = "max_bounces", .get = [](const Row& row) { return uint64_t(row.suite->maxBounces); }},
+  Columns all;
+  const std::vector<ParameterInfo> infos = transportSchema().infos();
+  for (size_t i = 0; i < infos.size(); ++i) all.push_back(transportColumn(i, infos[i]));
+  const Columns more = {
       {.key = "warmup_frames",
-       .get = [](const Row& row) { return uint64_t(row.suite->warmupFrames); }},
-      {.key = "russian_roulette",
-       .get = [](const Row& row) { return onOff(row.suite->russianRoulette); }},
-      {.key = "filter", .get = [](const Row& row) { return filterName(row.suite->pixelFilter); }},
-      {.key = "multiscatter", .get = [](const Row& row) { return onOff(row.suite->multiscatter); }},
-      {.key = "seed", .get = [](const Row& row) { return uint64_t(row.suite->seed); }},
-      {.key = "kernel", .get = [](const Row& row) { return kernelName(*row.method); }},
+       .get = [](const Row& row) { return uint64_t(row.suite->warmupFrames); },
+       .help = "frames before the measured one"},
+      {.key = "seed",
+       .get = [](const Row& row) { return uint64_t(row.suite->seed); },
+       .help = "of run 0; run r has seed + r"},
+      {.key = "kernel",
+       .get = [](const Row& row) { return kernelName(*row.method); },
+       .help = "specialised to the scene, or general"},
       {.key = "reference_spp",
-       .get = [](const Row& row) { return uint64_t(row.block->reference.spp); }},
+       .get = [](const Row& row) { return uint64_t(row.block->reference.spp); },
+       .help = "samples per pixel of the reference"},
       {.key = "reference_relmse",
-       .get = [](const Row& row) { return only(row.block->reference.relmse); }},
-      {.key = "device", .get = [](const Row& row) { return row.result->use.device; }},
-      {.key = "ray_tracing", .get = [](const Row& row) { return row.result->use.rayTracing; }},
+       .get = [](const Row& row) { return only(row.block->reference.relmse); },
+       .help = "its own error, estimated from its halves"},
+      {.key = "device",
+       .get = [](const Row& row) { return row.result->use.device; },
+       .help = "device that ran the kernels"},
+      {.key = "ray_tracing",
+       .get = [](const Row& row) { return row.result->use.rayTracing; },
+       .help = "what traced the rays"},
       {.key = "startup_ms",
        .get = [](const Row& row) { return only(row.result->startupMs); },
-       .unit = "ms"},
+       .unit = "ms",
+       .help = "making the kernels ready; a shared kernel counts with the first method"},
       {.key = "time_ratio_to_first_backend",
        .get = [](const Row& row) { return row.timeToFirstBackend; },
        .ends = Ends::all,
-       .narrow = "time / {2}"},
-      {.key = "point", .get = [](const Row& row) { return row.suite->point; }},
-      {.key = "parameters", .get = [](const Row& row) { return parametersText(*row.method); }},
-      {.key = "baseline", .get = [](const Row& row) { return nameAt(&Suite::baselineOf, row); }},
-      {.key = "average", .get = [](const Row& row) { return nameAt(&Suite::average, row); }}};
+       .narrow = "time / {2}",
+       .help = "as time_ratio, to the same method on the first backend"},
+      {.key = "point",
+       .get = [](const Row& row) { return row.suite->point; },
+       .help = "the table's values of a sweep"},
+      {.key = "parameters",
+       .get = [](const Row& row) { return parametersText(*row.method); },
+       .help = "all parameters of the method, defaults included"},
+      {.key = "baseline",
+       .get = [](const Row& row) { return nameAt(&Suite::baselineOf, row); },
+       .help = "method that ratios are against"},
+      {.key = "average",
+       .get = [](const Row& row) { return nameAt(&Suite::average, row); },
+       .help = "plain average of frames that ratios are against"}};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
 }
 
 Columns healthColumns() {
@@ -102,7 +152,8 @@ Columns healthColumns() {
     const char* name = Health::names()[i];
     if (!name || !*name) continue;
     all.push_back({.key = fmt::format("health_{}", name),
-                   .get = [i](const Row& row) { return uint64_t(row.health.health.counts[i]); }});
+                   .get = [i](const Row& row) { return uint64_t(row.health.health.counts[i]); },
+                   .help = Health::meanings()[i]});
   }
   return all;
 }

@@ -270,16 +270,13 @@ Json blockDocument(const Suite& suite, const std::vector<MethodSummary>& rows, f
                             suite.point.empty() ? "" : ", " + suite.point)},
       {"subtitle",
        fmt::format(
-           "camera {}{}{}, {}x{}, {} scattering events, Russian roulette {}, filter {}{}; {} "
+           "camera {}{}{}, {}x{}, {}; {} "
            "of {} warm-up and {} timed frames; reference {}{}",
            block.camera,
            suite.hasMovingCamera() ? fmt::format(", path {}", suite.cameraPathName) : "",
            suite.events.empty() ? "" : ", lights: " + eventsText(suite.events, suite.warmupFrames),
-           block.width, block.height, suite.maxBounces, suite.russianRoulette ? "on" : "off",
-           filterName(suite.pixelFilter),
-           suite.multiscatter ? ", multiple scattering compensated" : "",
-           counted(rows.front().runs, "run"), suite.warmupFrames, suite.timedFrames,
-           originOf(block.reference),
+           block.width, block.height, transportLine(suite), counted(rows.front().runs, "run"),
+           suite.warmupFrames, suite.timedFrames, originOf(block.reference),
            block.reference.half0 ? "" : ", without halves: its own noise is part of every MSE")}};
   addTable(rows, document);
   Json plots = Json::array();

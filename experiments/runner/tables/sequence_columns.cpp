@@ -67,11 +67,12 @@ Column correlationColumn(size_t lag) {
                        },
                    .ends = Ends::all,
                    .narrow = std::to_string(lag)};
+  column.help = fmt::format("correlation of errors that lie {} apart",
+                            lag == 1 ? "a frame" : fmt::format("{} frames", lag));
   if (lag > 1) return column;
   column.title = "correlation of errors";
   column.reportKey = "correlation";
   column.better = "lower";
-  column.help = "of frames side by side";
   return column;
 }
 
@@ -109,9 +110,15 @@ Columns accumulatedColumns() {
            .reportKey = "slope",
            .better = "lower",
            .help = "of log(MSE) over log(time) while frames accumulate"},
-          {.key = "accumulated_points", .get = pointsOf},
-          {.key = "accumulated_points_fitted", .get = fittedOf},
-          {.key = "accumulated_misfit_log10", .get = misfitOf},
+          {.key = "accumulated_points",
+           .get = pointsOf,
+           .help = "points of the curve, at 1, 2, 4, ... frames"},
+          {.key = "accumulated_points_fitted",
+           .get = fittedOf,
+           .help = "points that the line goes through: those above the noise of the reference"},
+          {.key = "accumulated_misfit_log10",
+           .get = misfitOf,
+           .help = "the largest |log10(MSE / line)|"},
           {.key = "equal_time_mse_ratio",
            .get = readingOf(&SpeedUp::equalTime, &CurveReading::ratio),
            .ends = Ends::all,
@@ -126,8 +133,12 @@ Columns accumulatedColumns() {
            .noteKey = "equal_time_ms"},
           {.key = "equal_time_mse_ratio_measured",
            .get = readingOf(&SpeedUp::equalTime, &CurveReading::measured),
-           .ends = Ends::all},
-          {.key = "equal_time_ms", .get = placeOf(&SpeedUp::equalTime), .unit = "ms"},
+           .ends = Ends::all,
+           .help = "the same between measured points, straight in the logarithms"},
+          {.key = "equal_time_ms",
+           .get = placeOf(&SpeedUp::equalTime),
+           .unit = "ms",
+           .help = "where equal_time_mse_ratio was read"},
           {.key = "equal_error_time_ratio",
            .get = readingOf(&SpeedUp::equalError, &CurveReading::ratio),
            .ends = Ends::all,
@@ -142,8 +153,11 @@ Columns accumulatedColumns() {
            .noteKey = "equal_error_mse"},
           {.key = "equal_error_time_ratio_measured",
            .get = readingOf(&SpeedUp::equalError, &CurveReading::measured),
-           .ends = Ends::all},
-          {.key = "equal_error_mse", .get = placeOf(&SpeedUp::equalError)}};
+           .ends = Ends::all,
+           .help = "the same between measured points"},
+          {.key = "equal_error_mse",
+           .get = placeOf(&SpeedUp::equalError),
+           .help = "where equal_error_time_ratio was read"}};
 }
 
 Columns temporalColumns() {
@@ -171,10 +185,14 @@ Columns temporalColumns() {
            "mean (e_t - e_(t-1))^2 of the errors against the reference's halves: without motion "
            "and without the reference's noise"},
       {.key = "temporal_difference_of_reference",
-       .get = temporalOf(&TemporalSummary::referenceDifference)},
+       .get = temporalOf(&TemporalSummary::referenceDifference),
+       .help = "mean |r_t - r_(t-1)| of a moving camera, motion and noise"},
       {.key = "temporal_difference_of_reference_noise",
-       .get = temporalOf(&TemporalSummary::referenceDifferenceNoise)},
-      {.key = "camera_path", .get = [](const Row& row) { return row.suite->cameraPathName; }}};
+       .get = temporalOf(&TemporalSummary::referenceDifferenceNoise),
+       .help = "how much of that is noise, at most"},
+      {.key = "camera_path",
+       .get = [](const Row& row) { return row.suite->cameraPathName; },
+       .help = "name of the camera path"}};
   const size_t lags = std::tuple_size_v<decltype(TemporalSummary::autocorrelation)>;
   for (size_t lag = 1; lag <= lags; ++lag) all.push_back(correlationColumn(lag));
   return all;

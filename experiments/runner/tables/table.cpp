@@ -197,18 +197,14 @@ std::string blockTable(const Suite& suite, const std::vector<MethodSummary>& row
   if (rows.empty()) return "";
   const BlockResult& block = *rows.front().block;
   std::string text = fmt::format(
-      "## {}, {} light{}\n\n{}Camera {}{}{}, {}x{}, {} scattering events, Russian roulette {}, "
-      "filter "
-      "{}{}; "
+      "## {}, {} light{}\n\n{}Camera {}{}{}, {}x{}, {}; "
       "{} of {} warm-up and {} timed frames; reference {}.\n\n",
       block.scene, componentName(block.component), suite.point.empty() ? "" : ", " + suite.point,
       onBackend(suite), block.camera,
       suite.hasMovingCamera() ? fmt::format(" on the path '{}'", suite.cameraPathName) : "",
       suite.events.empty() ? "" : ", lights: " + eventsText(suite.events, suite.warmupFrames),
-      block.width, block.height, suite.maxBounces, suite.russianRoulette ? "on" : "off",
-      filterName(suite.pixelFilter), suite.multiscatter ? ", multiple scattering compensated" : "",
-      counted(rows.front().runs, "run"), suite.warmupFrames, suite.timedFrames,
-      originOf(block.reference));
+      block.width, block.height, transportLine(suite), counted(rows.front().runs, "run"),
+      suite.warmupFrames, suite.timedFrames, originOf(block.reference));
   const Columns columns = columnsOf(rows);
   text += errorTable(columns, rows);
   std::string notes;

@@ -18,8 +18,10 @@ function stateForAddress(state, viewer, settings) {
   const {fitted, x, y, scale} = viewer.camera;
   if (!fitted) view.zoom = [x, y, scale].map(value => Number(value.toPrecision(6)));
   const lights = state.lights.filter(({factor}) => factor !== 1);
+  const transport = state.transport.filter(info => info.is_set);
   return {panes, camera: state.camera, width: state.width, height: state.height,
           lights: Object.fromEntries(lights.map(({name, factor}) => [name, factor])),
+          transport: Object.fromEntries(transport.map(({name, value}) => [name, value])),
           paused: state.paused, view};
 }
 
@@ -71,6 +73,10 @@ function commandsTowards(kept, state, settings) {
   });
   if (kept.width > 0 && (kept.width !== state.width || kept.height !== state.height)) {
     commands.push({do: 'resolution', width: kept.width, height: kept.height});
+  }
+  for (const {name, value, default: fallback} of kept.transport ? state.transport : []) {
+    const wanted = kept.transport[name] ?? fallback;
+    if (wanted !== value) commands.push({do: 'transport', name, value: wanted});
   }
   for (const {name, factor} of state.lights) {
     const wanted = (kept.lights || {})[name] ?? 1;

@@ -1,4 +1,4 @@
-// Panel of the camera, the size and the lights.
+// Panel of the camera, the size, the settings of light transport and the lights.
 
 const SIZES = ['320x180', '640x360', '960x540', '1280x720', '1920x1080'];
 // Range of a light's factor on its slider; 0 is off.
@@ -8,13 +8,15 @@ class ScenePanel {
   constructor(page, hello) {
     Object.assign(this, {page, hello});
     this.lights = new Map();
+    this.settings = new Map();
     if (!hello.has_scene) {
       this.element = make('p', {class: 'hint'}, 'Images of files are shown: there is no camera, ' +
                           'size or light to change.');
       return;
     }
     this.element = make('div', {}, this.makeCamera(), page.bookmarks.element,
-                        page.recorder.element, this.makeSize(), this.makeLights(),
+                        page.recorder.element, this.makeSize(), this.makeTransport(),
+                        this.makeLights(),
                         this.makeAbout());
   }
 
@@ -63,6 +65,25 @@ class ScenePanel {
     return this.section('resolution, pixels', form);
   }
 
+  makeTransport() {
+    this.transport = make('div', {});
+    return this.section('light transport, of all panes', this.transport);
+  }
+
+  showTransport(infos) {
+    for (const info of infos) {
+      const known = this.settings.get(info.name);
+      if (known) {
+        known.show(info);
+        continue;
+      }
+      const control = new ParameterControl(info, value => this.page.session.sendNewest(
+          `transport ${info.name}`, {do: 'transport', name: info.name, value}));
+      this.settings.set(info.name, control);
+      this.transport.append(control.element);
+    }
+  }
+
   makeLights() {
     const rows = this.hello.scene.lights.map(({name, kind}) => {
       const input = new NumberInput({name: `factor of ${name}`, lo: LIGHT_RANGE[0],
@@ -106,6 +127,7 @@ class ScenePanel {
     if (!this.fov.isBusy && state.camera.yfov) {
       this.fov.show(Number((state.camera.yfov * 180 / Math.PI).toPrecision(4)));
     }
+    this.showTransport(state.transport);
     for (const {name, factor} of state.lights) {
       const light = this.lights.get(name);
       if (!light) continue;
