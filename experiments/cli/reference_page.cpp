@@ -224,10 +224,10 @@ std::string referencePage(const CLI::App& app) {
   text += columnsText("Accumulated frames", accumulatedColumns());
   text += columnsText("Change over time", temporalColumns());
   text += columnsText("Numerical health", healthColumns());
-  text += "\n## Metrics\n\n| name | formula |\n|---|---|\n";
+  text += "\n## Metrics\n\n";
   for (const Json& metric : metricsJson()) {
-    text += fmt::format("| {} | {} |\n", code(metric["name"].get<std::string>()),
-                        cell(metric["summary"].get<std::string>()));
+    text += fmt::format("- {}: {}\n", code(metric["name"].get<std::string>()),
+                        metric["summary"].get<std::string>());
   }
   return text;
 }
