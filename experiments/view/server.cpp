@@ -131,8 +131,10 @@ class ViewServer::Impl {
     port_ = acceptor_.local_endpoint().port();
   }
 
-  // Returns the given address, or the address of a given host name.
+  // Returns the given address, or the address of a given host name. `localhost` is this machine
+  // (RFC 6761) also where no file of hosts says so: a new Debian 12 has none.
   asio::ip::address addressToListenOn() {
+    if (options_.listen == "localhost") return asio::ip::address_v4::loopback();
     ErrorCode error;
     const asio::ip::address given = asio::ip::make_address(options_.listen, error);
     if (!error) return given;

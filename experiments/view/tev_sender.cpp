@@ -143,7 +143,9 @@ int TevSender::connected() {
   hints.ai_socktype = SOCK_STREAM;
   addrinfo* found = nullptr;
   const std::string port = std::to_string(address_.port);
-  if (const int error = getaddrinfo(address_.host.c_str(), port.c_str(), &hints, &found)) {
+  // No name asks for this machine: `localhost` also where no file of hosts has it.
+  const char* const name = address_.host == "localhost" ? nullptr : address_.host.c_str();
+  if (const int error = getaddrinfo(name, port.c_str(), &hints, &found)) {
     complain(gai_strerror(error));
     return -1;
   }
