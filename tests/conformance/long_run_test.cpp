@@ -225,7 +225,6 @@ TEST_P(CacheLongRun, KeepsItsEnergyItsMemoryAndItsRays) {
 }
 
 const auto kNameOf = [](const auto& test) { return std::string(test.param.name); };
-INSTANTIATE_TEST_SUITE_P(, CacheLongRun, testing::Values(crowded().front()), kNameOf);
 INSTANTIATE_TEST_SUITE_P(Nightly, CacheLongRun, testing::ValuesIn(crowded()), kNameOf);
 
 }  // namespace

@@ -57,8 +57,10 @@ bool isDaily(const Variant& v) {
   if (v.cache.empty()) return !v.endsPaths;
   const bool isFirstMode = v.mode == findIntegrator(v.integrator).modes.front().name;
   const bool isFirstCache = v.cache == cacheRegistry().front()->name;
-  if (v.endsPaths) return v.cache == cacheRegistry().back()->name;
-  return isFirstCache == isFirstMode;
+  const bool isLastCache = v.cache == cacheRegistry().back()->name;
+  if (v.endsPaths) return isLastCache;
+  // The last cache runs with paths that end, so other modes run with the caches between.
+  return isFirstMode ? isFirstCache : !isFirstCache && !isLastCache;
 }
 
 }  // namespace

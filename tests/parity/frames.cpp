@@ -1,18 +1,22 @@
 #include "tests/parity/frames.h"
 
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <map>
 #include <ostream>
 
+#include "core/backend/backend.h"
 #include "core/backend/vulkan_device.h"
 #include "core/frame/cache.h"
 #include "core/frame/method.h"
 #include "tests/bias/few_entries.h"
 #include "tests/parity/everything_scene.h"
+#include "tests/parity/reads.h"
 #include "tests/unit/bvh_context.h"
 #include "tests/unit/ray_cases.h"
 
@@ -117,8 +121,12 @@ namespace {
 bool isDaily(const Combination& what) {
   if (what.denoiser != "none") return what.denoiser == "asvgf";
   if (what.cache.empty()) return !what.endsPaths;
+  if (what.endsPaths) return true;
+  // The first cache's passes run with every other cache, and the last cache's passes with the
+  // combination whose paths end in cells.
   const bool isFirstMode = what.mode == findIntegrator(what.integrator).modes.front().name;
-  return what.cache != cacheRegistry().front()->name && (what.endsPaths || !isFirstMode);
+  return !isFirstMode && what.cache != cacheRegistry().front()->name &&
+         what.cache != cacheRegistry().back()->name;
 }
 
 }  // namespace
@@ -128,20 +136,9 @@ std::vector<Combination> byDay(std::vector<Combination> all) {
   return all;
 }
 
-std::vector<Combination> everyPassOnce() {
-  std::vector<Combination> all = byDay(combinations());
-  // Plain ones run no pass of their own but `template`, and the last cache is that of the
-  // combination whose paths end in cells.
-  std::erase_if(all, [](const Combination& what) {
-    const bool isPlain = what.cache.empty() && what.denoiser == "none";
-    return isPlain || (what.cache == cacheRegistry().back()->name && !what.endsPaths);
-  });
-  return all;
-}
-
-std::vector<Combination> byNight(std::vector<Combination> all) {
-  std::erase_if(all, isDaily);
-  return all;
+bool isOfEveryPass(const Combination& what) {
+  // Plain ones run no pass of their own but `template`.
+  return isDaily(what) && !(what.cache.empty() && what.denoiser == "none");
 }
 
 std::vector<Combination> combinations() {
@@ -309,6 +306,34 @@ SceneCamera cameraOf(const CompiledScene& scene, uint32_t frame) {
   camera.cameraToWorld[3] +=
       0.02 * double(frame - 1) * (start.cameraToWorld[0] - 0.5 * start.cameraToWorld[2]);
   return camera;
+}
+
+namespace {
+
+// Images of the third frame, then of a layer, whose buffers are allocated later and lie elsewhere.
+std::vector<Image> seenBy(const char* how, const std::string& scene, const Combination& what,
+                          const Machine& where) {
+  const Reads reads(how);
+  Session session(sceneNamed(scene), configOf(what, where, 64, 48, 11));
+  EXPECT_EQ(session.startup().readsTexels, std::string(how) == "texels");
+  session.frames(3);
+  return {session.radiance(), session.aov("albedo")};
+}
+
+}  // namespace
+
+void expectSameBitsByBothReads(const Combination& what, const std::string& scene,
+                               const Machine& where) {
+  SCOPED_TRACE(scene);
+  const std::vector<Image> texels = seenBy("texels", scene, what, where);
+  const std::vector<Image> addresses = seenBy("addresses", scene, what, where);
+  for (size_t i = 0; i < texels.size(); ++i) {
+    const auto& a = texels[i].pixels;
+    const auto& b = addresses[i].pixels;
+    ASSERT_EQ(a.size(), b.size());
+    EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]), 0) << "image " << i;
+    EXPECT_TRUE(std::any_of(a.begin(), a.end(), [](const glm::vec3& v) { return v.x > 0.0f; }));
+  }
 }
 
 bool hasVulkan() {

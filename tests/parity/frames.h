@@ -25,12 +25,11 @@ std::vector<Combination> combinations();
 // Combinations whose kernels trace rays differently; of denoisers, which trace nothing, only one
 // with features.
 std::vector<Combination> combinationsThatTrace();
-// Splits combinations into those that each change is tested with, which run every kernel between
-// them, and the others, which wait for the night.
+// Combinations that each change is tested with; between them they run every kernel.
 std::vector<Combination> byDay(std::vector<Combination> all);
-// A few that run every pass between them, for tests that look at passes and not at methods.
-std::vector<Combination> everyPassOnce();
-std::vector<Combination> byNight(std::vector<Combination> all);
+// Whether a combination is one of the few that run every pass between them, for checks that look at
+// passes and not at methods.
+bool isOfEveryPass(const Combination& what);
 
 // Backend and tracer that a session uses.
 struct Machine {
@@ -90,6 +89,11 @@ std::vector<std::string> sceneNames();
 std::vector<std::string> gateNames();
 // False if the file of a gate scene is missing (RESTLAB_SCENES names the collection).
 bool isAtHand(const std::string& scene);
+
+// Kernels that read through texels and uniform blocks (fastest for a software driver) and kernels
+// that read by addresses (every other device) must give equal bits.
+void expectSameBitsByBothReads(const Combination& what, const std::string& scene,
+                               const Machine& where);
 
 // Returns whether a device can be used. If not, tests are skipped with kNoDevice.
 bool hasVulkan();

@@ -1,9 +1,6 @@
-// Kernels that read through texels and uniform blocks (fastest for a software driver) against the
-// same kernels that read by addresses (every other device): the bits must be equal.
+// The choice between reads through texels and reads by addresses. What both see: frames_test.cpp.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cctype>
 #include <cstring>
 
 #include "core/base/error.h"
@@ -14,36 +11,6 @@
 
 namespace restlab::parity {
 namespace {
-
-// Images of the third frame, then of a layer, whose buffers are allocated later and lie elsewhere.
-std::vector<Image> seenBy(const char* how, const std::string& scene, const Combination& what) {
-  const Reads reads(how);
-  Session session(sceneNamed(scene), configOf(what, kVulkanSpecialised, 64, 48, 11));
-  EXPECT_EQ(session.startup().readsTexels, std::string(how) == "texels");
-  session.frames(3);
-  return {session.radiance(), session.aov("albedo")};
-}
-
-class ReadsTest : public testing::TestWithParam<Combination> {};
-
-TEST_P(ReadsTest, ByTexelsAndByAddressesGiveTheSameBits) {
-  if (!hasVulkan()) GTEST_SKIP() << kNoDevice;
-  // Modes differ in weights, not in reads.
-  if (GetParam().mode != "unbiased") GTEST_SKIP() << "SKIPPED: of unbiased modes alone";
-  // A scene with all features, and one without most of them.
-  for (const char* scene : {"everything", "cornell-box"}) {
-    SCOPED_TRACE(scene);
-    const std::vector<Image> texels = seenBy("texels", scene, GetParam());
-    const std::vector<Image> addresses = seenBy("addresses", scene, GetParam());
-    for (size_t i = 0; i < texels.size(); ++i) {
-      const auto& a = texels[i].pixels;
-      const auto& b = addresses[i].pixels;
-      ASSERT_EQ(a.size(), b.size());
-      EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]), 0) << "image " << i;
-      EXPECT_TRUE(std::any_of(a.begin(), a.end(), [](const glm::vec3& v) { return v.x > 0.0f; }));
-    }
-  }
-}
 
 // Texels do not reach buffers allocated after the first pass: kernels must read those all the same.
 TEST(Reads, BuffersThatCameLaterAreRead) {
@@ -63,21 +30,14 @@ TEST(Reads, BuffersThatCameLaterAreRead) {
 TEST(Reads, AnotherWordIsRefused) {
   if (!hasVulkan()) GTEST_SKIP() << kNoDevice;
   try {
-    seenBy("both", "cornell-box", {"path", "", ""});
+    const Reads reads("both");
+    Session(sceneNamed("cornell-box"), configOf({"path", "", ""}, kVulkanSpecialised, 64, 48, 11));
     FAIL() << "nothing was thrown";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::badUsage);
     EXPECT_NE(std::string(error.what()).find("texels or addresses"), std::string::npos);
   }
 }
-
-const auto kNameOf = [](const auto& test) {
-  std::string name = test.param.name();
-  for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
-  return name;
-};
-INSTANTIATE_TEST_SUITE_P(, ReadsTest, testing::ValuesIn(everyPassOnce()), kNameOf);
-INSTANTIATE_TEST_SUITE_P(Nightly, ReadsTest, testing::ValuesIn(combinationsThatTrace()), kNameOf);
 
 }  // namespace
 }  // namespace restlab::parity
