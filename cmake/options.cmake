@@ -1,4 +1,5 @@
 option(RESTLAB_TESTS "Build the tests" ON)
+option(RESTLAB_TOGETHER "Compile several sources at once where that is faster" ON)
 option(RESTLAB_WERROR "Warnings of our own code are errors" ON)
 set(RESTLAB_SANITIZE "" CACHE STRING "Comma-separated -fsanitize= list")
 option(RESTLAB_SANITIZE_KERNELS "Sanitize kernels, too: an hour more to compile" OFF)
@@ -65,6 +66,25 @@ function(rl_compile_lightly target)
     set_property(SOURCE ${arg_BUT} APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
     # GCC 12 crashes where a header was precompiled for another optimisation.
     set_property(SOURCE ${arg_BUT} PROPERTY SKIP_PRECOMPILE_HEADERS ON)
+  endif()
+endfunction()
+
+# rl_compile_together(<target> <size> [folder...]): compiles up to <size> sources at once, or all of each
+# folder. Code of libraries that are headers (CLI11, nlohmann_json, GoogleTest) is then generated once and
+# not in each object: that was most of the compile time. Names without linkage must differ within a target.
+function(rl_compile_together target size)
+  if(NOT RESTLAB_TOGETHER)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${size})
+  if(ARGN)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+    get_target_property(sources ${target} SOURCES)
+    foreach(folder IN LISTS ARGN)
+      set(group ${sources})
+      list(FILTER group INCLUDE REGEX "(^|/)${folder}/[^/]*$")
+      set_property(SOURCE ${group} PROPERTY UNITY_GROUP ${folder})
+    endforeach()
   endif()
 endfunction()
 

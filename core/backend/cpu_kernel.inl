@@ -1,7 +1,7 @@
 // Body of a generated kernel translation unit: the dialect's functions as members of
 // Ctx<features>, Embree behind traceRay(), and the tile loop. The generated file defines
-// RL_KERNEL_NAME, RL_KERNEL_MASK_NAME, RL_KERNEL_MASK, RL_KERNEL_HEADER, RL_KERNEL_FILE and
-// RL_KERNEL_TRACE, the file with the body of traceRay() (without it, Embree's).
+// RL_KERNEL_NAME, RL_KERNEL_HEADER, RL_KERNEL_FILE, RL_KERNEL_TRACE, the file with the body of
+// traceRay() (without it, Embree's), and RL_KERNEL_MASKS(M): M(name, features) for each mask.
 #include "core/backend/embree.h"
 
 #include "core/backend/alpha_filter.h"
@@ -40,13 +40,14 @@ struct Ctx {
 #include RL_KERNEL_FILE
 };
 
+template <uint FEATURES>
 void runTile(const CpuKernelArgs& args, const CpuKernelTile& tile, CpuKernelCounters& counters) {
-  Ctx<RL_KERNEL_MASK> ctx{*args.scene,
-                          *args.frame,
-                          counters,
-                          static_cast<RTCScene>(args.embreeScene),
-                          *static_cast<const RL_KERNEL_BUFFERS*>(args.buffers),
-                          *static_cast<const RL_KERNEL_PARAMS*>(args.params)};
+  Ctx<FEATURES> ctx{*args.scene,
+                    *args.frame,
+                    counters,
+                    static_cast<RTCScene>(args.embreeScene),
+                    *static_cast<const RL_KERNEL_BUFFERS*>(args.buffers),
+                    *static_cast<const RL_KERNEL_PARAMS*>(args.params)};
   for (uint32_t y = tile.y0; y < tile.y1; ++y) {
     for (uint32_t x = tile.x0; x < tile.x1; ++x) ctx.kernelMain(uvec2(x, y));
   }
@@ -54,9 +55,11 @@ void runTile(const CpuKernelArgs& args, const CpuKernelTile& tile, CpuKernelCoun
 
 }  // namespace
 
-#define RL_PASTE2(a, b, c) a##b##_##c
-#define RL_PASTE(a, b, c) RL_PASTE2(a, b, c)
-extern const CpuKernelEntry RL_PASTE(kernel_, RL_KERNEL_NAME, RL_KERNEL_MASK_NAME);
-const CpuKernelEntry RL_PASTE(kernel_, RL_KERNEL_NAME, RL_KERNEL_MASK_NAME) = runTile;
+#define RL_KERNEL_ENTRY_OF(kernel, mask, features)      \
+  extern const CpuKernelEntry kernel_##kernel##_##mask; \
+  const CpuKernelEntry kernel_##kernel##_##mask = runTile<features>;
+#define RL_KERNEL_ENTRY_EXPANDED(kernel, mask, features) RL_KERNEL_ENTRY_OF(kernel, mask, features)
+#define RL_KERNEL_ENTRY(mask, features) RL_KERNEL_ENTRY_EXPANDED(RL_KERNEL_NAME, mask, features)
+RL_KERNEL_MASKS(RL_KERNEL_ENTRY)
 
 }  // namespace rl

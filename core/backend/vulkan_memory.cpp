@@ -15,10 +15,10 @@ namespace {
 
 constexpr size_t kBlockBytes = size_t{64} << 20;
 constexpr size_t kStagingBytes = size_t{16} << 20;
-constexpr size_t kAlignment = 256;  // buffer alignment; above any limit of a storage buffer
+constexpr size_t kPoolAlignment = 256;  // buffer alignment; above any limit of a storage buffer
 
 size_t roundUp(size_t bytes) {
-  return (std::max<size_t>(bytes, 1) + kAlignment - 1) & ~(kAlignment - 1);
+  return (std::max<size_t>(bytes, 1) + kPoolAlignment - 1) & ~(kPoolAlignment - 1);
 }
 
 VkMemoryPropertyFlags propertiesOf(MemoryKind kind) {

@@ -79,7 +79,7 @@ inline uint atomicGreatest(uint* data, std::size_t i, uint value) {
 #define RL_NAMESPACE_BEGIN namespace rl {
 #define RL_NAMESPACE_END }
 #endif
-#define RL_FN inline __attribute__((always_inline))
+#define RL_FN inline
 // For functions with several call sites whose inlining only bloats the caller.
 #define RL_FN_OUTLINE inline __attribute__((noinline))
 #define RL_IN(T) const T&

@@ -35,7 +35,7 @@ void recordLayers(FrameGraph& g, const FrameInfo& f) {
       f.parameters.contains("demodulate") && textOf(f.parameters, "demodulate") != "none";
   g.kernels<rl::LayersBuffers>(
        rl::LayersParams{demodulates ? 1u : 0u},
-       {layer[0], layer[1], layer[2], layer[3], layer[4], features.now, features.before, motion})
+       {layer[0], layer[1], layer[2], layer[3], layer[4], features.now, motion})
       .pass("layers", "layers")
       .reads({layer[1], layer[2], layer[3], layer[4]})
       .writes({features.now, motion});

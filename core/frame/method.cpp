@@ -243,7 +243,7 @@ bool isEnabled(const EnabledIf& only, const ParameterMap& resolved) {
   if (found == resolved.end()) return false;
   if (only.value != nullptr) return std::get<std::string>(found->second) == only.value;
   const int64_t* number = std::get_if<int64_t>(&found->second);
-  return number == nullptr || *number >= only.least;
+  return number == nullptr || *number != 0;
 }
 
 }  // namespace restlab

@@ -46,11 +46,10 @@ using ParameterMap = std::map<std::string, ParameterValue>;
 enum class BiasClass { unbiased, consistent, biased };
 
 // Condition on a parameter: met if the method has `parameter` and it equals `value`. Without
-// `value`, an integer must be at least `least`; any other type always meets the condition.
+// `value`, an integer must not be 0; any other type always meets the condition.
 struct EnabledIf {
   const char* parameter = nullptr;  // null: always
   const char* value = nullptr;      // for a string parameter
-  int64_t least = 1;
 };
 bool isEnabled(const EnabledIf& only, const ParameterMap& resolved);
 

@@ -17,7 +17,6 @@ struct LayersBuffers {
   Vec3Ref motion;  // vector to the point's place in the last frame: pixels to the right and down;
                    // depth there, 0 if unknown
   QuadRef guide;
-  QuadRef guideBefore;
   QuadRef motions;
 };
 

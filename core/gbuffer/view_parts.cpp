@@ -18,7 +18,7 @@ void recordSurfaces(FrameGraph& g, const FrameInfo& f) {
   History surfaces = g.history("visible", f.pixels, 16);
   if (f.isNewView) {
     surfaces = g.advance(surfaces);
-    g.kernels<rl::VisibleBuffers>(rl::VisibleParams{}, {surfaces.now, surfaces.before})
+    g.kernels<rl::VisibleBuffers>(rl::VisibleParams{}, {surfaces.now})
         .pass("visible", "visible")
         .writes({surfaces.now});
   } else {

@@ -10,7 +10,6 @@ RL_NAMESPACE_BEGIN
 
 struct VisibleBuffers {
   QuadRef visible;
-  QuadRef visibleBefore;
 };
 
 struct VisibleParams {

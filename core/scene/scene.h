@@ -67,6 +67,9 @@ struct SceneCamera {
   double aspect = 0.0;            // width / height, 0: free
   double znear = 0.0;  // metres, from the file; no clipping, only warnings (camera_path.h)
 };
+inline glm::dvec3 positionOf(const SceneCamera& camera) {
+  return glm::dvec3(camera.cameraToWorld[3]);
+}
 
 struct PunctualLight {
   std::string name;

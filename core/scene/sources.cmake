@@ -42,6 +42,7 @@ target_sources(rl_core PRIVATE
 )
 # tinygltf is compiled into tinygltf.cpp (with its own file and image access left out), xxHash is a
 # header.
+set_property(SOURCE scene/gltf/tinygltf.cpp PROPERTY SKIP_UNITY_BUILD_INCLUSION ON)
 target_link_libraries(rl_core PUBLIC nlohmann_json::nlohmann_json)
 target_include_directories(rl_core SYSTEM PRIVATE ${SPNG_INCLUDE_DIR} ${TURBOJPEG_INCLUDE_DIR})
 target_link_libraries(rl_core PRIVATE ${SPNG_LIBRARY} ${TURBOJPEG_LIBRARY})

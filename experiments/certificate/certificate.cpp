@@ -9,14 +9,13 @@
 #include <stdexcept>
 
 #include "core/base/error.h"
+#include "core/base/nan.h"
 #include "experiments/report/text.h"
 #include "experiments/statistics/power.h"
 #include "experiments/statistics/tost.h"
 
 namespace restlab::certificate {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // Limit of |skewness| / sqrt(runs) up to which a mean is nearly normal and has a t interval.
 constexpr double kMaxSkewness = stats::BiasOptions().maxSkewness;

@@ -229,7 +229,7 @@ Json ratesJson(const BackendRates& rates, const std::string& backend, const std:
           {"copied_bytes_per_second", rates.bytesPerSecond}};
 }
 
-void printText(const Json& json) {
+void printMeasured(const Json& json) {
   const Json& embree = json["embree_rays_per_second"];
   print("{}, {}x{}, {} scattering events; {}\n\n", json["scene"].get<std::string>(),
         json["width"].get<uint32_t>(), json["height"].get<uint32_t>(),
@@ -366,7 +366,7 @@ void bench(BenchOptions options) {
   if (options.json) {
     printJsonText(json.dump(2));
   } else {
-    printText(json);
+    printMeasured(json);
   }
 }
 

@@ -139,7 +139,7 @@ std::string listed(const std::vector<std::string>& names) {
 
 std::string raysText(double rays) { return rays > 0.0 ? shortNumber(rays) : ""; }
 
-void printText(const MeasuredFrames& frames) {
+void printGraph(const MeasuredFrames& frames) {
   MarkdownTable passes(
       {"pass", "still view", "rays/px moving", "rays/px still", "reads", "writes"});
   for (const GraphPass& pass : frames.moving.passes()) {
@@ -215,7 +215,7 @@ void graph(GraphOptions& options) {
   if (options.json) {
     printJsonText(graphJson(frames).dump(2, ' ', false, Json::error_handler_t::replace));
   } else {
-    printText(frames);
+    printGraph(frames);
   }
   if (findMethod(config).denoiser->onHost)
     logInfo(fmt::format("denoiser {} runs on the host after these passes", config.denoiser));

@@ -70,7 +70,7 @@ Json camerasJson(const Scene& scene, std::optional<size_t> only) {
   return cameras;
 }
 
-Json integratorsJson(const PreparedScene& prepared, bool multiscatter) {
+Json supportJson(const PreparedScene& prepared, bool multiscatter) {
   Json all = Json::array();
   for (const IntegratorInfo* info : integratorRegistry()) {
     SessionConfig config;
@@ -139,12 +139,12 @@ Json sceneJson(const PreparedScene& prepared, const InfoOptions& options) {
   json["embree_bytes"] = compiled.embreeBytes();
   json["load_time_ms"] = prepared.loadTimeMs;
   json["features_needed"] = featureNames(compiled.features(multiscatter));
-  json["integrators"] = integratorsJson(prepared, multiscatter);
+  json["integrators"] = supportJson(prepared, multiscatter);
   json["warnings"] = compiled.warnings();
   return json;
 }
 
-void printText(const PreparedScene& prepared, const Json& json) {
+void printScene(const PreparedScene& prepared, const Json& json) {
   const Scene& scene = prepared.scene->source();
   const auto bounds = worldBounds(scene);
   print("scene        {} ({})\n", scene.name, json["source"].get<std::string>());
@@ -208,7 +208,7 @@ void info(const InfoOptions& options) {
   if (options.json) {
     printJsonText(json.dump(2, ' ', false, Json::error_handler_t::replace));
   } else {
-    printText(prepared, json);
+    printScene(prepared, json);
   }
 }
 

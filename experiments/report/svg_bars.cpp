@@ -12,7 +12,7 @@ namespace restlab {
 namespace {
 
 constexpr double kWidth = 640.0, kRight = 92.0, kTop = 36.0;
-constexpr double kRow = 30.0, kBar = 20.0, kLegendRow = 19.0;
+constexpr double kBarRow = 30.0, kBar = 20.0;
 constexpr double kLongestName = 230.0;
 
 double sum(const BarsSpec::Row& row) {
@@ -65,7 +65,7 @@ std::string barsSvg(const BarsSpec& bars) {
   Axis axis;
   axis.hi = longest > 0.0 ? longest : 1.0;
   const double span = kWidth - kRight - left;
-  const double bottom = kTop + kRow * double(bars.rows.size());
+  const double bottom = kTop + kBarRow * double(bars.rows.size());
 
   // Arrange the legend in as many columns as its longest entry allows.
   double entry = 60.0;
@@ -75,7 +75,7 @@ std::string barsSvg(const BarsSpec& bars) {
   const size_t columns = std::max<size_t>(1, size_t((kWidth - 24.0) / entry));
   const double legendTop = bottom + 50.0;
   const size_t legendRows = (names.size() + columns - 1) / columns;
-  const double height = legendTop + kLegendRow * double(legendRows) + 2.0;
+  const double height = legendTop + svg::kLegendRow * double(legendRows) + 2.0;
 
   std::string out = svg::open(kWidth, height, bars.title, "bars");
   out += svg::text(12.0, 22.0, "start", svg::fitText(bars.title, kWidth - 24.0, 14.5),
@@ -88,7 +88,7 @@ std::string barsSvg(const BarsSpec& bars) {
   out += svg::text(left + span / 2.0, bottom + 33.0, "middle", bars.unit);
   for (size_t i = 0; i < bars.rows.size(); ++i) {
     const BarsSpec::Row& row = bars.rows[i];
-    const double top = kTop + kRow * double(i) + (kRow - kBar) / 2.0;
+    const double top = kTop + kBarRow * double(i) + (kBarRow - kBar) / 2.0;
     out += svg::text(left - 8.0, top + kBar / 2.0 + 4.0, "end",
                      svg::fitText(row.name, kLongestName, 12.0));
     double x = left;
@@ -106,7 +106,7 @@ std::string barsSvg(const BarsSpec& bars) {
   for (size_t i = 0; i < names.size(); ++i) {
     const double x = 12.0 + entry * double(i % columns);
     const size_t row = i / columns;
-    const double y = legendTop + kLegendRow * double(row);
+    const double y = legendTop + svg::kLegendRow * double(row);
     out += box(x, y - 10.0, 14.0, 12.0, i, names[i]);
     out += svg::text(x + 20.0, y, "start", svg::fitText(names[i], kLongestName, 12.0));
   }

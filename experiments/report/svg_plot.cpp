@@ -11,7 +11,7 @@
 namespace restlab {
 namespace {
 
-constexpr double kLegendRow = 19.0, kLegendTop = 56.0;
+constexpr double kLegendTop = 56.0;
 constexpr double kNameWidth = 330.0;
 
 struct Canvas {
@@ -181,7 +181,7 @@ std::string seriesMarks(const Canvas& canvas, const PlotSpec& plot, size_t place
 std::string legend(const PlotSpec& plot, double top) {
   std::string out;
   for (size_t i = 0; i < plot.series.size(); ++i) {
-    const double y = top + kLegendRow * double(i);
+    const double y = top + svg::kLegendRow * double(i);
     const size_t style = styleOf(plot, i);
     const std::string dash = svg::dashes(style);
     out += fmt::format(
@@ -268,9 +268,9 @@ std::string plotSvg(const PlotSpec& plot) {
   }
   const std::string notes = notesOf(plot, hidden, hollow);
   const double legendTop = kPlotArea.top + kPlotArea.height + kLegendTop;
-  const double legendEnd = legendTop + kLegendRow * double(plot.series.size());
-  std::string out =
-      svg::open(kPlotWidth, legendEnd + (notes.empty() ? 0.0 : kLegendRow), plot.title, "plot");
+  const double legendEnd = legendTop + svg::kLegendRow * double(plot.series.size());
+  std::string out = svg::open(kPlotWidth, legendEnd + (notes.empty() ? 0.0 : svg::kLegendRow),
+                              plot.title, "plot");
   out += svg::text(kPlotArea.left, 22.0, "start",
                    svg::fitText(plot.title, kPlotWidth - kPlotArea.left - 8.0, 14.5),
                    "font-size=\"14\" font-weight=\"bold\"");

@@ -15,6 +15,9 @@ namespace restlab::svg {
 constexpr size_t kColours = 7;
 const char* colour(size_t index);
 
+// Height of a line of a legend.
+constexpr double kLegendRow = 19.0;
+
 // Dash pattern of line `index`, which changes when the colours repeat; "" for a solid line.
 const char* dashes(size_t index);
 

@@ -4,18 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/base/error.h"
+#include "core/base/nan.h"
 #include "experiments/statistics/halves_noise.h"
 
 namespace restlab {
 
-namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
+namespace {}  // namespace
 
 void BiasRuns::add(const Image& run) {
   if (!groups_.empty()) {

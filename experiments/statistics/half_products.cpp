@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 
 #include "core/base/error.h"
+#include "core/base/nan.h"
 #include "core/image/metrics/metrics.h"
 #include "core/image/metrics/pixel_metrics.h"
 
@@ -43,7 +43,7 @@ double squaredBias(const Image& runs0, const Image& runs1, const Image& half0, c
     sum += product(runs0.pixels[p], half0.pixels[p], runs1.pixels[p], half1.pixels[p]);
   }
   // An infinite pixel must not pass as a merely large error; inf * 0 is NaN already.
-  return std::isfinite(sum) ? sum / double(count) : std::numeric_limits<double>::quiet_NaN();
+  return std::isfinite(sum) ? sum / double(count) : kNan;
 }
 
 double mseAgainstHalves(const Image& image, const Image& half0, const Image& half1,
@@ -67,7 +67,6 @@ RelativeError relmseAgainstHalves(const Image& image, const Image& divisor, cons
     errors.push_back((relative.x + relative.y + relative.z) / 3.0);
     sum += errors.back();
   }
-  const double kNan = std::numeric_limits<double>::quiet_NaN();
   if (!std::isfinite(sum)) return {kNan, kNan, ""};
   const double relmse = sum / double(errors.size());
   const MetricValue trimmed = trimmedMean(std::move(errors));
@@ -93,7 +92,7 @@ double worstPixelShare(const std::vector<double>& errorPerPixel, double fraction
   double total = 0.0;
   for (const double error : errorPerPixel) total += error;
   if (total == 0.0) return 0.0;
-  if (!(total > 0.0) || !std::isfinite(total)) return std::numeric_limits<double>::quiet_NaN();
+  if (!(total > 0.0) || !std::isfinite(total)) return kNan;
   std::vector<double> sorted = errorPerPixel;
   std::sort(sorted.begin(), sorted.end(), std::greater<>());
   const size_t count = std::min(sorted.size(), size_t(std::ceil(fraction * double(sorted.size()))));

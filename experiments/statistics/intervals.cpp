@@ -9,10 +9,11 @@
 #include <stdexcept>
 #include <vector>
 
+#include "core/base/nan.h"
+
 namespace restlab {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Moments {

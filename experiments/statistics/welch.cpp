@@ -6,11 +6,12 @@
 #include <limits>
 #include <stdexcept>
 
+#include "core/base/nan.h"
+
 namespace restlab::stats {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 void check(const Sample& s) {
   if (s.n < 1.0) throw std::invalid_argument("welchTest: a sample without observations");

@@ -15,7 +15,7 @@ namespace restlab {
 
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 constexpr size_t kMostCharacters = 256;  // length limit of a string
 

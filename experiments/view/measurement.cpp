@@ -24,7 +24,7 @@ namespace restlab {
 
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 using Clock = std::chrono::steady_clock;
 

@@ -10,12 +10,12 @@
 namespace restlab::certificate {
 namespace {
 
-constexpr uint32_t kSide = 16;
+constexpr uint32_t kTableSide = 16;
 
 // Makes a certificate of made-up runs, as `certify` would.
 Certified planted(const std::string& scene, const std::string& method, const std::string& denoiser,
                   BiasClass declared, const Noise& noise) {
-  const Image truth = gradient(kSide);
+  const Image truth = gradient(kTableSide);
   Certified c;
   c.scene = scene;
   c.method = method;

@@ -10,17 +10,17 @@
 namespace restlab::certificate {
 namespace {
 
-constexpr uint32_t kSide = 32;
+constexpr uint32_t kTextSide = 32;
 constexpr uint64_t kRuns = 128;
 
 // Red is skewed in each pixel but not in the mean; one run in 64 is much brighter in green and
 // blue.
 Certified oddlySkewed() {
-  const Image truth = gradient(kSide);
+  const Image truth = gradient(kTextSide);
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal;
   const double s = std::sqrt(std::log(1.0 + 2.0 * 2.0));
-  Evidence evidence(kSide, kSide);
+  Evidence evidence(kTextSide, kTextSide);
   for (uint64_t run = 0; run < kRuns; ++run) {
     Image image = truth;
     const float others = run % 64 == 0 ? 3.0f : 1.0f;

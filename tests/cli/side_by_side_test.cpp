@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 using Json = nlohmann::json;
 
-constexpr const char* kSuite = R"(name = "small"
+constexpr const char* kPairSuite = R"(name = "small"
 scenes = ["cornell-box"]
 [settings]
 width = 24
@@ -39,7 +39,7 @@ class SideBySideTest : public ProgramTest {
  protected:
   void SetUp() override {
     ProgramTest::SetUp();
-    write("suite.toml", kSuite);
+    write("suite.toml", kPairSuite);
   }
   std::vector<Json> events(const std::string& text) const {
     std::vector<Json> all;

@@ -15,7 +15,8 @@ namespace {
 
 constexpr uint32_t kWidth = 40, kHeight = 24;
 
-SessionConfig smallConfig(const ParameterMap& parameters = {}, const std::string& cache = "pixel") {
+SessionConfig donorsConfig(const ParameterMap& parameters = {},
+                           const std::string& cache = "pixel") {
   SessionConfig config;
   config.integrator = "restir_gi";
   config.cache = cache;
@@ -55,7 +56,7 @@ class DonorScenes : public testing::TestWithParam<const char*> {};
 // spatial reuse; confidences add up.
 TEST_P(DonorScenes, TheSelectedDonorGaveTheSample) {
   const auto scene = bias::builtinScene(GetParam());
-  Session alone(scene, smallConfig(kAlone)), session(scene, smallConfig());
+  Session alone(scene, donorsConfig(kAlone)), session(scene, donorsConfig());
   alone.frame();
   session.frame();
   const std::vector<std::string> before = samplesOf(alone), after = samplesOf(session);
@@ -94,7 +95,7 @@ TEST_P(DonorScenes, TheSelectedDonorGaveTheSample) {
 // Old histories have another number of donors, with a share of their confidence.
 TEST_P(DonorScenes, ConfidencesAddUpInOldHistories) {
   const auto scene = bias::builtinScene(GetParam());
-  Session session(scene, smallConfig({{"young_frames", 3.0}, {"aged_neighbours", int64_t{1}}}));
+  Session session(scene, donorsConfig({{"young_frames", 3.0}, {"aged_neighbours", int64_t{1}}}));
   for (int frame = 0; frame < 8; ++frame) session.frame();
   const Image confidence = session.aov("confidence");
   for (size_t i = 0; i < confidence.pixels.size(); ++i) {
@@ -127,7 +128,7 @@ INSTANTIATE_TEST_SUITE_P(Scene, DonorScenes,
 TEST(Donors, OverTimeAreThePixelsThatShowedTheSurface) {
   const auto scene = bias::builtinScene("cornell-box");
   for (const double moved : {0.0, 0.2}) {
-    Session session(scene, smallConfig(kAlone));
+    Session session(scene, donorsConfig(kAlone));
     for (int frame = 0; frame < 3; ++frame) session.frame();
     const std::vector<std::string> before = samplesOf(session);
     session.setCamera(walked(*scene, moved));
@@ -170,7 +171,7 @@ TEST(Donors, OverTimeAreThePixelsThatShowedTheSurface) {
 
 TEST(Donors, OfEntriesAreInTheCache) {
   const auto scene = bias::builtinScene("door-ajar");
-  Session session(scene, smallConfig(kAlone, "voxel"));
+  Session session(scene, donorsConfig(kAlone, "voxel"));
   for (int frame = 0; frame < 4; ++frame) session.frame();
   session.setCamera(walked(*scene, 0.2));
   session.frame();
@@ -197,7 +198,7 @@ TEST(Donors, OfEntriesAreInTheCache) {
 }
 
 std::map<std::string, size_t> shiftsOf(const char* scene, const ParameterMap& parameters) {
-  Session session(bias::builtinScene(scene), smallConfig(parameters));
+  Session session(bias::builtinScene(scene), donorsConfig(parameters));
   session.frame();
   std::map<std::string, size_t> counts;
   for (size_t i = 0; i < size_t{kWidth} * kHeight; ++i) {
@@ -230,7 +231,7 @@ TEST(Donors, SayWhichTestFailed) {
 
 TEST(Donors, AskingChangesNoBit) {
   const auto scene = bias::builtinScene("glossy-gallery");
-  Session asked(scene, smallConfig()), other(scene, smallConfig());
+  Session asked(scene, donorsConfig()), other(scene, donorsConfig());
   EXPECT_TRUE(asked.donors(3, 4).empty());
   for (int frame = 0; frame < 4; ++frame) {
     asked.frame();
@@ -240,7 +241,7 @@ TEST(Donors, AskingChangesNoBit) {
     EXPECT_EQ(countDifferent(asked.radiance(), other.radiance()), 0u);
   }
   EXPECT_THROW(asked.donors(kWidth, 0), Error);
-  SessionConfig path = smallConfig();
+  SessionConfig path = donorsConfig();
   path.integrator = "path";
   path.cache = "";
   Session without(scene, path);
@@ -250,7 +251,7 @@ TEST(Donors, AskingChangesNoBit) {
 
 // Donors use the parameters of the shown frame, not those set for the next one.
 TEST(Donors, AreThoseOfTheFrameThatIsShown) {
-  Session session(bias::builtinScene("door-ajar"), smallConfig({{"young_frames", 100.0}}));
+  Session session(bias::builtinScene("door-ajar"), donorsConfig({{"young_frames", 100.0}}));
   for (int frame = 0; frame < 3; ++frame) session.frame();
   const auto count = [&] {
     size_t sum = 0;
@@ -266,7 +267,7 @@ TEST(Donors, AreThoseOfTheFrameThatIsShown) {
 
 TEST(DonorLayers, AreWhatTheDonorsSay) {
   const auto scene = bias::builtinScene("door-ajar");
-  Session session(scene, smallConfig());
+  Session session(scene, donorsConfig());
   for (int frame = 0; frame < 2; ++frame) session.frame();
   const Image rejected = session.aov("rejected_shifts"), partner = session.aov("partner");
   std::map<float, std::vector<size_t>> pairs;
@@ -296,7 +297,7 @@ TEST(DonorLayers, AreWhatTheDonorsSay) {
 
 TEST(DonorLayers, HaveTheSameBitsForAnyNumberOfThreads) {
   const auto scene = bias::builtinScene("glossy-gallery");
-  SessionConfig config = smallConfig();
+  SessionConfig config = donorsConfig();
   Session one(scene, config);
   config.threads = 5;
   Session many(scene, config);
@@ -310,7 +311,7 @@ TEST(DonorLayers, HaveTheSameBitsForAnyNumberOfThreads) {
 
 TEST(DonorLayers, AreZeroWithoutReuseOverSpace) {
   Session session(bias::builtinScene("cornell-box"),
-                  smallConfig({{"aged_neighbours", int64_t{0}}, {"young_frames", 0.0}}));
+                  donorsConfig({{"aged_neighbours", int64_t{0}}, {"young_frames", 0.0}}));
   for (int frame = 0; frame < 3; ++frame) session.frame();
   for (const char* layer : {"rejected_shifts", "partner"}) {
     for (const glm::vec3& value : session.aov(layer).pixels) ASSERT_EQ(value, glm::vec3(0.0f));

@@ -17,7 +17,7 @@
 namespace restlab::conformance {
 namespace {
 
-SessionConfig smallConfig(const std::string& cache, const ParameterMap& parameters = {}) {
+SessionConfig layersConfig(const std::string& cache, const ParameterMap& parameters = {}) {
   SessionConfig config;
   config.integrator = "restir_gi";
   config.cache = cache;
@@ -76,7 +76,7 @@ TEST_P(EntryLayers, AreWhatTheBuffersHold) {
 
 TEST_P(EntryLayers, PixelsOfOneEntryHaveOneColour) {
   const auto scene = bias::builtinScene("door-ajar");
-  Session session(scene, smallConfig(GetParam()));
+  Session session(scene, layersConfig(GetParam()));
   for (int i = 0; i < 6; ++i) session.frame();
   const Image entries = session.aov("entry"), confidences = session.aov("entry_confidence"),
               depth = session.aov("depth"), colours = falseColors(entries);
@@ -108,7 +108,7 @@ TEST_P(EntryLayers, PixelsOfOneEntryHaveOneColour) {
 }
 
 TEST_P(EntryLayers, AProbeSaysTheSameNumbers) {
-  Session session(bias::builtinScene("door-ajar"), smallConfig(GetParam()));
+  Session session(bias::builtinScene("door-ajar"), layersConfig(GetParam()));
   for (int i = 0; i < 5; ++i) session.frame();
   std::map<std::string, double> values;
   for (const ProbeValue& v : session.probe(30, 20)) values[v.name] = std::atof(v.value.c_str());
@@ -126,7 +126,7 @@ INSTANTIATE_TEST_SUITE_P(Cache, EntryLayers, testing::ValuesIn(bias::cachesWithE
 // the frame's own sample.
 TEST(Layers, ConfidenceGrowsToTheCap) {
   const ParameterMap alone = {{"spatial_neighbours", int64_t{0}}, {"confidence_cap", 5.0}};
-  Session session(bias::builtinScene("cornell-box"), smallConfig("pixel", alone));
+  Session session(bias::builtinScene("cornell-box"), layersConfig("pixel", alone));
   for (int frame = 1; frame <= 9; ++frame) {
     session.frame();
     for (const glm::vec3& c : session.aov("confidence").pixels)
@@ -136,7 +136,7 @@ TEST(Layers, ConfidenceGrowsToTheCap) {
 
 TEST(Layers, AgeCountsFramesOfAView) {
   const auto scene = bias::builtinScene("cornell-box");
-  Session session(scene, smallConfig("pixel"));
+  Session session(scene, layersConfig("pixel"));
   SceneCamera camera = scene->source().cameras.front();
   for (const int moved : {0, 4}) {
     camera.cameraToWorld[3] += 0.01 * moved * camera.cameraToWorld[0];
@@ -149,7 +149,7 @@ TEST(Layers, AgeCountsFramesOfAView) {
 }
 
 TEST(Layers, OnlyCachesOfEntriesHaveEntries) {
-  Session session(bias::builtinScene("cornell-box"), smallConfig("pixel"));
+  Session session(bias::builtinScene("cornell-box"), layersConfig("pixel"));
   session.frame();
   try {
     session.aov("entry");
@@ -164,7 +164,7 @@ TEST(Layers, OnlyCachesOfEntriesHaveEntries) {
 }
 
 TEST(Layers, NeedAFrame) {
-  Session session(bias::builtinScene("cornell-box"), smallConfig("voxel"));
+  Session session(bias::builtinScene("cornell-box"), layersConfig("voxel"));
   EXPECT_THROW(session.aov("entry"), Error);
   session.frame();
   EXPECT_EQ(session.aov("entry").width, 48u);

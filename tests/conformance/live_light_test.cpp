@@ -20,7 +20,7 @@ double energy(const Image& image) {
   return sum;
 }
 
-SessionConfig smallConfig(const std::string& integrator) {
+SessionConfig lightConfig(const std::string& integrator) {
   SessionConfig config;
   config.integrator = integrator;
   config.width = 40;
@@ -41,7 +41,7 @@ TEST(LiveLight, PathRendersWhatAFreshSessionDoes) {
         Switch{"courtyard", "sun"}, Switch{"courtyard", "environment"}}) {
     const auto on = bias::builtinScene(lamp.scene), off = lit(lamp.scene, lamp.light, 0.0);
     for (const char* rayTracing : {"embree", "bvh"}) {
-      SessionConfig config = smallConfig("path");
+      SessionConfig config = lightConfig("path");
       config.rayTracing = rayTracing;
       Session live(on, config), fresh(off, config);
       for (int i = 0; i < 3; ++i) live.frame();
@@ -64,7 +64,7 @@ TEST(LiveLight, PathRendersWhatAFreshSessionDoes) {
 
 // Light is additive: one lamp, and all other lamps.
 TEST(LiveLight, WhatALampGivesIsMissingWithoutIt) {
-  SessionConfig config = smallConfig("path");
+  SessionConfig config = lightConfig("path");
   config.maxBounces = 2;
   const auto meanOf = [&](const std::shared_ptr<const CompiledScene>& scene) {
     Session session(scene, config);
@@ -139,8 +139,8 @@ INSTANTIATE_TEST_SUITE_P(Nightly, LiveLightOf, ::testing::ValuesIn(byNight(allVa
                          VariantName());
 
 TEST(LiveLight, AnotherSceneIsRefused) {
-  Session session(bias::builtinScene("cornell-box"), smallConfig("restir_gi"));
-  Session kept(bias::builtinScene("cornell-box"), smallConfig("restir_gi"));
+  Session session(bias::builtinScene("cornell-box"), lightConfig("restir_gi"));
+  Session kept(bias::builtinScene("cornell-box"), lightConfig("restir_gi"));
   session.frame();
   kept.frame();
   EXPECT_THROW(session.setScene(bias::builtinScene("door-ajar")), Error);

@@ -10,7 +10,7 @@
 namespace restlab::conformance {
 namespace {
 
-SessionConfig smallConfig() {
+SessionConfig sessionConfig() {
   SessionConfig config;
   config.integrator = "restir_gi";
   config.width = 40;
@@ -37,7 +37,7 @@ Image shown(Session& session, uint32_t frames) {
 // A parameter that changes no buffer keeps the history; frames use the new value from then on.
 TEST(LiveSession, ParametersChangeWithoutANewHistory) {
   const auto scene = bias::builtinScene("door-ajar");
-  SessionConfig config = smallConfig();
+  SessionConfig config = sessionConfig();
   config.parameters["confidence_cap"] = 5.0;
   Session changed(scene, config), kept(scene, config);
   EXPECT_EQ(countDifferent(shown(changed, 6), shown(kept, 6)), 0u);
@@ -57,7 +57,7 @@ TEST(LiveSession, ParametersChangeWithoutANewHistory) {
 TEST(LiveSession, ParametersOfTheCacheReachAStillView) {
   const auto scene = bias::builtinScene("cornell-box");
   const ParameterMap open = {{"normal_threshold", -1.0}, {"plane_threshold", 10.0}};
-  SessionConfig config = smallConfig();
+  SessionConfig config = sessionConfig();
   Session changed(scene, config);
   config.parameters = open;
   Session fresh(scene, config);
@@ -82,7 +82,7 @@ TEST(LiveSession, ParametersOfTheCacheReachAStillView) {
 // The first frame of a history has nothing to reuse over time.
 TEST(LiveSession, TheFirstFrameIsReuseOverSpaceAlone) {
   const auto scene = bias::builtinScene("door-ajar");
-  SessionConfig config = smallConfig();
+  SessionConfig config = sessionConfig();
   Session both(scene, config);
   config.parameters["temporal"] = false;
   Session space(scene, config);
@@ -94,7 +94,7 @@ TEST(LiveSession, TheFirstFrameIsReuseOverSpaceAlone) {
 // Setting a parameter to its current value changes nothing.
 TEST(LiveSession, AnotherSplitOfLightBeginsANewHistory) {
   const auto scene = bias::builtinScene("glossy-gallery");
-  SessionConfig config = smallConfig();
+  SessionConfig config = sessionConfig();
   Session changed(scene, config), kept(scene, config);
   EXPECT_EQ(countDifferent(shown(changed, 3), shown(kept, 3)), 0u);
   EXPECT_FALSE(changed.setParameters({{"roughness_limit", 0.2}}));
@@ -107,7 +107,7 @@ TEST(LiveSession, AnotherSplitOfLightBeginsANewHistory) {
 
 TEST(LiveSession, AnUnknownParameterChangesNothing) {
   const auto scene = bias::builtinScene("cornell-box");
-  Session changed(scene, smallConfig()), kept(scene, smallConfig());
+  Session changed(scene, sessionConfig()), kept(scene, sessionConfig());
   EXPECT_THROW(changed.setParameters({{"confidence_cap", 7.0}, {"spatial_radus", 3.0}}), Error);
   EXPECT_THROW(changed.setParameters({{"confidence_cap", -1.0}}), Error);
   EXPECT_EQ(countDifferent(shown(changed, 4), shown(kept, 4)), 0u);
@@ -116,10 +116,10 @@ TEST(LiveSession, AnUnknownParameterChangesNothing) {
 // A parameter that changes buffers acts like a new session.
 TEST(LiveSession, OtherBuffersStartANewHistory) {
   const auto scene = bias::builtinScene("cornell-box");
-  Session changed(scene, smallConfig());
+  Session changed(scene, sessionConfig());
   shown(changed, 3);
   EXPECT_TRUE(changed.setParameters({{"spatial_neighbours", int64_t{2}}}));
-  SessionConfig config = smallConfig();
+  SessionConfig config = sessionConfig();
   config.parameters["spatial_neighbours"] = int64_t{2};
   Session fresh(scene, config);
   EXPECT_EQ(countDifferent(shown(changed, 4), shown(fresh, 4)), 0u);
@@ -127,10 +127,10 @@ TEST(LiveSession, OtherBuffersStartANewHistory) {
 
 TEST(LiveSession, AResizedImageIsThatOfAFreshSession) {
   const auto scene = bias::builtinScene("glossy-gallery");
-  Session changed(scene, smallConfig());
+  Session changed(scene, sessionConfig());
   shown(changed, 3);
   changed.resize(64, 36);
-  SessionConfig config = smallConfig();
+  SessionConfig config = sessionConfig();
   config.width = 64;
   config.height = 36;
   Session fresh(scene, config);
@@ -142,7 +142,7 @@ TEST(LiveSession, AResizedImageIsThatOfAFreshSession) {
 // Layers belong to a frame: after a resize or a new history there are none.
 TEST(LiveSession, LayersNeedAFrame) {
   const auto scene = bias::builtinScene("cornell-box");
-  Session session(scene, smallConfig());
+  Session session(scene, sessionConfig());
   EXPECT_THROW(session.aov("depth"), Error);
   session.frame();
   EXPECT_EQ(session.aov("depth").width, 40u);
@@ -158,7 +158,7 @@ TEST(LiveSession, LayersNeedAFrame) {
 // Layers belong to the last frame, in any order of requests.
 TEST(LiveSession, LayersAreTracedOnceAFrame) {
   const auto scene = bias::builtinScene("cornell-box");
-  Session one(scene, smallConfig()), other(scene, smallConfig());
+  Session one(scene, sessionConfig()), other(scene, sessionConfig());
   one.frame();
   other.frame();
   const Image normal = one.aov("normalW"), depth = one.aov("depth");
@@ -170,13 +170,13 @@ TEST(LiveSession, LayersAreTracedOnceAFrame) {
 
 TEST(LiveSession, AProbeShowsTheReservoir) {
   const auto scene = bias::builtinScene("cornell-box");
-  Session session(scene, smallConfig());
+  Session session(scene, sessionConfig());
   for (int i = 0; i < 5; ++i) session.frame();
   EXPECT_GE(numberOf(session, "confidence"), 5.0);
   EXPECT_GT(numberOf(session, "W"), 0.0);
   EXPECT_NE(valueOf(session, "kind"), "");
   EXPECT_THROW(session.probe(40, 0), Error);
-  SessionConfig plain = smallConfig();
+  SessionConfig plain = sessionConfig();
   plain.integrator = "path";
   EXPECT_TRUE(Session(scene, plain).probe(0, 0).empty());
 }

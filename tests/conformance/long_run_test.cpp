@@ -24,7 +24,7 @@ namespace {
 // The camera moves in a circle of kRound frames. The first round fills the cache and is not
 // compared.
 constexpr uint32_t kRound = 40, kRounds = 50, kQuarter = 12;
-constexpr uint32_t kRuns = 4;
+constexpr uint32_t kLongRuns = 4;
 
 SceneCamera cameraOf(uint32_t frame) {
   const double angle = 2.0 * std::numbers::pi * double(frame % kRound) / kRound;
@@ -178,7 +178,7 @@ TEST_P(CacheLongRun, KeepsItsEnergyItsMemoryAndItsRays) {
   double timeRatio = 1e9;  // smallest over runs, the least disturbed one
   const auto batch = [&](uint32_t firstSeed) {
     Energies energies;
-    for (uint32_t seed = firstSeed; seed < firstSeed + kRuns; ++seed) {
+    for (uint32_t seed = firstSeed; seed < firstSeed + kLongRuns; ++seed) {
       const std::vector<Round> rounds = runRounds(session, seed);
       energies.add(rounds, runRounds(truth, 1000 + seed));
       const auto last = rounds.cend() - kQuarter;
@@ -204,7 +204,7 @@ TEST_P(CacheLongRun, KeepsItsEnergyItsMemoryAndItsRays) {
       "%s: energy %s, drift %s; last quarter over first: rays %.4f, time %.2f; without a place "
       "%.1f pixels a frame; memory %+.2f MiB\n",
       GetParam().name.c_str(), mean.percent().c_str(), drift.percent().c_str(), rays, timeRatio,
-      double(full) / (kRuns * kQuarter * kRound), grown / double(1 << 20));
+      double(full) / (kLongRuns * kQuarter * kRound), grown / double(1 << 20));
 
   EXPECT_LT(grown, double(4 << 20)) << "bytes that the frames took";
   EXPECT_NEAR(rays, 1.0, 0.01);
@@ -215,7 +215,7 @@ TEST_P(CacheLongRun, KeepsItsEnergyItsMemoryAndItsRays) {
   if ((mean.isZero() || GetParam().isBiased) && drift.isZero()) return;
   // One in twenty intervals misses zero by chance, but hardly twice on the same side: confirm by
   // other seeds.
-  const Energies again = batch(1 + kRuns);
+  const Energies again = batch(1 + kLongRuns);
   const auto expectZero = [](const Estimate& a, const Estimate& b, const char* what) {
     const bool isConfirmed = !a.isZero() && !b.isZero() && (a.value > 0.0) == (b.value > 0.0);
     EXPECT_FALSE(isConfirmed) << what << ' ' << a.percent() << ", with other seeds " << b.percent();

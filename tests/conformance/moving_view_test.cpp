@@ -12,7 +12,7 @@ namespace {
 
 constexpr uint32_t kFrames = 20;
 
-SessionConfig smallConfig(const ParameterMap& parameters = {}) {
+SessionConfig movingConfig(const ParameterMap& parameters = {}) {
   SessionConfig config;
   config.integrator = "restir_gi";
   config.width = 40;
@@ -45,7 +45,7 @@ struct Sums {
   std::vector<double> first, second;
 };
 Sums firstFrames(const std::string& scene, const ParameterMap& parameters, uint32_t seeds) {
-  Session session(bias::builtinScene(scene), smallConfig(parameters));
+  Session session(bias::builtinScene(scene), movingConfig(parameters));
   Sums sums;
   for (uint32_t seed = 1; seed <= seeds; ++seed) {
     session.reset(seed);
@@ -93,7 +93,7 @@ TEST(MovingView, TheEdgesOfLightsTakeSeveralFilmSamples) {
 
 TEST(MovingView, MovedHistoriesTakeTheDonorsOfYoungOnes) {
   const auto scene = bias::builtinScene("cornell-box");
-  Session still(scene, smallConfig()), moving(scene, smallConfig());
+  Session still(scene, movingConfig()), moving(scene, movingConfig());
   const uint64_t old = spatialShiftRays(lastFrame(still, false));
   EXPECT_GT(old, 0u);
   EXPECT_GT(spatialShiftRays(lastFrame(moving, true)), 2 * old);
@@ -102,8 +102,8 @@ TEST(MovingView, MovedHistoriesTakeTheDonorsOfYoungOnes) {
 TEST(MovingView, HasACapOfItsOwn) {
   const auto scene = bias::builtinScene("cornell-box");
   for (const bool isMoving : {false, true}) {
-    Session small(scene, smallConfig({{"moving_confidence_cap", 2.0}}));
-    Session large(scene, smallConfig({{"moving_confidence_cap", 20.0}}));
+    Session small(scene, movingConfig({{"moving_confidence_cap", 2.0}}));
+    Session large(scene, movingConfig({{"moving_confidence_cap", 20.0}}));
     lastFrame(small, isMoving);
     lastFrame(large, isMoving);
     EXPECT_EQ(countDifferent(small.radiance(), large.radiance()) > 0u, isMoving);

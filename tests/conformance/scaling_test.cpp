@@ -12,7 +12,7 @@
 namespace restlab::conformance {
 namespace {
 
-constexpr uint32_t kFrames = 6;
+constexpr uint32_t kScaledFrames = 6;
 
 class Scaling : public ::testing::TestWithParam<Variant> {
  protected:
@@ -29,7 +29,7 @@ class Scaling : public ::testing::TestWithParam<Variant> {
   // Keeps the camera still: runFrames() moves by metres.
   static Image imageOf(const std::string& scene, const SessionConfig& config) {
     Session session(CompiledScene::build(makeBuiltinScene(scene)), config);
-    for (uint32_t frame = 0; frame < kFrames; ++frame) session.frame();
+    for (uint32_t frame = 0; frame < kScaledFrames; ++frame) session.frame();
     return session.radiance();
   }
 };

@@ -11,11 +11,11 @@
 namespace restlab::conformance {
 namespace {
 
-constexpr uint32_t kFrames = 24;
+constexpr uint32_t kStillFrames = 24;
 
 Image stillImage(const std::string& scene, const Variant& variant) {
   Session session(bias::builtinScene(scene), configOf(variant, 32, 18));
-  for (uint32_t frame = 0; frame < kFrames; ++frame) session.frame();
+  for (uint32_t frame = 0; frame < kStillFrames; ++frame) session.frame();
   return session.radiance();
 }
 

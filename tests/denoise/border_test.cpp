@@ -11,7 +11,7 @@
 namespace restlab::denoise {
 namespace {
 
-constexpr glm::uvec2 kSize = {32, 8};
+constexpr glm::uvec2 kBorderSize = {32, 8};
 
 // View from above; the image is 4 m wide, centred on x.
 SceneCamera above(double x) {
@@ -40,9 +40,9 @@ std::shared_ptr<const CompiledScene> darkeningFloor() {
 
 double lightOfLastColumns(const Image& image) {
   double sum = 0.0;
-  for (uint32_t y = 0; y < kSize.y; ++y) {
-    for (uint32_t x = kSize.x - 4; x < kSize.x; ++x)
-      sum += double(image.pixels[size_t(y) * kSize.x + x].y);
+  for (uint32_t y = 0; y < kBorderSize.y; ++y) {
+    for (uint32_t x = kBorderSize.x - 4; x < kBorderSize.x; ++x)
+      sum += double(image.pixels[size_t(y) * kBorderSize.x + x].y);
   }
   return sum;
 }
@@ -51,9 +51,9 @@ class Border : public testing::TestWithParam<const char*> {};
 
 TEST_P(Border, ShowsWhatComesIntoView) {
   const auto scene = darkeningFloor();
-  const double pixel = 4.0 / kSize.x;
+  const double pixel = 4.0 / kBorderSize.x;
   for (const double speed : {0.2, 0.45, 0.7}) {
-    SessionConfig config = filterConfig(GetParam(), kSize);
+    SessionConfig config = filterConfig(GetParam(), kBorderSize);
     config.maxBounces = 1;
     Session session(scene, config);
     double x = 0.0;
@@ -62,7 +62,7 @@ TEST_P(Border, ShowsWhatComesIntoView) {
       session.frame();
     }
     Session plain(scene, [&] {
-      SessionConfig none = filterConfig("none", kSize);
+      SessionConfig none = filterConfig("none", kBorderSize);
       none.maxBounces = 1;
       return none;
     }());

@@ -110,11 +110,6 @@ TEST(Gates, NightlyCornellD8) {
 }
 
 // Rendered by Tungsten, 64 bounces, 1024 x 1024: 16 x 16 tiles of 64 x 64 pixels.
-TEST(Gates, CornellBoxOfTungsten) {
-  RESTLAB_NEED_GATE("cornell-box");
-  gateAgainstItsImage("cornell-box", "cornell-box.gltf", "TungstenRender.exr", 64, 16,
-                      {512, 8, 10, 1}, 0.002);
-}
 TEST(Gates, NightlyCornellBoxOfTungsten) {
   RESTLAB_NEED_GATE("cornell-box");
   gateAgainstItsImage("cornell-box", "cornell-box.gltf", "TungstenRender.exr", 64, 16,

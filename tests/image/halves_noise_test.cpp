@@ -16,12 +16,12 @@ namespace restlab {
 namespace {
 
 constexpr uint32_t kSide = 12;
-constexpr int kSets = 1000;
+constexpr int kNoiseSets = 1000;
 
-Image constant(float x) { return Image(2, 1, glm::vec3(x)); }
+Image constantImage(float x) { return Image(2, 1, glm::vec3(x)); }
 
 TEST(HalvesNoise, KnownAnswers) {
-  Image half0 = constant(1.0f), half1 = constant(1.0f);
+  Image half0 = constantImage(1.0f), half1 = constantImage(1.0f);
   EXPECT_EQ(halvesNoise(half0, half1).varianceOfProduct, 0.0);
   half0.at(0, 0) = glm::vec3(3.0f, 1.0f, 2.0f);  // d = 2, 0, 1
   const HalvesNoise noise = halvesNoise(half0, half1);
@@ -31,16 +31,17 @@ TEST(HalvesNoise, KnownAnswers) {
   EXPECT_NEAR(halvesNoise(half0, half1, {1, 0}).varianceOfProduct, 25.0 / 12.0 / 9.0, 1e-12);
   // The mean of the halves is (2, 1, 1.5): x of a run of 4 is (2, 3, 2.5), x d = 6.5; x of a run of
   // 1 is (-1, 0, -0.5), x d = -2.5.
-  EXPECT_NEAR(sharedVarianceAtMost(constant(4.0f), half0, half1), 6.5 * 6.5 / 36.0, 1e-12);
-  EXPECT_NEAR(sharedVariance({constant(4.0f), constant(1.0f)}, half0, half1), -6.5 * 2.5 / 36.0,
-              1e-12);
-  EXPECT_NEAR(sharedVariance({constant(4.0f), constant(4.0f), constant(1.0f)}, half0, half1),
-              (6.5 * 6.5 - 2.0 * 6.5 * 2.5) / 3.0 / 36.0, 1e-12);
+  EXPECT_NEAR(sharedVarianceAtMost(constantImage(4.0f), half0, half1), 6.5 * 6.5 / 36.0, 1e-12);
+  EXPECT_NEAR(sharedVariance({constantImage(4.0f), constantImage(1.0f)}, half0, half1),
+              -6.5 * 2.5 / 36.0, 1e-12);
+  EXPECT_NEAR(
+      sharedVariance({constantImage(4.0f), constantImage(4.0f), constantImage(1.0f)}, half0, half1),
+      (6.5 * 6.5 - 2.0 * 6.5 * 2.5) / 3.0 / 36.0, 1e-12);
   // sharedVariance() of runs is at least that of the halves alone.
   BiasRuns runs;
-  runs.add(constant(4.0f));
+  runs.add(constantImage(4.0f));
   EXPECT_EQ(runs.sharedVariance(half0, half1), noise.varianceOfProduct);
-  runs.add(constant(1.0f));
+  runs.add(constantImage(1.0f));
   EXPECT_EQ(runs.sharedVariance(half0, half1), noise.varianceOfProduct);
   EXPECT_THROW(halvesNoise(half0, Image(1, 1, glm::vec3(1.0f))), Error);
   EXPECT_THROW(sharedVariance({Image(1, 1, glm::vec3(1.0f))}, half0, half1), Error);
@@ -80,19 +81,19 @@ struct Case {
   float bias;
 };
 
-struct Rates {
+struct NoiseRates {
   double mse = 0.0, squaredBias = 0.0, ratio = 0.0;  // fractions of intervals with the truth
   double withoutNoise = 0.0;                         // for the MSE, by the spread of runs alone
 };
 
-Rates ratesOf(const Case& of) {
+NoiseRates ratesOf(const Case& of) {
   std::mt19937 random(11);
-  Rates rates;
+  NoiseRates rates;
   const auto count = [](double& rate, const Interval& interval, double truth) {
-    rate += (interval.lo <= truth && truth <= interval.hi ? 1.0 : 0.0) / kSets;
+    rate += (interval.lo <= truth && truth <= interval.hi ? 1.0 : 0.0) / kNoiseSets;
   };
   const double pathVariance = 4.0 * of.ratio, truth = of.ratio + double(of.bias) * double(of.bias);
-  for (int set = 0; set < kSets; ++set) {
+  for (int set = 0; set < kNoiseSets; ++set) {
     const Image half0 = imageOf(random, of.noise, 1.0, 0.0f),
                 half1 = imageOf(random, of.noise, 1.0, 0.0f);
     BiasRuns runs, path;
@@ -125,7 +126,7 @@ TEST(HalvesNoise, IntervalsHoldTheTruth) {
       for (const Case& of :
            {Case{"channels", ofChannels, ratio, bias}, Case{"grey", grey, ratio, bias},
             Case{"uneven", uneven, ratio, bias}}) {
-        const Rates rates = ratesOf(of);
+        const NoiseRates rates = ratesOf(of);
         std::printf(
             "    %-8s ratio %.1f, bias %.1f: MSE %.3f (%.3f by the spread of runs), "
             "bias^2 %.3f, ratio %.3f\n",

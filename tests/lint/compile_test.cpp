@@ -70,7 +70,7 @@ std::string define(const char* word, const std::string& path) {
 std::string kernelUnit(const Kernel& kernel, const std::string& mask, const std::string& trace) {
   const std::string traceLine = trace.empty() ? "" : "#define RL_KERNEL_TRACE \"" + trace + "\"\n";
   return traceLine + "#define RL_KERNEL_NAME " + kernel.name +
-         "\n#define RL_KERNEL_MASK_NAME lint\n#define RL_KERNEL_MASK " + mask +
+         "\n#define RL_KERNEL_MASKS(M) M(lint, " + mask + ")" +
          define("RL_KERNEL_HEADER", kernel.header) + define("RL_KERNEL_FILE", kernel.file) +
          "\n#include \"core/backend/cpu_kernel.inl\"\n";
 }

@@ -42,14 +42,14 @@ class SceneSettings : public TemporaryFolder {
   }
 };
 
-constexpr const char* kPaths =
+constexpr const char* kPathSuite =
     "[settings]\nwarmup_frames = 8\nruns = 3\nwidth = 8\nheight = 8\n"
     "[[camera_path]]\nname = \"turning\"\nkind = \"pan\"\ndegrees_per_frame = 1.0\n"
     "[[camera_path]]\nname = \"dimmed\"\nkind = \"still\"\n"
     "[[event]]\nframe = 6\nlight = \"all\"\nfactor = 0.25\ncamera_path = \"dimmed\"\n";
 
 std::string sceneWith(const std::string& lines) {
-  return std::string(kPaths) + "[[scene]]\nscene = \"furnace\"\ntruth = \"exact\"\n" + lines;
+  return std::string(kPathSuite) + "[[scene]]\nscene = \"furnace\"\ntruth = \"exact\"\n" + lines;
 }
 
 TEST_F(SceneSettings, WinOverTheSuites) {
@@ -104,7 +104,7 @@ TEST_F(SceneSettings, TruthKnowsWhereTheCameraIs) {
             std::string::npos)
       << outside;
   const std::string scaled = errorOf(
-      std::string(kPaths) +
+      std::string(kPathSuite) +
       "[[scene]]\nscene = \"furnace?scale=2\"\ntruth = \"exact\"\ncamera_path = \"turning\"\n");
   EXPECT_NE(scaled.find("without 'scale' and 'move'"), std::string::npos) << scaled;
 }

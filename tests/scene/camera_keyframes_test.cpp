@@ -7,23 +7,11 @@
 
 #include "core/base/error.h"
 #include "core/scene/camera_path/camera_path.h"
+#include "tests/scene/camera_checks.h"
 
 namespace restlab {
 
 namespace {
-
-glm::dvec3 position(const SceneCamera& camera) { return glm::dvec3(camera.cameraToWorld[3]); }
-glm::dvec3 forward(const SceneCamera& camera) { return -glm::dvec3(camera.cameraToWorld[2]); }
-
-SceneCamera cameraAtPoint(const char* name, const glm::dvec3& eye, const glm::dvec3& target,
-                          const glm::dvec3& upW = {0, 1, 0}) {
-  SceneCamera camera;
-  camera.name = name;
-  camera.yfov = 0.7;
-  camera.aspect = 1.5;
-  camera.cameraToWorld = glm::inverse(glm::lookAt(eye, target, upW));
-  return camera;
-}
 
 Scene scene() {
   Scene scene;
@@ -65,21 +53,12 @@ CameraMotion motionOf(std::vector<CameraKeyframe> keys, uint32_t start = 0) {
   return resolveCameraPath(path, scene(), start);
 }
 
-void expectOrthonormal(const SceneCamera& camera) {
-  const glm::dmat3 basis(camera.cameraToWorld);
-  const glm::dmat3 product = glm::transpose(basis) * basis;
-  for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3; ++k) EXPECT_NEAR(product[i][k], i == k ? 1.0 : 0.0, 1e-12);
-  }
-  EXPECT_NEAR(glm::determinant(basis), 1.0, 1e-12);
-}
-
 TEST(CameraKeyframes, AreMetExactly) {
   const CameraMotion motion = motionOf(
       {key(5, {1, 2, 3}, {0, 1, 0}), key(8, "rolled"), key(1000, {-4, 0.5, 2}, {7, 7, 7})});
   const SceneCamera first = cameraAt(motion, 5), middle = cameraAt(motion, 8),
                     last = cameraAt(motion, 1000);
-  EXPECT_EQ(position(first), glm::dvec3(1, 2, 3));
+  EXPECT_EQ(positionOf(first), glm::dvec3(1, 2, 3));
   EXPECT_LT(glm::distance(forward(first), glm::normalize(glm::dvec3(-1, -1, -3))), 1e-15);
   EXPECT_EQ(first.cameraToWorld[0].y, 0.0) << "upright";
   EXPECT_GT(first.cameraToWorld[1].y, 0.0) << "and not upside down";
@@ -87,7 +66,7 @@ TEST(CameraKeyframes, AreMetExactly) {
   EXPECT_EQ(middle.cameraToWorld, scene().cameras[1].cameraToWorld);
   EXPECT_EQ(middle.yfov, 1.1);
   EXPECT_EQ(middle.name, "start");
-  EXPECT_EQ(position(last), glm::dvec3(-4, 0.5, 2));
+  EXPECT_EQ(positionOf(last), glm::dvec3(-4, 0.5, 2));
   // The camera stands still before the first and after the last keyframe.
   for (const uint32_t frame : {0u, 4u}) {
     EXPECT_EQ(cameraAt(motion, frame).cameraToWorld, first.cameraToWorld);
@@ -109,9 +88,9 @@ TEST(CameraKeyframes, PositionsAndFieldsOfViewAreLinear) {
   narrow.yfov = 0.3;
   const CameraMotion motion = motionOf({key(10, {2, 0, 3}, {0, 0, 0}), narrow, key(40, "rolled")});
   const SceneCamera quarter = cameraAt(motion, 12);
-  EXPECT_LT(glm::distance(position(quarter), {3.2, 0.4, 2.0}), 1e-12);
+  EXPECT_LT(glm::distance(positionOf(quarter), {3.2, 0.4, 2.0}), 1e-12);
   EXPECT_NEAR(quarter.yfov, 0.62, 1e-12);
-  EXPECT_LT(glm::distance(position(cameraAt(motion, 30)), {6, 2, -2.5}), 1e-12);
+  EXPECT_LT(glm::distance(positionOf(cameraAt(motion, 30)), {6, 2, -2.5}), 1e-12);
   EXPECT_NEAR(cameraAt(motion, 30).yfov, 0.7, 1e-12);
 }
 
@@ -122,7 +101,7 @@ TEST(CameraKeyframes, ASharedTargetStaysInTheMiddle) {
   for (uint32_t frame = 0; frame <= 150; ++frame) {
     const SceneCamera camera = cameraAt(motion, frame);
     expectOrthonormal(camera);
-    EXPECT_LT(glm::distance(forward(camera), glm::normalize(target - position(camera))), 1e-14);
+    EXPECT_LT(glm::distance(forward(camera), glm::normalize(target - positionOf(camera))), 1e-14);
     EXPECT_NEAR(camera.cameraToWorld[0].y, 0.0, 1e-15) << "upright";
   }
 }

@@ -20,7 +20,7 @@ MeshGeometry box() {
 }
 
 // A wall of 20 m at z = -10 and a body of 2 m at the origin, seen from z = 6.
-Scene scene() {
+Scene walledScene() {
   Scene scene;
   scene.geometries = {box()};
   MeshInstance body, wall;
@@ -53,16 +53,16 @@ CameraPath dolly(double metres) {
 using Lines = std::vector<std::string>;
 
 TEST(CameraPathCheck, NothingIsSaidOfAFreePath) {
-  EXPECT_EQ(linesOf(scene(), dolly(0.05)), Lines());
+  EXPECT_EQ(linesOf(walledScene(), dolly(0.05)), Lines());
   CameraPath orbit;
   orbit.kind = CameraPathKind::orbit;
   orbit.degreesPerFrame = 1.0;
-  EXPECT_EQ(linesOf(scene(), orbit), Lines());
-  EXPECT_EQ(cameraWarnings(scene(), scene().cameras[0]), Lines());
+  EXPECT_EQ(linesOf(walledScene(), orbit), Lines());
+  EXPECT_EQ(cameraWarnings(walledScene(), walledScene().cameras[0]), Lines());
 }
 
 TEST(CameraPathCheck, ThroughASurfaceIntoABody) {
-  const Lines lines = linesOf(scene(), dolly(0.15));  // ends at the origin
+  const Lines lines = linesOf(walledScene(), dolly(0.15));  // ends at the origin
   ASSERT_EQ(lines.size(), 3u) << lines[0];
   EXPECT_EQ(lines[0], "path: the camera walks through 'body' between the frames 32 and 34");
   EXPECT_EQ(lines[1],
@@ -74,7 +74,7 @@ TEST(CameraPathCheck, ThroughASurfaceIntoABody) {
   keys.cutFrame = 3;
   keys.cutDegrees = 180.0;
   keys.targetW = glm::dvec3(0.0);
-  Scene open = scene();
+  Scene open = walledScene();
   open.instances[1].objectToWorld[3].z = -30.0;
   EXPECT_EQ(linesOf(open, keys), Lines());
 }
@@ -83,7 +83,7 @@ TEST(CameraPathCheck, ThroughASurfaceIntoABody) {
 TEST(CameraPathCheck, FromAFaceIntoABody) {
   for (const double offset : {0.0, 1.7e-15, -1.7e-15}) {
     for (const double aside : {0.0, 0.3}) {
-      Scene atFace = scene();
+      Scene atFace = walledScene();
       atFace.cameras[0].cameraToWorld[3] = glm::dvec4(aside, 0, 1.0 + offset, 1);
       const Lines into = linesOf(atFace, dolly(0.02));
       ASSERT_FALSE(into.empty()) << offset;
@@ -96,7 +96,7 @@ TEST(CameraPathCheck, FromAFaceIntoABody) {
 }
 
 TEST(CameraPathCheck, ABlankEndAndNothingInView) {
-  Scene beside = scene();
+  Scene beside = walledScene();
   beside.cameras[0].cameraToWorld[3].x = 5.5;
   beside.instances[0].objectToWorld[3].x = 4.0;  // in view at first, later behind
   const Lines blank = linesOf(beside, dolly(0.35));
@@ -105,11 +105,11 @@ TEST(CameraPathCheck, ABlankEndAndNothingInView) {
   CameraPath away;
   away.kind = CameraPathKind::pan;
   away.degreesPerFrame = 4.5;
-  EXPECT_EQ(linesOf(scene(), away), Lines({"path: at frame 40 no surface is in view"}));
+  EXPECT_EQ(linesOf(walledScene(), away), Lines({"path: at frame 40 no surface is in view"}));
 }
 
 TEST(CameraPathCheck, NearerThanTheNearDistance) {
-  Scene near = scene();
+  Scene near = walledScene();
   near.cameras[0].znear = 6.5;
   const Lines lines = linesOf(near, dolly(0.001));
   ASSERT_EQ(lines.size(), 1u);
@@ -123,7 +123,7 @@ TEST(CameraPathCheck, NearerThanTheNearDistance) {
 
 // A mirrored instance flips its triangles; its inside must stay inside.
 TEST(CameraPathCheck, AMirroredBodyHasItsInside) {
-  Scene mirrored = scene();
+  Scene mirrored = walledScene();
   mirrored.instances[0].objectToWorld = glm::scale(glm::dmat4(1.0), glm::dvec3(-1, 1, 1));
   SceneCamera inside = mirrored.cameras[0];
   inside.cameraToWorld[3].z = 0.1;

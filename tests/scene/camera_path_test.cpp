@@ -7,6 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/base/error.h"
+#include "tests/scene/camera_checks.h"
 
 namespace restlab {
 
@@ -14,30 +15,16 @@ namespace {
 
 constexpr double kTiny = 1e-12;
 
-glm::dvec3 position(const SceneCamera& camera) { return glm::dvec3(camera.cameraToWorld[3]); }
-glm::dvec3 forward(const SceneCamera& camera) {
-  return -glm::normalize(glm::dvec3(camera.cameraToWorld[2]));
-}
 glm::dvec3 up(const SceneCamera& camera) {
   return glm::normalize(glm::dvec3(camera.cameraToWorld[1]));
 }
 
-SceneCamera cameraAtPoint(const glm::dvec3& eye, const glm::dvec3& target,
-                          const glm::dvec3& upW = {0, 1, 0}) {
-  SceneCamera camera;
-  camera.name = "start";
-  camera.aspect = 1.5;
-  camera.yfov = 0.7;
-  camera.cameraToWorld = glm::inverse(glm::lookAt(eye, target, upW));
-  return camera;
-}
-
 // Upright cameras, a rolled one, and one that looks almost straight down.
 const std::vector<SceneCamera> kCameras = {
-    cameraAtPoint({0, 0, 5}, {0, 0, 0}),
-    cameraAtPoint({1, 2, 3}, {-4, 0.5, 7}),
-    cameraAtPoint({-3, 8, 2}, {1, -1, 0}, {0.4, 1, -0.2}),
-    cameraAtPoint({100, 1000, -20}, {100, 0, -20.1}),
+    cameraAtPoint("start", {0, 0, 5}, {0, 0, 0}),
+    cameraAtPoint("start", {1, 2, 3}, {-4, 0.5, 7}),
+    cameraAtPoint("start", {-3, 8, 2}, {1, -1, 0}, {0.4, 1, -0.2}),
+    cameraAtPoint("start", {100, 1000, -20}, {100, 0, -20.1}),
 };
 
 // A floor at y = 0, `camera`, and two more cameras.
@@ -51,7 +38,7 @@ Scene sceneWith(const SceneCamera& camera) {
   MeshInstance floor;
   floor.objectToWorld = glm::scale(glm::dmat4(1.0), glm::dvec3(50.0, 1.0, 50.0));
   scene.instances = {floor};
-  SceneCamera other = cameraAtPoint({7, 1, 7}, {0, 2, 0});
+  SceneCamera other = cameraAtPoint("start", {7, 1, 7}, {0, 2, 0});
   other.name = "other";
   other.yfov = 1.1;
   other.aspect = 2.0;
@@ -73,16 +60,6 @@ CameraPath pathOf(CameraPathKind kind, double perFrame = 0.0) {
   return path;
 }
 
-void expectOrthonormal(const SceneCamera& camera) {
-  const glm::dmat3 basis(camera.cameraToWorld);
-  const glm::dmat3 product = glm::transpose(basis) * basis;
-  for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3; ++k) EXPECT_NEAR(product[i][k], i == k ? 1.0 : 0.0, kTiny);
-  }
-  EXPECT_NEAR(glm::determinant(basis), 1.0, kTiny);
-  EXPECT_EQ(camera.cameraToWorld[3].w, 1.0);
-}
-
 TEST(CameraPath, StillIsTheCamera) {
   const CameraMotion motion = motionOf(pathOf(CameraPathKind::still));
   for (const uint32_t frame : {0u, 1u, 4000000000u}) {
@@ -97,12 +74,12 @@ TEST(CameraPath, OrbitKeepsWhatIsOnItsAxisWhereItIs) {
     path.targetW = target;
     const CameraMotion motion = motionOf(path, start);
     const glm::dvec3 seen = glm::inverse(start.cameraToWorld) * glm::dvec4(target, 1.0);
-    const double distance = glm::distance(position(start), target);
+    const double distance = glm::distance(positionOf(start), target);
     for (uint32_t frame = 0; frame < 3000; frame += 7) {
       const SceneCamera camera = cameraAt(motion, frame);
       expectOrthonormal(camera);
-      EXPECT_NEAR(glm::distance(position(camera), target), distance, kTiny * distance);
-      EXPECT_NEAR(position(camera).y, position(start).y, kTiny * distance);
+      EXPECT_NEAR(glm::distance(positionOf(camera), target), distance, kTiny * distance);
+      EXPECT_NEAR(positionOf(camera).y, positionOf(start).y, kTiny * distance);
       const glm::dvec3 sees = glm::inverse(camera.cameraToWorld) * glm::dvec4(target, 1.0);
       EXPECT_LT(glm::distance(sees, seen), 1e-9 * distance);
     }
@@ -113,7 +90,7 @@ TEST(CameraPath, OrbitGoesAnticlockwiseSeenFromAbove) {
   CameraPath path = pathOf(CameraPathKind::orbit, 30.0);
   path.targetW = glm::dvec3(0.0);
   const SceneCamera camera = cameraAt(motionOf(path, kCameras[0]), 3);
-  EXPECT_LT(glm::distance(position(camera), {5, 0, 0}), kTiny);
+  EXPECT_LT(glm::distance(positionOf(camera), {5, 0, 0}), kTiny);
   EXPECT_LT(glm::distance(forward(camera), {-1, 0, 0}), kTiny);
   EXPECT_LT(glm::distance(up(camera), {0, 1, 0}), kTiny);
 }
@@ -143,8 +120,9 @@ TEST(CameraPath, DollyWalksAlongTheView) {
         const CameraMotion motion = motionOf(pathOf(CameraPathKind::dolly, metres), camera);
         EXPECT_EQ(cameraAt(motion, 0).cameraToWorld, camera.cameraToWorld);
         const SceneCamera moved = cameraAt(motion, 40);
-        EXPECT_LT(glm::distance(position(moved), position(start) + forward(start) * 40.0 * metres),
-                  1e-10);
+        EXPECT_LT(
+            glm::distance(positionOf(moved), positionOf(start) + forward(start) * 40.0 * metres),
+            1e-10);
         EXPECT_EQ(glm::dmat3(moved.cameraToWorld), glm::dmat3(camera.cameraToWorld));
       }
     }
@@ -161,7 +139,7 @@ TEST(CameraPath, PanTurnsOnTheSpot) {
       for (uint32_t frame = 1; frame < 400; frame += 9) {
         const SceneCamera camera = cameraAt(motion, frame);
         expectOrthonormal(camera);
-        EXPECT_EQ(position(camera), position(start));
+        EXPECT_EQ(positionOf(camera), positionOf(start));
         EXPECT_NEAR(glm::dot(forward(camera), axis), glm::dot(forward(start), axis), kTiny);
         EXPECT_NEAR(glm::dot(up(camera), axis), glm::dot(up(start), axis), kTiny);
       }
@@ -174,7 +152,7 @@ TEST(CameraPath, PanTurnsOnTheSpot) {
 
 // Only the cameras of a scene show that its up is +Z: turns are about +Z, without roll.
 TEST(CameraPath, TurnsAboutTheUpOfTheScene) {
-  const SceneCamera start = cameraAtPoint({4, -3, 1.5}, {0, 0, 1}, {0, 0, 1});
+  const SceneCamera start = cameraAtPoint("start", {4, -3, 1.5}, {0, 0, 1}, {0, 0, 1});
   EXPECT_EQ(sceneUp(start), glm::dvec3(0, 0, 1));
   for (const SceneCamera& camera : kCameras) EXPECT_EQ(sceneUp(camera), glm::dvec3(0, 1, 0));
   CameraPath back = pathOf(CameraPathKind::back);
@@ -187,7 +165,7 @@ TEST(CameraPath, TurnsAboutTheUpOfTheScene) {
     EXPECT_NE(forward(camera), forward(start));
     EXPECT_NEAR(forward(camera).z, forward(start).z, kTiny) << "the horizon stays level";
     EXPECT_NEAR(up(camera).z, up(start).z, kTiny);
-    EXPECT_NEAR(position(camera).z, position(start).z, kTiny);
+    EXPECT_NEAR(positionOf(camera).z, positionOf(start).z, kTiny);
     CameraPath aboutY = path;
     aboutY.about = CameraAxis::y;
     const SceneCamera other = cameraAt(motionOf(aboutY, start), 5);
@@ -268,7 +246,7 @@ TEST(CameraPath, BackIsTurnedAwayAndThenTheScenesCamera) {
 }
 
 TEST(CameraAim, IsTheFirstSurface) {
-  const SceneCamera camera = cameraAtPoint({1, 4, 3}, {-2, 0, 1});
+  const SceneCamera camera = cameraAtPoint("start", {1, 4, 3}, {-2, 0, 1});
   Scene scene = sceneWith(camera);
   EXPECT_LT(glm::distance(pointLookedAt(scene, camera), {-2, 0, 1}), 1e-12);
   // A second instance, moved and mirrored, in front of the first.
@@ -287,17 +265,17 @@ TEST(CameraAim, IsTheFirstSurface) {
   triangle.instances[0].objectToWorld = glm::dmat4(1.0);
   for (const glm::dvec3& seen : {glm::dvec3(0.5, 0.0, -0.5), glm::dvec3(-0.5, -1.0, 0.5),
                                  glm::dvec3(1.5, -1.0, 0.5), glm::dvec3(0.5, -1.0, -1.5)}) {
-    const SceneCamera above = cameraAtPoint({seen.x, 3, seen.z}, seen, {0, 0, 1});
+    const SceneCamera above = cameraAtPoint("start", {seen.x, 3, seen.z}, seen, {0, 0, 1});
     EXPECT_LT(glm::distance(pointLookedAt(triangle, above), seen), 1e-12) << seen.x;
   }
 }
 
 TEST(CameraAim, WhereThereIsNoSurface) {
   // Past the floor, whose middle is the origin: the nearest point of the axis counts.
-  const SceneCamera past = cameraAtPoint({-3, 4, 2}, {5, 4, 2});
+  const SceneCamera past = cameraAtPoint("start", {-3, 4, 2}, {5, 4, 2});
   EXPECT_LT(glm::distance(pointLookedAt(sceneWith(past), past), {0, 4, 2}), 1e-12);
   // Away from the floor: a point as far ahead as the floor's diagonal counts.
-  const SceneCamera away = cameraAtPoint({60, 4, 0}, {61, 4, 0});
+  const SceneCamera away = cameraAtPoint("start", {60, 4, 0}, {61, 4, 0});
   EXPECT_LT(
       glm::distance(pointLookedAt(sceneWith(away), away), {60.0 + 100.0 * std::sqrt(2.0), 4, 0}),
       1e-9);
@@ -305,11 +283,11 @@ TEST(CameraAim, WhereThereIsNoSurface) {
 }
 
 TEST(CameraAim, OrbitsGoAboutIt) {
-  const SceneCamera camera = cameraAtPoint({1, 4, 3}, {-2, 0, 1});
+  const SceneCamera camera = cameraAtPoint("start", {1, 4, 3}, {-2, 0, 1});
   const CameraMotion motion = motionOf(pathOf(CameraPathKind::orbit, 10.0), camera);
   const SceneCamera turned = cameraAt(motion, 9);
   // A quarter turn about (-2, y, 1): from (3, ., 2) relative to it to (2, ., -3).
-  EXPECT_LT(glm::distance(position(turned), {0, 4, -2}), 1e-10);
+  EXPECT_LT(glm::distance(positionOf(turned), {0, 4, -2}), 1e-10);
 }
 
 std::string messageOf(const CameraPath& path, uint32_t frame = 0) {

@@ -12,7 +12,7 @@ using test::GltfBuilder;
 using test::warns;
 
 // Adds a material that shows the image of this URI.
-void addTexture(GltfBuilder& file, const std::string& uri) {
+void addImageTexture(GltfBuilder& file, const std::string& uri) {
   file.add("images", {{"uri", uri}});
   file.add("textures", {{"source", 0}});
   file.add("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
@@ -27,7 +27,7 @@ TEST(GltfLenient, RawPercentSignsOfNames) {
                                   {"50%25.png", "50%25.png"}}) {
     GltfBuilder file;
     file.directory().write(name, test::tinyPng());
-    addTexture(file, uri);
+    addImageTexture(file, uri);
     const Scene scene = file.load();
     EXPECT_EQ(scene.images.size(), 1u) << uri;
     EXPECT_TRUE(warns(scene, "a percent sign that is not escaped")) << uri;
@@ -35,7 +35,7 @@ TEST(GltfLenient, RawPercentSignsOfNames) {
   // A correctly escaped name is tried first, without a warning.
   GltfBuilder file;
   file.directory().write("50%.png", test::tinyPng());
-  addTexture(file, "50%25.png");
+  addImageTexture(file, "50%25.png");
   EXPECT_FALSE(warns(file.load(), "percent"));
 }
 
@@ -53,14 +53,14 @@ TEST(GltfLenient, Base64AsBrowsersTakeIt) {
        {label + escaped, label + urlSafe, label + broken, "data:image/png;BASE64," + text,
         "DATA:image/png; Base64," + text}) {
     GltfBuilder file;
-    addTexture(file, uri);
+    addImageTexture(file, uri);
     const Scene scene = file.load();
     ASSERT_EQ(scene.images.size(), 1u) << uri;
     EXPECT_EQ(scene.images[0].texels.at(0), 0xff0000ffu) << uri;
     EXPECT_TRUE(warns(scene, "base64")) << uri;
   }
   GltfBuilder file;
-  addTexture(file, label + text);
+  addImageTexture(file, label + text);
   EXPECT_FALSE(warns(file.load(), "base64"));
   ASSERT_EQ(text.back(), '=');
   file.doc["images"][0]["uri"] = label + text.substr(0, text.find('='));

@@ -15,7 +15,7 @@ using nlohmann::json;
 using test::GltfBuilder;
 using test::warns;
 
-const double kHalf = std::sqrt(0.5);
+const double kHalfSide = std::sqrt(0.5);
 
 // Loads a file in which the node `camera` carries a camera, below `root`.
 Scene withCamera(json camera, json root, bool isOrthographic = false) {
@@ -83,7 +83,7 @@ TEST(GltfScale, TheScaleOfACameraIsIgnored) {
 }
 
 TEST(GltfScale, ZeroAboveACameraCountsAsOne) {
-  const json turned = {{"rotation", {0, kHalf, 0, kHalf}}, {"translation", {1, 2, 3}}};
+  const json turned = {{"rotation", {0, kHalfSide, 0, kHalfSide}}, {"translation", {1, 2, 3}}};
   for (const glm::dvec3 s : {glm::dvec3(0, 1, 1), glm::dvec3(1, 0, 1), glm::dvec3(0, 0, 0)}) {
     const json root = {{"scale", {s.x, s.y, s.z}}};
     const Scene scene = withCamera(turned, root);
@@ -109,7 +109,7 @@ TEST(GltfScale, LightsOfZeroOrMirroredScaleShineAlongTheirNode) {
     GltfBuilder file;
     file.doc["extensionsUsed"] = {"KHR_lights_punctual"};
     file.doc["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "directional"}}};
-    file.node({{"rotation", {kHalf, 0, 0, kHalf}},
+    file.node({{"rotation", {kHalfSide, 0, 0, kHalfSide}},
                {"scale", scale},
                {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
     const Scene scene = file.load();

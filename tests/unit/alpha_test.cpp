@@ -23,7 +23,7 @@ rl::Material veil(float alpha) {
 }
 
 // Three veils and a wall behind them, all across the z axis.
-std::shared_ptr<const CompiledScene> veils() {
+std::shared_ptr<const CompiledScene> veilsInFrontOfALamp() {
   builtin::SceneBuilder builder("veils");
   const float alphas[4] = {0.5f, 0.2f, 0.9f, 1.0f};
   for (int i = 0; i < 4; ++i) {
@@ -45,7 +45,7 @@ rl::Ray along(const Dialect<>& d, float length) {
 }
 
 TEST(Alpha, ShadowRaysMultiplyTransmittance) {
-  Dialect<> d(veils());
+  Dialect<> d(veilsInFrontOfALamp());
   rl::Hit hit;
   EXPECT_FLOAT_EQ(d->traceRay(along(d, -0.25f), rl::RL_RAY_SHADOW, 0, hit), 1.0f);
   EXPECT_FLOAT_EQ(d->traceRay(along(d, 0.5f), rl::RL_RAY_SHADOW, 0, hit), 0.5f);
@@ -56,7 +56,7 @@ TEST(Alpha, ShadowRaysMultiplyTransmittance) {
 
 // Over many keys each veil stops its fraction of the path rays, independently of the others.
 TEST(Alpha, PathRaysStopByChance) {
-  Dialect<> d(veils());
+  Dialect<> d(veilsInFrontOfALamp());
   const std::vector<double> expected = {0.5, 0.5 * 0.2, 0.5 * 0.8 * 0.9, 0.5 * 0.8 * 0.1};
   std::vector<uint64_t> counts(4);
   constexpr uint64_t n = 1'000'000;
@@ -71,7 +71,7 @@ TEST(Alpha, PathRaysStopByChance) {
 
 // Equal keys give equal decisions, wherever the ray starts.
 TEST(Alpha, DecisionBelongsToKeyAndPrimitive) {
-  Dialect<> d(veils());
+  Dialect<> d(veilsInFrontOfALamp());
   for (uint32_t key = 0; key < 1000; ++key) {
     rl::Hit a{}, b{};
     d->traceRay(along(d, 1e3f), rl::RL_RAY_PATH, key, a);

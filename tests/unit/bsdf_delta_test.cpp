@@ -7,14 +7,13 @@
 
 #include "core/scene/builtin/builder.h"
 #include "tests/unit/bsdf_cases.h"
+#include "tests/unit/constants.h"
 #include "tests/unit/dialect_context.h"
 #include "tests/unit/ggx_reference.h"
 #include "tests/unit/random_inputs.h"
 
 namespace restlab::unit {
 namespace {
-
-const glm::vec3 kUp(0.0f, 0.0f, 1.0f);
 
 struct LobeSum {
   uint64_t draws = 0;

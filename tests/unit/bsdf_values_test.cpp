@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/scene/builtin/builder.h"
 #include "tests/unit/bsdf_cases.h"
+#include "tests/unit/constants.h"
 #include "tests/unit/dialect_context.h"
 #include "tests/unit/ggx_reference.h"
 #include "tests/unit/goodness.h"
@@ -16,9 +16,6 @@
 
 namespace restlab::unit {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-const glm::vec3 kUp(0.0f, 0.0f, 1.0f);
 
 float cosine(double degrees) { return static_cast<float>(std::cos(degrees * kPi / 180.0)); }
 

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/scene/builtin/builder.h"
 #include "core/scene/builtin/mesh.h"
+#include "tests/unit/constants.h"
 #include "tests/unit/dialect_context.h"
 #include "tests/unit/goodness.h"
 #include "tests/unit/random_inputs.h"
@@ -14,8 +14,6 @@
 
 namespace restlab::unit {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 EnvironmentMap noisyMap(uint32_t width, uint32_t height, float rotation, uint64_t seed) {
   EnvironmentMap map;

@@ -1,14 +1,12 @@
 #include "tests/unit/ggx_reference.h"
+#include "tests/unit/constants.h"
 
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 
 namespace restlab::unit::reference {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Integral of g(h) over the microfacet normals h weighted by D(h) cos_h, which integrates to 1.
 // With tan^2 = alpha^2 u / (1 - u) the weight is uniform in u and azimuth. The midpoint rule in

@@ -4,19 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "core/scene/builtin/builder.h"
 #include "core/scene/builtin/mesh.h"
+#include "tests/unit/constants.h"
 #include "tests/unit/dialect_context.h"
 #include "tests/unit/goodness.h"
 #include "tests/unit/random_inputs.h"
 
 namespace restlab::unit {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 double luminance(const glm::dvec3& c) { return 0.212639 * c.x + 0.715169 * c.y + 0.072192 * c.z; }
 

@@ -4,16 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "tests/unit/constants.h"
 #include "tests/unit/dialect_context.h"
 #include "tests/unit/goodness.h"
 #include "tests/unit/random_inputs.h"
 
 namespace restlab::unit {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 TEST(Math, MulHighIsTheUpperWord) {
   Dialect<0> d;

@@ -11,6 +11,7 @@
 #include "core/frame/session.h"
 #include "core/scene/builtin/builder.h"
 #include "tests/unit/bsdf_cases.h"
+#include "tests/unit/constants.h"
 #include "tests/unit/dialect_context.h"
 #include "tests/unit/ggx_reference.h"
 #include "tests/unit/random_inputs.h"
@@ -19,7 +20,6 @@
 namespace restlab::unit {
 namespace {
 
-const glm::vec3 kUp(0.0f, 0.0f, 1.0f);
 constexpr uint32_t kWithout = rl::RL_FEATURE_ALL & ~rl::RL_FEATURE_MULTISCATTER;
 
 // Allowed interpolation error of the table in an albedo: for alpha from 0.02 on, and below. On

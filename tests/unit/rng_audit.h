@@ -32,5 +32,4 @@ extern const CpuKernelEntry kernel_voxel_propose_audited;
 
 #define RL_RNG_AUDIT(rng, dimension) \
   ::restlab::unit::auditDraw((rng).key.x, (rng).key.y, (rng).vertex, (dimension))
-#define RL_KERNEL_MASK_NAME audited
-#define RL_KERNEL_MASK rl::RL_FEATURE_ALL
+#define RL_KERNEL_MASKS(M) M(audited, rl::RL_FEATURE_ALL)

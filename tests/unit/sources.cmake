@@ -43,5 +43,15 @@ list(APPEND RL_UNIT_TESTS
   texture_test.cpp
 )
 
+# They set macros for the kernels that they include.
+set(alone ${RL_UNIT_TESTS})
+list(FILTER alone INCLUDE REGEX "^(rng_audit_|feature_mask|partners)")
+list(TRANSFORM alone PREPEND ${CMAKE_CURRENT_LIST_DIR}/)
+set_property(SOURCE ${alone} PROPERTY SKIP_UNITY_BUILD_INCLUSION ON)
+# Millions of samples in the test's own code.
+foreach(file bsdf_sampling_test.cpp sphere_grid.cpp)
+  set_property(SOURCE ${CMAKE_CURRENT_LIST_DIR}/${file} APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
+endforeach()
+
 # What tells tracers apart, for the tests of other machines too.
 set(RL_UNIT_SOURCES ray_cases.cpp)

@@ -1,13 +1,12 @@
 #include "tests/unit/sphere_grid.h"
+#include "tests/unit/constants.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace restlab::unit {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kMaxDepth = 7;
 
 struct Box {

@@ -38,9 +38,9 @@ namespace {
 namespace fs = std::filesystem;
 
 // Reads an open file for OpenEXR; a short read throws and never makes up values.
-class FileStream : public Imf::IStream {
+class FileSource : public Imf::IStream {
  public:
-  explicit FileStream(std::ifstream& stream) : Imf::IStream(""), stream_(stream) {}
+  explicit FileSource(std::ifstream& stream) : Imf::IStream(""), stream_(stream) {}
   bool read(char bytes[], int size) override {
     if (!stream_.read(bytes, size)) throw std::runtime_error("the file ends too early");
     const bool more = stream_.peek() != std::ifstream::traits_type::eof();
@@ -176,7 +176,7 @@ void readLayers(const fs::path& file, Imf::InputFile& exr,
 LayeredImage readOpened(const fs::path& file, std::ifstream& stream, uint64_t fileBytes,
                         const ExrSelection& wanted) {
   const uint64_t pixels = checkExrHeader(file, stream, fileBytes);
-  FileStream exrStream(stream);
+  FileSource exrStream(stream);
   exrStream.seekg(0);
   Imf::InputFile exr(exrStream);
   const Imf::Header& header = exr.header();
@@ -237,7 +237,7 @@ LayeredImage readExr(const fs::path& file, const ExrSelection& wanted) {
 ExrContents readExrContents(const fs::path& file, ExrLayers wanted) {
   return withOpened(file, [&](std::ifstream& stream, uint64_t fileBytes) {
     checkExrHeader(file, stream, fileBytes);
-    FileStream exrStream(stream);
+    FileSource exrStream(stream);
     exrStream.seekg(0);
     const Imf::InputFile exr(exrStream);
     ExrContents contents;

@@ -21,9 +21,9 @@ namespace {
 // Lets OpenEXR write through an AtomicFile, whose commit() sees every failed write: OpenEXR's own
 // stream loses the errors of its last flush. No member throws, as OpenEXR also writes from a
 // destructor.
-class FileStream : public Imf::OStream {
+class FileSink : public Imf::OStream {
  public:
-  explicit FileStream(std::ofstream& stream) : Imf::OStream(""), stream_(stream) {}
+  explicit FileSink(std::ofstream& stream) : Imf::OStream(""), stream_(stream) {}
   void write(const char bytes[], int size) override {
     stream_.write(bytes, size);
     position_ += uint64_t(size);
@@ -104,7 +104,7 @@ void writeExr(const std::filesystem::path& file, const LayeredImage& image) {
                                                sizeof(glm::vec3), sizeof(glm::vec3) * layer.width));
       }
     }
-    FileStream stream(output.stream());
+    FileSink stream(output.stream());
     Imf::OutputFile exr(stream, header);
     exr.setFrameBuffer(frame);
     exr.writePixels(height);

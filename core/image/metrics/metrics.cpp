@@ -4,16 +4,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
 #include "core/base/error.h"
+#include "core/base/nan.h"
 #include "core/image/metrics/pixel_metrics.h"
 #include "core/image/metrics/window_metrics.h"
 
 namespace restlab {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 void requireSameSize(const Image& image, const Image& reference) {
   if (image.width != reference.width || image.height != reference.height) {

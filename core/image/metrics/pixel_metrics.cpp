@@ -6,10 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/nan.h"
+
 namespace restlab {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kEpsilon = kRelmseEpsilon;  // also the mean1e-2 of the names
 constexpr double kTrimFraction = 1e-3;       // the trim0.1 (per cent) of the names
 

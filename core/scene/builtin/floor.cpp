@@ -70,10 +70,10 @@ void lean(Scene& scene, double slope) {
 // Adds spots that shine down from a disc, spread as evenly as the seeds of a sunflower. Their total
 // power does not depend on their number.
 void addSpots(SceneBuilder& scene, uint32_t count) {
-  constexpr double kHeight = 2.0, kRadius = 4.0, kIntensity = 24.0;
+  constexpr double kHeight = 2.0, kDiskRadius = 4.0, kIntensity = 24.0;
   const double goldenAngle = glm::pi<double>() * (3.0 - std::sqrt(5.0));
   for (uint32_t i = 0; i < count; ++i) {
-    const double r = kRadius * std::sqrt((i + 0.5) / count), angle = goldenAngle * i;
+    const double r = kDiskRadius * std::sqrt((i + 0.5) / count), angle = goldenAngle * i;
     PunctualLight spot;
     spot.name = "spot " + std::to_string(i);
     spot.kind = rl::RL_LIGHT_SPOT;

@@ -11,14 +11,16 @@
 namespace restlab::builtin {
 namespace {
 
-constexpr double kPanel = 0.6;  // half side of the ceiling light, metres
+constexpr double kHalfPanel = 0.6;  // half side of the ceiling light, metres
 
-void addRoom(SceneBuilder& scene) {
+void addGlassRoom(SceneBuilder& scene) {
   ShellGrid grid;
-  grid.lines = {{{-2.0, -kPanel, kPanel, 2.0}, {0.0, 2.6}, {-2.0, -kPanel, kPanel, 3.0}}};
+  grid.lines = {
+      {{-2.0, -kHalfPanel, kHalfPanel, 2.0}, {0.0, 2.6}, {-2.0, -kHalfPanel, kHalfPanel, 3.0}}};
   grid.isAir = [](const glm::dvec3&) { return true; };
   grid.groupOf = [](const glm::dvec3& center, const glm::dvec3& normal) -> uint32_t {
-    if (normal.y < -0.5) return std::max(std::abs(center.x), std::abs(center.z)) < kPanel ? 4 : 0;
+    if (normal.y < -0.5)
+      return std::max(std::abs(center.x), std::abs(center.z)) < kHalfPanel ? 4 : 0;
     if (normal.y > 0.5) return 3;
     if (normal.x > 0.5) return 1;
     return normal.x < -0.5 ? 2 : 0;
@@ -36,7 +38,7 @@ void addRoom(SceneBuilder& scene) {
 
 Scene makeGlass() {
   SceneBuilder scene("glass");
-  addRoom(scene);
+  addGlassRoom(scene);
   const glm::vec3 clearSigma(0.0f);
   const uint32_t clear = scene.addMaterial("clear", glass(0.0f, clearSigma));
   const uint32_t frosted = scene.addMaterial("frosted", glass(0.55f, clearSigma));

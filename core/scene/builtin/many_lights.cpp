@@ -22,7 +22,7 @@ constexpr double kSmallestSide = 0.025, kSideDecades = 0.85;
 constexpr double kDimmestRadiance = 2.0, kRadianceDecades = 1.4;
 constexpr std::array<glm::vec3, 4> kTints{
     {{1.0f, 0.72f, 0.42f}, {1.0f, 0.92f, 0.80f}, {0.72f, 0.85f, 1.0f}, {1.0f, 0.45f, 0.35f}}};
-constexpr double kHalfWidth = 12.0, kHeight = 9.0, kLength = 36.0;
+constexpr double kHallHalfWidth = 12.0, kHallHeight = 9.0, kLength = 36.0;
 
 // Makes a square that faces down, tilted by up to 40 degrees in a random direction.
 MeshGeometry lampSquare(SceneRandom& random, const glm::dvec3& center, double side) {
@@ -47,8 +47,8 @@ void addLamps(SceneBuilder& scene) {
     const double heightRight = random.uniform(5.0, 8.6);
     const double z = -random.uniform(0.5, kLength - 0.5);
     const double slant = random.uniform(-0.4, 0.4);
-    const glm::dvec3 left(-kHalfWidth + 0.3, heightLeft, z);
-    const glm::dvec3 right(kHalfWidth - 0.3, heightRight, z + slant);
+    const glm::dvec3 left(-kHallHalfWidth + 0.3, heightLeft, z);
+    const glm::dvec3 right(kHallHalfWidth - 0.3, heightRight, z + slant);
     const double sag = random.uniform(0.4, 2.2);
     for (int i = 0; i < kLampsPerGarland; ++i) {
       const double t = (i + random.uniform(0.2, 0.8)) / kLampsPerGarland;
@@ -77,7 +77,7 @@ void addHall(SceneBuilder& scene) {
   const uint32_t floor = scene.addMaterial("floor", lambert({0.38f, 0.32f, 0.28f}));
   const uint32_t tile = scene.addMaterial("tile", lambert({0.16f, 0.22f, 0.32f}));
   const uint32_t wall = scene.addMaterial("wall", lambert({0.55f, 0.30f, 0.24f}));
-  const double w = kHalfWidth, h = kHeight, l = kLength;
+  const double w = kHallHalfWidth, h = kHallHeight, l = kLength;
   scene.add(quad("ceiling", {-w, h, -l}, {2 * w, 0, 0}, {0, 0, l}), stone);
   scene.add(quad("end", {-w, 0, -l}, {2 * w, 0, 0}, {0, h, 0}), wall);
   scene.add(quad("entrance", {w, 0, 0}, {-2 * w, 0, 0}, {0, h, 0}), wall);

@@ -16,8 +16,6 @@ namespace {
 // The sine of the angle between view and vertical below which no upright camera is defined.
 constexpr double kVertical = 1e-6;
 
-glm::dvec3 positionOf(const SceneCamera& camera) { return glm::dvec3(camera.cameraToWorld[3]); }
-
 // Right, up, back: orthonormal, derived as kernels do from a matrix that may be scaled.
 glm::dmat3 basisOf(const SceneCamera& camera) {
   const glm::dvec3 back = glm::normalize(glm::dvec3(camera.cameraToWorld[2]));

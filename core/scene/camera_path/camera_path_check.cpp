@@ -88,8 +88,6 @@ size_t trianglesOf(const Scene& scene) {
   return count;
 }
 
-glm::dvec3 positionOf(const SceneCamera& camera) { return glm::dvec3(camera.cameraToWorld[3]); }
-
 // Adds rays of a view. dirW has length 1 along the view axis, so that `t` is the depth.
 void addView(const SceneCamera& camera, std::vector<Ray>& rays) {
   const glm::dvec3 back = glm::normalize(glm::dvec3(camera.cameraToWorld[2]));

@@ -10,11 +10,11 @@ namespace restlab {
 
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::infinity();
+constexpr double kNoEntry = std::numeric_limits<double>::infinity();
 constexpr uint32_t kPieceSize = 64;  // triangles
 constexpr uint32_t kManyUses = 16;   // more uses of a mesh: a forest
 
-double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
+double largestComponent(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
 
 double distanceToBox(const glm::dvec3& point, const glm::dvec3& low, const glm::dvec3& high) {
   return glm::length(glm::max(glm::max(low - point, point - high), glm::dvec3(0.0)));
@@ -23,10 +23,10 @@ double distanceToBox(const glm::dvec3& point, const glm::dvec3& low, const glm::
 // Distance at which a ray enters a box, in lengths of its direction.
 double entryOf(const glm::dvec3& origin, const glm::dvec3& dir, const glm::dvec3& low,
                const glm::dvec3& high) {
-  double enter = 0.0, leave = kNone;
+  double enter = 0.0, leave = kNoEntry;
   for (int axis = 0; axis < 3; ++axis) {
     if (dir[axis] == 0.0) {
-      if (origin[axis] < low[axis] || origin[axis] > high[axis]) return kNone;
+      if (origin[axis] < low[axis] || origin[axis] > high[axis]) return kNoEntry;
       continue;
     }
     const double a = (low[axis] - origin[axis]) / dir[axis];
@@ -35,7 +35,7 @@ double entryOf(const glm::dvec3& origin, const glm::dvec3& dir, const glm::dvec3
     leave = std::min(leave, std::max(a, b));
   }
   constexpr double kSlack = 1e-9;  // for flat boxes
-  return enter <= leave * (1.0 + kSlack) ? enter : kNone;
+  return enter <= leave * (1.0 + kSlack) ? enter : kNoEntry;
 }
 
 double distanceToEdge(const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3& b) {
@@ -65,7 +65,7 @@ Sight::Sight(const Scene& scene) : scene_(scene) {
   std::vector<uint32_t> uses(scene.geometries.size());
   for (const MeshInstance& instance : scene.instances) ++uses[instance.geometry];
   std::vector<std::array<glm::dvec3, 2>> boxes(scene.geometries.size(),
-                                               {glm::dvec3(kNone), glm::dvec3(-kNone)});
+                                               {glm::dvec3(kNoEntry), glm::dvec3(-kNoEntry)});
   for (size_t g = 0; g < scene.geometries.size(); ++g) {
     if (uses[g] <= kManyUses) continue;
     for (const glm::vec3& p : scene.geometries[g].positions) {
@@ -80,7 +80,8 @@ Sight::Sight(const Scene& scene) : scene_(scene) {
     const bool isForest = uses[instance.geometry] > kManyUses;
     const uint32_t step = isForest ? count : kPieceSize;
     for (uint32_t first = 0; first < count; first += std::min(step, count - first)) {
-      Piece piece{i, first, std::min(step, count - first), glm::dvec3(kNone), glm::dvec3(-kNone)};
+      Piece piece{i, first, std::min(step, count - first), glm::dvec3(kNoEntry),
+                  glm::dvec3(-kNoEntry)};
       const auto add = [&](const glm::dvec3& p) {
         piece.low = glm::min(piece.low, p);
         piece.high = glm::max(piece.high, p);
@@ -112,7 +113,7 @@ std::array<glm::dvec3, 3> Sight::corners(const Piece& piece, uint32_t triangle) 
 }
 
 double Sight::distanceTo(const glm::dvec3& originW, const glm::dvec3& dirW) const {
-  double nearest = kNone;
+  double nearest = kNoEntry;
   for (const Piece& piece : pieces_) {
     if (!(entryOf(originW, dirW, piece.low, piece.high) < nearest)) continue;
     for (uint32_t t = 0; t < piece.count; ++t) {
@@ -124,7 +125,7 @@ double Sight::distanceTo(const glm::dvec3& originW, const glm::dvec3& dirW) cons
 }
 
 double Sight::distanceToNearest(const glm::dvec3& pointW, double enough) const {
-  double nearest = kNone;
+  double nearest = kNoEntry;
   for (const Piece& piece : pieces_) {
     if (!(distanceToBox(pointW, piece.low, piece.high) < nearest)) continue;
     for (uint32_t t = 0; t < piece.count; ++t) {
@@ -137,15 +138,15 @@ double Sight::distanceToNearest(const glm::dvec3& pointW, double enough) const {
 }
 
 std::array<glm::dvec3, 2> Sight::boundsWithin(const glm::dvec3& pointW, double reach) const {
-  std::array<glm::dvec3, 2> bounds{glm::dvec3(kNone), glm::dvec3(-kNone)};
+  std::array<glm::dvec3, 2> bounds{glm::dvec3(kNoEntry), glm::dvec3(-kNoEntry)};
   const auto add = [&](const glm::dvec3& p) {
-    if (!(largest(glm::abs(p - pointW)) <= reach)) return;
+    if (!(largestComponent(glm::abs(p - pointW)) <= reach)) return;
     bounds[0] = glm::min(bounds[0], p);
     bounds[1] = glm::max(bounds[1], p);
   };
   for (const Piece& piece : pieces_) {
-    const bool isWhole = std::max(largest(glm::abs(piece.low - pointW)),
-                                  largest(glm::abs(piece.high - pointW))) <= reach;
+    const bool isWhole = std::max(largestComponent(glm::abs(piece.low - pointW)),
+                                  largestComponent(glm::abs(piece.high - pointW))) <= reach;
     if (isWhole) {
       add(piece.low);
       add(piece.high);

@@ -1,13 +1,12 @@
 #include "experiments/runner/run/temporal.h"
 
 #include <cmath>
-#include <limits>
+
+#include "core/base/nan.h"
 
 namespace restlab {
 
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 double channelSum(const glm::dvec3& v) { return v.x + v.y + v.z; }
 

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/base/nan.h"
+
 namespace restlab {
 
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 double slopeBetween(const CurvePoint& a, const CurvePoint& b) {
   return (b.logMse - a.logMse) / (b.logTime - a.logTime);

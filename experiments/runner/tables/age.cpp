@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "core/base/nan.h"
 
 namespace restlab {
 
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr Interval kNothing{kNan, kNan, kNan};
 
 std::vector<double> perRun(const std::vector<RunResult>& runs, size_t point, size_t count,

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/nan.h"
 #include "experiments/runner/tables/accumulated_curve.h"
 
 namespace restlab {
 
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // Returns log10(mse / line) of every point; NaN for points that are not fitted.
 std::vector<double> residuals(const AccumulatedCurve& curve, size_t points) {

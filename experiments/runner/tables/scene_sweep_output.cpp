@@ -8,6 +8,7 @@
 
 #include "experiments/report/text.h"
 #include "experiments/runner/base/json_number.h"
+#include "experiments/runner/tables/markdown_cells.h"
 #include "experiments/runner/tables/scene_sweep.h"
 
 namespace restlab {
@@ -85,10 +86,6 @@ uint64_t faultsOf(const SceneSweep& sweep, size_t method) {
   uint64_t faults = 0;
   for (const SweptCell& cell : sweep.cells[method]) faults += cell.faults;
   return faults;
-}
-
-std::string withEnds(const Interval& of, int digits) {
-  return shortNumber(of.value, digits) + intervalText(of.lo, of.hi, digits);
 }
 
 std::string worstText(const SceneSweep& sweep, size_t method, const SweepColumn& column) {

@@ -5,14 +5,13 @@
 #include <functional>
 #include <numbers>
 
+#include "core/base/nan.h"
 #include "experiments/runner/tables/accumulated_curve.h"
 #include "experiments/runner/tables/convergence.h"
 
 namespace restlab {
 
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 struct Range {
   double lo = 0.0, hi = 0.0;
