@@ -288,3 +288,11 @@ RL_FN vec3 surfaceSigma(RL_IN(Surface) s, RL_IN(vec3) sigmaReached, RL_IN(vec3) 
 RL_FN vec3 surfaceOffset(RL_IN(vec3) posW, RL_IN(vec3) nGeoW, float posError, RL_IN(vec3) dirW) {
   return dot(nGeoW, dirW) >= 0.0f ? posW + nGeoW * posError : posW - nGeoW * posError;
 }
+
+// End of a segment at a surface point; dirW points to the segment's origin, whose position has the
+// error originError. Traversal rounds the distance relative to the segment's length, which the sum
+// of both errors covers.
+RL_FN vec3 surfaceSegmentEnd(RL_IN(vec3) posW, RL_IN(vec3) nGeoW, float posError, float originError,
+                             RL_IN(vec3) dirW) {
+  return surfaceOffset(posW, nGeoW, max(posError, originError), dirW);
+}

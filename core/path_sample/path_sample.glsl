@@ -147,7 +147,7 @@ RL_FN Ray pathSegment(RL_IN(PathSample) p, RL_IN(vec3) x1PosW, RL_IN(vec3) x1NGe
   vec3 d = p.posW - x1PosW;
   ray.origin = surfaceOffset(x1PosW, x1NGeoW, x1PosError, d);
   ray.tMin = 0.0f;
-  ray.dir = surfaceOffset(p.posW, p.normalW, p.posError, -d) - ray.origin;
+  ray.dir = surfaceSegmentEnd(p.posW, p.normalW, p.posError, x1PosError, -d) - ray.origin;
   ray.tMax = 1.0f;
   return ray;
 }

@@ -114,7 +114,10 @@ RL_FN Ray lightShadowRay(RL_IN(LightSample) s, RL_IN(LightConnection) c, RL_IN(v
   ray.origin = surfaceOffset(posW, nGeoW, posError, c.dirW);
   ray.tMin = 0.0f;
   if (c.distance > 0.0f) {
-    vec3 target = surfaceOffset(s.point, s.normal, s.posError, -c.dirW);
+    vec3 target = s.point;
+    if (s.kind == RL_LIGHT_TRIANGLE) {
+      target = surfaceSegmentEnd(s.point, s.normal, s.posError, posError, -c.dirW);
+    }
     ray.dir = target - ray.origin;
     ray.tMax = 1.0f;
   } else {
