@@ -247,7 +247,7 @@ bool hasFeatures(const std::string& kernel) {
     });
   };
   // A build without masks has one row for every kernel: each may need any feature there.
-  return rowsOf(kernel) > 1 || rowsOf("visible") == 1;
+  return rowsOf(kernel) > 1 || rowsOf("gbuffer") == 1;
 }
 
 }  // namespace restlab

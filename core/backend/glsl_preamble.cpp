@@ -50,26 +50,26 @@ layout(push_constant, scalar) uniform RlPushConstants {{
   uint height;
 }} rlPush;
 
-layout(buffer_reference, scalar, buffer_reference_align = 16) buffer RlQuads {{ uvec4 data[]; }};
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer RlUvec4s {{ uvec4 data[]; }};
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer RlPairs {{ uint64_t data[]; }};
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer RlTriples {{ uvec3 data[]; }};
-#define RL_QUAD(ref, i) (RlQuads(uint64_t(ref)).data[i])
+#define RL_UVEC4(ref, i) (RlUvec4s(uint64_t(ref)).data[i])
 
 #ifdef RL_TEXELS
 layout(set = 0, binding = 0, scalar) uniform RlScene {{ SceneData v; }} rlScene;
 layout(set = 0, binding = 1, scalar) uniform RlFrame {{ FrameData v; }} rlFrame;
 layout(set = 0, binding = 2, scalar) uniform RlBuffers {{ RL_KERNEL_BUFFERS v; }} rlBuffers;
 layout(set = 0, binding = 3, scalar) uniform RlParams {{ RL_KERNEL_PARAMS v; }} rlParams;
-layout(set = 0, binding = 4) uniform usamplerBuffer rlSceneQuads;
+layout(set = 0, binding = 4) uniform usamplerBuffer rlSceneUvec4s;
 layout(set = 0, binding = 5) uniform usamplerBuffer rlSceneWords;
-layout(set = 0, binding = 6) uniform usamplerBuffer rlStateQuads;
+layout(set = 0, binding = 6) uniform usamplerBuffer rlStateUvec4s;
 #define gScene rlScene.v
 #define gFrame rlFrame.v
 #define gBuffers rlBuffers.v
 #define gParams rlParams.v
-int rlSceneQuadAt(uint64_t ref, uint i) {{ return int(uint((ref - rlPush.sceneBase) >> 4) + i); }}
+int rlSceneUvec4At(uint64_t ref, uint i) {{ return int(uint((ref - rlPush.sceneBase) >> 4) + i); }}
 int rlSceneWordAt(uint64_t ref, uint i) {{ return int(uint((ref - rlPush.sceneBase) >> 2) + i); }}
-int rlStateQuadAt(uint64_t ref, uint i) {{ return int(uint((ref - rlPush.stateBase) >> 4) + i); }}
+int rlStateUvec4At(uint64_t ref, uint i) {{ return int(uint((ref - rlPush.stateBase) >> 4) + i); }}
 uint rlSceneUint(uint64_t ref, uint i) {{ return texelFetch(rlSceneWords, rlSceneWordAt(ref, i)).x; }}
 uvec2 rlSceneUvec2(uint64_t ref, uint i) {{
   int at = rlSceneWordAt(ref, i * 2u);
@@ -80,14 +80,14 @@ uvec3 rlSceneUvec3(uint64_t ref, uint i) {{
   return uvec3(texelFetch(rlSceneWords, at).x, texelFetch(rlSceneWords, at + 1).x,
                texelFetch(rlSceneWords, at + 2).x);
 }}
-void rlWriteQuad(uint64_t ref, uint i, uvec4 value) {{
+void rlWriteUvec4(uint64_t ref, uint i, uvec4 value) {{
   RlPairs pairs = RlPairs(ref);
   pairs.data[2u * i] = packUint2x32(uvec2(value.x, value.y));
   pairs.data[2u * i + 1u] = packUint2x32(uvec2(value.z, value.w));
 }}
-#define RL_WRITE_QUAD(ref, i, value) rlWriteQuad(uint64_t(ref), i, value)
-#define RL_SCENE_QUAD(ref, i) texelFetch(rlSceneQuads, rlSceneQuadAt(uint64_t(ref), i))
-#define RL_PAST_QUAD(ref, i) texelFetch(rlStateQuads, rlStateQuadAt(uint64_t(ref), i))
+#define RL_WRITE_UVEC4(ref, i, value) rlWriteUvec4(uint64_t(ref), i, value)
+#define RL_SCENE_UVEC4(ref, i) texelFetch(rlSceneUvec4s, rlSceneUvec4At(uint64_t(ref), i))
+#define RL_EARLIER_UVEC4(ref, i) texelFetch(rlStateUvec4s, rlStateUvec4At(uint64_t(ref), i))
 #define RL_SCENE_UINT(ref, i) rlSceneUint(uint64_t(ref), i)
 #define RL_SCENE_FLOAT(ref, i) uintBitsToFloat(rlSceneUint(uint64_t(ref), i))
 #define RL_SCENE_VEC2(ref, i) uintBitsToFloat(rlSceneUvec2(uint64_t(ref), i))
@@ -100,9 +100,9 @@ void rlWriteQuad(uint64_t ref, uint i, uvec4 value) {{
 #define gFrame rlPush.frame.v
 #define gBuffers rlPush.buffers.v
 #define gParams rlPush.params.v
-#define RL_WRITE_QUAD(ref, i, value) RlQuads(uint64_t(ref)).data[i] = (value)
-#define RL_SCENE_QUAD(ref, i) RL_QUAD(ref, i)
-#define RL_PAST_QUAD(ref, i) RL_QUAD(ref, i)
+#define RL_WRITE_UVEC4(ref, i, value) RlUvec4s(uint64_t(ref)).data[i] = (value)
+#define RL_SCENE_UVEC4(ref, i) RL_UVEC4(ref, i)
+#define RL_EARLIER_UVEC4(ref, i) RL_UVEC4(ref, i)
 #define RL_SCENE_UINT(ref, i) ((ref).data[i])
 #define RL_SCENE_FLOAT(ref, i) ((ref).data[i])
 #define RL_SCENE_VEC2(ref, i) ((ref).data[i])

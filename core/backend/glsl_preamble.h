@@ -47,9 +47,9 @@ enum GlslBinding : uint32_t {
   kGlslFrame,
   kGlslBuffers,
   kGlslParams,
-  kGlslSceneQuads,
+  kGlslSceneUvec4s,
   kGlslSceneWords,
-  kGlslStateQuads,
+  kGlslStateUvec4s,
   kGlslBindingCount
 };
 

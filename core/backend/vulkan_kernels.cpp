@@ -243,11 +243,11 @@ void VulkanKernels::fill(Bound& bound, const BoundRanges& ranges) {
     writes[i].dstBinding = i;
     writes[i].descriptorCount = 1;
     writes[i].descriptorType = typeOf(i);
-    if (i < kGlslSceneQuads) {
+    if (i < kGlslSceneUvec4s) {
       infos[i] = {structs[i]->buffer, structs[i]->offset, structs[i]->bytes};
       writes[i].pBufferInfo = &infos[i];
     } else {
-      writes[i].pTexelBufferView = &bound.views[i - kGlslSceneQuads];
+      writes[i].pTexelBufferView = &bound.views[i - kGlslSceneUvec4s];
     }
   }
   vkUpdateDescriptorSets(device, writes.size(), writes.data(), 0, nullptr);

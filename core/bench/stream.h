@@ -8,11 +8,11 @@
 
 RL_NAMESPACE_BEGIN
 
-const uint RL_STREAM_QUADS = 4u;  // quads that each pixel reads and writes
+const uint RL_STREAM_UVEC4S = 4u;  // that each pixel reads and writes
 
 struct StreamBuffers {
-  QuadRef from;
-  QuadRef to;
+  Uvec4Ref from;
+  Uvec4Ref to;
 };
 
 struct StreamParams {

@@ -5,9 +5,9 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint index = tile * 64u + (pixel.y % 8u) * 8u + pixel.x % 8u;
   if (index >= gParams.count) return;
   Hit hit = traceNoHit();
-  uvec4 q0 = RL_PAST_QUAD(gBuffers.queries, 3u * index);
-  uvec4 q1 = RL_PAST_QUAD(gBuffers.queries, 3u * index + 1u);
-  uvec4 q2 = RL_PAST_QUAD(gBuffers.queries, 3u * index + 2u);
+  uvec4 q0 = RL_EARLIER_UVEC4(gBuffers.queries, 3u * index);
+  uvec4 q1 = RL_EARLIER_UVEC4(gBuffers.queries, 3u * index + 1u);
+  uvec4 q2 = RL_EARLIER_UVEC4(gBuffers.queries, 3u * index + 2u);
   Ray ray;
   ray.origin = recordVec3(q0);
   ray.tMin = uintBitsToFloat(q0.w);

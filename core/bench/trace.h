@@ -14,7 +14,7 @@ struct TraceResult {
 };
 RL_STATIC_ASSERT_SIZE(TraceResult, 24);
 
-// A ray to trace, read in quads. The mode is per ray, as in integrators.
+// A ray to trace, read as uvec4s. The mode is per ray, as in integrators.
 struct TraceQuery {
   Ray ray;
   uint mode;  // RL_RAY_PATH or RL_RAY_SHADOW
@@ -27,7 +27,7 @@ RL_STATIC_ASSERT_SIZE(TraceQuery, 48);
 RL_REF(TraceResultRef, TraceResult)
 
 struct TraceBuffers {
-  QuadRef queries;
+  Uvec4Ref queries;
   TraceResultRef results;
 };
 

@@ -37,7 +37,7 @@ inline uint wordAt(const void* from, std::size_t i) {
   return word;
 }
 // Loads word by word, so that the compiler loads only the words that are used.
-inline uvec4 quadAt(const void* from, uint i) {
+inline uvec4 uvec4At(const void* from, uint i) {
   const std::size_t at = std::size_t{4} * i;
   return uvec4(wordAt(from, at), wordAt(from, at + 1), wordAt(from, at + 2), wordAt(from, at + 3));
 }
@@ -45,8 +45,8 @@ inline uvec3 tripleAt(const void* from, uint i) {
   const std::size_t at = std::size_t{3} * i;
   return uvec3(wordAt(from, at), wordAt(from, at + 1), wordAt(from, at + 2));
 }
-inline void writeQuadAt(void* to, uint i, const uvec4& quad) {
-  std::memcpy(static_cast<unsigned char*>(to) + std::size_t{16} * i, &quad, sizeof quad);
+inline void writeUvec4At(void* to, uint i, const uvec4& value) {
+  std::memcpy(static_cast<unsigned char*>(to) + std::size_t{16} * i, &value, sizeof value);
 }
 
 inline std::atomic_ref<uint> atomicAt(uint* data, std::size_t i) {
@@ -96,19 +96,20 @@ inline uint atomicGreatest(uint* data, std::size_t i, uint value) {
 // three instructions on some devices.
 #define RL_LESSER(a, b) ((a) < (b) ? (a) : (b))
 #define RL_GREATER(a, b) ((a) > (b) ? (a) : (b))
-// Access four words at once, whatever the type behind the address. Quad i lies at byte offset 16 i.
-#define RL_QUAD(ref, i) ::rl::quadAt((ref).data, i)
-#define RL_WRITE_QUAD(ref, i, value) ::rl::writeQuadAt((ref).data, i, value)
+// Access four words at once, whatever the type behind the address. The i-th uvec4 lies at byte
+// offset 16 i.
+#define RL_UVEC4(ref, i) ::rl::uvec4At((ref).data, i)
+#define RL_WRITE_UVEC4(ref, i, value) ::rl::writeUvec4At((ref).data, i, value)
 // Read scene data, which no kernel writes. On some devices these reads go through texels
 // (core/backend/glsl_preamble.cpp).
-#define RL_SCENE_QUAD(ref, i) RL_QUAD(ref, i)
+#define RL_SCENE_UVEC4(ref, i) RL_UVEC4(ref, i)
 #define RL_SCENE_UINT(ref, i) ((ref).data[i])
 #define RL_SCENE_FLOAT(ref, i) ((ref).data[i])
 #define RL_SCENE_VEC2(ref, i) ((ref).data[i])
 #define RL_SCENE_VEC3(ref, i) ((ref).data[i])
 #define RL_SCENE_UVEC3(ref, i) ::rl::tripleAt((ref).data, i)
 // Reads data of an earlier pass. Valid only before this pass writes there, never after.
-#define RL_PAST_QUAD(ref, i) RL_QUAD(ref, i)
+#define RL_EARLIER_UVEC4(ref, i) RL_UVEC4(ref, i)
 // Atomic operations on uints of a buffer that several pixels write in one pass. Each returns the
 // old value. Results must not depend on execution order: sums and maxima do not. A compare-and-swap
 // that claims a slot does, if the slot matters for the result.

@@ -7,7 +7,7 @@
 #include "core/dialect/frame.glsl"
 #include "core/dialect/warp.glsl"
 #include "core/shading/camera.glsl"
-#include "core/gbuffer/visible.glsl"
+#include "core/gbuffer/gbuffer.glsl"
 #include "core/shading/texture.glsl"
 #include "core/shading/bsdf/lambert.glsl"
 #include "core/shading/bsdf/fresnel.glsl"

@@ -10,5 +10,5 @@
 #include "core/geometry/surface.h"
 #include "core/shading/light.h"
 #include "core/geometry/trace_bvh.h"
-#include "core/gbuffer/visible.h"
+#include "core/gbuffer/gbuffer.h"
 #endif

@@ -1,4 +1,4 @@
-// Scene records, read in quads of words. On devices that walk the lanes of a vector one by one, one
+// Scene records, read as uvec4s. On devices that walk the lanes of a vector one by one, one
 // access of four words costs a quarter of four accesses.
 
 RL_FN vec3 recordVec3(RL_IN(uvec4) q) {
@@ -10,14 +10,14 @@ RL_FN vec4 recordVec4(RL_IN(uvec4) q) {
               uintBitsToFloat(q.w));
 }
 
-RL_FN uvec4 recordQuad(RL_IN(vec3) v, uint w) {
+RL_FN uvec4 recordUvec4(RL_IN(vec3) v, uint w) {
   return uvec4(floatBitsToUint(v.x), floatBitsToUint(v.y), floatBitsToUint(v.z), w);
 }
 
 RL_FN Geometry recordGeometry(uint index) {
-  uvec4 q0 = RL_SCENE_QUAD(gScene.geometries, index * 3u);
-  uvec4 q1 = RL_SCENE_QUAD(gScene.geometries, index * 3u + 1u);
-  uvec4 q2 = RL_SCENE_QUAD(gScene.geometries, index * 3u + 2u);
+  uvec4 q0 = RL_SCENE_UVEC4(gScene.geometries, index * 3u);
+  uvec4 q1 = RL_SCENE_UVEC4(gScene.geometries, index * 3u + 1u);
+  uvec4 q2 = RL_SCENE_UVEC4(gScene.geometries, index * 3u + 2u);
   Geometry g;
   g.firstTriangle = q0.x;
   g.triangleCount = q0.y;
@@ -34,13 +34,13 @@ RL_FN Geometry recordGeometry(uint index) {
 
 RL_FN Instance recordInstance(uint index) {
   Instance inst;
-  inst.objectToWorldRow0 = recordVec4(RL_SCENE_QUAD(gScene.instances, index * 7u));
-  inst.objectToWorldRow1 = recordVec4(RL_SCENE_QUAD(gScene.instances, index * 7u + 1u));
-  inst.objectToWorldRow2 = recordVec4(RL_SCENE_QUAD(gScene.instances, index * 7u + 2u));
-  inst.worldToObjectRow0 = recordVec4(RL_SCENE_QUAD(gScene.instances, index * 7u + 3u));
-  inst.worldToObjectRow1 = recordVec4(RL_SCENE_QUAD(gScene.instances, index * 7u + 4u));
-  inst.worldToObjectRow2 = recordVec4(RL_SCENE_QUAD(gScene.instances, index * 7u + 5u));
-  uvec4 q = RL_SCENE_QUAD(gScene.instances, index * 7u + 6u);
+  inst.objectToWorldRow0 = recordVec4(RL_SCENE_UVEC4(gScene.instances, index * 7u));
+  inst.objectToWorldRow1 = recordVec4(RL_SCENE_UVEC4(gScene.instances, index * 7u + 1u));
+  inst.objectToWorldRow2 = recordVec4(RL_SCENE_UVEC4(gScene.instances, index * 7u + 2u));
+  inst.worldToObjectRow0 = recordVec4(RL_SCENE_UVEC4(gScene.instances, index * 7u + 3u));
+  inst.worldToObjectRow1 = recordVec4(RL_SCENE_UVEC4(gScene.instances, index * 7u + 4u));
+  inst.worldToObjectRow2 = recordVec4(RL_SCENE_UVEC4(gScene.instances, index * 7u + 5u));
+  uvec4 q = RL_SCENE_UVEC4(gScene.instances, index * 7u + 6u);
   inst.geometry = q.x;
   inst.material = q.y;
   inst.firstLight = q.z;
@@ -49,13 +49,13 @@ RL_FN Instance recordInstance(uint index) {
 }
 
 RL_FN Material recordMaterial(uint index) {
-  uvec4 q0 = RL_SCENE_QUAD(gScene.materials, index * 7u);
-  uvec4 q1 = RL_SCENE_QUAD(gScene.materials, index * 7u + 1u);
-  uvec4 q2 = RL_SCENE_QUAD(gScene.materials, index * 7u + 2u);
-  uvec4 q3 = RL_SCENE_QUAD(gScene.materials, index * 7u + 3u);
-  uvec4 q4 = RL_SCENE_QUAD(gScene.materials, index * 7u + 4u);
-  uvec4 q5 = RL_SCENE_QUAD(gScene.materials, index * 7u + 5u);
-  uvec4 q6 = RL_SCENE_QUAD(gScene.materials, index * 7u + 6u);
+  uvec4 q0 = RL_SCENE_UVEC4(gScene.materials, index * 7u);
+  uvec4 q1 = RL_SCENE_UVEC4(gScene.materials, index * 7u + 1u);
+  uvec4 q2 = RL_SCENE_UVEC4(gScene.materials, index * 7u + 2u);
+  uvec4 q3 = RL_SCENE_UVEC4(gScene.materials, index * 7u + 3u);
+  uvec4 q4 = RL_SCENE_UVEC4(gScene.materials, index * 7u + 4u);
+  uvec4 q5 = RL_SCENE_UVEC4(gScene.materials, index * 7u + 5u);
+  uvec4 q6 = RL_SCENE_UVEC4(gScene.materials, index * 7u + 6u);
   Material m;
   m.baseColor = recordVec3(q0);
   m.alpha = uintBitsToFloat(q0.w);
@@ -81,10 +81,10 @@ RL_FN Material recordMaterial(uint index) {
 }
 
 RL_FN Texture recordTexture(uint index) {
-  uvec4 q0 = RL_SCENE_QUAD(gScene.textures, index * 4u);
-  uvec4 q1 = RL_SCENE_QUAD(gScene.textures, index * 4u + 1u);
-  uvec4 q2 = RL_SCENE_QUAD(gScene.textures, index * 4u + 2u);
-  uvec4 q3 = RL_SCENE_QUAD(gScene.textures, index * 4u + 3u);
+  uvec4 q0 = RL_SCENE_UVEC4(gScene.textures, index * 4u);
+  uvec4 q1 = RL_SCENE_UVEC4(gScene.textures, index * 4u + 1u);
+  uvec4 q2 = RL_SCENE_UVEC4(gScene.textures, index * 4u + 2u);
+  uvec4 q3 = RL_SCENE_UVEC4(gScene.textures, index * 4u + 3u);
   Texture t;
   t.uvRow0 = recordVec3(q0);
   t.uvRow1 = vec3(uintBitsToFloat(q0.w), uintBitsToFloat(q1.x), uintBitsToFloat(q1.y));
@@ -99,11 +99,11 @@ RL_FN Texture recordTexture(uint index) {
 }
 
 RL_FN Light recordLight(uint index) {
-  uvec4 q0 = RL_SCENE_QUAD(gScene.lights, index * 5u);
-  uvec4 q1 = RL_SCENE_QUAD(gScene.lights, index * 5u + 1u);
-  uvec4 q2 = RL_SCENE_QUAD(gScene.lights, index * 5u + 2u);
-  uvec4 q3 = RL_SCENE_QUAD(gScene.lights, index * 5u + 3u);
-  uvec4 q4 = RL_SCENE_QUAD(gScene.lights, index * 5u + 4u);
+  uvec4 q0 = RL_SCENE_UVEC4(gScene.lights, index * 5u);
+  uvec4 q1 = RL_SCENE_UVEC4(gScene.lights, index * 5u + 1u);
+  uvec4 q2 = RL_SCENE_UVEC4(gScene.lights, index * 5u + 2u);
+  uvec4 q3 = RL_SCENE_UVEC4(gScene.lights, index * 5u + 3u);
+  uvec4 q4 = RL_SCENE_UVEC4(gScene.lights, index * 5u + 4u);
   Light light;
   light.p0 = recordVec3(q0);
   light.kind = q0.w;

@@ -179,13 +179,13 @@ struct AliasEntry {
 RL_STATIC_ASSERT_SIZE(AliasEntry, 12);
 
 // The project's own bounding volume hierarchy (core/scene/compiled/bvh.h): four children per node,
-// read in quads of words. A child is the record of a node, RL_INVALID (none), or one of:
+// read as uvec4s. A child is the record of a node, RL_INVALID (none), or one of:
 const uint RL_BVH_LEAF = 0x40000000u;      // count << 26 | record of its first triangle
 const uint RL_BVH_INSTANCE = 0x80000000u;  // | number of the instance
 const uint RL_BVH_KIND = 0xc0000000u;      // mask of the two
 const uint RL_BVH_LEAF_COUNT_SHIFT = 26u;
 const uint RL_BVH_LEAF_FIRST = 0x03ffffffu;  // mask
-const uint RL_BVH_RECORD_QUADS = 4u;         // per node or triangle
+const uint RL_BVH_RECORD_UVEC4S = 4u;        // per node or triangle
 // Largest number of nodes between a root and a leaf, in each of the two levels.
 const uint RL_BVH_MAX_DEPTH = 26u;
 const uint RL_BVH_STACK = 160u;  // 3 deferred children at every node of both levels
@@ -217,10 +217,10 @@ RL_REF(MaterialRef, Material)
 RL_REF(TextureRef, Texture)
 RL_REF(LightRef, Light)
 RL_REF(AliasRef, AliasEntry)
-RL_REF(QuadRef, uvec4)
+RL_REF(Uvec4Ref, uvec4)
 
 // Everything a kernel reads of the scene, by address; through core/dialect/records.glsl. Geometry,
-// Instance, Material, Texture and Light are read in quads of words: their sizes are multiples
+// Instance, Material, Texture and Light are read as uvec4s: their sizes are multiples
 // of 16.
 struct SceneData {
   Vec3Ref positions;
@@ -242,7 +242,7 @@ struct SceneData {
   Vec4Ref bodies;             // by rank: absorption (m^-1) and index of refraction; [0] unused
   Vec2Ref ggxAlbedo;  // core/scene/compiled/ggx_albedo.h; null if no session compensates GGX
   // The project's own hierarchy: null unless a session traces it. The world's root is record 0.
-  QuadRef bvh;                  // RL_BVH_RECORD_QUADS quads per record
+  Uvec4Ref bvh;                 // RL_BVH_RECORD_UVEC4S per record
   UintRef bvhRoots;             // record of the root of each geometry that is shared by instances
   uvec2 accelerationStructure;  // device address if rays are traced by ray queries; else 0
   uint lightCount;

@@ -69,7 +69,7 @@ void FrameGraph::record(const std::vector<const PartInfo*>& parts, FrameInfo fra
   isDeclared_.assign(buffers_.size(), false);
   isAdvanced_.assign(buffers_.size(), false);
   for (const PartInfo* part : parts)
-    frame.wantsEffectiveSamples = frame.wantsEffectiveSamples || part->readsEffectiveSamples;
+    frame.wantsRadianceFrames = frame.wantsRadianceFrames || part->readsRadianceFrames;
   for (const PartInfo* part : parts) {
     if (!part->record || !isEnabled(part->enabledIf, frame.parameters)) continue;
     part_ = part->name;
@@ -110,18 +110,19 @@ Buffer FrameGraph::transient(const std::string& name, size_t count, uint32_t ele
 History FrameGraph::history(const std::string& name, size_t count, uint32_t elementBytes,
                             uint32_t features) {
   const Buffer first = declare({name, "", count, elementBytes, features, true, false});
-  const Buffer second = declare({name + "_before", "", count, elementBytes, features, true, false});
+  const Buffer second =
+      declare({name + "_previous", "", count, elementBytes, features, true, false});
   if (!first) return {};
   return isSwapped_[first.index] ? History{second, first} : History{first, second};
 }
 
 History FrameGraph::advance(const History& history) {
   if (history.now) {
-    const uint32_t first = std::min(history.now.index, history.before.index);
+    const uint32_t first = std::min(history.now.index, history.previous.index);
     isSwapped_[first] = !isSwapped_[first];
     isAdvanced_[first] = true;
   }
-  return {history.before, history.now};
+  return {history.previous, history.now};
 }
 
 namespace {
@@ -138,7 +139,7 @@ bool touches(const GraphPass& pass, Buffer buffer) {
 // Now and before of a history in this frame. `first`: its first buffer.
 History FrameGraph::historyOf(uint32_t first) const {
   const History both = {{first}, {first + 1}};
-  return isSwapped_[first] ? History{both.before, both.now} : both;
+  return isSwapped_[first] ? History{both.previous, both.now} : both;
 }
 
 // Returns whether the last frame's buffer of a history may be overwritten from the first pass that
@@ -150,9 +151,9 @@ bool FrameGraph::isFreeFrom(uint32_t first, Buffer transient) const {
                                   [&](const GraphPass& pass) { return touches(pass, transient); });
   if (begin != passes_.end() && holds(begin->read, transient)) return false;
   if (std::any_of(begin, passes_.end(),
-                  [&](const GraphPass& pass) { return touches(pass, history.before); }))
+                  [&](const GraphPass& pass) { return touches(pass, history.previous); }))
     return false;
-  const Buffer overwritten = isAdvanced_[first] ? history.now : history.before;
+  const Buffer overwritten = isAdvanced_[first] ? history.now : history.previous;
   const auto next = std::find_if(passes_.begin(), passes_.end(),
                                  [&](const GraphPass& pass) { return touches(pass, overwritten); });
   if (next != passes_.end()) return !holds(next->read, overwritten);
@@ -165,7 +166,7 @@ void FrameGraph::shareMemory(const FrameGraph& still) {
     if (!buffers_[wants].isTransient) continue;
     for (uint32_t first = 0; first + 1 < buffers_.size(); ++first) {
       const GraphBuffer& lends = buffers_[first];
-      const bool isFirst = lends.isHistory && buffers_[first + 1].name == lends.name + "_before";
+      const bool isFirst = lends.isHistory && buffers_[first + 1].name == lends.name + "_previous";
       if (!isFirst || lends.features != 0 || lends.bytes() < buffers_[wants].bytes() ||
           std::find(lenders_.begin(), lenders_.end(), first) != lenders_.end() ||
           !isFreeFrom(first, {wants}) || !still.isFreeFrom(first, {wants}))
@@ -179,7 +180,7 @@ void FrameGraph::shareMemory(const FrameGraph& still) {
 Buffer FrameGraph::lenderOf(Buffer buffer) const {
   if (!buffer || buffer.index >= lenders_.size() || lenders_[buffer.index] == Buffer::kNone)
     return {};
-  return historyOf(lenders_[buffer.index]).before;
+  return historyOf(lenders_[buffer.index]).previous;
 }
 
 std::vector<Buffer> FrameGraph::checkedSlots(size_t structBytes,
@@ -204,7 +205,7 @@ Buffer FrameGraph::find(const std::string& name) const {
   uint32_t index = found->second;
   if (!buffers_[index].isHistory) return {index};
   // Histories are declared in pairs, side by side.
-  const bool isSecond = index > 0 && name == buffers_[index - 1].name + "_before";
+  const bool isSecond = index > 0 && name == buffers_[index - 1].name + "_previous";
   const uint32_t first = isSecond ? index - 1 : index;
   if (isSwapped_[first]) index = isSecond ? first : first + 1;
   return {index};

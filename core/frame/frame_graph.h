@@ -24,18 +24,18 @@ struct Buffer {
 
 // Two buffers of one kind: one of this frame and one of an earlier frame.
 struct History {
-  Buffer now, before;
+  Buffer now, previous;
 };
 
 // Buffers that parts leave for the parts after them. Not there until a part has set them.
 struct FrameBuffers {
   Buffer radiance;   // radiance of the frame, 12 bytes per pixel
   Buffer shown;      // the frame that is shown, 12 bytes per pixel; set by denoisers
-  History surfaces;  // at pixel centres: core/gbuffer/visible.h
+  History surfaces;  // at pixel centres: core/gbuffer/gbuffer.h
   History features;  // of film samples, for denoisers: core/gbuffer/guide_data.h
   Buffer motion;     // of the features, to the last frame
   // Number of frames that the radiance of each pixel averages, this one included: a float.
-  Buffer effectiveSamples;
+  Buffer radianceFrames;
   Buffer changes;  // core/temporal_gradients
   // Caches in world space: core/caches/README.md
   Buffer proposals, shadingPoints, insertions;
@@ -48,8 +48,8 @@ struct FrameInfo {
   const std::string& mode;         // of the integrator
   const ParameterMap& parameters;  // resolved
   size_t pixels = 0;
-  bool isNewView = true;               // camera or parameters differ from those of the frame before
-  bool wantsEffectiveSamples = false;  // a part reads FrameBuffers::effectiveSamples
+  bool isNewView = true;             // camera or parameters differ from those of the frame before
+  bool wantsRadianceFrames = false;  // a part reads FrameBuffers::radianceFrames
 
   // Number of groups of `perGroup` pixels; the last one may have fewer.
   size_t groups(size_t perGroup) const { return (pixels + perGroup - 1) / perGroup; }
@@ -117,7 +117,7 @@ class FrameGraph {
 
   // Records a frame of the parts, in order, after forgetting the passes of the frame before.
   // Buffers stay; histories keep their turn. Parts whose condition is not met record nothing. Sets
-  // frame.wantsEffectiveSamples if a part reads them.
+  // frame.wantsRadianceFrames if a part reads them.
   void record(const std::vector<const PartInfo*>& parts, FrameInfo frame);
 
   // Declares a buffer, zero at first; the same one in every frame. Not there if `count` is 0. Its
@@ -128,10 +128,10 @@ class FrameGraph {
   // frame before the next one begins. It may share memory: shareMemory().
   Buffer transient(const std::string& name, size_t count, uint32_t elementBytes,
                    uint32_t features = 0);
-  // Declares two such buffers, `name` and `name_before`.
+  // Declares two such buffers, `name` and `name_previous`.
   History history(const std::string& name, size_t count, uint32_t elementBytes,
                   uint32_t features = 0);
-  // Begins a new element of a history: `now` of the last frame becomes `before`.
+  // Begins a new element of a history: `now` of the last frame becomes `previous`.
   History advance(const History& history);
 
   // Lets transient buffers use the memory of histories whose last frame is not read any more when

@@ -33,7 +33,7 @@ Image filterOnHost(const HostFilter& filter, const std::string& name, Pipeline& 
       frame.radiance.pixels[p] = glm::vec3(0.0f);
     }
     // Unpack the words as guideWrite() packs them (core/gbuffer/guide_data.glsl).
-    const uint32_t* guide = guides.data() + 4 * rl::RL_GUIDE_QUADS * p;
+    const uint32_t* guide = guides.data() + 4 * rl::RL_GUIDE_UVEC4S * p;
     frame.normalW.pixels[p] = {number(guide[0]), number(guide[1]), number(guide[2])};
     isLight[p] = !(number(guide[3]) > 0.0f);
     frame.albedo.pixels[p] = packing.unpackPositive3(guide[6], guide[7]);

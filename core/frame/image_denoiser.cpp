@@ -29,7 +29,7 @@ void recordLayers(FrameGraph& g, const FrameInfo& f) {
   std::array<Buffer, kLayers.size()> layer;
   for (size_t i = 0; i < kLayers.size(); ++i)
     layer[i] = g.buffer(kLayers[i], f.pixels, sizeof(glm::vec3));
-  const History features = g.advance(g.history("guide", f.pixels, 16 * rl::RL_GUIDE_QUADS));
+  const History features = g.advance(g.history("guide", f.pixels, 16 * rl::RL_GUIDE_UVEC4S));
   const Buffer motion = g.buffer("motion", f.pixels, 16);
   const bool demodulates =
       f.parameters.contains("demodulate") && textOf(f.parameters, "demodulate") != "none";

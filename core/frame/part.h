@@ -105,8 +105,8 @@ struct PartInfo {
   bool needsSurfaces = false, needsFeatures = false;
   // The part reads FrameBuffers::changes, if the method finds changes (core/temporal_gradients).
   bool followsChanges = false;
-  // The part reads FrameBuffers::effectiveSamples, if the method has them.
-  bool readsEffectiveSamples = false;
+  // The part reads FrameBuffers::radianceFrames, if the method has them.
+  bool readsRadianceFrames = false;
   // If the condition is not met, the part records nothing.
   EnabledIf enabledIf = {};
   bool hasHistory = false;  // a frame depends on earlier frames

@@ -16,7 +16,7 @@ class Copies {
  public:
   explicit Copies(std::function<std::vector<uint32_t>(const std::string&)> read)
       : read_(std::move(read)) {}
-  FrameSnapshot kept(const ShownFrame& shown, std::span<const std::byte> params) {
+  FrameSnapshot snapshot(const ShownFrame& shown, std::span<const std::byte> params) {
     return {[this](const std::string& name) -> std::span<const uint32_t> {
               const auto [at, isNew] = words_.try_emplace(name);
               if (isNew) at->second = read_(name);
@@ -125,15 +125,15 @@ std::vector<ProbeValue> Pipeline::probe(size_t pixel, const ShownFrame& shown) {
   Copies copies([this](const std::string& name) { return words(name); });
   std::vector<ProbeValue> values;
   for (const PartInfo* part : parts_) {
-    const FrameSnapshot kept = copies.kept(shown, paramsOf(*part));
+    const FrameSnapshot snapshot = copies.snapshot(shown, paramsOf(*part));
     for (const LayerInfo& info : part->layers) {
       if (!isEnabled(info.enabledIf, shown.parameters)) continue;
-      const float value = info.values(kept)(pixel);
+      const float value = info.values(snapshot)(pixel);
       values.push_back(
           {info.name, fmt::format("{:.6g}{}{}", value, info.unit.empty() ? "" : " ", info.unit)});
     }
     if (!part->probe) continue;
-    for (ProbeValue& value : part->probe(kept, pixel)) values.push_back(std::move(value));
+    for (ProbeValue& value : part->probe(snapshot, pixel)) values.push_back(std::move(value));
   }
   return values;
 }
@@ -143,8 +143,8 @@ std::vector<Donor> Pipeline::donors(size_t pixel, const ShownFrame& shown) {
   std::vector<Donor> all;
   for (const PartInfo* part : parts_) {
     if (!part->donors) continue;
-    const FrameSnapshot kept = copies.kept(shown, paramsOf(*part));
-    for (Donor& donor : part->donors(kept, pixel)) all.push_back(std::move(donor));
+    const FrameSnapshot snapshot = copies.snapshot(shown, paramsOf(*part));
+    for (Donor& donor : part->donors(snapshot, pixel)) all.push_back(std::move(donor));
   }
   return all;
 }
@@ -156,8 +156,8 @@ std::vector<float> Pipeline::layer(const LayerInfo& info, const ShownFrame& show
     const std::vector<LayerInfo>& own = part->layers;
     if (std::none_of(own.begin(), own.end(), [&](const LayerInfo& one) { return &one == &info; }))
       continue;
-    const FrameSnapshot kept = copies.kept(shown, paramsOf(*part));
-    const auto value = info.values(kept);
+    const FrameSnapshot snapshot = copies.snapshot(shown, paramsOf(*part));
+    const auto value = info.values(snapshot);
     for (size_t pixel = 0; pixel < pixels_; ++pixel) all[pixel] = value(pixel);
   }
   return all;

@@ -1,7 +1,7 @@
 // guide: denoiser features at the film sample of this frame, where the frame's paths begin. One ray
 // per pixel. In a still view, guides are means over the view's film samples, as is the shaded
 // radiance.
-#include "core/transport/lights_in_view.glsl"
+#include "core/transport/light_edges.glsl"
 #include "core/gbuffer/guide_data.glsl"
 
 // Most frames in the mean: more would make no difference to a filter.
@@ -59,7 +59,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     vec2 toCentre = vec2(float(pixel.x) + 0.5f - here.x, float(pixel.y) + 0.5f - here.y);
     g.disparity = max(g.disparity + dot(g.slope, toCentre), 0.0f);
     bool isSeen = !rlIsBlack(s.emission);
-    if (!isSeen && gFrame.stillFrames == 0u) isSeen = lightsEndHere(gBuffers.visible, pixel);
+    if (!isSeen && gFrame.stillFrames == 0u) isSeen = lightsEndHere(gBuffers.gbuffer, pixel);
     g.isLight = isSeen ? 1u : 0u;
     vec3 reflectance = vec3(0.0f, 0.0f, 0.0f);
     if ((gParams.flags & RL_GUIDE_DIFFUSE) != 0u) reflectance += s.bsdf.diffuse;

@@ -10,10 +10,10 @@
 RL_NAMESPACE_BEGIN
 
 struct GuideBuffers {
-  QuadRef visible;
-  QuadRef guide;
-  QuadRef guideBefore;
-  QuadRef motion;
+  Uvec4Ref gbuffer;
+  Uvec4Ref guide;
+  Uvec4Ref guideBefore;
+  Uvec4Ref motion;
 };
 
 struct GuideParams {

@@ -1,5 +1,5 @@
-// Features of a pixel for denoisers, beside its radiance: its guide, two quads, and its motion, one
-// quad. Distances are kept as disparities, 1 / depth along the camera's axis: on a plane,
+// Features of a pixel for denoisers, beside its radiance: its guide, two uvec4s, and its motion,
+// one uvec4. Distances are kept as disparities, 1 / depth along the camera's axis: on a plane,
 // disparities are linear over the film of a perspective camera, and the background's are 0.
 #ifndef RL_GUIDE_DATA_H
 #define RL_GUIDE_DATA_H
@@ -10,7 +10,7 @@
 
 RL_NAMESPACE_BEGIN
 
-const uint RL_GUIDE_QUADS = 2u;
+const uint RL_GUIDE_UVEC4S = 2u;
 
 // GuideParams::flags: the radiance is divided by these reflectances before it is filtered.
 const uint RL_GUIDE_DIFFUSE = 1u;

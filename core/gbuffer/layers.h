@@ -16,8 +16,8 @@ struct LayersBuffers {
   Vec3Ref depth;   // metres in the first channel, 0: background; above 0 in the second: a light
   Vec3Ref motion;  // vector to the point's place in the last frame: pixels to the right and down;
                    // depth there, 0 if unknown
-  QuadRef guide;
-  QuadRef motions;
+  Uvec4Ref guide;
+  Uvec4Ref motions;
 };
 
 struct LayersParams {

@@ -7,7 +7,7 @@
 #include "core/gbuffer/guide.h"
 #undef RL_KERNEL_BUFFERS
 #undef RL_KERNEL_PARAMS
-#include "core/gbuffer/visible_pass.h"
+#include "core/gbuffer/gbuffer_pass.h"
 
 namespace restlab {
 
@@ -15,21 +15,21 @@ namespace {
 
 // Surfaces change with the view alone. Kernels find those of a still view as the last frame's, too.
 void recordSurfaces(FrameGraph& g, const FrameInfo& f) {
-  History surfaces = g.history("visible", f.pixels, 16);
+  History surfaces = g.history("gbuffer", f.pixels, 16);
   if (f.isNewView) {
     surfaces = g.advance(surfaces);
-    g.kernels<rl::VisibleBuffers>(rl::VisibleParams{}, {surfaces.now})
-        .pass("visible", "visible")
+    g.kernels<rl::GBufferBuffers>(rl::GBufferParams{}, {surfaces.now})
+        .pass("gbuffer", "gbuffer")
         .writes({surfaces.now});
   } else {
-    surfaces.before = surfaces.now;
+    surfaces.previous = surfaces.now;
   }
   g.shared.surfaces = surfaces;
 }
 
 void recordFeatures(FrameGraph& g, const FrameInfo& f) {
   const Buffer surfaces = g.shared.surfaces.now;
-  const History features = g.advance(g.history("guide", f.pixels, 16 * rl::RL_GUIDE_QUADS));
+  const History features = g.advance(g.history("guide", f.pixels, 16 * rl::RL_GUIDE_UVEC4S));
   const Buffer motion = g.buffer("motion", f.pixels, 16);
   rl::GuideParams params{};
   if (f.parameters.contains("demodulate")) {
@@ -37,9 +37,9 @@ void recordFeatures(FrameGraph& g, const FrameInfo& f) {
     params.flags |= what == "none" ? 0u : rl::RL_GUIDE_DIFFUSE;
     params.flags |= what == "all" ? rl::RL_GUIDE_SPECULAR : 0u;
   }
-  g.kernels<rl::GuideBuffers>(params, {surfaces, features.now, features.before, motion})
+  g.kernels<rl::GuideBuffers>(params, {surfaces, features.now, features.previous, motion})
       .pass("guide", "guide")
-      .reads({surfaces, features.before})
+      .reads({surfaces, features.previous})
       .writes({features.now, motion});
   g.shared.features = features;
   g.shared.motion = motion;
@@ -48,7 +48,7 @@ void recordFeatures(FrameGraph& g, const FrameInfo& f) {
 const PartInfo& surfacesPart() {
   static const PartInfo info = [] {
     PartInfo i;
-    i.name = "visible";
+    i.name = "gbuffer";
     i.summary = "what each pixel shows at its centre";
     i.record = recordSurfaces;
     i.hasHistory = true;

@@ -1,6 +1,6 @@
 // Parts that find the visible surfaces, for the parts that need them (FrameBuffers):
 //   surfaces   at each pixel's centre, in this view and in the last frame's: for histories that
-//              follow surfaces (core/gbuffer/visible.h)
+//              follow surfaces (core/gbuffer/gbuffer.h)
 //   features   of the film samples of this frame (in a still view their mean) and of the last
 //              frame, with their motion: for denoisers (core/gbuffer/guide_data.h)
 #pragma once

@@ -73,9 +73,9 @@ RL_FN_OUTLINE float surfaceAlpha(RL_IN(Hit) hit) {
     alpha *= texel.w;
   }
   if (RL_HAS(RL_FEATURE_VERTEX_COLORS) && geometry.colorOffset != RL_INVALID) {
-    float a = recordVec4(RL_SCENE_QUAD(gScene.colors, geometry.colorOffset + corners.x)).w;
-    float b = recordVec4(RL_SCENE_QUAD(gScene.colors, geometry.colorOffset + corners.y)).w;
-    float c = recordVec4(RL_SCENE_QUAD(gScene.colors, geometry.colorOffset + corners.z)).w;
+    float a = recordVec4(RL_SCENE_UVEC4(gScene.colors, geometry.colorOffset + corners.x)).w;
+    float b = recordVec4(RL_SCENE_UVEC4(gScene.colors, geometry.colorOffset + corners.y)).w;
+    float c = recordVec4(RL_SCENE_UVEC4(gScene.colors, geometry.colorOffset + corners.z)).w;
     alpha *= a + hit.bary.x * (b - a) + hit.bary.y * (c - a);
   }
   if ((material.flags & RL_MATERIAL_ALPHA_MASK) != 0u)
@@ -108,9 +108,9 @@ RL_FN_OUTLINE vec3 surfaceNormalMapped(RL_IN(Instance) inst, RL_IN(Geometry) geo
   vec3 tangentW = vec3(0.0f, 0.0f, 0.0f);
   float handedness = 1.0f;
   if (geometry.tangentOffset != RL_INVALID) {
-    vec4 a = recordVec4(RL_SCENE_QUAD(gScene.tangents, geometry.tangentOffset + corners.x));
-    vec4 b = recordVec4(RL_SCENE_QUAD(gScene.tangents, geometry.tangentOffset + corners.y));
-    vec4 c = recordVec4(RL_SCENE_QUAD(gScene.tangents, geometry.tangentOffset + corners.z));
+    vec4 a = recordVec4(RL_SCENE_UVEC4(gScene.tangents, geometry.tangentOffset + corners.x));
+    vec4 b = recordVec4(RL_SCENE_UVEC4(gScene.tangents, geometry.tangentOffset + corners.y));
+    vec4 c = recordVec4(RL_SCENE_UVEC4(gScene.tangents, geometry.tangentOffset + corners.z));
     vec4 v = a + bary.x * (b - a) + bary.y * (c - a);
     tangentW = vec3(v);
     handedness = v.w < 0.0f ? -1.0f : 1.0f;
@@ -221,9 +221,9 @@ RL_FN Surface surfaceLoadBetween(RL_IN(Hit) hit, RL_IN(vec3) rayDir, float contr
     }
   }
   if (RL_HAS(RL_FEATURE_VERTEX_COLORS) && geometry.colorOffset != RL_INVALID) {
-    vec4 a = recordVec4(RL_SCENE_QUAD(gScene.colors, geometry.colorOffset + corners.x));
-    vec4 b = recordVec4(RL_SCENE_QUAD(gScene.colors, geometry.colorOffset + corners.y));
-    vec4 c = recordVec4(RL_SCENE_QUAD(gScene.colors, geometry.colorOffset + corners.z));
+    vec4 a = recordVec4(RL_SCENE_UVEC4(gScene.colors, geometry.colorOffset + corners.x));
+    vec4 b = recordVec4(RL_SCENE_UVEC4(gScene.colors, geometry.colorOffset + corners.y));
+    vec4 c = recordVec4(RL_SCENE_UVEC4(gScene.colors, geometry.colorOffset + corners.z));
     baseColor *= vec3(a + hit.bary.x * (b - a) + hit.bary.y * (c - a));
   }
 

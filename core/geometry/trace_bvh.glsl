@@ -163,12 +163,12 @@ RL_FN float traceRay(RL_IN(Ray) ray, uint mode, uint key, RL_OUT(Hit) hit) {
     // Load nodes and triangles by one set of instructions: divergent lanes pay for both branches
     // below, but only once for this load.
     uint at = (current & RL_BVH_INSTANCE) == 0u ? current & RL_BVH_LEAF_FIRST : 0u;
-    at = at * RL_BVH_RECORD_QUADS;
+    at = at * RL_BVH_RECORD_UVEC4S;
     BvhWords record;
-    record.q0 = RL_SCENE_QUAD(gScene.bvh, at);
-    record.q1 = RL_SCENE_QUAD(gScene.bvh, at + 1u);
-    record.q2 = RL_SCENE_QUAD(gScene.bvh, at + 2u);
-    record.q3 = RL_SCENE_QUAD(gScene.bvh, at + 3u);
+    record.q0 = RL_SCENE_UVEC4(gScene.bvh, at);
+    record.q1 = RL_SCENE_UVEC4(gScene.bvh, at + 1u);
+    record.q2 = RL_SCENE_UVEC4(gScene.bvh, at + 2u);
+    record.q3 = RL_SCENE_UVEC4(gScene.bvh, at + 3u);
     if (kind == 0u) {
       BvhHits hits = bvhChildren(r, record, ray.tMin, nearest);
       if (hits.entry.w < 3.0e38f) {

@@ -6,33 +6,33 @@ RL_FN bool pathIsSpot(uint kind) {
 }
 
 // Writes the state and, of the path, only its radiance, which is stored with the state.
-RL_FN void pathStateWrite(RL_IN(QuadRef) quads, uint at, RL_IN(PathReservoir) r) {
-  reservoirStateWrite(quads, at + RL_PATH_SAMPLE_QUADS, r.state, packPositive3(r.path.radiance));
+RL_FN void pathStateWrite(RL_IN(Uvec4Ref) words, uint at, RL_IN(PathReservoir) r) {
+  reservoirStateWrite(words, at + RL_PATH_SAMPLE_UVEC4S, r.state, packPositive3(r.path.radiance));
 }
 
 // Writes path and state. Position, film sample and geometry are exact, and the normal to rounding.
 // A spot light has no geometry: its index in the light table is stored instead.
-RL_FN void pathReservoirWrite(RL_IN(QuadRef) quads, uint at, RL_IN(PathReservoir) r) {
+RL_FN void pathReservoirWrite(RL_IN(Uvec4Ref) words, uint at, RL_IN(PathReservoir) r) {
   uvec2 normal = packUnit(r.path.normalW);
   uint geometry = floatBitsToUint(r.path.geometry);
   if (pathIsSpot(r.path.kind)) geometry = r.path.light;
-  RL_WRITE_QUAD(quads, at, recordQuad(r.path.posW, r.path.film));
-  RL_WRITE_QUAD(quads, at + 1u,
-                uvec4(normal.x, normal.y, geometry, packAtLeast24(r.path.posError, r.path.kind)));
-  pathStateWrite(quads, at, r);
+  RL_WRITE_UVEC4(words, at, recordUvec4(r.path.posW, r.path.film));
+  RL_WRITE_UVEC4(words, at + 1u,
+                 uvec4(normal.x, normal.y, geometry, packAtLeast24(r.path.posError, r.path.kind)));
+  pathStateWrite(words, at, r);
 }
 
-RL_FN ReservoirState pathStateRead(RL_IN(QuadRef) quads, uint at) {
+RL_FN ReservoirState pathStateRead(RL_IN(Uvec4Ref) words, uint at) {
   uvec2 radiance;
-  return reservoirStateRead(quads, at + RL_PATH_SAMPLE_QUADS, radiance);
+  return reservoirStateRead(words, at + RL_PATH_SAMPLE_UVEC4S, radiance);
 }
 
 // Reads path and state. Keeps r's suffix.
-RL_FN void pathReservoirRead(RL_IN(QuadRef) quads, uint at, RL_INOUT(PathReservoir) r) {
-  uvec4 q0 = RL_PAST_QUAD(quads, at);
-  uvec4 q1 = RL_PAST_QUAD(quads, at + 1u);
+RL_FN void pathReservoirRead(RL_IN(Uvec4Ref) words, uint at, RL_INOUT(PathReservoir) r) {
+  uvec4 q0 = RL_EARLIER_UVEC4(words, at);
+  uvec4 q1 = RL_EARLIER_UVEC4(words, at + 1u);
   uvec2 radiance;
-  r.state = reservoirStateRead(quads, at + RL_PATH_SAMPLE_QUADS, radiance);
+  r.state = reservoirStateRead(words, at + RL_PATH_SAMPLE_UVEC4S, radiance);
   r.path.posW = recordVec3(q0);
   r.path.film = q0.w;
   r.path.normalW = unpackUnit(q1.x, q1.y);
@@ -45,18 +45,18 @@ RL_FN void pathReservoirRead(RL_IN(QuadRef) quads, uint at, RL_INOUT(PathReservo
 }
 
 // Suffixes are stored only if the scene has glossy lobes.
-RL_FN void pathSuffixWrite(RL_IN(QuadRef) quads, uint at, RL_IN(PathSuffix) s) {
+RL_FN void pathSuffixWrite(RL_IN(Uvec4Ref) words, uint at, RL_IN(PathSuffix) s) {
   uvec2 nShade = packUnit(s.nShadeW);
   uvec2 wi = packUnit(s.wi);
   uvec2 emitted = packPositive3(s.emitted);
-  RL_WRITE_QUAD(quads, at, uvec4(nShade.x, nShade.y, wi.x, wi.y));
-  bsdfWrite(quads, at + 1u, s.bsdf, uvec3(emitted.x, emitted.y, floatBitsToUint(s.pdfLight)));
+  RL_WRITE_UVEC4(words, at, uvec4(nShade.x, nShade.y, wi.x, wi.y));
+  bsdfWrite(words, at + 1u, s.bsdf, uvec3(emitted.x, emitted.y, floatBitsToUint(s.pdfLight)));
 }
-RL_FN PathSuffix pathSuffixRead(RL_IN(QuadRef) quads, uint at) {
-  uvec4 q = RL_PAST_QUAD(quads, at);
+RL_FN PathSuffix pathSuffixRead(RL_IN(Uvec4Ref) words, uint at) {
+  uvec4 q = RL_EARLIER_UVEC4(words, at);
   uvec3 rest;
   PathSuffix s;
-  s.bsdf = bsdfRead(quads, at + 1u, rest);
+  s.bsdf = bsdfRead(words, at + 1u, rest);
   s.nShadeW = unpackUnit(q.x, q.y);
   s.wi = unpackUnit(q.z, q.w);
   s.emitted = unpackPositive3(rest.x, rest.y);

@@ -54,11 +54,11 @@ struct PathReservoir {
   ReservoirState state;
 };
 
-// Quads in a buffer: of the sample (its radiance is stored with the state), of sample and state,
-// and of the suffix, which has a buffer of its own.
-const uint RL_PATH_SAMPLE_QUADS = 2u;
-const uint RL_PATH_RESERVOIR_QUADS = RL_PATH_SAMPLE_QUADS + RL_STATE_QUADS;
-const uint RL_PATH_SUFFIX_QUADS = 1u + RL_BSDF_QUADS;
+// Number of uvec4s in a buffer: of the sample (its radiance is stored with the state), of sample
+// and state, and of the suffix, which has a buffer of its own.
+const uint RL_PATH_SAMPLE_UVEC4S = 2u;
+const uint RL_PATH_RESERVOIR_UVEC4S = RL_PATH_SAMPLE_UVEC4S + RL_STATE_UVEC4S;
+const uint RL_PATH_SUFFIX_UVEC4S = 1u + RL_BSDF_UVEC4S;
 
 RL_NAMESPACE_END
 

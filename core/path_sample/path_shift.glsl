@@ -9,7 +9,7 @@ RL_FN PathShift pathShiftNone() {
   s.ray.tMin = 0.0f;
   s.ray.dir = vec3(0.0f, 0.0f, 1.0f);
   s.ray.tMax = 0.0f;
-  s.asks = RL_SHIFT_DONE;
+  s.needs = RL_SHIFT_DONE;
   s.assumesVisible = 0u;
   return s;
 }
@@ -27,19 +27,20 @@ RL_FN bool pathIsReusable(RL_IN(Bsdf) bsdf) {
 }
 
 // Begins the shift of a reservoir's sample to a pixel, seen by this frame's camera or by the last
-// frame's (isBefore). An empty reservoir has no shift.
-RL_FN PathShift pathShiftTo(RL_IN(PathReservoir) r, RL_IN(uvec2) pixel, bool isBefore,
+// frame's (isPrevious). An empty reservoir has no shift.
+RL_FN PathShift pathShiftTo(RL_IN(PathReservoir) r, RL_IN(uvec2) pixel, bool isPrevious,
                             bool assumeVisible) {
   PathShift s = pathShiftNone();
   if (!(r.state.W > 0.0f)) return s;
-  if ((gFrame.cameraAbsorbs & (isBefore ? RL_CAMERA_ABSORBS_BEFORE : RL_CAMERA_ABSORBS_NOW)) != 0u)
+  if ((gFrame.cameraAbsorbs & (isPrevious ? RL_CAMERA_ABSORBS_BEFORE : RL_CAMERA_ABSORBS_NOW)) !=
+      0u)
     return s;
-  if (isBefore) {
+  if (isPrevious) {
     s.ray = cameraFilmRay(gFrame.previousCamera, pixel, r.path.film);
   } else {
     s.ray = cameraFilmRay(gFrame.camera, pixel, r.path.film);
   }
-  s.asks = RL_SHIFT_ASKS_X1;
+  s.needs = RL_SHIFT_NEEDS_X1;
   s.assumesVisible = assumeVisible ? 1u : 0u;
   return s;
 }
@@ -51,16 +52,16 @@ RL_FN PathShift pathShiftToSurface(RL_IN(PathReservoir) r, RL_IN(Surface) x1) {
   s.shifted = pathReconnect(r.path, x1, gParams.path.maxJacobian);
   if (!(reuseTarget(s.shifted.F) > 0.0f)) return s;
   s.ray = pathSegment(r.path, x1.posW, x1.nGeoW, x1.posError);
-  s.asks = RL_SHIFT_ASKS_SEGMENT;
+  s.needs = RL_SHIFT_NEEDS_SEGMENT;
   return s;
 }
 
 // Advances a shift with the result of the ray that it asked for.
 RL_FN void pathShiftStep(RL_INOUT(PathShift) s, RL_IN(PathSample) path, RL_IN(Hit) hit,
                          float transmittance) {
-  uint asked = s.asks;
-  s.asks = RL_SHIFT_DONE;
-  if (asked == RL_SHIFT_ASKS_SEGMENT) {
+  uint asked = s.needs;
+  s.needs = RL_SHIFT_DONE;
+  if (asked == RL_SHIFT_NEEDS_SEGMENT) {
     s.shifted.F *= transmittance;
     return;
   }
@@ -70,14 +71,14 @@ RL_FN void pathShiftStep(RL_INOUT(PathShift) s, RL_IN(PathSample) path, RL_IN(Hi
   s.shifted = pathReconnect(path, x1, gParams.path.maxJacobian);
   if (s.assumesVisible != 0u || !(reuseTarget(s.shifted.F) > 0.0f)) return;
   s.ray = pathSegment(path, x1.posW, x1.nGeoW, x1.posError);
-  s.asks = RL_SHIFT_ASKS_SEGMENT;
+  s.needs = RL_SHIFT_NEEDS_SEGMENT;
 }
 
 // Traces the rays that a shift asks for, from one call site.
 RL_FN void pathShiftTrace(RL_INOUT(PathShift) s, RL_IN(PathSample) path) {
-  while (s.asks != RL_SHIFT_DONE) {
+  while (s.needs != RL_SHIFT_DONE) {
     Hit hit = traceNoHit();
-    uint mode = s.asks == RL_SHIFT_ASKS_X1 ? RL_RAY_PATH : RL_RAY_SHADOW;
+    uint mode = s.needs == RL_SHIFT_NEEDS_X1 ? RL_RAY_PATH : RL_RAY_SHADOW;
     uint key = pathShiftKey(mode, path.film);
     float transmittance = traceRay(s.ray, mode, key, hit);
     pathShiftStep(s, path, hit, transmittance);

@@ -11,13 +11,13 @@ RL_NAMESPACE_BEGIN
 
 // The ray that a shift asks for next.
 const uint RL_SHIFT_DONE = 0u;
-const uint RL_SHIFT_ASKS_X1 = 1u;       // camera ray through the film sample
-const uint RL_SHIFT_ASKS_SEGMENT = 2u;  // from x1 to x2 or the light
+const uint RL_SHIFT_NEEDS_X1 = 1u;       // camera ray through the film sample
+const uint RL_SHIFT_NEEDS_SEGMENT = 2u;  // from x1 to x2 or the light
 
 struct PathShift {
   Shifted shifted;  // result, once the shift asks for nothing
   Ray ray;
-  uint asks;            // RL_SHIFT_*
+  uint needs;           // RL_SHIFT_*
   uint assumesVisible;  // 1: the segment is not traced
 };
 

@@ -52,7 +52,7 @@ rl::PathParams packPath(const ParameterMap& parameters) {
 
 std::vector<ProbeValue> pathProbe(std::span<const uint32_t> words) {
   // From here on as reservoirStateWrite() lays it out.
-  constexpr size_t kState = 4 * rl::RL_PATH_SAMPLE_QUADS;
+  constexpr size_t kState = 4 * rl::RL_PATH_SAMPLE_UVEC4S;
   rl::Packing packing;
   static const std::array<const char*, 4> kinds = {
       "light at x1", "Lambert x2", "glossy x2, light sample", "glossy x2, continued"};

@@ -11,8 +11,8 @@ RL_FN uint entryQuery(RL_IN(uvec2) row) {
 }
 
 RL_FN GBufferTexel entryVisible(uint group) {
-  uvec4 q0 = RL_PAST_QUAD(gBuffers.points, group * RL_RADIANCE_POINT_QUADS);
-  uvec4 q1 = RL_PAST_QUAD(gBuffers.points, group * RL_RADIANCE_POINT_QUADS + 1u);
+  uvec4 q0 = RL_EARLIER_UVEC4(gBuffers.points, group * RL_RADIANCE_POINT_UVEC4S);
+  uvec4 q1 = RL_EARLIER_UVEC4(gBuffers.points, group * RL_RADIANCE_POINT_UVEC4S + 1u);
   GBufferTexel s;
   s.posW = recordVec3(q0);
   s.isHit = uintBitsToFloat(q1.w) < 0.0f ? 0u : 1u;
@@ -32,7 +32,7 @@ RL_FN uint entryOwn(RL_IN(GBufferTexel) s) {
 RL_FN void entryBegin(uint cell, RL_IN(uvec2) key, RL_IN(GBufferTexel) s) {
   gridTake(gBuffers.cells.keys, cell, key);
   vec3 place = radiancePlace(gParams.cells, s.posW, unpackNormal(s.nGeoW));
-  RL_WRITE_QUAD(gBuffers.cells.places, cell, recordQuad(place, s.nGeoW));
-  RL_WRITE_QUAD(gBuffers.cells.light, cell, uvec4(0u, 0u, 0u, 0u));
-  RL_WRITE_QUAD(gBuffers.kept, cell * RL_RADIANCE_KEPT_QUADS, uvec4(0u, 0u, 0u, 0u));
+  RL_WRITE_UVEC4(gBuffers.cells.places, cell, recordUvec4(place, s.nGeoW));
+  RL_WRITE_UVEC4(gBuffers.cells.light, cell, uvec4(0u, 0u, 0u, 0u));
+  RL_WRITE_UVEC4(gBuffers.kept, cell * RL_RADIANCE_KEPT_UVEC4S, uvec4(0u, 0u, 0u, 0u));
 }

@@ -14,10 +14,10 @@ RL_NAMESPACE_BEGIN
 // Buffer names match those in the passes of core/caches/entries.
 struct RadianceCellBuffers {
   RadianceBuffers cells;
-  // Per group, RL_RADIANCE_POINT_QUADS: hit of the group's ray of the last frame.
-  QuadRef points;
-  // Per cell, RL_RADIANCE_KEPT_QUADS: a path that fed the cell, to be traced again.
-  QuadRef kept;
+  // Per group, RL_RADIANCE_POINT_UVEC4S: hit of the group's ray of the last frame.
+  Uvec4Ref points;
+  // Per cell, RL_RADIANCE_KEPT_UVEC4S: a path that fed the cell, to be traced again.
+  Uvec4Ref kept;
   UintRef seen;        // per cell: frame + 1 in which a point last belonged to the cell
   UintRef claims;      // per cell: greatest priority that claims the hash slot
   UintRef insertions;  // per cell: RL_ENTRY_INSERTIONS priorities of groups; 0: none
@@ -43,10 +43,10 @@ struct RadianceTrace {
 
 // Layout of a point: position and normal (packNormal); light that left the point over its
 // reflectance, and posError, negative if there is no point.
-const uint RL_RADIANCE_POINT_QUADS = 2u;
+const uint RL_RADIANCE_POINT_UVEC4S = 2u;
 // Layout of a kept path: the ray as in RadianceBuffers::rays, with the frame in its last word; the
 // light that the path found over the reflectance, and the group.
-const uint RL_RADIANCE_KEPT_QUADS = 3u;
+const uint RL_RADIANCE_KEPT_UVEC4S = 3u;
 // A cell's path is traced again if the cell was seen within this many frames.
 const uint RL_RADIANCE_RECENT = 64u;
 // Largest difference of two results of one path over their sum at which they count as equal.

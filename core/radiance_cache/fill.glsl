@@ -5,13 +5,13 @@
 #include "core/radiance_cache/round_robin.glsl"
 
 RL_FN void radianceKeep(uint cell, uint group, RL_IN(vec3) light) {
-  uint ray = group * RL_RADIANCE_RAY_QUADS;
-  uvec4 to = RL_PAST_QUAD(gBuffers.cells.rays, ray + 1u);
+  uint ray = group * RL_RADIANCE_RAY_UVEC4S;
+  uvec4 to = RL_EARLIER_UVEC4(gBuffers.cells.rays, ray + 1u);
   to.w = gFrame.frame;
-  uint at = cell * RL_RADIANCE_KEPT_QUADS;
-  RL_WRITE_QUAD(gBuffers.kept, at, RL_PAST_QUAD(gBuffers.cells.rays, ray));
-  RL_WRITE_QUAD(gBuffers.kept, at + 1u, to);
-  RL_WRITE_QUAD(gBuffers.kept, at + 2u, recordQuad(light, group));
+  uint at = cell * RL_RADIANCE_KEPT_UVEC4S;
+  RL_WRITE_UVEC4(gBuffers.kept, at, RL_EARLIER_UVEC4(gBuffers.cells.rays, ray));
+  RL_WRITE_UVEC4(gBuffers.kept, at + 1u, to);
+  RL_WRITE_UVEC4(gBuffers.kept, at + 2u, recordUvec4(light, group));
 }
 
 RL_FN void kernelMain(RL_IN(uvec2) row) {
@@ -24,8 +24,9 @@ RL_FN void kernelMain(RL_IN(uvec2) row) {
   for (uint i = 0u; i < RL_ENTRY_INSERTIONS; i = i + 1u) {
     uint priority = gBuffers.insertions.data[cell * RL_ENTRY_INSERTIONS + i];
     if (priority == 0u) continue;
-    uint group = entryOfPriority(priority);
-    vec3 light = recordVec3(RL_PAST_QUAD(gBuffers.points, group * RL_RADIANCE_POINT_QUADS + 1u));
+    uint group = groupOfPriority(priority);
+    vec3 light =
+        recordVec3(RL_EARLIER_UVEC4(gBuffers.points, group * RL_RADIANCE_POINT_UVEC4S + 1u));
     sum += light;
     count += 1.0f;
     if (rlMax3(light) > rlMax3(brightest)) {
@@ -34,11 +35,11 @@ RL_FN void kernelMain(RL_IN(uvec2) row) {
     }
   }
   if (count == 0.0f) return;
-  uvec4 past = RL_PAST_QUAD(gBuffers.cells.light, cell);
+  uvec4 past = RL_EARLIER_UVEC4(gBuffers.cells.light, cell);
   float before = min(uintBitsToFloat(past.w), gParams.entries.cap - count);
   vec3 mean = (recordVec3(past) * before + sum) * (1.0f / (before + count));
-  RL_WRITE_QUAD(gBuffers.cells.light, cell, recordQuad(mean, floatBitsToUint(before + count)));
+  RL_WRITE_UVEC4(gBuffers.cells.light, cell, recordUvec4(mean, floatBitsToUint(before + count)));
   if (brightestGroup == RL_INVALID) return;
-  bool keepsNone = RL_PAST_QUAD(gBuffers.kept, cell * RL_RADIANCE_KEPT_QUADS).w == 0u;
+  bool keepsNone = RL_EARLIER_UVEC4(gBuffers.kept, cell * RL_RADIANCE_KEPT_UVEC4S).w == 0u;
   if (keepsNone || radianceIsDue(cell)) radianceKeep(cell, brightestGroup, brightest);
 }

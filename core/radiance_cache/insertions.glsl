@@ -11,10 +11,10 @@ RL_FN void kernelMain(RL_IN(uvec2) row) {
     RL_HEALTH(RL_HEALTH_CACHE_FULL);
     return;
   }
-  uvec4 place = RL_PAST_QUAD(gBuffers.cells.places, cell);
+  uvec4 place = RL_EARLIER_UVEC4(gBuffers.cells.places, cell);
   vec3 nGeoW = unpackNormal(point.nGeoW);
   if (!radianceFaces(place, nGeoW)) return;
-  uvec4 q1 = RL_PAST_QUAD(gBuffers.points, group * RL_RADIANCE_POINT_QUADS + 1u);
+  uvec4 q1 = RL_EARLIER_UVEC4(gBuffers.points, group * RL_RADIANCE_POINT_UVEC4S + 1u);
   if (radianceSees(place, point.posW, nGeoW, uintBitsToFloat(q1.w)))
     groupInserts(gBuffers.insertions, cell, group);
 }

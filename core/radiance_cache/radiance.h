@@ -11,10 +11,10 @@
 RL_NAMESPACE_BEGIN
 
 struct RadianceBuffers {
-  UintRef keys;    // per cell: core/caches/entries/grid.glsl
-  QuadRef places;  // per cell: viewpoint over the point that began it; normal there (packNormal)
-  QuadRef light;   // per cell: mean of radiance over reflectance, and its number of samples
-  QuadRef rays;    // per group, RL_RADIANCE_RAY_QUADS: ray that an integrator asks for
+  UintRef keys;     // per cell: core/caches/entries/grid.glsl
+  Uvec4Ref places;  // per cell: viewpoint over the point that began it; normal there (packNormal)
+  Uvec4Ref light;   // per cell: mean of radiance over reflectance, and its number of samples
+  Uvec4Ref rays;    // per group, RL_RADIANCE_RAY_UVEC4S: ray that an integrator asks for
 };
 
 // In the kernels' gParams.cells.
@@ -36,7 +36,7 @@ struct CacheTermination {
 
 // Layout of a ray: origin and direction. Fourth words: the number of scattering events before the
 // ray (0: no ray), and unused.
-const uint RL_RADIANCE_RAY_QUADS = 2u;
+const uint RL_RADIANCE_RAY_UVEC4S = 2u;
 
 // Least cosine between the normals of a point and of the cell that the point belongs to.
 const float RL_RADIANCE_MIN_DOT = 0.9f;

@@ -84,9 +84,9 @@ void recordRadiance(FrameGraph& g, const FrameInfo& f) {
   const Buffer keys = g.buffer("radiance_keys", cells, 2 * kWord);
   const Buffer places = g.buffer("radiance_places", cells, 16);
   const Buffer light = g.buffer("radiance_light", cells, 16);
-  const Buffer rays = g.buffer("radiance_rays", groups, 16 * rl::RL_RADIANCE_RAY_QUADS);
-  const Buffer points = g.buffer("radiance_points", groups, 16 * rl::RL_RADIANCE_POINT_QUADS);
-  const Buffer kept = g.buffer("radiance_kept", cells, 16 * rl::RL_RADIANCE_KEPT_QUADS);
+  const Buffer rays = g.buffer("radiance_rays", groups, 16 * rl::RL_RADIANCE_RAY_UVEC4S);
+  const Buffer points = g.buffer("radiance_points", groups, 16 * rl::RL_RADIANCE_POINT_UVEC4S);
+  const Buffer kept = g.buffer("radiance_kept", cells, 16 * rl::RL_RADIANCE_KEPT_UVEC4S);
   const Buffer seen = g.buffer("radiance_seen", cells, kWord);
   const Buffer claims = g.buffer("radiance_claims", cells, kWord);
   const Buffer insertions = g.buffer("radiance_insertions", cells, kWord * rl::RL_ENTRY_INSERTIONS);

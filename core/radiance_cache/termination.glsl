@@ -19,7 +19,7 @@ RL_FN CacheTermination cacheTerminationBegin(uint pixelIndex) {
   uint group = groupOfPixel(pixelIndex, gParams.cells.every);
   if (groupCandidatePixel(group, gParams.cells.every) != pixelIndex) return end;
   end.group = group;
-  RL_WRITE_QUAD(gBuffers.cells.rays, group * RL_RADIANCE_RAY_QUADS, uvec4(0u, 0u, 0u, 0u));
+  RL_WRITE_UVEC4(gBuffers.cells.rays, group * RL_RADIANCE_RAY_UVEC4S, uvec4(0u, 0u, 0u, 0u));
   return end;
 }
 
@@ -39,17 +39,17 @@ RL_FN bool cacheTerminates(RL_INOUT(CacheTermination) end, RL_IN(Walk) walk, RL_
   if (!bsdfIsReusable(s.bsdf, gParams.cells.minAlpha)) return false;
   if (RL_HAS(RL_FEATURE_VOLUME) && !rlIsBlack(walk.sigma)) return false;
   if (end.group != RL_INVALID) {
-    uint at = end.group * RL_RADIANCE_RAY_QUADS;
-    RL_WRITE_QUAD(gBuffers.cells.rays, at, recordQuad(walk.ray.origin, walk.bounces));
-    RL_WRITE_QUAD(gBuffers.cells.rays, at + 1u, recordQuad(walk.ray.dir, 0u));
+    uint at = end.group * RL_RADIANCE_RAY_UVEC4S;
+    RL_WRITE_UVEC4(gBuffers.cells.rays, at, recordUvec4(walk.ray.origin, walk.bounces));
+    RL_WRITE_UVEC4(gBuffers.cells.rays, at + 1u, recordUvec4(walk.ray.dir, 0u));
     end.group = RL_INVALID;
   }
   uvec2 key = radianceKey(gParams.cells, s.posW, s.nGeoW);
   uint cell = gridFind(gParams.cells.grid, gBuffers.cells.keys, key);
   if (cell == RL_INVALID) return false;
-  uvec4 light = RL_PAST_QUAD(gBuffers.cells.light, cell);
+  uvec4 light = RL_EARLIER_UVEC4(gBuffers.cells.light, cell);
   if (uintBitsToFloat(light.w) < gParams.cells.leastCount) return false;
-  uvec4 place = RL_PAST_QUAD(gBuffers.cells.places, cell);
+  uvec4 place = RL_EARLIER_UVEC4(gBuffers.cells.places, cell);
   if (!radianceFaces(place, s.nGeoW)) return false;
   if (!radianceSees(place, s.posW, s.nGeoW, s.posError)) return false;
   radiance = recordVec3(light) * bsdfReflectance(s.bsdf);

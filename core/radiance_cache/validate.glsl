@@ -10,11 +10,11 @@ RL_FN void kernelMain(RL_IN(uvec2) row) {
   if (cell >= gParams.entries.count) return;
   // Cells that no point belongs to any more wait until one does.
   if (gBuffers.seen.data[cell] + RL_RADIANCE_RECENT < gFrame.frame) return;
-  uint at = cell * RL_RADIANCE_KEPT_QUADS;
-  uvec4 from = RL_PAST_QUAD(gBuffers.kept, at);
+  uint at = cell * RL_RADIANCE_KEPT_UVEC4S;
+  uvec4 from = RL_EARLIER_UVEC4(gBuffers.kept, at);
   if (from.w == 0u) return;
-  uvec4 to = RL_PAST_QUAD(gBuffers.kept, at + 1u);
-  uvec4 found = RL_PAST_QUAD(gBuffers.kept, at + 2u);
+  uvec4 to = RL_EARLIER_UVEC4(gBuffers.kept, at + 1u);
+  uvec4 found = RL_EARLIER_UVEC4(gBuffers.kept, at + 2u);
   vec3 before = recordVec3(found);
   vec3 now = radianceOfPath(radiancePathFrom(from, to, found.w, to.w));
   // Rounding may differ from that of the pass that traced the path first.
@@ -22,6 +22,6 @@ RL_FN void kernelMain(RL_IN(uvec2) row) {
   if (!rlIsFinite3(now) || distance(before, now) <= tolerance) return;
   RL_HEALTH(RL_HEALTH_LIGHT_CHANGED);
   // Reset to nothing: the kept path was chosen for its light, so the mean must not begin with it.
-  RL_WRITE_QUAD(gBuffers.cells.light, cell, uvec4(0u, 0u, 0u, 0u));
-  RL_WRITE_QUAD(gBuffers.kept, at + 2u, recordQuad(now, found.w));
+  RL_WRITE_UVEC4(gBuffers.cells.light, cell, uvec4(0u, 0u, 0u, 0u));
+  RL_WRITE_UVEC4(gBuffers.kept, at + 2u, recordUvec4(now, found.w));
 }

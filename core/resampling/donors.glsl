@@ -1,4 +1,4 @@
-// Confidence with which donors enter a merge, and the scale of the estimates that donors carry.
+// Confidence with which donors enter a merge, and the scale of their residuals.
 // Nothing here may depend on samples.
 
 // A donor's confidence after the cap, counted when the cap acts.
@@ -17,7 +17,7 @@ RL_FN real reuseDonorShare(real age, real noise) {
   return real(1.0f) / (real(1.0f) + noise * (age - real(1.0f)));
 }
 
-// Scale of carried estimates, which scale with the surface: expected integrand of `to` over that of
+// Scale of residuals, which scale with the surface: expected integrand of `to` over that of
 // `from`. At most `bound` per channel.
 RL_FN real3 reuseReflectanceRatio(RL_IN(real3) from, RL_IN(real3) to, real bound) {
   real3 ratio = real3(misDivide(to.x, from.x), misDivide(to.y, from.y), misDivide(to.z, from.z));

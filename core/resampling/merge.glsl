@@ -4,7 +4,7 @@
 //
 // Order of calls: mergeBegin(), for every donor mergeWeighCanonical() with the canonical sample
 // shifted to the donor, mergeCanonical(), for every donor mergeDonor() with the donor's sample
-// shifted here, mergeEnd() (core/resampling/reuse.glsl).
+// shifted here, mergeEnd() (core/resampling/merge_loop.glsl).
 //
 // Per-channel estimates: the selected sample carries one colour, which a scalar target cannot see.
 // Each reservoir therefore also carries an estimate E of the whole integral per channel, E = F W +

@@ -1,10 +1,10 @@
 // Spatial donors: the pixels of a frame in random pairs, so that each shift serves the merges of
 // both. A pixel's neighbours depend only on the surfaces at pixel centres and on the frame's
-// number: a choice that depended on samples would be biased. The includer has gBuffers.visible and
+// number: a choice that depended on samples would be biased. The includer has gBuffers.gbuffer and
 // gParams.pairs.
 
 RL_FN GBufferTexel pairSurface(uint pixelIndex) {
-  return visibleRead(gBuffers.visible, gFrame.camera, pixelIndex);
+  return gbufferRead(gBuffers.gbuffer, gFrame.camera, pixelIndex);
 }
 
 // Finds a pixel's neighbour. The frame is cut into square tiles (gParams.pairs.tile), randomly
@@ -31,7 +31,7 @@ RL_FN bool partnerMirror(RL_IN(uvec2) pixel, uint pairing, RL_OUT(uvec2) neighbo
 
 RL_FN bool partnerMirrorMatches(RL_IN(uvec2) pixel, uint pairing, RL_OUT(uvec2) neighbour) {
   if (!partnerMirror(pixel, pairing, neighbour)) return false;
-  return visibleIsSimilar(pairSurface(pixelIndexOf(pixel)), pairSurface(pixelIndexOf(neighbour)),
+  return gbufferIsSimilar(pairSurface(pixelIndexOf(pixel)), pairSurface(pixelIndexOf(neighbour)),
                           gParams.pairs.similarity);
 }
 

@@ -15,7 +15,7 @@ struct ReservoirState {
   real confidence;
 };
 
-const uint RL_STATE_QUADS = 2u;  // per state in a buffer (core/resampling/reservoir.glsl)
+const uint RL_STATE_UVEC4S = 2u;  // per state in a buffer (core/resampling/reservoir.glsl)
 
 // Result of a shift to another anchor.
 struct Shifted {

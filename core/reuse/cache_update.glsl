@@ -3,17 +3,17 @@
 // alone, at this frame's film sample. The entry's own sample is shifted to the candidate's x1, so
 // that the merge is right for each film sample on its own. A new entry begins with a candidate, at
 // the x1 that the candidate started from: the candidate is a valid sample there, and for no other
-// point. An entry without insertions may forget (core/reuse/history_weight.glsl).
+// point. An entry without insertions may forget (core/reuse/history_kept.glsl).
 #include "core/caches/entries/surface.glsl"
 #include "core/reuse/reservoir_store.glsl"
-#include "core/reuse/history_weight.glsl"
+#include "core/reuse/history_kept.glsl"
 
 #define RL_REUSE_STATE CacheMerge
 
 RL_FN bool reuseDonor(RL_IN(CacheMerge) s, uint k, RL_OUT(ReservoirState) donor) {
   donor = reservoirEmpty();
-  if (s.id[k] == RL_INVALID) return false;
-  donor = candidateStateRead(entryCandidatePixel(s.id[k]));
+  if (s.donorId[k] == RL_INVALID) return false;
+  donor = candidateStateRead(entryCandidatePixel(s.donorId[k]));
   return true;
 }
 RL_FN Shifted reuseCanonicalAtNeighbour(RL_IN(CacheMerge) s, uint k) {
@@ -23,10 +23,10 @@ RL_FN Shifted reuseNeighbourAtCanonical(RL_IN(CacheMerge) s, uint k) {
   return s.neighbourAtCanonical[k];
 }
 RL_FN real3 reuseRatio(RL_IN(CacheMerge) s, uint k) {
-  uint pixelIndex = entryCandidatePixel(s.id[k]);
-  GBufferTexel donor = visibleRead(gBuffers.visible, gFrame.camera, pixelIndex);
+  uint pixelIndex = entryCandidatePixel(s.donorId[k]);
+  GBufferTexel donor = gbufferRead(gBuffers.gbuffer, gFrame.camera, pixelIndex);
   return reuseReflectanceRatio(
-      donor.reflectance, shadingPointRead(gBuffers.shadingPoints, s.pixelIndex).surface.reflectance,
+      donor.reflectance, shadingPointRead(gBuffers.shadingPoints, s.owner).surface.reflectance,
       gParams.reuse.maxReflectanceRatio);
 }
 RL_FN real reuseUniform(RL_IN(CacheMerge) s, uint k) {
@@ -34,7 +34,7 @@ RL_FN real reuseUniform(RL_IN(CacheMerge) s, uint k) {
   return rngDraw(rng, RL_DIM_RIS_MERGE + k);
 }
 
-#include "core/resampling/reuse.glsl"
+#include "core/resampling/merge_loop.glsl"
 
 // Traces three rays per candidate: the camera ray to the candidate's x1, from that x1 to the
 // entry's sample, and from the shading point to the candidate's sample. If the entry has no shading
@@ -50,23 +50,23 @@ RL_FN bool shiftCandidates(RL_INOUT(CacheMerge) s, RL_INOUT(RL_RESERVOIR) here,
   for (uint i = 0u; i < 3u * RL_ENTRY_INSERTIONS; i = i + 1u) {
     uint k = i / 3u;
     uint leg = i - 3u * k;
-    uint group = s.id[k];
+    uint group = s.donorId[k];
     if (group == RL_INVALID || hasBegun) continue;
     uint pixelIndex = entryCandidatePixel(group);
     RL_SHIFT shift = shiftNone();
     if (leg == 0u) {
       candidateRead(pixelIndex, candidate);
       shift.ray = cameraFilmRay(gFrame.camera, pixelOfIndex(pixelIndex), sampleFilm(candidate));
-      shift.asks = RL_SHIFT_ASKS_X1;
+      shift.needs = RL_SHIFT_NEEDS_X1;
     } else if (leg == 1u) {
       if (!isNew && hasX1) shift = shiftToSurface(here, x1);
     } else if (shadingPoint.surface.isHit != 0u) {
       shift = shiftToSurface(candidate, shadingPointSurface(shadingPoint));
     }
-    if (shift.asks != RL_SHIFT_DONE) {
+    if (shift.needs != RL_SHIFT_DONE) {
       Hit hit = traceNoHit();
       uint mode = leg == 0u ? RL_RAY_PATH : RL_RAY_SHADOW;
-      uint key = shiftKey(mode, sampleFilm(candidate));
+      uint key = shiftRayKey(mode, sampleFilm(candidate));
       float transmittance = traceRay(shift.ray, mode, key, hit);
       if (leg != 0u) {
         shift.shifted.F *= transmittance;
@@ -74,13 +74,15 @@ RL_FN bool shiftCandidates(RL_INOUT(CacheMerge) s, RL_INOUT(RL_RESERVOIR) here,
         hasX1 = false;
         if (hit.instance != RL_INVALID) {
           x1 = surfaceLoad(hit, shift.ray.dir);
-          hasX1 = shiftServes(x1.bsdf);
+          hasX1 = shiftIsReusable(x1.bsdf);
         }
-        if (!hasX1) s.id[k] = isNew ? RL_INVALID : group;
+        // An entry that is there already counts this donor's confidence all the same: confidence
+        // must not depend on the sample.
+        if (!hasX1 && isNew) s.donorId[k] = RL_INVALID;
         if (hasX1 && isNew) {
-          GBufferTexel shown = visibleRead(gBuffers.visible, gFrame.camera, pixelIndex);
+          GBufferTexel shown = gbufferRead(gBuffers.gbuffer, gFrame.camera, pixelIndex);
           ShadingPoint found = shadingPointOfSurface(x1, pixelIndex);
-          if (visibleIsSimilar(shown, found.surface, gParams.pairs.similarity))
+          if (gbufferIsSimilar(shown, found.surface, gParams.pairs.similarity))
             shadingPoint = found;
         }
       }
@@ -93,14 +95,14 @@ RL_FN bool shiftCandidates(RL_INOUT(CacheMerge) s, RL_INOUT(RL_RESERVOIR) here,
       here.state.F = shift.shifted.F;
       here.state.residual = vec3(0.0f, 0.0f, 0.0f);
       if (!(reuseTarget(here.state.F) > 0.0f)) here.state.W = 0.0f;
-      sampleFollow(here, shift.shifted.jacobian);
+      sampleAfterShift(here, shift.shifted.jacobian);
     }
   }
   return hasBegun;
 }
 
 RL_FN void forgetOutOfView(uint entry) {
-  float kept = historyWeightOutOfView(entry);
+  float kept = historyKeptOutOfView(entry);
   if (kept == 1.0f) return;
   ShadingPoint shadingPoint = shadingPointRead(gBuffers.shadingPoints, entry);
   if (shadingPoint.surface.isHit == 0u) return;
@@ -115,11 +117,11 @@ RL_FN void kernelMain(RL_IN(uvec2) row) {
   uint entry = row.y * RL_ENTRY_ROW + row.x;
   if (entry >= gParams.entries.count) return;
   CacheMerge s;
-  s.pixelIndex = entry;
+  s.owner = entry;
   uint first = RL_INVALID;
   for (uint k = 0u; k < RL_ENTRY_INSERTIONS; k = k + 1u) {
     uint priority = gBuffers.insertions.data[entry * RL_ENTRY_INSERTIONS + k];
-    s.id[k] = priority != 0u ? entryOfPriority(priority) : RL_INVALID;
+    s.donorId[k] = priority != 0u ? groupOfPriority(priority) : RL_INVALID;
     if (priority != 0u && first == RL_INVALID) first = k;
   }
   if (first == RL_INVALID) {
@@ -130,7 +132,7 @@ RL_FN void kernelMain(RL_IN(uvec2) row) {
   RL_RESERVOIR here = sampleNone();
   entryReservoirRead(entry, here);
   // Share kept, as found at the pixel of the first inserting group.
-  float kept = historyWeight(entryCandidatePixel(s.id[first]));
+  float kept = historyKept(entryCandidatePixel(s.donorId[first]));
   here.state.confidence = reuseCapped(here.state.confidence, gParams.entries.cap) * kept;
   bool isForgotten = !(kept > 0.0f);
   if (isForgotten) shadingPoint = shadingPointNone();
@@ -151,8 +153,8 @@ RL_FN void kernelMain(RL_IN(uvec2) row) {
   reuseMerge(s, RL_ENTRY_INSERTIONS, gParams.reuse.spatialFlags, here.state, winner, jacobian);
   reservoirGuard(here.state);
   if (winner != RL_INVALID) {
-    takeCandidateSample(entryCandidatePixel(s.id[winner]), here);
-    sampleFollow(here, jacobian);
+    takeCandidateSample(entryCandidatePixel(s.donorId[winner]), here);
+    sampleAfterShift(here, jacobian);
   }
   entryReservoirWrite(entry, here);
 }

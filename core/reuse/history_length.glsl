@@ -8,11 +8,11 @@ RL_FN float historyAge() {
   return min(float(gFrame.stillFrames), gParams.reuse.confidenceCap) + 1.0f;
 }
 
-// Number of frames that the radiance of a reservoir averages, this one included. A part of its
-// confidence comes from the same pixel in the last frame, at most the cap of a temporal donor. The
-// rest is new, or comes from other pixels. An average that renews a share s of itself averages
-// 1 / s frames.
-RL_FN float effectiveSamples(float confidence) {
+// Upper bound of the number of frames that the radiance of a reservoir averages, this one included.
+// A part of its confidence comes from the same pixel in the last frame: at most the cap of a
+// temporal donor, which is what is assumed. The rest is new, or comes from other pixels. An average
+// that renews a share s of itself averages 1 / s frames.
+RL_FN float radianceFrames(float confidence) {
   if (!(confidence > 1.0f)) return 1.0f;
   float cap = gParams.reuse.reproject != 0u ? gParams.reuse.movingConfidenceCap : 0.0f;
   if (gFrame.stillFrames != 0u) cap = gParams.reuse.confidenceCap;
@@ -20,7 +20,7 @@ RL_FN float effectiveSamples(float confidence) {
   return confidence / max(confidence - min(cap, confidence - 1.0f), 1.0f);
 }
 
-// Unpacks the last word of a pixel's own-light quad.
+// Number of samples in a pixel's unresampled light, packed into the last word of its record.
 RL_FN ViewLight viewLightUnpack(uint word) {
   ViewLight count;
   count.taken = word & 0xffu;

@@ -5,46 +5,48 @@
 #include "core/reuse/still_shift.glsl"
 #include "core/reuse/temporal_merge.glsl"
 #include "core/reuse/history_length.glsl"
-#include "core/reuse/history_weight.glsl"
+#include "core/reuse/history_kept.glsl"
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint pixelIndex = pixel.y * gFrame.width + pixel.x;
   uint film = cameraFilmBits(pixel);
-  vec3 unresampled;
-  vec3 seenDirectly;
-  RL_RESERVOIR r = sampleInitial(pixel, film, unresampled, seenDirectly);
+  vec3 specularLight;    // of mirrors and glass at x1
+  vec3 visibleEmission;  // of a lamp at x1
+  RL_RESERVOIR r = sampleInitial(pixel, film, specularLight, visibleEmission);
   vec3 estimate = r.state.F * r.state.W + r.state.residual;
-  vec3 own = unresampled + seenDirectly;
+  vec3 unresampled = specularLight + visibleEmission;
   ViewLight count = viewLightUnpack(0u);
   if (gFrame.stillFrames == 0u) {
-    uvec4 inView = RL_PAST_QUAD(gBuffers.unresampled, pixelIndex);
-    count = viewLightUnpack(inView.w);
-    if (count.taken != 0u) own = unresampled + recordVec3(inView);
+    uvec4 ofEdges = RL_EARLIER_UVEC4(gBuffers.unresampled, pixelIndex);
+    count = viewLightUnpack(ofEdges.w);
+    if (count.taken != 0u) unresampled = specularLight + recordVec3(ofEdges);
   }
-  if (!rlIsFinite3(own) || !rlIsFinite3(estimate)) {
+  if (!rlIsFinite3(unresampled) || !rlIsFinite3(estimate)) {
     RL_HEALTH(RL_HEALTH_NONFINITE);
-    own = vec3(0.0f, 0.0f, 0.0f);
+    unresampled = vec3(0.0f, 0.0f, 0.0f);
     r.state = reservoirEmpty();
   }
   RL_RESERVOIR candidate = r;
   if (gParams.reuse.temporalReuse != 0u && gFrame.stillFrames != 0u) {
-    float kept = historyWeight(pixelIndex);
-    uvec4 before = RL_PAST_QUAD(gBuffers.unresampledBefore, pixelIndex);
-    count = viewLightUnpack(before.w);
+    float kept = historyKept(pixelIndex);
+    uvec4 previous = RL_EARLIER_UVEC4(gBuffers.unresampledPrevious, pixelIndex);
+    count = viewLightUnpack(previous.w);
     if (kept < 1.0f) {
       count.taken = 0u;
       count.frames = uint(float(count.frames) * kept);
     }
-    // lights_in_view took this frame's film sample already, in the first frame of the view.
+    // light_edges took this frame's film sample already, in the first frame of the view.
     float weight = 1.0f / (min(float(count.frames), gParams.reuse.confidenceCap) + 1.0f);
     if (gFrame.stillFrames < count.taken) weight = 0.0f;
-    own = recordVec3(before) * (1.0f - weight) + own * weight;
+    unresampled = recordVec3(previous) * (1.0f - weight) + unresampled * weight;
     if (kept > 0.0f) temporalMerge(pixelIndex, pixelIndex, kept, r);
   }
   reservoirWriteNow(pixelIndex, r);
-  bool isCandidate =
+  // One pixel of each group inserts this frame's candidate into its entry. In a still view
+  // `reservoirs` holds the merge already, so the candidate goes where the history was.
+  bool feedsEntry =
       gParams.entries.count != 0u && entryCandidatePixel(entryGroup(pixelIndex)) == pixelIndex;
-  if (isCandidate && gFrame.stillFrames != 0u) reservoirWriteHistory(pixelIndex, candidate);
+  if (feedsEntry && gFrame.stillFrames != 0u) reservoirWriteHistory(pixelIndex, candidate);
   count.frames = min(count.frames + 1u, 0xffffffu);
-  RL_WRITE_QUAD(gBuffers.unresampled, pixelIndex, recordQuad(own, viewLightPack(count)));
+  RL_WRITE_UVEC4(gBuffers.unresampled, pixelIndex, recordUvec4(unresampled, viewLightPack(count)));
 }

@@ -7,8 +7,8 @@
 
 namespace restlab {
 
-// Layers confidence, age, entry_confidence, rejected_shifts and partner. `reservoirQuads`: of a
+// Layers confidence, age, entry_confidence, rejected_shifts and partner. `reservoirUvec4s`: of a
 // reservoir of the method.
-std::vector<LayerInfo> reuseLayers(uint32_t reservoirQuads);
+std::vector<LayerInfo> reuseLayers(uint32_t reservoirUvec4s);
 
 }  // namespace restlab

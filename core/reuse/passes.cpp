@@ -4,7 +4,7 @@
 
 namespace restlab {
 
-// Each has a slot of ReuseBuffers.
+// Each spatial neighbour k has a buffer ReuseBuffers::pairedShifts<k>.
 static_assert(rl::RL_MAX_DONORS == 4);
 
 std::string pairedShiftsName(uint32_t neighbour) {
@@ -16,14 +16,14 @@ void recordReuse(FrameGraph& g, const FrameInfo& f, const ReusedSample& sample,
                  std::vector<std::byte> params) {
   const FrameBuffers& s = g.shared;
   const bool isTemporal = reuse.temporalReuse != 0, hasEntries = entries.count != 0;
-  const auto withSuffix = [&](size_t count) { return sample.suffixQuads == 0 ? 0 : count; };
-  constexpr uint32_t kQuad = 16, kGlossy = rl::RL_FEATURE_GLOSSY;
-  const uint32_t reservoirBytes = kQuad * sample.reservoirQuads;
-  const uint32_t suffixBytes = kQuad * sample.suffixQuads;
+  const auto withSuffix = [&](size_t count) { return sample.suffixUvec4s == 0 ? 0 : count; };
+  constexpr uint32_t kUvec4Bytes = 16, kGlossy = rl::RL_FEATURE_GLOSSY;
+  const uint32_t reservoirBytes = kUvec4Bytes * sample.reservoirUvec4s;
+  const uint32_t suffixBytes = kUvec4Bytes * sample.suffixUvec4s;
   const Buffer radiance = g.buffer("radiance", f.pixels, sizeof(glm::vec3));
-  const Buffer effectiveSamples = g.buffer(
-      "effective_samples", reuse.writesEffectiveSamples != 0 ? f.pixels : 0, sizeof(float));
-  const History unresampled = g.advance(g.history("unresampled_radiance", f.pixels, kQuad));
+  const Buffer radianceFrames =
+      g.buffer("radiance_frames", reuse.writesRadianceFrames != 0 ? f.pixels : 0, sizeof(float));
+  const History unresampled = g.advance(g.history("unresampled_radiance", f.pixels, kUvec4Bytes));
   const Buffer reservoirs = g.buffer("reservoirs", f.pixels, reservoirBytes);
   const Buffer history = g.buffer("reservoir_history", f.pixels, reservoirBytes);
   const Buffer suffixes = g.buffer("path_suffixes", withSuffix(f.pixels), suffixBytes, kGlossy);
@@ -31,21 +31,28 @@ void recordReuse(FrameGraph& g, const FrameInfo& f, const ReusedSample& sample,
       g.buffer("path_suffix_history", withSuffix(f.pixels), suffixBytes, kGlossy);
   std::array<Buffer, rl::RL_MAX_DONORS> pairedShifts;
   for (uint32_t k = 0; k < reuse.spatialNeighbours; ++k)
-    pairedShifts[k] = g.transient(pairedShiftsName(k), f.pixels, kQuad);
+    pairedShifts[k] = g.transient(pairedShiftsName(k), f.pixels, kUvec4Bytes);
   const Buffer outlines = g.buffer("outlines", f.pixels, sizeof(uint32_t));
   const Buffer entryReservoirs = g.buffer("entry_reservoirs", entries.count, reservoirBytes);
   const Buffer entrySuffixes =
       g.buffer("entry_suffixes", withSuffix(entries.count), suffixBytes, kGlossy);
-  const Kernels kernels = g.kernels<rl::ReuseBuffers>(
-      std::move(params),
-      {s.surfaces.now,  s.surfaces.before, s.proposals,     s.shadingPoints,    s.insertions,
-       s.cellKeys,      s.cellPlaces,      s.cellLight,     s.cellRays,         s.changes,
-       radiance,        effectiveSamples,  unresampled.now, unresampled.before, reservoirs,
-       history,         suffixes,          suffixHistory,   pairedShifts[0],    pairedShifts[1],
-       pairedShifts[2], pairedShifts[3],   outlines,        entryReservoirs,    entrySuffixes});
+  const Kernels kernels =
+      g.kernels<rl::ReuseBuffers>(std::move(params), {s.surfaces.now,  s.surfaces.previous,
+                                                      s.proposals,     s.shadingPoints,
+                                                      s.insertions,    s.cellKeys,
+                                                      s.cellPlaces,    s.cellLight,
+                                                      s.cellRays,      s.changes,
+                                                      radiance,        radianceFrames,
+                                                      unresampled.now, unresampled.previous,
+                                                      reservoirs,      history,
+                                                      suffixes,        suffixHistory,
+                                                      pairedShifts[0], pairedShifts[1],
+                                                      pairedShifts[2], pairedShifts[3],
+                                                      outlines,        entryReservoirs,
+                                                      entrySuffixes});
 
   if (f.isNewView) {
-    kernels.pass("lights_in_view", sample.method + "_lights_in_view")
+    kernels.pass("light_edges", sample.method + "_light_edges")
         .reads({s.surfaces.now})
         .writes({unresampled.now});
   }
@@ -57,7 +64,7 @@ void recordReuse(FrameGraph& g, const FrameInfo& f, const ReusedSample& sample,
     initial.reads({unresampled.now});
   } else {
     // In a still view this pass merges the history, too.
-    initial.reads({unresampled.before, history, suffixHistory, s.changes});
+    initial.reads({unresampled.previous, history, suffixHistory, s.changes});
   }
   if (hasEntries) {
     // Candidates of a still view stand in the history's place.
@@ -75,7 +82,7 @@ void recordReuse(FrameGraph& g, const FrameInfo& f, const ReusedSample& sample,
   if (f.isNewView && isTemporal) {
     if (reuse.reproject != 0) {
       kernels.pass("temporal", sample.method + "_temporal")
-          .reads({s.surfaces.now, s.surfaces.before, s.changes, history, suffixHistory})
+          .reads({s.surfaces.now, s.surfaces.previous, s.changes, history, suffixHistory})
           .updates({reservoirs, suffixes});
     }
     if (hasEntries) {
@@ -99,9 +106,9 @@ void recordReuse(FrameGraph& g, const FrameInfo& f, const ReusedSample& sample,
   kernels.pass("spatial", sample.method + "_spatial")
       .reads({s.surfaces.now, reservoirs, suffixes, pairedShifts[0], pairedShifts[1],
               pairedShifts[2], pairedShifts[3], unresampled.now})
-      .writes({history, suffixHistory, radiance, effectiveSamples});
+      .writes({history, suffixHistory, radiance, radianceFrames});
   g.shared.radiance = radiance;
-  g.shared.effectiveSamples = effectiveSamples;
+  g.shared.radianceFrames = radianceFrames;
 }
 
 }  // namespace restlab

@@ -1,10 +1,10 @@
 // Storage of reservoirs: this frame's (initial, then merged over time), the last frame's, and those
-// of entries. Reads are of earlier passes' data (RL_PAST_QUAD): no pass reads its own writes.
+// of entries. Reads are of earlier passes' data (RL_EARLIER_UVEC4): no pass reads its own writes.
 
 RL_FN void reservoirReadNow(uint pixelIndex, RL_INOUT(RL_RESERVOIR) r) {
   sampleRead(gBuffers.reservoirs, gBuffers.suffixes, pixelIndex, r);
 }
-RL_FN void reservoirReadBefore(uint pixelIndex, RL_INOUT(RL_RESERVOIR) r) {
+RL_FN void reservoirReadPrevious(uint pixelIndex, RL_INOUT(RL_RESERVOIR) r) {
   sampleRead(gBuffers.history, gBuffers.suffixesHistory, pixelIndex, r);
 }
 RL_FN void reservoirWriteNow(uint pixelIndex, RL_IN(RL_RESERVOIR) r) {
@@ -18,22 +18,22 @@ RL_FN void reservoirWriteHistory(uint pixelIndex, RL_IN(RL_RESERVOIR) r) {
 RL_FN ReservoirState stateReadNow(uint pixelIndex) {
   return sampleStateRead(gBuffers.reservoirs, pixelIndex);
 }
-RL_FN ReservoirState stateReadBefore(uint pixelIndex) {
+RL_FN ReservoirState stateReadPrevious(uint pixelIndex) {
   return sampleStateRead(gBuffers.history, pixelIndex);
 }
 RL_FN void stateWriteNow(uint pixelIndex, RL_IN(RL_RESERVOIR) r) {
   sampleStateWrite(gBuffers.reservoirs, pixelIndex, r);
 }
-// Replaces the sample by that of another reservoir, under the selected state.
+// Copies the path of another reservoir. The merge has set the state of r already.
 RL_FN void takeSampleNow(uint pixelIndex, RL_INOUT(RL_RESERVOIR) r) {
   RL_RESERVOIR from = r;
   reservoirReadNow(pixelIndex, from);
-  sampleTake(r, from);
+  sampleCopyPath(r, from);
 }
-RL_FN void takeSampleBefore(uint pixelIndex, RL_INOUT(RL_RESERVOIR) r) {
+RL_FN void takeSamplePrevious(uint pixelIndex, RL_INOUT(RL_RESERVOIR) r) {
   RL_RESERVOIR from = r;
-  reservoirReadBefore(pixelIndex, from);
-  sampleTake(r, from);
+  reservoirReadPrevious(pixelIndex, from);
+  sampleCopyPath(r, from);
 }
 
 // Reservoirs of entries.
@@ -46,7 +46,7 @@ RL_FN ReservoirState entryStateRead(uint entry) {
 RL_FN void takeEntrySample(uint entry, RL_INOUT(RL_RESERVOIR) r) {
   RL_RESERVOIR from = r;
   entryReservoirRead(entry, from);
-  sampleTake(r, from);
+  sampleCopyPath(r, from);
 }
 RL_FN void entryReservoirWrite(uint entry, RL_IN(RL_RESERVOIR) r) {
   sampleWrite(gBuffers.entryReservoirs, gBuffers.entrySuffixes, entry, r);
@@ -60,22 +60,22 @@ RL_FN void candidateRead(uint pixelIndex, RL_INOUT(RL_RESERVOIR) r) {
   if (gFrame.stillFrames == 0u) {
     reservoirReadNow(pixelIndex, r);
   } else {
-    reservoirReadBefore(pixelIndex, r);
+    reservoirReadPrevious(pixelIndex, r);
   }
 }
 RL_FN ReservoirState candidateStateRead(uint pixelIndex) {
   if (gFrame.stillFrames == 0u) return stateReadNow(pixelIndex);
-  return stateReadBefore(pixelIndex);
+  return stateReadPrevious(pixelIndex);
 }
 RL_FN void takeCandidateSample(uint pixelIndex, RL_INOUT(RL_RESERVOIR) r) {
   RL_RESERVOIR from = r;
   candidateRead(pixelIndex, from);
-  sampleTake(r, from);
+  sampleCopyPath(r, from);
 }
 
 // Pixels' samples shifted to their k-th neighbours.
-RL_FN QuadRef pairedShifts(uint k) {
-  QuadRef shifts = gBuffers.pairedShifts0;
+RL_FN Uvec4Ref pairedShifts(uint k) {
+  Uvec4Ref shifts = gBuffers.pairedShifts0;
   if (k == 1u) shifts = gBuffers.pairedShifts1;
   if (k == 2u) shifts = gBuffers.pairedShifts2;
   if (k == 3u) shifts = gBuffers.pairedShifts3;

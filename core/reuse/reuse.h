@@ -1,5 +1,7 @@
 // Buffers, parameters and state of the passes of reuse (core/reuse/README.md). A method's Params
-// struct has `reuse`, `pairs`, `entries`, `cells` and `changes`, and what its samples need.
+// struct has `reuse` (ReuseParams), `pairs` (which pixels are neighbours), `entries` (reservoirs in
+// world space), `cells` (radiance cache) and `changes` (temporal gradients), and what its samples
+// need.
 #ifndef RL_REUSE_H
 #define RL_REUSE_H
 
@@ -33,8 +35,8 @@ struct SpatialMerge {
 // State of the merge of a pixel with its entries, and of an entry with the candidates of pixels: up
 // to RL_MAX_DONORS donors.
 struct CacheMerge {
-  uint pixelIndex;  // of the pixel; or the entry
-  uint id[4];       // entries; or groups of pixels. RL_INVALID: none
+  uint owner;       // whose reservoir it is: a pixel; or an entry
+  uint donorId[4];  // entries; or groups of pixels. RL_INVALID: none
   Shifted canonicalAtNeighbour[4];
   Shifted neighbourAtCanonical[4];
   Rng rng;
@@ -42,57 +44,57 @@ struct CacheMerge {
 
 // Number of samples in the average of a pixel's unresampled light.
 struct ViewLight {
-  uint taken;   // film samples that lights_in_view took when the view was new
+  uint taken;   // film samples that light_edges took when the view was new
   uint frames;  // frames of this view, less those that were forgotten
 };
 
 struct ReuseBuffers {
-  QuadRef visible;  // core/gbuffer/visible.h
-  QuadRef visibleBefore;
+  Uvec4Ref gbuffer;  // core/gbuffer/gbuffer.h
+  Uvec4Ref gbufferPrevious;
   // From caches in world space (core/caches/README.md).
   UintRef proposals;
-  QuadRef shadingPoints;
+  Uvec4Ref shadingPoints;
   UintRef insertions;
   RadianceBuffers cells;
   UintRef changes;  // core/temporal_gradients
   Vec3Ref radiance;
-  FloatRef effectiveSamples;  // frames that each pixel's radiance averages, this one included
-  // One quad per pixel: light that no other pixel could reuse, averaged over time in a still view,
-  // and its ViewLight. lights_in_view leaves its light here for the initial pass.
-  QuadRef unresampled;
-  QuadRef unresampledBefore;
-  QuadRef reservoirs;  // reservoirs of this frame: initial, then temporal
-  QuadRef history;     // last frame's, in still views then candidates; replaced by the spatial pass
+  FloatRef radianceFrames;  // frames that each pixel's radiance averages, this one included
+  // One uvec4 per pixel: light that no other pixel could reuse, averaged over time in a still view,
+  // and its ViewLight. light_edges leaves its light here for the initial pass.
+  Uvec4Ref unresampled;
+  Uvec4Ref unresampledPrevious;
+  Uvec4Ref reservoirs;  // reservoirs of this frame: initial, then temporal
+  Uvec4Ref history;  // last frame's, in still views then candidates; replaced by the spatial pass
   // Parts of samples that are kept beside the reservoirs; null if there are none.
-  QuadRef suffixes;
-  QuadRef suffixesHistory;
+  Uvec4Ref suffixes;
+  Uvec4Ref suffixesHistory;
   // Between the spatial_shift and the spatial pass, a buffer for each of up to RL_MAX_DONORS
   // neighbours: the pixel's sample shifted to the neighbour, and the neighbour's pixel index
   // (RL_INVALID: none). Buffers of their own, so that each can share memory.
-  QuadRef pairedShifts0;
-  QuadRef pairedShifts1;
-  QuadRef pairedShifts2;
-  QuadRef pairedShifts3;
+  Uvec4Ref pairedShifts0;
+  Uvec4Ref pairedShifts1;
+  Uvec4Ref pairedShifts2;
+  Uvec4Ref pairedShifts3;
   UintRef outlines;  // 1: a pixel beside it shows another surface
   // For caches in world space: reservoirs of entries (core/caches/entries/entries.glsl).
-  QuadRef entryReservoirs;
-  QuadRef entrySuffixes;
+  Uvec4Ref entryReservoirs;
+  Uvec4Ref entrySuffixes;
 };
 
 struct ReuseParams {
   uint temporalFlags;  // RL_REUSE_*
   uint spatialFlags;
-  uint spatialNeighbours;  // donors of young histories; at least neighboursLongHistory
-  uint neighboursLongHistory;
-  uint longHistoryFrames;  // after so many still frames no history is young
+  uint spatialNeighbours;  // donors of young histories; at least agedNeighbours
+  uint agedNeighbours;
+  uint youngFrames;  // after so many still frames no history is young
   uint lightEdgeSamples;
-  float donorNoise;    // reuseDonorShare()
+  float donorNoise;    // donors' confidence is scaled by 1 / (1 + this (age - 1))
   uint temporalReuse;  // 0: off
   uint reproject;      // 0: no reprojection
   float confidenceCap;
-  float movingConfidenceCap;    // in frames of a new view
-  float maxReflectanceRatio;    // bound per channel on the reflectance ratio of carried estimates
-  uint writesEffectiveSamples;  // 1: a denoiser reads them
+  float movingConfidenceCap;  // in frames of a new view
+  float maxReflectanceRatio;  // bound per channel on the reflectance ratio of residuals
+  uint writesRadianceFrames;  // 1: a denoiser reads them
 };
 
 RL_NAMESPACE_END

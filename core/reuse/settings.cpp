@@ -16,8 +16,8 @@ struct ReuseSettings {
   double confidenceCap = 20.0;
   double movingConfidenceCap = 8.0;
   uint32_t spatialNeighbours = 3;
-  uint32_t neighboursLongHistory = 1;
-  double shortHistoryFrames = 8.0;
+  uint32_t agedNeighbours = 1;
+  double youngFrames = 8.0;
   double donorNoise = 0.5;
   uint32_t lightEdgeSamples = 8;
   bool temporal = true;
@@ -47,11 +47,11 @@ const Schema<ReuseSettings>& schema() {
           "still for fewer frames than young_frames",
           "each costs a shift, two rays a pixel; measured: docs/decisions/donors-by-age.md"),
       Parameter<ReuseSettings>(
-          &ReuseSettings::neighboursLongHistory, "aged_neighbours", Range{0, rl::RL_MAX_DONORS},
+          &ReuseSettings::agedNeighbours, "aged_neighbours", Range{0, rl::RL_MAX_DONORS},
           "donors of the spatial pass afterwards, where spatial_neighbours is not less",
           "measured: docs/decisions/donors-by-age.md"),
       Parameter<ReuseSettings>(
-          &ReuseSettings::shortHistoryFrames, "young_frames", Range{0.0, 1000.0},
+          &ReuseSettings::youngFrames, "young_frames", Range{0.0, 1000.0},
           "frames of a still view up to which histories are young",
           "about the age from which young histories gain no more (docs/performance.md); not swept"),
       Parameter<ReuseSettings>(
@@ -62,7 +62,7 @@ const Schema<ReuseSettings>& schema() {
           &ReuseSettings::lightEdgeSamples, "light_edge_samples", Range{0, 64},
           "camera rays through pixels where a lamp in view ends, in frames of a new view; 0: none "
           "but the path's",
-          "core/transport/lights_in_view.glsl; measured: docs/decisions/light-edge-samples.md"),
+          "core/transport/light_edges.glsl; measured: docs/decisions/light-edge-samples.md"),
       Parameter<ReuseSettings>(&ReuseSettings::temporal, "temporal", "temporal reuse",
                                "Ouyang et al. 2021"),
       Parameter<ReuseSettings>(
@@ -114,10 +114,9 @@ rl::ReuseParams packReuse(const ParameterMap& parameters, bool assumesVisible) {
   if (assumesVisible)
     out.temporalFlags |= rl::RL_REUSE_ASSUME_VISIBLE | rl::RL_REUSE_ASSUME_VISIBLE_HERE;
   out.spatialNeighbours = s.spatialNeighbours;
-  out.neighboursLongHistory = std::min(s.neighboursLongHistory, s.spatialNeighbours);
-  out.longHistoryFrames = s.oldest() <= s.shortHistoryFrames
-                              ? rl::RL_INVALID
-                              : static_cast<uint32_t>(s.shortHistoryFrames);
+  out.agedNeighbours = std::min(s.agedNeighbours, s.spatialNeighbours);
+  out.youngFrames =
+      s.oldest() <= s.youngFrames ? rl::RL_INVALID : static_cast<uint32_t>(s.youngFrames);
   out.lightEdgeSamples = s.lightEdgeSamples;
   out.donorNoise = float(s.donorNoise);
   out.temporalReuse = s.temporal ? 1u : 0u;
@@ -153,11 +152,11 @@ std::string reuseReasonUnused(const std::string& name, const ParameterMap& param
       isOneOf(name, {"mis", "max_jacobian", "max_reflectance_ratio", "shading", "normal_threshold",
                      "plane_threshold"}))
     return "temporal is false and spatial_neighbours is 0";
-  if (name == "aged_neighbours" && s.neighboursLongHistory > neighbours)
+  if (name == "aged_neighbours" && s.agedNeighbours > neighbours)
     return "there are no more donors than spatial_neighbours says";
-  if (name == "aged_neighbours" && s.shortHistoryFrames >= s.oldest())
-    return fmt::format("young_frames is {:g}, and no history is older than {:g}",
-                       s.shortHistoryFrames, s.oldest());
+  if (name == "aged_neighbours" && s.youngFrames >= s.oldest())
+    return fmt::format("young_frames is {:g}, and no history is older than {:g}", s.youngFrames,
+                       s.oldest());
   if (name == "max_reflectance_ratio" && s.shading != "control_variate")
     return "shading is not control_variate";
   return "";

@@ -3,7 +3,7 @@
 #include "core/resampling/pairs.glsl"
 #include "core/reuse/reservoir_store.glsl"
 #include "core/reuse/reflectance_ratio.glsl"
-#include "core/reuse/neighbours.glsl"
+#include "core/reuse/spatial_neighbours.glsl"
 
 #define RL_REUSE_STATE SpatialMerge
 
@@ -39,7 +39,7 @@ RL_FN real reuseUniform(RL_IN(SpatialMerge) s, uint k) {
   return rngDraw(rng, RL_DIM_RIS_MERGE + k);
 }
 
-#include "core/resampling/reuse.glsl"
+#include "core/resampling/merge_loop.glsl"
 
 // Returns the merged reservoir; `estimate` is that of its integral.
 RL_FN RL_RESERVOIR spatialMerge(uint pixelIndex, RL_OUT(vec3) estimate) {
@@ -53,8 +53,10 @@ RL_FN RL_RESERVOIR spatialMerge(uint pixelIndex, RL_OUT(vec3) estimate) {
   uint winner;
   float jacobian;
   estimate = reuseMerge(s, spatialDonors(), gParams.reuse.spatialFlags, r.state, winner, jacobian);
-  if (winner != RL_INVALID) takeSampleNow(pairedNeighbour(pixelIndex, winner), r);
-  sampleFollow(r, jacobian);
+  if (winner != RL_INVALID) {
+    takeSampleNow(pairedNeighbour(pixelIndex, winner), r);
+    sampleAfterShift(r, jacobian);
+  }
   return r;
 }
 
@@ -62,7 +64,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint pixelIndex = pixelIndexOf(pixel);
   vec3 estimate;
   RL_RESERVOIR r = spatialMerge(pixelIndex, estimate);
-  vec3 radiance = recordVec3(RL_PAST_QUAD(gBuffers.unresampled, pixelIndex)) + estimate;
+  vec3 radiance = recordVec3(RL_EARLIER_UVEC4(gBuffers.unresampled, pixelIndex)) + estimate;
   if (!rlIsFinite3(radiance)) {
     // A NaN or Inf would spread by reuse. Reset the reservoir and count it.
     RL_HEALTH(RL_HEALTH_NONFINITE);
@@ -72,6 +74,6 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   reservoirWriteHistory(pixelIndex, r);
   if (min(radiance.x, min(radiance.y, radiance.z)) < 0.0f) RL_HEALTH(RL_HEALTH_NEGATIVE);
   gBuffers.radiance.data[pixelIndex] = radiance;
-  if (gParams.reuse.writesEffectiveSamples != 0u)
-    gBuffers.effectiveSamples.data[pixelIndex] = effectiveSamples(r.state.confidence);
+  if (gParams.reuse.writesRadianceFrames != 0u)
+    gBuffers.radianceFrames.data[pixelIndex] = radianceFrames(r.state.confidence);
 }

@@ -2,7 +2,7 @@
 // Neighbours are mutual, so that each shift serves the merges of both.
 #include "core/resampling/pairs.glsl"
 #include "core/reuse/reservoir_store.glsl"
-#include "core/reuse/neighbours.glsl"
+#include "core/reuse/spatial_neighbours.glsl"
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint pixelIndex = pixelIndexOf(pixel);

@@ -4,7 +4,7 @@
 RL_FN bool temporalIsStill() { return true; }
 
 RL_FN void temporalShift(RL_INOUT(TemporalMerge) t, RL_IN(RL_RESERVOIR) here,
-                         RL_IN(RL_RESERVOIR) donor, uint pixelIndex, uint before) {
+                         RL_IN(RL_RESERVOIR) donor, uint pixelIndex, uint previousPixel) {
   t.canonicalAtNeighbour = mergeUnshifted(here.state);
   t.neighbourAtCanonical = mergeUnshifted(donor.state);
   t.ratio = vec3(1.0f, 1.0f, 1.0f);

@@ -1,5 +1,5 @@
 // Temporal merge of a pixel's reservoir with one of the last frame. The includer has included the
-// shift over time before: core/reuse/temporal_shift.glsl or core/reuse/still_shift.glsl.
+// shift over time already: core/reuse/temporal_shift.glsl or core/reuse/still_shift.glsl.
 
 #define RL_REUSE_STATE TemporalMerge
 
@@ -16,18 +16,26 @@ RL_FN Shifted reuseNeighbourAtCanonical(RL_IN(TemporalMerge) t, uint k) {
 RL_FN real3 reuseRatio(RL_IN(TemporalMerge) t, uint k) { return t.ratio; }
 RL_FN real reuseUniform(RL_IN(TemporalMerge) t, uint k) { return t.u; }
 
-#include "core/resampling/reuse.glsl"
+#include "core/resampling/merge_loop.glsl"
 
-// Merges the reservoir that pixel `before` had in the last frame, with the share `kept` of its
-// confidence, into `here`. In a still view `before` is the pixel itself. Returns whether the
-// donor's sample was selected.
-RL_FN bool temporalMerge(uint pixelIndex, uint before, float kept, RL_INOUT(RL_RESERVOIR) here) {
+// In a still view both samples are of one pixel, with one target: MIS by confidence is exact, and
+// needs no shift of the canonical sample.
+RL_FN uint temporalMergeFlags(bool isStill) {
+  uint flags = gParams.reuse.temporalFlags;
+  return isStill ? flags & ~RL_REUSE_PAIRWISE : flags;
+}
+
+// Merges the reservoir that pixel `previousPixel` had in the last frame, with the share `kept` of
+// its confidence, into `here`. In a still view `previousPixel` is the pixel itself. Returns whether
+// the donor's sample was selected.
+RL_FN bool temporalMerge(uint pixelIndex, uint previousPixel, float kept,
+                         RL_INOUT(RL_RESERVOIR) here) {
   bool isStill = temporalIsStill();
   RL_RESERVOIR donor = here;
   if (isStill) {
-    donor.state = stateReadBefore(before);
+    donor.state = stateReadPrevious(previousPixel);
   } else {
-    reservoirReadBefore(before, donor);
+    reservoirReadPrevious(previousPixel, donor);
   }
   TemporalMerge t;
   t.donor = donor.state;
@@ -38,19 +46,17 @@ RL_FN bool temporalMerge(uint pixelIndex, uint before, float kept, RL_INOUT(RL_R
   Rng rng = rngInit(gFrame.seed, pixelIndex, gFrame.frame);
   rng.vertex = RL_VERTEX_TEMPORAL;
   t.u = rngDraw(rng, RL_DIM_RIS_MERGE);
-  uint flags = gParams.reuse.temporalFlags;
-  if (isStill) flags = flags & ~RL_REUSE_PAIRWISE;
-  temporalShift(t, here, donor, pixelIndex, before);
+  temporalShift(t, here, donor, pixelIndex, previousPixel);
   uint winner;
   float jacobian;
-  reuseMerge(t, 1u, flags, here.state, winner, jacobian);
+  reuseMerge(t, 1u, temporalMergeFlags(isStill), here.state, winner, jacobian);
   reservoirGuard(here.state);
   if (winner == RL_INVALID) return false;
   if (isStill) {
-    takeSampleBefore(before, here);
+    takeSamplePrevious(previousPixel, here);
   } else {
-    sampleTake(here, donor);
-    sampleFollow(here, jacobian);
+    sampleCopyPath(here, donor);
+    sampleAfterShift(here, jacobian);
   }
   return true;
 }

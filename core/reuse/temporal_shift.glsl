@@ -1,4 +1,5 @@
-// Shift over time in frames of a new view: two rays each way.
+// Shift over time in frames of a new view: each way up to two rays, to x1 and along the segment
+// that reconnects. The biased mode leaves out the second.
 #include "core/reuse/reflectance_ratio.glsl"
 
 RL_FN bool temporalIsStill() { return false; }
@@ -6,14 +7,15 @@ RL_FN bool temporalIsStill() { return false; }
 // Shifts the pixel's own sample to the donor's pixel in the last frame, then the donor's sample to
 // this pixel.
 RL_FN void temporalShift(RL_INOUT(TemporalMerge) t, RL_IN(RL_RESERVOIR) here,
-                         RL_IN(RL_RESERVOIR) donor, uint pixelIndex, uint before) {
+                         RL_IN(RL_RESERVOIR) donor, uint pixelIndex, uint previousPixel) {
   uint flags = gParams.reuse.temporalFlags;
   t.ratio = pixelReflectanceRatio(
-      visibleRead(gBuffers.visibleBefore, gFrame.previousCamera, before), pixelIndex);
+      gbufferRead(gBuffers.gbufferPrevious, gFrame.previousCamera, previousPixel), pixelIndex);
   RL_SHIFT shift =
-      shiftTo(here, pixelOfIndex(before), true, (flags & RL_REUSE_ASSUME_VISIBLE) != 0u);
+      shiftTo(here, pixelOfIndex(previousPixel), true, (flags & RL_REUSE_ASSUME_VISIBLE) != 0u);
   RL_RESERVOIR moved = here;
-  t.canonicalAtNeighbour = shift.shifted;
+  t.canonicalAtNeighbour = shift.shifted;  // set in the loop; compilers do not see that
+  // A loop, so that the kernel has one call of shiftTrace().
   for (uint i = 0u; i < 2u; i = i + 1u) {
     if (i == 1u) {
       t.canonicalAtNeighbour = shift.shifted;

@@ -38,7 +38,7 @@ struct Bsdf {
   float eta;          // index of refraction beyond the surface over that on the side of wo
 };
 
-const uint RL_BSDF_QUADS = 3u;  // per BSDF in a buffer (core/shading/bsdf/pack.glsl)
+const uint RL_BSDF_UVEC4S = 3u;  // per BSDF in a buffer (core/shading/bsdf/pack.glsl)
 
 struct BsdfSample {
   vec3 wi;              // world, unit

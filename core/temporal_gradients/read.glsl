@@ -5,15 +5,14 @@ RL_FN float changeWeightOfShare(RL_IN(ChangeParams) params, float change) {
   return max(1.0f - params.response * change, 0.0f);
 }
 // The share of a pixel's history that is kept in this frame.
-RL_FN float changeHistoryWeight(RL_IN(UintRef) changes, RL_IN(ChangeParams) params,
-                                uint pixelIndex) {
+RL_FN float changeHistoryKept(RL_IN(UintRef) changes, RL_IN(ChangeParams) params, uint pixelIndex) {
   if (params.every == 0u) return 1.0f;
   return changeWeightOfShare(params, uintBitsToFloat(changes.data[pixelIndex / params.every]));
 }
 // Share that is kept of a history of surfaces out of view: by the mean change over the image, at
 // RL_CHANGE_PLACES places.
-RL_FN float changeHistoryWeightOutOfView(RL_IN(UintRef) changes, RL_IN(ChangeParams) params,
-                                         RL_IN(Rng) rng) {
+RL_FN float changeHistoryKeptOutOfView(RL_IN(UintRef) changes, RL_IN(ChangeParams) params,
+                                       RL_IN(Rng) rng) {
   if (params.every == 0u) return 1.0f;
   uint groups = (gFrame.width * gFrame.height + params.every - 1u) / params.every;
   uint first = rngBits(rng, RL_DIM_DONOR_U) % groups;

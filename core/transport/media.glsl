@@ -13,7 +13,7 @@ RL_FN uvec4 mediaNone() { return uvec4(0u, 0u, 0u, 0u); }
 // Absorption (m^-1) and index of refraction of the body of a rank; 0: air.
 RL_FN vec4 mediaOfRank(uint rank) {
   if (rank == 0u) return vec4(0.0f, 0.0f, 0.0f, 1.0f);
-  return recordVec4(RL_SCENE_QUAD(gScene.bodies, rank));
+  return recordVec4(RL_SCENE_UVEC4(gScene.bodies, rank));
 }
 
 RL_FN bool mediaContains(RL_IN(uvec4) media, uint rank) {

@@ -49,10 +49,10 @@ void recordAccumulate(FrameGraph& g, const FrameInfo& f) {
   const FrameBuffers& s = g.shared;
   const Buffer shown = g.buffer("accumulated", f.pixels, sizeof(glm::vec3));
   const History history = g.advance(g.history("accumulate_history", f.pixels, 16));
-  g.kernels<rl::AccumulateBuffers>(params, {s.radiance, s.surfaces.now, s.surfaces.before,
-                                            s.changes, shown, history.now, history.before})
+  g.kernels<rl::AccumulateBuffers>(params, {s.radiance, s.surfaces.now, s.surfaces.previous,
+                                            s.changes, shown, history.now, history.previous})
       .pass("accumulate", "accumulate")
-      .reads({s.radiance, s.surfaces.now, s.surfaces.before, s.changes, history.before})
+      .reads({s.radiance, s.surfaces.now, s.surfaces.previous, s.changes, history.previous})
       .writes({shown, history.now});
   g.shared.shown = shown;
 }

@@ -8,7 +8,7 @@
 //
 // In a still view a pixel's history is its own: the average is unbiased, because its weights depend
 // on the frame's number alone. In a moving view the history is read at the pixel (or between the
-// four pixels) that showed the same surface, if the centres of both pass visibleMatch(); otherwise
+// four pixels) that showed the same surface, if the centres of both pass gbufferMatch(); otherwise
 // the history is reset. Radiance that changes with the direction of the view, and pixels that show
 // more than one surface, then lag behind: biased.
 
@@ -20,7 +20,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   bool isBetween = (gParams.flags & RL_ACCUMULATE_BILINEAR) != 0u;
   Average history =
       averageOfBefore(gBuffers.historyBefore, pixelIndex, gParams.similarity, isBetween);
-  history.frames *= changeHistoryWeight(gBuffers.changes, gParams.changes, pixelIndex);
+  history.frames *= changeHistoryKept(gBuffers.changes, gParams.changes, pixelIndex);
   if (!(history.frames > 0.0f)) RL_HEALTH(RL_HEALTH_NEW_HISTORY);
   vec3 radiance = gBuffers.radiance.data[pixelIndex];
   if (rlIsFinite3(radiance)) {

@@ -14,12 +14,12 @@ const uint RL_ACCUMULATE_BILINEAR = 1u;  // flag: the history is read between pi
 
 struct AccumulateBuffers {
   Vec3Ref radiance;  // radiance of this frame
-  QuadRef visible;   // core/gbuffer/visible.h
-  QuadRef visibleBefore;
+  Uvec4Ref gbuffer;  // core/gbuffer/gbuffer.h
+  Uvec4Ref gbufferPrevious;
   UintRef changes;      // core/temporal_gradients
   Vec3Ref accumulated;  // the output
-  QuadRef history;      // Average
-  QuadRef historyBefore;
+  Uvec4Ref history;     // Average
+  Uvec4Ref historyBefore;
 };
 
 struct AccumulateParams {

@@ -11,10 +11,10 @@ RL_NAMESPACE_BEGIN
 
 struct AtrousBuffers {
   Vec3Ref radiance;
-  QuadRef guide;
+  Uvec4Ref guide;
   Vec3Ref shown;
-  QuadRef even;  // Filtered, a quad each: read by iterations 0, 2, ... and written by the others
-  QuadRef odd;
+  Uvec4Ref even;  // Filtered, a uvec4 each: read by iterations 0, 2, ... and written by the others
+  Uvec4Ref odd;
   Vec2Ref around;
 };
 

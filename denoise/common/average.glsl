@@ -2,7 +2,7 @@
 // centre. Centres do not depend on film samples, so that a pixel at an edge averages both of its
 // sides, as the pixel filter does.
 //
-// The includer has gBuffers.visible and .visibleBefore.
+// The includer has gBuffers.gbuffer and .gbufferPrevious.
 #include "denoise/common/between.glsl"
 
 RL_FN Average averageOfNone() {
@@ -11,19 +11,19 @@ RL_FN Average averageOfNone() {
   a.frames = 0.0f;
   return a;
 }
-RL_FN Average averageRead(RL_IN(QuadRef) quads, uint pixelIndex) {
-  uvec4 q = RL_PAST_QUAD(quads, pixelIndex);
+RL_FN Average averageRead(RL_IN(Uvec4Ref) words, uint pixelIndex) {
+  uvec4 q = RL_EARLIER_UVEC4(words, pixelIndex);
   Average a;
   a.mean = recordVec3(q);
   a.frames = uintBitsToFloat(q.w);
   return a;
 }
-RL_FN void averageWrite(RL_IN(QuadRef) quads, uint pixelIndex, RL_IN(Average) a) {
-  RL_WRITE_QUAD(quads, pixelIndex, recordQuad(a.mean, floatBitsToUint(a.frames)));
+RL_FN void averageWrite(RL_IN(Uvec4Ref) words, uint pixelIndex, RL_IN(Average) a) {
+  RL_WRITE_UVEC4(words, pixelIndex, recordUvec4(a.mean, floatBitsToUint(a.frames)));
 }
 
 // Adds the average of a pixel of the last frame, if it showed the surface.
-RL_FN void averageGather(RL_IN(QuadRef) before, RL_IN(GBufferTexel) here, RL_IN(vec3) nGeoW,
+RL_FN void averageGather(RL_IN(Uvec4Ref) before, RL_IN(GBufferTexel) here, RL_IN(vec3) nGeoW,
                          float distanceToCamera, RL_IN(SimilarityThresholds) test,
                          RL_IN(ivec2) pixel, float weight, RL_INOUT(Average) sum,
                          RL_INOUT(float) weights) {
@@ -31,8 +31,8 @@ RL_FN void averageGather(RL_IN(QuadRef) before, RL_IN(GBufferTexel) here, RL_IN(
       pixel.y >= int(gFrame.height))
     return;
   uint pixelIndex = uint(pixel.y) * gFrame.width + uint(pixel.x);
-  GBufferTexel there = visibleRead(gBuffers.visibleBefore, gFrame.previousCamera, pixelIndex);
-  if (!visibleMatchOf(here, nGeoW, there, distanceToCamera, test)) return;
+  GBufferTexel there = gbufferRead(gBuffers.gbufferPrevious, gFrame.previousCamera, pixelIndex);
+  if (!gbufferMatchOf(here, nGeoW, there, distanceToCamera, test)) return;
   Average a = averageRead(before, pixelIndex);
   // Skip pixels that were never finite: having no average is not the same as a black one.
   if (!(a.frames > 0.0f)) return;
@@ -43,12 +43,12 @@ RL_FN void averageGather(RL_IN(QuadRef) before, RL_IN(GBufferTexel) here, RL_IN(
 
 // Returns the last frame's average of the surface that the pixel shows, read between four pixels or
 // from the nearest one; zero frames if there is none.
-RL_FN Average averageReprojected(RL_IN(QuadRef) before, uint pixelIndex,
+RL_FN Average averageReprojected(RL_IN(Uvec4Ref) before, uint pixelIndex,
                                  RL_IN(SimilarityThresholds) test, bool isBetween) {
   Average sum = averageOfNone();
-  GBufferTexel here = visibleRead(gBuffers.visible, gFrame.camera, pixelIndex);
+  GBufferTexel here = gbufferRead(gBuffers.gbuffer, gFrame.camera, pixelIndex);
   vec2 film;
-  if (!visibleFilmBefore(here, film)) return sum;
+  if (!filmPointPrevious(here, film)) return sum;
   vec3 nGeoW = unpackNormal(here.nGeoW);
   float distanceToCamera = distance(gFrame.camera.posW, here.posW);
   float x = floor(film.x - 0.5f);
@@ -77,7 +77,7 @@ RL_FN Average averageReprojected(RL_IN(QuadRef) before, uint pixelIndex,
 }
 
 // Returns the average of the pixel itself in a still view, the reprojected one in a new view.
-RL_FN Average averageOfBefore(RL_IN(QuadRef) before, uint pixelIndex,
+RL_FN Average averageOfBefore(RL_IN(Uvec4Ref) before, uint pixelIndex,
                               RL_IN(SimilarityThresholds) test, bool isBetween) {
   if (gFrame.stillFrames != 0u) return averageRead(before, pixelIndex);
   if (gFrame.frame == 0u) return averageOfNone();

@@ -5,11 +5,11 @@
 #ifdef __cplusplus
 #include "core/dialect/types.h"
 #endif
-#include "core/gbuffer/visible.h"
+#include "core/gbuffer/gbuffer.h"
 
 RL_NAMESPACE_BEGIN
 
-// Layout in a buffer: one quad.
+// Layout in a buffer: one uvec4.
 struct Average {
   vec3 mean;
   float frames;  // number of frames in the mean, capped; no whole number if read between pixels

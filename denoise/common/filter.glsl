@@ -1,15 +1,15 @@
 // Radiance over reflectance, which changes slowly over a surface, and edge weights. Includers have
 // gBuffers.guide.
 
-RL_FN Filtered filterRead(RL_IN(QuadRef) quads, uint pixelIndex) {
-  uvec4 q = RL_PAST_QUAD(quads, pixelIndex);
+RL_FN Filtered filterRead(RL_IN(Uvec4Ref) words, uint pixelIndex) {
+  uvec4 q = RL_EARLIER_UVEC4(words, pixelIndex);
   Filtered f;
   f.light = recordVec3(q);
   f.reflectance = uintBitsToFloat(q.w);
   return f;
 }
-RL_FN void filterWrite(RL_IN(QuadRef) quads, uint pixelIndex, RL_IN(Filtered) f) {
-  RL_WRITE_QUAD(quads, pixelIndex, recordQuad(f.light, floatBitsToUint(f.reflectance)));
+RL_FN void filterWrite(RL_IN(Uvec4Ref) words, uint pixelIndex, RL_IN(Filtered) f) {
+  RL_WRITE_UVEC4(words, pixelIndex, recordUvec4(f.light, floatBitsToUint(f.reflectance)));
 }
 
 // Divides this frame's radiance by the reflectance. Values that are not finite are counted and
@@ -43,7 +43,7 @@ RL_FN FilterSurface filterSurface(RL_IN(Guide) g, RL_IN(FilterEdges) edges) {
   s.perNormal = 1.0f / edges.normal;
   return s;
 }
-// Weight of a pixel at an offset in pixels, by its guide's first quad: 0 beyond an edge, and for
+// Weight of a pixel at an offset in pixels, by its guide's first uvec4: 0 beyond an edge, and for
 // lights and background, which no filter reads.
 RL_FN float filterEdge(RL_IN(FilterSurface) here, RL_IN(vec4) there, float dx, float dy) {
   if (guideIsLight(there)) return 0.0f;

@@ -11,7 +11,7 @@ RL_NAMESPACE_BEGIN
 
 struct FireflyBuffers {
   Vec3Ref radiance;
-  QuadRef guide;
+  Uvec4Ref guide;
   Vec3Ref shown;
 };
 

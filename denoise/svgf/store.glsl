@@ -18,10 +18,10 @@ RL_FN SvgfHistory svgfNoHistory() {
   h.last = 0.0f;
   return h;
 }
-RL_FN SvgfHistory svgfHistoryRead(RL_IN(QuadRef) quads, uint pixelIndex) {
-  vec4 q0 = recordVec4(RL_PAST_QUAD(quads, pixelIndex * RL_SVGF_HISTORY_QUADS));
-  vec4 q1 = recordVec4(RL_PAST_QUAD(quads, pixelIndex * RL_SVGF_HISTORY_QUADS + 1u));
-  vec4 q2 = recordVec4(RL_PAST_QUAD(quads, pixelIndex * RL_SVGF_HISTORY_QUADS + 2u));
+RL_FN SvgfHistory svgfHistoryRead(RL_IN(Uvec4Ref) words, uint pixelIndex) {
+  vec4 q0 = recordVec4(RL_EARLIER_UVEC4(words, pixelIndex * RL_SVGF_HISTORY_UVEC4S));
+  vec4 q1 = recordVec4(RL_EARLIER_UVEC4(words, pixelIndex * RL_SVGF_HISTORY_UVEC4S + 1u));
+  vec4 q2 = recordVec4(RL_EARLIER_UVEC4(words, pixelIndex * RL_SVGF_HISTORY_UVEC4S + 2u));
   SvgfHistory h;
   h.reflectance = vec3(q2.x, q2.y, q2.z);
   h.light = vec3(q0.x, q0.y, q0.z);
@@ -32,17 +32,17 @@ RL_FN SvgfHistory svgfHistoryRead(RL_IN(QuadRef) quads, uint pixelIndex) {
   h.last = q1.w;
   return h;
 }
-RL_FN void svgfHistoryWriteLight(RL_IN(QuadRef) quads, uint pixelIndex, RL_IN(vec3) light,
+RL_FN void svgfHistoryWriteLight(RL_IN(Uvec4Ref) words, uint pixelIndex, RL_IN(vec3) light,
                                  float frames) {
-  RL_WRITE_QUAD(quads, pixelIndex * RL_SVGF_HISTORY_QUADS,
-                recordQuad(light, floatBitsToUint(frames)));
+  RL_WRITE_UVEC4(words, pixelIndex * RL_SVGF_HISTORY_UVEC4S,
+                 recordUvec4(light, floatBitsToUint(frames)));
 }
-RL_FN void svgfHistoryWrite(RL_IN(QuadRef) quads, uint pixelIndex, RL_IN(SvgfHistory) h) {
-  svgfHistoryWriteLight(quads, pixelIndex, h.light, h.frames);
-  RL_WRITE_QUAD(quads, pixelIndex * RL_SVGF_HISTORY_QUADS + 1u,
-                uvec4(floatBitsToUint(h.mean), floatBitsToUint(h.spread), floatBitsToUint(h.step),
-                      floatBitsToUint(h.last)));
-  RL_WRITE_QUAD(quads, pixelIndex * RL_SVGF_HISTORY_QUADS + 2u, recordQuad(h.reflectance, 0u));
+RL_FN void svgfHistoryWrite(RL_IN(Uvec4Ref) words, uint pixelIndex, RL_IN(SvgfHistory) h) {
+  svgfHistoryWriteLight(words, pixelIndex, h.light, h.frames);
+  RL_WRITE_UVEC4(words, pixelIndex * RL_SVGF_HISTORY_UVEC4S + 1u,
+                 uvec4(floatBitsToUint(h.mean), floatBitsToUint(h.spread), floatBitsToUint(h.step),
+                       floatBitsToUint(h.last)));
+  RL_WRITE_UVEC4(words, pixelIndex * RL_SVGF_HISTORY_UVEC4S + 2u, recordUvec4(h.reflectance, 0u));
 }
 
 // Reduces a number of frames by the turn of the view: a glossy lobe sends other light to another
@@ -56,6 +56,6 @@ RL_FN float svgfInView(float frames, uint pixelIndex) {
 RL_FN float svgfEffectiveHistoryLength(uint pixelIndex, float frames) {
   if (!svgfHas(RL_SVGF_CONFIDENCE)) return 1.0f;
   float averaged = gFrame.radianceFrames;
-  if (svgfHas(RL_SVGF_EFFECTIVE)) averaged = gBuffers.effectiveSamples.data[pixelIndex];
+  if (svgfHas(RL_SVGF_EFFECTIVE)) averaged = gBuffers.radianceFrames.data[pixelIndex];
   return clamp(averaged, 1.0f, max(frames, 1.0f));
 }

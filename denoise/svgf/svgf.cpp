@@ -59,7 +59,7 @@ const Schema<SvgfSettings>& schema() {
           "their centres; 0: it averages none",
           "measured: docs/denoising.md (temporal antialiasing: Schied et al. 2017, section 4)")
           .beginsHistory()
-          .needs("visible")};
+          .needs("gbuffer")};
   return all;
 }
 
@@ -93,29 +93,29 @@ rl::SvgfParams packed(const ParameterMap& parameters) {
 void recordSvgf(FrameGraph& g, const FrameInfo& f) {
   rl::SvgfParams params = packed(f.parameters);
   const FrameBuffers& s = g.shared;
-  if (s.effectiveSamples) params.flags |= rl::RL_SVGF_EFFECTIVE;
+  if (s.radianceFrames) params.flags |= rl::RL_SVGF_EFFECTIVE;
   const Buffer features = s.features.now;
   const Buffer shown = g.buffer("svgf_shown", f.pixels, sizeof(glm::vec3));
   const Buffer even = g.buffer("svgf_even", f.pixels, 16);
   const Buffer odd = g.buffer("svgf_odd", f.pixels, 16);
   const Buffer around = g.buffer("svgf_around", f.pixels, sizeof(glm::vec2));
   const History history =
-      g.advance(g.history("svgf_history", f.pixels, 16 * rl::RL_SVGF_HISTORY_QUADS));
+      g.advance(g.history("svgf_history", f.pixels, 16 * rl::RL_SVGF_HISTORY_UVEC4S));
   const History resolved = g.advance(g.history("svgf_resolved", f.pixels, 16));
   const auto kernels = [&] {
     return g.kernels<rl::SvgfBuffers>(
-        params, {s.radiance, features, s.features.before, s.motion, s.effectiveSamples, s.changes,
-                 s.surfaces.now, s.surfaces.before, shown, even, odd, around, history.now,
-                 history.before, resolved.now, resolved.before});
+        params, {s.radiance, features, s.features.previous, s.motion, s.radianceFrames, s.changes,
+                 s.surfaces.now, s.surfaces.previous, shown, even, odd, around, history.now,
+                 history.previous, resolved.now, resolved.previous});
   };
   kernels()
       .pass("svgf_temporal", "svgf_temporal")
-      .reads({s.radiance, features, s.features.before, s.motion, s.effectiveSamples, s.changes,
-              history.before})
+      .reads({s.radiance, features, s.features.previous, s.motion, s.radianceFrames, s.changes,
+              history.previous})
       .writes({history.now});
   kernels()
       .pass("svgf_variance", "svgf_variance")
-      .reads({history.now, features, s.effectiveSamples})
+      .reads({history.now, features, s.radianceFrames})
       .writes({around, even});
   for (params.step = 0; params.step < params.iterations; ++params.step) {
     const bool isEven = params.step % 2 == 0;
@@ -129,7 +129,7 @@ void recordSvgf(FrameGraph& g, const FrameInfo& f) {
   kernels()
       .pass("svgf_end", "svgf_end")
       .reads({params.iterations % 2 == 0 ? even : odd, features, s.motion, s.changes,
-              s.surfaces.now, s.surfaces.before, resolved.before})
+              s.surfaces.now, s.surfaces.previous, resolved.previous})
       .writes({shown, resolved.now});
   g.shared.shown = shown;
 }
@@ -151,7 +151,7 @@ DenoiserInfo makeSvgf(const SvgfDefaults& defaults) {
   i.needsFeatures = true;
   i.followsChanges = true;
   i.record = recordSvgf;
-  i.readsEffectiveSamples = true;
+  i.readsRadianceFrames = true;
   i.hasHistory = true;
   i.shownFrames = [](const ParameterMap& p, double radianceFrames) {
     return radianceFrames + schema().read(p).cap;

@@ -16,9 +16,9 @@ const uint RL_SVGF_FEEDBACK = 1u;     // the history keeps the result of the fir
 const uint RL_SVGF_CONFIDENCE = 2u;   // do not average frames that the radiance averages itself
 const uint RL_SVGF_DIFFERENCES = 4u;  // variance by differences of frames that share samples
 const uint RL_SVGF_SPACE = 8u;        // variance over neighbours alone
-const uint RL_SVGF_EFFECTIVE = 16u;   // SvgfBuffers::effectiveSamples is there
+const uint RL_SVGF_EFFECTIVE = 16u;   // SvgfBuffers::radianceFrames is there
 
-// History of a pixel: three quads.
+// History of a pixel: three uvec4s.
 struct SvgfHistory {
   vec3 light;    // mean radiance over mean reflectance of the frames
   float frames;  // number of frames in the means, capped; no whole number if read between pixels
@@ -28,25 +28,25 @@ struct SvgfHistory {
   float step;    // mean of the squared difference of one frame's luminance and the next one's
   float last;    // the last frame's luminance
 };
-const uint RL_SVGF_HISTORY_QUADS = 3u;
+const uint RL_SVGF_HISTORY_UVEC4S = 3u;
 
 struct SvgfBuffers {
   Vec3Ref radiance;
-  QuadRef guide;
-  QuadRef guideBefore;
-  QuadRef motion;
-  FloatRef effectiveSamples;  // of the radiance; null where all pixels have gFrame.radianceFrames
-  UintRef changes;            // core/temporal_gradients
-  QuadRef visible;            // null where resolveCap is 0
-  QuadRef visibleBefore;
+  Uvec4Ref guide;
+  Uvec4Ref guideBefore;
+  Uvec4Ref motion;
+  FloatRef radianceFrames;  // of the radiance; null where all pixels have gFrame.radianceFrames
+  UintRef changes;          // core/temporal_gradients
+  Uvec4Ref gbuffer;         // null where resolveCap is 0
+  Uvec4Ref gbufferPrevious;
   Vec3Ref shown;
-  QuadRef even;  // Filtered, a quad each: read by iterations 0, 2, ... and written by the others
-  QuadRef odd;
+  Uvec4Ref even;  // Filtered, a uvec4 each: read by iterations 0, 2, ... and written by the others
+  Uvec4Ref odd;
   Vec2Ref around;
-  QuadRef history;
-  QuadRef historyBefore;
-  QuadRef resolved;  // Average of the output
-  QuadRef resolvedBefore;
+  Uvec4Ref history;
+  Uvec4Ref historyBefore;
+  Uvec4Ref resolved;  // Average of the output
+  Uvec4Ref resolvedBefore;
 };
 
 struct SvgfParams {

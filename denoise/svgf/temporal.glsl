@@ -93,7 +93,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     h = svgfReprojected(pixel, guide);
     h.frames = svgfInView(h.frames, pixelIndex);
   }
-  h.frames *= changeHistoryWeight(gBuffers.changes, gParams.changes, pixelIndex);
+  h.frames *= changeHistoryKept(gBuffers.changes, gParams.changes, pixelIndex);
   if (!(h.frames > 0.0f)) RL_HEALTH(RL_HEALTH_NEW_HISTORY);
   if (now.reflectance > 0.0f) {
     float luminance = rlLuminance(now.light);

@@ -73,7 +73,7 @@ double rayRate(Backend& backend, const PassRun& pass, const std::vector<rl::Ray>
 rl::FrameData streamFrame() { return frameOf(size_t{1} << 20); }
 size_t streamBytes() {
   const rl::FrameData frame = streamFrame();
-  return size_t{frame.width} * frame.height * rl::RL_STREAM_QUADS * 16;
+  return size_t{frame.width} * frame.height * rl::RL_STREAM_UVEC4S * 16;
 }
 
 PassRun streamPass(Backend& backend) {

@@ -73,7 +73,7 @@ MeasuredFrames measure(const PreparedScene& prepared, const SessionConfig& confi
 std::string nameOf(const FrameGraph& graph, Buffer buffer) {
   const std::string& name = graph.buffers()[buffer.index].name;
   if (graph.find(name) == buffer) return name;
-  const std::string end = "_before";
+  const std::string end = "_previous";
   return name.ends_with(end) ? name.substr(0, name.size() - end.size()) : name + end;
 }
 
@@ -199,7 +199,7 @@ GraphDrawing drawingOf(const MeasuredFrames& frames, const std::string& title) {
       isWritten = isWritten || use != GraphDrawing::Use::read;
     }
     buffer.isForNextFrame =
-        isWritten && (buffer.isFromLastFrame || lanes.contains(name + "_before"));
+        isWritten && (buffer.isFromLastFrame || lanes.contains(name + "_previous"));
   }
   return drawing;
 }

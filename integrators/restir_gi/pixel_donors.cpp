@@ -8,7 +8,7 @@
 #include "core/backend/embree.h"
 #include "core/reuse/passes.h"
 #include "core/scene/compiled/compiled_scene.h"
-#include "integrators/restir_gi/kept_params.h"
+#include "integrators/restir_gi/snapshot_params.h"
 #include "integrators/restir_gi/restir_gi.h"
 
 // Functions that a kernel hands to the reuse loop have one signature: some ignore a parameter.
@@ -87,32 +87,31 @@ template <uint FEATURES>
 struct Ctx {
 #include "integrators/restir_gi/pixel_context.inl"
 #include "integrators/restir_gi/initial.glsl"
-#include "core/gbuffer/visible_trace.glsl"
+#include "core/gbuffer/gbuffer_trace.glsl"
 
   // Traces the surface again: later passes have used the memory of the last frame's.
-  GBufferTexel visibleBefore(uint pixelIndex) {
+  GBufferTexel gbufferPrevious(uint pixelIndex) {
     float distanceToCamera;
-    return visibleTrace(gFrame.previousCamera, pixelIndex, distanceToCamera);
+    return gbufferTrace(gFrame.previousCamera, pixelIndex, distanceToCamera);
   }
 
 #include "core/resampling/reproject.glsl"
 
-  PathReservoir found(uvec2 pixel) {
-    vec3 unresampled, inView;
-    PathReservoir r = sampleInitial(pixel, cameraFilmBits(pixel), unresampled, inView);
+  PathReservoir retraceInitialCandidate(uvec2 pixel) {
+    vec3 specularLight, visibleEmission;
+    PathReservoir r = sampleInitial(pixel, cameraFilmBits(pixel), specularLight, visibleEmission);
     reservoirGuard(r.state);
     return r;
   }
 
-  // Resampling weight of the pixel's own sample, against a donor of the pixel `before`.
-  real ownWeight(const PathReservoir& own, uint before, real cDonor) {
+  // Resampling weight of the pixel's own sample, against a donor of `previousPixel`.
+  real ownWeight(const PathReservoir& own, uint previousPixel, real cDonor) {
     const bool isStill = gFrame.stillFrames != 0u;
-    const uint flags =
-        isStill ? gParams.reuse.temporalFlags & ~RL_REUSE_PAIRWISE : gParams.reuse.temporalFlags;
+    const uint flags = temporalMergeFlags(isStill);
     MergeState merge = mergeBegin(own.state, cDonor, flags);
     if (!isStill) {
       const bool assumesVisible = (flags & RL_REUSE_ASSUME_VISIBLE) != 0u;
-      PathShift shift = shiftTo(own, pixelOfIndex(before), true, assumesVisible);
+      PathShift shift = shiftTo(own, pixelOfIndex(previousPixel), true, assumesVisible);
       shiftTrace(shift, own);
       mergeWeighCanonical(merge, own.state, cDonor, shift.shifted, flags);
     }
@@ -126,17 +125,17 @@ struct Ctx {
     const uint pixelIndex = pixelIndexOf(pixel);
     if (gParams.reuse.temporalReuse == 0u || gFrame.frame == 0u) return {};
     const bool isStill = gFrame.stillFrames != 0u;
-    const uint before =
+    const uint previousPixel =
         isStill ? pixelIndex
         : gParams.reuse.reproject != 0u
-            ? reprojectedPixelIndex(visibleRead(gBuffers.visible, gFrame.camera, pixelIndex))
+            ? reprojectedPixelIndex(gbufferRead(gBuffers.gbuffer, gFrame.camera, pixelIndex))
             : RL_INVALID;
     restlab::Donor donor;
     donor.reuse = "time";
-    donor.id = before;
+    donor.id = previousPixel;
     // The pixel's sample of this frame has confidence 1: without more, nothing was merged.
     donor.confidence = confidence - 1.0f;
-    if (before == RL_INVALID || !(donor.confidence > kRoundingOfConfidence)) return {};
+    if (previousPixel == RL_INVALID || !(donor.confidence > kRoundingOfConfidence)) return {};
     const PathReservoir merged = reservoirOf(pixelIndex);
     const real wSum = merged.state.W * reuseTarget(merged.state.F);
     const uint film = cameraFilmBits(pixel);
@@ -145,7 +144,8 @@ struct Ctx {
     // Share of the donor: the part of the weights that is not the pixel's own. Unknown if paths end
     // in cells, which have changed since.
     if (isLast && wSum > 0.0f && gParams.cells.count == 0u) {
-      const real own = ownWeight(found(pixel), before, real(donor.confidence));
+      const real own =
+          ownWeight(retraceInitialCandidate(pixel), previousPixel, real(donor.confidence));
       donor.share = clamp(1.0f - own / wSum, 0.0f, 1.0f);
     }
     // In a still view both samples are of one pixel: the shift is the identity. Otherwise the shift
@@ -171,22 +171,9 @@ struct Ctx {
   Donors ofEntries(uvec2 pixel) {
     const uint flags = gParams.reuse.spatialFlags, count = gParams.entries.proposals;
     CacheMerge s;
-    s.pixelIndex = pixelIndexOf(pixel);
-    if (gFrame.stillFrames != 0u || gParams.reuse.temporalReuse == 0u ||
-        !(historyWeight(s.pixelIndex) > 0.0f))
-      return {};
-    bool isAsked = false;
-    for (uint k = 0; k < count; ++k) {
-      s.id[k] = gBuffers.proposals.data[s.pixelIndex * count + k];
-      if (s.id[k] == RL_INVALID) continue;
-      const ShadingPoint shadingPoint = shadingPointRead(gBuffers.shadingPoints, s.id[k]);
-      if (shadingPoint.surface.isHit == 0u || shadingPoint.sourcePixel == s.pixelIndex)
-        s.id[k] = RL_INVALID;
-      isAsked = isAsked || s.id[k] != RL_INVALID;
-    }
-    if (!isAsked) return {};
-    const PathReservoir now = reservoirOf(s.pixelIndex);
-    s.rng = rngInit(gFrame.seed, s.pixelIndex, gFrame.frame);
+    if (gFrame.stillFrames != 0u || !findEntries(s, pixelIndexOf(pixel), count)) return {};
+    const PathReservoir now = reservoirOf(s.owner);
+    s.rng = rngInit(gFrame.seed, s.owner, gFrame.frame);
     s.rng.vertex = RL_VERTEX_CACHE_REUSE;
     const uint film = rngBits(s.rng, RL_DIM_FILTER_X);
     shiftEntries(s, now, pixel, film, count);
@@ -201,12 +188,12 @@ struct Ctx {
     size_t winner = 0;
     for (uint k = 0; k < count; ++k) {
       if (!reuseDonor(s, k, donor)) continue;
-      all.push_back(asDonor("entry", s.id[k], donor, s.neighbourAtCanonical[k], merge, flags));
+      all.push_back(asDonor("entry", s.donorId[k], donor, s.neighbourAtCanonical[k], merge, flags));
       restlab::Donor& one = all.back();
       if (one.share) one.share = misDivide(real(*one.share), wSum);
       if (!one.jacobian) {
         PathReservoir r = now;
-        entryReservoirRead(s.id[k], r);
+        entryReservoirRead(s.donorId[k], r);
         one.shift = failedTest(r, pixel, film);
       }
       // Select the donor whose integrand is the pixel's, up to rounding.
@@ -223,14 +210,14 @@ struct Ctx {
 }  // namespace of_entries
 
 template <uint FEATURES>
-Donors donorsOf(const restlab::FrameSnapshot& kept, const ReuseBuffers& buffers,
+Donors donorsOf(const restlab::FrameSnapshot& snapshot, const ReuseBuffers& buffers,
                 const RestirGiParams& params, uvec2 pixel) {
   CpuKernelCounters counters;
-  const SceneData& scene = kept.scene->data();
-  const auto rays = static_cast<RTCScene>(kept.scene->embreeScene());
-  over_space::Ctx<FEATURES> space{scene, *kept.frame, counters, rays, buffers, params};
-  over_time::Ctx<FEATURES> time{scene, *kept.frame, counters, rays, buffers, params};
-  of_entries::Ctx<FEATURES> entries{scene, *kept.frame, counters, rays, buffers, params};
+  const SceneData& scene = snapshot.scene->data();
+  const auto rays = static_cast<RTCScene>(snapshot.scene->embreeScene());
+  over_space::Ctx<FEATURES> space{scene, *snapshot.frame, counters, rays, buffers, params};
+  over_time::Ctx<FEATURES> time{scene, *snapshot.frame, counters, rays, buffers, params};
+  of_entries::Ctx<FEATURES> entries{scene, *snapshot.frame, counters, rays, buffers, params};
   Donors all = space.overSpace(pixel), ofEntries;
   if (params.entries.count != 0u) ofEntries = entries.ofEntries(pixel);
   double confidence = all.front().confidence;
@@ -251,8 +238,8 @@ namespace {
 
 // Binds a buffer. Kernels only read it, so a copy that nobody writes to may be bound.
 template <typename Ref>
-void bindCopy(const FrameSnapshot& kept, const std::string& name, Ref& ref) {
-  const std::span<const uint32_t> words = kept.words(name);
+void bindCopy(const FrameSnapshot& snapshot, const std::string& name, Ref& ref) {
+  const std::span<const uint32_t> words = snapshot.words(name);
   ref.data = words.empty()
                  ? nullptr
                  : reinterpret_cast<decltype(ref.data)>(const_cast<uint32_t*>(words.data()));
@@ -260,27 +247,28 @@ void bindCopy(const FrameSnapshot& kept, const std::string& name, Ref& ref) {
 
 }  // namespace
 
-std::vector<Donor> giDonorsOf(const FrameSnapshot& kept, size_t pixel) {
-  if (kept.frame == nullptr || kept.scene == nullptr) return {};
+std::vector<Donor> giDonorsOf(const FrameSnapshot& snapshot, size_t pixel) {
+  if (snapshot.frame == nullptr || snapshot.scene == nullptr) return {};
   rl::ReuseBuffers buffers{};
-  bindCopy(kept, "visible", buffers.visible);
-  bindCopy(kept, "proposals", buffers.proposals);
-  bindCopy(kept, "shading_points", buffers.shadingPoints);
-  bindCopy(kept, "changes", buffers.changes);
-  bindCopy(kept, "reservoirs", buffers.reservoirs);
-  bindCopy(kept, "path_suffixes", buffers.suffixes);
-  bindCopy(kept, pairedShiftsName(0), buffers.pairedShifts0);
-  bindCopy(kept, pairedShiftsName(1), buffers.pairedShifts1);
-  bindCopy(kept, pairedShiftsName(2), buffers.pairedShifts2);
-  bindCopy(kept, pairedShiftsName(3), buffers.pairedShifts3);
-  bindCopy(kept, "entry_reservoirs", buffers.entryReservoirs);
-  bindCopy(kept, "entry_suffixes", buffers.entrySuffixes);
-  const rl::uvec2 at(pixel % kept.frame->width, pixel / kept.frame->width);
+  bindCopy(snapshot, "gbuffer", buffers.gbuffer);
+  bindCopy(snapshot, "proposals", buffers.proposals);
+  bindCopy(snapshot, "shading_points", buffers.shadingPoints);
+  bindCopy(snapshot, "changes", buffers.changes);
+  bindCopy(snapshot, "reservoirs", buffers.reservoirs);
+  bindCopy(snapshot, "path_suffixes", buffers.suffixes);
+  bindCopy(snapshot, pairedShiftsName(0), buffers.pairedShifts0);
+  bindCopy(snapshot, pairedShiftsName(1), buffers.pairedShifts1);
+  bindCopy(snapshot, pairedShiftsName(2), buffers.pairedShifts2);
+  bindCopy(snapshot, pairedShiftsName(3), buffers.pairedShifts3);
+  bindCopy(snapshot, "entry_reservoirs", buffers.entryReservoirs);
+  bindCopy(snapshot, "entry_suffixes", buffers.entrySuffixes);
+  const rl::uvec2 at(pixel % snapshot.frame->width, pixel / snapshot.frame->width);
   // Scenes without glossy surfaces have no suffixes.
   constexpr uint32_t kAll = rl::RL_FEATURE_ALL;
   return buffers.suffixes.data != nullptr
-             ? rl::donorsOf<kAll>(kept, buffers, giParamsOf(kept), at)
-             : rl::donorsOf<kAll & ~rl::RL_FEATURE_GLOSSY>(kept, buffers, giParamsOf(kept), at);
+             ? rl::donorsOf<kAll>(snapshot, buffers, giParamsOf(snapshot), at)
+             : rl::donorsOf<kAll & ~rl::RL_FEATURE_GLOSSY>(snapshot, buffers, giParamsOf(snapshot),
+                                                           at);
 }
 
 }  // namespace restlab

@@ -8,8 +8,8 @@
 namespace restlab {
 
 // Returns the pixel's own sample, then its spatial donors, its temporal donor and its entries. The
-// frame has overwritten the state of the temporal donor: the donor's share is the rest that the
-// pixel's own sample, traced again, leaves.
-std::vector<Donor> giDonorsOf(const FrameSnapshot& kept, size_t pixel);
+// frame has overwritten the reservoir of the temporal donor. The initial candidate is traced again:
+// what its resampling weight leaves of wSum is the donor's.
+std::vector<Donor> giDonorsOf(const FrameSnapshot& snapshot, size_t pixel);
 
 }  // namespace restlab

@@ -30,24 +30,25 @@ void recordRestirGi(FrameGraph& g, const FrameInfo& f) {
   const ParameterMap& p = f.parameters;
   rl::RestirGiParams params{};
   params.reuse = packReuse(p, f.mode == "biased");
-  params.reuse.writesEffectiveSamples = f.wantsEffectiveSamples ? 1u : 0u;
+  params.reuse.writesRadianceFrames = f.wantsRadianceFrames ? 1u : 0u;
   params.path = packPath(p);
   params.pairs = packPairs(p);
   params.entries = packEntries(p);
   params.cells = packRadiance(p);
   params.changes = packChanges(p);
-  const ReusedSample sample = {"restir_gi", rl::RL_PATH_RESERVOIR_QUADS, rl::RL_PATH_SUFFIX_QUADS};
+  const ReusedSample sample = {"restir_gi", rl::RL_PATH_RESERVOIR_UVEC4S,
+                               rl::RL_PATH_SUFFIX_UVEC4S};
   recordReuse(g, f, sample, params.reuse, params.entries, bytesOf(params));
 }
 
-std::vector<ProbeValue> probe(const FrameSnapshot& kept, size_t pixel) {
-  constexpr size_t kReservoir = 4 * rl::RL_PATH_RESERVOIR_QUADS;
-  const auto own = kept.words("unresampled_radiance").subspan(4 * pixel, 3);
+std::vector<ProbeValue> probe(const FrameSnapshot& snapshot, size_t pixel) {
+  constexpr size_t kReservoir = 4 * rl::RL_PATH_RESERVOIR_UVEC4S;
+  const auto own = snapshot.words("unresampled_radiance").subspan(4 * pixel, 3);
   std::vector<ProbeValue> values = {
       {"own light", fmt::format("{:.6g} {:.6g} {:.6g}", std::bit_cast<float>(own[0]),
                                 std::bit_cast<float>(own[1]), std::bit_cast<float>(own[2]))}};
   for (ProbeValue& value :
-       pathProbe(kept.words("reservoir_history").subspan(kReservoir * pixel, kReservoir)))
+       pathProbe(snapshot.words("reservoir_history").subspan(kReservoir * pixel, kReservoir)))
     values.push_back(std::move(value));
   return values;
 }
@@ -80,7 +81,7 @@ const IntegratorInfo& restir_giIntegratorInfo() {
     i.record = recordRestirGi;
     i.reasonUnused = reuseReasonUnused;
     i.radianceFrames = reuseRadianceFrames;
-    i.layers = reuseLayers(rl::RL_PATH_RESERVOIR_QUADS);
+    i.layers = reuseLayers(rl::RL_PATH_RESERVOIR_UVEC4S);
     i.probe = probe;
     i.donors = giDonorsOf;
     i.biasOfParameters = [](const std::string& mode, const ParameterMap& p) {

@@ -18,42 +18,47 @@ RL_FN PathReservoir sampleNone() {
 }
 
 // Storage: the reservoir of an index, and for glossy scenes the suffix of its path.
-RL_FN void sampleRead(RL_IN(QuadRef) quads, RL_IN(QuadRef) suffixes, uint index,
+RL_FN void sampleRead(RL_IN(Uvec4Ref) words, RL_IN(Uvec4Ref) suffixes, uint index,
                       RL_INOUT(PathReservoir) r) {
-  pathReservoirRead(quads, index * RL_PATH_RESERVOIR_QUADS, r);
+  pathReservoirRead(words, index * RL_PATH_RESERVOIR_UVEC4S, r);
   if (RL_HAS(RL_FEATURE_GLOSSY))
-    r.path.suffix = pathSuffixRead(suffixes, index * RL_PATH_SUFFIX_QUADS);
+    r.path.suffix = pathSuffixRead(suffixes, index * RL_PATH_SUFFIX_UVEC4S);
 }
-RL_FN void sampleWrite(RL_IN(QuadRef) quads, RL_IN(QuadRef) suffixes, uint index,
+RL_FN void sampleWrite(RL_IN(Uvec4Ref) words, RL_IN(Uvec4Ref) suffixes, uint index,
                        RL_IN(PathReservoir) r) {
-  pathReservoirWrite(quads, index * RL_PATH_RESERVOIR_QUADS, r);
+  pathReservoirWrite(words, index * RL_PATH_RESERVOIR_UVEC4S, r);
   if (RL_HAS(RL_FEATURE_GLOSSY))
-    pathSuffixWrite(suffixes, index * RL_PATH_SUFFIX_QUADS, r.path.suffix);
+    pathSuffixWrite(suffixes, index * RL_PATH_SUFFIX_UVEC4S, r.path.suffix);
 }
-RL_FN ReservoirState sampleStateRead(RL_IN(QuadRef) quads, uint index) {
-  return pathStateRead(quads, index * RL_PATH_RESERVOIR_QUADS);
+RL_FN ReservoirState sampleStateRead(RL_IN(Uvec4Ref) words, uint index) {
+  return pathStateRead(words, index * RL_PATH_RESERVOIR_UVEC4S);
 }
-RL_FN void sampleStateWrite(RL_IN(QuadRef) quads, uint index, RL_IN(PathReservoir) r) {
-  pathStateWrite(quads, index * RL_PATH_RESERVOIR_QUADS, r);
+RL_FN void sampleStateWrite(RL_IN(Uvec4Ref) words, uint index, RL_IN(PathReservoir) r) {
+  pathStateWrite(words, index * RL_PATH_RESERVOIR_UVEC4S, r);
 }
 
-// Replaces the sample, under the selected state.
-RL_FN void sampleTake(RL_INOUT(PathReservoir) r, RL_IN(PathReservoir) from) { r.path = from.path; }
-// Follows a shift: `jacobian` is that of the shift that brought the sample here.
-RL_FN void sampleFollow(RL_INOUT(PathReservoir) r, float jacobian) { r.path.geometry *= jacobian; }
+// Copies the path of `from`. The merge has set the state (F, W, residual, confidence) of r already.
+RL_FN void sampleCopyPath(RL_INOUT(PathReservoir) r, RL_IN(PathReservoir) from) {
+  r.path = from.path;
+}
+// Updates what the path stores of its old x1, |cos| / d^2 at x2, so that its next shift can form
+// its Jacobian. `jacobian` is that of the shift that brought the path here.
+RL_FN void sampleAfterShift(RL_INOUT(PathReservoir) r, float jacobian) {
+  r.path.geometry *= jacobian;
+}
 RL_FN uint sampleFilm(RL_IN(PathReservoir) r) { return r.path.film; }
 RL_FN void sampleSetFilm(RL_INOUT(PathReservoir) r, uint film) { r.path.film = film; }
 
 // Shifts, step by step, so that a kernel has one call of traceRay().
 RL_FN PathShift shiftNone() { return pathShiftNone(); }
-RL_FN PathShift shiftTo(RL_IN(PathReservoir) r, RL_IN(uvec2) pixel, bool isBefore,
+RL_FN PathShift shiftTo(RL_IN(PathReservoir) r, RL_IN(uvec2) pixel, bool isPrevious,
                         bool assumeVisible) {
-  return pathShiftTo(r, pixel, isBefore, assumeVisible);
+  return pathShiftTo(r, pixel, isPrevious, assumeVisible);
 }
 RL_FN PathShift shiftToSurface(RL_IN(PathReservoir) r, RL_IN(Surface) x1) {
   return pathShiftToSurface(r, x1);
 }
 RL_FN void shiftTrace(RL_INOUT(PathShift) s, RL_IN(PathReservoir) r) { pathShiftTrace(s, r.path); }
-RL_FN uint shiftKey(uint mode, uint film) { return pathShiftKey(mode, film); }
+RL_FN uint shiftRayKey(uint mode, uint film) { return pathShiftKey(mode, film); }
 // Returns whether samples can be reused at a surface of this frame.
-RL_FN bool shiftServes(RL_IN(Bsdf) bsdf) { return pathIsReusable(bsdf); }
+RL_FN bool shiftIsReusable(RL_IN(Bsdf) bsdf) { return pathIsReusable(bsdf); }

@@ -108,7 +108,7 @@ TEST_P(CacheEntries, WhatHasNoPlaceIsCounted) {
   const std::vector<uint32_t> before = run.words("shading_points");
   for (int i = 0; i < 4; ++i) run.frame();
   for (uint32_t entry = 0; entry < run.entries().count; ++entry) {
-    const size_t at = size_t{4} * rl::RL_SHADING_POINT_QUADS * entry;
+    const size_t at = size_t{4} * rl::RL_SHADING_POINT_UVEC4S * entry;
     if (before[at + 6] >> 30u == 0) continue;
     EXPECT_EQ(run.words("shading_points")[at], before[at]);
   }
@@ -177,8 +177,8 @@ TEST_P(CacheEntries, TwoSidesOfAWallAreTwoEntries) {
   for (uint32_t slot = 0; slot < run.pixels(); ++slot) {
     for (const uint32_t entry : run.entry("proposals", slot, run.entries().proposals)) {
       if (entry == rl::RL_INVALID) continue;
-      const auto shadingPoint = run.entry("shading_points", entry, 4 * rl::RL_SHADING_POINT_QUADS);
-      EXPECT_EQ(shadingPoint[3], run.entry("visible", slot, 4)[1]);
+      const auto shadingPoint = run.entry("shading_points", entry, 4 * rl::RL_SHADING_POINT_UVEC4S);
+      EXPECT_EQ(shadingPoint[3], run.entry("gbuffer", slot, 4)[1]);
       ++seen;
     }
   }

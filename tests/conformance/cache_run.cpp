@@ -26,7 +26,7 @@ struct EntriesContext {
   vec3 recordVec3(const uvec4& q) const {
     return vec3(uintBitsToFloat(q.x), uintBitsToFloat(q.y), uintBitsToFloat(q.z));
   }
-  uvec4 recordQuad(const vec3& v, uint w) const {
+  uvec4 recordUvec4(const vec3& v, uint w) const {
     return uvec4(floatBitsToUint(v.x), floatBitsToUint(v.y), floatBitsToUint(v.z), w);
   }
 #include "core/dialect/math.glsl"
@@ -51,7 +51,7 @@ CacheRun::CacheRun(const std::string& cache, glm::uvec2 size, const ParameterMap
   resolved_ = resolveParameters(findMethod("restir_gi", cache, "none"), parameters);
   entries_ = packEntries(resolved_);
   surfaces_.record = [](FrameGraph& g, const FrameInfo& f) {
-    g.shared.surfaces.now = g.buffer("visible", f.pixels, 16);
+    g.shared.surfaces.now = g.buffer("gbuffer", f.pixels, 16);
   };
   record(true);
   frame_.width = size.x;
@@ -77,10 +77,10 @@ void CacheRun::look(const std::function<Shown(glm::uvec2)>& shown, float x) {
   rl::EntriesContext context;
   for (uint32_t slot = 0; slot < pixels(); ++slot) {
     const Shown s = shown({slot % size_.x, slot / size_.x});
-    uint32_t* quad = buffers_.at("visible").data() + size_t{4} * slot;
-    quad[0] = std::bit_cast<uint32_t>(s.distance);
-    quad[1] = quad[2] = context.packNormal(glm::normalize(s.normalW));
-    quad[3] = context.packColor(glm::vec3(0.5f)) | (s.distance != 0.0f ? 1u << 30u : 0u);
+    uint32_t* words = buffers_.at("gbuffer").data() + size_t{4} * slot;
+    words[0] = std::bit_cast<uint32_t>(s.distance);
+    words[1] = words[2] = context.packNormal(glm::normalize(s.normalW));
+    words[3] = context.packColor(glm::vec3(0.5f)) | (s.distance != 0.0f ? 1u << 30u : 0u);
   }
 }
 
@@ -126,9 +126,9 @@ void CacheRun::frame(bool isNewView, uint32_t threads, uint32_t order) {
   for (uint32_t entry = 0; entry < entries_.count; ++entry) {
     const std::vector<uint32_t> insertions = insertionsOf(entry);
     if (insertions.empty() || hasShadingPoint(entry)) continue;
-    const uint32_t* visible = buffers_.at("visible").data() + size_t{4} * insertions.front();
+    const uint32_t* visible = buffers_.at("gbuffer").data() + size_t{4} * insertions.front();
     uint32_t* shadingPoint =
-        buffers_.at("shading_points").data() + size_t{4} * rl::RL_SHADING_POINT_QUADS * entry;
+        buffers_.at("shading_points").data() + size_t{4} * rl::RL_SHADING_POINT_UVEC4S * entry;
     const glm::vec3 at = posW(insertions.front());
     for (int i = 0; i < 3; ++i) shadingPoint[i] = std::bit_cast<uint32_t>(at[i]);
     shadingPoint[3] = shadingPoint[4] = visible[1];
@@ -143,7 +143,7 @@ std::vector<uint32_t> CacheRun::entry(const std::string& buffer, uint32_t i, siz
 }
 
 glm::vec3 CacheRun::posW(uint32_t slot) const {
-  const auto distance = std::bit_cast<float>(buffers_.at("visible")[size_t{4} * slot]);
+  const auto distance = std::bit_cast<float>(buffers_.at("gbuffer")[size_t{4} * slot]);
   const glm::vec2 film(float(slot % size_.x) + 0.5f, float(slot / size_.x) + 0.5f);
   return frame_.camera.posW + glm::vec3((film.x - 0.5f * float(size_.x)) * kPixel,
                                         (0.5f * float(size_.y) - film.y) * kPixel, -distance);
@@ -151,13 +151,14 @@ glm::vec3 CacheRun::posW(uint32_t slot) const {
 
 glm::vec3 CacheRun::anchorPosW(uint32_t entry) const {
   const std::vector<uint32_t> words =
-      this->entry("shading_points", entry, 4 * rl::RL_SHADING_POINT_QUADS);
+      this->entry("shading_points", entry, 4 * rl::RL_SHADING_POINT_UVEC4S);
   return {std::bit_cast<float>(words[0]), std::bit_cast<float>(words[1]),
           std::bit_cast<float>(words[2])};
 }
 
 bool CacheRun::hasShadingPoint(uint32_t entry) const {
-  return buffers_.at("shading_points")[size_t{4} * rl::RL_SHADING_POINT_QUADS * entry + 6] >> 30u !=
+  return buffers_.at("shading_points")[size_t{4} * rl::RL_SHADING_POINT_UVEC4S * entry + 6] >>
+             30u !=
          0;
 }
 
@@ -167,7 +168,7 @@ std::vector<uint32_t> CacheRun::insertionsOf(uint32_t entry) const {
   context.gParams.entries = entries_;
   std::vector<uint32_t> slots;
   for (const uint32_t ticket : this->entry("insertions", entry, rl::RL_ENTRY_INSERTIONS)) {
-    if (ticket != 0) slots.push_back(context.entryCandidatePixel(context.entryOfPriority(ticket)));
+    if (ticket != 0) slots.push_back(context.entryCandidatePixel(context.groupOfPriority(ticket)));
   }
   return slots;
 }

@@ -161,7 +161,7 @@ TEST(Accumulate, CostsARayOnlyInFramesOfANewView) {
   Session session(scene, configWith("accumulate"));
   const uint64_t pixels = uint64_t(session.config().width) * session.config().height;
   const auto raysOf = [](const FrameStats& stats) { return stats.passes.at(0).raysPath; };
-  EXPECT_EQ(session.frame().passes.at(0).name, "visible");
+  EXPECT_EQ(session.frame().passes.at(0).name, "gbuffer");
   EXPECT_EQ(raysOf(session.frame()), 0u);
   CameraPath path;
   path.kind = CameraPathKind::pan;

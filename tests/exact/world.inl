@@ -127,7 +127,7 @@ struct Kernel {
   real reuseUniform(const WorldMerge&, uint) const { return real(0.5f); }
 #include "core/resampling/donors.glsl"
 #include "core/resampling/merge.glsl"
-#include "core/resampling/reuse.glsl"
+#include "core/resampling/merge_loop.glsl"
 };
 
 // Reservoir that a random process may produce, with its probability; equal reservoirs are joined.

@@ -105,7 +105,7 @@ void expectEntriesCopied(const std::string& name) {
   const auto scene = sceneNamed("cornell-box");
   const auto backend = makeBackend(name, scene, {});
   constexpr uint32_t kEntries = 8 * rl::RL_ENTRY_ROW, kAll = 2 * kEntries;
-  constexpr uint32_t kWords = 4 * rl::RL_STREAM_QUADS;  // per entry
+  constexpr uint32_t kWords = 4 * rl::RL_STREAM_UVEC4S;  // per entry
   std::vector<uint32_t> from(size_t(kAll) * kWords), to(from.size(), 0);
   std::iota(from.begin(), from.end(), 1u);
   PassRun pass{"stream", backend->maskFor("stream", 0), {}, std::vector<std::byte>(4), kEntries};

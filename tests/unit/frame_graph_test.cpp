@@ -38,10 +38,10 @@ TEST(FrameGraph, AHistoryTakesTurnsEachTimeItAdvances) {
   });
   recording.frame();
   EXPECT_EQ(recording.graph.find("light"), seen[0].now);
-  EXPECT_EQ(recording.graph.find("light_before"), seen[0].before);
+  EXPECT_EQ(recording.graph.find("light_previous"), seen[0].previous);
   recording.frame();
-  EXPECT_EQ(seen[1].before, seen[0].now);
-  EXPECT_EQ(seen[1].now, seen[0].before);
+  EXPECT_EQ(seen[1].previous, seen[0].now);
+  EXPECT_EQ(seen[1].now, seen[0].previous);
   recording.frame(false);
   EXPECT_EQ(seen[2].now, seen[1].now);
   EXPECT_EQ(recording.graph.find("light"), seen[1].now);
@@ -165,15 +165,15 @@ struct Lending {
       struct Slots {
         uint64_t now, before, scratch;
       };
-      const Kernels kernels = g.kernels<Slots>(uint32_t{0}, {light.now, light.before, scratch});
+      const Kernels kernels = g.kernels<Slots>(uint32_t{0}, {light.now, light.previous, scratch});
       if (f.isNewView || advancesInStillView) {
-        GraphPass& shade = kernels.pass("shade", "shade").reads({light.before});
+        GraphPass& shade = kernels.pass("shade", "shade").reads({light.previous});
         updatesNow ? shade.updates({light.now}) : shade.writes({light.now});
       } else if (readsBeforeInStill) {
-        kernels.pass("again", "again").reads({light.before});
+        kernels.pass("again", "again").reads({light.previous});
       }
       kernels.pass("mark", "mark").reads({light.now}).writes({scratch});
-      if (readsBeforeLate) kernels.pass("late", "late").reads({light.before});
+      if (readsBeforeLate) kernels.pass("late", "late").reads({light.previous});
     };
     Recording recording(record);
     recording.frame();
@@ -184,9 +184,9 @@ struct Lending {
     const Buffer lender = recording.graph.lenderOf(scratch);
     EXPECT_FALSE(recording.graph.lenderOf(recording.graph.find("light")));
     if (!lender) return false;
-    EXPECT_EQ(lender, recording.graph.find("light_before"));
+    EXPECT_EQ(lender, recording.graph.find("light_previous"));
     recording.frame();
-    EXPECT_EQ(recording.graph.lenderOf(scratch), recording.graph.find("light_before"));
+    EXPECT_EQ(recording.graph.lenderOf(scratch), recording.graph.find("light_previous"));
     return true;
   }
 };

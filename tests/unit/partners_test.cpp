@@ -19,7 +19,7 @@ namespace {
 struct PairContext {
   FrameData gFrame{};
   struct {
-    QuadRef visible;
+    Uvec4Ref gbuffer;
   } gBuffers{};
   struct {
     PairParams pairs;
@@ -31,7 +31,7 @@ struct PairContext {
   vec3 recordVec3(const uvec4& q) const {
     return vec3(uintBitsToFloat(q.x), uintBitsToFloat(q.y), uintBitsToFloat(q.z));
   }
-  uvec4 recordQuad(const vec3& v, uint w) const {
+  uvec4 recordUvec4(const vec3& v, uint w) const {
     return uvec4(floatBitsToUint(v.x), floatBitsToUint(v.y), floatBitsToUint(v.z), w);
   }
 #include "core/shading/camera.glsl"
@@ -40,10 +40,10 @@ struct PairContext {
 #include "core/dialect/pack.glsl"
 #include "core/dialect/rng.glsl"
 #include "core/dialect/warp.glsl"
-#include "core/gbuffer/visible.glsl"
-#define visibleRead(quads, camera, slot) surfaces[slot]
+#include "core/gbuffer/gbuffer.glsl"
+#define gbufferRead(words, camera, slot) surfaces[slot]
 #include "core/resampling/pairs.glsl"
-#undef visibleRead
+#undef gbufferRead
 };
 
 // Every `unusableEvery`-th pixel shows nothing; surfaces are two parallel planes, in stripes, that

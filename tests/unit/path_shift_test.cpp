@@ -51,9 +51,9 @@ class SelfShift : public ::testing::TestWithParam<const char*> {
     frame_.rouletteStart = rl::RL_INVALID;
     frame_.seed = 5;
     params_.path = {1, 0.04f, 100.0f};
-    quads_.resize(rl::RL_PATH_RESERVOIR_QUADS + rl::RL_PATH_SUFFIX_QUADS);
+    quads_.resize(rl::RL_PATH_RESERVOIR_UVEC4S + rl::RL_PATH_SUFFIX_UVEC4S);
     buffers_.reservoirs.data = quads_.data();
-    buffers_.suffixes.data = quads_.data() + rl::RL_PATH_RESERVOIR_QUADS;
+    buffers_.suffixes.data = quads_.data() + rl::RL_PATH_RESERVOIR_UVEC4S;
   }
 
   std::shared_ptr<const CompiledScene> scene_;

@@ -1,4 +1,4 @@
-// Records of the scene as kernels read them, in quads of words, against the structs that the host
+// Records of the scene as kernels read them, as uvec4s, against the structs that the host
 // wrote.
 #include <gtest/gtest.h>
 

@@ -45,24 +45,24 @@ bool isSame(const T& a, const T& b) {
 template <uint32_t FEATURES>
 struct Store {
   Store() : ctx{scene, frame, buffers, params, counters} {
-    const auto give = [this](rl::QuadRef& ref, uint32_t quads) {
-      memory.emplace_back(kSlots * quads, glm::uvec4(0xdeadbeefu));
+    const auto give = [this](rl::Uvec4Ref& ref, uint32_t uvec4s) {
+      memory.emplace_back(kSlots * uvec4s, glm::uvec4(0xdeadbeefu));
       ref.data = memory.back().data();
     };
     memory.reserve(16);
-    give(buffers.reservoirs, rl::RL_PATH_RESERVOIR_QUADS);
-    give(buffers.history, rl::RL_PATH_RESERVOIR_QUADS);
-    give(buffers.suffixes, rl::RL_PATH_SUFFIX_QUADS);
-    give(buffers.suffixesHistory, rl::RL_PATH_SUFFIX_QUADS);
+    give(buffers.reservoirs, rl::RL_PATH_RESERVOIR_UVEC4S);
+    give(buffers.history, rl::RL_PATH_RESERVOIR_UVEC4S);
+    give(buffers.suffixes, rl::RL_PATH_SUFFIX_UVEC4S);
+    give(buffers.suffixesHistory, rl::RL_PATH_SUFFIX_UVEC4S);
     give(buffers.pairedShifts0, 1);
   }
   // Counts words outside the slot that differ from their initial value.
   size_t touchedElsewhere() const {
     size_t count = 0;
     for (const auto& buffer : memory) {
-      const size_t quads = buffer.size() / kSlots;
+      const size_t uvec4s = buffer.size() / kSlots;
       for (size_t i = 0; i < buffer.size(); ++i)
-        count += i / quads != kSlot && buffer[i] != glm::uvec4(0xdeadbeefu) ? 1 : 0;
+        count += i / uvec4s != kSlot && buffer[i] != glm::uvec4(0xdeadbeefu) ? 1 : 0;
     }
     return count;
   }
@@ -142,7 +142,7 @@ void expectReservoirs() {
   c.reservoirReadNow(kSlot, read);
   expectState(read.state, now.state);
   expectPath(read.path, now.path, isGlossy);
-  c.reservoirReadBefore(kSlot, read);
+  c.reservoirReadPrevious(kSlot, read);
   expectState(read.state, before.state);
   expectPath(read.path, before.path, isGlossy);
   // Writing only the state must leave the path unchanged.
@@ -150,11 +150,11 @@ void expectReservoirs() {
   changed.state = reservoir(300.0f).state;
   c.stateWriteNow(kSlot, changed);
   expectState(c.stateReadNow(kSlot), changed.state);
-  expectState(c.stateReadBefore(kSlot), before.state);
+  expectState(c.stateReadPrevious(kSlot), before.state);
   c.reservoirReadNow(kSlot, read);
   expectPath(read.path, now.path, isGlossy);
   // Taking only the path must leave the state unchanged.
-  c.takeSampleBefore(kSlot, read);
+  c.takeSamplePrevious(kSlot, read);
   expectState(read.state, changed.state);
   expectPath(read.path, before.path, isGlossy);
   EXPECT_EQ(store.touchedElsewhere(), 0u);

@@ -63,8 +63,8 @@ class AuditedRun {
     frame_.rouletteStart = rl::RL_ROULETTE_EARLIEST;
     mode_ = audited.mode;
     surfaces_.record = [](FrameGraph& g, const FrameInfo& f) {
-      g.shared.surfaces = {g.buffer("visible", f.pixels, 16),
-                           g.buffer("visible_before", f.pixels, 16)};
+      g.shared.surfaces = {g.buffer("gbuffer", f.pixels, 16),
+                           g.buffer("gbuffer_previous", f.pixels, 16)};
     };
     parts_ = {&surfaces_};
     for (const PartInfo* part : method.parts())
@@ -74,7 +74,7 @@ class AuditedRun {
     if (method.cache == nullptr) return;
     const std::array<void*, 2> seen = {words_[0].data(), nullptr};
     const uint32_t padding = 0;
-    call(rl::findCpuKernel("visible", rl::RL_FEATURE_ALL)->entry, seen.data(), &padding, pixels());
+    call(rl::findCpuKernel("gbuffer", rl::RL_FEATURE_ALL)->entry, seen.data(), &padding, pixels());
     words_[1] = words_[0];
   }
 
@@ -175,7 +175,7 @@ TEST(RngAudit, TheRecordFindsARepeatedDraw) {
 }
 
 const std::map<std::string, rl::CpuKernelEntry> kRestirKernels = {
-    {"lights_in_view", rl::kernel_restir_gi_lights_in_view_audited},
+    {"light_edges", rl::kernel_restir_gi_light_edges_audited},
     {"initial", rl::kernel_restir_gi_initial_audited},
     {"replay", rl::kernel_changes_trace_audited},
     {"temporal", rl::kernel_restir_gi_temporal_audited},

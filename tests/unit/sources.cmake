@@ -27,7 +27,7 @@ list(APPEND RL_UNIT_TESTS
   rng_audit_restir_spatial_shift.cpp
   rng_audit_restir_cache_update.cpp
   rng_audit_restir_initial.cpp
-  rng_audit_restir_lights_in_view.cpp
+  rng_audit_restir_light_edges.cpp
   rng_audit_restir_cache_reuse.cpp
   rng_audit_changes_trace.cpp
   rng_audit_restir_spatial.cpp

@@ -17,7 +17,7 @@ struct ShadingPoint {
   uint sourcePixel;      // index of the pixel whose film sample led here; it may not use the entry
 };
 
-const uint RL_SHADING_POINT_QUADS = 2u;
+const uint RL_SHADING_POINT_UVEC4S = 2u;
 // Most samples that an entry takes per frame.
 const uint RL_ENTRY_INSERTIONS = 4u;
 

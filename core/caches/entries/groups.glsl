@@ -18,7 +18,7 @@ RL_FN uint groupCandidatePixel(uint group, uint every) {
 RL_FN uint entryPriority(uint index) {
   return (index + rngSharedBits(0u, RL_DIM_DONOR_U)) * 2654435761u;
 }
-RL_FN uint entryOfPriority(uint priority) {
+RL_FN uint groupOfPriority(uint priority) {
   return priority * 244002641u - rngSharedBits(0u, RL_DIM_DONOR_U);
 }
 

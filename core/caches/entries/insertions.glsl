@@ -7,7 +7,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   if (entry >= RL_GRID_CLAIM) return;
   ShadingPoint shadingPoint = shadingPointRead(gBuffers.shadingPoints, entry);
   if (shadingPoint.surface.isHit != 0u &&
-      !visibleIsSimilar(entryVisible(pixelIndex), shadingPoint.surface, gParams.similarity))
+      !gbufferIsSimilar(entryVisible(pixelIndex), shadingPoint.surface, gParams.similarity))
     return;
   groupInserts(gBuffers.insertions, entry, group);
 }

@@ -25,10 +25,10 @@ struct Places {
   std::span<const uint32_t> keys;
   uint32_t count = 0, probes = 0;
 
-  explicit Places(const FrameSnapshot& kept)
-      : keys(kept.words("entry_keys")),
-        count(packEntries(kept.parameters).count),
-        probes(packGrid(kept.parameters).probes) {}
+  explicit Places(const FrameSnapshot& snapshot)
+      : keys(snapshot.words("entry_keys")),
+        count(packEntries(snapshot.parameters).count),
+        probes(packGrid(snapshot.parameters).probes) {}
   // First hash slot of a key, as in gridPlace() (core/caches/entries/grid.glsl).
   uint32_t home(uint32_t entry) const {
     rl::Hashing hashing;
@@ -46,9 +46,9 @@ float load(const Places& places, uint32_t entry) {
 
 }  // namespace
 
-std::function<float(size_t pixel)> ofPixelsEntry(const FrameSnapshot& kept,
+std::function<float(size_t pixel)> ofPixelsEntry(const FrameSnapshot& snapshot,
                                                  std::function<float(uint32_t entry)> value) {
-  return [entries = kept.words(kEntryOfPixel), value = std::move(value)](size_t pixel) {
+  return [entries = snapshot.words(kEntryOfPixel), value = std::move(value)](size_t pixel) {
     const uint32_t entry = entries[pixel];
     return entry < rl::RL_GRID_CLAIM ? value(entry) : 0.0f;
   };
@@ -59,21 +59,21 @@ std::vector<LayerInfo> entryLayers() {
   entry.name = "entry";
   entry.summary = "1 + the place of the entry that the pixel's surface belongs to";
   entry.isName = true;
-  entry.values = [](const FrameSnapshot& kept) {
-    return ofPixelsEntry(kept, [](uint32_t place) { return float(place) + 1.0f; });
+  entry.values = [](const FrameSnapshot& snapshot) {
+    return ofPixelsEntry(snapshot, [](uint32_t place) { return float(place) + 1.0f; });
   };
   loads.name = "load";
   loads.summary = "share of the places that the pixel's entry might lie in that are taken";
-  loads.values = [](const FrameSnapshot& kept) {
-    const Places places(kept);
-    return ofPixelsEntry(kept, [places](uint32_t place) { return load(places, place); });
+  loads.values = [](const FrameSnapshot& snapshot) {
+    const Places places(snapshot);
+    return ofPixelsEntry(snapshot, [places](uint32_t place) { return load(places, place); });
   };
   probes.name = "probes";
   probes.summary = "places that are looked at until the pixel's entry is found";
   probes.unit = "places";
-  probes.values = [](const FrameSnapshot& kept) {
-    const Places places(kept);
-    return ofPixelsEntry(kept, [places](uint32_t place) {
+  probes.values = [](const FrameSnapshot& snapshot) {
+    const Places places(snapshot);
+    return ofPixelsEntry(snapshot, [places](uint32_t place) {
       return float((place + places.count - places.home(place)) % places.count + 1);
     });
   };

@@ -12,7 +12,7 @@ namespace restlab {
 std::vector<LayerInfo> entryLayers();
 
 // Layer of a number that each entry has: `value` of the pixel's entry, 0 if the pixel has none.
-std::function<float(size_t pixel)> ofPixelsEntry(const FrameSnapshot& kept,
+std::function<float(size_t pixel)> ofPixelsEntry(const FrameSnapshot& snapshot,
                                                  std::function<float(uint32_t entry)> value);
 
 }  // namespace restlab

@@ -9,7 +9,7 @@ EntryBuffers entryBuffers(FrameGraph& g, const FrameInfo& f) {
   EntryBuffers b;
   b.surfaces = g.shared.surfaces.now;
   b.proposals = g.buffer("proposals", f.pixels * entries.proposals, sizeof(uint32_t));
-  b.shadingPoints = g.buffer("shading_points", entries.count, 16 * rl::RL_SHADING_POINT_QUADS);
+  b.shadingPoints = g.buffer("shading_points", entries.count, 16 * rl::RL_SHADING_POINT_UVEC4S);
   b.insertions = g.buffer("insertions", entries.count, sizeof(uint32_t) * rl::RL_ENTRY_INSERTIONS);
   b.keys = g.buffer("entry_keys", entries.count, 2 * sizeof(uint32_t));
   b.seen = g.buffer("entry_seen", entries.count, sizeof(uint32_t));

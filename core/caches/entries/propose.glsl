@@ -5,7 +5,7 @@
 
 // Returns whether an entry has a shading point similar to the surface that the pixel shows.
 RL_FN bool entryServes(RL_IN(GBufferTexel) here, uint entry) {
-  return visibleIsSimilar(here, shadingPointRead(gBuffers.shadingPoints, entry).surface,
+  return gbufferIsSimilar(here, shadingPointRead(gBuffers.shadingPoints, entry).surface,
                           gParams.similarity);
 }
 // Entry that covers a point, if it serves the pixel; else RL_INVALID.

@@ -53,8 +53,8 @@ CacheInfo entryCache(const std::string& name, const std::string& summary) {
   i.reasonUnused = [cache = name + "_"](const std::string& what, const ParameterMap& p) {
     const bool isOwn = what.starts_with("entr") || what == "feed_every" || what.starts_with(cache);
     const auto temporal = p.find("temporal");
-    const bool isAsked = temporal == p.end() || std::get<bool>(temporal->second);
-    return isOwn && !isAsked ? "temporal is false" : "";
+    const bool isTemporal = temporal == p.end() || std::get<bool>(temporal->second);
+    return isOwn && !isTemporal ? "temporal is false" : "";
   };
   i.layers = entryLayers();
   return i;

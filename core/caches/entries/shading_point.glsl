@@ -13,9 +13,9 @@ RL_FN ShadingPoint shadingPointNone() {
   return a;
 }
 
-RL_FN ShadingPoint shadingPointRead(RL_IN(QuadRef) quads, uint entry) {
-  uvec4 q0 = RL_PAST_QUAD(quads, entry * RL_SHADING_POINT_QUADS);
-  uvec4 q1 = RL_PAST_QUAD(quads, entry * RL_SHADING_POINT_QUADS + 1u);
+RL_FN ShadingPoint shadingPointRead(RL_IN(Uvec4Ref) words, uint entry) {
+  uvec4 q0 = RL_EARLIER_UVEC4(words, entry * RL_SHADING_POINT_UVEC4S);
+  uvec4 q1 = RL_EARLIER_UVEC4(words, entry * RL_SHADING_POINT_UVEC4S + 1u);
   ShadingPoint a;
   a.surface.posW = recordVec3(q0);
   a.surface.isHit = q1.z >> 30u;
@@ -28,9 +28,10 @@ RL_FN ShadingPoint shadingPointRead(RL_IN(QuadRef) quads, uint entry) {
   return a;
 }
 
-RL_FN void shadingPointWrite(RL_IN(QuadRef) quads, uint entry, RL_IN(ShadingPoint) a) {
-  RL_WRITE_QUAD(quads, entry * RL_SHADING_POINT_QUADS, recordQuad(a.surface.posW, a.surface.nGeoW));
-  RL_WRITE_QUAD(quads, entry * RL_SHADING_POINT_QUADS + 1u,
-                uvec4(a.surface.nShadeW, floatBitsToUint(a.posError),
-                      packColor(a.surface.reflectance) | (a.surface.isHit << 30u), a.sourcePixel));
+RL_FN void shadingPointWrite(RL_IN(Uvec4Ref) words, uint entry, RL_IN(ShadingPoint) a) {
+  RL_WRITE_UVEC4(words, entry * RL_SHADING_POINT_UVEC4S,
+                 recordUvec4(a.surface.posW, a.surface.nGeoW));
+  RL_WRITE_UVEC4(words, entry * RL_SHADING_POINT_UVEC4S + 1u,
+                 uvec4(a.surface.nShadeW, floatBitsToUint(a.posError),
+                       packColor(a.surface.reflectance) | (a.surface.isHit << 30u), a.sourcePixel));
 }

@@ -46,7 +46,7 @@ RL_FN uint discCovering(RL_IN(GBufferTexel) here, RL_IN(vec3) posW, uint level) 
     ShadingPoint disc = shadingPointRead(gBuffers.discs, entry);
     float d = discDistance(entry, disc, posW);
     if (disc.posError < d || (best != RL_INVALID && least <= d)) continue;
-    if (!visibleIsSimilar(here, disc.surface, gParams.similarity)) continue;
+    if (!gbufferIsSimilar(here, disc.surface, gParams.similarity)) continue;
     best = entry;
     least = d;
   }

@@ -29,7 +29,7 @@ void recordSurflet(FrameGraph& g, const FrameInfo& f) {
   params.discPixels = float(schema().read(f.parameters).discPixels);
   params.similarity = packSimilarity(f.parameters);
   const EntryBuffers b = entryBuffers(g, f);
-  const Buffer discs = g.buffer("discs", params.entries.count, 16 * rl::RL_SHADING_POINT_QUADS);
+  const Buffer discs = g.buffer("discs", params.entries.count, 16 * rl::RL_SHADING_POINT_UVEC4S);
   recordEntries(f, "surflet", b, discs,
                 g.kernels<rl::SurfletCacheBuffers>(
                     params, {b.surfaces, b.proposals, b.shadingPoints, b.insertions, b.keys, b.seen,

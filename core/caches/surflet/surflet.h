@@ -11,17 +11,17 @@
 RL_NAMESPACE_BEGIN
 
 struct SurfletCacheBuffers {
-  QuadRef visible;    // core/gbuffer/visible.h
+  Uvec4Ref gbuffer;   // core/gbuffer/gbuffer.h
   UintRef proposals;  // entries.proposals entries per pixel; RL_INVALID: none
   // Per entry:
-  QuadRef shadingPoints;
+  Uvec4Ref shadingPoints;
   UintRef insertions;  // RL_ENTRY_INSERTIONS priorities of groups; 0: none
   UintRef keys;        // two words; 0 in the first: empty
   UintRef seen;        // frame + 1 in which a pixel last found the entry
   UintRef claims;      // greatest priority that claims the hash slot in this frame; 0: none
   // Per pixel: its entry; RL_INVALID: none; with RL_GRID_CLAIM: the hash slot that it claims.
   UintRef entries;
-  QuadRef discs;  // per entry, as shading points: centre, normals; radius in place of posError
+  Uvec4Ref discs;  // per entry, as shading points: centre, normals; radius in place of posError
 };
 
 struct SurfletCacheParams {

@@ -11,10 +11,10 @@
 RL_NAMESPACE_BEGIN
 
 struct VoxelCacheBuffers {
-  QuadRef visible;    // core/gbuffer/visible.h
+  Uvec4Ref gbuffer;   // core/gbuffer/gbuffer.h
   UintRef proposals;  // entries.proposals entries per pixel; RL_INVALID: none
   // Per entry:
-  QuadRef shadingPoints;
+  Uvec4Ref shadingPoints;
   UintRef insertions;  // RL_ENTRY_INSERTIONS priorities of groups; 0: none
   UintRef keys;        // two words; 0 in the first: empty
   UintRef seen;        // frame + 1 in which a pixel last found the entry

@@ -33,7 +33,7 @@ struct BvhTriangle {
 
 // A node or a triangle, of equal size: a ray reads the next record of either kind in one step.
 struct BvhRecord {
-  uint32_t words[4 * rl::RL_BVH_RECORD_QUADS] = {};
+  uint32_t words[4 * rl::RL_BVH_RECORD_UVEC4S] = {};
 };
 static_assert(sizeof(BvhNode) == sizeof(BvhRecord) && sizeof(BvhTriangle) == sizeof(BvhRecord));
 

@@ -433,7 +433,7 @@ rl::SceneData CompiledScene::placedAt(const Place& place, bool withBvh) const {
   move(placed.environmentAlias, m.lights.environmentAlias.size());
   move(placed.bodies, m.bodies.media.size());
   move(placed.ggxAlbedo, m.data.ggxAlbedo.data != nullptr ? ggxAlbedoTable().size() : 0);
-  move(placed.bvh, withBvh ? m.bvh.records.size() * rl::RL_BVH_RECORD_QUADS : 0);
+  move(placed.bvh, withBvh ? m.bvh.records.size() * rl::RL_BVH_RECORD_UVEC4S : 0);
   move(placed.bvhRoots, withBvh ? m.bvh.roots.size() : 0);
   return placed;
 }

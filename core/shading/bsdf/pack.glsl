@@ -1,21 +1,21 @@
 // Layout of a BSDF in buffers: relative error of colours at most 6.1e-5. Three words of the last
-// quad are free for the caller.
+// uvec4 are free for the caller.
 
-RL_FN void bsdfWrite(RL_IN(QuadRef) quads, uint at, RL_IN(Bsdf) b, RL_IN(uvec3) rest) {
+RL_FN void bsdfWrite(RL_IN(Uvec4Ref) words, uint at, RL_IN(Bsdf) b, RL_IN(uvec3) rest) {
   uvec2 diffuse = packPositive3(b.diffuse);
   uvec2 f0 = packPositive3(b.f0);
   uvec2 transmission = packPositive3(b.transmission);
-  RL_WRITE_QUAD(quads, at, uvec4(diffuse.x, diffuse.y, f0.x, f0.y));
-  RL_WRITE_QUAD(quads, at + 1u,
-                uvec4(transmission.x, transmission.y, floatBitsToUint(b.alpha),
-                      packNearest24(b.f90, b.lobes)));
-  RL_WRITE_QUAD(quads, at + 2u, uvec4(floatBitsToUint(b.eta), rest.x, rest.y, rest.z));
+  RL_WRITE_UVEC4(words, at, uvec4(diffuse.x, diffuse.y, f0.x, f0.y));
+  RL_WRITE_UVEC4(words, at + 1u,
+                 uvec4(transmission.x, transmission.y, floatBitsToUint(b.alpha),
+                       packNearest24(b.f90, b.lobes)));
+  RL_WRITE_UVEC4(words, at + 2u, uvec4(floatBitsToUint(b.eta), rest.x, rest.y, rest.z));
 }
 
-RL_FN Bsdf bsdfRead(RL_IN(QuadRef) quads, uint at, RL_OUT(uvec3) rest) {
-  uvec4 q0 = RL_PAST_QUAD(quads, at);
-  uvec4 q1 = RL_PAST_QUAD(quads, at + 1u);
-  uvec4 q2 = RL_PAST_QUAD(quads, at + 2u);
+RL_FN Bsdf bsdfRead(RL_IN(Uvec4Ref) words, uint at, RL_OUT(uvec3) rest) {
+  uvec4 q0 = RL_EARLIER_UVEC4(words, at);
+  uvec4 q1 = RL_EARLIER_UVEC4(words, at + 1u);
+  uvec4 q2 = RL_EARLIER_UVEC4(words, at + 2u);
   Bsdf b;
   b.diffuse = unpackPositive3(q0.x, q0.y);
   b.f0 = unpackPositive3(q0.z, q0.w);

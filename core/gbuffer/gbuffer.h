@@ -24,8 +24,8 @@ struct SimilarityThresholds {
   float maxPlaneDistance;  // relative to the distance to the camera
 };
 
-// Layout in a buffer, one quad: the distance along the ray through the pixel's centre, two normals,
-// and the reflectance with emits and isHit.
+// Layout in a buffer, one uvec4: the distance along the ray through the pixel's centre, two
+// normals, and the reflectance with emits and isHit.
 
 RL_NAMESPACE_END
 

@@ -1,7 +1,7 @@
 // Traces the centre of a pixel in the view of a camera.
 
 // `distanceToCamera`: along the ray, in metres.
-RL_FN GBufferTexel visibleTrace(RL_IN(Camera) camera, uint pixelIndex,
+RL_FN GBufferTexel gbufferTrace(RL_IN(Camera) camera, uint pixelIndex,
                                 RL_OUT(float) distanceToCamera) {
   vec2 resolution = vec2(float(gFrame.width), float(gFrame.height));
   vec2 centre =

@@ -9,7 +9,7 @@
 // - Shifted reuseNeighbourAtCanonical(state, k): that donor's sample shifted to the canonical
 //   domain
 // - real3 reuseRatio(state, k): expected integrand here over that at the donor, known without
-//   samples: scales the estimates that donors carry
+//   samples: scales the donors' residuals
 // - real reuseUniform(state, k): a number in [0, 1)
 
 // RL_REUSE_WATCH_CANONICAL(merge, canonical) and RL_REUSE_WATCH_DONOR(k, donor, shifted, merge,

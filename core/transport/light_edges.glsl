@@ -6,14 +6,14 @@
 // then directly visible and reflected light should come from the same film sample. In a white
 // furnace that is exact.
 
-// Returns whether the centre of a pixel shows a lamp. `visible`: core/gbuffer/visible.h.
-RL_FN bool lightsAtCentre(RL_IN(QuadRef) visible, uint x, uint y) {
-  return visibleRead(visible, gFrame.camera, y * gFrame.width + x).emits != 0u;
+// Returns whether the centre of a pixel shows a lamp. `gbuffer`: core/gbuffer/gbuffer.h.
+RL_FN bool lightsAtCentre(RL_IN(Uvec4Ref) visible, uint x, uint y) {
+  return gbufferRead(visible, gFrame.camera, y * gFrame.width + x).emits != 0u;
 }
 
 // Returns whether a lamp ends at this pixel, judged by its centre and those of the eight pixels
 // around it. A light that no centre shows is missed and keeps the path's one sample.
-RL_FN bool lightsEndHere(RL_IN(QuadRef) visible, RL_IN(uvec2) pixel) {
+RL_FN bool lightsEndHere(RL_IN(Uvec4Ref) visible, RL_IN(uvec2) pixel) {
   // Skip cameras inside a body: lightsAtFilm() handles neither absorption nor overlapping bodies.
   if (gFrame.cameraMedia.x != 0u) return false;
   bool isLight = lightsAtCentre(visible, pixel.x, pixel.y);
@@ -39,7 +39,7 @@ RL_FN vec3 lightsAtFilm(RL_IN(uvec2) pixel, uint film) {
 
 // Mean of the directly visible radiance over the pixel's film samples of this frame and the next
 // ones: the average that a still view reaches after `samples` frames.
-RL_FN vec3 lightsInView(RL_IN(uvec2) pixel, uint samples) {
+RL_FN vec3 lightEdges(RL_IN(uvec2) pixel, uint samples) {
   vec3 sum = vec3(0.0f, 0.0f, 0.0f);
   for (uint i = 0u; i < samples; i = i + 1u) {
     sum += lightsAtFilm(pixel, cameraFilmBitsOfFrame(pixel, gFrame.frame + i));

@@ -9,9 +9,10 @@
 namespace restlab {
 
 // Returns zeros if no session has rendered the frame.
-inline rl::RestirGiParams giParamsOf(const FrameSnapshot& kept) {
+inline rl::RestirGiParams giParamsOf(const FrameSnapshot& snapshot) {
   rl::RestirGiParams params{};
-  if (kept.params.size() == sizeof params) std::memcpy(&params, kept.params.data(), sizeof params);
+  if (snapshot.params.size() == sizeof params)
+    std::memcpy(&params, snapshot.params.data(), sizeof params);
   return params;
 }
 

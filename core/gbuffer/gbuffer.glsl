@@ -7,8 +7,8 @@ RL_FN uvec2 pixelOfIndex(uint pixelIndex) {
 }
 
 // Reads the visible surface of a pixel in an image that `camera` took.
-RL_FN GBufferTexel visibleRead(RL_IN(QuadRef) quads, RL_IN(Camera) camera, uint pixelIndex) {
-  uvec4 q = RL_PAST_QUAD(quads, pixelIndex);
+RL_FN GBufferTexel gbufferRead(RL_IN(Uvec4Ref) words, RL_IN(Camera) camera, uint pixelIndex) {
+  uvec4 q = RL_EARLIER_UVEC4(words, pixelIndex);
   vec2 resolution = vec2(float(gFrame.width), float(gFrame.height));
   vec2 centre =
       vec2(float(pixelIndex % gFrame.width) + 0.5f, float(pixelIndex / gFrame.width) + 0.5f);
@@ -24,17 +24,17 @@ RL_FN GBufferTexel visibleRead(RL_IN(QuadRef) quads, RL_IN(Camera) camera, uint 
 }
 
 // Writes the visible surface that the pixel's centre ray hit at a distance.
-RL_FN void visibleWrite(RL_IN(QuadRef) quads, uint pixelIndex, RL_IN(GBufferTexel) v,
+RL_FN void gbufferWrite(RL_IN(Uvec4Ref) words, uint pixelIndex, RL_IN(GBufferTexel) v,
                         float distanceToCamera) {
-  RL_WRITE_QUAD(quads, pixelIndex,
-                uvec4(floatBitsToUint(distanceToCamera), v.nGeoW, v.nShadeW,
-                      packColor(v.reflectance) | (v.isHit << 30u) | (v.emits << 31u)));
+  RL_WRITE_UVEC4(words, pixelIndex,
+                 uvec4(floatBitsToUint(distanceToCamera), v.nGeoW, v.nShadeW,
+                       packColor(v.reflectance) | (v.isHit << 30u) | (v.emits << 31u)));
 }
 
 // Returns whether two surfaces are similar enough to share a history. Symmetric. distanceToCamera:
 // metres. nGeoW: unpacked a.nGeoW, so that a caller that compares several `b` unpacks it once. Most
 // pairs lie in one plane: equal packed normals are not unpacked again.
-RL_FN bool visibleMatchOf(RL_IN(GBufferTexel) a, RL_IN(vec3) nGeoW, RL_IN(GBufferTexel) b,
+RL_FN bool gbufferMatchOf(RL_IN(GBufferTexel) a, RL_IN(vec3) nGeoW, RL_IN(GBufferTexel) b,
                           float distanceToCamera, RL_IN(SimilarityThresholds) test) {
   if (a.isHit != b.isHit) return false;
   if (a.isHit == 0u) return true;
@@ -46,19 +46,19 @@ RL_FN bool visibleMatchOf(RL_IN(GBufferTexel) a, RL_IN(vec3) nGeoW, RL_IN(GBuffe
   if (a.nGeoW != b.nGeoW) planeDistance = max(planeDistance, abs(dot(d, unpackNormal(b.nGeoW))));
   return planeDistance <= test.maxPlaneDistance * distanceToCamera;
 }
-RL_FN bool visibleMatch(RL_IN(GBufferTexel) a, RL_IN(GBufferTexel) b, float distanceToCamera,
+RL_FN bool gbufferMatch(RL_IN(GBufferTexel) a, RL_IN(GBufferTexel) b, float distanceToCamera,
                         RL_IN(SimilarityThresholds) test) {
-  return visibleMatchOf(a, unpackNormal(a.nGeoW), b, distanceToCamera, test);
+  return gbufferMatchOf(a, unpackNormal(a.nGeoW), b, distanceToCamera, test);
 }
 
 // Returns whether two surfaces are similar enough to exchange samples. Symmetric. The background is
 // similar to nothing.
-RL_FN bool visibleIsSimilar(RL_IN(GBufferTexel) a, RL_IN(GBufferTexel) b,
+RL_FN bool gbufferIsSimilar(RL_IN(GBufferTexel) a, RL_IN(GBufferTexel) b,
                             RL_IN(SimilarityThresholds) test) {
   if (a.isHit == 0u || b.isHit == 0u) return false;
   vec3 camera = gFrame.camera.posW;
   float distanceToCamera = max(distance(camera, a.posW), distance(camera, b.posW));
-  return visibleMatch(a, b, distanceToCamera, test);
+  return gbufferMatch(a, b, distanceToCamera, test);
 }
 
 // Returns whether a film position, in pixels, lies within the image. Every reprojection uses this
@@ -69,7 +69,7 @@ RL_FN bool filmIsInView(RL_IN(vec2) film) {
 }
 
 // Film coordinates at which the last frame's camera saw the surface; false if it was out of view.
-RL_FN bool visibleFilmBefore(RL_IN(GBufferTexel) v, RL_OUT(vec2) film) {
+RL_FN bool filmPointPrevious(RL_IN(GBufferTexel) v, RL_OUT(vec2) film) {
   vec2 resolution = vec2(float(gFrame.width), float(gFrame.height));
   vec3 posW = v.posW;
   // The background is infinitely far: only the direction counts.

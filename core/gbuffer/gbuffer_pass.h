@@ -1,4 +1,4 @@
-// Buffers of the `visible` kernel.
+// Buffers of the `gbuffer` kernel.
 #ifndef RL_VISIBLE_KERNEL_H
 #define RL_VISIBLE_KERNEL_H
 
@@ -8,17 +8,17 @@
 
 RL_NAMESPACE_BEGIN
 
-struct VisibleBuffers {
-  QuadRef visible;
+struct GBufferBuffers {
+  Uvec4Ref gbuffer;
 };
 
-struct VisibleParams {
+struct GBufferParams {
   uint padding;
 };
 
 RL_NAMESPACE_END
 
-#define RL_KERNEL_BUFFERS VisibleBuffers
-#define RL_KERNEL_PARAMS VisibleParams
+#define RL_KERNEL_BUFFERS GBufferBuffers
+#define RL_KERNEL_PARAMS GBufferParams
 
 #endif
