@@ -1,7 +1,7 @@
 // Visible surface at the centre of a pixel: the key by which histories follow surfaces. Independent
 // of film samples: an acceptance test that depended on the sample it accepts would be biased.
-#ifndef RL_VISIBLE_H
-#define RL_VISIBLE_H
+#ifndef RL_GBUFFER_H
+#define RL_GBUFFER_H
 
 #ifdef __cplusplus
 #include "core/dialect/types.h"

@@ -1,4 +1,4 @@
-// visible: surfaces at pixel centres. One ray per pixel, in frames of a new view.
+// gbuffer: surfaces at pixel centres. One ray per pixel, in frames of a new view.
 
 #include "core/gbuffer/gbuffer_trace.glsl"
 

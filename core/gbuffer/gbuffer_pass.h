@@ -1,6 +1,6 @@
 // Buffers of the `gbuffer` kernel.
-#ifndef RL_VISIBLE_KERNEL_H
-#define RL_VISIBLE_KERNEL_H
+#ifndef RL_GBUFFER_PASS_H
+#define RL_GBUFFER_PASS_H
 
 #ifdef __cplusplus
 #include "core/dialect/types.h"

@@ -80,7 +80,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   if (hit.instance == RL_INVALID && gFrame.camera.kind == RL_CAMERA_ORTHOGRAPHIC)
     motion.film = vec2(0.0f, 0.0f);
   if (gFrame.stillFrames != 0u) {
-    Guide held = guideRead(gBuffers.guideBefore, pixelIndex);
+    Guide held = guideRead(gBuffers.guidePrevious, pixelIndex);
     float weight = 1.0f / (min(float(gFrame.stillFrames), RL_GUIDE_FRAMES) + 1.0f);
     g.isLight = max(g.isLight, held.isLight);
     vec3 n = held.nW * (1.0f - weight) + g.nW * weight;

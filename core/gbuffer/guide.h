@@ -12,7 +12,7 @@ RL_NAMESPACE_BEGIN
 struct GuideBuffers {
   Uvec4Ref gbuffer;
   Uvec4Ref guide;
-  Uvec4Ref guideBefore;
+  Uvec4Ref guidePrevious;
   Uvec4Ref motion;
 };
 

@@ -290,8 +290,8 @@ RL_FN vec3 surfaceOffset(RL_IN(vec3) posW, RL_IN(vec3) nGeoW, float posError, RL
 }
 
 // End of a segment at a surface point; dirW points to the segment's origin, whose position has the
-// error originError. Traversal rounds the distance relative to the segment's length, which the sum
-// of both errors covers.
+// error originError. Traversal rounds the distance relative to the segment's length, which the
+// larger of both errors covers: each grows with the distance from the scene's origin.
 RL_FN vec3 surfaceSegmentEnd(RL_IN(vec3) posW, RL_IN(vec3) nGeoW, float posError, float originError,
                              RL_IN(vec3) dirW) {
   return surfaceOffset(posW, nGeoW, max(posError, originError), dirW);

@@ -1,6 +1,7 @@
 // light_edges, a pass of new views: antialiasing of lamps that the camera sees. A pixel at a lamp's
 // edge takes several camera rays at once, at the film samples that the next still frames would use.
-// Those frames add no further sample of light that is seen directly.
+// When the view then stays still, the initial pass leaves the light seen directly in those frames
+// out of its average.
 #include "core/transport/light_edges.glsl"
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {

@@ -7,22 +7,22 @@
 // furnace that is exact.
 
 // Returns whether the centre of a pixel shows a lamp. `gbuffer`: core/gbuffer/gbuffer.h.
-RL_FN bool lightsAtCentre(RL_IN(Uvec4Ref) visible, uint x, uint y) {
-  return gbufferRead(visible, gFrame.camera, y * gFrame.width + x).emits != 0u;
+RL_FN bool lightsAtCentre(RL_IN(Uvec4Ref) gbuffer, uint x, uint y) {
+  return gbufferRead(gbuffer, gFrame.camera, y * gFrame.width + x).emits != 0u;
 }
 
 // Returns whether a lamp ends at this pixel, judged by its centre and those of the eight pixels
 // around it. A light that no centre shows is missed and keeps the path's one sample.
-RL_FN bool lightsEndHere(RL_IN(Uvec4Ref) visible, RL_IN(uvec2) pixel) {
+RL_FN bool lightsEndHere(RL_IN(Uvec4Ref) gbuffer, RL_IN(uvec2) pixel) {
   // Skip cameras inside a body: lightsAtFilm() handles neither absorption nor overlapping bodies.
   if (gFrame.cameraMedia.x != 0u) return false;
-  bool isLight = lightsAtCentre(visible, pixel.x, pixel.y);
+  bool isLight = lightsAtCentre(gbuffer, pixel.x, pixel.y);
   for (uint i = 0u; i < 9u; i = i + 1u) {
     // Left of column 0 and above row 0 the index wraps to a large number: outside, too.
     uint x = pixel.x + i % 3u - 1u;
     uint y = pixel.y + i / 3u - 1u;
     if (x >= gFrame.width || y >= gFrame.height) continue;
-    if (lightsAtCentre(visible, x, y) != isLight) return true;
+    if (lightsAtCentre(gbuffer, x, y) != isLight) return true;
   }
   return false;
 }

@@ -33,7 +33,7 @@ const uint RL_SVGF_HISTORY_UVEC4S = 3u;
 struct SvgfBuffers {
   Vec3Ref radiance;
   Uvec4Ref guide;
-  Uvec4Ref guideBefore;
+  Uvec4Ref guidePrevious;
   Uvec4Ref motion;
   FloatRef radianceFrames;  // of the radiance; null where all pixels have gFrame.radianceFrames
   UintRef changes;          // core/temporal_gradients

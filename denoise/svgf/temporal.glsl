@@ -24,7 +24,7 @@ RL_FN void svgfGather(RL_IN(Guide) here, RL_IN(FilterSurface) surface, RL_IN(vec
       !(y < float(gFrame.height)))
     return;
   uint pixelIndex = uint(y) * gFrame.width + uint(x);
-  vec4 there = guideSurface(gBuffers.guideBefore, pixelIndex);
+  vec4 there = guideSurface(gBuffers.guidePrevious, pixelIndex);
   weight *= svgfLikeness(here, surface, there, x + 0.5f - film.x, y + 0.5f - film.y);
   if (!(weight > 0.0f)) return;
   SvgfHistory h = svgfHistoryRead(gBuffers.historyBefore, pixelIndex);

@@ -11,8 +11,6 @@
 
 namespace restlab {
 
-namespace {}  // namespace
-
 void BiasRuns::add(const Image& run) {
   if (!groups_.empty()) {
     const Image& first = groups_.front().sum;

@@ -167,8 +167,9 @@ std::vector<uint32_t> CacheRun::insertionsOf(uint32_t entry) const {
   context.gFrame = lastFrame_;
   context.gParams.entries = entries_;
   std::vector<uint32_t> slots;
-  for (const uint32_t ticket : this->entry("insertions", entry, rl::RL_ENTRY_INSERTIONS)) {
-    if (ticket != 0) slots.push_back(context.entryCandidatePixel(context.groupOfPriority(ticket)));
+  for (const uint32_t priority : this->entry("insertions", entry, rl::RL_ENTRY_INSERTIONS)) {
+    if (priority != 0)
+      slots.push_back(context.entryCandidatePixel(context.groupOfPriority(priority)));
   }
   return slots;
 }
