@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/types.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,6 +17,7 @@
 #include <thread>
 
 #include "experiments/report/pixels.h"
+#include "tests/report/sample.h"
 
 namespace restlab::report_test {
 
@@ -32,7 +34,7 @@ double nowS() {
 
 // Runs in the child: Chromium expects the protocol's pipes at descriptors 3 and 4.
 [[noreturn]] void becomeBrowser(const std::string& program, const fs::path& folder, int read,
-                                int write, int width, int height) {
+                                int write) {
   setpgid(0, 0);
   // Move both above 4 first: one may occupy the other's place.
   const int in = fcntl(read, F_DUPFD, 10), out = fcntl(write, F_DUPFD, 10);
@@ -45,21 +47,19 @@ double nowS() {
   dup2(out, 4);
   for (int fd = 5; fd < 64; ++fd) close(fd);
   setenv("HOME", folder.c_str(), 1);
-  std::vector<std::string> words = {
-      program,
-      "--headless",
-      "--remote-debugging-pipe",
-      "--user-data-dir=" + (folder / "profile").string(),
-      "--window-size=" + std::to_string(width) + "," + std::to_string(height),
-      "--force-device-scale-factor=1",
-      "--disable-gpu",
-      "--disable-dev-shm-usage",
-      "--disable-background-networking",
-      "--disable-component-update",
-      "--disable-sync",
-      "--no-first-run",
-      "--no-default-browser-check",
-      "--mute-audio"};
+  std::vector<std::string> words = {program,
+                                    "--headless",
+                                    "--remote-debugging-pipe",
+                                    "--user-data-dir=" + (folder / "profile").string(),
+                                    "--force-device-scale-factor=1",
+                                    "--disable-gpu",
+                                    "--disable-dev-shm-usage",
+                                    "--disable-background-networking",
+                                    "--disable-component-update",
+                                    "--disable-sync",
+                                    "--no-first-run",
+                                    "--no-default-browser-check",
+                                    "--mute-audio"};
   // Enables WebGL2 without a GPU, for the tests that need it.
   words.push_back("--enable-unsafe-swiftshader");
   // Chromium's sandbox does not start for root.
@@ -85,7 +85,50 @@ std::string findBrowser() {
   return "";
 }
 
-Browser::Browser(const fs::path& folder, int width, int height) {
+// Chromium, with its profile and its log in a folder that goes with it.
+class BrowserProcess {
+ public:
+  // Returns the one of this program; starts it if there is none, or if it has ended.
+  static std::shared_ptr<BrowserProcess> get();
+  BrowserProcess();
+  ~BrowserProcess() { end(); }
+  BrowserProcess(const BrowserProcess&) = delete;
+  BrowserProcess& operator=(const BrowserProcess&) = delete;
+
+  // Returns the answer of a page, or without `session` of the browser.
+  Json call(const std::string& method, const Json& parameters, const std::string& session = "");
+  // Handles one message that answers no call.
+  void receiveEvent(double deadlineS);
+
+  std::map<std::string, Browser*> pages;  // by session
+
+ private:
+  Json receive(double deadlineS);
+  void note(const Json& event);
+  [[noreturn]] void hasEnded() const;
+  void end();
+
+  TemporaryFolder folder_;
+  pid_t child_ = -1;
+  int in_ = -1, out_ = -1;  // pipes of the program: in_ is written to, out_ is read
+  int lastId_ = 0;
+  std::string buffer_;
+};
+
+std::shared_ptr<BrowserProcess> BrowserProcess::get() {
+  static std::shared_ptr<BrowserProcess> process;
+  if (process) {
+    try {
+      process->call("Browser.getVersion", Json::object());
+    } catch (const std::runtime_error&) {
+      process.reset();
+    }
+  }
+  if (!process) process = std::make_shared<BrowserProcess>();
+  return process;
+}
+
+BrowserProcess::BrowserProcess() {
   // Without this, writing to a dead browser would raise a signal instead of an error.
   signal(SIGPIPE, SIG_IGN);
   int toChild[2], fromChild[2];
@@ -94,33 +137,14 @@ Browser::Browser(const fs::path& folder, int width, int height) {
   }
   const std::string program = findBrowser();
   child_ = fork();
-  if (child_ == 0) becomeBrowser(program, folder, toChild[0], fromChild[1], width, height);
+  if (child_ == 0) becomeBrowser(program, folder_.path(), toChild[0], fromChild[1]);
   close(toChild[0]);
   close(fromChild[1]);
   in_ = toChild[1];
   out_ = fromChild[0];
-  try {
-    attach(width, height);
-  } catch (...) {
-    end();
-    throw;
-  }
 }
 
-void Browser::attach(int width, int height) {
-  const Json target = call("Target.createTarget", {{"url", "about:blank"}}, false);
-  const Json attached =
-      call("Target.attachToTarget", {{"targetId", target["targetId"]}, {"flatten", true}}, false);
-  session_ = attached["sessionId"];
-  for (const char* domain : {"Page", "Runtime", "Network", "Log"}) {
-    call(std::string(domain) + ".enable", Json::object());
-  }
-  resize(width, height);
-}
-
-Browser::~Browser() { end(); }
-
-void Browser::end() {
+void BrowserProcess::end() {
   close(in_);
   close(out_);
   // The browser ends when its pipe closes; otherwise kill its whole process group.
@@ -137,7 +161,14 @@ void Browser::end() {
   }
 }
 
-Json Browser::receive(double deadlineS) {
+void BrowserProcess::hasEnded() const {
+  std::ifstream log(folder_.path() / "browser.log");
+  std::ostringstream text;
+  text << log.rdbuf();
+  throw std::runtime_error("the browser has ended: " + text.str());
+}
+
+Json BrowserProcess::receive(double deadlineS) {
   for (;;) {
     const size_t end = buffer_.find('\0');
     if (end != std::string::npos) {
@@ -151,9 +182,67 @@ Json Browser::receive(double deadlineS) {
     if (poll(&waiting, 1, int(left * 1000.0) + 1) <= 0) continue;
     char bytes[65536];
     const ssize_t size = read(out_, bytes, sizeof(bytes));
-    if (size <= 0) throw std::runtime_error("the browser has ended (browser.log says more)");
+    if (size <= 0) hasEnded();
     buffer_.append(bytes, size_t(size));
   }
+}
+
+void BrowserProcess::note(const Json& event) {
+  const auto page = pages.find(event.value("sessionId", ""));
+  if (page != pages.end()) page->second->note(event);
+}
+
+void BrowserProcess::receiveEvent(double deadlineS) { note(receive(deadlineS)); }
+
+Json BrowserProcess::call(const std::string& method, const Json& parameters,
+                          const std::string& session) {
+  Json request = {{"id", ++lastId_}, {"method", method}, {"params", parameters}};
+  if (!session.empty()) request["sessionId"] = session;
+  const std::string text = request.dump() + '\0';
+  for (size_t sent = 0; sent < text.size();) {
+    const ssize_t size = write(in_, text.data() + sent, text.size() - sent);
+    if (size <= 0) hasEnded();
+    sent += size_t(size);
+  }
+  const double deadline = nowS() + kAnswerS;
+  for (;;) {
+    const Json message = receive(deadline);
+    if (message.value("id", 0) != lastId_) {
+      note(message);
+    } else if (message.contains("error")) {
+      throw std::runtime_error(method + ": " + message["error"].dump());
+    } else {
+      return message["result"];
+    }
+  }
+}
+
+Browser::Browser(int width, int height) : process_(BrowserProcess::get()) {
+  profile_ = process_->call("Target.createBrowserContext", Json::object())["browserContextId"];
+  const Json target = process_->call("Target.createTarget",
+                                     {{"url", "about:blank"}, {"browserContextId", profile_}});
+  session_ = process_->call("Target.attachToTarget",
+                            {{"targetId", target["targetId"]}, {"flatten", true}})["sessionId"];
+  process_->pages[session_] = this;
+  for (const char* domain : {"Page", "Runtime", "Network", "Log"}) {
+    call(std::string(domain) + ".enable", Json::object());
+  }
+  // Each page takes itself to be the one in front.
+  call("Emulation.setFocusEmulationEnabled", {{"enabled", true}});
+  resize(width, height);
+}
+
+Browser::~Browser() {
+  process_->pages.erase(session_);
+  try {
+    process_->call("Target.disposeBrowserContext", {{"browserContextId", profile_}});
+  } catch (const std::runtime_error&) {
+    // It has ended: the next page starts another one.
+  }
+}
+
+Json Browser::call(const std::string& method, const Json& parameters) {
+  return process_->call(method, parameters, session_);
 }
 
 void Browser::note(const Json& event) {
@@ -177,28 +266,6 @@ void Browser::note(const Json& event) {
   }
 }
 
-Json Browser::call(const std::string& method, const Json& parameters, bool ofPage) {
-  Json request = {{"id", ++lastId_}, {"method", method}, {"params", parameters}};
-  if (ofPage) request["sessionId"] = session_;
-  const std::string text = request.dump() + '\0';
-  for (size_t sent = 0; sent < text.size();) {
-    const ssize_t size = write(in_, text.data() + sent, text.size() - sent);
-    if (size <= 0) throw std::runtime_error("the browser has ended (browser.log says more)");
-    sent += size_t(size);
-  }
-  const double deadline = nowS() + kAnswerS;
-  for (;;) {
-    const Json message = receive(deadline);
-    if (message.value("id", 0) != lastId_) {
-      note(message);
-    } else if (message.contains("error")) {
-      throw std::runtime_error(method + ": " + message["error"].dump());
-    } else {
-      return message["result"];
-    }
-  }
-}
-
 void Browser::open(const fs::path& file) {
   opened_ = "file://" + fs::absolute(file).string();
   loaded_ = false;
@@ -207,7 +274,7 @@ void Browser::open(const fs::path& file) {
     throw std::runtime_error(opened_ + ": " + result["errorText"].get<std::string>());
   }
   const double deadline = nowS() + kAnswerS;
-  while (!loaded_) note(receive(deadline));
+  while (!loaded_) process_->receiveEvent(deadline);
 }
 
 Json Browser::evaluate(const std::string& expression) {

@@ -1,9 +1,8 @@
 // Headless Chromium driven by a test: DevTools protocol over two pipes, real input events.
 #pragma once
 
-#include <sys/types.h>
-
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -15,11 +14,14 @@ using Json = nlohmann::json;
 // Returns the program found in PATH; "" if there is none.
 std::string findBrowser();
 
-// One page. Every call waits for its answer; errors throw std::runtime_error.
+class BrowserProcess;
+
+// One page, with a profile of its own. The first one of a test program starts Chromium, which ends
+// with the program. Every call waits for its answer; errors throw std::runtime_error.
 class Browser {
  public:
-  // Starts the program with a profile below `folder`.
-  Browser(const std::filesystem::path& folder, int width, int height);
+  // Opens an empty page of the given size in CSS pixels.
+  Browser(int width, int height);
   ~Browser();
   Browser(const Browser&) = delete;
   Browser& operator=(const Browser&) = delete;
@@ -53,19 +55,15 @@ class Browser {
   const std::vector<std::string>& complaints() const { return complaints_; }
 
  private:
-  // Opens a new page.
-  void attach(int width, int height);
-  void end();
-  Json call(const std::string& method, const Json& parameters, bool ofPage = true);
-  Json receive(double deadlineS);
+  friend class BrowserProcess;
+
+  Json call(const std::string& method, const Json& parameters);
   void note(const Json& event);
   void mouse(const char* type, double x, double y, int buttons, int clicks);
   void sendKey(const char* type, const std::string& key, const std::string& code, bool shift);
 
-  pid_t child_ = -1;
-  int in_ = -1, out_ = -1;  // pipes of the program: in_ is written to, out_ is read
-  int lastId_ = 0;
-  std::string session_, opened_, buffer_;
+  std::shared_ptr<BrowserProcess> process_;
+  std::string profile_, session_, opened_;
   bool loaded_ = false;
   std::vector<std::string> requests_, complaints_;
 };

@@ -32,7 +32,7 @@ float parse(const std::string& word) {
 
 void PageTest::SetUp() {
   if (findBrowser().empty()) GTEST_SKIP() << "Chromium is not installed (package chromium)";
-  browser_ = std::make_unique<Browser>(folder_.path(), 1280, 900);
+  browser_ = std::make_unique<Browser>(1280, 900);
 }
 
 void PageTest::TearDown() {

@@ -15,3 +15,5 @@ set(RL_REPORT_TESTS
   report/xml.cpp
 )
 set(RL_REPORT_LIBRARIES rl_report)
+# Their tests share a browser.
+set(RL_REPORT_SUITES PainterTest ReportPage RunFolder ViewerTest)

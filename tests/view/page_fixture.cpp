@@ -58,7 +58,7 @@ void LivePageTest::SetUp() {
   ViewLoopTest::SetUp();
   if (report_test::findBrowser().empty())
     GTEST_SKIP() << "Chromium is not installed (package chromium)";
-  browser_ = std::make_unique<Browser>(folder(), 1280, 800);
+  browser_ = std::make_unique<Browser>(1280, 800);
 }
 
 void LivePageTest::TearDown() {

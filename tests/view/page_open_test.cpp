@@ -29,9 +29,7 @@ constexpr const char* kState = "const {say, ...rest} = page.state; return rest;"
 
 TEST_F(PageOpenTest, TwoPagesShowTheSame) {
   open();
-  const auto other = folder() / "other";
-  std::filesystem::create_directory(other);
-  Browser second(other, 1000, 700);
+  Browser second(1000, 700);
   open(second);
   page(
       "send({do: 'parameter', pane: 0, name: 'confidence_cap', value: 9});"
