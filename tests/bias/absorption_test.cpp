@@ -31,7 +31,7 @@ Method weighted(double misExponent) {
 // A light sample may leave through the surface that it is drawn at, and then travels in another
 // medium than the path did. `path` is the truth of all bias tests, so its own techniques are
 // compared with each other: MIS weights that favour light samples with weights that do not.
-TEST(Absorption, TechniquesAgreeOnRoughGlass) {
+TEST(Absorption, NightlyTechniquesAgreeOnRoughGlass) {
   constexpr size_t kRuns = 64;
   const auto scene = blueSlab();
   const stats::Truth truth = stats::truthOf(independentRuns(scene, weighted(1.0), 1, kRuns));

@@ -128,7 +128,7 @@ TEST(Slope, OfMadeUpEnergies) {
 }
 
 // A drift of one percent per decade is found, also with fresh seeds.
-TEST(Slope, OfAPlantedDriftIsFound) {
+TEST(Slope, NightlyOfAPlantedDriftIsFound) {
   const History history = histories({"unbiased"}).front();
   Session session(builtinScene("furnace"), configOf(history));
   for (const uint32_t seed : {40'000'000u, 40'000'100u}) {

@@ -24,7 +24,7 @@ class Healthy : public ::testing::TestWithParam<Variant> {
 
 TEST_P(Healthy, OnEveryBuiltinScene) {
   for (const std::string& scene : builtinSceneNames()) {
-    expectHealthy(scene, configOf(GetParam(), 128, 72), 8);
+    expectHealthy(scene, configOf(GetParam(), 64, 36), 8);
   }
 }
 

@@ -127,10 +127,10 @@ INSTANTIATE_TEST_SUITE_P(Every, LightTransport, ::testing::ValuesIn(byDay(allVar
                          VariantName());
 INSTANTIATE_TEST_SUITE_P(Nightly, LightTransport, ::testing::ValuesIn(byNight(allVariants())),
                          VariantName());
-INSTANTIATE_TEST_SUITE_P(Every, UnbiasedTransport, ::testing::ValuesIn(byDay(unbiasedVariants())),
-                         VariantName());
+INSTANTIATE_TEST_SUITE_P(Every, UnbiasedTransport,
+                         ::testing::ValuesIn(meansByDay(unbiasedVariants())), VariantName());
 INSTANTIATE_TEST_SUITE_P(Nightly, UnbiasedTransport,
-                         ::testing::ValuesIn(byNight(unbiasedVariants())), VariantName());
+                         ::testing::ValuesIn(meansByNight(unbiasedVariants())), VariantName());
 
 }  // namespace
 }  // namespace restlab::conformance

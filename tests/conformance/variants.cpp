@@ -63,6 +63,11 @@ bool isDaily(const Variant& v) {
   return isFirstMode ? isFirstCache : !isFirstCache && !isLastCache;
 }
 
+// `template` estimates as `path` does; the mean under denoisers has tests in tests/denoise.
+bool hasMeanOfItsOwn(const Variant& v) {
+  return v.integrator != "template" && v.denoiser == "none";
+}
+
 }  // namespace
 
 std::vector<Variant> byDay(std::vector<Variant> all) {
@@ -72,6 +77,16 @@ std::vector<Variant> byDay(std::vector<Variant> all) {
 
 std::vector<Variant> byNight(std::vector<Variant> all) {
   std::erase_if(all, isDaily);
+  return all;
+}
+
+std::vector<Variant> meansByDay(std::vector<Variant> all) {
+  std::erase_if(all, [](const Variant& v) { return !isDaily(v) || !hasMeanOfItsOwn(v); });
+  return all;
+}
+
+std::vector<Variant> meansByNight(std::vector<Variant> all) {
+  std::erase_if(all, [](const Variant& v) { return isDaily(v) && hasMeanOfItsOwn(v); });
   return all;
 }
 

@@ -38,6 +38,10 @@ std::vector<Variant> unbiasedVariants();
 std::vector<Variant> byDay(std::vector<Variant> all);
 std::vector<Variant> byNight(std::vector<Variant> all);
 
+// Splits variants for tests of the mean over many runs, the dearest of all.
+std::vector<Variant> meansByDay(std::vector<Variant> all);
+std::vector<Variant> meansByNight(std::vector<Variant> all);
+
 // Used by gtest to print and name parameters.
 void PrintTo(const Variant& variant, std::ostream* out);
 struct VariantName {

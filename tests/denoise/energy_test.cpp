@@ -1,6 +1,7 @@
 // A filter moves light between pixels; it must not change the total.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/scene/scene.h"
@@ -52,16 +53,28 @@ TEST_P(FilterEnergy, IsWithinOnePercent) {
   EXPECT_LE(std::abs(s.mean - 1.0) + halfWidth, 0.01) << "the whole interval lies within 1 %";
 }
 
+const std::vector<std::string> kDaily = {"cornell-box", "door-ajar", "glossy-gallery", "courtyard"};
+
+std::vector<std::string> nightly() {
+  std::vector<std::string> scenes = builtinSceneNames();
+  std::erase_if(scenes, [](const std::string& name) {
+    return std::find(kDaily.begin(), kDaily.end(), name) != kDaily.end();
+  });
+  return scenes;
+}
+
+const auto kDenoisers = testing::Values("atrous", "svgf", "asvgf", "svgf_restir");
+
+std::string nameOf(const testing::TestParamInfo<Case>& test) {
+  std::string name = std::get<0>(test.param) + "_" + std::get<1>(test.param);
+  for (char& c : name) c = c == '-' ? '_' : c;
+  return name;
+}
+
 INSTANTIATE_TEST_SUITE_P(Builtin, FilterEnergy,
-                         testing::Combine(testing::ValuesIn(builtinSceneNames()),
-                                          testing::Values("atrous", "svgf", "asvgf",
-                                                          "svgf_restir")),
-                         [](const auto& test) {
-                           std::string name =
-                               std::get<0>(test.param) + "_" + std::get<1>(test.param);
-                           for (char& c : name) c = c == '-' ? '_' : c;
-                           return name;
-                         });
+                         testing::Combine(testing::ValuesIn(kDaily), kDenoisers), nameOf);
+INSTANTIATE_TEST_SUITE_P(Nightly, FilterEnergy,
+                         testing::Combine(testing::ValuesIn(nightly()), kDenoisers), nameOf);
 
 }  // namespace
 }  // namespace restlab::denoise

@@ -12,14 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns the difference between a file and its formatted text, as a diff; empty if there is none.
-CommandResult formatDiff(const std::string& path) {
-  // The dialect's files are formatted as C++.
-  return runCommand("cd '" RESTLAB_SOURCE_DIR "' && " RESTLAB_CLANG_FORMAT
-                    " --assume-filename=x.cpp < '" +
-                    path + "' | diff -u '" + path + "' -");
-}
-
 std::vector<std::string> sourceFiles() {
   std::vector<std::string> files;
   for (const char* folder : {"core", "integrators", "denoise", "experiments", "tests"}) {
@@ -41,10 +33,11 @@ TEST(Format, EveryFileIsFormatted) {
   }
   const std::vector<std::string> files = sourceFiles();
   EXPECT_GT(files.size(), 100u);
-  for (const std::string& file : files) {
-    const CommandResult result = formatDiff(file);
-    EXPECT_EQ(result.status, 0) << result.output;
-  }
+  std::string names;
+  for (const std::string& file : files) names += " '" + file + "'";
+  // The dialect's files are formatted as C++, which clang-format takes unknown endings for.
+  const CommandResult result = runCommand(RESTLAB_CLANG_FORMAT " --dry-run --Werror" + names);
+  EXPECT_EQ(result.status, 0) << result.output;
 }
 
 }  // namespace
