@@ -65,16 +65,16 @@ std::vector<std::string> nightly() {
 
 const auto kDenoisers = testing::Values("atrous", "svgf", "asvgf", "svgf_restir");
 
-std::string nameOf(const testing::TestParamInfo<Case>& test) {
+std::string nameOfCase(const testing::TestParamInfo<Case>& test) {
   std::string name = std::get<0>(test.param) + "_" + std::get<1>(test.param);
   for (char& c : name) c = c == '-' ? '_' : c;
   return name;
 }
 
 INSTANTIATE_TEST_SUITE_P(Builtin, FilterEnergy,
-                         testing::Combine(testing::ValuesIn(kDaily), kDenoisers), nameOf);
+                         testing::Combine(testing::ValuesIn(kDaily), kDenoisers), nameOfCase);
 INSTANTIATE_TEST_SUITE_P(Nightly, FilterEnergy,
-                         testing::Combine(testing::ValuesIn(nightly()), kDenoisers), nameOf);
+                         testing::Combine(testing::ValuesIn(nightly()), kDenoisers), nameOfCase);
 
 }  // namespace
 }  // namespace restlab::denoise
