@@ -220,7 +220,6 @@ TEST(Canary, AWrongWeightIsRejected) {
   tryAll(Trial(belowTheLamp(farDonors()), kEveryDay), {kOfWeights.front()});
 }
 TEST(Canary, MissingVisibilityIsRejected) { tryWalking(kEveryDay); }
-TEST(Canary, AStaleTargetIsRejected) { tryChangingLight(kObvious); }
 
 TEST(Canary, NightlyWrongWeightsAreRejected) { tryWeights(kNightly); }
 TEST(Canary, NightlyWrongWeightsOfNearDonorsAreRejected) { tryNear(kNightly); }

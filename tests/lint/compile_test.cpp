@@ -103,7 +103,7 @@ TEST_P(Cpp, EveryKernelCompiles) {
     EXPECT_EQ(result.status, 0) << name << ":\n" << result.output;
   };
   for (const Kernel& kernel : kernels()) check(kernel, "");
-  // What traces is the same text in all kernels that trace.
+  // Kernels that trace share the text of it.
   for (const std::string& trace : traceFiles()) check(kernelNamed("path"), trace);
 }
 

@@ -192,7 +192,6 @@ TEST_P(PathParity, SameSeedSameImage) {
 }
 
 const PathCase kPathCases[] = {
-    {"CornellBox", [] { return makeBuiltinScene("cornell-box"); }, 0.002, 1e-5, 0u},
     {"EveryFeature", makeEverythingScene, 0.02, 1e-4, 0u},
     {"EveryFeatureMultiscatter", makeEverythingScene, 0.02, 1e-4, 1u},
 };
