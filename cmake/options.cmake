@@ -57,6 +57,15 @@ function(rl_precompile target)
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 endfunction()
 
+# rl_precompile_as(<target> <other>): a target with the options of another uses its precompiled header.
+function(rl_precompile_as target other)
+  get_target_property(headers ${other} PRECOMPILE_HEADERS)
+  if(headers)
+    target_precompile_headers(${target} REUSE_FROM ${other})
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+  endif()
+endfunction()
+
 # rl_compile_lightly(<target>): what parses, prints and serves is as fast with less optimisation, and
 # takes a third less to compile. Sources that loop over pixels keep -O3.
 function(rl_compile_lightly target)

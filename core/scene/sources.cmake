@@ -6,6 +6,28 @@ target_sources(rl_core PRIVATE
   scene/content_hash.cpp
   scene/textures/cube_map.cpp
   scene/textures/environment.cpp
+  scene/textures/hdr_decode.cpp
+  scene/textures/hdr_header.cpp
+  scene/textures/image_decode.cpp
+  scene/textures/jpeg_decode.cpp
+  scene/compiled/light_factor.cpp
+  scene/linear_map.cpp
+  scene/plate.cpp
+  scene/load_scene.cpp
+  scene/textures/png_decode.cpp
+  scene/textures/texture_range.cpp
+  scene/compiled/coarse_vertices.cpp
+  scene/compiled/scene_bounds.cpp
+  scene/compiled/scene_origin.cpp
+  scene/camera_path/sight.cpp
+  scene/compiled/split_triangles.cpp
+)
+target_link_libraries(rl_core PUBLIC nlohmann_json::nlohmann_json)
+target_include_directories(rl_core SYSTEM PRIVATE ${SPNG_INCLUDE_DIR} ${TURBOJPEG_INCLUDE_DIR})
+target_link_libraries(rl_core PRIVATE ${SPNG_LIBRARY} ${TURBOJPEG_LIBRARY})
+
+# Scenes of files and of code: made once, so half of the compile time is worth more than speed.
+add_library(rl_scene_files OBJECT
   scene/gltf/accessor.cpp
   scene/gltf/attributes.cpp
   scene/gltf/cameras_lights.cpp
@@ -24,26 +46,29 @@ target_sources(rl_core PRIVATE
   scene/gltf/triangles.cpp
   scene/gltf/uri.cpp
   scene/gltf/validate.cpp
-  scene/textures/hdr_decode.cpp
-  scene/textures/hdr_header.cpp
-  scene/textures/image_decode.cpp
-  scene/textures/jpeg_decode.cpp
-  scene/compiled/light_factor.cpp
-  scene/linear_map.cpp
-  scene/plate.cpp
-  scene/load_scene.cpp
-  scene/textures/png_decode.cpp
-  scene/compiled/coarse_vertices.cpp
-  scene/compiled/scene_bounds.cpp
-  scene/compiled/scene_origin.cpp
-  scene/camera_path/sight.cpp
-  scene/compiled/split_triangles.cpp
   scene/gltf/tinygltf.cpp
+  scene/builtin/builtin.cpp
+  scene/builtin/builder.cpp
+  scene/builtin/cornell.cpp
+  scene/builtin/courtyard.cpp
+  scene/builtin/door.cpp
+  scene/builtin/floor.cpp
+  scene/builtin/furnace.cpp
+  scene/builtin/gallery.cpp
+  scene/builtin/glass.cpp
+  scene/builtin/many_lights.cpp
+  scene/builtin/media.cpp
+  scene/builtin/mesh.cpp
+  scene/builtin/name.cpp
+  scene/builtin/relations.cpp
+  scene/builtin/quad_light.cpp
+  scene/builtin/shell.cpp
+  scene/builtin/sky.cpp
 )
-# tinygltf is compiled into tinygltf.cpp (with its own file and image access left out), xxHash is a
-# header.
+target_link_libraries(rl_scene_files PRIVATE rl_options embree TBB::tbb glm::glm fmt::fmt Threads::Threads
+                      nlohmann_json::nlohmann_json OpenEXR::OpenEXR)
+rl_compile_lightly(rl_scene_files)
+rl_compile_together(rl_scene_files 1 gltf builtin)
+# tinygltf is compiled into tinygltf.cpp (with its own file and image access left out).
 set_property(SOURCE scene/gltf/tinygltf.cpp PROPERTY SKIP_UNITY_BUILD_INCLUSION ON)
-target_link_libraries(rl_core PUBLIC nlohmann_json::nlohmann_json)
-target_include_directories(rl_core SYSTEM PRIVATE ${SPNG_INCLUDE_DIR} ${TURBOJPEG_INCLUDE_DIR})
-target_link_libraries(rl_core PRIVATE ${SPNG_LIBRARY} ${TURBOJPEG_LIBRARY})
-include(${CMAKE_CURRENT_LIST_DIR}/builtin/sources.cmake)
+target_sources(rl_core PRIVATE $<TARGET_OBJECTS:rl_scene_files>)
