@@ -53,11 +53,29 @@ void runTile(const CpuKernelArgs& args, const CpuKernelTile& tile, CpuKernelCoun
   }
 }
 
+// Inlines every function but those of RL_FN_OUTLINE.
+template <uint FEATURES>
+__attribute__((flatten)) void runTileInlined(const CpuKernelArgs& args, const CpuKernelTile& tile,
+                                             CpuKernelCounters& counters) {
+  runTile<FEATURES>(args, tile, counters);
+}
+
+// Kernels without lobes are small: inlined as a whole they are 5 to 12 % faster. Others are not,
+// and would take three times as long to compile.
+template <uint FEATURES>
+constexpr CpuKernelEntry entryOf() {
+  if constexpr ((FEATURES & RL_FEATURE_GLOSSY) == 0u) {
+    return runTileInlined<FEATURES>;
+  } else {
+    return runTile<FEATURES>;
+  }
+}
+
 }  // namespace
 
 #define RL_KERNEL_ENTRY_OF(kernel, mask, features)      \
   extern const CpuKernelEntry kernel_##kernel##_##mask; \
-  const CpuKernelEntry kernel_##kernel##_##mask = runTile<features>;
+  const CpuKernelEntry kernel_##kernel##_##mask = entryOf<features>();
 #define RL_KERNEL_ENTRY_EXPANDED(kernel, mask, features) RL_KERNEL_ENTRY_OF(kernel, mask, features)
 #define RL_KERNEL_ENTRY(mask, features) RL_KERNEL_ENTRY_EXPANDED(RL_KERNEL_NAME, mask, features)
 RL_KERNEL_MASKS(RL_KERNEL_ENTRY)
