@@ -1,6 +1,6 @@
 // State of a path that is gathered for a reservoir.
-#ifndef RL_PATH_GATHER_H
-#define RL_PATH_GATHER_H
+#ifndef RL_PATH_RECORD_H
+#define RL_PATH_RECORD_H
 
 #ifdef __cplusplus
 #include "core/dialect/order.h"

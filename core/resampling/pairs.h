@@ -1,6 +1,6 @@
 // Parameters of pairs: pixels that serve each other as spatial donors.
-#ifndef RL_PARTNERS_H
-#define RL_PARTNERS_H
+#ifndef RL_PAIRS_H
+#define RL_PAIRS_H
 
 #ifdef __cplusplus
 #include "core/dialect/order.h"

@@ -17,7 +17,7 @@ struct ReservoirState {
 
 const uint RL_STATE_UVEC4S = 2u;  // per state in a buffer (core/resampling/reservoir.glsl)
 
-// Result of a shift to another anchor.
+// Result of a shift to another pixel or shading point.
 struct Shifted {
   real3 F;        // integrand there, visibility included; zero where the shift is undefined
   real jacobian;  // |dT/dx| of the shift; 1 where it is undefined

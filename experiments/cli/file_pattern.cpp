@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool isEnabled(const fs::path& file) {
+bool isPresent(const fs::path& file) {
   std::error_code status;
   return fs::exists(fs::symlink_status(file, status));
 }
@@ -20,7 +20,7 @@ bool isEnabled(const fs::path& file) {
 // Returns the entries of `folder` that match one component of a pattern.
 std::vector<fs::path> matches(const fs::path& folder, const fs::path& part) {
   if (part.empty()) return {folder / ""};
-  if (isEnabled(folder / part)) return {folder / part};
+  if (isPresent(folder / part)) return {folder / part};
   std::vector<fs::path> found;
   std::error_code error;
   fs::directory_iterator it(folder.empty() ? fs::path(".") : folder, error), end;
@@ -44,7 +44,7 @@ std::vector<std::string> filesLike(const std::string& pattern) {
   }
   std::vector<std::string> names;
   for (const fs::path& file : found)
-    if (isEnabled(file)) names.push_back(file.string());
+    if (isPresent(file)) names.push_back(file.string());
   std::sort(names.begin(), names.end());
   return names;
 }

@@ -1,4 +1,4 @@
-// Host side of `path`, the yardstick that every ratio is measured against.
+// Host side of `path`, the baseline of every ratio.
 #include "integrators/path/path.h"
 
 #include "core/frame/frame_graph.h"

@@ -1,4 +1,4 @@
-// path: the yardstick. One path per pixel and frame; at each vertex one light sample and one BSDF
+// path, the baseline. One path per pixel and frame; at each vertex one light sample and one BSDF
 // sample, combined by the power heuristic (Veach 1997, chapter 9). Unbiased, unless paths end in
 // radiance cells.
 #define RL_WALK_STATE PathState

@@ -61,7 +61,7 @@ TEST(LiveSession, ParametersOfTheCacheReachAStillView) {
   Session changed(scene, config);
   config.parameters = open;
   Session fresh(scene, config);
-  // Sums the rays of the pass `exchange` in 16 frames of an old history.
+  // Sums the rays of the pass `spatial_shift` in 16 frames of an old history.
   const auto rays = [](Session& session) {
     double sum = 0.0;
     for (uint32_t frame = 0; frame < 16; ++frame) {

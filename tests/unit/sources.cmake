@@ -51,6 +51,8 @@ set_property(SOURCE ${alone} PROPERTY SKIP_UNITY_BUILD_INCLUSION ON)
 # Millions of samples in the test's own code.
 foreach(file bsdf_sampling_test.cpp sphere_grid.cpp)
   set_property(SOURCE ${CMAKE_CURRENT_LIST_DIR}/${file} APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
+  # As in rl_compile_lightly (cmake/options.cmake).
+  set_property(SOURCE ${CMAKE_CURRENT_LIST_DIR}/${file} PROPERTY SKIP_PRECOMPILE_HEADERS ON)
 endforeach()
 
 # What tells tracers apart, for the tests of other machines too.

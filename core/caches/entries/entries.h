@@ -25,7 +25,7 @@ const uint RL_ENTRY_INSERTIONS = 4u;
 struct EntryParams {
   uint count;        // number of entries; 0: the cache has none
   uint proposals;    // entries a pixel takes as donors; at most RL_MAX_DONORS
-  uint insertEvery;  // one of so many adjacent pixels offers its sample
+  uint insertEvery;  // one of so many adjacent pixels inserts its sample
   float cap;         // cap of an entry's confidence, in samples
   float spread;      // distance of further donors, in sides of a cell or radii of a disc
 };

@@ -1,9 +1,9 @@
-// Selects which pixels offer their sample in a frame. Adjacent pixels form groups; each frame one
-// pixel of a group offers, in turn. An entry takes the candidates of the groups with the greatest
-// priorities, which do not depend on execution order.
+// Selects which pixels insert their sample into an entry. Adjacent pixels form groups; each frame
+// one pixel of a group inserts, round robin. An entry takes the candidates of the groups with the
+// greatest priorities, which do not depend on execution order.
 
 RL_FN uint groupOfPixel(uint pixelIndex, uint every) { return pixelIndex / every; }
-// Slot of the pixel of a group whose turn it is in a frame. The last group may have fewer pixels.
+// Pixel of a group that inserts in a frame. The last group may have fewer pixels.
 RL_FN uint groupRoundRobin(uint group, uint every, uint frame) {
   uint first = group * every;
   uint size = min(every, gFrame.width * gFrame.height - first);
@@ -22,8 +22,8 @@ RL_FN uint groupOfPriority(uint priority) {
   return priority * 244002641u - rngSharedBits(0u, RL_DIM_DONOR_U);
 }
 
-// Offers a group to an entry. The entry takes the greatest priority of each of RL_ENTRY_INSERTIONS
-// buckets.
+// Inserts a group into an entry. The entry takes the greatest priority of each of
+// RL_ENTRY_INSERTIONS buckets.
 RL_FN void groupInserts(RL_IN(UintRef) insertions, uint entry, uint group) {
   uint priority = entryPriority(group);
   uint bucket = rngHash(priority) % RL_ENTRY_INSERTIONS;

@@ -37,7 +37,8 @@ const Schema<EntrySettings>& schema() {
                                "confidence that an entry keeps, in samples", kSwept),
       Parameter<EntrySettings>(
           &EntrySettings::insertEvery, "feed_every", Range{1, 256},
-          "one of so many pixels side by side offers its sample to its entry each frame", kSwept)};
+          "one of so many pixels side by side inserts its sample into its entry each frame",
+          kSwept)};
   return all;
 }
 

@@ -65,9 +65,9 @@ void checkDepth(std::string_view text, const Report& report) {
 
 bool isNumberOfJson(std::string_view text) {
   const auto take = [&](std::string_view any) {
-    const bool isEnabled = !text.empty() && any.find(text[0]) != std::string_view::npos;
-    text.remove_prefix(isEnabled ? 1 : 0);
-    return isEnabled;
+    const bool isFound = !text.empty() && any.find(text[0]) != std::string_view::npos;
+    text.remove_prefix(isFound ? 1 : 0);
+    return isFound;
   };
   const auto takeDigits = [&] {
     const size_t count = std::min(text.find_first_not_of("0123456789"), text.size());

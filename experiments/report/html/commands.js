@@ -9,18 +9,18 @@
 function imageCommands() {
   const commands = [];
   for (let i = 0; i < 9; ++i) {
-    const isEnabled = viewer => i < viewer.images.length;
+    const hasImage = viewer => i < viewer.images.length;
     const row = i ? null : ['1 \u2013 9', 'show that image'];
     commands.push({id: `image-${i + 1}`, keys: [`${i + 1}`], group: 'Images', row,
-                   title: `show image ${i + 1}`, when: isEnabled,
+                   title: `show image ${i + 1}`, when: hasImage,
                    run: viewer => viewer.set({current: i})});
   }
   for (let i = 0; i < 9; ++i) {
-    const isEnabled = viewer => i < viewer.images.length;
+    const hasImage = viewer => i < viewer.images.length;
     const row = i ? null : ['Shift + 1 \u2013 9',
                             'compare with that image (errors, the left side of the divider)'];
     commands.push({id: `compare-${i + 1}`, keys: [`Shift+${i + 1}`], group: 'Images', row,
-                   title: `compare with image ${i + 1}`, when: isEnabled,
+                   title: `compare with image ${i + 1}`, when: hasImage,
                    run: viewer => viewer.set({compare: i})});
   }
   return commands;

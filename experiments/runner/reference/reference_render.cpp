@@ -137,15 +137,15 @@ Reference renderReference(const PreparedScene& prepared, const ReferenceConfig& 
   if (found) state = std::move(*found);
 
   const std::vector<DrawnLight> lights = sampledLights(prepared, config);
-  const bool isEnabled = isEnough(state, target, lights);
+  const bool isFinished = isEnough(state, target, lights);
   if (found) {
     logInfo(fmt::format("{}: {} {} spp of {}", unused.empty() ? "reference" : unused,
-                        isEnabled ? "made of the" : "continues after the", state.spp(),
+                        isFinished ? "made of the" : "continues after the", state.spp(),
                         kept.file().string()));
   } else if (!unused.empty()) {
     logInfo(unused + "; rendered anew");
   }
-  if (!isEnabled) {
+  if (!isFinished) {
     const size_t there = 2 * sizeof(glm::vec3) + (state.spp() > 0 ? kStateBytesPerPixel : 0);
     ReferenceHalves halves(prepared, config, state, kReferenceBytesPerPixel - there);
     try {

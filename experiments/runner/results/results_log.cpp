@@ -44,14 +44,14 @@ ResultsLog::ResultsLog(fs::path file) : file_(std::move(file)) {
 }
 
 void ResultsLog::add(const std::string& key, const JobData& job, bool isMadeAnew) {
-  const bool isEnabled = jobs_.count(key) != 0;
-  if (isEnabled && !isMadeAnew) return;
+  const bool isKnown = jobs_.count(key) != 0;
+  if (isKnown && !isMadeAnew) return;
   // Mark the last line of a job, so that a reader can tell whether the job is complete.
   std::string text;
   for (const JobMethod& method : job.methods) {
     for (const nlohmann::ordered_json& own : method.lines) {
       nlohmann::ordered_json line = own;
-      if (isEnabled) line["replaces_earlier"] = true;
+      if (isKnown) line["replaces_earlier"] = true;
       line["job_ends"] = &method == &job.methods.back() && &own == &method.lines.back();
       text += jsonWithoutControls(line.dump()) + "\n";
     }

@@ -265,21 +265,21 @@ class SuiteRun {
       const std::string key = identity.key();
       std::optional<JobData> job;
       if (!request_.force || made.count(key) != 0) job = store_.load(key);
-      const bool isEnabled = job.has_value() && made.count(key) == 0;
+      const bool isReused = job.has_value() && made.count(key) == 0;
       if (!job) {
         Stopwatch watch;
         job = executor.execute(run, key, started_);
         if (!job) return false;
         store_.save(identity, *job);
         pace_.made(watch.lap(), cost);
-      } else if (isEnabled && suite.jobs < 2) {
+      } else if (isReused && suite.jobs < 2) {
         pace_.found(cost);
       }
-      ++(isEnabled ? reused_ : made_);
-      log_->add(key, *job, !isEnabled);
+      ++(isReused ? reused_ : made_);
+      log_->add(key, *job, !isReused);
       addJob(suite, *job, block);
       plan["jobs"].push_back(key);
-      if (made.count(key) == 0) logRun(suite, block, run, key, isEnabled);
+      if (made.count(key) == 0) logRun(suite, block, run, key, isReused);
       writeRecord("running");
       // With several jobs, makeSideBySide() has reported the progress already.
       if (suite.jobs < 2) progress.update(run + 1, "", pace_.progress());

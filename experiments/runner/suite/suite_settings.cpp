@@ -172,9 +172,9 @@ void readPaths(const ConfigTable& root, Suite& suite) {
   for (const ConfigTable& table : root.getTables("camera_path")) {
     const std::string name = table.getString("name", "");
     if (name.empty()) table.fail("name", "[[camera_path]] needs a 'name'");
-    const bool isEnabled = std::any_of(suite.paths.begin(), suite.paths.end(),
-                                       [&](const SuitePath& path) { return path.name == name; });
-    if (isEnabled) table.fail("name", fmt::format("two camera paths are named '{}'", name));
+    const bool isTaken = std::any_of(suite.paths.begin(), suite.paths.end(),
+                                     [&](const SuitePath& path) { return path.name == name; });
+    if (isTaken) table.fail("name", fmt::format("two camera paths are named '{}'", name));
     suite.paths.push_back({name, parseCameraPath(table), {}});
   }
   readLightEvents(root, suite.paths);

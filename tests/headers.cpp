@@ -1,0 +1,1 @@
+// Nothing: a target must have a source. tests/CMakeLists.txt says which headers it precompiles.
