@@ -125,7 +125,8 @@ std::map<std::string, std::string> captureWords(const LiveView& view) {
   }
   words["kind"] = "capture";
   words["exposure"] = fmt::format("{:.6g}", exposureOf(view));
-  if (view.reference().hasSamples()) words["reference_spp"] = std::to_string(view.reference().spp());
+  if (view.reference().hasSamples())
+    words["reference_spp"] = std::to_string(view.reference().spp());
   return words;
 }
 

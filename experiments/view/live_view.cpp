@@ -215,11 +215,10 @@ std::unique_ptr<Session> LiveView::sessionOf(const SessionConfig& config,
 }
 
 size_t LiveView::bytesPerPixelOf(size_t pane, const SessionConfig& config) const {
-  const bool hasPane = pane < panes_.size() &&
-                         isSameMethod(settings_.panes[pane].config, config) &&
-                         settings_.panes[pane].config.parameters == config.parameters;
+  const bool hasPane = pane < panes_.size() && isSameMethod(settings_.panes[pane].config, config) &&
+                       settings_.panes[pane].config.parameters == config.parameters;
   return hasPane ? hostBytesPerPixel(session(pane), config.width, config.height)
-                   : hostBytesPerPixelOf(loaded_, config);
+                 : hostBytesPerPixelOf(loaded_, config);
 }
 
 uint64_t LiveView::heldBytes() const {

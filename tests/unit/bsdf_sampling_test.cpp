@@ -179,8 +179,8 @@ TEST(BsdfSampling, ShadingNormalOffTheFace) {
   }
 }
 
-// A lobe returns the same under a shading normal off the face as under the face's own: the albedo of white metal and
-// glass depends only on the angle between wo and the normal.
+// A lobe returns the same under a shading normal off the face as under the face's own: the albedo
+// of white metal and glass depends only on the angle between wo and the normal.
 TEST(BsdfSampling, BentNormalsKeepTheAlbedoOfALobe) {
   const glm::vec3 up(0.0f, 0.0f, 1.0f);
   Dialect<> d;
