@@ -60,7 +60,7 @@ __attribute__((flatten)) void runTileInlined(const CpuKernelArgs& args, const Cp
   runTile<FEATURES>(args, tile, counters);
 }
 
-// Kernels without lobes are small: inlined as a whole they are 5 to 12 % faster. Others are not,
+// Kernels without lobes are small: inlined as a whole they are 6 to 9 % faster. Others are not,
 // and would take three times as long to compile.
 template <uint FEATURES>
 constexpr CpuKernelEntry entryOf() {

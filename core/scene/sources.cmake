@@ -26,7 +26,7 @@ target_link_libraries(rl_core PUBLIC nlohmann_json::nlohmann_json)
 target_include_directories(rl_core SYSTEM PRIVATE ${SPNG_INCLUDE_DIR} ${TURBOJPEG_INCLUDE_DIR})
 target_link_libraries(rl_core PRIVATE ${SPNG_LIBRARY} ${TURBOJPEG_LIBRARY})
 
-# Scenes of files and of code: made once, so half of the compile time is worth more than speed.
+# Scenes from files and from code are made once: half of the compile time is worth more than their speed.
 add_library(rl_scene_files OBJECT
   scene/gltf/accessor.cpp
   scene/gltf/attributes.cpp

@@ -38,7 +38,7 @@ void renderAll(LiveView& view, const CaptureOptions& options) {
       view.renderFrames();
       progress.update(frame + 1);
     }
-    while (view.hasScene() && (reference.spp() < options.referenceSpp || !reference.hasSamples())) {
+    while (view.hasScene() && (reference.spp() < options.referenceSpp || !reference.hasImage())) {
       throwIfInterrupted(kInterrupted);
       view.refineReference();
       progress.update(options.frames + reference.spp());
@@ -96,7 +96,7 @@ Figure capture(LiveView& view, const CaptureOptions& options) {
   std::vector<Column> columns;
   for (size_t i = 0; i < view.panes(); ++i)
     columns.push_back({fmt::format("{}: {}", char('A' + int(i)), names[i]), view.picture(i)});
-  if (view.reference().hasSamples())
+  if (view.reference().hasImage())
     columns.push_back(
         {fmt::format("reference, {} spp", view.reference().spp()), &view.reference().mean()});
   return layOut(columns, float(exposureOf(view)));
@@ -125,8 +125,7 @@ std::map<std::string, std::string> captureWords(const LiveView& view) {
   }
   words["kind"] = "capture";
   words["exposure"] = fmt::format("{:.6g}", exposureOf(view));
-  if (view.reference().hasSamples())
-    words["reference_spp"] = std::to_string(view.reference().spp());
+  if (view.reference().hasImage()) words["reference_spp"] = std::to_string(view.reference().spp());
   return words;
 }
 

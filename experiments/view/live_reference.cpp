@@ -53,7 +53,7 @@ const LiveReference::Pictures& LiveReference::pictures() const {
 }
 
 void LiveReference::keep() {
-  if (progress_ && halves_ && hasSamples()) progress_->save(state_);
+  if (progress_ && halves_ && hasImage()) progress_->save(state_);
 }
 
 }  // namespace restlab

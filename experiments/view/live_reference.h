@@ -30,7 +30,7 @@ class LiveReference {
   // Stores the samples for other programs; does nothing for a camera that is not one of the scene's
   // own.
   void keep();
-  // Returns the reference with the metadata of a file. Requires hasSamples() and a rendered
+  // Returns the reference with the metadata of a file. Requires hasImage() and a rendered
   // reference.
   Reference whole() const { return referenceOf(*prepared_, config_, state_); }
 
@@ -41,7 +41,7 @@ class LiveReference {
   }
   uint64_t spp() const { return isGiven_ ? pictures_.spp : state_.spp(); }
   // True if both halves have a sample; required by the functions below.
-  bool hasSamples() const { return isGiven_ || state_.half1.count() > 0; }
+  bool hasImage() const { return isGiven_ || state_.half1.count() > 0; }
   // Pictures are computed once after each sample.
   const Image& mean() const { return pictures().mean; }
   const Image& half0() const { return pictures().half0; }

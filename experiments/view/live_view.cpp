@@ -152,7 +152,7 @@ void LiveView::addFrame(Pane& pane, const FrameStats& stats) {
   pane.stats = stats;
   ++pane.frames;
   pane.epoch = epoch_;
-  if (!reference_.hasSamples()) return;
+  if (!reference_.hasImage()) return;
   pane.error.add(pane.session->radiance(), reference_.mean(), reference_.half0(),
                  reference_.half1(), reference_.spp());
 }
@@ -183,7 +183,7 @@ const FileImage* LiveView::imageOf(size_t pane) const {
 const Image* LiveView::picture(size_t pane) const {
   if (renders(pane)) return frames(pane) > 0 ? &session(pane).radiance() : nullptr;
   if (const FileImage* image = imageOf(pane)) return &image->image;
-  return reference_.hasSamples() ? &reference_.mean() : nullptr;
+  return reference_.hasImage() ? &reference_.mean() : nullptr;
 }
 
 uint64_t LiveView::pictureCount(size_t pane) const {
@@ -199,7 +199,7 @@ uint64_t LiveView::epochOf(size_t pane) const {
 void LiveView::measureImages() {
   for (size_t i = 0; i < panes_.size(); ++i) {
     const FileImage* image = imageOf(i);
-    if (image == nullptr || epochOf(i) != epoch_ || !reference_.hasSamples()) continue;
+    if (image == nullptr || epochOf(i) != epoch_ || !reference_.hasImage()) continue;
     panes_[i].error.restart();
     panes_[i].error.add(image->image, reference_.mean(), reference_.half0(), reference_.half1(),
                         reference_.spp());
@@ -215,10 +215,11 @@ std::unique_ptr<Session> LiveView::sessionOf(const SessionConfig& config,
 }
 
 size_t LiveView::bytesPerPixelOf(size_t pane, const SessionConfig& config) const {
-  const bool hasPane = pane < panes_.size() && isSameMethod(settings_.panes[pane].config, config) &&
-                       settings_.panes[pane].config.parameters == config.parameters;
-  return hasPane ? hostBytesPerPixel(session(pane), config.width, config.height)
-                 : hostBytesPerPixelOf(loaded_, config);
+  const bool runsInPane = pane < panes_.size() &&
+                          isSameMethod(settings_.panes[pane].config, config) &&
+                          settings_.panes[pane].config.parameters == config.parameters;
+  return runsInPane ? hostBytesPerPixel(session(pane), config.width, config.height)
+                    : hostBytesPerPixelOf(loaded_, config);
 }
 
 uint64_t LiveView::heldBytes() const {

@@ -100,7 +100,7 @@ std::string pictureBytes(const LiveView& view, size_t image) {
   const TemporaryFile file;
   if (isReference(view, image)) {
     if (view.images().reference && !view.hasScene()) return bytesOf(view.images().referenceFile);
-    if (!view.reference().hasSamples()) failUsage("picture: there is no reference yet");
+    if (!view.reference().hasImage()) failUsage("picture: there is no reference yet");
     writeReference(file.path(), view.reference().whole());
   } else {
     if (view.frames(image) == 0) failUsage("picture: no frame was rendered yet");

@@ -61,7 +61,7 @@ float exposureOfNoise(const Image& image) {
 
 double exposureOf(const LiveView& view) {
   const LiveReference& reference = view.reference();
-  if (reference.hasSamples()) {
+  if (reference.hasImage()) {
     const Image& mean = reference.mean();
     return reference.spp() >= kFewSamples ? previewExposure(mean) : exposureOfNoise(mean);
   }

@@ -342,7 +342,7 @@ void ViewLoop::showStanding(bool isUrgent) {
 void ViewLoop::showReference(bool isUrgent) {
   const LiveReference& reference = view_.reference();
   const std::pair now{view_.epoch(), reference.spp()};
-  if (!reference.hasSamples()) return;
+  if (!reference.hasImage()) return;
   if (!isUrgent && (now == shownReference_ || Clock::now() - referenceShown_ < kReferenceInterval))
     return;
   ImageHeader header;
@@ -380,7 +380,7 @@ void ViewLoop::showTev() {
          [&]() -> const Image& { return *view_.picture(i); });
   }
   const LiveReference& reference = view_.reference();
-  show(kReferenceSlot, "restlab reference", reference.hasSamples() ? reference.spp() : 0,
+  show(kReferenceSlot, "restlab reference", reference.hasImage() ? reference.spp() : 0,
        [&]() -> const Image& { return reference.mean(); });
 }
 

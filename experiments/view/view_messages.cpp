@@ -281,11 +281,10 @@ std::string numbersText(const LiveView& view, const Transport& transport, double
   const SessionConfig& size = view.settings().panes.front().config;
   const double sampleMs = reference.sampleMs();
   Json referenceJson = nullptr;  // stays null if there can be no reference
-  if (view.hasScene() || reference.hasSamples()) {
-    referenceJson = {
-        {"spp", reference.spp()},
-        {"relmse", reference.hasSamples() ? orNull(reference.relmse()) : Json(nullptr)},
-        {"ms_per_sample", sampleMs > 0.0 ? Json(sampleMs) : Json(nullptr)}};
+  if (view.hasScene() || reference.hasImage()) {
+    referenceJson = {{"spp", reference.spp()},
+                     {"relmse", reference.hasImage() ? orNull(reference.relmse()) : Json(nullptr)},
+                     {"ms_per_sample", sampleMs > 0.0 ? Json(sampleMs) : Json(nullptr)}};
   }
   return textOf({{"say", "numbers"},
                  {"epoch", view.epoch()},

@@ -20,7 +20,8 @@ std::vector<std::string> sourceFiles() {
       const fs::path& path = entry.path();
       if (path.parent_path().filename() == "data") continue;  // broken on purpose
       for (const char* extension : {".cpp", ".h", ".inl", ".glsl"}) {
-        if (path.extension() == extension) files.push_back(path.string());
+        if (path.extension() == extension)
+          files.push_back(fs::relative(path, RESTLAB_SOURCE_DIR).string());
       }
     }
   }
@@ -36,7 +37,8 @@ TEST(Format, EveryFileIsFormatted) {
   std::string names;
   for (const std::string& file : files) names += " '" + file + "'";
   // The dialect's files are formatted as C++, which clang-format takes unknown endings for.
-  const CommandResult result = runCommand(RESTLAB_CLANG_FORMAT " --dry-run --Werror" + names);
+  const CommandResult result = runCommand(
+      "cd '" RESTLAB_SOURCE_DIR "' && " RESTLAB_CLANG_FORMAT " --dry-run --Werror" + names);
   EXPECT_EQ(result.status, 0) << result.output;
 }
 

@@ -57,7 +57,7 @@ TEST_F(LiveViewTest, NumbersAreThoseOfTheFramesSinceTheReferenceWasThere) {
   view.renderFrames();
   EXPECT_EQ(view.error(0).frames(), 0u);
   for (int sample = 0; sample < 8; ++sample) view.refineReference();
-  ASSERT_TRUE(view.reference().hasSamples());
+  ASSERT_TRUE(view.reference().hasImage());
   EXPECT_EQ(view.reference().spp(), 8u);
   EXPECT_GT(view.reference().relmse(), 0.0);
   double sum = 0.0;
@@ -120,7 +120,7 @@ TEST_F(LiveViewTest, EveryChangeBeginsTheNumbersAnew) {
   };
   for (const auto& [command, isAnotherPicture] : changes) {
     SCOPED_TRACE(command.index());
-    while (!view.reference().hasSamples()) view.refineReference();
+    while (!view.reference().hasImage()) view.refineReference();
     view.renderFrames();
     EXPECT_GT(view.error(0).frames(), 0u);
     const uint64_t before = view.epoch();
