@@ -99,7 +99,10 @@ endfunction()
 
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM)
-  # Without that it caches nothing that has a precompiled header.
+  # Sloppiness: without it ccache keeps nothing that has a precompiled header.
+  # Dependencies instead of preprocessed text: a precompiled header holds the hashes of its files. With a changed comment the text
+  # is the same, the hash is not, and '#pragma once' no longer sees that a file was read.
   set(CMAKE_CXX_COMPILER_LAUNCHER
-      ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE_PROGRAM})
+      ${CMAKE_COMMAND} -E env CCACHE_DEPEND=1 CCACHE_SLOPPINESS=pch_defines,time_macros
+      ${CCACHE_PROGRAM})
 endif()

@@ -56,17 +56,20 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer RlTriples {{
 #define RL_UVEC4(ref, i) (RlUvec4s(uint64_t(ref)).data[i])
 
 #ifdef RL_TEXELS
-layout(set = 0, binding = 0, scalar) uniform RlScene {{ SceneData v; }} rlScene;
-layout(set = 0, binding = 1, scalar) uniform RlFrame {{ FrameData v; }} rlFrame;
-layout(set = 0, binding = 2, scalar) uniform RlBuffers {{ RL_KERNEL_BUFFERS v; }} rlBuffers;
-layout(set = 0, binding = 3, scalar) uniform RlParams {{ RL_KERNEL_PARAMS v; }} rlParams;
+// Each struct is bound twice, and its index is always 0. lavapipe compiles a kernel anew for each
+// dispatch if a condition depends on numbers of a uniform buffer alone; it cannot tell what stands
+// behind an index that it does not know.
+layout(set = 0, binding = 0, scalar) uniform RlScene {{ SceneData v; }} rlScene[{copies}];
+layout(set = 0, binding = 1, scalar) uniform RlFrame {{ FrameData v; }} rlFrame[{copies}];
+layout(set = 0, binding = 2, scalar) uniform RlBuffers {{ RL_KERNEL_BUFFERS v; }} rlBuffers[{copies}];
+layout(set = 0, binding = 3, scalar) uniform RlParams {{ RL_KERNEL_PARAMS v; }} rlParams[{copies}];
 layout(set = 0, binding = 4) uniform usamplerBuffer rlSceneUvec4s;
 layout(set = 0, binding = 5) uniform usamplerBuffer rlSceneWords;
 layout(set = 0, binding = 6) uniform usamplerBuffer rlStateUvec4s;
-#define gScene rlScene.v
-#define gFrame rlFrame.v
-#define gBuffers rlBuffers.v
-#define gParams rlParams.v
+#define gScene rlScene[gl_WorkGroupID.z].v
+#define gFrame rlFrame[gl_WorkGroupID.z].v
+#define gBuffers rlBuffers[gl_WorkGroupID.z].v
+#define gParams rlParams[gl_WorkGroupID.z].v
 int rlSceneUvec4At(uint64_t ref, uint i) {{ return int(uint((ref - rlPush.sceneBase) >> 4) + i); }}
 int rlSceneWordAt(uint64_t ref, uint i) {{ return int(uint((ref - rlPush.sceneBase) >> 2) + i); }}
 int rlStateUvec4At(uint64_t ref, uint i) {{ return int(uint((ref - rlPush.stateBase) >> 4) + i); }}
@@ -140,7 +143,7 @@ void main() {{
 std::string glslKernelSource(const GlslKernel& kernel) {
   return fmt::format(kText, fmt::arg("header", kernel.header), fmt::arg("file", kernel.file),
                      fmt::arg("trace", kernel.traceFile), fmt::arg("tile", kGlslTile),
-                     fmt::arg("extensions", kernel.extensions),
+                     fmt::arg("copies", kGlslCopies), fmt::arg("extensions", kernel.extensions),
                      fmt::arg("reads", kernel.readsTexels ? "#define RL_TEXELS\n" : ""));
 }
 

@@ -52,6 +52,9 @@ enum GlslBinding : uint32_t {
   kGlslStateUvec4s,
   kGlslBindingCount
 };
+// Each struct is bound so many times (core/backend/glsl_preamble.cpp says why).
+constexpr uint32_t kGlslCopies = 2;
+constexpr uint32_t kGlslDynamicOffsets = 2 * kGlslCopies;
 
 // The push constants: device addresses of SceneData, FrameData, the kernel's Buffers and Params
 // structs, and GlslCounters.

@@ -233,7 +233,8 @@ class VulkanBackend final : public Backend {
   bool choosesTexels(size_t bytes) const {
     const size_t texels = device_.properties().limits.maxTexelBufferElements;
     const GpuBuffer* arrays = scene_->arrays();
-    const bool fits = arrays != nullptr && arrays->bytes / 4 <= texels && bytes / 16 <= texels &&
+    const bool fits = device_.info().indexesUniforms && arrays != nullptr &&
+                      arrays->bytes / 4 <= texels && bytes / 16 <= texels &&
                       bytes <= device_.largestAllocation();
     const char* wanted = std::getenv("RESTLAB_VULKAN_READS");
     if (wanted == nullptr || *wanted == 0) return fits && device_.info().kind == "cpu";
@@ -250,10 +251,8 @@ class VulkanBackend final : public Backend {
   }
 
   // Texels reach only buffers that were placed together; a pass with others reads by address.
-  // Passes over entries read by address, too: Mesa 22.3's compiler crashes on a pass that reads
-  // texels and uses a parameter in a condition (docs/dialect.md).
   bool readsTexels(const PassRun& pass) const {
-    return readsTexels_ && pass.entries == 0 && buffers_.areTogether(pass.buffers);
+    return readsTexels_ && buffers_.areTogether(pass.buffers);
   }
 
   static size_t passOffset(size_t pass) { return kPassOffset + pass * kPassBytes; }
@@ -338,7 +337,8 @@ class VulkanBackend final : public Backend {
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, key.pipelines[band.pass]);
     if (slot.bound.set != VK_NULL_HANDLE) {
       const auto offset = static_cast<uint32_t>(band.pass * kPassBytes);
-      const std::array<uint32_t, 2> offsets = {offset, offset};
+      std::array<uint32_t, kGlslDynamicOffsets> offsets{};
+      offsets.fill(offset);
       vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, context_->kernels->layout(),
                               0, 1, &slot.bound.set, offsets.size(), offsets.data());
     }

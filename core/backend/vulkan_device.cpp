@@ -136,6 +136,7 @@ VulkanDeviceInfo describe(VkPhysicalDevice device) {
     info.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
   }
   info.hasRayQuery = features.rayQuery.rayQuery && features.acceleration.accelerationStructure;
+  info.indexesUniforms = features.core.features.shaderUniformBufferArrayDynamicIndexing == VK_TRUE;
   info.whyNot = whatIsMissing(device, properties.properties, features);
   VkPhysicalDeviceMemoryProperties memory;
   vkGetPhysicalDeviceMemoryProperties(device, &memory);
@@ -316,6 +317,8 @@ std::shared_ptr<VulkanDevice> VulkanDevice::open(const VulkanOptions& given) {
   features.v12.bufferDeviceAddress = VK_TRUE;
   features.v12.scalarBlockLayout = VK_TRUE;
   features.core.features.shaderInt64 = VK_TRUE;
+  features.core.features.shaderUniformBufferArrayDynamicIndexing =
+      device->info_.indexesUniforms ? VK_TRUE : VK_FALSE;
   features.acceleration.accelerationStructure = VK_TRUE;
   features.rayQuery.rayQuery = VK_TRUE;
   const float priority = 1.0f;

@@ -17,7 +17,8 @@ struct VulkanDeviceInfo {
   std::string driver;  // name and version, as the driver reports them
   std::string whyNot;  // missing requirements of this program; empty: the device can be used
   bool hasRayQuery = false;
-  uint64_t memoryBytes = 0;  // size of the largest device-local heap
+  bool indexesUniforms = false;  // shaderUniformBufferArrayDynamicIndexing
+  uint64_t memoryBytes = 0;      // size of the largest device-local heap
 };
 
 // All devices in the order in which they are preferred: discrete, integrated, virtual, CPU; those

@@ -43,6 +43,8 @@ VkDescriptorType typeOf(uint32_t binding) {
   return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
 }
 
+uint32_t copiesOf(uint32_t binding) { return binding < kGlslSceneUvec4s ? kGlslCopies : 1; }
+
 // Cache key of a shader: hash of glslang's version, of the shader's text and of all files it may
 // include.
 std::string expandedKey(const std::string& text, const SourceReader& read) {
@@ -78,7 +80,7 @@ VulkanKernels::VulkanKernels(std::shared_ptr<VulkanMemory> memory,
       driverCacheName_(driverCacheNameOf(device_->properties())) {
   std::array<VkDescriptorSetLayoutBinding, kGlslBindingCount> bindings{};
   for (uint32_t i = 0; i < kGlslBindingCount; ++i)
-    bindings[i] = {i, typeOf(i), 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
+    bindings[i] = {i, typeOf(i), copiesOf(i), VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
   VkDescriptorSetLayoutCreateInfo setLayout{};
   setLayout.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
   setLayout.bindingCount = kGlslBindingCount;
@@ -203,8 +205,8 @@ VulkanKernels::Bound VulkanKernels::bind(const BoundRanges& ranges) {
 void VulkanKernels::fill(Bound& bound, const BoundRanges& ranges) {
   const VkDevice device = device_->handle();
   const std::array<VkDescriptorPoolSize, 3> sizes = {
-      {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2},
-       {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, 2},
+      {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2 * kGlslCopies},
+       {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, 2 * kGlslCopies},
        {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 3}}};
   VkDescriptorPoolCreateInfo pool{};
   pool.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
@@ -235,17 +237,17 @@ void VulkanKernels::fill(Bound& bound, const BoundRanges& ranges) {
   addView(2, ranges.stateTexels, VK_FORMAT_R32G32B32A32_UINT);
   const std::array<const GpuBuffer*, 4> structs = {&ranges.scene, &ranges.frame, &ranges.buffers,
                                                    &ranges.params};
-  std::array<VkDescriptorBufferInfo, 4> infos{};
+  std::array<std::array<VkDescriptorBufferInfo, kGlslCopies>, 4> infos{};
   std::array<VkWriteDescriptorSet, kGlslBindingCount> writes{};
   for (uint32_t i = 0; i < kGlslBindingCount; ++i) {
     writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
     writes[i].dstSet = bound.set;
     writes[i].dstBinding = i;
-    writes[i].descriptorCount = 1;
+    writes[i].descriptorCount = copiesOf(i);
     writes[i].descriptorType = typeOf(i);
     if (i < kGlslSceneUvec4s) {
-      infos[i] = {structs[i]->buffer, structs[i]->offset, structs[i]->bytes};
-      writes[i].pBufferInfo = &infos[i];
+      infos[i].fill({structs[i]->buffer, structs[i]->offset, structs[i]->bytes});
+      writes[i].pBufferInfo = infos[i].data();
     } else {
       writes[i].pTexelBufferView = &bound.views[i - kGlslSceneUvec4s];
     }
@@ -265,7 +267,7 @@ void VulkanKernels::prime(VkPipeline pipeline) {
   GlslPushConstants push;
   push.frame = primer_.address;
   push.counters = primer_.address + sizeof(rl::FrameData);
-  const std::array<uint32_t, 2> offsets{};
+  const std::array<uint32_t, kGlslDynamicOffsets> offsets{};
   device_->runNow(
       [&](VkCommandBuffer commands) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);

@@ -1,6 +1,7 @@
 // The functions of the dialect, in the order in which GLSL must see them. Included inside the
 // kernel context of either machine, after all headers.
 #include "core/dialect/records.glsl"
+#include "core/dialect/view.glsl"
 #include "core/dialect/rng.glsl"
 #include "core/dialect/math.glsl"
 #include "core/dialect/pack.glsl"

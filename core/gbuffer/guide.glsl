@@ -59,7 +59,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     vec2 toCentre = vec2(float(pixel.x) + 0.5f - here.x, float(pixel.y) + 0.5f - here.y);
     g.disparity = max(g.disparity + dot(g.slope, toCentre), 0.0f);
     bool isSeen = !rlIsBlack(s.emission);
-    if (!isSeen && gFrame.stillFrames == 0u) isSeen = lightsEndHere(gBuffers.gbuffer, pixel);
+    if (!isSeen && !viewIsStill()) isSeen = lightsEndHere(gBuffers.gbuffer, pixel);
     g.isLight = isSeen ? 1u : 0u;
     vec3 reflectance = vec3(0.0f, 0.0f, 0.0f);
     if ((gParams.flags & RL_GUIDE_DIFFUSE) != 0u) reflectance += s.bsdf.diffuse;
@@ -79,7 +79,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   // An orthographic camera sees one direction in every pixel.
   if (hit.instance == RL_INVALID && gFrame.camera.kind == RL_CAMERA_ORTHOGRAPHIC)
     motion.film = vec2(0.0f, 0.0f);
-  if (gFrame.stillFrames != 0u) {
+  if (viewIsStill()) {
     Guide held = guideRead(gBuffers.guidePrevious, pixelIndex);
     float weight = 1.0f / (min(float(gFrame.stillFrames), RL_GUIDE_FRAMES) + 1.0f);
     g.isLight = max(g.isLight, held.isLight);

@@ -4,7 +4,7 @@
 // Returns the last frame's pixel that shows the surface of a pixel; RL_INVALID if the surface was
 // out of view or another one is there.
 RL_FN uint reprojectedPixelIndex(RL_IN(GBufferTexel) here) {
-  if (gFrame.frame == 0u) return RL_INVALID;
+  if (isFirstFrame()) return RL_INVALID;
   vec2 film;
   if (!filmPointPrevious(here, film)) return RL_INVALID;
   uint before = pixelIndexOf(uvec2(uint(film.x), uint(film.y)));

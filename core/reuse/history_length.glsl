@@ -15,7 +15,7 @@ RL_FN float historyAge() {
 RL_FN float radianceFrames(float confidence) {
   if (!(confidence > 1.0f)) return 1.0f;
   float cap = gParams.reuse.reproject != 0u ? gParams.reuse.movingConfidenceCap : 0.0f;
-  if (gFrame.stillFrames != 0u) cap = gParams.reuse.confidenceCap;
+  if (viewIsStill()) cap = gParams.reuse.confidenceCap;
   if (gParams.reuse.temporalReuse == 0u) cap = 0.0f;
   return confidence / max(confidence - min(cap, confidence - 1.0f), 1.0f);
 }

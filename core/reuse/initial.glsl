@@ -16,7 +16,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   vec3 estimate = r.state.F * r.state.W + r.state.residual;
   vec3 unresampled = specularLight + visibleEmission;
   ViewLight count = viewLightUnpack(0u);
-  if (gFrame.stillFrames == 0u) {
+  if (!viewIsStill()) {
     uvec4 ofEdges = RL_EARLIER_UVEC4(gBuffers.unresampled, pixelIndex);
     count = viewLightUnpack(ofEdges.w);
     if (count.taken != 0u) unresampled = specularLight + recordVec3(ofEdges);
@@ -27,7 +27,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     r.state = reservoirEmpty();
   }
   RL_RESERVOIR candidate = r;
-  if (gParams.reuse.temporalReuse != 0u && gFrame.stillFrames != 0u) {
+  if (gParams.reuse.temporalReuse != 0u && viewIsStill()) {
     float kept = historyKept(pixelIndex);
     uvec4 previous = RL_EARLIER_UVEC4(gBuffers.unresampledPrevious, pixelIndex);
     count = viewLightUnpack(previous.w);
@@ -37,7 +37,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     }
     // light_edges took this frame's film sample already, in the first frame of the view.
     float weight = 1.0f / (min(float(count.frames), gParams.reuse.confidenceCap) + 1.0f);
-    if (gFrame.stillFrames < count.taken) weight = 0.0f;
+    if (viewIsYoungerThan(count.taken)) weight = 0.0f;
     unresampled = recordVec3(previous) * (1.0f - weight) + unresampled * weight;
     if (kept > 0.0f) temporalMerge(pixelIndex, pixelIndex, kept, r);
   }
@@ -46,7 +46,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   // `reservoirs` holds the merge already, so the candidate goes where the history was.
   bool feedsEntry =
       gParams.entries.count != 0u && entryCandidatePixel(entryGroup(pixelIndex)) == pixelIndex;
-  if (feedsEntry && gFrame.stillFrames != 0u) reservoirWriteHistory(pixelIndex, candidate);
+  if (feedsEntry && viewIsStill()) reservoirWriteHistory(pixelIndex, candidate);
   count.frames = min(count.frames + 1u, 0xffffffu);
   RL_WRITE_UVEC4(gBuffers.unresampled, pixelIndex, recordUvec4(unresampled, viewLightPack(count)));
 }

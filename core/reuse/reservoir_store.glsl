@@ -57,15 +57,15 @@ RL_FN void entryReservoirWrite(uint entry, RL_IN(RL_RESERVOIR) r) {
 // merged the history already: it leaves the candidate in the history's place, which the spatial
 // pass fills again.
 RL_FN void candidateRead(uint pixelIndex, RL_INOUT(RL_RESERVOIR) r) {
-  if (gFrame.stillFrames == 0u) {
-    reservoirReadNow(pixelIndex, r);
-  } else {
+  if (viewIsStill()) {
     reservoirReadPrevious(pixelIndex, r);
+  } else {
+    reservoirReadNow(pixelIndex, r);
   }
 }
 RL_FN ReservoirState candidateStateRead(uint pixelIndex) {
-  if (gFrame.stillFrames == 0u) return stateReadNow(pixelIndex);
-  return stateReadPrevious(pixelIndex);
+  if (viewIsStill()) return stateReadPrevious(pixelIndex);
+  return stateReadNow(pixelIndex);
 }
 RL_FN void takeCandidateSample(uint pixelIndex, RL_INOUT(RL_RESERVOIR) r) {
   RL_RESERVOIR from = r;

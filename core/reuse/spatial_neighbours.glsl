@@ -1,7 +1,7 @@
 // Number of spatial donors. The number depends on no sample, so any number is unbiased.
 #include "core/reuse/history_length.glsl"
 
-RL_FN bool historyIsYoung() { return gFrame.stillFrames < gParams.reuse.youngFrames; }
+RL_FN bool historyIsYoung() { return viewIsYoungerThan(gParams.reuse.youngFrames); }
 
 RL_FN uint spatialDonors() {
   return historyIsYoung() ? gParams.reuse.spatialNeighbours : gParams.reuse.agedNeighbours;

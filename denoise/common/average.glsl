@@ -79,7 +79,7 @@ RL_FN Average averageReprojected(RL_IN(Uvec4Ref) before, uint pixelIndex,
 // Returns the average of the pixel itself in a still view, the reprojected one in a new view.
 RL_FN Average averageOfBefore(RL_IN(Uvec4Ref) before, uint pixelIndex,
                               RL_IN(SimilarityThresholds) test, bool isBetween) {
-  if (gFrame.stillFrames != 0u) return averageRead(before, pixelIndex);
-  if (gFrame.frame == 0u) return averageOfNone();
+  if (viewIsStill()) return averageRead(before, pixelIndex);
+  if (isFirstFrame()) return averageOfNone();
   return averageReprojected(before, pixelIndex, test, isBetween);
 }

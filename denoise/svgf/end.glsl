@@ -15,7 +15,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   vec3 filtered = svgfRead(pixelIndex, gParams.iterations).light * guide.reflectance;
   if (gParams.resolveCap > 0.0f) {
     Average a = averageOfBefore(gBuffers.resolvedBefore, pixelIndex, gParams.resolveTest, true);
-    if (gFrame.stillFrames == 0u) a.frames = svgfInView(a.frames, pixelIndex);
+    if (!viewIsStill()) a.frames = svgfInView(a.frames, pixelIndex);
     a.frames *= changeHistoryKept(gBuffers.changes, gParams.changes, pixelIndex);
     a.frames = min(a.frames, max(gParams.resolveCap - float(gFrame.stillFrames), 0.0f)) + 1.0f;
     a.mean += (filtered - a.mean) * (1.0f / a.frames);

@@ -84,12 +84,12 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   Guide guide = guideRead(gBuffers.guide, pixelIndex);
   Filtered now = filterBegin(gBuffers.radiance.data[pixelIndex], guide);
   SvgfHistory h = svgfNoHistory();
-  if (gFrame.stillFrames != 0u) {
+  if (viewIsStill()) {
     h = svgfHistoryRead(gBuffers.historyBefore, pixelIndex);
     // Follow the guide, which is the mean over the view's film samples and changes with each frame.
     h.light *= h.reflectance / guide.reflectance;
     h.reflectance = guide.reflectance;
-  } else if (gFrame.frame > 0u) {
+  } else if (!isFirstFrame()) {
     h = svgfReprojected(pixel, guide);
     h.frames = svgfInView(h.frames, pixelIndex);
   }
