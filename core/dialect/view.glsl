@@ -1,4 +1,4 @@
-// What a frame is to the frames before it.
+// The place of a frame among the frames before it.
 
 // Returns whether camera and parameters are those of the frame before.
 RL_FN bool viewIsStill() { return gFrame.stillFrames != 0u; }
