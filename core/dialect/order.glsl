@@ -17,7 +17,6 @@
 #include "core/shading/bsdf/multiscatter.glsl"
 #include "core/shading/bsdf/inconsistent_normal.glsl"
 #include "core/shading/bsdf.glsl"
-#include "core/shading/bsdf/pack.glsl"
 #include "core/geometry/surface.glsl"
 #include "core/shading/light/environment.glsl"
 #include "core/shading/light/texture.glsl"

@@ -29,14 +29,6 @@ RL_FN vec3 unpackSigned3(uint w0, uint w1) {
   return vec3(uintBitsToFloat(w0 << 11u), uintBitsToFloat(w1 << 11u), uintBitsToFloat(z << 11u));
 }
 
-// Packs a non-negative float, rounded up to 24 bits (15 of fraction), and 8 bits of other data.
-RL_FN uint packAtLeast24(float x, uint other) {
-  return ((floatBitsToUint(x) + 0xffu) & 0xffffff00u) | other;
-}
-// Packs a non-negative float, rounded to the nearest of 24 bits, and 8 bits of other data.
-RL_FN uint packNearest24(float x, uint other) { return (packCut(x, 8u) << 8u) | other; }
-RL_FN float unpack24(uint packed) { return uintBitsToFloat(packed & 0xffffff00u); }
-
 // Unit vectors as two numbers in [-1, 1], by the octahedral map (Cigolle et al., "A Survey of
 // Efficient Representations for Independent Unit Vectors", JCGT 2014). The zero vector becomes the
 // z axis.
@@ -55,13 +47,20 @@ RL_FN vec3 unpackOctahedron(float x, float y) {
                         (1.0f - abs(x)) * (y < 0.0f ? -1.0f : 1.0f), z));
 }
 
-// Packs a unit vector into two floats, exact to rounding.
-RL_FN uvec2 packUnit(RL_IN(vec3) n) {
+// A number in [0, 1] as 24 bits.
+RL_FN uint packUnorm24(float x) { return uint(clamp(x * 16777216.0f + 0.5f, 0.0f, 16777215.0f)); }
+RL_FN float unpackUnorm24(uint packed) { return float(packed) * (1.0f / 16777216.0f); }
+
+// Packs a unit vector into two 22-bit numbers, error at most 1.5e-6. Packing what was unpacked
+// gives the same numbers: their steps are coarser than what rounding makes of a unit vector.
+RL_FN uvec2 packUnit22(RL_IN(vec3) n) {
   vec2 p = packOctahedron(n);
-  return uvec2(floatBitsToUint(p.x), floatBitsToUint(p.y));
+  vec2 q = clamp(p * 0.5f + 0.5f, vec2(0.0f, 0.0f), vec2(1.0f, 1.0f)) * 4194303.0f;
+  return uvec2(uint(q.x + 0.5f), uint(q.y + 0.5f));
 }
-RL_FN vec3 unpackUnit(uint w0, uint w1) {
-  return unpackOctahedron(uintBitsToFloat(w0), uintBitsToFloat(w1));
+RL_FN vec3 unpackUnit22(uint x, uint y) {
+  return unpackOctahedron(float(x) * (2.0f / 4194303.0f) - 1.0f,
+                          float(y) * (2.0f / 4194303.0f) - 1.0f);
 }
 
 // Packs a unit vector into two 16-bit numbers, error at most 1e-4.

@@ -147,6 +147,57 @@ RL_FN vec2 surfaceInnerBary(RL_IN(TriangleW) t, float area2, float posError, RL_
   return inner * (1.0f / (max(b0, least) + inner.x + inner.y));
 }
 
+RL_FN SurfaceId surfaceIdNone() {
+  SurfaceId id;
+  id.instance = RL_INVALID;
+  id.primitive = 0u;
+  id.bary = vec2(0.0f, 0.0f);
+  return id;
+}
+
+RL_FN Surface surfaceNone() {
+  vec3 zero = vec3(0.0f, 0.0f, 0.0f);
+  Surface s;
+  s.id = surfaceIdNone();
+  s.isFront = 1u;
+  s.posW = zero;
+  s.posError = 0.0f;
+  s.nGeoW = vec3(0.0f, 0.0f, 1.0f);
+  s.nShadeW = s.nGeoW;
+  s.wo = s.nGeoW;
+  s.emission = zero;
+  s.sigmaAbsorption = zero;
+  s.contrast = 0.0f;
+  s.light = RL_INVALID;
+  s.bsdf = bsdfNone();
+  return s;
+}
+
+// Point of a triangle with corner, edges and error bound. A triangle so small that its cross
+// product underflows has the normal `fallback`: traversal must never see NaN.
+RL_FN SurfacePoint surfacePointOf(RL_IN(TriangleW) t, RL_IN(Instance) inst, RL_IN(vec2) bary,
+                                  RL_IN(vec3) fallback) {
+  SurfacePoint p;
+  p.posError = RL_HIT_ERROR * t.magnitude;
+  vec3 area = cross(t.e1, t.e2);
+  float area2 = dot(area, area);
+  p.normalW = area2 > 0.0f ? area * (1.0f / sqrt(area2)) : fallback;
+  vec2 inner = surfaceInnerBary(t, area2, p.posError, bary);
+  p.posW = t.p0 + inner.x * t.e1 + inner.y * t.e2;
+  if (RL_HAS(RL_FEATURE_INSTANCES) && (inst.flags & RL_INSTANCE_FLIPPED) != 0u)
+    p.normalW = -p.normalW;
+  return p;
+}
+
+// The point that an id names.
+RL_FN SurfacePoint surfacePointAt(RL_IN(SurfaceId) id) {
+  Instance inst = recordInstance(id.instance);
+  Geometry geometry = recordGeometry(inst.geometry);
+  uvec3 corners = RL_SCENE_UVEC3(gScene.triangles, geometry.firstTriangle + id.primitive);
+  return surfacePointOf(surfaceTriangle(inst, geometry, corners), inst, id.bary,
+                        vec3(0.0f, 0.0f, 1.0f));
+}
+
 // contrast: index of refraction inside over that outside, where the outside is not air; 0: the
 // material's own.
 RL_FN Surface surfaceLoadBetween(RL_IN(Hit) hit, RL_IN(vec3) rayDir, float contrast) {
@@ -156,17 +207,15 @@ RL_FN Surface surfaceLoadBetween(RL_IN(Hit) hit, RL_IN(vec3) rayDir, float contr
   Material material = recordMaterial(inst.material);
   uvec3 corners = RL_SCENE_UVEC3(gScene.triangles, geometry.firstTriangle + hit.primitive);
   TriangleW t = surfaceTriangle(inst, geometry, corners);
-  s.posError = RL_HIT_ERROR * t.magnitude;
+  s.id.instance = hit.instance;
+  s.id.primitive = hit.primitive;
+  s.id.bary = hit.bary;
   s.wo = -rayDir;
-
-  // A triangle so small that its cross product underflows faces the ray: traversal must never see
-  // NaN.
-  vec3 area = cross(t.e1, t.e2);
-  float area2 = dot(area, area);
-  vec3 nGeo = area2 > 0.0f ? area * (1.0f / sqrt(area2)) : s.wo;
-  vec2 bary = surfaceInnerBary(t, area2, s.posError, hit.bary);
-  s.posW = t.p0 + bary.x * t.e1 + bary.y * t.e2;
-  if (RL_HAS(RL_FEATURE_INSTANCES) && (inst.flags & RL_INSTANCE_FLIPPED) != 0u) nGeo = -nGeo;
+  s.contrast = contrast;
+  SurfacePoint point = surfacePointOf(t, inst, hit.bary, s.wo);
+  s.posError = point.posError;
+  s.posW = point.posW;
+  vec3 nGeo = point.normalW;
   bool isFront = dot(nGeo, s.wo) > 0.0f;
   vec3 nShade = nGeo;
   if (RL_HAS(RL_FEATURE_SMOOTH_NORMALS) && geometry.normalOffset != RL_INVALID) {
@@ -183,6 +232,7 @@ RL_FN Surface surfaceLoadBetween(RL_IN(Hit) hit, RL_IN(vec3) rayDir, float contr
   if (RL_HAS(RL_FEATURE_NORMAL_MAPS) && material.textures[RL_TEX_NORMAL] != RL_INVALID) {
     nShade = surfaceNormalMapped(inst, geometry, material, corners, hit.bary, t, nShade);
   }
+  s.isFront = isFront ? 1u : 0u;
   s.nGeoW = isFront ? nGeo : -nGeo;
   // Mirror back a shading normal on the far side of the face: it has no meaning as a reflector.
   if (!isFront) nShade = -nShade;
@@ -275,6 +325,16 @@ RL_FN Surface surfaceLoadBetween(RL_IN(Hit) hit, RL_IN(vec3) rayDir, float contr
 
 RL_FN Surface surfaceLoad(RL_IN(Hit) hit, RL_IN(vec3) rayDir) {
   return surfaceLoadBetween(hit, rayDir, 0.0f);
+}
+
+// The surface that an id names, as seen from the direction wo (unit), in air.
+RL_FN Surface surfaceAt(RL_IN(SurfaceId) id, RL_IN(vec3) wo) {
+  Hit hit;
+  hit.instance = id.instance;
+  hit.primitive = id.primitive;
+  hit.bary = id.bary;
+  hit.t = 0.0f;
+  return surfaceLoadBetween(hit, -wo, 0.0f);
 }
 
 // Absorption (m^-1) along a ray that leaves a surface towards dirW: that of the medium through

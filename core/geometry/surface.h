@@ -9,7 +9,23 @@
 
 RL_NAMESPACE_BEGIN
 
+// Names a point of a surface, whatever becomes of its triangle.
+struct SurfaceId {
+  uint instance;  // RL_INVALID: none
+  uint primitive;
+  vec2 bary;
+};
+
+// The point that an id names, without its material.
+struct SurfacePoint {
+  vec3 posW;
+  float posError;  // metres, as Surface::posError
+  vec3 normalW;    // unit, geometric: of the triangle's front
+};
+
 struct Surface {
+  SurfaceId id;
+  uint isFront;  // 1: wo is on the front of the triangle
   vec3 posW;
   float posError;  // metres: bound of the rounding error of posW and of a test against its triangle
   vec3 nGeoW;      // unit, on the side of wo
@@ -17,7 +33,8 @@ struct Surface {
   vec3 wo;         // unit, towards where the ray came from
   vec3 emission;   // radiance towards wo
   vec3 sigmaAbsorption;  // m^-1 beyond the surface, for rays that cross it; set by the walk
-  uint light;            // index in the light table, RL_INVALID where it does not emit
+  float contrast;  // index of refraction inside over outside where the outside is not air; else 0
+  uint light;      // index in the light table, RL_INVALID where it does not emit
   Bsdf bsdf;
 };
 

@@ -4,9 +4,10 @@
 // - Direct light at x1: light samples, and the light that the BSDF sample hit.
 // - Indirect light: x2 and its radiance to x1, by a light sample at x2 and by the path's suffix.
 // - Light in view: emission and environment that the camera sees directly.
-// - Own light, which no other pixel could reuse: all light if x1 cannot be reused (mirror, glass,
-//   roughness below the limit), and light through a delta lobe at x2. Which part of the integrand
-//   is own light depends on x2 alone, so that the split is the same for every pixel.
+// - Unresampled light, which no other pixel could reuse: all light if x1 cannot be reused (mirror,
+//   glass, roughness below the limit), light through a delta lobe at x2, and light of an x2 between
+//   two bodies. Which part of the integrand that is depends on x2 alone, so that the split is the
+//   same for every pixel.
 #define RL_WALK_STATE PathRecord
 
 RL_FN LightSample pathNoLight() {
@@ -20,6 +21,7 @@ RL_FN LightSample pathNoLight() {
   s.cone = vec2(0.0f, 0.0f);
   s.isTwoSided = 0u;
   s.record = RL_INVALID;
+  s.id = surfaceIdNone();
   return s;
 }
 
@@ -55,9 +57,10 @@ RL_FN PathRecord pathRecordEmpty(uint film) {
   p.bsdfHitIntegrand = zero;
   p.bsdfHitWeight = 0.0f;
   p.bsdfHitCoverage = 1.0f;
+  p.isX2Apart = 0u;
   p.hasX2 = 0u;
   p.x2 = pathOfLight(pathNoLight(), film);
-  p.woX2 = vec3(0.0f, 0.0f, 1.0f);
+  p.surfaceX2 = surfaceNone();
   p.lightAtX2 = zero;
   p.lightDirX2 = zero;
   p.lightPdfX2 = 0.0f;
@@ -74,14 +77,10 @@ RL_FN PathRecord pathRecordEmpty(uint film) {
 }
 
 RL_FN void pathReachesX2(RL_INOUT(PathRecord) p, RL_IN(Surface) s) {
-  p.x2.posW = s.posW;
-  p.x2.posError = s.posError;
-  p.x2.normalW = s.nGeoW;
-  p.x2.kind = RL_PATH_LAMBERT;
-  p.x2.geometry = pathGeometry(p.x2, p.x1PosW);
-  p.x2.suffix.nShadeW = s.nShadeW;
-  p.x2.suffix.bsdf = s.bsdf;
-  p.woX2 = s.wo;
+  p.x2.id = s.id;
+  p.x2.kind = RL_PATH_LAMBERT | (s.isFront != 0u ? 0u : RL_PATH_BACK);
+  p.x2.geometry = shiftGeometryTerm(s.posW, s.nGeoW, p.x1PosW);
+  p.surfaceX2 = s;
   p.hasX2 = 1u;
 }
 
@@ -94,18 +93,20 @@ RL_FN void pathAddLight(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(vec3) co
   }
 }
 
-// Position of the walk on a reusable path. x3 counts only if the path's suffix goes on beyond x2.
+// Position of the walk on a reusable path: at a vertex, or beyond it, where the shadow ray of that
+// vertex is traced. x3 counts only if the path's suffix goes on beyond x2.
 RL_FN bool pathIsAtX1(RL_IN(PathRecord) p, RL_IN(Walk) walk) {
   return p.isReusable != 0u && walk.bounces == 0u;
 }
-RL_FN bool pathIsAtX2(RL_IN(PathRecord) p, RL_IN(Walk) walk) {
+RL_FN bool pathHasLeftX1(RL_IN(PathRecord) p, RL_IN(Walk) walk) {
   return p.isReusable != 0u && walk.bounces == 1u;
+}
+RL_FN bool pathIsAtX2(RL_IN(PathRecord) p, RL_IN(Walk) walk) {
+  return pathHasLeftX1(p, walk) && p.isX2Apart == 0u;
 }
 RL_FN bool pathIsAtX3(RL_IN(PathRecord) p, RL_IN(Walk) walk) {
   return p.isSuffix != 0u && walk.bounces == 2u;
 }
-// Returns whether the walk has left a vertex and that vertex's shadow ray is traced.
-RL_FN bool pathHasLeftX1(RL_IN(PathRecord) p, RL_IN(Walk) walk) { return pathIsAtX2(p, walk); }
 RL_FN bool pathHasLeftX2(RL_IN(PathRecord) p, RL_IN(Walk) walk) {
   return p.hasX2 != 0u && walk.bounces == 2u;
 }
@@ -122,7 +123,7 @@ RL_FN void onMiss(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(vec3) radiance
                       rlSafeDivide(1.0f, float(gParams.path.lightCandidates) * pdfLight + p.pdfX1);
   } else if (pathIsAtX3(p, walk)) {
     p.emittedAtX3 = radiance;
-    p.pdfLightAtX3 = pdfLight;
+    p.pdfLightAtX3 = pathPackedPdf(pdfLight);
   } else if (walk.bounces == 0u) {
     p.inView = walk.throughput * radiance;
   } else {
@@ -138,6 +139,7 @@ RL_FN void onEmission(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(Surface) s
     float cosLight = abs(dot(s.nGeoW, walk.ray.dir));
     float geometry = cosLight / (hit.t * hit.t);
     p.found.kind = RL_LIGHT_TRIANGLE;
+    p.found.id = s.id;
     p.found.point = s.posW;
     p.found.normal = s.nGeoW;
     p.found.posError = s.posError;
@@ -157,7 +159,7 @@ RL_FN void onEmission(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(Surface) s
         rlSafeDivide(1.0f, (float(gParams.path.lightCandidates) * pdfLight + p.pdfX1) * geometry);
   } else if (pathIsAtX3(p, walk)) {
     p.emittedAtX3 = s.emission * p.mediumTransmittance;
-    p.pdfLightAtX3 = pdfLight;
+    p.pdfLightAtX3 = pathPackedPdf(pdfLight);
   } else if (walk.bounces == 0u) {
     p.inView = walk.throughput * s.emission;
   } else {
@@ -173,14 +175,15 @@ RL_FN void onMedium(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(vec3) transm
 
 // At x2, the radiance leaves in every direction, as from a Lambert surface.
 RL_FN void onEnd(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(Surface) s, RL_IN(vec3) radiance) {
-  if (!pathIsAtX2(p, walk)) {
+  bool isApart = RL_HAS(RL_FEATURE_VOLUME) && s.contrast > 0.0f;
+  if (!pathIsAtX2(p, walk) || isApart) {
     pathAddLight(p, walk, radiance);
     return;
   }
   p.alphaTransmittanceX1 = walk.passed;
   pathReachesX2(p, s);
-  p.x2.suffix.bsdf = bsdfNone();
-  p.x2.suffix.bsdf.lobes = RL_LOBE_DIFFUSE;
+  p.surfaceX2.bsdf = bsdfNone();
+  p.surfaceX2.bsdf.lobes = RL_LOBE_DIFFUSE;
   p.isSuffix = 1u;
   p.pdfX2 = 1.0f;
   p.weightX2 = vec3(1.0f, 1.0f, 1.0f);
@@ -197,7 +200,10 @@ RL_FN uint onVertex(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_INOUT(Surface) 
     p.isReusable = isReusable ? 1u : 0u;
     if (p.isReusable == 0u) RL_HEALTH(RL_HEALTH_UNREUSABLE_PIXELS);
   }
-  if (pathIsAtX2(p, walk)) p.alphaTransmittanceX1 = walk.passed;
+  if (pathHasLeftX1(p, walk)) {
+    p.alphaTransmittanceX1 = walk.passed;
+    if (RL_HAS(RL_FEATURE_VOLUME) && s.contrast > 0.0f) p.isX2Apart = 1u;
+  }
   return pathIsAtX1(p, walk) ? gParams.path.lightCandidates : 1u;
 }
 
@@ -218,8 +224,8 @@ RL_FN bool onLightSample(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(Rng) rn
   if (RL_HAS(RL_FEATURE_VOLUME)) arriving *= exp(-surfaceSigma(s, walk.sigma, c.dirW) * c.distance);
   if (pathIsAtX2(p, walk)) {
     p.lightAtX2 = arriving;
-    p.lightDirX2 = c.dirW;
-    p.lightPdfX2 = c.isDelta ? 0.0f : c.pdfSolidAngle;
+    p.lightDirX2 = pathPackedWi(c.dirW);
+    p.lightPdfX2 = c.isDelta ? 0.0f : pathPackedPdf(c.pdfSolidAngle);
     return true;
   }
   float weight = c.isDelta ? 1.0f : lightMisWeight(c.pdfSolidAngle, pdf);
@@ -252,7 +258,7 @@ RL_FN void onBsdfSample(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(Surface)
       p.isSuffix = 1u;
       p.pdfX2 = draw.pdfSolidAngle;
       p.weightX2 = draw.weight;
-      p.dirX2 = draw.wi;
+      p.dirX2 = pathPackedWi(draw.wi);
     }
   } else if (p.isSuffix != 0u) {
     p.suffixThroughput *= draw.weight;

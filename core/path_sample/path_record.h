@@ -34,9 +34,10 @@ struct PathRecord {
   float bsdfHitCoverage;  // alpha of the light that was hit: probability that the ray hit it
 
   // Indirect light. The path is cut at x2; `suffixThroughput` is the throughput from x3 on.
-  uint hasX2;  // a connectable x2 was found
+  uint isX2Apart;  // 1: x2 lies between two bodies, which its id does not tell: not reused
+  uint hasX2;      // a connectable x2 was found
   PathSample x2;
-  vec3 woX2;
+  Surface surfaceX2;
   vec3 lightAtX2;  // light sample at x2 over its density, without BSDF and MIS weight at x2
   vec3 lightDirX2;
   float lightPdfX2;

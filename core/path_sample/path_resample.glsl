@@ -11,7 +11,7 @@ RL_FN float pathAlphaTransmittance(RL_IN(PathRecord) p) {
   if (p.hasX2 == 0u && !(p.bsdfHitWeight > 0.0f)) return 1.0f;
   PathSample met = p.x2;
   if (p.hasX2 == 0u) met = pathOfLight(p.found, p.film);
-  Ray segment = pathSegment(met, p.x1PosW, p.x1NGeoW, p.x1PosError);
+  Ray segment = pathSegment(pathEnd(met), p.x1PosW, p.x1NGeoW, p.x1PosError);
   Hit hit;
   float t = traceRay(segment, RL_RAY_SHADOW, gFrame.cameraMedia.x, hit);
   // 0: the two rays disagree by rounding. Trust the path ray, as among opaque surfaces.
@@ -35,53 +35,56 @@ RL_FN void pathAddDirect(RL_IN(PathRecord) p, RL_IN(vec3) bsdfHitIntegrand, RL_I
   }
 }
 
-// Adds indirect light: x2 and its radiance towards x1. A glossy x2 has two kinds of paths: lit by a
-// light sample, and continued.
+// Adds indirect light: x2 and its radiance towards x1. A glossy x2 has three kinds of paths: lit by
+// a light sample, continued to an emitter, and continued beyond x3.
 RL_FN void pathAddIndirect(RL_IN(PathRecord) p, float throughAlpha, RL_IN(Rng) rng,
                            RL_INOUT(real) wSum, RL_INOUT(vec3) estimate,
                            RL_INOUT(PathReservoir) r) {
   vec3 zero = vec3(0.0f, 0.0f, 0.0f);
   vec3 fLight = zero;        // light sample at x2
-  vec3 continuation = zero;  // continuation at x2, over pdfX2
-  Bsdf b = p.x2.suffix.bsdf;
-  vec3 nShadeX2 = p.x2.suffix.nShadeW;
+  vec3 fEmitter = zero;      // emission at x3, over pdfX2
+  vec3 continuation = zero;  // light beyond x3, over pdfX2
+  Surface x2 = p.surfaceX2;
   if (!rlIsBlack(p.lightAtX2)) {
     float pdf;
-    vec3 f = bsdfEvalAndPdf(b, p.x2.normalW, nShadeX2, p.woX2, p.lightDirX2, pdf);
+    vec3 f = bsdfEvalAndPdf(x2.bsdf, x2.nGeoW, x2.nShadeW, x2.wo, p.lightDirX2, pdf);
     float weight = p.lightPdfX2 > 0.0f ? lightMisWeight(p.lightPdfX2, pdf) : 1.0f;
     fLight = f * p.lightAtX2 * weight;
   }
   if (p.isSuffix != 0u) {
     float weight = p.pdfLightAtX3 > 0.0f ? lightMisWeight(p.pdfX2, p.pdfLightAtX3) : 1.0f;
-    continuation = p.weightX2 * (p.suffixRadiance + p.emittedAtX3 * weight);
+    fEmitter = p.weightX2 * p.emittedAtX3 * weight;
+    continuation = p.weightX2 * p.suffixRadiance;
   }
   // F has the factor T of pathAlphaTransmittance(), the resampling weight pHat W does not: W
   // carries 1 / T.
   float inverseX1 = rlSafeDivide(1.0f, p.pdfX1);
-  estimate += p.fX1 * (fLight + continuation) * inverseX1;
-  bool isLambert = bsdfIsLambert(b);
-  for (uint i = 0u; i < 2u; i = i + 1u) {
-    bool isLight = i == 0u;
-    if (isLambert && !isLight) break;
-    vec3 sent = isLambert ? fLight + continuation : isLight ? fLight : continuation;
+  vec3 all = fLight + fEmitter + continuation;
+  estimate += p.fX1 * all * inverseX1;
+  bool isLambert = bsdfIsLambert(x2.bsdf);
+  for (uint i = 0u; i < 3u; i = i + 1u) {
+    if (isLambert && i > 0u) break;
+    vec3 sent = isLambert ? all : i == 0u ? fLight : i == 1u ? fEmitter : continuation;
     real w = rlLuminance(p.fX1 * sent) * inverseX1;
-    float u = rngDraw(rng, isLight ? RL_DIM_RIS_INDIRECT : RL_DIM_RIS_SUFFIX);
+    float u = rngDraw(rng, i == 0u   ? RL_DIM_RIS_INDIRECT
+                           : i == 1u ? RL_DIM_RIS_EMITTER
+                                     : RL_DIM_RIS_SUFFIX);
     if (!risAccept(wSum, w, u)) continue;
     r.path = p.x2;
     r.state.F = p.fX1 * sent * throughAlpha;
     r.path.radiance = sent;
     if (isLambert) continue;
-    if (isLight) {
-      r.path.kind = RL_PATH_LIGHT;
+    uint side = p.x2.kind & RL_PATH_BACK;
+    if (i == 0u) {
+      r.path.kind = RL_PATH_LIGHT | side;
       r.path.radiance = p.lightAtX2;
-      r.path.suffix.wi = p.lightDirX2;
-      r.path.suffix.pdfLight = p.lightPdfX2;
+      r.path.wi = p.lightDirX2;
+      r.path.pdfLight = p.lightPdfX2;
     } else {
-      r.path.kind = RL_PATH_CONTINUATION;
-      r.path.radiance = p.suffixRadiance;
-      r.path.suffix.wi = p.dirX2;
-      r.path.suffix.emitted = p.emittedAtX3;
-      r.path.suffix.pdfLight = p.pdfLightAtX3;
+      r.path.kind = (i == 1u ? RL_PATH_EMITTER : RL_PATH_CONTINUATION) | side;
+      r.path.radiance = i == 1u ? p.emittedAtX3 : p.suffixRadiance;
+      r.path.wi = p.dirX2;
+      r.path.pdfLight = i == 1u ? p.pdfLightAtX3 : 0.0f;
       r.state.F *= p.pdfX2;
     }
   }

@@ -1,24 +1,35 @@
 // Path samples in reservoirs: layout in buffers, and reconnection to another x1.
 
-RL_FN bool pathIsSpot(uint kind) {
-  return (kind & RL_PATH_KIND_MASK) == RL_PATH_DIRECT &&
-         ((kind >> RL_PATH_LIGHT_SHIFT) & RL_PATH_LIGHT_MASK) == RL_LIGHT_SPOT;
+RL_FN uint pathKind(RL_IN(PathSample) p) { return p.kind & RL_PATH_KIND_MASK; }
+RL_FN uint pathLightKind(RL_IN(PathSample) p) {
+  return (p.kind >> RL_PATH_LIGHT_SHIFT) & RL_PATH_LIGHT_MASK;
 }
+
+// A direction and a density as the words of a reservoir hold them. A path is evaluated with these
+// from its first evaluation on, so that every evaluation agrees.
+RL_FN vec3 pathPackedWi(RL_IN(vec3) wi) {
+  uvec2 words = packUnit22(wi);
+  return unpackUnit22(words.x, words.y);
+}
+RL_FN float pathPackedPdf(float pdf) { return uintBitsToFloat(packCut(pdf, 16u) << 16u); }
 
 // Writes the state and, of the path, only its radiance, which is stored with the state.
 RL_FN void pathStateWrite(RL_IN(Uvec4Ref) words, uint at, RL_IN(PathReservoir) r) {
   reservoirStateWrite(words, at + RL_PATH_SAMPLE_UVEC4S, r.state, packPositive3(r.path.radiance));
 }
 
-// Writes path and state. Position, film sample and geometry are exact, and the normal to rounding.
-// A spot light has no geometry: its index in the light table is stored instead.
+// Writes path and state. Barycentrics are kept to 2^-24, less than what rounding makes of a
+// position.
 RL_FN void pathReservoirWrite(RL_IN(Uvec4Ref) words, uint at, RL_IN(PathReservoir) r) {
-  uvec2 normal = packUnit(r.path.normalW);
-  uint geometry = floatBitsToUint(r.path.geometry);
-  if (pathIsSpot(r.path.kind)) geometry = r.path.light;
-  RL_WRITE_UVEC4(words, at, recordUvec4(r.path.posW, r.path.film));
+  uvec2 wi = packUnit22(r.path.wi);
+  uint pdf = packCut(r.path.pdfLight, 16u);
+  RL_WRITE_UVEC4(
+      words, at,
+      uvec4(r.path.id.instance, r.path.id.primitive,
+            packUnorm24(r.path.id.bary.x) | (r.path.kind << 24u), packUnorm24(r.path.id.bary.y)));
   RL_WRITE_UVEC4(words, at + 1u,
-                 uvec4(normal.x, normal.y, geometry, packAtLeast24(r.path.posError, r.path.kind)));
+                 uvec4(r.path.film, floatBitsToUint(r.path.geometry), wi.x | (pdf << 24u),
+                       wi.y | ((pdf >> 8u) << 24u)));
   pathStateWrite(words, at, r);
 }
 
@@ -27,151 +38,127 @@ RL_FN ReservoirState pathStateRead(RL_IN(Uvec4Ref) words, uint at) {
   return reservoirStateRead(words, at + RL_PATH_SAMPLE_UVEC4S, radiance);
 }
 
-// Reads path and state. Keeps r's suffix.
-RL_FN void pathReservoirRead(RL_IN(Uvec4Ref) words, uint at, RL_INOUT(PathReservoir) r) {
+RL_FN PathReservoir pathReservoirRead(RL_IN(Uvec4Ref) words, uint at) {
   uvec4 q0 = RL_EARLIER_UVEC4(words, at);
   uvec4 q1 = RL_EARLIER_UVEC4(words, at + 1u);
   uvec2 radiance;
+  PathReservoir r;
   r.state = reservoirStateRead(words, at + RL_PATH_SAMPLE_UVEC4S, radiance);
-  r.path.posW = recordVec3(q0);
-  r.path.film = q0.w;
-  r.path.normalW = unpackUnit(q1.x, q1.y);
+  r.path.id.instance = q0.x;
+  r.path.id.primitive = q0.y;
+  r.path.id.bary = vec2(unpackUnorm24(q0.z & 0xffffffu), unpackUnorm24(q0.w & 0xffffffu));
+  r.path.kind = q0.z >> 24u;
+  r.path.film = q1.x;
   r.path.radiance = unpackPositive3(radiance.x, radiance.y);
-  r.path.kind = q1.w & 0xffu;
-  r.path.posError = unpack24(q1.w);
-  bool isSpot = pathIsSpot(r.path.kind);
-  r.path.light = isSpot ? q1.z : RL_INVALID;
-  r.path.geometry = isSpot ? 0.0f : uintBitsToFloat(q1.z);
-}
-
-// Suffixes are stored only if the scene has glossy lobes.
-RL_FN void pathSuffixWrite(RL_IN(Uvec4Ref) words, uint at, RL_IN(PathSuffix) s) {
-  uvec2 nShade = packUnit(s.nShadeW);
-  uvec2 wi = packUnit(s.wi);
-  uvec2 emitted = packPositive3(s.emitted);
-  RL_WRITE_UVEC4(words, at, uvec4(nShade.x, nShade.y, wi.x, wi.y));
-  bsdfWrite(words, at + 1u, s.bsdf, uvec3(emitted.x, emitted.y, floatBitsToUint(s.pdfLight)));
-}
-RL_FN PathSuffix pathSuffixRead(RL_IN(Uvec4Ref) words, uint at) {
-  uvec4 q = RL_EARLIER_UVEC4(words, at);
-  uvec3 rest;
-  PathSuffix s;
-  s.bsdf = bsdfRead(words, at + 1u, rest);
-  s.nShadeW = unpackUnit(q.x, q.y);
-  s.wi = unpackUnit(q.z, q.w);
-  s.emitted = unpackPositive3(rest.x, rest.y);
-  s.pdfLight = uintBitsToFloat(rest.z);
-  return s;
+  r.path.geometry = uintBitsToFloat(q1.y);
+  r.path.wi = unpackUnit22(q1.z & 0xffffffu, q1.w & 0xffffffu);
+  r.path.pdfLight = uintBitsToFloat(((q1.z >> 24u) | ((q1.w >> 24u) << 8u)) << 16u);
+  return r;
 }
 
 // Target function of the resampling algebra.
 RL_FN real reuseTarget(RL_IN(real3) f) { return rlLuminance(f); }
 
-RL_FN PathSuffix pathNoSuffix() {
-  PathSuffix s;
-  s.nShadeW = vec3(0.0f, 0.0f, 1.0f);
-  s.pdfLight = 0.0f;
-  s.wi = vec3(0.0f, 0.0f, 1.0f);
-  s.emitted = vec3(0.0f, 0.0f, 0.0f);
-  s.bsdf = bsdfNone();
-  return s;
-}
-
-RL_FN uint pathKind(RL_IN(PathSample) p) { return p.kind & RL_PATH_KIND_MASK; }
-
 RL_FN PathSample pathOfLight(RL_IN(LightSample) light, uint film) {
   PathSample p;
-  p.posW = light.point;
-  p.posError = light.posError;
-  p.normalW = light.normal;
+  p.id = light.id;
   p.kind = RL_PATH_DIRECT | (light.kind << RL_PATH_LIGHT_SHIFT);
   if (light.isTwoSided != 0u) p.kind = p.kind | RL_PATH_TWO_SIDED;
-  p.radiance = light.radiance;
   p.film = film;
-  p.light = light.record;
+  p.radiance = light.radiance;
   p.geometry = 0.0f;
-  p.suffix = pathNoSuffix();
+  p.wi = vec3(0.0f, 0.0f, 1.0f);
+  p.pdfLight = 0.0f;
+  if (light.kind == RL_LIGHT_ENVIRONMENT) {
+    p.wi = pathPackedWi(light.point);
+  } else if (light.kind != RL_LIGHT_TRIANGLE) {
+    p.id.instance = light.record;
+  }
   return p;
 }
 
-RL_FN LightSample pathLight(RL_IN(PathSample) p) {
-  LightSample light;
-  light.point = p.posW;
-  light.kind = (p.kind >> RL_PATH_LIGHT_SHIFT) & RL_PATH_LIGHT_MASK;
-  light.normal = p.normalW;
-  light.pdf = 0.0f;
-  light.radiance = p.radiance;
-  light.posError = p.posError;
-  light.cone = vec2(0.0f, 0.0f);
-  light.isTwoSided = p.kind & RL_PATH_TWO_SIDED;
-  light.record = p.light;
-  if (RL_HAS(RL_FEATURE_PUNCTUAL_LIGHTS) && light.kind == RL_LIGHT_SPOT) {
-    Light spot = recordLight(p.light);
-    light.normal = spot.e1;
-    light.cone = vec2(spot.e2.x, spot.e2.y);
+// The end of the segment from x1: the light, or x2 as if it were one, which shines to x1's side.
+RL_FN LightSample pathEnd(RL_IN(PathSample) p) {
+  bool isLight = pathKind(p) == RL_PATH_DIRECT;
+  LightSample end;
+  end.id = p.id;
+  end.kind = isLight ? pathLightKind(p) : RL_LIGHT_TRIANGLE;
+  end.point = p.wi;  // of the environment
+  end.normal = vec3(0.0f, 0.0f, 0.0f);
+  end.pdf = 0.0f;
+  end.radiance = p.radiance;
+  end.posError = 0.0f;
+  end.cone = vec2(0.0f, 0.0f);
+  end.isTwoSided = isLight ? p.kind & RL_PATH_TWO_SIDED : 0u;
+  end.record = RL_INVALID;
+  if (end.kind == RL_LIGHT_TRIANGLE) {
+    SurfacePoint at = surfacePointAt(p.id);
+    end.point = at.posW;
+    end.posError = at.posError;
+    end.normal = at.normalW;
+    if (!isLight && (p.kind & RL_PATH_BACK) != 0u) end.normal = -end.normal;
+    // Surfaces of bodies that touch lie within so much (core/transport/media.glsl).
+    if (RL_HAS(RL_FEATURE_VOLUME) && gScene.bodiesMeet != 0u) end.posError *= 3.0f;
   }
-  return light;
+  if (RL_HAS(RL_FEATURE_PUNCTUAL_LIGHTS) && isLight && end.kind != RL_LIGHT_TRIANGLE &&
+      end.kind != RL_LIGHT_ENVIRONMENT) {
+    end.record = p.id.instance;
+    Light light = recordLight(end.record);
+    end.point = light.p0;
+    if (end.kind == RL_LIGHT_DIRECTIONAL) end.point = -light.e1;
+    if (end.kind == RL_LIGHT_SPOT) {
+      end.normal = light.e1;
+      end.cone = vec2(light.e2.x, light.e2.y);
+    }
+  }
+  return end;
 }
 
-// Radiance that x2 sends towards a point, without visibility; zero on the other side of x2.
+// Radiance that x2 sends towards a point on x1's side, without visibility. BSDF and MIS weight at
+// x2 are evaluated for this direction: stored MIS weights would not sum to one.
 RL_FN vec3 pathRadianceTowards(RL_IN(PathSample) p, RL_IN(vec3) dirFromX2) {
-  if (!(dot(p.normalW, dirFromX2) > 0.0f)) return vec3(0.0f, 0.0f, 0.0f);
   if (!RL_HAS(RL_FEATURE_GLOSSY) || pathKind(p) == RL_PATH_LAMBERT) return p.radiance;
-  PathSuffix suffix = p.suffix;
-  // Evaluate BSDF and MIS weight at x2 for this direction: stored MIS weights would not sum to one.
+  Surface x2 = surfaceAt(p.id, dirFromX2);
   float pdfBsdf;
-  vec3 f = bsdfEvalAndPdf(suffix.bsdf, p.normalW, suffix.nShadeW, dirFromX2, suffix.wi, pdfBsdf);
-  if (rlIsBlack(f)) return f;
+  vec3 f = bsdfEvalAndPdf(x2.bsdf, x2.nGeoW, x2.nShadeW, x2.wo, p.wi, pdfBsdf);
   float weight = 1.0f;
-  if (pathKind(p) == RL_PATH_LIGHT) {
-    if (suffix.pdfLight > 0.0f) weight = lightMisWeight(suffix.pdfLight, pdfBsdf);
-    return f * p.radiance * weight;
+  if (p.pdfLight > 0.0f) {
+    weight = pathKind(p) == RL_PATH_LIGHT ? lightMisWeight(p.pdfLight, pdfBsdf)
+                                          : lightMisWeight(pdfBsdf, p.pdfLight);
   }
-  if (suffix.pdfLight > 0.0f) weight = lightMisWeight(pdfBsdf, suffix.pdfLight);
-  return f * (p.radiance + suffix.emitted * weight);
+  return f * p.radiance * weight;
 }
 
-RL_FN real pathGeometry(RL_IN(PathSample) p, RL_IN(vec3) x1) {
-  return shiftGeometryTerm(p.posW, p.normalW, x1);
-}
-
-// Segment from x1 (position, geometric normal, error of the position) to a vertex x2 or a light, as
-// a shadow ray.
-RL_FN Ray pathSegment(RL_IN(PathSample) p, RL_IN(vec3) x1PosW, RL_IN(vec3) x1NGeoW,
+// Segment from x1 (position, geometric normal, error of the position) to the end of a path, as a
+// shadow ray.
+RL_FN Ray pathSegment(RL_IN(LightSample) end, RL_IN(vec3) x1PosW, RL_IN(vec3) x1NGeoW,
                       float x1PosError) {
-  if (pathKind(p) == RL_PATH_DIRECT) {
-    LightSample light = pathLight(p);
-    return lightShadowRay(light, lightConnect(light, x1PosW), x1PosW, x1NGeoW, x1PosError);
-  }
-  Ray ray;
-  vec3 d = p.posW - x1PosW;
-  ray.origin = surfaceOffset(x1PosW, x1NGeoW, x1PosError, d);
-  ray.tMin = 0.0f;
-  ray.dir = surfaceSegmentEnd(p.posW, p.normalW, p.posError, x1PosError, -d) - ray.origin;
-  ray.tMax = 1.0f;
-  return ray;
+  return lightShadowRay(end, lightConnect(end, x1PosW), x1PosW, x1NGeoW, x1PosError);
 }
 
 // Shifts a path to another x1, without the visibility of its segment. Direct light is in the
 // measure of its light (area, solid angle of the environment, discrete), which all pixels share:
 // J = 1. For a vertex x2, J is the ratio of geometry terms; outside [1 / maxJacobian, maxJacobian]
-// the shift is undefined, both ways (Lin et al. 2022).
-RL_FN Shifted pathReconnect(RL_IN(PathSample) p, RL_IN(Surface) x1, real maxJacobian) {
+// the shift is undefined, both ways (Lin et al. 2022). end: pathEnd(p).
+RL_FN Shifted pathReconnect(RL_IN(PathSample) p, RL_IN(LightSample) end, RL_IN(Surface) x1,
+                            real maxJacobian) {
   Shifted s;
   s.F = real3(real(0.0f));
   s.jacobian = real(1.0f);
   if (pathKind(p) == RL_PATH_DIRECT) {
-    LightConnection c = lightConnect(pathLight(p), x1.posW);
+    LightConnection c = lightConnect(end, x1.posW);
     vec3 f = bsdfEval(x1.bsdf, x1.nGeoW, x1.nShadeW, x1.wo, c.dirW);
     s.F = f * c.emitted * c.geometry;
     return s;
   }
-  real jacobian = rlSafeDivide(pathGeometry(p, x1.posW), p.geometry);
+  real geometry = shiftGeometryTerm(end.point, end.normal, x1.posW);
+  real jacobian = rlSafeDivide(geometry, p.geometry);
   if (!(jacobian > 0.0f) || !rlIsFinite(jacobian) || max(jacobian, 1.0f / jacobian) > maxJacobian) {
     RL_HEALTH(RL_HEALTH_REJECTED_JACOBIAN);
     return s;
   }
-  vec3 d = normalize(p.posW - x1.posW);
+  vec3 d = normalize(end.point - x1.posW);
+  if (!(dot(end.normal, -d) > 0.0f)) return s;
   vec3 radiance = pathRadianceTowards(p, -d);
   if (rlIsBlack(radiance)) return s;
   s.jacobian = jacobian;

@@ -1,5 +1,6 @@
 // Path sample of a reservoir: a film sample, and the light that the first vertex x1 receives. x1
-// itself is not stored: the ray through the film sample finds it, in this pixel or in another.
+// itself is not stored: the ray through the film sample finds it, in this pixel or in another. 64
+// bytes with its state, whatever the BSDF of x2.
 #ifndef RL_PATH_SAMPLE_H
 #define RL_PATH_SAMPLE_H
 
@@ -13,34 +14,28 @@ RL_NAMESPACE_BEGIN
 // Kinds of paths. Each is a domain of its own: no shift leads from one to another.
 const uint RL_PATH_DIRECT = 0u;        // x1 lit by a point of a light or by a direction
 const uint RL_PATH_LAMBERT = 1u;       // Lambert x2: `radiance` leaves x2 in every direction
-const uint RL_PATH_LIGHT = 2u;         // glossy x2, lit by a light sample from suffix.wi
-const uint RL_PATH_CONTINUATION = 3u;  // glossy x2, path continues in direction suffix.wi
+const uint RL_PATH_LIGHT = 2u;         // glossy x2, lit by a light sample from wi
+const uint RL_PATH_EMITTER = 3u;       // glossy x2, continued in direction wi to an x3 that emits
+const uint RL_PATH_CONTINUATION = 4u;  // glossy x2, continued in direction wi and beyond x3
 
-// Data to evaluate a glossy x2 for another direction.
-struct PathSuffix {
-  vec3 nShadeW;
-  float pdfLight;  // solid-angle density of light sampling for wi at x2; 0: no competing technique
-  vec3 wi;
-  vec3 emitted;  // continuation: emission found at x3, before its MIS weight
-  Bsdf bsdf;
-};
-
+// A path holds ids, not what the scene says of them: x2 is evaluated anew wherever it is used.
 struct PathSample {
-  vec3 posW;       // x2 or the light; a unit direction if the light is at infinity
-  float posError;  // metres
-  vec3 normalW;    // x2: geometric, unit, on the side of x1; light: as LightSample::normal
-  uint kind;       // RL_PATH_*; light: plus RL_LIGHT_* << 2 and RL_PATH_TWO_SIDED; 8 bits
-  vec3 radiance;   // x2: sent towards x1, or incident (suffix); light: LightSample::radiance
-  uint film;       // the film sample: cameraFilmBits()
-  uint light;      // spot light: LightSample::record, which has axis and cone
+  SurfaceId id;   // x2, or the point of an emitting triangle; punctual lights: id.instance is the
+                  // index in the light table
+  uint kind;      // RL_PATH_*; light: plus RL_LIGHT_* << 3; plus RL_PATH_TWO_SIDED or _BACK; 8 bits
+  uint film;      // the film sample: cameraFilmBits()
+  vec3 radiance;  // x2: sent towards x1, or incident from wi; light: LightSample::radiance
   float geometry;  // x2: |cos| / d^2 towards x1 of the pixel that holds it; light: 0
-  PathSuffix suffix;
+  vec3 wi;         // glossy x2; or the direction to the environment. As pathPackedWi() gives it
+  float pdfLight;  // glossy x2: solid-angle density of light sampling for wi, as pathPackedPdf()
+                   // gives it; 0: no competing technique
 };
 
-const uint RL_PATH_KIND_MASK = 3u;
-const uint RL_PATH_LIGHT_SHIFT = 2u;
+const uint RL_PATH_KIND_MASK = 7u;
+const uint RL_PATH_LIGHT_SHIFT = 3u;
 const uint RL_PATH_LIGHT_MASK = 7u;
-const uint RL_PATH_TWO_SIDED = 0x20u;
+const uint RL_PATH_TWO_SIDED = 0x40u;  // light: shines to both sides
+const uint RL_PATH_BACK = 0x80u;       // x2: x1 is behind the triangle
 
 // In the kernels' gParams.path.
 struct PathParams {
@@ -54,11 +49,10 @@ struct PathReservoir {
   ReservoirState state;
 };
 
-// Number of uvec4s in a buffer: of the sample (its radiance is stored with the state), of sample
-// and state, and of the suffix, which has a buffer of its own.
+// Number of uvec4s in a buffer: of the sample (its radiance is stored with the state), and of
+// sample and state.
 const uint RL_PATH_SAMPLE_UVEC4S = 2u;
 const uint RL_PATH_RESERVOIR_UVEC4S = RL_PATH_SAMPLE_UVEC4S + RL_STATE_UVEC4S;
-const uint RL_PATH_SUFFIX_UVEC4S = 1u + RL_BSDF_UVEC4S;
 
 RL_NAMESPACE_END
 

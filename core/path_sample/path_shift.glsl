@@ -49,9 +49,10 @@ RL_FN PathShift pathShiftTo(RL_IN(PathReservoir) r, RL_IN(uvec2) pixel, bool isP
 RL_FN PathShift pathShiftToSurface(RL_IN(PathReservoir) r, RL_IN(Surface) x1) {
   PathShift s = pathShiftNone();
   if (!(r.state.W > 0.0f)) return s;
-  s.shifted = pathReconnect(r.path, x1, gParams.path.maxJacobian);
+  LightSample end = pathEnd(r.path);
+  s.shifted = pathReconnect(r.path, end, x1, gParams.path.maxJacobian);
   if (!(reuseTarget(s.shifted.F) > 0.0f)) return s;
-  s.ray = pathSegment(r.path, x1.posW, x1.nGeoW, x1.posError);
+  s.ray = pathSegment(end, x1.posW, x1.nGeoW, x1.posError);
   s.needs = RL_SHIFT_NEEDS_SEGMENT;
   return s;
 }
@@ -68,9 +69,10 @@ RL_FN void pathShiftStep(RL_INOUT(PathShift) s, RL_IN(PathSample) path, RL_IN(Hi
   if (hit.instance == RL_INVALID) return;
   Surface x1 = surfaceLoad(hit, s.ray.dir);
   if (!bsdfIsReusable(x1.bsdf, gParams.path.minAlpha)) return;
-  s.shifted = pathReconnect(path, x1, gParams.path.maxJacobian);
+  LightSample end = pathEnd(path);
+  s.shifted = pathReconnect(path, end, x1, gParams.path.maxJacobian);
   if (s.assumesVisible != 0u || !(reuseTarget(s.shifted.F) > 0.0f)) return;
-  s.ray = pathSegment(path, x1.posW, x1.nGeoW, x1.posError);
+  s.ray = pathSegment(end, x1.posW, x1.nGeoW, x1.posError);
   s.needs = RL_SHIFT_NEEDS_SEGMENT;
 }
 

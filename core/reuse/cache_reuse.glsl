@@ -61,7 +61,7 @@ RL_FN void shiftEntries(RL_INOUT(CacheMerge) s, RL_IN(RL_RESERVOIR) here, RL_IN(
         shift = shiftToSurface(
             here, shadingPointSurface(shadingPointRead(gBuffers.shadingPoints, entry)));
       } else if (hasX1) {
-        entryReservoirRead(entry, other);
+        other = entryReservoirRead(entry);
         shift = shiftToSurface(other, x1);
       }
     }
@@ -105,8 +105,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   CacheMerge s;
   uint count = gParams.entries.proposals;
   if (!findEntries(s, pixelIndexOf(pixel), count)) return;
-  RL_RESERVOIR here = sampleNone();
-  reservoirReadNow(s.owner, here);
+  RL_RESERVOIR here = reservoirReadNow(s.owner);
   s.rng = rngInit(gFrame.seed, s.owner, gFrame.frame);
   s.rng.vertex = RL_VERTEX_CACHE_REUSE;
   uint film = rngBits(s.rng, RL_DIM_FILTER_X);

@@ -55,7 +55,7 @@ RL_FN bool shiftCandidates(RL_INOUT(CacheMerge) s, RL_INOUT(RL_RESERVOIR) here,
     uint pixelIndex = entryCandidatePixel(group);
     RL_SHIFT shift = shiftNone();
     if (leg == 0u) {
-      candidateRead(pixelIndex, candidate);
+      candidate = candidateRead(pixelIndex);
       shift.ray = cameraFilmRay(gFrame.camera, pixelOfIndex(pixelIndex), sampleFilm(candidate));
       shift.needs = RL_SHIFT_NEEDS_X1;
     } else if (leg == 1u) {
@@ -106,8 +106,7 @@ RL_FN void forgetOutOfView(uint entry) {
   if (kept == 1.0f) return;
   ShadingPoint shadingPoint = shadingPointRead(gBuffers.shadingPoints, entry);
   if (shadingPoint.surface.isHit == 0u) return;
-  RL_RESERVOIR here = sampleNone();
-  entryReservoirRead(entry, here);
+  RL_RESERVOIR here = entryReservoirRead(entry);
   here.state.confidence *= kept;
   entryReservoirWrite(entry, here);
   if (!(kept > 0.0f)) shadingPointWrite(gBuffers.shadingPoints, entry, shadingPointNone());
@@ -129,8 +128,7 @@ RL_FN void kernelMain(RL_IN(uvec2) row) {
     return;
   }
   ShadingPoint shadingPoint = shadingPointRead(gBuffers.shadingPoints, entry);
-  RL_RESERVOIR here = sampleNone();
-  entryReservoirRead(entry, here);
+  RL_RESERVOIR here = entryReservoirRead(entry);
   // Share kept, as found at the pixel of the first inserting group.
   float kept = historyKept(entryCandidatePixel(s.donorId[first]));
   here.state.confidence = reuseCapped(here.state.confidence, gParams.entries.cap) * kept;

@@ -16,40 +16,26 @@ void recordReuse(FrameGraph& g, const FrameInfo& f, const ReusedSample& sample,
                  std::vector<std::byte> params) {
   const FrameBuffers& s = g.shared;
   const bool isTemporal = reuse.temporalReuse != 0, hasEntries = entries.count != 0;
-  const auto withSuffix = [&](size_t count) { return sample.suffixUvec4s == 0 ? 0 : count; };
-  constexpr uint32_t kUvec4Bytes = 16, kGlossy = rl::RL_FEATURE_GLOSSY;
+  constexpr uint32_t kUvec4Bytes = 16;
   const uint32_t reservoirBytes = kUvec4Bytes * sample.reservoirUvec4s;
-  const uint32_t suffixBytes = kUvec4Bytes * sample.suffixUvec4s;
   const Buffer radiance = g.buffer("radiance", f.pixels, sizeof(glm::vec3));
   const Buffer radianceFrames =
       g.buffer("radiance_frames", reuse.writesRadianceFrames != 0 ? f.pixels : 0, sizeof(float));
   const History unresampled = g.advance(g.history("unresampled_radiance", f.pixels, kUvec4Bytes));
   const Buffer reservoirs = g.buffer("reservoirs", f.pixels, reservoirBytes);
   const Buffer history = g.buffer("reservoir_history", f.pixels, reservoirBytes);
-  const Buffer suffixes = g.buffer("path_suffixes", withSuffix(f.pixels), suffixBytes, kGlossy);
-  const Buffer suffixHistory =
-      g.buffer("path_suffix_history", withSuffix(f.pixels), suffixBytes, kGlossy);
   std::array<Buffer, rl::RL_MAX_DONORS> pairedShifts;
   for (uint32_t k = 0; k < reuse.spatialNeighbours; ++k)
     pairedShifts[k] = g.transient(pairedShiftsName(k), f.pixels, kUvec4Bytes);
   const Buffer outlines = g.buffer("outlines", f.pixels, sizeof(uint32_t));
   const Buffer entryReservoirs = g.buffer("entry_reservoirs", entries.count, reservoirBytes);
-  const Buffer entrySuffixes =
-      g.buffer("entry_suffixes", withSuffix(entries.count), suffixBytes, kGlossy);
-  const Kernels kernels =
-      g.kernels<rl::ReuseBuffers>(std::move(params), {s.surfaces.now,  s.surfaces.previous,
-                                                      s.proposals,     s.shadingPoints,
-                                                      s.insertions,    s.cellKeys,
-                                                      s.cellPlaces,    s.cellLight,
-                                                      s.cellRays,      s.changes,
-                                                      radiance,        radianceFrames,
-                                                      unresampled.now, unresampled.previous,
-                                                      reservoirs,      history,
-                                                      suffixes,        suffixHistory,
-                                                      pairedShifts[0], pairedShifts[1],
-                                                      pairedShifts[2], pairedShifts[3],
-                                                      outlines,        entryReservoirs,
-                                                      entrySuffixes});
+  const Kernels kernels = g.kernels<rl::ReuseBuffers>(
+      std::move(params),
+      {s.surfaces.now, s.surfaces.previous, s.proposals,     s.shadingPoints,      s.insertions,
+       s.cellKeys,     s.cellPlaces,        s.cellLight,     s.cellRays,           s.changes,
+       radiance,       radianceFrames,      unresampled.now, unresampled.previous, reservoirs,
+       history,        pairedShifts[0],     pairedShifts[1], pairedShifts[2],      pairedShifts[3],
+       outlines,       entryReservoirs});
 
   if (f.isNewView) {
     kernels.pass("light_edges", sample.method + "_light_edges")
@@ -58,38 +44,37 @@ void recordReuse(FrameGraph& g, const FrameInfo& f, const ReusedSample& sample,
   }
   GraphPass& initial = kernels.pass("initial", sample.method + "_initial")
                            .reads({s.cellKeys, s.cellPlaces, s.cellLight})
-                           .writes({reservoirs, suffixes, unresampled.now})
+                           .writes({reservoirs, unresampled.now})
                            .updates({s.cellRays});
   if (f.isNewView) {
     initial.reads({unresampled.now});
   } else {
     // In a still view this pass merges the history, too.
-    initial.reads({unresampled.previous, history, suffixHistory, s.changes});
+    initial.reads({unresampled.previous, history, s.changes});
   }
   if (hasEntries) {
     // Candidates of a still view stand in the history's place.
-    if (!f.isNewView) initial.updates({history, suffixHistory});
+    if (!f.isNewView) initial.updates({history});
     GraphPass& update = kernels.pass("cache_update", sample.method + "_cache_update")
                             .over(entries.count)
                             .reads({s.surfaces.now, s.insertions, s.changes})
-                            .updates({s.shadingPoints, entryReservoirs, entrySuffixes});
+                            .updates({s.shadingPoints, entryReservoirs});
     if (f.isNewView) {
-      update.reads({reservoirs, suffixes});
+      update.reads({reservoirs});
     } else {
-      update.reads({history, suffixHistory});
+      update.reads({history});
     }
   }
   if (f.isNewView && isTemporal) {
     if (reuse.reproject != 0) {
       kernels.pass("temporal", sample.method + "_temporal")
-          .reads({s.surfaces.now, s.surfaces.previous, s.changes, history, suffixHistory})
-          .updates({reservoirs, suffixes});
+          .reads({s.surfaces.now, s.surfaces.previous, s.changes, history})
+          .updates({reservoirs});
     }
     if (hasEntries) {
       kernels.pass("cache_reuse", sample.method + "_cache_reuse")
-          .reads({s.surfaces.now, s.proposals, s.shadingPoints, s.changes, entryReservoirs,
-                  entrySuffixes})
-          .updates({reservoirs, suffixes});
+          .reads({s.surfaces.now, s.proposals, s.shadingPoints, s.changes, entryReservoirs})
+          .updates({reservoirs});
     }
   }
   if (reuse.spatialNeighbours != 0) {
@@ -99,14 +84,14 @@ void recordReuse(FrameGraph& g, const FrameInfo& f, const ReusedSample& sample,
           .writes({outlines});
     }
     kernels.pass("spatial_shift", sample.method + "_spatial_shift")
-        .reads({s.surfaces.now, reservoirs, suffixes, outlines})
+        .reads({s.surfaces.now, reservoirs, outlines})
         .writes({pairedShifts[0], pairedShifts[1], pairedShifts[2], pairedShifts[3]});
   }
   // Shades, too, and so runs without neighbours.
   kernels.pass("spatial", sample.method + "_spatial")
-      .reads({s.surfaces.now, reservoirs, suffixes, pairedShifts[0], pairedShifts[1],
-              pairedShifts[2], pairedShifts[3], unresampled.now})
-      .writes({history, suffixHistory, radiance, radianceFrames});
+      .reads({s.surfaces.now, reservoirs, pairedShifts[0], pairedShifts[1], pairedShifts[2],
+              pairedShifts[3], unresampled.now})
+      .writes({history, radiance, radianceFrames});
   g.shared.radiance = radiance;
   g.shared.radianceFrames = radianceFrames;
 }

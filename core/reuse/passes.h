@@ -12,7 +12,6 @@ namespace restlab {
 struct ReusedSample {
   std::string method;            // its kernels are <method>_initial, <method>_temporal and so on
   uint32_t reservoirUvec4s = 0;  // of a reservoir
-  uint32_t suffixUvec4s = 0;     // kept beside it in glossy scenes; 0: nothing
 };
 
 // Name of the buffer of samples shifted to the k-th neighbours.

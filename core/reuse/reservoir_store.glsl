@@ -1,17 +1,17 @@
 // Storage of reservoirs: this frame's (initial, then merged over time), the last frame's, and those
 // of entries. Reads are of earlier passes' data (RL_EARLIER_UVEC4): no pass reads its own writes.
 
-RL_FN void reservoirReadNow(uint pixelIndex, RL_INOUT(RL_RESERVOIR) r) {
-  sampleRead(gBuffers.reservoirs, gBuffers.suffixes, pixelIndex, r);
+RL_FN RL_RESERVOIR reservoirReadNow(uint pixelIndex) {
+  return sampleRead(gBuffers.reservoirs, pixelIndex);
 }
-RL_FN void reservoirReadPrevious(uint pixelIndex, RL_INOUT(RL_RESERVOIR) r) {
-  sampleRead(gBuffers.history, gBuffers.suffixesHistory, pixelIndex, r);
+RL_FN RL_RESERVOIR reservoirReadPrevious(uint pixelIndex) {
+  return sampleRead(gBuffers.history, pixelIndex);
 }
 RL_FN void reservoirWriteNow(uint pixelIndex, RL_IN(RL_RESERVOIR) r) {
-  sampleWrite(gBuffers.reservoirs, gBuffers.suffixes, pixelIndex, r);
+  sampleWrite(gBuffers.reservoirs, pixelIndex, r);
 }
 RL_FN void reservoirWriteHistory(uint pixelIndex, RL_IN(RL_RESERVOIR) r) {
-  sampleWrite(gBuffers.history, gBuffers.suffixesHistory, pixelIndex, r);
+  sampleWrite(gBuffers.history, pixelIndex, r);
 }
 
 // States are read on their own: merges decide by states, and only the winner's sample is moved.
@@ -26,51 +26,40 @@ RL_FN void stateWriteNow(uint pixelIndex, RL_IN(RL_RESERVOIR) r) {
 }
 // Copies the path of another reservoir. The merge has set the state of r already.
 RL_FN void takeSampleNow(uint pixelIndex, RL_INOUT(RL_RESERVOIR) r) {
-  RL_RESERVOIR from = r;
-  reservoirReadNow(pixelIndex, from);
-  sampleCopyPath(r, from);
+  sampleCopyPath(r, reservoirReadNow(pixelIndex));
 }
 RL_FN void takeSamplePrevious(uint pixelIndex, RL_INOUT(RL_RESERVOIR) r) {
-  RL_RESERVOIR from = r;
-  reservoirReadPrevious(pixelIndex, from);
-  sampleCopyPath(r, from);
+  sampleCopyPath(r, reservoirReadPrevious(pixelIndex));
 }
 
 // Reservoirs of entries.
-RL_FN void entryReservoirRead(uint entry, RL_INOUT(RL_RESERVOIR) r) {
-  sampleRead(gBuffers.entryReservoirs, gBuffers.entrySuffixes, entry, r);
+RL_FN RL_RESERVOIR entryReservoirRead(uint entry) {
+  return sampleRead(gBuffers.entryReservoirs, entry);
 }
 RL_FN ReservoirState entryStateRead(uint entry) {
   return sampleStateRead(gBuffers.entryReservoirs, entry);
 }
 RL_FN void takeEntrySample(uint entry, RL_INOUT(RL_RESERVOIR) r) {
-  RL_RESERVOIR from = r;
-  entryReservoirRead(entry, from);
-  sampleCopyPath(r, from);
+  sampleCopyPath(r, entryReservoirRead(entry));
 }
 RL_FN void entryReservoirWrite(uint entry, RL_IN(RL_RESERVOIR) r) {
-  sampleWrite(gBuffers.entryReservoirs, gBuffers.entrySuffixes, entry, r);
+  sampleWrite(gBuffers.entryReservoirs, entry, r);
 }
 
 // Reads the candidate of a pixel for its entry: the sample that it found in this frame alone.
 // Before the temporal pass that is the pixel's reservoir. In a still view the initial pass has
 // merged the history already: it leaves the candidate in the history's place, which the spatial
 // pass fills again.
-RL_FN void candidateRead(uint pixelIndex, RL_INOUT(RL_RESERVOIR) r) {
-  if (viewIsStill()) {
-    reservoirReadPrevious(pixelIndex, r);
-  } else {
-    reservoirReadNow(pixelIndex, r);
-  }
+RL_FN RL_RESERVOIR candidateRead(uint pixelIndex) {
+  if (viewIsStill()) return reservoirReadPrevious(pixelIndex);
+  return reservoirReadNow(pixelIndex);
 }
 RL_FN ReservoirState candidateStateRead(uint pixelIndex) {
   if (viewIsStill()) return stateReadPrevious(pixelIndex);
   return stateReadNow(pixelIndex);
 }
 RL_FN void takeCandidateSample(uint pixelIndex, RL_INOUT(RL_RESERVOIR) r) {
-  RL_RESERVOIR from = r;
-  candidateRead(pixelIndex, from);
-  sampleCopyPath(r, from);
+  sampleCopyPath(r, candidateRead(pixelIndex));
 }
 
 // Pixels' samples shifted to their k-th neighbours.

@@ -65,9 +65,6 @@ struct ReuseBuffers {
   Uvec4Ref unresampledPrevious;
   Uvec4Ref reservoirs;  // reservoirs of this frame: initial, then temporal
   Uvec4Ref history;  // last frame's, in still views then candidates; replaced by the spatial pass
-  // Parts of samples that are kept beside the reservoirs; null if there are none.
-  Uvec4Ref suffixes;
-  Uvec4Ref suffixesHistory;
   // Between the spatial_shift and the spatial pass, a buffer for each of up to RL_MAX_DONORS
   // neighbours: the pixel's sample shifted to the neighbour, and the neighbour's pixel index
   // (RL_INVALID: none). Buffers of their own, so that each can share memory.
@@ -78,7 +75,6 @@ struct ReuseBuffers {
   UintRef outlines;  // 1: a pixel beside it shows another surface
   // For caches in world space: reservoirs of entries (core/caches/entries/entries.glsl).
   Uvec4Ref entryReservoirs;
-  Uvec4Ref entrySuffixes;
 };
 
 struct ReuseParams {

@@ -48,8 +48,7 @@ RL_FN RL_RESERVOIR spatialMerge(uint pixelIndex, RL_OUT(vec3) estimate) {
   s.share = reuseDonorShare(historyAge(), gParams.reuse.donorNoise);
   s.rng = rngInit(gFrame.seed, pixelIndex, gFrame.frame);
   s.rng.vertex = RL_VERTEX_SPATIAL;
-  RL_RESERVOIR r = sampleNone();
-  reservoirReadNow(pixelIndex, r);
+  RL_RESERVOIR r = reservoirReadNow(pixelIndex);
   uint winner;
   float jacobian;
   estimate = reuseMerge(s, spatialDonors(), gParams.reuse.spatialFlags, r.state, winner, jacobian);

@@ -6,8 +6,7 @@
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint pixelIndex = pixelIndexOf(pixel);
-  RL_RESERVOIR r = sampleNone();
-  reservoirReadNow(pixelIndex, r);
+  RL_RESERVOIR r = reservoirReadNow(pixelIndex);
   uint donors = spatialDonors();
   for (uint k = 0u; k < donors; k = k + 1u) {
     uint neighbour;

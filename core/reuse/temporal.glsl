@@ -20,8 +20,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   // Share kept, as found at the donor's pixel.
   float kept = historyKept(previousPixel);
   if (!(kept > 0.0f)) return;
-  RL_RESERVOIR here = sampleNone();
-  reservoirReadNow(pixelIndex, here);
+  RL_RESERVOIR here = reservoirReadNow(pixelIndex);
   if (temporalMerge(pixelIndex, previousPixel, kept, here)) {
     reservoirWriteNow(pixelIndex, here);
   } else {

@@ -35,7 +35,7 @@ RL_FN bool temporalMerge(uint pixelIndex, uint previousPixel, float kept,
   if (isStill) {
     donor.state = stateReadPrevious(previousPixel);
   } else {
-    reservoirReadPrevious(previousPixel, donor);
+    donor = reservoirReadPrevious(previousPixel);
   }
   TemporalMerge t;
   t.donor = donor.state;

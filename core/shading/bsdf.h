@@ -38,8 +38,6 @@ struct Bsdf {
   float eta;          // index of refraction beyond the surface over that on the side of wo
 };
 
-const uint RL_BSDF_UVEC4S = 3u;  // per BSDF in a buffer (core/shading/bsdf/pack.glsl)
-
 struct BsdfSample {
   vec3 wi;              // world, unit
   float pdfSolidAngle;  // over all non-delta lobes; for a delta lobe, of the lobe choice alone

@@ -36,8 +36,12 @@ RL_FN_OUTLINE LightSample lightSample(RL_IN(Rng) rng) {
   s.cone = vec2(light.e2.x, light.e2.y);
   if (light.kind == RL_LIGHT_SPOT) s.normal = light.e1;
   s.isTwoSided = 0u;
+  s.id.instance = light.instance;
+  s.id.primitive = light.primitive;
+  s.id.bary = u;
   if (RL_HAS(RL_FEATURE_AREA_LIGHTS) && light.kind == RL_LIGHT_TRIANGLE) {
     vec2 bary = warpTriangle(u);
+    s.id.bary = bary;
     s.point = light.p0 + bary.x * light.e1 + bary.y * light.e2;
     s.normal = normalize(cross(light.e1, light.e2));
     if ((light.flags & RL_LIGHT_FLIPPED) != 0u) s.normal = -s.normal;

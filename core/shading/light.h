@@ -5,6 +5,7 @@
 
 #ifdef __cplusplus
 #include "core/dialect/dialect.h"
+#include "core/geometry/surface.h"
 #endif
 
 RL_NAMESPACE_BEGIN
@@ -21,7 +22,8 @@ struct LightSample {
   float posError;  // metres; triangles only
   vec2 cone;       // spot: scale and offset of the angular falloff
   uint isTwoSided;
-  uint record;  // index in the light table; RL_INVALID if a ray found the light
+  uint record;   // index in the light table; RL_INVALID if a ray found the light
+  SurfaceId id;  // triangles only
 };
 
 // A light sample as a receiver sees it.

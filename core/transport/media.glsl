@@ -108,9 +108,12 @@ RL_FN MediaCrossing mediaCross(RL_IN(uvec4) media, RL_IN(Ray) ray, RL_INOUT(Hit)
     }
   }
   c.isSurface = rank >= here ? 1u : 0u;  // same rule as mediaPasses() for shadow rays
-  float iorHere = mediaOfRank(here).w;
-  float iorBehind = mediaOfRank(c.behind.x).w;
-  c.contrast = isFront ? iorBehind / iorHere : iorHere / iorBehind;
+  uint outside = isFront ? here : c.behind.x;
+  if (outside != 0u) {
+    float iorHere = mediaOfRank(here).w;
+    float iorBehind = mediaOfRank(c.behind.x).w;
+    c.contrast = isFront ? iorBehind / iorHere : iorHere / iorBehind;
+  }
   return c;
 }
 

@@ -1,5 +1,5 @@
 // Members of a kernel context that is made for one pixel, as in core/backend/cpu_kernel.inl.
-static constexpr uint kFeatures = FEATURES;
+static constexpr uint kFeatures = RL_FEATURE_ALL;
 
 const SceneData& gScene;
 const FrameData& gFrame;
@@ -10,11 +10,3 @@ const RestirGiParams& gParams;
 
 #include "core/dialect/order.glsl"
 #include "core/backend/cpu_trace.inl"
-
-// Returns the reservoir of a pixel as the spatial pass found it, with its suffix.
-PathReservoir reservoirOf(uint pixelIndex) {
-  PathReservoir r;
-  r.path.suffix = pathNoSuffix();
-  reservoirReadNow(pixelIndex, r);
-  return r;
-}

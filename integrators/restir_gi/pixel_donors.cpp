@@ -32,7 +32,6 @@ constexpr double kRoundingOfShares = 1e-3, kRoundingOfConfidence = 1e-4;
 #define RL_REUSE_WATCH_DONOR(k, donor, shifted, merge, isSelected) \
   watchDonor(state.pixelIndex, k, donor, shifted, merge, isSelected);
 namespace over_space {
-template <uint FEATURES>
 struct Ctx {
 #include "integrators/restir_gi/pixel_context.inl"
 #include "integrators/restir_gi/spatial.glsl"
@@ -57,7 +56,7 @@ struct Ctx {
     const uint neighbour = pairedNeighbour(pixelIndex, k);
     watched_.push_back(asDonor("space", neighbour, donor, here, merge, gParams.reuse.spatialFlags));
     if (!watched_.back().jacobian) {
-      const PathReservoir r = reservoirOf(neighbour);
+      const PathReservoir r = reservoirReadNow(neighbour);
       watched_.back().shift = failedTest(r, pixelOfIndex(pixelIndex), r.path.film);
     }
     if (isSelected) watchedWinner_ = watched_.size() - 1;
@@ -83,7 +82,6 @@ struct Ctx {
 
 // The initial pass, which finds the pixel's sample of this frame again, and the temporal merge.
 namespace over_time {
-template <uint FEATURES>
 struct Ctx {
 #include "integrators/restir_gi/pixel_context.inl"
 #include "integrators/restir_gi/initial.glsl"
@@ -136,7 +134,7 @@ struct Ctx {
     // The pixel's sample of this frame has confidence 1: without more, nothing was merged.
     donor.confidence = confidence - 1.0f;
     if (previousPixel == RL_INVALID || !(donor.confidence > kRoundingOfConfidence)) return {};
-    const PathReservoir merged = reservoirOf(pixelIndex);
+    const PathReservoir merged = reservoirReadNow(pixelIndex);
     const real wSum = merged.state.W * reuseTarget(merged.state.F);
     const uint film = cameraFilmBits(pixel);
     // Reused samples keep their film sample, and each pixel and frame has another one.
@@ -162,7 +160,6 @@ struct Ctx {
 
 // The cache_reuse pass.
 namespace of_entries {
-template <uint FEATURES>
 struct Ctx {
 #include "integrators/restir_gi/pixel_context.inl"
 #include "integrators/restir_gi/cache_reuse.glsl"
@@ -172,7 +169,7 @@ struct Ctx {
     const uint flags = gParams.reuse.spatialFlags, count = gParams.entries.proposals;
     CacheMerge s;
     if (gFrame.stillFrames != 0u || !findEntries(s, pixelIndexOf(pixel), count)) return {};
-    const PathReservoir now = reservoirOf(s.owner);
+    const PathReservoir now = reservoirReadNow(s.owner);
     s.rng = rngInit(gFrame.seed, s.owner, gFrame.frame);
     s.rng.vertex = RL_VERTEX_CACHE_REUSE;
     const uint film = rngBits(s.rng, RL_DIM_FILTER_X);
@@ -192,9 +189,7 @@ struct Ctx {
       restlab::Donor& one = all.back();
       if (one.share) one.share = misDivide(real(*one.share), wSum);
       if (!one.jacobian) {
-        PathReservoir r = now;
-        entryReservoirRead(s.donorId[k], r);
-        one.shift = failedTest(r, pixel, film);
+        one.shift = failedTest(entryReservoirRead(s.donorId[k]), pixel, film);
       }
       // Select the donor whose integrand is the pixel's, up to rounding.
       const real off = length(s.neighbourAtCanonical[k].F - now.state.F);
@@ -209,15 +204,14 @@ struct Ctx {
 };
 }  // namespace of_entries
 
-template <uint FEATURES>
 Donors donorsOf(const restlab::FrameSnapshot& snapshot, const ReuseBuffers& buffers,
                 const RestirGiParams& params, uvec2 pixel) {
   CpuKernelCounters counters;
   const SceneData& scene = snapshot.scene->data();
   const auto rays = static_cast<RTCScene>(snapshot.scene->embreeScene());
-  over_space::Ctx<FEATURES> space{scene, *snapshot.frame, counters, rays, buffers, params};
-  over_time::Ctx<FEATURES> time{scene, *snapshot.frame, counters, rays, buffers, params};
-  of_entries::Ctx<FEATURES> entries{scene, *snapshot.frame, counters, rays, buffers, params};
+  over_space::Ctx space{scene, *snapshot.frame, counters, rays, buffers, params};
+  over_time::Ctx time{scene, *snapshot.frame, counters, rays, buffers, params};
+  of_entries::Ctx entries{scene, *snapshot.frame, counters, rays, buffers, params};
   Donors all = space.overSpace(pixel), ofEntries;
   if (params.entries.count != 0u) ofEntries = entries.ofEntries(pixel);
   double confidence = all.front().confidence;
@@ -255,20 +249,13 @@ std::vector<Donor> giDonorsOf(const FrameSnapshot& snapshot, size_t pixel) {
   bindCopy(snapshot, "shading_points", buffers.shadingPoints);
   bindCopy(snapshot, "changes", buffers.changes);
   bindCopy(snapshot, "reservoirs", buffers.reservoirs);
-  bindCopy(snapshot, "path_suffixes", buffers.suffixes);
   bindCopy(snapshot, pairedShiftsName(0), buffers.pairedShifts0);
   bindCopy(snapshot, pairedShiftsName(1), buffers.pairedShifts1);
   bindCopy(snapshot, pairedShiftsName(2), buffers.pairedShifts2);
   bindCopy(snapshot, pairedShiftsName(3), buffers.pairedShifts3);
   bindCopy(snapshot, "entry_reservoirs", buffers.entryReservoirs);
-  bindCopy(snapshot, "entry_suffixes", buffers.entrySuffixes);
   const rl::uvec2 at(pixel % snapshot.frame->width, pixel / snapshot.frame->width);
-  // Scenes without glossy surfaces have no suffixes.
-  constexpr uint32_t kAll = rl::RL_FEATURE_ALL;
-  return buffers.suffixes.data != nullptr
-             ? rl::donorsOf<kAll>(snapshot, buffers, giParamsOf(snapshot), at)
-             : rl::donorsOf<kAll & ~rl::RL_FEATURE_GLOSSY>(snapshot, buffers, giParamsOf(snapshot),
-                                                           at);
+  return rl::donorsOf(snapshot, buffers, giParamsOf(snapshot), at);
 }
 
 }  // namespace restlab

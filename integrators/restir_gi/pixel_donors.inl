@@ -22,7 +22,7 @@ const char* failedTest(const PathReservoir& r, const uvec2& pixel, uint film) {
   const Surface x1 = surfaceLoad(hit, ray.dir);
   if (!bsdfIsReusable(x1.bsdf, gParams.path.minAlpha)) return "smooth";
   const auto rejected = gCounters.health[RL_HEALTH_REJECTED_JACOBIAN];
-  const Shifted shifted = pathReconnect(r.path, x1, gParams.path.maxJacobian);
+  const Shifted shifted = pathReconnect(r.path, pathEnd(r.path), x1, gParams.path.maxJacobian);
   if (gCounters.health[RL_HEALTH_REJECTED_JACOBIAN] != rejected) return "jacobian";
   return reuseTarget(shifted.F) > 0.0f ? "occluded" : "dark";
 }

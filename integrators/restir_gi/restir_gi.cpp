@@ -36,8 +36,7 @@ void recordRestirGi(FrameGraph& g, const FrameInfo& f) {
   params.entries = packEntries(p);
   params.cells = packRadiance(p);
   params.changes = packChanges(p);
-  const ReusedSample sample = {"restir_gi", rl::RL_PATH_RESERVOIR_UVEC4S,
-                               rl::RL_PATH_SUFFIX_UVEC4S};
+  const ReusedSample sample = {"restir_gi", rl::RL_PATH_RESERVOIR_UVEC4S};
   recordReuse(g, f, sample, params.reuse, params.entries, bytesOf(params));
 }
 

@@ -10,25 +10,12 @@
 #include "core/resampling/donors.glsl"
 #include "core/caches/entries/entries.glsl"
 
-// A reservoir to read into.
-RL_FN PathReservoir sampleNone() {
-  PathReservoir r;
-  r.path.suffix = pathNoSuffix();
-  return r;
+// Storage: the reservoir of an index.
+RL_FN PathReservoir sampleRead(RL_IN(Uvec4Ref) words, uint index) {
+  return pathReservoirRead(words, index * RL_PATH_RESERVOIR_UVEC4S);
 }
-
-// Storage: the reservoir of an index, and for glossy scenes the suffix of its path.
-RL_FN void sampleRead(RL_IN(Uvec4Ref) words, RL_IN(Uvec4Ref) suffixes, uint index,
-                      RL_INOUT(PathReservoir) r) {
-  pathReservoirRead(words, index * RL_PATH_RESERVOIR_UVEC4S, r);
-  if (RL_HAS(RL_FEATURE_GLOSSY))
-    r.path.suffix = pathSuffixRead(suffixes, index * RL_PATH_SUFFIX_UVEC4S);
-}
-RL_FN void sampleWrite(RL_IN(Uvec4Ref) words, RL_IN(Uvec4Ref) suffixes, uint index,
-                       RL_IN(PathReservoir) r) {
+RL_FN void sampleWrite(RL_IN(Uvec4Ref) words, uint index, RL_IN(PathReservoir) r) {
   pathReservoirWrite(words, index * RL_PATH_RESERVOIR_UVEC4S, r);
-  if (RL_HAS(RL_FEATURE_GLOSSY))
-    pathSuffixWrite(suffixes, index * RL_PATH_SUFFIX_UVEC4S, r.path.suffix);
 }
 RL_FN ReservoirState sampleStateRead(RL_IN(Uvec4Ref) words, uint index) {
   return pathStateRead(words, index * RL_PATH_RESERVOIR_UVEC4S);

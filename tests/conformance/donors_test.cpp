@@ -34,7 +34,7 @@ std::string sampleOf(const Session& session, size_t pixel) {
   std::map<std::string, std::string> values;
   for (const ProbeValue& v : session.probe(uint32_t(pixel % kWidth), uint32_t(pixel / kWidth)))
     values[v.name] = v.value;
-  return values["W"] == "0" ? "" : values["film"] + " " + values["position or direction"];
+  return values["W"] == "0" ? "" : values["film"] + " " + values["end"];
 }
 std::vector<std::string> samplesOf(const Session& session) {
   std::vector<std::string> samples(size_t{kWidth} * kHeight);

@@ -51,9 +51,8 @@ class SelfShift : public ::testing::TestWithParam<const char*> {
     frame_.rouletteStart = rl::RL_INVALID;
     frame_.seed = 5;
     params_.path = {1, 0.04f, 100.0f};
-    quads_.resize(rl::RL_PATH_RESERVOIR_UVEC4S + rl::RL_PATH_SUFFIX_UVEC4S);
-    buffers_.reservoirs.data = quads_.data();
-    buffers_.suffixes.data = quads_.data() + rl::RL_PATH_RESERVOIR_UVEC4S;
+    uvec4s_.resize(rl::RL_PATH_RESERVOIR_UVEC4S);
+    buffers_.reservoirs.data = uvec4s_.data();
   }
 
   std::shared_ptr<const CompiledScene> scene_;
@@ -62,7 +61,7 @@ class SelfShift : public ::testing::TestWithParam<const char*> {
   rl::ReuseBuffers buffers_{};
   rl::RestirGiParams params_{};
   rl::CpuKernelCounters counters_;
-  std::vector<glm::uvec4> quads_;
+  std::vector<glm::uvec4> uvec4s_;
 };
 
 TEST_P(SelfShift, GivesWhatWasStored) {
@@ -75,8 +74,7 @@ TEST_P(SelfShift, GivesWhatWasStored) {
       rl::PathRecord path = c.pathRecordEmpty(c.cameraFilmBits(pixel));
       c.walkPath(path, pixel, path.film);
       c.reservoirWriteNow(0, c.pathResample(path, c.rngInit(frame_.seed, slot, frame_.frame)));
-      rl::PathReservoir r{};
-      c.reservoirReadNow(0, r);
+      const rl::PathReservoir r = c.reservoirReadNow(0);
       if (!(r.state.W > 0.0f)) continue;
       rl::PathShift shift = c.pathShiftTo(r, pixel, false, false);
       c.pathShiftTrace(shift, r.path);

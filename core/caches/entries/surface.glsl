@@ -1,16 +1,12 @@
 // Surface that an entry's reservoir is valid for: Lambert, whatever the material. Any target would
 // do, as long as it is always the same.
 RL_FN Surface shadingPointSurface(RL_IN(ShadingPoint) shadingPoint) {
-  Surface s;
+  Surface s = surfaceNone();
   s.posW = shadingPoint.surface.posW;
   s.posError = shadingPoint.posError;
   s.nGeoW = unpackNormal(shadingPoint.surface.nGeoW);
   s.nShadeW = unpackNormal(shadingPoint.surface.nShadeW);
   s.wo = s.nShadeW;
-  s.emission = vec3(0.0f, 0.0f, 0.0f);
-  s.sigmaAbsorption = vec3(0.0f, 0.0f, 0.0f);
-  s.light = RL_INVALID;
-  s.bsdf = bsdfNone();
   s.bsdf.diffuse = shadingPoint.surface.reflectance;
   s.bsdf.lobes = RL_LOBE_DIFFUSE;
   return s;
