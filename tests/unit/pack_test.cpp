@@ -100,7 +100,7 @@ TEST_F(Pack, UnitVectors) {
       test(glm::normalize(n));
     }
   }
-  // Half a step on both axes, 2.4e-7, grows by sqrt(18) at most; rounding adds as much as half of that.
+  // Half a step on both axes, 2.4e-7, grows by sqrt(18) at most; rounding adds half of that.
   EXPECT_LT(worst, 1.5e-6f);
   EXPECT_LT(worstNormal, 1e-4f);
   const glm::uvec2 none = dialect_->packUnit22(glm::vec3(0.0f));
