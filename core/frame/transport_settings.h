@@ -16,6 +16,7 @@ struct TransportSettings {
   bool russianRoulette = false;
   uint32_t pixelFilter = rl::RL_FILTER_BOX;
   bool multiscatter = false;
+  bool lateRoulette = false;
 
   bool operator==(const TransportSettings&) const = default;
 };
