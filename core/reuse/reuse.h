@@ -91,7 +91,6 @@ struct ReuseParams {
   float movingConfidenceCap;  // in frames of a new view
   float maxReflectanceRatio;  // bound per channel on the reflectance ratio of residuals
   uint writesRadianceFrames;  // 1: a denoiser reads them
-  uint equalDonors;           // 1: donors keep their share
 };
 
 RL_NAMESPACE_END

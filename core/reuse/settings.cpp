@@ -19,7 +19,6 @@ struct ReuseSettings {
   uint32_t agedNeighbours = 1;
   double youngFrames = 8.0;
   double donorNoise = 0.5;
-  bool equalDonors = false;
   uint32_t lightEdgeSamples = 8;
   bool temporal = true;
   bool reproject = true;
@@ -59,8 +58,6 @@ const Schema<ReuseSettings>& schema() {
           &ReuseSettings::donorNoise, "donor_noise", Range{0.0, 1000.0},
           "how fast a donor's share falls with the age of the history: 1 / (1 + this x (age - 1))",
           "core/resampling/donors.glsl; measured: docs/decisions/donors-by-age.md"),
-      Parameter<ReuseSettings>(&ReuseSettings::equalDonors, "equal_donors",
-                               "a donor's share does not fall with the age of the history", ""),
       Parameter<ReuseSettings>(
           &ReuseSettings::lightEdgeSamples, "light_edge_samples", Range{0, 64},
           "camera rays through pixels where a lamp in view ends, in frames of a new view; 0: none "
@@ -122,7 +119,6 @@ rl::ReuseParams packReuse(const ParameterMap& parameters, bool assumesVisible) {
       s.oldest() <= s.youngFrames ? rl::RL_INVALID : static_cast<uint32_t>(s.youngFrames);
   out.lightEdgeSamples = s.lightEdgeSamples;
   out.donorNoise = float(s.donorNoise);
-  out.equalDonors = s.equalDonors ? 1u : 0u;
   out.temporalReuse = s.temporal ? 1u : 0u;
   out.reproject = s.reproject ? 1u : 0u;
   out.confidenceCap = float(s.confidenceCap);

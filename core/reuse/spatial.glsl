@@ -45,9 +45,7 @@ RL_FN real reuseUniform(RL_IN(SpatialMerge) s, uint k) {
 RL_FN RL_RESERVOIR spatialMerge(uint pixelIndex, RL_OUT(vec3) estimate) {
   SpatialMerge s;
   s.pixelIndex = pixelIndex;
-  s.share = gParams.reuse.equalDonors != 0u
-                ? 1.0f
-                : reuseDonorShare(historyAge(), gParams.reuse.donorNoise);
+  s.share = reuseDonorShare(historyAge(), gParams.reuse.donorNoise);
   s.rng = rngInit(gFrame.seed, pixelIndex, gFrame.frame);
   s.rng.vertex = RL_VERTEX_SPATIAL;
   RL_RESERVOIR r = reservoirReadNow(pixelIndex);
