@@ -202,9 +202,7 @@ void Session::Impl::open() {
   const bool directOnly = (config.components & rl::RL_COMPONENT_INDIRECT) == 0;
   f.maxBounces = directOnly ? std::min(config.maxBounces, 1u) : config.maxBounces;
   f.components = config.components;
-  f.rouletteStart = config.russianRoulette
-                        ? rl::RL_ROULETTE_EARLIEST + (config.lateRoulette ? 4u : 0u)
-                        : rl::RL_INVALID;
+  f.rouletteStart = config.russianRoulette ? rl::RL_ROULETTE_EARLIEST : rl::RL_INVALID;
   f.multiscatter = multiscatter ? 1u : 0u;
   useParameters();
   lastFrame = f;

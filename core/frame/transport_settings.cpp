@@ -27,8 +27,6 @@ const Schema<TransportSettings>& transportSchema() {
         "pixel filter: a box of one pixel, or its center", ""),
       P(&S::multiscatter, "multiscatter",
         "rough reflection keeps the light that meets several microfacets", "Kulla and Conty 2017"),
-      P(&S::lateRoulette, "late_roulette", "roulette begins four scattering events later", "")
-          .sameMean(),
   };
   return schema;
 }

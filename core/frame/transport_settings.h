@@ -16,7 +16,6 @@ struct TransportSettings {
   bool russianRoulette = false;
   uint32_t pixelFilter = rl::RL_FILTER_BOX;
   bool multiscatter = false;
-  bool lateRoulette = false;
 
   bool operator==(const TransportSettings&) const = default;
 };
