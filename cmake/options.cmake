@@ -99,9 +99,9 @@ endfunction()
 
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM)
-  # Sloppiness: without it ccache keeps nothing that has a precompiled header.
-  # Dependencies instead of preprocessed text: a precompiled header holds the hashes of its files. With a changed comment the text
-  # is the same, the hash is not, and '#pragma once' no longer sees that a file was read.
+  # Without CCACHE_SLOPPINESS ccache keeps nothing that has a precompiled header. CCACHE_DEPEND
+  # compares files, not preprocessed text: a precompiled header holds hashes of its files. After a
+  # change of a comment the text is the same, the hash is not, and '#pragma once' reads a file twice.
   set(CMAKE_CXX_COMPILER_LAUNCHER
       ${CMAKE_COMMAND} -E env CCACHE_DEPEND=1 CCACHE_SLOPPINESS=pch_defines,time_macros
       ${CCACHE_PROGRAM})

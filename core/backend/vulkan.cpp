@@ -233,13 +233,19 @@ class VulkanBackend final : public Backend {
   bool choosesTexels(size_t bytes) const {
     const size_t texels = device_.properties().limits.maxTexelBufferElements;
     const GpuBuffer* arrays = scene_->arrays();
-    const bool fits = device_.info().indexesUniforms && arrays != nullptr &&
-                      arrays->bytes / 4 <= texels && bytes / 16 <= texels &&
+    const bool fits = arrays != nullptr && arrays->bytes / 4 <= texels && bytes / 16 <= texels &&
                       bytes <= device_.largestAllocation();
+    const bool indexes = device_.info().indexesUniforms;
     const char* wanted = std::getenv("RESTLAB_VULKAN_READS");
-    if (wanted == nullptr || *wanted == 0) return fits && device_.info().kind == "cpu";
+    if (wanted == nullptr || *wanted == 0) return fits && indexes && device_.info().kind == "cpu";
     if (std::string(wanted) != "texels" && std::string(wanted) != "addresses") {
       failUsage(fmt::format("RESTLAB_VULKAN_READS={}: texels or addresses would be right", wanted));
+    }
+    if (std::string(wanted) == "texels" && !indexes) {
+      throw Error(ExitCode::deviceUnavailable,
+                  fmt::format("RESTLAB_VULKAN_READS=texels: {} lacks "
+                              "shaderUniformBufferArrayDynamicIndexing; addresses would be right",
+                              device_.name()));
     }
     if (std::string(wanted) == "texels" && !fits) {
       throw Error(ExitCode::deviceUnavailable,

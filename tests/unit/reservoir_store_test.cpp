@@ -96,7 +96,7 @@ rl::PathReservoir reservoir(float first) {
   return r;
 }
 
-constexpr float kUnit = 1.1e-6f;  // of packed unit vectors
+constexpr float kUnit = 1.5e-6f;  // error of packUnit22()
 
 void expectState(const rl::ReservoirState& read, const rl::ReservoirState& written) {
   EXPECT_TRUE(isSame(read, written));
