@@ -168,6 +168,15 @@ function(rl_add_kernel name kernel_file)
   set_property(GLOBAL APPEND PROPERTY RL_KERNEL_ROWS "${name}|${kernel_path}|${header_path}")
 endfunction()
 
+# rl_add_reuse_kernels(<method>): a kernel for each pass of core/reuse, over the sample of the calling folder.
+function(rl_add_reuse_kernels method)
+  foreach(pass IN ITEMS initial temporal cache_reuse spatial_shift spatial cache_update)
+    rl_add_kernel(${method}_${pass} ${pass}.glsl HEADER ${method}.h)
+  endforeach()
+  rl_add_kernel(${method}_light_edges core/reuse/light_edges.glsl HEADER ${method}.h)
+  rl_add_kernel(${method}_outlines core/reuse/outlines.glsl HEADER ${method}.h NO_FEATURES)
+endfunction()
+
 # Writes <output>, which registers the table behind rl::cpuKernelTable(). After the last rl_add_kernel.
 function(rl_write_kernel_registry output)
   get_property(kernels GLOBAL PROPERTY RL_KERNELS)

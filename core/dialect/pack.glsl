@@ -47,6 +47,31 @@ RL_FN vec3 unpackOctahedron(float x, float y) {
                         (1.0f - abs(x)) * (y < 0.0f ? -1.0f : 1.0f), z));
 }
 
+// Packs three floats of any sign into 48 bits: each a sign and 12 bits, and one exponent for all.
+// Error at most 2.5e-4 of the greatest; what is below 1e-34 or not finite becomes 0.
+RL_FN uvec2 packShared3(RL_IN(vec3) v) {
+  float greatest = max(abs(v.x), max(abs(v.y), abs(v.z)));
+  // Rounding may reach the next power of 2.
+  uint exponent = (floatBitsToUint(greatest) + 0x800u) >> 23u;
+  if (exponent < 13u || exponent > 254u) return uvec2(0u, 0u);
+  float scale = uintBitsToFloat((265u - exponent) << 23u);
+  uint x = uint(abs(v.x) * scale + 0.5f) | (v.x < 0.0f ? 0x1000u : 0u);
+  uint y = uint(abs(v.y) * scale + 0.5f) | (v.y < 0.0f ? 0x1000u : 0u);
+  uint z = uint(abs(v.z) * scale + 0.5f) | (v.z < 0.0f ? 0x1000u : 0u);
+  return uvec2(x | (y << 13u) | (exponent << 26u), z | ((exponent >> 6u) << 13u));
+}
+RL_FN float unpackSharedPart(uint bits, float scale) {
+  float x = float(bits & 0xfffu) * scale;
+  return (bits & 0x1000u) != 0u ? -x : x;
+}
+RL_FN vec3 unpackShared3(uint w0, uint w1) {
+  uint exponent = (w0 >> 26u) | (((w1 >> 13u) & 3u) << 6u);
+  if (exponent < 13u) return vec3(0.0f, 0.0f, 0.0f);
+  float scale = uintBitsToFloat((exponent - 11u) << 23u);
+  return vec3(unpackSharedPart(w0, scale), unpackSharedPart(w0 >> 13u, scale),
+              unpackSharedPart(w1, scale));
+}
+
 // A number in [0, 1] as 24 bits.
 RL_FN uint packUnorm24(float x) { return uint(clamp(x * 16777216.0f + 0.5f, 0.0f, 16777215.0f)); }
 RL_FN float unpackUnorm24(uint packed) { return float(packed) * (1.0f / 16777216.0f); }

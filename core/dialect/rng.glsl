@@ -26,6 +26,14 @@ RL_FN Rng rngInit(uint seed, uint pixel, uint frame) {
   return rng;
 }
 
+// The generator of a path that is replayed: from a word that its reservoir keeps.
+RL_FN Rng rngOfKey(uint key) {
+  Rng rng;
+  rng.key = uvec2(key, rngHash(key ^ 0x85ebca6bu));
+  rng.vertex = RL_VERTEX_PIXEL;
+  return rng;
+}
+
 // 32 random bits of one dimension at the generator's vertex.
 RL_FN uint rngBits(RL_IN(Rng) rng, uint dimension) {
   RL_RNG_AUDIT(rng, dimension);

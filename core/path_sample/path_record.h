@@ -5,6 +5,7 @@
 #ifdef __cplusplus
 #include "core/dialect/order.h"
 #endif
+#include "core/path_sample/path_replay.h"
 #include "core/path_sample/path_sample.h"
 #include "core/radiance_cache/radiance.h"
 #include "core/transport/walk.h"
@@ -32,6 +33,7 @@ struct PathRecord {
   vec3 bsdfHitIntegrand;
   real bsdfHitWeight;
   float bsdfHitCoverage;  // alpha of the light that was hit: probability that the ray hit it
+  uint isLightApart;      // 1: the last light sample is not resampled
 
   // Indirect light. The path is cut at x2; `suffixThroughput` is the throughput from x3 on.
   uint isX2Apart;  // 1: x2 lies between two bodies, which its id does not tell: not reused
@@ -51,6 +53,20 @@ struct PathRecord {
   vec3 suffixRadiance;          // light beyond x3
   vec3 mediumTransmittance;     // transmittance of the last segment
   vec3 unshadowedContribution;  // unshadowed contribution of the last light sample
+
+  // With RL_PATH_REPLAYS x1 is the vertex after `base` events.
+  uint base;
+  uint key;                 // of the random numbers of the path
+  PathConnector connector;  // of x1
+  vec3 prefix;              // throughput up to x1, without Russian roulette
+  float roulette;           // product of the factors of Russian roulette up to the reconnection
+  vec3 sigmaX1;             // m^-1, of the medium of the segment from x1
+  uint rankX1;              // of its body
+
+  // Selected so far.
+  PathReservoir chosen;
+  real wSum;
+  vec3 estimate;
   CacheTermination end;
 };
 

@@ -1,6 +1,14 @@
 // Path samples in reservoirs: layout in buffers, and reconnection to another x1.
 
 RL_FN uint pathKind(RL_IN(PathSample) p) { return p.kind & RL_PATH_KIND_MASK; }
+// Returns whether a path ends at a light behind x1.
+RL_FN bool pathEndsAtLight(RL_IN(PathSample) p) {
+#ifdef RL_PATH_REPLAYS
+  return pathKind(p) == RL_PATH_DIRECT || pathKind(p) == RL_PATH_WEIGHED;
+#else
+  return pathKind(p) == RL_PATH_DIRECT;
+#endif
+}
 RL_FN uint pathLightKind(RL_IN(PathSample) p) {
   return (p.kind >> RL_PATH_LIGHT_SHIFT) & RL_PATH_LIGHT_MASK;
 }
@@ -53,12 +61,26 @@ RL_FN PathReservoir pathReservoirRead(RL_IN(Uvec4Ref) words, uint at) {
   r.path.geometry = uintBitsToFloat(q1.y);
   r.path.wi = unpackUnit22(q1.z & 0xffffffu, q1.w & 0xffffffu);
   r.path.pdfLight = uintBitsToFloat(((q1.z >> 24u) | ((q1.w >> 24u) << 8u)) << 16u);
+  r.path.base = 0u;
+  r.path.key = 0u;
   return r;
+}
+
+// Returns whether targets are unshadowed: the one sample that is shown is traced instead.
+RL_FN bool pathHasUnshadowedTarget() {
+#ifdef RL_DIRECT_ONLY
+  return gParams.path.unshadowedTarget != 0u;
+#else
+  return false;
+#endif
 }
 
 // Target function of the resampling algebra.
 RL_FN real reuseTarget(RL_IN(real3) f) { return rlLuminance(f); }
 
+#ifdef RL_DIRECT_ONLY
+#include "core/path_sample/direct_sample.glsl"
+#else
 RL_FN PathSample pathOfLight(RL_IN(LightSample) light, uint film) {
   PathSample p;
   p.id = light.id;
@@ -69,6 +91,8 @@ RL_FN PathSample pathOfLight(RL_IN(LightSample) light, uint film) {
   p.geometry = 0.0f;
   p.wi = vec3(0.0f, 0.0f, 1.0f);
   p.pdfLight = 0.0f;
+  p.base = 0u;
+  p.key = 0u;
   if (light.kind == RL_LIGHT_ENVIRONMENT) {
     p.wi = pathPackedWi(light.point);
   } else if (light.kind != RL_LIGHT_TRIANGLE) {
@@ -79,7 +103,7 @@ RL_FN PathSample pathOfLight(RL_IN(LightSample) light, uint film) {
 
 // The end of the segment from x1: the light, or x2 as if it were one, which shines to x1's side.
 RL_FN LightSample pathEnd(RL_IN(PathSample) p) {
-  bool isLight = pathKind(p) == RL_PATH_DIRECT;
+  bool isLight = pathEndsAtLight(p);
   LightSample end;
   end.id = p.id;
   end.kind = isLight ? pathLightKind(p) : RL_LIGHT_TRIANGLE;
@@ -114,6 +138,8 @@ RL_FN LightSample pathEnd(RL_IN(PathSample) p) {
   return end;
 }
 
+#endif
+
 // Radiance that x2 sends towards a point on x1's side, without visibility. BSDF and MIS weight at
 // x2 are evaluated for this direction: stored MIS weights would not sum to one.
 RL_FN vec3 pathRadianceTowards(RL_IN(PathSample) p, RL_IN(vec3) dirFromX2) {
@@ -127,6 +153,15 @@ RL_FN vec3 pathRadianceTowards(RL_IN(PathSample) p, RL_IN(vec3) dirFromX2) {
                                           : lightMisWeight(pdfBsdf, p.pdfLight);
   }
   return f * p.radiance * weight;
+}
+
+// MIS weight of a light sample at a smooth x1.
+RL_FN float pathSmoothWeight(RL_IN(PathSample) p, RL_IN(LightConnection) c, float pdfBsdf) {
+  if (c.isDelta) return 1.0f;
+  if (pathLightKind(p) == RL_LIGHT_ENVIRONMENT)
+    return lightMisWeight(lightPdfOfEnvironment(c.dirW), pdfBsdf);
+  Light light = recordLight(recordInstance(p.id.instance).firstLight + p.id.primitive);
+  return lightMisWeight(light.pmf * light.areaInverse * rlSafeDivide(1.0f, c.geometry), pdfBsdf);
 }
 
 // Segment from x1 (position, geometric normal, error of the position) to the end of a path, as a
@@ -145,10 +180,14 @@ RL_FN Shifted pathReconnect(RL_IN(PathSample) p, RL_IN(LightSample) end, RL_IN(S
   Shifted s;
   s.F = real3(real(0.0f));
   s.jacobian = real(1.0f);
-  if (pathKind(p) == RL_PATH_DIRECT) {
+  if (pathEndsAtLight(p)) {
     LightConnection c = lightConnect(end, x1.posW);
-    vec3 f = bsdfEval(x1.bsdf, x1.nGeoW, x1.nShadeW, x1.wo, c.dirW);
+    float pdfBsdf;
+    vec3 f = bsdfEvalAndPdf(x1.bsdf, x1.nGeoW, x1.nShadeW, x1.wo, c.dirW, pdfBsdf);
     s.F = f * c.emitted * c.geometry;
+#ifdef RL_PATH_REPLAYS
+    if (pathKind(p) == RL_PATH_WEIGHED) s.F *= pathSmoothWeight(p, c, pdfBsdf);
+#endif
     return s;
   }
   real geometry = shiftGeometryTerm(end.point, end.normal, x1.posW);

@@ -17,6 +17,9 @@ const uint RL_PATH_LAMBERT = 1u;       // Lambert x2: `radiance` leaves x2 in ev
 const uint RL_PATH_LIGHT = 2u;         // glossy x2, lit by a light sample from wi
 const uint RL_PATH_EMITTER = 3u;       // glossy x2, continued in direction wi to an x3 that emits
 const uint RL_PATH_CONTINUATION = 4u;  // glossy x2, continued in direction wi and beyond x3
+// With RL_PATH_REPLAYS (core/path_sample/path_replay.glsl):
+const uint RL_PATH_WEIGHED = 5u;       // as RL_PATH_DIRECT, where x1 is smooth: with its MIS weight
+const uint RL_PATH_WHOLE_REPLAY = 6u;  // no reconnection: an emitter that a smooth x1 found
 
 // A path holds ids, not what the scene says of them: x2 is evaluated anew wherever it is used.
 struct PathSample {
@@ -29,8 +32,12 @@ struct PathSample {
   vec3 wi;         // glossy x2; or the direction to the environment. As pathPackedWi() gives it
   float pdfLight;  // glossy x2: solid-angle density of light sampling for wi, as pathPackedPdf()
                    // gives it; 0: no competing technique
+  // With RL_PATH_REPLAYS, where x1 stands for the vertex before the one that reconnects:
+  uint base;  // scattering events before that x1, which a shift replays
+  uint key;   // of the random numbers that it replays
 };
 
+const uint RL_DIRECT_GRID = 0x3ffffu;  // core/path_sample/direct_sample.glsl: 18 bits a coordinate
 const uint RL_PATH_KIND_MASK = 7u;
 const uint RL_PATH_LIGHT_SHIFT = 3u;
 const uint RL_PATH_LIGHT_MASK = 7u;
@@ -39,10 +46,16 @@ const uint RL_PATH_BACK = 0x80u;       // x2: x1 is behind the triangle
 
 // In the kernels' gParams.path.
 struct PathParams {
-  uint lightCandidates;  // light samples at x1, of which one is kept
-  float minAlpha;        // GGX alpha below which x1 is not reused
-  float maxJacobian;     // shifts outside [1/x, x] are undefined, both ways (Lin et al. 2022)
+  uint lightCandidates;   // light samples at x1, of which one is kept
+  float minAlpha;         // GGX alpha below which x1 is not reused
+  float maxJacobian;      // shifts outside [1/x, x] are undefined, both ways (Lin et al. 2022)
+  uint unshadowedTarget;  // 1: targets lack visibility (RL_DIRECT_ONLY)
+  // With RL_PATH_REPLAYS:
+  uint mostReplayed;  // scattering events that a shift replays at most
+  float footprint;    // least area of a connectable vertex, as a share of that of x1; 0: any
 };
+
+const uint RL_PATH_MOST_REPLAYED = 15u;  // 4 bits: core/path_sample/replay_sample.glsl
 
 struct PathReservoir {
   PathSample path;
@@ -53,6 +66,8 @@ struct PathReservoir {
 // sample and state.
 const uint RL_PATH_SAMPLE_UVEC4S = 2u;
 const uint RL_PATH_RESERVOIR_UVEC4S = RL_PATH_SAMPLE_UVEC4S + RL_STATE_UVEC4S;
+// The same of methods that resample direct light alone.
+const uint RL_DIRECT_RESERVOIR_UVEC4S = 2u;
 
 RL_NAMESPACE_END
 

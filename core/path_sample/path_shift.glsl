@@ -11,6 +11,7 @@ RL_FN PathShift pathShiftNone() {
   s.ray.tMax = 0.0f;
   s.needs = RL_SHIFT_DONE;
   s.assumesVisible = 0u;
+  s.rank = gFrame.cameraMedia.x;
   return s;
 }
 
@@ -41,7 +42,7 @@ RL_FN PathShift pathShiftTo(RL_IN(PathReservoir) r, RL_IN(uvec2) pixel, bool isP
     s.ray = cameraFilmRay(gFrame.camera, pixel, r.path.film);
   }
   s.needs = RL_SHIFT_NEEDS_X1;
-  s.assumesVisible = assumeVisible ? 1u : 0u;
+  s.assumesVisible = assumeVisible || pathHasUnshadowedTarget() ? 1u : 0u;
   return s;
 }
 
@@ -50,12 +51,41 @@ RL_FN PathShift pathShiftToSurface(RL_IN(PathReservoir) r, RL_IN(Surface) x1) {
   PathShift s = pathShiftNone();
   if (!(r.state.W > 0.0f)) return s;
   LightSample end = pathEnd(r.path);
+#ifdef RL_PATH_REPLAYS
+  // Which vertices connect to a surface point depends on the camera, which an entry has not:
+  // entries hold direct light alone, or what needs no footprint.
+  if (r.path.base != 0u || pathKind(r.path) >= RL_PATH_WEIGHED) return s;
+  if (gParams.path.footprint > 0.0f && !pathEndsAtLight(r.path)) return s;
+#endif
   s.shifted = pathReconnect(r.path, end, x1, gParams.path.maxJacobian);
-  if (!(reuseTarget(s.shifted.F) > 0.0f)) return s;
+  if (pathHasUnshadowedTarget() || !(reuseTarget(s.shifted.F) > 0.0f)) return s;
   s.ray = pathSegment(end, x1.posW, x1.nGeoW, x1.posError);
   s.needs = RL_SHIFT_NEEDS_SEGMENT;
   return s;
 }
+
+#ifdef RL_PATH_REPLAYS
+// Replays a path from its camera ray, and reconnects it or keeps what it found.
+RL_FN void pathShiftReplay(RL_INOUT(PathShift) s, RL_IN(PathSample) path) {
+  s.needs = RL_SHIFT_DONE;
+  PathReplay q = pathReplay(path, s.ray);
+  if (q.hasArrived == 0u) return;
+  if (q.kind == RL_PATH_WHOLE_REPLAY) {
+    s.shifted.F = q.radiance;
+    return;
+  }
+  LightSample end = pathEnd(path);
+  s.shifted = pathReconnect(path, end, q.x, gParams.path.maxJacobian);
+  if (!pathReconnects(q, path, end)) s.shifted.F = vec3(0.0f, 0.0f, 0.0f);
+  s.shifted.F *= q.throughput;
+  LightConnection c = lightConnect(end, q.x.posW);
+  if (RL_HAS(RL_FEATURE_VOLUME)) s.shifted.F *= exp(-q.sigma * c.distance);
+  if (s.assumesVisible != 0u || !(reuseTarget(s.shifted.F) > 0.0f)) return;
+  s.ray = pathSegment(end, q.x.posW, q.x.nGeoW, q.x.posError);
+  s.rank = q.rank;
+  s.needs = RL_SHIFT_NEEDS_SEGMENT;
+}
+#endif
 
 // Advances a shift with the result of the ray that it asked for.
 RL_FN void pathShiftStep(RL_INOUT(PathShift) s, RL_IN(PathSample) path, RL_IN(Hit) hit,
@@ -78,10 +108,13 @@ RL_FN void pathShiftStep(RL_INOUT(PathShift) s, RL_IN(PathSample) path, RL_IN(Hi
 
 // Traces the rays that a shift asks for, from one call site.
 RL_FN void pathShiftTrace(RL_INOUT(PathShift) s, RL_IN(PathSample) path) {
+#ifdef RL_PATH_REPLAYS
+  if (s.needs == RL_SHIFT_NEEDS_X1) pathShiftReplay(s, path);
+#endif
   while (s.needs != RL_SHIFT_DONE) {
     Hit hit = traceNoHit();
     uint mode = s.needs == RL_SHIFT_NEEDS_X1 ? RL_RAY_PATH : RL_RAY_SHADOW;
-    uint key = pathShiftKey(mode, path.film);
+    uint key = mode == RL_RAY_PATH ? cameraAlphaKey(path.film) : s.rank;
     float transmittance = traceRay(s.ray, mode, key, hit);
     pathShiftStep(s, path, hit, transmittance);
   }

@@ -19,6 +19,7 @@ struct PathShift {
   Ray ray;
   uint needs;           // RL_SHIFT_*
   uint assumesVisible;  // 1: the segment is not traced
+  uint rank;            // of the body that the segment lies in
 };
 
 RL_NAMESPACE_END

@@ -12,6 +12,14 @@ namespace restlab {
 
 // Parameters light_candidates, roughness_limit and max_jacobian.
 std::vector<ParameterInfo> pathParameters();
+// Parameters of methods whose shift replays a prefix.
+std::vector<ParameterInfo> replayParameters();
+// Returns why such a parameter has no effect beside others; "" if it has.
+std::string replayReasonUnused(const std::string& name, const ParameterMap& parameters);
+// Parameters of methods that resample direct light alone: shifts have no Jacobian, and visibility
+// may be left to shading.
+std::vector<ParameterInfo> directParameters();
+bool hasUnshadowedTarget(const ParameterMap& parameters);
 rl::PathParams packPath(const ParameterMap& parameters);
 
 // Values of a reservoir. `words`: as pathReservoirWrite() lays it out.

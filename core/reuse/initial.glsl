@@ -1,6 +1,6 @@
 // Initial pass: traces the pixel's path and makes a reservoir of it. In a still view the
-// last frame's sample is one of the same pixel and is merged here. Light that no other pixel could
-// reuse (mirrors, glass, lights in view) is averaged over time alone.
+// last frame's sample is one of the same pixel and is merged here. Light that the reservoir leaves
+// out (of mirrors, glass, lights in view) is averaged over time alone.
 #include "core/reuse/reservoir_store.glsl"
 #include "core/reuse/still_shift.glsl"
 #include "core/reuse/temporal_merge.glsl"
@@ -10,7 +10,7 @@
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint pixelIndex = pixel.y * gFrame.width + pixel.x;
   uint film = cameraFilmBits(pixel);
-  vec3 specularLight;    // of mirrors and glass at x1
+  vec3 specularLight;    // of mirrors and glass at x1, and all else that the reservoir leaves out
   vec3 visibleEmission;  // of a lamp at x1
   RL_RESERVOIR r = sampleInitial(pixel, film, specularLight, visibleEmission);
   vec3 estimate = r.state.F * r.state.W + r.state.residual;

@@ -1,5 +1,6 @@
-// Spatial pass: merges neighbours' reservoirs, shades, and leaves the history. No ray is
-// traced: the spatial_shift pass has made the shifts.
+// Spatial pass: merges neighbours' reservoirs, shades, and leaves the history. The spatial_shift
+// pass has made the shifts, so that no ray is traced here, but by a sample that RL_SAMPLE_SHADES
+// shades.
 #include "core/resampling/pairs.glsl"
 #include "core/reuse/reservoir_store.glsl"
 #include "core/reuse/reflectance_ratio.glsl"
@@ -63,6 +64,9 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint pixelIndex = pixelIndexOf(pixel);
   vec3 estimate;
   RL_RESERVOIR r = spatialMerge(pixelIndex, estimate);
+#ifdef RL_SAMPLE_SHADES
+  sampleShade(pixel, r, estimate);
+#endif
   vec3 radiance = recordVec3(RL_EARLIER_UVEC4(gBuffers.unresampled, pixelIndex)) + estimate;
   if (!rlIsFinite3(radiance)) {
     // A NaN or Inf would spread by reuse. Reset the reservoir and count it.

@@ -1,6 +1,7 @@
 // Lights: one table of emissive triangles, punctual lights and the environment, selected by power
 // within each kind (core/scene/compiled/light_table.h).
-//   lightSample      draws a point of a light
+//   lightSample    draws a point of a light
+//   lightPoint     a point of a light that is named
 //   lightConnect   evaluates a drawn light for a receiver
 //   lightPdf...    density with which lightSample would have drawn the light that a ray has found
 
@@ -19,14 +20,11 @@ RL_FN uint lightSelect(RL_IN(Rng) rng) {
 
 RL_FN bool lightExists() { return gScene.lightCount != 0u; }
 
-// Requires lightExists().
-RL_FN_OUTLINE LightSample lightSample(RL_IN(Rng) rng) {
+// A point of a light. `bary`: on a triangle; `dirW`: to the environment. The density is per area
+// (triangle), discrete else: that of a direction to the environment is left to the caller.
+RL_FN LightSample lightPoint(uint record, RL_IN(Light) light, RL_IN(vec2) bary, RL_IN(vec3) dirW) {
   LightSample s;
-  uint uBits = rngBits(rng, RL_DIM_LIGHT_U);
-  uint vBits = rngBits(rng, RL_DIM_LIGHT_V);
-  vec2 u = vec2(rngUnit(uBits), rngUnit(vBits));
-  s.record = lightSelect(rng);
-  Light light = recordLight(s.record);
+  s.record = record;
   s.kind = light.kind;
   s.point = light.p0;
   s.normal = vec3(0.0f, 0.0f, 0.0f);
@@ -38,10 +36,8 @@ RL_FN_OUTLINE LightSample lightSample(RL_IN(Rng) rng) {
   s.isTwoSided = 0u;
   s.id.instance = light.instance;
   s.id.primitive = light.primitive;
-  s.id.bary = u;
+  s.id.bary = bary;
   if (RL_HAS(RL_FEATURE_AREA_LIGHTS) && light.kind == RL_LIGHT_TRIANGLE) {
-    vec2 bary = warpTriangle(u);
-    s.id.bary = bary;
     s.point = light.p0 + bary.x * light.e1 + bary.y * light.e2;
     s.normal = normalize(cross(light.e1, light.e2));
     if ((light.flags & RL_LIGHT_FLIPPED) != 0u) s.normal = -s.normal;
@@ -61,12 +57,28 @@ RL_FN_OUTLINE LightSample lightSample(RL_IN(Rng) rng) {
   }
   if (RL_HAS(RL_FEATURE_PUNCTUAL_LIGHTS) && light.kind == RL_LIGHT_DIRECTIONAL) s.point = -light.e1;
   if (RL_HAS(RL_FEATURE_ENVIRONMENT) && light.kind == RL_LIGHT_ENVIRONMENT) {
-    float pdfSolidAngle = 0.0f;
-    uint aliasBits = rngBits(rng, RL_DIM_ENVIRONMENT_ALIAS);
-    s.point = environmentDraw(uvec2(uBits, vBits), aliasBits, pdfSolidAngle);
-    s.pdf = light.pmf * pdfSolidAngle;
-    s.radiance = environmentRadiance(s.point);
+    s.point = dirW;
+    s.radiance = environmentRadiance(dirW);
   }
+  return s;
+}
+
+// Requires lightExists().
+RL_FN_OUTLINE LightSample lightSample(RL_IN(Rng) rng) {
+  uint uBits = rngBits(rng, RL_DIM_LIGHT_U);
+  uint vBits = rngBits(rng, RL_DIM_LIGHT_V);
+  uint record = lightSelect(rng);
+  Light light = recordLight(record);
+  vec2 bary = vec2(rngUnit(uBits), rngUnit(vBits));
+  vec3 dirW = vec3(0.0f, 0.0f, 0.0f);
+  float density = 1.0f;
+  if (RL_HAS(RL_FEATURE_AREA_LIGHTS) && light.kind == RL_LIGHT_TRIANGLE) bary = warpTriangle(bary);
+  if (RL_HAS(RL_FEATURE_ENVIRONMENT) && light.kind == RL_LIGHT_ENVIRONMENT) {
+    uint aliasBits = rngBits(rng, RL_DIM_ENVIRONMENT_ALIAS);
+    dirW = environmentDraw(uvec2(uBits, vBits), aliasBits, density);
+  }
+  LightSample s = lightPoint(record, light, bary, dirW);
+  if (RL_HAS(RL_FEATURE_ENVIRONMENT) && light.kind == RL_LIGHT_ENVIRONMENT) s.pdf *= density;
   return s;
 }
 

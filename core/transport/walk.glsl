@@ -185,12 +185,16 @@ RL_FN void walkOn(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk) {
 }
 
 // Traces the path of a pixel in this frame, from its film sample (cameraFilmBits) to its end.
-RL_FN void walkPath(RL_INOUT(RL_WALK_STATE) state, RL_IN(uvec2) pixel, uint film) {
-  Rng rng = rngInit(gFrame.seed, pixel.y * gFrame.width + pixel.x, gFrame.frame);
+RL_FN void walkPathBy(RL_INOUT(RL_WALK_STATE) state, RL_IN(Rng) rng, RL_IN(uvec2) pixel,
+                      uint film) {
   Walk walk = walkBegin(rng, film, cameraFilmRay(gFrame.camera, pixel, film), 0u);
   if (RL_HAS(RL_FEATURE_VOLUME)) {
     walk.media = gFrame.cameraMedia;
     walk.sigma = vec3(mediaOfRank(walk.media.x));
   }
   walkOn(state, walk);
+}
+
+RL_FN void walkPath(RL_INOUT(RL_WALK_STATE) state, RL_IN(uvec2) pixel, uint film) {
+  walkPathBy(state, rngInit(gFrame.seed, pixelIndexOf(pixel), gFrame.frame), pixel, film);
 }

@@ -6,7 +6,7 @@ const FrameData& gFrame;
 CpuKernelCounters& gCounters;
 RTCScene embreeScene;
 const ReuseBuffers& gBuffers;
-const RestirGiParams& gParams;
+const PathReuseParams& gParams;
 
 #include "core/dialect/order.glsl"
 #include "core/backend/cpu_trace.inl"

@@ -205,7 +205,7 @@ struct Ctx {
 }  // namespace of_entries
 
 Donors donorsOf(const restlab::FrameSnapshot& snapshot, const ReuseBuffers& buffers,
-                const RestirGiParams& params, uvec2 pixel) {
+                const PathReuseParams& params, uvec2 pixel) {
   CpuKernelCounters counters;
   const SceneData& scene = snapshot.scene->data();
   const auto rays = static_cast<RTCScene>(snapshot.scene->embreeScene());

@@ -1,4 +1,4 @@
-// Host side of `restir_gi`: the declaration of its bias, and which sample core/reuse resamples.
+// Host side of `restir_gi`: the declaration of its bias, and what a reservoir holds, for people.
 //
 // One reservoir a pixel over film samples and paths: light samples at x1 (Bitterli et al. 2020) and
 // paths that reconnect at x2 (Ouyang et al. 2021), merged by generalised RIS with pairwise
@@ -11,34 +11,13 @@
 
 #include <bit>
 
-#include "core/caches/entries/settings.h"
-#include "core/frame/integrator.h"
+#include "core/path_sample/method.h"
 #include "core/path_sample/settings.h"
-#include "core/radiance_cache/settings.h"
-#include "core/resampling/pair_settings.h"
-#include "core/reuse/layers.h"
-#include "core/reuse/passes.h"
-#include "core/reuse/settings.h"
-#include "core/temporal_gradients/settings.h"
 #include "integrators/restir_gi/pixel_donors.h"
 
 namespace restlab {
 
 namespace {
-
-void recordRestirGi(FrameGraph& g, const FrameInfo& f) {
-  const ParameterMap& p = f.parameters;
-  rl::RestirGiParams params{};
-  params.reuse = packReuse(p, f.mode == "biased");
-  params.reuse.writesRadianceFrames = f.wantsRadianceFrames ? 1u : 0u;
-  params.path = packPath(p);
-  params.pairs = packPairs(p);
-  params.entries = packEntries(p);
-  params.cells = packRadiance(p);
-  params.changes = packChanges(p);
-  const ReusedSample sample = {"restir_gi", rl::RL_PATH_RESERVOIR_UVEC4S};
-  recordReuse(g, f, sample, params.reuse, params.entries, bytesOf(params));
-}
 
 std::vector<ProbeValue> probe(const FrameSnapshot& snapshot, size_t pixel) {
   constexpr size_t kReservoir = 4 * rl::RL_PATH_RESERVOIR_UVEC4S;
@@ -56,8 +35,7 @@ std::vector<ProbeValue> probe(const FrameSnapshot& snapshot, size_t pixel) {
 
 const IntegratorInfo& restir_giIntegratorInfo() {
   static const IntegratorInfo info = [] {
-    IntegratorInfo i;
-    i.name = "restir_gi";
+    IntegratorInfo i = pathReuseMethod("restir_gi", rl::RL_PATH_RESERVOIR_UVEC4S, pathParameters());
     i.summary =
         "ReSTIR GI: one reservoir a pixel, of light samples and of paths that reconnect at x2";
     i.modes = {
@@ -70,22 +48,8 @@ const IntegratorInfo& restir_giIntegratorInfo() {
          "the last frame's sample is taken as visible here, and the pixel's own as visible from "
          "there: fewer rays, a little energy moved at shadow edges"},
     };
-    i.parameters = reuseParameters();
-    for (ParameterInfo& parameter : pathParameters()) i.parameters.push_back(std::move(parameter));
-    i.usesCache = true;
-    i.hasHistory = true;
-    i.needsSurfaces = true;
-    i.followsChanges = true;
-    i.endsPaths = true;
-    i.record = recordRestirGi;
-    i.reasonUnused = reuseReasonUnused;
-    i.radianceFrames = reuseRadianceFrames;
-    i.layers = reuseLayers(rl::RL_PATH_RESERVOIR_UVEC4S);
     i.probe = probe;
     i.donors = giDonorsOf;
-    i.biasOfParameters = [](const std::string& mode, const ParameterMap& p) {
-      return mode == "biased" || reuseHasWrongWeights(p) ? BiasClass::biased : BiasClass::unbiased;
-    };
     return i;
   }();
   return info;

@@ -1,32 +1,7 @@
-// Parameters of the `restir_gi` kernels: the passes of core/reuse, over paths.
+// Types and parameters of the `restir_gi` kernels.
 #ifndef RL_RESTIR_GI_H
 #define RL_RESTIR_GI_H
 
-#ifdef __cplusplus
-#include "core/dialect/order.h"
-#endif
-#include "core/path_sample/path_record.h"
-#include "core/path_sample/path_sample.h"
-#include "core/path_sample/path_shift.h"
-#include "core/reuse/reuse.h"
-
-// Types of the sample that the passes of core/reuse move and shift.
-#define RL_RESERVOIR PathReservoir
-#define RL_SHIFT PathShift
-
-RL_NAMESPACE_BEGIN
-
-struct RestirGiParams {
-  ReuseParams reuse;
-  PathParams path;
-  PairParams pairs;
-  EntryParams entries;
-  RadianceParams cells;
-  ChangeParams changes;
-};
-
-RL_NAMESPACE_END
-
-#define RL_KERNEL_PARAMS RestirGiParams
+#include "core/path_sample/path_reuse.h"
 
 #endif

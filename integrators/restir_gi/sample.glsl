@@ -36,16 +36,4 @@ RL_FN void sampleAfterShift(RL_INOUT(PathReservoir) r, float jacobian) {
 RL_FN uint sampleFilm(RL_IN(PathReservoir) r) { return r.path.film; }
 RL_FN void sampleSetFilm(RL_INOUT(PathReservoir) r, uint film) { r.path.film = film; }
 
-// Shifts, step by step, so that a kernel has one call of traceRay().
-RL_FN PathShift shiftNone() { return pathShiftNone(); }
-RL_FN PathShift shiftTo(RL_IN(PathReservoir) r, RL_IN(uvec2) pixel, bool isPrevious,
-                        bool assumeVisible) {
-  return pathShiftTo(r, pixel, isPrevious, assumeVisible);
-}
-RL_FN PathShift shiftToSurface(RL_IN(PathReservoir) r, RL_IN(Surface) x1) {
-  return pathShiftToSurface(r, x1);
-}
-RL_FN void shiftTrace(RL_INOUT(PathShift) s, RL_IN(PathReservoir) r) { pathShiftTrace(s, r.path); }
-RL_FN uint shiftRayKey(uint mode, uint film) { return pathShiftKey(mode, film); }
-// Returns whether samples can be reused at a surface of this frame.
-RL_FN bool shiftIsReusable(RL_IN(Bsdf) bsdf) { return pathIsReusable(bsdf); }
+#include "core/path_sample/sample_shift.glsl"

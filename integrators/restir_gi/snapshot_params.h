@@ -9,8 +9,8 @@
 namespace restlab {
 
 // Returns zeros if no session has rendered the frame.
-inline rl::RestirGiParams giParamsOf(const FrameSnapshot& snapshot) {
-  rl::RestirGiParams params{};
+inline rl::PathReuseParams giParamsOf(const FrameSnapshot& snapshot) {
+  rl::PathReuseParams params{};
   if (snapshot.params.size() == sizeof params)
     std::memcpy(&params, snapshot.params.data(), sizeof params);
   return params;

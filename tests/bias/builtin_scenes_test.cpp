@@ -1,10 +1,12 @@
-// `path` and unbiased `restir_gi` on the built-in scenes: no cell of the image may differ from
+// `path` and unbiased methods of reuse on the built-in scenes: no cell of the image may differ from
 // `path` with other seeds.
 //
-// restir_gi runs with its defaults and with all safeguards open: donors from anywhere, with any
-// normal, plane or roughness, and Jacobians of any size. That raises the variance but must not move
-// the mean: reuse is unbiased by its weights, not by the tests of similarity.
+// Methods of reuse run with its defaults and with all safeguards open: donors from anywhere, with
+// any normal, plane or roughness, and Jacobians of any size. That raises the variance but must not
+// move the mean: reuse is unbiased by its weights, not by the tests of similarity.
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 #include "tests/bias/independent_runs.h"
 #include "tests/bias/test_cameras.h"
@@ -29,13 +31,19 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 struct Effort {
   size_t runs;
   uint32_t truthFrames, pathFrames;  // per run of `path`
-  uint32_t frames, skipped;          // per history of restir_gi
+  uint32_t frames, skipped;          // per history of a method of reuse
   int threads;
 };
 
-ParameterMap openParameters() {
-  return {{"normal_threshold", -1.0}, {"plane_threshold", 10.0},          {"roughness_limit", 0.05},
-          {"max_jacobian", 1.0e6},    {"spatial_neighbours", int64_t{2}}, {"spatial_radius", 48.0}};
+ParameterMap openParameters(const std::string& integrator) {
+  ParameterMap open = {{"normal_threshold", -1.0},
+                       {"plane_threshold", 10.0},
+                       {"roughness_limit", 0.05},
+                       {"spatial_neighbours", int64_t{2}},
+                       {"spatial_radius", 48.0}};
+  if (integrator != "restir_di") open["max_jacobian"] = 1.0e6;
+  if (integrator == "restir_pt") open["light_candidates"] = int64_t{4};
+  return open;
 }
 
 // Leaves slow cases that show little to the nightly tests.
@@ -43,7 +51,7 @@ bool isWorthIt(const Case& c, const Effort& effort) {
   return effort.threads == 0 || c.longer == 1 || c.untestableOpen < 0.5;
 }
 
-void expectUnbiased(const Case& c, Effort effort) {
+void expectUnbiased(const Case& c, Effort effort, const std::string& integrator = "restir_gi") {
   for (uint32_t* frames : {&effort.truthFrames, &effort.pathFrames, &effort.frames})
     *frames *= c.longer;
   const auto scene = builtinScene(c.scene);
@@ -57,14 +65,17 @@ void expectUnbiased(const Case& c, Effort effort) {
   const Method truth = adapted(pathMethod(effort.truthFrames), "");
   const stats::Truth reference = stats::truthOf(independentRuns(scene, truth, 1, effort.runs));
   const auto restir = [&](const ParameterMap& parameters) {
-    return restirMethod(effort.frames, effort.skipped, parameters);
+    return restirMethod(effort.frames, effort.skipped, parameters, integrator);
   };
   std::vector<std::pair<Method, double>> methods = {{adapted(restir({}), ""), c.untestable}};
   // `path` against itself cannot show a bias, only false rejections.
   if (effort.threads == 0)
     methods.push_back({adapted(pathMethod(effort.pathFrames), ""), c.untestable});
   if (isWorthIt(c, effort))
-    methods.push_back({adapted(restir(openParameters()), ", safeguards open"), c.untestableOpen});
+    methods.push_back(
+        {adapted(restir(openParameters(integrator)), ", safeguards open"), c.untestableOpen});
+  // Roulette acts in the prefix that is replayed. The truth has none, and the same mean.
+  if (integrator == "restir_pt") methods.back().first.config.russianRoulette = true;
   for (const auto& [method, untestable] : methods) {
     const stats::BiasReport report = testMethod(scene, method, reference, effort.runs);
     EXPECT_FALSE(report.failed()) << c.name << ", " << method.name << ": " << report.text();
@@ -107,6 +118,43 @@ INSTANTIATE_TEST_SUITE_P(Builtin, Unbiased, ::testing::ValuesIn(dailyCases()), c
 class UnbiasedNightly : public ::testing::TestWithParam<Case> {};
 TEST_P(UnbiasedNightly, AgreesWithPath) { expectUnbiased(GetParam(), {512, 128, 32, 48, 8, 0}); }
 INSTANTIATE_TEST_SUITE_P(Builtin, UnbiasedNightly, ::testing::ValuesIn(kCases), caseName);
+
+// All paths, prefixes replayed. By day where most surfaces are smooth.
+TEST(UnbiasedReplay, AgreesWithPath) {
+  Case gallery = *std::find_if(kCases.begin(), kCases.end(), [](const Case& one) {
+    return one.name == std::string("glossy_gallery");
+  });
+  gallery.longer = 1;
+  gallery.untestable = gallery.untestableOpen;
+  expectUnbiased(gallery, {128, 24, 4, 8, 2, 1}, "restir_pt");
+}
+class UnbiasedReplayNightly : public ::testing::TestWithParam<Case> {};
+TEST_P(UnbiasedReplayNightly, AgreesWithPath) {
+  expectUnbiased(GetParam(), {512, 128, 32, 48, 8, 0}, "restir_pt");
+}
+INSTANTIATE_TEST_SUITE_P(Builtin, UnbiasedReplayNightly, ::testing::ValuesIn(kCases), caseName);
+
+// Direct light alone: the rest is that of `path`. By day among lamps of all sizes.
+std::vector<Case> directCases() {
+  std::vector<Case> cases = {{"many_lights", "many-lights", rl::RL_COMPONENT_DIRECT}};
+  for (Case c : kCases) {
+    if (c.name == std::string("door_ajar_indirect")) continue;
+    c.components = rl::RL_COMPONENT_DIRECT;
+    c.untestable = c.untestableOpen = std::max(c.untestable, c.untestableOpen);
+    if (c.name != std::string("many_lights")) cases.push_back(c);
+  }
+  return cases;
+}
+
+TEST(UnbiasedDirect, AgreesWithPath) {
+  expectUnbiased(directCases().front(), {128, 12, 4, 8, 2, 1}, "restir_di");
+}
+class UnbiasedDirectNightly : public ::testing::TestWithParam<Case> {};
+TEST_P(UnbiasedDirectNightly, AgreesWithPath) {
+  expectUnbiased(GetParam(), {512, 128, 32, 48, 8, 0}, "restir_di");
+}
+INSTANTIATE_TEST_SUITE_P(Builtin, UnbiasedDirectNightly, ::testing::ValuesIn(directCases()),
+                         caseName);
 
 }  // namespace
 }  // namespace restlab::bias

@@ -54,10 +54,11 @@ Method pathMethod(uint32_t frames) {
   return m;
 }
 
-Method restirMethod(uint32_t frames, uint32_t skipped, const ParameterMap& parameters) {
+Method restirMethod(uint32_t frames, uint32_t skipped, const ParameterMap& parameters,
+                    const std::string& integrator) {
   Method m = pathMethod(frames);
-  m.name = "restir_gi unbiased";
-  m.config.integrator = "restir_gi";
+  m.name = integrator + " unbiased";
+  m.config.integrator = integrator;
   m.config.mode = "unbiased";
   m.config.parameters = parameters;
   m.skipped = skipped;

@@ -33,10 +33,11 @@ struct Method {
 // Small enough for hundreds of runs; aspect ratio 16:9.
 constexpr uint32_t kWidth = 64, kHeight = 36;
 
-// `path` and `restir_gi` at kWidth x kHeight with their defaults and one thread (the test programs
-// run in parallel).
+// `path` and a method of reuse at kWidth x kHeight with their defaults and one thread (the test
+// programs run in parallel).
 Method pathMethod(uint32_t frames);
-Method restirMethod(uint32_t frames, uint32_t skipped, const ParameterMap& parameters = {});
+Method restirMethod(uint32_t frames, uint32_t skipped, const ParameterMap& parameters = {},
+                    const std::string& integrator = "restir_gi");
 
 // Compiles each scene once per process.
 std::shared_ptr<const CompiledScene> builtinScene(const std::string& name);

@@ -179,6 +179,14 @@ Setting dimmed() {
   return s;
 }
 
+// Prefixes are replayed: x2 connects only where the ray to it stands for a large area.
+Setting replayed() {
+  Setting s = belowTheLamp(farDonors());
+  s.method.config.integrator = "restir_pt";
+  s.method.config.parameters["connect_footprint"] = 1.0;
+  return s;
+}
+
 const ParameterMap kConfidence = {{"mis", std::string("confidence")}};
 
 // Canaries for a still view with distant donors.
@@ -189,6 +197,9 @@ const std::vector<std::string> kOfWeights = {"empty_inputs_dropped", "failed_shi
 const std::vector<std::string> kOfNearDonors = {"jacobian_inverted"};
 const std::vector<std::string> kOfFilm = {"confidence_by_film_sample"};
 const std::vector<std::string> kOfWalks = {"visibility_missing_in_mis"};
+const std::vector<std::string> kOfReplay = {"replay_not_invertible", "pair_tested_on_one_side",
+                                            "replay_with_another_key",
+                                            "density_left_in_the_integrand"};
 const std::vector<std::string> kOfChangingLight = {"stale_target"};
 
 void tryAll(const Trial& trial, const std::vector<std::string>& canaries) {
@@ -220,6 +231,11 @@ TEST(Canary, AWrongWeightIsRejected) {
   tryAll(Trial(belowTheLamp(farDonors()), kEveryDay), {kOfWeights.front()});
 }
 TEST(Canary, MissingVisibilityIsRejected) { tryWalking(kEveryDay); }
+
+TEST(Canary, AReplayWithoutAnInverseIsRejected) {
+  tryAll(Trial(replayed(), kEveryDay), {kOfReplay.front()});
+}
+TEST(Canary, NightlyWrongReplaysAreRejected) { tryAll(Trial(replayed(), kNightly), kOfReplay); }
 
 TEST(Canary, NightlyWrongWeightsAreRejected) { tryWeights(kNightly); }
 TEST(Canary, NightlyWrongWeightsOfNearDonorsAreRejected) { tryNear(kNightly); }
@@ -268,7 +284,8 @@ TEST(Canary, NightlyHistoriesWithoutACapAreSeenInTheVarianceOfALongMean) {
 TEST(Canary, EveryOneIsTried) {
   // Tested by the variance of a long mean, and in extremes_test.cpp.
   std::set<std::string> tried = {"no_cap", "absolute_epsilon", "clamp_at_1e3", "fixed_ray_offset"};
-  for (const auto* canaries : {&kOfWeights, &kOfNearDonors, &kOfFilm, &kOfWalks, &kOfChangingLight})
+  for (const auto* canaries :
+       {&kOfWeights, &kOfNearDonors, &kOfFilm, &kOfWalks, &kOfReplay, &kOfChangingLight})
     tried.insert(canaries->begin(), canaries->end());
   const std::vector<std::string> all = canaryNames();
   EXPECT_EQ(std::set<std::string>(all.begin(), all.end()), tried);

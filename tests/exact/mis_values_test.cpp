@@ -46,7 +46,7 @@ TEST(MisValues, ReachTheReuseLoopAsTheyAreListed) {
     FrameGraph graph;
     graph.record({&integrator}, {"unbiased", parameters, 1, true});
     const std::vector<std::byte>& bytes = graph.passes().front().params;
-    rl::RestirGiParams packed{};
+    rl::PathReuseParams packed{};
     ASSERT_EQ(bytes.size(), sizeof packed);
     std::memcpy(&packed, bytes.data(), sizeof packed);
     EXPECT_EQ(packed.reuse.temporalFlags & kOfWeights, value.flags) << value.name;

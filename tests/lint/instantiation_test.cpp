@@ -44,10 +44,10 @@ std::set<std::string> kernelsWithoutFeatures() {
   static const std::regex added(R"(rl_add_kernel\(([\w${}]+)[^)]*\bNO_FEATURES\b)");
   static const std::regex variable(R"(\$\{\w+\})");
   std::set<std::string> names;
-  for (const char* folder : {"core", "denoise", "integrators"}) {
+  for (const char* folder : {"cmake", "core", "denoise", "integrators"}) {
     for (const fs::path& path :
          fs::recursive_directory_iterator(fs::path(RESTLAB_SOURCE_DIR) / folder)) {
-      if (path.filename() != "CMakeLists.txt") continue;
+      if (path.filename() != "CMakeLists.txt" && path.filename() != "kernels.cmake") continue;
       std::ifstream file(path);
       const std::string text((std::istreambuf_iterator<char>(file)), {});
       for (std::sregex_iterator it(text.begin(), text.end(), added), end; it != end; ++it)

@@ -21,7 +21,7 @@ struct StoreCtx {
   const SceneData& gScene;
   const FrameData& gFrame;
   const ReuseBuffers& gBuffers;
-  const RestirGiParams& gParams;
+  const PathReuseParams& gParams;
   CpuKernelCounters& gCounters;
 
 #include "core/dialect/order.glsl"
@@ -69,7 +69,7 @@ struct Store {
   rl::SceneData scene{};
   rl::FrameData frame{};
   rl::ReuseBuffers buffers{};
-  rl::RestirGiParams params{};
+  rl::PathReuseParams params{};
   rl::CpuKernelCounters counters;
   rl::StoreCtx ctx;
 };

@@ -17,6 +17,7 @@ namespace rl {
 extern const CpuKernelEntry kernel_path_audited;
 extern const CpuKernelEntry kernel_template_audited;
 extern const CpuKernelEntry kernel_radiance_trace_audited;
+extern const CpuKernelEntry kernel_restir_di_initial_audited;
 extern const CpuKernelEntry kernel_restir_gi_light_edges_audited;
 extern const CpuKernelEntry kernel_restir_gi_initial_audited;
 extern const CpuKernelEntry kernel_restir_gi_temporal_audited;

@@ -226,6 +226,14 @@ TEST(RngAudit, RestirGi) {
   }
 }
 
+// Its other passes draw as those of restir_gi do: they are the same files.
+TEST(RngAudit, RestirDi) {
+  const std::map<std::string, rl::CpuKernelEntry> kernels = {
+      {"initial", rl::kernel_restir_di_initial_audited}};
+  for (const std::string& name : builtinSceneNames())
+    expectNoRepeats({name, {"restir_di", "unbiased", kernels}}, "restir_di, " + name);
+}
+
 // With the maximal number of donors and offers, the passes of entries draw beside those of pixels.
 TEST(RngAudit, RestirGiWithEntries) {
   const ParameterMap busy = {{"light_candidates", int64_t{2}},

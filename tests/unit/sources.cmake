@@ -8,6 +8,7 @@ list(APPEND RL_UNIT_TESTS
   bvh_test.cpp
   camera_test.cpp
   config_test.cpp
+  direct_sample_test.cpp
   environment_test.cpp
   feature_mask_test.cpp
   ggx_reference.cpp
@@ -21,11 +22,13 @@ list(APPEND RL_UNIT_TESTS
   ray_offset_test.cpp
   records_test.cpp
   frame_graph_test.cpp
+  replay_sample_test.cpp
   reservoir_store_test.cpp
   rng_audit_path.cpp
   rng_audit_radiance_trace.cpp
   rng_audit_restir_spatial_shift.cpp
   rng_audit_restir_cache_update.cpp
+  rng_audit_restir_di_initial.cpp
   rng_audit_restir_initial.cpp
   rng_audit_restir_light_edges.cpp
   rng_audit_restir_cache_reuse.cpp
@@ -45,7 +48,7 @@ list(APPEND RL_UNIT_TESTS
 
 # They set macros for the kernels that they include.
 set(alone ${RL_UNIT_TESTS})
-list(FILTER alone INCLUDE REGEX "^(rng_audit_|feature_mask|partners)")
+list(FILTER alone INCLUDE REGEX "^(rng_audit_|feature_mask|partners|direct_sample|replay_sample)")
 list(TRANSFORM alone PREPEND ${CMAKE_CURRENT_LIST_DIR}/)
 set_property(SOURCE ${alone} PROPERTY SKIP_UNITY_BUILD_INCLUSION ON)
 # Millions of samples in the test's own code.

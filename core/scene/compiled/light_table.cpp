@@ -8,11 +8,15 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/base/error.h"
 #include "core/scene/compiled/alias_table.h"
 
 namespace restlab {
 
 namespace {
+
+// Reservoirs name a light in 28 bits, all ones for none (core/path_sample/direct_sample.glsl).
+constexpr size_t kMostLights = (size_t{1} << 28) - 1;
 
 constexpr double kPi = std::numbers::pi;
 
@@ -256,6 +260,9 @@ LightTable buildLightTable(const LightTableInput& in, std::vector<rl::Instance>&
       warnings.push_back(in.scene.name + ": the environment is black");
     }
   }
+  if (table.lights.size() > kMostLights)
+    failInput(fmt::format("{}: {} lights and emitting triangles; at most {} are supported",
+                          in.scene.name, table.lights.size(), kMostLights));
   const std::vector<double> shares = withFairShares(weights);
   if (!shares.empty()) {
     table.alias = buildAliasTable(shares, shares.size());

@@ -1,0 +1,3 @@
+// The pass core/reuse/spatial.glsl over points of lights (sample.glsl).
+#include "integrators/restir_di/sample.glsl"
+#include "core/reuse/spatial.glsl"
