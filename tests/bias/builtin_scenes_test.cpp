@@ -119,15 +119,7 @@ class UnbiasedNightly : public ::testing::TestWithParam<Case> {};
 TEST_P(UnbiasedNightly, AgreesWithPath) { expectUnbiased(GetParam(), {512, 128, 32, 48, 8, 0}); }
 INSTANTIATE_TEST_SUITE_P(Builtin, UnbiasedNightly, ::testing::ValuesIn(kCases), caseName);
 
-// All paths, prefixes replayed. By day where most surfaces are smooth.
-TEST(UnbiasedReplay, AgreesWithPath) {
-  Case gallery = *std::find_if(kCases.begin(), kCases.end(), [](const Case& one) {
-    return one.name == std::string("glossy_gallery");
-  });
-  gallery.longer = 1;
-  gallery.untestable = gallery.untestableOpen;
-  expectUnbiased(gallery, {128, 24, 4, 8, 2, 1}, "restir_pt");
-}
+// All paths, prefixes replayed. By day tests/canary asks this of the Cornell box.
 class UnbiasedReplayNightly : public ::testing::TestWithParam<Case> {};
 TEST_P(UnbiasedReplayNightly, AgreesWithPath) {
   expectUnbiased(GetParam(), {512, 128, 32, 48, 8, 0}, "restir_pt");

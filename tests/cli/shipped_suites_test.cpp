@@ -59,7 +59,10 @@ TEST_F(ProgramTest, LaboratorySuitesHaveEveryMethod) {
   };
   for (const char* suite : {"stress", "stress-quick", "certificates"}) {
     const std::string text = textOf(kSuites / (std::string(suite) + ".toml"));
-    for (const std::string& integrator : namesOf("integrators"))
+    std::set<std::string> integrators = namesOf("integrators");
+    // Each change pays for it: one method stands for all that share the passes of core/reuse.
+    if (suite == std::string("stress-quick")) integrators = {"path", "template", "restir_gi"};
+    for (const std::string& integrator : integrators)
       EXPECT_NE(text.find("integrator = \"" + integrator + "\""), std::string::npos)
           << suite << ": " << integrator;
     std::vector<std::string> lists = {"caches"};
