@@ -134,6 +134,8 @@ TEST_P(ChangingLight, LightThatWasIsForgottenWhileTheCameraWalks) {
   const double validated = energyOfWalk(bright, 16) / right,
                plain = energyOfWalk(bright, 0) / right;
   EXPECT_NEAR(validated, 1.0, 0.25);
+  // Its reservoirs name lamps, whose radiance is read anew at every shift: no light is remembered.
+  if (GetParam().integrator == "restir_di") return;
   EXPECT_GT(plain, validated + 0.2) << "the check sees what is remembered";
 }
 
