@@ -50,13 +50,13 @@ RL_FN PathShift pathShiftTo(RL_IN(PathReservoir) r, RL_IN(uvec2) pixel, bool isP
 RL_FN PathShift pathShiftToSurface(RL_IN(PathReservoir) r, RL_IN(Surface) x1) {
   PathShift s = pathShiftNone();
   if (!(r.state.W > 0.0f)) return s;
-  LightSample end = pathEnd(r.path);
 #ifdef RL_PATH_REPLAYS
   // Which vertices connect to a surface point depends on the camera, which an entry has not:
   // entries hold direct light alone, or what needs no footprint.
   if (r.path.base != 0u || pathKind(r.path) >= RL_PATH_WEIGHED) return s;
   if (gParams.path.footprint > 0.0f && !pathEndsAtLight(r.path)) return s;
 #endif
+  LightSample end = pathEnd(r.path);
   s.shifted = pathReconnect(r.path, end, x1, gParams.path.maxJacobian);
   if (pathHasUnshadowedTarget() || !(reuseTarget(s.shifted.F) > 0.0f)) return s;
   s.ray = pathSegment(end, x1.posW, x1.nGeoW, x1.posError);
