@@ -25,7 +25,7 @@ RL_FN PathSample pathOfLight(RL_IN(LightSample) light, uint film) {
   p.id = surfaceIdNone();
   p.id.instance = light.record;
   p.id.bary = light.id.bary;
-  p.kind = RL_PATH_DIRECT | (light.kind << RL_PATH_LIGHT_SHIFT);
+  p.kind = RL_PATH_DIRECT | (light.kind << RL_PATH_LIGHT_KIND_SHIFT);
   p.film = film;
   p.radiance = vec3(0.0f, 0.0f, 0.0f);
   p.geometry = 0.0f;
@@ -42,50 +42,4 @@ RL_FN LightSample pathEnd(RL_IN(PathSample) p) {
   // Surfaces of bodies that touch lie within so much (core/transport/media.glsl).
   if (RL_HAS(RL_FEATURE_VOLUME) && gScene.bodiesMeet != 0u) end.posError *= 3.0f;
   return end;
-}
-
-// Words of a reservoir: light (28 bits) and its coordinates, W, confidence; film sample, F,
-// residual.
-RL_FN void directReservoirWrite(RL_IN(Uvec4Ref) words, uint at, RL_IN(PathReservoir) r) {
-  uvec2 c = directCoordinates(r.path);
-  uvec2 f = packShared3(r.state.F);
-  uvec2 residual = packShared3(r.state.residual);
-  RL_WRITE_UVEC4(words, at,
-                 uvec4((r.path.id.instance & 0xfffffffu) | (c.x << 28u), (c.x >> 4u) | (c.y << 14u),
-                       floatBitsToUint(r.state.W), floatBitsToUint(r.state.confidence)));
-  RL_WRITE_UVEC4(words, at + 1u, uvec4(r.path.film, f.x, residual.x, f.y | (residual.y << 16u)));
-}
-
-RL_FN PathReservoir directReservoirRead(RL_IN(Uvec4Ref) words, uint at) {
-  uvec4 q0 = RL_EARLIER_UVEC4(words, at);
-  uvec4 q1 = RL_EARLIER_UVEC4(words, at + 1u);
-  PathReservoir r;
-  r.state.F = unpackShared3(q1.y, q1.w & 0xffffu);
-  r.state.W = uintBitsToFloat(q0.z);
-  r.state.residual = unpackShared3(q1.z, q1.w >> 16u);
-  r.state.confidence = uintBitsToFloat(q0.w);
-  r.path.id = surfaceIdNone();
-  r.path.id.instance = q0.x & 0xfffffffu;
-  r.path.kind = RL_PATH_DIRECT;
-  r.path.film = q1.x;
-  r.path.radiance = vec3(0.0f, 0.0f, 0.0f);
-  r.path.geometry = 0.0f;
-  r.path.pdfLight = 0.0f;
-  r.path.base = 0u;
-  r.path.key = 0u;
-  // An empty reservoir names no light.
-  if (r.state.W > 0.0f) r.path.kind |= recordLight(r.path.id.instance).kind << RL_PATH_LIGHT_SHIFT;
-  directSetCoordinates(r.path, uvec2((q0.x >> 28u) | ((q0.y & 0x3fffu) << 4u), q0.y >> 14u));
-  return r;
-}
-
-RL_FN ReservoirState directStateRead(RL_IN(Uvec4Ref) words, uint at) {
-  uvec4 q0 = RL_EARLIER_UVEC4(words, at);
-  uvec4 q1 = RL_EARLIER_UVEC4(words, at + 1u);
-  ReservoirState state;
-  state.F = unpackShared3(q1.y, q1.w & 0xffffu);
-  state.W = uintBitsToFloat(q0.z);
-  state.residual = unpackShared3(q1.z, q1.w >> 16u);
-  state.confidence = uintBitsToFloat(q0.w);
-  return state;
 }

@@ -14,11 +14,22 @@
 namespace restlab {
 
 IntegratorInfo pathReuseMethod(const std::string& name, uint32_t reservoirUvec4s,
-                               std::vector<ParameterInfo> ofPaths) {
+                               std::vector<ParameterInfo> ofPaths, const std::string& ofShift) {
   IntegratorInfo i;
   i.name = name;
   i.parameters = reuseParameters();
   append(i.parameters, std::move(ofPaths));
+  i.modes = {
+      {"unbiased", BiasClass::unbiased,
+       "targets include visibility at every shading point, MIS weights sum to one over those who "
+       "can produce a sample, " +
+           ofShift +
+           "confidences depend on shading points alone (near light that changed, with "
+           "validate_every, on the change)"},
+      {"biased", BiasClass::biased,
+       "the last frame's sample is taken as visible here, and the pixel's own as visible from "
+       "there: fewer rays, a little energy moved at shadow edges"},
+  };
   i.usesCache = true;
   i.hasHistory = true;
   i.needsSurfaces = true;

@@ -24,7 +24,7 @@ RL_FN bool pathIsRough(RL_IN(Surface) s) {
 
 // Returns whether the light samples of a vertex are not resampled: those behind a surface that lets
 // light through lie in a body that a replay does not know.
-RL_FN bool pathIsLightApart(RL_IN(Surface) s) {
+RL_FN bool pathIsLightUnresampled(RL_IN(Surface) s) {
 #ifdef RL_PATH_REPLAYS
   return RL_HAS(RL_FEATURE_VOLUME) && (s.bsdf.lobes & RL_LOBE_ANY_TRANSMISSION) != 0u;
 #else

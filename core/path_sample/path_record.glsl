@@ -84,7 +84,7 @@ RL_FN PathRecord pathRecordEmpty(uint film) {
   p.bsdfHitIntegrand = zero;
   p.bsdfHitWeight = 0.0f;
   p.bsdfHitCoverage = 1.0f;
-  p.isX2Apart = 0u;
+  p.isX2Unresampled = 0u;
   p.hasX2 = 0u;
   p.x2 = pathOfLight(pathNoLight(), film);
   p.surfaceX2 = surfaceNone();
@@ -100,7 +100,7 @@ RL_FN PathRecord pathRecordEmpty(uint film) {
   p.suffixRadiance = zero;
   p.end.spread = 0.0f;
   p.end.group = RL_INVALID;
-  p.isLightApart = 0u;
+  p.isLightUnresampled = 0u;
   p.base = 0u;
   p.key = 0u;
   p.connector = pathConnectorNone();
@@ -143,7 +143,7 @@ RL_FN bool pathHasLeftX1(RL_IN(PathRecord) p, RL_IN(Walk) walk) {
   return p.isReusable != 0u && walk.bounces == p.base + 1u;
 }
 RL_FN bool pathIsAtX2(RL_IN(PathRecord) p, RL_IN(Walk) walk) {
-  return pathHasLeftX1(p, walk) && p.isX2Apart == 0u;
+  return pathHasLeftX1(p, walk) && p.isX2Unresampled == 0u;
 }
 RL_FN bool pathIsAtX3(RL_IN(PathRecord) p, RL_IN(Walk) walk) {
   return p.isSuffix != 0u && walk.bounces == p.base + 2u;
@@ -251,7 +251,7 @@ RL_FN void onMedium(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(vec3) transm
 }
 
 // Returns whether no path is reconnected at this x2: its id does not tell the bodies beside it.
-RL_FN bool pathIsApart(RL_IN(Surface) x2) {
+RL_FN bool pathIsBetweenBodies(RL_IN(Surface) x2) {
 #ifdef RL_DIRECT_ONLY
   return true;
 #else
@@ -261,7 +261,7 @@ RL_FN bool pathIsApart(RL_IN(Surface) x2) {
 
 // At x2, the radiance leaves in every direction, as from a Lambert surface.
 RL_FN void onEnd(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(Surface) s, RL_IN(vec3) radiance) {
-  bool isApart = pathIsApart(s);
+  bool isApart = pathIsBetweenBodies(s);
 #ifdef RL_PATH_REPLAYS
   if (pathHasLeftX1(p, walk)) isApart = !pathConnects(p.connector, walk, s);
 #endif
@@ -309,7 +309,7 @@ RL_FN uint onVertex(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_INOUT(Surface) 
     if (p.isReusable == 0u) RL_HEALTH(RL_HEALTH_UNREUSABLE_PIXELS);
     p.connector.footprint = pathFootprintOfX1(s, walk.ray.origin);
     pathBeginX1(p, walk, s);
-    return p.isReusable != 0u && !pathIsLightApart(s) ? gParams.path.lightCandidates : 1u;
+    return p.isReusable != 0u && !pathIsLightUnresampled(s) ? gParams.path.lightCandidates : 1u;
   }
   if (pathHasLeftX1(p, walk)) {
     p.alphaTransmittanceX1 = walk.passed;
@@ -339,7 +339,7 @@ RL_FN uint onVertex(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_INOUT(Surface) 
   }
   if (pathHasLeftX1(p, walk)) {
     p.alphaTransmittanceX1 = walk.passed;
-    if (pathIsApart(s)) p.isX2Apart = 1u;
+    if (pathIsBetweenBodies(s)) p.isX2Unresampled = 1u;
   }
   return pathIsAtX1(p, walk) ? gParams.path.lightCandidates : 1u;
 #endif
@@ -349,8 +349,8 @@ RL_FN bool onLightSample(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(Rng) rn
                          RL_IN(LightSample) light, RL_IN(LightConnection) c) {
   float pdf;
   vec3 f = bsdfEvalAndPdf(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW, pdf);
-  p.isLightApart = pathIsLightApart(s) ? 1u : 0u;
-  if (pathIsAtX1(p, walk) && p.isLightApart == 0u) {
+  p.isLightUnresampled = pathIsLightUnresampled(s) ? 1u : 0u;
+  if (pathIsAtX1(p, walk) && p.isLightUnresampled == 0u) {
     vec3 integrand = f * c.emitted * c.geometry;
 #ifdef RL_PATH_REPLAYS
     integrand *= p.prefix;
@@ -380,7 +380,7 @@ RL_FN bool onLightSample(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(Rng) rn
 }
 
 RL_FN void onShadowRay(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, float transmittance) {
-  if (pathHasLeftX1(p, walk) && p.isLightApart == 0u) {
+  if (pathHasLeftX1(p, walk) && p.isLightUnresampled == 0u) {
     p.lightF *= transmittance;
     p.lightSum *= transmittance;
   } else if (pathHasLeftX2(p, walk)) {

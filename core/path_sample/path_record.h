@@ -32,12 +32,12 @@ struct PathRecord {
   LightSample found;  // light that the BSDF sample hit
   vec3 bsdfHitIntegrand;
   real bsdfHitWeight;
-  float bsdfHitCoverage;  // alpha of the light that was hit: probability that the ray hit it
-  uint isLightApart;      // 1: the last light sample is not resampled
+  float bsdfHitCoverage;    // alpha of the light that was hit: probability that the ray hit it
+  uint isLightUnresampled;  // 1: the last light sample is not resampled
 
   // Indirect light. The path is cut at x2; `suffixThroughput` is the throughput from x3 on.
-  uint isX2Apart;  // 1: x2 lies between two bodies, which its id does not tell: not reused
-  uint hasX2;      // a connectable x2 was found
+  uint isX2Unresampled;  // 1: x2 lies between two bodies, which its id does not tell: not reused
+  uint hasX2;            // a connectable x2 was found
   PathSample x2;
   Surface surfaceX2;
   vec3 lightAtX2;  // light sample at x2 over its density, without BSDF and MIS weight at x2

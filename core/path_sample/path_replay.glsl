@@ -43,7 +43,7 @@ RL_FN uint onVertex(RL_INOUT(PathReplay) q, RL_IN(Walk) walk, RL_INOUT(Surface) 
   if (walk.bounces < q.base) return 0u;
   bool isSmoothKind = q.kind == RL_PATH_WEIGHED || q.kind == RL_PATH_WHOLE_REPLAY;
   if (isRough == isSmoothKind) return RL_WALK_ENDS;
-  if (q.kind == RL_PATH_WEIGHED && pathIsLightApart(s)) return RL_WALK_ENDS;
+  if (q.kind == RL_PATH_WEIGHED && pathIsLightUnresampled(s)) return RL_WALK_ENDS;
   if (q.kind == RL_PATH_WHOLE_REPLAY) return 0u;
   q.x = s;
   q.throughput = walk.throughput;

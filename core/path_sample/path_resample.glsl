@@ -40,7 +40,7 @@ RL_FN void pathAddIndirect(RL_INOUT(PathRecord) p, float throughAlpha, RL_IN(Rng
     if (isLambert) continue;
     uint side = p.x2.kind & RL_PATH_BACK;
     if (i == 0u) {
-      p.chosen.path.kind = RL_PATH_LIGHT | side;
+      p.chosen.path.kind = RL_PATH_LIGHT_SAMPLE | side;
       p.chosen.path.radiance = p.lightAtX2;
       p.chosen.path.wi = p.lightDirX2;
       p.chosen.path.pdfLight = p.lightPdfX2;

@@ -1,4 +1,4 @@
-// Path samples in reservoirs: layout in buffers, and reconnection to another x1.
+// Path samples: what their words say, and reconnection to another x1.
 
 RL_FN uint pathKind(RL_IN(PathSample) p) { return p.kind & RL_PATH_KIND_MASK; }
 // Returns whether a path ends at a light behind x1.
@@ -10,7 +10,7 @@ RL_FN bool pathEndsAtLight(RL_IN(PathSample) p) {
 #endif
 }
 RL_FN uint pathLightKind(RL_IN(PathSample) p) {
-  return (p.kind >> RL_PATH_LIGHT_SHIFT) & RL_PATH_LIGHT_MASK;
+  return (p.kind >> RL_PATH_LIGHT_KIND_SHIFT) & RL_PATH_LIGHT_KIND_MASK;
 }
 
 // A direction and a density as the words of a reservoir hold them. A path is evaluated with these
@@ -20,51 +20,6 @@ RL_FN vec3 pathPackedWi(RL_IN(vec3) wi) {
   return unpackUnit22(words.x, words.y);
 }
 RL_FN float pathPackedPdf(float pdf) { return uintBitsToFloat(packCut(pdf, 16u) << 16u); }
-
-// Writes the state and, of the path, only its radiance, which is stored with the state.
-RL_FN void pathStateWrite(RL_IN(Uvec4Ref) words, uint at, RL_IN(PathReservoir) r) {
-  reservoirStateWrite(words, at + RL_PATH_SAMPLE_UVEC4S, r.state, packPositive3(r.path.radiance));
-}
-
-// Writes path and state. Barycentrics are kept to 2^-24, less than what rounding makes of a
-// position.
-RL_FN void pathReservoirWrite(RL_IN(Uvec4Ref) words, uint at, RL_IN(PathReservoir) r) {
-  uvec2 wi = packUnit22(r.path.wi);
-  uint pdf = packCut(r.path.pdfLight, 16u);
-  RL_WRITE_UVEC4(
-      words, at,
-      uvec4(r.path.id.instance, r.path.id.primitive,
-            packUnorm24(r.path.id.bary.x) | (r.path.kind << 24u), packUnorm24(r.path.id.bary.y)));
-  RL_WRITE_UVEC4(words, at + 1u,
-                 uvec4(r.path.film, floatBitsToUint(r.path.geometry), wi.x | (pdf << 24u),
-                       wi.y | ((pdf >> 8u) << 24u)));
-  pathStateWrite(words, at, r);
-}
-
-RL_FN ReservoirState pathStateRead(RL_IN(Uvec4Ref) words, uint at) {
-  uvec2 radiance;
-  return reservoirStateRead(words, at + RL_PATH_SAMPLE_UVEC4S, radiance);
-}
-
-RL_FN PathReservoir pathReservoirRead(RL_IN(Uvec4Ref) words, uint at) {
-  uvec4 q0 = RL_EARLIER_UVEC4(words, at);
-  uvec4 q1 = RL_EARLIER_UVEC4(words, at + 1u);
-  uvec2 radiance;
-  PathReservoir r;
-  r.state = reservoirStateRead(words, at + RL_PATH_SAMPLE_UVEC4S, radiance);
-  r.path.id.instance = q0.x;
-  r.path.id.primitive = q0.y;
-  r.path.id.bary = vec2(unpackUnorm24(q0.z & 0xffffffu), unpackUnorm24(q0.w & 0xffffffu));
-  r.path.kind = q0.z >> 24u;
-  r.path.film = q1.x;
-  r.path.radiance = unpackPositive3(radiance.x, radiance.y);
-  r.path.geometry = uintBitsToFloat(q1.y);
-  r.path.wi = unpackUnit22(q1.z & 0xffffffu, q1.w & 0xffffffu);
-  r.path.pdfLight = uintBitsToFloat(((q1.z >> 24u) | ((q1.w >> 24u) << 8u)) << 16u);
-  r.path.base = 0u;
-  r.path.key = 0u;
-  return r;
-}
 
 // Returns whether targets are unshadowed: the one sample that is shown is traced instead.
 RL_FN bool pathHasUnshadowedTarget() {
@@ -84,7 +39,7 @@ RL_FN real reuseTarget(RL_IN(real3) f) { return rlLuminance(f); }
 RL_FN PathSample pathOfLight(RL_IN(LightSample) light, uint film) {
   PathSample p;
   p.id = light.id;
-  p.kind = RL_PATH_DIRECT | (light.kind << RL_PATH_LIGHT_SHIFT);
+  p.kind = RL_PATH_DIRECT | (light.kind << RL_PATH_LIGHT_KIND_SHIFT);
   if (light.isTwoSided != 0u) p.kind = p.kind | RL_PATH_TWO_SIDED;
   p.film = film;
   p.radiance = light.radiance;
@@ -149,8 +104,8 @@ RL_FN vec3 pathRadianceTowards(RL_IN(PathSample) p, RL_IN(vec3) dirFromX2) {
   vec3 f = bsdfEvalAndPdf(x2.bsdf, x2.nGeoW, x2.nShadeW, x2.wo, p.wi, pdfBsdf);
   float weight = 1.0f;
   if (p.pdfLight > 0.0f) {
-    weight = pathKind(p) == RL_PATH_LIGHT ? lightMisWeight(p.pdfLight, pdfBsdf)
-                                          : lightMisWeight(pdfBsdf, p.pdfLight);
+    weight = pathKind(p) == RL_PATH_LIGHT_SAMPLE ? lightMisWeight(p.pdfLight, pdfBsdf)
+                                                 : lightMisWeight(pdfBsdf, p.pdfLight);
   }
   return f * p.radiance * weight;
 }

@@ -14,7 +14,7 @@ RL_NAMESPACE_BEGIN
 // Kinds of paths. Each is a domain of its own: no shift leads from one to another.
 const uint RL_PATH_DIRECT = 0u;        // x1 lit by a point of a light or by a direction
 const uint RL_PATH_LAMBERT = 1u;       // Lambert x2: `radiance` leaves x2 in every direction
-const uint RL_PATH_LIGHT = 2u;         // glossy x2, lit by a light sample from wi
+const uint RL_PATH_LIGHT_SAMPLE = 2u;  // glossy x2, lit by a light sample from wi
 const uint RL_PATH_EMITTER = 3u;       // glossy x2, continued in direction wi to an x3 that emits
 const uint RL_PATH_CONTINUATION = 4u;  // glossy x2, continued in direction wi and beyond x3
 // With RL_PATH_REPLAYS (core/path_sample/path_replay.glsl):
@@ -39,8 +39,8 @@ struct PathSample {
 
 const uint RL_DIRECT_GRID = 0x3ffffu;  // core/path_sample/direct_sample.glsl: 18 bits a coordinate
 const uint RL_PATH_KIND_MASK = 7u;
-const uint RL_PATH_LIGHT_SHIFT = 3u;
-const uint RL_PATH_LIGHT_MASK = 7u;
+const uint RL_PATH_LIGHT_KIND_SHIFT = 3u;
+const uint RL_PATH_LIGHT_KIND_MASK = 7u;
 const uint RL_PATH_TWO_SIDED = 0x40u;  // light: shines to both sides
 const uint RL_PATH_BACK = 0x80u;       // x2: x1 is behind the triangle
 
@@ -55,7 +55,7 @@ struct PathParams {
   float footprint;    // least area of a connectable vertex, as a share of that of x1; 0: any
 };
 
-const uint RL_PATH_MOST_REPLAYED = 15u;  // 4 bits: core/path_sample/replay_sample.glsl
+const uint RL_PATH_MOST_REPLAYED = 15u;  // 4 bits: core/path_sample/replay_words.glsl
 
 struct PathReservoir {
   PathSample path;

@@ -1,5 +1,5 @@
 // Shift of a path sample to another pixel: keeps the film sample, traces x1 anew, and reconnects x2
-// or the light to x1. Two rays; the second is traced only if it can change the result.
+// or the light to x1. At most two rays: the second is traced only if it can change the result.
 
 RL_FN PathShift pathShiftNone() {
   PathShift s;

@@ -83,10 +83,10 @@ std::string three(const glm::vec3& v) { return fmt::format("{:.6g} {:.6g} {:.6g}
 
 float number(std::span<const uint32_t> words, size_t at) { return std::bit_cast<float>(words[at]); }
 
-// Describes x2 or the light, as pathReservoirWrite() lays it out.
+// Describes x2 or the light, as core/path_sample/path_words.glsl lays it out.
 std::string endOf(std::span<const uint32_t> words, rl::Packing& packing) {
   const uint32_t kind = words[2] >> 24;
-  const uint32_t light = kind >> rl::RL_PATH_LIGHT_SHIFT & rl::RL_PATH_LIGHT_MASK;
+  const uint32_t light = kind >> rl::RL_PATH_LIGHT_KIND_SHIFT & rl::RL_PATH_LIGHT_KIND_MASK;
   const bool isLight = (kind & rl::RL_PATH_KIND_MASK) == rl::RL_PATH_DIRECT;
   if (isLight && light == rl::RL_LIGHT_ENVIRONMENT)
     return "direction " + three(packing.unpackUnit22(words[6] & 0xffffffu, words[7] & 0xffffffu));
@@ -146,6 +146,11 @@ rl::PathParams packPath(const ParameterMap& parameters) {
   return out;
 }
 
+std::vector<ProbeValue> weightProbe(uint32_t W, uint32_t confidence) {
+  return {{"W", fmt::format("{:.6g}", std::bit_cast<float>(W))},
+          {"confidence", fmt::format("{:.6g}", std::bit_cast<float>(confidence))}};
+}
+
 std::vector<ProbeValue> pathProbe(std::span<const uint32_t> words) {
   // From here on as reservoirStateWrite() lays it out.
   constexpr size_t kState = 4 * rl::RL_PATH_SAMPLE_UVEC4S;
@@ -153,7 +158,7 @@ std::vector<ProbeValue> pathProbe(std::span<const uint32_t> words) {
   static const std::array<const char*, 5> kinds = {
       "light at x1", "Lambert x2", "glossy x2, light sample", "glossy x2, emitter behind it",
       "glossy x2, continued"};
-  // As pathReservoirWrite() lays it out.
+  // As core/path_sample/path_words.glsl lays it out.
   const uint32_t kind = words[2] >> 24, film = words[4];
   const float weight = number(words, kState + 2);
   std::vector<ProbeValue> values = {

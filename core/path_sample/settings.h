@@ -22,7 +22,9 @@ std::vector<ParameterInfo> directParameters();
 bool hasUnshadowedTarget(const ParameterMap& parameters);
 rl::PathParams packPath(const ParameterMap& parameters);
 
-// Values of a reservoir. `words`: as pathReservoirWrite() lays it out.
+// Values of a reservoir of any method: W and the confidence, each as its word.
+std::vector<ProbeValue> weightProbe(uint32_t W, uint32_t confidence);
+// Values of a reservoir. `words`: as core/path_sample/path_words.glsl lays it out.
 std::vector<ProbeValue> pathProbe(std::span<const uint32_t> words);
 
 }  // namespace restlab

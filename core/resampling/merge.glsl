@@ -1,5 +1,5 @@
 // The reuse algebra: merges donors' reservoirs into the canonical one by generalised RIS with shift
-// maps and pairwise MIS (Lin et al. 2022). Independent of BSDF, payload, pixel and backend: the
+// maps and pairwise MIS (Lin et al. 2022). Independent of BSDF, sample, pixel and backend: the
 // same lines serve every method and cache, time and space.
 //
 // Order of calls: mergeBegin(), for every donor mergeWeighCanonical() with the canonical sample
@@ -59,7 +59,7 @@ RL_FN void mergeCanonical(RL_INOUT(MergeState) merge, RL_IN(ReservoirState) cano
 }
 
 // Adds a donor's sample, shifted here, as a candidate. Returns true if it is selected: the caller
-// then takes the donor's payload; `selected.F` is already set. reflectanceRatio: expected integrand
+// then takes the donor's sample; `selected.F` is already set. reflectanceRatio: expected integrand
 // here over that at the donor, from the shading points alone.
 RL_FN bool mergeDonor(RL_INOUT(MergeState) merge, RL_INOUT(ReservoirState) selected,
                       RL_IN(ReservoirState) donor, RL_IN(Shifted) here,

@@ -1,5 +1,5 @@
 // The reuse loop: merges a reservoir, the canonical one, with those of its donors, over time or
-// over space, for any payload and cache (core/resampling/merge.glsl has the algebra).
+// over space, for any sample and cache (core/resampling/merge.glsl has the algebra).
 //
 // The includer defines RL_REUSE_STATE, a struct, and before the #include the functions below, which
 // get it. Each must return the same result on every call:

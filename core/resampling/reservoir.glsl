@@ -1,5 +1,5 @@
 // Layout of reservoir states in buffers. Relative error per channel: F at most 6.1e-5, the residual
-// 1.2e-4. Two words of the last uvec4 are free for the payload.
+// 1.2e-4. Two words of the last uvec4 are free for the sample.
 
 RL_FN void reservoirStateWrite(RL_IN(Uvec4Ref) words, uint at, RL_IN(ReservoirState) r,
                                RL_IN(uvec2) rest) {

@@ -1,4 +1,4 @@
-// State of every reservoir, without its payload.
+// State of every reservoir, without its sample.
 #ifndef RL_RESERVOIR_H
 #define RL_RESERVOIR_H
 

@@ -1,4 +1,4 @@
-// The age of histories.
+// The length of histories: their age, in frames.
 
 // Number of frames of this view that a history averages, this one included. After a camera move a
 // history counts as one frame: light that the pixel did not see from the old position is known from
@@ -21,10 +21,12 @@ RL_FN float radianceFrames(float confidence) {
 }
 
 // Number of samples in a pixel's unresampled light, packed into the last word of its record.
-RL_FN ViewLight viewLightUnpack(uint word) {
-  ViewLight count;
+RL_FN UnresampledCount unresampledCountUnpack(uint word) {
+  UnresampledCount count;
   count.taken = word & 0xffu;
   count.frames = word >> 8u;
   return count;
 }
-RL_FN uint viewLightPack(RL_IN(ViewLight) count) { return count.taken | (count.frames << 8u); }
+RL_FN uint unresampledCountPack(RL_IN(UnresampledCount) count) {
+  return count.taken | (count.frames << 8u);
+}

@@ -15,10 +15,10 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   RL_RESERVOIR r = sampleInitial(pixel, film, specularLight, visibleEmission);
   vec3 estimate = r.state.F * r.state.W + r.state.residual;
   vec3 unresampled = specularLight + visibleEmission;
-  ViewLight count = viewLightUnpack(0u);
+  UnresampledCount count = unresampledCountUnpack(0u);
   if (!viewIsStill()) {
     uvec4 ofEdges = RL_EARLIER_UVEC4(gBuffers.unresampled, pixelIndex);
-    count = viewLightUnpack(ofEdges.w);
+    count = unresampledCountUnpack(ofEdges.w);
     if (count.taken != 0u) unresampled = specularLight + recordVec3(ofEdges);
   }
   if (!rlIsFinite3(unresampled) || !rlIsFinite3(estimate)) {
@@ -30,7 +30,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   if (gParams.reuse.temporalReuse != 0u && viewIsStill()) {
     float kept = historyKept(pixelIndex);
     uvec4 previous = RL_EARLIER_UVEC4(gBuffers.unresampledPrevious, pixelIndex);
-    count = viewLightUnpack(previous.w);
+    count = unresampledCountUnpack(previous.w);
     if (kept < 1.0f) {
       count.taken = 0u;
       count.frames = uint(float(count.frames) * kept);
@@ -48,5 +48,6 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
       gParams.entries.count != 0u && entryCandidatePixel(entryGroup(pixelIndex)) == pixelIndex;
   if (feedsEntry && viewIsStill()) reservoirWriteHistory(pixelIndex, candidate);
   count.frames = min(count.frames + 1u, 0xffffffu);
-  RL_WRITE_UVEC4(gBuffers.unresampled, pixelIndex, recordUvec4(unresampled, viewLightPack(count)));
+  RL_WRITE_UVEC4(gBuffers.unresampled, pixelIndex,
+                 recordUvec4(unresampled, unresampledCountPack(count)));
 }

@@ -136,7 +136,7 @@ std::vector<LayerInfo> reuseLayers(uint32_t reservoirUvec4s) {
   age.summary = "frames since the view was new or the light around the pixel was found changed";
   age.unit = "frames";
   age.values = [](const FrameSnapshot& snapshot) {
-    // Layout as in viewLightPack().
+    // Layout as in unresampledCountPack().
     return [words = snapshot.words("unresampled_radiance")](size_t pixel) {
       return float(words[4 * pixel + 3] >> 8u);
     };

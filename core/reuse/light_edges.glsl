@@ -1,7 +1,7 @@
 // light_edges, a pass of new views: antialiasing of lamps that the camera sees. A pixel at a lamp's
 // edge takes several camera rays at once, at the film samples that the next still frames would use.
-// When the view then stays still, the initial pass leaves the light seen directly in those frames
-// out of its average.
+// If the view then stays still, those frames find the same light once more: the initial pass gives
+// their unresampled light the weight 0.
 #include "core/transport/light_edges.glsl"
 
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {

@@ -43,7 +43,7 @@ struct CacheMerge {
 };
 
 // Number of samples in the average of a pixel's unresampled light.
-struct ViewLight {
+struct UnresampledCount {
   uint taken;   // film samples that light_edges took when the view was new
   uint frames;  // frames of this view, less those that were forgotten
 };
@@ -60,7 +60,7 @@ struct ReuseBuffers {
   Vec3Ref radiance;
   FloatRef radianceFrames;  // frames that each pixel's radiance averages, this one included
   // One uvec4 per pixel: light that no other pixel could reuse, averaged over time in a still view,
-  // and its ViewLight. light_edges leaves its light here for the initial pass.
+  // and its UnresampledCount. light_edges leaves its light here for the initial pass.
   Uvec4Ref unresampled;
   Uvec4Ref unresampledPrevious;
   Uvec4Ref reservoirs;  // reservoirs of this frame: initial, then temporal

@@ -15,14 +15,13 @@ namespace restlab {
 
 namespace {
 
-// Words as directReservoirWrite() lays them out.
+// Words as core/path_sample/direct_words.glsl lays them out.
 std::vector<ProbeValue> probe(const FrameSnapshot& snapshot, size_t pixel) {
   constexpr size_t kWords = 4 * rl::RL_DIRECT_RESERVOIR_UVEC4S;
   const auto words = snapshot.words("reservoir_history").subspan(kWords * pixel, kWords);
-  const float W = std::bit_cast<float>(words[2]), confidence = std::bit_cast<float>(words[3]);
-  std::vector<ProbeValue> values = {{"W", fmt::format("{:.6g}", W)},
-                                    {"confidence", fmt::format("{:.6g}", confidence)}};
-  if (W > 0.0f) values.push_back({"light", fmt::format("{}", words[0] & 0xfffffffu)});
+  std::vector<ProbeValue> values = weightProbe(words[2], words[3]);
+  if (std::bit_cast<float>(words[2]) > 0.0f)
+    values.push_back({"light", fmt::format("{}", words[0] & 0xfffffffu)});
   return values;
 }
 
@@ -31,19 +30,10 @@ std::vector<ProbeValue> probe(const FrameSnapshot& snapshot, size_t pixel) {
 const IntegratorInfo& restir_diIntegratorInfo() {
   static const IntegratorInfo info = [] {
     IntegratorInfo i =
-        pathReuseMethod("restir_di", rl::RL_DIRECT_RESERVOIR_UVEC4S, directParameters());
+        pathReuseMethod("restir_di", rl::RL_DIRECT_RESERVOIR_UVEC4S, directParameters(), "");
     i.summary =
         "ReSTIR DI: one reservoir a pixel, of points of lights; other light as path has it, "
         "averaged in a still view";
-    i.modes = {
-        {"unbiased", BiasClass::unbiased,
-         "targets include visibility at every shading point, MIS weights sum to one over those who "
-         "can produce a sample, confidences depend on shading points alone (near light that "
-         "changed, with validate_every, on the change)"},
-        {"biased", BiasClass::biased,
-         "the last frame's sample is taken as visible here, and the pixel's own as visible from "
-         "there: fewer rays, a little energy moved at shadow edges"},
-    };
     i.probe = probe;
     i.reasonUnused = [ofPasses = i.reasonUnused](const std::string& name, const ParameterMap& p) {
       const bool isOfEstimates = name == "shading" || name == "max_reflectance_ratio";

@@ -33,7 +33,7 @@ constexpr double kRoundingOfShares = 1e-3, kRoundingOfConfidence = 1e-4;
   watchDonor(state.pixelIndex, k, donor, shifted, merge, isSelected);
 namespace over_space {
 struct Ctx {
-#include "integrators/restir_gi/pixel_context.inl"
+#include "core/path_sample/pixel_context.inl"
 #include "integrators/restir_gi/spatial.glsl"
 #include "integrators/restir_gi/pixel_donors.inl"
 
@@ -83,7 +83,7 @@ struct Ctx {
 // The initial pass, which finds the pixel's sample of this frame again, and the temporal merge.
 namespace over_time {
 struct Ctx {
-#include "integrators/restir_gi/pixel_context.inl"
+#include "core/path_sample/pixel_context.inl"
 #include "integrators/restir_gi/initial.glsl"
 #include "core/gbuffer/gbuffer_trace.glsl"
 
@@ -161,7 +161,7 @@ struct Ctx {
 // The cache_reuse pass.
 namespace of_entries {
 struct Ctx {
-#include "integrators/restir_gi/pixel_context.inl"
+#include "core/path_sample/pixel_context.inl"
 #include "integrators/restir_gi/cache_reuse.glsl"
 #include "integrators/restir_gi/pixel_donors.inl"
 

@@ -35,19 +35,10 @@ std::vector<ProbeValue> probe(const FrameSnapshot& snapshot, size_t pixel) {
 
 const IntegratorInfo& restir_giIntegratorInfo() {
   static const IntegratorInfo info = [] {
-    IntegratorInfo i = pathReuseMethod("restir_gi", rl::RL_PATH_RESERVOIR_UVEC4S, pathParameters());
+    IntegratorInfo i = pathReuseMethod("restir_gi", rl::RL_PATH_RESERVOIR_UVEC4S, pathParameters(),
+                                       "BSDF and MIS weight at x2 are re-evaluated, ");
     i.summary =
         "ReSTIR GI: one reservoir a pixel, of light samples and of paths that reconnect at x2";
-    i.modes = {
-        {"unbiased", BiasClass::unbiased,
-         "targets include visibility at every shading point, MIS weights sum to one over those who "
-         "can produce a sample, confidences depend on shading points alone (near light that "
-         "changed, with validate_every, on the change), BSDF and MIS weight at x2 are "
-         "re-evaluated"},
-        {"biased", BiasClass::biased,
-         "the last frame's sample is taken as visible here, and the pixel's own as visible from "
-         "there: fewer rays, a little energy moved at shadow edges"},
-    };
     i.probe = probe;
     i.donors = giDonorsOf;
     return i;

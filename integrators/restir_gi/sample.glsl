@@ -5,35 +5,7 @@
 #include "core/resampling/shift.glsl"
 #include "core/resampling/reservoir.glsl"
 #include "core/path_sample/path_sample.glsl"
+#include "core/path_sample/path_words.glsl"
+#include "core/path_sample/sample.glsl"
 #include "core/path_sample/path_shift.glsl"
-#include "core/resampling/merge.glsl"
-#include "core/resampling/donors.glsl"
-#include "core/caches/entries/entries.glsl"
-
-// Storage: the reservoir of an index.
-RL_FN PathReservoir sampleRead(RL_IN(Uvec4Ref) words, uint index) {
-  return pathReservoirRead(words, index * RL_PATH_RESERVOIR_UVEC4S);
-}
-RL_FN void sampleWrite(RL_IN(Uvec4Ref) words, uint index, RL_IN(PathReservoir) r) {
-  pathReservoirWrite(words, index * RL_PATH_RESERVOIR_UVEC4S, r);
-}
-RL_FN ReservoirState sampleStateRead(RL_IN(Uvec4Ref) words, uint index) {
-  return pathStateRead(words, index * RL_PATH_RESERVOIR_UVEC4S);
-}
-RL_FN void sampleStateWrite(RL_IN(Uvec4Ref) words, uint index, RL_IN(PathReservoir) r) {
-  pathStateWrite(words, index * RL_PATH_RESERVOIR_UVEC4S, r);
-}
-
-// Copies the path of `from`. The merge has set the state (F, W, residual, confidence) of r already.
-RL_FN void sampleCopyPath(RL_INOUT(PathReservoir) r, RL_IN(PathReservoir) from) {
-  r.path = from.path;
-}
-// Updates what the path stores of its old x1, |cos| / d^2 at x2, so that its next shift can form
-// its Jacobian. `jacobian` is that of the shift that brought the path here.
-RL_FN void sampleAfterShift(RL_INOUT(PathReservoir) r, float jacobian) {
-  r.path.geometry *= jacobian;
-}
-RL_FN uint sampleFilm(RL_IN(PathReservoir) r) { return r.path.film; }
-RL_FN void sampleSetFilm(RL_INOUT(PathReservoir) r, uint film) { r.path.film = film; }
-
 #include "core/path_sample/sample_shift.glsl"

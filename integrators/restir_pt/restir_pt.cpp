@@ -17,14 +17,12 @@ namespace restlab {
 
 namespace {
 
-// Words as replayReservoirWrite() lays them out.
+// Words as core/path_sample/replay_words.glsl lays them out.
 std::vector<ProbeValue> probe(const FrameSnapshot& snapshot, size_t pixel) {
   constexpr size_t kWords = 4 * rl::RL_PATH_RESERVOIR_UVEC4S;
   const auto words = snapshot.words("reservoir_history").subspan(kWords * pixel, kWords);
-  const float W = std::bit_cast<float>(words[10]), confidence = std::bit_cast<float>(words[11]);
-  std::vector<ProbeValue> values = {{"W", fmt::format("{:.6g}", W)},
-                                    {"confidence", fmt::format("{:.6g}", confidence)}};
-  if (!(W > 0.0f)) return values;
+  std::vector<ProbeValue> values = weightProbe(words[10], words[11]);
+  if (!(std::bit_cast<float>(words[10]) > 0.0f)) return values;
   static const std::array<const char*, 7> kinds = {
       "light of a rough vertex",     "Lambert vertex",
       "glossy vertex, light sample", "glossy vertex, emitter behind it",
@@ -42,18 +40,9 @@ std::vector<ProbeValue> probe(const FrameSnapshot& snapshot, size_t pixel) {
 const IntegratorInfo& restir_ptIntegratorInfo() {
   static const IntegratorInfo info = [] {
     IntegratorInfo i =
-        pathReuseMethod("restir_pt", rl::RL_PATH_RESERVOIR_UVEC4S, replayParameters());
+        pathReuseMethod("restir_pt", rl::RL_PATH_RESERVOIR_UVEC4S, replayParameters(),
+                        "paths reconnect at the same vertex on both sides, ");
     i.summary = "ReSTIR PT: one reservoir a pixel, of all its paths; prefixes are replayed";
-    i.modes = {
-        {"unbiased", BiasClass::unbiased,
-         "targets include visibility at every shading point, MIS weights sum to one over those who "
-         "can produce a sample, paths reconnect at the same vertex on both sides, confidences "
-         "depend on shading points alone (near light that changed, with validate_every, on the "
-         "change)"},
-        {"biased", BiasClass::biased,
-         "the last frame's sample is taken as visible here, and the pixel's own as visible from "
-         "there: fewer rays, a little energy moved at shadow edges"},
-    };
     i.probe = probe;
     i.reasonUnused = [ofPasses = i.reasonUnused](const std::string& name, const ParameterMap& p) {
       const std::string reason = replayReasonUnused(name, p);

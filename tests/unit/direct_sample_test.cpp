@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <vector>
 
 #include "core/dialect/order.h"
@@ -12,22 +11,11 @@
 #include "tests/unit/random_inputs.h"
 #include "tests/unit/self_shift.h"
 
-#pragma GCC diagnostic ignored "-Wunused-parameter"  // one signature for every payload
+#pragma GCC diagnostic ignored "-Wunused-parameter"  // one signature for every sample
 namespace rl::direct_sample {
 
-template <uint FEATURES>
 struct Ctx {
-  static constexpr uint kFeatures = FEATURES;
-
-  const SceneData& gScene;
-  const FrameData& gFrame;
-  CpuKernelCounters& gCounters;
-  RTCScene embreeScene;
-  const ReuseBuffers& gBuffers;
-  const PathReuseParams& gParams;
-
-#include "core/dialect/order.glsl"
-#include "core/backend/cpu_trace.inl"
+#include "core/path_sample/pixel_context.inl"
 #include "integrators/restir_di/initial.glsl"
 };
 
@@ -36,7 +24,7 @@ struct Ctx {
 namespace restlab::unit {
 namespace {
 
-using Context = rl::direct_sample::Ctx<rl::RL_FEATURE_ALL>;
+using Context = rl::direct_sample::Ctx;
 
 // One reservoir, and a light table of one of each kind that a path can end at.
 struct Store {
@@ -137,11 +125,7 @@ TEST_P(DirectSelfShift, GivesWhatWasStored) {
 INSTANTIATE_TEST_SUITE_P(Scenes, DirectSelfShift,
                          ::testing::Values("cornell-box", "glossy-gallery", "courtyard",
                                            "many-lights"),
-                         [](const auto& instance) {
-                           std::string name = instance.param;
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+                         sceneTestName);
 
 }  // namespace
 }  // namespace restlab::unit

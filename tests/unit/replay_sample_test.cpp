@@ -2,8 +2,6 @@
 // replayed and reconnected.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <string>
 #include <vector>
 
 #include "core/dialect/order.h"
@@ -11,11 +9,11 @@
 #include "tests/unit/random_inputs.h"
 #include "tests/unit/self_shift.h"
 
-#pragma GCC diagnostic ignored "-Wunused-parameter"  // one signature for every payload
+#pragma GCC diagnostic ignored "-Wunused-parameter"  // one signature for every sample
 // The pass that finds paths, and one that shifts them: each has a walk of its own.
 namespace rl::replay_sample::initial {
 struct Ctx {
-#include "integrators/restir_gi/pixel_context.inl"
+#include "core/path_sample/pixel_context.inl"
 #include "integrators/restir_pt/initial.glsl"
 };
 }  // namespace rl::replay_sample::initial
@@ -25,7 +23,7 @@ struct Ctx {
 #undef RL_REUSE_STATE
 namespace rl::replay_sample::shift {
 struct Ctx {
-#include "integrators/restir_gi/pixel_context.inl"
+#include "core/path_sample/pixel_context.inl"
 #include "integrators/restir_pt/spatial_shift.glsl"
 };
 }  // namespace rl::replay_sample::shift
@@ -93,11 +91,7 @@ TEST_P(ReplaySelfShift, GivesWhatWasStored) {
 INSTANTIATE_TEST_SUITE_P(Scenes, ReplaySelfShift,
                          ::testing::Values("cornell-box", "door-ajar", "glossy-gallery", "glass",
                                            "courtyard", "many-lights"),
-                         [](const auto& instance) {
-                           std::string name = instance.param;
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+                         sceneTestName);
 
 }  // namespace
 }  // namespace restlab::unit

@@ -12,7 +12,7 @@
 #include "integrators/restir_gi/restir_gi.h"
 #include "tests/unit/dialect_context.h"
 
-#pragma GCC diagnostic ignored "-Wunused-parameter"  // one signature for every payload
+#pragma GCC diagnostic ignored "-Wunused-parameter"  // one signature for every sample
 namespace rl {
 
 struct StoreCtx {

@@ -1,4 +1,4 @@
-#pragma GCC diagnostic ignored "-Wunused-parameter"  // one signature for every payload
+#pragma GCC diagnostic ignored "-Wunused-parameter"  // one signature for every sample
 #include "tests/unit/rng_audit.h"
 
 #define RL_KERNEL_NAME restir_gi_spatial_shift

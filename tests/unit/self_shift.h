@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -15,6 +16,13 @@
 #include "tests/unit/dialect_context.h"
 
 namespace restlab::unit {
+
+// The scene as a test's name may hold it.
+inline std::string sceneTestName(const ::testing::TestParamInfo<const char*>& instance) {
+  std::string name = instance.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
 
 // Initial, Shift: kernel contexts over the passes `initial` and `spatial_shift` of a method.
 template <class Initial, class Shift>

@@ -4,7 +4,8 @@
 //   of its random numbers; wi and pdfLight; F, W, confidence; residual with the rest of the
 //   geometry term; radiance
 
-RL_FN void replayStateWrite(RL_IN(Uvec4Ref) words, uint at, RL_IN(PathReservoir) r) {
+RL_FN void sampleStateWrite(RL_IN(Uvec4Ref) words, uint index, RL_IN(PathReservoir) r) {
+  uint at = index * RL_PATH_RESERVOIR_UVEC4S;
   uvec2 f = packPositive3(r.state.F);
   uvec2 residual = packShared3(r.state.residual);
   uvec2 radiance = packPositive3(r.path.radiance);
@@ -15,7 +16,8 @@ RL_FN void replayStateWrite(RL_IN(Uvec4Ref) words, uint at, RL_IN(PathReservoir)
                  uvec4(residual.x, residual.y | ((geometry >> 4u) << 16u), radiance.x, radiance.y));
 }
 
-RL_FN void replayReservoirWrite(RL_IN(Uvec4Ref) words, uint at, RL_IN(PathReservoir) r) {
+RL_FN void sampleWrite(RL_IN(Uvec4Ref) words, uint index, RL_IN(PathReservoir) r) {
+  uint at = index * RL_PATH_RESERVOIR_UVEC4S;
   uvec2 wi = packUnit22(r.path.wi);
   uint pdf = packCut(r.path.pdfLight, 16u);
   uint geometry = packCut(r.path.geometry, 11u);
@@ -26,10 +28,11 @@ RL_FN void replayReservoirWrite(RL_IN(Uvec4Ref) words, uint at, RL_IN(PathReserv
             packUnorm24(r.path.id.bary.y) | (r.path.base << 24u) | ((geometry & 15u) << 28u)));
   RL_WRITE_UVEC4(words, at + 1u,
                  uvec4(r.path.film, r.path.key, wi.x | (pdf << 24u), wi.y | ((pdf >> 8u) << 24u)));
-  replayStateWrite(words, at, r);
+  sampleStateWrite(words, index, r);
 }
 
-RL_FN ReservoirState replayStateRead(RL_IN(Uvec4Ref) words, uint at) {
+RL_FN ReservoirState sampleStateRead(RL_IN(Uvec4Ref) words, uint index) {
+  uint at = index * RL_PATH_RESERVOIR_UVEC4S;
   uvec4 q2 = RL_EARLIER_UVEC4(words, at + 2u);
   uvec4 q3 = RL_EARLIER_UVEC4(words, at + 3u);
   ReservoirState state;
@@ -40,12 +43,13 @@ RL_FN ReservoirState replayStateRead(RL_IN(Uvec4Ref) words, uint at) {
   return state;
 }
 
-RL_FN PathReservoir replayReservoirRead(RL_IN(Uvec4Ref) words, uint at) {
+RL_FN PathReservoir sampleRead(RL_IN(Uvec4Ref) words, uint index) {
+  uint at = index * RL_PATH_RESERVOIR_UVEC4S;
   uvec4 q0 = RL_EARLIER_UVEC4(words, at);
   uvec4 q1 = RL_EARLIER_UVEC4(words, at + 1u);
   uvec4 q3 = RL_EARLIER_UVEC4(words, at + 3u);
   PathReservoir r;
-  r.state = replayStateRead(words, at);
+  r.state = sampleStateRead(words, index);
   r.path.id.instance = q0.x;
   r.path.id.primitive = q0.y;
   r.path.id.bary = vec2(unpackUnorm24(q0.z & 0xffffffu), unpackUnorm24(q0.w & 0xffffffu));
