@@ -72,7 +72,7 @@ struct ProbeValue {
 
 // A candidate of a pixel's reservoir in the last frame: the donor of the sample, and the outcome.
 struct Donor {
-  std::string reuse;        // "own": the pixel's own, entering the merge; "space", "time", "entry"
+  std::string reuse;        // "canonical": the pixel's own; "space", "time", "entry"
   size_t id = 0;            // index of the donor's pixel; index of the entry
   std::string shift;        // "accepted", or the test that the shift to the pixel failed
   double confidence = 0.0;  // confidence with which it entered the merge

@@ -9,7 +9,7 @@ RL_FN PathReplay pathReplayBegin(RL_IN(PathSample) path) {
   q.before = pathConnectorNone();
   q.base = path.base;
   q.kind = pathKind(path);
-  q.hasArrived = 0u;
+  q.failed = RL_FAILED_REPLAY;
   q.x = surfaceNone();
   q.throughput = vec3(1.0f, 1.0f, 1.0f);
   q.sigma = vec3(0.0f, 0.0f, 0.0f);
@@ -23,7 +23,7 @@ RL_FN void pathReplayFinds(RL_INOUT(PathReplay) q, RL_IN(Walk) walk, RL_IN(vec3)
   if (q.kind != RL_PATH_WHOLE_REPLAY || walk.bounces != q.base + 1u) return;
   float weight = pdfLight > 0.0f ? lightMisWeight(walk.pdfBsdf, pdfLight) : 1.0f;
   q.radiance = walk.throughput * radiance * weight;
-  q.hasArrived = 1u;
+  q.failed = RL_FAILED_NOT;
 }
 RL_FN void onMiss(RL_INOUT(PathReplay) q, RL_IN(Walk) walk, RL_IN(vec3) radiance, float pdfLight) {
   pathReplayFinds(q, walk, radiance, pdfLight);
@@ -36,7 +36,10 @@ RL_FN void onEmission(RL_INOUT(PathReplay) q, RL_IN(Walk) walk, RL_IN(Surface) s
 RL_FN uint onVertex(RL_INOUT(PathReplay) q, RL_IN(Walk) walk, RL_INOUT(Surface) s) {
   if (walk.bounces > q.base) return RL_WALK_ENDS;
   if (walk.bounces == 0u) q.before.footprint = pathFootprintOfX1(s, walk.ray.origin);
-  if (walk.bounces > 0u && pathConnects(q.before, walk, s)) return RL_WALK_ENDS;
+  if (walk.bounces > 0u && pathConnects(q.before, walk, s)) {
+    q.failed = RL_FAILED_CONNECTS;
+    return RL_WALK_ENDS;
+  }
   bool isRough = pathIsRough(s);
   q.before.posW = s.posW;
   q.before.isRough = isRough ? 1u : 0u;
@@ -49,7 +52,7 @@ RL_FN uint onVertex(RL_INOUT(PathReplay) q, RL_IN(Walk) walk, RL_INOUT(Surface) 
   q.throughput = walk.throughput;
   q.sigma = walk.sigma;
   q.rank = walk.media.x;
-  q.hasArrived = 1u;
+  q.failed = RL_FAILED_NOT;
   return RL_WALK_ENDS;
 }
 

@@ -21,7 +21,7 @@ struct PathReplay {
   PathConnector before;
   uint base;        // PathSample::base
   uint kind;        // RL_PATH_*
-  uint hasArrived;  // 1: what follows is set
+  uint failed;      // RL_FAILED_NOT: what follows is set
   Surface x;        // the vertex after `base` events
   vec3 throughput;  // f |cos| / pdf up to it, without Russian roulette
   vec3 sigma;       // m^-1, of the medium that the segment from it lies in

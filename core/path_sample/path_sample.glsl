@@ -129,9 +129,11 @@ RL_FN Ray pathSegment(RL_IN(LightSample) end, RL_IN(vec3) x1PosW, RL_IN(vec3) x1
 // Shifts a path to another x1, without the visibility of its segment. Direct light is in the
 // measure of its light (area, solid angle of the environment, discrete), which all pixels share:
 // J = 1. For a vertex x2, J is the ratio of geometry terms; outside [1 / maxJacobian, maxJacobian]
-// the shift is undefined, both ways (Lin et al. 2022). end: pathEnd(p).
+// the shift is undefined, both ways (Lin et al. 2022). end: pathEnd(p). failed: the reason where F
+// is black.
 RL_FN Shifted pathReconnect(RL_IN(PathSample) p, RL_IN(LightSample) end, RL_IN(Surface) x1,
-                            real maxJacobian) {
+                            real maxJacobian, RL_OUT(uint) failed) {
+  failed = RL_FAILED_DARK;
   Shifted s;
   s.F = real3(real(0.0f));
   s.jacobian = real(1.0f);
@@ -149,6 +151,7 @@ RL_FN Shifted pathReconnect(RL_IN(PathSample) p, RL_IN(LightSample) end, RL_IN(S
   real jacobian = rlSafeDivide(geometry, p.geometry);
   if (!(jacobian > 0.0f) || !rlIsFinite(jacobian) || max(jacobian, 1.0f / jacobian) > maxJacobian) {
     RL_HEALTH(RL_HEALTH_REJECTED_JACOBIAN);
+    failed = RL_FAILED_JACOBIAN;
     return s;
   }
   vec3 d = normalize(end.point - x1.posW);

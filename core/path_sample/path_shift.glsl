@@ -12,6 +12,7 @@ RL_FN PathShift pathShiftNone() {
   s.needs = RL_SHIFT_DONE;
   s.assumesVisible = 0u;
   s.rank = gFrame.cameraMedia.x;
+  s.failed = RL_FAILED_EMPTY;
   return s;
 }
 
@@ -33,6 +34,7 @@ RL_FN PathShift pathShiftTo(RL_IN(PathReservoir) r, RL_IN(uvec2) pixel, bool isP
                             bool assumeVisible) {
   PathShift s = pathShiftNone();
   if (!(r.state.W > 0.0f)) return s;
+  s.failed = RL_FAILED_ABSORBED;
   if ((gFrame.cameraAbsorbs & (isPrevious ? RL_CAMERA_ABSORBS_BEFORE : RL_CAMERA_ABSORBS_NOW)) !=
       0u)
     return s;
@@ -53,12 +55,15 @@ RL_FN PathShift pathShiftToSurface(RL_IN(PathReservoir) r, RL_IN(Surface) x1) {
 #ifdef RL_PATH_REPLAYS
   // Which vertices connect to a surface point depends on the camera, which an entry has not:
   // entries hold direct light alone, or what needs no footprint.
+  s.failed = RL_FAILED_ENTRY;
   if (r.path.base != 0u || pathKind(r.path) >= RL_PATH_WEIGHED) return s;
   if (gParams.path.footprint > 0.0f && !pathEndsAtLight(r.path)) return s;
 #endif
   LightSample end = pathEnd(r.path);
-  s.shifted = pathReconnect(r.path, end, x1, gParams.path.maxJacobian);
-  if (pathHasUnshadowedTarget() || !(reuseTarget(s.shifted.F) > 0.0f)) return s;
+  s.shifted = pathReconnect(r.path, end, x1, gParams.path.maxJacobian, s.failed);
+  if (!(reuseTarget(s.shifted.F) > 0.0f)) return s;
+  s.failed = RL_FAILED_NOT;
+  if (pathHasUnshadowedTarget()) return s;
   s.ray = pathSegment(end, x1.posW, x1.nGeoW, x1.posError);
   s.needs = RL_SHIFT_NEEDS_SEGMENT;
   return s;
@@ -69,18 +74,24 @@ RL_FN PathShift pathShiftToSurface(RL_IN(PathReservoir) r, RL_IN(Surface) x1) {
 RL_FN void pathShiftReplay(RL_INOUT(PathShift) s, RL_IN(PathSample) path) {
   s.needs = RL_SHIFT_DONE;
   PathReplay q = pathReplay(path, s.ray);
-  if (q.hasArrived == 0u) return;
+  s.failed = q.failed;
+  if (q.failed != RL_FAILED_NOT) return;
   if (q.kind == RL_PATH_WHOLE_REPLAY) {
     s.shifted.F = q.radiance;
     return;
   }
   LightSample end = pathEnd(path);
-  s.shifted = pathReconnect(path, end, q.x, gParams.path.maxJacobian);
-  if (!pathReconnects(q, path, end)) s.shifted.F = vec3(0.0f, 0.0f, 0.0f);
+  s.shifted = pathReconnect(path, end, q.x, gParams.path.maxJacobian, s.failed);
+  if (!pathReconnects(q, path, end)) {
+    s.shifted.F = vec3(0.0f, 0.0f, 0.0f);
+    s.failed = RL_FAILED_PAIR;
+  }
   s.shifted.F *= q.throughput;
   LightConnection c = lightConnect(end, q.x.posW);
   if (RL_HAS(RL_FEATURE_VOLUME)) s.shifted.F *= exp(-q.sigma * c.distance);
-  if (s.assumesVisible != 0u || !(reuseTarget(s.shifted.F) > 0.0f)) return;
+  if (!(reuseTarget(s.shifted.F) > 0.0f)) return;
+  s.failed = RL_FAILED_NOT;
+  if (s.assumesVisible != 0u) return;
   s.ray = pathSegment(end, q.x.posW, q.x.nGeoW, q.x.posError);
   s.rank = q.rank;
   s.needs = RL_SHIFT_NEEDS_SEGMENT;
@@ -94,14 +105,19 @@ RL_FN void pathShiftStep(RL_INOUT(PathShift) s, RL_IN(PathSample) path, RL_IN(Hi
   s.needs = RL_SHIFT_DONE;
   if (asked == RL_SHIFT_NEEDS_SEGMENT) {
     s.shifted.F *= transmittance;
+    if (!(transmittance > 0.0f)) s.failed = RL_FAILED_OCCLUDED;
     return;
   }
+  s.failed = RL_FAILED_BACKGROUND;
   if (hit.instance == RL_INVALID) return;
   Surface x1 = surfaceLoad(hit, s.ray.dir);
+  s.failed = RL_FAILED_SMOOTH;
   if (!bsdfIsReusable(x1.bsdf, gParams.path.minAlpha)) return;
   LightSample end = pathEnd(path);
-  s.shifted = pathReconnect(path, end, x1, gParams.path.maxJacobian);
-  if (s.assumesVisible != 0u || !(reuseTarget(s.shifted.F) > 0.0f)) return;
+  s.shifted = pathReconnect(path, end, x1, gParams.path.maxJacobian, s.failed);
+  if (!(reuseTarget(s.shifted.F) > 0.0f)) return;
+  s.failed = RL_FAILED_NOT;
+  if (s.assumesVisible != 0u) return;
   s.ray = pathSegment(end, x1.posW, x1.nGeoW, x1.posError);
   s.needs = RL_SHIFT_NEEDS_SEGMENT;
 }

@@ -1,8 +1,6 @@
-// Host side of path samples: parameters of the methods that resample paths, and what a reservoir of
-// one holds, for people.
+// Host side of path samples: parameters of the methods that resample paths.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "core/frame/part.h"
@@ -21,10 +19,5 @@ std::string replayReasonUnused(const std::string& name, const ParameterMap& para
 std::vector<ParameterInfo> directParameters();
 bool hasUnshadowedTarget(const ParameterMap& parameters);
 rl::PathParams packPath(const ParameterMap& parameters);
-
-// Values of a reservoir of any method: W and the confidence, each as its word.
-std::vector<ProbeValue> weightProbe(uint32_t W, uint32_t confidence);
-// Values of a reservoir. `words`: as core/path_sample/path_words.glsl lays it out.
-std::vector<ProbeValue> pathProbe(std::span<const uint32_t> words);
 
 }  // namespace restlab

@@ -288,7 +288,7 @@ TEST_F(RenderTest, PrintsWhatIsKeptOfAPixel) {
   }
   // Own sample first, then donors over space, last the pixel itself over time.
   ASSERT_GE(json["donors"].size(), 2u);
-  EXPECT_EQ(json["donors"].front()["reuse"], "own");
+  EXPECT_EQ(json["donors"].front()["reuse"], "canonical");
   EXPECT_EQ(json["donors"].back()["reuse"], "time");
   for (const auto& donor : json["donors"]) {
     ASSERT_TRUE(std::getline(lines, line));

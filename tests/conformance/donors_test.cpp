@@ -15,10 +15,10 @@ namespace {
 
 constexpr uint32_t kWidth = 40, kHeight = 24;
 
-SessionConfig donorsConfig(const ParameterMap& parameters = {},
-                           const std::string& cache = "pixel") {
+SessionConfig donorsConfig(const ParameterMap& parameters = {}, const std::string& cache = "pixel",
+                           const std::string& integrator = "restir_gi") {
   SessionConfig config;
-  config.integrator = "restir_gi";
+  config.integrator = integrator;
   config.cache = cache;
   config.width = kWidth;
   config.height = kHeight;
@@ -29,7 +29,7 @@ SessionConfig donorsConfig(const ParameterMap& parameters = {},
 
 const ParameterMap kAlone = {{"spatial_neighbours", int64_t{0}}};
 
-// Identifies the sample of a pixel by its film sample and its vertex. "": no sample.
+// Identifies the sample of a pixel by its film sample and its end. "": no sample.
 std::string sampleOf(const Session& session, size_t pixel) {
   std::map<std::string, std::string> values;
   for (const ProbeValue& v : session.probe(uint32_t(pixel % kWidth), uint32_t(pixel / kWidth)))
@@ -50,13 +50,16 @@ SceneCamera walked(const CompiledScene& scene, double metres) {
   return camera;
 }
 
-class DonorScenes : public testing::TestWithParam<const char*> {};
+// A method and a scene.
+class DonorScenes : public testing::TestWithParam<std::pair<const char*, const char*>> {};
 
 // The sample of a pixel after the frame equals the selected donor's sample in a session without
 // spatial reuse; confidences add up.
 TEST_P(DonorScenes, TheSelectedDonorGaveTheSample) {
-  const auto scene = bias::builtinScene(GetParam());
-  Session alone(scene, donorsConfig(kAlone)), session(scene, donorsConfig());
+  const auto [method, name] = GetParam();
+  const auto scene = bias::builtinScene(name);
+  Session alone(scene, donorsConfig(kAlone, "pixel", method)),
+      session(scene, donorsConfig({}, "pixel", method));
   alone.frame();
   session.frame();
   const std::vector<std::string> before = samplesOf(alone), after = samplesOf(session);
@@ -65,12 +68,12 @@ TEST_P(DonorScenes, TheSelectedDonorGaveTheSample) {
   for (size_t i = 0; i < after.size(); ++i) {
     const std::vector<Donor> donors = donorsOf(session, i);
     ASSERT_FALSE(donors.empty());
-    EXPECT_EQ(donors[0].reuse, "own");
+    EXPECT_EQ(donors[0].reuse, "canonical");
     EXPECT_EQ(donors[0].id, i);
     double sum = 0.0, shares = 0.0;
     int selected = 0;
     for (const Donor& donor : donors) {
-      EXPECT_TRUE(donor.reuse == "own" || donor.reuse == "space") << donor.reuse;
+      EXPECT_TRUE(donor.reuse == "canonical" || donor.reuse == "space") << donor.reuse;
       sum += donor.confidence;
       shares += donor.share.value_or(0.0);
       accepted += donor.shift == "accepted" && donor.reuse == "space";
@@ -79,7 +82,7 @@ TEST_P(DonorScenes, TheSelectedDonorGaveTheSample) {
       ++selected;
       EXPECT_EQ(after[i], before[donor.id]) << i;
       EXPECT_GT(*donor.share, 0.0);
-      ++(donor.reuse == "own" ? own : taken);
+      ++(donor.reuse == "canonical" ? own : taken);
     }
     EXPECT_NEAR(sum, double(confidence.pixels[i].x), 1e-5 * sum) << i;
     EXPECT_EQ(selected, after[i].empty() ? 0 : 1) << i;
@@ -94,8 +97,10 @@ TEST_P(DonorScenes, TheSelectedDonorGaveTheSample) {
 
 // Old histories have another number of donors, with a share of their confidence.
 TEST_P(DonorScenes, ConfidencesAddUpInOldHistories) {
-  const auto scene = bias::builtinScene(GetParam());
-  Session session(scene, donorsConfig({{"young_frames", 3.0}, {"aged_neighbours", int64_t{1}}}));
+  const auto [method, name] = GetParam();
+  Session session(
+      bias::builtinScene(name),
+      donorsConfig({{"young_frames", 3.0}, {"aged_neighbours", int64_t{1}}}, "pixel", method));
   for (int frame = 0; frame < 8; ++frame) session.frame();
   const Image confidence = session.aov("confidence");
   for (size_t i = 0; i < confidence.pixels.size(); ++i) {
@@ -103,7 +108,7 @@ TEST_P(DonorScenes, ConfidencesAddUpInOldHistories) {
     size_t space = 0;
     for (const Donor& donor : donorsOf(session, i)) {
       if (donor.reuse != "time") sum += donor.confidence;
-      if (donor.reuse == "own") own = donor.confidence;
+      if (donor.reuse == "canonical") own = donor.confidence;
       space += donor.reuse == "space";
       if (donor.reuse != "time") continue;
       EXPECT_EQ(donor.id, i);
@@ -115,20 +120,25 @@ TEST_P(DonorScenes, ConfidencesAddUpInOldHistories) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scene, DonorScenes,
-                         testing::Values("door-ajar", "glossy-gallery", "courtyard"),
-                         [](const auto& test) {
-                           std::string name = test.param;
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Scene, DonorScenes,
+    testing::Values(std::pair{"restir_gi", "door-ajar"}, std::pair{"restir_gi", "glossy-gallery"},
+                    std::pair{"restir_gi", "courtyard"}, std::pair{"restir_di", "courtyard"},
+                    std::pair{"restir_pt", "glossy-gallery"}),
+    [](const auto& test) {
+      std::string name = std::string(test.param.first) + "_" + test.param.second;
+      std::replace(name.begin(), name.end(), '-', '_');
+      return name;
+    });
+
+class DonorsOf : public testing::TestWithParam<const char*> {};
 
 // Without spatial reuse a pixel's sample after the frame comes from the temporal donor or is its
 // own; if the camera has moved, that donor is another pixel.
-TEST(Donors, OverTimeAreThePixelsThatShowedTheSurface) {
+TEST_P(DonorsOf, TimeAreThePixelsThatShowedTheSurface) {
   const auto scene = bias::builtinScene("cornell-box");
   for (const double moved : {0.0, 0.2}) {
-    Session session(scene, donorsConfig(kAlone));
+    Session session(scene, donorsConfig(kAlone, "pixel", GetParam()));
     for (int frame = 0; frame < 3; ++frame) session.frame();
     const std::vector<std::string> before = samplesOf(session);
     session.setCamera(walked(*scene, moved));
@@ -169,9 +179,9 @@ TEST(Donors, OverTimeAreThePixelsThatShowedTheSurface) {
   }
 }
 
-TEST(Donors, OfEntriesAreInTheCache) {
+TEST_P(DonorsOf, EntriesAreInTheCache) {
   const auto scene = bias::builtinScene("door-ajar");
-  Session session(scene, donorsConfig(kAlone, "voxel"));
+  Session session(scene, donorsConfig(kAlone, "voxel", GetParam()));
   for (int frame = 0; frame < 4; ++frame) session.frame();
   session.setCamera(walked(*scene, 0.2));
   session.frame();
@@ -180,7 +190,7 @@ TEST(Donors, OfEntriesAreInTheCache) {
   for (size_t i = 0; i < confidence.pixels.size(); ++i) {
     double sum = 1.0;
     for (const Donor& donor : donorsOf(session, i)) {
-      if (donor.reuse == "own") continue;
+      if (donor.reuse == "canonical") continue;
       sum += donor.confidence;
       if (donor.reuse != "entry") continue;
       ++found;
@@ -197,8 +207,12 @@ TEST(Donors, OfEntriesAreInTheCache) {
   EXPECT_GT(selected, 20u);
 }
 
-std::map<std::string, size_t> shiftsOf(const char* scene, const ParameterMap& parameters) {
-  Session session(bias::builtinScene(scene), donorsConfig(parameters));
+INSTANTIATE_TEST_SUITE_P(Method, DonorsOf, testing::Values("restir_gi", "restir_di", "restir_pt"),
+                         [](const auto& test) { return std::string(test.param); });
+
+std::map<std::string, size_t> shiftsOf(const char* scene, const ParameterMap& parameters,
+                                       const std::string& method = "restir_gi") {
+  Session session(bias::builtinScene(scene), donorsConfig(parameters, "pixel", method));
   session.frame();
   std::map<std::string, size_t> counts;
   for (size_t i = 0; i < size_t{kWidth} * kHeight; ++i) {
@@ -227,6 +241,17 @@ TEST(Donors, SayWhichTestFailed) {
   // Mirrors are smooth with any limit.
   EXPECT_GT(shiftsOf("glossy-gallery", with("roughness_limit", 0.3))["smooth"],
             2 * shiftsOf("glossy-gallery", with("roughness_limit", 0.0))["smooth"]);
+}
+
+// A replayed prefix fails in more ways.
+TEST(Donors, SayWhereAReplayFailed) {
+  auto gallery = shiftsOf("glossy-gallery", {}, "restir_pt");
+  for (const char* reason : {"replay", "connects earlier", "pair", "jacobian", "occluded"})
+    EXPECT_GT(gallery[reason], 5u) << reason;
+  EXPECT_EQ(gallery["entry"], 0u);
+  auto reconnected =
+      shiftsOf("glossy-gallery", {{"shift", std::string("reconnection")}}, "restir_pt");
+  EXPECT_EQ(reconnected["connects earlier"] + reconnected["pair"], 0u);
 }
 
 TEST(Donors, AskingChangesNoBit) {

@@ -209,7 +209,7 @@ TEST_F(ViewLoopTest, ProbesAPixel) {
   for (int frame = 0; frame < probe["frame"]; ++frame) again.frame();
   EXPECT_EQ(probe["values"], Json(probedValuesJson(again, x, y)));
   EXPECT_EQ(probe["donors"], Json(probedDonorsJson(again, x, y)));
-  EXPECT_EQ(probe["donors"][0]["reuse"], "own");
+  EXPECT_EQ(probe["donors"][0]["reuse"], "canonical");
   EXPECT_EQ(probe["values"][0]["name"], "shaded radiance");
   const glm::vec3& shown = again.radiance().at(x, y);
   ASSERT_GT(shown.x, 0.0f);

@@ -25,7 +25,7 @@ const REUSE_HELP = {
 };
 
 const isRejected = ({shift}) => !['accepted', 'empty', 'not kept'].includes(shift);
-const donorsOf = message => (message.donors || []).filter(({reuse}) => reuse !== 'own');
+const donorsOf = message => (message.donors || []).filter(({reuse}) => reuse !== 'canonical');
 
 function donorMarks(message) {
   const {x, y} = message;

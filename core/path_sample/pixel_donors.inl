@@ -1,15 +1,25 @@
-#include "integrators/restir_gi/pixel_donors.h"
+// What the probe says of a pixel of a method that resamples paths: its reservoir, and the merges of
+// the last frame, computed again on the host. Included by a source that rl_add_reuse_kernels makes
+// for each method, and which defines RL_METHOD_INITIAL, RL_METHOD_SPATIAL, RL_METHOD_SPATIAL_SHIFT
+// and RL_METHOD_CACHE_REUSE, the method's kernels, and RL_METHOD_SETS_PROBE, the function that is
+// declared in its <name>.cpp.
+//
+// Donors are the pixel's own sample, then those over space and time, then entries. The frame has
+// overwritten the reservoir of the donor over time: the initial candidate is traced again, and what
+// its resampling weight leaves of wSum is the donor's.
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 #include "core/backend/alpha_filter.h"
 #include "core/backend/cpu_kernel.h"
 #include "core/backend/embree.h"
+#include "core/frame/integrator.h"
+#include "core/path_sample/path_names.h"
 #include "core/reuse/passes.h"
 #include "core/scene/compiled/compiled_scene.h"
-#include "integrators/restir_gi/snapshot_params.h"
-#include "integrators/restir_gi/restir_gi.h"
 
 // Functions that a kernel hands to the reuse loop have one signature: some ignore a parameter.
 #pragma GCC diagnostic ignored "-Wunused-parameter"
@@ -27,6 +37,26 @@ using Donors = std::vector<restlab::Donor>;
 // Rounding errors of differences: of shares (reservoirs are packed), of sums of confidences.
 constexpr double kRoundingOfShares = 1e-3, kRoundingOfConfidence = 1e-4;
 
+// Shifts of the method.
+namespace of_shifts {
+struct Ctx {
+#include "core/path_sample/pixel_context.inl"
+#include RL_METHOD_SPATIAL_SHIFT
+
+  PathShift shifted(const PathReservoir& r, uvec2 pixel, bool isPrevious, bool assumesVisible) {
+    PathShift shift = shiftTo(r, pixel, isPrevious, assumesVisible);
+    shiftTrace(shift, r);
+    return shift;
+  }
+  // Why the shift of a sample to a pixel of this frame has no share.
+  const char* failure(const PathReservoir& r, uvec2 pixel) {
+    return restlab::nameOfFailedShift(shifted(r, pixel, false, false).failed);
+  }
+};
+}  // namespace of_shifts
+
+#undef RL_WALK_STATE
+
 // The spatial pass, watched; as in core/backend/cpu_kernel.inl.
 #define RL_REUSE_WATCH_CANONICAL(merge, canonical) watchCanonical(merge, canonical);
 #define RL_REUSE_WATCH_DONOR(k, donor, shifted, merge, isSelected) \
@@ -34,16 +64,17 @@ constexpr double kRoundingOfShares = 1e-3, kRoundingOfConfidence = 1e-4;
 namespace over_space {
 struct Ctx {
 #include "core/path_sample/pixel_context.inl"
-#include "integrators/restir_gi/spatial.glsl"
-#include "integrators/restir_gi/pixel_donors.inl"
+#include RL_METHOD_SPATIAL
+#include "core/path_sample/merge_donors.inl"
 
+  of_shifts::Ctx* shifts_ = nullptr;
   Donors watched_ = {};
   size_t watchedWinner_ = 0;
   real watchedWSum_ = 0.0f;
 
   void watchCanonical(const MergeState& merge, const ReservoirState& own) {
     restlab::Donor& canonical = watched_.emplace_back();
-    canonical.reuse = "own";
+    canonical.reuse = "canonical";
     canonical.shift = own.W > 0.0f ? "accepted" : "empty";
     canonical.confidence = own.confidence;
     watchedWSum_ = merge.wSum;
@@ -55,10 +86,9 @@ struct Ctx {
                   const MergeState& merge, bool isSelected) {
     const uint neighbour = pairedNeighbour(pixelIndex, k);
     watched_.push_back(asDonor("space", neighbour, donor, here, merge, gParams.reuse.spatialFlags));
-    if (!watched_.back().jacobian) {
-      const PathReservoir r = reservoirReadNow(neighbour);
-      watched_.back().shift = failedTest(r, pixelOfIndex(pixelIndex), r.path.film);
-    }
+    if (!watched_.back().jacobian)
+      watched_.back().shift =
+          shifts_->failure(reservoirReadNow(neighbour), pixelOfIndex(pixelIndex));
     if (isSelected) watchedWinner_ = watched_.size() - 1;
     watchedWSum_ = merge.wSum;
   }
@@ -79,12 +109,13 @@ struct Ctx {
 #undef RL_REUSE_STATE
 #undef RL_REUSE_WATCH_CANONICAL
 #undef RL_REUSE_WATCH_DONOR
+#undef RL_WALK_STATE
 
 // The initial pass, which finds the pixel's sample of this frame again, and the temporal merge.
 namespace over_time {
 struct Ctx {
 #include "core/path_sample/pixel_context.inl"
-#include "integrators/restir_gi/initial.glsl"
+#include RL_METHOD_INITIAL
 #include "core/gbuffer/gbuffer_trace.glsl"
 
   // Traces the surface again: later passes have used the memory of the last frame's.
@@ -94,6 +125,8 @@ struct Ctx {
   }
 
 #include "core/resampling/reproject.glsl"
+
+  of_shifts::Ctx* shifts_ = nullptr;
 
   PathReservoir retraceInitialCandidate(uvec2 pixel) {
     vec3 specularLight, visibleEmission;
@@ -109,9 +142,9 @@ struct Ctx {
     MergeState merge = mergeBegin(own.state, cDonor, flags);
     if (!isStill) {
       const bool assumesVisible = (flags & RL_REUSE_ASSUME_VISIBLE) != 0u;
-      PathShift shift = shiftTo(own, pixelOfIndex(previousPixel), true, assumesVisible);
-      shiftTrace(shift, own);
-      mergeWeighCanonical(merge, own.state, cDonor, shift.shifted, flags);
+      mergeWeighCanonical(
+          merge, own.state, cDonor,
+          shifts_->shifted(own, pixelOfIndex(previousPixel), true, assumesVisible).shifted, flags);
     }
     mergeCanonical(merge, own.state, flags);
     return merge.wSum;
@@ -157,13 +190,30 @@ struct Ctx {
 }  // namespace over_time
 
 #undef RL_REUSE_STATE
+#undef RL_WALK_STATE
+#undef RL_WALK_END
 
 // The cache_reuse pass.
 namespace of_entries {
 struct Ctx {
 #include "core/path_sample/pixel_context.inl"
-#include "integrators/restir_gi/cache_reuse.glsl"
-#include "integrators/restir_gi/pixel_donors.inl"
+#include RL_METHOD_CACHE_REUSE
+#include "core/path_sample/merge_donors.inl"
+
+  // Names the first test that the shift of an entry's sample to the pixel fails, with x1 seen
+  // through `film`.
+  const char* failure(const PathReservoir& r, uvec2 pixel, uint film) {
+    if (!(r.state.W > 0.0f)) return "empty";
+    const Ray ray = cameraFilmRay(gFrame.camera, pixel, film);
+    Hit hit = traceNoHit();
+    traceRay(ray, RL_RAY_PATH, cameraAlphaKey(film), hit);
+    if (hit.instance == RL_INVALID) return "background";
+    const Surface x1 = surfaceLoad(hit, ray.dir);
+    if (!bsdfIsReusable(x1.bsdf, gParams.path.minAlpha)) return "smooth";
+    PathShift shift = shiftToSurface(r, x1);
+    shiftTrace(shift, r);
+    return restlab::nameOfFailedShift(shift.failed);
+  }
 
   Donors ofEntries(uvec2 pixel) {
     const uint flags = gParams.reuse.spatialFlags, count = gParams.entries.proposals;
@@ -188,9 +238,7 @@ struct Ctx {
       all.push_back(asDonor("entry", s.donorId[k], donor, s.neighbourAtCanonical[k], merge, flags));
       restlab::Donor& one = all.back();
       if (one.share) one.share = misDivide(real(*one.share), wSum);
-      if (!one.jacobian) {
-        one.shift = failedTest(entryReservoirRead(s.donorId[k]), pixel, film);
-      }
+      if (!one.jacobian) one.shift = failure(entryReservoirRead(s.donorId[k]), pixel, film);
       // Select the donor whose integrand is the pixel's, up to rounding.
       const real off = length(s.neighbourAtCanonical[k].F - now.state.F);
       if (all.size() == 1 || off < nearest) {
@@ -204,16 +252,55 @@ struct Ctx {
 };
 }  // namespace of_entries
 
-Donors donorsOf(const restlab::FrameSnapshot& snapshot, const ReuseBuffers& buffers,
-                const PathReuseParams& params, uvec2 pixel) {
+// Binds a buffer. Kernels only read it, so a copy that nobody writes to may be bound.
+template <typename Ref>
+void bindCopy(const restlab::FrameSnapshot& snapshot, const std::string& name, Ref& ref) {
+  const std::span<const uint32_t> words = snapshot.words(name);
+  ref.data = words.empty()
+                 ? nullptr
+                 : reinterpret_cast<decltype(ref.data)>(const_cast<uint32_t*>(words.data()));
+}
+
+// A frame as its kernels had it.
+struct Frame {
+  explicit Frame(const restlab::FrameSnapshot& snapshot)
+      : scene(snapshot.scene->data()),
+        frame(*snapshot.frame),
+        rays(static_cast<RTCScene>(snapshot.scene->embreeScene())) {
+    if (snapshot.params.size() == sizeof params)
+      std::memcpy(&params, snapshot.params.data(), sizeof params);
+  }
+
+  SceneData scene;
+  const FrameData& frame;
+  RTCScene rays;
+  ReuseBuffers buffers{};
+  PathReuseParams params{};
   CpuKernelCounters counters;
-  const SceneData& scene = snapshot.scene->data();
-  const auto rays = static_cast<RTCScene>(snapshot.scene->embreeScene());
-  over_space::Ctx space{scene, *snapshot.frame, counters, rays, buffers, params};
-  over_time::Ctx time{scene, *snapshot.frame, counters, rays, buffers, params};
-  of_entries::Ctx entries{scene, *snapshot.frame, counters, rays, buffers, params};
+};
+
+Donors donorsOf(const restlab::FrameSnapshot& snapshot, size_t pixelIndex) {
+  if (snapshot.frame == nullptr || snapshot.scene == nullptr) return {};
+  Frame f(snapshot);
+  bindCopy(snapshot, "gbuffer", f.buffers.gbuffer);
+  bindCopy(snapshot, "proposals", f.buffers.proposals);
+  bindCopy(snapshot, "shading_points", f.buffers.shadingPoints);
+  bindCopy(snapshot, "changes", f.buffers.changes);
+  bindCopy(snapshot, "reservoirs", f.buffers.reservoirs);
+  bindCopy(snapshot, restlab::pairedShiftsName(0), f.buffers.pairedShifts0);
+  bindCopy(snapshot, restlab::pairedShiftsName(1), f.buffers.pairedShifts1);
+  bindCopy(snapshot, restlab::pairedShiftsName(2), f.buffers.pairedShifts2);
+  bindCopy(snapshot, restlab::pairedShiftsName(3), f.buffers.pairedShifts3);
+  bindCopy(snapshot, "entry_reservoirs", f.buffers.entryReservoirs);
+  const uvec2 pixel(pixelIndex % f.frame.width, pixelIndex / f.frame.width);
+  of_shifts::Ctx shifts{f.scene, f.frame, f.counters, f.rays, f.buffers, f.params};
+  over_space::Ctx space{f.scene, f.frame, f.counters, f.rays, f.buffers, f.params};
+  over_time::Ctx time{f.scene, f.frame, f.counters, f.rays, f.buffers, f.params};
+  of_entries::Ctx entries{f.scene, f.frame, f.counters, f.rays, f.buffers, f.params};
+  space.shifts_ = &shifts;
+  time.shifts_ = &shifts;
   Donors all = space.overSpace(pixel), ofEntries;
-  if (params.entries.count != 0u) ofEntries = entries.ofEntries(pixel);
+  if (f.params.entries.count != 0u) ofEntries = entries.ofEntries(pixel);
   double confidence = all.front().confidence;
   for (const restlab::Donor& one : ofEntries) confidence -= one.confidence;
   for (const restlab::Donor& one : time.donors(pixel, float(confidence), ofEntries.empty()))
@@ -222,40 +309,65 @@ Donors donorsOf(const restlab::FrameSnapshot& snapshot, const ReuseBuffers& buff
   return all;
 }
 
+std::string three(const vec3& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }
+
+// Describes x2 or the light.
+std::string endOf(of_shifts::Ctx& c, const PathSample& path) {
+  const uint light = c.pathLightKind(path);
+  const bool isLight = c.pathEndsAtLight(path);
+  if (isLight && light == RL_LIGHT_ENVIRONMENT) return "direction " + three(path.wi);
+  if (isLight && light != RL_LIGHT_TRIANGLE) return fmt::format("light {}", path.id.instance);
+#ifdef RL_DIRECT_ONLY
+  const std::string triangle = fmt::format("light {}", path.id.instance);
+#else
+  const std::string triangle =
+      fmt::format("instance {}, triangle {}", path.id.instance, path.id.primitive);
+#endif
+  return fmt::format("{}, at {:.6g} {:.6g}", triangle, path.id.bary.x, path.id.bary.y);
+}
+
+// Values of the pixel's reservoir after the frame.
+std::vector<restlab::ProbeValue> probe(const restlab::FrameSnapshot& snapshot, size_t pixel) {
+  if (snapshot.frame == nullptr || snapshot.scene == nullptr) return {};
+  Frame f(snapshot);
+  bindCopy(snapshot, "reservoir_history", f.buffers.history);
+  Uvec4Ref unresampled;
+  bindCopy(snapshot, "unresampled_radiance", unresampled);
+  of_shifts::Ctx c{f.scene, f.frame, f.counters, f.rays, f.buffers, f.params};
+  const PathReservoir r = c.reservoirReadPrevious(uint(pixel));
+  std::vector<restlab::ProbeValue> values = {
+      {"unresampled light", three(c.recordVec3(unresampled.data[pixel]))},
+      {"W", fmt::format("{:.6g}", r.state.W)},
+      {"F", three(r.state.F)},
+      {"residual", three(r.state.residual)}};
+  if (!(r.state.W > 0.0f)) {
+    values.push_back({"kind", "none: the reservoir is empty"});
+    return values;
+  }
+  values.push_back({"kind", restlab::nameOfPathKind(c.pathKind(r.path))});
+  values.push_back({"film", fmt::format("{:.4f} {:.4f}", double(r.path.film & 0xffffu) / 65536.0,
+                                        double(r.path.film >> 16) / 65536.0)});
+#ifdef RL_PATH_REPLAYS
+  values.push_back({"k", fmt::format("{}", r.path.base + 2u)});
+  values.push_back({"replayed", fmt::format("{}", r.path.base)});
+  if (c.pathKind(r.path) == RL_PATH_WHOLE_REPLAY) return values;
+#endif
+  values.push_back({"end", endOf(c, r.path)});
+#ifndef RL_DIRECT_ONLY
+  values.push_back({"radiance", three(r.path.radiance)});
+#endif
+  return values;
+}
+
 }  // namespace
 
 }  // namespace rl
 
 namespace restlab {
 
-namespace {
-
-// Binds a buffer. Kernels only read it, so a copy that nobody writes to may be bound.
-template <typename Ref>
-void bindCopy(const FrameSnapshot& snapshot, const std::string& name, Ref& ref) {
-  const std::span<const uint32_t> words = snapshot.words(name);
-  ref.data = words.empty()
-                 ? nullptr
-                 : reinterpret_cast<decltype(ref.data)>(const_cast<uint32_t*>(words.data()));
-}
-
-}  // namespace
-
-std::vector<Donor> giDonorsOf(const FrameSnapshot& snapshot, size_t pixel) {
-  if (snapshot.frame == nullptr || snapshot.scene == nullptr) return {};
-  rl::ReuseBuffers buffers{};
-  bindCopy(snapshot, "gbuffer", buffers.gbuffer);
-  bindCopy(snapshot, "proposals", buffers.proposals);
-  bindCopy(snapshot, "shading_points", buffers.shadingPoints);
-  bindCopy(snapshot, "changes", buffers.changes);
-  bindCopy(snapshot, "reservoirs", buffers.reservoirs);
-  bindCopy(snapshot, pairedShiftsName(0), buffers.pairedShifts0);
-  bindCopy(snapshot, pairedShiftsName(1), buffers.pairedShifts1);
-  bindCopy(snapshot, pairedShiftsName(2), buffers.pairedShifts2);
-  bindCopy(snapshot, pairedShiftsName(3), buffers.pairedShifts3);
-  bindCopy(snapshot, "entry_reservoirs", buffers.entryReservoirs);
-  const rl::uvec2 at(pixel % snapshot.frame->width, pixel / snapshot.frame->width);
-  return rl::donorsOf(snapshot, buffers, giParamsOf(snapshot), at);
+void RL_METHOD_SETS_PROBE(IntegratorInfo& info) {
+  info.probe = rl::probe;
+  info.donors = rl::donorsOf;
 }
 
 }  // namespace restlab
