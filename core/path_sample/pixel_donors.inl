@@ -1,4 +1,4 @@
-// What the probe says of a pixel of a method that resamples paths: its reservoir, and the merges of
+// The probe of a pixel, for methods that resample paths: its reservoir, and the merges of
 // the last frame, computed again on the host. Included by a source that rl_add_reuse_kernels makes
 // for each method, and which defines RL_METHOD_INITIAL, RL_METHOD_SPATIAL, RL_METHOD_SPATIAL_SHIFT
 // and RL_METHOD_CACHE_REUSE, the method's kernels, and RL_METHOD_SETS_PROBE, the function that is

@@ -51,7 +51,9 @@ std::string parametersName(const SessionConfig& config) {
 }
 
 std::string sceneName(const Question& question) {
-  return question.name.empty() ? question.prepared.scene->source().name : question.name;
+  const std::string name =
+      question.name.empty() ? question.prepared.scene->source().name : question.name;
+  return question.change.empty() ? name : name + ", " + question.change;
 }
 
 std::string nameOf(const Question& question) {
@@ -68,8 +70,11 @@ void nameIt(const Question& question, Certified& c) {
   c.name = nameOf(question);
   c.label = labelOf(question);
   const Method method = findMethod(config);
-  c.declared =
-      method.bias(config.mode, resolveParameters(method, config.parameters), /*cameraMoves=*/false);
+  const ParameterMap parameters = resolveParameters(method, config.parameters);
+  // A history remembers the light that was.
+  const bool remembers = !question.lights.empty() && method.hasHistory(parameters);
+  c.declared = remembers ? BiasClass::biased
+                         : method.bias(config.mode, parameters, question.motion.has_value());
 }
 
 Evidence evidenceOf(const RunFolder& folder, const Question& question, Batch batch,
@@ -169,8 +174,9 @@ void addNotes(Certified& c, const DenoiserInfo* denoiser) {
     c.notes.push_back("the reference says nothing of its own error and is taken as exact");
 }
 
-// Returns the command that renders the last frame of one of these runs.
+// Returns the command that renders the last frame of one of these runs; "" if `render` cannot.
 std::string replayOf(const Question& question, uint32_t seed) {
+  if (question.changes()) return "";
   std::vector<std::string> words = renderWords(question.request, question.config, question.config);
   for (const std::string& word :
        {std::string("--seed"), std::to_string(seed), std::string("--frame"),
@@ -257,7 +263,11 @@ Certified certify(const Question& question, const Options& options) {
       question.frames == 1
           ? fmt::format("frame {}", question.warmup + 1)
           : fmt::format("frames {} to {}", question.warmup + 1, question.warmup + question.frames),
-      question.exact ? "is in closed form" : fmt::format("has {} spp", c.reference.spp));
+      question.exact
+          ? "is in closed form"
+          : fmt::format(
+                "has {} spp{}", c.reference.spp,
+                countedViews(question).size() == 1 ? "" : " over the views of these frames"));
   c.replay = replayOf(question, folder.seedOf(Batch::first, 0));
   addNotes(c, findMethod(question.config).denoiser);
   return c;

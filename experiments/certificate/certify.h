@@ -42,7 +42,7 @@ struct Certified {
   std::string label;  // name as part of a file name
   // Parts of the name; all empty for images of other programs.
   std::string scene, method, denoiser;
-  std::optional<BiasClass> declared;  // bias class for a still view, as declared by the method
+  std::optional<BiasClass> declared;  // bias class as the method declares it for this view
   std::string how;  // what a run is and where the reference comes from, one sentence each
   Certificate certificate;
   Reference reference;

@@ -52,16 +52,56 @@ double secondsOfRun(const Question& question) {
   for (uint32_t i = 0; i < kPlanFrames; ++i) {
     throwIfInterrupted("nothing was written");
     const auto start = std::chrono::steady_clock::now();
+    enterFrame(question, i, session);
     session.frame();
     seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
   return seconds * double(question.warmup + question.frames);
 }
 
+// Adds `weight` times an image to another.
+void addScaled(const Image& image, float weight, Image& sum) {
+  for (size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i] += weight * image.pixels[i];
+}
+
+// Obtains the reference of the mean of the counted frames: of each view, with its share of the
+// samples.
+Reference referenceOfFrames(const Question& question, const ReferenceTarget& target,
+                            const std::filesystem::path& folder, const std::string& label) {
+  ReferenceConfig config = referenceConfigOf(question.config);
+  const std::vector<CountedView> views = countedViews(question);
+  if (views.size() == 1) {
+    config.camera = views[0].camera;
+    return obtainReference(*views[0].prepared, config, target, folder, label);
+  }
+  Reference all;
+  for (const CountedView& view : views) {
+    const double share = double(view.frames) / double(question.frames);
+    ReferenceTarget part = target;
+    part.spp = std::max(uint64_t(2), uint64_t(std::ceil(share * double(target.spp))));
+    part.timeLimitS = share * target.timeLimitS;
+    config.camera = view.camera;
+    const Reference one = obtainReference(*view.prepared, config, part, folder,
+                                          fmt::format("{}-frame{}", label, view.firstFrame + 1));
+    const bool isFirst = all.spp == 0;
+    if (isFirst) all.mean = Image(one.mean.width, one.mean.height);
+    if (isFirst) all.half0 = all.half1 = all.mean;
+    addScaled(one.mean, float(share), all.mean);
+    addScaled(one.half0.value(), float(share), *all.half0);
+    addScaled(one.half1.value(), float(share), *all.half1);
+    all.spp += one.spp;
+    all.timeS += one.timeS;
+    if (isFirst || !whyNotConverged(one).empty()) all.metadata = one.metadata;
+  }
+  return all;
+}
+
 std::string referencePlan(const Question& question, const Options& options) {
   if (question.exact) return "in closed form";
-  const Reference guess =
-      renderReference(question.prepared, referenceConfigOf(question.config), {.spp = kPlanSpp});
+  const CountedView view = countedViews(question).front();
+  ReferenceConfig config = referenceConfigOf(question.config);
+  config.camera = view.camera;
+  const Reference guess = renderReference(*view.prepared, config, {.spp = kPlanSpp});
   const stats::BlockGrid grid(question.config.width, question.config.height);
   const double error = relativeError(truthOf(guess, grid));
   const double spp = std::max(sppForError(error, double(guess.spp), wantedReferenceError(options)),
@@ -101,15 +141,13 @@ std::string searchText(double error, uint64_t spp, double timeS, const Options& 
 
 Reference convergedReference(const Question& question, const std::string& label,
                              const Options& options) {
-  const ReferenceConfig config = referenceConfigOf(question.config);
   const double wanted = wantedReferenceError(options);
   ReferenceTarget target;
   const stats::BlockGrid grid(question.config.width, question.config.height);
   target.timeLimitS = kShareOfReference * options.limit.seconds;
   target.spp = std::min(kFirstReferenceSpp, options.maxReferenceSpp);
   for (;; target.spp = std::min(2 * target.spp, options.maxReferenceSpp)) {
-    Reference reference =
-        obtainReference(question.prepared, config, target, options.out / "references", label);
+    Reference reference = referenceOfFrames(question, target, options.out / "references", label);
     const double error = relativeError(truthOf(reference, grid));
     if (const std::string why = whyNotConverged(reference); !why.empty() && error <= wanted)
       logWarning("the reference may lack light that no run can then be held against: " + why);

@@ -39,6 +39,13 @@ std::map<std::string, std::string> wordsOf(const Question& question) {
   words["spp"] = std::to_string(question.frames);
   words["first_seed"] = std::to_string(question.config.seed);
   words["source_hash"] = buildInfo().sourceHash;
+  if (!question.change.empty()) words["change"] = question.change;
+  if (question.motion) {
+    std::string cameras;
+    for (uint32_t frame = 0; frame < question.warmup + question.frames; ++frame)
+      cameras += cameraWords(cameraAt(*question.motion, frame)) + "\n";
+    words["cameras"] = hexHash(XXH3_64bits(cameras.data(), cameras.size()));
+  }
   return words;
 }
 
@@ -85,6 +92,7 @@ void RunFolder::render(Session& session, Batch batch, uint64_t run) {
   ImageSum sum;
   for (uint32_t frame = 0; frame < question_.warmup + question_.frames; ++frame) {
     throwIfInterrupted(kKept);
+    enterFrame(question_, frame, session);
     health.add(session.frame());
     if (frame >= question_.warmup) sum.add(session.radiance());
   }

@@ -7,24 +7,10 @@
 #include <optional>
 #include <string>
 
+#include "experiments/certificate/question.h"
 #include "experiments/runner/base/health_sum.h"
-#include "experiments/runner/reference/reference.h"
-#include "experiments/runner/suite/prepare.h"
 
 namespace restlab::certificate {
-
-// Subject of a certificate. A run has its own history and is the mean of the frames warmup ..
-// warmup + frames - 1. Every frame of an unbiased method has the right mean, so the mean of frames
-// is as good an observation as a single one, and less noisy. Consecutive frames are correlated and
-// are no separate observations (docs/laboratory.md).
-struct Question {
-  SceneRequest request;  // that `prepared` was made from
-  PreparedScene prepared;
-  SessionConfig config;  // complete; its seed is the base of all seeds
-  uint32_t warmup = 0, frames = 1;
-  std::string name;                // of the scene, in tables and file names; "": its own name
-  std::optional<Reference> exact;  // if the image is known without rendering
-};
 
 class RunFolder {
  public:

@@ -6,10 +6,14 @@
 #include <cstdio>
 #include <fstream>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 
+#include "core/base/config.h"
+#include "core/base/error.h"
 #include "core/frame/method.h"
+#include "core/scene/camera_path/camera_path.h"
 #include "core/scene/scene.h"
 #include "experiments/certificate/certify.h"
 #include "experiments/certificate/outputs.h"
@@ -36,11 +40,20 @@ using certificate::Question;
 // Small images decide sooner: the number of runs matters, and each run has every pixel.
 constexpr uint32_t kDefaultWidth = 96;
 constexpr uint32_t kDefaultWarmup = 8, kDefaultFrames = 16;
+// Settings of a kind of --camera-path that are not given.
+const std::map<std::string, std::map<std::string, std::string>> kPathDefaults = {
+    {"still", {}},
+    {"orbit", {{"degrees_per_frame", "-0.25"}}},
+    {"pan", {{"degrees_per_frame", "1.0"}}},
+    {"dolly", {{"metres_per_frame", "0.02"}}},
+    {"cut", {{"degrees", "-10.0"}, {"frame", "8"}}},
+    {"back", {{"frame", "8"}}},
+};
 
 struct BiasOptions {
   SceneOptions scene;
   MethodOptions method;
-  std::string images, reference, out;
+  std::string images, reference, out, cameraPath;
   uint64_t runs = 0, maxRuns = certificate::Options().maxRuns;
   uint64_t maxReferenceSpp = certificate::Options().maxReferenceSpp;
   certificate::TimeLimit limit;
@@ -72,6 +85,44 @@ certificate::Options certificateOptions(const BiasOptions& options, const std::s
   return result;
 }
 
+// Reads KIND or KIND,KEY=VALUE,... as the table that a suite would have.
+CameraPath cameraPathOf(const std::string& text) {
+  const std::string place = "--camera-path " + text;
+  std::vector<std::string> parts(1);
+  int depth = 0;
+  for (const char c : text) {
+    depth += c == '[' ? 1 : c == ']' ? -1 : 0;
+    if (c == ',' && depth == 0) {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  const auto defaults = kPathDefaults.find(parts[0]);
+  if (defaults == kPathDefaults.end()) {
+    std::vector<std::string> kinds;
+    for (const auto& [kind, keys] : kPathDefaults) kinds.push_back(kind);
+    failUsage(
+        fmt::format("--camera-path: there is no kind '{}'{}; known: {}; keyframes need a suite",
+                    parts[0], didYouMean(parts[0], kinds), fmt::join(kinds, ", ")));
+  }
+  std::map<std::string, std::string> values = defaults->second;
+  for (size_t i = 1; i < parts.size(); ++i) {
+    const size_t equals = parts[i].find('=');
+    if (equals == std::string::npos || equals == 0)
+      failUsage(fmt::format("{}: '{}' is not KEY=VALUE", place, parts[i]));
+    values[parts[i].substr(0, equals)] = parts[i].substr(equals + 1);
+  }
+  if (values.contains("camera")) values.erase("degrees");
+  std::string toml = fmt::format("kind = \"{}\"\n", parts[0]);
+  for (const auto& [key, value] : values) toml += fmt::format("{} = {}\n", key, value);
+  const ConfigTable table = ConfigTable::parseText(toml, place);
+  CameraPath path = parseCameraPath(table);
+  table.finish();
+  path.place = place;
+  return path;
+}
+
 Question questionOf(BiasOptions options) {
   resolveResolution(options.scene);
   const SessionConfig given = makeConfig(options.scene, options.method);
@@ -85,8 +136,14 @@ Question questionOf(BiasOptions options) {
   completeConfig(question.prepared, question.config);
   const Method method = findMethod(question.config);
   const bool hasHistory = method.hasHistory(question.config.parameters);
-  question.warmup = hasHistory || options.warmupGiven ? options.warmup : 0;
   question.frames = options.frames;
+  question.warmup = hasHistory || options.warmupGiven ? options.warmup : 0;
+  if (options.cameraPath.empty()) return question;
+  const CameraPath path = cameraPathOf(options.cameraPath);
+  if (path.kind == CameraPathKind::still) return question;
+  question.warmup = options.warmup;
+  question.change = options.cameraPath;
+  question.motion = motionOf(path, question.warmup + question.frames, question.prepared);
   return question;
 }
 
@@ -94,10 +151,11 @@ Question questionOf(BiasOptions options) {
 void checkTruths(const Suite& whole) {
   for (const SuiteScene& scene : whole.scenes) {
     const Suite suite = ofScene(whole, scene);
-    if (suite.hasMovingCamera() || !suite.events.empty()) {
-      failUsage(fmt::format(
-          "{}: scene {} moves its camera or its lights; certificates are of still views",
-          whole.file, scene.name));
+    if (scene.truth != Truth::rendered && (suite.hasMovingCamera() || suite.lightChanges())) {
+      failUsage(
+          fmt::format("{}: the truth of {} is of its own camera and lights; leave 'truth' out "
+                      "where they change",
+                      whole.file, scene.name));
     }
     if (!scene.reference.empty()) {
       failUsage(fmt::format(
@@ -151,8 +209,8 @@ void sayWhatIsLeftOut(const Suite& suite) {
   }
 }
 
-// Passes every method of the suite on every scene, with a still camera, to `take`. Calls
-// `sceneIsDone` after the methods of a scene and component.
+// Passes every method of the suite on every scene to `take`. Calls `sceneIsDone` after the methods
+// of a scene and component.
 void forEachQuestion(const Suite& whole, const BiasOptions& options,
                      const std::function<void(const Question&)>& take,
                      const std::function<void()>& sceneIsDone) {
@@ -169,6 +227,11 @@ void forEachQuestion(const Suite& whole, const BiasOptions& options,
     question.request = scene.request;
     question.prepared = prepareScene(question.request);
     printWarnings(question.prepared);
+    question.motion = motionOf(suite, scene, question.prepared);
+    question.lights = lightPhases(suite, question.prepared);
+    question.change = question.motion ? suite.cameraPathName : "";
+    const std::string events = eventsText(suite.events, suite.warmupFrames);
+    if (!events.empty()) question.change += (question.change.empty() ? "" : ", ") + events;
     uint32_t width = 0, height = 0;
     sceneResolution(suite, scene, question.prepared, width, height);
     for (const uint32_t component : suite.components) {
@@ -180,9 +243,9 @@ void forEachQuestion(const Suite& whole, const BiasOptions& options,
         question.config.threads = suite.threads;
         question.config.seed = suite.seed;
         const bool hasHistory = findMethod(question.config).hasHistory(question.config.parameters);
-        question.warmup = options.warmupGiven ? options.warmup
-                          : hasHistory        ? suite.warmupFrames
-                                              : 0;
+        question.warmup = options.warmupGiven                ? options.warmup
+                          : hasHistory || question.changes() ? suite.warmupFrames
+                                                             : 0;
         question.frames = options.framesGiven ? options.frames : suite.timedFrames;
         take(question);
         isAny = true;
@@ -366,6 +429,10 @@ Action addBiasVerb(CLI::App& app) {
       ->transform(wholeNumberFrom(0, 1u << 20));
   verb->add_option("--frames", options->frames, "frames whose mean is a run (default 16)")
       ->transform(wholeNumberFrom(1, 1u << 20));
+  verb->add_option(
+      "--camera-path", options->cameraPath,
+      "KIND[,KEY=VALUE...]: the camera moves as by a [[camera_path]] of a suite: orbit, "
+      "pan, dolly, cut, back (default: still)");
   verb->add_option("-j,--jobs", options->jobs, "runs side by side (default: one a core)")
       ->transform(wholeNumberFrom(1, 1024));
   verb->add_option("--images", options->images,

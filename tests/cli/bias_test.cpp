@@ -305,6 +305,46 @@ integrator = "path"
   expectError(run("bias file.toml --runs 32 -o none"), 2, {"file.toml:15:13", "--ref"});
 }
 
+// The truth of a camera that moves is that of the counted frames, and of switched lamps as well.
+TEST_F(BiasTest, TheTruthMovesWithTheCamera) {
+  const std::string small =
+      "bias quad-light --resolution 16x16 --max-bounces 1 --runs 192 -o out -q ";
+  const auto verdictOf = [&](const std::string& more) {
+    const ProgramResult result = run(small + more + " --json");
+    const Json document = Json::parse(result.out, nullptr, false);
+    return document.is_object() ? document.at("verdict").get<std::string>() : result.err;
+  };
+  // Fast enough that the views of the counted frames differ by more than the margin.
+  const std::string orbit =
+      "--camera-path orbit,degrees_per_frame=3 --frames 4 --warmup 2 --margin 2";
+  EXPECT_EQ(verdictOf(orbit), "equivalent");
+  const Json document = Json::parse(read("out/certificates.json")).at("certificates").at(0);
+  EXPECT_NE(document.at("name").get<std::string>().find("orbit"), std::string::npos);
+  EXPECT_NE(document.at("how").get<std::string>().find("over the views"), std::string::npos);
+  EXPECT_EQ(entries("out/references").size(), 4u);
+  // After a cut the view stands still: one reference.
+  EXPECT_EQ(verdictOf("--camera-path cut,frame=2 --frames 4 --warmup 2 --margin 2"), "equivalent");
+  EXPECT_EQ(entries("out/references").size(), 5u);
+  // A history that goes on through a switch of the lamp is declared biased, and is.
+  write("switched.toml",
+        "name = \"switched\"\n[settings]\nwidth = 16\nheight = 16\nmax_bounces = 1\n"
+        "warmup_frames = 4\nframes = 1\n[[scene]]\nscene = \"quad-light\"\n"
+        "[[method]]\nname = \"path\"\nintegrator = \"path\"\n"
+        "[[method]]\nname = \"average\"\nintegrator = \"path\"\ndenoiser = \"accumulate\"\n"
+        "[[event]]\nframe = 4\nlight = \"all\"\nfactor = 0.5\n");
+  const ProgramResult result = run("bias switched.toml --runs 192 --margin 4 --json -q -o two");
+  const Json both = Json::parse(result.out, nullptr, false);
+  ASSERT_TRUE(both.is_array()) << result.err;
+  EXPECT_EQ(both.at(0).at("verdict"), "equivalent") << both.at(0).at("reason");
+  EXPECT_EQ(both.at(1).at("verdict"), "biased") << both.at(1).at("reason");
+  EXPECT_EQ(both.at(1).at("declared"), "biased");
+
+  expectError(run("bias quad-light --camera-path orbti"), 2, {"--camera-path", "orbit"});
+  expectError(run("bias quad-light --camera-path orbit,degrees_per_frame"), 2, {"KEY=VALUE"});
+  expectError(run("bias quad-light --camera-path orbit,degrees=3"), 2,
+              {"--camera-path", "degrees"});
+}
+
 // A failed command leaves no folder; each method has its own.
 TEST_F(BiasTest, EachMethodHasAFolder) {
   expectError(run("bias no-such-scene"), 3, {"no-such-scene"});

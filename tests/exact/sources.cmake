@@ -4,5 +4,6 @@ set(RL_EXACT_TESTS
   exact/every_combination_double_test.cpp
   exact/every_combination_float_test.cpp
   exact/mis_values_test.cpp
+  exact/replay_test.cpp
   exact/shift_test.cpp
 )

@@ -1,10 +1,11 @@
 // Small discrete world for the shipped resampling code. Included by one translation unit per
 // meaning of `real`; everything is in an unnamed namespace, since the types differ between units.
 //
-// Samples are labels 0..3, shared by all shading points like points on lights: a shift keeps the
-// label. At a shading point a label has a measure (the size of its part of the domain; the
-// integral is sum measure f V), which makes the shift's Jacobian measure_to / measure_from. A shift
-// may be undefined for a label, by a predicate symmetric in the two shading points.
+// Samples are labels 0..3 (or EXACT_LABELS of them), shared by all shading points like points on
+// lights: a shift keeps the label. At a shading point a label has a measure (the size of its part
+// of the domain; the integral is sum measure f V), which makes the shift's Jacobian measure_to /
+// measure_from. A shift may be undefined for a label, by a predicate symmetric in the two shading
+// points.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +27,10 @@ namespace {
 
 using restlab::exact::Decisions;
 
-constexpr uint kLabels = 4;
+#ifndef EXACT_LABELS
+#define EXACT_LABELS 4
+#endif
+constexpr uint kLabels = EXACT_LABELS;
 constexpr uint kAnchors = 5;
 
 struct WorldAnchor {
@@ -181,15 +185,15 @@ dvec3 meanOfEstimate(const std::vector<Outcome>& outcomes) {
   return sum;
 }
 
-dvec3 meanOfResidual(const std::vector<Outcome>& outcomes) {
+[[maybe_unused]] dvec3 meanOfResidual(const std::vector<Outcome>& outcomes) {
   dvec3 sum(0.0);
   for (const Outcome& o : outcomes) sum += o.probability * dvec3(o.reservoir.state.residual);
   return sum;
 }
 
 // Returns all outcomes of initial resampling of `count` independent candidates at a shading point.
-std::vector<Outcome> initialOutcomes(const World& world, uint shadingPoint, uint count,
-                                     real confidence) {
+[[maybe_unused]] std::vector<Outcome> initialOutcomes(const World& world, uint shadingPoint,
+                                                      uint count, real confidence) {
   Outcomes outcomes;
   Kernel kernel;
   kernel.world = &world;
@@ -293,7 +297,7 @@ std::vector<Outcome> mergeOutcomes(const World& world, const Source& canonical,
 // Makes a random world. `partial` sets some visibilities and integrands to zero and leaves some
 // shifts undefined; the candidates of every shading point cover its integrand's support and may
 // draw zeros, too.
-World randomWorld(uint seed, bool partial) {
+[[maybe_unused]] World randomWorld(uint seed, bool partial) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform(0.1, 1.0);
   const auto chance = [&](double p) { return partial && uniform(random) < 0.1 + 0.9 * p; };

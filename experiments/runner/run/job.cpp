@@ -42,18 +42,6 @@ std::string hashOfFile(const fs::path& file) {
 
 std::string imageName(size_t method) { return fmt::format("method{}.exr", method); }
 
-// Writes every bit of a view.
-std::string cameraWords(const SceneCamera& camera) {
-  std::string words =
-      fmt::format("{} {:a} {:a} {:a}", camera.kind, camera.yfov, camera.xmag, camera.ymag);
-  for (int column = 0; column < 4; ++column) {
-    for (int row = 0; row < 4; ++row)
-      words += fmt::format(" {:a}", camera.cameraToWorld[column][row]);
-  }
-  if (camera.isMirrored) words += " mirrored";
-  return words;
-}
-
 Json readRecord(const fs::path& folder, const std::string& key) {
   std::ifstream in(folder / "job.json", std::ios::binary);
   if (!in) failInput("has no job.json");

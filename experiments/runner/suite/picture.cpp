@@ -18,10 +18,13 @@ std::optional<CameraMotion> motionOf(const Suite& suite, const SuiteScene& scene
     path.degreesPerFrame = -path.degreesPerFrame;
     path.cutDegrees = -path.cutDegrees;
   }
+  return motionOf(path, suite.warmupFrames + suite.timedFrames, prepared);
+}
+
+CameraMotion motionOf(const CameraPath& path, uint32_t frames, const PreparedScene& prepared) {
   CameraMotion motion = resolveCameraPath(path, prepared.scene->source(), prepared.camera);
   // Compute every frame's camera to detect a path through its target before rendering.
-  for (uint32_t frame = 0; frame < suite.warmupFrames + suite.timedFrames; ++frame)
-    cameraAt(motion, frame);
+  for (uint32_t frame = 0; frame < frames; ++frame) cameraAt(motion, frame);
   return motion;
 }
 

@@ -20,5 +20,7 @@ SessionConfig pictureOf(const Suite& suite, uint32_t width, uint32_t height, uin
 // scene's. Throws Error (badUsage) at the place of the mistake.
 std::optional<CameraMotion> motionOf(const Suite& suite, const SuiteScene& scene,
                                      const PreparedScene& prepared);
+// Resolves a path over that many frames.
+CameraMotion motionOf(const CameraPath& path, uint32_t frames, const PreparedScene& prepared);
 
 }  // namespace restlab

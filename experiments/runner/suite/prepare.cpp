@@ -223,4 +223,15 @@ void describeCamera(const SceneCamera& camera, std::map<std::string, std::string
   words["camera_yfov"] = fmt::format("{:.9g}", camera.yfov);
 }
 
+std::string cameraWords(const SceneCamera& camera) {
+  std::string words =
+      fmt::format("{} {:a} {:a} {:a}", camera.kind, camera.yfov, camera.xmag, camera.ymag);
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 4; ++row)
+      words += fmt::format(" {:a}", camera.cameraToWorld[column][row]);
+  }
+  if (camera.isMirrored) words += " mirrored";
+  return words;
+}
+
 }  // namespace restlab

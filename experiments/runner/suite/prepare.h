@@ -70,4 +70,7 @@ std::map<std::string, std::string> describe(const PreparedScene& prepared,
 // Replaces the camera in `words` by one that the scene does not have: `camera_index` is "none".
 void describeCamera(const SceneCamera& camera, std::map<std::string, std::string>& words);
 
+// Returns every bit of a view as text.
+std::string cameraWords(const SceneCamera& camera);
+
 }  // namespace restlab
