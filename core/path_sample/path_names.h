@@ -16,14 +16,14 @@ inline const char* nameOfFailedShift(uint32_t failed) {
   return names.at(failed);
 }
 
-// kind: RL_PATH_*.
+// kind: RL_PATH_*, of the vertex that reconnects.
 inline const char* nameOfPathKind(uint32_t kind) {
-  static constexpr std::array<const char*, 7> names = {"light at x1",
-                                                       "Lambert x2",
-                                                       "glossy x2, light sample",
-                                                       "glossy x2, emitter behind it",
-                                                       "glossy x2, continued",
-                                                       "light sample of a smooth x1",
+  static constexpr std::array<const char*, 7> names = {"light",
+                                                       "Lambert vertex",
+                                                       "glossy vertex, light sample",
+                                                       "glossy vertex, emitter behind it",
+                                                       "glossy vertex, continued",
+                                                       "light sample of a smooth vertex",
                                                        "replayed as a whole"};
   return names.at(kind);
 }

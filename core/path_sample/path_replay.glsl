@@ -27,6 +27,7 @@ RL_FN void pathReplayFinds(RL_INOUT(PathReplay) q, RL_IN(Walk) walk, RL_IN(vec3)
 }
 RL_FN void onMiss(RL_INOUT(PathReplay) q, RL_IN(Walk) walk, RL_IN(vec3) radiance, float pdfLight) {
   pathReplayFinds(q, walk, radiance, pdfLight);
+  if (walk.bounces == 0u) q.failed = RL_FAILED_BACKGROUND;
 }
 RL_FN void onEmission(RL_INOUT(PathReplay) q, RL_IN(Walk) walk, RL_IN(Surface) s, RL_IN(Hit) hit,
                       float pdfLight) {

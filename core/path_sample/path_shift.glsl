@@ -78,6 +78,7 @@ RL_FN void pathShiftReplay(RL_INOUT(PathShift) s, RL_IN(PathSample) path) {
   if (q.failed != RL_FAILED_NOT) return;
   if (q.kind == RL_PATH_WHOLE_REPLAY) {
     s.shifted.F = q.radiance;
+    if (!(reuseTarget(q.radiance) > 0.0f)) s.failed = RL_FAILED_DARK;
     return;
   }
   LightSample end = pathEnd(path);

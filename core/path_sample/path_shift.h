@@ -14,13 +14,13 @@ const uint RL_SHIFT_DONE = 0u;
 const uint RL_SHIFT_NEEDS_X1 = 1u;       // camera ray through the film sample
 const uint RL_SHIFT_NEEDS_SEGMENT = 2u;  // from x1 to x2 or the light
 
-// Why a shift has no result. The first test that fails names it.
+// Why a shift has no result.
 const uint RL_FAILED_NOT = 0u;
 const uint RL_FAILED_EMPTY = 1u;       // the reservoir holds no sample
 const uint RL_FAILED_ABSORBED = 2u;    // the camera is inside a body that absorbs
 const uint RL_FAILED_BACKGROUND = 3u;  // the film sample shows no surface
 const uint RL_FAILED_SMOOTH = 4u;      // x1 is smooth
-const uint RL_FAILED_REPLAY = 5u;      // the replay found no vertex of the kind that reconnects
+const uint RL_FAILED_REPLAY = 5u;      // the replay came to no vertex of the kind that the path has
 const uint RL_FAILED_CONNECTS = 6u;    // an earlier pair of vertices connects: there is no inverse
 const uint RL_FAILED_PAIR = 7u;        // the pair that reconnects is not connectable here
 const uint RL_FAILED_ENTRY = 8u;       // entries hold no path of this kind

@@ -1,10 +1,10 @@
 // The probe of a pixel, for methods that resample paths: its reservoir, and the merges of
-// the last frame, computed again on the host. Included by a source that rl_add_reuse_kernels makes
+// the last frame, computed again on the host. Included by a source that rl_add_path_probe makes
 // for each method, and which defines RL_METHOD_INITIAL, RL_METHOD_SPATIAL, RL_METHOD_SPATIAL_SHIFT
 // and RL_METHOD_CACHE_REUSE, the method's kernels, and RL_METHOD_SETS_PROBE, the function that is
 // declared in its <name>.cpp.
 //
-// Donors are the pixel's own sample, then those over space and time, then entries. The frame has
+// Donors are the canonical sample, then those over space and time, then entries. The frame has
 // overwritten the reservoir of the donor over time: the initial candidate is traced again, and what
 // its resampling weight leaves of wSum is the donor's.
 #include <fmt/format.h>

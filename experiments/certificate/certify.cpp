@@ -72,7 +72,7 @@ void nameIt(const Question& question, Certified& c) {
   const Method method = findMethod(config);
   const ParameterMap parameters = resolveParameters(method, config.parameters);
   // A history remembers the light that was.
-  const bool remembers = !question.lights.empty() && method.hasHistory(parameters);
+  const bool remembers = lightChanges(question) && method.hasHistory(parameters);
   c.declared = remembers ? BiasClass::biased
                          : method.bias(config.mode, parameters, question.motion.has_value());
 }
@@ -318,6 +318,7 @@ Certified certifyImages(const std::vector<std::string>& files, const std::string
   const stats::BlockGrid grid(mean.width, mean.height);
   c.name = fmt::format("images against {}", std::filesystem::path(reference).filename().string());
   c.label = "images";
+  c.isOfImages = true;
   c.referenceError = relativeError(truthOf(c.reference, grid));
   // Test cells with one half of the images, confirm with the other; the mean uses all.
   c.certificate = judge(

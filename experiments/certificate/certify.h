@@ -50,10 +50,11 @@ struct Certified {
   HealthSum health;                // over all frames of the runs; empty for images of other
                                    // programs
   std::vector<std::string> notes;  // limits of the verdict
-  std::string replay;              // command that prints a pixel of the first run, without the
-                                   // pixel
-  double referenceError = 0.0;     // relative standard error of its mean, the largest over
-                                   // quantities
+  bool isOfImages = false;         // of another program: nothing was rendered
+  // Command that prints a pixel of the first run, without the pixel; "" if `render` cannot.
+  std::string replay;
+  double referenceError = 0.0;  // relative standard error of its mean, the largest over
+                                // quantities
 };
 
 // Explains why only `allowed` of `wanted` runs are rendered: --time-limit leaves `leftS` seconds,

@@ -1,5 +1,7 @@
 #include "experiments/certificate/question.h"
 
+#include <algorithm>
+
 namespace restlab::certificate {
 
 std::vector<CountedView> countedViews(const Question& question) {
@@ -14,6 +16,12 @@ std::vector<CountedView> countedViews(const Question& question) {
     ++views.back().frames;
   }
   return views;
+}
+
+bool lightChanges(const Question& question) {
+  return std::any_of(question.lights.begin(), question.lights.end(), [&](const LightPhase& phase) {
+    return phase.firstFrame > 0 && phase.firstFrame < question.warmup + question.frames;
+  });
 }
 
 void enterFrame(const Question& question, uint32_t frame, Session& session) {

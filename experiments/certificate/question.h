@@ -44,6 +44,9 @@ struct CountedView {
 // same view and light share one.
 std::vector<CountedView> countedViews(const Question& question);
 
+// Returns whether a light is switched between the first frame and the last counted one.
+bool lightChanges(const Question& question);
+
 // Sets view and light of a frame.
 void enterFrame(const Question& question, uint32_t frame, Session& session);
 

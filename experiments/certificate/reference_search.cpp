@@ -19,6 +19,8 @@ namespace {
 // of that error would need four times the samples.
 constexpr double kReferenceShare = 0.2;
 constexpr uint64_t kFirstReferenceSpp = 2048;
+constexpr size_t kLongestLabel = 120;          // file names are limited to 255 bytes
+constexpr uint32_t kSeedsOfViews = 1'000'003;  // distance of their seeds
 // Samples and frames from which --plan estimates costs.
 constexpr uint64_t kPlanSpp = 64;
 constexpr uint32_t kPlanFrames = 4;
@@ -81,8 +83,11 @@ Reference referenceOfFrames(const Question& question, const ReferenceTarget& tar
     part.spp = std::max(uint64_t(2), uint64_t(std::ceil(share * double(target.spp))));
     part.timeLimitS = share * target.timeLimitS;
     config.camera = view.camera;
-    const Reference one = obtainReference(*view.prepared, config, part, folder,
-                                          fmt::format("{}-frame{}", label, view.firstFrame + 1));
+    // Errors of views that resemble each other must not.
+    config.seed = question.config.seed + kSeedsOfViews * (view.firstFrame + 1);
+    const Reference one = obtainReference(
+        *view.prepared, config, part, folder,
+        fmt::format("{}-frame{}", label.substr(0, kLongestLabel), view.firstFrame + 1));
     const bool isFirst = all.spp == 0;
     if (isFirst) all.mean = Image(one.mean.width, one.mean.height);
     if (isFirst) all.half0 = all.half1 = all.mean;

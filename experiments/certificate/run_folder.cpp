@@ -40,11 +40,18 @@ std::map<std::string, std::string> wordsOf(const Question& question) {
   words["first_seed"] = std::to_string(question.config.seed);
   words["source_hash"] = buildInfo().sourceHash;
   if (!question.change.empty()) words["change"] = question.change;
+  std::string lights;
+  for (const LightPhase& phase : question.lights)
+    lights +=
+        fmt::format("{} from frame {}\n", hexHash(phase.prepared.contentHash), phase.firstFrame);
+  if (!lights.empty())
+    words["lights_by_frame"] = hexHash(XXH3_64bits(lights.data(), lights.size()));
   if (question.motion) {
     std::string cameras;
     for (uint32_t frame = 0; frame < question.warmup + question.frames; ++frame)
       cameras += cameraWords(cameraAt(*question.motion, frame)) + "\n";
     words["cameras"] = hexHash(XXH3_64bits(cameras.data(), cameras.size()));
+    describeCamera(cameraAt(*question.motion, question.warmup), words);
   }
   return words;
 }

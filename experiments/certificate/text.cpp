@@ -161,8 +161,7 @@ std::string healthText(const Certified& certified) {
   const Certificate& c = certified.certificate;
   const std::string text = fmt::format("not finite: {} of the images, {} of samples",
                                        counted(c.cells.nonfinite, "value"), c.nonfiniteSamples);
-  return certified.replay.empty() ? text
-                                  : fmt::format("{}; health: {}", text, certified.health.text());
+  return certified.isOfImages ? text : fmt::format("{}; health: {}", text, certified.health.text());
 }
 
 // Names an option only for rendered runs: for `--images` the user has to supply more images.
@@ -170,7 +169,7 @@ std::string moreRunsText(const Certified& certified) {
   constexpr uint64_t kMostRuns = 1'000'000;  // limit of --runs
   const Certificate& c = certified.certificate;
   if (!c.moreRuns) return "";
-  if (certified.replay.empty())
+  if (certified.isOfImages)
     return fmt::format("  by the spread of these, about {} would decide\n",
                        counted(*c.moreRuns, "more image"));
   const uint64_t all = c.runs + *c.moreRuns;

@@ -106,17 +106,18 @@ CameraPath cameraPathOf(const std::string& text) {
         fmt::format("--camera-path: there is no kind '{}'{}; known: {}; keyframes need a suite",
                     parts[0], didYouMean(parts[0], kinds), fmt::join(kinds, ", ")));
   }
+  ConfigTable table = ConfigTable::parseText(fmt::format("kind = \"{}\"\n", parts[0]), place);
   std::map<std::string, std::string> values = defaults->second;
   for (size_t i = 1; i < parts.size(); ++i) {
     const size_t equals = parts[i].find('=');
     if (equals == std::string::npos || equals == 0)
       failUsage(fmt::format("{}: '{}' is not KEY=VALUE", place, parts[i]));
-    values[parts[i].substr(0, equals)] = parts[i].substr(equals + 1);
+    if (parts[i].substr(0, equals) == "camera") values.erase("degrees");
+    table.assign(parts[i].substr(0, equals), parts[i].substr(equals + 1), place);
   }
-  if (values.contains("camera")) values.erase("degrees");
-  std::string toml = fmt::format("kind = \"{}\"\n", parts[0]);
-  for (const auto& [key, value] : values) toml += fmt::format("{} = {}\n", key, value);
-  const ConfigTable table = ConfigTable::parseText(toml, place);
+  for (const auto& [key, value] : values) {
+    if (!table.has(key)) table.assign(key, value, place);
+  }
   CameraPath path = parseCameraPath(table);
   table.finish();
   path.place = place;
@@ -151,11 +152,11 @@ Question questionOf(BiasOptions options) {
 void checkTruths(const Suite& whole) {
   for (const SuiteScene& scene : whole.scenes) {
     const Suite suite = ofScene(whole, scene);
-    if (scene.truth != Truth::rendered && (suite.hasMovingCamera() || suite.lightChanges())) {
+    if (scene.truth == Truth::exact && (suite.hasMovingCamera() || suite.lightChanges())) {
       failUsage(
           fmt::format("{}: the truth of {} is of its own camera and lights; leave 'truth' out "
                       "where they change",
-                      whole.file, scene.name));
+                      scene.truthPlace, scene.name));
     }
     if (!scene.reference.empty()) {
       failUsage(fmt::format(
@@ -258,7 +259,7 @@ void forEachQuestion(const Suite& whole, const BiasOptions& options,
 
 // `sceneIsDone`: receives all certificates so far.
 std::vector<Certified> certifySuite(
-    const Suite& whole, const BiasOptions& options, const certificate::Options& how,
+    const std::vector<Suite>& points, const BiasOptions& options, const certificate::Options& how,
     const std::function<void(const std::vector<Certified>&)>& sceneIsDone) {
   std::vector<Certified> all;
   const auto take = [&](const Question& question) {
@@ -266,7 +267,8 @@ std::vector<Certified> certifySuite(
     giveOwnLabel(all);
     logInfo(certificate::lineOf(all.back()));
   };
-  forEachQuestion(whole, options, take, [&] { sceneIsDone(all); });
+  for (const Suite& suite : points)
+    forEachQuestion(suite, options, take, [&] { sceneIsDone(all); });
   return all;
 }
 
@@ -278,9 +280,9 @@ void dryRun(const BiasOptions& options) {
   };
   const std::string& scene = options.scene.request.scene;
   if (!isSuite(scene)) return print(questionOf(options));
-  const Suite suite = loadSuite(scene, options.method.parameters);
-  checkTruths(suite);
-  forEachQuestion(suite, options, print, [] {});
+  const std::vector<Suite> points = loadSuites(scene, options.method.parameters, {});
+  for (const Suite& suite : points) checkTruths(suite);
+  for (const Suite& suite : points) forEachQuestion(suite, options, print, [] {});
 }
 
 // Fails with `why` if an option is used that is not in `usable`.
@@ -358,12 +360,12 @@ void bias(BiasOptions options, const CLI::App& verb, Outcome& outcome) {
     openFolder("images");
     table = certificate::markdownOf(all);
   } else if (isSuite(scene)) {
-    const Suite suite = loadSuite(scene, options.method.parameters);
-    checkTruths(suite);
+    const std::vector<Suite> points = loadSuites(scene, options.method.parameters, {});
+    for (const Suite& suite : points) checkTruths(suite);
     openFolder(safeFileName(std::filesystem::path(scene).stem().string()));
     how.fewOfBiased = true;
     // Write the table after each scene: the whole suite may take hours.
-    all = certifySuite(suite, options, how, [&](const std::vector<Certified>& some) {
+    all = certifySuite(points, options, how, [&](const std::vector<Certified>& some) {
       table = certificate::suiteMarkdownOf(some, how.rules, command);
       certificate::writeTable(how.out, table);
     });
@@ -425,7 +427,7 @@ Action addBiasVerb(CLI::App& app) {
       ->transform(numberFrom(1e-4, 50.0));
   verb->add_option("--warmup", options->warmup,
                    "frames of a history before those that count (default 8; 0 of a method without "
-                   "a history)")
+                   "a history in a still view)")
       ->transform(wholeNumberFrom(0, 1u << 20));
   verb->add_option("--frames", options->frames, "frames whose mean is a run (default 16)")
       ->transform(wholeNumberFrom(1, 1u << 20));

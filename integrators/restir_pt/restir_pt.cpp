@@ -11,7 +11,7 @@
 
 namespace restlab {
 
-// Made by rl_add_reuse_kernels (core/path_sample/pixel_donors.inl).
+// Made by rl_add_path_probe (core/path_sample/pixel_donors.inl).
 void restir_ptSetsProbe(IntegratorInfo& info);
 
 const IntegratorInfo& restir_ptIntegratorInfo() {

@@ -11,6 +11,9 @@
 
 namespace restlab::bias {
 
+// By day this method runs with every mode, cache and end of paths. Others share its passes.
+inline constexpr const char* kRunsWithAll = "restir_gi";
+
 // Names of the caches that keep entries.
 inline std::vector<std::string> cachesWithEntries() {
   std::vector<std::string> names;

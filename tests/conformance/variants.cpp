@@ -52,14 +52,6 @@ std::vector<Variant> unbiasedVariants() {
 
 namespace {
 
-// The first method that resamples; the others share its passes.
-std::string firstThatResamples() {
-  for (const IntegratorInfo* info : integratorRegistry()) {
-    if (info->usesCache) return info->name;
-  }
-  return "";
-}
-
 bool isDaily(const Variant& v) {
   if (v.denoiser != "none") return v.denoiser == "accumulate" || v.denoiser == "asvgf";
   if (v.cache.empty()) return !v.endsPaths;
@@ -67,7 +59,7 @@ bool isDaily(const Variant& v) {
   const bool isFirstCache = v.cache == cacheRegistry().front()->name;
   const bool isLastCache = v.cache == cacheRegistry().back()->name;
   // One with a cache in world space runs all kernels of a method.
-  if (v.integrator != firstThatResamples()) return isFirstMode && isLastCache && !v.endsPaths;
+  if (v.integrator != bias::kRunsWithAll) return isFirstMode && isLastCache && !v.endsPaths;
   if (v.endsPaths) return isLastCache;
   // The last cache runs with paths that end, so other modes run with the caches between.
   return isFirstMode ? isFirstCache : !isFirstCache && !isLastCache;

@@ -118,21 +118,13 @@ std::vector<Combination> combinationsThatTrace() {
 
 namespace {
 
-// The first method that resamples; the others share its passes.
-std::string firstThatResamples() {
-  for (const IntegratorInfo* info : integratorRegistry()) {
-    if (info->usesCache) return info->name;
-  }
-  return "";
-}
-
 bool isDaily(const Combination& what) {
   if (what.denoiser != "none") return what.denoiser == "asvgf";
   if (what.cache.empty()) return !what.endsPaths;
   const bool isFirstMode = what.mode == findIntegrator(what.integrator).modes.front().name;
   const bool isLastCache = what.cache == cacheRegistry().back()->name;
   // One with a cache in world space runs all kernels of a method.
-  if (what.integrator != firstThatResamples()) return isFirstMode && isLastCache && !what.endsPaths;
+  if (what.integrator != bias::kRunsWithAll) return isFirstMode && isLastCache && !what.endsPaths;
   if (what.endsPaths) return true;
   // The first cache's passes run with every other cache, and the last cache's passes with the
   // combination whose paths end in cells.

@@ -16,11 +16,16 @@ const SHIFT_HELP = {
   smooth: 'x1 is smoother than roughness_limit',
   jacobian: 'the Jacobian lies outside of what max_jacobian allows',
   dark: 'the surface or the light sends nothing that way',
+  absorbed: 'the camera is inside a body that absorbs',
+  replay: 'the replayed prefix came to no vertex of the kind that the path has',
+  'connects earlier': 'an earlier pair of vertices connects: the shift would have no inverse',
+  pair: 'the two vertices that reconnect are not connectable in this pixel',
+  entry: 'entries hold no path of this kind',
   occluded: 'something lies between x1 and the vertex or the light',
   'not kept': 'the frame has written over the donor\'s sample'
 };
 const REUSE_HELP = {
-  own: 'the pixel\'s own sample, after the merge over time',
+  canonical: 'the pixel\'s own sample, after the merge over time',
   space: 'a pixel of this frame', time: 'the last frame', entry: 'an entry of the cache'
 };
 
