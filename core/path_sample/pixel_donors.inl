@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <memory>
 #include <utility>
 
 #include "core/backend/alpha_filter.h"
@@ -359,6 +360,45 @@ std::vector<restlab::ProbeValue> probe(const restlab::FrameSnapshot& snapshot, s
   return values;
 }
 
+// Returns a layer of the sample that each pixel's reservoir holds after the frame.
+restlab::LayerInfo layerOf(const char* name, const char* summary, bool isName,
+                           float (*value)(of_shifts::Ctx&, const PathSample&)) {
+  restlab::LayerInfo layer;
+  layer.name = name;
+  layer.summary = summary;
+  layer.isName = isName;
+  layer.values =
+      [value](const restlab::FrameSnapshot& snapshot) -> std::function<float(size_t pixel)> {
+    if (snapshot.frame == nullptr || snapshot.scene == nullptr) return [](size_t) { return 0.0f; };
+    const auto f = std::make_shared<Frame>(snapshot);
+    bindCopy(snapshot, "reservoir_history", f->buffers.history);
+    return [f, value](size_t pixel) {
+      CpuKernelCounters counters;
+      of_shifts::Ctx c{f->scene, f->frame, counters, f->rays, f->buffers, f->params};
+      const PathReservoir r = c.reservoirReadPrevious(uint(pixel));
+      return r.state.W > 0.0f ? value(c, r.path) : 0.0f;
+    };
+  };
+  return layer;
+}
+
+void addLayers(std::vector<restlab::LayerInfo>& layers) {
+  layers.push_back(layerOf(
+      "kind",
+      "kind of the pixel's sample: 1 + 0 direct light, 1 Lambert vertex, 2 to 4 "
+      "glossy vertex (light sample, emitter, continued), 5 light of a smooth "
+      "vertex, 6 replayed as a whole",
+      true,
+      [](of_shifts::Ctx& c, const PathSample& path) { return 1.0f + float(c.pathKind(path)); }));
+#ifdef RL_PATH_REPLAYS
+  layers.push_back(
+      layerOf("replayed",
+              "scattering events of the pixel's sample that a shift replays: it "
+              "reconnects at x_k with k = 2 + this",
+              false, [](of_shifts::Ctx&, const PathSample& path) { return float(path.base); }));
+#endif
+}
+
 }  // namespace
 
 }  // namespace rl
@@ -368,6 +408,7 @@ namespace restlab {
 void RL_METHOD_SETS_PROBE(IntegratorInfo& info) {
   info.probe = rl::probe;
   info.donors = rl::donorsOf;
+  rl::addLayers(info.layers);
 }
 
 }  // namespace restlab

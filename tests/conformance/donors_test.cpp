@@ -1,4 +1,5 @@
 // Donors of a pixel: Session::donors() recomputes what the frame did.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -318,6 +319,29 @@ TEST(DonorLayers, AreWhatTheDonorsSay) {
   EXPECT_GT(some, 50u);
   EXPECT_GT(pairs.size(), 100u);
   for (const auto& [name, pixels] : pairs) EXPECT_EQ(pixels.size(), 2u) << name;
+}
+
+// Mirrors of the gallery are replayed, and the probe says the same as the image.
+TEST(DonorLayers, SayWhatIsReplayed) {
+  Session session(bias::builtinScene("glossy-gallery"), donorsConfig({}, "pixel", "restir_pt"));
+  session.frame();
+  const Image replayed = session.aov("replayed"), kind = session.aov("kind");
+  size_t some = 0, whole = 0;
+  for (size_t i = 0; i < replayed.pixels.size(); ++i) {
+    std::map<std::string, std::string> values;
+    for (const ProbeValue& v : session.probe(uint32_t(i % kWidth), uint32_t(i / kWidth)))
+      values[v.name] = v.value;
+    if (values["W"] == "0") {
+      EXPECT_EQ(kind.pixels[i].x, 0.0f) << i;
+      continue;
+    }
+    EXPECT_EQ(fmt::format("{}", replayed.pixels[i].x), values["replayed"]) << i;
+    EXPECT_EQ(kind.pixels[i].x == 7.0f, values["kind"] == "replayed as a whole") << i;
+    some += replayed.pixels[i].x > 0.0f;
+    whole += kind.pixels[i].x == 7.0f;
+  }
+  EXPECT_GT(some, 20u);
+  EXPECT_GT(whole, 0u);
 }
 
 TEST(DonorLayers, HaveTheSameBitsForAnyNumberOfThreads) {

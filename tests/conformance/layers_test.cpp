@@ -158,7 +158,7 @@ TEST(Layers, OnlyCachesOfEntriesHaveEntries) {
     EXPECT_EQ(error.code(), ExitCode::badUsage);
     EXPECT_STREQ(error.what(),
                  "unknown AOV 'entry'; AOVs: radiance, positionW, normalW, albedo, depth, object, "
-                 "emission, motion, confidence, age, rejected_shifts, partner");
+                 "emission, motion, confidence, age, rejected_shifts, partner, kind");
   }
   EXPECT_EQ(findMethod("path", "", "none").aovNames(), Session::aovNames());
 }
