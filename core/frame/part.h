@@ -89,6 +89,8 @@ struct LayerInfo {
   std::string unit;     // "" if it has none
   bool isName = false;  // numbers are identifiers, not amounts: shown in false colours
   EnabledIf enabledIf = {};
+  // Returns the words for a number, which a probe shows in its place. Null: it shows the number.
+  std::string (*wordsOf)(float) = nullptr;
   // Returns the number of a pixel; valid while `FrameSnapshot` lives.
   std::function<std::function<float(size_t pixel)>(const FrameSnapshot&)> values;
 };

@@ -129,8 +129,10 @@ std::vector<ProbeValue> Pipeline::probe(size_t pixel, const ShownFrame& shown) {
     for (const LayerInfo& info : part->layers) {
       if (!isEnabled(info.enabledIf, shown.parameters)) continue;
       const float value = info.values(snapshot)(pixel);
-      values.push_back(
-          {info.name, fmt::format("{:.6g}{}{}", value, info.unit.empty() ? "" : " ", info.unit)});
+      values.push_back({info.name, info.wordsOf != nullptr
+                                       ? info.wordsOf(value)
+                                       : fmt::format("{:.6g}{}{}", value,
+                                                     info.unit.empty() ? "" : " ", info.unit)});
     }
     if (!part->probe) continue;
     for (ProbeValue& value : part->probe(snapshot, pixel)) values.push_back(std::move(value));

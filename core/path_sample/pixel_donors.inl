@@ -341,16 +341,11 @@ std::vector<restlab::ProbeValue> probe(const restlab::FrameSnapshot& snapshot, s
       {"W", fmt::format("{:.6g}", r.state.W)},
       {"F", three(r.state.F)},
       {"residual", three(r.state.residual)}};
-  if (!(r.state.W > 0.0f)) {
-    values.push_back({"kind", "none: the reservoir is empty"});
-    return values;
-  }
-  values.push_back({"kind", restlab::nameOfPathKind(c.pathKind(r.path))});
+  if (!(r.state.W > 0.0f)) return values;
   values.push_back({"film", fmt::format("{:.4f} {:.4f}", double(r.path.film & 0xffffu) / 65536.0,
                                         double(r.path.film >> 16) / 65536.0)});
 #ifdef RL_PATH_REPLAYS
   values.push_back({"k", fmt::format("{}", r.path.base + 2u)});
-  values.push_back({"replayed", fmt::format("{}", r.path.base)});
   if (c.pathKind(r.path) == RL_PATH_WHOLE_REPLAY) return values;
 #endif
   values.push_back({"end", endOf(c, r.path)});
@@ -383,13 +378,18 @@ restlab::LayerInfo layerOf(const char* name, const char* summary, bool isName,
 }
 
 void addLayers(std::vector<restlab::LayerInfo>& layers) {
-  layers.push_back(layerOf(
+  restlab::LayerInfo kind = layerOf(
       "kind",
       "kind of the pixel's sample: 1 + 0 direct light, 1 Lambert vertex, 2 to 4 "
       "glossy vertex (light sample, emitter, continued), 5 light of a smooth "
       "vertex, 6 replayed as a whole",
       true,
-      [](of_shifts::Ctx& c, const PathSample& path) { return 1.0f + float(c.pathKind(path)); }));
+      [](of_shifts::Ctx& c, const PathSample& path) { return 1.0f + float(c.pathKind(path)); });
+  kind.wordsOf = [](float number) -> std::string {
+    if (number < 1.0f) return "none: the reservoir is empty";
+    return restlab::nameOfPathKind(uint32_t(number) - 1u);
+  };
+  layers.push_back(std::move(kind));
 #ifdef RL_PATH_REPLAYS
   layers.push_back(
       layerOf("replayed",

@@ -29,6 +29,21 @@ SessionConfig layersConfig(const std::string& cache, const ParameterMap& paramet
   return config;
 }
 
+// A value that is kept twice would stand in the viewer's table under one name.
+TEST(Layers, APixelsValuesHaveNamesOfTheirOwn) {
+  for (const char* integrator : {"restir_di", "restir_gi", "restir_pt"})
+    for (const std::string& cache : bias::cachesWithEntries()) {
+      SessionConfig config = layersConfig(cache);
+      config.integrator = integrator;
+      Session session(bias::builtinScene("cornell-box"), config);
+      session.frame();
+      std::set<std::string> names;
+      for (const ProbeValue& v : session.probe(20, 18))
+        EXPECT_TRUE(names.insert(v.name).second) << integrator << ' ' << cache << ' ' << v.name;
+      EXPECT_GT(names.size(), 5u);
+    }
+}
+
 class EntryLayers : public testing::TestWithParam<std::string> {};
 
 // Uses synthetic surfaces, whose buffers can be inspected: so many that places are scarce.
