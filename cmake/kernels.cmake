@@ -170,11 +170,12 @@ endfunction()
 
 # rl_add_reuse_kernels(<method>): a kernel for each pass of core/reuse, over the sample of the calling folder.
 function(rl_add_reuse_kernels method)
-  foreach(pass IN ITEMS initial temporal cache_reuse spatial_shift spatial cache_update)
+  foreach(pass IN ITEMS light_edges initial temporal cache_reuse spatial_shift spatial
+                   cache_update)
     rl_add_kernel(${method}_${pass} ${pass}.glsl HEADER ${method}.h)
   endforeach()
-  rl_add_kernel(${method}_light_edges core/reuse/light_edges.glsl HEADER ${method}.h)
   rl_add_kernel(${method}_outlines core/reuse/outlines.glsl HEADER ${method}.h NO_FEATURES)
+  rl_add_kernel(${method}_duplicates core/reuse/duplicates.glsl HEADER ${method}.h NO_FEATURES)
 endfunction()
 
 # rl_add_path_probe(<method>): what the probe says of a pixel, for a method of rl_add_reuse_kernels whose sample is a

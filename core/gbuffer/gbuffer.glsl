@@ -16,7 +16,8 @@ RL_FN GBufferTexel gbufferRead(RL_IN(Uvec4Ref) words, RL_IN(Camera) camera, uint
   GBufferTexel v;
   v.isHit = (q.w >> 30u) & 1u;
   v.emits = q.w >> 31u;
-  v.posW = v.isHit != 0u ? ray.origin + ray.dir * uintBitsToFloat(q.x) : ray.dir;
+  v.isMirror = q.x >> 31u;
+  v.posW = v.isHit != 0u ? ray.origin + ray.dir * uintBitsToFloat(q.x & 0x7fffffffu) : ray.dir;
   v.nGeoW = q.y;
   v.nShadeW = q.z;
   v.reflectance = unpackColor(q.w);
@@ -27,7 +28,7 @@ RL_FN GBufferTexel gbufferRead(RL_IN(Uvec4Ref) words, RL_IN(Camera) camera, uint
 RL_FN void gbufferWrite(RL_IN(Uvec4Ref) words, uint pixelIndex, RL_IN(GBufferTexel) v,
                         float distanceToCamera) {
   RL_WRITE_UVEC4(words, pixelIndex,
-                 uvec4(floatBitsToUint(distanceToCamera), v.nGeoW, v.nShadeW,
+                 uvec4(floatBitsToUint(distanceToCamera) | (v.isMirror << 31u), v.nGeoW, v.nShadeW,
                        packColor(v.reflectance) | (v.isHit << 30u) | (v.emits << 31u)));
 }
 

@@ -14,6 +14,7 @@ RL_FN GBufferTexel gbufferTrace(RL_IN(Camera) camera, uint pixelIndex,
   v.posW = ray.dir;
   v.isHit = 0u;
   v.emits = 0u;
+  v.isMirror = 0u;
   v.nGeoW = packNormal(-ray.dir);
   v.nShadeW = v.nGeoW;
   v.reflectance = vec3(0.0f, 0.0f, 0.0f);
@@ -22,6 +23,7 @@ RL_FN GBufferTexel gbufferTrace(RL_IN(Camera) camera, uint pixelIndex,
     v.posW = ray.origin + ray.dir * hit.t;
     v.isHit = 1u;
     v.emits = rlIsBlack(s.emission) ? 0u : 1u;
+    v.isMirror = bsdfIsReusable(s.bsdf, RL_MIRROR_ALPHA) || bsdfIsBlack(s.bsdf) ? 0u : 1u;
     v.nGeoW = packNormal(s.nGeoW);
     v.nShadeW = packNormal(s.nShadeW);
     v.reflectance = bsdfReflectance(s.bsdf);

@@ -51,7 +51,7 @@ IntegratorInfo pathReuseMethod(const std::string& name, uint32_t reservoirUvec4s
   i.radianceFrames = reuseRadianceFrames;
   i.layers = reuseLayers(reservoirUvec4s);
   i.biasOfParameters = [](const std::string& mode, const ParameterMap& p) {
-    return mode == "biased" || reuseHasWrongWeights(p) ? BiasClass::biased : BiasClass::unbiased;
+    return mode == "biased" || reuseIsBiased(p) ? BiasClass::biased : BiasClass::unbiased;
   };
   return i;
 }

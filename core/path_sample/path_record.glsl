@@ -3,7 +3,9 @@
 //
 // - Direct light at x1: light samples, and the light that the BSDF sample hit.
 // - Indirect light: x2 and its radiance to x1, by a light sample at x2 and by the path's suffix.
-// - Light in view: emission and environment that the camera sees directly.
+// - Light in view: emission and environment that the camera sees directly, and direct light of
+//   smooth surfaces that it sees, directly or in others: images of lamps. The pass light_edges may
+//   take several samples of it.
 // - Unresampled light, which no other pixel could reuse: all light if x1 cannot be reused (mirror,
 //   glass, roughness below the limit), light through a delta lobe at x2, and light of an x2 between
 //   two bodies. Which part of the integrand that is depends on x2 alone, so that the split is the
@@ -18,6 +20,7 @@
 #define RL_WALK_STATE PathRecord
 
 #include "core/path_sample/path_connect.glsl"
+#include "core/transport/light_in_view.glsl"
 
 RL_FN LightSample pathNoLight() {
   LightSample s;
@@ -66,6 +69,7 @@ RL_FN PathRecord pathRecordEmpty(uint film) {
   PathRecord p;
   p.unresampledRadiance = zero;
   p.inView = zero;
+  p.isMirrored = 1u;
   p.film = film;
   p.isReusable = 0u;
   p.x1PosW = zero;
@@ -207,6 +211,10 @@ RL_FN void onMiss(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(vec3) radiance
 
 RL_FN void onEmission(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(Surface) s, RL_IN(Hit) hit,
                       float pdfLight) {
+  if (p.isMirrored != 0u) {
+    p.inView += lightFoundInView(walk, s.emission, pdfLight);
+    return;
+  }
   if (pathAddReplay(p, walk, s.emission, pdfLight)) return;
   if (pathIsAtX2(p, walk) && pathCanName(s.light)) {
     p.alphaTransmittanceX1 = walk.passed;
@@ -237,8 +245,6 @@ RL_FN void onEmission(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(Surface) s
   } else if (pathIsAtX3(p, walk)) {
     p.emittedAtX3 = s.emission * p.suffixThroughput;
     p.pdfLightAtX3 = pathPackedPdf(pdfLight);
-  } else if (walk.bounces == 0u) {
-    p.inView = walk.throughput * s.emission;
   } else {
     pathAddLight(p, walk,
                  s.emission * (pdfLight > 0.0f ? lightMisWeight(walk.pdfBsdf, pdfLight) : 1.0f));
@@ -303,13 +309,15 @@ RL_FN void pathBeginX1(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(Surface) 
 #endif
 
 RL_FN uint onVertex(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_INOUT(Surface) s) {
+  if (pathIsRough(s)) p.isMirrored = 0u;
 #ifdef RL_PATH_REPLAYS
   if (walk.bounces == 0u) {
     p.isReusable = (gFrame.cameraAbsorbs & RL_CAMERA_ABSORBS_NOW) == 0u ? 1u : 0u;
     if (p.isReusable == 0u) RL_HEALTH(RL_HEALTH_UNREUSABLE_PIXELS);
     p.connector.footprint = pathFootprintOfX1(s, walk.ray.origin);
     pathBeginX1(p, walk, s);
-    return p.isReusable != 0u && !pathIsLightUnresampled(s) ? gParams.path.lightCandidates : 1u;
+    bool isOne = p.isReusable == 0u || p.isMirrored != 0u || pathIsLightUnresampled(s);
+    return isOne ? 1u : gParams.path.lightCandidates;
   }
   if (pathHasLeftX1(p, walk)) {
     p.alphaTransmittanceX1 = walk.passed;
@@ -347,6 +355,10 @@ RL_FN uint onVertex(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_INOUT(Surface) 
 
 RL_FN bool onLightSample(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(Rng) rng, RL_IN(Surface) s,
                          RL_IN(LightSample) light, RL_IN(LightConnection) c) {
+  if (p.isMirrored != 0u) {
+    p.unshadowedContribution = lightSampleInView(walk, s, light, c);
+    return !rlIsBlack(p.unshadowedContribution);
+  }
   float pdf;
   vec3 f = bsdfEvalAndPdf(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW, pdf);
   p.isLightUnresampled = pathIsLightUnresampled(s) ? 1u : 0u;
@@ -380,7 +392,9 @@ RL_FN bool onLightSample(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(Rng) rn
 }
 
 RL_FN void onShadowRay(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, float transmittance) {
-  if (pathHasLeftX1(p, walk) && p.isLightUnresampled == 0u) {
+  if (p.isMirrored != 0u) {
+    p.inView += p.unshadowedContribution * transmittance;
+  } else if (pathHasLeftX1(p, walk) && p.isLightUnresampled == 0u) {
     p.lightF *= transmittance;
     p.lightSum *= transmittance;
   } else if (pathHasLeftX2(p, walk)) {

@@ -9,6 +9,7 @@ RL_FN PathReplay pathReplayBegin(RL_IN(PathSample) path) {
   q.before = pathConnectorNone();
   q.base = path.base;
   q.kind = pathKind(path);
+  q.isMirrored = 1u;
   q.failed = RL_FAILED_REPLAY;
   q.x = surfaceNone();
   q.throughput = vec3(1.0f, 1.0f, 1.0f);
@@ -31,7 +32,8 @@ RL_FN void onMiss(RL_INOUT(PathReplay) q, RL_IN(Walk) walk, RL_IN(vec3) radiance
 }
 RL_FN void onEmission(RL_INOUT(PathReplay) q, RL_IN(Walk) walk, RL_IN(Surface) s, RL_IN(Hit) hit,
                       float pdfLight) {
-  pathReplayFinds(q, walk, s.emission, pdfLight);
+  // Direct light of mirrors in view is not resampled.
+  if (q.isMirrored == 0u) pathReplayFinds(q, walk, s.emission, pdfLight);
 }
 
 RL_FN uint onVertex(RL_INOUT(PathReplay) q, RL_IN(Walk) walk, RL_INOUT(Surface) s) {
@@ -42,12 +44,14 @@ RL_FN uint onVertex(RL_INOUT(PathReplay) q, RL_IN(Walk) walk, RL_INOUT(Surface) 
     return RL_WALK_ENDS;
   }
   bool isRough = pathIsRough(s);
+  if (isRough) q.isMirrored = 0u;
   q.before.posW = s.posW;
   q.before.isRough = isRough ? 1u : 0u;
   if (walk.bounces < q.base) return 0u;
   bool isSmoothKind = q.kind == RL_PATH_WEIGHED || q.kind == RL_PATH_WHOLE_REPLAY;
   if (isRough == isSmoothKind) return RL_WALK_ENDS;
-  if (q.kind == RL_PATH_WEIGHED && pathIsLightUnresampled(s)) return RL_WALK_ENDS;
+  if (q.kind == RL_PATH_WEIGHED && (q.isMirrored != 0u || pathIsLightUnresampled(s)))
+    return RL_WALK_ENDS;
   if (q.kind == RL_PATH_WHOLE_REPLAY) return 0u;
   q.x = s;
   q.throughput = walk.throughput;

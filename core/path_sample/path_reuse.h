@@ -5,6 +5,7 @@
 #ifdef __cplusplus
 #include "core/dialect/order.h"
 #endif
+#include "core/path_sample/path_in_view.h"
 #include "core/path_sample/path_record.h"
 #include "core/path_sample/path_sample.h"
 #include "core/path_sample/path_shift.h"

@@ -130,8 +130,8 @@ struct Ctx {
   of_shifts::Ctx* shifts_ = nullptr;
 
   PathReservoir retraceInitialCandidate(uvec2 pixel) {
-    vec3 specularLight, visibleEmission;
-    PathReservoir r = sampleInitial(pixel, cameraFilmBits(pixel), specularLight, visibleEmission);
+    vec3 specularLight, lightInView;
+    PathReservoir r = sampleInitial(pixel, cameraFilmBits(pixel), specularLight, lightInView);
     reservoirGuard(r.state);
     return r;
   }

@@ -1,9 +1,9 @@
 // The candidate of a path sample, as the pass core/reuse/initial.glsl asks for it.
 
 // specularLight: light that no other pixel could reuse (mirrors, glass), and what the method leaves
-// to the path. visibleEmission: that of a lamp which the camera sees.
+// to the path. lightInView: of lamps, and of their images in mirrors.
 RL_FN PathReservoir sampleInitial(RL_IN(uvec2) pixel, uint film, RL_OUT(vec3) specularLight,
-                                  RL_OUT(vec3) visibleEmission) {
+                                  RL_OUT(vec3) lightInView) {
   uint pixelIndex = pixelIndexOf(pixel);
   PathRecord p = pathRecordEmpty(film);
   p.end = cacheTerminationBegin(pixelIndex);
@@ -14,6 +14,6 @@ RL_FN PathReservoir sampleInitial(RL_IN(uvec2) pixel, uint film, RL_OUT(vec3) sp
   walkPath(p, pixel, film);
 #endif
   specularLight = p.unresampledRadiance;
-  visibleEmission = p.inView;
+  lightInView = p.inView;
   return pathResample(p, rngInit(gFrame.seed, pixelIndex, gFrame.frame));
 }

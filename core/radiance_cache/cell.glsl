@@ -17,6 +17,7 @@ RL_FN GBufferTexel entryVisible(uint group) {
   s.posW = recordVec3(q0);
   s.isHit = uintBitsToFloat(q1.w) < 0.0f ? 0u : 1u;
   s.emits = 0u;
+  s.isMirror = 0u;
   s.nGeoW = q0.w;
   s.nShadeW = q0.w;
   s.reflectance = vec3(0.0f, 0.0f, 0.0f);

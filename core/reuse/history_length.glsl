@@ -24,9 +24,17 @@ RL_FN float radianceFrames(float confidence) {
 RL_FN UnresampledCount unresampledCountUnpack(uint word) {
   UnresampledCount count;
   count.taken = word & 0xffu;
-  count.frames = word >> 8u;
+  count.level = (word >> 8u) & 0xffu;
+  count.frames = word >> 16u;
   return count;
 }
 RL_FN uint unresampledCountPack(RL_IN(UnresampledCount) count) {
-  return count.taken | (count.frames << 8u);
+  return count.taken | (count.level << 8u) | (count.frames << 16u);
+}
+
+// Level of light in view, for UnresampledCount.
+RL_FN uint levelOfLight(RL_IN(vec3) light) {
+  float luminance = rlLuminance(light);
+  if (!(luminance > 1.0e-9f)) return 0u;
+  return uint(clamp(4.0f * log2(luminance) + 128.0f, 1.0f, 255.0f));
 }

@@ -10,16 +10,21 @@
 RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint pixelIndex = pixel.y * gFrame.width + pixel.x;
   uint film = cameraFilmBits(pixel);
-  vec3 specularLight;    // of mirrors and glass at x1, and all else that the reservoir leaves out
-  vec3 visibleEmission;  // of a lamp at x1
-  RL_RESERVOIR r = sampleInitial(pixel, film, specularLight, visibleEmission);
+  vec3 specularLight;  // of mirrors and glass at x1, and all else that the reservoir leaves out
+  vec3 lightInView;    // of a lamp, and of its images in mirrors
+  RL_RESERVOIR r = sampleInitial(pixel, film, specularLight, lightInView);
   vec3 estimate = r.state.F * r.state.W + r.state.residual;
-  vec3 unresampled = specularLight + visibleEmission;
+  vec3 unresampled = specularLight + lightInView;
   UnresampledCount count = unresampledCountUnpack(0u);
   if (!viewIsStill()) {
     uvec4 ofEdges = RL_EARLIER_UVEC4(gBuffers.unresampled, pixelIndex);
     count = unresampledCountUnpack(ofEdges.w);
-    if (count.taken != 0u) unresampled = specularLight + recordVec3(ofEdges);
+    if (count.taken != 0u) {
+      lightInView = recordVec3(ofEdges);
+      unresampled = specularLight + lightInView;
+      if (count.frames != 0u) count.taken = 0u;
+      count.frames = 0u;
+    }
   }
   if (!rlIsFinite3(unresampled) || !rlIsFinite3(estimate)) {
     RL_HEALTH(RL_HEALTH_NONFINITE);
@@ -47,7 +52,8 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   bool feedsEntry =
       gParams.entries.count != 0u && entryCandidatePixel(entryGroup(pixelIndex)) == pixelIndex;
   if (feedsEntry && viewIsStill()) reservoirWriteHistory(pixelIndex, candidate);
-  count.frames = min(count.frames + 1u, 0xffffffu);
+  count.frames = min(count.frames + 1u, 0xffffu);
+  count.level = levelOfLight(lightInView);
   RL_WRITE_UVEC4(gBuffers.unresampled, pixelIndex,
                  recordUvec4(unresampled, unresampledCountPack(count)));
 }

@@ -28,6 +28,9 @@ void recordReuse(FrameGraph& g, const FrameInfo& f, const ReusedSample& sample,
   for (uint32_t k = 0; k < reuse.spatialNeighbours; ++k)
     pairedShifts[k] = g.transient(pairedShiftsName(k), f.pixels, kUvec4Bytes);
   const Buffer outlines = g.buffer("outlines", f.pixels, sizeof(uint32_t));
+  const size_t mapped = reuse.duplicationMap != 0 ? f.pixels : 0;
+  const Buffer sampleFilms = g.transient("sample_films", mapped, sizeof(uint32_t));
+  const Buffer duplicates = g.buffer("duplicates", mapped, sizeof(uint32_t));
   const Buffer entryReservoirs = g.buffer("entry_reservoirs", entries.count, reservoirBytes);
   const Kernels kernels = g.kernels<rl::ReuseBuffers>(
       std::move(params),
@@ -35,11 +38,11 @@ void recordReuse(FrameGraph& g, const FrameInfo& f, const ReusedSample& sample,
        s.cellKeys,     s.cellPlaces,        s.cellLight,     s.cellRays,           s.changes,
        radiance,       radianceFrames,      unresampled.now, unresampled.previous, reservoirs,
        history,        pairedShifts[0],     pairedShifts[1], pairedShifts[2],      pairedShifts[3],
-       outlines,       entryReservoirs});
+       outlines,       sampleFilms,         duplicates,      entryReservoirs});
 
   if (f.isNewView) {
     kernels.pass("light_edges", sample.method + "_light_edges")
-        .reads({s.surfaces.now})
+        .reads({s.surfaces.now, unresampled.previous})
         .writes({unresampled.now});
   }
   GraphPass& initial = kernels.pass("initial", sample.method + "_initial")
@@ -50,7 +53,7 @@ void recordReuse(FrameGraph& g, const FrameInfo& f, const ReusedSample& sample,
     initial.reads({unresampled.now});
   } else {
     // In a still view this pass merges the history, too.
-    initial.reads({unresampled.previous, history, s.changes});
+    initial.reads({unresampled.previous, history, s.changes, duplicates});
   }
   if (hasEntries) {
     // Candidates of a still view stand in the history's place.
@@ -68,7 +71,7 @@ void recordReuse(FrameGraph& g, const FrameInfo& f, const ReusedSample& sample,
   if (f.isNewView && isTemporal) {
     if (reuse.reproject != 0) {
       kernels.pass("temporal", sample.method + "_temporal")
-          .reads({s.surfaces.now, s.surfaces.previous, s.changes, history})
+          .reads({s.surfaces.now, s.surfaces.previous, s.changes, history, duplicates})
           .updates({reservoirs});
     }
     if (hasEntries) {
@@ -91,7 +94,11 @@ void recordReuse(FrameGraph& g, const FrameInfo& f, const ReusedSample& sample,
   kernels.pass("spatial", sample.method + "_spatial")
       .reads({s.surfaces.now, reservoirs, pairedShifts[0], pairedShifts[1], pairedShifts[2],
               pairedShifts[3], unresampled.now})
-      .writes({history, radiance, radianceFrames});
+      .writes({history, radiance, radianceFrames, sampleFilms});
+  if (mapped != 0)
+    kernels.pass("duplicates", sample.method + "_duplicates")
+        .reads({sampleFilms})
+        .writes({duplicates});
   g.shared.radiance = radiance;
   g.shared.radianceFrames = radianceFrames;
 }

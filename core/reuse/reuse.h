@@ -42,11 +42,21 @@ struct CacheMerge {
   Rng rng;
 };
 
+// Pixels to each side of the square in which equal samples are counted, and the other pixels of it.
+const uint RL_DUPLICATES_RADIUS = 8u;
+const float RL_DUPLICATES_MOST = 288.0f;
+
 // Number of samples in the average of a pixel's unresampled light.
 struct UnresampledCount {
-  uint taken;   // film samples that light_edges took when the view was new
-  uint frames;  // frames of this view, less those that were forgotten
+  uint taken;   // film samples that light_edges took when the view was new; 8 bits
+  uint level;   // of the light in view: 0 none, else logarithmic; 8 bits
+  uint frames;  // frames of this view, less those that were forgotten; 16 bits. From light_edges:
+                // 1, if the samples are to be forgotten in a still view
 };
+
+// Levels of light in view: four an octave. Edges differ by more than two octaves.
+const uint RL_LEVELS_OF_AN_EDGE = 8u;
+const uint RL_LIGHT_IN_VIEW_SEED = 0x7f4a7c15u;
 
 struct ReuseBuffers {
   Uvec4Ref gbuffer;  // core/gbuffer/gbuffer.h
@@ -73,6 +83,10 @@ struct ReuseBuffers {
   Uvec4Ref pairedShifts2;
   Uvec4Ref pairedShifts3;
   UintRef outlines;  // 1: a pixel beside it shows another surface
+  // With duplicationMap: the film sample of each pixel's sample, which names it (0: none), and how
+  // many pixels around it hold the same.
+  UintRef sampleFilms;
+  UintRef duplicates;
   // For caches in world space: reservoirs of entries (core/caches/entries/entries.glsl).
   Uvec4Ref entryReservoirs;
 };
@@ -90,6 +104,8 @@ struct ReuseParams {
   float confidenceCap;
   float movingConfidenceCap;  // in frames of a new view
   float maxReflectanceRatio;  // bound per channel on the reflectance ratio of residuals
+  uint spatialFeedback;       // 1: the spatial merge is the history, 0: the merge over time
+  uint duplicationMap;        // 1: samples that many pixels hold have a lower cap
   uint writesRadianceFrames;  // 1: a denoiser reads them
 };
 

@@ -22,6 +22,8 @@ struct ReuseSettings {
   uint32_t lightEdgeSamples = 8;
   bool temporal = true;
   bool reproject = true;
+  bool spatialFeedback = true;
+  bool duplicationMap = false;
   double maxReflectanceRatio = 4.0;
   std::string shading = "control_variate";
   std::string mis = "pairwise";
@@ -60,15 +62,25 @@ const Schema<ReuseSettings>& schema() {
           "core/resampling/donors.glsl; measured: docs/decisions/donors-by-age.md"),
       Parameter<ReuseSettings>(
           &ReuseSettings::lightEdgeSamples, "light_edge_samples", Range{0, 64},
-          "camera rays through pixels where a lamp in view ends, in frames of a new view; 0: none "
-          "but the path's",
-          "core/transport/light_edges.glsl; measured: docs/decisions/light-edge-samples.md"),
+          "samples of the light in view in pixels where a lamp ends, or its image in a mirror, in "
+          "frames of a new view; 0: none but the path's",
+          "core/reuse/light_edges.glsl; measured: docs/decisions/images-of-lamps.md"),
       Parameter<ReuseSettings>(&ReuseSettings::temporal, "temporal", "temporal reuse",
                                "Ouyang et al. 2021"),
       Parameter<ReuseSettings>(
           &ReuseSettings::reproject, "reproject",
           "in frames of a new view, the pixel of the last frame that showed the surface is a donor",
           "Ouyang et al. 2021; false leaves what a cache in world space does alone"),
+      Parameter<ReuseSettings>(
+          &ReuseSettings::spatialFeedback, "spatial_feedback",
+          "the history of a pixel is its merge with spatial neighbours; false: its merge over time "
+          "alone, so that neighbours' samples stay apart, and serve one frame",
+          "Bitterli et al. 2020 feed back; Lin et al. 2022 do, too"),
+      Parameter<ReuseSettings>(
+          &ReuseSettings::duplicationMap, "duplication_map",
+          "a donor over time has a lower cap where other pixels of 17 x 17 hold the same sample: "
+          "less correlation, but confidence then depends on samples, which is biased",
+          "Lin, Kettunen and Wyman 2026"),
       Parameter<ReuseSettings>(
           &ReuseSettings::maxReflectanceRatio, "max_reflectance_ratio", Range{0.0, 1.0e6},
           "bound per channel on the ratio of reflectances by which a donor's per-channel estimate "
@@ -121,6 +133,8 @@ rl::ReuseParams packReuse(const ParameterMap& parameters, bool assumesVisible) {
   out.donorNoise = float(s.donorNoise);
   out.temporalReuse = s.temporal ? 1u : 0u;
   out.reproject = s.reproject ? 1u : 0u;
+  out.spatialFeedback = s.spatialFeedback ? 1u : 0u;
+  out.duplicationMap = s.duplicationMap ? 1u : 0u;
   out.confidenceCap = float(s.confidenceCap);
   out.movingConfidenceCap = std::min(out.confidenceCap, float(s.movingConfidenceCap));
   out.maxReflectanceRatio = float(s.maxReflectanceRatio);
@@ -131,22 +145,23 @@ double reuseRadianceFrames(const ParameterMap& parameters) {
   return schema().read(parameters).oldest();
 }
 
-bool reuseHasWrongWeights(const ParameterMap& parameters) {
-  return schema().read(parameters).mis == "confidence";
+bool reuseIsBiased(const ParameterMap& parameters) {
+  const ReuseSettings s = schema().read(parameters);
+  return s.mis == "confidence" || (s.duplicationMap && s.temporal);
 }
 
 std::string reuseReasonUnused(const std::string& name, const ParameterMap& parameters) {
   const ReuseSettings s = schema().read(parameters);
   const uint32_t neighbours = s.spatialNeighbours;
   if (isOneOf(name, {"confidence_cap", "moving_confidence_cap", "donor_noise", "mode", "reproject",
-                     kValidateEvery, "validate_response"}) &&
+                     "duplication_map", "spatial_feedback", kValidateEvery, "validate_response"}) &&
       !s.temporal)
     return "temporal is false";
   if (name == "mode" && !s.reproject) return "reproject is false";
   if (name == "moving_confidence_cap" && s.movingConfidenceCap > s.confidenceCap)
     return "confidence_cap is smaller";
-  if (neighbours == 0 &&
-      isOneOf(name, {"aged_neighbours", "young_frames", "donor_noise", "spatial_radius"}))
+  if (neighbours == 0 && isOneOf(name, {"aged_neighbours", "young_frames", "donor_noise",
+                                        "spatial_radius", "spatial_feedback"}))
     return "spatial_neighbours is 0";
   if (!s.temporal && neighbours == 0 &&
       isOneOf(name, {"mis", "max_jacobian", "max_reflectance_ratio", "shading", "normal_threshold",

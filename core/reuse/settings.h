@@ -17,7 +17,8 @@ rl::ReuseParams packReuse(const ParameterMap& parameters, bool assumesVisible);
 std::string reuseReasonUnused(const std::string& name, const ParameterMap& parameters);
 // IntegratorInfo::radianceFrames of such a method.
 double reuseRadianceFrames(const ParameterMap& parameters);
-// MIS weights by confidence alone are wrong where shifts are not the identity.
-bool reuseHasWrongWeights(const ParameterMap& parameters);
+// Returns whether parameters make a method biased: MIS weights by confidence alone, where shifts
+// are not the identity, or caps that depend on samples.
+bool reuseIsBiased(const ParameterMap& parameters);
 
 }  // namespace restlab

@@ -68,13 +68,17 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   sampleShade(pixel, r, estimate);
 #endif
   vec3 radiance = recordVec3(RL_EARLIER_UVEC4(gBuffers.unresampled, pixelIndex)) + estimate;
+  RL_RESERVOIR next = r;
+  if (gParams.reuse.spatialFeedback == 0u) next = reservoirReadNow(pixelIndex);
   if (!rlIsFinite3(radiance)) {
     // A NaN or Inf would spread by reuse. Reset the reservoir and count it.
     RL_HEALTH(RL_HEALTH_NONFINITE);
     radiance = vec3(0.0f, 0.0f, 0.0f);
-    r.state = reservoirEmpty();
+    next.state = reservoirEmpty();
   }
-  reservoirWriteHistory(pixelIndex, r);
+  reservoirWriteHistory(pixelIndex, next);
+  if (gParams.reuse.duplicationMap != 0u)
+    gBuffers.sampleFilms.data[pixelIndex] = next.state.W > 0.0f ? sampleFilm(next) : 0u;
   if (min(radiance.x, min(radiance.y, radiance.z)) < 0.0f) RL_HEALTH(RL_HEALTH_NEGATIVE);
   gBuffers.radiance.data[pixelIndex] = radiance;
   if (gParams.reuse.writesRadianceFrames != 0u)

@@ -25,6 +25,15 @@ RL_FN uint temporalMergeFlags(bool isStill) {
   return isStill ? flags & ~RL_REUSE_PAIRWISE : flags;
 }
 
+// Cap of the confidence of a donor: lower where pixels around it hold the same sample, which is
+// biased (Lin, Kettunen and Wyman 2026: 1 + (cap - 1) (1 - share^0.1)).
+RL_FN float temporalCap(uint previousPixel) {
+  float cap = temporalIsStill() ? gParams.reuse.confidenceCap : gParams.reuse.movingConfidenceCap;
+  if (gParams.reuse.duplicationMap == 0u) return cap;
+  float share = float(gBuffers.duplicates.data[previousPixel]) / RL_DUPLICATES_MOST;
+  return 1.0f + (cap - 1.0f) * (1.0f - pow(share, 0.1f));
+}
+
 // Merges the reservoir that pixel `previousPixel` had in the last frame, with the share `kept` of
 // its confidence, into `here`. In a still view `previousPixel` is the pixel itself. Returns whether
 // the donor's sample was selected.
@@ -39,9 +48,7 @@ RL_FN bool temporalMerge(uint pixelIndex, uint previousPixel, float kept,
   }
   TemporalMerge t;
   t.donor = donor.state;
-  t.donor.confidence =
-      reuseCapped(donor.state.confidence,
-                  isStill ? gParams.reuse.confidenceCap : gParams.reuse.movingConfidenceCap);
+  t.donor.confidence = reuseCapped(donor.state.confidence, temporalCap(previousPixel));
   t.donor.confidence *= kept;
   Rng rng = rngInit(gFrame.seed, pixelIndex, gFrame.frame);
   rng.vertex = RL_VERTEX_TEMPORAL;

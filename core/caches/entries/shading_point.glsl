@@ -5,6 +5,7 @@ RL_FN ShadingPoint shadingPointNone() {
   a.surface.posW = vec3(0.0f, 0.0f, 0.0f);
   a.surface.isHit = 0u;
   a.surface.emits = 0u;
+  a.surface.isMirror = 0u;
   a.surface.nGeoW = 0u;
   a.surface.nShadeW = 0u;
   a.surface.reflectance = vec3(0.0f, 0.0f, 0.0f);
@@ -20,6 +21,7 @@ RL_FN ShadingPoint shadingPointRead(RL_IN(Uvec4Ref) words, uint entry) {
   a.surface.posW = recordVec3(q0);
   a.surface.isHit = q1.z >> 30u;
   a.surface.emits = 0u;
+  a.surface.isMirror = 0u;
   a.surface.nGeoW = q0.w;
   a.surface.nShadeW = q1.x;
   a.surface.reflectance = unpackColor(q1.z);

@@ -17,6 +17,7 @@ RL_FN ShadingPoint shadingPointOfSurface(RL_IN(Surface) s, uint pixelIndex) {
   a.surface.posW = s.posW;
   a.surface.isHit = 1u;
   a.surface.emits = 0u;
+  a.surface.isMirror = 0u;
   a.surface.nGeoW = packNormal(s.nGeoW);
   a.surface.nShadeW = packNormal(s.nShadeW);
   // Round as buffers do: a target that changed by rounding would be another one.
