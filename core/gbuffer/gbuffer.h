@@ -13,7 +13,7 @@ struct GBufferTexel {
   vec3 posW;      // if nothing is hit: unit view direction
   uint isHit;     // 0: the background
   uint emits;     // 1: emits towards the camera
-  uint isMirror;  // 1: smooth enough to show a sharp image of a lamp (RL_MIRROR_ALPHA)
+  uint isMirror;  // 1: shows sharp images of lamps (bsdfIsMirror, RL_MIRROR_ALPHA)
   uint nGeoW;     // packNormal(); unit, on the side of the camera
   uint nShadeW;
   vec3 reflectance;  // bsdfReflectance(), 0 to 1
@@ -28,7 +28,7 @@ struct SimilarityThresholds {
 // Layout in a buffer, one uvec4: the distance along the ray through the pixel's centre with
 // isMirror as its sign, two normals, and the reflectance with emits and isHit.
 
-// GGX alpha below which a surface shows sharp images of lamps: a roughness of 0.2.
+// GGX alpha below which a mirror shows sharp images of lamps: a roughness of 0.2.
 const float RL_MIRROR_ALPHA = 0.04f;
 
 RL_NAMESPACE_END

@@ -23,7 +23,7 @@ RL_FN GBufferTexel gbufferTrace(RL_IN(Camera) camera, uint pixelIndex,
     v.posW = ray.origin + ray.dir * hit.t;
     v.isHit = 1u;
     v.emits = rlIsBlack(s.emission) ? 0u : 1u;
-    v.isMirror = bsdfIsReusable(s.bsdf, RL_MIRROR_ALPHA) || bsdfIsBlack(s.bsdf) ? 0u : 1u;
+    v.isMirror = bsdfIsMirror(s.bsdf, RL_MIRROR_ALPHA) ? 1u : 0u;
     v.nGeoW = packNormal(s.nGeoW);
     v.nShadeW = packNormal(s.nShadeW);
     v.reflectance = bsdfReflectance(s.bsdf);

@@ -22,6 +22,15 @@ RL_FN bool pathIsRough(RL_IN(Surface) s) {
   return bsdfIsReusable(s.bsdf, gParams.path.minAlpha);
 }
 
+// Returns whether a vertex is a mirror whose direct light is part of the light in view, if the
+// camera sees it directly or in other mirrors. It is smooth in every method, and no path ends in a
+// cell there.
+RL_FN bool pathIsMirror(RL_IN(Surface) s) {
+  float maxAlpha = min(gParams.path.minAlpha, RL_MIRROR_ALPHA);
+  if (gParams.cells.count != 0u) maxAlpha = min(maxAlpha, gParams.cells.minAlpha);
+  return bsdfIsMirror(s.bsdf, maxAlpha);
+}
+
 // Returns whether the light samples of a vertex are not resampled: those behind a surface that lets
 // light through lie in a body that a replay does not know.
 RL_FN bool pathIsLightUnresampled(RL_IN(Surface) s) {

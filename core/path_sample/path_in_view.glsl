@@ -1,19 +1,16 @@
 // The light in view of a pixel, as the pass core/reuse/light_edges.glsl samples it: what PathRecord
-// gathers as inView. Walks from smooth surface to smooth surface and ends at the first rough one.
+// gathers as inView. Walks from mirror to mirror, and ends at the first surface that is none.
 #define RL_WALK_STATE PathInView
 
 #include "core/path_sample/path_connect.glsl"
 #include "core/transport/light_in_view.glsl"
 
-RL_FN void onMiss(RL_INOUT(PathInView) p, RL_IN(Walk) walk, RL_IN(vec3) radiance, float pdfLight) {
-  if (walk.bounces == 0u) p.radiance += walk.throughput * radiance;
-}
 RL_FN void onEmission(RL_INOUT(PathInView) p, RL_IN(Walk) walk, RL_IN(Surface) s, RL_IN(Hit) hit,
                       float pdfLight) {
   p.radiance += lightFoundInView(walk, s.emission, pdfLight);
 }
 RL_FN uint onVertex(RL_INOUT(PathInView) p, RL_IN(Walk) walk, RL_INOUT(Surface) s) {
-  return pathIsRough(s) ? RL_WALK_ENDS : 1u;
+  return pathIsMirror(s) ? 1u : RL_WALK_ENDS;
 }
 RL_FN bool onLightSample(RL_INOUT(PathInView) p, RL_IN(Walk) walk, RL_IN(Rng) rng, RL_IN(Surface) s,
                          RL_IN(LightSample) light, RL_IN(LightConnection) c) {
@@ -24,7 +21,9 @@ RL_FN void onShadowRay(RL_INOUT(PathInView) p, RL_IN(Walk) walk, float transmitt
   p.radiance += p.unshadowed * transmittance;
 }
 
-// The other events of a walk change nothing.
+// The other events of a walk change nothing. The environment is not light in view: objects before
+// the sky are often as bright as the sky, and in a white furnace an image is then exact.
+RL_FN void onMiss(RL_INOUT(PathInView) p, RL_IN(Walk) walk, RL_IN(vec3) radiance, float pdfLight) {}
 RL_FN void onMedium(RL_INOUT(PathInView) p, RL_IN(Walk) walk, RL_IN(vec3) transmittance) {}
 RL_FN void onBsdfSample(RL_INOUT(PathInView) p, RL_IN(Walk) walk, RL_IN(Surface) s,
                         RL_IN(BsdfSample) draw) {}

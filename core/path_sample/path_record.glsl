@@ -3,15 +3,15 @@
 //
 // - Direct light at x1: light samples, and the light that the BSDF sample hit.
 // - Indirect light: x2 and its radiance to x1, by a light sample at x2 and by the path's suffix.
-// - Light in view: emission and environment that the camera sees directly, and direct light of
-//   smooth surfaces that it sees, directly or in others: images of lamps. The pass light_edges may
-//   take several samples of it.
-// - Unresampled light, which no other pixel could reuse: all light if x1 cannot be reused (mirror,
-//   glass, roughness below the limit), light through a delta lobe at x2, and light of an x2 between
-//   two bodies. Which part of the integrand that is depends on x2 alone, so that the split is the
-//   same for every pixel.
+// - Light in view: emission that the camera sees, and direct light of mirrors that it sees,
+// directly
+//   or in other mirrors: images of lamps. The pass light_edges may take several samples of it.
+// - Unresampled light, which no other pixel could reuse: the environment that the camera sees, all
+//   other light if x1 cannot be reused (mirror, glass, roughness below the limit), light through a
+//   delta lobe at x2, and light of an x2 between two bodies. Which part of the integrand that is
+//   depends on x2 alone, so that the split is the same for every pixel.
 //
-// With RL_PATH_REPLAYS (methods whose shift replays a prefix) all of a path is resampled: x1 is the
+// With RL_PATH_REPLAYS (methods whose shift replays a prefix) all else is resampled: x1 is the
 // last vertex before the first pair that connects, and every vertex up to it adds its light samples
 // and the emitters that it finds as candidates of their own.
 //
@@ -202,7 +202,7 @@ RL_FN void onMiss(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(vec3) radiance
     p.emittedAtX3 = radiance * p.suffixThroughput;
     p.pdfLightAtX3 = pathPackedPdf(pdfLight);
   } else if (walk.bounces == 0u) {
-    p.inView = walk.throughput * radiance;
+    p.unresampledRadiance = walk.throughput * radiance;
   } else {
     pathAddLight(p, walk,
                  radiance * (pdfLight > 0.0f ? lightMisWeight(walk.pdfBsdf, pdfLight) : 1.0f));
@@ -309,7 +309,7 @@ RL_FN void pathBeginX1(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(Surface) 
 #endif
 
 RL_FN uint onVertex(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_INOUT(Surface) s) {
-  if (pathIsRough(s)) p.isMirrored = 0u;
+  if (!pathIsMirror(s)) p.isMirrored = 0u;
 #ifdef RL_PATH_REPLAYS
   if (walk.bounces == 0u) {
     p.isReusable = (gFrame.cameraAbsorbs & RL_CAMERA_ABSORBS_NOW) == 0u ? 1u : 0u;

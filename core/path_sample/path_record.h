@@ -16,7 +16,7 @@ RL_NAMESPACE_BEGIN
 struct PathRecord {
   vec3 unresampledRadiance;  // light that no other pixel could reuse; not in any reservoir
   vec3 inView;               // emission that the camera sees, and direct light of mirrors it sees
-  uint isMirrored;           // 1: all vertices so far are smooth
+  uint isMirrored;           // 1: all vertices so far are mirrors
   uint film;
   uint isReusable;  // 1: other pixels can reuse the light that x1 receives
   vec3 x1PosW;

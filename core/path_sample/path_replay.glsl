@@ -44,7 +44,7 @@ RL_FN uint onVertex(RL_INOUT(PathReplay) q, RL_IN(Walk) walk, RL_INOUT(Surface) 
     return RL_WALK_ENDS;
   }
   bool isRough = pathIsRough(s);
-  if (isRough) q.isMirrored = 0u;
+  if (!pathIsMirror(s)) q.isMirrored = 0u;
   q.before.posW = s.posW;
   q.before.isRough = isRough ? 1u : 0u;
   if (walk.bounces < q.base) return 0u;

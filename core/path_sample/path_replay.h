@@ -21,7 +21,7 @@ struct PathReplay {
   PathConnector before;
   uint base;        // PathSample::base
   uint kind;        // RL_PATH_*
-  uint isMirrored;  // 1: all vertices so far are smooth
+  uint isMirrored;  // 1: all vertices so far are mirrors
   uint failed;      // RL_FAILED_NOT: what follows is set
   Surface x;        // the vertex after `base` events
   vec3 throughput;  // f |cos| / pdf up to it, without Russian roulette

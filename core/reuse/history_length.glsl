@@ -32,9 +32,7 @@ RL_FN uint unresampledCountPack(RL_IN(UnresampledCount) count) {
   return count.taken | (count.level << 8u) | (count.frames << 16u);
 }
 
-// Level of light in view, for UnresampledCount.
+// Level of light in view, for UnresampledCount: the exponent of its luminance.
 RL_FN uint levelOfLight(RL_IN(vec3) light) {
-  float luminance = rlLuminance(light);
-  if (!(luminance > 1.0e-9f)) return 0u;
-  return uint(clamp(4.0f * log2(luminance) + 128.0f, 1.0f, 255.0f));
+  return (floatBitsToUint(max(rlLuminance(light), 0.0f)) >> 23u) & 0xffu;
 }

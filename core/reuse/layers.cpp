@@ -138,7 +138,7 @@ std::vector<LayerInfo> reuseLayers(uint32_t reservoirUvec4s) {
   age.values = [](const FrameSnapshot& snapshot) {
     // Layout as in unresampledCountPack().
     return [words = snapshot.words("unresampled_radiance")](size_t pixel) {
-      return float(words[4 * pixel + 3] >> 8u);
+      return float(words[4 * pixel + 3] >> 16u);
     };
   };
   ofEntry.name = "entry_confidence";

@@ -50,7 +50,9 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   vec3 light = vec3(0.0f, 0.0f, 0.0f);
   if (isEdge || isNear) {
     Rng rng = rngInit(gFrame.seed ^ RL_LIGHT_IN_VIEW_SEED, pixelIndex, gFrame.frame);
-    uvec2 start = uvec2(rngBits(rng, RL_DIM_FILTER_X), rngBits(rng, RL_DIM_FILTER_Y));
+    uvec2 start;
+    start.x = rngBits(rng, RL_DIM_FILTER_X);
+    start.y = rngBits(rng, RL_DIM_FILTER_Y);
     for (uint i = 0u; i < samples; i = i + 1u) {
       uint film = cameraFilmBitsOfFrame(pixel, gFrame.frame + i);
       if (isNear) film = filmAfter(start, i);

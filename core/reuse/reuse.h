@@ -49,13 +49,13 @@ const float RL_DUPLICATES_MOST = 288.0f;
 // Number of samples in the average of a pixel's unresampled light.
 struct UnresampledCount {
   uint taken;   // film samples that light_edges took when the view was new; 8 bits
-  uint level;   // of the light in view: 0 none, else logarithmic; 8 bits
+  uint level;   // of the light in view: 0 none, else the exponent of its luminance; 8 bits
   uint frames;  // frames of this view, less those that were forgotten; 16 bits. From light_edges:
                 // 1, if the samples are to be forgotten in a still view
 };
 
-// Levels of light in view: four an octave. Edges differ by more than two octaves.
-const uint RL_LEVELS_OF_AN_EDGE = 8u;
+// The light in view ends where its levels differ by more: by a factor of 4 to 16.
+const uint RL_LEVELS_OF_AN_EDGE = 2u;
 const uint RL_LIGHT_IN_VIEW_SEED = 0x7f4a7c15u;
 
 struct ReuseBuffers {

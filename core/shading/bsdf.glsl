@@ -284,6 +284,12 @@ RL_FN bool bsdfIsReusable(RL_IN(Bsdf) b, float minAlpha) {
   return (b.lobes & RL_LOBE_SPECULAR) == 0u || b.alpha >= minAlpha;
 }
 
+// Returns whether a surface shows sharp images alone: every lobe is smoother than `maxAlpha`.
+RL_FN bool bsdfIsMirror(RL_IN(Bsdf) b, float maxAlpha) {
+  if (bsdfIsBlack(b) || (b.lobes & RL_LOBE_DIFFUSE) != 0u) return false;
+  return !bsdfIsReusable(b, maxAlpha);
+}
+
 // Share of the light that is reflected, roughly: diffuse and specular at normal incidence.
 RL_FN vec3 bsdfReflectance(RL_IN(Bsdf) b) {
   vec3 reflectance = b.diffuse;

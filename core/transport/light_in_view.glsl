@@ -1,13 +1,13 @@
-// Direct light of smooth surfaces that the camera sees: the two terms of a vertex, each with its
-// MIS weight.
+// Direct light of mirrors that the camera sees: the two terms of a vertex, each with its MIS
+// weight.
 
-// Emission that a ray from the camera or from a smooth vertex found.
+// Emission that a ray from the camera or from a mirror found.
 RL_FN vec3 lightFoundInView(RL_IN(Walk) walk, RL_IN(vec3) emission, float pdfLight) {
   float weight = pdfLight > 0.0f ? lightMisWeight(walk.pdfBsdf, pdfLight) : 1.0f;
   return walk.throughput * emission * weight;
 }
 
-// Light sample at a smooth vertex, without visibility.
+// Light sample at a mirror, without visibility.
 RL_FN vec3 lightSampleInView(RL_IN(Walk) walk, RL_IN(Surface) s, RL_IN(LightSample) light,
                              RL_IN(LightConnection) c) {
   float pdf;

@@ -34,6 +34,7 @@ const std::vector<Setting> kSettings = {
     {"confidence_cap 5", {{"confidence_cap", 5.0}}},
     {"confidence_cap 50", {{"confidence_cap", 50.0}}},
     {"temporal off", {{"temporal", false}}},
+    {"spatial_feedback off", {{"spatial_feedback", false}}},
     {"max_jacobian 2", {{"max_jacobian", 2.0}}},
     {"max_jacobian 100", {{"max_jacobian", 100.0}}},
     {"similarity open", {{"normal_threshold", -1.0}, {"plane_threshold", 10.0}}},
