@@ -3,8 +3,7 @@
 //
 // - Direct light at x1: light samples, and the light that the BSDF sample hit.
 // - Indirect light: x2 and its radiance to x1, by a light sample at x2 and by the path's suffix.
-// - Light in view: emission that the camera sees, and direct light of mirrors that it sees,
-// directly
+// - Light in view: emission that the camera sees, and direct light of mirrors that it sees, itself
 //   or in other mirrors: images of lamps. The pass light_edges may take several samples of it.
 // - Unresampled light, which no other pixel could reuse: the environment that the camera sees, all
 //   other light if x1 cannot be reused (mirror, glass, roughness below the limit), light through a

@@ -74,7 +74,8 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     // A NaN or Inf would spread by reuse. Reset the reservoir and count it.
     RL_HEALTH(RL_HEALTH_NONFINITE);
     radiance = vec3(0.0f, 0.0f, 0.0f);
-    next.state = reservoirEmpty();
+    r.state = reservoirEmpty();
+    next.state = r.state;
   }
   reservoirWriteHistory(pixelIndex, next);
   if (gParams.reuse.duplicationMap != 0u)
