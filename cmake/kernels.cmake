@@ -168,12 +168,18 @@ function(rl_add_kernel name kernel_file)
   set_property(GLOBAL APPEND PROPERTY RL_KERNEL_ROWS "${name}|${kernel_path}|${header_path}")
 endfunction()
 
-# rl_add_reuse_kernels(<method>): a kernel for each pass of core/reuse, over the sample of the calling folder.
+# rl_add_reuse_kernels(<method> [SHADES]): a kernel for each pass of core/reuse, over the sample of the calling folder.
+# SHADES: the spatial pass traces a ray to shade (RL_SAMPLE_SHADES).
 function(rl_add_reuse_kernels method)
-  foreach(pass IN ITEMS light_edges initial temporal cache_reuse spatial_shift spatial
-                   cache_update)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "SHADES" "" "")
+  foreach(pass IN ITEMS light_edges initial temporal cache_reuse spatial_shift cache_update)
     rl_add_kernel(${method}_${pass} ${pass}.glsl HEADER ${method}.h)
   endforeach()
+  if(arg_SHADES)
+    rl_add_kernel(${method}_spatial spatial.glsl HEADER ${method}.h)
+  else()
+    rl_add_kernel(${method}_spatial spatial.glsl HEADER ${method}.h NO_FEATURES)
+  endif()
   rl_add_kernel(${method}_outlines core/reuse/outlines.glsl HEADER ${method}.h NO_FEATURES)
   rl_add_kernel(${method}_duplicates core/reuse/duplicates.glsl HEADER ${method}.h NO_FEATURES)
 endfunction()

@@ -19,10 +19,14 @@ struct Rng {
 // Vertex numbers: 0 is the pixel, k the k-th scattering vertex, large ones the reuse passes.
 const uint RL_VERTEX_PIXEL = 0u;
 const uint RL_VERTEX_TEMPORAL = 0x1000u;
-const uint RL_VERTEX_SPATIAL = 0x2000u;
+const uint RL_VERTEX_SPATIAL = 0x2000u;  // + number of the round
 const uint RL_VERTEX_CACHE_UPDATE = 0x3000u;
 const uint RL_VERTEX_CACHE_REUSE = 0x3800u;
 const uint RL_VERTEX_CANDIDATES = 0x4000u;  // + index of a light candidate
+
+// Steps of the R2 sequence, 1/g and 1/g^2 of 2^32, g^3 = g + 1 (Roberts 2018).
+const uint RL_R2_STEP_X = 3242174889u;
+const uint RL_R2_STEP_Y = 2447445414u;
 
 const uint RL_DIM_FILTER_X = 0u;
 const uint RL_DIM_FILTER_Y = 1u;

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <map>
 #include <optional>
 #include <span>
@@ -82,6 +84,18 @@ struct Donor {
   bool isSelected = false;  // selected in its merge
 };
 
+// A vertex of the path of a pixel's sample.
+struct PathVertex {
+  std::string
+      name;  // "x1", "x2" and so on from the camera; the end may be "light" or "environment"
+  // In metres, relative to CompiledScene::origin() until Session::path() has added it.
+  glm::vec3 posW = {};
+  bool isDirection = false;  // of the environment: posW is a unit vector
+  // Place on this frame's film, in pixels; it may lie outside the image. None: behind the camera.
+  std::optional<glm::vec2> film;
+  bool isReconnected = false;  // a shift keeps it; false: it is traced again from the other pixel
+};
+
 // A value that a part keeps for every pixel, shown as an image: one number per pixel.
 struct LayerInfo {
   std::string name;     // unique among the parts of a method and Session::aovNames()
@@ -124,6 +138,8 @@ struct PartInfo {
   // Recomputes the donors from the buffers that the frame has left, so that frames cost nothing
   // extra. Empty: the part merges no samples.
   std::function<std::vector<Donor>(const FrameSnapshot&, size_t pixel)> donors;
+  // Traces the path of the sample that a pixel holds after the frame. Empty: the part keeps none.
+  std::function<std::vector<PathVertex>(const FrameSnapshot&, size_t pixel)> path;
 };
 
 // A string of the resolved parameters.

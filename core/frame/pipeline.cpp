@@ -151,6 +151,14 @@ std::vector<Donor> Pipeline::donors(size_t pixel, const ShownFrame& shown) {
   return all;
 }
 
+std::vector<PathVertex> Pipeline::path(size_t pixel, const ShownFrame& shown) {
+  Copies copies([this](const std::string& name) { return words(name); });
+  for (const PartInfo* part : parts_) {
+    if (part->path) return part->path(copies.snapshot(shown, paramsOf(*part)), pixel);
+  }
+  return {};
+}
+
 std::vector<float> Pipeline::layer(const LayerInfo& info, const ShownFrame& shown) {
   Copies copies([this](const std::string& name) { return words(name); });
   std::vector<float> all(pixels_);

@@ -47,6 +47,7 @@ class Pipeline {
   // Values that the parts keep for a pixel: layers and other values.
   std::vector<ProbeValue> probe(size_t pixel, const ShownFrame& shown);
   std::vector<Donor> donors(size_t pixel, const ShownFrame& shown);
+  std::vector<PathVertex> path(size_t pixel, const ShownFrame& shown);
   // Values of a part's layer, one per pixel.
   std::vector<float> layer(const LayerInfo& info, const ShownFrame& shown);
 

@@ -405,6 +405,16 @@ std::vector<Donor> Session::donors(uint32_t x, uint32_t y) const {
   return m.isFirstFrame ? std::vector<Donor>{} : m.pipeline->donors(pixel, m.shown());
 }
 
+std::vector<PathVertex> Session::path(uint32_t x, uint32_t y) const {
+  Impl& m = *impl_;
+  const size_t pixel = m.pixelAt(x, y);
+  if (m.isFirstFrame) return {};
+  std::vector<PathVertex> path = m.pipeline->path(pixel, m.shown());
+  for (PathVertex& vertex : path)
+    if (!vertex.isDirection) vertex.posW += glm::vec3(m.scene->origin());
+  return path;
+}
+
 void Session::setCamera(const SceneCamera& camera) {
   impl_->nextCamera = impl_->scene->camera(camera, impl_->config.width, impl_->config.height);
 }

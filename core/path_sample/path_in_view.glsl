@@ -3,19 +3,21 @@
 #define RL_WALK_STATE PathInView
 
 #include "core/path_sample/path_connect.glsl"
-#include "core/transport/light_in_view.glsl"
+#include "core/transport/light_terms.glsl"
 
 RL_FN void onEmission(RL_INOUT(PathInView) p, RL_IN(Walk) walk, RL_IN(Surface) s, RL_IN(Hit) hit,
                       float pdfLight) {
-  p.radiance += lightFoundInView(walk, s.emission, pdfLight);
+  p.radiance += lightFound(walk, s.emission, pdfLight);
 }
 RL_FN uint onVertex(RL_INOUT(PathInView) p, RL_IN(Walk) walk, RL_INOUT(Surface) s) {
   return pathIsMirror(s) ? 1u : RL_WALK_ENDS;
 }
 RL_FN bool onLightSample(RL_INOUT(PathInView) p, RL_IN(Walk) walk, RL_IN(Rng) rng, RL_IN(Surface) s,
                          RL_IN(LightSample) light, RL_IN(LightConnection) c) {
-  p.unshadowed = lightSampleInView(walk, s, light, c);
-  return !rlIsBlack(p.unshadowed);
+  vec3 unshadowed;
+  bool isReflected = lightSampled(walk, s, light, c, unshadowed);
+  p.unshadowed = unshadowed;
+  return isReflected;
 }
 RL_FN void onShadowRay(RL_INOUT(PathInView) p, RL_IN(Walk) walk, float transmittance) {
   p.radiance += p.unshadowed * transmittance;

@@ -19,7 +19,7 @@
 #define RL_WALK_STATE PathRecord
 
 #include "core/path_sample/path_connect.glsl"
-#include "core/transport/light_in_view.glsl"
+#include "core/transport/light_terms.glsl"
 
 RL_FN LightSample pathNoLight() {
   LightSample s;
@@ -211,7 +211,7 @@ RL_FN void onMiss(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(vec3) radiance
 RL_FN void onEmission(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(Surface) s, RL_IN(Hit) hit,
                       float pdfLight) {
   if (p.isMirrored != 0u) {
-    p.inView += lightFoundInView(walk, s.emission, pdfLight);
+    p.inView += lightFound(walk, s.emission, pdfLight);
     return;
   }
   if (pathAddReplay(p, walk, s.emission, pdfLight)) return;
@@ -355,8 +355,10 @@ RL_FN uint onVertex(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_INOUT(Surface) 
 RL_FN bool onLightSample(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(Rng) rng, RL_IN(Surface) s,
                          RL_IN(LightSample) light, RL_IN(LightConnection) c) {
   if (p.isMirrored != 0u) {
-    p.unshadowedContribution = lightSampleInView(walk, s, light, c);
-    return !rlIsBlack(p.unshadowedContribution);
+    vec3 unshadowed;
+    bool isReflected = lightSampled(walk, s, light, c, unshadowed);
+    p.unshadowedContribution = unshadowed;
+    return isReflected;
   }
   float pdf;
   vec3 f = bsdfEvalAndPdf(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW, pdf);

@@ -4,6 +4,13 @@
 // would have no inverse.
 #define RL_WALK_STATE PathReplay
 
+// Shows where a replay goes to who asks (Session::path()). Kernels leave these empty.
+#ifndef RL_REPLAY_WATCH_VERTEX
+#define RL_REPLAY_WATCH_VERTEX(posW)
+#define RL_REPLAY_WATCH_LIGHT(isEnd, posW)
+#define RL_REPLAY_WATCH_MISS(dirW)
+#endif
+
 RL_FN PathReplay pathReplayBegin(RL_IN(PathSample) path) {
   PathReplay q;
   q.before = pathConnectorNone();
@@ -27,17 +34,20 @@ RL_FN void pathReplayFinds(RL_INOUT(PathReplay) q, RL_IN(Walk) walk, RL_IN(vec3)
   q.failed = RL_FAILED_NOT;
 }
 RL_FN void onMiss(RL_INOUT(PathReplay) q, RL_IN(Walk) walk, RL_IN(vec3) radiance, float pdfLight) {
+  RL_REPLAY_WATCH_MISS(walk.ray.dir)
   pathReplayFinds(q, walk, radiance, pdfLight);
   if (walk.bounces == 0u) q.failed = RL_FAILED_BACKGROUND;
 }
 RL_FN void onEmission(RL_INOUT(PathReplay) q, RL_IN(Walk) walk, RL_IN(Surface) s, RL_IN(Hit) hit,
                       float pdfLight) {
+  RL_REPLAY_WATCH_LIGHT(walk.bounces > q.base, s.posW)
   // Direct light of mirrors in view is not resampled.
   if (q.isMirrored == 0u) pathReplayFinds(q, walk, s.emission, pdfLight);
 }
 
 RL_FN uint onVertex(RL_INOUT(PathReplay) q, RL_IN(Walk) walk, RL_INOUT(Surface) s) {
   if (walk.bounces > q.base) return RL_WALK_ENDS;
+  RL_REPLAY_WATCH_VERTEX(s.posW)
   if (walk.bounces == 0u) q.before.footprint = pathFootprintOfX1(s, walk.ray.origin);
   if (walk.bounces > 0u && pathConnects(q.before, walk, s)) {
     q.failed = RL_FAILED_CONNECTS;

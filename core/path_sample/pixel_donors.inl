@@ -35,14 +35,75 @@ namespace {
 
 using Donors = std::vector<restlab::Donor>;
 
+// Distance in metres at which the environment is drawn.
+constexpr float kFarAway = 1e6f;
 // Rounding errors of differences: of shares (reservoirs are packed), of sums of confidences.
 constexpr double kRoundingOfShares = 1e-3, kRoundingOfConfidence = 1e-4;
 
+using Vertices = std::vector<restlab::PathVertex>;
+
 // Shifts of the method.
+#define RL_REPLAY_WATCH_VERTEX(posW) addVertex(posW, false);
+#define RL_REPLAY_WATCH_LIGHT(isEnd, posW) \
+  if (isEnd) addLight(posW, false);
+#define RL_REPLAY_WATCH_MISS(dirW) addDirection(dirW, false);
 namespace of_shifts {
 struct Ctx {
 #include "core/path_sample/pixel_context.inl"
 #include RL_METHOD_SPATIAL_SHIFT
+
+  Vertices watched_ = {};
+
+  void addVertex(vec3 posW, bool isReconnected) {
+    restlab::PathVertex& v = watched_.emplace_back();
+    v.name = fmt::format("x{}", watched_.size());
+    v.posW = posW;
+    v.isReconnected = isReconnected;
+    vec2 film;
+    if (cameraProject(gFrame.camera, posW, vec2(gFrame.width, gFrame.height), film)) v.film = film;
+  }
+  void addLight(vec3 posW, bool isReconnected) {
+    addVertex(posW, isReconnected);
+    watched_.back().name = "light";
+  }
+  void addDirection(vec3 dirW, bool isReconnected) {
+    const vec3 from = watched_.empty() ? gFrame.camera.posW : watched_.back().posW;
+    addVertex(from + kFarAway * dirW, isReconnected);
+    watched_.back().name = "environment";
+    watched_.back().posW = dirW;
+    watched_.back().isDirection = true;
+  }
+  // Traces the part of a path that a shift traces again.
+  void addTraced(const PathSample& path, const Ray& ray) {
+#ifdef RL_PATH_REPLAYS
+    pathReplay(path, ray);
+#else
+    Hit hit = traceNoHit();
+    traceRay(ray, RL_RAY_PATH, cameraAlphaKey(path.film), hit);
+    if (hit.instance != RL_INVALID) addVertex(surfaceLoad(hit, ray.dir).posW, false);
+#endif
+  }
+  Vertices verticesOf(const PathSample& path, uvec2 pixel) {
+    watched_.clear();
+    addTraced(path, cameraFilmRay(gFrame.camera, pixel, path.film));
+    if (isWholeReplay(path)) return watched_;
+    const LightSample end = pathEnd(path);
+    if (end.kind == RL_LIGHT_ENVIRONMENT) {
+      addDirection(end.point, true);
+    } else if (pathEndsAtLight(path)) {
+      addLight(end.point, true);
+    } else {
+      addVertex(end.point, true);
+    }
+    return watched_;
+  }
+  bool isWholeReplay(const PathSample& path) {
+#ifdef RL_PATH_REPLAYS
+    return pathKind(path) == RL_PATH_WHOLE_REPLAY;
+#else
+    return false;
+#endif
+  }
 
   PathShift shifted(const PathReservoir& r, uvec2 pixel, bool isPrevious, bool assumesVisible) {
     PathShift shift = shiftTo(r, pixel, isPrevious, assumesVisible);
@@ -55,6 +116,9 @@ struct Ctx {
   }
 };
 }  // namespace of_shifts
+#undef RL_REPLAY_WATCH_VERTEX
+#undef RL_REPLAY_WATCH_LIGHT
+#undef RL_REPLAY_WATCH_MISS
 
 #undef RL_WALK_STATE
 
@@ -295,14 +359,20 @@ Donors donorsOf(const restlab::FrameSnapshot& snapshot, size_t pixelIndex) {
   bindCopy(snapshot, "entry_reservoirs", f.buffers.entryReservoirs);
   const uvec2 pixel(pixelIndex % f.frame.width, pixelIndex / f.frame.width);
   of_shifts::Ctx shifts{f.scene, f.frame, f.counters, f.rays, f.buffers, f.params};
-  over_space::Ctx space{f.scene, f.frame, f.counters, f.rays, f.buffers, f.params};
+  // The last round over space: its reservoirs, its number.
+  ReuseBuffers ofLastRound = f.buffers;
+  PathReuseParams inLastRound = f.params;
+  inLastRound.reuse.spatialRound = f.params.reuse.spatialRounds - 1u;
+  bindCopy(snapshot, restlab::lastRoundsReservoirs(f.params.reuse.spatialRounds),
+           ofLastRound.reservoirs);
+  over_space::Ctx space{f.scene, f.frame, f.counters, f.rays, ofLastRound, inLastRound};
   over_time::Ctx time{f.scene, f.frame, f.counters, f.rays, f.buffers, f.params};
   of_entries::Ctx entries{f.scene, f.frame, f.counters, f.rays, f.buffers, f.params};
   space.shifts_ = &shifts;
   time.shifts_ = &shifts;
   Donors all = space.overSpace(pixel), ofEntries;
   if (f.params.entries.count != 0u) ofEntries = entries.ofEntries(pixel);
-  double confidence = all.front().confidence;
+  double confidence = time.reservoirReadNow(uint(pixelIndex)).state.confidence;
   for (const restlab::Donor& one : ofEntries) confidence -= one.confidence;
   for (const restlab::Donor& one : time.donors(pixel, float(confidence), ofEntries.empty()))
     all.push_back(one);
@@ -346,8 +416,8 @@ std::vector<restlab::ProbeValue> probe(const restlab::FrameSnapshot& snapshot, s
                                         double(r.path.film >> 16) / 65536.0)});
 #ifdef RL_PATH_REPLAYS
   values.push_back({"k", fmt::format("{}", r.path.base + 2u)});
-  if (c.pathKind(r.path) == RL_PATH_WHOLE_REPLAY) return values;
 #endif
+  if (c.isWholeReplay(r.path)) return values;
   values.push_back({"end", endOf(c, r.path)});
 #ifndef RL_DIRECT_ONLY
   values.push_back({"radiance", three(r.path.radiance)});
@@ -355,47 +425,89 @@ std::vector<restlab::ProbeValue> probe(const restlab::FrameSnapshot& snapshot, s
   return values;
 }
 
-// Returns a layer of the sample that each pixel's reservoir holds after the frame.
-restlab::LayerInfo layerOf(const char* name, const char* summary, bool isName,
-                           float (*value)(of_shifts::Ctx&, const PathSample&)) {
+Vertices pathOf(const restlab::FrameSnapshot& snapshot, size_t pixelIndex) {
+  if (snapshot.frame == nullptr || snapshot.scene == nullptr) return {};
+  Frame f(snapshot);
+  bindCopy(snapshot, "reservoir_history", f.buffers.history);
+  of_shifts::Ctx c{f.scene, f.frame, f.counters, f.rays, f.buffers, f.params};
+  const PathReservoir r = c.reservoirReadPrevious(uint(pixelIndex));
+  if (!(r.state.W > 0.0f)) return {};
+  return c.verticesOf(r.path, c.pixelOfIndex(uint(pixelIndex)));
+}
+
+// Number of a layer at a pixel.
+using NumberAt = float (*)(of_shifts::Ctx&, uint pixelIndex);
+
+restlab::LayerInfo layerOf(const char* name, const char* summary, NumberAt numberAt) {
   restlab::LayerInfo layer;
   layer.name = name;
   layer.summary = summary;
-  layer.isName = isName;
   layer.values =
-      [value](const restlab::FrameSnapshot& snapshot) -> std::function<float(size_t pixel)> {
+      [numberAt](const restlab::FrameSnapshot& snapshot) -> std::function<float(size_t pixel)> {
     if (snapshot.frame == nullptr || snapshot.scene == nullptr) return [](size_t) { return 0.0f; };
     const auto f = std::make_shared<Frame>(snapshot);
     bindCopy(snapshot, "reservoir_history", f->buffers.history);
-    return [f, value](size_t pixel) {
+    bindCopy(snapshot, restlab::lastRoundsReservoirs(f->params.reuse.spatialRounds),
+             f->buffers.reservoirs);
+    bindCopy(snapshot, restlab::pairedShiftsName(0), f->buffers.pairedShifts0);
+    return [f, numberAt](size_t pixel) {
       CpuKernelCounters counters;
       of_shifts::Ctx c{f->scene, f->frame, counters, f->rays, f->buffers, f->params};
-      const PathReservoir r = c.reservoirReadPrevious(uint(pixel));
-      return r.state.W > 0.0f ? value(c, r.path) : 0.0f;
+      return numberAt(c, uint(pixel));
     };
   };
   return layer;
 }
 
+float kindAt(of_shifts::Ctx& c, uint pixelIndex) {
+  const PathReservoir r = c.reservoirReadPrevious(pixelIndex);
+  return r.state.W > 0.0f ? 1.0f + float(c.pathKind(r.path)) : 0.0f;
+}
+
+float replayedAt(of_shifts::Ctx& c, uint pixelIndex) {
+  const PathReservoir r = c.reservoirReadPrevious(pixelIndex);
+  return r.state.W > 0.0f ? float(r.path.base) : 0.0f;
+}
+
+float outcomeAt(of_shifts::Ctx& c, uint pixelIndex) {
+  if (c.gBuffers.pairedShifts0.data == nullptr || c.gBuffers.reservoirs.data == nullptr)
+    return 0.0f;
+  uint neighbour;
+  c.shiftedRead(c.gBuffers.pairedShifts0, pixelIndex, neighbour);
+  if (neighbour == RL_INVALID) return 0.0f;
+  const PathReservoir r = c.reservoirReadNow(neighbour);
+  return 1.0f + float(c.shifted(r, c.pixelOfIndex(pixelIndex), false, false).failed);
+}
+
 void addLayers(std::vector<restlab::LayerInfo>& layers) {
-  restlab::LayerInfo kind = layerOf(
-      "kind",
-      "kind of the pixel's sample: 1 + 0 direct light, 1 Lambert vertex, 2 to 4 "
-      "glossy vertex (light sample, emitter, continued), 5 light of a smooth "
-      "vertex, 6 replayed as a whole",
-      true,
-      [](of_shifts::Ctx& c, const PathSample& path) { return 1.0f + float(c.pathKind(path)); });
+  restlab::LayerInfo kind =
+      layerOf("kind",
+              "kind of the pixel's sample: 1 + 0 direct light, 1 Lambert vertex, 2 to 4 glossy "
+              "vertex (light sample, emitter, continued), 5 light of a smooth vertex, 6 replayed "
+              "as a whole",
+              kindAt);
+  kind.isName = true;
   kind.wordsOf = [](float number) -> std::string {
     if (number < 1.0f) return "none: the reservoir is empty";
     return restlab::nameOfPathKind(uint32_t(number) - 1u);
   };
+  restlab::LayerInfo outcome = layerOf(
+      "shift_outcome",
+      "outcome of the shift of the first spatial donor's sample to the pixel: 1 accepted, more: "
+      "the test that it failed",
+      outcomeAt);
+  outcome.isName = true;
+  outcome.enabledIf.parameter = "spatial_neighbours";
+  outcome.wordsOf = [](float number) -> std::string {
+    return number < 1.0f ? "no donor" : restlab::nameOfFailedShift(uint32_t(number) - 1u);
+  };
   layers.push_back(std::move(kind));
+  layers.push_back(std::move(outcome));
 #ifdef RL_PATH_REPLAYS
-  layers.push_back(
-      layerOf("replayed",
-              "scattering events of the pixel's sample that a shift replays: it "
-              "reconnects at x_k with k = 2 + this",
-              false, [](of_shifts::Ctx&, const PathSample& path) { return float(path.base); }));
+  layers.push_back(layerOf("replayed",
+                           "scattering events of the pixel's sample that a shift replays: it "
+                           "reconnects at x_k with k = 2 + this",
+                           replayedAt));
 #endif
 }
 
@@ -408,6 +520,7 @@ namespace restlab {
 void RL_METHOD_SETS_PROBE(IntegratorInfo& info) {
   info.probe = rl::probe;
   info.donors = rl::donorsOf;
+  info.path = rl::pathOf;
   rl::addLayers(info.layers);
 }
 

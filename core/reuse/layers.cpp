@@ -46,8 +46,9 @@ rl::ReuseParams paramsOf(const FrameSnapshot& snapshot) {
 class Exchanged {
  public:
   Exchanged(const FrameSnapshot& snapshot, const ReservoirWords& reservoir)
-      : reservoirs_(snapshot.words("reservoirs")), reservoir_(reservoir) {
+      : reservoir_(reservoir) {
     const rl::ReuseParams params = paramsOf(snapshot);
+    reservoirs_ = snapshot.words(lastRoundsReservoirs(params.spatialRounds));
     if (snapshot.frame == nullptr || params.spatialNeighbours == 0) return;
     // Number of donors as in spatialDonors().
     donors_ = snapshot.frame->stillFrames < params.youngFrames ? params.spatialNeighbours

@@ -33,7 +33,7 @@ RL_FN bool lightInViewEnded(RL_IN(GBufferTexel) here) {
 
 // Film sample i of a sequence that covers the pixel evenly from any start.
 RL_FN uint filmAfter(RL_IN(uvec2) start, uint i) {
-  uvec2 at = start + i * uvec2(3242174889u, 2447445414u);
+  uvec2 at = start + i * uvec2(RL_R2_STEP_X, RL_R2_STEP_Y);
   return (at.x >> 16u) | (at.y & 0xffff0000u);
 }
 

@@ -1,6 +1,7 @@
 #include "core/reuse/passes.h"
 
 #include <array>
+#include <cstring>
 
 namespace restlab {
 
@@ -10,6 +11,22 @@ static_assert(rl::RL_MAX_DONORS == 4);
 std::string pairedShiftsName(uint32_t neighbour) {
   return "spatial_shift_" + std::to_string(neighbour);
 }
+
+std::string lastRoundsReservoirs(uint32_t rounds) {
+  return rounds > 1 ? "round_" + std::to_string(rounds - 1) : "reservoirs";
+}
+
+namespace {
+
+// Bytes of a Params struct for the passes of a round.
+std::vector<std::byte> ofRound(std::vector<std::byte> params, rl::ReuseParams reuse,
+                               uint32_t round) {
+  reuse.spatialRound = round;
+  std::memcpy(params.data(), &reuse, sizeof reuse);
+  return params;
+}
+
+}  // namespace
 
 void recordReuse(FrameGraph& g, const FrameInfo& f, const ReusedSample& sample,
                  const rl::ReuseParams& reuse, const rl::EntryParams& entries,
@@ -32,13 +49,34 @@ void recordReuse(FrameGraph& g, const FrameInfo& f, const ReusedSample& sample,
   const Buffer sampleFilms = g.transient("sample_films", mapped, sizeof(uint32_t));
   const Buffer duplicates = g.buffer("duplicates", mapped, sizeof(uint32_t));
   const Buffer entryReservoirs = g.buffer("entry_reservoirs", entries.count, reservoirBytes);
-  const Kernels kernels = g.kernels<rl::ReuseBuffers>(
-      std::move(params),
-      {s.surfaces.now, s.surfaces.previous, s.proposals,     s.shadingPoints,      s.insertions,
-       s.cellKeys,     s.cellPlaces,        s.cellLight,     s.cellRays,           s.changes,
-       radiance,       radianceFrames,      unresampled.now, unresampled.previous, reservoirs,
-       history,        pairedShifts[0],     pairedShifts[1], pairedShifts[2],      pairedShifts[3],
-       outlines,       sampleFilms,         duplicates,      entryReservoirs});
+  // Kernels of a round over space, which reads reservoirs from `from` and leaves them in `to`.
+  const auto kernelsOf = [&](uint32_t round, Buffer from, Buffer to) {
+    return g.kernels<rl::ReuseBuffers>(ofRound(params, reuse, round), {s.surfaces.now,
+                                                                       s.surfaces.previous,
+                                                                       s.proposals,
+                                                                       s.shadingPoints,
+                                                                       s.insertions,
+                                                                       s.cellKeys,
+                                                                       s.cellPlaces,
+                                                                       s.cellLight,
+                                                                       s.cellRays,
+                                                                       s.changes,
+                                                                       radiance,
+                                                                       radianceFrames,
+                                                                       unresampled.now,
+                                                                       unresampled.previous,
+                                                                       from,
+                                                                       to,
+                                                                       pairedShifts[0],
+                                                                       pairedShifts[1],
+                                                                       pairedShifts[2],
+                                                                       pairedShifts[3],
+                                                                       outlines,
+                                                                       sampleFilms,
+                                                                       duplicates,
+                                                                       entryReservoirs});
+  };
+  const Kernels kernels = kernelsOf(0, reservoirs, history);
 
   if (f.isNewView) {
     kernels.pass("light_edges", sample.method + "_light_edges")
@@ -80,23 +118,37 @@ void recordReuse(FrameGraph& g, const FrameInfo& f, const ReusedSample& sample,
           .updates({reservoirs});
     }
   }
-  if (reuse.spatialNeighbours != 0) {
-    if (f.isNewView) {
-      kernels.pass("outlines", sample.method + "_outlines")
-          .reads({s.surfaces.now})
-          .writes({outlines});
-    }
-    kernels.pass("spatial_shift", sample.method + "_spatial_shift")
-        .reads({s.surfaces.now, reservoirs, outlines})
+  const auto shiftPass = [&](const Kernels& ofRound, const std::string& name, Buffer from) {
+    ofRound.pass(name, sample.method + "_spatial_shift")
+        .reads({s.surfaces.now, from, outlines})
         .writes({pairedShifts[0], pairedShifts[1], pairedShifts[2], pairedShifts[3]});
+  };
+  if (reuse.spatialNeighbours != 0 && f.isNewView) {
+    kernels.pass("outlines", sample.method + "_outlines")
+        .reads({s.surfaces.now})
+        .writes({outlines});
   }
+  Buffer from = reservoirs;
+  for (uint32_t round = 0; round + 1 < reuse.spatialRounds; ++round) {
+    const std::string name = lastRoundsReservoirs(round + 2);
+    const Buffer to = g.transient(name, f.pixels, reservoirBytes);
+    const Kernels ofRound = kernelsOf(round, from, to);
+    shiftPass(ofRound, name + "_shift", from);
+    ofRound.pass(name, sample.method + "_spatial")
+        .reads({s.surfaces.now, from, pairedShifts[0], pairedShifts[1], pairedShifts[2],
+                pairedShifts[3]})
+        .writes({to});
+    from = to;
+  }
+  const Kernels last = kernelsOf(reuse.spatialRounds - 1, from, history);
+  if (reuse.spatialNeighbours != 0) shiftPass(last, "spatial_shift", from);
   // Shades, too, and so runs without neighbours.
-  kernels.pass("spatial", sample.method + "_spatial")
-      .reads({s.surfaces.now, reservoirs, pairedShifts[0], pairedShifts[1], pairedShifts[2],
+  last.pass("spatial", sample.method + "_spatial")
+      .reads({s.surfaces.now, from, pairedShifts[0], pairedShifts[1], pairedShifts[2],
               pairedShifts[3], unresampled.now})
       .writes({history, radiance, radianceFrames, sampleFilms});
   if (mapped != 0)
-    kernels.pass("duplicates", sample.method + "_duplicates")
+    last.pass("duplicates", sample.method + "_duplicates")
         .reads({sampleFilms})
         .writes({duplicates});
   g.shared.radiance = radiance;

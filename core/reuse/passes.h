@@ -17,6 +17,9 @@ struct ReusedSample {
 // Name of the buffer of samples shifted to the k-th neighbours.
 std::string pairedShiftsName(uint32_t neighbour);
 
+// Name of the buffer of reservoirs that the last round over space read. `rounds`: its number.
+std::string lastRoundsReservoirs(uint32_t rounds);
+
 // Records the passes. `params`: the method's Params struct, which begins with `reuse`; `entries`:
 // of the cache.
 void recordReuse(FrameGraph& graph, const FrameInfo& frame, const ReusedSample& sample,

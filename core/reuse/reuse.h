@@ -106,6 +106,8 @@ struct ReuseParams {
   float maxReflectanceRatio;  // bound per channel on the reflectance ratio of residuals
   uint spatialFeedback;       // 1: the spatial merge is the history, 0: the merge over time
   uint duplicationMap;        // 1: samples that many pixels hold have a lower cap
+  uint spatialRounds;         // merges with neighbours, one after another
+  uint spatialRound;          // number of this pass's round; the last one shades
   uint writesRadianceFrames;  // 1: a denoiser reads them
 };
 

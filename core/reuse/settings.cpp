@@ -17,6 +17,7 @@ struct ReuseSettings {
   double movingConfidenceCap = 8.0;
   uint32_t spatialNeighbours = 3;
   uint32_t agedNeighbours = 1;
+  uint32_t spatialRounds = 1;
   double youngFrames = 8.0;
   double donorNoise = 0.5;
   uint32_t lightEdgeSamples = 8;
@@ -53,6 +54,10 @@ const Schema<ReuseSettings>& schema() {
           "donors of the spatial pass afterwards, where spatial_neighbours is not less",
           "measured: docs/decisions/donors-by-age.md"),
       Parameter<ReuseSettings>(
+          &ReuseSettings::spatialRounds, "spatial_rounds", Range{1, 4},
+          "merges with neighbours in a frame, one after another, each with other neighbours",
+          "Bitterli et al. 2020: one or two; measured: docs/ablation.md"),
+      Parameter<ReuseSettings>(
           &ReuseSettings::youngFrames, "young_frames", Range{0.0, 1000.0},
           "frames of a still view up to which histories are young",
           "about the age from which young histories gain no more (docs/performance.md); not swept"),
@@ -73,8 +78,8 @@ const Schema<ReuseSettings>& schema() {
           "Ouyang et al. 2021; false leaves what a cache in world space does alone"),
       Parameter<ReuseSettings>(
           &ReuseSettings::spatialFeedback, "spatial_feedback",
-          "the history of a pixel is its merge with spatial neighbours; false: its merge over time "
-          "alone, so that neighbours' samples stay apart, and serve one frame",
+          "the history of a pixel is its last merge with spatial neighbours; false: what went into "
+          "that merge, with one round the merge over time, so that neighbours' samples stay apart",
           "Bitterli et al. 2020 feed back; Lin et al. 2022 do, too"),
       Parameter<ReuseSettings>(
           &ReuseSettings::duplicationMap, "duplication_map",
@@ -127,6 +132,7 @@ rl::ReuseParams packReuse(const ParameterMap& parameters, bool assumesVisible) {
     out.temporalFlags |= rl::RL_REUSE_ASSUME_VISIBLE | rl::RL_REUSE_ASSUME_VISIBLE_HERE;
   out.spatialNeighbours = s.spatialNeighbours;
   out.agedNeighbours = std::min(s.agedNeighbours, s.spatialNeighbours);
+  out.spatialRounds = s.spatialNeighbours == 0 ? 1 : s.spatialRounds;
   out.youngFrames =
       s.oldest() <= s.youngFrames ? rl::RL_INVALID : static_cast<uint32_t>(s.youngFrames);
   out.lightEdgeSamples = s.lightEdgeSamples;
@@ -161,7 +167,7 @@ std::string reuseReasonUnused(const std::string& name, const ParameterMap& param
   if (name == "moving_confidence_cap" && s.movingConfidenceCap > s.confidenceCap)
     return "confidence_cap is smaller";
   if (neighbours == 0 && isOneOf(name, {"aged_neighbours", "young_frames", "donor_noise",
-                                        "spatial_radius", "spatial_feedback"}))
+                                        "spatial_rounds", "spatial_radius", "spatial_feedback"}))
     return "spatial_neighbours is 0";
   if (!s.temporal && neighbours == 0 &&
       isOneOf(name, {"mis", "max_jacobian", "max_reflectance_ratio", "shading", "normal_threshold",

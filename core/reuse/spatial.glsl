@@ -1,6 +1,7 @@
 // Spatial pass: merges neighbours' reservoirs, shades, and leaves the history. The spatial_shift
 // pass has made the shifts, so that no ray is traced here, but by a sample that RL_SAMPLE_SHADES
-// shades.
+// shades. A round before the last only merges, and leaves the reservoirs of the next round in the
+// history's place.
 #include "core/resampling/pairs.glsl"
 #include "core/reuse/reservoir_store.glsl"
 #include "core/reuse/reflectance_ratio.glsl"
@@ -48,7 +49,7 @@ RL_FN RL_RESERVOIR spatialMerge(uint pixelIndex, RL_OUT(vec3) estimate) {
   s.pixelIndex = pixelIndex;
   s.share = reuseDonorShare(historyAge(), gParams.reuse.donorNoise);
   s.rng = rngInit(gFrame.seed, pixelIndex, gFrame.frame);
-  s.rng.vertex = RL_VERTEX_SPATIAL;
+  s.rng.vertex = RL_VERTEX_SPATIAL + gParams.reuse.spatialRound;
   RL_RESERVOIR r = reservoirReadNow(pixelIndex);
   uint winner;
   float jacobian;
@@ -64,6 +65,14 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint pixelIndex = pixelIndexOf(pixel);
   vec3 estimate;
   RL_RESERVOIR r = spatialMerge(pixelIndex, estimate);
+  if (!isLastRound()) {
+    if (!rlIsFinite3(estimate)) {
+      RL_HEALTH(RL_HEALTH_NONFINITE);
+      r.state = reservoirEmpty();
+    }
+    reservoirWriteHistory(pixelIndex, r);
+    return;
+  }
 #ifdef RL_SAMPLE_SHADES
   sampleShade(pixel, r, estimate);
 #endif

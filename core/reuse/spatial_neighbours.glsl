@@ -1,10 +1,17 @@
-// Number of spatial donors. The number depends on no sample, so any number is unbiased.
+// Spatial donors. Their number depends on no sample, so any number is unbiased.
 #include "core/reuse/history_length.glsl"
 
 RL_FN bool historyIsYoung() { return viewIsYoungerThan(gParams.reuse.youngFrames); }
 
 RL_FN uint spatialDonors() {
   return historyIsYoung() ? gParams.reuse.spatialNeighbours : gParams.reuse.agedNeighbours;
+}
+
+RL_FN bool isLastRound() { return gParams.reuse.spatialRound + 1u == gParams.reuse.spatialRounds; }
+
+// Finds the k-th neighbour of a round (pairFind()). Each round has pairs of its own.
+RL_FN bool spatialNeighbour(RL_IN(uvec2) pixel, uint k, RL_OUT(uint) neighbour) {
+  return pairFind(pixel, k + RL_MAX_DONORS * gParams.reuse.spatialRound, neighbour);
 }
 
 // Returns whether two pixels may exchange samples. At an outline a neighbour's integrand

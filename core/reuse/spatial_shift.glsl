@@ -10,7 +10,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint donors = spatialDonors();
   for (uint k = 0u; k < donors; k = k + 1u) {
     uint neighbour;
-    bool exists = pairFind(pixel, k, neighbour);
+    bool exists = spatialNeighbour(pixel, k, neighbour);
     if (exists) exists = mayExchange(pixelIndex, neighbour);
     RL_SHIFT shift = shiftNone();
     if (exists) shift = shiftTo(r, pixelOfIndex(neighbour), false, false);

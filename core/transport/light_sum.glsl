@@ -1,32 +1,28 @@
 // Path loop that sums the light found along a path: at each vertex one light sample and one BSDF
-// sample, combined by the power heuristic (Veach 1997, chapter 9). The includer defines
+// sample (core/transport/light_terms.glsl). The includer defines
 // RL_WALK_STATE, a struct with a LightSum `sum`, and onVertex(), and onEnd() where RL_WALK_END is
 // defined (core/transport/walk.glsl).
 
+#include "core/transport/light_terms.glsl"
+
 RL_FN void onMiss(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, RL_IN(vec3) radiance,
                   float pdfLight) {
-  float weight = pdfLight > 0.0f ? lightMisWeight(walk.pdfBsdf, pdfLight) : 1.0f;
-  state.sum.radiance += walk.throughput * radiance * weight;
+  state.sum.radiance += lightFound(walk, radiance, pdfLight);
 }
 
 RL_FN void onEmission(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, RL_IN(Surface) s,
                       RL_IN(Hit) hit, float pdfLight) {
-  float weight = pdfLight > 0.0f ? lightMisWeight(walk.pdfBsdf, pdfLight) : 1.0f;
-  state.sum.radiance += walk.throughput * s.emission * weight;
+  state.sum.radiance += lightFound(walk, s.emission, pdfLight);
 }
 
 RL_FN void onMedium(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, RL_IN(vec3) transmittance) {}
 
 RL_FN bool onLightSample(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, RL_IN(Rng) rng,
                          RL_IN(Surface) s, RL_IN(LightSample) light, RL_IN(LightConnection) c) {
-  float pdf;
-  vec3 f = bsdfEvalAndPdf(s.bsdf, s.nGeoW, s.nShadeW, s.wo, c.dirW, pdf);
-  if (rlIsBlack(f)) return false;
-  float weight = c.isDelta ? 1.0f : lightMisWeight(c.pdfSolidAngle, pdf);
-  state.sum.unseen = walk.throughput * f * c.emitted * (c.geometry * weight / light.pdf);
-  if (RL_HAS(RL_FEATURE_VOLUME))
-    state.sum.unseen *= exp(-surfaceSigma(s, walk.sigma, c.dirW) * c.distance);
-  return true;
+  vec3 unshadowed;
+  bool isReflected = lightSampled(walk, s, light, c, unshadowed);
+  state.sum.unseen = unshadowed;
+  return isReflected;
 }
 
 RL_FN void onShadowRay(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, float transmittance) {

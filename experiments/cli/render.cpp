@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -110,6 +111,20 @@ Rendered renderFrames(Session& session, const RenderOptions& options, bool histo
   return rendered;
 }
 
+// Says how often a layer of names has each of them: "shift_outcome: accepted 71.3 %, dark 9 %".
+std::string sharesOfNames(const LayerInfo& layer, const Image& image) {
+  std::map<std::string, size_t> counts;
+  for (const glm::vec3& number : image.pixels) ++counts[layer.wordsOf(number.x)];
+  std::vector<std::pair<std::string, size_t>> sorted(counts.begin(), counts.end());
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::vector<std::string> shares;
+  for (const auto& [name, count] : sorted)
+    shares.push_back(
+        fmt::format("{} {:.3g} %", name, 100.0 * double(count) / double(image.pixels.size())));
+  return fmt::format("{}: {}", layer.name, fmt::join(shares, ", "));
+}
+
 // Memory besides the buffers: the image, twice; the sums of its mean; AOVs as buffers and as
 // layers.
 size_t hostBytesPerPixel(const RenderOptions& options, const std::vector<std::string>& aovs) {
@@ -201,6 +216,10 @@ void render(RenderOptions options) {
   further.add(session, kernels, notices);
   further.print();
   if (file) writeFiles(options, *file, aovs, findMethod(config));
+  const Method method = findMethod(config);
+  for (const LayerInfo* layer : method.layers())
+    if (file && layer->wordsOf != nullptr && file->layers.contains(layer->name))
+      logInfo(sharesOfNames(*layer, file->layers.at(layer->name)));
   if (pixel) {
     const std::string text =
         options.json ? pixelJson(session, *pixel, rendered.frame + 1) : pixelText(session, *pixel);

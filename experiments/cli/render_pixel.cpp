@@ -32,7 +32,8 @@ std::string pixelText(const Session& session, const PixelPlace& pixel) {
   std::string text;
   for (const ProbeValue& value : probedValues(session, pixel.x, pixel.y))
     text += fmt::format("{} {}\n", value.name, value.value);
-  return text + probedDonorsText(session, pixel.x, pixel.y);
+  return text + probedPathText(session, pixel.x, pixel.y) +
+         probedDonorsText(session, pixel.x, pixel.y);
 }
 
 std::string pixelJson(const Session& session, const PixelPlace& pixel, uint64_t frame) {
@@ -41,6 +42,7 @@ std::string pixelJson(const Session& session, const PixelPlace& pixel, uint64_t 
                                        {"frame", frame},
                                        {"seed", session.config().seed},
                                        {"values", probedValuesJson(session, pixel.x, pixel.y)},
+                                       {"path", probedPathJson(session, pixel.x, pixel.y)},
                                        {"donors", probedDonorsJson(session, pixel.x, pixel.y)}};
   return json.dump(2) + "\n";
 }

@@ -108,4 +108,27 @@ Json probedDonorsJson(const Session& session, uint32_t x, uint32_t y) {
   return all;
 }
 
+std::string probedPathText(const Session& session, uint32_t x, uint32_t y) {
+  std::string text;
+  for (const PathVertex& v : session.path(x, y)) {
+    text += fmt::format("path {}: {} at {:.6g} {:.6g} {:.6g}{}", v.name,
+                        v.isReconnected ? "reconnected" : "replayed", v.posW.x, v.posW.y, v.posW.z,
+                        v.isDirection ? " (direction)" : "");
+    text += v.film ? fmt::format(", on the film at {:.4g},{:.4g}\n", v.film->x, v.film->y)
+                   : ", behind the camera\n";
+  }
+  return text;
+}
+
+Json probedPathJson(const Session& session, uint32_t x, uint32_t y) {
+  Json all = Json::array();
+  for (const PathVertex& v : session.path(x, y)) {
+    all.push_back({{"name", v.name},
+                   {"position", {v.posW.x, v.posW.y, v.posW.z}},
+                   {"film", v.film ? Json({v.film->x, v.film->y}) : Json(nullptr)},
+                   {"reconnected", v.isReconnected}});
+  }
+  return all;
+}
+
 }  // namespace restlab

@@ -315,6 +315,7 @@ std::string probeText(const ViewFacts& facts, const LiveView& view, const Probe&
                  {"epoch", view.epochOf(probe.pane)},
                  {"seed", config.seed},
                  {"values", probedValuesJson(view.session(probe.pane), probe.x, probe.y)},
+                 {"path", probedPathJson(view.session(probe.pane), probe.x, probe.y)},
                  {"donors", probedDonorsJson(view.session(probe.pane), probe.x, probe.y)},
                  {"command", probeCommand(facts, view, probe)}});
 }

@@ -2,8 +2,9 @@
 // `path` with other seeds.
 //
 // Methods of reuse run with its defaults and with all safeguards open: donors from anywhere, with
-// any normal, plane or roughness, and Jacobians of any size. That raises the variance but must not
-// move the mean: reuse is unbiased by its weights, not by the tests of similarity.
+// any normal, plane or roughness, and Jacobians of any size, in two rounds. That raises the
+// variance but must not move the mean: reuse is unbiased by its weights, not by the tests of
+// similarity.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,11 +37,9 @@ struct Effort {
 };
 
 ParameterMap openParameters(const std::string& integrator) {
-  ParameterMap open = {{"normal_threshold", -1.0},
-                       {"plane_threshold", 10.0},
-                       {"roughness_limit", 0.05},
-                       {"spatial_neighbours", int64_t{2}},
-                       {"spatial_radius", 48.0}};
+  ParameterMap open = {{"normal_threshold", -1.0},     {"plane_threshold", 10.0},
+                       {"roughness_limit", 0.05},      {"spatial_neighbours", int64_t{2}},
+                       {"spatial_rounds", int64_t{2}}, {"spatial_radius", 48.0}};
   if (integrator != "restir_di") open["max_jacobian"] = 1.0e6;
   if (integrator == "restir_pt") open["light_candidates"] = int64_t{4};
   return open;

@@ -27,6 +27,7 @@ const std::vector<Setting> kSettings = {
     {"spatial_neighbours 4", {{"spatial_neighbours", int64_t{4}}}},
     {"donor_noise 0",
      {{"donor_noise", 0.0}, {"aged_neighbours", int64_t{4}}, {"spatial_neighbours", int64_t{4}}}},
+    {"spatial_rounds 3", {{"spatial_rounds", int64_t{3}}}},
     {"mis defensive", {{"mis", std::string("defensive")}}},
     {"donor_noise 10", {{"donor_noise", 10.0}}},
     {"young_frames 0", {{"young_frames", 0.0}}},

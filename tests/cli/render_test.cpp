@@ -286,6 +286,14 @@ TEST_F(RenderTest, PrintsWhatIsKeptOfAPixel) {
     ASSERT_TRUE(std::getline(lines, line));
     EXPECT_EQ(line.rfind(value["name"].get<std::string>() + " ", 0), 0u) << line;
   }
+  ASSERT_EQ(json["path"].size(), 2u);
+  for (const auto& vertex : json["path"]) {
+    ASSERT_TRUE(std::getline(lines, line));
+    const std::string begin =
+        fmt::format("path {}: {} at ", vertex["name"].get<std::string>(),
+                    vertex["reconnected"].get<bool>() ? "reconnected" : "replayed");
+    EXPECT_EQ(line.rfind(begin, 0), 0u) << line;
+  }
   // Own sample first, then donors over space, last the pixel itself over time.
   ASSERT_GE(json["donors"].size(), 2u);
   EXPECT_EQ(json["donors"].front()["reuse"], "canonical");

@@ -96,6 +96,95 @@ TEST_P(DonorScenes, TheSelectedDonorGaveTheSample) {
   EXPECT_GT(accepted, taken);
 }
 
+// After several rounds the donors are those of the last one. A wrong buffer or other pairs would
+// give other confidences.
+TEST_P(DonorScenes, ConfidencesAddUpInTheLastRound) {
+  const auto [method, name] = GetParam();
+  Session session(bias::builtinScene(name),
+                  donorsConfig({{"spatial_rounds", int64_t{3}}, {"spatial_neighbours", int64_t{2}}},
+                               "pixel", method));
+  for (int frame = 0; frame < 2; ++frame) session.frame();
+  const Image confidence = session.aov("confidence");
+  double most = 0.0;
+  for (size_t i = 0; i < confidence.pixels.size(); ++i) {
+    double sum = 0.0;
+    int selected = 0;
+    for (const Donor& donor : donorsOf(session, i)) {
+      if (donor.reuse == "time") continue;
+      sum += donor.confidence;
+      selected += donor.isSelected;
+    }
+    EXPECT_NEAR(sum, double(confidence.pixels[i].x), 1e-5 * sum) << i;
+    EXPECT_EQ(selected, sampleOf(session, i).empty() ? 0 : 1) << i;
+    most = std::max(most, sum);
+  }
+  // One round adds two donors to each pixel at most, three rounds more.
+  EXPECT_GT(most, 2.0 * 3.0);
+}
+
+// The path of a pixel's sample: x1 is seen through the pixel, and every vertex but the end is where
+// a shift traces it again.
+TEST_P(DonorScenes, ThePathLeadsFromThePixelToItsEnd) {
+  const auto [method, name] = GetParam();
+  Session session(bias::builtinScene(name), donorsConfig(kAlone, "pixel", method));
+  EXPECT_TRUE(session.path(3, 4).empty());
+  session.frame();
+  const Image kind = session.aov("kind"), positions = session.aov("positionW");
+  const bool replays = std::string(method) == "restir_pt";
+  const Image replayed = replays ? session.aov("replayed") : Image(kWidth, kHeight);
+  size_t paths = 0, ends = 0, longest = 0;
+  for (size_t i = 0; i < kind.pixels.size(); ++i) {
+    const auto x = uint32_t(i % kWidth), y = uint32_t(i / kWidth);
+    const std::vector<PathVertex> path = session.path(x, y);
+    EXPECT_EQ(path.empty(), kind.pixels[i].x == 0.0f) << i;
+    if (path.empty()) continue;
+    ++paths;
+    const PathVertex& x1 = path.front();
+    EXPECT_EQ(x1.name, "x1");
+    EXPECT_FALSE(x1.isReconnected);
+    ASSERT_TRUE(x1.film.has_value());
+    EXPECT_NEAR(x1.film->x, float(x) + 0.5f, 0.501f) << i;
+    EXPECT_NEAR(x1.film->y, float(y) + 0.5f, 0.501f) << i;
+    // This frame's sample is the one whose film sample the layers show.
+    EXPECT_LT(glm::length(x1.posW - positions.pixels[i]), 1e-4f) << i;
+    const bool isWhole = kind.pixels[i].x == 7.0f;
+    EXPECT_EQ(path.size(), 2 + size_t(replayed.pixels[i].x)) << i;
+    EXPECT_EQ(path.back().isReconnected, !isWhole) << i;
+    for (size_t k = 0; k + 1 < path.size(); ++k) EXPECT_FALSE(path[k].isReconnected) << i;
+    ends += path.back().name == "light" || path.back().name == "environment";
+    longest = std::max(longest, path.size());
+  }
+  EXPECT_GT(paths, kind.pixels.size() / 10);
+  EXPECT_GT(ends, 20u);
+  EXPECT_EQ(longest > 2, replays);
+}
+
+// The layer says of the first donor what the probe says of it.
+TEST_P(DonorScenes, TheOutcomeOfAShiftIsThatOfTheProbe) {
+  const auto [method, name] = GetParam();
+  Session session(bias::builtinScene(name), donorsConfig({}, "pixel", method));
+  session.frame();
+  const Method of = findMethod(method, "pixel", "none");
+  const auto layers = of.layers();
+  const auto layer = std::find_if(layers.begin(), layers.end(), [](const LayerInfo* one) {
+    return one->name == "shift_outcome";
+  });
+  ASSERT_NE(layer, layers.end());
+  const Image outcome = session.aov("shift_outcome"), partner = session.aov("partner");
+  size_t compared = 0, failed = 0;
+  for (size_t i = 0; i < outcome.pixels.size(); ++i) {
+    EXPECT_EQ(outcome.pixels[i].x == 0.0f, partner.pixels[i].x == 0.0f) << i;
+    if (outcome.pixels[i].x == 0.0f) continue;
+    const std::vector<Donor> donors = donorsOf(session, i);
+    ASSERT_GT(donors.size(), 1u);
+    EXPECT_EQ((*layer)->wordsOf(outcome.pixels[i].x), donors[1].shift) << i;
+    ++compared;
+    failed += donors[1].shift != "accepted";
+  }
+  EXPECT_GT(compared, 100u);
+  EXPECT_GT(failed, 5u);
+}
+
 // Old histories have another number of donors, with a share of their confidence.
 TEST_P(DonorScenes, ConfidencesAddUpInOldHistories) {
   const auto [method, name] = GetParam();

@@ -130,6 +130,7 @@ const std::map<std::string, Offsets>& expected() {
         FIELD(ReuseParams, reproject), FIELD(ReuseParams, confidenceCap),
         FIELD(ReuseParams, movingConfidenceCap), FIELD(ReuseParams, maxReflectanceRatio),
         FIELD(ReuseParams, spatialFeedback), FIELD(ReuseParams, duplicationMap),
+        FIELD(ReuseParams, spatialRounds), FIELD(ReuseParams, spatialRound),
         FIELD(ReuseParams, writesRadianceFrames)}},
       {"PathReuseParams",
        {FIELD(PathReuseParams, reuse), FIELD(PathReuseParams, path), FIELD(PathReuseParams, pairs),

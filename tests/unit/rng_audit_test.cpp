@@ -181,6 +181,8 @@ const std::map<std::string, rl::CpuKernelEntry> kRestirKernels = {
     {"temporal", rl::kernel_restir_gi_temporal_audited},
     {"spatial_shift", rl::kernel_restir_gi_spatial_shift_audited},
     {"spatial", rl::kernel_restir_gi_spatial_audited},
+    {"round_1", rl::kernel_restir_gi_spatial_audited},
+    {"round_1_shift", rl::kernel_restir_gi_spatial_shift_audited},
     {"cache_reuse", rl::kernel_restir_gi_cache_reuse_audited},
     {"cache_update", rl::kernel_restir_gi_cache_update_audited},
     {"surflet_propose", rl::kernel_surflet_propose_audited},
@@ -215,7 +217,8 @@ TEST(RngAudit, RestirGi) {
   // Make every loop over draws run more than once.
   const ParameterMap busy = {{"light_candidates", int64_t{5}},
                              {"validate_every", int64_t{1}},
-                             {"spatial_neighbours", int64_t{rl::RL_MAX_DONORS}}};
+                             {"spatial_neighbours", int64_t{rl::RL_MAX_DONORS}},
+                             {"spatial_rounds", int64_t{2}}};
   for (const std::string& name : builtinSceneNames()) {
     for (const std::string mode : {"unbiased", "biased"}) {
       Audited audited{"restir_gi", mode.c_str(), kRestirKernels};

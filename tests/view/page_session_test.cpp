@@ -181,8 +181,23 @@ TEST_F(PageSessionTest, DonorsAreDrawnAndListed) {
     const marks = viewer.images[0].marks.map(({x, y, kind}) => [x, y, kind]);
     const rows = Array.from(document.querySelectorAll('.donors tbody tr'),
                             row => Array.from(row.children, cell => cell.textContent));
+    // A segment of the path between two vertices that the camera sees.
+    const {path} = message;
+    const rgbAt = (x, y) => {
+      viewer.draw();
+      const ratio = window.devicePixelRatio || 1;
+      const copy = new OffscreenCanvas(stage.canvas.width, stage.canvas.height).getContext('2d');
+      copy.drawImage(stage.canvas, 0, 0);
+      return Array.from(copy.getImageData(Math.floor(x * ratio), Math.floor(y * ratio), 1, 1).data
+                            .slice(0, 3));
+    };
+    const x1 = () => camera.toView(stage.views[0], ...path[0].film);
+    const vertex = rgbAt(...x1());
+    const steps = Array.from(document.querySelectorAll('.path tbody tr'),
+                             row => Array.from(row.children, cell => cell.textContent));
     page.probe.clear();
-    return {message, donor, zoomed, panned, marks, rows, cleared: lineAt(),
+    return {message, donor, zoomed, panned, marks, rows, cleared: lineAt(), vertex, steps,
+            vertexCleared: rgbAt(...x1()),
             left: document.querySelectorAll('.donors').length};)");
   ASSERT_FALSE(seen["donor"].is_null());
   // White and yellow are both bright in red and green; the line is thinner than two pixels.
@@ -191,6 +206,15 @@ TEST_F(PageSessionTest, DonorsAreDrawnAndListed) {
     EXPECT_GE(seen[when][1], 160) << when << seen[when];
   }
   EXPECT_NE(seen["cleared"], seen["panned"]);
+  // x1 is a blue square.
+  EXPECT_EQ(seen["vertex"], Json({0x33, 0xcc, 0xff}));
+  EXPECT_NE(seen["vertexCleared"], seen["vertex"]);
+  const Json& path = seen["message"]["path"];
+  ASSERT_EQ(seen["steps"].size(), path.size());
+  for (size_t i = 0; i < path.size(); ++i) {
+    EXPECT_EQ(seen["steps"][i][0], path[i]["name"]);
+    EXPECT_EQ(seen["steps"][i][4], path[i]["reconnected"] ? "reconnected" : "replayed");
+  }
   EXPECT_EQ(seen["left"], 0);
   const Json& donors = seen["message"]["donors"];
   ASSERT_EQ(seen["rows"].size(), donors.size());

@@ -210,6 +210,7 @@ TEST_F(ViewLoopTest, ProbesAPixel) {
   EXPECT_EQ(probe["values"], Json(probedValuesJson(again, x, y)));
   EXPECT_EQ(probe["donors"], Json(probedDonorsJson(again, x, y)));
   EXPECT_EQ(probe["donors"][0]["reuse"], "canonical");
+  EXPECT_EQ(probe["path"], Json(probedPathJson(again, x, y)));
   EXPECT_EQ(probe["values"][0]["name"], "shaded radiance");
   const glm::vec3& shown = again.radiance().at(x, y);
   ASSERT_GT(shown.x, 0.0f);

@@ -92,6 +92,33 @@ function strokeOnAll(context, thick, colour) {
   }
 }
 
+// Draws a path over the picture, [{name, film: [x, y] or null, reconnected}]: a segment that a shift
+// traces again in blue, the one that it keeps in orange. A vertex behind the camera has no film.
+function drawPath(context, camera, view, path) {
+  const seen = path.map(({film}) => film && camera.toView(view, film[0], film[1]));
+  const colourOf = ({reconnected}) => reconnected ? '#f91' : '#3cf';
+  path.forEach((vertex, i) => {
+    if (i === 0 || !seen[i - 1] || !seen[i]) return;
+    context.beginPath();
+    context.moveTo(...seen[i - 1]);
+    context.lineTo(...seen[i]);
+    strokeOnAll(context, 2, colourOf(vertex));
+  });
+  context.font = '11px sans-serif';
+  context.textAlign = 'left';
+  context.textBaseline = 'bottom';
+  path.forEach((vertex, i) => {
+    if (!seen[i]) return;
+    const [x, y] = seen[i];
+    context.fillStyle = '#000';
+    context.fillRect(x - 4, y - 4, 8, 8);
+    context.fillText(vertex.name, x + 7, y - 3);
+    context.fillStyle = colourOf(vertex);
+    context.fillRect(x - 3, y - 3, 6, 6);
+    context.fillText(vertex.name, x + 6, y - 4);
+  });
+}
+
 // Draws rings around pixels, [{x, y, kind: 'donor' | 'probe', state}], and lines from the probe to
 // its donors: dashed if the shift was rejected, yellow to the selected one. The probe's ring is
 // larger and thicker and is drawn last.

@@ -117,6 +117,7 @@ class Stage {
     if (image.data && this.hasCameraSize(image)) drawNonfinite(context, camera, view, image);
     if (image.marks) {
       drawMarks(context, camera, view, image.marks);
+      drawPath(context, camera, view, image.path || []);
     }
     if (pixel) drawPointer(context, camera, view, pixel);
     context.restore();

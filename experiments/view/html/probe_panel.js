@@ -60,6 +60,20 @@ function donorTable(message) {
               make('tbody', {}, ...rows));
 }
 
+function pathTable(message) {
+  const rows = message.path.map(one => make(
+      'tr', {}, make('th', {scope: 'row'}, one.name),
+      ...one.position.map(number => make('td', {class: 'num'}, quantity(number, 4))),
+      make('td', {title: one.reconnected
+          ? 'a shift keeps this vertex' : 'a shift traces this vertex again from the other pixel'},
+           one.reconnected ? 'reconnected' : 'replayed')));
+  return make('table', {class: 'probe-table path'},
+              make('caption', {}, `${PANE_NAMES[message.pane]}: path of the sample`),
+              make('thead', {}, make('tr', {}, ...['vertex', 'x m', 'y m', 'z m', 'by a shift'].map(
+                  name => make('th', {scope: 'col'}, name)))),
+              make('tbody', {}, ...rows));
+}
+
 class ProbePanel {
   constructor(page, count) {
     Object.assign(this, {page, count, pixel: null, answers: []});
@@ -116,7 +130,7 @@ class ProbePanel {
     this.results.replaceChildren();
     this.donors.replaceChildren();
     this.commands.replaceChildren();
-    for (let i = 0; i < this.count; ++i) this.page.viewer.setImage(i, {marks: null});
+    for (let i = 0; i < this.count; ++i) this.page.viewer.setImage(i, {marks: null, path: null});
   }
 
   answer(message) {
@@ -124,7 +138,8 @@ class ProbePanel {
     if (!this.pixel || message.x !== this.pixel.x || message.y !== this.pixel.y) return;
     this.answers[message.pane] = message;
     this.page.viewer.setImage(message.pane, {
-      marks: [...donorMarks(message), {x: message.x, y: message.y, kind: 'probe'}]
+      marks: [...donorMarks(message), {x: message.x, y: message.y, kind: 'probe'}],
+      path: message.path
     });
     this.show();
   }
@@ -163,7 +178,8 @@ class ProbePanel {
         'table', {class: 'probe-table'},
         make('thead', {}, make('tr', {}, make('td', {}), ...heads)), make('tbody', {}, ...rows)));
     this.donors.replaceChildren(
-        ...there.filter(one => one.donors && one.donors.length).map(donorTable));
+        ...there.filter(one => one.donors && one.donors.length).map(donorTable),
+        ...there.filter(one => one.path && one.path.length).map(pathTable));
     this.commands.replaceChildren(...there.filter(one => one.command).map(one => make(
         'p', {class: 'command'}, `${PANE_NAMES[one.pane]} `, make('code', {}, one.command),
         copyButton(() => one.command, 'copy the command that prints the same',
