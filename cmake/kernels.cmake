@@ -168,14 +168,15 @@ function(rl_add_kernel name kernel_file)
   set_property(GLOBAL APPEND PROPERTY RL_KERNEL_ROWS "${name}|${kernel_path}|${header_path}")
 endfunction()
 
-# rl_add_reuse_kernels(<method> [SHADES]): a kernel for each pass of core/reuse, over the sample of the calling folder.
-# SHADES: the spatial pass traces a ray to shade (RL_SAMPLE_SHADES).
+# rl_add_reuse_kernels(<method>): a kernel for each pass of core/reuse, over the sample of the calling folder. The
+# spatial pass traces a ray only for a sample that defines RL_SAMPLE_SHADES.
 function(rl_add_reuse_kernels method)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "SHADES" "" "")
+  file(STRINGS ${method}.h shades REGEX "^#define RL_SAMPLE_SHADES")
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${method}.h)
   foreach(pass IN ITEMS light_edges initial temporal cache_reuse spatial_shift cache_update)
     rl_add_kernel(${method}_${pass} ${pass}.glsl HEADER ${method}.h)
   endforeach()
-  if(arg_SHADES)
+  if(shades)
     rl_add_kernel(${method}_spatial spatial.glsl HEADER ${method}.h)
   else()
     rl_add_kernel(${method}_spatial spatial.glsl HEADER ${method}.h NO_FEATURES)

@@ -90,7 +90,7 @@ struct PathVertex {
       name;  // "x1", "x2" and so on from the camera; the end may be "light" or "environment"
   // In metres, relative to CompiledScene::origin() until Session::path() has added it.
   glm::vec3 posW = {};
-  bool isDirection = false;  // of the environment: posW is a unit vector
+  bool isDirection = false;  // to the environment or a directional light: posW is a unit vector
   // Place on this frame's film, in pixels; it may lie outside the image. None: behind the camera.
   std::optional<glm::vec2> film;
   bool isReconnected = false;  // a shift keeps it; false: it is traced again from the other pixel

@@ -108,7 +108,8 @@ class Session {
   // Donors of the candidates of the pixel's reservoir in the last frame. Throws Error (badUsage) if
   // there is no such pixel; empty before the first frame.
   std::vector<Donor> donors(uint32_t x, uint32_t y) const;
-  // Path of the sample that the pixel's reservoir holds after the last frame, from x1 on. Throws as
+  // Path of the sample that the pixel's reservoir holds after the last frame, from x1 to the vertex
+  // that reconnects: what lies behind that is kept as its radiance alone. Throws as
   // donors() does; empty if there is none.
   std::vector<PathVertex> path(uint32_t x, uint32_t y) const;
   // Sets the camera from the next frame on; the previous one is kept for reprojection.

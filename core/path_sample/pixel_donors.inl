@@ -35,8 +35,6 @@ namespace {
 
 using Donors = std::vector<restlab::Donor>;
 
-// Distance in metres at which the environment is drawn.
-constexpr float kFarAway = 1e6f;
 // Rounding errors of differences: of shares (reservoirs are packed), of sums of confidences.
 constexpr double kRoundingOfShares = 1e-3, kRoundingOfConfidence = 1e-4;
 
@@ -67,8 +65,9 @@ struct Ctx {
     watched_.back().name = "light";
   }
   void addDirection(vec3 dirW, bool isReconnected) {
-    const vec3 from = watched_.empty() ? gFrame.camera.posW : watched_.back().posW;
-    addVertex(from + kFarAway * dirW, isReconnected);
+    // On a perspective film, lines of this direction vanish at one point.
+    const bool vanishes = gFrame.camera.kind != RL_CAMERA_ORTHOGRAPHIC || watched_.empty();
+    addVertex((vanishes ? gFrame.camera.posW : watched_.back().posW) + dirW, isReconnected);
     watched_.back().name = "environment";
     watched_.back().posW = dirW;
     watched_.back().isDirection = true;
@@ -88,8 +87,9 @@ struct Ctx {
     addTraced(path, cameraFilmRay(gFrame.camera, pixel, path.film));
     if (isWholeReplay(path)) return watched_;
     const LightSample end = pathEnd(path);
-    if (end.kind == RL_LIGHT_ENVIRONMENT) {
+    if (end.kind == RL_LIGHT_ENVIRONMENT || end.kind == RL_LIGHT_DIRECTIONAL) {
       addDirection(end.point, true);
+      if (end.kind == RL_LIGHT_DIRECTIONAL) watched_.back().name = "light";
     } else if (pathEndsAtLight(path)) {
       addLight(end.point, true);
     } else {
@@ -470,7 +470,8 @@ float replayedAt(of_shifts::Ctx& c, uint pixelIndex) {
 }
 
 float outcomeAt(of_shifts::Ctx& c, uint pixelIndex) {
-  if (c.gBuffers.pairedShifts0.data == nullptr || c.gBuffers.reservoirs.data == nullptr)
+  if (c.gBuffers.pairedShifts0.data == nullptr || c.gBuffers.reservoirs.data == nullptr ||
+      c.spatialDonors() == 0u)
     return 0.0f;
   uint neighbour;
   c.shiftedRead(c.gBuffers.pairedShifts0, pixelIndex, neighbour);
@@ -493,7 +494,7 @@ void addLayers(std::vector<restlab::LayerInfo>& layers) {
   };
   restlab::LayerInfo outcome = layerOf(
       "shift_outcome",
-      "outcome of the shift of the first spatial donor's sample to the pixel: 1 accepted, more: "
+      "outcome of the shift of the last round's first donor to the pixel: 1 accepted, more: "
       "the test that it failed",
       outcomeAt);
   outcome.isName = true;

@@ -1,7 +1,7 @@
 // Spatial donors: the pixels of a frame in random pairs, so that each shift serves the merges of
-// both. A pixel's neighbours depend only on the surfaces at pixel centres and on the frame's
-// number: a choice that depended on samples would be biased. The includer has gBuffers.gbuffer and
-// gParams.pairs.
+// both. A pixel's neighbours depend only on the surfaces at pixel centres and on the number of the
+// frame and of the round: a choice that depended on samples would be biased. The includer has
+// gBuffers.gbuffer and gParams.pairs.
 
 RL_FN GBufferTexel pairSurface(uint pixelIndex) {
   return gbufferRead(gBuffers.gbuffer, gFrame.camera, pixelIndex);

@@ -1,4 +1,4 @@
-// The length of histories: their age, in frames.
+// The length of histories: their age, in frames; and the words of UnresampledCount.
 
 // Number of frames of this view that a history averages, this one included. After a camera move a
 // history counts as one frame: light that the pixel did not see from the old position is known from

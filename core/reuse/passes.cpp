@@ -13,7 +13,8 @@ std::string pairedShiftsName(uint32_t neighbour) {
 }
 
 std::string lastRoundsReservoirs(uint32_t rounds) {
-  return rounds > 1 ? "round_" + std::to_string(rounds - 1) : "reservoirs";
+  // Two buffers take turns.
+  return rounds > 1 ? "round_" + std::to_string(2 - rounds % 2) : "reservoirs";
 }
 
 namespace {
@@ -129,9 +130,12 @@ void recordReuse(FrameGraph& g, const FrameInfo& f, const ReusedSample& sample,
         .writes({outlines});
   }
   Buffer from = reservoirs;
+  std::array<Buffer, 2> ofRounds;
+  for (uint32_t k = 0; k < 2 && k + 1 < reuse.spatialRounds; ++k)
+    ofRounds[k] = g.transient(lastRoundsReservoirs(k + 2), f.pixels, reservoirBytes);
   for (uint32_t round = 0; round + 1 < reuse.spatialRounds; ++round) {
-    const std::string name = lastRoundsReservoirs(round + 2);
-    const Buffer to = g.transient(name, f.pixels, reservoirBytes);
+    const std::string name = "round_" + std::to_string(round + 1);
+    const Buffer to = ofRounds[round % 2];
     const Kernels ofRound = kernelsOf(round, from, to);
     shiftPass(ofRound, name + "_shift", from);
     ofRound.pass(name, sample.method + "_spatial")

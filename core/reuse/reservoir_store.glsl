@@ -1,5 +1,6 @@
-// Storage of reservoirs: this frame's (initial, then merged over time), the last frame's, and those
-// of entries. Reads are of earlier passes' data (RL_EARLIER_UVEC4): no pass reads its own writes.
+// Storage of reservoirs: this frame's (initial, then merged over time, or by a round over space),
+// the last frame's, and those of entries. Reads are of earlier passes' data (RL_EARLIER_UVEC4): no
+// pass reads its own writes.
 
 RL_FN RL_RESERVOIR reservoirReadNow(uint pixelIndex) {
   return sampleRead(gBuffers.reservoirs, pixelIndex);

@@ -73,8 +73,11 @@ struct ReuseBuffers {
   // and its UnresampledCount. light_edges leaves its light here for the initial pass.
   Uvec4Ref unresampled;
   Uvec4Ref unresampledPrevious;
-  Uvec4Ref reservoirs;  // reservoirs of this frame: initial, then temporal
-  Uvec4Ref history;  // last frame's, in still views then candidates; replaced by the spatial pass
+  Uvec4Ref reservoirs;  // of this frame: initial, then temporal, or of the round before
+  // The last frame's. In still views with a cache the initial pass leaves candidates here; the
+  // spatial pass writes its result. In a round before the last this is another buffer, for the
+  // reservoirs of the next round.
+  Uvec4Ref history;
   // Between the spatial_shift and the spatial pass, a buffer for each of up to RL_MAX_DONORS
   // neighbours: the pixel's sample shifted to the neighbour, and the neighbour's pixel index
   // (RL_INVALID: none). Buffers of their own, so that each can share memory.
@@ -104,7 +107,7 @@ struct ReuseParams {
   float confidenceCap;
   float movingConfidenceCap;  // in frames of a new view
   float maxReflectanceRatio;  // bound per channel on the reflectance ratio of residuals
-  uint spatialFeedback;       // 1: the spatial merge is the history, 0: the merge over time
+  uint spatialFeedback;       // 1: the last spatial merge is the history, 0: what went into it
   uint duplicationMap;        // 1: samples that many pixels hold have a lower cap
   uint spatialRounds;         // merges with neighbours, one after another
   uint spatialRound;          // number of this pass's round; the last one shades

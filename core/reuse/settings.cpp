@@ -48,7 +48,8 @@ const Schema<ReuseSettings>& schema() {
           &ReuseSettings::spatialNeighbours, "spatial_neighbours", Range{0, rl::RL_MAX_DONORS},
           "donors of the spatial pass while the history is young: the view moves, or has been "
           "still for fewer frames than young_frames",
-          "each costs a shift, two rays a pixel; measured: docs/decisions/donors-by-age.md"),
+          "each costs a shift, two rays a pixel and a replayed prefix; measured: "
+          "docs/decisions/donors-by-age.md"),
       Parameter<ReuseSettings>(
           &ReuseSettings::agedNeighbours, "aged_neighbours", Range{0, rl::RL_MAX_DONORS},
           "donors of the spatial pass afterwards, where spatial_neighbours is not less",

@@ -66,10 +66,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   vec3 estimate;
   RL_RESERVOIR r = spatialMerge(pixelIndex, estimate);
   if (!isLastRound()) {
-    if (!rlIsFinite3(estimate)) {
-      RL_HEALTH(RL_HEALTH_NONFINITE);
-      r.state = reservoirEmpty();
-    }
+    reservoirGuard(r.state);
     reservoirWriteHistory(pixelIndex, r);
     return;
   }

@@ -1,5 +1,5 @@
 // Shift over time in frames of a new view: each way up to two rays, to x1 and along the segment
-// that reconnects. The biased mode leaves out the second.
+// that reconnects, and those of a replayed prefix. The biased mode leaves out the segment.
 #include "core/reuse/reflectance_ratio.glsl"
 
 RL_FN bool temporalIsStill() { return false; }

@@ -24,8 +24,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Offsets of the batches' seeds, far enough apart for all runs.
-constexpr uint32_t kFirstBatch = 10'000'000, kFreshBatch = 20'000'000;
+// Offsets of the batches' seeds, far enough apart for all runs, and of the batches of the next seed
+// that is asked for: another seed gives other runs.
+constexpr uint32_t kFirstBatch = 10'000'000, kFreshBatch = 20'000'000, kNextSeed = 40'000'003;
 constexpr const char* kHealth = "health";
 constexpr const char* kKept = "finished runs are kept; the same command goes on from them";
 
@@ -89,8 +90,8 @@ fs::path RunFolder::file(Batch batch, uint64_t run) const {
 }
 
 uint32_t RunFolder::seedOf(Batch batch, uint64_t run) const {
-  return question_.config.seed + (batch == Batch::first ? kFirstBatch : kFreshBatch) +
-         uint32_t(run);
+  return 1 + (question_.config.seed - 1) * kNextSeed +
+         (batch == Batch::first ? kFirstBatch : kFreshBatch) + uint32_t(run);
 }
 
 void RunFolder::render(Session& session, Batch batch, uint64_t run) {

@@ -111,7 +111,7 @@ Rendered renderFrames(Session& session, const RenderOptions& options, bool histo
   return rendered;
 }
 
-// Says how often a layer of names has each of them: "shift_outcome: accepted 71.3 %, dark 9 %".
+// Says how often a layer of names has each of them: "shift_outcome: accepted 71.3 %; dark 9 %".
 std::string sharesOfNames(const LayerInfo& layer, const Image& image) {
   std::map<std::string, size_t> counts;
   for (const glm::vec3& number : image.pixels) ++counts[layer.wordsOf(number.x)];
@@ -122,7 +122,7 @@ std::string sharesOfNames(const LayerInfo& layer, const Image& image) {
   for (const auto& [name, count] : sorted)
     shares.push_back(
         fmt::format("{} {:.3g} %", name, 100.0 * double(count) / double(image.pixels.size())));
-  return fmt::format("{}: {}", layer.name, fmt::join(shares, ", "));
+  return fmt::format("{}: {}", layer.name, fmt::join(shares, "; "));
 }
 
 // Memory besides the buffers: the image, twice; the sums of its mean; AOVs as buffers and as

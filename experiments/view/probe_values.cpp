@@ -126,6 +126,7 @@ Json probedPathJson(const Session& session, uint32_t x, uint32_t y) {
     all.push_back({{"name", v.name},
                    {"position", {v.posW.x, v.posW.y, v.posW.z}},
                    {"film", v.film ? Json({v.film->x, v.film->y}) : Json(nullptr)},
+                   {"direction", v.isDirection},
                    {"reconnected", v.isReconnected}});
   }
   return all;

@@ -21,7 +21,8 @@ nlohmann::ordered_json probedValuesJson(const Session& session, uint32_t x, uint
 std::string probedDonorsText(const Session& session, uint32_t x, uint32_t y);
 nlohmann::ordered_json probedDonorsJson(const Session& session, uint32_t x, uint32_t y);
 
-// Session::path(): as text, one line each, and as [{"name", "position", "film", "reconnected"},
+// Session::path(): as text, one line each, and as [{"name", "position", "direction", "film",
+// "reconnected"},
 // ...]; the film of a vertex behind the camera is null.
 std::string probedPathText(const Session& session, uint32_t x, uint32_t y);
 nlohmann::ordered_json probedPathJson(const Session& session, uint32_t x, uint32_t y);

@@ -1,4 +1,4 @@
-// Host side of `restir_di`: the declaration of its bias.
+// Registers `restir_di`: its parameters, its summary and its probe.
 //
 // One reservoir a pixel over film samples and points of lights (Bitterli et al. 2020): candidates
 // by the light table and by the BSDF, visibility in the target, merged by generalised RIS with

@@ -1,4 +1,4 @@
-// Host side of `restir_gi`: the declaration of its bias.
+// Registers `restir_gi`: its parameters, its summary and its probe.
 //
 // One reservoir a pixel over film samples and paths: light samples at x1 (Bitterli et al. 2020) and
 // paths that reconnect at x2 (Ouyang et al. 2021), merged by generalised RIS with pairwise

@@ -1,4 +1,4 @@
-// Host side of `restir_pt`: the declaration of its bias.
+// Registers `restir_pt`: its parameters, its summary and its probe.
 //
 // One reservoir a pixel over the whole path space, direct light included (Lin et al. 2022; Lin,
 // Kettunen and Wyman 2026). The shift replays the random numbers of the path up to the first pair

@@ -151,6 +151,9 @@ TEST_P(DonorScenes, ThePathLeadsFromThePixelToItsEnd) {
     EXPECT_EQ(path.size(), 2 + size_t(replayed.pixels[i].x)) << i;
     EXPECT_EQ(path.back().isReconnected, !isWhole) << i;
     for (size_t k = 0; k + 1 < path.size(); ++k) EXPECT_FALSE(path[k].isReconnected) << i;
+    if (path.back().isDirection) {
+      EXPECT_NEAR(glm::length(path.back().posW), 1.0f, 1e-3f) << i;
+    }
     ends += path.back().name == "light" || path.back().name == "environment";
     longest = std::max(longest, path.size());
   }
@@ -183,6 +186,17 @@ TEST_P(DonorScenes, TheOutcomeOfAShiftIsThatOfTheProbe) {
   }
   EXPECT_GT(compared, 100u);
   EXPECT_GT(failed, 5u);
+}
+
+// Frames without donors leave nothing to read: the memory of the shifts is the last frame's
+// G-buffer.
+TEST(Donors, WithoutDonorsAShiftHasNoOutcome) {
+  const auto scene = bias::builtinScene("cornell-box");
+  Session session(scene, donorsConfig({{"young_frames", 0.0}, {"aged_neighbours", int64_t{0}}}));
+  session.frame();
+  session.setCamera(walked(*scene, 0.1));
+  session.frame();
+  for (const glm::vec3& number : session.aov("shift_outcome").pixels) ASSERT_EQ(number.x, 0.0f);
 }
 
 // Old histories have another number of donors, with a share of their confidence.

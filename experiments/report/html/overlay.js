@@ -92,8 +92,8 @@ function strokeOnAll(context, thick, colour) {
   }
 }
 
-// Draws a path over the picture, [{name, film: [x, y] or null, reconnected}]: a segment that a shift
-// traces again in blue, the one that it keeps in orange. A vertex behind the camera has no film.
+// Draws a path over the picture, [{name, film: [x, y] or null, reconnected}]: a vertex that a shift
+// traces again in blue, one that it keeps in orange, with the segment that leads there. A vertex behind the camera has no film.
 function drawPath(context, camera, view, path) {
   const seen = path.map(({film}) => film && camera.toView(view, film[0], film[1]));
   const colourOf = ({reconnected}) => reconnected ? '#f91' : '#3cf';

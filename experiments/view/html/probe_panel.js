@@ -25,7 +25,7 @@ const SHIFT_HELP = {
   'not kept': 'the frame has written over the donor\'s sample'
 };
 const REUSE_HELP = {
-  canonical: 'the pixel\'s own sample, after the merge over time',
+  canonical: 'the pixel\'s own sample, as it entered the last merge over space',
   space: 'a pixel of this frame', time: 'the last frame', entry: 'an entry of the cache'
 };
 
@@ -62,7 +62,8 @@ function donorTable(message) {
 
 function pathTable(message) {
   const rows = message.path.map(one => make(
-      'tr', {}, make('th', {scope: 'row'}, one.name),
+      'tr', {}, make('th', {scope: 'row', title: one.direction ? 'a direction, without a unit' : ''},
+                     one.name),
       ...one.position.map(number => make('td', {class: 'num'}, quantity(number, 4))),
       make('td', {title: one.reconnected
           ? 'a shift keeps this vertex' : 'a shift traces this vertex again from the other pixel'},
@@ -102,6 +103,7 @@ class ProbePanel {
     this.x.value = x;
     this.y.value = y;
     this.answers = [];
+    this.unmark();
     this.page.state.panes.forEach(({source}, pane) => {
       if (!source) this.page.session.send({do: 'probe', pane, x, y});
     });
@@ -130,6 +132,10 @@ class ProbePanel {
     this.results.replaceChildren();
     this.donors.replaceChildren();
     this.commands.replaceChildren();
+    this.unmark();
+  }
+
+  unmark() {
     for (let i = 0; i < this.count; ++i) this.page.viewer.setImage(i, {marks: null, path: null});
   }
 
@@ -150,6 +156,8 @@ class ProbePanel {
     const {epoch} = this.page.state;
     setText(this.hint, this.texts.map(([one, text]) => one.epoch === epoch
         ? text : `${text}, before the change`).join('; '));
+    for (const [{pane, epoch: probed}] of this.texts)
+      if (probed !== epoch) this.page.viewer.setImage(pane, {path: null});
     this.results.classList.toggle('old', this.texts.some(([one]) => one.epoch !== epoch));
   }
 
