@@ -20,8 +20,8 @@ std::string lastRoundsReservoirs(uint32_t rounds) {
 namespace {
 
 // Bytes of a Params struct for the passes of a round.
-std::vector<std::byte> ofRound(std::vector<std::byte> params, rl::ReuseParams reuse,
-                               uint32_t round) {
+std::vector<std::byte> withRound(std::vector<std::byte> params, rl::ReuseParams reuse,
+                                 uint32_t round) {
   reuse.spatialRound = round;
   std::memcpy(params.data(), &reuse, sizeof reuse);
   return params;
@@ -52,30 +52,31 @@ void recordReuse(FrameGraph& g, const FrameInfo& f, const ReusedSample& sample,
   const Buffer entryReservoirs = g.buffer("entry_reservoirs", entries.count, reservoirBytes);
   // Kernels of a round over space, which reads reservoirs from `from` and leaves them in `to`.
   const auto kernelsOf = [&](uint32_t round, Buffer from, Buffer to) {
-    return g.kernels<rl::ReuseBuffers>(ofRound(params, reuse, round), {s.surfaces.now,
-                                                                       s.surfaces.previous,
-                                                                       s.proposals,
-                                                                       s.shadingPoints,
-                                                                       s.insertions,
-                                                                       s.cellKeys,
-                                                                       s.cellPlaces,
-                                                                       s.cellLight,
-                                                                       s.cellRays,
-                                                                       s.changes,
-                                                                       radiance,
-                                                                       radianceFrames,
-                                                                       unresampled.now,
-                                                                       unresampled.previous,
-                                                                       from,
-                                                                       to,
-                                                                       pairedShifts[0],
-                                                                       pairedShifts[1],
-                                                                       pairedShifts[2],
-                                                                       pairedShifts[3],
-                                                                       outlines,
-                                                                       sampleFilms,
-                                                                       duplicates,
-                                                                       entryReservoirs});
+    std::vector<std::byte> bytes = withRound(params, reuse, round);
+    return g.kernels<rl::ReuseBuffers>(std::move(bytes), {s.surfaces.now,
+                                                          s.surfaces.previous,
+                                                          s.proposals,
+                                                          s.shadingPoints,
+                                                          s.insertions,
+                                                          s.cellKeys,
+                                                          s.cellPlaces,
+                                                          s.cellLight,
+                                                          s.cellRays,
+                                                          s.changes,
+                                                          radiance,
+                                                          radianceFrames,
+                                                          unresampled.now,
+                                                          unresampled.previous,
+                                                          from,
+                                                          to,
+                                                          pairedShifts[0],
+                                                          pairedShifts[1],
+                                                          pairedShifts[2],
+                                                          pairedShifts[3],
+                                                          outlines,
+                                                          sampleFilms,
+                                                          duplicates,
+                                                          entryReservoirs});
   };
   const Kernels kernels = kernelsOf(0, reservoirs, history);
 
@@ -119,40 +120,35 @@ void recordReuse(FrameGraph& g, const FrameInfo& f, const ReusedSample& sample,
           .updates({reservoirs});
     }
   }
-  const auto shiftPass = [&](const Kernels& ofRound, const std::string& name, Buffer from) {
-    ofRound.pass(name, sample.method + "_spatial_shift")
-        .reads({s.surfaces.now, from, outlines})
-        .writes({pairedShifts[0], pairedShifts[1], pairedShifts[2], pairedShifts[3]});
-  };
   if (reuse.spatialNeighbours != 0 && f.isNewView) {
     kernels.pass("outlines", sample.method + "_outlines")
         .reads({s.surfaces.now})
         .writes({outlines});
   }
-  Buffer from = reservoirs;
   std::array<Buffer, 2> ofRounds;
   for (uint32_t k = 0; k < 2 && k + 1 < reuse.spatialRounds; ++k)
     ofRounds[k] = g.transient(lastRoundsReservoirs(k + 2), f.pixels, reservoirBytes);
-  for (uint32_t round = 0; round + 1 < reuse.spatialRounds; ++round) {
-    const std::string name = "round_" + std::to_string(round + 1);
-    const Buffer to = ofRounds[round % 2];
-    const Kernels ofRound = kernelsOf(round, from, to);
-    shiftPass(ofRound, name + "_shift", from);
-    ofRound.pass(name, sample.method + "_spatial")
-        .reads({s.surfaces.now, from, pairedShifts[0], pairedShifts[1], pairedShifts[2],
-                pairedShifts[3]})
-        .writes({to});
+  Buffer from = reservoirs;
+  for (uint32_t round = 0; round < reuse.spatialRounds; ++round) {
+    const bool isLast = round + 1 == reuse.spatialRounds;
+    const std::string name = isLast ? "spatial" : "round_" + std::to_string(round + 1);
+    const Buffer to = isLast ? history : ofRounds[round % 2];
+    const Kernels inRound = kernelsOf(round, from, to);
+    if (reuse.spatialNeighbours != 0) {
+      inRound.pass(name + "_shift", sample.method + "_spatial_shift")
+          .reads({s.surfaces.now, from, outlines})
+          .writes({pairedShifts[0], pairedShifts[1], pairedShifts[2], pairedShifts[3]});
+    }
+    // The last round shades, too, and so runs without neighbours.
+    GraphPass& merge = inRound.pass(name, sample.method + "_spatial")
+                           .reads({s.surfaces.now, from, pairedShifts[0], pairedShifts[1],
+                                   pairedShifts[2], pairedShifts[3]})
+                           .writes({to});
+    if (isLast) merge.reads({unresampled.now}).writes({radiance, radianceFrames, sampleFilms});
     from = to;
   }
-  const Kernels last = kernelsOf(reuse.spatialRounds - 1, from, history);
-  if (reuse.spatialNeighbours != 0) shiftPass(last, "spatial_shift", from);
-  // Shades, too, and so runs without neighbours.
-  last.pass("spatial", sample.method + "_spatial")
-      .reads({s.surfaces.now, from, pairedShifts[0], pairedShifts[1], pairedShifts[2],
-              pairedShifts[3], unresampled.now})
-      .writes({history, radiance, radianceFrames, sampleFilms});
   if (mapped != 0)
-    last.pass("duplicates", sample.method + "_duplicates")
+    kernels.pass("duplicates", sample.method + "_duplicates")
         .reads({sampleFilms})
         .writes({duplicates});
   g.shared.radiance = radiance;

@@ -125,6 +125,12 @@ std::string sharesOfNames(const LayerInfo& layer, const Image& image) {
   return fmt::format("{}: {}", layer.name, fmt::join(shares, "; "));
 }
 
+void saySharesOfNames(const Method& method, const LayeredImage& file) {
+  for (const LayerInfo* layer : method.layers())
+    if (layer->wordsOf != nullptr && file.layers.contains(layer->name))
+      logInfo(sharesOfNames(*layer, file.layers.at(layer->name)));
+}
+
 // Memory besides the buffers: the image, twice; the sums of its mean; AOVs as buffers and as
 // layers.
 size_t hostBytesPerPixel(const RenderOptions& options, const std::vector<std::string>& aovs) {
@@ -216,10 +222,7 @@ void render(RenderOptions options) {
   further.add(session, kernels, notices);
   further.print();
   if (file) writeFiles(options, *file, aovs, findMethod(config));
-  const Method method = findMethod(config);
-  for (const LayerInfo* layer : method.layers())
-    if (file && layer->wordsOf != nullptr && file->layers.contains(layer->name))
-      logInfo(sharesOfNames(*layer, file->layers.at(layer->name)));
+  if (file) saySharesOfNames(findMethod(config), *file);
   if (pixel) {
     const std::string text =
         options.json ? pixelJson(session, *pixel, rendered.frame + 1) : pixelText(session, *pixel);
