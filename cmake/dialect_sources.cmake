@@ -11,11 +11,13 @@ function(rl_embed_dialect output)
   list(TRANSFORM files PREPEND ${PROJECT_SOURCE_DIR}/ OUTPUT_VARIABLE paths)
   get_property(kernels GLOBAL PROPERTY RL_KERNEL_ROWS)
   list(JOIN files "," files)
+  list(JOIN RL_CLOSURE_SOURCES "," generated)
+  list(TRANSFORM RL_CLOSURE_SOURCES PREPEND ${RL_GENERATED_DIR}/ OUTPUT_VARIABLE generated_paths)
   list(JOIN kernels "," kernels)
   add_custom_command(OUTPUT ${output}
-    COMMAND ${CMAKE_COMMAND} -D SOURCE_DIR=${PROJECT_SOURCE_DIR} -D OUTPUT=${output}
-      -D "FILES=${files}" -D "KERNELS=${kernels}"
+    COMMAND ${CMAKE_COMMAND} -D SOURCE_DIR=${PROJECT_SOURCE_DIR} -D GENERATED_DIR=${RL_GENERATED_DIR}
+      -D OUTPUT=${output} -D "FILES=${files}" -D "GENERATED=${generated}" -D "KERNELS=${kernels}"
       -P ${PROJECT_SOURCE_DIR}/cmake/embed_sources.cmake
-    DEPENDS ${paths} ${PROJECT_SOURCE_DIR}/cmake/embed_sources.cmake
+    DEPENDS ${paths} ${generated_paths} ${PROJECT_SOURCE_DIR}/cmake/embed_sources.cmake
     COMMENT "Embedding the dialect" VERBATIM)
 endfunction()

@@ -83,11 +83,14 @@ bool isBeforeAnnotations(uint32_t op) {
 
 }  // namespace
 
-SourceReader readBelow(const std::filesystem::path& root) {
-  return [root](const std::string& path) -> std::optional<std::string> {
-    std::ifstream stream(root / path, std::ios::binary);
-    if (!stream) return std::nullopt;
-    return std::string(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+SourceReader readBelow(const std::vector<std::filesystem::path>& roots) {
+  return [roots](const std::string& path) -> std::optional<std::string> {
+    for (const std::filesystem::path& root : roots) {
+      std::ifstream stream(root / path, std::ios::binary);
+      if (!stream) continue;
+      return std::string(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+    }
+    return std::nullopt;
   };
 }
 

@@ -17,7 +17,7 @@ struct GlslResult {
 
 // Reads the file of #include "path"; nullopt if there is none.
 using SourceReader = std::function<std::optional<std::string>(const std::string& path)>;
-SourceReader readBelow(const std::filesystem::path& root);
+SourceReader readBelow(const std::vector<std::filesystem::path>& roots);
 
 // Compiles a compute shader for Vulkan 1.2; `name` stands for the text itself in messages. Every
 // float operation is decorated NoContraction: fused multiplications and additions would lead to

@@ -49,13 +49,13 @@ RL_FN Instance recordInstance(uint index) {
 }
 
 RL_FN Material recordMaterial(uint index) {
-  uvec4 q0 = RL_SCENE_UVEC4(gScene.materials, index * 7u);
-  uvec4 q1 = RL_SCENE_UVEC4(gScene.materials, index * 7u + 1u);
-  uvec4 q2 = RL_SCENE_UVEC4(gScene.materials, index * 7u + 2u);
-  uvec4 q3 = RL_SCENE_UVEC4(gScene.materials, index * 7u + 3u);
-  uvec4 q4 = RL_SCENE_UVEC4(gScene.materials, index * 7u + 4u);
-  uvec4 q5 = RL_SCENE_UVEC4(gScene.materials, index * 7u + 5u);
-  uvec4 q6 = RL_SCENE_UVEC4(gScene.materials, index * 7u + 6u);
+  uvec4 q0 = RL_SCENE_UVEC4(gScene.materials, index * 8u);
+  uvec4 q1 = RL_SCENE_UVEC4(gScene.materials, index * 8u + 1u);
+  uvec4 q2 = RL_SCENE_UVEC4(gScene.materials, index * 8u + 2u);
+  uvec4 q3 = RL_SCENE_UVEC4(gScene.materials, index * 8u + 3u);
+  uvec4 q4 = RL_SCENE_UVEC4(gScene.materials, index * 8u + 4u);
+  uvec4 q5 = RL_SCENE_UVEC4(gScene.materials, index * 8u + 5u);
+  uvec4 q6 = RL_SCENE_UVEC4(gScene.materials, index * 8u + 6u);
   Material m;
   m.baseColor = recordVec3(q0);
   m.alpha = uintBitsToFloat(q0.w);
@@ -77,6 +77,11 @@ RL_FN Material recordMaterial(uint index) {
   m.textures[4] = q6.y;
   m.textures[5] = q6.z;
   m.textures[6] = q6.w;
+  if (RL_HAS(RL_FEATURE_CLOSURES)) {
+    uvec4 q7 = RL_SCENE_UVEC4(gScene.materials, index * 8u + 7u);
+    m.closure = q7.x;
+    m.firstParameter = q7.y;
+  }
   return m;
 }
 

@@ -86,10 +86,11 @@ RL_STATIC_ASSERT_SIZE(Instance, 112);
 
 const uint RL_MATERIAL_DOUBLE_SIDED = 1u;
 const uint RL_MATERIAL_UNLIT = 2u;  // KHR_materials_unlit: emits its base colour, scatters nothing
-const uint RL_MATERIAL_ALPHA_MASK = 4u;   // alpha < alphaCutoff is a hole
-const uint RL_MATERIAL_ALPHA_BLEND = 8u;  // alpha is coverage
-const uint RL_MATERIAL_THIN = 16u;        // transmission without volume: no refraction
-const uint RL_MATERIAL_BLACK = 32u;       // scatters nothing (a black body)
+const uint RL_MATERIAL_ALPHA_MASK = 4u;    // alpha < alphaCutoff is a hole
+const uint RL_MATERIAL_ALPHA_BLEND = 8u;   // alpha is coverage
+const uint RL_MATERIAL_THIN = 16u;         // transmission without volume: no refraction
+const uint RL_MATERIAL_BLACK = 32u;        // scatters nothing (a black body)
+const uint RL_MATERIAL_ANISOTROPIC = 64u;  // a closure that looks at the tangent
 
 // Texture slots of a material.
 const uint RL_TEX_BASE_COLOR = 0u;
@@ -101,7 +102,8 @@ const uint RL_TEX_SPECULAR = 5u;
 const uint RL_TEX_SPECULAR_COLOR = 6u;
 const uint RL_TEX_COUNT = 7u;
 
-// glTF metallic-roughness material with ior, specular, transmission and volume extensions.
+// glTF metallic-roughness material with ior, specular, transmission and volume extensions, or a
+// closure that takes the place of its lobes: emission, coverage and the normal map stay.
 struct Material {
   vec3 baseColor;
   float alpha;
@@ -116,9 +118,17 @@ struct Material {
   vec3 sigmaAbsorption;  // m^-1, Beer-Lambert inside a volume
   float normalScale;
   uint flags;
-  uint textures[7];  // index into SceneData::textures, RL_INVALID where the slot is empty
+  uint textures[7];     // index into SceneData::textures, RL_INVALID where the slot is empty
+  uint closure;         // RL_CLOSURE_*; 0: the lobes of glTF
+  uint firstParameter;  // of the closure, in SceneData::closureParameters
+  uint padding0;
+  uint padding1;
 };
-RL_STATIC_ASSERT_SIZE(Material, 112);
+RL_STATIC_ASSERT_SIZE(Material, 128);
+
+// Last word of a closure's parameter: a texture, and the channel of a number above.
+const uint RL_PARAMETER_TEXTURE = 0x3fffffffu;
+const uint RL_PARAMETER_CHANNEL_SHIFT = 30u;
 
 const uint RL_WRAP_REPEAT = 0u;
 const uint RL_WRAP_CLAMP = 1u;
@@ -239,7 +249,10 @@ struct SceneData {
   AliasRef lightAlias;
   Vec3Ref environment;        // radiance per texel, already scaled, row 0 on top
   AliasRef environmentAlias;  // pmf per texel
-  Vec4Ref bodies;             // by rank: absorption (m^-1) and index of refraction; [0] unused
+  // A value each: three floats and the texture that they are multiplied with (RL_INVALID: none; the
+  // channel of a number in the upper two bits).
+  Uvec4Ref closureParameters;
+  Vec4Ref bodies;     // by rank: absorption (m^-1) and index of refraction; [0] unused
   Vec2Ref ggxAlbedo;  // core/scene/compiled/ggx_albedo.h; null if no session compensates GGX
   // The project's own hierarchy: null unless a session traces it. The world's root is record 0.
   Uvec4Ref bvh;                 // RL_BVH_RECORD_UVEC4S per record

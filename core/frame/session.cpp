@@ -15,12 +15,14 @@
 #include "core/frame/pipeline.h"
 #include "core/gbuffer/view_parts.h"
 #include "core/scene/compiled/compiled_scene.h"
+#include "core/scene/closure_info.h"
 
 namespace restlab {
 
 namespace {
 
-const std::array<const char*, rl::RL_FEATURE_BITS> kFeatureNames = {
+// Kinds of closures follow.
+const std::array<const char*, 14> kFeatureNames = {
     "area_lights",       "punctual_lights", "environment", "glossy",
     "transmission",      "volume",          "textures",    "normal_maps",
     "emissive_textures", "vertex_colors",   "alpha",       "instances",
@@ -52,7 +54,8 @@ std::string featureNames(uint32_t mask) {
   for (uint32_t i = 0; i < rl::RL_FEATURE_BITS; ++i) {
     if ((mask & (1u << i)) == 0) continue;
     if (!text.empty()) text += '+';
-    text += kFeatureNames[i];
+    text += i < kFeatureNames.size() ? kFeatureNames[i]
+                                     : closureRegistry()[i - kFeatureNames.size()].name;
   }
   return text.empty() ? "none" : text;
 }

@@ -42,15 +42,6 @@ RL_FN TriangleW surfaceTriangle(RL_IN(Instance) inst, RL_IN(Geometry) geometry,
   return t;
 }
 
-RL_FN vec2 surfaceUv(RL_IN(Geometry) geometry, RL_IN(uvec3) corners, RL_IN(vec2) bary, uint uvSet) {
-  uint offset = geometry.uvOffset[uvSet];
-  if (offset == RL_INVALID) return vec2(0.0f, 0.0f);
-  vec2 a = RL_SCENE_VEC2(gScene.uvs, offset + corners.x);
-  vec2 b = RL_SCENE_VEC2(gScene.uvs, offset + corners.y);
-  vec2 c = RL_SCENE_VEC2(gScene.uvs, offset + corners.z);
-  return a + bary.x * (b - a) + bary.y * (c - a);
-}
-
 // One texture slot of a material at a hit, white where the slot is empty.
 RL_FN_OUTLINE vec4 surfaceSlot(RL_IN(Material) material, uint slot, RL_IN(Geometry) geometry,
                                RL_IN(uvec3) corners, RL_IN(vec2) bary) {
@@ -99,28 +90,44 @@ RL_FN vec3 surfaceTangentFromUv(RL_IN(TriangleW) t, RL_IN(Geometry) geometry, RL
   return (t.e1 * d2.y - t.e2 * d1.y) * (1.0f / det);
 }
 
+// The tangent of a mesh at a point, world space, not normalised: its own, or that of a UV set.
+RL_FN vec3 surfaceTangent(RL_IN(Instance) inst, RL_IN(Geometry) geometry, RL_IN(uvec3) corners,
+                          RL_IN(vec2) bary, RL_IN(TriangleW) t, uint uvSet,
+                          RL_OUT(float) handedness) {
+  if (geometry.tangentOffset == RL_INVALID)
+    return surfaceTangentFromUv(t, geometry, corners, uvSet, handedness);
+  vec4 a = recordVec4(RL_SCENE_UVEC4(gScene.tangents, geometry.tangentOffset + corners.x));
+  vec4 b = recordVec4(RL_SCENE_UVEC4(gScene.tangents, geometry.tangentOffset + corners.y));
+  vec4 c = recordVec4(RL_SCENE_UVEC4(gScene.tangents, geometry.tangentOffset + corners.z));
+  vec4 v = a + bary.x * (b - a) + bary.y * (c - a);
+  handedness = v.w < 0.0f ? -1.0f : 1.0f;
+  vec3 tangentW = vec3(v);
+  if (RL_HAS(RL_FEATURE_INSTANCES) && (inst.flags & RL_INSTANCE_IDENTITY) == 0u)
+    tangentW = surfaceToWorldVector(inst, tangentW);
+  return tangentW;
+}
+
+// Cosine and sine of the angle from the frame of a normal (core/dialect/frame.glsl) to the tangent;
+// (1, 0) where a mesh has none.
+RL_FN vec2 surfaceTangentAngle(RL_IN(Instance) inst, RL_IN(Geometry) geometry, RL_IN(uvec3) corners,
+                               RL_IN(vec2) bary, RL_IN(TriangleW) t, RL_IN(vec3) normalW) {
+  float handedness;
+  vec3 tangentW = surfaceTangent(inst, geometry, corners, bary, t, 0u, handedness);
+  vec3 local = frameToLocal(normalW, tangentW);
+  float length2 = local.x * local.x + local.y * local.y;
+  if (!(length2 > 0.0f)) return vec2(1.0f, 0.0f);
+  return vec2(local.x, local.y) * (1.0f / sqrt(length2));
+}
+
 RL_FN_OUTLINE vec3 surfaceNormalMapped(RL_IN(Instance) inst, RL_IN(Geometry) geometry,
                                        RL_IN(Material) material, RL_IN(uvec3) corners,
                                        RL_IN(vec2) bary, RL_IN(TriangleW) t, RL_IN(vec3) normalW) {
   vec4 texel = surfaceSlot(material, RL_TEX_NORMAL, geometry, corners, bary);
   vec3 local = vec3((texel.x * 2.0f - 1.0f) * material.normalScale,
                     (texel.y * 2.0f - 1.0f) * material.normalScale, texel.z * 2.0f - 1.0f);
-  vec3 tangentW = vec3(0.0f, 0.0f, 0.0f);
-  float handedness = 1.0f;
-  if (geometry.tangentOffset != RL_INVALID) {
-    vec4 a = recordVec4(RL_SCENE_UVEC4(gScene.tangents, geometry.tangentOffset + corners.x));
-    vec4 b = recordVec4(RL_SCENE_UVEC4(gScene.tangents, geometry.tangentOffset + corners.y));
-    vec4 c = recordVec4(RL_SCENE_UVEC4(gScene.tangents, geometry.tangentOffset + corners.z));
-    vec4 v = a + bary.x * (b - a) + bary.y * (c - a);
-    tangentW = vec3(v);
-    handedness = v.w < 0.0f ? -1.0f : 1.0f;
-    if (RL_HAS(RL_FEATURE_INSTANCES) && (inst.flags & RL_INSTANCE_IDENTITY) == 0u) {
-      tangentW = surfaceToWorldVector(inst, tangentW);
-    }
-  } else {
-    uint uvSet = recordTexture(material.textures[RL_TEX_NORMAL]).uvSet;
-    tangentW = surfaceTangentFromUv(t, geometry, corners, uvSet, handedness);
-  }
+  uint uvSet = recordTexture(material.textures[RL_TEX_NORMAL]).uvSet;
+  float handedness;
+  vec3 tangentW = surfaceTangent(inst, geometry, corners, bary, t, uvSet, handedness);
   // Flip the handedness on a mirrored instance: its image is mirrored, a cross product is not.
   if (RL_HAS(RL_FEATURE_INSTANCES) && (inst.flags & RL_INSTANCE_FLIPPED) != 0u)
     handedness = -handedness;
@@ -283,15 +290,23 @@ RL_FN Surface surfaceLoadBetween(RL_IN(Hit) hit, RL_IN(vec3) rayDir, float contr
   if ((material.flags & RL_MATERIAL_UNLIT) != 0u) s.emission = baseColor;
   s.sigmaAbsorption = vec3(0.0f, 0.0f, 0.0f);
 
-  Bsdf b;
-  b.diffuse = baseColor;
-  b.lobes = 0u;
-  b.f0 = vec3(0.0f, 0.0f, 0.0f);
-  b.f90 = 0.0f;
-  b.transmission = vec3(0.0f, 0.0f, 0.0f);
-  b.alpha = 1.0f;
-  b.eta = 1.0f;
+  Bsdf b = bsdfNone();
   bool scatters = (material.flags & (RL_MATERIAL_UNLIT | RL_MATERIAL_BLACK)) == 0u;
+  if (RL_HAS(RL_FEATURE_CLOSURES) && material.closure != RL_CLOSURE_GLTF) {
+    s.bsdf = b;
+    if (!scatters) return s;
+    MaterialPoint at;
+    at.firstParameter = material.firstParameter;
+    at.geometry = geometry;
+    at.corners = corners;
+    at.bary = hit.bary;
+    s.bsdf.closure = material.closure;
+    if ((material.flags & RL_MATERIAL_ANISOTROPIC) != 0u)
+      s.bsdf.tangent = surfaceTangentAngle(inst, geometry, corners, hit.bary, t, s.nShadeW);
+    closureLoad(s.bsdf, at);
+    return s;
+  }
+  b.diffuse = baseColor;
   if (RL_HAS(RL_FEATURE_GLOSSY)) {
     float ior = material.ior;
     if (RL_HAS(RL_FEATURE_VOLUME) && contrast > 0.0f) ior = contrast;

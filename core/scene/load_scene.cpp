@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/base/file_reason.h"
 #include "core/scene/scene.h"
+#include "core/scene/scene_file/scene_file.h"
 
 namespace restlab {
 namespace fs = std::filesystem;
@@ -18,7 +19,8 @@ bool isScene(const fs::path& file) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   std::error_code error;
-  return (extension == ".gltf" || extension == ".glb") && fs::is_regular_file(file, error);
+  return (extension == ".gltf" || extension == ".glb" || isSceneFile(file)) &&
+         fs::is_regular_file(file, error);
 }
 
 // Lists glTF files in a directory and in its direct subdirectories (NAME/glTF/NAME.gltf is common).
@@ -64,7 +66,7 @@ fs::path resolve(const fs::path& candidate) {
   if (fs::exists(candidate, error)) return candidate;
   if (isHidden(error))
     failInput(fmt::format("{}: {}", candidate.string(), unreadableReason(candidate)));
-  for (const char* extension : {".gltf", ".glb"}) {
+  for (const char* extension : {".gltf", ".glb", ".scene.toml"}) {
     fs::path file = candidate;
     file += extension;
     if (fs::is_regular_file(file, error)) return file;
@@ -125,7 +127,8 @@ Scene loadScene(const std::string& nameOrPath) {
   std::string tried, namesake;
   for (const fs::path& folder : folders) {
     const fs::path candidate = folder / path;
-    if (const fs::path file = resolve(candidate); !file.empty()) return loadGltf(file);
+    if (const fs::path file = resolve(candidate); !file.empty())
+      return isSceneFile(file) ? loadSceneFile(file) : loadGltf(file);
     tried += (tried.empty() ? "" : ", ") + candidate.string();
     const fs::path parent = candidate.parent_path();
     collectNames(parent.empty() ? "." : parent, path.parent_path(), near);

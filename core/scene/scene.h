@@ -50,9 +50,17 @@ struct TextureUse {
   glm::vec3 uvRow0{1, 0, 0}, uvRow1{0, 1, 0};
 };
 
+// The value of one parameter of a closure (core/scene/closure_info.h).
+struct ClosureValue {
+  glm::uvec3 words{0u};               // bits of a colour, of a number (x), or the index of a choice
+  uint32_t texture = rl::RL_INVALID;  // index into Scene::textureUses: multiplies the value
+  uint32_t channel = 0;               // of the texture, for a number: 0 to 3
+};
+
 struct SceneMaterial {
   std::string name;
-  rl::Material data{};       // data.textures[] index Scene::textureUses
+  rl::Material data{};                  // data.textures[] index Scene::textureUses
+  std::vector<ClosureValue> closure{};  // parameters of data.closure, as its file orders them
   float lightFactor = 1.0f;  // factor on data.emission (core/scene/compiled/light_factor.h)
   int priority = 0;          // among overlapping bodies, the greatest fills the place
 };
@@ -134,7 +142,7 @@ std::string builtinSceneSummary(const std::string& name);
 std::vector<SceneParameter> builtinSceneParameters(const std::string& name);
 
 // Loads a built-in by name, or a path: tried as given, then under RESTLAB_SCENES, then under
-// ../shared/scenes; a directory or a stem finds the one glTF inside. Throws Error (badInput).
+// ../shared/scenes; a directory or a stem finds the one scene inside. Throws Error (badInput).
 Scene loadScene(const std::string& nameOrPath);
 
 // Reads a latitude-longitude .hdr or .exr, or an .exr that declares itself a cube. Negative and

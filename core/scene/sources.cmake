@@ -3,6 +3,7 @@ target_sources(rl_core PRIVATE
   scene/camera_path/camera_path.cpp
   scene/camera_path/camera_path_check.cpp
   scene/camera_path/camera_path_config.cpp
+  scene/closure_info.cpp
   scene/content_hash.cpp
   scene/textures/cube_map.cpp
   scene/textures/environment.cpp
@@ -14,6 +15,9 @@ target_sources(rl_core PRIVATE
   scene/linear_map.cpp
   scene/plate.cpp
   scene/load_scene.cpp
+  scene/scene_file/material_kinds.cpp
+  scene/scene_file/scattering.cpp
+  scene/scene_file/scene_file.cpp
   scene/textures/png_decode.cpp
   scene/textures/texture_range.cpp
   scene/compiled/coarse_vertices.cpp

@@ -134,8 +134,59 @@ RL_FN vec3 bsdfSumLocal(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) asItIsL, RL_
   return f;
 }
 
+// Returns whether a closure scatters (core/shading/closures), not the lobes of glTF.
+RL_FN bool bsdfIsClosure(RL_IN(Bsdf) b) {
+  return RL_HAS(RL_FEATURE_CLOSURES) && b.closure != RL_CLOSURE_GLTF;
+}
+
+// The shading normal of a closure. Closures take no mirrored directions: light that a facet sends
+// through the face is absorbed.
+RL_FN vec3 bsdfClosureNormal(RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(vec3) wo) {
+  float cosO = dot(nShade, wo);
+  bool turns = RL_HAS(RL_FEATURE_SMOOTH_NORMALS | RL_FEATURE_NORMAL_MAPS) && cosO < 0.0f &&
+               dot(nGeo, wo) > 0.0f;
+  return turns ? nShade - wo * (2.0f * cosO) : nShade;
+}
+
+// Turns the frame of a normal about it, to the tangent and back.
+RL_FN vec3 bsdfToTangent(RL_IN(Bsdf) b, RL_IN(vec3) v) {
+  return vec3(b.tangent.x * v.x + b.tangent.y * v.y, b.tangent.x * v.y - b.tangent.y * v.x, v.z);
+}
+RL_FN vec3 bsdfFromTangent(RL_IN(Bsdf) b, RL_IN(vec3) v) {
+  return vec3(b.tangent.x * v.x - b.tangent.y * v.y, b.tangent.x * v.y + b.tangent.y * v.x, v.z);
+}
+
+RL_FN vec3 bsdfClosureEvalAndPdf(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade,
+                                 RL_IN(vec3) wo, RL_IN(vec3) wi, RL_OUT(float) pdf) {
+  pdf = 0.0f;
+  vec3 n = bsdfClosureNormal(nGeo, nShade, wo);
+  vec3 woL = bsdfToTangent(b, frameToLocal(n, wo));
+  vec3 wiL = bsdfToTangent(b, frameToLocal(n, wi));
+  if (!(woL.z > 0.0f) || !sidesAgree(dot(nGeo, wi), wiL.z)) return vec3(0.0f, 0.0f, 0.0f);
+  return closureEval(b, woL, wiL, pdf);
+}
+
+RL_FN BsdfSample bsdfClosureSample(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade,
+                                   RL_IN(vec3) wo, float uLobe, RL_IN(vec2) u) {
+  vec3 n = bsdfClosureNormal(nGeo, nShade, wo);
+  vec3 woL = bsdfToTangent(b, frameToLocal(n, wo));
+  if (!(woL.z > 0.0f)) return bsdfSampleNone();
+  BsdfSample s = closureSample(b, woL, uLobe, u);
+  vec3 wiL = s.wi;
+  s.wi = frameToWorld(n, bsdfFromTangent(b, wiL));
+  if (s.lobe == 0u || wiL.z == 0.0f || !sidesAgree(dot(nGeo, s.wi), wiL.z)) return bsdfSampleNone();
+  if ((s.lobe & RL_LOBE_ANY_DELTA) != 0u) return s;
+  float pdf;
+  vec3 f = closureEval(b, woL, wiL, pdf);
+  if (!(pdf > 0.0f)) return bsdfSampleNone();
+  s.pdfSolidAngle = pdf;
+  s.weight = f * (1.0f / pdf);
+  return s;
+}
+
 RL_FN vec3 bsdfEvalAndPdf(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(vec3) wo,
                           RL_IN(vec3) wi, RL_OUT(float) pdf) {
+  if (bsdfIsClosure(b)) return bsdfClosureEvalAndPdf(b, nGeo, nShade, wo, wi, pdf);
   if (!RL_HAS(RL_FEATURE_GLOSSY)) {
     pdf = 0.0f;
     if (!(dot(nGeo, wi) > 0.0f)) return vec3(0.0f, 0.0f, 0.0f);
@@ -166,11 +217,9 @@ RL_FN float bsdfPdf(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(v
 // uLobe chooses the lobe, u the direction. lobe 0: absorbed.
 RL_FN BsdfSample bsdfSample(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(vec3) wo,
                             float uLobe, RL_IN(vec2) u) {
-  BsdfSample result;
+  if (bsdfIsClosure(b)) return bsdfClosureSample(b, nGeo, nShade, wo, uLobe, u);
+  BsdfSample result = bsdfSampleNone();
   result.wi = nShade;
-  result.pdfSolidAngle = 0.0f;
-  result.weight = vec3(0.0f, 0.0f, 0.0f);
-  result.lobe = 0u;
   // Lambert alone: the weight is exactly the albedo, with the same bits in kernels with and without
   // glossy lobes.
   if (!RL_HAS(RL_FEATURE_GLOSSY) || (b.lobes & RL_LOBE_ANY_GLOSSY) == 0u) {
@@ -255,19 +304,6 @@ RL_FN BsdfSample bsdfSample(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade,
   result.weight = f * (1.0f / pdf);
   result.lobe = lobe;
   return result;
-}
-
-// A surface that scatters nothing.
-RL_FN Bsdf bsdfNone() {
-  Bsdf b;
-  b.diffuse = vec3(0.0f, 0.0f, 0.0f);
-  b.lobes = 0u;
-  b.f0 = vec3(0.0f, 0.0f, 0.0f);
-  b.f90 = 0.0f;
-  b.transmission = vec3(0.0f, 0.0f, 0.0f);
-  b.alpha = 1.0f;
-  b.eta = 1.0f;
-  return b;
 }
 
 // Returns whether the BSDF is Lambert alone: the light it sends does not depend on the direction.

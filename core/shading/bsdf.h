@@ -13,7 +13,8 @@ const uint RL_LOBE_SPECULAR = 2u;        // GGX reflection
 const uint RL_LOBE_SPECULAR_DELTA = 4u;  // mirror reflection (alpha below the floor)
 const uint RL_LOBE_TRANSMISSION = 8u;    // GGX transmission
 const uint RL_LOBE_TRANSMISSION_DELTA = 16u;
-const uint RL_LOBE_THIN = 32u;  // transmission without refraction
+const uint RL_LOBE_THIN = 32u;           // transmission without refraction
+const uint RL_LOBE_ROUGH_DIFFUSE = 64u;  // diffuse, but not Lambert: depends on the directions
 const uint RL_LOBE_ANY_DELTA = 20u;
 const uint RL_LOBE_ANY_TRANSMISSION = 24u;
 const uint RL_LOBE_ANY_GLOSSY = 30u;
@@ -23,6 +24,17 @@ const float RL_ALPHA_FLOOR = 1.0e-3f;
 // An index of refraction, or a ratio of two, within this of 1 is taken as 1: light is bent by less
 // than 1e-5 rad at 45 degrees, and float32 cannot resolve the half vector.
 const float RL_CLEAR_CONTRAST = 1.0e-5f;
+
+// Parts of a microfacet lobe (core/shading/bsdf/facets.glsl).
+const uint RL_FACETS_BECKMANN = 0u;  // distribution of normals
+const uint RL_FACETS_GGX = 1u;
+const uint RL_FACETS_BLINN = 2u;
+const uint RL_MASKING_SMITH = 0u;  // masking and shadowing
+const uint RL_MASKING_CORRELATED = 1u;
+const uint RL_MASKING_V_CAVITIES = 2u;
+const uint RL_FRESNEL_SCHLICK = 0u;
+const uint RL_FRESNEL_DIELECTRIC = 1u;
+const uint RL_FRESNEL_CONDUCTOR = 2u;
 
 // Nodes of sqrt(cos) and of sqrt(alpha) in the table of GGX albedos
 // (core/scene/compiled/ggx_albedo.h).
@@ -36,6 +48,14 @@ struct Bsdf {
   vec3 transmission;  // tint of the transmitted part
   float alpha;        // GGX roughness, linear
   float eta;          // index of refraction beyond the surface over that on the side of wo
+  // A closure (core/shading/closures) in place of glTF's lobes. It says above, for whoever asks how
+  // a surface scatters on the whole: lobes, albedo (diffuse, f0), alpha of its narrowest lobe.
+  uint closure;  // RL_CLOSURE_*
+  vec2 tangent;  // cosine and sine of the angle from the normal's frame to the tangent
+  vec4 p0;       // values that the closure's file gives a meaning
+  vec4 p1;
+  vec4 p2;
+  vec4 p3;
 };
 
 struct BsdfSample {

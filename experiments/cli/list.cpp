@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/scene/scene.h"
+#include "core/scene/scene_file/scene_file.h"
 #include "experiments/cli/reference_page.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/base/files.h"
@@ -21,7 +22,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kKinds =
-    "integrators, caches, backends, denoisers, metrics, scenes, or all: docs/reference.md";
+    "integrators, caches, backends, denoisers, metrics, closures, scenes, or all: "
+    "docs/reference.md";
 
 struct ListOptions {
   std::string what;
@@ -38,7 +40,7 @@ std::vector<std::string> scenesOfOthers() {
   for (fs::recursive_directory_iterator it(folder, status), end; !status && it != end;
        it.increment(status)) {
     const std::string extension = it->path().extension().string();
-    if (extension != ".gltf" && extension != ".glb") continue;
+    if (extension != ".gltf" && extension != ".glb" && !isSceneFile(it->path())) continue;
     const std::string name = fs::relative(it->path(), folder).string();
     if (name.rfind("bad-", 0) != 0) names.push_back(name);  // broken files for tests
   }
@@ -90,6 +92,11 @@ void printDetails(const Json& part) {
     print("  {} in a still view, {} in a moving one: {}\n", part["bias_still"].get<std::string>(),
           part["bias_moving"].get<std::string>(), part["why"].get<std::string>());
   }
+  if (!part.value("breaks", Json::array()).empty()) {
+    const std::vector<std::string> breaks = part["breaks"];
+    print("  breaks {} where {}\n", fmt::format("{}", fmt::join(breaks, ", ")),
+          part.value("breaks_where", "some parameters make it"));
+  }
   for (const Json& mode : part.value("modes", Json::array())) {
     print("  mode {:<12} {}: {}\n", mode["name"].get<std::string>(),
           mode["bias"].get<std::string>(), mode["why"].get<std::string>());
@@ -102,9 +109,10 @@ void printDetails(const Json& part) {
     } else if (parameter.contains("choices")) {
       bounds = " of " + parameter["choices"].dump();
     }
-    print("  {} = {}{}\n      {}\n      source: {}\n", parameter["name"].get<std::string>(),
-          parameter["default"].dump(), bounds, parameter["help"].get<std::string>(),
-          parameter["source"].get<std::string>());
+    print("  {} = {}{}\n      {}\n", parameter["name"].get<std::string>(),
+          parameter["default"].dump(), bounds, parameter["help"].get<std::string>());
+    if (parameter.contains("source"))
+      print("      source: {}\n", parameter["source"].get<std::string>());
   }
   for (const Json& layer : part.value("layers", Json::array())) {
     const std::string unit = layer["unit"], with = layer.value("only_with", "");
@@ -116,9 +124,13 @@ void printDetails(const Json& part) {
 
 void list(const CLI::App& app, const ListOptions& options) {
   if (options.what == "all" && !options.json) return printText(referencePage(app));
-  const std::vector<std::pair<std::string, Json (*)()>> kinds = {
-      {"integrators", integratorsJson}, {"caches", cachesJson},   {"backends", backendsJson},
-      {"denoisers", denoisersJson},     {"metrics", metricsJson}, {"scenes", scenes}};
+  const std::vector<std::pair<std::string, Json (*)()>> kinds = {{"integrators", integratorsJson},
+                                                                 {"caches", cachesJson},
+                                                                 {"backends", backendsJson},
+                                                                 {"denoisers", denoisersJson},
+                                                                 {"metrics", metricsJson},
+                                                                 {"closures", closuresJson},
+                                                                 {"scenes", scenes}};
   if (options.what == "all") {
     Json all = {{"settings", transportSettingsJson()}};
     for (const auto& [name, listed] : kinds) all[name] = listed();

@@ -132,7 +132,7 @@ int main(int argc, char** argv) {
                              {"denoise", addDenoiseVerb(app)}, {"info", addInfoVerb(app)},
                              {"list", addListVerb(app)},       {"bench", addBenchVerb(app)},
                              {"view", addViewVerb(app)},       {"bias", addBiasVerb(app)},
-                             {"graph", addGraphVerb(app)}};
+                             {"graph", addGraphVerb(app)},     {"bsdf", addBsdfVerb(app)}};
   for (const Verb& verb : verbs) addVerbosity(*app.get_subcommand(verb.name));
   try {
     const int code = runVerb(app, verbs, std::vector<std::string>(argv, argv + argc));

@@ -96,6 +96,26 @@ std::string partsText(const std::string& title, const Json& parts) {
   return text;
 }
 
+std::string closureText(const Json& closure) {
+  const std::string source = closure["source"], where = closure.value("breaks_where", "");
+  std::string text = fmt::format("\n### {}\n\n{}{}.\n", closure["name"].get<std::string>(),
+                                 cell(closure["summary"].get<std::string>()),
+                                 source.empty() ? "" : " (" + cell(source) + ")");
+  if (!closure["breaks"].empty())
+    text += fmt::format("\nBreaks {} {}.\n",
+                        fmt::join(closure["breaks"].get<std::vector<std::string>>(), " and "),
+                        where.empty() ? "for some parameters" : "where " + code(where));
+  if (closure["parameters"].empty()) return text;
+  text += "\n| parameter | default | values | meaning |\n|---|---|---|---|\n";
+  for (const Json& parameter : closure["parameters"]) {
+    const std::string type = parameter["type"] == "colour" ? "colour, " : "";
+    text += fmt::format("| {} | {} | {}{} | {} |\n", code(parameter["name"].get<std::string>()),
+                        cell(valueOf(parameter["default"])), type, cell(valuesOf(parameter)),
+                        cell(parameter["help"].get<std::string>()));
+  }
+  return text;
+}
+
 // Denoisers that every build has: those on the host are of libraries that may be missing.
 Json denoisersOfEveryBuild() {
   Json all = Json::array();
@@ -203,7 +223,8 @@ std::string referencePage(const CLI::App& app) {
       "[manual.md](manual.md) "
       "says how things work together.\n\n"
       "- [Verbs](#verbs), [settings of light transport](#settings-of-light-transport)\n"
-      "- [Integrators](#integrators), [caches](#caches), [denoisers](#denoisers)\n"
+      "- [Integrators](#integrators), [caches](#caches), [denoisers](#denoisers), "
+      "[closures](#closures)\n"
       "- [Columns of summary.csv](#columns-of-summarycsv), [metrics](#metrics)\n\n"
       "## Verbs\n\nEvery verb has `--help`, `-q` (errors and warnings only) and `-v` (details).\n";
   text += verbsText(app.get_subcommands({}));
@@ -215,6 +236,8 @@ std::string referencePage(const CLI::App& app) {
   text += partsText("Caches", cachesJson());
   text += partsText("Denoisers", denoisersOfEveryBuild());
   text += "\nWhere its library is installed, `restlab list denoisers` has `oidn` as well.\n";
+  text += "\n## Closures\n\nKinds of materials, for `kind` in a [scene file](scenes.md).\n";
+  for (const Json& closure : closuresJson()) text += closureText(closure);
   text +=
       "\n## Columns of summary.csv\n\n`KEY and its ends`: also `KEY_ci_lo` and `KEY_ci_hi`, the "
       "95 % interval.\n";

@@ -10,6 +10,7 @@
 #include "core/backend/backend.h"
 #include "core/base/error.h"
 #include "core/frame/method.h"
+#include "core/scene/scene_file/scene_file.h"
 #include "core/scene/scene.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
@@ -117,7 +118,7 @@ void setJobs(uint32_t jobs, Suite& suite) {
 // Refers users who name a scene to `render`.
 void refuseScene(const std::string& name) {
   const std::string extension = std::filesystem::path(name).extension().string();
-  if (extension != ".gltf" && extension != ".glb" &&
+  if (extension != ".gltf" && extension != ".glb" && !isSceneFile(name) &&
       (!isBuiltinScene(name) || std::filesystem::exists(name)))
     return;
   failUsage(

@@ -33,6 +33,7 @@ Action addListVerb(CLI::App& app);
 Action addBenchVerb(CLI::App& app);
 Action addBiasVerb(CLI::App& app);
 Action addGraphVerb(CLI::App& app);
+Action addBsdfVerb(CLI::App& app);
 Action addViewVerb(CLI::App& app);
 
 }  // namespace restlab

@@ -35,7 +35,8 @@ std::filesystem::path writeUnit(const std::string& compiler, const std::string& 
 // Compiles in the repository's root with relative includes: messages start with core/...
 CommandResult compile(const std::string& compiler, const std::string& arguments) {
   return runCommand("cd '" RESTLAB_SOURCE_DIR "' && " + compiler +
-                    " -std=c++20 -I. " RESTLAB_WARNINGS " " + arguments);
+                    " -std=c++20 -I. -I'" RESTLAB_GENERATED_DIR "' " RESTLAB_WARNINGS " " +
+                    arguments);
 }
 
 // Compiles C++ text without producing code; messages name the dialect's files. `before`: a header
@@ -125,7 +126,7 @@ INSTANTIATE_TEST_SUITE_P(Nightly, CppHeaders, testing::Values(RESTLAB_CLANGXX), 
 
 GlslResult compileKernel(const Kernel& kernel, const std::string& trace = traceFiles().front()) {
   const std::string text = glslKernelSource({kernel.header, kernel.file, trace, "", false});
-  return compileGlsl(text, "kernel", readBelow(RESTLAB_SOURCE_DIR));
+  return compileGlsl(text, "kernel", readBelow({RESTLAB_SOURCE_DIR, RESTLAB_GENERATED_DIR}));
 }
 
 TEST(Glsl, EveryKernelCompiles) {
@@ -147,7 +148,8 @@ TEST(Glsl, EveryKernelCompilesWithTexels) {
     for (const GlslTrace& trace : {kGlslTraceBvh, kGlslTraceQuery}) {
       const std::string text =
           glslKernelSource({kernel.header, kernel.file, trace.file, trace.extensions, true});
-      const GlslResult result = compileGlsl(text, "kernel", readBelow(RESTLAB_SOURCE_DIR));
+      const GlslResult result =
+          compileGlsl(text, "kernel", readBelow({RESTLAB_SOURCE_DIR, RESTLAB_GENERATED_DIR}));
       EXPECT_FALSE(result.spirv.empty()) << kernel.name << ":\n" << result.log;
       EXPECT_EQ(result.log.find("WARNING"), std::string::npos) << kernel.name << ":\n"
                                                                << result.log;
@@ -159,7 +161,8 @@ TEST(Glsl, EveryKernelCompilesWithRayQueries) {
   for (const Kernel& kernel : kernels()) {
     const std::string text = glslKernelSource(
         {kernel.header, kernel.file, kGlslTraceQuery.file, kGlslTraceQuery.extensions, false});
-    const GlslResult result = compileGlsl(text, "kernel", readBelow(RESTLAB_SOURCE_DIR));
+    const GlslResult result =
+        compileGlsl(text, "kernel", readBelow({RESTLAB_SOURCE_DIR, RESTLAB_GENERATED_DIR}));
     EXPECT_FALSE(result.spirv.empty()) << kernel.name << ":\n" << result.log;
     EXPECT_EQ(result.log.find("WARNING"), std::string::npos) << kernel.name << ":\n" << result.log;
   }

@@ -15,6 +15,7 @@ namespace restlab::lint {
 namespace {
 
 const std::filesystem::path kRoot = RESTLAB_SOURCE_DIR;
+const std::filesystem::path kGenerated = RESTLAB_GENERATED_DIR;
 
 void follow(const std::string& path, std::set<std::string>& seen) {
   if (!seen.insert(path).second) return;
@@ -24,6 +25,17 @@ void follow(const std::string& path, std::set<std::string>& seen) {
     const size_t close = d.text.find('"', open + 1);
     follow(d.text.substr(open + 1, close - open - 1), seen);
   }
+}
+
+// Blanks the lines in which a closure declares itself: they are C++ of the host.
+std::string withoutDeclaration(std::string text) {
+  const size_t begin = text.find("#ifdef RL_CLOSURE_DECLARED");
+  if (begin == std::string::npos) return text;
+  const size_t first = text.find('\n', begin), end = text.find("#else", begin);
+  for (size_t i = first; i < end; ++i) {
+    if (text[i] != '\n') text[i] = ' ';
+  }
+  return text;
 }
 
 bool hasExtension(const std::string& path, const char* extension) {
@@ -44,8 +56,10 @@ const std::vector<std::string>& traceFiles() {
 
 std::string readSource(const std::string& path) {
   std::ifstream stream(kRoot / path, std::ios::binary);
+  if (!stream) stream.open(kGenerated / path, std::ios::binary);
   if (!stream) throw std::runtime_error("cannot read " + (kRoot / path).string());
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  return withoutDeclaration(
+      {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()});
 }
 
 const std::vector<std::string>& dialectFiles() {

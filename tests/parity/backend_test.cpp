@@ -151,7 +151,7 @@ TEST(KernelCacheFolder, IsBelowTheUsersCache) {
 TEST_F(BackendTest, BrokenKernelIsNamedWithFileAndLine) {
   TestDevice device = openDevice();
   const std::string file = "integrators/path/path.glsl";
-  const SourceReader good = readBelow(RESTLAB_SOURCE_DIR);
+  const SourceReader good = readBelow({RESTLAB_SOURCE_DIR, RESTLAB_GENERATED_DIR});
   const SourceReader read = [&](const std::string& path) -> std::optional<std::string> {
     if (path == file)
       return "// One line that is right.\nRL_FN void kernelMain(RL_IN(uvec2) p) {\n"

@@ -285,6 +285,8 @@ std::filesystem::path gateFile(const std::string& scene) {
 
 Scene makeScene(const std::string& name) {
   if (name == "everything") return makeEverythingScene();
+  if (name == "materials")  // every kind of closure
+    return loadScene(RESTLAB_SOURCE_DIR "/experiments/scenes/materials.scene.toml");
   return isGate(name) ? loadScene(gateFile(name).string()) : makeBuiltinScene(name);
 }
 

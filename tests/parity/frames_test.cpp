@@ -267,7 +267,8 @@ void expectValidFrame(const Combination& what, const std::string& sceneName, con
 // General kernels, on scenes that differ most: area lights alone, reflection and glass, every
 // feature at once.
 void expectGeneralKernels(const Combination& what) {
-  const std::vector<std::string> scenes = {"cornell-box", "glossy-gallery", "everything"};
+  const std::vector<std::string> scenes = {"cornell-box", "glossy-gallery", "everything",
+                                           "materials"};
   expectParity(what, scenes, kVulkan, kCpuBvh, kSmall);
   if (isOfEveryPass(what)) expectValidFrame(what, "everything", kVulkan);
   expectParity(what, scenes, kVulkan, kCpuEmbree, kSmall);

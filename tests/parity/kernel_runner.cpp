@@ -53,7 +53,8 @@ std::vector<TestDevice> testDevices() {
 
 std::vector<uint32_t> compileKernel(const std::string& header, const std::string& file) {
   const std::string text = glslKernelSource(bruteForceKernel(header, file));
-  GlslResult result = compileGlsl(text, file, readBelow(RESTLAB_SOURCE_DIR));
+  GlslResult result =
+      compileGlsl(text, file, readBelow({RESTLAB_SOURCE_DIR, RESTLAB_GENERATED_DIR}));
   if (result.spirv.empty()) throw std::runtime_error(result.log);
   return result.spirv;
 }
@@ -63,9 +64,9 @@ GlslCounters runOnDevice(TestDevice& device, const std::string& header, const st
                          const std::vector<uint64_t>& buffers, const void* params,
                          size_t paramBytes) {
   VulkanMemory& memory = *device.memory;
-  VkPipeline pipeline =
-      device.kernels->pipeline(bruteForceKernel(header, file), file, rl::RL_FEATURE_ALL,
-                               readBelow(RESTLAB_SOURCE_DIR), device.report);
+  VkPipeline pipeline = device.kernels->pipeline(
+      bruteForceKernel(header, file), file, rl::RL_FEATURE_ALL,
+      readBelow({RESTLAB_SOURCE_DIR, RESTLAB_GENERATED_DIR}), device.report);
   std::vector<GpuBuffer> inputs;
   const auto upload = [&](const void* data, size_t bytes) {
     inputs.push_back(memory.allocate(bytes, MemoryKind::device));

@@ -22,6 +22,7 @@ set(RL_SCENE_TESTS
   scene/image_limits_test.cpp
   scene/light_factor_test.cpp
   scene/load_scene_test.cpp
+  scene/scene_file_test.cpp
   scene/scene_origin_test.cpp
   ${RL_BUILTIN_TESTS}
 )

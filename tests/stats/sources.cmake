@@ -1,6 +1,5 @@
 # Tests of experiments/statistics, and what tests alone ask of statistics.
 set(RL_STATS_SOURCES
-  stats/chi2.cpp
   stats/ks.cpp
 )
 set(RL_STATS_TESTS

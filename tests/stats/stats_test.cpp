@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "tests/stats/chi2.h"
+#include "experiments/statistics/chi2.h"
 #include "experiments/statistics/holm.h"
 #include "tests/stats/ks.h"
 #include "experiments/statistics/power.h"

@@ -12,7 +12,7 @@
 #include "tests/unit/ggx_reference.h"
 #include "tests/unit/goodness.h"
 #include "tests/unit/random_inputs.h"
-#include "tests/unit/sphere_grid.h"
+#include "experiments/statistics/sphere_grid.h"
 
 namespace restlab::unit {
 namespace {
@@ -118,7 +118,7 @@ TEST(Ggx, VisibleNormalsFollowTheirDensity) {
     for (double angle : kAngles) {
       const glm::vec3 wo = directionAt(angle);
       // The mode lies between the normal and wo.
-      const SphereGrid grid({{glm::dvec3(0, 0, 1), alpha}});
+      const stats::SphereGrid grid({{glm::dvec3(0, 0, 1), alpha}});
       const auto density = [&](const glm::dvec3& h) {
         return glm::dvec4(h.z > 0.0 ? d->ggxPdfVisibleNormal(wo, glm::vec3(h), alpha) : 0.0f, 0.0,
                           0.0, 0.0);
@@ -170,7 +170,7 @@ struct Albedo {
 
 Albedo albedoOf(const rl::Bsdf& bsdf, const glm::vec3& wo) {
   Dialect<> d;
-  const SphereGrid grid({{{-wo.x, -wo.y, wo.z}, 2.0 * bsdf.alpha}});
+  const stats::SphereGrid grid({{{-wo.x, -wo.y, wo.z}, 2.0 * bsdf.alpha}});
   const std::vector<glm::dvec4> cells = grid.integrate([&](const glm::dvec3& wi) {
     return glm::dvec4(glm::dvec3(d->bsdfEval(bsdf, kUp, kUp, wo, glm::vec3(wi))), 0.0);
   });

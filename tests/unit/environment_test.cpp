@@ -10,7 +10,7 @@
 #include "tests/unit/dialect_context.h"
 #include "tests/unit/goodness.h"
 #include "tests/unit/random_inputs.h"
-#include "tests/unit/sphere_grid.h"
+#include "experiments/statistics/sphere_grid.h"
 
 namespace restlab::unit {
 namespace {
@@ -152,9 +152,9 @@ TEST(Environment, DrawsFollowTheDensity) {
         double sum = 0.0;
         for (int i = 0; i < 5; ++i) {
           for (int j = 0; j < 5; ++j) {
-            const double u = (x + 0.5 + 0.5 * kGauss5X[i]) / nu,
-                         v = (y + 0.5 + 0.5 * kGauss5X[j]) / nv;
-            sum += 0.25 * kGauss5W[i] * kGauss5W[j] * std::sin(kPi * v) *
+            const double u = (x + 0.5 + 0.5 * stats::kGauss5X[i]) / nu,
+                         v = (y + 0.5 + 0.5 * stats::kGauss5X[j]) / nv;
+            sum += 0.25 * stats::kGauss5W[i] * stats::kGauss5W[j] * std::sin(kPi * v) *
                    d->environmentPdf(glm::vec3(directionOf(u, v, c.map.rotation)));
           }
         }

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/stats/chi2.h"
+#include "experiments/statistics/chi2.h"
 
 namespace restlab::unit {
 

@@ -15,7 +15,7 @@
 #include "tests/unit/dialect_context.h"
 #include "tests/unit/ggx_reference.h"
 #include "tests/unit/random_inputs.h"
-#include "tests/unit/sphere_grid.h"
+#include "experiments/statistics/sphere_grid.h"
 
 namespace restlab::unit {
 namespace {
@@ -59,7 +59,7 @@ TEST(Multiscatter, TableAgainstIntegralsOverMicrofacets) {
 
 template <uint32_t FEATURES>
 glm::dvec3 albedoOf(Dialect<FEATURES>& d, const rl::Bsdf& bsdf, const glm::vec3& wo) {
-  const SphereGrid grid({{{-wo.x, -wo.y, wo.z}, 2.0 * bsdf.alpha}});
+  const stats::SphereGrid grid({{{-wo.x, -wo.y, wo.z}, 2.0 * bsdf.alpha}});
   glm::dvec3 sum(0.0);
   for (const glm::dvec4& cell : grid.integrate([&](const glm::dvec3& wi) {
          return glm::dvec4(glm::dvec3(d->bsdfEval(bsdf, kUp, kUp, wo, glm::vec3(wi))), 0.0);
@@ -125,8 +125,8 @@ TEST(Multiscatter, ColouredMetalFollowsTheFormula) {
     const rl::Bsdf bsdf = bsdfOf(builtin::metal(f0, std::sqrt(alpha)), true);
     double mean = 0.0;  // cosine-weighted mean of E
     for (int i = 0; i < 5; ++i) {
-      const double x = 0.5 + 0.5 * kGauss5X[i];
-      mean += kGauss5W[i] * x * reference::reflectedAlbedo(x, bsdf.alpha, one);
+      const double x = 0.5 + 0.5 * stats::kGauss5X[i];
+      mean += stats::kGauss5W[i] * x * reference::reflectedAlbedo(x, bsdf.alpha, one);
     }
     for (const double angle : kAngles) {
       const glm::vec3 wo = directionAt(angle);

@@ -51,7 +51,7 @@ TEST(Records, AreReadAsTheHostWroteThem) {
     SCOPED_TRACE(i);
     expectSame(dialect->recordGeometry(i), geometries[i], 2);
     expectSame(dialect->recordInstance(i), instances[i], 0);
-    expectSame(dialect->recordMaterial(i), materials[i], 0);
+    expectSame(dialect->recordMaterial(i), materials[i], 2);
     expectSame(dialect->recordTexture(i), textures[i], 3);
     expectSame(dialect->recordLight(i), lights[i], 1);
   }

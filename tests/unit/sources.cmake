@@ -2,6 +2,8 @@
 list(APPEND RL_UNIT_TESTS
   alpha_test.cpp
   bsdf_cases.cpp
+  closure_cases.cpp
+  closures_test.cpp
   bsdf_delta_test.cpp
   bsdf_sampling_test.cpp
   bsdf_values_test.cpp
@@ -40,7 +42,6 @@ list(APPEND RL_UNIT_TESTS
   rng_audit_test.cpp
   rng_audit_voxel_propose.cpp
   rng_test.cpp
-  sphere_grid.cpp
   surface_test.cpp
   surface_transform_test.cpp
   texture_test.cpp
@@ -52,7 +53,7 @@ list(FILTER alone INCLUDE REGEX "^(rng_audit_|feature_mask|partners|direct_sampl
 list(TRANSFORM alone PREPEND ${CMAKE_CURRENT_LIST_DIR}/)
 set_property(SOURCE ${alone} PROPERTY SKIP_UNITY_BUILD_INCLUSION ON)
 # Millions of samples in the test's own code.
-foreach(file bsdf_sampling_test.cpp sphere_grid.cpp)
+foreach(file bsdf_sampling_test.cpp)
   set_property(SOURCE ${CMAKE_CURRENT_LIST_DIR}/${file} APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
   # As in rl_compile_lightly (cmake/options.cmake).
   set_property(SOURCE ${CMAKE_CURRENT_LIST_DIR}/${file} PROPERTY SKIP_PRECOMPILE_HEADERS ON)

@@ -162,7 +162,12 @@ uint64_t hashOf(const Scene& scene) {
   }
   for (const SceneMaterial& m : scene.materials) {
     hash.text(m.name);
-    hash.value(m.data);  // 112 bytes without padding (asserted in types.h)
+    hash.value(m.data);  // 128 bytes, padding set to 0 (types.h)
+    for (const ClosureValue& v : m.closure) {
+      hash.value(v.words);
+      hash.value(v.texture);
+      hash.value(v.channel);
+    }
     if (m.priority != 0) hash.value(m.priority);
   }
   hashTextures(hash, scene);

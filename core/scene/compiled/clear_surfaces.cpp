@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/dialect/features.h"
 #include "core/scene/compiled/bodies.h"
 #include "core/shading/bsdf.h"
 
@@ -16,9 +17,10 @@ bool isClear(const rl::Material& m) {
   const bool isTextured = std::any_of(std::begin(kSlots), std::end(kSlots), [&m](uint32_t slot) {
     return m.textures[slot] != rl::RL_INVALID;
   });
-  return (m.flags & kOther) == 0 && !isTextured && std::abs(m.ior - 1.0f) < rl::RL_CLEAR_CONTRAST &&
-         m.transmission == 1.0f && m.metallic == 0.0f && m.baseColor == glm::vec3(1.0f) &&
-         m.emission == glm::vec3(0.0f) && m.sigmaAbsorption == glm::vec3(0.0f);
+  return (m.flags & kOther) == 0 && m.closure == rl::RL_CLOSURE_GLTF && !isTextured &&
+         std::abs(m.ior - 1.0f) < rl::RL_CLEAR_CONTRAST && m.transmission == 1.0f &&
+         m.metallic == 0.0f && m.baseColor == glm::vec3(1.0f) && m.emission == glm::vec3(0.0f) &&
+         m.sigmaAbsorption == glm::vec3(0.0f);
 }
 
 }  // namespace

@@ -68,6 +68,7 @@ struct CompiledScene::Impl {
   std::vector<rl::Geometry> geometries;
   std::vector<rl::Instance> instances;
   std::vector<rl::Material> materials;
+  std::vector<glm::uvec4> closureParameters;
   std::vector<rl::Texture> textures;
   std::vector<uint32_t> texels;
   std::vector<float> srgb;
@@ -92,6 +93,7 @@ struct CompiledScene::Impl {
   void flatten();
   void addGeometry(const MeshGeometry& mesh, const glm::dmat4* bake,
                    const std::vector<glm::dvec3>* positionsW);
+  void addMaterial(const SceneMaterial& material);
   void buildTextures();
   void buildEmbree();
   void bindAddresses();
@@ -196,6 +198,19 @@ void CompiledScene::Impl::flatten() {
     instancedTriangles += mesh.triangles.size();
     instances.push_back(inst);
   }
+}
+
+void CompiledScene::Impl::addMaterial(const SceneMaterial& material) {
+  rl::Material record = material.data;
+  record.emission *= material.lightFactor;
+  record.firstParameter = static_cast<uint32_t>(closureParameters.size());
+  for (const ClosureValue& v : material.closure) {
+    const bool isTextured = v.texture != rl::RL_INVALID;
+    closureParameters.emplace_back(
+        v.words, isTextured ? v.texture | (v.channel << rl::RL_PARAMETER_CHANNEL_SHIFT)
+                            : uint32_t(rl::RL_INVALID));
+  }
+  materials.push_back(record);
 }
 
 void CompiledScene::Impl::buildTextures() {
@@ -338,6 +353,7 @@ void CompiledScene::Impl::bindAddresses() {
   data.environmentHeight = scene.environment ? scene.environment->height : 0;
   data.environmentLight = lights.environmentLight;
   data.environmentRotation = scene.environment ? scene.environment->rotation : 0.0f;
+  data.closureParameters.data = closureParameters.data();
   data.bodies.data = bodies.media.data();
   data.bodiesMeet = bodies.meet ? 1u : 0u;
   data.instanceCount = static_cast<uint32_t>(instances.size());
@@ -357,10 +373,7 @@ std::shared_ptr<const CompiledScene> CompiledScene::build(Scene scene) {
   for (std::string& line : bodyWarnings(impl->scene, impl->bodies))
     impl->warnings.push_back(std::move(line));
   impl->flatten();
-  for (const SceneMaterial& m : impl->scene.materials) {
-    impl->materials.push_back(m.data);
-    impl->materials.back().emission *= m.lightFactor;
-  }
+  for (const SceneMaterial& m : impl->scene.materials) impl->addMaterial(m);
   impl->buildTextures();
   impl->lights = buildLightTable(
       {impl->scene, impl->positions, impl->uvs, impl->triangles, impl->geometries, impl->origin},
@@ -431,6 +444,7 @@ rl::SceneData CompiledScene::placedAt(const Place& place, bool withBvh) const {
   move(placed.lightAlias, m.lights.alias.size());
   move(placed.environment, m.lights.environment.size());
   move(placed.environmentAlias, m.lights.environmentAlias.size());
+  move(placed.closureParameters, m.closureParameters.size());
   move(placed.bodies, m.bodies.media.size());
   move(placed.ggxAlbedo, m.data.ggxAlbedo.data != nullptr ? ggxAlbedoTable().size() : 0);
   move(placed.bvh, withBvh ? m.bvh.records.size() * rl::RL_BVH_RECORD_UVEC4S : 0);
@@ -464,7 +478,7 @@ bool CompiledScene::differsInLightAlone(const CompiledScene& other) const {
          isSame(a.normals, b.normals) && isSame(a.tangents, b.tangents) && isSame(a.uvs, b.uvs) &&
          isSame(a.colors, b.colors) && isSame(a.geometries, b.geometries) &&
          isSame(a.triangles, b.triangles) && isSame(a.textures, b.textures) &&
-         isSame(a.texels, b.texels) &&
+         isSame(a.texels, b.texels) && isSame(a.closureParameters, b.closureParameters) &&
          std::equal(a.instances.begin(), a.instances.end(), b.instances.begin(), b.instances.end(),
                     isSameInstance) &&
          a.lights.lights.size() == b.lights.lights.size() &&
@@ -489,9 +503,10 @@ size_t CompiledScene::bytes() const {
   auto of = [](const auto& v) { return v.size() * sizeof(v[0]); };
   const Impl& i = *impl_;
   return of(i.positions) + of(i.normals) + of(i.tangents) + of(i.colors) + of(i.uvs) +
-         of(i.triangles) + of(i.geometries) + of(i.instances) + of(i.materials) + of(i.textures) +
-         of(i.texels) + of(i.srgb) + of(i.lights.lights) + of(i.lights.alias) +
-         of(i.lights.environment) + of(i.lights.environmentAlias) + of(i.bodies.media);
+         of(i.triangles) + of(i.geometries) + of(i.instances) + of(i.materials) +
+         of(i.closureParameters) + of(i.textures) + of(i.texels) + of(i.srgb) +
+         of(i.lights.lights) + of(i.lights.alias) + of(i.lights.environment) +
+         of(i.lights.environmentAlias) + of(i.bodies.media);
 }
 
 }  // namespace restlab

@@ -11,6 +11,7 @@
 #include "core/scene/compiled/compiled_scene.h"
 #include "core/scene/textures/texture_range.h"
 #include "core/shading/bsdf.h"
+#include "core/scene/closure_info.h"
 
 namespace restlab {
 namespace {
@@ -26,11 +27,24 @@ glm::vec3 times(const glm::vec3& v, const std::array<float, 4>& texel) {
 
 bool hasTexture(const rl::Material& m, uint32_t slot) { return m.textures[slot] != rl::RL_INVALID; }
 
+uint32_t scanClosure(const SceneMaterial& material) {
+  uint32_t features =
+      rl::RL_FEATURE_GLOSSY | closureRegistry().at(material.data.closure - 1).feature;
+  for (const ClosureValue& value : material.closure) {
+    if (value.texture != rl::RL_INVALID) features |= rl::RL_FEATURE_TEXTURES;
+  }
+  return features;
+}
+
 // Features that the material needs on any mesh; emission and alpha also depend on the mesh.
-uint32_t scanSurface(const rl::Material& m, TextureRanges& ranges) {
+uint32_t scanSurface(const SceneMaterial& material, TextureRanges& ranges) {
+  const rl::Material& m = material.data;
   const bool scatters = (m.flags & (rl::RL_MATERIAL_UNLIT | rl::RL_MATERIAL_BLACK)) == 0;
   uint32_t features = hasTexture(m, rl::RL_TEX_BASE_COLOR) ? rl::RL_FEATURE_TEXTURES : 0u;
   if (!scatters) return features;
+  if (hasTexture(m, rl::RL_TEX_NORMAL) && m.normalScale != 0.0f)
+    features |= rl::RL_FEATURE_NORMAL_MAPS;
+  if (m.closure != rl::RL_CLOSURE_GLTF) return features | scanClosure(material);
 
   const TexelRange& metalRange = ranges.ofSlot(m, rl::RL_TEX_METALLIC_ROUGHNESS);
   const glm::vec3 base = times(m.baseColor, ranges.ofSlot(m, rl::RL_TEX_BASE_COLOR).high);
@@ -56,14 +70,13 @@ uint32_t scanSurface(const rl::Material& m, TextureRanges& ranges) {
     const bool isThin = (m.flags & rl::RL_MATERIAL_THIN) != 0;
     if (!isThin && isPositive(m.sigmaAbsorption)) features |= rl::RL_FEATURE_VOLUME;
   }
-  if (hasTexture(m, rl::RL_TEX_NORMAL) && m.normalScale != 0.0f)
-    features |= rl::RL_FEATURE_NORMAL_MAPS;
   return features;
 }
 
 // Returns whether the surface has a rough reflection and somewhere does not transmit.
 bool reflectsRoughly(const rl::Material& m, TextureRanges& ranges) {
   if ((m.flags & (rl::RL_MATERIAL_UNLIT | rl::RL_MATERIAL_BLACK)) != 0) return false;
+  if (m.closure != rl::RL_CLOSURE_GLTF) return false;
   const TexelRange& range = ranges.ofSlot(m, rl::RL_TEX_METALLIC_ROUGHNESS);
   const glm::vec3 base = times(m.baseColor, ranges.ofSlot(m, rl::RL_TEX_BASE_COLOR).high);
   const glm::vec3 tint = times(m.specularColor, ranges.ofSlot(m, rl::RL_TEX_SPECULAR_COLOR).high);
@@ -150,7 +163,7 @@ uint32_t scanFeatures(const Scene& scene) {
     if (mesh.triangles.empty()) continue;
     if (isMaterialSeen[instance.material] == 0) {
       isMaterialSeen[instance.material] = 1;
-      features |= scanSurface(m, ranges);
+      features |= scanSurface(scene.materials.at(instance.material), ranges);
     }
     if (emits(m, ranges) && hasArea(mesh, instance.objectToWorld)) {
       features |= rl::RL_FEATURE_AREA_LIGHTS;

@@ -84,7 +84,7 @@ fs::path findAsset(const std::string& name) {
     folders.push_back("../shared/scenes");
   }
   for (const fs::path& folder : folders) {
-    for (const char* extension : {"", ".gltf", ".glb"}) {
+    for (const char* extension : {"", ".gltf", ".glb", ".scene.toml"}) {
       const fs::path candidate = folder / (name + extension);
       if (fs::exists(candidate, status)) return candidate;
     }

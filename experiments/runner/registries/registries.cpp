@@ -2,6 +2,7 @@
 
 #include <variant>
 
+#include "core/scene/scene_file/scene_file.h"
 #include "core/backend/backend.h"
 #include "core/frame/cache.h"
 #include "core/frame/denoiser.h"
@@ -109,6 +110,40 @@ Json denoisersJson() {
                    {"summary", missing.summary},
                    {"available", false},
                    {"why_not", missing.whyNot}});
+  }
+  return all;
+}
+
+Json closuresJson() {
+  using Kind = ClosureParameter::Kind;
+  Json all = Json::array();
+  for (const MaterialKind& kind : materialKinds()) {
+    Json parameters = Json::array();
+    for (const ClosureParameter& p : kind.parameters) {
+      Json parameter = {{"name", p.name}};
+      if (p.kind == Kind::choice) {
+        parameter["default"] = p.choices.at(size_t(p.fallback));
+        parameter["choices"] = p.choices;
+      } else {
+        parameter["default"] = p.fallback;
+        parameter["range"] = {p.lo, p.hi};
+      }
+      parameter["type"] = p.kind == Kind::color    ? "colour"
+                          : p.kind == Kind::number ? "number"
+                                                   : "choice";
+      parameter["help"] = p.help;
+      parameters.push_back(parameter);
+    }
+    Json breaks = Json::array();
+    if (kind.closure != nullptr) breaks = kind.closure->brokenLaws;
+    Json json = {{"name", kind.name},
+                 {"summary", kind.summary},
+                 {"source", kind.source},
+                 {"breaks", breaks},
+                 {"parameters", parameters}};
+    if (!breaks.empty() && !kind.closure->brokenWhere.empty())
+      json["breaks_where"] = kind.closure->brokenWhere + " = " + kind.closure->brokenIf;
+    all.push_back(json);
   }
   return all;
 }

@@ -21,5 +21,7 @@ nlohmann::ordered_json backendsJson();
 // Lists available denoisers first, then those that the program was built without.
 nlohmann::ordered_json denoisersJson();
 nlohmann::ordered_json metricsJson();
+// Kinds of materials: the closures, and those that the lobes of glTF stand for.
+nlohmann::ordered_json closuresJson();
 
 }  // namespace restlab

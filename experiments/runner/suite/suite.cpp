@@ -1,3 +1,4 @@
+#include "core/scene/scene_file/scene_file.h"
 #include "experiments/runner/suite/suite.h"
 
 #include <fmt/format.h>
@@ -24,9 +25,11 @@ namespace restlab {
 
 namespace {
 
-// Returns a file's name without folder and extension; a built-in's name with all parameters.
+// Returns a file's name without folder and extensions; a built-in's name with all parameters.
 std::string shownName(const std::string& scene) {
-  return isBuiltinScene(scene) ? scene : std::filesystem::path(scene).stem().string();
+  if (isBuiltinScene(scene)) return scene;
+  const std::filesystem::path stem = std::filesystem::path(scene).stem();
+  return isSceneFile(scene) ? stem.stem().string() : stem.string();
 }
 
 SuiteScene readScene(const ConfigTable& table, const std::string& folder) {

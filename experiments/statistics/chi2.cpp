@@ -1,4 +1,4 @@
-#include "tests/stats/chi2.h"
+#include "experiments/statistics/chi2.h"
 
 #include <fmt/format.h>
 

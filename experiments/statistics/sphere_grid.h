@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-namespace restlab::unit {
+namespace restlab::stats {
 
 class SphereGrid {
  public:
@@ -48,4 +48,4 @@ inline constexpr double kGauss5X[5] = {-0.906179845938664, -0.538469310105683, 0
 inline constexpr double kGauss5W[5] = {0.236926885056189, 0.478628670499366, 0.568888888888889,
                                        0.478628670499366, 0.236926885056189};
 
-}  // namespace restlab::unit
+}  // namespace restlab::stats

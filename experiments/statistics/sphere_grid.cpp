@@ -1,13 +1,14 @@
-#include "tests/unit/sphere_grid.h"
-#include "tests/unit/constants.h"
+#include "experiments/statistics/sphere_grid.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
-namespace restlab::unit {
+namespace restlab::stats {
 namespace {
 
 constexpr int kMaxDepth = 7;
+constexpr double kPi = std::numbers::pi;
 
 struct Box {
   double theta0, theta1, phi0, phi1;
@@ -140,4 +141,4 @@ std::vector<glm::dvec4> SphereGrid::integrate(const Function& f) const {
   return cells;
 }
 
-}  // namespace restlab::unit
+}  // namespace restlab::stats

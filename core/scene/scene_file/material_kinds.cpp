@@ -1,0 +1,59 @@
+#include <algorithm>
+
+#include "core/scene/scene_file/scene_file.h"
+
+namespace restlab {
+namespace {
+
+using Kind = ClosureParameter::Kind;
+
+ClosureParameter color(const char* name, double fallback, const char* help) {
+  return {name, Kind::color, fallback, 0.0, 1.0, {}, help};
+}
+ClosureParameter number(const char* name, double fallback, double lo, double hi, const char* help) {
+  return {name, Kind::number, fallback, lo, hi, {}, help};
+}
+
+const ClosureParameter kAlpha =
+    number("alpha", 0.0, 0.0, 1.0, "GGX roughness of the facets; below 0.001: smooth");
+
+ClosureParameter absorption() {
+  ClosureParameter p = color("absorption", 0.0, "per metre inside the body, of each channel");
+  p.hi = 1.0e6;
+  return p;
+}
+
+// The kinds that the lobes of core/shading/bsdf.glsl stand for.
+std::vector<MaterialKind> lobeKinds() {
+  const ClosureParameter ior = number("ior", 1.5, 1.0, 4.0, "index of refraction (water 1.33)");
+  return {
+      {"black", "scatters nothing", "", {}},
+      {"diffuse", "Lambert", "Lambert 1760", {color("color", 0.5, "albedo")}},
+      {"dielectric",
+       "glass, water: reflects and refracts; around a closed body",
+       "Walter et al. 2007",
+       {ior, kAlpha, color("color", 1.0, "tint of the light that passes"), absorption()}},
+      {"thin_dielectric",
+       "a sheet of glass: reflects and lets through, without refraction",
+       "Walter et al. 2007",
+       {ior, kAlpha, color("color", 1.0, "tint of the light that passes")}},
+      {"plastic",
+       "Lambert below a layer that reflects",
+       "glTF 2.0, appendix B",
+       {color("color", 0.5, "albedo of the base"), ior, kAlpha}},
+  };
+}
+
+}  // namespace
+
+const std::vector<MaterialKind>& materialKinds() {
+  static const std::vector<MaterialKind> kAll = [] {
+    std::vector<MaterialKind> all = lobeKinds();
+    for (const ClosureInfo& info : closureRegistry())
+      all.push_back({info.name, info.summary, info.source, info.parameters, &info});
+    return all;
+  }();
+  return kAll;
+}
+
+}  // namespace restlab

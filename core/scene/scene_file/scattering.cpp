@@ -1,0 +1,218 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <fstream>
+
+#include "core/base/error.h"
+#include "core/base/file_reason.h"
+#include "core/scene/content_hash.h"
+#include "core/scene/gltf/material.h"
+#include "core/scene/scene_file/scene_file.h"
+#include "core/scene/textures/image_decode.h"
+
+namespace restlab {
+namespace fs = std::filesystem;
+namespace {
+
+using Kind = ClosureParameter::Kind;
+
+std::vector<uint8_t> bytesOf(const fs::path& file, const std::string& place) {
+  std::error_code error;
+  const bool isFile = fs::is_regular_file(file, error);
+  std::ifstream stream(file, std::ios::binary);
+  if (!isFile || !stream)
+    failInput(fmt::format("{}: {}: {}", place, file.string(), unreadableReason(file)));
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+glm::uvec3 bits(const glm::dvec3& v) {
+  return {std::bit_cast<uint32_t>(float(v.x)), std::bit_cast<uint32_t>(float(v.y)),
+          std::bit_cast<uint32_t>(float(v.z))};
+}
+glm::vec3 floats(const glm::uvec3& words) {
+  return {std::bit_cast<float>(words.x), std::bit_cast<float>(words.y),
+          std::bit_cast<float>(words.z)};
+}
+
+glm::dvec3 readColor(const ConfigTable& table, const ClosureParameter& p) {
+  if (!table.has(p.name)) return glm::dvec3(p.fallback);
+  const bool isGrey = table.getTexts(p.name).size() == 1;
+  const std::vector<double> v = table.getNumbers(p.name, {}, isGrey ? 1 : 3, p.lo, p.hi);
+  return isGrey ? glm::dvec3(v[0]) : glm::dvec3(v[0], v[1], v[2]);
+}
+
+// NAME_texture, NAME_uv_set and, of a number, NAME_channel.
+void readTexture(const ConfigTable& table, const ClosureParameter& p, SceneFileTextures& textures,
+                 ClosureValue& value) {
+  const std::string key = p.name + "_texture";
+  if (!table.has(key)) return;
+  const bool isColor = p.kind == Kind::color;
+  const int64_t uvSet = table.getInteger(p.name + "_uv_set", 0, 0, int64_t(rl::RL_MAX_UV_SETS) - 1);
+  value.texture =
+      textures.add(table.getString(key, ""), isColor, uint32_t(uvSet), table.place(key));
+  if (isColor) return;
+  const std::vector<std::string> channels = {"r", "g", "b", "a"};
+  const std::string channel = table.getChoice(p.name + "_channel", "r", channels);
+  value.channel = uint32_t(std::find(channels.begin(), channels.end(), channel) - channels.begin());
+}
+
+ClosureValue readValue(const ConfigTable& table, const ClosureParameter& p,
+                       SceneFileTextures& textures) {
+  ClosureValue value;
+  if (p.kind == Kind::choice) {
+    const std::string choice = table.getChoice(p.name, p.choices[size_t(p.fallback)], p.choices);
+    value.words.x =
+        uint32_t(std::find(p.choices.begin(), p.choices.end(), choice) - p.choices.begin());
+    return value;
+  }
+  if (p.kind == Kind::color) {
+    value.words = bits(readColor(table, p));
+  } else {
+    value.words = bits(glm::dvec3(table.getNumber(p.name, p.fallback, p.lo, p.hi)));
+  }
+  readTexture(table, p, textures, value);
+  return value;
+}
+
+const MaterialKind& readKind(const ConfigTable& table) {
+  std::vector<std::string> names;
+  for (const MaterialKind& kind : materialKinds()) names.push_back(kind.name);
+  if (!table.has("kind"))
+    table.fail("", fmt::format("[[material]] has no 'kind'; one of {}", fmt::join(names, ", ")));
+  const std::string name = table.getChoice("kind", names[0], names);
+  return *std::find_if(materialKinds().begin(), materialKinds().end(),
+                       [&](const MaterialKind& kind) { return kind.name == name; });
+}
+
+// The lobes of glTF that a kind stands for; values: its parameters by name.
+class Lobes {
+ public:
+  Lobes(const MaterialKind& kind, const std::vector<ClosureValue>& values)
+      : kind_(kind), values_(values) {}
+
+  void apply(Scattering& s) const {
+    rl::Material& m = s.lobes;
+    m = gltf::makeDefaultMaterial();
+    m.metallic = 0.0f;
+    m.specular = 0.0f;
+    if (kind_.name == "black") {
+      s.flags |= rl::RL_MATERIAL_BLACK;
+      m.baseColor = glm::vec3(0.0f);
+    }
+    setColor(m);
+    if (!has("ior")) return;
+    m.ior = number("ior");
+    m.roughness = std::sqrt(number("alpha"));
+    m.specular = 1.0f;
+    if (kind_.name == "plastic") return;
+    m.transmission = 1.0f;
+    if (has("absorption")) m.sigmaAbsorption = floats(of("absorption").words);
+    if (kind_.name == "thin_dielectric") s.flags |= rl::RL_MATERIAL_THIN;
+  }
+
+ private:
+  bool has(const char* name) const { return find(name) < kind_.parameters.size(); }
+  size_t find(const char* name) const {
+    size_t i = 0;
+    while (i < kind_.parameters.size() && kind_.parameters[i].name != name) ++i;
+    return i;
+  }
+  const ClosureValue& of(const char* name) const { return values_.at(find(name)); }
+  float number(const char* name) const { return std::bit_cast<float>(of(name).words.x); }
+  void setColor(rl::Material& m) const {
+    if (!has("color")) return;
+    m.baseColor = floats(of("color").words);
+    m.textures[rl::RL_TEX_BASE_COLOR] = of("color").texture;
+  }
+
+  const MaterialKind& kind_;
+  const std::vector<ClosureValue>& values_;
+};
+
+void checkConvex(const ConfigTable& table, const ClosureInfo& info,
+                 const std::vector<ClosureValue>& values) {
+  if (info.convexOne.empty()) return;
+  glm::vec3 sum(0.0f);
+  for (size_t i = 0; i < values.size(); ++i) {
+    const std::string& name = info.parameters[i].name;
+    if (name == info.convexOne || name == info.convexOther) sum += floats(values[i].words);
+  }
+  const float most = std::max({sum.x, sum.y, sum.z});
+  if (most > 1.0001f)
+    table.fail("", fmt::format("'{}' + '{}' is {:g}; at most 1 expected, or energy is made",
+                               info.convexOne, info.convexOther, most));
+}
+
+}  // namespace
+
+uint32_t SceneFileTextures::add(const std::string& file, bool isSrgb, uint32_t uvSet,
+                                const std::string& place) {
+  const fs::path path = folder_ / file;
+  auto found = std::find_if(images_.begin(), images_.end(),
+                            [&](const auto& image) { return image.first == path; });
+  if (found == images_.end()) {
+    const std::vector<uint8_t> bytes = bytesOf(path, place);
+    DecodedImage image;
+    if (const std::string problem = decodeImage(bytes, image); !problem.empty())
+      failInput(fmt::format("{}: {}: {}; a complete PNG or JPEG expected", place, path.string(),
+                            problem));
+    scene_.contentHash = hashBytes(bytes.data(), bytes.size(), scene_.contentHash);
+    scene_.images.push_back({file, image.width, image.height, std::move(image.texels)});
+    found = images_.insert(images_.end(), {path, uint32_t(scene_.images.size() - 1)});
+  }
+  TextureUse use;
+  use.image = found->second;
+  use.srgb = isSrgb;
+  use.uvSet = uvSet;
+  scene_.textureUses.push_back(use);
+  return uint32_t(scene_.textureUses.size() - 1);
+}
+
+Scattering readScattering(const ConfigTable& table, SceneFileTextures& textures) {
+  Scattering s;
+  s.name = table.getString("name", "");
+  if (s.name.empty())
+    table.fail("name", "[[material]] has no 'name', by which [[assign]] calls it");
+  s.kind = &readKind(table);
+  std::vector<ClosureValue> values;
+  for (const ClosureParameter& p : s.kind->parameters)
+    values.push_back(readValue(table, p, textures));
+  table.finish();
+  if (s.kind->closure == nullptr) {
+    Lobes(*s.kind, values).apply(s);
+    return s;
+  }
+  const ClosureInfo& info = *s.kind->closure;
+  checkConvex(table, info, values);
+  for (size_t i = 0; i < values.size(); ++i) {
+    if (info.parameters[i].name == info.anisotropicWhere && values[i].words.x != 0u)
+      s.flags |= rl::RL_MATERIAL_ANISOTROPIC;
+  }
+  s.closure = std::move(values);
+  return s;
+}
+
+void scatterAs(const Scattering& scattering, SceneMaterial& material) {
+  const rl::Material before = material.data;
+  rl::Material& m = material.data;
+  m = scattering.kind->closure != nullptr ? gltf::makeDefaultMaterial() : scattering.lobes;
+  const bool hasCoverage =
+      (before.flags & (rl::RL_MATERIAL_ALPHA_MASK | rl::RL_MATERIAL_ALPHA_BLEND)) != 0;
+  constexpr uint32_t kStays =
+      rl::RL_MATERIAL_DOUBLE_SIDED | rl::RL_MATERIAL_ALPHA_MASK | rl::RL_MATERIAL_ALPHA_BLEND;
+  m.flags = (before.flags & kStays) | scattering.flags;
+  m.alpha = before.alpha;
+  m.alphaCutoff = before.alphaCutoff;
+  m.emission = before.emission;
+  m.normalScale = before.normalScale;
+  m.textures[rl::RL_TEX_EMISSIVE] = before.textures[rl::RL_TEX_EMISSIVE];
+  m.textures[rl::RL_TEX_NORMAL] = before.textures[rl::RL_TEX_NORMAL];
+  // The texture of the base colour holds the coverage.
+  if (hasCoverage) m.textures[rl::RL_TEX_BASE_COLOR] = before.textures[rl::RL_TEX_BASE_COLOR];
+  material.closure = scattering.closure;
+  if (scattering.kind->closure != nullptr) m.closure = scattering.kind->closure->kind;
+}
+
+}  // namespace restlab

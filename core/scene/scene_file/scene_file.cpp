@@ -1,0 +1,251 @@
+#include "core/scene/scene_file/scene_file.h"
+
+#include <fmt/format.h>
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <numbers>
+
+#include "core/base/error.h"
+#include "core/scene/content_hash.h"
+
+namespace restlab {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kExtension = ".scene.toml";
+constexpr int kMostBases = 8;  // scene files that begin with one another
+
+Scene loadNested(const fs::path& file, int depth);
+
+bool matches(const std::string& pattern, const std::string& name) {
+  return fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+}
+
+// The scene of `base`: a built-in one, or a file relative to this one.
+Scene loadBase(const ConfigTable& table, const fs::path& folder, int depth) {
+  const std::string base = table.getString("base", "");
+  if (base.empty())
+    table.fail("base", "no 'base': the scene to begin with, a built-in one or a glTF file");
+  const auto load = [&] {
+    if (isBuiltinScene(base)) return makeBuiltinScene(base);
+    const fs::path path = folder / base;
+    std::error_code error;
+    if (isSceneFile(path) && fs::exists(path, error)) return loadNested(path, depth + 1);
+    return loadScene(fs::exists(path, error) ? path.string() : base);
+  };
+  return atPlace(table.place("base"), load);
+}
+
+// [[assign]]: which materials, meshes or nodes scatter as a [[material]] says.
+class Assignment {
+ public:
+  Assignment(Scene& scene, const std::vector<Scattering>& materials)
+      : scene_(scene), materials_(materials) {}
+
+  void apply(const ConfigTable& table) {
+    const Scattering& to = target(table);
+    std::string by;
+    for (const char* key : {"material", "mesh", "node"}) {
+      if (!table.has(key)) continue;
+      if (!by.empty())
+        table.fail(key, fmt::format("'{}' beside '{}': one of them tells what is meant", key, by));
+      by = key;
+    }
+    if (by.empty())
+      table.fail("", "[[assign]] has none of 'material', 'mesh', 'node': a name of the base scene");
+    const std::string pattern = table.getString(by, "");
+    table.finish();
+    std::vector<std::string> names;
+    const size_t count = by == "material" ? assignMaterials(pattern, to, names)
+                                          : assignInstances(by, pattern, to, names);
+    if (count > 0) return;
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    const std::string near = didYouMean(pattern, names);
+    const size_t shown = std::min<size_t>(names.size(), 12);
+    table.fail(by,
+               fmt::format("no {} is named '{}'{}", by, pattern,
+                           near.empty()
+                               ? fmt::format("; there are {}{}",
+                                             fmt::join(names.begin(),
+                                                       names.begin() + std::ptrdiff_t(shown), ", "),
+                                             shown < names.size() ? ", ..." : "")
+                               : near));
+  }
+
+ private:
+  const Scattering& target(const ConfigTable& table) const {
+    std::vector<std::string> names;
+    for (const Scattering& s : materials_) names.push_back(s.name);
+    if (!table.has("to")) table.fail("", "[[assign]] has no 'to': the name of a [[material]]");
+    const std::string to = table.getString("to", "");
+    const auto found = std::find(names.begin(), names.end(), to);
+    if (found == names.end())
+      table.fail("to", fmt::format("no [[material]] is named '{}'{}", to, didYouMean(to, names)));
+    return materials_[size_t(found - names.begin())];
+  }
+
+  size_t assignMaterials(const std::string& pattern, const Scattering& to,
+                         std::vector<std::string>& names) {
+    size_t count = 0;
+    for (SceneMaterial& material : scene_.materials) {
+      names.push_back(material.name);
+      if (!matches(pattern, material.name)) continue;
+      scatterAs(to, material);
+      ++count;
+    }
+    return count;
+  }
+
+  // A material of its own for what is named: other instances may share the old one.
+  size_t assignInstances(const std::string& by, const std::string& pattern, const Scattering& to,
+                         std::vector<std::string>& names) {
+    size_t count = 0;
+    std::map<uint32_t, uint32_t> copies;
+    for (MeshInstance& instance : scene_.instances) {
+      const std::string& name =
+          by == "node" ? instance.name : scene_.geometries[instance.geometry].name;
+      names.push_back(name);
+      if (!matches(pattern, name)) continue;
+      ++count;
+      const auto [copy, isNew] =
+          copies.try_emplace(instance.material, uint32_t(scene_.materials.size()));
+      if (isNew) {
+        SceneMaterial material = scene_.materials[instance.material];
+        material.name += " as " + to.name;
+        scatterAs(to, material);
+        scene_.materials.push_back(std::move(material));
+      }
+      instance.material = copy->second;
+    }
+    return count;
+  }
+
+  Scene& scene_;
+  const std::vector<Scattering>& materials_;
+};
+
+glm::dvec3 readVector(const ConfigTable& table, const char* key, const glm::dvec3& fallback) {
+  const std::vector<double> v =
+      table.getNumbers(key, {fallback.x, fallback.y, fallback.z}, 3, -1e9, 1e9);
+  return {v[0], v[1], v[2]};
+}
+
+PunctualLight readLight(const ConfigTable& table, size_t index) {
+  const std::vector<std::string> kinds = {"point", "spot", "directional"};
+  PunctualLight light;
+  light.name = table.getString("name", fmt::format("light {}", index));
+  const std::string kind = table.getChoice("kind", kinds[0], kinds);
+  light.kind = kind == "point"  ? rl::RL_LIGHT_POINT
+               : kind == "spot" ? rl::RL_LIGHT_SPOT
+                                : rl::RL_LIGHT_DIRECTIONAL;
+  const std::vector<double> intensity =
+      table.getNumbers("intensity", {1.0, 1.0, 1.0}, 3, 0.0, 1e12);
+  light.intensity = glm::dvec3(intensity[0], intensity[1], intensity[2]);
+  if (kind != "directional") light.posW = readVector(table, "position", glm::dvec3(0.0));
+  if (kind != "point") {
+    const glm::dvec3 direction = readVector(table, "direction", {0.0, -1.0, 0.0});
+    if (!(glm::length(direction) > 0.0)) table.fail("direction", "'direction' must not be 0");
+    light.dirW = glm::normalize(direction);
+  }
+  if (kind == "spot") {
+    constexpr double kRadians = std::numbers::pi / 180.0;
+    const double outer = table.getNumber("outer_cone", 45.0, 0.01, 90.0);
+    light.outerConeAngle = float(outer * kRadians);
+    light.innerConeAngle = float(table.getNumber("inner_cone", 0.0, 0.0, outer) * kRadians);
+  }
+  table.finish();
+  return light;
+}
+
+// [camera]: the only camera then.
+SceneCamera readCamera(const ConfigTable& table) {
+  SceneCamera camera;
+  camera.name = table.getString("name", "camera");
+  const glm::dvec3 position = readVector(table, "position", glm::dvec3(0.0));
+  const glm::dvec3 target = readVector(table, "target", glm::dvec3(0.0, 0.0, -1.0));
+  const glm::dvec3 up = readVector(table, "up", glm::dvec3(0.0, 1.0, 0.0));
+  camera.yfov = table.getNumber("yfov", 45.0, 0.01, 179.0) * std::numbers::pi / 180.0;
+  table.finish();
+  const glm::dvec3 back = position - target;
+  const glm::dvec3 right = glm::cross(up, back);
+  if (!(glm::length(right) > 0.0))
+    table.fail("target", "'target' is at 'position', or straight above or below it: give 'up'");
+  const glm::dvec3 z = glm::normalize(back), x = glm::normalize(right);
+  camera.cameraToWorld = glm::dmat4(glm::dvec4(x, 0.0), glm::dvec4(glm::cross(z, x), 0.0),
+                                    glm::dvec4(z, 0.0), glm::dvec4(position, 1.0));
+  return camera;
+}
+
+EnvironmentMap readEnvironment(const ConfigTable& table, const fs::path& folder) {
+  const std::string file = table.getString("file", "");
+  if (file.empty()) table.fail("file", "[environment] has no 'file': an .hdr or .exr");
+  EnvironmentMap map = atPlace(table.place("file"), [&] { return loadEnvironment(folder / file); });
+  map.rotation = float(table.getNumber("rotation", 0.0, -360.0, 360.0) * std::numbers::pi / 180.0);
+  map.scale = float(table.getNumber("scale", 1.0, 0.0, 1e9));
+  table.finish();
+  return map;
+}
+
+void hashFile(const fs::path& file, Scene& scene) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::string text((std::istreambuf_iterator<char>(stream)),
+                         std::istreambuf_iterator<char>());
+  scene.contentHash = hashBytes(text.data(), text.size(), scene.contentHash);
+}
+
+Scene loadNested(const fs::path& file, int depth) {
+  if (depth >= kMostBases)
+    failInput(fmt::format("{}: more than {} scene files begin with one another", file.string(),
+                          kMostBases));
+  const ConfigTable table = ConfigTable::parseFile(file);
+  const fs::path folder = file.parent_path();
+  Scene scene = loadBase(table, folder, depth);
+  scene.name = file.filename().string();
+  scene.name.resize(scene.name.size() - std::string(kExtension).size());
+  scene.source = file;
+  hashFile(file, scene);
+  SceneFileTextures textures(folder, scene);
+  std::vector<Scattering> materials;
+  for (const ConfigTable& material : table.getTables("material")) {
+    materials.push_back(readScattering(material, textures));
+    for (size_t i = 0; i + 1 < materials.size(); ++i) {
+      if (materials[i].name == materials.back().name)
+        material.fail("name",
+                      fmt::format("a second [[material]] is named '{}'", materials[i].name));
+    }
+  }
+  Assignment assignment(scene, materials);
+  for (const ConfigTable& assign : table.getTables("assign")) assignment.apply(assign);
+  for (const ConfigTable& light : table.getTables("light"))
+    scene.lights.push_back(readLight(light, scene.lights.size()));
+  if (table.has("camera")) {
+    scene.cameras = {readCamera(table.getTable("camera"))};
+    scene.mainCamera = 0;
+  }
+  if (table.has("environment"))
+    scene.environment = readEnvironment(table.getTable("environment"), folder);
+  table.finish();
+  return scene;
+}
+
+}  // namespace
+
+bool isSceneFile(const fs::path& file) {
+  const std::string name = file.filename().string();
+  return name.ends_with(kExtension) && name.size() > std::string(kExtension).size();
+}
+
+Scene loadSceneFile(const fs::path& file) {
+  try {
+    return loadNested(file, 0);
+  } catch (const Error& error) {
+    // A configuration, but of a scene.
+    throw Error(ExitCode::badInput, error.what());
+  }
+}
+
+}  // namespace restlab

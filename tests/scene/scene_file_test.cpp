@@ -1,0 +1,217 @@
+// NAME.scene.toml: what becomes of the base scene, and every error line.
+#include "core/scene/scene_file/scene_file.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "core/base/error.h"
+#include "core/dialect/features.h"
+#include "core/scene/compiled/compiled_scene.h"
+#include "tests/scene/gltf_builder.h"
+
+namespace restlab {
+namespace {
+
+constexpr const char* kClay = R"([[material]]
+name = "clay"
+kind = "oren_nayar"
+color = [0.7, 0.4, 0.2]
+)";
+
+class SceneFile : public ::testing::Test {
+ protected:
+  std::filesystem::path write(const std::string& text, const std::string& name = "x.scene.toml") {
+    directory_.write(name, text);
+    return directory_.path() / name;
+  }
+  // The error line of a file, without the folder.
+  std::string errorOf(const std::string& text) {
+    const std::filesystem::path file = write(text);
+    try {
+      loadScene(file.string());
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::badInput);
+      std::string line = error.what();
+      const std::string folder = directory_.path().string() + "/";
+      for (size_t at; (at = line.find(folder)) != std::string::npos;) line.erase(at, folder.size());
+      return line;
+    }
+    return "no error";
+  }
+  test::TempDirectory directory_;
+};
+
+const SceneMaterial& materialOf(const Scene& scene, const std::string& mesh) {
+  for (const MeshInstance& instance : scene.instances) {
+    if (scene.geometries[instance.geometry].name == mesh) return scene.materials[instance.material];
+  }
+  throw std::runtime_error("no mesh " + mesh);
+}
+
+TEST_F(SceneFile, GivesAMaterialOfTheBaseAnotherKind) {
+  const Scene base = makeBuiltinScene("cornell-box");
+  const Scene scene = loadScene(write(std::string("base = \"cornell-box\"\n") + kClay +
+                                      "[[assign]]\nmaterial = \"White\"\nto = \"clay\"\n")
+                                    .string());
+  EXPECT_EQ(scene.name, "x");
+  EXPECT_NE(scene.contentHash, base.contentHash);
+  size_t changed = 0;
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    const SceneMaterial& m = scene.materials[i];
+    EXPECT_EQ(m.data.closure != rl::RL_CLOSURE_GLTF, m.name == "White") << m.name;
+    if (m.name != "White") continue;
+    ++changed;
+    EXPECT_EQ(m.data.closure, rl::RL_CLOSURE_OREN_NAYAR);
+    ASSERT_EQ(m.closure.size(), 3u);
+    EXPECT_EQ(std::bit_cast<float>(m.closure[0].words.y), 0.4f);
+    EXPECT_EQ(std::bit_cast<float>(m.closure[1].words.x), 0.5f) << "the default";
+  }
+  EXPECT_EQ(changed, 1u);
+  const uint32_t features = CompiledScene::build(scene)->features();
+  EXPECT_EQ(features & rl::RL_FEATURE_CLOSURES, rl::RL_FEATURE_CLOSURE_OREN_NAYAR);
+}
+
+// Meshes that share a material with others get one of their own.
+TEST_F(SceneFile, AMeshGetsAMaterialOfItsOwn) {
+  const Scene base = makeBuiltinScene("door-ajar");
+  const Scene scene = loadScene(write(std::string("base = \"door-ajar\"\n") + kClay +
+                                      "[[assign]]\nmesh = \"bo[wx]l\"\nto = \"clay\"\n")
+                                    .string());
+  EXPECT_EQ(scene.materials.size(), base.materials.size() + 1);
+  EXPECT_EQ(materialOf(scene, "bowl").data.closure, rl::RL_CLOSURE_OREN_NAYAR);
+  EXPECT_EQ(materialOf(scene, "vase").data.closure, rl::RL_CLOSURE_GLTF) << "was of one material";
+}
+
+TEST_F(SceneFile, LampsStayLamps) {
+  const Scene scene = loadScene(write(std::string("base = \"cornell-box\"\n") + kClay +
+                                      "[[assign]]\nmaterial = \"*\"\nto = \"clay\"\n")
+                                    .string());
+  const auto shines = [](const SceneMaterial& m) { return m.data.emission.x > 0.0f; };
+  EXPECT_EQ(std::count_if(scene.materials.begin(), scene.materials.end(), shines), 1);
+}
+
+// The lobes of glTF: a dielectric by the words of the field.
+TEST_F(SceneFile, KindsThatTheLobesStandFor) {
+  const Scene scene = loadScene(write(R"(base = "cornell-box"
+[[material]]
+name = "water"
+kind = "dielectric"
+ior = 1.33
+alpha = 0.25
+absorption = [1.0, 0.5, 0.0]
+[[material]]
+name = "hole"
+kind = "black"
+[[assign]]
+mesh = "Tall*"
+to = "water"
+[[assign]]
+material = "White"
+to = "hole"
+)")
+                                    .string());
+  size_t bodies = 0, holes = 0;
+  for (const SceneMaterial& m : scene.materials) {
+    holes += (m.data.flags & rl::RL_MATERIAL_BLACK) != 0;
+    if (m.data.transmission != 1.0f) continue;
+    ++bodies;
+    EXPECT_EQ(m.data.ior, 1.33f);
+    EXPECT_EQ(m.data.roughness, 0.5f);
+    EXPECT_EQ(m.data.sigmaAbsorption, glm::vec3(1.0f, 0.5f, 0.0f));
+  }
+  EXPECT_EQ(bodies, 1u);
+  EXPECT_EQ(holes, 2u) << "the lamp is one in the base scene";
+}
+
+TEST_F(SceneFile, LightsAndACamera) {
+  const Scene scene = loadScene(write(R"(base = "cornell-box"
+[[light]]
+kind = "spot"
+position = [0.0, 1.0, 0.0]
+direction = [0.0, -2.0, 0.0]
+intensity = [3.0, 2.0, 1.0]
+outer_cone = 60.0
+[camera]
+position = [0.0, 1.0, 5.0]
+target = [0.0, 1.0, 0.0]
+yfov = 30.0
+)")
+                                    .string());
+  ASSERT_EQ(scene.lights.size(), 1u);
+  EXPECT_EQ(scene.lights[0].kind, rl::RL_LIGHT_SPOT);
+  EXPECT_EQ(scene.lights[0].dirW, glm::dvec3(0.0, -1.0, 0.0));
+  EXPECT_NEAR(scene.lights[0].outerConeAngle, 1.047198, 1e-5);
+  ASSERT_EQ(scene.cameras.size(), 1u);
+  EXPECT_EQ(positionOf(scene.cameras[0]), glm::dvec3(0.0, 1.0, 5.0));
+  EXPECT_EQ(glm::dvec3(scene.cameras[0].cameraToWorld[2]), glm::dvec3(0.0, 0.0, 1.0));
+}
+
+TEST_F(SceneFile, BeginsWithAnother) {
+  write(std::string("base = \"cornell-box\"\n") + kClay +
+            "[[assign]]\nmaterial = \"White\"\nto = \"clay\"\n",
+        "first.scene.toml");
+  const Scene scene =
+      loadScene(write("base = \"first.scene.toml\"\n", "second.scene.toml").string());
+  EXPECT_NE(CompiledScene::build(scene)->features() & rl::RL_FEATURE_CLOSURES, 0u);
+  EXPECT_NE(errorOf("base = \"x.scene.toml\"\n").find("more than 8 scene files begin with one"),
+            std::string::npos);
+}
+
+TEST_F(SceneFile, EveryFaultIsOneLineWithItsPlace) {
+  const std::string base = "base = \"cornell-box\"\n";
+  const struct {
+    std::string text, line;
+  } cases[] = {
+      {"", "x.scene.toml:1:1: no 'base'"},
+      {"base = \"cornel-box\"\n", "x.scene.toml:1:8: scene 'cornel-box': neither a built-in"},
+      {base + "[[materail]]\n",
+       "x.scene.toml:2:3: unknown key 'materail', did you mean 'material'?"},
+      {base + "[[material]]\nkind = \"mirror\"\n", "x.scene.toml:2:1: [[material]] has no 'name'"},
+      {base + "[[material]]\nname = \"m\"\n",
+       "x.scene.toml:2:1: [[material]] has no 'kind'; one of"},
+      {base + "[[material]]\nname = \"m\"\nkind = \"miror\"\n",
+       "x.scene.toml:4:8: unknown kind 'miror', did you mean 'mirror'?"},
+      {base + "[[material]]\nname = \"m\"\nkind = \"mirror\"\ncolour = 1.0\n",
+       "x.scene.toml:5:1: unknown key 'colour', did you mean 'color'?"},
+      {base + "[[material]]\nname = \"m\"\nkind = \"mirror\"\ncolor = 1.5\n",
+       "x.scene.toml:5:9: 'color' must be"},
+      {base + "[[material]]\nname = \"m\"\nkind = \"mirror\"\ncolor = [0.5, 0.5]\n",
+       "x.scene.toml:5:9: 'color' must be an array of 3 numbers"},
+      {base + "[[material]]\nname = \"m\"\nkind = \"phong\"\ndiffuse = 0.8\n",
+       "x.scene.toml:2:1: 'diffuse' + 'specular' is 1.3; at most 1 expected"},
+      {base + "[[material]]\nname = \"m\"\nkind = \"mirror\"\ncolor_texture = \"none.png\"\n",
+       "x.scene.toml:5:17: none.png: "},
+      {base + kClay + kClay, "a second [[material]] is named 'clay'"},
+      {base + kClay + "[[assign]]\nmaterial = \"White\"\nto = \"caly\"\n",
+       "x.scene.toml:8:6: no [[material]] is named 'caly'; did you mean 'clay'?"},
+      {base + kClay + "[[assign]]\nmaterial = \"Whit\"\nto = \"clay\"\n",
+       "x.scene.toml:7:12: no material is named 'Whit'; did you mean 'White'?"},
+      {base + kClay + "[[assign]]\nmaterial = \"White\"\nmesh = \"floor\"\nto = \"clay\"\n",
+       "x.scene.toml:8:8: 'mesh' beside 'material'"},
+      {base + kClay + "[[assign]]\nto = \"clay\"\n",
+       "x.scene.toml:6:1: [[assign]] has none of 'material', 'mesh', 'node'"},
+      {base + "[[light]]\nkind = \"spot\"\ndirection = [0.0, 0.0, 0.0]\n",
+       "x.scene.toml:4:13: 'direction' must not be 0"},
+      {base + "[camera]\nposition = [0.0, 1.0, 0.0]\ntarget = [0.0, 0.0, 0.0]\n",
+       "x.scene.toml:4:10: 'target' is at 'position', or straight above"},
+      {base + "[environment]\nfile = \"sky.hdr\"\n", "x.scene.toml:3:8: sky.hdr"},
+      {base + "[environment]\n", "x.scene.toml:2:1: [environment] has no 'file'"},
+  };
+  for (const auto& c : cases) {
+    const std::string line = errorOf(c.text);
+    EXPECT_NE(line.find(c.line), std::string::npos) << c.text << "\n-> " << line;
+    EXPECT_EQ(line.find('\n'), std::string::npos);
+  }
+}
+
+// A directory or a stem finds a scene file as it finds a glTF file.
+TEST_F(SceneFile, IsFoundByItsStem) {
+  write("base = \"cornell-box\"\n", "hall.scene.toml");
+  EXPECT_EQ(loadScene((directory_.path() / "hall").string()).name, "hall");
+  EXPECT_EQ(loadScene(directory_.path().string()).name, "hall");
+}
+
+}  // namespace
+}  // namespace restlab
