@@ -45,7 +45,7 @@ endfunction()
 function(rl_add_closures)
   rl_read_closures(closures)
   list(LENGTH RL_FEATURE_NAMES bit)
-  math(EXPR all "(1 << ${bit}) - 1")
+  math(EXPR gltf "(1 << ${bit}) - 1")
   set(names ${RL_FEATURE_NAMES})
   set(constants "const uint RL_CLOSURE_GLTF = 0u;  // the lobes of core/shading/bsdf.glsl\n")
   set(kinds 0)
@@ -75,7 +75,7 @@ function(rl_add_closures)
   if(bit GREATER 31)
     message(FATAL_ERROR "${bit} features: at most 31 fit into a mask")
   endif()
-  math(EXPR all "${all} | ${kinds}")
+  math(EXPR all "${gltf} | ${kinds}")
   set(RL_FEATURE_NAMES ${names} PARENT_SCOPE)
   set(RL_FEATURE_BIT_ALL ${all} PARENT_SCOPE)
   set(folder ${PROJECT_BINARY_DIR}/generated/closures)
@@ -88,6 +88,7 @@ RL_NAMESPACE_BEGIN
 
 @constants@const uint RL_CLOSURE_COUNT = @number@u;  // without glTF's
 const uint RL_FEATURE_CLOSURES = @kinds@u;
+const uint RL_FEATURE_GLTF = @gltf@u;  // all others
 const uint RL_FEATURE_ALL = @all@u;
 const uint RL_FEATURE_BITS = @bit@u;
 

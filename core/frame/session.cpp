@@ -33,6 +33,10 @@ constexpr const char* kAovKernel = "aov";
 const std::vector<std::string> kAovNames = {"radiance", "positionW", "normalW",  "albedo",
                                             "depth",    "object",    "emission", "motion"};
 
+// Features of general kernels: all that glTF can ask for. Of closures they have those of the scene,
+// as each lengthens every kernel.
+uint32_t generalFeatures(uint32_t needed) { return rl::RL_FEATURE_GLTF | needed; }
+
 // RAII: installs a stop callback for its lifetime.
 class Stops {
  public:
@@ -139,7 +143,7 @@ void Session::Impl::open() {
   isAovTraced = false;
   backend = makeBackend(config.backend, scene,
                         {config.threads, config.device, config.rayTracing, config.validate});
-  const uint32_t wanted = config.specialise ? needed : rl::RL_FEATURE_ALL;
+  const uint32_t wanted = config.specialise ? needed : generalFeatures(needed);
   pipeline.emplace(*backend, withViewParts(method.parts()), config.mode, config.parameters, wanted,
                    size_t(config.width) * config.height);
   const size_t filterBytes = method.denoiser->onHost ? kHostFilterBytesPerPixel : 0;
@@ -419,7 +423,7 @@ Image Session::aov(const std::string& name) const {
       m.aovBuffers.push_back(m.backend->allocate(pixels * 12));
   }
   const uint32_t mask =
-      m.backend->maskFor(kAovKernel, m.config.specialise ? m.needed : rl::RL_FEATURE_ALL);
+      m.backend->maskFor(kAovKernel, m.config.specialise ? m.needed : generalFeatures(m.needed));
   const PassRun pass{kAovKernel, mask, m.aovBuffers, std::vector<std::byte>(4), 0};
   if (!m.isAovTraced) {
     m.backend->prepare(pass, m.startup);

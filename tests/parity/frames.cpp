@@ -263,6 +263,7 @@ FrameDifference classify(const std::shared_ptr<const CompiledScene>& scene, Sess
 std::vector<std::string> sceneNames() {
   std::vector<std::string> names = builtinSceneNames();
   names.emplace_back("everything");
+  names.emplace_back("materials");
   return names;
 }
 
