@@ -2,6 +2,7 @@
 
 #include "core/backend/cpu_kernel.h"
 #include "core/backend/embree.h"
+#include "core/base/error.h"
 #include "core/backend/alpha_filter.h"
 #include "core/dialect/order.h"
 #include "core/scene/compiled/compiled_scene.h"
@@ -66,6 +67,8 @@ struct BsdfProbe::Impl {
   explicit Impl(Scene scene)
       : compiled(CompiledScene::build(std::move(scene))),
         context{compiled->data(), frame, counters, static_cast<RTCScene>(compiled->embreeScene())} {
+    if (context.gScene.instanceCount == 0)
+      failInput("an index of refraction of 1 and no colour: nothing can be seen of this material");
     const rl::Hit hit{0, 0, {1e-4f, 1e-4f}, 1.0f};
     bsdf = context.surfaceLoad(hit, -kUp).bsdf;
   }
@@ -84,6 +87,7 @@ glm::dvec3 BsdfProbe::eval(const glm::dvec3& wo, const glm::dvec3& wi, double& p
 }
 
 BsdfDraw BsdfProbe::draw(const glm::dvec3& wo, double uLobe, const glm::dvec2& u) const {
+  if (impl_->bsdf.lobes == 0u) return {};  // a path ends here before anything is drawn
   const rl::BsdfSample s =
       impl_->context.bsdfSample(impl_->bsdf, kUp, kUp, glm::vec3(wo), float(uLobe), glm::vec2(u));
   if (s.lobe == 0u) return {};

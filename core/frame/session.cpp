@@ -28,6 +28,8 @@ const std::array<const char*, 14> kFeatureNames = {
     "emissive_textures", "vertex_colors",   "alpha",       "instances",
     "smooth_normals",    "multiscatter"};
 
+static_assert((1u << kFeatureNames.size()) - 1u == rl::RL_FEATURE_GLTF);
+
 // Buffers of the AOV kernel, in the order of its Buffers struct.
 constexpr const char* kAovKernel = "aov";
 const std::vector<std::string> kAovNames = {"radiance", "positionW", "normalW",  "albedo",

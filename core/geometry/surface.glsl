@@ -107,12 +107,13 @@ RL_FN vec3 surfaceTangent(RL_IN(Instance) inst, RL_IN(Geometry) geometry, RL_IN(
   return tangentW;
 }
 
-// Cosine and sine of the angle from the frame of a normal (core/dialect/frame.glsl) to the tangent;
-// (1, 0) where a mesh has none.
+// Cosine and sine of the angle from the frame of a normal (core/dialect/frame.glsl) to the tangent.
+// Where a mesh has none it runs around the vertical, as the marks of a lathe do.
 RL_FN vec2 surfaceTangentAngle(RL_IN(Instance) inst, RL_IN(Geometry) geometry, RL_IN(uvec3) corners,
                                RL_IN(vec2) bary, RL_IN(TriangleW) t, RL_IN(vec3) normalW) {
   float handedness;
   vec3 tangentW = surfaceTangent(inst, geometry, corners, bary, t, 0u, handedness);
+  if (rlIsBlack(tangentW)) tangentW = vec3(normalW.z, 0.0f, -normalW.x);
   vec3 local = frameToLocal(normalW, tangentW);
   float length2 = local.x * local.x + local.y * local.y;
   if (!(length2 > 0.0f)) return vec2(1.0f, 0.0f);

@@ -23,7 +23,7 @@ bool isScene(const fs::path& file) {
          fs::is_regular_file(file, error);
 }
 
-// Lists glTF files in a directory and in its direct subdirectories (NAME/glTF/NAME.gltf is common).
+// Lists scenes in a directory and in its direct subdirectories (NAME/glTF/NAME.gltf is common).
 std::vector<fs::path> scenesIn(const fs::path& directory, int depth = 1) {
   std::vector<fs::path> found, subdirectories;
   std::error_code error;
@@ -53,8 +53,9 @@ fs::path resolve(const fs::path& candidate) {
     if (scenes.size() == 1) return scenes[0];
     if (scenes.empty()) {
       const std::string reason = unreadableReason(candidate);
-      failInput(fmt::format("{}: {}", candidate.string(),
-                            reason.empty() ? "no .gltf or .glb in this directory" : reason));
+      failInput(
+          fmt::format("{}: {}", candidate.string(),
+                      reason.empty() ? "no .gltf, .glb or .scene.toml in this directory" : reason));
     }
     std::string names;
     for (const fs::path& scene : scenes) {

@@ -308,7 +308,7 @@ RL_FN BsdfSample bsdfSample(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade,
 
 // Returns whether the BSDF is Lambert alone: the light it sends does not depend on the direction.
 RL_FN bool bsdfIsLambert(RL_IN(Bsdf) b) {
-  return !RL_HAS(RL_FEATURE_GLOSSY) || b.lobes == RL_LOBE_DIFFUSE;
+  return !RL_HAS(RL_FEATURE_GLOSSY) || (b.lobes == RL_LOBE_DIFFUSE && !bsdfIsClosure(b));
 }
 
 // Returns whether paths that arrive from other directions can be reused here: false for mirrors,

@@ -59,9 +59,15 @@ AlbedoRow albedoAt(const BsdfProbe& bsdf, double degrees) {
 }
 
 LawVerdict energy(const std::vector<AlbedoRow>& rows) {
-  LawVerdict v{"energy", true, 0.0, ""};
+  LawVerdict v{"energy", true, 0.0, "the largest albedo"};
   for (const AlbedoRow& row : rows) {
     for (int c = 0; c < 3; ++c) {
+      if (!std::isfinite(row.albedo[c])) {
+        v.holds = false;
+        v.value = row.albedo[c];
+        v.meaning = fmt::format("the albedo at {:g} degrees", row.degrees);
+        return v;
+      }
       if (row.albedo[c] > v.value) {
         v.value = row.albedo[c];
         v.meaning = fmt::format("the largest albedo, at {:g} degrees", row.degrees);
@@ -140,6 +146,8 @@ LawVerdict sampling(const BsdfProbe& bsdf, uint64_t samples) {
     if (hits == 0) continue;
     std::vector<double> probabilities;
     for (size_t i = 0; i < cells.size(); ++i) {
+      if (!(cells[i].x >= 0.0) || !std::isfinite(cells[i].x))
+        return {"sampling", false, cells[i].x, fmt::format("a density, at {:g} degrees", degrees)};
       if (cells[i].x == 0.0 && counts[i] > 0) cells[i] = grid.integrateCell(i, density, 6);
       probabilities.push_back(cells[i].x);
     }

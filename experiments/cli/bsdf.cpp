@@ -102,8 +102,9 @@ std::string textOf(const Json& json) {
       fmt::format("{}: {}\n", json["kind"].get<std::string>(), json["summary"].get<std::string>());
   const double alpha = json["alpha"];
   if (alpha > 0.0 && alpha < 1.0)
-    text += fmt::format("  alpha {:.4g} of its narrowest lobe, a power of {:.4g}\n", alpha,
-                        json["power"].get<double>());
+    text +=
+        fmt::format("  alpha {:.4g} of its narrowest lobe, a power of {:.4g} of the half vector\n",
+                    alpha, json["power"].get<double>());
   for (const Json& v : json["laws"]) {
     text += fmt::format("  {:<13} {:<20} {:.4g}: {}\n", v["law"].get<std::string>(),
                         v["verdict"].get<std::string>(), v["value"].get<double>(),

@@ -105,11 +105,11 @@ absorption = [1.0, 0.5, 0.0]
 name = "hole"
 kind = "black"
 [[assign]]
-mesh = "Tall*"
-to = "water"
-[[assign]]
 material = "White"
 to = "hole"
+[[assign]]
+mesh = "Tall*"
+to = "water"
 )")
                                     .string());
   size_t bodies = 0, holes = 0;
@@ -155,8 +155,14 @@ TEST_F(SceneFile, BeginsWithAnother) {
   const Scene scene =
       loadScene(write("base = \"first.scene.toml\"\n", "second.scene.toml").string());
   EXPECT_NE(CompiledScene::build(scene)->features() & rl::RL_FEATURE_CLOSURES, 0u);
-  EXPECT_NE(errorOf("base = \"x.scene.toml\"\n").find("more than 8 scene files begin with one"),
-            std::string::npos);
+  for (const char* base : {"x.scene.toml", "."}) {
+    std::filesystem::remove_all(directory_.path() / "first.scene.toml");
+    std::filesystem::remove_all(directory_.path() / "second.scene.toml");
+    EXPECT_NE(errorOf("base = \"" + std::string(base) + "\"\n")
+                  .find("more than 8 scene files begin with one"),
+              std::string::npos)
+        << base;
+  }
 }
 
 TEST_F(SceneFile, EveryFaultIsOneLineWithItsPlace) {
@@ -183,6 +189,12 @@ TEST_F(SceneFile, EveryFaultIsOneLineWithItsPlace) {
        "x.scene.toml:2:1: 'diffuse' + 'specular' is 1.3; at most 1 expected"},
       {base + "[[material]]\nname = \"m\"\nkind = \"mirror\"\ncolor_texture = \"none.png\"\n",
        "x.scene.toml:5:17: none.png: "},
+      {base + "[[material]]\nname = \"m\"\nkind = \"mirror\"\ncolor_texture = \".\"\n",
+       "x.scene.toml:5:17: .: is not a file"},
+      {base + "[[material]]\nname = \"m\"\nkind = \"plastic\"\nalpha_texture = \"x.png\"\n",
+       "x.scene.toml:5:1: unknown key 'alpha_texture'"},
+      {base + "[[material]]\nname = \"m\"\nkind = \"power_lobe\"\npower_texture = \"x.png\"\n",
+       "x.scene.toml:5:1: unknown key 'power_texture'"},
       {base + kClay + kClay, "a second [[material]] is named 'clay'"},
       {base + kClay + "[[assign]]\nmaterial = \"White\"\nto = \"caly\"\n",
        "x.scene.toml:8:6: no [[material]] is named 'caly'; did you mean 'clay'?"},
@@ -204,6 +216,30 @@ TEST_F(SceneFile, EveryFaultIsOneLineWithItsPlace) {
     EXPECT_NE(line.find(c.line), std::string::npos) << c.text << "\n-> " << line;
     EXPECT_EQ(line.find('\n'), std::string::npos);
   }
+}
+
+// Included text is a part of the scene.
+TEST_F(SceneFile, IncludedFilesAreInTheHash) {
+  const std::string text =
+      "include = [\"library.toml\"]\nbase = \"cornell-box\"\n"
+      "[[assign]]\nmaterial = \"White\"\nto = \"clay\"\n";
+  write(kClay, "library.toml");
+  const uint64_t before = loadScene(write(text).string()).contentHash;
+  EXPECT_EQ(loadScene(write(text).string()).contentHash, before);
+  write(std::string(kClay) + "sigma = 0.9\n", "library.toml");
+  EXPECT_NE(loadScene(write(text).string()).contentHash, before);
+}
+
+// Copies that a mesh got keep the name of their material.
+TEST_F(SceneFile, LaterAssignmentsWin) {
+  const Scene scene = loadScene(write(std::string("base = \"cornell-box\"\n") + kClay +
+                                      "[[material]]\nname = \"glossy\"\nkind = \"phong\"\n"
+                                      "[[assign]]\nmesh = \"TallBlock\"\nto = \"clay\"\n"
+                                      "[[assign]]\nmaterial = \"White\"\nto = \"glossy\"\n"
+                                      "[[assign]]\nnode = \"ShortBlock\"\nto = \"clay\"\n")
+                                    .string());
+  EXPECT_EQ(materialOf(scene, "TallBlock").data.closure, rl::RL_CLOSURE_PHONG);
+  EXPECT_EQ(materialOf(scene, "ShortBlock").data.closure, rl::RL_CLOSURE_OREN_NAYAR);
 }
 
 // A directory or a stem finds a scene file as it finds a glTF file.

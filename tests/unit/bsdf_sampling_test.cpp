@@ -167,6 +167,7 @@ TEST(BsdfSampling, Closures) {
   uint64_t seed = 4000;
   for (const ClosureCase& c : closureCases()) {
     for (const double angle : {0.0, 60.0, 85.0}) {
+      if (c.isCombined && angle != 60.0) continue;
       const std::string name = c.name + " at " + std::to_string(int(angle)) + " degrees";
       checkSetting({.name = name,
                     .bsdf = c.bsdf,
@@ -177,7 +178,7 @@ TEST(BsdfSampling, Closures) {
                     .breaksEnergy = c.breaksEnergy},
                    ++seed);
     }
-    if (c.bsdf.alpha < 0.2f) continue;
+    if (c.bsdf.alpha < 0.2f || c.isCombined) continue;
     checkSetting({.name = c.name + " with a tilted normal",
                   .bsdf = c.bsdf,
                   .wo = directionAt(60.0),

@@ -12,13 +12,15 @@ namespace restlab::unit {
 rl::Bsdf closureOf(const std::string& text);
 
 struct ClosureCase {
-  std::string name;  // the text
+  std::string kind, name;  // name: the text
   rl::Bsdf bsdf;
   bool breaksEnergy = false, breaksReciprocity = false;  // as its file declares
+  bool isCombined = false;                               // one of many combinations
 };
 
-// Every closure of the list with its defaults, each choice, and both ends and the middle of each
-// number. Laws that a file declares as broken are marked where they are.
+// Every closure of the list with its defaults, each choice, both ends of each colour, and both ends
+// and the middle of each number; facets in all combinations. Laws that a file declares as broken
+// are marked where they are.
 std::vector<ClosureCase> closureCases();
 
 }  // namespace restlab::unit

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <map>
 
-#include "core/scene/closure_info.h"
+#include "core/scene/builtin/builder.h"
+#include "core/scene/builtin/mesh.h"
 #include "tests/unit/closure_cases.h"
 #include "tests/unit/constants.h"
 #include "tests/unit/dialect_context.h"
@@ -50,37 +51,33 @@ TEST(Closures, Reciprocity) {
       }
     }
     if (c.breaksReciprocity) {
-      double& most = broken[c.name.substr(0, c.name.find('"', 8))];
+      double& most = broken[c.kind];
       most = std::max(most, largest);
     } else {
       EXPECT_LT(largest, 5e-3) << c.name;
     }
   }
-  EXPECT_EQ(broken.size(), 2u);
+  EXPECT_GE(broken.size(), 2u);
   for (const auto& [kind, largest] : broken)
     EXPECT_GT(largest, 0.5) << kind << ": declared not reciprocal, but it is";
 }
 
-// A raw lobe reflects more than arrives, as its file says.
+// Closures that declare a gain of energy have one for some of the cases, and the normalised models
+// have none.
 TEST(Closures, DeclaredGainsOfEnergyAreThere) {
   Dialect<> d;
-  size_t tested = 0;
-  for (const char* kind : {"phong", "blinn_phong"}) {
-    const std::string text =
-        std::string("kind = \"") + kind + "\"\ndiffuse = 0.5\nspecular = 0.5\npower = 1.0\n";
-    const double raw = albedoOf(d, closureOf(text), directionAt(60.0)).x;
-    EXPECT_GT(raw, 1.2) << kind;
-    const std::string held = kind == std::string("phong") ? "modified" : "normalised";
-    EXPECT_LE(albedoOf(d, closureOf(text + "model = \"" + held + "\"\n"), directionAt(60.0)).x, 1.0)
-        << kind;
-    ++tested;
+  std::map<std::string, double> most;  // by kind: the largest albedo where a gain is declared
+  for (const ClosureCase& c : closureCases()) {
+    if (!c.breaksEnergy) continue;
+    for (const double angle : {45.0, 88.0})
+      most[c.kind] = std::max(most[c.kind], albedoOf(d, c.bsdf, directionAt(angle), 60).x);
   }
-  EXPECT_EQ(tested, 2u);
-  EXPECT_GT(albedoOf(d, closureOf("kind = \"disney\"\nroughness = 0.1\n"), directionAt(88.0)).x,
-            1.2);
-  for (const ClosureInfo& info : closureRegistry()) {
-    const bool isOne = info.name == "phong" || info.name == "blinn_phong" || info.name == "disney";
-    EXPECT_EQ(info.brokenLaws.empty(), !isOne) << info.name << ": tell this test";
+  EXPECT_GE(most.size(), 4u);
+  for (const auto& [kind, albedo] : most) EXPECT_GT(albedo, 1.02) << kind;
+  for (const char* model : {"kind = \"phong\"\nmodel = \"modified\"\n",
+                            "kind = \"blinn_phong\"\nmodel = \"normalised\"\n"}) {
+    const std::string text = std::string(model) + "diffuse = 0.5\nspecular = 0.5\npower = 1.0\n";
+    EXPECT_LE(albedoOf(d, closureOf(text), directionAt(60.0)).x, 1.0) << model;
   }
 }
 
@@ -211,6 +208,41 @@ TEST(Closures, FacetsAreDistributions) {
     EXPECT_NEAR(
         d->facetsEval(wo, wi, h, {0.3f, 0.3f}, rl::RL_FACETS_GGX, rl::RL_MASKING_CORRELATED),
         expected, 1e-4f * expected + 1e-7f);
+  }
+}
+
+// Where a mesh has no tangents they run around the vertical, on every side of it.
+TEST(Closures, TangentsOfMeshesWithout) {
+  builtin::SceneBuilder builder("ball");
+  builder.add(builtin::sphere("ball", {0.0, 0.0, 0.0}, 1.0, 3),
+              builder.addMaterial("material", builtin::lambert(glm::vec3(0.5f))));
+  Dialect<> d(CompiledScene::build(builder.finish()));
+  const uint32_t triangles = d->recordGeometry(0).triangleCount;
+  for (uint32_t i = 0; i < triangles; ++i) {
+    const rl::Hit hit{0, i, {0.3f, 0.3f}, 1.0f};
+    const rl::Instance instance = d->recordInstance(0);
+    const rl::Geometry geometry = d->recordGeometry(0);
+    const glm::uvec3 corners = d->gScene.triangles.data[i];
+    const glm::vec3 n = d->surfaceLoad(hit, {0.0f, 0.0f, -1.0f}).nShadeW;
+    const glm::vec2 turn = d->surfaceTangentAngle(
+        instance, geometry, corners, hit.bary, d->surfaceTriangle(instance, geometry, corners), n);
+    const glm::vec3 tangent = d->frameToWorld(n, glm::vec3(turn, 0.0f));
+    if (std::abs(n.y) > 0.99f) continue;
+    EXPECT_NEAR(tangent.y, 0.0f, 1e-5f) << i;
+    EXPECT_GT(glm::dot(tangent, glm::vec3(n.z, 0.0f, -n.x)), 0.0f) << i;
+  }
+}
+
+// Indices of 0, and colours of 0, leave no NaN.
+TEST(Closures, BlackParametersAreFinite) {
+  Dialect<> d;
+  for (const char* text : {"kind = \"conductor\"\neta = 0.0\nk = 0.0\n",
+                           "kind = \"disney\"\nbaseColor = 0.0\nspecular = 0.0\n",
+                           "kind = \"disney\"\nbaseColor = 0.0\nmetallic = 1.0\n"}) {
+    const rl::Bsdf b = closureOf(text);
+    EXPECT_TRUE(std::isfinite(b.f0.x + b.diffuse.x)) << text;
+    const float pdf = d->bsdfPdf(b, kUp, kUp, kUp, directionAt(30.0));
+    EXPECT_TRUE(std::isfinite(pdf)) << text;
   }
 }
 

@@ -22,8 +22,11 @@ std::vector<uint8_t> bytesOf(const fs::path& file, const std::string& place) {
   std::error_code error;
   const bool isFile = fs::is_regular_file(file, error);
   std::ifstream stream(file, std::ios::binary);
-  if (!isFile || !stream)
-    failInput(fmt::format("{}: {}: {}", place, file.string(), unreadableReason(file)));
+  if (!isFile || !stream) {
+    const std::string reason = unreadableReason(file);
+    failInput(
+        fmt::format("{}: {}: {}", place, file.string(), reason.empty() ? "is not a file" : reason));
+  }
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
@@ -43,11 +46,12 @@ glm::dvec3 readColor(const ConfigTable& table, const ClosureParameter& p) {
   return isGrey ? glm::dvec3(v[0]) : glm::dvec3(v[0], v[1], v[2]);
 }
 
-// NAME_texture, NAME_uv_set and, of a number, NAME_channel.
+// NAME_texture, NAME_uv_set and, of a number, NAME_channel. Factors below 1 would leave the range
+// of what begins above 0.
 void readTexture(const ConfigTable& table, const ClosureParameter& p, SceneFileTextures& textures,
                  ClosureValue& value) {
   const std::string key = p.name + "_texture";
-  if (!table.has(key)) return;
+  if (p.lo > 0.0 || !table.has(key)) return;
   const bool isColor = p.kind == Kind::color;
   const int64_t uvSet = table.getInteger(p.name + "_uv_set", 0, 0, int64_t(rl::RL_MAX_UV_SETS) - 1);
   value.texture =
@@ -58,8 +62,8 @@ void readTexture(const ConfigTable& table, const ClosureParameter& p, SceneFileT
   value.channel = uint32_t(std::find(channels.begin(), channels.end(), channel) - channels.begin());
 }
 
-ClosureValue readValue(const ConfigTable& table, const ClosureParameter& p,
-                       SceneFileTextures& textures) {
+ClosureValue readValue(const ConfigTable& table, const MaterialKind& kind,
+                       const ClosureParameter& p, SceneFileTextures& textures) {
   ClosureValue value;
   if (p.kind == Kind::choice) {
     const std::string choice = table.getChoice(p.name, p.choices[size_t(p.fallback)], p.choices);
@@ -72,7 +76,8 @@ ClosureValue readValue(const ConfigTable& table, const ClosureParameter& p,
   } else {
     value.words = bits(glm::dvec3(table.getNumber(p.name, p.fallback, p.lo, p.hi)));
   }
-  readTexture(table, p, textures, value);
+  // The lobes of glTF take a texture of the colour alone.
+  if (kind.closure != nullptr || p.name == "color") readTexture(table, p, textures, value);
   return value;
 }
 
@@ -178,7 +183,7 @@ Scattering readScattering(const ConfigTable& table, SceneFileTextures& textures)
   s.kind = &readKind(table);
   std::vector<ClosureValue> values;
   for (const ClosureParameter& p : s.kind->parameters)
-    values.push_back(readValue(table, p, textures));
+    values.push_back(readValue(table, *s.kind, p, textures));
   table.finish();
   if (s.kind->closure == nullptr) {
     Lobes(*s.kind, values).apply(s);

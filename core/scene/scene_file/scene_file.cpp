@@ -4,7 +4,6 @@
 #include <fnmatch.h>
 
 #include <algorithm>
-#include <fstream>
 #include <map>
 #include <numbers>
 
@@ -18,14 +17,30 @@ namespace {
 constexpr const char* kExtension = ".scene.toml";
 constexpr int kMostBases = 8;  // scene files that begin with one another
 
-Scene loadNested(const fs::path& file, int depth);
-
 bool matches(const std::string& pattern, const std::string& name) {
-  return fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+  return pattern == name || fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
 }
 
+// Counts scene files that are being read, whichever way one came to the next.
+class Nesting {
+ public:
+  explicit Nesting(const fs::path& file) {
+    if (++depth_ <= kMostBases) return;
+    --depth_;
+    failInput(fmt::format("{}: more than {} scene files begin with one another", file.string(),
+                          kMostBases));
+  }
+  ~Nesting() { --depth_; }
+  Nesting(const Nesting&) = delete;
+  Nesting& operator=(const Nesting&) = delete;
+
+ private:
+  static thread_local int depth_;
+};
+thread_local int Nesting::depth_ = 0;
+
 // The scene of `base`: a built-in one, or a file relative to this one.
-Scene loadBase(const ConfigTable& table, const fs::path& folder, int depth) {
+Scene loadBase(const ConfigTable& table, const fs::path& folder) {
   const std::string base = table.getString("base", "");
   if (base.empty())
     table.fail("base", "no 'base': the scene to begin with, a built-in one or a glTF file");
@@ -33,7 +48,6 @@ Scene loadBase(const ConfigTable& table, const fs::path& folder, int depth) {
     if (isBuiltinScene(base)) return makeBuiltinScene(base);
     const fs::path path = folder / base;
     std::error_code error;
-    if (isSceneFile(path) && fs::exists(path, error)) return loadNested(path, depth + 1);
     return loadScene(fs::exists(path, error) ? path.string() : base);
   };
   return atPlace(table.place("base"), load);
@@ -59,8 +73,8 @@ class Assignment {
     const std::string pattern = table.getString(by, "");
     table.finish();
     std::vector<std::string> names;
-    const size_t count = by == "material" ? assignMaterials(pattern, to, names)
-                                          : assignInstances(by, pattern, to, names);
+    const size_t count = by == "material" ? assignMaterials(table, pattern, to, names)
+                                          : assignInstances(table, by, pattern, to, names);
     if (count > 0) return;
     std::sort(names.begin(), names.end());
     names.erase(std::unique(names.begin(), names.end()), names.end());
@@ -88,20 +102,34 @@ class Assignment {
     return materials_[size_t(found - names.begin())];
   }
 
-  size_t assignMaterials(const std::string& pattern, const Scattering& to,
+  size_t assignMaterials(const ConfigTable& table, const std::string& pattern, const Scattering& to,
                          std::vector<std::string>& names) {
     size_t count = 0;
     for (SceneMaterial& material : scene_.materials) {
       names.push_back(material.name);
       if (!matches(pattern, material.name)) continue;
-      scatterAs(to, material);
+      scatter(table, to, material);
       ++count;
     }
     return count;
   }
 
+  // Changes a material. The texture that holds its coverage cannot hold another colour.
+  static void scatter(const ConfigTable& table, const Scattering& to, SceneMaterial& material) {
+    const bool hasCoverage =
+        (material.data.flags & (rl::RL_MATERIAL_ALPHA_MASK | rl::RL_MATERIAL_ALPHA_BLEND)) != 0;
+    const bool hasTexture =
+        to.kind->closure == nullptr && to.lobes.textures[rl::RL_TEX_BASE_COLOR] != rl::RL_INVALID;
+    if (hasCoverage && hasTexture)
+      table.fail("to", fmt::format("'{}' has holes in the texture of its colour, which the texture "
+                                   "of '{}' would take the place of; a closure expected",
+                                   material.name, to.name));
+    scatterAs(to, material);
+  }
+
   // A material of its own for what is named: other instances may share the old one.
-  size_t assignInstances(const std::string& by, const std::string& pattern, const Scattering& to,
+  size_t assignInstances(const ConfigTable& table, const std::string& by,
+                         const std::string& pattern, const Scattering& to,
                          std::vector<std::string>& names) {
     size_t count = 0;
     std::map<uint32_t, uint32_t> copies;
@@ -115,8 +143,7 @@ class Assignment {
           copies.try_emplace(instance.material, uint32_t(scene_.materials.size()));
       if (isNew) {
         SceneMaterial material = scene_.materials[instance.material];
-        material.name += " as " + to.name;
-        scatterAs(to, material);
+        scatter(table, to, material);
         scene_.materials.push_back(std::move(material));
       }
       instance.material = copy->second;
@@ -190,24 +217,16 @@ EnvironmentMap readEnvironment(const ConfigTable& table, const fs::path& folder)
   return map;
 }
 
-void hashFile(const fs::path& file, Scene& scene) {
-  std::ifstream stream(file, std::ios::binary);
-  const std::string text((std::istreambuf_iterator<char>(stream)),
-                         std::istreambuf_iterator<char>());
-  scene.contentHash = hashBytes(text.data(), text.size(), scene.contentHash);
-}
-
-Scene loadNested(const fs::path& file, int depth) {
-  if (depth >= kMostBases)
-    failInput(fmt::format("{}: more than {} scene files begin with one another", file.string(),
-                          kMostBases));
+Scene read(const fs::path& file) {
+  const Nesting nesting(file);
   const ConfigTable table = ConfigTable::parseFile(file);
   const fs::path folder = file.parent_path();
-  Scene scene = loadBase(table, folder, depth);
+  Scene scene = loadBase(table, folder);
   scene.name = file.filename().string();
   scene.name.resize(scene.name.size() - std::string(kExtension).size());
   scene.source = file;
-  hashFile(file, scene);
+  const std::string text = table.text();  // with what the file includes
+  scene.contentHash = hashBytes(text.data(), text.size(), scene.contentHash);
   SceneFileTextures textures(folder, scene);
   std::vector<Scattering> materials;
   for (const ConfigTable& material : table.getTables("material")) {
@@ -241,7 +260,7 @@ bool isSceneFile(const fs::path& file) {
 
 Scene loadSceneFile(const fs::path& file) {
   try {
-    return loadNested(file, 0);
+    return read(file);
   } catch (const Error& error) {
     // A configuration, but of a scene.
     throw Error(ExitCode::badInput, error.what());

@@ -1,6 +1,12 @@
 // A lobe of microfacets with any distribution, masking and Fresnel term (Cook and Torrance 1982;
 // Walter et al. 2007; Heitz 2014), local to the normal and the tangent (x). alpha: along both axes.
 
+// log(1 - x) and 1 - exp(-x), also for x so small that float32 has no 1 - x.
+RL_FN float facetsLog(float x) {
+  return x < 1.0e-3f ? -x * (1.0f + 0.5f * x) : log(max(1.0f - x, 1.0e-30f));
+}
+RL_FN float facetsFall(float x) { return x < 1.0e-3f ? x * (1.0f - 0.5f * x) : 1.0f - exp(-x); }
+
 // Distribution of normals; its integral over the projected area is 1.
 RL_FN float facetsD(RL_IN(vec3) hL, RL_IN(vec2) alpha, uint distribution) {
   float x = hL.x / alpha.x;
@@ -16,10 +22,11 @@ RL_FN float facetsD(RL_IN(vec3) hL, RL_IN(vec2) alpha, uint distribution) {
   // Blinn's power 2 / alpha^2 - 2, different along both axes (Ashikhmin and Shirley 2000).
   float sin2 = hL.x * hL.x + hL.y * hL.y;
   float power = 2.0f * rlSafeDivide(slope2, sin2) - 2.0f;
-  return sin2 > 0.0f ? scale * pow(hL.z, power) : scale;
+  return sin2 > 0.0f ? scale * exp(0.5f * power * facetsLog(sin2)) : scale;
 }
 
-// Smith's Lambda. Blinn's facets have that of Beckmann's, in the rational form of Walter et al.
+// Smith's Lambda. Blinn's facets have that of Beckmann's, in the rational form of Walter et al.: it
+// is not their own, and rough ones make energy.
 RL_FN float facetsLambda(RL_IN(vec3) wL, RL_IN(vec2) alpha, uint distribution) {
   float x = wL.x * alpha.x;
   float y = wL.y * alpha.y;
@@ -69,8 +76,9 @@ RL_FN vec3 facetsDraw(RL_IN(vec3) woL, RL_IN(vec2) alpha, uint distribution, RL_
   vec2 phi = axis * invLength;
   float ax = phi.x / alpha.x;
   float ay = phi.y / alpha.y;
-  float z = pow(1.0f - u.x, 0.5f / (ax * ax + ay * ay));
-  float r = sqrt(max(0.0f, 1.0f - z * z));
+  float sin2 = facetsFall(-log(1.0f - u.x) / (ax * ax + ay * ay));
+  float r = sqrt(sin2);
+  float z = sqrt(1.0f - sin2);
   return vec3(phi.x * r, phi.y * r, z);
 }
 
@@ -91,10 +99,10 @@ RL_FN float fresnelConductorOne(float cosI, float eta, float k) {
   float a = sqrt(max(0.5f * (a2b2 + t0), 0.0f));
   float t1 = a2b2 + cos2;
   float t2 = 2.0f * a * cosI;
-  float perpendicular = (t1 - t2) / (t1 + t2);
+  float perpendicular = rlSafeDivide(t1 - t2, t1 + t2);
   float t3 = cos2 * a2b2 + sin2 * sin2;
   float t4 = t2 * sin2;
-  return 0.5f * perpendicular * (1.0f + (t3 - t4) / (t3 + t4));
+  return 0.5f * perpendicular * (1.0f + rlSafeDivide(t3 - t4, t3 + t4));
 }
 
 // Reflectance at a facet. kind: RL_FRESNEL_*; at: reflectance at normal incidence (Schlick), or the
@@ -118,8 +126,8 @@ RL_FN uint facetsKinds(uint distribution, uint masking, uint fresnel) {
 }
 
 RL_FN vec3 facetLayerFresnel(RL_IN(Bsdf) b, float cosI) {
-  return vec3(b.p1) * facetsFresnel(floatBitsToUint(b.p2.w) >> 4u, vec3(b.p2), vec3(b.p3),
-                                    clamp(cosI, 0.0f, 1.0f));
+  return vec3(b.p1) *
+         facetsFresnel(uint(b.p2.w) >> 4u, vec3(b.p2), vec3(b.p3), clamp(cosI, 0.0f, 1.0f));
 }
 
 // Roughness along both axes (Burley 2012).
@@ -133,10 +141,12 @@ RL_FN void facetLayerLoad(RL_INOUT(Bsdf) b) {
   b.diffuse = vec3(b.p0);
   b.f0 = facetLayerFresnel(b, 1.0f);
   b.f90 = 1.0f;
-  b.alpha = min(b.p0.w, b.p1.w);
+  bool isDelta = max(b.p0.w, b.p1.w) < RL_ALPHA_FLOOR;
+  b.p0.w = max(b.p0.w, RL_ALPHA_FLOOR);
+  b.p1.w = max(b.p1.w, RL_ALPHA_FLOOR);
+  b.alpha = isDelta ? 0.0f : min(b.p0.w, b.p1.w);
   if (!rlIsBlack(b.diffuse)) b.lobes = b.lobes | RL_LOBE_DIFFUSE;
   if (rlIsBlack(vec3(b.p1))) return;
-  bool isDelta = b.alpha < RL_ALPHA_FLOOR;
   b.lobes = b.lobes | (isDelta ? RL_LOBE_SPECULAR_DELTA : RL_LOBE_SPECULAR);
   if (isDelta) RL_HEALTH(RL_HEALTH_DELTA_LOBES);
 }
@@ -155,7 +165,7 @@ RL_FN vec3 facetLayerEval(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) wiL, RL_OU
     pdf = (1.0f - share) * lambertPdf(wiL);
   }
   if ((b.lobes & RL_LOBE_SPECULAR) == 0u) return f;
-  uint kinds = floatBitsToUint(b.p2.w);
+  uint kinds = uint(b.p2.w);
   vec2 alpha = vec2(b.p0.w, b.p1.w);
   vec3 hL = normalize(woL + wiL);
   float lobe = facetsEval(woL, wiL, hL, alpha, kinds & 3u, (kinds >> 2u) & 3u);
@@ -178,7 +188,7 @@ RL_FN BsdfSample facetLayerSample(RL_IN(Bsdf) b, RL_IN(vec3) woL, float uLobe, R
     s.lobe = RL_LOBE_SPECULAR_DELTA;
     return s;
   }
-  uint kinds = floatBitsToUint(b.p2.w);
+  uint kinds = uint(b.p2.w);
   vec3 hL = facetsDraw(woL, vec2(b.p0.w, b.p1.w), kinds & 3u, u);
   float cosH = dot(woL, hL);
   s.wi = hL * (2.0f * cosH) - woL;

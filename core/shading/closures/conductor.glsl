@@ -13,6 +13,7 @@ info.choice("distribution", {"ggx", "beckmann", "blinn"}, "D, of the facets' nor
 info.choice("masking", {"correlated", "smith", "v_cavities"},
             "G: Smith's with and without heights, or V-cavities");
 info.looksAtTangent("anisotropic");
+info.breaks({"energy"}, "distribution", "blinn");
 #else
 
 // Indices of refraction at 630, 550 and 450 nm (Johnson and Christy 1972 and 1974, Rakic 1995, as
@@ -50,7 +51,7 @@ RL_FN void conductorLoad(RL_INOUT(Bsdf) b, RL_IN(MaterialPoint) at) {
                            conductorMasking(closureChoice(at, 7u)), RL_FRESNEL_CONDUCTOR);
   b.p0 = vec4(0.0f, 0.0f, 0.0f, alpha.x);
   b.p1 = vec4(closureColor(at, 3u), alpha.y);
-  b.p2 = vec4(eta, uintBitsToFloat(kinds));
+  b.p2 = vec4(eta, float(kinds));
   b.p3 = vec4(k, 0.0f);
   facetLayerLoad(b);
 }

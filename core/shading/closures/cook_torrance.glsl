@@ -18,6 +18,7 @@ info.number("ior", 1.5, 1.0, 4.0, "index of refraction (f = dielectric)");
 info.color("eta", 0.2, "index of refraction, real part (f = conductor)", 20.0);
 info.color("k", 3.9, "index of refraction, imaginary part (f = conductor)", 20.0);
 info.looksAtTangent("anisotropic");
+info.breaks({"energy"}, "d", "blinn");
 #else
 
 RL_FN uint cookTorranceMasking(uint choice) {
@@ -37,7 +38,7 @@ RL_FN void cookTorranceLoad(RL_INOUT(Bsdf) b, RL_IN(MaterialPoint) at) {
       facetsKinds(closureChoice(at, 5u), cookTorranceMasking(closureChoice(at, 6u)), fresnel);
   b.p0 = vec4(closureColor(at, 0u) * (1.0f - share), alpha.x);
   b.p1 = vec4(closureColor(at, 1u) * share, alpha.y);
-  b.p2 = vec4(index, uintBitsToFloat(kinds));
+  b.p2 = vec4(index, float(kinds));
   b.p3 = vec4(closureColor(at, 11u), 0.0f);
   facetLayerLoad(b);
 }

@@ -80,6 +80,7 @@ RL_FN vec2 disneyShares(RL_IN(Bsdf) b, float cosO) {
   if (b.p3.z > 0.0f) clearcoat = max(clearcoat, least);
   diffuse = (b.lobes & RL_LOBE_DIFFUSE) != 0u ? max(diffuse, least) : 0.0f;
   float total = specular + clearcoat + diffuse;
+  if (!(total > 0.0f)) return vec2(1.0f, 0.0f);
   return vec2(specular, clearcoat) * (1.0f / total);
 }
 

@@ -15,7 +15,7 @@ info.choice("model", {"full", "fujii", "conserving"},
 RL_FN void orenNayarLoad(RL_INOUT(Bsdf) b, RL_IN(MaterialPoint) at) {
   b.diffuse = closureColor(at, 0u);
   b.p0 = vec4(b.diffuse, closureNumber(at, 1u));
-  b.p1.x = uintBitsToFloat(closureChoice(at, 2u));
+  b.p1.x = float(closureChoice(at, 2u));
   if (!rlIsBlack(b.diffuse)) b.lobes = RL_LOBE_DIFFUSE | RL_LOBE_ROUGH_DIFFUSE;
 }
 
@@ -53,7 +53,7 @@ RL_FN vec3 orenNayarEval(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) wiL, RL_OUT
   float sigma = b.p0.w;
   if (!(wiL.z > 0.0f)) return vec3(0.0f, 0.0f, 0.0f);
   pdf = lambertPdf(wiL);
-  uint model = floatBitsToUint(b.p1.x);
+  uint model = uint(b.p1.x);
   float s = woL.x * wiL.x + woL.y * wiL.y;
   if (model == 0u) {
     float sines = sqrt(max(0.0f, (1.0f - woL.z * woL.z) * (1.0f - wiL.z * wiL.z)));

@@ -24,7 +24,7 @@ RL_FN void phongLoad(RL_INOUT(Bsdf) b, RL_IN(MaterialPoint) at) {
   b.p1 = vec4(specular * factor, isRaw ? 1.0f : 0.0f);
   b.f0 = specular;
   if (isRaw) b.f0 *= 2.0f * RL_PI / (power + 1.0f);
-  b.alpha = powerAlpha(power);
+  b.alpha = powerAlpha(4.0f * power);  // angles to the mirrored direction are twice the facets'
   if (!rlIsBlack(b.diffuse)) b.lobes = b.lobes | RL_LOBE_DIFFUSE;
   if (!rlIsBlack(specular)) b.lobes = b.lobes | RL_LOBE_SPECULAR;
 }

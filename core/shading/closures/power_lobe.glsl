@@ -15,7 +15,7 @@ RL_FN void powerLobeLoad(RL_INOUT(Bsdf) b, RL_IN(MaterialPoint) at) {
   float normal = (power + 2.0f) * (0.5f * RL_INV_PI);  // the raw lobe reflects 1 / normal of it
   b.f0 = closureChoice(at, 2u) == 0u ? color * (1.0f / normal) : color;
   b.p0 = vec4(b.f0 * normal, power);
-  b.alpha = powerAlpha(power);
+  b.alpha = powerAlpha(4.0f * power);  // angles to the mirrored direction are twice the facets'
   if (!rlIsBlack(color)) b.lobes = RL_LOBE_SPECULAR;
 }
 
