@@ -13,7 +13,7 @@ constexpr const char* kText = R"(#version 460
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
-{extensions}{reads}#include "core/dialect/order.h"
+{extensions}{reads}{lacks}#include "core/dialect/order.h"
 #include "{header}"
 
 layout(local_size_x = {tile}, local_size_y = {tile}) in;
@@ -138,13 +138,23 @@ void main() {{
 }}
 )";
 
+// For the switch that cmake/closures.cmake writes.
+std::string lackedClosures(uint32_t features) {
+  std::string lines;
+  uint32_t bit = rl::RL_FEATURE_GLTF + 1u;
+  for (uint32_t kind = 1; kind <= rl::RL_CLOSURE_COUNT; ++kind, bit <<= 1)
+    if ((features & bit) == 0) lines += fmt::format("#define RL_LACKS_CLOSURE_{}\n", kind);
+  return lines;
+}
+
 }  // namespace
 
 std::string glslKernelSource(const GlslKernel& kernel) {
   return fmt::format(kText, fmt::arg("header", kernel.header), fmt::arg("file", kernel.file),
                      fmt::arg("trace", kernel.traceFile), fmt::arg("tile", kGlslTile),
                      fmt::arg("copies", kGlslCopies), fmt::arg("extensions", kernel.extensions),
-                     fmt::arg("reads", kernel.readsTexels ? "#define RL_TEXELS\n" : ""));
+                     fmt::arg("reads", kernel.readsTexels ? "#define RL_TEXELS\n" : ""),
+                     fmt::arg("lacks", lackedClosures(kernel.features)));
 }
 
 }  // namespace restlab

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "core/dialect/features.h"
 #include "core/dialect/types.h"
 
 namespace restlab {
@@ -16,6 +17,9 @@ struct GlslKernel {
   std::string traceFile;        // defines traceRay()
   std::string extensions = {};  // "#extension" lines that the trace file needs
   bool readsTexels = false;     // reads by texels and uniform blocks instead of addresses
+  // Closures that are not among these are left out of the text: drivers take long over code that a
+  // constant makes dead.
+  uint32_t features = rl::RL_FEATURE_ALL;
 };
 
 // Implementation of traceRay().

@@ -151,7 +151,9 @@ VkPipeline VulkanKernels::pipeline(const GlslKernel& kernel, const std::string& 
   KernelReport done;
   done.kernel = name;
   done.mask = mask;
-  const std::vector<uint32_t> spirv = spirvOf(kernel, name, read, done.fromDisk);
+  GlslKernel ofMask = kernel;
+  ofMask.features = mask;
+  const std::vector<uint32_t> spirv = spirvOf(ofMask, name, read, done.fromDisk);
   done.glslMs = msSince(start);
   const auto driverStart = std::chrono::steady_clock::now();
   VkShaderModuleCreateInfo moduleInfo{};
