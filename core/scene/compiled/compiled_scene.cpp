@@ -6,7 +6,6 @@
 #include <atomic>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <mutex>
 
 #include "core/backend/alpha_filter.h"
@@ -19,6 +18,7 @@
 #include "core/scene/compiled/coarse_vertices.h"
 #include "core/scene/compiled/ggx_albedo.h"
 #include "core/scene/compiled/light_table.h"
+#include "core/scene/compiled/material_records.h"
 #include "core/scene/compiled/split_triangles.h"
 #include "core/scene/plate.h"
 
@@ -42,16 +42,6 @@ uint32_t append(std::vector<T>& pool, const std::vector<T>& values) {
   return offset;
 }
 
-// Exact sRGB decoding of every 8-bit value (IEC 61966-2-1).
-std::vector<float> srgbTable() {
-  std::vector<float> table(256);
-  for (int i = 0; i < 256; ++i) {
-    const double c = i / 255.0;
-    table[i] = static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
-  }
-  return table;
-}
-
 }  // namespace
 
 struct CompiledScene::Impl {
@@ -67,11 +57,7 @@ struct CompiledScene::Impl {
   std::vector<glm::uvec3> triangles;
   std::vector<rl::Geometry> geometries;
   std::vector<rl::Instance> instances;
-  std::vector<rl::Material> materials;
-  std::vector<glm::uvec4> closureParameters;
-  std::vector<rl::Texture> textures;
-  std::vector<uint32_t> texels;
-  std::vector<float> srgb;
+  MaterialRecords records;
   LightTable lights;
   Bodies bodies;
   rl::SceneData data{};
@@ -93,8 +79,6 @@ struct CompiledScene::Impl {
   void flatten();
   void addGeometry(const MeshGeometry& mesh, const glm::dmat4* bake,
                    const std::vector<glm::dvec3>* positionsW);
-  void addMaterial(const SceneMaterial& material);
-  void buildTextures();
   void buildEmbree();
   void bindAddresses();
 };
@@ -200,51 +184,6 @@ void CompiledScene::Impl::flatten() {
   }
 }
 
-void CompiledScene::Impl::addMaterial(const SceneMaterial& material) {
-  rl::Material record = material.data;
-  record.emission *= material.lightFactor;
-  record.firstParameter = static_cast<uint32_t>(closureParameters.size());
-  for (const ClosureValue& v : material.closure) {
-    const bool isTextured = v.texture != rl::RL_INVALID;
-    closureParameters.emplace_back(
-        v.words, isTextured ? v.texture | (v.channel << rl::RL_PARAMETER_CHANNEL_SHIFT)
-                            : uint32_t(rl::RL_INVALID));
-  }
-  materials.push_back(record);
-}
-
-void CompiledScene::Impl::buildTextures() {
-  std::vector<uint32_t> firstTexel;
-  size_t total = 0;
-  for (const TextureImage& image : scene.images) {
-    firstTexel.push_back(static_cast<uint32_t>(total));
-    total += image.texels.size();
-  }
-  if (total > std::numeric_limits<uint32_t>::max()) {
-    failInput(fmt::format("{}: textures have {} texels; at most 4294967295 are supported",
-                          scene.name, total));
-  }
-  texels.reserve(total);
-  for (const TextureImage& image : scene.images) {
-    texels.insert(texels.end(), image.texels.begin(), image.texels.end());
-  }
-  for (const TextureUse& use : scene.textureUses) {
-    const TextureImage& image = scene.images[use.image];
-    rl::Texture t{};
-    t.uvRow0 = use.uvRow0;
-    t.uvRow1 = use.uvRow1;
-    t.firstTexel = firstTexel[use.image];
-    t.width = image.width;
-    t.height = image.height;
-    t.wrapU = use.wrapU;
-    t.wrapV = use.wrapV;
-    t.flags = (use.nearest ? rl::RL_TEXTURE_NEAREST : 0u) | (use.srgb ? rl::RL_TEXTURE_SRGB : 0u);
-    t.uvSet = use.uvSet;
-    textures.push_back(t);
-  }
-  srgb = srgbTable();
-}
-
 void CompiledScene::Impl::buildEmbree() {
   device = rtcNewDevice("");
   if (device == nullptr)
@@ -340,10 +279,10 @@ void CompiledScene::Impl::bindAddresses() {
   data.triangles.data = triangles.data();
   data.geometries.data = geometries.data();
   data.instances.data = instances.data();
-  data.materials.data = materials.data();
-  data.textures.data = textures.data();
-  data.texels.data = texels.data();
-  data.srgbToLinear.data = srgb.data();
+  data.materials.data = records.materials.data();
+  data.textures.data = records.textures.data();
+  data.texels.data = records.texels.data();
+  data.srgbToLinear.data = records.srgb.data();
   data.lights.data = lights.lights.data();
   data.lightAlias.data = lights.alias.data();
   data.lightCount = static_cast<uint32_t>(lights.alias.size());  // 0: all lights are off
@@ -353,7 +292,7 @@ void CompiledScene::Impl::bindAddresses() {
   data.environmentHeight = scene.environment ? scene.environment->height : 0;
   data.environmentLight = lights.environmentLight;
   data.environmentRotation = scene.environment ? scene.environment->rotation : 0.0f;
-  data.closureParameters.data = closureParameters.data();
+  data.closureParameters.data = records.closureParameters.data();
   data.bodies.data = bodies.media.data();
   data.bodiesMeet = bodies.meet ? 1u : 0u;
   data.instanceCount = static_cast<uint32_t>(instances.size());
@@ -373,8 +312,7 @@ std::shared_ptr<const CompiledScene> CompiledScene::build(Scene scene) {
   for (std::string& line : bodyWarnings(impl->scene, impl->bodies))
     impl->warnings.push_back(std::move(line));
   impl->flatten();
-  for (const SceneMaterial& m : impl->scene.materials) impl->addMaterial(m);
-  impl->buildTextures();
+  impl->records = materialRecords(impl->scene);
   impl->lights = buildLightTable(
       {impl->scene, impl->positions, impl->uvs, impl->triangles, impl->geometries, impl->origin},
       impl->instances, impl->warnings);
@@ -436,15 +374,15 @@ rl::SceneData CompiledScene::placedAt(const Place& place, bool withBvh) const {
   move(placed.triangles, m.triangles.size());
   move(placed.geometries, m.geometries.size());
   move(placed.instances, m.instances.size());
-  move(placed.materials, m.materials.size());
-  move(placed.textures, m.textures.size());
-  move(placed.texels, m.texels.size());
-  move(placed.srgbToLinear, m.srgb.size());
+  move(placed.materials, m.records.materials.size());
+  move(placed.textures, m.records.textures.size());
+  move(placed.texels, m.records.texels.size());
+  move(placed.srgbToLinear, m.records.srgb.size());
   move(placed.lights, m.lights.lights.size());
   move(placed.lightAlias, m.lights.alias.size());
   move(placed.environment, m.lights.environment.size());
   move(placed.environmentAlias, m.lights.environmentAlias.size());
-  move(placed.closureParameters, m.closureParameters.size());
+  move(placed.closureParameters, m.records.closureParameters.size());
   move(placed.bodies, m.bodies.media.size());
   move(placed.ggxAlbedo, m.data.ggxAlbedo.data != nullptr ? ggxAlbedoTable().size() : 0);
   move(placed.bvh, withBvh ? m.bvh.records.size() * rl::RL_BVH_RECORD_UVEC4S : 0);
@@ -465,7 +403,7 @@ bool CompiledScene::differsInLightAlone(const CompiledScene& other) const {
   const auto isSameInstance = [&](const rl::Instance& of, const rl::Instance& with) {
     rl::Instance there = with;
     there.material = of.material;
-    rl::Material here = a.materials[of.material], its = b.materials[with.material];
+    rl::Material here = a.records.materials[of.material], its = b.records.materials[with.material];
     its.emission = here.emission;
     return std::memcmp(&of, &there, sizeof of) == 0 && std::memcmp(&here, &its, sizeof here) == 0;
   };
@@ -477,8 +415,9 @@ bool CompiledScene::differsInLightAlone(const CompiledScene& other) const {
   return a.features == b.features && a.origin == b.origin && a.positions == b.positions &&
          isSame(a.normals, b.normals) && isSame(a.tangents, b.tangents) && isSame(a.uvs, b.uvs) &&
          isSame(a.colors, b.colors) && isSame(a.geometries, b.geometries) &&
-         isSame(a.triangles, b.triangles) && isSame(a.textures, b.textures) &&
-         isSame(a.texels, b.texels) && isSame(a.closureParameters, b.closureParameters) &&
+         isSame(a.triangles, b.triangles) && isSame(a.records.textures, b.records.textures) &&
+         isSame(a.records.texels, b.records.texels) &&
+         isSame(a.records.closureParameters, b.records.closureParameters) &&
          std::equal(a.instances.begin(), a.instances.end(), b.instances.begin(), b.instances.end(),
                     isSameInstance) &&
          a.lights.lights.size() == b.lights.lights.size() &&
@@ -503,9 +442,9 @@ size_t CompiledScene::bytes() const {
   auto of = [](const auto& v) { return v.size() * sizeof(v[0]); };
   const Impl& i = *impl_;
   return of(i.positions) + of(i.normals) + of(i.tangents) + of(i.colors) + of(i.uvs) +
-         of(i.triangles) + of(i.geometries) + of(i.instances) + of(i.materials) +
-         of(i.closureParameters) + of(i.textures) + of(i.texels) + of(i.srgb) +
-         of(i.lights.lights) + of(i.lights.alias) + of(i.lights.environment) +
+         of(i.triangles) + of(i.geometries) + of(i.instances) + of(i.records.materials) +
+         of(i.records.closureParameters) + of(i.records.textures) + of(i.records.texels) +
+         of(i.records.srgb) + of(i.lights.lights) + of(i.lights.alias) + of(i.lights.environment) +
          of(i.lights.environmentAlias) + of(i.bodies.media);
 }
 
