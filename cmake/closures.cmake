@@ -45,7 +45,9 @@ endfunction()
 function(rl_add_closures)
   rl_read_closures(closures)
   list(LENGTH RL_FEATURE_NAMES bit)
-  math(EXPR gltf "(1 << ${bit}) - 1")
+  math(EXPR scene "(1 << ${bit}) - 1")
+  # What scene files alone can ask for.
+  math(EXPR gltf "${scene} & ~(${RL_FEATURE_BIT_AMBIENT} | ${RL_FEATURE_BIT_SCATTERING})")
   set(names ${RL_FEATURE_NAMES})
   set(constants "const uint RL_CLOSURE_GLTF = 0u;  // the lobes of core/shading/bsdf.glsl\n")
   set(kinds 0)
@@ -66,17 +68,22 @@ function(rl_add_closures)
     set(RL_FEATURE_BIT_CLOSURE_${upper} ${value} PARENT_SCOPE)
     string(APPEND constants "const uint RL_CLOSURE_${upper} = ${number}u;\nconst uint RL_FEATURE_CLOSURE_${upper} = ${value}u;\n")
     set(unless "#ifndef RL_LACKS_CLOSURE_${number}\n")
+    string(APPEND declared "RL_CLOSURE_INFO(${name}, RL_CLOSURE_${upper}, RL_FEATURE_CLOSURE_${upper})\n#include \"core/shading/closures/${name}.glsl\"\nRL_CLOSURE_INFO_END\n")
+    # A mixture calls the switch, so it cannot stand in it: core/dialect/order.glsl includes it later.
+    if(name STREQUAL "mixture")
+      string(APPEND includes "${unless}#define RL_KEEPS_MIXTURE\n#endif\n")
+      continue()
+    endif()
     string(APPEND includes "${unless}#include \"core/shading/closures/${name}.glsl\"\n#endif\n")
     set(is "RL_HAS(RL_FEATURE_CLOSURE_${upper}) && b.closure == RL_CLOSURE_${upper}")
     string(APPEND loads "${unless}  if (${is}) ${prefix}Load(b, at);\n#endif\n")
     string(APPEND evals "${unless}  if (${is}) return ${prefix}Eval(b, woL, wiL, pdf);\n#endif\n")
     string(APPEND samples "${unless}  if (${is}) return ${prefix}Sample(b, woL, uLobe, u);\n#endif\n")
-    string(APPEND declared "RL_CLOSURE_INFO(${name}, RL_CLOSURE_${upper}, RL_FEATURE_CLOSURE_${upper})\n#include \"core/shading/closures/${name}.glsl\"\nRL_CLOSURE_INFO_END\n")
   endforeach()
   if(bit GREATER 31)
     message(FATAL_ERROR "${bit} features: at most 31 fit into a mask")
   endif()
-  math(EXPR all "${gltf} | ${kinds}")
+  math(EXPR all "${scene} | ${kinds}")
   set(RL_FEATURE_NAMES ${names} PARENT_SCOPE)
   set(RL_FEATURE_BIT_ALL ${all} PARENT_SCOPE)
   set(folder ${PROJECT_BINARY_DIR}/generated/closures)
@@ -89,7 +96,7 @@ RL_NAMESPACE_BEGIN
 
 @constants@const uint RL_CLOSURE_COUNT = @number@u;  // without glTF's
 const uint RL_FEATURE_CLOSURES = @kinds@u;
-const uint RL_FEATURE_GLTF = @gltf@u;  // all others
+const uint RL_FEATURE_GLTF = @gltf@u;  // all that glTF can ask for
 const uint RL_FEATURE_ALL = @all@u;
 const uint RL_FEATURE_BITS = @bit@u;
 

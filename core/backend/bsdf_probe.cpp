@@ -43,14 +43,17 @@ Scene triangleOf(const SceneMaterial& material, const Scene& images) {
   scene.name = "probe";
   scene.images = images.images;
   scene.textureUses = images.textureUses;
-  scene.materials = {material};
+  scene.tables = images.tables;
+  scene.materials = images.materials;  // parts of mixtures, by their index
+  scene.materials.push_back(material);
   MeshGeometry mesh;
   mesh.name = "triangle";
   mesh.positions = {{0.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}};
   mesh.triangles = {{0, 1, 2}};
   for (auto& uvs : mesh.uvs) uvs = {{0.0f, 0.0f}, {1.0f, 0.0f}, {0.0f, 1.0f}};
   scene.geometries = {mesh};
-  scene.instances = {{"triangle", 0, 0, glm::dmat4(1.0)}};
+  const auto last = static_cast<uint32_t>(scene.materials.size() - 1);
+  scene.instances = {{"triangle", 0, last, glm::dmat4(1.0)}};
   scene.cameras = {SceneCamera{}};
   return scene;
 }
@@ -95,6 +98,7 @@ BsdfDraw BsdfProbe::draw(const glm::dvec3& wo, double uLobe, const glm::dvec2& u
 }
 
 double BsdfProbe::alpha() const { return impl_->bsdf.alpha; }
+bool BsdfProbe::hasDelta() const { return (impl_->bsdf.lobes & rl::RL_LOBE_ANY_DELTA) != 0u; }
 bool BsdfProbe::hasSpecular() const { return (impl_->bsdf.lobes & rl::RL_LOBE_SPECULAR) != 0u; }
 bool BsdfProbe::hasTransmission() const {
   return (impl_->bsdf.lobes & rl::RL_LOBE_ANY_TRANSMISSION) != 0u;

@@ -20,7 +20,8 @@ struct BsdfDraw {
 // is seen from its front.
 class BsdfProbe {
  public:
-  // `scene` has the images that the material's textures name; they are read at uv (0, 0).
+  // `scene` has the images, tables and other materials that the material names; images are read at
+  // uv (0, 0).
   BsdfProbe(const SceneMaterial& material, const Scene& scene);
   ~BsdfProbe();
 
@@ -28,6 +29,7 @@ class BsdfProbe {
   glm::dvec3 eval(const glm::dvec3& wo, const glm::dvec3& wi, double& pdf) const;
   BsdfDraw draw(const glm::dvec3& wo, double uLobe, const glm::dvec2& u) const;
   double alpha() const;          // roughness of the narrowest lobe
+  bool hasDelta() const;         // a mirror's or smooth glass's
   bool hasSpecular() const;      // a rough lobe about the mirrored direction
   bool hasTransmission() const;  // light passes
 

@@ -141,7 +141,7 @@ void main() {{
 // For the switch that cmake/closures.cmake writes.
 std::string lackedClosures(uint32_t features) {
   std::string lines;
-  uint32_t bit = rl::RL_FEATURE_GLTF + 1u;
+  uint32_t bit = rl::RL_FEATURE_CLOSURES & (~rl::RL_FEATURE_CLOSURES + 1u);  // of the first kind
   for (uint32_t kind = 1; kind <= rl::RL_CLOSURE_COUNT; ++kind, bit <<= 1)
     if ((features & bit) == 0) lines += fmt::format("#define RL_LACKS_CLOSURE_{}\n", kind);
   return lines;

@@ -23,7 +23,9 @@ const uint RL_FEATURE_ALPHA = 1024u;           // mask or blend: rays ask the ma
 const uint RL_FEATURE_INSTANCES = 2048u;       // transformed instances (shared meshes)
 const uint RL_FEATURE_SMOOTH_NORMALS = 4096u;  // vertex normals that differ from the face normal
 const uint RL_FEATURE_MULTISCATTER = 8192u;    // multiple-scattering compensation of GGX
-// From bit 14 on: RL_FEATURE_CLOSURE_*, a kind of closure each. They, RL_FEATURE_CLOSURES (all of
+const uint RL_FEATURE_AMBIENT = 16384u;        // light from everywhere that nothing shadows
+const uint RL_FEATURE_SCATTERING = 32768u;     // media that scatter inside bodies
+// From bit 16 on: RL_FEATURE_CLOSURE_*, a kind of closure each. They, RL_FEATURE_CLOSURES (all of
 // them), RL_FEATURE_ALL and RL_FEATURE_BITS are made of closures.list.
 
 RL_NAMESPACE_END

@@ -21,6 +21,10 @@
 #include "core/shading/bsdf/facets.glsl"
 #include "core/geometry/material_point.glsl"
 #include "closures/switch.glsl"
+#include "core/geometry/material_lobes.glsl"
+#ifdef RL_KEEPS_MIXTURE
+#include "core/shading/closures/mixture.glsl"
+#endif
 #include "core/shading/bsdf.glsl"
 #include "core/geometry/surface.glsl"
 #include "core/shading/light/environment.glsl"

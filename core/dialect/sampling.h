@@ -23,6 +23,8 @@ const uint RL_VERTEX_SPATIAL = 0x2000u;  // + number of the round
 const uint RL_VERTEX_CACHE_UPDATE = 0x3000u;
 const uint RL_VERTEX_CACHE_REUSE = 0x3800u;
 const uint RL_VERTEX_CANDIDATES = 0x4000u;  // + index of a light candidate
+const uint RL_VERTEX_COLLISION =
+    0x10000u;  // times 1 + the number of collisions, + the vertex before
 
 // Steps of the R2 sequence, 1/g and 1/g^2 of 2^32, g^3 = g + 1 (Roberts 2018).
 const uint RL_R2_STEP_X = 3242174889u;
@@ -49,6 +51,10 @@ const uint RL_DIM_RIS_REPLAY = 35u;    // light that a smooth vertex found, like
 const uint RL_DIM_DONOR_U = 50u;
 const uint RL_DIM_DONOR_V = 51u;
 const uint RL_DIM_ENVIRONMENT_ALIAS = 52u;
+const uint RL_DIM_COLLISION_CHANNEL = 53u;
+const uint RL_DIM_COLLISION_DISTANCE = 54u;
+const uint RL_DIM_PHASE_U = 55u;
+const uint RL_DIM_PHASE_V = 56u;
 const uint RL_DIMENSIONS = 64u;
 
 RL_NAMESPACE_END

@@ -169,7 +169,7 @@ struct Light {
   uint kind;
   vec3 e1;            // triangle edge, or direction of light travel (unit)
   float pmf;          // probability of being selected
-  vec3 e2;            // triangle edge; x,y: spot angle scale and offset
+  vec3 e2;            // triangle edge; spot: angle scale and offset; point: attenuation
   float areaInverse;  // 1/m^2 of a triangle
   vec3 radiance;      // triangle: W sr^-1 m^-2; point, spot: W/sr; directional: W/m^2
   uint instance;      // triangles only
@@ -252,7 +252,9 @@ struct SceneData {
   // A value each: three floats and the texture that they are multiplied with (RL_INVALID: none; the
   // channel of a number in the upper two bits).
   Uvec4Ref closureParameters;
-  Vec4Ref bodies;     // by rank: absorption (m^-1) and index of refraction; [0] unused
+  // Two by rank: extinction (m^-1) and index of refraction; scattering (m^-1) and the mean cosine
+  // of its angles. Rank 0 is air.
+  Vec4Ref bodies;
   Vec2Ref ggxAlbedo;  // core/scene/compiled/ggx_albedo.h; null if no session compensates GGX
   // The project's own hierarchy: null unless a session traces it. The world's root is record 0.
   Uvec4Ref bvh;                 // RL_BVH_RECORD_UVEC4S per record
@@ -264,7 +266,10 @@ struct SceneData {
   uint environmentLight;      // index in the light table, or RL_INVALID
   float environmentRotation;  // radians about +Y
   uint instanceCount;
-  uint bodiesMeet;  // 1: some bodies touch or overlap
+  uint bodiesMeet;     // 1: some bodies touch or overlap
+  vec3 ambient;        // radiance that every surface gets from everywhere, without shadows
+  vec3 background;     // radiance that the camera sees where it sees nothing
+  uint hasBackground;  // 0: it sees the environment
 };
 
 const uint RL_COMPONENT_DIRECT =
@@ -319,7 +324,8 @@ const uint RL_HEALTH_CACHE_FULL = 7u;         // pixels whose cell found no slot
 const uint RL_HEALTH_LIGHT_CHANGED = 8u;      // radiance cells reset because their light changed
 const uint RL_HEALTH_NEW_HISTORY = 9u;        // pixels for whose surface a denoiser had no history
 const uint RL_HEALTH_FIREFLIES = 10u;         // pixels that a denoiser darkened to match neighbours
-const uint RL_HEALTH_COUNT = 11u;
+const uint RL_HEALTH_LONG_WALKS = 11u;        // paths that RL_MOST_COLLISIONS in media ended
+const uint RL_HEALTH_COUNT = 12u;
 
 RL_NAMESPACE_END
 

@@ -6,7 +6,7 @@ const std::array<const char*, rl::RL_HEALTH_COUNT>& Health::names() {
   static const std::array<const char*, rl::RL_HEALTH_COUNT> names = {
       "nonfinite",         "rejected_jacobian", "capped_confidence", "delta_lobes",
       "unreusable_pixels", "negative",          "dropped_weights",   "cache_full",
-      "light_changed",     "new_history",       "fireflies"};
+      "light_changed",     "new_history",       "fireflies",         "long_walks"};
   return names;
 }
 
@@ -24,7 +24,9 @@ const std::array<const char*, rl::RL_HEALTH_COUNT>& Health::meanings() {
       "surfaces that found no place in a cache: more entries or radiance_entries help",
       "cells of radiance whose kept path found other light than before: the cell begins anew",
       "pixels of accumulate, svgf and its kin that no pixel of the last frame has shown",
-      "pixels that firefly has darkened: it takes their energy away"};
+      "pixels that firefly has darkened: it takes their energy away",
+      "paths that were ended after 1023 collisions inside a body, with more than 1e-4 of their "
+      "throughput left: that light is missing"};
   return meanings;
 }
 

@@ -22,18 +22,19 @@ namespace restlab {
 namespace {
 
 // Kinds of closures follow.
-const std::array<const char*, 14> kFeatureNames = {
+const std::array<const char*, 16> kFeatureNames = {
     "area_lights",       "punctual_lights", "environment", "glossy",
     "transmission",      "volume",          "textures",    "normal_maps",
     "emissive_textures", "vertex_colors",   "alpha",       "instances",
-    "smooth_normals",    "multiscatter"};
+    "smooth_normals",    "multiscatter",    "ambient",     "scattering"};
 
-static_assert((1u << kFeatureNames.size()) - 1u == rl::RL_FEATURE_GLTF);
+static_assert(((1u << kFeatureNames.size()) - 1u) ==
+              (rl::RL_FEATURE_ALL & ~rl::RL_FEATURE_CLOSURES));
 
 // Buffers of the AOV kernel, in the order of its Buffers struct.
 constexpr const char* kAovKernel = "aov";
-const std::vector<std::string> kAovNames = {"radiance", "positionW", "normalW",  "albedo",
-                                            "depth",    "object",    "emission", "motion"};
+const std::vector<std::string> kAovNames = {"radiance", "positionW", "normalW", "albedo", "depth",
+                                            "object",   "emission",  "motion",  "ambient"};
 
 // Features of general kernels: all that glTF can ask for. Of closures they have those of the scene,
 // as each lengthens every kernel.

@@ -125,10 +125,10 @@ class Session {
   // (diffuse + specular at normal incidence + transmission), depth (distance along the ray, in
   // every channel), object (1 + the index in Scene::instances, in every channel), emission
   // (radiance towards the camera), motion (to its place on the last frame's film, in pixels to the
-  // right and down, and its distance from that camera); zero where nothing is hit, except for the
-  // environment's emission and motion. Or a layer of the method (Method::layers()), its numbers in
-  // every channel. Throws Error (badUsage) with the nearest name, and if the history has no frame
-  // yet.
+  // right and down, and its distance from that camera), ambient (the part of the radiance that is
+  // ambient light); zero where nothing is hit, except for the environment's emission and motion. Or
+  // a layer of the method (Method::layers()), its numbers in every channel. Throws Error (badUsage)
+  // with the nearest name, and if the history has no frame yet.
   Image aov(const std::string& name) const;
   static const std::vector<std::string>& aovNames();  // without the layers of a method
 

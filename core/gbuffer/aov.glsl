@@ -32,9 +32,10 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     gBuffers.albedo.data[pixelIndex] = zero;
     gBuffers.depth.data[pixelIndex] = zero;
     gBuffers.object.data[pixelIndex] = zero;
+    gBuffers.ambient.data[pixelIndex] = zero;
     gBuffers.motion.data[pixelIndex] =
         aovMotion(pixel, film, ray.dir + gFrame.previousCamera.posW, false);
-    gBuffers.emission.data[pixelIndex] = environmentExists() ? environmentRadiance(ray.dir) : zero;
+    gBuffers.emission.data[pixelIndex] = skyExists(true) ? skyRadiance(ray.dir, true) : zero;
     return;
   }
   Surface s = surfaceLoad(hit, ray.dir);
@@ -45,5 +46,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   float object = float(hit.instance + 1u);
   gBuffers.object.data[pixelIndex] = vec3(object, object, object);
   gBuffers.emission.data[pixelIndex] = s.emission;
+  bool isLit = RL_HAS(RL_FEATURE_AMBIENT) && rlIsBlack(s.emission);
+  gBuffers.ambient.data[pixelIndex] = isLit ? surfaceAmbient(s) : zero;
   gBuffers.motion.data[pixelIndex] = aovMotion(pixel, film, s.posW, true);
 }

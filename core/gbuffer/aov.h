@@ -17,6 +17,7 @@ struct AovBuffers {
   Vec3Ref emission;  // radiance that the camera sees directly, of lights and of the environment
   Vec3Ref motion;    // vector to the point's place in the last frame: pixels to the right and down;
                      // metres from the last camera, 0 where nothing is hit
+  Vec3Ref ambient;   // ambient light that the surface sends on, in the radiance already
 };
 
 struct AovParams {

@@ -42,15 +42,6 @@ RL_FN TriangleW surfaceTriangle(RL_IN(Instance) inst, RL_IN(Geometry) geometry,
   return t;
 }
 
-// One texture slot of a material at a hit, white where the slot is empty.
-RL_FN_OUTLINE vec4 surfaceSlot(RL_IN(Material) material, uint slot, RL_IN(Geometry) geometry,
-                               RL_IN(uvec3) corners, RL_IN(vec2) bary) {
-  uint id = material.textures[slot];
-  if (id == RL_INVALID) return vec4(1.0f, 1.0f, 1.0f, 1.0f);
-  Texture tex = recordTexture(id);
-  return textureSample(tex, surfaceUv(geometry, corners, bary, tex.uvSet));
-}
-
 // Coverage of a hit: 1 opaque, 0 a hole.
 RL_FN_OUTLINE float surfaceAlpha(RL_IN(Hit) hit) {
   Instance inst = recordInstance(hit.instance);
@@ -174,7 +165,7 @@ RL_FN Surface surfaceNone() {
   s.nShadeW = s.nGeoW;
   s.wo = s.nGeoW;
   s.emission = zero;
-  s.sigmaAbsorption = zero;
+  s.sigmaBeyond = zero;
   s.contrast = 0.0f;
   s.light = RL_INVALID;
   s.bsdf = bsdfNone();
@@ -248,94 +239,36 @@ RL_FN Surface surfaceLoadBetween(RL_IN(Hit) hit, RL_IN(vec3) rayDir, float contr
   if (side <= 0.0f) nShade = normalize(nShade - s.nGeoW * (2.0f * side) + s.nGeoW * 1.0e-3f);
   s.nShadeW = nShade;
 
-  vec3 baseColor = material.baseColor;
-  vec3 emission = material.emission;
-  float metallic = material.metallic;
-  float roughness = material.roughness;
-  float transmission = material.transmission;
-  float specular = material.specular;
-  vec3 specularColor = material.specularColor;
-  if (RL_HAS(RL_FEATURE_TEXTURES | RL_FEATURE_EMISSIVE_TEXTURES)) {
-    uint waiting = 0u;
-    for (uint slot = 0u; slot < RL_TEX_COUNT; slot = slot + 1u) {
-      if (slot != RL_TEX_NORMAL && material.textures[slot] != RL_INVALID)
-        waiting = waiting | (1u << slot);
-    }
-    // Use one call site of texture filtering for all slots. Loop over used slots only: parallel
-    // lanes pay for every iteration of any lane.
-    while (waiting != 0u) {
-      uint slot = uint(findLSB(waiting));
-      waiting = waiting & (waiting - 1u);
-      vec4 texel = surfaceSlot(material, slot, geometry, corners, hit.bary);
-      if (slot == RL_TEX_BASE_COLOR) baseColor *= vec3(texel);
-      if (slot == RL_TEX_METALLIC_ROUGHNESS) {
-        metallic *= texel.z;
-        roughness *= texel.y;
-      }
-      if (slot == RL_TEX_EMISSIVE) emission *= vec3(texel);
-      if (slot == RL_TEX_TRANSMISSION) transmission *= texel.x;
-      if (slot == RL_TEX_SPECULAR) specular *= texel.w;
-      if (slot == RL_TEX_SPECULAR_COLOR) specularColor *= vec3(texel);
-    }
-  }
-  if (RL_HAS(RL_FEATURE_VERTEX_COLORS) && geometry.colorOffset != RL_INVALID) {
-    vec4 a = recordVec4(RL_SCENE_UVEC4(gScene.colors, geometry.colorOffset + corners.x));
-    vec4 b = recordVec4(RL_SCENE_UVEC4(gScene.colors, geometry.colorOffset + corners.y));
-    vec4 c = recordVec4(RL_SCENE_UVEC4(gScene.colors, geometry.colorOffset + corners.z));
-    baseColor *= vec3(a + hit.bary.x * (b - a) + hit.bary.y * (c - a));
-  }
+  MaterialPoint at;
+  at.firstParameter = material.firstParameter;
+  at.geometry = geometry;
+  at.corners = corners;
+  at.bary = hit.bary;
+  materialTexture(material, at);
 
   s.light = inst.firstLight == RL_INVALID ? RL_INVALID : inst.firstLight + hit.primitive;
   bool emits = isFront || (material.flags & RL_MATERIAL_DOUBLE_SIDED) != 0u;
-  s.emission = emits ? emission : vec3(0.0f, 0.0f, 0.0f);
-  if ((material.flags & RL_MATERIAL_UNLIT) != 0u) s.emission = baseColor;
-  s.sigmaAbsorption = vec3(0.0f, 0.0f, 0.0f);
+  s.emission = emits ? material.emission : vec3(0.0f, 0.0f, 0.0f);
+  if ((material.flags & RL_MATERIAL_UNLIT) != 0u) s.emission = material.baseColor;
+  s.sigmaBeyond = vec3(0.0f, 0.0f, 0.0f);
 
-  Bsdf b = bsdfNone();
-  bool scatters = (material.flags & (RL_MATERIAL_UNLIT | RL_MATERIAL_BLACK)) == 0u;
   if (RL_HAS(RL_FEATURE_CLOSURES) && material.closure != RL_CLOSURE_GLTF) {
-    s.bsdf = b;
-    if (!scatters) return s;
-    MaterialPoint at;
-    at.firstParameter = material.firstParameter;
-    at.geometry = geometry;
-    at.corners = corners;
-    at.bary = hit.bary;
+    s.bsdf = bsdfNone();
+    if ((material.flags & (RL_MATERIAL_UNLIT | RL_MATERIAL_BLACK)) != 0u) return s;
     s.bsdf.closure = material.closure;
+    s.bsdf.firstParameter = material.firstParameter;
     if ((material.flags & RL_MATERIAL_ANISOTROPIC) != 0u)
       s.bsdf.tangent = surfaceTangentAngle(inst, geometry, corners, hit.bary, t, s.nShadeW);
+#ifdef RL_KEEPS_MIXTURE
+    if (RL_HAS(RL_FEATURE_CLOSURE_MIXTURE) && mixtureIs(s.bsdf)) {
+      mixtureLoad(s.bsdf, at, hit.instance, hit.primitive);
+      return s;
+    }
+#endif
     closureLoad(s.bsdf, at);
     return s;
   }
-  b.diffuse = baseColor;
-  if (RL_HAS(RL_FEATURE_GLOSSY)) {
-    float ior = material.ior;
-    if (RL_HAS(RL_FEATURE_VOLUME) && contrast > 0.0f) ior = contrast;
-    float r = (ior - 1.0f) / (ior + 1.0f);
-    vec3 dielectricF0 = min(specularColor * (r * r), vec3(1.0f, 1.0f, 1.0f)) * specular;
-    b.f0 = dielectricF0 + (baseColor - dielectricF0) * metallic;
-    b.f90 = specular + (1.0f - specular) * metallic;
-    b.alpha = roughness * roughness;
-    b.diffuse = baseColor * ((1.0f - metallic) * (1.0f - transmission));
-    bool isDelta = b.alpha < RL_ALPHA_FLOOR;
-    if (scatters && b.f90 > 0.0f && !rlIsBlack(b.f0)) {
-      b.lobes = isDelta ? RL_LOBE_SPECULAR_DELTA : RL_LOBE_SPECULAR;
-    }
-    // An index of 0 stands for full reflection: there is no direction to refract to.
-    bool canTransmit = transmission > 0.0f && metallic < 1.0f && ior > 0.0f;
-    if (RL_HAS(RL_FEATURE_TRANSMISSION) && scatters && canTransmit) {
-      b.transmission = baseColor * ((1.0f - metallic) * transmission);
-      bool isThin = (material.flags & RL_MATERIAL_THIN) != 0u;
-      // No contrast of indices: nothing is reflected, bent or blurred, however rough the surface.
-      bool isClear = abs(ior - 1.0f) < RL_CLEAR_CONTRAST;
-      b.lobes |= isDelta || isClear ? RL_LOBE_TRANSMISSION_DELTA : RL_LOBE_TRANSMISSION;
-      if (isThin || isClear) b.lobes |= RL_LOBE_THIN;
-      b.eta = isFront || isThin ? ior : 1.0f / ior;
-    }
-    if (isDelta && (b.lobes & RL_LOBE_ANY_DELTA) != 0u) RL_HEALTH(RL_HEALTH_DELTA_LOBES);
-  }
-  if (scatters && !rlIsBlack(b.diffuse)) b.lobes |= RL_LOBE_DIFFUSE;
-  s.bsdf = b;
+  s.bsdf = materialLobes(material, isFront, contrast);
   return s;
 }
 
@@ -356,7 +289,7 @@ RL_FN Surface surfaceAt(RL_IN(SurfaceId) id, RL_IN(vec3) wo) {
 // Absorption (m^-1) along a ray that leaves a surface towards dirW: that of the medium through
 // which the surface was reached, or, on the other side, of the medium beyond.
 RL_FN vec3 surfaceSigma(RL_IN(Surface) s, RL_IN(vec3) sigmaReached, RL_IN(vec3) dirW) {
-  return dot(s.nGeoW, dirW) >= 0.0f ? sigmaReached : s.sigmaAbsorption;
+  return dot(s.nGeoW, dirW) >= 0.0f ? sigmaReached : s.sigmaBeyond;
 }
 
 // Origin of a ray that leaves a surface towards dirW: moved off the plane by the error bound, to
@@ -371,4 +304,9 @@ RL_FN vec3 surfaceOffset(RL_IN(vec3) posW, RL_IN(vec3) nGeoW, float posError, RL
 RL_FN vec3 surfaceSegmentEnd(RL_IN(vec3) posW, RL_IN(vec3) nGeoW, float posError, float originError,
                              RL_IN(vec3) dirW) {
   return surfaceOffset(posW, nGeoW, max(posError, originError), dirW);
+}
+
+// Radiance that a surface sends on of the light that comes from everywhere (SceneData::ambient).
+RL_FN vec3 surfaceAmbient(RL_IN(Surface) s) {
+  return gScene.ambient * min(bsdfAlbedo(s.bsdf), vec3(1.0f, 1.0f, 1.0f));
 }

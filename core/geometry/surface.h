@@ -32,9 +32,9 @@ struct Surface {
   vec3 nShadeW;    // unit, dot(nShadeW, nGeoW) > 0
   vec3 wo;         // unit, towards where the ray came from
   vec3 emission;   // radiance towards wo
-  vec3 sigmaAbsorption;  // m^-1 beyond the surface, for rays that cross it; set by the walk
-  float contrast;  // index of refraction inside over outside where the outside is not air; else 0
-  uint light;      // index in the light table, RL_INVALID where it does not emit
+  vec3 sigmaBeyond;  // m^-1, extinction beyond the surface, for rays that cross it; set by the walk
+  float contrast;    // index of refraction inside over outside where the outside is not air; else 0
+  uint light;        // index in the light table, RL_INVALID where it does not emit
   Bsdf bsdf;
 };
 

@@ -62,6 +62,8 @@ RL_FN bool pathReconnects(RL_IN(PathReplay) q, RL_IN(PathSample) path, RL_IN(Lig
 // The predicate for a vertex that the walk has reached.
 RL_FN bool pathConnects(RL_IN(PathConnector) before, RL_IN(Walk) walk, RL_IN(Surface) s) {
   if (before.isRough == 0u || !pathIsRough(s)) return false;
+  // Light that a medium scatters does not travel straight between the two.
+  if (RL_HAS(RL_FEATURE_SCATTERING) && walk.isScattered != 0u) return false;
   vec3 d = s.posW - before.posW;
   return pathIsWide(before, shiftGeometryTerm(s.posW, s.nGeoW, before.posW), dot(d, d),
                     walk.pdfBsdf);

@@ -215,7 +215,8 @@ RL_FN void onEmission(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(Surface) s
     return;
   }
   if (pathAddReplay(p, walk, s.emission, pdfLight)) return;
-  if (pathIsAtX2(p, walk) && pathCanName(s.light)) {
+  bool isScattered = RL_HAS(RL_FEATURE_SCATTERING) && walk.isScattered != 0u;
+  if (pathIsAtX2(p, walk) && pathCanName(s.light) && !isScattered) {
     p.alphaTransmittanceX1 = walk.passed;
     float cosLight = abs(dot(s.nGeoW, walk.ray.dir));
     float geometry = cosLight / (hit.t * hit.t);
@@ -255,18 +256,20 @@ RL_FN void onMedium(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(vec3) transm
   p.suffixThroughput *= transmittance;
 }
 
-// Returns whether no path is reconnected at this x2: its id does not tell the bodies beside it.
-RL_FN bool pathIsBetweenBodies(RL_IN(Surface) x2) {
+// Returns whether no path is reconnected at this x2: its id does not tell the bodies beside it, or
+// the light that it sends to x1 does not travel straight.
+RL_FN bool pathIsBetweenBodies(RL_IN(Walk) walk, RL_IN(Surface) x2) {
 #ifdef RL_DIRECT_ONLY
   return true;
 #else
-  return RL_HAS(RL_FEATURE_VOLUME) && x2.contrast > 0.0f;
+  bool isScattered = RL_HAS(RL_FEATURE_SCATTERING) && walk.isScattered != 0u;
+  return isScattered || (RL_HAS(RL_FEATURE_VOLUME) && x2.contrast > 0.0f);
 #endif
 }
 
 // At x2, the radiance leaves in every direction, as from a Lambert surface.
 RL_FN void onEnd(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(Surface) s, RL_IN(vec3) radiance) {
-  bool isApart = pathIsBetweenBodies(s);
+  bool isApart = pathIsBetweenBodies(walk, s);
 #ifdef RL_PATH_REPLAYS
   if (pathHasLeftX1(p, walk)) isApart = !pathConnects(p.connector, walk, s);
 #endif
@@ -346,7 +349,7 @@ RL_FN uint onVertex(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_INOUT(Surface) 
   }
   if (pathHasLeftX1(p, walk)) {
     p.alphaTransmittanceX1 = walk.passed;
-    if (pathIsBetweenBodies(s)) p.isX2Unresampled = 1u;
+    if (pathIsBetweenBodies(walk, s)) p.isX2Unresampled = 1u;
   }
   return pathIsAtX1(p, walk) ? gParams.path.lightCandidates : 1u;
 #endif

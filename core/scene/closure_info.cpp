@@ -24,15 +24,20 @@ void ClosureInfo::choice(const char* parameter, std::vector<std::string> choices
   parameters.push_back(
       {parameter, ClosureParameter::Kind::choice, 0.0, 0.0, last, std::move(choices), help});
 }
+void ClosureInfo::table(const char* parameter, const char* help) {
+  parameters.push_back(
+      {parameter, ClosureParameter::Kind::table, 0.0, 0.0, 0.0, {}, help, /*isOptional=*/false});
+}
+void ClosureInfo::material(const char* parameter, bool isOptional, const char* help) {
+  parameters.push_back(
+      {parameter, ClosureParameter::Kind::material, 0.0, 0.0, 0.0, {}, help, isOptional});
+}
 void ClosureInfo::breaks(std::vector<std::string> laws, const char* parameter, const char* value) {
   brokenLaws = std::move(laws);
   brokenWhere = parameter;
   brokenIf = value;
 }
-void ClosureInfo::convex(const char* one, const char* other) {
-  convexOne = one;
-  convexOther = other;
-}
+void ClosureInfo::convex(std::vector<std::string> parts) { convexParts = std::move(parts); }
 void ClosureInfo::looksAtTangent(const char* parameter) { anisotropicWhere = parameter; }
 
 namespace {

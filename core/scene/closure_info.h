@@ -9,13 +9,15 @@
 namespace restlab {
 
 struct ClosureParameter {
-  enum class Kind { color, number, choice };
+  enum class Kind { color, number, choice, table, material };
   std::string name;
   Kind kind = Kind::number;
-  double fallback = 0.0;      // of a color: of each channel; of a choice: the index
+  double fallback = 0.0;      // of a color: of each channel; of a choice: the index; tables and
+                              // materials have none
   double lo = 0.0, hi = 1.0;  // inclusive, of each channel
   std::vector<std::string> choices{};
   std::string help;
+  bool isOptional = true;  // false: a table or material that has to be named
 };
 
 struct ClosureInfo {
@@ -29,8 +31,8 @@ struct ClosureInfo {
   // some of its parameters).
   std::vector<std::string> brokenLaws;
   std::string brokenWhere, brokenIf;
-  // Two colours whose sum is at most 1: the albedos of a convex mixture.
-  std::string convexOne, convexOther;
+  // Colours or numbers whose sum is at most 1: the parts of a convex mixture.
+  std::vector<std::string> convexParts;
   std::string anisotropicWhere;  // a number that, above 0, makes the closure look at the tangent
 
   // For the closures' files (under RL_CLOSURE_DECLARED).
@@ -38,8 +40,10 @@ struct ClosureInfo {
   void color(const char* parameter, double fallback, const char* help, double most = 1.0);
   void number(const char* parameter, double fallback, double lo, double hi, const char* help);
   void choice(const char* parameter, std::vector<std::string> choices, const char* help);
+  void table(const char* parameter, const char* help);
+  void material(const char* parameter, bool isOptional, const char* help);
   void breaks(std::vector<std::string> laws, const char* parameter = "", const char* value = "");
-  void convex(const char* one, const char* other);
+  void convex(std::vector<std::string> parts);
   void looksAtTangent(const char* parameter);
 };
 

@@ -116,7 +116,8 @@ Scene loadScene(const std::string& nameOrPath) {
   if (nameOrPath.empty()) failInput("scene: the name is empty; a built-in or a path expected");
   const std::vector<std::string>& builtins = builtinSceneNames();
   if (isBuiltinScene(nameOrPath)) return makeBuiltinScene(nameOrPath);
-  const fs::path path(nameOrPath);
+  const auto [name, settings] = splitSceneSettings(nameOrPath);
+  const fs::path path(name);
   std::vector<fs::path> folders = {""};
   if (path.is_relative()) {
     if (const char* scenes = std::getenv("RESTLAB_SCENES"); scenes && *scenes) {
@@ -128,8 +129,15 @@ Scene loadScene(const std::string& nameOrPath) {
   std::string tried, namesake;
   for (const fs::path& folder : folders) {
     const fs::path candidate = folder / path;
-    if (const fs::path file = resolve(candidate); !file.empty())
-      return isSceneFile(file) ? loadSceneFile(file) : loadGltf(file);
+    if (const fs::path file = resolve(candidate); !file.empty()) {
+      if (isSceneFile(file)) return loadSceneFile(file, settings);
+      if (!settings.empty())
+        failInput(
+            fmt::format("{}: only built-in scenes and scene files (.scene.toml) take "
+                        "settings behind a '?'",
+                        nameOrPath));
+      return loadGltf(file);
+    }
     tried += (tried.empty() ? "" : ", ") + candidate.string();
     const fs::path parent = candidate.parent_path();
     collectNames(parent.empty() ? "." : parent, path.parent_path(), near);

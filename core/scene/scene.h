@@ -6,11 +6,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/dialect/types.h"
+#include "core/scene/closure_table/closure_table.h"
 
 namespace restlab {
 
@@ -52,15 +54,22 @@ struct TextureUse {
 
 // The value of one parameter of a closure (core/scene/closure_info.h).
 struct ClosureValue {
-  glm::uvec3 words{0u};               // bits of a colour, of a number (x), or the index of a choice
+  // Bits of a colour or of a number (x); the index of a choice, or of a material in
+  // Scene::materials (RL_INVALID: none).
+  glm::uvec3 words{0u};
   uint32_t texture = rl::RL_INVALID;  // index into Scene::textureUses: multiplies the value
   uint32_t channel = 0;               // of the texture, for a number: 0 to 3
+  uint32_t table = rl::RL_INVALID;    // index into Scene::tables: in place of words
 };
 
 struct SceneMaterial {
   std::string name;
   rl::Material data{};                  // data.textures[] index Scene::textureUses
   std::vector<ClosureValue> closure{};  // parameters of data.closure, as its file orders them
+  // Scattering inside of a body: m^-1, and the mean cosine of the angles; data.sigmaAbsorption is
+  // beside it.
+  glm::vec3 sigmaScattering{0.0f};
+  float phase = 0.0f;
   float lightFactor = 1.0f;  // factor on data.emission (core/scene/compiled/light_factor.h)
   int priority = 0;          // among overlapping bodies, the greatest fills the place
 };
@@ -83,8 +92,9 @@ struct PunctualLight {
   std::string name;
   uint32_t kind = rl::RL_LIGHT_POINT;
   glm::dvec3 posW{0.0};
-  glm::dvec3 dirW{0.0, 0.0, -1.0};  // direction of travel (spot, directional)
-  glm::vec3 intensity{1.0f};        // W/sr (point, spot), W/m^2 (directional)
+  glm::dvec3 dirW{0.0, 0.0, -1.0};          // direction of travel (spot, directional)
+  glm::vec3 intensity{1.0f};                // W/sr (point, spot), W/m^2 (directional)
+  glm::vec3 attenuation{0.0f, 0.0f, 1.0f};  // of points: 1 / (x + y r + z r^2), r in metres
   float innerConeAngle = 0.0f, outerConeAngle = 0.785398f;  // radians
   float lightFactor = 1.0f;  // factor on the intensity (core/scene/compiled/light_factor.h)
 };
@@ -108,14 +118,20 @@ struct Scene {
   std::vector<SceneMaterial> materials;
   std::vector<TextureUse> textureUses;
   std::vector<TextureImage> images;
+  std::vector<std::shared_ptr<const ClosureTable>> tables;
   std::vector<SceneCamera>
       cameras;              // never empty after loading: one is made when the file has none
   uint32_t mainCamera = 0;  // its view is the most precise (core/scene/compiled/scene_origin.h)
   std::vector<PunctualLight> lights;
   std::optional<EnvironmentMap> environment;
-  std::vector<std::string> warnings;  // one line each, printed by the program
-  uint64_t contentHash = 0;           // hash of every byte the scene was made from
-  size_t skippedPrimitives = 0;       // number of points and lines
+  // Radiance that comes from everywhere and that nothing shadows: every surface that does not emit
+  // sends it on, times its approximate albedo.
+  glm::vec3 ambient{0.0f};
+  float ambientFactor = 1.0f;           // core/scene/compiled/light_factor.h
+  std::optional<glm::vec3> background;  // radiance that the camera sees where it sees nothing
+  std::vector<std::string> warnings;    // one line each, printed by the program
+  uint64_t contentHash = 0;             // hash of every byte the scene was made from
+  size_t skippedPrimitives = 0;         // number of points and lines
 };
 
 // Imports a glTF 2.0 file (.gltf or .glb). Throws Error (badInput) with one line.

@@ -4,6 +4,8 @@ target_sources(rl_core PRIVATE
   scene/camera_path/camera_path_check.cpp
   scene/camera_path/camera_path_config.cpp
   scene/closure_info.cpp
+  scene/closure_table/closure_table.cpp
+  scene/closure_table/table_files.cpp
   scene/content_hash.cpp
   scene/textures/cube_map.cpp
   scene/textures/environment.cpp
@@ -35,6 +37,7 @@ add_library(rl_scene_files OBJECT
   scene/gltf/accessor.cpp
   scene/gltf/attributes.cpp
   scene/gltf/cameras_lights.cpp
+  scene/gltf/closures.cpp
   scene/gltf/container.cpp
   scene/gltf/document.cpp
   scene/gltf/extensions.cpp

@@ -184,8 +184,8 @@ RL_FN BsdfSample bsdfClosureSample(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) 
   return s;
 }
 
-RL_FN vec3 bsdfEvalAndPdf(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(vec3) wo,
-                          RL_IN(vec3) wi, RL_OUT(float) pdf) {
+RL_FN vec3 bsdfEvalAndPdfOfOne(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(vec3) wo,
+                               RL_IN(vec3) wi, RL_OUT(float) pdf) {
   if (bsdfIsClosure(b)) return bsdfClosureEvalAndPdf(b, nGeo, nShade, wo, wi, pdf);
   if (!RL_HAS(RL_FEATURE_GLOSSY)) {
     pdf = 0.0f;
@@ -201,6 +201,37 @@ RL_FN vec3 bsdfEvalAndPdf(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, R
   return bsdfSumLocal(b, woL, wiL, mirroredL, pdf);
 }
 
+#ifdef RL_KEEPS_MIXTURE
+// Sums over the materials of a mixture, with one call site for all.
+RL_FN vec3 bsdfEvalAndPdf(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(vec3) wo,
+                          RL_IN(vec3) wi, RL_OUT(float) pdf) {
+  if (!RL_HAS(RL_FEATURE_CLOSURE_MIXTURE)) return bsdfEvalAndPdfOfOne(b, nGeo, nShade, wo, wi, pdf);
+  bool isMixture = mixtureIs(b);
+  vec3 f = vec3(0.0f, 0.0f, 0.0f);
+  pdf = 0.0f;
+  for (uint i = 0u; i < (isMixture ? RL_MIXTURE_COUNT : 1u); i = i + 1u) {
+    Bsdf part = b;
+    float share = 1.0f;
+    float pick = 1.0f;
+    if (isMixture) {
+      share = mixtureWord(b.p0, i);
+      pick = mixtureWord(b.p3, i);
+      if (!(share > 0.0f)) continue;
+      part = mixtureMaterial(b, i);
+    }
+    float partPdf;
+    f += bsdfEvalAndPdfOfOne(part, nGeo, nShade, wo, wi, partPdf) * share;
+    pdf += pick * partPdf;
+  }
+  return f;
+}
+#else
+RL_FN vec3 bsdfEvalAndPdf(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(vec3) wo,
+                          RL_IN(vec3) wi, RL_OUT(float) pdf) {
+  return bsdfEvalAndPdfOfOne(b, nGeo, nShade, wo, wi, pdf);
+}
+#endif
+
 RL_FN vec3 bsdfEval(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(vec3) wo,
                     RL_IN(vec3) wi) {
   float pdf;
@@ -214,9 +245,8 @@ RL_FN float bsdfPdf(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(v
   return pdf;
 }
 
-// uLobe chooses the lobe, u the direction. lobe 0: absorbed.
-RL_FN BsdfSample bsdfSample(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(vec3) wo,
-                            float uLobe, RL_IN(vec2) u) {
+RL_FN BsdfSample bsdfSampleOfOne(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade,
+                                 RL_IN(vec3) wo, float uLobe, RL_IN(vec2) u) {
   if (bsdfIsClosure(b)) return bsdfClosureSample(b, nGeo, nShade, wo, uLobe, u);
   BsdfSample result = bsdfSampleNone();
   result.wi = nShade;
@@ -304,6 +334,37 @@ RL_FN BsdfSample bsdfSample(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade,
   result.weight = f * (1.0f / pdf);
   result.lobe = lobe;
   return result;
+}
+
+// uLobe chooses the lobe (of a mixture the material as well), u the direction. lobe 0: absorbed.
+RL_FN BsdfSample bsdfSample(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(vec3) wo,
+                            float uLobe, RL_IN(vec2) u) {
+#ifdef RL_KEEPS_MIXTURE
+  Bsdf part = b;
+  float ofLobe = uLobe;
+  uint i = 0u;
+  bool isMixture = RL_HAS(RL_FEATURE_CLOSURE_MIXTURE) && mixtureIs(b);
+  if (isMixture) {
+    i = mixturePick(b, ofLobe);
+    part = mixtureMaterial(b, i);
+  }
+  BsdfSample s = bsdfSampleOfOne(part, nGeo, nShade, wo, ofLobe, u);
+  if (!isMixture || s.lobe == 0u) return s;
+  if ((s.lobe & RL_LOBE_ANY_DELTA) != 0u) {
+    float pick = mixtureWord(b.p3, i);
+    s.pdfSolidAngle *= pick;
+    s.weight *= mixtureWord(b.p0, i) / pick;
+    return s;
+  }
+  float pdf;
+  vec3 f = bsdfEvalAndPdf(b, nGeo, nShade, wo, s.wi, pdf);
+  if (!(pdf > 0.0f)) return bsdfSampleNone();
+  s.pdfSolidAngle = pdf;
+  s.weight = f * (1.0f / pdf);
+  return s;
+#else
+  return bsdfSampleOfOne(b, nGeo, nShade, wo, uLobe, u);
+#endif
 }
 
 // Returns whether the BSDF is Lambert alone: the light it sends does not depend on the direction.

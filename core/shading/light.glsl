@@ -33,6 +33,7 @@ RL_FN LightSample lightPoint(uint record, RL_IN(Light) light, RL_IN(vec2) bary, 
   s.posError = 0.0f;
   s.cone = vec2(light.e2.x, light.e2.y);
   if (light.kind == RL_LIGHT_SPOT) s.normal = light.e1;
+  if (light.kind == RL_LIGHT_POINT) s.normal = light.e2;
   s.isTwoSided = 0u;
   s.id.instance = light.instance;
   s.id.primitive = light.primitive;
@@ -115,7 +116,9 @@ RL_FN LightConnection lightConnect(RL_IN(LightSample) s, RL_IN(vec3) posW) {
   }
   c.isDelta = true;
   c.pdfSolidAngle = 0.0f;
-  c.emitted = c.emitted * rlSafeDivide(1.0f, d2);
+  float fall = d2;
+  if (s.kind == RL_LIGHT_POINT) fall = s.normal.x + s.normal.y * c.distance + s.normal.z * d2;
+  c.emitted = c.emitted * rlSafeDivide(1.0f, fall);
   if (s.kind == RL_LIGHT_SPOT) {
     float falloff = clamp(-dot(c.dirW, s.normal) * s.cone.x + s.cone.y, 0.0f, 1.0f);
     c.emitted = c.emitted * (falloff * falloff);

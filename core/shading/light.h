@@ -14,7 +14,8 @@ struct LightSample {
   vec3 point;   // world position; a unit direction to the light where kind is directional or
                 // environment
   uint kind;    // RL_LIGHT_*
-  vec3 normal;  // triangle: unit normal of the emitting side; spot: direction of travel
+  vec3 normal;  // triangle: unit normal of the emitting side; spot: direction of travel; point:
+                // attenuation 1 / (x + y r + z r^2)
   float
       pdf;  // selection included: per area (triangle), per solid angle (environment), discrete else
   vec3 radiance;   // W sr^-1 m^-2; W/sr for points (spot falloff depends on the receiver's

@@ -10,10 +10,15 @@
 
 RL_FN uvec4 mediaNone() { return uvec4(0u, 0u, 0u, 0u); }
 
-// Absorption (m^-1) and index of refraction of the body of a rank; 0: air.
+// Extinction (m^-1) and index of refraction of the body of a rank; 0: air.
 RL_FN vec4 mediaOfRank(uint rank) {
   if (rank == 0u) return vec4(0.0f, 0.0f, 0.0f, 1.0f);
-  return recordVec4(RL_SCENE_UVEC4(gScene.bodies, rank));
+  return recordVec4(RL_SCENE_UVEC4(gScene.bodies, 2u * rank));
+}
+// Its scattering (m^-1), and the mean cosine of the angles that it scatters by.
+RL_FN vec4 mediaScattering(uint rank) {
+  if (rank == 0u) return vec4(0.0f, 0.0f, 0.0f, 0.0f);
+  return recordVec4(RL_SCENE_UVEC4(gScene.bodies, 2u * rank + 1u));
 }
 
 RL_FN bool mediaContains(RL_IN(uvec4) media, uint rank) {
@@ -123,4 +128,17 @@ RL_FN bool mediaPasses(uint rank, RL_IN(Hit) hit) {
   if (rank == 0u) return false;
   uint other = mediaRank(hit);
   return other != 0u && other < rank;
+}
+
+// A direction that light from `dirW` is scattered to, with the density of the phase function of
+// Henyey and Greenstein (1941). g: mean cosine, -1 to 1.
+RL_FN vec3 mediaPhaseDraw(RL_IN(vec3) dirW, float g, RL_IN(vec2) u) {
+  float cosTheta = 1.0f - 2.0f * u.x;
+  if (abs(g) > 1.0e-3f) {
+    float ratio = (1.0f - g * g) / (1.0f + g - 2.0f * g * u.x);
+    cosTheta = clamp((1.0f + g * g - ratio * ratio) / (2.0f * g), -1.0f, 1.0f);
+  }
+  float sinTheta = sqrt(1.0f - cosTheta * cosTheta);
+  vec2 cs = rlCosSin2Pi(u.y);
+  return frameToWorld(dirW, vec3(sinTheta * cs.x, sinTheta * cs.y, cosTheta));
 }

@@ -11,7 +11,8 @@
 //       environment. pdfLight: solid-angle density of light sampling for the ray; 0 if light
 //       sampling does not compete
 //   onEmission(state, walk, surface, hit, pdfLight) the ray hit an emitter, s.emission towards it
-//   onMedium(state, walk, transmittance)        transmittance of a medium, up to the next vertex
+//   onMedium(state, walk, factor)        transmittance of a medium up to the next vertex, or, in a
+//       medium that scatters, what a stretch multiplies the throughput by
 //   onVertex(state, walk, surface)              a vertex that scatters, before anything is
 //       drawn; returns how many light samples are drawn there, or RL_WALK_ENDS
 //   onEnd(state, walk, surface, radiance)  before onVertex: the path ends here, in something that
@@ -79,6 +80,48 @@ RL_FN void walkScatter(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk, RL_IN
   }
   walk.ray.origin = surfaceOffset(s.posW, s.nGeoW, s.posError, draw.wi);
   walk.ray.dir = draw.wi;
+  walk.isScattered = 0u;
+}
+
+// Where the ray travels in a medium that scatters: draws whether it collides before `distance`, and
+// if so, moves the walk to the collision and turns it. Distances are drawn for one channel, which
+// is chosen by the light that it would scatter, and weighed by all three (spectral MIS; Wilkie et
+// al. 2014). A light sample from a collision would meet the surface of the body, so none is drawn.
+RL_FN bool walkCollides(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk, float distance) {
+  vec4 medium = mediaScattering(walk.media.x);
+  vec3 scattering = vec3(medium);
+  if (rlIsBlack(scattering)) return false;
+  walk.isScattered = 1u;
+  vec3 share = walk.throughput * scattering;
+  float total = share.x + share.y + share.z;
+  if (!(total > 0.0f)) return false;
+  share = share * (1.0f / total);
+  Rng rng = walk.rng;
+  rng.vertex = rng.vertex + RL_VERTEX_COLLISION * (1u + walk.collisions);
+  float uChannel = rngDraw(rng, RL_DIM_COLLISION_CHANNEL);
+  float sigma = uChannel < share.x             ? walk.sigma.x
+                : uChannel < share.x + share.y ? walk.sigma.y
+                                               : walk.sigma.z;
+  float free = -log(1.0f - rngDraw(rng, RL_DIM_COLLISION_DISTANCE)) / sigma;
+  vec3 passes = exp(-walk.sigma * min(free, distance));
+  bool collides = free < distance;
+  vec3 density = collides ? walk.sigma * passes : passes;
+  vec3 factor = (collides ? scattering * passes : passes) * rlSafeDivide(1.0f, dot(share, density));
+  walk.throughput *= factor;
+  onMedium(state, walk, factor);
+  if (!collides) return false;
+  vec2 u;
+  u.x = rngDraw(rng, RL_DIM_PHASE_U);
+  u.y = rngDraw(rng, RL_DIM_PHASE_V);
+  walk.ray.origin += walk.ray.dir * free;
+  walk.ray.dir = mediaPhaseDraw(walk.ray.dir, medium.w, u);
+  walk.pdfBsdf = 0.0f;
+  walk.collisions = walk.collisions + 1u;
+  if (walk.collisions >= RL_MOST_COLLISIONS) {
+    walk.isAlive = 0u;
+    if (rlMax3(walk.throughput) > 1.0e-4f) RL_HEALTH(RL_HEALTH_LONG_WALKS);
+  }
+  return true;
 }
 
 // Starts a path with a ray, after `bounces` scattering events.
@@ -95,6 +138,8 @@ RL_FN Walk walkBegin(RL_IN(Rng) rng, uint film, RL_IN(Ray) ray, uint bounces) {
   walk.pdfBsdf = 0.0f;
   walk.rouletteStart = gFrame.rouletteStart;
   walk.passed = 1.0f;
+  walk.isScattered = 0u;
+  walk.collisions = 0u;
   walk.isAlive = 1u;
   return walk;
 }
@@ -126,12 +171,17 @@ RL_FN void walkOn(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk) {
     hasShadowRay = false;
 
     if (hit.instance == RL_INVALID) {
-      if (environmentExists() && walkWants(walk.bounces)) {
-        vec3 radiance = environmentRadiance(walk.ray.dir);
+      bool isInView = walk.bounces == 0u;
+      if (skyExists(isInView) && walkWants(walk.bounces)) {
+        vec3 radiance = skyRadiance(walk.ray.dir, isInView);
         float pdfLight = walk.pdfBsdf > 0.0f ? lightPdfOfEnvironment(walk.ray.dir) : 0.0f;
         onMiss(state, walk, radiance, pdfLight);
       }
       break;
+    }
+    if (RL_HAS(RL_FEATURE_SCATTERING) && walkCollides(state, walk, hit.t)) {
+      walk.passedT = 0.0f;
+      continue;
     }
     MediaCrossing crossing;
     crossing.behind = walk.media;
@@ -141,7 +191,7 @@ RL_FN void walkOn(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk) {
     if (RL_HAS(RL_FEATURE_VOLUME)) crossing = mediaCross(walk.media, walk.ray, hit);
     Surface s = surfaceLoadBetween(hit, walk.ray.dir, crossing.contrast);
     if (RL_HAS(RL_FEATURE_VOLUME)) {
-      s.sigmaAbsorption = vec3(mediaOfRank(crossing.behind.x));
+      s.sigmaBeyond = vec3(mediaOfRank(crossing.behind.x));
       if (crossing.isTouching != 0u) s.posError *= 3.0f;
       // Not a surface: the ray goes on. Absorption is applied at the surface where the ray ends.
       if (crossing.isSurface == 0u) {
@@ -152,15 +202,23 @@ RL_FN void walkOn(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk) {
       }
       hit.t += walk.passedT;
       walk.passedT = 0.0f;
-      vec3 transmittance = exp(-walk.sigma * hit.t);
-      walk.throughput *= transmittance;
-      onMedium(state, walk, transmittance);
+      if (!RL_HAS(RL_FEATURE_SCATTERING) || walk.isScattered == 0u) {
+        vec3 transmittance = exp(-walk.sigma * hit.t);
+        walk.throughput *= transmittance;
+        onMedium(state, walk, transmittance);
+      }
     }
     if (!rlIsBlack(s.emission) && walkWants(walk.bounces)) {
       float pdfLight = 0.0f;
       if (walk.pdfBsdf > 0.0f && s.light != RL_INVALID)
         pdfLight = lightPdfOfHit(s.light, s.nGeoW, walk.ray.dir, hit.t);
       onEmission(state, walk, s, hit, pdfLight);
+    } else if (RL_HAS(RL_FEATURE_AMBIENT) && rlIsBlack(s.emission) &&
+               walk.bounces < gFrame.maxBounces && walkWants(walk.bounces + 1u)) {
+      // A scattering event of its own, whose light no ray has to look for.
+      s.emission = surfaceAmbient(s);
+      if (!rlIsBlack(s.emission)) onEmission(state, walk, s, hit, 0.0f);
+      s.emission = vec3(0.0f, 0.0f, 0.0f);
     }
     if (walk.bounces >= gFrame.maxBounces || bsdfIsBlack(s.bsdf)) break;
     walk.rng.vertex = walk.bounces + 1u;

@@ -15,14 +15,19 @@ struct Walk {
   uint bounces;     // scattering events before that ray
   vec3 throughput;  // up to the ray's origin: product of f |cos| / pdf of all events
   uvec4 media;      // bodies that the ray travels in (core/transport/media.glsl)
-  vec3 sigma;       // m^-1, absorption of the medium that the ray travels in
+  vec3 sigma;       // m^-1, extinction of the medium that the ray travels in
   float passedT;    // metres travelled before the ray's origin, since the last real surface
   float
       pdfBsdf;  // solid-angle density of the ray; 0: camera or delta lobe, no light sample competes
   uint rouletteStart;  // first scattering event that may end the path by Russian roulette
   float passed;        // traceRay() of the ray: below 1 it may have passed something transparent
+  uint isScattered;    // 1: the ray travels, since the last surface, in a medium that scatters
+  uint collisions;     // scattering events in media so far; they are no `bounces`
   uint isAlive;        // 0: absorbed, or ended by Russian roulette
 };
+
+// Collisions after which a path is ended, and counted (RL_HEALTH_LONG_WALKS).
+const uint RL_MOST_COLLISIONS = 1023u;
 
 // Returned by onVertex() to end the path.
 const uint RL_WALK_ENDS = 0xffffffffu;

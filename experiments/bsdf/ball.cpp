@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "core/frame/session.h"
 #include "core/scene/builtin/builder.h"
 #include "core/scene/builtin/mesh.h"
@@ -11,6 +13,8 @@ using builtin::lambert;
 
 Scene ballScene(const SceneMaterial& material, const Scene& images) {
   builtin::SceneBuilder builder("ball");
+  // Parts of mixtures, by their index.
+  for (const SceneMaterial& part : images.materials) builder.addMaterial(part.name, part.data);
   const uint32_t ball = builder.addMaterial("ball", material.data);
   builder.add(builtin::sphere("ball", {0.0, 1.0, 0.0}, 1.0, 5), ball);
   builder.add(builtin::quad("floor", {-6.0, 0.0, 6.0}, {12.0, 0.0, 0.0}, {0.0, 0.0, -12.0}),
@@ -29,6 +33,8 @@ Scene ballScene(const SceneMaterial& material, const Scene& images) {
   Scene scene = builder.finish();
   scene.images = images.images;
   scene.textureUses = images.textureUses;
+  scene.tables = images.tables;
+  std::copy(images.materials.begin(), images.materials.end(), scene.materials.begin());
   scene.materials[ball] = material;
   return scene;
 }

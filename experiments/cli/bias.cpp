@@ -69,8 +69,6 @@ std::vector<std::string> imagesLike(const std::string& pattern) {
   return files;
 }
 
-bool isSuite(const std::string& name) { return std::filesystem::path(name).extension() == ".toml"; }
-
 // `name`: of the folder of results if --out is not given.
 certificate::Options certificateOptions(const BiasOptions& options, const std::string& name) {
   certificate::Options result;

@@ -6,13 +6,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "core/base/config.h"
 #include "core/base/error.h"
 #include "core/image/image.h"
 #include "core/image/io/atomic_file.h"
-#include "core/scene/scene_file/scene_file.h"
 #include "experiments/bsdf/laws.h"
 #include "experiments/bsdf/polar.h"
+#include "experiments/bsdf/tested_material.h"
+#include "experiments/cli/bsdf_tables.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/base/print.h"
 
@@ -23,32 +23,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-constexpr uint32_t kBallSize = 256, kBallSpp = 256;
-
-struct BsdfOptions {
-  std::string kind;
-  std::vector<std::string> settings;
-  std::string output;
-  uint64_t samples = 1'000'000;
-  bool json = false;
-};
-
-// A [[material]] table of one kind with settings.
-Scattering scatteringOf(const BsdfOptions& options, Scene& images) {
-  std::vector<std::string> names;
-  for (const MaterialKind& kind : materialKinds()) names.push_back(kind.name);
-  if (std::find(names.begin(), names.end(), options.kind) == names.end())
-    failUsage(fmt::format("bsdf {}: unknown kind of material; one of {}{}", options.kind,
-                          fmt::join(names, ", "), didYouMean(options.kind, names)));
-  ConfigTable table = ConfigTable::parseText(
-      fmt::format("name = \"{0}\"\nkind = \"{0}\"\n", options.kind), "bsdf " + options.kind);
-  for (const std::string& setting : options.settings) {
-    const auto [key, value] = splitAssignment(setting);
-    table.assign(key, value, "--set " + setting);
-  }
-  SceneFileTextures textures(fs::current_path(), images);
-  return readScattering(table, textures);
-}
+constexpr uint32_t kBallSpp = 256;
 
 // The laws that the file of a closure says it breaks, with these settings.
 std::vector<std::string> declaredBroken(const Scattering& scattering) {
@@ -123,14 +98,9 @@ std::string textOf(const Json& json) {
 
 // Checks one kind, writes its files, and returns the figures.
 Json checked(const BsdfOptions& options, const std::string& fileName) {
-  Scene images;
-  const Scattering scattering = scatteringOf(options, images);
-  SceneMaterial material;
-  material.name = options.kind;
-  material.data.alpha = 1.0f;
-  std::fill(std::begin(material.data.textures), std::end(material.data.textures), rl::RL_INVALID);
-  scatterAs(scattering, material);
-  const BsdfProbe probe(material, images);
+  const TestedMaterial tested = testedMaterial(options.kind, options.settings);
+  const Scattering& scattering = tested.scattering;
+  const BsdfProbe probe(tested.material, tested.inputs);
   const BsdfLaws laws = checkLaws(probe, options.samples);
   Json json = lawsJson(scattering, laws, declaredBroken(scattering));
   if (options.output.empty()) return json;
@@ -140,7 +110,8 @@ Json checked(const BsdfOptions& options, const std::string& fileName) {
   if (error) failInput(fmt::format("{}: {}", folder.string(), error.message()));
   writeTextFile(folder / (fileName + ".json"), json.dump(2) + "\n");
   writeTextFile(folder / (fileName + ".svg"), polarSvg(probe, fileName));
-  writePng(folder / (fileName + ".png"), renderBall(material, images, kBallSize, kBallSpp), 1.0f);
+  writePng(folder / (fileName + ".png"),
+           renderBall(tested.material, tested.inputs, options.ballSize, kBallSpp), 1.0f);
   return json;
 }
 
@@ -198,6 +169,16 @@ Json checkAll(const BsdfOptions& options) {
 }
 
 void bsdf(const BsdfOptions& options, Outcome& outcome) {
+  if (!options.simulate.empty()) {
+    simulateTable(options);
+    return;
+  }
+  if (options.kind.empty())
+    failUsage("bsdf: a kind of material expected (restlab list closures), all, or --simulate FILE");
+  if (!options.tabulate.empty()) {
+    writeTable(options);
+    return;
+  }
   const bool isAll = options.kind == "all";
   const Json json = isAll ? checkAll(options) : checked(options, options.kind);
   if (options.json) {
@@ -218,10 +199,14 @@ void bsdf(const BsdfOptions& options, Outcome& outcome) {
 Action addBsdfVerb(CLI::App& app) {
   auto options = std::make_shared<BsdfOptions>();
   CLI::App* verb = app.add_subcommand("bsdf", "a material against the laws of a BSDF");
-  verb->add_option("kind", options->kind, "restlab list closures; all: a table of all")->required();
+  verb->add_option("kind", options->kind, "restlab list closures; all: a table of all");
   verb->add_option("--set", options->settings, "KEY=VALUE: a parameter of the kind");
   verb->add_option("-o,--output", options->output,
                    "folder for KIND.json, KIND.svg (lobes) and KIND.png (a ball)");
+  verb->add_option("--size", options->ballSize, "of KIND.png, pixels a side")
+      ->check(CLI::Range(16u, 4096u))
+      ->capture_default_str();
+  addTableOptions(*verb, *options);
   verb->add_option("--samples", options->samples, "draws for each angle of the chi-squared test")
       ->check(CLI::Range(uint64_t(1000), uint64_t(1'000'000'000)))
       ->capture_default_str();

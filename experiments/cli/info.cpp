@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/scene/camera_path/camera_path.h"
+#include "experiments/cli/info_materials.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/base/print.h"
@@ -119,6 +120,10 @@ Json sceneJson(const PreparedScene& prepared, const InfoOptions& options) {
                       {"intensity", {light.intensity.x, light.intensity.y, light.intensity.z}}});
   }
   json["lights"] = lights;
+  json["closures"] = closuresOfScene(scene);
+  const auto triple = [](const glm::vec3& v) { return Json{v.x, v.y, v.z}; };
+  json["ambient"] = triple(scene.ambient);
+  json["background"] = scene.background ? triple(*scene.background) : Json();
   // Names for `objects` of a mask, whose numbers begin at 1.
   Json objects = Json::array();
   for (const MeshInstance& instance : scene.instances) objects.push_back(instance.name);
@@ -174,6 +179,13 @@ void printScene(const PreparedScene& prepared, const Json& json) {
     print("light        '{}' {} ({:g}, {:g}, {:g})\n", oneLine(light.name), lightKind(light.kind),
           light.intensity.x, light.intensity.y, light.intensity.z);
   }
+  const auto printRadiance = [](const char* what, const glm::vec3& v) {
+    print("{:<12} ({:g}, {:g}, {:g}) W sr^-1 m^-2\n", what, v.x, v.y, v.z);
+  };
+  if (scene.ambient != glm::vec3(0.0f)) printRadiance("ambient", scene.ambient);
+  if (scene.background) printRadiance("background", *scene.background);
+  for (const Json& closure : json["closures"])
+    print("material     {}\n", oneLine(closureLine(closure)));
   if (scene.environment) {
     print("environment  {} {}x{}, rotation {:g} rad, scale {:g}\n", prepared.environmentName,
           scene.environment->width, scene.environment->height, scene.environment->rotation,

@@ -43,6 +43,7 @@ std::string valuesOf(const Json& parameter) {
   std::string all;
   for (const Json& choice : parameter.value("choices", Json::array()))
     all += (all.empty() ? "" : ", ") + choice.get<std::string>();
+  if (all.empty() && parameter.contains("type")) return parameter["type"].get<std::string>();
   return all.empty() ? "true, false" : all;
 }
 

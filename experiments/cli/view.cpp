@@ -18,6 +18,7 @@
 #include "core/scene/compiled/compiled_scene.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
+#include "experiments/runner/base/files.h"
 #include "experiments/runner/base/interrupt.h"
 #include "experiments/runner/base/log.h"
 #include "experiments/runner/base/print.h"
@@ -60,7 +61,6 @@ struct ViewOptions {
   std::string tev;  // "": no tev
 };
 
-bool isSuite(const std::string& name) { return std::filesystem::path(name).extension() == ".toml"; }
 bool isImage(const std::string& name) { return std::filesystem::path(name).extension() == ".exr"; }
 bool isResults(const std::string& name) {
   std::error_code status;

@@ -3,12 +3,15 @@ set(RL_ANALYTIC_SOURCES
   analytic/inconsistent_normals.cpp
   analytic/cornell_tiles.cpp
 )
+set(RL_ANALYTIC_LIBRARIES rl_bsdf)
 set(RL_ANALYTIC_TESTS
   analytic/inconsistent_normals_test.cpp
   analytic/cornell_tiles_test.cpp
+  analytic/height_field_test.cpp
   analytic/media_test.cpp
   analytic/polygon_irradiance_test.cpp
   analytic/sampling_noise_test.cpp
   analytic/truths_test.cpp
+  analytic/wax_test.cpp
   scene/gltf_builder.cpp
 )

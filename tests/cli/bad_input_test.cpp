@@ -150,7 +150,8 @@ const BadInput kBadInputs[] = {
      "render good.gltf -o x.exr --integrator restir_gi --aov entry",
      2,
      {"--aov entry", "known: radiance",
-      "object, emission, motion, confidence, age, rejected_shifts, partner, kind, shift_outcome)"}},
+      "object, emission, motion, ambient, confidence, age, rejected_shifts, partner, kind, "
+      "shift_outcome)"}},
     {"UnknownLayer",
      "render good.gltf -o x.exr --integrator restir_gi --cache voxel --aov entry_confidense",
      2,

@@ -171,10 +171,10 @@ TEST(Layers, OnlyCachesOfEntriesHaveEntries) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::badUsage);
-    EXPECT_STREQ(
-        error.what(),
-        "unknown AOV 'entry'; AOVs: radiance, positionW, normalW, albedo, depth, object, "
-        "emission, motion, confidence, age, rejected_shifts, partner, kind, shift_outcome");
+    EXPECT_STREQ(error.what(),
+                 "unknown AOV 'entry'; AOVs: radiance, positionW, normalW, albedo, depth, object, "
+                 "emission, motion, ambient, confidence, age, rejected_shifts, partner, kind, "
+                 "shift_outcome");
   }
   EXPECT_EQ(findMethod("path", "", "none").aovNames(), Session::aovNames());
 }

@@ -87,6 +87,9 @@ void addGlass(Scene& scene) {
   glass.specularColor = {1.0f, 1.0f, 1.0f};
   glass.transmission = 0.9f;
   glass.sigmaAbsorption = {0.3f, 0.1f, 0.2f};
+  SceneMaterial& body = scene.materials[scene.instances[kTallBlock].material];
+  body.sigmaScattering = {1.0f, 0.5f, 2.0f};
+  body.phase = 0.3f;
 }
 
 void addInstance(Scene& scene) {
@@ -99,8 +102,11 @@ void addInstance(Scene& scene) {
 void addLights(Scene& scene) {
   PunctualLight point{
       "point", rl::RL_LIGHT_POINT, {-1.0, 3.0, -1.0}, {0, -1, 0}, glm::vec3(3.0f, 2.0f, 1.0f)};
+  point.attenuation = {0.1f, 0.2f, 0.7f};
   PunctualLight spot{
-      "spot", rl::RL_LIGHT_SPOT, {-4.0, 5.0, -2.0}, {0.2, -0.95, 0.1}, glm::vec3(9.0f), 0.3f, 0.6f};
+      "spot", rl::RL_LIGHT_SPOT, {-4.0, 5.0, -2.0}, {0.2, -0.95, 0.1}, glm::vec3(9.0f)};
+  spot.innerConeAngle = 0.3f;
+  spot.outerConeAngle = 0.6f;
   spot.dirW = glm::normalize(spot.dirW);
   PunctualLight sun{"sun",
                     rl::RL_LIGHT_DIRECTIONAL,
@@ -112,6 +118,8 @@ void addLights(Scene& scene) {
   for (uint32_t i = 0; i < 32; ++i)
     sky.radiance.push_back(glm::vec3(0.2f, 0.3f, 0.5f) * (1.0f + 0.2f * float(i % 5)));
   scene.environment = sky;
+  scene.ambient = {0.02f, 0.03f, 0.01f};
+  scene.background = glm::vec3(0.4f, 0.3f, 0.2f);
 }
 
 }  // namespace

@@ -201,7 +201,7 @@ INSTANTIATE_TEST_SUITE_P(, PathParity, testing::ValuesIn(kPathCases),
 TEST(EverythingScene, NeedsEveryFeature) {
   // Multiple-scattering compensation is an option of the render, not a need of a scene.
   EXPECT_EQ(CompiledScene::build(makeEverythingScene())->features(),
-            rl::RL_FEATURE_GLTF & ~rl::RL_FEATURE_MULTISCATTER);
+            rl::RL_FEATURE_ALL & ~(rl::RL_FEATURE_CLOSURES | rl::RL_FEATURE_MULTISCATTER));
 }
 
 }  // namespace

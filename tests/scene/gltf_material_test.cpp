@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "core/base/error.h"
+#include "core/dialect/features.h"
 #include "tests/scene/gltf_builder.h"
 
 namespace restlab {
@@ -303,6 +305,36 @@ Loaded loadBody(const json& extras) {
   material["extensions"] = {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
                             {"KHR_materials_volume", {{"thicknessFactor", 1}}}};
   return loadMaterial(file, material, {"KHR_materials_transmission", "KHR_materials_volume"});
+}
+
+// Kinds of materials that glTF does not have, as Blender's custom properties carry them.
+TEST(GltfMaterial, ExtrasChooseAKind) {
+  GltfBuilder file;
+  const Loaded metal = loadMaterial(
+      file, {{"name", "m"},
+             {"extras", {{"restlab", {{"kind", "conductor"}, {"metal", "Au"}, {"alpha", 0.25}}}}}});
+  EXPECT_EQ(metal.data.closure, rl::RL_CLOSURE_CONDUCTOR);
+  EXPECT_EQ(metal.scene.materials[0].closure.at(0).words.x, 3u);
+  const struct {
+    json restlab;
+    const char* line;
+  } cases[] = {
+      {{{"kind", "conductr"}},
+       "materials[0].extras.restlab:2:10: unknown kind 'conductr', did you mean 'conductor'?"},
+      {"gold", "materials[0].extras.restlab: is not an object"},
+      {{{"kind", {{"a", 1}}}}, "materials[0].extras.restlab.kind: is neither a number"},
+      {{{"kind", "mirror"}, {"color", 2}}, "'color' must be"},
+  };
+  for (const auto& c : cases) {
+    GltfBuilder bad;
+    try {
+      loadMaterial(bad, {{"extras", {{"restlab", c.restlab}}}});
+      ADD_FAILURE() << c.line;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::badInput);
+      EXPECT_NE(std::string(error.what()).find(c.line), std::string::npos) << error.what();
+    }
+  }
 }
 
 TEST(GltfMaterial, PrioritiesAreWholeNumbers) {

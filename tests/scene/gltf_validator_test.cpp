@@ -36,8 +36,8 @@ std::string textOf(const fs::path& file) {
 
 std::set<std::string> errorCodes(const fs::path& report) {
   std::set<std::string> codes;
-  const nlohmann::json json = nlohmann::json::parse(textOf(report));
-  for (const nlohmann::json& message : json.at("issues").at("messages")) {
+  const nlohmann::json document = nlohmann::json::parse(textOf(report));
+  for (const nlohmann::json& message : document.at("issues").at("messages")) {
     if (message.at("severity") == 0) codes.insert(message.at("code").get<std::string>());
   }
   return codes;

@@ -209,12 +209,125 @@ TEST_F(SceneFile, EveryFaultIsOneLineWithItsPlace) {
       {base + "[camera]\nposition = [0.0, 1.0, 0.0]\ntarget = [0.0, 0.0, 0.0]\n",
        "x.scene.toml:4:10: 'target' is at 'position', or straight above"},
       {base + "[environment]\nfile = \"sky.hdr\"\n", "x.scene.toml:3:8: sky.hdr"},
-      {base + "[environment]\n", "x.scene.toml:2:1: [environment] has no 'file'"},
+      {base + "[environment]\n", "x.scene.toml:2:1: [environment] takes 'file', an .hdr or .exr"},
+      {base + "[[light]]\nkind = \"spot\"\nattenuation = [1.0, 0.0, 0.0]\n",
+       "x.scene.toml:4:1: unknown key 'attenuation'"},
+      {base + "[[light]]\nattenuation = [0.0, 0.0, 0.0]\n",
+       "x.scene.toml:3:15: 'attenuation' is 0"},
+      {base + "[[light]]\nkind = \"ambient\"\nintensity = 1.0\n",
+       "x.scene.toml:4:1: unknown key 'intensity'"},
+      {base + "[[material]]\nname = \"m\"\nkind = \"table\"\n",
+       "x.scene.toml:2:1: kind 'table' has no 'file'"},
+      {base + "[[material]]\nname = \"m\"\nkind = \"table\"\nfile = \"none.binary\"\n",
+       "x.scene.toml:5:8: none.binary: "},
+      {base + "[[material]]\nname = \"m\"\nkind = \"mixture\"\nfirst = \"clay\"\n",
+       "x.scene.toml:5:9: no [[material]] above is named 'clay'"},
+      {base + kClay + "[[material]]\nname = \"m\"\nkind = \"mixture\"\nfirst = \"caly\"\n",
+       "x.scene.toml:9:9: no [[material]] above is named 'caly'; did you mean 'clay'?"},
+      {base + kClay + "[[material]]\nname = \"m\"\nkind = \"mixture\"\nfirst = \"clay\"\n",
+       "x.scene.toml:6:1: kind 'mixture' has no 'second'"},
+      {base + kClay +
+           "[[material]]\nname = \"m\"\nkind = \"mixture\"\nfirst = \"clay\"\n"
+           "second = \"clay\"\nthird = \"clay\"\nsecond_share = 0.8\nthird_share = 0.3\n",
+       "x.scene.toml:6:1: 'second_share' + 'third_share' + 'fourth_share' is 1.1; at most 1"},
+      {base + kClay +
+           "[[material]]\nname = \"m\"\nkind = \"mixture\"\nfirst = \"clay\"\n"
+           "second = \"clay\"\nthird_share = 0.3\n",
+       "x.scene.toml:11:15: 'third_share' without 'third'"},
+      {base + "[[material]]\nname = \"glass\"\nkind = \"dielectric\"\n[[material]]\nname = \"m\"\n"
+              "kind = \"mixture\"\nfirst = \"glass\"\nsecond = \"glass\"\n",
+       "x.scene.toml:8:9: 'glass' is of kind 'dielectric': a mixture takes kinds that reflect"},
   };
   for (const auto& c : cases) {
     const std::string line = errorOf(c.text);
     EXPECT_NE(line.find(c.line), std::string::npos) << c.text << "\n-> " << line;
     EXPECT_EQ(line.find('\n'), std::string::npos);
+  }
+}
+
+TEST_F(SceneFile, AmbientLightAttenuationAndWhatIsSeenBehind) {
+  const Scene scene = loadScene(write(R"(base = "cornell-box"
+[[light]]
+kind = "ambient"
+radiance = [0.1, 0.2, 0.3]
+[[light]]
+position = [0.0, 1.0, 0.0]
+attenuation = [1.0, 0.5, 0.25]
+[environment]
+radiance = 0.5
+[background]
+radiance = [0.0, 0.0, 1.0]
+)")
+                                    .string());
+  EXPECT_EQ(scene.ambient, glm::vec3(0.1f, 0.2f, 0.3f));
+  ASSERT_EQ(scene.lights.size(), 1u);
+  EXPECT_EQ(scene.lights[0].attenuation, glm::vec3(1.0f, 0.5f, 0.25f));
+  ASSERT_TRUE(scene.environment);
+  EXPECT_EQ(scene.environment->radiance[0], glm::vec3(0.5f));
+  EXPECT_EQ(scene.background, glm::vec3(0.0f, 0.0f, 1.0f));
+  const uint32_t features = CompiledScene::build(scene)->features();
+  EXPECT_NE(features & rl::RL_FEATURE_AMBIENT, 0u);
+}
+
+// Parts of a mixture are materials that no mesh has; what they need, the scene needs.
+TEST_F(SceneFile, MixesMaterials) {
+  const Scene scene = loadScene(write(std::string("base = \"cornell-box\"\n") + kClay + R"(
+[[material]]
+name = "metal"
+kind = "conductor"
+anisotropic = 0.5
+[[material]]
+name = "rusty"
+kind = "mixture"
+first = "metal"
+second = "clay"
+[[assign]]
+material = "White"
+to = "rusty"
+)")
+                                    .string());
+  const SceneMaterial& mixed = materialOf(scene, "TallBlock");
+  EXPECT_EQ(mixed.data.closure, rl::RL_CLOSURE_MIXTURE);
+  EXPECT_NE(mixed.data.flags & rl::RL_MATERIAL_ANISOTROPIC, 0u) << "a part looks at the tangent";
+  EXPECT_EQ(scene.materials.at(mixed.closure[0].words.x).name, "metal");
+  EXPECT_EQ(scene.materials.at(mixed.closure[1].words.x).name, "clay");
+  EXPECT_EQ(mixed.closure[2].words.x, rl::RL_INVALID);
+  EXPECT_EQ(CompiledScene::build(scene)->features() & rl::RL_FEATURE_CLOSURES,
+            rl::RL_FEATURE_CLOSURE_MIXTURE | rl::RL_FEATURE_CLOSURE_CONDUCTOR |
+                rl::RL_FEATURE_CLOSURE_OREN_NAYAR);
+}
+
+// Settings behind the '?' of a name take the place of the file's.
+TEST_F(SceneFile, SettingsBehindItsName) {
+  const std::string file =
+      write(std::string("base = \"cornell-box\"\n") + kClay +
+            "[[assign]]\nmaterial = \"White\"\nto = \"clay\"\n[camera]\nyfov = 30.0\n")
+          .string();
+  const Scene plain = loadScene(file);
+  const Scene scene = loadScene(file + "?material.clay.sigma=0.25&camera.yfov=60");
+  EXPECT_EQ(scene.name, "x?material.clay.sigma=0.25&camera.yfov=60");
+  EXPECT_EQ(std::bit_cast<float>(materialOf(scene, "TallBlock").closure[1].words.x), 0.25f);
+  EXPECT_NEAR(scene.cameras[0].yfov, 2.0 * plain.cameras[0].yfov, 1e-12);
+  EXPECT_NE(scene.contentHash, plain.contentHash);
+  const struct {
+    const char *settings, *line;
+  } cases[] = {
+      {"material.caly.sigma=0.3", "no [[material]] is named 'caly'; did you mean 'clay'?"},
+      {"material.clay.sgma=0.3", "unknown key 'sgma'"},
+      {"material.clay.sigma=9", "'sigma' must be"},
+      {"material.sigma=0.3", "material.NAME.KEY"},
+      {"light.lamp.intensity=2", "no [[light]] is named 'lamp'"},
+      {"environment.scale=2", "the file has no [environment]"},
+      {"sigma", "must be KEY=VALUE"},
+  };
+  for (const auto& c : cases) {
+    try {
+      loadScene(file + "?" + c.settings);
+      ADD_FAILURE() << c.settings;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::badInput) << c.settings;
+      EXPECT_NE(std::string(error.what()).find(c.line), std::string::npos) << error.what();
+    }
   }
 }
 

@@ -5,6 +5,7 @@ set(RL_SCENE_TESTS
   scene/camera_path_check_test.cpp
   scene/camera_path_config_test.cpp
   scene/camera_path_test.cpp
+  scene/closure_table_test.cpp
   scene/environment_files_test.cpp
   scene/gltf_builder.cpp
   scene/gltf_corpus_test.cpp

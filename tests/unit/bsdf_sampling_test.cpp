@@ -29,6 +29,7 @@ struct Setting {
   bool multiscatter = false;
   uint64_t samples = kSamples;
   bool breaksEnergy = false;
+  std::shared_ptr<const CompiledScene> scene{};  // of a closure
 };
 
 // Makes a grid whose cells resolve the lobes of the BSDF (all normals are near +z).
@@ -96,7 +97,7 @@ double fluxScale(const rl::Bsdf& b) {
 
 // The density of draws is bsdfPdf, its deficit from 1 is absorbed; the mean weight is the albedo.
 void checkSetting(const Setting& s, uint64_t seed) {
-  Dialect<> d;
+  Dialect<> d = s.scene ? Dialect<>(s.scene) : Dialect<>();
   if (s.multiscatter) d.compensate();
   const stats::SphereGrid grid = gridFor(s);
   const stats::SphereGrid::Function pdfAndEval = [&](const glm::dvec3& wi) {
@@ -175,7 +176,8 @@ TEST(BsdfSampling, Closures) {
                     .nGeo = up,
                     .nShade = up,
                     .samples = 200'000,
-                    .breaksEnergy = c.breaksEnergy},
+                    .breaksEnergy = c.breaksEnergy,
+                    .scene = c.scene},
                    ++seed);
     }
     if (c.bsdf.alpha < 0.2f || c.isCombined) continue;
@@ -185,7 +187,8 @@ TEST(BsdfSampling, Closures) {
                   .nGeo = tilted,
                   .nShade = up,
                   .samples = 200'000,
-                  .breaksEnergy = c.breaksEnergy},
+                  .breaksEnergy = c.breaksEnergy,
+                  .scene = c.scene},
                  ++seed);
   }
 }

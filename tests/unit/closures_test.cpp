@@ -31,9 +31,9 @@ glm::dvec3 albedoOf(Dialect<>& d, const rl::Bsdf& b, const glm::vec3& wo, int si
 
 // f(wo, wi) = f(wi, wo), but where a file declares that it is not; and there it is not.
 TEST(Closures, Reciprocity) {
-  Dialect<> d;
   std::map<std::string, double> broken;  // by kind: the largest difference where it is declared
   for (const ClosureCase& c : closureCases()) {
+    Dialect<> d(c.scene);
     Inputs inputs(11);
     double largest = 0.0;
     for (int i = 0; i < 2000; ++i) {
@@ -244,6 +244,61 @@ TEST(Closures, BlackParametersAreFinite) {
     const float pdf = d->bsdfPdf(b, kUp, kUp, kUp, directionAt(30.0));
     EXPECT_TRUE(std::isfinite(pdf)) << text;
   }
+}
+
+// Between the centres of its cells a table is as good as its cells are narrow.
+TEST(Closures, ATableIsTheBrdfThatItWasMadeOf) {
+  for (const char* file : {"half", "directions"}) {
+    const ClosureCase c =
+        closureCaseOf(std::string("kind = \"table\"\nfile = \"") + file + "\"\ncolor = 0.5\n");
+    Dialect<> d(c.scene);
+    Inputs inputs(31);
+    double squares = 0.0, reference = 0.0;
+    for (int i = 0; i < 20'000; ++i) {
+      const glm::vec3 wo = inputs.directionAbove(kUp), wi = inputs.directionAbove(kUp);
+      const double f = d->bsdfEval(c.bsdf, kUp, kUp, wo, wi).y / wi.z;
+      const double exact = 0.5 * tabulatedBrdf(glm::dvec3(wo), glm::dvec3(wi)).y;
+      squares += (f - exact) * (f - exact);
+      reference += exact * exact;
+    }
+    EXPECT_LT(std::sqrt(squares / reference), 0.1) << file;
+    // The least value counts as diffuse, all that rises above it as a lobe.
+    EXPECT_NEAR(c.bsdf.diffuse.y, 0.5 * 0.3, 0.03) << file;
+    EXPECT_NEAR(c.bsdf.alpha, std::sqrt(2.0 / 42.0), 0.1) << file;
+    EXPECT_NE(c.bsdf.lobes & rl::RL_LOBE_SPECULAR, 0u) << file;
+  }
+}
+
+// f of a mixture is the sum of its parts', the probability of a delta lobe its share.
+TEST(Closures, AMixtureIsTheSumOfItsParts) {
+  const ClosureCase c = closureCaseOf(
+      "kind = \"mixture\"\nfirst = \"metal\"\nfirst_share = 0.5\nsecond = \"matte\"\n"
+      "second_share = 0.3\nthird = \"hole\"\nthird_share = 0.1\nfourth = \"smooth\"\n"
+      "fourth_share = 0.2\n");
+  Dialect<> d(c.scene), alone;
+  const rl::Bsdf metal = closureOf("kind = \"conductor\"\nalpha = 0.2\n");
+  const rl::Bsdf smooth = closureOf("kind = \"plastic\"\n");
+  Inputs inputs(5);
+  for (int i = 0; i < 2000; ++i) {
+    const glm::vec3 wo = inputs.directionAbove(kUp), wi = inputs.directionAbove(kUp);
+    const float metals = 0.5f * 0.4f * alone->bsdfEval(metal, kUp, kUp, wo, wi).x;
+    const float mattes = 0.3f * 0.5f * wi.z / float(kPi);
+    const float plastics = 0.2f * alone->bsdfEval(smooth, kUp, kUp, wo, wi).x;
+    const float sum = metals + mattes + plastics;
+    EXPECT_NEAR(d->bsdfEval(c.bsdf, kUp, kUp, wo, wi).x, sum, 1e-6f + 1e-5f * sum);
+  }
+  uint32_t deltas = 0;
+  double weight = 0.0;
+  constexpr int kDraws = 20'000;
+  for (int i = 0; i < kDraws; ++i) {
+    const rl::BsdfSample s =
+        d->bsdfSample(c.bsdf, kUp, kUp, kUp, (float(i) + 0.5f) / kDraws, inputs.square());
+    if ((s.lobe & rl::RL_LOBE_ANY_DELTA) == 0) continue;
+    ++deltas;
+    weight += double(s.weight.x);
+  }
+  EXPECT_GT(deltas, 0u);
+  EXPECT_NEAR(weight / kDraws, 0.2 * 0.04, 4e-4) << "a fifth of a layer that reflects 4 %";
 }
 
 // The tangent turns the frame: brushed metal is smooth along one axis of the texture.

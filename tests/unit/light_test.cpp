@@ -321,12 +321,15 @@ TEST(Punctual, PointAndSpotAndSun) {
   s.radiance = glm::vec3(8.0f);
   s.kind = rl::RL_LIGHT_POINT;
   s.point = glm::vec3(0.0f, 0.0f, 2.0f);
+  s.normal = glm::vec3(0.0f, 0.0f, 1.0f);  // 1 / r^2
   rl::LightConnection c = d->lightConnect(s, glm::vec3(0.0f));
   EXPECT_EQ(c.dirW, glm::vec3(0.0f, 0.0f, 1.0f));
   EXPECT_FLOAT_EQ(c.distance, 2.0f);
   EXPECT_FLOAT_EQ(c.emitted.x, 2.0f);  // W/sr over m^2
   EXPECT_TRUE(c.isDelta);
   EXPECT_EQ(c.pdfSolidAngle, 0.0f);
+  s.normal = glm::vec3(1.0f, 0.5f, 0.5f);
+  EXPECT_FLOAT_EQ(d->lightConnect(s, glm::vec3(0.0f)).emitted.x, 2.0f) << "1 + 0.5 r + 0.5 r^2";
 
   s.kind = rl::RL_LIGHT_DIRECTIONAL;
   s.point = glm::vec3(0.0f, 1.0f, 0.0f);

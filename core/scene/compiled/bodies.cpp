@@ -115,11 +115,12 @@ Bodies findBodies(const Scene& scene) {
     if (a.priority != b.priority) return a.priority < b.priority;
     return a.volume > b.volume;
   });
-  bodies.media.emplace_back(0.0f, 0.0f, 0.0f, 1.0f);
+  bodies.media = {{0.0f, 0.0f, 0.0f, 1.0f}, glm::vec4(0.0f)};
   for (const Body& body : order) {
-    bodies.rank[body.instance] = static_cast<uint32_t>(bodies.media.size());
-    const rl::Material& m = scene.materials[scene.instances[body.instance].material].data;
-    bodies.media.emplace_back(m.sigmaAbsorption, m.ior);
+    bodies.rank[body.instance] = static_cast<uint32_t>(bodies.media.size() / 2);
+    const SceneMaterial& m = scene.materials[scene.instances[body.instance].material];
+    bodies.media.emplace_back(m.data.sigmaAbsorption + m.sigmaScattering, m.data.ior);
+    bodies.media.emplace_back(m.sigmaScattering, m.phase);
   }
   return bodies;
 }

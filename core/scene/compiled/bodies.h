@@ -24,7 +24,7 @@ struct Bodies {
   // Where bodies overlap, the greatest rank fills the place. Sorted by SceneMaterial::priority,
   // then by the size of the box, the smallest last, so that a body inside another one wins.
   std::vector<uint32_t> rank;
-  // Absorption (m^-1) and index of refraction by rank; [0] is air. Empty if there is no body.
+  // SceneData::bodies: two by rank. Empty if there is no body.
   std::vector<glm::vec4> media;
   // Boxes by instance; valid for bodies only.
   std::vector<BodyBox> boxes;

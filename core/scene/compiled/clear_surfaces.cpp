@@ -11,7 +11,8 @@
 namespace restlab {
 namespace {
 
-bool isClear(const rl::Material& m) {
+bool isClear(const SceneMaterial& material) {
+  const rl::Material& m = material.data;
   constexpr uint32_t kOther = rl::RL_MATERIAL_UNLIT | rl::RL_MATERIAL_BLACK;
   constexpr uint32_t kSlots[] = {rl::RL_TEX_BASE_COLOR, rl::RL_TEX_TRANSMISSION};
   const bool isTextured = std::any_of(std::begin(kSlots), std::end(kSlots), [&m](uint32_t slot) {
@@ -20,7 +21,7 @@ bool isClear(const rl::Material& m) {
   return (m.flags & kOther) == 0 && m.closure == rl::RL_CLOSURE_GLTF && !isTextured &&
          std::abs(m.ior - 1.0f) < rl::RL_CLEAR_CONTRAST && m.transmission == 1.0f &&
          m.metallic == 0.0f && m.baseColor == glm::vec3(1.0f) && m.emission == glm::vec3(0.0f) &&
-         m.sigmaAbsorption == glm::vec3(0.0f);
+         m.sigmaAbsorption == glm::vec3(0.0f) && material.sigmaScattering == glm::vec3(0.0f);
 }
 
 }  // namespace
@@ -30,7 +31,7 @@ void leaveOutClearSurfaces(Scene& scene) {
   bool hasAny = false;
   for (size_t i = 0; i < leaves.size(); ++i) {
     const MeshInstance& instance = scene.instances[i];
-    leaves[i] = isClear(scene.materials[instance.material].data) &&
+    leaves[i] = isClear(scene.materials[instance.material]) &&
                 scene.geometries[instance.geometry].colors.empty();
     hasAny |= leaves[i] != 0;
   }

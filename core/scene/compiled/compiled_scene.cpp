@@ -295,6 +295,9 @@ void CompiledScene::Impl::bindAddresses() {
   data.closureParameters.data = records.closureParameters.data();
   data.bodies.data = bodies.media.data();
   data.bodiesMeet = bodies.meet ? 1u : 0u;
+  data.ambient = scene.ambient * scene.ambientFactor;
+  data.background = scene.background.value_or(glm::vec3(0.0f));
+  data.hasBackground = scene.background ? 1u : 0u;
   data.instanceCount = static_cast<uint32_t>(instances.size());
 }
 
@@ -316,7 +319,7 @@ std::shared_ptr<const CompiledScene> CompiledScene::build(Scene scene) {
   impl->lights = buildLightTable(
       {impl->scene, impl->positions, impl->uvs, impl->triangles, impl->geometries, impl->origin},
       impl->instances, impl->warnings);
-  if (impl->lights.lights.empty()) {
+  if (impl->lights.lights.empty() && impl->scene.ambient == glm::vec3(0.0f)) {
     bool unlit = false;
     for (const SceneMaterial& m : impl->scene.materials)
       unlit |= (m.data.flags & rl::RL_MATERIAL_UNLIT) != 0;
@@ -431,7 +434,7 @@ glm::uvec4 CompiledScene::bodiesAt(const glm::vec3& posW) const {
 }
 
 bool CompiledScene::absorbs(uint32_t rank) const {
-  return rank != 0 && glm::vec3(impl_->bodies.media.at(rank)) != glm::vec3(0.0f);
+  return rank != 0 && glm::vec3(impl_->bodies.media.at(2 * size_t(rank))) != glm::vec3(0.0f);
 }
 
 size_t CompiledScene::embreeBytes() const {

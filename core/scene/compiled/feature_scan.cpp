@@ -28,12 +28,25 @@ glm::vec3 times(const glm::vec3& v, const std::array<float, 4>& texel) {
 bool hasTexture(const rl::Material& m, uint32_t slot) { return m.textures[slot] != rl::RL_INVALID; }
 
 uint32_t scanClosure(const SceneMaterial& material) {
-  uint32_t features =
-      rl::RL_FEATURE_GLOSSY | closureRegistry().at(material.data.closure - 1).feature;
+  const ClosureInfo& info = closureRegistry().at(material.data.closure - 1);
+  uint32_t features = rl::RL_FEATURE_GLOSSY | info.feature;
   for (const ClosureValue& value : material.closure) {
     if (value.texture != rl::RL_INVALID) features |= rl::RL_FEATURE_TEXTURES;
   }
   return features;
+}
+
+// Materials that a material mixes.
+std::vector<uint32_t> mixedMaterials(const SceneMaterial& material) {
+  std::vector<uint32_t> mixed;
+  if (material.data.closure == rl::RL_CLOSURE_GLTF) return mixed;
+  const ClosureInfo& info = closureRegistry().at(material.data.closure - 1);
+  for (size_t i = 0; i < material.closure.size(); ++i) {
+    const uint32_t index = material.closure[i].words.x;
+    if (info.parameters.at(i).kind == ClosureParameter::Kind::material && index != rl::RL_INVALID)
+      mixed.push_back(index);
+  }
+  return mixed;
 }
 
 // Features that the material needs on any mesh; emission and alpha also depend on the mesh.
@@ -69,6 +82,8 @@ uint32_t scanSurface(const SceneMaterial& material, TextureRanges& ranges) {
     features |= rl::RL_FEATURE_TRANSMISSION;
     const bool isThin = (m.flags & rl::RL_MATERIAL_THIN) != 0;
     if (!isThin && isPositive(m.sigmaAbsorption)) features |= rl::RL_FEATURE_VOLUME;
+    if (!isThin && isPositive(material.sigmaScattering))
+      features |= rl::RL_FEATURE_VOLUME | rl::RL_FEATURE_SCATTERING;
   }
   return features;
 }
@@ -143,6 +158,7 @@ uint32_t scanLights(const Scene& scene) {
   for (const PunctualLight& light : scene.lights) {
     if (isPositive(light.intensity)) features |= rl::RL_FEATURE_PUNCTUAL_LIGHTS;
   }
+  if (isPositive(scene.ambient)) features |= rl::RL_FEATURE_AMBIENT;
   if (scene.environment && scene.environment->scale > 0.0f) {
     const std::vector<glm::vec3>& map = scene.environment->radiance;
     if (std::any_of(map.begin(), map.end(), isPositive)) features |= rl::RL_FEATURE_ENVIRONMENT;
@@ -164,6 +180,8 @@ uint32_t scanFeatures(const Scene& scene) {
     if (isMaterialSeen[instance.material] == 0) {
       isMaterialSeen[instance.material] = 1;
       features |= scanSurface(scene.materials.at(instance.material), ranges);
+      for (const uint32_t mixed : mixedMaterials(scene.materials[instance.material]))
+        features |= scanSurface(scene.materials.at(mixed), ranges);
     }
     if (emits(m, ranges) && hasArea(mesh, instance.objectToWorld)) {
       features |= rl::RL_FEATURE_AREA_LIGHTS;
@@ -185,11 +203,15 @@ uint32_t scanFeatures(const Scene& scene) {
 
 bool hasRoughReflection(const Scene& scene) {
   TextureRanges ranges(scene);
-  return std::any_of(scene.instances.begin(), scene.instances.end(),
-                     [&](const MeshInstance& instance) {
-                       return !scene.geometries.at(instance.geometry).triangles.empty() &&
-                              reflectsRoughly(scene.materials.at(instance.material).data, ranges);
-                     });
+  const auto isRough = [&](uint32_t material) {
+    return reflectsRoughly(scene.materials.at(material).data, ranges);
+  };
+  return std::any_of(
+      scene.instances.begin(), scene.instances.end(), [&](const MeshInstance& instance) {
+        if (scene.geometries.at(instance.geometry).triangles.empty()) return false;
+        const std::vector<uint32_t> mixed = mixedMaterials(scene.materials.at(instance.material));
+        return isRough(instance.material) || std::any_of(mixed.begin(), mixed.end(), isRough);
+      });
 }
 
 }  // namespace restlab

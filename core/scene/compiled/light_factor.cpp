@@ -12,6 +12,9 @@ namespace restlab {
 namespace {
 
 constexpr const char* kEnvironment = "environment";
+constexpr const char* kAmbient = "ambient";
+
+bool hasAmbient(const Scene& scene) { return scene.ambient != glm::vec3(0.0f); }
 
 bool emits(const SceneMaterial& material) {
   const glm::vec3& e = material.data.emission;
@@ -58,6 +61,7 @@ std::vector<std::string> lightNames(const Scene& scene) {
   }
   for (const PunctualLight& light : scene.lights) names.push_back(light.name);
   if (scene.environment) names.push_back(kEnvironment);
+  if (hasAmbient(scene)) names.push_back(kAmbient);
   std::erase(names, "");
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
@@ -88,6 +92,7 @@ Scene withLightFactor(Scene scene, const std::string& name, double factor) {
     if (isAll || light.name == name) light.lightFactor = value;
   }
   if (scene.environment && (isAll || name == kEnvironment)) scene.environment->lightFactor = value;
+  if (hasAmbient(scene) && (isAll || name == kAmbient)) scene.ambientFactor = value;
   return scene;
 }
 
@@ -97,6 +102,7 @@ std::vector<float> lightFactors(const Scene& scene) {
     factors.push_back(scene.materials[instance.material].lightFactor);
   for (const PunctualLight& light : scene.lights) factors.push_back(light.lightFactor);
   if (scene.environment) factors.push_back(scene.environment->lightFactor);
+  if (hasAmbient(scene)) factors.push_back(scene.ambientFactor);
   const bool isPlain =
       std::all_of(factors.begin(), factors.end(), [](float factor) { return factor == 1.0f; });
   if (isPlain) factors.clear();

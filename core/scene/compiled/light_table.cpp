@@ -165,6 +165,7 @@ rl::Light punctual(const PunctualLight& source, const glm::dvec3& origin) {
   light.e1 = glm::vec3(glm::normalize(source.dirW));
   light.radiance = source.intensity * source.lightFactor;
   light.instance = rl::RL_INVALID;
+  if (source.kind == rl::RL_LIGHT_POINT) light.e2 = source.attenuation;
   if (source.kind == rl::RL_LIGHT_SPOT) {
     // KHR_lights_punctual: falloff = clamp(cos * scale + offset)^2.
     const float cosOuter = std::cos(source.outerConeAngle);

@@ -20,11 +20,34 @@ std::vector<float> srgbTable() {
   return table;
 }
 
-void addMaterial(const SceneMaterial& material, MaterialRecords& records) {
+// Appends each table once. Returns the first record of each.
+std::vector<uint32_t> addTables(const Scene& scene, MaterialRecords& records) {
+  std::vector<uint32_t> first;
+  for (const auto& table : scene.tables) {
+    first.push_back(static_cast<uint32_t>(records.closureParameters.size()));
+    const std::vector<glm::uvec4> added = tableRecords(*table);
+    records.closureParameters.insert(records.closureParameters.end(), added.begin(), added.end());
+  }
+  return first;
+}
+
+// Where a table begins, its sizes and its angles, as core/shading/closures/table.glsl reads them.
+glm::uvec4 tableParameter(const ClosureTable& table, uint32_t first) {
+  return {first, table.sizes.x | (table.sizes.y << 16u),
+          table.sizes.z | (static_cast<uint32_t>(table.angles) << 16u), rl::RL_INVALID};
+}
+
+void addMaterial(const SceneMaterial& material, const Scene& scene,
+                 const std::vector<uint32_t>& tables, MaterialRecords& records) {
   rl::Material record = material.data;
   record.emission *= material.lightFactor;
   record.firstParameter = static_cast<uint32_t>(records.closureParameters.size());
   for (const ClosureValue& v : material.closure) {
+    if (v.table != rl::RL_INVALID) {
+      records.closureParameters.push_back(
+          tableParameter(*scene.tables.at(v.table), tables.at(v.table)));
+      continue;
+    }
     const bool isTextured = v.texture != rl::RL_INVALID;
     records.closureParameters.emplace_back(
         v.words, isTextured ? v.texture | (v.channel << rl::RL_PARAMETER_CHANNEL_SHIFT)
@@ -68,7 +91,9 @@ void addTextures(const Scene& scene, MaterialRecords& records) {
 
 MaterialRecords materialRecords(const Scene& scene) {
   MaterialRecords records;
-  for (const SceneMaterial& material : scene.materials) addMaterial(material, records);
+  const std::vector<uint32_t> tables = addTables(scene, records);
+  for (const SceneMaterial& material : scene.materials)
+    addMaterial(material, scene, tables, records);
   addTextures(scene, records);
   records.srgb = srgbTable();
   return records;

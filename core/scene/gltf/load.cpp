@@ -3,6 +3,7 @@
 
 #include "core/base/error.h"
 #include "core/scene/gltf/accessor.h"
+#include "core/scene/gltf/closures.h"
 #include "core/scene/gltf/container.h"
 #include "core/scene/gltf/document.h"
 #include "core/scene/gltf/material.h"
@@ -24,6 +25,7 @@ Scene import(const std::filesystem::path& file, gltf::Report& report) {
   gltf::checkRules(container.json, report);
   gltf::warnNotImported(container.json, report);
   const std::vector<int> priorities = gltf::readPriorities(container.json, report);
+  const std::vector<std::string> closures = gltf::readClosures(container.json, report);
   const gltf::Document document =
       gltf::loadDocument(std::move(container), file.parent_path(), report);
   gltf::checkAccessors(document.model, report);
@@ -34,6 +36,7 @@ Scene import(const std::filesystem::path& file, gltf::Report& report) {
   scene.contentHash = document.contentHash;
   gltf::TextureImporter textures(document, scene, report);
   gltf::importMaterials(document, priorities, textures, scene, report);
+  gltf::applyClosures(closures, file, scene);
   textures.checkUnusedImages();
   gltf::MeshImporter meshes(document, scene, report);
   const std::vector<gltf::PlacedNode> nodes = gltf::placeNodes(document.model, report);

@@ -23,6 +23,13 @@ ClosureParameter absorption() {
   return p;
 }
 
+ClosureParameter meanFreePath() {
+  ClosureParameter p = color("mean_free_path", 0.01, "metres between collisions, of each channel");
+  p.lo = 1.0e-6;
+  p.hi = 1.0e6;
+  return p;
+}
+
 // The kinds that the lobes of core/shading/bsdf.glsl stand for.
 std::vector<MaterialKind> lobeKinds() {
   const ClosureParameter ior = number("ior", 1.5, 1.0, 4.0, "index of refraction (water 1.33)");
@@ -37,6 +44,15 @@ std::vector<MaterialKind> lobeKinds() {
        "a sheet of glass: reflects and lets through, without refraction",
        "Walter et al. 2007",
        {ior, kAlpha, color("color", 1.0, "tint of the light that passes")}},
+      {"wax",
+       "a body that light enters, and that scatters it inside (random walk); around a closed body",
+       "Henyey and Greenstein 1941; Wrenninge, Villemin and Hery 2017",
+       {number("ior", 1.4, 1.0, 4.0, "index of refraction"),
+        number("alpha", 0.5, 0.0, 1.0,
+               "GGX roughness of its surface; light samples find rough ones alone"),
+        color("color", 1.0, "tint of the light that passes its surface"),
+        color("albedo", 0.99, "share of the light that a collision scatters"), meanFreePath(),
+        number("g", 0.0, -0.95, 0.95, "mean cosine of the angles; 0: to all sides alike")}},
       {"plastic",
        "Lambert below a layer that reflects",
        "glTF 2.0, appendix B",

@@ -48,14 +48,14 @@ glm::dvec3 readColor(const ConfigTable& table, const ClosureParameter& p) {
 
 // NAME_texture, NAME_uv_set and, of a number, NAME_channel. Factors below 1 would leave the range
 // of what begins above 0.
-void readTexture(const ConfigTable& table, const ClosureParameter& p, SceneFileTextures& textures,
+void readTexture(const ConfigTable& table, const ClosureParameter& p, SceneFileInputs& inputs,
                  ClosureValue& value) {
   const std::string key = p.name + "_texture";
   if (p.lo > 0.0 || !table.has(key)) return;
   const bool isColor = p.kind == Kind::color;
   const int64_t uvSet = table.getInteger(p.name + "_uv_set", 0, 0, int64_t(rl::RL_MAX_UV_SETS) - 1);
   value.texture =
-      textures.add(table.getString(key, ""), isColor, uint32_t(uvSet), table.place(key));
+      inputs.addTexture(table.getString(key, ""), isColor, uint32_t(uvSet), table.place(key));
   if (isColor) return;
   const std::vector<std::string> channels = {"r", "g", "b", "a"};
   const std::string channel = table.getChoice(p.name + "_channel", "r", channels);
@@ -63,8 +63,21 @@ void readTexture(const ConfigTable& table, const ClosureParameter& p, SceneFileT
 }
 
 ClosureValue readValue(const ConfigTable& table, const MaterialKind& kind,
-                       const ClosureParameter& p, SceneFileTextures& textures) {
+                       const ClosureParameter& p, SceneFileInputs& inputs) {
   ClosureValue value;
+  if (p.kind == Kind::table || p.kind == Kind::material) {
+    const std::string name = table.getString(p.name, "");
+    if (p.kind == Kind::material) value.words.x = rl::RL_INVALID;
+    if (name.empty() && !p.isOptional)
+      table.fail(p.name, fmt::format("kind '{}' has no '{}': {}", kind.name, p.name, p.help));
+    if (name.empty()) return value;
+    if (p.kind == Kind::table) {
+      value.table = inputs.addTable(name, table.place(p.name));
+    } else {
+      value.words.x = inputs.addPart(name, table.place(p.name));
+    }
+    return value;
+  }
   if (p.kind == Kind::choice) {
     const std::string choice = table.getChoice(p.name, p.choices[size_t(p.fallback)], p.choices);
     value.words.x =
@@ -77,7 +90,7 @@ ClosureValue readValue(const ConfigTable& table, const MaterialKind& kind,
     value.words = bits(glm::dvec3(table.getNumber(p.name, p.fallback, p.lo, p.hi)));
   }
   // The lobes of glTF take a texture of the colour alone.
-  if (kind.closure != nullptr || p.name == "color") readTexture(table, p, textures, value);
+  if (kind.closure != nullptr || p.name == "color") readTexture(table, p, inputs, value);
   return value;
 }
 
@@ -89,6 +102,12 @@ const MaterialKind& readKind(const ConfigTable& table) {
   const std::string name = table.getChoice("kind", names[0], names);
   return *std::find_if(materialKinds().begin(), materialKinds().end(),
                        [&](const MaterialKind& kind) { return kind.name == name; });
+}
+
+template <class Indices>
+auto findPath(const Indices& indices, const fs::path& path) {
+  return std::find_if(indices.begin(), indices.end(),
+                      [&](const auto& entry) { return entry.first == path; });
 }
 
 // The lobes of glTF that a kind stands for; values: its parameters by name.
@@ -114,6 +133,13 @@ class Lobes {
     if (kind_.name == "plastic") return;
     m.transmission = 1.0f;
     if (has("absorption")) m.sigmaAbsorption = floats(of("absorption").words);
+    if (kind_.name == "wax") {
+      const glm::vec3 extinction = 1.0f / floats(of("mean_free_path").words);
+      const glm::vec3 albedo = floats(of("albedo").words);
+      s.sigmaScattering = extinction * albedo;
+      m.sigmaAbsorption = extinction - s.sigmaScattering;
+      s.phase = number("g");
+    }
     if (kind_.name == "thin_dielectric") s.flags |= rl::RL_MATERIAL_THIN;
   }
 
@@ -138,25 +164,36 @@ class Lobes {
 
 void checkConvex(const ConfigTable& table, const ClosureInfo& info,
                  const std::vector<ClosureValue>& values) {
-  if (info.convexOne.empty()) return;
   glm::vec3 sum(0.0f);
   for (size_t i = 0; i < values.size(); ++i) {
     const std::string& name = info.parameters[i].name;
-    if (name == info.convexOne || name == info.convexOther) sum += floats(values[i].words);
+    if (std::find(info.convexParts.begin(), info.convexParts.end(), name) != info.convexParts.end())
+      sum += floats(values[i].words);
   }
   const float most = std::max({sum.x, sum.y, sum.z});
   if (most > 1.0001f)
-    table.fail("", fmt::format("'{}' + '{}' is {:g}; at most 1 expected, or energy is made",
-                               info.convexOne, info.convexOther, most));
+    table.fail("", fmt::format("'{}' is {:g}; at most 1 expected, or energy is made",
+                               fmt::join(info.convexParts, "' + '"), most));
+}
+
+// A share of a part that is not there would be lost light.
+void checkShares(const ConfigTable& table, const ClosureInfo& info,
+                 const std::vector<ClosureValue>& values) {
+  for (size_t i = 0; i < values.size(); ++i) {
+    if (info.parameters[i].kind != Kind::material || values[i].words.x != rl::RL_INVALID) continue;
+    const std::string key = info.parameters[i].name + "_share";
+    if (table.has(key))
+      table.fail(key, fmt::format("'{}' without '{}': the material that it is of", key,
+                                  info.parameters[i].name));
+  }
 }
 
 }  // namespace
 
-uint32_t SceneFileTextures::add(const std::string& file, bool isSrgb, uint32_t uvSet,
-                                const std::string& place) {
+uint32_t SceneFileInputs::addTexture(const std::string& file, bool isSrgb, uint32_t uvSet,
+                                     const std::string& place) {
   const fs::path path = folder_ / file;
-  auto found = std::find_if(images_.begin(), images_.end(),
-                            [&](const auto& image) { return image.first == path; });
+  auto found = findPath(images_, path);
   if (found == images_.end()) {
     const std::vector<uint8_t> bytes = bytesOf(path, place);
     DecodedImage image;
@@ -175,7 +212,50 @@ uint32_t SceneFileTextures::add(const std::string& file, bool isSrgb, uint32_t u
   return uint32_t(scene_.textureUses.size() - 1);
 }
 
-Scattering readScattering(const ConfigTable& table, SceneFileTextures& textures) {
+void SceneFileInputs::offer(std::shared_ptr<const ClosureTable> table) {
+  tables_.emplace_back(folder_ / table->name, uint32_t(scene_.tables.size()));
+  scene_.tables.push_back(std::move(table));
+}
+
+uint32_t SceneFileInputs::addTable(const std::string& file, const std::string& place) {
+  const fs::path path = folder_ / file;
+  if (const auto found = findPath(tables_, path); found != tables_.end()) return found->second;
+  auto table =
+      std::make_shared<const ClosureTable>(atPlace(place, [&] { return readClosureTable(path); }));
+  const std::vector<glm::vec3>& values = table->values;
+  scene_.contentHash =
+      hashBytes(values.data(), values.size() * sizeof(values[0]), scene_.contentHash);
+  scene_.tables.push_back(std::move(table));
+  tables_.emplace_back(path, uint32_t(scene_.tables.size() - 1));
+  return tables_.back().second;
+}
+
+uint32_t SceneFileInputs::addPart(const std::string& name, const std::string& place) {
+  if (const auto found = findPath(parts_, name); found != parts_.end()) return found->second;
+  const auto scattering = std::find_if(offered_.begin(), offered_.end(),
+                                       [&](const Scattering& s) { return s.name == name; });
+  if (scattering == offered_.end()) {
+    std::vector<std::string> names;
+    for (const Scattering& s : offered_) names.push_back(s.name);
+    failInput(fmt::format("{}: no [[material]] above is named '{}'{}", place, name,
+                          didYouMean(name, names)));
+  }
+  const std::string& kind = scattering->kind->name;
+  if (kind == "dielectric" || kind == "thin_dielectric" || kind == "mixture")
+    failInput(
+        fmt::format("{}: '{}' is of kind '{}': a mixture takes kinds that reflect alone, and "
+                    "no other mixture",
+                    place, name, kind));
+  SceneMaterial material;
+  material.name = name;
+  material.data = gltf::makeDefaultMaterial();
+  scatterAs(*scattering, material);
+  scene_.materials.push_back(std::move(material));
+  parts_.emplace_back(name, uint32_t(scene_.materials.size() - 1));
+  return parts_.back().second;
+}
+
+Scattering readScattering(const ConfigTable& table, SceneFileInputs& inputs) {
   Scattering s;
   s.name = table.getString("name", "");
   if (s.name.empty())
@@ -183,7 +263,7 @@ Scattering readScattering(const ConfigTable& table, SceneFileTextures& textures)
   s.kind = &readKind(table);
   std::vector<ClosureValue> values;
   for (const ClosureParameter& p : s.kind->parameters)
-    values.push_back(readValue(table, *s.kind, p, textures));
+    values.push_back(readValue(table, *s.kind, p, inputs));
   table.finish();
   if (s.kind->closure == nullptr) {
     Lobes(*s.kind, values).apply(s);
@@ -191,9 +271,12 @@ Scattering readScattering(const ConfigTable& table, SceneFileTextures& textures)
   }
   const ClosureInfo& info = *s.kind->closure;
   checkConvex(table, info, values);
+  checkShares(table, info, values);
   for (size_t i = 0; i < values.size(); ++i) {
     if (info.parameters[i].name == info.anisotropicWhere && values[i].words.x != 0u)
       s.flags |= rl::RL_MATERIAL_ANISOTROPIC;
+    if (info.parameters[i].kind == Kind::material && values[i].words.x != rl::RL_INVALID)
+      s.flags |= inputs.flagsOf(values[i].words.x) & rl::RL_MATERIAL_ANISOTROPIC;
   }
   s.closure = std::move(values);
   return s;
@@ -216,6 +299,8 @@ void scatterAs(const Scattering& scattering, SceneMaterial& material) {
   m.textures[rl::RL_TEX_NORMAL] = before.textures[rl::RL_TEX_NORMAL];
   // The texture of the base colour holds the coverage.
   if (hasCoverage) m.textures[rl::RL_TEX_BASE_COLOR] = before.textures[rl::RL_TEX_BASE_COLOR];
+  material.sigmaScattering = scattering.sigmaScattering;
+  material.phase = scattering.phase;
   material.closure = scattering.closure;
   if (scattering.kind->closure != nullptr) m.closure = scattering.kind->closure->kind;
 }

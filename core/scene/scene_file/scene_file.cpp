@@ -161,17 +161,38 @@ glm::dvec3 readVector(const ConfigTable& table, const char* key, const glm::dvec
   return {v[0], v[1], v[2]};
 }
 
-PunctualLight readLight(const ConfigTable& table, size_t index) {
-  const std::vector<std::string> kinds = {"point", "spot", "directional"};
+glm::vec3 readRadiance(const ConfigTable& table, const char* key, double fallback) {
+  const bool isGrey = table.has(key) && table.getTexts(key).size() == 1;
+  const std::vector<double> v =
+      table.getNumbers(key, {fallback, fallback, fallback}, isGrey ? 1 : 3, 0.0, 1e12);
+  return isGrey ? glm::vec3(float(v[0])) : glm::vec3(v[0], v[1], v[2]);
+}
+
+// The attenuation of a point light: 1 / (C0 + C1 r + C2 r^2), by default 1 / r^2.
+glm::vec3 readAttenuation(const ConfigTable& table) {
+  const std::vector<double> c = table.getNumbers("attenuation", {0.0, 0.0, 1.0}, 3, 0.0, 1e9);
+  if (!(c[0] + c[1] + c[2] > 0.0))
+    table.fail("attenuation", "'attenuation' is 0: 1 / (C0 + C1 r + C2 r^2) has no value");
+  return {c[0], c[1], c[2]};
+}
+
+void addLight(const ConfigTable& table, Scene& scene) {
+  const std::vector<std::string> kinds = {"point", "spot", "directional", "ambient"};
   PunctualLight light;
-  light.name = table.getString("name", fmt::format("light {}", index));
+  light.name = table.getString("name", fmt::format("light {}", scene.lights.size()));
   const std::string kind = table.getChoice("kind", kinds[0], kinds);
+  if (kind == "ambient") {
+    scene.ambient += readRadiance(table, "radiance", 0.05);
+    table.finish();
+    return;
+  }
   light.kind = kind == "point"  ? rl::RL_LIGHT_POINT
                : kind == "spot" ? rl::RL_LIGHT_SPOT
                                 : rl::RL_LIGHT_DIRECTIONAL;
   const std::vector<double> intensity =
       table.getNumbers("intensity", {1.0, 1.0, 1.0}, 3, 0.0, 1e12);
   light.intensity = glm::dvec3(intensity[0], intensity[1], intensity[2]);
+  if (kind == "point") light.attenuation = readAttenuation(table);
   if (kind != "directional") light.posW = readVector(table, "position", glm::dvec3(0.0));
   if (kind != "point") {
     const glm::dvec3 direction = readVector(table, "direction", {0.0, -1.0, 0.0});
@@ -185,7 +206,7 @@ PunctualLight readLight(const ConfigTable& table, size_t index) {
     light.innerConeAngle = float(table.getNumber("inner_cone", 0.0, 0.0, outer) * kRadians);
   }
   table.finish();
-  return light;
+  scene.lights.push_back(light);
 }
 
 // [camera]: the only camera then.
@@ -209,7 +230,18 @@ SceneCamera readCamera(const ConfigTable& table) {
 
 EnvironmentMap readEnvironment(const ConfigTable& table, const fs::path& folder) {
   const std::string file = table.getString("file", "");
-  if (file.empty()) table.fail("file", "[environment] has no 'file': an .hdr or .exr");
+  if (file.empty() == !table.has("radiance"))
+    table.fail("file",
+               "[environment] takes 'file', an .hdr or .exr, or 'radiance', a colour: one of them");
+  if (file.empty()) {
+    EnvironmentMap map;
+    map.source = "radiance";
+    map.width = 2;
+    map.height = 1;
+    map.radiance.assign(2, readRadiance(table, "radiance", 0.0));
+    table.finish();
+    return map;
+  }
   EnvironmentMap map = atPlace(table.place("file"), [&] { return loadEnvironment(folder / file); });
   map.rotation = float(table.getNumber("rotation", 0.0, -360.0, 360.0) * std::numbers::pi / 180.0);
   map.scale = float(table.getNumber("scale", 1.0, 0.0, 1e9));
@@ -217,20 +249,59 @@ EnvironmentMap readEnvironment(const ConfigTable& table, const fs::path& folder)
   return map;
 }
 
-Scene read(const fs::path& file) {
+// The table that a setting is about: "material.wall.roughness" or "light.lamp.intensity" by its
+// name, "camera.yfov", "environment.scale" and "background.radiance" by themselves.
+ConfigTable tableOf(const ConfigTable& table, const std::string& key, const std::string& place) {
+  const size_t first = key.find('.'), last = key.rfind('.');
+  const std::string group = key.substr(0, first);
+  const bool isNamed = group == "material" || group == "light";
+  const bool isSingle = group == "camera" || group == "environment" || group == "background";
+  if (first == std::string::npos || (first == last) == isNamed || !(isNamed || isSingle))
+    failInput(place +
+              ": material.NAME.KEY, light.NAME.KEY, camera.KEY, environment.KEY or "
+              "background.KEY expected");
+  if (isSingle) {
+    if (!table.has(group)) failInput(fmt::format("{}: the file has no [{}]", place, group));
+    return table.getTable(group);
+  }
+  const std::string name = key.substr(first + 1, last - first - 1);
+  std::vector<std::string> names;
+  for (const ConfigTable& one : table.getTables(group)) {
+    names.push_back(one.getString("name", ""));
+    if (names.back() == name) return one;
+  }
+  failInput(
+      fmt::format("{}: no [[{}]] is named '{}'{}", place, group, name, didYouMean(name, names)));
+}
+
+void applySettings(const ConfigTable& table, const std::string& settings) {
+  for (size_t begin = 0; begin < settings.size();) {
+    const size_t end = std::min(settings.find('&', begin), settings.size());
+    const std::string setting = settings.substr(begin, end - begin);
+    begin = end + 1;
+    const std::string place = "?" + setting;
+    const auto [key, value] = splitAssignment(setting, "?");
+    tableOf(table, key, place).assign(key.substr(key.rfind('.') + 1), value, place);
+  }
+}
+
+Scene read(const fs::path& file, const std::string& settings) {
   const Nesting nesting(file);
   const ConfigTable table = ConfigTable::parseFile(file);
+  applySettings(table, settings);
   const fs::path folder = file.parent_path();
   Scene scene = loadBase(table, folder);
   scene.name = file.filename().string();
   scene.name.resize(scene.name.size() - std::string(kExtension).size());
+  if (!settings.empty()) scene.name += "?" + settings;
   scene.source = file;
   const std::string text = table.text();  // with what the file includes
   scene.contentHash = hashBytes(text.data(), text.size(), scene.contentHash);
-  SceneFileTextures textures(folder, scene);
+  SceneFileInputs inputs(folder, scene);
   std::vector<Scattering> materials;
   for (const ConfigTable& material : table.getTables("material")) {
-    materials.push_back(readScattering(material, textures));
+    materials.push_back(readScattering(material, inputs));
+    inputs.offer(materials.back());
     for (size_t i = 0; i + 1 < materials.size(); ++i) {
       if (materials[i].name == materials.back().name)
         material.fail("name",
@@ -239,14 +310,18 @@ Scene read(const fs::path& file) {
   }
   Assignment assignment(scene, materials);
   for (const ConfigTable& assign : table.getTables("assign")) assignment.apply(assign);
-  for (const ConfigTable& light : table.getTables("light"))
-    scene.lights.push_back(readLight(light, scene.lights.size()));
+  for (const ConfigTable& light : table.getTables("light")) addLight(light, scene);
   if (table.has("camera")) {
     scene.cameras = {readCamera(table.getTable("camera"))};
     scene.mainCamera = 0;
   }
   if (table.has("environment"))
     scene.environment = readEnvironment(table.getTable("environment"), folder);
+  if (table.has("background")) {
+    const ConfigTable background = table.getTable("background");
+    scene.background = readRadiance(background, "radiance", 0.0);
+    background.finish();
+  }
   table.finish();
   return scene;
 }
@@ -258,9 +333,15 @@ bool isSceneFile(const fs::path& file) {
   return name.ends_with(kExtension) && name.size() > std::string(kExtension).size();
 }
 
-Scene loadSceneFile(const fs::path& file) {
+std::pair<std::string, std::string> splitSceneSettings(const std::string& name) {
+  const size_t question = name.find('?');
+  if (isBuiltinScene(name) || question == std::string::npos) return {name, ""};
+  return {name.substr(0, question), name.substr(question + 1)};
+}
+
+Scene loadSceneFile(const fs::path& file, const std::string& settings) {
   try {
-    return read(file);
+    return read(file, settings);
   } catch (const Error& error) {
     // A configuration, but of a scene.
     throw Error(ExitCode::badInput, error.what());

@@ -10,7 +10,7 @@ info.number("power", 80.0, 0.0, 1.0e5, "exponent of the cosine between normal an
 info.choice("model", {"raw", "normalised"},
             "raw: as of 1977, breaks laws; normalised: with the cosine");
 info.breaks({"energy", "reciprocity"}, "model", "raw");
-info.convex("diffuse", "specular");
+info.convex({"diffuse", "specular"});
 #else
 
 RL_FN void blinnPhongLoad(RL_INOUT(Bsdf) b, RL_IN(MaterialPoint) at) {

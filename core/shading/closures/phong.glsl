@@ -11,7 +11,7 @@ info.number("power", 20.0, 0.0, 1.0e5, "exponent of the cosine to the mirrored d
 info.choice("model", {"raw", "modified"},
             "raw: as of 1975, breaks laws; modified: normalised, with the cosine");
 info.breaks({"energy", "reciprocity"}, "model", "raw");
-info.convex("diffuse", "specular");
+info.convex({"diffuse", "specular"});
 #else
 
 RL_FN void phongLoad(RL_INOUT(Bsdf) b, RL_IN(MaterialPoint) at) {

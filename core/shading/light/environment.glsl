@@ -81,3 +81,11 @@ RL_FN_OUTLINE vec3 environmentDraw(RL_IN(uvec2) bits, uint aliasBits, RL_OUT(flo
   pdfSolidAngle = environmentPdfOfTexel(i, sinTheta);
   return environmentRotate(d, gScene.environmentRotation);
 }
+
+// The sky as a ray finds it that hits nothing. isInView: the ray begins at the camera.
+RL_FN bool skyExists(bool isInView) {
+  return environmentExists() || (isInView && gScene.hasBackground != 0u);
+}
+RL_FN vec3 skyRadiance(RL_IN(vec3) dirW, bool isInView) {
+  return isInView && gScene.hasBackground != 0u ? gScene.background : environmentRadiance(dirW);
+}

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/scene/scene_file/scene_file.h"
 
 namespace restlab {
 
@@ -90,6 +91,10 @@ fs::path findAsset(const std::string& name) {
     }
   }
   return {};
+}
+
+bool isSuite(const std::string& name) {
+  return fs::path(name).extension() == ".toml" && !isSceneFile(splitSceneSettings(name).first);
 }
 
 std::filesystem::path resolvedPath(const std::filesystem::path& name) {

@@ -13,6 +13,9 @@ void makeWritableDirectory(const std::filesystem::path& directory);
 // under ../shared/scenes. Returns an empty path if not found.
 std::filesystem::path findAsset(const std::string& name);
 
+// Returns whether a name is that of a suite: a .toml that is no scene file.
+bool isSuite(const std::string& name);
+
 // Returns the folder of downloaded scenes: RESTLAB_SCENES, else ../shared/scenes; empty if absent.
 std::filesystem::path sceneFolder();
 

@@ -121,16 +121,20 @@ Json closuresJson() {
     Json parameters = Json::array();
     for (const ClosureParameter& p : kind.parameters) {
       Json parameter = {{"name", p.name}};
-      if (p.kind == Kind::choice) {
+      if (p.kind == Kind::table || p.kind == Kind::material) {
+        parameter["default"] = p.isOptional ? "none" : "to be given";
+      } else if (p.kind == Kind::choice) {
         parameter["default"] = p.choices.at(size_t(p.fallback));
         parameter["choices"] = p.choices;
       } else {
         parameter["default"] = p.fallback;
         parameter["range"] = {p.lo, p.hi};
       }
-      parameter["type"] = p.kind == Kind::color    ? "colour"
-                          : p.kind == Kind::number ? "number"
-                                                   : "choice";
+      parameter["type"] = p.kind == Kind::color      ? "colour"
+                          : p.kind == Kind::number   ? "number"
+                          : p.kind == Kind::table    ? "file"
+                          : p.kind == Kind::material ? "material"
+                                                     : "choice";
       parameter["help"] = p.help;
       parameters.push_back(parameter);
     }

@@ -17,6 +17,7 @@
 #include "experiments/runner/base/build_info.h"
 #include "experiments/runner/base/files.h"
 #include "experiments/runner/base/log.h"
+#include "core/scene/scene_file/scene_file.h"
 #include "experiments/runner/suite/image_settings.h"
 
 namespace restlab {
@@ -62,7 +63,8 @@ void setCamera(PreparedScene& prepared, const Scene& scene, const std::string& n
 
 bool assetsMissing(const SceneRequest& request, std::string& missing) {
   missing.clear();
-  if (!isBuiltinScene(request.scene) && locate(request.scene, request.suiteFolder).empty()) {
+  const std::string file = splitSceneSettings(request.scene).first;
+  if (!isBuiltinScene(request.scene) && locate(file, request.suiteFolder).empty()) {
     missing = request.scene;
   } else if (!request.environment.empty() &&
              locate(request.environment, request.suiteFolder).empty()) {
@@ -95,8 +97,9 @@ PreparedScene prepareScene(const SceneRequest& request, std::optional<Environmen
   PreparedScene prepared;
   std::string name = request.scene;
   if (!isBuiltinScene(name) && !request.suiteFolder.empty()) {
-    const std::string found = locate(name, request.suiteFolder);
-    if (!found.empty()) name = found;
+    const auto [file, settings] = splitSceneSettings(name);
+    const std::string found = locate(file, request.suiteFolder);
+    if (!found.empty()) name = found + (settings.empty() ? "" : "?" + settings);
   }
   Scene scene = loadScene(name);
   prepared.environmentName = scene.environment ? scene.environment->source : "none";

@@ -1,0 +1,151 @@
+// Bodies that scatter: radiance of a half space by Chandrasekhar's H function, and white bodies in
+// a white furnace.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "core/frame/session.h"
+#include "core/scene/builtin/builder.h"
+#include "core/scene/builtin/mesh.h"
+#include "core/scene/compiled/compiled_scene.h"
+
+namespace restlab {
+namespace {
+
+using builtin::SceneBuilder;
+
+// H(1) of isotropic scattering with albedo w (Chandrasekhar 1960, chapter 5), by iteration of
+// 1/H(m) = sqrt(1 - w) + w/2 int n H(n) / (m + n) dn.
+double hOfOne(double w) {
+  constexpr int kNodes = 400;
+  const auto node = [](int i) { return (i + 0.5) / kNodes; };
+  std::vector<double> h(kNodes, 1.0);
+  const auto next = [&](double m) {
+    double sum = 0.0;
+    for (int i = 0; i < kNodes; ++i) sum += node(i) * h[size_t(i)] / (m + node(i)) / kNodes;
+    return 1.0 / (std::sqrt(1.0 - w) + 0.5 * w * sum);
+  };
+  for (int round = 0; round < 60; ++round) {
+    std::vector<double> better(kNodes);
+    for (int i = 0; i < kNodes; ++i) better[size_t(i)] = next(node(i));
+    h = better;
+  }
+  return next(1.0);
+}
+
+struct Wax {
+  glm::vec3 albedo{0.9f}, meanFreePath{0.05f};
+  float g = 0.0f, ior = 1.0f;
+};
+
+// A box under a white sky, seen along the normal of its front at z = -1.
+std::shared_ptr<const CompiledScene> boxOf(const Wax& wax, double halfWidth, double depth) {
+  SceneBuilder builder("wax");
+  const uint32_t material = builder.addMaterial("wax", builtin::glass(0.0f, glm::vec3(0.0f)));
+  builder.add(
+      builtin::box("box", {-halfWidth, -halfWidth, -1.0 - depth}, {halfWidth, halfWidth, -1.0}),
+      material);
+  EnvironmentMap sky;
+  sky.width = 2;
+  sky.height = 1;
+  sky.radiance.assign(2, glm::vec3(1.0f));
+  builder.setEnvironment(sky);
+  Scene scene = builder.finish();
+  const glm::vec3 extinction = 1.0f / wax.meanFreePath;
+  SceneMaterial& m = scene.materials[material];
+  m.sigmaScattering = extinction * wax.albedo;
+  m.data.sigmaAbsorption = extinction - m.sigmaScattering;
+  m.data.ior = wax.ior;
+  m.phase = wax.g;
+  SceneCamera camera;
+  camera.kind = rl::RL_CAMERA_ORTHOGRAPHIC;
+  camera.xmag = camera.ymag = 0.05;
+  camera.cameraToWorld = glm::dmat4(1.0);
+  scene.cameras = {camera};
+  return CompiledScene::build(std::move(scene));
+}
+
+struct Mean {
+  glm::dvec3 value{0.0}, error{0.0};
+  uint64_t longWalks = 0;
+};
+
+// The mean of independent runs of `frames` frames each.
+Mean meanOf(const std::shared_ptr<const CompiledScene>& scene, const char* integrator,
+            uint32_t frames, uint32_t runs) {
+  Mean mean;
+  glm::dvec3 squares(0.0);
+  for (uint32_t run = 0; run < runs; ++run) {
+    SessionConfig config;
+    config.integrator = integrator;
+    config.width = config.height = 16;
+    config.maxBounces = 16;
+    config.seed = 100 + run;
+    Session session(scene, config);
+    glm::dvec3 sum(0.0);
+    for (uint32_t i = 0; i < frames; ++i) {
+      mean.longWalks += session.frame().health.counts[rl::RL_HEALTH_LONG_WALKS];
+      for (const glm::vec3& pixel : session.radiance().pixels)
+        sum += glm::dvec3(pixel) / (256.0 * frames);
+    }
+    mean.value += sum;
+    squares += sum * sum;
+  }
+  const double n = runs;
+  mean.value /= n;
+  mean.error =
+      glm::sqrt(glm::max(squares / n - mean.value * mean.value, glm::dvec3(0.0)) / (n - 1.0));
+  return mean;
+}
+
+// Channels differ in albedo and in mean free path: distances are drawn for one and weighed for all.
+TEST(Wax, AHalfSpaceIsAsBrightAsChandrasekharSays) {
+  Wax wax;
+  wax.albedo = {0.5f, 0.9f, 0.97f};
+  wax.meanFreePath = {0.05f, 0.1f, 0.03f};
+  const auto scene = boxOf(wax, 8.0, 5.0);
+  const Mean mean = meanOf(scene, "path", 20, 20);
+  for (int c = 0; c < 3; ++c) {
+    const double w = wax.albedo[c];
+    const double expected = 1.0 - hOfOne(w) * std::sqrt(1.0 - w);
+    EXPECT_NEAR(mean.value[c], expected, 4.0 * mean.error[c] + 1e-4) << "albedo " << w;
+    EXPECT_LT(mean.error[c], 0.01 * expected) << "too noisy to tell";
+  }
+  EXPECT_EQ(mean.longWalks, 0u);
+}
+
+// No light is lost or made inside, whatever the index and the phase function.
+TEST(Wax, AWhiteBodyIsAWhiteFurnace) {
+  for (const float ior : {1.0f, 1.4f}) {
+    for (const float g : {0.0f, 0.8f, -0.5f}) {
+      Wax wax;
+      wax.albedo = glm::vec3(1.0f);
+      wax.meanFreePath = glm::vec3(0.2f, 0.3f, 0.5f);
+      wax.g = g;
+      wax.ior = ior;
+      const auto scene = boxOf(wax, 0.5, 0.4);
+      for (const char* integrator : {"path", "restir_gi", "restir_pt"}) {
+        const Mean mean = meanOf(scene, integrator, 4, 24);
+        for (int c = 0; c < 3; ++c)
+          EXPECT_NEAR(mean.value[c], 1.0, 4.0 * mean.error[c] + 1e-3)
+              << integrator << ", index " << ior << ", g " << g;
+      }
+    }
+  }
+}
+
+// Light that does not come out in 1023 collisions is lost, and said.
+TEST(Wax, WalksThatDoNotEndAreCounted) {
+  Wax wax;
+  wax.albedo = glm::vec3(1.0f);
+  wax.meanFreePath = glm::vec3(0.001f);
+  const Mean mean = meanOf(boxOf(wax, 8.0, 5.0), "path", 4, 2);
+  EXPECT_GT(mean.longWalks, 4u);
+  EXPECT_LT(mean.value.x, 1.0);
+  EXPECT_GT(mean.value.x, 0.9);
+}
+
+}  // namespace
+}  // namespace restlab
