@@ -112,3 +112,7 @@ RL_FN vec3 unpackColor(uint packed) {
               float((packed >> 20u) & 0x3ffu)) *
          (1.0f / 1023.0f);
 }
+
+// Both halves of 32 bits, as floats that no machine changes on their way.
+RL_FN vec2 packHalves(uint bits) { return vec2(float(bits & 0xffffu), float(bits >> 16u)); }
+RL_FN uint unpackHalves(RL_IN(vec2) halves) { return uint(halves.x) | (uint(halves.y) << 16u); }

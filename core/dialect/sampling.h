@@ -24,7 +24,7 @@ const uint RL_VERTEX_CACHE_UPDATE = 0x3000u;
 const uint RL_VERTEX_CACHE_REUSE = 0x3800u;
 const uint RL_VERTEX_CANDIDATES = 0x4000u;  // + index of a light candidate
 const uint RL_VERTEX_COLLISION =
-    0x10000u;  // times 1 + the number of collisions, + the vertex before
+    0x10000u;  // times 1 + the number of the stretch, + the vertex before
 
 // Steps of the R2 sequence, 1/g and 1/g^2 of 2^32, g^3 = g + 1 (Roberts 2018).
 const uint RL_R2_STEP_X = 3242174889u;

@@ -324,7 +324,7 @@ const uint RL_HEALTH_CACHE_FULL = 7u;         // pixels whose cell found no slot
 const uint RL_HEALTH_LIGHT_CHANGED = 8u;      // radiance cells reset because their light changed
 const uint RL_HEALTH_NEW_HISTORY = 9u;        // pixels for whose surface a denoiser had no history
 const uint RL_HEALTH_FIREFLIES = 10u;         // pixels that a denoiser darkened to match neighbours
-const uint RL_HEALTH_LONG_WALKS = 11u;        // paths that RL_MOST_COLLISIONS in media ended
+const uint RL_HEALTH_LONG_WALKS = 11u;        // paths that RL_MOST_STRETCHES in media ended
 const uint RL_HEALTH_COUNT = 12u;
 
 RL_NAMESPACE_END

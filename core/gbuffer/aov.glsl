@@ -46,7 +46,8 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   float object = float(hit.instance + 1u);
   gBuffers.object.data[pixelIndex] = vec3(object, object, object);
   gBuffers.emission.data[pixelIndex] = s.emission;
-  bool isLit = RL_HAS(RL_FEATURE_AMBIENT) && rlIsBlack(s.emission);
+  bool isLit = RL_HAS(RL_FEATURE_AMBIENT) && rlIsBlack(s.emission) && gFrame.maxBounces > 0u &&
+               (gFrame.components & RL_COMPONENT_DIRECT) != 0u;
   gBuffers.ambient.data[pixelIndex] = isLit ? surfaceAmbient(s) : zero;
   gBuffers.motion.data[pixelIndex] = aovMotion(pixel, film, s.posW, true);
 }

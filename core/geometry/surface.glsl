@@ -256,7 +256,6 @@ RL_FN Surface surfaceLoadBetween(RL_IN(Hit) hit, RL_IN(vec3) rayDir, float contr
     s.bsdf = bsdfNone();
     if ((material.flags & (RL_MATERIAL_UNLIT | RL_MATERIAL_BLACK)) != 0u) return s;
     s.bsdf.closure = material.closure;
-    s.bsdf.firstParameter = material.firstParameter;
     if ((material.flags & RL_MATERIAL_ANISOTROPIC) != 0u)
       s.bsdf.tangent = surfaceTangentAngle(inst, geometry, corners, hit.bary, t, s.nShadeW);
 #ifdef RL_KEEPS_MIXTURE

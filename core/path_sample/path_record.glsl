@@ -187,7 +187,8 @@ RL_FN bool pathAddReplay(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(vec3) r
 
 RL_FN void onMiss(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(vec3) radiance, float pdfLight) {
   if (pathAddReplay(p, walk, radiance, pdfLight)) return;
-  if (pathIsAtX2(p, walk) && pathCanName(gScene.environmentLight)) {
+  bool isScattered = RL_HAS(RL_FEATURE_SCATTERING) && walk.isScattered != 0u;
+  if (pathIsAtX2(p, walk) && pathCanName(gScene.environmentLight) && !isScattered) {
     p.alphaTransmittanceX1 = walk.passed;
     p.found.kind = RL_LIGHT_ENVIRONMENT;
     p.found.record = gScene.environmentLight;
@@ -246,8 +247,12 @@ RL_FN void onEmission(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(Surface) s
     p.emittedAtX3 = s.emission * p.suffixThroughput;
     p.pdfLightAtX3 = pathPackedPdf(pdfLight);
   } else {
-    pathAddLight(p, walk,
-                 s.emission * (pdfLight > 0.0f ? lightMisWeight(walk.pdfBsdf, pdfLight) : 1.0f));
+    float weight = pdfLight > 0.0f ? lightMisWeight(walk.pdfBsdf, pdfLight) : 1.0f;
+    // Light samples of a rough x1 have this hit's density in theirs (pathDirectDensity()).
+    if (isScattered && pdfLight > 0.0f && pathIsAtX2(p, walk) && !pathIsSmoothX1(p))
+      weight =
+          pathHasUnshadowedTarget() ? 0.0f : p.pdfX1 / (pathLightSamples(p) * pdfLight + p.pdfX1);
+    pathAddLight(p, walk, s.emission * weight);
   }
 }
 

@@ -85,6 +85,7 @@ RL_FN LightSample pathEnd(RL_IN(PathSample) p) {
     Light light = recordLight(end.record);
     end.point = light.p0;
     if (end.kind == RL_LIGHT_DIRECTIONAL) end.point = -light.e1;
+    if (end.kind == RL_LIGHT_POINT) end.normal = light.e2;
     if (end.kind == RL_LIGHT_SPOT) {
       end.normal = light.e1;
       end.cone = vec2(light.e2.x, light.e2.y);

@@ -71,6 +71,7 @@ struct SceneMaterial {
   glm::vec3 sigmaScattering{0.0f};
   float phase = 0.0f;
   float lightFactor = 1.0f;  // factor on data.emission (core/scene/compiled/light_factor.h)
+  bool isPart = false;       // of a mixture alone: no instance has it
   int priority = 0;          // among overlapping bodies, the greatest fills the place
 };
 

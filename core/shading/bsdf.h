@@ -53,10 +53,9 @@ struct Bsdf {
   float eta;          // index of refraction beyond the surface over that on the side of wo
   // A closure (core/shading/closures) in place of glTF's lobes. It says above, for whoever asks how
   // a surface scatters on the whole: lobes, albedo (diffuse, f0), alpha of its narrowest lobe.
-  uint closure;         // RL_CLOSURE_*
-  uint firstParameter;  // in SceneData::closureParameters, of those that read them later
-  vec2 tangent;         // cosine and sine of the angle from the normal's frame to the tangent
-  vec4 p0;              // values that the closure's file gives a meaning
+  uint closure;  // RL_CLOSURE_*
+  vec2 tangent;  // cosine and sine of the angle from the normal's frame to the tangent
+  vec4 p0;       // values that the closure's file gives a meaning
   vec4 p1;
   vec4 p2;
   vec4 p3;

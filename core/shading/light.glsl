@@ -33,7 +33,7 @@ RL_FN LightSample lightPoint(uint record, RL_IN(Light) light, RL_IN(vec2) bary, 
   s.posError = 0.0f;
   s.cone = vec2(light.e2.x, light.e2.y);
   if (light.kind == RL_LIGHT_SPOT) s.normal = light.e1;
-  if (light.kind == RL_LIGHT_POINT) s.normal = light.e2;
+  if (RL_HAS(RL_FEATURE_PUNCTUAL_LIGHTS) && light.kind == RL_LIGHT_POINT) s.normal = light.e2;
   s.isTwoSided = 0u;
   s.id.instance = light.instance;
   s.id.primitive = light.primitive;

@@ -81,33 +81,40 @@ RL_FN void walkScatter(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk, RL_IN
   walk.ray.origin = surfaceOffset(s.posW, s.nGeoW, s.posError, draw.wi);
   walk.ray.dir = draw.wi;
   walk.isScattered = 0u;
+  walk.ofMedium = vec3(1.0f, 1.0f, 1.0f);
 }
 
 // Where the ray travels in a medium that scatters: draws whether it collides before `distance`, and
 // if so, moves the walk to the collision and turns it. Distances are drawn for one channel, which
 // is chosen by the light that it would scatter, and weighed by all three (spectral MIS; Wilkie et
-// al. 2014). A light sample from a collision would meet the surface of the body, so none is drawn.
+// al. 2014). The light is counted from the last surface: what lies before it has another colour
+// where the rest of the path is reused. A light sample from a collision would meet the surface of
+// the body, so none is drawn.
 RL_FN bool walkCollides(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk, float distance) {
   vec4 medium = mediaScattering(walk.media.x);
   vec3 scattering = vec3(medium);
-  if (rlIsBlack(scattering)) return false;
-  walk.isScattered = 1u;
-  vec3 share = walk.throughput * scattering;
+  vec3 share = walk.ofMedium * scattering;
   float total = share.x + share.y + share.z;
   if (!(total > 0.0f)) return false;
+  walk.isScattered = 1u;
   share = share * (1.0f / total);
   Rng rng = walk.rng;
-  rng.vertex = rng.vertex + RL_VERTEX_COLLISION * (1u + walk.collisions);
+  rng.vertex = rng.vertex + RL_VERTEX_COLLISION * (1u + walk.stretches);
+  walk.stretches = walk.stretches + 1u;
   float uChannel = rngDraw(rng, RL_DIM_COLLISION_CHANNEL);
   float sigma = uChannel < share.x             ? walk.sigma.x
                 : uChannel < share.x + share.y ? walk.sigma.y
                                                : walk.sigma.z;
   float free = -log(1.0f - rngDraw(rng, RL_DIM_COLLISION_DISTANCE)) / sigma;
-  vec3 passes = exp(-walk.sigma * min(free, distance));
   bool collides = free < distance;
+  // Stay inside of the body: rounding would put a collision at its surface outside.
+  vec3 size = abs(walk.ray.origin) + vec3(distance, distance, distance);
+  free = min(free, max(distance - 4.0e-7f * rlMax3(size), 0.0f));
+  vec3 passes = exp(-walk.sigma * (collides ? free : distance));
   vec3 density = collides ? walk.sigma * passes : passes;
   vec3 factor = (collides ? scattering * passes : passes) * rlSafeDivide(1.0f, dot(share, density));
   walk.throughput *= factor;
+  walk.ofMedium *= factor;
   onMedium(state, walk, factor);
   if (!collides) return false;
   vec2 u;
@@ -116,8 +123,7 @@ RL_FN bool walkCollides(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk, floa
   walk.ray.origin += walk.ray.dir * free;
   walk.ray.dir = mediaPhaseDraw(walk.ray.dir, medium.w, u);
   walk.pdfBsdf = 0.0f;
-  walk.collisions = walk.collisions + 1u;
-  if (walk.collisions >= RL_MOST_COLLISIONS) {
+  if (walk.stretches >= RL_MOST_STRETCHES) {
     walk.isAlive = 0u;
     if (rlMax3(walk.throughput) > 1.0e-4f) RL_HEALTH(RL_HEALTH_LONG_WALKS);
   }
@@ -139,7 +145,8 @@ RL_FN Walk walkBegin(RL_IN(Rng) rng, uint film, RL_IN(Ray) ray, uint bounces) {
   walk.rouletteStart = gFrame.rouletteStart;
   walk.passed = 1.0f;
   walk.isScattered = 0u;
-  walk.collisions = 0u;
+  walk.stretches = 0u;
+  walk.ofMedium = vec3(1.0f, 1.0f, 1.0f);
   walk.isAlive = 1u;
   return walk;
 }
@@ -159,6 +166,7 @@ RL_FN void walkOn(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk) {
       uint mode = isShadow ? RL_RAY_SHADOW : RL_RAY_PATH;
       uint alphaKey = walk.rng.key.x + walk.bounces * 0x632be59bu;
       if (walk.bounces == 0u) alphaKey = cameraAlphaKey(walk.film);
+      if (RL_HAS(RL_FEATURE_SCATTERING)) alphaKey += walk.stretches * 0x9e3779b9u;
       if (RL_HAS(RL_FEATURE_VOLUME) && isShadow) alphaKey = shadowRank;
       float passed = traceRay(traced, mode, alphaKey, hit);
       if (isShadow) {
@@ -216,9 +224,11 @@ RL_FN void walkOn(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk) {
     } else if (RL_HAS(RL_FEATURE_AMBIENT) && rlIsBlack(s.emission) &&
                walk.bounces < gFrame.maxBounces && walkWants(walk.bounces + 1u)) {
       // A scattering event of its own, whose light no ray has to look for.
-      s.emission = surfaceAmbient(s);
-      if (!rlIsBlack(s.emission)) onEmission(state, walk, s, hit, 0.0f);
-      s.emission = vec3(0.0f, 0.0f, 0.0f);
+      // It has nothing to do with the light table: the back of a lamp is none.
+      Surface lit = s;
+      lit.light = RL_INVALID;
+      lit.emission = surfaceAmbient(s);
+      if (!rlIsBlack(lit.emission)) onEmission(state, walk, lit, hit, 0.0f);
     }
     if (walk.bounces >= gFrame.maxBounces || bsdfIsBlack(s.bsdf)) break;
     walk.rng.vertex = walk.bounces + 1u;

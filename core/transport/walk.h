@@ -22,12 +22,13 @@ struct Walk {
   uint rouletteStart;  // first scattering event that may end the path by Russian roulette
   float passed;        // traceRay() of the ray: below 1 it may have passed something transparent
   uint isScattered;    // 1: the ray travels, since the last surface, in a medium that scatters
-  uint collisions;     // scattering events in media so far; they are no `bounces`
+  uint stretches;      // number of stretches in such media so far; collisions are no `bounces`
+  vec3 ofMedium;       // factors of such a medium since the last surface
   uint isAlive;        // 0: absorbed, or ended by Russian roulette
 };
 
-// Collisions after which a path is ended, and counted (RL_HEALTH_LONG_WALKS).
-const uint RL_MOST_COLLISIONS = 1023u;
+// Stretches in media that scatter, after which a path is ended and counted (RL_HEALTH_LONG_WALKS).
+const uint RL_MOST_STRETCHES = 1023u;
 
 // Returned by onVertex() to end the path.
 const uint RL_WALK_ENDS = 0xffffffffu;

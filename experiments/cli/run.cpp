@@ -117,8 +117,9 @@ void setJobs(uint32_t jobs, Suite& suite) {
 
 // Refers users who name a scene to `render`.
 void refuseScene(const std::string& name) {
-  const std::string extension = std::filesystem::path(name).extension().string();
-  if (extension != ".gltf" && extension != ".glb" && !isSceneFile(name) &&
+  const std::string file = splitSceneSettings(name).first;
+  const std::string extension = std::filesystem::path(file).extension().string();
+  if (extension != ".gltf" && extension != ".glb" && !isSceneFile(file) &&
       (!isBuiltinScene(name) || std::filesystem::exists(name)))
     return;
   failUsage(

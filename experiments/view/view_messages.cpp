@@ -57,7 +57,7 @@ Json matrixJson(const SceneCamera& camera) {
 Json pointJson(const glm::dvec3& p) { return {p.x, p.y, p.z}; }
 
 std::string kindOfLight(const Scene& scene, const std::string& name) {
-  if (name == "environment") return name;
+  if (name == "environment" || name == "ambient") return name;
   for (const PunctualLight& light : scene.lights) {
     if (light.name != name) continue;
     return light.kind == rl::RL_LIGHT_POINT  ? "point"

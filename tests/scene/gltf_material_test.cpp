@@ -315,6 +315,17 @@ TEST(GltfMaterial, ExtrasChooseAKind) {
              {"extras", {{"restlab", {{"kind", "conductor"}, {"metal", "Au"}, {"alpha", 0.25}}}}}});
   EXPECT_EQ(metal.data.closure, rl::RL_CLOSURE_CONDUCTOR);
   EXPECT_EQ(metal.scene.materials[0].closure.at(0).words.x, 3u);
+  // A primitive without a material keeps glTF's, though a mixture has added its parts.
+  GltfBuilder mixed;
+  mixed.add("materials", {{"name", "a"}, {"extras", {{"restlab", {{"kind", "mirror"}}}}}});
+  mixed.add("materials",
+            {{"name", "b"},
+             {"extras", {{"restlab", {{"kind", "mixture"}, {"first", "a"}, {"second", "a"}}}}}});
+  mixed.node({{"mesh", mixed.triangle({{"material", 1}})}});
+  mixed.node({{"mesh", mixed.triangle()}});
+  const Scene both = mixed.load();
+  EXPECT_EQ(both.materials.at(both.instances[0].material).data.closure, rl::RL_CLOSURE_MIXTURE);
+  EXPECT_EQ(both.materials.at(both.instances[1].material).name, "default");
   const struct {
     json restlab;
     const char* line;
@@ -324,6 +335,7 @@ TEST(GltfMaterial, ExtrasChooseAKind) {
       {"gold", "materials[0].extras.restlab: is not an object"},
       {{{"kind", {{"a", 1}}}}, "materials[0].extras.restlab.kind: is neither a number"},
       {{{"kind", "mirror"}, {"color", 2}}, "'color' must be"},
+      {{{"kind", "mirror"}, {"include", "x.toml"}}, "extras.restlab.include: is no parameter"},
   };
   for (const auto& c : cases) {
     GltfBuilder bad;

@@ -237,6 +237,9 @@ TEST_F(SceneFile, EveryFaultIsOneLineWithItsPlace) {
       {base + "[[material]]\nname = \"glass\"\nkind = \"dielectric\"\n[[material]]\nname = \"m\"\n"
               "kind = \"mixture\"\nfirst = \"glass\"\nsecond = \"glass\"\n",
        "x.scene.toml:8:9: 'glass' is of kind 'dielectric': a mixture takes kinds that reflect"},
+      {base + "[[material]]\nname = \"candle\"\nkind = \"wax\"\n[[material]]\nname = \"m\"\n"
+              "kind = \"mixture\"\nfirst = \"candle\"\nsecond = \"candle\"\n",
+       "x.scene.toml:8:9: 'candle' is of kind 'wax': a mixture takes kinds that reflect"},
   };
   for (const auto& c : cases) {
     const std::string line = errorOf(c.text);
@@ -295,6 +298,28 @@ to = "rusty"
   EXPECT_EQ(CompiledScene::build(scene)->features() & rl::RL_FEATURE_CLOSURES,
             rl::RL_FEATURE_CLOSURE_MIXTURE | rl::RL_FEATURE_CLOSURE_CONDUCTOR |
                 rl::RL_FEATURE_CLOSURE_OREN_NAYAR);
+}
+
+// An assignment means materials of the base, not the parts of a mixture that have their names.
+TEST_F(SceneFile, AssignmentsLeavePartsAlone) {
+  const Scene scene = loadScene(write(std::string("base = \"cornell-box\"\n") + kClay + R"(
+[[material]]
+name = "White"
+kind = "conductor"
+[[material]]
+name = "rusty"
+kind = "mixture"
+first = "White"
+second = "clay"
+[[assign]]
+material = "*"
+to = "rusty"
+)")
+                                    .string());
+  const SceneMaterial& mixed = materialOf(scene, "TallBlock");
+  EXPECT_EQ(mixed.data.closure, rl::RL_CLOSURE_MIXTURE);
+  EXPECT_EQ(scene.materials.at(mixed.closure[0].words.x).data.closure, rl::RL_CLOSURE_CONDUCTOR);
+  EXPECT_EQ(scene.materials.at(mixed.closure[1].words.x).data.closure, rl::RL_CLOSURE_OREN_NAYAR);
 }
 
 // Settings behind the '?' of a name take the place of the file's.

@@ -168,6 +168,24 @@ TEST(ReservoirStore, ShiftedSamplesAreReadAsTheyWereWritten) {
 }
 
 // A spot light in a reservoir comes back unchanged: of it the reservoir has the index alone.
+TEST(ReservoirStore, PointLightsComeBack) {
+  Store store;
+  std::vector<rl::Light> table(3);
+  table[2].p0 = {1.0f, 2.0f, 3.0f};
+  table[2].e2 = {0.5f, 0.25f, 1.0f};
+  store.scene.lights.data = table.data();
+  rl::LightSample light{};
+  light.kind = rl::RL_LIGHT_POINT;
+  light.point = table[2].p0;
+  light.normal = table[2].e2;  // its attenuation
+  light.radiance = {4.0f, 5.0f, 6.0f};
+  light.record = light.id.instance = 2;
+  rl::PathReservoir r{};
+  r.path = store.ctx.pathOfLight(light, 7);
+  store.ctx.reservoirWriteNow(kSlot, r);
+  EXPECT_TRUE(isSame(store.ctx.pathEnd(store.ctx.reservoirReadNow(kSlot).path), light));
+}
+
 TEST(ReservoirStore, SpotLightsComeBack) {
   Store store;
   std::vector<rl::Light> table(3);

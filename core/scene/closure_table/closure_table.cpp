@@ -124,20 +124,33 @@ glm::uvec4 recordOf(const glm::dvec3& v, double w) {
 
 }  // namespace
 
-TableDirections directionsOfCell(TableAngles angles, const glm::uvec3& sizes,
-                                 const glm::uvec3& cell) {
-  const double second = 0.5 * pi * (cell.y + 0.5) / sizes.y;
-  const double phi = pi * (cell.z + 0.5) / sizes.z;
+TableDirections directionsAt(TableAngles angles, const glm::uvec3& sizes, const glm::dvec3& cells) {
+  const double second = 0.5 * pi * cells.y / sizes.y;
+  const double phi = pi * cells.z / sizes.z;
   if (angles == TableAngles::directions)
-    return {directionOf(0.5 * pi * (cell.x + 0.5) / sizes.x, 0.0), directionOf(second, phi)};
+    return {directionOf(0.5 * pi * cells.x / sizes.x, 0.0), directionOf(second, phi)};
   // The half vector leans towards +x by theta_h; wi is local to it, wo its mirror image.
-  const double theta = thetaHalf(cell.x + 0.5, sizes.x);
+  const double theta = thetaHalf(cells.x, sizes.x);
   const glm::dvec3 h = directionOf(theta, 0.0), across(0.0, 1.0, 0.0);
   const glm::dvec3 along(std::cos(theta), 0.0, -std::sin(theta));
   const glm::dvec3 local = directionOf(second, phi);
   const glm::dvec3 wi = along * local.x + across * local.y + h * local.z;
   return {h * (2.0 * glm::dot(h, wi)) - wi, wi};
 }
+
+TableDirections directionsOfCell(TableAngles angles, const glm::uvec3& sizes,
+                                 const glm::uvec3& cell) {
+  return directionsAt(angles, sizes, glm::dvec3(cell) + 0.5);
+}
+
+namespace {
+
+// Lifts a direction below the surface to it: cells at the horizon are read from above.
+glm::dvec3 lifted(const glm::dvec3& w) {
+  return glm::normalize(glm::dvec3(w.x, w.y, std::max(w.z, 0.01)));
+}
+
+}  // namespace
 
 ClosureTable tabulate(const BrdfFunction& f, TableAngles angles, const glm::uvec3& sizes) {
   ClosureTable table{"", angles, sizes, {}};
@@ -146,8 +159,7 @@ ClosureTable tabulate(const BrdfFunction& f, TableAngles angles, const glm::uvec
     for (uint32_t j = 0; j < sizes.y; ++j) {
       for (uint32_t k = 0; k < sizes.z; ++k) {
         const TableDirections d = directionsOfCell(angles, sizes, {i, j, k});
-        const bool isAbove = d.wo.z > 0.0 && d.wi.z > 0.0;
-        table.values.emplace_back(isAbove ? f(d.wo, d.wi) : glm::dvec3(0.0));
+        table.values.emplace_back(f(lifted(d.wo), lifted(d.wi)));
       }
     }
   }

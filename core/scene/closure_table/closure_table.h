@@ -38,11 +38,12 @@ constexpr uint32_t kMaxTableCells = 64u << 20;
 constexpr uint32_t kMaxTableSide = 4096;
 constexpr glm::uvec3 kMerlSizes{90u, 90u, 180u};
 
-// Directions of the centre of a cell, local to the normal. Half tables have some whose wi or wo
-// lies below the surface: f has no meaning there.
+// Directions at coordinates in cells, and at the centre of a cell, local to the normal. Half tables
+// have some whose wi or wo lies below the surface: f has no meaning there.
 struct TableDirections {
   glm::dvec3 wo{0.0}, wi{0.0};
 };
+TableDirections directionsAt(TableAngles angles, const glm::uvec3& sizes, const glm::dvec3& cells);
 TableDirections directionsOfCell(TableAngles angles, const glm::uvec3& sizes,
                                  const glm::uvec3& cell);
 
@@ -52,7 +53,8 @@ ClosureTable readClosureTable(const std::filesystem::path& file);
 
 using BrdfFunction = std::function<glm::dvec3(const glm::dvec3& wo, const glm::dvec3& wi)>;  // 1/sr
 
-// A table of the values of `f` at the centres of its cells.
+// A table of the values of `f` at the centres of its cells, which are lifted to the surface where
+// they lie below.
 ClosureTable tabulate(const BrdfFunction& f, TableAngles angles, const glm::uvec3& sizes);
 
 // Writes a half table of MERL's sizes in the format of its database.

@@ -29,11 +29,44 @@ glm::uvec3 cellOf(const glm::uvec3& sizes, size_t i) {
           uint32_t(i % sizes.z)};
 }
 
-// Takes a value over into a table; what lies below the surface is 0.
-void putValue(const fs::path& file, ClosureTable& table, size_t i, int channel, double value) {
+// How much of a cell lies above the surface, where f has a meaning.
+enum class Above : char { all, some, none };
+
+// Of each cell, by its corners.
+std::vector<Above> cellsAbove(TableAngles angles, const glm::uvec3& n) {
+  std::vector<char> corners;
+  corners.reserve(size_t(n.x + 1) * (n.y + 1) * (n.z + 1));
+  for (uint32_t i = 0; i <= n.x; ++i) {
+    for (uint32_t j = 0; j <= n.y; ++j) {
+      for (uint32_t k = 0; k <= n.z; ++k) {
+        const TableDirections d = directionsAt(angles, n, {i, j, k});
+        corners.push_back(d.wo.z > 1e-9 && d.wi.z > 1e-9 ? 1 : 0);
+      }
+    }
+  }
+  std::vector<Above> cells;
+  cells.reserve(size_t(n.x) * n.y * n.z);
+  for (uint32_t i = 0; i < n.x; ++i) {
+    for (uint32_t j = 0; j < n.y; ++j) {
+      for (uint32_t k = 0; k < n.z; ++k) {
+        int count = 0;
+        for (uint32_t c = 0; c < 8; ++c) {
+          const size_t x = i + (c & 1u), y = j + (c >> 1u & 1u), z = k + (c >> 2u);
+          count += corners[(x * (n.y + 1) + y) * (n.z + 1) + z];
+        }
+        cells.push_back(count == 8 ? Above::all : count > 0 ? Above::some : Above::none);
+      }
+    }
+  }
+  return cells;
+}
+
+// Takes a value over into a table. A cell that lies partly below the surface may have none, which
+// MERL's files say by a negative number.
+void putValue(const fs::path& file, ClosureTable& table, Above above, size_t i, int channel,
+              double value) {
+  if (above == Above::none || (above == Above::some && value < 0.0)) return;
   const glm::uvec3 cell = cellOf(table.sizes, i);
-  const TableDirections d = directionsOfCell(table.angles, table.sizes, cell);
-  if (!(d.wo.z > 0.0 && d.wi.z > 0.0)) return;
   if (!(value >= 0.0) || !std::isfinite(value) || value > 1e30)
     failInput(fmt::format(
         "{}: {} of cell ({}, {}, {}) is {:g}; a finite value of at least 0 expected", file.string(),
@@ -51,6 +84,7 @@ ClosureTable readMerl(const fs::path& file, std::ifstream& stream) {
                     file.string(), header[0], header[1], header[2]));
   ClosureTable table{file.filename().string(), TableAngles::half, kMerlSizes, {}};
   table.values.resize(kMerlCells);
+  const std::vector<Above> above = cellsAbove(table.angles, table.sizes);
   std::vector<double> channel(kMerlCells);
   for (int c = 0; c < 3; ++c) {
     stream.read(reinterpret_cast<char*>(channel.data()),
@@ -59,7 +93,7 @@ ClosureTable readMerl(const fs::path& file, std::ifstream& stream) {
       failInput(fmt::format("{}: ends too early: {} bytes expected", file.string(),
                             sizeof header + 3 * kMerlCells * sizeof(double)));
     for (size_t i = 0; i < kMerlCells; ++i)
-      putValue(file, table, i, c, channel[i] * kMerlScales[size_t(c)]);
+      putValue(file, table, above[i], i, c, channel[i] * kMerlScales[size_t(c)]);
   }
   if (stream.peek() != std::ifstream::traits_type::eof())
     failInput(fmt::format("{}: goes on after its {} values", file.string(), 3 * kMerlCells));
@@ -108,9 +142,10 @@ ClosureTable readTableExr(const fs::path& file) {
       found->second.height != n.x * n.y)
     failInput(fmt::format("{}: its pixels disagree with sizes '{} {} {}': {}x{} R, G, B expected",
                           file.string(), n.x, n.y, n.z, n.z, n.x * n.y));
+  const std::vector<Above> above = cellsAbove(table.angles, n);
   table.values.resize(found->second.pixels.size());
   for (size_t i = 0; i < table.values.size(); ++i) {
-    for (int c = 0; c < 3; ++c) putValue(file, table, i, c, found->second.pixels[i][c]);
+    for (int c = 0; c < 3; ++c) putValue(file, table, above[i], i, c, found->second.pixels[i][c]);
   }
   makeReciprocal(table);
   return table;

@@ -421,6 +421,7 @@ bool CompiledScene::differsInLightAlone(const CompiledScene& other) const {
          isSame(a.triangles, b.triangles) && isSame(a.records.textures, b.records.textures) &&
          isSame(a.records.texels, b.records.texels) &&
          isSame(a.records.closureParameters, b.records.closureParameters) &&
+         isSame(a.bodies.media, b.bodies.media) &&
          std::equal(a.instances.begin(), a.instances.end(), b.instances.begin(), b.instances.end(),
                     isSameInstance) &&
          a.lights.lights.size() == b.lights.lights.size() &&

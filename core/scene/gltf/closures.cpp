@@ -27,6 +27,7 @@ std::string tomlOf(const nlohmann::json& restlab, const std::string& name, size_
     const bool isList = value.is_array() && std::all_of(value.begin(), value.end(), isPlain);
     if (!isPlain(value) && !isList)
       report.fail(placeOf(index) + "." + key, "is neither a number, a text nor an array of them");
+    if (key == "include") report.fail(placeOf(index) + ".include", "is no parameter of a material");
     if (key != "name") text += fmt::format("{} = {}\n", nlohmann::json(key).dump(), value.dump());
   }
   return text;

@@ -36,11 +36,11 @@ Scene import(const std::filesystem::path& file, gltf::Report& report) {
   scene.contentHash = document.contentHash;
   gltf::TextureImporter textures(document, scene, report);
   gltf::importMaterials(document, priorities, textures, scene, report);
-  gltf::applyClosures(closures, file, scene);
   textures.checkUnusedImages();
   gltf::MeshImporter meshes(document, scene, report);
   const std::vector<gltf::PlacedNode> nodes = gltf::placeNodes(document.model, report);
   gltf::addMeshInstances(document.model, nodes, meshes, scene, report);
+  gltf::applyClosures(closures, file, scene);  // after the default material, which has an index
   gltf::addCameras(document.model, nodes, scene, report);
   gltf::addLights(document.model, nodes, scene, report);
   meshes.checkUnusedMeshes();

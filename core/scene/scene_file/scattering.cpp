@@ -223,6 +223,8 @@ uint32_t SceneFileInputs::addTable(const std::string& file, const std::string& p
   auto table =
       std::make_shared<const ClosureTable>(atPlace(place, [&] { return readClosureTable(path); }));
   const std::vector<glm::vec3>& values = table->values;
+  const uint32_t axes[] = {uint32_t(table->angles), table->sizes.x, table->sizes.y, table->sizes.z};
+  scene_.contentHash = hashBytes(axes, sizeof axes, scene_.contentHash);
   scene_.contentHash =
       hashBytes(values.data(), values.size() * sizeof(values[0]), scene_.contentHash);
   scene_.tables.push_back(std::move(table));
@@ -241,7 +243,7 @@ uint32_t SceneFileInputs::addPart(const std::string& name, const std::string& pl
                           didYouMean(name, names)));
   }
   const std::string& kind = scattering->kind->name;
-  if (kind == "dielectric" || kind == "thin_dielectric" || kind == "mixture")
+  if (scattering->lobes.transmission > 0.0f || kind == "mixture")
     failInput(
         fmt::format("{}: '{}' is of kind '{}': a mixture takes kinds that reflect alone, and "
                     "no other mixture",
@@ -250,6 +252,7 @@ uint32_t SceneFileInputs::addPart(const std::string& name, const std::string& pl
   material.name = name;
   material.data = gltf::makeDefaultMaterial();
   scatterAs(*scattering, material);
+  material.isPart = true;
   scene_.materials.push_back(std::move(material));
   parts_.emplace_back(name, uint32_t(scene_.materials.size() - 1));
   return parts_.back().second;

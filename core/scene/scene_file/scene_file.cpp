@@ -46,9 +46,11 @@ Scene loadBase(const ConfigTable& table, const fs::path& folder) {
     table.fail("base", "no 'base': the scene to begin with, a built-in one or a glTF file");
   const auto load = [&] {
     if (isBuiltinScene(base)) return makeBuiltinScene(base);
-    const fs::path path = folder / base;
+    const auto [file, settings] = splitSceneSettings(base);
+    const fs::path path = folder / file;
     std::error_code error;
-    return loadScene(fs::exists(path, error) ? path.string() : base);
+    if (!fs::exists(path, error)) return loadScene(base);
+    return loadScene(path.string() + (settings.empty() ? "" : "?" + settings));
   };
   return atPlace(table.place("base"), load);
 }
@@ -106,6 +108,7 @@ class Assignment {
                          std::vector<std::string>& names) {
     size_t count = 0;
     for (SceneMaterial& material : scene_.materials) {
+      if (material.isPart) continue;
       names.push_back(material.name);
       if (!matches(pattern, material.name)) continue;
       scatter(table, to, material);
@@ -274,13 +277,13 @@ ConfigTable tableOf(const ConfigTable& table, const std::string& key, const std:
       fmt::format("{}: no [[{}]] is named '{}'{}", place, group, name, didYouMean(name, names)));
 }
 
-void applySettings(const ConfigTable& table, const std::string& settings) {
+void applySettings(const ConfigTable& table, const std::string& settings, const fs::path& file) {
   for (size_t begin = 0; begin < settings.size();) {
     const size_t end = std::min(settings.find('&', begin), settings.size());
     const std::string setting = settings.substr(begin, end - begin);
     begin = end + 1;
-    const std::string place = "?" + setting;
-    const auto [key, value] = splitAssignment(setting, "?");
+    const std::string place = file.string() + "?" + setting;
+    const auto [key, value] = splitAssignment(setting, file.string() + "?");
     tableOf(table, key, place).assign(key.substr(key.rfind('.') + 1), value, place);
   }
 }
@@ -288,7 +291,7 @@ void applySettings(const ConfigTable& table, const std::string& settings) {
 Scene read(const fs::path& file, const std::string& settings) {
   const Nesting nesting(file);
   const ConfigTable table = ConfigTable::parseFile(file);
-  applySettings(table, settings);
+  applySettings(table, settings, file);
   const fs::path folder = file.parent_path();
   Scene scene = loadBase(table, folder);
   scene.name = file.filename().string();
@@ -335,7 +338,9 @@ bool isSceneFile(const fs::path& file) {
 
 std::pair<std::string, std::string> splitSceneSettings(const std::string& name) {
   const size_t question = name.find('?');
-  if (isBuiltinScene(name) || question == std::string::npos) return {name, ""};
+  std::error_code error;
+  if (isBuiltinScene(name) || question == std::string::npos || fs::exists(name, error))
+    return {name, ""};
   return {name.substr(0, question), name.substr(question + 1)};
 }
 

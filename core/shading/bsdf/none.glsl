@@ -10,7 +10,6 @@ RL_FN Bsdf bsdfNone() {
   b.alpha = 1.0f;
   b.eta = 1.0f;
   b.closure = RL_CLOSURE_GLTF;
-  b.firstParameter = 0u;
   b.tangent = vec2(1.0f, 0.0f);
   b.p0 = vec4(0.0f, 0.0f, 0.0f, 0.0f);
   b.p1 = b.p0;

@@ -1,7 +1,7 @@
 // A convex mixture: f is the sum of the f of other materials, each times its share. It evaluates
 // other closures, so it stands outside of the switch that they are called by.
-//   p0: shares; p1: instance and primitive of the point, 16 bits each; p2.xy: its barycentric
-//   coordinates; p3: probabilities of drawing from each
+//   p0: shares; p1: instance and primitive of the point, 16 bits each; p2: its barycentric
+//   coordinates, first parameter; p3: probabilities of drawing from each
 #ifdef RL_CLOSURE_DECLARED
 info.is("convex mixture of two to four materials that reflect, shares by texture",
         "a sum of BSDFs whose shares add to at most 1");
@@ -21,29 +21,24 @@ RL_FN float mixtureWord(RL_IN(vec4) v, uint i) {
   return i == 0u ? v.x : i == 1u ? v.y : i == 2u ? v.z : v.w;
 }
 
-// 16 bits of a number as a float each, which no machine changes on the way.
-RL_FN vec2 mixtureHalves(uint bits) { return vec2(float(bits & 0xffffu), float(bits >> 16u)); }
-RL_FN uint mixtureBits(float low, float high) { return uint(low) | (uint(high) << 16u); }
-
 // The BSDF of one of the materials.
 RL_FN_OUTLINE Bsdf mixtureMaterial(RL_IN(Bsdf) b, uint i) {
-  uvec4 q = RL_SCENE_UVEC4(gScene.closureParameters, b.firstParameter + i);
+  uvec4 q = RL_SCENE_UVEC4(gScene.closureParameters, unpackHalves(vec2(b.p2.z, b.p2.w)) + i);
   Material m = recordMaterial(q.x);
   Bsdf part = bsdfNone();
   if ((m.flags & RL_MATERIAL_BLACK) != 0u) return part;
-  Instance inst = recordInstance(mixtureBits(b.p1.x, b.p1.y));
+  Instance inst = recordInstance(unpackHalves(vec2(b.p1.x, b.p1.y)));
   MaterialPoint at;
   at.firstParameter = m.firstParameter;
   at.geometry = recordGeometry(inst.geometry);
-  at.corners =
-      RL_SCENE_UVEC3(gScene.triangles, at.geometry.firstTriangle + mixtureBits(b.p1.z, b.p1.w));
+  at.corners = RL_SCENE_UVEC3(gScene.triangles,
+                              at.geometry.firstTriangle + unpackHalves(vec2(b.p1.z, b.p1.w)));
   at.bary = vec2(b.p2.x, b.p2.y);
   if (m.closure == RL_CLOSURE_GLTF) {
     materialTexture(m, at);
     return materialLobes(m, true, 0.0f);
   }
   part.closure = m.closure;
-  part.firstParameter = m.firstParameter;
   part.tangent = b.tangent;
   closureLoad(part, at);
   return part;
@@ -53,10 +48,11 @@ RL_FN void mixtureLoad(RL_INOUT(Bsdf) b, RL_IN(MaterialPoint) at, uint instance,
   vec3 others = vec3(closureNumber(at, 5u), closureNumber(at, 6u), closureNumber(at, 7u));
   float rest = max(1.0f - others.x - others.y - others.z, 0.0f);
   b.p0 = vec4(closureNumber(at, 4u) * rest, others.x, others.y, others.z);
-  vec2 ofInstance = mixtureHalves(instance);
-  vec2 ofPrimitive = mixtureHalves(primitive);
+  vec2 ofInstance = packHalves(instance);
+  vec2 ofPrimitive = packHalves(primitive);
   b.p1 = vec4(ofInstance.x, ofInstance.y, ofPrimitive.x, ofPrimitive.y);
-  b.p2 = vec4(at.bary.x, at.bary.y, 0.0f, 0.0f);
+  vec2 ofParameter = packHalves(at.firstParameter);
+  b.p2 = vec4(at.bary.x, at.bary.y, ofParameter.x, ofParameter.y);
   vec4 picks = vec4(0.0f, 0.0f, 0.0f, 0.0f);
   b.f90 = 1.0f;
   for (uint i = 0u; i < RL_MIXTURE_COUNT; i = i + 1u) {

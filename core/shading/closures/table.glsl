@@ -1,6 +1,7 @@
 // A measured or computed BRDF: a table of values between whose centres it is interpolated
 // (core/scene/closure_table/closure_table.h).
-//   p0: colour, angles (0: half, 1: directions); p1.x: probability of drawing by the cosine
+//   p0: colour, angles (0: half, 1: directions); p1: probability of drawing by the cosine, first
+//   parameter
 #ifdef RL_CLOSURE_DECLARED
 info.is("values of a table: measured (MERL), written by restlab bsdf, or simulated",
         "Rusinkiewicz 1998; Matusik et al. 2003");
@@ -10,7 +11,7 @@ info.color("color", 1.0, "factor");
 
 // First record and sizes of the table that a surface has.
 RL_FN uvec4 tableShape(RL_IN(Bsdf) b) {
-  uvec4 q = RL_SCENE_UVEC4(gScene.closureParameters, b.firstParameter);
+  uvec4 q = RL_SCENE_UVEC4(gScene.closureParameters, unpackHalves(vec2(b.p1.y, b.p1.z)));
   return uvec4(q.x, q.y & 0xffffu, q.y >> 16u, q.z & 0xffffu);
 }
 RL_FN vec4 tableRecord(uint record) {
@@ -26,7 +27,8 @@ RL_FN void tableLoad(RL_INOUT(Bsdf) b, RL_IN(MaterialPoint) at) {
   vec4 diffuse = tableRecord(q.x);
   vec4 specular = tableRecord(q.x + 1u);
   b.p0 = vec4(color, float(q.z >> 16u));
-  b.p1 = vec4(specular.w, 0.0f, 0.0f, 0.0f);
+  vec2 ofParameter = packHalves(at.firstParameter);
+  b.p1 = vec4(specular.w, ofParameter.x, ofParameter.y, 0.0f);
   b.diffuse = color * vec3(diffuse);
   b.f0 = color * vec3(specular);
   b.f90 = 1.0f;

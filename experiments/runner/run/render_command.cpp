@@ -6,6 +6,7 @@
 
 #include "core/frame/method_settings.h"
 #include "core/scene/scene.h"
+#include "core/scene/scene_file/scene_file.h"
 #include "experiments/runner/base/build_info.h"
 #include "experiments/runner/base/files.h"
 #include "experiments/runner/suite/image_settings.h"
@@ -76,9 +77,18 @@ void addMethod(const SessionConfig& config, Words& words) {
 
 }  // namespace
 
+namespace {
+
+std::string sceneFromAnywhere(const std::string& name, const std::string& suiteFolder) {
+  const auto [file, settings] = splitSceneSettings(name);
+  return fileFromAnywhere(file, suiteFolder) + (settings.empty() ? "" : "?" + settings);
+}
+
+}  // namespace
+
 SceneRequest fromAnywhere(SceneRequest request) {
   if (!isBuiltinScene(request.scene))
-    request.scene = fileFromAnywhere(request.scene, request.suiteFolder);
+    request.scene = sceneFromAnywhere(request.scene, request.suiteFolder);
   if (!request.environment.empty())
     request.environment = fileFromAnywhere(request.environment, request.suiteFolder);
   request.suiteFolder.clear();

@@ -25,11 +25,13 @@ namespace restlab {
 
 namespace {
 
-// Returns a file's name without folder and extensions; a built-in's name with all parameters.
+// Returns a file's name without folder and extensions, with what follows its '?'.
 std::string shownName(const std::string& scene) {
   if (isBuiltinScene(scene)) return scene;
-  const std::filesystem::path stem = std::filesystem::path(scene).stem();
-  return isSceneFile(scene) ? stem.stem().string() : stem.string();
+  const auto [file, settings] = splitSceneSettings(scene);
+  const std::filesystem::path stem = std::filesystem::path(file).stem();
+  const std::string name = isSceneFile(file) ? stem.stem().string() : stem.string();
+  return settings.empty() ? name : name + "?" + settings;
 }
 
 SuiteScene readScene(const ConfigTable& table, const std::string& folder) {
