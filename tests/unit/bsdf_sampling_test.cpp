@@ -1,4 +1,5 @@
 // bsdfSample against bsdfPdf and bsdfEval: distribution, weights, energy.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -191,6 +192,46 @@ TEST(BsdfSampling, Closures) {
                   .scene = c.scene},
                  ++seed);
   }
+}
+
+// The parameter of a closure that says how rough it is, at a roughness (alpha) of 0 to 1; "" if it
+// has none.
+std::string roughnessText(const ClosureInfo& info, double alpha) {
+  for (const ClosureParameter& p : info.parameters) {
+    double value = alpha;
+    if (p.name == "power") value = std::clamp(2.0 / (alpha * alpha) - 2.0, p.lo, p.hi);
+    if (p.name == "roughness") value = std::sqrt(alpha);
+    if (p.name == "sigma") value = alpha * p.hi;
+    if (p.name == "alpha" || p.name == "power" || p.name == "roughness" || p.name == "sigma")
+      return fmt::format("{} = {:.6f}\n", p.name, value);
+  }
+  return "";
+}
+
+TEST(BsdfSampling, NightlyClosuresAtFiveRoughnesses) {
+  const glm::vec3 up(0.0f, 0.0f, 1.0f);
+  uint64_t seed = 7000;
+  size_t tested = 0;
+  for (const ClosureInfo& info : closureRegistry()) {
+    for (const double alpha : {0.01, 0.05, 0.2, 0.5, 1.0}) {
+      const std::string roughness = roughnessText(info, alpha);
+      if (roughness.empty() && alpha > 0.01) continue;
+      const ClosureCase c = closureCaseOf(defaultText(info) + roughness);
+      for (const double angle : {0.0, 45.0, 80.0}) {
+        ++tested;
+        checkSetting({.name = fmt::format("{} {} at {} degrees", info.name, roughness, angle),
+                      .bsdf = c.bsdf,
+                      .wo = directionAt(angle),
+                      .nGeo = up,
+                      .nShade = up,
+                      .samples = 1'000'000,
+                      .breaksEnergy = !info.brokenLaws.empty(),
+                      .scene = c.scene},
+                     ++seed);
+      }
+    }
+  }
+  EXPECT_GE(tested, 90u);
 }
 
 TEST(BsdfSampling, ContinuousPartBesideDeltaLobes) { checkCases(deltaBsdfs(), 1000); }

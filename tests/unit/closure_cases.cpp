@@ -78,15 +78,20 @@ ClosureCase closureCaseOf(const std::string& text) {
   return c;
 }
 
+std::string defaultText(const ClosureInfo& info) {
+  std::string text = "kind = \"" + info.name + "\"\n";
+  if (info.name == "table") text += "file = \"half\"\n";
+  if (info.name == "mixture") text += "first = \"metal\"\nsecond = \"matte\"\n";
+  return text;
+}
+
 rl::Bsdf closureOf(const std::string& text) { return closureCaseOf(text).bsdf; }
 
 namespace {
 
 // A text for each value of one parameter at a time.
 std::vector<std::string> textsOf(const ClosureInfo& info) {
-  std::string kind = "kind = \"" + info.name + "\"\n";
-  if (info.name == "table") kind += "file = \"half\"\n";
-  if (info.name == "mixture") kind += "first = \"metal\"\nsecond = \"matte\"\n";
+  const std::string kind = defaultText(info);
   std::vector<std::string> texts = {kind};
   for (const ClosureParameter& p : info.parameters) {
     if (p.kind == Kind::table || p.kind == Kind::material) continue;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/scene/closure_info.h"
 #include "core/scene/compiled/compiled_scene.h"
 #include "tests/unit/bsdf_cases.h"
 
@@ -23,6 +24,8 @@ rl::Bsdf closureOf(const std::string& text);
 // The same with its scene, in which "half" and "directions" are tables, and "metal", "matte",
 // "smooth" and "hole" materials that a mixture may name.
 ClosureCase closureCaseOf(const std::string& text);
+// The kind with its defaults, and what it has to be given.
+std::string defaultText(const ClosureInfo& info);
 // The BRDF that these tables hold, 1/sr.
 glm::dvec3 tabulatedBrdf(const glm::dvec3& wo, const glm::dvec3& wi);
 

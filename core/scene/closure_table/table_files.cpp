@@ -32,7 +32,7 @@ glm::uvec3 cellOf(const glm::uvec3& sizes, size_t i) {
 // How much of a cell lies above the surface, where f has a meaning.
 enum class Above : char { all, some, none };
 
-// Of each cell, by its corners.
+// Judges each cell by its corners.
 std::vector<Above> cellsAbove(TableAngles angles, const glm::uvec3& n) {
   std::vector<char> corners;
   corners.reserve(size_t(n.x + 1) * (n.y + 1) * (n.z + 1));
