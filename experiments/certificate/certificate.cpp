@@ -332,13 +332,16 @@ bool rejects(const stats::RunSet& runs, const stats::Truth& truth, const Rules& 
 double runsForEquivalence(const Evidence& pilot, const stats::Truth& truth, const Rules& rules) {
   const stats::CellArea whole = wholeImage(pilot.runs().grid());
   double runs = double(kRunsForCells);
+  // All quantities have to lie within the margin: each may miss it with its share of the chance.
+  Rules each = rules;
+  each.power = 1.0 - (1.0 - rules.power) / double(quantities().size());
   for (const stats::Quantity quantity : quantities()) {
     const stats::Sample sample = stats::summarise(pilot.runs().cellMeans(whole, quantity));
     const stats::Sample reference = truth.cell(whole, quantity);
     const double scale = reference.mean * reference.mean;
     if (scale == 0.0) continue;
     const double needed = runsFor(sample.variance / scale, referenceVarianceOf(reference) / scale,
-                                  rules.margin, deviations(rules));
+                                  rules.margin, deviations(each));
     runs = std::isnan(needed) || std::isnan(runs) ? kNan : std::max(runs, needed);
   }
   return runs;
