@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 
+#include "experiments/bsdf/uniform.h"
 #include "experiments/statistics/chi2.h"
 #include "experiments/statistics/sphere_grid.h"
 
@@ -20,15 +20,6 @@ constexpr double kLeastP = 1e-3 / 3.0;
 constexpr double kMostGain = 2e-3;           // of energy: float32, and the base of a layer
 constexpr double kMostAsymmetry = 5e-3;      // relative difference of f: float32
 constexpr int kStrata = 256, kBatches = 16;  // draws of an albedo: kStrata^2
-
-class Uniform {
- public:
-  explicit Uniform(uint64_t seed) : engine_(seed) {}
-  double operator()() { return double(engine_() >> 40) * 0x1p-24; }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 glm::dvec3 above(Uniform& uniform) {
   const double z = uniform(), phi = 2.0 * std::numbers::pi * uniform();

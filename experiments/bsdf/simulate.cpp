@@ -8,10 +8,10 @@
 #include <limits>
 #include <memory>
 #include <numbers>
-#include <random>
 
 #include "core/backend/embree.h"
 #include "core/base/error.h"
+#include "experiments/bsdf/uniform.h"
 
 namespace restlab {
 namespace {
@@ -137,15 +137,6 @@ class Tile {
   double top_ = std::numeric_limits<double>::lowest(), bottom_ = std::numeric_limits<double>::max();
   std::unique_ptr<std::remove_pointer_t<RTCDevice>, ReleaseDevice> device_{rtcNewDevice(nullptr)};
   std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene> scene_{rtcNewScene(device_.get())};
-};
-
-class Uniform {
- public:
-  explicit Uniform(uint64_t seed) : engine_(seed) {}
-  double operator()() { return double(engine_() >> 11) * 0x1p-53; }
-
- private:
-  std::mt19937_64 engine_;
 };
 
 glm::dvec3 cosineAbout(const glm::dvec3& n, Uniform& uniform) {
