@@ -16,6 +16,12 @@ RL_FN bool rlIsBlack(RL_IN(vec3) c) { return c.x == 0.0f && c.y == 0.0f && c.z =
 // x / y with 0 for y == 0.
 RL_FN float rlSafeDivide(float x, float y) { return y != 0.0f ? x / y : 0.0f; }
 
+// log(1 - x) and 1 - exp(-x), also for x so small that float32 has no 1 - x.
+RL_FN float rlLogOneMinus(float x) {
+  return x < 1.0e-3f ? -x * (1.0f + 0.5f * x) : log(max(1.0f - x, 1.0e-30f));
+}
+RL_FN float rlOneMinusExp(float x) { return x < 1.0e-3f ? x * (1.0f - 0.5f * x) : 1.0f - exp(-x); }
+
 // High 32 bits of a 32 x 32 bit product: maps random bits uniformly to [0, n).
 RL_FN uint rlMulHigh(uint a, uint b) {
   uint aLow = a & 0xffffu;

@@ -55,6 +55,7 @@ const uint RL_DIM_COLLISION_CHANNEL = 53u;
 const uint RL_DIM_COLLISION_DISTANCE = 54u;
 const uint RL_DIM_PHASE_U = 55u;
 const uint RL_DIM_PHASE_V = 56u;
+const uint RL_DIM_EXIT = 57u;  // surface where a diffusion profile leaves a body
 const uint RL_DIMENSIONS = 64u;
 
 RL_NAMESPACE_END

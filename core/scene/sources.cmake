@@ -4,6 +4,7 @@ target_sources(rl_core PRIVATE
   scene/camera_path/camera_path_check.cpp
   scene/camera_path/camera_path_config.cpp
   scene/closure_info.cpp
+  scene/material_notes.cpp
   scene/closure_table/closure_table.cpp
   scene/closure_table/table_files.cpp
   scene/content_hash.cpp

@@ -29,6 +29,8 @@
 // the radiance (core/radiance_cache/termination.glsl). Not defined: no path ends there.
 // Only the components of light in gFrame.components are gathered.
 
+#include "core/transport/diffusion.glsl"
+
 RL_FN bool walkWants(uint bounces) {
   uint component = bounces >= 2u ? RL_COMPONENT_INDIRECT : RL_COMPONENT_DIRECT;
   return (gFrame.components & component) != 0u;
@@ -82,6 +84,7 @@ RL_FN void walkScatter(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk, RL_IN
   walk.ray.dir = draw.wi;
   walk.isScattered = 0u;
   walk.ofMedium = vec3(1.0f, 1.0f, 1.0f);
+  if (RL_HAS(RL_FEATURE_SCATTERING)) walk.normalW = s.nGeoW;
 }
 
 // Where the ray travels in a medium that scatters: draws whether it collides before `distance`, and
@@ -121,7 +124,9 @@ RL_FN bool walkCollides(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk, floa
   u.x = rngDraw(rng, RL_DIM_PHASE_U);
   u.y = rngDraw(rng, RL_DIM_PHASE_V);
   walk.ray.origin += walk.ray.dir * free;
-  walk.ray.dir = mediaPhaseDraw(walk.ray.dir, medium.w, u);
+  // A camera inside of a body with a diffusion profile: coefficients there stand for no direction.
+  float g = medium.w == RL_PHASE_DIFFUSION ? 0.0f : medium.w;
+  walk.ray.dir = mediaPhaseDraw(walk.ray.dir, g, u);
   walk.pdfBsdf = 0.0f;
   if (walk.stretches >= RL_MOST_STRETCHES) {
     walk.isAlive = 0u;
@@ -147,6 +152,7 @@ RL_FN Walk walkBegin(RL_IN(Rng) rng, uint film, RL_IN(Ray) ray, uint bounces) {
   walk.isScattered = 0u;
   walk.stretches = 0u;
   walk.ofMedium = vec3(1.0f, 1.0f, 1.0f);
+  walk.normalW = vec3(0.0f, 0.0f, 1.0f);
   walk.isAlive = 1u;
   return walk;
 }
@@ -158,9 +164,11 @@ RL_FN void walkOn(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk) {
   uint shadowRank = 0u;  // rank of the body that the shadow ray travels in
   for (;;) {
     Hit hit = traceNoHit();
+    bool isExit = false;
+    if (RL_HAS(RL_FEATURE_SCATTERING)) isExit = walk.isAlive != 0u && diffusionApplies(walk);
     for (uint which = 0u; which < 2u; which = which + 1u) {
       bool isShadow = which == 0u;
-      if (isShadow ? !hasShadowRay : walk.isAlive == 0u) continue;
+      if (isShadow ? !hasShadowRay : walk.isAlive == 0u || isExit) continue;
       Ray traced = walk.ray;
       if (isShadow) traced = shadowRay;
       uint mode = isShadow ? RL_RAY_SHADOW : RL_RAY_PATH;
@@ -178,6 +186,14 @@ RL_FN void walkOn(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk) {
     if (walk.isAlive == 0u) break;
     hasShadowRay = false;
 
+    if (RL_HAS(RL_FEATURE_SCATTERING) && isExit) {
+      vec3 factor = diffusionFindExit(walk, hit);
+      if (hit.instance == RL_INVALID || rlIsBlack(factor)) break;
+      walk.passed = 1.0f;
+      walk.throughput *= factor;
+      walk.ofMedium *= factor;
+      onMedium(state, walk, factor);
+    }
     if (hit.instance == RL_INVALID) {
       bool isInView = walk.bounces == 0u;
       if (skyExists(isInView) && walkWants(walk.bounces)) {
@@ -187,7 +203,7 @@ RL_FN void walkOn(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk) {
       }
       break;
     }
-    if (RL_HAS(RL_FEATURE_SCATTERING) && walkCollides(state, walk, hit.t)) {
+    if (RL_HAS(RL_FEATURE_SCATTERING) && !isExit && walkCollides(state, walk, hit.t)) {
       walk.passedT = 0.0f;
       continue;
     }
@@ -196,7 +212,7 @@ RL_FN void walkOn(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk) {
     crossing.contrast = 0.0f;
     crossing.isSurface = 1u;
     crossing.isTouching = 0u;
-    if (RL_HAS(RL_FEATURE_VOLUME)) crossing = mediaCross(walk.media, walk.ray, hit);
+    if (RL_HAS(RL_FEATURE_VOLUME) && !isExit) crossing = mediaCross(walk.media, walk.ray, hit);
     Surface s = surfaceLoadBetween(hit, walk.ray.dir, crossing.contrast);
     if (RL_HAS(RL_FEATURE_VOLUME)) {
       s.sigmaBeyond = vec3(mediaOfRank(crossing.behind.x));
@@ -216,12 +232,13 @@ RL_FN void walkOn(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk) {
         onMedium(state, walk, transmittance);
       }
     }
+    if (RL_HAS(RL_FEATURE_SCATTERING) && isExit) diffusionLoadExit(s);
     if (!rlIsBlack(s.emission) && walkWants(walk.bounces)) {
       float pdfLight = 0.0f;
       if (walk.pdfBsdf > 0.0f && s.light != RL_INVALID)
         pdfLight = lightPdfOfHit(s.light, s.nGeoW, walk.ray.dir, hit.t);
       onEmission(state, walk, s, hit, pdfLight);
-    } else if (RL_HAS(RL_FEATURE_AMBIENT) && rlIsBlack(s.emission) &&
+    } else if (RL_HAS(RL_FEATURE_AMBIENT) && rlIsBlack(s.emission) && !isExit &&
                walk.bounces < gFrame.maxBounces && walkWants(walk.bounces + 1u)) {
       // A scattering event of its own, whose light no ray has to look for.
       // It has nothing to do with the light table: the back of a lamp is none.
@@ -234,7 +251,7 @@ RL_FN void walkOn(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk) {
     walk.rng.vertex = walk.bounces + 1u;
 #ifdef RL_WALK_END
     vec3 sentBack;
-    if (RL_WALK_END(state, walk, s, sentBack)) {
+    if (!isExit && RL_WALK_END(state, walk, s, sentBack)) {
       onEnd(state, walk, s, sentBack);
       break;
     }

@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/image/image.h"
 #include "core/image/io/atomic_file.h"
+#include "core/scene/material_notes.h"
 #include "experiments/bsdf/laws.h"
 #include "experiments/bsdf/polar.h"
 #include "experiments/bsdf/tested_material.h"
@@ -24,19 +25,6 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 constexpr uint32_t kBallSpp = 256;
-
-// The laws that the file of a closure says it breaks, with these settings.
-std::vector<std::string> declaredBroken(const Scattering& scattering) {
-  const ClosureInfo* info = scattering.kind->closure;
-  if (info == nullptr || info->brokenLaws.empty()) return {};
-  if (info->brokenWhere.empty()) return info->brokenLaws;
-  for (size_t i = 0; i < info->parameters.size(); ++i) {
-    const ClosureParameter& p = info->parameters[i];
-    if (p.name == info->brokenWhere && p.choices[scattering.closure[i].words.x] == info->brokenIf)
-      return info->brokenLaws;
-  }
-  return {};
-}
 
 // The verdict in words. A law that is declared broken may hold for some settings.
 std::string wordOf(const LawVerdict& verdict, bool isDeclared) {
@@ -102,7 +90,10 @@ Json checked(const BsdfOptions& options, const std::string& fileName) {
   const Scattering& scattering = tested.scattering;
   const BsdfProbe probe(tested.material, tested.inputs);
   const BsdfLaws laws = checkLaws(probe, options.samples);
-  Json json = lawsJson(scattering, laws, declaredBroken(scattering));
+  std::vector<std::string> declared;
+  if (scattering.kind->closure != nullptr)
+    declared = brokenLaws(*scattering.kind->closure, scattering.closure);
+  Json json = lawsJson(scattering, laws, declared);
   if (options.output.empty()) return json;
   const fs::path folder = options.output;
   std::error_code error;

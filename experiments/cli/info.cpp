@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "core/scene/material_notes.h"
 #include "core/base/error.h"
 #include "core/scene/camera_path/camera_path.h"
 #include "experiments/cli/info_materials.h"
@@ -146,6 +147,7 @@ Json sceneJson(const PreparedScene& prepared, const InfoOptions& options) {
   json["features_needed"] = featureNames(compiled.features(multiscatter));
   json["integrators"] = supportJson(prepared, multiscatter);
   json["warnings"] = compiled.warnings();
+  json["notes"] = materialNotes(scene);
   return json;
 }
 

@@ -99,6 +99,19 @@ void addInstance(Scene& scene) {
   scene.instances.push_back(mirrored);
 }
 
+// A small copy of the glass, whose light leaves it by a diffusion profile.
+void addCandle(Scene& scene) {
+  MeshInstance candle = scene.instances[kTallBlock];
+  SceneMaterial wax = scene.materials[candle.material];
+  wax.hasDiffusion = true;
+  wax.sigmaScattering = {20.0f, 30.0f, 40.0f};
+  candle.material = uint32_t(scene.materials.size());
+  scene.materials.push_back(wax);
+  candle.objectToWorld = glm::translate(glm::dmat4(1.0), {0.0, 2.0, 0.5}) *
+                         glm::scale(glm::dmat4(1.0), {0.4, 0.3, 0.4}) * candle.objectToWorld;
+  scene.instances.push_back(candle);
+}
+
 void addLights(Scene& scene) {
   PunctualLight point{
       "point", rl::RL_LIGHT_POINT, {-1.0, 3.0, -1.0}, {0, -1, 0}, glm::vec3(3.0f, 2.0f, 1.0f)};
@@ -129,6 +142,7 @@ Scene makeEverythingScene() {
   addTextures(scene);
   addGlass(scene);
   addInstance(scene);
+  addCandle(scene);
   addLights(scene);
   return scene;
 }

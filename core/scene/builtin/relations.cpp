@@ -18,8 +18,10 @@ void scaleScene(Scene& scene, double factor) {
   }
   for (MeshInstance& instance : scene.instances)
     instance.objectToWorld[3] = glm::dvec4(glm::dvec3(instance.objectToWorld[3]) * factor, 1.0);
-  for (SceneMaterial& material : scene.materials)
+  for (SceneMaterial& material : scene.materials) {
     material.data.sigmaAbsorption = times(material.data.sigmaAbsorption, 1.0 / factor);
+    material.sigmaScattering = times(material.sigmaScattering, 1.0 / factor);
+  }
   for (SceneCamera& camera : scene.cameras) {
     camera.cameraToWorld[3] = glm::dvec4(glm::dvec3(camera.cameraToWorld[3]) * factor, 1.0);
     camera.xmag *= factor;

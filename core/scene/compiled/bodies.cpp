@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/transport/walk.h"
+
 namespace restlab {
 namespace {
 
@@ -119,8 +121,11 @@ Bodies findBodies(const Scene& scene) {
   for (const Body& body : order) {
     bodies.rank[body.instance] = static_cast<uint32_t>(bodies.media.size() / 2);
     const SceneMaterial& m = scene.materials[scene.instances[body.instance].material];
-    bodies.media.emplace_back(m.data.sigmaAbsorption + m.sigmaScattering, m.data.ior);
-    bodies.media.emplace_back(m.sigmaScattering, m.phase);
+    // A profile knows no directions: it takes the medium that scatters to all sides and spreads
+    // light as far (similarity).
+    const glm::vec3 scattering = m.sigmaScattering * (m.hasDiffusion ? 1.0f - m.phase : 1.0f);
+    bodies.media.emplace_back(m.data.sigmaAbsorption + scattering, m.data.ior);
+    bodies.media.emplace_back(scattering, m.hasDiffusion ? rl::RL_PHASE_DIFFUSION : m.phase);
   }
   return bodies;
 }

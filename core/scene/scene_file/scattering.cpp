@@ -139,6 +139,7 @@ class Lobes {
       s.sigmaScattering = extinction * albedo;
       m.sigmaAbsorption = extinction - s.sigmaScattering;
       s.phase = number("g");
+      s.hasDiffusion = of("model").words.x != 0u;
     }
     if (kind_.name == "thin_dielectric") s.flags |= rl::RL_MATERIAL_THIN;
   }
@@ -304,6 +305,7 @@ void scatterAs(const Scattering& scattering, SceneMaterial& material) {
   if (hasCoverage) m.textures[rl::RL_TEX_BASE_COLOR] = before.textures[rl::RL_TEX_BASE_COLOR];
   material.sigmaScattering = scattering.sigmaScattering;
   material.phase = scattering.phase;
+  material.hasDiffusion = scattering.hasDiffusion;
   material.closure = scattering.closure;
   if (scattering.kind->closure != nullptr) m.closure = scattering.kind->closure->kind;
 }

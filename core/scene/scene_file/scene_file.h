@@ -44,6 +44,7 @@ struct Scattering {
   std::vector<ClosureValue> closure;  // else
   glm::vec3 sigmaScattering{0.0f};    // SceneMaterial
   float phase = 0.0f;
+  bool hasDiffusion = false;
   uint32_t flags = 0;  // RL_MATERIAL_BLACK, _THIN, _ANISOTROPIC
 };
 

@@ -1,12 +1,6 @@
 // A lobe of microfacets with any distribution, masking and Fresnel term (Cook and Torrance 1982;
 // Walter et al. 2007; Heitz 2014), local to the normal and the tangent (x). alpha: along both axes.
 
-// log(1 - x) and 1 - exp(-x), also for x so small that float32 has no 1 - x.
-RL_FN float facetsLog(float x) {
-  return x < 1.0e-3f ? -x * (1.0f + 0.5f * x) : log(max(1.0f - x, 1.0e-30f));
-}
-RL_FN float facetsFall(float x) { return x < 1.0e-3f ? x * (1.0f - 0.5f * x) : 1.0f - exp(-x); }
-
 // Distribution of normals; its integral over the projected area is 1.
 RL_FN float facetsD(RL_IN(vec3) hL, RL_IN(vec2) alpha, uint distribution) {
   float x = hL.x / alpha.x;
@@ -22,7 +16,7 @@ RL_FN float facetsD(RL_IN(vec3) hL, RL_IN(vec2) alpha, uint distribution) {
   // Blinn's power 2 / alpha^2 - 2, different along both axes (Ashikhmin and Shirley 2000).
   float sin2 = hL.x * hL.x + hL.y * hL.y;
   float power = 2.0f * rlSafeDivide(slope2, sin2) - 2.0f;
-  return sin2 > 0.0f ? scale * exp(0.5f * power * facetsLog(sin2)) : scale;
+  return sin2 > 0.0f ? scale * exp(0.5f * power * rlLogOneMinus(sin2)) : scale;
 }
 
 // Smith's Lambda. Blinn's facets have that of Beckmann's, in the rational form of Walter et al.: it
@@ -76,7 +70,7 @@ RL_FN vec3 facetsDraw(RL_IN(vec3) woL, RL_IN(vec2) alpha, uint distribution, RL_
   vec2 phi = axis * invLength;
   float ax = phi.x / alpha.x;
   float ay = phi.y / alpha.y;
-  float sin2 = facetsFall(-log(1.0f - u.x) / (ax * ax + ay * ay));
+  float sin2 = rlOneMinusExp(-log(1.0f - u.x) / (ax * ax + ay * ay));
   float r = sqrt(sin2);
   float z = sqrt(1.0f - sin2);
   return vec3(phi.x * r, phi.y * r, z);

@@ -2,21 +2,28 @@
 
 // A direction about +z with the density of powerPdf().
 RL_FN vec3 powerDraw(float power, RL_IN(vec2) u) {
-  float z = pow(1.0f - u.x, 1.0f / (power + 1.0f));
+  float fall = rlOneMinusExp(-log(1.0f - u.x) / (power + 1.0f));
   vec2 cs = rlCosSin2Pi(u.y);
-  float r = sqrt(max(0.0f, 1.0f - z * z));
-  return vec3(r * cs.x, r * cs.y, z);
+  float r = sqrt(fall * (2.0f - fall));
+  return vec3(r * cs.x, r * cs.y, 1.0f - fall);
 }
-RL_FN float powerOf(float cosTheta, float power) {
-  return cosTheta > 0.0f ? pow(min(cosTheta, 1.0f), power) : 0.0f;
+// The cosine to a power, and the density of draws. fall: one minus the cosine, which float32 holds
+// where a lobe is so narrow that all of its cosines are nearly 1.
+RL_FN float powerOf(float fall, float power) {
+  return fall < 1.0f ? exp(power * rlLogOneMinus(fall)) : 0.0f;
 }
-RL_FN float powerPdf(float cosTheta, float power) {
-  return (power + 1.0f) * (0.5f * RL_INV_PI) * powerOf(cosTheta, power);
+RL_FN float powerPdf(float fall, float power) {
+  return (power + 1.0f) * (0.5f * RL_INV_PI) * powerOf(fall, power);
+}
+// One minus the cosine between two unit vectors.
+RL_FN float powerFall(RL_IN(vec3) a, RL_IN(vec3) b) {
+  vec3 d = a - b;
+  return 0.5f * dot(d, d);
 }
 
-// Cosine between wi and the mirrored wo.
-RL_FN float powerMirroredCosine(RL_IN(vec3) woL, RL_IN(vec3) wiL) {
-  return woL.z * wiL.z - woL.x * wiL.x - woL.y * wiL.y;
+// One minus the cosine between wi and the mirrored wo.
+RL_FN float powerMirroredFall(RL_IN(vec3) woL, RL_IN(vec3) wiL) {
+  return powerFall(wiL, vec3(-woL.x, -woL.y, woL.z));
 }
 // A direction about the mirrored wo.
 RL_FN vec3 powerDrawMirrored(RL_IN(vec3) woL, float power, RL_IN(vec2) u) {

@@ -32,11 +32,12 @@ RL_FN vec3 blinnPhongEval(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) wiL, RL_OU
   pdf = 0.0f;
   if (!(wiL.z > 0.0f)) return vec3(0.0f, 0.0f, 0.0f);
   vec3 hL = normalize(woL + wiL);
+  float fall = powerFall(hL, vec3(0.0f, 0.0f, 1.0f));
   float share = specularShare(b.f0, b.diffuse);
-  float pdfH = powerPdf(hL.z, b.p0.w) / max(4.0f * dot(woL, hL), 1.0e-12f);
+  float pdfH = powerPdf(fall, b.p0.w) / max(4.0f * dot(woL, hL), 1.0e-12f);
   pdf = share * pdfH + (1.0f - share) * lambertPdf(wiL);
   float cosI = b.p1.w != 0.0f ? 1.0f : wiL.z;
-  return vec3(b.p0) * lambertEval(wiL) + vec3(b.p1) * (powerOf(hL.z, b.p0.w) * cosI);
+  return vec3(b.p0) * lambertEval(wiL) + vec3(b.p1) * (powerOf(fall, b.p0.w) * cosI);
 }
 
 RL_FN BsdfSample blinnPhongSample(RL_IN(Bsdf) b, RL_IN(vec3) woL, float uLobe, RL_IN(vec2) u) {

@@ -32,11 +32,11 @@ RL_FN void phongLoad(RL_INOUT(Bsdf) b, RL_IN(MaterialPoint) at) {
 RL_FN vec3 phongEval(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) wiL, RL_OUT(float) pdf) {
   pdf = 0.0f;
   if (!(wiL.z > 0.0f)) return vec3(0.0f, 0.0f, 0.0f);
-  float cosR = powerMirroredCosine(woL, wiL);
+  float fall = powerMirroredFall(woL, wiL);
   float share = specularShare(b.f0, b.diffuse);
-  pdf = share * powerPdf(cosR, b.p0.w) + (1.0f - share) * lambertPdf(wiL);
+  pdf = share * powerPdf(fall, b.p0.w) + (1.0f - share) * lambertPdf(wiL);
   float cosI = b.p1.w != 0.0f ? 1.0f : wiL.z;
-  return vec3(b.p0) * lambertEval(wiL) + vec3(b.p1) * (powerOf(cosR, b.p0.w) * cosI);
+  return vec3(b.p0) * lambertEval(wiL) + vec3(b.p1) * (powerOf(fall, b.p0.w) * cosI);
 }
 
 RL_FN BsdfSample phongSample(RL_IN(Bsdf) b, RL_IN(vec3) woL, float uLobe, RL_IN(vec2) u) {

@@ -22,9 +22,9 @@ RL_FN void powerLobeLoad(RL_INOUT(Bsdf) b, RL_IN(MaterialPoint) at) {
 RL_FN vec3 powerLobeEval(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) wiL, RL_OUT(float) pdf) {
   pdf = 0.0f;
   if (!(wiL.z > 0.0f)) return vec3(0.0f, 0.0f, 0.0f);
-  float cosR = powerMirroredCosine(woL, wiL);
-  pdf = powerPdf(cosR, b.p0.w);
-  return vec3(b.p0) * (powerOf(cosR, b.p0.w) * wiL.z);
+  float fall = powerMirroredFall(woL, wiL);
+  pdf = powerPdf(fall, b.p0.w);
+  return vec3(b.p0) * (powerOf(fall, b.p0.w) * wiL.z);
 }
 
 RL_FN BsdfSample powerLobeSample(RL_IN(Bsdf) b, RL_IN(vec3) woL, float uLobe, RL_IN(vec2) u) {

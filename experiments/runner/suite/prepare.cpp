@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/scene/material_notes.h"
 #include "core/base/error.h"
 #include "core/base/file_reason.h"
 #include "core/frame/method.h"
@@ -158,6 +159,7 @@ void chooseCamera(PreparedScene& prepared, const std::string& nameOrIndex) {
 
 void printWarnings(const PreparedScene& prepared) {
   for (const std::string& warning : prepared.scene->warnings()) logWarning(warning);
+  for (const std::string& note : materialNotes(prepared.scene->source())) logInfo(note);
 }
 
 void completeResolution(const PreparedScene& prepared, uint32_t& width, uint32_t& height) {
