@@ -1,4 +1,4 @@
-// What a user should know about materials that are drawn as they are: laws of a BSDF that they
+// Notes on materials that are drawn as they are: laws of a BSDF that they
 // break, and approximations.
 #pragma once
 

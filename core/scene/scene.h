@@ -71,9 +71,9 @@ struct SceneMaterial {
   glm::vec3 sigmaScattering{0.0f};
   float phase = 0.0f;
   bool hasDiffusion = false;  // light leaves it by a diffusion profile, not by a random walk
-  float lightFactor = 1.0f;  // factor on data.emission (core/scene/compiled/light_factor.h)
-  bool isPart = false;       // of a mixture alone: no instance has it
-  int priority = 0;          // among overlapping bodies, the greatest fills the place
+  float lightFactor = 1.0f;   // factor on data.emission (core/scene/compiled/light_factor.h)
+  bool isPart = false;        // of a mixture alone: no instance has it
+  int priority = 0;           // among overlapping bodies, the greatest fills the place
 };
 
 struct SceneCamera {

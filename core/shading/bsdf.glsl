@@ -57,6 +57,13 @@ RL_FN float bsdfBaseShare(RL_IN(Bsdf) b, float cosO, float cosI) {
   return enters * leaves * rlSafeDivide(1.0f, 1.0f - mean);
 }
 
+// Share of Lambert's light that passes the surface on its way out, at the exit of a diffusion
+// profile (core/transport/diffusion.glsl); 1 elsewhere. cosI: above 0.
+RL_FN float bsdfExitShare(RL_IN(Bsdf) b, float cosI) {
+  if (!RL_HAS(RL_FEATURE_SCATTERING) || (b.lobes & RL_LOBE_EXIT) == 0u) return 1.0f;
+  return 1.0f - fresnelDielectric(cosI, b.eta);
+}
+
 // Returns whether a part of the BSDF is sampled by the cosine.
 RL_FN bool bsdfHasCosineLobe(RL_IN(Bsdf) b) {
   return (b.lobes & RL_LOBE_DIFFUSE) != 0u || multiscatterApplies(b);
@@ -76,7 +83,7 @@ RL_FN vec3 bsdfEvalLocal(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) wiL, bool w
       if (multiscatterApplies(b)) return f + multiscatterEval(b, woL.z, wiL.z);
       f += b.diffuse * (lambertEval(wiL) * bsdfBaseShare(b, woL.z, wiL.z));
     } else if (withCosine) {
-      f += b.diffuse * lambertEval(wiL);
+      f += b.diffuse * (lambertEval(wiL) * bsdfExitShare(b, wiL.z));
     }
   } else if (RL_HAS(RL_FEATURE_TRANSMISSION) && (b.lobes & RL_LOBE_TRANSMISSION) != 0u &&
              woL.z > 0.0f && wiL.z < 0.0f) {
@@ -258,7 +265,7 @@ RL_FN BsdfSample bsdfSampleOfOne(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nS
     if (!(wiL.z > 0.0f) || !(dot(nGeo, wi) > 0.0f)) return result;
     result.wi = wi;
     result.pdfSolidAngle = lambertPdf(wiL);
-    result.weight = b.diffuse;
+    result.weight = b.diffuse * bsdfExitShare(b, wiL.z);
     result.lobe = RL_LOBE_DIFFUSE;
     return result;
   }

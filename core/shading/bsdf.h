@@ -15,6 +15,7 @@ const uint RL_LOBE_TRANSMISSION = 8u;    // GGX transmission
 const uint RL_LOBE_TRANSMISSION_DELTA = 16u;
 const uint RL_LOBE_THIN = 32u;           // transmission without refraction
 const uint RL_LOBE_ROUGH_DIFFUSE = 64u;  // diffuse, but not Lambert: depends on the directions
+const uint RL_LOBE_EXIT = 128u;  // the diffuse lobe is light from inside, through the surface
 const uint RL_LOBE_ANY_DELTA = 20u;
 const uint RL_LOBE_ANY_TRANSMISSION = 24u;
 const uint RL_LOBE_ANY_GLOSSY = 30u;

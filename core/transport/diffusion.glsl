@@ -12,6 +12,7 @@ RL_FN bool diffusionApplies(RL_IN(Walk) walk) {
 // 2001). eta: index inside over that outside.
 RL_FN float diffusionInner(float eta) {
   float inv = 1.0f / eta;
+  if (abs(eta - 1.0f) < RL_CLEAR_CONTRAST) return 0.0f;
   if (eta < 1.0f)
     return clamp(-0.4399f + inv * (0.7099f + inv * (-0.3319f + inv * 0.0636f)), 0.0f, 1.0f);
   return clamp(0.668f + 0.0636f * eta + inv * (0.710f - inv * 1.440f), 0.0f, 1.0f);
@@ -42,8 +43,9 @@ RL_FN float diffusionProfile(float r, float scale) {
 // at a distance drawn from the profile of one channel, one surface of the body by chance. The line
 // runs along the normal or a tangent; all three, and all channels, are weighed together (King et
 // al., "BSSRDF Importance Sampling", 2013). Moves the walk out of the body, as if it came to
-// the point of exit from outside. Returns the factor on its throughput.
-RL_FN vec3 diffusionFindExit(RL_INOUT(Walk) walk, RL_OUT(Hit) chosen) {
+// the point of exit from outside. Returns the factor on its throughput. eta:
+// index inside over that outside.
+RL_FN vec3 diffusionFindExit(RL_INOUT(Walk) walk, RL_OUT(Hit) chosen, RL_OUT(float) eta) {
   chosen = traceNoHit();
   vec3 nowhere = vec3(0.0f, 0.0f, 0.0f);
   uint rank = walk.media.x;
@@ -53,7 +55,7 @@ RL_FN vec3 diffusionFindExit(RL_INOUT(Walk) walk, RL_OUT(Hit) chosen) {
   walk.sigma = vec3(mediaOfRank(walk.media.x));
   walk.isScattered = 1u;
   w = vec3(rlSafeDivide(w.x, sigma.x), rlSafeDivide(w.y, sigma.y), rlSafeDivide(w.z, sigma.z));
-  float eta = mediaOfRank(rank).w / mediaOfRank(walk.media.x).w;
+  eta = mediaOfRank(rank).w / mediaOfRank(walk.media.x).w;
   float inner = diffusionInner(eta);
   float mu = clamp(abs(dot(walk.ray.dir, walk.normalW)), 1.0e-3f, 1.0f);
   vec2 ofX = diffusionOf(w.x, mu, inner);
@@ -151,11 +153,14 @@ RL_FN vec3 diffusionFindExit(RL_INOUT(Walk) walk, RL_OUT(Hit) chosen) {
   return albedo * profile * (eta * eta * rlSafeDivide(count, density));
 }
 
-// Makes the surface at the point of exit one that sends light to all sides alike.
-RL_FN void diffusionLoadExit(RL_INOUT(Surface) s) {
+// Makes the surface at the point of exit one that sends light to all sides alike, as far as it
+// passes the surface. The mean of what passes from outside is that from inside, times eta^2.
+RL_FN void diffusionLoadExit(RL_INOUT(Surface) s, float eta) {
   s.emission = vec3(0.0f, 0.0f, 0.0f);
   s.light = RL_INVALID;
   s.bsdf = bsdfNone();
-  s.bsdf.diffuse = vec3(1.0f, 1.0f, 1.0f);
-  s.bsdf.lobes = RL_LOBE_DIFFUSE;
+  float passes = min(eta * eta * (1.0f - diffusionInner(eta)), 1.0f);
+  s.bsdf.diffuse = vec3(1.0f, 1.0f, 1.0f) * (1.0f / passes);
+  s.bsdf.lobes = RL_LOBE_DIFFUSE | RL_LOBE_EXIT;
+  s.bsdf.eta = eta;
 }

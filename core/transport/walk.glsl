@@ -165,6 +165,7 @@ RL_FN void walkOn(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk) {
   for (;;) {
     Hit hit = traceNoHit();
     bool isExit = false;
+    float exitEta = 1.0f;
     if (RL_HAS(RL_FEATURE_SCATTERING)) isExit = walk.isAlive != 0u && diffusionApplies(walk);
     for (uint which = 0u; which < 2u; which = which + 1u) {
       bool isShadow = which == 0u;
@@ -187,7 +188,7 @@ RL_FN void walkOn(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk) {
     hasShadowRay = false;
 
     if (RL_HAS(RL_FEATURE_SCATTERING) && isExit) {
-      vec3 factor = diffusionFindExit(walk, hit);
+      vec3 factor = diffusionFindExit(walk, hit, exitEta);
       if (hit.instance == RL_INVALID || rlIsBlack(factor)) break;
       walk.passed = 1.0f;
       walk.throughput *= factor;
@@ -232,7 +233,7 @@ RL_FN void walkOn(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk) {
         onMedium(state, walk, transmittance);
       }
     }
-    if (RL_HAS(RL_FEATURE_SCATTERING) && isExit) diffusionLoadExit(s);
+    if (RL_HAS(RL_FEATURE_SCATTERING) && isExit) diffusionLoadExit(s, exitEta);
     if (!rlIsBlack(s.emission) && walkWants(walk.bounces)) {
       float pdfLight = 0.0f;
       if (walk.pdfBsdf > 0.0f && s.light != RL_INVALID)

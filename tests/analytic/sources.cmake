@@ -11,6 +11,7 @@ set(RL_ANALYTIC_TESTS
   analytic/media_test.cpp
   analytic/polygon_irradiance_test.cpp
   analytic/sampling_noise_test.cpp
+  analytic/scene_file_textures_test.cpp
   analytic/truths_test.cpp
   analytic/wax_test.cpp
   scene/gltf_builder.cpp

@@ -94,6 +94,17 @@ TEST_F(CompareMaskTest, ObjectsAndLightsOfTheScene) {
   expectError(run("compare " + base + "--object 0"), 2, {"1 to 8"});
 }
 
+// Also one with settings behind its name and a sky of its own.
+TEST_F(CompareMaskTest, SceneFileIsFoundAgain) {
+  write("x.scene.toml",
+        "base = \"cornell-box\"\n[environment]\nradiance = 1.0\n[[material]]\nname = \"m\"\n"
+        "kind = \"diffuse\"\n[[assign]]\nmesh = \"ShortBlock\"\nto = \"m\"\n");
+  const std::string scene = "x.scene.toml?material.m.color=0.3";
+  ASSERT_EQ(run("render " + scene + " -o a.exr --resolution 32x32 -q").code, 0);
+  const auto block = json("--ref a.exr a.exr --any-reference --object ShortBlock");
+  EXPECT_GT(block["mask"]["pixels"], 20);
+}
+
 TEST_F(CompareMaskTest, SceneIsFoundAgainWithItsEnvironment) {
   write("triangle.gltf", triangleGltf({-9, -9, 0, 0.3F, -9, 0, 0.3F, 9, 0}));
   LayeredImage sky;

@@ -18,5 +18,7 @@ bool readHdr(const uint8_t* bytes, size_t count);      // an environment, .hdr
 bool readExr(const uint8_t* bytes, size_t count);      // .exr
 bool readCommand(const uint8_t* bytes, size_t count);  // from a page to the viewer
 bool readTexture(const uint8_t* bytes, size_t count);  // PNG or JPEG
+// .scene.toml, and, behind a byte 0, settings behind its name
+bool readSceneFile(const uint8_t* bytes, size_t count);
 
 }  // namespace restlab::fuzz

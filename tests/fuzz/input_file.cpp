@@ -51,7 +51,9 @@ bool isRead(const fs::path& file, ExitCode refusal, const std::function<void()>&
   } catch (const Error& error) {
     const std::string line = error.what();
     if (error.code() != refusal) throw std::logic_error("wrong exit code: " + line);
-    if (line.rfind(file.string() + ":", 0) != 0) throw std::logic_error("names no file: " + line);
+    const std::string name = file.string();  // settings may stand behind it
+    if (line.rfind(name + ":", 0) != 0 && line.rfind(name + "?", 0) != 0)
+      throw std::logic_error("names no file: " + line);
     const bool plain = std::none_of(line.begin(), line.end(), [](unsigned char c) {
       return c < 0x20 || c == 0x7f;  // control characters: line breaks, terminal escapes
     });

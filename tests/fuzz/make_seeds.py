@@ -85,6 +85,36 @@ def textures():
     write("texture", "no-scan.jpg", jpeg(8, 8, b"")[:40])
 
 
+# ---- scene files ----------------------------------------------------------------------------------
+
+
+def scene_files():
+    base = 'base = "cornell-box"\n'
+    clay = base + '[[material]]\nname = "clay"\nkind = "oren_nayar"\ncolor = [0.7, 0.4, 0.2]\n'
+    write("scene_file", "read-base.toml", base)
+    write("scene_file", "read-kinds.toml", clay + "".join(
+        f'[[material]]\nname = "{kind}"\nkind = "{kind}"\n'
+        for kind in ("mirror", "power_lobe", "phong", "conductor", "disney", "plastic", "wax", "dielectric"))
+        + '[[material]]\nname = "m"\nkind = "mixture"\nfirst = "clay"\nsecond = "mirror"\n'
+        + '[[assign]]\nmaterial = "White"\nto = "m"\n[[assign]]\nmesh = "*Block"\nto = "wax"\n')
+    write("scene_file", "read-lights.toml", base
+          + '[[light]]\nkind = "ambient"\nradiance = 0.1\n[[light]]\nattenuation = [1.0, 0.5, 0.25]\n'
+          + '[[light]]\nkind = "spot"\ndirection = [0.0, -1.0, 0.0]\n[camera]\nposition = [0.0, 1.0, 5.0]\n'
+          + '[environment]\nradiance = 0.5\n[background]\nradiance = 0.0\n')
+    write("scene_file", "read-settings.toml", clay + "[camera]\nyfov = 30.0\n\0material.clay.sigma=0.2&camera.yfov=60")
+    write("scene_file", "unknown-setting.toml", clay + "\0material.clay.sgma=0.2")
+    write("scene_file", "setting-of-nothing.toml", clay + "\0&=&..")
+    write("scene_file", "itself.toml", 'base = "x.scene.toml"\n')
+    write("scene_file", "folder.toml", 'base = "."\n')
+    write("scene_file", "control.toml", 'base = "a\\u0000b\\nc"\n')
+    write("scene_file", "endless-numbers.toml", clay + "sigma = nan\n")
+    write("scene_file", "part-of-itself.toml",
+          base + '[[material]]\nname = "m"\nkind = "mixture"\nfirst = "m"\nsecond = "m"\n')
+    write("scene_file", "table-of-a-device.toml",
+          base + '[[material]]\nname = "m"\nkind = "table"\nfile = "/dev/null"\n')
+    write("scene_file", "bytes.toml", bytes(range(1, 256)))
+
+
 # ---- Radiance HDR ---------------------------------------------------------------------------------
 
 
@@ -376,5 +406,5 @@ method = [{}, { name = "b", integrator = "restir_gi", mode = "unbiased" }]
     write("suite", "bytes.toml", bytes(range(256)))
 
 
-for make in (textures, environments, images, scenes, suites, commands):
+for make in (textures, environments, images, scenes, scene_files, suites, commands):
     make()

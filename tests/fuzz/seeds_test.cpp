@@ -45,7 +45,8 @@ INSTANTIATE_TEST_SUITE_P(All, Seeds,
                          ::testing::Values(Target{"gltf", readGltf}, Target{"suite", readSuite},
                                            Target{"hdr", readHdr}, Target{"exr", readExr},
                                            Target{"texture", readTexture},
-                                           Target{"command", readCommand}),
+                                           Target{"command", readCommand},
+                                           Target{"scene_file", readSceneFile}),
                          [](const auto& target) { return std::string(target.param.name); });
 
 }  // namespace

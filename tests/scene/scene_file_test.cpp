@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/dialect/features.h"
 #include "core/scene/compiled/compiled_scene.h"
+#include "core/scene/material_notes.h"
 #include "tests/scene/gltf_builder.h"
 
 namespace restlab {
@@ -357,6 +358,37 @@ TEST_F(SceneFile, SettingsBehindItsName) {
 }
 
 // Included text is a part of the scene.
+// Materials are drawn as they are; a run says what they break or approximate.
+TEST_F(SceneFile, NotesOnMaterialsThatAreUsed) {
+  const auto notesOf = [&](const std::string& material, const std::string& to = "m") {
+    return materialNotes(
+        loadScene(write("base = \"cornell-box\"\n" + material + kClay +
+                        "[[material]]\nname = \"mix\"\nkind = \"mixture\"\nfirst = \"clay\"\n"
+                        "second = \"m\"\n[[assign]]\nmaterial = \"White\"\nto = \"" +
+                        to + "\"\n")
+                      .string()));
+  };
+  const std::string raw = "[[material]]\nname = \"m\"\nkind = \"phong\"\n";
+  const std::vector<std::string> said = notesOf(raw);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(said[0],
+            "x: material 'White' (phong, model = raw) breaks laws of a BSDF: energy and "
+            "reciprocity");
+  EXPECT_EQ(notesOf(raw, "mix").size(), 1u) << "a part";
+  EXPECT_TRUE(notesOf(raw, "clay").empty()) << "not used";
+  EXPECT_TRUE(notesOf(raw + "model = \"modified\"\n").empty());
+}
+
+TEST_F(SceneFile, ADiffusionProfileIsSaidToBeBiased) {
+  const Scene scene =
+      loadScene(write("base = \"cornell-box\"\n[[material]]\nname = \"m\"\nkind = \"wax\"\nmodel = "
+                      "\"diffusion\"\n[[assign]]\nmesh = \"ShortBlock\"\nto = \"m\"\n")
+                    .string());
+  const std::vector<std::string> said = materialNotes(scene);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(said[0].find("is biased"), std::string::npos) << said[0];
+}
+
 TEST_F(SceneFile, IncludedFilesAreInTheHash) {
   const std::string text =
       "include = [\"library.toml\"]\nbase = \"cornell-box\"\n"

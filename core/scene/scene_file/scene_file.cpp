@@ -238,7 +238,7 @@ EnvironmentMap readEnvironment(const ConfigTable& table, const fs::path& folder)
                "[environment] takes 'file', an .hdr or .exr, or 'radiance', a colour: one of them");
   if (file.empty()) {
     EnvironmentMap map;
-    map.source = "radiance";
+    map.source = kRadianceEnvironment;
     map.width = 2;
     map.height = 1;
     map.radiance.assign(2, readRadiance(table, "radiance", 0.0));
@@ -283,8 +283,12 @@ void applySettings(const ConfigTable& table, const std::string& settings, const 
     const std::string setting = settings.substr(begin, end - begin);
     begin = end + 1;
     const std::string place = file.string() + "?" + setting;
-    const auto [key, value] = splitAssignment(setting, file.string() + "?");
-    tableOf(table, key, place).assign(key.substr(key.rfind('.') + 1), value, place);
+    const size_t equals = setting.find('=');
+    if (equals == std::string::npos || equals == 0)
+      failInput(place + ": must be KEY=VALUE, such as material.wall.alpha=0.3");
+    const std::string key = setting.substr(0, equals);
+    tableOf(table, key, place)
+        .assign(key.substr(key.rfind('.') + 1), setting.substr(equals + 1), place);
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/base/config.h"
 #include "core/base/error.h"
+#include "core/scene/scene_file/scene_file.h"
 #include "experiments/runner/suite/image_settings.h"
 
 namespace restlab {
@@ -31,7 +32,8 @@ ImageScene sceneOfImage(const std::string& file,
   request.camera = word("camera_index");
   const std::string environment = word("environment");
   if (environment != "none") {
-    if (environment != "built-in") request.environment = environment;
+    if (environment != "built-in" && environment != kRadianceEnvironment)
+      request.environment = environment;
     request.environmentRotation = std::strtod(word("environment_rotation").c_str(), nullptr);
     request.environmentScale = std::strtod(word("environment_scale").c_str(), nullptr);
   }

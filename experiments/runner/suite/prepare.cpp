@@ -185,10 +185,14 @@ std::string hexHash(uint64_t hash) { return fmt::format("{:016x}", hash); }
 std::map<std::string, std::string> describe(const PreparedScene& prepared,
                                             const SessionConfig& config) {
   const Scene& source = prepared.scene->source();
+  const std::string settings =
+      isSceneFile(source.source) ? splitSceneSettings(source.name).second : "";
   std::map<std::string, std::string> words = {
       {"program", "restlab"},
       {"scene", source.name},
-      {"scene_source", source.source.empty() ? "built-in" : source.source.string()},
+      {"scene_source", source.source.empty()
+                           ? "built-in"
+                           : source.source.string() + (settings.empty() ? "" : "?" + settings)},
       {"scene_hash", hexHash(prepared.contentHash)},
       {"environment", prepared.environmentName},
       {"width", std::to_string(config.width)},
