@@ -92,6 +92,10 @@ function(rl_add_closures)
 #ifndef RL_CLOSURE_LIST_H
 #define RL_CLOSURE_LIST_H
 
+#ifdef __cplusplus
+#include "core/dialect/dialect.h"
+#endif
+
 RL_NAMESPACE_BEGIN
 
 @constants@const uint RL_CLOSURE_COUNT = @number@u;  // without glTF's

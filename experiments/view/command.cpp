@@ -143,6 +143,11 @@ ViewCommand commandOf(Members& members) {
     return Resize{members.whole("width", 1, kMaxSide), members.whole("height", 1, kMaxSide)};
   if (name == "transport") return SetTransport{members.text("name"), parameterOf(members)};
   if (name == "light") return SetLight{members.text("name"), members.number("factor", 0.0, 1e6)};
+  if (name == "material") {
+    SetMaterial set{members.text("name"), members.text("key"), std::nullopt};
+    if (!members.at("value").is_null()) set.value = members.text("value");
+    return set;
+  }
   if (name == "layer") return ShowLayer{members.pane(), members.text("name")};
   if (name == "probe") {
     return Probe{members.pane(), members.whole("x", 0, kMaxSide - 1),
@@ -158,10 +163,10 @@ ViewCommand commandOf(Members& members) {
   if (name == "measure") return Measure{members.has("name") ? members.text("name") : ""};
   if (name == "cancel") return CancelMeasure{};
   if (name == "picture") return SavePicture{members.whole("image", 0, kMostPanes)};
-  const std::vector<std::string> names = {
-      "set",   "parameter", "camera", "resolution", "transport", "light",
-      "layer", "probe",     "pause",  "look",       "restart",   "copy",
-      "undo",  "redo",      "save",   "measure",    "cancel",    "picture"};
+  const std::vector<std::string> names = {"set",   "parameter", "camera", "resolution", "transport",
+                                          "light", "material",  "layer",  "probe",      "pause",
+                                          "look",  "restart",   "copy",   "undo",       "redo",
+                                          "save",  "measure",   "cancel", "picture"};
   failUsage(fmt::format("command: '{}' is unknown (known: {}){}", name, fmt::join(names, ", "),
                         didYouMean(name, names)));
 }
@@ -174,8 +179,8 @@ bool isOneOf(const ViewCommand& command) {
 }  // namespace
 
 bool changesFrames(const ViewCommand& command) {
-  return isOneOf<SetSetting, SetParameter, MoveCamera, Resize, SetTransport, SetLight, Restart,
-                 CopyMethod, Undo, Redo>(command);
+  return isOneOf<SetSetting, SetParameter, MoveCamera, Resize, SetTransport, SetLight, SetMaterial,
+                 Restart, CopyMethod, Undo, Redo>(command);
 }
 
 ViewCommand parseViewCommand(const std::string& text) {

@@ -6,6 +6,9 @@
 //   resolution  width, height        pixels
 //   transport   name, value          a setting of light transport, of all panes; null: its default
 //   light       name, factor         factor on the radiance of a light of the scene
+//   material    name, key, value     a parameter of a [[material]] of the scene file, as TOML;
+//   null:
+//                                    the file's
 //   layer       pane, name           shows a layer of the method over its image; "": none
 //   probe       pane, x, y           asks for what the pane keeps for a pixel
 //   pause       on                   stops the panes; the reference goes on
@@ -58,6 +61,10 @@ struct SetLight {
   std::string name;
   double factor = 1.0;
 };
+struct SetMaterial {
+  std::string name, key;
+  std::optional<std::string> value;  // empty: the file's
+};
 struct ShowLayer {
   uint32_t pane = 0;
   std::string name;
@@ -88,9 +95,10 @@ struct SavePicture {
   uint32_t image = 0;
 };
 
-using ViewCommand = std::variant<SetSetting, SetParameter, MoveCamera, Resize, SetTransport,
-                                 SetLight, ShowLayer, Probe, Pause, Look, Restart, CopyMethod, Undo,
-                                 Redo, SaveSession, Measure, CancelMeasure, SavePicture>;
+using ViewCommand =
+    std::variant<SetSetting, SetParameter, MoveCamera, Resize, SetTransport, SetLight, SetMaterial,
+                 ShowLayer, Probe, Pause, Look, Restart, CopyMethod, Undo, Redo, SaveSession,
+                 Measure, CancelMeasure, SavePicture>;
 
 constexpr uint32_t kMostPanes = 2;
 

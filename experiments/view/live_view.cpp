@@ -66,13 +66,18 @@ LiveView::LiveView(const PreparedScene& prepared, const std::vector<SessionConfi
 LiveView::LiveView(const PreparedScene& prepared, ViewSettings settings,
                    const ReferenceStore& store, ViewImages images)
     : loaded_(prepared),
+      edited_(prepared),
       prepared_(prepared),
       images_(std::move(images)),
       settings_(std::move(settings)),
       first_(settings_),
       reference_(store) {
   firstSeed_ = settings_.panes.front().config.seed;
-  if (!settings_.lights.empty()) prepared_ = litBy(settings_.lights);
+  const Scene& scene = loaded_.scene->source();
+  if (isSceneFile(scene.source))
+    fileMaterials_ = sceneFileMaterials(scene.source, splitSceneSettings(scene.name).second);
+  edited_ = editedBy(settings_.materials);
+  prepared_ = litBy(edited_, settings_.lights);
   requireMemory(settings_);
   for (const PaneSettings& pane : settings_.panes)
     panes_.emplace_back().session = sessionOf(pane.config, prepared_, settings_.camera);
@@ -247,15 +252,19 @@ void LiveView::requireMemory(const ViewSettings& next) const {
                     heldBytes() + reference_.heldBytes(), available);
 }
 
-PreparedScene LiveView::litBy(const LightFactors& lights) const {
-  if (lights.empty()) return loaded_;
-  Scene scene = loaded_.scene->source();
+PreparedScene LiveView::editedBy(const MaterialEdits& edits) const {
+  return edits.empty() ? loaded_ : withSettings(loaded_, settingsText(edits));
+}
+
+PreparedScene LiveView::litBy(const PreparedScene& unlit, const LightFactors& lights) {
+  if (lights.empty()) return unlit;
+  Scene scene = unlit.scene->source();
   std::string words;
   for (const auto& [name, factor] : absoluteLights(lights)) {
     scene = withLightFactor(std::move(scene), name, factor);
     words += fmt::format("{}{} x{}", words.empty() ? "" : ", ", name, factor);
   }
-  return withLights(loaded_, CompiledScene::build(std::move(scene)), words);
+  return withLights(unlit, CompiledScene::build(std::move(scene)), words);
 }
 
 void LiveView::beginEpoch(bool isAnotherPicture) {
@@ -319,14 +328,18 @@ void LiveView::become(ViewSettings next) {
   for (size_t i = 0; i < panes_.size(); ++i)
     next.panes[i].config.seed = settings_.panes[i].config.seed;
   const bool isAnotherPicture = !isSamePicture(settings_, next);
-  const PreparedScene shown = settings_.lights == next.lights ? prepared_ : litBy(next.lights);
+  // Other materials may need other kernels: sessions begin anew.
+  const bool isEdited = settings_.materials != next.materials;
+  const PreparedScene edited = isEdited ? editedBy(next.materials) : edited_;
+  const PreparedScene shown =
+      isEdited || settings_.lights != next.lights ? litBy(edited, next.lights) : prepared_;
   std::vector<std::unique_ptr<Session>> made(panes_.size());
   std::vector<Pane*> kept;
   bool isChanged = isAnotherPicture;
   if (needsOtherMemory(settings_, next)) requireMemory(next);
   for (size_t i = 0; i < panes_.size(); ++i) {
     const SessionConfig &before = settings_.panes[i].config, &after = next.panes[i].config;
-    if (isSameMethod(before, after)) {
+    if (isSameMethod(before, after) && !isEdited) {
       kept.push_back(&panes_[i]);
     } else {
       made[i] = sessionOf(after, shown, next.camera);
@@ -362,6 +375,7 @@ void LiveView::become(ViewSettings next) {
                        (pane.hasOldLight || settings_.lights != next.lights);
   }
   settings_ = std::move(next);
+  edited_ = edited;
   prepared_ = shown;
   if (isChanged) beginEpoch(isAnotherPicture);
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/scene/scene_file/scene_file.h"
 #include "experiments/view/live_reference.h"
 #include "experiments/view/running_error.h"
 #include "experiments/view/view_history.h"
@@ -89,7 +90,9 @@ class LiveView {
   // Error of the frames of this epoch that had a reference.
   const RunningError& error(size_t pane) const { return panes_.at(pane).error; }
   const LiveReference& reference() const { return reference_; }
-  // Scene with the light that is set.
+  // The [[material]] tables of a scene file, as loaded; none of other scenes.
+  const std::vector<SceneFileMaterial>& fileMaterials() const { return fileMaterials_; }
+  // Scene with the materials and the light that are set.
   const PreparedScene& shown() const { return prepared_; }
   const SceneCamera& camera() const { return settings_.camera; }
 
@@ -116,7 +119,8 @@ class LiveView {
   uint64_t heldBytes() const;
   // Throws Error (deviceUnavailable) if there is not enough memory for `next`.
   void requireMemory(const ViewSettings& next) const;
-  PreparedScene litBy(const LightFactors& lights) const;
+  static PreparedScene litBy(const PreparedScene& unlit, const LightFactors& lights);
+  PreparedScene editedBy(const MaterialEdits& edits) const;
   // Restarts the numbers; for another picture the reference, too.
   void beginEpoch(bool isAnotherPicture);
 
@@ -129,8 +133,10 @@ class LiveView {
   // Gives the pane a seed that no other pane has: with an equal seed a copy would show equal noise.
   void giveOwnSeed(size_t pane);
 
-  const PreparedScene loaded_;  // with the light that was loaded
+  const PreparedScene loaded_;  // as it was loaded
+  PreparedScene edited_;        // with the materials that are set and the light that was loaded
   PreparedScene prepared_;      // with the light that is shown
+  std::vector<SceneFileMaterial> fileMaterials_;
   const ViewImages images_;
   ViewSettings settings_;
   const ViewSettings first_;  // settings for which the images were made

@@ -11,8 +11,8 @@ std::string probeCommand(const ViewFacts& facts, const LiveView& view, const Pro
   const PreparedScene& loaded = view.loaded();
   const ViewSettings& settings = view.settings();
   const SceneCamera& own = loaded.scene->source().cameras.at(loaded.camera);
-  if (!settings.lights.empty() || !isSameCamera(own, settings.camera) ||
-      !view.hasPlainHistory(probe.pane))
+  if (!settings.lights.empty() || !settings.materials.empty() ||
+      !isSameCamera(own, settings.camera) || !view.hasPlainHistory(probe.pane))
     return "";
   const SessionConfig& config = settings.panes.at(probe.pane).config;
   std::vector<std::string> words =

@@ -139,6 +139,46 @@ Json transportJson(const SessionConfig& config) {
   return all;
 }
 
+// A value of a [[material]]: a number, the text of a choice or a file without quotes, or TOML.
+Json materialValue(const ClosureParameter& p, const std::string& toml) {
+  if (p.kind == ClosureParameter::Kind::number) return std::strtod(toml.c_str(), nullptr);
+  const bool isQuoted = toml.size() > 1 && (toml[0] == '\'' || toml[0] == '"');
+  return isQuoted ? toml.substr(1, toml.size() - 2) : toml;
+}
+
+// Parameters of the materials of a scene file; the default is what the file has.
+Json materialsJson(const LiveView& view) {
+  Json all = Json::array();
+  for (const SceneFileMaterial& material : view.fileMaterials()) {
+    Json parameters = Json::array();
+    for (size_t i = 0; i < material.kind->parameters.size(); ++i) {
+      const ClosureParameter& p = material.kind->parameters[i];
+      Json json = {{"name", p.name}, {"help", p.help}};
+      json["default"] = materialValue(p, material.values[i]);
+      std::string value = material.values[i];
+      const std::string key = fmt::format("material.{}.{}", material.name, p.name);
+      bool isSet = false;
+      for (const auto& [edited, text] : view.settings().materials) {
+        if (edited != key) continue;
+        value = text;
+        isSet = true;
+      }
+      if (p.kind == ClosureParameter::Kind::number) {
+        json["type"] = "number";
+        json["range"] = {p.lo, p.hi};
+      }
+      if (p.kind == ClosureParameter::Kind::color) json["type"] = "colour";
+      if (p.kind == ClosureParameter::Kind::choice) json["choices"] = p.choices;
+      json["value"] = materialValue(p, value);
+      json["is_set"] = isSet;
+      parameters.push_back(std::move(json));
+    }
+    all.push_back(
+        {{"name", material.name}, {"kind", material.kind->name}, {"parameters", parameters}});
+  }
+  return all;
+}
+
 // Layers that every method has; the manual says more of each.
 Json layersJson(const SessionConfig& config) {
   Json all = {
@@ -271,6 +311,7 @@ std::string stateText(const LiveView& view, bool isPaused) {
                  {"height", size.height},
                  {"transport", view.hasScene() ? transportJson(size) : Json::array()},
                  {"lights", lights},
+                 {"materials", view.hasScene() ? materialsJson(view) : Json::array()},
                  {"paused", isPaused},
                  {"can_undo", history.canUndo()},
                  {"can_redo", history.canRedo()},

@@ -73,9 +73,12 @@ bool isOwnCamera(const LiveView& view) {
   return isSameCamera(loaded.scene->source().cameras.at(loaded.camera), view.camera());
 }
 
-std::string sceneToml(const ViewFacts& facts) {
+std::string sceneToml(const ViewFacts& facts, const MaterialEdits& edits) {
   const SceneRequest request = fromAnywhere(facts.request);
-  std::string text = fmt::format("[[scene]]\nscene = {}\n", quoted(request.scene));
+  const bool hasSettings = !splitSceneSettings(request.scene).second.empty();
+  const std::string scene =
+      request.scene + (edits.empty() ? "" : (hasSettings ? "&" : "?") + settingsText(edits));
+  std::string text = fmt::format("[[scene]]\nscene = {}\n", quoted(scene));
   if (!request.camera.empty()) text += fmt::format("camera = {}\n", quoted(request.camera));
   if (!request.environment.empty())
     text += fmt::format("environment = {}\n", quoted(request.environment));
@@ -339,7 +342,7 @@ std::string sessionToml(const ViewFacts& facts, const LiveView& view, const std:
       "# A session of `restlab view`: `restlab view FILE` opens it, `restlab run FILE` measures "
       "it.\n";
   text += fmt::format("name = {}\n\n", quoted(name));
-  text += sceneToml(facts) + settingsToml(view) +
+  text += sceneToml(facts, settings.materials) + settingsToml(view) +
           fmt::format("\n[reference]\nspp = {}\n",
                       std::max(kLeastReferenceSpp, view.reference().spp())) +
           cameraToml(view);

@@ -12,6 +12,7 @@
 #include "core/frame/method_settings.h"
 #include "core/frame/session.h"
 #include "core/scene/compiled/light_factor.h"
+#include "core/scene/scene_file/scene_file.h"
 
 namespace restlab {
 
@@ -170,6 +171,19 @@ struct Change {
     text = fmt::format("{} x{:g}", command.name, command.factor);
   }
 
+  void operator()(const SetMaterial& command) {
+    if (!isSceneFile(choices.scene->source))
+      failUsage("material: the scene is no NAME.scene.toml, whose materials can be set");
+    const std::string key = fmt::format("material.{}.{}", command.name, command.key);
+    if ((key + command.value.value_or("")).find('&') != std::string::npos ||
+        key.find('=') != std::string::npos)
+      failUsage(fmt::format("{}: settings behind the name of a scene have no '&' or '='", key));
+    std::erase_if(settings.materials, [&](const auto& edit) { return edit.first == key; });
+    if (command.value) settings.materials.emplace_back(key, *command.value);
+    text = fmt::format("{}: {} {}", command.name, command.key,
+                       command.value ? "= " + *command.value : "as in the file");
+  }
+
   void operator()(const ShowLayer& command) {
     PaneSettings& pane = paneOf(command.pane);
     if (!hasLayer(pane.config, command.name)) {
@@ -206,6 +220,7 @@ struct Target {
   std::string operator()(const Resize&) { return "resolution"; }
   std::string operator()(const SetTransport& c) { return "transport " + c.name; }
   std::string operator()(const SetLight& c) { return "light " + c.name; }
+  std::string operator()(const SetMaterial& c) { return "material " + c.name + "." + c.key; }
   template <class Other>
   std::string operator()(const Other&) {
     return "";
@@ -215,6 +230,13 @@ struct Target {
 }  // namespace
 
 std::string targetOf(const ViewCommand& command) { return std::visit(Target{}, command); }
+
+std::string settingsText(const MaterialEdits& edits) {
+  std::string text;
+  for (const auto& [key, value] : edits)
+    text += fmt::format("{}{}={}", text.empty() ? "" : "&", key, value);
+  return text;
+}
 
 void setLight(LightFactors& lights, const std::string& name, double factor) {
   std::erase_if(lights, [&](const auto& light) { return light.first == name; });
@@ -308,7 +330,7 @@ bool isSameCamera(const SceneCamera& a, const SceneCamera& b) {
 }
 
 bool isSamePicture(const ViewSettings& a, const ViewSettings& b) {
-  return a.lights == b.lights && isSameCamera(a.camera, b.camera) &&
+  return a.lights == b.lights && a.materials == b.materials && isSameCamera(a.camera, b.camera) &&
          isSameSize(a.panes.front().config, b.panes.front().config) &&
          referenceTransport(a.panes.front().config) == referenceTransport(b.panes.front().config);
 }

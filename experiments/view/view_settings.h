@@ -21,9 +21,14 @@ struct PaneSettings {
 // Factors in the order they were set. The factor of `all` multiplies those of every light.
 using LightFactors = std::vector<std::pair<std::string, double>>;
 
+// Settings behind the name of a scene file, such as "material.wall.alpha" and "0.3", in the order
+// they were set.
+using MaterialEdits = std::vector<std::pair<std::string, std::string>>;
+
 struct ViewSettings {
   std::vector<PaneSettings> panes;  // all of one size
   LightFactors lights;              // lights that were set
+  MaterialEdits materials;          // parameters that were set
   SceneCamera camera;
 };
 
@@ -57,6 +62,9 @@ bool isSameCamera(const SceneCamera& a, const SceneCamera& b);
 bool isSame(const ViewSettings& a, const ViewSettings& b);
 // Compares the picture only, not the methods.
 bool isSamePicture(const ViewSettings& a, const ViewSettings& b);
+
+// The edits as they stand behind the name: "material.wall.alpha=0.3&...".
+std::string settingsText(const MaterialEdits& edits);
 
 // Replaces an earlier factor of the light; drops a factor of 1 that has no effect.
 void setLight(LightFactors& lights, const std::string& name, double factor);

@@ -1,4 +1,6 @@
 // Panels of the live page while something changes, is refused or plays.
+#include <fstream>
+
 #include "tests/view/live_page.h"
 
 namespace restlab::view_test {
@@ -154,6 +156,50 @@ TEST_F(PagePanelsTest, InTheBackgroundItLooksAway) {
     delete document.hidden;
     document.dispatchEvent(new Event('visibilitychange'));
     await until(() => page.last.age > window.age + 2);)");
+}
+
+class PageMaterialsTest : public LivePageTest {};
+
+// A number, a colour and a choice of a scene file's materials, and what the file refuses.
+TEST_F(PageMaterialsTest, AreSetInTheScenePanel) {
+  std::ofstream(folder() / "x.scene.toml")
+      << "base = \"cornell-box\"\n[[material]]\nname = \"clay\"\nkind = \"oren_nayar\"\n"
+         "color = [0.7, 0.4, 0.2]\n[[assign]]\nmaterial = \"White\"\nto = \"clay\"\n";
+  facts_.request.scene = (folder() / "x.scene.toml").string();
+  open();
+  press("Alt+2");
+  page(
+      "const all = document.querySelector('[data-material]'); all.open = true; "
+      "all.scrollIntoView();");
+  const auto set = [&](const std::string& name, const std::string& input,
+                       const std::string& value) {
+    page("const input = document.querySelector('[data-material] [data-parameter=" + name + "] " +
+         input + "'); input.focus(); input.value = '" + value +
+         "'; input.dispatchEvent(new Event('change')); input.blur();");
+  };
+  const auto waitFor = [&](const std::string& name, const std::string& value) {
+    page("await until(() => page.state.materials[0].parameters.some(p => p.name === '" + name +
+         "' && JSON.stringify(p.value) === '" + value + "' && p.is_set));");
+  };
+  set("color", "input[type=text]", "[0.1, 0.2, 0.9]");
+  waitFor("color", "\"[0.1, 0.2, 0.9]\"");
+  EXPECT_EQ(
+      page("return document.querySelector('[data-parameter=color] input[type=color]').value;"),
+      "#597cf3");
+  set("color", "input[type=color]", "#ffffff");
+  waitFor("color", "\"[1, 1, 1]\"");
+  set("sigma", "input[type=number]", "0.8");
+  waitFor("sigma", "0.8");
+  set("model", "select", "conserving");
+  waitFor("model", "\"conserving\"");
+  set("color", "input[type=text]", "[7, 0, 0]");
+  page(
+      "await until(() => [...document.querySelectorAll('.message.error')].some("
+      "message => message.textContent.includes(\"'color' must hold\")));");
+  page(
+      "await until(() => document.querySelector('[data-parameter=color] input').value === '[1, 1, "
+      "1]');");
+  if (const char* file = std::getenv("RESTLAB_SCREENSHOT")) browser_->screenshot(file);
 }
 
 }  // namespace

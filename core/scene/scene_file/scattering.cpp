@@ -286,6 +286,31 @@ Scattering readScattering(const ConfigTable& table, SceneFileInputs& inputs) {
   return s;
 }
 
+namespace {
+
+// The value of a parameter as the file writes it, or its default.
+std::string textOf(const ConfigTable& table, const ClosureParameter& p) {
+  const std::vector<std::string> texts = table.getTexts(p.name);
+  if (texts.size() == 1) return texts[0];
+  if (!texts.empty()) return fmt::format("[{}]", fmt::join(texts, ", "));
+  if (p.kind == Kind::choice) return fmt::format("'{}'", p.choices[size_t(p.fallback)]);
+  if (p.kind == Kind::table || p.kind == Kind::material) return "";
+  return fmt::format("{}", p.fallback);
+}
+
+}  // namespace
+
+std::vector<SceneFileMaterial> materialsOf(const ConfigTable& table) {
+  std::vector<SceneFileMaterial> materials;
+  for (const ConfigTable& one : table.getTables("material")) {
+    SceneFileMaterial material{one.getString("name", ""), &readKind(one), {}};
+    for (const ClosureParameter& p : material.kind->parameters)
+      material.values.push_back(textOf(one, p));
+    materials.push_back(std::move(material));
+  }
+  return materials;
+}
+
 void scatterAs(const Scattering& scattering, SceneMaterial& material) {
   const rl::Material before = material.data;
   rl::Material& m = material.data;

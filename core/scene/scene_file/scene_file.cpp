@@ -348,13 +348,31 @@ std::pair<std::string, std::string> splitSceneSettings(const std::string& name) 
   return {name.substr(0, question), name.substr(question + 1)};
 }
 
-Scene loadSceneFile(const fs::path& file, const std::string& settings) {
+namespace {
+
+// Errors of a configuration are here those of a scene.
+template <class Read>
+auto asScene(const Read& read) {
   try {
-    return read(file, settings);
+    return read();
   } catch (const Error& error) {
-    // A configuration, but of a scene.
     throw Error(ExitCode::badInput, error.what());
   }
+}
+
+}  // namespace
+
+Scene loadSceneFile(const fs::path& file, const std::string& settings) {
+  return asScene([&] { return read(file, settings); });
+}
+
+std::vector<SceneFileMaterial> sceneFileMaterials(const fs::path& file,
+                                                  const std::string& settings) {
+  return asScene([&] {
+    const ConfigTable table = ConfigTable::parseFile(file);
+    applySettings(table, settings, file);
+    return materialsOf(table);
+  });
 }
 
 }  // namespace restlab

@@ -39,6 +39,18 @@ struct MaterialKind {
 };
 const std::vector<MaterialKind>& materialKinds();
 
+// A [[material]] of a scene file, as it is written there.
+struct SceneFileMaterial {
+  std::string name;
+  const MaterialKind* kind = nullptr;
+  std::vector<std::string> values;  // TOML of each parameter of the kind; "": it has none
+};
+std::vector<SceneFileMaterial> materialsOf(const ConfigTable& table);
+// Those of the file itself, not of a scene file that it begins with. settings: as loadSceneFile().
+// Throws Error as that does.
+std::vector<SceneFileMaterial> sceneFileMaterials(const std::filesystem::path& file,
+                                                  const std::string& settings);
+
 // How a material scatters: what takes the place of another's lobes.
 struct Scattering {
   std::string name;

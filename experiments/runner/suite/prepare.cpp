@@ -132,6 +132,20 @@ PreparedScene prepareScene(const SceneRequest& request, std::optional<Environmen
   return prepared;
 }
 
+PreparedScene withSettings(const PreparedScene& loaded, const std::string& settings) {
+  const Scene& before = loaded.scene->source();
+  const std::string own = splitSceneSettings(before.name).second;
+  Scene scene = loadSceneFile(before.source, own.empty() ? settings : own + "&" + settings);
+  scene.environment = before.environment;
+  scene.mainCamera = loaded.camera;
+  PreparedScene prepared = loaded;
+  prepared.contentHash = scene.contentHash;
+  if (scene.environment)
+    prepared.contentHash = hashEnvironment(*scene.environment, scene.contentHash);
+  prepared.scene = CompiledScene::build(std::move(scene));
+  return prepared;
+}
+
 PreparedScene withLights(const PreparedScene& loaded,
                          const std::shared_ptr<const CompiledScene>& scene,
                          const std::string& words) {

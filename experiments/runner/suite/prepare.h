@@ -40,6 +40,10 @@ PreparedScene prepareScene(const SceneRequest& request);
 std::optional<EnvironmentMap> readEnvironment(const SceneRequest& request);
 PreparedScene prepareScene(const SceneRequest& request, std::optional<EnvironmentMap> environment);
 
+// Returns the scene file read again with more settings behind its name, and the camera and the
+// environment of `loaded`. Throws Error as prepareScene() does.
+PreparedScene withSettings(const PreparedScene& loaded, const std::string& settings);
+
 // Returns the scene compiled with other factors of its lights (core/scene/compiled/light_factor.h).
 // `loaded`: the scene as loaded. `words`: description of the factors.
 PreparedScene withLights(const PreparedScene& loaded,

@@ -59,6 +59,7 @@ class ParameterControl {
       box.addEventListener('change', () => send(box.checked));
       return {element: box, show: value => { box.checked = value; }, isBusy: false};
     }
+    if (info.type === 'colour') return makeColourInput(send, id);
     if (info.choices && info.choices.length) return makeSelect(info.choices, send, {id});
     if (info.range) {
       return new NumberInput({name: info.name, lo: info.range[0], hi: info.range[1],
@@ -81,6 +82,34 @@ class ParameterControl {
     this.element.classList.toggle('set', Boolean(info.is_set));
     if (!this.input.isBusy) this.input.show(info.value);
   }
+}
+
+// A colour as linear Rec. 709 in text, "0.5" or "[0.7, 0.4, 0.2]", with a picker where it is at most
+// 1.
+function makeColourInput(send, id) {
+  const field = make('input', {type: 'text', id, class: 'colour'});
+  const picker = make('input', {type: 'color', 'aria-label': 'pick the colour'});
+  const toSrgb = v => v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055;
+  const toLinear = v => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4;
+  const numbersOf = text => {
+    const numbers = String(text).replace(/[[\]\s]/g, '').split(',').map(Number);
+    return numbers.length === 1 ? [numbers[0], numbers[0], numbers[0]] : numbers;
+  };
+  field.addEventListener('change', () => send(field.value));
+  picker.addEventListener('change', () => {
+    const channels = [1, 3, 5].map(at => toLinear(parseInt(picker.value.slice(at, at + 2), 16) / 255));
+    send(`[${channels.map(v => Number(v.toPrecision(4))).join(', ')}]`);
+  });
+  const show = value => {
+    field.value = value;
+    const numbers = numbersOf(value);
+    picker.hidden = !(numbers.length === 3 && numbers.every(v => v >= 0 && v <= 1));
+    if (picker.hidden) return;
+    const hex = v => Math.round(255 * toSrgb(v)).toString(16).padStart(2, '0');
+    picker.value = `#${numbers.map(hex).join('')}`;
+  };
+  return {element: make('span', {class: 'colour'}, field, picker), show,
+          get isBusy() { return document.activeElement === field; }};
 }
 
 // Makes a select of texts or of {value, text, disabled, title} choices.

@@ -1,4 +1,4 @@
-// Panel of the camera, the size, the settings of light transport and the lights.
+// Panel of the camera, the size, the settings of light transport, the lights and the materials.
 
 const SIZES = ['320x180', '640x360', '960x540', '1280x720', '1920x1080'];
 // Range of a light's factor on its slider; 0 is off.
@@ -16,8 +16,7 @@ class ScenePanel {
     }
     this.element = make('div', {}, this.makeCamera(), page.bookmarks.element,
                         page.recorder.element, this.makeSize(), this.makeTransport(),
-                        this.makeLights(),
-                        this.makeAbout());
+                        this.makeLights(), this.makeMaterials(), this.makeAbout());
   }
 
   section(title, ...children) {
@@ -101,6 +100,35 @@ class ScenePanel {
     return this.section('light, factor on what it shines', ...rows);
   }
 
+  makeMaterials() {
+    this.materials = new Map();
+    this.materialRows = make('div', {});
+    const section = this.section('materials of the scene file', this.materialRows);
+    section.hidden = true;
+    this.materialSection = section;
+    return section;
+  }
+
+  showMaterials(materials) {
+    this.materialSection.hidden = materials.length === 0;
+    for (const {name, kind, parameters} of materials) {
+      let controls = this.materials.get(name);
+      if (!controls) {
+        controls = new Map();
+        this.materials.set(name, controls);
+        for (const info of parameters) {
+          const send = value => this.page.session.sendNewest(`material ${name}.${info.name}`, {
+            do: 'material', name, key: info.name, value: value === null ? null : String(value)});
+          controls.set(info.name, new ParameterControl(info, send));
+        }
+        this.materialRows.append(make('details', {'data-material': name},
+            make('summary', {}, `${name}: ${kind}`),
+            ...[...controls.values()].map(control => control.element)));
+      }
+      for (const info of parameters) controls.get(info.name).show(info);
+    }
+  }
+
   makeAbout() {
     const {scene, version, threads} = this.hello;
     const lines = [...(scene.feature_lines || []),
@@ -128,6 +156,7 @@ class ScenePanel {
       this.fov.show(Number((state.camera.yfov * 180 / Math.PI).toPrecision(4)));
     }
     this.showTransport(state.transport);
+    this.showMaterials(state.materials);
     for (const {name, factor} of state.lights) {
       const light = this.lights.get(name);
       if (!light) continue;
