@@ -1,5 +1,5 @@
-// Notes on materials that are drawn as they are: laws of a BSDF that they
-// break, and approximations.
+// Notes on materials that are drawn as they are: laws of a BSDF that they break, and
+// approximations.
 #pragma once
 
 #include <string>

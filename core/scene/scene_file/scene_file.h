@@ -46,8 +46,8 @@ struct SceneFileMaterial {
   std::vector<std::string> values;  // TOML of each parameter of the kind; "": it has none
 };
 std::vector<SceneFileMaterial> materialsOf(const ConfigTable& table);
-// Those of the file itself, not of a scene file that it begins with. settings: as loadSceneFile().
-// Throws Error as that does.
+// Reads the [[material]] tables of the file itself, not of a scene file that it begins with.
+// settings: as loadSceneFile(). Throws Error as that does.
 std::vector<SceneFileMaterial> sceneFileMaterials(const std::filesystem::path& file,
                                                   const std::string& settings);
 
